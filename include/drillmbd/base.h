@@ -1,0 +1,121 @@
+/* libdrillmbd - status codes, versions, memory, log and names of parts.
+ * Everything in this library is in SI units; angles are in radians. A 6-vector is (translation; rotation). */
+#ifndef DRILLMBD_BASE_H
+#define DRILLMBD_BASE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(DMB_STATIC)
+#define DMB_API
+#elif defined(__GNUC__)
+#define DMB_API __attribute__((visibility("default")))
+#else
+#define DMB_API
+#endif
+
+/* The one place where the version is written; the build reads it from here. */
+#define DMB_VERSION_MAJOR 0
+#define DMB_VERSION_MINOR 1
+#define DMB_VERSION_PATCH 0
+
+/* Version of the linked library, 10000 major + 100 minor + patch. Cannot fail. */
+DMB_API uint32_t dmb_version(void);
+
+/* ---- Status ------------------------------------------------------------------------------------------------------
+ * Every function that can fail returns an int32_t: 0 done, > 0 done with something to know, < 0 refused or failed with
+ * nothing changed. dmb_model_message and dmb_sim_message tell the part, the field, the value and the bound. */
+#define DMB_STATUS_LIST(X)                                                                                            \
+    X(DMB_OK, 0, "done")                                                                                              \
+    X(DMB_NOTE_STEP_CUT, 1, "done; the step was divided to converge")                                                 \
+    X(DMB_NOTE_WORK_LIMITED, 2, "done; the bounded number of iterations was used up above the tolerance")             \
+    X(DMB_NOTE_PROJECTED, 3, "done; initial velocities were projected onto the allowed motion")                       \
+    X(DMB_NOTE_STOPPED, 4, "done; stopped early at the caller's wish")                                                \
+    X(DMB_NOTE_FULL, 5, "done; the caller's memory is full, nothing more is recorded")                                \
+    X(DMB_ERR_NULL, -1, "a required pointer is NULL")                                                                 \
+    X(DMB_ERR_HANDLE, -2, "not a live object of this kind")                                                           \
+    X(DMB_ERR_STRUCT_SIZE, -3, "struct_size is not a size this library knows")                                        \
+    X(DMB_ERR_ID, -4, "the id does not name a part of this model")                                                    \
+    X(DMB_ERR_VALUE, -5, "a value lies outside its bounds")                                                           \
+    X(DMB_ERR_NOT_FINITE, -6, "a value is NaN or infinite")                                                           \
+    X(DMB_ERR_ORDER, -7, "the call does not fit the state of the object")                                             \
+    X(DMB_ERR_NO_MEMORY, -8, "memory could not be allocated")                                                         \
+    X(DMB_ERR_TOO_LARGE, -9, "a size overflows or exceeds its limit")                                                 \
+    X(DMB_ERR_SINGULAR, -10, "a stiffness or iteration matrix is singular")                                           \
+    X(DMB_ERR_NO_CONVERGENCE, -11, "the iteration did not converge")                                                  \
+    X(DMB_ERR_CALLBACK, -12, "a callback failed or returned a value that is not finite")                              \
+    X(DMB_ERR_IO, -13, "a file could not be written")                                                                 \
+    X(DMB_ERR_ROTATION, -14, "relative rotation in one element exceeds 2.5 rad")                                      \
+    X(DMB_ERR_GEOMETRY, -15, "parts do not fit together")                                                             \
+    X(DMB_ERR_UNSUPPORTED, -16, "a combination that this version does not offer")
+
+#define DMB_STATUS_ENUM_ENTRY(name, value, text) name = (value),
+enum { DMB_STATUS_LIST(DMB_STATUS_ENUM_ENTRY) DMB_STATUS_END_ = -1000 };
+#undef DMB_STATUS_ENUM_ENTRY
+
+/* Name ("DMB_ERR_VALUE") and text of a status; for an unknown one "DMB_UNKNOWN" and its text. Never NULL. Thread-safe. */
+DMB_API const char *dmb_status_name(int32_t status);
+DMB_API const char *dmb_status_text(int32_t status);
+
+/* ---- Names of parts ----------------------------------------------------------------------------------------------
+ * A small value, given out by the dmb_model_add_ functions and checked at every use: kind, index and the model it
+ * belongs to. {0, 0} names nothing. */
+typedef struct dmb_id {
+    uint32_t index;      /* [-] kind in the upper 8 bits, number of the part within its kind in the lower 24 */
+    uint32_t generation; /* [-] stamp of the model that gave it out; 0 only in the id that names nothing */
+} dmb_id;
+
+/* A place on a part: a station of a string, or the reference point of a body. Made by dmb_station. */
+typedef struct dmb_place {
+    dmb_id part;       /* a string or a body */
+    uint32_t pipe;     /* [-] pipe of the string, 0 at the rig end; 0 for a body */
+    uint32_t reserved; /* [-] 0 */
+    double fraction;   /* [-] 0 at the rig end of the pipe .. 1 at its far end; 0 for a body */
+} dmb_place;
+
+static inline dmb_place dmb_station(dmb_id part, uint32_t pipe, double fraction)
+{
+    dmb_place place;
+    place.part = part;
+    place.pipe = pipe;
+    place.reserved = 0;
+    place.fraction = fraction;
+    return place;
+}
+
+/* ---- Structs that cross the border ------------------------------------------------------------------------------
+ * Each begins with struct_size and is filled by its T_init, which writes no more than the size it is told: a caller
+ * compiled against an older header still works. T_default() returns a filled struct by value.
+ * T_init returns DMB_OK, DMB_ERR_NULL, or DMB_ERR_STRUCT_SIZE (size below that of the first release, or not a multiple
+ * of 8). Pure and thread-safe. */
+#define DMB_SIZED_STRUCT(T)                                                                                           \
+    DMB_API int32_t T##_init(T *out, uint32_t size);                                                                  \
+    static inline T T##_default(void)                                                                                 \
+    {                                                                                                                 \
+        T out;                                                                                                        \
+        (void)T##_init(&out, (uint32_t)sizeof(T));                                                                    \
+        return out;                                                                                                   \
+    }
+
+/* ---- Memory and log ---------------------------------------------------------------------------------------------- */
+typedef struct dmb_allocator {
+    uint32_t struct_size;
+    uint32_t reserved;
+    void *context;                                                     /* handed to both functions */
+    void *(*allocate)(void *context, size_t size, size_t alignment);   /* [byte]; NULL on failure */
+    void (*release)(void *context, void *block, size_t size, size_t alignment); /* what allocate gave, same sizes */
+} dmb_allocator;
+DMB_SIZED_STRUCT(dmb_allocator) /* malloc and free of the C library */
+
+enum { DMB_LOG_ERROR = 0, DMB_LOG_WARNING = 1, DMB_LOG_INFO = 2 };
+/* Called with a line of text, never during a step. The text lives only for the call. */
+typedef void (*dmb_log_fn)(void *context, int32_t level, const char *text);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

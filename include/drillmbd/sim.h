@@ -1,0 +1,88 @@
+/* libdrillmbd - run a compiled scene: create, step, advance, snapshot.
+ * A sim belongs to one thread at a time; many sims may share one model. After create nothing allocates, locks or does
+ * input or output. A call that fails leaves the last accepted state whole. */
+#ifndef DRILLMBD_SIM_H
+#define DRILLMBD_SIM_H
+
+#include "model.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct dmb_sim dmb_sim;
+
+typedef struct dmb_sim_options {
+    uint32_t struct_size;
+    uint32_t max_iterations;      /* [-] Newton iterations of one step, 1 .. 1000; default 12 */
+    const dmb_allocator *allocator; /* copied; NULL: the model's */
+    dmb_log_fn log;               /* NULL: silent */
+    void *log_context;
+    double spectral_radius;       /* [-] of generalized-alpha at infinite frequency, 0 .. 1; default 0.8 */
+    double newton_tolerance;      /* [-] residual over the norm of the forces that balance in it, 1e-14 .. 1e-1; default
+                                     1e-8. What rounding of the poses makes of a stiff pipe's force counts as zero */
+    double tolerance_translation; /* [m] local error of dmb_sim_advance a step, > 0; default 1e-6 */
+    double tolerance_rotation;    /* [rad] the same for rotation, > 0; default 1e-5 */
+    double step_min;              /* [s] of dmb_sim_advance and of divided steps, > 0; default 1e-9 */
+    double step_max;              /* [s] of dmb_sim_advance, > step_min; default 0.1 */
+    uint32_t max_cuts;            /* [-] times a step that does not converge is halved, 0 .. 30; default 12 */
+    int32_t bounded_work;         /* 1: dmb_sim_step does one step of at most max_iterations and accepts a finite result
+                                     with DMB_NOTE_WORK_LIMITED; for control loops; default 0 */
+    int32_t energy_ledger;        /* 1 (default): keep the energy ledger; 0: not there in the step */
+    int32_t reserved;
+} dmb_sim_options;
+DMB_SIZED_STRUCT(dmb_sim_options)
+
+/* Bytes of the block that dmb_sim_create_in needs. O(1). Errors: DMB_ERR_ORDER (model not compiled), DMB_ERR_VALUE. */
+DMB_API int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *options, size_t *size);
+/* Makes a sim at time 0 in the described pose and speed. options may be NULL. DMB_NOTE_PROJECTED when initial velocities
+ * did not fit the allowed motion; dmb_sim_message tells by how much. Errors: _ORDER, _VALUE, _NO_MEMORY, _CALLBACK,
+ * _ROTATION; *sim is NULL then. The sim holds the model until it is destroyed. O(number of elements). */
+DMB_API int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options, dmb_sim **sim);
+/* The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used. */
+DMB_API int32_t dmb_sim_create_in(dmb_model *model, const dmb_sim_options *options, void *block, size_t size,
+                                  dmb_sim **sim);
+/* Gives the memory back and sets *sim to NULL. NULL-safe. */
+DMB_API void dmb_sim_destroy(dmb_sim **sim);
+/* What the last failing or noteworthy call on this sim said. Never NULL; lives until the next call on the sim. */
+DMB_API const char *dmb_sim_message(const dmb_sim *sim);
+/* [s] time of the last accepted state; NaN for NULL. */
+DMB_API double dmb_sim_time(const dmb_sim *sim);
+
+typedef struct dmb_step_report {
+    uint32_t struct_size;
+    uint32_t steps;        /* [-] accepted integration steps in this call */
+    uint32_t iterations;   /* [-] Newton iterations, rejected steps included */
+    uint32_t rejected;     /* [-] steps tried and not accepted */
+    uint32_t worst;        /* [-] iterations of the worst accepted step */
+    uint32_t reserved;
+    double time;           /* [s] reached */
+    double residual;       /* [-] largest relative residual of an accepted step */
+    double last_step;      /* [s] length of the last accepted step */
+} dmb_step_report;
+DMB_SIZED_STRUCT(dmb_step_report)
+
+/* Advances by `duration` [s] > 0 in one step of generalized-alpha, divided at programme corners, and halved where Newton
+ * does not converge (DMB_NOTE_STEP_CUT). report may be NULL. Errors: DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR,
+ * _ROTATION, _CALLBACK, _NOT_FINITE; the state is then that before the call. O(number of elements) an iteration.
+ * Chung, Hulbert 1993; Bruls, Cardona, Arnold 2012. */
+DMB_API int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report);
+/* Advances to `time` [s] with steps chosen to hold the local error tolerances. Errors as dmb_sim_step; the state is then
+ * the last accepted one, whose time dmb_sim_time tells. */
+DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report);
+/* From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For
+ * DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; DMB_ERR_UNSUPPORTED for DMB_DRIVE_MOTION, whose speed may not jump. */
+DMB_API int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value);
+
+/* Snapshot of all that changes: bytes, save into and restore from the caller's memory. A snapshot fits every sim of the
+ * same compiled model with the same options (checked; DMB_ERR_VALUE). Restored sims go on bit for bit. */
+DMB_API int32_t dmb_sim_snapshot_size(const dmb_sim *sim, size_t *size);
+DMB_API int32_t dmb_sim_snapshot(const dmb_sim *sim, void *block, size_t size);
+DMB_API int32_t dmb_sim_restore(dmb_sim *sim, const void *block, size_t size);
+/* FNV-1a hash of all that changes; equal states give equal hashes on one build. */
+DMB_API int32_t dmb_sim_hash(const dmb_sim *sim, uint64_t *hash);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

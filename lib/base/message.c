@@ -1,0 +1,113 @@
+#include "base/message.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "base/number.h"
+
+/* The end of the text so far; what does not fit is dropped. */
+typedef struct writer {
+    char *text;
+    size_t used, size;
+} writer;
+
+static void put(writer *w, const char *text, size_t length)
+{
+    size_t room = w->size - 1 - w->used;
+    if (length > room) length = room;
+    memcpy(w->text + w->used, text, length);
+    w->used += length;
+    w->text[w->used] = '\0';
+}
+
+static void put_string(writer *w, const char *text)
+{
+    if (text == NULL) text = "?";
+    put(w, text, strlen(text));
+}
+
+static void put_double(writer *w, double value)
+{
+    char number[DMB_NUMBER_SIZE];
+    int digits = fabs(value) < 1e10 && !(fabs(value - floor(value)) > 0.0) ? 10 : 6;
+    put(w, number, dmb_number_from_double(number, value, digits));
+}
+
+static void put_signed(writer *w, int value)
+{
+    char number[DMB_NUMBER_SIZE];
+    put(w, number, dmb_number_from_i64(number, value));
+}
+
+static void put_unsigned(writer *w, uint64_t value)
+{
+    char number[DMB_NUMBER_SIZE];
+    put(w, number, dmb_number_from_u64(number, value));
+}
+
+void dmb_message_set(dmb_message *message, const char *format, ...)
+{
+    writer w;
+    va_list arguments;
+    if (message == NULL) return;
+    w.text = message->text;
+    w.used = 0;
+    w.size = sizeof message->text;
+    w.text[0] = '\0';
+    va_start(arguments, format);
+    for (const char *c = format; *c != '\0'; ++c) {
+        if (*c != '%') {
+            put(&w, c, 1);
+            continue;
+        }
+        ++c;
+        if (*c == 's') {
+            put_string(&w, va_arg(arguments, const char *));
+        } else if (*c == 'd') {
+            put_signed(&w, va_arg(arguments, int));
+        } else if (*c == 'u') {
+            put_unsigned(&w, va_arg(arguments, unsigned));
+        } else if (*c == 'z' && c[1] == 'u') {
+            ++c;
+            put_unsigned(&w, va_arg(arguments, size_t));
+        } else if (*c == 'g') {
+            put_double(&w, va_arg(arguments, double));
+        } else if (*c == '%') {
+            put(&w, "%", 1);
+        } else {
+            put_string(&w, "?"); /* not a conversion of this formatter: what follows cannot be read safely */
+            break;
+        }
+    }
+    va_end(arguments);
+}
+
+void dmb_message_component(dmb_message *message, const char *part, uint32_t index, const char *field,
+                           uint32_t component, double value, const char *bound)
+{
+    dmb_message name, place;
+    if (index == DMB_NO_INDEX) {
+        dmb_message_set(&name, "%s", part);
+    } else {
+        dmb_message_set(&name, "%s %u", part, index);
+    }
+    if (component == DMB_NO_INDEX) {
+        dmb_message_set(&place, "%s", field);
+    } else {
+        dmb_message_set(&place, "%s[%u]", field, component);
+    }
+    dmb_message_set(message, "%s: %s = %g, must be %s", name.text, place.text, value, bound);
+}
+
+void dmb_message_field(dmb_message *message, const char *part, uint32_t index, const char *field, double value,
+                       const char *bound)
+{
+    dmb_message_component(message, part, index, field, DMB_NO_INDEX, value, bound);
+}
+
+void dmb_message_clear(dmb_message *message)
+{
+    if (message != NULL) message->text[0] = '\0';
+}

@@ -1,0 +1,36 @@
+/* What the last failing call says: "pipe 3: outer_diameter = nan, must be finite and > inner_diameter". A message is a
+ * fixed buffer, so that saying why never allocates. Text that does not fit is cut. */
+#ifndef DMB_BASE_MESSAGE_H
+#define DMB_BASE_MESSAGE_H
+
+#include <stdint.h>
+
+typedef struct dmb_message {
+    char text[256];
+} dmb_message;
+
+/* The index of a part that has none: "wall: diameter = ...". Also "no component" below. */
+#define DMB_NO_INDEX UINT32_MAX
+
+#if defined(__GNUC__)
+#define DMB_PRINTF_LIKE __attribute__((format(printf, 2, 3)))
+#else
+#define DMB_PRINTF_LIKE
+#endif
+
+/* Formats %s %d %u %zu %g %%, without widths or flags; no locale matters. %g gives whole numbers below 1e10 in full and
+ * others in six digits. message may be NULL: nothing happens. A NULL string is written as "?". */
+void dmb_message_set(dmb_message *message, const char *format, ...) DMB_PRINTF_LIKE;
+
+/* "<part> <index>: <field> = <value>, must be <bound>" */
+void dmb_message_field(dmb_message *message, const char *part, uint32_t index, const char *field, double value,
+                       const char *bound);
+
+/* The same for one element of an array: "<part> <index>: <field>[<component>] = <value>, must be <bound>" */
+void dmb_message_component(dmb_message *message, const char *part, uint32_t index, const char *field,
+                           uint32_t component, double value, const char *bound);
+
+/* Empties the message. */
+void dmb_message_clear(dmb_message *message);
+
+#endif

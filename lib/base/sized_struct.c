@@ -1,0 +1,59 @@
+#include "base/sized_struct.h"
+
+#include <string.h>
+
+static const size_t header = sizeof(uint32_t); /* struct_size itself */
+
+int32_t dmb_struct_check_size(uint32_t size, size_t known, size_t oldest)
+{
+    if (size < oldest || size % 8 != 0 || size > known + DMB_STRUCT_MAX_EXTRA) return DMB_ERR_STRUCT_SIZE;
+    return DMB_OK;
+}
+
+static uint32_t stored_size(const void *object)
+{
+    uint32_t size;
+    memcpy(&size, object, sizeof size);
+    return size;
+}
+
+static size_t smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+int32_t dmb_struct_init(void *out, uint32_t size, const void *defaults, size_t known, size_t oldest)
+{
+    size_t copied = smaller(size, known);
+    unsigned char *bytes = out;
+    if (out == NULL) return DMB_ERR_NULL;
+    if (dmb_struct_check_size(size, known, oldest) < 0) return DMB_ERR_STRUCT_SIZE;
+    memcpy(bytes, &size, header);
+    memcpy(bytes + header, (const unsigned char *)defaults + header, copied - header);
+    memset(bytes + copied, 0, size - copied);
+    return DMB_OK;
+}
+
+int32_t dmb_struct_read(void *dst, size_t known, size_t oldest, const void *src)
+{
+    const unsigned char *bytes = src;
+    uint32_t size;
+    if (dst == NULL || src == NULL) return DMB_ERR_NULL;
+    size = stored_size(src);
+    if (dmb_struct_check_size(size, known, oldest) < 0) return DMB_ERR_STRUCT_SIZE;
+    for (size_t i = known; i < size; ++i) {
+        if (bytes[i] != 0) return DMB_ERR_STRUCT_SIZE; /* the caller wants something this library does not have */
+    }
+    memcpy((unsigned char *)dst + header, bytes + header, smaller(size, known) - header);
+    return DMB_OK;
+}
+
+int32_t dmb_struct_write(void *dst, size_t known, size_t oldest, const void *src)
+{
+    uint32_t size;
+    if (dst == NULL || src == NULL) return DMB_ERR_NULL;
+    size = stored_size(dst);
+    if (dmb_struct_check_size(size, known, oldest) < 0) return DMB_ERR_STRUCT_SIZE;
+    memcpy((unsigned char *)dst + header, (const unsigned char *)src + header, smaller(size, known) - header);
+    return DMB_OK;
+}

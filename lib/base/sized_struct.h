@@ -1,0 +1,65 @@
+/* Structs that cross the border begin with uint32_t struct_size. A caller may know a shorter struct (compiled against
+ * an older header) or a longer one (a newer header) than this library; both work as long as neither side needs what
+ * the other does not have. */
+#ifndef DMB_BASE_SIZED_STRUCT_H
+#define DMB_BASE_SIZED_STRUCT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "drillmbd/base.h"
+
+/* A struct_size this much above what the library knows is taken for garbage. */
+enum { DMB_STRUCT_MAX_EXTRA = 1024 };
+
+/* Writes size bytes: struct_size, then defaults (known bytes long), then zeros. Errors: DMB_ERR_NULL, _STRUCT_SIZE. */
+int32_t dmb_struct_init(void *out, uint32_t size, const void *defaults, size_t known, size_t oldest);
+
+/* Reads a caller's struct into dst, prefilled with defaults and known bytes long. What src does not have keeps its
+ * default; what src has beyond known must be zero. struct_size of dst stays. Errors: DMB_ERR_NULL; DMB_ERR_STRUCT_SIZE,
+ * with dst unchanged. */
+int32_t dmb_struct_read(void *dst, size_t known, size_t oldest, const void *src);
+
+/* Writes an answer of known bytes into a caller's struct: no more than its struct_size, which stays, and nothing beyond
+ * known. Errors: DMB_ERR_NULL; DMB_ERR_STRUCT_SIZE, with dst unchanged. */
+int32_t dmb_struct_write(void *dst, size_t known, size_t oldest, const void *src);
+
+/* DMB_ERR_STRUCT_SIZE unless size is a multiple of 8 from oldest to known + DMB_STRUCT_MAX_EXTRA. */
+int32_t dmb_struct_check_size(uint32_t size, size_t known, size_t oldest);
+
+/* Stands once in a source file for every struct T of the public headers. Makes from the sized initialiser
+ *     T_init                                 the exported one
+ *     int32_t T_read(T *out, const void *src)  defaults overlaid with the caller's struct; *out unchanged on error
+ *     int32_t T_write(void *dst, const T *src) an answer written into the caller's struct
+ * oldest_size is sizeof(T) in the first release that had it. Example:
+ *     DMB_DEFINE_INIT(dmb_term, 96, {.kind = DMB_TERM_CONSTANT, .x1 = 1.0})  */
+#define DMB_DEFINE_INIT(T, oldest_size, ...)                                                                          \
+    static const T T##_defaults = __VA_ARGS__;                                                                        \
+    _Static_assert(offsetof(T, struct_size) == 0, #T " does not begin with struct_size");                             \
+    _Static_assert(sizeof(T) % 8 == 0 && (oldest_size) % 8 == 0, #T " is not a multiple of 8 bytes");                 \
+    _Static_assert((oldest_size) <= sizeof(T), #T " is shorter than in its first release");                           \
+    DMB_DECLARE_STRUCT(T)                                                                                             \
+    int32_t T##_init(T *out, uint32_t size)                                                                           \
+    {                                                                                                                 \
+        return dmb_struct_init(out, size, &T##_defaults, sizeof(T), (oldest_size));                                   \
+    }                                                                                                                 \
+    int32_t T##_read(T *out, const void *src)                                                                         \
+    {                                                                                                                 \
+        T filled = T##_defaults;                                                                                      \
+        int32_t status = dmb_struct_read(&filled, sizeof(T), (oldest_size), src);                                     \
+        if (status < 0) return status;                                                                                \
+        filled.struct_size = (uint32_t)sizeof(T);                                                                     \
+        *out = filled;                                                                                                \
+        return DMB_OK;                                                                                                \
+    }                                                                                                                 \
+    int32_t T##_write(void *dst, const T *src)                                                                        \
+    {                                                                                                                 \
+        return dmb_struct_write(dst, sizeof(T), (oldest_size), src);                                                  \
+    }
+
+/* Declares T_read and T_write, for use in a file other than that of DMB_DEFINE_INIT. */
+#define DMB_DECLARE_STRUCT(T)                                                                                         \
+    int32_t T##_read(T *out, const void *src);                                                                        \
+    int32_t T##_write(void *dst, const T *src);
+
+#endif

@@ -1,0 +1,88 @@
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "base/message.h"
+
+static void conversions(void **state)
+{
+    dmb_message m;
+    const char *volatile none = NULL; /* volatile: the compiler warns of what it can see */
+    (void)state;
+    dmb_message_set(&m, "%s %d %u %zu %g %%", "pipe", -3, UINT32_MAX, (size_t)12, 0.5);
+    assert_string_equal(m.text, "pipe -3 4294967295 12 0.5 %");
+    dmb_message_set(&m, "plain");
+    assert_string_equal(m.text, "plain");
+    dmb_message_set(&m, "%s", none);
+    assert_string_equal(m.text, "?");
+    dmb_message_set(&m, "%g %g %g %g %g", 0.073, 2.1e11, 1048577.0, 1.0 / 3.0, -4294967295.0);
+    assert_string_equal(m.text, "0.073 2.1e+11 1048577 0.333333 -4294967295");
+    dmb_message_set(&m, "%g %g %g %g", (double)NAN, (double)INFINITY, (double)-INFINITY, 0.0);
+    assert_string_equal(m.text, "nan inf -inf 0");
+}
+
+static void conversions_it_does_not_know(void **state)
+{
+    dmb_message m;
+    const char *volatile format = "a %x b %d"; /* not seen by the compiler's check of formats */
+    const char *volatile open = "50 %";
+    void (*set)(dmb_message *, const char *, ...) = dmb_message_set;
+    (void)state;
+    set(&m, format, 1u, 2);
+    assert_string_equal(m.text, "a ?");
+    set(&m, open);
+    assert_string_equal(m.text, "50 ?");
+}
+
+static void too_long_a_text_is_cut(void **state)
+{
+    dmb_message m[2];
+    char line[400];
+    (void)state;
+    memset(line, 'x', sizeof line - 1);
+    line[sizeof line - 1] = '\0';
+    memset(m, 0x5A, sizeof m);
+    dmb_message_set(&m[0], "%s%s", line, line);
+    assert_int_equal(strlen(m[0].text), sizeof m[0].text - 1);
+    assert_int_equal(m[1].text[0], 0x5A);
+}
+
+static void fields(void **state)
+{
+    dmb_message m;
+    (void)state;
+    dmb_message_field(&m, "pipe", 3, "outer_diameter", (double)NAN, "finite and > inner_diameter");
+    assert_string_equal(m.text, "pipe 3: outer_diameter = nan, must be finite and > inner_diameter");
+    dmb_message_field(&m, "wall", DMB_NO_INDEX, "diameter", -0.094, "> 0");
+    assert_string_equal(m.text, "wall: diameter = -0.094, must be > 0");
+    dmb_message_component(&m, "string", 0, "velocity", 5, (double)INFINITY, "finite");
+    assert_string_equal(m.text, "string 0: velocity[5] = inf, must be finite");
+    dmb_message_clear(&m);
+    assert_string_equal(m.text, "");
+}
+
+static void no_message(void **state)
+{
+    (void)state;
+    dmb_message_set(NULL, "%s", "lost");
+    dmb_message_field(NULL, "pipe", 0, "length", 0.0, "> 0");
+    dmb_message_clear(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(conversions),
+        cmocka_unit_test(conversions_it_does_not_know),
+        cmocka_unit_test(too_long_a_text_is_cut),
+        cmocka_unit_test(fields),
+        cmocka_unit_test(no_message),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
