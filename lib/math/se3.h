@@ -1,0 +1,334 @@
+/* Poses: exponential, logarithm, tangent operators of SE(3) and their derivatives.
+ *
+ * h = (U; O): translation part U, rotation vector O. A pose is (R, x) or (q, x). Arguments named k take coefficients
+ * already evaluated at |O|^2, so that one element evaluates its series once; NULL has them evaluated here.
+ * Formulas: Sonneville, Cardona, Bruls 2014. */
+#ifndef DMB_MATH_SE3_H
+#define DMB_MATH_SE3_H
+
+#include "math/mat6.h"
+#include "math/so3.h"
+#include "math/vec3.h"
+
+/* A 6x6 matrix [S, B; 0, S], as T6 and T6^-1 both are. Both turn into their transposed blocks for -h. */
+typedef struct dmb_se3_tangent {
+    double S[9];
+    double B[9];
+} dmb_se3_tangent;
+
+typedef dmb_se3_tangent dmb_se3_inverse_tangent;
+
+/* A 6x6 matrix [0, J; J, H], the shape of the stress derivative. */
+typedef struct dmb_se3_stress_blocks {
+    double J[9];
+    double H[9];
+} dmb_se3_stress_blocks;
+
+/* out = y + p O x y + q O x (O x y); out may be y */
+static inline void dmb_so3_polynomial_apply(const double O[3], double p, double q, const double y[3], double out[3])
+{
+    double c[3], d[3];
+    dmb_vec3_cross(O, y, c);
+    dmb_vec3_cross(O, c, d);
+    dmb_vec3_copy(y, out);
+    dmb_vec3_axpy(p, c, out);
+    dmb_vec3_axpy(q, d, out);
+}
+
+/* (R, x) = exp h = (exp O, T(O)^T U) */
+static inline void dmb_se3_exp(const double h[6], const dmb_so3_coefficients *k, double R[9], double x[3])
+{
+    const dmb_so3_coefficients f = dmb_so3_coefficients_or(h + 3, k);
+    dmb_so3_exp(h + 3, &f, R);
+    dmb_so3_polynomial_apply(h + 3, f.b, f.a2, h, x);
+}
+
+/* (q, x) = exp h */
+static inline void dmb_se3_exp_to_quat(const double h[6], double q[4], double x[3])
+{
+    const dmb_so3_coefficients f = dmb_so3_coefficients_or(h + 3, NULL);
+    dmb_quat_exp(h + 3, q);
+    dmb_so3_polynomial_apply(h + 3, f.b, f.a2, h, x);
+}
+
+/* (q, x) <- (q, x) exp h: one step of a body-frame increment */
+static inline void dmb_se3_advance(double q[4], double x[3], const double h[6])
+{
+    double dq[4], dx[3];
+    dmb_se3_exp_to_quat(h, dq, dx);
+    dmb_quat_rotate(q, dx, dx);
+    dmb_vec3_add(x, dx, x);
+    dmb_quat_mul(q, dq, q);
+    dmb_quat_normalize(q);
+}
+
+/* d = log (q, x) = (S(O)^T x; O). The coefficients at |O|^2 are handed back in k unless that is NULL. */
+static inline void dmb_se3_log_from_quat(const double q[4], const double x[3], dmb_so3_inverse_coefficients *k,
+                                         double d[6])
+{
+    double O[3];
+    dmb_quat_log(q, O);
+    const dmb_so3_inverse_coefficients f = dmb_so3_inverse_coefficients_or(O, NULL);
+    dmb_so3_polynomial_apply(O, -0.5, f.c, x, d);
+    dmb_vec3_copy(O, d + 3);
+    if (k) *k = f;
+}
+
+/* d = log (R, x) */
+static inline void dmb_se3_log(const double R[9], const double x[3], dmb_so3_inverse_coefficients *k, double d[6])
+{
+    double q[4];
+    dmb_quat_from_matrix(R, q);
+    dmb_se3_log_from_quat(q, x, k, d);
+}
+
+/* The change of I + p O~ + q O~^2 as O moves along U, p and q being functions of |O|:
+ * p U~ + q (U~O~ + O~U~) + (O.U)(dp O~ + dq O~^2), with U~O~ + O~U~ = O U^T + U O^T - 2 (O.U) I */
+static inline void dmb_so3_polynomial_derivative(const double h[6], double p, double q, double dp, double dq,
+                                                 double out[9])
+{
+    const double *U = h, *O = h + 3;
+    const double along = dmb_vec3_dot(O, U), half = 0.5 * dq * along;
+    double v[3], r[3];
+    dmb_vec3_scale(p, U, v);
+    dmb_vec3_axpy(dp * along, O, v);
+    dmb_skew(v, out);
+    dmb_vec3_scale(q, U, r); /* symmetric part O r^T + r O^T - 2 (O.r) I, r = q U + dq (O.U)/2 O */
+    dmb_vec3_axpy(half, O, r);
+    dmb_mat3_add_outer(1.0, O, r, out);
+    dmb_mat3_add_outer(1.0, r, O, out);
+    const double trace = 2.0 * dmb_vec3_dot(O, r);
+    for (int i = 0; i < 9; i += 4) out[i] -= trace;
+}
+
+/* T6(h) = [T, B; 0, T]: body velocity = T6(h) h'. Block S holds T(O), block B
+ * -b U~ + a2 (U~O~ + O~U~) + (O.U)(-db O~ + da2 O~^2). */
+static inline void dmb_se3_tangent_at(const double h[6], const dmb_so3_coefficients *k, dmb_se3_tangent *T)
+{
+    const dmb_so3_coefficients f = dmb_so3_coefficients_or(h + 3, k);
+    dmb_so3_tangent(h + 3, &f, T->S);
+    dmb_so3_polynomial_derivative(h, -f.b, f.a2, -f.db, f.da2, T->B);
+}
+
+/* T6(h)^-1 = [S, B; 0, S], B = U~/2 + c (U~O~ + O~U~) + e (O.U) O~^2 */
+static inline void dmb_se3_inverse_tangent_at(const double h[6], const dmb_so3_inverse_coefficients *k,
+                                              dmb_se3_inverse_tangent *T)
+{
+    const dmb_so3_inverse_coefficients f = dmb_so3_inverse_coefficients_or(h + 3, k);
+    dmb_so3_inverse_tangent(h + 3, &f, T->S);
+    dmb_so3_polynomial_derivative(h, 0.5, f.c, 0.0, f.e, T->B);
+}
+
+/* The same operator at -h: the blocks transposed. */
+static inline void dmb_se3_tangent_reverse(const dmb_se3_tangent *T, dmb_se3_tangent *restrict out)
+{
+    dmb_mat3_transpose(T->S, out->S);
+    dmb_mat3_transpose(T->B, out->B);
+}
+
+/* out = [S, B; 0, S] */
+static inline void dmb_se3_tangent_matrix(const dmb_se3_tangent *T, double out[36])
+{
+    dmb_mat6_zero(out);
+    dmb_mat6_set_block(T->S, 0, 0, out);
+    dmb_mat6_set_block(T->B, 0, 1, out);
+    dmb_mat6_set_block(T->S, 1, 1, out);
+}
+
+/* T6(h) as a full matrix */
+static inline void dmb_se3_tangent6(const double h[6], const dmb_so3_coefficients *k, double out[36])
+{
+    dmb_se3_tangent T;
+    dmb_se3_tangent_at(h, k, &T);
+    dmb_se3_tangent_matrix(&T, out);
+}
+
+/* T6(h)^-1 as a full matrix */
+static inline void dmb_se3_inverse_tangent6(const double h[6], const dmb_so3_inverse_coefficients *k, double out[36])
+{
+    dmb_se3_inverse_tangent T;
+    dmb_se3_inverse_tangent_at(h, k, &T);
+    dmb_se3_tangent_matrix(&T, out);
+}
+
+/* out = T v = (S u + B w; S w); out may be v */
+static inline void dmb_se3_tangent_apply(const dmb_se3_tangent *T, const double v[6], double out[6])
+{
+    double b[3];
+    dmb_mat3_vec(T->B, v + 3, b);
+    dmb_mat3_vec(T->S, v + 3, out + 3);
+    dmb_mat3_vec(T->S, v, out);
+    dmb_vec3_add(out, b, out);
+}
+
+/* out = T^T s = (S^T n; B^T n + S^T m), s = (n; m); out may be s */
+static inline void dmb_se3_tangent_apply_transpose(const dmb_se3_tangent *T, const double s[6], double out[6])
+{
+    double b[3];
+    dmb_mat3_tvec(T->B, s, b);
+    dmb_mat3_tvec(T->S, s, out);
+    dmb_mat3_tvec(T->S, s + 3, out + 3);
+    dmb_vec3_add(out + 3, b, out + 3);
+}
+
+/* The operator at -h, without forming it: (S^T u + B^T w; S^T w); out may be v */
+static inline void dmb_se3_tangent_apply_reverse(const dmb_se3_tangent *T, const double v[6], double out[6])
+{
+    double b[3];
+    dmb_mat3_tvec(T->B, v + 3, b);
+    dmb_mat3_tvec(T->S, v + 3, out + 3);
+    dmb_mat3_tvec(T->S, v, out);
+    dmb_vec3_add(out, b, out);
+}
+
+/* Its transpose: (S n; B n + S m); out may be s */
+static inline void dmb_se3_tangent_apply_reverse_transpose(const dmb_se3_tangent *T, const double s[6], double out[6])
+{
+    double b[3];
+    dmb_mat3_vec(T->B, s, b);
+    dmb_mat3_vec(T->S, s, out);
+    dmb_mat3_vec(T->S, s + 3, out + 3);
+    dmb_vec3_add(out + 3, b, out + 3);
+}
+
+/* C = A^T diag(k) B for two such operators: the material stiffness of an element.
+ * Blocks [Sa^T ku Sb, Sa^T ku Bb; Ba^T ku Sb, Ba^T ku Bb + Sa^T kw Sb] */
+static inline void dmb_se3_tangent_congruence(const dmb_se3_tangent *A, const double k[6], const dmb_se3_tangent *B,
+                                              double *restrict C)
+{
+    double kS[9], kB[9], kW[9], block[9];
+    for (int i = 0; i < 3; i++) {
+        dmb_vec3_scale(k[i], B->S + 3 * i, kS + 3 * i);
+        dmb_vec3_scale(k[i], B->B + 3 * i, kB + 3 * i);
+        dmb_vec3_scale(k[3 + i], B->S + 3 * i, kW + 3 * i);
+    }
+    dmb_mat3_mul_tn(A->S, kS, block);
+    dmb_mat6_set_block(block, 0, 0, C);
+    dmb_mat3_mul_tn(A->S, kB, block);
+    dmb_mat6_set_block(block, 0, 1, C);
+    dmb_mat3_mul_tn(A->B, kS, block);
+    dmb_mat6_set_block(block, 1, 0, C);
+    dmb_mat3_mul_tn(A->B, kB, block);
+    dmb_mat6_set_block(block, 1, 1, C);
+    dmb_mat3_mul_tn(A->S, kW, block);
+    dmb_mat6_add_block(1.0, block, 1, 1, C);
+}
+
+/* out = (r.a) I + r a^T - 2 a r^T, the gradient of r x (r x a) with respect to r */
+static inline void dmb_so3_double_cross_gradient(const double r[3], const double a[3], double out[9])
+{
+    const double d = dmb_vec3_dot(r, a);
+    dmb_mat3_zero(out);
+    out[0] = out[4] = out[8] = d;
+    dmb_mat3_add_outer(1.0, r, a, out);
+    dmb_mat3_add_outer(-2.0, a, r, out);
+}
+
+/* d/dO (c O~^2 a) = c ((O.a) I + O a^T - 2 a O^T) + e w O^T, w = O x (O x a). Odd in O: the part of both J and Jm
+ * that follows the sign of h. */
+static inline void dmb_so3_square_derivative(const double O[3], const double a[3],
+                                             const dmb_so3_inverse_coefficients *k, double out[9])
+{
+    double r[3], w[3];
+    dmb_vec3_scale(k->c, O, r);
+    dmb_so3_double_cross_gradient(r, a, out);
+    dmb_vec3_cross(O, a, w);
+    dmb_vec3_cross(O, w, w);
+    dmb_mat3_add_outer(k->e, w, O, out);
+}
+
+/* Hh(h, n), the change of the above as O moves along U; odd in h. With s = O.U and r = c U + e s O:
+ * (r.n) I + r n^T - 2 n r^T + (e p + e2 s w) O^T + e w U^T,  p = (O.n)U + (n.U)O - 2 s n */
+static inline void dmb_se3_square_second_derivative(const double h[6], const double n[3],
+                                                    const dmb_so3_inverse_coefficients *k, double out[9])
+{
+    const double *U = h, *O = h + 3;
+    const double s = dmb_vec3_dot(O, U);
+    double r[3], w[3], p[3];
+    dmb_vec3_scale(k->c, U, r);
+    dmb_vec3_axpy(k->e * s, O, r);
+    dmb_so3_double_cross_gradient(r, n, out);
+    dmb_vec3_cross(O, n, w);
+    dmb_vec3_cross(O, w, w);
+    dmb_vec3_scale(k->e * dmb_vec3_dot(O, n), U, p);
+    dmb_vec3_axpy(k->e * dmb_vec3_dot(n, U), O, p);
+    dmb_vec3_axpy(-2.0 * k->e * s, n, p);
+    dmb_vec3_axpy(k->e2 * s, w, p);
+    dmb_mat3_add_outer(1.0, p, O, out);
+    dmb_mat3_add_outer(k->e, w, U, out);
+}
+
+/* The blocks J(n) and J(m) + Hh of the stress derivative, s = (n; m), at h and at -h together: n~/2 and m~/2 stay,
+ * the rest changes sign. Either of plus and minus may be NULL. */
+static inline void dmb_se3_stress_blocks_at(const double h[6], const double s[6], const dmb_so3_inverse_coefficients *k,
+                                            dmb_se3_stress_blocks *plus, dmb_se3_stress_blocks *minus)
+{
+    const dmb_so3_inverse_coefficients f = dmb_so3_inverse_coefficients_or(h + 3, k);
+    double N[9], M[9], J[9], H[9], Hh[9];
+    dmb_skew(s, N);
+    dmb_skew(s + 3, M);
+    dmb_so3_square_derivative(h + 3, s, &f, J);
+    dmb_so3_square_derivative(h + 3, s + 3, &f, H);
+    dmb_se3_square_second_derivative(h, s, &f, Hh);
+    for (int i = 0; i < 9; i++) {
+        H[i] += Hh[i];
+        if (plus) plus->J[i] = 0.5 * N[i] + J[i];
+        if (plus) plus->H[i] = 0.5 * M[i] + H[i];
+        if (minus) minus->J[i] = 0.5 * N[i] - J[i];
+        if (minus) minus->H[i] = 0.5 * M[i] - H[i];
+    }
+}
+
+/* out = [0, J; J, H] */
+static inline void dmb_se3_stress_matrix(const dmb_se3_stress_blocks *D, double out[36])
+{
+    dmb_mat6_zero(out);
+    dmb_mat6_set_block(D->J, 0, 1, out);
+    dmb_mat6_set_block(D->J, 1, 0, out);
+    dmb_mat6_set_block(D->H, 1, 1, out);
+}
+
+/* out += f [0, J; J, H] [S, B; 0, S] = f [0, J S; J S, J B + H S]: one block of an element's geometric stiffness */
+static inline void dmb_se3_stress_times_tangent(double f, const dmb_se3_stress_blocks *D, const dmb_se3_tangent *T,
+                                                double out[36])
+{
+    double block[9];
+    dmb_mat3_mul(D->J, T->S, block);
+    dmb_mat6_add_block(f, block, 0, 1, out);
+    dmb_mat6_add_block(f, block, 1, 0, out);
+    dmb_mat3_mul(D->J, T->B, block);
+    dmb_mat6_add_block(f, block, 1, 1, out);
+    dmb_mat3_mul(D->H, T->S, block);
+    dmb_mat6_add_block(f, block, 1, 1, out);
+}
+
+/* D1(h, s) = d/dh (T6(h)^-T s) at fixed s */
+static inline void dmb_se3_stress_derivative(const double h[6], const double s[6],
+                                             const dmb_so3_inverse_coefficients *k, double out[36])
+{
+    dmb_se3_stress_blocks D;
+    dmb_se3_stress_blocks_at(h, s, k, &D, NULL);
+    dmb_se3_stress_matrix(&D, out);
+}
+
+/* X(h, v) = d/dh (T6(h)^-1 v) at fixed v = (u; w): [Jm(w), Jm(u) + Hh(w); 0, Jm(w)], Jm(a) = -a~/2 + the odd part */
+static inline void dmb_se3_velocity_derivative(const double h[6], const double v[6],
+                                               const dmb_so3_inverse_coefficients *k, double out[36])
+{
+    const dmb_so3_inverse_coefficients f = dmb_so3_inverse_coefficients_or(h + 3, k);
+    double skew[9], J[9], H[9];
+    dmb_mat6_zero(out);
+    dmb_so3_square_derivative(h + 3, v + 3, &f, J);
+    dmb_skew(v + 3, skew);
+    dmb_mat3_axpy(-0.5, skew, J);
+    dmb_mat6_set_block(J, 0, 0, out);
+    dmb_mat6_set_block(J, 1, 1, out);
+    dmb_so3_square_derivative(h + 3, v, &f, J);
+    dmb_skew(v, skew);
+    dmb_mat3_axpy(-0.5, skew, J);
+    dmb_se3_square_second_derivative(h, v + 3, &f, H);
+    dmb_mat3_add(J, H, H);
+    dmb_mat6_set_block(H, 0, 1, out);
+}
+
+#endif
