@@ -1,0 +1,227 @@
+#include "force/bit_rock.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static const double two_pi = 6.28318530717958647693;
+
+enum { CAPACITY_MIN = 16, SPARE_SAMPLES = 8 };
+#define LEDGE_STEPS 4.0 /* [-] angle_steps over which the step in the rock behind the blade is smoothed */
+
+/* S(x) = x^2 (3 - 2x) on 0 .. 1, 0 before, 1 after */
+static double ramp(double x, double *slope)
+{
+    *slope = 0.0;
+    if (x <= 0.0) return 0.0;
+    if (x >= 1.0) return 1.0;
+    *slope = 6.0 * x * (1.0 - x);
+    return x * x * (3.0 - 2.0 * x);
+}
+
+/* sign(Omega), through x (3 - x^2)/2 within the spin floor */
+static double spin_sign(double omega, double *slope)
+{
+    const double x = omega / DMB_BIT_SPIN_FLOOR;
+
+    *slope = 0.0;
+    if (fabs(x) >= 1.0) return x > 0.0 ? 1.0 : -1.0;
+    *slope = 1.5 * (1.0 - x * x) / DMB_BIT_SPIN_FLOOR;
+    return 0.5 * x * (3.0 - x * x);
+}
+
+/* 1/Omega for forward rotation, faded to 0 within the spin floor */
+static double inverse_spin(double omega, double *slope)
+{
+    const double x = omega / DMB_BIT_SPIN_FLOOR;
+
+    *slope = 0.0;
+    if (x <= 0.0) return 0.0;
+    if (x >= 1.0) {
+        *slope = -1.0 / (omega * omega);
+        return 1.0 / omega;
+    }
+    *slope = x * (8.0 - 9.0 * x) / (DMB_BIT_SPIN_FLOOR * DMB_BIT_SPIN_FLOOR);
+    return x * x * (4.0 - 3.0 * x) / DMB_BIT_SPIN_FLOOR;
+}
+
+/* ---- History ----------------------------------------------------------------------------------------------------- */
+
+int32_t dmb_bit_history_init(dmb_bit_history *history, const dmb_bit_rock_law *law, double *angle, double *surface,
+                             uint32_t capacity, double phi, double bottom)
+{
+    if (angle == NULL || surface == NULL) return DMB_ERR_NULL;
+    if (capacity < CAPACITY_MIN || law->blades == 0) return DMB_ERR_VALUE;
+    history->angle = angle;
+    history->surface = surface;
+    history->capacity = capacity;
+    history->head = 0;
+    history->count = 1;
+    history->reserved = 0;
+    history->spacing = two_pi / (double)law->blades;
+    history->angle_step = history->spacing / (double)(capacity - SPARE_SAMPLES);
+    history->offset = 0.0;
+    angle[0] = phi;
+    surface[0] = bottom;
+    return DMB_OK;
+}
+
+/* Place in the ring of sample i, 0 the oldest. */
+static uint32_t place(const dmb_bit_history *history, uint32_t i)
+{
+    const uint32_t at = history->head + 1 + i;
+
+    return at >= history->count ? at - history->count : at + history->capacity - history->count;
+}
+
+/* Surface at a recorded angle: linear between samples, the end's surface outside them. */
+static double surface_at(const dmb_bit_history *history, double angle, double *slope)
+{
+    uint32_t low = 0;
+    uint32_t high = history->count;
+
+    while (low < high) { /* number of samples at or before angle */
+        const uint32_t middle = low + (high - low) / 2;
+        if (history->angle[place(history, middle)] <= angle)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    *slope = 0.0;
+    if (low == 0) return history->surface[place(history, 0)];
+    if (low == history->count) return history->surface[history->head];
+    const uint32_t a = place(history, low - 1);
+    const uint32_t b = place(history, low);
+    *slope = (history->surface[b] - history->surface[a]) / (history->angle[b] - history->angle[a]);
+    return history->surface[a] + *slope * (angle - history->angle[a]);
+}
+
+double dmb_bit_history_surface(const dmb_bit_history *history, double Phi, double *slope)
+{
+    const double newest = history->angle[history->head];
+    const double width = LEDGE_STEPS * history->angle_step;
+    double angle = Phi + history->offset;
+
+    if (angle < newest - history->spacing) /* turned back by more than a blade since the last accepted step */
+        angle += history->spacing * floor((newest - angle) / history->spacing);
+    const double before = surface_at(history, angle - history->spacing, slope);
+    if (!(angle < newest)) return before;
+    const double slope_before = *slope;
+    double slope_last, blend_slope;
+    const double last = surface_at(history, angle, &slope_last);
+    const double blend = ramp((newest - angle) / width, &blend_slope);
+    *slope = slope_before + blend * (slope_last - slope_before) - blend_slope / width * (last - before);
+    return before + blend * (last - before);
+}
+
+void dmb_bit_history_record(dmb_bit_history *history, double Phi, double U)
+{
+    const double newest = history->angle[history->head];
+    const double angle = Phi + history->offset;
+
+    if (angle < newest - history->spacing) {
+        history->offset += history->spacing * floor((newest - angle) / history->spacing);
+        return;
+    }
+    if (!(angle - newest >= history->angle_step)) return;
+    double slope;
+    const double before = surface_at(history, angle - history->spacing, &slope);
+    history->head = (history->head + 1) % history->capacity;
+    if (history->count < history->capacity) history->count += 1;
+    history->angle[history->head] = angle;
+    history->surface[history->head] = fmax(U, before);
+}
+
+/* ---- Forces ------------------------------------------------------------------------------------------------------ */
+
+void dmb_bit_rock_resultants(const dmb_bit_rock_law *law, double depth_of_cut, double engagement, double *weight,
+                             double *torque)
+{
+    const double a = law->radius;
+    const double contact = law->contact_strength * law->wear_length * engagement; /* sigma l g */
+
+    *weight = law->cutting_ratio * law->intrinsic_energy * a * depth_of_cut + a * contact;
+    *torque = 0.5 * a * a * (law->intrinsic_energy * depth_of_cut + law->contact_friction * contact);
+}
+
+double dmb_bit_rock_bottom(const dmb_bit_rock_law *law, double bottom, double U)
+{
+    return fmax(bottom, U - law->intrusion_depth);
+}
+
+/* A scalar with its derivatives with respect to U, V, Phi, Omega. */
+struct jet {
+    double value, d[4];
+};
+
+/* Depth of cut and engagement to forces; the chain rule is the formula itself applied to each derivative. */
+static void assemble(const dmb_bit_rock_law *law, const struct jet *depth, const struct jet *grip, double omega,
+                     dmb_bit_rock_result *out)
+{
+    double *const weight_d[4] = {&out->dW_dU, &out->dW_dV, &out->dW_dPhi, &out->dW_dOmega};
+    double *const torque_d[4] = {&out->dT_dU, &out->dT_dV, &out->dT_dPhi, &out->dT_dOmega};
+    const double a = law->radius;
+    const double flat = a * law->contact_strength * law->wear_length;  /* sigma a l */
+    const double flat_torque = 0.5 * a * law->contact_friction * flat; /* mu gamma sigma a^2 l/2 */
+    const double cut = law->cutting_ratio * law->intrinsic_energy * a; /* zeta eps a */
+    const double cut_torque = 0.5 * law->intrinsic_energy * a * a;     /* eps a^2/2 */
+    double sign_slope;
+    const double sign = spin_sign(omega, &sign_slope);
+
+    out->weight_on_bit = cut * depth->value + flat * grip->value;
+    out->torque_on_bit = cut_torque * depth->value + flat_torque * grip->value * sign;
+    for (int i = 0; i < 4; ++i) {
+        *weight_d[i] = cut * depth->d[i] + flat * grip->d[i];
+        *torque_d[i] = cut_torque * depth->d[i] + flat_torque * grip->d[i] * sign;
+    }
+    out->dT_dOmega += flat_torque * grip->value * sign_slope;
+    out->depth_of_cut = depth->value;
+    out->engagement = grip->value;
+}
+
+static void rate_law(const dmb_bit_rock_law *law, double intrusion, double V, double omega, dmb_bit_rock_result *out)
+{
+    double grip_slope, inverse_slope;
+    const double grip = ramp(intrusion / law->intrusion_depth, &grip_slope);
+    const double inverse = inverse_spin(omega, &inverse_slope);
+    const double advance = V <= 0.0 ? 0.0 : two_pi * V;
+    const struct jet g = {grip, {grip_slope / law->intrusion_depth, 0.0, 0.0, 0.0}};
+    const struct jet d = {
+        grip * advance * inverse,
+        {g.d[0] * advance * inverse, V <= 0.0 ? 0.0 : grip * two_pi * inverse, 0.0, grip * advance * inverse_slope}};
+
+    assemble(law, &d, &g, omega, out);
+}
+
+static void regenerative_law(const dmb_bit_rock_law *law, double intrusion, double surface_slope, double omega,
+                             dmb_bit_rock_result *out)
+{
+    const double n = (double)law->blades;
+    double grip_slope, fade_slope;
+    const double grip = ramp(intrusion / law->intrusion_depth, &grip_slope);
+    const double fade = ramp(omega / DMB_BIT_SPIN_FLOOR, &fade_slope);
+    const double per_depth = grip_slope / law->intrusion_depth;
+    const struct jet g = {grip, {per_depth, 0.0, -per_depth * surface_slope, 0.0}};
+    const struct jet d = {n * intrusion * fade,
+                          {n * fade, 0.0, -n * surface_slope * fade, n * intrusion * fade_slope / DMB_BIT_SPIN_FLOOR}};
+
+    assemble(law, &d, &g, omega, out);
+}
+
+void dmb_bit_rock_force(const dmb_bit_rock_law *law, const dmb_bit_history *history, double bottom, double U, double V,
+                        double Phi, double Omega, dmb_bit_rock_result *out)
+{
+    static const dmb_bit_rock_result nothing = {0};
+    const int regenerative = law->kind == DMB_ROCK_REGENERATIVE && history != NULL;
+    double slope = 0.0;
+
+    *out = nothing;
+    if (law->kind == DMB_ROCK_NONE) return;
+    const double surface = regenerative ? dmb_bit_history_surface(history, Phi, &slope) : bottom;
+    const double intrusion = U - surface;
+    if (intrusion <= 0.0) return;
+    out->on_bottom = 1;
+    if (regenerative)
+        regenerative_law(law, intrusion, slope, Omega, out);
+    else
+        rate_law(law, intrusion, V, Omega, out);
+}

@@ -1,0 +1,91 @@
+/* Bit-rock interaction: weight and torque on the bit from cutting and from the wear flat.
+ * Detournay, Defourny 1992 (rate law) and Richard, Germay, Detournay 2007 (regenerative law). U [m] is the advance of
+ * the bit along the hole's axis from its starting point, V = dU/dt, Phi [rad] its unwrapped spin angle, Omega =
+ * dPhi/dt, positive in the drilling sense. Pure functions but the two that write the history. */
+#ifndef DMB_FORCE_BIT_ROCK_H
+#define DMB_FORCE_BIT_ROCK_H
+
+#include <stdint.h>
+
+#include "drillmbd/model.h"
+
+/* [rad/s] Below this spin the laws are faded towards rest: cutting ends at Omega = 0 and the torque of the wear flat
+ * changes sign smoothly. Above it they are exact. 0.5 rpm. */
+#define DMB_BIT_SPIN_FLOOR 0.05
+
+typedef struct dmb_bit_rock_law {
+    int32_t kind;            /* DMB_ROCK_... */
+    uint32_t blades;         /* [-] n >= 1 */
+    double radius;           /* [m] a */
+    double intrinsic_energy; /* [Pa] eps */
+    double cutting_ratio;    /* [-] zeta */
+    double contact_strength; /* [Pa] sigma */
+    double wear_length;      /* [m] l, summed over the blades */
+    double contact_friction; /* [-] mu gamma */
+    double intrusion_depth;  /* [m] > 0, over which contact is taken up */
+} dmb_bit_rock_law;
+
+/* The surface the last blade left, over the bit angle at which it was cut. Arrays are the caller's (ring buffers of
+ * `capacity`); head, count and offset change in dmb_bit_history_record only, so that a snapshot is this struct and the
+ * two arrays. */
+typedef struct dmb_bit_history {
+    double *angle;     /* [rad] strictly increasing from oldest to newest, shape (capacity) */
+    double *surface;   /* [m] advance of the rock surface, shape (capacity) */
+    uint32_t capacity; /* [-] >= 16 */
+    uint32_t head;     /* [-] place of the newest sample */
+    uint32_t count;    /* [-] samples held, 1 .. capacity */
+    uint32_t reserved;
+    double angle_step; /* [rad] smallest distance of samples, (2 pi/n)/(capacity - 8) */
+    double spacing;    /* [rad] angle between blades 2 pi/n */
+    double offset;     /* [rad] whole blade spacings added to Phi after reverse rotation */
+} dmb_bit_history;
+
+typedef struct dmb_bit_rock_result {
+    double weight_on_bit;                    /* [N] force on the bit against its advance, >= 0 */
+    double torque_on_bit;                    /* [N m] torque on the bit against positive spin */
+    double depth_of_cut;                     /* [m] per revolution, all blades; as it enters the forces */
+    double engagement;                       /* [-] g of the wear flat, 0 .. 1 */
+    double dW_dU, dW_dV, dW_dPhi, dW_dOmega; /* [N/m, N s/m, N/rad, N s/rad] */
+    double dT_dU, dT_dV, dT_dPhi, dT_dOmega; /* [N, N s, N m/rad, N m s/rad] */
+    int32_t on_bottom;                       /* [-] 1 while the bit touches rock */
+    int32_t reserved;
+} dmb_bit_rock_result;
+
+/* W = zeta eps a d + sigma a l g [N] and T = eps a^2 d/2 + mu gamma sigma a^2 l g/2 [N m] at depth of cut d [m] and
+ * engagement g, in steady forward rotation. */
+void dmb_bit_rock_resultants(const dmb_bit_rock_law *law, double depth_of_cut, double engagement, double *weight,
+                             double *torque);
+
+/* [m] Where rock begins after a step accepted at U: max(bottom, U - intrusion_depth). Rate law only. */
+double dmb_bit_rock_bottom(const dmb_bit_rock_law *law, double bottom, double U);
+
+/* Forces and exact derivatives at one instant.
+ * RATE (also REGENERATIVE without history): g = S((U - bottom)/intrusion_depth) with S(x) = x^2 (3 - 2x) on 0 .. 1, and
+ *   d = g 2 pi max(V, 0)/Omega; bottom follows by dmb_bit_rock_bottom, so g = 1 in steady drilling, everything is
+ *   taken up within intrusion_depth on touching, and nothing is left above it after lifting.
+ *   Below the spin floor O, 1/Omega is replaced by x^2 (4 - 3x)/O, x = Omega/O (value and slope continuous).
+ * REGENERATIVE: per blade d_n = max(0, U - surface under the blade), g = S(d_n/intrusion_depth), d = n d_n times
+ *   S(Omega/O). `bottom` is not used.
+ * Both: no cutting for Omega <= 0 or d < 0; the wear flat's torque is against the spin, times x (3 - x^2)/2 below the
+ *   floor. An unrotating bit meets no more than sigma a l g. Off bottom everything is 0. */
+void dmb_bit_rock_force(const dmb_bit_rock_law *law, const dmb_bit_history *history, double bottom, double U, double V,
+                        double Phi, double Omega, dmb_bit_rock_result *out);
+
+/* Starts a history over flat rock at advance `bottom` [m], with the bit at angle phi. Uses blades of the law.
+ * Errors: DMB_ERR_NULL, DMB_ERR_VALUE (capacity below 16, no blades). */
+int32_t dmb_bit_history_init(dmb_bit_history *history, const dmb_bit_rock_law *law, double *angle, double *surface,
+                             uint32_t capacity, double phi, double bottom);
+
+/* After an accepted step: stores max(U, surface before) where Phi has gone forward by at least angle_step since the
+ * newest sample. Angles passed in reverse are not stored. The blades are alike, so the rock repeats every 2 pi/n: once
+ * Phi has gone back by more than that, whole spacings are added to it (offset), and drilling on in forward rotation
+ * picks up the history within one blade spacing, however many turns were unwound. */
+void dmb_bit_history_record(dmb_bit_history *history, double Phi, double U);
+
+/* [m] Rock surface under the blades at bit angle Phi, and its slope [m/rad]. Ahead of the newest sample that is
+ * S(Phi - 2 pi/n), linear between samples; behind it (reverse rotation) S(Phi), the last pass over that place, taken up
+ * over four angle_steps. Never outside the samples held: beyond either end it is that end's surface, at first the
+ * initial bottom. */
+double dmb_bit_history_surface(const dmb_bit_history *history, double Phi, double *slope);
+
+#endif

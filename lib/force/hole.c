@@ -1,0 +1,290 @@
+#include "force/hole.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "math/vec3.h"
+
+#define BEND_MIN 1e-12      /* [rad] a smaller change of direction counts as none */
+#define HORIZONTAL_MIN 1e-9 /* [-] horizontal part of the tangent below which the hole counts as vertical */
+#define CONCENTRIC 1e-12    /* [m] */
+
+/* Divides by the length; through the largest component, so that no finite length over- or underflows. Returns 0 where
+ * there is no direction. */
+static int normalise(double a[3])
+{
+    const double largest = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
+
+    if (!(largest > 0.0)) return 0;
+    dmb_vec3_set(a[0] / largest, a[1] / largest, a[2] / largest, a);
+    const double length = dmb_vec3_norm(a);
+    dmb_vec3_set(a[0] / length, a[1] / length, a[2] / length, a);
+    return 1;
+}
+
+static int finite3(const double a[3])
+{
+    return isfinite(a[0]) && isfinite(a[1]) && isfinite(a[2]);
+}
+
+/* ---- Setup ------------------------------------------------------------------------------------------------------- */
+
+int32_t dmb_hole_setup_straight(dmb_hole *hole, const double origin[3], const double direction[3], double radius)
+{
+    double unit[3];
+
+    if (!finite3(origin) || !finite3(direction) || !isfinite(radius)) return DMB_ERR_NOT_FINITE;
+    dmb_vec3_copy(direction, unit);
+    if (!normalise(unit)) return DMB_ERR_VALUE;
+    hole->station = NULL;
+    hole->stations = 0;
+    hole->reserved = 0;
+    dmb_vec3_copy(origin, hole->origin);
+    dmb_vec3_copy(unit, hole->direction);
+    hole->radius = radius;
+    return DMB_OK;
+}
+
+static void survey_tangent(const double row[3], double t[3])
+{
+    t[0] = sin(row[1]) * cos(row[2]);
+    t[1] = sin(row[1]) * sin(row[2]);
+    t[2] = -cos(row[1]);
+    (void)normalise(t);
+}
+
+/* Arc of a station from its tangent and the next one's. Returns 0 where it bends too much. */
+static int survey_arc(dmb_hole_station *from, const dmb_hole_station *to)
+{
+    double axis[3];
+
+    dmb_vec3_cross(from->tangent, to->tangent, axis);
+    const double bend = atan2(dmb_vec3_norm(axis), dmb_vec3_dot(from->tangent, to->tangent));
+    if (!(bend <= DMB_HOLE_DOGLEG_MAX)) return 0;
+    from->curvature = 0.0;
+    dmb_vec3_zero(from->normal);
+    if (bend < BEND_MIN) return 1;
+    from->curvature = bend / (to->depth - from->depth);
+    dmb_vec3_cross(axis, from->tangent, from->normal);
+    return normalise(from->normal);
+}
+
+/* x(r) = p + sin(k r)/k t + (1 - cos(k r))/k n and its two derivatives, r beyond a station, k its curvature */
+static void along_arc(const dmb_hole_station *from, double r, double x[3], double t[3], double curvature[3])
+{
+    const double angle = from->curvature * r;
+    const double sine = sin(angle);
+    const double cosine = cos(angle);
+    const double half = sin(0.5 * angle);
+    const double forward = from->curvature != 0.0 ? sine / from->curvature : r;
+    const double sideways = from->curvature != 0.0 ? 2.0 * half * half / from->curvature : 0.0;
+
+    for (int i = 0; i < 3; ++i) {
+        x[i] = from->point[i] + forward * from->tangent[i] + sideways * from->normal[i];
+        t[i] = cosine * from->tangent[i] + sine * from->normal[i];
+        curvature[i] = from->curvature * (cosine * from->normal[i] - sine * from->tangent[i]);
+    }
+}
+
+/* Stations that all look the same way are a straight line: the fast path. */
+static void straighten(dmb_hole *hole)
+{
+    for (uint32_t i = 0; i < hole->stations; ++i)
+        if (hole->station[i].curvature != 0.0) return;
+    dmb_vec3_copy(hole->station->point, hole->origin);
+    dmb_vec3_axpy(-hole->station->depth, hole->station->tangent, hole->origin);
+    dmb_vec3_copy(hole->station->tangent, hole->direction);
+    hole->station = NULL;
+    hole->stations = 0;
+}
+
+static int64_t place_stations(uint32_t stations, const double *survey, const double origin[3],
+                              dmb_hole_station *storage)
+{
+    double unused_tangent[3], unused_curvature[3];
+
+    for (uint32_t i = 0; i < stations; ++i) {
+        const double *row = survey + 3 * (size_t)i;
+        dmb_hole_station *station = &storage[i];
+        if (!finite3(row) || (i > 0 && !(row[0] > storage[i - 1].depth))) return (int64_t)i;
+        station->depth = row[0];
+        station->curvature = 0.0;
+        dmb_vec3_zero(station->normal);
+        survey_tangent(row, station->tangent);
+        dmb_vec3_copy(origin, station->point);
+        if (i == 0) continue;
+        if (!survey_arc(station - 1, station)) return (int64_t)i;
+        along_arc(station - 1, row[0] - station[-1].depth, station->point, unused_tangent, unused_curvature);
+    }
+    return -1;
+}
+
+int64_t dmb_hole_setup_survey(dmb_hole *hole, uint32_t stations, const double *survey, const double origin[3],
+                              double radius, dmb_hole_station *storage)
+{
+    if (stations < 2 || !finite3(origin) || !isfinite(radius)) return 0;
+    const int64_t bad = place_stations(stations, survey, origin, storage);
+    if (bad >= 0) return bad;
+    hole->station = storage;
+    hole->stations = stations;
+    hole->reserved = 0;
+    dmb_vec3_copy(storage->point, hole->origin);
+    dmb_vec3_copy(storage->tangent, hole->direction);
+    hole->radius = radius;
+    straighten(hole);
+    return -1;
+}
+
+/* ---- Place to frame ---------------------------------------------------------------------------------------------- */
+
+static void along_line(const double p[3], const double direction[3], double r, double x[3], double t[3],
+                       double curvature[3])
+{
+    dmb_vec3_copy(p, x);
+    dmb_vec3_axpy(r, direction, x);
+    dmb_vec3_copy(direction, t);
+    dmb_vec3_zero(curvature);
+}
+
+/* Last station at or before s; 0 before the first one. */
+static uint32_t station_before(const dmb_hole *hole, double s)
+{
+    uint32_t low = 0;
+    uint32_t high = hole->stations;
+
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (hole->station[middle].depth <= s)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+void dmb_hole_frame(const dmb_hole *hole, double s, double x[3], double t[3], double curvature[3])
+{
+    double own_t[3], own_curvature[3];
+    double *tangent = t != NULL ? t : own_t;
+    double *bend = curvature != NULL ? curvature : own_curvature;
+
+    if (dmb_hole_is_straight(hole)) {
+        along_line(hole->origin, hole->direction, s, x, tangent, bend);
+        return;
+    }
+    const dmb_hole_station *from = &hole->station[station_before(hole, s)];
+    if (s < from->depth) /* before the first station; the last one's curvature is 0 */
+        along_line(from->point, from->tangent, s - from->depth, x, tangent, bend);
+    else
+        along_arc(from, s - from->depth, x, tangent, bend);
+}
+
+void dmb_hole_frame_rotation(const dmb_hole *hole, double s, double R[9])
+{
+    double x[3], t[3], z[3];
+
+    dmb_hole_frame(hole, s, x, t, NULL);
+    double y[3] = {0.0 - t[1], t[0], 0.0};
+    if (dmb_vec3_norm(y) < HORIZONTAL_MIN) {
+        dmb_vec3_set(0.0, 1.0, 0.0, y);
+        dmb_vec3_axpy(-t[1], t, y);
+    }
+    (void)normalise(y);
+    dmb_vec3_cross(t, y, z);
+    for (int i = 0; i < 3; ++i) {
+        R[3 * i] = t[i];
+        R[3 * i + 1] = y[i];
+        R[3 * i + 2] = z[i];
+    }
+}
+
+/* ---- Point to place ---------------------------------------------------------------------------------------------- */
+
+/* Signed distance of x in front of a station's plane. */
+static double beyond(const dmb_hole_station *station, const double x[3])
+{
+    double u[3];
+
+    dmb_vec3_sub(x, station->point, u);
+    return dmb_vec3_dot(u, station->tangent);
+}
+
+/* Arc whose end planes enclose x, walking from the hinted one. The last station stands for the line beyond it. Both
+ * planes of an arc pass through its centre, so what they enclose (bend below pi) is the sector of the arc itself. */
+static uint32_t find_segment(const dmb_hole *hole, const double x[3], uint32_t hint)
+{
+    const uint32_t last = hole->stations - 1;
+    uint32_t i = hint < last ? hint : last;
+
+    while (i > 0 && beyond(&hole->station[i], x) < 0.0) --i;
+    while (i < last && beyond(&hole->station[i + 1], x) >= 0.0) ++i;
+    return i;
+}
+
+/* Closest point on the arc of a station, u = x - p, k its curvature: with c = (1 - k u.n)/rho and a = (u.t)/rho,
+ * rho = |(1 - k u.n, k u.t)|, the angle is atan2(k a, c), the point p + a t + k a^2/(1 + c) n and the tangent
+ * c t + k a n. No term is lost as k goes to 0. */
+static void project_on_arc(const dmb_hole_station *from, const double x[3], double *s, double point[3],
+                           double tangent[3])
+{
+    const double k = from->curvature;
+    double u[3];
+
+    dmb_vec3_sub(x, from->point, u);
+    const double ahead = dmb_vec3_dot(u, from->tangent);
+    const double towards = 1.0 - k * dmb_vec3_dot(u, from->normal);
+    const double rho = sqrt(towards * towards + k * ahead * (k * ahead));
+    const double a = rho > 0.0 ? ahead / rho : 0.0; /* at the centre of the arc every place is as near */
+    const double c = rho > 0.0 ? towards / rho : 1.0;
+    const double sideways = k * a * a / (1.0 + c);
+
+    *s = from->depth + (k != 0.0 ? atan2(k * a, c) / k : ahead);
+    for (int i = 0; i < 3; ++i) {
+        point[i] = from->point[i] + a * from->tangent[i] + sideways * from->normal[i];
+        tangent[i] = c * from->tangent[i] + k * a * from->normal[i];
+    }
+}
+
+static void project_on_line(const double origin[3], const double direction[3], const double x[3], double *r,
+                            double point[3], double tangent[3])
+{
+    double u[3];
+
+    dmb_vec3_sub(x, origin, u);
+    *r = dmb_vec3_dot(u, direction);
+    dmb_vec3_copy(origin, point);
+    dmb_vec3_axpy(*r, direction, point);
+    dmb_vec3_copy(direction, tangent);
+}
+
+void dmb_hole_project(const dmb_hole *hole, const double x[3], double *s, uint32_t *segment, double point[3],
+                      double tangent[3])
+{
+    if (dmb_hole_is_straight(hole)) {
+        *segment = 0;
+        project_on_line(hole->origin, hole->direction, x, s, point, tangent);
+        return;
+    }
+    *segment = find_segment(hole, x, *segment);
+    const dmb_hole_station *from = &hole->station[*segment];
+    if (*segment == hole->stations - 1 || beyond(from, x) < 0.0) {
+        project_on_line(from->point, from->tangent, x, s, point, tangent);
+        *s += from->depth;
+        return;
+    }
+    project_on_arc(from, x, s, point, tangent);
+}
+
+void dmb_radial(const double x[3], const double axis_point[3], const double tangent[3], const double n_last[3],
+                double *e, double n[3])
+{
+    double u[3];
+
+    dmb_vec3_sub(x, axis_point, u);
+    dmb_vec3_axpy(-dmb_vec3_dot(u, tangent), tangent, u);
+    *e = dmb_vec3_norm(u);
+    if (*e < CONCENTRIC)
+        dmb_vec3_copy(n_last, n);
+    else
+        dmb_vec3_set(u[0] / *e, u[1] / *e, u[2] / *e, n);
+}

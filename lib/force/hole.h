@@ -1,0 +1,69 @@
+/* The hole's axis: a straight line, or circular arcs through the stations of a survey (minimum curvature method).
+ * World frame: z up, so inclination 90 deg and azimuth 0 point along +x. Pure functions; all read-only after setup. */
+#ifndef DMB_FORCE_HOLE_H
+#define DMB_FORCE_HOLE_H
+
+#include <stdint.h>
+
+#include "drillmbd/model.h"
+
+#define DMB_HOLE_DOGLEG_MAX 2.5 /* [rad] largest change of direction between two stations */
+
+/* A station and the arc that leads from it to the next one. */
+typedef struct dmb_hole_station {
+    double depth;      /* [m] measured depth */
+    double curvature;  /* [rad/m] of the arc, 0 where straight and at the last station */
+    double point[3];   /* [m] on the axis, world frame */
+    double tangent[3]; /* [-] unit, towards greater depth */
+    double normal[3];  /* [-] unit, towards the centre of the arc; 0 where straight */
+} dmb_hole_station;
+
+typedef struct dmb_hole {
+    const dmb_hole_station *station; /* shape (stations), the caller's; NULL for a straight hole */
+    uint32_t stations;               /* [-] 0 for a straight hole */
+    uint32_t reserved;
+    double origin[3];    /* [m] where measured depth is 0 on a straight hole, world frame */
+    double direction[3]; /* [-] unit, of a straight hole */
+    double radius;       /* [m] */
+} dmb_hole;
+
+static inline int32_t dmb_hole_is_straight(const dmb_hole *hole)
+{
+    return hole->stations == 0;
+}
+
+/* Straight hole from origin [m] (depth 0) along direction (any length > 0).
+ * Errors: DMB_ERR_NOT_FINITE, DMB_ERR_VALUE (direction of length 0); the hole is untouched then. */
+int32_t dmb_hole_setup_straight(dmb_hole *hole, const double origin[3], const double direction[3], double radius);
+
+/* Surveyed hole. survey (stations,3): measured depth [m] strictly increasing, inclination from the downward vertical
+ * and azimuth from +x towards +y [rad]. origin [m]: the first station's place. storage: the caller's array of
+ * `stations` entries, kept by the hole. A survey without any bend becomes a straight hole.
+ * Returns -1, or the index of the first bad station (not finite, depth not increasing, dogleg from the one before
+ * above DMB_HOLE_DOGLEG_MAX; 0 for fewer than two stations). Minimum curvature: Taylor, Mason 1972. O(stations). */
+int64_t dmb_hole_setup_survey(dmb_hole *hole, uint32_t stations, const double *survey, const double origin[3],
+                              double radius, dmb_hole_station *storage);
+
+/* Point x [m], unit tangent t and curvature vector [rad/m] (dt/ds, towards the centre) of the axis at measured depth
+ * s [m]. Straight beyond both ends. t and curvature may be NULL. O(log stations). */
+void dmb_hole_frame(const dmb_hole *hole, double s, double x[3], double t[3], double curvature[3]);
+
+/* Rotation of the hole's frame at depth s, (3,3) row by row: its columns are the tangent, y = z_world x t (horizontal),
+ * and z = t x y; identity for a hole along +x. A hole within 1e-9 rad of the vertical has no horizontal of its own:
+ * there y is the world's y axis (what azimuth 0 tends to). */
+void dmb_hole_frame_rotation(const dmb_hole *hole, double s, double R[9]);
+
+/* Closest point of the axis to x: its measured depth *s, point and unit tangent. *segment is the arc tried first, in
+ * any range, and comes back as the arc found (0 for a straight hole); *s is written only. Closed form on lines and
+ * arcs, so exact to round-off. The arc is the one whose end planes enclose x: continuous from arc to arc, and the same
+ * whatever the hint as long as x is nearer to the axis than its radius of curvature and the axis turns by less than 90
+ * deg between hint and answer. O(1) with a good hint. */
+void dmb_hole_project(const dmb_hole *hole, const double x[3], double *s, uint32_t *segment, double point[3],
+                      double tangent[3]);
+
+/* Radial offset of x from the axis: u = x - axis_point without its part along tangent, *e = |u| [m], n = u/e.
+ * Below e = 1e-12 m (concentric) there is no direction and n is n_last, the last one known; n may be n_last. */
+void dmb_radial(const double x[3], const double axis_point[3], const double tangent[3], const double n_last[3],
+                double *e, double n[3]);
+
+#endif

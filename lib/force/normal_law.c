@@ -1,0 +1,197 @@
+#include "force/normal_law.h"
+
+#include <math.h>
+
+#define RESTITUTION_FLOOR 1e-6 /* [-] smallest e where mu grows like 1/e */
+#define SPEED_FLOOR 1e-12      /* [m/s] smallest v0 whatever the law says */
+#define ITERATIONS 60
+
+/* ---- Restitution and damping factor ------------------------------------------------------------------------------
+ * One contact under K d^n (1 + mu d'/v0) obeys m v dv/(1 + mu v/v0) = -K d^n dd, so speed in and out do not depend on
+ * n: ln(1 + mu) - mu = ln(1 - mu e) + mu e.                                                                     (1) mu
+ * = 0 solves it for any e; the wanted root is the other one. */
+
+/* x - ln(1 + x) for x > -1, to round-off also where the two nearly cancel: series x^2/2 - x^3/3 + ... */
+static double log_deficit(double x)
+{
+    double power = x * x;
+    double sum = 0.0;
+
+    if (fabs(x) > 0.5) return x - log1p(x);
+    for (int k = 2; k < 64; ++k) {
+        sum += power / (double)k;
+        power *= -x;
+    }
+    return sum;
+}
+
+/* (1) divided by mu^2 as a series: sum_{k>=2} mu^(k-2) (e^k - (-1)^k)/k. Free of the root at 0 and of cancellation. */
+static double balance(double e, double mu, double *slope)
+{
+    double mu_power = 1.0;    /* mu^(k-2) */
+    double slope_power = 0.0; /* (k-2) mu^(k-3) */
+    double e_power = e * e;
+    double sum = -0.5 * (1.0 - e) * (1.0 + e);
+
+    *slope = 0.0;
+    for (int k = 3; k < 400 && mu_power > 1e-19; ++k) {
+        slope_power = (double)(k - 2) * mu_power;
+        mu_power *= mu;
+        e_power *= e;
+        const double coefficient = (k % 2 != 0 ? e_power + 1.0 : e_power - 1.0) / (double)k;
+        sum += coefficient * mu_power;
+        *slope += coefficient * slope_power;
+    }
+    return sum;
+}
+
+/* e near 1 (mu below 0.85): Newton on the series, kept inside a shrinking bracket. */
+static double factor_of_bouncy(double e)
+{
+    double low = 0.0;
+    double high = 0.9;
+    double mu = 1.5 * (1.0 - e) / (1.0 - e + e * e); /* root of the first two terms */
+
+    for (int i = 0; i < ITERATIONS; ++i) {
+        double slope;
+        const double value = balance(e, mu, &slope);
+        if (value < 0.0)
+            low = mu;
+        else
+            high = mu;
+        double next = mu - value / slope;
+        if (!(next > low && next < high)) next = 0.5 * (low + high);
+        if (fabs(next - mu) <= 1e-16 * mu) return next;
+        mu = next;
+    }
+    return mu;
+}
+
+/* e near 0: Newton for y = 1 - mu e in y = (1 + mu) exp(-mu (1 + e)). y minus the right side is concave and rising
+ * between 0 and the wanted root, so the iteration climbs to it from y = 0. */
+static double factor_of_dull(double e)
+{
+    double y = 0.0;
+
+    for (int i = 0; i < ITERATIONS; ++i) {
+        const double mu = (1.0 - y) / e;
+        const double decay = exp(-mu * (1.0 + e));
+        const double value = y - (1.0 + mu) * decay;
+        const double slope = 1.0 - decay * (e + mu * (1.0 + e)) / e;
+        const double next = y - value / slope;
+        if (!(next > y)) break;
+        y = next;
+    }
+    return (1.0 - y) / e;
+}
+
+double dmb_exact_restitution_factor(double e)
+{
+    if (e >= 1.0) return 0.0;
+    if (!(e > RESTITUTION_FLOOR)) e = RESTITUTION_FLOOR;
+    return e > 0.62 ? factor_of_bouncy(e) : factor_of_dull(e);
+}
+
+/* Small mu: Newton for u = mu e in -u - ln(1 - u) = mu - ln(1 + mu), started above the root of a convex function. */
+static double restitution_of_small(double mu)
+{
+    const double target = log_deficit(mu);
+    double u = mu;
+
+    for (int i = 0; i < ITERATIONS; ++i) {
+        const double next = u - (log_deficit(-u) - target) * (1.0 - u) / u;
+        if (!(next < u)) break;
+        u = next;
+    }
+    return fmin(u / mu, 1.0);
+}
+
+double dmb_exact_restitution(double mu)
+{
+    double y = 0.0;
+
+    if (!(mu > 0.0)) return 1.0;
+    if (mu < 0.5) return restitution_of_small(mu);
+    /* y = 1 - mu e = -W0(-(1+mu) exp(-(1+mu))), Newton in y = exp(y - 1 - (mu - ln(1 + mu))) from below */
+    const double shift = 1.0 + log_deficit(mu);
+    for (int i = 0; i < ITERATIONS; ++i) {
+        const double image = exp(y - shift);
+        const double next = y + (image - y) / (1.0 - image);
+        if (!(next > y)) break;
+        y = next;
+    }
+    return (1.0 - y) / mu;
+}
+
+/* ---- Laws -------------------------------------------------------------------------------------------------------- */
+
+static double restitution_factor(int32_t kind, double e)
+{
+    switch (kind) {
+    case DMB_NORMAL_HUNT_CROSSLEY: /* Hunt, Crossley 1975 */ return 1.5 * (1.0 - e);
+    case DMB_NORMAL_LANKARANI_NIKRAVESH: /* Lankarani, Nikravesh 1990 */ return 0.75 * (1.0 - e) * (1.0 + e);
+    case DMB_NORMAL_FLORES: /* Flores, Machado, Silva, Martins 2011 */
+        return 1.6 * (1.0 - e) / fmax(e, RESTITUTION_FLOOR);
+    case DMB_NORMAL_EXACT: return dmb_exact_restitution_factor(e);
+    default: return 0.0;
+    }
+}
+
+void dmb_normal_law_setup(dmb_normal_law *law, int32_t kind, double stiffness, double exponent, double restitution,
+                          double damping, double impact_depth, double approach_floor)
+{
+    law->kind = kind < DMB_NORMAL_KELVIN_VOIGT || kind > DMB_NORMAL_IMPACT ? DMB_NORMAL_NONE : kind;
+    law->reserved = 0;
+    law->stiffness = stiffness;
+    law->exponent = exponent;
+    law->damping = damping;
+    law->impact_depth = impact_depth;
+    law->mu = restitution_factor(kind, restitution);
+    law->approach_floor = fmax(approach_floor, SPEED_FLOOR);
+}
+
+/* d^(n-1), without pow() for the line contact n = 1 and the sphere n = 3/2 */
+static double reduced_power(double exponent, double depth)
+{
+    if (exponent == 1.0) return 1.0;
+    if (exponent == 1.5) return sqrt(depth);
+    return pow(depth, exponent - 1.0);
+}
+
+/* Damping "constant" c(d) of KELVIN_VOIGT and IMPACT and its slope; c STEP(d; 0, 0, impact_depth, 1) for the latter. */
+static double damping_at(const dmb_normal_law *law, double depth, double *slope)
+{
+    *slope = 0.0;
+    if (law->kind == DMB_NORMAL_KELVIN_VOIGT || depth >= law->impact_depth) return law->damping;
+    const double x = depth / law->impact_depth;
+    *slope = law->damping * 6.0 * x * (1.0 - x) / law->impact_depth;
+    return law->damping * x * x * (3.0 - 2.0 * x);
+}
+
+void dmb_normal_force(const dmb_normal_law *law, double depth, double rate, double approach_speed, double *force,
+                      double *d_depth, double *d_rate)
+{
+    *force = *d_depth = *d_rate = 0.0;
+    if (depth <= 0.0 || law->kind == DMB_NORMAL_NONE) return;
+    const double stiffness = law->stiffness * reduced_power(law->exponent, depth); /* K d^(n-1) */
+    const double elastic = stiffness * depth;
+    if (law->kind == DMB_NORMAL_KELVIN_VOIGT || law->kind == DMB_NORMAL_IMPACT) {
+        double slope;
+        const double damping = damping_at(law, depth, &slope);
+        *force = elastic + damping * rate;
+        *d_depth = law->exponent * stiffness + slope * rate;
+        *d_rate = damping;
+    } else {
+        const double factor = law->mu / fmax(approach_speed, law->approach_floor);
+        *force = elastic * (1.0 + factor * rate);
+        *d_depth = law->exponent * stiffness * (1.0 + factor * rate);
+        *d_rate = elastic * factor;
+    }
+    if (*force < 0.0) *force = *d_depth = *d_rate = 0.0;
+}
+
+double dmb_normal_energy(const dmb_normal_law *law, double depth)
+{
+    if (depth <= 0.0 || law->kind == DMB_NORMAL_NONE) return 0.0;
+    return law->stiffness * reduced_power(law->exponent, depth) * depth * depth / (law->exponent + 1.0);
+}

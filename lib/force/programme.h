@@ -1,0 +1,31 @@
+/* Programmes: values over time as a sum of terms, with rate, integral and corners.
+ * A programme is read-only here; its terms and their tables belong to the model. Pure functions, safe from any thread
+ * as far as the callbacks are. */
+#ifndef DMB_FORCE_PROGRAMME_H
+#define DMB_FORCE_PROGRAMME_H
+
+#include <stdint.h>
+
+#include "drillmbd/model.h"
+
+typedef struct dmb_programme {
+    const dmb_term *terms; /* full-size terms, checked by the model, shape (count) */
+    uint32_t count;        /* [-] */
+} dmb_programme;
+
+/* Value at time t [unit] and its rate [unit/s]; rate may be NULL. At a corner the rate is the one from the right.
+ * A callback that does not provide its rate is differenced over +-1e-5 s (over +-1e-10 |t| beyond 1e5 s), so it is also
+ * called at slightly negative times. Nothing is written on failure.
+ * Errors: DMB_ERR_CALLBACK (nonzero return, or a value that is not finite or was not written), DMB_ERR_NOT_FINITE (t is
+ * not finite, or the sum overflows). O(count), plus log2(table_count) per table. */
+int32_t dmb_programme_value(const dmb_programme *programme, double t, double *value, double *rate);
+
+/* Integral from t0 to t1 [unit s]; t1 < t0 gives the negative. Exact to round-off relative to the integral over the
+ * interval, whatever the size of t0, for every kind but CALLBACK: there the difference of the provided integral, or
+ * 5-point Gauss over parts of at most 0.05 s (at most 1000 parts). Errors as above. */
+int32_t dmb_programme_integral(const dmb_programme *programme, double t0, double t1, double *integral);
+
+/* [s] Smallest corner later than t: x0 and x1 of STEP and STEP5, knots of tables; INFINITY if there is none. */
+double dmb_programme_next_corner(const dmb_programme *programme, double t);
+
+#endif

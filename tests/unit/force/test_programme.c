@@ -1,0 +1,384 @@
+/* Programmes: values, rates, integrals and corners against closed forms, differences and quadrature. */
+#include "force/programme.h"
+
+#include "force_test.h"
+
+static dmb_term make(int32_t kind, double x0, double x1, double h0, double h1)
+{
+    dmb_term term;
+
+    memset(&term, 0, sizeof term);
+    term.struct_size = (uint32_t)sizeof term;
+    term.kind = kind;
+    term.x0 = x0;
+    term.x1 = x1;
+    term.h0 = h0;
+    term.h1 = h1;
+    return term;
+}
+
+static dmb_term harmonic(double h0, double h1, double omega, double phase)
+{
+    dmb_term term = make(DMB_TERM_HARMONIC, 0, 1, h0, h1);
+
+    term.omega = omega;
+    term.phase = phase;
+    return term;
+}
+
+static const double knot_time[5] = {-1.0, 0.5, 0.75, 3.0, 7.5};
+static const double knot_value[5] = {2.0, -1.0, 4.0, 4.0, 0.25};
+
+static dmb_term table(uint32_t count)
+{
+    dmb_term term = make(DMB_TERM_TABLE, 0, 1, 0, 0);
+
+    term.table_time = knot_time;
+    term.table_value = knot_value;
+    term.table_count = count;
+    return term;
+}
+
+static dmb_term callback(dmb_programme_fn fn, int32_t provides, void *context)
+{
+    dmb_term term = make(DMB_TERM_CALLBACK, 0, 1, 0, 0);
+
+    term.callback = fn;
+    term.provides = provides;
+    term.callback_context = context;
+    return term;
+}
+
+static double value_at(const dmb_programme *p, double t)
+{
+    double value = (double)NAN;
+
+    assert_int_equal(dmb_programme_value(p, t, &value, NULL), DMB_OK);
+    return value;
+}
+
+static double rate_at(const dmb_programme *p, double t)
+{
+    double value, rate = (double)NAN;
+
+    assert_int_equal(dmb_programme_value(p, t, &value, &rate), DMB_OK);
+    return rate;
+}
+
+static double integral_of(const dmb_programme *p, double t0, double t1)
+{
+    double integral = (double)NAN;
+
+    assert_int_equal(dmb_programme_integral(p, t0, t1, &integral), DMB_OK);
+    return integral;
+}
+
+/* Composite Simpson rule, corner to corner. */
+static double quadrature(const dmb_programme *p, double t0, double t1)
+{
+    double sum = 0.0;
+
+    while (t0 < t1) {
+        const double end = fmin(t1, dmb_programme_next_corner(p, t0));
+        const double inside = end - 1e-13 * fabs(end); /* the value left of the corner */
+        const int n = 4000;
+        const double h = (inside - t0) / n;
+        for (int i = 0; i < n; ++i)
+            sum += h / 6.0 *
+                   (value_at(p, t0 + i * h) + 4.0 * value_at(p, t0 + (i + 0.5) * h) + value_at(p, t0 + (i + 1) * h));
+        t0 = end;
+    }
+    return sum;
+}
+
+static void step_values(void **state)
+{
+    const dmb_term cubic = make(DMB_TERM_STEP, 2.0, 6.0, 1.0, 5.0);
+    const dmb_term quintic = make(DMB_TERM_STEP5, 2.0, 6.0, 1.0, 5.0);
+    const dmb_programme p3 = {&cubic, 1}, p5 = {&quintic, 1};
+    (void)state;
+
+    assert_true(value_at(&p3, -1e30) == 1.0 && value_at(&p3, 2.0) == 1.0);
+    assert_true(value_at(&p3, 6.0) == 5.0 && value_at(&p3, 1e30) == 5.0);
+    CHECK_CLOSE(value_at(&p3, 3.0), 1.0 + 4.0 * 0.15625, 1e-15);
+    CHECK_CLOSE(value_at(&p5, 3.0), 1.0 + 4.0 * 0.103515625, 1e-15);
+    CHECK_CLOSE(value_at(&p3, 4.0), 3.0, 1e-15);
+    CHECK_CLOSE(value_at(&p5, 4.0), 3.0, 1e-15);
+    CHECK_CLOSE(rate_at(&p3, 4.0), 1.5, 1e-15);   /* 6 D (1-D) rise/width */
+    CHECK_CLOSE(rate_at(&p5, 4.0), 1.875, 1e-15); /* 30 D^2 (1-D)^2 rise/width */
+    assert_true(rate_at(&p3, 2.0) == 0.0 && rate_at(&p5, 6.0) == 0.0);
+}
+
+/* The feed of the reference system: advances 10 mm/s from 1 to 19 s, withdraws from 22 to 40 s. */
+static void six_stage_feed(void **state)
+{
+    const dmb_term term[3] = {make(DMB_TERM_STEP, 0, 1, 0, -0.01), make(DMB_TERM_STEP, 19, 20, 0, 0.01),
+                              make(DMB_TERM_STEP, 21, 22, 0, 0.01)};
+    const dmb_programme feed = {term, 3};
+    const double corner[6] = {0, 1, 19, 20, 21, 22};
+    double t = -5.0;
+    (void)state;
+
+    assert_true(value_at(&feed, 10.0) == -0.01);
+    CHECK_CLOSE(value_at(&feed, 20.5), 0.0, 1e-18);
+    CHECK_CLOSE(value_at(&feed, 30.0), 0.01, 1e-18);
+    CHECK_CLOSE(integral_of(&feed, 0.0, 20.0), -0.01 * (0.5 + 18.0 + 0.5), 1e-15);
+    CHECK_CLOSE(integral_of(&feed, 0.0, 40.0), -0.19 + 0.01 * 18.5, 1e-15);
+    for (int i = 0; i < 6; ++i) {
+        t = dmb_programme_next_corner(&feed, t);
+        assert_true(t == corner[i]);
+    }
+    assert_true(isinf(dmb_programme_next_corner(&feed, t)));
+}
+
+static void rates_against_differences(void **state)
+{
+    uint64_t seed = 12345;
+    dmb_term term[5] = {make(DMB_TERM_CONSTANT, 0, 1, 3.5, 9), make(DMB_TERM_STEP, 0.2, 5, -2, 3),
+                        make(DMB_TERM_STEP5, -1, 4.5, 7, -1), harmonic(0.5, 2, 3.7, 0.4), table(5)};
+    (void)state;
+
+    for (uint32_t k = 0; k < 5; ++k) {
+        const dmb_programme p = {&term[k], 1};
+        for (int i = 0; i < 200; ++i) {
+            const double t = draw(&seed, -2, 9);
+            const double h = 1e-5;
+            if (dmb_programme_next_corner(&p, t - 2 * h) <= t + 2 * h) continue;
+            CHECK_CLOSE(rate_at(&p, t), (value_at(&p, t + h) - value_at(&p, t - h)) / (2 * h), 5e-9);
+        }
+    }
+}
+
+static void integrals_against_quadrature(void **state)
+{
+    uint64_t seed = 777;
+    dmb_term term[6] = {make(DMB_TERM_CONSTANT, 0, 1, 3.5, 9),
+                        make(DMB_TERM_STEP, 0.2, 5, -2, 3),
+                        make(DMB_TERM_STEP5, -1, 4.5, 7, -1),
+                        harmonic(0.5, 2, 3.7, 0.4),
+                        table(5),
+                        table(1)};
+    const dmb_programme all = {term, 6};
+    (void)state;
+
+    for (uint32_t k = 0; k < 6; ++k) {
+        const dmb_programme p = {&term[k], 1};
+        for (int i = 0; i < 12; ++i) {
+            const double a = draw(&seed, -3, 9), b = draw(&seed, a, 10);
+            CHECK_CLOSE(integral_of(&p, a, b), quadrature(&p, a, b), 1e-10);
+        }
+    }
+    CHECK_CLOSE(integral_of(&all, -3, 10), quadrature(&all, -3, 10), 1e-10);
+    CHECK_CLOSE(integral_of(&all, 10, -3), -integral_of(&all, -3, 10), 0.0);
+    CHECK_CLOSE(integral_of(&all, -3, 1.7) + integral_of(&all, 1.7, 10), integral_of(&all, -3, 10), 1e-13);
+    assert_true(integral_of(&all, 2.0, 2.0) == 0.0);
+}
+
+/* Closed forms: integral of STEP h0 s + rise width (D^3 - D^4/2), THEORY 5 */
+static void step_antiderivative(void **state)
+{
+    const dmb_term cubic = make(DMB_TERM_STEP, 1.0, 4.0, 0.5, 2.5);
+    const dmb_term quintic = make(DMB_TERM_STEP5, 1.0, 4.0, 0.5, 2.5);
+    const dmb_programme p3 = {&cubic, 1}, p5 = {&quintic, 1};
+    (void)state;
+
+    for (double t = 1.0; t <= 4.0; t += 0.125) {
+        const double d = (t - 1.0) / 3.0;
+        CHECK_CLOSE(integral_of(&p3, 1.0, t), 0.5 * (t - 1) + 6 * (d * d * d - 0.5 * d * d * d * d), 4e-15);
+        CHECK_CLOSE(integral_of(&p5, 1.0, t), 0.5 * (t - 1) + 6 * d * d * d * d * (2.5 - 3 * d + d * d), 4e-15);
+    }
+}
+
+/* A step of 1 ms a day after the start keeps all its digits. */
+static void small_intervals_far_out(void **state)
+{
+    const double t0 = 86400.0, t1 = t0 + 1e-3, h = t1 - t0;
+    const dmb_term term[3] = {make(DMB_TERM_STEP, 0, 1, 0, 0.3), harmonic(0, 2, 12.5, 0.25),
+                              make(DMB_TERM_STEP, 0, 172800, 0, 1)};
+    const dmb_programme step = {&term[0], 1}, wave = {&term[1], 1}, slow = {&term[2], 1};
+    const long double middle = 12.5L * ((long double)t0 + 0.5L * (long double)h) + 0.25L;
+    const long double half = 0.5L * 12.5L * (long double)h;
+    (void)state;
+
+    CHECK_RELATIVE(integral_of(&step, t0, t1), 0.3 * h, 1e-15);
+    CHECK_RELATIVE(integral_of(&wave, t0, t1), (double)(4.0L / 12.5L * sinl(middle) * sinl(half)), 1e-9);
+    const double simpson = h / 6 * (value_at(&wave, t0) + 4 * value_at(&wave, t0 + 0.5 * h) + value_at(&wave, t1));
+    CHECK_RELATIVE(integral_of(&wave, t0, t1), simpson, 1e-9);
+    CHECK_RELATIVE(integral_of(&slow, t0, t1), 0.5 * h * (1.0 + 0.75 * 1e-3 / 86400.0), 1e-12);
+    const dmb_term still = harmonic(0, 2, 0, PI / 6);
+    const dmb_programme zero = {&still, 1};
+    CHECK_RELATIVE(integral_of(&zero, t0, t1), h, 1e-15);
+}
+
+static void table_values_and_corners(void **state)
+{
+    const dmb_term full = table(5), single = table(1);
+    const dmb_programme p = {&full, 1}, one = {&single, 1};
+    double t = -10.0;
+    (void)state;
+
+    assert_true(value_at(&p, -10) == 2.0 && value_at(&p, 100) == 0.25 && value_at(&one, 3) == 2.0);
+    CHECK_CLOSE(value_at(&p, 0.625), 1.5, 1e-15);
+    CHECK_CLOSE(rate_at(&p, 0.625), 20.0, 1e-13);
+    CHECK_CLOSE(rate_at(&p, 0.5), 20.0, 1e-13); /* from the right */
+    assert_true(rate_at(&p, 7.5) == 0.0 && rate_at(&p, -1.5) == 0.0 && rate_at(&one, -1.0) == 0.0);
+    for (int i = 0; i < 5; ++i) {
+        assert_true(value_at(&p, knot_time[i]) == knot_value[i]);
+        t = dmb_programme_next_corner(&p, t);
+        assert_true(t == knot_time[i]);
+    }
+    assert_true(isinf(dmb_programme_next_corner(&p, t)));
+    assert_true(dmb_programme_next_corner(&p, 0.6) == 0.75);
+}
+
+static void corners_of_a_sum(void **state)
+{
+    const dmb_term term[4] = {make(DMB_TERM_STEP, 1, 5, 0, 1), table(5), make(DMB_TERM_STEP5, 0.25, 0.6, 0, 1),
+                              harmonic(1, 1, 1, 1)};
+    const dmb_programme p = {term, 4}, quiet = {&term[3], 1}, empty = {NULL, 0};
+    const double expected[9] = {-1, 0.25, 0.5, 0.6, 0.75, 1, 3, 5, 7.5};
+    double t = -(double)INFINITY;
+    (void)state;
+
+    for (int i = 0; i < 9; ++i) {
+        t = dmb_programme_next_corner(&p, t);
+        assert_true(t == expected[i]);
+    }
+    assert_true(isinf(dmb_programme_next_corner(&p, t)));
+    assert_true(isinf(dmb_programme_next_corner(&quiet, 0)) && isinf(dmb_programme_next_corner(&empty, 0)));
+    assert_true(value_at(&empty, 1) == 0.0 && integral_of(&empty, 0, 1) == 0.0);
+}
+
+/* ---- callbacks ---- */
+
+struct wave {
+    int calls, fail_at;
+    double bad; /* written instead of the value at that call */
+};
+
+/* exp(-t/4) sin 3t with whatever it can give; fails at call fail_at (from 1) */
+static int32_t wave_fn(void *context, double t, double out[3])
+{
+    struct wave *w = context;
+
+    w->calls += 1;
+    out[0] = exp(-0.25 * t) * sin(3 * t);
+    out[1] = exp(-0.25 * t) * (3 * cos(3 * t) - 0.25 * sin(3 * t));
+    out[2] = (3 - exp(-0.25 * t) * (3 * cos(3 * t) + 0.25 * sin(3 * t))) / 9.0625;
+    if (w->calls == w->fail_at) out[0] = out[1] = out[2] = w->bad;
+    return 0;
+}
+
+static int32_t value_only(void *context, double t, double out[3])
+{
+    (void)context;
+    out[0] = exp(-0.25 * t) * sin(3 * t);
+    return 0;
+}
+
+static int32_t refuses(void *context, double t, double out[3])
+{
+    (void)context;
+    out[0] = t;
+    return 7;
+}
+
+static int32_t writes_nothing(void *context, double t, double out[3])
+{
+    (void)context;
+    (void)t;
+    (void)out;
+    return 0;
+}
+
+static void callbacks_agree(void **state)
+{
+    struct wave w = {0, 0, 0};
+    const dmb_term rich = callback(wave_fn, DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL, &w);
+    const dmb_term poor = callback(value_only, 0, NULL);
+    const dmb_programme a = {&rich, 1}, b = {&poor, 1};
+    (void)state;
+
+    for (double t = 0.0; t < 5.0; t += 0.37) {
+        assert_true(value_at(&a, t) == value_at(&b, t));
+        CHECK_CLOSE(rate_at(&a, t), rate_at(&b, t), 1e-9);
+        CHECK_CLOSE(integral_of(&a, 0.0, t), integral_of(&b, 0.0, t), 1e-14);
+        CHECK_CLOSE(integral_of(&a, t, t + 1e-3), integral_of(&b, t, t + 1e-3), 1e-15);
+    }
+    CHECK_CLOSE(integral_of(&b, 0.0, 300.0), integral_of(&a, 0.0, 300.0), 1e-9); /* parts of 0.3 s */
+    w.calls = 0;
+    (void)value_at(&a, 1.0);
+    assert_int_equal(w.calls, 1);
+}
+
+static void expect_failure(const dmb_term *term, int32_t expected)
+{
+    const dmb_programme p = {term, 1};
+    double value = 11, rate = 12, integral = 13;
+
+    assert_int_equal(dmb_programme_value(&p, 1.0, &value, &rate), expected);
+    assert_int_equal(dmb_programme_integral(&p, 1.0, 2.0, &integral), expected);
+    assert_true(value == 11 && rate == 12 && integral == 13);
+}
+
+static void callbacks_that_fail(void **state)
+{
+    const dmb_term no = callback(refuses, 0, NULL), silent = callback(writes_nothing, 0, NULL);
+    const dmb_term none = callback(NULL, 0, NULL);
+    const dmb_term short_of = callback(value_only, DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL, NULL);
+    const double bad[3] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
+    (void)state;
+
+    expect_failure(&no, DMB_ERR_CALLBACK);
+    expect_failure(&silent, DMB_ERR_CALLBACK);
+    expect_failure(&none, DMB_ERR_CALLBACK);
+    expect_failure(&short_of, DMB_ERR_CALLBACK);
+    for (int i = 0; i < 3; ++i)
+        for (int at = 1; at <= 3; ++at) {
+            struct wave w = {0, at, bad[i]};
+            const dmb_term term = callback(wave_fn, 0, &w);
+            const dmb_programme p = {&term, 1};
+            double value = 11, rate = 12, integral = 13;
+            assert_int_equal(dmb_programme_value(&p, 1.0, &value, &rate), DMB_ERR_CALLBACK);
+            w.calls = 0;
+            assert_int_equal(dmb_programme_integral(&p, 1.0, 2.0, &integral), DMB_ERR_CALLBACK);
+            assert_true(value == 11 && rate == 12 && integral == 13);
+        }
+}
+
+static void nonsense_times(void **state)
+{
+    const dmb_term term[2] = {make(DMB_TERM_STEP, 0, 1, 0, 1), table(5)};
+    const dmb_programme p = {term, 2};
+    const dmb_term huge[2] = {make(DMB_TERM_CONSTANT, 0, 1, 1e308, 0), make(DMB_TERM_CONSTANT, 0, 1, 1e308, 0)};
+    const dmb_programme overflow = {huge, 2};
+    double out = 11, rate = 12;
+    (void)state;
+
+    assert_int_equal(dmb_programme_value(&p, (double)NAN, &out, &rate), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_programme_value(&p, (double)INFINITY, &out, &rate), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_programme_integral(&p, 0, (double)NAN, &out), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_programme_value(&overflow, 0, &out, &rate), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_programme_integral(&overflow, 0, 1, &out), DMB_ERR_NOT_FINITE);
+    assert_true(out == 11 && rate == 12);
+    assert_true(isinf(dmb_programme_next_corner(&p, (double)NAN)) ||
+                dmb_programme_next_corner(&p, (double)NAN) == -1.0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(step_values),
+        cmocka_unit_test(six_stage_feed),
+        cmocka_unit_test(rates_against_differences),
+        cmocka_unit_test(integrals_against_quadrature),
+        cmocka_unit_test(step_antiderivative),
+        cmocka_unit_test(small_intervals_far_out),
+        cmocka_unit_test(table_values_and_corners),
+        cmocka_unit_test(corners_of_a_sum),
+        cmocka_unit_test(callbacks_agree),
+        cmocka_unit_test(callbacks_that_fail),
+        cmocka_unit_test(nonsense_times),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
