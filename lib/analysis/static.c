@@ -1,0 +1,147 @@
+#include <string.h>
+
+#include "analysis/static_options.h"
+#include "analysis/static_state.h"
+#include "base/handle.h"
+#include "base/sized_struct.h"
+#include "integrator/attempt.h"
+#include "integrator/owner.h"
+#include "integrator/start.h"
+#include "math/vec3.h"
+#include "system/bit.h"
+
+DMB_DECLARE_STRUCT(dmb_static_report)
+
+static void set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_options *options)
+{
+    memset(search, 0, sizeof *search);
+    search->sim = sim;
+    search->options = options;
+    search->evaluation.sim = sim;
+    search->evaluation.time = sim->clock->time;
+    search->evaluation.load_factor = 1.0;
+    search->evaluation.tangent = 1;
+    search->evaluation.slipping = options->slip_axial != 0.0 || options->slip_rotation != 0.0;
+    search->evaluation.slip[0] = options->slip_axial;
+    search->evaluation.slip[1] = options->slip_rotation;
+}
+
+/* Trial at the starting pose, drives and loads at their present values. */
+static int32_t begin(dmb_static_search *search)
+{
+    dmb_sim *sim = search->sim;
+    dmb_configuration_copy(sim, &sim->now, &sim->trial);
+    memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
+    const int32_t status = dmb_system_prescribe(&search->evaluation);
+    if (status >= 0 && search->options->lay_on_wall) dmb_static_lay_on_wall(sim);
+    return status;
+}
+
+typedef int32_t (*search_fn)(dmb_static_search *search);
+
+/* Equal load steps; a single one is the common case. */
+static int32_t run(dmb_static_search *search, search_fn method)
+{
+    const uint32_t steps = search->options->load_steps;
+    int32_t status = begin(search);
+    for (uint32_t k = 1; k <= steps && status >= 0; k++) {
+        search->evaluation.load_factor = (double)k / steps;
+        status = method(search);
+    }
+    return status;
+}
+
+static double largest_displacement(const dmb_sim *sim)
+{
+    double most = 0.0;
+    for (uint32_t i = 0; i < sim->scene->node_count; i++) {
+        double d[3];
+        dmb_vec3_sub(sim->trial.displacement + 3 * i, sim->now.displacement + 3 * i, d);
+        most = fmax(most, dmb_vec3_norm(d));
+    }
+    return most;
+}
+
+static double largest_residual(const dmb_sim *sim)
+{
+    double most = 0.0;
+    for (uint32_t i = 0; i < sim->scene->row_count; i++)
+        if (sim->scene->solved_row[i]) most = fmax(most, fabs(sim->correction[i]));
+    return most;
+}
+
+/* The found pose becomes the state, at rest but for motion drives. */
+static int32_t settle(dmb_static_search *search)
+{
+    dmb_sim *sim = search->sim;
+    const dmb_scene *scene = sim->scene;
+    dmb_state_keep(sim);
+    dmb_system_accept(&search->evaluation);
+    memset(sim->trial.velocity, 0, scene->row_count * sizeof(double));
+    memset(sim->trial.site_bristle, 0, 2 * scene->site_count * sizeof(double));
+    memset(sim->trial.path_bristle, 0, 2 * scene->path_site_count * sizeof(double));
+    memset(sim->trial.site_approach, 0, scene->site_count * sizeof(double));
+    dmb_configuration_copy(sim, &sim->trial, &sim->now);
+    const dmb_counters counters = *sim->counters;
+    const int32_t status = dmb_integrator_restart(sim);
+    *sim->counters = counters;
+    if (status < 0) {
+        dmb_state_bring_back(sim);
+        return status;
+    }
+    for (uint32_t k = 0; k < scene->bit_count && sim->clock->time == 0.0; k++) dmb_bit_start(sim, k);
+    return DMB_OK;
+}
+
+static void explain(dmb_static_search *search, int32_t status)
+{
+    dmb_sim *sim = search->sim;
+    dmb_owner owner;
+    if (status == DMB_ERR_SINGULAR) {
+        owner = dmb_owner_of_node(sim->scene, search->block);
+        dmb_message_set(&sim->message, "static: %s %u, pipe %u: nothing holds it, the stiffness is singular", owner.kind,
+                        owner.index, owner.pipe);
+    } else if (status == DMB_ERR_ROTATION) {
+        owner = dmb_owner_of_element(sim->scene, search->evaluation.element);
+        dmb_message_set(&sim->message, "static: %s %u, pipe %u: relative rotation in one element above 2.5 rad",
+                        owner.kind, owner.index, owner.pipe);
+    } else if (status == DMB_ERR_CALLBACK) {
+        dmb_message_set(&sim->message, "static: a programme's callback failed at time %g", search->evaluation.time);
+    } else {
+        dmb_message_set(&sim->message, "static: %u iterations, relative residual = %g, must be <= %g", search->iterations,
+                        search->residual, search->options->tolerance);
+    }
+}
+
+int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)
+{
+    dmb_static_options taken;
+    dmb_static_search search;
+    dmb_static_report out;
+    if (sim == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
+    dmb_message_clear(&sim->message);
+    (void)dmb_static_report_init(&out, (uint32_t)sizeof out);
+    if (report != NULL && dmb_static_report_read(&out, report) < 0) return DMB_ERR_STRUCT_SIZE;
+    int32_t status = dmb_static_options_take(sim, options, &taken);
+    if (status < 0) return status;
+    set_up(&search, sim, &taken);
+    out.method = DMB_STATIC_NEWTON;
+    status = run(&search, dmb_static_newton);
+    if (status < 0 && status != DMB_ERR_CALLBACK && status != DMB_ERR_SINGULAR) {
+        out.method = DMB_STATIC_RELAXATION;
+        status = run(&search, dmb_static_relaxation);
+    }
+    if (status < 0) {
+        explain(&search, status);
+        return status;
+    }
+    out.iterations = search.iterations;
+    out.load_steps = taken.load_steps;
+    out.residual = search.residual;
+    out.largest_force = largest_residual(sim);
+    out.lateral_move = largest_displacement(sim);
+    status = settle(&search);
+    if (status >= 0 && report != NULL) (void)dmb_static_report_write(report, &out);
+    return status;
+}

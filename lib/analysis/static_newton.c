@@ -1,0 +1,116 @@
+#include <string.h>
+
+#include "analysis/static_state.h"
+#include "integrator/attempt.h"
+#include "math/se3.h"
+
+/* Moves the trial by body-frame increments; the sum in `increment` follows the turns. */
+static void move(dmb_sim *sim, double factor)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->row_count; i++) {
+        sim->correction[i] *= factor;
+        sim->increment[i] += sim->correction[i];
+    }
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const double *z = sim->correction + scene->layout.row[i];
+        if (scene->layout.size[i] == DMB_NODE_FULL) {
+            dmb_se3_advance(sim->trial.quaternion + 4 * i, sim->trial.displacement + 3 * i, z);
+        } else {
+            sim->trial.displacement[3 * i] += z[0];
+            sim->trial.turn[i] += z[1];
+        }
+    }
+}
+
+/* Largest correction, rotations times the length scale. */
+static double largest_move(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    double most = 0.0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        for (uint32_t c = 0; c < size; c++)
+            most = fmax(most, fabs(sim->correction[row + c]) * (2 * c < size ? 1.0 : scene->length_scale));
+    }
+    return most;
+}
+
+/* 0: in equilibrium, 1: not yet, < 0: failed */
+static int32_t evaluate(dmb_static_search *search)
+{
+    int32_t converged;
+    const int32_t status = dmb_system_evaluate(&search->evaluation);
+    if (status < 0) return status;
+    search->residual = dmb_relative_residual(&search->evaluation, search->options->tolerance, &converged);
+    return converged ? 0 : 1;
+}
+
+static int32_t solve(dmb_static_search *search)
+{
+    dmb_system_iteration_matrix(&search->evaluation);
+    const int64_t bad = dmb_solve_correction(search->sim);
+    search->iterations++;
+    if (bad < 0) return DMB_OK;
+    search->block = (uint32_t)bad;
+    return DMB_ERR_SINGULAR;
+}
+
+int32_t dmb_static_newton(dmb_static_search *search)
+{
+    dmb_sim *sim = search->sim;
+    search->evaluation.extrapolated = 0;
+    for (uint32_t k = 0;; k++) {
+        int32_t status = evaluate(search);
+        if (status <= 0) return status;
+        if (k >= search->options->max_iterations) return DMB_ERR_NO_CONVERGENCE;
+        status = solve(search);
+        if (status < 0) return status;
+        dmb_system_extrapolate_stress(sim, sim->correction);
+        search->evaluation.extrapolated = 1;
+        move(sim, 1.0);
+    }
+}
+
+/* Pseudo mass of a row over tau^2: the weight it carries, of a rotation that of a rod of the length scale. */
+static void add_pseudo_mass(dmb_sim *sim, double rate)
+{
+    const dmb_scene *scene = sim->scene;
+    const double mean = scene->mass / scene->node_count;
+    const double arm = scene->length_scale * scene->length_scale / 12.0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i];
+        for (uint32_t c = 0; c < size; c++)
+            if (scene->solved_row[scene->layout.row[i] + c])
+                dmb_stiffness_of(sim, i)[(size + 1) * c] += rate * mean * (2 * c < size ? 1.0 : arm);
+    }
+}
+
+/* Length that one correction may not exceed: half the smallest clearance, or a part of an element without a wall. */
+static double longest_move(const dmb_scene *scene)
+{
+    double limit = 0.2 * scene->length_scale;
+    for (uint32_t s = 0; s < scene->site_count; s++)
+        if (scene->sites[s].clearance > 0.0) limit = fmin(limit, 0.5 * scene->sites[s].clearance);
+    return limit;
+}
+
+int32_t dmb_static_relaxation(dmb_static_search *search)
+{
+    dmb_sim *sim = search->sim;
+    const double limit = longest_move(sim->scene);
+    double rate = 1e4, last = 1.0;
+    search->evaluation.extrapolated = 0;
+    for (uint32_t k = 0;; k++) {
+        int32_t status = evaluate(search);
+        if (status <= 0) return status;
+        if (k >= 20 * search->options->max_iterations) return DMB_ERR_NO_CONVERGENCE;
+        if (k > 0) rate *= fmin(fmax(search->residual / last, 0.2), 2.0); /* switched evolution relaxation */
+        last = search->residual;
+        add_pseudo_mass(sim, rate);
+        status = solve(search);
+        if (status < 0) return status;
+        const double most = largest_move(sim);
+        move(sim, most > limit ? limit / most : 1.0);
+    }
+}

@@ -1,0 +1,39 @@
+/* Constants of flexible elements and rigid masses, made once by the compile step. */
+#ifndef DMB_ELEMENT_ELEMENT_TYPE_H
+#define DMB_ELEMENT_ELEMENT_TYPE_H
+
+#include <stdint.h>
+
+/* Consistent mass of an axisymmetric beam, constant in the body frame (Timoshenko cubic shapes, THEORY 3).
+ * bending[plane]: plane 0 is (u_y, theta_z), plane 1 is (u_z, -theta_y); six numbers each:
+ *   [0] u_A u_A = u_B u_B   [1] u_A t_A = -u_B t_B   [2] u_A u_B   [3] u_A t_B = -u_B t_A   [4] t_A t_A = t_B t_B   [5] t_A t_B */
+typedef struct dmb_beam_mass {
+    double axial[2];    /* [kg] AA = BB, AB */
+    double torsion[2];  /* [kg m2] AA = BB, AB */
+    double bending[2][6];
+} dmb_beam_mass;
+
+/* What equal elements share. */
+typedef struct dmb_element_type {
+    double length;        /* [m] between its two ends, rigid arms not counted */
+    double stiffness[6];  /* [N/m, N m/rad] K/L, shear stiffness corrected: 1/GA* = 1/GA + L^2/(12 EI) */
+    double strain_stiffness[6]; /* [N, N m2] K itself, uncorrected shear (for queries) */
+    double damping_time;  /* [s] tau; 0 when damping is left out */
+    double rest[6];       /* [m, rad] d0 = L (1, 0, 0, curvature) */
+    double arm[2];        /* [m] along x from node a to the element's end A, and from its end B to node b */
+    dmb_beam_mass mass;
+    double mass_per_metre; /* [kg/m] */
+    double diameter;      /* [m] outer, for pictures */
+} dmb_element_type;
+
+/* Rigid mass fixed to a node: tool joint, bit, rig head, rigid pipes, free body, eccentric part of pipes. Symmetric spatial
+ * inertia at the node's reference point, body frame: [m I, -b~; b~, J]. `mass` is 0 where only an eccentric part was added. */
+typedef struct dmb_lump {
+    double mass;      /* [kg] */
+    double moment[3]; /* [kg m] b = mass times centre */
+    double inertia[6]; /* [kg m2] xx, yy, zz, xy, xz, yz elements of J at the reference point */
+    uint32_t node;
+    uint32_t reserved;
+} dmb_lump;
+
+#endif

@@ -1,0 +1,60 @@
+/* dmb_sim_advance: steps whose local error holds the tolerances. The estimate e = C h^2 (a1 - a0) is of third order, so
+ *     h_new = h clamp(0.9 err^(-1/3), 0.2, 2), held while the ratio lies in 0.8 .. 1.25 (THEORY 4). */
+#include "base/sized_struct.h"
+#include "integrator/walk.h"
+
+/* What control wants next after an error of `error` tolerances. */
+static double next_step(const dmb_sim *sim, double h, double error)
+{
+    double ratio = error > 0.0 ? 0.9 / cbrt(error) : 2.0;
+    ratio = fmin(fmax(ratio, 0.2), 2.0);
+    if (ratio > 0.8 && ratio < 1.25) ratio = 1.0;
+    return fmin(fmax(ratio * h, sim->options.step_min), sim->options.step_max);
+}
+
+static double first_step(const dmb_sim *sim)
+{
+    if (sim->clock->next_step > 0.0) return sim->clock->next_step;
+    return fmin(sim->options.step_max, fmax(1e-4, sim->options.step_min));
+}
+
+/* Step length that ends neither beyond `time` nor a corner; without leaving a sliver. */
+static double fit(const dmb_sim *sim, double h, double time)
+{
+    const double t = sim->clock->time, left = fmin(time, dmb_next_corner(sim, t + 1e-12 * (1.0 + fabs(t)))) - t;
+    if (h >= left) return left;
+    return h > 0.5 * left ? 0.5 * left : h;
+}
+
+static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk *walk)
+{
+    dmb_attempt attempt;
+    for (;;) {
+        const double h = fit(sim, *wanted, time);
+        const int32_t status = dmb_attempt_step(sim, h, &attempt);
+        const int smallest = !(h > sim->options.step_min * 1.0001);
+        if (status >= 0 && (attempt.error <= 1.0 || smallest)) {
+            const double next = next_step(sim, h, attempt.error);
+            if (next > *wanted || h >= *wanted * 0.999 || next < h) *wanted = next;
+            if (!(sim->clock->time + h < time)) attempt.evaluation.time = time;
+            dmb_walk_commit(sim, &attempt, walk);
+            sim->clock->next_step = *wanted;
+            return status;
+        }
+        dmb_walk_reject(sim, &attempt, walk);
+        if (status < 0 && (smallest || status == DMB_ERR_CALLBACK)) return status;
+        *wanted = status >= 0 ? next_step(sim, h, attempt.error) : fmax(0.25 * h, sim->options.step_min);
+    }
+}
+
+int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report)
+{
+    dmb_walk walk;
+    int32_t status = dmb_walk_begin(sim, report, &walk);
+    if (status < 0) return status;
+    status = dmb_walk_check(sim, "time", time, sim->clock->time);
+    if (status < 0) return status;
+    double wanted = first_step(sim);
+    while (status >= 0 && sim->clock->time < time) status = advance_once(sim, time, &wanted, &walk);
+    return dmb_walk_end(sim, status, 0, report, &walk);
+}

@@ -1,0 +1,187 @@
+#include "integrator/attempt.h"
+
+#include <string.h>
+
+#include "integrator/generalized_alpha.h"
+#include "integrator/ledger.h"
+#include "integrator/owner.h"
+
+/* Newton gives up when the residual has grown this much over its start. */
+#define DMB_NEWTON_GROWTH 1e6
+
+/* a0 carried over to a new step length, v0' + (h/h_old)(a0 - v0'), which keeps second order (THEORY 4). */
+static double carried(const dmb_sim *sim, double ratio, uint32_t i)
+{
+    const double a = sim->now.acceleration[i];
+    return a + ratio * (sim->now.pseudo_acceleration[i] - a);
+}
+
+static double step_ratio(const dmb_sim *sim, double step)
+{
+    return sim->clock->step > 0.0 ? step / sim->clock->step : 1.0;
+}
+
+/* Start of the iteration: v1' = v0'. */
+static void predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
+{
+    const double ratio = step_ratio(sim, h);
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) {
+        const double dv = sim->now.acceleration[i], v = sim->now.velocity[i], a0 = carried(sim, ratio, i);
+        const double a1 = (dv - c->am * a0) / (1.0 - c->am);
+        sim->trial.acceleration[i] = dv;
+        sim->trial.pseudo_acceleration[i] = a1;
+        sim->trial.velocity[i] = v + h * (1.0 - c->gamma) * a0 + h * c->gamma * a1;
+        sim->increment[i] = h * v + h * h * ((0.5 - c->beta) * a0 + c->beta * a1);
+    }
+}
+
+/* Moves the trial by the correction z of h Dq. */
+static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
+{
+    const double to_a = 1.0 / (h * h * c->beta), to_v = c->gamma / (h * c->beta);
+    const double to_dv = to_a * (1.0 - c->am) / (1.0 - c->af);
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) {
+        const double z = sim->correction[i];
+        sim->increment[i] += z;
+        sim->trial.velocity[i] += to_v * z;
+        sim->trial.acceleration[i] += to_dv * z;
+        sim->trial.pseudo_acceleration[i] += to_a * z;
+    }
+    dmb_trial_pose(sim);
+}
+
+/* Local error of the pose over its tolerance, largest row. */
+static double local_error(const dmb_sim *sim, const dmb_generalized_alpha *c, double h)
+{
+    const dmb_scene *scene = sim->scene;
+    const double ratio = step_ratio(sim, h), factor = c->error * h * h;
+    double worst = 0.0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        for (uint32_t k = 0; k < size; k++) {
+            if (!scene->solved_row[row + k]) continue;
+            const double tolerance = 2 * k < size ? sim->options.tolerance_translation : sim->options.tolerance_rotation;
+            const double jump = sim->trial.pseudo_acceleration[row + k] - carried(sim, ratio, row + k);
+            worst = fmax(worst, fabs(factor * jump) / tolerance);
+        }
+    }
+    return worst;
+}
+
+static void set_up(dmb_sim *sim, const dmb_generalized_alpha *c, double h, dmb_evaluation *evaluation)
+{
+    memset(evaluation, 0, sizeof *evaluation);
+    evaluation->sim = sim;
+    evaluation->time = sim->clock->time + h;
+    evaluation->step = h;
+    evaluation->mass_factor = (1.0 - c->am) / (h * h * c->beta * (1.0 - c->af));
+    evaluation->velocity_factor = c->gamma / (h * c->beta);
+    evaluation->load_factor = 1.0;
+    evaluation->dynamic = 1;
+    evaluation->tangent = 1;
+}
+
+/* One Newton iteration; 1: go on, 0: done, < 0: failed. */
+static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt, double *first)
+{
+    dmb_evaluation *evaluation = &attempt->evaluation;
+    int32_t converged;
+    const int32_t status = dmb_system_evaluate(evaluation);
+    if (status < 0) return status;
+    attempt->residual = dmb_relative_residual(evaluation, sim->options.newton_tolerance, &converged);
+    if (converged) return 0;
+    if (attempt->iterations == 0) *first = attempt->residual;
+    if (attempt->residual > DMB_NEWTON_GROWTH * *first) return DMB_ERR_NO_CONVERGENCE;
+    if (attempt->iterations >= sim->options.max_iterations)
+        return sim->options.bounded_work ? DMB_NOTE_WORK_LIMITED : DMB_ERR_NO_CONVERGENCE;
+    dmb_system_iteration_matrix(evaluation);
+    const int64_t bad = dmb_solve_correction(sim);
+    attempt->block = (uint32_t)bad;
+    if (bad >= 0) return DMB_ERR_SINGULAR;
+    attempt->iterations++;
+    dmb_system_extrapolate_stress(sim, sim->correction);
+    evaluation->extrapolated = 1;
+    correct(sim, c, attempt->step);
+    return 1;
+}
+
+int32_t dmb_attempt_step(dmb_sim *sim, double step, dmb_attempt *attempt)
+{
+    const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
+    double first = 0.0;
+    int32_t status;
+    memset(attempt, 0, sizeof *attempt);
+    attempt->step = step;
+    set_up(sim, &c, step, &attempt->evaluation);
+    predict(sim, &c, step);
+    status = dmb_system_prescribe(&attempt->evaluation);
+    if (status >= 0) {
+        dmb_trial_pose(sim);
+        do status = iterate(sim, &c, attempt, &first);
+        while (status == 1);
+    }
+    attempt->status = status == DMB_NOTE_WORK_LIMITED ? status : status < 0 ? status : DMB_OK;
+    if (attempt->status >= 0) attempt->error = local_error(sim, &c, step);
+    return attempt->status;
+}
+
+void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt)
+{
+    dmb_counters *counters = sim->counters;
+    dmb_system_accept(&attempt->evaluation);
+    if (sim->options.energy_ledger) dmb_ledger_add(sim, &attempt->evaluation);
+    const dmb_configuration old = sim->now;
+    sim->now = sim->trial;
+    sim->trial = old;
+    sim->clock->time = attempt->evaluation.time;
+    sim->clock->step = attempt->step;
+    counters->steps++;
+    counters->iterations += attempt->iterations;
+    if (attempt->status == DMB_NOTE_WORK_LIMITED) counters->limited++;
+    if (attempt->iterations > counters->worst_iterations) counters->worst_iterations = attempt->iterations;
+    counters->worst_residual = fmax(counters->worst_residual, attempt->residual);
+}
+
+void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
+{
+    dmb_owner owner;
+    switch (attempt->status) {
+    case DMB_ERR_ROTATION:
+        owner = dmb_owner_of_element(sim->scene, attempt->evaluation.element);
+        dmb_message_set(&sim->message, "%s %u, pipe %u: relative rotation in one element above 2.5 rad at time %g, step %g",
+                        owner.kind, owner.index, owner.pipe, attempt->evaluation.time, attempt->step);
+        break;
+    case DMB_ERR_SINGULAR:
+        owner = dmb_owner_of_node(sim->scene, attempt->block);
+        dmb_message_set(&sim->message, "%s %u, pipe %u: iteration matrix singular at time %g, step %g", owner.kind,
+                        owner.index, owner.pipe, attempt->evaluation.time, attempt->step);
+        break;
+    case DMB_ERR_CALLBACK:
+        dmb_message_set(&sim->message, "programme: the callback failed or gave a value that is not finite at time %g",
+                        attempt->evaluation.time);
+        break;
+    default:
+        dmb_message_set(&sim->message, "step to time %g of length %g: %u iterations, relative residual = %g, must be <= %g",
+                        attempt->evaluation.time, attempt->step, attempt->iterations, attempt->residual,
+                        sim->options.newton_tolerance);
+    }
+}
+
+static double corner_of(const dmb_scene *scene, uint32_t programme, double t)
+{
+    return programme == UINT32_MAX ? (double)INFINITY : dmb_programme_next_corner(scene->programmes + programme, t);
+}
+
+double dmb_next_corner(const dmb_sim *sim, double t)
+{
+    const dmb_scene *scene = sim->scene;
+    double next = (double)INFINITY;
+    for (uint32_t i = 0; i < scene->drive_count; i++) {
+        if (!isnan(sim->drive_input[i])) continue;
+        next = fmin(next, corner_of(scene, scene->drives[i].programme, t));
+        next = fmin(next, corner_of(scene, scene->drives[i].excitation, t));
+    }
+    for (uint32_t i = 0; i < scene->load_count; i++) next = fmin(next, corner_of(scene, scene->loads[i].programme, t));
+    for (uint32_t i = 0; i < scene->bit_count; i++) next = fmin(next, corner_of(scene, scene->bits[i].load, t));
+    return next;
+}

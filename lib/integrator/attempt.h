@@ -1,0 +1,35 @@
+/* One step of generalized-alpha: tried on `trial`, then committed to `now` or forgotten. */
+#ifndef DMB_INTEGRATOR_ATTEMPT_H
+#define DMB_INTEGRATOR_ATTEMPT_H
+
+#include "system/evaluation.h"
+
+typedef struct dmb_attempt {
+    dmb_evaluation evaluation; /* the last one */
+    double step;               /* [s] */
+    double residual;           /* [-] relative, at the end */
+    double error;              /* [-] local error over its tolerance */
+    uint32_t iterations;
+    int32_t status;            /* DMB_OK, DMB_NOTE_WORK_LIMITED, or why the step failed */
+    uint32_t block;            /* block found singular, with DMB_ERR_SINGULAR */
+    int32_t reserved;
+} dmb_attempt;
+
+/* Tries a step from now to now + step [s]; returns attempt->status. now and the memory fields are not touched. */
+int32_t dmb_attempt_step(dmb_sim *sim, double step, dmb_attempt *attempt);
+/* Makes the trial of a successful attempt the accepted state. */
+void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt);
+/* Message for a failed attempt: which part, at what time. */
+void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt);
+/* [s] smallest corner later than t of any programme in use; INFINITY if none. */
+double dmb_next_corner(const dmb_sim *sim, double t);
+
+/* Norm of the residual over the norm of the terms that balance in it, moments over the length scale; unknown rows only.
+ * *converged is 1 at or below the tolerance, or where rounding of the poses alone makes a residual as large. */
+double dmb_relative_residual(const dmb_evaluation *evaluation, double tolerance, int32_t *converged);
+/* Trial pose = pose of now moved by `increment`. */
+void dmb_trial_pose(dmb_sim *sim);
+/* Solves the iteration matrix in place; correction becomes the Newton correction. Index of a singular block, or -1. */
+int64_t dmb_solve_correction(dmb_sim *sim);
+
+#endif

@@ -1,0 +1,41 @@
+#include "integrator/ledger.h"
+
+#include <string.h>
+
+#include "system/energy.h"
+
+static double drive_power(const dmb_sim *sim, const dmb_configuration *c, uint32_t i)
+{
+    return c->drive_force[i] * c->velocity[sim->scene->drives[i].row];
+}
+
+/* Powers of an evaluation, with what the motion drives do through the rows they hold. */
+static void powers(const dmb_sim *sim, const dmb_evaluation *evaluation, double power[8])
+{
+    memcpy(power, evaluation->power, sizeof evaluation->power);
+    for (uint32_t i = 0; i < sim->scene->drive_count; i++)
+        if (sim->scene->drives[i].kind == DMB_DRIVE_MOTION)
+            power[DMB_POWER_DRIVES] += drive_power(sim, evaluation->step > 0.0 ? &sim->trial : &sim->now, i);
+}
+
+void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation)
+{
+    memset(sim->ledger, 0, sizeof *sim->ledger);
+    for (uint32_t i = 0; i < sim->scene->drive_count; i++) sim->drive_work[i] = 0.0;
+    powers(sim, evaluation, sim->clock->power);
+    sim->ledger->start = dmb_kinetic_energy(sim->scene, &sim->now) + dmb_strain_energy(sim->scene, &sim->now) +
+                         dmb_gravity_energy(sim->scene, &sim->now) + dmb_contact_energy(sim->scene, &sim->now);
+}
+
+void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation)
+{
+    const double half = 0.5 * evaluation->step;
+    double power[8], *last = sim->clock->power;
+    powers(sim, evaluation, power);
+    for (int k = 0; k < DMB_POWER_COUNT; k++) sim->ledger->work[k] += half * (last[k] + power[k]);
+    sim->ledger->input += half * (fabs(last[DMB_POWER_DRIVES]) + fabs(last[DMB_POWER_LOADS]) +
+                                  fabs(power[DMB_POWER_DRIVES]) + fabs(power[DMB_POWER_LOADS]));
+    for (uint32_t i = 0; i < sim->scene->drive_count; i++)
+        sim->drive_work[i] += half * (drive_power(sim, &sim->now, i) + drive_power(sim, &sim->trial, i));
+    memcpy(last, power, sizeof power);
+}

@@ -1,0 +1,14 @@
+/* Energy ledger: work of each class of force by the trapezoidal rule over accepted steps. At every accepted instant the
+ * powers of all forces sum to zero (residual times velocity), so what is missing between their integrals and the energies
+ * is what the time integration took out; nothing is set by closing the balance. */
+#ifndef DMB_INTEGRATOR_LEDGER_H
+#define DMB_INTEGRATOR_LEDGER_H
+
+#include "system/evaluation.h"
+
+/* Sets the ledger to zero at the present state (now) with the powers of the evaluation. */
+void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation);
+/* Adds the step from now to trial; before the swap. */
+void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation);
+
+#endif

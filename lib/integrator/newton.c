@@ -1,0 +1,61 @@
+/* Pieces of Newton's method that steps and statics share. */
+#include <float.h>
+#include <string.h>
+
+#include "integrator/attempt.h"
+#include "math/se3.h"
+
+/* Rounding of a pose reaches a stiff element's force multiplied by EA/L: this many units of it count as zero. */
+#define DMB_ROUNDING_UNITS 4.0
+
+double dmb_relative_residual(const dmb_evaluation *evaluation, double tolerance, int32_t *converged)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const double arm = 1.0 / (scene->length_scale * scene->length_scale);
+    double rest = 0.0, all = 0.0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        for (uint32_t c = 0; c < size; c++) {
+            if (!scene->solved_row[row + c]) continue;
+            const double weight = 2 * c < size ? 1.0 : arm;
+            rest += weight * sim->correction[row + c] * sim->correction[row + c];
+            all += weight * sim->scale_row[row + c] * sim->scale_row[row + c];
+        }
+    }
+    const double floor = DMB_ROUNDING_UNITS * DBL_EPSILON;
+    *converged = rest <= tolerance * tolerance * all || rest <= floor * floor * evaluation->rounding;
+    return all > 0.0 ? sqrt(rest / all) : 0.0;
+}
+
+void dmb_trial_pose(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    const uint32_t n = scene->node_count;
+    memcpy(sim->trial.displacement, sim->now.displacement, 3 * n * sizeof(double));
+    memcpy(sim->trial.quaternion, sim->now.quaternion, 4 * n * sizeof(double));
+    for (uint32_t i = 0; i < n; i++) {
+        const double *z = sim->increment + scene->layout.row[i];
+        if (scene->layout.size[i] == DMB_NODE_FULL) {
+            dmb_se3_advance(sim->trial.quaternion + 4 * i, sim->trial.displacement + 3 * i, z);
+        } else {
+            sim->trial.displacement[3 * i] += z[0];
+            sim->trial.turn[i] = sim->now.turn[i] + z[1];
+        }
+    }
+}
+
+int64_t dmb_solve_correction(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    dmb_block_matrix matrix = {sim->stiffness_diagonal, sim->stiffness_lower, sim->stiffness_upper, sim->pivot};
+    for (uint32_t i = 0; i < scene->row_count; i++)
+        sim->correction[i] = scene->solved_row[i] ? -sim->correction[i] : 0.0;
+    for (uint32_t c = 0; c < scene->chain_count; c++) {
+        const dmb_chain *chain = scene->chains + c;
+        const int64_t bad = dmb_block_factor(&scene->layout, &matrix, chain->first, chain->count);
+        if (bad >= 0) return bad;
+        dmb_block_solve(&scene->layout, &matrix, chain->first, chain->count, sim->correction);
+    }
+    return -1;
+}

@@ -1,0 +1,138 @@
+#include "integrator/start.h"
+
+#include <string.h>
+
+#include "integrator/attempt.h"
+#include "integrator/ledger.h"
+#include "integrator/owner.h"
+#include "math/so3.h"
+#include "system/bit.h"
+
+static void described_pose(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    memcpy(sim->now.quaternion, scene->reference_quaternion, 4 * scene->node_count * sizeof(double));
+    memcpy(sim->now.velocity, scene->initial_velocity, scene->row_count * sizeof(double));
+    for (uint32_t s = 0; s < scene->site_count; s++) {
+        const double down[3] = {0.0, 0.0, -1.0}; /* until there is a normal */
+        dmb_vec3_copy(down, sim->now.site_normal + 3 * s);
+        sim->now.site_depth[s] = scene->reference_depth[scene->sites[s].node] + scene->sites[s].offset;
+    }
+}
+
+/* Rows that are held move as their drive says, or not at all; the largest correction is kept. */
+static void project_speeds(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->held_count; i++) {
+        const uint32_t size = scene->layout.size[scene->held_node[i]], c = scene->held_component[i];
+        const uint32_t row = scene->layout.row[scene->held_node[i]] + c;
+        const double target = sim->trial.velocity[row];
+        double *most = sim->counters->projection + (2 * c < size ? 0 : 1);
+        *most = fmax(*most, fabs(target - sim->now.velocity[row]));
+        sim->now.velocity[row] = target;
+    }
+}
+
+/* Held speeds of the present time into trial.velocity, 0 where no drive moves them. */
+static int32_t held_speeds(dmb_sim *sim, dmb_evaluation *evaluation)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->held_count; i++) {
+        const uint32_t row = scene->layout.row[scene->held_node[i]] + scene->held_component[i];
+        sim->trial.velocity[row] = sim->trial.acceleration[row] = sim->trial.pseudo_acceleration[row] = 0.0;
+    }
+    return dmb_system_prescribe(evaluation);
+}
+
+static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
+{
+    memset(evaluation, 0, sizeof *evaluation);
+    evaluation->sim = sim;
+    evaluation->time = sim->clock->time;
+    evaluation->load_factor = 1.0;
+    evaluation->mass_factor = 1.0;
+    evaluation->dynamic = 1;
+    evaluation->tangent = 1;
+    memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
+}
+
+/* M v' = what is left of the forces: the iteration matrix with the stiffness taken away. */
+static int32_t solve_accelerations(dmb_sim *sim, dmb_evaluation *evaluation)
+{
+    const dmb_block_layout *layout = &sim->scene->layout;
+    const uint32_t n = sim->scene->node_count;
+    int32_t status = dmb_system_evaluate(evaluation);
+    if (status < 0) return status;
+    memset(sim->stiffness_diagonal, 0, layout->diag[n] * sizeof(double));
+    memset(sim->stiffness_upper, 0, layout->link[n - 1] * sizeof(double));
+    memset(sim->stiffness_lower, 0, layout->link[n - 1] * sizeof(double));
+    dmb_system_iteration_matrix(evaluation);
+    const int64_t bad = dmb_solve_correction(sim);
+    if (bad >= 0) {
+        const dmb_owner owner = dmb_owner_of_node(sim->scene, (uint32_t)bad);
+        dmb_message_set(&sim->message, "%s %u, pipe %u: mass matrix singular", owner.kind, owner.index, owner.pipe);
+        return DMB_ERR_SINGULAR;
+    }
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) {
+        sim->trial.acceleration[i] += sim->correction[i];
+        sim->trial.pseudo_acceleration[i] = sim->trial.acceleration[i];
+    }
+    evaluation->tangent = 0;
+    return dmb_system_evaluate(evaluation);
+}
+
+static void explain(dmb_sim *sim, const dmb_evaluation *evaluation)
+{
+    dmb_attempt attempt;
+    if (evaluation->status == DMB_ERR_SINGULAR) return;
+    memset(&attempt, 0, sizeof attempt);
+    attempt.evaluation = *evaluation;
+    attempt.status = evaluation->status;
+    dmb_attempt_explain(sim, &attempt);
+}
+
+int32_t dmb_integrator_restart(dmb_sim *sim)
+{
+    dmb_evaluation evaluation;
+    int32_t status;
+    set_up(sim, &evaluation);
+    dmb_configuration_copy(sim, &sim->now, &sim->trial);
+    memset(sim->trial.acceleration, 0, sim->scene->row_count * sizeof(double));
+    status = held_speeds(sim, &evaluation);
+    if (status >= 0) {
+        memcpy(sim->now.drive_target, sim->trial.drive_target, sim->scene->drive_count * sizeof(double));
+        project_speeds(sim);
+        status = solve_accelerations(sim, &evaluation);
+    }
+    if (status < 0) {
+        evaluation.status = status;
+        explain(sim, &evaluation);
+        return status;
+    }
+    const double step = evaluation.step;
+    memcpy(sim->residual_row, sim->correction, sim->scene->row_count * sizeof(double));
+    for (uint32_t i = 0; i < sim->scene->drive_count; i++)
+        if (sim->scene->drives[i].kind == DMB_DRIVE_MOTION)
+            sim->trial.drive_force[i] = sim->correction[sim->scene->drives[i].row];
+    dmb_configuration_copy(sim, &sim->trial, &sim->now);
+    evaluation.step = step;
+    sim->clock->step = 0.0;
+    sim->clock->next_step = 0.0;
+    if (sim->options.energy_ledger) dmb_ledger_start(sim, &evaluation);
+    return DMB_OK;
+}
+
+int32_t dmb_integrator_start(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    described_pose(sim);
+    const int32_t status = dmb_integrator_restart(sim);
+    if (status < 0) return status;
+    for (uint32_t k = 0; k < scene->bit_count; k++) dmb_bit_start(sim, k);
+    const double *most = sim->counters->projection;
+    if (most[0] <= 1e-12 && most[1] <= 1e-12) return DMB_OK;
+    dmb_message_set(&sim->message, "initial velocities: projected onto the allowed motion, by %g m/s and %g rad/s",
+                    most[0], most[1]);
+    return DMB_NOTE_PROJECTED;
+}

@@ -1,0 +1,68 @@
+#include "integrator/walk.h"
+
+#include <string.h>
+
+#include "base/check.h"
+#include "base/handle.h"
+#include "base/sized_struct.h"
+
+DMB_DECLARE_STRUCT(dmb_step_report)
+
+int32_t dmb_walk_begin(dmb_sim *sim, const dmb_step_report *report, dmb_walk *walk)
+{
+    memset(walk, 0, sizeof *walk);
+    if (sim == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
+    dmb_message_clear(&sim->message);
+    (void)dmb_step_report_init(&walk->report, (uint32_t)sizeof walk->report);
+    walk->counters = *sim->counters;
+    return report == NULL ? DMB_OK : dmb_step_report_read(&walk->report, report);
+}
+
+int32_t dmb_walk_check(dmb_sim *sim, const char *field, double value, double bound)
+{
+    dmb_check check = dmb_check_of(&sim->message, "step", DMB_NO_INDEX);
+    dmb_check_above(&check, field, value, bound);
+    return check.status;
+}
+
+void dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
+{
+    walk->report.steps++;
+    walk->report.iterations += attempt->iterations;
+    if (attempt->iterations > walk->report.worst) walk->report.worst = attempt->iterations;
+    walk->report.residual = fmax(walk->report.residual, attempt->residual);
+    walk->report.last_step = attempt->step;
+    dmb_attempt_commit(sim, attempt);
+}
+
+void dmb_walk_reject(dmb_sim *sim, const dmb_attempt *attempt, dmb_walk *walk)
+{
+    walk->report.rejected++;
+    walk->report.iterations += attempt->iterations;
+    dmb_attempt_explain(sim, attempt);
+}
+
+int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_report *report, const dmb_walk *walk)
+{
+    dmb_step_report out = walk->report;
+    if (status < 0 && restore) { /* counters too: a failing call changes nothing */
+        if (walk->kept) dmb_state_bring_back(sim);
+        *sim->counters = walk->counters;
+    } else { /* work spent in vain on the way counts */
+        sim->counters->rejected = walk->counters.rejected + walk->report.rejected;
+        sim->counters->iterations = walk->counters.iterations + walk->report.iterations;
+    }
+    out.time = sim->clock->time;
+    if (report != NULL) (void)dmb_step_report_write(report, &out);
+    if (status < 0) return status;
+    if (walk->limited) {
+        dmb_message_set(&sim->message, "step to time %g: relative residual = %g after %u iterations, accepted as asked",
+                        out.time, out.residual, out.worst);
+        return DMB_NOTE_WORK_LIMITED;
+    }
+    if (!walk->was_cut) return DMB_OK;
+    dmb_message_set(&sim->message, "step to time %g: divided into %u steps, %u rejected", out.time, out.steps,
+                    out.rejected);
+    return DMB_NOTE_STEP_CUT;
+}

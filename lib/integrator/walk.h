@@ -1,0 +1,26 @@
+/* What dmb_sim_step and dmb_sim_advance share: checks, the report, keeping and bringing back the state. */
+#ifndef DMB_INTEGRATOR_WALK_H
+#define DMB_INTEGRATOR_WALK_H
+
+#include "drillmbd/sim.h"
+#include "integrator/attempt.h"
+
+typedef struct dmb_walk {
+    dmb_step_report report;
+    dmb_counters counters; /* as before the call */
+    int32_t kept;          /* the state before the call is set aside */
+    int32_t was_cut;
+    int32_t limited;
+    int32_t reserved;
+} dmb_walk;
+
+/* Checks handle and report. */
+int32_t dmb_walk_begin(dmb_sim *sim, const dmb_step_report *report, dmb_walk *walk);
+/* DMB_ERR_NOT_FINITE or DMB_ERR_VALUE with a message unless value is finite and > bound. */
+int32_t dmb_walk_check(dmb_sim *sim, const char *field, double value, double bound);
+void dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk);
+void dmb_walk_reject(dmb_sim *sim, const dmb_attempt *attempt, dmb_walk *walk);
+/* Writes the report and gives the status of the call; on failure with `restore` the state before the call is back. */
+int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_report *report, const dmb_walk *walk);
+
+#endif

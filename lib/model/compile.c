@@ -1,0 +1,59 @@
+/* From what was described to the scene that a step works on. */
+#include "base/check.h"
+#include "base/log.h"
+#include "model/defaults.h"
+#include "model/limits.h"
+#include "model/mesh.h"
+
+static int32_t take_options(dmb_model *model, const dmb_compile_options *given, dmb_compile_options *read)
+{
+    dmb_check check = dmb_check_of(&model->message, "compile options", DMB_NO_INDEX);
+    *read = dmb_compile_options_default();
+    if (given != NULL) {
+        const int32_t status = dmb_compile_options_read(read, given);
+        if (status < 0) return status;
+    }
+    dmb_check_mask(&check, "features", read->features, DMB_FEATURE_ALL);
+    dmb_check_choice(&check, "pipe_kind", read->pipe_kind, -1, DMB_PIPE_RIGID);
+    return check.status;
+}
+
+static int32_t make_scene(dmb_mesh *mesh, dmb_scene **scene)
+{
+    static int32_t (*const steps[])(dmb_mesh *) = {
+        dmb_mesh_hole,  dmb_mesh_count, dmb_mesh_check,  dmb_mesh_strings, dmb_mesh_bodies,
+        dmb_mesh_poses, dmb_mesh_types, dmb_mesh_masses, dmb_mesh_sites,   dmb_mesh_actions,
+    };
+    int32_t status = DMB_OK;
+    mesh->features = dmb_mesh_features(mesh);
+    for (size_t i = 0; i < sizeof steps / sizeof steps[0] && status >= 0; ++i) status = steps[i](mesh);
+    if (status >= 0) status = dmb_mesh_freeze(mesh, scene);
+    return status;
+}
+
+static void tell(dmb_model *model, const dmb_scene *scene)
+{
+    const dmb_log log = {model->log, model->log_context};
+    dmb_message_set(&model->message, "compiled: %u nodes, %u elements, %u contact sites, %u freedoms, %zu bytes",
+                    scene->node_count, scene->element_count, scene->site_count, scene->free_count, scene->bytes);
+    dmb_log_text(&log, DMB_LOG_INFO, model->message.text);
+}
+
+int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options)
+{
+    dmb_compile_options read;
+    dmb_scene *scene = NULL;
+    dmb_mesh mesh;
+    int32_t status = dmb_describe_open(model, model);
+    if (status < 0) return status;
+    status = take_options(model, options, &read);
+    if (status >= 0) {
+        dmb_mesh_init(&mesh, model, &read);
+        status = make_scene(&mesh, &scene);
+        dmb_mesh_release(&mesh);
+    }
+    if (status < 0) return dmb_describe_close(model, "compile", status);
+    tell(model, scene);
+    model->scene = scene;
+    return DMB_OK;
+}

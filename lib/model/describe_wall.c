@@ -1,0 +1,130 @@
+/* The hole: its axis and the laws of its wall. */
+#include <string.h>
+
+#include "base/allocator.h"
+#include "model/defaults.h"
+#include "model/describe.h"
+#include "model/field_check.h"
+#include "model/limits.h"
+
+enum { STATIONS_MIN = 2, STATIONS_MAX = 1 << 16 };
+
+static void check_survey(dmb_check *check, dmb_message *message, const dmb_wall_def *def)
+{
+    dmb_check station;
+    dmb_check_count(check, "survey_count", def->survey_count, STATIONS_MIN, STATIONS_MAX);
+    dmb_check_pointer(check, "survey", def->survey);
+    for (uint32_t i = 0; i < def->survey_count && check->status == DMB_OK; ++i) {
+        const double *row = def->survey + 3 * (size_t)i;
+        station = dmb_check_of(message, "wall, station", i);
+        dmb_check_within(&station, "measured depth", row[0], -DMB_POSITION_MAX, DMB_POSITION_MAX);
+        dmb_check_within(&station, "inclination", row[1], -DMB_ANGLE_MAX, DMB_ANGLE_MAX);
+        dmb_check_within(&station, "azimuth", row[2], -DMB_ANGLE_MAX, DMB_ANGLE_MAX);
+        /* closer than that, the curvature between two stations has no meaning */
+        if (i > 0) dmb_check_at_least(&station, "measured depth", row[0], row[-3] + DMB_LENGTH_MIN);
+        check->status = station.status;
+    }
+}
+
+static void check_direction(dmb_check *check, const dmb_wall_def *def)
+{
+    const double *d = def->direction;
+    dmb_check_all_finite(check, "direction", d, 3);
+    if (fabs(d[0]) > 0.0 || fabs(d[1]) > 0.0 || fabs(d[2]) > 0.0) return;
+    dmb_check_fail(check, DMB_ERR_VALUE, "direction", 0.0, "of length > 0");
+}
+
+static void check_normal_law(dmb_check *check, const dmb_wall_def *def)
+{
+    const int32_t law = def->normal_law;
+    dmb_check_choice(check, "normal_law", law, DMB_NORMAL_NONE, DMB_NORMAL_IMPACT);
+    dmb_check_within(check, "stiffness", def->stiffness, DMB_STIFFNESS_MIN, DMB_STIFFNESS_MAX);
+    dmb_check_within(check, "exponent", def->exponent, 1.0, 3.0);
+    dmb_check_within(check, "restitution", def->restitution, 0.0, 1.0);
+    if (law == DMB_NORMAL_FLORES || law == DMB_NORMAL_EXACT) {
+        dmb_check_above(check, "restitution", def->restitution, 0.0); /* their damping factor grows like 1/e */
+    }
+    dmb_check_within(check, "damping", def->damping, 0.0, DMB_DAMPING_MAX);
+    dmb_check_within(check, "impact_depth", def->impact_depth, DMB_DEPTH_MIN, DMB_LENGTH_MAX);
+    dmb_check_within(check, "approach_speed", def->approach_speed, DMB_SPEED_MIN, DMB_SPEED_MAX);
+}
+
+/* Bounds between two fields are asked for only where the law uses both. */
+static void check_friction_law(dmb_check *check, const dmb_wall_def *def)
+{
+    const int32_t law = def->friction_law;
+    dmb_check_choice(check, "friction_law", law, DMB_FRICTION_NONE, DMB_FRICTION_BRISTLE);
+    dmb_check_within(check, "mu_dynamic", def->mu_dynamic, 0.0, DMB_NUMBER_MAX);
+    dmb_check_within(check, "mu_static", def->mu_static, 0.0, DMB_NUMBER_MAX);
+    if (law == DMB_FRICTION_STRIBECK || law == DMB_FRICTION_BRISTLE) {
+        dmb_check_at_least_field(check, "mu_static", def->mu_static, "mu_dynamic", def->mu_dynamic);
+    }
+    dmb_check_within(check, "stribeck_speed", def->stribeck_speed, DMB_SPEED_MIN, DMB_SPEED_MAX);
+    dmb_check_within(check, "smoothing_speed", def->smoothing_speed, DMB_SPEED_MIN, DMB_SPEED_MAX);
+    dmb_check_within(check, "full_speed", def->full_speed, DMB_SPEED_MIN, DMB_SPEED_MAX);
+    if (law == DMB_FRICTION_AMBROSIO) {
+        dmb_check_above_field(check, "full_speed", def->full_speed, "smoothing_speed", def->smoothing_speed);
+    }
+    dmb_check_within(check, "bristle_stiffness", def->bristle_stiffness, DMB_NUMBER_MIN, DMB_DAMPING_MAX);
+    dmb_check_within(check, "bristle_damping", def->bristle_damping, 0.0, DMB_DAMPING_MAX);
+}
+
+static int32_t check_wall(dmb_model *model, const dmb_wall_def *def)
+{
+    dmb_check check = dmb_check_of(&model->message, "wall", DMB_NO_INDEX);
+    dmb_check_each_within(&check, "origin", def->origin, 3, -DMB_POSITION_MAX, DMB_POSITION_MAX);
+    check_direction(&check, def);
+    dmb_check_within(&check, "diameter", def->diameter, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
+    check_normal_law(&check, def);
+    check_friction_law(&check, def);
+    if (def->survey_count != 0) check_survey(&check, &model->message, def);
+    return check.status;
+}
+
+static size_t survey_size(const dmb_wall_def *wall)
+{
+    return 3 * (size_t)wall->survey_count * sizeof(double);
+}
+
+/* The caller's survey gives way to the model's own copy. */
+static int32_t copy_survey(dmb_wall_def *wall, const dmb_allocator *allocator)
+{
+    double *copy;
+    if (wall->survey_count == 0) {
+        wall->survey = NULL;
+        return DMB_OK;
+    }
+    copy = dmb_allocate(allocator, survey_size(wall));
+    if (copy == NULL) return DMB_ERR_NO_MEMORY;
+    memcpy(copy, wall->survey, survey_size(wall));
+    wall->survey = copy;
+    return DMB_OK;
+}
+
+void dmb_wall_release(dmb_wall_def *wall, const dmb_allocator *allocator)
+{
+    void *block;
+    memcpy(&block, &wall->survey, sizeof block); /* the model owns what others may only read */
+    dmb_release(allocator, block, survey_size(wall));
+    wall->survey = NULL;
+}
+
+int32_t dmb_model_add_wall(dmb_model *model, const dmb_wall_def *def, dmb_id *wall)
+{
+    dmb_wall_def read = dmb_wall_def_default();
+    int32_t status = dmb_describe_open(model, def);
+    if (status < 0) return status;
+    if (model->wall_count > 0) {
+        dmb_message_set(&model->message, "wall: the model has one already, must be one hole a model");
+        return dmb_describe_close(model, "wall", DMB_ERR_ORDER);
+    }
+    status = dmb_wall_def_read(&read, def);
+    if (status >= 0) status = check_wall(model, &read);
+    if (status >= 0) status = copy_survey(&read, &model->allocator);
+    if (status >= 0) {
+        model->wall = read;
+        model->wall_count = 1;
+        if (wall != NULL) *wall = dmb_model_id(model, DMB_PART_WALL, 0);
+    }
+    return dmb_describe_close(model, "wall", status);
+}

@@ -1,0 +1,60 @@
+#include "model/field_check.h"
+
+static bool within(double value, double low, double high)
+{
+    return value >= low && value <= high;
+}
+
+static bool is_zero(double value)
+{
+    return !(value < 0.0) && !(value > 0.0) && dmb_is_finite(value);
+}
+
+static void judge_each(dmb_check *check, const char *field, const double *values, size_t count, bool zero_allowed,
+                       double low, double high)
+{
+    dmb_message bound;
+    for (size_t i = 0; i < count && check->status == DMB_OK; ++i) {
+        if (within(values[i], low, high) || (zero_allowed && is_zero(values[i]))) continue;
+        dmb_message_set(&bound, "finite%s, >= %g and <= %g", zero_allowed ? ", 0 or" : "", low, high);
+        check->status = dmb_is_finite(values[i]) ? DMB_ERR_VALUE : DMB_ERR_NOT_FINITE;
+        dmb_message_component(check->message, check->part, check->index, field, (uint32_t)i, values[i], bound.text);
+    }
+}
+
+void dmb_check_zero_or_within(dmb_check *check, const char *field, double value, double low, double high)
+{
+    if (!is_zero(value)) dmb_check_within(check, field, value, low, high);
+}
+
+void dmb_check_each_within(dmb_check *check, const char *field, const double *values, size_t count, double low,
+                           double high)
+{
+    judge_each(check, field, values, count, false, low, high);
+}
+
+void dmb_check_each_zero_or_within(dmb_check *check, const char *field, const double *values, size_t count, double low,
+                                   double high)
+{
+    judge_each(check, field, values, count, true, low, high);
+}
+
+void dmb_check_id(dmb_check *check, const dmb_model *model, const char *field, dmb_id id, uint32_t kind,
+                  const char *what)
+{
+    if (check->status < 0 || dmb_model_part_index(model, id, kind) != UINT32_MAX) return;
+    check->status = DMB_ERR_ID;
+    if (check->index == DMB_NO_INDEX) {
+        dmb_message_set(check->message, "%s: %s = {%u, %u}, must name a %s of this model", check->part, field,
+                        id.index, id.generation, what);
+    } else {
+        dmb_message_set(check->message, "%s %u: %s = {%u, %u}, must name a %s of this model", check->part,
+                        check->index, field, id.index, id.generation, what);
+    }
+}
+
+void dmb_check_id_or_none(dmb_check *check, const dmb_model *model, const char *field, dmb_id id, uint32_t kind,
+                          const char *what)
+{
+    if (!dmb_id_is_none(id)) dmb_check_id(check, model, field, id, kind, what);
+}

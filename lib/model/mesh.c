@@ -1,0 +1,120 @@
+#include "model/mesh.h"
+
+#include "base/checked_size.h"
+#include "model/field_check.h"
+#include "model/limits.h"
+
+void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *options)
+{
+    const dmb_mesh empty = {
+        .model = model,
+        .options = *options,
+        .stations = {.item_size = sizeof(dmb_hole_station)},
+        .run_order = {.item_size = sizeof(uint32_t)},
+        .run_start = {.item_size = sizeof(uint32_t)},
+        .nodes = {.item_size = sizeof(dmb_mesh_node)},
+        .elements = {.item_size = sizeof(dmb_mesh_element)},
+        .types = {.item_size = sizeof(dmb_element_type)},
+        .batches = {.item_size = sizeof(dmb_batch)},
+        .lumps = {.item_size = sizeof(dmb_lump)},
+        .sites = {.item_size = sizeof(dmb_site)},
+        .path_sites = {.item_size = sizeof(dmb_path_site)},
+        .drives = {.item_size = sizeof(dmb_scene_drive)},
+        .loads = {.item_size = sizeof(dmb_scene_load)},
+        .bits = {.item_size = sizeof(dmb_scene_bit)},
+        .strings = {.item_size = sizeof(dmb_string_map)},
+        .pipes = {.item_size = sizeof(dmb_pipe_map)},
+        .bodies = {.item_size = sizeof(dmb_body_map)},
+    };
+    *mesh = empty;
+}
+
+void dmb_mesh_release(dmb_mesh *mesh)
+{
+    dmb_vector *const all[] = {&mesh->stations, &mesh->run_order, &mesh->run_start, &mesh->nodes, &mesh->elements,
+                               &mesh->types, &mesh->batches, &mesh->lumps, &mesh->sites, &mesh->path_sites,
+                               &mesh->drives, &mesh->loads, &mesh->bits, &mesh->strings, &mesh->pipes, &mesh->bodies};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) dmb_vector_release(all[i], &mesh->model->allocator);
+}
+
+int32_t dmb_mesh_kind(const dmb_mesh *mesh, const dmb_pipe_run *run)
+{
+    return mesh->options.pipe_kind >= 0 ? mesh->options.pipe_kind : run->def.kind;
+}
+
+bool dmb_mesh_follows_hole(const dmb_mesh *mesh, uint32_t string)
+{
+    return mesh->model->wall_count > 0 && dmb_mesh_string_def(mesh, string)->follows_hole != 0;
+}
+
+uint32_t dmb_mesh_string_of(const dmb_mesh *mesh, dmb_id id)
+{
+    return dmb_id_is_none(id) ? 0 : dmb_model_part_index(mesh->model, id, DMB_PART_STRING);
+}
+
+/* ---- Pipes of a string ------------------------------------------------------------------------------------------- */
+
+dmb_pipe_walk dmb_pipe_walk_of(const dmb_mesh *mesh, uint32_t string)
+{
+    dmb_pipe_walk walk = {.mesh = mesh, .string = string, .number = UINT32_MAX};
+    walk.place = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string);
+    walk.end = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string + 1u);
+    return walk;
+}
+
+bool dmb_pipe_walk_next(dmb_pipe_walk *walk)
+{
+    if (walk->run != NULL && walk->within == walk->run->count) {
+        ++walk->place;
+        walk->within = 0;
+    }
+    if (walk->place == walk->end) return false;
+    walk->run = dmb_mesh_run_at(walk->mesh, *DMB_VECTOR_AT(uint32_t, &walk->mesh->run_order, walk->place));
+    ++walk->within;
+    ++walk->number; /* the first one becomes 0 */
+    return true;
+}
+
+/* ---- Counting ---------------------------------------------------------------------------------------------------- */
+
+/* Runs sorted by string with one pass to count and one to place; runs of a string keep their order. */
+static int32_t order_runs(dmb_mesh *mesh)
+{
+    const dmb_model *model = mesh->model;
+    const uint32_t strings = model->strings.count, runs = model->runs.count;
+    int32_t status = dmb_vector_append(&mesh->run_start, &model->allocator, NULL, (size_t)strings + 2);
+    if (status >= 0) status = dmb_vector_append(&mesh->run_order, &model->allocator, NULL, runs);
+    if (status < 0) return status;
+    uint32_t *start = mesh->run_start.items, *order = mesh->run_order.items;
+    for (uint32_t i = 0; i < runs; ++i) ++start[dmb_mesh_run_at(mesh, i)->string + 2];
+    for (uint32_t s = 2; s < strings + 2; ++s) start[s] += start[s - 1];
+    for (uint32_t i = 0; i < runs; ++i) order[start[dmb_mesh_run_at(mesh, i)->string + 1]++] = i;
+    return DMB_OK;
+}
+
+static uint64_t elements_of(const dmb_mesh *mesh, const dmb_pipe_run *run)
+{
+    return dmb_mesh_kind(mesh, run) == DMB_PIPE_RIGID ? 0 : (uint64_t)run->count * run->def.elements;
+}
+
+/* Each string has one node more than elements, each free body one node. */
+int32_t dmb_mesh_count(dmb_mesh *mesh)
+{
+    const dmb_model *model = mesh->model;
+    uint64_t elements = 0, pipes = 0;
+    int32_t status = order_runs(mesh);
+    for (uint32_t i = 0; i < model->runs.count; ++i) {
+        elements += elements_of(mesh, dmb_mesh_run_at(mesh, i)); /* 2^24 runs of 2^30 at most */
+        pipes += dmb_mesh_run_at(mesh, i)->count;
+    }
+    const uint64_t nodes = elements + model->strings.count + model->bodies.count;
+    if (status >= 0 && (nodes > (uint64_t)DMB_NODES_MAX || pipes > (uint64_t)DMB_NODES_MAX)) {
+        dmb_message_set(&mesh->model->message, "model: nodes = %zu and pipes = %zu, must be <= %u each", (size_t)nodes,
+                        (size_t)pipes, (uint32_t)DMB_NODES_MAX);
+        return DMB_ERR_TOO_LARGE;
+    }
+    if (status >= 0) status = dmb_vector_reserve(&mesh->nodes, &model->allocator, (size_t)nodes);
+    if (status >= 0) status = dmb_vector_reserve(&mesh->elements, &model->allocator, (size_t)elements);
+    if (status >= 0) status = dmb_vector_reserve(&mesh->pipes, &model->allocator, (size_t)pipes);
+    return status;
+}

@@ -1,0 +1,141 @@
+/* The scene while it is being made. Each step of dmb_model_compile fills some of it from the model and from what earlier
+ * steps have left; freeze.c then moves it into one block. Held in growable arrays, so that nothing has to be known in
+ * advance; all of it goes when the compile step ends.
+ *
+ *   step            reads                      fills
+ *   count           runs                       run_order, room in nodes and elements
+ *   strings         runs, masks                nodes (at, size, free), elements (node, arms), pipes, strings
+ *   bodies          bodies, bits               nodes of free bodies, bodies
+ *   poses           hole, nodes, elements      nodes (pose), elements (span)
+ *   types           runs, elements             types, elements (type, kernel), batches
+ *   masses          runs, bodies, bits         lumps, nodes (weight, damped_length)
+ *   sites           pipes, bodies              sites, path_sites
+ *   actions         drives, loads, bits        drives, loads, bits, nodes (prescribed) */
+#ifndef DMB_MODEL_MESH_H
+#define DMB_MODEL_MESH_H
+
+#include <stdbool.h>
+
+#include "base/vector.h"
+#include "model/describe.h"
+
+typedef struct dmb_mesh_node {
+    double at;               /* [m] from the rig end along the string; 0 of a free body */
+    double position[3];      /* [m] world */
+    double quaternion[4];    /* [-] */
+    double depth;            /* [m] measured depth, 0 without a hole */
+    double weight_mass;      /* [kg] */
+    double weight_moment[3]; /* [kg m] */
+    double damped_length;    /* [m] of pipe whose external damping it carries */
+    uint32_t string;         /* UINT32_MAX: free body `body` */
+    uint32_t body;
+    uint32_t lump;           /* in lumps; UINT32_MAX: none */
+    uint8_t size;            /* DMB_NODE_FULL or DMB_NODE_PATH */
+    uint8_t free;            /* mask of free components; of a PATH node X and RX count */
+    uint8_t prescribed;      /* mask of components moved by MOTION drives */
+    uint8_t rigid;           /* 1: carries a rigid body */
+} dmb_mesh_node;
+
+typedef struct dmb_mesh_element {
+    double span[3];   /* [m] from node a to node b, world */
+    double arm[2];    /* [m] */
+    uint32_t node;    /* a; b is the next one */
+    uint32_t run;     /* in the model's runs */
+    uint32_t type;
+    int32_t kernel;
+} dmb_mesh_element;
+
+typedef struct dmb_mesh {
+    dmb_model *model;     /* written to: its message only */
+    dmb_compile_options options;
+    int32_t features;
+    int32_t has_hole;
+    dmb_hole hole;        /* its stations stand in `stations` */
+    dmb_vector stations;  /* dmb_hole_station */
+    dmb_vector run_order; /* uint32_t: runs sorted by string, in each by pipe */
+    dmb_vector run_start; /* uint32_t: where in run_order each string begins, one more at the end */
+    dmb_vector nodes;     /* dmb_mesh_node */
+    dmb_vector elements;  /* dmb_mesh_element */
+    dmb_vector types;     /* dmb_element_type */
+    dmb_vector batches;   /* dmb_batch */
+    dmb_vector lumps;     /* dmb_lump */
+    dmb_vector sites;     /* dmb_site */
+    dmb_vector path_sites; /* dmb_path_site */
+    dmb_vector drives;    /* dmb_scene_drive; row is filled by freeze */
+    dmb_vector loads;     /* dmb_scene_load */
+    dmb_vector bits;      /* dmb_scene_bit */
+    dmb_vector strings;   /* dmb_string_map */
+    dmb_vector pipes;     /* dmb_pipe_map */
+    dmb_vector bodies;    /* dmb_body_map: bodies, then bits */
+    uint32_t tool_joints; /* pipes that have one */
+    uint32_t history_count;
+    double mass;          /* [kg] */
+} dmb_mesh;
+
+static inline dmb_mesh_node *dmb_mesh_node_at(const dmb_mesh *mesh, uint32_t i)
+{
+    return DMB_VECTOR_AT(dmb_mesh_node, &mesh->nodes, i);
+}
+static inline dmb_mesh_element *dmb_mesh_element_at(const dmb_mesh *mesh, uint32_t i)
+{
+    return DMB_VECTOR_AT(dmb_mesh_element, &mesh->elements, i);
+}
+static inline dmb_string_map *dmb_mesh_string_at(const dmb_mesh *mesh, uint32_t i)
+{
+    return DMB_VECTOR_AT(dmb_string_map, &mesh->strings, i);
+}
+static inline dmb_pipe_map *dmb_mesh_pipe_at(const dmb_mesh *mesh, uint32_t i)
+{
+    return DMB_VECTOR_AT(dmb_pipe_map, &mesh->pipes, i);
+}
+static inline const dmb_pipe_run *dmb_mesh_run_at(const dmb_mesh *mesh, uint32_t i)
+{
+    return DMB_LIST_AT(const dmb_pipe_run, mesh->model->runs, i);
+}
+static inline const dmb_string_def *dmb_mesh_string_def(const dmb_mesh *mesh, uint32_t i)
+{
+    return DMB_LIST_AT(const dmb_string_def, mesh->model->strings, i);
+}
+
+/* Kind of a run's pipes after the compile options. */
+int32_t dmb_mesh_kind(const dmb_mesh *mesh, const dmb_pipe_run *run);
+/* True if the string starts on the hole's axis. */
+bool dmb_mesh_follows_hole(const dmb_mesh *mesh, uint32_t string);
+/* Index of the string an id names, the first one for the id that names nothing. */
+uint32_t dmb_mesh_string_of(const dmb_mesh *mesh, dmb_id id);
+
+/* The pipes of a string one after the other.
+ *     dmb_pipe_walk walk = dmb_pipe_walk_of(mesh, string);
+ *     while (dmb_pipe_walk_next(&walk)) ... walk.run, walk.number ... */
+typedef struct dmb_pipe_walk {
+    const dmb_mesh *mesh;
+    const dmb_pipe_run *run;
+    uint32_t place, end; /* in run_order */
+    uint32_t within;     /* pipes of the run that are done */
+    uint32_t number;     /* of the pipe along the string */
+    uint32_t string;
+} dmb_pipe_walk;
+dmb_pipe_walk dmb_pipe_walk_of(const dmb_mesh *mesh, uint32_t string);
+bool dmb_pipe_walk_next(dmb_pipe_walk *walk);
+
+void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *options);
+void dmb_mesh_release(dmb_mesh *mesh);
+
+/* The steps, in their order. Each returns DMB_OK or an error, with a message where a part is to blame. */
+int32_t dmb_mesh_check(dmb_mesh *mesh);
+int32_t dmb_mesh_hole(dmb_mesh *mesh);
+int32_t dmb_mesh_count(dmb_mesh *mesh);
+int32_t dmb_mesh_strings(dmb_mesh *mesh);
+int32_t dmb_mesh_bodies(dmb_mesh *mesh);
+int32_t dmb_mesh_poses(dmb_mesh *mesh);
+int32_t dmb_mesh_types(dmb_mesh *mesh);
+int32_t dmb_mesh_masses(dmb_mesh *mesh);
+int32_t dmb_mesh_sites(dmb_mesh *mesh);
+int32_t dmb_mesh_actions(dmb_mesh *mesh);
+
+/* DMB_FEATURE_... that are asked for and described. */
+int32_t dmb_mesh_features(const dmb_mesh *mesh);
+/* Moves everything into one block of the model's allocator. Errors: DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE. */
+int32_t dmb_mesh_freeze(const dmb_mesh *mesh, dmb_scene **scene);
+
+#endif

@@ -1,0 +1,184 @@
+/* Rigid masses on the nodes, and what gravity and external damping act on. */
+#include "model/eccentricity.h"
+#include "model/lump_sum.h"
+#include "model/mesh.h"
+#include "model/section.h"
+
+/* ---- Sums on a node ---------------------------------------------------------------------------------------------- */
+
+/* The lump of a node, made if there is none; NULL without memory. */
+static dmb_lump *lump_of(dmb_mesh *mesh, uint32_t node)
+{
+    dmb_mesh_node *n = dmb_mesh_node_at(mesh, node);
+    if (n->lump == UINT32_MAX) {
+        const dmb_lump lump = {.node = node};
+        if (dmb_vector_append(&mesh->lumps, &mesh->model->allocator, &lump, 1) < 0) return NULL;
+        n->lump = (uint32_t)mesh->lumps.count - 1;
+    }
+    return DMB_VECTOR_AT(dmb_lump, &mesh->lumps, n->lump);
+}
+
+/* Gravity on a mass at a place of the node's frame. */
+static void add_weight(dmb_mesh_node *node, double mass, const double centre[3])
+{
+    node->weight_mass += mass;
+    for (int i = 0; i < 3; ++i) node->weight_moment[i] += mass * centre[i];
+}
+
+/* A rigid body with its centre there; `buoyancy` is the share of its weight that is left. */
+static int32_t add_body(dmb_mesh *mesh, uint32_t node, double mass, const double centre[3], const double inertia[6],
+                        double buoyancy)
+{
+    dmb_lump *lump = lump_of(mesh, node);
+    if (lump == NULL) return DMB_ERR_NO_MEMORY;
+    dmb_lump_add(lump, mass, centre, inertia);
+    add_weight(dmb_mesh_node_at(mesh, node), buoyancy * mass, centre);
+    dmb_mesh_node_at(mesh, node)->rigid = 1;
+    mesh->mass += mass;
+    return DMB_OK;
+}
+
+/* A solid of revolution on the x axis, its centre at x. */
+static int32_t add_part(dmb_mesh *mesh, uint32_t node, const dmb_rigid_part *part, double x, double buoyancy)
+{
+    const double centre[3] = {x, 0.0, 0.0};
+    const double inertia[6] = {part->inertia[0], part->inertia[1], part->inertia[1], 0.0, 0.0, 0.0};
+    return add_body(mesh, node, part->mass, centre, inertia, buoyancy);
+}
+
+/* An eccentric mass that is counted on the axis already. Buoyancy acts on the axis, so all of its first moment has
+ * weight. */
+static int32_t add_offset(dmb_mesh *mesh, uint32_t node, double mass, double x, const double e[2])
+{
+    dmb_mesh_node *n = dmb_mesh_node_at(mesh, node);
+    dmb_lump *lump = lump_of(mesh, node);
+    if (lump == NULL) return DMB_ERR_NO_MEMORY;
+    dmb_lump_shift(lump, mass, x, e);
+    n->weight_moment[1] += mass * e[0];
+    n->weight_moment[2] += mass * e[1];
+    return DMB_OK;
+}
+
+/* ---- Pipes ------------------------------------------------------------------------------------------------------- */
+
+/* What the pipes of a run have in common. */
+typedef struct run_mass {
+    const dmb_pipe_def *def;
+    dmb_pipe_section section;
+    dmb_rigid_part joint, pipe;
+    double buoyancy;
+} run_mass;
+
+static void run_mass_of(const dmb_mesh *mesh, const dmb_pipe_run *run, run_mass *out)
+{
+    out->def = &run->def;
+    dmb_section_of(&run->def, &out->section);
+    dmb_joint_of(&run->def, &out->joint);
+    dmb_rigid_pipe_of(&run->def, &out->pipe);
+    out->buoyancy = dmb_buoyancy_factor(&run->def, mesh->model->environment.fluid_density);
+}
+
+/* Uniform load w on the cubic shape: w L/2 and the moments +- w L^2/12 at the ends, m/2 at x +- L/12. */
+static void weigh_element(dmb_mesh *mesh, const dmb_mesh_element *element, const run_mass *mass)
+{
+    const double length = dmb_pipe_body_length(mass->def) / mass->def->elements;
+    const double half = 0.5 * mass->buoyancy * mass->section.mass * length;
+    const double a[3] = {element->arm[0] + length / 6.0, 0.0, 0.0}; /* half times L/6 is m L/12 */
+    const double b[3] = {-element->arm[1] - length / 6.0, 0.0, 0.0};
+    add_weight(dmb_mesh_node_at(mesh, element->node), half, a);
+    add_weight(dmb_mesh_node_at(mesh, element->node + 1), half, b);
+    mesh->mass += mass->section.mass * length;
+}
+
+static void damp_element(dmb_mesh *mesh, const dmb_mesh_element *element, double length)
+{
+    dmb_mesh_node_at(mesh, element->node)->damped_length += 0.5 * length;
+    dmb_mesh_node_at(mesh, element->node + 1)->damped_length += 0.5 * length;
+}
+
+static int32_t shift_element(dmb_mesh *mesh, const dmb_mesh_element *element, const run_mass *mass, const double e[2])
+{
+    const double half = 0.5 * mass->section.mass * dmb_pipe_body_length(mass->def) / mass->def->elements;
+    int32_t status = add_offset(mesh, element->node, half, element->arm[0], e);
+    if (status >= 0) status = add_offset(mesh, element->node + 1, half, -element->arm[1], e);
+    return status;
+}
+
+/* The joint ends where the pipe does, and the far node may stand further on, behind rigid pipes. */
+static int32_t add_elastic_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const run_mass *mass, const double *e)
+{
+    const double length = dmb_pipe_body_length(mass->def) / pipe->elements;
+    const dmb_mesh_element *element = dmb_mesh_element_at(mesh, pipe->element), *last = element + pipe->elements - 1;
+    const double joint_at = 0.5 * pipe->joint - last->arm[1];
+    int32_t status = DMB_OK;
+    for (; element <= last && status >= 0; ++element) {
+        weigh_element(mesh, element, mass);
+        damp_element(mesh, element, length + (element == last ? pipe->joint : 0.0));
+        if (e != NULL) status = shift_element(mesh, element, mass, e);
+    }
+    if (status < 0 || !(pipe->joint > 0.0)) return status;
+    status = add_part(mesh, last->node + 1, &mass->joint, joint_at, mass->buoyancy);
+    if (status >= 0 && e != NULL) status = add_offset(mesh, last->node + 1, mass->joint.mass, joint_at, e);
+    return status;
+}
+
+static int32_t add_rigid_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const run_mass *mass, const double *e)
+{
+    const double body = dmb_pipe_body_length(mass->def);
+    const double pipe_at = pipe->start + 0.5 * body, joint_at = pipe->start + body + 0.5 * pipe->joint;
+    int32_t status = add_part(mesh, pipe->node, &mass->pipe, pipe_at, mass->buoyancy);
+    if (status >= 0 && pipe->joint > 0.0) status = add_part(mesh, pipe->node, &mass->joint, joint_at, mass->buoyancy);
+    if (status >= 0 && e != NULL) status = add_offset(mesh, pipe->node, mass->pipe.mass, pipe_at, e);
+    if (status >= 0 && e != NULL) status = add_offset(mesh, pipe->node, mass->joint.mass, joint_at, e);
+    dmb_mesh_node_at(mesh, pipe->node)->damped_length += pipe->length;
+    return status;
+}
+
+static int32_t add_string(dmb_mesh *mesh, uint32_t string)
+{
+    const bool eccentric = (mesh->features & DMB_FEATURE_ECCENTRICITY) != 0;
+    dmb_pipe_walk walk = dmb_pipe_walk_of(mesh, string);
+    const dmb_pipe_run *before = NULL;
+    run_mass mass;
+    int32_t status = DMB_OK;
+    while (status >= 0 && dmb_pipe_walk_next(&walk)) {
+        const dmb_pipe_map *pipe = dmb_mesh_pipe_at(mesh, dmb_mesh_string_at(mesh, string)->first_pipe + walk.number);
+        double offset[2], *e = NULL;
+        if (walk.run != before) run_mass_of(mesh, walk.run, &mass);
+        before = walk.run;
+        if (eccentric && dmb_pipe_is_eccentric(&walk.run->def)) {
+            dmb_pipe_offset(&walk.run->def, walk.number, offset);
+            e = offset;
+        }
+        status = pipe->elements > 0 ? add_elastic_pipe(mesh, pipe, &mass, e) : add_rigid_pipe(mesh, pipe, &mass, e);
+    }
+    return status;
+}
+
+/* ---- Bodies and bits: no buoyancy, their volumes are not known --------------------------------------------------- */
+
+static int32_t add_described_body(dmb_mesh *mesh, uint32_t i)
+{
+    const dmb_body_def *def = DMB_LIST_AT(const dmb_body_def, mesh->model->bodies, i);
+    const dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, i);
+    const double centre[3] = {map->arm + def->centre[0], def->centre[1], def->centre[2]};
+    return add_body(mesh, map->node, def->mass, centre, def->inertia, 1.0);
+}
+
+static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
+{
+    const dmb_bit_def *def = DMB_LIST_AT(const dmb_bit_def, mesh->model->bits, i);
+    const dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, mesh->model->bodies.count + i);
+    dmb_rigid_part part;
+    dmb_bit_body_of(def, &part);
+    return add_part(mesh, map->node, &part, map->arm + 0.5 * def->length, 1.0);
+}
+
+int32_t dmb_mesh_masses(dmb_mesh *mesh)
+{
+    int32_t status = DMB_OK;
+    for (uint32_t s = 0; s < mesh->strings.count && status >= 0; ++s) status = add_string(mesh, s);
+    for (uint32_t i = 0; i < mesh->model->bodies.count && status >= 0; ++i) status = add_described_body(mesh, i);
+    for (uint32_t i = 0; i < mesh->model->bits.count && status >= 0; ++i) status = add_bit(mesh, i);
+    return status;
+}

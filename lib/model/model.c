@@ -1,0 +1,149 @@
+/* Making and unmaking a model, its ids, its message. */
+#include "model/model.h"
+
+#include "base/allocator.h"
+#include "base/handle.h"
+#include "base/log.h"
+#include "model/defaults.h"
+#include "model/describe.h"
+#include "model/limits.h"
+
+/* Stamps are never reused within a process (but after 2^32 models), so that an id of another model is recognised. */
+static uint32_t next_stamp(void)
+{
+    static atomic_uint last;
+    uint32_t stamp = 0;
+    while (stamp == 0) stamp = (uint32_t)atomic_fetch_add(&last, 1u) + 1u;
+    return stamp;
+}
+
+int32_t dmb_model_create(const dmb_model_options *options, dmb_model **model)
+{
+    dmb_model_options read = dmb_model_options_default();
+    dmb_allocator allocator;
+    dmb_model *created;
+    int32_t status = DMB_OK;
+    if (model == NULL) return DMB_ERR_NULL;
+    *model = NULL;
+    if (options != NULL) status = dmb_model_options_read(&read, options);
+    if (status >= 0) status = dmb_allocator_copy(&allocator, read.allocator);
+    if (status < 0) return status;
+    created = dmb_allocate(&allocator, sizeof *created);
+    if (created == NULL) return DMB_ERR_NO_MEMORY;
+    created->magic = DMB_HANDLE_MODEL;
+    created->stamp = next_stamp();
+    atomic_init(&created->holders, 1u);
+    created->allocator = allocator;
+    created->log = read.log;
+    created->log_context = read.log_context;
+    created->environment = dmb_environment_def_default();
+    *model = created;
+    return DMB_OK;
+}
+
+static void release_parts(dmb_model *model)
+{
+    const dmb_allocator *allocator = &model->allocator;
+    for (uint32_t i = 0; i < model->programmes.count; ++i) {
+        dmb_programme_release(DMB_LIST_AT(dmb_programme, model->programmes, i), allocator);
+    }
+    dmb_wall_release(&model->wall, allocator);
+    dmb_list_release(&model->programmes, allocator, sizeof(dmb_programme));
+    dmb_list_release(&model->strings, allocator, sizeof(dmb_string_def));
+    dmb_list_release(&model->runs, allocator, sizeof(dmb_pipe_run));
+    dmb_list_release(&model->bodies, allocator, sizeof(dmb_body_def));
+    dmb_list_release(&model->bits, allocator, sizeof(dmb_bit_def));
+    dmb_list_release(&model->drives, allocator, sizeof(dmb_drive_def));
+    dmb_list_release(&model->loads, allocator, sizeof(dmb_load_def));
+    if (model->scene != NULL) dmb_release(allocator, model->scene, model->scene->bytes);
+}
+
+void dmb_model_hold(dmb_model *model)
+{
+    (void)atomic_fetch_add_explicit(&model->holders, 1u, memory_order_relaxed);
+}
+
+void dmb_model_release(dmb_model *model)
+{
+    const dmb_allocator allocator = model->allocator;
+    /* whoever lets go last must see what the others wrote before they let go */
+    if (atomic_fetch_sub_explicit(&model->holders, 1u, memory_order_acq_rel) != 1u) return;
+    release_parts(model);
+    model->magic = DMB_HANDLE_DEAD;
+    dmb_release(&allocator, model, sizeof *model);
+}
+
+void dmb_model_destroy(dmb_model **model)
+{
+    if (model == NULL) return;
+    if (dmb_handle_is(*model, DMB_HANDLE_MODEL)) dmb_model_release(*model);
+    *model = NULL;
+}
+
+const char *dmb_model_message(const dmb_model *model)
+{
+    if (model == NULL) return dmb_status_text(DMB_ERR_NULL);
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_status_text(DMB_ERR_HANDLE);
+    return model->message.text;
+}
+
+/* ---- Ids --------------------------------------------------------------------------------------------------------- */
+
+enum { KIND_SHIFT = 24 };
+
+dmb_id dmb_model_id(const dmb_model *model, uint32_t kind, uint32_t index)
+{
+    dmb_id id;
+    id.index = kind << KIND_SHIFT | index;
+    id.generation = model->stamp;
+    return id;
+}
+
+static uint32_t count_of(const dmb_model *model, uint32_t kind)
+{
+    switch (kind) {
+    case DMB_PART_PROGRAMME: return model->programmes.count;
+    case DMB_PART_WALL: return model->wall_count;
+    case DMB_PART_STRING: return model->strings.count;
+    case DMB_PART_BODY: return model->bodies.count;
+    case DMB_PART_BIT: return model->bits.count;
+    case DMB_PART_DRIVE: return model->drives.count;
+    case DMB_PART_LOAD: return model->loads.count;
+    default: return 0;
+    }
+}
+
+uint32_t dmb_model_part_index(const dmb_model *model, dmb_id id, uint32_t kind)
+{
+    const uint32_t index = id.index & (uint32_t)DMB_PARTS_MAX;
+    if (id.generation != model->stamp || id.index >> KIND_SHIFT != kind) return UINT32_MAX;
+    return index < count_of(model, kind) ? index : UINT32_MAX;
+}
+
+/* ---- What all descriptions share --------------------------------------------------------------------------------- */
+
+int32_t dmb_describe_open(dmb_model *model, const void *def)
+{
+    if (model == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
+    if (model->scene != NULL) return DMB_ERR_ORDER;
+    dmb_message_clear(&model->message);
+    return def != NULL ? DMB_OK : dmb_describe_close(model, "definition", DMB_ERR_NULL);
+}
+
+int32_t dmb_describe_close(dmb_model *model, const char *part, int32_t status)
+{
+    const dmb_log log = {model->log, model->log_context};
+    if (status >= 0) return status;
+    if (model->message.text[0] == '\0') dmb_message_set(&model->message, "%s: %s", part, dmb_status_text(status));
+    dmb_log_text(&log, DMB_LOG_ERROR, model->message.text);
+    return status;
+}
+
+int32_t dmb_describe_append(dmb_model *model, dmb_list *list, const void *item, size_t item_size, uint32_t kind,
+                            dmb_id *id)
+{
+    const int32_t status = dmb_list_append(list, &model->allocator, item, item_size);
+    if (status >= 0 && id != NULL) *id = dmb_model_id(model, kind, list->count - 1);
+    return status;
+}

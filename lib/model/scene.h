@@ -1,0 +1,174 @@
+/* The compiled scene: what a step needs and nothing else. Written once by dmb_model_compile (all of it in one arena), then
+ * read by any number of threads.
+ *
+ * Nodes are numbered along the strings, rig end first, then the free bodies, so that every string and every free body is a
+ * chain of neighbouring blocks. A FULL node has a pose in SE(3) and 6 rows (body-frame velocity); a PATH node slides and
+ * turns on the axis of the hole and has 2 rows (along the axis, about it). Element e joins nodes a and a+1. */
+#ifndef DMB_MODEL_SCENE_H
+#define DMB_MODEL_SCENE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "drillmbd/model.h"
+#include "element/element_type.h"
+#include "force/bit_rock.h"
+#include "force/friction_law.h"
+#include "force/hole.h"
+#include "force/normal_law.h"
+#include "force/programme.h"
+#include "math/block_tridiagonal.h"
+
+enum { DMB_NODE_PATH = 2, DMB_NODE_FULL = 6 };
+/* Kernels of an element. */
+enum {
+    DMB_KERNEL_BEAM = 0,  /* two FULL nodes */
+    DMB_KERNEL_PATH = 1,  /* two PATH nodes: stretch and torsion only */
+    DMB_KERNEL_MIXED = 2  /* a beam with one FULL and one PATH node */
+};
+
+/* A ring on a FULL node that can meet the wall. */
+typedef struct dmb_site {
+    double offset;    /* [m] along body x from the node */
+    double radius;    /* [m] of the ring */
+    double clearance; /* [m] hole radius less ring radius, >= 0 */
+    double length;    /* [m] of wall it stands for */
+    dmb_id part;      /* string or body */
+    uint32_t pipe;    /* pipe whose far end it is; UINT32_MAX: rig end; 0 for a body */
+    uint32_t node;
+} dmb_site;
+
+/* A PATH node rubbing on the wall (Johancsik): normal force from its weight and from tension in curved holes. */
+typedef struct dmb_path_site {
+    double radius;  /* [m] */
+    double length;  /* [m] it stands for */
+    dmb_id part;
+    uint32_t pipe;
+    uint32_t node;
+} dmb_path_site;
+
+typedef struct dmb_scene_drive {
+    double gain, integral_gain, limit_low, limit_high;
+    uint32_t node;
+    uint32_t row;        /* global row of the component */
+    int32_t kind;        /* DMB_DRIVE_... */
+    int32_t component;   /* body-frame component 0 .. 5 */
+    uint32_t programme;
+    uint32_t excitation; /* UINT32_MAX: none, or left out */
+} dmb_scene_drive;
+
+typedef struct dmb_scene_load {
+    double force[3], moment[3];
+    double arm;          /* [m] along body x from the node */
+    uint32_t node;
+    int32_t frame;
+    uint32_t programme;  /* UINT32_MAX: factor 1 */
+    uint32_t reserved;
+} dmb_scene_load;
+
+typedef struct dmb_scene_bit {
+    dmb_bit_rock_law law; /* kind DMB_ROCK_NONE when left out */
+    double bottom;        /* [m] stand-off at time 0 */
+    uint32_t node;
+    uint32_t load;        /* programme of the bottom-hole load; UINT32_MAX: none */
+    uint32_t history_first; /* start of its samples in the history arrays */
+    uint32_t history_capacity; /* 0 unless regenerative */
+    double arm;           /* [m] along body x from the node to the bit (rigid pipes merged behind it); usually 0 */
+} dmb_scene_bit;
+
+/* Where a described pipe is in the mesh. */
+typedef struct dmb_pipe_map {
+    double start;     /* [m] rigid pipe: its near end along body x from `node`; else 0 */
+    double length;    /* [m] */
+    double joint;     /* [m] rigid tool joint at its far end (already inside length) */
+    uint32_t node;    /* rigid: the node of its body; else node of its near end */
+    uint32_t element; /* first element; UINT32_MAX: rigid */
+    uint32_t elements; /* 0: rigid */
+    int32_t kind;     /* DMB_PIPE_... after compile options */
+} dmb_pipe_map;
+
+typedef struct dmb_string_map {
+    uint32_t first_pipe, pipe_count;     /* in pipes[] */
+    uint32_t first_node, node_count;     /* its chain */
+    uint32_t start_node, end_node;       /* nodes that carry its two ends (equal for one rigid string) */
+    double start_arm, end_arm;           /* [m] along body x from those nodes to the ends */
+    double length;                       /* [m] */
+} dmb_string_map;
+
+typedef struct dmb_body_map {
+    uint32_t node;
+    uint32_t site; /* its contact site; UINT32_MAX: none */
+    double arm;    /* [m] along body x from the node to its reference point */
+} dmb_body_map;
+
+typedef struct dmb_chain {
+    uint32_t first, count; /* nodes */
+} dmb_chain;
+
+/* Neighbouring elements with one kernel. */
+typedef struct dmb_batch {
+    uint32_t first, count; /* elements */
+    int32_t kernel;        /* DMB_KERNEL_... */
+    int32_t reserved;
+} dmb_batch;
+
+typedef struct dmb_scene {
+    size_t bytes;              /* of the arena, this struct included */
+    int32_t features;          /* DMB_FEATURE_... that the scene really has: asked for and described */
+    uint32_t node_count, row_count, element_count, type_count, batch_count, chain_count, lump_count;
+    uint32_t site_count, path_site_count, drive_count, load_count, bit_count, programme_count;
+    uint32_t string_count, pipe_count, body_count;
+    uint32_t history_count;    /* bit samples in all */
+    uint32_t free_count, prescribed_count, held_count;
+    uint32_t rigid_count, structural_joint_count;
+    double gravity[3];         /* [m/s2]; 0 when left out */
+    double mass, length;       /* [kg], [m] in all */
+    double length_scale;       /* [m] mean element length, or 1: makes moments comparable with forces */
+
+    /* nodes */
+    dmb_block_layout layout;   /* block sizes 6 or 2, rows, storage of blocks and links */
+    double *reference_position;   /* [m] world, where displacement is 0, shape (node, 3); of a PATH node on the axis */
+    double *reference_quaternion; /* [-] at time 0, scalar first, shape (node, 4) */
+    double *reference_depth;      /* [m] measured depth at time 0, shape (node); 0 without a hole */
+    double *initial_velocity;     /* [m/s, rad/s] as described, shape (row) */
+    uint8_t *free_row;            /* 1 where a row is free to move (drives included), shape (row) */
+    uint8_t *solved_row;          /* 1 where a row is an unknown: free and not moved by a MOTION drive, shape (row) */
+    uint32_t *held_node;          /* rows with solved_row 0: node and row within its block, shape (held_count) */
+    uint32_t *held_component;
+    double *weight_mass;          /* [kg] that gravity acts on, buoyancy taken off, shape (node) */
+    double *weight_moment;        /* [kg m] b of the weight, body frame: torque b x R^T g, shape (node, 3); lumps and the
+                                     +- rho A L^2/12 of the cubic shape (sum of both sides) included */
+    double *node_damping;         /* [N s/m, N s/m, N m s] axial, lateral, torsional external damping, shape (node, 3) */
+
+    /* elements */
+    dmb_element_type *types;      /* shape (type_count) */
+    uint32_t *element_type;       /* shape (element) */
+    uint32_t *element_node;       /* node a; b is a + 1, shape (element) */
+    uint32_t *node_element;       /* element from node i to i + 1; UINT32_MAX at the end of a chain, shape (node) */
+    double *element_span;         /* [m] from node a to node b at time 0, world frame, exact, shape (element, 3) */
+    dmb_batch *batches;
+    dmb_chain *chains;
+    dmb_lump *lumps;              /* at most one a node, by node */
+
+    /* wall */
+    dmb_hole hole;                /* valid if has_hole */
+    int32_t has_hole;
+    int32_t reserved;
+    dmb_normal_law normal_law;
+    dmb_friction_law friction_law; /* kind DMB_FRICTION_NONE when left out */
+    dmb_site *sites;
+    dmb_path_site *path_sites;
+
+    /* actions */
+    dmb_scene_drive *drives;
+    dmb_scene_load *loads;
+    dmb_scene_bit *bits;
+    dmb_programme *programmes;    /* the model's own */
+
+    /* maps from parts to the mesh */
+    dmb_string_map *strings;
+    dmb_pipe_map *pipes;
+    dmb_body_map *bodies;         /* described bodies, then bits */
+} dmb_scene;
+
+#endif

@@ -1,0 +1,37 @@
+/* Properties of a pipe and of its tool joint from diameters and material. */
+#ifndef DMB_MODEL_SECTION_H
+#define DMB_MODEL_SECTION_H
+
+#include "drillmbd/model.h"
+
+typedef struct dmb_pipe_section {
+    double stiffness[6]; /* [N, N, N, N m2, N m2, N m2] EA, GA_y, GA_z, GJ, EI_y, EI_z */
+    double mass;         /* [kg/m] */
+    double inertia[2];   /* [kg m] rotary inertia per metre about x and across */
+} dmb_pipe_section;
+
+/* A rigid solid of revolution about its own centre. */
+typedef struct dmb_rigid_part {
+    double mass;         /* [kg] */
+    double inertia[2];   /* [kg m2] about the axis and across, at the centre */
+} dmb_rigid_part;
+
+/* Tube: A = pi (D^2 - d^2)/4, I = pi (D^4 - d^4)/64, J = 2 I, G = E/(2 (1 + nu)), GA = kappa G A; what the definition
+ * gives itself goes first. */
+void dmb_section_of(const dmb_pipe_def *def, dmb_pipe_section *section);
+
+/* [m] of a pipe without its rigid tool joint. */
+double dmb_pipe_body_length(const dmb_pipe_def *def);
+/* [m] outer diameter of the tool joint, 0 where there is none. */
+double dmb_joint_diameter(const dmb_pipe_def *def);
+
+/* The pipe without its joint as a rigid body, and the tool joint (mass 0 where there is none). */
+void dmb_rigid_pipe_of(const dmb_pipe_def *def, dmb_rigid_part *part);
+void dmb_joint_of(const dmb_pipe_def *def, dmb_rigid_part *part);
+/* The bit: a solid cylinder unless inertias are given. */
+void dmb_bit_body_of(const dmb_bit_def *def, dmb_rigid_part *part);
+
+/* [-] share of a pipe's weight that is left in the fluid inside and outside it: 1 - rho_fluid/rho. */
+double dmb_buoyancy_factor(const dmb_pipe_def *def, double fluid_density);
+
+#endif

@@ -1,0 +1,41 @@
+#include "math/mat6.h"
+#include "query/ask.h"
+#include "query/interpolation.h"
+
+DMB_DECLARE_STRUCT(dmb_motion)
+
+/* World axes: R u, R w; the acceleration of a point is R (a_u + w x u), its rotation's R a_w. */
+static void to_world(const dmb_spot_motion *body, const double R[9], dmb_motion *out)
+{
+    const double *v = body->velocity, *a = body->acceleration;
+    double total[3];
+    dmb_vec3_cross(v + 3, v, total);
+    dmb_vec3_add(total, a, total);
+    dmb_mat3_vec(R, v, out->velocity);
+    dmb_mat3_vec(R, v + 3, out->velocity + 3);
+    dmb_mat3_vec(R, total, out->acceleration);
+    dmb_mat3_vec(R, a + 3, out->acceleration + 3);
+}
+
+int32_t dmb_query_motion(const dmb_sim *sim, dmb_place place, dmb_motion *motion)
+{
+    int32_t status = dmb_ask(sim, motion);
+    dmb_spot spot;
+    dmb_spot_pose pose;
+    dmb_spot_motion body;
+    dmb_motion answer;
+    if (status == DMB_OK) status = dmb_motion_read(&answer, motion);
+    if (status < 0) return status;
+    if (answer.frame != DMB_FRAME_WORLD && answer.frame != DMB_FRAME_BODY) return DMB_ERR_VALUE;
+    status = dmb_spot_of(sim, place, &spot);
+    if (status < 0) return status;
+    dmb_spot_motion_of(sim->scene, &sim->now, &spot, &body);
+    if (answer.frame == DMB_FRAME_WORLD) {
+        dmb_spot_pose_of(sim->scene, &sim->now, &spot, &pose);
+        to_world(&body, pose.rotation, &answer);
+    } else {
+        dmb_vec6_copy(body.velocity, answer.velocity);
+        dmb_vec6_copy(body.acceleration, answer.acceleration);
+    }
+    return dmb_motion_write(motion, &answer);
+}

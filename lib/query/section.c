@@ -1,0 +1,46 @@
+#include "math/mat6.h"
+#include "query/ask.h"
+#include "query/spot.h"
+#include "system/energy.h"
+
+DMB_DECLARE_STRUCT(dmb_section)
+
+/* Straight between the forces at the element's ends; a tool joint hands on the force at its near end, its own mass left
+ * out: m(s) = m_B - s e_x x n. */
+static void section_force(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_spot *spot,
+                          double force[6])
+{
+    double ends[12];
+    dmb_element_section_force(scene, configuration, spot->element, ends);
+    for (int i = 0; i < 6; i++) force[i] = ends[i] + spot->fraction * (ends[6 + i] - ends[i]);
+    force[4] += spot->beyond * force[2];
+    force[5] -= spot->beyond * force[1];
+}
+
+/* Mean strain (d - d0)/L. The sideways part of d is mostly bending of the element, which the corrected stiffness GA*
+ * accounts for; shear proper is the share (GA* : GA) of it. Bars on the hole's axis only stretch and twist. */
+static void section_strain(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_spot *spot,
+                           double strain[6])
+{
+    const dmb_element_type *type = &scene->types[scene->element_type[spot->element]];
+    const uint32_t a = scene->element_node[spot->element];
+    const int path = scene->layout.size[a] == DMB_NODE_PATH && scene->layout.size[a + 1] == DMB_NODE_PATH;
+    double d[6];
+    dmb_element_strain(scene, configuration, spot->element, d);
+    for (int i = 0; i < 6; i++) strain[i] = (d[i] - type->rest[i]) / type->length;
+    for (int i = 1; i < 3; i++) strain[i] *= type->stiffness[i] * type->length / type->strain_stiffness[i];
+    if (path) strain[1] = strain[2] = strain[4] = strain[5] = 0.0;
+}
+
+int32_t dmb_query_section(const dmb_sim *sim, dmb_place place, dmb_section *section)
+{
+    int32_t status = dmb_ask(sim, section);
+    dmb_spot spot;
+    dmb_section answer = {0};
+    if (status == DMB_OK) status = dmb_spot_of(sim, place, &spot);
+    if (status < 0) return status;
+    if (spot.element == DMB_SPOT_RIGID) return DMB_ERR_UNSUPPORTED;
+    section_force(sim->scene, &sim->now, &spot, answer.force);
+    section_strain(sim->scene, &sim->now, &spot, answer.strain);
+    return dmb_section_write(section, &answer);
+}

@@ -1,0 +1,136 @@
+/* The map of a sim: every field, who computes it from what, its shape and unit. The X-macro lists below drive the memory
+ * layout, snapshot, restore and hash, and the test of the layout; there is no other list of fields.
+ * n = scene->node_count, r = row_count, s = site_count, p = path_site_count, e = element_count, d = drive_count,
+ * k = bit_count, load = load_count, history = history_count, diagonal and link = lengths of block storage. */
+#ifndef DMB_STATE_H
+#define DMB_STATE_H
+
+#include "base/message.h"
+#include "drillmbd/analysis.h"
+#include "model/model.h"
+
+/* ---- Configuration: kept twice, as `now` (accepted) and `trial`; a step writes trial and swaps on acceptance.
+ * X(type, name, count) */
+#define DMB_CONFIGURATION_LIST(X)                                                                                     \
+    /* integrator/update, from the increments of pose: */                                                             \
+    X(double, displacement, 3 * n)      /* [m] FULL: world, from reference_position; PATH: [0] along the axis, rest 0 */ \
+    X(double, quaternion, 4 * n)        /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */          \
+    X(double, turn, n)                  /* [rad] about the node's own x axis since time 0, revolutions counted */      \
+    X(double, velocity, r)              /* [m/s, rad/s] body frame; PATH: along and about the axis */                  \
+    X(double, acceleration, r)          /* [m/s2, rad/s2] time derivative of velocity */                               \
+    X(double, pseudo_acceleration, r)   /* [m/s2, rad/s2] the a of generalized-alpha */                                \
+    /* system/wall_contact, from pose and velocity: */                                                                \
+    X(double, site_normal, 3 * s)       /* [-] world, last normal that was defined */                                  \
+    X(double, site_depth, s)            /* [m] measured depth of the closest axis point */                             \
+    X(uint32_t, site_segment, s)        /* [-] segment of the hole's axis it was found in */                           \
+    X(double, site_penetration, s)      /* [m] < 0: gap */                                                             \
+    X(double, site_approach, s)         /* [m/s] normal speed at the start of the present contact */                   \
+    X(double, site_slip, 2 * s)         /* [m/s] along the axis and around it */                                       \
+    X(double, site_bristle, 2 * s)      /* [m] bristle deflection, same directions */                                  \
+    X(int32_t, site_sticks, s)          /* [-] 1 while the bristle law holds it */                                     \
+    X(double, path_slip, 2 * p)         /* [m/s] likewise of PATH nodes */                                             \
+    X(double, path_bristle, 2 * p)      /* [m] */                                                                      \
+    X(int32_t, path_sticks, p)          /* [-] */                                                                      \
+    /* system/drives, from programmes and velocity: */                                                                \
+    X(double, drive_position, d)        /* [m, rad] of the component since time 0 */                                   \
+    X(double, drive_integral, d)        /* [m, rad] integral of the speed error, CONTROL */                            \
+    X(double, drive_target, d)          /* [unit of the programme] */                                                  \
+    X(double, drive_force, d)           /* [N, N m] on the part */                                                     \
+    X(double, load_factor, load)        /* [-] programme of each load */                                               \
+    X(double, bit_load, k)              /* [N] bottom-hole load of each bit */                                         \
+    /* system/bit: */                                                                                                 \
+    X(double, bit_bottom, k)            /* [m] advance at which rock begins */                                         \
+    X(double, bit_advance, k)           /* [m] along the hole since time 0 */                                          \
+    X(uint32_t, bit_segment, k)         /* [-] */
+
+/* ---- Memory: kept once, written on acceptance only. Saved, restored and hashed like `now`. */
+#define DMB_MEMORY_LIST(X)                                                                                            \
+    X(dmb_clock, clock, 1)              /* times and step lengths, integrator */                                       \
+    X(dmb_ledger, ledger, 1)            /* [J] accumulated, integrator/ledger */                                       \
+    X(dmb_counters, counters, 1)        /* [-] statistics, integrator */                                               \
+    X(double, residual_row, r)          /* [N, N m] residual of the accepted state: reactions in the rows not solved */ \
+    X(double, drive_work, d)            /* [J] */                                                                      \
+    X(double, drive_input, d)           /* [unit of the programme] value set by the caller; NaN: the programme */      \
+    X(double, history_angle, history)   /* [rad] samples of the cut surface, system/bit */                             \
+    X(double, history_surface, history) /* [m] */                                                                      \
+    X(dmb_history_head, history_head, k)
+
+/* ---- Work: rewritten in every step, never saved. */
+#define DMB_WORK_LIST(X)                                                                                              \
+    X(double, increment, r)             /* [m, rad] h Dq of this step, integrator */                                   \
+    X(double, rotation, 9 * n)          /* [-] body to world of the trial, row-major, system/gather */                 \
+    X(double, correction, r)            /* [m, rad] right-hand side, then Newton correction */                         \
+    X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                      \
+    X(double, element_strain, 6 * e)    /* [m, rad] d of the trial */                                                  \
+    X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */        \
+    X(double, path_normal, p)           /* [N] */                                                                      \
+    X(double, stiffness_diagonal, diagonal) /* with respect to body-frame pose increments; then the iteration matrix */ \
+    X(double, stiffness_lower, link)                                                                                   \
+    X(double, stiffness_upper, link)                                                                                   \
+    X(double, inertia_diagonal, diagonal) /* mass, gyroscopic and damping parts, scaled to pose parameters */          \
+    X(double, inertia_lower, link)                                                                                     \
+    X(double, inertia_upper, link)                                                                                     \
+    X(uint8_t, pivot, r)                                                                                               \
+    X(uint8_t, backup, backup)          /* the state before a call that takes more than one step, state/backup */
+
+typedef struct dmb_clock {
+    double time;        /* [s] */
+    double step;        /* [s] length of the last accepted step; 0 before the first */
+    double next_step;   /* [s] proposal of the step control; 0: none yet */
+    double power[8];    /* [W] of the accepted state, DMB_POWER_... */
+} dmb_clock;
+
+/* Terms of power: ledger and clock.power share the numbering. The first three are rates of energies. */
+enum {
+    DMB_POWER_INERTIA = 0, DMB_POWER_POTENTIAL = 1, /* strain, gravity, wall stiffness */
+    DMB_POWER_LOADS = 2, DMB_POWER_DRIVES = 3, DMB_POWER_FRICTION = 4, DMB_POWER_IMPACT = 5, DMB_POWER_DAMPING = 6,
+    DMB_POWER_ROCK = 7, DMB_POWER_COUNT = 8
+};
+
+typedef struct dmb_ledger {
+    double work[8];      /* [J] integral of each power, trapezoidal */
+    double input;        /* [J] integral of |drives| + |loads| */
+    double start;        /* [J] kinetic + potential energy at the start */
+    double gravity_start; /* [J] gravity potential of the pose at time 0 as described */
+} dmb_ledger;
+
+typedef struct dmb_counters {
+    uint64_t steps, rejected, iterations, limited;
+    uint64_t worst_iterations;
+    double worst_residual;
+    double projection[2];
+} dmb_counters;
+
+typedef struct dmb_history_head {
+    uint32_t head, count;
+    double offset; /* [rad] */
+} dmb_history_head;
+
+#define DMB_FIELD(type, name, count) type *name;
+typedef struct dmb_configuration {
+    DMB_CONFIGURATION_LIST(DMB_FIELD)
+} dmb_configuration;
+
+struct dmb_sim {
+    uint32_t magic;
+    int32_t owns_memory;           /* 1: block came from `allocator` */
+    dmb_model *model;
+    const dmb_scene *scene;
+    dmb_sim_options options;
+    dmb_allocator allocator;
+    void *block;
+    size_t block_size;
+    dmb_message message;
+    dmb_configuration now, trial;
+    DMB_MEMORY_LIST(DMB_FIELD)
+    DMB_WORK_LIST(DMB_FIELD)
+};
+#undef DMB_FIELD
+
+/* to <- from, the whole configuration, both of the sim. state/layout */
+void dmb_configuration_copy(const dmb_sim *sim, const dmb_configuration *from, dmb_configuration *to);
+/* The state set aside while a call takes several steps, and back, so that a failing call changes nothing. state/backup */
+void dmb_state_keep(dmb_sim *sim);
+void dmb_state_bring_back(dmb_sim *sim);
+
+#endif

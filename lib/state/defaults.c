@@ -1,0 +1,49 @@
+/* Defaults of the structs of sim.h, query.h and analysis.h, as documented there. The number is the struct's size in its
+ * first release. */
+#include "base/sized_struct.h"
+#include "drillmbd/analysis.h"
+
+DMB_DEFINE_INIT(dmb_sim_options, 96, {
+    .max_iterations = 12,
+    .spectral_radius = 0.8,
+    .newton_tolerance = 1e-8,
+    .tolerance_translation = 1e-6,
+    .tolerance_rotation = 1e-5,
+    .step_min = 1e-9,
+    .step_max = 0.1,
+    .max_cuts = 12,
+    .energy_ledger = 1,
+})
+
+DMB_DEFINE_INIT(dmb_step_report, 48, {.steps = 0})
+
+DMB_DEFINE_INIT(dmb_pose, 136, {.depth = 0.0})
+
+DMB_DEFINE_INIT(dmb_motion, 104, {.frame = DMB_FRAME_WORLD})
+
+DMB_DEFINE_INIT(dmb_section, 104, {.reserved = 0})
+
+DMB_DEFINE_INIT(dmb_contact, 120, {.closed = 0})
+
+DMB_DEFINE_INIT(dmb_contact_sum, 40, {.closed = 0})
+
+DMB_DEFINE_INIT(dmb_energy, 128, {.kinetic = 0.0})
+
+DMB_DEFINE_INIT(dmb_momentum, 88, {.mass = 0.0})
+
+DMB_DEFINE_INIT(dmb_drive_state, 56, {.target = 0.0})
+
+DMB_DEFINE_INIT(dmb_bit_state, 56, {.on_bottom = 0})
+
+DMB_DEFINE_INIT(dmb_statistics, 72, {.steps = 0})
+
+DMB_DEFINE_INIT(dmb_recorder, 48, {.channel_count = 0})
+
+DMB_DEFINE_INIT(dmb_static_options, 40, {
+    .max_iterations = 60,
+    .tolerance = 1e-10,
+    .load_steps = 1,
+    .lay_on_wall = 1,
+})
+
+DMB_DEFINE_INIT(dmb_static_report, 40, {.iterations = 0})

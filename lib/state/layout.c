@@ -1,0 +1,173 @@
+#include "state/layout.h"
+
+#include <string.h>
+
+#include "base/allocator.h"
+#include "base/arena.h"
+
+/* The letters of state.h. 64 bits: nine times a 32-bit count cannot overflow. */
+typedef struct field_counts {
+    uint64_t n, r, s, p, e, d, k, load, history, diagonal, link, backup;
+} field_counts;
+
+/* The letters as names, for the count expressions of the lists; not every list uses all of them. */
+#define DMB_COUNT_NAMES(c)                                                                                            \
+    const uint64_t n = (c)->n, r = (c)->r, s = (c)->s, p = (c)->p, e = (c)->e, d = (c)->d, k = (c)->k;                \
+    const uint64_t load = (c)->load, history = (c)->history, diagonal = (c)->diagonal, link = (c)->link;              \
+    const uint64_t backup = (c)->backup;                                                                              \
+    (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,         \
+        (void)link, (void)backup
+
+/* [byte] of the state: what a snapshot holds and a step keeps aside. */
+#define DMB_ADD_BYTES(type, name, count) +(count) * sizeof(type)
+static uint64_t state_bytes(const field_counts *counts)
+{
+    DMB_COUNT_NAMES(counts);
+    return 0 DMB_CONFIGURATION_LIST(DMB_ADD_BYTES) DMB_MEMORY_LIST(DMB_ADD_BYTES);
+}
+
+static field_counts counts_of(const dmb_scene *scene)
+{
+    const uint32_t n = scene->node_count;
+    field_counts c;
+    c.n = n;
+    c.r = scene->row_count;
+    c.s = scene->site_count;
+    c.p = scene->path_site_count;
+    c.e = scene->element_count;
+    c.d = scene->drive_count;
+    c.k = scene->bit_count;
+    c.load = scene->load_count;
+    c.history = scene->history_count;
+    c.diagonal = n > 0 ? scene->layout.diag[n] : 0;
+    c.link = n > 0 ? scene->layout.link[n - 1] : 0;
+    c.backup = 0;
+    c.backup = state_bytes(&c);
+    return c;
+}
+
+static void *take(dmb_arena *arena, uint64_t count, size_t item_size)
+{
+    if (count > SIZE_MAX) arena->overflow = true;
+    return dmb_arena_take(arena, (size_t)count, item_size, DMB_ALIGNMENT);
+}
+
+#define DMB_TAKE(type, name, count) to->name = (type *)take(arena, (count), sizeof(type));
+
+static void take_configuration(dmb_arena *arena, const field_counts *counts, dmb_configuration *to)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_CONFIGURATION_LIST(DMB_TAKE)
+}
+
+static void take_memory(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_MEMORY_LIST(DMB_TAKE)
+}
+
+static void take_work(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_WORK_LIST(DMB_TAKE)
+}
+
+/* The struct itself comes first, so that the sim's address is the first cache line of the block. While counting there is
+ * no sim, and the places go nowhere. */
+static dmb_sim *lay_out(dmb_arena *arena, const dmb_scene *scene)
+{
+    const field_counts counts = counts_of(scene);
+    dmb_sim nowhere;
+    dmb_sim *sim = take(arena, 1, sizeof *sim);
+    dmb_sim *to = sim != NULL ? sim : &nowhere;
+    take_configuration(arena, &counts, &to->now);
+    take_memory(arena, &counts, to);
+    take_configuration(arena, &counts, &to->trial);
+    take_work(arena, &counts, to);
+    return arena->overflow ? NULL : sim;
+}
+
+size_t dmb_sim_bytes(const dmb_scene *scene)
+{
+    dmb_arena arena;
+    dmb_arena_count(&arena);
+    (void)lay_out(&arena, scene);
+    return dmb_arena_block_size(&arena);
+}
+
+dmb_sim *dmb_sim_carve(const dmb_scene *scene, void *block, size_t size)
+{
+    dmb_arena arena;
+    dmb_sim *sim;
+    if (block == NULL || size < dmb_sim_bytes(scene)) return NULL;
+    dmb_arena_place(&arena, block, size);
+    sim = lay_out(&arena, scene);
+    if (sim == NULL) return NULL;
+    sim->scene = scene;
+    sim->block = block;
+    sim->block_size = size;
+    return sim;
+}
+
+/* ---- The table of fields ------------------------------------------------------------------------------------------- */
+
+typedef struct field_table {
+    dmb_field *fields;
+    size_t count;
+    int32_t group;
+    int32_t reserved;
+} field_table;
+
+static void put_field(field_table *table, const char *name, void *data, uint64_t count, size_t item_size)
+{
+    dmb_field *field;
+    if (table->count == DMB_FIELD_MAX) return;
+    field = &table->fields[table->count++];
+    field->name = name;
+    field->data = data;
+    field->bytes = (size_t)count * item_size;
+    field->group = table->group;
+    field->reserved = 0;
+}
+
+#define DMB_PUT(type, name, count) put_field(table, #name, from->name, (count), sizeof(type));
+
+static void put_configuration(field_table *table, const field_counts *counts, const dmb_configuration *from)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_CONFIGURATION_LIST(DMB_PUT)
+}
+
+static void put_memory(field_table *table, const field_counts *counts, const dmb_sim *from)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_MEMORY_LIST(DMB_PUT)
+}
+
+static void put_work(field_table *table, const field_counts *counts, const dmb_sim *from)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_WORK_LIST(DMB_PUT)
+}
+
+size_t dmb_sim_fields(const dmb_sim *sim, int32_t first_group, int32_t last_group, dmb_field fields[DMB_FIELD_MAX])
+{
+    const field_counts counts = counts_of(sim->scene);
+    field_table table = {fields, 0, 0, 0};
+    for (table.group = first_group; table.group <= last_group; ++table.group) {
+        if (table.group == DMB_GROUP_NOW) put_configuration(&table, &counts, &sim->now);
+        if (table.group == DMB_GROUP_MEMORY) put_memory(&table, &counts, sim);
+        if (table.group == DMB_GROUP_TRIAL) put_configuration(&table, &counts, &sim->trial);
+        if (table.group == DMB_GROUP_WORK) put_work(&table, &counts, sim);
+    }
+    return table.count;
+}
+
+#define DMB_COPY_FIELD(type, name, count) memcpy(to->name, from->name, (size_t)(count) * sizeof(type));
+
+void dmb_configuration_copy(const dmb_sim *sim, const dmb_configuration *from, dmb_configuration *to)
+{
+    const field_counts counts = counts_of(sim->scene);
+    DMB_COUNT_NAMES(&counts);
+    DMB_CONFIGURATION_LIST(DMB_COPY_FIELD)
+}

@@ -1,0 +1,182 @@
+/* Making and unmaking a sim. */
+#include <math.h>
+
+#include "base/allocator.h"
+#include "base/log.h"
+#include "base/sized_struct.h"
+#include "integrator/start.h"
+#include "state/handle.h"
+#include "state/layout.h"
+#include "state/options.h"
+
+DMB_DECLARE_STRUCT(dmb_sim_options)
+
+/* What a create is told, checked. There is no sim yet to hold a message, and the model is shared between threads: a
+ * refusal is told to the log only. */
+typedef struct creation {
+    dmb_sim_options options;
+    dmb_allocator allocator;
+    size_t bytes;
+    dmb_message message;
+} creation;
+
+static void tell(const dmb_sim_options *options, int32_t status, const dmb_message *message)
+{
+    const dmb_log log = {options->log, options->log_context};
+    if (status == DMB_OK) return;
+    dmb_log_text(&log, status < 0 ? DMB_LOG_ERROR : DMB_LOG_WARNING,
+                 message->text[0] != '\0' ? message->text : dmb_status_text(status));
+}
+
+/* The caller's log, even where the rest of the options is refused; none where the struct itself cannot be read. */
+static void tell_refusal(const dmb_sim_options *given, int32_t status, const dmb_message *message)
+{
+    dmb_sim_options read;
+    if (given == NULL || dmb_sim_options_read(&read, given) < 0) return;
+    tell(&read, status, message);
+}
+
+static int32_t check_model(const dmb_model *model, dmb_message *message)
+{
+    if (model == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
+    if (model->scene != NULL) return DMB_OK;
+    dmb_message_set(message, "model: not compiled, call dmb_model_compile first");
+    return DMB_ERR_ORDER;
+}
+
+static int32_t take_allocator(creation *c, const dmb_model *model)
+{
+    const dmb_allocator *given = c->options.allocator;
+    int32_t status;
+    if (given == NULL) given = &model->allocator;
+    status = dmb_allocator_copy(&c->allocator, given);
+    if (status < 0) dmb_message_set(&c->message, "sim options: allocator has a wrong struct_size or lacks a function");
+    return status;
+}
+
+static int32_t take_size(creation *c, const dmb_model *model)
+{
+    c->bytes = dmb_sim_bytes(model->scene);
+    if (c->bytes != SIZE_MAX) return DMB_OK;
+    dmb_message_set(&c->message, "sim: its size overflows");
+    return DMB_ERR_TOO_LARGE;
+}
+
+static int32_t prepare(creation *c, const dmb_model *model, const dmb_sim_options *options)
+{
+    int32_t status;
+    dmb_message_clear(&c->message);
+    status = check_model(model, &c->message);
+    if (status == DMB_OK) status = dmb_sim_options_take(&c->options, options, &c->message);
+    if (status == DMB_OK) status = take_allocator(c, model);
+    if (status == DMB_OK) status = take_size(c, model);
+    if (status < 0) tell_refusal(options, status, &c->message);
+    return status;
+}
+
+int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *options, size_t *size)
+{
+    creation c;
+    int32_t status;
+    if (size == NULL) return DMB_ERR_NULL;
+    status = prepare(&c, model, options);
+    if (status == DMB_OK) *size = c.bytes;
+    return status;
+}
+
+/* Gives everything back. The stamp goes first: the block may be the caller's and outlive the sim. */
+static void give_back(dmb_sim *sim)
+{
+    const dmb_allocator allocator = sim->allocator;
+    const int32_t owns_memory = sim->owns_memory;
+    dmb_model *model = sim->model;
+    void *block = sim->block;
+    const size_t size = sim->block_size;
+    sim->magic = DMB_HANDLE_DEAD;
+    if (owns_memory) dmb_release(&allocator, block, size);
+    dmb_model_release(model);
+}
+
+/* The drives follow their programmes until dmb_sim_set_drive says otherwise. */
+static void release_drives(dmb_sim *sim)
+{
+    for (uint32_t i = 0; i < sim->scene->drive_count; ++i) sim->drive_input[i] = (double)NAN;
+}
+
+/* Makes the sim in a block and sets it to time 0. */
+static int32_t begin(const creation *c, dmb_model *model, void *block, size_t size, int32_t owns_memory, dmb_sim **out)
+{
+    dmb_sim *sim = dmb_sim_carve(model->scene, block, size);
+    int32_t status;
+    if (sim == NULL) return DMB_ERR_TOO_LARGE; /* not reached: the size was checked */
+    sim->magic = DMB_HANDLE_SIM;
+    sim->owns_memory = owns_memory;
+    sim->model = model;
+    sim->options = c->options;
+    sim->allocator = c->allocator;
+    sim->options.allocator = NULL; /* the caller's struct may be gone; the copy is the one to use */
+    dmb_model_hold(model);
+    release_drives(sim);
+    status = dmb_integrator_start(sim);
+    tell(&sim->options, status, &sim->message);
+    if (status < 0) {
+        give_back(sim);
+        return status;
+    }
+    *out = sim;
+    return status;
+}
+
+int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options, dmb_sim **sim)
+{
+    creation c;
+    void *block;
+    int32_t status;
+    if (sim == NULL) return DMB_ERR_NULL;
+    *sim = NULL;
+    status = prepare(&c, model, options);
+    if (status < 0) return status;
+    block = dmb_allocate(&c.allocator, c.bytes);
+    if (block == NULL) {
+        dmb_message_set(&c.message, "sim: no memory for %zu bytes", c.bytes);
+        tell(&c.options, DMB_ERR_NO_MEMORY, &c.message);
+        return DMB_ERR_NO_MEMORY;
+    }
+    return begin(&c, model, block, c.bytes, 1, sim);
+}
+
+int32_t dmb_sim_create_in(dmb_model *model, const dmb_sim_options *options, void *block, size_t size, dmb_sim **sim)
+{
+    creation c;
+    int32_t status;
+    if (sim == NULL) return DMB_ERR_NULL;
+    *sim = NULL;
+    if (block == NULL) return DMB_ERR_NULL;
+    status = prepare(&c, model, options);
+    if (status < 0) return status;
+    if (size < c.bytes) {
+        dmb_message_set(&c.message, "sim: size of the block = %zu, must be >= %zu", size, c.bytes);
+        tell(&c.options, DMB_ERR_VALUE, &c.message);
+        return DMB_ERR_VALUE;
+    }
+    return begin(&c, model, block, size, 0, sim);
+}
+
+void dmb_sim_destroy(dmb_sim **sim)
+{
+    if (sim == NULL) return;
+    if (dmb_sim_check(*sim) == DMB_OK) give_back(*sim);
+    *sim = NULL;
+}
+
+const char *dmb_sim_message(const dmb_sim *sim)
+{
+    const int32_t status = dmb_sim_check(sim);
+    return status == DMB_OK ? sim->message.text : dmb_status_text(status);
+}
+
+double dmb_sim_time(const dmb_sim *sim)
+{
+    return dmb_sim_check(sim) == DMB_OK ? sim->clock->time : (double)NAN;
+}

@@ -1,0 +1,90 @@
+#include "state/vtk_xml.h"
+
+#include <math.h>
+
+void dmb_vtk_open_tag(dmb_text_file *file, const char *tag)
+{
+    dmb_text_put(file, "<");
+    dmb_text_put(file, tag);
+    dmb_text_put(file, ">\n");
+}
+
+void dmb_vtk_close_tag(dmb_text_file *file, const char *tag)
+{
+    dmb_text_put(file, "</");
+    dmb_text_put(file, tag);
+    dmb_text_put(file, ">\n");
+}
+
+static void put_attribute(dmb_text_file *file, const char *name, uint64_t value)
+{
+    dmb_text_put(file, " ");
+    dmb_text_put(file, name);
+    dmb_text_put(file, "=\"");
+    dmb_text_put_count(file, value);
+    dmb_text_put(file, "\"");
+}
+
+static void put_time(dmb_text_file *file, double time)
+{
+    dmb_text_put(file, "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
+                       "format=\"ascii\">\n");
+    dmb_vtk_put_tuple(file, &time, 1);
+    dmb_vtk_end_array(file);
+    dmb_vtk_close_tag(file, "FieldData");
+}
+
+void dmb_vtk_begin(dmb_text_file *file, const dmb_vtk_counts *counts, double time)
+{
+    dmb_text_put(file, "<?xml version=\"1.0\"?>\n"
+                       "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+                       "header_type=\"UInt64\">\n<PolyData>\n");
+    if (!isnan(time)) put_time(file, time);
+    dmb_text_put(file, "<Piece");
+    put_attribute(file, "NumberOfPoints", counts->points);
+    put_attribute(file, "NumberOfVerts", 0);
+    put_attribute(file, "NumberOfLines", counts->lines);
+    put_attribute(file, "NumberOfStrips", 0);
+    put_attribute(file, "NumberOfPolys", counts->polygons);
+    dmb_text_put(file, ">\n");
+}
+
+void dmb_vtk_end(dmb_text_file *file)
+{
+    dmb_text_put(file, "</Piece>\n</PolyData>\n</VTKFile>\n");
+}
+
+static void begin_array(dmb_text_file *file, const char *type, const char *name, uint32_t components)
+{
+    dmb_text_put(file, "<DataArray type=\"");
+    dmb_text_put(file, type);
+    dmb_text_put(file, "\" Name=\"");
+    dmb_text_put(file, name);
+    dmb_text_put(file, "\"");
+    put_attribute(file, "NumberOfComponents", components);
+    dmb_text_put(file, " format=\"ascii\">\n");
+}
+
+void dmb_vtk_begin_numbers(dmb_text_file *file, const char *name, uint32_t components)
+{
+    begin_array(file, "Float64", name, components);
+}
+
+void dmb_vtk_begin_indices(dmb_text_file *file, const char *name)
+{
+    begin_array(file, "Int64", name, 1);
+}
+
+void dmb_vtk_end_array(dmb_text_file *file)
+{
+    dmb_vtk_close_tag(file, "DataArray");
+}
+
+void dmb_vtk_put_tuple(dmb_text_file *file, const double *values, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (i > 0) dmb_text_put(file, " ");
+        dmb_text_put_number(file, isfinite(values[i]) ? values[i] : 0.0);
+    }
+    dmb_text_put(file, "\n");
+}

@@ -1,0 +1,32 @@
+#include <string.h>
+
+#include "math/so3.h"
+#include "system/bit.h"
+#include "system/evaluation.h"
+
+/* Rotation about the node's own x axis since time 0, on the turn the increment of the step leads to. */
+static void unwrap_turns(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        if (scene->layout.size[i] == DMB_NODE_PATH) continue;
+        const double predicted = sim->now.turn[i] + sim->increment[scene->layout.row[i] + 3];
+        double q[4];
+        dmb_quat_between(scene->reference_quaternion + 4 * i, sim->trial.quaternion + 4 * i, q);
+        sim->trial.turn[i] = dmb_quat_twist(q, predicted);
+    }
+}
+
+void dmb_system_accept(dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    unwrap_turns(sim);
+    memcpy(sim->residual_row, sim->correction, scene->row_count * sizeof(double));
+    for (uint32_t i = 0; i < scene->drive_count; i++) {
+        const dmb_scene_drive *drive = scene->drives + i;
+        sim->trial.drive_position[i] = sim->now.drive_position[i] + sim->increment[drive->row];
+        if (drive->kind == DMB_DRIVE_MOTION) sim->trial.drive_force[i] = sim->correction[drive->row];
+    }
+    for (uint32_t k = 0; k < scene->bit_count; k++) dmb_bit_accept(sim, k);
+}

@@ -1,0 +1,18 @@
+/* Bits at work: bottom-hole load and the rock law, along and about the axis of the hole. */
+#ifndef DMB_SYSTEM_BIT_H
+#define DMB_SYSTEM_BIT_H
+
+#include "state.h"
+
+typedef struct dmb_bit_rock_result dmb_bit_rock_result;
+
+/* Rock law's answer and the bottom-hole load [N] of a bit in the accepted state. */
+void dmb_bit_force_of(const dmb_sim *sim, uint32_t bit, dmb_bit_rock_result *out, double *load);
+/* The history of a bit as the rock law takes it. */
+dmb_bit_history dmb_bit_history_of(const dmb_sim *sim, uint32_t bit);
+/* Flat rock at the described distance, at the start. */
+void dmb_bit_start(dmb_sim *sim, uint32_t bit);
+/* Stores what a finished step cut. */
+void dmb_bit_accept(dmb_sim *sim, uint32_t bit);
+
+#endif

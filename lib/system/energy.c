@@ -1,0 +1,166 @@
+#include "system/energy.h"
+
+#include <string.h>
+
+#include "element/beam.h"
+#include "element/lump.h"
+#include "system/node.h"
+
+static const dmb_element_type *type_of(const dmb_scene *scene, uint32_t e)
+{
+    return scene->types + scene->element_type[e];
+}
+
+static int is_path(const dmb_scene *scene, uint32_t node)
+{
+    return scene->layout.size[node] == DMB_NODE_PATH;
+}
+
+/* Velocities of an element's two ends. */
+static void end_velocities(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, double va[6], double vb[6])
+{
+    const uint32_t a = scene->element_node[e];
+    dmb_node_vector(scene, c, a, c->velocity, va);
+    dmb_node_vector(scene, c, a + 1, c->velocity, vb);
+    dmb_arm_velocity(type_of(scene, e)->arm[0], va);
+    dmb_arm_velocity(-type_of(scene, e)->arm[1], vb);
+}
+
+double dmb_element_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element)
+{
+    const uint32_t a = scene->element_node[element];
+    double va[6] = {0.0}, vb[6] = {0.0}, pa[6], pb[6];
+    if (is_path(scene, a) && is_path(scene, a + 1)) { /* the bar sees the two rows alone */
+        const double *v = configuration->velocity;
+        const uint32_t ra = scene->layout.row[a], rb = scene->layout.row[a + 1];
+        va[0] = v[ra], va[3] = v[ra + 1], vb[0] = v[rb], vb[3] = v[rb + 1];
+    } else {
+        end_velocities(scene, configuration, element, va, vb);
+    }
+    dmb_beam_mass_times(&type_of(scene, element)->mass, va, vb, pa, pb);
+    return 0.5 * (dmb_vec6_dot(va, pa) + dmb_vec6_dot(vb, pb));
+}
+
+double dmb_lump_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t lump)
+{
+    const dmb_lump *l = scene->lumps + lump;
+    const double *v = configuration->velocity + scene->layout.row[l->node];
+    double p[6];
+    if (is_path(scene, l->node)) return 0.5 * (l->mass * v[0] * v[0] + l->inertia[0] * v[1] * v[1]);
+    dmb_lump_mass_times(l, v, p);
+    return 0.5 * dmb_vec6_dot(v, p);
+}
+
+double dmb_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration)
+{
+    double sum = 0.0;
+    for (uint32_t e = 0; e < scene->element_count; e++) sum += dmb_element_kinetic_energy(scene, configuration, e);
+    for (uint32_t i = 0; i < scene->lump_count; i++) sum += dmb_lump_kinetic_energy(scene, configuration, i);
+    return sum;
+}
+
+/* Pose of a node as quaternion, rotation and displacement. */
+static void pose_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t node, double q[4], double R[9],
+                    double u[3])
+{
+    dmb_node_pose(scene, c, node, R, u);
+    if (is_path(scene, node)) dmb_quat_from_matrix(R, q);
+    else memcpy(q, c->quaternion + 4 * node, 4 * sizeof(double));
+}
+
+static void shape_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, dmb_beam_shape *shape)
+{
+    const uint32_t a = scene->element_node[e];
+    double qa[4], qb[4], Ra[9], Rb[9], ua[3], ub[3], span[3];
+    pose_of(scene, c, a, qa, Ra, ua);
+    pose_of(scene, c, a + 1, qb, Rb, ub);
+    for (uint32_t i = 0; i < 3; i++) span[i] = scene->element_span[3 * e + i] + (ub[i] - ua[i]);
+    (void)dmb_beam_deform(type_of(scene, e), qa, Ra, qb, span, shape);
+}
+
+void dmb_element_strain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, double d[6])
+{
+    const uint32_t a = scene->element_node[element];
+    if (is_path(scene, a) && is_path(scene, a + 1)) {
+        memset(d, 0, 6 * sizeof(double));
+        d[0] = type_of(scene, element)->length +
+               (configuration->displacement[3 * a + 3] - configuration->displacement[3 * a]);
+        d[3] = configuration->turn[a + 1] - configuration->turn[a];
+        return;
+    }
+    dmb_beam_shape shape;
+    shape_of(scene, configuration, element, &shape);
+    dmb_vec6_copy(shape.d, d);
+}
+
+/* (d - d0)^T K (d - d0) / (2 L); a bar stretches and twists only */
+double dmb_strain_energy(const dmb_scene *scene, const dmb_configuration *configuration)
+{
+    double sum = 0.0, d[6];
+    for (uint32_t e = 0; e < scene->element_count; e++) {
+        const dmb_element_type *type = type_of(scene, e);
+        const uint32_t a = scene->element_node[e];
+        const int step = is_path(scene, a) && is_path(scene, a + 1) ? 3 : 1;
+        dmb_element_strain(scene, configuration, e, d);
+        for (int i = 0; i < 6; i += step) {
+            const double x = d[i] - type->rest[i];
+            sum += 0.5 * type->stiffness[i] * x * x;
+        }
+    }
+    return sum;
+}
+
+/* -m g.u - g.((R - R0) b) */
+double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *configuration)
+{
+    double sum = 0.0;
+    if (!(scene->features & DMB_FEATURE_GRAVITY)) return 0.0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        double R[9], u[3], R0[9], now[3], start[3];
+        dmb_node_pose(scene, configuration, i, R, u);
+        sum -= scene->weight_mass[i] * dmb_vec3_dot(scene->gravity, u);
+        if (is_path(scene, i)) continue;
+        dmb_quat_to_matrix(scene->reference_quaternion + 4 * i, R0);
+        dmb_mat3_vec(R, scene->weight_moment + 3 * i, now);
+        dmb_mat3_vec(R0, scene->weight_moment + 3 * i, start);
+        dmb_vec3_sub(now, start, now);
+        sum -= dmb_vec3_dot(scene->gravity, now);
+    }
+    return sum;
+}
+
+double dmb_contact_energy(const dmb_scene *scene, const dmb_configuration *configuration)
+{
+    double sum = 0.0;
+    for (uint32_t s = 0; s < scene->site_count; s++)
+        sum += scene->sites[s].length * dmb_normal_energy(&scene->normal_law, configuration->site_penetration[s]);
+    return sum;
+}
+
+void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                               double force[12])
+{
+    const dmb_element_type *type = type_of(scene, element);
+    const uint32_t a = scene->element_node[element], ra = scene->layout.row[a], rb = scene->layout.row[a + 1];
+    double va[6], vb[6], stress[6], rate[6];
+    memset(force, 0, 12 * sizeof(double));
+    if (is_path(scene, a) && is_path(scene, a + 1)) {
+        double d[6];
+        dmb_element_strain(scene, configuration, element, d);
+        for (uint32_t c = 0; c < 2; c++) {
+            const double speed = configuration->velocity[rb + c] - configuration->velocity[ra + c];
+            const uint32_t i = 3 * c;
+            force[i] = type->stiffness[i] * (d[i] - type->rest[i] + type->damping_time * speed);
+            force[6 + i] = force[i];
+        }
+        return;
+    }
+    dmb_beam_shape shape;
+    shape_of(scene, configuration, element, &shape);
+    end_velocities(scene, configuration, element, va, vb);
+    dmb_beam_strain_rate(&shape, va, vb, rate);
+    dmb_beam_stress(type, shape.d, stress);
+    for (int i = 0; i < 6; i++) stress[i] += type->damping_time * type->stiffness[i] * rate[i];
+    dmb_beam_add_force(&shape, stress, force, force + 6);
+    for (int i = 0; i < 6; i++) force[i] = -force[i]; /* at A the far side is the element itself */
+}

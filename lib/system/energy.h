@@ -1,0 +1,22 @@
+/* Energies of a configuration, exactly those whose derivatives the residual holds. */
+#ifndef DMB_SYSTEM_ENERGY_H
+#define DMB_SYSTEM_ENERGY_H
+
+#include "state.h"
+
+double dmb_element_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element);
+double dmb_lump_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t lump);
+double dmb_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration);
+double dmb_strain_energy(const dmb_scene *scene, const dmb_configuration *configuration);
+/* Potential of the weights less that of the pose at time 0 as described. */
+double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *configuration);
+/* Stored in the wall's normal stiffness. What bristles store counts as spent by friction until it comes back. */
+double dmb_contact_energy(const dmb_scene *scene, const dmb_configuration *configuration);
+/* Relative pose of an element's ends: d = log(H_A^-1 H_B) at its flexible ends, shape (6). */
+void dmb_element_strain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, double d[6]);
+/* Section forces at the element's two flexible ends in the frame of that end, as force on the near side from the far
+ * side: (axial, shear, shear, torque, moment, moment); material damping included, shape (2, 6). */
+void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                               double force[12]);
+
+#endif

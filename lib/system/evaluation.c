@@ -1,0 +1,64 @@
+#include "system/evaluation.h"
+
+#include <string.h>
+
+#include "math/se3.h"
+#include "system/node.h"
+
+static void clear(const dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const dmb_block_layout *layout = &scene->layout;
+    const uint32_t n = scene->node_count;
+    const size_t diagonal = layout->diag[n] * sizeof(double);
+    const size_t link = layout->link[n - 1] * sizeof(double);
+    memset(sim->correction, 0, scene->row_count * sizeof(double));
+    memset(sim->scale_row, 0, scene->row_count * sizeof(double));
+    if (!evaluation->tangent) return;
+    memset(sim->stiffness_diagonal, 0, diagonal);
+    memset(sim->stiffness_lower, 0, link);
+    memset(sim->stiffness_upper, 0, link);
+    memset(sim->inertia_diagonal, 0, diagonal);
+    memset(sim->inertia_lower, 0, link);
+    memset(sim->inertia_upper, 0, link);
+}
+
+static void update_rotations(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    double unused[3];
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        if (scene->layout.size[i] == DMB_NODE_FULL)
+            dmb_quat_to_matrix(sim->trial.quaternion + 4 * i, sim->rotation + 9 * i);
+        else
+            dmb_node_pose(scene, &sim->trial, i, sim->rotation + 9 * i, unused);
+    }
+}
+
+static int32_t finite_status(const dmb_sim *sim)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) sum += fabs(sim->correction[i]);
+    return isfinite(sum) ? DMB_OK : DMB_ERR_NOT_FINITE;
+}
+
+int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    evaluation->status = DMB_OK;
+    evaluation->rounding = 0.0;
+    memset(evaluation->power, 0, sizeof evaluation->power);
+    clear(evaluation);
+    update_rotations(evaluation->sim);
+    dmb_gather_elements(evaluation);
+    if (evaluation->status < 0) return evaluation->status;
+    dmb_gather_nodes(evaluation);
+    if (scene->site_count) dmb_gather_contacts(evaluation);
+    if (scene->path_site_count) dmb_gather_path_friction(evaluation);
+    if (scene->load_count) dmb_gather_loads(evaluation);
+    if (scene->drive_count) dmb_gather_drives(evaluation);
+    if (scene->bit_count) dmb_gather_bits(evaluation);
+    evaluation->status = finite_status(evaluation->sim);
+    return evaluation->status;
+}

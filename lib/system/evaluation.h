@@ -1,0 +1,81 @@
+/* The equations of a scene: residual and tangent of the trial configuration.
+ *
+ *     residual = M v' - v^^T M v + g_internal - f_external = 0       (each node in its body frame)
+ *
+ * dmb_system_evaluate gathers all terms in a fixed order; it is the one place that knows them all. */
+#ifndef DMB_SYSTEM_EVALUATION_H
+#define DMB_SYSTEM_EVALUATION_H
+
+#include <math.h>
+
+#include "state.h"
+
+typedef struct dmb_evaluation {
+    dmb_sim *sim;             /* trial is read; work arrays are written */
+    double time;              /* [s] of the trial */
+    double step;              /* [s] from now to trial; 0 in statics */
+    double mass_factor;       /* [1/s2] d v'/d pose parameters */
+    double velocity_factor;   /* [1/s] d v/d pose parameters */
+    double load_factor;       /* [-] on gravity, loads and bit load (static load steps) */
+    int32_t dynamic;          /* 0: no inertia, damping, nor rates: statics */
+    int32_t tangent;          /* 1: fill stiffness_ and inertia_ blocks too */
+    int32_t extrapolated;     /* 1: geometric stiffness with element_stress as it stands, 0: with the true stress */
+    int32_t slipping;         /* statics: friction acts as at the speed slip[] */
+    double slip[2];           /* [m/s, rad/s] along the hole, of rotation */
+    double rounding;          /* [N2] sum of squares of what rounding of the poses makes of the element forces */
+    double power[8];          /* [W] of each class of force on the bodies, DMB_POWER_... */
+    int32_t status;           /* of this evaluation */
+    uint32_t element;         /* where status says DMB_ERR_ROTATION */
+} dmb_evaluation;
+
+/* Residual into sim->correction, sums of magnitudes into sim->scale_row; returns evaluation->status: DMB_OK,
+ * DMB_ERR_ROTATION, DMB_ERR_NOT_FINITE. */
+int32_t dmb_system_evaluate(dmb_evaluation *evaluation);
+/* Targets of all drives at evaluation->time, loads' factors, and the motion of prescribed rows over the step: increment,
+ * velocity and acceleration of the trial. Once a step, before the first evaluation. DMB_ERR_CALLBACK. */
+int32_t dmb_system_prescribe(dmb_evaluation *evaluation);
+/* Iteration matrix K T6(increment) + inertia into the stiffness_ blocks, identity in rows that are not solved. */
+void dmb_system_iteration_matrix(const dmb_evaluation *evaluation);
+/* Extrapolates element_stress over a correction of body-frame pose increments (Magisano, Leonetti, Garcea 2017). */
+void dmb_system_extrapolate_stress(dmb_sim *sim, const double *correction);
+/* What a finished step leaves: drive positions and forces, bit bottom and history, unwrapped turns. Trial -> trial and
+ * memory; called just before the swap. */
+void dmb_system_accept(dmb_evaluation *evaluation);
+
+/* Parts of dmb_system_evaluate, one a file. */
+void dmb_gather_elements(dmb_evaluation *evaluation);
+void dmb_gather_nodes(dmb_evaluation *evaluation);
+void dmb_gather_contacts(dmb_evaluation *evaluation);
+void dmb_gather_path_friction(dmb_evaluation *evaluation);
+void dmb_gather_loads(dmb_evaluation *evaluation);
+void dmb_gather_drives(dmb_evaluation *evaluation);
+void dmb_gather_bits(dmb_evaluation *evaluation);
+
+/* Blocks of node i, and of the link i, i+1. */
+static inline double *dmb_stiffness_of(const dmb_sim *sim, uint32_t node)
+{
+    return sim->stiffness_diagonal + sim->scene->layout.diag[node];
+}
+static inline double *dmb_inertia_of(const dmb_sim *sim, uint32_t node)
+{
+    return sim->inertia_diagonal + sim->scene->layout.diag[node];
+}
+
+/* Subtracts a 6-vector of external force from the residual of a node, and counts its magnitude. */
+static inline void dmb_apply_wrench(dmb_sim *sim, uint32_t node, const double wrench[6])
+{
+    const uint32_t row = sim->scene->layout.row[node];
+    if (sim->scene->layout.size[node] == DMB_NODE_PATH) {
+        sim->correction[row] -= wrench[0];
+        sim->correction[row + 1] -= wrench[3];
+        sim->scale_row[row] += fabs(wrench[0]);
+        sim->scale_row[row + 1] += fabs(wrench[3]);
+        return;
+    }
+    for (int i = 0; i < 6; i++) {
+        sim->correction[row + (uint32_t)i] -= wrench[i];
+        sim->scale_row[row + (uint32_t)i] += fabs(wrench[i]);
+    }
+}
+
+#endif

@@ -1,0 +1,29 @@
+/* Rings on FULL nodes against the wall of the hole: normal and friction force in the contact frame
+ * (n outward from the axis, t along the axis, b = t x n). */
+#ifndef DMB_SYSTEM_WALL_CONTACT_H
+#define DMB_SYSTEM_WALL_CONTACT_H
+
+#include "state.h"
+
+typedef struct dmb_site_force {
+    double normal[3];     /* [-] world */
+    double tangent[3];    /* [-] world, along the axis */
+    double penetration;   /* [m] */
+    double rate;          /* [m/s] of penetration */
+    double normal_force;  /* [N] >= 0 */
+    double friction[2];   /* [N] on the ring along t and b */
+    double slip[2];       /* [m/s] along t and b */
+    int32_t closed, sticks;
+} dmb_site_force;
+
+/* Force of one site in a finished configuration (bristles as they are). */
+void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t site, dmb_site_force *out);
+/* The same for a PATH site; normal_force by Johancsik. */
+void dmb_path_site_force_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t path_site,
+                            dmb_site_force *out);
+
+/* Friction of a finished state: bristles as they are, smooth laws by speed. */
+void dmb_finished_friction(const dmb_friction_law *law, double N, const double slip[2], const double bristle[2],
+                           int32_t sticks, double F[2]);
+
+#endif
