@@ -49,11 +49,12 @@ static int32_t evaluate(dmb_static_search *search)
 static int32_t solve(dmb_static_search *search)
 {
     dmb_system_iteration_matrix(&search->evaluation);
-    const int64_t bad = dmb_solve_correction(search->sim);
-    search->iterations++;
-    if (bad < 0) return DMB_OK;
+    const int64_t bad = dmb_factor_matrix(search->sim);
     search->block = (uint32_t)bad;
-    return DMB_ERR_SINGULAR;
+    if (bad >= 0) return DMB_ERR_SINGULAR;
+    dmb_solve_correction(search->sim);
+    search->iterations++;
+    return DMB_OK;
 }
 
 int32_t dmb_static_newton(dmb_static_search *search)

@@ -81,23 +81,62 @@ static void set_up(dmb_sim *sim, const dmb_generalized_alpha *c, double h, dmb_e
     evaluation->tangent = 1;
 }
 
-/* One Newton iteration; 1: go on, 0: done, < 0: failed. */
-static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt, double *first)
+/* Course of one Newton iteration. */
+typedef struct newton_course {
+    double first, last; /* relative residual at the start, and before the last correction */
+    int32_t factored;   /* the matrix holds factors of this step */
+    int32_t reserved;
+} newton_course;
+
+/* Old factors do when two more corrections at the present rate reach the tolerance. */
+static int32_t factors_will_do(const newton_course *course, double residual, double tolerance)
+{
+    const double rate = residual / course->last;
+    return course->factored && rate * rate * residual <= tolerance;
+}
+
+static int32_t check_course(const dmb_sim *sim, const dmb_attempt *attempt, newton_course *course)
+{
+    if (attempt->iterations == 0) course->first = course->last = attempt->residual;
+    if (attempt->residual > DMB_NEWTON_GROWTH * course->first) return DMB_ERR_NO_CONVERGENCE;
+    if (attempt->iterations < sim->options.max_iterations) return 1;
+    return sim->options.bounded_work ? DMB_NOTE_WORK_LIMITED : DMB_ERR_NO_CONVERGENCE;
+}
+
+/* Fresh factors at the present trial. */
+static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt, newton_course *course)
+{
+    if (!attempt->evaluation.tangent) {
+        attempt->evaluation.tangent = 1;
+        const int32_t status = dmb_system_evaluate(&attempt->evaluation);
+        if (status < 0) return status;
+    }
+    dmb_system_iteration_matrix(&attempt->evaluation);
+    const int64_t bad = dmb_factor_matrix(sim);
+    attempt->block = (uint32_t)bad;
+    course->factored = 1;
+    return bad >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
+}
+
+/* One Newton iteration; 1: go on, 0 or DMB_NOTE_WORK_LIMITED: done, < 0: failed. */
+static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt, newton_course *course)
 {
     dmb_evaluation *evaluation = &attempt->evaluation;
+    const double tolerance = sim->options.newton_tolerance;
     int32_t converged;
-    const int32_t status = dmb_system_evaluate(evaluation);
+    evaluation->tangent = !course->factored;
+    int32_t status = dmb_system_evaluate(evaluation);
     if (status < 0) return status;
-    attempt->residual = dmb_relative_residual(evaluation, sim->options.newton_tolerance, &converged);
+    attempt->residual = dmb_relative_residual(evaluation, tolerance, &converged);
     if (converged) return 0;
-    if (attempt->iterations == 0) *first = attempt->residual;
-    if (attempt->residual > DMB_NEWTON_GROWTH * *first) return DMB_ERR_NO_CONVERGENCE;
-    if (attempt->iterations >= sim->options.max_iterations)
-        return sim->options.bounded_work ? DMB_NOTE_WORK_LIMITED : DMB_ERR_NO_CONVERGENCE;
-    dmb_system_iteration_matrix(evaluation);
-    const int64_t bad = dmb_solve_correction(sim);
-    attempt->block = (uint32_t)bad;
-    if (bad >= 0) return DMB_ERR_SINGULAR;
+    status = check_course(sim, attempt, course);
+    if (status != 1) return status;
+    if (!factors_will_do(course, attempt->residual, tolerance)) {
+        status = refactor(sim, attempt, course);
+        if (status < 0) return status;
+    }
+    course->last = attempt->residual;
+    dmb_solve_correction(sim);
     attempt->iterations++;
     dmb_system_extrapolate_stress(sim, sim->correction);
     evaluation->extrapolated = 1;
@@ -108,16 +147,17 @@ static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt
 int32_t dmb_attempt_step(dmb_sim *sim, double step, dmb_attempt *attempt)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
-    double first = 0.0;
+    newton_course course;
     int32_t status;
     memset(attempt, 0, sizeof *attempt);
+    memset(&course, 0, sizeof course);
     attempt->step = step;
     set_up(sim, &c, step, &attempt->evaluation);
     predict(sim, &c, step);
     status = dmb_system_prescribe(&attempt->evaluation);
     if (status >= 0) {
         dmb_trial_pose(sim);
-        do status = iterate(sim, &c, attempt, &first);
+        do status = iterate(sim, &c, attempt, &course);
         while (status == 1);
     }
     attempt->status = status == DMB_NOTE_WORK_LIMITED ? status : status < 0 ? status : DMB_OK;

@@ -29,7 +29,9 @@ double dmb_next_corner(const dmb_sim *sim, double t);
 double dmb_relative_residual(const dmb_evaluation *evaluation, double tolerance, int32_t *converged);
 /* Trial pose = pose of now moved by `increment`. */
 void dmb_trial_pose(dmb_sim *sim);
-/* Solves the iteration matrix in place; correction becomes the Newton correction. Index of a singular block, or -1. */
-int64_t dmb_solve_correction(dmb_sim *sim);
+/* Factors the iteration matrix in place. Index of a singular block, or -1. */
+int64_t dmb_factor_matrix(dmb_sim *sim);
+/* Residual in, Newton correction out, both in `correction`, by the factors at hand. */
+void dmb_solve_correction(dmb_sim *sim);
 
 #endif

@@ -45,17 +45,29 @@ void dmb_trial_pose(dmb_sim *sim)
     }
 }
 
-int64_t dmb_solve_correction(dmb_sim *sim)
+static dmb_block_matrix matrix_of(const dmb_sim *sim)
+{
+    const dmb_block_matrix matrix = {sim->stiffness_diagonal, sim->stiffness_lower, sim->stiffness_upper, sim->pivot};
+    return matrix;
+}
+
+int64_t dmb_factor_matrix(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    dmb_block_matrix matrix = {sim->stiffness_diagonal, sim->stiffness_lower, sim->stiffness_upper, sim->pivot};
-    for (uint32_t i = 0; i < scene->row_count; i++)
-        sim->correction[i] = scene->solved_row[i] ? -sim->correction[i] : 0.0;
+    dmb_block_matrix matrix = matrix_of(sim);
     for (uint32_t c = 0; c < scene->chain_count; c++) {
-        const dmb_chain *chain = scene->chains + c;
-        const int64_t bad = dmb_block_factor(&scene->layout, &matrix, chain->first, chain->count);
+        const int64_t bad = dmb_block_factor(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count);
         if (bad >= 0) return bad;
-        dmb_block_solve(&scene->layout, &matrix, chain->first, chain->count, sim->correction);
     }
     return -1;
+}
+
+void dmb_solve_correction(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_block_matrix matrix = matrix_of(sim);
+    for (uint32_t i = 0; i < scene->row_count; i++)
+        sim->correction[i] = scene->solved_row[i] ? -sim->correction[i] : 0.0;
+    for (uint32_t c = 0; c < scene->chain_count; c++)
+        dmb_block_solve(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count, sim->correction);
 }

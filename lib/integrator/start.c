@@ -68,12 +68,13 @@ static int32_t solve_accelerations(dmb_sim *sim, dmb_evaluation *evaluation)
     memset(sim->stiffness_upper, 0, layout->link[n - 1] * sizeof(double));
     memset(sim->stiffness_lower, 0, layout->link[n - 1] * sizeof(double));
     dmb_system_iteration_matrix(evaluation);
-    const int64_t bad = dmb_solve_correction(sim);
+    const int64_t bad = dmb_factor_matrix(sim);
     if (bad >= 0) {
         const dmb_owner owner = dmb_owner_of_node(sim->scene, (uint32_t)bad);
         dmb_message_set(&sim->message, "%s %u, pipe %u: mass matrix singular", owner.kind, owner.index, owner.pipe);
         return DMB_ERR_SINGULAR;
     }
+    dmb_solve_correction(sim);
     for (uint32_t i = 0; i < sim->scene->row_count; i++) {
         sim->trial.acceleration[i] += sim->correction[i];
         sim->trial.pseudo_acceleration[i] = sim->trial.acceleration[i];

@@ -151,8 +151,8 @@ static void pose_tangent(const contact_frame *f, const contact_force *c, double 
     dmb_skew(wrench + 3, skew);
     dmb_mat6_add_block(1.0, skew, 1, 1, out);
     for (int l = 0; l < 3; l++) {
-        dmb_vec3_cross(f->j[l], f->V, a);
-        dmb_vec3_cross(f->j[l] + 3, f->V + 3, b);
+        dmb_vec3_cross(f->V, f->j[l], a); /* d(j . V) = (j x dtheta) . V = (V x j) . dtheta */
+        dmb_vec3_cross(f->V + 3, f->j[l] + 3, b);
         dmb_vec3_add(a, b, turning[l]);
     }
     for (int k = 0; k < 3; k++)
