@@ -74,7 +74,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->programme_count = mesh->model->programmes.count;
     scene->string_count = (uint32_t)mesh->strings.count;
     scene->pipe_count = (uint32_t)mesh->pipes.count;
-    scene->body_count = mesh->model->bodies.count;
+    scene->body_count = (uint32_t)mesh->bodies.count; /* bits included */
     scene->history_count = mesh->history_count;
     scene->structural_joint_count = structural_joints(mesh);
     count_rows(mesh, scene);
@@ -125,7 +125,7 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
     to->bits = DMB_ARENA_ARRAY(arena, dmb_scene_bit, counts->bit_count);
     to->strings = DMB_ARENA_ARRAY(arena, dmb_string_map, counts->string_count);
     to->pipes = DMB_ARENA_ARRAY(arena, dmb_pipe_map, counts->pipe_count);
-    to->bodies = DMB_ARENA_ARRAY(arena, dmb_body_map, (size_t)counts->body_count + counts->bit_count);
+    to->bodies = DMB_ARENA_ARRAY(arena, dmb_body_map, counts->body_count);
 }
 
 /* The struct comes first, so that its address is that of the block. Its counts are copied, its arrays point behind it. */
