@@ -40,15 +40,33 @@ static int32_t begin(dmb_static_search *search)
 typedef int32_t (*search_fn)(dmb_static_search *search);
 
 /* Equal load steps; a single one is the common case. */
-static int32_t run(dmb_static_search *search, search_fn method)
+static int32_t run(dmb_static_search *search, search_fn method, uint32_t steps)
 {
-    const uint32_t steps = search->options->load_steps;
     int32_t status = begin(search);
+    search->load_steps = steps;
     for (uint32_t k = 1; k <= steps && status >= 0; k++) {
         search->evaluation.load_factor = (double)k / steps;
         status = method(search);
     }
     return status;
+}
+
+static int may_try_again(int32_t status)
+{
+    return status < 0 && status != DMB_ERR_CALLBACK && status != DMB_ERR_SINGULAR;
+}
+
+/* Newton in the load steps asked for, then in 4 and 16 times as many, then the relaxation. */
+static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
+{
+    const uint32_t steps = search->options->load_steps;
+    int32_t status = run(search, dmb_static_newton, steps);
+    *method = DMB_STATIC_NEWTON;
+    for (uint32_t finer = 4; finer <= 16 && may_try_again(status); finer *= 4)
+        status = run(search, dmb_static_newton, finer * steps);
+    if (!may_try_again(status)) return status;
+    *method = DMB_STATIC_RELAXATION;
+    return run(search, dmb_static_relaxation, steps);
 }
 
 static double largest_displacement(const dmb_sim *sim)
@@ -70,6 +88,22 @@ static double largest_residual(const dmb_sim *sim)
     return most;
 }
 
+/* Friction of an assumed slip vanishes with the speeds, so that the state at rest is not held by the same forces. Reactions
+ * and drive forces are those of the static state until the first step. */
+static int32_t keep_static_reactions(dmb_static_search *search)
+{
+    dmb_sim *sim = search->sim;
+    const dmb_scene *scene = sim->scene;
+    search->evaluation.tangent = 0;
+    const int32_t status = dmb_system_evaluate(&search->evaluation);
+    if (status < 0) return status;
+    memcpy(sim->residual_row, sim->correction, scene->row_count * sizeof(double));
+    for (uint32_t i = 0; i < scene->drive_count; i++)
+        if (scene->drives[i].kind == DMB_DRIVE_MOTION)
+            sim->now.drive_force[i] = sim->correction[scene->drives[i].row];
+    return DMB_OK;
+}
+
 /* The found pose becomes the state, at rest but for motion drives. */
 static int32_t settle(dmb_static_search *search)
 {
@@ -83,8 +117,9 @@ static int32_t settle(dmb_static_search *search)
     memset(sim->trial.site_approach, 0, scene->site_count * sizeof(double));
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
     const dmb_counters counters = *sim->counters;
-    const int32_t status = dmb_integrator_restart(sim);
+    int32_t status = dmb_integrator_restart(sim);
     *sim->counters = counters;
+    if (status >= 0 && search->evaluation.slipping) status = keep_static_reactions(search);
     if (status < 0) {
         dmb_state_bring_back(sim);
         return status;
@@ -126,18 +161,13 @@ int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb
     int32_t status = dmb_static_options_take(sim, options, &taken);
     if (status < 0) return status;
     set_up(&search, sim, &taken);
-    out.method = DMB_STATIC_NEWTON;
-    status = run(&search, dmb_static_newton);
-    if (status < 0 && status != DMB_ERR_CALLBACK && status != DMB_ERR_SINGULAR) {
-        out.method = DMB_STATIC_RELAXATION;
-        status = run(&search, dmb_static_relaxation);
-    }
+    status = search_equilibrium(&search, &out.method);
     if (status < 0) {
         explain(&search, status);
         return status;
     }
     out.iterations = search.iterations;
-    out.load_steps = taken.load_steps;
+    out.load_steps = search.load_steps;
     out.residual = search.residual;
     out.largest_force = largest_residual(sim);
     out.lateral_move = largest_displacement(sim);

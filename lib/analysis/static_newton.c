@@ -5,13 +5,10 @@
 #include "math/se3.h"
 
 /* Moves the trial by body-frame increments; the sum in `increment` follows the turns. */
-static void move(dmb_sim *sim, double factor)
+static void move(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0; i < scene->row_count; i++) {
-        sim->correction[i] *= factor;
-        sim->increment[i] += sim->correction[i];
-    }
+    for (uint32_t i = 0; i < scene->row_count; i++) sim->increment[i] += sim->correction[i];
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const double *z = sim->correction + scene->layout.row[i];
         if (scene->layout.size[i] == DMB_NODE_FULL) {
@@ -21,6 +18,11 @@ static void move(dmb_sim *sim, double factor)
             sim->trial.turn[i] += z[1];
         }
     }
+}
+
+static void scale_correction(dmb_sim *sim, double factor)
+{
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) sim->correction[i] *= factor;
 }
 
 /* Largest correction, rotations times the length scale. */
@@ -57,6 +59,13 @@ static int32_t solve(dmb_static_search *search)
     return DMB_OK;
 }
 
+/* Where nodes keep opening and closing the wall in turn, shorter corrections break the cycle. */
+static double damping(uint32_t iteration)
+{
+    if (iteration < 12) return 1.0;
+    return iteration % 4 == 3 ? 1.0 : 0.5;
+}
+
 int32_t dmb_static_newton(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
@@ -67,9 +76,10 @@ int32_t dmb_static_newton(dmb_static_search *search)
         if (k >= search->options->max_iterations) return DMB_ERR_NO_CONVERGENCE;
         status = solve(search);
         if (status < 0) return status;
+        scale_correction(sim, damping(k));
         dmb_system_extrapolate_stress(sim, sim->correction);
         search->evaluation.extrapolated = 1;
-        move(sim, 1.0);
+        move(sim);
     }
 }
 
@@ -112,6 +122,9 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
         status = solve(search);
         if (status < 0) return status;
         const double most = largest_move(sim);
-        move(sim, most > limit ? limit / most : 1.0);
+        scale_correction(sim, most > limit ? limit / most : 1.0);
+        dmb_system_extrapolate_stress(sim, sim->correction);
+        search->evaluation.extrapolated = 1;
+        move(sim);
     }
 }

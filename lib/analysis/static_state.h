@@ -10,6 +10,7 @@ typedef struct dmb_static_search {
     const dmb_static_options *options;
     dmb_evaluation evaluation;
     uint32_t iterations; /* in all */
+    uint32_t load_steps; /* of the last try */
     uint32_t block;      /* block found singular */
     double residual;     /* [-] relative, last */
 } dmb_static_search;

@@ -182,25 +182,19 @@ static void add_times_block(const double L[36], const mass_block *m, double out[
 /* L = mass_factor I - velocity_factor v^^T */
 static void inertia_rows(const double v[6], double mass_factor, double velocity_factor, double L[36])
 {
-    double skew[9];
     dmb_mat6_zero(L);
-    dmb_skew(v + 3, skew);
-    dmb_mat6_add_block(velocity_factor, skew, 0, 0, L);
-    dmb_mat6_add_block(velocity_factor, skew, 1, 1, L);
-    dmb_skew(v, skew);
-    dmb_mat6_add_block(velocity_factor, skew, 1, 0, L);
+    dmb_mat6_add_skew(velocity_factor, v + 3, 0, 0, L);
+    dmb_mat6_add_skew(velocity_factor, v + 3, 1, 1, L);
+    dmb_mat6_add_skew(velocity_factor, v, 1, 0, L);
     for (int i = 0; i < 36; i += 7) L[i] += mass_factor;
 }
 
 /* out -= factor A(p), A(p) = [0, pu~; pu~, pw~] */
 static void subtract_momentum(const double p[6], double factor, double out[36])
 {
-    double skew[9];
-    dmb_skew(p, skew);
-    dmb_mat6_add_block(-factor, skew, 0, 1, out);
-    dmb_mat6_add_block(-factor, skew, 1, 0, out);
-    dmb_skew(p + 3, skew);
-    dmb_mat6_add_block(-factor, skew, 1, 1, out);
+    dmb_mat6_add_skew(-factor, p, 0, 1, out);
+    dmb_mat6_add_skew(-factor, p, 1, 0, out);
+    dmb_mat6_add_skew(-factor, p + 3, 1, 1, out);
 }
 
 void dmb_beam_add_inertia_tangent(const dmb_beam_mass *mass, const double va[6], const double vb[6], const double pa[6],

@@ -23,30 +23,42 @@ static inline void dmb_lump_mass_times(const dmb_lump *lump, const double v[6], 
     dmb_vec3_add(c, j, p + 3);
 }
 
-/* M as a matrix */
-static inline void dmb_lump_matrix(const dmb_lump *lump, double M[36])
+/* out += factor J */
+static inline void dmb_lump_add_inertia(const double J[6], double factor, double out[9])
 {
-    const double *J = lump->inertia;
     const double full[9] = {J[0], J[3], J[4], J[3], J[1], J[5], J[4], J[5], J[2]};
-    double b[9];
-    dmb_mat6_zero(M);
-    M[0] = M[7] = M[14] = lump->mass;
-    dmb_skew(lump->moment, b);
-    dmb_mat6_add_block(-1.0, b, 0, 1, M);
-    dmb_mat6_add_block(1.0, b, 1, 0, M);
-    dmb_mat6_set_block(full, 1, 1, M);
+    dmb_mat3_axpy(factor, full, out);
 }
 
-/* Adds mass_factor M + velocity_factor C_t, C_t = -v^^T M - A(p), p = M v. */
+/* Adds mass_factor M + velocity_factor C_t, C_t = -v^^T M - A(p), p = M v, v = (u; w):
+ * -v^^T M = [m w~, -w~ b~; m u~ + w~ b~, -u~ b~ + w~ J] */
 static inline void dmb_lump_add_inertia_tangent(const dmb_lump *lump, const double v[6], const double p[6],
                                                 double mass_factor, double velocity_factor, double out[36])
 {
-    double M[36], ad[36], adM[36], A[36];
-    dmb_lump_matrix(lump, M);
-    dmb_ad6(v, ad);
-    dmb_mat6_mul_tn(ad, M, adM);
-    dmb_ad_transpose_derivative(p, A);
-    for (int i = 0; i < 36; i++) out[i] += mass_factor * M[i] - velocity_factor * (adM[i] + A[i]);
+    const double m = lump->mass, s = velocity_factor;
+    double u[9], w[9], b[9], J[9], wb[9], ub[9], wJ[9];
+    dmb_skew(v, u);
+    dmb_skew(v + 3, w);
+    dmb_skew(lump->moment, b);
+    dmb_mat3_zero(J);
+    dmb_lump_add_inertia(lump->inertia, 1.0, J);
+    dmb_mat3_mul(w, b, wb);
+    dmb_mat3_mul(u, b, ub);
+    dmb_mat3_mul(w, J, wJ);
+    for (int i = 0; i < 9; i++) J[i] = mass_factor * J[i] + s * (wJ[i] - ub[i]);
+    out[0] += mass_factor * m;
+    out[7] += mass_factor * m;
+    out[14] += mass_factor * m;
+    dmb_mat6_add_skew(s * m, v + 3, 0, 0, out);
+    dmb_mat6_add_skew(-mass_factor, lump->moment, 0, 1, out);
+    dmb_mat6_add_block(-s, wb, 0, 1, out);
+    dmb_mat6_add_skew(mass_factor, lump->moment, 1, 0, out);
+    dmb_mat6_add_skew(s * m, v, 1, 0, out);
+    dmb_mat6_add_block(s, wb, 1, 0, out);
+    dmb_mat6_add_block(1.0, J, 1, 1, out);
+    dmb_mat6_add_skew(-s, p, 0, 1, out);
+    dmb_mat6_add_skew(-s, p, 1, 0, out);
+    dmb_mat6_add_skew(-s, p + 3, 1, 1, out);
 }
 
 #endif

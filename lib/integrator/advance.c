@@ -12,6 +12,12 @@ static double next_step(const dmb_sim *sim, double h, double error)
     return fmin(fmax(ratio * h, sim->options.step_min), sim->options.step_max);
 }
 
+/* After a step whose error was too large: always shorter, or the same step would be tried for ever. */
+static double retry_step(const dmb_sim *sim, double h, double error)
+{
+    return fmax(fmin(next_step(sim, h, error), 0.8 * h), sim->options.step_min);
+}
+
 static double first_step(const dmb_sim *sim)
 {
     if (sim->clock->next_step > 0.0) return sim->clock->next_step;
@@ -43,7 +49,7 @@ static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk 
         }
         dmb_walk_reject(sim, &attempt, walk);
         if (status < 0 && (smallest || status == DMB_ERR_CALLBACK)) return status;
-        *wanted = status >= 0 ? next_step(sim, h, attempt.error) : fmax(0.25 * h, sim->options.step_min);
+        *wanted = status >= 0 ? retry_step(sim, h, attempt.error) : fmax(0.25 * h, sim->options.step_min);
     }
 }
 

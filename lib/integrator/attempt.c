@@ -5,6 +5,7 @@
 #include "integrator/generalized_alpha.h"
 #include "integrator/ledger.h"
 #include "integrator/owner.h"
+#include "integrator/turning.h"
 
 /* Newton gives up when the residual has grown this much over its start. */
 #define DMB_NEWTON_GROWTH 1e6
@@ -159,6 +160,10 @@ int32_t dmb_attempt_step(dmb_sim *sim, double step, dmb_attempt *attempt)
         dmb_trial_pose(sim);
         do status = iterate(sim, &c, attempt, &course);
         while (status == 1);
+    }
+    if (status >= 0) {
+        attempt->evaluation.element = dmb_element_turned_too_far(sim);
+        if (attempt->evaluation.element != UINT32_MAX) status = DMB_ERR_ROTATION;
     }
     attempt->status = status == DMB_NOTE_WORK_LIMITED ? status : status < 0 ? status : DMB_OK;
     if (attempt->status >= 0) attempt->error = local_error(sim, &c, step);

@@ -74,6 +74,18 @@ static inline void dmb_mat6_add_block(double s, const double block[9], int i, in
     for (int r = 0; r < 3; r++) dmb_vec3_axpy(s, block + 3 * r, A + 18 * i + 6 * r + 3 * j);
 }
 
+/* The block (i, j) += s a~ */
+static inline void dmb_mat6_add_skew(double s, const double a[3], int i, int j, double A[36])
+{
+    double *block = A + 18 * i + 3 * j;
+    block[1] -= s * a[2];
+    block[2] += s * a[1];
+    block[6] += s * a[2];
+    block[8] -= s * a[0];
+    block[12] -= s * a[1];
+    block[13] += s * a[0];
+}
+
 /* y[j] = sum_k a[k * step] B[k][j]: one row of a product, over whole rows of B so that it vectorises */
 static inline void dmb_mat6_row(const double *a, int step, const double B[36], double *restrict y)
 {

@@ -1,5 +1,5 @@
-/* What every dmb_model_add_ function does alike: refuse wrong objects, read the caller's struct, append, give out an id,
- * tell the log. */
+/* What every dmb_model_add_ function does alike: refuse wrong objects, read the caller's struct, append, give out an
+ * id, tell the log. */
 #ifndef DMB_MODEL_DESCRIBE_H
 #define DMB_MODEL_DESCRIBE_H
 

@@ -27,9 +27,9 @@ static void check_inertia(dmb_check *check, const dmb_body_def *def)
     dmb_check_each_within(check, "products of inertia", def->inertia + 3, 3, -DMB_INERTIA_MAX, DMB_INERTIA_MAX);
     if (check->status < 0 || is_positive_definite(def->inertia)) return;
     check->status = DMB_ERR_VALUE;
-    dmb_message_set(check->message, "%s %u: inertia = (%g, %g, %g, %g, %g, %g), must be positive definite",
-                    check->part, check->index, def->inertia[0], def->inertia[1], def->inertia[2], def->inertia[3],
-                    def->inertia[4], def->inertia[5]);
+    dmb_message_set(check->message, "%s %u: inertia = (%g, %g, %g, %g, %g, %g), must be positive definite", check->part,
+                    check->index, def->inertia[0], def->inertia[1], def->inertia[2], def->inertia[3], def->inertia[4],
+                    def->inertia[5]);
 }
 
 static void check_pose(dmb_check *check, const dmb_body_def *def)

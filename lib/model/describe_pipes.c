@@ -62,9 +62,11 @@ static void check_curvature(dmb_check *check, const dmb_pipe_def *def)
     const double *k = def->curvature;
     dmb_check_each_within(check, "curvature", k, 3, -DMB_CURVATURE_MAX, DMB_CURVATURE_MAX);
     if (check->status < 0) return;
-    const double bend = sqrt(k[0] * k[0] + k[1] * k[1] + k[2] * k[2]) * (def->length - def->joint_length) / def->elements;
+    const double bend =
+        sqrt(k[0] * k[0] + k[1] * k[1] + k[2] * k[2]) * (def->length - def->joint_length) / def->elements;
     if (bend <= DMB_REST_ROTATION_MAX) return;
-    dmb_check_fail(check, DMB_ERR_VALUE, "curvature times length of an element", bend, "<= 2.5 rad: take more elements");
+    dmb_check_fail(check, DMB_ERR_VALUE, "curvature times length of an element", bend,
+                   "<= 2.5 rad: take more elements");
 }
 
 static int32_t check_pipes(dmb_model *model, uint32_t string, const dmb_pipe_def *def, uint32_t count)

@@ -45,11 +45,11 @@ void dmb_check_id(dmb_check *check, const dmb_model *model, const char *field, d
     if (check->status < 0 || dmb_model_part_index(model, id, kind) != UINT32_MAX) return;
     check->status = DMB_ERR_ID;
     if (check->index == DMB_NO_INDEX) {
-        dmb_message_set(check->message, "%s: %s = {%u, %u}, must name a %s of this model", check->part, field,
-                        id.index, id.generation, what);
+        dmb_message_set(check->message, "%s: %s = {%u, %u}, must name a %s of this model", check->part, field, id.index,
+                        id.generation, what);
     } else {
-        dmb_message_set(check->message, "%s %u: %s = {%u, %u}, must name a %s of this model", check->part,
-                        check->index, field, id.index, id.generation, what);
+        dmb_message_set(check->message, "%s %u: %s = {%u, %u}, must name a %s of this model", check->part, check->index,
+                        field, id.index, id.generation, what);
     }
 }
 

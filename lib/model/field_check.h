@@ -1,5 +1,5 @@
-/* Checks of fields, beyond those of base/check.h: numbers and arrays between two bounds, zero standing for "by default",
- * and ids. */
+/* Checks of fields, beyond those of base/check.h: numbers and arrays between two bounds, zero standing for "by
+ * default", and ids. */
 #ifndef DMB_MODEL_FIELD_CHECK_H
 #define DMB_MODEL_FIELD_CHECK_H
 

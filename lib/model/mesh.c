@@ -31,10 +31,19 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
 
 void dmb_mesh_release(dmb_mesh *mesh)
 {
-    dmb_vector *const all[] = {&mesh->stations, &mesh->run_order, &mesh->run_start, &mesh->nodes, &mesh->elements,
-                               &mesh->types, &mesh->batches, &mesh->lumps, &mesh->sites, &mesh->path_sites,
-                               &mesh->drives, &mesh->loads, &mesh->bits, &mesh->strings, &mesh->pipes, &mesh->bodies};
+    dmb_vector *const all[] = {&mesh->stations, &mesh->run_order,  &mesh->run_start, &mesh->nodes,
+                               &mesh->elements, &mesh->types,      &mesh->batches,   &mesh->lumps,
+                               &mesh->sites,    &mesh->path_sites, &mesh->drives,    &mesh->loads,
+                               &mesh->bits,     &mesh->strings,    &mesh->pipes,     &mesh->bodies};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) dmb_vector_release(all[i], &mesh->model->allocator);
+}
+
+bool dmb_same_numbers(const double *a, const double *b, size_t count)
+{
+    for (size_t i = 0; i < count; ++i) {
+        if (a[i] < b[i] || a[i] > b[i]) return false;
+    }
+    return true;
 }
 
 int32_t dmb_mesh_kind(const dmb_mesh *mesh, const dmb_pipe_run *run)

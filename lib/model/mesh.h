@@ -1,6 +1,6 @@
-/* The scene while it is being made. Each step of dmb_model_compile fills some of it from the model and from what earlier
- * steps have left; freeze.c then moves it into one block. Held in growable arrays, so that nothing has to be known in
- * advance; all of it goes when the compile step ends.
+/* The scene while it is being made. Each step of dmb_model_compile fills some of it from the model and from what
+ * earlier steps have left; mesh_freeze.c then moves it into one block. Held in growable arrays, so that nothing has to
+ * be known in advance; all of it goes when the compile step ends.
  *
  *   step            reads                      fills
  *   count           runs                       run_order, room in nodes and elements
@@ -97,6 +97,8 @@ static inline const dmb_string_def *dmb_mesh_string_def(const dmb_mesh *mesh, ui
     return DMB_LIST_AT(const dmb_string_def, mesh->model->strings, i);
 }
 
+/* True if all count numbers are equal. */
+bool dmb_same_numbers(const double *a, const double *b, size_t count);
 /* Kind of a run's pipes after the compile options. */
 int32_t dmb_mesh_kind(const dmb_mesh *mesh, const dmb_pipe_run *run);
 /* True if the string starts on the hole's axis. */

@@ -76,8 +76,8 @@ static void load_place(const dmb_mesh *mesh, const dmb_place *place, dmb_scene_l
     const dmb_model *model = mesh->model;
     const uint32_t string = dmb_model_part_index(model, place->part, DMB_PART_STRING);
     const uint32_t bit = dmb_model_part_index(model, place->part, DMB_PART_BIT);
-    const uint32_t body = bit != UINT32_MAX ? model->bodies.count + bit
-                                            : dmb_model_part_index(model, place->part, DMB_PART_BODY);
+    const uint32_t body =
+        bit != UINT32_MAX ? model->bodies.count + bit : dmb_model_part_index(model, place->part, DMB_PART_BODY);
     if (string != UINT32_MAX) {
         pipe_end(mesh, string, place->pipe, place->fraction > 0.5, load);
         return;

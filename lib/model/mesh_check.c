@@ -143,7 +143,8 @@ static int32_t check_diameters(const dmb_model *model, dmb_message *message)
     check.part = "body";
     for (uint32_t i = 0; i < model->bodies.count && check.status >= 0; ++i) {
         check.index = i;
-        check_fits(&check, "contact_diameter", DMB_LIST_AT(const dmb_body_def, model->bodies, i)->contact_diameter, hole);
+        check_fits(&check, "contact_diameter", DMB_LIST_AT(const dmb_body_def, model->bodies, i)->contact_diameter,
+                   hole);
     }
     if (check.status >= 0) check.part = "bit";
     for (uint32_t i = 0; i < model->bits.count && check.status >= 0; ++i) {

@@ -4,10 +4,11 @@
 static int32_t refuse_station(dmb_message *message, const dmb_wall_def *wall, uint32_t station)
 {
     const double *row = wall->survey + 3 * (size_t)station;
-    dmb_message_set(message,
-                    "wall: station %u at measured depth %g m, inclination %g and azimuth %g rad, must turn by <= %g rad "
-                    "from the station before",
-                    station, row[0], row[1], row[2], DMB_HOLE_DOGLEG_MAX);
+    dmb_message_set(
+        message,
+        "wall: station %u at measured depth %g m, inclination %g and azimuth %g rad, must turn by <= %g rad "
+        "from the station before",
+        station, row[0], row[1], row[2], DMB_HOLE_DOGLEG_MAX);
     return DMB_ERR_GEOMETRY;
 }
 
@@ -18,8 +19,7 @@ int32_t dmb_mesh_hole(dmb_mesh *mesh)
     if (mesh->model->wall_count == 0) return DMB_OK;
     mesh->has_hole = 1;
     if (wall->survey_count == 0) return dmb_hole_setup_straight(&mesh->hole, wall->origin, wall->direction, radius);
-    const int32_t status =
-        dmb_vector_append(&mesh->stations, &mesh->model->allocator, NULL, wall->survey_count);
+    const int32_t status = dmb_vector_append(&mesh->stations, &mesh->model->allocator, NULL, wall->survey_count);
     if (status < 0) return status;
     const int64_t bad = dmb_hole_setup_survey(&mesh->hole, wall->survey_count, wall->survey, wall->origin, radius,
                                               mesh->stations.items);

@@ -138,14 +138,12 @@ static int32_t add_string(dmb_mesh *mesh, uint32_t string)
 {
     const bool eccentric = (mesh->features & DMB_FEATURE_ECCENTRICITY) != 0;
     dmb_pipe_walk walk = dmb_pipe_walk_of(mesh, string);
-    const dmb_pipe_run *before = NULL;
-    run_mass mass;
+    run_mass mass = {0};
     int32_t status = DMB_OK;
     while (status >= 0 && dmb_pipe_walk_next(&walk)) {
         const dmb_pipe_map *pipe = dmb_mesh_pipe_at(mesh, dmb_mesh_string_at(mesh, string)->first_pipe + walk.number);
         double offset[2], *e = NULL;
-        if (walk.run != before) run_mass_of(mesh, walk.run, &mass);
-        before = walk.run;
+        if (mass.def != &walk.run->def) run_mass_of(mesh, walk.run, &mass);
         if (eccentric && dmb_pipe_is_eccentric(&walk.run->def)) {
             dmb_pipe_offset(&walk.run->def, walk.number, offset);
             e = offset;

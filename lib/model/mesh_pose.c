@@ -1,6 +1,4 @@
 /* Poses at time 0: along the hole's axis, along a line, or along the unstressed shape. */
-#include <string.h>
-
 #include "math/mat6.h"
 #include "math/se3.h"
 #include "model/mesh.h"
@@ -97,7 +95,7 @@ static void span_between(const dmb_mesh *mesh, dmb_mesh_element *element)
     dmb_quat_rotate(a->quaternion, along, straight);
     dmb_vec3_sub(b->position, a->position, element->span);
     dmb_vec3_sub(element->span, straight, difference);
-    if (memcmp(a->quaternion, b->quaternion, sizeof a->quaternion) != 0) return;
+    if (!dmb_same_numbers(a->quaternion, b->quaternion, 4)) return;
     if (dmb_vec3_norm(difference) > 1e-9 * (along[0] + dmb_vec3_norm(a->position))) return;
     dmb_vec3_copy(straight, element->span);
 }

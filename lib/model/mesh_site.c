@@ -1,6 +1,6 @@
 /* Places that can meet the wall. Along a string they stand between the stretches from node to node (for rigid pipes:
- * from pipe end to pipe end), each for half of the two stretches it divides, so that refining the mesh does not change the
- * contact per metre. */
+ * from pipe end to pipe end), each for half of the two stretches it divides, so that refining the mesh does not change
+ * the contact per metre. */
 #include "model/mesh.h"
 #include "model/motion_mask.h"
 #include "model/section.h"
@@ -10,10 +10,10 @@ typedef struct site_walk {
     dmb_mesh *mesh;
     dmb_id part;
     uint32_t node;
-    uint32_t pipe;    /* whose far end it is */
-    double offset;    /* [m] from the node */
-    double diameter;  /* [m] largest of what meets here */
-    double length;    /* [m] half of the stretches on both sides, as far as they are known */
+    uint32_t pipe;   /* whose far end it is */
+    double offset;   /* [m] from the node */
+    double diameter; /* [m] largest of what meets here */
+    double length;   /* [m] half of the stretches on both sides, as far as they are known */
 } site_walk;
 
 /* A place is free to move sideways if its node is, or if its node tilts and it stands away from it. */
@@ -61,7 +61,8 @@ static int32_t finish_place(const site_walk *walk)
 }
 
 /* Goes on over a stretch of the given length and diameter; the next place begins at its far end. */
-static int32_t pass_stretch(site_walk *walk, double length, double diameter, uint32_t node, double offset, uint32_t pipe)
+static int32_t pass_stretch(site_walk *walk, double length, double diameter, uint32_t node, double offset,
+                            uint32_t pipe)
 {
     int32_t status;
     walk->length += 0.5 * length;
@@ -119,11 +120,8 @@ static int32_t add_ring(dmb_mesh *mesh, uint32_t map_index, double diameter, dou
 {
     dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, map_index);
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, map->node);
-    const dmb_site site = {.offset = map->arm + offset,
-                           .radius = 0.5 * diameter,
-                           .length = length,
-                           .part = part,
-                           .node = map->node};
+    const dmb_site site = {
+        .offset = map->arm + offset, .radius = 0.5 * diameter, .length = length, .part = part, .node = map->node};
     if (!(diameter > 0.0) || node->size == DMB_NODE_PATH || !moves_sideways(node, site.offset)) return DMB_OK;
     map->site = (uint32_t)mesh->sites.count;
     return push_site(mesh, &site);
@@ -135,8 +133,8 @@ static int32_t add_rings(dmb_mesh *mesh)
     int32_t status = DMB_OK;
     for (uint32_t i = 0; i < model->bodies.count && status >= 0; ++i) {
         const dmb_body_def *def = DMB_LIST_AT(const dmb_body_def, model->bodies, i);
-        status = add_ring(mesh, i, def->contact_diameter, 0.0, def->contact_length,
-                          dmb_model_id(model, DMB_PART_BODY, i));
+        status =
+            add_ring(mesh, i, def->contact_diameter, 0.0, def->contact_length, dmb_model_id(model, DMB_PART_BODY, i));
     }
     for (uint32_t i = 0; i < model->bits.count && status >= 0; ++i) {
         const dmb_bit_def *def = DMB_LIST_AT(const dmb_bit_def, model->bits, i);

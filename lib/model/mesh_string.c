@@ -22,11 +22,8 @@ static const dmb_pipe_run *run_at(const string_walk *walk, uint32_t place)
 /* Room was reserved for all of them by the counting step. */
 static uint32_t push_node(string_walk *walk, uint8_t size, double at)
 {
-    const dmb_mesh_node node = {.at = at,
-                                .string = walk->string,
-                                .lump = UINT32_MAX,
-                                .size = size,
-                                .free = DMB_FREE_ALL};
+    const dmb_mesh_node node = {
+        .at = at, .string = walk->string, .lump = UINT32_MAX, .size = size, .free = DMB_FREE_ALL};
     (void)dmb_vector_append(&walk->mesh->nodes, &walk->mesh->model->allocator, &node, 1);
     return (uint32_t)walk->mesh->nodes.count - 1;
 }

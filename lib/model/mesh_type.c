@@ -1,18 +1,22 @@
 /* Types of elements, their kernels, and batches of neighbours with one kernel. */
-#include <string.h>
-
 #include "model/beam_element.h"
 #include "model/mesh.h"
 
 /* Equal elements are mostly near each other: a run of pipes has four types at most. */
-enum { RECENT_TYPES = 8 };
+enum { RECENT_TYPES = 8, NUMBERS = sizeof(dmb_element_type) / sizeof(double) };
+
+/* A type holds nothing but numbers. */
+static bool same_type(const dmb_element_type *a, const dmb_element_type *b)
+{
+    return dmb_same_numbers((const double *)(const void *)a, (const double *)(const void *)b, NUMBERS);
+}
 
 /* Index of an equal type among the latest, or of a new one. */
 static int32_t share_type(dmb_mesh *mesh, const dmb_element_type *type, uint32_t *index)
 {
     const size_t count = mesh->types.count;
     for (size_t i = count; i > 0 && i + RECENT_TYPES > count; --i) {
-        if (memcmp(dmb_vector_at(&mesh->types, i - 1), type, sizeof *type) != 0) continue;
+        if (!same_type(DMB_VECTOR_AT(const dmb_element_type, &mesh->types, i - 1), type)) continue;
         *index = (uint32_t)(i - 1);
         return DMB_OK;
     }
@@ -22,7 +26,7 @@ static int32_t share_type(dmb_mesh *mesh, const dmb_element_type *type, uint32_t
 
 static bool alike(const dmb_mesh_element *a, const dmb_mesh_element *b)
 {
-    return a->run == b->run && memcmp(a->arm, b->arm, sizeof a->arm) == 0;
+    return a->run == b->run && dmb_same_numbers(a->arm, b->arm, 2);
 }
 
 static int32_t find_type(dmb_mesh *mesh, dmb_mesh_element *element, const dmb_mesh_element *before)

@@ -12,8 +12,8 @@ typedef struct dmb_pipe_section {
 
 /* A rigid solid of revolution about its own centre. */
 typedef struct dmb_rigid_part {
-    double mass;         /* [kg] */
-    double inertia[2];   /* [kg m2] about the axis and across, at the centre */
+    double mass;       /* [kg] */
+    double inertia[2]; /* [kg m2] about the axis and across, at the centre */
 } dmb_rigid_part;
 
 /* Tube: A = pi (D^2 - d^2)/4, I = pi (D^4 - d^4)/64, J = 2 I, G = E/(2 (1 + nu)), GA = kappa G A; what the definition

@@ -27,7 +27,6 @@ static void internal_force(dmb_evaluation *evaluation, uint32_t e, const dmb_ele
     dmb_beam_stress(type, shape->d, stress);
     dmb_vec6_copy(shape->d, sim->element_strain + 6 * e);
     evaluation->rounding += type->stiffness[0] * type->stiffness[0] * ends->reach * ends->reach;
-    if (!evaluation->extrapolated) dmb_vec6_copy(stress, sim->element_stress + 6 * e);
     if (evaluation->dynamic && (sim->options.energy_ledger || type->damping_time != 0.0)) {
         dmb_beam_strain_rate(shape, ends->va, ends->vb, rate);
         evaluation->power[DMB_POWER_POTENTIAL] -= dmb_vec6_dot(stress, rate);
@@ -37,6 +36,7 @@ static void internal_force(dmb_evaluation *evaluation, uint32_t e, const dmb_ele
             stress[i] += viscous;
         }
     }
+    if (!evaluation->extrapolated) dmb_vec6_copy(stress, sim->element_stress + 6 * e); /* the viscous part too */
     dmb_beam_add_force(shape, stress, ends->fa, ends->fb);
     add_scaled(ends->fa, ends->scale_a);
     add_scaled(ends->fb, ends->scale_b);
@@ -182,17 +182,20 @@ static void gather_path(dmb_evaluation *evaluation, uint32_t e)
     const dmb_configuration *trial = &sim->trial;
     const dmb_element_type *type = scene->types + scene->element_type[e];
     const uint32_t a = scene->element_node[e], b = a + 1, ra = scene->layout.row[a], rb = scene->layout.row[b];
-    const double stretch[2] = {type->length + (trial->displacement[3 * b] - trial->displacement[3 * a]),
-                               trial->turn[b] - trial->turn[a]};
+    const double change[2] = {trial->displacement[3 * b] - trial->displacement[3 * a], trial->turn[b] - trial->turn[a]};
+    const double start[2] = {type->length, 0.0}; /* the length is left out of differences, which keeps their digits */
+    const double reach[2] = {fabs(trial->displacement[3 * a]) + fabs(trial->displacement[3 * b]),
+                             (fabs(trial->turn[a]) + fabs(trial->turn[b])) / scene->length_scale};
     const double *mass[2] = {type->mass.axial, type->mass.torsion};
     for (uint32_t c = 0; c < 2; c++) {
         const int k = component[c];
-        const double stiffness = type->stiffness[k], elastic = stiffness * (stretch[c] - type->rest[k]);
+        evaluation->rounding += type->stiffness[k] * reach[c] * (type->stiffness[k] * reach[c]);
+        const double stiffness = type->stiffness[k], elastic = stiffness * (change[c] + (start[c] - type->rest[k]));
         const double *v = trial->velocity, *dv = trial->acceleration;
         const double rate = evaluation->dynamic ? v[rb + c] - v[ra + c] : 0.0;
         const double viscous = stiffness * type->damping_time * rate, force = elastic + viscous;
         double fa = -force, fb = force, mass_a = 0.0, mass_b = 0.0;
-        sim->element_strain[6 * e + (uint32_t)k] = stretch[c];
+        sim->element_strain[6 * e + (uint32_t)k] = start[c] + change[c];
         evaluation->power[DMB_POWER_POTENTIAL] -= elastic * rate;
         evaluation->power[DMB_POWER_DAMPING] -= viscous * rate;
         if (evaluation->dynamic) {

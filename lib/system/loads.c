@@ -38,14 +38,12 @@ static void wrench_of(const dmb_sim *sim, const dmb_scene_load *load, double fac
 static void gather_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor)
 {
     dmb_sim *sim = evaluation->sim;
-    double w[6], v[6], skew[9], K[36];
+    double w[6], v[6], K[36];
     wrench_of(sim, load, evaluation->load_factor * factor, w);
     if (evaluation->tangent && load->frame != DMB_FRAME_BODY && sim->scene->layout.size[load->node] == DMB_NODE_FULL) {
         dmb_mat6_zero(K); /* d(R^T f) = (R^T f)~ dtheta */
-        dmb_skew(w, skew);
-        dmb_mat6_add_block(1.0, skew, 0, 1, K);
-        dmb_skew(w + 3, skew);
-        dmb_mat6_add_block(1.0, skew, 1, 1, K);
+        dmb_mat6_add_skew(1.0, w, 0, 1, K);
+        dmb_mat6_add_skew(1.0, w + 3, 1, 1, K);
         dmb_beam_block_to_nodes(load->arm, 0.0, K);
         dmb_mat6_axpy(-1.0, K, dmb_stiffness_of(sim, load->node));
     }

@@ -12,8 +12,9 @@ static void gather_lump(dmb_evaluation *evaluation, const dmb_lump *lump)
     evaluation->power[DMB_POWER_INERTIA] -= dmb_vec6_dot(v, f);
     dmb_lump_mass_times(lump, v, p);
     dmb_ad_transpose(v, p, g);
-    for (int i = 0; i < 6; i++) f[i] = g[i] - f[i];
-    dmb_apply_wrench(sim, lump->node, f);
+    for (int i = 0; i < 6; i++) f[i] = -f[i];
+    dmb_apply_wrench(sim, lump->node, f); /* one by one: on a free body these two are all that balances */
+    dmb_apply_wrench(sim, lump->node, g);
     if (evaluation->tangent)
         dmb_lump_add_inertia_tangent(lump, v, p, evaluation->mass_factor, evaluation->velocity_factor,
                                      dmb_inertia_of(sim, lump->node));
@@ -54,7 +55,7 @@ static void gather_weight(dmb_evaluation *evaluation, uint32_t node)
     dmb_skew(g, skew);
     dmb_skew(b, moment);
     dmb_mat3_mul(moment, skew, product);
-    dmb_mat6_add_block(-m, skew, 0, 1, dmb_stiffness_of(sim, node));
+    dmb_mat6_add_skew(-m, g, 0, 1, dmb_stiffness_of(sim, node));
     dmb_mat6_add_block(-1.0, product, 1, 1, dmb_stiffness_of(sim, node));
 }
 

@@ -5,7 +5,8 @@
  *     j_n = (n; 0)    j_t = (t; -r b)    j_b = (b; r t)          contact speed v_k = j_k . V
  *     wrench on the ring = -N j_n + F_t j_t + F_b j_b
  * so drag and torque share one friction force. The tangent follows by the product rule: change of the forces with
- * penetration and speeds, swing of n and b around the axis (the pendulum term N/e), and turning of the body. */
+ * penetration and speeds, swing of n and b around the axis (the pendulum term N/e), turning of the frame as the ring
+ * moves along a bend of the hole, and turning of the body. */
 #include "system/wall_contact.h"
 
 #include <string.h>
@@ -20,6 +21,7 @@ typedef struct contact_frame {
     double n[3], t[3], b[3]; /* body axes */
     double j[3][6];          /* j_n, j_t, j_b */
     double distance;         /* [m] e */
+    double bend[3];          /* [rad/m] world: the frame turns by `bend` a metre of the axis; 0 where it is straight */
     double V[6];
     double speed[3];         /* v_n, v_t, v_b */
 } contact_frame;
@@ -30,6 +32,17 @@ typedef struct contact_force {
     double elastic; /* [N] part of N that the wall stores */
     int32_t sticks;
 } contact_force;
+
+/* Curvature times the binormal, which is one vector all along an arc. */
+static void bend_at(const dmb_hole *hole, double depth, uint32_t segment, double bend[3])
+{
+    dmb_vec3_zero(bend);
+    if (dmb_hole_is_straight(hole)) return;
+    const dmb_hole_station *arc = hole->station + segment;
+    if (arc->curvature == 0.0 || depth < arc->depth) return;
+    dmb_vec3_cross(arc->tangent, arc->normal, bend);
+    dmb_vec3_scale(arc->curvature, bend, bend);
+}
 
 /* Closest point of the axis and the direction from it; depth and segment are hints on entry, answers on return. */
 static void locate(const dmb_scene *scene, const dmb_configuration *c, const double R[9], uint32_t s, double *depth,
@@ -42,6 +55,7 @@ static void locate(const dmb_scene *scene, const dmb_configuration *c, const dou
     dmb_vec3_add(x, arm, x);
     dmb_hole_project(&scene->hole, x, depth, segment, point, f->world_tangent);
     dmb_radial(x, point, f->world_tangent, c->site_normal + 3 * s, &f->distance, f->world_normal);
+    bend_at(&scene->hole, *depth, *segment, f->bend);
 }
 
 static void frame_of(const dmb_scene *scene, const dmb_configuration *c, const double R[9], uint32_t s,
@@ -131,43 +145,74 @@ static void swing_vector(const contact_frame *f, const contact_force *c, double 
     }
 }
 
-/* d wrench / d pose at the ring, shape (6, 6) */
+/* Turning of the body by dtheta turns the frame back: d(j . V) = (j x dtheta) . V = (V x j) . dtheta, translation and
+ * rotation parts added. */
+static void turning_rows(const contact_frame *f, double turning[3][3])
+{
+    double a[3], b[3];
+    for (int l = 0; l < 3; l++) {
+        dmb_vec3_cross(f->V, f->j[l], a);
+        dmb_vec3_cross(f->V + 3, f->j[l] + 3, b);
+        dmb_vec3_add(a, b, turning[l]);
+    }
+}
+
+/* d wrench / d pose at the ring, shape (6, 6):
+ *     sum j_k (P_k n ; sum_l D_kl turning_l)^T + swing (b/e ; 0)^T + the wrench turning with the body */
 static void pose_tangent(const contact_frame *f, const contact_force *c, double radius, const double wrench[6],
                          double out[36])
 {
     const double pendulum = f->distance > 1e-9 ? 1.0 / f->distance : 0.0;
-    double column[6], swing[6], turning[3][3], skew[9], a[3], b[3];
+    double swing[6], turning[3][3], row[6];
     dmb_mat6_zero(out);
-    swing_vector(f, c, radius, swing);
-    for (int i = 0; i < 6; i++) {
-        column[i] = c->P[0] * f->j[0][i] + c->P[1] * f->j[1][i] + c->P[2] * f->j[2][i];
-        dmb_vec3_axpy(column[i], f->n, out + 6 * i);
-        dmb_vec3_axpy(pendulum * swing[i], f->b, out + 6 * i);
+    turning_rows(f, turning);
+    for (int k = 0; k < 3; k++) {
+        dmb_vec3_scale(c->P[k], f->n, row);
+        dmb_vec3_scale(c->D[k][0], turning[0], row + 3);
+        dmb_vec3_axpy(c->D[k][1], turning[1], row + 3);
+        dmb_vec3_axpy(c->D[k][2], turning[2], row + 3);
+        dmb_mat6_add_outer(1.0, f->j[k], row, out);
     }
+    swing_vector(f, c, radius, swing);
+    for (int i = 0; i < 6; i++) dmb_vec3_axpy(pendulum * swing[i], f->b, out + 6 * i);
     if (pendulum == 0.0) /* on the axis of a pinned pipe: the wall holds alike in every direction */
         for (int i = 0; i < 3; i++) dmb_vec3_axpy(c->P[0] * f->b[i], f->b, out + 6 * i);
-    dmb_skew(wrench, skew);
-    dmb_mat6_add_block(1.0, skew, 0, 1, out);
-    dmb_skew(wrench + 3, skew);
-    dmb_mat6_add_block(1.0, skew, 1, 1, out);
-    for (int l = 0; l < 3; l++) {
-        dmb_vec3_cross(f->V, f->j[l], a); /* d(j . V) = (j x dtheta) . V = (V x j) . dtheta */
-        dmb_vec3_cross(f->V + 3, f->j[l] + 3, b);
-        dmb_vec3_add(a, b, turning[l]);
-    }
-    for (int k = 0; k < 3; k++)
-        for (int l = 0; l < 3; l++)
-            for (int i = 0; i < 6; i++) dmb_vec3_axpy(c->D[k][l] * f->j[k][i], turning[l], out + 6 * i + 3);
+    dmb_mat6_add_skew(1.0, wrench, 0, 1, out);
+    dmb_mat6_add_skew(1.0, wrench + 3, 1, 1, out);
 }
 
-static void velocity_tangent(const contact_frame *f, const contact_force *c, double out[36])
+/* Moving by dx along the axis takes the closest point on by ds = t . dx/(1 - e n . (bend x t)), and the frame turns by
+ * bend ds: forces turn with it, and speeds change by bend . (j x V). */
+static void add_bend_tangent(const contact_frame *f, const contact_force *c, const double R[9], const double wrench[6],
+                             double out[36])
 {
-    dmb_mat6_zero(out);
+    double w[3], a[3], b[3], column[6], row[3], speed[3];
+    dmb_mat3_tvec(R, f->bend, w);
+    dmb_vec3_cross(w, wrench, column);
+    dmb_vec3_cross(w, wrench + 3, column + 3);
     for (int l = 0; l < 3; l++) {
-        double column[6];
+        dmb_vec3_cross(f->j[l], f->V, a);
+        dmb_vec3_cross(f->j[l] + 3, f->V + 3, b);
+        speed[l] = dmb_vec3_dot(w, a) + dmb_vec3_dot(w, b);
+    }
+    for (int k = 0; k < 3; k++) {
+        const double s = c->D[k][0] * speed[0] + c->D[k][1] * speed[1] + c->D[k][2] * speed[2];
+        for (int i = 0; i < 6; i++) column[i] += s * f->j[k][i];
+    }
+    dmb_vec3_cross(w, f->t, a);
+    dmb_vec3_scale(1.0 / (1.0 - f->distance * dmb_vec3_dot(a, f->n)), f->t, row);
+    for (int i = 0; i < 6; i++) dmb_vec3_axpy(column[i], row, out + 6 * i);
+}
+
+/* d wrench / d velocity at the ring: sum j_k D_kl j_l^T, times `factor` */
+static void velocity_tangent(const contact_frame *f, const contact_force *c, double factor, double out[36])
+{
+    double row[6];
+    dmb_mat6_zero(out);
+    for (int k = 0; k < 3; k++) {
         for (int i = 0; i < 6; i++)
-            column[i] = c->D[0][l] * f->j[0][i] + c->D[1][l] * f->j[1][i] + c->D[2][l] * f->j[2][i];
-        dmb_mat6_add_outer(1.0, column, f->j[l], out);
+            row[i] = c->D[k][0] * f->j[0][i] + c->D[k][1] * f->j[1][i] + c->D[k][2] * f->j[2][i];
+        dmb_mat6_add_outer(factor, f->j[k], row, out);
     }
 }
 
@@ -184,10 +229,10 @@ static void add_tangent(const dmb_evaluation *evaluation, const dmb_site *site, 
     dmb_sim *sim = evaluation->sim;
     double K[36];
     pose_tangent(f, c, site->radius, wrench, K);
+    if (dmb_vec3_norm_squared(f->bend) > 0.0) add_bend_tangent(f, c, sim->rotation + 9 * site->node, wrench, K);
     subtract_at_node(site->offset, K, dmb_stiffness_of(sim, site->node));
     if (!evaluation->dynamic) return;
-    velocity_tangent(f, c, K);
-    for (int i = 0; i < 36; i++) K[i] *= evaluation->velocity_factor;
+    velocity_tangent(f, c, evaluation->velocity_factor, K);
     subtract_at_node(site->offset, K, dmb_inertia_of(sim, site->node));
 }
 

@@ -1,0 +1,214 @@
+#include "model/scene_fill.h"
+
+#include <string.h>
+
+#include "math/mat6.h"
+#include "math/so3.h"
+
+/* ---- Nodes ------------------------------------------------------------------------------------------------------- */
+
+static int32_t fill_layout(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage *w)
+{
+    dmb_block_totals totals;
+    for (uint32_t i = 0; i < scene->node_count; ++i) w->size[i] = dmb_mesh_node_at(mesh, i)->size;
+    if (dmb_block_count(scene->node_count, w->size, &totals) < 0) return DMB_ERR_TOO_LARGE;
+    dmb_block_fill(scene->node_count, w->size, w->row, w->diag, w->link);
+    scene->layout.n = scene->node_count;
+    scene->layout.size = w->size;
+    scene->layout.row = w->row;
+    scene->layout.diag = w->diag;
+    scene->layout.link = w->link;
+    return DMB_OK;
+}
+
+static void fill_pose(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i)
+{
+    const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
+    const dmb_environment_def *e = &mesh->model->environment;
+    double *damping = scene->node_damping + 3 * (size_t)i;
+    dmb_vec3_copy(node->position, scene->reference_position + 3 * (size_t)i);
+    dmb_quat_copy(node->quaternion, scene->reference_quaternion + 4 * (size_t)i);
+    scene->reference_depth[i] = node->depth;
+    scene->weight_mass[i] = node->weight_mass;
+    dmb_vec3_copy(node->weight_moment, scene->weight_moment + 3 * (size_t)i);
+    if ((scene->features & DMB_FEATURE_DAMPING) == 0) return;
+    dmb_vec3_set(e->axial_damping * node->damped_length, e->lateral_damping * node->damped_length,
+                 e->torsional_damping * node->damped_length, damping);
+}
+
+/* Which rows are free, solved and held; held is the number of held rows so far. */
+static void fill_rows(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i, uint32_t *held)
+{
+    const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
+    const uint8_t open = dmb_free_rows(node), moved = dmb_prescribed_rows(node);
+    const uint32_t first = scene->layout.row[i];
+    for (uint32_t k = 0; k < node->size; ++k) {
+        scene->free_row[first + k] = (uint8_t)(open >> k & 1);
+        scene->solved_row[first + k] = (uint8_t)((open & ~moved) >> k & 1);
+        if (scene->solved_row[first + k]) continue;
+        scene->held_node[*held] = i;
+        scene->held_component[*held] = k;
+        ++*held;
+    }
+}
+
+/* Velocity of the string as a rigid body at a FULL node: Ad(H)^-1 of the rig end's, H the node seen from it. PATH nodes
+ * slide and turn on the axis as the rig end does, so that the string keeps its length on a curved axis too. */
+static void string_velocity(const dmb_mesh *mesh, const dmb_mesh_node *node, double v[6])
+{
+    const dmb_string_map *map = dmb_mesh_string_at(mesh, node->string);
+    const dmb_mesh_node *start = dmb_mesh_node_at(mesh, map->start_node);
+    const double *given = dmb_mesh_string_def(mesh, node->string)->velocity;
+    double q[4], R[9], x[3];
+    dmb_vec6_copy(given, v);
+    if (node->size == DMB_NODE_PATH) return;
+    dmb_quat_between(start->quaternion, node->quaternion, q);
+    dmb_quat_to_matrix(q, R);
+    dmb_vec3_sub(node->position, start->position, x);
+    dmb_quat_rotate_inverse(start->quaternion, x, x);
+    x[0] -= map->start_arm; /* the rig end may stand behind the node that carries it */
+    dmb_adjoint_inverse_apply(R, x, given, v);
+}
+
+static void fill_velocity(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i)
+{
+    const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
+    double *row = scene->initial_velocity + scene->layout.row[i], v[6];
+    if (node->string == UINT32_MAX) {
+        dmb_vec6_copy(DMB_LIST_AT(const dmb_body_def, mesh->model->bodies, node->body)->velocity, row);
+        return;
+    }
+    string_velocity(mesh, node, v);
+    if (node->size == DMB_NODE_FULL) {
+        dmb_vec6_copy(v, row);
+        return;
+    }
+    row[0] = v[DMB_X];
+    row[1] = v[DMB_RX];
+}
+
+/* Lumps were made string by string; here they go by node. */
+static void fill_lumps(const dmb_mesh *mesh, dmb_scene *scene)
+{
+    dmb_lump *next = scene->lumps;
+    for (uint32_t i = 0; i < scene->node_count; ++i) {
+        const uint32_t lump = dmb_mesh_node_at(mesh, i)->lump;
+        if (lump != UINT32_MAX) *next++ = *DMB_VECTOR_AT(dmb_lump, &mesh->lumps, lump);
+    }
+}
+
+static void fill_chains(const dmb_mesh *mesh, dmb_scene *scene)
+{
+    uint32_t chain = 0;
+    for (uint32_t i = 0; i < scene->node_count; i += scene->chains[chain++].count) {
+        const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
+        scene->chains[chain].first = i;
+        scene->chains[chain].count =
+            node->string == UINT32_MAX ? 1 : dmb_mesh_string_at(mesh, node->string)->node_count;
+    }
+}
+
+static void fill_nodes(const dmb_mesh *mesh, dmb_scene *scene)
+{
+    uint32_t held = 0;
+    for (uint32_t i = 0; i < scene->node_count; ++i) {
+        fill_pose(mesh, scene, i);
+        fill_rows(mesh, scene, i, &held);
+        fill_velocity(mesh, scene, i);
+        scene->node_element[i] = UINT32_MAX;
+    }
+    fill_chains(mesh, scene);
+    fill_lumps(mesh, scene);
+}
+
+/* ---- Elements and the rest --------------------------------------------------------------------------------------- */
+
+static void copy_items(const dmb_vector *from, void *to)
+{
+    if (from->count > 0) memcpy(to, from->items, from->count * from->item_size);
+}
+
+static void fill_elements(const dmb_mesh *mesh, dmb_scene *scene)
+{
+    double length = 0.0;
+    for (uint32_t e = 0; e < scene->element_count; ++e) {
+        const dmb_mesh_element *element = dmb_mesh_element_at(mesh, e);
+        scene->element_type[e] = element->type;
+        scene->element_node[e] = element->node;
+        scene->node_element[element->node] = e;
+        dmb_vec3_copy(element->span, scene->element_span + 3 * (size_t)e);
+        length += DMB_VECTOR_AT(dmb_element_type, &mesh->types, element->type)->length;
+    }
+    scene->length_scale = scene->element_count > 0 ? length / scene->element_count : 1.0;
+    copy_items(&mesh->types, scene->types);
+    copy_items(&mesh->batches, scene->batches);
+}
+
+static void fill_drives(const dmb_mesh *mesh, dmb_scene *scene)
+{
+    copy_items(&mesh->drives, scene->drives);
+    for (uint32_t i = 0; i < scene->drive_count; ++i) {
+        dmb_scene_drive *drive = scene->drives + i;
+        const bool path = scene->layout.size[drive->node] == DMB_NODE_PATH;
+        const uint32_t component = (uint32_t)drive->component;
+        drive->row = scene->layout.row[drive->node] + (path ? component / (uint32_t)DMB_RX : component);
+    }
+}
+
+static void fill_parts(const dmb_mesh *mesh, dmb_scene *scene)
+{
+    copy_items(&mesh->sites, scene->sites);
+    copy_items(&mesh->path_sites, scene->path_sites);
+    copy_items(&mesh->loads, scene->loads);
+    copy_items(&mesh->bits, scene->bits);
+    copy_items(&mesh->strings, scene->strings);
+    copy_items(&mesh->pipes, scene->pipes);
+    copy_items(&mesh->bodies, scene->bodies);
+    scene->programmes = mesh->model->programmes.items; /* frozen with the model, which outlives the scene */
+    for (uint32_t s = 0; s < scene->string_count; ++s) scene->length += scene->strings[s].length;
+}
+
+/* ---- Wall -------------------------------------------------------------------------------------------------------- */
+
+static void fill_laws(const dmb_model *model, dmb_scene *scene)
+{
+    const dmb_wall_def *w = &model->wall;
+    const bool contact = (scene->features & DMB_FEATURE_CONTACT) != 0;
+    const bool friction = (scene->features & DMB_FEATURE_FRICTION) != 0;
+    const dmb_friction_law law = {.kind = friction ? w->friction_law : DMB_FRICTION_NONE,
+                                  .mu_static = w->mu_static,
+                                  .mu_dynamic = w->mu_dynamic,
+                                  .stribeck_speed = w->stribeck_speed,
+                                  .smoothing_speed = w->smoothing_speed,
+                                  .full_speed = w->full_speed,
+                                  .bristle_stiffness = w->bristle_stiffness,
+                                  .bristle_damping = w->bristle_damping};
+    dmb_normal_law_setup(&scene->normal_law, contact ? w->normal_law : DMB_NORMAL_NONE, w->stiffness, w->exponent,
+                         w->restitution, w->damping, w->impact_depth, w->approach_speed);
+    scene->friction_law = law;
+}
+
+/* The hole keeps a pointer to its stations: from now on to the scene's own. */
+static void fill_hole(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage *w)
+{
+    scene->has_hole = mesh->has_hole;
+    scene->hole = mesh->hole;
+    if (mesh->hole.stations == 0) return;
+    copy_items(&mesh->stations, w->stations);
+    scene->hole.station = w->stations;
+}
+
+/* ---- All --------------------------------------------------------------------------------------------------------- */
+
+int32_t dmb_scene_fill(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage *storage)
+{
+    const int32_t status = fill_layout(mesh, scene, storage);
+    if (status < 0) return status;
+    fill_nodes(mesh, scene);
+    fill_elements(mesh, scene);
+    fill_parts(mesh, scene);
+    fill_drives(mesh, scene);
+    fill_laws(mesh->model, scene);
+    fill_hole(mesh, scene, storage);
+    return DMB_OK;
+}

@@ -1,0 +1,707 @@
+/* Nonsense in every field of every definition: a clean status and a message, or a scene that is finite throughout; and
+ * the model goes on unharmed either way. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <float.h>
+#include <math.h>
+
+#include "base/check.h"
+#include "model/model.h"
+
+/* ---- What there is to describe ----------------------------------------------------------------------------------- */
+
+enum { REAL = 0, WHOLE = 1, COUNT = 2 }; /* double, int32_t, uint32_t */
+
+typedef struct field {
+    const char *name;
+    size_t offset;
+    int type;
+    int size;
+} field;
+
+typedef union any_def {
+    uint32_t struct_size;
+    dmb_environment_def environment;
+    dmb_term term;
+    dmb_wall_def wall;
+    dmb_string_def string;
+    dmb_pipe_def pipe;
+    dmb_body_def body;
+    dmb_bit_def bit;
+    dmb_drive_def drive;
+    dmb_load_def load;
+} any_def;
+
+/* A model that every definition fits into, and the ids it needs. */
+typedef struct scene_under_test {
+    dmb_model *model;
+    dmb_id string, programme;
+} scene_under_test;
+
+static scene_under_test begin(int with_wall)
+{
+    scene_under_test s;
+    const dmb_wall_def wall = dmb_wall_def_default();
+    const dmb_string_def string = dmb_string_def_default();
+    const dmb_term term = dmb_term_default();
+    memset(&s, 0, sizeof s);
+    assert_int_equal(dmb_model_create(NULL, &s.model), DMB_OK);
+    if (with_wall) assert_int_equal(dmb_model_add_wall(s.model, &wall, NULL), DMB_OK);
+    assert_int_equal(dmb_model_add_string(s.model, &string, &s.string), DMB_OK);
+    assert_int_equal(dmb_model_add_programme(s.model, &term, 1, &s.programme), DMB_OK);
+    return s;
+}
+
+static void add_one_pipe(scene_under_test *s)
+{
+    const dmb_pipe_def pipe = dmb_pipe_def_default();
+    assert_int_equal(dmb_model_add_pipes(s->model, &pipe, 1, NULL), DMB_OK);
+}
+
+typedef struct kind_of_def {
+    const char *name;
+    const field *fields;
+    size_t field_count;
+    void (*fill)(const scene_under_test *s, any_def *def);
+    int32_t (*add)(dmb_model *model, const any_def *def);
+} kind_of_def;
+
+#define F(T, member, type, size)                     \
+    {                                                \
+#member, offsetof(T, member), (type), (size) \
+    }
+#define FIELDS(array) array, sizeof array / sizeof array[0]
+
+static const field environment_fields[] = {
+    F(dmb_environment_def, reserved, COUNT, 1),     F(dmb_environment_def, gravity, REAL, 3),
+    F(dmb_environment_def, fluid_density, REAL, 1), F(dmb_environment_def, lateral_damping, REAL, 1),
+    F(dmb_environment_def, axial_damping, REAL, 1), F(dmb_environment_def, torsional_damping, REAL, 1)};
+static void fill_environment(const scene_under_test *s, any_def *def)
+{
+    (void)s;
+    def->environment = dmb_environment_def_default();
+}
+static int32_t add_environment(dmb_model *model, const any_def *def)
+{
+    return dmb_model_set_environment(model, &def->environment);
+}
+
+static const field term_fields[] = {
+    F(dmb_term, kind, WHOLE, 1), F(dmb_term, x0, REAL, 1),           F(dmb_term, x1, REAL, 1),
+    F(dmb_term, h0, REAL, 1),    F(dmb_term, h1, REAL, 1),           F(dmb_term, omega, REAL, 1),
+    F(dmb_term, phase, REAL, 1), F(dmb_term, table_count, COUNT, 1), F(dmb_term, provides, WHOLE, 1)};
+static void fill_term(const scene_under_test *s, any_def *def)
+{
+    (void)s;
+    def->term = dmb_term_default();
+    def->term.kind = DMB_TERM_STEP;
+}
+static void fill_table(const scene_under_test *s, any_def *def)
+{
+    static const double time[] = {0.0, 1.0}, value[] = {1.0, 2.0};
+    fill_term(s, def);
+    def->term.kind = DMB_TERM_TABLE;
+    def->term.table_time = time;
+    def->term.table_value = value;
+    def->term.table_count = 2;
+}
+static int32_t add_term(dmb_model *model, const any_def *def)
+{
+    /* the table is only as long as it is: larger counts are the caller's lie, and no library can see it */
+    if (def->term.kind == DMB_TERM_TABLE && def->term.table_count > 2 && def->term.table_count <= 1u << 20)
+        return DMB_OK;
+    return dmb_model_add_programme(model, &def->term, 1, NULL);
+}
+
+static const field wall_fields[] = {
+    F(dmb_wall_def, survey_count, COUNT, 1),  F(dmb_wall_def, origin, REAL, 3),
+    F(dmb_wall_def, direction, REAL, 3),      F(dmb_wall_def, diameter, REAL, 1),
+    F(dmb_wall_def, normal_law, WHOLE, 1),    F(dmb_wall_def, friction_law, WHOLE, 1),
+    F(dmb_wall_def, stiffness, REAL, 1),      F(dmb_wall_def, exponent, REAL, 1),
+    F(dmb_wall_def, restitution, REAL, 1),    F(dmb_wall_def, damping, REAL, 1),
+    F(dmb_wall_def, impact_depth, REAL, 1),   F(dmb_wall_def, approach_speed, REAL, 1),
+    F(dmb_wall_def, mu_static, REAL, 1),      F(dmb_wall_def, mu_dynamic, REAL, 1),
+    F(dmb_wall_def, stribeck_speed, REAL, 1), F(dmb_wall_def, smoothing_speed, REAL, 1),
+    F(dmb_wall_def, full_speed, REAL, 1),     F(dmb_wall_def, bristle_stiffness, REAL, 1),
+    F(dmb_wall_def, bristle_damping, REAL, 1)};
+static void fill_wall(const scene_under_test *s, any_def *def)
+{
+    (void)s;
+    def->wall = dmb_wall_def_default();
+}
+static int32_t add_wall(dmb_model *model, const any_def *def)
+{
+    return dmb_model_add_wall(model, &def->wall, NULL);
+}
+
+static const field string_fields[] = {
+    F(dmb_string_def, follows_hole, WHOLE, 1), F(dmb_string_def, start_depth, REAL, 1),
+    F(dmb_string_def, offset, REAL, 2),        F(dmb_string_def, position, REAL, 3),
+    F(dmb_string_def, rotation, REAL, 3),      F(dmb_string_def, velocity, REAL, 6),
+    F(dmb_string_def, start_free, WHOLE, 1),   F(dmb_string_def, end_free, WHOLE, 1)};
+static void fill_string(const scene_under_test *s, any_def *def)
+{
+    (void)s;
+    def->string = dmb_string_def_default();
+    def->string.follows_hole = 0;
+}
+static int32_t add_string(dmb_model *model, const any_def *def)
+{
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    const int32_t status = dmb_model_add_string(model, &def->string, &pipe.string);
+    return status < 0 ? status : dmb_model_add_pipes(model, &pipe, 2, NULL);
+}
+
+static const field pipe_fields[] = {F(dmb_pipe_def, kind, WHOLE, 1),
+                                    F(dmb_pipe_def, string.index, COUNT, 1),
+                                    F(dmb_pipe_def, string.generation, COUNT, 1),
+                                    F(dmb_pipe_def, elements, COUNT, 1),
+                                    F(dmb_pipe_def, seed, COUNT, 1),
+                                    F(dmb_pipe_def, length, REAL, 1),
+                                    F(dmb_pipe_def, outer_diameter, REAL, 1),
+                                    F(dmb_pipe_def, inner_diameter, REAL, 1),
+                                    F(dmb_pipe_def, young_modulus, REAL, 1),
+                                    F(dmb_pipe_def, poisson_ratio, REAL, 1),
+                                    F(dmb_pipe_def, density, REAL, 1),
+                                    F(dmb_pipe_def, shear_factor, REAL, 1),
+                                    F(dmb_pipe_def, damping_time, REAL, 1),
+                                    F(dmb_pipe_def, joint_length, REAL, 1),
+                                    F(dmb_pipe_def, joint_outer_diameter, REAL, 1),
+                                    F(dmb_pipe_def, joint_inner_diameter, REAL, 1),
+                                    F(dmb_pipe_def, joint_mass, REAL, 1),
+                                    F(dmb_pipe_def, joint_inertia, REAL, 2),
+                                    F(dmb_pipe_def, eccentricity, REAL, 1),
+                                    F(dmb_pipe_def, eccentricity_angle, REAL, 1),
+                                    F(dmb_pipe_def, eccentricity_spread, REAL, 1),
+                                    F(dmb_pipe_def, angle_spread, REAL, 1),
+                                    F(dmb_pipe_def, curvature, REAL, 3),
+                                    F(dmb_pipe_def, section_stiffness, REAL, 6),
+                                    F(dmb_pipe_def, section_mass, REAL, 1),
+                                    F(dmb_pipe_def, section_inertia, REAL, 2)};
+static void fill_pipe(const scene_under_test *s, any_def *def)
+{
+    def->pipe = dmb_pipe_def_default();
+    def->pipe.string = s->string;
+    def->pipe.joint_length = 0.1;
+    def->pipe.elements = 2;
+}
+static int32_t add_pipe(dmb_model *model, const any_def *def)
+{
+    return dmb_model_add_pipes(model, &def->pipe, 3, NULL);
+}
+
+static const field body_fields[] = {F(dmb_body_def, attach, WHOLE, 1),
+                                    F(dmb_body_def, string.index, COUNT, 1),
+                                    F(dmb_body_def, string.generation, COUNT, 1),
+                                    F(dmb_body_def, mass, REAL, 1),
+                                    F(dmb_body_def, centre, REAL, 3),
+                                    F(dmb_body_def, inertia, REAL, 6),
+                                    F(dmb_body_def, position, REAL, 3),
+                                    F(dmb_body_def, rotation, REAL, 3),
+                                    F(dmb_body_def, velocity, REAL, 6),
+                                    F(dmb_body_def, free_mask, WHOLE, 1),
+                                    F(dmb_body_def, reserved, WHOLE, 1),
+                                    F(dmb_body_def, contact_diameter, REAL, 1),
+                                    F(dmb_body_def, contact_length, REAL, 1)};
+static void fill_body(const scene_under_test *s, any_def *def)
+{
+    (void)s;
+    def->body = dmb_body_def_default();
+}
+static int32_t add_body(dmb_model *model, const any_def *def)
+{
+    return dmb_model_add_body(model, &def->body, NULL);
+}
+
+static const field bit_fields[] = {F(dmb_bit_def, rock_law, WHOLE, 1),
+                                   F(dmb_bit_def, string.index, COUNT, 1),
+                                   F(dmb_bit_def, string.generation, COUNT, 1),
+                                   F(dmb_bit_def, load.index, COUNT, 1),
+                                   F(dmb_bit_def, load.generation, COUNT, 1),
+                                   F(dmb_bit_def, mass, REAL, 1),
+                                   F(dmb_bit_def, inertia, REAL, 2),
+                                   F(dmb_bit_def, diameter, REAL, 1),
+                                   F(dmb_bit_def, length, REAL, 1),
+                                   F(dmb_bit_def, radius, REAL, 1),
+                                   F(dmb_bit_def, intrinsic_energy, REAL, 1),
+                                   F(dmb_bit_def, cutting_ratio, REAL, 1),
+                                   F(dmb_bit_def, contact_strength, REAL, 1),
+                                   F(dmb_bit_def, wear_length, REAL, 1),
+                                   F(dmb_bit_def, contact_friction, REAL, 1),
+                                   F(dmb_bit_def, intrusion_depth, REAL, 1),
+                                   F(dmb_bit_def, bottom, REAL, 1),
+                                   F(dmb_bit_def, blades, COUNT, 1),
+                                   F(dmb_bit_def, history, COUNT, 1)};
+static void fill_bit(const scene_under_test *s, any_def *def)
+{
+    def->bit = dmb_bit_def_default();
+    def->bit.rock_law = DMB_ROCK_REGENERATIVE;
+    def->bit.load = s->programme;
+}
+static int32_t add_bit(dmb_model *model, const any_def *def)
+{
+    return dmb_model_add_bit(model, &def->bit, NULL);
+}
+
+static const field drive_fields[] = {F(dmb_drive_def, kind, WHOLE, 1),
+                                     F(dmb_drive_def, part.index, COUNT, 1),
+                                     F(dmb_drive_def, part.generation, COUNT, 1),
+                                     F(dmb_drive_def, component, WHOLE, 1),
+                                     F(dmb_drive_def, reserved, WHOLE, 1),
+                                     F(dmb_drive_def, programme.index, COUNT, 1),
+                                     F(dmb_drive_def, programme.generation, COUNT, 1),
+                                     F(dmb_drive_def, excitation.index, COUNT, 1),
+                                     F(dmb_drive_def, excitation.generation, COUNT, 1),
+                                     F(dmb_drive_def, gain, REAL, 1),
+                                     F(dmb_drive_def, integral_gain, REAL, 1),
+                                     F(dmb_drive_def, limit_low, REAL, 1),
+                                     F(dmb_drive_def, limit_high, REAL, 1)};
+static void fill_drive(const scene_under_test *s, any_def *def)
+{
+    def->drive = dmb_drive_def_default();
+    def->drive.programme = s->programme;
+}
+static int32_t add_drive(dmb_model *model, const any_def *def)
+{
+    return dmb_model_add_drive(model, &def->drive, NULL);
+}
+
+static const field load_fields[] = {F(dmb_load_def, frame, WHOLE, 1),
+                                    F(dmb_load_def, place.part.index, COUNT, 1),
+                                    F(dmb_load_def, place.part.generation, COUNT, 1),
+                                    F(dmb_load_def, place.pipe, COUNT, 1),
+                                    F(dmb_load_def, place.reserved, COUNT, 1),
+                                    F(dmb_load_def, place.fraction, REAL, 1),
+                                    F(dmb_load_def, force, REAL, 3),
+                                    F(dmb_load_def, moment, REAL, 3),
+                                    F(dmb_load_def, programme.index, COUNT, 1),
+                                    F(dmb_load_def, programme.generation, COUNT, 1)};
+static void fill_load(const scene_under_test *s, any_def *def)
+{
+    def->load = dmb_load_def_default();
+    def->load.place = dmb_station(s->string, 0, 1.0);
+}
+static int32_t add_load(dmb_model *model, const any_def *def)
+{
+    return dmb_model_add_load(model, &def->load, NULL);
+}
+
+static const kind_of_def kinds[] = {
+    {"environment", FIELDS(environment_fields), fill_environment, add_environment},
+    {"term", FIELDS(term_fields), fill_term, add_term},
+    {"table", FIELDS(term_fields), fill_table, add_term},
+    {"wall", FIELDS(wall_fields), fill_wall, add_wall},
+    {"string", FIELDS(string_fields), fill_string, add_string},
+    {"pipe", FIELDS(pipe_fields), fill_pipe, add_pipe},
+    {"body", FIELDS(body_fields), fill_body, add_body},
+    {"bit", FIELDS(bit_fields), fill_bit, add_bit},
+    {"drive", FIELDS(drive_fields), fill_drive, add_drive},
+    {"load", FIELDS(load_fields), fill_load, add_load},
+};
+enum { KINDS = sizeof kinds / sizeof kinds[0], WALL = 3 };
+
+/* ---- A scene without a number that is not finite ----------------------------------------------------------------- */
+
+static void expect_finite(const double *values, size_t count)
+{
+    if (!dmb_are_finite(values, count)) fail_msg("a number of the scene is not finite");
+}
+
+static void expect_finite_scene(const dmb_scene *s)
+{
+    const size_t n = s->node_count, e = s->element_count;
+    expect_finite(s->reference_position, 3 * n);
+    expect_finite(s->reference_quaternion, 4 * n);
+    expect_finite(s->reference_depth, n);
+    expect_finite(s->initial_velocity, s->row_count);
+    expect_finite(s->weight_mass, n);
+    expect_finite(s->weight_moment, 3 * n);
+    expect_finite(s->node_damping, 3 * n);
+    expect_finite(s->element_span, 3 * e);
+    expect_finite(&s->mass, 3);
+    for (size_t i = 0; i < s->type_count; ++i) {
+        expect_finite((const double *)&s->types[i], sizeof *s->types / sizeof(double));
+        for (int k = 0; k < 6; ++k) assert_true(s->types[i].stiffness[k] > 0.0);
+        assert_true(s->types[i].mass.axial[0] > 0.0 && s->types[i].mass.bending[0][0] > 0.0);
+    }
+    for (size_t i = 0; i < s->lump_count; ++i) {
+        expect_finite(&s->lumps[i].mass, 1);
+        expect_finite(s->lumps[i].moment, 3);
+        expect_finite(s->lumps[i].inertia, 6);
+    }
+    for (size_t i = 0; i < s->site_count; ++i) {
+        expect_finite(&s->sites[i].offset, 4);
+        assert_true(s->sites[i].clearance >= 0.0 && s->sites[i].length > 0.0);
+    }
+    for (size_t i = 0; i < n; ++i) {
+        const double *q = s->reference_quaternion + 4 * i;
+        assert_true(fabs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1.0) < 1e-12);
+    }
+}
+
+/* ---- One field at a time ----------------------------------------------------------------------------------------- */
+
+static int is_documented(int32_t status)
+{
+    return status == DMB_OK || status == DMB_ERR_NULL || status == DMB_ERR_ID || status == DMB_ERR_VALUE ||
+           status == DMB_ERR_NOT_FINITE || status == DMB_ERR_TOO_LARGE || status == DMB_ERR_UNSUPPORTED;
+}
+
+static int is_documented_of_compile(int32_t status)
+{
+    return status == DMB_OK || status == DMB_ERR_VALUE || status == DMB_ERR_GEOMETRY || status == DMB_ERR_UNSUPPORTED ||
+           status == DMB_ERR_TOO_LARGE;
+}
+
+static void put(any_def *def, const field *f, int component, double value)
+{
+    unsigned char *place = (unsigned char *)def + f->offset;
+    if (f->type == REAL) {
+        memcpy(place + 8 * component, &value, sizeof value);
+    } else if (f->type == WHOLE) {
+        const int32_t whole = (int32_t)value;
+        memcpy(place + 4 * component, &whole, sizeof whole);
+    } else {
+        const uint32_t count = (uint32_t)value;
+        memcpy(place + 4 * component, &count, sizeof count);
+    }
+}
+
+/* Refused with a message, or compiled into finite numbers; then the model takes what is right. */
+static void try_one(const kind_of_def *kind, const field *f, int component, double value)
+{
+    scene_under_test s = begin(kind != &kinds[WALL]);
+    any_def def, right;
+    int32_t status;
+    kind->fill(&s, &def);
+    right = def;
+    put(&def, f, component, value);
+    status = kind->add(s.model, &def);
+    if (!is_documented(status) || (f->type == REAL && !isfinite(value) && status != DMB_ERR_NOT_FINITE) ||
+        (f->type == REAL && fabs(value) >= DBL_MAX && status == DMB_OK && strcmp(f->name, "direction") != 0)) {
+        fail_msg("%s: %s[%d] = %g gives %s", kind->name, f->name, component, value, dmb_status_name(status));
+    }
+    if (status < 0) {
+        assert_true(strlen(dmb_model_message(s.model)) > 0);
+        assert_int_equal(kind->add(s.model, &right), DMB_OK);
+    }
+    add_one_pipe(&s);
+    const int32_t compiled = dmb_model_compile(s.model, NULL);
+    if (!is_documented_of_compile(compiled) || (status < 0 && compiled != DMB_OK)) {
+        fail_msg("%s: %s[%d] = %g compiles to %s: %s", kind->name, f->name, component, value, dmb_status_name(compiled),
+                 dmb_model_message(s.model));
+    }
+    assert_true(strlen(dmb_model_message(s.model)) > 0);
+    if (compiled == DMB_OK) expect_finite_scene(s.model->scene);
+    dmb_model_destroy(&s.model);
+}
+
+static void try_field(const kind_of_def *kind, const field *f)
+{
+    static const double reals[] = {(double)NAN,
+                                   (double)INFINITY,
+                                   -(double)INFINITY,
+                                   -1.0,
+                                   0.0,
+                                   -0.0,
+                                   1.0,
+                                   DBL_MAX,
+                                   -DBL_MAX,
+                                   5e-324,
+                                   DBL_MIN,
+                                   1e-30,
+                                   1e30,
+                                   1e15,
+                                   1e9,
+                                   1e6,
+                                   1e-6,
+                                   1e-12,
+                                   2.5};
+    static const double wholes[] = {INT32_MIN, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 63.0, 64.0, INT32_MAX};
+    static const double counts[] = {0.0, 1.0, 2.0, 65.0, 1024.0, 1025.0, 1048576.0, 4294967295.0};
+    const double *values = f->type == REAL ? reals : f->type == WHOLE ? wholes : counts;
+    const size_t count = f->type == REAL    ? sizeof reals / sizeof reals[0]
+                         : f->type == WHOLE ? sizeof wholes / sizeof wholes[0]
+                                            : sizeof counts / sizeof counts[0];
+    for (int component = 0; component < f->size; ++component) {
+        for (size_t i = 0; i < count; ++i) try_one(kind, f, component, values[i]);
+    }
+}
+
+static void every_field(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < KINDS; ++k) {
+        for (size_t i = 0; i < kinds[k].field_count; ++i) try_field(&kinds[k], &kinds[k].fields[i]);
+    }
+}
+
+/* Fields whose wrong values must be refused, whatever else is allowed. */
+static void what_must_be_refused(void **state)
+{
+    static const struct {
+        size_t kind;
+        const char *field;
+        double value;
+    } cases[] = {{1, "x1", 0.0},
+                 {1, "x1", -1.0},
+                 {1, "kind", 6.0},
+                 {2, "table_count", 0.0},
+                 {3, "diameter", 0.0},
+                 {3, "diameter", -1.0},
+                 {3, "exponent", 0.5},
+                 {3, "restitution", 1.5},
+                 {3, "stiffness", 0.0},
+                 {3, "mu_static", 0.1},
+                 {3, "stribeck_speed", 0.0},
+                 {3, "survey_count", 1.0},
+                 {5, "length", 0.0},
+                 {5, "length", -1.0},
+                 {5, "outer_diameter", 0.061},
+                 {5, "outer_diameter", 0.0},
+                 {5, "inner_diameter", 0.073},
+                 {5, "inner_diameter", -1.0},
+                 {5, "poisson_ratio", 0.5},
+                 {5, "poisson_ratio", -1.0},
+                 {5, "young_modulus", 0.0},
+                 {5, "density", 0.0},
+                 {5, "joint_length", 1.0},
+                 {5, "elements", 0.0},
+                 {5, "elements", 1025.0},
+                 {5, "eccentricity", -1.0},
+                 {6, "mass", 0.0},
+                 {6, "mass", -1.0},
+                 {6, "inertia", 0.0},
+                 {6, "contact_length", 0.0},
+                 {7, "blades", 0.0},
+                 {7, "blades", 65.0},
+                 {7, "history", 63.0},
+                 {7, "length", 0.0},
+                 {8, "component", 6.0},
+                 {8, "limit_high", -1e30},
+                 {8, "programme.generation", 0.0},
+                 {9, "place.fraction", 0.5},
+                 {9, "frame", 3.0}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        const kind_of_def *kind = &kinds[cases[i].kind];
+        scene_under_test s = begin(cases[i].kind != WALL);
+        const field *f = kind->fields;
+        any_def def;
+        while (strcmp(f->name, cases[i].field) != 0) ++f;
+        kind->fill(&s, &def);
+        put(&def, f, 0, cases[i].value);
+        if (kind->add(s.model, &def) >= 0) fail_msg("%s: %s = %g is taken", kind->name, f->name, cases[i].value);
+        const char *dot = strrchr(f->name, '.'); /* ids are named as a whole */
+        if (dot == NULL) assert_non_null(strstr(dmb_model_message(s.model), f->name));
+        dmb_model_destroy(&s.model);
+    }
+}
+
+/* ---- Several fields at a time ------------------------------------------------------------------------------------ */
+
+static uint32_t lottery = 12345;
+static uint32_t draw(uint32_t below)
+{
+    lottery = lottery * 1664525u + 1013904223u;
+    return (lottery >> 8) % below;
+}
+
+/* Powers of ten far apart, so that products of what is accepted would overflow if the bounds were too wide. */
+static double any_value(const field *f)
+{
+    if (f->type != REAL) return draw(8) == 0 ? draw(2000) : draw(4);
+    const double magnitude = pow(10.0, (int)draw(62) - 26);
+    return draw(4) == 0 ? -magnitude : magnitude;
+}
+
+static void many_fields_at_once(void **state)
+{
+    int accepted = 0;
+    (void)state;
+    for (int i = 0; i < 20000; ++i) {
+        const kind_of_def *kind = &kinds[draw(8) < 4 ? 5 : draw(KINDS)];
+        scene_under_test s = begin(kind != &kinds[WALL]);
+        any_def def;
+        kind->fill(&s, &def);
+        for (uint32_t k = 1 + draw(4); k > 0; --k) {
+            const field *f = &kind->fields[draw((uint32_t)kind->field_count)];
+            put(&def, f, (int)draw((uint32_t)f->size), any_value(f));
+        }
+        const int32_t status = kind->add(s.model, &def);
+        if (!is_documented(status)) fail_msg("%s: %s", kind->name, dmb_status_name(status));
+        add_one_pipe(&s);
+        if (status == DMB_OK && dmb_model_compile(s.model, NULL) == DMB_OK) {
+            expect_finite_scene(s.model->scene);
+            ++accepted;
+        }
+        dmb_model_destroy(&s.model);
+    }
+    assert_true(accepted > 500);
+}
+
+static void counts_of_pipes(void **state)
+{
+    static const uint32_t refused[] = {0, (1u << 20) + 1, UINT32_MAX};
+    const dmb_pipe_def pipe = dmb_pipe_def_default();
+    scene_under_test s = begin(1);
+    (void)state;
+    for (int i = 0; i < 3; ++i) {
+        assert_int_equal(dmb_model_add_pipes(s.model, &pipe, refused[i], NULL), DMB_ERR_VALUE);
+        assert_non_null(strstr(dmb_model_message(s.model), "count"));
+    }
+    for (int i = 0; i < 16; ++i) assert_int_equal(dmb_model_add_pipes(s.model, &pipe, 1u << 20, NULL), DMB_OK);
+    assert_int_equal(dmb_model_add_pipes(s.model, &pipe, 1, NULL), DMB_ERR_TOO_LARGE);
+    assert_true(strlen(dmb_model_message(s.model)) > 0);
+    dmb_model_destroy(&s.model);
+}
+
+/* ---- Arrays ------------------------------------------------------------------------------------------------------ */
+
+static void tables(void **state)
+{
+    static const struct {
+        double time[3], value[3];
+        int32_t status;
+    } cases[] = {{{0, 1, 2}, {1, 2, 3}, DMB_OK},
+                 {{0, 0, 2}, {1, 2, 3}, DMB_ERR_VALUE},
+                 {{0, 2, 1}, {1, 2, 3}, DMB_ERR_VALUE},
+                 {{0, 5e-324, 1}, {1, 2, 3}, DMB_ERR_VALUE},
+                 {{0, 1, (double)NAN}, {1, 2, 3}, DMB_ERR_NOT_FINITE},
+                 {{0, 1, (double)INFINITY}, {1, 2, 3}, DMB_ERR_NOT_FINITE},
+                 {{0, 1, 2}, {1, (double)NAN, 3}, DMB_ERR_NOT_FINITE},
+                 {{0, 1, 2}, {1, 2, DBL_MAX}, DMB_ERR_VALUE},
+                 {{-DBL_MAX, 1, 2}, {1, 2, 3}, DMB_ERR_VALUE}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        scene_under_test s = begin(0);
+        dmb_term term = dmb_term_default();
+        term.kind = DMB_TERM_TABLE;
+        term.table_time = cases[i].time;
+        term.table_value = cases[i].value;
+        term.table_count = 3;
+        assert_int_equal(dmb_model_add_programme(s.model, &term, 1, NULL), cases[i].status);
+        if (cases[i].status < 0) assert_non_null(strstr(dmb_model_message(s.model), "programme 1, term 0: table_"));
+        term.table_value = NULL;
+        assert_int_equal(dmb_model_add_programme(s.model, &term, 1, NULL), DMB_ERR_NULL);
+        dmb_model_destroy(&s.model);
+    }
+}
+
+static void surveys(void **state)
+{
+    static const struct {
+        double survey[6];
+        int32_t status;
+    } cases[] = {{{0, 1.5, 0, 10, 1.4, 0}, DMB_OK},
+                 {{0, 1.5, 0, 0, 1.4, 0}, DMB_ERR_VALUE},
+                 {{10, 1.5, 0, 0, 1.4, 0}, DMB_ERR_VALUE},
+                 {{0, 1.5, 0, 5e-324, 1.4, 0}, DMB_ERR_VALUE},
+                 {{0, 1.5, 0, (double)NAN, 1.4, 0}, DMB_ERR_NOT_FINITE},
+                 {{0, (double)INFINITY, 0, 10, 1.4, 0}, DMB_ERR_NOT_FINITE},
+                 {{0, 1.5, 0, 10, 1.4, DBL_MAX}, DMB_ERR_VALUE}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        scene_under_test s = begin(0);
+        dmb_wall_def wall = dmb_wall_def_default();
+        wall.survey = cases[i].survey;
+        wall.survey_count = 2;
+        assert_int_equal(dmb_model_add_wall(s.model, &wall, NULL), cases[i].status);
+        if (cases[i].status < 0) {
+            assert_non_null(strstr(dmb_model_message(s.model), "wall, station"));
+            wall.survey = NULL;
+            assert_int_equal(dmb_model_add_wall(s.model, &wall, NULL), DMB_ERR_NULL);
+        }
+        dmb_model_destroy(&s.model);
+    }
+}
+
+static int32_t silent(void *context, double time, double out[3])
+{
+    (void)context;
+    (void)time;
+    (void)out;
+    return 0;
+}
+
+static void callbacks_and_counts_of_terms(void **state)
+{
+    scene_under_test s = begin(0);
+    dmb_term terms[65];
+    (void)state;
+    for (int i = 0; i < 65; ++i) terms[i] = dmb_term_default();
+    assert_int_equal(dmb_model_add_programme(s.model, terms, 0, NULL), DMB_ERR_VALUE);
+    assert_int_equal(dmb_model_add_programme(s.model, terms, 65, NULL), DMB_ERR_VALUE);
+    assert_int_equal(dmb_model_add_programme(s.model, terms, 64, NULL), DMB_OK);
+    terms[0].kind = DMB_TERM_CALLBACK;
+    assert_int_equal(dmb_model_add_programme(s.model, terms, 1, NULL), DMB_ERR_NULL);
+    assert_non_null(strstr(dmb_model_message(s.model), "callback"));
+    terms[0].callback = silent;
+    terms[0].provides = 4;
+    assert_int_equal(dmb_model_add_programme(s.model, terms, 1, NULL), DMB_ERR_VALUE);
+    terms[0].provides = DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL;
+    assert_int_equal(dmb_model_add_programme(s.model, terms, 1, NULL), DMB_OK);
+    dmb_model_destroy(&s.model);
+}
+
+/* struct_size of every definition: garbage is refused. */
+static void struct_sizes(void **state)
+{
+    static const uint32_t sizes[] = {0, 1, 4, 8, 12, 0x7FFFFFF8u, 0xFFFFFFF8u, UINT32_MAX};
+    (void)state;
+    for (size_t k = 0; k < KINDS; ++k) {
+        for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; ++i) {
+            scene_under_test s = begin(k != WALL);
+            any_def def;
+            kinds[k].fill(&s, &def);
+            def.struct_size = sizes[i];
+            assert_int_equal(kinds[k].add(s.model, &def), DMB_ERR_STRUCT_SIZE);
+            assert_true(strlen(dmb_model_message(s.model)) > 0);
+            dmb_model_destroy(&s.model);
+        }
+    }
+}
+
+static void inertia_must_be_positive_definite(void **state)
+{
+    static const struct {
+        double inertia[6];
+        int32_t status;
+    } cases[] = {{{1, 1, 1, 0, 0, 0}, DMB_OK},
+                 {{1, 1, 1, 0.9, 0, 0}, DMB_OK},
+                 {{1, 1, 1, 1, 0, 0}, DMB_ERR_VALUE},
+                 {{1, 1, 1, 0.6, 0.6, -0.6}, DMB_ERR_VALUE},
+                 {{1e-15, 1e-15, 1e-15, 0, 0, 9e-16}, DMB_OK},
+                 {{1e17, 1e17, 1e17, 0, 0, 9e16}, DMB_OK},
+                 {{1, -1, 1, 0, 0, 0}, DMB_ERR_VALUE}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        scene_under_test s = begin(0);
+        dmb_body_def body = dmb_body_def_default();
+        memcpy(body.inertia, cases[i].inertia, sizeof body.inertia);
+        assert_int_equal(dmb_model_add_body(s.model, &body, NULL), cases[i].status);
+        dmb_model_destroy(&s.model);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_field),
+        cmocka_unit_test(what_must_be_refused),
+        cmocka_unit_test(many_fields_at_once),
+        cmocka_unit_test(counts_of_pipes),
+        cmocka_unit_test(tables),
+        cmocka_unit_test(surveys),
+        cmocka_unit_test(callbacks_and_counts_of_terms),
+        cmocka_unit_test(struct_sizes),
+        cmocka_unit_test(inertia_must_be_positive_definite),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,175 @@
+/* The recorder's table as text: every number comes back, in any locale, and a disk that refuses is told of. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <float.h>
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "drillmbd/query.h"
+
+enum { ROWS = 6, CHANNELS = 3, WIDTH = 1 + CHANNELS };
+
+static const double values[ROWS * WIDTH] = {
+    0.0,  1.0,          -2.5,       1e300,           0.1,      0.2,     0.30000000000000004, -0.0,
+    1e-3, DBL_MIN,      DBL_MAX,    DBL_EPSILON,     4.9e-324, -1e-310, 3.141592653589793,   2.718281828459045,
+    1e22, 123456789.25, 1.0 / 3.0,  -7.0 / 11.0,     1e5,      1e16,    1e17,                9007199254740993.0,
+};
+
+static dmb_channel channels[CHANNELS];
+static double table[ROWS * WIDTH];
+
+static dmb_recorder recorder(void)
+{
+    dmb_recorder r = dmb_recorder_default();
+    const dmb_id string = {3u << 24, 1}, drive = {6u << 24 | 2u, 1};
+    memcpy(table, values, sizeof table);
+    memset(channels, 0, sizeof channels);
+    channels[0].place = dmb_station(string, 99, 0.5);
+    channels[0].quantity = DMB_CHANNEL_VELOCITY_Z;
+    channels[1].place = dmb_station(drive, 0, 0.0);
+    channels[1].quantity = DMB_CHANNEL_DRIVE_FORCE;
+    channels[2].quantity = DMB_CHANNEL_ENERGY_ERROR;
+    r.channel_count = CHANNELS;
+    r.channels = channels;
+    r.table = table;
+    r.capacity = r.rows = ROWS;
+    return r;
+}
+
+static char *file_name(void)
+{
+    static char name[64];
+    const char *folder = getenv("TMPDIR");
+    snprintf(name, sizeof name, "%.40s/dmb_csv_XXXXXX", folder != NULL ? folder : "/tmp");
+    return name;
+}
+
+static char *temporary(void)
+{
+    char *name = file_name();
+    FILE *file;
+    snprintf(name + strlen(name) - 6, 7, "%06u", (unsigned)(rand() % 1000000));
+    file = fopen(name, "wb");
+    assert_non_null(file);
+    fclose(file);
+    return name;
+}
+
+static void read_back(const char *name, char *text, size_t size)
+{
+    FILE *file = fopen(name, "rb");
+    assert_non_null(file);
+    const size_t length = fread(text, 1, size - 1, file);
+    text[length] = '\0';
+    assert_int_equal(fclose(file), 0);
+    assert_int_equal(remove(name), 0);
+}
+
+static void numbers_come_back(void **state)
+{
+    (void)state;
+    static char text[1 << 16];
+    const dmb_recorder r = recorder();
+    char *name = temporary(), *at;
+    assert_int_equal(dmb_recorder_write_csv(&r, name), DMB_OK);
+    read_back(name, text, sizeof text);
+    at = strchr(text, '\n');
+    assert_non_null(at);
+    at++;
+    for (size_t i = 0; i < ROWS * WIDTH; i++) {
+        char *end;
+        const double back = strtod(at, &end);
+        assert_memory_equal(&back, &values[i], sizeof back);
+        assert_int_equal(*end, (i + 1) % WIDTH == 0 ? '\n' : ',');
+        at = end + 1;
+    }
+    assert_int_equal(*at, '\0');
+}
+
+static void header_names_and_units(void **state)
+{
+    (void)state;
+    static char text[1 << 16];
+    dmb_recorder r = recorder();
+    char *name = temporary();
+    r.rows = 0;
+    assert_int_equal(dmb_recorder_write_csv(&r, name), DMB_OK);
+    read_back(name, text, sizeof text);
+    assert_string_equal(text, "time [s],velocity_z string 0 pipe 99 at 0.5 [m/s],drive_force drive 2 [N or N m],"
+                              "energy_error [-]\n");
+}
+
+/* With a comma as the host's decimal mark the file keeps its points. */
+static void locale_does_not_matter(void **state)
+{
+    (void)state;
+    static char plain[1 << 16], foreign[1 << 16];
+    static const char *const names[] = {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", "de_DE.utf8"};
+    const dmb_recorder r = recorder();
+    char *name = temporary();
+    int set = 0;
+    assert_int_equal(dmb_recorder_write_csv(&r, name), DMB_OK);
+    read_back(name, plain, sizeof plain);
+    for (size_t i = 0; i < sizeof names / sizeof names[0] && !set; i++) set = setlocale(LC_ALL, names[i]) != NULL;
+    name = temporary();
+    assert_int_equal(dmb_recorder_write_csv(&r, name), DMB_OK);
+    read_back(name, foreign, sizeof foreign);
+    setlocale(LC_ALL, "C");
+    assert_string_equal(plain, foreign);
+}
+
+static void failures_are_told(void **state)
+{
+    (void)state;
+    const dmb_recorder r = recorder();
+    FILE *full = fopen("/dev/full", "wb");
+    assert_int_equal(dmb_recorder_write_csv(&r, "/nonexistent/folder/x.csv"), DMB_ERR_IO);
+    assert_int_equal(dmb_recorder_write_csv(&r, ""), DMB_ERR_IO);
+    if (full == NULL) return;
+    fclose(full);
+    assert_int_equal(dmb_recorder_write_csv(&r, "/dev/full"), DMB_ERR_IO);
+}
+
+static void bad_recorders_are_refused(void **state)
+{
+    (void)state;
+    dmb_recorder r = recorder();
+    assert_int_equal(dmb_recorder_write_csv(NULL, "x"), DMB_ERR_NULL);
+    assert_int_equal(dmb_recorder_write_csv(&r, NULL), DMB_ERR_NULL);
+    r.channels = NULL;
+    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_NULL);
+    r = recorder(), r.table = NULL;
+    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_NULL);
+    r = recorder(), r.channel_count = 0;
+    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);
+    r = recorder(), r.channel_count = 4097;
+    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);
+    r = recorder(), r.rows = ROWS + 1;
+    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);
+    r = recorder(), r.capacity = UINT64_MAX;
+    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);
+    r = recorder(), r.interval = -1.0;
+    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);
+    r = recorder(), r.interval = (double)NAN;
+    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_NOT_FINITE);
+    r = recorder(), r.struct_size = 7;
+    assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_STRUCT_SIZE);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numbers_come_back),     cmocka_unit_test(header_names_and_units),
+        cmocka_unit_test(locale_does_not_matter), cmocka_unit_test(failures_are_told),
+        cmocka_unit_test(bad_recorders_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
