@@ -4,9 +4,8 @@
 #include "analysis/static_state.h"
 #include "base/handle.h"
 #include "base/sized_struct.h"
-#include "integrator/attempt.h"
-#include "integrator/owner.h"
-#include "integrator/start.h"
+#include "system/owner.h"
+#include "system/start.h"
 #include "math/vec3.h"
 #include "system/bit.h"
 
@@ -117,7 +116,7 @@ static int32_t settle(dmb_static_search *search)
     memset(sim->trial.site_approach, 0, scene->site_count * sizeof(double));
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
     const dmb_counters counters = *sim->counters;
-    int32_t status = dmb_integrator_restart(sim);
+    int32_t status = dmb_system_restart(sim);
     *sim->counters = counters;
     if (status >= 0 && search->evaluation.slipping) status = keep_static_reactions(search);
     if (status < 0) {

@@ -1,7 +1,7 @@
 #include <string.h>
 
 #include "analysis/static_state.h"
-#include "integrator/attempt.h"
+#include "system/solve.h"
 #include "math/se3.h"
 
 /* Moves the trial by body-frame increments; the sum in `increment` follows the turns. */

@@ -3,8 +3,10 @@
 #include <string.h>
 
 #include "integrator/generalized_alpha.h"
-#include "integrator/ledger.h"
-#include "integrator/owner.h"
+#include "math/se3.h"
+#include "system/ledger.h"
+#include "system/owner.h"
+#include "system/solve.h"
 #include "integrator/turning.h"
 
 /* Newton gives up when the residual has grown this much over its start. */
@@ -36,6 +38,24 @@ static void predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
     }
 }
 
+/* Trial pose = pose of now moved by `increment`. */
+static void trial_pose(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    const uint32_t n = scene->node_count;
+    memcpy(sim->trial.displacement, sim->now.displacement, 3 * n * sizeof(double));
+    memcpy(sim->trial.quaternion, sim->now.quaternion, 4 * n * sizeof(double));
+    for (uint32_t i = 0; i < n; i++) {
+        const double *z = sim->increment + scene->layout.row[i];
+        if (scene->layout.size[i] == DMB_NODE_FULL) {
+            dmb_se3_advance(sim->trial.quaternion + 4 * i, sim->trial.displacement + 3 * i, z);
+        } else {
+            sim->trial.displacement[3 * i] += z[0];
+            sim->trial.turn[i] = sim->now.turn[i] + z[1];
+        }
+    }
+}
+
 /* Moves the trial by the correction z of h Dq. */
 static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
 {
@@ -48,7 +68,7 @@ static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
         sim->trial.acceleration[i] += to_dv * z;
         sim->trial.pseudo_acceleration[i] += to_a * z;
     }
-    dmb_trial_pose(sim);
+    trial_pose(sim);
 }
 
 /* Local error of the pose over its tolerance, largest row. */
@@ -157,7 +177,7 @@ int32_t dmb_attempt_step(dmb_sim *sim, double step, dmb_attempt *attempt)
     predict(sim, &c, step);
     status = dmb_system_prescribe(&attempt->evaluation);
     if (status >= 0) {
-        dmb_trial_pose(sim);
+        trial_pose(sim);
         do status = iterate(sim, &c, attempt, &course);
         while (status == 1);
     }

@@ -24,14 +24,4 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt);
 /* [s] smallest corner later than t of any programme in use; INFINITY if none. */
 double dmb_next_corner(const dmb_sim *sim, double t);
 
-/* Norm of the residual over the norm of the terms that balance in it, moments over the length scale; unknown rows only.
- * *converged is 1 at or below the tolerance, or where rounding of the poses alone makes a residual as large. */
-double dmb_relative_residual(const dmb_evaluation *evaluation, double tolerance, int32_t *converged);
-/* Trial pose = pose of now moved by `increment`. */
-void dmb_trial_pose(dmb_sim *sim);
-/* Factors the iteration matrix in place. Index of a singular block, or -1. */
-int64_t dmb_factor_matrix(dmb_sim *sim);
-/* Residual in, Newton correction out, both in `correction`, by the factors at hand. */
-void dmb_solve_correction(dmb_sim *sim);
-
 #endif

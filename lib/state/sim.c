@@ -4,7 +4,7 @@
 #include "base/allocator.h"
 #include "base/log.h"
 #include "base/sized_struct.h"
-#include "integrator/start.h"
+#include "system/start.h"
 #include "state/handle.h"
 #include "state/layout.h"
 #include "state/options.h"
@@ -118,7 +118,7 @@ static int32_t begin(const creation *c, dmb_model *model, void *block, size_t si
     sim->options.allocator = NULL; /* the caller's struct may be gone; the copy is the one to use */
     dmb_model_hold(model);
     release_drives(sim);
-    status = dmb_integrator_start(sim);
+    status = dmb_system_start(sim);
     tell(&sim->options, status, &sim->message);
     if (status < 0) {
         give_back(sim);

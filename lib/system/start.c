@@ -1,10 +1,10 @@
-#include "integrator/start.h"
+#include "system/start.h"
 
 #include <string.h>
 
-#include "integrator/attempt.h"
-#include "integrator/ledger.h"
-#include "integrator/owner.h"
+#include "system/ledger.h"
+#include "system/owner.h"
+#include "system/solve.h"
 #include "math/so3.h"
 #include "system/bit.h"
 
@@ -83,17 +83,21 @@ static int32_t solve_accelerations(dmb_sim *sim, dmb_evaluation *evaluation)
     return dmb_system_evaluate(evaluation);
 }
 
-static void explain(dmb_sim *sim, const dmb_evaluation *evaluation)
+static void explain(dmb_sim *sim, const dmb_evaluation *evaluation, int32_t status)
 {
-    dmb_attempt attempt;
-    if (evaluation->status == DMB_ERR_SINGULAR) return;
-    memset(&attempt, 0, sizeof attempt);
-    attempt.evaluation = *evaluation;
-    attempt.status = evaluation->status;
-    dmb_attempt_explain(sim, &attempt);
+    if (status == DMB_ERR_ROTATION) {
+        const dmb_owner owner = dmb_owner_of_element(sim->scene, evaluation->element);
+        dmb_message_set(&sim->message, "%s %u, pipe %u: relative rotation in one element above 2.5 rad", owner.kind,
+                        owner.index, owner.pipe);
+    } else if (status == DMB_ERR_CALLBACK) {
+        dmb_message_set(&sim->message, "programme: the callback failed or gave a value that is not finite at time %g",
+                        evaluation->time);
+    } else if (status == DMB_ERR_NOT_FINITE) {
+        dmb_message_set(&sim->message, "forces: not finite at time %g", evaluation->time);
+    }
 }
 
-int32_t dmb_integrator_restart(dmb_sim *sim)
+int32_t dmb_system_restart(dmb_sim *sim)
 {
     dmb_evaluation evaluation;
     int32_t status;
@@ -107,28 +111,25 @@ int32_t dmb_integrator_restart(dmb_sim *sim)
         status = solve_accelerations(sim, &evaluation);
     }
     if (status < 0) {
-        evaluation.status = status;
-        explain(sim, &evaluation);
+        explain(sim, &evaluation, status);
         return status;
     }
-    const double step = evaluation.step;
     memcpy(sim->residual_row, sim->correction, sim->scene->row_count * sizeof(double));
     for (uint32_t i = 0; i < sim->scene->drive_count; i++)
         if (sim->scene->drives[i].kind == DMB_DRIVE_MOTION)
             sim->trial.drive_force[i] = sim->correction[sim->scene->drives[i].row];
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
-    evaluation.step = step;
     sim->clock->step = 0.0;
     sim->clock->next_step = 0.0;
     if (sim->options.energy_ledger) dmb_ledger_start(sim, &evaluation);
     return DMB_OK;
 }
 
-int32_t dmb_integrator_start(dmb_sim *sim)
+int32_t dmb_system_start(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     described_pose(sim);
-    const int32_t status = dmb_integrator_restart(sim);
+    const int32_t status = dmb_system_restart(sim);
     if (status < 0) return status;
     for (uint32_t k = 0; k < scene->bit_count; k++) dmb_bit_start(sim, k);
     const double *most = sim->counters->projection;

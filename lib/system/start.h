@@ -1,13 +1,13 @@
 /* The state at time 0, and accelerations that fit a given pose and speed. */
-#ifndef DMB_INTEGRATOR_START_H
-#define DMB_INTEGRATOR_START_H
+#ifndef DMB_SYSTEM_START_H
+#define DMB_SYSTEM_START_H
 
 #include "state.h"
 
 /* Described poses and speeds, speeds projected onto the allowed motion, consistent accelerations, ledger at zero. Returns
  * DMB_OK, DMB_NOTE_PROJECTED with a message, or why there is no start. */
-int32_t dmb_integrator_start(dmb_sim *sim);
+int32_t dmb_system_start(dmb_sim *sim);
 /* Consistent accelerations, drive forces, contact state and ledger for the pose and speeds of now. */
-int32_t dmb_integrator_restart(dmb_sim *sim);
+int32_t dmb_system_restart(dmb_sim *sim);
 
 #endif

@@ -1,6 +1,6 @@
 /* Which described part a node or element belongs to, for messages. */
-#ifndef DMB_INTEGRATOR_OWNER_H
-#define DMB_INTEGRATOR_OWNER_H
+#ifndef DMB_SYSTEM_OWNER_H
+#define DMB_SYSTEM_OWNER_H
 
 #include "state.h"
 

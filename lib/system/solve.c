@@ -1,9 +1,6 @@
-/* Pieces of Newton's method that steps and statics share. */
-#include <float.h>
-#include <string.h>
+#include "system/solve.h"
 
-#include "integrator/attempt.h"
-#include "math/se3.h"
+#include <float.h>
 
 /* Rounding of a pose reaches a stiff element's force multiplied by EA/L: this many units of it count as zero. */
 #define DMB_ROUNDING_UNITS 4.0
@@ -26,23 +23,6 @@ double dmb_relative_residual(const dmb_evaluation *evaluation, double tolerance,
     const double floor = DMB_ROUNDING_UNITS * DBL_EPSILON;
     *converged = rest <= tolerance * tolerance * all || rest <= floor * floor * evaluation->rounding;
     return all > 0.0 ? sqrt(rest / all) : 0.0;
-}
-
-void dmb_trial_pose(dmb_sim *sim)
-{
-    const dmb_scene *scene = sim->scene;
-    const uint32_t n = scene->node_count;
-    memcpy(sim->trial.displacement, sim->now.displacement, 3 * n * sizeof(double));
-    memcpy(sim->trial.quaternion, sim->now.quaternion, 4 * n * sizeof(double));
-    for (uint32_t i = 0; i < n; i++) {
-        const double *z = sim->increment + scene->layout.row[i];
-        if (scene->layout.size[i] == DMB_NODE_FULL) {
-            dmb_se3_advance(sim->trial.quaternion + 4 * i, sim->trial.displacement + 3 * i, z);
-        } else {
-            sim->trial.displacement[3 * i] += z[0];
-            sim->trial.turn[i] = sim->now.turn[i] + z[1];
-        }
-    }
 }
 
 static dmb_block_matrix matrix_of(const dmb_sim *sim)

@@ -1,4 +1,4 @@
-#include "integrator/ledger.h"
+#include "system/ledger.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "integrator/owner.h"
+#include "system/owner.h"
 
 static uint32_t pipe_at(const dmb_scene *scene, const dmb_string_map *string, uint32_t node)
 {
