@@ -90,8 +90,9 @@ static inline dmb_place dmb_station(dmb_id part, uint32_t pipe, double fraction)
 /* ---- Structs that cross the border ------------------------------------------------------------------------------
  * Each begins with struct_size and is filled by its T_init, which writes no more than the size it is told: a caller
  * compiled against an older header still works. T_default() returns a filled struct by value.
- * T_init returns DMB_OK, DMB_ERR_NULL, or DMB_ERR_STRUCT_SIZE (size below that of the first release, or not a multiple
- * of 8). Pure and thread-safe. */
+ * T_init returns DMB_OK, DMB_ERR_NULL, or DMB_ERR_STRUCT_SIZE (size below that of the first release, not a multiple of 8,
+ * or more than 1024 bytes above the size this library knows). A longer struct than the library's is accepted where what
+ * it does not know is zero. Pure and thread-safe. */
 #define DMB_SIZED_STRUCT(T)                                                                                           \
     DMB_API int32_t T##_init(T *out, uint32_t size);                                                                  \
     static inline T T##_default(void)                                                                                 \

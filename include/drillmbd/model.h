@@ -1,4 +1,6 @@
 /* libdrillmbd - describe a scene and compile it.
+ * Besides the bounds stated here, lengths must lie in 1e-6 .. 1e6 m, moduli in 1e-6 .. 1e15 Pa, and so on for every
+ * quantity: far beyond any drill string, so that nothing overflows later; messages tell the bound.
  * World frame: x along the default hole, away from the rig; z up. Body and section frames: origin on the axis of the
  * pipe, x along it towards the bit, rotating with the material. Pipes count from the rig end. */
 #ifndef DRILLMBD_MODEL_H
@@ -286,7 +288,8 @@ typedef struct dmb_compile_options {
 DMB_SIZED_STRUCT(dmb_compile_options)
 /* Checks the scene as a whole, meshes and numbers it, chooses kernels, and freezes the model: no more parts can be
  * added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was.
- * Errors: DMB_ERR_ORDER (already compiled), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(number of elements). */
+ * Errors: DMB_ERR_ORDER (already compiled), _ID (the first string is meant and there is none), _VALUE, _GEOMETRY,
+ * _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(number of elements). */
 DMB_API int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options);
 
 typedef struct dmb_model_info {

@@ -33,7 +33,7 @@ static int32_t take_substep(dmb_sim *sim, double end, double *cut, uint32_t *cut
         if (status >= 0) {
             if (last) attempt.evaluation.time = end;
             dmb_walk_commit(sim, &attempt, walk);
-            *cut = 2.0 * h;
+            *cut = *cuts > 0 ? 2.0 * h : (double)INFINITY; /* a corner nearby does not shorten what follows */
             if (*cuts > 0) --*cuts;
             return status;
         }
