@@ -1,0 +1,100 @@
+#include "recording.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void watch(dmb_channel *channel, dmb_place place, int32_t quantity)
+{
+    channel->place = place;
+    channel->quantity = quantity;
+    channel->reserved = 0;
+}
+
+static void choose_channels(rig_recording *recording, const rig_scene *scene)
+{
+    dmb_channel *next = recording->channels;
+    for (int p = 0; p < RIG_PLACES; ++p) {
+        const dmb_place place =
+            p == RIG_BIT ? dmb_station(scene->bit, 0, 0.0) : dmb_station(scene->string, recording->pipe[p], 1.0);
+        for (int32_t q = DMB_CHANNEL_DISPLACEMENT_X; q <= DMB_CHANNEL_VELOCITY_Z; ++q) watch(next++, place, q);
+    }
+    const dmb_place last = dmb_station(scene->string, recording->pipe[RIG_LAST], 1.0);
+    const dmb_place feed = dmb_station(scene->feed, 0, 0.0), rotation = dmb_station(scene->rotation, 0, 0.0);
+    watch(next++, last, DMB_CHANNEL_KINETIC_ENERGY);
+    watch(next++, feed, DMB_CHANNEL_DRIVE_FORCE);
+    watch(next++, feed, DMB_CHANNEL_DRIVE_SPEED);
+    watch(next++, rotation, DMB_CHANNEL_DRIVE_FORCE);
+    watch(next++, rotation, DMB_CHANNEL_DRIVE_SPEED);
+    watch(next++, last, DMB_CHANNEL_NORMAL_FORCE);
+    watch(next++, dmb_station(scene->bit, 0, 0.0), DMB_CHANNEL_NORMAL_FORCE);
+    watch(next++, last, DMB_CHANNEL_ENERGY_ERROR);
+}
+
+int32_t rig_recording_open(rig_recording *recording, const rig_options *options, const rig_scene *scene)
+{
+    const double rows = ceil(options->end * options->rate) + 2.0;
+    memset(recording, 0, sizeof *recording);
+    recording->pipe[RIG_FIRST] = 0;
+    recording->pipe[RIG_MIDDLE] = options->pipes > 1 ? options->pipes / 2 - 1 : 0;
+    recording->pipe[RIG_LAST] = options->pipes - 1;
+    choose_channels(recording, scene);
+    recording->recorder = dmb_recorder_default();
+    recording->recorder.channels = recording->channels;
+    recording->recorder.channel_count = RIG_COLUMNS - 1;
+    recording->recorder.capacity = (uint64_t)rows;
+    recording->recorder.interval = 1.0 / options->rate;
+    recording->recorder.table = calloc((size_t)rows, RIG_COLUMNS * sizeof(double));
+    recording->wall_force = calloc((size_t)rows, sizeof(double));
+    return recording->recorder.table == NULL || recording->wall_force == NULL ? DMB_ERR_NO_MEMORY : DMB_OK;
+}
+
+/* The sum over the wall is no channel of the recorder, so it is asked for whenever a row was written. */
+int32_t rig_recording_take(rig_recording *recording, const dmb_sim *sim)
+{
+    const uint64_t before = recording->recorder.rows;
+    dmb_contact_sum sum = dmb_contact_sum_default();
+    int32_t status = dmb_recorder_take(&recording->recorder, sim);
+    if (status < 0 || recording->recorder.rows == before) return status;
+    status = dmb_query_contact_sum(sim, &sum);
+    recording->wall_force[before] = sum.normal_force;
+    return status;
+}
+
+void rig_recording_close(rig_recording *recording)
+{
+    free(recording->recorder.table);
+    free(recording->wall_force);
+    recording->recorder.table = NULL;
+    recording->wall_force = NULL;
+}
+
+static rig_extent extent(const rig_recording *recording, const double *value, size_t stride, double from, double to)
+{
+    rig_extent found = {HUGE_VAL, -HUGE_VAL, 0.0, 0.0};
+    const double *time = recording->recorder.table, slack = 1e-9;
+    double count = 0.0;
+    for (uint64_t row = 0; row < recording->recorder.rows; ++row, time += RIG_COLUMNS, value += stride) {
+        if (*time < from - slack || *time > to + slack) continue;
+        if (count > 0.0) found.jump = fmax(found.jump, fabs(value[0] - value[-(ptrdiff_t)stride]));
+        found.low = fmin(found.low, *value);
+        found.high = fmax(found.high, *value);
+        found.mean += *value;
+        count += 1.0;
+    }
+    if (count > 0.0)
+        found.mean /= count;
+    else
+        found.low = found.high = 0.0;
+    return found;
+}
+
+rig_extent rig_column_extent(const rig_recording *recording, int column, double from, double to)
+{
+    return extent(recording, recording->recorder.table + column, RIG_COLUMNS, from, to);
+}
+
+rig_extent rig_wall_extent(const rig_recording *recording, double from, double to)
+{
+    return extent(recording, recording->wall_force, 1, from, to);
+}
