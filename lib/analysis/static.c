@@ -52,20 +52,26 @@ static int32_t run(dmb_static_search *search, search_fn method, uint32_t steps)
 
 static int may_try_again(int32_t status)
 {
-    return status < 0 && status != DMB_ERR_CALLBACK && status != DMB_ERR_SINGULAR;
+    return status < 0 && status != DMB_ERR_CALLBACK;
 }
 
-/* Newton in the load steps asked for, then in 4 and 16 times as many, then the relaxation. */
+/* Newton in the load steps asked for, then in 4 and 16 times as many, then the relaxation. What nothing holds in its
+ * starting pose may yet fall onto the wall, so the relaxation comes at once; where that fails too, the part is free. */
 static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
 {
     const uint32_t steps = search->options->load_steps;
     int32_t status = run(search, dmb_static_newton, steps);
     *method = DMB_STATIC_NEWTON;
-    for (uint32_t finer = 4; finer <= 16 && may_try_again(status); finer *= 4)
+    for (uint32_t finer = 4; finer <= 16 && may_try_again(status) && status != DMB_ERR_SINGULAR; finer *= 4)
         status = run(search, dmb_static_newton, finer * steps);
     if (!may_try_again(status)) return status;
+    const uint32_t singular_block = search->block;
+    const int singular = status == DMB_ERR_SINGULAR;
     *method = DMB_STATIC_RELAXATION;
-    return run(search, dmb_static_relaxation, steps);
+    status = run(search, dmb_static_relaxation, steps);
+    if (status >= 0 || !(singular || search->loose)) return status;
+    search->block = singular ? singular_block : search->loose_block;
+    return DMB_ERR_SINGULAR;
 }
 
 static double largest_displacement(const dmb_sim *sim)

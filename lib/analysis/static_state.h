@@ -12,6 +12,8 @@ typedef struct dmb_static_search {
     uint32_t iterations; /* in all */
     uint32_t load_steps; /* of the last try */
     uint32_t block;      /* block found singular */
+    int32_t loose;       /* 1: nothing seems to hold loose_block in the starting pose */
+    uint32_t loose_block;
     double residual;     /* [-] relative, last */
 } dmb_static_search;
 

@@ -3,14 +3,16 @@
 #include <string.h>
 
 #include "integrator/generalized_alpha.h"
+#include "integrator/turning.h"
 #include "math/se3.h"
 #include "system/ledger.h"
 #include "system/owner.h"
 #include "system/solve.h"
-#include "integrator/turning.h"
 
 /* Newton gives up when the residual has grown this much over its start. */
 #define DMB_NEWTON_GROWTH 1e6
+/* Largest ratio of a step to the one before over which the pseudo-acceleration is carried. */
+#define DMB_STEP_RATIO_MAX 1e3
 
 /* a0 carried over to a new step length, v0' + (h/h_old)(a0 - v0'), which keeps second order (THEORY 4). */
 static double carried(const dmb_sim *sim, double ratio, uint32_t i)
@@ -19,9 +21,12 @@ static double carried(const dmb_sim *sim, double ratio, uint32_t i)
     return a + ratio * (sim->now.pseudo_acceleration[i] - a);
 }
 
+/* After a sliver of a step a0 - v0' is lost in what Newton left over, and the ratio would blow that up: a0 starts anew
+ * from the acceleration. */
 static double step_ratio(const dmb_sim *sim, double step)
 {
-    return sim->clock->step > 0.0 ? step / sim->clock->step : 1.0;
+    if (!(sim->clock->step > 0.0)) return 1.0;
+    return step > DMB_STEP_RATIO_MAX * sim->clock->step ? 0.0 : step / sim->clock->step;
 }
 
 /* Start of the iteration: v1' = v0'. */

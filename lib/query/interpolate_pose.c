@@ -3,8 +3,8 @@
 #include "query/relative_pose.h"
 
 /* Section seen from node a: rotation Q and place r [m]. */
-static void section_from_node(const dmb_scene *scene, const dmb_spot *spot, const dmb_end_pose *a, const dmb_end_pose *b,
-                              double Q[9], double r[3])
+static void section_from_node(const dmb_scene *scene, const dmb_spot *spot, const dmb_end_pose *a,
+                              const dmb_end_pose *b, double Q[9], double r[3])
 {
     const dmb_element_type *type = &scene->types[scene->element_type[spot->element]];
     dmb_section_shape shape;

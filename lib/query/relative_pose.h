@@ -11,7 +11,8 @@ typedef struct dmb_end_pose {
 } dmb_end_pose;
 
 /* Pose of a node in a configuration, and at time 0 as described. */
-void dmb_end_pose_now(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, dmb_end_pose *pose);
+void dmb_end_pose_now(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
+                      dmb_end_pose *pose);
 void dmb_end_pose_at_start(const dmb_scene *scene, uint32_t node, dmb_end_pose *pose);
 
 /* d = log(H_A^-1 H_B) of the element's flexible ends from the poses of its nodes, whatever their kind. */

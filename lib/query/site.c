@@ -38,7 +38,8 @@ static uint32_t first_at(const dmb_scene *scene, uint32_t first, uint32_t end, u
 }
 
 /* A rigid stretch has the sites of all its pipes on one node. */
-static uint32_t search(const dmb_scene *scene, uint32_t first, uint32_t end, dmb_id string, uint32_t pipe, uint32_t node)
+static uint32_t search(const dmb_scene *scene, uint32_t first, uint32_t end, dmb_id string, uint32_t pipe,
+                       uint32_t node)
 {
     for (uint32_t i = first_at(scene, first, end, node); i < end; i++) {
         const site_owner owner = owner_of(scene, i);
@@ -66,8 +67,7 @@ uint32_t dmb_site_after(const dmb_sim *sim, dmb_id string, uint32_t pipe, uint32
     const dmb_scene *scene = sim->scene;
     const dmb_string_map *map = &scene->strings[dmb_model_part_index(sim->model, string, DMB_PART_STRING)];
     const dmb_pipe_map *pipes = &scene->pipes[map->first_pipe];
-    if (elements > 0)
-        return site_on_string(scene, string, pipe, node_after(scene, &pipes[pipe], elements));
+    if (elements > 0) return site_on_string(scene, string, pipe, node_after(scene, &pipes[pipe], elements));
     if (pipe == 0) return site_on_string(scene, string, UINT32_MAX, map->start_node);
     return site_on_string(scene, string, pipe - 1, node_after(scene, &pipes[pipe - 1], pipes[pipe - 1].elements));
 }

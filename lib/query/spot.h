@@ -7,12 +7,12 @@
 #define DMB_SPOT_RIGID UINT32_MAX
 
 typedef struct dmb_spot {
-    uint32_t node;       /* the node it is rigid with; near node of the element otherwise */
-    uint32_t element;    /* element of a flexible or axial-torsional pipe; DMB_SPOT_RIGID on rigid pipes and bodies */
-    double arm;          /* [m] along body x from the node, where `fixed` */
-    double fraction;     /* [-] along the element's flexible length, 0 .. 1 */
-    double beyond;       /* [m] behind the element's far end, inside the tool joint; 0 elsewhere */
-    int32_t fixed;       /* 1: rigid with the node (body, rigid pipe, tool joint, end of an element) */
+    uint32_t node;    /* the node it is rigid with; near node of the element otherwise */
+    uint32_t element; /* element of a flexible or axial-torsional pipe; DMB_SPOT_RIGID on rigid pipes and bodies */
+    double arm;       /* [m] along body x from the node, where `fixed` */
+    double fraction;  /* [-] along the element's flexible length, 0 .. 1 */
+    double beyond;    /* [m] behind the element's far end, inside the tool joint; 0 elsewhere */
+    int32_t fixed;    /* 1: rigid with the node (body, rigid pipe, tool joint, end of an element) */
     int32_t reserved;
 } dmb_spot;
 

@@ -49,8 +49,8 @@ static int32_t motion_value(const dmb_sim *sim, const dmb_channel *channel, doub
     motion.frame = channel->quantity == DMB_CHANNEL_SPIN ? DMB_FRAME_BODY : DMB_FRAME_WORLD;
     status = dmb_query_motion(sim, channel->place, &motion);
     if (status < 0) return status;
-    *value = motion.velocity[channel->quantity == DMB_CHANNEL_SPIN ? DMB_RX
-                                                                   : channel->quantity - DMB_CHANNEL_VELOCITY_X];
+    *value =
+        motion.velocity[channel->quantity == DMB_CHANNEL_SPIN ? DMB_RX : channel->quantity - DMB_CHANNEL_VELOCITY_X];
     return DMB_OK;
 }
 
@@ -95,26 +95,27 @@ static int32_t energy_error(const dmb_sim *sim, double *value)
 int32_t dmb_channel_value(const dmb_sim *sim, const dmb_channel *channel, double *value)
 {
     switch (channel->quantity) {
-    case DMB_CHANNEL_DISPLACEMENT_X: case DMB_CHANNEL_DISPLACEMENT_Y: case DMB_CHANNEL_DISPLACEMENT_Z:
-    case DMB_CHANNEL_POSITION_X: case DMB_CHANNEL_POSITION_Y: case DMB_CHANNEL_POSITION_Z:
-        return pose_value(sim, channel, value);
-    case DMB_CHANNEL_VELOCITY_X: case DMB_CHANNEL_VELOCITY_Y: case DMB_CHANNEL_VELOCITY_Z: case DMB_CHANNEL_SPIN:
-        return motion_value(sim, channel, value);
-    case DMB_CHANNEL_ROTATION:
-        return dmb_query_rotation(sim, channel->place, value);
-    case DMB_CHANNEL_AXIAL_FORCE: case DMB_CHANNEL_TORQUE: case DMB_CHANNEL_BENDING_MOMENT:
-        return section_value(sim, channel, value);
+    case DMB_CHANNEL_DISPLACEMENT_X:
+    case DMB_CHANNEL_DISPLACEMENT_Y:
+    case DMB_CHANNEL_DISPLACEMENT_Z:
+    case DMB_CHANNEL_POSITION_X:
+    case DMB_CHANNEL_POSITION_Y:
+    case DMB_CHANNEL_POSITION_Z: return pose_value(sim, channel, value);
+    case DMB_CHANNEL_VELOCITY_X:
+    case DMB_CHANNEL_VELOCITY_Y:
+    case DMB_CHANNEL_VELOCITY_Z:
+    case DMB_CHANNEL_SPIN: return motion_value(sim, channel, value);
+    case DMB_CHANNEL_ROTATION: return dmb_query_rotation(sim, channel->place, value);
+    case DMB_CHANNEL_AXIAL_FORCE:
+    case DMB_CHANNEL_TORQUE:
+    case DMB_CHANNEL_BENDING_MOMENT: return section_value(sim, channel, value);
     case DMB_CHANNEL_KINETIC_ENERGY:
         return dmb_query_kinetic_energy(sim, channel->place.part, channel->place.pipe, value);
-    case DMB_CHANNEL_NORMAL_FORCE:
-        return dmb_normal_force_at(sim, channel->place.part, channel->place.pipe, value);
-    case DMB_CHANNEL_DRIVE_FORCE: case DMB_CHANNEL_DRIVE_SPEED:
-        return drive_value(sim, channel, value);
-    case DMB_CHANNEL_BIT_WEIGHT:
-        return bit_value(sim, channel, value);
-    case DMB_CHANNEL_ENERGY_ERROR:
-        return energy_error(sim, value);
-    default:
-        return DMB_ERR_VALUE;
+    case DMB_CHANNEL_NORMAL_FORCE: return dmb_normal_force_at(sim, channel->place.part, channel->place.pipe, value);
+    case DMB_CHANNEL_DRIVE_FORCE:
+    case DMB_CHANNEL_DRIVE_SPEED: return drive_value(sim, channel, value);
+    case DMB_CHANNEL_BIT_WEIGHT: return bit_value(sim, channel, value);
+    case DMB_CHANNEL_ENERGY_ERROR: return energy_error(sim, value);
+    default: return DMB_ERR_VALUE;
     }
 }

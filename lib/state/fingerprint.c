@@ -7,10 +7,11 @@
 
 static uint64_t add_counts(uint64_t h, const dmb_scene *s)
 {
-    const uint32_t counts[] = {s->node_count,      s->row_count,   s->element_count, s->type_count,      s->lump_count,
-                               s->site_count,      s->path_site_count, s->drive_count, s->load_count,    s->bit_count,
-                               s->programme_count, s->string_count, s->pipe_count,   s->body_count,      s->history_count,
-                               s->free_count,      s->prescribed_count, s->chain_count, s->batch_count};
+    const uint32_t counts[] = {s->node_count,       s->row_count,   s->element_count,   s->type_count,
+                               s->lump_count,       s->site_count,  s->path_site_count, s->drive_count,
+                               s->load_count,       s->bit_count,   s->programme_count, s->string_count,
+                               s->pipe_count,       s->body_count,  s->history_count,   s->free_count,
+                               s->prescribed_count, s->chain_count, s->batch_count};
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; ++i) h = dmb_fnv_word(h, counts[i]);
     h = dmb_fnv_word(h, (uint32_t)s->features);
     h = DMB_NUMBERS(h, s->gravity);
@@ -59,10 +60,10 @@ static uint64_t add_elements(uint64_t h, const dmb_scene *s)
 
 static uint64_t add_laws(uint64_t h, const dmb_normal_law *n, const dmb_friction_law *f)
 {
-    const double numbers[] = {n->stiffness,      n->exponent,        n->damping,           n->impact_depth,
-                              n->mu,             n->approach_floor,  f->mu_static,         f->mu_dynamic,
-                              f->stribeck_speed, f->smoothing_speed, f->full_speed,        f->bristle_stiffness,
-                              f->bristle_damping};
+    const double numbers[] = {
+        n->stiffness,      n->exponent,          n->damping,        n->impact_depth,   n->mu,
+        n->approach_floor, f->mu_static,         f->mu_dynamic,     f->stribeck_speed, f->smoothing_speed,
+        f->full_speed,     f->bristle_stiffness, f->bristle_damping};
     h = dmb_fnv_word(h, (uint32_t)n->kind);
     h = dmb_fnv_word(h, (uint32_t)f->kind);
     return DMB_NUMBERS(h, numbers);
@@ -83,6 +84,11 @@ static uint64_t add_wall(uint64_t h, const dmb_scene *s)
         h = dmb_fnv_number(h, s->sites[i].clearance);
         h = dmb_fnv_number(h, s->sites[i].length);
         h = dmb_fnv_number(h, s->sites[i].offset);
+        h = dmb_fnv_number(h, s->sites[i].radius);
+    }
+    for (uint32_t i = 0; i < s->path_site_count; ++i) {
+        h = dmb_fnv_number(h, s->path_sites[i].length);
+        h = dmb_fnv_number(h, s->path_sites[i].radius);
     }
     return h;
 }
@@ -140,9 +146,9 @@ static uint64_t add_bits(uint64_t h, const dmb_scene *s)
     for (uint32_t i = 0; i < s->bit_count; ++i) {
         const dmb_scene_bit *bit = &s->bits[i];
         const dmb_bit_rock_law *law = &bit->law;
-        const double numbers[] = {law->radius,           law->intrinsic_energy, law->cutting_ratio, law->contact_strength,
-                                  law->wear_length,      law->contact_friction, law->intrusion_depth, bit->bottom,
-                                  bit->arm};
+        const double numbers[] = {law->radius,           law->intrinsic_energy, law->cutting_ratio,
+                                  law->contact_strength, law->wear_length,      law->contact_friction,
+                                  law->intrusion_depth,  bit->bottom,           bit->arm};
         h = dmb_fnv_word(h, (uint32_t)law->kind);
         h = dmb_fnv_word(h, law->blades);
         h = dmb_fnv_word(h, bit->load);

@@ -11,11 +11,11 @@ typedef struct field_counts {
 } field_counts;
 
 /* The letters as names, for the count expressions of the lists; not every list uses all of them. */
-#define DMB_COUNT_NAMES(c)                                                                                            \
-    const uint64_t n = (c)->n, r = (c)->r, s = (c)->s, p = (c)->p, e = (c)->e, d = (c)->d, k = (c)->k;                \
-    const uint64_t load = (c)->load, history = (c)->history, diagonal = (c)->diagonal, link = (c)->link;              \
-    const uint64_t backup = (c)->backup;                                                                              \
-    (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,         \
+#define DMB_COUNT_NAMES(c)                                                                                    \
+    const uint64_t n = (c)->n, r = (c)->r, s = (c)->s, p = (c)->p, e = (c)->e, d = (c)->d, k = (c)->k;        \
+    const uint64_t load = (c)->load, history = (c)->history, diagonal = (c)->diagonal, link = (c)->link;      \
+    const uint64_t backup = (c)->backup;                                                                      \
+    (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal, \
         (void)link, (void)backup
 
 /* [byte] of the state: what a snapshot holds and a step keeps aside. */
@@ -72,8 +72,8 @@ static void take_work(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
     DMB_WORK_LIST(DMB_TAKE)
 }
 
-/* The struct itself comes first, so that the sim's address is the first cache line of the block. While counting there is
- * no sim, and the places go nowhere. */
+/* The struct itself comes first, so that the sim's address is the first cache line of the block. While counting there
+ * is no sim, and the places go nowhere. */
 static dmb_sim *lay_out(dmb_arena *arena, const dmb_scene *scene)
 {
     const field_counts counts = counts_of(scene);
@@ -109,7 +109,7 @@ dmb_sim *dmb_sim_carve(const dmb_scene *scene, void *block, size_t size)
     return sim;
 }
 
-/* ---- The table of fields ------------------------------------------------------------------------------------------- */
+/* ---- The table of fields ----------------------------------------------------------------------------------------- */
 
 typedef struct field_table {
     dmb_field *fields;

@@ -5,7 +5,7 @@
 
 #include "state.h"
 
-/* [byte] of a block of any alignment that holds a sim of the scene; SIZE_MAX when it does not fit into a size_t. O(1). */
+/* [byte] of a block of any alignment that holds a sim of the scene; SIZE_MAX if it does not fit into a size_t. O(1). */
 size_t dmb_sim_bytes(const dmb_scene *scene);
 
 /* A zeroed sim in the block, its arrays pointing into the block, each on a cache line; only scene, block and block_size
@@ -26,7 +26,7 @@ typedef struct dmb_field {
 #define DMB_ONE_MORE(type, name, count) +1
 enum {
     DMB_FIELD_MAX = 0 DMB_CONFIGURATION_LIST(DMB_ONE_MORE) DMB_CONFIGURATION_LIST(DMB_ONE_MORE)
-                          DMB_MEMORY_LIST(DMB_ONE_MORE) DMB_WORK_LIST(DMB_ONE_MORE)
+        DMB_MEMORY_LIST(DMB_ONE_MORE) DMB_WORK_LIST(DMB_ONE_MORE)
 };
 #undef DMB_ONE_MORE
 

@@ -32,7 +32,8 @@ int32_t dmb_sim_options_take(dmb_sim_options *out, const dmb_sim_options *given,
     if (given != NULL) {
         const int32_t status = dmb_sim_options_read(&read, given);
         if (status < 0) {
-            dmb_message_set(message, "sim options: struct_size = %u, must be that of this library's header or an older one",
+            dmb_message_set(message,
+                            "sim options: struct_size = %u, must be that of this library's header or an older one",
                             given->struct_size);
             return status;
         }

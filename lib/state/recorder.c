@@ -36,7 +36,7 @@ static double *row_of(const dmb_recorder *r, uint64_t row)
     return r->table + (size_t)row * (1u + r->channel_count);
 }
 
-/* Samples belong to the whole multiples of the interval since the first one, so that they do not drift with the steps. */
+/* Samples belong to whole multiples of the interval since the first one, so that they do not drift with the steps. */
 static int is_due(const dmb_recorder *r, double time)
 {
     double first, last;

@@ -4,10 +4,10 @@
 #include "base/allocator.h"
 #include "base/log.h"
 #include "base/sized_struct.h"
-#include "system/start.h"
 #include "state/handle.h"
 #include "state/layout.h"
 #include "state/options.h"
+#include "system/start.h"
 
 DMB_DECLARE_STRUCT(dmb_sim_options)
 

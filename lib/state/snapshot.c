@@ -2,20 +2,20 @@
  * memory one after the other, without gaps. */
 #include <string.h>
 
-#include "base/checked_size.h"
 #include "state/fingerprint.h"
 #include "state/fnv.h"
 #include "state/handle.h"
 #include "state/layout.h"
 
-#define DMB_SNAPSHOT_MAGIC UINT64_C(0x31504E5342444D44) /* "DMDBSNP1" read as a number: other byte orders do not fit */
+/* "DMDBSNP1" read as a number: a snapshot of another byte order does not fit. */
+#define DMB_SNAPSHOT_MAGIC UINT64_C(0x31504E5342444D44)
 enum { DMB_SNAPSHOT_VERSION = 1 };
 
 typedef struct snapshot_header {
     uint64_t magic;
     uint64_t version;
-    uint64_t size;    /* [byte] of the whole snapshot */
-    uint64_t scene;   /* fingerprints of what it fits */
+    uint64_t size;  /* [byte] of the whole snapshot */
+    uint64_t scene; /* fingerprints of what it fits */
     uint64_t options;
     uint64_t content; /* hash of what follows: a damaged snapshot is refused */
 } snapshot_header;

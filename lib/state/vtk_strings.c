@@ -68,7 +68,7 @@ static void walk(dmb_text_file *file, const dmb_sim *sim, uint32_t per_element, 
     for (uint32_t i = 0; i < sim->scene->string_count; i++) walk_string(file, sim, i, per_element, put);
 }
 
-/* ---- Values of a point --------------------------------------------------------------------------------------------- */
+/* ---- Values of a point ------------------------------------------------------------------------------------------- */
 
 static void put_position(dmb_text_file *file, const dmb_sim *sim, const station *at)
 {
@@ -140,7 +140,7 @@ static void put_normal_force(dmb_text_file *file, const dmb_sim *sim, const stat
     dmb_vtk_put_tuple(file, &force, 1);
 }
 
-/* ---- Arrays -------------------------------------------------------------------------------------------------------- */
+/* ---- Arrays ------------------------------------------------------------------------------------------------------ */
 
 typedef struct point_array {
     const char *name;
@@ -159,9 +159,8 @@ static void put_points(dmb_text_file *file, const dmb_sim *sim, uint32_t per_ele
 {
     static const point_array positions = {"position", 3, put_position};
     static const point_array arrays[] = {
-        {"displacement", 3, put_displacement}, {"velocity", 3, put_velocity},
-        {"diameter", 1, put_diameter},         {"axial_force", 1, put_axial_force},
-        {"torque", 1, put_torque},             {"bending_moment", 1, put_bending_moment},
+        {"displacement", 3, put_displacement}, {"velocity", 3, put_velocity}, {"diameter", 1, put_diameter},
+        {"axial_force", 1, put_axial_force},   {"torque", 1, put_torque},     {"bending_moment", 1, put_bending_moment},
         {"normal_force", 1, put_normal_force},
     };
     dmb_vtk_open_tag(file, "PointData Scalars=\"axial_force\" Vectors=\"displacement\"");

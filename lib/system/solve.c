@@ -42,6 +42,22 @@ int64_t dmb_factor_matrix(dmb_sim *sim)
     return -1;
 }
 
+int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest)
+{
+    const dmb_scene *scene = sim->scene;
+    dmb_block_matrix matrix = matrix_of(sim);
+    dmb_block_weakest chain_weakest;
+    weakest->ratio = (double)INFINITY;
+    for (uint32_t c = 0; c < scene->chain_count; c++) {
+        const dmb_chain *chain = scene->chains + c;
+        const int64_t bad =
+            dmb_block_factor_watched(&scene->layout, &matrix, chain->first, chain->count, &chain_weakest);
+        if (chain_weakest.ratio < weakest->ratio) *weakest = chain_weakest;
+        if (bad >= 0) return bad;
+    }
+    return -1;
+}
+
 void dmb_solve_correction(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

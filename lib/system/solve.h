@@ -9,6 +9,8 @@
 double dmb_relative_residual(const dmb_evaluation *evaluation, double tolerance, int32_t *converged);
 /* Factors the iteration matrix in place. Index of a singular block, or -1. */
 int64_t dmb_factor_matrix(dmb_sim *sim);
+/* The same for statics, telling the weakest pivot: what nothing holds shows as one of rounding size. */
+int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest);
 /* Residual in, Newton correction out, both in `correction`, by the factors at hand. */
 void dmb_solve_correction(dmb_sim *sim);
 

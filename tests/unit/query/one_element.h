@@ -10,15 +10,9 @@
 
 #include <cmocka.h>
 
+#include "close.h"
 #include "math/se3.h"
 #include "query/interpolation.h"
-
-#define CHECK_CLOSE(got, want, tolerance)                                                             \
-    do {                                                                                              \
-        const double g_ = (got), w_ = (want), t_ = (tolerance);                                       \
-        if (!(fabs(g_ - w_) <= t_))                                                                   \
-            fail_msg("%s: %.17g, wanted %.17g, off by %.3g > %.3g", #got, g_, w_, fabs(g_ - w_), t_); \
-    } while (0)
 
 typedef struct one_element {
     dmb_scene scene;

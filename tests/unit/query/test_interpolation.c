@@ -169,9 +169,9 @@ static void acceleration_is_the_derivative_of_velocity(void **state)
     moving(&after), advance(&after, t);
     for (int i = 0; i < STATIONS; i++) {
         const dmb_spot_motion m = one_element_motion(&now, stations[i]);
-        const dmb_spot_motion m0 = one_element_motion(&before, stations[i]), m1 = one_element_motion(&after, stations[i]);
-        for (int k = 0; k < 6; k++)
-            CHECK_CLOSE(m.acceleration[k], (m1.velocity[k] - m0.velocity[k]) / (2.0 * t), 1e-6);
+        const dmb_spot_motion m0 = one_element_motion(&before, stations[i]),
+                              m1 = one_element_motion(&after, stations[i]);
+        for (int k = 0; k < 6; k++) CHECK_CLOSE(m.acceleration[k], (m1.velocity[k] - m0.velocity[k]) / (2.0 * t), 1e-6);
     }
 }
 

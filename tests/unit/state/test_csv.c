@@ -18,9 +18,30 @@
 enum { ROWS = 6, CHANNELS = 3, WIDTH = 1 + CHANNELS };
 
 static const double values[ROWS * WIDTH] = {
-    0.0,  1.0,          -2.5,       1e300,           0.1,      0.2,     0.30000000000000004, -0.0,
-    1e-3, DBL_MIN,      DBL_MAX,    DBL_EPSILON,     4.9e-324, -1e-310, 3.141592653589793,   2.718281828459045,
-    1e22, 123456789.25, 1.0 / 3.0,  -7.0 / 11.0,     1e5,      1e16,    1e17,                9007199254740993.0,
+    0.0,
+    1.0,
+    -2.5,
+    1e300,
+    0.1,
+    0.2,
+    0.30000000000000004,
+    -0.0,
+    1e-3,
+    DBL_MIN,
+    DBL_MAX,
+    DBL_EPSILON,
+    4.9e-324,
+    -1e-310,
+    3.141592653589793,
+    2.718281828459045,
+    1e22,
+    123456789.25,
+    1.0 / 3.0,
+    -7.0 / 11.0,
+    1e5,
+    1e16,
+    1e17,
+    9007199254740993.0,
 };
 
 static dmb_channel channels[CHANNELS];
@@ -167,8 +188,8 @@ static void bad_recorders_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_come_back),     cmocka_unit_test(header_names_and_units),
-        cmocka_unit_test(locale_does_not_matter), cmocka_unit_test(failures_are_told),
+        cmocka_unit_test(numbers_come_back),         cmocka_unit_test(header_names_and_units),
+        cmocka_unit_test(locale_does_not_matter),    cmocka_unit_test(failures_are_told),
         cmocka_unit_test(bad_recorders_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

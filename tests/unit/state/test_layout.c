@@ -61,7 +61,8 @@ static void check_block(const counts_scene *c, unsigned char *block, size_t size
     for (size_t i = 0; i < DMB_FIELD_MAX; i++) {
         unsigned char *data = fields[i].data;
         assert_non_null(data);
-        if ((uintptr_t)data % DMB_ALIGNMENT != 0 || data < end) fail_msg("%s overlaps or is misaligned", fields[i].name);
+        if ((uintptr_t)data % DMB_ALIGNMENT != 0 || data < end)
+            fail_msg("%s overlaps or is misaligned", fields[i].name);
         for (size_t k = 0; k < fields[i].bytes; k++) assert_int_equal(data[k], 0);
         memset(data, 0xA5, fields[i].bytes);
         end = data + fields[i].bytes;

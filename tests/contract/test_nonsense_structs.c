@@ -1,0 +1,390 @@
+/* Structs that are none: every function that takes one refuses a struct_size that no header ever had, before it reads or
+ * writes anything else, and takes those of older and newer headers where nothing is asked that it does not know. */
+#include <stdlib.h>
+
+#include "whole_scene.h"
+
+enum { EXTRA = 64 }; /* [byte] that a newer header may have at the end of a struct */
+
+static struct {
+    whole_parts parts;
+    dmb_model *model;
+    dmb_sim *sim;
+    dmb_channel channel;
+    double table[8];
+} scene;
+
+/* ---- One entry for each function and struct ------------------------------------------------------------------------------ */
+
+typedef union any_struct {
+    uint32_t struct_size;
+    uint64_t bytes[64];
+} any_struct;
+
+typedef struct entry {
+    const char *name;
+    size_t size;                                  /* [byte] in this header */
+    int32_t (*init)(any_struct *out, uint32_t size);
+    int32_t (*call)(void *given);                 /* all else in order */
+    int output;                                   /* the struct is an answer and nothing else */
+} entry;
+
+#define INIT(T)                                                              \
+    static int32_t init_##T(any_struct *out, uint32_t size)                  \
+    {                                                                        \
+        return dmb_##T##_init((dmb_##T *)(void *)out, size);                 \
+    }
+#define CALL(name, expression)             \
+    static int32_t call_##name(void *p)    \
+    {                                      \
+        return expression;                 \
+    }
+
+INIT(model_options) INIT(environment_def) INIT(term) INIT(wall_def) INIT(string_def) INIT(pipe_def) INIT(body_def)
+INIT(bit_def) INIT(drive_def) INIT(load_def) INIT(compile_options) INIT(model_info) INIT(sim_options)
+INIT(step_report) INIT(static_options) INIT(static_report) INIT(pose) INIT(motion) INIT(section) INIT(contact)
+INIT(contact_sum) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state) INIT(statistics) INIT(recorder)
+INIT(allocator)
+
+static int32_t call_model_options(void *p)
+{
+    dmb_model *model = scene.model;
+    const int32_t status = dmb_model_create(p, &model);
+    if (status < 0) assert_null(model);
+    dmb_model_destroy(&model);
+    return status;
+}
+
+static int32_t call_allocator(void *p)
+{
+    dmb_model_options options = dmb_model_options_default();
+    options.allocator = p;
+    return call_model_options(&options);
+}
+
+static int32_t call_sim_options(void *p)
+{
+    dmb_sim *sim = scene.sim;
+    const int32_t status = dmb_sim_create(scene.model, p, &sim);
+    size_t size;
+    if (status < 0) assert_null(sim);
+    if (status < 0) assert_int_equal(dmb_sim_memory_size(scene.model, p, &size), status);
+    dmb_sim_destroy(&sim);
+    return status;
+}
+
+/* Each in a model of its own, which may be described; what the definition lacks otherwise is added first. */
+static int32_t with_model(int32_t (*add)(dmb_model *model, void *p), void *p)
+{
+    dmb_model *model = NULL;
+    int32_t status;
+    assert_int_equal(dmb_model_create(NULL, &model), DMB_OK);
+    status = add(model, p);
+    if (status < 0) assert_true(dmb_model_message(model)[0] != '\0');
+    dmb_model_destroy(&model);
+    return status;
+}
+
+static int32_t add_drive(dmb_model *model, void *p)
+{
+    dmb_drive_def *drive = p;
+    const dmb_pipe_def pipe = dmb_pipe_def_default();
+    const dmb_term term = dmb_term_default();
+    dmb_id programme;
+    assert_int_equal(dmb_model_add_pipes(model, &pipe, 1, NULL), DMB_OK);
+    assert_int_equal(dmb_model_add_programme(model, &term, 1, &programme), DMB_OK);
+    if (drive->struct_size >= sizeof *drive) drive->programme = programme;
+    return dmb_model_add_drive(model, drive, NULL);
+}
+
+static int32_t add_load(dmb_model *model, void *p)
+{
+    dmb_load_def *load = p;
+    const dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_id string;
+    assert_int_equal(dmb_model_add_pipes(model, &pipe, 1, &string), DMB_OK);
+    if (load->struct_size >= sizeof *load) load->place = dmb_station(string, 0, 1.0);
+    return dmb_model_add_load(model, load, NULL);
+}
+
+static int32_t add_environment(dmb_model *model, void *p)
+{
+    return dmb_model_set_environment(model, p);
+}
+static int32_t add_term(dmb_model *model, void *p)
+{
+    return dmb_model_add_programme(model, p, 1, NULL);
+}
+static int32_t add_wall(dmb_model *model, void *p)
+{
+    return dmb_model_add_wall(model, p, NULL);
+}
+static int32_t add_string(dmb_model *model, void *p)
+{
+    return dmb_model_add_string(model, p, NULL);
+}
+static int32_t add_pipes(dmb_model *model, void *p)
+{
+    return dmb_model_add_pipes(model, p, 1, NULL);
+}
+static int32_t add_body(dmb_model *model, void *p)
+{
+    return dmb_model_add_body(model, p, NULL);
+}
+static int32_t add_bit(dmb_model *model, void *p)
+{
+    return dmb_model_add_bit(model, p, NULL);
+}
+static int32_t compile_with(dmb_model *model, void *p)
+{
+    const dmb_pipe_def pipe = dmb_pipe_def_default();
+    assert_int_equal(dmb_model_add_pipes(model, &pipe, 1, NULL), DMB_OK);
+    return dmb_model_compile(model, p);
+}
+
+static dmb_place middle(void)
+{
+    return dmb_station(scene.parts.string, 3, 0.5);
+}
+
+CALL(environment_def, with_model(add_environment, p))
+CALL(term, with_model(add_term, p))
+CALL(wall_def, with_model(add_wall, p))
+CALL(string_def, with_model(add_string, p))
+CALL(pipe_def, with_model(add_pipes, p))
+CALL(body_def, with_model(add_body, p))
+CALL(bit_def, with_model(add_bit, p))
+CALL(drive_def, with_model(add_drive, p))
+CALL(load_def, with_model(add_load, p))
+CALL(compile_options, with_model(compile_with, p))
+CALL(model_info, dmb_model_get_info(scene.model, p))
+CALL(step_report, dmb_sim_step(scene.sim, 1e-6, p))
+CALL(advance_report, dmb_sim_advance(scene.sim, dmb_sim_time(scene.sim) + 1e-6, p))
+CALL(pose, dmb_query_pose(scene.sim, middle(), p))
+CALL(motion, dmb_query_motion(scene.sim, middle(), p))
+CALL(section, dmb_query_section(scene.sim, middle(), p))
+CALL(contact, dmb_query_contact(scene.sim, 0, p))
+CALL(contact_sum, dmb_query_contact_sum(scene.sim, p))
+CALL(energy, dmb_query_energy(scene.sim, p))
+CALL(momentum, dmb_query_momentum(scene.sim, p))
+CALL(drive_state, dmb_query_drive(scene.sim, scene.parts.turning, p))
+CALL(bit_state, dmb_query_bit(scene.sim, scene.parts.bit, p))
+CALL(statistics, dmb_query_statistics(scene.sim, p))
+
+/* The whole scene has no static state, so that a struct that is accepted ends in this. */
+static int32_t singular_is_fine(int32_t status)
+{
+    return status == DMB_ERR_SINGULAR ? DMB_OK : status;
+}
+CALL(static_options, singular_is_fine(dmb_analysis_static(scene.sim, p, NULL)))
+CALL(static_report, singular_is_fine(dmb_analysis_static(scene.sim, NULL, p)))
+
+static int32_t call_recorder(void *p)
+{
+    dmb_recorder *recorder = p;
+    if (recorder->struct_size >= sizeof *recorder) {
+        recorder->channels = &scene.channel;
+        recorder->channel_count = 1;
+        recorder->table = scene.table;
+        recorder->capacity = 4;
+        recorder->rows = 0;
+    }
+    const int32_t status = dmb_recorder_write_csv(recorder, "/dev/null");
+    assert_int_equal(dmb_recorder_take(recorder, scene.sim), status);
+    return status;
+}
+
+#define ENTRY(T, output) {#T, sizeof(dmb_##T), init_##T, call_##T, output}
+
+static const entry entries[] = {
+    ENTRY(allocator, 0), ENTRY(model_options, 0), ENTRY(environment_def, 0), ENTRY(term, 0), ENTRY(wall_def, 0),
+    ENTRY(string_def, 0), ENTRY(pipe_def, 0), ENTRY(body_def, 0), ENTRY(bit_def, 0), ENTRY(drive_def, 0),
+    ENTRY(load_def, 0), ENTRY(compile_options, 0), ENTRY(sim_options, 0), ENTRY(static_options, 0),
+    ENTRY(model_info, 1), ENTRY(step_report, 1), ENTRY(static_report, 1), ENTRY(pose, 1), ENTRY(motion, 1),
+    ENTRY(section, 1), ENTRY(contact, 1), ENTRY(contact_sum, 1), ENTRY(energy, 1), ENTRY(momentum, 1),
+    ENTRY(drive_state, 1), ENTRY(bit_state, 1), ENTRY(statistics, 1), ENTRY(recorder, 0),
+    {"advance's report", sizeof(dmb_step_report), init_step_report, call_advance_report, 1},
+};
+enum { ENTRIES = sizeof entries / sizeof entries[0] };
+
+/* ---- Fixture ----------------------------------------------------------------------------------------------------------------- */
+
+static int set_up(void **state)
+{
+    (void)state;
+    memset(&scene, 0, sizeof scene);
+    scene.model = whole_model(&scene.parts);
+    scene.sim = whole_sim(scene.model, NULL);
+    scene.channel.quantity = DMB_CHANNEL_ENERGY_ERROR;
+    whole_run(scene.sim, 3, 1e-3);
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    dmb_sim_destroy(&scene.sim);
+    dmb_model_destroy(&scene.model);
+    return 0;
+}
+
+/* The call with the struct in memory of just `room` bytes, so that a checker sees what is touched beyond. */
+static int32_t call_with(const entry *e, const void *bytes, size_t room)
+{
+    void *exact = malloc(room);
+    memcpy(exact, bytes, room);
+    const int32_t status = e->call(exact);
+    if (status < 0 && e->output && memcmp(exact, bytes, room) != 0) fail_msg("%s: the struct was written", e->name);
+    free(exact);
+    return status;
+}
+
+static void refuses(const entry *e, const any_struct *given, size_t room)
+{
+    const uint64_t before = whole_hash(scene.sim);
+    const int32_t status = call_with(e, given, room);
+    if (status != DMB_ERR_STRUCT_SIZE)
+        fail_msg("%s with struct_size %u: %s", e->name, given->struct_size, dmb_status_name(status));
+    assert_true(whole_hash(scene.sim) == before);
+}
+
+static any_struct filled(const entry *e)
+{
+    any_struct s;
+    memset(&s, 0, sizeof s);
+    assert_true(e->size + EXTRA <= sizeof s);
+    assert_int_equal(e->init(&s, (uint32_t)e->size), DMB_OK);
+    return s;
+}
+
+/* ---- Tests ------------------------------------------------------------------------------------------------------------------ */
+
+static void size_as_in_this_header_is_taken(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < ENTRIES; i++) {
+        const any_struct s = filled(&entries[i]);
+        assert_int_equal(s.struct_size, entries[i].size);
+        const int32_t status = call_with(&entries[i], &s, entries[i].size);
+        if (status < 0) fail_msg("%s: %s", entries[i].name, dmb_status_name(status));
+    }
+}
+
+static void wrong_size_is_refused(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < ENTRIES; i++) {
+        const uint32_t known = (uint32_t)entries[i].size;
+        const uint32_t wrong[] = {0, 1, 4, 8, known - 8, known - 1, known + 1, known + 4, known + 1032, 0x7FFFFFF8u,
+                                  0xFFFFFFF8u, UINT32_MAX};
+        for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
+            any_struct s = filled(&entries[i]);
+            if (wrong[k] == known) continue;
+            s.struct_size = wrong[k];
+            refuses(&entries[i], &s, entries[i].size);
+        }
+    }
+}
+
+/* All zero, as a caller leaves it who did not read the documentation. */
+static void zeros_are_refused(void **state)
+{
+    any_struct zeros;
+    (void)state;
+    memset(&zeros, 0, sizeof zeros);
+    for (size_t i = 0; i < ENTRIES; i++) refuses(&entries[i], &zeros, entries[i].size);
+}
+
+static void memory_of_ones_is_refused(void **state)
+{
+    any_struct ones;
+    (void)state;
+    memset(&ones, 0xFF, sizeof ones);
+    for (size_t i = 0; i < ENTRIES; i++) refuses(&entries[i], &ones, entries[i].size);
+}
+
+/* A newer header: what it has more is zero, so nothing is asked for that this library lacks. */
+static void longer_struct_is_taken(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < ENTRIES; i++) {
+        any_struct s = filled(&entries[i]);
+        assert_int_equal(entries[i].init(&s, (uint32_t)entries[i].size + EXTRA), DMB_OK);
+        const int32_t status = call_with(&entries[i], &s, entries[i].size + EXTRA);
+        if (status < 0) fail_msg("%s: %s", entries[i].name, dmb_status_name(status));
+    }
+}
+
+/* Something is asked for that this library lacks. */
+static void longer_struct_with_content_is_refused(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < ENTRIES; i++) {
+        any_struct s = filled(&entries[i]);
+        unsigned char *bytes = (unsigned char *)&s;
+        if (entries[i].output) continue;
+        s.struct_size = (uint32_t)entries[i].size + EXTRA;
+        bytes[entries[i].size + EXTRA - 1] = 1;
+        refuses(&entries[i], &s, entries[i].size + EXTRA);
+    }
+}
+
+static void init_refuses_wrong_sizes(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < ENTRIES; i++) {
+        const uint32_t known = (uint32_t)entries[i].size;
+        const uint32_t wrong[] = {0, 1, known - 8, known - 4, known + 4, known + 1032, UINT32_MAX - 7, UINT32_MAX};
+        any_struct s, before;
+        assert_int_equal(entries[i].init(NULL, known), DMB_ERR_NULL);
+        for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
+            memset(&s, 0x5A, sizeof s);
+            before = s;
+            assert_int_equal(entries[i].init(&s, wrong[k]), DMB_ERR_STRUCT_SIZE);
+            assert_memory_equal(&s, &before, sizeof s);
+        }
+    }
+}
+
+/* No more is written than was told. */
+static void init_stays_within_its_size(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < ENTRIES; i++) {
+        any_struct s;
+        const unsigned char *bytes = (const unsigned char *)&s;
+        memset(&s, 0x5A, sizeof s);
+        assert_int_equal(entries[i].init(&s, (uint32_t)entries[i].size), DMB_OK);
+        for (size_t k = entries[i].size; k < sizeof s; k++) assert_int_equal(bytes[k], 0x5A);
+    }
+}
+
+/* Terms stand side by side: all of them have to be of one size. */
+static void terms_of_different_size_are_refused(void **state)
+{
+    dmb_term terms[3] = {dmb_term_default(), dmb_term_default(), dmb_term_default()};
+    dmb_model *model = NULL;
+    (void)state;
+    assert_int_equal(dmb_model_create(NULL, &model), DMB_OK);
+    for (size_t i = 1; i < 3; i++) {
+        terms[i].struct_size = (uint32_t)sizeof(dmb_term) + 8;
+        assert_int_equal(dmb_model_add_programme(model, terms, 3, NULL), DMB_ERR_STRUCT_SIZE);
+        terms[i].struct_size = 0;
+        assert_int_equal(dmb_model_add_programme(model, terms, 3, NULL), DMB_ERR_STRUCT_SIZE);
+        terms[i].struct_size = (uint32_t)sizeof(dmb_term);
+    }
+    assert_int_equal(dmb_model_add_programme(model, terms, 3, NULL), DMB_OK);
+    dmb_model_destroy(&model);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(size_as_in_this_header_is_taken), TEST(wrong_size_is_refused), TEST(zeros_are_refused),
+        TEST(memory_of_ones_is_refused), TEST(longer_struct_is_taken), TEST(longer_struct_with_content_is_refused),
+        TEST(init_refuses_wrong_sizes), TEST(init_stays_within_its_size), TEST(terms_of_different_size_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,37 @@
+/* Written by tests/golden/update; the reason of each change stands under Numerics in CHANGELOG.md. */
+static const golden_hash golden_hashes[] = {
+    {"x86_64 glibc", UINT64_C(0x7faf8ab67c03d8c5)},
+    {"none", UINT64_C(0x0000000000000000)},
+};
+
+static const golden_figure golden_figures[] = {
+    {"middle displacement x [m]", 0.017999262922795693, 1},
+    {"middle displacement y [m]", -0.0015386668328590944, 1},
+    {"middle displacement z [m]", -0.0073225993870941683, 1},
+    {"tip displacement x [m]", 0.017897264742445535, 1},
+    {"tip displacement y [m]", 0.0018741513462962735, 1},
+    {"tip displacement z [m]", 0.0017091645761798226, 1},
+    {"tip speed x [m/s]", 0.01970522125630509, 1},
+    {"tip spin x [rad/s]", 19.827522163376994, 20},
+    {"tip rotation [rad]", 16.730216024831151, 20},
+    {"axial force in pipe 3 [N]", -2705.473103086948, 10000},
+    {"torque in pipe 3 [N m]", -82.946265457228264, 1000},
+    {"bending moment in pipe 3 [N m]", -157.29263380727937, 1000},
+    {"sites that touch [-]", 4, 1},
+    {"normal force in all [N]", 919.48002389535009, 10000},
+    {"friction along the hole [N]", -6.9538819192615744, 10000},
+    {"depth of cut [m]", 0.0061632495105670851, 1},
+    {"weight on bit [N]", 2208.0363619799182, 10000},
+    {"torque on bit [N m]", 73.595590844213447, 1000},
+    {"feed force [N]", 2700.8597527030115, 10000},
+    {"feed travel [m]", 0.018065080432680507, 1},
+    {"turning torque [N m]", 83.092225121273842, 1000},
+    {"kinetic energy [J]", 29.540761088970982, 1000},
+    {"strain energy [J]", 2.7859233642953725, 1000},
+    {"work of the drives [J]", 1611.9477487930119, 1000},
+    {"lost to friction [J]", 197.69346056103549, 1000},
+    {"spent at the bit [J]", 1375.8816705721958, 1000},
+    {"momentum x [kg m/s]", 2.5610948878549862, 100},
+    {"steps [-]", 1037, 1},
+    {"iterations [-]", 3821, 1},
+};

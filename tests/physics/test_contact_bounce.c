@@ -1,0 +1,126 @@
+/* CASES: a ball dropped from h0 = 1 m on a floor of restitution .8 first meets it at sqrt(2 h0/g) = .451523640986 s, rises
+ * to e^(2n) h0 after n impacts, and comes to rest after infinitely many at sqrt(2 h0/g) (1+e)/(1-e) = 4.063712768872 s;
+ * 1e-3 for a compliant wall.
+ *
+ * The wall is stiff enough (1e10 N/m on 1 kg, contacts of 31 us) for their duration, about 0.9 pi sqrt(m/K) each, to stay
+ * below 1e-3 s in all. The floor of the approach speed, 1e-5 m/s, is where the bounces end. */
+#include "contact_scene.h"
+
+static const double g = 9.81, e = 0.8;
+
+typedef struct flight {
+    contact_scene scene;
+    dmb_id ball;
+} flight;
+
+static void drop(flight *f, double tolerance)
+{
+    dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_EXACT, 1e10, 1.0, e);
+    const dmb_body_def ball = scene_ball(1.0, 1.0, 1 << DMB_Z);
+    dmb_sim_options options = dmb_sim_options_default();
+    options.tolerance_translation = tolerance;
+    options.step_min = 1e-12;
+    wall.approach_speed = 1e-5;
+    scene_open(&f->scene, g);
+    scene_add_wall(&f->scene, &wall);
+    f->ball = scene_add_body(&f->scene, &ball);
+    scene_start(&f->scene, NULL, &options);
+}
+
+static double height(const flight *f)
+{
+    return scene_contact(&f->scene, 0).gap;
+}
+
+/* Height of the top of the present parabola. */
+static double apex(const flight *f)
+{
+    const double v = scene_speed(&f->scene, f->ball, DMB_Z);
+    return height(f) + 0.5 * v * v / g;
+}
+
+/* Ideal times of the impacts, n = 1, 2, ... */
+static double impact_time(int n)
+{
+    double t = sqrt(2.0 / g), bounce = 2.0 * e * t;
+    for (int i = 1; i < n; i++, bounce *= e) t += bounce;
+    return t;
+}
+
+static void first_impact(void **state)
+{
+    flight f;
+    double before = 0.0, t = 0.45;
+    (void)state;
+    drop(&f, 1e-11);
+    scene_advance(&f.scene, t);
+    while (scene_contact(&f.scene, 0).closed == 0 && t < 0.46) {
+        before = t - height(&f) / scene_speed(&f.scene, f.ball, DMB_Z); /* the rest of the way is 0.1 us long */
+        scene_advance(&f.scene, t += 1e-5);
+    }
+    print_message("first impact %.12f s\n", before);
+    CHECK_RELATIVE(impact_time(1), 0.451523640986, 1e-11);
+    CHECK_RELATIVE(before, 0.451523640986, 1e-8); /* 1e-3 asked */
+    scene_close(&f.scene);
+}
+
+/* Asked in the middle of each flight. */
+static void apex_heights(void **state)
+{
+    flight f;
+    (void)state;
+    drop(&f, 1e-11);
+    for (int n = 1; n <= 12; n++) {
+        scene_advance(&f.scene, 0.5 * (impact_time(n) + impact_time(n + 1)));
+        const double want = pow(e, 2.0 * n);
+        CHECK_RELATIVE(apex(&f), want, 1e-3); /* 2.8e-4 at n = 7, from the weight during the contact, g T/v */
+    }
+    scene_close(&f.scene);
+}
+
+/* The last instant at which the ball is faster than 2e-4 m/s; the bounces left out take 2 v/(g (1-e)) = 2e-4 s. */
+static void stop_time(void **state)
+{
+    flight f;
+    double stop = 0.0;
+    (void)state;
+    drop(&f, 1e-11);
+    for (double t = 3.9; t < 4.2; t += 1e-5) {
+        scene_advance(&f.scene, t);
+        if (fabs(scene_speed(&f.scene, f.ball, DMB_Z)) > 2e-4) stop = t;
+    }
+    const dmb_statistics statistics = scene_statistics(&f.scene);
+    print_message("stop %.9f s, %llu steps, %llu rejected\n", stop, (unsigned long long)statistics.steps,
+                  (unsigned long long)statistics.rejected);
+    CHECK_RELATIVE(stop, 4.063712768872, 1e-3);
+    CHECK_CLOSE(height(&f), -g / 1e10, 1e-12); /* rests at m g/K */
+    scene_close(&f.scene);
+}
+
+/* Each impact takes (1 - e^2) of the energy of arrival: the ledger's impact term after n of them is
+ * m g h0 (1 - e^(2n)). */
+static void energy_of_impacts(void **state)
+{
+    flight f;
+    (void)state;
+    drop(&f, 1e-13);
+    for (int n = 1; n <= 8; n++) {
+        scene_advance(&f.scene, 0.5 * (impact_time(n) + impact_time(n + 1)));
+        const dmb_energy energy = scene_energy(&f.scene);
+        CHECK_RELATIVE(energy.impact, g * (1.0 - pow(e, 2.0 * n)), 1e-4);
+        CHECK_CLOSE(energy.unexplained, 0.0, 1e-9 * g);
+        CHECK_CLOSE(energy.scheme, 0.0, 1e-5 * g);
+    }
+    scene_close(&f.scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(first_impact),
+        cmocka_unit_test(apex_heights),
+        cmocka_unit_test(stop_time),
+        cmocka_unit_test(energy_of_impacts),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

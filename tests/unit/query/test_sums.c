@@ -1,0 +1,200 @@
+/* Sums over a scene: kinetic energy pipe by pipe and as a whole, momentum and centre of mass, the energy ledger. */
+#include "close.h"
+#include "rig.h"
+
+/* A free string with head, bit and pipes of given kinds, all eccentric, with tool joints but on the last one. */
+typedef struct craft {
+    rig s;
+    dmb_id string, head, bit;
+    uint32_t pipes;
+} craft;
+
+static craft launch(const int32_t *kinds, uint32_t count, double eccentricity)
+{
+    craft c = {.pipes = count};
+    dmb_string_def def = dmb_string_def_default();
+    dmb_body_def head = dmb_body_def_default();
+    dmb_bit_def bit = dmb_bit_def_default();
+    rig_open(&c.s, 0.0, 0.0, 0.0);
+    def.follows_hole = 0;
+    def.start_free = DMB_FREE_ALL;
+    for (int i = 0; i < 3; i++) def.rotation[i] = 0.5 - 0.2 * i, def.position[i] = 1.0 + i;
+    for (int i = 0; i < 6; i++) def.velocity[i] = 1.5 - 0.7 * i;
+    c.string = add_string(&c.s, &def);
+    for (uint32_t i = 0; i < count; i++) {
+        dmb_pipe_def pipe = s1_pipe();
+        pipe.kind = kinds[i];
+        pipe.elements = 1 + i % 2;
+        pipe.joint_length = i + 1 < count ? 0.2 : 0.0;
+        pipe.joint_outer_diameter = 0.09;
+        pipe.eccentricity = eccentricity;
+        pipe.eccentricity_angle = 0.7 * i;
+        add_pipes(&c.s, &pipe, 1);
+    }
+    head.attach = DMB_ATTACH_START;
+    head.mass = 30.0;
+    head.centre[0] = -0.2, head.centre[1] = 0.05;
+    head.inertia[0] = 0.3, head.inertia[1] = head.inertia[2] = 0.6, head.inertia[3] = 0.1;
+    c.head = add_body(&c.s, &head);
+    bit.mass = 9.0;
+    must_model(&c.s, dmb_model_add_bit(c.s.model, &bit, &c.bit));
+    rig_start(&c.s, NULL);
+    return c;
+}
+
+static double kinetic(const craft *c, dmb_id part, uint32_t pipe)
+{
+    double energy = (double)NAN;
+    must(&c->s, dmb_query_kinetic_energy(c->s.sim, part, pipe, &energy));
+    return energy;
+}
+
+/* Every part once: pipes hold half of head and bit, so the other halves are added. */
+static void pipes_add_up(void **state)
+{
+    (void)state;
+    enum { F = DMB_PIPE_FLEXIBLE, R = DMB_PIPE_RIGID };
+    const int32_t kinds[][5] = {{F, F, F, F, F}, {R, R, R, R, R}, {F, R, R, F, F}, {R, F, R, F, R}, {F, F, R, R, R}};
+    for (int k = 0; k < 5; k++)
+        for (int e = 0; e < 2; e++) {
+            craft c = launch(kinds[k], 5, e * 2e-3);
+            for (int run = 0; run < 2; run++) {
+                double sum = 0.5 * (kinetic(&c, c.head, 0) + kinetic(&c, c.bit, 0));
+                for (uint32_t i = 0; i < c.pipes; i++) sum += kinetic(&c, c.string, i);
+                const double whole = energy_of(&c.s).kinetic;
+                CHECK_CLOSE(sum, whole, 1e-12 * whole);
+                take_steps(&c.s, 1e-4, 20);
+            }
+            rig_close(&c.s);
+        }
+}
+
+/* A head turning alone: m v^2/2 + w J w/2 with its own inertia. */
+static void kinetic_energy_of_a_body(void **state)
+{
+    (void)state;
+    dmb_body_def def = dmb_body_def_default();
+    rig s;
+    double energy;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    def.mass = 2.0;
+    def.centre[1] = 0.5;
+    def.inertia[0] = 0.3, def.inertia[1] = 0.4, def.inertia[2] = 0.5;
+    def.velocity[0] = 3.0, def.velocity[5] = 4.0;
+    const dmb_id body = add_body(&s, &def);
+    rig_start(&s, NULL);
+    must(&s, dmb_query_kinetic_energy(s.sim, body, 0, &energy));
+    CHECK_CLOSE(energy, 0.5 * 2.0 * (3.0 - 4.0 * 0.5) * (3.0 - 4.0 * 0.5) + 0.5 * 0.5 * 16.0, 1e-14);
+    rig_close(&s);
+}
+
+/* In free flight the centre of mass goes straight on, and linear and angular momentum stay. */
+static void momentum_in_flight(void **state)
+{
+    (void)state;
+    const int32_t kinds[5] = {DMB_PIPE_FLEXIBLE, DMB_PIPE_RIGID, DMB_PIPE_FLEXIBLE, DMB_PIPE_FLEXIBLE,
+                              DMB_PIPE_FLEXIBLE};
+    craft c = launch(kinds, 5, 2e-3);
+    dmb_model_info info = dmb_model_info_default();
+    const dmb_momentum start = momentum_of(&c.s);
+    must(&c.s, dmb_model_get_info(c.s.model, &info));
+    CHECK_CLOSE(start.mass, info.mass, 1e-12 * info.mass);
+    take_steps(&c.s, 1e-4, 200);
+    const dmb_momentum end = momentum_of(&c.s);
+    for (int k = 0; k < 3; k++) {
+        CHECK_CLOSE(end.linear[k], start.linear[k], 1e-6 * info.mass);
+        CHECK_CLOSE(end.angular[k], start.angular[k], 1e-5 * info.mass);
+        CHECK_CLOSE(end.centre[k] - start.centre[k], 0.02 * start.linear[k] / info.mass, 1e-6);
+    }
+    rig_close(&c.s);
+}
+
+/* One straight pipe turning about a point away from it: m v_c and x_c x m v_c + J w, with the section's own inertia. */
+static void momentum_of_a_pipe(void **state)
+{
+    (void)state;
+    const s1_section v = s1_values();
+    const double L = 1.5, m = v.mass * L, w = 3.0, across = 7850.0 * v.I * L + m * L * L / 12.0;
+    for (int32_t kind = DMB_PIPE_FLEXIBLE; kind <= DMB_PIPE_RIGID; kind += 2) {
+        dmb_string_def def = dmb_string_def_default();
+        dmb_pipe_def pipe = s1_pipe();
+        rig s;
+        rig_open(&s, 0.0, 0.0, 0.0);
+        def.follows_hole = 0;
+        def.start_free = DMB_FREE_ALL;
+        def.position[1] = 5.0;
+        def.velocity[1] = 2.0, def.velocity[3] = 7.0, def.velocity[5] = w;
+        add_string(&s, &def);
+        pipe.kind = kind;
+        add_pipes(&s, &pipe, 1);
+        rig_start(&s, NULL);
+        const dmb_momentum p = momentum_of(&s);
+        const double speed = 2.0 + w * 0.5 * L;
+        const double want[6] = {
+            0.0, m * speed, 0.0, 2.0 * 7850.0 * v.I * L * 7.0, 0.0, across * w + 0.5 * L * m * speed};
+        CHECK_CLOSE(p.mass, m, 1e-13 * m);
+        CHECK_CLOSE(p.centre[0], 0.5 * L, 1e-13);
+        CHECK_CLOSE(p.centre[1], 5.0, 1e-13);
+        for (int k = 0; k < 3; k++) CHECK_CLOSE(p.linear[k], want[k], 1e-11);
+        for (int k = 0; k < 3; k++) CHECK_CLOSE(p.angular[k], want[3 + k], 1e-11);
+        rig_close(&s);
+    }
+}
+
+/* A damped string on a wall, driven and loaded. `error` falls with the step, and what the iterations left is small. */
+static dmb_energy ledger_of_a_run(double h)
+{
+    const dmb_term ramp = {.struct_size = sizeof ramp, .kind = DMB_TERM_STEP, .x0 = 0.0, .x1 = 0.05, .h1 = 2.0};
+    dmb_wall_def wall = dmb_wall_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_drive_def drive = dmb_drive_def_default();
+    dmb_load_def load = dmb_load_def_default();
+    dmb_environment_def environment = dmb_environment_def_default();
+    dmb_sim_options options = dmb_sim_options_default();
+    rig s;
+    rig_open(&s, 0.0, 0.0, -9.81);
+    environment.lateral_damping = 5.0;
+    must_model(&s, dmb_model_set_environment(s.model, &environment));
+    wall.stiffness = 1e6;
+    add_wall(&s, &wall);
+    pipe.damping_time = 1e-4;
+    const dmb_id string = add_pipes(&s, &pipe, 3);
+    drive.programme = add_programme(&s, &ramp, 1);
+    drive.component = DMB_RX;
+    add_drive(&s, &drive);
+    load.place = dmb_station(string, 2, 1.0);
+    load.force[0] = 500.0;
+    load.programme = drive.programme;
+    must_model(&s, dmb_model_add_load(s.model, &load, NULL));
+    options.newton_tolerance = 1e-11;
+    rig_start(&s, &options);
+    take_steps(&s, h, (uint32_t)(0.1 / h + 0.5));
+    const dmb_energy energy = energy_of(&s);
+    rig_close(&s);
+    return energy;
+}
+
+static void the_ledger_balances(void **state)
+{
+    (void)state;
+    const dmb_energy coarse = ledger_of_a_run(1e-3), fine = ledger_of_a_run(1.25e-4);
+    const double gained = fine.kinetic + fine.strain + fine.gravity + fine.contact;
+    CHECK_CLOSE(fine.balance,
+                fine.drives + fine.loads - fine.friction - fine.impact - fine.damping - fine.rock - gained,
+                1e-12 * fine.input);
+    CHECK_CLOSE(fine.balance, fine.scheme + fine.unexplained, 1e-12 * fine.input);
+    CHECK_CLOSE(fine.error, fabs(fine.balance) / fine.input, 1e-15);
+    CHECK_CLOSE(fine.unexplained, 0.0, 1e-6 * fine.input);
+    assert_true(fine.drives > 0.0 && fine.loads > 0.0 && fine.friction > 0.0 && fine.damping > 0.0);
+    assert_true(fabs(fine.balance) < 0.2 * fabs(coarse.balance));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pipes_add_up),        cmocka_unit_test(kinetic_energy_of_a_body),
+        cmocka_unit_test(momentum_in_flight),  cmocka_unit_test(momentum_of_a_pipe),
+        cmocka_unit_test(the_ledger_balances),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
