@@ -1,6 +1,7 @@
 /* libdrillmbd - ask a sim about its last accepted state. Nothing here changes a sim; every query is O(1) unless it says
- * otherwise (O(log) of stations, sites or described runs where a place has to be looked up), allocates nothing and returns DMB_OK, DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _ID, _VALUE or _NOT_FINITE,
- * leaving the answer untouched on error. Between nodes a flexible pipe is interpolated with its own shape functions. */
+ * otherwise (O(log) of stations, sites or described runs where a place has to be looked up), allocates nothing and returns
+ * DMB_OK, DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _ID, _VALUE or _NOT_FINITE, leaving the answer untouched on error. Between
+ * nodes a flexible pipe is interpolated with its own shape functions. */
 #ifndef DRILLMBD_QUERY_H
 #define DRILLMBD_QUERY_H
 
