@@ -63,6 +63,7 @@
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                      \
     X(double, element_strain, 6 * e)    /* [m, rad] d of the trial */                                                  \
     X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */        \
+    X(double, site_return, s)           /* [m/s] a ring that opens in the step left the wall; else 0, system/release */\
     X(double, path_normal, p)           /* [N] */                                                                      \
     X(double, stiffness_diagonal, diagonal) /* with respect to body-frame pose increments; then the iteration matrix */ \
     X(double, stiffness_lower, link)                                                                                   \

@@ -33,7 +33,7 @@ except ImportError:
 VERSION = (0, 1, 0)  # of the interface mirrored here
 
 # ---- Constants, as in the headers without DMB_ ----------------------------------------------------------------------
-OK, NOTE_STEP_CUT, NOTE_WORK_LIMITED, NOTE_PROJECTED, NOTE_STOPPED, NOTE_FULL = range(6)
+OK, NOTE_STEP_CUT, NOTE_WORK_LIMITED, NOTE_PROJECTED, NOTE_STOPPED, NOTE_FULL, NOTE_TOLERANCE = range(7)
 (ERR_NULL, ERR_HANDLE, ERR_STRUCT_SIZE, ERR_ID, ERR_VALUE, ERR_NOT_FINITE, ERR_ORDER, ERR_NO_MEMORY, ERR_TOO_LARGE,
  ERR_SINGULAR, ERR_NO_CONVERGENCE, ERR_CALLBACK, ERR_IO, ERR_ROTATION, ERR_GEOMETRY,
  ERR_UNSUPPORTED) = range(-1, -17, -1)
@@ -286,7 +286,7 @@ class SimOptions(_Sized):
                 ("log", LOG_FN), ("log_context", c_void_p), ("spectral_radius", c_double),
                 ("newton_tolerance", c_double), ("tolerance_translation", c_double), ("tolerance_rotation", c_double),
                 ("step_min", c_double), ("step_max", c_double), ("max_cuts", c_uint32), ("bounded_work", c_int32),
-                ("energy_ledger", c_int32), ("reserved", c_int32)]
+                ("energy_ledger", c_int32), ("max_steps", c_uint32)]
 
 
 @_mirrors("dmb_step_report")

@@ -34,7 +34,8 @@ DMB_SIZED_STRUCT(dmb_static_report)
 
 /* Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, by
  * Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017), and by pseudo-transient continuation
- * where that fails. Speeds become those of the motion drives, the energy ledger starts anew. options and report may be
+ * where that fails. The rock law does not act in the static state (at time 0 its bottom is laid ahead of the bit as
+ * described); a speed controller acts as at speed 0. Speeds become those of the motion drives, the energy ledger starts anew. options and report may be
  * NULL. Errors: DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the
  * state is then that before the call. */
 DMB_API int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report);

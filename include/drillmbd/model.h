@@ -46,7 +46,8 @@ typedef struct dmb_environment_def {
     uint32_t struct_size;
     uint32_t reserved;
     double gravity[3];         /* [m/s2] world frame, default (0, 0, -9.81), shape (3) */
-    double fluid_density;      /* [kg/m3] mud or air inside and outside the pipes, for buoyancy; default 0 */
+    double fluid_density;      /* [kg/m3] mud or air inside and outside the pipes, for the buoyancy of pipes and tool joints (bits and
+                                  bodies get none); default 0 */
     double lateral_damping;    /* [N s/m2] external damping force per metre of pipe and m/s of sideways speed; default 0 */
     double axial_damping;      /* [N s/m2] the same along the pipe; default 0 */
     double torsional_damping;  /* [N s] external moment per metre of pipe and rad/s of spin; default 0 */
@@ -55,7 +56,7 @@ DMB_SIZED_STRUCT(dmb_environment_def)
 DMB_API int32_t dmb_model_set_environment(dmb_model *model, const dmb_environment_def *def);
 
 /* ---- Programmes: values over time --------------------------------------------------------------------------------
- * A programme is a sum of terms. Corners of its terms are ends of integration steps. */
+ * A programme is a sum of terms. Corners of its terms are ends of integration steps, but for bounded-work steps. */
 enum {
     DMB_TERM_CONSTANT = 0, /* h0 */
     DMB_TERM_STEP = 1,     /* h0 before x0, h1 after x1, D^2 (3 - 2D) between, D = (t - x0)/(x1 - x0) */

@@ -93,7 +93,8 @@ typedef struct dmb_energy {
     double rock;           /* [J] spent at the bit */
     double scheme;         /* [J] taken out by the time integration: what its discrete inertia and potential forces did
                               less what the energies changed */
-    double input;          /* [J] sum of |power| of drives and loads over time, the scale of `error` */
+    double input;          /* [J] integral of the sum of each drive's |power| and of |power| of all loads, the scale of
+                              `error` */
     double balance;        /* [J] input and changes of energy that physics leaves open: scheme + unexplained */
     double unexplained;    /* [J] balance - scheme: from unconverged iterations only */
     double error;          /* [-] |balance| / input, 0 while input is 0 */

@@ -27,9 +27,11 @@ typedef struct dmb_sim_options {
     double step_max;              /* [s] of dmb_sim_advance, > step_min; default 0.1 */
     uint32_t max_cuts;            /* [-] times a step that does not converge is halved, 0 .. 30; default 12 */
     int32_t bounded_work;         /* 1: dmb_sim_step does one step of at most max_iterations and accepts a finite result
-                                     with DMB_NOTE_WORK_LIMITED; for control loops; default 0 */
+                                     with DMB_NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not
+                                     divided at corners; for control loops; default 0 */
     int32_t energy_ledger;        /* 1 (default): keep the energy ledger; 0: not there in the step */
-    int32_t reserved;
+    uint32_t max_steps;           /* [-] accepted steps in one dmb_sim_advance, which then ends with DMB_NOTE_STOPPED;
+                                     0 (default): no bound */
 } dmb_sim_options;
 DMB_SIZED_STRUCT(dmb_sim_options)
 
@@ -67,11 +69,12 @@ DMB_SIZED_STRUCT(dmb_step_report)
  * _ROTATION, _CALLBACK, _NOT_FINITE; the state is then that before the call. O(number of elements) an iteration.
  * Chung, Hulbert 1993; Bruls, Cardona, Arnold 2012. */
 DMB_API int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report);
-/* Advances to `time` [s] with steps chosen to hold the local error tolerances. Errors as dmb_sim_step; the state is then
- * the last accepted one, whose time dmb_sim_time tells. */
+/* Advances to `time` [s] with steps chosen to hold the local error tolerances, bounded_work or not. DMB_NOTE_TOLERANCE where
+ * a step of step_min was too long for them, DMB_NOTE_STOPPED after max_steps. Errors as dmb_sim_step; the state is then the
+ * last accepted one, whose time dmb_sim_time tells. */
 DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report);
 /* From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For
- * DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; DMB_ERR_UNSUPPORTED for DMB_DRIVE_MOTION, whose speed may not jump. */
+ * DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; accelerations are made to fit the jump. DMB_ERR_UNSUPPORTED for DMB_DRIVE_MOTION, whose speed may not jump. */
 DMB_API int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value);
 
 /* Snapshot of all that changes: bytes, save into and restore from the caller's memory. A snapshot fits every sim of the

@@ -4,10 +4,10 @@
 #include "analysis/static_state.h"
 #include "base/handle.h"
 #include "base/sized_struct.h"
-#include "system/owner.h"
-#include "system/start.h"
 #include "math/vec3.h"
 #include "system/bit.h"
+#include "system/owner.h"
+#include "system/start.h"
 
 DMB_DECLARE_STRUCT(dmb_static_report)
 
@@ -93,8 +93,8 @@ static double largest_residual(const dmb_sim *sim)
     return most;
 }
 
-/* Friction of an assumed slip vanishes with the speeds, so that the state at rest is not held by the same forces. Reactions
- * and drive forces are those of the static state until the first step. */
+/* Friction of an assumed slip vanishes with the speeds, so that the state at rest is not held by the same forces.
+ * Reactions and drive forces are those of the static state until the first step. */
 static int32_t keep_static_reactions(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
@@ -104,8 +104,7 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     if (status < 0) return status;
     memcpy(sim->residual_row, sim->correction, scene->row_count * sizeof(double));
     for (uint32_t i = 0; i < scene->drive_count; i++)
-        if (scene->drives[i].kind == DMB_DRIVE_MOTION)
-            sim->now.drive_force[i] = sim->correction[scene->drives[i].row];
+        if (scene->drives[i].kind == DMB_DRIVE_MOTION) sim->now.drive_force[i] = sim->correction[scene->drives[i].row];
     return DMB_OK;
 }
 
@@ -121,6 +120,8 @@ static int32_t settle(dmb_static_search *search)
     memset(sim->trial.path_bristle, 0, 2 * scene->path_site_count * sizeof(double));
     memset(sim->trial.site_approach, 0, scene->site_count * sizeof(double));
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
+    /* At the start the rock lies where the description puts it ahead of the bit; the forces of the restart need it there. */
+    for (uint32_t k = 0; k < scene->bit_count && sim->clock->time == 0.0; k++) dmb_bit_start(sim, k);
     const dmb_counters counters = *sim->counters;
     int32_t status = dmb_system_restart(sim);
     *sim->counters = counters;
@@ -129,7 +130,6 @@ static int32_t settle(dmb_static_search *search)
         dmb_state_bring_back(sim);
         return status;
     }
-    for (uint32_t k = 0; k < scene->bit_count && sim->clock->time == 0.0; k++) dmb_bit_start(sim, k);
     return DMB_OK;
 }
 
@@ -139,8 +139,8 @@ static void explain(dmb_static_search *search, int32_t status)
     dmb_owner owner;
     if (status == DMB_ERR_SINGULAR) {
         owner = dmb_owner_of_node(sim->scene, search->block);
-        dmb_message_set(&sim->message, "static: %s %u, pipe %u: nothing holds it, the stiffness is singular", owner.kind,
-                        owner.index, owner.pipe);
+        dmb_message_set(&sim->message, "static: %s %u, pipe %u: nothing holds it, the stiffness is singular",
+                        owner.kind, owner.index, owner.pipe);
     } else if (status == DMB_ERR_ROTATION) {
         owner = dmb_owner_of_element(sim->scene, search->evaluation.element);
         dmb_message_set(&sim->message, "static: %s %u, pipe %u: relative rotation in one element above 2.5 rad",
@@ -148,8 +148,8 @@ static void explain(dmb_static_search *search, int32_t status)
     } else if (status == DMB_ERR_CALLBACK) {
         dmb_message_set(&sim->message, "static: a programme's callback failed at time %g", search->evaluation.time);
     } else {
-        dmb_message_set(&sim->message, "static: %u iterations, relative residual = %g, must be <= %g", search->iterations,
-                        search->residual, search->options->tolerance);
+        dmb_message_set(&sim->message, "static: %u iterations, relative residual = %g, must be <= %g",
+                        search->iterations, search->residual, search->options->tolerance);
     }
 }
 

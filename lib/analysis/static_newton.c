@@ -1,8 +1,8 @@
 #include <string.h>
 
 #include "analysis/static_state.h"
-#include "system/solve.h"
 #include "math/se3.h"
+#include "system/solve.h"
 
 /* Moves the trial by body-frame increments; the sum in `increment` follows the turns. */
 static void move(dmb_sim *sim)
@@ -38,6 +38,11 @@ static double largest_move(const dmb_sim *sim)
     return most;
 }
 
+/* A residual of rounding size is equilibrium once corrections are this small, in length scales; next to stiff elements
+ * it can hide a soft part that still moves. A part so soft that rounding itself moves it gets this many corrections. */
+#define DMB_NO_MOVE 1e-9
+#define DMB_MOVES_ENOUGH 20
+
 /* 0: in equilibrium, 1: not yet, < 0: failed */
 static int32_t evaluate(dmb_static_search *search)
 {
@@ -45,7 +50,8 @@ static int32_t evaluate(dmb_static_search *search)
     const int32_t status = dmb_system_evaluate(&search->evaluation);
     if (status < 0) return status;
     search->residual = dmb_relative_residual(&search->evaluation, search->options->tolerance, &converged);
-    return converged ? 0 : 1;
+    if (converged == DMB_CONVERGED || (converged && search->moved <= DMB_NO_MOVE)) return 0;
+    return 1;
 }
 
 /* A pivot this small against its block is rounding: 100 m of unsupported pipe still leave 1e-9. */
@@ -78,12 +84,14 @@ int32_t dmb_static_newton(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
     search->evaluation.extrapolated = 0;
+    search->moved = (double)INFINITY;
     for (uint32_t k = 0;; k++) {
         int32_t status = evaluate(search);
         if (status <= 0) return status;
         if (k >= search->options->max_iterations) return DMB_ERR_NO_CONVERGENCE;
         status = solve(search);
         if (status < 0) return status;
+        search->moved = k + 1 < DMB_MOVES_ENOUGH ? largest_move(sim) / sim->scene->length_scale : 0.0;
         scale_correction(sim, damping(k));
         dmb_system_extrapolate_stress(sim, sim->correction);
         search->evaluation.extrapolated = 1;
@@ -120,6 +128,7 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
     const double limit = longest_move(sim->scene);
     double rate = 1e4, last = 1.0;
     search->evaluation.extrapolated = 0;
+    search->moved = (double)INFINITY;
     for (uint32_t k = 0;; k++) {
         int32_t status = evaluate(search);
         if (status <= 0) return status;
@@ -130,6 +139,7 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
         status = solve(search);
         if (status < 0) return status;
         const double most = largest_move(sim);
+        search->moved = most / sim->scene->length_scale;
         scale_correction(sim, most > limit ? limit / most : 1.0);
         dmb_system_extrapolate_stress(sim, sim->correction);
         search->evaluation.extrapolated = 1;

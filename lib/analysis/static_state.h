@@ -15,6 +15,7 @@ typedef struct dmb_static_search {
     int32_t loose;       /* 1: nothing seems to hold loose_block in the starting pose */
     uint32_t loose_block;
     double residual;     /* [-] relative, last */
+    double moved;        /* [-] largest correction before it, in length scales */
 } dmb_static_search;
 
 /* Displaces the trial to the low side of the hole, where there is gravity and a wall. */

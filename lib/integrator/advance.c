@@ -37,13 +37,17 @@ static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk 
     dmb_attempt attempt;
     for (;;) {
         const double h = fit(sim, *wanted, time);
-        const int32_t status = dmb_attempt_step(sim, h, &attempt);
+        if (!(sim->clock->time + h > sim->clock->time)) return dmb_walk_stuck(sim, h);
+        int32_t status = dmb_attempt_step(sim, h, &attempt);
+        if (status == DMB_NOTE_WORK_LIMITED) status = attempt.status = DMB_ERR_NO_CONVERGENCE; /* a step is a step here */
         const int smallest = !(h > sim->options.step_min * 1.0001);
         if (status >= 0 && (attempt.error <= 1.0 || smallest)) {
             const double next = next_step(sim, h, attempt.error);
             if (next > *wanted || h >= *wanted * 0.999 || next < h) *wanted = next;
             if (!(sim->clock->time + h < time)) attempt.evaluation.time = time;
+            if (attempt.error > 1.0) walk->too_coarse = 1;
             dmb_walk_commit(sim, &attempt, walk);
+            dmb_walk_corner(sim);
             sim->clock->next_step = *wanted;
             return status;
         }
@@ -61,6 +65,9 @@ int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report)
     status = dmb_walk_check(sim, "time", time, sim->clock->time);
     if (status < 0) return status;
     double wanted = first_step(sim);
-    while (status >= 0 && sim->clock->time < time) status = advance_once(sim, time, &wanted, &walk);
+    while (status >= 0 && sim->clock->time < time && !walk.stopped) {
+        status = advance_once(sim, time, &wanted, &walk);
+        walk.stopped = walk.report.steps == sim->options.max_steps && sim->clock->time < time;
+    }
     return dmb_walk_end(sim, status, 0, report, &walk);
 }

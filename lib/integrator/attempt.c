@@ -1,5 +1,6 @@
 #include "integrator/attempt.h"
 
+#include <float.h>
 #include <string.h>
 
 #include "integrator/generalized_alpha.h"
@@ -7,6 +8,7 @@
 #include "math/se3.h"
 #include "system/ledger.h"
 #include "system/owner.h"
+#include "system/release.h"
 #include "system/solve.h"
 
 /* Newton gives up when the residual has grown this much over its start. */
@@ -86,7 +88,8 @@ static double local_error(const dmb_sim *sim, const dmb_generalized_alpha *c, do
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
         for (uint32_t k = 0; k < size; k++) {
             if (!scene->solved_row[row + k]) continue;
-            const double tolerance = 2 * k < size ? sim->options.tolerance_translation : sim->options.tolerance_rotation;
+            const double tolerance =
+                2 * k < size ? sim->options.tolerance_translation : sim->options.tolerance_rotation;
             const double jump = sim->trial.pseudo_acceleration[row + k] - carried(sim, ratio, row + k);
             worst = fmax(worst, fabs(factor * jump) / tolerance);
         }
@@ -110,6 +113,7 @@ static void set_up(dmb_sim *sim, const dmb_generalized_alpha *c, double h, dmb_e
 /* Course of one Newton iteration. */
 typedef struct newton_course {
     double first, last; /* relative residual at the start, and before the last correction */
+    double balance;     /* [N] norm of the terms that balanced at the start */
     int32_t factored;   /* the matrix holds factors of this step */
     int32_t reserved;
 } newton_course;
@@ -121,10 +125,21 @@ static int32_t factors_will_do(const newton_course *course, double residual, dou
     return course->factored && rate * rate * residual <= tolerance;
 }
 
+/* True if what is left is the rounding of the forces at the start: in free flight after a contact nothing else is there
+ * to compare it with. */
+static int32_t is_rounding(const dmb_sim *sim, const dmb_attempt *attempt, newton_course *course)
+{
+    const double balance = dmb_balance_norm(sim);
+    if (course->balance > 0.0) return attempt->residual * balance <= 4.0 * DBL_EPSILON * course->balance;
+    course->balance = balance;
+    return 0;
+}
+
 static int32_t check_course(const dmb_sim *sim, const dmb_attempt *attempt, newton_course *course)
 {
-    if (attempt->iterations == 0) course->first = course->last = attempt->residual;
-    if (attempt->residual > DMB_NEWTON_GROWTH * course->first) return DMB_ERR_NO_CONVERGENCE;
+    if (course->first == 0.0) course->first = course->last = attempt->residual;
+    if (!(attempt->residual <= DMB_NEWTON_GROWTH * course->first)) return DMB_ERR_NO_CONVERGENCE; /* NaN, too */
+    if (attempt->residual > DBL_MAX) return DMB_ERR_NO_CONVERGENCE;
     if (attempt->iterations < sim->options.max_iterations) return 1;
     return sim->options.bounded_work ? DMB_NOTE_WORK_LIMITED : DMB_ERR_NO_CONVERGENCE;
 }
@@ -155,6 +170,7 @@ static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt
     if (status < 0) return status;
     attempt->residual = dmb_relative_residual(evaluation, tolerance, &converged);
     if (converged) return 0;
+    if (is_rounding(sim, attempt, course)) return 0;
     status = check_course(sim, attempt, course);
     if (status != 1) return status;
     if (!factors_will_do(course, attempt->residual, tolerance)) {
@@ -170,22 +186,53 @@ static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt
     return 1;
 }
 
+static int32_t newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
+{
+    newton_course course;
+    int32_t status;
+    memset(&course, 0, sizeof course);
+    do status = iterate(sim, c, attempt, &course);
+    while (status == 1);
+    return status;
+}
+
+/* The step once more, from the increments found so far, with what opening contacts did taken off the history: v0' and a0
+ * less M^-1 of their forces, and no a0 - v0' at their nodes from there on, which would ring in free flight. */
+static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
+{
+    const double h = attempt->step, ratio = step_ratio(sim, h);
+    int32_t status = dmb_released_acceleration(&attempt->evaluation);
+    if (status < 0) return status;
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) {
+        if (!sim->scene->solved_row[i]) continue;
+        const double v = sim->now.velocity[i], gone = sim->correction[i];
+        const double dv = sim->now.acceleration[i] - gone;
+        const double a0 = dv + (1.0 - sim->scale_row[i]) * (carried(sim, ratio, i) - sim->now.acceleration[i]);
+        const double a1 = ((sim->increment[i] - h * v) / (h * h) - (0.5 - c->beta) * a0) / c->beta;
+        sim->trial.pseudo_acceleration[i] = a1;
+        sim->trial.acceleration[i] = ((1.0 - c->am) * a1 + c->am * a0 - c->af * dv) / (1.0 - c->af);
+        sim->trial.velocity[i] = v + h * ((1.0 - c->gamma) * a0 + c->gamma * a1);
+    }
+    set_up(sim, c, h, &attempt->evaluation);
+    status = newton(sim, c, attempt);
+    dmb_release_end(sim);
+    return status;
+}
+
 int32_t dmb_attempt_step(dmb_sim *sim, double step, dmb_attempt *attempt)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
-    newton_course course;
     int32_t status;
     memset(attempt, 0, sizeof *attempt);
-    memset(&course, 0, sizeof course);
     attempt->step = step;
     set_up(sim, &c, step, &attempt->evaluation);
     predict(sim, &c, step);
     status = dmb_system_prescribe(&attempt->evaluation);
     if (status >= 0) {
         trial_pose(sim);
-        do status = iterate(sim, &c, attempt, &course);
-        while (status == 1);
+        status = newton(sim, &c, attempt);
     }
+    if (status == DMB_OK && dmb_contact_opens(sim)) status = step_released(sim, &c, attempt);
     if (status >= 0) {
         attempt->evaluation.element = dmb_element_turned_too_far(sim);
         if (attempt->evaluation.element != UINT32_MAX) status = DMB_ERR_ROTATION;
@@ -218,7 +265,8 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
     switch (attempt->status) {
     case DMB_ERR_ROTATION:
         owner = dmb_owner_of_element(sim->scene, attempt->evaluation.element);
-        dmb_message_set(&sim->message, "%s %u, pipe %u: relative rotation in one element above 2.5 rad at time %g, step %g",
+        dmb_message_set(&sim->message,
+                        "%s %u, pipe %u: relative rotation in one element above 2.5 rad at time %g, step %g",
                         owner.kind, owner.index, owner.pipe, attempt->evaluation.time, attempt->step);
         break;
     case DMB_ERR_SINGULAR:
@@ -231,7 +279,8 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
                         attempt->evaluation.time);
         break;
     default:
-        dmb_message_set(&sim->message, "step to time %g of length %g: %u iterations, relative residual = %g, must be <= %g",
+        dmb_message_set(&sim->message,
+                        "step to time %g of length %g: %u iterations, relative residual = %g, must be <= %g",
                         attempt->evaluation.time, attempt->step, attempt->iterations, attempt->residual,
                         sim->options.newton_tolerance);
     }

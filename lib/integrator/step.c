@@ -24,6 +24,7 @@ static int32_t take_substep(dmb_sim *sim, double end, double *cut, uint32_t *cut
     dmb_attempt attempt;
     for (;;) {
         const double h = substep(sim, end, *cut);
+        if (!(sim->clock->time + h > sim->clock->time)) return dmb_walk_stuck(sim, h);
         const int last = !(sim->clock->time + h < end);
         if (!last && !walk->kept) {
             dmb_state_keep(sim);
@@ -33,6 +34,7 @@ static int32_t take_substep(dmb_sim *sim, double end, double *cut, uint32_t *cut
         if (status >= 0) {
             if (last) attempt.evaluation.time = end;
             dmb_walk_commit(sim, &attempt, walk);
+            dmb_walk_corner(sim);
             *cut = *cuts > 0 ? 2.0 * h : (double)INFINITY; /* a corner nearby does not shorten what follows */
             if (*cuts > 0) --*cuts;
             return status;

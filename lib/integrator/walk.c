@@ -5,6 +5,7 @@
 #include "base/check.h"
 #include "base/handle.h"
 #include "base/sized_struct.h"
+#include "system/start.h"
 
 DMB_DECLARE_STRUCT(dmb_step_report)
 
@@ -37,11 +38,23 @@ void dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
     dmb_attempt_commit(sim, attempt);
 }
 
+/* A failure here leaves the accelerations of before, which is what there was anyway. */
+void dmb_walk_corner(dmb_sim *sim)
+{
+    if (dmb_system_rate_jumps(sim)) (void)dmb_system_jump(sim);
+}
+
+int32_t dmb_walk_stuck(dmb_sim *sim, double step)
+{
+    dmb_message_set(&sim->message, "step: a length of %g at time %g is lost in rounding", step, sim->clock->time);
+    return DMB_ERR_VALUE;
+}
+
 void dmb_walk_reject(dmb_sim *sim, const dmb_attempt *attempt, dmb_walk *walk)
 {
     walk->report.rejected++;
     walk->report.iterations += attempt->iterations;
-    dmb_attempt_explain(sim, attempt);
+    if (attempt->status < 0) dmb_attempt_explain(sim, attempt);
 }
 
 int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_report *report, const dmb_walk *walk)
@@ -50,6 +63,7 @@ int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_rep
     if (status < 0 && restore) { /* counters too: a failing call changes nothing */
         if (walk->kept) dmb_state_bring_back(sim);
         *sim->counters = walk->counters;
+        out.steps = 0;
     } else { /* work spent in vain on the way counts */
         sim->counters->rejected = walk->counters.rejected + walk->report.rejected;
         sim->counters->iterations = walk->counters.iterations + walk->report.iterations;
@@ -61,6 +75,16 @@ int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_rep
         dmb_message_set(&sim->message, "step to time %g: relative residual = %g after %u iterations, accepted as asked",
                         out.time, out.residual, out.worst);
         return DMB_NOTE_WORK_LIMITED;
+    }
+    if (walk->too_coarse) {
+        dmb_message_set(&sim->message, "steps of step_min = %g were taken above the error tolerance",
+                        sim->options.step_min);
+        return DMB_NOTE_TOLERANCE;
+    }
+    dmb_message_clear(&sim->message);
+    if (walk->stopped) {
+        dmb_message_set(&sim->message, "stopped at time %g after max_steps = %u steps", out.time, sim->options.max_steps);
+        return DMB_NOTE_STOPPED;
     }
     if (!walk->was_cut) return DMB_OK;
     dmb_message_set(&sim->message, "step to time %g: divided into %u steps, %u rejected", out.time, out.steps,

@@ -8,7 +8,7 @@
  *   bodies          bodies, bits               nodes of free bodies, bodies
  *   poses           hole, nodes, elements      nodes (pose), elements (span)
  *   types           runs, elements             types, elements (type, kernel), batches
- *   masses          runs, bodies, bits         lumps, nodes (weight, damped_length)
+ *   masses          runs, bodies, bits         lumps, nodes (weight, damped)
  *   sites           pipes, bodies              sites, path_sites
  *   actions         drives, loads, bits        drives, loads, bits, nodes (prescribed) */
 #ifndef DMB_MODEL_MESH_H
@@ -26,7 +26,7 @@ typedef struct dmb_mesh_node {
     double depth;            /* [m] measured depth, 0 without a hole */
     double weight_mass;      /* [kg] */
     double weight_moment[3]; /* [kg m] */
-    double damped_length;    /* [m] of pipe whose external damping it carries */
+    double damped[3];        /* [m, m2, m3] integrals of 1, x, x^2 over the pipe whose external damping it carries */
     uint32_t string;         /* UINT32_MAX: free body `body` */
     uint32_t body;
     uint32_t lump;           /* in lumps; UINT32_MAX: none */

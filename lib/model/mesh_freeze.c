@@ -77,7 +77,7 @@ static void take_nodes(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to,
     to->held_component = DMB_ARENA_ARRAY(arena, uint32_t, held);
     to->weight_mass = DMB_ARENA_DOUBLES(arena, n);
     to->weight_moment = DMB_ARENA_DOUBLES(arena, 3 * n);
-    to->node_damping = DMB_ARENA_DOUBLES(arena, 3 * n);
+    to->node_damping = DMB_ARENA_DOUBLES(arena, 5 * n);
     to->node_element = DMB_ARENA_ARRAY(arena, uint32_t, n);
     to->chains = DMB_ARENA_ARRAY(arena, dmb_chain, counts->chain_count);
     to->lumps = DMB_ARENA_ARRAY(arena, dmb_lump, counts->lump_count);

@@ -90,10 +90,19 @@ static void weigh_element(dmb_mesh *mesh, const dmb_mesh_element *element, const
     mesh->mass += mass->section.mass * length;
 }
 
+/* A length of pipe around x = `at` on the node's axis; `spread` is its own integral of (x - at)^2. */
+static void damp_node(dmb_mesh *mesh, uint32_t node, double length, double at, double spread)
+{
+    double *damped = dmb_mesh_node_at(mesh, node)->damped;
+    damped[0] += length;
+    damped[1] += length * at;
+    damped[2] += length * at * at + spread;
+}
+
 static void damp_element(dmb_mesh *mesh, const dmb_mesh_element *element, double length)
 {
-    dmb_mesh_node_at(mesh, element->node)->damped_length += 0.5 * length;
-    dmb_mesh_node_at(mesh, element->node + 1)->damped_length += 0.5 * length;
+    damp_node(mesh, element->node, 0.5 * length, element->arm[0], 0.0);
+    damp_node(mesh, element->node + 1, 0.5 * length, -element->arm[1], 0.0);
 }
 
 static int32_t shift_element(dmb_mesh *mesh, const dmb_mesh_element *element, const run_mass *mass, const double e[2])
@@ -113,10 +122,11 @@ static int32_t add_elastic_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const 
     int32_t status = DMB_OK;
     for (; element <= last && status >= 0; ++element) {
         weigh_element(mesh, element, mass);
-        damp_element(mesh, element, length + (element == last ? pipe->joint : 0.0));
+        damp_element(mesh, element, length);
         if (e != NULL) status = shift_element(mesh, element, mass, e);
     }
     if (status < 0 || !(pipe->joint > 0.0)) return status;
+    damp_node(mesh, last->node + 1, pipe->joint, joint_at, pipe->joint * pipe->joint * pipe->joint / 12.0);
     status = add_part(mesh, last->node + 1, &mass->joint, joint_at, mass->buoyancy);
     if (status >= 0 && e != NULL) status = add_offset(mesh, last->node + 1, mass->joint.mass, joint_at, e);
     return status;
@@ -130,7 +140,8 @@ static int32_t add_rigid_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const ru
     if (status >= 0 && pipe->joint > 0.0) status = add_part(mesh, pipe->node, &mass->joint, joint_at, mass->buoyancy);
     if (status >= 0 && e != NULL) status = add_offset(mesh, pipe->node, mass->pipe.mass, pipe_at, e);
     if (status >= 0 && e != NULL) status = add_offset(mesh, pipe->node, mass->joint.mass, joint_at, e);
-    dmb_mesh_node_at(mesh, pipe->node)->damped_length += pipe->length;
+    damp_node(mesh, pipe->node, pipe->length, pipe->start + 0.5 * pipe->length,
+              pipe->length * pipe->length * pipe->length / 12.0);
     return status;
 }
 

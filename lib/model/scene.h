@@ -138,7 +138,8 @@ typedef struct dmb_scene {
     double *weight_mass;          /* [kg] that gravity acts on, buoyancy taken off, shape (node) */
     double *weight_moment;        /* [kg m] b of the weight, body frame: torque b x R^T g, shape (node, 3); lumps and the
                                      +- rho A L^2/12 of the cubic shape (sum of both sides) included */
-    double *node_damping;         /* [N s/m, N s/m, N m s] axial, lateral, torsional external damping, shape (node, 3) */
+    double *node_damping;         /* [N s/m, N m s; N s/m, N s, N m s] external damping: axial, torsional; lateral times the
+                                     integrals of 1, x, x^2 over the pipe it stands for, shape (node, 5) */
 
     /* elements */
     dmb_element_type *types;      /* shape (type_count) */

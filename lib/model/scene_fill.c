@@ -25,15 +25,16 @@ static void fill_pose(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i)
 {
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
     const dmb_environment_def *e = &mesh->model->environment;
-    double *damping = scene->node_damping + 3 * (size_t)i;
+    double *damping = scene->node_damping + 5 * (size_t)i;
     dmb_vec3_copy(node->position, scene->reference_position + 3 * (size_t)i);
     dmb_quat_copy(node->quaternion, scene->reference_quaternion + 4 * (size_t)i);
     scene->reference_depth[i] = node->depth;
     scene->weight_mass[i] = node->weight_mass;
     dmb_vec3_copy(node->weight_moment, scene->weight_moment + 3 * (size_t)i);
     if ((scene->features & DMB_FEATURE_DAMPING) == 0) return;
-    dmb_vec3_set(e->axial_damping * node->damped_length, e->lateral_damping * node->damped_length,
-                 e->torsional_damping * node->damped_length, damping);
+    damping[0] = e->axial_damping * node->damped[0];
+    damping[1] = e->torsional_damping * node->damped[0];
+    for (int k = 0; k < 3; k++) damping[2 + k] = e->lateral_damping * node->damped[k];
 }
 
 /* Which rows are free, solved and held; held is the number of held rows so far. */

@@ -3,6 +3,7 @@
  * integration has taken out (scheme). */
 #include "system/energy.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "query/ask.h"
@@ -34,7 +35,7 @@ static void balance(const dmb_ledger *ledger, dmb_energy *e)
     e->scheme = -(work[DMB_POWER_INERTIA] + work[DMB_POWER_POTENTIAL]) - gained;
     e->balance = e->drives + e->loads - e->friction - e->impact - e->damping - e->rock - gained;
     e->unexplained = e->balance - e->scheme;
-    e->error = e->input > 0.0 ? fabs(e->balance) / e->input : 0.0;
+    e->error = e->input > 0.0 ? fmin(fabs(e->balance) / e->input, DBL_MAX) : 0.0; /* a breath of input is no infinity */
 }
 
 int32_t dmb_query_energy(const dmb_sim *sim, dmb_energy *energy)

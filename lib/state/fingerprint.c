@@ -26,7 +26,7 @@ static uint64_t add_nodes(uint64_t h, const dmb_scene *s)
     h = dmb_fnv_numbers(h, s->reference_quaternion, 4 * n);
     h = dmb_fnv_numbers(h, s->weight_mass, n);
     h = dmb_fnv_numbers(h, s->weight_moment, 3 * n);
-    h = dmb_fnv_numbers(h, s->node_damping, 3 * n);
+    h = dmb_fnv_numbers(h, s->node_damping, 5 * n);
     h = dmb_fnv_block(h, s->solved_row, s->row_count);
     return dmb_fnv_block(h, s->layout.size, n);
 }

@@ -1,11 +1,24 @@
 /* The caller's hand on a drive: a constant in the place of its programme. */
 #include <math.h>
 
+#include "model/limits.h"
 #include "state/handle.h"
+#include "system/start.h"
 
 static int32_t refuse(dmb_sim *sim, int32_t status, const char *why)
 {
     dmb_message_set(&sim->message, "%s", why);
+    return status;
+}
+
+/* The force of the drive jumps: without accelerations that fit it, the steps after would be of first order only. */
+static int32_t jump_to(dmb_sim *sim, uint32_t index, double value)
+{
+    const double before = sim->drive_input[index];
+    if (before == value || (isnan(before) && isnan(value))) return DMB_OK;
+    sim->drive_input[index] = value;
+    const int32_t status = dmb_system_jump(sim);
+    if (status < 0) sim->drive_input[index] = before;
     return status;
 }
 
@@ -25,6 +38,9 @@ int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value)
         dmb_message_field(&sim->message, "drive", index, "value", value, "finite, or NaN for the programme");
         return DMB_ERR_NOT_FINITE;
     }
-    sim->drive_input[index] = isnan(value) ? (double)NAN : value; /* one NaN, so that equal states hash alike */
-    return DMB_OK;
+    if (fabs(value) > DMB_FORCE_MAX) { /* as what is described: beyond it work and power overflow */
+        dmb_message_field(&sim->message, "drive", index, "value", value, "from -1e30 to 1e30, or NaN for the programme");
+        return DMB_ERR_VALUE;
+    }
+    return jump_to(sim, index, isnan(value) ? (double)NAN : value); /* one NaN, so that equal states hash alike */
 }

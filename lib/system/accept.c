@@ -28,5 +28,10 @@ void dmb_system_accept(dmb_evaluation *evaluation)
         sim->trial.drive_position[i] = sim->now.drive_position[i] + sim->increment[drive->row];
         if (drive->kind == DMB_DRIVE_MOTION) sim->trial.drive_force[i] = sim->correction[drive->row];
     }
-    for (uint32_t k = 0; k < scene->bit_count; k++) dmb_bit_accept(sim, k);
+    for (uint32_t k = 0; k < scene->bit_count; k++) {
+        if (evaluation->dynamic)
+            dmb_bit_accept(sim, k);
+        else
+            sim->trial.bit_bottom[k] = sim->now.bit_bottom[k]; /* moving to equilibrium cuts nothing */
+    }
 }

@@ -13,7 +13,8 @@ typedef struct bit_motion {
     double axis[3];            /* the axis in the body frame */
 } bit_motion;
 
-/* Axis of the hole where the bit is, world frame; the line of its first pose without a hole. Advance [m] since time 0. */
+/* Axis of the hole where the bit is, world frame; the line of its first pose without a hole. Advance [m] since time 0.
+ */
 static double locate(const dmb_scene *scene, const dmb_configuration *c, const dmb_scene_bit *bit, const double R[9],
                      uint32_t *segment, double tangent[3])
 {
@@ -26,7 +27,8 @@ static double locate(const dmb_scene *scene, const dmb_configuration *c, const d
         if (scene->has_hole) dmb_hole_frame(&scene->hole, s, point, tangent, NULL);
         dmb_vec3_copy(c->displacement + 3 * node, moved);
         dmb_vec3_axpy(bit->arm, arm, moved);
-        return dmb_vec3_dot(tangent, moved) - bit->arm * (tangent[0] * start[0] + tangent[1] * start[3] + tangent[2] * start[6]);
+        return dmb_vec3_dot(tangent, moved) -
+               bit->arm * (tangent[0] * start[0] + tangent[1] * start[3] + tangent[2] * start[6]);
     }
     dmb_vec3_add(scene->reference_position + 3 * node, c->displacement + 3 * node, x);
     dmb_vec3_axpy(bit->arm, arm, x);
@@ -90,7 +92,8 @@ static void rock(const dmb_sim *sim, uint32_t k, double bottom, const bit_motion
                        m->spin, out);
 }
 
-/* K -= -(along dW + about dT) x (dU along + dPhi about), C likewise with V and Omega; and the load turns with the body. */
+/* K -= -(along dW + about dT) x (dU along + dPhi about), C likewise with V and Omega; and the load turns with the body.
+ */
 static void add_tangent(dmb_evaluation *evaluation, uint32_t k, const bit_motion *m, const dmb_bit_rock_result *r,
                         const double force[6])
 {

@@ -29,6 +29,23 @@ static int32_t travel_of(const dmb_sim *sim, const dmb_scene_drive *drive, doubl
     return status;
 }
 
+static int has_corner(const dmb_scene *scene, uint32_t programme, double from, double to)
+{
+    return programme != UINT32_MAX && dmb_programme_next_corner(scene->programmes + programme, from) <= to;
+}
+
+/* At a corner programmes tell the slope to come; the step that ends there ends with the slope it had. */
+static int32_t rate_before_corner(const dmb_sim *sim, uint32_t i, double time, double step, double *rate)
+{
+    const dmb_scene_drive *drive = sim->scene->drives + i;
+    const double before = time - 1e-9 * step, after = time + 1e-9 * step;
+    double value;
+    if (!has_corner(sim->scene, drive->programme, before, after) &&
+        !has_corner(sim->scene, drive->excitation, before, after))
+        return DMB_OK;
+    return target_of(sim, i, before, &value, rate);
+}
+
 static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
 {
     dmb_sim *sim = evaluation->sim;
@@ -36,6 +53,8 @@ static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
     double rate, travel;
     int32_t status = target_of(sim, i, evaluation->time, &sim->trial.drive_target[i], &rate);
     if (status < 0 || drive->kind != DMB_DRIVE_MOTION) return status;
+    if (evaluation->step > 0.0) status = rate_before_corner(sim, i, evaluation->time, evaluation->step, &rate);
+    if (status < 0) return status;
     status = travel_of(sim, drive, evaluation->time - evaluation->step, evaluation->time, &travel);
     if (status < 0) return status;
     sim->increment[drive->row] = travel;
@@ -43,6 +62,19 @@ static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
     sim->trial.acceleration[drive->row] = rate;
     sim->trial.pseudo_acceleration[drive->row] = rate;
     return DMB_OK;
+}
+
+int32_t dmb_system_rate_jumps(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->drive_count; i++) {
+        double value, rate;
+        if (scene->drives[i].kind != DMB_DRIVE_MOTION) continue;
+        if (target_of(sim, i, sim->clock->time, &value, &rate) < 0) continue;
+        const double last = sim->now.acceleration[scene->drives[i].row];
+        if (fabs(rate - last) > 1e-6 * (fabs(rate) + fabs(last) + fabs(value))) return 1; /* more than differencing noise */
+    }
+    return 0;
 }
 
 static int32_t factor_of(const dmb_scene *scene, uint32_t programme, double time, double *factor)

@@ -7,10 +7,10 @@
 
 /* One element's ends as its kernel sees them. */
 typedef struct element_ends {
-    double va[6], vb[6];       /* velocity at the ends */
-    double fa[6], fb[6];       /* force on the residual side, at the ends, then at the nodes */
+    double va[6], vb[6]; /* velocity at the ends */
+    double fa[6], fb[6]; /* force on the residual side, at the ends, then at the nodes */
     double scale_a[6], scale_b[6];
-    double reach;              /* [m] size of the numbers that the span is the difference of */
+    double reach; /* [m] size of the numbers that the span is the difference of */
 } element_ends;
 
 static void add_scaled(const double force[6], double scale[6])
@@ -103,8 +103,8 @@ static void blocks_to_nodes(const dmb_evaluation *evaluation, const dmb_element_
 
 /* Everything of one beam, its ends' poses and motion given: forces at the nodes in ends, tangent blocks in out. */
 static int32_t beam(dmb_evaluation *evaluation, uint32_t e, const double *qa, const double *Ra, const double *qb,
-                    const double span[3], double reach, const double *velocity_a, const double *velocity_b, const double *acc_a,
-                    const double *acc_b, element_ends *ends, element_tangent *out)
+                    const double span[3], double reach, const double *velocity_a, const double *velocity_b,
+                    const double *acc_a, const double *acc_b, element_ends *ends, element_tangent *out)
 {
     const dmb_element_type *type = evaluation->sim->scene->types + evaluation->sim->scene->element_type[e];
     dmb_beam_shape shape;
@@ -149,9 +149,9 @@ static int32_t gather_beam(dmb_evaluation *evaluation, uint32_t e)
     element_tangent t;
     double span[3];
     const double reach = span_of(scene, e, trial->displacement + 3 * a, trial->displacement + 3 * b, span);
-    const int32_t status = beam(evaluation, e, trial->quaternion + 4 * a, sim->rotation + 9 * a,
-                                trial->quaternion + 4 * b, span, reach, trial->velocity + ra, trial->velocity + rb,
-                                trial->acceleration + ra, trial->acceleration + rb, &ends, &t);
+    const int32_t status =
+        beam(evaluation, e, trial->quaternion + 4 * a, sim->rotation + 9 * a, trial->quaternion + 4 * b, span, reach,
+             trial->velocity + ra, trial->velocity + rb, trial->acceleration + ra, trial->acceleration + rb, &ends, &t);
     if (status < 0) return status;
     for (uint32_t i = 0; i < 6; i++) {
         sim->correction[ra + i] += ends.fa[i];
@@ -226,7 +226,7 @@ static void gather_path(dmb_evaluation *evaluation, uint32_t e)
 
 typedef struct mixed_side {
     double q[4], R[9], u[3], v[6], a[6];
-    double J[36];       /* (6, rows) row-major with `rows` columns used */
+    double J[36]; /* (6, rows) row-major with `rows` columns used */
     uint32_t rows;
 } mixed_side;
 
@@ -311,9 +311,12 @@ static int32_t gather_batch(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
     for (uint32_t e = batch->first; e < batch->first + batch->count; e++) {
         int32_t status = DMB_OK;
-        if (batch->kernel == DMB_KERNEL_BEAM) status = gather_beam(evaluation, e);
-        else if (batch->kernel == DMB_KERNEL_PATH) gather_path(evaluation, e);
-        else status = gather_mixed(evaluation, e);
+        if (batch->kernel == DMB_KERNEL_BEAM)
+            status = gather_beam(evaluation, e);
+        else if (batch->kernel == DMB_KERNEL_PATH)
+            gather_path(evaluation, e);
+        else
+            status = gather_mixed(evaluation, e);
         if (status < 0) {
             evaluation->element = e;
             return status;

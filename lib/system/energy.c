@@ -64,8 +64,10 @@ static void pose_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t
                     double u[3])
 {
     dmb_node_pose(scene, c, node, R, u);
-    if (is_path(scene, node)) dmb_quat_from_matrix(R, q);
-    else memcpy(q, c->quaternion + 4 * node, 4 * sizeof(double));
+    if (is_path(scene, node))
+        dmb_quat_from_matrix(R, q);
+    else
+        memcpy(q, c->quaternion + 4 * node, 4 * sizeof(double));
 }
 
 static void shape_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, dmb_beam_shape *shape)

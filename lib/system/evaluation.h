@@ -34,6 +34,8 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation);
 /* Targets of all drives at evaluation->time, loads' factors, and the motion of prescribed rows over the step: increment,
  * velocity and acceleration of the trial. Once a step, before the first evaluation. DMB_ERR_CALLBACK. */
 int32_t dmb_system_prescribe(dmb_evaluation *evaluation);
+/* 1 if at the present time the programme of a motion drive goes on with another slope than the step before ended with. */
+int32_t dmb_system_rate_jumps(const dmb_sim *sim);
 /* Iteration matrix K T6(increment) + inertia into the stiffness_ blocks, identity in rows that are not solved. */
 void dmb_system_iteration_matrix(const dmb_evaluation *evaluation);
 /* Extrapolates element_stress over a correction of body-frame pose increments (Magisano, Leonetti, Garcea 2017). */

@@ -27,15 +27,22 @@ void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation)
                          dmb_gravity_energy(sim->scene, &sim->now) + dmb_contact_energy(sim->scene, &sim->now);
 }
 
+void dmb_ledger_jump(dmb_sim *sim, const dmb_evaluation *evaluation)
+{
+    powers(sim, evaluation, sim->clock->power);
+}
+
 void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation)
 {
     const double half = 0.5 * evaluation->step;
     double power[8], *last = sim->clock->power;
     powers(sim, evaluation, power);
     for (int k = 0; k < DMB_POWER_COUNT; k++) sim->ledger->work[k] += half * (last[k] + power[k]);
-    sim->ledger->input += half * (fabs(last[DMB_POWER_DRIVES]) + fabs(last[DMB_POWER_LOADS]) +
-                                  fabs(power[DMB_POWER_DRIVES]) + fabs(power[DMB_POWER_LOADS]));
-    for (uint32_t i = 0; i < sim->scene->drive_count; i++)
-        sim->drive_work[i] += half * (drive_power(sim, &sim->now, i) + drive_power(sim, &sim->trial, i));
+    sim->ledger->input += half * (fabs(last[DMB_POWER_LOADS]) + fabs(power[DMB_POWER_LOADS]));
+    for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
+        const double before = drive_power(sim, &sim->now, i), after = drive_power(sim, &sim->trial, i);
+        sim->drive_work[i] += half * (before + after);
+        sim->ledger->input += half * (fabs(before) + fabs(after));
+    }
     memcpy(last, power, sizeof power);
 }

@@ -8,6 +8,8 @@
 
 /* Sets the ledger to zero at the present state (now) with the powers of the evaluation. */
 void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation);
+/* The powers of the evaluation hold from now on; nothing is added. */
+void dmb_ledger_jump(dmb_sim *sim, const dmb_evaluation *evaluation);
 /* Adds the step from now to trial; before the swap. */
 void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation);
 

@@ -59,24 +59,45 @@ static void gather_weight(dmb_evaluation *evaluation, uint32_t node)
     dmb_mat6_add_block(-1.0, product, 1, 1, dmb_stiffness_of(sim, node));
 }
 
-/* -c v per component: axial, lateral, lateral; torsional about x */
+static void gather_path_damping(dmb_evaluation *evaluation, uint32_t node, const double *c)
+{
+    dmb_sim *sim = evaluation->sim;
+    const double *v = sim->trial.velocity + sim->scene->layout.row[node];
+    const double f[6] = {-c[0] * v[0], 0.0, 0.0, -c[1] * v[1], 0.0, 0.0};
+    dmb_apply_wrench(sim, node, f);
+    evaluation->power[DMB_POWER_DAMPING] += f[0] * v[0] + f[3] * v[1];
+    if (!evaluation->tangent) return;
+    dmb_inertia_of(sim, node)[0] += evaluation->velocity_factor * c[0];
+    dmb_inertia_of(sim, node)[3] += evaluation->velocity_factor * c[1];
+}
+
+/* Lateral damping of pipe along x: a slice at x moves sideways with v_y + x w_z and v_z - x w_y. c = axial, torsional, and
+ * lateral times the integrals of 1, x, x^2. */
 static void gather_damping(dmb_evaluation *evaluation, uint32_t node)
 {
     dmb_sim *sim = evaluation->sim;
-    const double *c = sim->scene->node_damping + 3 * node;
-    const int path = sim->scene->layout.size[node] == DMB_NODE_PATH;
+    const double *c = sim->scene->node_damping + 5 * node;
     const double *v = sim->trial.velocity + sim->scene->layout.row[node];
-    double f[6] = {-c[0] * v[0], 0.0, 0.0, 0.0, 0.0, 0.0};
-    f[3] = -c[2] * v[path ? 1 : 3];
-    if (!path) f[1] = -c[1] * v[1], f[2] = -c[1] * v[2];
+    if (sim->scene->layout.size[node] == DMB_NODE_PATH) {
+        gather_path_damping(evaluation, node, c);
+        return;
+    }
+    const double f[6] = {-c[0] * v[0],
+                         -c[2] * v[1] - c[3] * v[5],
+                         -c[2] * v[2] + c[3] * v[4],
+                         -c[1] * v[3],
+                         c[3] * v[2] - c[4] * v[4],
+                         -c[3] * v[1] - c[4] * v[5]};
     dmb_apply_wrench(sim, node, f);
-    evaluation->power[DMB_POWER_DAMPING] += path ? f[0] * v[0] + f[3] * v[1] : dmb_vec6_dot(f, v);
+    evaluation->power[DMB_POWER_DAMPING] += dmb_vec6_dot(f, v);
     if (!evaluation->tangent) return;
     double *C = dmb_inertia_of(sim, node);
     const double s = evaluation->velocity_factor;
-    C[0] += s * c[0];
-    C[path ? 3 : 21] += s * c[2];
-    if (!path) C[7] += s * c[1], C[14] += s * c[1];
+    C[0] += s * c[0], C[21] += s * c[1];
+    C[7] += s * c[2], C[14] += s * c[2];
+    C[11] += s * c[3], C[31] += s * c[3];
+    C[16] -= s * c[3], C[26] -= s * c[3];
+    C[28] += s * c[4], C[35] += s * c[4];
 }
 
 void dmb_gather_nodes(dmb_evaluation *evaluation)

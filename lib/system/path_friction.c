@@ -83,8 +83,8 @@ static void gather_path_site(dmb_evaluation *evaluation, uint32_t p)
     const double v[2] = {evaluation->dynamic ? row[0] : evaluation->slip[0], site->radius * spin};
     double direction[3], tangent[3], by_tension, F[2], dv[4], dN[2];
     const double tension = tension_at(scene, sim->element_strain, site->node);
-    const double N = side_force(scene, &sim->trial, site, tension, evaluation->load_factor, direction, tangent,
-                                &by_tension);
+    const double N =
+        side_force(scene, &sim->trial, site, tension, evaluation->load_factor, direction, tangent, &by_tension);
     sim->path_normal[p] = N;
     memcpy(sim->trial.path_slip + 2 * p, v, sizeof v);
     if (!evaluation->dynamic && !evaluation->slipping) return;

@@ -2,11 +2,11 @@
 
 #include <string.h>
 
+#include "math/so3.h"
+#include "system/bit.h"
 #include "system/ledger.h"
 #include "system/owner.h"
 #include "system/solve.h"
-#include "math/so3.h"
-#include "system/bit.h"
 
 static void described_pose(dmb_sim *sim)
 {
@@ -57,23 +57,15 @@ static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
     memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
 }
 
-/* M v' = what is left of the forces: the iteration matrix with the stiffness taken away. */
+/* M v' = what is left of the forces. */
 static int32_t solve_accelerations(dmb_sim *sim, dmb_evaluation *evaluation)
 {
-    const dmb_block_layout *layout = &sim->scene->layout;
-    const uint32_t n = sim->scene->node_count;
-    int32_t status = dmb_system_evaluate(evaluation);
-    if (status < 0) return status;
-    memset(sim->stiffness_diagonal, 0, layout->diag[n] * sizeof(double));
-    memset(sim->stiffness_upper, 0, layout->link[n - 1] * sizeof(double));
-    memset(sim->stiffness_lower, 0, layout->link[n - 1] * sizeof(double));
-    dmb_system_iteration_matrix(evaluation);
-    const int64_t bad = dmb_factor_matrix(sim);
-    if (bad >= 0) {
-        const dmb_owner owner = dmb_owner_of_node(sim->scene, (uint32_t)bad);
+    const int32_t status = dmb_factor_mass(evaluation);
+    if (status == DMB_ERR_SINGULAR) {
+        const dmb_owner owner = dmb_owner_of_node(sim->scene, evaluation->element);
         dmb_message_set(&sim->message, "%s %u, pipe %u: mass matrix singular", owner.kind, owner.index, owner.pipe);
-        return DMB_ERR_SINGULAR;
     }
+    if (status < 0) return status;
     dmb_solve_correction(sim);
     for (uint32_t i = 0; i < sim->scene->row_count; i++) {
         sim->trial.acceleration[i] += sim->correction[i];
@@ -97,27 +89,39 @@ static void explain(dmb_sim *sim, const dmb_evaluation *evaluation, int32_t stat
     }
 }
 
+/* Accelerations of trial for its pose and speeds, forces of motion drives, powers of the evaluation. */
+static int32_t make_consistent(dmb_sim *sim, dmb_evaluation *evaluation)
+{
+    const int32_t status = solve_accelerations(sim, evaluation);
+    if (status < 0) return status;
+    memcpy(sim->residual_row, sim->correction, sim->scene->row_count * sizeof(double));
+    for (uint32_t i = 0; i < sim->scene->drive_count; i++)
+        if (sim->scene->drives[i].kind == DMB_DRIVE_MOTION)
+            sim->trial.drive_force[i] = sim->correction[sim->scene->drives[i].row];
+    return DMB_OK;
+}
+
+static int32_t present(dmb_sim *sim, dmb_evaluation *evaluation)
+{
+    set_up(sim, evaluation);
+    dmb_configuration_copy(sim, &sim->now, &sim->trial);
+    memset(sim->trial.acceleration, 0, sim->scene->row_count * sizeof(double));
+    return held_speeds(sim, evaluation);
+}
+
 int32_t dmb_system_restart(dmb_sim *sim)
 {
     dmb_evaluation evaluation;
-    int32_t status;
-    set_up(sim, &evaluation);
-    dmb_configuration_copy(sim, &sim->now, &sim->trial);
-    memset(sim->trial.acceleration, 0, sim->scene->row_count * sizeof(double));
-    status = held_speeds(sim, &evaluation);
+    int32_t status = present(sim, &evaluation);
     if (status >= 0) {
         memcpy(sim->now.drive_target, sim->trial.drive_target, sim->scene->drive_count * sizeof(double));
         project_speeds(sim);
-        status = solve_accelerations(sim, &evaluation);
+        status = make_consistent(sim, &evaluation);
     }
     if (status < 0) {
         explain(sim, &evaluation, status);
         return status;
     }
-    memcpy(sim->residual_row, sim->correction, sim->scene->row_count * sizeof(double));
-    for (uint32_t i = 0; i < sim->scene->drive_count; i++)
-        if (sim->scene->drives[i].kind == DMB_DRIVE_MOTION)
-            sim->trial.drive_force[i] = sim->correction[sim->scene->drives[i].row];
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
     sim->clock->step = 0.0;
     sim->clock->next_step = 0.0;
@@ -125,13 +129,32 @@ int32_t dmb_system_restart(dmb_sim *sim)
     return DMB_OK;
 }
 
+/* Only accelerations and what follows from them change; contacts keep what they remember. */
+int32_t dmb_system_jump(dmb_sim *sim)
+{
+    dmb_evaluation evaluation;
+    int32_t status = present(sim, &evaluation);
+    if (status >= 0) status = make_consistent(sim, &evaluation);
+    if (status < 0) {
+        explain(sim, &evaluation, status);
+        return status;
+    }
+    const dmb_scene *scene = sim->scene;
+    memcpy(sim->now.acceleration, sim->trial.acceleration, scene->row_count * sizeof(double));
+    memcpy(sim->now.pseudo_acceleration, sim->trial.acceleration, scene->row_count * sizeof(double));
+    memcpy(sim->now.drive_target, sim->trial.drive_target, scene->drive_count * sizeof(double));
+    memcpy(sim->now.drive_force, sim->trial.drive_force, scene->drive_count * sizeof(double));
+    if (sim->options.energy_ledger) dmb_ledger_jump(sim, &evaluation);
+    return DMB_OK;
+}
+
 int32_t dmb_system_start(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     described_pose(sim);
+    for (uint32_t k = 0; k < scene->bit_count; k++) dmb_bit_start(sim, k);
     const int32_t status = dmb_system_restart(sim);
     if (status < 0) return status;
-    for (uint32_t k = 0; k < scene->bit_count; k++) dmb_bit_start(sim, k);
     const double *most = sim->counters->projection;
     if (most[0] <= 1e-12 && most[1] <= 1e-12) return DMB_OK;
     dmb_message_set(&sim->message, "initial velocities: projected onto the allowed motion, by %g m/s and %g rad/s",

@@ -23,7 +23,7 @@ typedef struct contact_frame {
     double distance;         /* [m] e */
     double bend[3];          /* [rad/m] world: the frame turns by `bend` a metre of the axis; 0 where it is straight */
     double V[6];
-    double speed[3];         /* v_n, v_t, v_b */
+    double speed[3]; /* v_n, v_t, v_b */
 } contact_frame;
 
 /* Forces and their derivatives: F = (-N, F_t, F_b), D[k][l] = dF_k/dv_l, P[k] = dF_k/d penetration. */
@@ -85,12 +85,25 @@ static void static_speeds(const dmb_evaluation *evaluation, const dmb_site *site
     f->speed[2] = site->radius * evaluation->slip[1];
 }
 
-/* Speed v0 of the restitution laws: that at the last accepted instant before touching. While open the field follows the
- * present normal speed. */
-static double approach_speed(const dmb_sim *sim, uint32_t s, double penetration, double rate)
+/* Speed of the ring at the last accepted instant towards where it is now: it may have crossed the axis since. */
+static double speed_before(const dmb_sim *sim, const dmb_site *site, const double normal[3])
 {
-    if (sim->now.site_penetration[s] > 0.0 || penetration > 0.0) return sim->now.site_approach[s];
-    return rate;
+    double R[9], V[6];
+    dmb_vec6_copy(sim->now.velocity + sim->scene->layout.row[site->node], V);
+    dmb_arm_velocity(site->offset, V);
+    dmb_quat_to_matrix(sim->now.quaternion + 4 * site->node, R);
+    dmb_mat3_vec(R, V, V);
+    return dmb_vec3_dot(normal, V);
+}
+
+/* Speed v0 of the restitution laws: that at the last accepted instant before touching. While open the field follows the
+ * present normal speed. A ring that opens and falls back within one step comes as fast as it left. */
+static double approach_speed(const dmb_sim *sim, uint32_t s, double penetration, const contact_frame *f)
+{
+    if (!(penetration > 0.0)) return sim->now.site_penetration[s] > 0.0 ? sim->now.site_approach[s] : f->speed[0];
+    if (sim->site_return[s] > 0.0) return sim->site_return[s];
+    if (sim->now.site_penetration[s] > 0.0) return sim->now.site_approach[s];
+    return speed_before(sim, sim->scene->sites + s, f->world_normal);
 }
 
 static void friction(const dmb_evaluation *evaluation, uint32_t s, double N, double N_depth, double N_rate,
@@ -133,8 +146,7 @@ static void normal(const dmb_scene *scene, uint32_t s, double penetration, doubl
 /* w = [-N (b;0) + F_t (0; r n) + F_b (-n; 0)] + sum j_k D_kl (dj_l/dpsi . V): change by a swing psi around the axis */
 static void swing_vector(const contact_frame *f, const contact_force *c, double radius, double out[6])
 {
-    const double dv[3] = {dmb_vec3_dot(f->b, f->V), radius * dmb_vec3_dot(f->n, f->V + 3),
-                          -dmb_vec3_dot(f->n, f->V)};
+    const double dv[3] = {dmb_vec3_dot(f->b, f->V), radius * dmb_vec3_dot(f->n, f->V + 3), -dmb_vec3_dot(f->n, f->V)};
     for (int i = 0; i < 3; i++) {
         out[i] = c->F[0] * f->b[i] - c->F[2] * f->n[i];
         out[3 + i] = radius * c->F[1] * f->n[i];
@@ -278,7 +290,7 @@ static void gather_site(dmb_evaluation *evaluation, uint32_t s)
     const double penetration = f.distance - site->clearance;
     dmb_vec3_copy(f.world_normal, sim->trial.site_normal + 3 * s);
     sim->trial.site_penetration[s] = penetration;
-    sim->trial.site_approach[s] = approach_speed(sim, s, penetration, f.speed[0]);
+    sim->trial.site_approach[s] = approach_speed(sim, s, penetration, &f);
     sim->trial.site_slip[2 * s] = f.speed[1];
     sim->trial.site_slip[2 * s + 1] = f.speed[2];
     if (penetration > 0.0 || site->clearance == 0.0) {

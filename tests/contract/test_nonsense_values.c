@@ -346,6 +346,8 @@ static void drives_are_set_to_numbers(void **state)
     (void)state;
     refused("infinity", dmb_sim_set_drive(scene.sim, scene.parts.turning, (double)INFINITY), DMB_ERR_NOT_FINITE);
     refused("-infinity", dmb_sim_set_drive(scene.sim, scene.parts.turning, -(double)INFINITY), DMB_ERR_NOT_FINITE);
+    refused("too much", dmb_sim_set_drive(scene.sim, scene.parts.turning, 1.1e30), DMB_ERR_VALUE);
+    refused("too much", dmb_sim_set_drive(scene.sim, scene.parts.turning, -DBL_MAX), DMB_ERR_VALUE);
     refused("motion", dmb_sim_set_drive(scene.sim, scene.parts.feed, 1.0), DMB_ERR_UNSUPPORTED);
     refused("motion", dmb_sim_set_drive(scene.sim, scene.parts.feed, (double)NAN), DMB_ERR_UNSUPPORTED);
     for (int kind = 0; kind < KINDS; kind++) {
@@ -358,9 +360,9 @@ static void drives_are_set_to_numbers(void **state)
 /* A load beyond all bounds: the steps fail, or the answers stay finite. */
 static void huge_drive_does_no_harm(void **state)
 {
-    static const double values[] = {DBL_MAX, -DBL_MAX, 1e30, 1e15};
+    static const double values[] = {1e30, -1e30, 1e15};
     (void)state;
-    for (size_t i = 0; i < 4; i++) {
+    for (size_t i = 0; i < 3; i++) {
         dmb_energy energy = dmb_energy_default();
         assert_int_equal(dmb_sim_set_drive(scene.sim, scene.parts.pushing, values[i]), DMB_OK);
         scene.hash = whole_hash(scene.sim);

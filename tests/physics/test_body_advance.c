@@ -1,5 +1,5 @@
-/* Error-controlled steps of dmb_sim_advance against tight references. The control holds the local error of third order, so
- * the global one goes with tolerance^(2/3) and the number of steps with tolerance^(-1/3) (THEORY 4). */
+/* Error-controlled steps of dmb_sim_advance against tight references. The control holds the local error of third order,
+ * so the global one goes with tolerance^(2/3) and the number of steps with tolerance^(-1/3) (THEORY 4). */
 #include "ode.h"
 #include "rig.h"
 
@@ -61,7 +61,8 @@ static void error_follows_the_tolerance(void **state)
     check_close("exponent of the steps over 1/tolerance", growth, 1.0 / 3.0, 0.02);
 }
 
-/* A body pushed by 1 N with a STEP between 2 and 2.01 s: long steps before, short ones in the flank, long ones again. */
+/* A body pushed by 1 N with a STEP between 2 and 2.01 s: long steps before, short ones in the flank, long ones again.
+ */
 static void steps_grow_and_shrink(void **state)
 {
     (void)state;

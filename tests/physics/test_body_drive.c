@@ -1,5 +1,5 @@
-/* Drives on single bodies: motion by every kind of programme, corners, speed control with limits, what does not fit at the
- * start, and a thousand revolutions. */
+/* Drives on single bodies: motion by every kind of programme, corners, speed control with limits, what does not fit at
+ * the start, and a thousand revolutions. */
 #include <stdio.h>
 #include <string.h>
 
@@ -22,7 +22,7 @@ static dmb_drive_state drive_of(const rig *s, dmb_id drive)
     return state;
 }
 
-/* ---- Motion by every kind of programme ---------------------------------------------------------------------------- */
+/* ---- Motion by every kind of programme --------------------------------------------------------------------------- */
 
 /* STEP term: integral h0 t and h0 s + (h1-h0)(x1-x0)(D^3 - D^4/2), then h1. THEORY 5. */
 static double step_integral(double x0, double h0, double x1, double h1, double t)
@@ -149,10 +149,10 @@ static void force_of_a_prescribed_motion(void **state)
     rig_close(&s);
 }
 
-/* ---- Corners ------------------------------------------------------------------------------------------------------ */
+/* ---- Corners ----------------------------------------------------------------------------------------------------- */
 
-/* A force along straight lines between the corners of a table: a step over the corners is divided there, and nowhere else.
- * In each part the force is linear in time, so the scheme's speed is off by terms of the kinks' size only. */
+/* A force along straight lines between the corners of a table: a step over the corners is divided there, and nowhere
+ * else. In each part the force is linear in time, so the scheme's speed is off by terms of the kinks' size only. */
 static void corners_are_ends_of_steps(void **state)
 {
     (void)state;
@@ -208,7 +208,7 @@ static void advance_stops_at_corners(void **state)
     rig_close(&s);
 }
 
-/* ---- Speed control ------------------------------------------------------------------------------------------------ */
+/* ---- Speed control ----------------------------------------------------------------------------------------------- */
 
 /* m v' = clamp(kp e + ki z), e = v* - v, z' = e held while the limit acts. Limited until e = F/kp; then
  * m e'' + kp e' + ki e = 0 with e = F/kp and e' = -F/m (z still 0). */
@@ -264,7 +264,7 @@ static void speed_control_with_limits(void **state)
     tell("    force at h 5e-3", force[1]);
 }
 
-/* ---- Hard case 11: speeds that do not fit ------------------------------------------------------------------------- */
+/* ---- Hard case 11: speeds that do not fit ------------------------------------------------------------------------ */
 
 static void speeds_that_do_not_fit_are_projected(void **state)
 {
@@ -290,7 +290,7 @@ static void speeds_that_do_not_fit_are_projected(void **state)
     rig_close(&s);
 }
 
-/* ---- Hard case 5: a thousand revolutions -------------------------------------------------------------------------- */
+/* ---- Hard case 5: a thousand revolutions ------------------------------------------------------------------------- */
 
 static double off_orthonormal(const double R[9])
 {
@@ -304,8 +304,8 @@ static double off_orthonormal(const double R[9])
 }
 
 /* Two flexible pipes turned at 200 rpm for 300 s against viscous torque: the torque of the last second is that of the
- * first settled one, angles count every turn, rotations stay rotations. What a pose rounds to, times EA/L, is 6e-7 N, and a
- * step takes that for zero: 5e-9 of the torque. */
+ * first settled one, angles count every turn, rotations stay rotations. What a pose rounds to, times EA/L, is 6e-7 N,
+ * and a step takes that for zero: 5e-9 of the torque. */
 static void thousand_revolutions(void **state)
 {
     (void)state;
@@ -327,8 +327,8 @@ static void thousand_revolutions(void **state)
     options.newton_tolerance = 1e-13;
     (void)rig_start(&s, &options);
     take_steps(&s, 5e-3, 4000);
-    const double early = drive_of(&s, drive).force, twist = rotation_at(&s, dmb_station(string, 0, 0.0)) -
-                                                            rotation_at(&s, dmb_station(string, 1, 1.0));
+    const double early = drive_of(&s, drive).force,
+                 twist = rotation_at(&s, dmb_station(string, 0, 0.0)) - rotation_at(&s, dmb_station(string, 1, 1.0));
     take_steps(&s, 5e-3, 56000);
     check_close("rig end turned by [rad]", rotation_at(&s, dmb_station(string, 0, 0.0)), turned, 1e-10 * turned);
     check_relative("torque after 1000 revolutions over that after 65", drive_of(&s, drive).force, early, 5e-9);
@@ -337,7 +337,8 @@ static void thousand_revolutions(void **state)
                    rotation_at(&s, dmb_station(string, 0, 0.0)) - rotation_at(&s, dmb_station(string, 1, 1.0)), twist,
                    1e-7);
     for (uint32_t i = 0; i < 2; i++)
-        check_below("rotation off orthonormal", off_orthonormal(pose_at(&s, dmb_station(string, i, 1.0)).rotation), 1e-14);
+        check_below("rotation off orthonormal", off_orthonormal(pose_at(&s, dmb_station(string, i, 1.0)).rotation),
+                    1e-14);
     rig_close(&s);
 }
 

@@ -1,5 +1,5 @@
-/* One body on one rotation: pendulums against the elliptic motion, the scheme against its own recurrence, steps of changing
- * length, drift. */
+/* One body on one rotation: pendulums against the elliptic motion, the scheme against its own recurrence, steps of
+ * changing length, drift. */
 #include <stdio.h>
 
 #include "ode.h"
@@ -36,11 +36,11 @@ static void pendulum_rate(void *context, double t, const double *y, double *rate
     rate[1] = -*(const double *)context * sin(y[0]);
 }
 
-/* ---- Pendulum L 1 from (-1, 0) ------------------------------------------------------------------------------------ */
+/* ---- Pendulum L 1 from (-1, 0) ----------------------------------------------------------------------------------- */
 
-/* CASES.md: released at rest from (-1, 0), g 9.81; places of the bob. The scheme's own error at 10 s with a step of 1e-3 is
- * 2.3e-5 m, 5.3e-6 s of a period of 2.37 s, and no spectral radius makes it smaller; so 1e-5 is asked for up to 5 s, and
- * at 10 s with half the step. */
+/* CASES.md: released at rest from (-1, 0), g 9.81; places of the bob. The scheme's own error at 10 s with a step of
+ * 1e-3 is 2.3e-5 m, 5.3e-6 s of a period of 2.37 s, and no spectral radius makes it smaller; so 1e-5 is asked for up to
+ * 5 s, and at 10 s with half the step. */
 static void swing_from_the_side(double r, double h, int places, double tolerance)
 {
     static const double time[3] = {1.0, 5.0, 10.0};
@@ -74,7 +74,8 @@ static void pendulum_released_from_the_side(void **state)
     swing_from_the_side(0.8, 5e-4, 3, 1e-5);
 }
 
-/* The period, as the time between two passes through the lowest point in the same sense, from dense output in between. */
+/* The period, as the time between two passes through the lowest point in the same sense, from dense output in between.
+ */
 static double time_of_next_pass(const rig *s, dmb_id id)
 {
     double before, after = angle_of(s, id);
@@ -262,8 +263,8 @@ static void changing_steps_keep_second_order(void **state)
 
 /* ---- Drift ------------------------------------------------------------------------------------------------------- */
 
-/* 1e6 steps: the held point stays to the last bit, the rotation stays a rotation, and without numerical damping the energy
- * does not drift. */
+/* 1e6 steps: the held point stays to the last bit, the rotation stays a rotation, and without numerical damping the
+ * energy does not drift. */
 static void nothing_drifts_in_a_million_steps(void **state)
 {
     (void)state;

@@ -3,12 +3,12 @@
 
 #include "rig.h"
 
-/* ---- Axial wave ---------------------------------------------------------------------------------------------------- */
+/* ---- Axial wave -------------------------------------------------------------------------------------------------- */
 
-#define WAVE 5172.194 /* [m/s] c of S1 */
+#define WAVE 5172.194       /* [m/s] c of S1 */
 #define IMPEDANCE 73471.134 /* [N s/m] Z of S1 */
-/* Step over the time a wave takes through an element: the consistent mass leads by (k L)^2/24, the scheme with r 0.8 lags by
- * 1.05 (w h)^2/12, and at this pace the two cancel. */
+/* Step over the time a wave takes through an element: the consistent mass leads by (k L)^2/24, the scheme with r 0.8
+ * lags by 1.05 (w h)^2/12, and at this pace the two cancel. */
 #define PACE 0.69
 
 /* 100 m of S1 in `elements` elements, on its own axis, without gravity. */
@@ -36,8 +36,8 @@ static dmb_id open_bar(rig *s, int32_t kind, uint32_t elements, int32_t start_fr
     return string;
 }
 
-/* The bar strikes a rigid wall with its rig end at 1 m/s: Z v for 2 L/c, then it lets go. 1000 elements. Plateau: mean and
- * spread between 5 and 95 % of it; front: where half is crossed. */
+/* The bar strikes a rigid wall with its rig end at 1 m/s: Z v for 2 L/c, then it lets go. 1000 elements. Plateau: mean
+ * and spread between 5 and 95 % of it; front: where half is crossed. */
 static void bar_strikes_a_wall(void **state)
 {
     (void)state;
@@ -181,8 +181,8 @@ static void bar_keeps_its_energy(void **state)
     rig_close(&s);
 }
 
-/* A cantilever of one element swinging by 4e-6 of its length: as good as linear. With steps of 1e-3 s, which do not resolve
- * its second mode and the stretch that follows bending, it would be 5e-8. */
+/* A cantilever of one element swinging by 4e-6 of its length: as good as linear. With steps of 1e-3 s, which do not
+ * resolve its second mode and the stretch that follows bending, it would be 5e-8. */
 static void beam_keeps_its_energy(void **state)
 {
     (void)state;
@@ -205,10 +205,8 @@ static void beam_keeps_its_energy(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bar_strikes_a_wall),
-        cmocka_unit_test(step_on_a_free_end),
-        cmocka_unit_test(axial_mode_decays),
-        cmocka_unit_test(bar_keeps_its_energy),
+        cmocka_unit_test(bar_strikes_a_wall),    cmocka_unit_test(step_on_a_free_end),
+        cmocka_unit_test(axial_mode_decays),     cmocka_unit_test(bar_keeps_its_energy),
         cmocka_unit_test(beam_keeps_its_energy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

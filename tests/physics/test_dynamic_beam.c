@@ -3,7 +3,7 @@
 
 #include "rig.h"
 
-/* ---- Spin-up ------------------------------------------------------------------------------------------------------ */
+/* ---- Spin-up ----------------------------------------------------------------------------------------------------- */
 
 /* Simo, Vu-Quoc 1986: psi' = (Om/T)(t - T/(2 pi) sin(2 pi t/T)) up to T, Om after; Om 6 rad/s, T 15 s. */
 #define SPIN 6.0
@@ -92,8 +92,8 @@ static double settled_stretch(uint32_t elements)
     return u[0];
 }
 
-/* The mass, constant in the body frame, spreads the centrifugal force of an element by its cubic shapes: rho A Om^2 Le^2/60
- * too much at the far end, a stretch of second order in Le, 2e-4 of it with 16 elements. */
+/* The mass, constant in the body frame, spreads the centrifugal force of an element by its cubic shapes: rho A Om^2
+ * Le^2/60 too much at the far end, a stretch of second order in Le, 2e-4 of it with 16 elements. */
 static void steady_stretch(void **state)
 {
     (void)state;
@@ -143,7 +143,7 @@ static void prescribed_rotation_is_of_second_order(void **state)
     check_order("reaction", reaction[1], reaction[2], 2.0, 0.05);
 }
 
-/* ---- Free flight -------------------------------------------------------------------------------------------------- */
+/* ---- Free flight ------------------------------------------------------------------------------------------------- */
 
 /* L - c x p, and its size. Momentum about a point far away would tell the drift of p once more. */
 static double moment_about_centre(const dmb_momentum *m, double out[3])

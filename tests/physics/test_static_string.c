@@ -8,7 +8,7 @@
 #define FAST 1e3
 
 typedef struct s1_choice {
-    int32_t kind;        /* DMB_PIPE_... */
+    int32_t kind; /* DMB_PIPE_... */
     uint32_t pipes, elements;
     double push, torque; /* [N] against the feed and [N m] against the rotation, at the far end */
 } s1_choice;
@@ -90,8 +90,8 @@ static void turning_axial_torsional_string(void **state)
     rig_close(&s);
 }
 
-/* A flexible string sags between pipe ends and hangs in its guide; wall and guide together carry the weight, and the rig
- * pushes with WOB + mu times what the wall carries. */
+/* A flexible string sags between pipe ends and hangs in its guide; wall and guide together carry the weight, and the
+ * rig pushes with WOB + mu times what the wall carries. */
 static void pushed_flexible_string(void **state)
 {
     (void)state;
@@ -112,7 +112,8 @@ static void pushed_flexible_string(void **state)
     rig_close(&s);
 }
 
-/* The same turning: torque by friction around the axis climbs the wall by little; what is left is that of the normals. */
+/* The same turning: torque by friction around the axis climbs the wall by little; what is left is that of the normals.
+ */
 static void turning_flexible_string(void **state)
 {
     (void)state;
@@ -131,7 +132,7 @@ static void turning_flexible_string(void **state)
     rig_close(&s);
 }
 
-/* ---- Hard case 14: everything falls on the wall at once --------------------------------------------------------- */
+/* ---- Hard case 14: everything falls on the wall at once ---------------------------------------------------------- */
 
 /* Clamped on the axis, it touches down where moment and slope vanish: 72 EI c = w l^4, and 2 w l/3 hangs in the clamp.
  * So of S1 in a hole of 94 mm the nodes on the first 5.73 m stay in the air. */
@@ -154,7 +155,8 @@ static void check_fall(uint32_t nodes, int32_t lay, double iterations)
     rig_end_reaction(&s, string, reaction);
     print_message("    %u nodes, %s\n", nodes, lay ? "laid on the wall first" : "from the axis");
     check_below("    iterations", report.iterations, iterations);
-    check_relative("    weight on wall and clamp", sum.normal_force + reaction[2], 1.5 * nodes * s1_values().weight, 1e-6);
+    check_relative("    weight on wall and clamp", sum.normal_force + reaction[2], 1.5 * nodes * s1_values().weight,
+                   1e-6);
     assert_int_equal(nodes - sum.closed, (int)(touchdown() / 1.5));
     if (lay) assert_int_equal(report.method, DMB_STATIC_NEWTON);
     rig_close(&s);
@@ -205,8 +207,8 @@ static void long_strings_cost_in_proportion(void **state)
 /* ---- Refinement -------------------------------------------------------------------------------------------------- */
 
 /* Forces of S1 with 1, 2, 4 .. elements in a pipe of 1.5 m. The wall carries what the clamp leaves; the clamp carries
- * 2 w l/3 of the closed form above (531.96 N with a rigid wall, without shear). Where the string touches down is known to one
- * element, so the convergence is not smooth: 536.9, 531.1, 531.7, 531.7 N. */
+ * 2 w l/3 of the closed form above (531.96 N with a rigid wall, without shear). Where the string touches down is known
+ * to one element, so the convergence is not smooth: 536.9, 531.1, 531.7, 531.7 N. */
 static void forces_do_not_depend_on_the_mesh(void **state)
 {
     (void)state;
@@ -222,13 +224,15 @@ static void forces_do_not_depend_on_the_mesh(void **state)
         print_message("    %u elements a pipe: clamp %.3f N, wall %.3f N, deepest %.4g m\n", 1u << k, reaction[2],
                       contacts_of(&s).normal_force, contacts_of(&s).deepest);
         check_relative("    clamp", reaction[2], want, tolerance[k]);
-        check_relative("    clamp and wall", contacts_of(&s).normal_force + reaction[2], 150.0 * s1_values().weight, 1e-10);
+        check_relative("    clamp and wall", contacts_of(&s).normal_force + reaction[2], 150.0 * s1_values().weight,
+                       1e-10);
         rig_close(&s);
     }
 }
 
-/* A pipe of 24 m, clamped at its rig end, whose far end lies on the wall of a wide hole through the ring of a body: contact
- * force, sag at the middle and moment in the clamp under its weight, with bending so large that the nodes are no longer exact. */
+/* A pipe of 24 m, clamped at its rig end, whose far end lies on the wall of a wide hole through the ring of a body:
+ * contact force, sag at the middle and moment in the clamp under its weight, with bending so large that the nodes are
+ * no longer exact. */
 typedef struct prop {
     double normal, sag, moment;
 } prop;
@@ -279,7 +283,8 @@ static void elements_are_of_fourth_order(void **state)
         error[k].sag = fabs(got.sag - exact.sag);
         error[k].moment = fabs(got.moment - exact.moment);
         print_message("    %2u elements: contact force off by %.3g, sag %.3g, moment %.3g (relative)\n", 2u << k,
-                      error[k].normal / exact.normal, error[k].sag / fabs(exact.sag), error[k].moment / fabs(exact.moment));
+                      error[k].normal / exact.normal, error[k].sag / fabs(exact.sag),
+                      error[k].moment / fabs(exact.moment));
     }
     check_order("contact force, 8 and 16 elements", error[2].normal, error[3].normal, 4.0, 0.3);
     check_order("sag, 8 and 16 elements", error[2].sag, error[3].sag, 4.0, 0.3);
@@ -289,14 +294,10 @@ static void elements_are_of_fourth_order(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pushed_axial_torsional_string),
-        cmocka_unit_test(turning_axial_torsional_string),
-        cmocka_unit_test(pushed_flexible_string),
-        cmocka_unit_test(turning_flexible_string),
-        cmocka_unit_test(string_falls_on_the_wall),
-        cmocka_unit_test(string_falls_from_the_axis),
-        cmocka_unit_test(long_strings_cost_in_proportion),
-        cmocka_unit_test(forces_do_not_depend_on_the_mesh),
+        cmocka_unit_test(pushed_axial_torsional_string),   cmocka_unit_test(turning_axial_torsional_string),
+        cmocka_unit_test(pushed_flexible_string),          cmocka_unit_test(turning_flexible_string),
+        cmocka_unit_test(string_falls_on_the_wall),        cmocka_unit_test(string_falls_from_the_axis),
+        cmocka_unit_test(long_strings_cost_in_proportion), cmocka_unit_test(forces_do_not_depend_on_the_mesh),
         cmocka_unit_test(elements_are_of_fourth_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

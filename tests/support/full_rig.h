@@ -14,9 +14,9 @@ typedef struct full_rig_choice {
     int32_t rings_only;   /* 1: no axial-torsional pipes, no loads in the frame of the hole, no bottom-hole load */
 } full_rig_choice;
 
-/* Rig head - flexible pipe in 2 elements with tool joint - 2 axial-torsional pipes - flexible pipe - rigid pipe - flexible
- * pipe - bit, in a hole; loads in all frames on several parts, control and load drives, damping, eccentric pipes; and a
- * free body of its own that touches the wall. */
+/* Rig head - flexible pipe in 2 elements with tool joint - 2 axial-torsional pipes - flexible pipe - rigid pipe -
+ * flexible pipe - bit, in a hole; loads in all frames on several parts, control and load drives, damping, eccentric
+ * pipes; and a free body of its own that touches the wall. */
 void full_rig_open(rig *s, const full_rig_choice *choice);
 
 #endif

@@ -125,8 +125,7 @@ void take_steps(const rig *s, double h, uint32_t n)
 {
     for (uint32_t i = 0; i < n; i++) {
         const int32_t status = dmb_sim_step(s->sim, h, NULL);
-        if (status != DMB_OK)
-            fail_msg("step %u: %s: %s", i, dmb_status_name(status), dmb_sim_message(s->sim));
+        if (status != DMB_OK) fail_msg("step %u: %s: %s", i, dmb_status_name(status), dmb_sim_message(s->sim));
     }
 }
 

@@ -54,8 +54,10 @@ static two_ends moved(const two_ends *ends, int c, double step)
     two_ends out = *ends;
     double h[6] = {0.0};
     h[c % 6] = step;
-    if (c < 6) dmb_se3_advance(out.qa, out.xa, h);
-    else dmb_se3_advance(out.qb, out.xb, h);
+    if (c < 6)
+        dmb_se3_advance(out.qa, out.xa, h);
+    else
+        dmb_se3_advance(out.qb, out.xb, h);
     return out;
 }
 
@@ -255,8 +257,8 @@ static void damping_is_the_derivative_by_velocity(void **state)
         for (int c = 0; c < 12; c++) {
             two_ends plus = ends, minus = ends;
             double a[12], b[12];
-            *(c < 6 ? plus.va + c : plus.vb + c - 6) += 0.5;
-            *(c < 6 ? minus.va + c : minus.vb + c - 6) -= 0.5;
+            *(c < 6 ? plus.va + c : plus.vb + (c - 6)) += 0.5;
+            *(c < 6 ? minus.va + c : minus.vb + (c - 6)) -= 0.5;
             node_force(&type, &plus, a);
             node_force(&type, &minus, b);
             for (int i = 0; i < 12; i++)
@@ -388,8 +390,12 @@ static void mass_carries_rigid_motion_exactly(void **state)
         dmb_arm_wrench(L, pb);
         for (int i = 0; i < 6; i++) sum[i] = pa[i] + pb[i];
         const double c = 0.5 * L, *w = va + 3;
-        const double want[6] = {m * va[0], m * (va[1] + c * w[2]), m * (va[2] - c * w[1]), section.inertia[0] * L * w[0],
-                                across * w[1] - m * c * va[2], across * w[2] + m * c * va[1]};
+        const double want[6] = {m * va[0],
+                                m * (va[1] + c * w[2]),
+                                m * (va[2] - c * w[1]),
+                                section.inertia[0] * L * w[0],
+                                across * w[1] - m * c * va[2],
+                                across * w[2] + m * c * va[1]};
         worst = fmax(worst, largest_difference(6, sum, want) / largest(6, want));
     }
     check_below("momentum of a rigidly moved element", worst, 5e-15);

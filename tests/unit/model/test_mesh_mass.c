@@ -317,8 +317,8 @@ static void external_damping_goes_by_length(void **state)
     scene = compiled(model);
     assert_int_equal(scene->features & DMB_FEATURE_DAMPING, DMB_FEATURE_DAMPING);
     assert_near(scene->node_damping[0], 2.0 * 0.325, 1e-14);
-    assert_near(scene->node_damping[4], 10.0 * (0.325 + 0.425), 1e-14);
-    for (uint32_t i = 0; i < scene->node_count; ++i) sum += scene->node_damping[3 * i + 2];
+    assert_near(scene->node_damping[5 + 2], 10.0 * (0.325 + 0.325), 1e-14);
+    for (uint32_t i = 0; i < scene->node_count; ++i) sum += scene->node_damping[5 * i + 1];
     assert_near(sum, 0.5 * 10.5, 1e-14);
     dmb_model_destroy(&model);
 }

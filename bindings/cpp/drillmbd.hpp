@@ -1,0 +1,328 @@
+// libdrillmbd for C++11 and later: owners of models and sims that clean up after themselves, and failures as exceptions.
+// Everything else is the C interface: its structs, ids, constants and units; see drillmbd/model.h, sim.h, query.h.
+//
+//     drillmbd::model model;
+//     dmb_wall_def wall = dmb_wall_def_default();
+//     model.add_wall(wall);
+//     dmb_id string = model.add_pipes(dmb_pipe_def_default(), 100);
+//     model.compile();
+//     drillmbd::sim sim(model);
+//     while (sim.time() < 40.0) sim.step(1e-3);
+//     dmb_pose pose = sim.pose(dmb_station(string, 99, 1.0));
+//
+// A member that fails throws drillmbd::error; one that is done returns its answer, or the status where that may be a note
+// (> 0). The members named try_ and the two create functions throw nothing and return the status instead; without
+// exceptions in the compiler they are what there is, next to the C functions on get(). Owners are one pointer wide, and
+// all members are inline calls of one C function.
+#ifndef DRILLMBD_DRILLMBD_HPP
+#define DRILLMBD_DRILLMBD_HPP
+
+#include <drillmbd/drillmbd.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#if defined(__cpp_exceptions) || defined(__EXCEPTIONS) || defined(_CPPUNWIND)
+#define DRILLMBD_EXCEPTIONS 1
+#include <array>
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+#include <vector>
+#endif
+
+namespace drillmbd {
+
+#if defined(DRILLMBD_EXCEPTIONS)
+// A call that was refused or failed, with nothing changed. what() is "DMB_ERR_VALUE: pipe 3: length = -1, must be ...".
+class error : public std::runtime_error {
+public:
+    explicit error(std::int32_t failed, const char *message = nullptr)
+        : std::runtime_error(std::string(dmb_status_name(failed)) + ": " +
+                             (message != nullptr && *message != '\0' ? message : dmb_status_text(failed))),
+          status_(failed)
+    {
+    }
+    std::int32_t status() const noexcept { return status_; }
+    const char *name() const noexcept { return dmb_status_name(status_); }
+
+private:
+    std::int32_t status_;
+};
+
+// Throws for a failure; hands back 0 and notes.
+inline std::int32_t check(std::int32_t status, const char *message = nullptr)
+{
+    if (status < 0) throw error(status, message);
+    return status;
+}
+#endif
+
+// ---- Model --------------------------------------------------------------------------------------------------------------
+class model {
+public:
+    // An owner of nothing.
+    explicit model(std::nullptr_t) noexcept : handle_(nullptr) {}
+    model(model &&other) noexcept : handle_(other.release()) {}
+    model &operator=(model &&other) noexcept
+    {
+        if (this != &other) reset(other.release());
+        return *this;
+    }
+    model(const model &) = delete;
+    model &operator=(const model &) = delete;
+    ~model() { dmb_model_destroy(&handle_); }
+
+    // Makes a model in out; what out had is given back. Returns the status.
+    static std::int32_t create(model &out, const dmb_model_options *options = nullptr) noexcept
+    {
+        dmb_model *made = nullptr;
+        const std::int32_t status = dmb_model_create(options, &made);
+        if (status >= 0) out.reset(made);
+        return status;
+    }
+
+    dmb_model *get() const noexcept { return handle_; }
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+    // The handle, now the caller's to destroy.
+    dmb_model *release() noexcept
+    {
+        dmb_model *given = handle_;
+        handle_ = nullptr;
+        return given;
+    }
+    // Takes over a handle, or nothing.
+    void reset(dmb_model *handle = nullptr) noexcept
+    {
+        dmb_model_destroy(&handle_);
+        handle_ = handle;
+    }
+    const char *message() const noexcept { return dmb_model_message(handle_); }
+    std::int32_t try_compile(const dmb_compile_options *options = nullptr) noexcept
+    {
+        return dmb_model_compile(handle_, options);
+    }
+
+#if defined(DRILLMBD_EXCEPTIONS)
+    model() : handle_(nullptr) { check(dmb_model_create(nullptr, &handle_)); }
+    explicit model(const dmb_model_options &options) : handle_(nullptr) { check(dmb_model_create(&options, &handle_)); }
+
+    void set_environment(const dmb_environment_def &def) { done(dmb_model_set_environment(handle_, &def)); }
+    dmb_id add_programme(const dmb_term *terms, std::uint32_t count)
+    {
+        dmb_id id = {0, 0};
+        done(dmb_model_add_programme(handle_, terms, count, &id));
+        return id;
+    }
+    dmb_id add_programme(const dmb_term &term) { return add_programme(&term, 1); }
+    dmb_id add_programme(std::initializer_list<dmb_term> terms)
+    {
+        return add_programme(terms.begin(), static_cast<std::uint32_t>(terms.size()));
+    }
+    dmb_id add_pipes(const dmb_pipe_def &def, std::uint32_t count)
+    {
+        dmb_id id = {0, 0};
+        done(dmb_model_add_pipes(handle_, &def, count, &id));
+        return id;
+    }
+    dmb_id add_wall(const dmb_wall_def &def) { return add(dmb_model_add_wall, def); }
+    dmb_id add_string(const dmb_string_def &def) { return add(dmb_model_add_string, def); }
+    dmb_id add_body(const dmb_body_def &def) { return add(dmb_model_add_body, def); }
+    dmb_id add_bit(const dmb_bit_def &def) { return add(dmb_model_add_bit, def); }
+    dmb_id add_drive(const dmb_drive_def &def) { return add(dmb_model_add_drive, def); }
+    dmb_id add_load(const dmb_load_def &def) { return add(dmb_model_add_load, def); }
+    std::int32_t compile(const dmb_compile_options *options = nullptr) { return done(try_compile(options)); }
+
+    dmb_model_info info() const
+    {
+        dmb_model_info answer = dmb_model_info_default();
+        check(dmb_model_get_info(handle_, &answer)); // leaves no message
+        return answer;
+    }
+    std::size_t sim_memory_size(const dmb_sim_options *options = nullptr) const
+    {
+        std::size_t size = 0;
+        check(dmb_sim_memory_size(handle_, options, &size));
+        return size;
+    }
+    void write_vtk_hole(double depth0, double depth1, double spacing, std::uint32_t around, const char *path) const
+    {
+        check(dmb_write_vtk_hole(handle_, depth0, depth1, spacing, around, path));
+    }
+
+private:
+    std::int32_t done(std::int32_t status) const { return check(status, message()); }
+    template <typename Def>
+    dmb_id add(std::int32_t (*function)(dmb_model *, const Def *, dmb_id *), const Def &def)
+    {
+        dmb_id id = {0, 0};
+        done(function(handle_, &def, &id));
+        return id;
+    }
+#endif
+
+private:
+    dmb_model *handle_;
+};
+
+// ---- Sim ----------------------------------------------------------------------------------------------------------------
+class sim {
+public:
+    // An owner of nothing.
+    explicit sim(std::nullptr_t) noexcept : handle_(nullptr) {}
+    sim(sim &&other) noexcept : handle_(other.release()) {}
+    sim &operator=(sim &&other) noexcept
+    {
+        if (this != &other) reset(other.release());
+        return *this;
+    }
+    sim(const sim &) = delete;
+    sim &operator=(const sim &) = delete;
+    ~sim() { dmb_sim_destroy(&handle_); }
+
+    // Makes a sim in out; what out had is given back. Returns the status, which may be a note.
+    static std::int32_t create(sim &out, const model &of, const dmb_sim_options *options = nullptr) noexcept
+    {
+        dmb_sim *made = nullptr;
+        const std::int32_t status = dmb_sim_create(of.get(), options, &made);
+        if (status >= 0) out.reset(made);
+        return status;
+    }
+    // The same in the caller's block, which has to outlive the sim.
+    static std::int32_t create_in(sim &out, const model &of, const dmb_sim_options *options, void *block,
+                                  std::size_t size) noexcept
+    {
+        dmb_sim *made = nullptr;
+        const std::int32_t status = dmb_sim_create_in(of.get(), options, block, size, &made);
+        if (status >= 0) out.reset(made);
+        return status;
+    }
+
+    dmb_sim *get() const noexcept { return handle_; }
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+    dmb_sim *release() noexcept
+    {
+        dmb_sim *given = handle_;
+        handle_ = nullptr;
+        return given;
+    }
+    void reset(dmb_sim *handle = nullptr) noexcept
+    {
+        dmb_sim_destroy(&handle_);
+        handle_ = handle;
+    }
+    const char *message() const noexcept { return dmb_sim_message(handle_); }
+    double time() const noexcept { return dmb_sim_time(handle_); } // [s]; NaN without a sim
+
+    std::int32_t try_step(double duration, dmb_step_report *report = nullptr) noexcept
+    {
+        return dmb_sim_step(handle_, duration, report);
+    }
+    std::int32_t try_advance(double to, dmb_step_report *report = nullptr) noexcept
+    {
+        return dmb_sim_advance(handle_, to, report);
+    }
+    std::int32_t try_set_drive(dmb_id drive, double value) noexcept
+    {
+        return dmb_sim_set_drive(handle_, drive, value);
+    }
+    std::int32_t try_static_start(const dmb_static_options *options = nullptr,
+                                  dmb_static_report *report = nullptr) noexcept
+    {
+        return dmb_analysis_static(handle_, options, report);
+    }
+    std::int32_t try_restore(const void *block, std::size_t size) noexcept
+    {
+        return dmb_sim_restore(handle_, block, size);
+    }
+
+#if defined(DRILLMBD_EXCEPTIONS)
+    explicit sim(const model &of) : handle_(nullptr) { check(dmb_sim_create(of.get(), nullptr, &handle_)); }
+    sim(const model &of, const dmb_sim_options &options) : handle_(nullptr)
+    {
+        check(dmb_sim_create(of.get(), &options, &handle_));
+    }
+    // In the caller's block, which has to outlive the sim.
+    sim(const model &of, const dmb_sim_options &options, void *block, std::size_t size) : handle_(nullptr)
+    {
+        check(dmb_sim_create_in(of.get(), &options, block, size, &handle_));
+    }
+
+    std::int32_t step(double duration, dmb_step_report *report = nullptr) { return done(try_step(duration, report)); }
+    std::int32_t advance(double to, dmb_step_report *report = nullptr) { return done(try_advance(to, report)); }
+    void set_drive(dmb_id which, double value) { done(try_set_drive(which, value)); }
+    dmb_static_report static_start(const dmb_static_options *options = nullptr)
+    {
+        dmb_static_report report = dmb_static_report_default();
+        done(try_static_start(options, &report));
+        return report;
+    }
+
+    std::vector<unsigned char> snapshot() const
+    {
+        std::size_t size = 0;
+        check(dmb_sim_snapshot_size(handle_, &size));
+        std::vector<unsigned char> block(size);
+        check(dmb_sim_snapshot(handle_, block.data(), size));
+        return block;
+    }
+    void restore(const std::vector<unsigned char> &block) { done(try_restore(block.data(), block.size())); }
+    std::uint64_t hash() const
+    {
+        std::uint64_t found = 0;
+        check(dmb_sim_hash(handle_, &found));
+        return found;
+    }
+
+    // Questions leave no message: the status tells all.
+    dmb_pose pose(const dmb_place &place) const { return ask(dmb_query_pose, dmb_pose_default(), place); }
+    dmb_motion motion(const dmb_place &place, std::int32_t frame = DMB_FRAME_WORLD) const
+    {
+        dmb_motion answer = dmb_motion_default();
+        answer.frame = frame;
+        return ask(dmb_query_motion, answer, place);
+    }
+    dmb_section section(const dmb_place &place) const { return ask(dmb_query_section, dmb_section_default(), place); }
+    double rotation(const dmb_place &place) const { return ask(dmb_query_rotation, 0.0, place); }
+    dmb_contact contact(std::uint32_t site) const { return ask(dmb_query_contact, dmb_contact_default(), site); }
+    dmb_contact_sum contact_sum() const { return ask(dmb_query_contact_sum, dmb_contact_sum_default()); }
+    double kinetic_energy(dmb_id part, std::uint32_t pipe = 0) const
+    {
+        return ask(dmb_query_kinetic_energy, 0.0, part, pipe);
+    }
+    dmb_energy energy() const { return ask(dmb_query_energy, dmb_energy_default()); }
+    dmb_momentum momentum() const { return ask(dmb_query_momentum, dmb_momentum_default()); }
+    dmb_drive_state drive(dmb_id which) const { return ask(dmb_query_drive, dmb_drive_state_default(), which); }
+    std::array<double, 6> reaction(dmb_id part) const
+    {
+        std::array<double, 6> answer;
+        check(dmb_query_reaction(handle_, part, answer.data()));
+        return answer;
+    }
+    dmb_bit_state bit(dmb_id which) const { return ask(dmb_query_bit, dmb_bit_state_default(), which); }
+    dmb_statistics statistics() const { return ask(dmb_query_statistics, dmb_statistics_default()); }
+    std::int32_t record(dmb_recorder &recorder) const { return check(dmb_recorder_take(&recorder, handle_)); }
+    void write_vtk(std::uint32_t per_element, const char *path) const
+    {
+        check(dmb_write_vtk_strings(handle_, per_element, path));
+    }
+
+private:
+    std::int32_t done(std::int32_t status) const { return check(status, message()); }
+    template <typename Function, typename Answer, typename... Arguments>
+    Answer ask(Function function, Answer answer, Arguments... arguments) const
+    {
+        check(function(handle_, arguments..., &answer));
+        return answer;
+    }
+#endif
+
+private:
+    dmb_sim *handle_;
+};
+
+static_assert(sizeof(model) == sizeof(dmb_model *) && sizeof(sim) == sizeof(dmb_sim *), "owners are one pointer wide");
+
+} // namespace drillmbd
+
+#endif

@@ -1,0 +1,278 @@
+// The C++ binding: owners that clean up and can be moved, failures as exceptions or statuses, a scene from end to end.
+#include "drillmbd.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <type_traits>
+#include <utility>
+
+namespace {
+
+int failures = 0;
+
+#define EXPECT(condition)                                                            \
+    do {                                                                             \
+        if (!(condition)) {                                                          \
+            std::cerr << "line " << __LINE__ << ": not so: " << #condition << '\n';  \
+            ++failures;                                                              \
+        }                                                                            \
+    } while (0)
+
+// The status with which a call throws; 0 if it does not.
+template <typename Call>
+std::int32_t thrown_by(Call call)
+{
+    try {
+        call();
+    } catch (const drillmbd::error &error) {
+        EXPECT(std::string(error.what()).find(error.name()) == 0);
+        return error.status();
+    }
+    return 0;
+}
+
+// ---- Blocks that are counted ---------------------------------------------------------------------------------------------
+struct counter {
+    int live;
+};
+
+void *take(void *context, std::size_t size, std::size_t alignment)
+{
+    ++static_cast<counter *>(context)->live;
+    void *block = nullptr;
+    return posix_memalign(&block, alignment, size) == 0 ? block : nullptr;
+}
+
+void give(void *context, void *block, std::size_t, std::size_t)
+{
+    --static_cast<counter *>(context)->live;
+    std::free(block);
+}
+
+dmb_allocator counting(counter &count)
+{
+    dmb_allocator allocator = dmb_allocator_default();
+    allocator.context = &count;
+    allocator.allocate = take;
+    allocator.release = give;
+    return allocator;
+}
+
+// ---- A scene -------------------------------------------------------------------------------------------------------------
+struct parts {
+    dmb_id string, bit, feed, turning;
+};
+
+dmb_term step_term(double end, double value)
+{
+    dmb_term term = dmb_term_default();
+    term.kind = DMB_TERM_STEP;
+    term.x1 = end;
+    term.h1 = value;
+    return term;
+}
+
+parts describe(drillmbd::model &model)
+{
+    parts made;
+    dmb_drive_def drive = dmb_drive_def_default();
+    model.set_environment(dmb_environment_def_default());
+    model.add_wall(dmb_wall_def_default());
+    made.string = model.add_pipes(dmb_pipe_def_default(), 5);
+    made.bit = model.add_bit(dmb_bit_def_default());
+    drive.programme = model.add_programme({step_term(0.01, 0.04), step_term(0.02, 0.01)});
+    made.feed = model.add_drive(drive);
+    drive = dmb_drive_def_default();
+    drive.kind = DMB_DRIVE_LOAD;
+    drive.component = DMB_RX;
+    drive.programme = model.add_programme(step_term(0.01, 20.0));
+    made.turning = model.add_drive(drive);
+    EXPECT(model.compile() == DMB_OK);
+    return made;
+}
+
+void scene_from_end_to_end()
+{
+    drillmbd::model model;
+    const parts made = describe(model);
+    drillmbd::sim sim(model);
+    dmb_step_report report = dmb_step_report_default();
+    const dmb_place tip = dmb_station(made.string, 4, 1.0);
+    for (int i = 0; i < 50; ++i) EXPECT(sim.step(1e-3, &report) >= 0);
+    EXPECT(std::fabs(sim.time() - 0.05) < 1e-12);
+    EXPECT(std::fabs(sim.drive(made.feed).speed - 0.05) < 1e-9);
+    EXPECT(sim.pose(tip).displacement[0] > 1e-3);
+    EXPECT(sim.pose(tip).position[2] < 0.0);
+    EXPECT(std::fabs(sim.motion(tip).velocity[0] - 0.05) < 0.01);
+    EXPECT(sim.motion(tip, DMB_FRAME_BODY).frame == DMB_FRAME_BODY);
+    EXPECT(sim.rotation(tip) > 0.0);
+    EXPECT(std::isfinite(sim.section(dmb_station(made.string, 2, 0.5)).force[0]));
+    EXPECT(sim.contact(0).site == 0);
+    EXPECT(sim.contact_sum().normal_force >= 0.0);
+    EXPECT(sim.kinetic_energy(made.string, 2) > 0.0);
+    EXPECT(sim.energy().kinetic > 0.0);
+    EXPECT(std::fabs(sim.momentum().mass - model.info().mass) < 1e-9);
+    EXPECT(std::isfinite(sim.reaction(made.string)[0]));
+    EXPECT(sim.bit(made.bit).on_bottom == 0);
+    EXPECT(sim.statistics().steps >= 50);
+    EXPECT(model.info().pipes == 5);
+}
+
+void snapshots()
+{
+    drillmbd::model model;
+    describe(model);
+    drillmbd::sim sim(model), other(model);
+    sim.advance(0.004);
+    const std::vector<unsigned char> saved = sim.snapshot();
+    const std::uint64_t hash = sim.hash();
+    sim.step(1e-3);
+    EXPECT(sim.hash() != hash);
+    other.restore(saved);
+    EXPECT(other.hash() == hash);
+    other.step(1e-3);
+    EXPECT(other.hash() == sim.hash());
+    EXPECT(thrown_by([&] { sim.restore(std::vector<unsigned char>(10)); }) == DMB_ERR_VALUE);
+}
+
+void statics()
+{
+    drillmbd::model model;
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    string.start_free = DMB_FREE_NONE;
+    model.add_wall(dmb_wall_def_default());
+    pipe.string = model.add_string(string);
+    model.add_pipes(pipe, 6);
+    model.compile();
+    drillmbd::sim sim(model);
+    EXPECT(sim.static_start().residual < 1e-9);
+    EXPECT(sim.contact_sum().normal_force > 100.0);
+}
+
+// ---- Owners --------------------------------------------------------------------------------------------------------------
+void nothing_is_left_behind()
+{
+    counter count = {0};
+    const dmb_allocator allocator = counting(count);
+    dmb_model_options options = dmb_model_options_default();
+    options.allocator = &allocator;
+    {
+        drillmbd::model model(options);
+        describe(model);
+        drillmbd::sim first(model), second(std::move(first));
+        EXPECT(!first && second);
+        first = drillmbd::sim(model);
+        first = std::move(second);
+        drillmbd::model moved(std::move(model));
+        EXPECT(!model && moved && count.live > 0);
+        moved.reset();
+        EXPECT(first.step(1e-3) >= 0); // the sim holds what it needs
+        dmb_sim *handle = first.release();
+        dmb_sim_destroy(&handle);
+    }
+    EXPECT(count.live == 0);
+    EXPECT(thrown_by([&] {
+        drillmbd::model model(options);
+        describe(model);
+        drillmbd::sim sim(model);
+        sim.step(-1.0);
+    }) == DMB_ERR_VALUE);
+    EXPECT(count.live == 0);
+}
+
+void sim_in_the_callers_block()
+{
+    drillmbd::model model;
+    describe(model);
+    const dmb_sim_options options = dmb_sim_options_default();
+    std::vector<unsigned char> block(model.sim_memory_size());
+    drillmbd::sim inside(model, options, block.data(), block.size()), outside(model, options);
+    inside.step(1e-3);
+    outside.step(1e-3);
+    EXPECT(inside.hash() == outside.hash());
+    EXPECT(thrown_by([&] { drillmbd::sim small(model, options, block.data(), 100); }) == DMB_ERR_VALUE);
+    const unsigned char *at = reinterpret_cast<const unsigned char *>(inside.get());
+    EXPECT(at >= block.data() && at < block.data() + block.size());
+}
+
+// ---- Failures ------------------------------------------------------------------------------------------------------------
+void failures_throw()
+{
+    drillmbd::model model;
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    pipe.length = -1.0;
+    EXPECT(thrown_by([&] { model.add_pipes(pipe, 1); }) == DMB_ERR_VALUE);
+    EXPECT(thrown_by([&] { drillmbd::sim sim(model); }) == DMB_ERR_ORDER);
+    EXPECT(thrown_by([&] { model.info(); }) == DMB_ERR_ORDER);
+    EXPECT(thrown_by([&] { model.compile(); }) == DMB_ERR_VALUE);
+    const parts made = describe(model);
+    drillmbd::sim sim(model);
+    EXPECT(thrown_by([&] { sim.pose(dmb_station(made.string, 9, 0.0)); }) == DMB_ERR_VALUE);
+    EXPECT(thrown_by([&] { sim.drive(made.string); }) == DMB_ERR_ID);
+    EXPECT(thrown_by([&] { sim.set_drive(made.feed, 1.0); }) == DMB_ERR_UNSUPPORTED);
+    EXPECT(thrown_by([&] { sim.advance(std::nan("")); }) == DMB_ERR_NOT_FINITE);
+    try {
+        sim.step(0.0);
+        EXPECT(false);
+    } catch (const std::runtime_error &error) {
+        EXPECT(std::string(error.what()).find("duration") != std::string::npos);
+    }
+    sim.set_drive(made.turning, 3.0);
+    EXPECT(sim.step(1e-3) >= 0);
+}
+
+void failures_return()
+{
+    drillmbd::model model(nullptr);
+    drillmbd::sim sim(nullptr);
+    static_assert(noexcept(sim.try_step(1e-3)), "try_ members throw nothing");
+    EXPECT(!model && !sim);
+    EXPECT(sim.try_step(1e-3) == DMB_ERR_NULL);
+    EXPECT(std::isnan(sim.time()));
+    EXPECT(drillmbd::sim::create(sim, model) == DMB_ERR_NULL);
+    EXPECT(drillmbd::model::create(model) == DMB_OK);
+    EXPECT(model.try_compile() == DMB_ERR_VALUE);
+    EXPECT(*model.message() != '\0');
+    describe(model);
+    EXPECT(drillmbd::sim::create(sim, model) >= 0);
+    EXPECT(sim.try_step(1e-3) >= 0);
+    EXPECT(sim.try_advance(-1.0) == DMB_ERR_VALUE);
+    EXPECT(sim.try_static_start() < 0);
+    EXPECT(sim.try_restore(nullptr, 0) == DMB_ERR_NULL);
+    std::vector<unsigned char> block(model.sim_memory_size());
+    EXPECT(drillmbd::sim::create_in(sim, model, nullptr, block.data(), block.size()) >= 0);
+    EXPECT(sim.try_step(1e-3) >= 0);
+    sim.reset();
+    EXPECT(!sim);
+}
+
+void owners_are_moved_only()
+{
+    static_assert(!std::is_copy_constructible<drillmbd::model>::value, "");
+    static_assert(!std::is_copy_assignable<drillmbd::sim>::value, "");
+    static_assert(std::is_nothrow_move_constructible<drillmbd::sim>::value, "");
+    static_assert(std::is_nothrow_move_assignable<drillmbd::model>::value, "");
+}
+
+} // namespace
+
+int main()
+{
+    try {
+        scene_from_end_to_end();
+        snapshots();
+        statics();
+        nothing_is_left_behind();
+        sim_in_the_callers_block();
+        failures_throw();
+        failures_return();
+        owners_are_moved_only();
+    } catch (const std::exception &error) {
+        std::cerr << "unexpected: " << error.what() << '\n';
+        ++failures;
+    }
+    if (failures == 0) std::cout << "all as expected\n";
+    return failures == 0 ? 0 : 1;
+}

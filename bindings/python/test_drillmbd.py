@@ -1,0 +1,549 @@
+"""Tests of the Python binding: every struct, constant and function as the C compiler sees them, a scene from end to end,
+errors, callbacks, and objects that go in any order."""
+import ctypes
+import gc
+import math
+import os
+import pathlib
+import re
+import tempfile
+import threading
+import unittest
+import weakref
+
+import drillmbd as mbd
+
+LAYOUT = pathlib.Path(__file__).resolve().parents[2] / "tests" / "abi" / "layout.txt"
+
+
+# ---- The interface as stored -----------------------------------------------------------------------------------------
+def stored_structs():
+    """{name: (size, [(member, offset, size)])}"""
+    found = {}
+    for line in LAYOUT.read_text(encoding="utf-8").splitlines():
+        struct = re.match(r"struct (\w+): (\d+)$", line)
+        member = re.match(r"    (\w+): at (\d+), (\d+)$", line)
+        if struct:
+            members = []
+            found[struct.group(1)] = (int(struct.group(2)), members)
+        elif member:
+            members.append((member.group(1), int(member.group(2)), int(member.group(3))))
+    return found
+
+
+def stored_constants():
+    return {name: int(value) for name, value in
+            re.findall(r"^constant DMB_(\w+) = (-?\d+)$", LAYOUT.read_text(encoding="utf-8"), re.M)}
+
+
+def stored_prototypes():
+    """{function: (result, [argument])}"""
+    found = {}
+    for line in LAYOUT.read_text(encoding="utf-8").splitlines():
+        match = re.match(r"(?!typedef|struct|constant)(.*?)(dmb_\w+)\((.*)\)$", line)
+        if match:
+            arguments = [] if match.group(3) == "void" else match.group(3).split(", ")
+            found[match.group(2)] = (match.group(1).strip(), arguments)
+    return found
+
+
+def ctypes_of(declaration):
+    """The types that may stand for an argument 'const dmb_pose *pose' in ctypes."""
+    plain = {"int32_t": ctypes.c_int32, "uint32_t": ctypes.c_uint32, "double": ctypes.c_double,
+             "size_t": ctypes.c_size_t, "uint64_t": ctypes.c_uint64, "void": ctypes.c_void_p, "char": ctypes.c_char_p,
+             "dmb_model": ctypes.c_void_p, "dmb_sim": ctypes.c_void_p, **mbd.STRUCTS}
+    kind, stars, array = re.match(r"(?:const )?(\w+) (\**)\w+(\[\d+\])?$", declaration).groups()
+    depth = len(stars) + bool(array)
+    opaque = kind in ("dmb_model", "dmb_sim", "char", "void")
+    base = plain[kind]
+    for _ in range(depth - 1 if opaque else depth):
+        base = ctypes.POINTER(base)
+    return base
+
+
+class InterfaceTest(unittest.TestCase):
+    def test_all_structs_are_there(self):
+        self.assertEqual(set(mbd.STRUCTS), set(stored_structs()))
+
+    def test_sizes_are_those_of_the_compiler(self):
+        for name, (size, _) in stored_structs().items():
+            self.assertEqual(ctypes.sizeof(mbd.STRUCTS[name]), size, name)
+
+    def test_fields_are_those_of_the_compiler(self):
+        for name, (_, members) in stored_structs().items():
+            struct = mbd.STRUCTS[name]
+            mirrored = [(field, getattr(struct, field).offset, getattr(struct, field).size)
+                        for field, *_ in struct._fields_]
+            self.assertEqual(mirrored, members, name)
+
+    def test_numbers_are_of_the_right_kind(self):
+        """Sizes alone do not tell a double from an integer: every field of 8 bytes that the library fills by default
+        reads as the documented value."""
+        self.assertEqual(mbd.WallDef().diameter, 0.094)
+        self.assertEqual(mbd.PipeDef().young_modulus, 2.1e11)
+        self.assertEqual(mbd.PipeDef().seed, 1)
+        self.assertEqual(list(mbd.EnvironmentDef().gravity), [0.0, 0.0, -9.81])
+        self.assertEqual(mbd.DriveDef().limit_low, -1e30)
+        self.assertEqual(mbd.CompileOptions().pipe_kind, -1)
+        self.assertEqual(mbd.SimOptions().max_iterations, 12)
+        self.assertEqual(mbd.BitDef().history, 1024)
+
+    def test_constants_are_equal(self):
+        constants = stored_constants()
+        self.assertGreater(len(constants), 80)
+        for name, value in constants.items():
+            self.assertEqual(getattr(mbd, name), value, name)
+
+    def test_statuses_have_their_names(self):
+        for name, value in stored_constants().items():
+            if name.startswith(("ERR_", "NOTE_")) or name == "OK":
+                self.assertEqual(mbd.status_name(value), "DMB_" + name)
+
+    def test_functions_have_their_types(self):
+        prototypes = stored_prototypes()
+        self.assertGreater(len(prototypes), 70)
+        results = {"int32_t": ctypes.c_int32, "void": None, "double": ctypes.c_double, "uint32_t": ctypes.c_uint32,
+                   "const char *": ctypes.c_char_p}
+        for name, (result, arguments) in prototypes.items():
+            function = getattr(mbd._lib, name)
+            self.assertIs(function.restype, results[result], name)
+            self.assertEqual(list(function.argtypes), [ctypes_of(argument) for argument in arguments], name)
+
+    def test_init_writes_the_size(self):
+        for name, struct in mbd.STRUCTS.items():
+            if issubclass(struct, mbd._Sized):
+                self.assertEqual(struct().struct_size, ctypes.sizeof(struct), name)
+
+    def test_version_fits(self):
+        self.assertEqual(mbd._lib.dmb_version() // 10000, mbd.VERSION[0])
+
+
+class StructTest(unittest.TestCase):
+    def test_misspelt_field_is_an_error(self):
+        with self.assertRaises(AttributeError):
+            mbd.WallDef(diametre=0.1)
+        wall = mbd.WallDef()
+        with self.assertRaises(AttributeError):
+            wall.diametre = 0.1
+
+    def test_array_takes_a_sequence_of_its_length(self):
+        wall = mbd.WallDef(direction=(0, 1, 0))
+        self.assertEqual(list(wall.direction), [0.0, 1.0, 0.0])
+        wall.origin = [1, 2, 3]
+        self.assertEqual(list(wall.origin), [1.0, 2.0, 3.0])
+        with self.assertRaises(ValueError):
+            wall.origin = [1, 2]
+
+    def test_survey_and_table_are_kept(self):
+        wall = mbd.WallDef(stations=[(0, math.pi / 2, 0), (30, 1.6, 0.1)])
+        term = mbd.Term(table=[(0, 1), (2, 5), (3, -1)])
+        gc.collect()
+        self.assertEqual(wall.survey_count, 2)
+        self.assertEqual(wall.survey[3], 30.0)
+        self.assertEqual((term.kind, term.table_count, term.table_value[2]), (mbd.TERM_TABLE, 3, -1.0))
+
+    def test_ids_compare_by_value(self):
+        self.assertEqual(mbd.Id(1, 2), mbd.Id(1, 2))
+        self.assertNotEqual(mbd.Id(1, 2), mbd.Id(1, 3))
+        self.assertEqual(len({mbd.Id(1, 2), mbd.Id(1, 2)}), 1)
+        self.assertFalse(mbd.Id())
+
+    def test_repr_shows_the_fields(self):
+        self.assertIn("diameter=0.094", repr(mbd.WallDef()))
+        self.assertIn("gravity=[0.0, 0.0, -9.81]", repr(mbd.EnvironmentDef()))
+
+
+# ---- A scene ---------------------------------------------------------------------------------------------------------
+class Rig:
+    """A short string in a hole, fed and turned."""
+
+    def __init__(self, pipes=5):
+        self.model = mbd.Model()
+        self.model.add_wall(diameter=0.094)
+        self.string = self.model.add_pipes(pipes, outer_diameter=0.073, inner_diameter=0.061)
+        self.bit = self.model.add_bit(mass=5.0)
+        self.feed_programme = self.model.add_programme(mbd.Term(kind=mbd.TERM_STEP, x1=0.02, h1=0.05))
+        self.feed = self.model.add_drive(programme=self.feed_programme)
+        self.turning = self.model.add_drive(kind=mbd.DRIVE_CONTROL, component=mbd.RX, gain=100.0,
+                                            programme=self.model.add_programme(10.0))
+        self.model.compile()
+        self.tip = mbd.station(self.string, pipes - 1, 1.0)
+
+
+class SceneTest(unittest.TestCase):
+    def setUp(self):
+        self.rig = Rig()
+        self.sim = self.rig.model.sim()
+
+    def tearDown(self):
+        self.sim.close()
+        self.rig.model.close()
+
+    def run_to(self, time, step=1e-3):
+        while self.sim.time < time - 0.5 * step:
+            self.sim.step(step)
+
+    def test_counts(self):
+        info = self.rig.model.info()
+        self.assertEqual((info.strings, info.pipes, info.prescribed), (1, 5, 1))
+        self.assertAlmostEqual(info.length, 5.0)
+        self.assertEqual(self.rig.model.sim_memory_size(), info.sim_bytes)
+
+    def test_run_and_ask(self):
+        self.run_to(0.05)
+        pose, motion = self.sim.pose(self.rig.tip), self.sim.motion(self.rig.tip)
+        self.assertAlmostEqual(self.sim.time, 0.05)
+        self.assertAlmostEqual(pose.displacement[0], self.sim.drive(self.rig.feed).position, places=4)
+        self.assertAlmostEqual(self.sim.drive(self.rig.feed).speed, 0.05)
+        self.assertAlmostEqual(motion.velocity[0], 0.05, places=2)
+        self.assertLess(pose.position[2], 0.0)
+        self.assertGreater(self.sim.rotation(self.rig.tip), 0.0)
+        self.assertEqual(len(self.sim.section(mbd.station(self.rig.string, 2, 0.5)).force), 6)
+        self.assertGreater(self.sim.kinetic_energy(self.rig.string, 2), 0.0)
+        self.assertEqual(self.sim.contact_sum().closed,
+                         sum(self.sim.contact(i).closed for i in range(self.rig.model.info().contact_sites)))
+        self.assertAlmostEqual(self.sim.momentum().mass, self.rig.model.info().mass)
+        self.assertEqual(len(self.sim.reaction(self.rig.string)), 6)
+        self.assertEqual(self.sim.bit(self.rig.bit).weight, 0.0)
+        self.assertEqual(self.sim.statistics().steps, self.sim.statistics().steps)
+        self.assertGreater(self.sim.energy().kinetic, 0.0)
+
+    def test_report_of_a_step(self):
+        report = self.sim.step(1e-3)
+        self.assertEqual((report.status, report.steps, report.time), (mbd.OK, 1, 1e-3))
+        report = self.sim.advance(0.005)
+        self.assertGreaterEqual(report.status, 0)
+        self.assertEqual(report.time, 0.005)
+
+    def test_bound_on_steps(self):
+        with self.rig.model.sim(max_steps=3) as sim:
+            self.assertEqual(sim.advance(1.0).status, mbd.NOTE_STOPPED)
+            self.assertLess(sim.time, 1.0)
+
+    def test_snapshot_and_hash(self):
+        self.run_to(0.01)
+        snapshot, middle = self.sim.snapshot(), self.sim.hash()
+        self.run_to(0.02)
+        end = self.sim.hash()
+        with self.rig.model.sim() as other:
+            other.restore(snapshot)
+            self.assertEqual(other.hash(), middle)
+            for _ in range(10):
+                other.step(1e-3)
+            self.assertEqual(other.hash(), end)
+
+    def test_drive_by_hand(self):
+        self.sim.set_drive(self.rig.turning, -5.0)
+        self.run_to(0.05)
+        self.assertLess(self.sim.drive(self.rig.turning).speed, 0.0)
+        self.sim.set_drive(self.rig.turning, None)
+        self.sim.step(1e-3)
+        self.assertEqual(self.sim.drive(self.rig.turning).target, 10.0)
+
+    def test_recorder(self):
+        recorder = self.sim.recorder([(self.rig.tip, mbd.CHANNEL_POSITION_X), (self.rig.feed, mbd.CHANNEL_DRIVE_SPEED),
+                                      (None, mbd.CHANNEL_ENERGY_ERROR)], capacity=6, interval=2e-3)
+        for _ in range(10):
+            self.assertEqual(recorder.take(), mbd.OK)
+            self.sim.step(1e-3)
+        table = recorder.table
+        self.assertEqual(len(recorder), 5)
+        self.assertEqual([round(float(row[0]), 9) for row in table], [0.0, 0.002, 0.004, 0.006, 0.008])
+        self.assertAlmostEqual(float(table[-1][1]), 5.0, places=3)
+        if mbd.numpy is not None:
+            self.assertEqual(table.shape, (5, 4))
+        recorder.take()
+        self.sim.step(2e-3)
+        self.assertEqual(recorder.take(), mbd.NOTE_FULL)
+
+    def test_recorder_without_numpy(self):
+        numpy, mbd.numpy = mbd.numpy, None
+        try:
+            recorder = self.sim.recorder([(self.rig.tip, mbd.CHANNEL_POSITION_X)], capacity=3)
+            recorder.take()
+            self.assertEqual(len(recorder.table), 1)
+            self.assertAlmostEqual(recorder.table[0][1], 5.0)
+        finally:
+            mbd.numpy = numpy
+
+    def test_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            recorder = self.sim.recorder([(self.rig.tip, mbd.CHANNEL_POSITION_X)], capacity=3)
+            recorder.take()
+            recorder.write_csv(os.path.join(folder, "table.csv"))
+            self.sim.write_vtk(pathlib.Path(folder, "string.vtp"))
+            self.rig.model.write_vtk_hole(os.path.join(folder, "hole.vtp"), 0.0, 5.0)
+            self.assertTrue(pathlib.Path(folder, "table.csv").read_text().startswith("time [s],position_x"))
+            self.assertEqual(len(os.listdir(folder)), 3)
+            with self.assertRaises(mbd.Error) as caught:
+                self.sim.write_vtk(os.path.join(folder, "none", "string.vtp"))
+            self.assertEqual(caught.exception.status, mbd.ERR_IO)
+
+    def test_threads_do_not_disturb_each_other(self):
+        hashes = []
+
+        def work():
+            with self.rig.model.sim() as sim:
+                for _ in range(20):
+                    sim.step(1e-3)
+                hashes.append(sim.hash())
+
+        threads = [threading.Thread(target=work) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(hashes), 4)
+        self.assertEqual(len(set(hashes)), 1)
+
+
+class WholeModelTest(unittest.TestCase):
+    """What the rig above does not use."""
+
+    def test_every_kind_of_part(self):
+        with mbd.Model() as model:
+            model.set_environment(fluid_density=1000.0, gravity=(0, 0, -9.8))
+            model.add_wall(stations=[(0, math.pi / 2, 0), (10, math.pi / 2, 0), (40, 1.6, 0.05)],
+                           friction_law=mbd.FRICTION_BRISTLE)
+            string = model.add_string(start_free=mbd.FREE_CYLINDRICAL)
+            model.add_pipes(2, string=string, kind=mbd.PIPE_RIGID)
+            model.add_pipes(2, mbd.PipeDef(string=string, joint_length=0.1, eccentricity=1e-3))
+            model.add_body(attach=mbd.ATTACH_START, string=string, mass=30.0)
+            body = model.add_body(mass=2.0, position=(5, 0, 0))
+            load = model.add_programme(mbd.Term(kind=mbd.TERM_HARMONIC, h1=1.0, omega=30.0), 0.5,
+                                       mbd.Term(table=[(0, 0), (0.01, 1)]))
+            bit = model.add_bit(rock_law=mbd.ROCK_RATE, load=load)
+            model.add_load(place=mbd.station(body), force=(10, 0, 0), programme=load)
+            model.add_drive(kind=mbd.DRIVE_LOAD, part=body, programme=load, excitation=load)
+            self.assertEqual(model.compile(features=mbd.FEATURE_ALL & ~mbd.FEATURE_DAMPING), mbd.OK)
+            with model.sim(spectral_radius=0.9, energy_ledger=0) as sim:
+                for _ in range(20):
+                    sim.step(1e-3)
+                self.assertTrue(math.isfinite(sim.pose(mbd.station(bit)).position[0]))
+                self.assertGreater(sim.motion(mbd.station(body), mbd.FRAME_BODY).velocity[0], 0.0)
+                with self.assertRaises(mbd.Error) as caught:
+                    sim.energy()
+                self.assertEqual(caught.exception.name, "DMB_ERR_UNSUPPORTED")
+
+    def test_static_start(self):
+        with mbd.Model() as model:
+            model.add_wall(diameter=0.094)
+            model.add_pipes(10, string=model.add_string(start_free=mbd.FREE_NONE))
+            model.compile()
+            weight = 9.81 * model.info().mass
+            with model.sim() as sim:
+                report = sim.static()
+                self.assertEqual((report.status, report.method), (mbd.OK, mbd.STATIC_NEWTON))
+                self.assertLess(report.residual, 1e-9)
+                self.assertGreater(sim.contact_sum().normal_force, 0.5 * weight)
+
+    def test_projected_start_is_a_note(self):
+        with mbd.Model() as model:
+            string = model.add_string(start_free=mbd.FREE_NONE, velocity=(0.1, 0, 0, 0, 0, 0))
+            model.add_pipes(1, string=string)
+            model.compile()
+            sim = model.sim()
+            self.assertEqual(sim.status, mbd.NOTE_PROJECTED)
+            self.assertIn("projected", sim.message)
+
+    def test_log_is_told(self):
+        lines = []
+        with mbd.Model(log=lambda level, text: lines.append((level, text))) as model:
+            with self.assertRaises(mbd.Error):
+                model.add_wall(diameter=-1.0)
+            model.add_pipes(1)
+            model.compile()
+        self.assertEqual([level for level, _ in lines], [mbd.LOG_ERROR, mbd.LOG_INFO])
+        self.assertIn("diameter", lines[0][1])
+
+
+# ---- Errors and callbacks -------------------------------------------------------------------------------------------
+class ErrorTest(unittest.TestCase):
+    def assert_error(self, status, function, *arguments, **fields):
+        with self.assertRaises(mbd.Error) as caught:
+            function(*arguments, **fields)
+        self.assertEqual(caught.exception.name, mbd.status_name(status))
+        self.assertEqual(caught.exception.status, status)
+        self.assertTrue(caught.exception.message)
+        return caught.exception
+
+    def test_value_tells_part_and_field(self):
+        with mbd.Model() as model:
+            error = self.assert_error(mbd.ERR_VALUE, model.add_pipes, 3, inner_diameter=0.08)
+            self.assertIn("outer_diameter", error.message)
+            self.assertIn("DMB_ERR_VALUE", str(error))
+            self.assert_error(mbd.ERR_NOT_FINITE, model.add_wall, diameter=math.nan)
+            self.assert_error(mbd.ERR_VALUE, model.add_pipes, 0)
+
+    def test_order(self):
+        with mbd.Model() as model:
+            model.add_pipes(1)
+            self.assert_error(mbd.ERR_ORDER, model.sim)
+            self.assert_error(mbd.ERR_ORDER, model.info)
+            model.compile()
+            self.assert_error(mbd.ERR_ORDER, model.compile)
+            self.assert_error(mbd.ERR_ORDER, model.add_pipes, 1)
+
+    def test_sim_errors(self):
+        rig = Rig()
+        self.assert_error(mbd.ERR_VALUE, rig.model.sim, spectral_radius=2.0)
+        with rig.model.sim() as sim:
+            before = sim.hash()
+            self.assertIn("duration", self.assert_error(mbd.ERR_VALUE, sim.step, 0.0).message)
+            self.assert_error(mbd.ERR_NOT_FINITE, sim.step, math.nan)
+            self.assert_error(mbd.ERR_VALUE, sim.advance, -1.0)
+            self.assert_error(mbd.ERR_ID, sim.pose, mbd.station(rig.feed))
+            self.assert_error(mbd.ERR_ID, sim.drive, mbd.Id())
+            self.assert_error(mbd.ERR_VALUE, sim.pose, mbd.station(rig.string, 99, 0.0))
+            self.assert_error(mbd.ERR_UNSUPPORTED, sim.set_drive, rig.feed, 1.0)
+            self.assert_error(mbd.ERR_VALUE, sim.restore, b"nothing")
+            self.assert_error(mbd.ERR_VALUE, sim.contact, 10**6)
+            self.assertEqual(sim.hash(), before)
+
+    def test_closed_objects(self):
+        rig = Rig()
+        sim = rig.model.sim()
+        sim.close()
+        sim.close()
+        self.assert_error(mbd.ERR_NULL, sim.step, 1e-3)
+        self.assertTrue(math.isnan(sim.time))
+        rig.model.close()
+        rig.model.close()
+        self.assert_error(mbd.ERR_NULL, rig.model.sim)
+
+    def test_wrong_types(self):
+        with mbd.Model() as model:
+            with self.assertRaises(TypeError):
+                model.add_wall(mbd.PipeDef())
+            with self.assertRaises(TypeError):
+                model.add_wall(mbd.WallDef(), diameter=0.1)
+
+
+class CallbackTest(unittest.TestCase):
+    def build(self, *terms):
+        model = mbd.Model()
+        string = model.add_pipes(2)
+        drive = model.add_drive(part=string, programme=model.add_programme(*terms))
+        model.compile()
+        return model, drive
+
+    def test_function_of_time(self):
+        model, drive = self.build(lambda time: 2.0 * time)
+        with model.sim() as sim:
+            sim.step(0.01)
+            self.assertAlmostEqual(sim.drive(drive).speed, 0.02)
+
+    def test_with_rate_and_integral(self):
+        term = mbd.Term(function=lambda t: (t, 1.0, 0.5 * t * t),
+                        provides=mbd.PROVIDES_RATE | mbd.PROVIDES_INTEGRAL)
+        model, drive = self.build(term)
+        with model.sim() as sim:
+            for _ in range(10):
+                sim.step(1e-2)
+            self.assertAlmostEqual(sim.drive(drive).position, 0.005, places=9)
+
+    def test_exception_stops_the_step_and_comes_out(self):
+        def programme(time):
+            if time > 0.0045:
+                raise ZeroDivisionError("on purpose")
+            return 1.0
+
+        model, _ = self.build(programme)
+        with model.sim() as sim:
+            for _ in range(4):
+                sim.step(1e-3)
+            before = sim.hash()
+            with self.assertRaises(mbd.Error) as caught:
+                sim.step(1e-3)
+            self.assertEqual(caught.exception.status, mbd.ERR_CALLBACK)
+            self.assertIsInstance(caught.exception.__cause__, ZeroDivisionError)
+            self.assertEqual(sim.hash(), before)
+
+    def test_wrong_answers(self):
+        for answer in (math.nan, math.inf, None, "text"):
+            model, _ = self.build(lambda time, answer=answer: answer if time > 0.0015 else 0.0)
+            with model.sim() as sim:
+                sim.step(1e-3)
+                with self.assertRaises(mbd.Error) as caught:
+                    sim.step(1e-3)
+                self.assertEqual(caught.exception.status, mbd.ERR_CALLBACK)
+
+    def test_keyboard_interrupt_is_not_wrapped(self):
+        def programme(time):
+            if time > 0.0005:
+                raise KeyboardInterrupt
+            return 0.0
+
+        model, _ = self.build(programme)
+        with model.sim() as sim, self.assertRaises(KeyboardInterrupt):
+            sim.step(1e-3)
+
+
+# ---- Who goes first --------------------------------------------------------------------------------------------------
+class LifetimeTest(unittest.TestCase):
+    def test_sim_outlives_its_model(self):
+        rig = Rig()
+        sim, tip = rig.model.sim(), rig.tip
+        del rig
+        gc.collect()
+        sim.step(1e-3)
+        self.assertTrue(math.isfinite(sim.pose(tip).position[0]))
+
+    def test_callback_lives_as_long_as_the_sim(self):
+        def build():
+            model = mbd.Model()
+            drive = model.add_drive(part=model.add_pipes(1), programme=model.add_programme(lambda time: 0.1))
+            model.compile()
+            return model.sim(), drive
+
+        sim, drive = build()
+        gc.collect()
+        for _ in range(5):
+            sim.step(1e-3)
+        self.assertAlmostEqual(sim.drive(drive).speed, 0.1)
+
+    def test_callback_goes_with_the_last_sim(self):
+        class Function:
+            def __call__(self, time):
+                return 0.0
+
+        function = Function()
+        watched = weakref.ref(function)
+        model = mbd.Model()
+        model.add_drive(part=model.add_pipes(1), programme=model.add_programme(function))
+        model.compile()
+        sims = [model.sim(), model.sim()]
+        del function, model
+        gc.collect()
+        self.assertIsNotNone(watched())
+        del sims
+        gc.collect()
+        self.assertIsNone(watched())
+
+    def test_objects_go_in_any_order(self):
+        for order in ((0, 1, 2), (2, 1, 0), (1, 0, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1)):
+            rig = Rig(2)
+            first, second = rig.model.sim(), rig.model.sim()
+            objects = [rig, first, second]
+            del rig, first, second
+            for i in order:
+                objects[i] = None
+                gc.collect()
+
+    def test_recorder_keeps_its_sim(self):
+        rig = Rig(2)
+        recorder = rig.model.sim().recorder([(rig.tip, mbd.CHANNEL_POSITION_X)], capacity=2)
+        del rig
+        gc.collect()
+        self.assertEqual(recorder.take(), mbd.OK)
+        self.assertAlmostEqual(float(recorder.table[0][1]), 2.0)
+
+    def test_unfinished_objects_are_harmless(self):
+        self.assertRaises(mbd.Error, mbd.Model().sim)
+        with self.assertRaises(AttributeError):
+            mbd.Model().sim(nonsense=1)
+        gc.collect()
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,76 @@
+#include "system/release.h"
+
+#include <string.h>
+
+#include "element/beam.h"
+#include "math/so3.h"
+#include "system/solve.h"
+#include "system/wall_contact.h"
+
+static int opens(const dmb_sim *sim, uint32_t s)
+{
+    return sim->scene->sites[s].clearance > 0.0 && sim->now.site_penetration[s] > 0.0 &&
+           !(sim->trial.site_penetration[s] > 0.0);
+}
+
+int32_t dmb_contact_opens(const dmb_sim *sim)
+{
+    for (uint32_t s = 0; s < sim->scene->site_count; s++)
+        if (opens(sim, s)) return 1;
+    return 0;
+}
+
+void dmb_release_end(dmb_sim *sim)
+{
+    memset(sim->site_return, 0, sim->scene->site_count * sizeof(double));
+}
+
+/* Part of the step after the opening, the penetration going straight from that of now to that of trial. */
+static double open_part(const dmb_sim *sim, uint32_t s)
+{
+    const double d0 = sim->now.site_penetration[s], d1 = sim->trial.site_penetration[s];
+    return d1 / (d1 - d0);
+}
+
+/* -N n + F_t t + F_b b, b = t x n, at r n from the ring's centre; as a body-frame wrench at the node. */
+static void subtract_force(dmb_sim *sim, uint32_t s)
+{
+    const dmb_site *site = sim->scene->sites + s;
+    const uint32_t row = sim->scene->layout.row[site->node];
+    double R[9], b[3], arm[3], force[3], moment[3], wrench[6];
+    dmb_site_force f;
+    dmb_site_force_of(sim->scene, &sim->now, s, &f);
+    sim->site_return[s] = fmax(-f.rate, 0.0);
+    dmb_vec3_cross(f.tangent, f.normal, b);
+    dmb_vec3_scale(-f.normal_force, f.normal, force);
+    dmb_vec3_axpy(f.friction[0], f.tangent, force);
+    dmb_vec3_axpy(f.friction[1], b, force);
+    dmb_vec3_scale(site->radius, f.normal, arm);
+    dmb_vec3_cross(arm, force, moment);
+    dmb_quat_to_matrix(sim->now.quaternion + 4 * site->node, R);
+    dmb_mat3_tvec(R, force, wrench);
+    dmb_mat3_tvec(R, moment, wrench + 3);
+    dmb_arm_wrench(site->offset, wrench);
+    const double part = open_part(sim, s);
+    for (uint32_t i = 0; i < 6; i++) {
+        sim->correction[row + i] -= part * wrench[i];
+        sim->scale_row[row + i] = fmax(sim->scale_row[row + i], part);
+    }
+}
+
+int32_t dmb_released_acceleration(const dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    dmb_evaluation mass = *evaluation;
+    mass.mass_factor = 1.0;
+    mass.velocity_factor = 0.0;
+    mass.tangent = 1;
+    const int32_t status = dmb_factor_mass(&mass);
+    if (status < 0) return status;
+    memset(sim->correction, 0, sim->scene->row_count * sizeof(double));
+    memset(sim->scale_row, 0, sim->scene->row_count * sizeof(double));
+    for (uint32_t s = 0; s < sim->scene->site_count; s++)
+        if (opens(sim, s)) subtract_force(sim, s);
+    dmb_solve_correction(sim);
+    return DMB_OK;
+}

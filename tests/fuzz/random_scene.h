@@ -1,0 +1,342 @@
+/* Scenes out of bytes: mostly sensible, sometimes nonsense in a field. The same bytes give the same scene. */
+#ifndef DMB_TESTS_RANDOM_SCENE_H
+#define DMB_TESTS_RANDOM_SCENE_H
+
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "drillmbd/drillmbd.h"
+
+/* ---- Bytes ---------------------------------------------------------------------------------------------------------------- */
+
+/* Beyond the end there are zeros. */
+typedef struct byte_source {
+    const uint8_t *data;
+    size_t size, at;
+} byte_source;
+
+static inline uint32_t draw_byte(byte_source *s)
+{
+    return s->at < s->size ? s->data[s->at++] : 0;
+}
+
+/* 0 .. count - 1 */
+static inline uint32_t draw_below(byte_source *s, uint32_t count)
+{
+    return draw_byte(s) % count;
+}
+
+static inline int draw_chance(byte_source *s, uint32_t of_256)
+{
+    return draw_byte(s) >= 256 - of_256;
+}
+
+static inline double draw_number(byte_source *s, double low, double high)
+{
+    const uint32_t steps = draw_byte(s) << 8 | draw_byte(s);
+    return low + (high - low) * steps / 65535.0;
+}
+
+/* Evenly spread over the orders of magnitude, low > 0. */
+static inline double draw_size(byte_source *s, double low, double high)
+{
+    return exp(draw_number(s, log(low), log(high)));
+}
+
+static inline double draw_nonsense(byte_source *s)
+{
+    static const double values[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, -1.0, 0.0, -0.0,
+                                    1e300, -1e300, 4.9e-324, 1e-300, 1e30, 1e9};
+    return values[draw_below(s, sizeof values / sizeof values[0])];
+}
+
+/* Now and then something else in one of the fields. */
+static inline void draw_spoil(byte_source *s, double *fields, size_t count)
+{
+    if (draw_chance(s, 3)) fields[draw_below(s, (uint32_t)count)] = draw_nonsense(s);
+}
+
+/* ---- The scene --------------------------------------------------------------------------------------------------------------- */
+
+enum { DRAW_PROGRAMMES = 4, DRAW_STRINGS = 2, DRAW_BODIES = 2, DRAW_DRIVES = 4, DRAW_PIPES = 24 };
+
+typedef struct random_scene {
+    byte_source source;
+    dmb_model *model;
+    dmb_id programme[DRAW_PROGRAMMES], string[DRAW_STRINGS], body[DRAW_BODIES], bit, drive[DRAW_DRIVES];
+    uint32_t programmes, strings, bodies, bits, drives, pipes;
+    uint32_t pipes_of[DRAW_STRINGS];
+    int32_t free_of[DRAW_STRINGS];
+    int32_t has_wall;
+    int32_t callback_status;
+    double callback_scale;
+} random_scene;
+
+static inline int32_t draw_callback(void *context, double time, double out[3])
+{
+    const random_scene *scene = context;
+    out[0] = scene->callback_scale * sin(20.0 * time);
+    return scene->callback_status;
+}
+
+static inline void draw_environment(random_scene *scene)
+{
+    byte_source *s = &scene->source;
+    dmb_environment_def def = dmb_environment_def_default();
+    if (draw_chance(s, 128)) return;
+    def.gravity[draw_below(s, 3)] = draw_number(s, -20.0, 20.0);
+    def.fluid_density = draw_number(s, 0.0, 2000.0);
+    def.lateral_damping = draw_number(s, 0.0, 100.0);
+    def.axial_damping = draw_number(s, 0.0, 100.0);
+    def.torsional_damping = draw_number(s, 0.0, 1.0);
+    draw_spoil(s, def.gravity, 7);
+    (void)dmb_model_set_environment(scene->model, &def);
+}
+
+static inline dmb_term draw_term(random_scene *scene, double scale)
+{
+    static const double time[3] = {0.0, 0.003, 0.02};
+    static const double value[3] = {0.0, 1.0, -0.5};
+    byte_source *s = &scene->source;
+    dmb_term term = dmb_term_default();
+    term.kind = (int32_t)draw_below(s, 6);
+    term.x0 = draw_number(s, -0.01, 0.02);
+    term.x1 = term.x0 + draw_size(s, 1e-6, 0.1);
+    term.h0 = scale * draw_number(s, -0.1, 0.1);
+    term.h1 = scale * draw_number(s, -1.0, 1.0);
+    term.omega = draw_number(s, 0.0, 500.0);
+    term.phase = draw_number(s, -4.0, 4.0);
+    draw_spoil(s, &term.x0, 6);
+    if (term.kind == DMB_TERM_TABLE) {
+        term.table_time = time;
+        term.table_value = value;
+        term.table_count = 1 + draw_below(s, 3);
+    }
+    if (term.kind == DMB_TERM_CALLBACK) {
+        term.callback = draw_callback;
+        term.callback_context = scene;
+        scene->callback_scale = scale;
+    }
+    return term;
+}
+
+static inline void draw_programmes(random_scene *scene)
+{
+    byte_source *s = &scene->source;
+    const uint32_t count = 1 + draw_below(s, DRAW_PROGRAMMES);
+    for (uint32_t i = 0; i < count; i++) {
+        const double scale = draw_size(s, 1e-3, 1e3);
+        dmb_term terms[3];
+        const uint32_t n = 1 + draw_below(s, 3);
+        for (uint32_t k = 0; k < n; k++) terms[k] = draw_term(scene, scale);
+        if (dmb_model_add_programme(scene->model, terms, n, &scene->programme[scene->programmes]) >= 0)
+            scene->programmes++;
+    }
+}
+
+/* One of the programmes, or none. */
+static inline dmb_id draw_programme(random_scene *scene)
+{
+    const uint32_t i = draw_below(&scene->source, DRAW_PROGRAMMES + 1);
+    const dmb_id none = {0, 0};
+    return i < scene->programmes ? scene->programme[i] : none;
+}
+
+static inline void draw_wall(random_scene *scene)
+{
+    static const double survey[4][3] = {{0.0, 1.5707963267948966, 0.0}, {5.0, 1.6, 0.0}, {15.0, 1.5, 0.1}, {60.0, 1.4, 0.1}};
+    byte_source *s = &scene->source;
+    dmb_wall_def wall = dmb_wall_def_default();
+    if (draw_chance(s, 50)) return;
+    if (draw_chance(s, 128)) {
+        wall.survey = survey[0];
+        wall.survey_count = 2 + draw_below(s, 3);
+    }
+    wall.diameter = draw_number(s, 0.08, 0.12);
+    wall.normal_law = (int32_t)draw_below(s, 7) - 1;
+    wall.friction_law = (int32_t)draw_below(s, 5) - 1;
+    wall.stiffness = draw_size(s, 1e5, 1e10);
+    wall.exponent = draw_chance(s, 64) ? 1.5 : 1.0;
+    wall.restitution = draw_number(s, 0.01, 1.0);
+    wall.damping = draw_number(s, 0.0, 1e4);
+    wall.mu_static = draw_number(s, 0.3, 0.9);
+    wall.stribeck_speed = draw_size(s, 1e-4, 0.1);
+    wall.smoothing_speed = draw_size(s, 1e-5, 9e-3);
+    draw_spoil(s, &wall.stiffness, 12);
+    if (draw_chance(s, 3)) wall.diameter = draw_nonsense(s);
+    scene->has_wall = dmb_model_add_wall(scene->model, &wall, NULL) >= 0;
+}
+
+static inline void draw_pipes(random_scene *scene, uint32_t string)
+{
+    byte_source *s = &scene->source;
+    const uint32_t runs = 1 + draw_below(s, 3);
+    for (uint32_t i = 0; i < runs; i++) {
+        dmb_pipe_def pipe = dmb_pipe_def_default();
+        const uint32_t count = 1 + draw_below(s, 4);
+        pipe.string = scene->string[string];
+        pipe.kind = draw_chance(s, 100) ? (int32_t)draw_below(s, 3) : DMB_PIPE_FLEXIBLE;
+        pipe.elements = 1 + draw_below(s, 3);
+        pipe.length = draw_size(s, 0.05, 5.0);
+        pipe.inner_diameter = draw_number(s, 0.0, 0.06);
+        pipe.young_modulus = draw_size(s, 1e8, 1e12);
+        pipe.damping_time = draw_chance(s, 128) ? draw_size(s, 1e-7, 1e-3) : 0.0;
+        if (draw_chance(s, 100)) pipe.joint_length = 0.3 * pipe.length;
+        if (draw_chance(s, 100)) pipe.eccentricity = draw_number(s, 0.0, 3e-3);
+        if (draw_chance(s, 40)) pipe.eccentricity_spread = pipe.angle_spread = 1e-3;
+        if (draw_chance(s, 30) && pipe.kind == DMB_PIPE_FLEXIBLE) pipe.curvature[draw_below(s, 3)] = draw_number(s, -0.3, 0.3);
+        draw_spoil(s, &pipe.length, 30);
+        if (dmb_model_add_pipes(scene->model, &pipe, count, NULL) < 0) continue;
+        scene->pipes += count;
+        scene->pipes_of[string] += count;
+    }
+}
+
+static inline void draw_strings(random_scene *scene)
+{
+    static const int32_t masks[] = {DMB_FREE_CYLINDRICAL, DMB_FREE_ALL, DMB_FREE_NONE, DMB_FREE_X, DMB_FREE_RX,
+                                    DMB_FREE_SPHERICAL, DMB_FREE_RZ, 7, 35, 3};
+    byte_source *s = &scene->source;
+    const uint32_t count = draw_chance(s, 250) ? 1 + draw_below(s, DRAW_STRINGS) : 0;
+    for (uint32_t i = 0; i < count; i++) {
+        dmb_string_def def = dmb_string_def_default();
+        def.follows_hole = !draw_chance(s, 30);
+        def.start_depth = draw_number(s, 0.0, 10.0);
+        def.start_free = masks[draw_chance(s, 128) ? draw_below(s, 2) : draw_below(s, 10)];
+        if (draw_chance(s, 30)) def.end_free = masks[draw_below(s, 10)];
+        if (draw_chance(s, 30)) def.offset[draw_below(s, 2)] = draw_number(s, -0.01, 0.01);
+        if (draw_chance(s, 60)) def.velocity[draw_below(s, 6)] = draw_number(s, -1.0, 1.0);
+        draw_spoil(s, &def.start_depth, 15);
+        scene->free_of[scene->strings] = def.start_free;
+        if (dmb_model_add_string(scene->model, &def, &scene->string[scene->strings]) < 0) continue;
+        draw_pipes(scene, scene->strings++);
+    }
+}
+
+static inline void draw_bodies(random_scene *scene)
+{
+    byte_source *s = &scene->source;
+    const uint32_t count = draw_below(s, DRAW_BODIES + 1);
+    for (uint32_t i = 0; i < count; i++) {
+        dmb_body_def body = dmb_body_def_default();
+        body.attach = (int32_t)draw_below(s, 3);
+        if (scene->strings > 0) body.string = scene->string[draw_below(s, scene->strings)];
+        body.mass = draw_size(s, 0.01, 100.0);
+        body.position[0] = draw_number(s, 0.0, 20.0);
+        body.position[2] = draw_number(s, -0.01, 0.01);
+        body.velocity[draw_below(s, 6)] = draw_number(s, -2.0, 2.0);
+        if (draw_chance(s, 128)) body.contact_diameter = draw_number(s, 0.01, 0.09);
+        draw_spoil(s, &body.mass, 22);
+        if (dmb_model_add_body(scene->model, &body, &scene->body[scene->bodies]) >= 0) scene->bodies++;
+    }
+}
+
+static inline void draw_bit(random_scene *scene)
+{
+    byte_source *s = &scene->source;
+    dmb_bit_def bit = dmb_bit_def_default();
+    if (draw_chance(s, 100)) return;
+    bit.rock_law = (int32_t)draw_below(s, 3);
+    if (scene->strings > 0) bit.string = scene->string[draw_below(s, scene->strings)];
+    bit.load = draw_programme(scene);
+    bit.diameter = draw_chance(s, 200) ? draw_number(s, 0.05, 0.09) : 0.0;
+    bit.intrinsic_energy = draw_size(s, 1e5, 1e9);
+    bit.bottom = draw_chance(s, 60) ? draw_size(s, 1e-7, 1e-2) : 0.0;
+    bit.blades = 1 + draw_below(s, 8);
+    bit.history = 64 + draw_below(s, 100);
+    draw_spoil(s, &bit.mass, 12);
+    scene->bits = dmb_model_add_bit(scene->model, &bit, &scene->bit) >= 0;
+}
+
+static inline dmb_id draw_part(random_scene *scene)
+{
+    byte_source *s = &scene->source;
+    const dmb_id none = {0, 0};
+    if (scene->bodies > 0 && draw_chance(s, 80)) return scene->body[draw_below(s, scene->bodies)];
+    if (scene->strings > 0 && draw_chance(s, 240)) return scene->string[draw_below(s, scene->strings)];
+    return scene->bits ? scene->bit : none;
+}
+
+/* Nearly always one that is free. */
+static inline int32_t draw_component(random_scene *scene, dmb_id part)
+{
+    byte_source *s = &scene->source;
+    int32_t component = draw_chance(s, 200) ? (draw_chance(s, 128) ? DMB_X : DMB_RX) : (int32_t)draw_below(s, 6);
+    if (draw_chance(s, 5)) return component;
+    for (uint32_t i = 0; i < scene->strings; i++) {
+        if (scene->string[i].index != part.index || scene->free_of[i] == 0) continue;
+        while ((scene->free_of[i] >> component & 1) == 0) component = (component + 1) % 6;
+    }
+    return component;
+}
+
+static inline void draw_drives(random_scene *scene)
+{
+    byte_source *s = &scene->source;
+    const uint32_t count = draw_below(s, DRAW_DRIVES + 1);
+    for (uint32_t i = 0; i < count; i++) {
+        dmb_drive_def drive = dmb_drive_def_default();
+        drive.kind = (int32_t)draw_below(s, 3);
+        drive.part = draw_part(scene);
+        drive.component = draw_component(scene, drive.part);
+        drive.programme = draw_programme(scene);
+        drive.excitation = draw_programme(scene);
+        drive.gain = draw_number(s, 0.0, 1e4);
+        drive.integral_gain = draw_number(s, 0.0, 1e4);
+        draw_spoil(s, &drive.gain, 4);
+        if (dmb_model_add_drive(scene->model, &drive, &scene->drive[scene->drives]) >= 0) scene->drives++;
+    }
+}
+
+static inline void draw_loads(random_scene *scene)
+{
+    byte_source *s = &scene->source;
+    const uint32_t count = draw_below(s, 3);
+    for (uint32_t i = 0; i < count; i++) {
+        dmb_load_def load = dmb_load_def_default();
+        load.frame = (int32_t)draw_below(s, scene->has_wall ? 3 : 2);
+        load.place = dmb_station(draw_part(scene), draw_below(s, 3), draw_below(s, 2));
+        load.force[draw_below(s, 3)] = draw_number(s, -1.0, 1.0) * draw_size(s, 1.0, 1e4);
+        load.moment[draw_below(s, 3)] = draw_number(s, -1.0, 1.0) * draw_size(s, 1.0, 1e3);
+        load.programme = draw_programme(scene);
+        draw_spoil(s, load.force, 6);
+        (void)dmb_model_add_load(scene->model, &load, NULL);
+    }
+}
+
+/* Describes; the caller compiles. What is refused is left out. */
+static inline void draw_scene(random_scene *scene, const uint8_t *data, size_t size)
+{
+    memset(scene, 0, sizeof *scene);
+    scene->source.data = data;
+    scene->source.size = size;
+    if (dmb_model_create(NULL, &scene->model) < 0) return;
+    draw_environment(scene);
+    draw_programmes(scene);
+    draw_wall(scene);
+    draw_strings(scene);
+    draw_bodies(scene);
+    draw_bit(scene);
+    draw_drives(scene);
+    draw_loads(scene);
+}
+
+/* Error control with a floor and a bound on steps, so that no run takes for ever. */
+static inline dmb_sim_options draw_options(random_scene *scene)
+{
+    byte_source *s = &scene->source;
+    dmb_sim_options options = dmb_sim_options_default();
+    options.spectral_radius = draw_number(s, 0.0, 1.0);
+    options.max_iterations = 1 + draw_below(s, 30);
+    options.max_cuts = draw_below(s, 8);
+    options.step_min = 1e-6;
+    options.max_steps = 1000;
+    options.newton_tolerance = draw_size(s, 1e-11, 1e-3);
+    options.bounded_work = draw_chance(s, 60);
+    options.energy_ledger = !draw_chance(s, 40);
+    return options;
+}
+
+#endif
