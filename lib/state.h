@@ -12,7 +12,7 @@
 /* ---- Configuration: kept twice, as `now` (accepted) and `trial`; a step writes trial and swaps on acceptance.
  * X(type, name, count) */
 #define DMB_CONFIGURATION_LIST(X)                                                                                     \
-    /* integrator/update, from the increments of pose: */                                                             \
+    /* integrator/attempt, from the increments of pose: */                                                            \
     X(double, displacement, 3 * n)      /* [m] FULL: world, from reference_position; PATH: [0] along the axis, rest 0 */ \
     X(double, quaternion, 4 * n)        /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */          \
     X(double, turn, n)                  /* [rad] about the node's own x axis since time 0, revolutions counted */      \
@@ -46,7 +46,7 @@
 /* ---- Memory: kept once, written on acceptance only. Saved, restored and hashed like `now`. */
 #define DMB_MEMORY_LIST(X)                                                                                            \
     X(dmb_clock, clock, 1)              /* times and step lengths, integrator */                                       \
-    X(dmb_ledger, ledger, 1)            /* [J] accumulated, integrator/ledger */                                       \
+    X(dmb_ledger, ledger, 1)            /* [J] accumulated, system/ledger */                                           \
     X(dmb_counters, counters, 1)        /* [-] statistics, integrator */                                               \
     X(double, residual_row, r)          /* [N, N m] residual of the accepted state: reactions in the rows not solved */ \
     X(double, drive_work, d)            /* [J] */                                                                      \
@@ -58,7 +58,7 @@
 /* ---- Work: rewritten in every step, never saved. */
 #define DMB_WORK_LIST(X)                                                                                              \
     X(double, increment, r)             /* [m, rad] h Dq of this step, integrator */                                   \
-    X(double, rotation, 9 * n)          /* [-] body to world of the trial, row-major, system/gather */                 \
+    X(double, rotation, 9 * n)          /* [-] body to world of the trial, row-major, system/evaluation */             \
     X(double, correction, r)            /* [m, rad] right-hand side, then Newton correction */                         \
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                      \
     X(double, element_strain, 6 * e)    /* [m, rad] d of the trial */                                                  \

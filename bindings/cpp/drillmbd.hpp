@@ -1,4 +1,4 @@
-// libdrillmbd for C++11 and later: owners of models and sims that clean up after themselves, and failures as exceptions.
+// libdrillmbd for C++11 and later: owners of models and sims that clean up after themselves, failures as exceptions.
 // Everything else is the C interface: its structs, ids, constants and units; see drillmbd/model.h, sim.h, query.h.
 //
 //     drillmbd::model model;
@@ -10,10 +10,10 @@
 //     while (sim.time() < 40.0) sim.step(1e-3);
 //     dmb_pose pose = sim.pose(dmb_station(string, 99, 1.0));
 //
-// A member that fails throws drillmbd::error; one that is done returns its answer, or the status where that may be a note
-// (> 0). The members named try_ and the two create functions throw nothing and return the status instead; without
+// A member that fails throws drillmbd::error; one that is done returns its answer, or the status where that may be a
+// note (> 0). The members named try_ and the create functions throw nothing and return the status instead; without
 // exceptions in the compiler they are what there is, next to the C functions on get(). Owners are one pointer wide, and
-// all members are inline calls of one C function.
+// the members are inline calls of C functions.
 #ifndef DRILLMBD_DRILLMBD_HPP
 #define DRILLMBD_DRILLMBD_HPP
 
@@ -58,7 +58,7 @@ inline std::int32_t check(std::int32_t status, const char *message = nullptr)
 }
 #endif
 
-// ---- Model --------------------------------------------------------------------------------------------------------------
+// ---- Model ----------------------------------------------------------------------------------------------------------
 class model {
 public:
     // An owner of nothing.
@@ -165,7 +165,7 @@ private:
     dmb_model *handle_;
 };
 
-// ---- Sim ----------------------------------------------------------------------------------------------------------------
+// ---- Sim ------------------------------------------------------------------------------------------------------------
 class sim {
 public:
     // An owner of nothing.

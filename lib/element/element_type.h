@@ -23,6 +23,7 @@ typedef struct dmb_element_type {
     double arm[2];        /* [m] along x from node a to the element's end A, and from its end B to node b */
     dmb_beam_mass mass;
     double mass_per_metre; /* [kg/m] */
+    double weight_mass;    /* [kg] of the element that gravity acts on, buoyancy taken off */
     double diameter;      /* [m] outer, for pictures */
 } dmb_element_type;
 

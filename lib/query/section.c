@@ -5,14 +5,17 @@
 
 DMB_DECLARE_STRUCT(dmb_section)
 
-/* Straight between the forces at the element's ends; a tool joint hands on the force at its near end, its own mass left
- * out: m(s) = m_B - s e_x x n. */
+/* Between the ends forces go straight, and bending moments by the parabola that belongs to them, dm/dx = -e_x x n; exact
+ * under uniform weight. A tool joint hands on the load at its near end, its own mass left out. */
 static void section_force(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_spot *spot,
                           double force[6])
 {
+    const double x = spot->fraction, bow = 0.5 * x * (1.0 - x) * scene->types[scene->element_type[spot->element]].length;
     double ends[12];
-    dmb_element_section_force(scene, configuration, spot->element, ends);
-    for (int i = 0; i < 6; i++) force[i] = ends[i] + spot->fraction * (ends[6 + i] - ends[i]);
+    dmb_element_end_loads(scene, configuration, spot->element, ends);
+    for (int i = 0; i < 6; i++) force[i] = ends[i] + x * (ends[6 + i] - ends[i]);
+    force[4] -= bow * (ends[8] - ends[2]);
+    force[5] += bow * (ends[7] - ends[1]);
     force[4] += spot->beyond * force[2];
     force[5] -= spot->beyond * force[1];
 }

@@ -166,3 +166,40 @@ void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *
     dmb_beam_add_force(&shape, stress, force, force + 6);
     for (int i = 0; i < 6; i++) force[i] = -force[i]; /* at A the far side is the element itself */
 }
+
+/* Half the weight and the moment +- w L^2/12 that belong to one end (side 1: A, -1: B), in its frame. */
+static void end_weight(const dmb_scene *scene, const dmb_element_type *type, const double R[9], double side, double w[6])
+{
+    double g[3];
+    dmb_mat3_tvec(R, scene->gravity, g);
+    dmb_vec3_scale(0.5 * type->weight_mass, g, w);
+    const double moment[3] = {side * type->weight_mass * type->length / 12.0, 0.0, 0.0};
+    dmb_vec3_cross(moment, g, w + 3);
+}
+
+void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                           double load[12])
+{
+    const dmb_element_type *type = type_of(scene, element);
+    const uint32_t a = scene->element_node[element];
+    double va[6], vb[6], aa[6], ab[6], pa[6], pb[6], fa[6], fb[6], ga[6], gb[6], wa[6], wb[6], R[9], u[3];
+    dmb_element_section_force(scene, configuration, element, load);
+    if (is_path(scene, a) && is_path(scene, a + 1)) return;
+    end_velocities(scene, configuration, element, va, vb);
+    dmb_node_vector(scene, configuration, a, configuration->acceleration, aa);
+    dmb_node_vector(scene, configuration, a + 1, configuration->acceleration, ab);
+    dmb_arm_velocity(type->arm[0], aa);
+    dmb_arm_velocity(-type->arm[1], ab);
+    dmb_beam_mass_times(&type->mass, va, vb, pa, pb);
+    dmb_beam_mass_times(&type->mass, aa, ab, fa, fb);
+    dmb_ad_transpose(va, pa, ga);
+    dmb_ad_transpose(vb, pb, gb);
+    dmb_node_pose(scene, configuration, a, R, u);
+    end_weight(scene, type, R, 1.0, wa);
+    dmb_node_pose(scene, configuration, a + 1, R, u);
+    end_weight(scene, type, R, -1.0, wb);
+    for (int i = 0; i < 6; i++) {
+        load[i] -= fa[i] - ga[i] - wa[i];
+        load[6 + i] += fb[i] - gb[i] - wb[i];
+    }
+}

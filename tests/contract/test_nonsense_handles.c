@@ -4,7 +4,7 @@
 
 #include "whole_scene.h"
 
-/* ---- Every function of a sim, and every one of a model ------------------------------------------------------------------- */
+/* ---- Every function of a sim, and every one of a model ----------------------------------------------------------- */
 
 static struct {
     whole_parts parts;
@@ -218,7 +218,7 @@ static const struct {
     {"write_vtk_hole", write_vtk_hole, 0}};
 enum { MODEL_CALLS = sizeof model_calls / sizeof model_calls[0] };
 
-/* ---- Fixture ----------------------------------------------------------------------------------------------------------- */
+/* ---- Fixture ----------------------------------------------------------------------------------------------------- */
 
 static int set_up(void **state)
 {
@@ -271,7 +271,7 @@ static dmb_model *as_model(void *object)
     return object;
 }
 
-/* ---- Tests -------------------------------------------------------------------------------------------------------------- */
+/* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 static void null_is_refused(void **state)
 {

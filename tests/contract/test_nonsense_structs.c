@@ -1,5 +1,5 @@
-/* Structs that are none: every function that takes one refuses a struct_size that no header ever had, before it reads or
- * writes anything else, and takes those of older and newer headers where nothing is asked that it does not know. */
+/* Structs that are none: every function that takes one refuses a struct_size that no header ever had, before it reads
+ * or writes anything else, and takes those of newer headers where nothing is asked that it does not know. */
 #include <stdlib.h>
 
 #include "whole_scene.h"
@@ -14,7 +14,7 @@ static struct {
     double table[8];
 } scene;
 
-/* ---- One entry for each function and struct ------------------------------------------------------------------------------ */
+/* ---- One entry for each function and struct ---------------------------------------------------------------------- */
 
 typedef union any_struct {
     uint32_t struct_size;
@@ -207,7 +207,7 @@ static const entry entries[] = {
 };
 enum { ENTRIES = sizeof entries / sizeof entries[0] };
 
-/* ---- Fixture ----------------------------------------------------------------------------------------------------------------- */
+/* ---- Fixture ----------------------------------------------------------------------------------------------------- */
 
 static int set_up(void **state)
 {
@@ -257,7 +257,7 @@ static any_struct filled(const entry *e)
     return s;
 }
 
-/* ---- Tests ------------------------------------------------------------------------------------------------------------------ */
+/* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 static void size_as_in_this_header_is_taken(void **state)
 {

@@ -39,7 +39,7 @@ static void refused(const char *what, int32_t status, int32_t wanted)
     if (whole_hash(scene.sim) != scene.hash) fail_msg("%s: the state changed", what);
 }
 
-/* ---- Ids ---------------------------------------------------------------------------------------------------------------- */
+/* ---- Ids --------------------------------------------------------------------------------------------------------- */
 
 enum { STRING, BODY, BIT, DRIVE, PROGRAMME, WALL, KINDS };
 
@@ -237,7 +237,7 @@ static void definitions_refuse_strange_ids(void **state)
     dmb_model_destroy(&model);
 }
 
-/* ---- Places ------------------------------------------------------------------------------------------------------------- */
+/* ---- Places ------------------------------------------------------------------------------------------------------ */
 
 static int32_t ask_all_at(dmb_place place)
 {
@@ -262,7 +262,8 @@ static void places_off_the_string_are_refused(void **state)
     const dmb_id string = scene.parts.string, body = scene.parts.body;
     (void)state;
     for (uint32_t pipe = 0; pipe < WHOLE_PIPES; pipe++) {
-        for (size_t i = 0; i < 6; i++) refused("fraction", ask_all_at(dmb_station(string, pipe, bad[i])), DMB_ERR_VALUE);
+        for (size_t i = 0; i < 6; i++)
+            refused("fraction", ask_all_at(dmb_station(string, pipe, bad[i])), DMB_ERR_VALUE);
         for (size_t i = 0; i < 3; i++)
             refused("fraction", ask_all_at(dmb_station(string, pipe, strange[i])), DMB_ERR_NOT_FINITE);
         refused("fraction 0", ask_all_at(dmb_station(string, pipe, 0.0)), DMB_OK);
@@ -298,7 +299,7 @@ static void other_numbers_of_questions_are_checked(void **state)
     }
 }
 
-/* ---- Durations and times ------------------------------------------------------------------------------------------------ */
+/* ---- Durations and times ----------------------------------------------------------------------------------------- */
 
 static void durations_that_lead_nowhere_are_refused(void **state)
 {
@@ -339,7 +340,7 @@ static void times_that_are_not_ahead_are_refused(void **state)
     }
 }
 
-/* ---- Drives -------------------------------------------------------------------------------------------------------------- */
+/* ---- Drives ------------------------------------------------------------------------------------------------------ */
 
 static void drives_are_set_to_numbers(void **state)
 {
@@ -373,7 +374,7 @@ static void huge_drive_does_no_harm(void **state)
     }
 }
 
-/* ---- Options -------------------------------------------------------------------------------------------------------------- */
+/* ---- Options ----------------------------------------------------------------------------------------------------- */
 
 static int32_t create_with(const dmb_sim_options *options)
 {
@@ -523,7 +524,7 @@ static void static_options_out_of_bounds_are_refused(void **state)
     refused("lay_on_wall", dmb_analysis_static(scene.sim, &options, NULL), DMB_ERR_VALUE);
 }
 
-/* ---- Compile options -------------------------------------------------------------------------------------------------------- */
+/* ---- Compile options --------------------------------------------------------------------------------------------- */
 
 static void compile_options_out_of_bounds_are_refused(void **state)
 {
@@ -548,7 +549,7 @@ static void compile_options_out_of_bounds_are_refused(void **state)
     dmb_model_destroy(&model);
 }
 
-/* ---- Recorder and writers ----------------------------------------------------------------------------------------------------- */
+/* ---- Recorder and writers ---------------------------------------------------------------------------------------- */
 
 static void recorders_that_are_none_are_refused(void **state)
 {

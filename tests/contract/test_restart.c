@@ -1,5 +1,5 @@
-/* Snapshots: a run that is saved, left, taken up again or handed from sim to sim goes on bit for bit; what does not fit or
- * is damaged is refused and changes nothing. */
+/* Snapshots: a run that is saved, left, taken up again or handed from sim to sim goes on bit for bit; what does not fit
+ * or is damaged is refused and changes nothing. */
 #include <stdlib.h>
 
 #include "whole_scene.h"
@@ -57,7 +57,7 @@ static uint64_t straight(const scene *s)
     return hash;
 }
 
-/* ---- Going on ----------------------------------------------------------------------------------------------------------- */
+/* ---- Going on ---------------------------------------------------------------------------------------------------- */
 
 static void run_taken_up_again_is_the_same(void **state)
 {
@@ -176,7 +176,7 @@ static void snapshot_is_a_function_of_the_state(void **state)
     free(second);
 }
 
-/* ---- Refusals ------------------------------------------------------------------------------------------------------------- */
+/* ---- Refusals ---------------------------------------------------------------------------------------------------- */
 
 static void refuses(dmb_sim *sim, const void *block, size_t size, int32_t wanted)
 {

@@ -11,7 +11,7 @@
 #define COUNTS_MALLOC 1
 #endif
 
-/* ---- malloc and its kin -------------------------------------------------------------------------------------------- */
+/* ---- malloc and its kin ------------------------------------------------------------------------------------------ */
 
 static volatile size_t malloc_calls;
 
@@ -73,7 +73,7 @@ static int malloc_is_counted(void)
     return malloc_calls - before == 2;
 }
 
-/* ---- The given allocator ------------------------------------------------------------------------------------------- */
+/* ---- The given allocator ----------------------------------------------------------------------------------------- */
 
 static size_t given_calls;
 
@@ -91,7 +91,7 @@ static void give(void *context, void *block, size_t size, size_t alignment)
     free(block);
 }
 
-/* ---- A scene, and a snapshot in static memory ------------------------------------------------------------------------- */
+/* ---- A scene, and a snapshot in static memory -------------------------------------------------------------------- */
 
 static struct {
     whole_parts parts;
@@ -135,7 +135,7 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* ---- What is done without memory -------------------------------------------------------------------------------------- */
+/* ---- What is done without memory --------------------------------------------------------------------------------- */
 
 /* Each returns the worst status that came back. */
 static int32_t step(void)
@@ -232,7 +232,7 @@ static void do_all(const volatile size_t *calls)
     }
 }
 
-/* ---- Tests ------------------------------------------------------------------------------------------------------------ */
+/* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 static void given_allocator_is_not_called(void **state)
 {

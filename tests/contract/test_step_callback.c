@@ -145,7 +145,7 @@ static void must_fail(scene *s, int use, int misdeed)
     assert_int_equal(dmb_sim_advance(s->sim, dmb_sim_time(s->sim) + 1e-3, NULL), DMB_ERR_CALLBACK);
 }
 
-/* ---- Tests ------------------------------------------------------------------------------------------------------------ */
+/* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 /* Wrong values, in every place where a programme can be used; afterwards the run goes on as if it had not been. */
 static void misdeeds_stop_the_step(void **state)

@@ -44,7 +44,7 @@ static void must_fail(scene *s, double duration, int32_t wanted)
     assert_true(whole_hash(s->sim) == before);
 }
 
-/* ---- Newton that does not converge ------------------------------------------------------------------------------------ */
+/* ---- Newton that does not converge ------------------------------------------------------------------------------- */
 
 /* A string that lies above a hard wall and falls. */
 static void hard_contact(scene *s, const dmb_sim_options *options)
@@ -127,7 +127,7 @@ static void bounded_work_accepts_and_tells(void **state)
     close_scene(&s);
 }
 
-/* ---- A relative rotation beyond what an element can tell ---------------------------------------------------------------- */
+/* ---- A relative rotation beyond what an element can tell --------------------------------------------------------- */
 
 static dmb_id torque(dmb_model *model)
 {
@@ -184,7 +184,7 @@ static void too_much_rotation_in_one_step(void **state)
     close_scene(&s);
 }
 
-/* ---- A callback that refuses on the way ---------------------------------------------------------------------------------- */
+/* ---- A callback that refuses on the way -------------------------------------------------------------------------- */
 
 static int32_t refuse_late(void *context, double time, double out[3])
 {
@@ -252,7 +252,7 @@ static void run_goes_on_as_if_nothing_had_been(void **state)
     assert_true(run(&b, 1) == undisturbed);
 }
 
-/* ---- advance: the state is then the last accepted one ---------------------------------------------------------------------- */
+/* ---- advance: the state is then the last accepted one ------------------------------------------------------------ */
 
 static void failing_advance_stops_at_an_accepted_state(void **state)
 {
@@ -299,7 +299,7 @@ static void report_is_of_this_call(void **state)
     close_scene(&s);
 }
 
-/* ---- A static start that fails --------------------------------------------------------------------------------------------- */
+/* ---- A static start that fails ----------------------------------------------------------------------------------- */
 
 static void failing_static_start_changes_nothing(void **state)
 {

@@ -1,5 +1,5 @@
-/* Slivers of steps, as sums of times that do not come out even make them: a step of next to nothing is done, and the run
- * after it is the run without it but for the time that it took. */
+/* Slivers of steps, as sums of times that do not come out even make them: a step of next to nothing is done, and the
+ * run after it is the run without it but for the time that it took. */
 #include "whole_scene.h"
 
 enum { BEFORE = 5, AFTER = 20 };

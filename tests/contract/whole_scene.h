@@ -1,6 +1,6 @@
-/* A scene with every kind of part, for the contract tests: a curved hole, a string of all three kinds of pipes with tool
- * joints, eccentricity, a rig head and a regenerative bit, a second string, a body of its own, drives of all kinds with
- * programmes of all kinds, dead and follower loads. Small enough to be run some thousand times. */
+/* A scene with every kind of part, for the contract tests: a curved hole, a string of all three kinds of pipes with
+ * tool joints, eccentricity, a rig head and a regenerative bit, a second string, a body of its own, drives of all kinds
+ * with programmes of all kinds, dead and follower loads. Small enough to be run some thousand times. */
 #ifndef DMB_TESTS_WHOLE_SCENE_H
 #define DMB_TESTS_WHOLE_SCENE_H
 
@@ -310,7 +310,7 @@ static inline int32_t whole_add_follower(dmb_model *model, whole_parts *parts)
     return dmb_model_add_load(model, &load, NULL);
 }
 
-/* ---- The whole ---------------------------------------------------------------------------------------------------- */
+/* ---- The whole --------------------------------------------------------------------------------------------------- */
 
 static inline int32_t whole_compile(dmb_model *model, whole_parts *parts)
 {
@@ -372,7 +372,7 @@ static inline void whole_run(dmb_sim *sim, uint32_t n, double h)
     }
 }
 
-/* ---- Every question ----------------------------------------------------------------------------------------------- */
+/* ---- Every question ---------------------------------------------------------------------------------------------- */
 
 typedef struct whole_answers {
     dmb_pose pose[WHOLE_PIPES];

@@ -9,7 +9,7 @@
 
 #include "drillmbd/drillmbd.h"
 
-/* ---- Bytes ---------------------------------------------------------------------------------------------------------------- */
+/* ---- Bytes ------------------------------------------------------------------------------------------------------- */
 
 /* Beyond the end there are zeros. */
 typedef struct byte_source {
@@ -58,7 +58,7 @@ static inline void draw_spoil(byte_source *s, double *fields, size_t count)
     if (draw_chance(s, 3)) fields[draw_below(s, (uint32_t)count)] = draw_nonsense(s);
 }
 
-/* ---- The scene --------------------------------------------------------------------------------------------------------------- */
+/* ---- The scene --------------------------------------------------------------------------------------------------- */
 
 enum { DRAW_PROGRAMMES = 4, DRAW_STRINGS = 2, DRAW_BODIES = 2, DRAW_DRIVES = 4, DRAW_PIPES = 24 };
 
@@ -146,7 +146,8 @@ static inline dmb_id draw_programme(random_scene *scene)
 
 static inline void draw_wall(random_scene *scene)
 {
-    static const double survey[4][3] = {{0.0, 1.5707963267948966, 0.0}, {5.0, 1.6, 0.0}, {15.0, 1.5, 0.1}, {60.0, 1.4, 0.1}};
+    static const double survey[4][3] = {
+        {0.0, 1.5707963267948966, 0.0}, {5.0, 1.6, 0.0}, {15.0, 1.5, 0.1}, {60.0, 1.4, 0.1}};
     byte_source *s = &scene->source;
     dmb_wall_def wall = dmb_wall_def_default();
     if (draw_chance(s, 50)) return;
@@ -186,7 +187,8 @@ static inline void draw_pipes(random_scene *scene, uint32_t string)
         if (draw_chance(s, 100)) pipe.joint_length = 0.3 * pipe.length;
         if (draw_chance(s, 100)) pipe.eccentricity = draw_number(s, 0.0, 3e-3);
         if (draw_chance(s, 40)) pipe.eccentricity_spread = pipe.angle_spread = 1e-3;
-        if (draw_chance(s, 30) && pipe.kind == DMB_PIPE_FLEXIBLE) pipe.curvature[draw_below(s, 3)] = draw_number(s, -0.3, 0.3);
+        if (draw_chance(s, 30) && pipe.kind == DMB_PIPE_FLEXIBLE)
+            pipe.curvature[draw_below(s, 3)] = draw_number(s, -0.3, 0.3);
         draw_spoil(s, &pipe.length, 30);
         if (dmb_model_add_pipes(scene->model, &pipe, count, NULL) < 0) continue;
         scene->pipes += count;

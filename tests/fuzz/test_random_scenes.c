@@ -13,7 +13,7 @@ enum { ACTIONS_MAX = 24, STEPS_MAX = 12 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* ---- Judging ------------------------------------------------------------------------------------------------------------------ */
+/* ---- Judging ----------------------------------------------------------------------------------------------------- */
 
 static unsigned long long present_seed; /* of the input that is being run, for the message */
 static const char *present_action = "";
@@ -47,7 +47,7 @@ static void must_be_finite(const double *values, size_t count)
     for (size_t i = 0; i < count; i++) MUST(isfinite(values[i]));
 }
 
-/* ---- Questions ------------------------------------------------------------------------------------------------------------------ */
+/* ---- Questions --------------------------------------------------------------------------------------------------- */
 
 static void ask_place(const dmb_sim *sim, dmb_place place)
 {
@@ -125,7 +125,7 @@ static void ask_all(const dmb_sim *sim, random_scene *scene)
     MUST(hash_of(sim) == before);
 }
 
-/* ---- Actions -------------------------------------------------------------------------------------------------------------------- */
+/* ---- Actions ----------------------------------------------------------------------------------------------------- */
 
 static void act_step(dmb_sim *sim, random_scene *scene)
 {
@@ -236,7 +236,7 @@ static void run_sim(dmb_sim *sim, random_scene *scene)
     }
 }
 
-/* ---- One input -------------------------------------------------------------------------------------------------------------------- */
+/* ---- One input --------------------------------------------------------------------------------------------------- */
 
 static int32_t compile(random_scene *scene)
 {
@@ -275,7 +275,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     return 0;
 }
 
-/* ---- As a test -------------------------------------------------------------------------------------------------------------------- */
+/* ---- As a test --------------------------------------------------------------------------------------------------- */
 
 #if !defined(DMB_FUZZER)
 enum { INPUTS = 300, BYTES = 1500 };

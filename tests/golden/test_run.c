@@ -1,5 +1,5 @@
-/* The golden run: one scene, 1000 steps of 1 ms, the same bits for ever. When the hash of the end state differs, the table
- * of figures tells what has moved; they are held to 1e-9. A change of results that is meant is stored by
+/* The golden run: one scene, 1000 steps of 1 ms, the same bits for ever. When the hash of the end state differs, the
+ * table of figures tells what has moved; they are held to 1e-9. A change of results that is meant is stored by
  * tests/golden/update, with its reason. `--write FILE` writes golden_values.h. */
 #include <math.h>
 #include <setjmp.h>
@@ -13,10 +13,10 @@
 
 #include "drillmbd/drillmbd.h"
 
-/* -ffp-contract=off leaves compilers no choice: gcc 12 and clang 14 give the same bits from -O0 to -O3. Two things beyond
- * the sources can move the last one: the sine, exponential and the like of the C library, which round in their own way,
- * and gcc 12 with -mfma, which fuses alternating sums of products all the same (unless -fno-tree-slp-vectorize). That moves
- * the figures by 1e-11 of their scale. */
+/* -ffp-contract=off leaves compilers no choice: gcc 12 and clang 14 give the same bits from -O0 to -O3. Two things
+ * beyond the sources can move the last one: the sine, exponential and the like of the C library, which round in their
+ * own way, and gcc 12 with -mfma, which fuses alternating sums of products all the same (unless
+ * -fno-tree-slp-vectorize). That moves the figures by 1e-11 of their scale. */
 #if defined(__x86_64__)
 #define ARCHITECTURE "x86_64"
 #elif defined(__aarch64__)
@@ -46,7 +46,7 @@ typedef struct golden_figure {
 
 enum { STEPS = 1000, PIPES = 12, FIGURES_MAX = 64 };
 
-/* ---- The scene ------------------------------------------------------------------------------------------------------------ */
+/* ---- The scene --------------------------------------------------------------------------------------------------- */
 
 static struct {
     dmb_model *model;
@@ -134,7 +134,7 @@ static void add_drives(void)
     must(dmb_model_add_drive(run.model, &drive, &run.turning));
 }
 
-/* ---- The run and its figures ------------------------------------------------------------------------------------------------ */
+/* ---- The run and its figures ------------------------------------------------------------------------------------- */
 
 static void note(const char *name, double value, double scale)
 {
@@ -235,7 +235,7 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* ---- Tests -------------------------------------------------------------------------------------------------------------------- */
+/* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 enum { STORED_FIGURES = sizeof golden_figures / sizeof golden_figures[0],
        STORED_HASHES = sizeof golden_hashes / sizeof golden_hashes[0] };
@@ -269,7 +269,7 @@ static void hash_is_as_stored_skipped_on_platforms_without_one(void **state)
     skip();
 }
 
-/* ---- golden_values.h ------------------------------------------------------------------------------------------------------------ */
+/* ---- golden_values.h --------------------------------------------------------------------------------------------- */
 
 static const char *file_name;
 
@@ -278,7 +278,7 @@ static void write_values(void **state)
     FILE *file = fopen(file_name, "w");
     (void)state;
     assert_non_null(file);
-    fprintf(file, "/* Written by tests/golden/update; the reason of each change stands under Numerics in CHANGELOG.md. */\n");
+    fprintf(file, "/* Written by tests/golden/update; reasons of changes stand under Numerics in CHANGELOG.md. */\n");
     fprintf(file, "static const golden_hash golden_hashes[] = {\n");
     fprintf(file, "    {\"%s\", UINT64_C(0x%016llx)},\n", platform, (unsigned long long)run.hash);
     for (size_t i = 0; i < STORED_HASHES; i++) {
