@@ -1,5 +1,5 @@
-/* The bit at work, asked through dmb_query_bit. A short rigid string without a wall is fed and turned by motion drives, so
- * that depth of cut, weight and torque follow from the drives alone; what the drives have to do is told by them. */
+/* The bit at work, asked through dmb_query_bit. A short rigid string without a wall is fed and turned by motion drives,
+ * so that depth of cut, weight and torque follow from the drives alone; what the drives have to do is told by them. */
 #include "contact_scene.h"
 
 /* Coal of CASES: a .047 m, eps 10e6, zeta .6, sigma 10e6, l 1e-3, mu gamma .5; the header's defaults. */
@@ -174,8 +174,8 @@ static void bottom_hole_load(void **state)
 
 /* ---- Hard case 15 ------------------------------------------------------------------------------------------------ */
 
-/* Drills for 1 s, stops to 1.5 s, then turns and moves backwards: no cutting, and nothing is asked of the history outside
- * of what it holds. Drilling on afterwards meets rock where it was left. */
+/* Drills for 1 s, stops to 1.5 s, then turns and moves backwards: no cutting, and nothing is asked of the history
+ * outside of what it holds. Drilling on afterwards meets rock where it was left. */
 static void reverse_rotation(void **state)
 {
     static const int32_t laws[] = {DMB_ROCK_RATE, DMB_ROCK_REGENERATIVE};
@@ -183,9 +183,9 @@ static void reverse_rotation(void **state)
     for (int k = 0; k < 2; k++) {
         dmb_bit_def bit = dmb_bit_def_default();
         const dmb_term terms[6] = {
-            scene_step_term(1.0, feed, 1.5, 0.0), scene_step_term(1.5, 0.0, 2.0, -feed), scene_step_term(3.0, 0.0, 3.5, 2.0 * feed),
-            scene_step_term(1.0, turning, 1.5, 0.0), scene_step_term(1.5, 0.0, 2.0, -turning),
-            scene_step_term(3.0, 0.0, 3.5, 2.0 * turning)};
+            scene_step_term(1.0, feed, 1.5, 0.0),       scene_step_term(1.5, 0.0, 2.0, -feed),
+            scene_step_term(3.0, 0.0, 3.5, 2.0 * feed), scene_step_term(1.0, turning, 1.5, 0.0),
+            scene_step_term(1.5, 0.0, 2.0, -turning),   scene_step_term(3.0, 0.0, 3.5, 2.0 * turning)};
         double deepest = 0.0;
         int met = 0;
         rig r;
@@ -254,9 +254,9 @@ static void through_a_flexible_pipe(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rate_law),         cmocka_unit_test(drilling_energy),
-        cmocka_unit_test(regenerative_law), cmocka_unit_test(off_bottom),
-        cmocka_unit_test(bottom_hole_load), cmocka_unit_test(reverse_rotation),
+        cmocka_unit_test(rate_law),          cmocka_unit_test(drilling_energy),
+        cmocka_unit_test(regenerative_law),  cmocka_unit_test(off_bottom),
+        cmocka_unit_test(bottom_hole_load),  cmocka_unit_test(reverse_rotation),
         cmocka_unit_test(reverse_on_bottom), cmocka_unit_test(through_a_flexible_pipe),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

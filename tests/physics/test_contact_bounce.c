@@ -1,9 +1,9 @@
-/* CASES: a ball dropped from h0 = 1 m on a floor of restitution .8 first meets it at sqrt(2 h0/g) = .451523640986 s, rises
- * to e^(2n) h0 after n impacts, and comes to rest after infinitely many at sqrt(2 h0/g) (1+e)/(1-e) = 4.063712768872 s;
- * 1e-3 for a compliant wall.
+/* CASES: a ball dropped from h0 = 1 m on a floor of restitution .8 first meets it at sqrt(2 h0/g) = .451523640986 s,
+ * rises to e^(2n) h0 after n impacts, and comes to rest after infinitely many at sqrt(2 h0/g) (1+e)/(1-e)
+ * = 4.063712768872 s; 1e-3 for a compliant wall.
  *
- * The wall is stiff enough (1e10 N/m on 1 kg, contacts of 31 us) for their duration, about 0.9 pi sqrt(m/K) each, to stay
- * below 1e-3 s in all. The floor of the approach speed, 1e-5 m/s, is where the bounces end. */
+ * The wall is stiff enough (1e10 N/m on 1 kg, contacts of 31 us) for their duration, about 0.9 pi sqrt(m/K) each, to
+ * stay below 1e-3 s in all. The floor of the approach speed, 1e-5 m/s, is where the bounces end. */
 #include "contact_scene.h"
 
 static const double g = 9.81, e = 0.8;

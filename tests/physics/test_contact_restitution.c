@@ -6,10 +6,10 @@
 #include "contact_scene.h"
 
 typedef struct impact {
-    double out;      /* [-] speed of leaving over speed of arrival */
-    double deepest;  /* [m] */
+    double out;       /* [-] speed of leaving over speed of arrival */
+    double deepest;   /* [m] */
     double strongest; /* [N] */
-    double duration; /* [s] */
+    double duration;  /* [s] */
 } impact;
 
 /* [m] depth that an undamped contact reaches: (n+1)/2 m v^2 = K d^(n+1) */
@@ -36,8 +36,10 @@ static double crossing(double h, double d0, double v0, double d1, double v1)
     for (int i = 0; i < 60; i++) {
         const double x = 0.5 * (low + high), y = 1.0 - x;
         const double d = y * y * (d0 * (1.0 + 2.0 * x) + h * v0 * x) + x * x * (d1 * (3.0 - 2.0 * x) - h * v1 * y);
-        if ((d > 0.0) == (d0 > 0.0)) low = x;
-        else high = x;
+        if ((d > 0.0) == (d0 > 0.0))
+            low = x;
+        else
+            high = x;
     }
     return 0.5 * h * (low + high);
 }
@@ -62,7 +64,8 @@ static impact fly(const dmb_wall_def *wall, double mass, double speed)
         const double t1 = dmb_sim_time(scene.sim), d1 = -c.gap, v1 = c.approach;
         if (d0 <= 0.0 && d1 > 0.0) entry = t0 + crossing(t1 - t0, d0, v0, d1, v1);
         if (d0 > 0.0 && d1 <= 0.0) result.duration = t0 + crossing(t1 - t0, d0, v0, d1, v1) - entry;
-        if (v0 > 0.0 && v1 <= 0.0) { /* deepest between: cubic's top is close to that of the parabola with both slopes */
+        if (v0 > 0.0 &&
+            v1 <= 0.0) { /* deepest between: cubic's top is close to that of the parabola with both slopes */
             const double x = v0 / (v0 - v1), h = t1 - t0;
             result.deepest = d0 + h * x * (v0 - 0.5 * x * (v0 - v1));
             result.strongest = wall->stiffness * pow(result.deepest, wall->exponent);
@@ -83,8 +86,10 @@ static double restitution_of(double mu)
     if (mu < 1e-12) return 1.0;
     for (int i = 0; i < 200; i++) {
         const double e = 0.5 * (low + high), x = mu * e;
-        if (log1p(-x) + x > log1p(mu) - mu) low = e;
-        else high = e;
+        if (log1p(-x) + x > log1p(mu) - mu)
+            low = e;
+        else
+            high = e;
     }
     return 0.5 * (low + high);
 }
@@ -105,8 +110,8 @@ static double wanted(int32_t law, double e)
     return law == DMB_NORMAL_EXACT ? e : restitution_of(factor_of(law, e));
 }
 
-/* Every law gives its own curve, at every speed and exponent; EXACT gives what was asked. CASES asks for 1e-5; with these
- * steps 1.1e-6 is measured. */
+/* Every law gives its own curve, at every speed and exponent; EXACT gives what was asked. CASES asks for 1e-5; with
+ * these steps 1.1e-6 is measured. */
 static void check_curve(int32_t law)
 {
     double worst = 0.0;
@@ -267,9 +272,15 @@ static void stiffness_times_length(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hunt_crossley), cmocka_unit_test(lankarani_nikravesh), cmocka_unit_test(flores),
-        cmocka_unit_test(exact), cmocka_unit_test(kelvin_voigt), cmocka_unit_test(kelvin_voigt_nonlinear),
-        cmocka_unit_test(impact_law), cmocka_unit_test(hertz_sphere), cmocka_unit_test(stiffness_times_length),
+        cmocka_unit_test(hunt_crossley),
+        cmocka_unit_test(lankarani_nikravesh),
+        cmocka_unit_test(flores),
+        cmocka_unit_test(exact),
+        cmocka_unit_test(kelvin_voigt),
+        cmocka_unit_test(kelvin_voigt_nonlinear),
+        cmocka_unit_test(impact_law),
+        cmocka_unit_test(hertz_sphere),
+        cmocka_unit_test(stiffness_times_length),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

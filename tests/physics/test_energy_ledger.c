@@ -1,7 +1,7 @@
-/* The energy ledger: the balance closes up to what the time integration takes, that part falls with the step as its order
- * says, and each term is what its force does.
- *     balance = drives + loads - friction - impact - damping - rock - change of energy = scheme + unexplained
- * unexplained is the residual's own work; with Newton's tolerance eps it stays below eps times the work that is done. */
+/* The energy ledger: the balance closes up to what the time integration takes, that part falls with the step as its
+ * order says, and each term is what its force does. balance = drives + loads - friction - impact - damping - rock -
+ * change of energy = scheme + unexplained unexplained is the residual's own work; with Newton's tolerance eps it stays
+ * below eps times the work that is done. */
 #include "contact_scene.h"
 
 static double relative(double x, double scale)
@@ -70,8 +70,9 @@ static void rig_closes(void **state)
     for (int k = 0; k < 2; k++) {
         const dmb_energy e = run_rig(1e-4, 1e-8, laws[k]);
         print_message("rig: drives %.4f loads %.4f friction %.4f impact %.4f damping %.4f rock %.4f scheme %.2e "
-                      "unexplained %.2e of %.3f J\n", e.drives, e.loads, e.friction, e.impact, e.damping, e.rock, e.scheme,
-                      e.unexplained, sum_of_works(&e));
+                      "unexplained %.2e of %.3f J\n",
+                      e.drives, e.loads, e.friction, e.impact, e.damping, e.rock, e.scheme, e.unexplained,
+                      sum_of_works(&e));
         check_closed(&e, 1e-7);
         assert_true(e.drives > 0.0 && e.friction > 0.0 && e.impact > 0.0 && e.damping > 0.0 && e.rock > 0.0);
         assert_true(e.loads > 0.0 && e.input >= e.drives + e.loads);
@@ -345,11 +346,16 @@ static void left_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rig_closes),            cmocka_unit_test(unexplained_follows_newton),
-        cmocka_unit_test(scheme_falls_with_the_step), cmocka_unit_test(undamped_keeps_energy),
-        cmocka_unit_test(linear_bar_keeps_energy), cmocka_unit_test(friction_work),
-        cmocka_unit_test(impact_loss),           cmocka_unit_test(drive_work),
-        cmocka_unit_test(control_work),          cmocka_unit_test(damping_work),
+        cmocka_unit_test(rig_closes),
+        cmocka_unit_test(unexplained_follows_newton),
+        cmocka_unit_test(scheme_falls_with_the_step),
+        cmocka_unit_test(undamped_keeps_energy),
+        cmocka_unit_test(linear_bar_keeps_energy),
+        cmocka_unit_test(friction_work),
+        cmocka_unit_test(impact_loss),
+        cmocka_unit_test(drive_work),
+        cmocka_unit_test(control_work),
+        cmocka_unit_test(damping_work),
         cmocka_unit_test(left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

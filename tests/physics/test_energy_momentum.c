@@ -134,8 +134,8 @@ static void impulse_of_the_wall(void **state)
     scene_close(&scene);
 }
 
-/* A rolling ring: friction at the rim gives linear momentum as it takes spin, R dp = -dL, until v = -omega R. In a hole of
- * 100 m radius the floor is level within the few centimetres that this takes. */
+/* A rolling ring: friction at the rim gives linear momentum as it takes spin, R dp = -dL, until v = -omega R. In a hole
+ * of 100 m radius the floor is level within the few centimetres that this takes. */
 static void friction_couples_spin_and_travel(void **state)
 {
     dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_HUNT_CROSSLEY, 1e7, 1.0, 0.5);

@@ -1,8 +1,8 @@
 /* CASES: a string drawn around a bend of 90 degrees at mu .3 needs exp(mu 90 deg) = 1.60197765 of the force at its far
  * end; 1e-4. An axial-torsional string in a horizontal hole without gravity: straight, a quarter of a circle, straight.
  *
- * Each node takes the mean tension of its two neighbours over its length, which is the trapezoidal rule for T' = mu kappa T:
- * with n elements in the bend the error is (mu 90 deg)^3/(12 n^2). */
+ * Each node takes the mean tension of its two neighbours over its length, which is the trapezoidal rule for T' = mu
+ * kappa T: with n elements in the bend the error is (mu 90 deg)^3/(12 n^2). */
 #include "contact_scene.h"
 
 static const double far_force = 1000.0, mu = 0.3, radius = 20.0, lead = 5.0;
@@ -16,8 +16,8 @@ typedef struct capstan {
 static void build(capstan *c, uint32_t n, int32_t friction_law, double speed)
 {
     const double length = 0.5 * PI * radius / n, bend = lead + (n + 0.5) * length;
-    const double survey[12] = {0.0, 0.5 * PI, 0.0, bend, 0.5 * PI, 0.0, bend + 0.5 * PI * radius, 0.5 * PI, 0.5 * PI,
-                               1000.0, 0.5 * PI, 0.5 * PI};
+    const double survey[12] = {0.0,      0.5 * PI, 0.0,    bend,     0.5 * PI, 0.0, bend + 0.5 * PI * radius,
+                               0.5 * PI, 0.5 * PI, 1000.0, 0.5 * PI, 0.5 * PI};
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();

@@ -1,5 +1,5 @@
-/* A block on the floor of a wide hole. It is free to move but not to turn; its weight presses it against the wall, where
- * it starts at rest at the depth w/K. Coulomb friction stops it at v0/(mu g) after v0^2/(2 mu g). */
+/* A block on the floor of a wide hole. It is free to move but not to turn; its weight presses it against the wall,
+ * where it starts at rest at the depth w/K. Coulomb friction stops it at v0/(mu g) after v0^2/(2 mu g). */
 #include "contact_scene.h"
 
 static const double g = 9.81;

@@ -1,6 +1,6 @@
 /* CASES: J .5 kg m2 behind a spring k 73 N m/rad whose other end turns at 5 rad/s, friction torque 300 N m at rest and
- * 200 N m in motion: slip .3085574216 s, stick .5479452055 s, period .8565026271 s, peak 22.2908242354 rad/s; 1 % with a
- * smoothed law, 1e-4 with one that sticks.
+ * 200 N m in motion: slip .3085574216 s, stick .5479452055 s, period .8565026271 s, peak 22.2908242354 rad/s; 1 % with
+ * a smoothed law, 1e-4 with one that sticks.
  *
  * Twice: a block of .5 kg on the floor of the hole, pressed on it with 1000 N and drawn by a controlled drive whose
  * integral gain is the spring (a FULL node); and a rotor of .5 kg m2 at the end of an axial-torsional bar of 73 N m/rad
@@ -21,7 +21,8 @@ typedef struct cycle {
     double slip, stick, period, peak;
 } cycle;
 
-/* From break-away, torque excess y = A cos wt + B sin wt, A = (Ts - Tk)/k, B = Om/w; it sticks again when the speed is 0. */
+/* From break-away, torque excess y = A cos wt + B sin wt, A = (Ts - Tk)/k, B = Om/w; it sticks again when the speed is
+ * 0. */
 static cycle closed_form(double Ts, double Tk)
 {
     const double w = sqrt(spring / inertia), a = (Ts - Tk) / spring, b = speed / w;
@@ -219,7 +220,8 @@ static double peak_friction(const dmb_wall_def *wall)
     return most;
 }
 
-static cycle run_smoothed(void (*build)(rotor *, const dmb_wall_def *, const dmb_sim_options *), const dmb_wall_def *wall)
+static cycle run_smoothed(void (*build)(rotor *, const dmb_wall_def *, const dmb_sim_options *),
+                          const dmb_wall_def *wall)
 {
     const dmb_sim_options options = fine_options(1e-9);
     rotor r;
@@ -239,8 +241,8 @@ static void smoothed(void **state)
     check_cycle(run_smoothed(build_bar, &wall), closed_form(held, sliding), 1e-2);
 }
 
-/* A coarser smoothing lowers the peak of the curve, and with it the cycle: at v_s 1e-3, v_eps 1e-4 the law holds 257.9 N m,
- * not 300, and the period is .663 s, not .857. The simulation follows the closed form of the law it has. */
+/* A coarser smoothing lowers the peak of the curve, and with it the cycle: at v_s 1e-3, v_eps 1e-4 the law holds 257.9
+ * N m, not 300, and the period is .663 s, not .857. The simulation follows the closed form of the law it has. */
 static void smoothed_peak(void **state)
 {
     static const double smoothing[] = {1e-4, 5e-5, 1e-5};
@@ -254,8 +256,8 @@ static void smoothed_peak(void **state)
     }
 }
 
-/* Hard case 2: v_s 1e-3, v_eps 1e-4, period within 2 % when v_eps halves. With the coefficients of THEORY 7, mu_s .35 and
- * mu_d .30, it changes by 1.6 %. With 300 and 200 N m it changes by 9.4 %, for the reason told above. */
+/* Hard case 2: v_s 1e-3, v_eps 1e-4, period within 2 % when v_eps halves. With the coefficients of THEORY 7, mu_s .35
+ * and mu_d .30, it changes by 1.6 %. With 300 and 200 N m it changes by 9.4 %, for the reason told above. */
 static void halved_smoothing(void **state)
 {
     const dmb_wall_def coarse = friction_of(DMB_FRICTION_STRIBECK, 0.35, 0.30, 1e-3, 1e-4);
@@ -266,9 +268,9 @@ static void halved_smoothing(void **state)
     CHECK_RELATIVE(a.period, b.period, 2e-2);
 }
 
-/* The falling branch is negative damping. A block of mass m drawn at V = 2 v_s through a spring: a disturbance of its speed
- * grows as e^{s t}(cos w t + s/w sin w t), s = -N mu'(V)/(2m), w^2 = k/m - s^2. Disturbance 1e-6 of V, so that the law is
- * linear; 1e-4. */
+/* The falling branch is negative damping. A block of mass m drawn at V = 2 v_s through a spring: a disturbance of its
+ * speed grows as e^{s t}(cos w t + s/w sin w t), s = -N mu'(V)/(2m), w^2 = k/m - s^2. Disturbance 1e-6 of V, so that
+ * the law is linear; 1e-4. */
 static void falling_branch(void **state)
 {
     const double V = 0.02, v_s = 0.01, N = 4.0, s = N * 0.1 / v_s * exp(-V / v_s) / (2.0 * inertia);
@@ -304,8 +306,8 @@ static void falling_branch(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reference),     cmocka_unit_test(bristle_block),    cmocka_unit_test(bristle_bar),
-        cmocka_unit_test(smoothed),      cmocka_unit_test(smoothed_peak),    cmocka_unit_test(halved_smoothing),
+        cmocka_unit_test(reference),      cmocka_unit_test(bristle_block), cmocka_unit_test(bristle_bar),
+        cmocka_unit_test(smoothed),       cmocka_unit_test(smoothed_peak), cmocka_unit_test(halved_smoothing),
         cmocka_unit_test(falling_branch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -5,8 +5,8 @@
 enum { ANSWER_GOOD = 0, ANSWER_ERROR = 1, ANSWER_NAN = 2, ANSWER_INFINITE = 3, ANSWER_NAN_RATE = 4 };
 
 typedef struct moody {
-    int32_t answer;   /* from `after` on */
-    double after;     /* [s] */
+    int32_t answer; /* from `after` on */
+    double after;   /* [s] */
     uint32_t calls;
 } moody;
 
@@ -25,7 +25,15 @@ static int32_t programme(void *context, double time, double out[3])
     return 0;
 }
 
-enum { ROLE_MOTION = 0, ROLE_LOAD_DRIVE = 1, ROLE_CONTROL = 2, ROLE_LOAD = 3, ROLE_BIT = 4, ROLE_EXCITATION = 5, ROLES = 6 };
+enum {
+    ROLE_MOTION = 0,
+    ROLE_LOAD_DRIVE = 1,
+    ROLE_CONTROL = 2,
+    ROLE_LOAD = 3,
+    ROLE_BIT = 4,
+    ROLE_EXCITATION = 5,
+    ROLES = 6
+};
 
 static void add_drive(contact_scene *scene, int32_t kind, dmb_id programme_id, dmb_id excitation)
 {
@@ -62,7 +70,10 @@ static void build(contact_scene *scene, moody *m, int32_t role)
         load.programme = id;
         scene_add_load(scene, &load);
     }
-    add_drive(scene, role == ROLE_LOAD_DRIVE ? DMB_DRIVE_LOAD : role == ROLE_CONTROL ? DMB_DRIVE_CONTROL : DMB_DRIVE_MOTION,
+    add_drive(scene,
+              role == ROLE_LOAD_DRIVE ? DMB_DRIVE_LOAD
+              : role == ROLE_CONTROL  ? DMB_DRIVE_CONTROL
+                                      : DMB_DRIVE_MOTION,
               role <= ROLE_CONTROL ? id : zero, role == ROLE_EXCITATION ? id : none);
     scene_start(scene, NULL, NULL);
 }
@@ -141,7 +152,8 @@ static void failure_after_partial_steps(void **state)
     contact_scene scene;
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    dmb_term terms[3] = {dmb_term_default(), scene_step_term(0.01, 0.0, 0.02, 1e-3), scene_step_term(0.03, 0.0, 0.04, 1e-3)};
+    dmb_term terms[3] = {dmb_term_default(), scene_step_term(0.01, 0.0, 0.02, 1e-3),
+                         scene_step_term(0.03, 0.0, 0.04, 1e-3)};
     (void)state;
     terms[0].kind = DMB_TERM_CALLBACK;
     terms[0].callback = programme;

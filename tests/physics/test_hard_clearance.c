@@ -1,5 +1,5 @@
-/* Hard case 8: the concentric pose has no normal and no force and gives no NaN; no clearance at all is a pipe pinned to the
- * axis; a ring larger than the hole is refused with part, field, value and bound. */
+/* Hard case 8: the concentric pose has no normal and no force and gives no NaN; no clearance at all is a pipe pinned to
+ * the axis; a ring larger than the hole is refused with part, field, value and bound. */
 #include "contact_scene.h"
 
 static dmb_body_def ring(double diameter, int32_t free_mask)
@@ -18,7 +18,8 @@ static void check_finite(const contact_scene *scene, dmb_id id)
     const dmb_contact contact = scene_contact(scene, 0);
     assert_true(isfinite(contact.normal_force) && isfinite(contact.gap));
     CHECK_CLOSE(contact.normal[0] * contact.normal[0] + contact.normal[1] * contact.normal[1] +
-                    contact.normal[2] * contact.normal[2], 1.0, 1e-14);
+                    contact.normal[2] * contact.normal[2],
+                1.0, 1e-14);
 }
 
 /* Exactly on the axis, turning and sliding: it stays there, and nothing acts on it. */
@@ -211,8 +212,9 @@ static void negative_clearance(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(concentric),    cmocka_unit_test(leaves_the_axis),     cmocka_unit_test(through_the_axis),
-        cmocka_unit_test(pinned),        cmocka_unit_test(pinned_under_weight), cmocka_unit_test(pinned_string),
+        cmocka_unit_test(concentric),          cmocka_unit_test(leaves_the_axis),
+        cmocka_unit_test(through_the_axis),    cmocka_unit_test(pinned),
+        cmocka_unit_test(pinned_under_weight), cmocka_unit_test(pinned_string),
         cmocka_unit_test(negative_clearance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

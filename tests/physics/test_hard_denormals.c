@@ -108,8 +108,7 @@ static double compare(dmb_id (*build)(contact_scene *), int steps, double h)
         double *s = scale + (i % 12 >= 6);
         *s = fmax(*s, fabs(without[i]));
     }
-    for (int i = 0; i < VALUES; i++)
-        worst = fmax(worst, fabs(with[i] - without[i]) / fmax(scale[i % 12 >= 6], 1e-6));
+    for (int i = 0; i < VALUES; i++) worst = fmax(worst, fabs(with[i] - without[i]) / fmax(scale[i % 12 >= 6], 1e-6));
     print_message("largest difference %.2e\n", worst);
     CHECK_BELOW(worst, 1e-12);
     return scale[1];

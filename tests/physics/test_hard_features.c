@@ -1,12 +1,20 @@
-/* What a scene leaves out is not there in the step: the counts, the memory and the results of a compile without contact,
- * friction or vibration are those of a scene that never described them. */
+/* What a scene leaves out is not there in the step: the counts, the memory and the results of a compile without
+ * contact, friction or vibration are those of a scene that never described them. */
 #include "contact_scene.h"
 
 enum { PIPES = 12 };
 
 /* Parts to describe; what is not described cannot be left out either. */
-enum { WITH_WALL = 1, WITH_FRICTION = 2, WITH_ECCENTRICITY = 4, WITH_EXCITATION = 8, WITH_ROCK = 16, WITH_DAMPING = 32,
-       WITH_GRAVITY = 64, WITH_ALL = 127 };
+enum {
+    WITH_WALL = 1,
+    WITH_FRICTION = 2,
+    WITH_ECCENTRICITY = 4,
+    WITH_EXCITATION = 8,
+    WITH_ROCK = 16,
+    WITH_DAMPING = 32,
+    WITH_GRAVITY = 64,
+    WITH_ALL = 127
+};
 
 static dmb_id describe(contact_scene *scene, int parts, int32_t pipe_kind)
 {
@@ -85,9 +93,15 @@ static outcome run(int described, int left_in, int32_t pipe_kind)
 /* Left out is the same as never described, to the bit, and costs the same memory. */
 static void same_as_never_described(void **state)
 {
-    static const int parts[] = {WITH_ALL & ~WITH_WALL, WITH_ALL & ~WITH_FRICTION, WITH_ALL & ~WITH_ECCENTRICITY,
-                                WITH_ALL & ~WITH_EXCITATION, WITH_ALL & ~WITH_ROCK, WITH_ALL & ~WITH_DAMPING,
-                                WITH_ALL & ~WITH_GRAVITY, WITH_ALL & ~(WITH_ECCENTRICITY | WITH_EXCITATION), 0};
+    static const int parts[] = {WITH_ALL & ~WITH_WALL,
+                                WITH_ALL & ~WITH_FRICTION,
+                                WITH_ALL & ~WITH_ECCENTRICITY,
+                                WITH_ALL & ~WITH_EXCITATION,
+                                WITH_ALL & ~WITH_ROCK,
+                                WITH_ALL & ~WITH_DAMPING,
+                                WITH_ALL & ~WITH_GRAVITY,
+                                WITH_ALL & ~(WITH_ECCENTRICITY | WITH_EXCITATION),
+                                0};
     static const int32_t kinds[] = {DMB_PIPE_FLEXIBLE, DMB_PIPE_AXIAL_TORSIONAL, DMB_PIPE_RIGID};
     (void)state;
     for (int k = 0; k < 3; k++)
@@ -112,12 +126,13 @@ static void counts(void **state)
     const dmb_model_info no_vibration =
         run(WITH_ALL, WITH_ALL & ~(WITH_ECCENTRICITY | WITH_EXCITATION), DMB_PIPE_FLEXIBLE).info;
     const dmb_model_info no_rock = run(WITH_ALL, WITH_ALL & ~WITH_ROCK, DMB_PIPE_FLEXIBLE).info;
-    print_message("bytes of a sim: all %llu, no contact %llu, no friction %llu, no vibration %llu, no rock %llu; of the "
-                  "model: all %llu, no contact %llu\n",
-                  (unsigned long long)all.sim_bytes, (unsigned long long)no_contact.sim_bytes,
-                  (unsigned long long)no_friction.sim_bytes, (unsigned long long)no_vibration.sim_bytes,
-                  (unsigned long long)no_rock.sim_bytes, (unsigned long long)all.model_bytes,
-                  (unsigned long long)no_contact.model_bytes);
+    print_message(
+        "bytes of a sim: all %llu, no contact %llu, no friction %llu, no vibration %llu, no rock %llu; of the "
+        "model: all %llu, no contact %llu\n",
+        (unsigned long long)all.sim_bytes, (unsigned long long)no_contact.sim_bytes,
+        (unsigned long long)no_friction.sim_bytes, (unsigned long long)no_vibration.sim_bytes,
+        (unsigned long long)no_rock.sim_bytes, (unsigned long long)all.model_bytes,
+        (unsigned long long)no_contact.model_bytes);
     assert_int_equal(all.contact_sites, PIPES + 1); /* every node but the guided one, and the bit */
     assert_int_equal(no_contact.contact_sites, 0);
     assert_int_equal(no_friction.contact_sites, all.contact_sites);

@@ -1,5 +1,5 @@
-/* Hard case 7: an impact on a step boundary, two at one instant, grazing at 1e-12 m/s, an accumulation of bounces, and no
- * tunnelling through the clearance. Balls in a wide hole, clearance 2 m. */
+/* Hard case 7: an impact on a step boundary, two at one instant, grazing at 1e-12 m/s, an accumulation of bounces, and
+ * no tunnelling through the clearance. Balls in a wide hole, clearance 2 m. */
 #include "contact_scene.h"
 
 static dmb_wall_def wall_of(double stiffness)
@@ -72,7 +72,8 @@ static void two_at_one_instant(void **state)
             const dmb_id a = add_ball_at(&scene, 0.0, 0.01, 1.0);
             const dmb_id b = k == 1 ? add_ball_at(&scene, 1.0, 0.01, 1.0) : a;
             scene_start(&scene, NULL, NULL);
-            if (controlled) scene_advance(&scene, 0.5);
+            if (controlled)
+                scene_advance(&scene, 0.5);
             else
                 for (int i = 0; i < 500; i++) scene_step(&scene, 1e-3);
             z[k] = scene_position(&scene, a, 2);
@@ -114,9 +115,9 @@ static void flat_landing(void **state)
 
 /* ---- Grazing ----------------------------------------------------------------------------------------------------- */
 
-/* At 1e-12 m/s the wall would be met to a depth of v sqrt(m/K) = 3e-16 m, less than the rounding of a place 2 m from the
- * axis, u = 4.4e-16 m. What is left of the speed is that of rounding: some sqrt(K/m) u = 1.4e-12 m/s, however long the
- * step is. */
+/* At 1e-12 m/s the wall would be met to a depth of v sqrt(m/K) = 3e-16 m, less than the rounding of a place 2 m from
+ * the axis, u = 4.4e-16 m. What is left of the speed is that of rounding: some sqrt(K/m) u = 1.4e-12 m/s, however long
+ * the step is. */
 static const double grazing_speed = 1e-10;
 
 static void grazing(void **state)
@@ -200,9 +201,9 @@ static void accumulation(void **state)
 
 /* ---- No tunnelling ----------------------------------------------------------------------------------------------- */
 
-/* 10 m/s at steps of 1e-2 s, a tenth of a metre each, in any phase and at any stiffness: the wall does not throw the ball
- * back faster than it came, and lets it in by a part of the step's way at most. That part does not go to 0 with the
- * stiffness: the law does not pull, so within one step the ball cannot leave faster than v0/mu = .7 v0. */
+/* 10 m/s at steps of 1e-2 s, a tenth of a metre each, in any phase and at any stiffness: the wall does not throw the
+ * ball back faster than it came, and lets it in by a part of the step's way at most. That part does not go to 0 with
+ * the stiffness: the law does not pull, so within one step the ball cannot leave faster than v0/mu = .7 v0. */
 static void no_tunnelling(void **state)
 {
     static const double stiffness[] = {1e5, 1e7, 1e9, 1e12};
@@ -253,7 +254,7 @@ static void narrow_hole(void **state)
         for (int i = 0; i < 50; i++) {
             const int32_t status = dmb_sim_step(scene.sim, 1e-2, NULL);
             if (status < 0) break;
-            CHECK_BELOW(-scene_contact(&scene, 0).gap, 0.02); /* of the step's 100 mm */
+            CHECK_BELOW(-scene_contact(&scene, 0).gap, 0.02);                   /* of the step's 100 mm */
             CHECK_BELOW(scene_energy(&scene).kinetic, 1.01 * kinetic_of(10.0)); /* and 1 % for the height */
         }
         scene_close(&scene);

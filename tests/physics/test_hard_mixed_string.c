@@ -1,14 +1,14 @@
-/* Strings of flexible, axial-torsional and rigid pipes: where they stretch and twist alike they answer alike, and a string
- * of rigid pipes is a rigid body. */
+/* Strings of flexible, axial-torsional and rigid pipes: where they stretch and twist alike they answer alike, and a
+ * string of rigid pipes is a rigid body. */
 #include "contact_scene.h"
 
 static const int32_t flexible = DMB_PIPE_FLEXIBLE, bar = DMB_PIPE_AXIAL_TORSIONAL, rigid = DMB_PIPE_RIGID;
 
 typedef struct answer {
-    double shortening, twist;     /* [m, rad] of the far end */
-    double reaction[6];           /* [N, N m] of the rig end */
-    double compression, torque;   /* [N, N m] in the first elastic pipe */
-    double mass;                  /* [kg] */
+    double shortening, twist;   /* [m, rad] of the far end */
+    double reaction[6];         /* [N, N m] of the rig end */
+    double compression, torque; /* [N, N m] in the first elastic pipe */
+    double mass;                /* [kg] */
 } answer;
 
 /* `count` pipes of the given kinds, held at the rig end; pushed and turned at the far end. */
@@ -66,8 +66,8 @@ static double GJ(void)
     return pipe.young_modulus / 2.6 * PI / 32.0 * (pow(pipe.outer_diameter, 4.0) - pow(pipe.inner_diameter, 4.0));
 }
 
-/* Compression and twist of elastic pipes add up as F l/EA and M l/GJ in every mixture and order. The beam's axial law is
- * that of the logarithm, linear in its stretch too, so all agree to round-off. */
+/* Compression and twist of elastic pipes add up as F l/EA and M l/GJ in every mixture and order. The beam's axial law
+ * is that of the logarithm, linear in its stretch too, so all agree to round-off. */
 static void same_compression_and_twist(void **state)
 {
     const int32_t cases[6][4] = {{flexible, flexible, flexible, flexible}, {bar, bar, bar, bar},
@@ -90,8 +90,10 @@ static void same_compression_and_twist(void **state)
 /* Rigid pipes among them take their part of the length out of it and nothing else. */
 static void rigid_pipes_between(void **state)
 {
-    const int32_t cases[5][5] = {{rigid, flexible, flexible, rigid, bar}, {flexible, rigid, rigid, bar, bar},
-                                 {bar, rigid, flexible, flexible, rigid}, {rigid, rigid, bar, flexible, bar},
+    const int32_t cases[5][5] = {{rigid, flexible, flexible, rigid, bar},
+                                 {flexible, rigid, rigid, bar, bar},
+                                 {bar, rigid, flexible, flexible, rigid},
+                                 {rigid, rigid, bar, flexible, bar},
                                  {flexible, bar, rigid, rigid, flexible}};
     const double force[3] = {-2960.0, 0.0, 0.0}, moment[3] = {100.0, 0.0, 0.0};
     (void)state;
@@ -107,8 +109,8 @@ static void rigid_pipes_between(void **state)
     }
 }
 
-/* Bending: a rigid pipe behind a flexible one is a lever. Tip force P at the end of a lever b behind a beam of length l:
- * deflection at the load P (l^3/3 + l^2 b + l b^2)/EI and slope P (l^2/2 + l b)/EI, plus shear P l/GA. */
+/* Bending: a rigid pipe behind a flexible one is a lever. Tip force P at the end of a lever b behind a beam of length
+ * l: deflection at the load P (l^3/3 + l^2 b + l b^2)/EI and slope P (l^2/2 + l b)/EI, plus shear P l/GA. */
 static void rigid_lever(void **state)
 {
     const int32_t kinds[2] = {flexible, rigid};
@@ -156,8 +158,8 @@ static void inertia_of_pipes(uint32_t count, double *mass, double *axial, double
     *across = m * l * l / 12.0 + 0.25 * m * r2;
 }
 
-/* A free rigid string thrown with spin about its axis and across it: a symmetric top without moments. The angular momentum
- * stands still, and the axis goes round it with H/J_across. */
+/* A free rigid string thrown with spin about its axis and across it: a symmetric top without moments. The angular
+ * momentum stands still, and the axis goes round it with H/J_across. */
 static void free_top(void **state)
 {
     double mass, axial, across;
@@ -171,8 +173,8 @@ static void free_top(void **state)
     inertia_of_pipes(2, &mass, &axial, &across);
     string.start_free = string.end_free = DMB_FREE_ALL;
     string.velocity[3] = 40.0;
-    string.velocity[5] = 3.0;    /* about z at the rig end, so the centre 1 m ahead moves with 3 m/s along y */
-    string.velocity[1] = -3.0;   /* and stands still */
+    string.velocity[5] = 3.0;  /* about z at the rig end, so the centre 1 m ahead moves with 3 m/s along y */
+    string.velocity[1] = -3.0; /* and stands still */
     pipe.kind = DMB_PIPE_RIGID;
     options.spectral_radius = 1.0;
     scene_open(&scene, 0.0);
@@ -200,7 +202,8 @@ static void free_top(void **state)
     scene_close(&scene);
 }
 
-/* A rigid string hinged at its rig end is a compound pendulum: w^2 = m g s/J for small swings, J = m l^2/3 + m r^2/4. */
+/* A rigid string hinged at its rig end is a compound pendulum: w^2 = m g s/J for small swings, J = m l^2/3 + m r^2/4.
+ */
 static void compound_pendulum(void **state)
 {
     double mass, axial, across;
@@ -214,7 +217,7 @@ static void compound_pendulum(void **state)
     const double w = sqrt(mass * g * 0.5 * l / (across + 0.25 * mass * l * l)), quarter = 0.5 * PI / w;
     string.start_free = DMB_FREE_RZ;
     string.follows_hole = 0;
-    string.rotation[1] = 0.5 * PI;        /* x down, z along world x; RZ swings in the vertical plane */
+    string.rotation[1] = 0.5 * PI; /* x down, z along world x; RZ swings in the vertical plane */
     string.velocity[5] = amplitude * w;
     pipe.kind = DMB_PIPE_RIGID;
     scene_open(&scene, g);
@@ -254,7 +257,8 @@ static void rigid_string_at_rest(void **state)
     scene_close(&scene);
 }
 
-/* One motion of many kinds: a string of each kind driven along its axis by a motion drive carries m a at its rig end. */
+/* One motion of many kinds: a string of each kind driven along its axis by a motion drive carries m a at its rig end.
+ */
 static void driven_alike(void **state)
 {
     const int32_t kinds[3] = {flexible, bar, rigid};
@@ -282,9 +286,12 @@ static void driven_alike(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(same_compression_and_twist), cmocka_unit_test(rigid_pipes_between),
-        cmocka_unit_test(rigid_lever),                cmocka_unit_test(free_top),
-        cmocka_unit_test(compound_pendulum),          cmocka_unit_test(rigid_string_at_rest),
+        cmocka_unit_test(same_compression_and_twist),
+        cmocka_unit_test(rigid_pipes_between),
+        cmocka_unit_test(rigid_lever),
+        cmocka_unit_test(free_top),
+        cmocka_unit_test(compound_pendulum),
+        cmocka_unit_test(rigid_string_at_rest),
         cmocka_unit_test(driven_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

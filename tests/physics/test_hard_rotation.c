@@ -1,5 +1,5 @@
-/* Hard case 10: relative rotation near pi within one element is refused, never flipped silently; the state before the call
- * is kept. The bound is 2.5 rad. */
+/* Hard case 10: relative rotation near pi within one element is refused, never flipped silently; the state before the
+ * call is kept. The bound is 2.5 rad. */
 #include "contact_scene.h"
 
 /* A cantilever of one soft element without gravity, under a moment about `axis` that grows to `moment` within 1 s. */
@@ -37,8 +37,8 @@ static double largest_strain(const contact_scene *scene, dmb_id id)
     return fmax(fabs(section.strain[3]), fmax(fabs(section.strain[4]), fabs(section.strain[5])));
 }
 
-/* In steps: the rotation follows the moment up to 2.5 rad; the step that would pass it is refused with part and bound, and
- * every further try too; nothing changes by that. */
+/* In steps: the rotation follows the moment up to 2.5 rad; the step that would pass it is refused with part and bound,
+ * and every further try too; nothing changes by that. */
 static void refused_in_steps(void **state)
 {
     (void)state;
@@ -173,9 +173,9 @@ static void spinning_is_not_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(refused_in_steps),   cmocka_unit_test(refused_with_step_control),
+        cmocka_unit_test(refused_in_steps),    cmocka_unit_test(refused_with_step_control),
         cmocka_unit_test(refused_in_one_step), cmocka_unit_test(refused_in_statics),
-        cmocka_unit_test(divided_it_goes_on), cmocka_unit_test(spinning_is_not_refused),
+        cmocka_unit_test(divided_it_goes_on),  cmocka_unit_test(spinning_is_not_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Hard case 4: stiffness ratios EA/EI of 1e8, and a part of 1e-3 next to one of 1e12: converged to 1e-10 in every equation,
- * or a refusal that says so. */
+/* Hard case 4: stiffness ratios EA/EI of 1e8, and a part of 1e-3 next to one of 1e12: converged to 1e-10 in every
+ * equation, or a refusal that says so. */
 #include "contact_scene.h"
 
 static dmb_pipe_def pipe_of(int32_t kind, double EA, double GA, double GJ, double EI)
@@ -21,7 +21,8 @@ static void hold_start(contact_scene *scene)
     scene_add_string(scene, &string);
 }
 
-static void add_tip_load(contact_scene *scene, dmb_id string, uint32_t pipe, const double force[3], const double moment[3])
+static void add_tip_load(contact_scene *scene, dmb_id string, uint32_t pipe, const double force[3],
+                         const double moment[3])
 {
     dmb_load_def load = dmb_load_def_default();
     load.place = dmb_station(string, pipe, 1.0);
@@ -57,7 +58,8 @@ static void roll_up(void **state)
                   hypot(tip.position[0], tip.position[1]));
     CHECK_BELOW(hypot(tip.position[0], tip.position[1]), 1e-8); /* rounding of EA over EI: 1e8 times 1e-16 */
     CHECK_BELOW(report.iterations, 10);
-    /* every element carries the moment; one unit in the last place of a metre is 2e-6 N of EA, which shows as 2e-9 of it */
+    /* every element carries the moment; one unit in the last place of a metre is 2e-6 N of EA, which shows as 2e-9 of
+     * it */
     for (uint32_t i = 0; i < 10; i++) {
         dmb_section section = dmb_section_default();
         assert_int_equal(dmb_query_section(scene.sim, dmb_station(id, i, 0.5), &section), DMB_OK);
@@ -92,9 +94,9 @@ static void bending_does_not_see_the_ratio(void **state)
     CHECK_CLOSE(tip[1][0], tip[2][0], 1e-6);
 }
 
-/* Pipes of 1e-3 N and 1e12 N in turn under a tip force F: each soft one stretches by F l/1e-3, and the residual of every
- * equation stays below 1e-10 of F as far as the poses can show it: one unit in the last place of a 1 m long stiff pipe is
- * 2e-4 N. The call converges to that rounding, or refuses; it never gives another place. */
+/* Pipes of 1e-3 N and 1e12 N in turn under a tip force F: each soft one stretches by F l/1e-3, and the residual of
+ * every equation stays below 1e-10 of F as far as the poses can show it: one unit in the last place of a 1 m long stiff
+ * pipe is 2e-4 N. The call converges to that rounding, or refuses; it never gives another place. */
 static void soft_next_to_stiff(void **state)
 {
     static const int32_t kinds[] = {DMB_PIPE_AXIAL_TORSIONAL, DMB_PIPE_FLEXIBLE};

@@ -1,7 +1,8 @@
-/* Hard case 13: where withdrawal starts (20 to 22 s of the rig's cycle) the slip velocity of every node goes through zero at
- * once; at most 10 iterations. The stop before it (19 to 20 s), where sticking and slipping waves run down with the
- * rotation, is watched too: 11 iterations at worst and 17 halved steps in 1000 are measured there. A string of 40 pipes of 1 m (THEORY 7) on the floor of its
- * hole, fed with 10 mm/s and turned with 200 rpm; time is counted from 18.5 s on. */
+/* Hard case 13: where withdrawal starts (20 to 22 s of the rig's cycle) the slip velocity of every node goes through
+ * zero at once; at most 10 iterations. The stop before it (19 to 20 s), where sticking and slipping waves run down with
+ * the rotation, is watched too: 11 iterations at worst and 17 halved steps in 1000 are measured there. A string of 40
+ * pipes of 1 m (THEORY 7) on the floor of its hole, fed with 10 mm/s and turned with 200 rpm; time is counted from 18.5
+ * s on. */
 #include "contact_scene.h"
 
 static const double feed = 0.01, turning = 200.0 * 2.0 * PI / 60.0, load = 2960.0;
@@ -71,10 +72,12 @@ static void cycle(int32_t pipe_kind, int32_t law, double speed, double spin, dou
         rejected[k] += report.rejected;
     }
     const dmb_energy energy = scene_energy(&r.scene);
-    print_message("pipes %d, law %d, step %g: worst %u then %u, rejected %u then %u, mean %.2f, friction %.1f J, balance "
-                  "%.1e\n", pipe_kind, law, h, worst[0], worst[1], rejected[0], rejected[1],
-                  (double)scene_statistics(&r.scene).iterations / (double)scene_statistics(&r.scene).steps,
-                  energy.friction, energy.error);
+    print_message(
+        "pipes %d, law %d, step %g: worst %u then %u, rejected %u then %u, mean %.2f, friction %.1f J, balance "
+        "%.1e\n",
+        pipe_kind, law, h, worst[0], worst[1], rejected[0], rejected[1],
+        (double)scene_statistics(&r.scene).iterations / (double)scene_statistics(&r.scene).steps, energy.friction,
+        energy.error);
     assert_true(slips_backwards(&r, sites) >= sites - 2);
     CHECK_BELOW(worst[1], most);
     CHECK_BELOW(rejected[1], 0);

@@ -23,9 +23,9 @@
             fail_msg("%s: %.17g, wanted %.17g, off by %.3g > %.3g", #got, got_, want_, fabs(got_ - want_), allowed_); \
     } while (0)
 #define CHECK_RELATIVE(got, want, tolerance) CHECK_CLOSE(got, want, (tolerance)*fabs((double)(want)))
-#define CHECK_BELOW(got, bound)                                                         \
-    do {                                                                                \
-        const double got_ = (got), bound_ = (bound);                                    \
+#define CHECK_BELOW(got, bound)                                                             \
+    do {                                                                                    \
+        const double got_ = (got), bound_ = (bound);                                        \
         if (!(got_ <= bound_)) fail_msg("%s: %.17g, must be <= %.17g", #got, got_, bound_); \
     } while (0)
 
