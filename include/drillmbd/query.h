@@ -39,7 +39,7 @@ typedef struct dmb_section {
     uint32_t reserved;
     double force[6];  /* [N, N m] on the near side from the far side: axial (tension > 0), shear y, z; torque, bending
                          moment y, z; section frame; the pipe's own weight and inertia included between its
-                         nodes (axial-torsional pipes: mean of the element); shape (6) */
+                         nodes, where wall forces act (axial-torsional pipes: mean of the element); shape (6) */
     double strain[6]; /* [-, -, -, rad/m, rad/m, rad/m] mean of the element: stretch, shear; twist, curvature; shape (6) */
 } dmb_section;
 DMB_SIZED_STRUCT(dmb_section)
