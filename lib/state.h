@@ -1,7 +1,9 @@
 /* The map of a sim: every field, who computes it from what, its shape and unit. The X-macro lists below drive the memory
  * layout, snapshot, restore and hash, and the test of the layout; there is no other list of fields.
  * n = scene->node_count, r = row_count, s = site_count, p = path_site_count, e = element_count, d = drive_count,
- * k = bit_count, load = load_count, history = history_count, diagonal and link = lengths of block storage. */
+ * k = bit_count, load = load_count, history = history_count, diagonal and link = lengths of block storage;
+ * j = joint_count, c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene with
+ * joints only: raw = row_count, dense, square, full = storage of the clusters, block, value, pivots = of the linked system. */
 #ifndef DMB_STATE_H
 #define DMB_STATE_H
 
@@ -36,12 +38,20 @@
     X(double, drive_integral, d)        /* [m, rad] integral of the speed error, CONTROL */                            \
     X(double, drive_target, d)          /* [unit of the programme] */                                                  \
     X(double, drive_force, d)           /* [N, N m] on the part */                                                     \
+    X(double, drive_speed, d)           /* [m/s, rad/s] of a joint's coordinate; 0 of other drives */                  \
+    X(double, drive_rate, d)            /* [m/s2, rad/s2] prescribed on a joint's coordinate */                        \
     X(double, load_factor, load)        /* [-] programme of each load */                                               \
     X(double, bit_load, k)              /* [N] bottom-hole load of each bit */                                         \
     /* system/bit: */                                                                                                 \
     X(double, bit_bottom, k)            /* [m] advance at which rock begins */                                         \
     X(double, bit_advance, k)           /* [m] along the hole since time 0 */                                          \
-    X(uint32_t, bit_segment, k)         /* [-] */
+    X(uint32_t, bit_segment, k)         /* [-] */                                                                      \
+    /* system/constraint_rows, from pose: */                                                                          \
+    X(double, joint_turn, 2 * j)        /* [rad] coordinates RX and RY, revolutions counted */                         \
+    X(double, joint_depth, j)           /* [m] measured depth of the point of a joint on the hole's axis */            \
+    X(uint32_t, joint_segment, j)       /* [-] segment of the axis it was found in */                                  \
+    /* system/cluster, from the residual: */                                                                          \
+    X(double, multiplier, c)            /* [N, N m] residual + B^T multiplier = 0 */
 
 /* ---- Memory: kept once, written on acceptance only. Saved, restored and hashed like `now`. */
 #define DMB_MEMORY_LIST(X)                                                                                            \
@@ -53,7 +63,15 @@
     X(double, drive_input, d)           /* [unit of the programme] value set by the caller; NaN: the programme */      \
     X(double, history_angle, history)   /* [rad] samples of the cut surface, system/bit */                             \
     X(double, history_surface, history) /* [m] */                                                                      \
-    X(dmb_history_head, history_head, k)
+    X(dmb_history_head, history_head, k)                                                                              \
+    X(int32_t, joint_state, j)          /* DMB_JOINT_..., system/joint_switch */                                       \
+    X(double, joint_lock, 12 * j)       /* [-, m] R and p of frame b in frame a where the joint was locked */          \
+    X(double, constraint_offset, c)     /* [m, rad] what a coupling keeps */                                           \
+    X(double, drive_offset, d)          /* [m, rad] coordinate of a driven joint at time 0 */                          \
+    X(uint32_t, partition_rank, cluster) /* [-] dependent columns, system/cluster */                                   \
+    X(uint32_t, partition_row, c)       /* [-] rows of a cluster, pivot rows first */                                  \
+    X(uint32_t, partition_column, column) /* [-] columns of a cluster, dependent ones first */                         \
+    X(double, partition_quality, cluster) /* [-] of the choice when it was made */
 
 /* ---- Work: rewritten in every step, never saved. */
 #define DMB_WORK_LIST(X)                                                                                              \
@@ -72,7 +90,51 @@
     X(double, inertia_lower, link)                                                                                     \
     X(double, inertia_upper, link)                                                                                     \
     X(uint8_t, pivot, r)                                                                                               \
+    /* constraints, system/constraint_rows: */                                                                        \
+    X(double, raw_velocity, raw)        /* of the trial before it is projected onto the constraints, integrator */     \
+    X(double, raw_acceleration, raw)                                                                                   \
+    X(double, raw_pseudo_acceleration, raw)                                                                            \
+    X(uint8_t, constraint_type, c)      /* DMB_ROW_... */                                                              \
+    X(double, constraint_value, c)      /* [m, -] misfit; 0 of a row of speeds */                                      \
+    X(double, constraint_rate, c)       /* [m/s, ...] B v + rate = 0 */                                                \
+    X(double, constraint_convective, c) /* [m/s2, ...] B v' + convective = 0 */                                        \
+    X(double, constraint_jacobian, jacobian)                                                                           \
+    X(double, constraint_tangent, tangent) /* of joint forces and of B^T multiplier, by pose parameters */             \
+    /* clusters, system/cluster: */                                                                                   \
+    X(double, cluster_weight, column)   /* [-, 1/m] unit of each column; 0: held */                                    \
+    X(uint32_t, cluster_place, column)  /* [-] place of each column in partition_column */                             \
+    X(double, cluster_matrix, dense)    /* B of each cluster */                                                        \
+    X(double, cluster_lu, square)                                                                                      \
+    X(double, cluster_gram, square)                                                                                    \
+    X(uint32_t, cluster_pivot, c)                                                                                      \
+    X(double, cluster_null, dense)      /* G of the factored matrix */                                                 \
+    X(double, cluster_quality, cluster)                                                                                \
+    X(double, cluster_scratch, dense + c + column)                                                                     \
+    X(double, cluster_rows, c)                                                                                         \
+    X(double, cluster_move, column)     /* a projection, a vector in the columns of a cluster */                       \
+    X(double, cluster_full, full)       /* iteration matrix of a cluster before its reduction */                       \
+    X(double, cluster_half, full)                                                                                      \
+    /* linked system, system/linked: */                                                                               \
+    X(double, linked_value, value)                                                                                     \
+    X(uint32_t, linked_pivot, pivots)                                                                                  \
+    X(uint32_t, linked_size, block)                                                                                    \
+    X(uint32_t, linked_row, block)                                                                                     \
+    X(double, linked_solution, pivots)                                                                                 \
+    X(double, linked_half, 6 * (column + c)) /* product of a link with the null space of a block */                         \
+    X(dmb_linked_mode, linked_mode, 1)                                                                                 \
     X(uint8_t, backup, backup)          /* the state before a call that takes more than one step, state/backup */
+
+/* Kinds of constraint rows. */
+enum { DMB_ROW_IDLE = 0, DMB_ROW_POSITION = 1, DMB_ROW_SPEED = 2 };
+
+/* How the linked system is worked on at present. */
+typedef struct dmb_linked_mode {
+    int32_t multipliers; /* 1: solve for all coordinates and multipliers, DMB_METHOD_MULTIPLIERS */
+    int32_t assembling;  /* 1: initial coordinates of joints are rows too, couplings and joint drives are not */
+    uint32_t row;        /* constraint row that could not be satisfied, for messages; UINT32_MAX: none */
+    int32_t reserved;
+    double misfit;       /* its misfit */
+} dmb_linked_mode;
 
 typedef struct dmb_clock {
     double time;        /* [s] */
@@ -100,6 +162,8 @@ typedef struct dmb_counters {
     uint64_t worst_iterations;
     double worst_residual;
     double projection[2];
+    double assembly[2];
+    uint64_t switches;
 } dmb_counters;
 
 typedef struct dmb_history_head {

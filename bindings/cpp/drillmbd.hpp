@@ -129,6 +129,9 @@ public:
     dmb_id add_string(const dmb_string_def &def) { return add(dmb_model_add_string, def); }
     dmb_id add_body(const dmb_body_def &def) { return add(dmb_model_add_body, def); }
     dmb_id add_bit(const dmb_bit_def &def) { return add(dmb_model_add_bit, def); }
+    dmb_id add_joint(const dmb_joint_def &def) { return add(dmb_model_add_joint, def); }
+    dmb_id add_coupling(const dmb_coupling_def &def) { return add(dmb_model_add_coupling, def); }
+    dmb_id add_constraint(const dmb_constraint_def &def) { return add(dmb_model_add_constraint, def); }
     dmb_id add_drive(const dmb_drive_def &def) { return add(dmb_model_add_drive, def); }
     dmb_id add_load(const dmb_load_def &def) { return add(dmb_model_add_load, def); }
     std::int32_t compile(const dmb_compile_options *options = nullptr) { return done(try_compile(options)); }
@@ -226,6 +229,11 @@ public:
     {
         return dmb_sim_set_drive(handle_, drive, value);
     }
+    std::int32_t try_set_joint(dmb_id joint, std::int32_t state) noexcept
+    {
+        return dmb_sim_set_joint(handle_, joint, state);
+    }
+    std::int32_t try_carry_over(const sim &from) noexcept { return dmb_sim_carry_over(handle_, from.get()); }
     std::int32_t try_static_start(const dmb_static_options *options = nullptr,
                                   dmb_static_report *report = nullptr) noexcept
     {
@@ -251,6 +259,10 @@ public:
     std::int32_t step(double duration, dmb_step_report *report = nullptr) { return done(try_step(duration, report)); }
     std::int32_t advance(double to, dmb_step_report *report = nullptr) { return done(try_advance(to, report)); }
     void set_drive(dmb_id which, double value) { done(try_set_drive(which, value)); }
+    // The status may be the note that speeds were projected.
+    std::int32_t set_joint(dmb_id which, std::int32_t state) { return done(try_set_joint(which, state)); }
+    // Goes on where `from` stands, a sim of another model: pipes may have come or gone at the rig end.
+    std::int32_t carry_over(const sim &from) { return done(try_carry_over(from)); }
     dmb_static_report static_start(const dmb_static_options *options = nullptr)
     {
         dmb_static_report report = dmb_static_report_default();
@@ -297,6 +309,21 @@ public:
     {
         std::array<double, 6> answer;
         check(dmb_query_reaction(handle_, part, answer.data()));
+        return answer;
+    }
+    dmb_joint_state joint(dmb_id which, std::int32_t frame = DMB_FRAME_WORLD) const
+    {
+        dmb_joint_state answer = dmb_joint_state_default();
+        answer.frame = frame;
+        return ask(dmb_query_joint, answer, which);
+    }
+    // Of a joint, coupling, constraint or joint drive, one for each row.
+    std::vector<double> multipliers(dmb_id part) const
+    {
+        std::vector<double> answer(6);
+        std::uint32_t count = 0;
+        check(dmb_query_multipliers(handle_, part, answer.data(), &count));
+        answer.resize(count);
         return answer;
     }
     dmb_bit_state bit(dmb_id which) const { return ask(dmb_query_bit, dmb_bit_state_default(), which); }

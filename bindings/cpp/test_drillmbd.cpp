@@ -151,6 +151,64 @@ void statics()
     EXPECT(sim.contact_sum().normal_force > 100.0);
 }
 
+// Both rods in the plane y = 0, where the hinges keep them anyway.
+std::int32_t in_plane(void *, double, std::uint32_t count, const double (*poses)[12], double *value, double *)
+{
+    for (std::uint32_t i = 0; i < count; ++i) value[i] = poses[i][1];
+    return 0;
+}
+
+// A double pendulum, its rods joined by a hinge, geared to the first one, with a function that asks for nothing new.
+void joints()
+{
+    drillmbd::model model;
+    dmb_body_def body = dmb_body_def_default();
+    dmb_joint_def joint = dmb_joint_def_default();
+    dmb_coupling_def coupling = dmb_coupling_def_default();
+    dmb_constraint_def constraint = dmb_constraint_def_default();
+    body.position[0] = 0.5;
+    const dmb_id upper = model.add_body(body);
+    body.position[0] = 1.5;
+    const dmb_id lower = model.add_body(body);
+    joint.kind = DMB_JOINT_REVOLUTE;
+    joint.match = 1;
+    joint.axis_a[0] = 0.0;
+    joint.axis_a[1] = 1.0;
+    joint.place_b = dmb_station(upper, 0, 0.0);
+    const dmb_id hinge = model.add_joint(joint);
+    joint.place_a = joint.place_b;
+    joint.place_b = dmb_station(lower, 0, 0.0);
+    joint.origin_a[0] = 0.5;
+    const dmb_id elbow = model.add_joint(joint);
+    coupling.joint[0] = elbow;
+    coupling.joint[1] = hinge;
+    const dmb_id gear = model.add_coupling(coupling);
+    constraint.count = 2;
+    constraint.place[0] = joint.place_a;
+    constraint.place[1] = joint.place_b;
+    constraint.rows = 2;
+    constraint.callback = in_plane;
+    const dmb_id plane = model.add_constraint(constraint);
+    joint.place_b.part = dmb_id{0, 0};
+    EXPECT(thrown_by([&] { model.add_joint(joint); }) == DMB_ERR_ID);
+    EXPECT(model.compile() == DMB_OK);
+    EXPECT(thrown_by([&] { model.add_constraint(constraint); }) == DMB_ERR_ORDER);
+    EXPECT(model.info().constraint_rows == 13);
+    drillmbd::sim sim(model);
+    for (int i = 0; i < 20; ++i) sim.step(1e-3);
+    EXPECT(sim.joint(hinge).rows == 5);
+    EXPECT(sim.joint(hinge).speed[DMB_RX] > 0.0);
+    EXPECT(std::fabs(sim.joint(hinge).speed[DMB_RX] - sim.joint(elbow).speed[DMB_RX]) < 1e-9);
+    EXPECT(sim.joint(elbow, DMB_FRAME_BODY).frame == DMB_FRAME_BODY);
+    EXPECT(sim.multipliers(gear).size() == 1);
+    EXPECT(sim.multipliers(plane).size() == 2);
+    EXPECT(sim.statistics().redundant == 2);
+    EXPECT(sim.set_joint(elbow, DMB_JOINT_OPEN) >= 0);
+    EXPECT(sim.multipliers(elbow).empty());
+    EXPECT(sim.try_set_joint(hinge, 3) == DMB_ERR_VALUE);
+    EXPECT(thrown_by([&] { sim.set_joint(upper, DMB_JOINT_OPEN); }) == DMB_ERR_ID);
+}
+
 // ---- Owners ---------------------------------------------------------------------------------------------------------
 void nothing_is_left_behind()
 {
@@ -264,6 +322,7 @@ int main()
         scene_from_end_to_end();
         snapshots();
         statics();
+        joints();
         nothing_is_left_behind();
         sim_in_the_callers_block();
         failures_throw();

@@ -23,7 +23,7 @@ import ctypes
 import ctypes.util
 import os
 import threading
-from ctypes import CFUNCTYPE, POINTER, byref, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
+from ctypes import CFUNCTYPE, POINTER, byref, c_char, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
 
 try:
     import numpy
@@ -45,12 +45,18 @@ FREE_NONE, FREE_X, FREE_RX, FREE_RZ = 0, 1, 8, 32
 FREE_CYLINDRICAL, FREE_SPHERICAL, FREE_ALL = 9, 56, 63
 TERM_CONSTANT, TERM_STEP, TERM_STEP5, TERM_HARMONIC, TERM_TABLE, TERM_CALLBACK = range(6)
 PROVIDES_RATE, PROVIDES_INTEGRAL = 1, 2
+PROVIDES_JACOBIAN = 1
 (NORMAL_NONE, NORMAL_KELVIN_VOIGT, NORMAL_HUNT_CROSSLEY, NORMAL_LANKARANI_NIKRAVESH, NORMAL_FLORES, NORMAL_EXACT,
  NORMAL_IMPACT) = range(-1, 6)
 FRICTION_NONE, FRICTION_COULOMB, FRICTION_AMBROSIO, FRICTION_STRIBECK, FRICTION_BRISTLE = range(-1, 4)
 PIPE_FLEXIBLE, PIPE_AXIAL_TORSIONAL, PIPE_RIGID = range(3)
 ATTACH_NONE, ATTACH_START, ATTACH_END = range(3)
 ROCK_NONE, ROCK_RATE, ROCK_REGENERATIVE = range(3)
+(JOINT_FIXED, JOINT_REVOLUTE, JOINT_PRISMATIC, JOINT_CYLINDRICAL, JOINT_UNIVERSAL, JOINT_SPHERICAL, JOINT_PLANAR,
+ JOINT_POINT_ON_LINE, JOINT_POINT_ON_HOLE, JOINT_DISTANCE, JOINT_FREE, JOINT_KNIFE_EDGE, JOINT_ROLLING) = range(13)
+JOINT_ACTIVE, JOINT_LOCKED, JOINT_OPEN = range(3)
+CONSTRAINT_HOLONOMIC, CONSTRAINT_NONHOLONOMIC = range(2)
+METHOD_INDEPENDENT, METHOD_MULTIPLIERS = range(2)
 DRIVE_MOTION, DRIVE_LOAD, DRIVE_CONTROL = range(3)
 FRAME_WORLD, FRAME_BODY, FRAME_HOLE = range(3)
 FEATURE_GRAVITY, FEATURE_CONTACT, FEATURE_FRICTION, FEATURE_ECCENTRICITY = 1, 2, 4, 8
@@ -99,7 +105,8 @@ def _mirrors(c_name):
 
 
 class _Record(ctypes.Structure):
-    """A struct that knows its fields: a misspelt one is an error, and a sequence fills an array."""
+    """A struct that knows its fields: a misspelt one is an error, a sequence fills an array, a part stands for its
+    reference point where a place is needed and None for no part."""
 
     def __setattr__(self, name, value):
         if not name.startswith("_"):
@@ -108,6 +115,10 @@ class _Record(ctypes.Structure):
             present = getattr(self, name)
             if isinstance(present, ctypes.Array):
                 value = type(present)(*_numbers(value, len(present)))
+            elif isinstance(present, bytes) and isinstance(value, str):
+                value = value.encode()
+            elif isinstance(present, Place) and not isinstance(value, Place):
+                value = station(_as_id(value))
         super().__setattr__(name, value)
 
     def __repr__(self):
@@ -129,6 +140,8 @@ class _Sized(_Record):
             setattr(self, name, value)
 
 
+CONSTRAINT_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double),
+                          POINTER(c_double))
 PROGRAMME_FN = CFUNCTYPE(c_int32, c_void_p, c_double, POINTER(c_double))
 LOG_FN = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
 _ALLOCATE_FN = CFUNCTYPE(c_void_p, c_void_p, c_size_t, c_size_t)
@@ -254,6 +267,43 @@ class BitDef(_Sized):
                 ("bottom", c_double), ("blades", c_uint32), ("history", c_uint32)]
 
 
+@_mirrors("dmb_joint_def")
+class JointDef(_Sized):
+    """A joint between place_a (None: the ground) and place_b."""
+    _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("name", c_char * 24), ("place_a", Place),
+                ("place_b", Place), ("origin_a", c_double * 3), ("axis_a", c_double * 3), ("normal_a", c_double * 3),
+                ("origin_b", c_double * 3), ("axis_b", c_double * 3), ("normal_b", c_double * 3), ("match", c_int32),
+                ("state", c_int32), ("length", c_double), ("stiffness", c_double * 6), ("damping", c_double * 6),
+                ("rest", c_double * 6), ("friction", c_double * 6), ("friction_speed", c_double),
+                ("stop_low", c_double * 6), ("stop_high", c_double * 6), ("stop_stiffness", c_double),
+                ("stop_damping", c_double), ("initial_mask", c_int32), ("reserved", c_int32),
+                ("initial_position", c_double * 6), ("initial_speed", c_double * 6)]
+
+
+@_mirrors("dmb_coupling_def")
+class CouplingDef(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_int32), ("name", c_char * 24), ("joint", Id * 2),
+                ("component", c_int32 * 2), ("ratio", c_double)]
+
+
+@_mirrors("dmb_constraint_def")
+class ConstraintDef(_Sized):
+    """A constraint on the poses of one to four `places`. `function` takes the time and a sequence of poses, each of
+    twelve numbers (position, rotation matrix by rows), and returns `rows` numbers (or one, if rows is 1); with
+    provides=PROVIDES_JACOBIAN a pair of these and of the rows x 6 places jacobian, flat or row by row."""
+    _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("name", c_char * 24), ("rows", c_uint32),
+                ("count", c_uint32), ("place", Place * 4), ("provides", c_int32), ("reserved", c_int32),
+                ("callback", CONSTRAINT_FN), ("callback_context", c_void_p)]
+
+    def __init__(self, places=None, function=None, **fields):
+        super().__init__(**fields)
+        self._function = function
+        if places is not None:
+            places = [place if isinstance(place, Place) else station(place) for place in places]
+            self.count = len(places)
+            self.place = (places + [Place()] * 4)[:4]
+
+
 @_mirrors("dmb_drive_def")
 class DriveDef(_Sized):
     _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("part", Id), ("component", c_int32),
@@ -277,7 +327,8 @@ class ModelInfo(_Sized):
     _fields_ = [("struct_size", c_uint32), ("strings", c_uint32), ("pipes", c_uint32), ("rigid_bodies", c_uint32),
                 ("nodes", c_uint32), ("elements", c_uint32), ("contact_sites", c_uint32), ("freedoms", c_uint32),
                 ("prescribed", c_uint32), ("structural_joints", c_uint32), ("model_bytes", c_uint64),
-                ("sim_bytes", c_uint64), ("mass", c_double), ("length", c_double)]
+                ("sim_bytes", c_uint64), ("mass", c_double), ("length", c_double), ("joints", c_uint32),
+                ("constraint_rows", c_uint32), ("clusters", c_uint32), ("linked_nodes", c_uint32)]
 
 
 @_mirrors("dmb_sim_options")
@@ -286,7 +337,8 @@ class SimOptions(_Sized):
                 ("log", LOG_FN), ("log_context", c_void_p), ("spectral_radius", c_double),
                 ("newton_tolerance", c_double), ("tolerance_translation", c_double), ("tolerance_rotation", c_double),
                 ("step_min", c_double), ("step_max", c_double), ("max_cuts", c_uint32), ("bounded_work", c_int32),
-                ("energy_ledger", c_int32), ("max_steps", c_uint32)]
+                ("energy_ledger", c_int32), ("max_steps", c_uint32), ("constraint_method", c_int32),
+                ("reserved", c_int32)]
 
 
 @_mirrors("dmb_step_report")
@@ -361,6 +413,14 @@ class DriveState(_Sized):
                 ("speed", c_double), ("force", c_double), ("power", c_double), ("work", c_double)]
 
 
+@_mirrors("dmb_joint_state")
+class JointState(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("frame", c_int32), ("state", c_int32), ("rows", c_uint32),
+                ("redundant", c_uint32), ("reserved", c_uint32), ("position", c_double * 6), ("speed", c_double * 6),
+                ("acceleration", c_double * 6), ("reaction", c_double * 6), ("action", c_double * 6),
+                ("misfit", c_double)]
+
+
 @_mirrors("dmb_bit_state")
 class BitState(_Sized):
     _fields_ = [("struct_size", c_uint32), ("on_bottom", c_int32), ("advance", c_double), ("bottom", c_double),
@@ -371,7 +431,8 @@ class BitState(_Sized):
 class Statistics(_Sized):
     _fields_ = [("struct_size", c_uint32), ("worst_iterations", c_uint32), ("steps", c_uint64), ("rejected", c_uint64),
                 ("iterations", c_uint64), ("limited", c_uint64), ("bytes", c_uint64), ("worst_residual", c_double),
-                ("projection", c_double * 2)]
+                ("projection", c_double * 2), ("assembly", c_double * 2), ("switches", c_uint64),
+                ("dependent", c_uint32), ("redundant", c_uint32), ("misfit", c_double)]
 
 
 @_mirrors("dmb_channel")
@@ -406,6 +467,7 @@ def _declare_all():
     _declare("dmb_model_add_programme", status, model, POINTER(Term), count, POINTER(Id))
     _declare("dmb_model_add_pipes", status, model, POINTER(PipeDef), count, POINTER(Id))
     for name, definition in (("wall", WallDef), ("string", StringDef), ("body", BodyDef), ("bit", BitDef),
+                             ("joint", JointDef), ("coupling", CouplingDef), ("constraint", ConstraintDef),
                              ("drive", DriveDef), ("load", LoadDef)):
         add(name, definition)
     _declare("dmb_model_compile", status, model, POINTER(CompileOptions))
@@ -419,6 +481,8 @@ def _declare_all():
     _declare("dmb_sim_step", status, sim, number, POINTER(StepReport))
     _declare("dmb_sim_advance", status, sim, number, POINTER(StepReport))
     _declare("dmb_sim_set_drive", status, sim, Id, number)
+    _declare("dmb_sim_set_joint", status, sim, Id, c_int32)
+    _declare("dmb_sim_carry_over", status, sim, sim)
     _declare("dmb_sim_snapshot_size", status, sim, POINTER(size))
     _declare("dmb_sim_snapshot", status, sim, c_void_p, size)
     _declare("dmb_sim_restore", status, sim, c_void_p, size)
@@ -435,6 +499,8 @@ def _declare_all():
     ask("momentum", POINTER(Momentum))
     ask("drive", Id, POINTER(DriveState))
     ask("reaction", Id, POINTER(number))
+    ask("joint", Id, POINTER(JointState))
+    ask("multipliers", Id, POINTER(number), POINTER(c_uint32))
     ask("bit", Id, POINTER(BitState))
     ask("statistics", POINTER(Statistics))
     _declare("dmb_recorder_take", status, POINTER(_RecorderStruct), sim)
@@ -475,6 +541,15 @@ def _numbers(values, count):
     if len(values) != count:
         raise ValueError(f"{count} numbers are needed, {len(values)} given")
     return values
+
+
+def _flat(values):
+    """A number, a sequence, or a sequence of sequences as one list."""
+    try:
+        values = list(values)
+    except TypeError:
+        return [float(values)]
+    return [number for value in values for number in _flat(value)]
 
 
 def _struct(cls, given, fields):
@@ -520,6 +595,26 @@ class _Keep:
                 return 1
 
         wrapped = PROGRAMME_FN(call)
+        self.references.append(wrapped)
+        return wrapped
+
+    def constraint(self, function, rows, provides):
+        """The C function around a Python function of time and poses."""
+        def call(_context, time, count, poses, value, jacobian):
+            try:
+                answer = function(time, [list(poses[i]) for i in range(count)])
+                values, derivatives = answer if provides & PROVIDES_JACOBIAN else (answer, None)
+                for i, number in enumerate(_numbers(_flat(values), rows)):
+                    value[i] = number
+                if derivatives is not None:
+                    for i, number in enumerate(_numbers(_flat(derivatives), 6 * rows * count)):
+                        jacobian[i] = number
+                return 0
+            except BaseException as error:  # must not unwind through C
+                self.raised.error = error
+                return 1
+
+        wrapped = CONSTRAINT_FN(call)
         self.references.append(wrapped)
         return wrapped
 
@@ -623,6 +718,19 @@ class Model:
     def add_bit(self, definition=None, **fields):
         return self._add(_lib.dmb_model_add_bit, BitDef, definition, fields)
 
+    def add_joint(self, definition=None, **fields):
+        return self._add(_lib.dmb_model_add_joint, JointDef, definition, fields)
+
+    def add_coupling(self, definition=None, **fields):
+        return self._add(_lib.dmb_model_add_coupling, CouplingDef, definition, fields)
+
+    def add_constraint(self, definition=None, **fields):
+        definition = _struct(ConstraintDef, definition, fields)
+        function = getattr(definition, "_function", None)
+        if function is not None:
+            definition.callback = self._keep.constraint(function, definition.rows, definition.provides)
+        return self._add(_lib.dmb_model_add_constraint, ConstraintDef, definition, {})
+
     def add_drive(self, definition=None, **fields):
         return self._add(_lib.dmb_model_add_drive, DriveDef, definition, fields)
 
@@ -721,6 +829,15 @@ class Sim:
         """The drive's programme is the constant value from now on; None: its programme again."""
         self._check(_lib.dmb_sim_set_drive(self._handle, drive, float("nan") if value is None else value))
 
+    def set_joint(self, joint, state):
+        """The joint is JOINT_ACTIVE, JOINT_LOCKED or JOINT_OPEN from now on; returns the status, NOTE_PROJECTED if
+        speeds changed."""
+        return self._check(_lib.dmb_sim_set_joint(self._handle, joint, state))
+
+    def carry_over(self, other):
+        """Goes on where `other` stands, a sim of another model: pipes may have come or gone at the rig end."""
+        return self._check(_lib.dmb_sim_carry_over(self._handle, other._handle))
+
     def snapshot(self):
         """All that changes, as bytes."""
         size = c_size_t()
@@ -784,6 +901,15 @@ class Sim:
         values = (c_double * 6)()
         _check(_lib.dmb_query_reaction(self._handle, part, values))
         return list(values)
+
+    def joint(self, joint, frame=FRAME_WORLD):
+        return self._ask(_lib.dmb_query_joint, JointState(frame=frame), joint)
+
+    def multipliers(self, part):
+        """[N, N m per unit of its value] of a joint, coupling, constraint or joint drive, one for each row"""
+        values, count = (c_double * 6)(), c_uint32()
+        _check(_lib.dmb_query_multipliers(self._handle, part, values, byref(count)))
+        return list(values)[:count.value]
 
     def bit(self, bit):
         return self._ask(_lib.dmb_query_bit, BitState(), bit)

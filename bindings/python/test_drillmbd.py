@@ -87,6 +87,10 @@ class InterfaceTest(unittest.TestCase):
         self.assertEqual(mbd.CompileOptions().pipe_kind, -1)
         self.assertEqual(mbd.SimOptions().max_iterations, 12)
         self.assertEqual(mbd.BitDef().history, 1024)
+        self.assertEqual(mbd.JointDef().stop_stiffness, 1e6)
+        self.assertEqual(list(mbd.JointDef().axis_b), [1.0, 0.0, 0.0])
+        self.assertEqual(list(mbd.CouplingDef().component), [mbd.RX, mbd.RX])
+        self.assertEqual(mbd.ConstraintDef().rows, 1)
 
     def test_constants_are_equal(self):
         constants = stored_constants()
@@ -358,6 +362,126 @@ class WholeModelTest(unittest.TestCase):
 
 
 # ---- Errors and callbacks -------------------------------------------------------------------------------------------
+class JointTest(unittest.TestCase):
+    """A pendulum of two rods: a hinge on the ground, and a hinge, a spring or a function between the rods."""
+
+    def rods(self):
+        model = mbd.Model()
+        inertia = (1e-3, 1e-2, 1e-2, 0, 0, 0)
+        upper = model.add_body(mass=2.0, position=(0.5, 0, 0), inertia=inertia)
+        lower = model.add_body(mass=1.0, position=(1.5, 0, 0), inertia=inertia)
+        hinge = model.add_joint(kind=mbd.JOINT_REVOLUTE, name="hinge", place_b=upper, axis_a=(0, 1, 0), match=1)
+        return model, upper, lower, hinge
+
+    def test_joint(self):
+        model, upper, lower, hinge = self.rods()
+        elbow = model.add_joint(kind=mbd.JOINT_REVOLUTE, place_a=upper, place_b=lower, origin_a=(0.5, 0, 0),
+                                axis_a=(0, 1, 0), match=1, state=mbd.JOINT_LOCKED)
+        model.compile()
+        info = model.info()
+        self.assertEqual((info.joints, info.constraint_rows, info.clusters, info.linked_nodes), (2, 11, 1, 2))
+        with model.sim() as sim:
+            for _ in range(50):
+                sim.step(1e-3)
+            state = sim.joint(hinge)
+            self.assertEqual((state.state, state.rows, state.redundant), (mbd.JOINT_ACTIVE, 5, 0))
+            self.assertGreater(state.speed[mbd.RX], 0.1)  # it falls: z up, turns from x to -z about y
+            self.assertLess(max(map(abs, state.position[:3])), 1e-9)
+            self.assertLess(abs(sim.joint(elbow).speed[mbd.RX]), 1e-9)
+            self.assertEqual(len(sim.multipliers(hinge)), 5)
+            self.assertEqual(len(sim.multipliers(elbow)), 6)
+            self.assertGreaterEqual(sim.set_joint(elbow, mbd.JOINT_ACTIVE), mbd.OK)
+            sim.step(1e-3)
+            self.assertEqual(len(sim.multipliers(elbow)), 5)
+            self.assertLess(sim.statistics().misfit, 1e-9)
+            world, body = sim.joint(hinge), sim.joint(hinge, mbd.FRAME_BODY)
+            length = [math.hypot(*s.reaction[:3]) for s in (world, body)]
+            self.assertAlmostEqual(length[0], length[1])
+
+    def test_function(self):
+        model, upper, lower, hinge = self.rods()
+        rod = model.add_constraint(places=[upper, lower], name="rod",
+                                   function=lambda time, poses: math.dist(poses[0][:3], poses[1][:3]) - 1.0)
+        model.compile()
+        with model.sim() as sim:
+            for _ in range(50):
+                sim.step(1e-3)
+            ends = [sim.pose(mbd.station(body)).position for body in (upper, lower)]
+            self.assertAlmostEqual(math.dist(*ends), 1.0, places=6)
+            self.assertEqual(len(sim.multipliers(rod)), 1)
+
+    def test_function_with_jacobian(self):
+        """The lower rod's axis stays level: its direction's z component is that of the matrix's first column."""
+        def level(_time, poses):
+            r = poses[0][3:]
+            return r[6], [[0, 0, 0, 0, -r[8], r[7]]]
+
+        model, _, lower, _ = self.rods()
+        model.add_constraint(places=[lower], function=level, provides=mbd.PROVIDES_JACOBIAN)
+        model.compile()
+        with model.sim() as sim:
+            for _ in range(20):
+                sim.step(1e-3)
+            self.assertAlmostEqual(sim.pose(mbd.station(lower)).rotation[6], 0.0)
+
+    def test_function_that_raises(self):
+        armed = []  # the time of a call may lie a little ahead: derivatives along the motion are differences
+
+        def broken(_time, _poses):
+            if armed:
+                raise ZeroDivisionError("on purpose")
+            return 0.0, [0.0] * 6
+
+        model, upper, _, _ = self.rods()
+        model.add_constraint(places=[upper], function=broken, provides=mbd.PROVIDES_JACOBIAN)
+        model.compile()
+        with model.sim() as sim:
+            sim.step(1e-3)
+            armed.append(True)
+            before = sim.hash()
+            with self.assertRaises(mbd.Error) as caught:
+                sim.step(1e-3)
+            self.assertEqual(caught.exception.status, mbd.ERR_CALLBACK)
+            self.assertIsInstance(caught.exception.__cause__, ZeroDivisionError)
+            self.assertEqual(sim.hash(), before)
+
+    def test_coupling_and_drive(self):
+        model, upper, lower, hinge = self.rods()
+        elbow = model.add_joint(kind=mbd.JOINT_REVOLUTE, place_a=upper, place_b=lower, origin_a=(0.5, 0, 0),
+                                axis_a=(0, 1, 0), match=1)
+        model.add_coupling(joint=(hinge, elbow), ratio=-2.0)
+        drive = model.add_drive(part=hinge, component=mbd.RX, programme=model.add_programme(mbd.Term(
+            kind=mbd.TERM_STEP5, x1=0.1, h1=1.0)))
+        model.compile()
+        with model.sim() as sim:
+            for _ in range(200):
+                sim.step(1e-3)
+            self.assertAlmostEqual(sim.joint(hinge).speed[mbd.RX], 1.0, places=6)
+            self.assertAlmostEqual(sim.joint(elbow).speed[mbd.RX], -0.5, places=6)
+            self.assertAlmostEqual(sim.drive(drive).speed, 1.0, places=6)
+
+    def test_errors_name_the_joint(self):
+        model, upper, _, _ = self.rods()
+        with self.assertRaises(mbd.Error) as caught:
+            model.add_joint(name="crank", place_b=upper, axis_a=(0, 0, 0))
+        self.assertEqual(caught.exception.message, "joint 1 (crank): axis_a = 0, must be of length > 0")
+
+    def test_rods_added(self):
+        """A string that goes on in a model with one pipe more at the rig end."""
+        def drilling(pipes):
+            model = mbd.Model()
+            model.add_pipes(pipes)
+            model.compile()
+            return model
+
+        with drilling(3).sim() as short:
+            for _ in range(5):
+                short.step(1e-3)
+            with drilling(4).sim() as long:
+                self.assertGreaterEqual(long.carry_over(short), mbd.OK)
+                self.assertEqual(long.time, short.time)
+
+
 class ErrorTest(unittest.TestCase):
     def assert_error(self, status, function, *arguments, **fields):
         with self.assertRaises(mbd.Error) as caught:

@@ -40,6 +40,54 @@ DMB_SIZED_STRUCT(dmb_static_report)
  * state is then that before the call. */
 DMB_API int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report);
 
+/* ---- Model check -------------------------------------------------------------------------------------------------
+ * What a scene consists of, how many degrees of freedom it has, and what looks wrong with it. */
+typedef struct dmb_check_report {
+    uint32_t struct_size;
+    uint32_t rigid_parts;       /* [-] bodies and bits (fixed to a string or not), rigid pipes, rigid tool joints */
+    uint32_t flexible_parts;    /* [-] flexible and axial-torsional pipes */
+    uint32_t elements;          /* [-] of those */
+    uint32_t structural_joints; /* [-] fixed joints inside strings, which cost no unknowns */
+    uint32_t joints[16];        /* [-] described joints that are not open, by DMB_JOINT_ kind, shape (16) */
+    uint32_t open_joints;       /* [-] described joints that are open now */
+    uint32_t locked_joints;     /* [-] of `joints` those that are locked now */
+    uint32_t couplings;         /* [-] */
+    uint32_t constraints;       /* [-] the caller's */
+    uint32_t motion_drives;     /* [-] DMB_DRIVE_MOTION */
+    uint32_t other_drives;      /* [-] DMB_DRIVE_LOAD and _CONTROL */
+    uint32_t loads;             /* [-] */
+    uint32_t coordinates;       /* [-] velocity components of all nodes: 6 or (axial-torsional) 2 each */
+    uint32_t held;              /* [-] of them held by guides: start_free, end_free, free_mask */
+    uint32_t prescribed;        /* [-] of them moved by motion drives of strings and bodies */
+    uint32_t rows;              /* [-] equations that act now: joints, couplings, constraints, motion drives of joints */
+    uint32_t rank;              /* [-] of their matrix in the coordinates that are neither held nor prescribed */
+    uint32_t freedoms;          /* [-] true degrees of freedom: coordinates - held - prescribed - rank */
+    uint32_t redundant;         /* [-] equations that others imply: rows - rank */
+    uint32_t tridiagonal_nodes; /* [-] nodes whose chains the block-tridiagonal solver takes */
+    uint32_t sparse_nodes;      /* [-] nodes of chains that equations connect: the sparse solver's */
+    uint32_t blocks;            /* [-] of the sparse solver: clusters and the other nodes of those chains */
+    uint32_t fill;              /* [-] couplings of blocks that its elimination adds, in CHOLMOD's order */
+    uint32_t clusters;          /* [-] groups of nodes that equations connect directly */
+    uint32_t largest_cluster;   /* [-] coordinates of the largest */
+    uint32_t warnings;          /* [-] lines of warning in the text */
+    int64_t gruebler;           /* [-] coordinates - held - prescribed - rows; < freedoms where equations are redundant */
+    double largest_misfit;      /* [m, -] largest violation of an equation of position */
+    double condition;           /* [-] smallest over largest singular value of the equations of a cluster (redundant ones
+                                   apart; scaled to unit length, rotations at the mean element length), the worst one
+                                   of all; above 300 equations an estimate; 1 without equations */
+} dmb_check_report;
+DMB_SIZED_STRUCT(dmb_check_report)
+
+/* Counts the last accepted state of a sim; the rank is LAPACK's, by QR with column pivoting, beside that of the partition
+ * the sim steps with (a warning if they differ). Changes nothing; callbacks of constraints are called. Needs memory for the
+ * time of the call, from the allocator of the sim's options. Cost: elements, and the cube of the coordinates of each
+ * cluster. Errors: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _NO_MEMORY, _CALLBACK, _NOT_FINITE. */
+DMB_API int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report);
+/* The same as a sheet of text, lines ending with '\n', '.' as decimal mark: counts, solvers, redundant equations by name,
+ * warnings. Writes at most `size` bytes, always 0-terminated; *needed (may be NULL) is what the whole text takes, its 0
+ * included. text may be NULL where size is 0. DMB_NOTE_FULL if the text is cut. Errors as dmb_analysis_check. */
+DMB_API int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t size, size_t *needed);
+
 #ifdef __cplusplus
 }
 #endif

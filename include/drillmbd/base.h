@@ -33,7 +33,7 @@ DMB_API uint32_t dmb_version(void);
     X(DMB_OK, 0, "done")                                                                                              \
     X(DMB_NOTE_STEP_CUT, 1, "done; the step was divided to converge")                                                 \
     X(DMB_NOTE_WORK_LIMITED, 2, "done; the bounded number of iterations was used up above the tolerance")             \
-    X(DMB_NOTE_PROJECTED, 3, "done; initial velocities were projected onto the allowed motion")                       \
+    X(DMB_NOTE_PROJECTED, 3, "done; poses or velocities were projected onto the allowed motion")                       \
     X(DMB_NOTE_STOPPED, 4, "done; stopped early at the bound on steps")                                               \
     X(DMB_NOTE_FULL, 5, "done; the caller's memory is full, nothing more is recorded")                                \
     X(DMB_NOTE_TOLERANCE, 6, "done; the smallest step allowed was too long for the error tolerance")                  \
@@ -72,7 +72,7 @@ typedef struct dmb_id {
 
 /* A place on a part: a station of a string, or the reference point of a body. Made by dmb_station. */
 typedef struct dmb_place {
-    dmb_id part;       /* a string or a body */
+    dmb_id part;       /* a string, a body or a bit */
     uint32_t pipe;     /* [-] pipe of the string, 0 at the rig end; 0 for a body */
     uint32_t reserved; /* [-] 0 */
     double fraction;   /* [-] 0 at the rig end of the pipe .. 1 at its far end; 0 for a body */

@@ -132,6 +132,28 @@ DMB_API int32_t dmb_query_drive(const dmb_sim *sim, dmb_id drive, dmb_drive_stat
  * shape (6); 0 in components that are free. */
 DMB_API int32_t dmb_query_reaction(const dmb_sim *sim, dmb_id part, double reaction[6]);
 
+typedef struct dmb_joint_state {
+    uint32_t struct_size;
+    int32_t frame;         /* in: frame of `reaction`: DMB_FRAME_WORLD (default) or DMB_FRAME_BODY: frame b of the joint */
+    int32_t state;         /* DMB_JOINT_... */
+    uint32_t rows;         /* [-] equations it holds now */
+    uint32_t redundant;    /* [-] of them dropped because others already hold what they hold */
+    uint32_t reserved;
+    double position[6];    /* [m, rad] coordinates, RX and RY counted over full turns, shape (6) */
+    double speed[6];       /* [m/s, rad/s] their rates, shape (6) */
+    double acceleration[6]; /* [m/s2, rad/s2] the rates of those, shape (6) */
+    double reaction[6];    /* [N, N m] force and moment of the constraint on b from a, at the origin of b, shape (6);
+                              of redundant joints those of least norm */
+    double action[6];      /* [N, N m] generalised force of springs, dampers, stops and friction on the coordinates,
+                              shape (6) */
+    double misfit;         /* [m, -] largest violation of its equations of position */
+} dmb_joint_state;
+DMB_SIZED_STRUCT(dmb_joint_state)
+DMB_API int32_t dmb_query_joint(const dmb_sim *sim, dmb_id joint, dmb_joint_state *state);
+/* Multipliers of a joint, coupling, constraint or joint drive: count of its rows (at most 6), in the units of a force
+ * per unit of its value. *count on return is the number of rows. */
+DMB_API int32_t dmb_query_multipliers(const dmb_sim *sim, dmb_id part, double multipliers[6], uint32_t *count);
+
 typedef struct dmb_bit_state {
     uint32_t struct_size;
     int32_t on_bottom;       /* 1 while cutting or touching */
@@ -155,6 +177,11 @@ typedef struct dmb_statistics {
     uint64_t bytes;             /* [byte] of the sim */
     double worst_residual;      /* [-] relative, of an accepted step */
     double projection[2];       /* [m/s, rad/s] largest correction of initial velocities, shape (2) */
+    double assembly[2];         /* [m, rad] largest correction of the described pose when joints were closed, shape (2) */
+    uint64_t switches;          /* [-] times the independent coordinates of a cluster were chosen anew */
+    uint32_t dependent;         /* [-] coordinates that constraints determine now */
+    uint32_t redundant;         /* [-] equations that are dropped now */
+    double misfit;              /* [m, rad] largest violation of an equation of position now */
 } dmb_statistics;
 DMB_SIZED_STRUCT(dmb_statistics)
 DMB_API int32_t dmb_query_statistics(const dmb_sim *sim, dmb_statistics *statistics);

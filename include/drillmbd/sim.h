@@ -12,6 +12,10 @@ extern "C" {
 
 typedef struct dmb_sim dmb_sim;
 
+enum {
+    DMB_METHOD_INDEPENDENT = 0, /* the step solves for independent coordinates, found by partition */
+    DMB_METHOD_MULTIPLIERS = 1  /* for comparison: for all coordinates and the multipliers; steps only, not statics */
+};
 typedef struct dmb_sim_options {
     uint32_t struct_size;
     uint32_t max_iterations;      /* [-] Newton iterations of one step, 1 .. 1000; default 12 */
@@ -32,6 +36,9 @@ typedef struct dmb_sim_options {
     int32_t energy_ledger;        /* 1 (default): keep the energy ledger; 0: not there in the step */
     uint32_t max_steps;           /* [-] accepted steps in one dmb_sim_advance, which then ends with DMB_NOTE_STOPPED;
                                      0 (default): no bound */
+    int32_t constraint_method;    /* DMB_METHOD_..., how joints enter the linear algebra of a step; default
+                                     DMB_METHOD_INDEPENDENT */
+    int32_t reserved;
 } dmb_sim_options;
 DMB_SIZED_STRUCT(dmb_sim_options)
 
@@ -76,6 +83,19 @@ DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *repo
 /* From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For
  * DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; accelerations are made to fit the jump. DMB_ERR_UNSUPPORTED for DMB_DRIVE_MOTION, whose speed may not jump. */
 DMB_API int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value);
+
+/* From now on the joint is DMB_JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the
+ * impulse of least kinetic energy (DMB_NOTE_PROJECTED; dmb_sim_message tells by how much; the energy goes to `impact`),
+ * accelerations are made anew. Errors: DMB_ERR_ID, _VALUE, _GEOMETRY: the joint's parts do not fit within 1e-6 m and
+ * rad, so it cannot become active; nothing is changed then. */
+DMB_API int32_t dmb_sim_set_joint(dmb_sim *sim, dmb_id joint, int32_t state);
+
+/* Goes on where `from` stands, in a sim of another model: the same but for pipes more or fewer at the rig end of its
+ * strings (rods added or taken off). Pipes are matched from the far end; added ones start unstressed in line with the
+ * old rig end, moving with it; time, drives, contacts, bits and the energy ledger continue (the ledger takes out or in
+ * what the pipes themselves carry). Fails unless all else is of the same kind and number: DMB_ERR_VALUE, with what
+ * differs; then nothing is changed. */
+DMB_API int32_t dmb_sim_carry_over(dmb_sim *sim, const dmb_sim *from);
 
 /* Snapshot of all that changes: bytes, save into and restore from the caller's memory. A snapshot fits every sim of the
  * same compiled model with the same options (checked; DMB_ERR_VALUE). Restored sims go on bit for bit. */

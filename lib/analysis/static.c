@@ -5,6 +5,7 @@
 #include "base/handle.h"
 #include "base/sized_struct.h"
 #include "math/vec3.h"
+#include "system/cluster.h"
 #include "system/bit.h"
 #include "system/owner.h"
 #include "system/start.h"
@@ -31,9 +32,11 @@ static int32_t begin(dmb_static_search *search)
     dmb_sim *sim = search->sim;
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
     memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
-    const int32_t status = dmb_system_prescribe(&search->evaluation);
+    int32_t status = dmb_system_prescribe(&search->evaluation);
     if (status >= 0 && search->options->lay_on_wall) dmb_static_lay_on_wall(sim);
-    return status;
+    if (status < 0 || sim->scene->cluster_count == 0) return status;
+    sim->linked_mode->row = UINT32_MAX;
+    return dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
 }
 
 typedef int32_t (*search_fn)(dmb_static_search *search);
@@ -104,7 +107,8 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     if (status < 0) return status;
     memcpy(sim->residual_row, sim->correction, scene->row_count * sizeof(double));
     for (uint32_t i = 0; i < scene->drive_count; i++)
-        if (scene->drives[i].kind == DMB_DRIVE_MOTION) sim->now.drive_force[i] = sim->correction[scene->drives[i].row];
+        if (scene->drives[i].kind == DMB_DRIVE_MOTION && scene->drives[i].joint == UINT32_MAX)
+            sim->now.drive_force[i] = sim->correction[scene->drives[i].row];
     return DMB_OK;
 }
 
@@ -137,7 +141,9 @@ static void explain(dmb_static_search *search, int32_t status)
 {
     dmb_sim *sim = search->sim;
     dmb_owner owner;
-    if (status == DMB_ERR_SINGULAR) {
+    if (sim->scene->cluster_count && sim->linked_mode->row != UINT32_MAX) {
+        dmb_clusters_explain(sim, "its equations cannot be satisfied");
+    } else if (status == DMB_ERR_SINGULAR) {
         owner = dmb_owner_of_node(sim->scene, search->block);
         dmb_message_set(&sim->message, "static: %s %u, pipe %u: nothing holds it, the stiffness is singular",
                         owner.kind, owner.index, owner.pipe);

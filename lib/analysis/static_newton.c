@@ -2,11 +2,13 @@
 
 #include "analysis/static_state.h"
 #include "math/se3.h"
+#include "system/cluster.h"
 #include "system/solve.h"
 
 /* Moves the trial by body-frame increments; the sum in `increment` follows the turns. */
-static void move(dmb_sim *sim)
+static int32_t move(dmb_static_search *search)
 {
+    dmb_sim *sim = search->sim;
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->row_count; i++) sim->increment[i] += sim->correction[i];
     for (uint32_t i = 0; i < scene->node_count; i++) {
@@ -18,6 +20,7 @@ static void move(dmb_sim *sim)
             sim->trial.turn[i] += z[1];
         }
     }
+    return scene->cluster_count ? dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0) : DMB_OK;
 }
 
 static void scale_correction(dmb_sim *sim, double factor)
@@ -95,7 +98,8 @@ int32_t dmb_static_newton(dmb_static_search *search)
         scale_correction(sim, damping(k));
         dmb_system_extrapolate_stress(sim, sim->correction);
         search->evaluation.extrapolated = 1;
-        move(sim);
+        status = move(search);
+        if (status < 0) return status;
     }
 }
 
@@ -143,6 +147,7 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
         scale_correction(sim, most > limit ? limit / most : 1.0);
         dmb_system_extrapolate_stress(sim, sim->correction);
         search->evaluation.extrapolated = 1;
-        move(sim);
+        status = move(search);
+        if (status < 0) return status;
     }
 }

@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -105,6 +104,16 @@ void dmb_message_field(dmb_message *message, const char *part, uint32_t index, c
                        const char *bound)
 {
     dmb_message_component(message, part, index, field, DMB_NO_INDEX, value, bound);
+}
+
+const char *dmb_part_text(dmb_message *text, const char *part, uint32_t index, const char *name, size_t size)
+{
+    if (size == 0 || name[0] == '\0' || memchr(name, '\0', size) == NULL) {
+        dmb_message_set(text, "%s %u", part, index);
+    } else {
+        dmb_message_set(text, "%s %u (%s)", part, index, name);
+    }
+    return text->text;
 }
 
 void dmb_message_clear(dmb_message *message)

@@ -288,3 +288,11 @@ void dmb_radial(const double x[3], const double axis_point[3], const double tang
     else
         dmb_vec3_set(u[0] / *e, u[1] / *e, u[2] / *e, n);
 }
+
+/* About t: t . w = z . y' with y = e_z x t over its length. */
+void dmb_hole_turning(const double t[3], const double curvature[3], double w[3])
+{
+    const double across = t[0] * t[0] + t[1] * t[1];
+    dmb_vec3_cross(t, curvature, w);
+    if (across > 1e-18) dmb_vec3_axpy(t[2] * (t[0] * curvature[1] - t[1] * curvature[0]) / across, t, w);
+}

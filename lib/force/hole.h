@@ -53,6 +53,10 @@ void dmb_hole_frame(const dmb_hole *hole, double s, double x[3], double t[3], do
  * there y is the world's y axis (what azimuth 0 tends to). */
 void dmb_hole_frame_rotation(const dmb_hole *hole, double s, double R[9]);
 
+/* Turning of that frame per metre of depth [rad/m], world axes, from unit tangent t and curvature vector dt/ds:
+ * t x dt/ds, and about t what keeps its y axis horizontal. */
+void dmb_hole_turning(const double t[3], const double curvature[3], double w[3]);
+
 /* Closest point of the axis to x: its measured depth *s, point and unit tangent. *segment is the arc tried first, in
  * any range, and comes back as the arc found (0 for a straight hole); *s is written only. Closed form on lines and
  * arcs, so exact to round-off. The arc is the one whose end planes enclose x: continuous from arc to arc, and the same

@@ -6,6 +6,7 @@
 #include "integrator/generalized_alpha.h"
 #include "integrator/turning.h"
 #include "math/se3.h"
+#include "system/cluster.h"
 #include "system/ledger.h"
 #include "system/owner.h"
 #include "system/release.h"
@@ -15,6 +16,8 @@
 #define DMB_NEWTON_GROWTH 1e6
 /* Largest ratio of a step to the one before over which the pseudo-acceleration is carried. */
 #define DMB_STEP_RATIO_MAX 1e3
+/* [m, -] misfit of an equation taken for redundant at which it is one no more. */
+#define DMB_DROPPED_MISFIT 1e-7
 
 /* a0 carried over to a new step length, v0' + (h/h_old)(a0 - v0'), which keeps second order (THEORY 4). */
 static double carried(const dmb_sim *sim, double ratio, uint32_t i)
@@ -31,17 +34,43 @@ static double step_ratio(const dmb_sim *sim, double step)
     return step > DMB_STEP_RATIO_MAX * sim->clock->step ? 0.0 : step / sim->clock->step;
 }
 
+/* What the step iterates on: the trial itself, or what is projected onto the constraints to become it. */
+typedef struct motion {
+    double *velocity, *acceleration, *pseudo_acceleration;
+} motion;
+
+static motion motion_of(const dmb_sim *sim)
+{
+    const motion trial = {sim->trial.velocity, sim->trial.acceleration, sim->trial.pseudo_acceleration};
+    const motion raw = {sim->raw_velocity, sim->raw_acceleration, sim->raw_pseudo_acceleration};
+    return sim->scene->cluster_count ? raw : trial;
+}
+
 /* Start of the iteration: v1' = v0'. */
 static void predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
 {
     const double ratio = step_ratio(sim, h);
+    const motion to = motion_of(sim);
     for (uint32_t i = 0; i < sim->scene->row_count; i++) {
         const double dv = sim->now.acceleration[i], v = sim->now.velocity[i], a0 = carried(sim, ratio, i);
         const double a1 = (dv - c->am * a0) / (1.0 - c->am);
-        sim->trial.acceleration[i] = dv;
-        sim->trial.pseudo_acceleration[i] = a1;
-        sim->trial.velocity[i] = v + h * (1.0 - c->gamma) * a0 + h * c->gamma * a1;
+        to.acceleration[i] = dv;
+        to.pseudo_acceleration[i] = a1;
+        to.velocity[i] = v + h * (1.0 - c->gamma) * a0 + h * c->gamma * a1;
         sim->increment[i] = h * v + h * h * ((0.5 - c->beta) * a0 + c->beta * a1);
+    }
+}
+
+/* Motion drives of nodes have written into the trial. */
+static void keep_prescribed(dmb_sim *sim)
+{
+    const motion to = motion_of(sim);
+    for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
+        const uint32_t row = sim->scene->drives[i].row;
+        if (sim->scene->drives[i].kind != DMB_DRIVE_MOTION || row == UINT32_MAX) continue;
+        to.velocity[row] = sim->trial.velocity[row];
+        to.acceleration[row] = sim->trial.acceleration[row];
+        to.pseudo_acceleration[row] = sim->trial.pseudo_acceleration[row];
     }
 }
 
@@ -68,12 +97,13 @@ static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
 {
     const double to_a = 1.0 / (h * h * c->beta), to_v = c->gamma / (h * c->beta);
     const double to_dv = to_a * (1.0 - c->am) / (1.0 - c->af);
+    const motion to = motion_of(sim);
     for (uint32_t i = 0; i < sim->scene->row_count; i++) {
         const double z = sim->correction[i];
         sim->increment[i] += z;
-        sim->trial.velocity[i] += to_v * z;
-        sim->trial.acceleration[i] += to_dv * z;
-        sim->trial.pseudo_acceleration[i] += to_a * z;
+        to.velocity[i] += to_v * z;
+        to.acceleration[i] += to_dv * z;
+        to.pseudo_acceleration[i] += to_a * z;
     }
     trial_pose(sim);
 }
@@ -105,6 +135,7 @@ static void set_up(dmb_sim *sim, const dmb_generalized_alpha *c, double h, dmb_e
     evaluation->step = h;
     evaluation->mass_factor = (1.0 - c->am) / (h * h * c->beta * (1.0 - c->af));
     evaluation->velocity_factor = c->gamma / (h * c->beta);
+    evaluation->pseudo_factor = (1.0 - c->af) / (1.0 - c->am);
     evaluation->load_factor = 1.0;
     evaluation->dynamic = 1;
     evaluation->tangent = 1;
@@ -154,9 +185,10 @@ static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt, newton_course *cours
     }
     dmb_system_iteration_matrix(&attempt->evaluation);
     const int64_t bad = dmb_factor_matrix(sim);
-    attempt->block = (uint32_t)bad;
     course->factored = 1;
-    return bad >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
+    if (bad < 0) return DMB_OK;
+    attempt->block = (uint32_t)bad;
+    return DMB_ERR_SINGULAR;
 }
 
 /* One Newton iteration; 1: go on, 0 or DMB_NOTE_WORK_LIMITED: done, < 0: failed. */
@@ -166,7 +198,8 @@ static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt
     const double tolerance = sim->options.newton_tolerance;
     int32_t converged;
     evaluation->tangent = !course->factored;
-    int32_t status = dmb_system_evaluate(evaluation);
+    int32_t status = sim->scene->cluster_count ? dmb_clusters_settle(evaluation, DMB_SETTLE_ALL, 1) : DMB_OK;
+    if (status >= 0) status = dmb_system_evaluate(evaluation);
     if (status < 0) return status;
     attempt->residual = dmb_relative_residual(evaluation, tolerance, &converged);
     if (converged) return 0;
@@ -201,6 +234,7 @@ static int32_t newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt 
 static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
 {
     const double h = attempt->step, ratio = step_ratio(sim, h);
+    const motion to = motion_of(sim);
     int32_t status = dmb_released_acceleration(&attempt->evaluation);
     if (status < 0) return status;
     for (uint32_t i = 0; i < sim->scene->row_count; i++) {
@@ -209,14 +243,25 @@ static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_a
         const double dv = sim->now.acceleration[i] - gone;
         const double a0 = dv + (1.0 - sim->scale_row[i]) * (carried(sim, ratio, i) - sim->now.acceleration[i]);
         const double a1 = ((sim->increment[i] - h * v) / (h * h) - (0.5 - c->beta) * a0) / c->beta;
-        sim->trial.pseudo_acceleration[i] = a1;
-        sim->trial.acceleration[i] = ((1.0 - c->am) * a1 + c->am * a0 - c->af * dv) / (1.0 - c->af);
-        sim->trial.velocity[i] = v + h * ((1.0 - c->gamma) * a0 + c->gamma * a1);
+        to.pseudo_acceleration[i] = a1;
+        to.acceleration[i] = ((1.0 - c->am) * a1 + c->am * a0 - c->af * dv) / (1.0 - c->af);
+        to.velocity[i] = v + h * ((1.0 - c->gamma) * a0 + c->gamma * a1);
     }
     set_up(sim, c, h, &attempt->evaluation);
     status = newton(sim, c, attempt);
     dmb_release_end(sim);
     return status;
+}
+
+/* A row that was found redundant has to hold with the others; where it does not, the constraints have become singular. */
+static int32_t check_dropped(dmb_sim *sim)
+{
+    uint32_t row;
+    const double misfit = dmb_clusters_misfit(sim, 1, &row);
+    if (!(misfit > DMB_DROPPED_MISFIT)) return DMB_OK;
+    sim->linked_mode->row = row;
+    sim->linked_mode->misfit = misfit;
+    return DMB_ERR_SINGULAR;
 }
 
 int32_t dmb_attempt_step(dmb_sim *sim, double step, dmb_attempt *attempt)
@@ -225,14 +270,20 @@ int32_t dmb_attempt_step(dmb_sim *sim, double step, dmb_attempt *attempt)
     int32_t status;
     memset(attempt, 0, sizeof *attempt);
     attempt->step = step;
+    attempt->block = UINT32_MAX;
+    sim->linked_mode->row = UINT32_MAX;
+    sim->linked_mode->multipliers = sim->options.constraint_method == DMB_METHOD_MULTIPLIERS;
     set_up(sim, &c, step, &attempt->evaluation);
     predict(sim, &c, step);
     status = dmb_system_prescribe(&attempt->evaluation);
     if (status >= 0) {
+        if (sim->scene->cluster_count) keep_prescribed(sim);
         trial_pose(sim);
         status = newton(sim, &c, attempt);
     }
     if (status == DMB_OK && dmb_contact_opens(sim)) status = step_released(sim, &c, attempt);
+    if (status >= 0 && sim->scene->cluster_count && check_dropped(sim) < 0) status = DMB_ERR_SINGULAR;
+    sim->linked_mode->multipliers = 0;
     if (status >= 0) {
         attempt->evaluation.element = dmb_element_turned_too_far(sim);
         if (attempt->evaluation.element != UINT32_MAX) status = DMB_ERR_ROTATION;
@@ -270,15 +321,23 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
                         owner.kind, owner.index, owner.pipe, attempt->evaluation.time, attempt->step);
         break;
     case DMB_ERR_SINGULAR:
+        if (attempt->block == UINT32_MAX) {
+            dmb_clusters_explain(sim, "its equations are singular");
+            break;
+        }
         owner = dmb_owner_of_node(sim->scene, attempt->block);
         dmb_message_set(&sim->message, "%s %u, pipe %u: iteration matrix singular at time %g, step %g", owner.kind,
                         owner.index, owner.pipe, attempt->evaluation.time, attempt->step);
         break;
     case DMB_ERR_CALLBACK:
-        dmb_message_set(&sim->message, "programme: the callback failed or gave a value that is not finite at time %g",
+        dmb_message_set(&sim->message, "callback of a programme or constraint: it failed or gave a value that is not finite at time %g",
                         attempt->evaluation.time);
         break;
     default:
+        if (sim->linked_mode->row != UINT32_MAX) {
+            dmb_clusters_explain(sim, "its equations cannot be satisfied");
+            break;
+        }
         dmb_message_set(&sim->message,
                         "step to time %g of length %g: %u iterations, relative residual = %g, must be <= %g",
                         attempt->evaluation.time, attempt->step, attempt->iterations, attempt->residual,

@@ -7,7 +7,6 @@
  * sum. */
 #include "math/block_tridiagonal.h"
 
-#include <float.h>
 #include <math.h>
 
 #define MAX DMB_BLOCK_SIZE_MAX
@@ -94,7 +93,7 @@ KERNEL int eliminate(int n, int m, work_row *restrict a, double *restrict D, uin
 {
     for (int k = 0; k < n; k++) {
         const int p = pivot_of_column(n, k, a);
-        if (!(fabs(a[p][k]) >= DMB_BLOCK_PIVOT_MIN && fabs(a[p][k]) <= DBL_MAX)) return k;
+        if (!dmb_block_pivot_holds(a[p][k])) return k;
         pivot[k] = (uint8_t)p;
         if (p != k) {
             row_swap(n + m, a[k], a[p]);
@@ -154,27 +153,6 @@ KERNEL int factor_block(int n, int m, double *restrict D, double *restrict U, co
     return -1;
 }
 
-KERNEL double block_largest(int n, const double *D)
-{
-    double largest = 0.0;
-    for (int i = 0; i < n * n; i++)
-        if (fabs(D[i]) > largest) largest = fabs(D[i]);
-    return largest;
-}
-
-/* Compare the pivots of a block, whose reciprocals stand on the diagonal of D, with the weakest so far. */
-static void watch(int n, const double *D, double largest, int failed, uint32_t block, dmb_block_weakest *weakest)
-{
-    int k = failed < 0 ? 0 : failed;
-    for (int i = 1; failed < 0 && i < n; i++)
-        if (fabs(D[n * i + i]) > fabs(D[n * k + k])) k = i;
-    const double ratio = failed < 0 ? 1.0 / (fabs(D[n * k + k]) * largest) : 0.0;
-    if (!(failed >= 0 || ratio < weakest->ratio)) return;
-    weakest->ratio = ratio;
-    weakest->block = block;
-    weakest->unknown = (uint32_t)k;
-}
-
 /* The factorisation; weakest is NULL, a constant, where nobody watches. */
 KERNEL int64_t factor(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count,
                       dmb_block_weakest *weakest)
@@ -184,9 +162,9 @@ KERNEL int64_t factor(const dmb_block_layout *layout, dmb_block_matrix *matrix, 
         const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
         double *D = matrix->diagonal + layout->diag[i], *next = matrix->diagonal + layout->diag[i + 1];
         double *U = matrix->upper + layout->link[i], *L = matrix->lower + layout->link[i];
-        const double largest = weakest ? block_largest(n, D) : 0.0;
+        const double largest = weakest ? dmb_block_largest((size_t)n, D) : 0.0;
         const int failed = BY_SIZE(factor_block, n, m, D, U, L, next, matrix->pivot + layout->row[i]);
-        if (weakest) watch(n, D, largest, failed, i, weakest);
+        if (weakest) dmb_block_watch((size_t)n, D, largest, failed, i, weakest);
         if (failed >= 0) return (int64_t)i;
     }
     return -1;

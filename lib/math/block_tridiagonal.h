@@ -12,10 +12,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define DMB_BLOCK_SIZE_MAX 6
+#include "math/block_pivot.h"
 
-/* A pivot smaller than this (or not finite) makes a block singular. */
-#define DMB_BLOCK_PIVOT_MIN 1e-300
+#define DMB_BLOCK_SIZE_MAX 6
 
 /* Where the blocks stand. All arrays belong to the caller. */
 typedef struct dmb_block_layout {
@@ -41,13 +40,6 @@ typedef struct dmb_block_matrix {
     double *upper;    /* upper_i: size_i x size_{i+1} */
     uint8_t *pivot;   /* (rows) row of its block exchanged with this one; written by factoring */
 } dmb_block_matrix;
-
-/* The weakest pivot met: small means that the unknown is hardly held. */
-typedef struct dmb_block_weakest {
-    double ratio;     /* |pivot| / largest entry of its diagonal block before elimination; infinity when no block */
-    uint32_t block;   /* index of the block */
-    uint32_t unknown; /* index of the unknown inside the block */
-} dmb_block_weakest;
 
 /* Totals for n blocks of the given sizes. 0, or -1 when a size is not 1..6 or a total does not fit. */
 int32_t dmb_block_count(uint32_t n, const uint8_t *size, dmb_block_totals *totals);

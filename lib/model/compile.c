@@ -21,8 +21,8 @@ static int32_t take_options(dmb_model *model, const dmb_compile_options *given, 
 static int32_t make_scene(dmb_mesh *mesh, dmb_scene **scene)
 {
     static int32_t (*const steps[])(dmb_mesh *) = {
-        dmb_mesh_hole,  dmb_mesh_count, dmb_mesh_check,  dmb_mesh_strings, dmb_mesh_bodies,
-        dmb_mesh_poses, dmb_mesh_types, dmb_mesh_masses, dmb_mesh_sites,   dmb_mesh_actions,
+        dmb_mesh_hole,  dmb_mesh_count,  dmb_mesh_check, dmb_mesh_strings, dmb_mesh_bodies,  dmb_mesh_poses,
+        dmb_mesh_types, dmb_mesh_masses, dmb_mesh_sites, dmb_mesh_joints,  dmb_mesh_actions, dmb_mesh_constraints,
     };
     int32_t status = DMB_OK;
     mesh->features = dmb_mesh_features(mesh);
@@ -34,8 +34,15 @@ static int32_t make_scene(dmb_mesh *mesh, dmb_scene **scene)
 static void tell(dmb_model *model, const dmb_scene *scene)
 {
     const dmb_log log = {model->log, model->log_context};
-    dmb_message_set(&model->message, "compiled: %u nodes, %u elements, %u contact sites, %u freedoms, %zu bytes",
-                    scene->node_count, scene->element_count, scene->site_count, scene->free_count, scene->bytes);
+    dmb_message joints;
+    dmb_message_clear(&joints);
+    if (scene->cluster_count > 0) {
+        dmb_message_set(&joints, "%u joints, %u constraints in %u clusters, ", scene->joint_count,
+                        scene->constraint_count, scene->cluster_count);
+    }
+    dmb_message_set(&model->message, "compiled: %u nodes, %u elements, %u contact sites, %s%u freedoms, %zu bytes",
+                    scene->node_count, scene->element_count, scene->site_count, joints.text, scene->free_count,
+                    scene->bytes);
     dmb_log_text(&log, DMB_LOG_INFO, model->message.text);
 }
 

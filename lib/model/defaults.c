@@ -68,6 +68,22 @@ DMB_DEFINE_INIT(dmb_bit_def, 136, {
     .history = 1024,
 })
 
+DMB_DEFINE_INIT(dmb_joint_def, 656, {
+    .kind = DMB_JOINT_FIXED,
+    .axis_a = {1.0, 0.0, 0.0},
+    .axis_b = {1.0, 0.0, 0.0},
+    .state = DMB_JOINT_ACTIVE,
+    .length = 1.0,
+    .friction_speed = 1e-3,
+    .stop_low = {-1e30, -1e30, -1e30, -1e30, -1e30, -1e30},
+    .stop_high = {1e30, 1e30, 1e30, 1e30, 1e30, 1e30},
+    .stop_stiffness = 1e6,
+})
+
+DMB_DEFINE_INIT(dmb_coupling_def, 64, {.component = {DMB_RX, DMB_RX}, .ratio = 1.0})
+
+DMB_DEFINE_INIT(dmb_constraint_def, 160, {.kind = DMB_CONSTRAINT_HOLONOMIC, .rows = 1, .count = 1})
+
 DMB_DEFINE_INIT(dmb_drive_def, 72, {
     .kind = DMB_DRIVE_MOTION,
     .component = DMB_X,

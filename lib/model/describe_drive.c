@@ -1,4 +1,5 @@
 /* Drives and loads. */
+#include "constraint/joint.h"
 #include "model/defaults.h"
 #include "model/describe.h"
 #include "model/field_check.h"
@@ -6,18 +7,36 @@
 
 /* ---- Drives ------------------------------------------------------------------------------------------------------ */
 
-/* A string, or a body that is not fixed to one. */
-static void check_driven_part(dmb_check *check, const dmb_model *model, dmb_id part)
+/* A body that is not fixed to a string. */
+static void check_driven_body(dmb_check *check, const dmb_model *model, uint32_t body)
 {
-    const uint32_t body = dmb_model_part_index(model, part, DMB_PART_BODY);
-    if (body == UINT32_MAX) {
-        dmb_check_id_or_none(check, model, "part", part, DMB_PART_STRING, "string or a body");
-        return;
-    }
     if (check->status < 0 || DMB_LIST_AT(const dmb_body_def, model->bodies, body)->attach == DMB_ATTACH_NONE) return;
     check->status = DMB_ERR_UNSUPPORTED;
     dmb_message_set(check->message, "%s %u: part = body %u, must be a body of its own: drive the string it is fixed to",
                     check->part, check->index, body);
+}
+
+/* A coordinate that the joint does not hold, as far as its kind goes. */
+static void check_driven_joint(dmb_check *check, const dmb_model *model, uint32_t joint, int32_t component)
+{
+    const dmb_joint_def *def = DMB_LIST_AT(const dmb_joint_def, model->joints, joint);
+    dmb_message name, bound;
+    if (check->status < 0 || (dmb_joint_free_mask(def->kind) >> component & 1) != 0) return;
+    dmb_message_set(&bound, "free in the joint: %s", dmb_part_text(&name, "joint", joint, def->name, sizeof def->name));
+    dmb_check_fail(check, DMB_ERR_VALUE, "component", component, bound.text);
+}
+
+static void check_driven_part(dmb_check *check, const dmb_model *model, const dmb_drive_def *def)
+{
+    const uint32_t body = dmb_model_part_index(model, def->part, DMB_PART_BODY);
+    const uint32_t joint = dmb_model_part_index(model, def->part, DMB_PART_JOINT);
+    if (body != UINT32_MAX) {
+        check_driven_body(check, model, body);
+    } else if (joint != UINT32_MAX) {
+        check_driven_joint(check, model, joint, def->component);
+    } else {
+        dmb_check_id_or_none(check, model, "part", def->part, DMB_PART_STRING, "string, a body or a joint");
+    }
 }
 
 static int32_t check_drive(dmb_model *model, const dmb_drive_def *def)
@@ -25,7 +44,7 @@ static int32_t check_drive(dmb_model *model, const dmb_drive_def *def)
     dmb_check check = dmb_check_of(&model->message, "drive", model->drives.count);
     dmb_check_choice(&check, "kind", def->kind, DMB_DRIVE_MOTION, DMB_DRIVE_CONTROL);
     dmb_check_choice(&check, "component", def->component, DMB_X, DMB_RZ);
-    check_driven_part(&check, model, def->part);
+    check_driven_part(&check, model, def);
     dmb_check_id(&check, model, "programme", def->programme, DMB_PART_PROGRAMME, "programme");
     dmb_check_id_or_none(&check, model, "excitation", def->excitation, DMB_PART_PROGRAMME, "programme");
     dmb_check_within(&check, "gain", def->gain, 0.0, DMB_FORCE_MAX);
@@ -52,16 +71,8 @@ int32_t dmb_model_add_drive(dmb_model *model, const dmb_drive_def *def, dmb_id *
 /* Elements take loads at their ends only. */
 static void check_place(dmb_check *check, const dmb_model *model, const dmb_place *place)
 {
-    const bool is_body = dmb_model_part_index(model, place->part, DMB_PART_BODY) != UINT32_MAX ||
-                         dmb_model_part_index(model, place->part, DMB_PART_BIT) != UINT32_MAX;
-    dmb_check_finite(check, "place.fraction", place->fraction);
-    if (is_body) {
-        dmb_check_within(check, "place.fraction", place->fraction, 0.0, 0.0);
-        dmb_check_count(check, "place.pipe", place->pipe, 0, 0);
-        return;
-    }
-    dmb_check_id(check, model, "place.part", place->part, DMB_PART_STRING, "string or a body");
-    if (place->fraction > 0.0 || place->fraction < 0.0) {
+    dmb_check_place(check, model, "place", place);
+    if (place->fraction > 0.0 && place->fraction < 1.0) {
         dmb_check_within(check, "place.fraction (0 or 1)", place->fraction, 1.0, 1.0);
     }
 }

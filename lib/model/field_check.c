@@ -1,5 +1,7 @@
 #include "model/field_check.h"
 
+#include <string.h>
+
 static bool within(double value, double low, double high)
 {
     return value >= low && value <= high;
@@ -39,6 +41,14 @@ void dmb_check_each_zero_or_within(dmb_check *check, const char *field, const do
     judge_each(check, field, values, count, true, low, high);
 }
 
+void dmb_check_name(dmb_check *check, const char *field, const char *name, size_t size)
+{
+    dmb_message bound;
+    if (memchr(name, '\0', size) != NULL) return;
+    dmb_message_set(&bound, "characters, at most %zu, and a 0", size - 1);
+    dmb_check_fail(check, DMB_ERR_VALUE, field, (double)size, bound.text);
+}
+
 void dmb_check_id(dmb_check *check, const dmb_model *model, const char *field, dmb_id id, uint32_t kind,
                   const char *what)
 {
@@ -57,4 +67,18 @@ void dmb_check_id_or_none(dmb_check *check, const dmb_model *model, const char *
                           const char *what)
 {
     if (!dmb_id_is_none(id)) dmb_check_id(check, model, field, id, kind, what);
+}
+
+void dmb_check_place(dmb_check *check, const dmb_model *model, const char *field, const dmb_place *place)
+{
+    const bool on_body = dmb_model_part_index(model, place->part, DMB_PART_BODY) != UINT32_MAX ||
+                         dmb_model_part_index(model, place->part, DMB_PART_BIT) != UINT32_MAX;
+    dmb_message part, pipe, fraction;
+    dmb_message_set(&part, "%s.part", field);
+    dmb_message_set(&pipe, "%s.pipe", field);
+    dmb_message_set(&fraction, "%s.fraction", field);
+    dmb_check_finite(check, fraction.text, place->fraction);
+    if (!on_body) dmb_check_id(check, model, part.text, place->part, DMB_PART_STRING, "string, a body or a bit");
+    dmb_check_within(check, fraction.text, place->fraction, 0.0, on_body ? 0.0 : 1.0);
+    if (on_body) dmb_check_count(check, pipe.text, place->pipe, 0, 0);
 }

@@ -1,5 +1,5 @@
 /* Checks of fields, beyond those of base/check.h: numbers and arrays between two bounds, zero standing for "by
- * default", and ids. */
+ * default", names, ids and places. */
 #ifndef DMB_MODEL_FIELD_CHECK_H
 #define DMB_MODEL_FIELD_CHECK_H
 
@@ -15,6 +15,9 @@ void dmb_check_each_within(dmb_check *check, const char *field, const double *va
 void dmb_check_each_zero_or_within(dmb_check *check, const char *field, const double *values, size_t count, double low,
                                    double high);
 
+/* The 0 at the end of a name in size bytes. */
+void dmb_check_name(dmb_check *check, const char *field, const char *name, size_t size);
+
 static inline bool dmb_id_is_none(dmb_id id)
 {
     return id.index == 0 && id.generation == 0;
@@ -25,5 +28,9 @@ void dmb_check_id(dmb_check *check, const dmb_model *model, const char *field, d
 /* The same, or the id that names nothing. */
 void dmb_check_id_or_none(dmb_check *check, const dmb_model *model, const char *field, dmb_id id, uint32_t kind,
                           const char *what);
+
+/* A place on a string, a body or a bit: its fraction 0 .. 1, and 0 with pipe 0 on a body or bit. That the string has such
+ * a pipe is for the compile step to find out. */
+void dmb_check_place(dmb_check *check, const dmb_model *model, const char *field, const dmb_place *place);
 
 #endif

@@ -27,6 +27,9 @@
 #define DMB_DAMPING_MAX 1e15    /* [N s/m2, N s] */
 #define DMB_NUMBER_MIN 1e-6     /* [-] of ratios and factors that must be > 0 */
 #define DMB_NUMBER_MAX 1e6
+#define DMB_RATIO_MIN 1e-12     /* [-, m/rad, rad/m] of coupled coordinates */
+#define DMB_RATIO_MAX 1e12
+#define DMB_STOP_MAX 1e30       /* [m, rad] of stops; as far away as that there is none */
 #define DMB_FORCE_MAX 1e30      /* [N, N m, unit of a programme] */
 
 /* [rad] largest unstressed bend of one element, as of DMB_BEAM_ROTATION_MAX */
@@ -34,7 +37,9 @@
 
 enum {
     DMB_PARTS_MAX = (1 << 24) - 1, /* of one kind: their numbers have 24 bits in an id */
-    DMB_NODES_MAX = 1 << 24        /* so that the storage of 6x6 blocks is counted in 32 bits */
+    DMB_NODES_MAX = 1 << 24,       /* so that the storage of 6x6 blocks is counted in 32 bits */
+    DMB_CLUSTER_COLUMNS_MAX = 1200, /* coordinates of parts that joints connect directly: their matrices are dense */
+    DMB_CLUSTER_ROWS_MAX = 4800    /* equations on them, room for locking included */
 };
 
 #endif

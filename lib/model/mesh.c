@@ -22,6 +22,14 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
         .drives = {.item_size = sizeof(dmb_scene_drive)},
         .loads = {.item_size = sizeof(dmb_scene_load)},
         .bits = {.item_size = sizeof(dmb_scene_bit)},
+        .joints = {.item_size = sizeof(dmb_scene_joint)},
+        .couplings = {.item_size = sizeof(dmb_scene_coupling)},
+        .callbacks = {.item_size = sizeof(dmb_scene_callback)},
+        .laws = {.item_size = sizeof(dmb_joint_law)},
+        .driven = {.item_size = sizeof(uint8_t)},
+        .constraints = {.item_size = sizeof(dmb_constraint)},
+        .clusters = {.item_size = sizeof(dmb_cluster)},
+        .cluster_nodes = {.item_size = sizeof(uint32_t)},
         .strings = {.item_size = sizeof(dmb_string_map)},
         .pipes = {.item_size = sizeof(dmb_pipe_map)},
         .bodies = {.item_size = sizeof(dmb_body_map)},
@@ -31,10 +39,11 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
 
 void dmb_mesh_release(dmb_mesh *mesh)
 {
-    dmb_vector *const all[] = {&mesh->stations, &mesh->run_order,  &mesh->run_start, &mesh->nodes,
-                               &mesh->elements, &mesh->types,      &mesh->batches,   &mesh->lumps,
-                               &mesh->sites,    &mesh->path_sites, &mesh->drives,    &mesh->loads,
-                               &mesh->bits,     &mesh->strings,    &mesh->pipes,     &mesh->bodies};
+    dmb_vector *const all[] = {
+        &mesh->stations,    &mesh->run_order, &mesh->run_start,     &mesh->nodes,      &mesh->elements, &mesh->types,
+        &mesh->batches,     &mesh->lumps,     &mesh->sites,         &mesh->path_sites, &mesh->drives,   &mesh->loads,
+        &mesh->bits,        &mesh->joints,    &mesh->couplings,     &mesh->callbacks,  &mesh->laws,     &mesh->driven,
+        &mesh->constraints, &mesh->clusters,  &mesh->cluster_nodes, &mesh->strings,    &mesh->pipes,    &mesh->bodies};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) dmb_vector_release(all[i], &mesh->model->allocator);
 }
 

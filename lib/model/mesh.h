@@ -10,7 +10,11 @@
  *   types           runs, elements             types, elements (type, kernel), batches
  *   masses          runs, bodies, bits         lumps, nodes (weight, damped)
  *   sites           pipes, bodies              sites, path_sites
- *   actions         drives, loads, bits        drives, loads, bits, nodes (prescribed) */
+ *   joints          joints, couplings, ...     joints, couplings, callbacks, laws
+ *   actions         drives, loads, bits        drives, loads, bits, nodes (prescribed), driven
+ *   constraints     joints ... drives          constraints, clusters, cluster_nodes; joints ... drives (constraint)
+ *
+ * What needs the numbers of rows is made by freeze: rows of drives, columns of clusters, the blocks of linked chains. */
 #ifndef DMB_MODEL_MESH_H
 #define DMB_MODEL_MESH_H
 
@@ -64,6 +68,14 @@ typedef struct dmb_mesh {
     dmb_vector drives;    /* dmb_scene_drive; row is filled by freeze */
     dmb_vector loads;     /* dmb_scene_load */
     dmb_vector bits;      /* dmb_scene_bit */
+    dmb_vector joints;    /* dmb_scene_joint */
+    dmb_vector couplings; /* dmb_scene_coupling */
+    dmb_vector callbacks; /* dmb_scene_callback */
+    dmb_vector laws;      /* dmb_joint_law */
+    dmb_vector driven;    /* uint8_t: mask of the coordinates of each joint that MOTION drives move */
+    dmb_vector constraints; /* dmb_constraint, sorted by cluster */
+    dmb_vector clusters;  /* dmb_cluster */
+    dmb_vector cluster_nodes; /* uint32_t */
     dmb_vector strings;   /* dmb_string_map */
     dmb_vector pipes;     /* dmb_pipe_map */
     dmb_vector bodies;    /* dmb_body_map: bodies, then bits */
@@ -133,7 +145,9 @@ int32_t dmb_mesh_poses(dmb_mesh *mesh);
 int32_t dmb_mesh_types(dmb_mesh *mesh);
 int32_t dmb_mesh_masses(dmb_mesh *mesh);
 int32_t dmb_mesh_sites(dmb_mesh *mesh);
+int32_t dmb_mesh_joints(dmb_mesh *mesh);
 int32_t dmb_mesh_actions(dmb_mesh *mesh);
+int32_t dmb_mesh_constraints(dmb_mesh *mesh);
 
 /* DMB_FEATURE_... that are asked for and described. */
 int32_t dmb_mesh_features(const dmb_mesh *mesh);

@@ -4,6 +4,7 @@
 #include "base/arena.h"
 #include "math/vec3.h"
 #include "model/scene_fill.h"
+#include "model/scene_link.h"
 
 /* ---- Counts ------------------------------------------------------------------------------------------------------ */
 
@@ -35,6 +36,28 @@ static uint32_t structural_joints(const dmb_mesh *mesh)
     return count;
 }
 
+/* Rows and storage of constraints and clusters end where those of the last one do. */
+static void count_constraints(const dmb_mesh *mesh, dmb_scene *scene)
+{
+    scene->joint_count = (uint32_t)mesh->joints.count;
+    scene->coupling_count = (uint32_t)mesh->couplings.count;
+    scene->callback_count = (uint32_t)mesh->callbacks.count;
+    scene->law_count = (uint32_t)mesh->laws.count;
+    scene->constraint_count = (uint32_t)mesh->constraints.count;
+    scene->cluster_count = (uint32_t)mesh->clusters.count;
+    scene->constraint_node_count = (uint32_t)mesh->cluster_nodes.count;
+    if (scene->constraint_count == 0) return;
+    const dmb_constraint *last = DMB_VECTOR_AT(dmb_constraint, &mesh->constraints, mesh->constraints.count - 1);
+    const dmb_cluster *cluster = DMB_VECTOR_AT(dmb_cluster, &mesh->clusters, mesh->clusters.count - 1);
+    scene->constraint_row_count = last->row + last->rows;
+    scene->jacobian_count = last->jacobian + last->rows * last->columns;
+    scene->tangent_count = last->tangent + last->columns * last->columns;
+    scene->cluster_column_count = cluster->column + cluster->columns;
+    scene->dense_count = cluster->dense + (size_t)cluster->rows * cluster->columns;
+    scene->square_count = cluster->square + (size_t)cluster->rows * cluster->rows;
+    scene->full_count = cluster->full + (size_t)cluster->columns * cluster->columns;
+}
+
 static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
 {
     scene->node_count = (uint32_t)mesh->nodes.count;
@@ -56,6 +79,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->history_count = mesh->history_count;
     scene->structural_joint_count = structural_joints(mesh);
     count_rows(mesh, scene);
+    count_constraints(mesh, scene);
 }
 
 /* ---- Layout of the block ----------------------------------------------------------------------------------------- */
@@ -106,6 +130,25 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
     to->bodies = DMB_ARENA_ARRAY(arena, dmb_body_map, counts->body_count);
 }
 
+/* Not even empty arrays where there is nothing to connect. */
+static void take_joints(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to)
+{
+    const size_t n = counts->node_count;
+    if (counts->constraint_count == 0) return;
+    to->joints = DMB_ARENA_ARRAY(arena, dmb_scene_joint, counts->joint_count);
+    to->couplings = DMB_ARENA_ARRAY(arena, dmb_scene_coupling, counts->coupling_count);
+    to->callbacks = DMB_ARENA_ARRAY(arena, dmb_scene_callback, counts->callback_count);
+    to->laws = DMB_ARENA_ARRAY(arena, dmb_joint_law, counts->law_count);
+    to->constraints = DMB_ARENA_ARRAY(arena, dmb_constraint, counts->constraint_count);
+    to->clusters = DMB_ARENA_ARRAY(arena, dmb_cluster, counts->cluster_count);
+    to->cluster_nodes = DMB_ARENA_ARRAY(arena, uint32_t, counts->constraint_node_count);
+    to->cluster_columns = DMB_ARENA_ARRAY(arena, uint32_t, counts->cluster_column_count);
+    to->node_block = DMB_ARENA_ARRAY(arena, uint32_t, n);
+    to->node_place = DMB_ARENA_ARRAY(arena, uint32_t, n);
+    to->node_cluster = DMB_ARENA_ARRAY(arena, uint32_t, n);
+    to->link_offset = DMB_ARENA_ARRAY(arena, size_t, 2 * n);
+}
+
 /* The struct comes first, so that its address is that of the block. Its counts are copied, its arrays point behind it.
  */
 static dmb_scene *lay_out(dmb_arena *arena, const dmb_scene *counts, dmb_scene_storage *w, size_t stations)
@@ -117,6 +160,7 @@ static dmb_scene *lay_out(dmb_arena *arena, const dmb_scene *counts, dmb_scene_s
     take_nodes(arena, counts, to, w);
     take_elements(arena, counts, to);
     take_rest(arena, counts, to, w, stations);
+    take_joints(arena, counts, to);
     return scene;
 }
 
@@ -139,10 +183,12 @@ int32_t dmb_mesh_freeze(const dmb_mesh *mesh, dmb_scene **out)
     if (block == NULL) return DMB_ERR_NO_MEMORY;
     dmb_arena_place(&arena, block, counts.bytes);
     dmb_scene *scene = lay_out(&arena, &counts, &w, stations);
-    if (arena.overflow || dmb_scene_fill(mesh, scene, &w) < 0) {
+    int32_t status = arena.overflow ? DMB_ERR_TOO_LARGE : dmb_scene_fill(mesh, scene, &w);
+    if (status >= 0) status = dmb_scene_link(scene, allocator);
+    if (status < 0) {
         dmb_release(allocator, block, counts.bytes);
-        return DMB_ERR_TOO_LARGE;
+    } else {
+        *out = scene;
     }
-    *out = scene;
-    return DMB_OK;
+    return status;
 }

@@ -55,7 +55,12 @@ static void release_parts(dmb_model *model)
     dmb_list_release(&model->bits, allocator, sizeof(dmb_bit_def));
     dmb_list_release(&model->drives, allocator, sizeof(dmb_drive_def));
     dmb_list_release(&model->loads, allocator, sizeof(dmb_load_def));
-    if (model->scene != NULL) dmb_release(allocator, model->scene, model->scene->bytes);
+    dmb_list_release(&model->joints, allocator, sizeof(dmb_joint_def));
+    dmb_list_release(&model->couplings, allocator, sizeof(dmb_coupling_def));
+    dmb_list_release(&model->constraints, allocator, sizeof(dmb_constraint_def));
+    if (model->scene == NULL) return;
+    dmb_block_pattern_release(&model->scene->pattern, allocator);
+    dmb_release(allocator, model->scene, model->scene->bytes);
 }
 
 void dmb_model_hold(dmb_model *model)
@@ -109,6 +114,9 @@ static uint32_t count_of(const dmb_model *model, uint32_t kind)
     case DMB_PART_BIT: return model->bits.count;
     case DMB_PART_DRIVE: return model->drives.count;
     case DMB_PART_LOAD: return model->loads.count;
+    case DMB_PART_JOINT: return model->joints.count;
+    case DMB_PART_COUPLING: return model->couplings.count;
+    case DMB_PART_CONSTRAINT: return model->constraints.count;
     default: return 0;
     }
 }

@@ -12,7 +12,7 @@
 /* Kinds in the upper 8 bits of dmb_id.index. */
 enum {
     DMB_PART_PROGRAMME = 1, DMB_PART_WALL = 2, DMB_PART_STRING = 3, DMB_PART_BODY = 4, DMB_PART_BIT = 5,
-    DMB_PART_DRIVE = 6, DMB_PART_LOAD = 7
+    DMB_PART_DRIVE = 6, DMB_PART_LOAD = 7, DMB_PART_JOINT = 8, DMB_PART_COUPLING = 9, DMB_PART_CONSTRAINT = 10
 };
 
 /* One call of dmb_model_add_pipes. */
@@ -48,6 +48,9 @@ struct dmb_model {
     dmb_list bits;         /* dmb_bit_def */
     dmb_list drives;       /* dmb_drive_def */
     dmb_list loads;        /* dmb_load_def */
+    dmb_list joints;       /* dmb_joint_def */
+    dmb_list couplings;    /* dmb_coupling_def */
+    dmb_list constraints;  /* dmb_constraint_def */
     dmb_scene *scene;      /* NULL until compiled, then never changed */
 };
 

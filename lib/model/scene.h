@@ -15,8 +15,10 @@
 #include "force/bit_rock.h"
 #include "force/friction_law.h"
 #include "force/hole.h"
+#include "force/joint_law.h"
 #include "force/normal_law.h"
 #include "force/programme.h"
+#include "math/block_sparse.h"
 #include "math/block_tridiagonal.h"
 
 enum { DMB_NODE_PATH = 2, DMB_NODE_FULL = 6 };
@@ -49,12 +51,14 @@ typedef struct dmb_path_site {
 
 typedef struct dmb_scene_drive {
     double gain, integral_gain, limit_low, limit_high;
-    uint32_t node;
-    uint32_t row;        /* global row of the component */
+    uint32_t node;       /* UINT32_MAX: it drives a joint */
+    uint32_t row;        /* global row of the component; UINT32_MAX: none */
     int32_t kind;        /* DMB_DRIVE_... */
     int32_t component;   /* body-frame component 0 .. 5 */
     uint32_t programme;
     uint32_t excitation; /* UINT32_MAX: none, or left out */
+    uint32_t joint;      /* whose coordinate `component` it drives; UINT32_MAX: none */
+    uint32_t constraint; /* of a MOTION drive on a joint; UINT32_MAX: none */
 } dmb_scene_drive;
 
 typedef struct dmb_scene_load {
@@ -103,7 +107,89 @@ typedef struct dmb_body_map {
 
 typedef struct dmb_chain {
     uint32_t first, count; /* nodes */
+    int32_t linked;        /* 1: joints connect it, so it is solved with the blocks of the pattern */
+    int32_t reserved;
 } dmb_chain;
+
+/* ---- Joints and constraints ---- */
+
+/* A frame fixed to a node's frame, or standing in the world. */
+typedef struct dmb_scene_frame {
+    double x[3];   /* [m] origin: in the node's frame; of the ground: world */
+    double M[9];   /* [-] axes as columns, row-major */
+    uint32_t node; /* UINT32_MAX: the ground */
+    uint32_t reserved;
+} dmb_scene_frame;
+
+typedef struct dmb_scene_joint {
+    dmb_scene_frame a, b;
+    double span[3];       /* [m] origin of node b less origin of node a (or of the world) at time 0, world, exact */
+    double length;        /* [m] of DISTANCE, radius of ROLLING */
+    double initial_position[6], initial_speed[6];
+    int32_t kind;         /* DMB_JOINT_... */
+    int32_t state;        /* at time 0 */
+    int32_t initial_mask;
+    int32_t law_mask;     /* coordinates that have a law */
+    uint32_t law;         /* first of its six laws in `laws`; UINT32_MAX: none acts */
+    uint32_t constraint;  /* its constraint (even if it has no rows now) */
+    int32_t driven;       /* 1: a drive acts on one of its coordinates */
+    int32_t reserved;
+    char name[24];
+} dmb_scene_joint;
+
+typedef struct dmb_scene_coupling {
+    double ratio;
+    uint32_t joint[2];
+    int32_t component[2];
+    uint32_t constraint;
+    uint32_t reserved;
+    char name[24];
+} dmb_scene_coupling;
+
+typedef struct dmb_scene_callback {
+    dmb_scene_frame place[4]; /* frames of its places */
+    dmb_constraint_fn callback;
+    void *context;
+    uint32_t rows, count;
+    int32_t kind;             /* DMB_CONSTRAINT_... */
+    int32_t provides;
+    uint32_t constraint;
+    uint32_t reserved;
+    char name[24];
+} dmb_scene_callback;
+
+/* What a constraint belongs to. */
+enum { DMB_OF_JOINT = 0, DMB_OF_COUPLING = 1, DMB_OF_DRIVE = 2, DMB_OF_CALLBACK = 3 };
+enum { DMB_CONSTRAINT_NODES = 4, DMB_CONSTRAINT_COLUMNS = 24, DMB_CONSTRAINT_ROWS = 6 };
+
+/* Rows of one joint (room for six, so that it can be locked), coupling, joint drive or callback. Its columns are all rows
+ * of its nodes, held ones too. */
+typedef struct dmb_constraint {
+    int32_t kind;         /* DMB_OF_... */
+    uint32_t index;       /* which joint, coupling, drive, callback */
+    uint32_t row;         /* first of its constraint rows */
+    uint32_t rows;        /* room */
+    uint32_t node_count;
+    uint32_t node[DMB_CONSTRAINT_NODES];   /* distinct */
+    uint32_t column[DMB_CONSTRAINT_NODES]; /* first column of each node in this constraint */
+    uint32_t columns;
+    uint32_t jacobian;    /* start of its (rows x columns) in constraint_jacobian */
+    uint32_t tangent;     /* start of its (columns x columns) in constraint_tangent */
+    uint32_t cluster;
+} dmb_constraint;
+
+/* Nodes that constraints connect directly, and those constraints: one partition, one block of the linked system. */
+typedef struct dmb_cluster {
+    uint32_t constraint, constraint_count; /* range of constraints */
+    uint32_t node, node_count;   /* range of cluster_nodes */
+    uint32_t row, rows;          /* range of constraint rows, room included */
+    uint32_t column, columns;    /* range of cluster_columns */
+    uint32_t block;              /* in the pattern */
+    uint32_t reserved;
+    size_t dense;                /* start in work of (rows x columns) */
+    size_t square;               /* start in work of (rows x rows) */
+    size_t full;                 /* start in work of (columns x columns) */
+} dmb_cluster;
 
 /* Neighbouring elements with one kernel. */
 typedef struct dmb_batch {
@@ -121,6 +207,14 @@ typedef struct dmb_scene {
     uint32_t history_count;    /* bit samples in all */
     uint32_t free_count, prescribed_count, held_count;
     uint32_t rigid_count, structural_joint_count;
+    uint32_t joint_count, coupling_count, callback_count, constraint_count, cluster_count, law_count;
+    uint32_t constraint_row_count;  /* room of all constraints */
+    uint32_t constraint_node_count; /* length of cluster_nodes */
+    uint32_t cluster_column_count;  /* length of cluster_columns */
+    uint32_t linked_count;          /* nodes of linked chains */
+    uint32_t block_count;           /* blocks of the pattern */
+    uint32_t jacobian_count, tangent_count; /* lengths of constraint_jacobian and constraint_tangent */
+    size_t dense_count, square_count, full_count; /* lengths of the clusters' dense storage */
     double gravity[3];         /* [m/s2]; 0 when left out */
     double mass, length;       /* [kg], [m] in all */
     double length_scale;       /* [m] mean element length, or 1: makes moments comparable with forces */
@@ -165,6 +259,23 @@ typedef struct dmb_scene {
     dmb_scene_load *loads;
     dmb_scene_bit *bits;
     dmb_programme *programmes;    /* the model's own */
+
+    /* joints and constraints; all empty without joints */
+    dmb_scene_joint *joints;
+    dmb_scene_coupling *couplings;
+    dmb_scene_callback *callbacks;
+    dmb_joint_law *laws;          /* shape (law_count): six for each joint that has any */
+    dmb_constraint *constraints;  /* sorted by cluster */
+    dmb_cluster *clusters;
+    uint32_t *cluster_nodes;      /* nodes, cluster by cluster, ascending in each */
+    uint32_t *cluster_columns;    /* global row of each column of each cluster, node by node */
+    uint32_t *node_block;         /* block of the pattern that holds the node; UINT32_MAX: its chain is not linked;
+                                     shape (node) if there are clusters */
+    uint32_t *node_place;         /* first column of the node in its cluster; 0 of a node without one, shape (node) */
+    uint32_t *node_cluster;       /* UINT32_MAX: none, shape (node) */
+    size_t *link_offset;          /* storage in the pattern of link i, i+1 (upper, lower); SIZE_MAX where none or inside
+                                     one block, shape (node, 2) */
+    dmb_block_pattern pattern;    /* blocks: clusters, then the other nodes of linked chains */
 
     /* maps from parts to the mesh */
     dmb_string_map *strings;

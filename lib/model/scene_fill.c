@@ -150,6 +150,7 @@ static void fill_drives(const dmb_mesh *mesh, dmb_scene *scene)
     copy_items(&mesh->drives, scene->drives);
     for (uint32_t i = 0; i < scene->drive_count; ++i) {
         dmb_scene_drive *drive = scene->drives + i;
+        if (drive->node == UINT32_MAX) continue; /* it drives a joint */
         const bool path = scene->layout.size[drive->node] == DMB_NODE_PATH;
         const uint32_t component = (uint32_t)drive->component;
         drive->row = scene->layout.row[drive->node] + (path ? component / (uint32_t)DMB_RX : component);
@@ -165,6 +166,13 @@ static void fill_parts(const dmb_mesh *mesh, dmb_scene *scene)
     copy_items(&mesh->strings, scene->strings);
     copy_items(&mesh->pipes, scene->pipes);
     copy_items(&mesh->bodies, scene->bodies);
+    copy_items(&mesh->joints, scene->joints);
+    copy_items(&mesh->couplings, scene->couplings);
+    copy_items(&mesh->callbacks, scene->callbacks);
+    copy_items(&mesh->laws, scene->laws);
+    copy_items(&mesh->constraints, scene->constraints);
+    copy_items(&mesh->clusters, scene->clusters);
+    copy_items(&mesh->cluster_nodes, scene->cluster_nodes);
     scene->programmes = mesh->model->programmes.items; /* frozen with the model, which outlives the scene */
     for (uint32_t s = 0; s < scene->string_count; ++s) scene->length += scene->strings[s].length;
 }

@@ -1,4 +1,5 @@
 #include "query/ask.h"
+#include "system/drives.h"
 
 DMB_DECLARE_STRUCT(dmb_drive_state)
 
@@ -12,7 +13,7 @@ int32_t dmb_query_drive(const dmb_sim *sim, dmb_id drive, dmb_drive_state *state
     if (i >= sim->scene->drive_count) return DMB_ERR_ID;
     answer.target = sim->now.drive_target[i];
     answer.position = sim->now.drive_position[i];
-    answer.speed = sim->now.velocity[sim->scene->drives[i].row];
+    answer.speed = dmb_drive_speed(sim->scene, &sim->now, i);
     answer.force = sim->now.drive_force[i];
     answer.power = answer.force * answer.speed;
     answer.work = sim->drive_work[i];

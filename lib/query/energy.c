@@ -7,13 +7,14 @@
 #include <math.h>
 
 #include "query/ask.h"
+#include "system/joint_state.h"
 
 DMB_DECLARE_STRUCT(dmb_energy)
 
 static void energies_now(const dmb_sim *sim, dmb_energy *e)
 {
     e->kinetic = dmb_kinetic_energy(sim->scene, &sim->now);
-    e->strain = dmb_strain_energy(sim->scene, &sim->now);
+    e->strain = dmb_strain_energy(sim->scene, &sim->now) + dmb_joint_energy(sim, &sim->now);
     e->gravity = dmb_gravity_energy(sim->scene, &sim->now);
     e->contact = dmb_contact_energy(sim->scene, &sim->now);
 }

@@ -1,7 +1,28 @@
 #include "query/ask.h"
+#include "query/constraint.h"
 #include "state/layout.h"
+#include "system/constraint_rows.h"
 
 DMB_DECLARE_STRUCT(dmb_statistics)
+
+static double misfit_of(const dmb_sim *sim, uint32_t j)
+{
+    dmb_relative relative;
+    dmb_joint_rows rows;
+    double most = 0.0;
+    dmb_joint_motion_of(sim->scene, &sim->now, j, &relative, NULL);
+    dmb_joint_rows_now(sim, j, &relative, &rows);
+    for (uint32_t k = 0; k < rows.count; k++)
+        if (rows.holonomic >> k & 1) most = fmax(most, fabs(rows.value[k]));
+    return most;
+}
+
+static void count_constraints(const dmb_sim *sim, dmb_statistics *answer)
+{
+    for (uint32_t k = 0; k < sim->scene->cluster_count; k++) answer->dependent += sim->partition_rank[k];
+    for (uint32_t i = 0; i < sim->scene->constraint_count; i++) answer->redundant += dmb_constraint_redundant(sim, i);
+    for (uint32_t j = 0; j < sim->scene->joint_count; j++) answer->misfit = fmax(answer->misfit, misfit_of(sim, j));
+}
 
 int32_t dmb_query_statistics(const dmb_sim *sim, dmb_statistics *statistics)
 {
@@ -19,5 +40,9 @@ int32_t dmb_query_statistics(const dmb_sim *sim, dmb_statistics *statistics)
     answer.worst_residual = counters->worst_residual;
     answer.projection[0] = counters->projection[0];
     answer.projection[1] = counters->projection[1];
+    answer.assembly[0] = counters->assembly[0];
+    answer.assembly[1] = counters->assembly[1];
+    answer.switches = counters->switches;
+    count_constraints(sim, &answer);
     return dmb_statistics_write(statistics, &answer);
 }

@@ -13,6 +13,7 @@ DMB_DEFINE_INIT(dmb_sim_options, 96, {
     .step_max = 0.1,
     .max_cuts = 12,
     .energy_ledger = 1,
+    .constraint_method = DMB_METHOD_INDEPENDENT,
 })
 
 DMB_DEFINE_INIT(dmb_step_report, 48, {.steps = 0})
@@ -33,6 +34,8 @@ DMB_DEFINE_INIT(dmb_momentum, 88, {.mass = 0.0})
 
 DMB_DEFINE_INIT(dmb_drive_state, 56, {.target = 0.0})
 
+DMB_DEFINE_INIT(dmb_joint_state, 272, {.frame = DMB_FRAME_WORLD})
+
 DMB_DEFINE_INIT(dmb_bit_state, 56, {.on_bottom = 0})
 
 DMB_DEFINE_INIT(dmb_statistics, 72, {.steps = 0})
@@ -47,3 +50,5 @@ DMB_DEFINE_INIT(dmb_static_options, 40, {
 })
 
 DMB_DEFINE_INIT(dmb_static_report, 40, {.iterations = 0})
+
+DMB_DEFINE_INIT(dmb_check_report, 192, {.rigid_parts = 0})

@@ -7,11 +7,11 @@
 
 static uint64_t add_counts(uint64_t h, const dmb_scene *s)
 {
-    const uint32_t counts[] = {s->node_count,       s->row_count,   s->element_count,   s->type_count,
-                               s->lump_count,       s->site_count,  s->path_site_count, s->drive_count,
-                               s->load_count,       s->bit_count,   s->programme_count, s->string_count,
-                               s->pipe_count,       s->body_count,  s->history_count,   s->free_count,
-                               s->prescribed_count, s->chain_count, s->batch_count};
+    const uint32_t counts[] = {
+        s->node_count,      s->row_count,   s->element_count,  s->type_count,     s->lump_count,       s->site_count,
+        s->path_site_count, s->drive_count, s->load_count,     s->bit_count,      s->programme_count,  s->string_count,
+        s->pipe_count,      s->body_count,  s->history_count,  s->free_count,     s->prescribed_count, s->chain_count,
+        s->batch_count,     s->joint_count, s->coupling_count, s->callback_count, s->constraint_count};
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; ++i) h = dmb_fnv_word(h, counts[i]);
     h = dmb_fnv_word(h, (uint32_t)s->features);
     h = DMB_NUMBERS(h, s->gravity);
@@ -119,6 +119,8 @@ static uint64_t add_drives(uint64_t h, const dmb_scene *s)
         const dmb_scene_drive *drive = &s->drives[i];
         const double numbers[] = {drive->gain, drive->integral_gain, drive->limit_low, drive->limit_high};
         h = dmb_fnv_word(h, drive->row);
+        h = dmb_fnv_word(h, drive->joint);
+        h = dmb_fnv_word(h, (uint32_t)drive->component);
         h = dmb_fnv_word(h, (uint32_t)drive->kind);
         h = dmb_fnv_word(h, drive->programme);
         h = dmb_fnv_word(h, drive->excitation);
@@ -158,6 +160,83 @@ static uint64_t add_bits(uint64_t h, const dmb_scene *s)
     return h;
 }
 
+static uint64_t add_frame(uint64_t h, const dmb_scene_frame *frame)
+{
+    h = dmb_fnv_word(h, frame->node);
+    h = DMB_NUMBERS(h, frame->x);
+    return DMB_NUMBERS(h, frame->M);
+}
+
+/* Members of dmb_joint_law are all numbers. */
+static uint64_t add_joint_laws(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->law_count; ++i) {
+        const dmb_joint_law *law = &s->laws[i];
+        const double numbers[] = {law->stiffness, law->damping,        law->rest,
+                                  law->friction,  law->friction_speed, law->stop_low,
+                                  law->stop_high, law->stop_stiffness, law->stop_damping};
+        h = DMB_NUMBERS(h, numbers);
+    }
+    return h;
+}
+
+static uint64_t add_joints(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->joint_count; ++i) {
+        const dmb_scene_joint *joint = &s->joints[i];
+        h = add_frame(h, &joint->a);
+        h = add_frame(h, &joint->b);
+        h = DMB_NUMBERS(h, joint->span);
+        h = dmb_fnv_number(h, joint->length);
+        h = DMB_NUMBERS(h, joint->initial_position);
+        h = DMB_NUMBERS(h, joint->initial_speed);
+        h = dmb_fnv_word(h, (uint32_t)joint->kind);
+        h = dmb_fnv_word(h, (uint32_t)joint->state);
+        h = dmb_fnv_word(h, (uint32_t)joint->initial_mask);
+        h = dmb_fnv_word(h, joint->law);
+    }
+    return add_joint_laws(h, s);
+}
+
+static uint64_t add_couplings(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->coupling_count; ++i) {
+        const dmb_scene_coupling *coupling = &s->couplings[i];
+        h = dmb_fnv_number(h, coupling->ratio);
+        for (int k = 0; k < 2; ++k) {
+            h = dmb_fnv_word(h, coupling->joint[k]);
+            h = dmb_fnv_word(h, (uint32_t)coupling->component[k]);
+        }
+    }
+    return h;
+}
+
+/* What the caller's functions are cannot be told from their addresses. */
+static uint64_t add_callbacks(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->callback_count; ++i) {
+        const dmb_scene_callback *callback = &s->callbacks[i];
+        h = dmb_fnv_word(h, callback->rows);
+        h = dmb_fnv_word(h, callback->count);
+        h = dmb_fnv_word(h, (uint32_t)callback->kind);
+        h = dmb_fnv_word(h, (uint32_t)callback->provides);
+        for (uint32_t k = 0; k < callback->count; ++k) h = add_frame(h, &callback->place[k]);
+    }
+    return h;
+}
+
+/* Constraints and clusters follow from what they are of; their order is checked all the same. */
+static uint64_t add_constraints(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->constraint_count; ++i) {
+        const dmb_constraint *constraint = &s->constraints[i];
+        h = dmb_fnv_word(h, (uint32_t)constraint->kind);
+        h = dmb_fnv_word(h, constraint->index);
+        h = dmb_fnv_word(h, constraint->cluster);
+    }
+    return h;
+}
+
 uint64_t dmb_scene_fingerprint(const dmb_scene *scene)
 {
     uint64_t h = add_counts(DMB_FNV_START, scene);
@@ -167,7 +246,11 @@ uint64_t dmb_scene_fingerprint(const dmb_scene *scene)
     h = add_programmes(h, scene);
     h = add_drives(h, scene);
     h = add_loads(h, scene);
-    return add_bits(h, scene);
+    h = add_bits(h, scene);
+    h = add_joints(h, scene);
+    h = add_couplings(h, scene);
+    h = add_callbacks(h, scene);
+    return add_constraints(h, scene);
 }
 
 uint64_t dmb_options_fingerprint(const dmb_sim_options *options)
@@ -178,5 +261,6 @@ uint64_t dmb_options_fingerprint(const dmb_sim_options *options)
     h = dmb_fnv_word(h, options->max_cuts);
     h = dmb_fnv_word(h, (uint32_t)options->bounded_work);
     h = dmb_fnv_word(h, (uint32_t)options->energy_ledger);
+    h = dmb_fnv_word(h, (uint32_t)options->constraint_method);
     return DMB_NUMBERS(h, numbers);
 }

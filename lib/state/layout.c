@@ -8,15 +8,20 @@
 /* The letters of state.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
     uint64_t n, r, s, p, e, d, k, load, history, diagonal, link, backup;
+    uint64_t j, c, cluster, column, raw, jacobian, tangent, dense, square, full, block, value, pivots;
 } field_counts;
 
 /* The letters as names, for the count expressions of the lists; not every list uses all of them. */
-#define DMB_COUNT_NAMES(c)                                                                                    \
-    const uint64_t n = (c)->n, r = (c)->r, s = (c)->s, p = (c)->p, e = (c)->e, d = (c)->d, k = (c)->k;        \
-    const uint64_t load = (c)->load, history = (c)->history, diagonal = (c)->diagonal, link = (c)->link;      \
-    const uint64_t backup = (c)->backup;                                                                      \
-    (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal, \
-        (void)link, (void)backup
+#define DMB_COUNT_NAMES(of)                                                                                      \
+    const uint64_t n = (of)->n, r = (of)->r, s = (of)->s, p = (of)->p, e = (of)->e, d = (of)->d, k = (of)->k;    \
+    const uint64_t load = (of)->load, history = (of)->history, diagonal = (of)->diagonal, link = (of)->link;     \
+    const uint64_t backup = (of)->backup, j = (of)->j, c = (of)->c, cluster = (of)->cluster;                     \
+    const uint64_t column = (of)->column, raw = (of)->raw, jacobian = (of)->jacobian, tangent = (of)->tangent;   \
+    const uint64_t dense = (of)->dense, square = (of)->square, full = (of)->full, block = (of)->block;           \
+    const uint64_t value = (of)->value, pivots = (of)->pivots;                                                   \
+    (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,    \
+        (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,      \
+        (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots
 
 /* [byte] of the state: what a snapshot holds and a step keeps aside. */
 #define DMB_ADD_BYTES(type, name, count) +(count) * sizeof(type)
@@ -24,6 +29,25 @@ static uint64_t state_bytes(const field_counts *counts)
 {
     DMB_COUNT_NAMES(counts);
     return 0 DMB_CONFIGURATION_LIST(DMB_ADD_BYTES) DMB_MEMORY_LIST(DMB_ADD_BYTES);
+}
+
+/* All 0 without joints. */
+static void count_constraints(const dmb_scene *scene, field_counts *c)
+{
+    const uint64_t any = scene->cluster_count > 0;
+    c->j = scene->joint_count;
+    c->c = scene->constraint_row_count;
+    c->cluster = scene->cluster_count;
+    c->column = scene->cluster_column_count;
+    c->raw = any ? scene->row_count : 0;
+    c->jacobian = scene->jacobian_count;
+    c->tangent = scene->tangent_count;
+    c->dense = scene->dense_count;
+    c->square = scene->square_count;
+    c->full = scene->full_count;
+    c->block = scene->block_count;
+    c->value = any ? scene->pattern.values : 0;
+    c->pivots = any ? scene->pattern.rows : 0;
 }
 
 static field_counts counts_of(const dmb_scene *scene)
@@ -41,6 +65,7 @@ static field_counts counts_of(const dmb_scene *scene)
     c.history = scene->history_count;
     c.diagonal = n > 0 ? scene->layout.diag[n] : 0;
     c.link = n > 0 ? scene->layout.link[n - 1] : 0;
+    count_constraints(scene, &c);
     c.backup = 0;
     c.backup = state_bytes(&c);
     return c;

@@ -14,6 +14,7 @@ static void check_iteration(dmb_check *check, const dmb_sim_options *o)
     dmb_check_within(check, "newton_tolerance", o->newton_tolerance, 1e-14, 1e-1);
     dmb_check_choice(check, "bounded_work", o->bounded_work, 0, 1);
     dmb_check_choice(check, "energy_ledger", o->energy_ledger, 0, 1);
+    dmb_check_choice(check, "constraint_method", o->constraint_method, DMB_METHOD_INDEPENDENT, DMB_METHOD_MULTIPLIERS);
 }
 
 static void check_step_control(dmb_check *check, const dmb_sim_options *o)

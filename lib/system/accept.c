@@ -3,6 +3,7 @@
 #include "math/so3.h"
 #include "system/bit.h"
 #include "system/evaluation.h"
+#include "system/joint_state.h"
 
 /* Rotation about the node's own x axis since time 0, on the turn the increment of the step leads to. */
 static void unwrap_turns(dmb_sim *sim)
@@ -25,9 +26,11 @@ void dmb_system_accept(dmb_evaluation *evaluation)
     memcpy(sim->residual_row, sim->correction, scene->row_count * sizeof(double));
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         const dmb_scene_drive *drive = scene->drives + i;
+        if (drive->joint != UINT32_MAX) continue; /* done with the joint */
         sim->trial.drive_position[i] = sim->now.drive_position[i] + sim->increment[drive->row];
         if (drive->kind == DMB_DRIVE_MOTION) sim->trial.drive_force[i] = sim->correction[drive->row];
     }
+    if (scene->cluster_count) dmb_joints_accept(evaluation);
     for (uint32_t k = 0; k < scene->bit_count; k++) {
         if (evaluation->dynamic)
             dmb_bit_accept(sim, k);

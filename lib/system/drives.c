@@ -1,6 +1,6 @@
 /* Drives: prescribed motion, loads on a component, and speed control.
  * Control: force = clamp(kp e + ki z), e = v* - v, z' = e by the trapezoidal rule, held while the limits act. */
-#include "system/evaluation.h"
+#include "system/drives.h"
 
 /* Target now: the caller's value, or the programme and its excitation. */
 static int32_t target_of(const dmb_sim *sim, uint32_t i, double time, double *value, double *rate)
@@ -57,6 +57,11 @@ static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
     if (status < 0) return status;
     status = travel_of(sim, drive, evaluation->time - evaluation->step, evaluation->time, &travel);
     if (status < 0) return status;
+    if (drive->joint != UINT32_MAX) { /* its constraint moves the coordinate */
+        sim->trial.drive_position[i] = sim->now.drive_position[i] + travel;
+        sim->trial.drive_rate[i] = rate;
+        return DMB_OK;
+    }
     sim->increment[drive->row] = travel;
     sim->trial.velocity[drive->row] = sim->trial.drive_target[i];
     sim->trial.acceleration[drive->row] = rate;
@@ -71,7 +76,8 @@ int32_t dmb_system_rate_jumps(const dmb_sim *sim)
         double value, rate;
         if (scene->drives[i].kind != DMB_DRIVE_MOTION) continue;
         if (target_of(sim, i, sim->clock->time, &value, &rate) < 0) continue;
-        const double last = sim->now.acceleration[scene->drives[i].row];
+        const int on_joint = scene->drives[i].joint != UINT32_MAX;
+        const double last = on_joint ? sim->now.drive_rate[i] : sim->now.acceleration[scene->drives[i].row];
         if (fabs(rate - last) > 1e-6 * (fabs(rate) + fabs(last) + fabs(value))) return 1; /* more than differencing noise */
     }
     return 0;
@@ -100,14 +106,20 @@ int32_t dmb_system_prescribe(dmb_evaluation *evaluation)
     return status;
 }
 
+double dmb_drive_speed(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t drive)
+{
+    const uint32_t row = scene->drives[drive].row;
+    return row == UINT32_MAX ? configuration->drive_speed[drive] : configuration->velocity[row];
+}
+
 /* Force of a controlled drive and its slope by the speed; the integral of the error goes into the trial. */
-static double control_force(const dmb_evaluation *evaluation, uint32_t i, double *slope)
+static double control_force(const dmb_evaluation *evaluation, uint32_t i, double speed, double *slope)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_drive *drive = sim->scene->drives + i;
-    const double h = evaluation->step, speed = evaluation->dynamic ? sim->trial.velocity[drive->row] : 0.0;
+    const double h = evaluation->step;
     const double error = sim->trial.drive_target[i] - speed;
-    const double before = sim->now.drive_target[i] - sim->now.velocity[drive->row];
+    const double before = sim->now.drive_target[i] - dmb_drive_speed(sim->scene, &sim->now, i);
     const double integral = sim->now.drive_integral[i] + 0.5 * h * (before + error);
     const double force = drive->gain * error + drive->integral_gain * integral;
     *slope = -(drive->gain + 0.5 * h * drive->integral_gain);
@@ -118,13 +130,22 @@ static double control_force(const dmb_evaluation *evaluation, uint32_t i, double
     return force > drive->limit_high ? drive->limit_high : drive->limit_low;
 }
 
+double dmb_drive_force(dmb_evaluation *evaluation, uint32_t drive, double speed, double *slope)
+{
+    dmb_sim *sim = evaluation->sim;
+    double force = sim->trial.drive_target[drive];
+    *slope = 0.0;
+    if (sim->scene->drives[drive].kind == DMB_DRIVE_CONTROL) force = control_force(evaluation, drive, speed, slope);
+    sim->trial.drive_force[drive] = force;
+    return force;
+}
+
 static void gather_drive(dmb_evaluation *evaluation, uint32_t i)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_drive *drive = sim->scene->drives + i;
-    double slope = 0.0, force = sim->trial.drive_target[i];
-    if (drive->kind == DMB_DRIVE_CONTROL) force = control_force(evaluation, i, &slope);
-    sim->trial.drive_force[i] = force;
+    double slope;
+    const double force = dmb_drive_force(evaluation, i, evaluation->dynamic ? sim->trial.velocity[drive->row] : 0.0, &slope);
     sim->correction[drive->row] -= force;
     sim->scale_row[drive->row] += fabs(force);
     evaluation->power[DMB_POWER_DRIVES] += force * sim->trial.velocity[drive->row];
@@ -134,9 +155,11 @@ static void gather_drive(dmb_evaluation *evaluation, uint32_t i)
     dmb_inertia_of(sim, drive->node)[(size + 1) * c] -= evaluation->velocity_factor * slope;
 }
 
+/* Those on joints act with them. */
 void dmb_gather_drives(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     for (uint32_t i = 0; i < scene->drive_count; i++)
-        if (scene->drives[i].kind != DMB_DRIVE_MOTION) gather_drive(evaluation, i);
+        if (scene->drives[i].kind != DMB_DRIVE_MOTION && scene->drives[i].joint == UINT32_MAX)
+            gather_drive(evaluation, i);
 }

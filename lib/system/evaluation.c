@@ -59,6 +59,7 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
     if (scene->load_count) dmb_gather_loads(evaluation);
     if (scene->drive_count) dmb_gather_drives(evaluation);
     if (scene->bit_count) dmb_gather_bits(evaluation);
-    evaluation->status = finite_status(evaluation->sim);
+    if (scene->cluster_count) evaluation->status = dmb_gather_joints(evaluation);
+    if (evaluation->status >= 0) evaluation->status = finite_status(evaluation->sim);
     return evaluation->status;
 }

@@ -16,6 +16,7 @@ typedef struct dmb_evaluation {
     double step;              /* [s] from now to trial; 0 in statics */
     double mass_factor;       /* [1/s2] d v'/d pose parameters */
     double velocity_factor;   /* [1/s] d v/d pose parameters */
+    double pseudo_factor;     /* [-] d a/d v' of generalized-alpha, (1 - af)/(1 - am) */
     double load_factor;       /* [-] on gravity, loads and bit load (static load steps) */
     int32_t dynamic;          /* 0: no inertia, damping, nor rates: statics */
     int32_t tangent;          /* 1: fill stiffness_ and inertia_ blocks too */
@@ -52,6 +53,7 @@ void dmb_gather_path_friction(dmb_evaluation *evaluation);
 void dmb_gather_loads(dmb_evaluation *evaluation);
 void dmb_gather_drives(dmb_evaluation *evaluation);
 void dmb_gather_bits(dmb_evaluation *evaluation);
+int32_t dmb_gather_joints(dmb_evaluation *evaluation);
 
 /* Blocks of node i, and of the link i, i+1. */
 static inline double *dmb_stiffness_of(const dmb_sim *sim, uint32_t node)

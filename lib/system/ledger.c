@@ -2,11 +2,13 @@
 
 #include <string.h>
 
+#include "system/drives.h"
 #include "system/energy.h"
+#include "system/joint_state.h"
 
 static double drive_power(const dmb_sim *sim, const dmb_configuration *c, uint32_t i)
 {
-    return c->drive_force[i] * c->velocity[sim->scene->drives[i].row];
+    return c->drive_force[i] * dmb_drive_speed(sim->scene, c, i);
 }
 
 /* Powers of an evaluation, with what the motion drives do through the rows they hold. */
@@ -24,7 +26,8 @@ void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation)
     for (uint32_t i = 0; i < sim->scene->drive_count; i++) sim->drive_work[i] = 0.0;
     powers(sim, evaluation, sim->clock->power);
     sim->ledger->start = dmb_kinetic_energy(sim->scene, &sim->now) + dmb_strain_energy(sim->scene, &sim->now) +
-                         dmb_gravity_energy(sim->scene, &sim->now) + dmb_contact_energy(sim->scene, &sim->now);
+                         dmb_gravity_energy(sim->scene, &sim->now) + dmb_contact_energy(sim->scene, &sim->now) +
+                         dmb_joint_energy(sim, &sim->now);
 }
 
 void dmb_ledger_jump(dmb_sim *sim, const dmb_evaluation *evaluation)

@@ -41,15 +41,6 @@ void dmb_node_pose(const dmb_scene *scene, const dmb_configuration *configuratio
     dmb_vec3_copy(configuration->displacement + 3 * node, displacement);
 }
 
-/* Turning of the hole's frame per metre: t x (kappa n), and about t what keeps its y axis horizontal,
- * t . w = z . y' with y = e_z x t over its length. */
-static void frame_turning(const double t[3], const double curvature[3], double w[3])
-{
-    const double across = t[0] * t[0] + t[1] * t[1];
-    dmb_vec3_cross(t, curvature, w);
-    if (across > 1e-18) dmb_vec3_axpy(t[2] * (t[0] * curvature[1] - t[1] * curvature[0]) / across, t, w);
-}
-
 void dmb_path_columns(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
                       const double rotation[9], double columns[12])
 {
@@ -58,7 +49,7 @@ void dmb_path_columns(const dmb_scene *scene, const dmb_configuration *configura
     if (scene->has_hole && !dmb_hole_is_straight(&scene->hole)) {
         double point[3], tangent[3], curvature[3], turning[3];
         dmb_hole_frame(&scene->hole, dmb_path_depth(scene, configuration, node), point, tangent, curvature);
-        frame_turning(tangent, curvature, turning);
+        dmb_hole_turning(tangent, curvature, turning);
         dmb_mat3_tvec(rotation, turning, columns + 3);
     }
 }

@@ -62,6 +62,8 @@ int32_t dmb_released_acceleration(const dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     dmb_evaluation mass = *evaluation;
+    const int32_t multipliers = sim->linked_mode->multipliers;
+    sim->linked_mode->multipliers = 0;
     mass.mass_factor = 1.0;
     mass.velocity_factor = 0.0;
     mass.tangent = 1;
@@ -72,5 +74,6 @@ int32_t dmb_released_acceleration(const dmb_evaluation *evaluation)
     for (uint32_t s = 0; s < sim->scene->site_count; s++)
         if (opens(sim, s)) subtract_force(sim, s);
     dmb_solve_correction(sim);
+    sim->linked_mode->multipliers = multipliers;
     return DMB_OK;
 }

@@ -3,6 +3,8 @@
 #include <float.h>
 #include <string.h>
 
+#include "system/linked.h"
+
 /* Rounding of a pose reaches a stiff element's force multiplied by EA/L: this many units of it count as zero. */
 #define DMB_ROUNDING_UNITS 4.0
 
@@ -33,7 +35,7 @@ static int32_t judge(const dmb_evaluation *evaluation, const dmb_chain *chain, d
     const double floor = DMB_ROUNDING_UNITS * DBL_EPSILON;
     if (!(n.all <= DBL_MAX)) return 0;
     if (n.rest <= tolerance * tolerance * n.all) return DMB_CONVERGED;
-    return chain->count > 1 && n.rest <= floor * floor * evaluation->rounding ? DMB_AT_ROUNDING : 0;
+    return (chain->count > 1 || chain->linked) && n.rest <= floor * floor * evaluation->rounding ? DMB_AT_ROUNDING : 0;
 }
 
 double dmb_relative_residual(const dmb_evaluation *evaluation, double tolerance, int32_t *converged)
@@ -69,10 +71,11 @@ int64_t dmb_factor_matrix(dmb_sim *sim)
     const dmb_scene *scene = sim->scene;
     dmb_block_matrix matrix = matrix_of(sim);
     for (uint32_t c = 0; c < scene->chain_count; c++) {
+        if (scene->chains[c].linked) continue;
         const int64_t bad = dmb_block_factor(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count);
         if (bad >= 0) return bad;
     }
-    return -1;
+    return scene->cluster_count ? dmb_linked_factor(sim, NULL) : -1;
 }
 
 int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest)
@@ -83,12 +86,16 @@ int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest)
     weakest->ratio = (double)INFINITY;
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         const dmb_chain *chain = scene->chains + c;
+        if (chain->linked) continue;
         const int64_t bad =
             dmb_block_factor_watched(&scene->layout, &matrix, chain->first, chain->count, &chain_weakest);
         if (chain_weakest.ratio < weakest->ratio) *weakest = chain_weakest;
         if (bad >= 0) return bad;
     }
-    return -1;
+    if (scene->cluster_count == 0) return -1;
+    const int64_t bad = dmb_linked_factor(sim, &chain_weakest);
+    if (chain_weakest.ratio < weakest->ratio) *weakest = chain_weakest;
+    return bad;
 }
 
 /* The iteration matrix with the stiffness taken away. */
@@ -102,6 +109,7 @@ int32_t dmb_factor_mass(dmb_evaluation *evaluation)
     memset(sim->stiffness_diagonal, 0, layout->diag[n] * sizeof(double));
     memset(sim->stiffness_upper, 0, layout->link[n - 1] * sizeof(double));
     memset(sim->stiffness_lower, 0, layout->link[n - 1] * sizeof(double));
+    memset(sim->constraint_tangent, 0, sim->scene->tangent_count * sizeof(double));
     dmb_system_iteration_matrix(evaluation);
     const int64_t bad = dmb_factor_matrix(sim);
     evaluation->element = (uint32_t)bad;
@@ -115,5 +123,7 @@ void dmb_solve_correction(dmb_sim *sim)
     for (uint32_t i = 0; i < scene->row_count; i++)
         sim->correction[i] = scene->solved_row[i] ? -sim->correction[i] : 0.0;
     for (uint32_t c = 0; c < scene->chain_count; c++)
-        dmb_block_solve(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count, sim->correction);
+        if (!scene->chains[c].linked)
+            dmb_block_solve(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count, sim->correction);
+    if (scene->cluster_count) dmb_linked_solve(sim);
 }

@@ -4,6 +4,8 @@
 
 #include "math/so3.h"
 #include "system/bit.h"
+#include "system/cluster.h"
+#include "system/joint_state.h"
 #include "system/ledger.h"
 #include "system/owner.h"
 #include "system/solve.h"
@@ -52,6 +54,7 @@ static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
     evaluation->time = sim->clock->time;
     evaluation->load_factor = 1.0;
     evaluation->mass_factor = 1.0;
+    evaluation->pseudo_factor = 1.0;
     evaluation->dynamic = 1;
     evaluation->tangent = 1;
     memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
@@ -86,17 +89,39 @@ static void explain(dmb_sim *sim, const dmb_evaluation *evaluation, int32_t stat
                         evaluation->time);
     } else if (status == DMB_ERR_NOT_FINITE) {
         dmb_message_set(&sim->message, "forces: not finite at time %g", evaluation->time);
+    } else if (status == DMB_ERR_SINGULAR) {
+        dmb_clusters_explain(sim, "its equations are singular");
     }
+}
+
+/* Speeds and accelerations of trial on the constraints; the largest change of a speed is kept. */
+static int32_t settle_speeds(dmb_sim *sim, dmb_evaluation *evaluation)
+{
+    const dmb_scene *scene = sim->scene;
+    double *most = sim->counters->projection;
+    int32_t status = dmb_clusters_gather(evaluation);
+    if (status < 0) return status;
+    dmb_clusters_choose(sim);
+    status = dmb_clusters_settle(evaluation, DMB_SETTLE_SPEED | DMB_SETTLE_ACCELERATION, 0);
+    if (status >= 0) status = dmb_assembled_speeds(evaluation);
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        for (uint32_t c = 0; c < scene->layout.size[i]; c++) {
+            const uint32_t row = scene->layout.row[i] + c;
+            const double change = fabs(sim->trial.velocity[row] - sim->now.velocity[row]);
+            most[2 * c < scene->layout.size[i] ? 0 : 1] = fmax(most[2 * c < scene->layout.size[i] ? 0 : 1], change);
+        }
+    return status;
 }
 
 /* Accelerations of trial for its pose and speeds, forces of motion drives, powers of the evaluation. */
 static int32_t make_consistent(dmb_sim *sim, dmb_evaluation *evaluation)
 {
-    const int32_t status = solve_accelerations(sim, evaluation);
+    int32_t status = sim->scene->cluster_count ? settle_speeds(sim, evaluation) : DMB_OK;
+    if (status >= 0) status = solve_accelerations(sim, evaluation);
     if (status < 0) return status;
     memcpy(sim->residual_row, sim->correction, sim->scene->row_count * sizeof(double));
     for (uint32_t i = 0; i < sim->scene->drive_count; i++)
-        if (sim->scene->drives[i].kind == DMB_DRIVE_MOTION)
+        if (sim->scene->drives[i].kind == DMB_DRIVE_MOTION && sim->scene->drives[i].joint == UINT32_MAX)
             sim->trial.drive_force[i] = sim->correction[sim->scene->drives[i].row];
     return DMB_OK;
 }
@@ -153,9 +178,16 @@ int32_t dmb_system_start(dmb_sim *sim)
     const dmb_scene *scene = sim->scene;
     described_pose(sim);
     for (uint32_t k = 0; k < scene->bit_count; k++) dmb_bit_start(sim, k);
-    const int32_t status = dmb_system_restart(sim);
+    int32_t status = scene->cluster_count ? dmb_assemble(sim) : DMB_OK;
+    if (status >= 0) status = dmb_system_restart(sim);
     if (status < 0) return status;
-    const double *most = sim->counters->projection;
+    const double *most = sim->counters->projection, *moved = sim->counters->assembly;
+    if (moved[0] > 1e-12 || moved[1] > 1e-12) {
+        dmb_message_set(&sim->message,
+                        "joints: closed by moving parts by up to %g m and %g rad, speeds by %g m/s and %g rad/s",
+                        moved[0], moved[1], most[0], most[1]);
+        return DMB_NOTE_PROJECTED;
+    }
     if (most[0] <= 1e-12 && most[1] <= 1e-12) return DMB_OK;
     dmb_message_set(&sim->message, "initial velocities: projected onto the allowed motion, by %g m/s and %g rad/s",
                     most[0], most[1]);

@@ -52,12 +52,23 @@ typedef struct scene_plan {
     dmb_bit_def bit;
     dmb_drive_def drive;
     dmb_load_def load;
+    dmb_joint_def joint, hinge;
+    dmb_coupling_def coupling;
+    dmb_constraint_def constraint;
+    dmb_drive_def screw;
     dmb_model *model;
     dmb_id id;
 } scene_plan;
 
 static const double survey[] = {0.0, 1.5, 0.0, 30.0, 1.3, 0.2, 60.0, 1.2, 0.2};
 static const double table_time[] = {0.0, 1.0, 2.0}, table_value[] = {0.0, 1.0, 0.5};
+
+static int32_t no_constraint(void *context, double time, uint32_t count, const double (*poses)[12], double *value,
+                             double *jacobian)
+{
+    (void)context, (void)time, (void)count, (void)poses, (void)value, (void)jacobian;
+    return 0;
+}
 
 static scene_plan plan(const dmb_allocator *allocator)
 {
@@ -87,6 +98,15 @@ static scene_plan plan(const dmb_allocator *allocator)
     p.bit.rock_law = DMB_ROCK_REGENERATIVE;
     p.drive = dmb_drive_def_default();
     p.load = dmb_load_def_default();
+    p.joint = p.hinge = dmb_joint_def_default();
+    p.joint.kind = DMB_JOINT_CYLINDRICAL;
+    p.joint.stiffness[DMB_RX] = 1.0;
+    p.hinge.kind = DMB_JOINT_REVOLUTE;
+    p.hinge.match = 1;
+    p.coupling = dmb_coupling_def_default();
+    p.constraint = dmb_constraint_def_default();
+    p.constraint.callback = no_constraint;
+    p.screw = dmb_drive_def_default();
     return p;
 }
 
@@ -107,14 +127,29 @@ static int32_t step(scene_plan *p, int which)
     case 10: return dmb_model_add_bit(p->model, &p->bit, NULL);
     case 11: return dmb_model_add_drive(p->model, &p->drive, NULL);
     case 12: return dmb_model_add_load(p->model, &p->load, NULL);
+    case 13: /* from a pipe of the first string, past those on the curved axis, to one of the second */
+        p->joint.place_a = dmb_station(p->load.place.part, 6, 1.0);
+        p->joint.place_b = dmb_station(p->pipe[1].string, 1, 0.0);
+        return dmb_model_add_joint(p->model, &p->joint, &p->coupling.joint[0]);
+    case 14:
+        p->hinge.place_b = dmb_station(p->pipe[1].string, 2, 1.0);
+        return dmb_model_add_joint(p->model, &p->hinge, &p->coupling.joint[1]);
+    case 15: return dmb_model_add_coupling(p->model, &p->coupling, NULL);
+    case 16:
+        p->constraint.place[0] = dmb_station(p->load.place.part, 8, 1.0);
+        return dmb_model_add_constraint(p->model, &p->constraint, NULL);
+    case 17:
+        p->screw.part = p->coupling.joint[0];
+        p->screw.programme = p->drive.programme;
+        return dmb_model_add_drive(p->model, &p->screw, NULL);
     default: return dmb_model_compile(p->model, NULL);
     }
 }
-enum { STEPS = 14 };
+enum { STEPS = 19 };
 
 /* What must not change when a call fails. */
 typedef struct counts {
-    uint32_t programmes, strings, runs, bodies, bits, drives, loads, wall;
+    uint32_t programmes, strings, runs, bodies, bits, drives, loads, joints, couplings, constraints, wall;
     int compiled;
     long blocks;
 } counts;
@@ -132,6 +167,9 @@ static counts counts_of(const dmb_model *model, const meter *m)
     c.bits = model->bits.count;
     c.drives = model->drives.count;
     c.loads = model->loads.count;
+    c.joints = model->joints.count;
+    c.couplings = model->couplings.count;
+    c.constraints = model->constraints.count;
     c.wall = model->wall_count;
     c.compiled = model->scene != NULL;
     return c;
@@ -149,6 +187,9 @@ static void expect_unchanged(const counts *before, const counts *after, int whic
     assert_int_equal(before->bits, after->bits);
     assert_int_equal(before->drives, after->drives);
     assert_int_equal(before->loads, after->loads);
+    assert_int_equal(before->joints, after->joints);
+    assert_int_equal(before->couplings, after->couplings);
+    assert_int_equal(before->constraints, after->constraints);
     assert_int_equal(before->wall, after->wall);
     assert_int_equal(before->compiled, after->compiled);
     assert_true(grown >= 0 && grown <= (which == 4 ? 1 : 0)); /* the room for the string that was to be made */
@@ -179,7 +220,8 @@ static int run(long failing, long *compiled_bytes)
     allocator.release = give;
     scene_plan p = plan(&allocator);
     for (int i = 0; i < STEPS; ++i) run_step(&p, &m, i);
-    *compiled_bytes = (long)p.model->scene->bytes;
+    assert_int_equal(p.model->scene->cluster_count, 2);
+    *compiled_bytes = (long)(p.model->scene->bytes + p.model->scene->pattern.block_size);
     dmb_model_destroy(&p.model);
     assert_int_equal(m.blocks, 0);
     assert_int_equal(m.bytes, 0);

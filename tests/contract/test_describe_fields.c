@@ -36,6 +36,9 @@ typedef union any_def {
     dmb_bit_def bit;
     dmb_drive_def drive;
     dmb_load_def load;
+    dmb_joint_def joint;
+    dmb_coupling_def coupling;
+    dmb_constraint_def constraint;
 } any_def;
 
 /* A model that every definition fits into, and the ids it needs. */
@@ -292,6 +295,104 @@ static int32_t add_load(dmb_model *model, const any_def *def)
     return dmb_model_add_load(model, &def->load, NULL);
 }
 
+#define PLACE_FIELDS(T, place)                                                                              \
+    F(T, place.part.index, COUNT, 1), F(T, place.part.generation, COUNT, 1), F(T, place.pipe, COUNT, 1),    \
+        F(T, place.reserved, COUNT, 1), F(T, place.fraction, REAL, 1)
+
+static const field joint_fields[] = {F(dmb_joint_def, kind, WHOLE, 1),
+                                     PLACE_FIELDS(dmb_joint_def, place_a),
+                                     PLACE_FIELDS(dmb_joint_def, place_b),
+                                     F(dmb_joint_def, origin_a, REAL, 3),
+                                     F(dmb_joint_def, axis_a, REAL, 3),
+                                     F(dmb_joint_def, normal_a, REAL, 3),
+                                     F(dmb_joint_def, origin_b, REAL, 3),
+                                     F(dmb_joint_def, axis_b, REAL, 3),
+                                     F(dmb_joint_def, normal_b, REAL, 3),
+                                     F(dmb_joint_def, match, WHOLE, 1),
+                                     F(dmb_joint_def, state, WHOLE, 1),
+                                     F(dmb_joint_def, length, REAL, 1),
+                                     F(dmb_joint_def, stiffness, REAL, 6),
+                                     F(dmb_joint_def, damping, REAL, 6),
+                                     F(dmb_joint_def, rest, REAL, 6),
+                                     F(dmb_joint_def, friction, REAL, 6),
+                                     F(dmb_joint_def, friction_speed, REAL, 1),
+                                     F(dmb_joint_def, stop_low, REAL, 6),
+                                     F(dmb_joint_def, stop_high, REAL, 6),
+                                     F(dmb_joint_def, stop_stiffness, REAL, 1),
+                                     F(dmb_joint_def, stop_damping, REAL, 1),
+                                     F(dmb_joint_def, initial_mask, WHOLE, 1),
+                                     F(dmb_joint_def, reserved, WHOLE, 1),
+                                     F(dmb_joint_def, initial_position, REAL, 6),
+                                     F(dmb_joint_def, initial_speed, REAL, 6)};
+static void fill_joint(const scene_under_test *s, any_def *def)
+{
+    def->joint = dmb_joint_def_default();
+    def->joint.kind = DMB_JOINT_DISTANCE;
+    def->joint.place_b = dmb_station(s->string, 0, 1.0);
+    def->joint.stiffness[0] = 1.0;
+}
+static void fill_joint_between(const scene_under_test *s, any_def *def)
+{
+    const dmb_body_def body = dmb_body_def_default();
+    dmb_id id;
+    fill_joint(s, def);
+    assert_int_equal(dmb_model_add_body(s->model, &body, &id), DMB_OK);
+    def->joint.kind = DMB_JOINT_PLANAR;
+    def->joint.match = 1;
+    def->joint.place_a = dmb_station(id, 0, 0.0);
+}
+static int32_t add_joint(dmb_model *model, const any_def *def)
+{
+    return dmb_model_add_joint(model, &def->joint, NULL);
+}
+
+static const field coupling_fields[] = {
+    F(dmb_coupling_def, reserved, WHOLE, 1),         F(dmb_coupling_def, joint[0].index, COUNT, 1),
+    F(dmb_coupling_def, joint[0].generation, COUNT, 1), F(dmb_coupling_def, joint[1].index, COUNT, 1),
+    F(dmb_coupling_def, joint[1].generation, COUNT, 1), F(dmb_coupling_def, component, WHOLE, 2),
+    F(dmb_coupling_def, ratio, REAL, 1)};
+static void fill_coupling(const scene_under_test *s, any_def *def)
+{
+    any_def joint;
+    dmb_id id;
+    fill_joint(s, &joint);
+    joint.joint.kind = DMB_JOINT_CYLINDRICAL;
+    assert_int_equal(dmb_model_add_joint(s->model, &joint.joint, &id), DMB_OK);
+    def->coupling = dmb_coupling_def_default();
+    def->coupling.joint[0] = def->coupling.joint[1] = id;
+    def->coupling.component[0] = DMB_X;
+}
+static int32_t add_coupling(dmb_model *model, const any_def *def)
+{
+    return dmb_model_add_coupling(model, &def->coupling, NULL);
+}
+
+static int32_t any_constraint(void *context, double time, uint32_t count, const double (*poses)[12], double *value,
+                              double *jacobian)
+{
+    (void)context, (void)time, (void)count, (void)poses, (void)value, (void)jacobian;
+    return 0;
+}
+static const field constraint_fields[] = {F(dmb_constraint_def, kind, WHOLE, 1),
+                                          F(dmb_constraint_def, rows, COUNT, 1),
+                                          F(dmb_constraint_def, count, COUNT, 1),
+                                          PLACE_FIELDS(dmb_constraint_def, place[0]),
+                                          PLACE_FIELDS(dmb_constraint_def, place[1]),
+                                          F(dmb_constraint_def, provides, WHOLE, 1),
+                                          F(dmb_constraint_def, reserved, WHOLE, 1)};
+static void fill_constraint(const scene_under_test *s, any_def *def)
+{
+    def->constraint = dmb_constraint_def_default();
+    def->constraint.count = 2;
+    def->constraint.place[0] = dmb_station(s->string, 0, 0.0);
+    def->constraint.place[1] = dmb_station(s->string, 0, 1.0);
+    def->constraint.callback = any_constraint;
+}
+static int32_t add_constraint(dmb_model *model, const any_def *def)
+{
+    return dmb_model_add_constraint(model, &def->constraint, NULL);
+}
+
 static const kind_of_def kinds[] = {
     {"environment", FIELDS(environment_fields), fill_environment, add_environment},
     {"term", FIELDS(term_fields), fill_term, add_term},
@@ -303,6 +404,10 @@ static const kind_of_def kinds[] = {
     {"bit", FIELDS(bit_fields), fill_bit, add_bit},
     {"drive", FIELDS(drive_fields), fill_drive, add_drive},
     {"load", FIELDS(load_fields), fill_load, add_load},
+    {"joint", FIELDS(joint_fields), fill_joint, add_joint},
+    {"joint between", FIELDS(joint_fields), fill_joint_between, add_joint},
+    {"coupling", FIELDS(coupling_fields), fill_coupling, add_coupling},
+    {"constraint", FIELDS(constraint_fields), fill_constraint, add_constraint},
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0], WALL = 3 };
 
@@ -311,6 +416,29 @@ enum { KINDS = sizeof kinds / sizeof kinds[0], WALL = 3 };
 static void expect_finite(const double *values, size_t count)
 {
     if (!dmb_are_finite(values, count)) fail_msg("a number of the scene is not finite");
+}
+
+static void expect_frame(const dmb_scene_frame *frame)
+{
+    expect_finite(frame->x, 3);
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const double *M = frame->M;
+            const double product = M[3 * i] * M[3 * k] + M[3 * i + 1] * M[3 * k + 1] + M[3 * i + 2] * M[3 * k + 2];
+            assert_true(fabs(product - (i == k ? 1.0 : 0.0)) < 1e-14);
+        }
+    }
+}
+
+static void expect_finite_joints(const dmb_scene *s)
+{
+    for (size_t i = 0; i < s->joint_count; ++i) {
+        expect_frame(&s->joints[i].a);
+        expect_frame(&s->joints[i].b);
+        expect_finite(s->joints[i].span, 3);
+        expect_finite(&s->joints[i].length, 1);
+    }
+    expect_finite((const double *)s->laws, s->law_count * sizeof *s->laws / sizeof(double));
 }
 
 static void expect_finite_scene(const dmb_scene *s)
@@ -325,6 +453,7 @@ static void expect_finite_scene(const dmb_scene *s)
     expect_finite(s->node_damping, 3 * n);
     expect_finite(s->element_span, 3 * e);
     expect_finite(&s->mass, 3);
+    expect_finite_joints(s);
     for (size_t i = 0; i < s->type_count; ++i) {
         expect_finite((const double *)&s->types[i], sizeof *s->types / sizeof(double));
         for (int k = 0; k < 6; ++k) assert_true(s->types[i].stiffness[k] > 0.0);
@@ -373,6 +502,23 @@ static void put(any_def *def, const field *f, int component, double value)
     }
 }
 
+/* Directions may be of any length, and what does not count is not looked at. */
+static int is_any_number(const field *f)
+{
+    const char *const names[] = {"direction", "axis_a", "normal_a", "axis_b", "normal_b"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        if (strcmp(f->name, names[i]) == 0) return 1;
+    }
+    return 0;
+}
+
+static int is_unused(const any_def *right, const kind_of_def *kind, const field *f)
+{
+    if (kind->add != add_joint) return 0;
+    if (strncmp(f->name, "place_a", 7) == 0) return right->joint.place_a.part.generation == 0;
+    return right->joint.match == 1 && f->name[strlen(f->name) - 2] == '_' && f->name[strlen(f->name) - 1] == 'b';
+}
+
 /* Refused with a message, or compiled into finite numbers; then the model takes what is right. */
 static void try_one(const kind_of_def *kind, const field *f, int component, double value)
 {
@@ -383,8 +529,9 @@ static void try_one(const kind_of_def *kind, const field *f, int component, doub
     right = def;
     put(&def, f, component, value);
     status = kind->add(s.model, &def);
-    if (!is_documented(status) || (f->type == REAL && !isfinite(value) && status != DMB_ERR_NOT_FINITE) ||
-        (f->type == REAL && fabs(value) >= DBL_MAX && status == DMB_OK && strcmp(f->name, "direction") != 0)) {
+    const int matters = f->type == REAL && !is_unused(&right, kind, f);
+    if (!is_documented(status) || (matters && !isfinite(value) && status != DMB_ERR_NOT_FINITE) ||
+        (matters && fabs(value) >= DBL_MAX && status == DMB_OK && !is_any_number(f))) {
         fail_msg("%s: %s[%d] = %g gives %s", kind->name, f->name, component, value, dmb_status_name(status));
     }
     if (status < 0) {
@@ -487,7 +634,26 @@ static void what_must_be_refused(void **state)
                  {8, "limit_high", -1e30},
                  {8, "programme.generation", 0.0},
                  {9, "place.fraction", 0.5},
-                 {9, "frame", 3.0}};
+                 {9, "frame", 3.0},
+                 {10, "kind", 13.0},
+                 {10, "place_b.fraction", 1.5},
+                 {10, "axis_a", 0.0},
+                 {10, "length", 0.0},
+                 {10, "friction_speed", 0.0},
+                 {10, "stop_high", -1e30},
+                 {10, "stop_stiffness", 0.0},
+                 {10, "state", 3.0},
+                 {11, "place_a.fraction", 0.5},
+                 {11, "initial_mask", 1.0},
+                 {11, "match", 2.0},
+                 {12, "ratio", 0.0},
+                 {12, "component", 1.0},
+                 {12, "joint[1].generation", 0.0},
+                 {13, "rows", 0.0},
+                 {13, "rows", 7.0},
+                 {13, "count", 5.0},
+                 {13, "kind", 2.0},
+                 {13, "provides", 2.0}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         const kind_of_def *kind = &kinds[cases[i].kind];

@@ -32,6 +32,14 @@ static int32_t sim_set_drive(dmb_sim *sim, int missing)
 {
     return missing ? DMB_ERR_NULL : dmb_sim_set_drive(sim, scene.parts.turning, 1.0);
 }
+static int32_t sim_set_joint(dmb_sim *sim, int missing)
+{
+    return missing ? DMB_ERR_NULL : dmb_sim_set_joint(sim, scene.parts.hinge, DMB_JOINT_LOCKED);
+}
+static int32_t sim_carry_over(dmb_sim *sim, int missing)
+{
+    return dmb_sim_carry_over(sim, GIVEN(scene.sim));
+}
 static int32_t sim_static(dmb_sim *sim, int missing)
 {
     return missing ? DMB_ERR_NULL : dmb_analysis_static(sim, NULL, NULL);
@@ -110,6 +118,23 @@ static int32_t query_reaction(dmb_sim *sim, int missing)
     double answer[6];
     return dmb_query_reaction(sim, scene.parts.string, GIVEN(answer));
 }
+static int32_t query_joint(dmb_sim *sim, int missing)
+{
+    dmb_joint_state answer = dmb_joint_state_default();
+    return dmb_query_joint(sim, scene.parts.hinge, GIVEN(&answer));
+}
+static int32_t query_multipliers(dmb_sim *sim, int missing)
+{
+    double answer[6];
+    uint32_t count;
+    return dmb_query_multipliers(sim, scene.parts.hinge, GIVEN(answer), &count);
+}
+static int32_t query_multiplier_count(dmb_sim *sim, int missing)
+{
+    double answer[6];
+    uint32_t count;
+    return dmb_query_multipliers(sim, scene.parts.hinge, answer, GIVEN(&count));
+}
 static int32_t query_bit(dmb_sim *sim, int missing)
 {
     dmb_bit_state answer = dmb_bit_state_default();
@@ -135,11 +160,13 @@ static const struct {
     const char *name;
     sim_call call;
 } sim_calls[] = {
-    {"step", sim_step}, {"advance", sim_advance}, {"set_drive", sim_set_drive}, {"static", sim_static},
+    {"step", sim_step}, {"advance", sim_advance}, {"set_drive", sim_set_drive}, {"set_joint", sim_set_joint},
+    {"carry_over", sim_carry_over}, {"static", sim_static},
     {"snapshot_size", sim_snapshot_size}, {"snapshot", sim_snapshot}, {"restore", sim_restore}, {"hash", sim_hash},
     {"pose", query_pose}, {"motion", query_motion}, {"rotation", query_rotation}, {"section", query_section},
     {"contact", query_contact}, {"contact_sum", query_contact_sum}, {"kinetic_energy", query_kinetic_energy},
     {"energy", query_energy}, {"momentum", query_momentum}, {"drive", query_drive}, {"reaction", query_reaction},
+    {"joint", query_joint}, {"multipliers", query_multipliers}, {"multiplier count", query_multiplier_count},
     {"bit", query_bit}, {"statistics", query_statistics}, {"recorder_take", recorder_take},
     {"write_vtk_strings", write_vtk_strings}};
 enum { SIM_CALLS = sizeof sim_calls / sizeof sim_calls[0] };
@@ -156,6 +183,9 @@ ADD(body, body_def)
 ADD(bit, bit_def)
 ADD(drive, drive_def)
 ADD(load, load_def)
+ADD(joint, joint_def)
+ADD(coupling, coupling_def)
+ADD(constraint, constraint_def)
 
 static int32_t set_environment(dmb_model *model, int missing)
 {
@@ -213,7 +243,8 @@ static const struct {
 } model_calls[] = {
     {"set_environment", set_environment, 1}, {"add_programme", add_programme, 1}, {"add_wall", add_wall, 1},
     {"add_string", add_string, 1}, {"add_pipes", add_pipes, 1}, {"add_body", add_body, 1}, {"add_bit", add_bit, 1},
-    {"add_drive", add_drive, 1}, {"add_load", add_load, 1}, {"compile", compile, 1}, {"get_info", get_info, 0},
+    {"add_drive", add_drive, 1}, {"add_load", add_load, 1}, {"add_joint", add_joint, 1},
+    {"add_coupling", add_coupling, 1}, {"add_constraint", add_constraint, 1}, {"compile", compile, 1}, {"get_info", get_info, 0},
     {"memory_size", memory_size, 0}, {"create", create_sim, 0}, {"create_in", create_sim_in, 0},
     {"write_vtk_hole", write_vtk_hole, 0}};
 enum { MODEL_CALLS = sizeof model_calls / sizeof model_calls[0] };

@@ -18,12 +18,13 @@ static struct {
 
 typedef union any_struct {
     uint32_t struct_size;
-    uint64_t bytes[64];
+    uint64_t bytes[128];
 } any_struct;
 
 typedef struct entry {
     const char *name;
     size_t size;                                  /* [byte] in this header */
+    size_t oldest;                                /* [byte] in the first header that had it */
     int32_t (*init)(any_struct *out, uint32_t size);
     int32_t (*call)(void *given);                 /* all else in order */
     int output;                                   /* the struct is an answer and nothing else */
@@ -44,7 +45,7 @@ INIT(model_options) INIT(environment_def) INIT(term) INIT(wall_def) INIT(string_
 INIT(bit_def) INIT(drive_def) INIT(load_def) INIT(compile_options) INIT(model_info) INIT(sim_options)
 INIT(step_report) INIT(static_options) INIT(static_report) INIT(pose) INIT(motion) INIT(section) INIT(contact)
 INIT(contact_sum) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state) INIT(statistics) INIT(recorder)
-INIT(allocator)
+INIT(allocator) INIT(joint_state) INIT(joint_def) INIT(coupling_def) INIT(constraint_def)
 
 static int32_t call_model_options(void *p)
 {
@@ -107,6 +108,52 @@ static int32_t add_load(dmb_model *model, void *p)
     return dmb_model_add_load(model, load, NULL);
 }
 
+static int32_t add_joint(dmb_model *model, void *p)
+{
+    dmb_joint_def *joint = p;
+    const dmb_body_def body = dmb_body_def_default();
+    dmb_id id;
+    assert_int_equal(dmb_model_add_body(model, &body, &id), DMB_OK);
+    if (joint->struct_size >= sizeof *joint) joint->place_b = dmb_station(id, 0, 0.0);
+    return dmb_model_add_joint(model, joint, NULL);
+}
+
+static int32_t add_coupling(dmb_model *model, void *p)
+{
+    dmb_coupling_def *coupling = p;
+    const dmb_body_def body = dmb_body_def_default();
+    dmb_joint_def joint = dmb_joint_def_default();
+    dmb_id id;
+    assert_int_equal(dmb_model_add_body(model, &body, &joint.place_b.part), DMB_OK);
+    joint.kind = DMB_JOINT_CYLINDRICAL;
+    assert_int_equal(dmb_model_add_joint(model, &joint, &id), DMB_OK);
+    if (coupling->struct_size >= sizeof *coupling) {
+        coupling->joint[0] = coupling->joint[1] = id;
+        coupling->component[0] = DMB_X;
+    }
+    return dmb_model_add_coupling(model, coupling, NULL);
+}
+
+static int32_t no_constraint(void *context, double time, uint32_t count, const double (*poses)[12], double *value,
+                             double *jacobian)
+{
+    (void)context, (void)time, (void)count, (void)poses, (void)value, (void)jacobian;
+    return 0;
+}
+
+static int32_t add_constraint(dmb_model *model, void *p)
+{
+    dmb_constraint_def *constraint = p;
+    const dmb_body_def body = dmb_body_def_default();
+    dmb_id id;
+    assert_int_equal(dmb_model_add_body(model, &body, &id), DMB_OK);
+    if (constraint->struct_size >= sizeof *constraint) {
+        constraint->place[0] = dmb_station(id, 0, 0.0);
+        constraint->callback = no_constraint;
+    }
+    return dmb_model_add_constraint(model, constraint, NULL);
+}
+
 static int32_t add_environment(dmb_model *model, void *p)
 {
     return dmb_model_set_environment(model, p);
@@ -156,6 +203,9 @@ CALL(body_def, with_model(add_body, p))
 CALL(bit_def, with_model(add_bit, p))
 CALL(drive_def, with_model(add_drive, p))
 CALL(load_def, with_model(add_load, p))
+CALL(joint_def, with_model(add_joint, p))
+CALL(coupling_def, with_model(add_coupling, p))
+CALL(constraint_def, with_model(add_constraint, p))
 CALL(compile_options, with_model(compile_with, p))
 CALL(model_info, dmb_model_get_info(scene.model, p))
 CALL(step_report, dmb_sim_step(scene.sim, 1e-6, p))
@@ -168,6 +218,7 @@ CALL(contact_sum, dmb_query_contact_sum(scene.sim, p))
 CALL(energy, dmb_query_energy(scene.sim, p))
 CALL(momentum, dmb_query_momentum(scene.sim, p))
 CALL(drive_state, dmb_query_drive(scene.sim, scene.parts.turning, p))
+CALL(joint_state, dmb_query_joint(scene.sim, scene.parts.hinge, p))
 CALL(bit_state, dmb_query_bit(scene.sim, scene.parts.bit, p))
 CALL(statistics, dmb_query_statistics(scene.sim, p))
 
@@ -194,16 +245,18 @@ static int32_t call_recorder(void *p)
     return status;
 }
 
-#define ENTRY(T, output) {#T, sizeof(dmb_##T), init_##T, call_##T, output}
+#define ENTRY(T, output) {#T, sizeof(dmb_##T), sizeof(dmb_##T), init_##T, call_##T, output}
+#define GROWN(T, oldest, output) {#T, sizeof(dmb_##T), oldest, init_##T, call_##T, output}
 
 static const entry entries[] = {
     ENTRY(allocator, 0), ENTRY(model_options, 0), ENTRY(environment_def, 0), ENTRY(term, 0), ENTRY(wall_def, 0),
     ENTRY(string_def, 0), ENTRY(pipe_def, 0), ENTRY(body_def, 0), ENTRY(bit_def, 0), ENTRY(drive_def, 0),
-    ENTRY(load_def, 0), ENTRY(compile_options, 0), ENTRY(sim_options, 0), ENTRY(static_options, 0),
-    ENTRY(model_info, 1), ENTRY(step_report, 1), ENTRY(static_report, 1), ENTRY(pose, 1), ENTRY(motion, 1),
+    ENTRY(load_def, 0), ENTRY(compile_options, 0), GROWN(sim_options, 96, 0), ENTRY(static_options, 0),
+    GROWN(model_info, 72, 1), ENTRY(step_report, 1), ENTRY(static_report, 1), ENTRY(pose, 1), ENTRY(motion, 1),
     ENTRY(section, 1), ENTRY(contact, 1), ENTRY(contact_sum, 1), ENTRY(energy, 1), ENTRY(momentum, 1),
-    ENTRY(drive_state, 1), ENTRY(bit_state, 1), ENTRY(statistics, 1), ENTRY(recorder, 0),
-    {"advance's report", sizeof(dmb_step_report), init_step_report, call_advance_report, 1},
+    ENTRY(drive_state, 1), ENTRY(bit_state, 1), GROWN(statistics, 72, 1), ENTRY(recorder, 0),
+    ENTRY(joint_state, 1), ENTRY(joint_def, 0), ENTRY(coupling_def, 0), ENTRY(constraint_def, 0),
+    {"advance's report", sizeof(dmb_step_report), sizeof(dmb_step_report), init_step_report, call_advance_report, 1},
 };
 enum { ENTRIES = sizeof entries / sizeof entries[0] };
 
@@ -275,7 +328,8 @@ static void wrong_size_is_refused(void **state)
     (void)state;
     for (size_t i = 0; i < ENTRIES; i++) {
         const uint32_t known = (uint32_t)entries[i].size;
-        const uint32_t wrong[] = {0, 1, 4, 8, known - 8, known - 1, known + 1, known + 4, known + 1032, 0x7FFFFFF8u,
+        const uint32_t oldest = (uint32_t)entries[i].oldest;
+        const uint32_t wrong[] = {0, 1, 4, 8, oldest - 8, known - 1, known + 1, known + 4, known + 1032, 0x7FFFFFF8u,
                                   0xFFFFFFF8u, UINT32_MAX};
         for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
             any_struct s = filled(&entries[i]);
@@ -334,7 +388,8 @@ static void init_refuses_wrong_sizes(void **state)
     (void)state;
     for (size_t i = 0; i < ENTRIES; i++) {
         const uint32_t known = (uint32_t)entries[i].size;
-        const uint32_t wrong[] = {0, 1, known - 8, known - 4, known + 4, known + 1032, UINT32_MAX - 7, UINT32_MAX};
+        const uint32_t oldest = (uint32_t)entries[i].oldest;
+        const uint32_t wrong[] = {0, 1, oldest - 8, known - 4, known + 4, known + 1032, UINT32_MAX - 7, UINT32_MAX};
         any_struct s, before;
         assert_int_equal(entries[i].init(NULL, known), DMB_ERR_NULL);
         for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
@@ -343,6 +398,19 @@ static void init_refuses_wrong_sizes(void **state)
             assert_int_equal(entries[i].init(&s, wrong[k]), DMB_ERR_STRUCT_SIZE);
             assert_memory_equal(&s, &before, sizeof s);
         }
+    }
+}
+
+/* A caller of an older header: what it does not have is left alone, or by default. */
+static void older_struct_is_taken(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < ENTRIES; i++) {
+        any_struct s;
+        memset(&s, 0x5A, sizeof s);
+        assert_int_equal(entries[i].init(&s, (uint32_t)entries[i].oldest), DMB_OK);
+        const int32_t status = call_with(&entries[i], &s, entries[i].oldest);
+        if (status < 0) fail_msg("%s: %s", entries[i].name, dmb_status_name(status));
     }
 }
 
@@ -383,7 +451,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(size_as_in_this_header_is_taken), TEST(wrong_size_is_refused), TEST(zeros_are_refused),
-        TEST(memory_of_ones_is_refused), TEST(longer_struct_is_taken), TEST(longer_struct_with_content_is_refused),
+        TEST(memory_of_ones_is_refused), TEST(longer_struct_is_taken), TEST(older_struct_is_taken), TEST(longer_struct_with_content_is_refused),
         TEST(init_refuses_wrong_sizes), TEST(init_stays_within_its_size), TEST(terms_of_different_size_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -41,11 +41,12 @@ static void refused(const char *what, int32_t status, int32_t wanted)
 
 /* ---- Ids --------------------------------------------------------------------------------------------------------- */
 
-enum { STRING, BODY, BIT, DRIVE, PROGRAMME, WALL, KINDS };
+enum { STRING, BODY, BIT, DRIVE, PROGRAMME, WALL, JOINT, COUPLING, CONSTRAINT, KINDS };
 
 static dmb_id id_of(const whole_parts *parts, int kind)
 {
-    const dmb_id ids[KINDS] = {parts->string, parts->body, parts->bit, parts->feed, parts->step, parts->wall};
+    const dmb_id ids[KINDS] = {parts->string, parts->body, parts->bit, parts->feed,  parts->step,
+                               parts->wall,   parts->axle, parts->gear, parts->watch};
     return ids[kind];
 }
 
@@ -96,6 +97,17 @@ static int32_t ask_reaction(dmb_id id)
     double answer[6];
     return dmb_query_reaction(scene.sim, id, answer);
 }
+static int32_t ask_joint(dmb_id id)
+{
+    dmb_joint_state answer = dmb_joint_state_default();
+    return dmb_query_joint(scene.sim, id, &answer);
+}
+static int32_t ask_multipliers(dmb_id id)
+{
+    double answer[6];
+    uint32_t count;
+    return dmb_query_multipliers(scene.sim, id, answer, &count);
+}
 static int32_t record(dmb_id id, int32_t quantity)
 {
     dmb_recorder recorder = dmb_recorder_default();
@@ -129,7 +141,7 @@ static int32_t record_normal_force(dmb_id id)
     return record(id, DMB_CHANNEL_NORMAL_FORCE);
 }
 
-/*                                            string body bit drive programme wall */
+/*                                            string body bit drive programme wall joint coupling constraint */
 static const question questions[] = {
     {"pose", ask_pose,                           {1, 1, 1, 0, 0, 0}},
     {"motion", ask_motion,                       {1, 1, 1, 0, 0, 0}},
@@ -137,6 +149,8 @@ static const question questions[] = {
     {"kinetic_energy", ask_kinetic_energy,       {1, 1, 1, 0, 0, 0}},
     {"drive", ask_drive,                         {0, 0, 0, 1, 0, 0}},
     {"bit", ask_bit,                             {0, 0, 1, 0, 0, 0}},
+    {"joint", ask_joint,                         {0, 0, 0, 0, 0, 0, 1}},
+    {"multipliers", ask_multipliers,             {0, 0, 0, 0, 0, 0, 1, 1, 1}}, /* of motion drives on joints too */
     {"record position", record_position,         {1, 1, 1, 0, 0, 0}},
     {"record drive", record_drive,               {0, 0, 0, 1, 0, 0}},
     {"record bit", record_bit,                   {0, 0, 1, 0, 0, 0}},
@@ -158,13 +172,13 @@ static void wrong_kind_of_id_is_refused(void **state)
 /* Sections and reactions are of strings and bodies; what they say of the others is their own. */
 static void sections_and_reactions_refuse_other_ids(void **state)
 {
-    static const int kinds[] = {DRIVE, PROGRAMME, WALL};
+    static const int kinds[] = {DRIVE, PROGRAMME, WALL, JOINT, COUPLING, CONSTRAINT};
     (void)state;
     refused("section", ask_section(scene.parts.string), DMB_OK);
     refused("section of a body", ask_section(scene.parts.body), DMB_ERR_UNSUPPORTED);
     refused("reaction", ask_reaction(scene.parts.string), DMB_OK);
     refused("reaction on a body", ask_reaction(scene.parts.body), DMB_OK);
-    for (size_t i = 0; i < 3; i++) {
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         refused("section", ask_section(id_of(&scene.parts, kinds[i])), DMB_ERR_ID);
         refused("reaction", ask_reaction(id_of(&scene.parts, kinds[i])), DMB_ERR_ID);
     }
@@ -176,6 +190,7 @@ static void all_refuse(dmb_id id)
     refused("section", ask_section(id), DMB_ERR_ID);
     refused("reaction", ask_reaction(id), DMB_ERR_ID);
     refused("set_drive", dmb_sim_set_drive(scene.sim, id, 1.0), DMB_ERR_ID);
+    refused("set_joint", dmb_sim_set_joint(scene.sim, id, DMB_JOINT_OPEN), DMB_ERR_ID);
 }
 
 static void id_of_another_model_is_refused(void **state)
@@ -194,7 +209,7 @@ static void made_up_ids_are_refused(void **state)
     all_refuse((dmb_id){scene.parts.string.index, 0});
     all_refuse((dmb_id){scene.parts.string.index, own + 1});
     for (uint32_t kind = 0; kind < 256; kind += 5) all_refuse((dmb_id){kind << 24 | 0xFFFFFFu, own});
-    for (uint32_t kind = 0; kind < 8; kind++) all_refuse((dmb_id){kind << 24 | 100u, own});
+    for (uint32_t kind = 0; kind < 12; kind++) all_refuse((dmb_id){kind << 24 | 100u, own});
 }
 
 /* Describing with ids of another model, or of another kind. */
@@ -210,6 +225,9 @@ static void definitions_refuse_strange_ids(void **state)
         dmb_bit_def bit = dmb_bit_def_default();
         dmb_drive_def drive = dmb_drive_def_default();
         dmb_load_def load = dmb_load_def_default();
+        dmb_joint_def joint = dmb_joint_def_default();
+        dmb_coupling_def coupling = dmb_coupling_def_default();
+        dmb_constraint_def constraint = dmb_constraint_def_default();
         pipe.string = body.string = bit.string = strange[i];
         body.attach = DMB_ATTACH_END;
         refused("pipes", dmb_model_add_pipes(model, &pipe, 1, NULL), DMB_ERR_ID);
@@ -231,6 +249,16 @@ static void definitions_refuse_strange_ids(void **state)
         load.place = dmb_station(parts.string, 0, 1.0);
         load.programme = strange[i];
         refused("load's programme", dmb_model_add_load(model, &load, NULL), DMB_ERR_ID);
+        joint.place_b = dmb_station(parts.string, 0, 1.0);
+        joint.place_a = dmb_station(strange[i], 0, 0.0);
+        refused("joint's place a", dmb_model_add_joint(model, &joint, NULL), DMB_ERR_ID);
+        joint.place_a = dmb_station(parts.string, 0, 0.0);
+        joint.place_b = dmb_station(strange[i], 0, 0.0);
+        refused("joint's place b", dmb_model_add_joint(model, &joint, NULL), DMB_ERR_ID);
+        coupling.joint[0] = coupling.joint[1] = strange[i];
+        refused("coupling's joint", dmb_model_add_coupling(model, &coupling, NULL), DMB_ERR_ID);
+        constraint.place[0] = dmb_station(strange[i], 0, 0.0);
+        refused("constraint's place", dmb_model_add_constraint(model, &constraint, NULL), DMB_ERR_ID);
         assert_true(dmb_model_message(model)[0] != '\0');
     }
     whole_must(model, dmb_model_compile(model, NULL)); /* none of it has been taken */
@@ -284,6 +312,7 @@ static void other_numbers_of_questions_are_checked(void **state)
     dmb_motion motion = dmb_motion_default();
     dmb_model_info info = dmb_model_info_default();
     static const int32_t frames[] = {-1, DMB_FRAME_HOLE, 3, INT32_MAX, INT32_MIN};
+    dmb_joint_state joint = dmb_joint_state_default();
     double energy = 3.0;
     (void)state;
     assert_int_equal(dmb_model_get_info(scene.model, &info), DMB_OK);
@@ -295,6 +324,8 @@ static void other_numbers_of_questions_are_checked(void **state)
     assert_true(energy == 3.0);
     for (size_t i = 0; i < sizeof frames / sizeof frames[0]; i++) {
         motion.frame = frames[i];
+        joint.frame = frames[i];
+        refused("frame", dmb_query_joint(scene.sim, scene.parts.hinge, &joint), DMB_ERR_VALUE);
         refused("frame", dmb_query_motion(scene.sim, dmb_station(scene.parts.string, 0, 0.0), &motion), DMB_ERR_VALUE);
     }
 }
@@ -356,6 +387,30 @@ static void drives_are_set_to_numbers(void **state)
         refused("id", dmb_sim_set_drive(scene.sim, id_of(&scene.parts, kind), 1.0), DMB_ERR_ID);
     }
     assert_true(dmb_sim_message(scene.sim)[0] != '\0');
+}
+
+static void joints_are_set_to_states(void **state)
+{
+    static const int32_t bad[] = {-1, 3, INT32_MIN, INT32_MAX};
+    (void)state;
+    for (size_t i = 0; i < 4; i++) {
+        refused("state", dmb_sim_set_joint(scene.sim, scene.parts.hinge, bad[i]), DMB_ERR_VALUE);
+        assert_non_null(strstr(dmb_sim_message(scene.sim), "state"));
+    }
+    for (int kind = 0; kind < KINDS; kind++) {
+        if (kind == JOINT) continue;
+        refused("id", dmb_sim_set_joint(scene.sim, id_of(&scene.parts, kind), DMB_JOINT_OPEN), DMB_ERR_ID);
+    }
+}
+
+static void motion_drive_on_a_joint_has_a_multiplier(void **state)
+{
+    double answer[6];
+    uint32_t count = 0;
+    (void)state;
+    refused("motion", dmb_query_multipliers(scene.sim, scene.parts.winding, answer, &count), DMB_OK);
+    assert_int_equal(count, 1);
+    refused("motion", dmb_sim_set_drive(scene.sim, scene.parts.winding, 1.0), DMB_ERR_UNSUPPORTED);
 }
 
 /* A load beyond all bounds: the steps fail, or the answers stay finite. */
@@ -443,6 +498,8 @@ static void option_counts_out_of_bounds_are_refused(void **state)
     refuses_count(offsetof(dmb_sim_options, bounded_work), UINT32_MAX);
     refuses_count(offsetof(dmb_sim_options, energy_ledger), 2);
     refuses_count(offsetof(dmb_sim_options, energy_ledger), UINT32_MAX);
+    refuses_count(offsetof(dmb_sim_options, constraint_method), 2);
+    refuses_count(offsetof(dmb_sim_options, constraint_method), UINT32_MAX);
 }
 
 /* The bounds themselves are taken. */
@@ -623,7 +680,8 @@ int main(void)
         TEST(id_of_another_model_is_refused), TEST(made_up_ids_are_refused), TEST(definitions_refuse_strange_ids),
         TEST(places_off_the_string_are_refused), TEST(other_numbers_of_questions_are_checked),
         TEST(durations_that_lead_nowhere_are_refused), TEST(endless_duration_ends),
-        TEST(times_that_are_not_ahead_are_refused), TEST(drives_are_set_to_numbers),
+        TEST(times_that_are_not_ahead_are_refused), TEST(drives_are_set_to_numbers), TEST(joints_are_set_to_states),
+        TEST(motion_drive_on_a_joint_has_a_multiplier),
         TEST(huge_drive_does_no_harm), TEST(option_numbers_out_of_bounds_are_refused),
         TEST(option_counts_out_of_bounds_are_refused), TEST(options_at_their_bounds_are_taken),
         TEST(allocator_needs_both_functions), TEST(static_options_out_of_bounds_are_refused),

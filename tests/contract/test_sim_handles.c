@@ -182,6 +182,12 @@ static void no_answer(void **state)
     dmb_model_destroy(&r.model);
 }
 
+/* Size in the first release: structs that have grown since take callers of then. */
+static uint32_t first_size_of(const named_call *of)
+{
+    return strcmp(of->name, "dmb_query_statistics") == 0 ? 72 : of->struct_size;
+}
+
 /* struct_size too short, odd or absurd. */
 static void wrong_struct_sizes(void **state)
 {
@@ -195,7 +201,8 @@ static void wrong_struct_sizes(void **state)
     const dmb_id parts[] = {r.string, r.torque, r.bit};
     somewhere = dmb_station(r.string, 1, 0.5);
     for (size_t i = 0; i < CALLS; i++) {
-        const uint32_t good = calls[i].struct_size, sizes[] = {0, 4, good - 8, good + 4, good + 100000, UINT32_MAX};
+        const uint32_t good = calls[i].struct_size, first = first_size_of(calls + i);
+        const uint32_t sizes[] = {0, 4, first - 8, good + 4, good + 100000, UINT32_MAX};
         if (good == 0) continue;
         for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
             int32_t status = DMB_ERR_ID;

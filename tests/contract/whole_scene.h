@@ -1,6 +1,7 @@
 /* A scene with every kind of part, for the contract tests: a curved hole, a string of all three kinds of pipes with
  * tool joints, eccentricity, a rig head and a regenerative bit, a second string, a body of its own, drives of all kinds
- * with programmes of all kinds, dead and follower loads. Small enough to be run some thousand times. */
+ * with programmes of all kinds, dead and follower loads; an arm hinged to the body and hung from the string by springs,
+ * with a wheel that is geared and driven, and a function that watches. Small enough to be run some thousand times. */
 #ifndef DMB_TESTS_WHOLE_SCENE_H
 #define DMB_TESTS_WHOLE_SCENE_H
 
@@ -22,6 +23,7 @@ typedef struct whole_parts {
     dmb_id wall, string, second, head, body, bit;
     dmb_id constant, step, step5, harmonic, table, smooth, plain;
     dmb_id feed, turning, pushing, spinning;
+    dmb_id arm, wheel, hinge, axle, spring, gear, watch, winding;
     int32_t callback_status; /* what the callbacks return; not 0: they fail */
 } whole_parts;
 
@@ -310,6 +312,107 @@ static inline int32_t whole_add_follower(dmb_model *model, whole_parts *parts)
     return dmb_model_add_load(model, &load, NULL);
 }
 
+/* ---- Joints ------------------------------------------------------------------------------------------------------ */
+
+static inline int32_t whole_add_one_body(dmb_model *model, double x, double y, dmb_id *id)
+{
+    dmb_body_def body = dmb_body_def_default();
+    body.mass = 2.0;
+    body.position[0] = x;
+    body.position[1] = y;
+    body.position[2] = -0.005;
+    body.velocity[0] = 0.1;
+    return dmb_model_add_body(model, &body, id);
+}
+
+static inline int32_t whole_add_arm(dmb_model *model, whole_parts *parts)
+{
+    return whole_add_one_body(model, 5.3, 0.0, &parts->arm);
+}
+
+static inline int32_t whole_add_wheel(dmb_model *model, whole_parts *parts)
+{
+    return whole_add_one_body(model, 5.6, 0.2, &parts->wheel);
+}
+
+/* The arm turns about y of the body, up to a stop, with friction. */
+static inline int32_t whole_add_hinge(dmb_model *model, whole_parts *parts)
+{
+    dmb_joint_def joint = dmb_joint_def_default();
+    joint.kind = DMB_JOINT_REVOLUTE;
+    joint.place_a = dmb_station(parts->body, 0, 0.0);
+    joint.place_b = dmb_station(parts->arm, 0, 0.0);
+    joint.axis_a[0] = 0.0;
+    joint.axis_a[1] = 1.0;
+    joint.match = 1;
+    joint.friction[DMB_RX] = 0.01;
+    joint.stop_high[DMB_RX] = 0.05;
+    joint.stop_stiffness = 100.0;
+    return dmb_model_add_joint(model, &joint, &parts->hinge);
+}
+
+/* The wheel turns on the arm. */
+static inline int32_t whole_add_axle(dmb_model *model, whole_parts *parts)
+{
+    dmb_joint_def joint = dmb_joint_def_default();
+    joint.kind = DMB_JOINT_CYLINDRICAL;
+    joint.place_a = dmb_station(parts->arm, 0, 0.0);
+    joint.place_b = dmb_station(parts->wheel, 0, 0.0);
+    joint.match = 1;
+    memcpy(joint.name, "axle", 5);
+    return dmb_model_add_joint(model, &joint, &parts->axle);
+}
+
+static inline int32_t whole_add_spring(dmb_model *model, whole_parts *parts)
+{
+    dmb_joint_def joint = dmb_joint_def_default();
+    joint.kind = DMB_JOINT_FREE;
+    joint.place_a = dmb_station(parts->string, 3, 1.0);
+    joint.place_b = dmb_station(parts->arm, 0, 0.0);
+    joint.match = 1;
+    joint.stiffness[DMB_Y] = joint.stiffness[DMB_Z] = 50.0;
+    joint.damping[DMB_Z] = 5.0;
+    return dmb_model_add_joint(model, &joint, &parts->spring);
+}
+
+/* The wheel moves along its axle as it turns. */
+static inline int32_t whole_add_gear(dmb_model *model, whole_parts *parts)
+{
+    dmb_coupling_def coupling = dmb_coupling_def_default();
+    coupling.joint[0] = coupling.joint[1] = parts->axle;
+    coupling.component[0] = DMB_X;
+    coupling.ratio = 0.01;
+    return dmb_model_add_coupling(model, &coupling, &parts->gear);
+}
+
+/* The arm keeps its place across. */
+static inline int32_t whole_level(void *context, double time, uint32_t count, const double (*poses)[12], double *value,
+                                  double *jacobian)
+{
+    const whole_parts *parts = context;
+    (void)time, (void)count, (void)jacobian;
+    value[0] = poses[0][1];
+    return parts->callback_status;
+}
+
+static inline int32_t whole_add_watch(dmb_model *model, whole_parts *parts)
+{
+    dmb_constraint_def constraint = dmb_constraint_def_default();
+    constraint.place[0] = dmb_station(parts->arm, 0, 0.0);
+    constraint.callback = whole_level;
+    constraint.callback_context = parts;
+    return dmb_model_add_constraint(model, &constraint, &parts->watch);
+}
+
+static inline int32_t whole_add_winding(dmb_model *model, whole_parts *parts)
+{
+    dmb_drive_def drive = dmb_drive_def_default();
+    drive.part = parts->axle;
+    drive.component = DMB_RX;
+    drive.programme = parts->smooth;
+    return dmb_model_add_drive(model, &drive, &parts->winding);
+}
+
 /* ---- The whole --------------------------------------------------------------------------------------------------- */
 
 static inline int32_t whole_compile(dmb_model *model, whole_parts *parts)
@@ -326,7 +429,8 @@ static const whole_call whole_calls[] = {
     whole_add_smooth, whole_add_plain, whole_add_wall, whole_add_string, whole_add_path_pipes,
     whole_add_flexible_pipes, whole_add_rigid_pipes, whole_add_last_pipe, whole_add_second, whole_add_second_pipes,
     whole_add_head, whole_add_body, whole_add_bit, whole_add_feed, whole_add_turning, whole_add_pushing,
-    whole_add_spinning, whole_add_dead_load, whole_add_follower, whole_compile};
+    whole_add_spinning, whole_add_dead_load, whole_add_follower, whole_add_arm, whole_add_wheel, whole_add_hinge,
+    whole_add_axle, whole_add_spring, whole_add_gear, whole_add_watch, whole_add_winding, whole_compile};
 enum { WHOLE_CALLS = sizeof whole_calls / sizeof whole_calls[0] };
 
 static inline void whole_must(const dmb_model *model, int32_t status)
@@ -383,9 +487,11 @@ typedef struct whole_answers {
     dmb_energy energy;
     dmb_momentum momentum;
     dmb_drive_state drive;
+    dmb_joint_state joint;
     dmb_bit_state bit;
     dmb_statistics statistics;
-    double rotation, kinetic_energy, reaction[6];
+    double rotation, kinetic_energy, reaction[6], multipliers[6];
+    uint32_t multiplier_count, reserved;
     dmb_channel channels[WHOLE_CHANNELS];
     double table[WHOLE_ROWS * (1 + WHOLE_CHANNELS)];
     dmb_recorder recorder;
@@ -404,6 +510,7 @@ static inline void whole_answers_init(whole_answers *a, const whole_parts *parts
     a->energy = dmb_energy_default();
     a->momentum = dmb_momentum_default();
     a->drive = dmb_drive_state_default();
+    a->joint = dmb_joint_state_default();
     a->bit = dmb_bit_state_default();
     a->statistics = dmb_statistics_default();
     for (uint32_t i = 0; i < WHOLE_CHANNELS; i++) a->channels[i].quantity = quantities[i];
@@ -439,6 +546,8 @@ static inline int32_t whole_ask(const dmb_sim *sim, const whole_parts *parts, wh
     WHOLE_ASK(dmb_query_momentum(sim, &a->momentum));
     WHOLE_ASK(dmb_query_drive(sim, parts->turning, &a->drive));
     WHOLE_ASK(dmb_query_reaction(sim, parts->second, a->reaction));
+    WHOLE_ASK(dmb_query_joint(sim, parts->hinge, &a->joint));
+    WHOLE_ASK(dmb_query_multipliers(sim, parts->axle, a->multipliers, &a->multiplier_count));
     WHOLE_ASK(dmb_query_bit(sim, parts->bit, &a->bit));
     WHOLE_ASK(dmb_query_statistics(sim, &a->statistics));
     WHOLE_ASK(dmb_recorder_take(&a->recorder, sim));

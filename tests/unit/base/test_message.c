@@ -67,6 +67,19 @@ static void fields(void **state)
     assert_string_equal(m.text, "");
 }
 
+static void names_of_parts(void **state)
+{
+    const char unfinished[4] = {'r', 'o', 'd', 's'};
+    dmb_message m;
+    (void)state;
+    assert_string_equal(dmb_part_text(&m, "joint", 3, "crank", 6), "joint 3 (crank)");
+    assert_ptr_equal(dmb_part_text(&m, "joint", 3, "", 1), m.text);
+    assert_string_equal(m.text, "joint 3");
+    assert_string_equal(dmb_part_text(&m, "coupling", 0, unfinished, 4), "coupling 0");
+    assert_string_equal(dmb_part_text(&m, "coupling", 1, "100%s", 6), "coupling 1 (100%s)");
+    assert_string_equal(dmb_part_text(&m, "joint", 3, "", 0), "joint 3");
+}
+
 static void no_message(void **state)
 {
     (void)state;
@@ -82,6 +95,7 @@ int main(void)
         cmocka_unit_test(conversions_it_does_not_know),
         cmocka_unit_test(too_long_a_text_is_cut),
         cmocka_unit_test(fields),
+        cmocka_unit_test(names_of_parts),
         cmocka_unit_test(no_message),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -13,6 +13,9 @@
     X(dmb_pipe_def)        \
     X(dmb_body_def)        \
     X(dmb_bit_def)         \
+    X(dmb_joint_def)       \
+    X(dmb_coupling_def)    \
+    X(dmb_constraint_def)  \
     X(dmb_drive_def)       \
     X(dmb_load_def)        \
     X(dmb_compile_options) \
@@ -27,6 +30,7 @@
     X(dmb_energy)          \
     X(dmb_momentum)        \
     X(dmb_drive_state)     \
+    X(dmb_joint_state)     \
     X(dmb_bit_state)       \
     X(dmb_statistics)      \
     X(dmb_recorder)        \
@@ -147,6 +151,45 @@ static void bodies_and_bits(void **state)
     assert_int_equal(t.history, 1024);
 }
 
+static void joints(void **state)
+{
+    const dmb_joint_def j = dmb_joint_def_default();
+    (void)state;
+    assert_int_equal(j.kind, DMB_JOINT_FIXED);
+    assert_string_equal(j.name, "");
+    assert_int_equal(j.place_a.part.generation, 0);
+    assert_near(j.axis_a[0], 1.0, 0.0);
+    assert_near(j.axis_b[0], 1.0, 0.0);
+    assert_int_equal(j.match, 0);
+    assert_int_equal(j.state, DMB_JOINT_ACTIVE);
+    assert_near(j.length, 1.0, 0.0);
+    assert_near(j.friction_speed, 1e-3, 0.0);
+    assert_near(j.stop_stiffness, 1e6, 0.0);
+    assert_near(j.stop_damping, 0.0, 0.0);
+    assert_int_equal(j.initial_mask, 0);
+    for (int k = 0; k < 6; ++k) {
+        assert_near(j.stiffness[k] + j.damping[k] + j.rest[k] + j.friction[k], 0.0, 0.0);
+        assert_near(j.stop_low[k], -1e30, 0.0);
+        assert_near(j.stop_high[k], 1e30, 0.0);
+        assert_near(j.initial_position[k] + j.initial_speed[k], 0.0, 0.0);
+    }
+}
+
+static void couplings_and_constraints(void **state)
+{
+    const dmb_coupling_def c = dmb_coupling_def_default();
+    const dmb_constraint_def f = dmb_constraint_def_default();
+    (void)state;
+    assert_int_equal(c.component[0], DMB_RX);
+    assert_int_equal(c.component[1], DMB_RX);
+    assert_near(c.ratio, 1.0, 0.0);
+    assert_int_equal(f.kind, DMB_CONSTRAINT_HOLONOMIC);
+    assert_int_equal(f.rows, 1);
+    assert_int_equal(f.count, 1);
+    assert_int_equal(f.provides, 0);
+    assert_null(f.callback);
+}
+
 static void actions_and_options(void **state)
 {
     const dmb_drive_def d = dmb_drive_def_default();
@@ -179,6 +222,7 @@ static void runs_and_analyses(void **state)
     assert_int_equal(s.max_cuts, 12);
     assert_int_equal(s.bounded_work, 0);
     assert_int_equal(s.energy_ledger, 1);
+    assert_int_equal(s.constraint_method, DMB_METHOD_INDEPENDENT);
     assert_int_equal(a.max_iterations, 60);
     assert_near(a.tolerance, 1e-10, 0.0);
     assert_int_equal(a.load_steps, 1);
@@ -193,6 +237,8 @@ int main(void)
         TEST(wall),
         TEST(strings_and_pipes),
         TEST(bodies_and_bits),
+        TEST(joints),
+        TEST(couplings_and_constraints),
         TEST(actions_and_options),
         TEST(runs_and_analyses),
     };

@@ -1,0 +1,253 @@
+#include "constraint/joint.h"
+
+#include "math/mat6.h"
+#include "math/so3.h"
+
+#define FLAT 1e-12 /* [-] sine of an angle below which the direction of the rest is rounding error */
+
+/* Dot-product rows, in their order, and free coordinates. */
+enum { P_X = 1, P_Y = 2, P_Z = 4, R_YX = 8, R_ZX = 16, R_YZ = 32, P = P_X | P_Y | P_Z };
+enum { X = 1, Y = 2, Z = 4, RX = 8, RY = 16, RZ = 32, ALL = 63 };
+
+typedef struct row_kind {
+    uint32_t count; /* of all rows */
+    uint32_t held;  /* dot-product rows among them */
+    uint32_t free;  /* coordinates */
+} row_kind;
+
+static const row_kind kinds[DMB_ROWS_KINDS] = {
+    [DMB_ROWS_FIXED] = {6, P | R_YX | R_ZX | R_YZ, 0},
+    [DMB_ROWS_REVOLUTE] = {5, P | R_YX | R_ZX, RX},
+    [DMB_ROWS_PRISMATIC] = {5, P_Y | P_Z | R_YX | R_ZX | R_YZ, X},
+    [DMB_ROWS_CYLINDRICAL] = {4, P_Y | P_Z | R_YX | R_ZX, X | RX},
+    [DMB_ROWS_UNIVERSAL] = {4, P | R_YZ, RY | RZ},
+    [DMB_ROWS_SPHERICAL] = {3, P, RX | RY | RZ},
+    [DMB_ROWS_PLANAR] = {3, P_X | R_YX | R_ZX, Y | Z | RX},
+    [DMB_ROWS_POINT_ON_LINE] = {2, P_Y | P_Z, X | RX | RY | RZ},
+    [DMB_ROWS_POINT_ON_HOLE] = {2, P_Y | P_Z, 0},
+    [DMB_ROWS_DISTANCE] = {1, 0, ALL},
+    [DMB_ROWS_FREE] = {0, 0, ALL},
+    [DMB_ROWS_KNIFE_EDGE] = {1, 0, ALL},
+    [DMB_ROWS_ROLLING] = {3, 0, ALL},
+};
+
+uint32_t dmb_joint_row_count(int32_t kind)
+{
+    return kinds[kind].count;
+}
+
+uint32_t dmb_joint_free_mask(int32_t kind)
+{
+    return kinds[kind].free;
+}
+
+/* One more row, of zeros but for its value. */
+static uint32_t add_row(uint32_t holonomic, double value, dmb_joint_rows *rows)
+{
+    const uint32_t k = rows->count++;
+    rows->holonomic |= holonomic << k;
+    rows->value[k] = value;
+    for (int i = 0; i < 6; i++) rows->J[k][i] = rows->JV[k][i] = 0.0;
+    return k;
+}
+
+/* Rows p_i - p0_i and r_i . a_j, r_i = R^T e_i, of the pairs ij = yx, zx, yz. a_j: row j of A, an axis fixed in b.
+ *     (p_i)' = r_i . u    (r_i . a_j)' = w . (a_j x r_i)    r_i' = r_i x w */
+static void dot_rows(uint32_t held, const double A[9], const double p0[3], const double R[9], const double p[3],
+                     const double V[6], dmb_joint_rows *rows)
+{
+    static const int pair[3][2] = {{1, 0}, {2, 0}, {1, 2}};
+    for (int i = 0; i < 3; i++) {
+        if ((held & ((uint32_t)P_X << i)) == 0) continue;
+        const uint32_t k = add_row(1, p[i] - p0[i], rows);
+        dmb_vec3_copy(R + 3 * i, rows->J[k]);
+        dmb_vec3_cross(R + 3 * i, V + 3, rows->JV[k]);
+    }
+    for (int i = 0; i < 3; i++) {
+        if ((held & ((uint32_t)R_YX << i)) == 0) continue;
+        const double *r = R + 3 * pair[i][0], *a = A + 3 * pair[i][1];
+        const uint32_t k = add_row(1, dmb_vec3_dot(r, a), rows);
+        double rate[3];
+        dmb_vec3_cross(a, r, rows->J[k] + 3);
+        dmb_vec3_cross(r, V + 3, rate);
+        dmb_vec3_cross(a, rate, rows->JV[k] + 3);
+    }
+}
+
+/* |p| - length. With q = R^T p = |p| e and q' = u + q x w: J = (e; 0), e' = (q' - e (e.q'))/|p|. */
+static void distance_row(double length, const double R[9], const double p[3], const double V[6], dmb_joint_rows *rows)
+{
+    const double distance = dmb_vec3_norm(p);
+    const uint32_t k = add_row(1, distance - length, rows);
+    double q[3], rate[3], *e = rows->J[k];
+    if (distance == 0.0) return;
+    dmb_mat3_tvec(R, p, q);
+    dmb_vec3_scale(1.0 / distance, q, e);
+    dmb_vec3_cross(q, V + 3, rate);
+    dmb_vec3_add(V, rate, rate);
+    dmb_vec3_axpy(-dmb_vec3_dot(e, rate), e, rate);
+    dmb_vec3_scale(1.0 / distance, rate, rows->JV[k]);
+}
+
+/* A direction n of frame a leaning on the x axis of b, in axes of b: n = n_x x - s m with s >= 0 and x, t, m
+ * right-handed, so t = (0, -n_z, n_y)/s. In rotation w
+ *     n' = n x w    s' = -n_x t.w    t' = c m    m' = -c t    c = -w_x - (n_x/s) m.w
+ * Where n is along x there is no t: t, m, c, s' and 1/s are 0. */
+typedef struct lean {
+    double n[3], t[3], m[3], s, inverse; /* inverse: 1/s */
+    double rate[3], s_rate, c;           /* rate: n' */
+} lean;
+
+static void lean_at(const double n[3], const double w[3], lean *l)
+{
+    dmb_vec3_copy(n, l->n);
+    dmb_vec3_cross(n, w, l->rate);
+    l->s = sqrt(n[1] * n[1] + n[2] * n[2]);
+    l->inverse = l->s > FLAT ? 1.0 / l->s : 0.0;
+    dmb_vec3_set(0.0, -n[2] * l->inverse, n[1] * l->inverse, l->t);
+    dmb_vec3_set(0.0, -n[1] * l->inverse, -n[2] * l->inverse, l->m);
+    l->s_rate = -n[0] * dmb_vec3_dot(l->t, w);
+    l->c = l->inverse > 0.0 ? -w[0] - n[0] * l->inverse * dmb_vec3_dot(l->m, w) : 0.0;
+}
+
+/* The rim's lowest point is at r m, m of the normal n = R^T e_x of the plane, and its velocity u + w x r m along
+ *     n:  (n; r n_x t)    t: (t; -r x)    t2 = n x t = s x + n_x m:  (t2; r s t)
+ * The first is also the derivative of p_x - r s. */
+static void rolling_rows(double r, const double R[9], const double p[3], const double V[6], dmb_joint_rows *rows)
+{
+    lean l;
+    lean_at(R, V + 3, &l);
+    const uint32_t up = add_row(1, p[0] - r * l.s, rows);
+    const uint32_t along = add_row(0, 0.0, rows);
+    const uint32_t across = add_row(0, 0.0, rows);
+    dmb_vec3_copy(l.n, rows->J[up]);
+    dmb_vec3_scale(r * l.n[0], l.t, rows->J[up] + 3);
+    dmb_vec3_copy(l.rate, rows->JV[up]);
+    dmb_vec3_scale(r * l.rate[0], l.t, rows->JV[up] + 3);
+    dmb_vec3_axpy(r * l.n[0] * l.c, l.m, rows->JV[up] + 3);
+    if (l.inverse == 0.0) return;
+
+    dmb_vec3_copy(l.t, rows->J[along]);
+    rows->J[along][3] = -r;
+    dmb_vec3_scale(l.c, l.m, rows->JV[along]);
+
+    dmb_vec3_scale(l.n[0], l.m, rows->J[across]);
+    rows->J[across][0] += l.s;
+    dmb_vec3_scale(r * l.s, l.t, rows->J[across] + 3);
+    dmb_vec3_scale(l.rate[0], l.m, rows->JV[across]);
+    dmb_vec3_axpy(-l.n[0] * l.c, l.t, rows->JV[across]);
+    rows->JV[across][0] += l.s_rate;
+    dmb_vec3_scale(r * l.s_rate, l.t, rows->JV[across] + 3);
+    dmb_vec3_axpy(r * l.s * l.c, l.m, rows->JV[across] + 3);
+}
+
+void dmb_joint_rows_at(int32_t kind, double length, const double R[9], const double p[3], const double V[6],
+                       dmb_joint_rows *rows)
+{
+    static const double axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, origin[3] = {0, 0, 0};
+    rows->count = rows->holonomic = 0;
+    dot_rows(kinds[kind].held, axes, origin, R, p, V, rows);
+    if (kind == DMB_ROWS_DISTANCE) distance_row(length, R, p, V, rows);
+    if (kind == DMB_ROWS_KNIFE_EDGE) rows->J[add_row(0, 0.0, rows)][1] = 1.0;
+    if (kind == DMB_ROWS_ROLLING) rolling_rows(length, R, p, V, rows);
+}
+
+/* Rhat_ij = e_i^T R R0^T e_j = r_i . (row j of R0) */
+void dmb_joint_locked_at(const double R0[9], const double p0[3], const double R[9], const double p[3],
+                         const double V[6], dmb_joint_rows *rows)
+{
+    rows->count = rows->holonomic = 0;
+    dot_rows(kinds[DMB_ROWS_FIXED].held, R0, p0, R, p, V, rows);
+}
+
+/* Column j of W = sum_k f_k JV_k^T, JV being the derivative of J along direction j: JV is linear in the motion, so six
+ * unit motions give W. */
+static void set_column(int j, uint32_t count, double JV[][6], const double *f, double W[36])
+{
+    for (int i = 0; i < 6; i++) {
+        double sum = 0.0;
+        for (uint32_t k = 0; k < count; k++) sum += f[k] * JV[k][i];
+        W[6 * i + j] = sum;
+    }
+}
+
+void dmb_joint_rows_tangent(int32_t kind, double length, const double R[9], const double p[3], const double *f,
+                            double W[36])
+{
+    for (int j = 0; j < 6; j++) {
+        double V[6] = {0.0};
+        dmb_joint_rows rows;
+        V[j] = 1.0;
+        dmb_joint_rows_at(kind, length, R, p, V, &rows);
+        set_column(j, rows.count, rows.JV, f, W);
+    }
+}
+
+void dmb_joint_locked_tangent(const double R0[9], const double p0[3], const double R[9], const double p[3],
+                              const double f[6], double W[36])
+{
+    for (int j = 0; j < 6; j++) {
+        double V[6] = {0.0};
+        dmb_joint_rows rows;
+        V[j] = 1.0;
+        dmb_joint_locked_at(R0, p0, R, p, V, &rows);
+        set_column(j, rows.count, rows.JV, f, W);
+    }
+}
+
+/* The angle, modulo a turn, next to `near` */
+static double on_turn_of(double near, double angle)
+{
+    return angle + 2.0 * DMB_PI * round((near - angle) / (2.0 * DMB_PI));
+}
+
+/* With n = R^T e_y leaning on x of b, s = cos RZ, the gradients of the angles by w are, R being orthogonal,
+ *     RX: x + (n_x/s) m    RY: -m/s    RZ: t */
+static void angle_gradients(const lean *l, dmb_joint_coordinates *c)
+{
+    const double q = l->n[0] * l->inverse;
+    const double inverse_rate = -l->s_rate * l->inverse * l->inverse;
+    const double q_rate = l->rate[0] * l->inverse + l->n[0] * inverse_rate;
+    if (l->inverse == 0.0) return;
+    dmb_vec3_scale(q, l->m, c->J[3] + 3);
+    c->J[3][3] += 1.0;
+    dmb_vec3_scale(q_rate, l->m, c->JV[3] + 3);
+    dmb_vec3_axpy(-q * l->c, l->t, c->JV[3] + 3);
+
+    dmb_vec3_scale(-l->inverse, l->m, c->J[4] + 3);
+    dmb_vec3_scale(-inverse_rate, l->m, c->JV[4] + 3);
+    dmb_vec3_axpy(l->inverse * l->c, l->t, c->JV[4] + 3);
+
+    dmb_vec3_copy(l->t, c->J[5] + 3);
+    dmb_vec3_scale(l->c, l->m, c->JV[5] + 3);
+}
+
+void dmb_joint_coordinates_at(const double R[9], const double p[3], const double V[6], const double near[2],
+                              dmb_joint_coordinates *c)
+{
+    lean l;
+    for (int k = 0; k < 6; k++)
+        for (int i = 0; i < 6; i++) c->J[k][i] = c->JV[k][i] = 0.0;
+    for (int k = 0; k < 3; k++) {
+        c->value[k] = p[k];
+        dmb_vec3_copy(R + 3 * k, c->J[k]);
+        dmb_vec3_cross(R + 3 * k, V + 3, c->JV[k]);
+    }
+    lean_at(R + 3, V + 3, &l);
+    c->value[3] = l.inverse > 0.0 ? on_turn_of(near[0], atan2(-R[5], R[4])) : near[0];
+    c->value[4] = l.inverse > 0.0 ? on_turn_of(near[1], atan2(-R[6], R[0])) : near[1];
+    c->value[5] = atan2(R[3], l.s); /* asin loses half the digits near a right angle */
+    angle_gradients(&l, c);
+}
+
+void dmb_joint_coordinates_tangent(const double R[9], const double p[3], const double f[6], double W[36])
+{
+    static const double near[2] = {0.0, 0.0};
+    for (int j = 0; j < 6; j++) {
+        double V[6] = {0.0};
+        dmb_joint_coordinates c;
+        V[j] = 1.0;
+        dmb_joint_coordinates_at(R, p, V, near, &c);
+        set_column(j, 6, c.JV, f, W);
+    }
+}

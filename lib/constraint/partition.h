@@ -1,0 +1,78 @@
+/* Partition of the coordinates of a cluster of constraint rows into dependent and independent ones,
+ *
+ *     B x = 0,   B = [C_d, C_i] (rows x columns),   x_d = G x_i,   G = -C_d^-1 C_i,   null space R = [G; I]
+ *
+ * by Gaussian elimination with complete pivoting on rows scaled to unit length in weighted columns (Wehage, Haug 1982).
+ * Rows that vanish under elimination are redundant. The choice is kept as an order of rows and columns, so that later
+ * matrices of the same cluster are factored without search; `quality` tells when it should be made anew.
+ * Dense, row-major, no allocation: all storage is the caller's. Same input, same bits.
+ *
+ *     choose            at the start, and when the quality has fallen
+ *     factor            each new B; then solve, solve_transposed, null_space, least_norm
+ *     gram, project     by themselves: they need the choice and B, not the factors */
+#ifndef DMB_CONSTRAINT_PARTITION_H
+#define DMB_CONSTRAINT_PARTITION_H
+
+#include <stdint.h>
+
+/* A row whose rest after elimination is below this part of its length is redundant: no entry of it is larger. */
+#define DMB_RANK_TOLERANCE 1e-8
+
+/* The choice: the first `rank` of row_order are the pivot rows, of column_order the dependent columns, pivot k being
+ * (row_order[k], column_order[k]); the rest are redundant rows and independent columns, ascending. */
+typedef struct dmb_partition {
+    uint32_t rows, columns; /* of the matrix */
+    uint32_t rank;
+    uint32_t reserved;
+    uint32_t *row_order;    /* shape (rows) */
+    uint32_t *column_order; /* shape (columns) */
+} dmb_partition;
+
+/* Chooses; rows, columns and the two arrays come from the caller, their content and the rank are filled.
+ * B: shape (rows, stride >= columns), left alone. weight: shape (columns), >= 0, column j is measured in units of
+ * weight[j] (B_ij * weight[j]); a column with weight 0 cannot be dependent, and what a row has in such columns does not
+ * count for its length and the rank: B R = 0 holds for redundant rows in columns with a weight.
+ * work: rows * columns + rows doubles.
+ * Among candidates equal to within 1e-6 the lowest row wins, in it the lowest column, so that rounding does not decide.
+ * Returns the quality: smallest over largest scaled pivot; 1 when the rank is 0. Rows of zeros (shorter than 1e-300)
+ * are redundant. A row that is not finite is taken for one of zeros and makes the quality 0. */
+double dmb_partition_choose(const double *B, uint32_t stride, const double *weight, double *work,
+                            dmb_partition *partition);
+
+/* Factors C_d of the pivot rows and dependent columns (rank x rank) into lu, with row exchanges pivot[rank]; returns
+ * the quality of this matrix under the present choice, measured as in choosing (scaled rows and columns):
+ *
+ *     smallest pivot / largest of the pivots and of the entries of pivot rows, independent columns included.
+ *
+ * In choosing the first pivot is the largest entry, so both qualities of one matrix agree (to 1e-6). It is by the
+ * entries that the quality of a single row, too, falls when it turns away from its dependent column.
+ * Rank 0: 1. Singular: 0, where a pivot is zero or not finite, or a pivot row shorter than 1e-300 or not finite; lu is
+ * of no use then. */
+double dmb_partition_factor(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
+                            double *lu, uint32_t *pivot);
+/* x := C_d^-1 x, x: shape (rank), in the order of the pivot rows on entry and of the dependent columns on return. */
+void dmb_partition_solve(const dmb_partition *partition, const double *lu, const uint32_t *pivot, double *x);
+/* x := C_d^-T x, from the order of dependent columns to that of pivot rows: multipliers from what dependent rows
+ * lack. */
+void dmb_partition_solve_transposed(const dmb_partition *partition, const double *lu, const uint32_t *pivot, double *x);
+/* G = -C_d^-1 C_i, shape (rank, columns - rank), row-major; rows and columns in the order of column_order. */
+void dmb_partition_null_space(const double *B, uint32_t stride, const dmb_partition *partition, const double *lu,
+                              const uint32_t *pivot, double *G);
+
+/* Projection in the metric 1/weight^2: x = W^2 B^T (B W^2 B^T)^-1 d over the pivot rows, the shortest x (in units of
+ * weight) with B x = d. Columns of weight 0 do not move. */
+/* Factors B W^2 B^T of the pivot rows (Cholesky) into gram, shape (rank, rank), of which the part above the diagonal is
+ * not touched. 0; or -1 if a pivot is at most 1e-16 of its diagonal or not finite. */
+int32_t dmb_partition_gram(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
+                           double *gram);
+/* d: shape (rank), in the order of pivot rows, overwritten; x: shape (columns), natural order, overwritten. */
+void dmb_partition_project(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
+                           const double *gram, double *d, double *x);
+
+/* Multipliers f of all rows (shape (rows), natural order) are replaced by those of the least norm with the same B^T f
+ * (in columns with a weight). Redundant rows have 0 on entry as a rule; other values are taken into account.
+ * work: exactly (rows - rank) * rows doubles. */
+void dmb_partition_least_norm(const double *B, uint32_t stride, const dmb_partition *partition, const double *lu,
+                              const uint32_t *pivot, double *work, double *f);
+
+#endif

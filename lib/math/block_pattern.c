@@ -1,0 +1,274 @@
+/* Symbolic elimination. With the blocks numbered by position, row i of the factor has an entry in column k < i exactly
+ * where k can be reached from a neighbour of i below i by climbing the elimination tree, whose parent of k is the first
+ * later block that k is coupled with (Liu, The role of elimination trees in sparse factorization, 1990). Climbing from
+ * each neighbour until it meets what is marked already costs one step for each entry. Rows come in ascending order, so
+ * that the entries of each column come out sorted. */
+#include "math/block_pattern.h"
+
+#include <string.h>
+
+#include "base/allocator.h"
+#include "base/arena.h"
+#include "base/checked_size.h"
+#include "math/fill_order.h"
+
+#define NONE UINT32_MAX
+
+/* What the making of a pattern needs for its own time. */
+typedef struct analysis {
+    uint32_t n;
+    size_t ends;                           /* length of the lists of neighbours, repetitions included */
+    int32_t *start, *neighbour, *unsorted; /* (n+1) (ends) (ends) the graph by blocks */
+    int32_t *next;                         /* (n) where the list of a block ends so far */
+    uint32_t *order, *position;            /* (n) */
+    uint32_t *parent, *mark, *count;       /* (n) by position: the tree, the last row that came by, entries so far */
+    void *block;
+    size_t block_size;
+} analysis;
+
+static void lay_out_analysis(dmb_arena *arena, analysis *s)
+{
+    s->start = DMB_ARENA_ARRAY(arena, int32_t, (size_t)s->n + 1);
+    s->neighbour = DMB_ARENA_ARRAY(arena, int32_t, s->ends);
+    s->unsorted = DMB_ARENA_ARRAY(arena, int32_t, s->ends);
+    s->next = DMB_ARENA_ARRAY(arena, int32_t, s->n);
+    s->order = DMB_ARENA_ARRAY(arena, uint32_t, s->n);
+    s->position = DMB_ARENA_ARRAY(arena, uint32_t, s->n);
+    s->parent = DMB_ARENA_ARRAY(arena, uint32_t, s->n);
+    s->mark = DMB_ARENA_ARRAY(arena, uint32_t, s->n);
+    s->count = DMB_ARENA_ARRAY(arena, uint32_t, s->n);
+}
+
+static void lay_out_pattern(dmb_arena *arena, dmb_block_pattern *p)
+{
+    p->order = DMB_ARENA_ARRAY(arena, uint32_t, p->n);
+    p->position = DMB_ARENA_ARRAY(arena, uint32_t, p->n);
+    p->column = DMB_ARENA_ARRAY(arena, uint32_t, (size_t)p->n + 1);
+    p->later = DMB_ARENA_ARRAY(arena, uint32_t, p->entries);
+    p->pivot = DMB_ARENA_ARRAY(arena, size_t, p->n);
+    p->diagonal = DMB_ARENA_ARRAY(arena, size_t, p->n);
+    p->upper = DMB_ARENA_ARRAY(arena, size_t, p->entries);
+    p->lower = DMB_ARENA_ARRAY(arena, size_t, p->entries);
+}
+
+static int32_t take_analysis(const dmb_allocator *allocator, analysis *s)
+{
+    dmb_arena arena;
+    dmb_arena_count(&arena);
+    lay_out_analysis(&arena, s);
+    s->block_size = dmb_arena_block_size(&arena);
+    if (s->block_size == SIZE_MAX) return DMB_ERR_TOO_LARGE;
+    s->block = dmb_allocate(allocator, s->block_size);
+    if (s->block == NULL) return DMB_ERR_NO_MEMORY;
+    dmb_arena_place(&arena, s->block, s->block_size);
+    lay_out_analysis(&arena, s);
+    return DMB_OK;
+}
+
+static int32_t take_pattern(const dmb_allocator *allocator, dmb_block_pattern *p)
+{
+    dmb_arena arena;
+    dmb_arena_count(&arena);
+    lay_out_pattern(&arena, p);
+    p->block_size = dmb_arena_block_size(&arena);
+    if (p->block_size == SIZE_MAX) return DMB_ERR_TOO_LARGE;
+    p->block = dmb_allocate(allocator, p->block_size);
+    if (p->block == NULL) return DMB_ERR_NO_MEMORY;
+    dmb_arena_place(&arena, p->block, p->block_size);
+    lay_out_pattern(&arena, p);
+    return DMB_OK;
+}
+
+/* start: where the neighbours of each block begin, counted from the edges. */
+static void count_neighbours(analysis *s, uint32_t edge_count, const dmb_block_edge *edges)
+{
+    for (uint32_t e = 0; e < edge_count; e++) {
+        if (edges[e].a == edges[e].b) continue;
+        s->start[edges[e].a + 1]++;
+        s->start[edges[e].b + 1]++;
+    }
+    for (uint32_t i = 0; i < s->n; i++) s->start[i + 1] += s->start[i];
+}
+
+static void list_as_given(analysis *s, uint32_t edge_count, const dmb_block_edge *edges)
+{
+    for (uint32_t i = 0; i < s->n; i++) s->next[i] = s->start[i];
+    for (uint32_t e = 0; e < edge_count; e++) {
+        const uint32_t a = edges[e].a, b = edges[e].b;
+        if (a == b) continue;
+        s->unsorted[s->next[a]++] = (int32_t)b;
+        s->unsorted[s->next[b]++] = (int32_t)a;
+    }
+}
+
+/* Going through the lists by ascending block i and writing i to each of its neighbours sorts them all. A repetition
+ * then follows its like, and is left out. The result does not depend on how the caller put its edges. */
+static void list_sorted(analysis *s)
+{
+    for (uint32_t i = 0; i < s->n; i++) s->next[i] = s->start[i];
+    for (uint32_t i = 0; i < s->n; i++)
+        for (int32_t e = s->start[i]; e < s->start[i + 1]; e++) {
+            const int32_t j = s->unsorted[e];
+            if (s->next[j] > s->start[j] && s->neighbour[s->next[j] - 1] == (int32_t)i) continue;
+            s->neighbour[s->next[j]++] = (int32_t)i;
+        }
+}
+
+/* Closes the gaps that the repetitions left. */
+static void pack(analysis *s)
+{
+    int32_t end = 0;
+    for (uint32_t i = 0; i < s->n; i++) {
+        const int32_t begin = s->start[i];
+        s->start[i] = end;
+        for (int32_t e = begin; e < s->next[i]; e++) s->neighbour[end++] = s->neighbour[e];
+    }
+    s->start[s->n] = end;
+}
+
+/* Row i of the factor: its columns are counted and, where later is not NULL, written to. */
+static void eliminate_row(analysis *s, uint32_t i, const uint32_t *column, uint32_t *later)
+{
+    const uint32_t block = s->order[i];
+    s->mark[i] = i;
+    for (int32_t e = s->start[block]; e < s->start[block + 1]; e++) {
+        uint32_t k = s->position[s->neighbour[e]];
+        if (k > i) continue;
+        for (; s->mark[k] != i; k = s->parent[k]) {
+            if (s->parent[k] == NONE) s->parent[k] = i;
+            if (later != NULL) later[column[k] + s->count[k]] = i;
+            s->count[k]++;
+            s->mark[k] = i;
+        }
+    }
+}
+
+static void eliminate(analysis *s, const uint32_t *column, uint32_t *later)
+{
+    for (uint32_t k = 0; k < s->n; k++) {
+        s->mark[k] = NONE;
+        s->count[k] = 0;
+    }
+    for (uint32_t i = 0; i < s->n; i++) eliminate_row(s, i, column, later);
+}
+
+/* The graph, the order and the number of entries in each column. */
+static int32_t analyse(analysis *s, uint32_t edge_count, const dmb_block_edge *edges)
+{
+    count_neighbours(s, edge_count, edges);
+    list_as_given(s, edge_count, edges);
+    list_sorted(s);
+    pack(s);
+    const int32_t status = dmb_fill_reducing_order(s->n, s->start, s->neighbour, s->order);
+    if (status < 0) return status;
+    for (uint32_t k = 0; k < s->n; k++) {
+        s->position[s->order[k]] = k;
+        s->parent[k] = NONE;
+    }
+    eliminate(s, NULL, NULL);
+    return DMB_OK;
+}
+
+static bool count_entries(const analysis *s, dmb_block_pattern *p)
+{
+    uint64_t entries = 0;
+    for (uint32_t k = 0; k < s->n; k++) entries += s->count[k];
+    if (entries >= UINT32_MAX) return false;
+    p->entries = (uint32_t)entries;
+    p->fill = p->entries - (uint32_t)s->start[s->n] / 2;
+    return true;
+}
+
+static void fill_structure(analysis *s, dmb_block_pattern *p)
+{
+    memcpy(p->order, s->order, sizeof(uint32_t) * s->n);
+    memcpy(p->position, s->position, sizeof(uint32_t) * s->n);
+    for (uint32_t k = 0; k < s->n; k++) p->column[k + 1] = p->column[k] + s->count[k];
+    eliminate(s, p->column, p->later);
+}
+
+/* Takes rows x columns doubles from the values; false when they overflow. */
+static bool place(dmb_block_pattern *p, uint32_t rows, uint32_t columns, size_t *offset)
+{
+    size_t length;
+    *offset = p->values;
+    return dmb_checked_mul_size(rows, columns, &length) && dmb_checked_add_size(p->values, length, &p->values) &&
+           p->values <= SIZE_MAX / sizeof(double);
+}
+
+/* Each position's blocks one after the other, so that factoring walks through memory. */
+static bool fill_places(const uint32_t *capacity, dmb_block_pattern *p)
+{
+    for (uint32_t k = 0; k < p->n; k++) {
+        const uint32_t own = capacity[p->order[k]];
+        double c = own, d = 0.0;
+        p->pivot[k] = p->rows;
+        if (!dmb_checked_add_size(p->rows, own, &p->rows) || !place(p, own, own, &p->diagonal[k])) return false;
+        for (uint32_t e = p->column[k]; e < p->column[k + 1]; e++) {
+            const uint32_t other = capacity[p->order[p->later[e]]];
+            if (!place(p, own, other, &p->upper[e]) || !place(p, other, own, &p->lower[e])) return false;
+            d += other;
+        }
+        p->flops += 2.0 * c * (c * c / 3.0 + c * d + d * d);
+    }
+    return true;
+}
+
+static int32_t make(const dmb_allocator *allocator, analysis *s, const uint32_t *capacity, uint32_t edge_count,
+                    const dmb_block_edge *edges, dmb_block_pattern *p)
+{
+    int32_t status = analyse(s, edge_count, edges);
+    if (status < 0) return status;
+    if (!count_entries(s, p)) return DMB_ERR_TOO_LARGE;
+    status = take_pattern(allocator, p);
+    if (status < 0) return status;
+    fill_structure(s, p);
+    if (fill_places(capacity, p)) return DMB_OK;
+    dmb_block_pattern_release(p, allocator);
+    return DMB_ERR_TOO_LARGE;
+}
+
+int32_t dmb_block_pattern_make(const dmb_allocator *allocator, uint32_t n, const uint32_t *capacity,
+                               uint32_t edge_count, const dmb_block_edge *edges, dmb_block_pattern *pattern)
+{
+    analysis s = {.n = n, .ends = 2 * (size_t)edge_count};
+    dmb_block_pattern made = {.n = n};
+    if (n >= INT32_MAX || edge_count > INT32_MAX / 2) return DMB_ERR_TOO_LARGE; /* CHOLMOD counts in int */
+    for (uint32_t i = 0; i < n; i++)
+        if (capacity[i] > DMB_BLOCK_CAPACITY_MAX) return DMB_ERR_TOO_LARGE;
+    int32_t status = take_analysis(allocator, &s);
+    if (status < 0) return status;
+    status = make(allocator, &s, capacity, edge_count, edges, &made);
+    dmb_release(allocator, s.block, s.block_size);
+    if (status == DMB_OK) *pattern = made;
+    return status;
+}
+
+void dmb_block_pattern_release(dmb_block_pattern *pattern, const dmb_allocator *allocator)
+{
+    dmb_release(allocator, pattern->block, pattern->block_size);
+    memset(pattern, 0, sizeof *pattern);
+}
+
+uint32_t dmb_block_pattern_entry(const dmb_block_pattern *pattern, uint32_t low, uint32_t high)
+{
+    uint32_t begin = pattern->column[low], end = pattern->column[low + 1];
+    while (begin < end) {
+        const uint32_t middle = begin + (end - begin) / 2;
+        if (pattern->later[middle] == high) return middle;
+        if (pattern->later[middle] < high)
+            begin = middle + 1;
+        else
+            end = middle;
+    }
+    return DMB_BLOCK_NO_ENTRY;
+}
+
+size_t dmb_block_pattern_offset(const dmb_block_pattern *pattern, uint32_t i, uint32_t j)
+{
+    const uint32_t p = pattern->position[i], q = pattern->position[j];
+    if (p == q) return pattern->diagonal[p];
+    const uint32_t e = dmb_block_pattern_entry(pattern, p < q ? p : q, p < q ? q : p);
+    if (e == DMB_BLOCK_NO_ENTRY) return DMB_BLOCK_NO_OFFSET;
+    return p < q ? pattern->upper[e] : pattern->lower[e];
+}

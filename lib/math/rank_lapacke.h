@@ -1,0 +1,28 @@
+/* Rank of a set of equations, by QR with column pivoting of the transposed matrix (LAPACK dgeqp3), and the singular values
+ * at its two ends (dgesvd). For analyses only: no step calls this. No allocation: LAPACK works in the caller's memory. */
+#ifndef DMB_MATH_RANK_LAPACKE_H
+#define DMB_MATH_RANK_LAPACKE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Above so many equations or coordinates singular values are estimated by the diagonal of R. */
+enum { DMB_RANK_SINGULAR_MAX = 300 };
+
+typedef struct dmb_rank {
+    uint32_t rank;
+    int32_t exact;            /* 1: the two values below are singular values, 0: estimates */
+    double largest, smallest; /* [-] first and rank-th singular value; 1 and 1 where the rank is 0 */
+} dmb_rank;
+
+/* Doubles of work for a matrix of that shape; SIZE_MAX if that overflows. */
+size_t dmb_rank_work(uint32_t rows, uint32_t columns);
+
+/* B: shape (rows, columns), row-major, left alone. Rows are scaled to unit length in columns times weight (>= 0), as a
+ * partition does (constraint/partition.h); rows of zeros (shorter than 1e-300) and rows that are not finite count as
+ * redundant. Row k of R ends the rank when its diagonal is at most `tolerance`.
+ * order: shape (rows): the first `rank` rows are independent, the rest redundant, in the order of pivoting. */
+void dmb_rank_of_rows(const double *B, uint32_t rows, uint32_t columns, const double *weight, double tolerance,
+                      double *work, int32_t *order, dmb_rank *out);
+
+#endif

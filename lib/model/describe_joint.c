@@ -1,0 +1,198 @@
+/* Joints and couplings of their coordinates. */
+#include "constraint/joint.h"
+#include "math/vec3.h"
+#include "model/defaults.h"
+#include "model/describe.h"
+#include "model/field_check.h"
+#include "model/frame_axes.h"
+#include "model/limits.h"
+
+/* ---- Joints ------------------------------------------------------------------------------------------------------ */
+
+static bool same_place(const dmb_place *a, const dmb_place *b)
+{
+    return a->part.index == b->part.index && a->part.generation == b->part.generation && a->pipe == b->pipe &&
+           !(a->fraction < b->fraction) && !(a->fraction > b->fraction);
+}
+
+static void check_places(dmb_check *check, const dmb_model *model, const dmb_joint_def *def)
+{
+    const bool ground = dmb_id_is_none(def->place_a.part);
+    if (!ground) dmb_check_place(check, model, "place_a", &def->place_a);
+    if (ground && dmb_id_is_none(def->place_b.part) && check->status >= 0) {
+        check->status = DMB_ERR_VALUE;
+        dmb_message_set(check->message, "%s: place_b = the ground as place_a, must be on a part", check->part);
+    }
+    dmb_check_place(check, model, "place_b", &def->place_b);
+    if (check->status < 0 || !same_place(&def->place_a, &def->place_b)) return;
+    check->status = DMB_ERR_VALUE;
+    dmb_message_set(check->message, "%s: place_b = place_a, must be on another part", check->part);
+}
+
+static void check_axes(dmb_check *check, const char *axis_field, const double axis[3], const char *normal_field,
+                       const double normal[3])
+{
+    double M[9];
+    dmb_check_all_finite(check, axis_field, axis, 3);
+    dmb_check_all_finite(check, normal_field, normal, 3);
+    if (check->status < 0 || dmb_frame_axes(axis, normal, M)) return;
+    if (fabs(axis[0]) > 0.0 || fabs(axis[1]) > 0.0 || fabs(axis[2]) > 0.0) {
+        dmb_check_fail(check, DMB_ERR_VALUE, normal_field, dmb_vec3_norm(normal), "0 or away from the axis");
+    } else {
+        dmb_check_fail(check, DMB_ERR_VALUE, axis_field, 0.0, "of length > 0");
+    }
+}
+
+/* Frame b does not count where it is found by matching, nor frame a where it is the hole's. */
+static void check_frames(dmb_check *check, const dmb_joint_def *def)
+{
+    const double reach = dmb_id_is_none(def->place_a.part) ? DMB_POSITION_MAX : DMB_LENGTH_MAX;
+    dmb_check_choice(check, "match", def->match, 0, def->kind == DMB_JOINT_POINT_ON_HOLE ? 0 : 1);
+    dmb_check_each_within(check, "origin_a", def->origin_a, 3, -reach, reach);
+    check_axes(check, "axis_a", def->axis_a, "normal_a", def->normal_a);
+    if (def->match != 0) return;
+    dmb_check_each_within(check, "origin_b", def->origin_b, 3, -DMB_LENGTH_MAX, DMB_LENGTH_MAX);
+    check_axes(check, "axis_b", def->axis_b, "normal_b", def->normal_b);
+}
+
+static void check_stops(dmb_check *check, const dmb_joint_def *def)
+{
+    dmb_message field, other;
+    dmb_check_each_within(check, "stop_low", def->stop_low, 6, -DMB_STOP_MAX, DMB_STOP_MAX);
+    dmb_check_each_within(check, "stop_high", def->stop_high, 6, -DMB_STOP_MAX, DMB_STOP_MAX);
+    for (unsigned k = 0; k < 6 && check->status >= 0; ++k) {
+        dmb_message_set(&field, "stop_high[%u]", k);
+        dmb_message_set(&other, "stop_low[%u]", k);
+        dmb_check_above_field(check, field.text, def->stop_high[k], other.text, def->stop_low[k]);
+    }
+    dmb_check_within(check, "stop_stiffness", def->stop_stiffness, DMB_STIFFNESS_MIN, DMB_STIFFNESS_MAX);
+    dmb_check_within(check, "stop_damping", def->stop_damping, 0.0, DMB_DAMPING_MAX);
+}
+
+static void check_laws(dmb_check *check, const dmb_joint_def *def)
+{
+    dmb_check_each_within(check, "stiffness", def->stiffness, 6, 0.0, DMB_STIFFNESS_MAX);
+    dmb_check_each_within(check, "damping", def->damping, 6, 0.0, DMB_DAMPING_MAX);
+    dmb_check_each_within(check, "rest", def->rest, 6, -DMB_POSITION_MAX, DMB_POSITION_MAX);
+    dmb_check_each_within(check, "friction", def->friction, 6, 0.0, DMB_FORCE_MAX);
+    dmb_check_within(check, "friction_speed", def->friction_speed, DMB_SPEED_MIN, DMB_SPEED_MAX);
+    check_stops(check, def);
+}
+
+/* The place along the hole is not a coordinate with an origin of its own, so no law can act on it. */
+static void check_bare(dmb_check *check, const dmb_joint_def *def)
+{
+    const dmb_joint_def none = dmb_joint_def_default();
+    dmb_message field;
+    for (unsigned k = 0; k < 6 && check->status >= 0; ++k) {
+        const double given[] = {def->stiffness[k], def->damping[k], def->friction[k], def->stop_low[k],
+                                def->stop_high[k]};
+        const double allowed[] = {0.0, 0.0, 0.0, none.stop_low[k], none.stop_high[k]};
+        static const char *const name[] = {"stiffness", "damping", "friction", "stop_low", "stop_high"};
+        for (int i = 0; i < 5; ++i) {
+            if (!(given[i] < allowed[i]) && !(given[i] > allowed[i])) continue;
+            dmb_message_set(&field, "%s[%u]", name[i], k);
+            dmb_check_fail(check, DMB_ERR_VALUE, field.text, given[i], "left alone for DMB_JOINT_POINT_ON_HOLE");
+        }
+    }
+}
+
+static void check_point_on_hole(dmb_check *check, const dmb_joint_def *def)
+{
+    if (def->kind != DMB_JOINT_POINT_ON_HOLE || check->status < 0) return;
+    if (!dmb_id_is_none(def->place_a.part)) {
+        check->status = DMB_ERR_VALUE;
+        dmb_message_set(check->message, "%s: place_a.part = {%u, %u}, must be {0, 0}: the ground, that of the hole",
+                        check->part, def->place_a.part.index, def->place_a.part.generation);
+    }
+    check_bare(check, def);
+}
+
+static void check_initial(dmb_check *check, const dmb_joint_def *def)
+{
+    if (check->status < 0) return; /* the kind may be none */
+    dmb_check_mask(check, "initial_mask", def->initial_mask, (int32_t)dmb_joint_free_mask(def->kind));
+    dmb_check_each_within(check, "initial_position", def->initial_position, 6, -DMB_POSITION_MAX, DMB_POSITION_MAX);
+    dmb_check_each_within(check, "initial_speed", def->initial_speed, 6, -DMB_SPEED_MAX, DMB_SPEED_MAX);
+}
+
+static int32_t check_joint(dmb_model *model, const dmb_joint_def *def)
+{
+    const bool sized = def->kind == DMB_JOINT_DISTANCE || def->kind == DMB_JOINT_ROLLING;
+    dmb_message part;
+    dmb_check check = dmb_check_of(
+        &model->message, dmb_part_text(&part, "joint", model->joints.count, def->name, sizeof def->name), DMB_NO_INDEX);
+    dmb_check_name(&check, "name", def->name, sizeof def->name);
+    dmb_check_choice(&check, "kind", def->kind, DMB_JOINT_FIXED, DMB_JOINT_ROLLING);
+    check_places(&check, model, def);
+    check_frames(&check, def);
+    dmb_check_choice(&check, "state", def->state, DMB_JOINT_ACTIVE, DMB_JOINT_OPEN);
+    dmb_check_within(&check, "length", def->length, sized ? DMB_LENGTH_MIN : 0.0, DMB_LENGTH_MAX);
+    check_laws(&check, def);
+    check_point_on_hole(&check, def);
+    check_initial(&check, def);
+    return check.status;
+}
+
+int32_t dmb_model_add_joint(dmb_model *model, const dmb_joint_def *def, dmb_id *joint)
+{
+    dmb_joint_def read = dmb_joint_def_default();
+    int32_t status = dmb_describe_open(model, def);
+    if (status < 0) return status;
+    status = dmb_joint_def_read(&read, def);
+    if (status >= 0) status = check_joint(model, &read);
+    if (status >= 0) status = dmb_describe_append(model, &model->joints, &read, sizeof read, DMB_PART_JOINT, joint);
+    return dmb_describe_close(model, "joint", status);
+}
+
+/* ---- Couplings --------------------------------------------------------------------------------------------------- */
+
+static void check_coordinate(dmb_check *check, const dmb_model *model, const dmb_coupling_def *def, uint32_t side)
+{
+    const uint32_t joint = dmb_model_part_index(model, def->joint[side], DMB_PART_JOINT);
+    dmb_message field, name, bound;
+    dmb_message_set(&field, "joint[%u]", side);
+    dmb_check_id(check, model, field.text, def->joint[side], DMB_PART_JOINT, "joint");
+    dmb_message_set(&field, "component[%u]", side);
+    dmb_check_choice(check, field.text, def->component[side], DMB_X, DMB_RZ);
+    if (check->status < 0) return;
+    const dmb_joint_def *of = DMB_LIST_AT(const dmb_joint_def, model->joints, joint);
+    if ((dmb_joint_free_mask(of->kind) >> def->component[side] & 1) != 0) return;
+    dmb_message_set(&bound, "free in its joint: %s", dmb_part_text(&name, "joint", joint, of->name, sizeof of->name));
+    dmb_check_fail(check, DMB_ERR_VALUE, field.text, def->component[side], bound.text);
+}
+
+static int32_t check_coupling(dmb_model *model, const dmb_coupling_def *def)
+{
+    dmb_message part;
+    dmb_check check = dmb_check_of(
+        &model->message, dmb_part_text(&part, "coupling", model->couplings.count, def->name, sizeof def->name),
+        DMB_NO_INDEX);
+    dmb_check_name(&check, "name", def->name, sizeof def->name);
+    check_coordinate(&check, model, def, 0);
+    check_coordinate(&check, model, def, 1);
+    if (def->joint[0].index == def->joint[1].index && def->component[0] == def->component[1]) {
+        dmb_check_fail(&check, DMB_ERR_VALUE, "component[1]", def->component[1],
+                       "another coordinate than component[0] of the same joint");
+    }
+    dmb_check_finite(&check, "ratio", def->ratio);
+    if (!(fabs(def->ratio) >= DMB_RATIO_MIN && fabs(def->ratio) <= DMB_RATIO_MAX)) {
+        dmb_message bound;
+        dmb_message_set(&bound, "of size >= %g and <= %g", DMB_RATIO_MIN, DMB_RATIO_MAX);
+        dmb_check_fail(&check, DMB_ERR_VALUE, "ratio", def->ratio, bound.text);
+    }
+    return check.status;
+}
+
+int32_t dmb_model_add_coupling(dmb_model *model, const dmb_coupling_def *def, dmb_id *coupling)
+{
+    dmb_coupling_def read = dmb_coupling_def_default();
+    int32_t status = dmb_describe_open(model, def);
+    if (status < 0) return status;
+    status = dmb_coupling_def_read(&read, def);
+    if (status >= 0) status = check_coupling(model, &read);
+    if (status >= 0) {
+        status = dmb_describe_append(model, &model->couplings, &read, sizeof read, DMB_PART_COUPLING, coupling);
+    }
+    return dmb_describe_close(model, "coupling", status);
+}

@@ -1,0 +1,253 @@
+/* Joints, couplings and the caller's constraints, from the parts they are described on to frames on nodes. */
+#include <string.h>
+
+#include "math/mat6.h"
+#include "math/so3.h"
+#include "model/field_check.h"
+#include "model/frame_axes.h"
+#include "model/mesh_place.h"
+
+enum { SPAN_ELEMENTS_MAX = 1024 }; /* elements whose spans are summed; over more of them a difference is as exact */
+
+/* ---- Places ------------------------------------------------------------------------------------------------------ */
+
+static dmb_check check_of(dmb_mesh *mesh, dmb_message *part, const char *kind, uint32_t index, const char name[24])
+{
+    return dmb_check_of(&mesh->model->message, dmb_part_text(part, kind, index, name, 24), DMB_NO_INDEX);
+}
+
+static void check_pipe(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place)
+{
+    const uint32_t string = dmb_model_part_index(mesh->model, place->part, DMB_PART_STRING);
+    dmb_message name;
+    if (string == UINT32_MAX) return;
+    dmb_message_set(&name, "%s.pipe", field);
+    dmb_check_count(check, name.text, place->pipe, 0, dmb_mesh_string_at(mesh, string)->pipe_count - 1);
+}
+
+/* PATH nodes turn with the axis where it is curved, and a joint would feel that: not offered. */
+static void check_node(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place, uint32_t node)
+{
+    dmb_message name;
+    if (dmb_mesh_node_at(mesh, node)->size == DMB_NODE_FULL || !mesh->has_hole || dmb_hole_is_straight(&mesh->hole))
+        return;
+    dmb_message_set(&name, "%s.pipe", field);
+    dmb_check_fail(check, DMB_ERR_UNSUPPORTED, name.text, place->pipe,
+                   "flexible or rigid, or not axial-torsional in a curved hole");
+}
+
+/* The node of a place and the arm to it; false with the check failed. */
+static bool find_place(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place,
+                       dmb_mesh_place *found)
+{
+    dmb_message name;
+    check_pipe(check, mesh, field, place);
+    if (check->status < 0) return false;
+    if (!dmb_mesh_place_of(mesh, place, found)) {
+        dmb_message_set(&name, "%s.fraction", field);
+        dmb_check_fail(check, DMB_ERR_VALUE, name.text, place->fraction, "a node: 0, 1 or k/elements");
+        return false;
+    }
+    check_node(check, mesh, field, place, found->node);
+    return check->status >= 0;
+}
+
+/* ---- Frames ------------------------------------------------------------------------------------------------------ */
+
+static dmb_scene_frame ground_frame(void)
+{
+    dmb_scene_frame frame = {.node = UINT32_MAX};
+    dmb_mat3_identity(frame.M);
+    return frame;
+}
+
+static dmb_scene_frame frame_at(const dmb_mesh_place *place)
+{
+    dmb_scene_frame frame = ground_frame();
+    frame.node = place->node;
+    frame.x[0] = place->arm;
+    return frame;
+}
+
+/* Turned and shifted from the place as described; the axes were checked then. */
+static void set_frame(const double origin[3], const double axis[3], const double normal[3], dmb_scene_frame *frame)
+{
+    dmb_vec3_add(frame->x, origin, frame->x);
+    (void)dmb_frame_axes(axis, normal, frame->M);
+}
+
+static bool on_one_string(const dmb_mesh_node *a, const dmb_mesh_node *b)
+{
+    return a->string == b->string && a->string != UINT32_MAX;
+}
+
+/* Sum of the spans of the elements from node `from` to node `to` of one string. Strings come first, and each has one
+ * element less than nodes. */
+static void sum_spans(const dmb_mesh *mesh, uint32_t from, uint32_t to, double sum[3])
+{
+    const uint32_t string = dmb_mesh_node_at(mesh, from)->string;
+    dmb_vec3_zero(sum);
+    for (uint32_t i = from; i < to; ++i) dmb_vec3_add(sum, dmb_mesh_element_at(mesh, i - string)->span, sum);
+}
+
+/* From node a (or the world's origin) to node b. Along one string it keeps the digits that a difference of large
+ * coordinates loses. */
+static void span_between(const dmb_mesh *mesh, uint32_t a, uint32_t b, double span[3])
+{
+    const dmb_mesh_node *to = dmb_mesh_node_at(mesh, b);
+    if (a == UINT32_MAX) {
+        dmb_vec3_copy(to->position, span);
+        return;
+    }
+    const dmb_mesh_node *from = dmb_mesh_node_at(mesh, a);
+    if (on_one_string(from, to) && (a < b ? b - a : a - b) <= SPAN_ELEMENTS_MAX) {
+        sum_spans(mesh, a < b ? a : b, a < b ? b : a, span);
+        if (a > b) dmb_vec3_scale(-1.0, span, span);
+        return;
+    }
+    dmb_vec3_sub(to->position, from->position, span);
+}
+
+/* Frame b where frame a is: R_b M_b = R_a M_a, R_b x_b = R_a x_a - span. */
+static void match_frame(const dmb_mesh *mesh, dmb_scene_joint *joint)
+{
+    double Ra[9], Rb[9], Ma[9], x[3];
+    dmb_mat3_identity(Ra);
+    if (joint->a.node != UINT32_MAX) dmb_quat_to_matrix(dmb_mesh_node_at(mesh, joint->a.node)->quaternion, Ra);
+    dmb_quat_to_matrix(dmb_mesh_node_at(mesh, joint->b.node)->quaternion, Rb);
+    dmb_mat3_mul(Ra, joint->a.M, Ma);
+    dmb_mat3_mul_tn(Rb, Ma, joint->b.M);
+    dmb_mat3_vec(Ra, joint->a.x, x);
+    dmb_vec3_sub(x, joint->span, x);
+    dmb_mat3_tvec(Rb, x, joint->b.x);
+}
+
+/* ---- Joints ------------------------------------------------------------------------------------------------------ */
+
+static dmb_joint_law law_of(const dmb_joint_def *def, int k)
+{
+    const dmb_joint_law law = {.stiffness = def->stiffness[k],
+                               .damping = def->damping[k],
+                               .rest = def->rest[k],
+                               .friction = def->friction[k],
+                               .friction_speed = def->friction_speed,
+                               .stop_low = def->stop_low[k],
+                               .stop_high = def->stop_high[k],
+                               .stop_stiffness = def->stop_stiffness,
+                               .stop_damping = def->stop_damping};
+    return law;
+}
+
+/* Six laws, or none if none of them acts. */
+static int32_t add_laws(dmb_mesh *mesh, const dmb_joint_def *def, dmb_scene_joint *joint)
+{
+    dmb_joint_law laws[6];
+    joint->law = UINT32_MAX;
+    for (int k = 0; k < 6; ++k) {
+        laws[k] = law_of(def, k);
+        if (dmb_joint_law_acts(&laws[k])) joint->law_mask |= 1 << k;
+    }
+    if (joint->law_mask == 0) return DMB_OK;
+    joint->law = (uint32_t)mesh->laws.count; /* 6 * 2^24 at most */
+    return dmb_vector_append(&mesh->laws, &mesh->model->allocator, laws, 6);
+}
+
+static dmb_scene_joint joint_of(const dmb_joint_def *def)
+{
+    dmb_scene_joint joint = {.a = ground_frame(),
+                             .length = def->length,
+                             .kind = def->kind,
+                             .state = def->state,
+                             .initial_mask = def->initial_mask};
+    dmb_vec6_copy(def->initial_position, joint.initial_position);
+    dmb_vec6_copy(def->initial_speed, joint.initial_speed);
+    memcpy(joint.name, def->name, sizeof joint.name);
+    return joint;
+}
+
+/* Nodes of both places, which must not be the same one. */
+static void place_frames(dmb_check *check, const dmb_mesh *mesh, const dmb_joint_def *def, dmb_scene_joint *joint)
+{
+    dmb_mesh_place a, b;
+    if (!dmb_id_is_none(def->place_a.part)) {
+        if (!find_place(check, mesh, "place_a", &def->place_a, &a)) return;
+        joint->a = frame_at(&a);
+    }
+    if (!find_place(check, mesh, "place_b", &def->place_b, &b)) return;
+    joint->b = frame_at(&b);
+    if (joint->a.node == joint->b.node) {
+        check->status = DMB_ERR_VALUE;
+        dmb_message_set(check->message, "%s: place_b = node %u as place_a, must not be one rigid body with it",
+                        check->part, joint->b.node);
+    }
+}
+
+static int32_t add_joint(dmb_mesh *mesh, uint32_t i)
+{
+    const dmb_joint_def *def = DMB_LIST_AT(const dmb_joint_def, mesh->model->joints, i);
+    const bool on_hole = def->kind == DMB_JOINT_POINT_ON_HOLE;
+    dmb_scene_joint joint = joint_of(def);
+    dmb_message part;
+    dmb_check check = check_of(mesh, &part, "joint", i, def->name);
+    if (on_hole && !mesh->has_hole) {
+        dmb_check_fail(&check, DMB_ERR_GEOMETRY, "kind", def->kind, "another one: there is no hole");
+    }
+    if (check.status >= 0) place_frames(&check, mesh, def, &joint);
+    if (check.status < 0) return check.status;
+    span_between(mesh, joint.a.node, joint.b.node, joint.span);
+    if (!on_hole) set_frame(def->origin_a, def->axis_a, def->normal_a, &joint.a);
+    if (def->match) {
+        match_frame(mesh, &joint);
+    } else {
+        set_frame(def->origin_b, def->axis_b, def->normal_b, &joint.b);
+    }
+    const int32_t status = add_laws(mesh, def, &joint);
+    return status < 0 ? status : dmb_vector_append(&mesh->joints, &mesh->model->allocator, &joint, 1);
+}
+
+/* ---- Couplings and constraints ----------------------------------------------------------------------------------- */
+
+static int32_t add_coupling(dmb_mesh *mesh, uint32_t i)
+{
+    const dmb_model *model = mesh->model;
+    const dmb_coupling_def *def = DMB_LIST_AT(const dmb_coupling_def, model->couplings, i);
+    dmb_scene_coupling coupling = {.ratio = def->ratio};
+    for (int k = 0; k < 2; ++k) {
+        coupling.joint[k] = dmb_model_part_index(model, def->joint[k], DMB_PART_JOINT);
+        coupling.component[k] = def->component[k];
+    }
+    memcpy(coupling.name, def->name, sizeof coupling.name);
+    return dmb_vector_append(&mesh->couplings, &model->allocator, &coupling, 1);
+}
+
+static int32_t add_callback(dmb_mesh *mesh, uint32_t i)
+{
+    const dmb_constraint_def *def = DMB_LIST_AT(const dmb_constraint_def, mesh->model->constraints, i);
+    dmb_scene_callback callback = {.callback = def->callback,
+                                   .context = def->callback_context,
+                                   .rows = def->rows,
+                                   .count = def->count,
+                                   .kind = def->kind,
+                                   .provides = def->provides};
+    dmb_message part, field;
+    dmb_check check = check_of(mesh, &part, "constraint", i, def->name);
+    dmb_mesh_place place;
+    for (uint32_t k = 0; k < def->count; ++k) {
+        dmb_message_set(&field, "place[%u]", k);
+        if (!find_place(&check, mesh, field.text, &def->place[k], &place)) return check.status;
+        callback.place[k] = frame_at(&place);
+    }
+    for (uint32_t k = def->count; k < DMB_CONSTRAINT_NODES; ++k) callback.place[k] = ground_frame();
+    memcpy(callback.name, def->name, sizeof callback.name);
+    return dmb_vector_append(&mesh->callbacks, &mesh->model->allocator, &callback, 1);
+}
+
+int32_t dmb_mesh_joints(dmb_mesh *mesh)
+{
+    const dmb_model *model = mesh->model;
+    int32_t status = DMB_OK;
+    for (uint32_t i = 0; i < model->joints.count && status >= 0; ++i) status = add_joint(mesh, i);
+    for (uint32_t i = 0; i < model->couplings.count && status >= 0; ++i) status = add_coupling(mesh, i);
+    for (uint32_t i = 0; i < model->constraints.count && status >= 0; ++i) status = add_callback(mesh, i);
+    return status;
+}

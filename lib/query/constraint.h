@@ -1,0 +1,11 @@
+/* Counts of the rows of a constraint at the accepted state. */
+#ifndef DMB_QUERY_CONSTRAINT_H
+#define DMB_QUERY_CONSTRAINT_H
+
+#include "state.h"
+
+/* Rows that act, the first of its room; and those of them that are dropped because others hold what they hold. */
+uint32_t dmb_constraint_active(const dmb_sim *sim, uint32_t constraint);
+uint32_t dmb_constraint_redundant(const dmb_sim *sim, uint32_t constraint);
+
+#endif

@@ -1,0 +1,148 @@
+/* Putting a scene together: Gauss-Newton on all equations of position, shortest moves first (Wehage, Haug 1982). */
+#include <string.h>
+
+#include "math/se3.h"
+#include "system/cluster.h"
+#include "system/constraint_rows.h"
+#include "system/joint_state.h"
+
+enum { DMB_ASSEMBLY_MAX = 200 };
+/* [m, -] what may be left of an equation that is not needed, or at the end. */
+#define DMB_ASSEMBLY_MISFIT 1e-8
+
+static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
+{
+    memset(evaluation, 0, sizeof *evaluation);
+    evaluation->sim = sim;
+    evaluation->time = sim->clock->time;
+    evaluation->load_factor = evaluation->pseudo_factor = 1.0;
+}
+
+/* States as described; a joint locked from the start is locked where it is described. */
+static void described_states(dmb_sim *sim)
+{
+    for (uint32_t j = 0; j < sim->scene->joint_count; j++) {
+        sim->joint_state[j] = sim->scene->joints[j].state;
+        dmb_joint_hold(sim, j);
+        if (sim->joint_state[j] != DMB_JOINT_LOCKED) dmb_joint_release(sim, j);
+    }
+}
+
+static int32_t check_callbacks(dmb_sim *sim)
+{
+    int32_t status = DMB_OK;
+    for (uint32_t i = 0; i < sim->scene->callback_count && status >= 0; i++) status = dmb_callback_check(sim, i);
+    return status;
+}
+
+static int32_t refuse(dmb_sim *sim, uint32_t row, double misfit, const char *what)
+{
+    sim->linked_mode->row = row;
+    sim->linked_mode->misfit = misfit;
+    dmb_clusters_explain(sim, what);
+    return DMB_ERR_GEOMETRY;
+}
+
+/* All positions by Newton with a choice of its own each time: the rank may change on the way. */
+static int32_t close_positions(dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    uint32_t row = UINT32_MAX;
+    double misfit = 0.0;
+    int32_t status = DMB_OK;
+    for (uint32_t k = 0; k < DMB_ASSEMBLY_MAX && status >= 0; k++) {
+        status = dmb_clusters_approach(evaluation);
+        misfit = dmb_clusters_misfit(sim, 0, &row);
+        if (status == DMB_NOTE_STOPPED) break; /* nothing moves any more */
+    }
+    if (status == DMB_ERR_CALLBACK) {
+        dmb_message_set(&sim->message, "constraint: the callback failed or gave a value that is not finite at time %g",
+                        sim->clock->time);
+        return status;
+    }
+    if (misfit <= DMB_ASSEMBLY_MISFIT && status >= 0) return DMB_OK;
+    if (row == UINT32_MAX) row = 0;
+    return refuse(sim, row, misfit, "its parts cannot be brought together");
+}
+
+/* B v + rate of the rows that were dropped must vanish with the others. */
+static int32_t check_speeds(dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->constraint_count; i++) {
+        const dmb_constraint *c = scene->constraints + i;
+        for (uint32_t k = 0; k < c->rows; k++) {
+            const double *B = sim->constraint_jacobian + c->jacobian + (size_t)k * c->columns;
+            double sum = sim->constraint_rate[c->row + k], size = 1.0 + fabs(sum);
+            for (uint32_t n = 0; n < c->node_count; n++)
+                for (uint32_t s = 0; s < scene->layout.size[c->node[n]]; s++)
+                    sum += B[c->column[n] + s] * sim->trial.velocity[scene->layout.row[c->node[n]] + s];
+            if (fabs(sum) > DMB_ASSEMBLY_MISFIT * size) return refuse(sim, c->row + k, sum, "its speed cannot be had");
+        }
+    }
+    return DMB_OK;
+}
+
+static void measure(dmb_sim *sim)
+{
+    double *most = sim->counters->assembly;
+    most[0] = most[1] = 0.0;
+    for (uint32_t i = 0; i < sim->scene->node_count; i++) {
+        double move[3], q[4], turn[3];
+        dmb_vec3_sub(sim->trial.displacement + 3 * (size_t)i, sim->now.displacement + 3 * (size_t)i, move);
+        dmb_quat_between(sim->now.quaternion + 4 * (size_t)i, sim->trial.quaternion + 4 * (size_t)i, q);
+        dmb_quat_log(q, turn);
+        most[0] = fmax(most[0], dmb_vec3_norm(move));
+        most[1] = fmax(most[1], fmax(dmb_vec3_norm(turn), fabs(sim->trial.turn[i] - sim->now.turn[i])));
+    }
+}
+
+/* Turns of the coordinates, what couplings keep and where drives begin, for the closed scene. */
+static void keep_coordinates(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t j = 0; j < scene->joint_count; j++) {
+        const dmb_scene_joint *joint = scene->joints + j;
+        dmb_relative relative;
+        dmb_joint_coordinates c;
+        dmb_joint_motion(scene, &sim->trial, j, &relative, NULL);
+        dmb_joint_coordinates_at(relative.R, relative.p, relative.V, joint->initial_position + 3, &c);
+        sim->trial.joint_turn[2 * j] = c.value[3];
+        sim->trial.joint_turn[2 * j + 1] = c.value[4];
+        for (uint32_t i = 0; i < scene->drive_count; i++)
+            if (scene->drives[i].joint == j) sim->drive_offset[i] = c.value[scene->drives[i].component];
+        for (uint32_t i = 0; i < scene->coupling_count; i++)
+            for (int k = 0; k < 2; k++)
+                if (scene->couplings[i].joint[k] == j)
+                    sim->constraint_offset[scene->constraints[scene->couplings[i].constraint].row] +=
+                        (k == 0 ? 1.0 : -scene->couplings[i].ratio) * c.value[scene->couplings[i].component[k]];
+    }
+    memcpy(sim->now.joint_turn, sim->trial.joint_turn, 2 * scene->joint_count * sizeof(double));
+}
+
+int32_t dmb_assemble(dmb_sim *sim)
+{
+    dmb_evaluation evaluation;
+    int32_t status = check_callbacks(sim);
+    if (status < 0) return status;
+    set_up(sim, &evaluation);
+    dmb_clusters_prepare(sim);
+    described_states(sim);
+    dmb_configuration_copy(sim, &sim->now, &sim->trial);
+    sim->linked_mode->assembling = 1;
+    status = close_positions(&evaluation);
+    if (status >= 0) status = dmb_clusters_settle(&evaluation, DMB_SETTLE_POSE | DMB_SETTLE_SPEED, 0);
+    if (status >= 0) status = check_speeds(&evaluation);
+    sim->linked_mode->assembling = 0;
+    if (status < 0) return status;
+    measure(sim);
+    keep_coordinates(sim);
+    dmb_configuration_copy(sim, &sim->trial, &sim->now);
+    return DMB_OK;
+}
+
+int32_t dmb_assembled_speeds(dmb_evaluation *evaluation)
+{
+    return check_speeds(evaluation);
+}

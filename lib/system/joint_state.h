@@ -1,0 +1,26 @@
+/* What joints remember from step to step, how a scene with joints is put together, and how joints change in a run. */
+#ifndef DMB_SYSTEM_JOINT_STATE_H
+#define DMB_SYSTEM_JOINT_STATE_H
+
+#include "system/evaluation.h"
+
+/* End of an accepted step: turns of the coordinates, multipliers of least norm, partition where it has become poor. */
+void dmb_joints_accept(dmb_evaluation *evaluation);
+/* Joint j is locked from now on, or no longer: where it holds frame b, in the pose of now. */
+void dmb_joint_hold(dmb_sim *sim, uint32_t j);
+void dmb_joint_release(dmb_sim *sim, uint32_t j);
+/* [J] in springs and stops of the joints. */
+double dmb_joint_energy(const dmb_sim *sim, const dmb_configuration *configuration);
+
+/* Closes the joints from the described poses of now: poses move until every equation holds and joints stand where their
+ * initial coordinates say, speeds likewise. Fills counters->assembly. Errors with a message: DMB_ERR_GEOMETRY (the joint
+ * that does not fit, and by how much), DMB_ERR_CALLBACK. system/assembly */
+int32_t dmb_assemble(dmb_sim *sim);
+
+/* Refuses speeds of the trial that do not satisfy an equation, one that was dropped included: DMB_ERR_GEOMETRY. */
+int32_t dmb_assembled_speeds(dmb_evaluation *evaluation);
+
+/* dmb_sim_set_joint for a joint that exists. system/joint_switch */
+int32_t dmb_joint_switch(dmb_sim *sim, uint32_t joint, int32_t state);
+
+#endif

@@ -1,0 +1,161 @@
+/* Joints that lock, open and close in a run. Speeds that the new equations do not allow change by the impulse of least
+ * kinetic energy, M (v+ - v-) + B^T impulse = 0, B v+ + rate = 0. */
+#include <string.h>
+
+#include "math/vec3.h"
+#include "system/cluster.h"
+#include "system/constraint_rows.h"
+#include "system/energy.h"
+#include "system/joint_state.h"
+#include "system/solve.h"
+#include "system/start.h"
+
+/* [m, -] misfit with which a joint may still close. */
+#define DMB_CLOSING_MISFIT 1e-6
+
+static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
+{
+    memset(evaluation, 0, sizeof *evaluation);
+    evaluation->sim = sim;
+    evaluation->time = sim->clock->time;
+    evaluation->load_factor = evaluation->mass_factor = evaluation->pseudo_factor = 1.0;
+    evaluation->dynamic = evaluation->tangent = 1;
+    memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
+}
+
+static void take_state(dmb_sim *sim, uint32_t j, int32_t state)
+{
+    sim->joint_state[j] = state;
+    if (state == DMB_JOINT_LOCKED)
+        dmb_joint_hold(sim, j);
+    else
+        dmb_joint_release(sim, j);
+}
+
+/* Rows at now; those of the joint, of its couplings and of its drives must nearly hold. */
+static int32_t check_fit(dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const int32_t status = dmb_clusters_gather(evaluation);
+    if (status < 0) return status;
+    for (uint32_t r = 0; r < sim->scene->constraint_row_count; r++) {
+        const double misfit = fabs(sim->constraint_value[r]);
+        if (misfit <= DMB_CLOSING_MISFIT) continue;
+        sim->linked_mode->row = r;
+        sim->linked_mode->misfit = misfit;
+        dmb_clusters_explain(sim, "its parts are apart, so it cannot close");
+        return DMB_ERR_GEOMETRY;
+    }
+    return DMB_OK;
+}
+
+/* correction := what M does to the acceleration of the trial, in the independent rows: a difference of residuals. */
+static int32_t mass_times(dmb_evaluation *evaluation, const double *acceleration)
+{
+    dmb_sim *sim = evaluation->sim;
+    const uint32_t n = sim->scene->row_count;
+    double *rest = sim->raw_acceleration;
+    evaluation->tangent = 0;
+    memset(sim->trial.acceleration, 0, n * sizeof(double));
+    int32_t status = dmb_system_evaluate(evaluation);
+    memcpy(rest, sim->correction, n * sizeof(double));
+    memcpy(sim->trial.acceleration, acceleration, n * sizeof(double));
+    if (status >= 0) status = dmb_system_evaluate(evaluation);
+    for (uint32_t i = 0; i < n; i++) sim->correction[i] = rest[i] - sim->correction[i];
+    return status;
+}
+
+/* v of the trial fits by the shortest change; y = (R^T M R)^-1 R^T M (v- - v) makes it the one of least energy. */
+static int32_t least_energy(dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const uint32_t n = sim->scene->row_count;
+    double *change = sim->raw_velocity;
+    for (uint32_t i = 0; i < n; i++) change[i] = sim->now.velocity[i] - sim->trial.velocity[i];
+    int32_t status = dmb_factor_mass(evaluation);
+    if (status >= 0) status = mass_times(evaluation, change);
+    if (status < 0) return status;
+    dmb_solve_correction(sim);
+    for (uint32_t i = 0; i < n; i++) sim->trial.velocity[i] += sim->correction[i];
+    return DMB_OK;
+}
+
+static double largest_change(const dmb_sim *sim)
+{
+    double most = 0.0;
+    for (uint32_t i = 0; i < sim->scene->row_count; i++)
+        most = fmax(most, fabs(sim->trial.velocity[i] - sim->now.velocity[i]));
+    return most;
+}
+
+/* [J] stored in the pose of now. */
+static double potential(const dmb_sim *sim)
+{
+    return dmb_strain_energy(sim->scene, &sim->now) + dmb_gravity_energy(sim->scene, &sim->now) +
+           dmb_contact_energy(sim->scene, &sim->now) + dmb_joint_energy(sim, &sim->now);
+}
+
+/* The energy that goes is impact: kinetic, and that of springs which no longer act; the works of inertia and potential
+ * forces go with it. `stored` is what was stored before the joint changed. */
+static void take_motion(dmb_sim *sim, double stored)
+{
+    const double before = dmb_kinetic_energy(sim->scene, &sim->now);
+    memcpy(sim->now.displacement, sim->trial.displacement, 3 * (size_t)sim->scene->node_count * sizeof(double));
+    memcpy(sim->now.quaternion, sim->trial.quaternion, 4 * (size_t)sim->scene->node_count * sizeof(double));
+    memcpy(sim->now.turn, sim->trial.turn, sim->scene->node_count * sizeof(double));
+    memcpy(sim->now.velocity, sim->trial.velocity, sim->scene->row_count * sizeof(double));
+    memcpy(sim->now.drive_speed, sim->trial.drive_speed, sim->scene->drive_count * sizeof(double));
+    const double lost = before - dmb_kinetic_energy(sim->scene, &sim->now), let_go = stored - potential(sim);
+    sim->ledger->work[DMB_POWER_IMPACT] -= lost + let_go;
+    sim->ledger->work[DMB_POWER_INERTIA] += lost;
+    sim->ledger->work[DMB_POWER_POTENTIAL] += let_go;
+}
+
+/* What holds and drives the joints now, as the new accelerations have it. */
+static void take_forces(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    dmb_clusters_least_norm(sim);
+    memcpy(sim->now.multiplier, sim->trial.multiplier, scene->constraint_row_count * sizeof(double));
+    memcpy(sim->now.drive_position, sim->trial.drive_position, scene->drive_count * sizeof(double));
+    memcpy(sim->now.drive_speed, sim->trial.drive_speed, scene->drive_count * sizeof(double));
+    memcpy(sim->now.drive_rate, sim->trial.drive_rate, scene->drive_count * sizeof(double));
+}
+
+static int32_t change(dmb_sim *sim, uint32_t j, int32_t state, double *jump)
+{
+    const double stored = potential(sim);
+    dmb_evaluation evaluation;
+    set_up(sim, &evaluation);
+    take_state(sim, j, state);
+    dmb_configuration_copy(sim, &sim->now, &sim->trial);
+    int32_t status = dmb_system_prescribe(&evaluation);
+    if (status >= 0) status = check_fit(&evaluation);
+    if (status < 0) return status;
+    dmb_clusters_choose(sim);
+    status = dmb_clusters_settle(&evaluation, DMB_SETTLE_POSE | DMB_SETTLE_SPEED, 0);
+    if (status >= 0) status = least_energy(&evaluation);
+    if (status < 0) return status;
+    *jump = largest_change(sim);
+    take_motion(sim, stored);
+    status = dmb_system_jump(sim);
+    if (status >= 0) take_forces(sim);
+    return status;
+}
+
+int32_t dmb_joint_switch(dmb_sim *sim, uint32_t joint, int32_t state)
+{
+    double jump = 0.0;
+    if (sim->joint_state[joint] == state) return DMB_OK;
+    dmb_state_keep(sim);
+    sim->linked_mode->row = UINT32_MAX;
+    const int32_t status = change(sim, joint, state, &jump);
+    if (status < 0) {
+        dmb_state_bring_back(sim);
+        if (sim->message.text[0] == '\0') dmb_clusters_explain(sim, "its equations cannot be satisfied");
+        return status;
+    }
+    if (jump <= 1e-12) return DMB_OK;
+    dmb_message_set(&sim->message, "joint %u: speeds jumped by up to %g", joint, jump);
+    return DMB_NOTE_PROJECTED;
+}

@@ -1,0 +1,20 @@
+/* The linear system of chains that joints connect. Its blocks are the clusters and the other nodes of those chains; a
+ * cluster's block is reduced to its independent coordinates,
+ *
+ *     R^T S R y = -R^T residual,   z = R y,   R = [G; I]                                     (DMB_METHOD_INDEPENDENT)
+ *     [S B^T; B 0] [z; df] = -[residual; 0] over all its coordinates and its pivot rows      (DMB_METHOD_MULTIPLIERS)
+ *
+ * with S the iteration matrix of the nodes (blocks of the block-tridiagonal storage) and of the joints. */
+#ifndef DMB_SYSTEM_LINKED_H
+#define DMB_SYSTEM_LINKED_H
+
+#include "system/evaluation.h"
+
+/* Assembles from the iteration matrix, and factors. Node of a singular block, or -1. weakest may be NULL; its block is a
+ * node too. */
+int64_t dmb_linked_factor(dmb_sim *sim, dmb_block_weakest *weakest);
+/* Residual in, correction out, in the rows of linked chains of `correction`; multipliers of the trial move too where they
+ * are solved for. */
+void dmb_linked_solve(dmb_sim *sim);
+
+#endif
