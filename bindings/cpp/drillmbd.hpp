@@ -328,6 +328,16 @@ public:
     }
     dmb_bit_state bit(dmb_id which) const { return ask(dmb_query_bit, dmb_bit_state_default(), which); }
     dmb_statistics statistics() const { return ask(dmb_query_statistics, dmb_statistics_default()); }
+    dmb_check_report model_check() const { return ask(dmb_analysis_check, dmb_check_report_default()); }
+    std::string model_check_text() const
+    {
+        std::size_t needed = 0;
+        check(dmb_analysis_check_text(handle_, nullptr, 0, &needed));
+        std::string text(needed, '\0');
+        check(dmb_analysis_check_text(handle_, &text[0], needed, nullptr));
+        text.resize(needed - 1);
+        return text;
+    }
     std::int32_t record(dmb_recorder &recorder) const { return check(dmb_recorder_take(&recorder, handle_)); }
     void write_vtk(std::uint32_t per_element, const char *path) const
     {

@@ -23,7 +23,8 @@ import ctypes
 import ctypes.util
 import os
 import threading
-from ctypes import CFUNCTYPE, POINTER, byref, c_char, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
+from ctypes import (CFUNCTYPE, POINTER, byref, c_char, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32,
+                    c_uint64, c_void_p)
 
 try:
     import numpy
@@ -361,6 +362,19 @@ class StaticReport(_Sized):
                 ("residual", c_double), ("largest_force", c_double), ("lateral_move", c_double)]
 
 
+@_mirrors("dmb_check_report")
+class CheckReport(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("rigid_parts", c_uint32), ("flexible_parts", c_uint32),
+                ("elements", c_uint32), ("structural_joints", c_uint32), ("joints", c_uint32 * 16),
+                ("open_joints", c_uint32), ("locked_joints", c_uint32), ("couplings", c_uint32),
+                ("constraints", c_uint32), ("motion_drives", c_uint32), ("other_drives", c_uint32),
+                ("loads", c_uint32), ("coordinates", c_uint32), ("held", c_uint32), ("prescribed", c_uint32),
+                ("rows", c_uint32), ("rank", c_uint32), ("freedoms", c_uint32), ("redundant", c_uint32),
+                ("tridiagonal_nodes", c_uint32), ("sparse_nodes", c_uint32), ("blocks", c_uint32),
+                ("fill", c_uint32), ("clusters", c_uint32), ("largest_cluster", c_uint32), ("warnings", c_uint32),
+                ("gruebler", c_int64), ("largest_misfit", c_double), ("condition", c_double)]
+
+
 @_mirrors("dmb_pose")
 class Pose(_Sized):
     _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("position", c_double * 3),
@@ -488,6 +502,8 @@ def _declare_all():
     _declare("dmb_sim_restore", status, sim, c_void_p, size)
     _declare("dmb_sim_hash", status, sim, POINTER(c_uint64))
     _declare("dmb_analysis_static", status, sim, POINTER(StaticOptions), POINTER(StaticReport))
+    _declare("dmb_analysis_check", status, sim, POINTER(CheckReport))
+    _declare("dmb_analysis_check_text", status, sim, text, size, POINTER(size))
     ask("pose", Place, POINTER(Pose))
     ask("motion", Place, POINTER(Motion))
     ask("rotation", Place, POINTER(number))
@@ -824,6 +840,20 @@ class Sim:
         options, report = _struct(StaticOptions, options, fields), StaticReport()
         report.status = self._check(_lib.dmb_analysis_static(self._handle, byref(options), byref(report)))
         return report
+
+    def check(self):
+        """Parts, joints, degrees of freedom, redundant equations and the number of warnings: the model check."""
+        report = CheckReport()
+        report.status = self._scene.check(_lib.dmb_analysis_check(self._handle, byref(report)), b"")
+        return report
+
+    def check_text(self):
+        """The model check as a sheet of text, redundant equations and warnings by name."""
+        size = c_size_t()
+        self._scene.check(_lib.dmb_analysis_check_text(self._handle, None, 0, byref(size)), b"")
+        text = ctypes.create_string_buffer(size.value)
+        self._scene.check(_lib.dmb_analysis_check_text(self._handle, text, size.value, None), b"")
+        return text.value.decode()
 
     def set_drive(self, drive, value):
         """The drive's programme is the constant value from now on; None: its programme again."""

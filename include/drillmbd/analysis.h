@@ -35,9 +35,9 @@ DMB_SIZED_STRUCT(dmb_static_report)
 /* Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, by
  * Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017), and by pseudo-transient continuation
  * where that fails. The rock law does not act in the static state (at time 0 its bottom is laid ahead of the bit as
- * described); a speed controller acts as at speed 0. Speeds become those of the motion drives, the energy ledger starts anew. options and report may be
- * NULL. Errors: DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the
- * state is then that before the call. */
+ * described); a speed controller acts as at speed 0. Speeds become those of the motion drives, the energy ledger
+ * starts anew. options and report may be NULL. Errors: DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which
+ * part is free), _ROTATION, _CALLBACK; the state is then that before the call. */
 DMB_API int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report);
 
 /* ---- Model check -------------------------------------------------------------------------------------------------
@@ -59,7 +59,7 @@ typedef struct dmb_check_report {
     uint32_t coordinates;       /* [-] velocity components of all nodes: 6 or (axial-torsional) 2 each */
     uint32_t held;              /* [-] of them held by guides: start_free, end_free, free_mask */
     uint32_t prescribed;        /* [-] of them moved by motion drives of strings and bodies */
-    uint32_t rows;              /* [-] equations that act now: joints, couplings, constraints, motion drives of joints */
+    uint32_t rows;              /* [-] equations that act now: of joints, couplings, constraints, joint motion drives */
     uint32_t rank;              /* [-] of their matrix in the coordinates that are neither held nor prescribed */
     uint32_t freedoms;          /* [-] true degrees of freedom: coordinates - held - prescribed - rank */
     uint32_t redundant;         /* [-] equations that others imply: rows - rank */
@@ -70,22 +70,23 @@ typedef struct dmb_check_report {
     uint32_t clusters;          /* [-] groups of nodes that equations connect directly */
     uint32_t largest_cluster;   /* [-] coordinates of the largest */
     uint32_t warnings;          /* [-] lines of warning in the text */
-    int64_t gruebler;           /* [-] coordinates - held - prescribed - rows; < freedoms where equations are redundant */
+    int64_t gruebler;           /* [-] coordinates - held - prescribed - rows; < freedoms if equations are redundant */
     double largest_misfit;      /* [m, -] largest violation of an equation of position */
-    double condition;           /* [-] smallest over largest singular value of the equations of a cluster (redundant ones
-                                   apart; scaled to unit length, rotations at the mean element length), the worst one
-                                   of all; above 300 equations an estimate; 1 without equations */
+    double condition;           /* [-] smallest over largest singular value of a cluster's equations, redundant ones
+                                   apart, at unit length, rotations at the mean element length; of the worst cluster;
+                                   an estimate above 300 equations; 1 without any */
 } dmb_check_report;
 DMB_SIZED_STRUCT(dmb_check_report)
 
-/* Counts the last accepted state of a sim; the rank is LAPACK's, by QR with column pivoting, beside that of the partition
- * the sim steps with (a warning if they differ). Changes nothing; callbacks of constraints are called. Needs memory for the
- * time of the call, from the allocator of the sim's options. Cost: elements, and the cube of the coordinates of each
- * cluster. Errors: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _NO_MEMORY, _CALLBACK, _NOT_FINITE. */
+/* Counts the last accepted state of a sim. The rank is LAPACK's, by QR with column pivoting; it is held against that
+ * of the partition the sim steps with (a warning if they differ). Changes nothing; calls the callbacks of constraints.
+ * Memory for the time of the call comes from the allocator of the sim's options. Cost: elements, and the cube of the
+ * coordinates of each cluster. Errors: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _NO_MEMORY, _CALLBACK, _NOT_FINITE. */
 DMB_API int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report);
-/* The same as a sheet of text, lines ending with '\n', '.' as decimal mark: counts, solvers, redundant equations by name,
- * warnings. Writes at most `size` bytes, always 0-terminated; *needed (may be NULL) is what the whole text takes, its 0
- * included. text may be NULL where size is 0. DMB_NOTE_FULL if the text is cut. Errors as dmb_analysis_check. */
+/* The same as a sheet of text, lines ending with '\n', '.' as decimal mark: counts, solvers, redundant equations by
+ * name (directions are those of frame a of the joint), warnings. Writes at most `size` bytes, always 0-terminated;
+ * *needed (may be NULL) is what the whole text takes, its 0 included. text may be NULL where size is 0. DMB_NOTE_FULL
+ * if the text is cut. Errors as dmb_analysis_check, with text and *needed left alone. */
 DMB_API int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t size, size_t *needed);
 
 #ifdef __cplusplus

@@ -282,9 +282,10 @@ typedef struct dmb_joint_def {
     int32_t state;            /* DMB_JOINT_... at time 0; default DMB_JOINT_ACTIVE */
     double length;            /* [m] of DISTANCE, radius of ROLLING; > 0; default 1 */
     double stiffness[6];      /* [N/m, N m/rad] of springs along the coordinates, >= 0; default 0, shape (6) */
-    double damping[6];        /* [N s/m, N m s] >= 0; default 0, shape (6) */
+    double damping[6];        /* [N s/m, N m s] >= 0; not there without DMB_FEATURE_DAMPING; default 0, shape (6) */
     double rest[6];           /* [m, rad] where the springs are unstressed; default 0, shape (6) */
-    double friction[6];       /* [N, N m] friction that does not depend on the reaction, >= 0; default 0, shape (6) */
+    double friction[6];       /* [N, N m] friction that does not depend on the reaction, >= 0; not there without
+                                 DMB_FEATURE_FRICTION; default 0, shape (6) */
     double friction_speed;    /* [m/s, rad/s] over which friction is smoothed, f s/sqrt(s^2 + friction_speed^2), > 0;
                                  default 1e-3 */
     double stop_low[6];       /* [m, rad] default -1e30, shape (6) */
@@ -317,7 +318,8 @@ DMB_API int32_t dmb_model_add_coupling(dmb_model *model, const dmb_coupling_def 
  * the place's frame to the world, row-major (9). DMB_CONSTRAINT_HOLONOMIC: value = C(q, t), jacobian = dC by body-frame
  * displacements (translation; rotation) of the places; DMB_CONSTRAINT_NONHOLONOMIC: A(q, t) v + b(q, t) = 0 with value
  * = b and jacobian = A, v the body-frame velocities. Must write value; jacobian is not NULL and must be written where
- * `provides` says so. Returns 0, or nonzero to stop. Pure: same answer for the same poses and time, from any thread. */
+ * `provides` says so. Returns 0, or nonzero to stop. Pure: same answer for the same poses and time, from any thread; it
+ * is asked at poses and times a little before and after those of the run too, for differences. */
 enum { DMB_CONSTRAINT_HOLONOMIC = 0, DMB_CONSTRAINT_NONHOLONOMIC = 1 };
 enum { DMB_PROVIDES_JACOBIAN = 1 };
 typedef int32_t (*dmb_constraint_fn)(void *context, double time, uint32_t count, const double (*poses)[12],

@@ -91,10 +91,19 @@ DMB_API int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value);
 DMB_API int32_t dmb_sim_set_joint(dmb_sim *sim, dmb_id joint, int32_t state);
 
 /* Goes on where `from` stands, in a sim of another model: the same but for pipes more or fewer at the rig end of its
- * strings (rods added or taken off). Pipes are matched from the far end; added ones start unstressed in line with the
- * old rig end, moving with it; time, drives, contacts, bits and the energy ledger continue (the ledger takes out or in
- * what the pipes themselves carry). Fails unless all else is of the same kind and number: DMB_ERR_VALUE, with what
- * differs; then nothing is changed. */
+ * strings, rods added or taken off; where the model describes its strings to begin, and what its programmes say from
+ * now on, may differ. The head lets go, draws back and grips the new rig end: guide, drives and bodies fixed to the
+ * rig end are there at once, so do it at rest. Pipes are matched from the far end and stay where and as they are;
+ * added ones start unstressed in line with the old rig end, moving with it (where that is tilted they may poke the
+ * wall; dmb_analysis_static settles the string, but begins the ledger anew). Guides hold the new rig end where it is;
+ * speeds that they and the drives do not allow are projected: DMB_NOTE_PROJECTED, dmb_sim_message tells by how much.
+ * Time, statistics, drives, contacts, joints and cut rock go on. So does the energy ledger: energies change by what
+ * pipes bring in or take along, works and balance do not. Displacements and the advance of bits count from the poses
+ * the new model describes; turns go on, but for what these differ by about the axis in a hole that bends. What pipes
+ * have drawn at random goes by their number from the rig, so it is drawn anew.
+ * Fails unless all else is of the same kind and number: DMB_ERR_VALUE, with what differs; DMB_ERR_GEOMETRY: a joint
+ * that is not open does not fit; DMB_ERR_SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE as dmb_sim_create. sim is then as
+ * it was. from is not changed. O(number of elements). */
 DMB_API int32_t dmb_sim_carry_over(dmb_sim *sim, const dmb_sim *from);
 
 /* Snapshot of all that changes: bytes, save into and restore from the caller's memory. A snapshot fits every sim of the

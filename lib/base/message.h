@@ -31,8 +31,8 @@ void dmb_message_field(dmb_message *message, const char *part, uint32_t index, c
 void dmb_message_component(dmb_message *message, const char *part, uint32_t index, const char *field,
                            uint32_t component, double value, const char *bound);
 
-/* What messages call a part that may have a name: "joint 3 (crank)", or "joint 3" without one. name: size bytes, may lack
- * its 0, and counts as none then. Returns text->text. */
+/* What messages call a part that may have a name: "joint 3 (crank)", or "joint 3" without one. name: size bytes, may
+ * lack its 0, and counts as none then. Returns text->text. */
 const char *dmb_part_text(dmb_message *text, const char *part, uint32_t index, const char *name, size_t size);
 
 /* Empties the message. */

@@ -1,4 +1,4 @@
-#include "math/rank_lapacke.h"
+#include "math/row_rank.h"
 
 #include <float.h>
 #include <lapacke.h>

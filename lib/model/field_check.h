@@ -29,8 +29,8 @@ void dmb_check_id(dmb_check *check, const dmb_model *model, const char *field, d
 void dmb_check_id_or_none(dmb_check *check, const dmb_model *model, const char *field, dmb_id id, uint32_t kind,
                           const char *what);
 
-/* A place on a string, a body or a bit: its fraction 0 .. 1, and 0 with pipe 0 on a body or bit. That the string has such
- * a pipe is for the compile step to find out. */
+/* A place on a string, a body or a bit: its fraction 0 .. 1, and 0 with pipe 0 on a body or bit. That the string has
+ * such a pipe is for the compile step to find out. */
 void dmb_check_place(dmb_check *check, const dmb_model *model, const char *field, const dmb_place *place);
 
 #endif

@@ -12,7 +12,8 @@
  *   sites           pipes, bodies              sites, path_sites
  *   joints          joints, couplings, ...     joints, couplings, callbacks, laws
  *   actions         drives, loads, bits        drives, loads, bits, nodes (prescribed), driven
- *   constraints     joints ... drives          constraints, clusters, cluster_nodes; joints ... drives (constraint)
+ *   constraints     joints ... drives          constraints, clusters, cluster_nodes; back-references
+ *                                              in joints, couplings, drives, callbacks
  *
  * What needs the numbers of rows is made by freeze: rows of drives, columns of clusters, the blocks of linked chains. */
 #ifndef DMB_MODEL_MESH_H

@@ -124,17 +124,20 @@ static void match_frame(const dmb_mesh *mesh, dmb_scene_joint *joint)
 
 /* ---- Joints ------------------------------------------------------------------------------------------------------ */
 
-static dmb_joint_law law_of(const dmb_joint_def *def, int k)
+/* Without the feature there is no damper and no friction either. */
+static dmb_joint_law law_of(const dmb_mesh *mesh, const dmb_joint_def *def, int k)
 {
+    const bool damped = (mesh->options.features & DMB_FEATURE_DAMPING) != 0;
+    const bool rubs = (mesh->options.features & DMB_FEATURE_FRICTION) != 0;
     const dmb_joint_law law = {.stiffness = def->stiffness[k],
-                               .damping = def->damping[k],
+                               .damping = damped ? def->damping[k] : 0.0,
                                .rest = def->rest[k],
-                               .friction = def->friction[k],
+                               .friction = rubs ? def->friction[k] : 0.0,
                                .friction_speed = def->friction_speed,
                                .stop_low = def->stop_low[k],
                                .stop_high = def->stop_high[k],
                                .stop_stiffness = def->stop_stiffness,
-                               .stop_damping = def->stop_damping};
+                               .stop_damping = damped ? def->stop_damping : 0.0};
     return law;
 }
 
@@ -144,7 +147,7 @@ static int32_t add_laws(dmb_mesh *mesh, const dmb_joint_def *def, dmb_scene_join
     dmb_joint_law laws[6];
     joint->law = UINT32_MAX;
     for (int k = 0; k < 6; ++k) {
-        laws[k] = law_of(def, k);
+        laws[k] = law_of(mesh, def, k);
         if (dmb_joint_law_acts(&laws[k])) joint->law_mask |= 1 << k;
     }
     if (joint->law_mask == 0) return DMB_OK;

@@ -56,8 +56,10 @@ static int32_t close_positions(dmb_evaluation *evaluation)
         if (status == DMB_NOTE_STOPPED) break; /* nothing moves any more */
     }
     if (status == DMB_ERR_CALLBACK) {
-        dmb_message_set(&sim->message, "constraint: the callback failed or gave a value that is not finite at time %g",
-                        sim->clock->time);
+        dmb_message owner;
+        dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, sim->linked_mode->row), &owner);
+        dmb_message_set(&sim->message, "%s: the callback failed or gave a value that is not finite at time %g",
+                        owner.text, sim->clock->time);
         return status;
     }
     if (misfit <= DMB_ASSEMBLY_MISFIT && status >= 0) return DMB_OK;

@@ -15,6 +15,8 @@
 #define DMB_QUALITY_FALL 0.1
 /* [m, rad] longest step of putting a scene together. */
 #define DMB_APPROACH 0.3
+/* Drives that a message names. */
+enum { DMB_NAMED_DRIVES = 4 };
 
 dmb_partition dmb_cluster_partition(const dmb_sim *sim, uint32_t k)
 {
@@ -318,6 +320,8 @@ int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t 
     dmb_sim *sim = evaluation->sim;
     int32_t status = DMB_OK;
     if (from_raw) take_raw(sim);
+    if (from_raw && !evaluation->extrapolated) /* the first iteration of a step, which may solve for them */
+        memcpy(sim->trial.multiplier, sim->now.multiplier, sim->scene->constraint_row_count * sizeof(double));
     if (levels & DMB_SETTLE_POSE)
         status = settle_poses(evaluation);
     else
@@ -372,12 +376,24 @@ static void clear_dependent(dmb_sim *sim, uint32_t k)
         sim->correction[sim->scene->cluster_columns[cluster->column + order[i]]] = 0.0;
 }
 
+/* What does the same with the least forces: no change where no row is dropped. */
+static void least_norm(dmb_sim *sim, uint32_t k)
+{
+    const dmb_cluster *cluster = sim->scene->clusters + k;
+    const dmb_partition partition = dmb_cluster_partition(sim, k);
+    if (partition.rank == active_rows(sim, cluster)) return;
+    dmb_partition_least_norm(matrix_of(sim, cluster), cluster->columns, &partition, sim->cluster_lu + cluster->square,
+                             sim->cluster_pivot + cluster->row, sim->cluster_gram + cluster->square,
+                             sim->trial.multiplier + cluster->row);
+}
+
 void dmb_clusters_balance(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     const int given = sim->linked_mode->multipliers;
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
         if (!given) solve_multipliers(sim, k);
+        if (!given) least_norm(sim, k);
         add_multipliers(sim, k);
         if (!given) clear_dependent(sim, k);
     }
@@ -385,14 +401,7 @@ void dmb_clusters_balance(dmb_evaluation *evaluation)
 
 void dmb_clusters_least_norm(dmb_sim *sim)
 {
-    for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
-        const dmb_cluster *cluster = sim->scene->clusters + k;
-        const dmb_partition partition = dmb_cluster_partition(sim, k);
-        if (partition.rank == active_rows(sim, cluster)) continue;
-        dmb_partition_least_norm(matrix_of(sim, cluster), cluster->columns, &partition,
-                                 sim->cluster_lu + cluster->square, sim->cluster_pivot + cluster->row,
-                                 sim->cluster_gram + cluster->square, sim->trial.multiplier + cluster->row);
-    }
+    for (uint32_t k = 0; k < sim->scene->cluster_count; k++) least_norm(sim, k);
 }
 
 /* ---- The rest ---------------------------------------------------------------------------------------------------- */
@@ -421,12 +430,31 @@ void dmb_clusters_prepare(dmb_sim *sim)
     }
 }
 
+/* "; drive 0, drive 2 move it": the motion drives that a constraint hangs together with, but for itself. */
+static void name_drives(const dmb_scene *scene, uint32_t constraint, dmb_message *text)
+{
+    const dmb_cluster *cluster = scene->clusters + scene->constraints[constraint].cluster;
+    dmb_message before;
+    uint32_t count = 0;
+    dmb_message_clear(text);
+    for (uint32_t i = cluster->constraint; i < cluster->constraint + cluster->constraint_count; i++) {
+        if (scene->constraints[i].kind != DMB_OF_DRIVE || i == constraint || count == DMB_NAMED_DRIVES) continue;
+        before = *text;
+        dmb_message_set(text, "%s%s drive %u", before.text, count++ ? "," : ";", scene->constraints[i].index);
+    }
+    if (count == 0) return;
+    before = *text;
+    dmb_message_set(text, "%s %s it", before.text, count > 1 ? "move" : "moves");
+}
+
 void dmb_clusters_explain(dmb_sim *sim, const char *what)
 {
-    dmb_message owner;
+    dmb_message owner, drives;
     const uint32_t row = sim->linked_mode->row;
     if (row == UINT32_MAX) return;
-    dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, row), &owner);
-    dmb_message_set(&sim->message, "%s: %s at time %g, misfit = %g", owner.text, what, sim->clock->time,
-                    sim->linked_mode->misfit);
+    const uint32_t constraint = dmb_constraint_of_row(sim->scene, row);
+    dmb_constraint_text(sim->scene, constraint, &owner);
+    name_drives(sim->scene, constraint, &drives);
+    dmb_message_set(&sim->message, "%s: %s at time %g, misfit = %g%s", owner.text, what, sim->clock->time,
+                    sim->linked_mode->misfit, drives.text);
 }

@@ -190,7 +190,10 @@ int32_t dmb_callback_rows(dmb_evaluation *evaluation, uint32_t callback)
     int32_t status = jacobian_of(&ask, value, J);
     if (status >= 0) status = rate_of(&ask, value, rate);
     if (status >= 0) status = convective_of(&ask, convective);
-    if (status < 0) return status;
+    if (status < 0) {
+        sim->linked_mode->row = constraint->row; /* for the message */
+        return status;
+    }
     for (uint32_t r = 0; r < own->rows; r++) {
         double *row = sim->constraint_jacobian + constraint->jacobian + (size_t)r * constraint->columns;
         sim->constraint_type[constraint->row + r] = speeds ? DMB_ROW_SPEED : DMB_ROW_POSITION;

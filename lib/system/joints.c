@@ -16,9 +16,16 @@ typedef struct coordinate_forces {
     double force[6], by_position[6], by_speed[6];
 } coordinate_forces;
 
+static int is_driven(const dmb_scene *scene, uint32_t j)
+{
+    for (uint32_t d = 0; d < scene->drive_count; d++)
+        if (scene->drives[d].joint == j) return 1;
+    return 0;
+}
+
 static int has_forces(const dmb_sim *sim, const dmb_scene_joint *joint, uint32_t j)
 {
-    return (joint->law != UINT32_MAX || joint->driven) && sim->joint_state[j] != DMB_JOINT_OPEN;
+    return (joint->law != UINT32_MAX || is_driven(sim->scene, j)) && sim->joint_state[j] != DMB_JOINT_OPEN;
 }
 
 static void begin(const dmb_evaluation *evaluation, uint32_t j, coordinate_forces *f)
@@ -68,6 +75,7 @@ static void rest_drives(dmb_evaluation *evaluation, uint32_t j)
 {
     dmb_sim *sim = evaluation->sim;
     coordinate_forces f;
+    if (!is_driven(sim->scene, j)) return;
     begin(evaluation, j, &f);
     for (uint32_t d = 0; d < sim->scene->drive_count; d++) {
         const dmb_scene_drive *drive = sim->scene->drives + d;
@@ -145,11 +153,11 @@ static void gather_forces(dmb_evaluation *evaluation)
     for (uint32_t j = 0; j < scene->joint_count; j++) {
         const dmb_scene_joint *joint = scene->joints + j;
         coordinate_forces f;
-        if (joint->driven && evaluation->sim->joint_state[j] == DMB_JOINT_OPEN) rest_drives(evaluation, j);
+        if (evaluation->sim->joint_state[j] == DMB_JOINT_OPEN) rest_drives(evaluation, j);
         if (!has_forces(evaluation->sim, joint, j)) continue;
         begin(evaluation, j, &f);
         add_laws(evaluation, joint, &f);
-        if (joint->driven) add_drives(evaluation, j, &f);
+        add_drives(evaluation, j, &f);
         apply(evaluation, joint, &f);
         if (evaluation->tangent)
             add_position_tangent(evaluation, scene->constraints + joint->constraint, j, &f);
@@ -166,7 +174,7 @@ static void gather_speed_tangents(dmb_evaluation *evaluation)
         if (!has_forces(evaluation->sim, scene->joints + j, j)) continue;
         begin(&again, j, &f);
         add_laws(&again, scene->joints + j, &f);
-        if (scene->joints[j].driven) add_drives(&again, j, &f);
+        add_drives(&again, j, &f);
         add_speed_tangent(evaluation, scene->constraints + scene->joints[j].constraint, j, &f);
     }
 }

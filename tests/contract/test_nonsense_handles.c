@@ -244,7 +244,8 @@ static const struct {
     {"set_environment", set_environment, 1}, {"add_programme", add_programme, 1}, {"add_wall", add_wall, 1},
     {"add_string", add_string, 1}, {"add_pipes", add_pipes, 1}, {"add_body", add_body, 1}, {"add_bit", add_bit, 1},
     {"add_drive", add_drive, 1}, {"add_load", add_load, 1}, {"add_joint", add_joint, 1},
-    {"add_coupling", add_coupling, 1}, {"add_constraint", add_constraint, 1}, {"compile", compile, 1}, {"get_info", get_info, 0},
+    {"add_coupling", add_coupling, 1}, {"add_constraint", add_constraint, 1}, {"compile", compile, 1},
+    {"get_info", get_info, 0},
     {"memory_size", memory_size, 0}, {"create", create_sim, 0}, {"create_in", create_sim_in, 0},
     {"write_vtk_hole", write_vtk_hole, 0}};
 enum { MODEL_CALLS = sizeof model_calls / sizeof model_calls[0] };

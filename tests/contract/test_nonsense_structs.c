@@ -451,7 +451,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(size_as_in_this_header_is_taken), TEST(wrong_size_is_refused), TEST(zeros_are_refused),
-        TEST(memory_of_ones_is_refused), TEST(longer_struct_is_taken), TEST(older_struct_is_taken), TEST(longer_struct_with_content_is_refused),
+        TEST(memory_of_ones_is_refused), TEST(longer_struct_is_taken), TEST(older_struct_is_taken),
+        TEST(longer_struct_with_content_is_refused),
         TEST(init_refuses_wrong_sizes), TEST(init_stays_within_its_size), TEST(terms_of_different_size_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,8 @@
-/* Rank of a set of equations, by QR with column pivoting of the transposed matrix (LAPACK dgeqp3), and the singular values
- * at its two ends (dgesvd). For analyses only: no step calls this. No allocation: LAPACK works in the caller's memory. */
-#ifndef DMB_MATH_RANK_LAPACKE_H
-#define DMB_MATH_RANK_LAPACKE_H
+/* Rank of a set of equations, by QR with column pivoting of the transposed matrix (LAPACK dgeqp3), and the singular
+ * values at its two ends (dgesvd); rank_lapacke.c. For analyses only: no step calls this. No allocation: LAPACK works
+ * in the caller's memory. */
+#ifndef DMB_MATH_ROW_RANK_H
+#define DMB_MATH_ROW_RANK_H
 
 #include <stddef.h>
 #include <stdint.h>

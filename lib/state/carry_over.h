@@ -1,0 +1,31 @@
+/* Parts of dmb_sim_carry_over. Strings are numbered from their rig ends, where pipes come and go, so pipes and nodes of
+ * two scenes are matched by counting from the far end. */
+#ifndef DMB_STATE_CARRY_OVER_H
+#define DMB_STATE_CARRY_OVER_H
+
+#include "state.h"
+
+/* What a string of one scene and the same of another have in common. */
+typedef struct dmb_common_string {
+    uint32_t pipes;    /* matched */
+    uint32_t nodes;    /* matched */
+    uint32_t to, from; /* first matched node in the scene of the sim and in that it comes from */
+} dmb_common_string;
+
+/* The scenes must have passed dmb_carry_check, or at least its part on pipes. O(1). */
+dmb_common_string dmb_common_string_of(const dmb_scene *scene, const dmb_scene *from, uint32_t string);
+
+/* Is sim the same as from but for pipes at the rig ends? DMB_ERR_VALUE with a message where not. state/carry_check */
+int32_t dmb_carry_check(dmb_sim *sim, const dmb_sim *from);
+
+/* Poses, turns and speeds of all nodes of now. DMB_ERR_VALUE with a message where axial-torsional pipes would have to
+ * leave their line. state/carry_nodes */
+int32_t dmb_carry_nodes(dmb_sim *sim, const dmb_sim *from);
+/* What the wall contacts remember. state/carry_sites */
+void dmb_carry_sites(dmb_sim *sim, const dmb_sim *from);
+
+/* [m] from the node's place in `from` to that in the scene, along body x: rigid pipes that are added or taken off move
+ * the node of the body they are part of. Both nodes of string `string`, matched. */
+double dmb_carried_arm(const dmb_scene *scene, uint32_t node, const dmb_scene *from, uint32_t old, uint32_t string);
+
+#endif
