@@ -5,8 +5,9 @@
 #include "base/handle.h"
 #include "base/sized_struct.h"
 #include "math/vec3.h"
-#include "system/cluster.h"
 #include "system/bit.h"
+#include "system/cluster.h"
+#include "system/joint_state.h"
 #include "system/owner.h"
 #include "system/start.h"
 
@@ -105,10 +106,14 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     search->evaluation.tangent = 0;
     const int32_t status = dmb_system_evaluate(&search->evaluation);
     if (status < 0) return status;
+    if (scene->cluster_count) dmb_joints_reactions(sim);
     memcpy(sim->residual_row, sim->correction, scene->row_count * sizeof(double));
-    for (uint32_t i = 0; i < scene->drive_count; i++)
-        if (scene->drives[i].kind == DMB_DRIVE_MOTION && scene->drives[i].joint == UINT32_MAX)
-            sim->now.drive_force[i] = sim->correction[scene->drives[i].row];
+    memcpy(sim->now.multiplier, sim->trial.multiplier, scene->constraint_row_count * sizeof(double));
+    for (uint32_t i = 0; i < scene->drive_count; i++) {
+        const uint32_t row = scene->drives[i].row;
+        if (scene->drives[i].kind == DMB_DRIVE_MOTION)
+            sim->now.drive_force[i] = row != UINT32_MAX ? sim->correction[row] : sim->trial.drive_force[i];
+    }
     return DMB_OK;
 }
 
@@ -124,7 +129,8 @@ static int32_t settle(dmb_static_search *search)
     memset(sim->trial.path_bristle, 0, 2 * scene->path_site_count * sizeof(double));
     memset(sim->trial.site_approach, 0, scene->site_count * sizeof(double));
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
-    /* At the start the rock lies where the description puts it ahead of the bit; the forces of the restart need it there. */
+    /* At the start the rock lies where the description puts it ahead of the bit; the forces of the restart need it
+     * there. */
     for (uint32_t k = 0; k < scene->bit_count && sim->clock->time == 0.0; k++) dmb_bit_start(sim, k);
     const dmb_counters counters = *sim->counters;
     int32_t status = dmb_system_restart(sim);

@@ -333,6 +333,19 @@ int32_t dmb_partition_gram(const double *B, uint32_t stride, const double *weigh
     return 0;
 }
 
+/* The diagonal holds reciprocal roots of the pivots; with 0 there a row neither asks for anything nor moves anything.
+ */
+void dmb_partition_leave_weak(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
+                              double *gram)
+{
+    const size_t n = partition->rank;
+    for (size_t i = 0; i < n; i++) {
+        const double *b = B + (size_t)partition->row_order[i] * stride;
+        double *root = gram + n * i + i;
+        if (*root * *root * weighted_dot(partition->columns, b, b, weight) * DMB_WEAK_PIVOT > 1.0) *root = 0.0;
+    }
+}
+
 void dmb_partition_project(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
                            const double *gram, double *d, double *x)
 {

@@ -65,6 +65,11 @@ void dmb_partition_null_space(const double *B, uint32_t stride, const dmb_partit
  * not touched. 0; or -1 if a pivot is at most 1e-16 of its diagonal or not finite. */
 int32_t dmb_partition_gram(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
                            double *gram);
+/* Leaves rows that those before nearly hold (pivot below DMB_WEAK_PIVOT of its diagonal) out of projections with gram: near
+ * a singular place a projection would blow up what rounding of the poses makes of them. */
+#define DMB_WEAK_PIVOT 1e-9
+void dmb_partition_leave_weak(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
+                              double *gram);
 /* d: shape (rank), in the order of pivot rows, overwritten; x: shape (columns), natural order, overwritten. */
 void dmb_partition_project(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
                            const double *gram, double *d, double *x);

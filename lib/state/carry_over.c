@@ -161,13 +161,15 @@ static int32_t go_on(dmb_sim *sim, const dmb_sim *from)
     carry_drives(sim, from);
     int32_t status = dmb_carry_nodes(sim, from);
     if (status < 0) return status;
-    dmb_carry_sites(sim, from);
+    dmb_carry_sites(sim, from, DMB_CARRY_ALL);
     if (sim->scene->cluster_count) carry_joints(sim, from);
     set_up(sim, &evaluation);
     if (sim->scene->bit_count) carry_bits(sim, from, &evaluation);
     status = check_joints(sim, &evaluation);
     if (status >= 0) status = dmb_system_restart(sim);
-    if (status >= 0) carry_ledger(sim, from);
+    if (status < 0) return status;
+    dmb_carry_sites(sim, from, DMB_CARRY_BRISTLES);
+    carry_ledger(sim, from);
     return status;
 }
 

@@ -21,8 +21,10 @@ int32_t dmb_carry_check(dmb_sim *sim, const dmb_sim *from);
 /* Poses, turns and speeds of all nodes of now. DMB_ERR_VALUE with a message where axial-torsional pipes would have to
  * leave their line. state/carry_nodes */
 int32_t dmb_carry_nodes(dmb_sim *sim, const dmb_sim *from);
-/* What the wall contacts remember. state/carry_sites */
-void dmb_carry_sites(dmb_sim *sim, const dmb_sim *from);
+enum { DMB_CARRY_ALL = 0, DMB_CARRY_BRISTLES = 1 };
+/* What the wall contacts remember; or only the bristles, once contacts that have no past have been evaluated: where no
+ * time passes, a bristle that slips at its limit cannot be told from one that holds there. state/carry_sites */
+void dmb_carry_sites(dmb_sim *sim, const dmb_sim *from, int32_t what);
 
 /* [m] from the node's place in `from` to that in the scene, along body x: rigid pipes that are added or taken off move
  * the node of the body they are part of. Both nodes of string `string`, matched. */

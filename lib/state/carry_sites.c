@@ -12,23 +12,24 @@
     memcpy(sim->now.field + (width) * (size_t)s, from->now.field + (width) * (size_t)old, \
            (width) * sizeof *sim->now.field)
 
-static void carry_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old)
+static void carry_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
 {
+    DMB_COPY(site_bristle, 2);
+    DMB_COPY(site_sticks, 1);
+    if (what == DMB_CARRY_BRISTLES) return;
     DMB_COPY(site_normal, 3);
     DMB_COPY(site_depth, 1);
     DMB_COPY(site_segment, 1);
     DMB_COPY(site_penetration, 1);
     DMB_COPY(site_approach, 1);
     DMB_COPY(site_slip, 2);
-    DMB_COPY(site_bristle, 2);
-    DMB_COPY(site_sticks, 1);
 }
 
-static void carry_path_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old)
+static void carry_path_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
 {
-    DMB_COPY(path_slip, 2);
     DMB_COPY(path_bristle, 2);
     DMB_COPY(path_sticks, 1);
+    if (what == DMB_CARRY_ALL) DMB_COPY(path_slip, 2);
 }
 
 /* As at time 0: open, and where it is described; the restart finds it from there. */
@@ -71,14 +72,14 @@ static uint32_t old_node(const dmb_scene *scene, const dmb_scene *from, uint32_t
 }
 
 /* Places stand along the strings in both scenes, so one pass over both will do. */
-static void carry_string_sites(dmb_sim *sim, const dmb_sim *from)
+static void carry_string_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
 {
     const dmb_scene *scene = sim->scene, *was = from->scene;
     uint32_t k = 0;
     for (uint32_t s = 0; s < scene->site_count; s++) {
         const dmb_site *site = scene->sites + s;
         double arm;
-        begin_site(sim, s);
+        if (what == DMB_CARRY_ALL) begin_site(sim, s);
         if (dmb_model_part_index(sim->model, site->part, DMB_PART_STRING) == UINT32_MAX) continue;
         const uint32_t old = old_node(scene, was, site->node, &arm);
         const double offset = site->offset + arm;
@@ -88,38 +89,38 @@ static void carry_string_sites(dmb_sim *sim, const dmb_sim *from)
             k++;
         if (k < was->site_count && was->sites[k].node == old && was->sites[k].offset <= offset + DMB_SAME_PLACE &&
             dmb_model_part_index(from->model, was->sites[k].part, DMB_PART_STRING) != UINT32_MAX)
-            carry_site(sim, s, from, k);
+            carry_site(sim, s, from, k, what);
     }
 }
 
 /* A rig head moves on to another place; its ring begins there anew. */
-static void carry_body_sites(dmb_sim *sim, const dmb_sim *from)
+static void carry_body_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
 {
     for (uint32_t b = 0; b < sim->scene->body_count; b++) {
         const dmb_body_map *body = sim->scene->bodies + b, *was = from->scene->bodies + b;
         double arm;
         if (body->site == UINT32_MAX || was->site == UINT32_MAX) continue;
         if (old_node(sim->scene, from->scene, body->node, &arm) != was->node) continue;
-        if (fabs(body->arm + arm - was->arm) <= DMB_SAME_PLACE) carry_site(sim, body->site, from, was->site);
+        if (fabs(body->arm + arm - was->arm) <= DMB_SAME_PLACE) carry_site(sim, body->site, from, was->site, what);
     }
 }
 
-static void carry_path_sites(dmb_sim *sim, const dmb_sim *from)
+static void carry_path_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
 {
     uint32_t k = 0;
     for (uint32_t s = 0; s < sim->scene->path_site_count; s++) {
         double arm;
         const uint32_t old = old_node(sim->scene, from->scene, sim->scene->path_sites[s].node, &arm);
-        begin_path_site(sim, s);
+        if (what == DMB_CARRY_ALL) begin_path_site(sim, s);
         while (old != UINT32_MAX && k < from->scene->path_site_count && from->scene->path_sites[k].node < old) k++;
         if (k < from->scene->path_site_count && from->scene->path_sites[k].node == old)
-            carry_path_site(sim, s, from, k);
+            carry_path_site(sim, s, from, k, what);
     }
 }
 
-void dmb_carry_sites(dmb_sim *sim, const dmb_sim *from)
+void dmb_carry_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
 {
-    carry_string_sites(sim, from);
-    carry_body_sites(sim, from);
-    carry_path_sites(sim, from);
+    carry_string_sites(sim, from, what);
+    carry_body_sites(sim, from, what);
+    carry_path_sites(sim, from, what);
 }

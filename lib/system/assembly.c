@@ -100,6 +100,18 @@ static void measure(dmb_sim *sim)
     }
 }
 
+/* Largest changes of the described speeds, as settle_speeds of the start measures them. */
+static void measure_speeds(dmb_sim *sim)
+{
+    const dmb_block_layout *layout = &sim->scene->layout;
+    double *most = sim->counters->projection;
+    for (uint32_t i = 0; i < sim->scene->node_count; i++)
+        for (uint32_t c = 0; c < layout->size[i]; c++) {
+            const uint32_t row = layout->row[i] + c, kind = 2 * c < layout->size[i] ? 0 : 1;
+            most[kind] = fmax(most[kind], fabs(sim->trial.velocity[row] - sim->now.velocity[row]));
+        }
+}
+
 /* Turns of the coordinates, what couplings keep and where drives begin, for the closed scene. */
 static void keep_coordinates(dmb_sim *sim)
 {
@@ -139,6 +151,7 @@ int32_t dmb_assemble(dmb_sim *sim)
     sim->linked_mode->assembling = 0;
     if (status < 0) return status;
     measure(sim);
+    measure_speeds(sim);
     keep_coordinates(sim);
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
     return DMB_OK;

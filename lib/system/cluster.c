@@ -145,9 +145,9 @@ static int32_t factor_dependent(dmb_sim *sim)
         const dmb_cluster *cluster = sim->scene->clusters + k;
         const dmb_partition partition = dmb_cluster_partition(sim, k);
         note_places(sim, k); /* the choice may have come back with an older state */
-        sim->cluster_quality[k] = dmb_partition_factor(
-            matrix_of(sim, cluster), cluster->columns, sim->cluster_weight + cluster->column, &partition,
-            sim->cluster_lu + cluster->square, sim->cluster_pivot + cluster->row);
+        sim->cluster_quality[k] =
+            dmb_partition_factor(matrix_of(sim, cluster), cluster->columns, sim->cluster_weight + cluster->column,
+                                 &partition, sim->cluster_lu + cluster->square, sim->cluster_pivot + cluster->row);
         if (!(sim->cluster_quality[k] > 0.0)) return singular(sim, cluster->row, 0.0);
     }
     return DMB_OK;
@@ -315,6 +315,16 @@ static void take_raw(dmb_sim *sim)
     memcpy(sim->trial.pseudo_acceleration, sim->raw_pseudo_acceleration, bytes);
 }
 
+static void leave_weak(dmb_sim *sim)
+{
+    for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
+        const dmb_cluster *cluster = sim->scene->clusters + k;
+        const dmb_partition partition = dmb_cluster_partition(sim, k);
+        dmb_partition_leave_weak(matrix_of(sim, cluster), cluster->columns, sim->cluster_weight + cluster->column,
+                                 &partition, sim->cluster_gram + cluster->square);
+    }
+}
+
 int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t from_raw)
 {
     dmb_sim *sim = evaluation->sim;
@@ -327,6 +337,7 @@ int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t 
     else
         status = dmb_clusters_gather(evaluation);
     if (status >= 0 && !(levels & DMB_SETTLE_POSE)) status = factor_gram(sim);
+    if (status >= 0 && from_raw) leave_weak(sim);
     if (status >= 0 && levels & DMB_SETTLE_SPEED) {
         settle_rows(sim, sim->constraint_rate, sim->trial.velocity, NULL, 0.0);
         status = dmb_constraint_rows(evaluation);

@@ -1,6 +1,9 @@
 /* The caller's constraints. What the callback does not give is built by central differences of fourth order:
  *     J by places:  along each body-frame component;      rate: along time at fixed poses
- *     convective:   second derivative of C along the motion q exp(s v), t + s;  of A v + b: its first derivative */
+ *     convective:   along the motion q exp(s v), t + s: of A v + b its first derivative, of C its second; where J is
+ *                   given (J v)' + d(J v)/dt + d2C/dt2 instead, which rounding of large coordinates does not spoil
+ * Steps are long: at 2 km from the origin rounding of a place is 2e-13 m, and Newton's iteration sees what it becomes.
+ */
 #include <string.h>
 
 #include "math/mat6.h"
@@ -8,9 +11,11 @@
 #include "system/constraint_rows.h"
 #include "system/node.h"
 
-#define DMB_POSE_STEP 1e-5    /* [m, rad] first derivatives by pose */
-#define DMB_TIME_STEP 1e-5    /* [s] first derivatives by time */
-#define DMB_MOTION_STEP 3e-4  /* [m, rad] travelled over a step of the derivatives along the motion */
+#define DMB_POSE_STEP 2e-4      /* [m, rad] first derivatives by pose */
+#define DMB_TIME_STEP 1e-4      /* [s] first derivatives by time */
+#define DMB_TURN_STEP 1e-3      /* [s] second derivatives by time */
+#define DMB_MOTION_STEP 3e-4    /* [m, rad; s] of first derivatives along the motion */
+#define DMB_BEND_STEP 2e-3      /* [m, rad; s] of second derivatives along the motion */
 #define DMB_JACOBIAN_CHECK 1e-5 /* largest difference of a given Jacobian from differences, over its largest entry */
 
 enum { PLACES = DMB_CONSTRAINT_NODES, COLUMNS = 6 * DMB_CONSTRAINT_NODES, ROWS = DMB_CONSTRAINT_ROWS };
@@ -63,8 +68,8 @@ static int32_t call(const question *ask, double value[ROWS], double jacobian[ROW
         dmb_vec3_copy(ask->x[i], poses[i]);
         dmb_quat_to_matrix(ask->q[i], poses[i] + 3);
     }
-    if (ask->callback->callback(ask->callback->context, ask->time, ask->callback->count,
-                                (const double(*)[12])poses, value, J) != 0)
+    if (ask->callback->callback(ask->callback->context, ask->time, ask->callback->count, (const double(*)[12])poses,
+                                value, J) != 0)
         return DMB_ERR_CALLBACK;
     for (uint32_t i = 0; i < ROWS; i++) sum += fabs(value[i]);
     for (uint32_t i = 0; i < ROWS * COLUMNS; i++) sum += fabs(J[i]);
@@ -117,55 +122,87 @@ static int32_t jacobian_of(const question *ask, double value[ROWS], double J[ROW
     return jacobian_by_differences(ask, J);
 }
 
-/* value_r = (A v)_r + b_r */
+/* value_r = (J v)_r, and b_r besides if the constraint is one of speeds. */
 static int32_t speed_value(const question *ask, double value[ROWS])
 {
     const uint32_t columns = 6 * ask->callback->count;
     double A[ROWS * COLUMNS];
     const int32_t status = call(ask, value, A);
+    if (ask->callback->kind == DMB_CONSTRAINT_HOLONOMIC) memset(value, 0, ROWS * sizeof(double));
     for (uint32_t r = 0; r < ask->callback->rows; r++)
         for (uint32_t c = 0; c < columns; c++) value[r] += A[r * columns + c] * ask->v[c / 6][c % 6];
     return status;
 }
 
-static double motion_step(const question *ask)
+static question at_time(const question *ask, double s)
 {
-    double most = 1.0;
-    for (uint32_t c = 0; c < 6 * ask->callback->count; c++) most = fmax(most, fabs(ask->v[c / 6][c % 6]));
-    return DMB_MOTION_STEP / most;
+    question moved = *ask;
+    moved.time += s;
+    return moved;
+}
+
+/* How a question goes on, and what is asked of it. */
+typedef question (*path)(const question *ask, double s);
+typedef int32_t (*quantity)(const question *ask, double value[ROWS]);
+
+static int32_t value_of(const question *ask, double value[ROWS])
+{
+    return call(ask, value, NULL);
+}
+
+/* out += first derivative of a quantity along a path. */
+static int32_t add_first(const question *ask, path along, quantity what, double h, double out[ROWS])
+{
+    int32_t status = DMB_OK;
+    for (int k = 0; k < 4 && status >= 0; k++) {
+        const question moved = along(ask, places_of_weight[k] * h);
+        double value[ROWS];
+        status = what(&moved, value);
+        for (uint32_t r = 0; r < ROWS; r++) out[r] += first_weight[k] * value[r] / h;
+    }
+    return status;
+}
+
+/* out += second derivative of C along a path. */
+static int32_t add_second(const question *ask, path along, double h, double out[ROWS])
+{
+    double value[ROWS];
+    int32_t status = call(ask, value, NULL);
+    for (uint32_t r = 0; r < ROWS; r++) out[r] -= 2.5 * value[r] / (h * h);
+    for (int k = 0; k < 4 && status >= 0; k++) {
+        const question moved = along(ask, places_of_weight[k] * h);
+        status = call(&moved, value, NULL);
+        for (uint32_t r = 0; r < ROWS; r++) out[r] += second_weight[k] * value[r] / (h * h);
+    }
+    return status;
+}
+
+/* Step along the motion that travels no more than `most`, nor lasts longer. */
+static double motion_step(const question *ask, double most)
+{
+    double fastest = 1.0;
+    for (uint32_t c = 0; c < 6 * ask->callback->count; c++) fastest = fmax(fastest, fabs(ask->v[c / 6][c % 6]));
+    return most / fastest;
 }
 
 static int32_t convective_of(const question *ask, double convective[ROWS])
 {
-    const int speeds = ask->callback->kind == DMB_CONSTRAINT_NONHOLONOMIC;
-    const double h = motion_step(ask), scale = speeds ? h : h * h;
-    const double *weight = speeds ? first_weight : second_weight;
-    double value[ROWS];
-    int32_t status = call(ask, value, NULL);
-    for (uint32_t r = 0; r < ROWS; r++) convective[r] = speeds ? 0.0 : -2.5 * value[r] / scale;
-    for (int k = 0; k < 4 && status >= 0; k++) {
-        const question moved = along_motion(ask, places_of_weight[k] * h);
-        status = speeds ? speed_value(&moved, value) : call(&moved, value, NULL);
-        for (uint32_t r = 0; r < ROWS; r++) convective[r] += weight[k] * value[r] / scale;
-    }
-    return status;
+    memset(convective, 0, ROWS * sizeof(double));
+    if ((ask->callback->provides & DMB_PROVIDES_JACOBIAN) == 0)
+        return add_second(ask, along_motion, motion_step(ask, DMB_BEND_STEP), convective);
+    int32_t status = add_first(ask, along_motion, speed_value, motion_step(ask, DMB_MOTION_STEP), convective);
+    if (status < 0 || ask->callback->kind == DMB_CONSTRAINT_NONHOLONOMIC) return status;
+    status = add_first(ask, at_time, speed_value, DMB_TIME_STEP, convective);
+    return status < 0 ? status : add_second(ask, at_time, DMB_TURN_STEP, convective);
 }
 
 /* dC/dt at fixed poses; of a nonholonomic constraint b itself. */
 static int32_t rate_of(const question *ask, const double value[ROWS], double rate[ROWS])
 {
-    double moved_value[ROWS];
-    int32_t status = DMB_OK;
     memcpy(rate, value, ROWS * sizeof(double));
     if (ask->callback->kind == DMB_CONSTRAINT_NONHOLONOMIC) return DMB_OK;
     memset(rate, 0, ROWS * sizeof(double));
-    for (int k = 0; k < 4 && status >= 0; k++) {
-        question moved = *ask;
-        moved.time += places_of_weight[k] * DMB_TIME_STEP;
-        status = call(&moved, moved_value, NULL);
-        for (uint32_t r = 0; r < ROWS; r++) rate[r] += first_weight[k] * moved_value[r] / DMB_TIME_STEP;
-    }
-    return status;
+    return add_first(ask, at_time, value_of, DMB_TIME_STEP, rate);
 }
 
 /* A place's 6 columns as those of its node: v_place = v + w x x, so the moment gains x cross the force. */
@@ -234,8 +271,7 @@ int32_t dmb_callback_curvature(dmb_evaluation *evaluation, uint32_t callback, do
     for (uint32_t c = 0; c < constraint->columns; c++) {
         double column[COLUMNS], full[COLUMNS] = {0.0};
         for (uint32_t i = 0; i < columns; i++) column[i] = half[i][c];
-        for (uint32_t p = 0; p < own->count; p++)
-            to_node(sim->scene, constraint, own->place + p, column + 6 * p, full);
+        for (uint32_t p = 0; p < own->count; p++) to_node(sim->scene, constraint, own->place + p, column + 6 * p, full);
         for (uint32_t r = 0; r < constraint->columns; r++) K[(size_t)r * constraint->columns + c] += full[r];
     }
     return DMB_OK;

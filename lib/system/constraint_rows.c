@@ -123,8 +123,7 @@ static void add_coordinate(dmb_evaluation *evaluation, const dmb_constraint *con
     dmb_joint_coordinates_in(evaluation, j, &relative, &c);
     sim->constraint_type[constraint->row] = DMB_ROW_POSITION;
     sim->constraint_value[constraint->row] += factor * c.value[component];
-    sim->constraint_convective[constraint->row] +=
-        factor * convective_of(c.J[component], c.JV[component], &relative);
+    sim->constraint_convective[constraint->row] += factor * convective_of(c.J[component], c.JV[component], &relative);
     dmb_add_joint_row(sim->scene, constraint, j, &relative, factor, c.J[component], jacobian_row(sim, constraint, 0));
 }
 
@@ -188,7 +187,8 @@ static void add_block(const dmb_scene *scene, const dmb_constraint *constraint, 
     for (uint32_t r = 0; r < rows; r++)
         for (uint32_t s = 0; s < columns; s++) {
             const uint32_t from = rows == DMB_NODE_PATH ? path[r] : r, to = columns == DMB_NODE_PATH ? path[s] : s;
-            out[(size_t)(first + r) * constraint->columns + at + s] += K[12 * (6 * (uint32_t)i + from) + 6 * (uint32_t)k + to];
+            out[(size_t)(first + r) * constraint->columns + at + s] +=
+                K[12 * (6 * (uint32_t)i + from) + 6 * (uint32_t)k + to];
         }
 }
 

@@ -78,7 +78,8 @@ int32_t dmb_system_rate_jumps(const dmb_sim *sim)
         if (target_of(sim, i, sim->clock->time, &value, &rate) < 0) continue;
         const int on_joint = scene->drives[i].joint != UINT32_MAX;
         const double last = on_joint ? sim->now.drive_rate[i] : sim->now.acceleration[scene->drives[i].row];
-        if (fabs(rate - last) > 1e-6 * (fabs(rate) + fabs(last) + fabs(value))) return 1; /* more than differencing noise */
+        if (fabs(rate - last) > 1e-6 * (fabs(rate) + fabs(last) + fabs(value)))
+            return 1; /* more than differencing noise */
     }
     return 0;
 }
@@ -145,7 +146,8 @@ static void gather_drive(dmb_evaluation *evaluation, uint32_t i)
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_drive *drive = sim->scene->drives + i;
     double slope;
-    const double force = dmb_drive_force(evaluation, i, evaluation->dynamic ? sim->trial.velocity[drive->row] : 0.0, &slope);
+    const double force =
+        dmb_drive_force(evaluation, i, evaluation->dynamic ? sim->trial.velocity[drive->row] : 0.0, &slope);
     sim->correction[drive->row] -= force;
     sim->scale_row[drive->row] += fabs(force);
     evaluation->power[DMB_POWER_DRIVES] += force * sim->trial.velocity[drive->row];

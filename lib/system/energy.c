@@ -168,7 +168,8 @@ void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *
 }
 
 /* Half the weight and the moment +- w L^2/12 that belong to one end (side 1: A, -1: B), in its frame. */
-static void end_weight(const dmb_scene *scene, const dmb_element_type *type, const double R[9], double side, double w[6])
+static void end_weight(const dmb_scene *scene, const dmb_element_type *type, const double R[9], double side,
+                       double w[6])
 {
     double g[3];
     dmb_mat3_tvec(R, scene->gravity, g);

@@ -17,6 +17,15 @@ static void keep_turns(dmb_evaluation *evaluation)
     }
 }
 
+void dmb_joints_reactions(dmb_sim *sim)
+{
+    dmb_clusters_least_norm(sim);
+    for (uint32_t i = 0; i < sim->scene->constraint_count; i++) {
+        const dmb_constraint *c = sim->scene->constraints + i;
+        if (c->kind == DMB_OF_DRIVE) sim->trial.drive_force[c->index] = -sim->trial.multiplier[c->row];
+    }
+}
+
 void dmb_joints_accept(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -26,7 +35,7 @@ void dmb_joints_accept(dmb_evaluation *evaluation)
         if (drive->joint == UINT32_MAX || drive->kind != DMB_DRIVE_MOTION) continue;
         if (sim->joint_state[drive->joint] != DMB_JOINT_OPEN) sim->trial.drive_speed[i] = sim->trial.drive_target[i];
     }
-    dmb_clusters_least_norm(sim);
+    dmb_joints_reactions(sim);
     dmb_clusters_watch(sim);
 }
 

@@ -1,5 +1,6 @@
-/* What joints do to the residual: springs, dampers, stops, friction and drives along their coordinates, and the forces of
- * constraint; and the tangent of all that. A generalised force f on a coordinate with gradient J is the wrench J^T f. */
+/* What joints do to the residual: springs, dampers, stops, friction and drives along their coordinates, and the forces
+ * of constraint; and the tangent of all that. A generalised force f on a coordinate with gradient J is the wrench J^T
+ * f. */
 #include <string.h>
 
 #include "math/mat6.h"
@@ -36,6 +37,21 @@ static void begin(const dmb_evaluation *evaluation, uint32_t j, coordinate_force
     for (int i = 0; i < 6; i++) f->speed[i] = evaluation->dynamic ? dmb_vec6_dot(f->c.J[i], f->relative.V) : 0.0;
 }
 
+static double largest_place(const dmb_sim *sim, const dmb_scene_frame *frame)
+{
+    const double *u = sim->trial.displacement;
+    return frame->node == UINT32_MAX ? dmb_vec3_norm(frame->x)
+                                     : dmb_vec3_norm(frame->x) + dmb_vec3_norm(u + 3 * (size_t)frame->node);
+}
+
+/* [N] what the force on coordinate i changes by where the numbers that the coordinate is the difference of do so by
+ * their own size; moments as forces at the length scale. */
+static double stiffness_times_reach(const dmb_sim *sim, const dmb_scene_joint *joint, int i, double by_position)
+{
+    if (i >= 3) return by_position / sim->scene->length_scale;
+    return by_position * (dmb_vec3_norm(joint->span) + largest_place(sim, &joint->a) + largest_place(sim, &joint->b));
+}
+
 static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, coordinate_forces *f)
 {
     for (int i = 0; i < 6; i++) {
@@ -45,6 +61,8 @@ static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, c
         f->force[i] += law.force;
         f->by_position[i] += law.by_position;
         f->by_speed[i] += law.by_speed;
+        const double k = stiffness_times_reach(evaluation->sim, joint, i, law.by_position);
+        evaluation->rounding += k * k;
         evaluation->power[DMB_POWER_POTENTIAL] += (law.spring + law.stop) * f->speed[i];
         evaluation->power[DMB_POWER_DAMPING] += law.damper * f->speed[i];
         evaluation->power[DMB_POWER_FRICTION] += law.friction * f->speed[i];
@@ -65,8 +83,7 @@ static void add_drives(dmb_evaluation *evaluation, uint32_t j, coordinate_forces
         f->force[drive->component] += force;
         f->by_speed[drive->component] += evaluation->dynamic ? slope : 0.0;
         evaluation->power[DMB_POWER_DRIVES] += force * f->speed[drive->component];
-        sim->trial.drive_position[d] =
-            f->c.value[drive->component] - sim->drive_offset[d];
+        sim->trial.drive_position[d] = f->c.value[drive->component] - sim->drive_offset[d];
     }
 }
 
@@ -109,8 +126,7 @@ static void add_position_tangent(dmb_evaluation *evaluation, const dmb_constrain
         for (int k = 0; k < 6; k++) w[k] += minus[i] * f->c.J[i][k];
         dmb_mat6_add_outer(-f->by_position[i], f->c.J[i], f->c.J[i], W);
     }
-    dmb_add_joint_tangent(sim->scene, constraint, j, &f->relative, w, W,
-                          sim->constraint_tangent + constraint->tangent);
+    dmb_add_joint_tangent(sim->scene, constraint, j, &f->relative, w, W, sim->constraint_tangent + constraint->tangent);
 }
 
 static void add_speed_tangent(dmb_evaluation *evaluation, const dmb_constraint *constraint, uint32_t j,
@@ -140,8 +156,8 @@ static void to_parameters(dmb_evaluation *evaluation, const dmb_constraint *cons
         if (scene->layout.size[node] != DMB_NODE_FULL) continue;
         dmb_se3_tangent_at(sim->increment + scene->layout.row[node], NULL, &T);
         for (uint32_t r = 0; r < constraint->columns; r++) {
-            double *row = sim->constraint_tangent + constraint->tangent + (size_t)r * constraint->columns +
-                          constraint->column[i];
+            double *row =
+                sim->constraint_tangent + constraint->tangent + (size_t)r * constraint->columns + constraint->column[i];
             dmb_se3_tangent_apply_transpose(&T, row, row);
         }
     }
@@ -159,8 +175,7 @@ static void gather_forces(dmb_evaluation *evaluation)
         add_laws(evaluation, joint, &f);
         add_drives(evaluation, j, &f);
         apply(evaluation, joint, &f);
-        if (evaluation->tangent)
-            add_position_tangent(evaluation, scene->constraints + joint->constraint, j, &f);
+        if (evaluation->tangent) add_position_tangent(evaluation, scene->constraints + joint->constraint, j, &f);
     }
 }
 
@@ -192,7 +207,8 @@ static int32_t gather_tangents(dmb_evaluation *evaluation)
     return status;
 }
 
-/* Force of the motion drives on their coordinates, and power of what moves the callers' constraints: -f . B v = f . rate. */
+/* Force of the motion drives on their coordinates, and power of what moves the callers' constraints: -f . B v = f .
+ * rate. */
 static void take_reactions(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -201,8 +217,7 @@ static void take_reactions(dmb_evaluation *evaluation)
         const dmb_constraint *c = scene->constraints + i;
         if (c->kind == DMB_OF_DRIVE) sim->trial.drive_force[c->index] = -sim->trial.multiplier[c->row];
         for (uint32_t k = 0; k < c->rows && c->kind == DMB_OF_CALLBACK; k++)
-            evaluation->power[DMB_POWER_LOADS] +=
-                sim->trial.multiplier[c->row + k] * sim->constraint_rate[c->row + k];
+            evaluation->power[DMB_POWER_LOADS] += sim->trial.multiplier[c->row + k] * sim->constraint_rate[c->row + k];
     }
 }
 

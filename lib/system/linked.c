@@ -105,7 +105,8 @@ static void put_constraints(const dmb_sim *sim, const dmb_cluster *cluster, doub
             for (uint32_t r = 0; r < scene->layout.size[c->node[a]]; r++)
                 for (uint32_t b = 0; b < c->node_count; b++)
                     for (uint32_t s = 0; s < scene->layout.size[c->node[b]]; s++) {
-                        const size_t row = scene->node_place[c->node[a]] + r, column = scene->node_place[c->node[b]] + s;
+                        const size_t row = scene->node_place[c->node[a]] + r,
+                                     column = scene->node_place[c->node[b]] + s;
                         if (weight[row] > 0.0 && weight[column] > 0.0)
                             D[row * cluster->columns + column] +=
                                 sim->constraint_tangent[c->tangent + (size_t)(c->column[a] + r) * c->columns +

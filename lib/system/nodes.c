@@ -71,8 +71,8 @@ static void gather_path_damping(dmb_evaluation *evaluation, uint32_t node, const
     dmb_inertia_of(sim, node)[3] += evaluation->velocity_factor * c[1];
 }
 
-/* Lateral damping of pipe along x: a slice at x moves sideways with v_y + x w_z and v_z - x w_y. c = axial, torsional, and
- * lateral times the integrals of 1, x, x^2. */
+/* Lateral damping of pipe along x: a slice at x moves sideways with v_y + x w_z and v_z - x w_y. c = axial, torsional,
+ * and lateral times the integrals of 1, x, x^2. */
 static void gather_damping(dmb_evaluation *evaluation, uint32_t node)
 {
     dmb_sim *sim = evaluation->sim;
@@ -82,12 +82,8 @@ static void gather_damping(dmb_evaluation *evaluation, uint32_t node)
         gather_path_damping(evaluation, node, c);
         return;
     }
-    const double f[6] = {-c[0] * v[0],
-                         -c[2] * v[1] - c[3] * v[5],
-                         -c[2] * v[2] + c[3] * v[4],
-                         -c[1] * v[3],
-                         c[3] * v[2] - c[4] * v[4],
-                         -c[3] * v[1] - c[4] * v[5]};
+    const double f[6] = {-c[0] * v[0], -c[2] * v[1] - c[3] * v[5], -c[2] * v[2] + c[3] * v[4],
+                         -c[1] * v[3], c[3] * v[2] - c[4] * v[4],  -c[3] * v[1] - c[4] * v[5]};
     dmb_apply_wrench(sim, node, f);
     evaluation->power[DMB_POWER_DAMPING] += dmb_vec6_dot(f, v);
     if (!evaluation->tangent) return;

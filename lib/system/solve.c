@@ -29,7 +29,8 @@ static norms norms_of(const dmb_sim *sim, const dmb_chain *chain)
     return n;
 }
 
-/* Rounding of poses only counts where there are elements; overflow never converges: anything is small beside infinity. */
+/* Rounding of poses only counts where there are elements; overflow never converges: anything is small beside infinity.
+ */
 static int32_t judge(const dmb_evaluation *evaluation, const dmb_chain *chain, double tolerance, norms n)
 {
     const double floor = DMB_ROUNDING_UNITS * DBL_EPSILON;

@@ -1,7 +1,7 @@
-/* A scene with joints of every kind at work, for the contract tests: a string in a curved hole on a carriage that a drive
- * feeds, with a controlled rotary head and a centraliser on the hole's axis; a four-bar with springs, stops, friction and
- * a load; gears and a screw; a disc that rolls, a sledge on a knife edge, a ball on the caller's sphere; a pendulum
- * whose elbow is locked, opened and closed by the tests. */
+/* A scene with joints of every kind at work, for the contract tests: a string in a curved hole on a carriage that a
+ * drive feeds, with a controlled rotary head and a centraliser on the hole's axis; a four-bar with springs, stops,
+ * friction and a load; gears and a screw; a disc that rolls, a sledge on a knife edge, a ball on the caller's sphere; a
+ * pendulum whose elbow is locked, opened and closed by the tests. */
 #ifndef DMB_TESTS_JOINT_SCENE_H
 #define DMB_TESTS_JOINT_SCENE_H
 
@@ -121,7 +121,8 @@ static inline void scene_centraliser(joint_scene *c)
 
 static inline void scene_four_bar(joint_scene *c)
 {
-    const bar left = {{0.0, 2.0}, {0.0, 3.0}, 1.0}, top = {{0.0, 3.0}, {2.0, 3.4}, 1.0}, right = {{2.2, 2.0}, {2.0, 3.4}, 1.0};
+    const bar left = {{0.0, 2.0}, {0.0, 3.0}, 1.0}, top = {{0.0, 3.0}, {2.0, 3.4}, 1.0},
+              right = {{2.2, 2.0}, {2.0, 3.4}, 1.0};
     const double half[2] = {0.5 * sqrt(4.16), 0.5 * sqrt(2.0)};
     const dmb_id a = add_bar(&c->s, &left), b = add_bar(&c->s, &top), d = add_bar(&c->s, &right);
     dmb_joint_def def = hinge_of("crank", DMB_JOINT_REVOLUTE, pin_ground(0.0, 2.0), pin_on(a, -0.5));

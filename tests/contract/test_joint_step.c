@@ -298,7 +298,8 @@ static void do_all(const volatile size_t *calls)
         if ((status < 0) != deeds[i].fails)
             fail_msg("%s: %s: %s", deeds[i].name, dmb_status_name(status), dmb_sim_message(scene.s.sim));
         if (after != before) fail_msg("%s: %zu allocations", deeds[i].name, after - before);
-        if (status < 0 && !deeds[i].counts && hash_of(scene.s.sim) != hash) fail_msg("%s: failed and changed the state", deeds[i].name);
+        if (status < 0 && !deeds[i].counts && hash_of(scene.s.sim) != hash)
+            fail_msg("%s: failed and changed the state", deeds[i].name);
     }
 }
 

@@ -35,8 +35,8 @@ static pendulum pendulum_of(const dmb_joint_def *like)
     p.bar[0] = add_bar(&p.s, &first);
     p.bar[1] = add_bar(&p.s, &second);
     p.hinge[0] = add_hinge(&p.s, "shoulder", DMB_JOINT_REVOLUTE, pin_ground(0.0, 0.0), pin_on(p.bar[0], -0.5 * length));
-    dmb_joint_def def = hinge_of("elbow", DMB_JOINT_REVOLUTE, pin_on(p.bar[0], 0.5 * length),
-                                 pin_on(p.bar[1], -0.5 * length));
+    dmb_joint_def def =
+        hinge_of("elbow", DMB_JOINT_REVOLUTE, pin_on(p.bar[0], 0.5 * length), pin_on(p.bar[1], -0.5 * length));
     if (like != NULL) {
         def.state = like->state;
         memcpy(def.stiffness, like->stiffness, sizeof def.stiffness);
@@ -324,8 +324,8 @@ static void described_locked(void **state)
     const double turning = M[0][0] + 2.0 * M[0][1] + M[1][1];
     assert_int_equal(joint_at(&p.s, p.hinge[1]).state, DMB_JOINT_LOCKED);
     assert_int_equal(joint_at(&p.s, p.hinge[1]).rows, 6);
-    check_relative("one bar of twice the length: first acceleration",
-                   joint_at(&p.s, p.hinge[0]).acceleration[DMB_RX], -2.0 * mass * g * length / turning, 1e-12);
+    check_relative("one bar of twice the length: first acceleration", joint_at(&p.s, p.hinge[0]).acceleration[DMB_RX],
+                   -2.0 * mass * g * length / turning, 1e-12);
     take_steps(&p.s, step, 300);
     check_below("bend [rad]", joint_at(&p.s, p.hinge[1]).position[DMB_RX], 1e-14);
     must(&p.s, dmb_sim_set_joint(p.s.sim, p.hinge[1], DMB_JOINT_ACTIVE));
@@ -505,18 +505,83 @@ static void gear_that_has_slipped(void **state)
     rig_close(&s);
 }
 
+/* ---- On the axis of a hole --------------------------------------------------------------------------------------- */
+
+/* A ball that slides down a curved hole is held where it is locked, and slides on from there. */
+static void bead_in_a_curved_hole(void **state)
+{
+    (void)state;
+    static const double survey[9] = {0.0, 0.2, 0.0, 10.0, 0.7, 0.3, 40.0, 1.6, 1.2};
+    dmb_wall_def wall = dmb_wall_def_default();
+    dmb_body_def ball = dmb_body_def_default();
+    dmb_joint_def def = dmb_joint_def_default();
+    static unsigned char block[1 << 16];
+    size_t size = 0;
+    rig s;
+    rig_open(&s, 0.0, 0.0, -g);
+    wall.survey = survey;
+    wall.survey_count = 3;
+    wall.normal_law = DMB_NORMAL_NONE;
+    (void)add_wall(&s, &wall);
+    ball.position[0] = 1.0;
+    ball.position[2] = -5.0;
+    ball.mass = mass;
+    const dmb_id body = add_body(&s, &ball);
+    def.kind = DMB_JOINT_POINT_ON_HOLE;
+    def.place_b = dmb_station(body, 0, 0.0);
+    const dmb_id joint = add_joint(&s, &def);
+    (void)mechanism_start(&s, NULL);
+    const double start = energy_of(&s).gravity; /* put onto the axis, it is not where it was described */
+    take_steps(&s, step, 1000);
+    const dmb_energy sliding = energy_of(&s);
+    check_below("sliding: energy over the kinetic", (sliding.kinetic + sliding.gravity - start) / sliding.kinetic,
+                1e-5);
+    check_below("misfit", joint_at(&s, joint).misfit, 1e-13);
+    must(&s, dmb_sim_set_joint(s.sim, joint, DMB_JOINT_LOCKED));
+    check_relative("kinetic energy into impact", energy_of(&s).impact, sliding.kinetic, 1e-12);
+    const dmb_pose held = pose_at(&s, dmb_station(body, 0, 0.0));
+    take_steps(&s, step, 500);
+    must(&s, dmb_sim_snapshot_size(s.sim, &size));
+    assert_true(size <= sizeof block);
+    must(&s, dmb_sim_snapshot(s.sim, block, size));
+    take_steps(&s, step, 500);
+    const uint64_t later = hash_of(&s);
+    const dmb_pose still = pose_at(&s, dmb_station(body, 0, 0.0));
+    check_below("locked for 1 s: way along the hole [m]", largest_difference(3, held.position, still.position), 1e-13);
+    const double weight[3] = {0.0, 0.0, mass * g};
+    check_below("the lock carries the weight [N]", largest_difference(3, joint_at(&s, joint).reaction, weight), 1e-11);
+    must(&s, dmb_sim_restore(s.sim, block, size));
+    take_steps(&s, step, 500);
+    assert_true(hash_of(&s) == later);
+    must(&s, dmb_sim_set_joint(s.sim, joint, DMB_JOINT_ACTIVE));
+    const dmb_energy rest = energy_of(&s);
+    take_steps(&s, step, 500);
+    const dmb_energy end = energy_of(&s);
+    check_below("sliding on: energy over the kinetic", (end.kinetic + end.gravity - rest.gravity) / end.kinetic, 1e-5);
+    rig_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(locking_is_a_plastic_impact),  cmocka_unit_test(locked_pendulum_is_one_body),
-        cmocka_unit_test(reactions_are_made_anew),      cmocka_unit_test(releasing_changes_no_speed),
-        cmocka_unit_test(open_joint_lets_go),           cmocka_unit_test(apart_cannot_close),
-        cmocka_unit_test(closing_again),                cmocka_unit_test(spring_of_an_open_joint),
-        cmocka_unit_test(states_survive_snapshots),     cmocka_unit_test(same_state_is_no_change),
-        cmocka_unit_test(described_locked),             cmocka_unit_test(described_open),
-        cmocka_unit_test(driven_joint_cannot_lock),     cmocka_unit_test(driven_joint_locked_at_rest),
-        cmocka_unit_test(driven_joint_opens_and_closes), cmocka_unit_test(torque_on_a_switched_joint),
+        cmocka_unit_test(locking_is_a_plastic_impact),
+        cmocka_unit_test(locked_pendulum_is_one_body),
+        cmocka_unit_test(reactions_are_made_anew),
+        cmocka_unit_test(releasing_changes_no_speed),
+        cmocka_unit_test(open_joint_lets_go),
+        cmocka_unit_test(apart_cannot_close),
+        cmocka_unit_test(closing_again),
+        cmocka_unit_test(spring_of_an_open_joint),
+        cmocka_unit_test(states_survive_snapshots),
+        cmocka_unit_test(same_state_is_no_change),
+        cmocka_unit_test(described_locked),
+        cmocka_unit_test(described_open),
+        cmocka_unit_test(driven_joint_cannot_lock),
+        cmocka_unit_test(driven_joint_locked_at_rest),
+        cmocka_unit_test(driven_joint_opens_and_closes),
+        cmocka_unit_test(torque_on_a_switched_joint),
         cmocka_unit_test(gear_that_has_slipped),
+        cmocka_unit_test(bead_in_a_curved_hole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,5 @@
 /* Pendulum by a revolute joint: the elliptic motion, order of the scheme in pose, speed and reaction, steps of changing
  * length, the two methods. */
-#include <stdio.h>
-
 #include "mechanism.h"
 #include "ode.h"
 

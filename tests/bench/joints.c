@@ -1,0 +1,241 @@
+/* What explicit joints cost. usage: joints CSV
+ *
+ * Scene J: the tube of scene C, cut into strings of one pipe and one element that explicit fixed joints put together,
+ * turned from 0 to 60 rpm through a revolute joint; beside it the same tube as one string. Both methods of constraints,
+ * 10 to 10000 joints. tests/bench/run calls it. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <drillmbd/drillmbd.h>
+
+#include <stdio.h>
+
+#include "yardstick.h"
+
+#define TUBE_PI 3.14159265358979323846
+
+enum { JOINTS_REPEATS = 5, JOINTS_SIZES = 4, JOINTS_WAYS = 3, JOINTS_STEPS = 50 };
+
+/* How the tube is held together. */
+enum { WAY_INDEPENDENT = 0, WAY_MULTIPLIERS = 1, WAY_STRING = 2 };
+static const char *const way_names[JOINTS_WAYS] = {"independent", "multipliers", "structural"};
+
+typedef struct tube {
+    uint32_t joints;
+    int way;
+    dmb_model *model;
+    dmb_id first; /* string, or the first one */
+} tube;
+
+/* All times in seconds, medians. */
+typedef struct cost {
+    double describe, compile, create, step, spread, iterations, bytes, rotation;
+    dmb_model_info info;
+} cost;
+
+static yardstick unit;
+static FILE *table;
+
+/* ---- The tube ------------------------------------------------------------------------------------------------------
+ */
+
+static int32_t add_tube_string(tube *t, uint32_t start, uint32_t pipes, int32_t start_free, dmb_id *id)
+{
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    string.position[0] = start;
+    string.start_free = start_free;
+    const int32_t status = dmb_model_add_string(t->model, &string, &pipe.string);
+    pipe.outer_diameter = 0.073;
+    pipe.inner_diameter = 0.059;
+    pipe.young_modulus = 206e9;
+    return status < 0 ? status : dmb_model_add_pipes(t->model, &pipe, pipes, id);
+}
+
+static int32_t add_turning(tube *t, dmb_id part)
+{
+    dmb_term rise = dmb_term_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    rise.kind = DMB_TERM_STEP;
+    rise.h1 = 2.0 * TUBE_PI;
+    const int32_t status = dmb_model_add_programme(t->model, &rise, 1, &drive.programme);
+    drive.part = part;
+    drive.component = DMB_RX;
+    return status < 0 ? status : dmb_model_add_drive(t->model, &drive, NULL);
+}
+
+static int32_t add_bearing(tube *t)
+{
+    dmb_joint_def bearing = dmb_joint_def_default();
+    dmb_id id = {0, 0};
+    bearing.kind = DMB_JOINT_REVOLUTE;
+    bearing.place_b = dmb_station(t->first, 0, 0.0);
+    const int32_t status = dmb_model_add_joint(t->model, &bearing, &id);
+    return status < 0 ? status : add_turning(t, id);
+}
+
+static int32_t describe_pieces(tube *t)
+{
+    int32_t status = add_tube_string(t, 0, 1, DMB_FREE_ALL, &t->first);
+    dmb_id before = t->first;
+    if (status >= 0) status = add_bearing(t);
+    for (uint32_t i = 1; status >= 0 && i <= t->joints; ++i) {
+        dmb_joint_def joint = dmb_joint_def_default();
+        joint.place_a = dmb_station(before, 0, 1.0);
+        status = add_tube_string(t, i, 1, DMB_FREE_ALL, &before);
+        joint.place_b = dmb_station(before, 0, 0.0);
+        if (status >= 0) status = dmb_model_add_joint(t->model, &joint, NULL);
+    }
+    return status;
+}
+
+static int32_t describe_string(tube *t)
+{
+    const int32_t status = add_tube_string(t, 0, t->joints + 1, DMB_FREE_RX, &t->first);
+    return status < 0 ? status : add_turning(t, t->first);
+}
+
+static int32_t tube_open(tube *t)
+{
+    dmb_environment_def weightless = dmb_environment_def_default();
+    weightless.gravity[2] = 0.0;
+    int32_t status = dmb_model_create(NULL, &t->model);
+    if (status >= 0) status = dmb_model_set_environment(t->model, &weightless);
+    if (status < 0) return status;
+    return t->way == WAY_STRING ? describe_string(t) : describe_pieces(t);
+}
+
+/* ---- Measures ------------------------------------------------------------------------------------------------------
+ */
+
+/* [rad] at the far end of the first pipe: in the few steps of the longest tube the turning does not get much further.
+ */
+static int32_t rotation_of(const tube *t, const dmb_sim *sim, double *angle)
+{
+    return dmb_query_rotation(sim, dmb_station(t->first, 0, 1.0), angle);
+}
+
+/* Creation and steps of 1 ms. */
+static int32_t run_tube(const tube *t, cost *c, double *create, double *step)
+{
+    dmb_sim_options options = dmb_sim_options_default();
+    dmb_statistics statistics = dmb_statistics_default();
+    dmb_sim *sim = NULL;
+    options.constraint_method = t->way == WAY_MULTIPLIERS ? DMB_METHOD_MULTIPLIERS : DMB_METHOD_INDEPENDENT;
+    double begin = processor_time();
+    int32_t status = dmb_sim_create(t->model, &options, &sim);
+    *create = processor_time() - begin;
+    begin = processor_time();
+    for (uint32_t k = 0; status >= 0 && k < JOINTS_STEPS; ++k) status = dmb_sim_step(sim, 1e-3, NULL);
+    *step = (processor_time() - begin) / JOINTS_STEPS;
+    if (status >= 0) status = dmb_query_statistics(sim, &statistics);
+    if (status >= 0) status = rotation_of(t, sim, &c->rotation);
+    c->iterations = (double)statistics.iterations / JOINTS_STEPS;
+    if (status < 0) fprintf(stderr, "joints: %s: %s\n", dmb_status_text(status), dmb_sim_message(sim));
+    dmb_sim_destroy(&sim);
+    return status;
+}
+
+static int32_t measure_tube(tube *t, cost *c)
+{
+    double describe[JOINTS_REPEATS], compile[JOINTS_REPEATS], create[JOINTS_REPEATS], step[JOINTS_REPEATS];
+    const int repeats = t->joints < 5000 ? JOINTS_REPEATS : 3;
+    int32_t status = DMB_OK;
+    memset(c, 0, sizeof *c);
+    c->info = dmb_model_info_default();
+    for (int i = 0; i < repeats && status >= 0; ++i) {
+        double begin = processor_time();
+        status = tube_open(t);
+        describe[i] = processor_time() - begin;
+        begin = processor_time();
+        if (status >= 0) status = dmb_model_compile(t->model, NULL);
+        compile[i] = processor_time() - begin;
+        if (status >= 0) status = dmb_model_get_info(t->model, &c->info);
+        if (status < 0) fprintf(stderr, "joints: %s: %s\n", dmb_status_text(status), dmb_model_message(t->model));
+        if (status >= 0) status = run_tube(t, c, create + i, step + i);
+        dmb_model_destroy(&t->model);
+        yardstick_measure(&unit);
+    }
+    if (status < 0) return status;
+    c->describe = median(describe, repeats);
+    c->compile = median(compile, repeats);
+    c->create = median(create, repeats);
+    c->step = median(step, repeats);
+    c->spread = (step[repeats - 1] - step[0]) / c->step;
+    c->bytes = (double)c->info.model_bytes + (double)c->info.sim_bytes;
+    return status;
+}
+
+/* ---- Report --------------------------------------------------------------------------------------------------------
+ */
+
+static void report(uint32_t joints, int way, const cost *c, const cost *string)
+{
+    const double n = joints, u = yardstick_value(&unit), off = fabs(c->rotation / string->rotation - 1.0);
+    printf("scene=J joints=%u method=%s rows=%u clusters=%u us_describe=%.4g us_compile=%.4g us_create=%.4g "
+           "us_create_per_joint=%.3g "
+           "us_per_step=%.4g spread=%.2g us_per_step_per_joint=%.3g U_per_step=%.3g to_structural=%.3g iterations=%.3g "
+           "error=%.1e error_kind=rotation_vs_structural bytes_per_joint=%.0f\n",
+           (unsigned)joints, way_names[way], (unsigned)c->info.constraint_rows, (unsigned)c->info.clusters,
+           1e6 * c->describe, 1e6 * c->compile, 1e6 * c->create, 1e6 * c->create / n, 1e6 * c->step, c->spread,
+           1e6 * c->step / n, c->step / u, c->step / string->step, c->iterations, off, c->bytes / n);
+    fprintf(table, "J,%u,%s,%u,%u,%.6g,%.6g,%.6g,%.6g,%.3g,%.4g,%.4g,%.3g,%.0f\n", (unsigned)joints, way_names[way],
+            (unsigned)c->info.constraint_rows, (unsigned)c->info.clusters, 1e6 * c->describe, 1e6 * c->compile,
+            1e6 * c->create, 1e6 * c->step, c->spread, 1e6 * u, c->iterations, off, c->bytes);
+    fflush(stdout);
+}
+
+/* Slope of log(time) over log(joints) by least squares. */
+static double growth(int count, const double *joints, const double *time)
+{
+    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+    for (int i = 0; i < count; ++i) {
+        const double u = log(joints[i]), v = log(time[i]);
+        x += u, y += v, xx += u * u, xy += u * v;
+    }
+    return (count * xy - x * y) / (count * xx - x * x);
+}
+
+static void report_growth(int way, const double *joints, const cost *costs)
+{
+    double describe[JOINTS_SIZES], compile[JOINTS_SIZES], create[JOINTS_SIZES], step[JOINTS_SIZES];
+    for (int i = 0; i < JOINTS_SIZES; ++i) {
+        describe[i] = costs[i].describe;
+        compile[i] = costs[i].compile;
+        create[i] = costs[i].create;
+        step[i] = costs[i].step;
+    }
+    printf("scene=J joints=10..10000 method=%s growth_describe=%.3f growth_compile=%.3f growth_create=%.3f "
+           "growth_step=%.3f\n",
+           way_names[way], growth(JOINTS_SIZES, joints, describe), growth(JOINTS_SIZES, joints, compile),
+           growth(JOINTS_SIZES, joints, create), growth(JOINTS_SIZES, joints, step));
+}
+
+static int run_all(void)
+{
+    static cost costs[JOINTS_WAYS][JOINTS_SIZES];
+    static const double joints[JOINTS_SIZES] = {10.0, 100.0, 1000.0, 10000.0};
+    for (int i = 0; i < JOINTS_SIZES; ++i)
+        for (int way = JOINTS_WAYS - 1; way >= 0; --way) {
+            tube t = {.joints = (uint32_t)joints[i], .way = way};
+            if (measure_tube(&t, &costs[way][i]) < 0) return 1;
+            report(t.joints, way, &costs[way][i], &costs[WAY_STRING][i]);
+        }
+    for (int way = 0; way < JOINTS_WAYS; ++way) report_growth(way, joints, costs[way]);
+    return 0;
+}
+
+int main(int count, char **words)
+{
+    if (count != 2) return fputs("usage: joints CSV\n", stderr), 2;
+    table = fopen(words[1], "w");
+    if (!table) return perror(words[1]), 2;
+    fputs("scene,joints,method,rows,clusters,us_describe,us_compile,us_create,us_per_step,spread,U_us,iterations,error,"
+          "bytes\n",
+          table);
+    yardstick_open(&unit);
+    for (int i = 0; i < 25; ++i) yardstick_measure(&unit);
+    printf("U=%.4g us\n", 1e6 * yardstick_value(&unit));
+    const int failed = run_all();
+    if (fclose(table) != 0) return perror(words[1]), 2;
+    return failed;
+}
