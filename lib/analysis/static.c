@@ -7,7 +7,6 @@
 #include "math/vec3.h"
 #include "system/bit.h"
 #include "system/cluster.h"
-#include "system/joint_state.h"
 #include "system/owner.h"
 #include "system/start.h"
 
@@ -106,7 +105,6 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     search->evaluation.tangent = 0;
     const int32_t status = dmb_system_evaluate(&search->evaluation);
     if (status < 0) return status;
-    if (scene->cluster_count) dmb_joints_reactions(sim);
     memcpy(sim->residual_row, sim->correction, scene->row_count * sizeof(double));
     memcpy(sim->now.multiplier, sim->trial.multiplier, scene->constraint_row_count * sizeof(double));
     for (uint32_t i = 0; i < scene->drive_count; i++) {

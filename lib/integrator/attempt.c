@@ -342,6 +342,10 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
                         owner.index, owner.pipe, attempt->evaluation.time, attempt->step);
         break;
     case DMB_ERR_CALLBACK:
+        if (sim->linked_mode->row != UINT32_MAX) {
+            dmb_clusters_explain(sim, "its callback failed or gave a value that is not finite");
+            break;
+        }
         dmb_message_set(
             &sim->message,
             "callback of a programme or constraint: it failed or gave a value that is not finite at time %g",

@@ -17,7 +17,8 @@ static void keep_turns(dmb_evaluation *evaluation)
     }
 }
 
-void dmb_joints_reactions(dmb_sim *sim)
+/* Solved for, the multipliers of redundant equations need not be of least norm yet. */
+static void reactions(dmb_sim *sim)
 {
     dmb_clusters_least_norm(sim);
     for (uint32_t i = 0; i < sim->scene->constraint_count; i++) {
@@ -35,7 +36,7 @@ void dmb_joints_accept(dmb_evaluation *evaluation)
         if (drive->joint == UINT32_MAX || drive->kind != DMB_DRIVE_MOTION) continue;
         if (sim->joint_state[drive->joint] != DMB_JOINT_OPEN) sim->trial.drive_speed[i] = sim->trial.drive_target[i];
     }
-    dmb_joints_reactions(sim);
+    reactions(sim);
     dmb_clusters_watch(sim);
 }
 

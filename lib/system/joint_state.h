@@ -9,8 +9,6 @@ void dmb_joints_accept(dmb_evaluation *evaluation);
 /* Joint j is locked from now on, or no longer: where it holds frame b, in the pose of now. */
 void dmb_joint_hold(dmb_sim *sim, uint32_t j);
 void dmb_joint_release(dmb_sim *sim, uint32_t j);
-/* Multipliers of least norm where equations are redundant, and what the motion drives on joints exert by them; trial. */
-void dmb_joints_reactions(dmb_sim *sim);
 /* [J] in springs and stops of the joints. */
 double dmb_joint_energy(const dmb_sim *sim, const dmb_configuration *configuration);
 

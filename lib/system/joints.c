@@ -17,16 +17,9 @@ typedef struct coordinate_forces {
     double force[6], by_position[6], by_speed[6];
 } coordinate_forces;
 
-static int is_driven(const dmb_scene *scene, uint32_t j)
-{
-    for (uint32_t d = 0; d < scene->drive_count; d++)
-        if (scene->drives[d].joint == j) return 1;
-    return 0;
-}
-
 static int has_forces(const dmb_sim *sim, const dmb_scene_joint *joint, uint32_t j)
 {
-    return (joint->law != UINT32_MAX || is_driven(sim->scene, j)) && sim->joint_state[j] != DMB_JOINT_OPEN;
+    return (joint->law != UINT32_MAX || joint->driven) && sim->joint_state[j] != DMB_JOINT_OPEN;
 }
 
 static void begin(const dmb_evaluation *evaluation, uint32_t j, coordinate_forces *f)
@@ -92,7 +85,7 @@ static void rest_drives(dmb_evaluation *evaluation, uint32_t j)
 {
     dmb_sim *sim = evaluation->sim;
     coordinate_forces f;
-    if (!is_driven(sim->scene, j)) return;
+    if (!sim->scene->joints[j].driven) return;
     begin(evaluation, j, &f);
     for (uint32_t d = 0; d < sim->scene->drive_count; d++) {
         const dmb_scene_drive *drive = sim->scene->drives + d;

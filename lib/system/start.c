@@ -119,7 +119,6 @@ static int32_t make_consistent(dmb_sim *sim, dmb_evaluation *evaluation)
     int32_t status = sim->scene->cluster_count ? settle_speeds(sim, evaluation) : DMB_OK;
     if (status >= 0) status = solve_accelerations(sim, evaluation);
     if (status < 0) return status;
-    if (sim->scene->cluster_count) dmb_joints_reactions(sim);
     memcpy(sim->residual_row, sim->correction, sim->scene->row_count * sizeof(double));
     for (uint32_t i = 0; i < sim->scene->drive_count; i++)
         if (sim->scene->drives[i].kind == DMB_DRIVE_MOTION && sim->scene->drives[i].joint == UINT32_MAX)
@@ -170,6 +169,8 @@ int32_t dmb_system_jump(dmb_sim *sim)
     memcpy(sim->now.pseudo_acceleration, sim->trial.acceleration, scene->row_count * sizeof(double));
     memcpy(sim->now.drive_target, sim->trial.drive_target, scene->drive_count * sizeof(double));
     memcpy(sim->now.drive_force, sim->trial.drive_force, scene->drive_count * sizeof(double));
+    memcpy(sim->now.drive_speed, sim->trial.drive_speed, scene->drive_count * sizeof(double));
+    memcpy(sim->now.drive_rate, sim->trial.drive_rate, scene->drive_count * sizeof(double));
     memcpy(sim->now.multiplier, sim->trial.multiplier, scene->constraint_row_count * sizeof(double));
     if (sim->options.energy_ledger) dmb_ledger_jump(sim, &evaluation);
     return DMB_OK;
