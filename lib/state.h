@@ -102,6 +102,7 @@
     X(double, constraint_tangent, tangent) /* of joint forces and of B^T multiplier, by pose parameters */             \
     /* clusters, system/cluster: */                                                                                   \
     X(double, cluster_weight, column)   /* [-, 1/m] unit of each column; 0: held */                                    \
+    X(double, cluster_metric, column)   /* [-, 1/m] the same for projections */                                        \
     X(uint32_t, cluster_place, column)  /* [-] place of each column in partition_column */                             \
     X(double, cluster_matrix, dense)    /* B of each cluster */                                                        \
     X(double, cluster_lu, square)                                                                                      \
@@ -134,6 +135,8 @@ typedef struct dmb_linked_mode {
     uint32_t row;        /* constraint row that could not be satisfied, for messages; UINT32_MAX: none */
     int32_t reserved;
     double misfit;       /* its misfit */
+    double length;       /* [m] longest length of the chains that joints connect: what moves are long or short by */
+    double size;         /* [m] of the numbers that positions are the difference of, at the start */
 } dmb_linked_mode;
 
 typedef struct dmb_clock {

@@ -242,7 +242,9 @@ DMB_API int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_
 /* ---- Joints ------------------------------------------------------------------------------------------------------
  * A joint holds frame b on one part against frame a on another. Its coordinates are frame b seen from frame a: X, Y, Z
  * the origin of b in a [m]; RX, RY, RZ the angles of the rotation Ry(RY) Rz(RZ) Rx(RX) from a to b [rad], RX and RY
- * counted over full turns. The x axis of the frames is the joint's axis. */
+ * counted over full turns. The x axis of the frames is the joint's axis. Parts need not fit as described,
+ * dmb_sim_create brings them together; but axes that a joint keeps parallel (x; fixed, prismatic: y too) should be less
+ * than a right angle apart: where they end up pointing against each other it is refused, DMB_ERR_GEOMETRY. */
 enum {
     DMB_JOINT_FIXED = 0,
     DMB_JOINT_REVOLUTE = 1,      /* RX free */
@@ -292,7 +294,10 @@ typedef struct dmb_joint_def {
     double stop_high[6];      /* [m, rad] > stop_low; default 1e30, shape (6) */
     double stop_stiffness;    /* [N/m, N m/rad] of the stops, > 0; default 1e6 */
     double stop_damping;      /* [N s/m, N m s] while in the stop, never pulling, >= 0; default 0 */
-    int32_t initial_mask;     /* [-] coordinates that are given below, bits 1 << DMB_X ...; they must be free; default 0 */
+    int32_t initial_mask;     /* [-] coordinates that are given below, bits 1 << DMB_X ...; they must be free, and no
+                                 more than 6 with the joint's equations: 5 of KNIFE_EDGE and DISTANCE, 3 of ROLLING,
+                                 none of a joint described locked; of one described open they count all the same;
+                                 default 0 */
     int32_t reserved;
     double initial_position[6]; /* [m, rad] at time 0, shape (6) */
     double initial_speed[6];  /* [m/s, rad/s] at time 0, shape (6) */

@@ -83,14 +83,15 @@ typedef struct dmb_energy {
     uint32_t struct_size;
     int32_t reserved;
     double kinetic;        /* [J] now */
-    double strain;         /* [J] now, flexible pipes */
+    double strain;         /* [J] now, flexible pipes, springs and stops of joints */
     double gravity;        /* [J] now, 0 at time 0 as described */
     double contact;        /* [J] now, stored in the wall's stiffness */
     double drives;         /* [J] work put in by all drives since the start */
-    double loads;          /* [J] work of described loads and the bottom-hole load */
-    double friction;       /* [J] taken by friction on the wall, what bristles store for a while included */
-    double impact;         /* [J] dissipated by the damping of the normal law */
-    double damping;        /* [J] dissipated by material and external damping */
+    double loads;          /* [J] work of described loads, the bottom-hole load, the caller's constraints that move */
+    double friction;       /* [J] taken by friction on the wall and in joints, what bristles store included */
+    double impact;         /* [J] dissipated by the damping of the normal law and of stops, and what dmb_sim_set_joint
+                              takes: impulses, springs let go less those taken up, so it may be negative */
+    double damping;        /* [J] dissipated by material and external damping and dampers of joints */
     double rock;           /* [J] spent at the bit */
     double scheme;         /* [J] taken out by the time integration: what its discrete inertia and potential forces did
                               less what the energies changed */
@@ -134,7 +135,8 @@ DMB_API int32_t dmb_query_reaction(const dmb_sim *sim, dmb_id part, double react
 
 typedef struct dmb_joint_state {
     uint32_t struct_size;
-    int32_t frame;         /* in: frame of `reaction`: DMB_FRAME_WORLD (default) or DMB_FRAME_BODY: frame b of the joint */
+    int32_t frame;         /* in: frame of `reaction`: DMB_FRAME_WORLD (default) or DMB_FRAME_BODY, which is frame b
+                              of the joint; there is none for frame a: DMB_ERR_VALUE */
     int32_t state;         /* DMB_JOINT_... */
     uint32_t rows;         /* [-] equations it holds now */
     uint32_t redundant;    /* [-] of them dropped because others already hold what they hold */
@@ -181,9 +183,11 @@ typedef struct dmb_statistics {
     uint64_t switches;          /* [-] times the independent coordinates of a cluster were chosen anew */
     uint32_t dependent;         /* [-] coordinates that constraints determine now */
     uint32_t redundant;         /* [-] equations that are dropped now */
-    double misfit;              /* [m, rad] largest violation of an equation of position now */
+    double misfit;              /* [m, -] largest violation of an equation of position of a joint now; couplings, drives
+                                   and the caller's constraints do not count */
 } dmb_statistics;
 DMB_SIZED_STRUCT(dmb_statistics)
+/* O(number of joints, couplings and constraints). */
 DMB_API int32_t dmb_query_statistics(const dmb_sim *sim, dmb_statistics *statistics);
 
 /* ---- Recorder ----------------------------------------------------------------------------------------------------

@@ -44,9 +44,10 @@ DMB_SIZED_STRUCT(dmb_sim_options)
 
 /* Bytes of the block that dmb_sim_create_in needs. O(1). Errors: DMB_ERR_ORDER (model not compiled), DMB_ERR_VALUE. */
 DMB_API int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *options, size_t *size);
-/* Makes a sim at time 0 in the described pose and speed. options may be NULL. DMB_NOTE_PROJECTED when initial velocities
- * did not fit the allowed motion; dmb_sim_message tells by how much. Errors: _ORDER, _VALUE, _NO_MEMORY, _CALLBACK,
- * _ROTATION; *sim is NULL then. The sim holds the model until it is destroyed. O(number of elements). */
+/* Makes a sim at time 0 in the described pose and speed. options may be NULL. DMB_NOTE_PROJECTED when initial
+ * velocities did not fit the allowed motion; dmb_sim_message tells by how much. Errors: _ORDER, _VALUE, _NO_MEMORY,
+ * _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The sim holds the model until it
+ * is destroyed. O(number of elements). */
 DMB_API int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options, dmb_sim **sim);
 /* The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used. */
 DMB_API int32_t dmb_sim_create_in(dmb_model *model, const dmb_sim_options *options, void *block, size_t size,
@@ -85,9 +86,13 @@ DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *repo
 DMB_API int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value);
 
 /* From now on the joint is DMB_JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the
- * impulse of least kinetic energy (DMB_NOTE_PROJECTED; dmb_sim_message tells by how much; the energy goes to `impact`),
- * accelerations are made anew. Errors: DMB_ERR_ID, _VALUE, _GEOMETRY: the joint's parts do not fit within 1e-6 m and
- * rad, so it cannot become active; nothing is changed then. */
+ * impulse of least kinetic energy (DMB_NOTE_PROJECTED; dmb_sim_message tells by how much), accelerations are made anew.
+ * That energy, and what springs and stops that are let go or taken up store, goes to `impact`. Couplings and drives of
+ * an open joint do not act: a drive follows the coordinate and goes on from where it is when the joint closes; a
+ * coupling keeps what it kept, so a gear that has slipped meanwhile cannot close. A joint that a motion drive moves
+ * cannot be locked. Errors, which change nothing: DMB_ERR_ID, _VALUE; _GEOMETRY: the joint's parts or couplings do not
+ * fit within 1e-6 m and rad, or its frames point against each other where it keeps them parallel; a drive's speed
+ * cannot be had; _SINGULAR, _NO_CONVERGENCE, _CALLBACK, _NOT_FINITE. */
 DMB_API int32_t dmb_sim_set_joint(dmb_sim *sim, dmb_id joint, int32_t state);
 
 /* Goes on where `from` stands, in a sim of another model: the same but for pipes more or fewer at the rig end of its

@@ -36,7 +36,7 @@ static int32_t begin(dmb_static_search *search)
     if (status >= 0 && search->options->lay_on_wall) dmb_static_lay_on_wall(sim);
     if (status < 0 || sim->scene->cluster_count == 0) return status;
     sim->linked_mode->row = UINT32_MAX;
-    return dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
+    return dmb_static_settle(search);
 }
 
 typedef int32_t (*search_fn)(dmb_static_search *search);
@@ -120,7 +120,6 @@ static int32_t settle(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
     const dmb_scene *scene = sim->scene;
-    dmb_state_keep(sim);
     dmb_system_accept(&search->evaluation);
     memset(sim->trial.velocity, 0, scene->row_count * sizeof(double));
     memset(sim->trial.site_bristle, 0, 2 * scene->site_count * sizeof(double));
@@ -156,7 +155,8 @@ static void explain(dmb_static_search *search, int32_t status)
         dmb_message_set(&sim->message, "static: %s %u, pipe %u: relative rotation in one element above 2.5 rad",
                         owner.kind, owner.index, owner.pipe);
     } else if (status == DMB_ERR_CALLBACK) {
-        dmb_message_set(&sim->message, "static: a programme's callback failed at time %g", search->evaluation.time);
+        dmb_message_set(&sim->message, "static: the callback of a programme or constraint failed at time %g",
+                        search->evaluation.time);
     } else {
         dmb_message_set(&sim->message, "static: %u iterations, relative residual = %g, must be <= %g",
                         search->iterations, search->residual, search->options->tolerance);
@@ -176,9 +176,11 @@ int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb
     int32_t status = dmb_static_options_take(sim, options, &taken);
     if (status < 0) return status;
     set_up(&search, sim, &taken);
+    dmb_state_keep(sim);
     status = search_equilibrium(&search, &out.method);
     if (status < 0) {
         explain(&search, status);
+        dmb_state_bring_back(sim); /* the partition of joints may have changed on the way */
         return status;
     }
     out.iterations = search.iterations;

@@ -3,7 +3,17 @@
 #include "analysis/static_state.h"
 #include "math/se3.h"
 #include "system/cluster.h"
+#include "system/joint_state.h"
 #include "system/solve.h"
+
+/* Joints closed, and the partition chosen anew where it has become poor. */
+int32_t dmb_static_settle(dmb_static_search *search)
+{
+    const int32_t status = dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
+    if (status < 0) return status;
+    dmb_joints_follow(&search->evaluation);
+    return dmb_clusters_refresh(&search->evaluation);
+}
 
 /* Moves the trial by body-frame increments; the sum in `increment` follows the turns. */
 static int32_t move(dmb_static_search *search)
@@ -20,7 +30,7 @@ static int32_t move(dmb_static_search *search)
             sim->trial.turn[i] += z[1];
         }
     }
-    return scene->cluster_count ? dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0) : DMB_OK;
+    return scene->cluster_count ? dmb_static_settle(search) : DMB_OK;
 }
 
 static void scale_correction(dmb_sim *sim, double factor)

@@ -18,6 +18,8 @@ typedef struct dmb_static_search {
     double moved;        /* [-] largest correction before it, in length scales */
 } dmb_static_search;
 
+/* Poses of the trial onto the joints, with a partition that suits the place. */
+int32_t dmb_static_settle(dmb_static_search *search);
 /* Displaces the trial to the low side of the hole, where there is gravity and a wall. */
 void dmb_static_lay_on_wall(dmb_sim *sim);
 /* Newton with the extrapolated element stress at the search's load factor. DMB_OK, or why it failed. */

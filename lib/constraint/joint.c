@@ -160,6 +160,14 @@ void dmb_joint_locked_at(const double R0[9], const double p0[3], const double R[
     dot_rows(kinds[DMB_ROWS_FIXED].held, R0, p0, R, p, V, rows);
 }
 
+double dmb_joint_flip(int32_t kind, const double R[9])
+{
+    const uint32_t held = kinds[kind].held;
+    if ((held & R_YX) == 0) return 0.0;
+    if (!(R[0] > 0.0)) return atan2(hypot(R[3], R[6]), R[0]);
+    return (held & R_YZ) != 0 && !(R[4] > 0.0) ? atan2(hypot(R[1], R[7]), R[4]) : 0.0;
+}
+
 /* Column j of W = sum_k f_k JV_k^T, JV being the derivative of J along direction j: JV is linear in the motion, so six
  * unit motions give W. */
 static void set_column(int j, uint32_t count, double JV[][6], const double *f, double W[36])

@@ -52,6 +52,10 @@ void dmb_joint_locked_at(const double R0[9], const double p0[3], const double R[
 void dmb_joint_locked_tangent(const double R0[9], const double p0[3], const double R[9], const double p[3],
                               const double f[6], double W[36]);
 
+/* [rad] Angle between x axes, or else y axes, that the kind keeps parallel and that point against each other in R, where
+ * its dot-product rows are satisfied too; 0 where none do. Of a locked joint: that of FIXED for R R0^T. */
+double dmb_joint_flip(int32_t kind, const double R[9]);
+
 /* The six coordinates; near[0], near[1]: RX and RY are given on the turn next to these. J and JV as of rows. At RZ =
  * +-pi/2 (within 1e-12) RX and RY are not defined: they are near[0], near[1], and the gradients of the angles 0. */
 typedef struct dmb_joint_coordinates {

@@ -11,9 +11,11 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <string.h>
 
 #define ROW_MIN 1e-300       /* shorter rows count as zero */
 #define CLEARLY (1.0 + 1e-6) /* a later candidate for pivot must be larger by this factor */
+#define PLACES 96            /* listed of a row at a time */
 #define GRAM_PIVOT_MIN 1e-16 /* part of its diagonal that a pivot of B W^2 B^T must exceed */
 
 /* y[j] -= f x[j] */
@@ -52,6 +54,31 @@ static inline double larger(double a, double b)
     return a > b ? a : b;
 }
 
+/* Places of what is not zero in a row, for row_subtract_at: none are listed, and n returned, where they are more than
+ * PLACES or more than a third. */
+static size_t find_places(size_t n, const double *x, uint32_t *places)
+{
+    const size_t most = n / 3 < PLACES ? n / 3 : PLACES;
+    size_t count = 0;
+    for (size_t j = 0; j < n; j++) {
+        if (x[j] == 0.0) continue;
+        if (count == most) return n;
+        places[count++] = (uint32_t)j;
+    }
+    return count;
+}
+
+/* row_subtract, only at the places of x if they are listed. */
+static inline void row_subtract_at(size_t n, size_t count, const uint32_t *places, double f, const double *restrict x,
+                                   double *restrict y)
+{
+    if (count == n) {
+        row_subtract(n, f, x, y);
+        return;
+    }
+    for (size_t i = 0; i < count; i++) y[places[i]] -= f * x[places[i]];
+}
+
 /* Largest |x_j|. Four running values, as in dot. */
 static double row_largest(size_t n, const double *x)
 {
@@ -63,14 +90,31 @@ static double row_largest(size_t n, const double *x)
     return larger(larger(m[0], m[1]), larger(m[2], m[3]));
 }
 
+/* Largest |x_j| weight_j, as row_largest. */
+static double weighted_largest(size_t n, const double *x, const double *weight)
+{
+    double m[4] = {0.0, 0.0, 0.0, 0.0};
+    size_t j = 0;
+    for (; j + 4 <= n; j += 4)
+        for (size_t i = 0; i < 4; i++) m[i] = larger(fabs(x[j + i] * weight[j + i]), m[i]);
+    for (; j < n; j++) m[0] = larger(fabs(x[j] * weight[j]), m[0]);
+    return larger(larger(m[0], m[1]), larger(m[2], m[3]));
+}
+
+static inline double square(double a)
+{
+    return a * a;
+}
+
+/* As dot. */
 static inline double sum_of_squares(size_t n, const double *b, const double *weight, double scale)
 {
-    double sum = 0.0;
-    for (size_t j = 0; j < n; j++) {
-        const double v = b[j] * weight[j] * scale;
-        sum += v * v;
-    }
-    return sum;
+    double sum[4] = {0.0, 0.0, 0.0, 0.0};
+    size_t j = 0;
+    for (; j + 4 <= n; j += 4)
+        for (size_t i = 0; i < 4; i++) sum[i] += square(b[j + i] * weight[j + i] * scale);
+    for (; j < n; j++) sum[0] += square(b[j] * weight[j] * scale);
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 /* 2-norm of a row in weighted columns. A second pass, only where squares leave the range of doubles. */
@@ -142,11 +186,13 @@ static void eliminate(const dmb_partition *p, double *a, double *top)
 {
     const size_t n = p->columns, column = p->column_order[p->rank - 1];
     const double *pivot_row = a + n * p->row_order[p->rank - 1];
+    uint32_t places[PLACES];
+    const size_t count = find_places(n, pivot_row, places);
     for (uint32_t s = p->rank; s < p->rows; s++) {
         const size_t i = p->row_order[s];
         double *row = a + n * i;
         if (row[column] == 0.0) continue;
-        row_subtract(n, row[column] / pivot_row[column], pivot_row, row);
+        row_subtract_at(n, count, places, row[column] / pivot_row[column], pivot_row, row);
         row[column] = 0.0;
         top[i] = row_largest(n, row);
     }
@@ -190,7 +236,7 @@ static double gather_dependent(const double *B, uint32_t stride, const double *w
         const double *b = B + (size_t)p->row_order[k] * stride;
         const double length = row_length(p->columns, b, weight);
         const double scale = usable(length) ? 1.0 / length : 0.0;
-        for (size_t j = 0; j < p->columns; j++) most = larger(fabs(b[j] * weight[j]) * scale, most);
+        most = larger(weighted_largest(p->columns, b, weight) * scale, most);
         for (size_t j = 0; j < n; j++) lu[n * k + j] = b[p->column_order[j]] * scale;
     }
     return most;
@@ -222,10 +268,13 @@ static uint32_t origin(const uint32_t *pivot, uint32_t k)
 static void factor_step(size_t n, size_t k, double reciprocal, double *lu)
 {
     double *row = lu + n * k;
-    row_multiply(n - k - 1, reciprocal, row + k + 1);
+    const size_t behind = n - k - 1;
+    uint32_t places[PLACES];
+    row_multiply(behind, reciprocal, row + k + 1);
+    const size_t count = find_places(behind, row + k + 1, places);
     for (size_t i = k + 1; i < n; i++) {
         double *below = lu + n * i;
-        if (below[k] != 0.0) row_subtract(n - k - 1, below[k], row + k + 1, below + k + 1);
+        if (below[k] != 0.0) row_subtract_at(behind, count, places, below[k], row + k + 1, below + k + 1);
     }
 }
 
@@ -302,6 +351,89 @@ void dmb_partition_null_space(const double *B, uint32_t stride, const dmb_partit
 
 /* Projection ----------------------------------------------------------------------------------------------------- */
 
+/* B W^2 B^T = U^T U. A row of B meets few others, and U of a chain stays sparse in any order of its rows: what is
+ * eliminated is a stretch of the chain, which fills between its two ends only. gram holds U from the diagonal on (of
+ * which it has the reciprocal) and notes below it: in row n - 1 - k the places in row k of U that are not zero, in the
+ * last row the blocks of columns in which rows 1 .. n - 1 of B are not zero. Nothing is noted of row 0. */
+#define BLOCKS 64             /* of columns; a set of them is a uint64_t */
+#define BLOCK_MIN 8           /* columns */
+#define DENSE 32              /* so many columns, or fewer, are one block and one run, whatever is zero */
+#define RUNS 8                /* of a row of B; what lies between further ones counts as not zero */
+#define GAP 3                 /* zeros within a run */
+#define ALL_PLACES UINT32_MAX /* in place of their number: those behind the diagonal, not listed */
+
+/* Stretch from .. to - 1 of columns. */
+typedef struct run {
+    size_t from, to;
+} run;
+
+static uint32_t note(const double *notes, size_t i)
+{
+    uint32_t value;
+    memcpy(&value, (const char *)notes + i * sizeof value, sizeof value);
+    return value;
+}
+
+static void set_note(double *notes, size_t i, uint32_t value)
+{
+    memcpy((char *)notes + i * sizeof value, &value, sizeof value);
+}
+
+static inline size_t block_size(size_t columns)
+{
+    if (columns <= DENSE) return DENSE;
+    const size_t size = (columns + BLOCKS - 1) / BLOCKS;
+    return size > BLOCK_MIN ? size : BLOCK_MIN;
+}
+
+static inline size_t smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Blocks in which a row is not zero. */
+static uint64_t find_blocks(size_t n, const double *b)
+{
+    const size_t size = block_size(n);
+    uint64_t blocks = n <= DENSE, bit = 1;
+    for (size_t from = 0; from < n && n > DENSE; from += size, bit <<= 1) {
+        const size_t to = smaller(from + size, n);
+        for (size_t j = from; j < to; j++)
+            if (b[j] != 0.0) {
+                blocks |= bit;
+                break;
+            }
+    }
+    return blocks;
+}
+
+static inline uint64_t blocks_of(size_t n, const double *gram, size_t k)
+{
+    uint64_t blocks = UINT64_MAX;
+    if (k > 0) memcpy(&blocks, gram + n * (n - 1) + k - 1, sizeof blocks);
+    return blocks;
+}
+
+/* Runs of what is not zero in a row, at most RUNS; returns their number. */
+static size_t find_runs(size_t n, const double *b, uint64_t blocks, run *runs)
+{
+    const size_t size = block_size(n);
+    size_t count = 0;
+    if (n <= DENSE) {
+        runs[0] = (run){0, n};
+        return 1;
+    }
+    for (size_t from = 0; from < n && blocks != 0; from += size, blocks >>= 1) {
+        const size_t to = blocks & 1 ? smaller(from + size, n) : from;
+        for (size_t j = from; j < to; j++) {
+            if (b[j] == 0.0) continue;
+            if (count == 0 || (count < RUNS && j > runs[count - 1].to + GAP)) runs[count++].from = j;
+            runs[count - 1].to = j + 1;
+        }
+    }
+    return count;
+}
+
 /* Sum of a_j b_j weight_j^2, as dot. */
 static double weighted_dot(size_t n, const double *a, const double *b, const double *weight)
 {
@@ -313,50 +445,177 @@ static double weighted_dot(size_t n, const double *a, const double *b, const dou
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/* Row by row: L_ik = (M_ik - L_i . L_k) / L_kk (Golub and Van Loan, 4.2). Reciprocals on the diagonal. */
-int32_t dmb_partition_gram(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
+static double dot_in_runs(size_t count, const run *runs, const double *a, const double *b, const double *weight)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < count; i++) {
+        const size_t from = runs[i].from;
+        sum += weighted_dot(runs[i].to - from, a + from, b + from, weight + from);
+    }
+    return sum;
+}
+
+static inline const double *pivot_row_of(const double *B, uint32_t stride, const dmb_partition *p, size_t k)
+{
+    return B + (size_t)p->row_order[k] * stride;
+}
+
+/* Zeros for U, the blocks of all rows, and no lists yet: project may follow whatever becomes of the factors. */
+static void gram_clear(const double *B, uint32_t stride, const dmb_partition *p, double *gram)
+{
+    const size_t n = p->rank;
+    for (size_t k = 0; k < n; k++)
+        for (size_t r = k; r < n; r++) gram[n * k + r] = 0.0;
+    for (size_t k = 1; k < n; k++) {
+        const uint64_t blocks = find_blocks(p->columns, pivot_row_of(B, stride, p, k));
+        memcpy(gram + n * (n - 1) + k - 1, &blocks, sizeof blocks);
+        if (k + 1 < n) set_note(gram + n * (n - 1 - k), 0, ALL_PLACES);
+    }
+}
+
+/* Number of the places listed for row k of U, from note 1 on. */
+static inline uint32_t place_count(size_t n, const double *gram, size_t k)
+{
+    return k == 0 || k + 1 == n ? ALL_PLACES : note(gram + n * (n - 1 - k), 0);
+}
+
+/* Lists the places of row k of U, unless most are taken. */
+static void list_places(size_t n, size_t k, double *gram)
+{
+    if (k == 0 || k + 1 == n) return;
+    double *notes = gram + n * (n - 1 - k);
+    uint32_t count = 0;
+    for (size_t r = k + 1; r < n; r++) {
+        if (gram[n * k + r] == 0.0) continue;
+        if (2 * ((size_t)count + 1) > n - 1 - k) return;
+        set_note(notes, ++count, (uint32_t)r);
+    }
+    set_note(notes, 0, count);
+}
+
+/* Subtracts from the rows below what row k of U has of them. */
+static void gram_eliminate(size_t n, size_t k, double *gram)
+{
+    const double *row = gram + n * k, *notes = gram + n * (n - 1 - k);
+    const uint32_t count = place_count(n, gram, k);
+    if (count == ALL_PLACES) {
+        for (size_t r = k + 1; r < n; r++)
+            if (row[r] != 0.0) row_subtract(n - r, row[r], row + r, gram + n * r + r);
+        return;
+    }
+    for (size_t i = 1; i <= count; i++) {
+        const size_t r = note(notes, i);
+        const double f = row[r];
+        for (size_t j = i; j <= count; j++) {
+            const size_t s = note(notes, j);
+            gram[n * r + s] -= f * row[s];
+        }
+    }
+}
+
+/* Row k of U; false where its pivot is none. One at most `weak` of its diagonal is left out: its row of U is zero. */
+static bool gram_step(const double *B, uint32_t stride, const double *weight, const dmb_partition *p, size_t k,
+                      double weak, double *gram)
+{
+    const size_t n = p->rank;
+    const double *b = pivot_row_of(B, stride, p, k);
+    const uint64_t blocks = blocks_of(n, gram, k);
+    double *row = gram + n * k;
+    run runs[RUNS];
+    const size_t count = find_runs(p->columns, b, blocks, runs);
+    const double m = dot_in_runs(count, runs, b, b, weight), pivot = m + row[k];
+    const bool kept = !(weak > 0.0 && pivot < weak * m);
+    if (kept && !(pivot > GRAM_PIVOT_MIN * m && pivot <= DBL_MAX)) return false;
+    for (size_t r = k + 1; r < n && kept; r++)
+        if (blocks & blocks_of(n, gram, r))
+            row[r] += dot_in_runs(count, runs, b, pivot_row_of(B, stride, p, r), weight);
+    row[k] = kept ? 1.0 / sqrt(pivot) : 0.0;
+    row_multiply(n - k - 1, row[k], row + k + 1);
+    list_places(n, k, gram);
+    gram_eliminate(n, k, gram);
+    return true;
+}
+
+static int32_t gram_factor(const double *B, uint32_t stride, const double *weight, const dmb_partition *p, double weak,
                            double *gram)
 {
-    const size_t n = partition->rank;
-    for (size_t i = 0; i < n; i++) {
-        const double *b = B + (size_t)partition->row_order[i] * stride;
-        double *row = gram + n * i;
-        for (size_t k = 0; k < i; k++) {
-            const double *other = B + (size_t)partition->row_order[k] * stride;
-            const double m = weighted_dot(partition->columns, b, other, weight);
-            row[k] = (m - dot(k, row, gram + n * k)) * gram[n * k + k];
-        }
-        const double m = weighted_dot(partition->columns, b, b, weight), pivot = m - dot(i, row, row);
-        if (!(pivot > GRAM_PIVOT_MIN * m && pivot <= DBL_MAX)) return -1;
-        row[i] = 1.0 / sqrt(pivot);
-    }
+    gram_clear(B, stride, p, gram);
+    for (size_t k = 0; k < p->rank; k++)
+        if (!gram_step(B, stride, weight, p, k, weak, gram)) return -1;
     return 0;
 }
 
-/* The diagonal holds reciprocal roots of the pivots; with 0 there a row neither asks for anything nor moves anything.
- */
+/* Golub and Van Loan, 4.2, by outer products. */
+int32_t dmb_partition_gram(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
+                           double *gram)
+{
+    return gram_factor(B, stride, weight, partition, 0.0, gram);
+}
+
+/* Factors anew without the weak rows, if there are any: those behind must not lean on them. */
 void dmb_partition_leave_weak(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
                               double *gram)
 {
     const size_t n = partition->rank;
-    for (size_t i = 0; i < n; i++) {
-        const double *b = B + (size_t)partition->row_order[i] * stride;
-        double *root = gram + n * i + i;
-        if (*root * *root * weighted_dot(partition->columns, b, b, weight) * DMB_WEAK_PIVOT > 1.0) *root = 0.0;
+    bool weak = false;
+    for (size_t k = 0; k < n && !weak; k++) {
+        const double *b = pivot_row_of(B, stride, partition, k);
+        const double root = gram[n * k + k];
+        run runs[RUNS];
+        const size_t count = find_runs(partition->columns, b, blocks_of(n, gram, k), runs);
+        weak = root * root * dot_in_runs(count, runs, b, b, weight) * DMB_WEAK_PIVOT > 1.0;
     }
+    if (weak) (void)gram_factor(B, stride, weight, partition, DMB_WEAK_PIVOT, gram);
+}
+
+/* U^T y = d, a row of U at a time. */
+static void gram_forward(size_t n, const double *gram, double *d)
+{
+    for (size_t k = 0; k < n; k++) {
+        const double *row = gram + n * k, *notes = gram + n * (n - 1 - k);
+        const uint32_t count = place_count(n, gram, k);
+        d[k] *= row[k];
+        if (count == ALL_PLACES) row_subtract(n - k - 1, d[k], row + k + 1, d + k + 1);
+        for (size_t i = 1; i <= count && count != ALL_PLACES; i++) {
+            const size_t r = note(notes, i);
+            d[r] -= row[r] * d[k];
+        }
+    }
+}
+
+/* U d = y */
+static void gram_backward(size_t n, const double *gram, double *d)
+{
+    for (size_t k = n; k-- > 0;) {
+        const double *row = gram + n * k, *notes = gram + n * (n - 1 - k);
+        const uint32_t count = place_count(n, gram, k);
+        double sum = 0.0;
+        if (count == ALL_PLACES) sum = dot(n - k - 1, row + k + 1, d + k + 1);
+        for (size_t i = 1; i <= count && count != ALL_PLACES; i++) {
+            const size_t r = note(notes, i);
+            sum += row[r] * d[r];
+        }
+        d[k] = (d[k] - sum) * row[k];
+    }
+}
+
+/* x += f b in the blocks given */
+static void add_row(size_t n, uint64_t blocks, double f, const double *b, double *x)
+{
+    const size_t size = block_size(n);
+    for (size_t from = 0; from < n && blocks != 0; from += size, blocks >>= 1)
+        if (blocks & 1) row_subtract(smaller(size, n - from), -f, b + from, x + from);
 }
 
 void dmb_partition_project(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
                            const double *gram, double *d, double *x)
 {
     const size_t n = partition->rank, columns = partition->columns;
-    for (size_t k = 0; k < n; k++) d[k] = (d[k] - dot(k, gram + n * k, d)) * gram[n * k + k];
-    for (size_t k = n; k-- > 0;) {
-        d[k] *= gram[n * k + k];
-        row_subtract(k, d[k], gram + n * k, d);
-    }
+    gram_forward(n, gram, d);
+    gram_backward(n, gram, d);
     for (size_t j = 0; j < columns; j++) x[j] = 0.0;
-    for (size_t k = 0; k < n; k++) row_subtract(columns, -d[k], B + (size_t)partition->row_order[k] * stride, x);
+    for (size_t k = 0; k < n; k++)
+        add_row(columns, blocks_of(n, gram, k), d[k], pivot_row_of(B, stride, partition, k), x);
     for (size_t j = 0; j < columns; j++) x[j] *= weight[j] * weight[j];
 }
 

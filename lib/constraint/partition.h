@@ -5,7 +5,8 @@
  * by Gaussian elimination with complete pivoting on rows scaled to unit length in weighted columns (Wehage, Haug 1982).
  * Rows that vanish under elimination are redundant. The choice is kept as an order of rows and columns, so that later
  * matrices of the same cluster are factored without search; `quality` tells when it should be made anew.
- * Dense, row-major, no allocation: all storage is the caller's. Same input, same bits.
+ * Row-major, no allocation: all storage is the caller's. Same input, same bits. Matrices are stored dense, but zeros
+ * are passed over: of a cluster of many bodies each row has entries of two.
  *
  *     choose            at the start, and when the quality has fallen
  *     factor            each new B; then solve, solve_transposed, null_space, least_norm
@@ -61,12 +62,13 @@ void dmb_partition_null_space(const double *B, uint32_t stride, const dmb_partit
 
 /* Projection in the metric 1/weight^2: x = W^2 B^T (B W^2 B^T)^-1 d over the pivot rows, the shortest x (in units of
  * weight) with B x = d. Columns of weight 0 do not move. */
-/* Factors B W^2 B^T of the pivot rows (Cholesky) into gram, shape (rank, rank), of which the part above the diagonal is
- * not touched. 0; or -1 if a pivot is at most 1e-16 of its diagonal or not finite. */
+/* Factors B W^2 B^T of the pivot rows (Cholesky, in their order) into gram, shape (rank, rank), all of which is used:
+ * the factor, and notes of where it and B are not zero. It is good for the same B and choice only, and to be handed on
+ * as it is. 0; or -1 if a pivot is at most 1e-16 of its diagonal or not finite. */
 int32_t dmb_partition_gram(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
                            double *gram);
-/* Leaves rows that those before nearly hold (pivot below DMB_WEAK_PIVOT of its diagonal) out of projections with gram: near
- * a singular place a projection would blow up what rounding of the poses makes of them. */
+/* Leaves rows that those before nearly hold (pivot below DMB_WEAK_PIVOT of its diagonal) out of projections with gram:
+ * near a singular place a projection would blow up what rounding of the poses makes of them. */
 #define DMB_WEAK_PIVOT 1e-9
 void dmb_partition_leave_weak(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
                               double *gram);

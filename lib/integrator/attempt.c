@@ -16,7 +16,7 @@
 #define DMB_NEWTON_GROWTH 1e6
 /* Largest ratio of a step to the one before over which the pseudo-acceleration is carried. */
 #define DMB_STEP_RATIO_MAX 1e3
-/* [m, -] misfit of an equation taken for redundant at which it is one no more. */
+/* Misfit of an equation taken for redundant at which it is one no more, in lengths of the parts. */
 #define DMB_DROPPED_MISFIT 1e-7
 
 /* a0 carried over to a new step length, v0' + (h/h_old)(a0 - v0'), which keeps second order (THEORY 4). */
@@ -270,9 +270,9 @@ static int32_t check_dropped(dmb_sim *sim)
 {
     uint32_t row;
     const double misfit = dmb_clusters_misfit(sim, 1, &row);
-    if (!(misfit > DMB_DROPPED_MISFIT)) return DMB_OK;
+    if (!(misfit > DMB_DROPPED_MISFIT * sim->linked_mode->length)) return DMB_OK;
     sim->linked_mode->row = row;
-    sim->linked_mode->misfit = misfit;
+    sim->linked_mode->misfit = fabs(sim->constraint_value[row]);
     return DMB_ERR_SINGULAR;
 }
 

@@ -38,7 +38,7 @@ void dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
     dmb_attempt_commit(sim, attempt);
 }
 
-/* A failure here leaves the accelerations of before, which is what there was anyway. */
+/* A failure here leaves everything as before, the accelerations of before included, which is what there was anyway. */
 void dmb_walk_corner(dmb_sim *sim)
 {
     if (dmb_system_rate_jumps(sim)) (void)dmb_system_jump(sim);
@@ -83,7 +83,8 @@ int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_rep
     }
     dmb_message_clear(&sim->message);
     if (walk->stopped) {
-        dmb_message_set(&sim->message, "stopped at time %g after max_steps = %u steps", out.time, sim->options.max_steps);
+        dmb_message_set(&sim->message, "stopped at time %g after max_steps = %u steps", out.time,
+                        sim->options.max_steps);
         return DMB_NOTE_STOPPED;
     }
     if (!walk->was_cut) return DMB_OK;

@@ -108,10 +108,25 @@ static void check_point_on_hole(dmb_check *check, const dmb_joint_def *def)
     check_bare(check, def);
 }
 
+/* The equations of a joint and its initial coordinates are put together at time 0 in the room of six rows. */
+static void check_initial_room(dmb_check *check, const dmb_joint_def *def)
+{
+    uint32_t rows = dmb_joint_row_count(def->kind), given = 0;
+    dmb_message bound;
+    if (def->state == DMB_JOINT_OPEN) rows = 0;
+    if (def->state == DMB_JOINT_LOCKED) rows = DMB_ROWS_MAX;
+    for (uint32_t k = 0; k < 6; ++k) given += (uint32_t)def->initial_mask >> k & 1;
+    if (rows + given <= DMB_ROWS_MAX) return;
+    dmb_message_set(&bound, "of %u bits at most: with its %u equations no more than %d", DMB_ROWS_MAX - rows, rows,
+                    DMB_ROWS_MAX);
+    dmb_check_fail(check, DMB_ERR_VALUE, "initial_mask", def->initial_mask, bound.text);
+}
+
 static void check_initial(dmb_check *check, const dmb_joint_def *def)
 {
     if (check->status < 0) return; /* the kind may be none */
     dmb_check_mask(check, "initial_mask", def->initial_mask, (int32_t)dmb_joint_free_mask(def->kind));
+    if (check->status >= 0) check_initial_room(check, def);
     dmb_check_each_within(check, "initial_position", def->initial_position, 6, -DMB_POSITION_MAX, DMB_POSITION_MAX);
     dmb_check_each_within(check, "initial_speed", def->initial_speed, 6, -DMB_SPEED_MAX, DMB_SPEED_MAX);
 }

@@ -65,7 +65,6 @@ static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
                                    .excitation = excited ? programme_of(mesh, def->excitation) : UINT32_MAX,
                                    .joint = joint,
                                    .constraint = UINT32_MAX};
-    if (joint != UINT32_MAX) DMB_VECTOR_AT(dmb_scene_joint, &mesh->joints, joint)->driven = 1;
     const int32_t status = joint != UINT32_MAX
                                ? take_component(mesh, i, def, DMB_VECTOR_AT(uint8_t, &mesh->driven, joint))
                                : prescribe(mesh, i, def, dmb_mesh_node_at(mesh, drive.node));

@@ -104,6 +104,7 @@ static void take_nodes(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to,
     to->node_damping = DMB_ARENA_DOUBLES(arena, 5 * n);
     to->node_element = DMB_ARENA_ARRAY(arena, uint32_t, n);
     to->chains = DMB_ARENA_ARRAY(arena, dmb_chain, counts->chain_count);
+    to->node_chain = DMB_ARENA_ARRAY(arena, uint32_t, n);
     to->lumps = DMB_ARENA_ARRAY(arena, dmb_lump, counts->lump_count);
 }
 
@@ -136,6 +137,7 @@ static void take_joints(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to
     const size_t n = counts->node_count;
     if (counts->constraint_count == 0) return;
     to->joints = DMB_ARENA_ARRAY(arena, dmb_scene_joint, counts->joint_count);
+    to->joint_drives = DMB_ARENA_ARRAY(arena, uint32_t, counts->drive_count);
     to->couplings = DMB_ARENA_ARRAY(arena, dmb_scene_coupling, counts->coupling_count);
     to->callbacks = DMB_ARENA_ARRAY(arena, dmb_scene_callback, counts->callback_count);
     to->laws = DMB_ARENA_ARRAY(arena, dmb_joint_law, counts->law_count);

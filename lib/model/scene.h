@@ -106,6 +106,8 @@ typedef struct dmb_body_map {
 } dmb_body_map;
 
 typedef struct dmb_chain {
+    double length;         /* [m] makes its moments comparable with forces: mean element; of a body alone its radius of
+                              inertia or its longest arm to a joint */
     uint32_t first, count; /* nodes */
     int32_t linked;        /* 1: joints connect it, so it is solved with the blocks of the pattern */
     int32_t reserved;
@@ -132,8 +134,8 @@ typedef struct dmb_scene_joint {
     int32_t law_mask;     /* coordinates that have a law */
     uint32_t law;         /* first of its six laws in `laws`; UINT32_MAX: none acts */
     uint32_t constraint;  /* its constraint (even if it has no rows now) */
-    int32_t driven;       /* 1: a drive acts on one of its coordinates */
-    int32_t reserved;
+    uint32_t first_drive; /* its drives in joint_drives */
+    uint32_t drive_count;
     char name[24];
 } dmb_scene_joint;
 
@@ -243,6 +245,7 @@ typedef struct dmb_scene {
     double *element_span;         /* [m] from node a to node b at time 0, world frame, exact, shape (element, 3) */
     dmb_batch *batches;
     dmb_chain *chains;
+    uint32_t *node_chain;         /* chain of each node, shape (node) */
     dmb_lump *lumps;              /* at most one a node, by node */
 
     /* wall */
@@ -262,6 +265,7 @@ typedef struct dmb_scene {
 
     /* joints and constraints; all empty without joints */
     dmb_scene_joint *joints;
+    uint32_t *joint_drives;       /* drives on joints, by joint */
     dmb_scene_coupling *couplings;
     dmb_scene_callback *callbacks;
     dmb_joint_law *laws;          /* shape (law_count): six for each joint that has any */

@@ -157,6 +157,22 @@ static void fill_drives(const dmb_mesh *mesh, dmb_scene *scene)
     }
 }
 
+/* A joint's drives in the order in which they were added. */
+static void fill_joint_drives(dmb_scene *scene)
+{
+    uint32_t first = 0;
+    for (uint32_t i = 0; i < scene->drive_count; ++i)
+        if (scene->drives[i].joint != UINT32_MAX) scene->joints[scene->drives[i].joint].drive_count++;
+    for (uint32_t j = 0; j < scene->joint_count; first += scene->joints[j++].drive_count)
+        scene->joints[j].first_drive = first;
+    for (uint32_t j = 0; j < scene->joint_count; ++j) scene->joints[j].drive_count = 0;
+    for (uint32_t i = 0; i < scene->drive_count; ++i) {
+        if (scene->drives[i].joint == UINT32_MAX) continue;
+        dmb_scene_joint *joint = scene->joints + scene->drives[i].joint;
+        scene->joint_drives[joint->first_drive + joint->drive_count++] = i;
+    }
+}
+
 static void fill_parts(const dmb_mesh *mesh, dmb_scene *scene)
 {
     copy_items(&mesh->sites, scene->sites);
@@ -209,6 +225,49 @@ static void fill_hole(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage 
 
 /* ---- All --------------------------------------------------------------------------------------------------------- */
 
+/* ---- Lengths ----------------------------------------------------------------------------------------------------- */
+
+/* Shorter than this [m] a body has no length of its own. */
+#define DMB_BODY_LENGTH_MIN 1e-9
+
+static double mean_element(const dmb_scene *scene, const dmb_chain *chain)
+{
+    double sum = 0.0;
+    for (uint32_t i = chain->first; i + 1 < chain->first + chain->count; ++i)
+        sum += scene->types[scene->element_type[scene->node_element[i]]].length;
+    return sum / (chain->count - 1);
+}
+
+static void lengthen(dmb_scene *scene, const uint32_t *chain_of, const dmb_scene_frame *frame)
+{
+    if (frame->node == UINT32_MAX) return;
+    dmb_chain *chain = scene->chains + chain_of[frame->node];
+    if (chain->count == 1) chain->length = fmax(chain->length, dmb_vec3_norm(frame->x));
+}
+
+/* sqrt(trace J/(2 m)) at the reference point, or the longest arm. */
+static void fill_lengths(dmb_scene *scene)
+{
+    uint32_t *chain_of = scene->node_chain;
+    for (uint32_t c = 0; c < scene->chain_count; ++c) {
+        dmb_chain *chain = scene->chains + c;
+        for (uint32_t i = 0; i < chain->count; ++i) chain_of[chain->first + i] = c;
+        chain->length = chain->count > 1 ? mean_element(scene, chain) : 0.0;
+    }
+    for (uint32_t i = 0; i < scene->lump_count; ++i) {
+        const dmb_lump *lump = scene->lumps + i;
+        dmb_chain *chain = scene->chains + chain_of[lump->node];
+        const double trace = lump->inertia[0] + lump->inertia[1] + lump->inertia[2];
+        if (chain->count == 1 && lump->mass > 0.0) chain->length = sqrt(0.5 * trace / lump->mass);
+    }
+    for (uint32_t j = 0; j < scene->joint_count; ++j) {
+        lengthen(scene, chain_of, &scene->joints[j].a);
+        lengthen(scene, chain_of, &scene->joints[j].b);
+    }
+    for (uint32_t c = 0; c < scene->chain_count; ++c)
+        if (!(scene->chains[c].length > DMB_BODY_LENGTH_MIN)) scene->chains[c].length = 1.0;
+}
+
 int32_t dmb_scene_fill(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage *storage)
 {
     const int32_t status = fill_layout(mesh, scene, storage);
@@ -217,7 +276,9 @@ int32_t dmb_scene_fill(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage
     fill_elements(mesh, scene);
     fill_parts(mesh, scene);
     fill_drives(mesh, scene);
+    fill_joint_drives(scene);
     fill_laws(mesh->model, scene);
     fill_hole(mesh, scene, storage);
+    fill_lengths(scene);
     return DMB_OK;
 }

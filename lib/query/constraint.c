@@ -1,6 +1,6 @@
 #include "query/constraint.h"
 
-#include "constraint/joint.h"
+#include "system/constraint_rows.h"
 
 static uint32_t joint_rows(const dmb_sim *sim, uint32_t j)
 {
@@ -34,4 +34,16 @@ uint32_t dmb_constraint_redundant(const dmb_sim *sim, uint32_t constraint)
     for (uint32_t i = sim->partition_rank[c->cluster]; i < cluster->rows; i++)
         count += order[i] >= first && order[i] < first + active;
     return count;
+}
+
+double dmb_joint_misfit(const dmb_sim *sim, uint32_t j)
+{
+    dmb_relative relative;
+    dmb_joint_rows rows;
+    double most = 0.0;
+    dmb_joint_motion_of(sim->scene, &sim->now, j, &relative, NULL);
+    dmb_joint_rows_now(sim, j, &relative, &rows);
+    for (uint32_t k = 0; k < rows.count; k++)
+        if (rows.holonomic >> k & 1) most = fmax(most, fabs(rows.value[k]));
+    return most;
 }

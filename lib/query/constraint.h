@@ -7,5 +7,7 @@
 /* Rows that act, the first of its room; and those of them that are dropped because others hold what they hold. */
 uint32_t dmb_constraint_active(const dmb_sim *sim, uint32_t constraint);
 uint32_t dmb_constraint_redundant(const dmb_sim *sim, uint32_t constraint);
+/* Largest violation of an equation of position that joint j holds. */
+double dmb_joint_misfit(const dmb_sim *sim, uint32_t j);
 
 #endif

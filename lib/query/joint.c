@@ -87,8 +87,7 @@ int32_t dmb_query_joint(const dmb_sim *sim, dmb_id joint, dmb_joint_state *state
     reaction(sim, j, &rows, world, &answer);
     answer.rows = rows.count;
     answer.redundant = dmb_constraint_redundant(sim, sim->scene->joints[j].constraint);
-    for (uint32_t k = 0; k < rows.count; k++)
-        if (rows.holonomic >> k & 1) answer.misfit = fmax(answer.misfit, fabs(rows.value[k]));
+    answer.misfit = dmb_joint_misfit(sim, j);
     return dmb_joint_state_write(state, &answer);
 }
 

@@ -1,27 +1,16 @@
 #include "query/ask.h"
 #include "query/constraint.h"
 #include "state/layout.h"
-#include "system/constraint_rows.h"
 
 DMB_DECLARE_STRUCT(dmb_statistics)
-
-static double misfit_of(const dmb_sim *sim, uint32_t j)
-{
-    dmb_relative relative;
-    dmb_joint_rows rows;
-    double most = 0.0;
-    dmb_joint_motion_of(sim->scene, &sim->now, j, &relative, NULL);
-    dmb_joint_rows_now(sim, j, &relative, &rows);
-    for (uint32_t k = 0; k < rows.count; k++)
-        if (rows.holonomic >> k & 1) most = fmax(most, fabs(rows.value[k]));
-    return most;
-}
 
 static void count_constraints(const dmb_sim *sim, dmb_statistics *answer)
 {
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) answer->dependent += sim->partition_rank[k];
-    for (uint32_t i = 0; i < sim->scene->constraint_count; i++) answer->redundant += dmb_constraint_redundant(sim, i);
-    for (uint32_t j = 0; j < sim->scene->joint_count; j++) answer->misfit = fmax(answer->misfit, misfit_of(sim, j));
+    for (uint32_t i = 0; i < sim->scene->constraint_count; i++) answer->redundant += dmb_constraint_active(sim, i);
+    answer->redundant -= answer->dependent;
+    for (uint32_t j = 0; j < sim->scene->joint_count; j++)
+        answer->misfit = fmax(answer->misfit, dmb_joint_misfit(sim, j));
 }
 
 int32_t dmb_query_statistics(const dmb_sim *sim, dmb_statistics *statistics)

@@ -62,9 +62,35 @@ static int32_t close_positions(dmb_evaluation *evaluation)
                         owner.text, sim->clock->time);
         return status;
     }
-    if (misfit <= DMB_ASSEMBLY_MISFIT && status >= 0) return DMB_OK;
+    if (misfit <= DMB_ASSEMBLY_MISFIT * sim->linked_mode->length && status >= 0) return DMB_OK;
     if (row == UINT32_MAX) row = 0;
-    return refuse(sim, row, misfit, "its parts cannot be brought together");
+    return refuse(sim, row, fabs(sim->constraint_value[row]), "its parts cannot be brought together");
+}
+
+int32_t dmb_joint_refuse_flip(dmb_sim *sim, uint32_t joint)
+{
+    const dmb_scene_joint *of = sim->scene->joints + joint;
+    const int locked = sim->joint_state[joint] == DMB_JOINT_LOCKED;
+    dmb_relative relative;
+    dmb_message owner;
+    double R[9];
+    if (sim->joint_state[joint] == DMB_JOINT_OPEN) return DMB_OK;
+    dmb_joint_motion_of(sim->scene, &sim->trial, joint, &relative, NULL);
+    dmb_mat3_copy(relative.R, R);
+    if (locked) dmb_mat3_mul_nt(relative.R, sim->joint_lock + 12 * (size_t)joint, R);
+    const double angle = dmb_joint_flip(locked ? DMB_JOINT_FIXED : of->kind, R);
+    if (angle == 0.0) return DMB_OK;
+    dmb_constraint_text(sim->scene, of->constraint, &owner);
+    dmb_message_set(&sim->message, "%s: turned over: axes that it keeps parallel are %g rad apart at time %g",
+                    owner.text, angle, sim->clock->time);
+    return DMB_ERR_GEOMETRY;
+}
+
+static int32_t refuse_flips(dmb_sim *sim)
+{
+    int32_t status = DMB_OK;
+    for (uint32_t j = 0; j < sim->scene->joint_count && status >= 0; j++) status = dmb_joint_refuse_flip(sim, j);
+    return status;
 }
 
 /* B v + rate of the rows that were dropped must vanish with the others. */
@@ -78,8 +104,11 @@ static int32_t check_speeds(dmb_evaluation *evaluation)
             const double *B = sim->constraint_jacobian + c->jacobian + (size_t)k * c->columns;
             double sum = sim->constraint_rate[c->row + k], size = 1.0 + fabs(sum);
             for (uint32_t n = 0; n < c->node_count; n++)
-                for (uint32_t s = 0; s < scene->layout.size[c->node[n]]; s++)
-                    sum += B[c->column[n] + s] * sim->trial.velocity[scene->layout.row[c->node[n]] + s];
+                for (uint32_t s = 0; s < scene->layout.size[c->node[n]]; s++) {
+                    const double part = B[c->column[n] + s] * sim->trial.velocity[scene->layout.row[c->node[n]] + s];
+                    sum += part;
+                    size += fabs(part); /* rounding goes with it, whatever the unit of the row */
+                }
             if (fabs(sum) > DMB_ASSEMBLY_MISFIT * size) return refuse(sim, c->row + k, sum, "its speed cannot be had");
         }
     }
@@ -147,6 +176,7 @@ int32_t dmb_assemble(dmb_sim *sim)
     sim->linked_mode->assembling = 1;
     status = close_positions(&evaluation);
     if (status >= 0) status = dmb_clusters_settle(&evaluation, DMB_SETTLE_POSE | DMB_SETTLE_SPEED, 0);
+    if (status >= 0) status = refuse_flips(sim);
     if (status >= 0) status = check_speeds(&evaluation);
     sim->linked_mode->assembling = 0;
     if (status < 0) return status;

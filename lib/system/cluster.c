@@ -9,11 +9,11 @@
 /* Projections onto the constraints end at this misfit times the size of the scene, or when they no longer help. */
 #define DMB_SETTLED 2e-15
 #define DMB_SETTLE_MAX 30
-/* A projection that ends above this [m, -] has failed. */
-#define DMB_UNSETTLED 1e-9
+/* A projection that ends above this part of the size has failed. */
+#define DMB_UNSETTLED 2e-10
 /* The choice is made anew when its quality falls below this part of what it was. */
 #define DMB_QUALITY_FALL 0.1
-/* [m, rad] longest step of putting a scene together. */
+/* Longest step of putting a scene together, in lengths of its parts. */
 #define DMB_APPROACH 0.3
 /* Drives that a message names. */
 enum { DMB_NAMED_DRIVES = 4 };
@@ -38,7 +38,13 @@ static double *matrix_of(const dmb_sim *sim, const dmb_cluster *cluster)
 
 /* ---- Choice ------------------------------------------------------------------------------------------------------ */
 
-/* Metres for translations, metres at the length scale for rotations; 0 for rows that are not solved. */
+/* Rotations of a body go with its whole extent, about twice its longest arm, in the choice of the partition. In
+ * projections they weigh more: a step of rotation is more exact than that of the points it carries round, so those
+ * should move rather (a disc that rolls: 7.1, 3.6, 1.2 in 1e-6 for a factor of 1, 2, 4). */
+#define DMB_BODY_EXTENT 2.0
+#define DMB_BODY_METRIC 10.0
+
+/* Metres for translations, metres at the length of its chain for rotations; 0 for rows that are not solved. */
 static void set_weights(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -46,9 +52,13 @@ static void set_weights(dmb_sim *sim)
         const uint32_t k = scene->node_cluster[i], size = scene->layout.size[i];
         if (k == UINT32_MAX) continue;
         double *weight = sim->cluster_weight + scene->clusters[k].column + scene->node_place[i];
+        double *metric = sim->cluster_metric + scene->clusters[k].column + scene->node_place[i];
+        const dmb_chain *chain = scene->chains + scene->node_chain[i];
+        const double length = chain->count > 1 ? chain->length : DMB_BODY_EXTENT * chain->length;
         for (uint32_t c = 0; c < size; c++) {
-            weight[c] = 2 * c < size ? 1.0 : 1.0 / scene->length_scale;
+            weight[c] = 2 * c < size ? 1.0 : 1.0 / length;
             if (!scene->solved_row[scene->layout.row[i] + c]) weight[c] = 0.0;
+            metric[c] = 2 * c < size || chain->count > 1 ? weight[c] : weight[c] * (DMB_BODY_EXTENT / DMB_BODY_METRIC);
         }
     }
 }
@@ -84,11 +94,15 @@ static uint32_t active_rows(const dmb_sim *sim, const dmb_cluster *cluster)
     return count;
 }
 
-static uint32_t sum_of_dependent(const dmb_sim *sim, uint32_t k)
+/* A number that tells sets of dependent columns apart, in whatever order. */
+static uint64_t mark_of_dependent(const dmb_sim *sim, uint32_t k)
 {
     const uint32_t *order = sim->partition_column + sim->scene->clusters[k].column;
-    uint32_t sum = sim->partition_rank[k];
-    for (uint32_t i = 0; i < sim->partition_rank[k]; i++) sum += (order[i] + 1) * (order[i] + 1);
+    uint64_t sum = sim->partition_rank[k];
+    for (uint32_t i = 0; i < sim->partition_rank[k]; i++) {
+        const uint64_t mixed = (order[i] + UINT64_C(1)) * UINT64_C(0x9E3779B97F4A7C15);
+        sum += mixed ^ mixed >> 29;
+    }
     return sum;
 }
 
@@ -96,10 +110,11 @@ void dmb_clusters_watch(dmb_sim *sim)
 {
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
         const int fallen = sim->cluster_quality[k] < DMB_QUALITY_FALL * sim->partition_quality[k];
+        sim->partition_quality[k] = fmax(sim->partition_quality[k], sim->cluster_quality[k]);
         if (!fallen && sim->partition_rank[k] == active_rows(sim, sim->scene->clusters + k)) continue;
-        const uint32_t before = sum_of_dependent(sim, k);
+        const uint64_t before = mark_of_dependent(sim, k);
         choose(sim, k);
-        sim->counters->switches += before != sum_of_dependent(sim, k);
+        sim->counters->switches += before != mark_of_dependent(sim, k);
     }
 }
 
@@ -158,7 +173,7 @@ static int32_t factor_gram(dmb_sim *sim)
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
         const dmb_cluster *cluster = sim->scene->clusters + k;
         const dmb_partition partition = dmb_cluster_partition(sim, k);
-        if (dmb_partition_gram(matrix_of(sim, cluster), cluster->columns, sim->cluster_weight + cluster->column,
+        if (dmb_partition_gram(matrix_of(sim, cluster), cluster->columns, sim->cluster_metric + cluster->column,
                                &partition, sim->cluster_gram + cluster->square) < 0)
             return singular(sim, cluster->row, 0.0);
     }
@@ -173,7 +188,7 @@ static const double *shortest(dmb_sim *sim, uint32_t k, const double *d)
     const dmb_cluster *cluster = sim->scene->clusters + k;
     const dmb_partition partition = dmb_cluster_partition(sim, k);
     for (uint32_t i = 0; i < partition.rank; i++) sim->cluster_rows[i] = d[cluster->row + partition.row_order[i]];
-    dmb_partition_project(matrix_of(sim, cluster), cluster->columns, sim->cluster_weight + cluster->column, &partition,
+    dmb_partition_project(matrix_of(sim, cluster), cluster->columns, sim->cluster_metric + cluster->column, &partition,
                           sim->cluster_gram + cluster->square, sim->cluster_rows, sim->cluster_move);
     return sim->cluster_move;
 }
@@ -188,6 +203,19 @@ static void move_node(dmb_sim *sim, uint32_t node, const double *x)
     sim->trial.turn[node] += x[1];
 }
 
+/* [m] least move that satisfies a row of a cluster alone: its misfit over the length of its row in weighted columns. */
+static double way_of(const dmb_sim *sim, uint32_t k, uint32_t row)
+{
+    const dmb_cluster *cluster = sim->scene->clusters + k;
+    const double *b = matrix_of(sim, cluster) + (size_t)row * cluster->columns;
+    const double *weight = sim->cluster_weight + cluster->column;
+    const double value = fabs(sim->constraint_value[cluster->row + row]);
+    double sum = 0.0;
+    if (value == 0.0) return 0.0;
+    for (uint32_t c = 0; c < cluster->columns; c++) sum += b[c] * b[c] * weight[c] * weight[c];
+    return sum > 0.0 ? value / sqrt(sum) : value;
+}
+
 /* Largest misfit of the pivot rows, or of the dropped ones. */
 static double misfit_of(const dmb_sim *sim, uint32_t k, int32_t dropped, uint32_t *row)
 {
@@ -195,7 +223,7 @@ static double misfit_of(const dmb_sim *sim, uint32_t k, int32_t dropped, uint32_
     const uint32_t *order = sim->partition_row + cluster->row, rank = sim->partition_rank[k];
     double most = 0.0;
     for (uint32_t i = dropped ? rank : 0; i < (dropped ? cluster->rows : rank); i++) {
-        const double misfit = fabs(sim->constraint_value[cluster->row + order[i]]);
+        const double misfit = way_of(sim, k, order[i]);
         if (!(misfit > most)) continue;
         most = misfit;
         *row = cluster->row + order[i];
@@ -214,25 +242,30 @@ double dmb_clusters_misfit(const dmb_sim *sim, int32_t dropped, uint32_t *row)
 {
     double most = 0.0;
     *row = UINT32_MAX;
-    for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
-        uint32_t found = UINT32_MAX;
-        double here = misfit_of(sim, k, 1, &found);
-        if (!dropped) here = fmax(here, misfit_of(sim, k, 0, &found));
-        if (!(here > most)) continue;
-        most = here;
-        *row = found;
-    }
+    for (uint32_t k = 0; k < sim->scene->cluster_count; k++)
+        for (int32_t which = dropped; which <= 1; which++) {
+            uint32_t found = UINT32_MAX;
+            const double here = misfit_of(sim, k, which, &found);
+            if (!(here > most)) continue;
+            most = here;
+            *row = found;
+        }
     return most;
 }
 
-/* [m] size that rounding of positions goes with. */
+/* [m] size that rounding of positions goes with: how far nodes are from where they are measured from. */
 static double scene_size(const dmb_sim *sim)
 {
-    return 1.0 + sim->scene->length;
+    const dmb_scene *scene = sim->scene;
+    double far = 0.0;
+    for (uint32_t i = 0; i < scene->constraint_node_count; i++) {
+        const double *u = sim->trial.displacement + 3 * (size_t)scene->cluster_nodes[i];
+        far = fmax(far, fmax(fabs(u[0]), fmax(fabs(u[1]), fabs(u[2]))));
+    }
+    return sim->linked_mode->size + far;
 }
 
-/* Moves the poses by the shortest change that makes C = 0, but no column by more than `most` of its unit. Returns the
- * largest. */
+/* Moves the poses by the shortest change that makes C = 0, but none by more than `most` [m]. Returns the largest. */
 static double move_poses(dmb_sim *sim, double most)
 {
     const dmb_scene *scene = sim->scene;
@@ -241,7 +274,9 @@ static double move_poses(dmb_sim *sim, double most)
         const dmb_cluster *cluster = scene->clusters + k;
         const double *x = shortest(sim, k, sim->constraint_value);
         double here = 0.0;
-        for (uint32_t i = 0; i < cluster->columns; i++) here = fmax(here, fabs(x[i]));
+        const double *weight = sim->cluster_weight + cluster->column;
+        for (uint32_t i = 0; i < cluster->columns; i++)
+            if (weight[i] > 0.0) here = fmax(here, fabs(x[i]) / weight[i]);
         const double factor = here > most ? -most / here : -1.0;
         largest = fmax(largest, here);
         for (uint32_t i = 0; i < cluster->columns; i++) sim->cluster_move[i] = factor * x[i];
@@ -259,23 +294,25 @@ int32_t dmb_clusters_approach(dmb_evaluation *evaluation)
     dmb_clusters_choose(sim);
     status = factor_gram(sim);
     if (status < 0) return status;
-    return move_poses(sim, DMB_APPROACH) <= DMB_SETTLED * scene_size(sim) ? DMB_NOTE_STOPPED : DMB_OK;
+    return move_poses(sim, DMB_APPROACH * sim->linked_mode->length) <= DMB_SETTLED * scene_size(sim) ? DMB_NOTE_STOPPED
+                                                                                                     : DMB_OK;
 }
 
 /* Newton on C = 0 until rounding. */
 static int32_t settle_poses(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
+    const double size = scene_size(sim);
     double last = (double)INFINITY;
     uint32_t row = 0;
     for (uint32_t k = 0;; k++) {
         int32_t status = dmb_clusters_gather(evaluation);
         if (status < 0) return status;
         const double misfit = worst_pivot_misfit(sim, &row);
-        const int done = misfit <= DMB_SETTLED * scene_size(sim) || (misfit < DMB_UNSETTLED && misfit > 0.5 * last);
+        const int done = misfit <= DMB_SETTLED * size || (misfit < DMB_UNSETTLED * size && misfit > 0.5 * last);
         if (done || k == DMB_SETTLE_MAX || !isfinite(misfit)) {
-            if (misfit < DMB_UNSETTLED) return factor_gram(sim);
-            (void)singular(sim, row, misfit);
+            if (misfit < DMB_UNSETTLED * size) return factor_gram(sim);
+            (void)singular(sim, row, fabs(sim->constraint_value[row]));
             return DMB_ERR_NO_CONVERGENCE;
         }
         status = factor_gram(sim);
@@ -320,7 +357,7 @@ static void leave_weak(dmb_sim *sim)
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
         const dmb_cluster *cluster = sim->scene->clusters + k;
         const dmb_partition partition = dmb_cluster_partition(sim, k);
-        dmb_partition_leave_weak(matrix_of(sim, cluster), cluster->columns, sim->cluster_weight + cluster->column,
+        dmb_partition_leave_weak(matrix_of(sim, cluster), cluster->columns, sim->cluster_metric + cluster->column,
                                  &partition, sim->cluster_gram + cluster->square);
     }
 }
@@ -346,6 +383,12 @@ int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t 
         settle_rows(sim, sim->constraint_convective, sim->trial.acceleration, sim->trial.pseudo_acceleration,
                     evaluation->pseudo_factor);
     return status < 0 ? status : factor_dependent(sim);
+}
+
+int32_t dmb_clusters_refresh(dmb_evaluation *evaluation)
+{
+    dmb_clusters_watch(evaluation->sim);
+    return factor_dependent(evaluation->sim);
 }
 
 /* ---- Multipliers ------------------------------------------------------------------------------------------------- */
@@ -427,10 +470,23 @@ void dmb_clusters_count(const dmb_sim *sim, uint32_t *active, uint32_t *dropped)
     }
 }
 
+static void set_lengths(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    dmb_linked_mode *mode = sim->linked_mode;
+    double span = 0.0;
+    mode->length = 0.0;
+    for (uint32_t c = 0; c < scene->chain_count; c++)
+        if (scene->chains[c].linked) mode->length = fmax(mode->length, scene->chains[c].length);
+    for (uint32_t j = 0; j < scene->joint_count; j++) span = fmax(span, dmb_vec3_norm(scene->joints[j].span));
+    mode->size = mode->length + span;
+}
+
 void dmb_clusters_prepare(dmb_sim *sim)
 {
     if (sim->scene->cluster_count == 0) return;
     set_weights(sim);
+    set_lengths(sim);
     sim->linked_mode->row = UINT32_MAX;
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) { /* no dependent column until one is chosen */
         const dmb_cluster *cluster = sim->scene->clusters + k;

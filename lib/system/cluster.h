@@ -25,6 +25,9 @@ void dmb_clusters_choose(dmb_sim *sim);
 /* Chooses anew where the conditioning has fallen or rows are dropped; counts the changes. */
 void dmb_clusters_watch(dmb_sim *sim);
 
+/* The same, and factors what was chosen: for searches that move far. */
+int32_t dmb_clusters_refresh(dmb_evaluation *evaluation);
+
 /* Projects the trial, levels being a sum of DMB_SETTLE_..., and leaves rows and factored matrices there. Speeds and
  * accelerations start from raw_ fields if from_raw, else from what the trial has. DMB_OK, DMB_ERR_CALLBACK, _NOT_FINITE,
  * DMB_ERR_SINGULAR (linked_mode->row tells which row), DMB_ERR_NO_CONVERGENCE (likewise). */

@@ -16,7 +16,7 @@
 #define DMB_TURN_STEP 1e-3      /* [s] second derivatives by time */
 #define DMB_MOTION_STEP 3e-4    /* [m, rad; s] of first derivatives along the motion */
 #define DMB_BEND_STEP 2e-3      /* [m, rad; s] of second derivatives along the motion */
-#define DMB_JACOBIAN_CHECK 1e-5 /* largest difference of a given Jacobian from differences, over its largest entry */
+#define DMB_JACOBIAN_CHECK 1e-5 /* largest difference of a given Jacobian from differences, over its row's size */
 
 enum { PLACES = DMB_CONSTRAINT_NODES, COLUMNS = 6 * DMB_CONSTRAINT_NODES, ROWS = DMB_CONSTRAINT_ROWS };
 
@@ -277,25 +277,48 @@ int32_t dmb_callback_curvature(dmb_evaluation *evaluation, uint32_t callback, do
     return DMB_OK;
 }
 
+/* Sizes of the rows: their values, entries, and changes over a step per length of it, so that a row without a slope has
+ * one that is not rounding error. */
+static int32_t row_sizes(const question *ask, const double value[ROWS], const double given[ROWS * COLUMNS],
+                         const double found[ROWS * COLUMNS], double size[ROWS])
+{
+    const uint32_t columns = 6 * ask->callback->count;
+    double there[ROWS];
+    for (uint32_t r = 0; r < ask->callback->rows; r++) size[r] = fabs(value[r]);
+    for (uint32_t c = 0; c < columns; c++) {
+        const question moved = along_component(ask, c, DMB_POSE_STEP);
+        if (call(&moved, there, NULL) < 0) return DMB_ERR_CALLBACK;
+        for (uint32_t r = 0; r < ask->callback->rows; r++) {
+            const double entry = fmax(fabs(given[r * columns + c]), fabs(found[r * columns + c]));
+            size[r] = fmax(size[r], fmax(entry, fabs(there[r] - value[r]) / DMB_POSE_STEP));
+        }
+    }
+    return DMB_OK;
+}
+
+static int32_t check_jacobian(dmb_sim *sim, const question *ask, const char *owner)
+{
+    const uint32_t columns = 6 * ask->callback->count;
+    double value[ROWS], given[ROWS * COLUMNS], found[ROWS * COLUMNS], size[ROWS];
+    int32_t status = call(ask, value, given);
+    if (status >= 0) status = jacobian_by_differences(ask, found);
+    if (status >= 0) status = row_sizes(ask, value, given, found, size);
+    if (status < 0) dmb_message_set(&sim->message, "%s: the callback failed or gave a value that is not finite", owner);
+    for (uint32_t i = 0; status >= 0 && i < ask->callback->rows * columns; i++) {
+        if (fabs(given[i] - found[i]) <= DMB_JACOBIAN_CHECK * size[i / columns]) continue;
+        dmb_message_set(&sim->message, "%s: jacobian[%u][%u] = %g, must be %g by differences", owner, i / columns,
+                        i % columns, given[i], found[i]);
+        return DMB_ERR_CALLBACK;
+    }
+    return status;
+}
+
 int32_t dmb_callback_check(dmb_sim *sim, uint32_t callback)
 {
     const question ask = question_of(sim->scene, &sim->now, callback, sim->clock->time);
     const dmb_scene_callback *own = ask.callback;
-    const uint32_t columns = 6 * own->count;
-    double value[ROWS], given[ROWS * COLUMNS], found[ROWS * COLUMNS], most = 0.0;
     dmb_message owner;
     if (own->kind != DMB_CONSTRAINT_HOLONOMIC || (own->provides & DMB_PROVIDES_JACOBIAN) == 0) return DMB_OK;
     dmb_constraint_text(sim->scene, own->constraint, &owner);
-    if (call(&ask, value, given) < 0 || jacobian_by_differences(&ask, found) < 0) {
-        dmb_message_set(&sim->message, "%s: the callback failed or gave a value that is not finite", owner.text);
-        return DMB_ERR_CALLBACK;
-    }
-    for (uint32_t i = 0; i < own->rows * columns; i++) most = fmax(most, fmax(fabs(given[i]), fabs(found[i])));
-    for (uint32_t i = 0; i < own->rows * columns; i++) {
-        if (fabs(given[i] - found[i]) <= DMB_JACOBIAN_CHECK * most) continue;
-        dmb_message_set(&sim->message, "%s: jacobian[%u][%u] = %g, must be %g by differences", owner.text, i / columns,
-                        i % columns, given[i], found[i]);
-        return DMB_ERR_CALLBACK;
-    }
-    return DMB_OK;
+    return check_jacobian(sim, &ask, owner.text);
 }

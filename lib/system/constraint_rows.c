@@ -3,8 +3,11 @@
 #include <string.h>
 
 #include "math/mat6.h"
+#include "system/node.h"
 
 #define DMB_TURN 6.283185307179586477
+/* [rad] in a step: gradients at one end of it tell the turn well enough. */
+#define DMB_SMALL_TURN 1.0
 
 static double *jacobian_row(const dmb_sim *sim, const dmb_constraint *constraint, uint32_t k)
 {
@@ -100,16 +103,65 @@ static void joint_rows(dmb_evaluation *evaluation, const dmb_constraint *constra
 
 /* ---- Coordinates ------------------------------------------------------------------------------------------------- */
 
+/* What the increments of the step move frame b by, seen from a, with the maps of one of its ends. */
+static void moved_by(const dmb_sim *sim, const dmb_configuration *c, uint32_t j, const dmb_relative *relative,
+                     double moved[6])
+{
+    const dmb_scene_joint *joint = sim->scene->joints + j;
+    double z[6], a[6] = {0.0};
+    dmb_node_vector(sim->scene, c, joint->b.node, sim->increment, z);
+    dmb_mat6_vec(relative->to_b, z, moved);
+    if (joint->a.node == UINT32_MAX) return;
+    dmb_node_vector(sim->scene, c, joint->a.node, sim->increment, z);
+    dmb_mat6_vec(relative->to_a, z, a);
+    for (int i = 0; i < 6; i++) moved[i] += a[i];
+}
+
+/* [rad] by which RX and RY turn in the step, by the gradients of its end; for large turns by those of its start too. */
+static void turning_of(const dmb_sim *sim, uint32_t j, const dmb_relative *relative, const dmb_joint_coordinates *c,
+                       double turning[2])
+{
+    const double *last = sim->now.joint_turn + 2 * (size_t)j;
+    dmb_relative start;
+    dmb_joint_coordinates first;
+    double moved[6];
+    moved_by(sim, &sim->trial, j, relative, moved);
+    for (int i = 0; i < 2; i++) turning[i] = dmb_vec6_dot(c->J[3 + i], moved);
+    if (fabs(turning[0]) <= DMB_SMALL_TURN && fabs(turning[1]) <= DMB_SMALL_TURN) return;
+    dmb_joint_motion_of(sim->scene, &sim->now, j, &start, NULL);
+    dmb_joint_coordinates_at(start.R, start.p, start.V, last, &first);
+    moved_by(sim, &sim->now, j, &start, moved);
+    for (int i = 0; i < 2; i++) turning[i] = 0.5 * (turning[i] + dmb_vec6_dot(first.J[3 + i], moved));
+}
+
+/* A coordinate that a motion drive moves stands near where the drive is. */
+static void expect_driven(const dmb_sim *sim, uint32_t j, double expected[2])
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_scene_joint *joint = scene->joints + j;
+    if (sim->joint_state[j] == DMB_JOINT_OPEN) return;
+    for (uint32_t i = joint->first_drive; i < joint->first_drive + joint->drive_count; i++) {
+        const uint32_t d = scene->joint_drives[i];
+        const int32_t component = scene->drives[d].component;
+        if (scene->drives[d].kind == DMB_DRIVE_MOTION && (component == DMB_RX || component == DMB_RY))
+            expected[component - DMB_RX] = sim->drive_offset[d] + sim->trial.drive_position[d];
+    }
+}
+
 void dmb_joint_coordinates_in(const dmb_evaluation *evaluation, uint32_t j, const dmb_relative *relative,
                               dmb_joint_coordinates *coordinates)
 {
-    const double *last = evaluation->sim->now.joint_turn + 2 * j;
+    const dmb_sim *sim = evaluation->sim;
+    const double *last = sim->now.joint_turn + 2 * (size_t)j;
+    double expected[2];
+    if (!evaluation->dynamic) last = sim->trial.joint_turn + 2 * (size_t)j; /* statics follow it move by move */
     dmb_joint_coordinates_at(relative->R, relative->p, relative->V, last, coordinates);
     if (!(evaluation->step > 0.0)) return;
-    for (int i = 0; i < 2; i++) {
-        const double expected = last[i] + evaluation->step * dmb_vec6_dot(coordinates->J[3 + i], relative->V);
-        coordinates->value[3 + i] += DMB_TURN * round((expected - coordinates->value[3 + i]) / DMB_TURN);
-    }
+    turning_of(sim, j, relative, coordinates, expected);
+    for (int i = 0; i < 2; i++) expected[i] += last[i];
+    expect_driven(sim, j, expected);
+    for (int i = 0; i < 2; i++)
+        coordinates->value[3 + i] += DMB_TURN * round((expected[i] - coordinates->value[3 + i]) / DMB_TURN);
 }
 
 /* Row 0 of the constraint += factor times a coordinate of joint j. */

@@ -4,7 +4,7 @@
 #include "system/cluster.h"
 #include "system/constraint_rows.h"
 
-static void keep_turns(dmb_evaluation *evaluation)
+void dmb_joints_follow(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     for (uint32_t j = 0; j < sim->scene->joint_count; j++) {
@@ -30,7 +30,7 @@ static void reactions(dmb_sim *sim)
 void dmb_joints_accept(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
-    keep_turns(evaluation);
+    dmb_joints_follow(evaluation);
     for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
         const dmb_scene_drive *drive = sim->scene->drives + i;
         if (drive->joint == UINT32_MAX || drive->kind != DMB_DRIVE_MOTION) continue;

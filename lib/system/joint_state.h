@@ -4,6 +4,8 @@
 
 #include "system/evaluation.h"
 
+/* Turns of the coordinates of the trial; in statics after every move. */
+void dmb_joints_follow(dmb_evaluation *evaluation);
 /* End of an accepted step: turns of the coordinates, multipliers of least norm, partition where it has become poor. */
 void dmb_joints_accept(dmb_evaluation *evaluation);
 /* Joint j is locked from now on, or no longer: where it holds frame b, in the pose of now. */
@@ -16,6 +18,10 @@ double dmb_joint_energy(const dmb_sim *sim, const dmb_configuration *configurati
  * initial coordinates say, speeds likewise. Fills counters->assembly. Errors with a message: DMB_ERR_GEOMETRY (the joint
  * that does not fit, and by how much), DMB_ERR_CALLBACK. system/assembly */
 int32_t dmb_assemble(dmb_sim *sim);
+
+/* Refuses a joint whose frames, in the trial, point against each other where it keeps them parallel: its equations hold
+ * there too. DMB_ERR_GEOMETRY with a message. */
+int32_t dmb_joint_refuse_flip(dmb_sim *sim, uint32_t joint);
 
 /* Refuses speeds of the trial that do not satisfy an equation, one that was dropped included: DMB_ERR_GEOMETRY. */
 int32_t dmb_assembled_speeds(dmb_evaluation *evaluation);

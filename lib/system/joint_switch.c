@@ -32,13 +32,20 @@ static void take_state(dmb_sim *sim, uint32_t j, int32_t state)
         dmb_joint_release(sim, j);
 }
 
-/* Rows at now; those of the joint, of its couplings and of its drives must nearly hold. */
-static int32_t check_fit(dmb_evaluation *evaluation)
+/* Whether a constraint holds anew when joint j changes: the joint's own, and those of its coordinates if it was open.
+ */
+static int holds_anew(const dmb_scene *scene, const dmb_constraint *c, uint32_t j, int32_t was)
 {
-    dmb_sim *sim = evaluation->sim;
-    const int32_t status = dmb_clusters_gather(evaluation);
-    if (status < 0) return status;
-    for (uint32_t r = 0; r < sim->scene->constraint_row_count; r++) {
+    if (c->kind == DMB_OF_JOINT) return c->index == j;
+    if (was != DMB_JOINT_OPEN) return 0;
+    if (c->kind == DMB_OF_DRIVE) return scene->drives[c->index].joint == j;
+    if (c->kind != DMB_OF_COUPLING) return 0;
+    return scene->couplings[c->index].joint[0] == j || scene->couplings[c->index].joint[1] == j;
+}
+
+static int32_t check_rows(dmb_sim *sim, const dmb_constraint *c)
+{
+    for (uint32_t r = c->row; r < c->row + c->rows; r++) {
         const double misfit = fabs(sim->constraint_value[r]);
         if (misfit <= DMB_CLOSING_MISFIT) continue;
         sim->linked_mode->row = r;
@@ -47,6 +54,17 @@ static int32_t check_fit(dmb_evaluation *evaluation)
         return DMB_ERR_GEOMETRY;
     }
     return DMB_OK;
+}
+
+/* Rows at now; those that hold anew must nearly be satisfied, and not by frames that are turned over. */
+static int32_t check_fit(dmb_evaluation *evaluation, uint32_t j, int32_t was)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    int32_t status = dmb_clusters_gather(evaluation);
+    for (uint32_t i = 0; i < scene->constraint_count && status >= 0; i++)
+        if (holds_anew(scene, scene->constraints + i, j, was)) status = check_rows(sim, scene->constraints + i);
+    return status < 0 ? status : dmb_joint_refuse_flip(sim, j);
 }
 
 /* correction := what M does to the acceleration of the trial, in the independent rows: a difference of residuals. */
@@ -80,12 +98,16 @@ static int32_t least_energy(dmb_evaluation *evaluation)
     return DMB_OK;
 }
 
-static double largest_change(const dmb_sim *sim)
+/* [m/s, rad/s] */
+static void largest_change(const dmb_sim *sim, double most[2])
 {
-    double most = 0.0;
-    for (uint32_t i = 0; i < sim->scene->row_count; i++)
-        most = fmax(most, fabs(sim->trial.velocity[i] - sim->now.velocity[i]));
-    return most;
+    const dmb_block_layout *layout = &sim->scene->layout;
+    most[0] = most[1] = 0.0;
+    for (uint32_t i = 0; i < sim->scene->node_count; i++)
+        for (uint32_t c = 0; c < layout->size[i]; c++) {
+            const uint32_t row = layout->row[i] + c, turns = 2 * c >= layout->size[i];
+            most[turns] = fmax(most[turns], fabs(sim->trial.velocity[row] - sim->now.velocity[row]));
+        }
 }
 
 /* [J] stored in the pose of now. */
@@ -122,21 +144,22 @@ static void take_forces(dmb_sim *sim)
     memcpy(sim->now.drive_rate, sim->trial.drive_rate, scene->drive_count * sizeof(double));
 }
 
-static int32_t change(dmb_sim *sim, uint32_t j, int32_t state, double *jump)
+static int32_t change(dmb_sim *sim, uint32_t j, int32_t state, double jump[2])
 {
     const double stored = potential(sim);
+    const int32_t was = sim->joint_state[j];
     dmb_evaluation evaluation;
     set_up(sim, &evaluation);
     take_state(sim, j, state);
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
     int32_t status = dmb_system_prescribe(&evaluation);
-    if (status >= 0) status = check_fit(&evaluation);
+    if (status >= 0) status = check_fit(&evaluation, j, was);
     if (status < 0) return status;
     dmb_clusters_choose(sim);
     status = dmb_clusters_settle(&evaluation, DMB_SETTLE_POSE | DMB_SETTLE_SPEED, 0);
     if (status >= 0) status = least_energy(&evaluation);
     if (status < 0) return status;
-    *jump = largest_change(sim);
+    largest_change(sim, jump);
     take_motion(sim, stored);
     status = dmb_system_jump(sim);
     if (status >= 0) take_forces(sim);
@@ -145,17 +168,19 @@ static int32_t change(dmb_sim *sim, uint32_t j, int32_t state, double *jump)
 
 int32_t dmb_joint_switch(dmb_sim *sim, uint32_t joint, int32_t state)
 {
-    double jump = 0.0;
+    double jump[2] = {0.0, 0.0};
+    dmb_message name;
     if (sim->joint_state[joint] == state) return DMB_OK;
     dmb_state_keep(sim);
     sim->linked_mode->row = UINT32_MAX;
-    const int32_t status = change(sim, joint, state, &jump);
+    const int32_t status = change(sim, joint, state, jump);
     if (status < 0) {
         dmb_state_bring_back(sim);
         if (sim->message.text[0] == '\0') dmb_clusters_explain(sim, "its equations cannot be satisfied");
         return status;
     }
-    if (jump <= 1e-12) return DMB_OK;
-    dmb_message_set(&sim->message, "joint %u: speeds jumped by up to %g", joint, jump);
+    if (jump[0] <= 1e-12 && jump[1] <= 1e-12) return DMB_OK;
+    dmb_constraint_text(sim->scene, sim->scene->joints[joint].constraint, &name);
+    dmb_message_set(&sim->message, "%s: speeds jumped by up to %g m/s and %g rad/s", name.text, jump[0], jump[1]);
     return DMB_NOTE_PROJECTED;
 }

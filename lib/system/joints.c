@@ -19,7 +19,7 @@ typedef struct coordinate_forces {
 
 static int has_forces(const dmb_sim *sim, const dmb_scene_joint *joint, uint32_t j)
 {
-    return (joint->law != UINT32_MAX || joint->driven) && sim->joint_state[j] != DMB_JOINT_OPEN;
+    return (joint->law != UINT32_MAX || joint->drive_count > 0) && sim->joint_state[j] != DMB_JOINT_OPEN;
 }
 
 static void begin(const dmb_evaluation *evaluation, uint32_t j, coordinate_forces *f)
@@ -66,10 +66,11 @@ static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, c
 static void add_drives(dmb_evaluation *evaluation, uint32_t j, coordinate_forces *f)
 {
     dmb_sim *sim = evaluation->sim;
-    for (uint32_t d = 0; d < sim->scene->drive_count; d++) {
+    const dmb_scene_joint *joint = sim->scene->joints + j;
+    for (uint32_t i = joint->first_drive; i < joint->first_drive + joint->drive_count; i++) {
+        const uint32_t d = sim->scene->joint_drives[i];
         const dmb_scene_drive *drive = sim->scene->drives + d;
         double slope;
-        if (drive->joint != j) continue;
         sim->trial.drive_speed[d] = f->speed[drive->component];
         if (drive->kind == DMB_DRIVE_MOTION) continue;
         const double force = dmb_drive_force(evaluation, d, f->speed[drive->component], &slope);
@@ -84,12 +85,13 @@ static void add_drives(dmb_evaluation *evaluation, uint32_t j, coordinate_forces
 static void rest_drives(dmb_evaluation *evaluation, uint32_t j)
 {
     dmb_sim *sim = evaluation->sim;
+    const dmb_scene_joint *joint = sim->scene->joints + j;
     coordinate_forces f;
-    if (!sim->scene->joints[j].driven) return;
+    if (joint->drive_count == 0) return;
     begin(evaluation, j, &f);
-    for (uint32_t d = 0; d < sim->scene->drive_count; d++) {
+    for (uint32_t i = joint->first_drive; i < joint->first_drive + joint->drive_count; i++) {
+        const uint32_t d = sim->scene->joint_drives[i];
         const dmb_scene_drive *drive = sim->scene->drives + d;
-        if (drive->joint != j) continue;
         sim->trial.drive_force[d] = 0.0;
         sim->trial.drive_integral[d] = sim->now.drive_integral[d];
         sim->trial.drive_speed[d] = f.speed[drive->component];
@@ -108,10 +110,9 @@ static void apply(dmb_evaluation *evaluation, const dmb_scene_joint *joint, cons
 }
 
 /* -d(J^T f)/dq: W of the gradients and J^T f' J. */
-static void add_position_tangent(dmb_evaluation *evaluation, const dmb_constraint *constraint, uint32_t j,
-                                 const coordinate_forces *f)
+static void add_position_tangent(const dmb_scene *scene, const dmb_constraint *constraint, uint32_t j,
+                                 const coordinate_forces *f, double *K)
 {
-    dmb_sim *sim = evaluation->sim;
     double w[6] = {0.0}, W[36], minus[6];
     for (int i = 0; i < 6; i++) minus[i] = -f->force[i];
     dmb_joint_coordinates_tangent(f->relative.R, f->relative.p, minus, W);
@@ -119,41 +120,50 @@ static void add_position_tangent(dmb_evaluation *evaluation, const dmb_constrain
         for (int k = 0; k < 6; k++) w[k] += minus[i] * f->c.J[i][k];
         dmb_mat6_add_outer(-f->by_position[i], f->c.J[i], f->c.J[i], W);
     }
-    dmb_add_joint_tangent(sim->scene, constraint, j, &f->relative, w, W, sim->constraint_tangent + constraint->tangent);
+    dmb_add_joint_tangent(scene, constraint, j, &f->relative, w, W, K);
 }
 
 static void add_speed_tangent(dmb_evaluation *evaluation, const dmb_constraint *constraint, uint32_t j,
-                              const coordinate_forces *f)
+                              const coordinate_forces *f, double *K)
 {
-    dmb_sim *sim = evaluation->sim;
     const uint32_t n = constraint->columns;
     for (int i = 0; i < 6; i++) {
         double row[DMB_CONSTRAINT_COLUMNS] = {0.0};
         const double factor = -evaluation->velocity_factor * f->by_speed[i];
         if (factor == 0.0) continue;
-        dmb_add_joint_row(sim->scene, constraint, j, &f->relative, 1.0, f->c.J[i], row);
+        dmb_add_joint_row(evaluation->sim->scene, constraint, j, &f->relative, 1.0, f->c.J[i], row);
         for (uint32_t r = 0; r < n; r++)
-            for (uint32_t s = 0; s < n; s++)
-                sim->constraint_tangent[constraint->tangent + (size_t)r * n + s] += factor * row[r] * row[s];
+            for (uint32_t s = 0; s < n; s++) K[(size_t)r * n + s] += factor * row[r] * row[s];
     }
 }
 
 /* K <- K T6 in the columns of FULL nodes, as for the blocks of the nodes. */
-static void to_parameters(dmb_evaluation *evaluation, const dmb_constraint *constraint)
+static void to_parameters(const dmb_evaluation *evaluation, const dmb_constraint *constraint, double *K)
 {
-    dmb_sim *sim = evaluation->sim;
+    const dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
+    if (!evaluation->dynamic) return;
     for (uint32_t i = 0; i < constraint->node_count; i++) {
         const uint32_t node = constraint->node[i];
         dmb_se3_tangent T;
         if (scene->layout.size[node] != DMB_NODE_FULL) continue;
         dmb_se3_tangent_at(sim->increment + scene->layout.row[node], NULL, &T);
         for (uint32_t r = 0; r < constraint->columns; r++) {
-            double *row =
-                sim->constraint_tangent + constraint->tangent + (size_t)r * constraint->columns + constraint->column[i];
+            double *row = K + (size_t)r * constraint->columns + constraint->column[i];
             dmb_se3_tangent_apply_transpose(&T, row, row);
         }
     }
+}
+
+/* The tangent by speeds is one by parameters already. */
+static void add_tangent(dmb_evaluation *evaluation, uint32_t j, const coordinate_forces *f)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    const dmb_constraint *constraint = scene->constraints + scene->joints[j].constraint;
+    double *K = evaluation->sim->constraint_tangent + constraint->tangent;
+    add_position_tangent(scene, constraint, j, f, K);
+    to_parameters(evaluation, constraint, K);
+    if (evaluation->dynamic) add_speed_tangent(evaluation, constraint, j, f, K);
 }
 
 static void gather_forces(dmb_evaluation *evaluation)
@@ -168,35 +178,25 @@ static void gather_forces(dmb_evaluation *evaluation)
         add_laws(evaluation, joint, &f);
         add_drives(evaluation, j, &f);
         apply(evaluation, joint, &f);
-        if (evaluation->tangent) add_position_tangent(evaluation, scene->constraints + joint->constraint, j, &f);
+        if (evaluation->tangent) add_tangent(evaluation, j, &f);
     }
 }
 
-/* Those by speed come after the others have been multiplied by T6. */
-static void gather_speed_tangents(dmb_evaluation *evaluation)
-{
-    const dmb_scene *scene = evaluation->sim->scene;
-    dmb_evaluation again = *evaluation; /* powers and drives are counted once */
-    for (uint32_t j = 0; j < scene->joint_count; j++) {
-        coordinate_forces f;
-        if (!has_forces(evaluation->sim, scene->joints + j, j)) continue;
-        begin(&again, j, &f);
-        add_laws(&again, scene->joints + j, &f);
-        add_drives(&again, j, &f);
-        add_speed_tangent(evaluation, scene->constraints + scene->joints[j].constraint, j, &f);
-    }
-}
-
-static int32_t gather_tangents(dmb_evaluation *evaluation)
+/* Curvature of the equations, onto the tangents of the forces. */
+static int32_t gather_curvatures(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
     int32_t status = DMB_OK;
     for (uint32_t i = 0; i < scene->constraint_count && status >= 0; i++) {
-        status = dmb_constraint_curvature(evaluation, i, sim->constraint_tangent + scene->constraints[i].tangent);
-        if (evaluation->dynamic) to_parameters(evaluation, scene->constraints + i);
+        const dmb_constraint *constraint = scene->constraints + i;
+        const size_t size = (size_t)constraint->columns * constraint->columns;
+        double K[DMB_CONSTRAINT_COLUMNS * DMB_CONSTRAINT_COLUMNS];
+        memset(K, 0, size * sizeof(double));
+        status = dmb_constraint_curvature(evaluation, i, K);
+        to_parameters(evaluation, constraint, K);
+        for (size_t k = 0; k < size; k++) sim->constraint_tangent[constraint->tangent + k] += K[k];
     }
-    if (evaluation->dynamic) gather_speed_tangents(evaluation);
     return status;
 }
 
@@ -221,5 +221,5 @@ int32_t dmb_gather_joints(dmb_evaluation *evaluation)
     gather_forces(evaluation);
     dmb_clusters_balance(evaluation);
     take_reactions(evaluation);
-    return evaluation->tangent ? gather_tangents(evaluation) : DMB_OK;
+    return evaluation->tangent ? gather_curvatures(evaluation) : DMB_OK;
 }

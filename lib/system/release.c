@@ -58,6 +58,16 @@ static void subtract_force(dmb_sim *sim, uint32_t s)
     }
 }
 
+/* correction := M^-1 of the forces that open, with the mass matrix factored. */
+static void released_forces(dmb_sim *sim)
+{
+    memset(sim->correction, 0, sim->scene->row_count * sizeof(double));
+    memset(sim->scale_row, 0, sim->scene->row_count * sizeof(double));
+    for (uint32_t s = 0; s < sim->scene->site_count; s++)
+        if (opens(sim, s)) subtract_force(sim, s);
+    dmb_solve_correction(sim);
+}
+
 int32_t dmb_released_acceleration(const dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -68,12 +78,7 @@ int32_t dmb_released_acceleration(const dmb_evaluation *evaluation)
     mass.velocity_factor = 0.0;
     mass.tangent = 1;
     const int32_t status = dmb_factor_mass(&mass);
-    if (status < 0) return status;
-    memset(sim->correction, 0, sim->scene->row_count * sizeof(double));
-    memset(sim->scale_row, 0, sim->scene->row_count * sizeof(double));
-    for (uint32_t s = 0; s < sim->scene->site_count; s++)
-        if (opens(sim, s)) subtract_force(sim, s);
-    dmb_solve_correction(sim);
+    if (status >= 0) released_forces(sim);
     sim->linked_mode->multipliers = multipliers;
-    return DMB_OK;
+    return status < 0 ? status : DMB_OK;
 }

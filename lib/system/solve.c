@@ -15,7 +15,7 @@ typedef struct norms {
 static norms norms_of(const dmb_sim *sim, const dmb_chain *chain)
 {
     const dmb_scene *scene = sim->scene;
-    const double arm = 1.0 / (scene->length_scale * scene->length_scale);
+    const double arm = 1.0 / (chain->length * chain->length);
     norms n = {0.0, 0.0};
     for (uint32_t i = chain->first; i < chain->first + chain->count; i++) {
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];

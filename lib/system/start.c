@@ -5,6 +5,7 @@
 #include "math/so3.h"
 #include "system/bit.h"
 #include "system/cluster.h"
+#include "system/constraint_rows.h"
 #include "system/joint_state.h"
 #include "system/ledger.h"
 #include "system/owner.h"
@@ -57,6 +58,7 @@ static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
     evaluation->pseudo_factor = 1.0;
     evaluation->dynamic = 1;
     evaluation->tangent = 1;
+    sim->linked_mode->row = UINT32_MAX;
     memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
 }
 
@@ -84,6 +86,11 @@ static void explain(dmb_sim *sim, const dmb_evaluation *evaluation, int32_t stat
         const dmb_owner owner = dmb_owner_of_element(sim->scene, evaluation->element);
         dmb_message_set(&sim->message, "%s %u, pipe %u: relative rotation in one element above 2.5 rad", owner.kind,
                         owner.index, owner.pipe);
+    } else if (status == DMB_ERR_CALLBACK && sim->linked_mode->row != UINT32_MAX) {
+        dmb_message owner;
+        dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, sim->linked_mode->row), &owner);
+        dmb_message_set(&sim->message, "%s: its callback failed or gave a value that is not finite at time %g",
+                        owner.text, evaluation->time);
     } else if (status == DMB_ERR_CALLBACK) {
         dmb_message_set(&sim->message, "programme: the callback failed or gave a value that is not finite at time %g",
                         evaluation->time);
@@ -94,29 +101,40 @@ static void explain(dmb_sim *sim, const dmb_evaluation *evaluation, int32_t stat
     }
 }
 
-/* Speeds and accelerations of trial on the constraints; the largest change of a speed is kept. */
+/* Speeds and accelerations of trial on the constraints. */
 static int32_t settle_speeds(dmb_sim *sim, dmb_evaluation *evaluation)
+{
+    if (sim->scene->cluster_count == 0) return DMB_OK;
+    const int32_t status = dmb_clusters_settle(evaluation, DMB_SETTLE_SPEED | DMB_SETTLE_ACCELERATION, 0);
+    return status < 0 ? status : dmb_assembled_speeds(evaluation);
+}
+
+/* A partition for the pose of trial. */
+static int32_t choose_partition(dmb_sim *sim, dmb_evaluation *evaluation)
+{
+    if (sim->scene->cluster_count == 0) return DMB_OK;
+    const int32_t status = dmb_clusters_gather(evaluation);
+    if (status >= 0) dmb_clusters_choose(sim);
+    return status;
+}
+
+/* The largest change of a speed is kept. */
+static void note_projection(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     double *most = sim->counters->projection;
-    int32_t status = dmb_clusters_gather(evaluation);
-    if (status < 0) return status;
-    dmb_clusters_choose(sim);
-    status = dmb_clusters_settle(evaluation, DMB_SETTLE_SPEED | DMB_SETTLE_ACCELERATION, 0);
-    if (status >= 0) status = dmb_assembled_speeds(evaluation);
     for (uint32_t i = 0; i < scene->node_count; i++)
         for (uint32_t c = 0; c < scene->layout.size[i]; c++) {
             const uint32_t row = scene->layout.row[i] + c;
             const double change = fabs(sim->trial.velocity[row] - sim->now.velocity[row]);
             most[2 * c < scene->layout.size[i] ? 0 : 1] = fmax(most[2 * c < scene->layout.size[i] ? 0 : 1], change);
         }
-    return status;
 }
 
 /* Accelerations of trial for its pose and speeds, forces of motion drives, powers of the evaluation. */
 static int32_t make_consistent(dmb_sim *sim, dmb_evaluation *evaluation)
 {
-    int32_t status = sim->scene->cluster_count ? settle_speeds(sim, evaluation) : DMB_OK;
+    int32_t status = settle_speeds(sim, evaluation);
     if (status >= 0) status = solve_accelerations(sim, evaluation);
     if (status < 0) return status;
     memcpy(sim->residual_row, sim->correction, sim->scene->row_count * sizeof(double));
@@ -141,12 +159,14 @@ int32_t dmb_system_restart(dmb_sim *sim)
     if (status >= 0) {
         memcpy(sim->now.drive_target, sim->trial.drive_target, sim->scene->drive_count * sizeof(double));
         project_speeds(sim);
-        status = make_consistent(sim, &evaluation);
+        status = choose_partition(sim, &evaluation);
     }
+    if (status >= 0) status = make_consistent(sim, &evaluation);
     if (status < 0) {
         explain(sim, &evaluation, status);
         return status;
     }
+    if (sim->scene->cluster_count) note_projection(sim);
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
     sim->clock->step = 0.0;
     sim->clock->next_step = 0.0;
@@ -154,7 +174,8 @@ int32_t dmb_system_restart(dmb_sim *sim)
     return DMB_OK;
 }
 
-/* Only accelerations and what follows from them change; contacts keep what they remember. */
+/* Only accelerations and what follows from them change; contacts keep what they remember. The partition is the one the
+ * last step ended with; a failure changes nothing. */
 int32_t dmb_system_jump(dmb_sim *sim)
 {
     dmb_evaluation evaluation;

@@ -198,10 +198,39 @@ static void initial_coordinates_must_be_free(void **state)
             if ((free_mask[kind] & joint.initial_mask) != 0) continue;
             refuse_joint(&s, &joint, DMB_ERR_VALUE, "initial_mask = ");
         }
+        joint.state = DMB_JOINT_OPEN;
         joint.initial_mask = free_mask[kind];
         assert_int_equal(dmb_model_add_joint(s.model, &joint, NULL), DMB_OK);
         finish(&s, 3, 0, 0);
     }
+}
+
+/* With the equations that a joint holds there is room for six. */
+static void initial_coordinates_have_room(void **state)
+{
+    static const int32_t room[] = {0, 1, 1, 2, 2, 3, 3, 4, 0, 5, 6, 5, 3};
+    static const int32_t free_mask[] = {0, 8, 1, 9, 48, 56, 14, 57, 0, 63, 63, 63, 63};
+    (void)state;
+    for (int32_t kind = DMB_JOINT_FIXED; kind <= DMB_JOINT_ROLLING; ++kind)
+        for (int32_t mask = 0; mask < 64; ++mask) {
+            scene_under_test s = begin();
+            dmb_joint_def joint = good_joint(&s);
+            int32_t bits = 0;
+            for (int32_t k = 0; k < 6; ++k) bits += mask >> k & 1;
+            joint.kind = kind;
+            joint.initial_mask = mask & free_mask[kind];
+            if (kind == DMB_JOINT_POINT_ON_HOLE) memset(&joint.place_a, 0, sizeof joint.place_a);
+            if (mask != joint.initial_mask) bits = 0; /* has been looked at */
+            joint.state = DMB_JOINT_LOCKED;
+            if (bits > 0) refuse_joint(&s, &joint, DMB_ERR_VALUE, ", must be of 0 bits at most: with its 6");
+            joint.state = DMB_JOINT_ACTIVE;
+            if (bits > room[kind]) {
+                refuse_joint(&s, &joint, DMB_ERR_VALUE, room[kind] == 3 ? " of 3 bits at most" : " of 5 bits at most");
+            } else {
+                assert_int_equal(dmb_model_add_joint(s.model, &joint, NULL), DMB_OK);
+            }
+            dmb_model_destroy(&s.model);
+        }
 }
 
 static void joint_lengths(void **state)
@@ -442,11 +471,17 @@ static void drives(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(joint_numbers), cmocka_unit_test(joint_numbers_that_are_none),
-        cmocka_unit_test(joint_choices), cmocka_unit_test(initial_coordinates_must_be_free),
-        cmocka_unit_test(joint_lengths), cmocka_unit_test(joint_places),
-        cmocka_unit_test(names),         cmocka_unit_test(point_on_hole),
-        cmocka_unit_test(couplings),     cmocka_unit_test(constraints),
+        cmocka_unit_test(joint_numbers),
+        cmocka_unit_test(joint_numbers_that_are_none),
+        cmocka_unit_test(joint_choices),
+        cmocka_unit_test(initial_coordinates_must_be_free),
+        cmocka_unit_test(initial_coordinates_have_room),
+        cmocka_unit_test(joint_lengths),
+        cmocka_unit_test(joint_places),
+        cmocka_unit_test(names),
+        cmocka_unit_test(point_on_hole),
+        cmocka_unit_test(couplings),
+        cmocka_unit_test(constraints),
         cmocka_unit_test(drives),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -124,6 +124,35 @@ static void initial_speeds_that_fight(void **state)
     expect_no_start(&s, DMB_ERR_GEOMETRY, "joint ", "speed cannot be had");
 }
 
+/* A body that is described so far off that Newton's iteration ends where its axes point against each other. */
+static void described_turned_over(void **state)
+{
+    (void)state;
+    static const int32_t kinds[] = {DMB_JOINT_FIXED, DMB_JOINT_PRISMATIC, DMB_JOINT_REVOLUTE, DMB_JOINT_CYLINDRICAL,
+                                    DMB_JOINT_PLANAR};
+    for (int k = 0; k < 5; k++)
+        for (int axis = k < 2 ? 0 : 1; axis < 3; axis++)
+            for (int far = 0; far < 2; far++) {
+                rig s;
+                dmb_body_def body = dmb_body_def_default();
+                dmb_joint_def def = dmb_joint_def_default();
+                rig_open(&s, 0.0, 0.0, 0.0);
+                body.rotation[axis] = (far ? 120.0 : 60.0) * PI / 180.0;
+                (void)snprintf(def.name, sizeof def.name, "plug");
+                def.kind = kinds[k];
+                def.place_b = dmb_station(add_body(&s, &body), 0, 0.0);
+                const dmb_id joint = add_joint(&s, &def);
+                if (far) {
+                    expect_no_start(&s, DMB_ERR_GEOMETRY, "joint 0 (plug): turned over", "3.14159 rad");
+                    continue;
+                }
+                (void)mechanism_start(&s, NULL);
+                check_below("from 60 degrees: angles that are left", largest(3, joint_at(&s, joint).position + 3),
+                            1e-13);
+                rig_close(&s);
+            }
+}
+
 /* ---- The caller's constraints ------------------------------------------------------------------------------------ */
 
 /* On the sphere of 1 m about the origin. */
@@ -174,6 +203,62 @@ static void wrong_jacobian(void **state)
     dmb_id body;
     open_sphere(&s, &with, DMB_PROVIDES_JACOBIAN, &body);
     expect_no_start(&s, DMB_ERR_CALLBACK, "constraint 0 (shell)", "jacobian[0][4] = 0.01, must be");
+}
+
+/* x = 1 and y = 0 in units of their own, and z z, which has no slope; one entry may be wrong. */
+typedef struct rows {
+    double unit[2];
+    double wrong; /* part of an entry of row 1 */
+} rows;
+
+static int32_t three_rows(void *context, double time, uint32_t count, const double (*poses)[12], double *value,
+                          double *jacobian)
+{
+    const rows *with = context;
+    const double *x = poses[0], *R = poses[0] + 3;
+    (void)time, (void)count;
+    value[0] = with->unit[0] * (x[0] - 1.0);
+    value[1] = with->unit[1] * x[1];
+    value[2] = x[2] * x[2];
+    for (int i = 0; i < 18; i++) jacobian[i] = 0.0;
+    for (int i = 0; i < 3; i++) {
+        jacobian[i] = with->unit[0] * R[i];
+        jacobian[6 + i] = with->unit[1] * R[3 + i] * (i == 1 ? 1.0 + with->wrong : 1.0);
+        jacobian[12 + i] = 2.0 * x[2] * R[6 + i];
+    }
+    return 0;
+}
+
+static void open_rows(rig *s, rows *with)
+{
+    dmb_constraint_def def = dmb_constraint_def_default();
+    dmb_body_def ball = dmb_body_def_default();
+    rig_open(s, 0.0, 0.0, 0.0);
+    ball.position[0] = 1.0;
+    for (int i = 0; i < 3; i++) ball.rotation[i] = 0.3 * (i + 1);
+    (void)snprintf(def.name, sizeof def.name, "three");
+    def.rows = 3;
+    def.place[0] = dmb_station(add_body(s, &ball), 0, 0.0);
+    def.provides = DMB_PROVIDES_JACOBIAN;
+    def.callback = three_rows;
+    def.callback_context = with;
+    must_model(s, dmb_model_add_constraint(s->model, &def, NULL));
+}
+
+/* Each row is judged by its own entries, however much larger those of another are. */
+static void wrong_jacobian_of_a_small_row(void **state)
+{
+    (void)state;
+    for (int power = -9; power <= 9; power += 3) {
+        rows with = {.unit = {1.0, pow(10.0, power)}};
+        rig s;
+        open_rows(&s, &with);
+        (void)mechanism_start(&s, NULL);
+        rig_close(&s);
+        with.wrong = 1e-3;
+        open_rows(&s, &with);
+        expect_no_start(&s, DMB_ERR_CALLBACK, "constraint 0 (three)", "jacobian[1][1]");
+    }
 }
 
 /* One that is not announced is not looked at. */
@@ -474,7 +559,9 @@ int main(void)
         cmocka_unit_test(bar_between_two_hinges),
         cmocka_unit_test(initial_angle_out_of_reach),
         cmocka_unit_test(initial_speeds_that_fight),
+        cmocka_unit_test(described_turned_over),
         cmocka_unit_test(wrong_jacobian),
+        cmocka_unit_test(wrong_jacobian_of_a_small_row),
         cmocka_unit_test(jacobian_that_is_not_announced),
         cmocka_unit_test(callback_fails_at_create),
         cmocka_unit_test(callback_fails_in_a_run),

@@ -295,6 +295,35 @@ static void controllers(void **state)
     check_controller("controlled shaft: speed against its closed form", DMB_JOINT_REVOLUTE, DMB_RX, 0.8);
 }
 
+/* Drives of several joints and one without, described in no order: each acts where it belongs. */
+static void drives_find_their_joints(void **state)
+{
+    (void)state;
+    static const int on[7] = {2, 0, 2, 3, 0, 2, 3};
+    static const int32_t component[7] = {DMB_RX, DMB_X, DMB_X, DMB_RX, DMB_RX, DMB_RX, DMB_X};
+    dmb_id joint[4], drive[7];
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    for (int i = 0; i < 4; i++) joint[i] = joint_on(&s, DMB_JOINT_CYLINDRICAL, i, lump(&s, i, 2.0, 0.5), along_x);
+    for (int i = 0; i < 7; i++)
+        drive[i] = add_simple_drive(&s, DMB_DRIVE_LOAD, joint[on[i]], component[i], add_constant(&s, 1.0 + i));
+    (void)mechanism_start(&s, NULL);
+    take_steps(&s, step, 100);
+    double force[4][2] = {{0.0}};
+    for (int i = 0; i < 7; i++) force[on[i]][component[i] == DMB_RX] += 1.0 + i;
+    for (int i = 0; i < 4; i++) {
+        check_close("acceleration along [m/s2]", joint_at(&s, joint[i]).acceleration[DMB_X], force[i][0] / 2.0, 1e-11);
+        check_close("and about [rad/s2]", joint_at(&s, joint[i]).acceleration[DMB_RX], force[i][1] / 0.5, 1e-11);
+    }
+    for (int i = 0; i < 7; i++) {
+        const dmb_joint_state now = joint_at(&s, joint[on[i]]);
+        check_close("force of the drive", drive_at(&s, drive[i]).force, 1.0 + i, 0.0);
+        check_close("speed of the drive", drive_at(&s, drive[i]).speed, now.speed[component[i]], 1e-14);
+        check_close("position of the drive", drive_at(&s, drive[i]).position, now.position[component[i]], 1e-14);
+    }
+    rig_close(&s);
+}
+
 /* At its limit the controller is a constant force. */
 static void limits_hold(void **state)
 {
@@ -328,10 +357,15 @@ static void limits_hold(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(gear_pair),       cmocka_unit_test(gear_train),
-        cmocka_unit_test(falling_nut),     cmocka_unit_test(programmes_are_followed),
-        cmocka_unit_test(driven_four_bar), cmocka_unit_test(force_between_two_bodies),
-        cmocka_unit_test(controllers),     cmocka_unit_test(limits_hold),
+        cmocka_unit_test(gear_pair),
+        cmocka_unit_test(gear_train),
+        cmocka_unit_test(falling_nut),
+        cmocka_unit_test(programmes_are_followed),
+        cmocka_unit_test(driven_four_bar),
+        cmocka_unit_test(force_between_two_bodies),
+        cmocka_unit_test(controllers),
+        cmocka_unit_test(limits_hold),
+        cmocka_unit_test(drives_find_their_joints),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

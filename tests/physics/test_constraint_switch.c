@@ -92,7 +92,9 @@ static void locking_is_a_plastic_impact(void **state)
     check_relative("speed after locking", got[0], sum / all, 1e-11);
     check_relative("speed of the second bar", got[1], sum / all, 1e-11);
     check_relative("energy into impact", impact, energy - 0.5 * sum * sum / all, 1e-10);
-    expect_message(&p.s, "joint 1");
+    expect_message(&p.s, "joint 1 (elbow): speeds jumped by up to ");
+    expect_message(&p.s, " m/s and ");
+    expect_message(&p.s, " rad/s");
     take_steps(&p.s, step, 300);
     check_close("bend stays [rad]", joint_at(&p.s, p.hinge[1]).position[DMB_RX], bend, 1e-14);
     check_below("misfit", statistics_of(&p.s).misfit, 1e-14);
@@ -505,6 +507,105 @@ static void gear_that_has_slipped(void **state)
     rig_close(&s);
 }
 
+/* ---- Jumps of a force -------------------------------------------------------------------------------------------- */
+
+/* A caller's sphere whose callback fails from its n-th call on. */
+typedef struct sphere {
+    int64_t calls, fails_at;
+} sphere;
+
+static int32_t on_sphere(void *context, double time, uint32_t count, const double (*poses)[12], double *value,
+                         double *jacobian)
+{
+    sphere *with = context;
+    const double *x = poses[0];
+    (void)time, (void)count, (void)jacobian;
+    value[0] = 0.5 * (x[0] * x[0] + x[1] * x[1] + (x[2] - 9.0) * (x[2] - 9.0) - 1.0);
+    return with->calls++ >= with->fails_at;
+}
+
+typedef struct jumper {
+    rig s;
+    sphere with;
+    dmb_id drive;
+} jumper;
+
+/* Two bars that swing, a torque on their elbow that has a corner after 0.05 s, and a ball on the sphere. */
+static void open_jumper(jumper *t)
+{
+    const bar first = {{0.0, 0.0}, {length, 0.0}, mass}, second = {{length, 0.0}, {2.0 * length, 0.0}, mass};
+    dmb_constraint_def shell = dmb_constraint_def_default();
+    dmb_body_def ball = dmb_body_def_default();
+    static const double time[3] = {0.0, 0.05, 0.4}, speed[3] = {0.0, 0.0, 2.0};
+    dmb_term term = dmb_term_default();
+    rig_open(&t->s, 0.0, 0.0, -g);
+    const dmb_id a = add_bar(&t->s, &first), b = add_bar(&t->s, &second);
+    const dmb_id shoulder = add_hinge(&t->s, "", DMB_JOINT_REVOLUTE, pin_ground(0.0, 0.0), pin_on(a, -0.5 * length));
+    const dmb_id elbow = add_hinge(&t->s, "", DMB_JOINT_REVOLUTE, pin_on(a, 0.5 * length), pin_on(b, -0.5 * length));
+    term.kind = DMB_TERM_TABLE;
+    term.table_time = time;
+    term.table_value = speed;
+    term.table_count = 3;
+    (void)add_simple_drive(&t->s, DMB_DRIVE_MOTION, shoulder, DMB_RX, add_programme(&t->s, &term, 1));
+    t->drive = add_simple_drive(&t->s, DMB_DRIVE_LOAD, elbow, DMB_RX, add_constant(&t->s, 0.5));
+    ball.position[0] = 1.0;
+    ball.position[2] = 9.0;
+    shell.place[0] = dmb_station(add_body(&t->s, &ball), 0, 0.0);
+    memcpy(shell.name, "shell", 6);
+    shell.callback = on_sphere;
+    shell.callback_context = &t->with;
+    must_model(&t->s, dmb_model_add_constraint(t->s.model, &shell, NULL));
+    t->with.calls = 0;
+    t->with.fails_at = INT64_MAX;
+    (void)mechanism_start(&t->s, NULL);
+}
+
+/* Wherever the callback fails, set_drive leaves everything as it was. */
+static void refused_jump_changes_nothing(void **state)
+{
+    (void)state;
+    jumper one, twin;
+    int32_t status = DMB_OK;
+    int64_t n = 0;
+    open_jumper(&one);
+    take_steps(&one.s, step, 480); /* another partition would suit the ball by now */
+    const uint64_t before = hash_of(&one.s);
+    for (one.with.fails_at = one.with.calls; n == 0 || status < 0; one.with.fails_at = one.with.calls + ++n) {
+        status = dmb_sim_set_drive(one.s.sim, one.drive, 3.0);
+        if (status >= 0) break;
+        assert_int_equal(status, DMB_ERR_CALLBACK);
+        expect_message(&one.s, "constraint 0 (shell)");
+        assert_true(hash_of(&one.s) == before);
+    }
+    tell("calls of one jump", (double)n);
+    assert_true(n > 10);
+    one.with.fails_at = INT64_MAX;
+    open_jumper(&twin);
+    take_steps(&twin.s, step, 480);
+    must(&twin.s, dmb_sim_set_drive(twin.s.sim, twin.drive, 3.0));
+    take_steps(&twin.s, step, 200);
+    take_steps(&one.s, step, 200);
+    assert_true(hash_of(&one.s) == hash_of(&twin.s));
+    rig_close(&twin.s);
+    rig_close(&one.s);
+}
+
+/* What jumps of forces and corners of programmes round does not count as a correction of the initial velocities. */
+static void jumps_are_no_projection(void **state)
+{
+    (void)state;
+    jumper t;
+    open_jumper(&t);
+    const dmb_statistics start = statistics_of(&t.s);
+    for (int i = 0; i < 20; i++) {
+        take_steps(&t.s, step, 30);
+        must(&t.s, dmb_sim_set_drive(t.s.sim, t.drive, i % 2 ? 1.0 : -1.0));
+    }
+    check_below("projection beyond that of the start",
+                largest_difference(2, statistics_of(&t.s).projection, start.projection), 0.0);
+    rig_close(&t.s);
+}
+
 /* ---- On the axis of a hole --------------------------------------------------------------------------------------- */
 
 /* A ball that slides down a curved hole is held where it is locked, and slides on from there. */
@@ -581,6 +682,8 @@ int main(void)
         cmocka_unit_test(driven_joint_opens_and_closes),
         cmocka_unit_test(torque_on_a_switched_joint),
         cmocka_unit_test(gear_that_has_slipped),
+        cmocka_unit_test(refused_jump_changes_nothing),
+        cmocka_unit_test(jumps_are_no_projection),
         cmocka_unit_test(bead_in_a_curved_hole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -124,7 +124,7 @@ static uint32_t redundant_rows(const fourbar *m, int print)
 
 static void compare(const char *what, const shape *with, uint32_t redundant)
 {
-    const dmb_sim_options options = sharp_options(0.9, 1e-10);
+    const dmb_sim_options options = sharp_options(0.9, 1e-12);
     double most = 0.0;
     fourbar a = open_fourbar(&crank_rocker, 3.0, &options), b = open_fourbar(with, 3.0, &options);
     assert_int_equal(redundant_rows(&b, 0), redundant);

@@ -467,6 +467,62 @@ static void right_angle(void **state)
     }
 }
 
+/* ---- flipped frames ---- */
+
+/* Rows of position that are satisfied */
+static int fits(int32_t kind, const pose *at)
+{
+    static const double still[6] = {0.0};
+    dmb_joint_rows rows;
+    dmb_joint_rows_at(kind, 1.0, at->R, at->p, still, &rows);
+    return largest_value(&rows) < 1e-12;
+}
+
+/* Half turns about z (x points back), about x (y points back), y: of the kinds that hold frames parallel the rows are
+ * satisfied there, and only the flip tells. */
+static void half_turns_are_flips(void **state)
+{
+    static const int32_t flips[3] = {DMB_ROWS_FIXED, DMB_ROWS_PRISMATIC, DMB_ROWS_UNIVERSAL};
+    const double about[3][6] = {{0, 0, 0, PI, 0, 0}, {0, 0, 0, 0, PI, 0}, {0, 0, 0, 0, 0, PI}};
+    (void)state;
+    for (int32_t kind = DMB_ROWS_FIXED; kind < DMB_ROWS_KINDS; kind++) {
+        const uint32_t free = dmb_joint_free_mask(kind);
+        const int keeps_x = (free & 48U) == 0 && kind != DMB_ROWS_POINT_ON_HOLE;
+        const int keeps_y = kind == flips[0] || kind == flips[1];
+        for (int i = 0; i < 3; i++) {
+            const pose at = pose_of(about[i]);
+            const int flipped = i == 0 ? keeps_y : keeps_x;
+            const double angle = dmb_joint_flip(kind, at.R);
+            if (flipped) assert_true(fits(kind, &at) && fabs(angle - PI) < 1e-12);
+            if (!flipped) assert_true(angle == 0.0);
+        }
+    }
+    assert_true(dmb_joint_flip(flips[2], pose_of(about[1]).R) == 0.0);
+}
+
+/* From a right angle on; and never where the rows hold and the free coordinates are anything. */
+static void flips_begin_at_a_right_angle(void **state)
+{
+    uint64_t seed = 79;
+    (void)state;
+    for (int32_t kind = DMB_ROWS_FIXED; kind < DMB_ROWS_KINDS; kind++) {
+        const uint32_t free = dmb_joint_free_mask(kind);
+        for (int i = 0; i < ROUNDS; i++) {
+            double c[6];
+            for (int k = 0; k < 6; k++) c[k] = (free >> k & 1U) != 0 ? draw_between(&seed, -3.0, 3.0) : 0.0;
+            assert_true(dmb_joint_flip(kind, pose_of(c).R) == 0.0);
+        }
+    }
+    for (int i = 1; i < 180; i++) {
+        const double x[6] = {0, 0, 0, i * PI / 180.0, 0, 0}, z[6] = {0, 0, 0, 0, i * PI / 180.0, 0};
+        if (i == 90) continue;
+        const double want = i < 90 ? 0.0 : i * PI / 180.0;
+        assert_true(fabs(dmb_joint_flip(DMB_ROWS_FIXED, pose_of(x).R) - want) < 1e-12);
+        assert_true(fabs(dmb_joint_flip(DMB_ROWS_REVOLUTE, pose_of(z).R) - want) < 1e-12);
+        assert_true(dmb_joint_flip(DMB_ROWS_REVOLUTE, pose_of(x).R) == 0.0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -483,6 +539,8 @@ int main(void)
         cmocka_unit_test(coordinates_come_back),
         cmocka_unit_test(angles_keep_their_turns),
         cmocka_unit_test(right_angle),
+        cmocka_unit_test(half_turns_are_flips),
+        cmocka_unit_test(flips_begin_at_a_right_angle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* Partition of coordinates against LAPACK: rank, null space, solves, projection, least multipliers; when the quality
- * falls; equal candidates; what is not a number; what is empty. */
+ * falls; equal candidates; what is not a number; what is empty; clusters of many bodies. */
 #include "check.h"
 
 #include <float.h>
@@ -710,6 +710,191 @@ static void repeats_bit_for_bit(void **state)
     }
 }
 
+/* Clusters of many bodies, whose rows have few entries each. */
+enum { BODIES = 30, DOF = 6, WIDE = BODIES * DOF, TALL = 160 };
+
+typedef struct graph {
+    double B[TALL * (WIDE + 1)], weight[WIDE];
+    dmb_partition p;
+    uint32_t row_order[TALL], column_order[WIDE], pivot[TALL];
+    double work[TALL * WIDE + TALL], lu[TALL * TALL], G[TALL * WIDE], gram[TALL * TALL + 1];
+} graph;
+
+enum shape { CHAIN, RING, STAR, TREE, ANY, SHAPES };
+
+static void shuffle(uint32_t n, uint32_t *order, uint64_t *seed)
+{
+    for (uint32_t i = n; i-- > 1;) {
+        const uint32_t at = draw_integer(seed, 0, i), item = order[i];
+        order[i] = order[at];
+        order[at] = item;
+    }
+}
+
+static uint32_t other_body(enum shape shape, uint32_t joint, uint32_t bodies, uint64_t *seed)
+{
+    if (shape == STAR || joint == 0) return 0;
+    if (shape == TREE) return (joint - 1) / 2;
+    if (shape == ANY) return draw_integer(seed, 0, bodies - 1);
+    return joint - 1;
+}
+
+/* Joint i holds body i to another one, the first to nothing; a ring has one more, from last to first. Bodies and joints
+ * stand in any order. */
+static void draw_graph(graph *g, enum shape shape, uint32_t bodies, uint64_t *seed)
+{
+    uint32_t place[BODIES], joint[BODIES + 1], rows = 0;
+    const uint32_t joints = bodies + (shape == RING);
+    memset(g, 0, sizeof *g);
+    for (uint32_t i = 0; i < bodies; i++) place[i] = i;
+    for (uint32_t i = 0; i < joints; i++) joint[i] = i;
+    if (draw_between(seed, 0.0, 1.0) < 0.7) shuffle(bodies, place, seed), shuffle(joints, joint, seed);
+    for (uint32_t i = 0; i < joints; i++) {
+        const uint32_t count = draw_integer(seed, 1, 5), a = joint[i] % bodies;
+        const uint32_t b = joint[i] == bodies ? bodies - 1 : other_body(shape, joint[i], bodies, seed);
+        for (uint32_t r = 0; r < count; r++, rows++)
+            for (uint32_t c = 0; c < DOF; c++) {
+                double *row = g->B + (size_t)rows * (WIDE + 1);
+                row[DOF * place[a] + c] = draw_between(seed, -1.0, 1.0);
+                if (draw_between(seed, 0.0, 1.0) < 0.7) row[DOF * place[b] + c] = draw_between(seed, -1.0, 1.0);
+            }
+    }
+    g->p = (dmb_partition){rows, DOF * bodies, 0, 0, g->row_order, g->column_order};
+    for (uint32_t j = 0; j < WIDE; j++)
+        g->weight[j] = draw_between(seed, 0.0, 1.0) < 0.05 ? 0.0 : draw_between(seed, 0.3, 3.0);
+    for (uint32_t i = 0; i < TALL * (WIDE + 1); i++)
+        if (i % (WIDE + 1) >= g->p.columns) g->B[i] = (double)NAN;
+}
+
+static double choose_graph(graph *g)
+{
+    return dmb_partition_choose(g->B, WIDE + 1, g->weight, g->work, &g->p);
+}
+
+static void draw_sound_graph(graph *g, enum shape shape, uint32_t bodies, uint64_t *seed)
+{
+    do draw_graph(g, shape, bodies, seed);
+    while (choose_graph(g) < 1e-3);
+    assert_true(dmb_partition_factor(g->B, WIDE + 1, g->weight, &g->p, g->lu, g->pivot) > 0.0);
+}
+
+static double graph_entry(const graph *g, uint32_t row_place, uint32_t column)
+{
+    return g->B[(size_t)g->row_order[row_place] * (WIDE + 1) + column];
+}
+
+/* The projection of d (by pivot row) into x, and the notes beside the factors within bounds. */
+static void project_graph(graph *g, const double *d, double *x)
+{
+    double copy[TALL];
+    const size_t end = (size_t)g->p.rank * g->p.rank;
+    for (size_t i = 0; i < end; i++) g->gram[i] = (double)NAN; /* of what was there nothing must be used */
+    g->gram[end] = 12345.0;
+    assert_int_equal(dmb_partition_gram(g->B, WIDE + 1, g->weight, &g->p, g->gram), 0);
+    dmb_partition_leave_weak(g->B, WIDE + 1, g->weight, &g->p, g->gram);
+    assert_true(g->gram[end] == 12345.0);
+    memcpy(copy, d, sizeof copy);
+    dmb_partition_project(g->B, WIDE + 1, g->weight, &g->p, g->gram, copy, x);
+}
+
+static void lapack_graph_projection(const graph *g, const double *d, double *x)
+{
+    static double A[TALL * WIDE], value[TALL];
+    const uint32_t m = g->p.rank, n = g->p.columns;
+    lapack_int rank = 0;
+    for (uint32_t k = 0; k < m; k++)
+        for (uint32_t j = 0; j < n; j++) A[n * k + j] = graph_entry(g, k, j) * g->weight[j];
+    for (uint32_t k = 0; k < WIDE; k++) x[k] = k < m ? d[k] : 0.0;
+    assert_int_equal(
+        LAPACKE_dgelsd(LAPACK_ROW_MAJOR, (lapack_int)m, (lapack_int)n, 1, A, (lapack_int)n, x, 1, value, 1e-13, &rank),
+        0);
+    assert_int_equal(rank, m);
+    for (uint32_t j = 0; j < n; j++) x[j] *= g->weight[j];
+}
+
+static void lapack_graph_null_space(const graph *g, double *G)
+{
+    static double C[TALL * TALL];
+    static lapack_int exchanged[TALL];
+    const uint32_t rank = g->p.rank, m = g->p.columns - rank;
+    for (uint32_t k = 0; k < rank; k++) {
+        for (uint32_t j = 0; j < rank; j++) C[rank * k + j] = graph_entry(g, k, g->column_order[j]);
+        for (uint32_t j = 0; j < m; j++) G[m * k + j] = -graph_entry(g, k, g->column_order[rank + j]);
+    }
+    assert_int_equal(LAPACKE_dgesv(LAPACK_ROW_MAJOR, (lapack_int)rank, (lapack_int)m, C, (lapack_int)rank, exchanged, G,
+                                   (lapack_int)m),
+                     0);
+}
+
+static void sparse_rows_agree_with_lapack(void **state)
+{
+    (void)state;
+    static graph g;
+    static double G[TALL * WIDE];
+    uint64_t seed = 81;
+    double projection = 0.0, null_space = 0.0, d[TALL], x[WIDE], y[WIDE];
+    for (int i = 0; i < 100; i++) {
+        const uint32_t bodies = i < 50 ? draw_integer(&seed, 1, 8) : draw_integer(&seed, 9, BODIES);
+        draw_sound_graph(&g, (enum shape)(i % SHAPES), bodies, &seed);
+        for (uint32_t k = 0; k < TALL; k++) d[k] = draw_between(&seed, -1.0, 1.0);
+        project_graph(&g, d, x);
+        lapack_graph_projection(&g, d, y);
+        projection = fmax(projection, largest_difference(g.p.columns, x, y) / largest(g.p.columns, y));
+        dmb_partition_null_space(g.B, WIDE + 1, &g.p, g.lu, g.pivot, g.G);
+        lapack_graph_null_space(&g, G);
+        const size_t n = (size_t)g.p.rank * (g.p.columns - g.p.rank);
+        null_space = fmax(null_space, largest_difference(n, g.G, G) / largest(n, G));
+    }
+    check_below("x against the shortest by LAPACK, of its largest", projection, 1e-9);
+    check_below("G against LAPACK, of its largest", null_space, 1e-11);
+}
+
+/* The projection is the same whatever the order of the pivot rows. */
+static void order_of_sparse_rows_does_not_matter(void **state)
+{
+    (void)state;
+    static graph g;
+    uint64_t seed = 82;
+    double worst = 0.0, by_row[TALL], d[TALL], x[WIDE], y[WIDE];
+    for (int i = 0; i < 50; i++) {
+        draw_sound_graph(&g, (enum shape)(i % SHAPES), draw_integer(&seed, 6, BODIES), &seed);
+        for (uint32_t k = 0; k < TALL; k++) by_row[k] = draw_between(&seed, -1.0, 1.0);
+        for (uint32_t k = 0; k < g.p.rank; k++) d[k] = by_row[g.row_order[k]];
+        project_graph(&g, d, x);
+        shuffle(g.p.rank, g.row_order, &seed);
+        for (uint32_t k = 0; k < g.p.rank; k++) d[k] = by_row[g.row_order[k]];
+        project_graph(&g, d, y);
+        worst = fmax(worst, largest_difference(g.p.columns, x, y) / largest(g.p.columns, y));
+    }
+    check_below("x in another order of rows, of its largest", worst, 1e-9);
+}
+
+/* A joint's row that has come to say what those before it say is left out; those before it are held. */
+static void weak_row_is_left_out(void **state)
+{
+    (void)state;
+    static graph g;
+    uint64_t seed = 83;
+    double worst = 0.0, d[TALL], x[WIDE];
+    for (int i = 0; i < 50; i++) {
+        draw_sound_graph(&g, (enum shape)(i % SHAPES), draw_integer(&seed, 2, BODIES), &seed);
+        const uint32_t n = g.p.rank, last = draw_integer(&seed, 1, n - 1), first = draw_integer(&seed, 0, last - 1);
+        double *weak = g.B + (size_t)g.row_order[last] * (WIDE + 1);
+        const double *strong = g.B + (size_t)g.row_order[first] * (WIDE + 1);
+        for (uint32_t j = 0; j < g.p.columns; j++) weak[j] = strong[j] + 2e-6 * weak[j];
+        for (uint32_t k = 0; k < TALL; k++) d[k] = draw_between(&seed, -1.0, 1.0);
+        project_graph(&g, d, x);
+        assert_true(g.gram[(size_t)n * last + last] == 0.0);
+        for (uint32_t k = 0; k < n; k++) {
+            if (k == last) continue;
+            double rest = -d[k];
+            for (uint32_t j = 0; j < g.p.columns; j++) rest += graph_entry(&g, k, j) * x[j];
+            worst = fmax(worst, fabs(rest) / largest(g.p.columns, x));
+        }
+    }
+    check_below("B x - d of the rows before it, of the largest x", worst, 1e-9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -732,6 +917,9 @@ int main(void)
         cmocka_unit_test(weight_lost_gives_no_quality),
         cmocka_unit_test(empty_clusters),
         cmocka_unit_test(repeats_bit_for_bit),
+        cmocka_unit_test(sparse_rows_agree_with_lapack),
+        cmocka_unit_test(order_of_sparse_rows_does_not_matter),
+        cmocka_unit_test(weak_row_is_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
