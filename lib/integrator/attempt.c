@@ -7,6 +7,7 @@
 #include "integrator/turning.h"
 #include "math/se3.h"
 #include "system/cluster.h"
+#include "system/constraint_rows.h"
 #include "system/ledger.h"
 #include "system/owner.h"
 #include "system/release.h"
@@ -343,7 +344,10 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
         break;
     case DMB_ERR_CALLBACK:
         if (sim->linked_mode->row != UINT32_MAX) {
-            dmb_clusters_explain(sim, "its callback failed or gave a value that is not finite");
+            dmb_message name;
+            dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, sim->linked_mode->row), &name);
+            dmb_message_set(&sim->message, "%s: its callback failed or gave a value that is not finite at time %g",
+                            name.text, attempt->evaluation.time);
             break;
         }
         dmb_message_set(

@@ -129,6 +129,8 @@ static int32_t check_joints(dmb_sim *sim, dmb_evaluation *evaluation)
         dmb_message_set(&sim->message, "carry over: the callback of a constraint failed at time %g", evaluation->time);
     if (status < 0) return status;
     const double misfit = dmb_clusters_misfit(sim, 0, &row);
+    for (uint32_t j = 0; j < sim->scene->joint_count && misfit <= DMB_CARRIED_MISFIT; j++)
+        if (dmb_joint_refuse_flip(sim, j) < 0) return DMB_ERR_GEOMETRY;
     if (misfit <= DMB_CARRIED_MISFIT) return DMB_OK;
     sim->linked_mode->row = row;
     sim->linked_mode->misfit = misfit;

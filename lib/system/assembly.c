@@ -141,6 +141,15 @@ static void measure_speeds(dmb_sim *sim)
         }
 }
 
+static double coordinate_of(dmb_sim *sim, uint32_t j, int32_t component)
+{
+    dmb_relative relative;
+    dmb_joint_coordinates c;
+    dmb_joint_motion(sim->scene, &sim->trial, j, &relative, NULL);
+    dmb_joint_coordinates_at(relative.R, relative.p, relative.V, sim->trial.joint_turn + 2 * (size_t)j, &c);
+    return c.value[component];
+}
+
 /* Turns of the coordinates, what couplings keep and where drives begin, for the closed scene. */
 static void keep_coordinates(dmb_sim *sim)
 {
@@ -153,13 +162,14 @@ static void keep_coordinates(dmb_sim *sim)
         dmb_joint_coordinates_at(relative.R, relative.p, relative.V, joint->initial_position + 3, &c);
         sim->trial.joint_turn[2 * j] = c.value[3];
         sim->trial.joint_turn[2 * j + 1] = c.value[4];
-        for (uint32_t i = 0; i < scene->drive_count; i++)
-            if (scene->drives[i].joint == j) sim->drive_offset[i] = c.value[scene->drives[i].component];
-        for (uint32_t i = 0; i < scene->coupling_count; i++)
-            for (int k = 0; k < 2; k++)
-                if (scene->couplings[i].joint[k] == j)
-                    sim->constraint_offset[scene->constraints[scene->couplings[i].constraint].row] +=
-                        (k == 0 ? 1.0 : -scene->couplings[i].ratio) * c.value[scene->couplings[i].component[k]];
+        for (uint32_t i = joint->first_drive; i < joint->first_drive + joint->drive_count; i++)
+            sim->drive_offset[scene->joint_drives[i]] = c.value[scene->drives[scene->joint_drives[i]].component];
+    }
+    for (uint32_t i = 0; i < scene->coupling_count; i++) {
+        const dmb_scene_coupling *coupling = scene->couplings + i;
+        sim->constraint_offset[scene->constraints[coupling->constraint].row] =
+            coordinate_of(sim, coupling->joint[0], coupling->component[0]) -
+            coupling->ratio * coordinate_of(sim, coupling->joint[1], coupling->component[1]);
     }
     memcpy(sim->now.joint_turn, sim->trial.joint_turn, 2 * scene->joint_count * sizeof(double));
 }
