@@ -29,14 +29,17 @@ static norms norms_of(const dmb_sim *sim, const dmb_chain *chain)
     return n;
 }
 
-/* Rounding of poses only counts where there are elements; overflow never converges: anything is small beside infinity.
+/* Rounding of poses counts where there are elements, joints or, alone and at rest, a wall; overflow never converges:
+ * anything is small beside infinity.
  */
 static int32_t judge(const dmb_evaluation *evaluation, const dmb_chain *chain, double tolerance, norms n)
 {
     const double floor = DMB_ROUNDING_UNITS * DBL_EPSILON;
     if (!(n.all <= DBL_MAX)) return 0;
     if (n.rest <= tolerance * tolerance * n.all) return DMB_CONVERGED;
-    return (chain->count > 1 || chain->linked) && n.rest <= floor * floor * evaluation->rounding ? DMB_AT_ROUNDING : 0;
+    const int stiff =
+        chain->count > 1 || chain->linked || (!evaluation->dynamic && evaluation->sim->scene->element_count == 0);
+    return stiff && n.rest <= floor * floor * evaluation->rounding ? DMB_AT_ROUNDING : 0;
 }
 
 double dmb_relative_residual(const dmb_evaluation *evaluation, double tolerance, int32_t *converged)

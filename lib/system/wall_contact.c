@@ -256,6 +256,20 @@ static void add_power(dmb_evaluation *evaluation, const contact_frame *f, const 
     evaluation->power[DMB_POWER_FRICTION] += c->F[1] * f->speed[1] + c->F[2] * f->speed[2];
 }
 
+/* [m] size of the coordinates that the distance across the hole is a difference of: in a hole along x next to nothing,
+ * in an inclined one the way along it. */
+static double reach_of(const dmb_sim *sim, uint32_t s)
+{
+    const uint32_t node = sim->scene->sites[s].node;
+    const double offset = sim->scene->sites[s].offset, *axis = sim->rotation + 9 * (size_t)node;
+    const double *x = sim->scene->reference_position + 3 * (size_t)node,
+                 *u = sim->trial.displacement + 3 * (size_t)node;
+    double sum = 0.0;
+    for (size_t i = 0; i < 3; i++)
+        sum += fabs(sim->trial.site_normal[3 * (size_t)s + i] * (x[i] + u[i] + offset * axis[3 * i]));
+    return sum;
+}
+
 static void press(dmb_evaluation *evaluation, uint32_t s, double penetration, const contact_frame *f)
 {
     dmb_sim *sim = evaluation->sim;
@@ -266,6 +280,8 @@ static void press(dmb_evaluation *evaluation, uint32_t s, double penetration, co
     normal(sim->scene, s, penetration, f->speed[0], sim->trial.site_approach[s], &c);
     if (sim->scene->friction_law.kind != DMB_FRICTION_NONE && (evaluation->dynamic || evaluation->slipping))
         friction(evaluation, s, -c.F[0], -c.P[0], -c.D[0][0], f, &c);
+    const double rounding = c.P[0] * reach_of(sim, s);
+    evaluation->rounding += rounding * rounding;
     if (!evaluation->dynamic) memset(c.D, 0, sizeof c.D);
     for (int i = 0; i < 6; i++) wrench[i] = c.F[0] * f->j[0][i] + c.F[1] * f->j[1][i] + c.F[2] * f->j[2][i];
     if (evaluation->tangent) add_tangent(evaluation, site, f, &c, wrench);

@@ -1,105 +1,13 @@
 /* Steps of a scene with joints keep the contract of every step: they allocate nothing and call nothing of the kernel,
  * failing ones and switching joints included; the same scene gives the same bits, restored, in memory of any alignment,
- * by both methods and under error control. Malloc is counted as in test_step_allocation, system calls are caught as in
- * test_step_system_calls; both are left out where another tool stands in the way. */
+ * by both methods and under error control. Malloc is counted (counted_malloc.h), system calls are caught (fence.h);
+ * both are left out where another tool stands in the way. */
 #define _GNU_SOURCE /* syscall */
-#include <fcntl.h>
-#include <stdlib.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
+#include "counted_malloc.h"
 #include "joint_scene.h"
 #include "sanitized.h"
 
-#if defined(__linux__) && !defined(SANITIZED)
-#include <linux/seccomp.h>
-#include <sys/prctl.h>
-#include <sys/syscall.h>
-#define FENCED 1
-#endif
-#if defined(__GLIBC__) && !defined(SANITIZED)
-#define COUNTS_MALLOC 1
-#endif
-
 static const double step = 1e-3;
-
-/* ---- malloc and its kin ------------------------------------------------------------------------------------------ */
-
-static volatile size_t malloc_calls;
-
-#if defined(COUNTS_MALLOC)
-extern void *__libc_malloc(size_t size);
-extern void *__libc_calloc(size_t count, size_t size);
-extern void *__libc_realloc(void *block, size_t size);
-extern void *__libc_memalign(size_t alignment, size_t size);
-extern void __libc_free(void *block);
-extern int posix_memalign(void **block, size_t alignment, size_t size);
-
-void *malloc(size_t size)
-{
-    ++malloc_calls;
-    return __libc_malloc(size);
-}
-
-void *calloc(size_t count, size_t size)
-{
-    ++malloc_calls;
-    return __libc_calloc(count, size);
-}
-
-void *realloc(void *block, size_t size)
-{
-    ++malloc_calls;
-    return __libc_realloc(block, size);
-}
-
-void *aligned_alloc(size_t alignment, size_t size)
-{
-    ++malloc_calls;
-    return __libc_memalign(alignment, size);
-}
-
-int posix_memalign(void **block, size_t alignment, size_t size)
-{
-    ++malloc_calls;
-    *block = __libc_memalign(alignment, size);
-    return *block == NULL ? 12 : 0;
-}
-
-void free(void *block)
-{
-    if (block != NULL) ++malloc_calls;
-    __libc_free(block);
-}
-#endif
-
-static int malloc_is_counted(void)
-{
-    void *(*volatile allocate)(size_t) = malloc;
-    void (*volatile release)(void *) = free;
-    const size_t before = malloc_calls;
-    void *block = allocate(10);
-    release(block);
-    return malloc_calls - before == 2;
-}
-
-/* ---- The given allocator ----------------------------------------------------------------------------------------- */
-
-static size_t given_calls;
-
-static void *take(void *context, size_t size, size_t alignment)
-{
-    (void)context;
-    ++given_calls;
-    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-}
-
-static void give(void *context, void *block, size_t size, size_t alignment)
-{
-    (void)context, (void)size, (void)alignment;
-    ++given_calls;
-    free(block);
-}
 
 /* ---- The scene --------------------------------------------------------------------------------------------------- */
 
@@ -343,66 +251,7 @@ static outcome all_deeds(void)
     return o;
 }
 
-#if defined(FENCED)
-enum { EMPTY, RUNS, OPENS_A_FILE };
-
-static void child(int task, int out)
-{
-    outcome o = {0, 0};
-    if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_STRICT) != 0) (void)syscall(SYS_exit, 3);
-    if (task == RUNS) o = all_deeds();
-    if (task == OPENS_A_FILE) (void)open("/dev/null", O_RDONLY);
-    (void)syscall(SYS_exit, write(out, &o, sizeof o) == (ssize_t)sizeof o ? 0 : 4);
-}
-
-static int behind_the_fence(int task, outcome *o)
-{
-    int ends[2], status = -1;
-    pid_t pid;
-    memset(o, 0, sizeof *o);
-    assert_int_equal(pipe(ends), 0);
-    fflush(NULL);
-    pid = fork();
-    assert_true(pid >= 0);
-    if (pid == 0) child(task, ends[1]);
-    close(ends[1]);
-    (void)!read(ends[0], o, sizeof *o);
-    close(ends[0]);
-    assert_int_equal(waitpid(pid, &status, 0), pid);
-    return status;
-}
-
-static int comes_through(int task)
-{
-    outcome o;
-    const int status = behind_the_fence(task, &o);
-    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
-
-static int fence_works(void)
-{
-    return comes_through(EMPTY) && !comes_through(OPENS_A_FILE);
-}
-
-static outcome run_behind_the_fence(void)
-{
-    outcome o;
-    const int status = behind_the_fence(RUNS, &o);
-    if (WIFSIGNALED(status)) fail_msg("the kernel ended the run with signal %d: a system call", WTERMSIG(status));
-    assert_int_equal(WEXITSTATUS(status), 0);
-    return o;
-}
-#else
-static int fence_works(void)
-{
-    return 0;
-}
-
-static outcome run_behind_the_fence(void)
-{
-    return all_deeds();
-}
-#endif
+#include "fence.h"
 
 static void run_needs_no_system_call_skipped_under_sanitizers_and_checkers(void **state)
 {

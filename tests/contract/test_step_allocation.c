@@ -4,92 +4,8 @@
  * left out; a checker that replaces malloc at run time is noticed. */
 #include <stdlib.h>
 
-#include "sanitized.h"
+#include "counted_malloc.h"
 #include "whole_scene.h"
-
-#if defined(__GLIBC__) && !defined(SANITIZED)
-#define COUNTS_MALLOC 1
-#endif
-
-/* ---- malloc and its kin ------------------------------------------------------------------------------------------ */
-
-static volatile size_t malloc_calls;
-
-#if defined(COUNTS_MALLOC)
-/* What glibc calls its own. */
-extern void *__libc_malloc(size_t size);
-extern void *__libc_calloc(size_t count, size_t size);
-extern void *__libc_realloc(void *block, size_t size);
-extern void *__libc_memalign(size_t alignment, size_t size);
-extern void __libc_free(void *block);
-extern int posix_memalign(void **block, size_t alignment, size_t size);
-
-void *malloc(size_t size)
-{
-    ++malloc_calls;
-    return __libc_malloc(size);
-}
-
-void *calloc(size_t count, size_t size)
-{
-    ++malloc_calls;
-    return __libc_calloc(count, size);
-}
-
-void *realloc(void *block, size_t size)
-{
-    ++malloc_calls;
-    return __libc_realloc(block, size);
-}
-
-void *aligned_alloc(size_t alignment, size_t size)
-{
-    ++malloc_calls;
-    return __libc_memalign(alignment, size);
-}
-
-int posix_memalign(void **block, size_t alignment, size_t size)
-{
-    ++malloc_calls;
-    *block = __libc_memalign(alignment, size);
-    return *block == NULL ? 12 : 0;
-}
-
-void free(void *block)
-{
-    if (block != NULL) ++malloc_calls;
-    __libc_free(block);
-}
-#endif
-
-/* True if the functions above are the ones that are called. */
-static int malloc_is_counted(void)
-{
-    void *(*volatile allocate)(size_t) = malloc;
-    void (*volatile release)(void *) = free;
-    const size_t before = malloc_calls;
-    void *block = allocate(10);
-    release(block);
-    return malloc_calls - before == 2;
-}
-
-/* ---- The given allocator ----------------------------------------------------------------------------------------- */
-
-static size_t given_calls;
-
-static void *take(void *context, size_t size, size_t alignment)
-{
-    (void)context;
-    ++given_calls;
-    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-}
-
-static void give(void *context, void *block, size_t size, size_t alignment)
-{
-    (void)context, (void)size, (void)alignment;
-    ++given_calls;
-    free(block);
-}
 
 /* ---- A scene, and a snapshot in static memory -------------------------------------------------------------------- */
 
@@ -123,8 +39,7 @@ static int set_up(void **state)
     }
     if (dmb_sim_create(scene.model, NULL, &scene.sim) < 0) return -1;
     whole_answers_init(&scene.answers, &scene.parts);
-    return dmb_sim_snapshot_size(scene.sim, &scene.snapshot_size) < 0 ||
-           scene.snapshot_size > sizeof scene.snapshot;
+    return dmb_sim_snapshot_size(scene.sim, &scene.snapshot_size) < 0 || scene.snapshot_size > sizeof scene.snapshot;
 }
 
 static int tear_down(void **state)
