@@ -94,7 +94,7 @@ static int32_t refuse_flips(dmb_sim *sim)
 }
 
 /* B v + rate of the rows that were dropped must vanish with the others. */
-static int32_t check_speeds(dmb_evaluation *evaluation)
+int32_t dmb_assembled_speeds(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
@@ -129,8 +129,7 @@ static void measure(dmb_sim *sim)
     }
 }
 
-/* Largest changes of the described speeds, as settle_speeds of the start measures them. */
-static void measure_speeds(dmb_sim *sim)
+void dmb_note_projection(dmb_sim *sim)
 {
     const dmb_block_layout *layout = &sim->scene->layout;
     double *most = sim->counters->projection;
@@ -187,17 +186,12 @@ int32_t dmb_assemble(dmb_sim *sim)
     status = close_positions(&evaluation);
     if (status >= 0) status = dmb_clusters_settle(&evaluation, DMB_SETTLE_POSE | DMB_SETTLE_SPEED, 0);
     if (status >= 0) status = refuse_flips(sim);
-    if (status >= 0) status = check_speeds(&evaluation);
+    if (status >= 0) status = dmb_assembled_speeds(&evaluation);
     sim->linked_mode->assembling = 0;
     if (status < 0) return status;
     measure(sim);
-    measure_speeds(sim);
+    dmb_note_projection(sim);
     keep_coordinates(sim);
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
     return DMB_OK;
-}
-
-int32_t dmb_assembled_speeds(dmb_evaluation *evaluation)
-{
-    return check_speeds(evaluation);
 }

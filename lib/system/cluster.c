@@ -460,16 +460,6 @@ void dmb_clusters_least_norm(dmb_sim *sim)
 
 /* ---- The rest ---------------------------------------------------------------------------------------------------- */
 
-void dmb_clusters_count(const dmb_sim *sim, uint32_t *active, uint32_t *dropped)
-{
-    *active = *dropped = 0;
-    for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
-        const uint32_t rows = active_rows(sim, sim->scene->clusters + k);
-        *active += rows;
-        *dropped += rows - sim->partition_rank[k];
-    }
-}
-
 static void set_lengths(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

@@ -24,7 +24,6 @@ int32_t dmb_clusters_approach(dmb_evaluation *evaluation);
 void dmb_clusters_choose(dmb_sim *sim);
 /* Chooses anew where the conditioning has fallen or rows are dropped; counts the changes. */
 void dmb_clusters_watch(dmb_sim *sim);
-
 /* The same, and factors what was chosen: for searches that move far. */
 int32_t dmb_clusters_refresh(dmb_evaluation *evaluation);
 
@@ -41,8 +40,6 @@ void dmb_clusters_least_norm(dmb_sim *sim);
 
 /* Largest misfit of an equation of position at the rows at hand, *row telling which; dropped: of dropped rows only. */
 double dmb_clusters_misfit(const dmb_sim *sim, int32_t dropped, uint32_t *row);
-/* Number of rows that act, and of those that are dropped. */
-void dmb_clusters_count(const dmb_sim *sim, uint32_t *active, uint32_t *dropped);
 
 /* The partition of cluster k, its storage in the sim. */
 dmb_partition dmb_cluster_partition(const dmb_sim *sim, uint32_t k);

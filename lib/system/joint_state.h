@@ -23,6 +23,8 @@ int32_t dmb_assemble(dmb_sim *sim);
  * there too. DMB_ERR_GEOMETRY with a message. */
 int32_t dmb_joint_refuse_flip(dmb_sim *sim, uint32_t joint);
 
+/* Largest changes of the speeds from now to trial into counters->projection. */
+void dmb_note_projection(dmb_sim *sim);
 /* Refuses speeds of the trial that do not satisfy an equation, one that was dropped included: DMB_ERR_GEOMETRY. */
 int32_t dmb_assembled_speeds(dmb_evaluation *evaluation);
 

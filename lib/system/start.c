@@ -118,19 +118,6 @@ static int32_t choose_partition(dmb_sim *sim, dmb_evaluation *evaluation)
     return status;
 }
 
-/* The largest change of a speed is kept. */
-static void note_projection(dmb_sim *sim)
-{
-    const dmb_scene *scene = sim->scene;
-    double *most = sim->counters->projection;
-    for (uint32_t i = 0; i < scene->node_count; i++)
-        for (uint32_t c = 0; c < scene->layout.size[i]; c++) {
-            const uint32_t row = scene->layout.row[i] + c;
-            const double change = fabs(sim->trial.velocity[row] - sim->now.velocity[row]);
-            most[2 * c < scene->layout.size[i] ? 0 : 1] = fmax(most[2 * c < scene->layout.size[i] ? 0 : 1], change);
-        }
-}
-
 /* Accelerations of trial for its pose and speeds, forces of motion drives, powers of the evaluation. */
 static int32_t make_consistent(dmb_sim *sim, dmb_evaluation *evaluation)
 {
@@ -166,7 +153,7 @@ int32_t dmb_system_restart(dmb_sim *sim)
         explain(sim, &evaluation, status);
         return status;
     }
-    if (sim->scene->cluster_count) note_projection(sim);
+    if (sim->scene->cluster_count) dmb_note_projection(sim);
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
     sim->clock->step = 0.0;
     sim->clock->next_step = 0.0;
