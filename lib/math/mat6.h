@@ -1,83 +1,83 @@
-/* 6x6 matrices (row-major double[36]), 6-vectors (translation; rotation) and the adjoint maps of SE(3).
+/* 6x6 matrices (row-major, 36 numbers), 6-vectors (translation; rotation) and the adjoint maps of SE(3).
  * Vector functions may write onto their inputs; matrix products need an output of their own. */
 #ifndef DMB_MATH_MAT6_H
 #define DMB_MATH_MAT6_H
 
 #include "math/vec3.h"
 
-static inline void dmb_vec6_copy(const double a[6], double out[6])
+static inline void dmb_vec6_copy(const dmb_real a[6], dmb_real out[6])
 {
     for (int i = 0; i < 6; i++) out[i] = a[i];
 }
 
-static inline double dmb_vec6_dot(const double a[6], const double b[6])
+static inline dmb_real dmb_vec6_dot(const dmb_real a[6], const dmb_real b[6])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5];
 }
 
-static inline void dmb_mat6_zero(double A[36])
+static inline void dmb_mat6_zero(dmb_real A[36])
 {
-    for (int i = 0; i < 36; i++) A[i] = 0.0;
+    for (int i = 0; i < 36; i++) A[i] = dmb_real_of(0.0);
 }
 
-static inline void dmb_mat6_identity(double A[36])
+static inline void dmb_mat6_identity(dmb_real A[36])
 {
     dmb_mat6_zero(A);
-    for (int i = 0; i < 36; i += 7) A[i] = 1.0;
+    for (int i = 0; i < 36; i += 7) A[i] = dmb_real_of(1.0);
 }
 
-static inline void dmb_mat6_copy(const double A[36], double out[36])
+static inline void dmb_mat6_copy(const dmb_real A[36], dmb_real out[36])
 {
     for (int i = 0; i < 36; i++) out[i] = A[i];
 }
 
 /* C = A + B; C may be A or B */
-static inline void dmb_mat6_add(const double A[36], const double B[36], double C[36])
+static inline void dmb_mat6_add(const dmb_real A[36], const dmb_real B[36], dmb_real C[36])
 {
     for (int i = 0; i < 36; i++) C[i] = A[i] + B[i];
 }
 
 /* B += s A */
-static inline void dmb_mat6_axpy(double s, const double A[36], double B[36])
+static inline void dmb_mat6_axpy(dmb_real s, const dmb_real A[36], dmb_real B[36])
 {
     for (int i = 0; i < 36; i++) B[i] += s * A[i];
 }
 
-static inline void dmb_mat6_transpose(const double A[36], double *restrict out)
+static inline void dmb_mat6_transpose(const dmb_real A[36], dmb_real *restrict out)
 {
     for (int i = 0; i < 6; i++)
         for (int j = 0; j < 6; j++) out[6 * i + j] = A[6 * j + i];
 }
 
 /* A += s a b^T */
-static inline void dmb_mat6_add_outer(double s, const double a[6], const double b[6], double A[36])
+static inline void dmb_mat6_add_outer(dmb_real s, const dmb_real a[6], const dmb_real b[6], dmb_real A[36])
 {
     for (int i = 0; i < 6; i++) {
-        const double f = s * a[i];
+        const dmb_real f = s * a[i];
         for (int j = 0; j < 6; j++) A[6 * i + j] += f * b[j];
     }
 }
 
 /* The 3x3 block (i, j), i, j = 0 or 1, of a 6x6 matrix: read, write, add to. */
-static inline void dmb_mat6_get_block(const double A[36], int i, int j, double out[9])
+static inline void dmb_mat6_get_block(const dmb_real A[36], int i, int j, dmb_real out[9])
 {
     for (int r = 0; r < 3; r++) dmb_vec3_copy(A + 18 * i + 6 * r + 3 * j, out + 3 * r);
 }
 
-static inline void dmb_mat6_set_block(const double block[9], int i, int j, double A[36])
+static inline void dmb_mat6_set_block(const dmb_real block[9], int i, int j, dmb_real A[36])
 {
     for (int r = 0; r < 3; r++) dmb_vec3_copy(block + 3 * r, A + 18 * i + 6 * r + 3 * j);
 }
 
-static inline void dmb_mat6_add_block(double s, const double block[9], int i, int j, double A[36])
+static inline void dmb_mat6_add_block(dmb_real s, const dmb_real block[9], int i, int j, dmb_real A[36])
 {
     for (int r = 0; r < 3; r++) dmb_vec3_axpy(s, block + 3 * r, A + 18 * i + 6 * r + 3 * j);
 }
 
 /* The block (i, j) += s a~ */
-static inline void dmb_mat6_add_skew(double s, const double a[3], int i, int j, double A[36])
+static inline void dmb_mat6_add_skew(dmb_real s, const dmb_real a[3], int i, int j, dmb_real A[36])
 {
-    double *block = A + 18 * i + 3 * j;
+    dmb_real *block = A + 18 * i + 3 * j;
     block[1] -= s * a[2];
     block[2] += s * a[1];
     block[6] += s * a[2];
@@ -87,7 +87,7 @@ static inline void dmb_mat6_add_skew(double s, const double a[3], int i, int j, 
 }
 
 /* y[j] = sum_k a[k * step] B[k][j]: one row of a product, over whole rows of B so that it vectorises */
-static inline void dmb_mat6_row(const double *a, int step, const double B[36], double *restrict y)
+static inline void dmb_mat6_row(const dmb_real *a, int step, const dmb_real B[36], dmb_real *restrict y)
 {
     for (int j = 0; j < 6; j++) y[j] = a[0] * B[j];
     for (int k = 1; k < 6; k++)
@@ -95,53 +95,53 @@ static inline void dmb_mat6_row(const double *a, int step, const double B[36], d
 }
 
 /* C = A B */
-static inline void dmb_mat6_mul(const double A[36], const double B[36], double *restrict C)
+static inline void dmb_mat6_mul(const dmb_real A[36], const dmb_real B[36], dmb_real *restrict C)
 {
     for (int i = 0; i < 6; i++) dmb_mat6_row(A + 6 * i, 1, B, C + 6 * i);
 }
 
 /* C = A^T B */
-static inline void dmb_mat6_mul_tn(const double A[36], const double B[36], double *restrict C)
+static inline void dmb_mat6_mul_tn(const dmb_real A[36], const dmb_real B[36], dmb_real *restrict C)
 {
     for (int i = 0; i < 6; i++) dmb_mat6_row(A + i, 6, B, C + 6 * i);
 }
 
 /* C = A B^T */
-static inline void dmb_mat6_mul_nt(const double A[36], const double B[36], double *restrict C)
+static inline void dmb_mat6_mul_nt(const dmb_real A[36], const dmb_real B[36], dmb_real *restrict C)
 {
-    double Bt[36];
+    dmb_real Bt[36];
     dmb_mat6_transpose(B, Bt);
     dmb_mat6_mul(A, Bt, C);
 }
 
 /* C = A^T B A */
-static inline void dmb_mat6_congruence(const double A[36], const double B[36], double *restrict C)
+static inline void dmb_mat6_congruence(const dmb_real A[36], const dmb_real B[36], dmb_real *restrict C)
 {
-    double BA[36];
+    dmb_real BA[36];
     dmb_mat6_mul(B, A, BA);
     dmb_mat6_mul_tn(A, BA, C);
 }
 
 /* y = A x; y may be x */
-static inline void dmb_mat6_vec(const double A[36], const double x[6], double y[6])
+static inline void dmb_mat6_vec(const dmb_real A[36], const dmb_real x[6], dmb_real y[6])
 {
-    double t[6];
+    dmb_real t[6];
     for (int i = 0; i < 6; i++) t[i] = dmb_vec6_dot(A + 6 * i, x);
     dmb_vec6_copy(t, y);
 }
 
 /* y = A^T x; y may be x */
-static inline void dmb_mat6_tvec(const double A[36], const double x[6], double y[6])
+static inline void dmb_mat6_tvec(const dmb_real A[36], const dmb_real x[6], dmb_real y[6])
 {
-    double t[6];
+    dmb_real t[6];
     dmb_mat6_row(x, 1, A, t);
     dmb_vec6_copy(t, y);
 }
 
 /* ad(v) = [w~, u~; 0, w~], v = (u; w): the derivative of Ad, [v, y] = ad(v) y */
-static inline void dmb_ad6(const double v[6], double out[36])
+static inline void dmb_ad6(const dmb_real v[6], dmb_real out[36])
 {
-    double W[9], U[9];
+    dmb_real W[9], U[9];
     dmb_skew(v + 3, W);
     dmb_skew(v, U);
     dmb_mat6_zero(out);
@@ -151,9 +151,9 @@ static inline void dmb_ad6(const double v[6], double out[36])
 }
 
 /* out = ad(v) y = (w x yu + u x yw; w x yw) */
-static inline void dmb_ad_apply(const double v[6], const double y[6], double out[6])
+static inline void dmb_ad_apply(const dmb_real v[6], const dmb_real y[6], dmb_real out[6])
 {
-    double a[3], b[3], c[3];
+    dmb_real a[3], b[3], c[3];
     dmb_vec3_cross(v + 3, y, a);
     dmb_vec3_cross(v, y + 3, b);
     dmb_vec3_cross(v + 3, y + 3, c);
@@ -162,9 +162,9 @@ static inline void dmb_ad_apply(const double v[6], const double y[6], double out
 }
 
 /* out = ad(v)^T p = (-w x pu; -u x pu - w x pw): the coadjoint of the Euler-Poincare equations */
-static inline void dmb_ad_transpose(const double v[6], const double p[6], double out[6])
+static inline void dmb_ad_transpose(const dmb_real v[6], const dmb_real p[6], dmb_real out[6])
 {
-    double a[3], b[3], c[3];
+    dmb_real a[3], b[3], c[3];
     dmb_vec3_cross(p, v + 3, a);
     dmb_vec3_cross(p, v, b);
     dmb_vec3_cross(p + 3, v + 3, c);
@@ -173,9 +173,9 @@ static inline void dmb_ad_transpose(const double v[6], const double p[6], double
 }
 
 /* out = A(p) = [0, pu~; pu~, pw~], so that ad(v)^T p = A(p) v: its derivative with respect to v at fixed p */
-static inline void dmb_ad_transpose_derivative(const double p[6], double out[36])
+static inline void dmb_ad_transpose_derivative(const dmb_real p[6], dmb_real out[36])
 {
-    double P[9];
+    dmb_real P[9];
     dmb_mat6_zero(out);
     dmb_skew(p, P);
     dmb_mat6_set_block(P, 0, 1, out);
@@ -185,9 +185,9 @@ static inline void dmb_ad_transpose_derivative(const double p[6], double out[36]
 }
 
 /* Ad(R,x) = [R, x~R; 0, R] */
-static inline void dmb_adjoint6(const double R[9], const double x[3], double out[36])
+static inline void dmb_adjoint6(const dmb_real R[9], const dmb_real x[3], dmb_real out[36])
 {
-    double X[9], XR[9];
+    dmb_real X[9], XR[9];
     dmb_skew(x, X);
     dmb_mat3_mul(X, R, XR);
     dmb_mat6_zero(out);
@@ -197,9 +197,9 @@ static inline void dmb_adjoint6(const double R[9], const double x[3], double out
 }
 
 /* out = Ad(R,x) v = (R u + x x (R w); R w) */
-static inline void dmb_adjoint_apply(const double R[9], const double x[3], const double v[6], double out[6])
+static inline void dmb_adjoint_apply(const dmb_real R[9], const dmb_real x[3], const dmb_real v[6], dmb_real out[6])
 {
-    double w[3], u[3], c[3];
+    dmb_real w[3], u[3], c[3];
     dmb_mat3_vec(R, v + 3, w);
     dmb_mat3_vec(R, v, u);
     dmb_vec3_cross(x, w, c);
@@ -208,9 +208,9 @@ static inline void dmb_adjoint_apply(const double R[9], const double x[3], const
 }
 
 /* out = Ad(R,x)^-1 v = (R^T (u - x x w); R^T w) */
-static inline void dmb_adjoint_inverse_apply(const double R[9], const double x[3], const double v[6], double out[6])
+static inline void dmb_adjoint_inverse_apply(const dmb_real R[9], const dmb_real x[3], const dmb_real v[6], dmb_real out[6])
 {
-    double u[3], c[3];
+    dmb_real u[3], c[3];
     dmb_vec3_cross(x, v + 3, c);
     dmb_vec3_sub(v, c, u);
     dmb_mat3_tvec(R, v + 3, out + 3);
@@ -218,9 +218,9 @@ static inline void dmb_adjoint_inverse_apply(const double R[9], const double x[3
 }
 
 /* out = Ad(R,x)^T p = (R^T pu; R^T (pw - x x pu)) */
-static inline void dmb_adjoint_transpose_apply(const double R[9], const double x[3], const double p[6], double out[6])
+static inline void dmb_adjoint_transpose_apply(const dmb_real R[9], const dmb_real x[3], const dmb_real p[6], dmb_real out[6])
 {
-    double m[3], c[3];
+    dmb_real m[3], c[3];
     dmb_vec3_cross(x, p, c);
     dmb_vec3_sub(p + 3, c, m);
     dmb_mat3_tvec(R, p, out);
@@ -228,10 +228,10 @@ static inline void dmb_adjoint_transpose_apply(const double R[9], const double x
 }
 
 /* out = Ad(R,x)^-T p = (R pu; R pw + x x (R pu)): carries a wrench to the frame seen from outside */
-static inline void dmb_adjoint_inverse_transpose_apply(const double R[9], const double x[3], const double p[6],
-                                                       double out[6])
+static inline void dmb_adjoint_inverse_transpose_apply(const dmb_real R[9], const dmb_real x[3], const dmb_real p[6],
+                                                       dmb_real out[6])
 {
-    double f[3], m[3], c[3];
+    dmb_real f[3], m[3], c[3];
     dmb_mat3_vec(R, p, f);
     dmb_mat3_vec(R, p + 3, m);
     dmb_vec3_cross(x, f, c);
@@ -240,21 +240,21 @@ static inline void dmb_adjoint_inverse_transpose_apply(const double R[9], const 
 }
 
 /* C = Ad(R,x)^T B Ad(R,x): a form given in the far frame, seen in the near one */
-static inline void dmb_adjoint_congruence(const double R[9], const double x[3], const double B[36], double *restrict C)
+static inline void dmb_adjoint_congruence(const dmb_real R[9], const dmb_real x[3], const dmb_real B[36], dmb_real *restrict C)
 {
-    double A[36];
+    dmb_real A[36];
     dmb_adjoint6(R, x, A);
     dmb_mat6_congruence(A, B, C);
 }
 
 /* C = Ad(R,x)^-T B Ad(R,x)^-1; the inverse pose is (R^T, -R^T x) */
-static inline void dmb_adjoint_inverse_congruence(const double R[9], const double x[3], const double B[36],
-                                                  double *restrict C)
+static inline void dmb_adjoint_inverse_congruence(const dmb_real R[9], const dmb_real x[3], const dmb_real B[36],
+                                                  dmb_real *restrict C)
 {
-    double Rt[9], y[3];
+    dmb_real Rt[9], y[3];
     dmb_mat3_transpose(R, Rt);
     dmb_mat3_tvec(R, x, y);
-    dmb_vec3_scale(-1.0, y, y);
+    dmb_vec3_scale(dmb_real_of(-1.0), y, y);
     dmb_adjoint_congruence(Rt, y, B, C);
 }
 

@@ -12,22 +12,22 @@
 
 /* A 6x6 matrix [S, B; 0, S], as T6 and T6^-1 both are. Both turn into their transposed blocks for -h. */
 typedef struct dmb_se3_tangent {
-    double S[9];
-    double B[9];
+    dmb_real S[9];
+    dmb_real B[9];
 } dmb_se3_tangent;
 
 typedef dmb_se3_tangent dmb_se3_inverse_tangent;
 
 /* A 6x6 matrix [0, J; J, H], the shape of the stress derivative. */
 typedef struct dmb_se3_stress_blocks {
-    double J[9];
-    double H[9];
+    dmb_real J[9];
+    dmb_real H[9];
 } dmb_se3_stress_blocks;
 
 /* out = y + p O x y + q O x (O x y); out may be y */
-static inline void dmb_so3_polynomial_apply(const double O[3], double p, double q, const double y[3], double out[3])
+static inline void dmb_so3_polynomial_apply(const dmb_real O[3], dmb_real p, dmb_real q, const dmb_real y[3], dmb_real out[3])
 {
-    double c[3], d[3];
+    dmb_real c[3], d[3];
     dmb_vec3_cross(O, y, c);
     dmb_vec3_cross(O, c, d);
     dmb_vec3_copy(y, out);
@@ -36,7 +36,7 @@ static inline void dmb_so3_polynomial_apply(const double O[3], double p, double 
 }
 
 /* (R, x) = exp h = (exp O, T(O)^T U) */
-static inline void dmb_se3_exp(const double h[6], const dmb_so3_coefficients *k, double R[9], double x[3])
+static inline void dmb_se3_exp(const dmb_real h[6], const dmb_so3_coefficients *k, dmb_real R[9], dmb_real x[3])
 {
     const dmb_so3_coefficients f = dmb_so3_coefficients_or(h + 3, k);
     dmb_so3_exp(h + 3, &f, R);
@@ -44,7 +44,7 @@ static inline void dmb_se3_exp(const double h[6], const dmb_so3_coefficients *k,
 }
 
 /* (q, x) = exp h */
-static inline void dmb_se3_exp_to_quat(const double h[6], double q[4], double x[3])
+static inline void dmb_se3_exp_to_quat(const dmb_real h[6], dmb_real q[4], dmb_real x[3])
 {
     const dmb_so3_coefficients f = dmb_so3_coefficients_or(h + 3, NULL);
     dmb_quat_exp(h + 3, q);
@@ -52,9 +52,9 @@ static inline void dmb_se3_exp_to_quat(const double h[6], double q[4], double x[
 }
 
 /* (q, x) <- (q, x) exp h: one step of a body-frame increment */
-static inline void dmb_se3_advance(double q[4], double x[3], const double h[6])
+static inline void dmb_se3_advance(dmb_real q[4], dmb_real x[3], const dmb_real h[6])
 {
-    double dq[4], dx[3];
+    dmb_real dq[4], dx[3];
     dmb_se3_exp_to_quat(h, dq, dx);
     dmb_quat_rotate(q, dx, dx);
     dmb_vec3_add(x, dx, x);
@@ -63,17 +63,18 @@ static inline void dmb_se3_advance(double q[4], double x[3], const double h[6])
 }
 
 /* d = log (q, x) = (S(O)^T x; O). The coefficients at |O|^2 are handed back in k unless that is NULL. */
-static inline void dmb_se3_log_from_quat(const double q[4], const double x[3], dmb_so3_inverse_coefficients *k,
-                                         double d[6])
+static inline void dmb_se3_log_from_quat(const dmb_real q[4], const dmb_real x[3], dmb_so3_inverse_coefficients *k,
+                                         dmb_real d[6])
 {
-    double O[3];
+    dmb_real O[3];
     dmb_quat_log(q, O);
     const dmb_so3_inverse_coefficients f = dmb_so3_inverse_coefficients_or(O, NULL);
-    dmb_so3_polynomial_apply(O, -0.5, f.c, x, d);
+    dmb_so3_polynomial_apply(O, dmb_real_of(-0.5), f.c, x, d);
     dmb_vec3_copy(O, d + 3);
     if (k) *k = f;
 }
 
+#ifndef DMB_LANES
 /* d = log (R, x) */
 static inline void dmb_se3_log(const double R[9], const double x[3], dmb_so3_inverse_coefficients *k, double d[6])
 {
@@ -81,29 +82,30 @@ static inline void dmb_se3_log(const double R[9], const double x[3], dmb_so3_inv
     dmb_quat_from_matrix(R, q);
     dmb_se3_log_from_quat(q, x, k, d);
 }
+#endif
 
 /* The change of I + p O~ + q O~^2 as O moves along U, p and q being functions of |O|:
  * p U~ + q (U~O~ + O~U~) + (O.U)(dp O~ + dq O~^2), with U~O~ + O~U~ = O U^T + U O^T - 2 (O.U) I */
-static inline void dmb_so3_polynomial_derivative(const double h[6], double p, double q, double dp, double dq,
-                                                 double out[9])
+static inline void dmb_so3_polynomial_derivative(const dmb_real h[6], dmb_real p, dmb_real q, dmb_real dp, dmb_real dq,
+                                                 dmb_real out[9])
 {
-    const double *U = h, *O = h + 3;
-    const double along = dmb_vec3_dot(O, U), half = 0.5 * dq * along;
-    double v[3], r[3];
+    const dmb_real *U = h, *O = h + 3;
+    const dmb_real along = dmb_vec3_dot(O, U), half = 0.5 * dq * along;
+    dmb_real v[3], r[3];
     dmb_vec3_scale(p, U, v);
     dmb_vec3_axpy(dp * along, O, v);
     dmb_skew(v, out);
     dmb_vec3_scale(q, U, r); /* symmetric part O r^T + r O^T - 2 (O.r) I, r = q U + dq (O.U)/2 O */
     dmb_vec3_axpy(half, O, r);
-    dmb_mat3_add_outer(1.0, O, r, out);
-    dmb_mat3_add_outer(1.0, r, O, out);
-    const double trace = 2.0 * dmb_vec3_dot(O, r);
+    dmb_mat3_add_outer(dmb_real_of(1.0), O, r, out);
+    dmb_mat3_add_outer(dmb_real_of(1.0), r, O, out);
+    const dmb_real trace = 2.0 * dmb_vec3_dot(O, r);
     for (int i = 0; i < 9; i += 4) out[i] -= trace;
 }
 
 /* T6(h) = [T, B; 0, T]: body velocity = T6(h) h'. Block S holds T(O), block B
  * -b U~ + a2 (U~O~ + O~U~) + (O.U)(-db O~ + da2 O~^2). */
-static inline void dmb_se3_tangent_at(const double h[6], const dmb_so3_coefficients *k, dmb_se3_tangent *T)
+static inline void dmb_se3_tangent_at(const dmb_real h[6], const dmb_so3_coefficients *k, dmb_se3_tangent *T)
 {
     const dmb_so3_coefficients f = dmb_so3_coefficients_or(h + 3, k);
     dmb_so3_tangent(h + 3, &f, T->S);
@@ -111,12 +113,12 @@ static inline void dmb_se3_tangent_at(const double h[6], const dmb_so3_coefficie
 }
 
 /* T6(h)^-1 = [S, B; 0, S], B = U~/2 + c (U~O~ + O~U~) + e (O.U) O~^2 */
-static inline void dmb_se3_inverse_tangent_at(const double h[6], const dmb_so3_inverse_coefficients *k,
+static inline void dmb_se3_inverse_tangent_at(const dmb_real h[6], const dmb_so3_inverse_coefficients *k,
                                               dmb_se3_inverse_tangent *T)
 {
     const dmb_so3_inverse_coefficients f = dmb_so3_inverse_coefficients_or(h + 3, k);
     dmb_so3_inverse_tangent(h + 3, &f, T->S);
-    dmb_so3_polynomial_derivative(h, 0.5, f.c, 0.0, f.e, T->B);
+    dmb_so3_polynomial_derivative(h, dmb_real_of(0.5), f.c, dmb_real_of(0.0), f.e, T->B);
 }
 
 /* The same operator at -h: the blocks transposed. */
@@ -127,7 +129,7 @@ static inline void dmb_se3_tangent_reverse(const dmb_se3_tangent *T, dmb_se3_tan
 }
 
 /* out = [S, B; 0, S] */
-static inline void dmb_se3_tangent_matrix(const dmb_se3_tangent *T, double out[36])
+static inline void dmb_se3_tangent_matrix(const dmb_se3_tangent *T, dmb_real out[36])
 {
     dmb_mat6_zero(out);
     dmb_mat6_set_block(T->S, 0, 0, out);
@@ -136,7 +138,7 @@ static inline void dmb_se3_tangent_matrix(const dmb_se3_tangent *T, double out[3
 }
 
 /* T6(h) as a full matrix */
-static inline void dmb_se3_tangent6(const double h[6], const dmb_so3_coefficients *k, double out[36])
+static inline void dmb_se3_tangent6(const dmb_real h[6], const dmb_so3_coefficients *k, dmb_real out[36])
 {
     dmb_se3_tangent T;
     dmb_se3_tangent_at(h, k, &T);
@@ -144,7 +146,7 @@ static inline void dmb_se3_tangent6(const double h[6], const dmb_so3_coefficient
 }
 
 /* T6(h)^-1 as a full matrix */
-static inline void dmb_se3_inverse_tangent6(const double h[6], const dmb_so3_inverse_coefficients *k, double out[36])
+static inline void dmb_se3_inverse_tangent6(const dmb_real h[6], const dmb_so3_inverse_coefficients *k, dmb_real out[36])
 {
     dmb_se3_inverse_tangent T;
     dmb_se3_inverse_tangent_at(h, k, &T);
@@ -152,9 +154,9 @@ static inline void dmb_se3_inverse_tangent6(const double h[6], const dmb_so3_inv
 }
 
 /* out = T v = (S u + B w; S w); out may be v */
-static inline void dmb_se3_tangent_apply(const dmb_se3_tangent *T, const double v[6], double out[6])
+static inline void dmb_se3_tangent_apply(const dmb_se3_tangent *T, const dmb_real v[6], dmb_real out[6])
 {
-    double b[3];
+    dmb_real b[3];
     dmb_mat3_vec(T->B, v + 3, b);
     dmb_mat3_vec(T->S, v + 3, out + 3);
     dmb_mat3_vec(T->S, v, out);
@@ -162,9 +164,9 @@ static inline void dmb_se3_tangent_apply(const dmb_se3_tangent *T, const double 
 }
 
 /* out = T^T s = (S^T n; B^T n + S^T m), s = (n; m); out may be s */
-static inline void dmb_se3_tangent_apply_transpose(const dmb_se3_tangent *T, const double s[6], double out[6])
+static inline void dmb_se3_tangent_apply_transpose(const dmb_se3_tangent *T, const dmb_real s[6], dmb_real out[6])
 {
-    double b[3];
+    dmb_real b[3];
     dmb_mat3_tvec(T->B, s, b);
     dmb_mat3_tvec(T->S, s, out);
     dmb_mat3_tvec(T->S, s + 3, out + 3);
@@ -172,9 +174,9 @@ static inline void dmb_se3_tangent_apply_transpose(const dmb_se3_tangent *T, con
 }
 
 /* The operator at -h, without forming it: (S^T u + B^T w; S^T w); out may be v */
-static inline void dmb_se3_tangent_apply_reverse(const dmb_se3_tangent *T, const double v[6], double out[6])
+static inline void dmb_se3_tangent_apply_reverse(const dmb_se3_tangent *T, const dmb_real v[6], dmb_real out[6])
 {
-    double b[3];
+    dmb_real b[3];
     dmb_mat3_tvec(T->B, v + 3, b);
     dmb_mat3_tvec(T->S, v + 3, out + 3);
     dmb_mat3_tvec(T->S, v, out);
@@ -182,9 +184,9 @@ static inline void dmb_se3_tangent_apply_reverse(const dmb_se3_tangent *T, const
 }
 
 /* Its transpose: (S n; B n + S m); out may be s */
-static inline void dmb_se3_tangent_apply_reverse_transpose(const dmb_se3_tangent *T, const double s[6], double out[6])
+static inline void dmb_se3_tangent_apply_reverse_transpose(const dmb_se3_tangent *T, const dmb_real s[6], dmb_real out[6])
 {
-    double b[3];
+    dmb_real b[3];
     dmb_mat3_vec(T->B, s, b);
     dmb_mat3_vec(T->S, s, out);
     dmb_mat3_vec(T->S, s + 3, out + 3);
@@ -193,10 +195,10 @@ static inline void dmb_se3_tangent_apply_reverse_transpose(const dmb_se3_tangent
 
 /* C = A^T diag(k) B for two such operators: the material stiffness of an element.
  * Blocks [Sa^T ku Sb, Sa^T ku Bb; Ba^T ku Sb, Ba^T ku Bb + Sa^T kw Sb] */
-static inline void dmb_se3_tangent_congruence(const dmb_se3_tangent *A, const double k[6], const dmb_se3_tangent *B,
-                                              double *restrict C)
+static inline void dmb_se3_tangent_congruence(const dmb_se3_tangent *A, const dmb_real k[6], const dmb_se3_tangent *B,
+                                              dmb_real *restrict C)
 {
-    double kS[9], kB[9], kW[9], block[9];
+    dmb_real kS[9], kB[9], kW[9], block[9];
     for (int i = 0; i < 3; i++) {
         dmb_vec3_scale(k[i], B->S + 3 * i, kS + 3 * i);
         dmb_vec3_scale(k[i], B->B + 3 * i, kB + 3 * i);
@@ -211,25 +213,25 @@ static inline void dmb_se3_tangent_congruence(const dmb_se3_tangent *A, const do
     dmb_mat3_mul_tn(A->B, kB, block);
     dmb_mat6_set_block(block, 1, 1, C);
     dmb_mat3_mul_tn(A->S, kW, block);
-    dmb_mat6_add_block(1.0, block, 1, 1, C);
+    dmb_mat6_add_block(dmb_real_of(1.0), block, 1, 1, C);
 }
 
 /* out = (r.a) I + r a^T - 2 a r^T, the gradient of r x (r x a) with respect to r */
-static inline void dmb_so3_double_cross_gradient(const double r[3], const double a[3], double out[9])
+static inline void dmb_so3_double_cross_gradient(const dmb_real r[3], const dmb_real a[3], dmb_real out[9])
 {
-    const double d = dmb_vec3_dot(r, a);
+    const dmb_real d = dmb_vec3_dot(r, a);
     dmb_mat3_zero(out);
     out[0] = out[4] = out[8] = d;
-    dmb_mat3_add_outer(1.0, r, a, out);
-    dmb_mat3_add_outer(-2.0, a, r, out);
+    dmb_mat3_add_outer(dmb_real_of(1.0), r, a, out);
+    dmb_mat3_add_outer(dmb_real_of(-2.0), a, r, out);
 }
 
 /* d/dO (c O~^2 a) = c ((O.a) I + O a^T - 2 a O^T) + e w O^T, w = O x (O x a). Odd in O: the part of both J and Jm
  * that follows the sign of h. */
-static inline void dmb_so3_square_derivative(const double O[3], const double a[3],
-                                             const dmb_so3_inverse_coefficients *k, double out[9])
+static inline void dmb_so3_square_derivative(const dmb_real O[3], const dmb_real a[3],
+                                             const dmb_so3_inverse_coefficients *k, dmb_real out[9])
 {
-    double r[3], w[3];
+    dmb_real r[3], w[3];
     dmb_vec3_scale(k->c, O, r);
     dmb_so3_double_cross_gradient(r, a, out);
     dmb_vec3_cross(O, a, w);
@@ -239,12 +241,12 @@ static inline void dmb_so3_square_derivative(const double O[3], const double a[3
 
 /* Hh(h, n), the change of the above as O moves along U; odd in h. With s = O.U and r = c U + e s O:
  * (r.n) I + r n^T - 2 n r^T + (e p + e2 s w) O^T + e w U^T,  p = (O.n)U + (n.U)O - 2 s n */
-static inline void dmb_se3_square_second_derivative(const double h[6], const double n[3],
-                                                    const dmb_so3_inverse_coefficients *k, double out[9])
+static inline void dmb_se3_square_second_derivative(const dmb_real h[6], const dmb_real n[3],
+                                                    const dmb_so3_inverse_coefficients *k, dmb_real out[9])
 {
-    const double *U = h, *O = h + 3;
-    const double s = dmb_vec3_dot(O, U);
-    double r[3], w[3], p[3];
+    const dmb_real *U = h, *O = h + 3;
+    const dmb_real s = dmb_vec3_dot(O, U);
+    dmb_real r[3], w[3], p[3];
     dmb_vec3_scale(k->c, U, r);
     dmb_vec3_axpy(k->e * s, O, r);
     dmb_so3_double_cross_gradient(r, n, out);
@@ -254,17 +256,17 @@ static inline void dmb_se3_square_second_derivative(const double h[6], const dou
     dmb_vec3_axpy(k->e * dmb_vec3_dot(n, U), O, p);
     dmb_vec3_axpy(-2.0 * k->e * s, n, p);
     dmb_vec3_axpy(k->e2 * s, w, p);
-    dmb_mat3_add_outer(1.0, p, O, out);
+    dmb_mat3_add_outer(dmb_real_of(1.0), p, O, out);
     dmb_mat3_add_outer(k->e, w, U, out);
 }
 
 /* The blocks J(n) and J(m) + Hh of the stress derivative, s = (n; m), at h and at -h together: n~/2 and m~/2 stay,
  * the rest changes sign. Either of plus and minus may be NULL. */
-static inline void dmb_se3_stress_blocks_at(const double h[6], const double s[6], const dmb_so3_inverse_coefficients *k,
+static inline void dmb_se3_stress_blocks_at(const dmb_real h[6], const dmb_real s[6], const dmb_so3_inverse_coefficients *k,
                                             dmb_se3_stress_blocks *plus, dmb_se3_stress_blocks *minus)
 {
     const dmb_so3_inverse_coefficients f = dmb_so3_inverse_coefficients_or(h + 3, k);
-    double N[9], M[9], J[9], H[9], Hh[9];
+    dmb_real N[9], M[9], J[9], H[9], Hh[9];
     dmb_skew(s, N);
     dmb_skew(s + 3, M);
     dmb_so3_square_derivative(h + 3, s, &f, J);
@@ -280,7 +282,7 @@ static inline void dmb_se3_stress_blocks_at(const double h[6], const double s[6]
 }
 
 /* out = [0, J; J, H] */
-static inline void dmb_se3_stress_matrix(const dmb_se3_stress_blocks *D, double out[36])
+static inline void dmb_se3_stress_matrix(const dmb_se3_stress_blocks *D, dmb_real out[36])
 {
     dmb_mat6_zero(out);
     dmb_mat6_set_block(D->J, 0, 1, out);
@@ -289,10 +291,10 @@ static inline void dmb_se3_stress_matrix(const dmb_se3_stress_blocks *D, double 
 }
 
 /* out += f [0, J; J, H] [S, B; 0, S] = f [0, J S; J S, J B + H S]: one block of an element's geometric stiffness */
-static inline void dmb_se3_stress_times_tangent(double f, const dmb_se3_stress_blocks *D, const dmb_se3_tangent *T,
-                                                double out[36])
+static inline void dmb_se3_stress_times_tangent(dmb_real f, const dmb_se3_stress_blocks *D, const dmb_se3_tangent *T,
+                                                dmb_real out[36])
 {
-    double block[9];
+    dmb_real block[9];
     dmb_mat3_mul(D->J, T->S, block);
     dmb_mat6_add_block(f, block, 0, 1, out);
     dmb_mat6_add_block(f, block, 1, 0, out);
@@ -303,8 +305,8 @@ static inline void dmb_se3_stress_times_tangent(double f, const dmb_se3_stress_b
 }
 
 /* D1(h, s) = d/dh (T6(h)^-T s) at fixed s */
-static inline void dmb_se3_stress_derivative(const double h[6], const double s[6],
-                                             const dmb_so3_inverse_coefficients *k, double out[36])
+static inline void dmb_se3_stress_derivative(const dmb_real h[6], const dmb_real s[6],
+                                             const dmb_so3_inverse_coefficients *k, dmb_real out[36])
 {
     dmb_se3_stress_blocks D;
     dmb_se3_stress_blocks_at(h, s, k, &D, NULL);
@@ -312,20 +314,20 @@ static inline void dmb_se3_stress_derivative(const double h[6], const double s[6
 }
 
 /* X(h, v) = d/dh (T6(h)^-1 v) at fixed v = (u; w): [Jm(w), Jm(u) + Hh(w); 0, Jm(w)], Jm(a) = -a~/2 + the odd part */
-static inline void dmb_se3_velocity_derivative(const double h[6], const double v[6],
-                                               const dmb_so3_inverse_coefficients *k, double out[36])
+static inline void dmb_se3_velocity_derivative(const dmb_real h[6], const dmb_real v[6],
+                                               const dmb_so3_inverse_coefficients *k, dmb_real out[36])
 {
     const dmb_so3_inverse_coefficients f = dmb_so3_inverse_coefficients_or(h + 3, k);
-    double skew[9], J[9], H[9];
+    dmb_real skew[9], J[9], H[9];
     dmb_mat6_zero(out);
     dmb_so3_square_derivative(h + 3, v + 3, &f, J);
     dmb_skew(v + 3, skew);
-    dmb_mat3_axpy(-0.5, skew, J);
+    dmb_mat3_axpy(dmb_real_of(-0.5), skew, J);
     dmb_mat6_set_block(J, 0, 0, out);
     dmb_mat6_set_block(J, 1, 1, out);
     dmb_so3_square_derivative(h + 3, v, &f, J);
     dmb_skew(v, skew);
-    dmb_mat3_axpy(-0.5, skew, J);
+    dmb_mat3_axpy(dmb_real_of(-0.5), skew, J);
     dmb_se3_square_second_derivative(h, v + 3, &f, H);
     dmb_mat3_add(J, H, H);
     dmb_mat6_set_block(H, 0, 1, out);

@@ -1,0 +1,90 @@
+/* The number that vec3, mat6, so3, se3 and element/beam_math are written in: a double; or, in a file that defines
+ * DMB_LANES before it includes them, that many doubles side by side, a vector of the compiler. Each lane goes through the
+ * very operations, in the same order, that a double alone goes through, so all of them give the same bits. Where a
+ * double would branch, lanes take the frequent branch together and the few others are put right one by one. */
+#ifndef DMB_MATH_REAL_H
+#define DMB_MATH_REAL_H
+
+#include <math.h>
+#include <stdint.h>
+
+#ifndef DMB_LANES
+
+#define DMB_REAL_LANES 1
+typedef double dmb_real;
+
+static inline dmb_real dmb_real_of(double x)
+{
+    return x;
+}
+static inline double dmb_real_lane(const dmb_real *x, int lane)
+{
+    (void)lane;
+    return *x;
+}
+static inline void dmb_real_set_lane(dmb_real *x, int lane, double value)
+{
+    (void)lane;
+    *x = value;
+}
+static inline dmb_real dmb_real_abs(dmb_real x)
+{
+    return fabs(x);
+}
+static inline dmb_real dmb_real_max(dmb_real a, dmb_real b)
+{
+    return a > b ? a : b;
+}
+/* x with its sign changed where s < 0 */
+static inline dmb_real dmb_real_follow(dmb_real s, dmb_real x)
+{
+    return s < 0.0 ? -x : x;
+}
+/* 1 if every lane of a is below that of b; not so for a NaN */
+static inline int dmb_real_below(dmb_real a, dmb_real b)
+{
+    return a < b;
+}
+
+#else
+
+#define DMB_REAL_LANES DMB_LANES
+typedef double dmb_real __attribute__((vector_size(8 * DMB_LANES)));
+typedef int64_t dmb_real_bits __attribute__((vector_size(8 * DMB_LANES)));
+
+static inline dmb_real dmb_real_of(double x)
+{
+    return x - (dmb_real){0.0};
+}
+static inline double dmb_real_lane(const dmb_real *x, int lane)
+{
+    return (*x)[lane];
+}
+static inline void dmb_real_set_lane(dmb_real *x, int lane, double value)
+{
+    (*x)[lane] = value;
+}
+static inline dmb_real dmb_real_abs(dmb_real x)
+{
+    return (dmb_real)((dmb_real_bits)x & INT64_MAX);
+}
+static inline dmb_real dmb_real_max(dmb_real a, dmb_real b)
+{
+    const dmb_real_bits first = (dmb_real_bits)(a > b);
+    return (dmb_real)(((dmb_real_bits)a & first) | ((dmb_real_bits)b & ~first));
+}
+static inline dmb_real dmb_real_follow(dmb_real s, dmb_real x)
+{
+    const dmb_real_bits turned = (dmb_real_bits)(s < dmb_real_of(0.0));
+    return (dmb_real)((dmb_real_bits)x ^ (turned & INT64_MIN));
+}
+static inline int dmb_real_below(dmb_real a, dmb_real b)
+{
+    const dmb_real_bits below = (dmb_real_bits)(a < b);
+    int64_t all = -1;
+    for (int lane = 0; lane < DMB_LANES; lane++) all &= below[lane];
+    return all != 0;
+}
+
+#endif
+#endif
