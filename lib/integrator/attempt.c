@@ -5,10 +5,11 @@
 
 #include "integrator/generalized_alpha.h"
 #include "integrator/turning.h"
-#include "math/se3.h"
+#include "kernel/kernels.h"
 #include "system/cluster.h"
 #include "system/constraint_rows.h"
 #include "system/ledger.h"
+#include "system/node.h"
 #include "system/owner.h"
 #include "system/release.h"
 #include "system/solve.h"
@@ -79,17 +80,20 @@ static void keep_prescribed(dmb_sim *sim)
 static void trial_pose(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    const uint32_t n = scene->node_count;
-    memcpy(sim->trial.displacement, sim->now.displacement, 3 * n * sizeof(double));
-    memcpy(sim->trial.quaternion, sim->now.quaternion, 4 * n * sizeof(double));
-    for (uint32_t i = 0; i < n; i++) {
+    for (uint32_t i = 0, count; i < scene->node_count; i += count) {
         const double *z = sim->increment + scene->layout.row[i];
-        if (scene->layout.size[i] == DMB_NODE_FULL) {
-            dmb_se3_advance(sim->trial.quaternion + 4 * i, sim->trial.displacement + 3 * i, z);
-        } else {
-            sim->trial.displacement[3 * i] += z[0];
-            sim->trial.turn[i] = sim->now.turn[i] + z[1];
+        count = dmb_full_nodes_at(scene, i);
+        if (count > 0) {
+            const dmb_node_run run = {count, 0, z, sim->now.displacement + 3 * i, sim->now.quaternion + 4 * i,
+                                      sim->trial.displacement + 3 * i, sim->trial.quaternion + 4 * i};
+            scene->kernels->advance(&run);
+            continue;
         }
+        memcpy(sim->trial.displacement + 3 * i, sim->now.displacement + 3 * i, 3 * sizeof(double));
+        memcpy(sim->trial.quaternion + 4 * i, sim->now.quaternion + 4 * i, 4 * sizeof(double));
+        sim->trial.displacement[3 * i] += z[0];
+        sim->trial.turn[i] = sim->now.turn[i] + z[1];
+        count = 1;
     }
 }
 

@@ -1,3 +1,4 @@
+#include "kernel/kernels.h"
 #include "model/scene_fill.h"
 
 #include <string.h>
@@ -142,6 +143,12 @@ static void fill_elements(const dmb_mesh *mesh, dmb_scene *scene)
     }
     scene->length_scale = scene->element_count > 0 ? length / scene->element_count : 1.0;
     copy_items(&mesh->types, scene->types);
+    for (uint32_t i = 0; i < scene->type_count; ++i) {
+        const dmb_element_type *type = scene->types + i;
+        if (type->damping_time != 0.0) scene->damped = 1;
+        if (type->arm[0] != 0.0 || type->arm[1] != 0.0) scene->arms = 1;
+    }
+    scene->kernels = dmb_kernels_widest();
     copy_items(&mesh->batches, scene->batches);
 }
 

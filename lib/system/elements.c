@@ -1,132 +1,10 @@
 /* Flexible elements: internal and inertia forces, stiffness and inertia tangent, element by element in chain order. */
 #include <string.h>
 
-#include "element/beam.h"
+#include "element/beam_element.h"
+#include "kernel/kernels.h"
 #include "system/evaluation.h"
 #include "system/node.h"
-
-/* One element's ends as its kernel sees them. */
-typedef struct element_ends {
-    double va[6], vb[6]; /* velocity at the ends */
-    double fa[6], fb[6]; /* force on the residual side, at the ends, then at the nodes */
-    double scale_a[6], scale_b[6];
-    double reach; /* [m] size of the numbers that the span is the difference of */
-} element_ends;
-
-static void add_scaled(const double force[6], double scale[6])
-{
-    for (int i = 0; i < 6; i++) scale[i] += fabs(force[i]);
-}
-
-/* Elastic and damping stress, their power, and the stress for the geometric stiffness. */
-static void internal_force(dmb_evaluation *evaluation, uint32_t e, const dmb_element_type *type,
-                           const dmb_beam_shape *shape, element_ends *ends)
-{
-    dmb_sim *sim = evaluation->sim;
-    double stress[6], rate[6];
-    dmb_beam_stress(type, shape->d, stress);
-    dmb_vec6_copy(shape->d, sim->element_strain + 6 * e);
-    evaluation->rounding += type->stiffness[0] * type->stiffness[0] * ends->reach * ends->reach;
-    if (evaluation->dynamic && (sim->options.energy_ledger || type->damping_time != 0.0)) {
-        dmb_beam_strain_rate(shape, ends->va, ends->vb, rate);
-        evaluation->power[DMB_POWER_POTENTIAL] -= dmb_vec6_dot(stress, rate);
-        for (int i = 0; type->damping_time != 0.0 && i < 6; i++) {
-            const double viscous = type->damping_time * type->stiffness[i] * rate[i];
-            evaluation->power[DMB_POWER_DAMPING] -= viscous * rate[i];
-            stress[i] += viscous;
-        }
-    }
-    if (!evaluation->extrapolated) dmb_vec6_copy(stress, sim->element_stress + 6 * e); /* the viscous part too */
-    dmb_beam_add_force(shape, stress, ends->fa, ends->fb);
-    add_scaled(ends->fa, ends->scale_a);
-    add_scaled(ends->fb, ends->scale_b);
-}
-
-/* f = M v' - v^^T p at both ends; the gyroscopic part does no work. */
-static void inertia_force(dmb_evaluation *evaluation, const dmb_element_type *type, const double acc_a[6],
-                          const double acc_b[6], const double pa[6], const double pb[6], element_ends *ends)
-{
-    double fa[6], fb[6], ga[6], gb[6];
-    dmb_beam_mass_times(&type->mass, acc_a, acc_b, fa, fb);
-    evaluation->power[DMB_POWER_INERTIA] -= dmb_vec6_dot(ends->va, fa) + dmb_vec6_dot(ends->vb, fb);
-    dmb_ad_transpose(ends->va, pa, ga);
-    dmb_ad_transpose(ends->vb, pb, gb);
-    for (int i = 0; i < 6; i++) {
-        fa[i] -= ga[i];
-        fb[i] -= gb[i];
-        ends->fa[i] += fa[i];
-        ends->fb[i] += fb[i];
-    }
-    add_scaled(fa, ends->scale_a);
-    add_scaled(fb, ends->scale_b);
-}
-
-/* Velocities and accelerations of the nodes, carried to the element's ends. */
-static void end_motion(const dmb_element_type *type, const double *rows_a, const double *rows_b, double a[6],
-                       double b[6])
-{
-    dmb_vec6_copy(rows_a, a);
-    dmb_vec6_copy(rows_b, b);
-    dmb_arm_velocity(type->arm[0], a);
-    dmb_arm_velocity(-type->arm[1], b);
-}
-
-static void add_matrix(const double *restrict block, double *restrict out)
-{
-    for (int i = 0; i < 36; i++) out[i] += block[i];
-}
-
-typedef struct element_tangent {
-    dmb_beam_blocks stiffness, inertia;
-} element_tangent;
-
-static void tangent(const dmb_evaluation *evaluation, uint32_t e, const dmb_element_type *type,
-                    const dmb_beam_shape *shape, const element_ends *ends, const double pa[6], const double pb[6],
-                    element_tangent *out)
-{
-    dmb_beam_stiffness(type, shape, evaluation->sim->element_stress + 6 * e, &out->stiffness);
-    if (!evaluation->dynamic) return;
-    if (type->damping_time != 0.0)
-        dmb_beam_damping(type, shape, ends->va, ends->vb, evaluation->velocity_factor, &out->stiffness, &out->inertia);
-    else
-        memset(&out->inertia, 0, sizeof out->inertia);
-    dmb_beam_add_inertia_tangent(&type->mass, ends->va, ends->vb, pa, pb, evaluation->mass_factor,
-                                 evaluation->velocity_factor, &out->inertia);
-}
-
-static void blocks_to_nodes(const dmb_evaluation *evaluation, const dmb_element_type *type, element_tangent *t)
-{
-    if (type->arm[0] == 0.0 && type->arm[1] == 0.0) return;
-    dmb_beam_blocks_to_nodes(type->arm, &t->stiffness);
-    if (evaluation->dynamic) dmb_beam_blocks_to_nodes(type->arm, &t->inertia);
-}
-
-/* Everything of one beam, its ends' poses and motion given: forces at the nodes in ends, tangent blocks in out. */
-static int32_t beam(dmb_evaluation *evaluation, uint32_t e, const double *qa, const double *Ra, const double *qb,
-                    const double span[3], double reach, const double *velocity_a, const double *velocity_b,
-                    const double *acc_a, const double *acc_b, element_ends *ends, element_tangent *out)
-{
-    const dmb_element_type *type = evaluation->sim->scene->types + evaluation->sim->scene->element_type[e];
-    dmb_beam_shape shape;
-    double aa[6], ab[6], pa[6], pb[6];
-    memset(ends, 0, sizeof *ends);
-    ends->reach = reach;
-    if (dmb_beam_deform(type, qa, Ra, qb, span, &shape) < 0) return DMB_ERR_ROTATION;
-    if (evaluation->dynamic) end_motion(type, velocity_a, velocity_b, ends->va, ends->vb);
-    internal_force(evaluation, e, type, &shape, ends);
-    if (evaluation->dynamic) {
-        end_motion(type, acc_a, acc_b, aa, ab);
-        dmb_beam_mass_times(&type->mass, ends->va, ends->vb, pa, pb);
-        inertia_force(evaluation, type, aa, ab, pa, pb, ends);
-    }
-    if (evaluation->tangent) {
-        tangent(evaluation, e, type, &shape, ends, pa, pb, out);
-        blocks_to_nodes(evaluation, type, out);
-    }
-    dmb_arm_wrench(type->arm[0], ends->fa);
-    dmb_arm_wrench(-type->arm[1], ends->fb);
-    return DMB_OK;
-}
 
 /* Vector from node a to node b; returns the largest magnitude that entered it. */
 static double span_of(const dmb_scene *scene, uint32_t e, const double *ua, const double *ub, double span[3])
@@ -139,36 +17,58 @@ static double span_of(const dmb_scene *scene, uint32_t e, const double *ua, cons
     return reach;
 }
 
-static int32_t gather_beam(dmb_evaluation *evaluation, uint32_t e)
+/* Where the kernels find and leave what belongs to a batch: its nodes, rows and blocks follow one another. */
+static dmb_beam_run run_of(const dmb_sim *sim, const dmb_batch *batch)
 {
-    dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
-    const dmb_configuration *trial = &sim->trial;
-    const uint32_t a = scene->element_node[e], b = a + 1, ra = scene->layout.row[a], rb = scene->layout.row[b];
-    element_ends ends;
-    element_tangent t;
-    double span[3];
-    const double reach = span_of(scene, e, trial->displacement + 3 * a, trial->displacement + 3 * b, span);
-    const int32_t status =
-        beam(evaluation, e, trial->quaternion + 4 * a, sim->rotation + 9 * a, trial->quaternion + 4 * b, span, reach,
-             trial->velocity + ra, trial->velocity + rb, trial->acceleration + ra, trial->acceleration + rb, &ends, &t);
-    if (status < 0) return status;
-    for (uint32_t i = 0; i < 6; i++) {
-        sim->correction[ra + i] += ends.fa[i];
-        sim->correction[rb + i] += ends.fb[i];
-        sim->scale_row[ra + i] += ends.scale_a[i];
-        sim->scale_row[rb + i] += ends.scale_b[i];
+    const uint32_t e = batch->first, a = scene->element_node[e], row = scene->layout.row[a];
+    const uint32_t diag = scene->layout.diag[a], link = scene->layout.link[a];
+    const dmb_beam_run run = {
+        .count = batch->count,
+        .types = scene->types,
+        .type = scene->element_type + e,
+        .span = scene->element_span + 3 * e,
+        .displacement = sim->trial.displacement + 3 * a,
+        .quaternion = sim->trial.quaternion + 4 * a,
+        .velocity = sim->trial.velocity + row,
+        .acceleration = sim->trial.acceleration + row,
+        .damped = scene->damped,
+        .arms = scene->arms,
+        .residual = sim->correction + row,
+        .scale = sim->scale_row + row,
+        .strain = sim->element_strain + 6 * e,
+        .stress = sim->element_stress + 6 * e,
+        .stiffness_diagonal = sim->stiffness_diagonal + diag,
+        .inertia_diagonal = sim->inertia_diagonal + diag,
+        .stiffness_upper = sim->stiffness_upper + link,
+        .stiffness_lower = sim->stiffness_lower + link,
+        .inertia_upper = sim->inertia_upper + link,
+        .inertia_lower = sim->inertia_lower + link,
+    };
+    return run;
+}
+
+static int32_t gather_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
+{
+    dmb_beam_run run = run_of(evaluation->sim, batch);
+    run.mass_factor = evaluation->mass_factor;
+    run.velocity_factor = evaluation->velocity_factor;
+    run.dynamic = evaluation->dynamic;
+    run.tangent = evaluation->tangent;
+    run.extrapolated = evaluation->extrapolated;
+    run.ledger = evaluation->sim->options.energy_ledger;
+    run.rounding = evaluation->rounding;
+    run.potential = evaluation->power[DMB_POWER_POTENTIAL];
+    run.damping = evaluation->power[DMB_POWER_DAMPING];
+    run.inertia = evaluation->power[DMB_POWER_INERTIA];
+    if (evaluation->sim->scene->kernels->beams(&run) < 0) {
+        evaluation->element = batch->first + run.failed;
+        return DMB_ERR_ROTATION;
     }
-    if (!evaluation->tangent) return DMB_OK;
-    add_matrix(t.stiffness.aa, dmb_stiffness_of(sim, a));
-    add_matrix(t.stiffness.bb, dmb_stiffness_of(sim, b));
-    memcpy(sim->stiffness_upper + scene->layout.link[a], t.stiffness.ab, sizeof t.stiffness.ab);
-    memcpy(sim->stiffness_lower + scene->layout.link[a], t.stiffness.ba, sizeof t.stiffness.ba);
-    if (!evaluation->dynamic) return DMB_OK;
-    add_matrix(t.inertia.aa, dmb_inertia_of(sim, a));
-    add_matrix(t.inertia.bb, dmb_inertia_of(sim, b));
-    memcpy(sim->inertia_upper + scene->layout.link[a], t.inertia.ab, sizeof t.inertia.ab);
-    memcpy(sim->inertia_lower + scene->layout.link[a], t.inertia.ba, sizeof t.inertia.ba);
+    evaluation->rounding = run.rounding;
+    evaluation->power[DMB_POWER_POTENTIAL] = run.potential;
+    evaluation->power[DMB_POWER_DAMPING] = run.damping;
+    evaluation->power[DMB_POWER_INERTIA] = run.inertia;
     return DMB_OK;
 }
 
@@ -278,51 +178,79 @@ static void add_projected_force(dmb_sim *sim, uint32_t node, const mixed_side *s
         }
 }
 
+static void add_projected_blocks(const dmb_beam_blocks *blocks, const mixed_side *A, const mixed_side *B, double *aa,
+                                 double *bb, double *upper, double *lower)
+{
+    add_projected(blocks->aa, A, A, aa);
+    add_projected(blocks->bb, B, B, bb);
+    add_projected(blocks->ab, A, B, upper);
+    add_projected(blocks->ba, B, A, lower);
+}
+
+static void mixed_input(const dmb_scene *scene, uint32_t e, const mixed_side *A, const mixed_side *B,
+                        dmb_beam_input *in)
+{
+    dmb_quat_copy(A->q, in->qa);
+    dmb_quat_copy(B->q, in->qb);
+    dmb_mat3_copy(A->R, in->Ra);
+    in->reach = span_of(scene, e, A->u, B->u, in->span);
+    dmb_vec6_copy(A->v, in->va);
+    dmb_vec6_copy(B->v, in->vb);
+    dmb_vec6_copy(A->a, in->aa);
+    dmb_vec6_copy(B->a, in->ab);
+}
+
 static int32_t gather_mixed(dmb_evaluation *evaluation, uint32_t e)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
     const uint32_t a = scene->element_node[e], b = a + 1, link = scene->layout.link[a];
     mixed_side A, B;
-    element_ends ends;
-    element_tangent t;
-    double span[3];
+    const dmb_element_type *type = scene->types + scene->element_type[e];
+    const dmb_beam_task task = {evaluation->mass_factor, evaluation->velocity_factor, evaluation->dynamic,
+                                evaluation->tangent, evaluation->extrapolated,
+                                evaluation->dynamic && (sim->options.energy_ledger || scene->damped), scene->damped,
+                                scene->arms};
+    dmb_beam_constants constants;
+    dmb_beam_input in;
+    dmb_beam_output out;
     mixed_side_of(evaluation, a, &A);
     mixed_side_of(evaluation, b, &B);
-    const double reach = span_of(scene, e, A.u, B.u, span);
-    const int32_t status = beam(evaluation, e, A.q, A.R, B.q, span, reach, A.v, B.v, A.a, B.a, &ends, &t);
-    if (status < 0) return status;
-    add_projected_force(sim, a, &A, ends.fa, ends.scale_a);
-    add_projected_force(sim, b, &B, ends.fb, ends.scale_b);
+    mixed_input(scene, e, &A, &B, &in);
+    dmb_beam_load_constants(type, 0, &constants);
+    if (task.extrapolated) dmb_vec6_copy(sim->element_stress + 6 * e, out.stress);
+    if (dmb_beam_element(&task, &constants, &in, &out) < 0) {
+        evaluation->element = e;
+        return DMB_ERR_ROTATION;
+    }
+    dmb_vec6_copy(out.strain, sim->element_strain + 6 * e);
+    if (!task.extrapolated) dmb_vec6_copy(out.stress, sim->element_stress + 6 * e);
+    evaluation->rounding += out.rounding;
+    evaluation->power[DMB_POWER_POTENTIAL] -= out.potential;
+    evaluation->power[DMB_POWER_DAMPING] -= out.damping;
+    evaluation->power[DMB_POWER_INERTIA] -= out.inertia;
+    add_projected_force(sim, a, &A, out.fa, out.scale_a);
+    add_projected_force(sim, b, &B, out.fb, out.scale_b);
     if (!evaluation->tangent) return DMB_OK;
-    add_projected(t.stiffness.aa, &A, &A, dmb_stiffness_of(sim, a));
-    add_projected(t.stiffness.bb, &B, &B, dmb_stiffness_of(sim, b));
-    add_projected(t.stiffness.ab, &A, &B, sim->stiffness_upper + link);
-    add_projected(t.stiffness.ba, &B, &A, sim->stiffness_lower + link);
-    if (!evaluation->dynamic) return DMB_OK;
-    add_projected(t.inertia.aa, &A, &A, dmb_inertia_of(sim, a));
-    add_projected(t.inertia.bb, &B, &B, dmb_inertia_of(sim, b));
-    add_projected(t.inertia.ab, &A, &B, sim->inertia_upper + link);
-    add_projected(t.inertia.ba, &B, &A, sim->inertia_lower + link);
+    add_projected_blocks(&out.K, &A, &B, dmb_stiffness_of(sim, a), dmb_stiffness_of(sim, b),
+                         sim->stiffness_upper + link, sim->stiffness_lower + link);
+    if (evaluation->dynamic)
+        add_projected_blocks(&out.C, &A, &B, dmb_inertia_of(sim, a), dmb_inertia_of(sim, b),
+                             sim->inertia_upper + link, sim->inertia_lower + link);
     return DMB_OK;
 }
 
 static int32_t gather_batch(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
-    for (uint32_t e = batch->first; e < batch->first + batch->count; e++) {
-        int32_t status = DMB_OK;
-        if (batch->kernel == DMB_KERNEL_BEAM)
-            status = gather_beam(evaluation, e);
-        else if (batch->kernel == DMB_KERNEL_PATH)
+    int32_t status = DMB_OK;
+    if (batch->kernel == DMB_KERNEL_BEAM) return gather_beams(evaluation, batch);
+    for (uint32_t e = batch->first; e < batch->first + batch->count && status >= 0; e++) {
+        if (batch->kernel == DMB_KERNEL_PATH)
             gather_path(evaluation, e);
         else
             status = gather_mixed(evaluation, e);
-        if (status < 0) {
-            evaluation->element = e;
-            return status;
-        }
     }
-    return DMB_OK;
+    return status;
 }
 
 void dmb_gather_elements(dmb_evaluation *evaluation)
@@ -336,18 +264,10 @@ void dmb_gather_elements(dmb_evaluation *evaluation)
 void dmb_system_extrapolate_stress(dmb_sim *sim, const double *correction)
 {
     const dmb_scene *scene = sim->scene;
-    for (uint32_t e = 0; e < scene->element_count; e++) {
-        const uint32_t a = scene->element_node[e];
-        if (scene->layout.size[a] != DMB_NODE_FULL || scene->layout.size[a + 1] != DMB_NODE_FULL) continue;
-        const dmb_element_type *type = scene->types + scene->element_type[e];
-        dmb_beam_shape shape;
-        double za[6], zb[6], dd[6], stress[6];
-        dmb_vec6_copy(sim->element_strain + 6 * e, shape.d);
-        dmb_so3_inverse_coefficients_at(dmb_vec3_norm_squared(shape.d + 3), &shape.k);
-        dmb_se3_inverse_tangent_at(shape.d, &shape.k, &shape.T);
-        end_motion(type, correction + scene->layout.row[a], correction + scene->layout.row[a + 1], za, zb);
-        dmb_beam_strain_rate(&shape, za, zb, dd);
-        dmb_beam_stress(type, shape.d, stress);
-        for (uint32_t i = 0; i < 6; i++) sim->element_stress[6 * e + i] = stress[i] + type->stiffness[i] * dd[i];
+    for (uint32_t i = 0; i < scene->batch_count; i++) {
+        if (scene->batches[i].kernel != DMB_KERNEL_BEAM) continue;
+        dmb_beam_run run = run_of(sim, scene->batches + i);
+        run.velocity = correction + scene->layout.row[scene->element_node[scene->batches[i].first]];
+        scene->kernels->extrapolate(&run);
     }
 }

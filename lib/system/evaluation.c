@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "math/se3.h"
+#include "kernel/kernels.h"
 #include "system/node.h"
 
 static void clear(const dmb_evaluation *evaluation)
@@ -28,11 +28,14 @@ static void update_rotations(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     double unused[3];
-    for (uint32_t i = 0; i < scene->node_count; i++) {
-        if (scene->layout.size[i] == DMB_NODE_FULL)
-            dmb_quat_to_matrix(sim->trial.quaternion + 4 * i, sim->rotation + 9 * i);
-        else
+    for (uint32_t i = 0, count; i < scene->node_count; i += count) {
+        count = dmb_full_nodes_at(scene, i);
+        if (count > 0) {
+            scene->kernels->rotations(sim->trial.quaternion + 4 * i, count, sim->rotation + 9 * i);
+        } else {
             dmb_node_pose(scene, &sim->trial, i, sim->rotation + 9 * i, unused);
+            count = 1;
+        }
     }
 }
 

@@ -68,6 +68,13 @@ void dmb_node_vector(const dmb_scene *scene, const dmb_configuration *configurat
     for (int i = 0; i < 6; i++) vector[i] = columns[i] * row[0] + columns[6 + i] * row[1];
 }
 
+uint32_t dmb_full_nodes_at(const dmb_scene *scene, uint32_t node)
+{
+    uint32_t end = node;
+    while (end < scene->node_count && scene->layout.size[end] == DMB_NODE_FULL) end++;
+    return end - node;
+}
+
 uint32_t dmb_element_between(const dmb_scene *scene, uint32_t node, uint32_t side)
 {
     if (side == 1) return scene->node_element[node];

@@ -1,0 +1,142 @@
+/* Everything of one flexible element (or of lanes of them): from the poses and motion of its two nodes to forces,
+ * power and tangent blocks at those nodes. The order of operations here is that of every kernel. */
+#ifndef DMB_ELEMENT_BEAM_ELEMENT_H
+#define DMB_ELEMENT_BEAM_ELEMENT_H
+
+#include "element/beam_math.h"
+
+/* What is wanted of elements, the same for all lanes. */
+typedef struct dmb_beam_task {
+    double mass_factor, velocity_factor; /* d v'/d pose parameters, d v/d pose parameters */
+    int32_t dynamic;      /* 0: no inertia, damping, nor rates */
+    int32_t tangent;      /* 1: blocks too */
+    int32_t extrapolated; /* 1: geometric stiffness with the stress given, 0: with the true stress, which is given back */
+    int32_t rates;        /* 1: strain rates are needed, for the energy ledger or for damping */
+    int32_t damped;       /* 1: damping_time is not 0 everywhere */
+    int32_t arms;         /* 1: some ends stand off their nodes */
+} dmb_beam_task;
+
+typedef struct dmb_beam_input {
+    dmb_real qa[4], qb[4];         /* orientations of the nodes */
+    dmb_real Ra[9];                /* the first one's rotation matrix */
+    dmb_real span[3];              /* [m] from node A to node B, world */
+    dmb_real reach;                /* [m] size of the numbers that the span is the difference of */
+    dmb_real va[6], vb[6];         /* velocities of the nodes, body frame */
+    dmb_real aa[6], ab[6];         /* their rates */
+} dmb_beam_input;
+
+typedef struct dmb_beam_output {
+    dmb_real strain[6];            /* d */
+    dmb_real stress[6];            /* in: if extrapolated; out: if not; for the geometric stiffness */
+    dmb_real fa[6], fb[6];         /* forces on the residual side, at the nodes */
+    dmb_real scale_a[6], scale_b[6]; /* sums of magnitudes of their terms */
+    dmb_real rounding;             /* [N2] */
+    dmb_real potential, damping, inertia; /* [W] */
+    dmb_beam_blocks K, C;          /* stiffness by pose; inertia and damping by motion */
+} dmb_beam_output;
+
+static inline void dmb_beam_add_magnitudes(const dmb_real force[6], dmb_real scale[6])
+{
+    for (int i = 0; i < 6; i++) scale[i] += dmb_real_abs(force[i]);
+}
+
+/* Elastic and damping stress, their power, and the stress for the geometric stiffness. */
+static inline void dmb_beam_internal_force(const dmb_beam_task *task, const dmb_beam_constants *c,
+                                           const dmb_beam_shape *shape, const dmb_real va[6], const dmb_real vb[6],
+                                           dmb_beam_output *out)
+{
+    dmb_real stress[6], rate[6];
+    dmb_beam_elastic_stress(c, shape->d, stress);
+    dmb_vec6_copy(shape->d, out->strain);
+    if (task->rates) {
+        dmb_beam_strain_rate(shape, va, vb, rate);
+        out->potential = dmb_vec6_dot(stress, rate);
+        for (int i = 0; task->damped && i < 6; i++) {
+            const dmb_real viscous = c->damping_time * c->stiffness[i] * rate[i];
+            out->damping += viscous * rate[i];
+            stress[i] += viscous;
+        }
+    }
+    if (!task->extrapolated) dmb_vec6_copy(stress, out->stress); /* the viscous part too */
+    dmb_beam_add_force(shape, stress, out->fa, out->fb);
+    dmb_beam_add_magnitudes(out->fa, out->scale_a);
+    dmb_beam_add_magnitudes(out->fb, out->scale_b);
+}
+
+/* f = M v' - v^^T p at both ends; the gyroscopic part does no work. */
+static inline void dmb_beam_inertia_force(const dmb_beam_constants *c, const dmb_real va[6], const dmb_real vb[6],
+                                          const dmb_real aa[6], const dmb_real ab[6], const dmb_real pa[6],
+                                          const dmb_real pb[6], dmb_beam_output *out)
+{
+    dmb_real fa[6], fb[6], ga[6], gb[6];
+    dmb_beam_momentum(c, aa, ab, fa, fb);
+    out->inertia = dmb_vec6_dot(va, fa) + dmb_vec6_dot(vb, fb);
+    dmb_ad_transpose(va, pa, ga);
+    dmb_ad_transpose(vb, pb, gb);
+    for (int i = 0; i < 6; i++) {
+        fa[i] -= ga[i];
+        fb[i] -= gb[i];
+        out->fa[i] += fa[i];
+        out->fb[i] += fb[i];
+    }
+    dmb_beam_add_magnitudes(fa, out->scale_a);
+    dmb_beam_add_magnitudes(fb, out->scale_b);
+}
+
+static inline void dmb_beam_tangent(const dmb_beam_task *task, const dmb_beam_constants *c,
+                                    const dmb_beam_shape *shape, const dmb_real va[6], const dmb_real vb[6],
+                                    const dmb_real pa[6], const dmb_real pb[6], dmb_beam_output *out)
+{
+    dmb_beam_stiffness_blocks(c, shape, out->stress, &out->K);
+    if (task->dynamic) {
+        if (task->damped) {
+            dmb_beam_damping_blocks(c, shape, va, vb, dmb_real_of(task->velocity_factor), &out->K, &out->C);
+        } else {
+            dmb_mat6_zero(out->C.aa);
+            dmb_mat6_zero(out->C.ab);
+            dmb_mat6_zero(out->C.ba);
+            dmb_mat6_zero(out->C.bb);
+        }
+        dmb_beam_add_inertia_blocks(c, va, vb, pa, pb, dmb_real_of(task->mass_factor),
+                                    dmb_real_of(task->velocity_factor), &out->C);
+    }
+    if (!task->arms) return;
+    dmb_beam_blocks_to_nodes(c->arm, &out->K);
+    if (task->dynamic) dmb_beam_blocks_to_nodes(c->arm, &out->C);
+}
+
+static inline void dmb_beam_clear(dmb_beam_output *out)
+{
+    for (int i = 0; i < 6; i++) out->fa[i] = out->fb[i] = out->scale_a[i] = out->scale_b[i] = dmb_real_of(0.0);
+    out->rounding = out->potential = out->damping = out->inertia = dmb_real_of(0.0);
+}
+
+/* Returns 0, or -1 where the relative rotation of a lane is above DMB_BEAM_ROTATION_MAX. */
+static inline int dmb_beam_element(const dmb_beam_task *task, const dmb_beam_constants *c, dmb_beam_input *in,
+                                   dmb_beam_output *out)
+{
+    dmb_beam_shape shape;
+    dmb_real pa[6], pb[6];
+    dmb_beam_clear(out);
+    dmb_beam_shape_at(c, task->arms, in->qa, in->Ra, in->qb, in->span, &shape);
+    if (!dmb_beam_rotation_holds(&shape)) return -1;
+    if (task->dynamic && task->arms) {
+        dmb_arm_velocity(c->arm[0], in->va);
+        dmb_arm_velocity(-c->arm[1], in->vb);
+        dmb_arm_velocity(c->arm[0], in->aa);
+        dmb_arm_velocity(-c->arm[1], in->ab);
+    }
+    out->rounding = c->stiffness[0] * c->stiffness[0] * in->reach * in->reach;
+    dmb_beam_internal_force(task, c, &shape, in->va, in->vb, out);
+    if (task->dynamic) {
+        dmb_beam_momentum(c, in->va, in->vb, pa, pb);
+        dmb_beam_inertia_force(c, in->va, in->vb, in->aa, in->ab, pa, pb, out);
+    }
+    if (task->tangent) dmb_beam_tangent(task, c, &shape, in->va, in->vb, pa, pb, out);
+    if (!task->arms) return 0;
+    dmb_arm_wrench(c->arm[0], out->fa);
+    dmb_arm_wrench(-c->arm[1], out->fb);
+    return 0;
+}
+
+#endif

@@ -1,0 +1,58 @@
+/* The step's kernels over runs of equal parts. Every build holds them in several widths: how many elements or nodes side
+ * by side. All widths give the same bits (math/real.h); the compile step takes the widest that the processor has. */
+#ifndef DMB_KERNEL_KERNELS_H
+#define DMB_KERNEL_KERNELS_H
+
+#include <stdint.h>
+
+#include "element/element_type.h"
+
+/* A run of beams: element i lies between the nodes i and i + 1 of the run, all of them FULL. Pointers are to the run's
+ * first element, node, row or block. */
+typedef struct dmb_beam_run {
+    uint32_t count;              /* elements */
+    uint32_t failed;             /* out: the first element that turned too far */
+    const dmb_element_type *types;
+    const uint32_t *type;        /* of each element */
+    const double *span;          /* [m] at time 0, shape (count, 3) */
+    const double *displacement;  /* [m] shape (count + 1, 3) */
+    const double *quaternion;    /* shape (count + 1, 4) */
+    const double *velocity, *acceleration; /* shape (count + 1, 6) */
+    double mass_factor, velocity_factor;   /* as in dmb_evaluation, as are: */
+    int32_t dynamic, tangent, extrapolated, ledger;
+    int32_t damped, arms;        /* 1: some element of the run has a damping time, rigid arms */
+    double *residual, *scale;    /* added to, shape (count + 1, 6) */
+    double *strain, *stress;     /* shape (count, 6) */
+    double *stiffness_diagonal, *inertia_diagonal; /* added to, shape (count + 1, 36) */
+    double *stiffness_upper, *stiffness_lower, *inertia_upper, *inertia_lower; /* written, shape (count, 36) */
+    double rounding, potential, damping, inertia;  /* added to: [N2], [W] */
+} dmb_beam_run;
+
+/* A run of FULL nodes. */
+typedef struct dmb_node_run {
+    uint32_t count;
+    uint32_t reserved;
+    const double *increment;     /* [m, rad] body frame, shape (count, 6) */
+    const double *start_displacement, *start_quaternion;
+    double *displacement, *quaternion; /* start moved by the increment */
+} dmb_node_run;
+
+typedef struct dmb_kernels {
+    uint32_t lanes;
+    uint32_t reserved;
+    const char *name;
+    /* Forces and, if asked for, tangent blocks. Returns 0, or -1 with run->failed. */
+    int32_t (*beams)(dmb_beam_run *run);
+    /* stress <- K (d - d0) + (K/L) P z over the correction z of the nodes (run->velocity), at run->strain. */
+    void (*extrapolate)(const dmb_beam_run *run);
+    void (*advance)(const dmb_node_run *run);
+    /* rotation matrices, shape (count, 9), from run->start_quaternion */
+    void (*rotations)(const double *quaternion, uint32_t count, double *rotation);
+} dmb_kernels;
+
+/* The kernels of 1, 2, 4 or 8 lanes; NULL where the build or the processor has none of that width. */
+const dmb_kernels *dmb_kernels_of(uint32_t lanes);
+/* The widest there are. */
+const dmb_kernels *dmb_kernels_widest(void);
+
+#endif

@@ -1,0 +1,206 @@
+/* The kernels in one width. A file that defines DMB_KERNELS, the name of its table, DMB_KERNELS_NAME and (but for one lane)
+ * DMB_LANES includes this once. */
+#include "element/beam_element.h"
+#include "kernel/kernels.h"
+
+#define LANES DMB_REAL_LANES
+
+/* Places of a group of lanes in a run: behind its end the last one is taken again, and left out when results are stored. */
+typedef struct lane_group {
+    uint32_t place[LANES];
+    uint32_t used;
+} lane_group;
+
+static lane_group group_at(uint32_t first, uint32_t count)
+{
+    lane_group g;
+    g.used = count - first < LANES ? count - first : LANES;
+    for (uint32_t l = 0; l < LANES; l++) g.place[l] = l < g.used ? first + l : count - 1;
+    return g;
+}
+
+/* x[i] = numbers i of `size` at each place, i < count */
+static inline void load(const double *from, uint32_t size, uint32_t count, const lane_group *g, uint32_t next,
+                        dmb_real *x)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        dmb_real numbers = dmb_real_of(from[size * (g->place[0] + next) + i]);
+        for (int l = 1; l < LANES; l++) dmb_real_set_lane(&numbers, l, from[size * (g->place[l] + next) + i]);
+        x[i] = numbers;
+    }
+}
+
+static inline void store(const dmb_real *x, uint32_t size, const lane_group *g, double *to)
+{
+    for (uint32_t l = 0; l < g->used; l++)
+        for (uint32_t i = 0; i < size; i++) to[size * g->place[l] + i] = dmb_real_lane(x + i, (int)l);
+}
+
+static inline void add_lane(const dmb_real *x, int lane, uint32_t count, double *restrict to)
+{
+    for (uint32_t i = 0; i < count; i++) to[i] += dmb_real_lane(x + i, lane);
+}
+
+/* ---- Beams --------------------------------------------------------------------------------------------------------- */
+
+/* Constants of the types of a group; kept from group to group while the types are the same. */
+typedef struct lane_types {
+    uint32_t type[LANES];
+    dmb_beam_constants constants;
+} lane_types;
+
+static void load_types(const dmb_beam_run *run, const lane_group *g, int first, lane_types *types)
+{
+    for (int l = 0; l < LANES; l++) {
+        const uint32_t type = run->type[g->place[l]];
+        if (!first && types->type[l] == type) continue;
+        types->type[l] = type;
+        dmb_beam_load_constants(run->types + type, l, &types->constants);
+    }
+}
+
+/* Vector from node A to node B, and the largest magnitude that enters it. */
+static inline void load_span(const dmb_beam_run *run, const lane_group *g, dmb_beam_input *in)
+{
+    dmb_real ua[3], ub[3];
+    load(run->displacement, 3, 3, g, 0, ua);
+    load(run->displacement, 3, 3, g, 1, ub);
+    load(run->span, 3, 3, g, 0, in->span);
+    in->reach = dmb_real_of(0.0);
+    for (int i = 0; i < 3; i++) {
+        in->span[i] = in->span[i] + (ub[i] - ua[i]);
+        in->reach = dmb_real_max(in->reach, dmb_real_abs(ua[i]) + dmb_real_abs(ub[i]) + dmb_real_abs(in->span[i]));
+    }
+}
+
+static inline void load_input(const dmb_beam_run *run, const lane_group *g, dmb_beam_input *in)
+{
+    load(run->quaternion, 4, 4, g, 0, in->qa);
+    load(run->quaternion, 4, 4, g, 1, in->qb);
+    dmb_quat_to_matrix(in->qa, in->Ra);
+    load_span(run, g, in);
+    if (!run->dynamic) return;
+    load(run->velocity, 6, 6, g, 0, in->va);
+    load(run->velocity, 6, 6, g, 1, in->vb);
+    load(run->acceleration, 6, 6, g, 0, in->aa);
+    load(run->acceleration, 6, 6, g, 1, in->ab);
+}
+
+static inline void store_forces(dmb_beam_run *run, const lane_group *g, const dmb_beam_output *out)
+{
+    for (uint32_t l = 0; l < g->used; l++) {
+        const int lane = (int)l;
+        double *residual = run->residual + 6 * g->place[l], *scale = run->scale + 6 * g->place[l];
+        add_lane(out->fa, lane, 6, residual);
+        add_lane(out->fb, lane, 6, residual + 6);
+        add_lane(out->scale_a, lane, 6, scale);
+        add_lane(out->scale_b, lane, 6, scale + 6);
+        run->rounding += dmb_real_lane(&out->rounding, lane);
+        run->potential -= dmb_real_lane(&out->potential, lane);
+        run->damping -= dmb_real_lane(&out->damping, lane);
+        run->inertia -= dmb_real_lane(&out->inertia, lane);
+    }
+    store(out->strain, 6, g, run->strain);
+    if (!run->extrapolated) store(out->stress, 6, g, run->stress);
+}
+
+static inline void store_blocks(const lane_group *g, const dmb_beam_blocks *blocks, double *diagonal, double *upper,
+                                double *lower)
+{
+    for (uint32_t l = 0; l < g->used; l++) {
+        add_lane(blocks->aa, (int)l, 36, diagonal + 36 * g->place[l]);
+        add_lane(blocks->bb, (int)l, 36, diagonal + 36 * g->place[l] + 36);
+    }
+    store(blocks->ab, 36, g, upper);
+    store(blocks->ba, 36, g, lower);
+}
+
+/* The first lane that turned too far, found one by one. */
+static uint32_t failed_of(const dmb_beam_run *run, const lane_group *g, const dmb_beam_constants *c,
+                          const dmb_beam_input *in)
+{
+    dmb_beam_shape shape;
+    dmb_beam_shape_at(c, run->arms, in->qa, in->Ra, in->qb, in->span, &shape);
+    const dmb_real angle2 = dmb_vec3_norm_squared(shape.d + 3);
+    for (uint32_t l = 0; l + 1 < g->used; l++)
+        if (!(dmb_real_lane(&angle2, (int)l) < DMB_BEAM_ROTATION_MAX * DMB_BEAM_ROTATION_MAX)) return g->place[l];
+    return g->place[g->used - 1];
+}
+
+static int32_t beams(dmb_beam_run *run)
+{
+    const dmb_beam_task task = {run->mass_factor, run->velocity_factor, run->dynamic, run->tangent, run->extrapolated,
+                                run->dynamic && (run->ledger || run->damped), run->damped, run->arms};
+    lane_types types;
+    for (uint32_t first = 0; first < run->count; first += LANES) {
+        const lane_group g = group_at(first, run->count);
+        dmb_beam_input in;
+        dmb_beam_output out;
+        load_types(run, &g, first == 0, &types);
+        load_input(run, &g, &in);
+        if (run->extrapolated) load(run->stress, 6, 6, &g, 0, out.stress);
+        if (dmb_beam_element(&task, &types.constants, &in, &out) < 0) {
+            run->failed = failed_of(run, &g, &types.constants, &in);
+            return -1;
+        }
+        store_forces(run, &g, &out);
+        if (!run->tangent) continue;
+        store_blocks(&g, &out.K, run->stiffness_diagonal, run->stiffness_upper, run->stiffness_lower);
+        if (run->dynamic) store_blocks(&g, &out.C, run->inertia_diagonal, run->inertia_upper, run->inertia_lower);
+    }
+    return 0;
+}
+
+static void extrapolate(const dmb_beam_run *run)
+{
+    lane_types types;
+    for (uint32_t first = 0; first < run->count; first += LANES) {
+        const lane_group g = group_at(first, run->count);
+        dmb_beam_shape shape;
+        dmb_real za[6], zb[6], dd[6], stress[6];
+        load_types(run, &g, first == 0, &types);
+        load(run->strain, 6, 6, &g, 0, shape.d);
+        load(run->velocity, 6, 6, &g, 0, za);
+        load(run->velocity, 6, 6, &g, 1, zb);
+        dmb_so3_inverse_coefficients_at(dmb_vec3_norm_squared(shape.d + 3), &shape.k);
+        dmb_se3_inverse_tangent_at(shape.d, &shape.k, &shape.T);
+        if (run->arms) {
+            dmb_arm_velocity(types.constants.arm[0], za);
+            dmb_arm_velocity(-types.constants.arm[1], zb);
+        }
+        dmb_beam_strain_rate(&shape, za, zb, dd);
+        dmb_beam_elastic_stress(&types.constants, shape.d, stress);
+        for (int i = 0; i < 6; i++) stress[i] = stress[i] + types.constants.stiffness[i] * dd[i];
+        store(stress, 6, &g, run->stress);
+    }
+}
+
+/* ---- Nodes --------------------------------------------------------------------------------------------------------- */
+
+static void advance(const dmb_node_run *run)
+{
+    for (uint32_t first = 0; first < run->count; first += LANES) {
+        const lane_group g = group_at(first, run->count);
+        dmb_real q[4], u[3], z[6];
+        load(run->start_quaternion, 4, 4, &g, 0, q);
+        load(run->start_displacement, 3, 3, &g, 0, u);
+        load(run->increment, 6, 6, &g, 0, z);
+        dmb_se3_advance(q, u, z);
+        store(q, 4, &g, run->quaternion);
+        store(u, 3, &g, run->displacement);
+    }
+}
+
+static void rotations(const double *quaternion, uint32_t count, double *rotation)
+{
+    for (uint32_t first = 0; first < count; first += LANES) {
+        const lane_group g = group_at(first, count);
+        dmb_real q[4], R[9];
+        load(quaternion, 4, 4, &g, 0, q);
+        dmb_quat_to_matrix(q, R);
+        store(R, 9, &g, rotation);
+    }
+}
+
+extern const dmb_kernels DMB_KERNELS;
+const dmb_kernels DMB_KERNELS = {LANES, 0, DMB_KERNELS_NAME, beams, extrapolate, advance, rotations};

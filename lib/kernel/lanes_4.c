@@ -1,0 +1,11 @@
+/* Four side by side: AVX2, where the build compiles this file for it. */
+#if defined(__GNUC__) && defined(__AVX2__)
+#define DMB_LANES 4
+#define DMB_KERNELS dmb_kernels_4
+#define DMB_KERNELS_NAME "4"
+#include "kernel/lanes.h"
+#else
+#include "kernel/kernels.h"
+extern const dmb_kernels dmb_kernels_4;
+const dmb_kernels dmb_kernels_4 = {0, 0, "none", 0, 0, 0, 0};
+#endif

@@ -1,0 +1,11 @@
+/* Eight side by side: AVX-512, where the build compiles this file for it. */
+#if defined(__GNUC__) && defined(__AVX512F__)
+#define DMB_LANES 8
+#define DMB_KERNELS dmb_kernels_8
+#define DMB_KERNELS_NAME "8"
+#include "kernel/lanes.h"
+#else
+#include "kernel/kernels.h"
+extern const dmb_kernels dmb_kernels_8;
+const dmb_kernels dmb_kernels_8 = {0, 0, "none", 0, 0, 0, 0};
+#endif
