@@ -73,6 +73,16 @@
     X(uint32_t, partition_column, column) /* [-] columns of a cluster, dependent ones first */                         \
     X(double, partition_quality, cluster) /* [-] of the choice when it was made */
 
+/* ---- Kept: factors of an iteration matrix that later steps may do with (integrator/attempt). Written on acceptance only;
+ * saved, restored and hashed, so that a restored sim iterates alike, but not set aside in `backup`: a call of several
+ * steps leaves them alone. Empty in a scene with joints: kd, kl, kr = diagonal, link, r, else 0. */
+#define DMB_KEPT_LIST(X)                                                                                              \
+    X(double, kept_diagonal, kd)                                                                                       \
+    X(double, kept_lower, kl)                                                                                          \
+    X(double, kept_upper, kl)                                                                                          \
+    X(uint8_t, kept_pivot, kr)                                                                                         \
+    X(dmb_kept, kept, 1)
+
 /* ---- Work: rewritten in every step, never saved. */
 #define DMB_WORK_LIST(X)                                                                                              \
     X(double, increment, r)             /* [m, rad] h Dq of this step, integrator */                                   \
@@ -90,6 +100,7 @@
     X(double, inertia_lower, link)                                                                                     \
     X(double, inertia_upper, link)                                                                                     \
     X(uint8_t, pivot, r)                                                                                               \
+    X(int32_t, solve_with_kept, 1)      /* 1: solve with the kept factors */                                           \
     /* constraints, system/constraint_rows: */                                                                        \
     X(double, raw_velocity, raw)        /* of the trial before it is projected onto the constraints, integrator */     \
     X(double, raw_acceleration, raw)                                                                                   \
@@ -169,6 +180,14 @@ typedef struct dmb_counters {
     uint64_t switches;
 } dmb_counters;
 
+typedef struct dmb_kept {
+    double step;      /* [s] length of the step they were made for; 0: there are none */
+    uint32_t pause;   /* steps to come that do not try them */
+    uint32_t penalty; /* pause after the next failure */
+    uint32_t corrections; /* fewest that a step with them has taken; 0: none yet */
+    uint32_t excess;  /* corrections beyond that, in all */
+} dmb_kept;
+
 typedef struct dmb_history_head {
     uint32_t head, count;
     double offset; /* [rad] */
@@ -191,6 +210,7 @@ struct dmb_sim {
     dmb_message message;
     dmb_configuration now, trial;
     DMB_MEMORY_LIST(DMB_FIELD)
+    DMB_KEPT_LIST(DMB_FIELD)
     DMB_WORK_LIST(DMB_FIELD)
 };
 #undef DMB_FIELD

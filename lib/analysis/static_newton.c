@@ -59,11 +59,11 @@ static double largest_move(const dmb_sim *sim)
 /* 0: in equilibrium, 1: not yet, < 0: failed */
 static int32_t evaluate(dmb_static_search *search)
 {
-    int32_t converged;
     const int32_t status = dmb_system_evaluate(&search->evaluation);
     if (status < 0) return status;
-    search->residual = dmb_relative_residual(&search->evaluation, search->options->tolerance, &converged);
-    if (converged == DMB_CONVERGED || (converged && search->moved <= DMB_NO_MOVE)) return 0;
+    const dmb_residual_norm norm = dmb_residual_norm_of(&search->evaluation, search->options->tolerance);
+    search->residual = norm.relative;
+    if (norm.converged == DMB_CONVERGED || (norm.converged && search->moved <= DMB_NO_MOVE)) return 0;
     return 1;
 }
 

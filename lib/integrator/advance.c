@@ -38,7 +38,7 @@ static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk 
     for (;;) {
         const double h = fit(sim, *wanted, time);
         if (!(sim->clock->time + h > sim->clock->time)) return dmb_walk_stuck(sim, h);
-        int32_t status = dmb_attempt_step(sim, h, &attempt);
+        int32_t status = dmb_attempt_step(sim, h, 1, &attempt);
         if (status == DMB_NOTE_WORK_LIMITED) status = attempt.status = DMB_ERR_NO_CONVERGENCE; /* a step is a step here */
         const int smallest = !(h > sim->options.step_min * 1.0001);
         if (status >= 0 && (attempt.error <= 1.0 || smallest)) {

@@ -18,6 +18,12 @@
 #define DMB_NEWTON_GROWTH 1e6
 /* Largest ratio of a step to the one before over which the pseudo-acceleration is carried. */
 #define DMB_STEP_RATIO_MAX 1e3
+/* Kept factors converge linearly and end just below their tolerance, where fresh ones end far below: they aim lower. */
+#define DMB_KEPT_TOLERANCE 1e-1
+/* Longest pause in steps between tries of kept factors. */
+#define DMB_PAUSE_MAX 31
+/* New factors cost about as much as this many corrections with old ones. */
+#define DMB_EXCESS_MAX 3
 /* Misfit of an equation taken for redundant at which it is one no more, in lengths of the parts. */
 #define DMB_DROPPED_MISFIT 1e-7
 
@@ -150,22 +156,32 @@ static void set_up(dmb_sim *sim, const dmb_generalized_alpha *c, double h, dmb_e
 typedef struct newton_course {
     double first, last; /* relative residual at the start, and before the last correction */
     double balance;     /* [N] norm of the terms that balanced at the start */
-    int32_t factored;   /* the matrix holds factors of this step */
-    int32_t reserved;
+    uint32_t corrections;
+    uint32_t reserved;
 } newton_course;
 
-/* Old factors do when two more corrections at the present rate reach the tolerance. */
-static int32_t factors_will_do(const newton_course *course, double residual, double tolerance)
+/* Factors that are there do when two more corrections at the present rate reach the tolerance; kept ones also for a
+ * first correction, which shows their rate. */
+static int32_t factors_will_do(const dmb_sim *sim, const dmb_attempt *attempt, const newton_course *course, double tolerance)
 {
-    const double rate = residual / course->last;
-    return course->factored && rate * rate * residual <= tolerance;
+    const double rate = attempt->residual / course->last;
+    if (attempt->factored == DMB_FACTORS_NONE) return 0;
+    if (attempt->factored == DMB_FACTORS_KEPT && dmb_contact_changes(sim)) return 0;
+    if (attempt->factored == DMB_FACTORS_KEPT && course->corrections == 0) return 1;
+    return rate * rate * attempt->residual <= tolerance;
+}
+
+/* The rounding of stiff elements hides what kept factors leave in soft directions: they go on while it pays. */
+static int32_t still_falls(const dmb_attempt *attempt, const newton_course *course)
+{
+    if (attempt->factored != DMB_FACTORS_KEPT) return 0;
+    return course->corrections == 0 || (course->corrections < 3 && attempt->residual < 0.25 * course->last);
 }
 
 /* True if what is left is the rounding of the forces at the start: in free flight after a contact nothing else is there
  * to compare it with. */
-static int32_t is_rounding(const dmb_sim *sim, const dmb_attempt *attempt, newton_course *course)
+static int32_t is_rounding(const dmb_attempt *attempt, double balance, newton_course *course)
 {
-    const double balance = dmb_balance_norm(sim);
     if (course->balance > 0.0) return attempt->residual * balance <= 4.0 * DBL_EPSILON * course->balance;
     course->balance = balance;
     return 0;
@@ -192,7 +208,7 @@ static int32_t check_course(const dmb_sim *sim, const dmb_attempt *attempt, newt
 }
 
 /* Fresh factors at the present trial. */
-static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt, newton_course *course)
+static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt)
 {
     if (!attempt->evaluation.tangent) {
         attempt->evaluation.tangent = 1;
@@ -201,7 +217,8 @@ static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt, newton_course *cours
     }
     dmb_system_iteration_matrix(&attempt->evaluation);
     const int64_t bad = dmb_factor_matrix(sim);
-    course->factored = 1;
+    attempt->factored = DMB_FACTORS_FRESH;
+    *sim->solve_with_kept = 0;
     if (bad < 0) return DMB_OK;
     attempt->block = (uint32_t)bad;
     return DMB_ERR_SINGULAR;
@@ -211,28 +228,41 @@ static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt, newton_course *cours
 static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt, newton_course *course)
 {
     dmb_evaluation *evaluation = &attempt->evaluation;
-    const double tolerance = sim->options.newton_tolerance;
-    int32_t converged;
-    evaluation->tangent = !course->factored;
+    const double own = sim->options.newton_tolerance;
+    const double tolerance = attempt->factored == DMB_FACTORS_KEPT ? DMB_KEPT_TOLERANCE * own : own;
+    evaluation->tangent = attempt->factored == DMB_FACTORS_NONE;
     int32_t status = sim->scene->cluster_count ? dmb_clusters_settle(evaluation, DMB_SETTLE_ALL, 1) : DMB_OK;
     if (status >= 0) status = dmb_system_evaluate(evaluation);
     if (status < 0) return status;
-    attempt->residual = dmb_relative_residual(evaluation, tolerance, &converged);
-    if (converged) return 0;
-    if (is_rounding(sim, attempt, course) || is_unsharp(sim, attempt, course)) return 0;
+    const dmb_residual_norm norm = dmb_residual_norm_of(evaluation, tolerance);
+    attempt->residual = norm.relative;
+    const int32_t hidden = norm.converged == DMB_AT_ROUNDING && still_falls(attempt, course);
+    if (norm.converged && !hidden) return 0;
+    if (is_rounding(attempt, norm.balance, course) || is_unsharp(sim, attempt, course)) return 0;
     status = check_course(sim, attempt, course);
     if (status != 1) return status;
-    if (!factors_will_do(course, attempt->residual, tolerance)) {
-        status = refactor(sim, attempt, course);
+    if (!hidden && !factors_will_do(sim, attempt, course, tolerance)) {
+        status = refactor(sim, attempt);
         if (status < 0) return status;
     }
     course->last = attempt->residual;
     dmb_solve_correction(sim);
     attempt->iterations++;
-    dmb_system_extrapolate_stress(sim, sim->correction);
-    evaluation->extrapolated = 1;
+    course->corrections++;
+    if (attempt->factored == DMB_FACTORS_FRESH) { /* kept ones give way to a tangent at the true stress */
+        dmb_system_extrapolate_stress(sim, sim->correction);
+        evaluation->extrapolated = 1;
+    }
     correct(sim, c, attempt->step);
     return 1;
+}
+
+static void begin_factors(dmb_sim *sim, dmb_attempt *attempt)
+{
+    const int usable = attempt->whole && sim->kept->step == attempt->step && sim->kept->pause == 0;
+    attempt->factored = usable ? DMB_FACTORS_KEPT : DMB_FACTORS_NONE;
+    attempt->tried |= usable;
+    *sim->solve_with_kept = usable;
 }
 
 static int32_t newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
@@ -240,6 +270,7 @@ static int32_t newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt 
     newton_course course;
     int32_t status;
     memset(&course, 0, sizeof course);
+    begin_factors(sim, attempt);
     do status = iterate(sim, c, attempt, &course);
     while (status == 1);
     return status;
@@ -281,12 +312,13 @@ static int32_t check_dropped(dmb_sim *sim)
     return DMB_ERR_SINGULAR;
 }
 
-int32_t dmb_attempt_step(dmb_sim *sim, double step, dmb_attempt *attempt)
+int32_t dmb_attempt_step(dmb_sim *sim, double step, int32_t whole, dmb_attempt *attempt)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
     int32_t status;
     memset(attempt, 0, sizeof *attempt);
     attempt->step = step;
+    attempt->whole = whole && sim->scene->cluster_count == 0;
     attempt->block = UINT32_MAX;
     sim->linked_mode->row = UINT32_MAX;
     sim->linked_mode->multipliers = sim->options.constraint_method == DMB_METHOD_MULTIPLIERS;
@@ -300,6 +332,7 @@ int32_t dmb_attempt_step(dmb_sim *sim, double step, dmb_attempt *attempt)
     }
     if (status == DMB_OK && dmb_contact_opens(sim)) status = step_released(sim, &c, attempt);
     if (status >= 0 && sim->scene->cluster_count && check_dropped(sim) < 0) status = DMB_ERR_SINGULAR;
+    *sim->solve_with_kept = 0;
     sim->linked_mode->multipliers = 0;
     if (status >= 0) {
         attempt->evaluation.element = dmb_element_turned_too_far(sim);
@@ -310,10 +343,35 @@ int32_t dmb_attempt_step(dmb_sim *sim, double step, dmb_attempt *attempt)
     return attempt->status;
 }
 
+/* Fresh factors are kept for the steps to come, until the corrections that these have taken beyond the first such step
+ * have cost as much as new ones. Where kept factors did not do within a step, the next try waits, longer each time. */
+static void keep_factors(dmb_sim *sim, const dmb_attempt *attempt)
+{
+    dmb_kept *kept = sim->kept;
+    if (!attempt->whole) return;
+    if (attempt->factored == DMB_FACTORS_KEPT) {
+        if (kept->corrections == 0 || attempt->iterations < kept->corrections) kept->corrections = attempt->iterations;
+        kept->excess += attempt->iterations - kept->corrections;
+        kept->penalty = 0;
+        if (kept->excess >= DMB_EXCESS_MAX) kept->step = 0.0;
+    } else if (attempt->factored == DMB_FACTORS_FRESH) {
+        if (attempt->tried) {
+            kept->penalty = 2 * kept->penalty + 1 < DMB_PAUSE_MAX ? 2 * kept->penalty + 1 : DMB_PAUSE_MAX;
+            kept->pause = kept->penalty - 1;
+        } else if (kept->pause > 0) {
+            kept->pause--;
+        }
+        dmb_keep_factors(sim);
+        kept->step = attempt->step;
+        kept->corrections = kept->excess = 0;
+    }
+}
+
 void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt)
 {
     dmb_counters *counters = sim->counters;
     dmb_system_accept(&attempt->evaluation);
+    keep_factors(sim, attempt);
     if (sim->options.energy_ledger) dmb_ledger_add(sim, &attempt->evaluation);
     const dmb_configuration old = sim->now;
     sim->now = sim->trial;

@@ -12,11 +12,16 @@ typedef struct dmb_attempt {
     uint32_t iterations;
     int32_t status;            /* DMB_OK, DMB_NOTE_WORK_LIMITED, or why the step failed */
     uint32_t block;            /* block found singular, with DMB_ERR_SINGULAR */
-    int32_t reserved;
+    int32_t whole;             /* 1: the step stands by itself, so it may use and leave kept factors */
+    int32_t factored;          /* DMB_FACTORS_...: what the last iteration was done with */
+    int32_t tried;             /* 1: kept factors were tried */
 } dmb_attempt;
 
-/* Tries a step from now to now + step [s]; returns attempt->status. now and the memory fields are not touched. */
-int32_t dmb_attempt_step(dmb_sim *sim, double step, dmb_attempt *attempt);
+enum { DMB_FACTORS_NONE = 0, DMB_FACTORS_FRESH = 1, DMB_FACTORS_KEPT = 2 };
+
+/* Tries a step from now to now + step [s]; returns attempt->status. now and the memory fields are not touched. whole: 1
+ * unless the call would have to take this step back if a later one fails. */
+int32_t dmb_attempt_step(dmb_sim *sim, double step, int32_t whole, dmb_attempt *attempt);
 /* Makes the trial of a successful attempt the accepted state. */
 void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt);
 /* Message for a failed attempt: which part, at what time. */

@@ -30,7 +30,7 @@ static int32_t take_substep(dmb_sim *sim, double end, double *cut, uint32_t *cut
             dmb_state_keep(sim);
             walk->kept = 1;
         }
-        const int32_t status = dmb_attempt_step(sim, h, &attempt);
+        const int32_t status = dmb_attempt_step(sim, h, last && !walk->kept, &attempt);
         if (status >= 0) {
             if (last) attempt.evaluation.time = end;
             dmb_walk_commit(sim, &attempt, walk);

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "element/element_type.h"
+#include "math/block_tridiagonal.h"
 
 /* A run of beams: element i lies between the nodes i and i + 1 of the run, all of them FULL. Pointers are to the run's
  * first element, node, row or block. */
@@ -46,6 +47,10 @@ typedef struct dmb_kernels {
     /* stress <- K (d - d0) + (K/L) P z over the correction z of the nodes (run->velocity), at run->strain. */
     void (*extrapolate)(const dmb_beam_run *run);
     void (*advance)(const dmb_node_run *run);
+    /* dmb_block_factor and dmb_block_solve of math/block_tridiagonal.h */
+    int64_t (*factor)(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count);
+    void (*solve)(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,
+                  double *rhs);
     /* rotation matrices, shape (count, 9), from run->start_quaternion */
     void (*rotations)(const double *quaternion, uint32_t count, double *rotation);
 } dmb_kernels;

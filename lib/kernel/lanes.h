@@ -2,6 +2,7 @@
  * DMB_LANES includes this once. */
 #include "element/beam_element.h"
 #include "kernel/kernels.h"
+#include "math/block_kernels.h"
 
 #define LANES DMB_REAL_LANES
 
@@ -202,5 +203,18 @@ static void rotations(const double *quaternion, uint32_t count, double *rotation
     }
 }
 
+/* ---- Blocks: as wide as the compiler makes them for this processor --------------------------------------------------- */
+
+static int64_t factor(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count)
+{
+    return factor_blocks(layout, matrix, first, count, NULL);
+}
+
+static void solve(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,
+                  double *rhs)
+{
+    solve_blocks(layout, matrix, first, count, rhs);
+}
+
 extern const dmb_kernels DMB_KERNELS;
-const dmb_kernels DMB_KERNELS = {LANES, 0, DMB_KERNELS_NAME, beams, extrapolate, advance, rotations};
+const dmb_kernels DMB_KERNELS = {LANES, 0, DMB_KERNELS_NAME, beams, extrapolate, advance, factor, solve, rotations};

@@ -32,8 +32,8 @@ typedef struct dmb_block_totals {
     uint32_t link;     /* doubles in lower, and as many in upper */
 } dmb_block_totals;
 
-/* The blocks, each row-major. Factoring overwrites diagonal by its LU factors with reciprocal pivots, upper_i by
- * diagonal_i^-1 upper_i, and leaves lower as it is. */
+/* The blocks, each row-major. Factoring overwrites diagonal by its LU factors with reciprocal pivots and upper_i by
+ * diagonal_i^-1 upper_i; they and lower are column-major then, which is how the solver takes them. */
 typedef struct dmb_block_matrix {
     double *diagonal; /* size_i x size_i */
     double *lower;    /* lower_i: size_{i+1} x size_i */

@@ -8,20 +8,22 @@
 /* The letters of state.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
     uint64_t n, r, s, p, e, d, k, load, history, diagonal, link, backup;
-    uint64_t j, c, cluster, column, raw, jacobian, tangent, dense, square, full, block, value, pivots;
+    uint64_t j, c, cluster, column, raw, jacobian, tangent, dense, square, full, block, value, pivots, kd, kl, kr;
 } field_counts;
 
 /* The letters as names, for the count expressions of the lists; not every list uses all of them. */
-#define DMB_COUNT_NAMES(of)                                                                                    \
-    const uint64_t n = (of)->n, r = (of)->r, s = (of)->s, p = (of)->p, e = (of)->e, d = (of)->d, k = (of)->k;  \
-    const uint64_t load = (of)->load, history = (of)->history, diagonal = (of)->diagonal, link = (of)->link;   \
-    const uint64_t backup = (of)->backup, j = (of)->j, c = (of)->c, cluster = (of)->cluster;                   \
-    const uint64_t column = (of)->column, raw = (of)->raw, jacobian = (of)->jacobian, tangent = (of)->tangent; \
-    const uint64_t dense = (of)->dense, square = (of)->square, full = (of)->full, block = (of)->block;         \
-    const uint64_t value = (of)->value, pivots = (of)->pivots;                                                 \
-    (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,  \
-        (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,    \
-        (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots
+#define DMB_COUNT_NAMES(of)                                                                                      \
+    const uint64_t n = (of)->n, r = (of)->r, s = (of)->s, p = (of)->p, e = (of)->e, d = (of)->d, k = (of)->k;    \
+    const uint64_t load = (of)->load, history = (of)->history, diagonal = (of)->diagonal, link = (of)->link;     \
+    const uint64_t backup = (of)->backup, j = (of)->j, c = (of)->c, cluster = (of)->cluster;                     \
+    const uint64_t column = (of)->column, raw = (of)->raw, jacobian = (of)->jacobian, tangent = (of)->tangent;   \
+    const uint64_t dense = (of)->dense, square = (of)->square, full = (of)->full, block = (of)->block;           \
+    const uint64_t value = (of)->value, pivots = (of)->pivots;                                                   \
+    const uint64_t kd = (of)->kd, kl = (of)->kl, kr = (of)->kr;                                                  \
+    (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,    \
+        (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,      \
+        (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd,  \
+        (void)kl, (void)kr
 
 /* [byte] of the state: what a snapshot holds and a step keeps aside. */
 #define DMB_ADD_BYTES(type, name, count) +(count) * sizeof(type)
@@ -46,6 +48,9 @@ static void count_constraints(const dmb_scene *scene, field_counts *c)
     c->square = scene->square_count;
     c->full = scene->full_count;
     c->block = scene->block_count;
+    c->kd = any ? 0 : c->diagonal;
+    c->kl = any ? 0 : c->link;
+    c->kr = any ? 0 : c->r;
     c->value = any ? scene->pattern.values : 0;
     c->pivots = any ? scene->pattern.rows : 0;
 }
@@ -91,6 +96,12 @@ static void take_memory(dmb_arena *arena, const field_counts *counts, dmb_sim *t
     DMB_MEMORY_LIST(DMB_TAKE)
 }
 
+static void take_kept(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_KEPT_LIST(DMB_TAKE)
+}
+
 static void take_work(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
 {
     DMB_COUNT_NAMES(counts);
@@ -107,6 +118,7 @@ static dmb_sim *lay_out(dmb_arena *arena, const dmb_scene *scene)
     dmb_sim *to = sim != NULL ? sim : &nowhere;
     take_configuration(arena, &counts, &to->now);
     take_memory(arena, &counts, to);
+    take_kept(arena, &counts, to);
     take_configuration(arena, &counts, &to->trial);
     take_work(arena, &counts, to);
     return arena->overflow ? NULL : sim;
@@ -169,6 +181,12 @@ static void put_memory(field_table *table, const field_counts *counts, const dmb
     DMB_MEMORY_LIST(DMB_PUT)
 }
 
+static void put_kept(field_table *table, const field_counts *counts, const dmb_sim *from)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_KEPT_LIST(DMB_PUT)
+}
+
 static void put_work(field_table *table, const field_counts *counts, const dmb_sim *from)
 {
     DMB_COUNT_NAMES(counts);
@@ -182,6 +200,7 @@ size_t dmb_sim_fields(const dmb_sim *sim, int32_t first_group, int32_t last_grou
     for (table.group = first_group; table.group <= last_group; ++table.group) {
         if (table.group == DMB_GROUP_NOW) put_configuration(&table, &counts, &sim->now);
         if (table.group == DMB_GROUP_MEMORY) put_memory(&table, &counts, sim);
+        if (table.group == DMB_GROUP_KEPT) put_kept(&table, &counts, sim);
         if (table.group == DMB_GROUP_TRIAL) put_configuration(&table, &counts, &sim->trial);
         if (table.group == DMB_GROUP_WORK) put_work(&table, &counts, sim);
     }

@@ -12,8 +12,9 @@ size_t dmb_sim_bytes(const dmb_scene *scene);
  * are set besides. NULL where the block is NULL or smaller than dmb_sim_bytes. */
 dmb_sim *dmb_sim_carve(const dmb_scene *scene, void *block, size_t size);
 
-/* Groups of fields. The first two make up the state: saved, restored and hashed. */
-enum { DMB_GROUP_NOW = 0, DMB_GROUP_MEMORY = 1, DMB_GROUP_TRIAL = 2, DMB_GROUP_WORK = 3, DMB_GROUP_COUNT = 4 };
+/* Groups of fields. The first three make up the state: saved, restored and hashed. */
+enum { DMB_GROUP_NOW = 0, DMB_GROUP_MEMORY = 1, DMB_GROUP_KEPT = 2, DMB_GROUP_TRIAL = 3,
+       DMB_GROUP_WORK = 4, DMB_GROUP_COUNT = 5 };
 
 typedef struct dmb_field {
     const char *name;
@@ -26,7 +27,7 @@ typedef struct dmb_field {
 #define DMB_ONE_MORE(type, name, count) +1
 enum {
     DMB_FIELD_MAX = 0 DMB_CONFIGURATION_LIST(DMB_ONE_MORE) DMB_CONFIGURATION_LIST(DMB_ONE_MORE)
-        DMB_MEMORY_LIST(DMB_ONE_MORE) DMB_WORK_LIST(DMB_ONE_MORE)
+        DMB_MEMORY_LIST(DMB_ONE_MORE) DMB_KEPT_LIST(DMB_ONE_MORE) DMB_WORK_LIST(DMB_ONE_MORE)
 };
 #undef DMB_ONE_MORE
 

@@ -1,5 +1,5 @@
-/* Saving and restoring all that changes. A snapshot is a header and the fields of the accepted configuration and of the
- * memory one after the other, without gaps. */
+/* Saving and restoring all that changes. A snapshot is a header and the fields of the accepted configuration, the
+ * memory and the kept factors one after the other, without gaps. */
 #include <string.h>
 
 #include "state/fingerprint.h"
@@ -22,7 +22,7 @@ typedef struct snapshot_header {
 
 static size_t saved_fields(const dmb_sim *sim, dmb_field fields[DMB_FIELD_MAX])
 {
-    return dmb_sim_fields(sim, DMB_GROUP_NOW, DMB_GROUP_MEMORY, fields);
+    return dmb_sim_fields(sim, DMB_GROUP_NOW, DMB_GROUP_KEPT, fields);
 }
 
 static size_t snapshot_bytes(const dmb_sim *sim)

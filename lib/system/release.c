@@ -13,6 +13,16 @@ static int opens(const dmb_sim *sim, uint32_t s)
            !(sim->trial.site_penetration[s] > 0.0);
 }
 
+int32_t dmb_contact_changes(const dmb_sim *sim)
+{
+    for (uint32_t s = 0; s < sim->scene->site_count; s++) {
+        const int closed = sim->trial.site_penetration[s] > 0.0;
+        if ((sim->now.site_penetration[s] > 0.0) != closed) return 1;
+        if (closed && dmb_vec3_dot(sim->now.site_normal + 3 * s, sim->trial.site_normal + 3 * s) < 0.9) return 1;
+    }
+    return 0;
+}
+
 int32_t dmb_contact_opens(const dmb_sim *sim)
 {
     for (uint32_t s = 0; s < sim->scene->site_count; s++)
@@ -74,6 +84,7 @@ int32_t dmb_released_acceleration(const dmb_evaluation *evaluation)
     dmb_evaluation mass = *evaluation;
     const int32_t multipliers = sim->linked_mode->multipliers;
     sim->linked_mode->multipliers = 0;
+    *sim->solve_with_kept = 0;
     mass.mass_factor = 1.0;
     mass.velocity_factor = 0.0;
     mass.tangent = 1;

@@ -7,6 +7,8 @@
 
 #include "system/evaluation.h"
 
+/* 1 if a ring meets or leaves the wall between now and trial, or another side of it. O(number of sites). */
+int32_t dmb_contact_changes(const dmb_sim *sim);
 /* 1 if a ring that touches the wall in now is off it in trial. O(number of sites). */
 int32_t dmb_contact_opens(const dmb_sim *sim);
 /* No ring opens any more; after the step. */

@@ -3,6 +3,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "kernel/kernels.h"
 #include "system/linked.h"
 
 /* Rounding of a pose reaches a stiff element's force multiplied by EA/L: this many units of it count as zero. */
@@ -12,20 +13,49 @@ typedef struct norms {
     double rest, all; /* squares of residual and of the terms that balance, [N2] */
 } norms;
 
+static inline void add_squares(uint32_t size, const double *residual, const double *scale, const uint8_t *solved,
+                               double *rest, double *all)
+{
+    for (uint32_t c = 0; c < size; c++) {
+        const double on = solved[c];
+        rest[c] += on * residual[c] * residual[c];
+        all[c] += on * scale[c] * scale[c];
+    }
+}
+
+/* Closes the sums of nodes of one size: translations weigh 1, rotations `arm`. */
+static void add_components(uint32_t size, double arm, double *rest, double *all, norms *n)
+{
+    for (uint32_t c = 0; c < size; c++) {
+        const double weight = 2 * c < size ? 1.0 : arm;
+        n->rest += weight * rest[c];
+        n->all += weight * all[c];
+        rest[c] = all[c] = 0.0;
+    }
+}
+
+/* Rows side by side, component by component, so that they vectorise; rows that are not unknown count 0. */
 static norms norms_of(const dmb_sim *sim, const dmb_chain *chain)
 {
     const dmb_scene *scene = sim->scene;
     const double arm = 1.0 / (chain->length * chain->length);
+    double rest[DMB_BLOCK_SIZE_MAX] = {0.0}, all[DMB_BLOCK_SIZE_MAX] = {0.0};
     norms n = {0.0, 0.0};
+    uint32_t size = scene->layout.size[chain->first];
     for (uint32_t i = chain->first; i < chain->first + chain->count; i++) {
-        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
-        for (uint32_t c = 0; c < size; c++) {
-            if (!scene->solved_row[row + c]) continue;
-            const double weight = 2 * c < size ? 1.0 : arm;
-            n.rest += weight * sim->correction[row + c] * sim->correction[row + c];
-            n.all += weight * sim->scale_row[row + c] * sim->scale_row[row + c];
+        const uint32_t row = scene->layout.row[i];
+        const double *residual = sim->correction + row, *scale = sim->scale_row + row;
+        const uint8_t *solved = scene->solved_row + row;
+        if (scene->layout.size[i] != size) {
+            add_components(size, arm, rest, all, &n);
+            size = scene->layout.size[i];
         }
+        if (size == DMB_NODE_FULL)
+            add_squares(DMB_NODE_FULL, residual, scale, solved, rest, all);
+        else
+            add_squares(size, residual, scale, solved, rest, all);
     }
+    add_components(size, arm, rest, all, &n);
     return n;
 }
 
@@ -42,26 +72,27 @@ static int32_t judge(const dmb_evaluation *evaluation, const dmb_chain *chain, d
     return stiff && n.rest <= floor * floor * evaluation->rounding ? DMB_AT_ROUNDING : 0;
 }
 
-double dmb_relative_residual(const dmb_evaluation *evaluation, double tolerance, int32_t *converged)
+dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double tolerance)
 {
     const dmb_scene *scene = evaluation->sim->scene;
-    double worst = 0.0;
-    *converged = DMB_CONVERGED;
+    dmb_residual_norm norm = {0.0, 0.0, DMB_CONVERGED, 0};
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         const norms n = norms_of(evaluation->sim, scene->chains + c);
         const int32_t verdict = judge(evaluation, scene->chains + c, tolerance, n);
-        if (verdict == 0) *converged = 0;
-        if (verdict == DMB_AT_ROUNDING && *converged) *converged = DMB_AT_ROUNDING;
-        worst = fmax(worst, !(n.all <= DBL_MAX) ? (double)INFINITY : n.all > 0.0 ? sqrt(n.rest / n.all) : 0.0);
+        if (verdict == 0) norm.converged = 0;
+        if (verdict == DMB_AT_ROUNDING && norm.converged) norm.converged = DMB_AT_ROUNDING;
+        norm.relative =
+            fmax(norm.relative, !(n.all <= DBL_MAX) ? (double)INFINITY : n.all > 0.0 ? sqrt(n.rest / n.all) : 0.0);
+        norm.balance += n.all;
     }
-    return worst;
+    norm.balance = sqrt(norm.balance);
+    return norm;
 }
 
-double dmb_balance_norm(const dmb_sim *sim)
+static dmb_block_matrix kept_of(const dmb_sim *sim)
 {
-    double all = 0.0;
-    for (uint32_t c = 0; c < sim->scene->chain_count; c++) all += norms_of(sim, sim->scene->chains + c).all;
-    return sqrt(all);
+    const dmb_block_matrix matrix = {sim->kept_diagonal, sim->kept_lower, sim->kept_upper, sim->kept_pivot};
+    return matrix;
 }
 
 static dmb_block_matrix matrix_of(const dmb_sim *sim)
@@ -76,7 +107,7 @@ int64_t dmb_factor_matrix(dmb_sim *sim)
     dmb_block_matrix matrix = matrix_of(sim);
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         if (scene->chains[c].linked) continue;
-        const int64_t bad = dmb_block_factor(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count);
+        const int64_t bad = scene->kernels->factor(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count);
         if (bad >= 0) return bad;
     }
     return scene->cluster_count ? dmb_linked_factor(sim, NULL) : -1;
@@ -120,14 +151,31 @@ int32_t dmb_factor_mass(dmb_evaluation *evaluation)
     return bad >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
 }
 
+static void swap_blocks(double **a, double **b)
+{
+    double *const other = *a;
+    *a = *b;
+    *b = other;
+}
+
+void dmb_keep_factors(dmb_sim *sim)
+{
+    uint8_t *const pivot = sim->pivot;
+    swap_blocks(&sim->stiffness_diagonal, &sim->kept_diagonal);
+    swap_blocks(&sim->stiffness_lower, &sim->kept_lower);
+    swap_blocks(&sim->stiffness_upper, &sim->kept_upper);
+    sim->pivot = sim->kept_pivot;
+    sim->kept_pivot = pivot;
+}
+
 void dmb_solve_correction(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    const dmb_block_matrix matrix = matrix_of(sim);
+    const dmb_block_matrix matrix = *sim->solve_with_kept ? kept_of(sim) : matrix_of(sim);
     for (uint32_t i = 0; i < scene->row_count; i++)
         sim->correction[i] = scene->solved_row[i] ? -sim->correction[i] : 0.0;
     for (uint32_t c = 0; c < scene->chain_count; c++)
         if (!scene->chains[c].linked)
-            dmb_block_solve(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count, sim->correction);
+            scene->kernels->solve(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count, sim->correction);
     if (scene->cluster_count) dmb_linked_solve(sim);
 }
