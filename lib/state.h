@@ -200,5 +200,11 @@ void dmb_configuration_copy(const dmb_sim *sim, const dmb_configuration *from, d
 /* The state set aside while a call takes several steps, and back, so that a failing call changes nothing. state/backup */
 void dmb_state_keep(dmb_sim *sim);
 void dmb_state_bring_back(dmb_sim *sim);
+/* A sim of its own in the accepted state of `sim`, its trial too, for analyses that leave the sim alone; memory from the
+ * sim's allocator, NULL if there is none. It is no handle for callers (no stamp, no hold on the model) and must not
+ * outlive the sim. state/copy */
+dmb_sim *dmb_state_copy(const dmb_sim *sim);
+/* NULL is fine. */
+void dmb_state_discard(dmb_sim *copy);
 
 #endif
