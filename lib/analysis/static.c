@@ -58,6 +58,19 @@ static int may_try_again(int32_t status)
     return status < 0 && status != DMB_ERR_CALLBACK;
 }
 
+/* Where it goes astray it begins again with shorter corrections, but not for a part that nothing holds. */
+#define DMB_CAUTION_MAX 10.0
+
+static int32_t relax(dmb_static_search *search, uint32_t steps, int singular)
+{
+    int32_t status = DMB_ERR_NO_CONVERGENCE;
+    for (search->caution = 1.0; may_try_again(status) && search->caution < DMB_CAUTION_MAX; search->caution *= 3.0) {
+        status = run(search, dmb_static_relaxation, steps);
+        if (status != DMB_ERR_ROTATION && (singular || search->loose)) break;
+    }
+    return status;
+}
+
 /* Newton in the load steps asked for, then in 4 and 16 times as many, then the relaxation. What nothing holds in its
  * starting pose may yet fall onto the wall, so the relaxation comes at once; where that fails too, the part is free. */
 static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
@@ -71,7 +84,7 @@ static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
     const uint32_t singular_block = search->block;
     const int singular = status == DMB_ERR_SINGULAR;
     *method = DMB_STATIC_RELAXATION;
-    status = run(search, dmb_static_relaxation, steps);
+    status = relax(search, steps, singular);
     if (status >= 0 || !(singular || search->loose)) return status;
     search->block = singular ? singular_block : search->loose_block;
     return DMB_ERR_SINGULAR;

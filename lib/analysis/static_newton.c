@@ -6,11 +6,23 @@
 #include "system/joint_state.h"
 #include "system/solve.h"
 
-/* Joints closed, and the partition chosen anew where it has become poor. */
+static int32_t choose_anew(dmb_static_search *search)
+{
+    const int32_t status = dmb_clusters_gather(&search->evaluation);
+    if (status >= 0) dmb_clusters_choose(search->sim);
+    return status;
+}
+
+/* Joints closed, and the partition chosen anew where it has become poor. A long way may have made it useless at once. */
 int32_t dmb_static_settle(dmb_static_search *search)
 {
-    const int32_t status = dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
+    int32_t status = dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
+    if (status == DMB_ERR_SINGULAR) {
+        status = choose_anew(search);
+        if (status >= 0) status = dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
+    }
     if (status < 0) return status;
+    search->sim->linked_mode->row = UINT32_MAX;
     dmb_joints_follow(&search->evaluation);
     return dmb_clusters_refresh(&search->evaluation);
 }
@@ -127,14 +139,46 @@ static void add_pseudo_mass(dmb_sim *sim, double rate)
     }
 }
 
-/* Length that one correction may not exceed: half the smallest clearance, or a part of an element without a wall. */
+/* [m] length that one correction may not exceed: half the smallest clearance; infinite without a wall. */
 static double longest_move(const dmb_scene *scene)
 {
-    double limit = 0.2 * scene->length_scale;
+    double limit = (double)INFINITY;
     for (uint32_t s = 0; s < scene->site_count; s++)
-        if (scene->sites[s].clearance > 0.0) limit = fmin(limit, 0.5 * scene->sites[s].clearance);
+        if (scene->sites[s].clearance > 0.0)
+            limit = fmin(limit, fmin(0.2 * scene->length_scale, 0.5 * scene->sites[s].clearance));
     return limit;
 }
+
+/* [rad] the same of a rotation. What hangs free moves far before it rests, but any part of it only turns. */
+#define DMB_LONGEST_TURN 0.3
+
+static double largest_turn(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    double most = 0.0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const double *z = sim->correction + scene->layout.row[i];
+        if (scene->layout.size[i] == DMB_NODE_FULL) most = fmax(most, fmax(fabs(z[3]), fmax(fabs(z[4]), fabs(z[5]))));
+    }
+    return most;
+}
+
+/* [-] The two ends of a joint travel on different screws and come apart by half the product of way and turn, which the
+ * elements beside the joint then have to make up for: part of the length scale that may be. */
+#define DMB_LONGEST_GAP 0.15
+
+/* [-] largest correction over what one may be */
+static double reach(const dmb_static_search *search, double limit)
+{
+    const dmb_scene *scene = search->sim->scene;
+    if (isfinite(limit)) return search->caution * search->moved * scene->length_scale / limit;
+    const double turn = largest_turn(search->sim), gap = 0.5 * search->moved * turn;
+    const double apart = scene->cluster_count ? sqrt(gap / DMB_LONGEST_GAP) : 0.0;
+    return search->caution * fmax(turn / DMB_LONGEST_TURN, apart);
+}
+
+/* Corrections this small a part of what they may be only creep: the next step of pseudo time is longer. */
+#define DMB_CREEP 0.25
 
 int32_t dmb_static_relaxation(dmb_static_search *search)
 {
@@ -152,9 +196,10 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
         add_pseudo_mass(sim, rate);
         status = solve(search);
         if (status < 0) return status;
-        const double most = largest_move(sim);
-        search->moved = most / sim->scene->length_scale;
-        scale_correction(sim, most > limit ? limit / most : 1.0);
+        search->moved = largest_move(sim) / sim->scene->length_scale;
+        const double part = reach(search, limit);
+        if (part > 1.0) scale_correction(sim, 1.0 / part);
+        if (part < DMB_CREEP) rate *= 0.5;
         dmb_system_extrapolate_stress(sim, sim->correction);
         search->evaluation.extrapolated = 1;
         status = move(search);

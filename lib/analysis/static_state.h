@@ -16,6 +16,7 @@ typedef struct dmb_static_search {
     uint32_t loose_block;
     double residual;     /* [-] relative, last */
     double moved;        /* [-] largest correction before it, in length scales */
+    double caution;      /* [-] the relaxation's corrections are this much shorter */
 } dmb_static_search;
 
 /* Poses of the trial onto the joints, with a partition that suits the place. */
