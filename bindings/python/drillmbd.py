@@ -359,7 +359,8 @@ class StaticOptions(_Sized):
 @_mirrors("dmb_static_report")
 class StaticReport(_Sized):
     _fields_ = [("struct_size", c_uint32), ("iterations", c_uint32), ("load_steps", c_uint32), ("method", c_int32),
-                ("residual", c_double), ("largest_force", c_double), ("lateral_move", c_double)]
+                ("residual", c_double), ("largest_force", c_double), ("lateral_move", c_double),
+                ("cuts", c_uint32), ("line_searches", c_uint32), ("negative", c_int32), ("reserved", c_int32)]
 
 
 @_mirrors("dmb_check_report")

@@ -14,7 +14,8 @@ typedef struct dmb_static_options {
     double tolerance;          /* [-] residual over the norm of the forces that balance in it; default 1e-10 */
     double slip_axial;         /* [m/s] friction acts as if the string slid along the hole at this speed; default 0 */
     double slip_rotation;      /* [rad/s] and turned at this speed; both 0: no friction in the static state */
-    uint32_t load_steps;       /* [-] equal steps from no load to full load, 1 .. 10000; default 1 */
+    uint32_t load_steps;       /* [-] equal steps from no load to full load, at most 10000, before the library chooses
+                                  them by itself; default 0: the whole load at once */
     int32_t lay_on_wall;       /* 1 (default): start from the string lying on the low side of its hole; 0: from the
                                   present pose */
 } dmb_static_options;
@@ -29,15 +30,22 @@ typedef struct dmb_static_report {
     double residual;           /* [-] relative, at the end */
     double largest_force;      /* [N, N m over the element length] largest component of the residual at the end */
     double lateral_move;       /* [m] largest displacement from the starting pose */
+    uint32_t cuts;             /* [-] load steps that did not converge and were halved */
+    uint32_t line_searches;    /* [-] corrections that were shortened by a line search */
+    int32_t negative;          /* [-] negative eigenvalues of the stiffness: 0 of a stable equilibrium; -1: not counted,
+                                  in scenes with joints */
+    int32_t reserved;
 } dmb_static_report;
 DMB_SIZED_STRUCT(dmb_static_report)
 
 /* Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, by
- * Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017), and by pseudo-transient continuation
- * where that fails. The rock law does not act in the static state (at time 0 its bottom is laid ahead of the bit as
- * described); a speed controller acts as at speed 0. Speeds become those of the motion drives, the energy ledger
- * starts anew. options and report may be NULL. Errors: DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which
- * part is free), _ROTATION, _CALLBACK; the state is then that before the call. */
+ * Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017); where that fails in load steps (gravity,
+ * loads and bit load from 0, drives as they are) that are halved when they fail and doubled when they do not, with a
+ * line search in the shortest; and by pseudo-transient continuation where that fails too. The rock law does not act in
+ * the static state (at time 0 its bottom is laid ahead of the bit as described); a speed controller acts as at speed 0.
+ * Speeds become those of the motion drives, the energy ledger starts anew. options and report may be NULL. Errors:
+ * DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the state is then
+ * that before the call. O(number of elements) an iteration. */
 DMB_API int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report);
 
 /* ---- Model check -------------------------------------------------------------------------------------------------

@@ -27,15 +27,17 @@ int32_t dmb_static_settle(dmb_static_search *search)
     return dmb_clusters_refresh(&search->evaluation);
 }
 
-/* Moves the trial by body-frame increments; the sum in `increment` follows the turns. */
-static int32_t move(dmb_static_search *search)
+/* The sum in `increment` follows the turns. */
+int32_t dmb_static_move(dmb_static_search *search, const double *correction, double factor)
 {
     dmb_sim *sim = search->sim;
     const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0; i < scene->row_count; i++) sim->increment[i] += sim->correction[i];
+    for (uint32_t i = 0; i < scene->row_count; i++) sim->increment[i] += factor * correction[i];
     for (uint32_t i = 0; i < scene->node_count; i++) {
-        const double *z = sim->correction + scene->layout.row[i];
-        if (scene->layout.size[i] == DMB_NODE_FULL) {
+        const uint32_t size = scene->layout.size[i];
+        double z[6] = {0.0};
+        for (uint32_t c = 0; c < size; c++) z[c] = factor * correction[scene->layout.row[i] + c];
+        if (size == DMB_NODE_FULL) {
             dmb_se3_advance(sim->trial.quaternion + 4 * i, sim->trial.displacement + 3 * i, z);
         } else {
             sim->trial.displacement[3 * i] += z[0];
@@ -69,14 +71,18 @@ static double largest_move(const dmb_sim *sim)
 #define DMB_MOVES_ENOUGH 20
 
 /* 0: in equilibrium, 1: not yet, < 0: failed */
-static int32_t evaluate(dmb_static_search *search)
+static int32_t judge(dmb_static_search *search)
 {
     int32_t converged;
-    const int32_t status = dmb_system_evaluate(&search->evaluation);
-    if (status < 0) return status;
     search->residual = dmb_relative_residual(&search->evaluation, search->options->tolerance, &converged);
     if (converged == DMB_CONVERGED || (converged && search->moved <= DMB_NO_MOVE)) return 0;
     return 1;
+}
+
+static int32_t evaluate(dmb_static_search *search)
+{
+    const int32_t status = dmb_system_evaluate(&search->evaluation);
+    return status < 0 ? status : judge(search);
 }
 
 /* A pivot this small against its block is rounding: 100 m of unsupported pipe still leave 1e-9. */
@@ -105,24 +111,42 @@ static double damping(uint32_t iteration)
     return iteration % 4 == 3 ? 1.0 : 0.5;
 }
 
-int32_t dmb_static_newton(dmb_static_search *search)
+/* The correction takes the place of the residual; the line search looks at the work of both. At rest the trial's
+ * accelerations are room for it. */
+static int32_t correct(dmb_static_search *search, uint32_t iteration)
 {
     dmb_sim *sim = search->sim;
+    const uint32_t rows = sim->scene->row_count;
+    double *direction = sim->trial.acceleration, work = 0.0;
+    memcpy(direction, sim->correction, rows * sizeof(double));
+    int32_t status = solve(search);
+    if (status < 0) return status;
+    search->moved = iteration + 1 < DMB_MOVES_ENOUGH ? largest_move(sim) / sim->scene->length_scale : 0.0;
+    scale_correction(sim, damping(iteration));
+    for (uint32_t i = 0; i < rows; i++) {
+        work += sim->scene->solved_row[i] ? direction[i] * sim->correction[i] : 0.0;
+        direction[i] = sim->correction[i];
+    }
+    dmb_system_extrapolate_stress(sim, sim->correction);
+    search->evaluation.extrapolated = 1;
+    status = dmb_static_move(search, direction, 1.0);
+    if (status >= 0) status = dmb_system_evaluate(&search->evaluation);
+    if (status >= 0 && search->searching) status = dmb_static_line_search(search, direction, work);
+    return status;
+}
+
+int32_t dmb_static_newton(dmb_static_search *search)
+{
     search->evaluation.extrapolated = 0;
     search->moved = (double)INFINITY;
-    for (uint32_t k = 0;; k++) {
-        int32_t status = evaluate(search);
+    int32_t status = dmb_system_evaluate(&search->evaluation);
+    for (uint32_t k = 0; status >= 0; k++) {
+        status = judge(search);
         if (status <= 0) return status;
         if (k >= search->options->max_iterations) return DMB_ERR_NO_CONVERGENCE;
-        status = solve(search);
-        if (status < 0) return status;
-        search->moved = k + 1 < DMB_MOVES_ENOUGH ? largest_move(sim) / sim->scene->length_scale : 0.0;
-        scale_correction(sim, damping(k));
-        dmb_system_extrapolate_stress(sim, sim->correction);
-        search->evaluation.extrapolated = 1;
-        status = move(search);
-        if (status < 0) return status;
+        status = correct(search, k);
     }
+    return status;
 }
 
 /* Pseudo mass of a row over tau^2: the weight it carries, of a rotation that of a rod of the length scale. */
@@ -202,7 +226,7 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
         if (part < DMB_CREEP) rate *= 0.5;
         dmb_system_extrapolate_stress(sim, sim->correction);
         search->evaluation.extrapolated = 1;
-        status = move(search);
+        status = dmb_static_move(search, sim->correction, 1.0);
         if (status < 0) return status;
     }
 }

@@ -45,7 +45,7 @@ DMB_DEFINE_INIT(dmb_recorder, 48, {.channel_count = 0})
 DMB_DEFINE_INIT(dmb_static_options, 40, {
     .max_iterations = 60,
     .tolerance = 1e-10,
-    .load_steps = 1,
+    .load_steps = 0,
     .lay_on_wall = 1,
 })
 
