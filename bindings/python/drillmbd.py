@@ -67,6 +67,11 @@ FEATURE_VIBRATION, FEATURE_ALL = 24, 127
  CHANNEL_VELOCITY_Z, CHANNEL_POSITION_X, CHANNEL_POSITION_Y, CHANNEL_POSITION_Z, CHANNEL_ROTATION, CHANNEL_SPIN,
  CHANNEL_AXIAL_FORCE, CHANNEL_TORQUE, CHANNEL_BENDING_MOMENT, CHANNEL_KINETIC_ENERGY, CHANNEL_NORMAL_FORCE,
  CHANNEL_DRIVE_FORCE, CHANNEL_DRIVE_SPEED, CHANNEL_BIT_WEIGHT, CHANNEL_ENERGY_ERROR, CHANNEL_COUNT) = range(21)
+(INPUT_DRIVE, INPUT_LOAD, INPUT_BIT_LOAD, INPUT_FORCE, INPUT_UNBALANCE, INPUT_ECCENTRICITY,
+ INPUT_FRICTION) = range(7)
+OUTPUT_DISPLACEMENT, OUTPUT_VELOCITY, OUTPUT_ACCELERATION, OUTPUT_SECTION_FORCE = range(4)
+CONTACT_AS_IS, CONTACT_OPEN, CONTACT_CLOSED = range(3)
+COMBINED = 0xFFFFFFFF
 
 
 # ---- The library -----------------------------------------------------------------------------------------------------
@@ -461,6 +466,26 @@ class _RecorderStruct(_Sized):
                 ("table", POINTER(c_double)), ("capacity", c_uint64), ("rows", c_uint64), ("interval", c_double)]
 
 
+@_mirrors("dmb_input")
+class Input(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("place", Place), ("component", c_int32),
+                ("frame", c_int32), ("amplitude", c_double), ("phase", c_double)]
+
+
+@_mirrors("dmb_output")
+class Output(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("place", Place), ("component", c_int32),
+                ("frame", c_int32)]
+
+
+@_mirrors("dmb_response_options")
+class ResponseOptions(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("points", c_uint32), ("frequency_low", c_double),
+                ("frequency_high", c_double), ("frequencies", POINTER(c_double)), ("logarithmic", c_int32),
+                ("refinement", c_uint32), ("structural_damping", c_double), ("equilibrium_tolerance", c_double),
+                ("contact", c_int32), ("friction", c_int32), ("contact_gap", c_double)]
+
+
 # ---- Functions -------------------------------------------------------------------------------------------------------
 def _declare_all():
     model, sim = c_void_p, c_void_p
@@ -505,6 +530,14 @@ def _declare_all():
     _declare("dmb_analysis_static", status, sim, POINTER(StaticOptions), POINTER(StaticReport))
     _declare("dmb_analysis_check", status, sim, POINTER(CheckReport))
     _declare("dmb_analysis_check_text", status, sim, text, size, POINTER(size))
+    response = c_void_p
+    _declare("dmb_analysis_response", status, sim, POINTER(ResponseOptions), POINTER(Input), count, POINTER(Output),
+             count, POINTER(response))
+    _declare("dmb_response_destroy", None, POINTER(response))
+    _declare("dmb_response_shape", status, response, POINTER(c_uint32))
+    _declare("dmb_response_frequencies", status, response, POINTER(number))
+    _declare("dmb_response_transfer", status, response, count, count, POINTER(number))
+    _declare("dmb_response_write_csv", status, response, text)
     ask("pose", Place, POINTER(Pose))
     ask("motion", Place, POINTER(Motion))
     ask("rotation", Place, POINTER(number))
@@ -856,6 +889,19 @@ class Sim:
         self._scene.check(_lib.dmb_analysis_check_text(self._handle, text, size.value, None), b"")
         return text.value.decode()
 
+    def response(self, inputs, outputs, options=None, frequencies=None, **fields):
+        """Frequency response from every Input to every Output about the present state, at `frequencies` [Hz] or on the
+        grid that the ResponseOptions describe."""
+        options = _struct(ResponseOptions, options, fields)
+        if frequencies is not None:
+            frequencies = [float(f) for f in frequencies]
+            options.frequencies, options.points = (c_double * len(frequencies))(*frequencies), len(frequencies)
+        inputs, outputs = (Input * len(inputs))(*inputs), (Output * len(outputs))(*outputs)
+        handle = c_void_p()
+        self._check(_lib.dmb_analysis_response(self._handle, byref(options), inputs, len(inputs), outputs,
+                                               len(outputs), byref(handle)))
+        return Response(handle)
+
     def set_drive(self, drive, value):
         """The drive's programme is the constant value from now on; None: its programme again."""
         self._check(_lib.dmb_sim_set_drive(self._handle, drive, float("nan") if value is None else value))
@@ -953,6 +999,39 @@ class Sim:
 
     def write_vtk(self, path, per_element=8):
         _check(_lib.dmb_write_vtk_strings(self._handle, per_element, _path(path)))
+
+
+# ---- Frequency response ----------------------------------------------------------------------------------------------
+class Response:
+    """Transfer functions that Sim.response has found."""
+
+    def __init__(self, handle):
+        self._handle = handle
+        self.shape = (c_uint32 * 3)()
+        _check(_lib.dmb_response_shape(handle, self.shape))
+        self.shape = tuple(self.shape)  # points, inputs, outputs
+
+    def __del__(self):
+        _lib.dmb_response_destroy(byref(self._handle))
+
+    @property
+    def frequencies(self):
+        """[Hz] ascending: a numpy array, or a list."""
+        values = (c_double * self.shape[0])()
+        _check(_lib.dmb_response_frequencies(self._handle, values))
+        return numpy.array(values) if numpy is not None else list(values)
+
+    def transfer(self, input=COMBINED, output=0):
+        """The output per unit of the input, or for all inputs with their amplitudes and phases (COMBINED): complex
+        numbers, one for each frequency."""
+        values = (c_double * (2 * self.shape[0]))()
+        _check(_lib.dmb_response_transfer(self._handle, input, output, values))
+        if numpy is not None:
+            return numpy.array(values).view(complex)
+        return [complex(values[2 * i], values[2 * i + 1]) for i in range(self.shape[0])]
+
+    def write_csv(self, path):
+        _check(_lib.dmb_response_write_csv(self._handle, _path(path)))
 
 
 # ---- Recorder --------------------------------------------------------------------------------------------------------

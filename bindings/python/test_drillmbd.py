@@ -51,10 +51,11 @@ def ctypes_of(declaration):
     """The types that may stand for an argument 'const dmb_pose *pose' in ctypes."""
     plain = {"int32_t": ctypes.c_int32, "uint32_t": ctypes.c_uint32, "double": ctypes.c_double,
              "size_t": ctypes.c_size_t, "uint64_t": ctypes.c_uint64, "void": ctypes.c_void_p, "char": ctypes.c_char_p,
-             "dmb_model": ctypes.c_void_p, "dmb_sim": ctypes.c_void_p, **mbd.STRUCTS}
+             "dmb_model": ctypes.c_void_p, "dmb_sim": ctypes.c_void_p, "dmb_response": ctypes.c_void_p,
+             **mbd.STRUCTS}
     kind, stars, array = re.match(r"(?:const )?(\w+) (\**)\w+(\[\d+\])?$", declaration).groups()
     depth = len(stars) + bool(array)
-    opaque = kind in ("dmb_model", "dmb_sim", "char", "void")
+    opaque = kind in ("dmb_model", "dmb_sim", "dmb_response", "char", "void")
     base = plain[kind]
     for _ in range(depth - 1 if opaque else depth):
         base = ctypes.POINTER(base)
@@ -299,6 +300,48 @@ class SceneTest(unittest.TestCase):
             thread.join()
         self.assertEqual(len(hashes), 4)
         self.assertEqual(len(set(hashes)), 1)
+
+
+class ResponseTest(unittest.TestCase):
+    """A body that a force shakes: x/F = 1/(-m w^2)."""
+
+    def setUp(self):
+        model = mbd.Model()
+        model.set_environment(gravity=[0.0, 0.0, 0.0])
+        self.body = model.add_body(mass=2.0)
+        model.compile()
+        self.sim = model.sim()
+
+    def test_free_body(self):
+        force = mbd.Input(place=self.body, amplitude=3.0, phase=math.pi / 2)
+        response = self.sim.response([force], [mbd.Output(place=self.body), mbd.Output(
+            kind=mbd.OUTPUT_ACCELERATION, place=self.body)], frequencies=[0.5, 2.0, 8.0])
+        self.assertEqual(response.shape, (3, 1, 2))
+        self.assertEqual(list(response.frequencies), [0.5, 2.0, 8.0])
+        for f, x, a, all_a in zip(response.frequencies, response.transfer(0, 0), response.transfer(0, 1),
+                                  response.transfer(output=1)):
+            self.assertAlmostEqual(x * (2.0 * math.pi * f) ** 2, -0.5)
+            self.assertAlmostEqual(a, 0.5)
+            self.assertAlmostEqual(all_a, 1.5j)
+
+    def test_grid_and_table(self):
+        response = self.sim.response([mbd.Input(place=self.body)], [mbd.Output(place=self.body)], points=5,
+                                     frequency_low=1.0, frequency_high=16.0, logarithmic=1)
+        for got, want in zip(response.frequencies, (1, 2, 4, 8, 16)):
+            self.assertAlmostEqual(got, want)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "response.csv")
+            response.write_csv(path)
+            lines = path.read_text(encoding="utf-8").splitlines()
+        self.assertEqual(len(lines), 6)
+        self.assertTrue(lines[0].startswith("frequency [Hz],amplitude of output 0 for input 0,"))
+        self.assertAlmostEqual(float(lines[1].split(",")[1]), 0.5 / (2.0 * math.pi) ** 2)
+
+    def test_refusal_says_why(self):
+        with self.assertRaises(mbd.Error) as caught:
+            self.sim.response([mbd.Input(place=self.body)], [mbd.Output(place=self.body)], frequencies=[0.0])
+        self.assertEqual(caught.exception.name, "DMB_ERR_SINGULAR")
+        self.assertIn("body 0", caught.exception.message)
 
 
 class WholeModelTest(unittest.TestCase):

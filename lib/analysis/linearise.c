@@ -46,6 +46,7 @@ static void lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_linear *to)
     to->start = DMB_ARENA_ARRAY(arena, uint32_t, rows + 1);
     to->column = DMB_ARENA_ARRAY(arena, uint32_t, entries_of(scene));
     to->value = DMB_ARENA_DOUBLES(arena, entries_of(scene));
+    to->held_columns = DMB_ARENA_DOUBLES(arena, 54 * (size_t)scene->held_count);
 }
 
 static dmb_linear *allocate(const dmb_sim *sim)
@@ -360,6 +361,31 @@ static void clear_in_joints(const dmb_scene *scene, dmb_linear_matrix *A)
     }
 }
 
+static void copy_column(const double *block, uint32_t rows, uint32_t columns, uint32_t c, double *to)
+{
+    for (uint32_t r = 0; r < rows; r++) to[r] = block[(size_t)columns * r + c];
+}
+
+/* Before the columns are cleared. */
+static void keep_column(const dmb_block_layout *layout, uint32_t node, uint32_t c, const dmb_linear_matrix *A,
+                        double *to)
+{
+    const uint32_t size = layout->size[node];
+    copy_column(A->diagonal + layout->diag[node], size, size, c, to + 6);
+    if (node > 0) copy_column(A->upper + layout->link[node - 1], layout->size[node - 1], size, c, to);
+    if (node + 1 < layout->n) copy_column(A->lower + layout->link[node], layout->size[node + 1], size, c, to + 12);
+}
+
+static void keep_held_columns(dmb_linear *linear)
+{
+    const dmb_scene *scene = &linear->scene;
+    const dmb_linear_matrix *all[3] = {&linear->mass, &linear->damping, &linear->stiffness};
+    for (uint32_t i = 0; i < scene->held_count; i++)
+        for (size_t m = 0; m < 3; m++)
+            keep_column(&scene->layout, scene->held_node[i], scene->held_component[i], all[m],
+                        linear->held_columns + 54 * (size_t)i + 18 * m);
+}
+
 static void hold(dmb_linear *linear)
 {
     const dmb_scene *scene = &linear->scene;
@@ -466,6 +492,7 @@ static int32_t linearise(dmb_linear *linear, const dmb_linear_options *options)
     if (status >= 0) status = take_matrices(linear, options);
     work->linked_mode->multipliers = 0;
     if (status < 0) return status;
+    keep_held_columns(linear);
     hold(linear); /* a row that is held has no d, nor any v^ d */
     add_products(&linear->scene, &linear->damping, work->now.velocity, &linear->stiffness);
     add_products(&linear->scene, &linear->mass, work->now.acceleration, &linear->stiffness);

@@ -57,6 +57,9 @@ typedef struct dmb_linear {
     uint32_t *row_of;          /* row that coordinate i is the displacement of, ascending, shape (coordinates) */
     uint32_t *start, *column;  /* R by rows: entries start[row] .. start[row + 1] - 1 */
     double *value;
+    double *held_columns;      /* columns of M, C_v and K_H of the rows that are held, in the rows of the node before, the
+                                  node and the node after, six each: what a drive that moves them exerts on the others;
+                                  shape (scene.held_count, 3, 18) */
     void *block;
     size_t block_size;
 } dmb_linear;
