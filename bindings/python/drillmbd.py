@@ -41,6 +41,7 @@ OK, NOTE_STEP_CUT, NOTE_WORK_LIMITED, NOTE_PROJECTED, NOTE_STOPPED, NOTE_FULL, N
 
 LOG_ERROR, LOG_WARNING, LOG_INFO = range(3)
 STATIC_NEWTON, STATIC_RELAXATION = range(2)
+SCALE_ALL, SCALE_LOADS, SCALE_PART = range(3)
 X, Y, Z, RX, RY, RZ = range(6)
 FREE_NONE, FREE_X, FREE_RX, FREE_RZ = 0, 1, 8, 32
 FREE_CYLINDRICAL, FREE_SPHERICAL, FREE_ALL = 9, 56, 63
@@ -368,6 +369,13 @@ class StaticReport(_Sized):
                 ("cuts", c_uint32), ("line_searches", c_uint32), ("negative", c_int32), ("reserved", c_int32)]
 
 
+@_mirrors("dmb_buckling_options")
+class BucklingOptions(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("count", c_uint32), ("scale", c_int32), ("reserved", c_int32),
+                ("part", Id), ("factor_max", c_double), ("tolerance", c_double), ("step", c_double),
+                ("slip_axial", c_double), ("slip_rotation", c_double)]
+
+
 @_mirrors("dmb_check_report")
 class CheckReport(_Sized):
     _fields_ = [("struct_size", c_uint32), ("rigid_parts", c_uint32), ("flexible_parts", c_uint32),
@@ -490,7 +498,7 @@ class ResponseOptions(_Sized):
 def _declare_all():
     model, sim = c_void_p, c_void_p
     number, count, size, text = c_double, c_uint32, c_size_t, c_char_p
-    status = c_int32
+    status, buckling = c_int32, c_void_p
 
     def add(name, definition):
         _declare("dmb_model_add_" + name, status, model, POINTER(definition), POINTER(Id))
@@ -528,6 +536,11 @@ def _declare_all():
     _declare("dmb_sim_restore", status, sim, c_void_p, size)
     _declare("dmb_sim_hash", status, sim, POINTER(c_uint64))
     _declare("dmb_analysis_static", status, sim, POINTER(StaticOptions), POINTER(StaticReport))
+    _declare("dmb_analysis_buckling", status, sim, POINTER(BucklingOptions), POINTER(buckling))
+    _declare("dmb_buckling_destroy", None, POINTER(buckling))
+    _declare("dmb_buckling_count", count, buckling)
+    _declare("dmb_buckling_factor", status, buckling, count, POINTER(number))
+    _declare("dmb_buckling_shape", status, buckling, count, Place, POINTER(number))
     _declare("dmb_analysis_check", status, sim, POINTER(CheckReport))
     _declare("dmb_analysis_check_text", status, sim, text, size, POINTER(size))
     response = c_void_p
@@ -875,6 +888,10 @@ class Sim:
         report.status = self._check(_lib.dmb_analysis_static(self._handle, byref(options), byref(report)))
         return report
 
+    def buckling(self, options=None, **fields):
+        """Critical factors and shapes about the present static state."""
+        return Buckling(self, _struct(BucklingOptions, options, fields))
+
     def check(self):
         """Parts, joints, degrees of freedom, redundant equations and the number of warnings: the model check."""
         report = CheckReport()
@@ -1032,6 +1049,40 @@ class Response:
 
     def write_csv(self, path):
         _check(_lib.dmb_response_write_csv(self._handle, _path(path)))
+
+
+# ---- Buckling --------------------------------------------------------------------------------------------------------
+class Buckling:
+    """Critical factors, rising, and their shapes. status is NOTE_STOPPED where fewer were found than asked for."""
+
+    def __init__(self, sim, options):
+        self._handle = c_void_p()
+        self._scene = sim._scene  # the model's callbacks
+        self.status = sim._check(_lib.dmb_analysis_buckling(sim._handle, byref(options), byref(self._handle)))
+        value = c_double()
+        self.factors = []
+        for mode in range(_lib.dmb_buckling_count(self._handle)):
+            _check(_lib.dmb_buckling_factor(self._handle, mode, byref(value)))
+            self.factors.append(value.value)
+
+    def shape(self, mode, place):
+        """[m, rad] displacement and rotation of a section, world frame"""
+        values = (c_double * 6)()
+        _check(_lib.dmb_buckling_shape(self._handle, mode, place, values))
+        return list(values)
+
+    def close(self):
+        _lib.dmb_buckling_destroy(byref(self._handle))
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def __del__(self):
+        if getattr(self, "_handle", None) and _lib is not None:
+            self.close()
 
 
 # ---- Recorder --------------------------------------------------------------------------------------------------------

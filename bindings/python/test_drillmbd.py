@@ -51,11 +51,11 @@ def ctypes_of(declaration):
     """The types that may stand for an argument 'const dmb_pose *pose' in ctypes."""
     plain = {"int32_t": ctypes.c_int32, "uint32_t": ctypes.c_uint32, "double": ctypes.c_double,
              "size_t": ctypes.c_size_t, "uint64_t": ctypes.c_uint64, "void": ctypes.c_void_p, "char": ctypes.c_char_p,
-             "dmb_model": ctypes.c_void_p, "dmb_sim": ctypes.c_void_p, "dmb_response": ctypes.c_void_p,
+             "dmb_model": ctypes.c_void_p, "dmb_sim": ctypes.c_void_p, "dmb_buckling": ctypes.c_void_p, "dmb_response": ctypes.c_void_p,
              **mbd.STRUCTS}
     kind, stars, array = re.match(r"(?:const )?(\w+) (\**)\w+(\[\d+\])?$", declaration).groups()
     depth = len(stars) + bool(array)
-    opaque = kind in ("dmb_model", "dmb_sim", "dmb_response", "char", "void")
+    opaque = kind in ("dmb_model", "dmb_sim", "dmb_buckling", "dmb_response", "char", "void")
     base = plain[kind]
     for _ in range(depth - 1 if opaque else depth):
         base = ctypes.POINTER(base)
@@ -383,6 +383,24 @@ class WholeModelTest(unittest.TestCase):
                 self.assertEqual((report.status, report.method), (mbd.OK, mbd.STATIC_NEWTON))
                 self.assertLess(report.residual, 1e-9)
                 self.assertGreater(sim.contact_sum().normal_force, 0.5 * weight)
+
+    def test_buckling_of_a_clamped_column(self):
+        with mbd.Model() as model:
+            model.set_environment(gravity=(0.0, 0.0, 0.0))
+            string = model.add_string(follows_hole=0, start_free=mbd.FREE_NONE)
+            model.add_pipes(10, string=string, section_stiffness=(1e12, 1e12, 1e12, 1e5, 1e5, 1e5))
+            push = model.add_load(place=mbd.station(string, 9, 1.0), force=(-1.0, 0.0, 0.0),
+                                  programme=model.add_programme(0.0))
+            model.compile()
+            with model.sim() as sim:
+                sim.static()
+                with sim.buckling(scale=mbd.SCALE_PART, part=push, count=2) as found:
+                    self.assertEqual(found.status, mbd.OK)
+                    for factor in found.factors:
+                        self.assertAlmostEqual(factor / (math.pi ** 2 * 1e5 / 400.0), 1.0, 4)
+                    tip, middle = (found.shape(0, mbd.station(string, *at)) for at in ((9, 1.0), (4, 1.0)))
+                    length = math.hypot(*tip[1:3])
+                    self.assertAlmostEqual(math.hypot(*middle[1:3]) / length, 1.0 - math.cos(math.pi / 4.0), 4)
 
     def test_projected_start_is_a_note(self):
         with mbd.Model() as model:

@@ -13,7 +13,7 @@
 
 DMB_DECLARE_STRUCT(dmb_static_report)
 
-static void set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_options *options)
+void dmb_static_set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_options *options)
 {
     memset(search, 0, sizeof *search);
     search->sim = sim;
@@ -22,9 +22,13 @@ static void set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_opt
     search->evaluation.time = sim->clock->time;
     search->evaluation.load_factor = 1.0;
     search->evaluation.tangent = 1;
-    search->evaluation.slipping = options->slip_axial != 0.0 || options->slip_rotation != 0.0;
-    search->evaluation.slip[0] = options->slip_axial;
-    search->evaluation.slip[1] = options->slip_rotation;
+}
+
+void dmb_static_slip(dmb_static_search *search, double axial, double rotation)
+{
+    search->evaluation.slipping = axial != 0.0 || rotation != 0.0;
+    search->evaluation.slip[0] = axial;
+    search->evaluation.slip[1] = rotation;
 }
 
 int32_t dmb_static_begin(dmb_static_search *search)
@@ -186,7 +190,8 @@ int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb
     if (report != NULL && dmb_static_report_read(&out, report) < 0) return DMB_ERR_STRUCT_SIZE;
     int32_t status = dmb_static_options_take(sim, options, &taken);
     if (status < 0) return status;
-    set_up(&search, sim, &taken);
+    dmb_static_set_up(&search, sim, &taken);
+    dmb_static_slip(&search, taken.slip_axial, taken.slip_rotation);
     dmb_state_keep(sim);
     status = search_equilibrium(&search, &out.method);
     if (status < 0) {

@@ -22,6 +22,11 @@ typedef struct dmb_static_search {
     double caution;      /* [-] the relaxation's corrections are this much shorter */
 } dmb_static_search;
 
+/* At the sim's present time, without friction; options may be NULL where nothing iterates. */
+void dmb_static_set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_options *options);
+/* Friction acts as at these speeds, both 0: not at all. */
+void dmb_static_slip(dmb_static_search *search, double axial, double rotation);
+
 typedef int32_t (*dmb_static_method)(dmb_static_search *search);
 
 /* Trial at the starting pose, drives and loads at their present values. */
