@@ -1,11 +1,11 @@
-/* Symmetric pencil K + factor G of block-tridiagonal matrices, K positive definite: its critical factors > 0, counted by
- * Sylvester's law of inertia, found by bisection, and their vectors by inverse iteration (Parlett, The symmetric
+/* Symmetric pencil K + factor G of block-tridiagonal matrices, K positive definite: its critical factors > 0, counted
+ * by Sylvester's law of inertia, found by bisection, and their vectors by inverse iteration (Parlett, The symmetric
  * eigenvalue problem, 3.3 and 4.2). */
 #ifndef DMB_ANALYSIS_PENCIL_H
 #define DMB_ANALYSIS_PENCIL_H
 
 #include "base/arena.h"
-#include "model/scene.h"
+#include "state.h"
 
 typedef struct dmb_pencil_matrix {
     double *diagonal, *lower, *upper; /* storage of the scene's layout */
@@ -14,8 +14,8 @@ typedef struct dmb_pencil_matrix {
 typedef struct dmb_pencil {
     const dmb_scene *scene;
     dmb_pencil_matrix K, G, work;
-    uint8_t *pivot;    /* (rows) */
-    double *image;     /* (rows) G x */
+    uint8_t *pivot; /* (rows) */
+    double *image;  /* (rows) G x */
 } dmb_pencil;
 
 void dmb_pencil_lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_pencil *pencil);
