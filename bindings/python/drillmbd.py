@@ -494,6 +494,19 @@ class ResponseOptions(_Sized):
                 ("contact", c_int32), ("friction", c_int32), ("contact_gap", c_double)]
 
 
+@_mirrors("dmb_sine_options")
+class SineOptions(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("steps_per_period", c_uint32), ("periods", c_uint32),
+                ("windows", c_uint32), ("harmonics", c_uint32), ("reserved", c_uint32), ("tolerance", c_double),
+                ("floor", c_double)]
+
+
+@_mirrors("dmb_sine_report")
+class SineReport(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("settled", c_int32), ("windows", c_uint32), ("rejected", c_uint32),
+                ("steps", c_uint64), ("change", c_double), ("remaining", c_double), ("time", c_double)]
+
+
 # ---- Functions -------------------------------------------------------------------------------------------------------
 def _declare_all():
     model, sim = c_void_p, c_void_p
@@ -546,6 +559,8 @@ def _declare_all():
     response = c_void_p
     _declare("dmb_analysis_response", status, sim, POINTER(ResponseOptions), POINTER(Input), count, POINTER(Output),
              count, POINTER(response))
+    _declare("dmb_analysis_sine", status, sim, number, POINTER(SineOptions), POINTER(Output), count,
+             POINTER(number), POINTER(SineReport))
     _declare("dmb_response_destroy", None, POINTER(response))
     _declare("dmb_response_shape", status, response, POINTER(c_uint32))
     _declare("dmb_response_frequencies", status, response, POINTER(number))
@@ -918,6 +933,18 @@ class Sim:
         self._check(_lib.dmb_analysis_response(self._handle, byref(options), inputs, len(inputs), outputs,
                                                len(outputs), byref(handle)))
         return Response(handle)
+
+    def sine(self, frequency, outputs, options=None, **fields):
+        """Runs on until the Fourier amplitudes at frequency [Hz] have settled. Returns a list for each Output, mean and
+        then the complex harmonics, and the report, whose status may be NOTE_STOPPED."""
+        options, report = _struct(SineOptions, options, fields), SineReport()
+        outputs, width = (Output * len(outputs))(*outputs), 1 + options.harmonics
+        values = (c_double * (2 * width * len(outputs)))()
+        report.status = self._check(_lib.dmb_analysis_sine(self._handle, frequency, byref(options), outputs,
+                                                           len(outputs), values, byref(report)))
+        numbers = [complex(values[2 * i], values[2 * i + 1]) for i in range(width * len(outputs))]
+        return [[numbers[i * width].real] + numbers[i * width + 1:(i + 1) * width]
+                for i in range(len(outputs))], report
 
     def set_drive(self, drive, value):
         """The drive's programme is the constant value from now on; None: its programme again."""

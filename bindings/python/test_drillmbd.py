@@ -337,6 +337,19 @@ class ResponseTest(unittest.TestCase):
         self.assertTrue(lines[0].startswith("frequency [Hz],amplitude of output 0 for input 0,"))
         self.assertAlmostEqual(float(lines[1].split(",")[1]), 0.5 / (2.0 * math.pi) ** 2)
 
+    def test_stepped_sine(self):
+        model = mbd.Model()
+        body = model.add_body(mass=2.0, free_mask=mbd.FREE_X)
+        shake = model.add_programme(mbd.Term(kind=mbd.TERM_HARMONIC, h1=3.0, omega=2.0 * math.pi * 5.0))
+        model.add_drive(kind=mbd.DRIVE_LOAD, part=body, component=mbd.X, programme=shake)
+        model.compile()
+        (amplitudes,), report = model.sim().sine(5.0, [mbd.Output(kind=mbd.OUTPUT_ACCELERATION, place=body)],
+                                                 harmonics=2)
+        self.assertEqual((report.status, report.settled, report.windows), (mbd.OK, 1, 3))
+        self.assertAlmostEqual(amplitudes[0], 0.0)
+        self.assertAlmostEqual(amplitudes[1], -1.5j)  # sine: the real part of -i e^(iwt)
+        self.assertAlmostEqual(amplitudes[2], 0.0)
+
     def test_refusal_says_why(self):
         with self.assertRaises(mbd.Error) as caught:
             self.sim.response([mbd.Input(place=self.body)], [mbd.Output(place=self.body)], frequencies=[0.0])

@@ -102,6 +102,50 @@ DMB_API int32_t dmb_response_transfer(const dmb_response *response, uint32_t inp
  * as decimal mark. DMB_ERR_IO on failure. */
 DMB_API int32_t dmb_response_write_csv(const dmb_response *response, const char *path);
 
+/* ---- Stepped sine ------------------------------------------------------------------------------------------------
+ * Response in time to what the scene's own programmes do at one frequency, where the linear one does not hold: contacts
+ * that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC
+ * programme, a drive's speed), carry the state over (dmb_sim_carry_over) to go up or down from one to the next. Calls on
+ * different sims share nothing: hand them to as many threads as there are cores, the answers are the same to the bit. */
+typedef struct dmb_sine_options {
+    uint32_t struct_size;
+    uint32_t steps_per_period; /* [-] 16 .. 1e6; default 100. The scheme's frequency error is (2 pi/this)^2/12 or so */
+    uint32_t periods;          /* [-] of a window, 1 .. 1e4; more than 1 where multiples of the period are awaited;
+                                  default 4 */
+    uint32_t windows;          /* [-] at most, 3 .. 1e6; default 500 */
+    uint32_t harmonics;        /* [-] 1 .. 16, at most an eighth of steps_per_period; default 3 */
+    uint32_t reserved;
+    double tolerance;          /* [-] settled: what is still to come, by how the last windows differed, is below this part
+                                  of the largest harmonic of each output; default 1e-3 */
+    double floor;              /* [unit of the output] changes of a harmonic below it count as none, > 0; default 1e-12 */
+} dmb_sine_options;
+DMB_SIZED_STRUCT(dmb_sine_options)
+
+typedef struct dmb_sine_report {
+    uint32_t struct_size;
+    int32_t settled;     /* 1 if it was */
+    uint32_t windows;    /* [-] run */
+    uint32_t rejected;   /* [-] steps tried and not accepted */
+    uint64_t steps;      /* [-] accepted */
+    double change;       /* [-] between the last two windows, of the largest harmonic, worst output */
+    double remaining;    /* [-] estimated still to come */
+    double time;         /* [s] reached */
+} dmb_sine_report;
+DMB_SIZED_STRUCT(dmb_sine_report)
+
+/* Runs the sim on in fixed steps until the Fourier amplitudes of successive windows agree. amplitudes, shape
+ * (output_count, 1 + harmonics, 2): mean and 0, then for k = 1, 2, ... the k-th harmonic: its part of the output is the
+ * real part of (re + i im) e^(2 pi i k frequency t), t the sim's time. Displacements are those since time 0 in the axes
+ * of the world or (DMB_FRAME_BODY) those the place has at the call, less their drift over the window; component DMB_RX
+ * is the rotation of dmb_query_rotation, DMB_RY and DMB_RZ are of the rotation vector from the pose at the call, below pi.
+ * Other outputs: as the queries answer. options and report may be NULL. DMB_NOTE_STOPPED: not settled in `windows`; the
+ * amplitudes are those of the last. Errors: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID, _UNSUPPORTED,
+ * _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last accepted state. amplitudes
+ * and report are left alone on error. Cost: steps. */
+DMB_API int32_t dmb_analysis_sine(dmb_sim *sim, double frequency, const dmb_sine_options *options,
+                                  const dmb_output *outputs, uint32_t output_count, double *amplitudes,
+                                  dmb_sine_report *report);
+
 #ifdef __cplusplus
 }
 #endif

@@ -20,6 +20,18 @@ DMB_DEFINE_INIT(dmb_response_options, 72,
                     .friction = 1,
                 })
 
+DMB_DEFINE_INIT(dmb_sine_options, 40,
+                {
+                    .steps_per_period = 100,
+                    .periods = 4,
+                    .windows = 500,
+                    .harmonics = 3,
+                    .tolerance = 1e-3,
+                    .floor = 1e-12,
+                })
+
+DMB_DEFINE_INIT(dmb_sine_report, 48, {.settled = 0})
+
 enum { POINTS_MAX = 1000000, REFINEMENT_MAX = 40 };
 #define DMB_FREQUENCY_MAX 1e9 /* [Hz] its square times a mass is far from overflow */
 
@@ -65,6 +77,27 @@ int32_t dmb_response_options_take(const dmb_response_options *given, dmb_message
         check_list(&check, out);
     else
         check_band(&check, out);
+    return check.status;
+}
+
+int32_t dmb_sine_options_take(const dmb_sine_options *given, double frequency, dmb_message *message,
+                              dmb_sine_options *out)
+{
+    dmb_check check = dmb_check_of(message, "sine options", DMB_NO_INDEX);
+    *out = dmb_sine_options_default();
+    if (given != NULL && dmb_sine_options_read(out, given) < 0) {
+        dmb_message_set(message, "sine options: struct_size is not one this library knows");
+        return DMB_ERR_STRUCT_SIZE;
+    }
+    dmb_check_within(&check, "frequency", frequency, 1e-9, DMB_FREQUENCY_MAX);
+    dmb_check_count(&check, "steps_per_period", out->steps_per_period, 16, 1000000);
+    dmb_check_count(&check, "periods", out->periods, 1, 10000);
+    dmb_check_count(&check, "windows", out->windows, 3, 1000000);
+    dmb_check_count(&check, "harmonics", out->harmonics, 1, DMB_SINE_HARMONICS_MAX);
+    if (check.status == DMB_OK && out->harmonics > out->steps_per_period / 8)
+        dmb_check_fail(&check, DMB_ERR_VALUE, "harmonics", out->harmonics, "<= steps_per_period/8");
+    dmb_check_within(&check, "tolerance", out->tolerance, 1e-12, 1.0);
+    dmb_check_within(&check, "floor", out->floor, 1e-300, 1e30);
     return check.status;
 }
 
