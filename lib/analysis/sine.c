@@ -46,9 +46,9 @@ static uint32_t steps_of(const sine_run *r)
 /* Cosine and minus sine of the harmonics at an instant, as the sums take them. */
 static void turn_of(const sine_run *r, double time, double *turn)
 {
-    for (uint32_t k = 0; k <= r->options.harmonics; k++) {
-        turn[2 * k] = cos(k * r->omega * time);
-        turn[2 * k + 1] = -sin(k * r->omega * time);
+    for (size_t k = 0; k <= r->options.harmonics; k++) {
+        turn[2 * k] = cos((double)k * r->omega * time);
+        turn[2 * k + 1] = -sin((double)k * r->omega * time);
     }
 }
 
