@@ -94,11 +94,9 @@
     X(double, site_return, s)           /* [m/s] a ring that opens in the step left the wall; else 0, system/release */\
     X(double, path_normal, p)           /* [N] */                                                                      \
     X(double, stiffness_diagonal, diagonal) /* with respect to body-frame pose increments; then the iteration matrix */ \
-    X(double, stiffness_lower, link)                                                                                   \
+    X(double, stiffness_lower, link)    /* in statics the same, in a step at once the iteration matrix */              \
     X(double, stiffness_upper, link)                                                                                   \
     X(double, inertia_diagonal, diagonal) /* mass, gyroscopic and damping parts, scaled to pose parameters */          \
-    X(double, inertia_lower, link)                                                                                     \
-    X(double, inertia_upper, link)                                                                                     \
     X(uint8_t, pivot, r)                                                                                               \
     X(int32_t, solve_with_kept, 1)      /* 1: solve with the kept factors */                                           \
     /* constraints, system/constraint_rows: */                                                                        \
@@ -220,5 +218,11 @@ void dmb_configuration_copy(const dmb_sim *sim, const dmb_configuration *from, d
 /* The state set aside while a call takes several steps, and back, so that a failing call changes nothing. state/backup */
 void dmb_state_keep(dmb_sim *sim);
 void dmb_state_bring_back(dmb_sim *sim);
+/* A sim of its own in the accepted state of `sim`, its trial too, for analyses that leave the sim alone; memory from the
+ * sim's allocator, NULL if there is none. It is no handle for callers (no stamp, no hold on the model) and must not
+ * outlive the sim. state/copy */
+dmb_sim *dmb_state_copy(const dmb_sim *sim);
+/* NULL is fine. */
+void dmb_state_discard(dmb_sim *copy);
 
 #endif

@@ -41,6 +41,7 @@ OK, NOTE_STEP_CUT, NOTE_WORK_LIMITED, NOTE_PROJECTED, NOTE_STOPPED, NOTE_FULL, N
 
 LOG_ERROR, LOG_WARNING, LOG_INFO = range(3)
 STATIC_NEWTON, STATIC_RELAXATION = range(2)
+SCALE_ALL, SCALE_LOADS, SCALE_PART = range(3)
 X, Y, Z, RX, RY, RZ = range(6)
 FREE_NONE, FREE_X, FREE_RX, FREE_RZ = 0, 1, 8, 32
 FREE_CYLINDRICAL, FREE_SPHERICAL, FREE_ALL = 9, 56, 63
@@ -67,6 +68,11 @@ FEATURE_VIBRATION, FEATURE_ALL = 24, 127
  CHANNEL_VELOCITY_Z, CHANNEL_POSITION_X, CHANNEL_POSITION_Y, CHANNEL_POSITION_Z, CHANNEL_ROTATION, CHANNEL_SPIN,
  CHANNEL_AXIAL_FORCE, CHANNEL_TORQUE, CHANNEL_BENDING_MOMENT, CHANNEL_KINETIC_ENERGY, CHANNEL_NORMAL_FORCE,
  CHANNEL_DRIVE_FORCE, CHANNEL_DRIVE_SPEED, CHANNEL_BIT_WEIGHT, CHANNEL_ENERGY_ERROR, CHANNEL_COUNT) = range(21)
+(INPUT_DRIVE, INPUT_LOAD, INPUT_BIT_LOAD, INPUT_FORCE, INPUT_UNBALANCE, INPUT_ECCENTRICITY,
+ INPUT_FRICTION) = range(7)
+OUTPUT_DISPLACEMENT, OUTPUT_VELOCITY, OUTPUT_ACCELERATION, OUTPUT_SECTION_FORCE = range(4)
+CONTACT_AS_IS, CONTACT_OPEN, CONTACT_CLOSED = range(3)
+COMBINED = 0xFFFFFFFF
 
 
 # ---- The library -----------------------------------------------------------------------------------------------------
@@ -359,7 +365,15 @@ class StaticOptions(_Sized):
 @_mirrors("dmb_static_report")
 class StaticReport(_Sized):
     _fields_ = [("struct_size", c_uint32), ("iterations", c_uint32), ("load_steps", c_uint32), ("method", c_int32),
-                ("residual", c_double), ("largest_force", c_double), ("lateral_move", c_double)]
+                ("residual", c_double), ("largest_force", c_double), ("lateral_move", c_double),
+                ("cuts", c_uint32), ("line_searches", c_uint32), ("negative", c_int32), ("reserved", c_int32)]
+
+
+@_mirrors("dmb_buckling_options")
+class BucklingOptions(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("count", c_uint32), ("scale", c_int32), ("reserved", c_int32),
+                ("part", Id), ("factor_max", c_double), ("tolerance", c_double), ("step", c_double),
+                ("slip_axial", c_double), ("slip_rotation", c_double)]
 
 
 @_mirrors("dmb_check_report")
@@ -460,11 +474,44 @@ class _RecorderStruct(_Sized):
                 ("table", POINTER(c_double)), ("capacity", c_uint64), ("rows", c_uint64), ("interval", c_double)]
 
 
+@_mirrors("dmb_input")
+class Input(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("place", Place), ("component", c_int32),
+                ("frame", c_int32), ("amplitude", c_double), ("phase", c_double)]
+
+
+@_mirrors("dmb_output")
+class Output(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("place", Place), ("component", c_int32),
+                ("frame", c_int32)]
+
+
+@_mirrors("dmb_response_options")
+class ResponseOptions(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("points", c_uint32), ("frequency_low", c_double),
+                ("frequency_high", c_double), ("frequencies", POINTER(c_double)), ("logarithmic", c_int32),
+                ("refinement", c_uint32), ("structural_damping", c_double), ("equilibrium_tolerance", c_double),
+                ("contact", c_int32), ("friction", c_int32), ("contact_gap", c_double)]
+
+
+@_mirrors("dmb_sine_options")
+class SineOptions(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("steps_per_period", c_uint32), ("periods", c_uint32),
+                ("windows", c_uint32), ("harmonics", c_uint32), ("reserved", c_uint32), ("tolerance", c_double),
+                ("floor", c_double)]
+
+
+@_mirrors("dmb_sine_report")
+class SineReport(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("settled", c_int32), ("windows", c_uint32), ("rejected", c_uint32),
+                ("steps", c_uint64), ("change", c_double), ("remaining", c_double), ("time", c_double)]
+
+
 # ---- Functions -------------------------------------------------------------------------------------------------------
 def _declare_all():
     model, sim = c_void_p, c_void_p
     number, count, size, text = c_double, c_uint32, c_size_t, c_char_p
-    status = c_int32
+    status, buckling = c_int32, c_void_p
 
     def add(name, definition):
         _declare("dmb_model_add_" + name, status, model, POINTER(definition), POINTER(Id))
@@ -502,8 +549,23 @@ def _declare_all():
     _declare("dmb_sim_restore", status, sim, c_void_p, size)
     _declare("dmb_sim_hash", status, sim, POINTER(c_uint64))
     _declare("dmb_analysis_static", status, sim, POINTER(StaticOptions), POINTER(StaticReport))
+    _declare("dmb_analysis_buckling", status, sim, POINTER(BucklingOptions), POINTER(buckling))
+    _declare("dmb_buckling_destroy", None, POINTER(buckling))
+    _declare("dmb_buckling_count", count, buckling)
+    _declare("dmb_buckling_factor", status, buckling, count, POINTER(number))
+    _declare("dmb_buckling_shape", status, buckling, count, Place, POINTER(number))
     _declare("dmb_analysis_check", status, sim, POINTER(CheckReport))
     _declare("dmb_analysis_check_text", status, sim, text, size, POINTER(size))
+    response = c_void_p
+    _declare("dmb_analysis_response", status, sim, POINTER(ResponseOptions), POINTER(Input), count, POINTER(Output),
+             count, POINTER(response))
+    _declare("dmb_analysis_sine", status, sim, number, POINTER(SineOptions), POINTER(Output), count,
+             POINTER(number), POINTER(SineReport))
+    _declare("dmb_response_destroy", None, POINTER(response))
+    _declare("dmb_response_shape", status, response, POINTER(c_uint32))
+    _declare("dmb_response_frequencies", status, response, POINTER(number))
+    _declare("dmb_response_transfer", status, response, count, count, POINTER(number))
+    _declare("dmb_response_write_csv", status, response, text)
     ask("pose", Place, POINTER(Pose))
     ask("motion", Place, POINTER(Motion))
     ask("rotation", Place, POINTER(number))
@@ -841,6 +903,10 @@ class Sim:
         report.status = self._check(_lib.dmb_analysis_static(self._handle, byref(options), byref(report)))
         return report
 
+    def buckling(self, options=None, **fields):
+        """Critical factors and shapes about the present static state."""
+        return Buckling(self, _struct(BucklingOptions, options, fields))
+
     def check(self):
         """Parts, joints, degrees of freedom, redundant equations and the number of warnings: the model check."""
         report = CheckReport()
@@ -854,6 +920,31 @@ class Sim:
         text = ctypes.create_string_buffer(size.value)
         self._scene.check(_lib.dmb_analysis_check_text(self._handle, text, size.value, None), b"")
         return text.value.decode()
+
+    def response(self, inputs, outputs, options=None, frequencies=None, **fields):
+        """Frequency response from every Input to every Output about the present state, at `frequencies` [Hz] or on the
+        grid that the ResponseOptions describe."""
+        options = _struct(ResponseOptions, options, fields)
+        if frequencies is not None:
+            frequencies = [float(f) for f in frequencies]
+            options.frequencies, options.points = (c_double * len(frequencies))(*frequencies), len(frequencies)
+        inputs, outputs = (Input * len(inputs))(*inputs), (Output * len(outputs))(*outputs)
+        handle = c_void_p()
+        self._check(_lib.dmb_analysis_response(self._handle, byref(options), inputs, len(inputs), outputs,
+                                               len(outputs), byref(handle)))
+        return Response(handle)
+
+    def sine(self, frequency, outputs, options=None, **fields):
+        """Runs on until the Fourier amplitudes at frequency [Hz] have settled. Returns a list for each Output, mean and
+        then the complex harmonics, and the report, whose status may be NOTE_STOPPED."""
+        options, report = _struct(SineOptions, options, fields), SineReport()
+        outputs, width = (Output * len(outputs))(*outputs), 1 + options.harmonics
+        values = (c_double * (2 * width * len(outputs)))()
+        report.status = self._check(_lib.dmb_analysis_sine(self._handle, frequency, byref(options), outputs,
+                                                           len(outputs), values, byref(report)))
+        numbers = [complex(values[2 * i], values[2 * i + 1]) for i in range(width * len(outputs))]
+        return [[numbers[i * width].real] + numbers[i * width + 1:(i + 1) * width]
+                for i in range(len(outputs))], report
 
     def set_drive(self, drive, value):
         """The drive's programme is the constant value from now on; None: its programme again."""
@@ -952,6 +1043,73 @@ class Sim:
 
     def write_vtk(self, path, per_element=8):
         _check(_lib.dmb_write_vtk_strings(self._handle, per_element, _path(path)))
+
+
+# ---- Frequency response ----------------------------------------------------------------------------------------------
+class Response:
+    """Transfer functions that Sim.response has found."""
+
+    def __init__(self, handle):
+        self._handle = handle
+        self.shape = (c_uint32 * 3)()
+        _check(_lib.dmb_response_shape(handle, self.shape))
+        self.shape = tuple(self.shape)  # points, inputs, outputs
+
+    def __del__(self):
+        _lib.dmb_response_destroy(byref(self._handle))
+
+    @property
+    def frequencies(self):
+        """[Hz] ascending: a numpy array, or a list."""
+        values = (c_double * self.shape[0])()
+        _check(_lib.dmb_response_frequencies(self._handle, values))
+        return numpy.array(values) if numpy is not None else list(values)
+
+    def transfer(self, input=COMBINED, output=0):
+        """The output per unit of the input, or for all inputs with their amplitudes and phases (COMBINED): complex
+        numbers, one for each frequency."""
+        values = (c_double * (2 * self.shape[0]))()
+        _check(_lib.dmb_response_transfer(self._handle, input, output, values))
+        if numpy is not None:
+            return numpy.array(values).view(complex)
+        return [complex(values[2 * i], values[2 * i + 1]) for i in range(self.shape[0])]
+
+    def write_csv(self, path):
+        _check(_lib.dmb_response_write_csv(self._handle, _path(path)))
+
+
+# ---- Buckling --------------------------------------------------------------------------------------------------------
+class Buckling:
+    """Critical factors, rising, and their shapes. status is NOTE_STOPPED where fewer were found than asked for."""
+
+    def __init__(self, sim, options):
+        self._handle = c_void_p()
+        self._scene = sim._scene  # the model's callbacks
+        self.status = sim._check(_lib.dmb_analysis_buckling(sim._handle, byref(options), byref(self._handle)))
+        value = c_double()
+        self.factors = []
+        for mode in range(_lib.dmb_buckling_count(self._handle)):
+            _check(_lib.dmb_buckling_factor(self._handle, mode, byref(value)))
+            self.factors.append(value.value)
+
+    def shape(self, mode, place):
+        """[m, rad] displacement and rotation of a section, world frame"""
+        values = (c_double * 6)()
+        _check(_lib.dmb_buckling_shape(self._handle, mode, place, values))
+        return list(values)
+
+    def close(self):
+        _lib.dmb_buckling_destroy(byref(self._handle))
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def __del__(self):
+        if getattr(self, "_handle", None) and _lib is not None:
+            self.close()
 
 
 # ---- Recorder --------------------------------------------------------------------------------------------------------

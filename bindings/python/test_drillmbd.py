@@ -51,10 +51,11 @@ def ctypes_of(declaration):
     """The types that may stand for an argument 'const dmb_pose *pose' in ctypes."""
     plain = {"int32_t": ctypes.c_int32, "uint32_t": ctypes.c_uint32, "double": ctypes.c_double,
              "size_t": ctypes.c_size_t, "uint64_t": ctypes.c_uint64, "void": ctypes.c_void_p, "char": ctypes.c_char_p,
-             "dmb_model": ctypes.c_void_p, "dmb_sim": ctypes.c_void_p, **mbd.STRUCTS}
+             "dmb_model": ctypes.c_void_p, "dmb_sim": ctypes.c_void_p, "dmb_buckling": ctypes.c_void_p, "dmb_response": ctypes.c_void_p,
+             **mbd.STRUCTS}
     kind, stars, array = re.match(r"(?:const )?(\w+) (\**)\w+(\[\d+\])?$", declaration).groups()
     depth = len(stars) + bool(array)
-    opaque = kind in ("dmb_model", "dmb_sim", "char", "void")
+    opaque = kind in ("dmb_model", "dmb_sim", "dmb_buckling", "dmb_response", "char", "void")
     base = plain[kind]
     for _ in range(depth - 1 if opaque else depth):
         base = ctypes.POINTER(base)
@@ -301,6 +302,61 @@ class SceneTest(unittest.TestCase):
         self.assertEqual(len(set(hashes)), 1)
 
 
+class ResponseTest(unittest.TestCase):
+    """A body that a force shakes: x/F = 1/(-m w^2)."""
+
+    def setUp(self):
+        model = mbd.Model()
+        model.set_environment(gravity=[0.0, 0.0, 0.0])
+        self.body = model.add_body(mass=2.0)
+        model.compile()
+        self.sim = model.sim()
+
+    def test_free_body(self):
+        force = mbd.Input(place=self.body, amplitude=3.0, phase=math.pi / 2)
+        response = self.sim.response([force], [mbd.Output(place=self.body), mbd.Output(
+            kind=mbd.OUTPUT_ACCELERATION, place=self.body)], frequencies=[0.5, 2.0, 8.0])
+        self.assertEqual(response.shape, (3, 1, 2))
+        self.assertEqual(list(response.frequencies), [0.5, 2.0, 8.0])
+        for f, x, a, all_a in zip(response.frequencies, response.transfer(0, 0), response.transfer(0, 1),
+                                  response.transfer(output=1)):
+            self.assertAlmostEqual(x * (2.0 * math.pi * f) ** 2, -0.5)
+            self.assertAlmostEqual(a, 0.5)
+            self.assertAlmostEqual(all_a, 1.5j)
+
+    def test_grid_and_table(self):
+        response = self.sim.response([mbd.Input(place=self.body)], [mbd.Output(place=self.body)], points=5,
+                                     frequency_low=1.0, frequency_high=16.0, logarithmic=1)
+        for got, want in zip(response.frequencies, (1, 2, 4, 8, 16)):
+            self.assertAlmostEqual(got, want)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "response.csv")
+            response.write_csv(path)
+            lines = path.read_text(encoding="utf-8").splitlines()
+        self.assertEqual(len(lines), 6)
+        self.assertTrue(lines[0].startswith("frequency [Hz],amplitude of output 0 for input 0,"))
+        self.assertAlmostEqual(float(lines[1].split(",")[1]), 0.5 / (2.0 * math.pi) ** 2)
+
+    def test_stepped_sine(self):
+        model = mbd.Model()
+        body = model.add_body(mass=2.0, free_mask=mbd.FREE_X)
+        shake = model.add_programme(mbd.Term(kind=mbd.TERM_HARMONIC, h1=3.0, omega=2.0 * math.pi * 5.0))
+        model.add_drive(kind=mbd.DRIVE_LOAD, part=body, component=mbd.X, programme=shake)
+        model.compile()
+        (amplitudes,), report = model.sim().sine(5.0, [mbd.Output(kind=mbd.OUTPUT_ACCELERATION, place=body)],
+                                                 harmonics=2)
+        self.assertEqual((report.status, report.settled, report.windows), (mbd.OK, 1, 3))
+        self.assertAlmostEqual(amplitudes[0], 0.0)
+        self.assertAlmostEqual(amplitudes[1], -1.5j)  # sine: the real part of -i e^(iwt)
+        self.assertAlmostEqual(amplitudes[2], 0.0)
+
+    def test_refusal_says_why(self):
+        with self.assertRaises(mbd.Error) as caught:
+            self.sim.response([mbd.Input(place=self.body)], [mbd.Output(place=self.body)], frequencies=[0.0])
+        self.assertEqual(caught.exception.name, "DMB_ERR_SINGULAR")
+        self.assertIn("body 0", caught.exception.message)
+
+
 class WholeModelTest(unittest.TestCase):
     """What the rig above does not use."""
 
@@ -340,6 +396,24 @@ class WholeModelTest(unittest.TestCase):
                 self.assertEqual((report.status, report.method), (mbd.OK, mbd.STATIC_NEWTON))
                 self.assertLess(report.residual, 1e-9)
                 self.assertGreater(sim.contact_sum().normal_force, 0.5 * weight)
+
+    def test_buckling_of_a_clamped_column(self):
+        with mbd.Model() as model:
+            model.set_environment(gravity=(0.0, 0.0, 0.0))
+            string = model.add_string(follows_hole=0, start_free=mbd.FREE_NONE)
+            model.add_pipes(10, string=string, section_stiffness=(1e12, 1e12, 1e12, 1e5, 1e5, 1e5))
+            push = model.add_load(place=mbd.station(string, 9, 1.0), force=(-1.0, 0.0, 0.0),
+                                  programme=model.add_programme(0.0))
+            model.compile()
+            with model.sim() as sim:
+                sim.static()
+                with sim.buckling(scale=mbd.SCALE_PART, part=push, count=2) as found:
+                    self.assertEqual(found.status, mbd.OK)
+                    for factor in found.factors:
+                        self.assertAlmostEqual(factor / (math.pi ** 2 * 1e5 / 400.0), 1.0, 4)
+                    tip, middle = (found.shape(0, mbd.station(string, *at)) for at in ((9, 1.0), (4, 1.0)))
+                    length = math.hypot(*tip[1:3])
+                    self.assertAlmostEqual(math.hypot(*middle[1:3]) / length, 1.0 - math.cos(math.pi / 4.0), 4)
 
     def test_projected_start_is_a_note(self):
         with mbd.Model() as model:

@@ -14,7 +14,8 @@ typedef struct dmb_static_options {
     double tolerance;          /* [-] residual over the norm of the forces that balance in it; default 1e-10 */
     double slip_axial;         /* [m/s] friction acts as if the string slid along the hole at this speed; default 0 */
     double slip_rotation;      /* [rad/s] and turned at this speed; both 0: no friction in the static state */
-    uint32_t load_steps;       /* [-] equal steps from no load to full load, 1 .. 10000; default 1 */
+    uint32_t load_steps;       /* [-] equal steps from no load to full load, at most 10000, before the library chooses
+                                  them by itself; default 0: the whole load at once */
     int32_t lay_on_wall;       /* 1 (default): start from the string lying on the low side of its hole; 0: from the
                                   present pose */
 } dmb_static_options;
@@ -29,16 +30,67 @@ typedef struct dmb_static_report {
     double residual;           /* [-] relative, at the end */
     double largest_force;      /* [N, N m over the element length] largest component of the residual at the end */
     double lateral_move;       /* [m] largest displacement from the starting pose */
+    uint32_t cuts;             /* [-] load steps that did not converge and were halved */
+    uint32_t line_searches;    /* [-] corrections that were shortened by a line search */
+    int32_t negative;          /* [-] negative eigenvalues of the stiffness: 0 of a stable equilibrium; -1: not counted,
+                                  in scenes with joints */
+    int32_t reserved;
 } dmb_static_report;
 DMB_SIZED_STRUCT(dmb_static_report)
 
 /* Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, by
- * Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017), and by pseudo-transient continuation
- * where that fails. The rock law does not act in the static state (at time 0 its bottom is laid ahead of the bit as
- * described); a speed controller acts as at speed 0. Speeds become those of the motion drives, the energy ledger
- * starts anew. options and report may be NULL. Errors: DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which
- * part is free), _ROTATION, _CALLBACK; the state is then that before the call. */
+ * Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017); where that fails in load steps (gravity,
+ * loads and bit load from 0, drives as they are) that are halved when they fail and doubled when they do not, with a
+ * line search in the shortest; and by pseudo-transient continuation where that fails too. The rock law does not act in
+ * the static state (at time 0 its bottom is laid ahead of the bit as described); a speed controller acts as at speed 0.
+ * Speeds become those of the motion drives, the energy ledger starts anew. options and report may be NULL. Errors:
+ * DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the state is then
+ * that before the call. O(number of elements) an iteration. */
 DMB_API int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report);
+
+/* ---- Buckling ----------------------------------------------------------------------------------------------------
+ * What grows with the factor of a buckling analysis or of a path, on top of the loads of the present time; factor 0 is
+ * the present state. */
+enum {
+    DMB_SCALE_ALL = 0,   /* gravity, all loads, bit loads, forces of load drives: 1 + factor times the present ones */
+    DMB_SCALE_LOADS = 1, /* the same without gravity */
+    DMB_SCALE_PART = 2   /* one part: `factor` times a load as described; [N, N m] of a load drive; [m, rad] that a
+                            motion drive of a string or body moves its component by */
+};
+typedef struct dmb_buckling_options {
+    uint32_t struct_size;
+    uint32_t count;          /* [-] of critical factors wanted, 1 .. 10000; default 1 */
+    int32_t scale;           /* DMB_SCALE_..., default DMB_SCALE_LOADS */
+    int32_t reserved;
+    dmb_id part;             /* load or drive of DMB_SCALE_PART */
+    double factor_max;       /* [unit of the factor] not looked beyond, > 0; default 1e12 */
+    double tolerance;        /* [-] relative, of the factors, 1e-15 .. 0.1; default 1e-10 */
+    double step;             /* [unit of the factor] difference that the change of the stiffness is taken over; 0
+                                (default): what moves the string by a millionth of an element */
+    double slip_axial;       /* [m/s] friction as in dmb_static_options; the symmetric part of the stiffness counts */
+    double slip_rotation;    /* [rad/s] */
+} dmb_buckling_options;
+DMB_SIZED_STRUCT(dmb_buckling_options)
+/* Critical factors and shapes; destroyed by the caller, one thread at a time. */
+typedef struct dmb_buckling dmb_buckling;
+/* Linear buckling about the present static state (dmb_analysis_static first): the lowest factors > 0 at which
+ * K + factor dK is singular. K is the tangent stiffness with its contacts as they are, closed ones holding and swinging
+ * with F/e around the axis; dK is its change along the response of the state to the pattern of loads. Counted by
+ * the signs of the pivots (Sylvester), so that none is missed, and found by bisection. The sim is not changed.
+ * DMB_NOTE_STOPPED where fewer than `count` lie below factor_max. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no
+ * equilibrium or not stable; message says by how much), _SINGULAR (message says which part is free), _UNSUPPORTED
+ * (scenes with joints), _NO_MEMORY, _CALLBACK; *buckling is NULL then. Some 40 counts a factor, each O(number of
+ * elements); memory: the sim's once more and 3 matrices, from its allocator. */
+DMB_API int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling);
+/* Gives the memory back and sets *buckling to NULL. NULL-safe. */
+DMB_API void dmb_buckling_destroy(dmb_buckling **buckling);
+/* Factors found; 0 for NULL. */
+DMB_API uint32_t dmb_buckling_count(const dmb_buckling *buckling);
+/* [unit of the factor] The critical factor number `mode`, rising from 0 on. DMB_ERR_NULL, _HANDLE, _VALUE. */
+DMB_API int32_t dmb_buckling_factor(const dmb_buckling *buckling, uint32_t mode, double *factor);
+/* [m, rad] displacement and rotation of a section in the buckling shape, world frame, the largest displacement of a node
+ * being 1 m in its own axes; shape (6). Errors as above and those of dmb_query_motion. */
+DMB_API int32_t dmb_buckling_shape(const dmb_buckling *buckling, uint32_t mode, dmb_place place, double shape[6]);
 
 /* ---- Model check -------------------------------------------------------------------------------------------------
  * What a scene consists of, how many degrees of freedom it has, and what looks wrong with it. */

@@ -7,5 +7,6 @@
 #include "sim.h"
 #include "query.h"
 #include "analysis.h"
+#include "response.h"
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "analysis/static_options.h"
 #include "analysis/static_state.h"
+#include "analysis/stiffness.h"
 #include "base/handle.h"
 #include "base/sized_struct.h"
 #include "math/vec3.h"
@@ -12,7 +13,7 @@
 
 DMB_DECLARE_STRUCT(dmb_static_report)
 
-static void set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_options *options)
+void dmb_static_set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_options *options)
 {
     memset(search, 0, sizeof *search);
     search->sim = sim;
@@ -21,13 +22,16 @@ static void set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_opt
     search->evaluation.time = sim->clock->time;
     search->evaluation.load_factor = 1.0;
     search->evaluation.tangent = 1;
-    search->evaluation.slipping = options->slip_axial != 0.0 || options->slip_rotation != 0.0;
-    search->evaluation.slip[0] = options->slip_axial;
-    search->evaluation.slip[1] = options->slip_rotation;
 }
 
-/* Trial at the starting pose, drives and loads at their present values. */
-static int32_t begin(dmb_static_search *search)
+void dmb_static_slip(dmb_static_search *search, double axial, double rotation)
+{
+    search->evaluation.slipping = axial != 0.0 || rotation != 0.0;
+    search->evaluation.slip[0] = axial;
+    search->evaluation.slip[1] = rotation;
+}
+
+int32_t dmb_static_begin(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
@@ -39,39 +43,50 @@ static int32_t begin(dmb_static_search *search)
     return dmb_static_settle(search);
 }
 
-typedef int32_t (*search_fn)(dmb_static_search *search);
-
-/* Equal load steps; a single one is the common case. */
-static int32_t run(dmb_static_search *search, search_fn method, uint32_t steps)
-{
-    int32_t status = begin(search);
-    search->load_steps = steps;
-    for (uint32_t k = 1; k <= steps && status >= 0; k++) {
-        search->evaluation.load_factor = (double)k / steps;
-        status = method(search);
-    }
-    return status;
-}
-
 static int may_try_again(int32_t status)
 {
     return status < 0 && status != DMB_ERR_CALLBACK;
 }
 
-/* Newton in the load steps asked for, then in 4 and 16 times as many, then the relaxation. What nothing holds in its
- * starting pose may yet fall onto the wall, so the relaxation comes at once; where that fails too, the part is free. */
+/* Where it goes astray it begins again with shorter corrections, but not for a part that nothing holds. */
+#define DMB_CAUTION_MAX 10.0
+
+static int32_t relax(dmb_static_search *search, uint32_t steps, int singular)
+{
+    int32_t status = DMB_ERR_NO_CONVERGENCE;
+    for (search->caution = 1.0; may_try_again(status) && search->caution < DMB_CAUTION_MAX; search->caution *= 3.0) {
+        status = dmb_static_equal_steps(search, dmb_static_relaxation, steps);
+        if (status != DMB_ERR_ROTATION && (singular || search->loose)) break;
+    }
+    return status;
+}
+
+/* The starting state is `now` again. Joints may have chosen their partition anew on the way, which goes back with it.
+ */
+static int32_t end_growing_steps(dmb_static_search *search, int32_t status)
+{
+    dmb_sim *sim = search->sim;
+    dmb_state_bring_back(sim);
+    if (status < 0 || sim->scene->cluster_count == 0) return status;
+    status = dmb_static_settle(search);
+    return status < 0 ? status : dmb_system_evaluate(&search->evaluation);
+}
+
+/* Newton in the load steps asked for, or at once where they are the library's choice, then in steps that grow, then the
+ * relaxation. What nothing holds in its starting pose may yet fall onto the wall, so the relaxation comes at once;
+ * where that fails too, the part is free. */
 static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
 {
-    const uint32_t steps = search->options->load_steps;
-    int32_t status = run(search, dmb_static_newton, steps);
+    const uint32_t steps = search->options->load_steps > 0 ? search->options->load_steps : 1;
+    int32_t status = dmb_static_equal_steps(search, dmb_static_newton, steps);
     *method = DMB_STATIC_NEWTON;
-    for (uint32_t finer = 4; finer <= 16 && may_try_again(status) && status != DMB_ERR_SINGULAR; finer *= 4)
-        status = run(search, dmb_static_newton, finer * steps);
+    if (may_try_again(status) && status != DMB_ERR_SINGULAR)
+        status = end_growing_steps(search, dmb_static_growing_steps(search));
     if (!may_try_again(status)) return status;
     const uint32_t singular_block = search->block;
     const int singular = status == DMB_ERR_SINGULAR;
     *method = DMB_STATIC_RELAXATION;
-    status = run(search, dmb_static_relaxation, steps);
+    status = relax(search, steps, singular);
     if (status >= 0 || !(singular || search->loose)) return status;
     search->block = singular ? singular_block : search->loose_block;
     return DMB_ERR_SINGULAR;
@@ -175,7 +190,8 @@ int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb
     if (report != NULL && dmb_static_report_read(&out, report) < 0) return DMB_ERR_STRUCT_SIZE;
     int32_t status = dmb_static_options_take(sim, options, &taken);
     if (status < 0) return status;
-    set_up(&search, sim, &taken);
+    dmb_static_set_up(&search, sim, &taken);
+    dmb_static_slip(&search, taken.slip_axial, taken.slip_rotation);
     dmb_state_keep(sim);
     status = search_equilibrium(&search, &out.method);
     if (status < 0) {
@@ -187,6 +203,10 @@ int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb
     out.load_steps = search.load_steps;
     out.residual = search.residual;
     out.largest_force = largest_residual(sim);
+    out.cuts = search.cuts;
+    out.line_searches = search.line_searches;
+    dmb_system_iteration_matrix(&search.evaluation);
+    out.negative = dmb_stiffness_negative(sim);
     out.lateral_move = largest_displacement(sim);
     status = settle(&search);
     if (status >= 0 && report != NULL) (void)dmb_static_report_write(report, &out);

@@ -6,24 +6,38 @@
 #include "system/joint_state.h"
 #include "system/solve.h"
 
-/* Joints closed, and the partition chosen anew where it has become poor. */
+static int32_t choose_anew(dmb_static_search *search)
+{
+    const int32_t status = dmb_clusters_gather(&search->evaluation);
+    if (status >= 0) dmb_clusters_choose(search->sim);
+    return status;
+}
+
+/* Joints closed, and the partition chosen anew where it has become poor. A long way may have made it useless at once. */
 int32_t dmb_static_settle(dmb_static_search *search)
 {
-    const int32_t status = dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
+    int32_t status = dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
+    if (status == DMB_ERR_SINGULAR) {
+        status = choose_anew(search);
+        if (status >= 0) status = dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
+    }
     if (status < 0) return status;
+    search->sim->linked_mode->row = UINT32_MAX;
     dmb_joints_follow(&search->evaluation);
     return dmb_clusters_refresh(&search->evaluation);
 }
 
-/* Moves the trial by body-frame increments; the sum in `increment` follows the turns. */
-static int32_t move(dmb_static_search *search)
+/* The sum in `increment` follows the turns. */
+int32_t dmb_static_move(dmb_static_search *search, const double *correction, double factor)
 {
     dmb_sim *sim = search->sim;
     const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0; i < scene->row_count; i++) sim->increment[i] += sim->correction[i];
+    for (uint32_t i = 0; i < scene->row_count; i++) sim->increment[i] += factor * correction[i];
     for (uint32_t i = 0; i < scene->node_count; i++) {
-        const double *z = sim->correction + scene->layout.row[i];
-        if (scene->layout.size[i] == DMB_NODE_FULL) {
+        const uint32_t size = scene->layout.size[i];
+        double z[6] = {0.0};
+        for (uint32_t c = 0; c < size; c++) z[c] = factor * correction[scene->layout.row[i] + c];
+        if (size == DMB_NODE_FULL) {
             dmb_se3_advance(sim->trial.quaternion + 4 * i, sim->trial.displacement + 3 * i, z);
         } else {
             sim->trial.displacement[3 * i] += z[0];
@@ -57,14 +71,18 @@ static double largest_move(const dmb_sim *sim)
 #define DMB_MOVES_ENOUGH 20
 
 /* 0: in equilibrium, 1: not yet, < 0: failed */
-static int32_t evaluate(dmb_static_search *search)
+static int32_t judge(dmb_static_search *search)
 {
-    const int32_t status = dmb_system_evaluate(&search->evaluation);
-    if (status < 0) return status;
     const dmb_residual_norm norm = dmb_residual_norm_of(&search->evaluation, search->options->tolerance);
     search->residual = norm.relative;
     if (norm.converged == DMB_CONVERGED || (norm.converged && search->moved <= DMB_NO_MOVE)) return 0;
     return 1;
+}
+
+static int32_t evaluate(dmb_static_search *search)
+{
+    const int32_t status = dmb_system_evaluate(&search->evaluation);
+    return status < 0 ? status : judge(search);
 }
 
 /* A pivot this small against its block is rounding: 100 m of unsupported pipe still leave 1e-9. */
@@ -93,24 +111,42 @@ static double damping(uint32_t iteration)
     return iteration % 4 == 3 ? 1.0 : 0.5;
 }
 
-int32_t dmb_static_newton(dmb_static_search *search)
+/* The correction takes the place of the residual; the line search looks at the work of both. At rest the trial's
+ * accelerations are room for it. */
+static int32_t correct(dmb_static_search *search, uint32_t iteration)
 {
     dmb_sim *sim = search->sim;
+    const uint32_t rows = sim->scene->row_count;
+    double *direction = sim->trial.acceleration, work = 0.0;
+    memcpy(direction, sim->correction, rows * sizeof(double));
+    int32_t status = solve(search);
+    if (status < 0) return status;
+    search->moved = iteration + 1 < DMB_MOVES_ENOUGH ? largest_move(sim) / sim->scene->length_scale : 0.0;
+    scale_correction(sim, damping(iteration));
+    for (uint32_t i = 0; i < rows; i++) {
+        work += sim->scene->solved_row[i] ? direction[i] * sim->correction[i] : 0.0;
+        direction[i] = sim->correction[i];
+    }
+    dmb_system_extrapolate_stress(sim, sim->correction);
+    search->evaluation.extrapolated = 1;
+    status = dmb_static_move(search, direction, 1.0);
+    if (status >= 0) status = dmb_system_evaluate(&search->evaluation);
+    if (status >= 0 && search->searching) status = dmb_static_line_search(search, direction, work);
+    return status;
+}
+
+int32_t dmb_static_newton(dmb_static_search *search)
+{
     search->evaluation.extrapolated = 0;
     search->moved = (double)INFINITY;
-    for (uint32_t k = 0;; k++) {
-        int32_t status = evaluate(search);
+    int32_t status = dmb_system_evaluate(&search->evaluation);
+    for (uint32_t k = 0; status >= 0; k++) {
+        status = judge(search);
         if (status <= 0) return status;
         if (k >= search->options->max_iterations) return DMB_ERR_NO_CONVERGENCE;
-        status = solve(search);
-        if (status < 0) return status;
-        search->moved = k + 1 < DMB_MOVES_ENOUGH ? largest_move(sim) / sim->scene->length_scale : 0.0;
-        scale_correction(sim, damping(k));
-        dmb_system_extrapolate_stress(sim, sim->correction);
-        search->evaluation.extrapolated = 1;
-        status = move(search);
-        if (status < 0) return status;
+        status = correct(search, k);
     }
+    return status;
 }
 
 /* Pseudo mass of a row over tau^2: the weight it carries, of a rotation that of a rod of the length scale. */
@@ -127,14 +163,46 @@ static void add_pseudo_mass(dmb_sim *sim, double rate)
     }
 }
 
-/* Length that one correction may not exceed: half the smallest clearance, or a part of an element without a wall. */
+/* [m] length that one correction may not exceed: half the smallest clearance; infinite without a wall. */
 static double longest_move(const dmb_scene *scene)
 {
-    double limit = 0.2 * scene->length_scale;
+    double limit = (double)INFINITY;
     for (uint32_t s = 0; s < scene->site_count; s++)
-        if (scene->sites[s].clearance > 0.0) limit = fmin(limit, 0.5 * scene->sites[s].clearance);
+        if (scene->sites[s].clearance > 0.0)
+            limit = fmin(limit, fmin(0.2 * scene->length_scale, 0.5 * scene->sites[s].clearance));
     return limit;
 }
+
+/* [rad] the same of a rotation. What hangs free moves far before it rests, but any part of it only turns. */
+#define DMB_LONGEST_TURN 0.3
+
+static double largest_turn(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    double most = 0.0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const double *z = sim->correction + scene->layout.row[i];
+        if (scene->layout.size[i] == DMB_NODE_FULL) most = fmax(most, fmax(fabs(z[3]), fmax(fabs(z[4]), fabs(z[5]))));
+    }
+    return most;
+}
+
+/* [-] The two ends of a joint travel on different screws and come apart by half the product of way and turn, which the
+ * elements beside the joint then have to make up for: part of the length scale that may be. */
+#define DMB_LONGEST_GAP 0.15
+
+/* [-] largest correction over what one may be */
+static double reach(const dmb_static_search *search, double limit)
+{
+    const dmb_scene *scene = search->sim->scene;
+    if (isfinite(limit)) return search->caution * search->moved * scene->length_scale / limit;
+    const double turn = largest_turn(search->sim), gap = 0.5 * search->moved * turn;
+    const double apart = scene->cluster_count ? sqrt(gap / DMB_LONGEST_GAP) : 0.0;
+    return search->caution * fmax(turn / DMB_LONGEST_TURN, apart);
+}
+
+/* Corrections this small a part of what they may be only creep: the next step of pseudo time is longer. */
+#define DMB_CREEP 0.25
 
 int32_t dmb_static_relaxation(dmb_static_search *search)
 {
@@ -152,12 +220,13 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
         add_pseudo_mass(sim, rate);
         status = solve(search);
         if (status < 0) return status;
-        const double most = largest_move(sim);
-        search->moved = most / sim->scene->length_scale;
-        scale_correction(sim, most > limit ? limit / most : 1.0);
+        search->moved = largest_move(sim) / sim->scene->length_scale;
+        const double part = reach(search, limit);
+        if (part > 1.0) scale_correction(sim, 1.0 / part);
+        if (part < DMB_CREEP) rate *= 0.5;
         dmb_system_extrapolate_stress(sim, sim->correction);
         search->evaluation.extrapolated = 1;
-        status = move(search);
+        status = dmb_static_move(search, sim->correction, 1.0);
         if (status < 0) return status;
     }
 }

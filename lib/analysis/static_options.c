@@ -20,7 +20,7 @@ int32_t dmb_static_options_take(dmb_sim *sim, const dmb_static_options *given, d
     dmb_check_within(&check, "tolerance", out->tolerance, 1e-15, 0.1);
     dmb_check_within(&check, "slip_axial", out->slip_axial, -1e6, 1e6);
     dmb_check_within(&check, "slip_rotation", out->slip_rotation, -1e6, 1e6);
-    dmb_check_count(&check, "load_steps", out->load_steps, 1, 10000);
+    dmb_check_count(&check, "load_steps", out->load_steps, 0, 10000);
     dmb_check_choice(&check, "lay_on_wall", out->lay_on_wall, 0, 1);
     return check.status;
 }

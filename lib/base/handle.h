@@ -11,6 +11,8 @@
 #define DMB_HANDLE_DEAD UINT32_C(0x0DEAD0BD)
 #define DMB_HANDLE_MODEL UINT32_C(0x4D424D31)
 #define DMB_HANDLE_SIM UINT32_C(0x4D425331)
+#define DMB_HANDLE_RESPONSE UINT32_C(0x4D425231)
+#define DMB_HANDLE_BUCKLING UINT32_C(0x4D424B31)
 
 /* True if object is not NULL and carries the stamp. */
 static inline bool dmb_handle_is(const void *object, uint32_t stamp)

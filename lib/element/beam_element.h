@@ -13,6 +13,7 @@ typedef struct dmb_beam_task {
     int32_t extrapolated; /* 1: geometric stiffness with the stress given, 0: with the true stress, which is given back */
     int32_t rates;        /* 1: strain rates are needed, for the energy ledger or for damping */
     int32_t damped;       /* 1: damping_time is not 0 everywhere */
+    int32_t inertia_only; /* 1: blocks without the stiffness */
     int32_t arms;         /* 1: some ends stand off their nodes */
 } dmb_beam_task;
 
@@ -23,6 +24,7 @@ typedef struct dmb_beam_input {
     dmb_real reach;                /* [m] size of the numbers that the span is the difference of */
     dmb_real va[6], vb[6];         /* velocities of the nodes, body frame */
     dmb_real aa[6], ab[6];         /* their rates */
+    dmb_real za[6], zb[6];         /* [m, rad] increments of pose h Dq over the step */
 } dmb_beam_input;
 
 typedef struct dmb_beam_output {
@@ -32,7 +34,8 @@ typedef struct dmb_beam_output {
     dmb_real scale_a[6], scale_b[6]; /* sums of magnitudes of their terms */
     dmb_real rounding;             /* [N2] */
     dmb_real potential, damping, inertia; /* [W] */
-    dmb_beam_blocks K, C;          /* stiffness by pose; inertia and damping by motion */
+    dmb_beam_blocks K, C;          /* stiffness by pose; inertia and damping by motion. When dynamic, K.ab and K.ba are
+                                      blocks of the iteration matrix already: K T6(h Dq) + C */
 } dmb_beam_output;
 
 static inline void dmb_beam_add_magnitudes(const dmb_real force[6], dmb_real scale[6])
@@ -83,19 +86,40 @@ static inline void dmb_beam_inertia_force(const dmb_beam_constants *c, const dmb
     dmb_beam_add_magnitudes(fb, out->scale_b);
 }
 
+static inline void dmb_beam_clear_blocks(dmb_beam_blocks *blocks)
+{
+    dmb_mat6_zero(blocks->aa);
+    dmb_mat6_zero(blocks->ab);
+    dmb_mat6_zero(blocks->ba);
+    dmb_mat6_zero(blocks->bb);
+}
+
+/* K <- K T6(z) + C, or C alone */
+static inline void dmb_beam_link(const dmb_real z[6], const dmb_real C[36], int stiff, dmb_real K[36])
+{
+    dmb_se3_tangent T;
+    if (!stiff) {
+        dmb_mat6_copy(C, K);
+        return;
+    }
+    dmb_se3_tangent_at(z, NULL, &T);
+    dmb_se3_times_tangent(K, 6, &T);
+    dmb_mat6_add(K, C, K);
+}
+
 static inline void dmb_beam_tangent(const dmb_beam_task *task, const dmb_beam_constants *c,
                                     const dmb_beam_shape *shape, const dmb_real va[6], const dmb_real vb[6],
                                     const dmb_real pa[6], const dmb_real pb[6], dmb_beam_output *out)
 {
-    dmb_beam_stiffness_blocks(c, shape, out->stress, &out->K);
+    if (task->inertia_only)
+        dmb_beam_clear_blocks(&out->K);
+    else
+        dmb_beam_stiffness_blocks(c, shape, out->stress, &out->K);
     if (task->dynamic) {
         if (task->damped) {
             dmb_beam_damping_blocks(c, shape, va, vb, dmb_real_of(task->velocity_factor), &out->K, &out->C);
         } else {
-            dmb_mat6_zero(out->C.aa);
-            dmb_mat6_zero(out->C.ab);
-            dmb_mat6_zero(out->C.ba);
-            dmb_mat6_zero(out->C.bb);
+            dmb_beam_clear_blocks(&out->C);
         }
         dmb_beam_add_inertia_blocks(c, va, vb, pa, pb, dmb_real_of(task->mass_factor),
                                     dmb_real_of(task->velocity_factor), &out->C);
@@ -103,6 +127,13 @@ static inline void dmb_beam_tangent(const dmb_beam_task *task, const dmb_beam_co
     if (!task->arms) return;
     dmb_beam_blocks_to_nodes(c->arm, &out->K);
     if (task->dynamic) dmb_beam_blocks_to_nodes(c->arm, &out->C);
+}
+
+/* The blocks of the link, as the iteration matrix takes them. */
+static inline void dmb_beam_links(const dmb_beam_task *task, const dmb_beam_input *in, dmb_beam_output *out)
+{
+    dmb_beam_link(in->zb, out->C.ab, !task->inertia_only, out->K.ab);
+    dmb_beam_link(in->za, out->C.ba, !task->inertia_only, out->K.ba);
 }
 
 static inline void dmb_beam_clear(dmb_beam_output *out)
@@ -133,6 +164,7 @@ static inline int dmb_beam_element(const dmb_beam_task *task, const dmb_beam_con
         dmb_beam_inertia_force(c, in->va, in->vb, in->aa, in->ab, pa, pb, out);
     }
     if (task->tangent) dmb_beam_tangent(task, c, &shape, in->va, in->vb, pa, pb, out);
+    if (task->tangent && task->dynamic) dmb_beam_links(task, in, out);
     if (!task->arms) return 0;
     dmb_arm_wrench(c->arm[0], out->fa);
     dmb_arm_wrench(-c->arm[1], out->fb);

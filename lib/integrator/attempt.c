@@ -20,6 +20,9 @@
 #define DMB_STEP_RATIO_MAX 1e3
 /* Kept factors converge linearly and end just below their tolerance, where fresh ones end far below: they aim lower. */
 #define DMB_KEPT_TOLERANCE 1e-1
+/* Steps that begin with a residual above this part of their forces are those in which bodies meet: a correction by
+ * kept factors would lead astray. */
+#define DMB_KEPT_START 0.1
 /* Longest pause in steps between tries of kept factors. */
 #define DMB_PAUSE_MAX 31
 /* New factors cost about as much as this many corrections with old ones. */
@@ -167,7 +170,8 @@ static int32_t factors_will_do(const dmb_sim *sim, const dmb_attempt *attempt, c
     const double rate = attempt->residual / course->last;
     if (attempt->factored == DMB_FACTORS_NONE) return 0;
     if (attempt->factored == DMB_FACTORS_KEPT && dmb_contact_changes(sim)) return 0;
-    if (attempt->factored == DMB_FACTORS_KEPT && course->corrections == 0) return 1;
+    if (attempt->factored == DMB_FACTORS_KEPT && course->corrections == 0)
+        return attempt->residual <= DMB_KEPT_START;
     return rate * rate * attempt->residual <= tolerance;
 }
 

@@ -19,13 +19,14 @@ typedef struct dmb_beam_run {
     const double *displacement;  /* [m] shape (count + 1, 3) */
     const double *quaternion;    /* shape (count + 1, 4) */
     const double *velocity, *acceleration; /* shape (count + 1, 6) */
+    const double *increment;     /* [m, rad] h Dq, shape (count + 1, 6) */
     double mass_factor, velocity_factor;   /* as in dmb_evaluation, as are: */
-    int32_t dynamic, tangent, extrapolated, ledger;
+    int32_t dynamic, tangent, extrapolated, inertia_only, ledger, reserved;
     int32_t damped, arms;        /* 1: some element of the run has a damping time, rigid arms */
     double *residual, *scale;    /* added to, shape (count + 1, 6) */
     double *strain, *stress;     /* shape (count, 6) */
     double *stiffness_diagonal, *inertia_diagonal; /* added to, shape (count + 1, 36) */
-    double *stiffness_upper, *stiffness_lower, *inertia_upper, *inertia_lower; /* written, shape (count, 36) */
+    double *upper, *lower;       /* stiffness, or when dynamic the iteration matrix; written, shape (count, 36) */
     double rounding, potential, damping, inertia;  /* added to: [N2], [W] */
 } dmb_beam_run;
 

@@ -85,6 +85,9 @@ static inline void load_input(const dmb_beam_run *run, const lane_group *g, dmb_
     load(run->velocity, 6, 6, g, 1, in->vb);
     load(run->acceleration, 6, 6, g, 0, in->aa);
     load(run->acceleration, 6, 6, g, 1, in->ab);
+    if (!run->tangent) return;
+    load(run->increment, 6, 6, g, 0, in->za);
+    load(run->increment, 6, 6, g, 1, in->zb);
 }
 
 static inline void store_forces(dmb_beam_run *run, const lane_group *g, const dmb_beam_output *out)
@@ -105,15 +108,12 @@ static inline void store_forces(dmb_beam_run *run, const lane_group *g, const dm
     if (!run->extrapolated) store(out->stress, 6, g, run->stress);
 }
 
-static inline void store_blocks(const lane_group *g, const dmb_beam_blocks *blocks, double *diagonal, double *upper,
-                                double *lower)
+static inline void add_diagonal(const lane_group *g, const dmb_beam_blocks *blocks, double *diagonal)
 {
     for (uint32_t l = 0; l < g->used; l++) {
         add_lane(blocks->aa, (int)l, 36, diagonal + 36 * g->place[l]);
         add_lane(blocks->bb, (int)l, 36, diagonal + 36 * g->place[l] + 36);
     }
-    store(blocks->ab, 36, g, upper);
-    store(blocks->ba, 36, g, lower);
 }
 
 /* The first lane that turned too far, found one by one. */
@@ -131,7 +131,7 @@ static uint32_t failed_of(const dmb_beam_run *run, const lane_group *g, const dm
 static int32_t beams(dmb_beam_run *run)
 {
     const dmb_beam_task task = {run->mass_factor, run->velocity_factor, run->dynamic, run->tangent, run->extrapolated,
-                                run->dynamic && (run->ledger || run->damped), run->damped, run->arms};
+                                run->dynamic && (run->ledger || run->damped), run->damped, run->inertia_only, run->arms};
     lane_types types;
     for (uint32_t first = 0; first < run->count; first += LANES) {
         const lane_group g = group_at(first, run->count);
@@ -146,8 +146,10 @@ static int32_t beams(dmb_beam_run *run)
         }
         store_forces(run, &g, &out);
         if (!run->tangent) continue;
-        store_blocks(&g, &out.K, run->stiffness_diagonal, run->stiffness_upper, run->stiffness_lower);
-        if (run->dynamic) store_blocks(&g, &out.C, run->inertia_diagonal, run->inertia_upper, run->inertia_lower);
+        if (!run->inertia_only) add_diagonal(&g, &out.K, run->stiffness_diagonal);
+        if (run->dynamic) add_diagonal(&g, &out.C, run->inertia_diagonal);
+        store(out.K.ab, 36, &g, run->upper);
+        store(out.K.ba, 36, &g, run->lower);
     }
     return 0;
 }

@@ -128,6 +128,18 @@ static inline void dmb_se3_tangent_reverse(const dmb_se3_tangent *T, dmb_se3_tan
     dmb_mat3_transpose(T->B, out->B);
 }
 
+/* rows x 6 block: K <- K T6 = [a S, a B + b S] row by row */
+static inline void dmb_se3_times_tangent(dmb_real *K, uint32_t rows, const dmb_se3_tangent *T)
+{
+    for (uint32_t r = 0; r < rows; r++) {
+        dmb_real *a = K + 6 * r, b[3], c[3];
+        dmb_mat3_tvec(T->B, a, b);
+        dmb_mat3_tvec(T->S, a + 3, c);
+        dmb_vec3_add(b, c, a + 3);
+        dmb_mat3_tvec(T->S, a, a);
+    }
+}
+
 /* out = [S, B; 0, S] */
 static inline void dmb_se3_tangent_matrix(const dmb_se3_tangent *T, dmb_real out[36])
 {

@@ -45,10 +45,17 @@ DMB_DEFINE_INIT(dmb_recorder, 48, {.channel_count = 0})
 DMB_DEFINE_INIT(dmb_static_options, 40, {
     .max_iterations = 60,
     .tolerance = 1e-10,
-    .load_steps = 1,
+    .load_steps = 0,
     .lay_on_wall = 1,
 })
 
 DMB_DEFINE_INIT(dmb_static_report, 40, {.iterations = 0})
+
+DMB_DEFINE_INIT(dmb_buckling_options, 64, {
+    .count = 1,
+    .scale = DMB_SCALE_LOADS,
+    .factor_max = 1e12,
+    .tolerance = 1e-10,
+})
 
 DMB_DEFINE_INIT(dmb_check_report, 192, {.rigid_parts = 0})

@@ -32,6 +32,7 @@ static dmb_beam_run run_of(const dmb_sim *sim, const dmb_batch *batch)
         .quaternion = sim->trial.quaternion + 4 * a,
         .velocity = sim->trial.velocity + row,
         .acceleration = sim->trial.acceleration + row,
+        .increment = sim->increment + row,
         .damped = scene->damped,
         .arms = scene->arms,
         .residual = sim->correction + row,
@@ -40,10 +41,8 @@ static dmb_beam_run run_of(const dmb_sim *sim, const dmb_batch *batch)
         .stress = sim->element_stress + 6 * e,
         .stiffness_diagonal = sim->stiffness_diagonal + diag,
         .inertia_diagonal = sim->inertia_diagonal + diag,
-        .stiffness_upper = sim->stiffness_upper + link,
-        .stiffness_lower = sim->stiffness_lower + link,
-        .inertia_upper = sim->inertia_upper + link,
-        .inertia_lower = sim->inertia_lower + link,
+        .upper = sim->stiffness_upper + link,
+        .lower = sim->stiffness_lower + link,
     };
     return run;
 }
@@ -56,6 +55,7 @@ static int32_t gather_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
     run.dynamic = evaluation->dynamic;
     run.tangent = evaluation->tangent;
     run.extrapolated = evaluation->extrapolated;
+    run.inertia_only = evaluation->inertia_only;
     run.ledger = evaluation->sim->options.energy_ledger;
     run.rounding = evaluation->rounding;
     run.potential = evaluation->power[DMB_POWER_POTENTIAL];
@@ -108,17 +108,17 @@ static void gather_path(dmb_evaluation *evaluation, uint32_t e)
         sim->scale_row[ra + c] += fabs(force) + fabs(mass_a);
         sim->scale_row[rb + c] += fabs(force) + fabs(mass_b);
         if (!evaluation->tangent) continue;
-        const double damped = stiffness * (1.0 + evaluation->velocity_factor * type->damping_time);
-        const double k_dyn = evaluation->dynamic ? damped : stiffness;
-        dmb_stiffness_of(sim, a)[3 * c] += k_dyn;
-        dmb_stiffness_of(sim, b)[3 * c] += k_dyn;
-        sim->stiffness_upper[scene->layout.link[a] + 3 * c] -= k_dyn;
-        sim->stiffness_lower[scene->layout.link[a] + 3 * c] -= k_dyn;
+        const double elastic_part = evaluation->inertia_only ? 0.0 : stiffness;
+        const double damped = evaluation->dynamic ? evaluation->velocity_factor * type->damping_time * stiffness : 0.0;
+        const double heavy = evaluation->dynamic ? evaluation->mass_factor : 0.0;
+        const double link = heavy * mass[c][1] - (elastic_part + damped);
+        dmb_stiffness_of(sim, a)[3 * c] += elastic_part;
+        dmb_stiffness_of(sim, b)[3 * c] += elastic_part;
+        sim->stiffness_upper[scene->layout.link[a] + 3 * c] += link;
+        sim->stiffness_lower[scene->layout.link[a] + 3 * c] += link;
         if (!evaluation->dynamic) continue;
-        dmb_inertia_of(sim, a)[3 * c] += evaluation->mass_factor * mass[c][0];
-        dmb_inertia_of(sim, b)[3 * c] += evaluation->mass_factor * mass[c][0];
-        sim->inertia_upper[scene->layout.link[a] + 3 * c] += evaluation->mass_factor * mass[c][1];
-        sim->inertia_lower[scene->layout.link[a] + 3 * c] += evaluation->mass_factor * mass[c][1];
+        dmb_inertia_of(sim, a)[3 * c] += heavy * mass[c][0] + damped;
+        dmb_inertia_of(sim, b)[3 * c] += heavy * mass[c][0] + damped;
     }
 }
 
@@ -126,6 +126,7 @@ static void gather_path(dmb_evaluation *evaluation, uint32_t e)
 
 typedef struct mixed_side {
     double q[4], R[9], u[3], v[6], a[6];
+    double z[6]; /* increment of the step; 0 on the PATH side, whose two columns are pose parameters already */
     double J[36]; /* (6, rows) row-major with `rows` columns used */
     uint32_t rows;
 } mixed_side;
@@ -139,9 +140,11 @@ static void mixed_side_of(const dmb_evaluation *evaluation, uint32_t node, mixed
     dmb_node_vector(scene, &sim->trial, node, sim->trial.velocity, side->v);
     dmb_node_vector(scene, &sim->trial, node, sim->trial.acceleration, side->a);
     memset(side->J, 0, sizeof side->J);
+    memset(side->z, 0, sizeof side->z);
     if (side->rows == DMB_NODE_FULL) {
         dmb_vec3_copy(side->u, side->u);
         memcpy(side->q, sim->trial.quaternion + 4 * node, sizeof side->q);
+        dmb_vec6_copy(sim->increment + scene->layout.row[node], side->z);
         for (int i = 0; i < 36; i += 7) side->J[i] = 1.0;
         return;
     }
@@ -178,15 +181,6 @@ static void add_projected_force(dmb_sim *sim, uint32_t node, const mixed_side *s
         }
 }
 
-static void add_projected_blocks(const dmb_beam_blocks *blocks, const mixed_side *A, const mixed_side *B, double *aa,
-                                 double *bb, double *upper, double *lower)
-{
-    add_projected(blocks->aa, A, A, aa);
-    add_projected(blocks->bb, B, B, bb);
-    add_projected(blocks->ab, A, B, upper);
-    add_projected(blocks->ba, B, A, lower);
-}
-
 static void mixed_input(const dmb_scene *scene, uint32_t e, const mixed_side *A, const mixed_side *B,
                         dmb_beam_input *in)
 {
@@ -198,6 +192,8 @@ static void mixed_input(const dmb_scene *scene, uint32_t e, const mixed_side *A,
     dmb_vec6_copy(B->v, in->vb);
     dmb_vec6_copy(A->a, in->aa);
     dmb_vec6_copy(B->a, in->ab);
+    dmb_vec6_copy(A->z, in->za);
+    dmb_vec6_copy(B->z, in->zb);
 }
 
 static int32_t gather_mixed(dmb_evaluation *evaluation, uint32_t e)
@@ -210,7 +206,7 @@ static int32_t gather_mixed(dmb_evaluation *evaluation, uint32_t e)
     const dmb_beam_task task = {evaluation->mass_factor, evaluation->velocity_factor, evaluation->dynamic,
                                 evaluation->tangent, evaluation->extrapolated,
                                 evaluation->dynamic && (sim->options.energy_ledger || scene->damped), scene->damped,
-                                scene->arms};
+                                evaluation->inertia_only, scene->arms};
     dmb_beam_constants constants;
     dmb_beam_input in;
     dmb_beam_output out;
@@ -232,11 +228,13 @@ static int32_t gather_mixed(dmb_evaluation *evaluation, uint32_t e)
     add_projected_force(sim, a, &A, out.fa, out.scale_a);
     add_projected_force(sim, b, &B, out.fb, out.scale_b);
     if (!evaluation->tangent) return DMB_OK;
-    add_projected_blocks(&out.K, &A, &B, dmb_stiffness_of(sim, a), dmb_stiffness_of(sim, b),
-                         sim->stiffness_upper + link, sim->stiffness_lower + link);
-    if (evaluation->dynamic)
-        add_projected_blocks(&out.C, &A, &B, dmb_inertia_of(sim, a), dmb_inertia_of(sim, b),
-                             sim->inertia_upper + link, sim->inertia_lower + link);
+    add_projected(out.K.aa, &A, &A, dmb_stiffness_of(sim, a));
+    add_projected(out.K.bb, &B, &B, dmb_stiffness_of(sim, b));
+    add_projected(out.K.ab, &A, &B, sim->stiffness_upper + link);
+    add_projected(out.K.ba, &B, &A, sim->stiffness_lower + link);
+    if (!evaluation->dynamic) return DMB_OK;
+    add_projected(out.C.aa, &A, &A, dmb_inertia_of(sim, a));
+    add_projected(out.C.bb, &B, &B, dmb_inertia_of(sim, b));
     return DMB_OK;
 }
 

@@ -20,8 +20,6 @@ static void clear(const dmb_evaluation *evaluation)
     memset(sim->stiffness_lower, 0, link);
     memset(sim->stiffness_upper, 0, link);
     memset(sim->inertia_diagonal, 0, diagonal);
-    memset(sim->inertia_lower, 0, link);
-    memset(sim->inertia_upper, 0, link);
 }
 
 static void update_rotations(dmb_sim *sim)

@@ -20,6 +20,8 @@ typedef struct dmb_evaluation {
     double load_factor;       /* [-] on gravity, loads and bit load (static load steps) */
     int32_t dynamic;          /* 0: no inertia, damping, nor rates: statics */
     int32_t tangent;          /* 1: fill stiffness_ and inertia_ blocks too */
+    int32_t inertia_only;     /* 1: tangents by motion alone, links of elements without their stiffness */
+    int32_t reserved;
     int32_t extrapolated;     /* 1: geometric stiffness with element_stress as it stands, 0: with the true stress */
     int32_t slipping;         /* statics: friction acts as at the speed slip[] */
     double slip[2];           /* [m/s, rad/s] along the hole, of rotation */

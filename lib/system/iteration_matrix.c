@@ -1,20 +1,9 @@
 /* Iteration matrix of a Newton step in the pose parameters z of the increment h Dq:
  *     [K T6(h Dq) + mass_factor M + velocity_factor C] z = -residual
- * K is with respect to body-frame pose changes, which are T6(h Dq) z. */
+ * K is with respect to body-frame pose changes, which are T6(h Dq) z. The elements have done so to the blocks of their
+ * links; what is left are the blocks of the nodes, to which all forces add. */
 #include "math/se3.h"
 #include "system/evaluation.h"
-
-/* rows x 6 block: K <- K T6 = [a S, a B + b S] row by row */
-static void times_tangent(double *K, uint32_t rows, const dmb_se3_tangent *T)
-{
-    for (uint32_t r = 0; r < rows; r++) {
-        double *a = K + 6 * r, b[3], c[3];
-        dmb_mat3_tvec(T->B, a, b);
-        dmb_mat3_tvec(T->S, a + 3, c);
-        dmb_vec3_add(b, c, a + 3);
-        dmb_mat3_tvec(T->S, a, a);
-    }
-}
 
 static void tangent_columns(dmb_sim *sim, uint32_t node)
 {
@@ -23,11 +12,7 @@ static void tangent_columns(dmb_sim *sim, uint32_t node)
     dmb_se3_tangent T;
     if (layout->size[node] != DMB_NODE_FULL) return;
     dmb_se3_tangent_at(sim->increment + layout->row[node], NULL, &T);
-    times_tangent(dmb_stiffness_of(sim, node), DMB_NODE_FULL, &T);
-    if (node > 0 && scene->node_element[node - 1] != UINT32_MAX)
-        times_tangent(sim->stiffness_upper + layout->link[node - 1], layout->size[node - 1], &T);
-    if (scene->node_element[node] != UINT32_MAX)
-        times_tangent(sim->stiffness_lower + layout->link[node], layout->size[node + 1], &T);
+    dmb_se3_times_tangent(dmb_stiffness_of(sim, node), DMB_NODE_FULL, &T);
 }
 
 static void add(const double *restrict from, double *restrict to, uint32_t count)
@@ -69,8 +54,6 @@ void dmb_system_iteration_matrix(const dmb_evaluation *evaluation)
     if (evaluation->dynamic) {
         for (uint32_t i = 0; i < n; i++) tangent_columns(sim, i);
         add(sim->inertia_diagonal, sim->stiffness_diagonal, layout->diag[n]);
-        add(sim->inertia_upper, sim->stiffness_upper, layout->link[n - 1]);
-        add(sim->inertia_lower, sim->stiffness_lower, layout->link[n - 1]);
     }
     for (uint32_t i = 0; i < scene->held_count; i++) hold_row(sim, scene->held_node[i], scene->held_component[i]);
 }

@@ -92,10 +92,30 @@ void dmb_add_node_columns(const dmb_scene *scene, uint32_t node, const double ve
     for (int i = 0; i < 6; i++) columns[i] += vector[i];
 }
 
+/* A row that only moves a node across its axis leaves nothing but rounding along and about it: parts of the row, or arms
+ * that are none. Scaled to unit length in the choice of the partition that would be an equation like any other, so it
+ * has to be 0. */
+#define DMB_ROW_ROUNDING 1e-14
+#define DMB_ARM_ROUNDING 1e-12 /* in length scales */
+
+static void clear_rounding(const dmb_scene *scene, double part[6])
+{
+    const double along = dmb_vec3_norm(part), about = dmb_vec3_norm(part + 3);
+    if (fabs(part[0]) < DMB_ROW_ROUNDING * along) part[0] = 0.0;
+    if (fabs(part[3]) < DMB_ROW_ROUNDING * about + DMB_ARM_ROUNDING * scene->length_scale * along) part[3] = 0.0;
+}
+
 static void row_times(const double J[6], const double map[36], double factor, double out[6])
 {
     dmb_mat6_row(J, 1, map, out);
     for (int i = 0; i < 6; i++) out[i] *= factor;
+}
+
+static void add_part(const dmb_scene *scene, const dmb_constraint *constraint, uint32_t node, double part[6],
+                     double *row)
+{
+    if (scene->layout.size[node] == DMB_NODE_PATH) clear_rounding(scene, part);
+    dmb_add_node_columns(scene, node, part, row + dmb_constraint_column(constraint, node));
 }
 
 void dmb_add_joint_row(const dmb_scene *scene, const dmb_constraint *constraint, uint32_t j,
@@ -104,8 +124,8 @@ void dmb_add_joint_row(const dmb_scene *scene, const dmb_constraint *constraint,
     const dmb_scene_joint *joint = scene->joints + j;
     double part[6];
     row_times(J, relative->to_b, factor, part);
-    dmb_add_node_columns(scene, joint->b.node, part, row + dmb_constraint_column(constraint, joint->b.node));
+    add_part(scene, constraint, joint->b.node, part, row);
     if (joint->a.node == UINT32_MAX) return;
     row_times(J, relative->to_a, factor, part);
-    dmb_add_node_columns(scene, joint->a.node, part, row + dmb_constraint_column(constraint, joint->a.node));
+    add_part(scene, constraint, joint->a.node, part, row);
 }

@@ -94,7 +94,7 @@ static void gather_path_site(dmb_evaluation *evaluation, uint32_t p)
     evaluation->power[DMB_POWER_FRICTION] += evaluation->dynamic ? F[0] * v[0] + F[1] * v[1] : 0.0;
     if (!evaluation->tangent) return;
     const double dF_dT[2] = {dN[0] * by_tension, site->radius * dN[1] * by_tension};
-    if (by_tension != 0.0) add_tension_tangent(sim, site->node, dF_dT);
+    if (by_tension != 0.0 && !evaluation->inertia_only) add_tension_tangent(sim, site->node, dF_dT);
     if (!evaluation->dynamic) return;
     double *C = dmb_inertia_of(sim, site->node);
     const double s = evaluation->velocity_factor, r = site->radius;

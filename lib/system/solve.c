@@ -139,11 +139,11 @@ int32_t dmb_factor_mass(dmb_evaluation *evaluation)
     dmb_sim *sim = evaluation->sim;
     const dmb_block_layout *layout = &sim->scene->layout;
     const uint32_t n = sim->scene->node_count;
+    evaluation->inertia_only = 1;
     const int32_t status = dmb_system_evaluate(evaluation);
+    evaluation->inertia_only = 0;
     if (status < 0) return status;
     memset(sim->stiffness_diagonal, 0, layout->diag[n] * sizeof(double));
-    memset(sim->stiffness_upper, 0, layout->link[n - 1] * sizeof(double));
-    memset(sim->stiffness_lower, 0, layout->link[n - 1] * sizeof(double));
     memset(sim->constraint_tangent, 0, sim->scene->tangent_count * sizeof(double));
     dmb_system_iteration_matrix(evaluation);
     const int64_t bad = dmb_factor_matrix(sim);

@@ -570,6 +570,7 @@ static void static_options_out_of_bounds_are_refused(void **state)
     for (int field = 0; field < 2; field++) {
         for (int high = 0; high < 2; high++) {
             options = dmb_static_options_default();
+            if (field == 1 && !high) continue; /* 0 is the library's choice */
             *(field == 0 ? &options.max_iterations : &options.load_steps) = high ? 10001u : 0u;
             refused("count", dmb_analysis_static(scene.sim, &options, NULL), DMB_ERR_VALUE);
         }

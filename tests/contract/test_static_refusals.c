@@ -93,7 +93,7 @@ static void options_out_of_bounds_are_named(void **state)
     memset(&options.slip_axial, 0xff, sizeof options.slip_axial); /* NaN on every compiler */
     expect_refusal(s.sim, &options, DMB_ERR_NOT_FINITE, "slip_axial");
     options = dmb_static_options_default();
-    options.load_steps = 0;
+    options.load_steps = 10001;
     expect_refusal(s.sim, &options, DMB_ERR_VALUE, "load_steps");
     options = dmb_static_options_default();
     options.lay_on_wall = 7;

@@ -28,13 +28,13 @@ static void open_column(column *c, uint32_t elements, double EI, double stiff, d
     (void)rig_start(&c->s, NULL);
 }
 
-static void settle(const column *c, double sideways)
+static dmb_static_report settle(const column *c, double sideways)
 {
     dmb_static_options options = dmb_static_options_default();
     options.lay_on_wall = 0;
     options.tolerance = 1e-12;
     must(&c->s, dmb_sim_set_drive(c->s.sim, c->drive, sideways));
-    (void)find_equilibrium(&c->s, &options);
+    return find_equilibrium(&c->s, &options);
 }
 
 /* ---- Euler's load ------------------------------------------------------------------------------------------------ */
@@ -51,7 +51,7 @@ static void softening_below_eulers_load(void **state)
         column c;
         const double P = part[i] * euler, k = sqrt(P / EI), want = (tan(5.0 * k) / k - 5.0) / P;
         open_column(&c, 16, EI, 1e6 * EI, P);
-        settle(&c, 1e-6);
+        (void)settle(&c, 1e-6);
         const double got = pose_at(&c.s, dmb_station(c.string, 0, 0.0)).displacement[1] / 1e-6;
         /* the amplification near the load goes with 1/(1 - P/Pcr) */
         const double load_error = fabs(got / want - 1.0) * (1.0 - part[i]);
@@ -73,8 +73,9 @@ static void elastica_beyond_it(void **state)
     for (int k = 0; k < 2; k++) {
         column c;
         open_column(&c, k ? 32 : 16, EI, 1e7 * EI, 1.1517196205 * euler);
-        settle(&c, 2000.0);
-        settle(&c, 0.0);
+        const dmb_static_report aside_first = settle(&c, 2000.0);
+        print_message("    pushed aside: %u load steps, %u cuts\n", aside_first.load_steps, aside_first.cuts);
+        (void)settle(&c, 0.0);
         const dmb_pose end = pose_at(&c.s, dmb_station(c.string, 0, 0.0));
         const double slope = fabs(atan2(end.rotation[3], end.rotation[0])) * 180.0 / PI;
         const double aside = fabs(end.displacement[1]) / 10.0, shorter = end.displacement[0] / 5.0;
@@ -87,11 +88,29 @@ static void elastica_beyond_it(void **state)
     check_below("32 elements", error[1], 1e-6);
 }
 
+/* The straight column is in equilibrium under any load; above Euler's it is not stable: two directions to buckle to,
+ * and two more from the second load of a pinned column of 10 m that this half of it has, nine times Euler's. */
+static void straight_column_tells_that_it_is_unstable(void **state)
+{
+    (void)state;
+    const double EI = s1_values().EI, euler = PI * PI * EI / 100.0, part[3] = {0.999, 1.001, 9.01};
+    const int32_t want[3] = {0, 2, 4};
+    for (int i = 0; i < 3; i++) {
+        column c;
+        open_column(&c, 16, EI, 1e6 * EI, part[i] * euler);
+        const dmb_static_report report = settle(&c, 0.0);
+        print_message("    %.3f of Euler's load: %d negative eigenvalues\n", part[i], report.negative);
+        assert_int_equal(report.negative, want[i]);
+        rig_close(&c.s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(softening_below_eulers_load),
         cmocka_unit_test(elastica_beyond_it),
+        cmocka_unit_test(straight_column_tells_that_it_is_unstable),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -225,7 +225,7 @@ static void runs_and_analyses(void **state)
     assert_int_equal(s.constraint_method, DMB_METHOD_INDEPENDENT);
     assert_int_equal(a.max_iterations, 60);
     assert_near(a.tolerance, 1e-10, 0.0);
-    assert_int_equal(a.load_steps, 1);
+    assert_int_equal(a.load_steps, 0);
     assert_int_equal(a.lay_on_wall, 1);
 }
 

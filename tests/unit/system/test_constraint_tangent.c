@@ -579,12 +579,12 @@ static void add_blocks(const dmb_sim *sim, double A[][ROWS_MAX])
             if (sim->scene->node_element[i] != UINT32_MAX)
                 for (uint32_t r = 0; r < l->size[i + 1]; r++) {
                     const size_t at = l->link[i] + (size_t)l->size[i] * r + c;
-                    column[l->row[i + 1] + r] += sim->stiffness_lower[at] + sim->inertia_lower[at];
+                    column[l->row[i + 1] + r] += sim->stiffness_lower[at];
                 }
             if (i > 0 && sim->scene->node_element[i - 1] != UINT32_MAX)
                 for (uint32_t r = 0; r < l->size[i - 1]; r++) {
                     const size_t at = l->link[i - 1] + (size_t)l->size[i] * r + c;
-                    column[l->row[i - 1] + r] += sim->stiffness_upper[at] + sim->inertia_upper[at];
+                    column[l->row[i - 1] + r] += sim->stiffness_upper[at];
                 }
         }
 }

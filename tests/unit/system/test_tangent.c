@@ -65,13 +65,7 @@ static void column_by_differences(dmb_sim *sim, int32_t dynamic, int kind, uint3
     }
 }
 
-/* Column of stiffness + inertia blocks. */
-static double entry(const dmb_sim *sim, const double *stiffness, const double *inertia, size_t at)
-{
-    (void)sim;
-    return stiffness[at] + inertia[at];
-}
-
+/* Column of stiffness + inertia blocks, without increments. */
 static void column_of_blocks(const dmb_sim *sim, uint32_t node, uint32_t c, double out[ROWS_MAX])
 {
     const dmb_block_layout *l = &sim->scene->layout;
@@ -79,15 +73,13 @@ static void column_of_blocks(const dmb_sim *sim, uint32_t node, uint32_t c, doub
     memset(out, 0, sim->scene->row_count * sizeof(double));
     for (uint32_t i = 0; i < size; i++)
         out[l->row[node] + i] =
-            entry(sim, sim->stiffness_diagonal, sim->inertia_diagonal, l->diag[node] + size * i + c);
+            sim->stiffness_diagonal[l->diag[node] + size * i + c] + sim->inertia_diagonal[l->diag[node] + size * i + c];
     if (node > 0 && sim->scene->node_element[node - 1] != UINT32_MAX)
         for (uint32_t i = 0; i < l->size[node - 1]; i++)
-            out[l->row[node - 1] + i] =
-                entry(sim, sim->stiffness_upper, sim->inertia_upper, l->link[node - 1] + size * i + c);
+            out[l->row[node - 1] + i] = sim->stiffness_upper[l->link[node - 1] + size * i + c];
     if (sim->scene->node_element[node] != UINT32_MAX)
         for (uint32_t i = 0; i < l->size[node + 1]; i++)
-            out[l->row[node + 1] + i] =
-                entry(sim, sim->stiffness_lower, sim->inertia_lower, l->link[node] + size * i + c);
+            out[l->row[node + 1] + i] = sim->stiffness_lower[l->link[node] + size * i + c];
 }
 
 /* Tangent with the factors that single out one kind of column. Inertia and velocity come on top of the pose part, which
@@ -101,6 +93,7 @@ static void tangent_columns(dmb_sim *sim, int32_t dynamic, int kind, double out[
         e.tangent = 1;
         e.velocity_factor = kind == 1 && pass == 0 ? 1.0 : 0.0;
         e.mass_factor = kind == 2 && pass == 0 ? 1.0 : 0.0;
+        e.inertia_only = kind > 0;
         move_row(sim, 1, 0, 0, 0.0);
         assert_int_equal(dmb_system_evaluate(&e), DMB_OK);
         for (uint32_t i = 0; i < scene->node_count; i++)

@@ -1,0 +1,152 @@
+/* libdrillmbd - response to harmonic excitation: linear about a state, and in time where that does not hold. */
+#ifndef DRILLMBD_RESPONSE_H
+#define DRILLMBD_RESPONSE_H
+
+#include "query.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- What shakes -------------------------------------------------------------------------------------------------
+ * A quantity q is the real part of (re + i im) e^(i w t), w = 2 pi frequency. */
+enum {
+    DMB_INPUT_DRIVE = 0,     /* programme of the drive place.part [its unit]: speed of MOTION (on strings and bodies),
+                                force of LOAD, target speed of CONTROL (likewise) */
+    DMB_INPUT_LOAD = 1,      /* [-] factor of the load place.part */
+    DMB_INPUT_BIT_LOAD = 2,  /* [N] bottom-hole load of the bit place.part */
+    DMB_INPUT_FORCE = 3,     /* [N, N m] `component` of a force or moment at `place`, in `frame` */
+    DMB_INPUT_UNBALANCE = 4, /* [kg m] mass times its distance from the axis at `place`: force times w^2. component
+                                DMB_RX: turning from y to z of `frame`; DMB_X .. DMB_Z: to and fro along that axis */
+    DMB_INPUT_ECCENTRICITY = 5, /* [-] the scene's own eccentric masses, each times this factor, turning with the
+                                frequency about the axes of their pipes, from y to z, as they lie in the state at t = 0 */
+    DMB_INPUT_FRICTION = 6   /* [-] coefficient: every ring that touches the wall is rubbed by it times its normal force
+                                in the state, along the hole (component DMB_X) or around it (DMB_RX) */
+};
+typedef struct dmb_input {
+    uint32_t struct_size;
+    int32_t kind;       /* DMB_INPUT_..., default DMB_INPUT_FORCE */
+    dmb_place place;    /* as the kind says */
+    int32_t component;  /* DMB_X .. DMB_RZ, default DMB_X */
+    int32_t frame;      /* DMB_FRAME_WORLD (default) or DMB_FRAME_BODY: axes of the place in the state */
+    double amplitude;   /* [unit of the kind] in the combined response; default 1 */
+    double phase;       /* [rad] in the combined response; default 0 */
+} dmb_input;
+DMB_SIZED_STRUCT(dmb_input)
+
+/* ---- What is asked ----------------------------------------------------------------------------------------------- */
+enum {
+    DMB_OUTPUT_DISPLACEMENT = 0, /* [m, rad] of `place`, components along the axes of `frame` */
+    DMB_OUTPUT_VELOCITY = 1,     /* [m/s, rad/s] its rate */
+    DMB_OUTPUT_ACCELERATION = 2, /* [m/s2, rad/s2] the rate of that */
+    DMB_OUTPUT_SECTION_FORCE = 3 /* [N, N m] as dmb_query_section, section frame */
+};
+typedef struct dmb_output {
+    uint32_t struct_size;
+    int32_t kind;       /* DMB_OUTPUT_..., default DMB_OUTPUT_DISPLACEMENT */
+    dmb_place place;
+    int32_t component;  /* DMB_X .. DMB_RZ, default DMB_X */
+    int32_t frame;      /* DMB_FRAME_WORLD (default) or DMB_FRAME_BODY */
+} dmb_output;
+DMB_SIZED_STRUCT(dmb_output)
+
+/* ---- Frequency response ------------------------------------------------------------------------------------------ */
+enum {
+    DMB_CONTACT_AS_IS = 0, /* rings that touch the wall press on it, others do not */
+    DMB_CONTACT_OPEN = 1,  /* there is no wall */
+    DMB_CONTACT_CLOSED = 2 /* rings up to `contact_gap` from the wall are held across it too */
+};
+typedef struct dmb_response_options {
+    uint32_t struct_size;
+    uint32_t points;              /* [-] of the grid, 2 .. 1e6; 1 where both ends are one frequency; default 1000 */
+    double frequency_low;         /* [Hz] >= 0; > 0 of a logarithmic grid; default 1 */
+    double frequency_high;        /* [Hz] >= frequency_low; default 100 */
+    const double *frequencies;    /* [Hz] ascending, shape (points): these instead of a grid; NULL (default): the grid */
+    int32_t logarithmic;          /* 1: equal ratios between frequencies; 0 (default): equal differences */
+    uint32_t refinement;          /* [-] times the intervals on both sides of each peak of a transfer function are halved,
+                                     0 .. 40; default 0. A peak that falls between two points unseen is not found */
+    double structural_damping;    /* [-] eta: stiffness (1 + i eta) K, >= 0; default 0 */
+    double equilibrium_tolerance; /* [-] residual over the forces that balance in it; default 1e-6 */
+    int32_t contact;              /* DMB_CONTACT_..., default DMB_CONTACT_AS_IS */
+    int32_t friction;             /* 1 (default): the slope of the friction law damps or drives; 0: left out */
+    double contact_gap;           /* [m] of DMB_CONTACT_CLOSED, >= 0; default 0 */
+} dmb_response_options;
+DMB_SIZED_STRUCT(dmb_response_options)
+
+typedef struct dmb_response dmb_response;
+/* Transfer functions from every input to every output about the accepted state of a sim, which must be an equilibrium,
+ * at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency, directly, in complex blocks.
+ * Of a state that spins, frames of `place` are its section's, which turn with it, and so are all frequencies.
+ * inputs, outputs: shapes (input_count), (output_count), 1 .. 1024 each, every struct of the size that the first says.
+ * options may be NULL. The state is not changed; sim takes the message. *response is NULL on error: DMB_ERR_VALUE
+ * (option, component, band; a state out of balance: by how much and where), _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR
+ * (frequency and part that nothing holds there: at 0 a part that is free), _UNSUPPORTED, _NO_MEMORY, _CALLBACK, _ROTATION.
+ * A motion drive at frequency 0 has no displacement: _SINGULAR too.
+ * Memory: the sim's allocator, until dmb_response_destroy; the sim need not outlive the response.
+ * Cost: O(points (elements + inputs)); some 0.1 ms a point of 100 elements; with joints more by the number of coordinates
+ * they act on. One thread; several responses of one sim may not be computed at a time. */
+DMB_API int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_input *inputs,
+                                      uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
+                                      dmb_response **response);
+/* Gives the memory back and sets *response to NULL. NULL-safe. */
+DMB_API void dmb_response_destroy(dmb_response **response);
+/* Numbers of frequencies (those of refinement included), inputs and outputs, shape (3). DMB_ERR_NULL, _HANDLE. */
+DMB_API int32_t dmb_response_shape(const dmb_response *response, uint32_t shape[3]);
+/* [Hz] ascending, shape (points). DMB_ERR_NULL, _HANDLE. */
+DMB_API int32_t dmb_response_frequencies(const dmb_response *response, double *frequencies);
+/* Output per unit of the input at each frequency, real and imaginary part, shape (points, 2). input DMB_COMBINED: the
+ * output for all inputs together with their amplitudes and phases. DMB_ERR_NULL, _HANDLE, _VALUE (no such number). */
+#define DMB_COMBINED UINT32_MAX
+DMB_API int32_t dmb_response_transfer(const dmb_response *response, uint32_t input, uint32_t output, double *values);
+/* CSV: frequency, then amplitude and phase [rad] of each transfer function and of the combined outputs; header line, '.'
+ * as decimal mark. DMB_ERR_IO on failure. */
+DMB_API int32_t dmb_response_write_csv(const dmb_response *response, const char *path);
+
+/* ---- Stepped sine ------------------------------------------------------------------------------------------------
+ * Response in time to what the scene's own programmes do at one frequency, where the linear one does not hold: contacts
+ * that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC
+ * programme, a drive's speed), carry the state over (dmb_sim_carry_over) to go up or down from one to the next. Calls on
+ * different sims share nothing: hand them to as many threads as there are cores, the answers are the same to the bit. */
+typedef struct dmb_sine_options {
+    uint32_t struct_size;
+    uint32_t steps_per_period; /* [-] 16 .. 1e6; default 100. The scheme's frequency error is (2 pi/this)^2/12 or so */
+    uint32_t periods;          /* [-] of a window, 1 .. 1e4; more than 1 where multiples of the period are awaited;
+                                  default 4 */
+    uint32_t windows;          /* [-] at most, 3 .. 1e6; default 500 */
+    uint32_t harmonics;        /* [-] 1 .. 16, at most an eighth of steps_per_period; default 3 */
+    uint32_t reserved;
+    double tolerance;          /* [-] settled: what is still to come, by how the last windows differed, is below this part
+                                  of the largest harmonic of each output; default 1e-3 */
+    double floor;              /* [unit of the output] changes of a harmonic below it count as none, > 0; default 1e-12 */
+} dmb_sine_options;
+DMB_SIZED_STRUCT(dmb_sine_options)
+
+typedef struct dmb_sine_report {
+    uint32_t struct_size;
+    int32_t settled;     /* 1 if it was */
+    uint32_t windows;    /* [-] run */
+    uint32_t rejected;   /* [-] steps tried and not accepted */
+    uint64_t steps;      /* [-] accepted */
+    double change;       /* [-] between the last two windows, of the largest harmonic, worst output */
+    double remaining;    /* [-] estimated still to come */
+    double time;         /* [s] reached */
+} dmb_sine_report;
+DMB_SIZED_STRUCT(dmb_sine_report)
+
+/* Runs the sim on in fixed steps until the Fourier amplitudes of successive windows agree. amplitudes, shape
+ * (output_count, 1 + harmonics, 2): mean and 0, then for k = 1, 2, ... the k-th harmonic: its part of the output is the
+ * real part of (re + i im) e^(2 pi i k frequency t), t the sim's time. Displacements are those since time 0 in the axes
+ * of the world or (DMB_FRAME_BODY) those the place has at the call, less their drift over the window; component DMB_RX
+ * is the rotation of dmb_query_rotation, DMB_RY and DMB_RZ are of the rotation vector from the pose at the call, below pi.
+ * Other outputs: as the queries answer. options and report may be NULL. DMB_NOTE_STOPPED: not settled in `windows`; the
+ * amplitudes are those of the last. Errors: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID, _UNSUPPORTED,
+ * _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last accepted state. amplitudes
+ * and report are left alone on error. Cost: steps. */
+DMB_API int32_t dmb_analysis_sine(dmb_sim *sim, double frequency, const dmb_sine_options *options,
+                                  const dmb_output *outputs, uint32_t output_count, double *amplitudes,
+                                  dmb_sine_report *report);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

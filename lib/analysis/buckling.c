@@ -1,0 +1,189 @@
+#include "analysis/buckling.h"
+
+#include <string.h>
+
+#include "base/allocator.h"
+#include "base/check.h"
+#include "base/handle.h"
+#include "base/sized_struct.h"
+
+DMB_DECLARE_STRUCT(dmb_buckling_options)
+
+static int32_t take_options(dmb_sim *sim, const dmb_buckling_options *given, dmb_buckling_options *out)
+{
+    dmb_check check = dmb_check_of(&sim->message, "buckling options", DMB_NO_INDEX);
+    (void)dmb_buckling_options_init(out, (uint32_t)sizeof *out);
+    if (given != NULL && dmb_buckling_options_read(out, given) < 0) {
+        dmb_message_set(&sim->message, "buckling options: struct_size is not one this library knows");
+        return DMB_ERR_STRUCT_SIZE;
+    }
+    dmb_check_count(&check, "count", out->count, 1, 10000);
+    dmb_check_choice(&check, "scale", out->scale, DMB_SCALE_ALL, DMB_SCALE_PART);
+    dmb_check_within(&check, "factor_max", out->factor_max, 1e-300, 1e300);
+    dmb_check_within(&check, "tolerance", out->tolerance, 1e-15, 0.1);
+    dmb_check_within(&check, "step", out->step, 0.0, 1e30);
+    dmb_check_within(&check, "slip_axial", out->slip_axial, -1e6, 1e6);
+    dmb_check_within(&check, "slip_rotation", out->slip_rotation, -1e6, 1e6);
+    return check.status;
+}
+
+/* ---- Memory ------------------------------------------------------------------------------------------------------ */
+
+static void lay_out(dmb_arena *arena, const dmb_scene *scene, uint32_t count, dmb_buckling *to)
+{
+    const size_t rows = scene->row_count;
+    to->factor = DMB_ARENA_DOUBLES(arena, count);
+    to->shape = DMB_ARENA_DOUBLES(arena, count * rows);
+    to->response = DMB_ARENA_DOUBLES(arena, rows);
+    to->pattern.base = DMB_ARENA_DOUBLES(arena, dmb_load_pattern_size(scene));
+    dmb_pencil_lay_out(arena, scene, &to->pencil);
+}
+
+void dmb_buckling_destroy(dmb_buckling **buckling)
+{
+    if (buckling == NULL || *buckling == NULL) return;
+    if (dmb_handle_is(*buckling, DMB_HANDLE_BUCKLING)) {
+        const dmb_allocator allocator = (*buckling)->allocator;
+        dmb_model *model = (*buckling)->work != NULL ? (*buckling)->work->model : NULL;
+        dmb_state_discard((*buckling)->work);
+        dmb_release(&allocator, (*buckling)->block, (*buckling)->block_size);
+        (*buckling)->magic = DMB_HANDLE_DEAD;
+        dmb_release(&allocator, *buckling, sizeof **buckling);
+        if (model != NULL) dmb_model_release(model);
+    }
+    *buckling = NULL;
+}
+
+/* The copy of the sim is asked for shapes like any sim, and holds the model like one. */
+static dmb_buckling *allocate(const dmb_sim *sim, uint32_t count)
+{
+    dmb_arena arena;
+    dmb_buckling nowhere;
+    dmb_buckling *made = dmb_allocate(&sim->allocator, sizeof *made);
+    if (made == NULL) return NULL;
+    made->magic = DMB_HANDLE_BUCKLING;
+    made->allocator = sim->allocator;
+    dmb_arena_count(&arena);
+    lay_out(&arena, sim->scene, count, &nowhere);
+    made->block_size = dmb_arena_block_size(&arena);
+    if (!arena.overflow) made->block = dmb_allocate(&sim->allocator, made->block_size);
+    if (made->block != NULL) made->work = dmb_state_copy(sim);
+    if (made->work == NULL) {
+        dmb_buckling_destroy(&made);
+        return NULL;
+    }
+    made->work->magic = DMB_HANDLE_SIM;
+    dmb_model_hold(made->work->model);
+    dmb_arena_place(&arena, made->block, made->block_size);
+    lay_out(&arena, sim->scene, count, made);
+    return made;
+}
+
+/* ---- Factors and shapes ------------------------------------------------------------------------------------------ */
+
+/* Largest displacement 1 m, or rotation 1 rad where nothing else moves; its largest component positive. */
+static void normalise(const dmb_scene *scene, double *x)
+{
+    double most[2] = {0.0, 0.0};
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i];
+        for (uint32_t c = 0; c < size; c++) {
+            const double value = x[scene->layout.row[i] + c];
+            double *of = most + (2 * c < size ? 0 : 1);
+            if (fabs(value) > fabs(*of)) *of = value;
+        }
+    }
+    const double unit = fabs(most[0]) > 1e-9 * fabs(most[1]) ? most[0] : most[1];
+    for (uint32_t i = 0; i < scene->row_count; i++) x[i] /= unit;
+}
+
+/* Factors this close count as one, with vectors apart from each other. */
+#define DMB_SAME_FACTOR 1e-6
+
+static void find_shape(dmb_buckling *buckling, uint32_t k)
+{
+    const size_t rows = buckling->work->scene->row_count;
+    uint32_t first = k;
+    while (first > 0 && buckling->factor[k] - buckling->factor[first - 1] < DMB_SAME_FACTOR * buckling->factor[k])
+        first--;
+    double *x = buckling->shape + k * rows;
+    (void)dmb_pencil_vector(&buckling->pencil, buckling->factor[k], buckling->shape + first * rows, k - first, x);
+    normalise(buckling->work->scene, x);
+}
+
+static void find_factors(dmb_buckling *buckling, const dmb_buckling_options *options)
+{
+    double guess = fmin(1.0, options->factor_max);
+    for (uint32_t k = 0; k < options->count; k++) {
+        const double factor = dmb_pencil_factor(&buckling->pencil, k, guess, options->factor_max, options->tolerance);
+        if (!isfinite(factor)) return;
+        buckling->factor[k] = guess = factor;
+        buckling->count = k + 1;
+        find_shape(buckling, k);
+    }
+}
+
+static int32_t check_scene(dmb_sim *sim)
+{
+    if (sim->scene->cluster_count == 0) return DMB_OK;
+    dmb_message_set(&sim->message, "buckling: the scene has joints, whose stiffness is not counted yet");
+    return DMB_ERR_UNSUPPORTED;
+}
+
+int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling)
+{
+    dmb_buckling_options taken;
+    dmb_load_pattern pattern;
+    if (sim == NULL || buckling == NULL) return DMB_ERR_NULL;
+    *buckling = NULL;
+    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
+    dmb_message_clear(&sim->message);
+    int32_t status = take_options(sim, options, &taken);
+    if (status >= 0) status = check_scene(sim);
+    if (status >= 0) status = dmb_load_pattern_take(sim, "buckling options", taken.scale, taken.part, &pattern);
+    if (status < 0) return status;
+    dmb_buckling *made = allocate(sim, taken.count);
+    if (made == NULL) return DMB_ERR_NO_MEMORY;
+    pattern.base = made->pattern.base;
+    made->pattern = pattern;
+    status = dmb_buckling_linearise(made, sim, &taken);
+    if (status < 0) {
+        dmb_buckling_destroy(&made);
+        return status;
+    }
+    find_factors(made, &taken);
+    *buckling = made;
+    return made->count < taken.count ? DMB_NOTE_STOPPED : DMB_OK;
+}
+
+uint32_t dmb_buckling_count(const dmb_buckling *buckling)
+{
+    return dmb_handle_is(buckling, DMB_HANDLE_BUCKLING) ? buckling->count : 0;
+}
+
+static int32_t check_mode(const dmb_buckling *buckling, uint32_t mode, const double *answer)
+{
+    if (buckling == NULL || answer == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(buckling, DMB_HANDLE_BUCKLING)) return DMB_ERR_HANDLE;
+    return mode < buckling->count ? DMB_OK : DMB_ERR_VALUE;
+}
+
+int32_t dmb_buckling_factor(const dmb_buckling *buckling, uint32_t mode, double *factor)
+{
+    const int32_t status = check_mode(buckling, mode, factor);
+    if (status == DMB_OK) *factor = buckling->factor[mode];
+    return status;
+}
+
+/* The shape is a field of small displacements; a field of velocities is interpolated alike. */
+int32_t dmb_buckling_shape(const dmb_buckling *buckling, uint32_t mode, dmb_place place, double shape[6])
+{
+    int32_t status = check_mode(buckling, mode, shape);
+    dmb_motion motion = dmb_motion_default();
+    if (status < 0) return status;
+    const size_t rows = buckling->work->scene->row_count;
+    memcpy(buckling->work->now.velocity, buckling->shape + mode * rows, rows * sizeof(double));
+    status = dmb_query_motion(buckling->work, place, &motion);
+    if (status == DMB_OK) memcpy(shape, motion.velocity, sizeof motion.velocity);
+    return status;
+}

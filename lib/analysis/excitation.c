@@ -1,0 +1,203 @@
+/* Rows of force of each kind of input. A force at a place is the transpose of the motion there (virtual work), so that
+ * receptances are reciprocal to rounding; what the scene describes acts by the difference its factor makes to the
+ * residual, which is linear in it. */
+#include "analysis/excitation.h"
+
+#include <string.h>
+
+#include "analysis/functional.h"
+#include "math/vec3.h"
+#include "system/evaluation.h"
+#include "system/node.h"
+#include "system/unbalance.h"
+#include "system/wall_contact.h"
+
+/* Differences of the residual with a factor this large lose nothing to the forces of the state. */
+#define DMB_EXCITATION_FACTOR 1e6
+
+typedef struct request {
+    dmb_sim *copy;
+    const dmb_input *input;
+    uint32_t index;
+    dmb_message *message;
+    dmb_excitation *out;
+} request;
+
+static int32_t refuse(const request *r, int32_t status, const char *why)
+{
+    dmb_message_set(r->message, "input %u: %s", r->index, why);
+    return status;
+}
+
+/* ---- Described actions ------------------------------------------------------------------------------------------- */
+
+static int32_t residual(dmb_sim *copy)
+{
+    dmb_evaluation evaluation;
+    memset(&evaluation, 0, sizeof evaluation);
+    evaluation.sim = copy;
+    evaluation.time = copy->clock->time;
+    evaluation.pseudo_factor = 1.0;
+    evaluation.load_factor = 1.0;
+    evaluation.dynamic = 1;
+    return dmb_system_evaluate(&evaluation);
+}
+
+/* rows = -d residual/d *factor; constraint forces stay as they are. */
+static int32_t derivative(const request *r, double *factor)
+{
+    dmb_sim *copy = r->copy;
+    const double kept = *factor;
+    const int32_t multipliers = copy->linked_mode->multipliers;
+    copy->linked_mode->multipliers = 1;
+    *factor = kept + DMB_EXCITATION_FACTOR;
+    int32_t status = residual(copy);
+    for (uint32_t i = 0; i < copy->scene->row_count; i++) r->out->re[i] = -copy->correction[i];
+    *factor = kept;
+    if (status >= 0) status = residual(copy);
+    for (uint32_t i = 0; i < copy->scene->row_count; i++)
+        r->out->re[i] = (r->out->re[i] + copy->correction[i]) / DMB_EXCITATION_FACTOR;
+    copy->linked_mode->multipliers = multipliers;
+    return status;
+}
+
+static int32_t drive(const request *r)
+{
+    const uint32_t i = dmb_model_part_index(r->copy->model, r->input->place.part, DMB_PART_DRIVE);
+    if (i >= r->copy->scene->drive_count) return refuse(r, DMB_ERR_ID, "place.part names no drive of this model");
+    const dmb_scene_drive *drive = r->copy->scene->drives + i;
+    if (drive->kind == DMB_DRIVE_LOAD) return derivative(r, r->copy->trial.drive_target + i);
+    if (drive->row == UINT32_MAX)
+        return refuse(r, DMB_ERR_UNSUPPORTED, "a motion or control drive on a joint cannot be one yet");
+    r->out->row = drive->row;
+    r->out->law = drive->kind == DMB_DRIVE_MOTION ? DMB_EXCITE_MOTION : DMB_EXCITE_CONTROL;
+    r->out->gain = drive->gain;
+    r->out->integral_gain = drive->integral_gain;
+    r->out->re[drive->row] = 1.0;
+    const double force = r->copy->now.drive_force[i];
+    if (drive->kind == DMB_DRIVE_CONTROL && (force <= drive->limit_low || force >= drive->limit_high))
+        return refuse(r, DMB_ERR_VALUE, "the drive is at its limit and answers to nothing");
+    return DMB_OK;
+}
+
+static int32_t load(const request *r)
+{
+    const uint32_t i = dmb_model_part_index(r->copy->model, r->input->place.part, DMB_PART_LOAD);
+    if (i >= r->copy->scene->load_count) return refuse(r, DMB_ERR_ID, "place.part names no load of this model");
+    return derivative(r, r->copy->trial.load_factor + i);
+}
+
+static int32_t bit_load(const request *r)
+{
+    const uint32_t i = dmb_model_part_index(r->copy->model, r->input->place.part, DMB_PART_BIT);
+    if (i >= r->copy->scene->bit_count) return refuse(r, DMB_ERR_ID, "place.part names no bit of this model");
+    return derivative(r, r->copy->trial.bit_load + i);
+}
+
+/* ---- Forces at places -------------------------------------------------------------------------------------------- */
+
+/* to += factor times the rows of a unit force */
+static int32_t add_force(const request *r, int32_t component, double factor, double *to)
+{
+    dmb_functional f;
+    const int32_t status = dmb_functional_of_motion(r->copy, r->input->place, r->input->frame, component, &f);
+    if (status < 0) {
+        dmb_message_set(r->message, "input %u: place, pipe %u at %g: %s", r->index, r->input->place.pipe,
+                        r->input->place.fraction, dmb_status_text(status));
+        return status;
+    }
+    for (uint32_t i = 0; i < f.count; i++) to[f.first + i] += factor * f.pose[i];
+    return DMB_OK;
+}
+
+static int32_t force(const request *r)
+{
+    return add_force(r, r->input->component, 1.0, r->out->re);
+}
+
+/* U w^2 along y, and the same along z a quarter of a turn later: cos wt, cos(wt - pi/2) = Re(e^iwt), Re(-i e^iwt). */
+static int32_t unbalance(const request *r)
+{
+    r->out->law = DMB_EXCITE_INERTIA;
+    if (r->input->component != DMB_RX) return force(r);
+    const int32_t status = add_force(r, DMB_Y, 1.0, r->out->re);
+    return status < 0 ? status : add_force(r, DMB_Z, -1.0, r->out->im);
+}
+
+/* ---- The scene's own excitations --------------------------------------------------------------------------------- */
+
+/* The centrifugal wrench g turns with the frequency: g_y + i g_z along y and g_z - i g_y along z. */
+static void add_lump(const dmb_sim *copy, uint32_t i, dmb_excitation *out)
+{
+    const uint32_t node = copy->scene->lumps[i].node, row = copy->scene->layout.row[node];
+    double g[6];
+    if (copy->scene->layout.size[node] != DMB_NODE_FULL) return;
+    dmb_unbalance_of_lump(copy->scene, i, g);
+    for (uint32_t c = 0; c < 6; c += 3) {
+        out->re[row + c + 1] += g[c + 1];
+        out->im[row + c + 1] += g[c + 2];
+        out->re[row + c + 2] += g[c + 2];
+        out->im[row + c + 2] -= g[c + 1];
+    }
+}
+
+static int32_t eccentricity(const request *r)
+{
+    r->out->law = DMB_EXCITE_INERTIA;
+    for (uint32_t i = 0; i < r->copy->scene->lump_count; i++) add_lump(r->copy, i, r->out);
+    return DMB_OK;
+}
+
+/* Normal force times a unit coefficient along the hole, (t; -r b), or around it, (b; r t) with b = t x n, as in
+ * system/wall_contact. */
+static void add_ring(const dmb_sim *copy, uint32_t s, int32_t around, double *rows)
+{
+    const dmb_site *site = copy->scene->sites + s;
+    double R[9], u[3], n[3], t[3], b[3], w[6];
+    dmb_site_force f;
+    dmb_site_force_of(copy->scene, &copy->now, s, &f);
+    if (!f.closed) return;
+    dmb_node_pose(copy->scene, &copy->now, site->node, R, u);
+    dmb_mat3_tvec(R, f.normal, n);
+    dmb_mat3_tvec(R, f.tangent, t);
+    dmb_vec3_cross(t, n, b);
+    dmb_vec3_scale(f.normal_force, around ? b : t, w);
+    dmb_vec3_scale(f.normal_force * (around ? site->radius : -site->radius), around ? t : b, w + 3);
+    w[4] -= site->offset * w[2];
+    w[5] += site->offset * w[1];
+    for (uint32_t i = 0; i < 6; i++) rows[copy->scene->layout.row[site->node] + i] += w[i];
+}
+
+static void add_path(const dmb_sim *copy, uint32_t s, int32_t around, double *rows)
+{
+    const dmb_path_site *site = copy->scene->path_sites + s;
+    const uint32_t row = copy->scene->layout.row[site->node];
+    dmb_site_force f;
+    dmb_path_site_force_of(copy->scene, &copy->now, s, &f);
+    rows[around ? row + 1 : row] += f.normal_force * (around ? site->radius : 1.0);
+}
+
+static int32_t friction(const request *r)
+{
+    const int32_t around = r->input->component == DMB_RX;
+    if (!around && r->input->component != DMB_X)
+        return refuse(r, DMB_ERR_VALUE, "component must be DMB_X (friction along the hole) or DMB_RX (around it)");
+    for (uint32_t s = 0; s < r->copy->scene->site_count; s++) add_ring(r->copy, s, around, r->out->re);
+    for (uint32_t s = 0; s < r->copy->scene->path_site_count; s++) add_path(r->copy, s, around, r->out->re);
+    return DMB_OK;
+}
+
+int32_t dmb_excitation_of(dmb_sim *copy, const dmb_input *input, uint32_t index, dmb_message *message,
+                          dmb_excitation *out)
+{
+    const request r = {copy, input, index, message, out};
+    switch (input->kind) {
+    case DMB_INPUT_DRIVE: return drive(&r);
+    case DMB_INPUT_LOAD: return load(&r);
+    case DMB_INPUT_BIT_LOAD: return bit_load(&r);
+    case DMB_INPUT_FORCE: return force(&r);
+    case DMB_INPUT_UNBALANCE: return unbalance(&r);
+    case DMB_INPUT_ECCENTRICITY: return eccentricity(&r);
+    default: return friction(&r);
+    }
+}

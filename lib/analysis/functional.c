@@ -1,0 +1,193 @@
+/* Functionals by asking the public queries about a copy of the state in which one row at a time moves. */
+#include "analysis/functional.h"
+
+#include <string.h>
+
+#include "math/se3.h"
+
+/* Central differences of the pose: (h/L)^2 of non-linearity and eps L/h of rounding are both near 1e-10. */
+#define DMB_FUNCTIONAL_STEP 1e-5
+
+/* ---- Motion ------------------------------------------------------------------------------------------------------ */
+
+static int32_t motion_component(const dmb_sim *copy, dmb_place place, int32_t frame, int32_t component, double *value)
+{
+    dmb_motion motion = dmb_motion_default();
+    motion.frame = frame;
+    const int32_t status = dmb_query_motion(copy, place, &motion);
+    *value = motion.velocity[component];
+    return status;
+}
+
+static void exchange(double **a, double **b)
+{
+    double *kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/* The state's own speeds step aside into the trial, and come back. */
+static void exchange_motion(dmb_sim *copy)
+{
+    exchange(&copy->now.velocity, &copy->trial.velocity);
+    exchange(&copy->now.acceleration, &copy->trial.acceleration);
+}
+
+/* The answer for each row moving alone at unit speed. */
+static int32_t all_rows(dmb_sim *copy, dmb_place place, int32_t frame, int32_t component, double *all)
+{
+    const uint32_t rows = copy->scene->row_count;
+    int32_t status = DMB_OK;
+    exchange_motion(copy);
+    memset(copy->now.velocity, 0, rows * sizeof(double));
+    memset(copy->now.acceleration, 0, rows * sizeof(double));
+    for (uint32_t r = 0; r < rows && status >= 0; r++) {
+        copy->now.velocity[r] = 1.0;
+        status = motion_component(copy, place, frame, component, all + r);
+        copy->now.velocity[r] = 0.0;
+    }
+    exchange_motion(copy);
+    return status;
+}
+
+static void narrow(const double *all, uint32_t rows, dmb_functional *out)
+{
+    uint32_t first = 0, end = rows;
+    while (first < rows && all[first] == 0.0) first++;
+    while (end > first && all[end - 1] == 0.0) end--;
+    memset(out, 0, sizeof *out);
+    out->first = first;
+    out->count = end - first;
+    for (uint32_t i = 0; i < out->count; i++) out->pose[i] = all[first + i];
+}
+
+/* A velocity is linear in the velocities of the rows, and a small displacement in theirs by the same numbers. */
+int32_t dmb_functional_of_motion(dmb_sim *copy, dmb_place place, int32_t frame, int32_t component, dmb_functional *out)
+{
+    double *all = copy->correction;
+    const int32_t status = all_rows(copy, place, frame, component, all);
+    if (status >= 0) narrow(all, copy->scene->row_count, out);
+    return status;
+}
+
+/* ---- Section force ----------------------------------------------------------------------------------------------- */
+
+static uint32_t node_of_row(const dmb_scene *scene, uint32_t row)
+{
+    uint32_t low = 0, high = scene->node_count;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (scene->layout.row[middle] <= row)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Rows of the nodes around a place: the node or the two nodes it follows, and one more on either side. */
+static int32_t rows_around(dmb_sim *copy, dmb_place place, dmb_functional *out)
+{
+    const dmb_scene *scene = copy->scene;
+    dmb_functional x;
+    const int32_t status = dmb_functional_of_motion(copy, place, DMB_FRAME_BODY, DMB_X, &x);
+    if (status < 0) return status;
+    uint32_t low = node_of_row(scene, x.first), high = node_of_row(scene, x.first + (x.count ? x.count - 1 : 0));
+    if (low > 0) low--;
+    if (high + 1 < scene->node_count) high++;
+    memset(out, 0, sizeof *out);
+    out->first = scene->layout.row[low];
+    out->count = scene->layout.row[high + 1] - out->first;
+    return DMB_OK;
+}
+
+static double section_component(const dmb_sim *copy, dmb_place place, int32_t component)
+{
+    dmb_section section = dmb_section_default();
+    (void)dmb_query_section(copy, place, &section);
+    return section.force[component];
+}
+
+static double moved_section(dmb_sim *copy, dmb_place place, int32_t component, uint32_t row, double step)
+{
+    const dmb_scene *scene = copy->scene;
+    const uint32_t node = node_of_row(scene, row), c = row - scene->layout.row[node];
+    double *q = copy->now.quaternion + 4 * (size_t)node, *x = copy->now.displacement + 3 * (size_t)node;
+    double kept_q[4], kept_x[3], z[6] = {0.0};
+    const double kept_turn = copy->now.turn[node];
+    memcpy(kept_q, q, sizeof kept_q);
+    memcpy(kept_x, x, sizeof kept_x);
+    z[c] = step;
+    if (scene->layout.size[node] == DMB_NODE_FULL) {
+        dmb_se3_advance(q, x, z);
+    } else {
+        x[0] += z[0];
+        copy->now.turn[node] += z[1];
+    }
+    const double value = section_component(copy, place, component);
+    memcpy(q, kept_q, sizeof kept_q);
+    memcpy(x, kept_x, sizeof kept_x);
+    copy->now.turn[node] = kept_turn;
+    return value;
+}
+
+static double slope(double *number, double step, const dmb_sim *copy, dmb_place place, int32_t component)
+{
+    const double kept = *number;
+    *number = kept + step;
+    const double after = section_component(copy, place, component);
+    *number = kept - step;
+    const double before = section_component(copy, place, component);
+    *number = kept;
+    return (after - before) / (2.0 * step);
+}
+
+/* Linear in accelerations and of second degree in speeds, so that central differences of any step are exact. */
+static void section_rows(dmb_sim *copy, dmb_place place, int32_t component, dmb_functional *out)
+{
+    const dmb_scene *scene = copy->scene;
+    for (uint32_t i = 0; i < out->count; i++) {
+        const uint32_t row = out->first + i, node = node_of_row(scene, row);
+        const int turns = 2 * (row - scene->layout.row[node]) >= scene->layout.size[node];
+        const double step = DMB_FUNCTIONAL_STEP * (turns ? 1.0 : scene->length_scale);
+        out->pose[i] =
+            (moved_section(copy, place, component, row, step) - moved_section(copy, place, component, row, -step)) /
+            (2.0 * step);
+        out->speed[i] = slope(copy->now.velocity + row, 1.0, copy, place, component);
+        out->acceleration[i] = slope(copy->now.acceleration + row, 1.0, copy, place, component);
+    }
+}
+
+/* to += row v^, row^T v^ = ad(v)^T row */
+static void add_turned(const double v[6], const double row[6], double to[6])
+{
+    double product[6];
+    dmb_ad_transpose(v, row, product);
+    for (int i = 0; i < 6; i++) to[i] += product[i];
+}
+
+/* Body-frame speeds and accelerations change by d' + v^ d and d'' + v^ d' + a^ d. */
+static void turn_frames(const dmb_sim *copy, dmb_functional *out)
+{
+    const dmb_scene *scene = copy->scene;
+    for (uint32_t at = 0; at < out->count;) {
+        const uint32_t node = node_of_row(scene, out->first + at), row = scene->layout.row[node];
+        if (scene->layout.size[node] == DMB_NODE_FULL) {
+            add_turned(copy->now.velocity + row, out->speed + at, out->pose + at);
+            add_turned(copy->now.acceleration + row, out->acceleration + at, out->pose + at);
+            add_turned(copy->now.velocity + row, out->acceleration + at, out->speed + at);
+        }
+        at += scene->layout.size[node];
+    }
+}
+
+int32_t dmb_functional_of_section(dmb_sim *copy, dmb_place place, int32_t component, dmb_functional *out)
+{
+    dmb_section section = dmb_section_default();
+    int32_t status = dmb_query_section(copy, place, &section);
+    if (status >= 0) status = rows_around(copy, place, out);
+    if (status < 0) return status;
+    section_rows(copy, place, component, out);
+    turn_frames(copy, out);
+    return DMB_OK;
+}

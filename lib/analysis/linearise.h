@@ -1,0 +1,89 @@
+/* The linear system about the accepted state of a sim:
+ *
+ *     M d'' + C d' + K d = f,     d: small body-frame displacements of the nodes, shape (rows)
+ *
+ * Six rows (translation; rotation) of a FULL node, H = H0 exp(d), two (along the hole; about its axis) of a PATH node.
+ * Rows that guides and motion drives hold are out: their rows and columns are zero. With joints d = R z, z being the
+ * independent coordinates of the partition, else z are the rows that are left:
+ *
+ *     R^T M R z'' + R^T C R z' + R^T K R z = R^T f
+ *
+ * Velocities of the perturbed motion in the body frame are v + d' + v^ d and accelerations a + d'' + v^ d' + a^ d, with
+ * v^ = ad(v): exp(-d) H0^-1 (H0 exp(d))' to first order. With M, C_v = dr/dv and K_H = dr/dH of the residual r that
+ * steps solve, at given body-frame v and a,
+ *
+ *     C = C_v + M v^,     K = K_H + C_v v^ + M a^
+ *
+ * so that gyroscopic and centrifugal terms of a steadily spinning string are in C and K, whose entries are constant
+ * there: it is a relative equilibrium. Elsewhere in a run the coefficients are those of the moment.
+ * What is integrated along with the motion, bristles that stick and the integral part of speed controllers, is stiffness
+ * here (the part that v^ d has in it, left out, is none for drives along and about the axis). The memory of a regenerative rock law is not: its past is taken as given. A nonholonomic equation holds d as it
+ * holds d'. Friction has the derivative of its law; one that is smooth at rest is a damper there. */
+#ifndef DMB_ANALYSIS_LINEARISE_H
+#define DMB_ANALYSIS_LINEARISE_H
+
+#include "state.h"
+
+enum {
+    DMB_LINEAR_CONTACT_AS_IS = 0,  /* rings that touch the wall press on it, others do not */
+    DMB_LINEAR_CONTACT_OPEN = 1,   /* there is no wall */
+    DMB_LINEAR_CONTACT_CLOSED = 2  /* rings up to `gap` from the wall are held across it too */
+};
+
+typedef struct dmb_linear_options {
+    int32_t contact;     /* DMB_LINEAR_CONTACT_... */
+    int32_t no_friction; /* 1: the derivative of friction on the wall is left out */
+    double gap;          /* [m] of DMB_LINEAR_CONTACT_CLOSED */
+} dmb_linear_options;
+
+/* Blocks in the layout of the scene, and what joints add between their nodes, as constraint_tangent of a sim. */
+typedef struct dmb_linear_matrix {
+    double *diagonal, *lower, *upper;
+    double *joints; /* shape (scene.tangent_count) */
+} dmb_linear_matrix;
+
+typedef struct dmb_linear {
+    dmb_scene scene;           /* that of the sim, contact as asked for */
+    dmb_sim *work;             /* a copy of the sim in the state, its factors those of dmb_linear_factor */
+    dmb_allocator allocator;
+    dmb_linear_matrix mass, damping, stiffness;
+    double *unbalanced;        /* [N, N m] residual of the state without its accelerations, shape (rows) */
+    double unbalance;          /* [-] the same relative, as dmb_relative_residual; 0: a (relative) equilibrium */
+    double largest_force;      /* [N, N m over the element length] largest entry of it that a node feels */
+    uint32_t largest_node;     /* where */
+    int32_t balanced;          /* 1: what is left is rounding, or below 1e-6 of the forces that balance */
+    uint32_t rows;             /* of the scene */
+    uint32_t coordinates;      /* length of z */
+    uint32_t *row_of;          /* row that coordinate i is the displacement of, ascending, shape (coordinates) */
+    uint32_t *start, *column;  /* R by rows: entries start[row] .. start[row + 1] - 1 */
+    double *value;
+    double *held_columns;      /* columns of M, C_v and K_H of the rows that are held, in the rows of the node before, the
+                                  node and the node after, six each: what a drive that moves them exerts on the others;
+                                  shape (scene.held_count, 3, 18) */
+    void *block;
+    size_t block_size;
+} dmb_linear;
+
+/* Linearises; the sim is untouched. Memory from the sim's allocator; dmb_linear_release gives it back, *linear is NULL on
+ * error. Callbacks of constraints are called. Errors: DMB_ERR_NO_MEMORY, _CALLBACK, _NOT_FINITE, _ROTATION, _SINGULAR. */
+int32_t dmb_linear_make(const dmb_sim *sim, const dmb_linear_options *options, dmb_linear **linear);
+void dmb_linear_release(dmb_linear **linear);
+
+/* y = A x by rows, x and y apart. */
+void dmb_linear_multiply(const dmb_linear *linear, const dmb_linear_matrix *A, const double *x, double *y);
+/* d = R z, shape (rows) from (coordinates); rows that are held become 0. */
+void dmb_linear_expand(const dmb_linear *linear, const double *z, double *d);
+/* g = R^T f, shape (coordinates) from (rows). */
+void dmb_linear_restrict(const dmb_linear *linear, const double *f, double *g);
+/* R^T A R, shape (coordinates, coordinates), column by column; work: shape (2 rows + coordinates). */
+void dmb_linear_dense(const dmb_linear *linear, const dmb_linear_matrix *A, double *work, double *out);
+/* [-] |x.Ky - y.Kx| for x, y of random signs over the roots of the diagonal: of rounding size where K is symmetric. */
+double dmb_linear_asymmetry(const dmb_linear *linear, const dmb_linear_matrix *A, double *work);
+
+/* Factors k K + c C + m M in `work`: block-tridiagonal, block-sparse where joints connect. Node of a singular block, or
+ * -1; weakest may be NULL. */
+int64_t dmb_linear_factor(dmb_linear *linear, double k, double c, double m, dmb_block_weakest *weakest);
+/* x <- R (R^T A R)^-1 R^T x by rows, A as factored last. */
+void dmb_linear_solve(dmb_linear *linear, double *x);
+
+#endif

@@ -1,0 +1,282 @@
+/* Frequency response: prepares what shakes and what is asked, solves at each frequency, refines at peaks. */
+#include "drillmbd/response.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "analysis/dynamic_stiffness.h"
+#include "analysis/excitation.h"
+#include "analysis/functional.h"
+#include "analysis/response_object.h"
+#include "analysis/response_options.h"
+#include "analysis/response_peaks.h"
+#include "base/allocator.h"
+#include "base/arena.h"
+#include "base/check.h"
+#include "base/handle.h"
+#include "math/so3.h"
+#include "system/owner.h"
+
+/* An output: its value is (i w)^rate times what the functional says of the displacements. */
+typedef struct response_output {
+    dmb_functional functional;
+    int32_t rate;
+    int32_t elastic; /* 1: the part by pose is of the stiffness and has its structural damping */
+} response_output;
+
+typedef struct response_work {
+    dmb_sim *sim; /* for its message */
+    dmb_response_options options;
+    dmb_linear *linear;
+    dmb_dynamic_stiffness stiffness;
+    dmb_excitation *inputs;
+    response_output *outputs;
+    uint32_t input_count, output_count;
+    dmb_complex_array x;
+    void *block;
+    size_t block_size;
+} response_work;
+
+/* ---- Preparation ------------------------------------------------------------------------------------------------- */
+
+static void lay_out(dmb_arena *arena, response_work *w)
+{
+    const uint32_t rows = w->sim->scene->row_count;
+    w->inputs = DMB_ARENA_ARRAY(arena, dmb_excitation, w->input_count);
+    w->outputs = DMB_ARENA_ARRAY(arena, response_output, w->output_count);
+    double *numbers = DMB_ARENA_DOUBLES(arena, 2 * (size_t)rows * (w->input_count + 1u));
+    if (numbers == NULL) return;
+    w->x.re = numbers;
+    w->x.im = numbers + rows;
+    for (uint32_t i = 0; i < w->input_count; i++) {
+        w->inputs[i].re = numbers + 2 * (size_t)rows * (i + 1u);
+        w->inputs[i].im = w->inputs[i].re + rows;
+    }
+}
+
+static int32_t take_memory(response_work *w)
+{
+    dmb_arena arena;
+    dmb_arena_count(&arena);
+    lay_out(&arena, w);
+    w->block_size = dmb_arena_block_size(&arena);
+    w->block = arena.overflow ? NULL : dmb_allocate(&w->sim->allocator, w->block_size);
+    if (w->block == NULL) return DMB_ERR_NO_MEMORY;
+    dmb_arena_place(&arena, w->block, w->block_size);
+    lay_out(&arena, w);
+    return DMB_OK;
+}
+
+static int32_t check_balance(const response_work *w)
+{
+    const dmb_linear *linear = w->linear;
+    if (linear->balanced || linear->unbalance <= w->options.equilibrium_tolerance) return DMB_OK;
+    const dmb_owner owner = dmb_owner_of_node(&linear->scene, linear->largest_node);
+    dmb_message_set(&w->sim->message,
+                    "state: not an equilibrium, %g of the forces that balance is left (up to %g N at %s %u, pipe %u), "
+                    "must be <= %g",
+                    linear->unbalance, linear->largest_force, owner.kind, owner.index, owner.pipe,
+                    w->options.equilibrium_tolerance);
+    return DMB_ERR_VALUE;
+}
+
+static int32_t linearise(response_work *w)
+{
+    const dmb_linear_options options = {w->options.contact, !w->options.friction, w->options.contact_gap};
+    int32_t status = dmb_linear_make(w->sim, &options, &w->linear);
+    if (status == DMB_OK) status = check_balance(w);
+    if (status < 0) return status;
+    w->linear->work->magic = DMB_HANDLE_SIM; /* so that it answers queries */
+    return dmb_dynamic_stiffness_make(w->linear, w->options.structural_damping, &w->stiffness);
+}
+
+static int32_t take_inputs(response_work *w, const dmb_input *inputs, dmb_response *response)
+{
+    int32_t status = DMB_OK;
+    for (uint32_t i = 0; i < w->input_count && status >= 0; i++) {
+        dmb_input input;
+        status = dmb_input_take(inputs, i, &w->sim->message, &input);
+        if (status < 0) return status;
+        response->amplitude[i] = input.amplitude;
+        response->phase[i] = input.phase;
+        status = dmb_excitation_of(w->linear->work, &input, i, &w->sim->message, w->inputs + i);
+    }
+    return status;
+}
+
+static int32_t take_output(response_work *w, const dmb_output *output, response_output *to)
+{
+    dmb_sim *copy = w->linear->work;
+    if (output->kind == DMB_OUTPUT_SECTION_FORCE) {
+        to->elastic = 1;
+        return dmb_functional_of_section(copy, output->place, output->component, &to->functional);
+    }
+    to->rate = output->kind;
+    return dmb_functional_of_motion(copy, output->place, output->frame, output->component, &to->functional);
+}
+
+static int32_t take_outputs(response_work *w, const dmb_output *outputs)
+{
+    for (uint32_t i = 0; i < w->output_count; i++) {
+        dmb_output output;
+        int32_t status = dmb_output_take(outputs, i, &w->sim->message, &output);
+        if (status < 0) return status;
+        status = take_output(w, &output, w->outputs + i);
+        if (status < 0) {
+            dmb_message_set(&w->sim->message, "output %u: place, pipe %u at %g: %s", i, output.place.pipe,
+                            output.place.fraction, dmb_status_text(status));
+            return status;
+        }
+    }
+    return DMB_OK;
+}
+
+/* ---- One frequency ----------------------------------------------------------------------------------------------- */
+
+static int32_t no_displacement(const response_work *w, uint32_t input)
+{
+    dmb_message_set(&w->sim->message, "input %u: at frequency 0 a speed has no displacement to respond to", input);
+    return DMB_ERR_SINGULAR;
+}
+
+/* Right-hand side of an input: forces, and the displacement of a row that a drive moves. */
+static int32_t load(response_work *w, uint32_t input, double omega)
+{
+    const dmb_excitation *e = w->inputs + input;
+    const uint32_t rows = w->linear->rows;
+    double re = 1.0, im = 0.0;
+    if (e->law == DMB_EXCITE_INERTIA) re = omega * omega;
+    if (e->law == DMB_EXCITE_CONTROL) re = e->gain, im = e->integral_gain == 0.0 ? 0.0 : -e->integral_gain / omega;
+    if (e->law == DMB_EXCITE_MOTION) re = 0.0, im = -1.0 / omega;
+    if (!isfinite(im)) return no_displacement(w, input);
+    for (uint32_t r = 0; r < rows; r++) {
+        w->x.re[r] = re * e->re[r] - im * e->im[r];
+        w->x.im[r] = re * e->im[r] + im * e->re[r];
+    }
+    return DMB_OK;
+}
+
+/* value = (i w)^rate sum (pose + i w speed - w^2 acceleration) d */
+static void answer(const response_work *w, const response_output *output, double omega, double value[2])
+{
+    const dmb_functional *f = &output->functional;
+    const double eta = output->elastic ? w->options.structural_damping : 0.0;
+    double re = 0.0, im = 0.0;
+    for (uint32_t i = 0; i < f->count; i++) {
+        const double dr = w->x.re[f->first + i], di = w->x.im[f->first + i];
+        const double a = f->pose[i] - omega * omega * f->acceleration[i], b = omega * f->speed[i] + eta * f->pose[i];
+        re += a * dr - b * di;
+        im += a * di + b * dr;
+    }
+    for (int32_t k = 0; k < output->rate; k++) {
+        const double kept = re;
+        re = -omega * im;
+        im = omega * kept;
+    }
+    value[0] = re;
+    value[1] = im;
+}
+
+static int32_t nothing_holds(const response_work *w, double frequency, uint32_t node)
+{
+    const dmb_owner owner = dmb_owner_of_node(&w->linear->scene, node);
+    dmb_message_set(&w->sim->message,
+                    "frequency %g Hz: %s %u, pipe %u: nothing holds it there, the dynamic stiffness is "
+                    "singular",
+                    frequency, owner.kind, owner.index, owner.pipe);
+    return DMB_ERR_SINGULAR;
+}
+
+static int32_t solve_point(response_work *w, dmb_response *response, uint32_t point)
+{
+    const double frequency = response->frequency[point], omega = 2.0 * DMB_PI * frequency;
+    const int64_t bad = dmb_dynamic_stiffness_factor(&w->stiffness, omega);
+    if (bad >= 0) return nothing_holds(w, frequency, (uint32_t)bad);
+    for (uint32_t i = 0; i < w->input_count; i++) {
+        const int32_t status = load(w, i, omega);
+        if (status < 0) return status;
+        dmb_dynamic_stiffness_solve(&w->stiffness, w->x);
+        double *value = dmb_response_value(response, point, i);
+        for (uint32_t k = 0; k < w->output_count; k++) answer(w, w->outputs + k, omega, value + 2 * (size_t)k);
+    }
+    return DMB_OK;
+}
+
+/* ---- All of them ------------------------------------------------------------------------------------------------- */
+
+static int32_t solve_grid(response_work *w, dmb_response *response)
+{
+    int32_t status = dmb_response_resize(response, w->options.points);
+    for (uint32_t i = 0; i < w->options.points && status >= 0; i++) {
+        response->frequency[i] = dmb_response_grid(&w->options, i);
+        status = solve_point(w, response, i);
+    }
+    return status;
+}
+
+/* Halves the intervals beside each peak; new points are marked by the frequencies alone until they are solved. */
+static int32_t refine(response_work *w, dmb_response *response)
+{
+    uint8_t *fresh = NULL;
+    uint32_t before = response->points;
+    int32_t status = dmb_response_split_peaks(response, &fresh);
+    const uint32_t points = response->points;
+    for (uint32_t i = 0; fresh != NULL && i < points && status >= 0; i++)
+        if (fresh[i]) status = solve_point(w, response, i);
+    if (fresh != NULL) dmb_release(&response->allocator, fresh, points);
+    return status >= 0 && points == before ? DMB_NOTE_STOPPED : status;
+}
+
+static int32_t run(response_work *w, const dmb_input *inputs, const dmb_output *outputs, dmb_response *response)
+{
+    int32_t status = take_memory(w);
+    if (status >= 0) status = linearise(w);
+    if (status >= 0) status = take_inputs(w, inputs, response);
+    if (status >= 0) status = take_outputs(w, outputs);
+    if (status >= 0) status = solve_grid(w, response);
+    for (uint32_t k = 0; k < w->options.refinement && status == DMB_OK; k++) status = refine(w, response);
+    return status;
+}
+
+static void release(response_work *w)
+{
+    dmb_dynamic_stiffness_release(&w->stiffness);
+    dmb_linear_release(&w->linear);
+    if (w->block != NULL) dmb_release(&w->sim->allocator, w->block, w->block_size);
+}
+
+static int32_t check_counts(dmb_sim *sim, uint32_t inputs, uint32_t outputs)
+{
+    dmb_check check = dmb_check_of(&sim->message, "response", DMB_NO_INDEX);
+    dmb_check_count(&check, "input_count", inputs, 1, DMB_RESPONSE_INPUTS_MAX);
+    dmb_check_count(&check, "output_count", outputs, 1, DMB_RESPONSE_INPUTS_MAX);
+    return check.status;
+}
+
+int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_input *inputs,
+                              uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
+                              dmb_response **response)
+{
+    response_work w;
+    if (response == NULL) return DMB_ERR_NULL;
+    *response = NULL;
+    if (sim == NULL || inputs == NULL || outputs == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
+    memset(&w, 0, sizeof w);
+    w.sim = sim;
+    w.input_count = input_count;
+    w.output_count = output_count;
+    dmb_message_clear(&sim->message);
+    int32_t status = dmb_response_options_take(options, &sim->message, &w.options);
+    if (status >= 0) status = check_counts(sim, input_count, output_count);
+    if (status < 0) return status;
+    dmb_response *made = dmb_response_new(&sim->allocator, input_count, output_count);
+    status = made != NULL ? run(&w, inputs, outputs, made) : DMB_ERR_NO_MEMORY;
+    release(&w);
+    if (status == DMB_ERR_NO_MEMORY) dmb_message_set(&sim->message, "response: no memory");
+    if (status < 0)
+        dmb_response_destroy(&made);
+    else
+        *response = made;
+    return status < 0 ? status : DMB_OK;
+}

@@ -1,0 +1,13 @@
+/* Number of negative eigenvalues of a symmetric block-tridiagonal matrix (Sylvester's law of inertia): what the sign of
+ * a stiffness is judged by, and what counts the critical factors below a given one (Sturm sequence). */
+#ifndef DMB_MATH_BLOCK_INERTIA_H
+#define DMB_MATH_BLOCK_INERTIA_H
+
+#include "math/block_tridiagonal.h"
+
+/* Of the symmetric part of blocks [first, first + count), none of them factored; the matrix is left alone. A pivot of 0
+ * counts as positive. Linear in the number of blocks. */
+uint32_t dmb_block_negative(const dmb_block_layout *layout, const double *diagonal, const double *lower,
+                            const double *upper, uint32_t first, uint32_t count);
+
+#endif

@@ -1,0 +1,348 @@
+/* SUNDIALS IDA on the library's own equations. usage: peer_sundials CSV [C] [B]   (default: both)
+ * Variable-order, variable-step backward differentiation (BDF) against the library's generalized-alpha in fixed and in
+ * error-controlled steps: the same scenes, the same residual, the same question, the same reference. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <ida/ida.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_version.h>
+#include <sunlinsol/sunlinsol_band.h>
+#include <sunmatrix/sunmatrix_band.h>
+
+#include <stdio.h>
+#include <string.h>
+
+#include "measure.h"
+#include "peer_equations.h"
+#include "peer_rows.h"
+
+enum { ELEMENTS = 100 };
+
+static yardstick unit;
+static FILE *table;
+static int failures;
+
+/* ---- IDA on the equations ------------------------------------------------------------------------------------------
+ */
+
+typedef struct ida_method {
+    double tolerance;
+    int order;      /* highest, 1..5; up to 2 the formulas damp every frequency (A-stable) */
+    int difference; /* 1: Jacobian by IDA's band difference quotients, 0: from the library's blocks */
+} ida_method;
+
+typedef struct ida_run {
+    equations e;
+    SUNContext context;
+    void *ida;
+    N_Vector y, dy, tolerance;
+    SUNMatrix matrix;
+    SUNLinearSolver solver;
+} ida_run;
+
+static int residual_of(realtype t, N_Vector y, N_Vector dy, N_Vector F, void *data)
+{
+    equations *e = data;
+    /* 1: what failed may be done with a smaller step */
+    return equations_residual(e, t, N_VGetArrayPointer(y), N_VGetArrayPointer(dy), N_VGetArrayPointer(F)) < 0;
+}
+
+static int factor(realtype t, realtype rate, N_Vector y, N_Vector dy, N_Vector F, SUNMatrix J, void *data, N_Vector a,
+                  N_Vector b, N_Vector c)
+{
+    (void)F, (void)J, (void)a, (void)b, (void)c;
+    return equations_factor(data, t, rate, N_VGetArrayPointer(y), N_VGetArrayPointer(dy)) < 0;
+}
+
+static int solve(SUNLinearSolver solver, SUNMatrix J, N_Vector x, N_Vector b, realtype tolerance)
+{
+    (void)J, (void)tolerance;
+    equations_solve(solver->content, N_VGetArrayPointer(b), N_VGetArrayPointer(x));
+    return 0;
+}
+
+static SUNMatrix_ID matrix_id(SUNMatrix matrix)
+{
+    return (void)matrix, SUNMATRIX_CUSTOM;
+}
+static int matrix_zero(SUNMatrix matrix)
+{
+    return (void)matrix, 0;
+}
+static SUNLinearSolver_Type solver_type(SUNLinearSolver solver)
+{
+    return (void)solver, SUNLINEARSOLVER_DIRECT;
+}
+static int solver_setup(SUNLinearSolver solver, SUNMatrix matrix)
+{
+    return (void)solver, (void)matrix, 0;
+}
+
+/* The matrix lives in the library's blocks; IDA only needs to think that there is one. */
+static int use_blocks(ida_run *run)
+{
+    run->matrix = SUNMatNewEmpty(run->context);
+    run->solver = SUNLinSolNewEmpty(run->context);
+    if (!run->matrix || !run->solver) return 0;
+    run->matrix->ops->getid = matrix_id;
+    run->matrix->ops->zero = matrix_zero;
+    run->solver->content = &run->e;
+    run->solver->ops->gettype = solver_type;
+    run->solver->ops->setup = solver_setup;
+    run->solver->ops->solve = solve;
+    return IDASetLinearSolver(run->ida, run->solver, run->matrix) == 0 && IDASetJacFn(run->ida, factor) == 0;
+}
+
+/* A row of velocities depends on all unknowns of both neighbours. */
+static int use_differences(ida_run *run)
+{
+    const sunindextype below = PEER_NODE + PEER_NODE - 1, above = PEER_NODE + PEER_NODE - 1 - PEER_V;
+    run->matrix = SUNBandMatrix(N_VGetLength(run->y), above, below, run->context);
+    if (!run->matrix) return 0;
+    run->solver = SUNLinSol_Band(run->y, run->matrix, run->context);
+    return run->solver && IDASetLinearSolver(run->ida, run->solver, run->matrix) == 0;
+}
+
+/* As the library's: metres a tenth of radians; speeds likewise, a second counted as one. */
+static void fill_tolerances(N_Vector tolerances, double tolerance)
+{
+    double *a = N_VGetArrayPointer(tolerances);
+    for (sunindextype i = 0; i < N_VGetLength(tolerances); i++) {
+        const sunindextype k = i % PEER_NODE;
+        a[i] = k < PEER_Q || (k >= PEER_V && k < PEER_V + 3) ? 0.1 * tolerance : tolerance;
+    }
+}
+
+static int ida_open(ida_run *run, dmb_sim *sim, const ida_method *how)
+{
+    memset(run, 0, sizeof *run);
+    if (!equations_open(&run->e, sim) || SUNContext_Create(NULL, &run->context) != 0) return 0;
+    const sunindextype count = (sunindextype)PEER_NODE * run->e.scene->node_count;
+    run->ida = IDACreate(run->context);
+    run->y = N_VNew_Serial(count, run->context);
+    run->dy = N_VNew_Serial(count, run->context);
+    run->tolerance = N_VNew_Serial(count, run->context);
+    if (!run->ida || !run->y || !run->dy || !run->tolerance) return 0;
+    equations_start(&run->e, N_VGetArrayPointer(run->y), N_VGetArrayPointer(run->dy));
+    fill_tolerances(run->tolerance, how->tolerance);
+    if (IDAInit(run->ida, residual_of, 0.0, run->y, run->dy) != 0 || IDASetUserData(run->ida, &run->e) != 0) return 0;
+    if (IDASVtolerances(run->ida, how->tolerance, run->tolerance) != 0 || IDASetMaxOrd(run->ida, how->order) != 0 ||
+        IDASetMaxNumSteps(run->ida, 100000000) != 0)
+        return 0;
+    return how->difference ? use_differences(run) : use_blocks(run);
+}
+
+static void ida_close(ida_run *run, const ida_method *how)
+{
+    if (run->ida) IDAFree(&run->ida);
+    if (run->solver && how->difference)
+        SUNLinSolFree(run->solver);
+    else if (run->solver)
+        SUNLinSolFreeEmpty(run->solver);
+    if (run->matrix && how->difference)
+        SUNMatDestroy(run->matrix);
+    else if (run->matrix)
+        SUNMatFreeEmpty(run->matrix);
+    if (run->y) N_VDestroy(run->y);
+    if (run->dy) N_VDestroy(run->dy);
+    if (run->tolerance) N_VDestroy(run->tolerance);
+    if (run->context) SUNContext_Free(&run->context);
+    equations_close(&run->e);
+}
+
+/* To `end`, stopping where the drive's programme has its corner, as the library does. */
+static int ida_go(ida_run *run, double end)
+{
+    double t = 0.0;
+    for (double stop = fmin(1.0, end); t < end; stop = end) {
+        if (IDASetStopTime(run->ida, stop) != 0) return 0;
+        const int flag = IDASolve(run->ida, stop, &t, run->y, run->dy, IDA_NORMAL);
+        if (flag < 0) return fprintf(stderr, "peer_sundials: IDA gives up at %g s: %d\n", t, flag), 0;
+    }
+    return 1;
+}
+
+/* One timed run from time 0; creation left out, as with the library. */
+static int ida_measure(const scene *s, const ida_method *how, double end, peer_row *row, double values[2])
+{
+    dmb_sim *sim = NULL;
+    ida_run run;
+    long steps = 0;
+    memset(&run, 0, sizeof run);
+    int good = dmb_sim_create(s->model, NULL, &sim) >= 0 && ida_open(&run, sim, how);
+    residuals_evaluated = tangents_evaluated = 0.0;
+    const double begin = processor_time();
+    good = good && ida_go(&run, end);
+    row->seconds = processor_time() - begin;
+    row->residuals = residuals_evaluated;
+    row->tangents = tangents_evaluated;
+    if (good) IDAGetNumSteps(run.ida, &steps);
+    row->steps = (double)steps;
+    row->end = end;
+    good = good &&
+           equations_finish(&run.e, end, N_VGetArrayPointer(run.y), N_VGetArrayPointer(run.dy),
+                            2.0 * BENCH_PI * fmax(0.0, end - 0.5)) >= 0 &&
+           scene_ask(s, sim, values) >= 0;
+    ida_close(&run, how);
+    dmb_sim_destroy(&sim);
+    yardstick_measure(&unit);
+    row->yardstick = yardstick_value(&unit);
+    return good;
+}
+
+/* ---- Rows ----------------------------------------------------------------------------------------------------------
+ */
+
+typedef struct question {
+    const scene *s;
+    double end, reference[2];
+    const char *name;
+} question;
+
+/* [-] relative, but a position in its own unit: it may be near 0. */
+static void fill_errors(const question *ask, const double values[2], peer_row *row)
+{
+    static char kinds[2][64];
+    for (int i = 0; i < 2; i++) {
+        const char *const quantity = quantity_names[ask->s->kind][i];
+        const double difference = fabs(values[i] - ask->reference[i]);
+        row->error[i] = strstr(quantity, "_mm") ? difference : difference / fabs(ask->reference[i]);
+        snprintf(kinds[i], sizeof kinds[i], "%s_vs_%s", quantity, ask->name);
+        row->error_kind[i] = kinds[i];
+    }
+    if (ask->s->kind != SCENE_C) return;
+    const double exact =
+        exact_tip_speed(ask->s->pipes * ask->s->length, ask->end); /* the mesh's error is in this one */
+    row->error[1] = fabs(values[0] - exact) / exact;
+    row->error_kind[1] = "tip_speed_vs_exact";
+}
+
+static void report_ida(const question *ask, const ida_method *how)
+{
+    char setting[96];
+    double values[2];
+    peer_row row;
+    memset(&row, 0, sizeof row);
+    snprintf(setting, sizeof setting, "tolerance=%g;order=%d;jacobian=%s", how->tolerance, how->order,
+             how->difference ? "differences" : "blocks");
+    row.code = "IDA";
+    row.version = SUNDIALS_VERSION;
+    row.scene = scene_names[ask->s->kind];
+    row.setting = setting;
+    row.elements = ELEMENTS;
+    if (!ida_measure(ask->s, how, ask->end, &row, values)) {
+        printf("scene=%s code=IDA %s failed\n", row.scene, setting);
+        ++failures;
+        return;
+    }
+    fill_errors(ask, values, &row);
+    peer_row_report(table, &row);
+}
+
+static void report_library(const question *ask, double step, double tolerance)
+{
+    const method how = {step, tolerance, ask->end, ask->end, 0, 1};
+    char setting[96], version[32];
+    peer_row row;
+    memset(&row, 0, sizeof row);
+    snprintf(version, sizeof version, "%d.%d.%d", DMB_VERSION_MAJOR, DMB_VERSION_MINOR, DMB_VERSION_PATCH);
+    residuals_evaluated = tangents_evaluated = 0.0;
+    const outcome out = measure(ask->s, &how, &unit);
+    if (step > 0.0)
+        snprintf(setting, sizeof setting, "dt=%g", step);
+    else
+        snprintf(setting, sizeof setting, "tolerance=%g", tolerance);
+    row.code = "drillmbd";
+    row.version = version;
+    row.scene = scene_names[ask->s->kind];
+    row.setting = setting;
+    row.elements = ELEMENTS;
+    row.end = ask->end;
+    row.seconds = out.seconds;
+    row.yardstick = out.yardstick;
+    row.steps = out.steps;
+    row.residuals = residuals_evaluated;
+    row.tangents = tangents_evaluated;
+    if (out.status < 0) {
+        printf("scene=%s code=drillmbd %s failed\n", row.scene, setting);
+        ++failures;
+        return;
+    }
+    fill_errors(ask, out.values, &row);
+    peer_row_report(table, &row);
+}
+
+/* ---- The plan ------------------------------------------------------------------------------------------------------
+ */
+
+/* C is asked at its end, B early, where its motion still follows from its start (as in bench.c). Both against IDA at a
+ * tolerance of 1e-10: it converges further than small fixed steps do, and the library's answers have to converge to
+ * what another integrator found. */
+static int question_of(const scene *s, question *ask)
+{
+    const ida_method how = {1e-10, 5, 0};
+    peer_row unused;
+    memset(&unused, 0, sizeof unused);
+    ask->s = s;
+    ask->end = s->kind == SCENE_C ? 2.0 : 0.1;
+    ask->name = "IDA_1e-10";
+    return ida_measure(s, &how, ask->end, &unused, ask->reference);
+}
+
+static void compare(const question *ask)
+{
+    for (double step = 4e-3; step > 1.5e-5; step *= 0.5) report_library(ask, step, 0.0);
+    for (int power = 4; power <= 9; ++power) report_library(ask, 0.0, pow(10.0, -power));
+    for (int power = 3; power <= 9; ++power) {
+        const ida_method how = {pow(10.0, -power), 5, 0};
+        report_ida(ask, &how);
+    }
+    for (int power = 2; power <= 7; ++power) {
+        const ida_method how = {pow(10.0, -power), 2, 0};
+        report_ida(ask, &how);
+    }
+    for (int power = 3; power <= 7; power += 2) {
+        const ida_method how = {pow(10.0, -power), 5, 1};
+        report_ida(ask, &how);
+    }
+}
+
+static void run_scene(int kind)
+{
+    scene s;
+    memset(&s, 0, sizeof s);
+    s.kind = kind;
+    s.pipes = ELEMENTS;
+    s.per_pipe = 1;
+    s.length = 1.0;
+    question ask;
+    if (scene_open(&s) >= 0 && question_of(&s, &ask)) {
+        compare(&ask);
+    } else {
+        fprintf(stderr, "peer_sundials: scene %s: no reference\n", scene_names[kind]);
+        ++failures;
+    }
+    dmb_model_destroy(&s.model);
+}
+
+static int is_wanted(const char *name, int count, char **words)
+{
+    for (int i = 2; i < count; ++i)
+        if (strcmp(words[i], name) == 0) return 1;
+    return count <= 2;
+}
+
+int main(int count, char **words)
+{
+    static const int kinds[] = {SCENE_C, SCENE_B};
+    if (count < 2) return fputs("usage: peer_sundials CSV [C] [B]\n", stderr), 2;
+    table = fopen(words[1], "w");
+    if (!table) return perror(words[1]), 2;
+    fprintf(table, "%s\n", peer_columns);
+    yardstick_open(&unit);
+    for (int i = 0; i < 25; ++i) yardstick_measure(&unit);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; ++i)
+        if (is_wanted(scene_names[kinds[i]], count, words)) run_scene(kinds[i]);
+    if (fclose(table) != 0) return perror(words[1]), 2;
+    return failures > 0;
+}

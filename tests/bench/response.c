@@ -1,0 +1,200 @@
+/* What a frequency response costs. usage: response CSV
+ *
+ * Scene H: the tube of scene C, 100 m, 100 to 10000 elements, the speed of its drive the input and the rotation of its
+ * tip the output, structural damping 0.02, 0.1 to 50 Hz. The same blocks are solved whatever input and output are.
+ * Error: root mean square over the band of what differs from 1/(i w cos k L), k = w sqrt(rho/(G (1 + i eta))), over that
+ * of the exact response. With W, in the hole under gravity, resting on the wall. tests/bench/run calls it. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <drillmbd/drillmbd.h>
+
+#include <complex.h>
+#include <stdio.h>
+
+#include "yardstick.h"
+
+#define TUBE_PI 3.14159265358979323846
+#define TUBE_LENGTH 100.0
+#define TUBE_LOSS 0.02
+
+enum { RESPONSE_REPEATS = 5, RESPONSE_SIZES = 5 };
+
+typedef struct tube {
+    uint32_t elements, points;
+    int walled;
+    dmb_model *model;
+    dmb_sim *sim;
+    dmb_id string, drive;
+} tube;
+
+typedef struct cost {
+    double make, point, spread, error; /* [s], [s], [-], [-] */
+} cost;
+
+static yardstick unit;
+static FILE *table;
+
+/* ---- The tube ----------------------------------------------------------------------------------------------------- */
+
+static int32_t add_tube(tube *t)
+{
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    string.start_free = DMB_FREE_RX;
+    int32_t status = dmb_model_add_string(t->model, &string, &t->string);
+    pipe.string = t->string;
+    pipe.length = TUBE_LENGTH / t->elements;
+    pipe.outer_diameter = 0.073;
+    pipe.inner_diameter = 0.059;
+    pipe.young_modulus = 206e9;
+    return status < 0 ? status : dmb_model_add_pipes(t->model, &pipe, t->elements, NULL);
+}
+
+static int32_t add_surroundings(tube *t)
+{
+    dmb_environment_def weightless = dmb_environment_def_default();
+    dmb_wall_def wall = dmb_wall_def_default();
+    weightless.gravity[2] = 0.0;
+    if (t->walled) return dmb_model_add_wall(t->model, &wall, NULL);
+    return dmb_model_set_environment(t->model, &weightless);
+}
+
+static int32_t add_turning(tube *t)
+{
+    const dmb_term still = dmb_term_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    const int32_t status = dmb_model_add_programme(t->model, &still, 1, &drive.programme);
+    drive.part = t->string;
+    drive.component = DMB_RX;
+    return status < 0 ? status : dmb_model_add_drive(t->model, &drive, &t->drive);
+}
+
+static int32_t tube_open(tube *t)
+{
+    int32_t status = dmb_model_create(NULL, &t->model);
+    if (status >= 0) status = add_surroundings(t);
+    if (status >= 0) status = add_tube(t);
+    if (status >= 0) status = add_turning(t);
+    if (status >= 0) status = dmb_model_compile(t->model, NULL);
+    if (status >= 0) status = dmb_sim_create(t->model, NULL, &t->sim);
+    if (status >= 0 && t->walled) status = dmb_analysis_static(t->sim, NULL, NULL);
+    return status;
+}
+
+/* ---- Measures ----------------------------------------------------------------------------------------------------- */
+
+static double complex exact(double frequency)
+{
+    const double w = 2.0 * TUBE_PI * frequency, G = 206e9 / 2.6;
+    const double complex k = w * csqrt(7850.0 / (G * (1.0 + TUBE_LOSS * (double complex)_Complex_I)));
+    return 1.0 / ((double complex)_Complex_I * w * ccos(k * TUBE_LENGTH));
+}
+
+static int32_t find_error(const dmb_response *response, uint32_t points, double *error)
+{
+    double *f = malloc(points * sizeof *f), off = 0.0, all = 0.0;
+    double complex *h = malloc(points * sizeof *h);
+    int32_t status = f && h ? dmb_response_frequencies(response, f) : DMB_ERR_NO_MEMORY;
+    if (status >= 0) status = dmb_response_transfer(response, 0, 0, (double *)h);
+    for (uint32_t i = 0; status >= 0 && i < points; ++i) {
+        const double complex want = exact(f[i]);
+        off += pow(cabs(h[i] - want) * f[i], 2.0); /* speeds, so that low frequencies do not outweigh the rest */
+        all += pow(cabs(want) * f[i], 2.0);
+    }
+    *error = sqrt(off / all);
+    free(f);
+    free(h);
+    return status;
+}
+
+static int32_t respond(const tube *t, uint32_t points, double *seconds, double *error)
+{
+    dmb_response_options options = dmb_response_options_default();
+    dmb_input input = dmb_input_default();
+    dmb_output output = dmb_output_default();
+    dmb_response *response = NULL;
+    options.points = points;
+    options.frequency_low = 0.1;
+    options.frequency_high = 50.0;
+    options.structural_damping = TUBE_LOSS;
+    input.kind = DMB_INPUT_DRIVE;
+    input.place.part = t->drive;
+    output.place = dmb_station(t->string, t->elements - 1, 1.0);
+    output.component = DMB_RX;
+    const double begin = processor_time();
+    int32_t status = dmb_analysis_response(t->sim, &options, &input, 1, &output, 1, &response);
+    *seconds = processor_time() - begin;
+    if (status < 0) fprintf(stderr, "response: %s: %s\n", dmb_status_text(status), dmb_sim_message(t->sim));
+    if (status >= 0 && error) status = find_error(response, points, error);
+    dmb_response_destroy(&response);
+    return status;
+}
+
+/* A point: all of them less what two points cost. */
+static int32_t measure_tube(tube *t, cost *c)
+{
+    double make[RESPONSE_REPEATS], point[RESPONSE_REPEATS];
+    int32_t status = tube_open(t);
+    if (status < 0) fprintf(stderr, "response: %s: %s\n", dmb_status_text(status), dmb_model_message(t->model));
+    for (int i = 0; i < RESPONSE_REPEATS && status >= 0; ++i) {
+        double all = 0.0;
+        status = respond(t, 2, &make[i], NULL);
+        if (status >= 0) status = respond(t, t->points, &all, &c->error);
+        point[i] = (all - make[i]) / (t->points - 2);
+        yardstick_measure(&unit);
+    }
+    dmb_sim_destroy(&t->sim);
+    dmb_model_destroy(&t->model);
+    if (status < 0) return status;
+    c->make = median(make, RESPONSE_REPEATS);
+    c->point = median(point, RESPONSE_REPEATS);
+    c->spread = (point[RESPONSE_REPEATS - 1] - point[0]) / c->point;
+    return DMB_OK;
+}
+
+/* ---- Report ------------------------------------------------------------------------------------------------------- */
+
+/* On the wall friction of the state at rest turns the tube too: there is no closed form to be wrong by. */
+static void report(const tube *t, const cost *c)
+{
+    const double u = yardstick_value(&unit);
+    printf("scene=%s elements=%u points=%u us_two_points=%.4g us_per_point=%.4g spread=%.2g U_per_point=%.3g ",
+           t->walled ? "HW" : "H", (unsigned)t->elements, (unsigned)t->points, 1e6 * c->make, 1e6 * c->point, c->spread,
+           c->point / u);
+    if (!t->walled) printf("error=%.2e error_kind=rms_of_tip_speed_vs_closed_form", c->error);
+    printf("\n");
+    fprintf(table, "%s,%u,%u,%.6g,%.6g,%.3g,%.4g,%.3g\n", t->walled ? "HW" : "H", (unsigned)t->elements,
+            (unsigned)t->points, 1e6 * c->make, 1e6 * c->point, c->spread, 1e6 * u, t->walled ? (double)NAN : c->error);
+    fflush(stdout);
+}
+
+static int run_all(void)
+{
+    static const uint32_t elements[RESPONSE_SIZES] = {100, 200, 400, 1000, 10000};
+    for (int walled = 0; walled < 2; ++walled) {
+        double first = 0.0;
+        cost c = {0.0, 0.0, 0.0, 0.0};
+        for (int i = 0; i < RESPONSE_SIZES; ++i) {
+            tube t = {.elements = elements[i], .points = 1000000u / elements[i], .walled = walled};
+            if (measure_tube(&t, &c) < 0) return 1;
+            report(&t, &c);
+            if (i == 0) first = c.point;
+        }
+        printf("scene=%s elements=100..10000 growth_per_point=%.3f\n", walled ? "HW" : "H", log10(c.point / first) / 2.0);
+    }
+    return 0;
+}
+
+int main(int count, char **words)
+{
+    if (count != 2) return fputs("usage: response CSV\n", stderr), 2;
+    table = fopen(words[1], "w");
+    if (!table) return perror(words[1]), 2;
+    fputs("scene,elements,points,us_two_points,us_per_point,spread,U_us,error\n", table);
+    yardstick_open(&unit);
+    for (int i = 0; i < 25; ++i) yardstick_measure(&unit);
+    printf("U=%.4g us\n", 1e6 * yardstick_value(&unit));
+    const int failed = run_all();
+    if (fclose(table) != 0) return perror(words[1]), 2;
+    return failed;
+}

@@ -1,0 +1,270 @@
+/* What a frequency response refuses, that refusing changes nothing and gives all memory back, and what it says. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "drillmbd/drillmbd.h"
+
+typedef struct budget {
+    size_t calls, refuse, live;
+} budget;
+
+static void *take(void *context, size_t size, size_t alignment)
+{
+    budget *b = context;
+    if (++b->calls == b->refuse) return NULL;
+    ++b->live;
+    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+
+static void give(void *context, void *block, size_t size, size_t alignment)
+{
+    budget *b = context;
+    (void)size, (void)alignment;
+    --b->live;
+    free(block);
+}
+
+typedef struct scene {
+    budget budget;
+    dmb_model *model;
+    dmb_sim *sim;
+    dmb_id string, drive, load;
+    dmb_response_options options;
+    dmb_input input;
+    dmb_output output;
+} scene;
+
+/* Ten pipes without a wall, rig end free in `free_mask`, turned and pushed; gravity downwards. */
+static void begin(scene *s, int32_t free_mask, double gravity)
+{
+    dmb_environment_def around = dmb_environment_def_default();
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    dmb_load_def load = dmb_load_def_default();
+    dmb_sim_options options = dmb_sim_options_default();
+    dmb_allocator allocator = dmb_allocator_default();
+    const dmb_term zero = dmb_term_default();
+    memset(s, 0, sizeof *s);
+    allocator.context = &s->budget;
+    allocator.allocate = take;
+    allocator.release = give;
+    options.allocator = &allocator;
+    around.gravity[2] = gravity;
+    string.start_free = free_mask;
+    drive.component = DMB_RX;
+    assert_int_equal(dmb_model_create(NULL, &s->model), DMB_OK);
+    assert_int_equal(dmb_model_set_environment(s->model, &around), DMB_OK);
+    assert_int_equal(dmb_model_add_string(s->model, &string, &s->string), DMB_OK);
+    assert_int_equal(dmb_model_add_pipes(s->model, &pipe, 10, NULL), DMB_OK);
+    assert_int_equal(dmb_model_add_programme(s->model, &zero, 1, &drive.programme), DMB_OK);
+    if (free_mask & DMB_FREE_RX) assert_int_equal(dmb_model_add_drive(s->model, &drive, &s->drive), DMB_OK);
+    load.place = dmb_station(s->string, 9, 1.0);
+    assert_int_equal(dmb_model_add_load(s->model, &load, &s->load), DMB_OK);
+    assert_int_equal(dmb_model_compile(s->model, NULL), DMB_OK);
+    assert_int_equal(dmb_sim_create(s->model, &options, &s->sim), DMB_OK);
+    s->options = dmb_response_options_default();
+    s->options.points = 3;
+    s->input = dmb_input_default();
+    s->input.place = load.place;
+    s->output = dmb_output_default();
+    s->output.place = load.place;
+}
+
+static void end(scene *s)
+{
+    dmb_sim_destroy(&s->sim);
+    dmb_model_destroy(&s->model);
+    assert_int_equal(s->budget.live, 0);
+}
+
+static int32_t ask(scene *s, dmb_response **response)
+{
+    return dmb_analysis_response(s->sim, &s->options, &s->input, 1, &s->output, 1, response);
+}
+
+/* The status, words of the message, the state and the memory as before. */
+static void expect(scene *s, int32_t status, const char *first, const char *second)
+{
+    dmb_response *response = (dmb_response *)(void *)s;
+    uint64_t before, after;
+    const size_t live = s->budget.live;
+    assert_int_equal(dmb_sim_hash(s->sim, &before), DMB_OK);
+    assert_int_equal(ask(s, &response), status);
+    assert_null(response);
+    assert_int_equal(dmb_sim_hash(s->sim, &after), DMB_OK);
+    assert_true(before == after);
+    assert_int_equal(s->budget.live, live);
+    const char *message = dmb_sim_message(s->sim);
+    if (strstr(message, first) == NULL || strstr(message, second) == NULL)
+        fail_msg("the message lacks \"%s\" or \"%s\": %s", first, second, message);
+    print_message("    %s\n", message);
+}
+
+static void frequency_zero_with_a_free_part(void **state)
+{
+    (void)state;
+    scene s;
+    begin(&s, DMB_FREE_CYLINDRICAL, 0.0);
+    dmb_response *response = NULL;
+    assert_int_equal(ask(&s, &response), DMB_OK); /* free to slide, held by its inertia */
+    dmb_response_destroy(&response);
+    s.options.frequency_low = 0.0;
+    expect(&s, DMB_ERR_SINGULAR, "frequency 0 Hz", "string 0");
+    end(&s);
+}
+
+static void motion_drive_at_frequency_zero(void **state)
+{
+    (void)state;
+    scene s;
+    begin(&s, DMB_FREE_RX, 0.0);
+    s.options.frequency_low = 0.0;
+    s.input = dmb_input_default();
+    s.input.kind = DMB_INPUT_DRIVE;
+    s.input.place = dmb_station(s.drive, 0, 0.0);
+    expect(&s, DMB_ERR_SINGULAR, "input 0", "frequency 0");
+    end(&s);
+}
+
+static void state_out_of_balance(void **state)
+{
+    (void)state;
+    scene s;
+    begin(&s, DMB_FREE_NONE, -9.81);
+    expect(&s, DMB_ERR_VALUE, "not an equilibrium", "must be <= 1");
+    assert_int_equal(dmb_analysis_static(s.sim, NULL, NULL), DMB_OK);
+    dmb_response *response = NULL;
+    assert_int_equal(ask(&s, &response), DMB_OK);
+    dmb_response_destroy(&response);
+    end(&s);
+}
+
+static void fields_out_of_bounds(void **state)
+{
+    (void)state;
+    scene s;
+    begin(&s, DMB_FREE_NONE, 0.0);
+    const scene good = s;
+    const double falling[3] = {1.0, 3.0, 2.0};
+#define REFUSED(status, change, field) \
+    do {                               \
+        const budget kept = s.budget;  \
+        s = good;                      \
+        s.budget = kept;               \
+        change;                        \
+        expect(&s, status, field, ""); \
+    } while (0)
+    REFUSED(DMB_ERR_VALUE, s.options.frequency_high = 0.5, "frequency_high");
+    REFUSED(DMB_ERR_VALUE, s.options.frequency_low = -1.0, "frequency_low");
+    REFUSED(DMB_ERR_NOT_FINITE, s.options.frequency_low = (double)NAN, "frequency_low");
+    REFUSED(DMB_ERR_VALUE, s.options.points = 1, "points");
+    REFUSED(DMB_ERR_VALUE, s.options.points = 0, "points");
+    REFUSED(DMB_ERR_VALUE, s.options.logarithmic = 2, "logarithmic");
+    REFUSED(DMB_ERR_VALUE, (s.options.logarithmic = 1, s.options.frequency_low = 0.0), "frequency_low");
+    REFUSED(DMB_ERR_VALUE, s.options.frequencies = falling, "frequencies");
+    REFUSED(DMB_ERR_VALUE, s.options.refinement = 41, "refinement");
+    REFUSED(DMB_ERR_VALUE, s.options.structural_damping = -0.1, "structural_damping");
+    REFUSED(DMB_ERR_VALUE, s.options.equilibrium_tolerance = 1e-9, "equilibrium_tolerance");
+    REFUSED(DMB_ERR_VALUE, s.options.contact = 3, "contact");
+    REFUSED(DMB_ERR_VALUE, s.options.friction = -1, "friction");
+    REFUSED(DMB_ERR_VALUE, s.options.contact_gap = -1.0, "contact_gap");
+    REFUSED(DMB_ERR_STRUCT_SIZE, s.options.struct_size = 3, "struct_size");
+    REFUSED(DMB_ERR_VALUE, s.input.kind = 7, "input 0: kind");
+    REFUSED(DMB_ERR_VALUE, s.input.component = 6, "input 0: component");
+    REFUSED(DMB_ERR_VALUE, s.input.frame = DMB_FRAME_HOLE, "input 0: frame");
+    REFUSED(DMB_ERR_NOT_FINITE, s.input.amplitude = (double)INFINITY, "input 0: amplitude");
+    REFUSED(DMB_ERR_NOT_FINITE, s.input.phase = (double)NAN, "input 0: phase");
+    REFUSED(DMB_ERR_VALUE, s.input.place.pipe = 10, "input 0: place");
+    REFUSED(DMB_ERR_ID, s.input.place.part = s.drive, "input 0: place");
+    REFUSED(DMB_ERR_VALUE, (s.input.kind = DMB_INPUT_UNBALANCE, s.input.component = DMB_RY), "input 0: component");
+    REFUSED(DMB_ERR_VALUE, (s.input.kind = DMB_INPUT_FRICTION, s.input.component = DMB_Y), "input 0: component");
+    REFUSED(DMB_ERR_ID, s.input.kind = DMB_INPUT_LOAD, "input 0: place.part names no load");
+    REFUSED(DMB_ERR_ID, s.input.kind = DMB_INPUT_DRIVE, "input 0: place.part names no drive");
+    REFUSED(DMB_ERR_ID, s.input.kind = DMB_INPUT_BIT_LOAD, "input 0: place.part names no bit");
+    REFUSED(DMB_ERR_STRUCT_SIZE, s.input.struct_size = 4, "input 0: struct_size");
+    REFUSED(DMB_ERR_VALUE, s.output.kind = 4, "output 0: kind");
+    REFUSED(DMB_ERR_VALUE, s.output.component = -1, "output 0: component");
+    REFUSED(DMB_ERR_VALUE, s.output.frame = -1, "output 0: frame");
+    REFUSED(DMB_ERR_VALUE, s.output.place.fraction = 1.5, "output 0: place");
+    REFUSED(DMB_ERR_ID, s.output.place.part = s.load, "output 0: place");
+    REFUSED(DMB_ERR_STRUCT_SIZE, s.output.struct_size = 12, "output 0: struct_size");
+#undef REFUSED
+    end(&s);
+}
+
+static void counts_and_pointers(void **state)
+{
+    (void)state;
+    scene s;
+    dmb_response *response = NULL;
+    uint32_t shape[3];
+    double number;
+    begin(&s, DMB_FREE_NONE, 0.0);
+    assert_int_equal(dmb_analysis_response(s.sim, NULL, &s.input, 0, &s.output, 1, &response), DMB_ERR_VALUE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "input_count"));
+    assert_int_equal(dmb_analysis_response(s.sim, NULL, &s.input, 1, &s.output, 1025, &response), DMB_ERR_VALUE);
+    assert_int_equal(dmb_analysis_response(NULL, NULL, &s.input, 1, &s.output, 1, &response), DMB_ERR_NULL);
+    assert_int_equal(dmb_analysis_response(s.sim, NULL, NULL, 1, &s.output, 1, &response), DMB_ERR_NULL);
+    assert_int_equal(dmb_analysis_response(s.sim, NULL, &s.input, 1, NULL, 1, &response), DMB_ERR_NULL);
+    assert_int_equal(dmb_analysis_response(s.sim, NULL, &s.input, 1, &s.output, 1, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_analysis_response((dmb_sim *)(void *)s.model, NULL, &s.input, 1, &s.output, 1, &response),
+                     DMB_ERR_HANDLE);
+    assert_int_equal(ask(&s, &response), DMB_OK);
+    assert_int_equal(dmb_response_shape(response, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_response_shape(NULL, shape), DMB_ERR_NULL);
+    assert_int_equal(dmb_response_shape((const dmb_response *)(const void *)s.sim, shape), DMB_ERR_HANDLE);
+    assert_int_equal(dmb_response_shape(response, shape), DMB_OK);
+    assert_true(shape[0] == 3 && shape[1] == 1 && shape[2] == 1);
+    assert_int_equal(dmb_response_frequencies(response, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_response_transfer(response, 1, 0, &number), DMB_ERR_VALUE);
+    assert_int_equal(dmb_response_transfer(response, 0, 1, &number), DMB_ERR_VALUE);
+    assert_int_equal(dmb_response_write_csv(response, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_response_write_csv(response, "/nowhere at all/response.csv"), DMB_ERR_IO);
+    dmb_response_destroy(&response);
+    dmb_response_destroy(&response);
+    dmb_response_destroy(NULL);
+    end(&s);
+}
+
+/* Every allocation fails once; the call says so, and nothing is left behind. */
+static void memory_runs_out(void **state)
+{
+    (void)state;
+    scene s;
+    dmb_response *response = NULL;
+    begin(&s, DMB_FREE_NONE, 0.0);
+    s.options.points = 20;
+    s.options.refinement = 3;
+    const size_t before = s.budget.calls;
+    assert_int_equal(ask(&s, &response), DMB_OK);
+    dmb_response_destroy(&response);
+    const size_t calls = s.budget.calls - before;
+    assert_true(calls > 5);
+    for (size_t k = 1; k <= calls; k++) {
+        s.budget.refuse = s.budget.calls + k;
+        expect(&s, DMB_ERR_NO_MEMORY, "no memory", "");
+    }
+    end(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(frequency_zero_with_a_free_part),
+        cmocka_unit_test(motion_drive_at_frequency_zero),
+        cmocka_unit_test(state_out_of_balance),
+        cmocka_unit_test(fields_out_of_bounds),
+        cmocka_unit_test(counts_and_pointers),
+        cmocka_unit_test(memory_runs_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,326 @@
+/* Frequency response about a state of rest against closed forms: Jeffcott rotor, receptance of a cantilever with
+ * structural damping, rods that drives move, a controlled mass; reciprocity; joints against shared nodes; growth of the
+ * scene's own excitations with frequency. */
+#include <stdio.h>
+
+#include "harmonic.h"
+
+/* |got - want| / |want| */
+static double misfit(double complex got, double complex want)
+{
+    return cabs(got - want) / cabs(want);
+}
+
+/* ---- Jeffcott rotor ---------------------------------------------------------------------------------------------- */
+
+/* k 1e6 N/m, m 50 kg, e 1e-4 m, damping ratio 0.02: e r^2/(1 - r^2 + 2 i zeta r), CASES "Modes and frequency
+ * response". */
+static void jeffcott_rotor(void **state)
+{
+    (void)state;
+    const double ratio[5] = {0.5, 0.9, 1.0, 1.1, 2.0};
+    const double amplitude[5] = {3.3321487799e-5, 4.1886342861e-4, 2.5e-3, 5.6394477810e-4, 1.3328595119e-4};
+    const double natural = sqrt(1e6 / 50.0);
+    double frequencies[5];
+    double complex y[5], z[5], given[5];
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    dmb_body_def disc = dmb_body_def_default();
+    disc.mass = 50.0;
+    disc.centre[1] = 1e-4;
+    disc.free_mask = 1 << DMB_Y | 1 << DMB_Z | 1 << DMB_RX;
+    const dmb_id body = add_body(&s, &disc);
+    dmb_joint_def shaft = dmb_joint_def_default();
+    shaft.kind = DMB_JOINT_FREE;
+    shaft.place_b = dmb_station(body, 0, 0.0);
+    shaft.stiffness[1] = shaft.stiffness[2] = 1e6;
+    shaft.damping[1] = shaft.damping[2] = 2.0 * 0.02 * sqrt(1e6 * 50.0);
+    must_model(&s, dmb_model_add_joint(s.model, &shaft, NULL));
+    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, body, DMB_RX, add_constant(&s, 0.0));
+    (void)rig_start(&s, NULL);
+    for (int i = 0; i < 5; i++) frequencies[i] = ratio[i] * natural / (2.0 * PI);
+    const dmb_input own = input_of(DMB_INPUT_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
+    dmb_input unbalance = force_at(dmb_station(body, 0, 0.0), DMB_RX);
+    unbalance.kind = DMB_INPUT_UNBALANCE;
+    const dmb_output at_y = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Y);
+    const dmb_output at_z = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Z);
+    transfer(&s, NULL, &own, &at_y, frequencies, 5, y);
+    transfer(&s, NULL, &own, &at_z, frequencies, 5, z);
+    transfer(&s, NULL, &unbalance, &at_y, frequencies, 5, given);
+    for (int i = 0; i < 5; i++) {
+        char what[64];
+        const double r = ratio[i];
+        const double complex exact = 1e-4 * r * r / (1.0 - r * r + 2.0 * i_ * 0.02 * r);
+        (void)snprintf(what, sizeof what, "Jeffcott at r = %g: amplitude of the table", r);
+        check_relative(what, cabs(y[i]), amplitude[i], 1e-6);
+        check_below("    with phase, of the closed form", misfit(y[i], exact), 1e-11);
+        check_below("    z a quarter of a turn behind y", misfit(z[i], -i_ * exact), 1e-11);
+        check_below("    the same as a given unbalance of m e", misfit(given[i] * 50.0 * 1e-4, exact), 1e-11);
+    }
+    check_close("phase at resonance", carg(y[2]) * 180.0 / PI, -90.0, 1e-9);
+    rig_close(&s);
+}
+
+/* ---- Cantilever -------------------------------------------------------------------------------------------------- */
+
+static dmb_pipe_def euler_bernoulli(uint32_t elements)
+{
+    dmb_pipe_def pipe = s1_pipe();
+    pipe.elements = elements;
+    pipe.shear_factor = 1e6; /* no shear, no rotary inertia */
+    pipe.section_inertia[1] = 1e-9;
+    return pipe;
+}
+
+/* Tip receptance of S1, 1.5 m, structural damping 0.01; CASES. */
+static void receptance_of_a_cantilever(void **state)
+{
+    (void)state;
+    const double frequencies[5] = {10.0, 29.0, 30.0, 100.0, 200.0};
+    const double receptance[5] = {6.3904810132e-6, 1.9389114783e-4, 1.2818985402e-4, 2.9504126059e-7, 8.7433906581e-7};
+    double complex h[5];
+    double last = 1.0;
+    dmb_response_options options = dmb_response_options_default();
+    options.structural_damping = 0.01;
+    for (uint32_t elements = 2; elements <= 16; elements *= 2) {
+        rig s;
+        double worst = 0.0;
+        const dmb_pipe_def pipe = euler_bernoulli(elements);
+        rig_open(&s, 0.0, 0.0, 0.0);
+        const dmb_id string = add_beam(&s, &pipe, DMB_FREE_NONE);
+        (void)rig_start(&s, NULL);
+        const dmb_place tip = dmb_station(string, 0, 1.0);
+        const dmb_input force = force_at(tip, DMB_Z);
+        const dmb_output move = output_at(DMB_OUTPUT_DISPLACEMENT, tip, DMB_Z);
+        transfer(&s, &options, &force, &move, frequencies, 5, h);
+        for (int i = 0; i < 5; i++) worst = fmax(worst, fabs(cabs(h[i]) / receptance[i] - 1.0));
+        print_message("tip receptance, %u elements: worst of five frequencies %.3e\n", elements, worst);
+        assert_true(worst < last);
+        last = worst;
+        rig_close(&s);
+    }
+    check_below("tip receptance, 16 elements, of the table", last, 1e-4);
+}
+
+/* ---- Drives ------------------------------------------------------------------------------------------------------ */
+
+/* A rod that a drive moves along at unit speed at its rig end: displacement 1/(i w) cos(k x)/cos(k L) from the free
+ * end, normal force there 0 and at the drive EA k tan(k L)/(i w), k = w/c; and the same in torsion (component DMB_RX).
+ * The larger of the two errors over three frequencies. */
+static double rod_moved_at_its_end(int32_t c, uint32_t elements)
+{
+    const double frequencies[3] = {1.0, 5.0, 12.0};
+    const s1_section v = s1_values();
+    const double stiffness = c == DMB_X ? v.EA : v.GJ, inertia = c == DMB_X ? v.mass : 7850.0 * 2.0 * v.I;
+    double complex tip[3], section[3];
+    double worst = 0.0;
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    def.follows_hole = 0;
+    pipe.elements = elements;
+    pipe.string = add_string(&s, &def);
+    (void)add_pipes(&s, &pipe, 100);
+    const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_MOTION, pipe.string, c, add_constant(&s, 0.0));
+    (void)rig_start(&s, NULL);
+    const dmb_place end = dmb_station(pipe.string, 99, 1.0), start = dmb_station(pipe.string, 0, 0.0);
+    const dmb_input input = input_of(DMB_INPUT_DRIVE, drive, DMB_X);
+    const dmb_output move = output_at(DMB_OUTPUT_DISPLACEMENT, end, c);
+    const dmb_output load = output_at(DMB_OUTPUT_SECTION_FORCE, start, c);
+    transfer(&s, NULL, &input, &move, frequencies, 3, tip);
+    transfer(&s, NULL, &input, &load, frequencies, 3, section);
+    for (int i = 0; i < 3; i++) {
+        const double w = 2.0 * PI * frequencies[i], k = w * sqrt(inertia / stiffness);
+        worst = fmax(worst, misfit(tip[i], 1.0 / (i_ * w * cos(k * 150.0))));
+        worst = fmax(worst, misfit(section[i], stiffness * k * tan(k * 150.0) / (i_ * w)));
+    }
+    rig_close(&s);
+    return worst;
+}
+
+/* Linear shapes along the rod: second order. */
+static void moved_rods(void **state)
+{
+    (void)state;
+    for (int32_t c = DMB_X; c <= DMB_RX; c += 3) {
+        const double coarse = rod_moved_at_its_end(c, 1), fine = rod_moved_at_its_end(c, 2);
+        check_below(c == DMB_X ? "rod moved along, 200 elements" : "rod turned, 200 elements", fine, 2e-4);
+        check_order("    order in the length of elements", coarse, fine, 2.0, 0.1);
+    }
+}
+
+/* m v' = kp (v* - v) + ki integral(v* - v): v/v* = (kp + ki/(i w))/(i w m + kp + ki/(i w)). And a load drive: F/(i w
+ * m). */
+static void controlled_mass(void **state)
+{
+    (void)state;
+    const double frequencies[4] = {0.01, 0.3, 2.0, 50.0};
+    double complex h[4], free[4];
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    dmb_body_def def = dmb_body_def_default();
+    def.mass = 7.0;
+    def.free_mask = 1 << DMB_X;
+    const dmb_id body = add_body(&s, &def);
+    dmb_drive_def drive = dmb_drive_def_default();
+    drive.kind = DMB_DRIVE_CONTROL;
+    drive.part = body;
+    drive.gain = 40.0;
+    drive.integral_gain = 300.0;
+    drive.programme = add_constant(&s, 0.0);
+    const dmb_id control = add_drive(&s, &drive);
+    const dmb_id other = add_body(&s, &def);
+    const dmb_id push = add_simple_drive(&s, DMB_DRIVE_LOAD, other, DMB_X, add_constant(&s, 0.0));
+    (void)rig_start(&s, NULL);
+    const dmb_input input = input_of(DMB_INPUT_DRIVE, control, DMB_X), force = input_of(DMB_INPUT_DRIVE, push, DMB_X);
+    const dmb_output v = output_at(DMB_OUTPUT_VELOCITY, dmb_station(body, 0, 0.0), DMB_X);
+    const dmb_output a = output_at(DMB_OUTPUT_ACCELERATION, dmb_station(other, 0, 0.0), DMB_X);
+    transfer(&s, NULL, &input, &v, frequencies, 4, h);
+    transfer(&s, NULL, &force, &a, frequencies, 4, free);
+    for (int i = 0; i < 4; i++) {
+        const double complex iw = 2.0 * PI * frequencies[i] * i_, c = 40.0 + 300.0 / iw;
+        check_below("controlled mass: speed over target", misfit(h[i], c / (7.0 * iw + c)), 1e-8);
+        check_below("    acceleration of a free mass under a load drive", misfit(free[i], 1.0 / 7.0), 1e-12);
+    }
+    rig_close(&s);
+}
+
+/* ---- Reciprocity, joints ----------------------------------------------------------------------------------------- */
+
+enum { PIPES = 6 };
+
+/* Six pipes of S1 with damping, clamped at the rig end; with joints: in two strings that a fixed joint connects. */
+static void open_chain(rig *s, int32_t joined, dmb_place *near, dmb_place *far)
+{
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    const uint32_t first = joined ? PIPES / 2 : PIPES;
+    rig_open(s, 0.0, 0.0, -9.81);
+    def.follows_hole = 0;
+    def.start_free = DMB_FREE_NONE;
+    pipe.damping_time = 1e-4;
+    pipe.string = add_string(s, &def);
+    (void)add_pipes(s, &pipe, first);
+    *near = dmb_station(pipe.string, 1, 0.4);
+    if (joined) {
+        dmb_joint_def joint = dmb_joint_def_default();
+        joint.place_a = dmb_station(pipe.string, first - 1, 1.0);
+        def.position[0] = 1.5 * first;
+        def.start_free = DMB_FREE_ALL;
+        pipe.string = add_string(s, &def);
+        (void)add_pipes(s, &pipe, PIPES - first);
+        joint.place_b = dmb_station(pipe.string, 0, 0.0);
+        must_model(s, dmb_model_add_joint(s->model, &joint, NULL));
+    }
+    *far = dmb_station(pipe.string, PIPES - 1 - (PIPES - (joined ? PIPES - first : PIPES)), 0.7);
+    (void)rig_start(s, NULL);
+    (void)find_equilibrium(s, NULL);
+}
+
+/* H_ab = H_ba between any two components of two places inside pipes that sag under their weight (Maxwell, Betti). */
+static void reciprocity(void **state)
+{
+    (void)state;
+    const double frequencies[3] = {0.0, 3.0, 70.0};
+    rig s;
+    dmb_place a, b;
+    double worst = 0.0;
+    open_chain(&s, 0, &a, &b);
+    for (int32_t i = DMB_X; i <= DMB_RZ; i++)
+        for (int32_t k = DMB_X; k <= DMB_RZ; k++) {
+            double complex there[3], back[3], own_a[3], own_b[3];
+            const dmb_input at_a = force_at(a, i), at_b = force_at(b, k);
+            const dmb_output of_a = output_at(DMB_OUTPUT_DISPLACEMENT, a, i);
+            const dmb_output of_b = output_at(DMB_OUTPUT_DISPLACEMENT, b, k);
+            transfer(&s, NULL, &at_a, &of_b, frequencies, 3, there);
+            transfer(&s, NULL, &at_b, &of_a, frequencies, 3, back);
+            transfer(&s, NULL, &at_a, &of_a, frequencies, 3, own_a);
+            transfer(&s, NULL, &at_b, &of_b, frequencies, 3, own_b);
+            for (int f = 0; f < 3; f++)
+                worst = fmax(worst, cabs(there[f] - back[f]) / sqrt(cabs(own_a[f]) * cabs(own_b[f])));
+        }
+    check_below("reciprocity of 36 pairs, of the direct receptances", worst, 1e-9);
+    rig_close(&s);
+}
+
+/* Drawn in two strings with a fixed joint, the nodes of the joint are condensed; the response is that of one string. */
+static void joint_against_shared_node(void **state)
+{
+    (void)state;
+    const double frequencies[4] = {0.0, 0.6, 3.0, 70.0};
+    rig one, two;
+    dmb_place a, b, c, d;
+    double worst = 0.0;
+    open_chain(&one, 0, &a, &b);
+    open_chain(&two, 1, &c, &d);
+    for (int32_t i = DMB_X; i <= DMB_RZ; i++) {
+        double complex x[4], y[4], p[4], q[4];
+        const dmb_input at_a = force_at(a, i), at_c = force_at(c, i);
+        const dmb_output of_b = output_at(DMB_OUTPUT_DISPLACEMENT, b, i);
+        const dmb_output of_d = output_at(DMB_OUTPUT_DISPLACEMENT, d, i);
+        const dmb_output load_b = output_at(DMB_OUTPUT_SECTION_FORCE, a, i);
+        const dmb_output load_d = output_at(DMB_OUTPUT_SECTION_FORCE, c, i);
+        transfer(&one, NULL, &at_a, &of_b, frequencies, 4, x);
+        transfer(&two, NULL, &at_c, &of_d, frequencies, 4, y);
+        transfer(&one, NULL, &at_a, &load_b, frequencies, 4, p);
+        transfer(&two, NULL, &at_c, &load_d, frequencies, 4, q);
+        for (int f = 0; f < 4; f++) worst = fmax(worst, fmax(misfit(y[f], x[f]), misfit(q[f], p[f])));
+    }
+    check_below("two strings and a fixed joint against one string", worst, 1e-6);
+    rig_close(&one);
+    rig_close(&two);
+}
+
+/* ---- The scene's own excitations --------------------------------------------------------------------------------- */
+
+/* S1 at rest in its hole, eccentric pipes: rubbing is as strong at any frequency, eccentric forces grow with its
+ * square, so that below all resonances one leads and the other above a crossover (THEORY 7). */
+static void eccentricity_grows_friction_does_not(void **state)
+{
+    (void)state;
+    const double frequencies[3] = {1e-4, 1e-3, 1e-2};
+    double complex rub[3], whirl[3];
+    rig s;
+    rig_open(&s, 0.0, 0.0, -9.81);
+    dmb_wall_def hole = s1_hole();
+    dmb_pipe_def pipe = s1_pipe();
+    pipe.eccentricity = 1e-3;
+    hole.friction_law = DMB_FRICTION_NONE;
+    (void)add_wall(&s, &hole);
+    dmb_string_def def = dmb_string_def_default();
+    def.start_free = DMB_FREE_NONE;
+    pipe.string = add_string(&s, &def);
+    (void)add_pipes(&s, &pipe, 20);
+    (void)rig_start(&s, NULL);
+    (void)find_equilibrium(&s, NULL);
+    const dmb_input friction = input_of(DMB_INPUT_FRICTION, (dmb_id){0, 0}, DMB_X);
+    const dmb_input own = input_of(DMB_INPUT_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
+    const dmb_output axial = output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(pipe.string, 0, 0.0), DMB_X);
+    const dmb_output sideways = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(pipe.string, 10, 0.5), DMB_Y);
+    transfer(&s, NULL, &friction, &axial, frequencies, 3, rub);
+    transfer(&s, NULL, &own, &sideways, frequencies, 3, whirl);
+    check_close("friction: slope of the response by frequency", log10(cabs(rub[1]) / cabs(rub[0])), 0.0, 1e-4);
+    check_close("eccentricity: slope", log10(cabs(whirl[1]) / cabs(whirl[0])), 2.0, 1e-2);
+    /* a coefficient of one drags with the weight of the string on its rings; the rig end's own ring rests on its guide
+     */
+    const double weight = s1_values().weight * 30.0;
+    print_message("    drag for a coefficient of 1: %.3f of the weight\n", creal(rub[0]) / weight);
+    check_close("    drag of the rings over the sum of their normal forces",
+                creal(rub[0]) / contacts_of(&s).normal_force, 1.0, 1e-2);
+    rig_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(jeffcott_rotor),
+        cmocka_unit_test(receptance_of_a_cantilever),
+        cmocka_unit_test(moved_rods),
+        cmocka_unit_test(controlled_mass),
+        cmocka_unit_test(reciprocity),
+        cmocka_unit_test(joint_against_shared_node),
+        cmocka_unit_test(eccentricity_grows_friction_does_not),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,256 @@
+/* Stepped sine in time: a spinning Jeffcott rotor, small motions against the linear response, an oscillator that meets
+ * a stop against its ordinary differential equation. */
+#include <stdio.h>
+#include <string.h>
+
+#include "harmonic.h"
+#include "ode.h"
+
+static double complex number(const double *pair)
+{
+    return pair[0] + i_ * pair[1];
+}
+
+/* ---- Jeffcott rotor ---------------------------------------------------------------------------------------------- */
+
+/* The rotor of CASES, k 1e6 N/m, m 50 kg, e 1e-4 m, damping ratio 0.02, turned at r times its natural frequency. */
+static double complex rotor_amplitude(double r, dmb_sine_report *report)
+{
+    const double natural = sqrt(1e6 / 50.0), frequency = r * natural / (2.0 * PI);
+    double amplitudes[2][2][2];
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    dmb_body_def disc = dmb_body_def_default();
+    disc.mass = 50.0;
+    disc.centre[1] = 1e-4;
+    disc.free_mask = 1 << DMB_Y | 1 << DMB_Z | 1 << DMB_RX;
+    disc.velocity[3] = r * natural;
+    const dmb_id body = add_body(&s, &disc);
+    dmb_joint_def shaft = dmb_joint_def_default();
+    shaft.kind = DMB_JOINT_FREE;
+    shaft.place_b = dmb_station(body, 0, 0.0);
+    shaft.stiffness[1] = shaft.stiffness[2] = 1e6;
+    shaft.damping[1] = shaft.damping[2] = 2.0 * 0.02 * sqrt(1e6 * 50.0);
+    must_model(&s, dmb_model_add_joint(s.model, &shaft, NULL));
+    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, body, DMB_RX, add_constant(&s, r * natural));
+    (void)rig_start(&s, NULL);
+    dmb_sine_options options = dmb_sine_options_default();
+    options.steps_per_period = 400;
+    options.harmonics = 1;
+    options.tolerance = 1e-4;
+    const dmb_output outputs[2] = {output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Y),
+                                   output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Z)};
+    const int32_t status = dmb_analysis_sine(s.sim, frequency, &options, outputs, 2, &amplitudes[0][0][0], report);
+    must(&s, status);
+    assert_int_equal(status, DMB_OK);
+    rig_close(&s);
+    check_below("    z a quarter of a turn behind y", cabs(number(amplitudes[1][1]) / number(amplitudes[0][1]) + i_),
+                1e-3);
+    return number(amplitudes[0][1]);
+}
+
+static void spinning_jeffcott_rotor(void **state)
+{
+    (void)state;
+    const double ratio[5] = {0.5, 0.9, 1.0, 1.1, 2.0};
+    const double amplitude[5] = {3.3321487799e-5, 4.1886342861e-4, 2.5e-3, 5.6394477810e-4, 1.3328595119e-4};
+    for (int i = 0; i < 5; i++) {
+        char what[64];
+        dmb_sine_report report = dmb_sine_report_default();
+        const double r = ratio[i];
+        const double complex got = rotor_amplitude(r, &report);
+        (void)snprintf(what, sizeof what, "rotor at r = %g: amplitude of the table", r);
+        check_relative(what, cabs(got), amplitude[i], 1e-3);
+        check_close("    phase [rad]", carg(got * (1.0 - r * r + 2.0 * i_ * 0.02 * r)), 0.0, 1e-2);
+        print_message("        settled after %u windows, %.1e to come\n", report.windows, report.remaining);
+        assert_int_equal(report.settled, 1);
+    }
+}
+
+/* ---- Small motions ----------------------------------------------------------------------------------------------- */
+
+enum { OUTPUTS = 4 };
+
+static void compare_with_linear(const rig *s, const char *what, double frequency, const dmb_input *input,
+                                double amplitude, const dmb_output *outputs)
+{
+    dmb_sine_options options = dmb_sine_options_default();
+    dmb_sine_report report = dmb_sine_report_default();
+    double amplitudes[OUTPUTS][4][2];
+    double complex linear[OUTPUTS];
+    options.steps_per_period = 400;
+    options.tolerance = 1e-4;
+    for (int k = 0; k < OUTPUTS; k++) transfer(s, NULL, input, outputs + k, &frequency, 1, linear + k);
+    const int32_t status =
+        dmb_analysis_sine(s->sim, frequency, &options, outputs, OUTPUTS, &amplitudes[0][0][0], &report);
+    must(s, status);
+    print_message("%s, %g Hz: %u windows, %.1e to come\n", what, frequency, report.windows, report.remaining);
+    assert_int_equal(status, DMB_OK);
+    for (int k = 0; k < OUTPUTS; k++) {
+        const double complex want = amplitude * linear[k] / i_; /* a sine */
+        const double complex got = number(amplitudes[k][1]);
+        check_below("    first harmonic of an output against the linear response", cabs(got - want) / cabs(want), 1e-3);
+        check_below("        second harmonic over the first", cabs(number(amplitudes[k][2])) / cabs(got), 1e-3);
+    }
+}
+
+static dmb_id add_sine(rig *s, double amplitude, double frequency)
+{
+    dmb_term term = dmb_term_default();
+    term.kind = DMB_TERM_HARMONIC;
+    term.h1 = amplitude;
+    term.omega = 2.0 * PI * frequency;
+    return add_programme(s, &term, 1);
+}
+
+/* S1 cantilever of 1.5 m with material damping, a sideways force at its tip below and above its first resonance. */
+static void shaken_cantilever(void **state)
+{
+    (void)state;
+    const double frequencies[2] = {20.0, 40.0};
+    for (int i = 0; i < 2; i++) {
+        rig s;
+        rig_open(&s, 0.0, 0.0, -9.81);
+        dmb_pipe_def pipe = s1_pipe();
+        pipe.elements = 3;
+        pipe.damping_time = 5e-4;
+        const dmb_id string = add_beam(&s, &pipe, DMB_FREE_NONE);
+        dmb_load_def load = dmb_load_def_default();
+        load.place = dmb_station(string, 0, 1.0);
+        load.force[2] = 1.0;
+        load.programme = add_sine(&s, 0.5, frequencies[i]);
+        const dmb_id push = add_load(&s, &load);
+        (void)rig_start(&s, NULL);
+        (void)find_equilibrium(&s, NULL);
+        const dmb_place inside = dmb_station(string, 0, 0.45), clamp = dmb_station(string, 0, 0.0);
+        const dmb_input input = input_of(DMB_INPUT_LOAD, push, DMB_X);
+        const dmb_output outputs[OUTPUTS] = {
+            output_at(DMB_OUTPUT_DISPLACEMENT, inside, DMB_Z), output_at(DMB_OUTPUT_VELOCITY, load.place, DMB_Z),
+            output_at(DMB_OUTPUT_ACCELERATION, inside, DMB_RY), output_at(DMB_OUTPUT_SECTION_FORCE, clamp, DMB_RY)};
+        compare_with_linear(&s, "cantilever", frequencies[i], &input, 0.5, outputs);
+        rig_close(&s);
+    }
+}
+
+/* Ten pipes at rest on the wall of their hole, fed to and fro so slowly that smoothed friction is a damper, and pulled
+ * down while they press on the wall. */
+static void string_on_its_wall(void **state)
+{
+    (void)state;
+    for (int pulled = 0; pulled < 2; pulled++) {
+        const double frequency = 7.0, amplitude = pulled ? 2.0 : 1e-5;
+        rig s;
+        rig_open(&s, 0.0, 0.0, -9.81);
+        dmb_wall_def hole = s1_hole();
+        hole.normal_law = DMB_NORMAL_KELVIN_VOIGT;
+        hole.damping = 3e3;
+        hole.friction_law = DMB_FRICTION_COULOMB;
+        hole.smoothing_speed = 1e-2;
+        (void)add_wall(&s, &hole);
+        dmb_string_def def = dmb_string_def_default();
+        dmb_pipe_def pipe = s1_pipe();
+        def.start_free = pulled ? DMB_FREE_NONE : DMB_FREE_X;
+        pipe.damping_time = 2e-3;
+        pipe.string = add_string(&s, &def);
+        (void)add_pipes(&s, &pipe, 10);
+        dmb_input input;
+        if (pulled) {
+            dmb_load_def load = dmb_load_def_default();
+            load.place = dmb_station(pipe.string, 4, 1.0);
+            load.force[2] = -1.0;
+            load.programme = add_sine(&s, amplitude, frequency);
+            input = input_of(DMB_INPUT_LOAD, add_load(&s, &load), DMB_X);
+        } else {
+            input = input_of(
+                DMB_INPUT_DRIVE,
+                add_simple_drive(&s, DMB_DRIVE_MOTION, pipe.string, DMB_X, add_sine(&s, amplitude, frequency)), DMB_X);
+        }
+        (void)rig_start(&s, NULL);
+        (void)find_equilibrium(&s, NULL);
+        const int32_t c = pulled ? DMB_Z : DMB_X;
+        const dmb_place middle = dmb_station(pipe.string, 5, 0.3);
+        const dmb_output outputs[OUTPUTS] = {
+            output_at(DMB_OUTPUT_DISPLACEMENT, middle, c),
+            output_at(DMB_OUTPUT_VELOCITY, dmb_station(pipe.string, 5, 1.0), c),
+            output_at(DMB_OUTPUT_ACCELERATION, middle, c),
+            output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(pipe.string, 5, 0.0), pulled ? DMB_RY : DMB_X)};
+        compare_with_linear(&s, pulled ? "pulled down on the wall" : "fed to and fro on the wall", frequency, &input,
+                            amplitude, outputs);
+        rig_close(&s);
+    }
+}
+
+/* ---- A stop ------------------------------------------------------------------------------------------------------ */
+
+/* m 2 kg, k 800 N/m, c 8 N s/m, stop of 1e5 N/m at 5 mm, force 20 sin(w t) N. */
+static void oscillator(void *context, double t, const double *y, double *rate)
+{
+    const double omega = *(const double *)context, stop = y[0] > 5e-3 ? 1e5 * (y[0] - 5e-3) : 0.0;
+    rate[0] = y[1];
+    rate[1] = (20.0 * sin(omega * t) - 8.0 * y[1] - 800.0 * y[0] - stop) / 2.0;
+}
+
+/* Harmonics 0 .. 3 of the settled motion by the differential equation. */
+static void reference_harmonics(double frequency, double complex *harmonics)
+{
+    enum { SAMPLES = 400, SETTLING = 60 };
+    double omega = 2.0 * PI * frequency, y[2] = {0.0, 0.0};
+    const double h = 1.0 / (frequency * SAMPLES);
+    memset(harmonics, 0, 4 * sizeof *harmonics);
+    for (int j = 0; j < (SETTLING + 1) * SAMPLES; j++) {
+        for (int k = 0; j >= SETTLING * SAMPLES && k < 4; k++)
+            harmonics[k] += (k > 0 ? 2.0 : 1.0) / SAMPLES * y[0] * cexp(-i_ * k * omega * (j * h));
+        ode_solve(oscillator, &omega, j * h, (j + 1) * h, 4, 2, y);
+    }
+}
+
+static void oscillator_that_meets_a_stop(void **state)
+{
+    (void)state;
+    const double frequencies[2] = {2.0, 5.0};
+    for (int i = 0; i < 2; i++) {
+        rig s;
+        double amplitudes[1][4][2];
+        double complex want[4];
+        dmb_sine_report report = dmb_sine_report_default();
+        rig_open(&s, 0.0, 0.0, 0.0);
+        dmb_body_def mass = dmb_body_def_default();
+        mass.mass = 2.0;
+        mass.free_mask = 1 << DMB_X;
+        const dmb_id body = add_body(&s, &mass);
+        dmb_joint_def spring = dmb_joint_def_default();
+        spring.kind = DMB_JOINT_FREE;
+        spring.place_b = dmb_station(body, 0, 0.0);
+        spring.stiffness[0] = 800.0;
+        spring.damping[0] = 8.0;
+        spring.stop_high[0] = 5e-3;
+        spring.stop_stiffness = 1e5;
+        must_model(&s, dmb_model_add_joint(s.model, &spring, NULL));
+        (void)add_simple_drive(&s, DMB_DRIVE_LOAD, body, DMB_X, add_sine(&s, 20.0, frequencies[i]));
+        (void)rig_start(&s, NULL);
+        dmb_sine_options options = dmb_sine_options_default();
+        options.steps_per_period = 4000;
+        options.periods = 1;
+        const dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_X);
+        must(&s, dmb_analysis_sine(s.sim, frequencies[i], &options, &output, 1, &amplitudes[0][0][0], &report));
+        assert_int_equal(report.settled, 1);
+        reference_harmonics(frequencies[i], want);
+        print_message("stop, %g Hz: %u windows; mean and three harmonics %.3e %.3e %.3e %.3e m\n", frequencies[i],
+                      report.windows, creal(want[0]), cabs(want[1]), cabs(want[2]), cabs(want[3]));
+        for (int k = 0; k < 4; k++)
+            check_below("    difference over the first harmonic",
+                        cabs(number(amplitudes[0][k]) - want[k]) / cabs(want[1]), 1e-3);
+        rig_close(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(spinning_jeffcott_rotor),
+        cmocka_unit_test(shaken_cantilever),
+        cmocka_unit_test(string_on_its_wall),
+        cmocka_unit_test(oscillator_that_meets_a_stop),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,19 @@
+/* Inputs, outputs and transfer functions for the tests of responses. */
+#ifndef DMB_TESTS_HARMONIC_H
+#define DMB_TESTS_HARMONIC_H
+
+#include <complex.h>
+#undef I /* a name of second moments of area here */
+#define i_ ((double complex)_Complex_I)
+
+#include "rig.h"
+
+dmb_input force_at(dmb_place place, int32_t component);
+dmb_input input_of(int32_t kind, dmb_id part, int32_t component);
+dmb_output output_at(int32_t kind, dmb_place place, int32_t component);
+
+/* One transfer function at the given frequencies [Hz], with options overlaid (may be NULL). */
+void transfer(const rig *s, const dmb_response_options *options, const dmb_input *input, const dmb_output *output,
+              const double *frequencies, uint32_t points, double complex *values);
+
+#endif
