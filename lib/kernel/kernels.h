@@ -41,6 +41,25 @@ typedef struct dmb_node_run {
     double *displacement, *quaternion; /* start moved by the increment */
 } dmb_node_run;
 
+/* Rigid masses, weight and external damping on a run of FULL nodes. Pointers are to the run's first node, row or block. */
+typedef struct dmb_node_force_run {
+    uint32_t count;              /* nodes */
+    uint32_t first;              /* number of the first one, by which lumps name theirs */
+    const dmb_lump *lumps;       /* in the order of their nodes, none before the run; those behind it are left */
+    uint32_t lump_count;         /* 0 in statics */
+    int32_t dynamic, tangent;    /* as in dmb_evaluation, as are: */
+    int32_t reserved;
+    double mass_factor, velocity_factor, load_factor;
+    const double *gravity;       /* [m/s2] (3); NULL: none acts */
+    const double *weight_mass, *weight_moment; /* [kg], [kg m] shapes (count), (count, 3) */
+    const double *damping;       /* node_damping of model/scene.h, shape (count, 5); NULL: none acts */
+    const double *rotation;      /* shape (count, 9) */
+    const double *velocity, *acceleration; /* shape (count, 6) */
+    double *residual, *scale;    /* added to, shape (count, 6) */
+    double *stiffness, *inertia; /* added to, shape (count, 36) */
+    double inertia_power, potential, damping_power; /* added to: [W] */
+} dmb_node_force_run;
+
 /* What a configuration keeps of its contact sites: the fields site_... of state.h. */
 typedef struct dmb_site_fields {
     double *normal, *depth, *penetration, *approach, *slip, *bristle;
@@ -80,6 +99,8 @@ typedef struct dmb_kernels {
     /* stress <- K (d - d0) + (K/L) P z over the correction z of the nodes (run->velocity), at run->strain. */
     void (*extrapolate)(const dmb_beam_run *run);
     void (*advance)(const dmb_node_run *run);
+    /* Forces and, if asked for, tangent blocks. */
+    void (*node_forces)(dmb_node_force_run *run);
     /* Forces of the rings that touch and, if asked for, tangent blocks; what the trial keeps of all sites. */
     void (*walls)(dmb_wall_run *run);
     /* rotation matrices, shape (count, 9), from run->start_quaternion */

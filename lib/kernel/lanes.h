@@ -3,6 +3,7 @@
 #include "element/beam_element.h"
 #include "kernel/kernels.h"
 #include "kernel/lane_group.h"
+#include "kernel/lanes_node.h"
 #include "kernel/lanes_wall.h"
 
 /* ---- Beams --------------------------------------------------------------------------------------------------------- */
@@ -167,4 +168,4 @@ static void rotations(const double *quaternion, uint32_t count, double *rotation
 }
 
 extern const dmb_kernels DMB_KERNELS;
-const dmb_kernels DMB_KERNELS = {LANES, 0, DMB_KERNELS_NAME, beams, extrapolate, advance, walls, rotations};
+const dmb_kernels DMB_KERNELS = {LANES, 0, DMB_KERNELS_NAME, beams, extrapolate, advance, node_forces, walls, rotations};
