@@ -3,11 +3,11 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "force/hole_math.h"
 #include "math/vec3.h"
 
 #define BEND_MIN 1e-12      /* [rad] a smaller change of direction counts as none */
 #define HORIZONTAL_MIN 1e-9 /* [-] horizontal part of the tangent below which the hole counts as vertical */
-#define CONCENTRIC 1e-12    /* [m] */
 
 /* Divides by the length; through the largest component, so that no finite length over- or underflows. Returns 0 where
  * there is no direction. */
@@ -248,12 +248,7 @@ static void project_on_arc(const dmb_hole_station *from, const double x[3], doub
 static void project_on_line(const double origin[3], const double direction[3], const double x[3], double *r,
                             double point[3], double tangent[3])
 {
-    double u[3];
-
-    dmb_vec3_sub(x, origin, u);
-    *r = dmb_vec3_dot(u, direction);
-    dmb_vec3_copy(origin, point);
-    dmb_vec3_axpy(*r, direction, point);
+    dmb_line_project(origin, direction, x, r, point);
     dmb_vec3_copy(direction, tangent);
 }
 
@@ -278,15 +273,17 @@ void dmb_hole_project(const dmb_hole *hole, const double x[3], double *s, uint32
 void dmb_radial(const double x[3], const double axis_point[3], const double tangent[3], const double n_last[3],
                 double *e, double n[3])
 {
-    double u[3];
+    dmb_radial_at(x, axis_point, tangent, n_last, e, n);
+}
 
-    dmb_vec3_sub(x, axis_point, u);
-    dmb_vec3_axpy(-dmb_vec3_dot(u, tangent), tangent, u);
-    *e = dmb_vec3_norm(u);
-    if (*e < CONCENTRIC)
-        dmb_vec3_copy(n_last, n);
-    else
-        dmb_vec3_set(u[0] / *e, u[1] / *e, u[2] / *e, n);
+void dmb_hole_arc_bend(const dmb_hole *hole, double depth, uint32_t segment, double bend[3])
+{
+    dmb_vec3_zero(bend);
+    if (dmb_hole_is_straight(hole)) return;
+    const dmb_hole_station *arc = hole->station + segment;
+    if (arc->curvature == 0.0 || depth < arc->depth) return;
+    dmb_vec3_cross(arc->tangent, arc->normal, bend);
+    dmb_vec3_scale(arc->curvature, bend, bend);
 }
 
 /* About t: t . w = z . y' with y = e_z x t over its length. */

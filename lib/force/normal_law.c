@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "force/normal_law_math.h"
+
 #define RESTITUTION_FLOOR 1e-6 /* [-] smallest e where mu grows like 1/e */
 #define SPEED_FLOOR 1e-12      /* [m/s] smallest v0 whatever the law says */
 #define ITERATIONS 60
@@ -150,48 +152,20 @@ void dmb_normal_law_setup(dmb_normal_law *law, int32_t kind, double stiffness, d
     law->approach_floor = fmax(approach_floor, SPEED_FLOOR);
 }
 
-/* d^(n-1), without pow() for the line contact n = 1 and the sphere n = 3/2 */
-static double reduced_power(double exponent, double depth)
-{
-    if (exponent == 1.0) return 1.0;
-    if (exponent == 1.5) return sqrt(depth);
-    return pow(depth, exponent - 1.0);
-}
-
-/* Damping "constant" c(d) of KELVIN_VOIGT and IMPACT and its slope; c STEP(d; 0, 0, impact_depth, 1) for the latter. */
-static double damping_at(const dmb_normal_law *law, double depth, double *slope)
-{
-    *slope = 0.0;
-    if (law->kind == DMB_NORMAL_KELVIN_VOIGT || depth >= law->impact_depth) return law->damping;
-    const double x = depth / law->impact_depth;
-    *slope = law->damping * 6.0 * x * (1.0 - x) / law->impact_depth;
-    return law->damping * x * x * (3.0 - 2.0 * x);
-}
-
 void dmb_normal_force(const dmb_normal_law *law, double depth, double rate, double approach_speed, double *force,
                       double *d_depth, double *d_rate)
 {
+    dmb_normal_response out;
     *force = *d_depth = *d_rate = 0.0;
-    if (depth <= 0.0 || law->kind == DMB_NORMAL_NONE) return;
-    const double stiffness = law->stiffness * reduced_power(law->exponent, depth); /* K d^(n-1) */
-    const double elastic = stiffness * depth;
-    if (law->kind == DMB_NORMAL_KELVIN_VOIGT || law->kind == DMB_NORMAL_IMPACT) {
-        double slope;
-        const double damping = damping_at(law, depth, &slope);
-        *force = elastic + damping * rate;
-        *d_depth = law->exponent * stiffness + slope * rate;
-        *d_rate = damping;
-    } else {
-        const double factor = law->mu / fmax(approach_speed, law->approach_floor);
-        *force = elastic * (1.0 + factor * rate);
-        *d_depth = law->exponent * stiffness * (1.0 + factor * rate);
-        *d_rate = elastic * factor;
-    }
-    if (*force < 0.0) *force = *d_depth = *d_rate = 0.0;
+    if (depth <= 0.0) return;
+    dmb_normal_response_at(law, depth, rate, approach_speed, &out);
+    *force = out.force;
+    *d_depth = out.d_depth;
+    *d_rate = out.d_rate;
 }
 
 double dmb_normal_energy(const dmb_normal_law *law, double depth)
 {
     if (depth <= 0.0 || law->kind == DMB_NORMAL_NONE) return 0.0;
-    return law->stiffness * reduced_power(law->exponent, depth) * depth * depth / (law->exponent + 1.0);
+    return law->stiffness * dmb_normal_reduced_power(law->exponent, depth) * depth * depth / (law->exponent + 1.0);
 }

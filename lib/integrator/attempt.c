@@ -93,8 +93,13 @@ static void trial_pose(dmb_sim *sim)
         const double *z = sim->increment + scene->layout.row[i];
         count = dmb_full_nodes_at(scene, i);
         if (count > 0) {
-            const dmb_node_run run = {count, 0, z, sim->now.displacement + 3 * i, sim->now.quaternion + 4 * i,
-                                      sim->trial.displacement + 3 * i, sim->trial.quaternion + 4 * i};
+            const dmb_node_run run = {count,
+                                      0,
+                                      z,
+                                      sim->now.displacement + 3 * i,
+                                      sim->now.quaternion + 4 * i,
+                                      sim->trial.displacement + 3 * i,
+                                      sim->trial.quaternion + 4 * i};
             scene->kernels->advance(&run);
             continue;
         }
@@ -165,13 +170,13 @@ typedef struct newton_course {
 
 /* Factors that are there do when two more corrections at the present rate reach the tolerance; kept ones also for a
  * first correction, which shows their rate. */
-static int32_t factors_will_do(const dmb_sim *sim, const dmb_attempt *attempt, const newton_course *course, double tolerance)
+static int32_t factors_will_do(const dmb_sim *sim, const dmb_attempt *attempt, const newton_course *course,
+                               double tolerance)
 {
     const double rate = attempt->residual / course->last;
     if (attempt->factored == DMB_FACTORS_NONE) return 0;
     if (attempt->factored == DMB_FACTORS_KEPT && dmb_contact_changes(sim)) return 0;
-    if (attempt->factored == DMB_FACTORS_KEPT && course->corrections == 0)
-        return attempt->residual <= DMB_KEPT_START;
+    if (attempt->factored == DMB_FACTORS_KEPT && course->corrections == 0) return attempt->residual <= DMB_KEPT_START;
     return rate * rate * attempt->residual <= tolerance;
 }
 

@@ -6,6 +6,10 @@
 #include <stdint.h>
 
 #include "element/element_type.h"
+#include "force/friction_law.h"
+#include "force/hole.h"
+#include "force/normal_law.h"
+#include "force/site.h"
 #include "math/block_tridiagonal.h"
 
 /* A run of beams: element i lies between the nodes i and i + 1 of the run, all of them FULL. Pointers are to the run's
@@ -39,6 +43,55 @@ typedef struct dmb_node_run {
     double *displacement, *quaternion; /* start moved by the increment */
 } dmb_node_run;
 
+/* Rigid masses, weight and external damping on a run of FULL nodes. Pointers are to the run's first node, row or block. */
+typedef struct dmb_node_force_run {
+    uint32_t count;              /* nodes */
+    uint32_t first;              /* number of the first one, by which lumps name theirs */
+    const dmb_lump *lumps;       /* in the order of their nodes, none before the run; those behind it are left */
+    uint32_t lump_count;         /* 0 in statics */
+    int32_t dynamic, tangent;    /* as in dmb_evaluation, as are: */
+    int32_t reserved;
+    double mass_factor, velocity_factor, load_factor;
+    const double *gravity;       /* [m/s2] (3); NULL: none acts */
+    const double *weight_mass, *weight_moment; /* [kg], [kg m] shapes (count), (count, 3) */
+    const double *damping;       /* node_damping of model/scene.h, shape (count, 5); NULL: none acts */
+    const double *rotation;      /* shape (count, 9) */
+    const double *velocity, *acceleration; /* shape (count, 6) */
+    double *residual, *scale;    /* added to, shape (count, 6) */
+    double *stiffness, *inertia; /* added to, shape (count, 36) */
+    double inertia_power, potential, damping_power; /* added to: [W] */
+} dmb_node_force_run;
+
+/* What a configuration keeps of its contact sites: the fields site_... of state.h. */
+typedef struct dmb_site_fields {
+    double *normal, *depth, *penetration, *approach, *slip, *bristle;
+    uint32_t *segment;
+    int32_t *sticks;
+} dmb_site_fields;
+
+/* Contact sites against the wall. Pointers are to the scene's first site, node, row or block. */
+typedef struct dmb_wall_run {
+    uint32_t count;              /* sites */
+    uint32_t reserved;
+    const dmb_site *sites;
+    const dmb_hole *hole;
+    const dmb_normal_law *normal_law;
+    const dmb_friction_law *friction_law; /* NULL: no friction acts */
+    const uint32_t *row, *diagonal;       /* first row of each node, start of its diagonal block */
+    const double *reference;     /* [m] positions of the nodes at displacement 0 */
+    const double *displacement, *rotation, *velocity; /* of the trial */
+    const double *now_quaternion, *now_velocity;      /* of the last accepted instant, and: */
+    dmb_site_fields now;         /* read */
+    const double *site_return;   /* [m/s] a ring that opens in the step left the wall; else 0 */
+    dmb_site_fields trial;       /* written */
+    double slip[2];              /* [m/s, rad/s] in statics */
+    double step, velocity_factor;        /* as in dmb_evaluation, as are: */
+    int32_t dynamic, tangent;
+    double *residual, *scale;    /* added to */
+    double *stiffness, *inertia; /* diagonal blocks, added to */
+    double rounding, potential, impact, friction; /* added to: [N2], [W] */
+} dmb_wall_run;
+
 typedef struct dmb_kernels {
     uint32_t lanes;
     uint32_t reserved;
@@ -52,6 +105,10 @@ typedef struct dmb_kernels {
     int64_t (*factor)(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count);
     void (*solve)(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,
                   double *rhs);
+    /* Forces and, if asked for, tangent blocks. */
+    void (*node_forces)(dmb_node_force_run *run);
+    /* Forces of the rings that touch and, if asked for, tangent blocks; what the trial keeps of all sites. */
+    void (*walls)(dmb_wall_run *run);
     /* rotation matrices, shape (count, 9), from run->start_quaternion */
     void (*rotations)(const double *quaternion, uint32_t count, double *rotation);
 } dmb_kernels;

@@ -7,5 +7,5 @@
 #else
 #include "kernel/kernels.h"
 extern const dmb_kernels dmb_kernels_4;
-const dmb_kernels dmb_kernels_4 = {0, 0, "none", 0, 0, 0, 0, 0, 0};
+const dmb_kernels dmb_kernels_4 = {.name = "none"};
 #endif

@@ -46,6 +46,36 @@ static inline int dmb_real_below(dmb_real a, dmb_real b)
     return a < b;
 }
 
+/* Where something holds, lane by lane: what comparisons give, joined by & and |. */
+typedef int dmb_mask;
+
+static inline dmb_mask dmb_mask_less(dmb_real a, dmb_real b)
+{
+    return a < b;
+}
+static inline dmb_mask dmb_mask_at_most(dmb_real a, dmb_real b)
+{
+    return a <= b;
+}
+static inline dmb_mask dmb_mask_not(dmb_mask mask)
+{
+    return !mask;
+}
+static inline int dmb_mask_any(dmb_mask mask)
+{
+    return mask;
+}
+static inline int dmb_mask_lane(const dmb_mask *mask, int lane)
+{
+    (void)lane;
+    return *mask;
+}
+/* a where the mask holds, else b */
+static inline dmb_real dmb_real_select(dmb_mask mask, dmb_real a, dmb_real b)
+{
+    return mask ? a : b;
+}
+
 #else
 
 #define DMB_REAL_LANES DMB_LANES
@@ -86,5 +116,53 @@ static inline int dmb_real_below(dmb_real a, dmb_real b)
     return all != 0;
 }
 
+typedef dmb_real_bits dmb_mask;
+
+static inline dmb_mask dmb_mask_less(dmb_real a, dmb_real b)
+{
+    return (dmb_mask)(a < b);
+}
+static inline dmb_mask dmb_mask_at_most(dmb_real a, dmb_real b)
+{
+    return (dmb_mask)(a <= b);
+}
+static inline dmb_mask dmb_mask_not(dmb_mask mask)
+{
+    return ~mask;
+}
+static inline int dmb_mask_any(dmb_mask mask)
+{
+    int64_t any = 0;
+    for (int lane = 0; lane < DMB_LANES; lane++) any |= mask[lane];
+    return any != 0;
+}
+static inline int dmb_mask_lane(const dmb_mask *mask, int lane)
+{
+    return (*mask)[lane] != 0;
+}
+static inline dmb_real dmb_real_select(dmb_mask mask, dmb_real a, dmb_real b)
+{
+    return (dmb_real)(((dmb_real_bits)a & mask) | ((dmb_real_bits)b & ~mask));
+}
+
 #endif
+
+/* Square root, which IEEE 754 rounds exactly; exponential and power by the host's own functions, lane by lane. */
+static inline dmb_real dmb_real_sqrt(dmb_real x)
+{
+    for (int lane = 0; lane < DMB_REAL_LANES; lane++) dmb_real_set_lane(&x, lane, sqrt(dmb_real_lane(&x, lane)));
+    return x;
+}
+static inline dmb_real dmb_real_exp(dmb_real x)
+{
+    for (int lane = 0; lane < DMB_REAL_LANES; lane++) dmb_real_set_lane(&x, lane, exp(dmb_real_lane(&x, lane)));
+    return x;
+}
+static inline dmb_real dmb_real_pow(dmb_real x, double exponent)
+{
+    for (int lane = 0; lane < DMB_REAL_LANES; lane++)
+        dmb_real_set_lane(&x, lane, pow(dmb_real_lane(&x, lane), exponent));
+    return x;
+}
+
 #endif

@@ -78,6 +78,15 @@ static inline void dmb_skew(const dmb_real a[3], dmb_real out[9])
     dmb_vec3_set(-a[1], a[0], zero, out + 6);
 }
 
+/* out = a~ b~ = b a^T - (a . b) I, the products that are 0 left out */
+static inline void dmb_skew_product(const dmb_real a[3], const dmb_real b[3], dmb_real out[9])
+{
+    const dmb_real x = a[0] * b[0], y = a[1] * b[1], z = a[2] * b[2];
+    dmb_vec3_set(-z - y, b[0] * a[1], b[0] * a[2], out);
+    dmb_vec3_set(b[1] * a[0], -z - x, b[1] * a[2], out + 3);
+    dmb_vec3_set(b[2] * a[0], b[2] * a[1], -y - x, out + 6);
+}
+
 static inline void dmb_mat3_zero(dmb_real A[9])
 {
     for (int i = 0; i < 9; i++) A[i] = dmb_real_of(0.0);

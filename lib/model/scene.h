@@ -18,6 +18,7 @@
 #include "force/joint_law.h"
 #include "force/normal_law.h"
 #include "force/programme.h"
+#include "force/site.h"
 #include "math/block_sparse.h"
 #include "math/block_tridiagonal.h"
 
@@ -28,17 +29,6 @@ enum {
     DMB_KERNEL_PATH = 1,  /* two PATH nodes: stretch and torsion only */
     DMB_KERNEL_MIXED = 2  /* a beam with one FULL and one PATH node */
 };
-
-/* A ring on a FULL node that can meet the wall. */
-typedef struct dmb_site {
-    double offset;    /* [m] along body x from the node */
-    double radius;    /* [m] of the ring */
-    double clearance; /* [m] hole radius less ring radius, >= 0 */
-    double length;    /* [m] of wall it stands for */
-    dmb_id part;      /* string or body */
-    uint32_t pipe;    /* pipe whose far end it is; UINT32_MAX: rig end; 0 for a body */
-    uint32_t node;
-} dmb_site;
 
 /* A PATH node rubbing on the wall (Johancsik): normal force from its weight and from tension in curved holes. */
 typedef struct dmb_path_site {

@@ -12,17 +12,17 @@ typedef struct field_counts {
 } field_counts;
 
 /* The letters as names, for the count expressions of the lists; not every list uses all of them. */
-#define DMB_COUNT_NAMES(of)                                                                                      \
-    const uint64_t n = (of)->n, r = (of)->r, s = (of)->s, p = (of)->p, e = (of)->e, d = (of)->d, k = (of)->k;    \
-    const uint64_t load = (of)->load, history = (of)->history, diagonal = (of)->diagonal, link = (of)->link;     \
-    const uint64_t backup = (of)->backup, j = (of)->j, c = (of)->c, cluster = (of)->cluster;                     \
-    const uint64_t column = (of)->column, raw = (of)->raw, jacobian = (of)->jacobian, tangent = (of)->tangent;   \
-    const uint64_t dense = (of)->dense, square = (of)->square, full = (of)->full, block = (of)->block;           \
-    const uint64_t value = (of)->value, pivots = (of)->pivots;                                                   \
-    const uint64_t kd = (of)->kd, kl = (of)->kl, kr = (of)->kr;                                                  \
-    (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,    \
-        (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,      \
-        (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd,  \
+#define DMB_COUNT_NAMES(of)                                                                                     \
+    const uint64_t n = (of)->n, r = (of)->r, s = (of)->s, p = (of)->p, e = (of)->e, d = (of)->d, k = (of)->k;   \
+    const uint64_t load = (of)->load, history = (of)->history, diagonal = (of)->diagonal, link = (of)->link;    \
+    const uint64_t backup = (of)->backup, j = (of)->j, c = (of)->c, cluster = (of)->cluster;                    \
+    const uint64_t column = (of)->column, raw = (of)->raw, jacobian = (of)->jacobian, tangent = (of)->tangent;  \
+    const uint64_t dense = (of)->dense, square = (of)->square, full = (of)->full, block = (of)->block;          \
+    const uint64_t value = (of)->value, pivots = (of)->pivots;                                                  \
+    const uint64_t kd = (of)->kd, kl = (of)->kl, kr = (of)->kr;                                                 \
+    (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,   \
+        (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,     \
+        (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd, \
         (void)kl, (void)kr
 
 /* [byte] of the state: what a snapshot holds and a step keeps aside. */

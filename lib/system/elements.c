@@ -126,7 +126,7 @@ static void gather_path(dmb_evaluation *evaluation, uint32_t e)
 
 typedef struct mixed_side {
     double q[4], R[9], u[3], v[6], a[6];
-    double z[6]; /* increment of the step; 0 on the PATH side, whose two columns are pose parameters already */
+    double z[6];  /* increment of the step; 0 on the PATH side, whose two columns are pose parameters already */
     double J[36]; /* (6, rows) row-major with `rows` columns used */
     uint32_t rows;
 } mixed_side;
@@ -203,10 +203,15 @@ static int32_t gather_mixed(dmb_evaluation *evaluation, uint32_t e)
     const uint32_t a = scene->element_node[e], b = a + 1, link = scene->layout.link[a];
     mixed_side A, B;
     const dmb_element_type *type = scene->types + scene->element_type[e];
-    const dmb_beam_task task = {evaluation->mass_factor, evaluation->velocity_factor, evaluation->dynamic,
-                                evaluation->tangent, evaluation->extrapolated,
-                                evaluation->dynamic && (sim->options.energy_ledger || scene->damped), scene->damped,
-                                evaluation->inertia_only, scene->arms};
+    const dmb_beam_task task = {evaluation->mass_factor,
+                                evaluation->velocity_factor,
+                                evaluation->dynamic,
+                                evaluation->tangent,
+                                evaluation->extrapolated,
+                                evaluation->dynamic && (sim->options.energy_ledger || scene->damped),
+                                scene->damped,
+                                evaluation->inertia_only,
+                                scene->arms};
     dmb_beam_constants constants;
     dmb_beam_input in;
     dmb_beam_output out;

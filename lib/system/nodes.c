@@ -1,26 +1,61 @@
 /* Forces of single nodes: rigid masses, gravity, external damping. */
-#include "element/lump.h"
+#include "kernel/kernels.h"
+#include "math/mat6.h"
 #include "system/evaluation.h"
 #include "system/node.h"
 
-static void gather_lump(dmb_evaluation *evaluation, const dmb_lump *lump)
+/* ---- FULL nodes, by the kernels ---------------------------------------------------------------------------------- */
+
+/* Where the kernels find and leave what belongs to `count` FULL nodes from `node` on; `lump` is the first that may be
+ * on them. */
+static dmb_node_force_run run_of(const dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t lump)
 {
-    dmb_sim *sim = evaluation->sim;
-    const double *v = sim->trial.velocity + sim->scene->layout.row[lump->node];
-    double p[6], f[6], g[6];
-    dmb_lump_mass_times(lump, sim->trial.acceleration + sim->scene->layout.row[lump->node], f);
-    evaluation->power[DMB_POWER_INERTIA] -= dmb_vec6_dot(v, f);
-    dmb_lump_mass_times(lump, v, p);
-    dmb_ad_transpose(v, p, g);
-    for (int i = 0; i < 6; i++) f[i] = -f[i];
-    dmb_apply_wrench(sim, lump->node, f); /* one by one: on a free body these two are all that balances */
-    dmb_apply_wrench(sim, lump->node, g);
-    if (evaluation->tangent)
-        dmb_lump_add_inertia_tangent(lump, v, p, evaluation->mass_factor, evaluation->velocity_factor,
-                                     dmb_inertia_of(sim, lump->node));
+    const dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const uint32_t row = scene->layout.row[node], diag = scene->layout.diag[node];
+    const int32_t damped = evaluation->dynamic && scene->features & DMB_FEATURE_DAMPING;
+    const dmb_node_force_run run = {
+        .count = count,
+        .first = node,
+        .lumps = scene->lumps + lump,
+        .lump_count = evaluation->dynamic ? scene->lump_count - lump : 0,
+        .dynamic = evaluation->dynamic,
+        .tangent = evaluation->tangent,
+        .mass_factor = evaluation->mass_factor,
+        .velocity_factor = evaluation->velocity_factor,
+        .load_factor = evaluation->load_factor,
+        .gravity = scene->features & DMB_FEATURE_GRAVITY ? scene->gravity : NULL,
+        .weight_mass = scene->weight_mass + node,
+        .weight_moment = scene->weight_moment + 3 * node,
+        .damping = damped ? scene->node_damping + 5 * node : NULL,
+        .rotation = sim->rotation + 9 * node,
+        .velocity = sim->trial.velocity + row,
+        .acceleration = sim->trial.acceleration + row,
+        .residual = sim->correction + row,
+        .scale = sim->scale_row + row,
+        .stiffness = sim->stiffness_diagonal + diag,
+        .inertia = sim->inertia_diagonal + diag,
+    };
+    return run;
 }
 
-/* On a PATH node only mass and the inertia about the axis are felt. */
+static void gather_full(dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t lump)
+{
+    dmb_node_force_run run = run_of(evaluation, node, count, lump);
+    if (!run.gravity && !run.damping && !run.lump_count) return;
+    run.inertia_power = evaluation->power[DMB_POWER_INERTIA];
+    run.potential = evaluation->power[DMB_POWER_POTENTIAL];
+    run.damping_power = evaluation->power[DMB_POWER_DAMPING];
+    evaluation->sim->scene->kernels->node_forces(&run);
+    evaluation->power[DMB_POWER_INERTIA] = run.inertia_power;
+    evaluation->power[DMB_POWER_POTENTIAL] = run.potential;
+    evaluation->power[DMB_POWER_DAMPING] = run.damping_power;
+}
+
+/* ---- PATH nodes: along the axis and about it -----------------------------------------------------------------------
+ */
+
+/* Only mass and the inertia about the axis are felt. */
 static void gather_path_lump(dmb_evaluation *evaluation, const dmb_lump *lump)
 {
     dmb_sim *sim = evaluation->sim;
@@ -34,34 +69,23 @@ static void gather_path_lump(dmb_evaluation *evaluation, const dmb_lump *lump)
     dmb_inertia_of(sim, lump->node)[3] += evaluation->mass_factor * lump->inertia[0];
 }
 
-/* Body-frame weight m R^T g and its moment b x R^T g; both turn with the body: d(R^T g) = (R^T g)~ dtheta. */
-static void gather_weight(dmb_evaluation *evaluation, uint32_t node)
+static void gather_path_weight(dmb_evaluation *evaluation, uint32_t node)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
-    const double m = evaluation->load_factor * scene->weight_mass[node];
-    double g[3], b[3], f[6], v[6], skew[9], moment[9], product[9];
-    dmb_mat3_tvec(sim->rotation + 9 * node, scene->gravity, g);
-    dmb_vec3_scale(evaluation->load_factor, scene->weight_moment + 3 * node, b);
-    dmb_vec3_scale(m, g, f);
-    dmb_vec3_cross(b, g, f + 3);
-    if (scene->layout.size[node] == DMB_NODE_PATH) dmb_vec3_zero(f + 3);
+    double f[6] = {0.0}, v[6];
+    dmb_mat3_tvec(sim->rotation + 9 * node, scene->gravity, f);
+    dmb_vec3_scale(evaluation->load_factor * scene->weight_mass[node], f, f);
     dmb_apply_wrench(sim, node, f);
-    if (evaluation->dynamic) {
-        dmb_node_vector(scene, &sim->trial, node, sim->trial.velocity, v);
-        evaluation->power[DMB_POWER_POTENTIAL] += dmb_vec6_dot(f, v);
-    }
-    if (!evaluation->tangent || scene->layout.size[node] == DMB_NODE_PATH) return;
-    dmb_skew(g, skew);
-    dmb_skew(b, moment);
-    dmb_mat3_mul(moment, skew, product);
-    dmb_mat6_add_skew(-m, g, 0, 1, dmb_stiffness_of(sim, node));
-    dmb_mat6_add_block(-1.0, product, 1, 1, dmb_stiffness_of(sim, node));
+    if (!evaluation->dynamic) return;
+    dmb_node_vector(scene, &sim->trial, node, sim->trial.velocity, v);
+    evaluation->power[DMB_POWER_POTENTIAL] += dmb_vec6_dot(f, v);
 }
 
-static void gather_path_damping(dmb_evaluation *evaluation, uint32_t node, const double *c)
+static void gather_path_damping(dmb_evaluation *evaluation, uint32_t node)
 {
     dmb_sim *sim = evaluation->sim;
+    const double *c = sim->scene->node_damping + 5 * node;
     const double *v = sim->trial.velocity + sim->scene->layout.row[node];
     const double f[6] = {-c[0] * v[0], 0.0, 0.0, -c[1] * v[1], 0.0, 0.0};
     dmb_apply_wrench(sim, node, f);
@@ -71,42 +95,27 @@ static void gather_path_damping(dmb_evaluation *evaluation, uint32_t node, const
     dmb_inertia_of(sim, node)[3] += evaluation->velocity_factor * c[1];
 }
 
-/* Lateral damping of pipe along x: a slice at x moves sideways with v_y + x w_z and v_z - x w_y. c = axial, torsional,
- * and lateral times the integrals of 1, x, x^2. */
-static void gather_damping(dmb_evaluation *evaluation, uint32_t node)
+static void gather_path(dmb_evaluation *evaluation, uint32_t node, const dmb_lump *lump)
 {
-    dmb_sim *sim = evaluation->sim;
-    const double *c = sim->scene->node_damping + 5 * node;
-    const double *v = sim->trial.velocity + sim->scene->layout.row[node];
-    if (sim->scene->layout.size[node] == DMB_NODE_PATH) {
-        gather_path_damping(evaluation, node, c);
-        return;
-    }
-    const double f[6] = {-c[0] * v[0], -c[2] * v[1] - c[3] * v[5], -c[2] * v[2] + c[3] * v[4],
-                         -c[1] * v[3], c[3] * v[2] - c[4] * v[4],  -c[3] * v[1] - c[4] * v[5]};
-    dmb_apply_wrench(sim, node, f);
-    evaluation->power[DMB_POWER_DAMPING] += dmb_vec6_dot(f, v);
-    if (!evaluation->tangent) return;
-    double *C = dmb_inertia_of(sim, node);
-    const double s = evaluation->velocity_factor;
-    C[0] += s * c[0], C[21] += s * c[1];
-    C[7] += s * c[2], C[14] += s * c[2];
-    C[11] += s * c[3], C[31] += s * c[3];
-    C[16] -= s * c[3], C[26] -= s * c[3];
-    C[28] += s * c[4], C[35] += s * c[4];
+    const int32_t features = evaluation->sim->scene->features;
+    if (lump && evaluation->dynamic) gather_path_lump(evaluation, lump);
+    if (features & DMB_FEATURE_GRAVITY) gather_path_weight(evaluation, node);
+    if (features & DMB_FEATURE_DAMPING && evaluation->dynamic) gather_path_damping(evaluation, node);
 }
 
+/* Node by node in their order, and so are the lumps on them. */
 void dmb_gather_nodes(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
-    for (uint32_t i = 0; evaluation->dynamic && i < scene->lump_count; i++) {
-        if (scene->layout.size[scene->lumps[i].node] == DMB_NODE_FULL)
-            gather_lump(evaluation, scene->lumps + i);
-        else
-            gather_path_lump(evaluation, scene->lumps + i);
+    for (uint32_t i = 0, lump = 0, count; i < scene->node_count; i += count) {
+        count = dmb_full_nodes_at(scene, i);
+        while (lump < scene->lump_count && scene->lumps[lump].node < i) lump++;
+        if (count > 0) {
+            gather_full(evaluation, i, count, lump);
+        } else {
+            const int has = lump < scene->lump_count && scene->lumps[lump].node == i;
+            gather_path(evaluation, i, has ? scene->lumps + lump : NULL);
+            count = 1;
+        }
     }
-    if (scene->features & DMB_FEATURE_GRAVITY)
-        for (uint32_t i = 0; i < scene->node_count; i++) gather_weight(evaluation, i);
-    if (evaluation->dynamic && scene->features & DMB_FEATURE_DAMPING)
-        for (uint32_t i = 0; i < scene->node_count; i++) gather_damping(evaluation, i);
 }

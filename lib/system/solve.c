@@ -81,8 +81,9 @@ dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double 
         const int32_t verdict = judge(evaluation, scene->chains + c, tolerance, n);
         if (verdict == 0) norm.converged = 0;
         if (verdict == DMB_AT_ROUNDING && norm.converged) norm.converged = DMB_AT_ROUNDING;
-        norm.relative =
-            fmax(norm.relative, !(n.all <= DBL_MAX) ? (double)INFINITY : n.all > 0.0 ? sqrt(n.rest / n.all) : 0.0);
+        norm.relative = fmax(norm.relative, !(n.all <= DBL_MAX) ? (double)INFINITY
+                                            : n.all > 0.0       ? sqrt(n.rest / n.all)
+                                                                : 0.0);
         norm.balance += n.all;
     }
     norm.balance = sqrt(norm.balance);
@@ -107,7 +108,8 @@ int64_t dmb_factor_matrix(dmb_sim *sim)
     dmb_block_matrix matrix = matrix_of(sim);
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         if (scene->chains[c].linked) continue;
-        const int64_t bad = scene->kernels->factor(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count);
+        const int64_t bad =
+            scene->kernels->factor(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count);
         if (bad >= 0) return bad;
     }
     return scene->cluster_count ? dmb_linked_factor(sim, NULL) : -1;
@@ -176,6 +178,7 @@ void dmb_solve_correction(dmb_sim *sim)
         sim->correction[i] = scene->solved_row[i] ? -sim->correction[i] : 0.0;
     for (uint32_t c = 0; c < scene->chain_count; c++)
         if (!scene->chains[c].linked)
-            scene->kernels->solve(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count, sim->correction);
+            scene->kernels->solve(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count,
+                                  sim->correction);
     if (scene->cluster_count) dmb_linked_solve(sim);
 }

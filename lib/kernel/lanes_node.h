@@ -1,0 +1,121 @@
+/* Nodes side by side: rigid masses, weight and external damping. */
+#ifndef DMB_KERNEL_LANES_NODE_H
+#define DMB_KERNEL_LANES_NODE_H
+
+#include "element/lump_math.h"
+#include "force/node_math.h"
+#include "kernel/kernels.h"
+#include "kernel/lane_group.h"
+
+/* Nodes of a group, with what is added to their rows and blocks. */
+typedef struct node_group {
+    lane_group place;
+    dmb_real v[6], residual[6], scale[6];
+    dmb_real C[36]; /* inertia block */
+} node_group;
+
+static inline void node_apply(const dmb_real force[6], node_group *g)
+{
+    for (int i = 0; i < 6; i++) {
+        g->residual[i] = g->residual[i] - force[i];
+        g->scale[i] = g->scale[i] + dmb_real_abs(force[i]);
+    }
+}
+
+/* Constants of the lumps on a group of nodes, 0 where there is none. Lumps stand in the order of their nodes; *next is
+ * the first that may be in the group. Returns 0 where the group has none at all. */
+static inline int load_lumps(const dmb_node_force_run *run, const lane_group *g, uint32_t *next, dmb_lump_constants *c)
+{
+    static const dmb_lump none;
+    int found = 0;
+    for (int l = 0; l < LANES; l++) {
+        const uint32_t node = run->first + g->place[l];
+        while (*next < run->lump_count && run->lumps[*next].node < node) (*next)++;
+        const int has = *next < run->lump_count && run->lumps[*next].node == node;
+        dmb_lump_load(has ? run->lumps + *next : &none, l, c);
+        found |= has;
+    }
+    return found;
+}
+
+/* f = M v' - v^^T p */
+static inline void add_lumps(dmb_node_force_run *run, const dmb_lump_constants *lump, node_group *g)
+{
+    dmb_real a[6], f[6], p[6], turning[6];
+    load(run->acceleration, 6, 6, &g->place, 0, a);
+    dmb_lump_momentum(lump, a, f);
+    const dmb_real power = dmb_vec6_dot(g->v, f);
+    for (uint32_t l = 0; l < g->place.used; l++) run->inertia_power -= dmb_real_lane(&power, (int)l);
+    dmb_lump_momentum(lump, g->v, p);
+    dmb_ad_transpose(g->v, p, turning);
+    for (int i = 0; i < 6; i++) f[i] = -f[i];
+    node_apply(f, g); /* one by one: on a free body these two are all that balances */
+    node_apply(turning, g);
+    if (run->tangent) dmb_lump_add_tangent(lump, g->v, p, run->mass_factor, run->velocity_factor, g->C);
+}
+
+static inline void store_weight_tangent(const dmb_node_force_run *run, const lane_group *g, const dmb_real force[6],
+                                        const dmb_real turning[9])
+{
+    for (uint32_t l = 0; l < g->used; l++) {
+        double *K = run->stiffness + 36 * g->place[l];
+        const int lane = (int)l;
+        const double x = dmb_real_lane(force, lane), y = dmb_real_lane(force + 1, lane);
+        const double z = dmb_real_lane(force + 2, lane);
+        K[4] += z, K[5] -= y;
+        K[9] -= z, K[11] += x;
+        K[15] += y, K[16] -= x;
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) K[21 + 6 * i + j] -= dmb_real_lane(turning + 3 * i + j, lane);
+    }
+}
+
+static inline void add_weight(dmb_node_force_run *run, node_group *g)
+{
+    dmb_real R[9], mass, moment[3], force[6], turning[9];
+    load(run->rotation, 9, 9, &g->place, 0, R);
+    load(run->weight_mass, 1, 1, &g->place, 0, &mass);
+    load(run->weight_moment, 3, 3, &g->place, 0, moment);
+    dmb_vec3_scale(dmb_real_of(run->load_factor), moment, moment);
+    dmb_weight_at(run->gravity, R, run->load_factor * mass, moment, force, turning);
+    node_apply(force, g);
+    if (run->dynamic) {
+        const dmb_real power = dmb_vec6_dot(force, g->v);
+        for (uint32_t l = 0; l < g->place.used; l++) run->potential += dmb_real_lane(&power, (int)l);
+    }
+    if (run->tangent) store_weight_tangent(run, &g->place, force, turning);
+}
+
+static inline void add_damping(dmb_node_force_run *run, node_group *g)
+{
+    dmb_real c[5], force[6];
+    load(run->damping, 5, 5, &g->place, 0, c);
+    dmb_damping_force(c, g->v, force);
+    node_apply(force, g);
+    const dmb_real power = dmb_vec6_dot(force, g->v);
+    for (uint32_t l = 0; l < g->place.used; l++) run->damping_power += dmb_real_lane(&power, (int)l);
+    if (run->tangent) dmb_damping_add_tangent(c, run->velocity_factor, g->C);
+}
+
+static void node_forces(dmb_node_force_run *run)
+{
+    uint32_t next = 0;
+    for (uint32_t first = 0; first < run->count; first += LANES) {
+        node_group g;
+        dmb_lump_constants lump;
+        g.place = group_at(first, run->count);
+        const int lumps = load_lumps(run, &g.place, &next, &lump), inertia = run->tangent && (lumps || run->damping);
+        load(run->residual, 6, 6, &g.place, 0, g.residual);
+        load(run->scale, 6, 6, &g.place, 0, g.scale);
+        if (run->dynamic) load(run->velocity, 6, 6, &g.place, 0, g.v);
+        if (inertia) load(run->inertia, 36, 36, &g.place, 0, g.C);
+        if (lumps) add_lumps(run, &lump, &g);
+        if (run->gravity) add_weight(run, &g);
+        if (run->damping) add_damping(run, &g);
+        store(g.residual, 6, &g.place, run->residual);
+        store(g.scale, 6, &g.place, run->scale);
+        if (inertia) store(g.C, 36, &g.place, run->inertia);
+    }
+}
+
+#endif

@@ -1,0 +1,262 @@
+/* Contact sites side by side: rings against the wall of the hole. Rings that do not touch add nothing; what rings add
+ * is added one ring after the other. */
+#ifndef DMB_KERNEL_LANES_WALL_H
+#define DMB_KERNEL_LANES_WALL_H
+
+#include "element/beam_math.h"
+#include "force/contact_math.h"
+#include "force/hole_math.h"
+#include "kernel/kernels.h"
+#include "kernel/lane_group.h"
+#include "math/so3.h"
+
+/* Rings of a group. */
+typedef struct wall_group {
+    lane_group site, node, row;
+    dmb_real offset, clearance, length;
+    dmb_real x[3];                                 /* [m] their centres, world */
+    dmb_real R[9], normal[3], tangent[3], bend[3]; /* bend: [rad/m] body axes, of a hole that is not straight */
+    dmb_real penetration, approach;
+    dmb_contact_frame frame;
+} wall_group;
+
+static inline void load_sites(const dmb_wall_run *run, wall_group *g)
+{
+    for (int l = 0; l < LANES; l++) {
+        const dmb_site *site = run->sites + g->site.place[l];
+        g->node.place[l] = site->node;
+        g->row.place[l] = run->row[site->node];
+        dmb_real_set_lane(&g->offset, l, site->offset);
+        dmb_real_set_lane(&g->clearance, l, site->clearance);
+        dmb_real_set_lane(&g->length, l, site->length);
+        dmb_real_set_lane(&g->frame.radius, l, site->radius);
+    }
+    g->node.used = g->row.used = g->site.used;
+}
+
+static inline void load_motion(const dmb_wall_run *run, wall_group *g)
+{
+    dmb_real u[3];
+    load(run->rotation, 9, 9, &g->node, 0, g->R);
+    load(run->reference, 3, 3, &g->node, 0, g->x);
+    load(run->displacement, 3, 3, &g->node, 0, u);
+    for (int i = 0; i < 3; i++) g->x[i] = g->x[i] + u[i] + g->R[3 * i] * g->offset;
+    if (!run->dynamic) return;
+    load(run->velocity, 1, 6, &g->row, 0, g->frame.V);
+    dmb_arm_velocity(g->offset, g->frame.V);
+}
+
+/* Closest points of a surveyed axis, found one by one. */
+static inline void project_survey(const dmb_wall_run *run, wall_group *g, dmb_real point[3])
+{
+    for (int l = 0; l < LANES; l++) {
+        const uint32_t s = g->site.place[l];
+        const double x[3] = {dmb_real_lane(g->x, l), dmb_real_lane(g->x + 1, l), dmb_real_lane(g->x + 2, l)};
+        double at[3], tangent[3], bend[3];
+        run->trial.segment[s] = run->now.segment[s];
+        dmb_hole_project(run->hole, x, &run->trial.depth[s], &run->trial.segment[s], at, tangent);
+        dmb_hole_arc_bend(run->hole, run->trial.depth[s], run->trial.segment[s], bend);
+        for (int i = 0; i < 3; i++) {
+            dmb_real_set_lane(point + i, l, at[i]);
+            dmb_real_set_lane(g->tangent + i, l, tangent[i]);
+            dmb_real_set_lane(g->bend + i, l, bend[i]);
+        }
+    }
+    dmb_mat3_tvec(g->R, g->bend, g->bend);
+}
+
+static inline void project_line(const dmb_wall_run *run, wall_group *g, dmb_real point[3])
+{
+    dmb_real depth;
+    dmb_line_project(run->hole->origin, run->hole->direction, g->x, &depth, point);
+    for (int i = 0; i < 3; i++) g->tangent[i] = dmb_real_of(run->hole->direction[i]);
+    store(&depth, 1, &g->site, run->trial.depth);
+    for (uint32_t l = 0; l < g->site.used; l++) run->trial.segment[g->site.place[l]] = 0;
+}
+
+static inline void locate(const dmb_wall_run *run, wall_group *g)
+{
+    dmb_real point[3], last[3];
+    if (dmb_hole_is_straight(run->hole))
+        project_line(run, g, point);
+    else
+        project_survey(run, g, point);
+    load(run->now.normal, 3, 3, &g->site, 0, last);
+    dmb_radial_at(g->x, point, g->tangent, last, &g->frame.distance, g->normal);
+    store(g->normal, 3, &g->site, run->trial.normal);
+}
+
+/* Speed of the rings at the last accepted instant towards where they are now: they may have crossed the axis since. */
+static inline dmb_real speed_before(const dmb_wall_run *run, const wall_group *g)
+{
+    dmb_real q[4], R[9], V[6];
+    load(run->now_velocity, 1, 6, &g->row, 0, V);
+    load(run->now_quaternion, 4, 4, &g->node, 0, q);
+    dmb_arm_velocity(g->offset, V);
+    dmb_quat_to_matrix(q, R);
+    dmb_mat3_vec(R, V, V);
+    return dmb_vec3_dot(g->normal, V);
+}
+
+/* Speed v0 of the restitution laws: that at the last accepted instant before touching. While open the field follows the
+ * present normal speed. A ring that opens and falls back within one step comes as fast as it left. */
+static inline void approach_speed(const dmb_wall_run *run, wall_group *g)
+{
+    const dmb_real zero = dmb_real_of(0.0);
+    dmb_real back, penetration, approach, closed;
+    load(run->site_return, 1, 1, &g->site, 0, &back);
+    load(run->now.penetration, 1, 1, &g->site, 0, &penetration);
+    load(run->now.approach, 1, 1, &g->site, 0, &approach);
+    const dmb_mask touches = dmb_mask_less(zero, g->penetration), returns = dmb_mask_less(zero, back);
+    const dmb_mask touched = dmb_mask_less(zero, penetration);
+    closed = approach;
+    if (dmb_mask_any(touches & dmb_mask_not(touched | returns)))
+        closed = dmb_real_select(touched, approach, speed_before(run, g));
+    closed = dmb_real_select(returns, back, closed);
+    g->approach = dmb_real_select(touches, closed, dmb_real_select(touched, approach, g->frame.speed[0]));
+}
+
+/* Where the rings are and how they move; what the trial keeps of it. */
+static inline void place_rings(const dmb_wall_run *run, wall_group *g)
+{
+    load_sites(run, g);
+    load_motion(run, g);
+    locate(run, g);
+    dmb_contact_frame_at(g->R, g->normal, g->tangent, &g->frame);
+    if (run->dynamic)
+        dmb_contact_speeds(&g->frame);
+    else
+        dmb_contact_static_speeds(run->slip, &g->frame);
+    g->penetration = g->frame.distance - g->clearance;
+    approach_speed(run, g);
+    store(&g->penetration, 1, &g->site, run->trial.penetration);
+    store(&g->approach, 1, &g->site, run->trial.approach);
+    store(g->frame.speed + 1, 2, &g->site, run->trial.slip);
+}
+
+/* Rings that touch keep what the friction law gave them. */
+static inline void forget_bristles(const dmb_wall_run *run, const wall_group *g, dmb_mask touches)
+{
+    for (uint32_t l = 0; l < g->site.used; l++) {
+        const uint32_t s = g->site.place[l];
+        if (dmb_mask_lane(&touches, (int)l)) continue;
+        run->trial.bristle[2 * s] = run->trial.bristle[2 * s + 1] = 0.0;
+        run->trial.sticks[s] = 0;
+    }
+}
+
+static inline void bristles(const dmb_wall_run *run, const wall_group *g, dmb_real N, dmb_real F[2],
+                            dmb_real by_speed[4], dmb_real by_normal[2])
+{
+    const dmb_real *v = g->frame.speed + 1;
+    dmb_real z_old[2], v_old[2], z[2], stuck;
+    load(run->now.bristle, 2, 2, &g->site, 0, z_old);
+    load(run->now.slip, 2, 2, &g->site, 0, v_old);
+    for (int l = 0; l < LANES; l++) dmb_real_set_lane(&stuck, l, run->now.sticks[g->site.place[l]] ? 1.0 : 0.0);
+    const dmb_mask sticks =
+        dmb_friction_bristle_at(run->friction_law, N, v, z_old, v_old, dmb_mask_less(dmb_real_of(0.0), stuck),
+                                run->step, z, F, by_speed, by_normal);
+    store(z, 2, &g->site, run->trial.bristle);
+    for (uint32_t l = 0; l < g->site.used; l++) run->trial.sticks[g->site.place[l]] = dmb_mask_lane(&sticks, (int)l);
+}
+
+static inline void add_friction(const dmb_wall_run *run, const wall_group *g, dmb_contact_force *c)
+{
+    const dmb_real zero = dmb_real_of(0.0);
+    dmb_real F[2], by_speed[4] = {zero, zero, zero, zero}, by_normal[2];
+    if (run->friction_law->kind == DMB_FRICTION_BRISTLE && run->dynamic)
+        bristles(run, g, -c->F[0], F, by_speed, by_normal);
+    else
+        dmb_friction_smooth_at(run->friction_law, -c->F[0], g->frame.speed + 1, F,
+                               run->tangent && run->dynamic ? by_speed : NULL, by_normal);
+    dmb_contact_add_friction(F, by_speed, by_normal, c);
+}
+
+/* Takes -K, moved from the rings to their nodes, into the diagonal blocks of the nodes. */
+static inline void subtract_blocks(const dmb_wall_run *run, const wall_group *g, dmb_mask touches, int arms,
+                                   dmb_real K[36], double *blocks)
+{
+    if (arms) dmb_beam_block_to_nodes(g->offset, g->offset, K);
+    for (uint32_t l = 0; l < g->site.used; l++) {
+        double *restrict block = blocks + run->diagonal[g->node.place[l]];
+        if (!dmb_mask_lane(&touches, (int)l)) continue;
+        for (int i = 0; i < 36; i++) block[i] -= dmb_real_lane(K + i, (int)l);
+    }
+}
+
+static inline void add_tangent(const dmb_wall_run *run, const wall_group *g, dmb_mask touches, int arms,
+                               const dmb_contact_force *c, const dmb_real wrench[6])
+{
+    const int friction = run->friction_law != NULL;
+    dmb_real K[36];
+    dmb_contact_pose_tangent(&g->frame, c, wrench, friction, K);
+    if (!dmb_hole_is_straight(run->hole)) dmb_contact_add_bend(&g->frame, c, g->bend, wrench, friction, K);
+    subtract_blocks(run, g, touches, arms, K, run->stiffness);
+    if (!run->dynamic) return;
+    dmb_contact_velocity_tangent(&g->frame, c, run->velocity_factor, friction, K);
+    subtract_blocks(run, g, touches, arms, K, run->inertia);
+}
+
+/* Rounding of the distance across the hole: its coordinates are x, in a hole along x next to nothing across it, in an
+ * inclined one the way along it. */
+static inline dmb_real rounding_of(const wall_group *g, dmb_real stiffness)
+{
+    dmb_real reach = dmb_real_of(0.0);
+    for (int i = 0; i < 3; i++) reach = reach + dmb_real_abs(g->normal[i] * g->x[i]);
+    const dmb_real force = stiffness * reach;
+    return force * force;
+}
+
+static inline void add_forces(dmb_wall_run *run, const wall_group *g, dmb_mask touches, const dmb_contact_force *c,
+                              const dmb_real wrench[6])
+{
+    const dmb_real *v = g->frame.speed;
+    const dmb_real rounding = rounding_of(g, c->by_depth[0]), potential = c->elastic * v[0];
+    const dmb_real impact = (c->F[0] + c->elastic) * v[0], friction = c->F[1] * v[1] + c->F[2] * v[2];
+    for (uint32_t l = 0; l < g->site.used; l++) {
+        double *residual = run->residual + g->row.place[l], *scale = run->scale + g->row.place[l];
+        const int lane = (int)l;
+        if (!dmb_mask_lane(&touches, lane)) continue;
+        run->rounding += dmb_real_lane(&rounding, lane);
+        for (int i = 0; i < 6; i++) {
+            residual[i] -= dmb_real_lane(wrench + i, lane);
+            scale[i] += fabs(dmb_real_lane(wrench + i, lane));
+        }
+        if (!run->dynamic) continue;
+        run->potential -= dmb_real_lane(&potential, lane);
+        run->impact += dmb_real_lane(&impact, lane);
+        run->friction += dmb_real_lane(&friction, lane);
+    }
+}
+
+static inline void press(dmb_wall_run *run, const wall_group *g, dmb_mask touches)
+{
+    const int friction = run->friction_law != NULL;
+    const int arms =
+        dmb_mask_any(dmb_mask_less(g->offset, dmb_real_of(0.0)) | dmb_mask_less(dmb_real_of(0.0), g->offset));
+    dmb_contact_force c;
+    dmb_real wrench[6];
+    c.F[1] = c.F[2] = dmb_real_of(0.0);
+    dmb_contact_normal_force(run->normal_law, &g->frame, g->length,
+                             dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->approach, &c);
+    if (friction) add_friction(run, g, &c);
+    dmb_contact_wrench(&g->frame, &c, friction, wrench);
+    if (run->tangent) add_tangent(run, g, touches, arms, &c, wrench);
+    dmb_arm_wrench(g->offset, wrench);
+    add_forces(run, g, touches, &c, wrench);
+}
+
+static void walls(dmb_wall_run *run)
+{
+    for (uint32_t first = 0; first < run->count; first += LANES) {
+        wall_group g;
+        g.site = group_at(first, run->count);
+        place_rings(run, &g);
+        const dmb_real zero = dmb_real_of(0.0);
+        const dmb_mask touches = dmb_mask_less(zero, g.penetration) | dmb_mask_at_most(g.clearance, zero);
+        if (dmb_mask_any(touches)) press(run, &g, touches);
+        forget_bristles(run, &g, touches);
+    }
+}
+
+#endif

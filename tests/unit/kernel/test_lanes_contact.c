@@ -1,0 +1,277 @@
+/* Contact kernels: every width gives the bits of one lane, whichever rings share a group, and rings that do not touch
+ * leave no trace. */
+#include <string.h>
+
+#include "check.h"
+#include "kernel/kernels.h"
+
+enum { NODES = 9, SITES = 21, ROWS = 6 * NODES, BLOCKS = 36 * NODES, STATIONS = 4, SEEDS = 6 };
+
+/* What a run reads, and what it writes (all of it compared byte by byte). */
+typedef struct wall_input {
+    dmb_site sites[SITES];
+    dmb_hole hole;
+    dmb_hole_station station[STATIONS];
+    dmb_normal_law normal_law;
+    dmb_friction_law friction_law;
+    uint32_t row[NODES], diagonal[NODES];
+    double reference[3 * NODES], displacement[3 * NODES], rotation[9 * NODES], velocity[ROWS];
+    double now_quaternion[4 * NODES], now_velocity[ROWS], site_return[SITES];
+    double normal[3 * SITES], depth[SITES], penetration[SITES], approach[SITES], slip[2 * SITES], bristle[2 * SITES];
+    uint32_t segment[SITES];
+    int32_t sticks[SITES];
+} wall_input;
+
+typedef struct wall_output {
+    double normal[3 * SITES], depth[SITES], penetration[SITES], approach[SITES], slip[2 * SITES], bristle[2 * SITES];
+    double residual[ROWS], scale[ROWS], stiffness[BLOCKS], inertia[BLOCKS];
+    double sums[4];
+    uint32_t segment[SITES];
+    int32_t sticks[SITES], reserved;
+} wall_output;
+
+/* One way of asking. */
+typedef struct wall_case {
+    int32_t normal_law, friction_law, curved, dynamic, tangent;
+    double exponent;
+} wall_case;
+
+/* ---- Random configurations --------------------------------------------------------------------------------------- */
+
+static void draw_all(uint64_t *seed, double low, double high, size_t n, double *x)
+{
+    for (size_t i = 0; i < n; i++) x[i] = draw_between(seed, low, high);
+}
+
+static void draw_quaternion(uint64_t *seed, double q[4])
+{
+    double square = 0.0;
+    draw_all(seed, -1.0, 1.0, 4, q);
+    for (int i = 0; i < 4; i++) square += q[i] * q[i];
+    for (int i = 0; i < 4; i++) q[i] /= sqrt(square);
+}
+
+/* Near the identity, as pipes in a hole along x are. */
+static void draw_rotation(uint64_t *seed, double R[9])
+{
+    const double a = draw_between(seed, -3.0, 3.0), b = draw_between(seed, -0.1, 0.1);
+    const double turned[9] = {cos(b),          -sin(b),         0.0,   cos(a) * sin(b), cos(a) * cos(b), -sin(a),
+                              sin(a) * sin(b), sin(a) * cos(b), cos(a)};
+    memcpy(R, turned, sizeof turned);
+}
+
+static void draw_nodes(uint64_t *seed, wall_input *in)
+{
+    for (uint32_t i = 0; i < NODES; i++) {
+        in->row[i] = 6 * i;
+        in->diagonal[i] = 36 * i;
+        in->reference[3 * i] = 5.0 * i;
+        draw_rotation(seed, in->rotation + 9 * i);
+        draw_quaternion(seed, in->now_quaternion + 4 * i);
+    }
+    draw_all(seed, -0.02, 0.02, 3 * NODES, in->displacement);
+    draw_all(seed, -1.0, 1.0, ROWS, in->velocity);
+    draw_all(seed, -1.0, 1.0, ROWS, in->now_velocity);
+}
+
+/* Some rings are pinned, some on the axis, some stand off their nodes; nodes 7 and 8 have none that touches. */
+static void draw_sites(uint64_t *seed, int arms, wall_input *in)
+{
+    for (uint32_t s = 0; s < SITES; s++) {
+        dmb_site *site = in->sites + s;
+        site->node = (5 * s) % NODES;
+        site->offset = arms && s % 3 ? draw_between(seed, -0.5, 0.5) : 0.0;
+        site->radius = draw_between(seed, 0.03, 0.04);
+        site->clearance = s % 5 == 4 ? 0.0 : draw_between(seed, 0.0, 0.03);
+        site->length = draw_between(seed, 0.5, 2.0);
+        if (site->node >= 7) site->clearance = 3.0;
+        in->site_return[s] = s % 4 == 1 ? draw_between(seed, 0.0, 1.0) : 0.0;
+        in->sticks[s] = s % 2;
+        in->segment[s] = s % STATIONS;
+    }
+    for (int i = 0; i < 3; i++) in->displacement[3 * 4 + i] = 0.0; /* node 4 on the axis of the straight hole */
+    draw_all(seed, -1.0, 1.0, 3 * SITES, in->normal);
+    draw_all(seed, -0.01, 0.01, SITES, in->penetration);
+    draw_all(seed, 0.0, 1.0, SITES, in->approach);
+    draw_all(seed, -0.5, 0.5, 2 * SITES, in->slip);
+    draw_all(seed, -1e-4, 1e-4, 2 * SITES, in->bristle);
+}
+
+static void setup_laws(const wall_case *c, wall_input *in)
+{
+    const dmb_friction_law friction = {c->friction_law, 0, 0.4, 0.25, 0.1, 0.01, 0.6, 1e4, 0.5};
+    dmb_normal_law_setup(&in->normal_law, c->normal_law, 1e7, c->exponent, 0.6, 2e4, 4e-3, 1e-3);
+    in->friction_law = friction;
+}
+
+static void setup_hole(const wall_case *c, wall_input *in)
+{
+    const double origin[3] = {-1.0, 0.0, 0.0}, along_x[3] = {1.0, 0.0, 0.0}, level = 0.5 * PI;
+    const double survey[3 * STATIONS] = {0.0,  level,        0.0,  10.0, level - 2e-3, 1e-3,
+                                         25.0, level - 4e-3, 1e-3, 40.0, level,        2e-3};
+    memset(&in->hole, 0, sizeof in->hole);
+    if (c->curved)
+        assert_int_equal(dmb_hole_setup_survey(&in->hole, STATIONS, survey, origin, 0.047, in->station), -1);
+    else
+        assert_int_equal(dmb_hole_setup_straight(&in->hole, origin, along_x, 0.047), 0);
+}
+
+static void draw_input(uint64_t *seed, const wall_case *c, wall_input *in)
+{
+    memset(in, 0, sizeof *in);
+    setup_laws(c, in);
+    setup_hole(c, in);
+    draw_nodes(seed, in);
+    draw_sites(seed, *seed % 2 == 0, in);
+}
+
+/* ---- Runs -------------------------------------------------------------------------------------------------------- */
+
+/* Sites first .. first + count - 1, from and to the places where they stand. */
+static dmb_wall_run run_of(const wall_case *c, wall_input *in, wall_output *out, uint32_t first, uint32_t count)
+{
+    const dmb_wall_run run = {
+        .count = count,
+        .sites = in->sites + first,
+        .hole = &in->hole,
+        .normal_law = &in->normal_law,
+        .friction_law = c->friction_law == DMB_FRICTION_NONE ? NULL : &in->friction_law,
+        .row = in->row,
+        .diagonal = in->diagonal,
+        .reference = in->reference,
+        .displacement = in->displacement,
+        .rotation = in->rotation,
+        .velocity = in->velocity,
+        .now_quaternion = in->now_quaternion,
+        .now_velocity = in->now_velocity,
+        .now = {in->normal + 3 * first, in->depth + first, in->penetration + first, in->approach + first,
+                in->slip + 2 * first, in->bristle + 2 * first, in->segment + first, in->sticks + first},
+        .site_return = in->site_return + first,
+        .trial = {out->normal + 3 * first, out->depth + first, out->penetration + first, out->approach + first,
+                  out->slip + 2 * first, out->bristle + 2 * first, out->segment + first, out->sticks + first},
+        .slip = {0.1, 2.0},
+        .step = 1e-3,
+        .velocity_factor = 1700.0,
+        .dynamic = c->dynamic,
+        .tangent = c->tangent,
+        .residual = out->residual,
+        .scale = out->scale,
+        .stiffness = out->stiffness,
+        .inertia = out->inertia,
+        .rounding = out->sums[0],
+        .potential = out->sums[1],
+        .impact = out->sums[2],
+        .friction = out->sums[3],
+    };
+    return run;
+}
+
+/* -0 at the nodes whose rings do not touch: adding 0 would show. */
+static void clear(wall_output *out)
+{
+    memset(out, 0, sizeof *out);
+    for (int i = 42; i < ROWS; i++) out->residual[i] = out->scale[i] = -0.0;
+    for (int i = 252; i < BLOCKS; i++) out->stiffness[i] = out->inertia[i] = -0.0;
+}
+
+static void run_part(const dmb_kernels *kernels, const wall_case *c, wall_input *in, wall_output *out, uint32_t first,
+                     uint32_t count)
+{
+    dmb_wall_run run = run_of(c, in, out, first, count);
+    kernels->walls(&run);
+    out->sums[0] = run.rounding;
+    out->sums[1] = run.potential;
+    out->sums[2] = run.impact;
+    out->sums[3] = run.friction;
+}
+
+static void no_trace_of_open_rings(const wall_case *c, const wall_output *out)
+{
+    wall_output start;
+    clear(&start);
+    assert_memory_equal(out->residual + 42, start.residual + 42, 12 * sizeof(double));
+    assert_memory_equal(out->scale + 42, start.scale + 42, 12 * sizeof(double));
+    assert_memory_equal(out->stiffness + 252, start.stiffness + 252, 72 * sizeof(double));
+    assert_memory_equal(out->inertia + 252, start.inertia + 252, 72 * sizeof(double));
+    if (!c->tangent) assert_memory_equal(out->stiffness, start.stiffness, sizeof out->stiffness);
+    if (!c->tangent || !c->dynamic) assert_memory_equal(out->inertia, start.inertia, sizeof out->inertia);
+}
+
+static uint32_t touching(const wall_input *in, const wall_output *out)
+{
+    uint32_t count = 0;
+    for (int s = 0; s < SITES; s++) count += out->penetration[s] > 0.0 || in->sites[s].clearance == 0.0;
+    return count;
+}
+
+/* Returns how many rings touch. */
+static uint32_t compare_widths(const wall_case *c, wall_input *in)
+{
+    wall_output alone, out;
+    clear(&alone);
+    for (uint32_t s = 0; s < SITES; s++) run_part(dmb_kernels_of(1), c, in, &alone, s, 1);
+    no_trace_of_open_rings(c, &alone);
+    for (uint32_t lanes = 1; lanes <= 8; lanes *= 2) {
+        if (!dmb_kernels_of(lanes)) continue;
+        clear(&out);
+        run_part(dmb_kernels_of(lanes), c, in, &out, 0, SITES);
+        assert_memory_equal(&out, &alone, sizeof out);
+        clear(&out);
+        run_part(dmb_kernels_of(lanes), c, in, &out, 0, 6);
+        run_part(dmb_kernels_of(lanes), c, in, &out, 6, SITES - 6);
+        assert_memory_equal(&out, &alone, sizeof out);
+    }
+    return touching(in, &alone);
+}
+
+static void all_widths_give_the_same_bits(void **state)
+{
+    static const double exponents[3] = {1.0, 1.5, 1.3};
+    uint64_t seed = 20;
+    uint32_t cases = 0, closed = 0, widths = 0;
+    wall_input in;
+    (void)state;
+    for (int32_t i = 0; i < 6 * 5 * 8 * SEEDS; i++) {
+        const int32_t k = i / 30;
+        const wall_case c = {i % 6, i / 6 % 5 - 1, k % 2, k / 2 % 2, k / 4 % 2, exponents[i % 3]};
+        draw_input(&seed, &c, &in);
+        closed += compare_widths(&c, &in);
+        cases++;
+    }
+    for (uint32_t lanes = 1; lanes <= 8; lanes *= 2) widths += dmb_kernels_of(lanes) != NULL;
+    tell("widths [-]", widths);
+    tell("configurations [-]", cases);
+    tell("rings that touch, of all [-]", closed / ((double)cases * SITES));
+    assert_true(closed > cases * SITES / 5 && closed < cases * SITES * 4 / 5);
+}
+
+/* The residual is the same whether blocks are wanted or not. */
+static void forces_do_not_depend_on_the_tangent(void **state)
+{
+    uint64_t seed = 40;
+    wall_input in;
+    wall_output with, without;
+    (void)state;
+    for (int32_t i = 0; i < 60; i++) {
+        wall_case c = {i % 6, i % 5 - 1, 0, i / 30, 1, 1.0};
+        draw_input(&seed, &c, &in);
+        clear(&with);
+        clear(&without);
+        run_part(dmb_kernels_widest(), &c, &in, &with, 0, SITES);
+        c.tangent = 0;
+        run_part(dmb_kernels_widest(), &c, &in, &without, 0, SITES);
+        assert_memory_equal(with.residual, without.residual, sizeof with.residual);
+        assert_memory_equal(with.sums, without.sums, sizeof with.sums);
+        assert_memory_equal(with.bristle, without.bristle, sizeof with.bristle);
+        assert_true(largest(ROWS, with.residual) > 1.0 && largest(BLOCKS, with.stiffness) > 1.0);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_widths_give_the_same_bits),
+        cmocka_unit_test(forces_do_not_depend_on_the_tangent),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
