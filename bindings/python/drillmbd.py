@@ -73,6 +73,8 @@ FEATURE_VIBRATION, FEATURE_ALL = 24, 127
 OUTPUT_DISPLACEMENT, OUTPUT_VELOCITY, OUTPUT_ACCELERATION, OUTPUT_SECTION_FORCE = range(4)
 CONTACT_AS_IS, CONTACT_OPEN, CONTACT_CLOSED = range(3)
 COMBINED = 0xFFFFFFFF
+MODES_UNDAMPED, MODES_DAMPED = range(2)
+MODES_LOWEST, MODES_ALL, MODES_BAND = range(3)
 
 
 # ---- The library -----------------------------------------------------------------------------------------------------
@@ -507,6 +509,32 @@ class SineReport(_Sized):
                 ("steps", c_uint64), ("change", c_double), ("remaining", c_double), ("time", c_double)]
 
 
+@_mirrors("dmb_modes_options")
+class ModesOptions(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("select", c_int32), ("count", c_uint32),
+                ("band", c_double * 2), ("contact", c_int32), ("friction", c_int32), ("contact_gap", c_double),
+                ("equilibrium_tolerance", c_double)]
+
+
+@_mirrors("dmb_modes_info")
+class ModesInfo(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("count", c_uint32), ("rigid", c_uint32), ("coordinates", c_uint32),
+                ("dense", c_int32), ("solves", c_uint32), ("unbalance", c_double), ("asymmetry", c_double),
+                ("residual", c_double)]
+
+
+@_mirrors("dmb_mode")
+class Mode(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("rigid", c_int32), ("frequency", c_double), ("damping", c_double),
+                ("eigenvalue", c_double * 2), ("kinetic", c_double), ("strain", c_double), ("share", c_double * 3),
+                ("participation", c_double * 3), ("effective_mass", c_double * 3)]
+
+
+@_mirrors("dmb_mode_shape")
+class ModeShape(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("frame", c_int32), ("re", c_double * 6), ("im", c_double * 6)]
+
+
 # ---- Functions -------------------------------------------------------------------------------------------------------
 def _declare_all():
     model, sim = c_void_p, c_void_p
@@ -566,6 +594,14 @@ def _declare_all():
     _declare("dmb_response_frequencies", status, response, POINTER(number))
     _declare("dmb_response_transfer", status, response, count, count, POINTER(number))
     _declare("dmb_response_write_csv", status, response, text)
+    modes = c_void_p
+    _declare("dmb_analysis_modes", status, sim, POINTER(ModesOptions), POINTER(modes))
+    _declare("dmb_modes_destroy", None, POINTER(modes))
+    _declare("dmb_modes_get_info", status, modes, POINTER(ModesInfo))
+    _declare("dmb_modes_get", status, modes, count, POINTER(Mode))
+    _declare("dmb_modes_shape", status, modes, count, Place, POINTER(ModeShape))
+    _declare("dmb_modes_part", status, modes, count, Id, count, POINTER(number), POINTER(number))
+    _declare("dmb_write_vtk_mode", status, modes, count, number, number, count, text)
     ask("pose", Place, POINTER(Pose))
     ask("motion", Place, POINTER(Motion))
     ask("rotation", Place, POINTER(number))
@@ -946,6 +982,12 @@ class Sim:
         return [[numbers[i * width].real] + numbers[i * width + 1:(i + 1) * width]
                 for i in range(len(outputs))], report
 
+    def modes(self, options=None, **fields):
+        """Natural frequencies and modes about the present state, as the ModesOptions say: a Modes, a sequence of Mode."""
+        options, handle = _struct(ModesOptions, options, fields), c_void_p()
+        self._check(_lib.dmb_analysis_modes(self._handle, byref(options), byref(handle)))
+        return Modes(handle, self._scene)
+
     def set_drive(self, drive, value):
         """The drive's programme is the constant value from now on; None: its programme again."""
         self._check(_lib.dmb_sim_set_drive(self._handle, drive, float("nan") if value is None else value))
@@ -1110,6 +1152,46 @@ class Buckling:
     def __del__(self):
         if getattr(self, "_handle", None) and _lib is not None:
             self.close()
+
+
+# ---- Modes -----------------------------------------------------------------------------------------------------------
+class Modes:
+    """Modes that Sim.modes has found, by rising frequency: modes[0].frequency, len(modes)."""
+
+    def __init__(self, handle, scene):
+        self._handle, self._scene = handle, scene
+        self.info = ModesInfo()
+        _check(_lib.dmb_modes_get_info(handle, byref(self.info)))
+
+    def __del__(self):
+        if _lib is not None:
+            _lib.dmb_modes_destroy(byref(self._handle))
+
+    def __len__(self):
+        return self.info.count
+
+    def __getitem__(self, index):
+        if not 0 <= index < len(self):
+            raise IndexError(index)
+        mode = Mode()
+        _check(_lib.dmb_modes_get(self._handle, index, byref(mode)))
+        return mode
+
+    def shape(self, index, place, frame=FRAME_WORLD):
+        """Displacement and rotation at a place, real and imaginary part: re, im"""
+        shape = ModeShape(frame=frame)
+        _check(_lib.dmb_modes_shape(self._handle, index, place, byref(shape)))
+        return shape
+
+    def part(self, index, part, pipe=0xFFFFFFFF):
+        """[J] kinetic and strain energy of a mode in a pipe of a string, in a whole string, or (pipe 0) in a body"""
+        kinetic, strain = c_double(), c_double()
+        _check(_lib.dmb_modes_part(self._handle, index, _as_id(part), pipe, byref(kinetic), byref(strain)))
+        return kinetic.value, strain.value
+
+    def write_vtk(self, index, path, scale=1.0, phase=0.0, per_element=8):
+        """A frame of the mode's animation."""
+        _check(_lib.dmb_write_vtk_mode(self._handle, index, scale, phase, per_element, _path(path)))
 
 
 # ---- Recorder --------------------------------------------------------------------------------------------------------

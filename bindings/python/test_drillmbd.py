@@ -51,11 +51,12 @@ def ctypes_of(declaration):
     """The types that may stand for an argument 'const dmb_pose *pose' in ctypes."""
     plain = {"int32_t": ctypes.c_int32, "uint32_t": ctypes.c_uint32, "double": ctypes.c_double,
              "size_t": ctypes.c_size_t, "uint64_t": ctypes.c_uint64, "void": ctypes.c_void_p, "char": ctypes.c_char_p,
-             "dmb_model": ctypes.c_void_p, "dmb_sim": ctypes.c_void_p, "dmb_buckling": ctypes.c_void_p, "dmb_response": ctypes.c_void_p,
+             "dmb_model": ctypes.c_void_p, "dmb_sim": ctypes.c_void_p, "dmb_buckling": ctypes.c_void_p,
+             "dmb_response": ctypes.c_void_p, "dmb_modes": ctypes.c_void_p,
              **mbd.STRUCTS}
     kind, stars, array = re.match(r"(?:const )?(\w+) (\**)\w+(\[\d+\])?$", declaration).groups()
     depth = len(stars) + bool(array)
-    opaque = kind in ("dmb_model", "dmb_sim", "dmb_buckling", "dmb_response", "char", "void")
+    opaque = kind in ("dmb_model", "dmb_sim", "dmb_buckling", "dmb_response", "dmb_modes", "char", "void")
     base = plain[kind]
     for _ in range(depth - 1 if opaque else depth):
         base = ctypes.POINTER(base)
@@ -355,6 +356,46 @@ class ResponseTest(unittest.TestCase):
             self.sim.response([mbd.Input(place=self.body)], [mbd.Output(place=self.body)], frequencies=[0.0])
         self.assertEqual(caught.exception.name, "DMB_ERR_SINGULAR")
         self.assertIn("body 0", caught.exception.message)
+
+
+class ModesTest(unittest.TestCase):
+    def setUp(self):
+        model = mbd.Model()
+        model.set_environment(gravity=(0.0, 0.0, 0.0))
+        self.string = model.add_pipes(4)
+        model.compile()
+        self.sim = model.sim()
+
+    def test_frequencies_and_shapes(self):
+        before = self.sim.hash()
+        modes = self.sim.modes(count=8)
+        self.assertEqual(self.sim.hash(), before)
+        self.assertEqual((len(modes), modes.info.rigid, modes[0].rigid), (8, 2, 1))
+        frequencies = [mode.frequency for mode in modes]
+        self.assertEqual(frequencies, sorted(frequencies))
+        self.assertAlmostEqual(sum(modes[2].share[:]), 1.0)
+        tip = modes.shape(2, mbd.station(self.string, 3, 1.0))
+        self.assertGreater(math.hypot(tip.re[1], tip.re[2]), 0.1)
+        kinetic, strain = modes.part(2, self.string)
+        self.assertAlmostEqual(kinetic / modes[2].kinetic, 1.0)
+        self.assertAlmostEqual(strain / modes[2].strain, 1.0)
+
+    def test_band(self):
+        modes = self.sim.modes(select=mbd.MODES_BAND, band=(1.0, 100.0), kind=mbd.MODES_DAMPED)
+        self.assertTrue(all(1.0 <= mode.frequency <= 100.0 for mode in modes))
+
+    def test_animation(self):
+        modes = self.sim.modes(count=3)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "mode.vtp")
+            modes.write_vtk(2, path, scale=0.1, per_element=2)
+            self.assertIn('Name="rotation"', path.read_text(encoding="utf-8"))
+
+    def test_refusal_says_why(self):
+        with self.assertRaises(mbd.Error) as caught:
+            self.sim.modes(count=1000)
+        self.assertEqual(caught.exception.name, "DMB_ERR_VALUE")
+        self.assertIn("coordinates", caught.exception.message)
 
 
 class WholeModelTest(unittest.TestCase):

@@ -141,6 +141,14 @@ DMB_API int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report)
  * if the text is cut. Errors as dmb_analysis_check, with text and *needed left alone. */
 DMB_API int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t size, size_t *needed);
 
+/* ---- Linear analyses ---------------------------------------------------------------------------------------------
+ * What the wall is to small motion about a state (modes.h, response.h). */
+enum {
+    DMB_CONTACT_AS_IS = 0, /* rings that touch the wall press on it, others do not */
+    DMB_CONTACT_OPEN = 1,  /* there is no wall */
+    DMB_CONTACT_CLOSED = 2 /* rings up to `contact_gap` from the wall are held across it too */
+};
+
 #ifdef __cplusplus
 }
 #endif

@@ -2,7 +2,7 @@
 #ifndef DRILLMBD_RESPONSE_H
 #define DRILLMBD_RESPONSE_H
 
-#include "query.h"
+#include "analysis.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -51,11 +51,6 @@ typedef struct dmb_output {
 DMB_SIZED_STRUCT(dmb_output)
 
 /* ---- Frequency response ------------------------------------------------------------------------------------------ */
-enum {
-    DMB_CONTACT_AS_IS = 0, /* rings that touch the wall press on it, others do not */
-    DMB_CONTACT_OPEN = 1,  /* there is no wall */
-    DMB_CONTACT_CLOSED = 2 /* rings up to `contact_gap` from the wall are held across it too */
-};
 typedef struct dmb_response_options {
     uint32_t struct_size;
     uint32_t points;              /* [-] of the grid, 2 .. 1e6; 1 where both ends are one frequency; default 1000 */
