@@ -11,8 +11,8 @@ extern "C" {
 /* ---- What shakes -------------------------------------------------------------------------------------------------
  * A quantity q is the real part of (re + i im) e^(i w t), w = 2 pi frequency. */
 enum {
-    DMB_INPUT_DRIVE = 0,     /* programme of the drive place.part [its unit]: speed of MOTION (on strings and bodies),
-                                force of LOAD, target speed of CONTROL (likewise) */
+    DMB_INPUT_DRIVE = 0,     /* programme of the drive place.part [its unit]: speed of MOTION, force of LOAD, target speed
+                                of CONTROL */
     DMB_INPUT_LOAD = 1,      /* [-] factor of the load place.part */
     DMB_INPUT_BIT_LOAD = 2,  /* [N] bottom-hole load of the bit place.part */
     DMB_INPUT_FORCE = 3,     /* [N, N m] `component` of a force or moment at `place`, in `frame` */
