@@ -42,6 +42,7 @@ OK, NOTE_STEP_CUT, NOTE_WORK_LIMITED, NOTE_PROJECTED, NOTE_STOPPED, NOTE_FULL, N
 LOG_ERROR, LOG_WARNING, LOG_INFO = range(3)
 STATIC_NEWTON, STATIC_RELAXATION = range(2)
 SCALE_ALL, SCALE_LOADS, SCALE_PART = range(3)
+PATH_REGULAR, PATH_LIMIT, PATH_BIFURCATION, PATH_BRANCH = range(4)
 X, Y, Z, RX, RY, RZ = range(6)
 FREE_NONE, FREE_X, FREE_RX, FREE_RZ = 0, 1, 8, 32
 FREE_CYLINDRICAL, FREE_SPHERICAL, FREE_ALL = 9, 56, 63
@@ -378,6 +379,32 @@ class BucklingOptions(_Sized):
                 ("slip_axial", c_double), ("slip_rotation", c_double)]
 
 
+@_mirrors("dmb_path_point")
+class PathPoint(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("number", c_uint32), ("kind", c_int32), ("negative", c_int32),
+                ("iterations", c_uint32), ("reserved", c_uint32), ("factor", c_double), ("rate", c_double),
+                ("arc", c_double), ("displacement", c_double)]
+
+
+_PATH_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(PathPoint))
+
+
+@_mirrors("dmb_path_options")
+class PathOptions(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("max_points", c_uint32), ("max_iterations", c_uint32), ("scale", c_int32),
+                ("part", Id), ("place", Place), ("component", c_int32), ("branch", c_int32), ("factor_end", c_double),
+                ("displacement_end", c_double), ("first_step", c_double), ("step_max", c_double),
+                ("branch_size", c_double), ("tolerance", c_double), ("slip_axial", c_double),
+                ("slip_rotation", c_double), ("callback", _PATH_FN), ("callback_context", c_void_p)]
+
+
+@_mirrors("dmb_path_report")
+class PathReport(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("points", c_uint32), ("limits", c_uint32), ("bifurcations", c_uint32),
+                ("iterations", c_uint32), ("cuts", c_uint32), ("factor", c_double), ("displacement", c_double),
+                ("first_limit", c_double), ("first_bifurcation", c_double)]
+
+
 @_mirrors("dmb_check_report")
 class CheckReport(_Sized):
     _fields_ = [("struct_size", c_uint32), ("rigid_parts", c_uint32), ("flexible_parts", c_uint32),
@@ -578,6 +605,7 @@ def _declare_all():
     _declare("dmb_sim_hash", status, sim, POINTER(c_uint64))
     _declare("dmb_analysis_static", status, sim, POINTER(StaticOptions), POINTER(StaticReport))
     _declare("dmb_analysis_buckling", status, sim, POINTER(BucklingOptions), POINTER(buckling))
+    _declare("dmb_analysis_path", status, sim, POINTER(PathOptions), POINTER(PathReport))
     _declare("dmb_buckling_destroy", None, POINTER(buckling))
     _declare("dmb_buckling_count", count, buckling)
     _declare("dmb_buckling_factor", status, buckling, count, POINTER(number))
@@ -943,6 +971,28 @@ class Sim:
         """Critical factors and shapes about the present static state."""
         return Buckling(self, _struct(BucklingOptions, options, fields))
 
+    def path(self, visit=None, options=None, **fields):
+        """Follows the path of equilibrium from here; returns the report. visit(at, point) is called at each point with a
+        sim that stands there and may be asked until it returns; what is true stops the path."""
+        options, report, raised = _struct(PathOptions, options, fields), PathReport(), []
+
+        def call(_context, handle, point):
+            at = _SimAt(self, handle)
+            try:
+                return 1 if visit(at, PathPoint.from_buffer_copy(point.contents)) else 0
+            except BaseException as error:  # must not unwind through C
+                raised.append(error)
+                return 1
+            finally:
+                at.close()
+
+        if visit is not None:
+            options.callback = _PATH_FN(call)
+        report.status = self._check(_lib.dmb_analysis_path(self._handle, byref(options), byref(report)))
+        if raised:
+            raise raised[0]
+        return report
+
     def check(self):
         """Parts, joints, degrees of freedom, redundant equations and the number of warnings: the model check."""
         report = CheckReport()
@@ -1118,6 +1168,16 @@ class Response:
 
     def write_csv(self, path):
         _check(_lib.dmb_response_write_csv(self._handle, _path(path)))
+
+
+class _SimAt(Sim):
+    """A sim that the library lends to a callback."""
+
+    def __init__(self, of, handle):
+        self._handle, self._keep, self._scene = c_void_p(handle), of._keep, of._scene
+
+    def close(self):
+        self._handle = None
 
 
 # ---- Buckling --------------------------------------------------------------------------------------------------------

@@ -456,6 +456,38 @@ class WholeModelTest(unittest.TestCase):
                     length = math.hypot(*tip[1:3])
                     self.assertAlmostEqual(math.hypot(*middle[1:3]) / length, 1.0 - math.cos(math.pi / 4.0), 4)
 
+    def test_path_of_a_clamped_column(self):
+        with mbd.Model() as model:
+            model.set_environment(gravity=(0.0, 0.0, 0.0))
+            string = model.add_string(follows_hole=0, start_free=mbd.FREE_NONE)
+            model.add_pipes(10, string=string, section_stiffness=(1e12, 1e12, 1e12, 1e5, 1e5, 1e5))
+            tip = mbd.station(string, 9, 1.0)
+            push = model.add_load(place=tip, force=(-1.0, 0.0, 0.0), programme=model.add_programme(0.0))
+            model.compile()
+            with model.sim() as sim:
+                sim.static()
+                euler, before, tips = math.pi ** 2 * 1e5 / 400.0, sim.hash(), []
+
+                def visit(at, point):
+                    tips.append((point.kind, at.pose(tip).displacement[0], point.displacement))
+                    return point.displacement < -0.5
+
+                settings = dict(scale=mbd.SCALE_PART, part=push, place=tip, factor_end=4.0 * euler, branch=1,
+                                branch_size=0.05)
+                report = sim.path(visit, **settings)
+                self.assertEqual(report.status, mbd.NOTE_STOPPED)
+                self.assertEqual(sim.hash(), before)
+                self.assertAlmostEqual(report.first_bifurcation / euler, 1.0, 4)
+                self.assertIn(mbd.PATH_BRANCH, [kind for kind, _, _ in tips])
+                for _, asked, told in tips:
+                    self.assertEqual(asked, told)
+
+                def raises(at, point):
+                    raise KeyError(point.number)
+
+                with self.assertRaises(KeyError):
+                    sim.path(raises, **settings)
+
     def test_projected_start_is_a_note(self):
         with mbd.Model() as model:
             string = model.add_string(start_free=mbd.FREE_NONE, velocity=(0.1, 0, 0, 0, 0, 0))

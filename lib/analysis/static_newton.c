@@ -86,9 +86,6 @@ static int32_t evaluate(dmb_static_search *search)
     return status < 0 ? status : judge(search);
 }
 
-/* A pivot this small against its block is rounding: 100 m of unsupported pipe still leave 1e-9. */
-#define DMB_LOOSE_PIVOT 1e-15
-
 static int32_t solve(dmb_static_search *search)
 {
     dmb_system_iteration_matrix(&search->evaluation);

@@ -58,6 +58,20 @@ DMB_DEFINE_INIT(dmb_buckling_options, 64, {
     .tolerance = 1e-10,
 })
 
+DMB_DEFINE_INIT(dmb_path_options, 136, {
+    .max_points = 200,
+    .max_iterations = 15,
+    .scale = DMB_SCALE_LOADS,
+    .factor_end = 1.0,
+    .displacement_end = 1e30,
+    .step_max = 1e30,
+    .tolerance = 1e-10,
+})
+
+DMB_DEFINE_INIT(dmb_path_point, 56, {.number = 0})
+
+DMB_DEFINE_INIT(dmb_path_report, 56, {.points = 0})
+
 DMB_DEFINE_INIT(dmb_check_report, 192, {.rigid_parts = 0})
 
 DMB_DEFINE_INIT(dmb_modes_options, 56, {
