@@ -15,9 +15,9 @@ import rows as measured
 
 BLUE, ORANGE, RED = "#1f5fa8", "#d9730d", "#b3261e"
 COLOURS = {"C": BLUE, "R": ORANGE}
-PANELS = {"C": "C: turning tube, 0.8 s", "H": "H: bending down 20 m, turning, 0.8 s",
+PANELS = {"C": "C: turning tube, 0.8 s", "T": "T: bending down 20 m, turning, 0.8 s",
           "B": "B: falling onto the wall, 0.1 s", "R": "R: rig cycle, 0.4 s"}
-QUESTIONS = {"C": "tip speed, relative", "H": "tip's place over the length", "B": "tip's place over the clearance",
+QUESTIONS = {"C": "tip speed, relative", "T": "tip's place over the length", "B": "tip's place over the clearance",
              "R": "torque, relative"}
 # setting: text, colour, line, marker
 SETTINGS = {"default": ("default: fixed steps, radius 0.8, 1 element a pipe", BLUE, "-", "o"),

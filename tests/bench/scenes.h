@@ -2,7 +2,7 @@
  *   C   a steel tube, OD 73, ID 59 mm, turned at one end from 0 to 60 rpm in the first second by a cubic STEP
  *   B   the same under gravity in a hole of 94 mm, with contact and friction
  *   B*  B driven with pi (1 - cos(pi t)) instead, up to 60 rpm: figures at 2 s are given for it from elsewhere
- *   H   the same under gravity without a hole: 20 m of it bend far down, turning
+ *   T   the same under gravity without a hole: 20 m of it bend far down, turning
  *   R   the rig of examples/gas_drainage_rig with everything on, from rest on the wall: its own source, so that it is
  *       the same rig */
 #ifndef BENCH_SCENES_H
@@ -21,8 +21,8 @@
 #define BENCH_POISSON 0.3
 #define BENCH_DENSITY 7850.0
 
-enum { SCENE_C = 0, SCENE_B = 1, SCENE_B_COSINE = 2, SCENE_R = 3, SCENE_H = 4, SCENE_COUNT = 5 };
-static const char *const scene_names[SCENE_COUNT] = {"C", "B", "B*", "R", "H"};
+enum { SCENE_C = 0, SCENE_B = 1, SCENE_B_COSINE = 2, SCENE_R = 3, SCENE_T = 4, SCENE_COUNT = 5 };
+static const char *const scene_names[SCENE_COUNT] = {"C", "B", "B*", "R", "T"};
 
 /* What is asked of a scene: two quantities each. */
 static const char *const quantity_names[SCENE_COUNT][2] = {{"tip_speed", ""},
@@ -35,8 +35,8 @@ typedef struct scene {
     int kind;
     uint32_t pipes, per_pipe; /* [-] elements in a pipe */
     double length;            /* [m] of a pipe */
-    int32_t pipe_kind;        /* of C, B, H */
-    double offset;            /* [m] of C, B, H: sideways from the hole's axis, as a whole */
+    int32_t pipe_kind;        /* of C, B, T */
+    double offset;            /* [m] of C, B, T: sideways from the hole's axis, as a whole */
     dmb_model *model;
     dmb_id string, turn;
     double bytes; /* [byte] of model and sim with default options, an element */

@@ -187,7 +187,7 @@ def fixed_work(rows, wanted):
 
 def work(data):
     fixed, controlled = [], []
-    for scene in ("C", "H", "B", "R"):
+    for scene in ("C", "T", "B", "R"):
         rows = chosen(data["W"], scene=scene)
         for setting in dict.fromkeys(row["setting"] for row in rows):
             own = chosen(rows, setting=setting)
@@ -221,6 +221,24 @@ def settled(data):
     return markdown(["step ms", "radius", "elements", "U a simulated second", "iterations", "rejected",
                      "0.1 to 1.1 s: force N", "torque N m", "sideways mm", "2 to 3 s: force N", "torque N m",
                      "sideways mm"], lines)
+
+
+def modes(data):
+    lines = [[row["elements"], number(row["us_per_step"]), percent(row["spread"]), number(row["U_per_step"]),
+              row["iterations"]] + [f"{number(row[f'error_{i}'], 2)}" for i in range(1, 11, 2)] for row in data["A"]]
+    return markdown(["elements", "us", "spread", "U", "solves"] + [f"error, pair {i}" for i in range(1, 6)], lines) + \
+        f"\n\nGrowth: exponent {exponent(data['A'], 'elements', 'us_per_step')[0]:.3f}."
+
+
+def response(data):
+    lines, growths = [], []
+    for scene in ("H", "HW"):
+        rows = chosen(data["H"], scene=scene)
+        lines += [[scene, row["elements"], row["points"], number(row["us_per_step"]), percent(row["spread"]),
+                   number(row["U_per_step"]), number(row["us_two_points"]), number(row["error"], 2)] for row in rows]
+        growths.append(f"{scene} {exponent(rows, 'elements', 'us_per_step')[0]:.3f}")
+    return markdown(["scene", "elements", "points", "us a point", "spread", "U a point", "us two points", "error"],
+                    lines) + f"\n\nGrowth: exponents {', '.join(growths)}."
 
 
 # ---- Goals -----------------------------------------------------------------------------------------------------------
@@ -283,7 +301,8 @@ def print_goals(data):
 
 TABLES = {"elements": (elements, "CBR"), "others": (others, "CB"), "growth": (growth, "CBR"), "pipes": (pipes, "CR"),
           "joints": (joints, "J"), "loop": (loop, "D"), "features": (features, "F"),
-          "work": (work, "W"), "settled": (settled, "M")}
+          "work": (work, "W"), "settled": (settled, "M"),
+          "modes": (modes, "A"), "response": (response, "H")}
 
 
 def make(data, cards):

@@ -2,9 +2,9 @@
  *
  * The error is the root mean square over a few instants of what differs from a reference, over a scale:
  *   C   tip speed, against d'Alembert's solution, over its own root mean square
- *   H   place of the tip, over the length of the string; reference: 4 elements a pipe, two small steps extrapolated
+ *   T   place of the tip, over the length of the string; reference: 4 elements a pipe, two small steps extrapolated
  *   B   place of the tip up to 0.1 s, over the clearance; reference: 4 elements a pipe, a small step
- *   R   torque of the drive, over its own root mean square; reference as H, but on the same mesh
+ *   R   torque of the drive, over its own root mean square; reference as T, but on the same mesh
  * Beside each error stands that of the reference itself: what the last halving of its step and its mesh changed. */
 #define _POSIX_C_SOURCE 200809L
 
@@ -55,7 +55,7 @@ typedef struct plan {
 
 static const plan plans[WORK_SCENES] = {
     {SCENE_C, 100, 10, 0.08, 9, 3.125e-5, 1.25e-4, 0.0, 0, 1, 0.0, "rms_tip_speed_vs_exact"},
-    {SCENE_H, 20, 10, 0.08, 8, 3.125e-5, 6.25e-5, 1.5625e-5, 4, 1, 20.0, "rms_tip_place_vs_richardson"},
+    {SCENE_T, 20, 10, 0.08, 8, 3.125e-5, 6.25e-5, 1.5625e-5, 4, 1, 20.0, "rms_tip_place_vs_richardson"},
     {SCENE_B, 100, 5, 0.02, 8, 3.125e-5, 6.25e-5, 1.5625e-5, 4, 0, 0.0105, "rms_tip_place_vs_15.6us"},
     {SCENE_R, 100, 10, 0.04, 2, 1.25e-4, 1.25e-4, 3.125e-5, 1, 1, 0.0, "rms_torque_vs_richardson"}};
 
