@@ -17,9 +17,9 @@ DMB_DECLARE_STRUCT(dmb_modes_options)
 
 /* Up to so many coordinates, or where a third of all modes is asked for, the dense way is the faster one. */
 enum { DMB_DENSE_COORDINATES = 60, DMB_DENSE_SHARE = 3 };
+enum { DMB_SCALE_MODES = 12 };
 /* The inverse of a singular K that cannot be pinned is taken this many times the noise of its eigenvalues off 0. */
 #define DMB_SHIFT_NOISE 1e5
-#define DMB_GENERAL_SHIFT_NOISE 1e3
 /* A rigid-body mode: an eigenvalue of up to so much noise, and this part of the strain energy there could be. */
 #define DMB_RIGID_NOISE 1e3
 #define DMB_RIGID_STRAIN 1e-19
@@ -197,7 +197,7 @@ int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const doubl
     dmb_modes *modes = search->modes;
     const uint32_t k = modes->count - 1;
     const double *d = modes->re + (size_t)modes->rows * k, sharp = sharpened(search, square, d), s = sqrt(fabs(sharp));
-    modes->rigid[k] = (uint8_t)dmb_modes_is_rigid(search, s, 0.0, d, NULL);
+    modes->rigid[k] = !search->pinned && dmb_modes_is_rigid(search, s, 0.0, d, NULL);
     modes->s[2 * k] = !modes->rigid[k] && sharp < 0.0 ? s : 0.0;
     modes->s[2 * k + 1] = !modes->rigid[k] && sharp > 0.0 ? s : 0.0;
     return DMB_OK;
@@ -216,7 +216,7 @@ int32_t dmb_modes_add(dmb_mode_search *search, double re, double im, const doubl
     memcpy(to, x, rows * sizeof(double));
     if (y != NULL) memcpy(also, y, rows * sizeof(double));
     normalise(search, to, y != NULL ? also : NULL);
-    modes->rigid[k] = (uint8_t)dmb_modes_is_rigid(search, re, im, to, y != NULL ? also : NULL);
+    modes->rigid[k] = !search->pinned && dmb_modes_is_rigid(search, re, im, to, y != NULL ? also : NULL);
     modes->s[2 * k] = modes->rigid[k] ? 0.0 : re;
     modes->s[2 * k + 1] = modes->rigid[k] ? 0.0 : im;
     return DMB_OK;
@@ -292,35 +292,82 @@ static void measure(dmb_mode_search *search)
         search->options->kind == DMB_MODES_DAMPED || !(search->modes->info.asymmetry <= DMB_MODES_ASYMMETRY);
 }
 
-/* No shift where K is regular or can be pinned; else a real one off the eigenvalues of a stable system. */
-static int32_t choose_shift(dmb_mode_search *search)
-{
-    dmb_block_weakest weakest = {(double)INFINITY, 0, 0};
-    const int64_t bad = dmb_linear_factor(search->linear, 1.0, 0.0, 0.0, &weakest);
-    search->shift = 0.0;
-    search->pinned = 0;
-    if (bad < 0 && !(weakest.ratio < DMB_MODES_LOOSE)) return DMB_OK;
-    if (!search->general) {
-        const int32_t pinned = dmb_modes_pin(search);
-        search->pinned = pinned == 1;
-        if (pinned != 0) return pinned < 0 ? pinned : DMB_OK;
-    }
-    search->shift = search->general ? sqrt(DMB_GENERAL_SHIFT_NOISE * search->noise) : -DMB_SHIFT_NOISE * search->noise;
-    return DMB_OK;
-}
-
 static int is_dense(const dmb_mode_search *search, uint32_t wanted)
 {
     const uint32_t n = search->linear->coordinates;
     return search->options->select == DMB_MODES_ALL || n <= DMB_DENSE_COORDINATES || wanted > n / DMB_DENSE_SHARE;
 }
 
+/* Rigid-body motions, where K is singular by them alone and they are free of damping. */
+static int32_t set_rigid_apart(dmb_mode_search *search)
+{
+    if (!(search->modes->info.asymmetry <= DMB_MODES_ASYMMETRY)) return DMB_OK;
+    const int32_t found = dmb_modes_pin(search);
+    if (found <= 0) return found;
+    search->pinned = search->options->kind == DMB_MODES_UNDAMPED || dmb_modes_rigid_undamped(search);
+    if (!search->pinned) dmb_modes_forget_rigid(search);
+    return DMB_OK;
+}
+
+/* Some of the lowest modes with a shift that is small for sure, and so not sharp: the lowest |s|^2 that is not noise,
+ * or 0. */
+static int32_t find_scale(dmb_mode_search *search, double *square)
+{
+    const uint32_t n = search->linear->coordinates;
+    const double away = DMB_SHIFT_NOISE * search->noise;
+    search->shift = search->general ? sqrt(away) : -away;
+    *square = 0.0;
+    const int32_t status = dmb_modes_sparse(search, n < DMB_SCALE_MODES ? n : DMB_SCALE_MODES);
+    for (uint32_t i = 0; i < search->modes->count && status >= 0; i++) {
+        const double here = modulus(search->modes, i) * modulus(search->modes, i);
+        if (here > DMB_RIGID_NOISE * search->noise && (*square == 0.0 || here < *square)) *square = here;
+    }
+    search->modes->count = 0;
+    return status;
+}
+
+/* No shift where K is regular or pinned; else a real one off the eigenvalues of a stable system, as far as the lowest
+ * of them that is not 0. */
+static int32_t choose_shift(dmb_mode_search *search)
+{
+    dmb_block_weakest weakest = {(double)INFINITY, 0, 0};
+    const int64_t bad = dmb_linear_factor(search->linear, 1.0, 0.0, 0.0, &weakest);
+    int32_t status = set_rigid_apart(search);
+    double square;
+    if (status < 0 || search->pinned || (bad < 0 && !(weakest.ratio < DMB_MODES_LOOSE))) return status;
+    if (is_dense(search, search->options->count)) return DMB_OK;
+    status = find_scale(search, &square);
+    if (status >= 0 && square > 0.0) search->shift = search->general ? sqrt(square) : -square;
+    return status;
+}
+
+/* The eigenvalues 0 that rigid-body motions have among those found, twice where s is sought, give way to the motions
+ * themselves: roots next to a double one are far off. */
+static int32_t put_rigid(dmb_mode_search *search)
+{
+    dmb_modes *modes = search->modes;
+    uint32_t roots = modes->info.dense ? (search->general ? 2 : 1) * search->rigid_count : 0;
+    dmb_modes_sort(modes, modes->count);
+    uint32_t first = 0;
+    while (roots > 0 && first < modes->count) {
+        const uint32_t here = search->general && modes->s[2 * first + 1] > 0.0 ? 2 : 1;
+        roots -= here < roots ? here : roots;
+        first++;
+    }
+    for (uint32_t i = first; i < modes->count; i++) exchange(modes, i - first, i);
+    modes->count -= first;
+    int32_t status = DMB_OK;
+    for (uint32_t i = 0; i < search->rigid_count && status >= 0; i++) {
+        status = dmb_modes_add(search, 0.0, 0.0, search->rigid + (size_t)modes->rows * i, NULL);
+        if (status >= 0) modes->rigid[modes->count - 1] = 1;
+    }
+    return status;
+}
+
 static int32_t find_lowest(dmb_mode_search *search)
 {
     const uint32_t wanted = search->options->count;
-    if (is_dense(search, wanted)) return dmb_modes_dense(search);
-    const int32_t status = choose_shift(search);
-    return status < 0 ? status : dmb_modes_sparse(search, wanted);
+    return is_dense(search, wanted) ? dmb_modes_dense(search) : dmb_modes_sparse(search, wanted);
 }
 
 /* Whether the modes found reach beyond the band: what lies nearest the shift is complete. */
@@ -340,16 +387,14 @@ static int covers_band(const dmb_mode_search *search, double low, double high)
 static int32_t find_band(dmb_mode_search *search)
 {
     const double low = search->options->band[0], high = search->options->band[1];
-    const double middle = 0.5 * DMB_TWO_PI * DMB_TWO_PI * (low * low + high * high);
+    if (low > 0.0 && !search->general) {
+        search->shift = 0.5 * DMB_TWO_PI * DMB_TWO_PI * (low * low + high * high);
+        search->pinned = 0; /* the rigid-body motions stay apart */
+    }
     for (uint32_t wanted = 16;; wanted *= 2) {
         search->modes->count = 0;
         if (is_dense(search, wanted)) return dmb_modes_dense(search);
-        int32_t status = DMB_OK;
-        if (low > 0.0 && !search->general)
-            search->shift = middle;
-        else if (wanted == 16)
-            status = choose_shift(search);
-        if (status >= 0) status = dmb_modes_sparse(search, wanted);
+        const int32_t status = dmb_modes_sparse(search, wanted);
         if (status < 0 || covers_band(search, low, high)) return status;
     }
 }
@@ -440,10 +485,11 @@ static int32_t check_balance(const dmb_mode_search *search)
     const double allowed = search->options->equilibrium_tolerance;
     if (linear->unbalance <= allowed || (linear->balanced && allowed >= DMB_LINEAR_BALANCED)) return DMB_OK;
     const dmb_owner owner = dmb_owner_of_node(&linear->scene, linear->largest_node);
-    dmb_message_set(search->message,
-                    "modes: the state is no equilibrium: residual = %g of the forces, must be <= %g; up to %g N at %s %u, "
-                    "pipe %u",
-                    linear->unbalance, allowed, linear->largest_force, owner.kind, owner.index, owner.pipe);
+    dmb_message_set(
+        search->message,
+        "modes: the state is no equilibrium: residual = %g of the forces, must be <= %g; up to %g N at %s %u, "
+        "pipe %u",
+        linear->unbalance, allowed, linear->largest_force, owner.kind, owner.index, owner.pipe);
     return DMB_ERR_VALUE;
 }
 
@@ -462,9 +508,12 @@ static int32_t check_count(const dmb_mode_search *search)
 static int32_t find(dmb_mode_search *search)
 {
     const dmb_modes_options *options = search->options;
-    const int32_t status = options->select == DMB_MODES_LOWEST ? find_lowest(search)
-                           : options->select == DMB_MODES_ALL  ? dmb_modes_dense(search)
-                                                               : find_band(search);
+    int32_t status = choose_shift(search);
+    if (status >= 0)
+        status = options->select == DMB_MODES_LOWEST ? find_lowest(search)
+                 : options->select == DMB_MODES_ALL  ? dmb_modes_dense(search)
+                                                     : find_band(search);
+    if (status >= 0 && search->rigid_count > 0) status = put_rigid(search);
     if (status == DMB_ERR_NO_CONVERGENCE) dmb_message_set(search->message, "modes: the eigenvalues did not converge");
     return status;
 }

@@ -55,10 +55,12 @@ int32_t dmb_modes_dense(dmb_mode_search *search);
 /* `wanted` modes nearest the shift, by Krylov subspaces, rigid-body motions that are pinned apart. */
 int32_t dmb_modes_sparse(dmb_mode_search *search, uint32_t wanted);
 
-/* Factors a singular K with pins and finds its rigid-body motions: 1. 0 if it is not that simple: with joints, or where
- * something weak holds. DMB_ERR_NO_MEMORY. */
+/* Factors a singular, symmetric K with pins and finds its rigid-body motions: 1. 0 if it is not that simple: with joints,
+ * or where something weak holds. DMB_ERR_NO_MEMORY. */
 int32_t dmb_modes_pin(dmb_mode_search *search);
 void dmb_modes_forget_rigid(dmb_mode_search *search);
+/* Whether C leaves the rigid-body motions alone: C r = 0 and r^T C = 0. */
+int dmb_modes_rigid_undamped(const dmb_mode_search *search);
 /* x -= sum by_i (from_i . x) over the rigid-body motions. */
 void dmb_modes_take_rigid(const dmb_mode_search *search, const double *from, const double *by, double *x);
 

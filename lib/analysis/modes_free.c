@@ -9,6 +9,10 @@
 #include "base/allocator.h"
 
 enum { DMB_PINS_MAX = 24 };
+/* A pivot this small against its block may be rounding, or the softness of a long string. */
+#define DMB_WEAK 1e-11
+/* What C makes of a motion it leaves alone, over its terms. */
+#define DMB_UNDAMPED 1e-11
 
 typedef struct pin {
     size_t at; /* in the diagonal storage of K */
@@ -70,7 +74,7 @@ void dmb_modes_take_rigid(const dmb_mode_search *search, const double *from, con
     }
 }
 
-/* The motion of a pin, orthogonal to those before; 0 if it is none that leaves K at rest. */
+/* The motion of a pin, orthogonal to those before; 0 if it is not rigid. */
 static int take_motion(dmb_mode_search *search, const pin *p)
 {
     dmb_linear *linear = search->linear;
@@ -111,25 +115,66 @@ void dmb_modes_forget_rigid(dmb_mode_search *search)
     search->rigid_count = 0;
 }
 
+/* Pins wherever elimination meets a pivot that may be rounding. */
+static void place_pins(dmb_linear *linear, pins *all)
+{
+    dmb_block_weakest weakest = {(double)INFINITY, 0, 0};
+    for (all->count = 0; all->count < DMB_PINS_MAX;) {
+        const int64_t bad = factor_pinned(linear, all, &weakest);
+        if (bad < 0 && !(weakest.ratio < DMB_WEAK)) return;
+        add_pin(linear, &weakest, all);
+    }
+}
+
+/* Whether a force on each pin moves the bodies rigidly: what is only soft bends. */
+static int all_are_rigid(dmb_mode_search *search, const pins *all)
+{
+    search->rigid_count = 0;
+    if (factor_pinned(search->linear, all, NULL) >= 0) return 0;
+    for (uint32_t i = 0; i < all->count; i++)
+        if (!take_motion(search, all->list + i)) return 0;
+    return 1;
+}
+
 int32_t dmb_modes_pin(dmb_mode_search *search)
 {
-    dmb_linear *linear = search->linear;
-    dmb_block_weakest weakest = {(double)INFINITY, 0, 0};
     pins all;
-    all.count = 0;
-    if (linear->scene.cluster_count) return 0;
-    for (;;) {
-        const int64_t bad = factor_pinned(linear, &all, &weakest);
-        if (bad < 0 && !(weakest.ratio < DMB_MODES_LOOSE)) break;
-        if (all.count == DMB_PINS_MAX) return 0;
-        add_pin(linear, &weakest, &all);
-    }
+    if (search->linear->scene.cluster_count) return 0;
+    place_pins(search->linear, &all);
+    if (all.count == 0 || all.count == DMB_PINS_MAX) return 0;
     const int32_t status = reserve(search, all.count);
     if (status < 0) return status;
-    for (uint32_t i = 0; i < all.count; i++)
-        if (!take_motion(search, all.list + i)) {
-            dmb_modes_forget_rigid(search);
-            return 0;
-        }
+    for (; all.count > 0; all.count--) /* the last ones were the least weak */
+        if (all_are_rigid(search, &all)) return 1;
+    dmb_modes_forget_rigid(search);
+    return 0;
+}
+
+/* C r = 0 to rounding of its terms; r . C x vanishes for any x where C^T r does, which a few x tell. */
+int dmb_modes_rigid_undamped(const dmb_mode_search *search)
+{
+    const dmb_linear *linear = search->linear;
+    const dmb_block_layout *layout = &linear->scene.layout;
+    const size_t rows = linear->rows;
+    double *x = search->work, *y = x + rows;
+    uint64_t seed = 3;
+    for (uint32_t i = 0; i < search->rigid_count; i++) {
+        const double *r = search->rigid + rows * i;
+        double terms = 0.0, across = 0.0;
+        dmb_linear_multiply(linear, &linear->damping, r, y);
+        for (uint32_t n = 0; n < layout->n; n++)
+            for (uint32_t c = 0; c < layout->size[n]; c++) {
+                const uint32_t row = layout->row[n] + c;
+                const double d = linear->damping.diagonal[layout->diag[n] + (layout->size[n] + 1) * c];
+                terms += d * d * r[row] * r[row];
+                seed = seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+                x[row] = linear->scene.solved_row[row] ? ((seed >> 40 & 1) != 0 ? 1.0 : -1.0) : 0.0;
+                across += d * d * x[row] * x[row];
+            }
+        if (dot(rows, y, y) > DMB_UNDAMPED * DMB_UNDAMPED * terms) return 0;
+        dmb_linear_multiply(linear, &linear->damping, x, y);
+        const double left = dot(rows, r, y);
+        if (left * left > DMB_UNDAMPED * DMB_UNDAMPED * across * dot(rows, r, r)) return 0;
+    }
     return 1;
 }

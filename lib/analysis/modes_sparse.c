@@ -1,10 +1,11 @@
 /* Few modes: the inverse of K - shift M makes the wanted eigenvalues the largest of an operator.
  *
  *     symmetric:  A = (K - p M)^-1 M in the metric M,           s^2 = -(p + 1/value)
- *     pinned:     the same with K + pins on both sides of P = I - sum r_i r_i^T M, r_i the rigid-body motions
  *     general:    (x; w), w = s x, from s (x; M w) = (w; -K x - C w) with a real shift p:
  *                 A (a; b) = (x; w),  Q x = -(M b + (C + p M) a),  Q = K + p C + p^2 M,  w = a + p x,
- *                 s = p + 1/value, in the metric blkdiag(f^2 M, M), f making both parts of one size */
+ *                 s = p + 1/value, in the metric blkdiag(f^2 M, M), f making both parts of one size
+ *     pinned:     the same with p = 0, K + pins for K, and its inverse between P^T and P, P = I - sum r_i r_i^T M, r_i
+ * the rigid-body motions */
 #include <math.h>
 #include <string.h>
 
@@ -69,9 +70,8 @@ static void symmetric_apply(void *context, const double *x, const double *Mx, do
 static void symmetric_draw(void *context, uint64_t *seed, double *x)
 {
     const inverse *A = context;
-    draw_rows(A->linear, seed, A->work);
-    mass_times(A->linear, A->work, A->work + A->linear->rows);
-    symmetric_apply(context, NULL, A->work + A->linear->rows, x);
+    draw_motion(A->linear, seed, x, A->work);
+    dmb_modes_take_rigid(A->search, A->search->rigid_momentum, A->search->rigid, x);
 }
 
 /* X^T A X of vectors by rows, AX in `products`. */
@@ -133,15 +133,20 @@ static void general_apply(void *context, const double *x, const double *Gx, doub
     memset(y, 0, rows * sizeof(double));
     if (A->damping != NULL) dmb_linear_multiply(A->linear, A->damping, x, y);
     for (uint32_t i = 0; i < rows; i++) y[i] = -(Gx[rows + i] + y[i] + mass_factor * Gx[i]);
+    dmb_modes_take_rigid(A->search, A->search->rigid, A->search->rigid_momentum, y);
     dmb_linear_solve(A->linear, y);
+    dmb_modes_take_rigid(A->search, A->search->rigid_momentum, A->search->rigid, y);
     for (uint32_t i = 0; i < rows; i++) y[rows + i] = x[i] + A->shift * y[i];
 }
 
 static void general_draw(void *context, uint64_t *seed, double *x)
 {
     const inverse *A = context;
-    draw_motion(A->linear, seed, x, A->work);
-    draw_motion(A->linear, seed, x + A->linear->rows, A->work);
+    const uint32_t rows = A->linear->rows;
+    for (uint32_t part = 0; part < 2; part++) {
+        draw_motion(A->linear, seed, x + part * rows, A->work);
+        dmb_modes_take_rigid(A->search, A->search->rigid_momentum, A->search->rigid, x + part * rows);
+    }
 }
 
 static int32_t take_general(dmb_mode_search *search, const dmb_krylov *found)
@@ -168,6 +173,7 @@ static double low_frequency(dmb_mode_search *search)
     double *x = search->work, *y = x + rows, *z = y + rows, up = 0.0, down = 0.0;
     uint64_t seed = 7;
     draw_motion(linear, &seed, x, y);
+    dmb_modes_take_rigid(search, search->rigid_momentum, search->rigid, x);
     mass_times(linear, x, y);
     memcpy(z, y, rows * sizeof(double));
     dmb_linear_solve(linear, z);
@@ -197,20 +203,12 @@ static dmb_operator operator_of(const dmb_mode_search *search, inverse *A)
     memset(&operator, 0, sizeof operator);
     operator.context = A;
     operator.length =(general ? 2 : 1) * (size_t)search->linear->rows;
-    operator.dimension =(general ? 2 : 1) * (size_t)search->linear->coordinates - search->rigid_count;
+    operator.dimension =(general ? 2 : 1) * ((size_t)search->linear->coordinates - search->rigid_count);
     operator.symmetric = !general;
     operator.metric = general ? general_metric : symmetric_metric;
     operator.apply = general ? general_apply : symmetric_apply;
     operator.draw = general ? general_draw : symmetric_draw;
     return operator;
-}
-
-static int32_t add_rigid(dmb_mode_search *search)
-{
-    int32_t status = DMB_OK;
-    for (uint32_t i = 0; i < search->rigid_count && status >= 0; i++)
-        status = dmb_modes_add(search, 0.0, 0.0, search->rigid + (size_t)search->linear->rows * i, NULL);
-    return status;
 }
 
 int32_t dmb_modes_sparse(dmb_mode_search *search, uint32_t wanted)
@@ -219,7 +217,6 @@ int32_t dmb_modes_sparse(dmb_mode_search *search, uint32_t wanted)
     inverse A = {search, linear, NULL, search->shift, 1.0, search->work};
     dmb_krylov found;
     int32_t status = factor(search);
-    if (status >= 0) status = add_rigid(search);
     if (status < 0 || wanted <= search->rigid_count) return status;
     if (search->options->kind == DMB_MODES_DAMPED) A.damping = &linear->damping;
     if (search->general) A.scale = low_frequency(search);
