@@ -168,6 +168,68 @@ private:
     dmb_model *handle_;
 };
 
+// ---- Modes ----------------------------------------------------------------------------------------------------------
+// What sim::modes finds.
+class modes {
+public:
+    explicit modes(dmb_modes *handle = nullptr) noexcept : handle_(handle) {}
+    modes(modes &&other) noexcept : handle_(other.release()) {}
+    modes &operator=(modes &&other) noexcept
+    {
+        if (this != &other) reset(other.release());
+        return *this;
+    }
+    modes(const modes &) = delete;
+    modes &operator=(const modes &) = delete;
+    ~modes() { dmb_modes_destroy(&handle_); }
+
+    dmb_modes *get() const noexcept { return handle_; }
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+    // The handle, now the caller's to destroy.
+    dmb_modes *release() noexcept
+    {
+        dmb_modes *given = handle_;
+        handle_ = nullptr;
+        return given;
+    }
+    // Takes over a handle, or nothing.
+    void reset(dmb_modes *handle = nullptr) noexcept
+    {
+        dmb_modes_destroy(&handle_);
+        handle_ = handle;
+    }
+
+#if defined(DRILLMBD_EXCEPTIONS)
+    dmb_modes_info info() const
+    {
+        dmb_modes_info answer = dmb_modes_info_default();
+        check(dmb_modes_get_info(handle_, &answer));
+        return answer;
+    }
+    std::uint32_t size() const { return info().count; }
+    dmb_mode operator[](std::uint32_t index) const
+    {
+        dmb_mode answer = dmb_mode_default();
+        check(dmb_modes_get(handle_, index, &answer));
+        return answer;
+    }
+    dmb_mode_shape shape(std::uint32_t index, const dmb_place &place, std::int32_t frame = DMB_FRAME_WORLD) const
+    {
+        dmb_mode_shape answer = dmb_mode_shape_default();
+        answer.frame = frame;
+        check(dmb_modes_shape(handle_, index, place, &answer));
+        return answer;
+    }
+    void write_vtk(std::uint32_t index, double scale, double phase, std::uint32_t per_element, const char *path) const
+    {
+        check(dmb_write_vtk_mode(handle_, index, scale, phase, per_element, path));
+    }
+#endif
+
+private:
+    dmb_modes *handle_;
+};
+
 // ---- Sim ------------------------------------------------------------------------------------------------------------
 class sim {
 public:
@@ -268,6 +330,13 @@ public:
         dmb_static_report report = dmb_static_report_default();
         done(try_static_start(options, &report));
         return report;
+    }
+
+    drillmbd::modes modes(const dmb_modes_options *options = nullptr)
+    {
+        dmb_modes *found = nullptr;
+        done(dmb_analysis_modes(handle_, options, &found));
+        return drillmbd::modes(found);
     }
 
     std::vector<unsigned char> snapshot() const

@@ -255,6 +255,29 @@ void sim_in_the_callers_block()
     EXPECT(at >= block.data() && at < block.data() + block.size());
 }
 
+// ---- Modes ----------------------------------------------------------------------------------------------------------
+void modes_of_a_string()
+{
+    drillmbd::model model;
+    dmb_environment_def none = dmb_environment_def_default();
+    none.gravity[2] = 0.0;
+    model.set_environment(none);
+    const dmb_id string = model.add_pipes(dmb_pipe_def_default(), 4);
+    model.compile();
+    drillmbd::sim sim(model);
+    drillmbd::modes modes = sim.modes();
+    EXPECT(modes.size() == 10 && modes.info().rigid == 2);
+    EXPECT(modes[0].rigid == 1 && modes[2].frequency > 1.0 && modes[3].frequency >= modes[2].frequency);
+    const dmb_mode_shape tip = modes.shape(2, dmb_station(string, 3, 1.0));
+    EXPECT(std::abs(tip.re[1]) + std::abs(tip.re[2]) > 0.1 && tip.im[1] == 0.0);
+    drillmbd::modes taken(std::move(modes));
+    EXPECT(!modes && taken);
+    dmb_modes_options options = dmb_modes_options_default();
+    options.count = 1000;
+    EXPECT(thrown_by([&] { sim.modes(&options); }) == DMB_ERR_VALUE);
+    EXPECT(thrown_by([&] { taken[10]; }) == DMB_ERR_VALUE);
+}
+
 // ---- Failures -------------------------------------------------------------------------------------------------------
 void failures_throw()
 {
@@ -325,6 +348,7 @@ int main()
         joints();
         nothing_is_left_behind();
         sim_in_the_callers_block();
+        modes_of_a_string();
         failures_throw();
         failures_return();
         owners_are_moved_only();

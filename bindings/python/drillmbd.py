@@ -42,6 +42,7 @@ OK, NOTE_STEP_CUT, NOTE_WORK_LIMITED, NOTE_PROJECTED, NOTE_STOPPED, NOTE_FULL, N
 LOG_ERROR, LOG_WARNING, LOG_INFO = range(3)
 STATIC_NEWTON, STATIC_RELAXATION = range(2)
 SCALE_ALL, SCALE_LOADS, SCALE_PART = range(3)
+PATH_REGULAR, PATH_LIMIT, PATH_BIFURCATION, PATH_BRANCH = range(4)
 X, Y, Z, RX, RY, RZ = range(6)
 FREE_NONE, FREE_X, FREE_RX, FREE_RZ = 0, 1, 8, 32
 FREE_CYLINDRICAL, FREE_SPHERICAL, FREE_ALL = 9, 56, 63
@@ -73,6 +74,8 @@ FEATURE_VIBRATION, FEATURE_ALL = 24, 127
 OUTPUT_DISPLACEMENT, OUTPUT_VELOCITY, OUTPUT_ACCELERATION, OUTPUT_SECTION_FORCE = range(4)
 CONTACT_AS_IS, CONTACT_OPEN, CONTACT_CLOSED = range(3)
 COMBINED = 0xFFFFFFFF
+MODES_UNDAMPED, MODES_DAMPED = range(2)
+MODES_LOWEST, MODES_ALL, MODES_BAND = range(3)
 
 
 # ---- The library -----------------------------------------------------------------------------------------------------
@@ -376,6 +379,32 @@ class BucklingOptions(_Sized):
                 ("slip_axial", c_double), ("slip_rotation", c_double)]
 
 
+@_mirrors("dmb_path_point")
+class PathPoint(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("number", c_uint32), ("kind", c_int32), ("negative", c_int32),
+                ("iterations", c_uint32), ("reserved", c_uint32), ("factor", c_double), ("rate", c_double),
+                ("arc", c_double), ("displacement", c_double)]
+
+
+_PATH_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(PathPoint))
+
+
+@_mirrors("dmb_path_options")
+class PathOptions(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("max_points", c_uint32), ("max_iterations", c_uint32), ("scale", c_int32),
+                ("part", Id), ("place", Place), ("component", c_int32), ("branch", c_int32), ("factor_end", c_double),
+                ("displacement_end", c_double), ("first_step", c_double), ("step_max", c_double),
+                ("branch_size", c_double), ("tolerance", c_double), ("slip_axial", c_double),
+                ("slip_rotation", c_double), ("callback", _PATH_FN), ("callback_context", c_void_p)]
+
+
+@_mirrors("dmb_path_report")
+class PathReport(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("points", c_uint32), ("limits", c_uint32), ("bifurcations", c_uint32),
+                ("iterations", c_uint32), ("cuts", c_uint32), ("factor", c_double), ("displacement", c_double),
+                ("first_limit", c_double), ("first_bifurcation", c_double)]
+
+
 @_mirrors("dmb_check_report")
 class CheckReport(_Sized):
     _fields_ = [("struct_size", c_uint32), ("rigid_parts", c_uint32), ("flexible_parts", c_uint32),
@@ -507,6 +536,32 @@ class SineReport(_Sized):
                 ("steps", c_uint64), ("change", c_double), ("remaining", c_double), ("time", c_double)]
 
 
+@_mirrors("dmb_modes_options")
+class ModesOptions(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("select", c_int32), ("count", c_uint32),
+                ("band", c_double * 2), ("contact", c_int32), ("friction", c_int32), ("contact_gap", c_double),
+                ("equilibrium_tolerance", c_double)]
+
+
+@_mirrors("dmb_modes_info")
+class ModesInfo(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("count", c_uint32), ("rigid", c_uint32), ("coordinates", c_uint32),
+                ("dense", c_int32), ("solves", c_uint32), ("unbalance", c_double), ("asymmetry", c_double),
+                ("residual", c_double)]
+
+
+@_mirrors("dmb_mode")
+class Mode(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("rigid", c_int32), ("frequency", c_double), ("damping", c_double),
+                ("eigenvalue", c_double * 2), ("kinetic", c_double), ("strain", c_double), ("share", c_double * 3),
+                ("participation", c_double * 3), ("effective_mass", c_double * 3)]
+
+
+@_mirrors("dmb_mode_shape")
+class ModeShape(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("frame", c_int32), ("re", c_double * 6), ("im", c_double * 6)]
+
+
 # ---- Functions -------------------------------------------------------------------------------------------------------
 def _declare_all():
     model, sim = c_void_p, c_void_p
@@ -550,6 +605,7 @@ def _declare_all():
     _declare("dmb_sim_hash", status, sim, POINTER(c_uint64))
     _declare("dmb_analysis_static", status, sim, POINTER(StaticOptions), POINTER(StaticReport))
     _declare("dmb_analysis_buckling", status, sim, POINTER(BucklingOptions), POINTER(buckling))
+    _declare("dmb_analysis_path", status, sim, POINTER(PathOptions), POINTER(PathReport))
     _declare("dmb_buckling_destroy", None, POINTER(buckling))
     _declare("dmb_buckling_count", count, buckling)
     _declare("dmb_buckling_factor", status, buckling, count, POINTER(number))
@@ -566,6 +622,14 @@ def _declare_all():
     _declare("dmb_response_frequencies", status, response, POINTER(number))
     _declare("dmb_response_transfer", status, response, count, count, POINTER(number))
     _declare("dmb_response_write_csv", status, response, text)
+    modes = c_void_p
+    _declare("dmb_analysis_modes", status, sim, POINTER(ModesOptions), POINTER(modes))
+    _declare("dmb_modes_destroy", None, POINTER(modes))
+    _declare("dmb_modes_get_info", status, modes, POINTER(ModesInfo))
+    _declare("dmb_modes_get", status, modes, count, POINTER(Mode))
+    _declare("dmb_modes_shape", status, modes, count, Place, POINTER(ModeShape))
+    _declare("dmb_modes_part", status, modes, count, Id, count, POINTER(number), POINTER(number))
+    _declare("dmb_write_vtk_mode", status, modes, count, number, number, count, text)
     ask("pose", Place, POINTER(Pose))
     ask("motion", Place, POINTER(Motion))
     ask("rotation", Place, POINTER(number))
@@ -907,6 +971,28 @@ class Sim:
         """Critical factors and shapes about the present static state."""
         return Buckling(self, _struct(BucklingOptions, options, fields))
 
+    def path(self, visit=None, options=None, **fields):
+        """Follows the path of equilibrium from here; returns the report. visit(at, point) is called at each point with a
+        sim that stands there and may be asked until it returns; what is true stops the path."""
+        options, report, raised = _struct(PathOptions, options, fields), PathReport(), []
+
+        def call(_context, handle, point):
+            at = _SimAt(self, handle)
+            try:
+                return 1 if visit(at, PathPoint.from_buffer_copy(point.contents)) else 0
+            except BaseException as error:  # must not unwind through C
+                raised.append(error)
+                return 1
+            finally:
+                at.close()
+
+        if visit is not None:
+            options.callback = _PATH_FN(call)
+        report.status = self._check(_lib.dmb_analysis_path(self._handle, byref(options), byref(report)))
+        if raised:
+            raise raised[0]
+        return report
+
     def check(self):
         """Parts, joints, degrees of freedom, redundant equations and the number of warnings: the model check."""
         report = CheckReport()
@@ -945,6 +1031,12 @@ class Sim:
         numbers = [complex(values[2 * i], values[2 * i + 1]) for i in range(width * len(outputs))]
         return [[numbers[i * width].real] + numbers[i * width + 1:(i + 1) * width]
                 for i in range(len(outputs))], report
+
+    def modes(self, options=None, **fields):
+        """Natural frequencies and modes about the present state, as the ModesOptions say: a Modes, a sequence of Mode."""
+        options, handle = _struct(ModesOptions, options, fields), c_void_p()
+        self._check(_lib.dmb_analysis_modes(self._handle, byref(options), byref(handle)))
+        return Modes(handle, self._scene)
 
     def set_drive(self, drive, value):
         """The drive's programme is the constant value from now on; None: its programme again."""
@@ -1078,6 +1170,16 @@ class Response:
         _check(_lib.dmb_response_write_csv(self._handle, _path(path)))
 
 
+class _SimAt(Sim):
+    """A sim that the library lends to a callback."""
+
+    def __init__(self, of, handle):
+        self._handle, self._keep, self._scene = c_void_p(handle), of._keep, of._scene
+
+    def close(self):
+        self._handle = None
+
+
 # ---- Buckling --------------------------------------------------------------------------------------------------------
 class Buckling:
     """Critical factors, rising, and their shapes. status is NOTE_STOPPED where fewer were found than asked for."""
@@ -1110,6 +1212,46 @@ class Buckling:
     def __del__(self):
         if getattr(self, "_handle", None) and _lib is not None:
             self.close()
+
+
+# ---- Modes -----------------------------------------------------------------------------------------------------------
+class Modes:
+    """Modes that Sim.modes has found, by rising frequency: modes[0].frequency, len(modes)."""
+
+    def __init__(self, handle, scene):
+        self._handle, self._scene = handle, scene
+        self.info = ModesInfo()
+        _check(_lib.dmb_modes_get_info(handle, byref(self.info)))
+
+    def __del__(self):
+        if _lib is not None:
+            _lib.dmb_modes_destroy(byref(self._handle))
+
+    def __len__(self):
+        return self.info.count
+
+    def __getitem__(self, index):
+        if not 0 <= index < len(self):
+            raise IndexError(index)
+        mode = Mode()
+        _check(_lib.dmb_modes_get(self._handle, index, byref(mode)))
+        return mode
+
+    def shape(self, index, place, frame=FRAME_WORLD):
+        """Displacement and rotation at a place, real and imaginary part: re, im"""
+        shape = ModeShape(frame=frame)
+        _check(_lib.dmb_modes_shape(self._handle, index, place, byref(shape)))
+        return shape
+
+    def part(self, index, part, pipe=0xFFFFFFFF):
+        """[J] kinetic and strain energy of a mode in a pipe of a string, in a whole string, or (pipe 0) in a body"""
+        kinetic, strain = c_double(), c_double()
+        _check(_lib.dmb_modes_part(self._handle, index, _as_id(part), pipe, byref(kinetic), byref(strain)))
+        return kinetic.value, strain.value
+
+    def write_vtk(self, index, path, scale=1.0, phase=0.0, per_element=8):
+        """A frame of the mode's animation."""
+        _check(_lib.dmb_write_vtk_mode(self._handle, index, scale, phase, per_element, _path(path)))
 
 
 # ---- Recorder --------------------------------------------------------------------------------------------------------

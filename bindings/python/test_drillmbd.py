@@ -51,11 +51,12 @@ def ctypes_of(declaration):
     """The types that may stand for an argument 'const dmb_pose *pose' in ctypes."""
     plain = {"int32_t": ctypes.c_int32, "uint32_t": ctypes.c_uint32, "double": ctypes.c_double,
              "size_t": ctypes.c_size_t, "uint64_t": ctypes.c_uint64, "void": ctypes.c_void_p, "char": ctypes.c_char_p,
-             "dmb_model": ctypes.c_void_p, "dmb_sim": ctypes.c_void_p, "dmb_buckling": ctypes.c_void_p, "dmb_response": ctypes.c_void_p,
+             "dmb_model": ctypes.c_void_p, "dmb_sim": ctypes.c_void_p, "dmb_buckling": ctypes.c_void_p,
+             "dmb_response": ctypes.c_void_p, "dmb_modes": ctypes.c_void_p,
              **mbd.STRUCTS}
     kind, stars, array = re.match(r"(?:const )?(\w+) (\**)\w+(\[\d+\])?$", declaration).groups()
     depth = len(stars) + bool(array)
-    opaque = kind in ("dmb_model", "dmb_sim", "dmb_buckling", "dmb_response", "char", "void")
+    opaque = kind in ("dmb_model", "dmb_sim", "dmb_buckling", "dmb_response", "dmb_modes", "char", "void")
     base = plain[kind]
     for _ in range(depth - 1 if opaque else depth):
         base = ctypes.POINTER(base)
@@ -357,6 +358,46 @@ class ResponseTest(unittest.TestCase):
         self.assertIn("body 0", caught.exception.message)
 
 
+class ModesTest(unittest.TestCase):
+    def setUp(self):
+        model = mbd.Model()
+        model.set_environment(gravity=(0.0, 0.0, 0.0))
+        self.string = model.add_pipes(4)
+        model.compile()
+        self.sim = model.sim()
+
+    def test_frequencies_and_shapes(self):
+        before = self.sim.hash()
+        modes = self.sim.modes(count=8)
+        self.assertEqual(self.sim.hash(), before)
+        self.assertEqual((len(modes), modes.info.rigid, modes[0].rigid), (8, 2, 1))
+        frequencies = [mode.frequency for mode in modes]
+        self.assertEqual(frequencies, sorted(frequencies))
+        self.assertAlmostEqual(sum(modes[2].share[:]), 1.0)
+        tip = modes.shape(2, mbd.station(self.string, 3, 1.0))
+        self.assertGreater(math.hypot(tip.re[1], tip.re[2]), 0.1)
+        kinetic, strain = modes.part(2, self.string)
+        self.assertAlmostEqual(kinetic / modes[2].kinetic, 1.0)
+        self.assertAlmostEqual(strain / modes[2].strain, 1.0)
+
+    def test_band(self):
+        modes = self.sim.modes(select=mbd.MODES_BAND, band=(1.0, 100.0), kind=mbd.MODES_DAMPED)
+        self.assertTrue(all(1.0 <= mode.frequency <= 100.0 for mode in modes))
+
+    def test_animation(self):
+        modes = self.sim.modes(count=3)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "mode.vtp")
+            modes.write_vtk(2, path, scale=0.1, per_element=2)
+            self.assertIn('Name="rotation"', path.read_text(encoding="utf-8"))
+
+    def test_refusal_says_why(self):
+        with self.assertRaises(mbd.Error) as caught:
+            self.sim.modes(count=1000)
+        self.assertEqual(caught.exception.name, "DMB_ERR_VALUE")
+        self.assertIn("coordinates", caught.exception.message)
+
+
 class WholeModelTest(unittest.TestCase):
     """What the rig above does not use."""
 
@@ -414,6 +455,38 @@ class WholeModelTest(unittest.TestCase):
                     tip, middle = (found.shape(0, mbd.station(string, *at)) for at in ((9, 1.0), (4, 1.0)))
                     length = math.hypot(*tip[1:3])
                     self.assertAlmostEqual(math.hypot(*middle[1:3]) / length, 1.0 - math.cos(math.pi / 4.0), 4)
+
+    def test_path_of_a_clamped_column(self):
+        with mbd.Model() as model:
+            model.set_environment(gravity=(0.0, 0.0, 0.0))
+            string = model.add_string(follows_hole=0, start_free=mbd.FREE_NONE)
+            model.add_pipes(10, string=string, section_stiffness=(1e12, 1e12, 1e12, 1e5, 1e5, 1e5))
+            tip = mbd.station(string, 9, 1.0)
+            push = model.add_load(place=tip, force=(-1.0, 0.0, 0.0), programme=model.add_programme(0.0))
+            model.compile()
+            with model.sim() as sim:
+                sim.static()
+                euler, before, tips = math.pi ** 2 * 1e5 / 400.0, sim.hash(), []
+
+                def visit(at, point):
+                    tips.append((point.kind, at.pose(tip).displacement[0], point.displacement))
+                    return point.displacement < -0.5
+
+                settings = dict(scale=mbd.SCALE_PART, part=push, place=tip, factor_end=4.0 * euler, branch=1,
+                                branch_size=0.05)
+                report = sim.path(visit, **settings)
+                self.assertEqual(report.status, mbd.NOTE_STOPPED)
+                self.assertEqual(sim.hash(), before)
+                self.assertAlmostEqual(report.first_bifurcation / euler, 1.0, 4)
+                self.assertIn(mbd.PATH_BRANCH, [kind for kind, _, _ in tips])
+                for _, asked, told in tips:
+                    self.assertEqual(asked, told)
+
+                def raises(at, point):
+                    raise KeyError(point.number)
+
+                with self.assertRaises(KeyError):
+                    sim.path(raises, **settings)
 
     def test_projected_start_is_a_note(self):
         with mbd.Model() as model:

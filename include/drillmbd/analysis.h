@@ -92,6 +92,73 @@ DMB_API int32_t dmb_buckling_factor(const dmb_buckling *buckling, uint32_t mode,
  * being 1 m in its own axes; shape (6). Errors as above and those of dmb_query_motion. */
 DMB_API int32_t dmb_buckling_shape(const dmb_buckling *buckling, uint32_t mode, dmb_place place, double shape[6]);
 
+/* ---- Paths of equilibrium ----------------------------------------------------------------------------------------
+ * Follows the equilibrium that a growing factor (DMB_SCALE_...) leads along, past limit points and onto branches. */
+enum {
+    DMB_PATH_REGULAR = 0,
+    DMB_PATH_LIMIT = 1,       /* the factor is at a maximum or minimum of the path */
+    DMB_PATH_BIFURCATION = 2, /* another path crosses: the stiffness is singular and the factor goes on */
+    DMB_PATH_BRANCH = 3       /* first point of the path that crossed */
+};
+typedef struct dmb_path_point {
+    uint32_t struct_size;
+    uint32_t number;      /* [-] 0: the state the path begins in */
+    int32_t kind;         /* DMB_PATH_... */
+    int32_t negative;     /* [-] negative eigenvalues of the stiffness, 0: stable; -1: not counted, with joints */
+    uint32_t iterations;  /* [-] of this point */
+    uint32_t reserved;
+    double factor;        /* [unit of the factor] */
+    double rate;          /* [unit of the factor/m] of the factor along the path, < 0 where it falls */
+    double arc;           /* [m] length of the path so far, root of the mean square of what the nodes move */
+    double displacement;  /* [m] of the watched place and component since time 0; 0: none is watched */
+} dmb_path_point;
+DMB_SIZED_STRUCT(dmb_path_point)
+/* Called at each point with a sim that stands there at rest: every query answers, snapshots may be taken and restored
+ * into the sim the path began with. Returns 0, or nonzero to stop. */
+typedef int32_t (*dmb_path_fn)(void *context, const dmb_sim *at, const dmb_path_point *point);
+typedef struct dmb_path_options {
+    uint32_t struct_size;
+    uint32_t max_points;      /* [-] 1 .. 1000000; default 200 */
+    uint32_t max_iterations;  /* [-] of one point, 2 .. 1000; default 15 */
+    int32_t scale;            /* DMB_SCALE_..., default DMB_SCALE_LOADS */
+    dmb_id part;              /* load or drive of DMB_SCALE_PART */
+    dmb_place place;          /* what is watched; part {0, 0} (default): nothing */
+    int32_t component;        /* of its displacement in the world, DMB_X (default) .. DMB_Z */
+    int32_t branch;           /* 1 or -1: leaves the path at the first bifurcation, to that side; 0 (default): stays */
+    double factor_end;        /* [unit of the factor] ends there; the path begins towards it; not 0; default 1 */
+    double displacement_end;  /* [m] ends there; default 1e30: nowhere */
+    double first_step;        /* [unit of the factor] > 0; 0 (default): a tenth of factor_end */
+    double step_max;          /* [m] longest arc from point to point, > 0; default 1e30 */
+    double branch_size;       /* [m] arc of the first step on a branch; 0 (default): that of the step before */
+    double tolerance;         /* [-] of the residual, as in dmb_static_options; default 1e-10 */
+    double slip_axial;        /* [m/s] friction as in dmb_static_options */
+    double slip_rotation;     /* [rad/s] */
+    dmb_path_fn callback;     /* may be NULL */
+    void *callback_context;
+} dmb_path_options;
+DMB_SIZED_STRUCT(dmb_path_options)
+typedef struct dmb_path_report {
+    uint32_t struct_size;
+    uint32_t points;          /* [-] beyond the start, limit points and bifurcations included */
+    uint32_t limits;          /* [-] limit points passed */
+    uint32_t bifurcations;    /* [-] passed or left at */
+    uint32_t iterations;      /* [-] in all */
+    uint32_t cuts;            /* [-] steps that were halved */
+    double factor;            /* [unit of the factor] at the end */
+    double displacement;      /* [m] at the end */
+    double first_limit;       /* [unit of the factor] at the first limit point; NaN: none */
+    double first_bifurcation; /* [unit of the factor] at the first bifurcation; NaN: none */
+} dmb_path_report;
+DMB_SIZED_STRUCT(dmb_path_report)
+/* Follows the path from the present static state on by arc length: a step along the tangent, then Newton in the plane
+ * across it (Riks 1979) with the factor bordering the stiffness (Crisfield 1981), the step as long as Newton likes it.
+ * Limit points, bifurcations and the ends are located to 1e-8 of the step by regula falsi. The sim is not changed.
+ * options and report may be NULL. DMB_NOTE_STOPPED after max_points or by the callback. Errors: DMB_ERR_VALUE, _ID,
+ * _ORDER (the state is no equilibrium), _SINGULAR (message says which part is free, or that the factor moves nothing),
+ * _NO_CONVERGENCE (message says where the path was lost), _UNSUPPORTED, _NO_MEMORY, _CALLBACK. O(number of elements) an
+ * iteration; memory: the sim's once more. */
+DMB_API int32_t dmb_analysis_path(dmb_sim *sim, const dmb_path_options *options, dmb_path_report *report);
+
 /* ---- Model check -------------------------------------------------------------------------------------------------
  * What a scene consists of, how many degrees of freedom it has, and what looks wrong with it. */
 typedef struct dmb_check_report {
@@ -140,6 +207,14 @@ DMB_API int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report)
  * *needed (may be NULL) is what the whole text takes, its 0 included. text may be NULL where size is 0. DMB_NOTE_FULL
  * if the text is cut. Errors as dmb_analysis_check, with text and *needed left alone. */
 DMB_API int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t size, size_t *needed);
+
+/* ---- Linear analyses ---------------------------------------------------------------------------------------------
+ * What the wall is to small motion about a state (modes.h, response.h). */
+enum {
+    DMB_CONTACT_AS_IS = 0, /* rings that touch the wall press on it, others do not */
+    DMB_CONTACT_OPEN = 1,  /* there is no wall */
+    DMB_CONTACT_CLOSED = 2 /* rings up to `contact_gap` from the wall are held across it too */
+};
 
 #ifdef __cplusplus
 }

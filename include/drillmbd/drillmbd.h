@@ -7,6 +7,7 @@
 #include "sim.h"
 #include "query.h"
 #include "analysis.h"
+#include "modes.h"
 #include "response.h"
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef DRILLMBD_RESPONSE_H
 #define DRILLMBD_RESPONSE_H
 
-#include "query.h"
+#include "analysis.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -11,8 +11,8 @@ extern "C" {
 /* ---- What shakes -------------------------------------------------------------------------------------------------
  * A quantity q is the real part of (re + i im) e^(i w t), w = 2 pi frequency. */
 enum {
-    DMB_INPUT_DRIVE = 0,     /* programme of the drive place.part [its unit]: speed of MOTION (on strings and bodies),
-                                force of LOAD, target speed of CONTROL (likewise) */
+    DMB_INPUT_DRIVE = 0,     /* programme of the drive place.part [its unit]: speed of MOTION, force of LOAD, target speed
+                                of CONTROL */
     DMB_INPUT_LOAD = 1,      /* [-] factor of the load place.part */
     DMB_INPUT_BIT_LOAD = 2,  /* [N] bottom-hole load of the bit place.part */
     DMB_INPUT_FORCE = 3,     /* [N, N m] `component` of a force or moment at `place`, in `frame` */
@@ -51,11 +51,6 @@ typedef struct dmb_output {
 DMB_SIZED_STRUCT(dmb_output)
 
 /* ---- Frequency response ------------------------------------------------------------------------------------------ */
-enum {
-    DMB_CONTACT_AS_IS = 0, /* rings that touch the wall press on it, others do not */
-    DMB_CONTACT_OPEN = 1,  /* there is no wall */
-    DMB_CONTACT_CLOSED = 2 /* rings up to `contact_gap` from the wall are held across it too */
-};
 typedef struct dmb_response_options {
     uint32_t struct_size;
     uint32_t points;              /* [-] of the grid, 2 .. 1e6; 1 where both ends are one frequency; default 1000 */

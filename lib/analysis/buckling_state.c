@@ -4,35 +4,11 @@
 #include <string.h>
 
 #include "analysis/buckling.h"
-#include "system/owner.h"
+#include "analysis/stiffness.h"
 #include "system/solve.h"
 
-/* Residual of a state, relative to the forces that balance in it, up to which it counts as equilibrium. */
-#define DMB_STATE_BALANCED 1e-6
 /* The pattern moves the state by this part of an element for the difference. */
 #define DMB_DIFFERENCE_MOVE 1e-6
-
-static int32_t out_of_balance(dmb_sim *sim, dmb_evaluation *evaluation)
-{
-    const dmb_residual_norm norm = dmb_residual_norm_of(evaluation, DMB_STATE_BALANCED);
-    if (norm.converged) return DMB_OK;
-    dmb_message_set(&sim->message,
-                    "buckling: the state is no equilibrium, relative residual = %g, must be <= %g; call "
-                    "dmb_analysis_static first",
-                    norm.relative, DMB_STATE_BALANCED);
-    return DMB_ERR_ORDER;
-}
-
-static int32_t singular(dmb_sim *sim, uint32_t node)
-{
-    const dmb_owner owner = dmb_owner_of_node(sim->scene, node);
-    dmb_message_set(&sim->message, "buckling: %s %u, pipe %u: nothing holds it, the stiffness is singular", owner.kind,
-                    owner.index, owner.pipe);
-    return DMB_ERR_SINGULAR;
-}
-
-/* What a pivot of rounding size shows, as in statics. */
-#define DMB_LOOSE_PIVOT 1e-15
 
 /* x' by the factors of K; a motion drive moves its own row by 1. */
 static int32_t respond(dmb_buckling *buckling, dmb_sim *sim)
@@ -40,7 +16,8 @@ static int32_t respond(dmb_buckling *buckling, dmb_sim *sim)
     dmb_sim *work = buckling->work;
     dmb_block_weakest weakest;
     const int64_t bad = dmb_factor_stiffness(work, &weakest);
-    if (bad >= 0 || weakest.ratio < DMB_LOOSE_PIVOT) return singular(sim, bad >= 0 ? (uint32_t)bad : weakest.block);
+    if (bad >= 0 || weakest.ratio < DMB_LOOSE_PIVOT)
+        return dmb_stiffness_explain(sim, "buckling", bad >= 0 ? (uint32_t)bad : weakest.block);
     memcpy(work->correction, buckling->response, work->scene->row_count * sizeof(double));
     dmb_solve_correction(work);
     memcpy(buckling->response, work->correction, work->scene->row_count * sizeof(double));
@@ -114,7 +91,7 @@ static int32_t differences(dmb_buckling *buckling, dmb_static_search *search, do
 static int32_t stiffness_now(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *search)
 {
     int32_t status = stiffness_at(buckling, search, 0.0);
-    if (status >= 0) status = out_of_balance(sim, &search->evaluation);
+    if (status >= 0) status = dmb_stiffness_balanced(sim, "buckling", &search->evaluation);
     if (status >= 0)
         status = dmb_load_pattern_derivative(&buckling->pattern, &search->evaluation, 0.0, buckling->response);
     if (status < 0) return status;

@@ -274,10 +274,10 @@ static void give_prescribed(const dmb_dynamic_stiffness *s, dmb_complex_array x)
     }
 }
 
-void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *s, dmb_complex_array x)
+void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *s, int32_t joint_moves, dmb_complex_array x)
 {
     take_prescribed(s, x);
-    if (s->condensation.rows > 0) dmb_condensation_take(s, x);
+    if (s->condensation.rows > 0) dmb_condensation_take(s, joint_moves, x);
     for (uint32_t c = 0; c < s->linear->scene.chain_count; c++) dmb_dynamic_chain_solve(s, c, x);
     if (s->condensation.rows > 0) dmb_condensation_give(s, x);
     give_prescribed(s, x);

@@ -27,6 +27,7 @@ typedef struct dmb_condensation {
     dmb_complex_array schur;    /* shape (rows, rows) */
     dmb_complex_array half;     /* schur R, shape (rows, reduced) */
     dmb_complex_array force;    /* shape (rows) */
+    dmb_complex_array moved;    /* displacements that drives of joints ask for, shape (rows) */
     double *dense;              /* [Re -Im; Im Re] of R^T schur R, then its factors, shape (2 reduced, 2 reduced) */
     double *solution;           /* shape (2 reduced) */
     uint32_t *pivot;            /* shape (2 reduced) */
@@ -51,8 +52,9 @@ void dmb_dynamic_stiffness_release(dmb_dynamic_stiffness *stiffness);
 /* Factors at w. A node that nothing holds there, or -1. */
 int64_t dmb_dynamic_stiffness_factor(dmb_dynamic_stiffness *stiffness, double omega);
 /* x, shape (rows): forces in rows that are solved, prescribed displacements in rows that are held; displacements of all
- * rows on return. */
-void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
+ * rows on return. joint_moves 1: displacements too in the rows of nodes that joints act on, such that the equations of
+ * the joints' drives hold; to them comes what R allows. */
+void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *stiffness, int32_t joint_moves, dmb_complex_array x);
 
 /* y -= A_.j x: column of component c of a node, its chain alone. */
 void dmb_dynamic_subtract_column(const dmb_dynamic_stiffness *stiffness, uint32_t node, uint32_t c,

@@ -3,10 +3,12 @@
  * residual, which is linear in it. */
 #include "analysis/excitation.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "analysis/functional.h"
 #include "math/vec3.h"
+#include "system/cluster.h"
 #include "system/evaluation.h"
 #include "system/node.h"
 #include "system/unbalance.h"
@@ -31,34 +33,88 @@ static int32_t refuse(const request *r, int32_t status, const char *why)
 
 /* ---- Described actions ------------------------------------------------------------------------------------------- */
 
-static int32_t residual(dmb_sim *copy)
+static int32_t residual(dmb_sim *copy, double step)
 {
     dmb_evaluation evaluation;
     memset(&evaluation, 0, sizeof evaluation);
     evaluation.sim = copy;
     evaluation.time = copy->clock->time;
+    evaluation.step = step;
     evaluation.pseudo_factor = 1.0;
     evaluation.load_factor = 1.0;
     evaluation.dynamic = 1;
     return dmb_system_evaluate(&evaluation);
 }
 
-/* rows = -d residual/d *factor; constraint forces stay as they are. */
-static int32_t derivative(const request *r, double *factor)
+/* rows = -(what the residual changes by) / scale where *factor grows by `change`; constraint forces stay as they are.
+ */
+static int32_t difference(const request *r, double *factor, double change, double scale, double step)
 {
     dmb_sim *copy = r->copy;
     const double kept = *factor;
     const int32_t multipliers = copy->linked_mode->multipliers;
     copy->linked_mode->multipliers = 1;
-    *factor = kept + DMB_EXCITATION_FACTOR;
-    int32_t status = residual(copy);
+    *factor = kept + change;
+    int32_t status = residual(copy, step);
     for (uint32_t i = 0; i < copy->scene->row_count; i++) r->out->re[i] = -copy->correction[i];
     *factor = kept;
-    if (status >= 0) status = residual(copy);
-    for (uint32_t i = 0; i < copy->scene->row_count; i++)
-        r->out->re[i] = (r->out->re[i] + copy->correction[i]) / DMB_EXCITATION_FACTOR;
+    if (status >= 0) status = residual(copy, step);
+    for (uint32_t i = 0; i < copy->scene->row_count; i++) r->out->re[i] = (r->out->re[i] + copy->correction[i]) / scale;
     copy->linked_mode->multipliers = multipliers;
     return status;
+}
+
+static int32_t derivative(const request *r, double *factor)
+{
+    return difference(r, factor, DMB_EXCITATION_FACTOR, DMB_EXCITATION_FACTOR, 0.0);
+}
+
+/* Over a step of 2 s the force of a controller grows by kp + ki for a unit of its target, held within its limits. */
+static int32_t controlled_joint(const request *r, uint32_t i, const dmb_scene_drive *drive)
+{
+    const double gain = drive->gain + drive->integral_gain, now = r->copy->now.drive_force[i];
+    const double room = 0.25 * fmin(drive->limit_high - now, now - drive->limit_low);
+    const double change = fmin(DMB_EXCITATION_FACTOR, room) / gain;
+    if (!(gain > 0.0)) return refuse(r, DMB_ERR_VALUE, "the drive has no gain and answers to nothing");
+    return difference(r, r->copy->trial.drive_target + i, change, change * gain, 2.0);
+}
+
+/* Displacements of dependent rows that move the coordinate by one and hold every other equation: C_d x = unit. */
+static int32_t moved_joint(const request *r, const dmb_scene_drive *drive)
+{
+    const dmb_sim *copy = r->copy;
+    const dmb_constraint *constraint = copy->scene->constraints + drive->constraint;
+    const dmb_cluster *cluster = copy->scene->clusters + constraint->cluster;
+    const dmb_partition partition = dmb_cluster_partition(copy, constraint->cluster);
+    double *x = r->out->im; /* long enough for the while: as many as the cluster has rows */
+    uint32_t place = UINT32_MAX;
+    r->out->law = DMB_EXCITE_JOINT;
+    for (uint32_t k = 0; k < partition.rank; k++) {
+        x[k] = 0.0;
+        if (partition.row_order[k] == constraint->row - cluster->row) place = k;
+    }
+    if (place == UINT32_MAX) return refuse(r, DMB_ERR_VALUE, "other equations hold the joint that the drive moves");
+    x[place] = 1.0;
+    dmb_partition_solve(&partition, copy->cluster_lu + cluster->square, copy->cluster_pivot + cluster->row, x);
+    for (uint32_t k = 0; k < partition.rank; k++) {
+        r->out->re[copy->scene->cluster_columns[cluster->column + partition.column_order[k]]] = x[k];
+        x[k] = 0.0;
+    }
+    return DMB_OK;
+}
+
+static int acts_on(const dmb_scene *scene, uint32_t node)
+{
+    return scene->cluster_count > 0 && scene->node_cluster[node] != UINT32_MAX;
+}
+
+static int32_t drive_of_node(const request *r, const dmb_scene_drive *drive)
+{
+    r->out->law = drive->kind == DMB_DRIVE_MOTION ? DMB_EXCITE_MOTION : DMB_EXCITE_CONTROL;
+    r->out->re[drive->row] = 1.0;
+    if (drive->kind == DMB_DRIVE_MOTION && acts_on(r->copy->scene, drive->node))
+        return refuse(r, DMB_ERR_UNSUPPORTED, "a motion drive on a part that joints act on, other than of a joint");
+    return DMB_OK;
 }
 
 static int32_t drive(const request *r)
@@ -66,18 +122,18 @@ static int32_t drive(const request *r)
     const uint32_t i = dmb_model_part_index(r->copy->model, r->input->place.part, DMB_PART_DRIVE);
     if (i >= r->copy->scene->drive_count) return refuse(r, DMB_ERR_ID, "place.part names no drive of this model");
     const dmb_scene_drive *drive = r->copy->scene->drives + i;
-    if (drive->kind == DMB_DRIVE_LOAD) return derivative(r, r->copy->trial.drive_target + i);
-    if (drive->row == UINT32_MAX)
-        return refuse(r, DMB_ERR_UNSUPPORTED, "a motion or control drive on a joint cannot be one yet");
-    r->out->row = drive->row;
-    r->out->law = drive->kind == DMB_DRIVE_MOTION ? DMB_EXCITE_MOTION : DMB_EXCITE_CONTROL;
-    r->out->gain = drive->gain;
-    r->out->integral_gain = drive->integral_gain;
-    r->out->re[drive->row] = 1.0;
     const double force = r->copy->now.drive_force[i];
+    if (drive->joint != UINT32_MAX && r->copy->joint_state[drive->joint] == DMB_JOINT_OPEN)
+        return refuse(r, DMB_ERR_VALUE, "the joint of the drive is open");
     if (drive->kind == DMB_DRIVE_CONTROL && (force <= drive->limit_low || force >= drive->limit_high))
         return refuse(r, DMB_ERR_VALUE, "the drive is at its limit and answers to nothing");
-    return DMB_OK;
+    if (drive->kind == DMB_DRIVE_LOAD) return derivative(r, r->copy->trial.drive_target + i);
+    r->out->gain = drive->gain;
+    r->out->integral_gain = drive->integral_gain;
+    if (drive->joint == UINT32_MAX) return drive_of_node(r, drive);
+    if (drive->kind == DMB_DRIVE_MOTION) return moved_joint(r, drive);
+    r->out->law = DMB_EXCITE_CONTROL;
+    return controlled_joint(r, i, drive);
 }
 
 static int32_t load(const request *r)

@@ -1,8 +1,10 @@
 /* Exact dynamic condensation. With J the solved rows of nodes that joints act on and I the others,
  *
- *     S = A_JJ + joint tangents - A_JI A_II^-1 A_IJ,     R^T S R y = R^T (f_J - A_JI A_II^-1 f_I),     d_J = R y,
+ *     S = A_JJ + joint tangents - A_JI A_II^-1 A_IJ,     R^T S R y = R^T (f_J - A_JI A_II^-1 f_I - S p),
+ *     d_J = p + R y,
  *
- * R leading from independent coordinates to the rows. The complex system is solved as [Re -Im; Im Re]. */
+ * R leading from independent coordinates to the rows, p what drives of joints ask for. The complex system is solved as
+ * [Re -Im; Im Re]. */
 #include "analysis/joint_condensation.h"
 
 #include <string.h>
@@ -47,6 +49,7 @@ void dmb_condensation_lay_out(dmb_arena *arena, const dmb_linear *linear, uint32
     out->schur = take(arena, n * n);
     out->half = take(arena, n * n);
     out->force = take(arena, n);
+    out->moved = take(arena, n);
     out->dense = DMB_ARENA_DOUBLES(arena, 4 * n * n);
     out->solution = DMB_ARENA_DOUBLES(arena, 2 * n);
 }
@@ -209,18 +212,31 @@ int64_t dmb_condensation_factor(dmb_dynamic_stiffness *s)
 
 /* ---- Solution ---------------------------------------------------------------------------------------------------- */
 
-void dmb_condensation_take(dmb_dynamic_stiffness *s, dmb_complex_array x)
+void dmb_condensation_take(dmb_dynamic_stiffness *s, int32_t joint_moves, dmb_complex_array x)
 {
     const dmb_condensation *J = &s->condensation;
+    const dmb_complex_array to = joint_moves ? J->moved : J->force, none = joint_moves ? J->force : J->moved;
     for (uint32_t j = 0; j < J->rows; j++) {
         const uint32_t r = J->row[j];
-        J->force.re[j] = x.re[r];
-        J->force.im[j] = x.im[r];
-        x.re[r] = x.im[r] = 0.0;
+        to.re[j] = x.re[r];
+        to.im[j] = x.im[r];
+        none.re[j] = none.im[j] = x.re[r] = x.im[r] = 0.0;
     }
 }
 
-/* R^T (f_J - A_JI x_I) */
+/* S_j. p */
+static dmb_complex_number row_of_moved(const dmb_condensation *J, uint32_t j)
+{
+    const dmb_complex_array S = row_of(J->schur, J->rows, j);
+    dmb_complex_number sum = {0.0, 0.0};
+    for (uint32_t i = 0; i < J->rows; i++) {
+        sum.re += S.re[i] * J->moved.re[i] - S.im[i] * J->moved.im[i];
+        sum.im += S.re[i] * J->moved.im[i] + S.im[i] * J->moved.re[i];
+    }
+    return sum;
+}
+
+/* R^T (f_J - A_JI x_I - S p) */
 static void restrict_forces(dmb_dynamic_stiffness *s, dmb_complex_array x)
 {
     const dmb_linear *linear = s->linear;
@@ -228,10 +244,11 @@ static void restrict_forces(dmb_dynamic_stiffness *s, dmb_complex_array x)
     memset(J->solution, 0, 2 * (size_t)J->reduced * sizeof(double));
     for (uint32_t j = 0; j < J->rows; j++) {
         const dmb_complex_number Ax = dmb_dynamic_row_times(s, J->node[j], component(s, j), x);
+        const dmb_complex_number Sp = row_of_moved(J, j);
         for (uint32_t i = linear->start[J->row[j]]; i < linear->start[J->row[j] + 1]; i++) {
             const uint32_t m = J->number[linear->column[i]];
-            J->solution[m] += linear->value[i] * (J->force.re[j] - Ax.re);
-            J->solution[J->reduced + m] += linear->value[i] * (J->force.im[j] - Ax.im);
+            J->solution[m] += linear->value[i] * (J->force.re[j] - Ax.re - Sp.re);
+            J->solution[J->reduced + m] += linear->value[i] * (J->force.im[j] - Ax.im - Sp.im);
         }
     }
 }
@@ -244,7 +261,7 @@ void dmb_condensation_give(dmb_dynamic_stiffness *s, dmb_complex_array x)
     dmb_dense_solve_vector(2 * J->reduced, J->dense, J->pivot, J->solution);
     for (uint32_t j = 0; j < J->rows; j++) {
         const dmb_complex_array z = row_of(J->inside, linear->rows, j);
-        dmb_complex_number d = {0.0, 0.0};
+        dmb_complex_number d = {J->moved.re[j], J->moved.im[j]};
         for (uint32_t i = linear->start[J->row[j]]; i < linear->start[J->row[j] + 1]; i++) {
             const uint32_t m = J->number[linear->column[i]];
             d.re += linear->value[i] * J->solution[m];

@@ -9,8 +9,6 @@
 #include "system/evaluation.h"
 #include "system/solve.h"
 
-/* A residual below this part of the forces that balance in it is equilibrium. */
-#define DMB_LINEAR_BALANCED 1e-6
 /* [s] What is integrated over a step is told from the rest by two steps this short and twice as long: a power of two,
  * over which nothing slips far. */
 #define DMB_LINEAR_STEP 0x1p-24

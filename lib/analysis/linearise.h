@@ -36,6 +36,9 @@ typedef struct dmb_linear_options {
     double gap;          /* [m] of DMB_LINEAR_CONTACT_CLOSED */
 } dmb_linear_options;
 
+/* A residual below this part of the forces that balance in it is equilibrium. */
+#define DMB_LINEAR_BALANCED 1e-6
+
 /* Blocks in the layout of the scene, and what joints add between their nodes, as constraint_tangent of a sim. */
 typedef struct dmb_linear_matrix {
     double *diagonal, *lower, *upper;
@@ -48,10 +51,10 @@ typedef struct dmb_linear {
     dmb_allocator allocator;
     dmb_linear_matrix mass, damping, stiffness;
     double *unbalanced;        /* [N, N m] residual of the state without its accelerations, shape (rows) */
-    double unbalance;          /* [-] the same relative, as dmb_relative_residual; 0: a (relative) equilibrium */
+    double unbalance;          /* [-] the same relative, as of dmb_residual_norm_of; 0: a (relative) equilibrium */
     double largest_force;      /* [N, N m over the element length] largest entry of it that a node feels */
     uint32_t largest_node;     /* where */
-    int32_t balanced;          /* 1: what is left is rounding, or below 1e-6 of the forces that balance */
+    int32_t balanced;          /* 1: what is left is rounding, or below DMB_LINEAR_BALANCED */
     uint32_t rows;             /* of the scene */
     uint32_t coordinates;      /* length of z */
     uint32_t *row_of;          /* row that coordinate i is the displacement of, ascending, shape (coordinates) */

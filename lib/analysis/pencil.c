@@ -43,7 +43,7 @@ uint32_t dmb_pencil_count(dmb_pencil *pencil, double factor)
     shift(pencil, factor);
     for (uint32_t c = 0; c < scene->chain_count; c++)
         negative += dmb_block_negative(&scene->layout, pencil->work.diagonal, pencil->work.lower, pencil->work.upper,
-                                       scene->chains[c].first, scene->chains[c].count);
+                                       NULL, scene->chains[c].first, scene->chains[c].count);
     return negative;
 }
 

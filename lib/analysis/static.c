@@ -48,7 +48,8 @@ static int may_try_again(int32_t status)
     return status < 0 && status != DMB_ERR_CALLBACK;
 }
 
-/* Where it goes astray it begins again with shorter corrections, but not for a part that nothing holds. */
+/* Where it goes astray it begins again with shorter corrections, but not for a part that nothing holds. Between walls
+ * they are short enough. */
 #define DMB_CAUTION_MAX 10.0
 
 static int32_t relax(dmb_static_search *search, uint32_t steps, int singular)
@@ -56,7 +57,8 @@ static int32_t relax(dmb_static_search *search, uint32_t steps, int singular)
     int32_t status = DMB_ERR_NO_CONVERGENCE;
     for (search->caution = 1.0; may_try_again(status) && search->caution < DMB_CAUTION_MAX; search->caution *= 3.0) {
         status = dmb_static_equal_steps(search, dmb_static_relaxation, steps);
-        if (status != DMB_ERR_ROTATION && (singular || search->loose)) break;
+        const int in_hole = search->sim->scene->site_count > 0;
+        if (status != DMB_ERR_ROTATION && (singular || search->loose || in_hole)) break;
     }
     return status;
 }

@@ -13,7 +13,8 @@ static int32_t choose_anew(dmb_static_search *search)
     return status;
 }
 
-/* Joints closed, and the partition chosen anew where it has become poor. A long way may have made it useless at once. */
+/* Joints closed, and the partition chosen anew where it has become poor. A long way may have made it useless at once.
+ */
 int32_t dmb_static_settle(dmb_static_search *search)
 {
     int32_t status = dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
@@ -84,9 +85,6 @@ static int32_t evaluate(dmb_static_search *search)
     const int32_t status = dmb_system_evaluate(&search->evaluation);
     return status < 0 ? status : judge(search);
 }
-
-/* A pivot this small against its block is rounding: 100 m of unsupported pipe still leave 1e-9. */
-#define DMB_LOOSE_PIVOT 1e-15
 
 static int32_t solve(dmb_static_search *search)
 {
@@ -163,28 +161,38 @@ static void add_pseudo_mass(dmb_sim *sim, double rate)
     }
 }
 
-/* [m] length that one correction may not exceed: half the smallest clearance; infinite without a wall. */
+/* [m] that one correction may move a node towards the wall: half the smallest clearance; infinite without a wall. */
 static double longest_move(const dmb_scene *scene)
 {
     double limit = (double)INFINITY;
     for (uint32_t s = 0; s < scene->site_count; s++)
-        if (scene->sites[s].clearance > 0.0)
-            limit = fmin(limit, fmin(0.2 * scene->length_scale, 0.5 * scene->sites[s].clearance));
+        if (scene->sites[s].clearance > 0.0) limit = fmin(limit, 0.5 * scene->sites[s].clearance);
     return limit;
 }
 
-/* [rad] the same of a rotation. What hangs free moves far before it rests, but any part of it only turns. */
+/* [-] along the hole, in length scales, where the wall stays as far away */
+#define DMB_LONGEST_SLIDE 0.2
+/* [rad] What hangs free moves far before it rests, but any part of it only turns. */
 #define DMB_LONGEST_TURN 0.3
 
-static double largest_turn(const dmb_sim *sim)
+/* Largest parts of a correction. */
+typedef struct correction_size {
+    double along, across; /* [m] in the axes of the nodes; all of what only slides is along */
+    double turn;          /* [rad] */
+} correction_size;
+
+static correction_size size_of_correction(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    double most = 0.0;
+    correction_size size = {0.0, 0.0, 0.0};
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const double *z = sim->correction + scene->layout.row[i];
-        if (scene->layout.size[i] == DMB_NODE_FULL) most = fmax(most, fmax(fabs(z[3]), fmax(fabs(z[4]), fabs(z[5]))));
+        size.along = fmax(size.along, fabs(z[0]));
+        if (scene->layout.size[i] != DMB_NODE_FULL) continue;
+        size.across = fmax(size.across, fmax(fabs(z[1]), fabs(z[2])));
+        size.turn = fmax(size.turn, fmax(fabs(z[3]), fmax(fabs(z[4]), fabs(z[5]))));
     }
-    return most;
+    return size;
 }
 
 /* [-] The two ends of a joint travel on different screws and come apart by half the product of way and turn, which the
@@ -195,10 +203,13 @@ static double largest_turn(const dmb_sim *sim)
 static double reach(const dmb_static_search *search, double limit)
 {
     const dmb_scene *scene = search->sim->scene;
-    if (isfinite(limit)) return search->caution * search->moved * scene->length_scale / limit;
-    const double turn = largest_turn(search->sim), gap = 0.5 * search->moved * turn;
-    const double apart = scene->cluster_count ? sqrt(gap / DMB_LONGEST_GAP) : 0.0;
-    return search->caution * fmax(turn / DMB_LONGEST_TURN, apart);
+    const correction_size size = size_of_correction(search->sim);
+    if (isfinite(limit)) {
+        const double across = fmax(size.across, size.turn * scene->length_scale) / limit;
+        return search->caution * fmax(across, size.along / (DMB_LONGEST_SLIDE * scene->length_scale));
+    }
+    const double apart = scene->cluster_count ? sqrt(0.5 * search->moved * size.turn / DMB_LONGEST_GAP) : 0.0;
+    return search->caution * fmax(size.turn / DMB_LONGEST_TURN, apart);
 }
 
 /* Corrections this small a part of what they may be only creep: the next step of pseudo time is longer. */

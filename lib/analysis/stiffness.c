@@ -1,14 +1,61 @@
 #include "analysis/stiffness.h"
 
 #include "math/block_inertia.h"
+#include "system/owner.h"
+#include "system/solve.h"
 
-int32_t dmb_stiffness_negative(const dmb_sim *sim)
+/* Part of the largest stiffness, rotations over the length scale, that counts as 0. */
+#define DMB_STIFFNESS_ROUNDING 1e-14
+
+/* What is added to the diagonal so that eigenvalues of rounding size are positive. */
+static void raise_rounding(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    const double turning = scene->length_scale * scene->length_scale;
+    double most = 0.0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        for (uint32_t c = 0; c < size; c++) {
+            const double weight = 2 * c < size ? 1.0 : turning;
+            const double stiffness = dmb_stiffness_of(sim, i)[(size + 1) * c] / weight;
+            sim->scale_row[row + c] = weight;
+            if (scene->solved_row[row + c]) most = fmax(most, fabs(stiffness));
+        }
+    }
+    for (uint32_t i = 0; i < scene->row_count; i++) sim->scale_row[i] *= DMB_STIFFNESS_ROUNDING * most;
+}
+
+int32_t dmb_stiffness_negative(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     uint32_t negative = 0;
     if (scene->cluster_count) return -1;
+    raise_rounding(sim);
     for (uint32_t c = 0; c < scene->chain_count; c++)
-        negative += dmb_block_negative(&scene->layout, sim->stiffness_diagonal, sim->stiffness_lower,
-                                       sim->stiffness_upper, scene->chains[c].first, scene->chains[c].count);
+        negative +=
+            dmb_block_negative(&scene->layout, sim->stiffness_diagonal, sim->stiffness_lower, sim->stiffness_upper,
+                               sim->scale_row, scene->chains[c].first, scene->chains[c].count);
     return (int32_t)negative;
+}
+
+/* Residual of a state, relative to the forces that balance in it, up to which it counts as equilibrium. */
+#define DMB_STATE_BALANCED 1e-6
+
+int32_t dmb_stiffness_balanced(dmb_sim *sim, const char *who, const dmb_evaluation *evaluation)
+{
+    const dmb_residual_norm norm = dmb_residual_norm_of(evaluation, DMB_STATE_BALANCED);
+    if (norm.converged) return DMB_OK;
+    dmb_message_set(&sim->message,
+                    "%s: the state is no equilibrium, relative residual = %g, must be <= %g; call dmb_analysis_static "
+                    "first",
+                    who, norm.relative, DMB_STATE_BALANCED);
+    return DMB_ERR_ORDER;
+}
+
+int32_t dmb_stiffness_explain(dmb_sim *sim, const char *who, uint32_t node)
+{
+    const dmb_owner owner = dmb_owner_of_node(sim->scene, node);
+    dmb_message_set(&sim->message, "%s: %s %u, pipe %u: nothing holds it, the stiffness is singular", who, owner.kind,
+                    owner.index, owner.pipe);
+    return DMB_ERR_SINGULAR;
 }

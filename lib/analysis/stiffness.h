@@ -2,10 +2,15 @@
 #ifndef DMB_ANALYSIS_STIFFNESS_H
 #define DMB_ANALYSIS_STIFFNESS_H
 
-#include "state.h"
+#include "system/evaluation.h"
 
 /* Negative eigenvalues of the iteration matrix in the stiffness_ blocks (held rows identity, not factored), of its
- * symmetric part where friction makes it unsymmetric; -1 in a scene with joints, whose reduced matrix is not there. */
-int32_t dmb_stiffness_negative(const dmb_sim *sim);
+ * symmetric part where friction makes it unsymmetric; -1 in a scene with joints, whose reduced matrix is not there. What
+ * is 0 but for rounding does not count: a buckled column may turn about its load. Uses scale_row. */
+int32_t dmb_stiffness_negative(dmb_sim *sim);
+/* DMB_ERR_ORDER, with a message of `who` in sim, unless the residual just evaluated is that of an equilibrium. */
+int32_t dmb_stiffness_balanced(dmb_sim *sim, const char *who, const dmb_evaluation *evaluation);
+/* Tells which part nothing holds. DMB_ERR_SINGULAR. */
+int32_t dmb_stiffness_explain(dmb_sim *sim, const char *who, uint32_t node);
 
 #endif

@@ -98,24 +98,26 @@ static void shift(front *f)
     f->n = f->rows = size;
 }
 
-static void append(front *f, int m, const double *D, const double *U, const double *L)
+static void append(front *f, int m, const double *D, const double *raise, const double *U, const double *L)
 {
     const int n = f->n;
     for (int i = 0; i < m; i++)
         for (int j = 0; j < m; j++) f->a[n + i][n + j] = 0.5 * (D[m * i + j] + D[m * j + i]);
+    for (int i = 0; i < m && raise != NULL; i++) f->a[n + i][n + i] += raise[i];
     for (int i = 0; i < n; i++)
         for (int j = 0; j < m; j++) f->a[i][n + j] = f->a[n + j][i] = 0.5 * (U[m * i + j] + L[n * j + i]);
     f->rows = n + m;
 }
 
 uint32_t dmb_block_negative(const dmb_block_layout *layout, const double *diagonal, const double *lower,
-                            const double *upper, uint32_t first, uint32_t count)
+                            const double *upper, const double *raise, uint32_t first, uint32_t count)
 {
     uint32_t negative = 0;
     front f = {.n = 0, .rows = 0};
     for (uint32_t i = first; i < first + count; i++) {
         const uint32_t link = i > first ? layout->link[i - 1] : 0;
-        append(&f, layout->size[i], diagonal + layout->diag[i], upper + link, lower + link);
+        append(&f, layout->size[i], diagonal + layout->diag[i], raise != NULL ? raise + layout->row[i] : NULL,
+               upper + link, lower + link);
         if (i > first) negative += eliminate(&f);
         shift(&f);
     }

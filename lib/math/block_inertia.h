@@ -5,9 +5,10 @@
 
 #include "math/block_tridiagonal.h"
 
-/* Of the symmetric part of blocks [first, first + count), none of them factored; the matrix is left alone. A pivot of 0
- * counts as positive. Linear in the number of blocks. */
+/* Of the symmetric part of blocks [first, first + count), none of them factored; the matrix is left alone. raise (all
+ * rows of the layout), if not NULL, is added to its diagonal. A pivot of 0 counts as positive. Linear in the number of
+ * blocks. */
 uint32_t dmb_block_negative(const dmb_block_layout *layout, const double *diagonal, const double *lower,
-                            const double *upper, uint32_t first, uint32_t count);
+                            const double *upper, const double *raise, uint32_t first, uint32_t count);
 
 #endif

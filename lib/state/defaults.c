@@ -1,7 +1,7 @@
 /* Defaults of the structs of sim.h, query.h and analysis.h, as documented there. The number is the struct's size in its
  * first release. */
 #include "base/sized_struct.h"
-#include "drillmbd/analysis.h"
+#include "drillmbd/modes.h"
 
 DMB_DEFINE_INIT(dmb_sim_options, 96, {
     .max_iterations = 12,
@@ -58,4 +58,31 @@ DMB_DEFINE_INIT(dmb_buckling_options, 64, {
     .tolerance = 1e-10,
 })
 
+DMB_DEFINE_INIT(dmb_path_options, 136, {
+    .max_points = 200,
+    .max_iterations = 15,
+    .scale = DMB_SCALE_LOADS,
+    .factor_end = 1.0,
+    .displacement_end = 1e30,
+    .step_max = 1e30,
+    .tolerance = 1e-10,
+})
+
+DMB_DEFINE_INIT(dmb_path_point, 56, {.number = 0})
+
+DMB_DEFINE_INIT(dmb_path_report, 56, {.points = 0})
+
 DMB_DEFINE_INIT(dmb_check_report, 192, {.rigid_parts = 0})
+
+DMB_DEFINE_INIT(dmb_modes_options, 56, {
+    .count = 10,
+    .band = {0.0, 100.0},
+    .friction = 1,
+    .equilibrium_tolerance = 1e-6,
+})
+
+DMB_DEFINE_INIT(dmb_modes_info, 48, {.count = 0})
+
+DMB_DEFINE_INIT(dmb_mode, 128, {.rigid = 0})
+
+DMB_DEFINE_INIT(dmb_mode_shape, 104, {.frame = DMB_FRAME_WORLD})

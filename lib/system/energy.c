@@ -26,19 +26,38 @@ static void end_velocities(const dmb_scene *scene, const dmb_configuration *c, u
     dmb_arm_velocity(-type_of(scene, e)->arm[1], vb);
 }
 
-double dmb_element_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element)
+/* Momenta p = M v of an element's ends; on the hole's axis the bar sees its two rows alone. */
+static void end_momenta(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, double va[6], double vb[6],
+                        double pa[6], double pb[6])
 {
-    const uint32_t a = scene->element_node[element];
-    double va[6] = {0.0}, vb[6] = {0.0}, pa[6], pb[6];
-    if (is_path(scene, a) && is_path(scene, a + 1)) { /* the bar sees the two rows alone */
-        const double *v = configuration->velocity;
+    const uint32_t a = scene->element_node[e];
+    if (is_path(scene, a) && is_path(scene, a + 1)) {
+        const double *v = c->velocity;
         const uint32_t ra = scene->layout.row[a], rb = scene->layout.row[a + 1];
+        memset(va, 0, 6 * sizeof(double));
+        memset(vb, 0, 6 * sizeof(double));
         va[0] = v[ra], va[3] = v[ra + 1], vb[0] = v[rb], vb[3] = v[rb + 1];
     } else {
-        end_velocities(scene, configuration, element, va, vb);
+        end_velocities(scene, c, e, va, vb);
     }
-    dmb_beam_mass_times(&type_of(scene, element)->mass, va, vb, pa, pb);
+    dmb_beam_mass_times(&type_of(scene, e)->mass, va, vb, pa, pb);
+}
+
+double dmb_element_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element)
+{
+    double va[6], vb[6], pa[6], pb[6];
+    end_momenta(scene, configuration, element, va, vb, pa, pb);
     return 0.5 * (dmb_vec6_dot(va, pa) + dmb_vec6_dot(vb, pb));
+}
+
+void dmb_element_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                               double parts[3])
+{
+    double va[6], vb[6], pa[6], pb[6];
+    end_momenta(scene, configuration, element, va, vb, pa, pb);
+    parts[0] = 0.5 * (va[0] * pa[0] + vb[0] * pb[0]);
+    parts[1] = 0.5 * (va[3] * pa[3] + vb[3] * pb[3]);
+    parts[2] = 0.5 * (dmb_vec6_dot(va, pa) + dmb_vec6_dot(vb, pb)) - parts[0] - parts[1];
 }
 
 double dmb_lump_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t lump)
@@ -49,6 +68,18 @@ double dmb_lump_kinetic_energy(const dmb_scene *scene, const dmb_configuration *
     if (is_path(scene, l->node)) return 0.5 * (l->mass * v[0] * v[0] + l->inertia[0] * v[1] * v[1]);
     dmb_lump_mass_times(l, v, p);
     return 0.5 * dmb_vec6_dot(v, p);
+}
+
+/* What couples the three in an eccentric mass counts as lateral. */
+void dmb_lump_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t lump,
+                            double parts[3])
+{
+    const dmb_lump *l = scene->lumps + lump;
+    const double *v = configuration->velocity + scene->layout.row[l->node];
+    const double spin = v[is_path(scene, l->node) ? 1 : 3];
+    parts[0] = 0.5 * l->mass * v[0] * v[0];
+    parts[1] = 0.5 * l->inertia[0] * spin * spin;
+    parts[2] = dmb_lump_kinetic_energy(scene, configuration, lump) - parts[0] - parts[1];
 }
 
 double dmb_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration)
@@ -93,6 +124,25 @@ void dmb_element_strain(const dmb_scene *scene, const dmb_configuration *configu
     dmb_beam_shape shape;
     shape_of(scene, configuration, element, &shape);
     dmb_vec6_copy(shape.d, d);
+}
+
+void dmb_element_strain_rate(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                             double rate[6])
+{
+    const uint32_t a = scene->element_node[element];
+    if (is_path(scene, a) && is_path(scene, a + 1)) {
+        const double *va = configuration->velocity + scene->layout.row[a],
+                     *vb = configuration->velocity + scene->layout.row[a + 1];
+        memset(rate, 0, 6 * sizeof(double));
+        rate[0] = vb[0] - va[0];
+        rate[3] = vb[1] - va[1];
+        return;
+    }
+    dmb_beam_shape shape;
+    double va[6], vb[6];
+    shape_of(scene, configuration, element, &shape);
+    end_velocities(scene, configuration, element, va, vb);
+    dmb_beam_strain_rate(&shape, va, vb, rate);
 }
 
 /* (d - d0)^T K (d - d0) / (2 L); a bar stretches and twists only */

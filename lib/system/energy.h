@@ -14,6 +14,14 @@ double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *confi
 double dmb_contact_energy(const dmb_scene *scene, const dmb_configuration *configuration);
 /* Relative pose of an element's ends: d = log(H_A^-1 H_B) at its flexible ends, shape (6). */
 void dmb_element_strain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, double d[6]);
+/* Change of that by a small motion of the nodes, given as `velocity` of the configuration, shape (6). */
+void dmb_element_strain_rate(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                             double rate[6]);
+/* Parts of the kinetic energies that are motion along the axis, about it, and across it, shape (3). */
+void dmb_element_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                               double parts[3]);
+void dmb_lump_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t lump,
+                            double parts[3]);
 /* Section forces at the element's two flexible ends in the frame of that end, as force on the near side from the far
  * side: (axial, shear, shear, torque, moment, moment); material damping included, shape (2, 6). */
 void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,

@@ -92,9 +92,9 @@ void dmb_add_node_columns(const dmb_scene *scene, uint32_t node, const double ve
     for (int i = 0; i < 6; i++) columns[i] += vector[i];
 }
 
-/* A row that only moves a node across its axis leaves nothing but rounding along and about it: parts of the row, or arms
- * that are none. Scaled to unit length in the choice of the partition that would be an equation like any other, so it
- * has to be 0. */
+/* A row that only moves a node across its axis leaves nothing but rounding along and about it: parts of the row, or
+ * arms that are none. Scaled to unit length in the choice of the partition that would be an equation like any other, so
+ * it has to be 0. */
 #define DMB_ROW_ROUNDING 1e-14
 #define DMB_ARM_ROUNDING 1e-12 /* in length scales */
 

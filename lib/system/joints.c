@@ -45,6 +45,13 @@ static double stiffness_times_reach(const dmb_sim *sim, const dmb_scene_joint *j
     return by_position * (dmb_vec3_norm(joint->span) + largest_place(sim, &joint->a) + largest_place(sim, &joint->b));
 }
 
+/* Before the first correction of a step a residual that a stiff spring's rounding could make may as well be that of a
+ * soft part, which would then fly on as if nothing held it; one correction moves it to where it belongs. */
+static int rounding_counts(const dmb_evaluation *evaluation)
+{
+    return !evaluation->dynamic || evaluation->extrapolated;
+}
+
 static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, coordinate_forces *f)
 {
     for (int i = 0; i < 6; i++) {
@@ -55,7 +62,7 @@ static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, c
         f->by_position[i] += law.by_position;
         f->by_speed[i] += law.by_speed;
         const double k = stiffness_times_reach(evaluation->sim, joint, i, law.by_position);
-        evaluation->rounding += k * k;
+        if (rounding_counts(evaluation)) evaluation->rounding += k * k;
         evaluation->power[DMB_POWER_POTENTIAL] += (law.spring + law.stop) * f->speed[i];
         evaluation->power[DMB_POWER_DAMPING] += law.damper * f->speed[i];
         evaluation->power[DMB_POWER_FRICTION] += law.friction * f->speed[i];

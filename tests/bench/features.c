@@ -2,7 +2,7 @@
  *
  * Scene D: step times of a control loop: every step of scene B* timed by itself, as many iterations as it takes and
  * with bounded work. Scene F: one rig described once, compiled with less and with more of it: what is left out is to
- * cost nothing. tests/bench/run calls it. */
+ * cost nothing. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdio.h>
@@ -17,57 +17,9 @@
 enum { LOOP_STEPS = 4000, LOOP_ASK = 2000, LOOP_REPEATS = 5, LOOP_WAYS = 5, RIG_PIPES = 100, RIG_REPEATS = 3 };
 
 static yardstick unit;
-static FILE *table;
+static table results;
 
-/* U of now: the machine's clock may change within the process. */
-static void yardstick_anew(void)
-{
-    unit.measures = 0;
-    for (int i = 0; i < 5; ++i) yardstick_measure(&unit);
-}
-
-/* ---- One result ----------------------------------------------------------------------------------------------------
- */
-
-typedef struct field {
-    const char *name, *text; /* text NULL: the value */
-    double value;            /* NaN: not there */
-    int digits;
-} field;
-
-static field number(const char *name, double value, int digits)
-{
-    const field f = {name, NULL, value, digits};
-    return f;
-}
-
-static field word(const char *name, const char *text)
-{
-    const field f = {name, text, 0.0, 0};
-    return f;
-}
-
-/* A line "name=value ...", and the same as a row of the table. */
-static void put_row(const field *fields, int count)
-{
-    static int rows;
-    for (int i = 0; rows == 0 && i < count; ++i) fprintf(table, "%s%c", fields[i].name, i + 1 < count ? ',' : '\n');
-    ++rows;
-    for (int i = 0; i < count; ++i) {
-        const field *const f = fields + i;
-        if (f->text)
-            printf("%s=%s ", f->name, f->text), fputs(f->text, table);
-        else if (!isnan(f->value))
-            printf("%s=%.*g ", f->name, f->digits, f->value), fprintf(table, "%.*g", f->digits, f->value);
-        fputc(i + 1 < count ? ',' : '\n', table);
-    }
-    putchar('\n');
-    fflush(stdout);
-    fflush(table);
-}
-
-/* ---- D: a control loop ---------------------------------------------------------------------------------------------
- */
+/* ---- D: a control loop ----------------------------------------------------------------------------------------- */
 
 typedef struct way {
     const char *name;
@@ -133,9 +85,8 @@ static int32_t run_loop(const scene *s, const way *w, int repeat, loop *l)
     }
     if (status >= 0) status = ask_at_end(s, sim, l);
     if (status < 0) {
-        const double reached = sim ? dmb_sim_time(sim) : 0.0;
-        printf("scene=D variant=%s time=%g failed=%s\n", w->name, reached, dmb_status_name(status));
-        fprintf(stderr, "features: %s\n", sim ? dmb_sim_message(sim) : dmb_model_message(s->model));
+        row_failed("D", s->pipes * s->per_pipe, w->name, dmb_status_name(status),
+                   sim ? dmb_sim_message(sim) : dmb_model_message(s->model));
     }
     dmb_sim_destroy(&sim);
     return status;
@@ -167,7 +118,7 @@ static int count_late(const double *sorted, int count)
     return late;
 }
 
-static int put_times(field *f, const double *cpu, const double *wall)
+static void put_times(row *r, const double *cpu, const double *wall)
 {
     static const char *const names[4][5] = {{"us_median", "us_99", "us_99.9", "us_largest", "us_smallest"},
                                             {"U_median", "U_99", "U_99.9", "U_largest", "U_smallest"},
@@ -175,75 +126,74 @@ static int put_times(field *f, const double *cpu, const double *wall)
                                             {"wall_us_median", "wall_us_99", "wall_us_99.9", "wall_us_largest", ""}};
     static const double shares[5] = {0.5, 0.99, 0.999, 1.0, 0.0};
     const double scales[3] = {1e6, 1.0 / yardstick_value(&unit), 1.0 / FEATURES_STEP};
-    int n = 0;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < (i < 2 ? 5 : 4); ++j)
-            f[n++] = number(names[i][j], scales[i] * quantile(cpu, LOOP_STEPS, shares[j]), 4);
+            row_number(r, names[i][j], scales[i] * quantile(cpu, LOOP_STEPS, shares[j]), 4);
     for (int j = 0; j < 4; ++j)
-        f[n++] = number(names[3][j], 1e6 * quantile(wall, LOOP_REPEATS * LOOP_STEPS, shares[j]), 4);
-    f[n++] = number("wall_late", count_late(wall, LOOP_REPEATS * LOOP_STEPS), 6);
-    f[n++] = number("wall_steps", LOOP_REPEATS * LOOP_STEPS, 6);
-    return n;
+        row_number(r, names[3][j], 1e6 * quantile(wall, LOOP_REPEATS * LOOP_STEPS, shares[j]), 4);
+    row_number(r, "wall_late", count_late(wall, LOOP_REPEATS * LOOP_STEPS), 6);
+    row_number(r, "wall_steps", LOOP_REPEATS * LOOP_STEPS, 6);
 }
 
-static int put_work(field *f, const loop *l, int worst)
+static void put_work(row *r, const loop *l, int worst)
 {
-    const dmb_step_report *const r = &l->reports[worst];
-    int n = 0;
-    f[n++] = number("worst_at", (worst + 1) * FEATURES_STEP, 6);
-    f[n++] = number("worst_iterations", r->iterations, 6);
-    f[n++] = number("worst_steps", r->steps, 6);
-    f[n++] = number("worst_rejected", r->rejected, 6);
-    f[n++] = number("iterations", (double)l->statistics.iterations / LOOP_STEPS, 4);
-    f[n++] = number("rejected", (double)l->statistics.rejected, 6);
-    f[n++] = number("limited", (double)l->statistics.limited, 6);
-    return n;
+    const dmb_step_report *const report = &l->reports[worst];
+    row_number(r, "worst_at", (worst + 1) * FEATURES_STEP, 6);
+    row_number(r, "worst_iterations", report->iterations, 6);
+    row_number(r, "worst_steps", report->steps, 6);
+    row_number(r, "worst_rejected", report->rejected, 6);
+    row_number(r, "rejected", (double)l->statistics.rejected, 6);
+    row_number(r, "limited", (double)l->statistics.limited, 6);
 }
 
 /* Sorts the residuals. plain: without a bound on the work. */
-static int put_errors(field *f, loop *l, const loop *plain)
+static void put_errors(row *r, loop *l, const loop *plain)
 {
     qsort(l->residual, LOOP_STEPS, sizeof *l->residual, compare_doubles);
-    int n = 0;
-    f[n++] = number("residual_median", quantile(l->residual, LOOP_STEPS, 0.5), 3);
-    f[n++] = number("residual_99", quantile(l->residual, LOOP_STEPS, 0.99), 3);
-    f[n++] = number("residual_largest", l->statistics.worst_residual, 3);
-    f[n++] = number("rotation", l->answers[0], 10);
-    f[n++] = number("error", fabs(l->answers[0] / GIVEN_ROTATION - 1.0), 3);
-    f[n++] = word("error_kind", "tip_rotation_vs_given");
-    f[n++] = number("wall_force", l->answers[1], 6);
-    f[n++] = number("rotation_to_plain", l->answers[0] - plain->answers[0], 3);
-    f[n++] = number("wall_force_to_plain", l->answers[1] / plain->answers[1] - 1.0, 3);
-    f[n++] = number("end_rotation_to_plain", l->end_rotation - plain->end_rotation, 3);
-    f[n++] = number("balance", l->balance, 3);
-    return n;
+    row_number(r, "residual_median", quantile(l->residual, LOOP_STEPS, 0.5), 3);
+    row_number(r, "residual_99", quantile(l->residual, LOOP_STEPS, 0.99), 3);
+    row_number(r, "residual_largest", l->statistics.worst_residual, 3);
+    row_number(r, "rotation", l->answers[0], 10);
+    row_number(r, "wall_force", l->answers[1], 6);
+    row_number(r, "rotation_to_plain", l->answers[0] - plain->answers[0], 3);
+    row_number(r, "wall_force_to_plain", l->answers[1] / plain->answers[1] - 1.0, 3);
+    row_number(r, "end_rotation_to_plain", l->end_rotation - plain->end_rotation, 3);
+    row_number(r, "balance", l->balance, 3);
 }
 
 static void report_loop(const scene *s, const way *w, loop *l, const loop *plain)
 {
     static double cpu[LOOP_STEPS];
     const int worst = take_medians(l, cpu);
-    field f[64];
-    int n = 0;
+    row r;
     qsort(cpu, LOOP_STEPS, sizeof *cpu, compare_doubles);
     qsort(l->wall, LOOP_REPEATS * LOOP_STEPS, sizeof *l->wall, compare_doubles);
-    f[n++] = word("scene", "D");
-    f[n++] = word("variant", w->name);
-    f[n++] = number("elements", s->pipes * s->per_pipe, 9);
-    f[n++] = number("dt", FEATURES_STEP, 4);
-    f[n++] = number("bounded_work", w->bounded, 2);
-    f[n++] = number("max_iterations", w->most, 6);
-    f[n++] = number("steps", LOOP_STEPS, 9);
-    f[n++] = number("U_us", 1e6 * yardstick_value(&unit), 4);
-    n += put_times(f + n, cpu, l->wall);
-    n += put_work(f + n, l, worst);
-    n += put_errors(f + n, l, plain);
-    put_row(f, n);
+    const double typical = quantile(cpu, LOOP_STEPS, 0.5);
+    const head h = {"D",
+                    s->pipes * s->per_pipe,
+                    FEATURES_STEP,
+                    typical,
+                    yardstick_value(&unit),
+                    FEATURES_STEP / typical,
+                    (double)l->statistics.iterations / LOOP_STEPS,
+                    fabs(l->answers[0] / GIVEN_ROTATION - 1.0),
+                    "tip_rotation_vs_given"};
+    row_begin(&r, &h);
+    row_word(&r, "variant", w->name);
+    row_number(&r, "bounded_work", w->bounded, 2);
+    row_number(&r, "max_iterations", w->most, 6);
+    row_number(&r, "steps", LOOP_STEPS, 9);
+    row_number(&r, "repeats", LOOP_REPEATS, 3);
+    row_number(&r, "U_us", 1e6 * yardstick_value(&unit), 4);
+    put_times(&r, cpu, l->wall);
+    put_work(&r, l, worst);
+    put_errors(&r, l, plain);
+    row_put(&r, &results);
 }
 
 static int measure_loop(const scene *s, const way *w, loop *l, const loop *plain)
 {
-    yardstick_anew();
+    yardstick_anew(&unit);
     for (int i = 0; i < LOOP_REPEATS; ++i) {
         if (run_loop(s, w, i, l) < 0) return 1;
         for (int k = 0; k < 3; ++k) yardstick_measure(&unit);
@@ -260,7 +210,7 @@ static int run_d(void)
     scene s = {.kind = SCENE_B_COSINE, .pipes = 100, .per_pipe = 1, .length = 1.0};
     int failures = 0;
     if (scene_open(&s) < 0) {
-        fprintf(stderr, "features: %s\n", s.model ? dmb_model_message(s.model) : "no model");
+        row_failed("D", 0.0, "compile", "-", s.model ? dmb_model_message(s.model) : "no model");
         failures = 1;
     }
     for (int i = 0; failures == 0 && i < LOOP_WAYS; ++i) failures = measure_loop(&s, &ways[i], &loops[i], &loops[0]);
@@ -268,8 +218,7 @@ static int run_d(void)
     return failures;
 }
 
-/* ---- F: the rig ----------------------------------------------------------------------------------------------------
- */
+/* ---- F: the rig ------------------------------------------------------------------------------------------------ */
 
 typedef struct variant {
     const char *name;
@@ -355,61 +304,51 @@ static int32_t open_rig(scene *s, const variant *v, dmb_model_info *info)
 /* Tip speed where the exact one is known, torque of the drive where not. */
 static double answer_of(const scene *s, const variant *v)
 {
-    const method fine = {FEATURES_STEP / 8.0, 0.0, 0.5, 0.5, 0, 1};
+    method fine = method_fixed(FEATURES_STEP / 8.0, 0.5);
+    fine.ledger = 0;
+    fine.repeats = 1;
     if (v->pipe_kind == DMB_PIPE_RIGID) return 2.0 * BENCH_PI;
     if (s->kind == SCENE_C) return exact_tip_speed(s->pipes * s->length + BIT_AS_PIPE, 2.0);
     const outcome out = measure(s, &fine, &unit);
     return out.status < 0 ? (double)NAN : out.values[0];
 }
 
-static void report_rig(const scene *s, const variant *v, const dmb_model_info *info, const outcome *out)
+static void report_rig(const scene *s, const variant *v, const method *how, const dmb_model_info *info,
+                       const outcome *out)
 {
-    const double us = 1e6 * out->seconds / out->steps, answer = answer_of(s, v), bytes = (double)info->sim_bytes;
+    const double answer = answer_of(s, v), bytes = (double)info->sim_bytes;
     const char *const kind = s->kind == SCENE_R               ? "torque_vs_dt/8"
                              : v->pipe_kind == DMB_PIPE_RIGID ? "tip_speed_vs_drive"
                                                               : "tip_speed_vs_exact";
-    const field f[] = {word("scene", "F"),
-                       word("variant", v->name),
-                       number("pipes", s->pipes, 9),
-                       number("elements", info->elements, 9),
-                       number("sites", info->contact_sites, 9),
-                       number("freedoms", info->freedoms, 9),
-                       number("dt", FEATURES_STEP, 4),
-                       number("steps", out->steps, 9),
-                       number("us_per_step", us, 4),
-                       number("spread", out->spread, 2),
-                       number("U_us", 1e6 * out->yardstick, 4),
-                       number("U_per_step", 1e-6 * us / out->yardstick, 3),
-                       number("iterations", out->iterations, 4),
-                       number("rejected", out->rejected, 6),
-                       number("us_per_iteration", out->iterations > 0.0 ? us / out->iterations : (double)NAN, 4),
-                       number("sim_bytes", bytes, 12),
-                       number("model_bytes", (double)info->model_bytes, 12),
-                       number("sim_bytes_per_pipe", bytes / s->pipes, 5),
-                       number("value", out->values[0], 15),
-                       number("error", fabs(out->values[0] / answer - 1.0), 3),
-                       word("error_kind", kind),
-                       number("balance", out->balance, 3),
-                       word("balance_kind", "ledger")};
-    put_row(f, (int)(sizeof f / sizeof *f));
+    row r;
+    begin_outcome(&r, "F", info->elements, how, out, fabs(out->values[0] / answer - 1.0), kind);
+    row_word(&r, "variant", v->name);
+    row_number(&r, "repeats", how->repeats, 3);
+    row_number(&r, "pipes", s->pipes, 9);
+    row_number(&r, "sites", info->contact_sites, 9);
+    row_number(&r, "freedoms", info->freedoms, 9);
+    row_number(&r, "sim_bytes", bytes, 12);
+    row_number(&r, "model_bytes", (double)info->model_bytes, 12);
+    row_number(&r, "sim_bytes_per_pipe", bytes / s->pipes, 5);
+    row_number(&r, "value", out->values[0], 15);
+    row_put(&r, &results);
 }
 
 /* With contact from rest on the wall, as scene R; otherwise from the axis, as scene C. */
 static int measure_rig(const variant *v)
 {
     const int lies = !v->bare && (v->features & DMB_FEATURE_CONTACT);
-    const method how = {FEATURES_STEP, 0.0, lies ? 0.5 : 2.0, 2.0, 1, RIG_REPEATS};
+    const method how = {FEATURES_STEP, 0.0, 0.8, lies ? 0.5 : 2.0, 2.0, 1, RIG_REPEATS};
     dmb_model_info info;
     scene s = {.kind = lies ? SCENE_R : SCENE_C, .pipes = RIG_PIPES, .per_pipe = 1, .length = 1.0};
     int32_t status = open_rig(&s, v, &info);
-    if (status < 0 && s.model) fprintf(stderr, "features: %s: %s\n", v->name, dmb_model_message(s.model));
+    if (status < 0)
+        row_failed("F", 0.0, v->name, dmb_status_name(status), s.model ? dmb_model_message(s.model) : "no model");
     if (status >= 0) {
-        yardstick_anew();
         const outcome out = measure(&s, &how, &unit);
         status = out.status;
-        if (status >= 0) report_rig(&s, v, &info, &out);
+        if (status >= 0) report_rig(&s, v, &how, &info, &out);
     }
-    if (status < 0) printf("scene=F variant=%s failed=%s\n", v->name, dmb_status_name(status));
     dmb_model_destroy(&s.model);
     return status < 0;
 }
@@ -440,12 +379,7 @@ int main(int count, char **words)
 {
     const int is_d = count == 3 && strcmp(words[2], "D") == 0, is_f = count == 3 && strcmp(words[2], "F") == 0;
     if (!is_d && !is_f) return fputs("usage: features CSV D|F\n", stderr), 2;
-    table = fopen(words[1], "w");
-    if (!table) return perror(words[1]), 2;
-    yardstick_open(&unit);
-    for (int i = 0; i < 25; ++i) yardstick_measure(&unit);
-    printf("U=%.4g us\n", 1e6 * yardstick_value(&unit));
+    if (table_open(&results, &unit, words[1]) != 0) return 2;
     const int failed = is_d ? run_d() : run_f();
-    if (fclose(table) != 0) return perror(words[1]), 2;
-    return failed;
+    return table_close(&results, words[1]) != 0 ? 2 : failed;
 }

@@ -1,17 +1,18 @@
-/* What explicit joints cost. usage: joints CSV
+/* What explicit joints cost. usage: joints CSV J
  *
  * Scene J: the tube of scene C, cut into strings of one pipe and one element that explicit fixed joints put together,
  * turned from 0 to 60 rpm through a revolute joint; beside it the same tube as one string. Both methods of constraints,
- * 10 to 10000 joints. tests/bench/run calls it. */
+ * 10 to 10000 joints. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <drillmbd/drillmbd.h>
 
 #include <stdio.h>
 
-#include "yardstick.h"
+#include "row.h"
 
 #define TUBE_PI 3.14159265358979323846
+#define JOINTS_STEP 1e-3 /* [s] */
 
 enum { JOINTS_REPEATS = 5, JOINTS_SIZES = 4, JOINTS_WAYS = 3, JOINTS_STEPS = 50 };
 
@@ -28,15 +29,15 @@ typedef struct tube {
 
 /* All times in seconds, medians. */
 typedef struct cost {
-    double describe, compile, create, step, spread, iterations, bytes, rotation;
+    double describe, compile, create, step, unit, spread, iterations, bytes, rotation;
+    int repeats;
     dmb_model_info info;
 } cost;
 
 static yardstick unit;
-static FILE *table;
+static table results;
 
-/* ---- The tube ------------------------------------------------------------------------------------------------------
- */
+/* ---- The tube -------------------------------------------------------------------------------------------------- */
 
 static int32_t add_tube_string(tube *t, uint32_t start, uint32_t pipes, int32_t start_free, dmb_id *id)
 {
@@ -104,8 +105,7 @@ static int32_t tube_open(tube *t)
     return t->way == WAY_STRING ? describe_string(t) : describe_pieces(t);
 }
 
-/* ---- Measures ------------------------------------------------------------------------------------------------------
- */
+/* ---- Measures -------------------------------------------------------------------------------------------------- */
 
 /* [rad] at the far end of the first pipe: in the few steps of the longest tube the turning does not get much further.
  */
@@ -125,12 +125,14 @@ static int32_t run_tube(const tube *t, cost *c, double *create, double *step)
     int32_t status = dmb_sim_create(t->model, &options, &sim);
     *create = processor_time() - begin;
     begin = processor_time();
-    for (uint32_t k = 0; status >= 0 && k < JOINTS_STEPS; ++k) status = dmb_sim_step(sim, 1e-3, NULL);
+    for (uint32_t k = 0; status >= 0 && k < JOINTS_STEPS; ++k) status = dmb_sim_step(sim, JOINTS_STEP, NULL);
     *step = (processor_time() - begin) / JOINTS_STEPS;
     if (status >= 0) status = dmb_query_statistics(sim, &statistics);
     if (status >= 0) status = rotation_of(t, sim, &c->rotation);
     c->iterations = (double)statistics.iterations / JOINTS_STEPS;
-    if (status < 0) fprintf(stderr, "joints: %s: %s\n", dmb_status_text(status), dmb_sim_message(sim));
+    if (status < 0)
+        row_failed("J", t->joints + 1.0, way_names[t->way], dmb_status_name(status),
+                   sim ? dmb_sim_message(sim) : dmb_model_message(t->model));
     dmb_sim_destroy(&sim);
     return status;
 }
@@ -141,6 +143,7 @@ static int32_t measure_tube(tube *t, cost *c)
     const int repeats = t->joints < 5000 ? JOINTS_REPEATS : 3;
     int32_t status = DMB_OK;
     memset(c, 0, sizeof *c);
+    yardstick_anew(&unit);
     c->info = dmb_model_info_default();
     for (int i = 0; i < repeats && status >= 0; ++i) {
         double begin = processor_time();
@@ -150,12 +153,15 @@ static int32_t measure_tube(tube *t, cost *c)
         if (status >= 0) status = dmb_model_compile(t->model, NULL);
         compile[i] = processor_time() - begin;
         if (status >= 0) status = dmb_model_get_info(t->model, &c->info);
-        if (status < 0) fprintf(stderr, "joints: %s: %s\n", dmb_status_text(status), dmb_model_message(t->model));
+        if (status < 0)
+            row_failed("J", t->joints + 1.0, way_names[t->way], dmb_status_name(status), dmb_model_message(t->model));
         if (status >= 0) status = run_tube(t, c, create + i, step + i);
         dmb_model_destroy(&t->model);
         yardstick_measure(&unit);
     }
     if (status < 0) return status;
+    c->repeats = repeats;
+    c->unit = yardstick_value(&unit);
     c->describe = median(describe, repeats);
     c->compile = median(compile, repeats);
     c->create = median(create, repeats);
@@ -165,77 +171,56 @@ static int32_t measure_tube(tube *t, cost *c)
     return status;
 }
 
-/* ---- Report --------------------------------------------------------------------------------------------------------
- */
+/* ---- Report ---------------------------------------------------------------------------------------------------- */
 
 static void report(uint32_t joints, int way, const cost *c, const cost *string)
 {
-    const double n = joints, u = yardstick_value(&unit), off = fabs(c->rotation / string->rotation - 1.0);
-    printf("scene=J joints=%u method=%s rows=%u clusters=%u us_describe=%.4g us_compile=%.4g us_create=%.4g "
-           "us_create_per_joint=%.3g "
-           "us_per_step=%.4g spread=%.2g us_per_step_per_joint=%.3g U_per_step=%.3g to_structural=%.3g iterations=%.3g "
-           "error=%.1e error_kind=rotation_vs_structural bytes_per_joint=%.0f\n",
-           (unsigned)joints, way_names[way], (unsigned)c->info.constraint_rows, (unsigned)c->info.clusters,
-           1e6 * c->describe, 1e6 * c->compile, 1e6 * c->create, 1e6 * c->create / n, 1e6 * c->step, c->spread,
-           1e6 * c->step / n, c->step / u, c->step / string->step, c->iterations, off, c->bytes / n);
-    fprintf(table, "J,%u,%s,%u,%u,%.6g,%.6g,%.6g,%.6g,%.3g,%.4g,%.4g,%.3g,%.0f\n", (unsigned)joints, way_names[way],
-            (unsigned)c->info.constraint_rows, (unsigned)c->info.clusters, 1e6 * c->describe, 1e6 * c->compile,
-            1e6 * c->create, 1e6 * c->step, c->spread, 1e6 * u, c->iterations, off, c->bytes);
-    fflush(stdout);
-}
-
-/* Slope of log(time) over log(joints) by least squares. */
-static double growth(int count, const double *joints, const double *time)
-{
-    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-    for (int i = 0; i < count; ++i) {
-        const double u = log(joints[i]), v = log(time[i]);
-        x += u, y += v, xx += u * u, xy += u * v;
-    }
-    return (count * xy - x * y) / (count * xx - x * x);
-}
-
-static void report_growth(int way, const double *joints, const cost *costs)
-{
-    double describe[JOINTS_SIZES], compile[JOINTS_SIZES], create[JOINTS_SIZES], step[JOINTS_SIZES];
-    for (int i = 0; i < JOINTS_SIZES; ++i) {
-        describe[i] = costs[i].describe;
-        compile[i] = costs[i].compile;
-        create[i] = costs[i].create;
-        step[i] = costs[i].step;
-    }
-    printf("scene=J joints=10..10000 method=%s growth_describe=%.3f growth_compile=%.3f growth_create=%.3f "
-           "growth_step=%.3f\n",
-           way_names[way], growth(JOINTS_SIZES, joints, describe), growth(JOINTS_SIZES, joints, compile),
-           growth(JOINTS_SIZES, joints, create), growth(JOINTS_SIZES, joints, step));
+    const double n = joints;
+    const head h = {"J",
+                    n + 1.0,
+                    JOINTS_STEP,
+                    c->step,
+                    c->unit,
+                    JOINTS_STEP / c->step,
+                    c->iterations,
+                    fabs(c->rotation / string->rotation - 1.0),
+                    "rotation_vs_structural"};
+    row r;
+    row_begin(&r, &h);
+    row_number(&r, "spread", c->spread, 3);
+    row_number(&r, "U_us", 1e6 * c->unit, 4);
+    row_number(&r, "repeats", c->repeats, 3);
+    row_number(&r, "joints", n, 9);
+    row_word(&r, "method", way_names[way]);
+    row_number(&r, "rows", c->info.constraint_rows, 9);
+    row_number(&r, "clusters", c->info.clusters, 9);
+    row_number(&r, "us_describe", 1e6 * c->describe, 4);
+    row_number(&r, "us_compile", 1e6 * c->compile, 4);
+    row_number(&r, "us_create", 1e6 * c->create, 4);
+    row_number(&r, "us_create_per_joint", 1e6 * c->create / n, 4);
+    row_number(&r, "us_per_step_per_joint", 1e6 * c->step / n, 4);
+    row_number(&r, "to_structural", c->step / string->step, 3);
+    row_number(&r, "bytes_per_joint", c->bytes / n, 6);
+    row_put(&r, &results);
 }
 
 static int run_all(void)
 {
     static cost costs[JOINTS_WAYS][JOINTS_SIZES];
-    static const double joints[JOINTS_SIZES] = {10.0, 100.0, 1000.0, 10000.0};
+    static const uint32_t joints[JOINTS_SIZES] = {10, 100, 1000, 10000};
     for (int i = 0; i < JOINTS_SIZES; ++i)
         for (int way = JOINTS_WAYS - 1; way >= 0; --way) {
-            tube t = {.joints = (uint32_t)joints[i], .way = way};
+            tube t = {.joints = joints[i], .way = way};
             if (measure_tube(&t, &costs[way][i]) < 0) return 1;
             report(t.joints, way, &costs[way][i], &costs[WAY_STRING][i]);
         }
-    for (int way = 0; way < JOINTS_WAYS; ++way) report_growth(way, joints, costs[way]);
     return 0;
 }
 
 int main(int count, char **words)
 {
-    if (count != 2) return fputs("usage: joints CSV\n", stderr), 2;
-    table = fopen(words[1], "w");
-    if (!table) return perror(words[1]), 2;
-    fputs("scene,joints,method,rows,clusters,us_describe,us_compile,us_create,us_per_step,spread,U_us,iterations,error,"
-          "bytes\n",
-          table);
-    yardstick_open(&unit);
-    for (int i = 0; i < 25; ++i) yardstick_measure(&unit);
-    printf("U=%.4g us\n", 1e6 * yardstick_value(&unit));
+    if (count != 3 || strcmp(words[2], "J") != 0) return fputs("usage: joints CSV J\n", stderr), 2;
+    if (table_open(&results, &unit, words[1]) != 0) return 2;
     const int failed = run_all();
-    if (fclose(table) != 0) return perror(words[1]), 2;
-    return failed;
+    return table_close(&results, words[1]) != 0 ? 2 : failed;
 }

@@ -2,21 +2,11 @@
 #ifndef BENCH_MEASURE_H
 #define BENCH_MEASURE_H
 
-#include <stdio.h>
-
-#include "scenes.h"
-#include "yardstick.h"
+#include "answers.h"
+#include "method.h"
+#include "row.h"
 
 enum { MEASURE_MOST_REPEATS = 5 };
-
-typedef struct method {
-    double step;      /* [s] fixed; 0: error-controlled */
-    double tolerance; /* [rad] of a step, a tenth of it in metres; error-controlled only */
-    double horizon;   /* [s] where the answers are taken */
-    double end;       /* [s] of the timed run, >= horizon */
-    int ledger;
-    int repeats;
-} method;
 
 typedef struct outcome {
     int32_t status;    /* DMB_... */
@@ -30,16 +20,6 @@ typedef struct outcome {
     double balance;    /* [-] what the energy ledger leaves open at the end, over what drives, loads and gravity put in */
 } outcome;
 
-static int32_t go_to(dmb_sim *sim, const method *how, double time)
-{
-    int32_t status = DMB_OK;
-    if (how->step <= 0.0) return dmb_sim_advance(sim, time, NULL);
-    const double first = floor(dmb_sim_time(sim) / how->step + 0.5), last = floor(time / how->step + 0.5);
-    for (double k = first + 1.0; status >= 0 && k <= last; k += 1.0)
-        status = dmb_sim_step(sim, k * how->step - dmb_sim_time(sim), NULL);
-    return status;
-}
-
 /* What the ledger leaves open over the energy that went in. Scene B falls on its wall: what gravity gave counts too. */
 static int32_t check_ledger(const dmb_sim *sim, const dmb_energy *start, outcome *out)
 {
@@ -47,17 +27,6 @@ static int32_t check_ledger(const dmb_sim *sim, const dmb_energy *start, outcome
     const int32_t status = dmb_query_energy(sim, &energy);
     out->balance = fabs(energy.balance) / (energy.input + fabs(energy.gravity - start->gravity));
     return status;
-}
-
-static dmb_sim_options options_of(const method *how)
-{
-    dmb_sim_options options = dmb_sim_options_default();
-    options.energy_ledger = how->ledger;
-    if (how->step <= 0.0) {
-        options.tolerance_rotation = how->tolerance;
-        options.tolerance_translation = 0.1 * how->tolerance;
-    }
-    return options;
 }
 
 /* One timed run from time 0, statics and creation left out. */
@@ -80,9 +49,11 @@ static int32_t run_once(const scene *s, dmb_sim *sim, const method *how, outcome
     out->steps = (double)(after.steps - before.steps);
     out->rejected = (double)(after.rejected - before.rejected);
     out->iterations = (double)(after.iterations - before.iterations) / fmax(1.0, out->steps);
-    if (status < 0)
-        fprintf(stderr, "bench: scene %s, %g s: %s: %s\n", scene_names[s->kind], dmb_sim_time(sim),
-                dmb_status_text(status), dmb_sim_message(sim));
+    if (status < 0) {
+        char what[64];
+        snprintf(what, sizeof what, "dt=%g tolerance=%g time=%g", how->step, how->tolerance, dmb_sim_time(sim));
+        row_failed(scene_names[s->kind], s->pipes * s->per_pipe, what, dmb_status_name(status), dmb_sim_message(sim));
+    }
     return status;
 }
 
@@ -93,18 +64,41 @@ static outcome measure(const scene *s, const method *how, yardstick *y)
     const dmb_sim_options options = options_of(how);
     outcome out;
     memset(&out, 0, sizeof out);
+    yardstick_anew(y);
     for (int i = 0; i < how->repeats && out.status >= 0; ++i) {
         dmb_sim *sim = NULL;
         out.status = dmb_sim_create(s->model, &options, &sim);
         if (out.status >= 0) out.status = run_once(s, sim, how, &out, &seconds[i]);
         dmb_sim_destroy(&sim);
-        yardstick_measure(y);
+        for (int k = 0; k < 3; ++k) yardstick_measure(y);
     }
     if (out.status < 0) return out;
     out.seconds = median(seconds, how->repeats);
     out.spread = (seconds[how->repeats - 1] - seconds[0]) / out.seconds;
     out.yardstick = yardstick_value(y);
     return out;
+}
+
+/* The part of a row that every outcome has. */
+static void begin_outcome(row *r, const char *name, double elements, const method *how, const outcome *out,
+                          double error, const char *error_kind)
+{
+    const head h = {name,
+                    elements,
+                    how->step > 0.0 ? how->step : how->end / out->steps,
+                    out->seconds / out->steps,
+                    out->yardstick,
+                    how->end / out->seconds,
+                    out->iterations,
+                    error,
+                    error_kind};
+    row_begin(r, &h);
+    row_number(r, "spread", out->spread, 3);
+    row_number(r, "U_us", 1e6 * out->yardstick, 4);
+    row_number(r, "end", how->end, 4);
+    row_number(r, "steps", out->steps, 9);
+    row_number(r, "rejected", out->rejected, 6);
+    row_number(r, "balance", how->ledger ? out->balance : (double)NAN, 3);
 }
 
 #endif

@@ -241,7 +241,10 @@ static void report_ida(const question *ask, const ida_method *how)
 
 static void report_library(const question *ask, double step, double tolerance)
 {
-    const method how = {step, tolerance, ask->end, ask->end, 0, 1};
+    method how = method_fixed(step, ask->end);
+    how.tolerance = tolerance;
+    how.ledger = 0;
+    how.repeats = 1;
     char setting[96], version[32];
     peer_row row;
     memset(&row, 0, sizeof row);

@@ -1,10 +1,8 @@
 #!/usr/bin/python3
-"""Pictures of the benchmark. usage: plot.py RESULTS.CSV FOLDER
+"""Pictures of the benchmark. usage: plot.py FOLDER SCENE...
 
-Writes work_against_error.png and real_time_factor.png into FOLDER; a picture without rows is left out.
+Reads FOLDER/SCENE.csv; work_against_error.png of scene W and real_time_factor.png of C and R, into FOLDER.
 """
-import csv
-import math
 import pathlib
 import sys
 
@@ -13,11 +11,24 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-BLUE, ORANGE, GREEN, RED, GREY = "#1f5fa8", "#d9730d", "#2e7d4f", "#b3261e", "#6b7280"
-COLOURS = {"C": BLUE, "B": GREEN, "R": ORANGE}
-TITLES = {"C": "C: turning tube", "B": "B: on the wall", "R": "R: rig cycle"}
-ERRORS = {"C": ("error", "tip speed at 2 s [-]"), "B": ("error", "tip rotation at 0.1 s [-]"),
-          "R": ("error", "torque at 0.5 s [-]")}
+import rows as measured
+
+BLUE, ORANGE, RED = "#1f5fa8", "#d9730d", "#b3261e"
+COLOURS = {"C": BLUE, "R": ORANGE}
+PANELS = {"C": "C: turning tube, 0.8 s", "T": "T: bending down 20 m, turning, 0.8 s",
+          "B": "B: falling onto the wall, 0.1 s", "R": "R: rig cycle, 0.4 s"}
+QUESTIONS = {"C": "tip speed, relative", "T": "tip's place over the length", "B": "tip's place over the clearance",
+             "R": "torque, relative"}
+# setting: text, colour, line, marker
+SETTINGS = {"default": ("default: fixed steps, radius 0.8, 1 element a pipe", BLUE, "-", "o"),
+            "controlled": ("error-controlled", RED, "--", "s"),
+            "radius_1": ("spectral radius 1", "#0b7a75", "-", "^"),
+            "radius_0.9": ("spectral radius 0.9", "#5aa469", ":", "v"),
+            "radius_0.5": ("spectral radius 0.5", "#b08900", ":", "<"),
+            "radius_0": ("spectral radius 0", "#d9730d", "-", ">"),
+            "elements_2": ("2 elements a pipe", "#9a6fb0", "-", "D"),
+            "elements_4": ("4 elements a pipe", "#5b3a86", "-", "P"),
+            "axial_torsional": ("axial-torsional elements", "#444444", "-.", "X")}
 
 plt.rcParams.update({
     "figure.dpi": 100, "font.size": 10.5, "font.family": "DejaVu Sans", "axes.titlesize": 11, "axes.labelsize": 10.5,
@@ -26,65 +37,57 @@ plt.rcParams.update({
     "figure.constrained_layout.use": True})
 
 
-def read(path):
-    with open(path, encoding="utf-8", newline="") as text:
-        return list(csv.DictReader(line for line in text if not line.startswith("#")))
-
-
-def step_text(row):
-    return f"{1e3 * float(row['dt']):g} ms"
-
-
-def tolerance_text(row):
-    return f"$10^{{{math.log10(float(row['tolerance'])):.0f}}}$ rad"
-
-
 def draw_work(axes, rows, scene):
-    column, label = ERRORS[scene]
-    for method, marker, dashes, text in (("fixed", "o", "-", "fixed step"),
-                                         ("controlled", "s", "--", "error-controlled")):
-        chosen = [row for row in rows if row["scene"] == scene and row["method"] == method]
-        x = [float(row[column]) for row in chosen]
-        y = [float(row["us_per_simulated_second"]) for row in chosen]
-        axes.loglog(x, y, dashes, marker=marker, markersize=5, linewidth=1.5, label=text,
-                    color=COLOURS[scene] if method == "fixed" else GREY)
+    for setting, (text, colour, dashes, marker) in SETTINGS.items():
+        chosen = measured.chosen(rows, scene=scene, setting=setting)
         if not chosen:
             continue
-        for i in (0, len(chosen) - 1):
-            name = step_text(chosen[i]) if method == "fixed" else tolerance_text(chosen[i])
-            right = (method == "controlled") != (scene == "B")  # away from the other line
-            axes.annotate(name, (x[i], y[i]), xytext=(7 if right else -7, -3), textcoords="offset points", fontsize=8.5,
-                          color=COLOURS[scene] if method == "fixed" else GREY, ha="left" if right else "right")
-    axes.axhline(1e6, color=RED, linewidth=1)
-    axes.set_title(TITLES[scene], loc="left", fontweight="bold")
-    axes.set_xlabel("relative error,\n" + label)
-    axes.margins(x=0.62, y=0.08)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.26), borderaxespad=0.0)
+        strong = setting in ("default", "controlled")
+        axes.loglog([float(row["error"]) for row in chosen], [float(row["U_per_simulated_second"]) for row in chosen],
+                    dashes, marker=marker, markersize=6 if strong else 4.5, linewidth=2 if strong else 1.2, label=text,
+                    color=colour, zorder=3 if strong else 2)
+        if setting == "default":
+            for row, place in ((chosen[0], (-8, -13)), (chosen[-1], (8, 4))):
+                axes.annotate(f"{1e3 * float(row['dt']):.4g} ms",
+                              (float(row["error"]), float(row["U_per_simulated_second"])), xytext=place,
+                              textcoords="offset points", fontsize=9, color=colour)
+    reference = max(float(row["reference_error"]) for row in measured.chosen(rows, scene=scene))
+    left, right = axes.get_xlim()
+    if reference > 0.0:
+        left = min(left, 0.3 * reference)
+        axes.axvspan(left, reference, color="#eeeeee", zorder=0)
+    axes.set_xlim(left, right)
+    axes.set_title(PANELS[scene], loc="left", fontweight="bold")
+    axes.set_xlabel("error: " + QUESTIONS[scene])
 
 
 def work_against_error(rows, folder):
-    rows = [row for row in rows if row["group"] == "work"]
-    scenes = [scene for scene in ("C", "B", "R") if any(row["scene"] == scene for row in rows)]
+    scenes = [scene for scene in PANELS if measured.chosen(rows, scene=scene)]
     if not scenes:
         return
-    figure, axes = plt.subplots(1, len(scenes), figsize=(8, 4.4), sharey=True, squeeze=False)
-    figure.suptitle("Work against error, 100 pipes of 1 m", fontsize=13, x=0.01, ha="left")
-    for place, scene in zip(axes[0], scenes):
+    figure, axes = plt.subplots(2, 2, figsize=(10, 9))
+    figure.suptitle("Work against error, steps from 4 ms down; grey: below the error of the reference", fontsize=13,
+                    x=0.01, ha="left")
+    for place, scene in zip(axes.flat, scenes):
         draw_work(place, rows, scene)
-    axes[0][0].set_ylabel("computing [µs] for a simulated second")
-    axes[0][-1].annotate("real time", (0.98, 1e6), xycoords=("axes fraction", "data"), xytext=(0, 3), ha="right",
-                         textcoords="offset points", fontsize=8.5, color=RED)
+    for place in axes[:, 0]:
+        place.set_ylabel("work: U for a simulated second")
+    handles = {}
+    for place in axes.flat:
+        handles.update(zip(*reversed(place.get_legend_handles_labels())))
+    figure.legend(handles.values(), handles.keys(), loc="lower center", ncols=3)
+    figure.get_layout_engine().set(rect=(0, 0.1, 1, 0.9))
     save(figure, folder / "work_against_error.png")
 
 
 def real_time_factor(rows, folder):
-    rows = [row for row in rows if row["group"] == "pipes"]
+    rows = measured.chosen(rows, group="pipes")
     if not rows:
         return
     figure, axes = plt.subplots(figsize=(8, 4.4))
     axes.set_title("Real-time factor, 1 ms steps, one core", fontsize=13, loc="left")
     for scene, text in (("C", "C: turning tube"), ("R", "R: rig cycle, everything on")):
-        chosen = [row for row in rows if row["scene"] == scene]
+        chosen = measured.chosen(rows, scene=scene)
         if not chosen:
             continue
         x = [int(row["pipes"]) for row in chosen]
@@ -99,7 +102,8 @@ def real_time_factor(rows, folder):
                   textcoords="offset points", fontsize=9, color=RED)
     ticks = sorted({int(row["pipes"]) for row in rows})
     axes.set_xticks(ticks, [str(tick) for tick in ticks])
-    axes.set_yticks([0.5, 1, 2, 5, 10, 20, 50])
+    largest = max(float(row["rtf"]) for row in rows)
+    axes.set_yticks([tick for tick in (0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500) if tick < 2 * largest])
     axes.minorticks_off()
     axes.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}"))
     axes.set_xlabel("pipes of 1 m  (error: C tip speed at 2 s, R torque at 0.5 s, relative)")
@@ -116,11 +120,12 @@ def save(figure, path):
 
 
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3:
         sys.exit(__doc__)
-    rows, folder = read(sys.argv[1]), pathlib.Path(sys.argv[2])
-    work_against_error(rows, folder)
-    real_time_factor(rows, folder)
+    folder, scenes = pathlib.Path(sys.argv[1]), sys.argv[2:]
+    if "W" in scenes:
+        work_against_error(measured.read(folder, "W"), folder)
+    real_time_factor([row for scene in ("C", "R") if scene in scenes for row in measured.read(folder, scene)], folder)
 
 
 main()

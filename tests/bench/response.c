@@ -1,9 +1,10 @@
-/* What a frequency response costs. usage: response CSV
+/* What a frequency response costs. usage: response CSV H
  *
  * Scene H: the tube of scene C, 100 m, 100 to 10000 elements, the speed of its drive the input and the rotation of its
  * tip the output, structural damping 0.02, 0.1 to 50 Hz. The same blocks are solved whatever input and output are.
- * Error: root mean square over the band of what differs from 1/(i w cos k L), k = w sqrt(rho/(G (1 + i eta))), over that
- * of the exact response. With W, in the hole under gravity, resting on the wall. tests/bench/run calls it. */
+ * Error: root mean square over the band of what differs from 1/(i w cos k L), k = w sqrt(rho/(G (1 + i eta))), over
+ * that of the exact response. With W, in the hole under gravity, resting on the wall. A row tells processor time of a
+ * point where others tell that of a step. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <drillmbd/drillmbd.h>
@@ -11,7 +12,7 @@
 #include <complex.h>
 #include <stdio.h>
 
-#include "yardstick.h"
+#include "row.h"
 
 #define TUBE_PI 3.14159265358979323846
 #define TUBE_LENGTH 100.0
@@ -32,9 +33,15 @@ typedef struct cost {
 } cost;
 
 static yardstick unit;
-static FILE *table;
+static table results;
 
-/* ---- The tube ----------------------------------------------------------------------------------------------------- */
+static const char *name_of(const tube *t)
+{
+    return t->walled ? "HW" : "H";
+}
+
+/* ---- The tube -----------------------------------------------------------------------------------------------------
+ */
 
 static int32_t add_tube(tube *t)
 {
@@ -81,7 +88,8 @@ static int32_t tube_open(tube *t)
     return status;
 }
 
-/* ---- Measures ----------------------------------------------------------------------------------------------------- */
+/* ---- Measures -----------------------------------------------------------------------------------------------------
+ */
 
 static double complex exact(double frequency)
 {
@@ -124,7 +132,7 @@ static int32_t respond(const tube *t, uint32_t points, double *seconds, double *
     const double begin = processor_time();
     int32_t status = dmb_analysis_response(t->sim, &options, &input, 1, &output, 1, &response);
     *seconds = processor_time() - begin;
-    if (status < 0) fprintf(stderr, "response: %s: %s\n", dmb_status_text(status), dmb_sim_message(t->sim));
+    if (status < 0) row_failed(name_of(t), t->elements, "response", dmb_status_name(status), dmb_sim_message(t->sim));
     if (status >= 0 && error) status = find_error(response, points, error);
     dmb_response_destroy(&response);
     return status;
@@ -135,13 +143,15 @@ static int32_t measure_tube(tube *t, cost *c)
 {
     double make[RESPONSE_REPEATS], point[RESPONSE_REPEATS];
     int32_t status = tube_open(t);
-    if (status < 0) fprintf(stderr, "response: %s: %s\n", dmb_status_text(status), dmb_model_message(t->model));
+    if (status < 0)
+        row_failed(name_of(t), t->elements, "describe", dmb_status_name(status), dmb_model_message(t->model));
+    yardstick_anew(&unit);
     for (int i = 0; i < RESPONSE_REPEATS && status >= 0; ++i) {
         double all = 0.0;
         status = respond(t, 2, &make[i], NULL);
         if (status >= 0) status = respond(t, t->points, &all, &c->error);
         point[i] = (all - make[i]) / (t->points - 2);
-        yardstick_measure(&unit);
+        for (int k = 0; k < 3; ++k) yardstick_measure(&unit);
     }
     dmb_sim_destroy(&t->sim);
     dmb_model_destroy(&t->model);
@@ -152,49 +162,50 @@ static int32_t measure_tube(tube *t, cost *c)
     return DMB_OK;
 }
 
-/* ---- Report ------------------------------------------------------------------------------------------------------- */
+/* ---- Report -------------------------------------------------------------------------------------------------------
+ */
 
 /* On the wall friction of the state at rest turns the tube too: there is no closed form to be wrong by. */
 static void report(const tube *t, const cost *c)
 {
-    const double u = yardstick_value(&unit);
-    printf("scene=%s elements=%u points=%u us_two_points=%.4g us_per_point=%.4g spread=%.2g U_per_point=%.3g ",
-           t->walled ? "HW" : "H", (unsigned)t->elements, (unsigned)t->points, 1e6 * c->make, 1e6 * c->point, c->spread,
-           c->point / u);
-    if (!t->walled) printf("error=%.2e error_kind=rms_of_tip_speed_vs_closed_form", c->error);
-    printf("\n");
-    fprintf(table, "%s,%u,%u,%.6g,%.6g,%.3g,%.4g,%.3g\n", t->walled ? "HW" : "H", (unsigned)t->elements,
-            (unsigned)t->points, 1e6 * c->make, 1e6 * c->point, c->spread, 1e6 * u, t->walled ? (double)NAN : c->error);
-    fflush(stdout);
+    const double u = yardstick_value(&unit), none = (double)NAN;
+    const head h = {name_of(t),
+                    t->elements,
+                    none,
+                    c->point,
+                    u,
+                    none,
+                    none,
+                    t->walled ? none : c->error,
+                    t->walled ? "-" : "rms_of_tip_speed_vs_closed_form"};
+    row r;
+    row_begin(&r, &h);
+    row_number(&r, "spread", c->spread, 3);
+    row_number(&r, "U_us", 1e6 * u, 4);
+    row_number(&r, "repeats", RESPONSE_REPEATS, 3);
+    row_number(&r, "points", t->points, 9);
+    row_number(&r, "us_two_points", 1e6 * c->make, 4);
+    row_put(&r, &results);
 }
 
 static int run_all(void)
 {
     static const uint32_t elements[RESPONSE_SIZES] = {100, 200, 400, 1000, 10000};
     for (int walled = 0; walled < 2; ++walled) {
-        double first = 0.0;
-        cost c = {0.0, 0.0, 0.0, 0.0};
         for (int i = 0; i < RESPONSE_SIZES; ++i) {
             tube t = {.elements = elements[i], .points = 1000000u / elements[i], .walled = walled};
+            cost c = {0.0, 0.0, 0.0, 0.0};
             if (measure_tube(&t, &c) < 0) return 1;
             report(&t, &c);
-            if (i == 0) first = c.point;
         }
-        printf("scene=%s elements=100..10000 growth_per_point=%.3f\n", walled ? "HW" : "H", log10(c.point / first) / 2.0);
     }
     return 0;
 }
 
 int main(int count, char **words)
 {
-    if (count != 2) return fputs("usage: response CSV\n", stderr), 2;
-    table = fopen(words[1], "w");
-    if (!table) return perror(words[1]), 2;
-    fputs("scene,elements,points,us_two_points,us_per_point,spread,U_us,error\n", table);
-    yardstick_open(&unit);
-    for (int i = 0; i < 25; ++i) yardstick_measure(&unit);
-    printf("U=%.4g us\n", 1e6 * yardstick_value(&unit));
+    if (count != 3 || strcmp(words[2], "H") != 0) return fputs("usage: response CSV H\n", stderr), 2;
+    if (table_open(&results, &unit, words[1]) != 0) return 2;
     const int failed = run_all();
-    if (fclose(table) != 0) return perror(words[1]), 2;
-    return failed;
+    return table_close(&results, words[1]) != 0 ? 2 : failed;
 }

@@ -2,6 +2,7 @@
  *   C   a steel tube, OD 73, ID 59 mm, turned at one end from 0 to 60 rpm in the first second by a cubic STEP
  *   B   the same under gravity in a hole of 94 mm, with contact and friction
  *   B*  B driven with pi (1 - cos(pi t)) instead, up to 60 rpm: figures at 2 s are given for it from elsewhere
+ *   T   the same under gravity without a hole: 20 m of it bend far down, turning
  *   R   the rig of examples/gas_drainage_rig with everything on, from rest on the wall: its own source, so that it is
  *       the same rig */
 #ifndef BENCH_SCENES_H
@@ -10,6 +11,7 @@
 #include <drillmbd/drillmbd.h>
 
 #include <math.h>
+#include <string.h>
 
 #include "../../examples/gas_drainage_rig/cycle.c"
 #include "../../examples/gas_drainage_rig/scene.c"
@@ -19,17 +21,22 @@
 #define BENCH_POISSON 0.3
 #define BENCH_DENSITY 7850.0
 
-enum { SCENE_C = 0, SCENE_B = 1, SCENE_B_COSINE = 2, SCENE_R = 3, SCENE_COUNT = 4 };
-static const char *const scene_names[SCENE_COUNT] = {"C", "B", "B*", "R"};
+enum { SCENE_C = 0, SCENE_B = 1, SCENE_B_COSINE = 2, SCENE_R = 3, SCENE_T = 4, SCENE_COUNT = 5 };
+static const char *const scene_names[SCENE_COUNT] = {"C", "B", "B*", "R", "T"};
 
 /* What is asked of a scene: two quantities each. */
-static const char *const quantity_names[SCENE_COUNT][2] = {
-    {"tip_speed", ""}, {"tip_rotation", "tip_z_mm"}, {"tip_rotation", "wall_force"}, {"torque", "bit_z_mm"}};
+static const char *const quantity_names[SCENE_COUNT][2] = {{"tip_speed", ""},
+                                                           {"tip_rotation", "tip_z_mm"},
+                                                           {"tip_rotation", "wall_force"},
+                                                           {"torque", "bit_z_mm"},
+                                                           {"tip_rotation", "tip_z_mm"}};
 
 typedef struct scene {
     int kind;
     uint32_t pipes, per_pipe; /* [-] elements in a pipe */
     double length;            /* [m] of a pipe */
+    int32_t pipe_kind;        /* of C, B, T */
+    double offset;            /* [m] of C, B, T: sideways from the hole's axis, as a whole */
     dmb_model *model;
     dmb_id string, turn;
     double bytes; /* [byte] of model and sim with default options, an element */
@@ -71,6 +78,7 @@ static int32_t bench_add_tube(scene *s)
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     string.start_free = DMB_FREE_RX;
+    string.offset[0] = s->offset;
     int32_t status = dmb_model_add_string(s->model, &string, &s->string);
     pipe.string = s->string;
     pipe.elements = s->per_pipe;
@@ -96,12 +104,18 @@ static int32_t bench_add_hole(scene *s)
     return dmb_model_add_wall(s->model, &wall, NULL);
 }
 
+static int has_hole(const scene *s)
+{
+    return s->kind == SCENE_B || s->kind == SCENE_B_COSINE;
+}
+
 static int32_t bench_make_tube(scene *s)
 {
     dmb_compile_options compile = dmb_compile_options_default();
     compile.features = s->kind == SCENE_C ? 0 : DMB_FEATURE_GRAVITY | DMB_FEATURE_CONTACT | DMB_FEATURE_FRICTION;
+    compile.pipe_kind = s->pipe_kind;
     int32_t status = dmb_model_create(NULL, &s->model);
-    if (status >= 0 && s->kind != SCENE_C) status = bench_add_hole(s);
+    if (status >= 0 && has_hole(s)) status = bench_add_hole(s);
     if (status >= 0) status = bench_add_tube(s);
     if (status >= 0) status = bench_add_turning(s);
     return status < 0 ? status : dmb_model_compile(s->model, &compile);
@@ -137,47 +151,6 @@ static int32_t scene_open(scene *s)
     if (status >= 0) status = dmb_model_get_info(s->model, &info);
     s->bytes = ((double)info.model_bytes + (double)info.sim_bytes) / (s->pipes * s->per_pipe);
     return status;
-}
-
-/* Two quantities at the present time: quantity_names. */
-static int32_t scene_ask(const scene *s, const dmb_sim *sim, double values[2])
-{
-    const dmb_place tip = dmb_station(s->string, s->pipes - 1, 1.0);
-    dmb_motion motion = dmb_motion_default();
-    dmb_contact_sum sum = dmb_contact_sum_default();
-    dmb_drive_state drive = dmb_drive_state_default();
-    dmb_pose pose = dmb_pose_default();
-    int32_t status = DMB_OK;
-    values[0] = values[1] = 0.0;
-    if (s->kind == SCENE_C) {
-        motion.frame = DMB_FRAME_BODY;
-        status = dmb_query_motion(sim, tip, &motion);
-        values[0] = motion.velocity[3];
-    } else if (s->kind == SCENE_R) {
-        status = dmb_query_drive(sim, s->turn, &drive);
-        if (status >= 0) status = dmb_query_pose(sim, tip, &pose);
-        values[0] = drive.force;
-        values[1] = 1e3 * pose.position[2];
-    } else {
-        status = dmb_query_rotation(sim, tip, &values[0]);
-        if (status >= 0) status = dmb_query_contact_sum(sim, &sum);
-        if (status >= 0) status = dmb_query_pose(sim, tip, &pose);
-        values[1] = s->kind == SCENE_B ? 1e3 * pose.position[2] : sum.normal_force;
-    }
-    return status;
-}
-
-/* Speed of the free end of a rod driven at the other with the speed w(t): every wave that arrives doubles, and comes back
- * turned over from the driven end, 2 w(t - T) - 2 w(t - 3T) + ..., T = L sqrt(rho/G) (d'Alembert). */
-static double exact_tip_speed(double length, double time)
-{
-    const double shear = BENCH_YOUNG / (2.0 * (1.0 + BENCH_POISSON)), passage = length * sqrt(BENCH_DENSITY / shear);
-    double sum = 0.0, sign = 2.0;
-    for (double t = time - passage; t > 0.0; t -= 2.0 * passage, sign = -sign) {
-        const double x = t < 1.0 ? t : 1.0;
-        sum += sign * 2.0 * BENCH_PI * x * x * (3.0 - 2.0 * x);
-    }
-    return sum;
 }
 
 #endif

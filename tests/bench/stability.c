@@ -9,7 +9,10 @@
 #include <time.h>
 
 static const double end_time = 0.2; /* [s] */
-enum { ADVANCES = 20 };             /* pieces of an error-controlled run */
+enum {
+    ADVANCES = 20,      /* pieces of an error-controlled run */
+    MOST_HALVINGS = 12, /* as of dmb_sim_step's own */
+};
 
 /* ---- A trial -------------------------------------------------------------------------------------------------------
  */
@@ -20,6 +23,8 @@ typedef struct trial {
     dmb_sim *sim;
     unsigned char *snapshot; /* of piece `mark`; NULL before */
     size_t snapshot_size;
+    unsigned char *undo; /* state before the present bounded step */
+    size_t undo_size;
     uint32_t mark;
     uint64_t hash;     /* of the end */
     const char *stage; /* what was being done when `status` came */
@@ -47,9 +52,10 @@ static int32_t make_sim(trial *t)
 
 static struct counts {
     uint32_t finished, retried, failed, not_finite, unequal;
+    uint32_t unbalanced; /* finished with more than half of the energy unexplained */
     uint32_t newton, relaxed, static_failed, static_none;
     uint32_t worst, worst_static;
-    uint64_t steps, iterations, rejected, cut, limited;
+    uint64_t steps, iterations, rejected, cut, limited, halved;
     double worst_seconds, worst_balance;
     uint32_t slowest, worst_balanced; /* numbers of scenes */
     double balance[SCENES];           /* [-] of the first `finished` */
@@ -129,6 +135,32 @@ static uint32_t pieces_of(const trial *t)
     return t->d->walk == WALK_CONTROLLED ? ADVANCES : (uint32_t)ceil(end_time / t->d->step * (1.0 - 1e-12));
 }
 
+/* [-] A bounded step that ends above this residual is no step: accepted, such steps pump energy in. */
+static const double useless = 0.03;
+
+/* Snapshot of the state before a bounded step. */
+static int32_t remember(trial *t)
+{
+    int32_t status = t->undo ? DMB_OK : dmb_sim_snapshot_size(t->sim, &t->undo_size);
+    if (status >= 0 && !t->undo && !(t->undo = malloc(t->undo_size))) status = DMB_ERR_NO_MEMORY;
+    return status < 0 ? status : dmb_sim_snapshot(t->sim, t->undo, t->undo_size);
+}
+
+/* A bounded step that is refused, or useless, is taken back and done in halves, as a control loop would. */
+static int32_t step_to(trial *t, double time, uint32_t halvings, dmb_step_report *report)
+{
+    const double from = dmb_sim_time(t->sim);
+    if (t->d->walk != WALK_BOUNDED) return dmb_sim_step(t->sim, time - from, report);
+    int32_t status = remember(t);
+    if (status < 0) return status;
+    status = dmb_sim_step(t->sim, time - from, report);
+    if (halvings == 0 || (status >= 0 && report->residual <= useless)) return status;
+    ++counts.halved;
+    status = dmb_sim_restore(t->sim, t->undo, t->undo_size);
+    if (status >= 0) status = step_to(t, 0.5 * (from + time), halvings - 1, report);
+    return status < 0 ? status : step_to(t, time, halvings - 1, report);
+}
+
 /* To the end of piece `k`, counted from 1. */
 static void take_piece(trial *t, uint32_t k)
 {
@@ -136,7 +168,7 @@ static void take_piece(trial *t, uint32_t k)
     if (t->d->walk == WALK_CONTROLLED)
         t->status = dmb_sim_advance(t->sim, k * end_time / ADVANCES, &report);
     else
-        t->status = dmb_sim_step(t->sim, fmin(k * t->d->step, end_time) - dmb_sim_time(t->sim), &report);
+        t->status = step_to(t, fmin(k * t->d->step, end_time), MOST_HALVINGS, &report);
     if (t->status >= 0 && t->d->walk == WALK_FIXED && report.rejected > 0) ++counts.cut;
     if (t->verbose) print_step(t, &report);
     if (t->status >= 0 && !motion_is_finite(t)) t->status = DMB_ERR_NOT_FINITE, t->stage = "finite";
@@ -191,6 +223,11 @@ static void count_finished(const trial *t)
     if (balance > counts.worst_balance) counts.worst_balance = balance, counts.worst_balanced = t->d->number;
     counts.balance[counts.finished++] = balance;
     counts.retried += s.rejected > 0;
+    counts.unbalanced += !(balance <= 0.5);
+    if (!(balance <= 0.5))
+        printf("unbalanced=%u balance=%.2g walk=%s bound=%u dt=%.3g limited=%llu of %llu steps\n",
+               (unsigned)t->d->number, balance, walk_names[t->d->walk], (unsigned)t->d->bound, t->d->step,
+               (unsigned long long)s.limited, (unsigned long long)s.steps);
     counts.steps += s.steps;
     counts.iterations += s.iterations;
     counts.rejected += s.rejected;
@@ -245,6 +282,7 @@ static void try_scene(uint32_t number, const choice *c)
     if (c->verbose) print_drawn(t.d);
     go(&t, c->seed);
     free(t.snapshot);
+    free(t.undo);
     dmb_sim_destroy(&t.sim);
     dmb_model_destroy(&t.scene.model);
     const double seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;
@@ -269,16 +307,17 @@ static double balance_quantile(double fraction)
 static void print_summary(const choice *c)
 {
     qsort(counts.balance, counts.finished, sizeof *counts.balance, compare_doubles);
-    printf("scene=S set=%d seed=%llu scenes=%d finished=%u retried=%u failed=%u not_finite=%u unequal=%u ",
-           c->second ? 2 : 1, c->seed, SCENES, (unsigned)counts.finished, (unsigned)counts.retried,
-           (unsigned)counts.failed, (unsigned)counts.not_finite, (unsigned)counts.unequal);
+    printf(
+        "scene=S set=%d seed=%llu scenes=%d finished=%u retried=%u failed=%u not_finite=%u unequal=%u unbalanced=%u ",
+        c->second ? 2 : 1, c->seed, SCENES, (unsigned)counts.finished, (unsigned)counts.retried,
+        (unsigned)counts.failed, (unsigned)counts.not_finite, (unsigned)counts.unequal, (unsigned)counts.unbalanced);
     printf("static_newton=%u static_relaxed=%u static_failed=%u static_none=%u static_worst_iterations=%u ",
            (unsigned)counts.newton, (unsigned)counts.relaxed, (unsigned)counts.static_failed,
            (unsigned)counts.static_none, (unsigned)counts.worst_static);
-    printf("steps=%llu cut=%llu rejected=%llu limited=%llu iterations=%.3g worst_iterations=%u ",
+    printf("steps=%llu cut=%llu rejected=%llu limited=%llu halved=%llu iterations=%.3g worst_iterations=%u ",
            (unsigned long long)counts.steps, (unsigned long long)counts.cut, (unsigned long long)counts.rejected,
-           (unsigned long long)counts.limited, (double)counts.iterations / fmax(1.0, (double)counts.steps),
-           (unsigned)counts.worst);
+           (unsigned long long)counts.limited, (unsigned long long)counts.halved,
+           (double)counts.iterations / fmax(1.0, (double)counts.steps), (unsigned)counts.worst);
     printf("balance_median=%.1e balance_99=%.1e balance_worst=%.1e balance_worst_number=%u ", balance_quantile(0.5),
            balance_quantile(0.99), counts.worst_balance, (unsigned)counts.worst_balanced);
     printf("seconds=%.4g slowest=%.3g slowest_number=%u\n", (double)clock() / CLOCKS_PER_SEC, counts.worst_seconds,

@@ -93,7 +93,14 @@ static void yardstick_measure(yardstick *y)
     y->measured[y->measures++] = median(taken, YARDSTICK_REPEATS);
 }
 
-/* [s] median of all measures so far: single ones jump with what else the machine does. NaN without LAPACKE. */
+/* Forgets earlier measures: the machine's clock may change within the process, and U is to be that of now. */
+static void yardstick_anew(yardstick *y)
+{
+    y->measures = 0;
+    for (int i = 0; i < 5; ++i) yardstick_measure(y);
+}
+
+/* [s] median of the measures: single ones jump with what else the machine does. NaN without LAPACKE. */
 static double yardstick_value(yardstick *y)
 {
     return y->measures > 0 ? median(y->measured, y->measures) : (double)NAN;

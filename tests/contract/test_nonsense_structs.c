@@ -43,7 +43,7 @@ typedef struct entry {
 
 INIT(model_options) INIT(environment_def) INIT(term) INIT(wall_def) INIT(string_def) INIT(pipe_def) INIT(body_def)
 INIT(bit_def) INIT(drive_def) INIT(load_def) INIT(compile_options) INIT(model_info) INIT(sim_options)
-INIT(step_report) INIT(static_options) INIT(static_report) INIT(buckling_options)
+INIT(step_report) INIT(static_options) INIT(static_report) INIT(buckling_options) INIT(path_options) INIT(path_report)
 INIT(pose) INIT(motion) INIT(section) INIT(contact)
 INIT(contact_sum) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state) INIT(statistics) INIT(recorder)
 INIT(allocator) INIT(joint_state) INIT(joint_def) INIT(coupling_def) INIT(constraint_def)
@@ -236,6 +236,13 @@ static int32_t unsupported_is_fine(int32_t status)
 }
 static dmb_buckling *no_buckling;
 CALL(buckling_options, unsupported_is_fine(dmb_analysis_buckling(scene.sim, p, &no_buckling)))
+/* The whole scene is in no equilibrium. */
+static int32_t order_is_fine(int32_t status)
+{
+    return status == DMB_ERR_ORDER || status == DMB_ERR_SINGULAR ? DMB_OK : status;
+}
+CALL(path_options, order_is_fine(dmb_analysis_path(scene.sim, p, NULL)))
+CALL(path_report, order_is_fine(dmb_analysis_path(scene.sim, NULL, p)))
 CALL(static_report, singular_is_fine(dmb_analysis_static(scene.sim, NULL, p)))
 
 static int32_t call_recorder(void *p)
@@ -260,7 +267,7 @@ static const entry entries[] = {
     ENTRY(allocator, 0), ENTRY(model_options, 0), ENTRY(environment_def, 0), ENTRY(term, 0), ENTRY(wall_def, 0),
     ENTRY(string_def, 0), ENTRY(pipe_def, 0), ENTRY(body_def, 0), ENTRY(bit_def, 0), ENTRY(drive_def, 0),
     ENTRY(load_def, 0), ENTRY(compile_options, 0), GROWN(sim_options, 96, 0), ENTRY(static_options, 0),
-    GROWN(model_info, 72, 1), ENTRY(step_report, 1), GROWN(static_report, 40, 1), ENTRY(buckling_options, 0), ENTRY(pose, 1),
+    GROWN(model_info, 72, 1), ENTRY(step_report, 1), GROWN(static_report, 40, 1), ENTRY(buckling_options, 0), ENTRY(path_options, 0), ENTRY(path_report, 1), ENTRY(pose, 1),
     ENTRY(motion, 1), ENTRY(section, 1), ENTRY(contact, 1), ENTRY(contact_sum, 1), ENTRY(energy, 1), ENTRY(momentum, 1),
     ENTRY(drive_state, 1), ENTRY(bit_state, 1), GROWN(statistics, 72, 1), ENTRY(recorder, 0),
     ENTRY(joint_state, 1), ENTRY(joint_def, 0), ENTRY(coupling_def, 0), ENTRY(constraint_def, 0),

@@ -87,13 +87,15 @@ static dmb_id build_denormal(contact_scene *scene)
     return build_bar(scene, 1e-306);
 }
 
-static void run(dmb_id (*build)(contact_scene *), int steps, double h, int flush, double values[VALUES])
+static void run(dmb_id (*build)(contact_scene *), int steps, double h, int flush, double values[VALUES],
+                dmb_statistics *work)
 {
     contact_scene scene;
     flush_denormals(flush);
     const dmb_id id = build(&scene);
     for (int i = 0; i < steps; i++) scene_step(&scene, h);
     read_state(&scene, id, values);
+    *work = scene_statistics(&scene);
     scene_close(&scene);
     flush_denormals(0);
 }
@@ -101,9 +103,13 @@ static void run(dmb_id (*build)(contact_scene *), int steps, double h, int flush
 static double compare(dmb_id (*build)(contact_scene *), int steps, double h)
 {
     double with[VALUES], without[VALUES], scale[2] = {0.0, 0.0}, worst = 0.0;
+    dmb_statistics flushed, kept;
     if (!CAN_FLUSH) skip();
-    run(build, steps, h, 0, without);
-    run(build, steps, h, 1, with);
+    run(build, steps, h, 0, without, &kept);
+    run(build, steps, h, 1, with, &flushed);
+    print_message("%llu steps, %llu iterations\n", (unsigned long long)kept.steps, (unsigned long long)kept.iterations);
+    assert_true(kept.steps == flushed.steps && kept.rejected == flushed.rejected); /* nothing stalls on them */
+    assert_true(kept.iterations == flushed.iterations);
     for (int i = 0; i < VALUES; i++) {
         double *s = scale + (i % 12 >= 6);
         *s = fmax(*s, fabs(without[i]));

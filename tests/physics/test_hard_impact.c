@@ -80,6 +80,7 @@ static void two_at_one_instant(void **state)
             z[2] = scene_position(&scene, b, 2);
             scene_close(&scene);
         }
+        print_message("two at one instant: %.3g and %.3g m from one alone\n", z[1] - z[0], z[2] - z[0]);
         CHECK_CLOSE(z[1], z[0], 0.0);
         CHECK_CLOSE(z[2], z[0], 0.0);
     }
@@ -92,6 +93,7 @@ static void flat_landing(void **state)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_string_def string = dmb_string_def_default();
     contact_scene scene;
+    double tilt = 0.0;
     (void)state;
     wall.friction_law = DMB_FRICTION_NONE;
     pipe.kind = DMB_PIPE_RIGID;
@@ -107,9 +109,11 @@ static void flat_landing(void **state)
         scene_step(&scene, 1e-4);
         assert_int_equal(dmb_query_pose(scene.sim, dmb_station(id, 0, 0.0), &near), DMB_OK);
         assert_int_equal(dmb_query_pose(scene.sim, dmb_station(id, 0, 1.0), &far), DMB_OK);
+        tilt = fmax(tilt, fabs(near.position[2] - far.position[2]));
         CHECK_CLOSE(near.position[2], far.position[2], 1e-14);
         CHECK_CLOSE(scene_contact(&scene, 0).normal_force, scene_contact(&scene, 1).normal_force, 1e-6);
     }
+    print_message("flat landing: ends apart by %.2e m\n", tilt);
     scene_close(&scene);
 }
 
@@ -139,6 +143,7 @@ static void grazing(void **state)
         }
         const double v = scene_speed(&scene, id, DMB_Z);
         assert_true(isfinite(v));
+        print_message("grazing at 1e-12 m/s, step %g: leaves at %.2e m/s\n", steps[k], v);
         CHECK_BELOW(fabs(v), grazing_speed);
         CHECK_BELOW(fabs(scene_contact(&scene, 0).gap), 1e-8);
         scene_close(&scene);
@@ -237,6 +242,7 @@ static void no_tunnelling(void **state)
  * the other side of the axis at times. */
 static void narrow_hole(void **state)
 {
+    double deepest = 0.0;
     (void)state;
     for (int phase = 0; phase < 20; phase++) {
         dmb_wall_def wall = wall_of(1e8);
@@ -254,11 +260,13 @@ static void narrow_hole(void **state)
         for (int i = 0; i < 50; i++) {
             const int32_t status = dmb_sim_step(scene.sim, 1e-2, NULL);
             if (status < 0) break;
+            deepest = fmax(deepest, -scene_contact(&scene, 0).gap);
             CHECK_BELOW(-scene_contact(&scene, 0).gap, 0.02);                   /* of the step's 100 mm */
             CHECK_BELOW(scene_energy(&scene).kinetic, 1.01 * kinetic_of(10.0)); /* and 1 % for the height */
         }
         scene_close(&scene);
     }
+    print_message("narrow hole: deepest %.3e m\n", deepest);
 }
 
 int main(void)

@@ -74,7 +74,7 @@ static void signs_of_random_matrices(void **state)
         chain c;
         lay_out(&c, sizes[t % 3]);
         const uint32_t want = random_matrix(&c, &seed);
-        right += dmb_block_negative(&c.layout, c.diagonal, c.lower, c.upper, 0, BLOCKS) == want;
+        right += dmb_block_negative(&c.layout, c.diagonal, c.lower, c.upper, NULL, 0, BLOCKS) == want;
     }
     tell("matrices whose signs are counted right, of 3000", right);
     assert_int_equal(right, 3000);
@@ -92,7 +92,10 @@ static void sturm_count_of_the_laplacian(void **state)
         const double mu = 2.0 - 2.0 * cos((k + 0.5) * PI / (BLOCKS + 1));
         for (uint32_t i = 0; i < BLOCKS; i++) c.diagonal[i] = 2.0 - mu;
         for (uint32_t i = 0; i + 1 < BLOCKS; i++) c.lower[i] = c.upper[i] = -1.0;
-        assert_int_equal(dmb_block_negative(&c.layout, c.diagonal, c.lower, c.upper, 0, BLOCKS), k);
+        assert_int_equal(dmb_block_negative(&c.layout, c.diagonal, c.lower, c.upper, NULL, 0, BLOCKS), k);
+        double raise[BLOCKS];
+        for (uint32_t i = 0; i < BLOCKS; i++) raise[i] = mu;
+        assert_int_equal(dmb_block_negative(&c.layout, c.diagonal, c.lower, c.upper, raise, 0, BLOCKS), 0);
     }
 }
 
@@ -104,8 +107,8 @@ static void pivots_of_two_rows(void **state)
     chain c;
     lay_out(&c, twos);
     for (uint32_t k = 0; k < BLOCKS; k++) c.diagonal[c.diag[k] + 1] = c.diagonal[c.diag[k] + 2] = 1.0;
-    assert_int_equal(dmb_block_negative(&c.layout, c.diagonal, c.lower, c.upper, 0, BLOCKS), BLOCKS);
-    assert_int_equal(dmb_block_negative(&c.layout, c.diagonal, c.lower, c.upper, 3, 2), 2);
+    assert_int_equal(dmb_block_negative(&c.layout, c.diagonal, c.lower, c.upper, NULL, 0, BLOCKS), BLOCKS);
+    assert_int_equal(dmb_block_negative(&c.layout, c.diagonal, c.lower, c.upper, NULL, 3, 2), 2);
 }
 
 int main(void)

@@ -1,0 +1,232 @@
+/* Few modes: the inverse of K - shift M makes the wanted eigenvalues the largest of an operator.
+ *
+ *     symmetric:  A = (K - p M)^-1 M in the metric M,           s^2 = -(p + 1/value)
+ *     general:    (x; w), w = s x, from s (x; M w) = (w; -K x - C w) with a real shift p:
+ *                 A (a; b) = (x; w),  Q x = -(M b + (C + p M) a),  Q = K + p C + p^2 M,  w = a + p x,
+ *                 s = p + 1/value, in the metric blkdiag(f^2 M, M), f making both parts of one size
+ *     pinned:     the same with p = 0, K + pins for K, and its inverse between P^T and P, P = I - sum r_i r_i^T M, r_i
+ * the rigid-body motions */
+#include <math.h>
+#include <string.h>
+
+#include "analysis/modes.h"
+#include "base/allocator.h"
+#include "math/eigen.h"
+#include "math/krylov.h"
+
+/* Residual of a converged value of the operator: its error is the square of this where symmetric. */
+#define DMB_MODES_SYMMETRIC_TOLERANCE 1e-9
+#define DMB_MODES_GENERAL_TOLERANCE 1e-11
+
+typedef struct inverse {
+    const dmb_mode_search *search;
+    dmb_linear *linear;
+    const dmb_linear_matrix *damping; /* NULL: left out */
+    double shift, scale;              /* p and f */
+    double *work;                     /* shape (2 rows) */
+} inverse;
+
+static void mass_times(const dmb_linear *linear, const double *x, double *y)
+{
+    dmb_linear_multiply(linear, &linear->mass, x, y);
+}
+
+static void draw_rows(dmb_linear *linear, uint64_t *seed, double *x)
+{
+    for (uint32_t i = 0; i < linear->rows; i++) {
+        *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+        x[i] = (double)(*seed >> 11) * 0x1p-52 - 1.0;
+    }
+}
+
+/* A motion that random forces give: of the space of the coordinates, and smooth. */
+static void draw_motion(dmb_linear *linear, uint64_t *seed, double *x, double *work)
+{
+    draw_rows(linear, seed, x);
+    mass_times(linear, x, work);
+    memcpy(x, work, linear->rows * sizeof(double));
+    dmb_linear_solve(linear, x);
+}
+
+/* ---- Symmetric --------------------------------------------------------------------------------------------------- */
+
+static void symmetric_metric(void *context, const double *x, double *y)
+{
+    const inverse *A = context;
+    mass_times(A->linear, x, y);
+}
+
+static void symmetric_apply(void *context, const double *x, const double *Mx, double *y)
+{
+    const inverse *A = context;
+    const dmb_mode_search *s = A->search;
+    (void)x;
+    memcpy(y, Mx, A->linear->rows * sizeof(double));
+    dmb_modes_take_rigid(s, s->rigid, s->rigid_momentum, y);
+    dmb_linear_solve(A->linear, y);
+    dmb_modes_take_rigid(s, s->rigid_momentum, s->rigid, y);
+}
+
+static void symmetric_draw(void *context, uint64_t *seed, double *x)
+{
+    const inverse *A = context;
+    draw_motion(A->linear, seed, x, A->work);
+    dmb_modes_take_rigid(A->search, A->search->rigid_momentum, A->search->rigid, x);
+}
+
+/* X^T A X of vectors by rows, AX in `products`. */
+static void project(const dmb_linear *linear, const dmb_linear_matrix *A, const double *X, size_t count,
+                    double *products, double *out)
+{
+    const size_t rows = linear->rows;
+    for (size_t j = 0; j < count; j++) dmb_linear_multiply(linear, A, X + rows * j, products + rows * j);
+    for (size_t j = 0; j < count; j++)
+        for (size_t i = 0; i < count; i++) {
+            double sum = 0.0;
+            for (size_t r = 0; r < rows; r++) sum += X[rows * i + r] * products[rows * j + r];
+            out[count * j + i] = sum;
+        }
+    for (size_t j = 0; j < count; j++)
+        for (size_t i = 0; i < j; i++)
+            out[count * j + i] = out[count * i + j] = 0.5 * (out[count * j + i] + out[count * i + j]);
+}
+
+/* K and M themselves in the space that was found: an eigenvalue is then as good as its vector squared, and that of the
+ * operator's rounding is out of it. */
+static int32_t refine(dmb_mode_search *search, const dmb_krylov *found)
+{
+    dmb_linear *linear = search->linear;
+    const size_t k = found->count, rows = linear->rows, work = dmb_eigen_work(k);
+    const size_t bytes = (2 * k * k + k + work + k * rows + rows) * sizeof(double);
+    double *K = dmb_allocate(&linear->allocator, bytes), *M = K + k * k, *values = M + k * k, *lapack = values + k;
+    double *products = lapack + work, *x = products + k * rows;
+    if (K == NULL) return DMB_ERR_NO_MEMORY;
+    project(linear, &linear->mass, found->x, k, products, M);
+    project(linear, &linear->stiffness, found->x, k, products, K);
+    int32_t status = dmb_eigen_pair(k, K, M, values, lapack) == 0 ? DMB_OK : DMB_ERR_NO_CONVERGENCE;
+    for (size_t i = 0; i < k && status >= 0; i++) {
+        memset(x, 0, rows * sizeof(double));
+        for (size_t j = 0; j < k; j++)
+            for (size_t r = 0; r < rows; r++) x[r] += K[k * i + j] * found->x[rows * j + r];
+        status = dmb_modes_add_square(search, values[i], x);
+    }
+    dmb_release(&linear->allocator, K, bytes);
+    return status;
+}
+
+/* ---- General ----------------------------------------------------------------------------------------------------- */
+
+static void general_metric(void *context, const double *x, double *y)
+{
+    const inverse *A = context;
+    const uint32_t rows = A->linear->rows;
+    mass_times(A->linear, x, y);
+    for (uint32_t i = 0; i < rows; i++) y[i] *= A->scale * A->scale;
+    mass_times(A->linear, x + rows, y + rows);
+}
+
+static void general_apply(void *context, const double *x, const double *Gx, double *y)
+{
+    const inverse *A = context;
+    const uint32_t rows = A->linear->rows;
+    const double mass_factor = A->shift / (A->scale * A->scale);
+    memset(y, 0, rows * sizeof(double));
+    if (A->damping != NULL) dmb_linear_multiply(A->linear, A->damping, x, y);
+    for (uint32_t i = 0; i < rows; i++) y[i] = -(Gx[rows + i] + y[i] + mass_factor * Gx[i]);
+    dmb_modes_take_rigid(A->search, A->search->rigid, A->search->rigid_momentum, y);
+    dmb_linear_solve(A->linear, y);
+    dmb_modes_take_rigid(A->search, A->search->rigid_momentum, A->search->rigid, y);
+    for (uint32_t i = 0; i < rows; i++) y[rows + i] = x[i] + A->shift * y[i];
+}
+
+static void general_draw(void *context, uint64_t *seed, double *x)
+{
+    const inverse *A = context;
+    const uint32_t rows = A->linear->rows;
+    for (uint32_t part = 0; part < 2; part++) {
+        draw_motion(A->linear, seed, x + part * rows, A->work);
+        dmb_modes_take_rigid(A->search, A->search->rigid_momentum, A->search->rigid, x + part * rows);
+    }
+}
+
+static int32_t take_general(dmb_mode_search *search, const dmb_krylov *found)
+{
+    const size_t rows = search->linear->rows;
+    int32_t status = DMB_OK;
+    for (uint32_t k = 0; k < found->count && status >= 0; k++) {
+        const double size2 = found->re[k] * found->re[k] + found->im[k] * found->im[k];
+        const double re = search->shift + found->re[k] / size2, im = -found->im[k] / size2;
+        double *x = found->x + 2 * rows * k, *y = found->y + 2 * rows * k;
+        for (size_t i = 0; i < rows; i++) y[i] = -y[i]; /* the conjugate, of im > 0 */
+        status = dmb_modes_add(search, re, fabs(im), x, im != 0.0 ? y : NULL);
+    }
+    return status;
+}
+
+/* ---- Both -------------------------------------------------------------------------------------------------------- */
+
+/* [1/s] size of the lowest frequencies, from the Rayleigh quotient of a motion smoothed twice. */
+static double low_frequency(dmb_mode_search *search)
+{
+    dmb_linear *linear = search->linear;
+    const uint32_t rows = linear->rows;
+    double *x = search->work, *y = x + rows, *z = y + rows, up = 0.0, down = 0.0;
+    uint64_t seed = 7;
+    draw_motion(linear, &seed, x, y);
+    dmb_modes_take_rigid(search, search->rigid_momentum, search->rigid, x);
+    mass_times(linear, x, y);
+    memcpy(z, y, rows * sizeof(double));
+    dmb_linear_solve(linear, z);
+    for (uint32_t i = 0; i < rows; i++) {
+        up += x[i] * y[i];
+        down += z[i] * y[i];
+    }
+    return down != 0.0 && isfinite(up / down) ? sqrt(fabs(up / down)) : 1.0;
+}
+
+static int32_t factor(dmb_mode_search *search)
+{
+    const double p = search->shift;
+    const int damped = search->options->kind == DMB_MODES_DAMPED;
+    if (search->pinned) return DMB_OK;
+    const int64_t bad = search->general ? dmb_linear_factor(search->linear, 1.0, damped ? p : 0.0, p * p, NULL)
+                                        : dmb_linear_factor(search->linear, 1.0, 0.0, -p, NULL);
+    if (bad < 0) return DMB_OK;
+    dmb_message_set(search->message, "modes: K - shift M is singular at node %u", (uint32_t)bad);
+    return DMB_ERR_SINGULAR;
+}
+
+static dmb_operator operator_of(const dmb_mode_search *search, inverse *A)
+{
+    const int general = search->general;
+    dmb_operator operator;
+    memset(&operator, 0, sizeof operator);
+    operator.context = A;
+    operator.length =(general ? 2 : 1) * (size_t)search->linear->rows;
+    operator.dimension =(general ? 2 : 1) * ((size_t)search->linear->coordinates - search->rigid_count);
+    operator.symmetric = !general;
+    operator.metric = general ? general_metric : symmetric_metric;
+    operator.apply = general ? general_apply : symmetric_apply;
+    operator.draw = general ? general_draw : symmetric_draw;
+    return operator;
+}
+
+int32_t dmb_modes_sparse(dmb_mode_search *search, uint32_t wanted)
+{
+    dmb_linear *linear = search->linear;
+    inverse A = {search, linear, NULL, search->shift, 1.0, search->work};
+    dmb_krylov found;
+    int32_t status = factor(search);
+    if (status < 0 || wanted <= search->rigid_count) return status;
+    if (search->options->kind == DMB_MODES_DAMPED) A.damping = &linear->damping;
+    if (search->general) A.scale = low_frequency(search);
+    const dmb_operator operator= operator_of(search, &A);
+    status = dmb_krylov_largest(&operator, wanted - search->rigid_count, search->shift != 0.0 ? 4 : 2,
+                                search->general ? DMB_MODES_GENERAL_TOLERANCE : DMB_MODES_SYMMETRIC_TOLERANCE,
+                                &linear->allocator, &found);
+    if (status < 0) return status;
+    search->modes->info.solves += found.applications;
+    status = search->general ? take_general(search, &found) : refine(search, &found);
+    dmb_krylov_release(&found);
+    return status;
+}

@@ -1,0 +1,248 @@
+#include "analysis/path.h"
+
+#include <string.h>
+
+#include "analysis/stiffness.h"
+#include "base/allocator.h"
+#include "base/arena.h"
+#include "base/check.h"
+#include "base/handle.h"
+#include "base/sized_struct.h"
+
+DMB_DECLARE_STRUCT(dmb_path_options)
+DMB_DECLARE_STRUCT(dmb_path_report)
+
+static int32_t take_options(dmb_sim *sim, const dmb_path_options *given, dmb_path_options *out)
+{
+    dmb_check check = dmb_check_of(&sim->message, "path options", DMB_NO_INDEX);
+    (void)dmb_path_options_init(out, (uint32_t)sizeof *out);
+    if (given != NULL && dmb_path_options_read(out, given) < 0) {
+        dmb_message_set(&sim->message, "path options: struct_size is not one this library knows");
+        return DMB_ERR_STRUCT_SIZE;
+    }
+    dmb_check_count(&check, "max_points", out->max_points, 1, 1000000);
+    dmb_check_count(&check, "max_iterations", out->max_iterations, 2, 1000);
+    dmb_check_choice(&check, "scale", out->scale, DMB_SCALE_ALL, DMB_SCALE_PART);
+    dmb_check_choice(&check, "component", out->component, DMB_X, DMB_Z);
+    dmb_check_choice(&check, "branch", out->branch, -1, 1);
+    dmb_check_within(&check, "factor_end", out->factor_end, -1e30, 1e30);
+    if (out->factor_end == 0.0) dmb_check_fail(&check, DMB_ERR_VALUE, "factor_end", 0.0, "not 0");
+    dmb_check_within(&check, "displacement_end", out->displacement_end, -1e30, 1e30);
+    dmb_check_within(&check, "first_step", out->first_step, 0.0, 1e30);
+    dmb_check_above(&check, "step_max", out->step_max, 0.0);
+    dmb_check_within(&check, "branch_size", out->branch_size, 0.0, 1e6);
+    dmb_check_within(&check, "tolerance", out->tolerance, 1e-15, 0.1);
+    dmb_check_within(&check, "slip_axial", out->slip_axial, -1e6, 1e6);
+    dmb_check_within(&check, "slip_rotation", out->slip_rotation, -1e6, 1e6);
+    return check.status;
+}
+
+static int32_t check_place(dmb_sim *sim, const dmb_path_options *options)
+{
+    dmb_pose pose = dmb_pose_default();
+    if (options->place.part.generation == 0) return DMB_OK;
+    const int32_t status = dmb_query_pose(sim, options->place, &pose);
+    if (status < 0) dmb_message_set(&sim->message, "path options: place is no place of this model");
+    return status;
+}
+
+/* ---- Memory ------------------------------------------------------------------------------------------------------ */
+
+static void lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_path *to)
+{
+    to->last.tangent = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    to->next.tangent = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    to->loaded = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    to->move = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    to->mode = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    to->pattern.base = DMB_ARENA_DOUBLES(arena, dmb_load_pattern_size(scene));
+}
+
+/* ---- Start ------------------------------------------------------------------------------------------------------- */
+
+static void explain(dmb_path *path, int32_t status)
+{
+    if (path->sim->message.text[0] != '\0') return;
+    if (status == DMB_ERR_SINGULAR) {
+        (void)dmb_stiffness_explain(path->sim, "path", path->search.block);
+    } else {
+        dmb_message_set(&path->sim->message, "path: lost at factor = %g after %u points, relative residual = %g",
+                        path->last.factor, path->report.points, path->search.residual);
+    }
+}
+
+static int32_t begin(dmb_path *path)
+{
+    dmb_sim *work = path->work;
+    const dmb_scene *scene = work->scene;
+    memset(work->increment, 0, scene->row_count * sizeof(double));
+    memset(work->now.velocity, 0, scene->row_count * sizeof(double));
+    memset(work->now.acceleration, 0, scene->row_count * sizeof(double));
+    memset(work->now.pseudo_acceleration, 0, scene->row_count * sizeof(double));
+    dmb_configuration_copy(work, &work->now, &work->trial);
+    work->linked_mode->row = UINT32_MAX;
+    int32_t status = dmb_system_prescribe(&path->search.evaluation);
+    if (status >= 0 && scene->cluster_count) status = dmb_static_settle(&path->search);
+    if (status < 0) return status;
+    memset(work->trial.velocity, 0, scene->row_count * sizeof(double));
+    dmb_load_pattern_begin(&path->pattern, work);
+    status = dmb_path_evaluate(path, 1);
+    if (status >= 0) status = dmb_stiffness_balanced(path->sim, "path", &path->search.evaluation);
+    if (status >= 0) status = dmb_path_tangent(path, path->next.tangent); /* 0: along a rising factor */
+    if (status >= 0 && path->weakest < DMB_LOOSE_PIVOT) status = DMB_ERR_SINGULAR;
+    if (status < 0) return status;
+    const double sense = path->options->factor_end < 0.0 ? -1.0 : 1.0;
+    path->next.rate *= sense;
+    for (uint32_t i = 0; i < scene->row_count; i++) path->next.tangent[i] *= sense;
+    path->side = path->next.rate;
+    dmb_path_accept(path);
+    return DMB_OK;
+}
+
+/* ---- The way ----------------------------------------------------------------------------------------------------- */
+
+/* 0, or DMB_NOTE_STOPPED where the caller says so. */
+static int32_t tell(dmb_path *path, int32_t kind)
+{
+    dmb_path_point point = dmb_path_point_default();
+    point.number = path->report.points;
+    point.kind = kind;
+    point.negative = path->last.negative;
+    point.iterations = path->iterations;
+    point.factor = path->last.factor;
+    point.rate = path->last.rate;
+    point.arc = path->last.arc;
+    point.displacement = path->last.watched;
+    path->report.factor = path->last.factor;
+    path->report.displacement = path->last.watched;
+    if (kind == DMB_PATH_LIMIT && path->report.limits++ == 0) path->report.first_limit = point.factor;
+    if (kind == DMB_PATH_BIFURCATION && path->report.bifurcations++ == 0) path->report.first_bifurcation = point.factor;
+    if (path->options->callback == NULL) return DMB_OK;
+    return path->options->callback(path->options->callback_context, path->work, &point) ? DMB_NOTE_STOPPED : DMB_OK;
+}
+
+#define DMB_CUTS_IN_A_ROW 40
+/* Newton iterations of a step that is as long as the one before. */
+#define DMB_GOOD_ITERATIONS 5.0
+
+/* The event, or an end that lies before it. */
+static int32_t locate(dmb_path *path, int32_t *event, double arc)
+{
+    const int32_t status = dmb_path_locate(path, *event, arc);
+    const int32_t end = dmb_path_end(path, *event);
+    if (status < 0 || end == DMB_EVENT_NONE) return status;
+    *event = end;
+    return dmb_path_locate(path, end, path->next.arc - path->last.arc);
+}
+
+/* The next point, at an event or at *arc; a step that fails is halved. *event tells. */
+static int32_t find_next(dmb_path *path, double *arc, int32_t *event)
+{
+    for (int cuts = 0;; cuts++, path->report.cuts++) {
+        *arc = fmin(*arc, path->options->step_max);
+        int32_t status = dmb_path_correct(path, path->last.tangent, path->last.rate, *arc);
+        if (status >= 0) status = dmb_path_tangent(path, path->last.tangent);
+        if (status >= 0) {
+            *event = dmb_path_event(path);
+            if (*event == DMB_EVENT_NONE) return DMB_OK;
+            status = locate(path, event, *arc);
+        }
+        if (status >= 0 || status == DMB_ERR_CALLBACK) return status;
+        if (cuts >= DMB_CUTS_IN_A_ROW) return DMB_ERR_NO_CONVERGENCE;
+        *arc *= 0.5;
+    }
+}
+
+static int32_t leave(dmb_path *path, double *arc)
+{
+    if (path->options->branch_size > 0.0) *arc = path->options->branch_size;
+    const int32_t status = dmb_path_leave(path, arc);
+    if (status < 0) return status;
+    dmb_path_accept(path);
+    path->report.points++;
+    return tell(path, DMB_PATH_BRANCH);
+}
+
+static int32_t follow(dmb_path *path)
+{
+    const dmb_path_options *o = path->options;
+    double arc = (o->first_step > 0.0 ? o->first_step : 0.1 * fabs(o->factor_end)) / fabs(path->last.rate);
+    int may_leave = o->branch != 0;
+    int32_t status = tell(path, DMB_PATH_REGULAR);
+    while (status == DMB_OK) {
+        int32_t event = DMB_EVENT_NONE;
+        if (path->report.points >= o->max_points) return DMB_NOTE_STOPPED;
+        status = find_next(path, &arc, &event);
+        if (status < 0) return status;
+        dmb_path_accept(path);
+        path->report.points++;
+        status = tell(path, event == DMB_EVENT_LIMIT         ? DMB_PATH_LIMIT
+                            : event == DMB_EVENT_BIFURCATION ? DMB_PATH_BIFURCATION
+                                                             : DMB_PATH_REGULAR);
+        if (event == DMB_EVENT_FACTOR || event == DMB_EVENT_DISPLACEMENT) return status;
+        if (status == DMB_OK && event == DMB_EVENT_BIFURCATION && may_leave) {
+            may_leave = 0;
+            status = leave(path, &arc);
+        } else if (event == DMB_EVENT_NONE) {
+            arc *= fmin(fmax(sqrt(DMB_GOOD_ITERATIONS / (path->iterations + 1.0)), 0.5), 2.0);
+        }
+    }
+    return status;
+}
+
+static int32_t run(dmb_path *path)
+{
+    path->statics.tolerance = path->options->tolerance;
+    dmb_static_set_up(&path->search, path->work, &path->statics);
+    dmb_static_slip(&path->search, path->options->slip_axial, path->options->slip_rotation);
+    int32_t status = begin(path);
+    if (status >= 0) status = follow(path);
+    if (status < 0) explain(path, status);
+    return status;
+}
+
+static int32_t allocate_and_run(dmb_path *path)
+{
+    dmb_sim *sim = path->sim;
+    dmb_arena arena;
+    dmb_arena_count(&arena);
+    double *const none = path->pattern.base;
+    lay_out(&arena, sim->scene, path);
+    const size_t size = dmb_arena_block_size(&arena);
+    void *block = arena.overflow ? NULL : dmb_allocate(&sim->allocator, size);
+    path->work = block != NULL ? dmb_state_copy(sim) : NULL;
+    int32_t status = DMB_ERR_NO_MEMORY;
+    if (path->work != NULL) {
+        path->work->magic = DMB_HANDLE_SIM; /* so that the callback can ask it */
+        dmb_arena_place(&arena, block, size);
+        lay_out(&arena, sim->scene, path);
+        status = run(path);
+        path->work->magic = DMB_HANDLE_DEAD;
+    }
+    path->pattern.base = none;
+    dmb_state_discard(path->work);
+    if (block != NULL) dmb_release(&sim->allocator, block, size);
+    return status;
+}
+
+int32_t dmb_analysis_path(dmb_sim *sim, const dmb_path_options *options, dmb_path_report *report)
+{
+    dmb_path_options taken;
+    dmb_path path;
+    if (sim == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
+    dmb_message_clear(&sim->message);
+    memset(&path, 0, sizeof path);
+    path.sim = sim;
+    path.options = &taken;
+    (void)dmb_path_report_init(&path.report, (uint32_t)sizeof path.report);
+    if (report != NULL && dmb_path_report_read(&path.report, report) < 0) return DMB_ERR_STRUCT_SIZE;
+    (void)dmb_path_report_init(&path.report, (uint32_t)sizeof path.report);
+    path.report.first_limit = path.report.first_bifurcation = (double)NAN;
+    int32_t status = take_options(sim, options, &taken);
+    if (status >= 0) status = check_place(sim, &taken);
+    if (status >= 0) status = dmb_load_pattern_take(sim, "path options", taken.scale, taken.part, &path.pattern);
+    if (status >= 0) status = allocate_and_run(&path);
+    if (status >= 0 && report != NULL) (void)dmb_path_report_write(report, &path.report);
+    return status;
+}

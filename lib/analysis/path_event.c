@@ -1,0 +1,184 @@
+/* What happens between two points of a path, and the way onto a branch. */
+#include <string.h>
+
+#include "analysis/path.h"
+#include "system/solve.h"
+
+static int passes(double end, double last, double next)
+{
+    return (last < end && next >= end) || (last > end && next <= end);
+}
+
+int32_t dmb_path_end(const dmb_path *path, int32_t but)
+{
+    const dmb_path_options *o = path->options;
+    if (but != DMB_EVENT_FACTOR && passes(o->factor_end, path->last.factor, path->next.factor)) return DMB_EVENT_FACTOR;
+    if (but != DMB_EVENT_DISPLACEMENT && o->place.part.generation != 0 &&
+        passes(o->displacement_end, path->last.watched, path->next.watched))
+        return DMB_EVENT_DISPLACEMENT;
+    return DMB_EVENT_NONE;
+}
+
+int32_t dmb_path_event(const dmb_path *path)
+{
+    const int counted = path->last.negative >= 0 && path->next.negative >= 0;
+    if (path->side * path->next.rate < 0.0) return DMB_EVENT_LIMIT;
+    if (counted && path->last.negative != path->next.negative) return DMB_EVENT_BIFURCATION;
+    return dmb_path_end(path, DMB_EVENT_NONE);
+}
+
+/* ---- The softest shape ------------------------------------------------------------------------------------------- */
+
+#define DMB_MODE_ITERATIONS 12
+
+static void weigh(const dmb_path *path, const double *x, double *out)
+{
+    const dmb_scene *scene = path->work->scene;
+    const double turning = scene->length_scale * scene->length_scale;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        for (uint32_t c = 0; c < size; c++) out[row + c] = (2 * c < size ? 1.0 : turning) * x[row + c];
+    }
+}
+
+static double normalise(const dmb_path *path, double *x)
+{
+    const double length = sqrt(dmb_path_dot(path, x, x));
+    for (uint32_t i = 0; i < path->work->scene->row_count && length > 0.0; i++) x[i] /= length;
+    return length;
+}
+
+/* Any vector, the same in every run. */
+static void begin_mode(const dmb_path *path)
+{
+    uint64_t seed = 88172645463325252u;
+    if (dmb_path_dot(path, path->mode, path->mode) > 0.0) return;
+    for (uint32_t i = 0; i < path->work->scene->row_count; i++) {
+        seed ^= seed << 13;
+        seed ^= seed >> 7;
+        seed ^= seed << 17;
+        path->mode[i] = path->work->scene->solved_row[i] ? (double)(seed >> 11) / 9007199254740992.0 - 0.5 : 0.0;
+    }
+    (void)normalise(path, path->mode);
+}
+
+/* Eigenvalue of K x = mu D x that is smallest in magnitude, by inverse iteration on the factors at hand, which give
+ * -K^-1 D x. */
+static double softness(dmb_path *path)
+{
+    const uint32_t rows = path->work->scene->row_count;
+    double *x = path->work->correction, grown = 1.0;
+    begin_mode(path);
+    for (int k = 0; k < DMB_MODE_ITERATIONS; k++) {
+        weigh(path, path->mode, x);
+        dmb_solve_correction(path->work);
+        const double along = dmb_path_dot(path, path->mode, x);
+        grown = normalise(path, x) * (along > 0.0 ? -1.0 : 1.0);
+        memcpy(path->mode, x, rows * sizeof(double));
+    }
+    return grown != 0.0 ? 1.0 / grown : 0.0;
+}
+
+/* ---- Locating ---------------------------------------------------------------------------------------------------- */
+
+/* What is sought between the last point and `arc`: counted 1 where the softest shape is not the one that changes sign,
+ * and the count has to do. */
+typedef struct quest {
+    int32_t event, beyond, counted;
+} quest;
+
+/* What vanishes at the event, at `arc` from the last point. */
+static int32_t probe(dmb_path *path, const quest *q, double arc, double *value)
+{
+    int32_t status = dmb_path_correct(path, path->last.tangent, path->last.rate, arc);
+    if (status >= 0) status = dmb_path_tangent(path, path->last.tangent);
+    if (status < 0) return status;
+    if (q->event == DMB_EVENT_LIMIT) *value = path->next.rate;
+    if (q->event == DMB_EVENT_BIFURCATION) *value = softness(path);
+    if (q->event == DMB_EVENT_BIFURCATION && q->counted) *value = path->next.negative == q->beyond ? -1.0 : 1.0;
+    if (q->event == DMB_EVENT_FACTOR) *value = path->next.factor - path->options->factor_end;
+    if (q->event == DMB_EVENT_DISPLACEMENT) *value = path->next.watched - path->options->displacement_end;
+    return DMB_OK;
+}
+
+#define DMB_LOCATE_ITERATIONS 60
+#define DMB_LOCATED 1e-8
+
+/* Regula falsi, the Illinois way: an end that stays twice counts half. */
+static int32_t close_in(dmb_path *path, const quest *q, double arc, double at_low, double at_high)
+{
+    const double unit = fmax(fabs(at_low), fabs(at_high));
+    double low = 0.0, high = arc, value;
+    for (int k = 0, kept = 0; k < DMB_LOCATE_ITERATIONS && high - low > DMB_LOCATED * arc; k++) {
+        const double middle = high - at_high * (high - low) / (at_high - at_low);
+        const int32_t status = probe(path, q, middle, &value);
+        if (status < 0) return status;
+        if (fabs(value) <= DMB_LOCATED * unit) break;
+        if (value * at_high > 0.0) {
+            high = middle;
+            at_high = value;
+            at_low *= kept > 0 ? 0.5 : 1.0;
+            kept = 1;
+        } else {
+            low = middle;
+            at_low = value;
+            at_high *= kept < 0 ? 0.5 : 1.0;
+            kept = -1;
+        }
+    }
+    return DMB_OK;
+}
+
+int32_t dmb_path_locate(dmb_path *path, int32_t event, double arc)
+{
+    quest q = {event, path->next.negative, 0};
+    const double side = path->next.rate;
+    double at_low, at_high;
+    int32_t status = probe(path, &q, arc, &at_high);
+    if (status >= 0) status = probe(path, &q, 0.0, &at_low);
+    if (status < 0) return status;
+    if (event == DMB_EVENT_BIFURCATION && at_low * at_high >= 0.0) {
+        q.counted = 1;
+        at_low = 1.0;
+        at_high = -1.0;
+    }
+    status = close_in(path, &q, arc, at_low, at_high);
+    if (status >= 0 && (event == DMB_EVENT_LIMIT || event == DMB_EVENT_BIFURCATION)) {
+        path->next.negative = q.beyond; /* at the event itself it is a matter of rounding */
+        path->side = side;
+    }
+    return status;
+}
+
+/* ---- Branches ---------------------------------------------------------------------------------------------------- */
+
+#define DMB_LEAVE_TRIES 12
+
+/* The mode across the path, its largest entry positive. */
+static void straighten_mode(dmb_path *path)
+{
+    const uint32_t rows = path->work->scene->row_count;
+    const double along = dmb_path_dot(path, path->mode, path->last.tangent);
+    double most = 0.0;
+    for (uint32_t i = 0; i < rows; i++) {
+        path->mode[i] -= along * path->last.tangent[i];
+        if (fabs(path->mode[i]) > fabs(most)) most = path->mode[i];
+    }
+    (void)normalise(path, path->mode);
+    const double side = most * path->options->branch < 0.0 ? -1.0 : 1.0;
+    for (uint32_t i = 0; i < rows; i++) path->mode[i] *= side;
+}
+
+int32_t dmb_path_leave(dmb_path *path, double *arc)
+{
+    int32_t status = DMB_ERR_NO_CONVERGENCE;
+    straighten_mode(path);
+    for (int k = 0; k < DMB_LEAVE_TRIES; k++, *arc *= 0.5) {
+        status = dmb_path_correct(path, path->mode, 0.0, *arc);
+        if (status >= 0) status = dmb_path_tangent(path, path->mode);
+        if (status >= 0 || status == DMB_ERR_CALLBACK) break;
+        path->report.cuts++;
+    }
+    path->side = path->next.rate;
+    return status;
+}

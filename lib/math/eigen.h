@@ -1,0 +1,28 @@
+/* Dense eigenproblems by LAPACK (eigen_lapacke.c), for analyses: no step calls this. Matrices are column by column
+ * without gaps; all work is the caller's. Each returns 0, or what LAPACK says of a failure. */
+#ifndef DMB_MATH_EIGEN_H
+#define DMB_MATH_EIGEN_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Doubles of work for n rows; SIZE_MAX if that overflows. */
+size_t dmb_eigen_work(size_t n);
+
+/* A x = value x, A symmetric (dsyevd): values ascending; A becomes the orthonormal vectors. */
+int32_t dmb_eigen_symmetric(size_t n, double *A, double *values, double *work);
+/* K x = value M x, both symmetric, M positive definite (dsygvd): values ascending; K becomes the vectors, X^T M X = I;
+ * M is overwritten. > n: M is not positive definite. */
+int32_t dmb_eigen_pair(size_t n, double *K, double *M, double *values, double *work);
+/* A x = (re + i im) x (dgeev); A is overwritten. Conjugate pairs stand together, im > 0 first, and x of that is column k
+ * of V plus i times column k + 1. */
+int32_t dmb_eigen_general(size_t n, double *A, double *re, double *im, double *V, double *work);
+
+/* M = L L^T (dpotrf), L in the lower part, the rest of M left alone. > 0: not positive definite. */
+int32_t dmb_cholesky(size_t n, double *M);
+/* A <- L^-1 A L^-T, A any square matrix; half: shape (n, n) of work. */
+int32_t dmb_cholesky_reduce(size_t n, const double *L, double *A, double *half);
+/* x <- L^-T x */
+int32_t dmb_cholesky_back(size_t n, const double *L, double *x);
+
+#endif

@@ -1,0 +1,80 @@
+#include <lapacke.h>
+
+#include "math/eigen.h"
+
+_Static_assert(sizeof(lapack_int) == sizeof(int32_t), "LAPACKE with 64-bit integers");
+
+/* What dsyevd and dsygvd ask for with vectors: 1 + 6n + 2n^2 doubles and 3 + 5n integers; dgeev does with 4n and likes
+ * some tens of n. */
+size_t dmb_eigen_work(size_t n)
+{
+    if (n > 46000) return SIZE_MAX; /* 2n^2 is to fit LAPACK's integers */
+    return 1 + 6 * n + 2 * n * n + (3 + 5 * n) + 40 * n;
+}
+
+static lapack_int doubles(size_t n)
+{
+    return (lapack_int)(1 + 6 * n + 2 * n * n);
+}
+
+static lapack_int integers(size_t n)
+{
+    return (lapack_int)(3 + 5 * n);
+}
+
+static lapack_int *integer_work(size_t n, double *work)
+{
+    return (lapack_int *)(work + doubles(n));
+}
+
+int32_t dmb_eigen_symmetric(size_t n, double *A, double *values, double *work)
+{
+    const lapack_int m = (lapack_int)n;
+    return LAPACKE_dsyevd_work(LAPACK_COL_MAJOR, 'V', 'L', m, A, m, values, work, doubles(n), integer_work(n, work),
+                               integers(n));
+}
+
+int32_t dmb_eigen_pair(size_t n, double *K, double *M, double *values, double *work)
+{
+    const lapack_int m = (lapack_int)n;
+    return LAPACKE_dsygvd_work(LAPACK_COL_MAJOR, 1, 'V', 'L', m, K, m, M, m, values, work, doubles(n),
+                               integer_work(n, work), integers(n));
+}
+
+int32_t dmb_eigen_general(size_t n, double *A, double *re, double *im, double *V, double *work)
+{
+    const lapack_int m = (lapack_int)n;
+    double none;
+    return LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', 'V', m, A, m, re, im, &none, 1, V, m, work, 40 * m);
+}
+
+int32_t dmb_cholesky(size_t n, double *M)
+{
+    return LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', (lapack_int)n, M, (lapack_int)n);
+}
+
+static void transpose(size_t n, const double *from, double *to)
+{
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++) to[n * i + j] = from[n * j + i];
+}
+
+static int32_t solve_lower(size_t n, char how, const double *L, size_t columns, double *B)
+{
+    const lapack_int m = (lapack_int)n;
+    return LAPACKE_dtrtrs_work(LAPACK_COL_MAJOR, 'L', how, 'N', m, (lapack_int)columns, L, m, B, m);
+}
+
+int32_t dmb_cholesky_reduce(size_t n, const double *L, double *A, double *half)
+{
+    int32_t status = solve_lower(n, 'N', L, n, A);
+    transpose(n, A, half);
+    if (status == 0) status = solve_lower(n, 'N', L, n, half);
+    transpose(n, half, A);
+    return status;
+}
+
+int32_t dmb_cholesky_back(size_t n, const double *L, double *x)
+{
+    return solve_lower(n, 'T', L, 1, x);
+}

@@ -1,0 +1,350 @@
+#!/usr/bin/python3
+"""Tables and goals of the benchmark. usage: table.py [--fill README.md] FOLDER SCENE...
+
+Reads FOLDER/SCENE.csv, writes the tables of these scenes to FOLDER/tables.md, and prints each goal with what was
+measured. --fill puts the tables between the lines "<!-- table NAME -->" and "<!-- end -->" of a file.
+"""
+import math
+import pathlib
+import re
+import sys
+
+import rows as measured
+from rows import chosen
+
+SIZES = ("100", "200", "400", "1000", "10000")
+
+
+def number(text, digits=3):
+    """Three significant digits, no exponent between 1e-3 and 1e6."""
+    if text in ("", "-", None):
+        return "-"
+    value = float(text)
+    if value == 0.0:
+        return "0"
+    if not 1e-3 <= abs(value) < 1e6:
+        return f"{value:.1e}".replace("e-0", "e-").replace("e+0", "e")
+    return f"{value:.{max(0, digits - 1 - math.floor(math.log10(abs(value))))}f}"
+
+
+def percent(text):
+    return f"{100 * float(text):.1f} %" if text else "-"
+
+
+def error(row):
+    """Error and, where there is one, the second with its unit."""
+    second = row.get("error_2", "")
+    unit = " mm" if "_mm" in row.get("error_2_kind", "") else ""
+    return number(row["error"], 2) + (f", {number(second, 2)}{unit}" if second else "")
+
+
+def markdown(columns, lines):
+    return "\n".join(["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)] +
+                     ["| " + " | ".join(line) + " |" for line in lines])
+
+
+def exponent(rows, size, cost):
+    """Slope of log(cost) over log(size) by least squares, and the standard error of the slope."""
+    x = [math.log(float(row[size])) for row in rows]
+    y = [math.log(float(row[cost])) for row in rows]
+    n, mean_x, mean_y = len(x), sum(x) / len(x), sum(y) / len(y)
+    spread = sum((u - mean_x) ** 2 for u in x)
+    slope = sum((u - mean_x) * (v - mean_y) for u, v in zip(x, y)) / spread
+    rest = sum((v - mean_y - slope * (u - mean_x)) ** 2 for u, v in zip(x, y))
+    return slope, math.sqrt(rest / max(1, n - 2) / spread)
+
+
+def iteration_exponent(rows):
+    """The same of the cost of an iteration over the elements."""
+    return exponent([row | {"us": float(row["us_per_step"]) / float(row["iterations"])} for row in rows], "elements",
+                    "us")[0]
+
+
+# ---- Tables ----------------------------------------------------------------------------------------------------------
+
+
+def machine(data, cards):
+    units = [float(row["U_us"]) for rows in data.values() for row in rows if row.get("U_us")]
+    lines = [[name, text] for name, text in cards.items() if name not in ("times", "commit")]
+    return markdown(["machine", ""],
+                    lines + [["U", f"{min(units):.1f} to {max(units):.1f} us, taken beside every row"]])
+
+
+def elements(data):
+    names = {"elements": "", "given": "", "axial_torsional": ", axial-torsional", "cycle": ", whole cycle",
+             "ledger": ", no ledger"}
+    lines = []
+    for scene in ("C", "B", "R"):
+        rows = data.get(scene, [])
+        for group in names:
+            for row in chosen(rows, group=group):
+                step = "" if row["dt"] == "0.001" else f", {1e3 * float(row['dt']):g} ms"
+                lines.append([row["scene"] + names[group] + step, row["elements"], row["end"],
+                              number(row["us_per_step"]), percent(row["spread"]), number(row["U_us"]),
+                              number(row["U_per_step"]), number(row["rtf"]), number(row["iterations"]),
+                              row["rejected"], error(row), number(row["balance"], 2),
+                              number(row["bytes_per_element"], 4)])
+    return markdown(["scene", "elements", "end s", "us a step", "spread", "U us", "U a step", "rtf", "iterations",
+                     "rejected", "error", "balance", "bytes an element"], lines)
+
+
+def growth(data):
+    lines = []
+    for scene in ("C", "B", "R"):
+        rows = chosen(data.get(scene, []), group="growth")
+        if not rows:
+            continue
+        slope, off = exponent(rows, "elements", "us_per_step")
+        each = iteration_exponent(rows)
+        lines.append([scene, rows[0]["end"]] +
+                     [f"{number(row['us_per_step'])} ({number(row['iterations'])})" for row in rows] +
+                     [" ".join(number(row["error"], 2) for row in rows), f"{slope:.3f} +- {off:.3f}", f"{each:.3f}"])
+    return markdown(["scene", "end s"] + [f"us at {size}" for size in SIZES] +
+                    ["errors", "exponent", "of an iteration"], lines)
+
+
+def others(data):
+    """Figures of other codes, given with U = 61 us and without their errors: us a step."""
+    given = {"C": (330.0, 0.6), "B": (1220.0, 3.3)}
+    lines = []
+    for scene, (best, prototype) in given.items():
+        row = (chosen(data.get(scene, []), group="elements", elements="100") or [None])[0]
+        if row is None:
+            continue
+        here = float(row["U_per_step"])
+        lines.append([f"{scene}, a step", f"{number(here)} U, error {error(row)}"] +
+                     [f"{number(other)} U: {number(max(other, here) / min(other, here), 2)} times "
+                      f"{'faster' if here < other else '**slower**'}" for other in (best / 61.0, prototype)])
+    return markdown(["", "here", "best open code", "scalar prototype"], lines)
+
+
+def pipes(data):
+    lines = []
+    for scene in ("C", "R"):
+        for row in chosen(data.get(scene, []), group="pipes"):
+            lines.append([scene, row["pipes"], number(row["us_per_step"]), number(row["U_per_step"]),
+                          number(row["rtf"]), number(row["iterations"]), error(row)])
+    return markdown(["scene", "pipes", "us a step", "U a step", "rtf", "iterations", "error"], lines)
+
+
+def joints(data):
+    lines = [[row["joints"], row["rows"], row["method"], number(row["us_describe"]), number(row["us_compile"]),
+              number(row["us_create"]), number(row["us_create_per_joint"]), number(row["us_per_step"]),
+              percent(row["spread"]), number(row["us_per_step_per_joint"]), number(row["U_per_step"]),
+              number(row["to_structural"]), number(row["error"], 2), row["bytes_per_joint"]] for row in data["J"]]
+    growths = [[method] + [f"{exponent(chosen(data['J'], method=method), 'joints', name)[0]:.3f}"
+                           for name in ("us_describe", "us_compile", "us_create", "us_per_step")]
+               for method in ("independent", "multipliers", "structural")]
+    return markdown(["joints", "rows", "as", "describe us", "compile us", "create us", "a joint", "step us", "spread",
+                     "a joint", "U", "to one string", "error", "bytes a joint"], lines) + "\n\n" + \
+        markdown(["exponents over the joints", "describe", "compile", "create", "step"], growths)
+
+
+def loop(data):
+    times, answers = [], []
+    for row in data["D"]:
+        times.append([row["variant"], number(row["U_us"])] + [number(row[f"us_{q}"]) for q in
+                                                              ("median", "99", "99.9", "largest")] +
+                     [", ".join(number(row[f"U_{q}"]) for q in ("median", "99", "99.9", "largest")),
+                      number(row["of_step_99.9"]), number(row["of_step_largest"]),
+                      f"{row['worst_iterations']} in {row['worst_steps']}, {row['worst_rejected']}",
+                      number(row["iterations"]), row["rejected"], row["limited"]])
+        answers.append([row["variant"]] + [number(row[f"residual_{q}"], 2) for q in ("median", "99", "largest")] +
+                       [number(row["error"], 3), number(row["rotation_to_plain"], 2),
+                        number(row["end_rotation_to_plain"], 2), number(row["wall_force_to_plain"], 2),
+                        number(row["balance"], 2), number(row["wall_us_99.9"]),
+                        f"{row['wall_late']} of {row['wall_steps']}"])
+    return markdown(["loop", "U us", "median us", "99 %", "99.9 %", "largest", "in U", "99.9 % of the step",
+                     "largest of it", "worst: iterations in steps, rejected", "iterations", "rejected", "limited"],
+                    times) + "\n\n" + \
+        markdown(["loop", "residual median", "99 %", "largest", "error", "rotation to plain", "at 4 s",
+                  "wall force to plain", "balance", "wall clock 99.9 % us", "late by it"], answers)
+
+
+def features(data):
+    lines = [[row["variant"], number(row["us_per_step"]), percent(row["spread"]), number(row["U_us"]),
+              number(row["U_per_step"]), number(row["iterations"]), row["sim_bytes"],
+              number(row["sim_bytes_per_pipe"], 4), row["model_bytes"],
+              f"{number(row['error'], 2)}, {row['error_kind'].split('_vs_')[0].replace('_', ' ')}",
+              number(row["balance"], 2)] for row in data["F"]]
+    return markdown(["compiled", "us a step", "spread", "U us", "U a step", "iterations", "sim bytes", "a pipe",
+                     "model bytes", "error", "balance"], lines)
+
+
+def at_step(rows, step):
+    found = [row for row in rows if abs(float(row["dt"]) / step - 1) < 1e-3]
+    return number(found[0]["error"], 2) if found else "-"
+
+
+def fixed_work(rows, wanted):
+    """Work of fixed steps at that error, between its two neighbours of log(work) over log(error)."""
+    points = [(math.log(float(row["error"])), math.log(float(row["U_per_simulated_second"]))) for row in rows]
+    for (x0, y0), (x1, y1) in zip(points, points[1:]):
+        if min(x0, x1) <= math.log(wanted) <= max(x0, x1) and x0 != x1:
+            return math.exp(y0 + (y1 - y0) * (math.log(wanted) - x0) / (x1 - x0))
+    return math.nan
+
+
+def work(data):
+    fixed, controlled = [], []
+    for scene in ("C", "T", "B", "R"):
+        rows = chosen(data["W"], scene=scene)
+        for setting in dict.fromkeys(row["setting"] for row in rows):
+            own = chosen(rows, setting=setting)
+            if setting == "controlled":
+                continue
+            middle = [row for row in own if row["dt"] == "0.001"]
+            fixed.append([scene, setting] + [at_step(own, 1e-3 * step) for step in (4, 2, 1, 0.5, 0.25, 0.125, 0.0625,
+                                                                                   0.03125)] +
+                         [number(middle[0]["U_per_step"]) if middle else "-",
+                          number(middle[0]["iterations"]) if middle else "-",
+                          number(own[0]["reference_error"], 2)])
+        for row in chosen(rows, setting="controlled"):
+            same = fixed_work(chosen(rows, setting="default"), float(row["error"]))
+            ratio = float(row["U_per_simulated_second"]) / same
+            controlled.append([scene, number(row["tolerance"], 1), f"{1e3 * float(row['dt']):.3g}", row["rejected"],
+                               number(row["iterations"]), number(row["U_per_simulated_second"]),
+                               number(row["error"], 2), "-" if math.isnan(ratio) else number(ratio, 2)])
+    return markdown(["scene", "fixed steps", "4 ms", "2", "1", "0.5", "0.25", "0.125", "0.0625", "0.03125",
+                     "U a step, 1 ms", "iterations", "error of the reference"], fixed) + "\n\n" + \
+        markdown(["scene", "tolerance rad", "mean step ms", "rejected", "iterations", "U a simulated second", "error",
+                  "to fixed steps of that error"], controlled)
+
+
+def settled(data):
+    def mean(row, name):
+        return f"{number(row[name], 5)} +- {number(row[name + '_error'], 2)}"
+    lines = [[f"{1e3 * float(row['dt']):.3g}" + (f" (tolerance {number(row['tolerance'])})" if row["tolerance"] else ""),
+              row["radius"], row["elements"], number(row["U_per_simulated_second"]), number(row["iterations"]),
+              row["rejected"]] + [mean(row, prefix + name) for prefix in ("chatter_", "")
+                                  for name in ("force", "torque", "sideways_mm")] for row in data["M"]]
+    return markdown(["step ms", "radius", "elements", "U a simulated second", "iterations", "rejected",
+                     "0.1 to 1.1 s: force N", "torque N m", "sideways mm", "2 to 3 s: force N", "torque N m",
+                     "sideways mm"], lines)
+
+
+def modes(data):
+    lines = [[row["elements"], number(row["us_per_step"]), percent(row["spread"]), number(row["U_per_step"]),
+              row["iterations"]] + [f"{number(row[f'error_{i}'], 2)}" for i in range(1, 11, 2)] for row in data["A"]]
+    return markdown(["elements", "us", "spread", "U", "solves"] + [f"error, pair {i}" for i in range(1, 6)], lines) + \
+        f"\n\nGrowth: exponent {exponent(data['A'], 'elements', 'us_per_step')[0]:.3f}."
+
+
+def response(data):
+    lines, growths = [], []
+    for scene in ("H", "HW"):
+        rows = chosen(data["H"], scene=scene)
+        lines += [[scene, row["elements"], row["points"], number(row["us_per_step"]), percent(row["spread"]),
+                   number(row["U_per_step"]), number(row["us_two_points"]), number(row["error"], 2)] for row in rows]
+        growths.append(f"{scene} {exponent(rows, 'elements', 'us_per_step')[0]:.3f}")
+    return markdown(["scene", "elements", "points", "us a point", "spread", "U a point", "us two points", "error"],
+                    lines) + f"\n\nGrowth: exponents {', '.join(growths)}."
+
+
+# ---- Goals -----------------------------------------------------------------------------------------------------------
+
+
+def first(rows, column, **wanted):
+    found = chosen(rows, **wanted)
+    return float(found[0][column]) if found else math.nan
+
+
+def goals_of(data):
+    """Name, goal, measured text, met or not (None: not measured)."""
+    c, b, r, d = (data.get(scene, []) for scene in ("C", "B", "R", "D"))
+    found = []
+
+    def add(name, goal, value, text, met):
+        found.append((name, goal, "-", None) if math.isnan(value) else (name, goal, text, met))
+
+    for rows, scene, limit in ((c, "C", 0.25), (b, "B", 1.0)):
+        value = first(rows, "U_per_step", group="elements", elements="100")
+        add(f"scene {scene}, a step", f"{limit} U", value,
+            f"{value:.3g} U, error {first(rows, 'error', group='elements', elements='100'):.1e}", value <= limit)
+    value = first(r, "rtf", group="cycle")
+    add("rig cycle R, 100 pipes", "15 times real time", value,
+        f"{value:.3g}, error {first(r, 'error', group='cycle'):.1e}", value >= 15.0)
+    for rows, scene in ((c, "C"), (b, "B")):
+        sizes = chosen(rows, group="growth")
+        slope, off = exponent(sizes, "elements", "us_per_step") if len(sizes) > 2 else (math.nan, math.nan)
+        each = iteration_exponent(sizes) if len(sizes) > 2 else math.nan
+        add(f"growth, 100 to 10000 elements, {scene}", "exponent 1.0 +- 0.03", slope,
+            f"{slope:.3f} +- {off:.3f}, an iteration {each:.3f}", abs(slope - 1.0) <= 0.03)
+    value = first(c, "us_per_step", group="axial_torsional") / first(c, "us_per_step", group="elements", elements="100")
+    add("axial-torsional string", "a fifth of C", value, f"1/{1 / value:.2f}", value <= 0.2)
+    for variant in ("plain", "bounded_3"):
+        value = first(d, "of_step_99.9", variant=variant)
+        largest = first(d, "of_step_largest", variant=variant)
+        add(f"step time 99.9 %, scene B, 1 ms, {variant}", "under half the step", value,
+            f"{value:.2f} of it, largest {largest:.2f}", value < 0.5)
+    bytes_of = [float(row["bytes_per_element"]) for rows in (c, b, r) for row in rows]
+    most = max(bytes_of, default=math.nan)
+    add("memory an element, the most of C, B, R", "under 4 kB", most, f"{most:.0f} bytes", most < 4000)
+    return found
+
+
+def goals(data):
+    words = {True: "met", False: "**not met**", None: "not measured"}
+    return markdown(["what", "goal", "measured", ""],
+                    [[name, goal, text, words[bool(met) if met is not None else None]]
+                     for name, goal, text, met in goals_of(data)])
+
+
+def print_goals(data):
+    words = {True: "met", False: "not met", None: "not measured"}
+    print("Goals:")
+    for name, goal, text, met in goals_of(data):
+        print(f"  {name:45s} {goal:22s} {text:37s} {words[met]}")
+
+
+# ---- Main ------------------------------------------------------------------------------------------------------------
+
+TABLES = {"elements": (elements, "CBR"), "others": (others, "CB"), "growth": (growth, "CBR"), "pipes": (pipes, "CR"),
+          "joints": (joints, "J"), "loop": (loop, "D"), "features": (features, "F"),
+          "work": (work, "W"), "settled": (settled, "M"),
+          "modes": (modes, "A"), "response": (response, "H")}
+
+
+def make(data, cards):
+    """Name of each table: its text. Tables of scenes that were not measured are left out."""
+    made = {"machine": machine(data, cards)}
+    if any(met is not None for _, _, _, met in goals_of(data)):
+        made["goals"] = goals(data)
+    for name, (function, scenes) in TABLES.items():
+        needed = [scene in data for scene in scenes]
+        if all(needed) or (len(scenes) > 1 and any(needed)):
+            made[name] = function(data)
+    return made
+
+
+def fill(path, made):
+    text = path.read_text(encoding="utf-8")
+    for name, content in made.items():
+        pattern = re.compile(rf"(<!-- table {name} -->\n).*?(<!-- end -->)", re.DOTALL)
+        if not pattern.search(text):
+            sys.exit(f"{path}: no place for the table {name}")
+        text = pattern.sub(lambda found, content=content: found[1] + content + "\n" + found[2], text)
+    path.write_text(text, encoding="utf-8")
+
+
+def main():
+    words = sys.argv[1:]
+    target = None
+    if words[:1] == ["--fill"] and len(words) > 2:
+        target, words = pathlib.Path(words[1]), words[2:]
+    if len(words) < 2:
+        sys.exit(__doc__)
+    folder, scenes = pathlib.Path(words[0]), words[1:]
+    data = {scene: measured.read(folder, scene) for scene in scenes}
+    data = {scene: rows for scene, rows in data.items() if rows}
+    if not data:
+        sys.exit("no rows")
+    made = make(data, measured.card(folder, next(iter(data))))
+    (folder / "tables.md").write_text("".join(f"## {name}\n\n{text}\n\n" for name, text in made.items()),
+                                      encoding="utf-8")
+    if target:
+        fill(target, made)
+    print_goals(data)
+
+
+main()

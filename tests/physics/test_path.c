@@ -1,0 +1,222 @@
+/* Paths of equilibrium past limit points and onto branches: a column beyond Euler's load, a truss that snaps through, a
+ * circular arch. */
+#include <stdio.h>
+
+#include "rig.h"
+
+enum { FREE_TO_MOVE = 7 };
+
+/* What a path tells, point by point. */
+typedef struct tale {
+    uint32_t points;
+    dmb_path_point point[400];
+    double slope[400]; /* [rad] of the place looked at */
+    dmb_place place;
+} tale;
+
+static int32_t hear(void *context, const dmb_sim *at, const dmb_path_point *point)
+{
+    tale *t = context;
+    dmb_pose pose = dmb_pose_default();
+    assert_int_equal(dmb_query_pose(at, t->place, &pose), DMB_OK);
+    assert_true(t->points < 400);
+    t->slope[t->points] = atan2(hypot(pose.rotation[3], pose.rotation[6]), pose.rotation[0]);
+    t->point[t->points++] = *point;
+    return 0;
+}
+
+static void show(const tale *t)
+{
+    static const char *const kinds[] = {"", "limit point", "bifurcation", "branch"};
+    for (uint32_t i = 0; i < t->points; i++)
+        print_message("    %2u: factor %.10g, displacement %.8g, %d negative, %u iterations %s\n", t->point[i].number,
+                      t->point[i].factor, t->point[i].displacement, t->point[i].negative, t->point[i].iterations,
+                      kinds[t->point[i].kind]);
+}
+
+/* ---- Euler's column ---------------------------------------------------------------------------------------------- */
+
+/* Half of S1, 10 m pinned: pinned at the rig end, the middle moves but does not turn. Pushed straight up to Euler's
+ * load, then along the branch to an end slope of 60 degrees: P/Pcr 1.1517196205, v_mid/L .2966038231, shortening
+ * .2589803939 (elastica). */
+static void check_elastica(uint32_t elements, double tolerance)
+{
+    rig s;
+    tale t = {.points = 0};
+    const double EI = s1_values().EI, euler = PI * PI * EI / 100.0;
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def beam = beam_pipe(5.0, elements, 1e7 * EI, 1e7 * EI, EI, EI);
+    dmb_load_def load = dmb_load_def_default();
+    dmb_path_options options = dmb_path_options_default();
+    dmb_path_report report = dmb_path_report_default();
+    rig_open(&s, 0.0, 0.0, 0.0);
+    def.follows_hole = 0;
+    def.start_free = DMB_FREE_SPHERICAL;
+    def.end_free = FREE_TO_MOVE;
+    beam.string = add_string(&s, &def);
+    const dmb_id string = add_pipes(&s, &beam, 1);
+    load.place = dmb_station(string, 0, 1.0);
+    load.force[0] = -euler;
+    load.programme = add_constant(&s, 0.0);
+    const dmb_id push = add_load(&s, &load);
+    (void)rig_start(&s, NULL);
+    (void)find_equilibrium(&s, NULL);
+    t.place = dmb_station(string, 0, 0.0);
+    options.scale = DMB_SCALE_PART;
+    options.part = push;
+    options.place = load.place;
+    options.component = DMB_X;
+    options.branch = 1;
+    options.branch_size = 0.05;
+    options.factor_end = 2.0;
+    options.displacement_end = -0.2589803939 * 5.0;
+    options.callback = hear;
+    options.callback_context = &t;
+    uint64_t before, after;
+    must(&s, dmb_sim_hash(s.sim, &before));
+    must(&s, dmb_analysis_path(s.sim, &options, &report));
+    must(&s, dmb_sim_hash(s.sim, &after));
+    assert_true(before == after);
+    if (elements == 16) show(&t);
+    print_message("    %u elements for 5 m, %u points, %u iterations, %u cuts\n", elements, report.points,
+                  report.iterations, report.cuts);
+    check_relative("    bifurcation at Euler's load", report.first_bifurcation, 1.0, tolerance);
+    check_close("    P/Pcr at the shortening of 60 degrees", report.factor, 1.1517196205, tolerance);
+    check_close("    end slope [rad]", t.slope[t.points - 1], PI / 3.0, 2.0 * tolerance);
+    assert_int_equal(report.limits, 0);
+    rig_close(&s);
+}
+
+static void elastica_by_its_branch(void **state)
+{
+    (void)state;
+    check_elastica(8, 1e-4);
+    check_elastica(16, 1e-5);
+    check_elastica(32, 1e-6);
+}
+
+/* ---- Two bars that snap through ---------------------------------------------------------------------------------- */
+
+/* Von Mises' truss: two bars of a stretch stiffness EA, hinged on the ground 2 b apart and to each other h above it. By
+ * symmetry one bar, its top guided upright and pushed down by P/2:
+ *     P/2 = -EA (h - w)/l (l - L)/L,    l^2 = b^2 + (h - w)^2,  L^2 = b^2 + h^2
+ * Largest where d/dw = 0: l^3 = b^2 L, so that the height is sqrt((b^2 L)^(2/3) - b^2). */
+static void truss_snaps_through(void **state)
+{
+    (void)state;
+    rig s;
+    tale t = {.points = 0};
+    const double b = 10.0, h = 2.0, EA = 1e6, L = sqrt(b * b + h * h);
+    const double l = cbrt(b * b * L), up = sqrt(l * l - b * b), limit = -EA * up / l * (l - L) / L;
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def bar = beam_pipe(L, 1, EA, 1e8, 1e8, 1e8);
+    dmb_joint_def guide = dmb_joint_def_default();
+    dmb_load_def load = dmb_load_def_default();
+    dmb_path_options options = dmb_path_options_default();
+    dmb_path_report report = dmb_path_report_default();
+    rig_open(&s, 0.0, 0.0, 0.0);
+    def.follows_hole = 0;
+    def.rotation[1] = -atan2(h, b); /* upwards */
+    def.start_free = 1 << DMB_RY;
+    bar.string = add_string(&s, &def);
+    const dmb_id string = add_pipes(&s, &bar, 1);
+    guide.kind = DMB_JOINT_POINT_ON_LINE;
+    guide.place_b = dmb_station(string, 0, 1.0);
+    guide.origin_a[0] = b;
+    guide.axis_a[0] = 0.0;
+    guide.axis_a[2] = 1.0;
+    must_model(&s, dmb_model_add_joint(s.model, &guide, NULL));
+    load.place = guide.place_b;
+    load.force[2] = -1.0;
+    load.programme = add_constant(&s, 0.0);
+    const dmb_id push = add_load(&s, &load);
+    (void)rig_start(&s, NULL);
+    (void)find_equilibrium(&s, NULL);
+    t.place = load.place;
+    options.scale = DMB_SCALE_PART;
+    options.part = push;
+    options.place = load.place;
+    options.component = DMB_Z;
+    options.factor_end = 2.0 * limit;
+    options.first_step = 0.2 * limit;
+    options.displacement_end = -2.0 * h;
+    options.callback = hear;
+    options.callback_context = &t;
+    must(&s, dmb_analysis_path(s.sim, &options, &report));
+    show(&t);
+    assert_int_equal(report.limits, 2);
+    check_relative("limit load", report.first_limit, limit, 1e-10);
+    for (uint32_t i = 0, first = 1; i < t.points; i++) {
+        if (t.point[i].kind != DMB_PATH_LIMIT) continue;
+        const double height = h + t.point[i].displacement;
+        check_relative(first ? "    height there" : "    height at the other", height, first ? up : -up, 1e-6);
+        check_relative("    load", t.point[i].factor, first ? limit : -limit, 1e-10);
+        first = 0;
+    }
+    check_close("turned over it is free of load", report.factor / limit, 0.0, 1e-6);
+    rig_close(&s);
+}
+
+/* ---- Circular arch ----------------------------------------------------------------------------------------------- */
+
+/* DaDeppo, Schmidt 1975: arch of radius 100 over 215 degrees, clamped at one end and hinged at the other, EI 1e6,
+ * inextensible, a dead load down on its crown: in its plane it leans over and falls at 8.97 EI/R^2. The path follows it
+ * past 2.44 EI/R^2, where a round section would lean out of the plane. */
+static double arch_limit(uint32_t elements)
+{
+    rig s;
+    tale t = {.points = 0};
+    const double R = 100.0, EI = 1e6, angle = 215.0 * PI / 180.0;
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def half = beam_pipe(0.5 * R * angle, elements, 1e4 * EI, 1e4 * EI, EI, EI);
+    dmb_load_def load = dmb_load_def_default();
+    dmb_path_options options = dmb_path_options_default();
+    dmb_path_report report = dmb_path_report_default();
+    rig_open(&s, 0.0, 0.0, 0.0);
+    def.follows_hole = 0;
+    def.rotation[2] = 0.5 * angle; /* in the x-y plane, from the left over the crown to the right */
+    def.start_free = DMB_FREE_RZ;
+    def.end_free = DMB_FREE_NONE;
+    half.curvature[2] = -1.0 / R;
+    half.string = add_string(&s, &def);
+    const dmb_id string = add_pipes(&s, &half, 2);
+    load.place = dmb_station(string, 0, 1.0);
+    load.force[1] = -EI / (R * R);
+    load.programme = add_constant(&s, 0.0);
+    const dmb_id push = add_load(&s, &load);
+    (void)rig_start(&s, NULL);
+    (void)find_equilibrium(&s, NULL);
+    t.place = load.place;
+    options.scale = DMB_SCALE_PART;
+    options.part = push;
+    options.place = load.place;
+    options.component = DMB_Y;
+    options.factor_end = 20.0;
+    options.first_step = 1.0;
+    options.displacement_end = -1.3 * R;
+    options.callback = hear;
+    options.callback_context = &t;
+    const int32_t status = dmb_analysis_path(s.sim, &options, &report);
+    show(&t);
+    must(&s, status);
+    rig_close(&s);
+    return report.first_limit;
+}
+
+static void deep_arch_falls(void **state)
+{
+    (void)state;
+    const double coarse = arch_limit(20), fine = arch_limit(40);
+    print_message("    20 and 40 elements a half: %.6f, %.6f EI/R^2\n", coarse, fine);
+    check_close("limit load, 8.97 EI/R^2", fine, 8.97, 0.005);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(elastica_by_its_branch),
+        cmocka_unit_test(truss_snaps_through),
+        cmocka_unit_test(deep_arch_falls),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
