@@ -89,8 +89,9 @@ static uint32_t failed_of(const dmb_beam_run *run, const lane_group *g, const dm
     dmb_beam_shape_at(c, run->arms, in->qa, in->Ra, in->qb, in->span, &shape);
     const dmb_real angle2 = dmb_vec3_norm_squared(shape.d + 3);
     for (uint32_t l = 0; l + 1 < g->used; l++)
-        if (!(dmb_real_lane(&angle2, (int)l) < DMB_BEAM_ROTATION_MAX * DMB_BEAM_ROTATION_MAX)) return g->place[l];
-    return g->place[g->used - 1];
+        if (!(dmb_real_lane(&angle2, (int)l) < DMB_BEAM_ROTATION_MAX * DMB_BEAM_ROTATION_MAX))
+            return (uint32_t)g->place[l];
+    return (uint32_t)g->place[g->used - 1];
 }
 
 static int32_t beams(dmb_beam_run *run)

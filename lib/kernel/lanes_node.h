@@ -22,59 +22,64 @@ static inline void node_apply(const dmb_real force[6], node_group *g)
     }
 }
 
-/* Constants of the lumps on a group of nodes, 0 where there is none. Lumps stand in the order of their nodes; *next is
- * the first that may be in the group. Returns 0 where the group has none at all. */
-static inline int load_lumps(const dmb_node_force_run *run, const lane_group *g, uint32_t *next, dmb_lump_constants *c)
+/* Lumps stand in the order of their nodes; *next becomes the first that is not before the group. Returns 1 if it is on
+ * one of the group's nodes. */
+static inline int has_lumps(const dmb_node_force_run *run, const lane_group *g, uint32_t *next)
+{
+    while (*next < run->lump_count && run->lumps[*next].node < run->first + g->place[0]) (*next)++;
+    return *next < run->lump_count && run->lumps[*next].node <= run->first + g->place[LANES - 1];
+}
+
+/* Constants of the lumps on a group of nodes, from `next` on; 0 where there is none. */
+static inline void load_lumps(const dmb_node_force_run *run, const lane_group *g, uint32_t next, dmb_lump_constants *c)
 {
     static const dmb_lump none;
-    int found = 0;
     for (int l = 0; l < LANES; l++) {
-        const uint32_t node = run->first + g->place[l];
-        while (*next < run->lump_count && run->lumps[*next].node < node) (*next)++;
-        const int has = *next < run->lump_count && run->lumps[*next].node == node;
-        dmb_lump_load(has ? run->lumps + *next : &none, l, c);
-        found |= has;
+        const size_t node = run->first + g->place[l];
+        while (next < run->lump_count && run->lumps[next].node < node) next++;
+        const int has = next < run->lump_count && run->lumps[next].node == node;
+        dmb_lump_load(has ? run->lumps + next : &none, l, c);
     }
-    return found;
 }
 
 /* f = M v' - v^^T p */
-static inline void add_lumps(dmb_node_force_run *run, const dmb_lump_constants *lump, node_group *g)
+static inline void add_lumps(dmb_node_force_run *run, uint32_t next, node_group *g)
 {
+    dmb_lump_constants lump;
     dmb_real a[6], f[6], p[6], turning[6];
+    load_lumps(run, &g->place, next, &lump);
     load(run->acceleration, 6, 6, &g->place, 0, a);
-    dmb_lump_momentum(lump, a, f);
+    dmb_lump_momentum(&lump, a, f);
     const dmb_real power = dmb_vec6_dot(g->v, f);
     for (uint32_t l = 0; l < g->place.used; l++) run->inertia_power -= dmb_real_lane(&power, (int)l);
-    dmb_lump_momentum(lump, g->v, p);
+    dmb_lump_momentum(&lump, g->v, p);
     dmb_ad_transpose(g->v, p, turning);
     for (int i = 0; i < 6; i++) f[i] = -f[i];
     node_apply(f, g); /* one by one: on a free body these two are all that balances */
     node_apply(turning, g);
-    if (run->tangent) dmb_lump_add_tangent(lump, g->v, p, run->mass_factor, run->velocity_factor, g->C);
+    if (run->tangent) dmb_lump_add_tangent(&lump, g->v, p, run->mass_factor, run->velocity_factor, g->C);
 }
 
 static inline void store_weight_tangent(const dmb_node_force_run *run, const lane_group *g, const dmb_real force[6],
                                         const dmb_real turning[9])
 {
-    for (uint32_t l = 0; l < g->used; l++) {
-        double *K = run->stiffness + 36 * g->place[l];
-        const int lane = (int)l;
-        const double x = dmb_real_lane(force, lane), y = dmb_real_lane(force + 1, lane);
-        const double z = dmb_real_lane(force + 2, lane);
-        K[4] += z, K[5] -= y;
-        K[9] -= z, K[11] += x;
-        K[15] += y, K[16] -= x;
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++) K[21 + 6 * i + j] -= dmb_real_lane(turning + 3 * i + j, lane);
-    }
+    const dmb_real zero = dmb_real_of(0.0), *f = force;
+    const dmb_real rows[6][4] = {{zero, zero, f[2], -f[1]},
+                                 {zero, -f[2], zero, f[0]},
+                                 {zero, f[1], -f[0], zero},
+                                 {zero, -turning[0], -turning[1], -turning[2]},
+                                 {zero, -turning[3], -turning[4], -turning[5]},
+                                 {zero, -turning[6], -turning[7], -turning[8]}};
+    double *to[LANES];
+    for (int l = 0; l < LANES; l++) to[l] = run->stiffness + 36 * g->place[l] + 2;
+    for (uint32_t i = 0; i < 6; i++) add_four(rows[i], lanes_used(g), to, 6 * i);
 }
 
 static inline void add_weight(dmb_node_force_run *run, node_group *g)
 {
     dmb_real R[9], mass, moment[3], force[6], turning[9];
     load(run->rotation, 9, 9, &g->place, 0, R);
-    load(run->weight_mass, 1, 1, &g->place, 0, &mass);
+    mass = load_line(run->weight_mass, &g->place);
     load(run->weight_moment, 3, 3, &g->place, 0, moment);
     dmb_vec3_scale(dmb_real_of(run->load_factor), moment, moment);
     dmb_weight_at(run->gravity, R, run->load_factor * mass, moment, force, turning);
@@ -102,14 +107,13 @@ static void node_forces(dmb_node_force_run *run)
     uint32_t next = 0;
     for (uint32_t first = 0; first < run->count; first += LANES) {
         node_group g;
-        dmb_lump_constants lump;
         g.place = group_at(first, run->count);
-        const int lumps = load_lumps(run, &g.place, &next, &lump), inertia = run->tangent && (lumps || run->damping);
+        const int lumps = has_lumps(run, &g.place, &next), inertia = run->tangent && (lumps || run->damping);
         load(run->residual, 6, 6, &g.place, 0, g.residual);
         load(run->scale, 6, 6, &g.place, 0, g.scale);
         if (run->dynamic) load(run->velocity, 6, 6, &g.place, 0, g.v);
         if (inertia) load(run->inertia, 36, 36, &g.place, 0, g.C);
-        if (lumps) add_lumps(run, &lump, &g);
+        if (lumps) add_lumps(run, next, &g);
         if (run->gravity) add_weight(run, &g);
         if (run->damping) add_damping(run, &g);
         store(g.residual, 6, &g.place, run->residual);

@@ -1,5 +1,5 @@
-/* Contact sites side by side: rings against the wall of the hole. Rings that do not touch add nothing; what rings add
- * is added one ring after the other. */
+/* Contact sites side by side: rings against the wall of the hole. Rings that do not touch add nothing; what rings
+ * add is added one ring after the other. */
 #ifndef DMB_KERNEL_LANES_WALL_H
 #define DMB_KERNEL_LANES_WALL_H
 
@@ -50,7 +50,7 @@ static inline void load_motion(const dmb_wall_run *run, wall_group *g)
 static inline void project_survey(const dmb_wall_run *run, wall_group *g, dmb_real point[3])
 {
     for (int l = 0; l < LANES; l++) {
-        const uint32_t s = g->site.place[l];
+        const size_t s = g->site.place[l];
         const double x[3] = {dmb_real_lane(g->x, l), dmb_real_lane(g->x + 1, l), dmb_real_lane(g->x + 2, l)};
         double at[3], tangent[3], bend[3];
         run->trial.segment[s] = run->now.segment[s];
@@ -70,7 +70,7 @@ static inline void project_line(const dmb_wall_run *run, wall_group *g, dmb_real
     dmb_real depth;
     dmb_line_project(run->hole->origin, run->hole->direction, g->x, &depth, point);
     for (int i = 0; i < 3; i++) g->tangent[i] = dmb_real_of(run->hole->direction[i]);
-    store(&depth, 1, &g->site, run->trial.depth);
+    store_line(depth, &g->site, run->trial.depth);
     for (uint32_t l = 0; l < g->site.used; l++) run->trial.segment[g->site.place[l]] = 0;
 }
 
@@ -98,18 +98,17 @@ static inline dmb_real speed_before(const dmb_wall_run *run, const wall_group *g
     return dmb_vec3_dot(g->normal, V);
 }
 
-/* Speed v0 of the restitution laws: that at the last accepted instant before touching. While open the field follows the
- * present normal speed. A ring that opens and falls back within one step comes as fast as it left. */
+/* Speed v0 of the restitution laws: that at the last accepted instant before touching. While open the field follows
+ * the present normal speed. A ring that opens and falls back within one step comes as fast as it left. */
 static inline void approach_speed(const dmb_wall_run *run, wall_group *g)
 {
     const dmb_real zero = dmb_real_of(0.0);
-    dmb_real back, penetration, approach, closed;
-    load(run->site_return, 1, 1, &g->site, 0, &back);
-    load(run->now.penetration, 1, 1, &g->site, 0, &penetration);
-    load(run->now.approach, 1, 1, &g->site, 0, &approach);
+    const dmb_real back = load_line(run->site_return, &g->site);
+    const dmb_real penetration = load_line(run->now.penetration, &g->site);
+    const dmb_real approach = load_line(run->now.approach, &g->site);
     const dmb_mask touches = dmb_mask_less(zero, g->penetration), returns = dmb_mask_less(zero, back);
     const dmb_mask touched = dmb_mask_less(zero, penetration);
-    closed = approach;
+    dmb_real closed = approach;
     if (dmb_mask_any(touches & dmb_mask_not(touched | returns)))
         closed = dmb_real_select(touched, approach, speed_before(run, g));
     closed = dmb_real_select(returns, back, closed);
@@ -129,17 +128,17 @@ static inline void place_rings(const dmb_wall_run *run, wall_group *g)
         dmb_contact_static_speeds(run->slip, &g->frame);
     g->penetration = g->frame.distance - g->clearance;
     approach_speed(run, g);
-    store(&g->penetration, 1, &g->site, run->trial.penetration);
-    store(&g->approach, 1, &g->site, run->trial.approach);
+    store_line(g->penetration, &g->site, run->trial.penetration);
+    store_line(g->approach, &g->site, run->trial.approach);
     store(g->frame.speed + 1, 2, &g->site, run->trial.slip);
 }
 
 /* Rings that touch keep what the friction law gave them. */
-static inline void forget_bristles(const dmb_wall_run *run, const wall_group *g, dmb_mask touches)
+static inline void forget_bristles(const dmb_wall_run *run, const wall_group *g, uint32_t touching)
 {
     for (uint32_t l = 0; l < g->site.used; l++) {
-        const uint32_t s = g->site.place[l];
-        if (dmb_mask_lane(&touches, (int)l)) continue;
+        const size_t s = g->site.place[l];
+        if (touching >> l & 1) continue;
         run->trial.bristle[2 * s] = run->trial.bristle[2 * s + 1] = 0.0;
         run->trial.sticks[s] = 0;
     }
@@ -149,7 +148,7 @@ static inline void bristles(const dmb_wall_run *run, const wall_group *g, dmb_re
                             dmb_real by_speed[4], dmb_real by_normal[2])
 {
     const dmb_real *v = g->frame.speed + 1;
-    dmb_real z_old[2], v_old[2], z[2], stuck;
+    dmb_real z_old[2], v_old[2], z[2], stuck = dmb_real_of(0.0);
     load(run->now.bristle, 2, 2, &g->site, 0, z_old);
     load(run->now.slip, 2, 2, &g->site, 0, v_old);
     for (int l = 0; l < LANES; l++) dmb_real_set_lane(&stuck, l, run->now.sticks[g->site.place[l]] ? 1.0 : 0.0);
@@ -157,7 +156,7 @@ static inline void bristles(const dmb_wall_run *run, const wall_group *g, dmb_re
         dmb_friction_bristle_at(run->friction_law, N, v, z_old, v_old, dmb_mask_less(dmb_real_of(0.0), stuck),
                                 run->step, z, F, by_speed, by_normal);
     store(z, 2, &g->site, run->trial.bristle);
-    for (uint32_t l = 0; l < g->site.used; l++) run->trial.sticks[g->site.place[l]] = dmb_mask_lane(&sticks, (int)l);
+    for (uint32_t l = 0; l < g->site.used; l++) run->trial.sticks[g->site.place[l]] = dmb_mask_bits(sticks) >> l & 1;
 }
 
 static inline void add_friction(const dmb_wall_run *run, const wall_group *g, dmb_contact_force *c)
@@ -173,32 +172,31 @@ static inline void add_friction(const dmb_wall_run *run, const wall_group *g, dm
 }
 
 /* Takes -K, moved from the rings to their nodes, into the diagonal blocks of the nodes. */
-static inline void subtract_blocks(const dmb_wall_run *run, const wall_group *g, dmb_mask touches, int arms,
+static inline void subtract_blocks(const dmb_wall_run *run, const wall_group *g, uint32_t touching, int arms,
                                    dmb_real K[36], double *blocks)
 {
+    double *to[LANES];
     if (arms) dmb_beam_block_to_nodes(g->offset, g->offset, K);
-    for (uint32_t l = 0; l < g->site.used; l++) {
-        double *restrict block = blocks + run->diagonal[g->node.place[l]];
-        if (!dmb_mask_lane(&touches, (int)l)) continue;
-        for (int i = 0; i < 36; i++) block[i] -= dmb_real_lane(K + i, (int)l);
-    }
+    for (int i = 0; i < 36; i++) K[i] = -K[i];
+    for (int l = 0; l < LANES; l++) to[l] = blocks + run->diagonal[g->node.place[l]];
+    add_lanes(K, 36, touching, to);
 }
 
-static inline void add_tangent(const dmb_wall_run *run, const wall_group *g, dmb_mask touches, int arms,
+static inline void add_tangent(const dmb_wall_run *run, const wall_group *g, uint32_t touching, int arms,
                                const dmb_contact_force *c, const dmb_real wrench[6])
 {
     const int friction = run->friction_law != NULL;
     dmb_real K[36];
     dmb_contact_pose_tangent(&g->frame, c, wrench, friction, K);
     if (!dmb_hole_is_straight(run->hole)) dmb_contact_add_bend(&g->frame, c, g->bend, wrench, friction, K);
-    subtract_blocks(run, g, touches, arms, K, run->stiffness);
+    subtract_blocks(run, g, touching, arms, K, run->stiffness);
     if (!run->dynamic) return;
     dmb_contact_velocity_tangent(&g->frame, c, run->velocity_factor, friction, K);
-    subtract_blocks(run, g, touches, arms, K, run->inertia);
+    subtract_blocks(run, g, touching, arms, K, run->inertia);
 }
 
-/* Rounding of the distance across the hole: its coordinates are x, in a hole along x next to nothing across it, in an
- * inclined one the way along it. */
+/* Rounding of the distance across the hole: its coordinates are x, in a hole along x next to nothing across it, in
+ * an inclined one the way along it. */
 static inline dmb_real rounding_of(const wall_group *g, dmb_real stiffness)
 {
     dmb_real reach = dmb_real_of(0.0);
@@ -207,29 +205,35 @@ static inline dmb_real rounding_of(const wall_group *g, dmb_real stiffness)
     return force * force;
 }
 
-static inline void add_forces(dmb_wall_run *run, const wall_group *g, dmb_mask touches, const dmb_contact_force *c,
+static inline void add_forces(dmb_wall_run *run, const wall_group *g, uint32_t touching, const dmb_contact_force *c,
                               const dmb_real wrench[6])
 {
     const dmb_real *v = g->frame.speed;
     const dmb_real rounding = rounding_of(g, c->by_depth[0]), potential = c->elastic * v[0];
     const dmb_real impact = (c->F[0] + c->elastic) * v[0], friction = c->F[1] * v[1] + c->F[2] * v[2];
-    for (uint32_t l = 0; l < g->site.used; l++) {
-        double *residual = run->residual + g->row.place[l], *scale = run->scale + g->row.place[l];
-        const int lane = (int)l;
-        if (!dmb_mask_lane(&touches, lane)) continue;
-        run->rounding += dmb_real_lane(&rounding, lane);
-        for (int i = 0; i < 6; i++) {
-            residual[i] -= dmb_real_lane(wrench + i, lane);
-            scale[i] += fabs(dmb_real_lane(wrench + i, lane));
-        }
+    dmb_real force[6], magnitude[6];
+    double *residual[LANES], *scale[LANES];
+    for (int i = 0; i < 6; i++) {
+        force[i] = -wrench[i];
+        magnitude[i] = dmb_real_abs(wrench[i]);
+    }
+    for (int l = 0; l < LANES; l++) {
+        residual[l] = run->residual + g->row.place[l];
+        scale[l] = run->scale + g->row.place[l];
+    }
+    add_lanes(force, 6, touching, residual);
+    add_lanes(magnitude, 6, touching, scale);
+    for (int l = 0; l < LANES; l++) {
+        if (!(touching >> l & 1)) continue;
+        run->rounding += dmb_real_lane(&rounding, l);
         if (!run->dynamic) continue;
-        run->potential -= dmb_real_lane(&potential, lane);
-        run->impact += dmb_real_lane(&impact, lane);
-        run->friction += dmb_real_lane(&friction, lane);
+        run->potential -= dmb_real_lane(&potential, l);
+        run->impact += dmb_real_lane(&impact, l);
+        run->friction += dmb_real_lane(&friction, l);
     }
 }
 
-static inline void press(dmb_wall_run *run, const wall_group *g, dmb_mask touches)
+static inline void press(dmb_wall_run *run, const wall_group *g, uint32_t touching)
 {
     const int friction = run->friction_law != NULL;
     const int arms =
@@ -241,9 +245,9 @@ static inline void press(dmb_wall_run *run, const wall_group *g, dmb_mask touche
                              dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->approach, &c);
     if (friction) add_friction(run, g, &c);
     dmb_contact_wrench(&g->frame, &c, friction, wrench);
-    if (run->tangent) add_tangent(run, g, touches, arms, &c, wrench);
+    if (run->tangent) add_tangent(run, g, touching, arms, &c, wrench);
     dmb_arm_wrench(g->offset, wrench);
-    add_forces(run, g, touches, &c, wrench);
+    add_forces(run, g, touching, &c, wrench);
 }
 
 static void walls(dmb_wall_run *run)
@@ -254,8 +258,9 @@ static void walls(dmb_wall_run *run)
         place_rings(run, &g);
         const dmb_real zero = dmb_real_of(0.0);
         const dmb_mask touches = dmb_mask_less(zero, g.penetration) | dmb_mask_at_most(g.clearance, zero);
-        if (dmb_mask_any(touches)) press(run, &g, touches);
-        forget_bristles(run, &g, touches);
+        const uint32_t touching = dmb_mask_bits(touches) & lanes_used(&g.site);
+        if (touching) press(run, &g, touching);
+        forget_bristles(run, &g, touching);
     }
 }
 

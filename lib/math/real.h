@@ -65,10 +65,9 @@ static inline int dmb_mask_any(dmb_mask mask)
 {
     return mask;
 }
-static inline int dmb_mask_lane(const dmb_mask *mask, int lane)
+static inline uint32_t dmb_mask_bits(dmb_mask mask)
 {
-    (void)lane;
-    return *mask;
+    return mask != 0;
 }
 /* a where the mask holds, else b */
 static inline dmb_real dmb_real_select(dmb_mask mask, dmb_real a, dmb_real b)
@@ -136,9 +135,12 @@ static inline int dmb_mask_any(dmb_mask mask)
     for (int lane = 0; lane < DMB_LANES; lane++) any |= mask[lane];
     return any != 0;
 }
-static inline int dmb_mask_lane(const dmb_mask *mask, int lane)
+/* One bit for each lane. */
+static inline uint32_t dmb_mask_bits(dmb_mask mask)
 {
-    return (*mask)[lane] != 0;
+    uint32_t bits = 0;
+    for (int lane = 0; lane < DMB_LANES; lane++) bits |= (uint32_t)(mask[lane] & 1) << lane;
+    return bits;
 }
 static inline dmb_real dmb_real_select(dmb_mask mask, dmb_real a, dmb_real b)
 {
