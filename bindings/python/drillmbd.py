@@ -562,6 +562,26 @@ class ModeShape(_Sized):
     _fields_ = [("struct_size", c_uint32), ("frame", c_int32), ("re", c_double * 6), ("im", c_double * 6)]
 
 
+@_mirrors("dmb_order")
+class Order(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("order", c_double), ("input", Input)]
+
+
+@_mirrors("dmb_speeds_options")
+class SpeedsOptions(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("points", c_uint32), ("speed_low", c_double), ("speed_high", c_double),
+                ("threshold", c_double), ("margin", c_double), ("refinement", c_uint32), ("contact", c_int32),
+                ("friction", c_int32), ("reserved", c_int32), ("contact_gap", c_double),
+                ("structural_damping", c_double), ("equilibrium_tolerance", c_double)]
+
+
+@_mirrors("dmb_speed_band")
+class SpeedBand(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("order", c_uint32), ("output", c_uint32), ("reserved", c_uint32),
+                ("low", c_double), ("high", c_double), ("speed", c_double), ("severity", c_double),
+                ("frequency", c_double)]
+
+
 # ---- Functions -------------------------------------------------------------------------------------------------------
 def _declare_all():
     model, sim = c_void_p, c_void_p
@@ -617,6 +637,8 @@ def _declare_all():
              count, POINTER(response))
     _declare("dmb_analysis_sine", status, sim, number, POINTER(SineOptions), POINTER(Output), count,
              POINTER(number), POINTER(SineReport))
+    _declare("dmb_analysis_speeds", status, sim, POINTER(SpeedsOptions), POINTER(Order), count, POINTER(Output),
+             POINTER(number), count, POINTER(SpeedBand), POINTER(c_uint32), POINTER(number))
     _declare("dmb_response_destroy", None, POINTER(response))
     _declare("dmb_response_shape", status, response, POINTER(c_uint32))
     _declare("dmb_response_frequencies", status, response, POINTER(number))
@@ -1037,6 +1059,18 @@ class Sim:
         options, handle = _struct(ModesOptions, options, fields), c_void_p()
         self._check(_lib.dmb_analysis_modes(self._handle, byref(options), byref(handle)))
         return Modes(handle, self._scene)
+
+    def speeds(self, orders, outputs, limits, room=64, options=None, **fields):
+        """Bands of rotary speed to avoid, at most `room` of them, and the severity at the speeds of the grid: each Order
+        shakes, and limits are the amplitudes allowed of the Outputs."""
+        options = _struct(SpeedsOptions, options, fields)
+        limits = (c_double * len(outputs))(*_numbers(limits, len(outputs)))
+        orders, outputs = (Order * len(orders))(*orders), (Output * len(outputs))(*outputs)
+        bands, count = (SpeedBand * room)(*[SpeedBand() for _ in range(room)]), c_uint32(room)
+        severity = (c_double * options.points)()
+        self._check(_lib.dmb_analysis_speeds(self._handle, byref(options), orders, len(orders), outputs, limits,
+                                             len(outputs), bands, byref(count), severity))
+        return list(bands)[:count.value], list(severity)
 
     def set_drive(self, drive, value):
         """The drive's programme is the constant value from now on; None: its programme again."""

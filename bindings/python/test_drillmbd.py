@@ -351,6 +351,17 @@ class ResponseTest(unittest.TestCase):
         self.assertAlmostEqual(amplitudes[1], -1.5j)  # sine: the real part of -i e^(iwt)
         self.assertAlmostEqual(amplitudes[2], 0.0)
 
+    def test_speeds(self):
+        """m r w^2 / (m w^2) = r: the same at every speed, above a limit and below another."""
+        order = mbd.Order(input=mbd.Input(kind=mbd.INPUT_UNBALANCE, place=self.body, amplitude=1e-3))
+        output = mbd.Output(place=self.body)
+        bands, severity = self.sim.speeds([order], [output], [4e-4], speed_low=5.0, speed_high=20.0, points=7)
+        self.assertEqual(len(bands), 1)
+        self.assertEqual((bands[0].low, bands[0].high, bands[0].order), (5.0, 20.0, 0))
+        for value in severity:
+            self.assertAlmostEqual(value, 1.25)
+        self.assertEqual(self.sim.speeds([order], [output], [6e-4], speed_low=5.0, speed_high=20.0)[0], [])
+
     def test_refusal_says_why(self):
         with self.assertRaises(mbd.Error) as caught:
             self.sim.response([mbd.Input(place=self.body)], [mbd.Output(place=self.body)], frequencies=[0.0])

@@ -212,7 +212,7 @@ DMB_API int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t s
  * What the wall is to small motion about a state (modes.h, response.h). */
 enum {
     DMB_CONTACT_AS_IS = 0, /* rings that touch the wall press on it, others do not */
-    DMB_CONTACT_OPEN = 1,  /* there is no wall */
+    DMB_CONTACT_OPEN = 1,  /* there is no wall; what it presses with in the state stays as a dead load */
     DMB_CONTACT_CLOSED = 2 /* rings up to `contact_gap` from the wall are held across it too */
 };
 

@@ -21,7 +21,7 @@ typedef struct dmb_modes_options {
     uint32_t count;            /* [-] of LOWEST, 1 .. number of coordinates; default 10 */
     double band[2];            /* [Hz] of BAND, 0 <= band[0] < band[1]; default 0 and 100, shape (2) */
     int32_t contact;           /* DMB_CONTACT_..., default DMB_CONTACT_AS_IS */
-    int32_t friction;          /* 1 (default): the slope of the friction law on the wall acts; 0: left out */
+    int32_t friction;          /* 1 (default): the slope of the friction law on the wall acts; 0: friction is a dead load */
     double contact_gap;        /* [m] of DMB_CONTACT_CLOSED, >= 0; default 0 */
     double equilibrium_tolerance; /* [-] residual over the forces that balance in it, > 0; above it the state is refused;
                                   default 1e-6 */

@@ -141,6 +141,57 @@ DMB_API int32_t dmb_analysis_sine(dmb_sim *sim, double frequency, const dmb_sine
                                   const dmb_output *outputs, uint32_t output_count, double *amplitudes,
                                   dmb_sine_report *report);
 
+/* ---- Safe speeds -------------------------------------------------------------------------------------------------
+ * A string that turns at W [rad/s] is shaken at orders of its speed: at W by eccentric masses, at 2 W by misalignment, at
+ * 3 W by a tricone bit, at the number of blades times W by the cut. */
+typedef struct dmb_order {
+    uint32_t struct_size;
+    uint32_t reserved;
+    double order;       /* [-] frequency over rotary speed, > 0; default 1 */
+    dmb_input input;    /* what acts, with its amplitude; default: the scene's eccentric masses, as they are */
+} dmb_order;
+DMB_SIZED_STRUCT(dmb_order)
+
+typedef struct dmb_speeds_options {
+    uint32_t struct_size;
+    uint32_t points;              /* [-] of the grid of speeds, 2 .. 1e5; default 200 */
+    double speed_low;             /* [rad/s] > 0; default 1 */
+    double speed_high;            /* [rad/s] > speed_low; default 30 */
+    double threshold;             /* [-] severity above which a speed is to be avoided, > 0; default 1 */
+    double margin;                /* [-] by which bands are wider on both sides, part of the speed, 0 .. 0.5; default
+                                     0.03 */
+    uint32_t refinement;          /* [-] as of a response, for each order; default 12 */
+    int32_t contact;              /* these as of a response, but for friction, default 0: a string that turns slides, */
+    int32_t friction;             /* and sliding has next to no slope */
+    int32_t reserved;
+    double contact_gap, structural_damping, equilibrium_tolerance;
+} dmb_speeds_options;
+DMB_SIZED_STRUCT(dmb_speeds_options)
+
+typedef struct dmb_speed_band {
+    uint32_t struct_size;
+    uint32_t order;      /* [-] number of the order that counts most at the worst speed */
+    uint32_t output;     /* [-] number of its output that is worst */
+    uint32_t reserved;
+    double low, high;    /* [rad/s] of the band, margin included */
+    double speed;        /* [rad/s] the worst in it */
+    double severity;     /* [-] there */
+    double frequency;    /* [Hz] of that order there */
+} dmb_speed_band;
+DMB_SIZED_STRUCT(dmb_speed_band)
+
+/* Bands of rotary speed to avoid about the accepted state of a sim. Severity of a speed: the sum over the orders of the
+ * largest amplitude of an output over its limit, by the linear response at order times speed; 1 is the limit even where
+ * all orders add up. limits: [unit of the output] > 0, shape (output_count). bands: *band_count on entry is room, the size
+ * of each what the first says; on return the number of bands, by rising speed, DMB_NOTE_FULL where more were found than
+ * there was room. severity, shape (points), may be NULL: largest within half a step of the grid around each speed.
+ * Call it for a sim of each depth or state. Errors: as dmb_analysis_response, with nothing written. Cost: that of
+ * order_count responses. */
+DMB_API int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
+                                    uint32_t order_count, const dmb_output *outputs, const double *limits,
+                                    uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count,
+                                    double *severity);
+
 #ifdef __cplusplus
 }
 #endif

@@ -243,17 +243,32 @@ static int32_t friction(const request *r)
     return DMB_OK;
 }
 
+/* Forces on rows that are held go into their guides; there a number would be taken for a displacement. */
+static void leave_out_held(const dmb_scene *scene, dmb_excitation *out)
+{
+    if (out->law == DMB_EXCITE_MOTION) return;
+    for (uint32_t r = 0; r < scene->row_count; r++)
+        if (!scene->solved_row[r]) out->re[r] = out->im[r] = 0.0;
+}
+
+static int32_t make(const request *r)
+{
+    switch (r->input->kind) {
+    case DMB_INPUT_DRIVE: return drive(r);
+    case DMB_INPUT_LOAD: return load(r);
+    case DMB_INPUT_BIT_LOAD: return bit_load(r);
+    case DMB_INPUT_FORCE: return force(r);
+    case DMB_INPUT_UNBALANCE: return unbalance(r);
+    case DMB_INPUT_ECCENTRICITY: return eccentricity(r);
+    default: return friction(r);
+    }
+}
+
 int32_t dmb_excitation_of(dmb_sim *copy, const dmb_input *input, uint32_t index, dmb_message *message,
                           dmb_excitation *out)
 {
     const request r = {copy, input, index, message, out};
-    switch (input->kind) {
-    case DMB_INPUT_DRIVE: return drive(&r);
-    case DMB_INPUT_LOAD: return load(&r);
-    case DMB_INPUT_BIT_LOAD: return bit_load(&r);
-    case DMB_INPUT_FORCE: return force(&r);
-    case DMB_INPUT_UNBALANCE: return unbalance(&r);
-    case DMB_INPUT_ECCENTRICITY: return eccentricity(&r);
-    default: return friction(&r);
-    }
+    const int32_t status = make(&r);
+    if (status >= 0) leave_out_held(copy->scene, out);
+    return status;
 }

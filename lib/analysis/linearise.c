@@ -290,6 +290,21 @@ static void freeze(dmb_linear *linear, const dmb_linear_options *options)
     linear->work->scene = &linear->scene;
 }
 
+/* Forces that the frozen scene lacks stay as dead loads, with what they add to the stiffness by the body turning under
+ * them, d(R^T f) = (R^T f)~ dtheta: the state is the same equilibrium. `before`: residual with them. */
+static void add_dead_loads(dmb_linear *linear, const double *before)
+{
+    const dmb_block_layout *layout = &linear->scene.layout;
+    for (uint32_t i = 0; i < layout->n; i++) {
+        double w[6];
+        if (layout->size[i] != DMB_NODE_FULL) continue;
+        for (uint32_t k = 0; k < 6; k++)
+            w[k] = linear->work->correction[layout->row[i] + k] - before[layout->row[i] + k];
+        dmb_mat6_add_skew(-1.0, w, 0, 1, linear->stiffness.diagonal + layout->diag[i]);
+        dmb_mat6_add_skew(-1.0, w + 3, 1, 1, linear->stiffness.diagonal + layout->diag[i]);
+    }
+}
+
 /* [N/m] of the wall under a ring that carries the weight of its node, a newton at least. */
 static double wall_stiffness(const dmb_scene *scene, const dmb_site *site)
 {
@@ -476,9 +491,14 @@ static int32_t make_coordinates(dmb_linear *linear)
 static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *options)
 {
     dmb_sim *work = linear->work;
+    dmb_evaluation evaluation = evaluation_of(work);
+    double *before = work->trial.pseudo_acceleration; /* which no force depends on */
+    work->linked_mode->multipliers = 1;               /* they are given */
+    int32_t status = dmb_system_evaluate(&evaluation);
+    memcpy(before, work->correction, linear->rows * sizeof(double));
     freeze(linear, options);
-    work->linked_mode->multipliers = 1; /* they are given */
-    int32_t status = take_stiffness_and_mass(linear);
+    if (status >= 0) status = take_stiffness_and_mass(linear);
+    if (status >= 0) add_dead_loads(linear, before);
     if (status >= 0 && options->contact == DMB_LINEAR_CONTACT_CLOSED) close_contacts(linear, options->gap);
     return status < 0 ? status : take_damping(linear);
 }

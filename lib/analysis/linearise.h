@@ -17,8 +17,9 @@
  * so that gyroscopic and centrifugal terms of a steadily spinning string are in C and K, whose entries are constant
  * there: it is a relative equilibrium. Elsewhere in a run the coefficients are those of the moment.
  * What is integrated along with the motion, bristles that stick and the integral part of speed controllers, is stiffness
- * here (the part that v^ d has in it, left out, is none for drives along and about the axis). The memory of a regenerative rock law is not: its past is taken as given. A nonholonomic equation holds d as it
- * holds d'. Friction has the derivative of its law; one that is smooth at rest is a damper there. */
+ * here (the part that v^ d has in it, left out, is none for drives along and about the axis). The memory of a regenerative
+ * rock law is not: its past is taken as given. A nonholonomic equation holds d as it holds d'. Friction has the derivative
+ * of its law; one that is smooth at rest is a damper there. */
 #ifndef DMB_ANALYSIS_LINEARISE_H
 #define DMB_ANALYSIS_LINEARISE_H
 
@@ -26,13 +27,13 @@
 
 enum {
     DMB_LINEAR_CONTACT_AS_IS = 0,  /* rings that touch the wall press on it, others do not */
-    DMB_LINEAR_CONTACT_OPEN = 1,   /* there is no wall */
+    DMB_LINEAR_CONTACT_OPEN = 1,   /* there is no wall; what it presses with in the state is a dead load */
     DMB_LINEAR_CONTACT_CLOSED = 2  /* rings up to `gap` from the wall are held across it too */
 };
 
 typedef struct dmb_linear_options {
     int32_t contact;     /* DMB_LINEAR_CONTACT_... */
-    int32_t no_friction; /* 1: the derivative of friction on the wall is left out */
+    int32_t no_friction; /* 1: friction on the wall does not change: it is a dead load */
     double gap;          /* [m] of DMB_LINEAR_CONTACT_CLOSED */
 } dmb_linear_options;
 

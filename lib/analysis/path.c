@@ -128,11 +128,11 @@ static int32_t tell(dmb_path *path, int32_t kind)
 /* The event, or an end that lies before it. */
 static int32_t locate(dmb_path *path, int32_t *event, double arc)
 {
-    const int32_t status = dmb_path_locate(path, *event, arc);
+    const int32_t status = dmb_path_locate(path, event, arc);
     const int32_t end = dmb_path_end(path, *event);
     if (status < 0 || end == DMB_EVENT_NONE) return status;
     *event = end;
-    return dmb_path_locate(path, end, path->next.arc - path->last.arc);
+    return dmb_path_locate(path, event, path->next.arc - path->last.arc);
 }
 
 /* The next point, at an event or at *arc; a step that fails is halved. *event tells. */

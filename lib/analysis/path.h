@@ -29,6 +29,7 @@ typedef struct dmb_path {
     double *move;          /* (rows) */
     double *mode;          /* (rows) softest shape of the stiffness factored last, unit length */
     double side;           /* rate of the last point but at limit points, where it is that beyond */
+    double softest;        /* [N/m] eigenvalue of that shape */
     double weakest;        /* [-] pivot of the stiffness factored last, against its block */
     uint32_t iterations;   /* of the point sought */
     dmb_path_report report;
@@ -57,8 +58,9 @@ enum {
 int32_t dmb_path_event(const dmb_path *path);
 /* Of the two ends one that lies between, but not that one. */
 int32_t dmb_path_end(const dmb_path *path, int32_t but);
-/* Moves next to the event, by regula falsi on the arc; mode is then the softest shape there. */
-int32_t dmb_path_locate(dmb_path *path, int32_t event, double arc);
+/* Moves next to the event, by regula falsi on the arc; mode is then the softest shape there. A bifurcation may turn out
+ * to be a corner: a limit point, or nothing. */
+int32_t dmb_path_locate(dmb_path *path, int32_t *event, double arc);
 /* From a bifurcation, which is last, to the first point of the branch along the mode, halving *arc until it is found. */
 int32_t dmb_path_leave(dmb_path *path, double *arc);
 

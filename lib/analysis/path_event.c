@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "analysis/path.h"
+#include "analysis/stiffness.h"
 #include "system/solve.h"
 
 static int passes(double end, double last, double next)
@@ -82,9 +83,9 @@ static double softness(dmb_path *path)
 /* ---- Locating ---------------------------------------------------------------------------------------------------- */
 
 /* What is sought between the last point and `arc`: counted 1 where the softest shape is not the one that changes sign,
- * and the count has to do. */
+ * or two do, and the count has to do, which finds the first. */
 typedef struct quest {
-    int32_t event, beyond, counted;
+    int32_t event, counted;
 } quest;
 
 /* What vanishes at the event, at `arc` from the last point. */
@@ -94,8 +95,9 @@ static int32_t probe(dmb_path *path, const quest *q, double arc, double *value)
     if (status >= 0) status = dmb_path_tangent(path, path->last.tangent);
     if (status < 0) return status;
     if (q->event == DMB_EVENT_LIMIT) *value = path->next.rate;
-    if (q->event == DMB_EVENT_BIFURCATION) *value = softness(path);
-    if (q->event == DMB_EVENT_BIFURCATION && q->counted) *value = path->next.negative == q->beyond ? -1.0 : 1.0;
+    if (q->event == DMB_EVENT_BIFURCATION) path->softest = *value = softness(path);
+    if (q->event == DMB_EVENT_BIFURCATION && q->counted)
+        *value = path->next.negative == path->last.negative ? 1.0 : -1.0;
     if (q->event == DMB_EVENT_FACTOR) *value = path->next.factor - path->options->factor_end;
     if (q->event == DMB_EVENT_DISPLACEMENT) *value = path->next.watched - path->options->displacement_end;
     return DMB_OK;
@@ -104,50 +106,104 @@ static int32_t probe(dmb_path *path, const quest *q, double arc, double *value)
 #define DMB_LOCATE_ITERATIONS 60
 #define DMB_LOCATED 1e-8
 
-/* Regula falsi, the Illinois way: an end that stays twice counts half. */
-static int32_t close_in(dmb_path *path, const quest *q, double arc, double at_low, double at_high)
+/* An interval of the arc, and what is sought at its ends. */
+typedef struct bracket {
+    double low, high, at_low, at_high;
+} bracket;
+
+static int32_t probe_ends(dmb_path *path, const quest *q, bracket *b)
 {
-    const double unit = fmax(fabs(at_low), fabs(at_high));
-    double low = 0.0, high = arc, value;
-    for (int k = 0, kept = 0; k < DMB_LOCATE_ITERATIONS && high - low > DMB_LOCATED * arc; k++) {
-        const double middle = high - at_high * (high - low) / (at_high - at_low);
+    const int32_t status = probe(path, q, b->high, &b->at_high);
+    return status < 0 ? status : probe(path, q, b->low, &b->at_low);
+}
+
+/* Regula falsi, the Illinois way: an end that stays twice counts half. Where only signs are known, halves. */
+static int32_t close_in(dmb_path *path, const quest *q, bracket *b, double within)
+{
+    const double unit = fmax(fabs(b->at_low), fabs(b->at_high));
+    double value;
+    for (int k = 0, kept = 0; k < DMB_LOCATE_ITERATIONS && b->high - b->low > within; k++) {
+        const double secant = b->high - b->at_high * (b->high - b->low) / (b->at_high - b->at_low);
+        const double middle = q->counted ? 0.5 * (b->low + b->high) : secant;
         const int32_t status = probe(path, q, middle, &value);
         if (status < 0) return status;
-        if (fabs(value) <= DMB_LOCATED * unit) break;
-        if (value * at_high > 0.0) {
-            high = middle;
-            at_high = value;
-            at_low *= kept > 0 ? 0.5 : 1.0;
+        if (!q->counted && fabs(value) <= DMB_LOCATED * unit) break;
+        if (value * b->at_high > 0.0) {
+            b->high = middle;
+            b->at_high = value;
+            b->at_low *= kept > 0 ? 0.5 : 1.0;
             kept = 1;
         } else {
-            low = middle;
-            at_low = value;
-            at_high *= kept < 0 ? 0.5 : 1.0;
+            b->low = middle;
+            b->at_low = value;
+            b->at_high *= kept < 0 ? 0.5 : 1.0;
             kept = -1;
         }
     }
     return DMB_OK;
 }
 
-int32_t dmb_path_locate(dmb_path *path, int32_t event, double arc)
+/* Where a contact opens or closes the stiffness jumps, and may change its sign without ever being singular. The path
+ * then has a corner, and goes on so that det K times the sense of (-K^-1 q, 1) stays as it was: the factor turns back.
+ */
+#define DMB_CORNER 1e-4
+#define DMB_ROUNDINGS 100.0
+
+static int32_t turn_corner(dmb_path *path, const quest *q, double soft, double arc, int32_t *event)
 {
-    quest q = {event, path->next.negative, 0};
-    const double side = path->next.rate;
-    double at_low, at_high;
-    int32_t status = probe(path, &q, arc, &at_high);
-    if (status >= 0) status = probe(path, &q, 0.0, &at_low);
+    const double at = path->next.arc - path->last.arc, rounding = dmb_stiffness_rounding(path->work);
+    const int smooth = fabs(path->softest) <= fmax(DMB_CORNER * soft, DMB_ROUNDINGS * rounding);
+    double unused;
+    int32_t status = probe(path, q, arc, &unused); /* just beyond it */
+    const int32_t beyond = path->next.negative;
+    if (status >= 0 && smooth && *event != DMB_EVENT_NONE) status = probe(path, q, at, &unused);
+    path->next.negative = beyond; /* at the bifurcation itself it is a matter of rounding */
+    if (status < 0 || smooth) return status;
+    *event = DMB_EVENT_NONE;
+    if ((beyond - path->last.negative) % 2 == 0) return DMB_OK;
+    *event = DMB_EVENT_LIMIT;
+    path->next.rate = -path->next.rate;
+    for (uint32_t i = 0; i < path->work->scene->row_count; i++) path->next.tangent[i] = -path->next.tangent[i];
+    path->side = path->next.rate;
+    return DMB_OK;
+}
+
+/* The first place where the count changes, by the count to a thousandth of the step, and then by the eigenvalue that
+ * changes sign there, which the count raises by its idea of rounding. */
+#define DMB_ISOLATED 1e-3
+
+static int32_t locate_bifurcation(dmb_path *path, quest *q, double arc, int32_t *event)
+{
+    bracket all = {0.0, arc, 0.0, 0.0}, first = {0.0, arc, 1.0, -1.0};
+    int32_t status = probe_ends(path, q, &all);
+    const double soft = fmax(fabs(all.at_low), fabs(all.at_high));
+    q->counted = 1;
+    if (status >= 0) status = close_in(path, q, &first, DMB_ISOLATED * arc);
+    q->counted = 0;
+    all.high = first.high;
+    if (status >= 0) status = probe(path, q, all.high, &all.at_high);
     if (status < 0) return status;
-    if (event == DMB_EVENT_BIFURCATION && at_low * at_high >= 0.0) {
-        q.counted = 1;
-        at_low = 1.0;
-        at_high = -1.0;
-    }
-    status = close_in(path, &q, arc, at_low, at_high);
-    if (status >= 0 && (event == DMB_EVENT_LIMIT || event == DMB_EVENT_BIFURCATION)) {
-        path->next.negative = q.beyond; /* at the event itself it is a matter of rounding */
-        path->side = side;
-    }
-    return status;
+    q->counted = all.at_low * all.at_high >= 0.0;
+    if (!q->counted) first = all;
+    path->side = path->last.rate;
+    if (soft <= DMB_ROUNDINGS * dmb_stiffness_rounding(path->work)) *event = DMB_EVENT_NONE; /* neutral all the way */
+    status = close_in(path, q, &first, DMB_LOCATED * arc);
+    return status < 0 ? status : turn_corner(path, q, soft, first.high, event);
+}
+
+int32_t dmb_path_locate(dmb_path *path, int32_t *event, double arc)
+{
+    quest q = {*event, 0};
+    bracket b = {0.0, arc, 0.0, 0.0};
+    const double side = path->next.rate;
+    const int32_t beyond = path->next.negative;
+    if (*event == DMB_EVENT_BIFURCATION) return locate_bifurcation(path, &q, arc, event);
+    int32_t status = probe_ends(path, &q, &b);
+    if (status >= 0) status = close_in(path, &q, &b, DMB_LOCATED * arc);
+    if (status < 0 || *event != DMB_EVENT_LIMIT) return status;
+    path->next.negative = beyond; /* at the limit point itself it is a matter of rounding */
+    path->side = side;
+    return DMB_OK;
 }
 
 /* ---- Branches ---------------------------------------------------------------------------------------------------- */

@@ -25,6 +25,11 @@ static void raise_rounding(dmb_sim *sim)
     for (uint32_t i = 0; i < scene->row_count; i++) sim->scale_row[i] *= DMB_STIFFNESS_ROUNDING * most;
 }
 
+double dmb_stiffness_rounding(const dmb_sim *sim)
+{
+    return sim->scale_row[0]; /* a displacement, of weight 1 */
+}
+
 int32_t dmb_stiffness_negative(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

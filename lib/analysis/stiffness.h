@@ -8,6 +8,8 @@
  * symmetric part where friction makes it unsymmetric; -1 in a scene with joints, whose reduced matrix is not there. What
  * is 0 but for rounding does not count: a buckled column may turn about its load. Uses scale_row. */
 int32_t dmb_stiffness_negative(dmb_sim *sim);
+/* [N/m] below which an eigenvalue of the matrix whose signs were counted last counts as 0; scale_row still tells. */
+double dmb_stiffness_rounding(const dmb_sim *sim);
 /* DMB_ERR_ORDER, with a message of `who` in sim, unless the residual just evaluated is that of an equilibrium. */
 int32_t dmb_stiffness_balanced(dmb_sim *sim, const char *who, const dmb_evaluation *evaluation);
 /* Tells which part nothing holds. DMB_ERR_SINGULAR. */

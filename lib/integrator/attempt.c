@@ -5,11 +5,9 @@
 
 #include "integrator/generalized_alpha.h"
 #include "integrator/turning.h"
-#include "kernel/kernels.h"
 #include "system/cluster.h"
 #include "system/constraint_rows.h"
 #include "system/ledger.h"
-#include "system/node.h"
 #include "system/owner.h"
 #include "system/release.h"
 #include "system/solve.h"
@@ -85,32 +83,6 @@ static void keep_prescribed(dmb_sim *sim)
     }
 }
 
-/* Trial pose = pose of now moved by `increment`. */
-static void trial_pose(dmb_sim *sim)
-{
-    const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0, count; i < scene->node_count; i += count) {
-        const double *z = sim->increment + scene->layout.row[i];
-        count = dmb_full_nodes_at(scene, i);
-        if (count > 0) {
-            const dmb_node_run run = {count,
-                                      0,
-                                      z,
-                                      sim->now.displacement + 3 * i,
-                                      sim->now.quaternion + 4 * i,
-                                      sim->trial.displacement + 3 * i,
-                                      sim->trial.quaternion + 4 * i};
-            scene->kernels->advance(&run);
-            continue;
-        }
-        memcpy(sim->trial.displacement + 3 * i, sim->now.displacement + 3 * i, 3 * sizeof(double));
-        memcpy(sim->trial.quaternion + 4 * i, sim->now.quaternion + 4 * i, 4 * sizeof(double));
-        sim->trial.displacement[3 * i] += z[0];
-        sim->trial.turn[i] = sim->now.turn[i] + z[1];
-        count = 1;
-    }
-}
-
 /* Moves the trial by the correction z of h Dq. */
 static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
 {
@@ -124,7 +96,7 @@ static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
         to.acceleration[i] += to_dv * z;
         to.pseudo_acceleration[i] += to_a * z;
     }
-    trial_pose(sim);
+    dmb_system_move(sim);
 }
 
 /* Local error of the pose over its tolerance, largest row. */
@@ -336,7 +308,7 @@ int32_t dmb_attempt_step(dmb_sim *sim, double step, int32_t whole, dmb_attempt *
     status = dmb_system_prescribe(&attempt->evaluation);
     if (status >= 0) {
         if (sim->scene->cluster_count) keep_prescribed(sim);
-        trial_pose(sim);
+        dmb_system_move(sim);
         status = newton(sim, &c, attempt);
     }
     if (status == DMB_OK && dmb_contact_opens(sim)) status = step_released(sim, &c, attempt);

@@ -37,6 +37,31 @@ static void update_rotations(dmb_sim *sim)
     }
 }
 
+void dmb_system_move(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0, count; i < scene->node_count; i += count) {
+        const double *z = sim->increment + scene->layout.row[i];
+        count = dmb_full_nodes_at(scene, i);
+        if (count > 0) {
+            const dmb_node_run run = {count,
+                                      0,
+                                      z,
+                                      sim->now.displacement + 3 * i,
+                                      sim->now.quaternion + 4 * i,
+                                      sim->trial.displacement + 3 * i,
+                                      sim->trial.quaternion + 4 * i};
+            scene->kernels->advance(&run);
+            continue;
+        }
+        memcpy(sim->trial.displacement + 3 * i, sim->now.displacement + 3 * i, 3 * sizeof(double));
+        memcpy(sim->trial.quaternion + 4 * i, sim->now.quaternion + 4 * i, 4 * sizeof(double));
+        sim->trial.displacement[3 * i] += z[0];
+        sim->trial.turn[i] = sim->now.turn[i] + z[1];
+        count = 1;
+    }
+}
+
 static int32_t finite_status(const dmb_sim *sim)
 {
     double sum = 0.0;

@@ -39,6 +39,8 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation);
 int32_t dmb_system_prescribe(dmb_evaluation *evaluation);
 /* 1 if at the present time the programme of a motion drive goes on with another slope than the step before ended with. */
 int32_t dmb_system_rate_jumps(const dmb_sim *sim);
+/* Pose of the trial: that of now moved by `increment`. */
+void dmb_system_move(dmb_sim *sim);
 /* Iteration matrix K T6(increment) + inertia into the stiffness_ blocks, identity in rows that are not solved. */
 void dmb_system_iteration_matrix(const dmb_evaluation *evaluation);
 /* Extrapolates element_stress over a correction of body-frame pose increments (Magisano, Leonetti, Garcea 2017). */

@@ -80,8 +80,8 @@ static outcome measure(const scene *s, const method *how, yardstick *y)
 }
 
 /* The part of a row that every outcome has. */
-static void begin_outcome(row *r, const char *name, double elements, const method *how, const outcome *out,
-                          double error, const char *error_kind)
+static inline void begin_outcome(result *r, const char *name, double elements, const method *how, const outcome *out,
+                                 double error, const char *error_kind)
 {
     const head h = {name,
                     elements,

@@ -11,7 +11,7 @@
 enum { MODES = 10, MODES_REPEATS = 5, MODES_SIZES = 5 };
 
 static yardstick unit;
-static table results;
+static result_table results;
 
 /* [Hz] of each pair. */
 static const double given[MODES / 2] = {0.00672663, 0.0421551, 0.118035, 0.231302, 0.382359};
@@ -69,7 +69,7 @@ static void report(uint32_t elements, const answer *a)
     const double u = yardstick_value(&unit);
     const head h = {
         "A", elements, (double)NAN, a->seconds, u, (double)NAN, a->solves, worst, "largest_frequency_vs_given"};
-    row r;
+    result r;
     row_begin(&r, &h);
     row_number(&r, "spread", a->spread, 3);
     row_number(&r, "U_us", 1e6 * u, 4);
@@ -84,7 +84,7 @@ static void report(uint32_t elements, const answer *a)
 static int measure_modes(uint32_t per_pipe)
 {
     scene s = {.kind = SCENE_C, .pipes = 100, .per_pipe = per_pipe, .length = 1.0};
-    answer a;
+    answer a = {0.0, 0.0, 0.0, {0.0}};
     dmb_sim *sim = NULL;
     int32_t status = scene_open(&s);
     if (status >= 0) status = dmb_sim_create(s.model, NULL, &sim);

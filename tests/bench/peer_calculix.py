@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""CalculiX on the cantilever questions of the benchmark, and the library on the same. usage: peer_calculix.py CSV LIBRARY
+"""CalculiX on cantilevers, and the library on the same. usage: peer_calculix.py CSV LIBRARY
 
 The tube of scenes A to C, 100 m, clamped at one end and free at the other:
   A         its first five pairs of bending frequencies, against Euler-Bernoulli
@@ -36,11 +36,11 @@ LARGE_FORCE = 10 * BENDING / LENGTH**2
 ELASTICA = 0.8106090249 * LENGTH  # Mattiasson 1981
 PERIOD = 150.0
 
-COLUMNS = ("code,version,scene,elements,setting,end,steps,us_per_step,U_us,U_per_step,us_per_simulated_second,"
-           "U_per_simulated_second,rtf,residuals,tangents,error,error_kind,error_2,error_2_kind").split(",")
+COLUMNS = ("scene,elements,dt,us_per_step,U_per_step,rtf,iterations,error,error_kind,code,version,setting,end,steps,"
+           "U_us,U_per_simulated_second,residuals,tangents,error_2,error_2_kind").split(",")  # as in peer_rows.h
 
 
-# ---- Closed forms ------------------------------------------------------------------------------------------------------
+# ---- Closed forms ----------------------------------------------------------------------------------------------------
 def clamped_free_root(n):
     """n-th root of cos x cosh x = -1, by Newton on cos x + 1/cosh x."""
     x = (n - 0.5) * math.pi
@@ -69,7 +69,7 @@ def history_error(history):
     return math.sqrt(difference / sum(r * r for r in reference))
 
 
-# ---- Yardstick ---------------------------------------------------------------------------------------------------------
+# ---- Yardstick -------------------------------------------------------------------------------------------------------
 def yardstick():
     """[s] U, as in yardstick.h; NaN without LAPACKE."""
     try:
@@ -88,13 +88,14 @@ def yardstick():
     return statistics.median(taken)
 
 
-# ---- CalculiX ----------------------------------------------------------------------------------------------------------
+# ---- CalculiX --------------------------------------------------------------------------------------------------------
 STEPS = {
     "A": "*STEP\n*FREQUENCY\n10\n",
     "sag": "*STEP\n*STATIC\n",
     "elastica": "*STEP,NLGEOM,INC=1000\n*STATIC\n0.1,1.\n",
     "bending": "*STEP,INC=1000000\n*DYNAMIC,DIRECT\n{step},{period}\n",
-    "superposed": "*STEP\n*FREQUENCY,STORAGE=YES\n20\n*END STEP\n*STEP,INC=1000000\n*MODAL DYNAMIC\n{step},{period}\n",
+    "superposed": "*STEP\n*FREQUENCY,STORAGE=YES\n20\n*END STEP\n"
+                  "*STEP,INC=1000000\n*MODAL DYNAMIC\n{step},{period}\n",
 }
 
 
@@ -148,7 +149,7 @@ def ask_calculix(question, elements, step, folder):
     return seconds, len(history), abs(history[-1][1] / reference - 1)
 
 
-# ---- The library -------------------------------------------------------------------------------------------------------
+# ---- The library -----------------------------------------------------------------------------------------------------
 def cantilever(mbd, elements, force):
     model = mbd.Model()
     model.set_environment(gravity=(0.0, 0.0, 0.0))
@@ -164,9 +165,12 @@ def cantilever(mbd, elements, force):
 
 def ask_library(mbd, question, elements, step):
     begin = time.process_time()
-    force = LARGE_FORCE if question == "elastica" else SMALL_FORCE
-    model, tip = cantilever(mbd, elements, force)
+    forces = {"A": 0.0, "elastica": LARGE_FORCE}
+    model, tip = cantilever(mbd, elements, forces.get(question, SMALL_FORCE))
     with model.sim(energy_ledger=0) as sim:
+        if question == "A":
+            error = frequency_error([mode.frequency for mode in sim.modes(count=10)])
+            return time.process_time() - begin, 1, error
         if question == "bending":
             history = []
             for _ in range(round(PERIOD / step)):
@@ -180,7 +184,7 @@ def ask_library(mbd, question, elements, step):
     return time.process_time() - begin, report.iterations, abs(deflection / reference - 1)
 
 
-# ---- Rows --------------------------------------------------------------------------------------------------------------
+# ---- Rows ------------------------------------------------------------------------------------------------------------
 KINDS = {"A": "frequency_vs_euler_bernoulli", "sag": "tip_vs_PL3_3EI", "elastica": "tip_vs_mattiasson",
          "bending": "tip_history_vs_modes"}
 
@@ -188,18 +192,20 @@ KINDS = {"A": "frequency_vs_euler_bernoulli", "sag": "tip_vs_PL3_3EI", "elastica
 def report(table, unit, code, version, question, elements, setting, answer):
     seconds, steps, error = answer
     if math.isnan(error):
-        print(f"scene={question} elements={elements} code={code} {setting} failed after {seconds:.2f} s", flush=True)
+        print(f"scene={question} elements={elements} code={code} setting={setting} failed=after_{seconds:.2f}_s",
+              flush=True)
         return
     row = dict.fromkeys(COLUMNS, "")
     row.update(code=code, version=version, scene=question, elements=elements, setting=setting, steps=steps,
                us_per_step=f"{1e6 * seconds / steps:.5g}", U_us=f"{1e6 * unit:.4g}",
-               U_per_step=f"{seconds / steps / unit:.5g}", error=f"{error:.4g}", error_kind=KINDS[question])
+               U_per_step=f"{seconds / steps / unit:.5g}", error=f"{error:.3g}", error_kind=KINDS[question],
+               error_2_kind="-")
     if question == "bending":
-        row.update(end=PERIOD, us_per_simulated_second=f"{1e6 * seconds / PERIOD:.6g}", rtf=f"{PERIOD / seconds:.5g}",
-                   U_per_simulated_second=f"{seconds / PERIOD / unit:.6g}")
+        row.update(end=PERIOD, dt=f"{PERIOD / steps:.4g}", rtf=f"{PERIOD / seconds:.4g}",
+                   U_per_simulated_second=f"{seconds / PERIOD / unit:.5g}")
     table.writerow(row)
-    print(f"scene={question} elements={elements} code={code} {setting} us={1e6 * seconds:.4g} U={seconds / unit:.4g} "
-          f"steps={steps} error={error:.2e} error_kind={KINDS[question]}", flush=True)
+    print(" ".join(f"{name}={value}" for name, value in row.items() if value != "" or name in COLUMNS[:9])
+          .replace("= ", "=- "), flush=True)
 
 
 def calculix_version():
@@ -223,9 +229,8 @@ def main():
         def both(question, elements, step, setting):
             answer = ask_calculix(question, elements, step, pathlib.Path(folder))
             report(table, unit, "CalculiX", version, question, elements, setting, answer)
-            if question != "A":
-                answer = ask_library(mbd, question, elements, step)
-                report(table, unit, "drillmbd", own, question, elements, setting, answer)
+            answer = ask_library(mbd, question, elements, step)
+            report(table, unit, "drillmbd", own, question, elements, setting, answer)
 
         for elements in (10, 20, 50, 100):
             both("A", elements, 0.0, "modes")

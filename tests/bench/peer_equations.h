@@ -46,6 +46,12 @@ typedef struct equations {
     double *shift;         /* pose change that the kinematic rows alone ask for, shape (row) */
     double *force;         /* shape (row) */
     double *diagonal, *lower, *upper; /* stiffness at the factors, shape (node, 6, 6) each */
+    /* of the explicit form only: */
+    double *mass_memory;
+    uint8_t *mass_pivot;
+    dmb_block_matrix mass, mass_factors;
+    double *still;  /* y' = 0 */
+    double *scaled; /* shape (node, 13) */
 } equations;
 
 static int is_held(const dmb_scene *compiled, uint32_t node)
@@ -75,6 +81,10 @@ static void equations_close(equations *e)
     free(e->diagonal);
     free(e->lower);
     free(e->upper);
+    free(e->mass_memory);
+    free(e->mass_pivot);
+    free(e->still);
+    free(e->scaled);
 }
 
 static int equations_open(equations *e, dmb_sim *sim)
@@ -97,8 +107,7 @@ static int equations_open(equations *e, dmb_sim *sim)
     return e->factored_pose && e->turning && e->shift && e->force && e->diagonal && e->lower && e->upper;
 }
 
-/* ---- Kinematics ----------------------------------------------------------------------------------------------------
- */
+/* ---- Kinematics -------------------------------------------------------------------------------------------------- */
 
 /* (u', q') of a node: R v and q o (0, omega)/2 */
 static void kinematics(const double *y, double out[7])
@@ -127,8 +136,7 @@ static void equations_start(const equations *e, double *y, double *dy)
     }
 }
 
-/* ---- Residual ------------------------------------------------------------------------------------------------------
- */
+/* ---- Residual ---------------------------------------------------------------------------------------------------- */
 
 static void put_held_node(dmb_sim *sim, uint32_t i)
 {
@@ -183,8 +191,7 @@ static int32_t equations_residual(equations *e, double time, const double *y, co
     return status;
 }
 
-/* ---- The linear system of a step -----------------------------------------------------------------------------------
- */
+/* ---- The linear system of a step --------------------------------------------------------------------------------- */
 
 /* out = x o (rate, omega/2)/(rate^2 + omega^2/4), which solves rate out - out o omega/2 = x */
 static void divide_by_turning(double rate, const double w[3], const double x[4], double out[4])
@@ -352,8 +359,84 @@ static void equations_solve(equations *e, const double *b, double *x)
     }
 }
 
-/* ---- Answers -------------------------------------------------------------------------------------------------------
+/* ---- Explicit form: y' = f(t, y) --------------------------------------------------------------------------------- */
+
+/* Takes M apart from the other terms, as it is in the body frame for good, and factors it with held rows as identity.
  */
+static int32_t equations_mass(equations *e, const double *y)
+{
+    dmb_sim *sim = e->sim;
+    const dmb_block_layout *layout = &e->scene->layout;
+    const uint32_t nodes = e->scene->node_count;
+    const size_t diagonal = layout->diag[nodes], link = layout->link[nodes - 1], rows = e->scene->row_count;
+    e->mass_memory = calloc(2 * (diagonal + 2 * link), sizeof(double));
+    e->mass_pivot = calloc(rows, 1);
+    e->still = calloc(PEER_NODE * (size_t)nodes, sizeof(double));
+    e->scaled = calloc(PEER_NODE * (size_t)nodes, sizeof(double));
+    if (!e->mass_memory || !e->mass_pivot || !e->still || !e->scaled) return DMB_ERR_NO_MEMORY;
+    double *next = e->mass_memory;
+    dmb_block_matrix *const kinds[2] = {&e->mass, &e->mass_factors};
+    for (int k = 0; k < 2; k++, next += diagonal + 2 * link) {
+        const dmb_block_matrix at = {next, next + diagonal, next + diagonal + link, e->mass_pivot};
+        *kinds[k] = at;
+    }
+    int32_t status = put_trial(e, sim->clock->time, y, e->still);
+    e->evaluation.tangent = 1;
+    e->evaluation.inertia_only = 1;
+    e->evaluation.mass_factor = 1.0;
+    e->evaluation.velocity_factor = 0.0;
+    if (status >= 0) status = dmb_system_evaluate(&e->evaluation);
+    e->evaluation.inertia_only = 0;
+    e->evaluation.velocity_factor = 1.0;
+    for (int k = 0; k < 2; k++) {
+        memcpy(kinds[k]->diagonal, sim->inertia_diagonal, diagonal * sizeof(double));
+        memcpy(kinds[k]->lower, sim->stiffness_lower, link * sizeof(double));
+        memcpy(kinds[k]->upper, sim->stiffness_upper, link * sizeof(double));
+        for (uint32_t i = 0; i < nodes; i++)
+            if (is_held(e->scene, i)) hold_node(e, i);
+    }
+    if (status < 0) return status;
+    return dmb_block_factor(layout, &e->mass_factors, 0, nodes) < 0 ? DMB_OK : DMB_ERR_SINGULAR;
+}
+
+/* f(t, y), v' by M^-1. */
+static int32_t equations_rates(equations *e, double time, const double *y, double *f)
+{
+    const dmb_block_layout *layout = &e->scene->layout;
+    const uint32_t nodes = e->scene->node_count;
+    int32_t status = put_trial(e, time, y, e->still);
+    e->evaluation.tangent = 0;
+    if (status >= 0) status = dmb_system_evaluate(&e->evaluation);
+    if (status < 0) return status;
+    for (uint32_t i = 0; i < nodes; i++)
+        for (uint32_t k = 0; k < 6; k++)
+            e->force[layout->row[i] + k] = is_held(e->scene, i) ? 0.0 : -e->sim->correction[layout->row[i] + k];
+    dmb_block_solve(layout, &e->mass_factors, 0, nodes, e->force);
+    for (uint32_t i = 0; i < nodes; i++, y += PEER_NODE, f += PEER_NODE) {
+        memset(f, 0, PEER_NODE * sizeof(double));
+        if (is_held(e->scene, i)) continue;
+        kinematics(y, f);
+        dmb_vec6_copy(e->force + layout->row[i], f + PEER_V);
+    }
+    return status;
+}
+
+/* (I - df/dy/rate) x = b: the rows of J x, times 1/rate, those of velocities by M^-1. */
+static void equations_solve_explicit(equations *e, const double *b, double *x)
+{
+    const dmb_block_layout *layout = &e->scene->layout;
+    const uint32_t nodes = e->scene->node_count;
+    for (uint32_t i = 0; i < nodes; i++) {
+        for (uint32_t k = 0; k < PEER_NODE; k++) e->scaled[PEER_NODE * i + k] = e->rate * b[PEER_NODE * i + k];
+        dmb_vec6_copy(e->scaled + (size_t)PEER_NODE * i + PEER_V, e->shift + layout->row[i]);
+    }
+    dmb_block_multiply(layout, &e->mass, 0, nodes, e->shift, e->force);
+    for (uint32_t i = 0; i < nodes; i++)
+        if (!is_held(e->scene, i)) dmb_vec6_copy(e->force + layout->row[i], e->scaled + (size_t)PEER_NODE * i + PEER_V);
+    equations_solve(e, e->scaled, x);
+}
+
+/* ---- Answers ----------------------------------------------------------------------------------------------------- */
 
 /* Makes (t, y, y') the state that queries are asked of; for once, the start is gone. Turns are counted from the drive.
  */

@@ -1,8 +1,10 @@
-/* SUNDIALS IDA on the library's own equations. usage: peer_sundials CSV [C] [B]   (default: both)
- * Variable-order, variable-step backward differentiation (BDF) against the library's generalized-alpha in fixed and in
- * error-controlled steps: the same scenes, the same residual, the same question, the same reference. */
+/* SUNDIALS on the library's own equations. usage: peer_sundials CSV [C] [B]   (default: both)
+ * IDA, backward differentiation of variable order and step, and ARKODE, diagonally implicit Runge-Kutta, against the
+ * library's generalized-alpha in fixed and in error-controlled steps: the same scenes, the same residual, the same
+ * question, the same reference. */
 #define _POSIX_C_SOURCE 200809L
 
+#include <arkode/arkode_arkstep.h>
 #include <ida/ida.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_version.h>
@@ -12,39 +14,45 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "measure.h"
-#include "peer_equations.h"
-#include "peer_rows.h"
+#include "peer_equations.h" /* before the others: some names in the library's headers are types in theirs */
+
+#include "peer_library.h"
 
 enum { ELEMENTS = 100 };
 
 static yardstick unit;
-static FILE *table;
+static table rows;
 static int failures;
 
-/* ---- IDA on the equations ------------------------------------------------------------------------------------------
- */
+/* ---- SUNDIALS on the equations ----------------------------------------------------------------------------------- */
 
-typedef struct ida_method {
+enum { BY_IDA = 0, BY_ARKODE = 1 };
+
+typedef struct peer_method {
+    int code;
     double tolerance;
-    int order;      /* highest, 1..5; up to 2 the formulas damp every frequency (A-stable) */
+    int order;      /* IDA: highest, 1..5; up to 2 the formulas damp every frequency (A-stable). ARKODE: 2..5, all do */
     int difference; /* 1: Jacobian by IDA's band difference quotients, 0: from the library's blocks */
-} ida_method;
+} peer_method;
 
-typedef struct ida_run {
+typedef struct peer_run {
     equations e;
     SUNContext context;
-    void *ida;
+    void *ida, *arkode;
     N_Vector y, dy, tolerance;
     SUNMatrix matrix;
     SUNLinearSolver solver;
-} ida_run;
+} peer_run;
 
+/* Return values: 1, what failed may be done with a smaller step. */
 static int residual_of(realtype t, N_Vector y, N_Vector dy, N_Vector F, void *data)
 {
-    equations *e = data;
-    /* 1: what failed may be done with a smaller step */
-    return equations_residual(e, t, N_VGetArrayPointer(y), N_VGetArrayPointer(dy), N_VGetArrayPointer(F)) < 0;
+    return equations_residual(data, t, N_VGetArrayPointer(y), N_VGetArrayPointer(dy), N_VGetArrayPointer(F)) < 0;
+}
+
+static int rates_of(realtype t, N_Vector y, N_Vector f, void *data)
+{
+    return equations_rates(data, t, N_VGetArrayPointer(y), N_VGetArrayPointer(f)) < 0;
 }
 
 static int factor(realtype t, realtype rate, N_Vector y, N_Vector dy, N_Vector F, SUNMatrix J, void *data, N_Vector a,
@@ -54,10 +62,26 @@ static int factor(realtype t, realtype rate, N_Vector y, N_Vector dy, N_Vector F
     return equations_factor(data, t, rate, N_VGetArrayPointer(y), N_VGetArrayPointer(dy)) < 0;
 }
 
+/* I - gamma df/dy; the accelerations that stand in it are f's own. */
+static int factor_stage(realtype t, N_Vector y, N_Vector f, SUNMatrix A, SUNMatrix M, booleantype keep,
+                        booleantype *renewed, realtype gamma, void *data, N_Vector a, N_Vector b, N_Vector c)
+{
+    (void)A, (void)M, (void)keep, (void)a, (void)b, (void)c;
+    *renewed = SUNTRUE;
+    return equations_factor(data, t, 1.0 / gamma, N_VGetArrayPointer(y), N_VGetArrayPointer(f)) < 0;
+}
+
 static int solve(SUNLinearSolver solver, SUNMatrix J, N_Vector x, N_Vector b, realtype tolerance)
 {
     (void)J, (void)tolerance;
     equations_solve(solver->content, N_VGetArrayPointer(b), N_VGetArrayPointer(x));
+    return 0;
+}
+
+static int solve_stage(SUNLinearSolver solver, SUNMatrix A, N_Vector x, N_Vector b, realtype tolerance)
+{
+    (void)A, (void)tolerance;
+    equations_solve_explicit(solver->content, N_VGetArrayPointer(b), N_VGetArrayPointer(x));
     return 0;
 }
 
@@ -78,8 +102,8 @@ static int solver_setup(SUNLinearSolver solver, SUNMatrix matrix)
     return (void)solver, (void)matrix, 0;
 }
 
-/* The matrix lives in the library's blocks; IDA only needs to think that there is one. */
-static int use_blocks(ida_run *run)
+/* The matrix lives in the library's blocks; SUNDIALS only needs to think that there is one. */
+static int use_blocks(peer_run *run)
 {
     run->matrix = SUNMatNewEmpty(run->context);
     run->solver = SUNLinSolNewEmpty(run->context);
@@ -89,12 +113,15 @@ static int use_blocks(ida_run *run)
     run->solver->content = &run->e;
     run->solver->ops->gettype = solver_type;
     run->solver->ops->setup = solver_setup;
-    run->solver->ops->solve = solve;
+    run->solver->ops->solve = run->arkode ? solve_stage : solve;
+    if (run->arkode)
+        return ARKStepSetLinearSolver(run->arkode, run->solver, run->matrix) == 0 &&
+               ARKStepSetLinSysFn(run->arkode, factor_stage) == 0;
     return IDASetLinearSolver(run->ida, run->solver, run->matrix) == 0 && IDASetJacFn(run->ida, factor) == 0;
 }
 
 /* A row of velocities depends on all unknowns of both neighbours. */
-static int use_differences(ida_run *run)
+static int use_differences(peer_run *run)
 {
     const sunindextype below = PEER_NODE + PEER_NODE - 1, above = PEER_NODE + PEER_NODE - 1 - PEER_V;
     run->matrix = SUNBandMatrix(N_VGetLength(run->y), above, below, run->context);
@@ -113,28 +140,43 @@ static void fill_tolerances(N_Vector tolerances, double tolerance)
     }
 }
 
-static int ida_open(ida_run *run, dmb_sim *sim, const ida_method *how)
+static int ida_open(peer_run *run, const peer_method *how)
+{
+    run->ida = IDACreate(run->context);
+    if (!run->ida || IDAInit(run->ida, residual_of, 0.0, run->y, run->dy) != 0) return 0;
+    return IDASetUserData(run->ida, &run->e) == 0 && IDASVtolerances(run->ida, how->tolerance, run->tolerance) == 0 &&
+           IDASetMaxOrd(run->ida, how->order) == 0 && IDASetMaxNumSteps(run->ida, 100000000) == 0 &&
+           (how->difference ? use_differences(run) : use_blocks(run));
+}
+
+static int arkode_open(peer_run *run, const peer_method *how)
+{
+    if (equations_mass(&run->e, N_VGetArrayPointer(run->y)) < 0) return 0;
+    run->arkode = ARKStepCreate(NULL, rates_of, 0.0, run->y, run->context);
+    if (!run->arkode || ARKStepSetUserData(run->arkode, &run->e) != 0) return 0;
+    return ARKStepSVtolerances(run->arkode, how->tolerance, run->tolerance) == 0 &&
+           ARKStepSetOrder(run->arkode, how->order) == 0 && ARKStepSetMaxNumSteps(run->arkode, 100000000) == 0 &&
+           use_blocks(run);
+}
+
+static int peer_open(peer_run *run, dmb_sim *sim, const peer_method *how)
 {
     memset(run, 0, sizeof *run);
     if (!equations_open(&run->e, sim) || SUNContext_Create(NULL, &run->context) != 0) return 0;
     const sunindextype count = (sunindextype)PEER_NODE * run->e.scene->node_count;
-    run->ida = IDACreate(run->context);
     run->y = N_VNew_Serial(count, run->context);
     run->dy = N_VNew_Serial(count, run->context);
     run->tolerance = N_VNew_Serial(count, run->context);
-    if (!run->ida || !run->y || !run->dy || !run->tolerance) return 0;
+    if (!run->y || !run->dy || !run->tolerance) return 0;
     equations_start(&run->e, N_VGetArrayPointer(run->y), N_VGetArrayPointer(run->dy));
     fill_tolerances(run->tolerance, how->tolerance);
-    if (IDAInit(run->ida, residual_of, 0.0, run->y, run->dy) != 0 || IDASetUserData(run->ida, &run->e) != 0) return 0;
-    if (IDASVtolerances(run->ida, how->tolerance, run->tolerance) != 0 || IDASetMaxOrd(run->ida, how->order) != 0 ||
-        IDASetMaxNumSteps(run->ida, 100000000) != 0)
-        return 0;
-    return how->difference ? use_differences(run) : use_blocks(run);
+    return how->code == BY_ARKODE ? arkode_open(run, how) : ida_open(run, how);
 }
 
-static void ida_close(ida_run *run, const ida_method *how)
+static void peer_close(peer_run *run, const peer_method *how)
 {
     if (run->ida) IDAFree(&run->ida);
+    if (run->arkode) ARKStepFree(&run->arkode);
     if (run->solver && how->difference)
         SUNLinSolFree(run->solver);
     else if (run->solver)
@@ -150,48 +192,52 @@ static void ida_close(ida_run *run, const ida_method *how)
     equations_close(&run->e);
 }
 
+static int go_to_stop(peer_run *run, double stop, double *t)
+{
+    if (run->ida)
+        return IDASetStopTime(run->ida, stop) == 0 && IDASolve(run->ida, stop, t, run->y, run->dy, IDA_NORMAL) >= 0;
+    return ARKStepSetStopTime(run->arkode, stop) == 0 && ARKStepEvolve(run->arkode, stop, run->y, t, ARK_NORMAL) >= 0;
+}
+
 /* To `end`, stopping where the drive's programme has its corner, as the library does. */
-static int ida_go(ida_run *run, double end)
+static int peer_go(peer_run *run, double end)
 {
     double t = 0.0;
-    for (double stop = fmin(1.0, end); t < end; stop = end) {
-        if (IDASetStopTime(run->ida, stop) != 0) return 0;
-        const int flag = IDASolve(run->ida, stop, &t, run->y, run->dy, IDA_NORMAL);
-        if (flag < 0) return fprintf(stderr, "peer_sundials: IDA gives up at %g s: %d\n", t, flag), 0;
-    }
-    return 1;
+    for (double stop = fmin(1.0, end); t < end; stop = end)
+        if (!go_to_stop(run, stop, &t)) return fprintf(stderr, "peer_sundials: gives up at %g s\n", t), 0;
+    return !run->arkode || equations_rates(&run->e, end, N_VGetArrayPointer(run->y), N_VGetArrayPointer(run->dy)) >= 0;
 }
 
 /* One timed run from time 0; creation left out, as with the library. */
-static int ida_measure(const scene *s, const ida_method *how, double end, peer_row *row, double values[2])
+static int peer_measure(const scene *s, const peer_method *how, double end, peer_row *result, double values[2])
 {
     dmb_sim *sim = NULL;
-    ida_run run;
+    peer_run run;
     long steps = 0;
     memset(&run, 0, sizeof run);
-    int good = dmb_sim_create(s->model, NULL, &sim) >= 0 && ida_open(&run, sim, how);
+    int good = dmb_sim_create(s->model, NULL, &sim) >= 0 && peer_open(&run, sim, how);
     residuals_evaluated = tangents_evaluated = 0.0;
     const double begin = processor_time();
-    good = good && ida_go(&run, end);
-    row->seconds = processor_time() - begin;
-    row->residuals = residuals_evaluated;
-    row->tangents = tangents_evaluated;
-    if (good) IDAGetNumSteps(run.ida, &steps);
-    row->steps = (double)steps;
-    row->end = end;
+    good = good && peer_go(&run, end);
+    result->seconds = processor_time() - begin;
+    result->residuals = residuals_evaluated;
+    result->tangents = tangents_evaluated;
+    if (good && run.ida) IDAGetNumSteps(run.ida, &steps);
+    if (good && run.arkode) ARKStepGetNumSteps(run.arkode, &steps);
+    result->steps = (double)steps;
+    result->end = end;
     good = good &&
            equations_finish(&run.e, end, N_VGetArrayPointer(run.y), N_VGetArrayPointer(run.dy),
                             2.0 * BENCH_PI * fmax(0.0, end - 0.5)) >= 0 &&
            scene_ask(s, sim, values) >= 0;
-    ida_close(&run, how);
+    peer_close(&run, how);
     dmb_sim_destroy(&sim);
     yardstick_measure(&unit);
-    row->yardstick = yardstick_value(&unit);
+    result->yardstick = yardstick_value(&unit);
     return good;
 }
 
-/* ---- Rows ----------------------------------------------------------------------------------------------------------
- */
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 typedef struct question {
     const scene *s;
@@ -200,96 +246,86 @@ typedef struct question {
 } question;
 
 /* [-] relative, but a position in its own unit: it may be near 0. */
-static void fill_errors(const question *ask, const double values[2], peer_row *row)
+static void fill_errors(const question *ask, const double values[2], peer_row *result)
 {
     static char kinds[2][64];
     for (int i = 0; i < 2; i++) {
         const char *const quantity = quantity_names[ask->s->kind][i];
         const double difference = fabs(values[i] - ask->reference[i]);
-        row->error[i] = strstr(quantity, "_mm") ? difference : difference / fabs(ask->reference[i]);
+        result->error[i] = strstr(quantity, "_mm") ? difference : difference / fabs(ask->reference[i]);
         snprintf(kinds[i], sizeof kinds[i], "%s_vs_%s", quantity, ask->name);
-        row->error_kind[i] = kinds[i];
+        result->error_kind[i] = kinds[i];
     }
     if (ask->s->kind != SCENE_C) return;
     const double exact =
         exact_tip_speed(ask->s->pipes * ask->s->length, ask->end); /* the mesh's error is in this one */
-    row->error[1] = fabs(values[0] - exact) / exact;
-    row->error_kind[1] = "tip_speed_vs_exact";
+    result->error[1] = fabs(values[0] - exact) / exact;
+    result->error_kind[1] = "tip_speed_vs_exact";
 }
 
-static void report_ida(const question *ask, const ida_method *how)
+static void report_peer(const question *ask, const peer_method *how)
 {
     char setting[96];
     double values[2];
-    peer_row row;
-    memset(&row, 0, sizeof row);
+    peer_row result;
+    memset(&result, 0, sizeof result);
     snprintf(setting, sizeof setting, "tolerance=%g;order=%d;jacobian=%s", how->tolerance, how->order,
              how->difference ? "differences" : "blocks");
-    row.code = "IDA";
-    row.version = SUNDIALS_VERSION;
-    row.scene = scene_names[ask->s->kind];
-    row.setting = setting;
-    row.elements = ELEMENTS;
-    if (!ida_measure(ask->s, how, ask->end, &row, values)) {
-        printf("scene=%s code=IDA %s failed\n", row.scene, setting);
+    result.code = how->code == BY_ARKODE ? "ARKODE" : "IDA";
+    result.version = SUNDIALS_VERSION;
+    result.scene = scene_names[ask->s->kind];
+    result.setting = setting;
+    result.elements = ELEMENTS;
+    if (!peer_measure(ask->s, how, ask->end, &result, values)) {
+        row_failed(result.scene, ELEMENTS, setting, "integrator", result.code);
         ++failures;
         return;
     }
-    fill_errors(ask, values, &row);
-    peer_row_report(table, &row);
+    fill_errors(ask, values, &result);
+    peer_row_report(&rows, &result);
 }
 
 static void report_library(const question *ask, double step, double tolerance)
 {
     method how = method_fixed(step, ask->end);
+    char setting[96], version[32];
+    double values[2];
+    peer_row result;
     how.tolerance = tolerance;
     how.ledger = 0;
-    how.repeats = 1;
-    char setting[96], version[32];
-    peer_row row;
-    memset(&row, 0, sizeof row);
+    memset(&result, 0, sizeof result);
     snprintf(version, sizeof version, "%d.%d.%d", DMB_VERSION_MAJOR, DMB_VERSION_MINOR, DMB_VERSION_PATCH);
+    snprintf(setting, sizeof setting, step > 0.0 ? "dt=%g" : "tolerance=%g", step > 0.0 ? step : tolerance);
+    result.code = "drillmbd";
+    result.version = version;
+    result.scene = scene_names[ask->s->kind];
+    result.setting = setting;
+    result.elements = ELEMENTS;
     residuals_evaluated = tangents_evaluated = 0.0;
-    const outcome out = measure(ask->s, &how, &unit);
-    if (step > 0.0)
-        snprintf(setting, sizeof setting, "dt=%g", step);
-    else
-        snprintf(setting, sizeof setting, "tolerance=%g", tolerance);
-    row.code = "drillmbd";
-    row.version = version;
-    row.scene = scene_names[ask->s->kind];
-    row.setting = setting;
-    row.elements = ELEMENTS;
-    row.end = ask->end;
-    row.seconds = out.seconds;
-    row.yardstick = out.yardstick;
-    row.steps = out.steps;
-    row.residuals = residuals_evaluated;
-    row.tangents = tangents_evaluated;
-    if (out.status < 0) {
-        printf("scene=%s code=drillmbd %s failed\n", row.scene, setting);
+    if (!library_measure(ask->s, &how, &unit, &result, values)) {
         ++failures;
         return;
     }
-    fill_errors(ask, out.values, &row);
-    peer_row_report(table, &row);
+    result.residuals = residuals_evaluated;
+    result.tangents = tangents_evaluated;
+    fill_errors(ask, values, &result);
+    peer_row_report(&rows, &result);
 }
 
-/* ---- The plan ------------------------------------------------------------------------------------------------------
- */
+/* ---- The plan ---------------------------------------------------------------------------------------------------- */
 
 /* C is asked at its end, B early, where its motion still follows from its start (as in bench.c). Both against IDA at a
  * tolerance of 1e-10: it converges further than small fixed steps do, and the library's answers have to converge to
  * what another integrator found. */
 static int question_of(const scene *s, question *ask)
 {
-    const ida_method how = {1e-10, 5, 0};
+    const peer_method how = {BY_IDA, 1e-10, 5, 0};
     peer_row unused;
     memset(&unused, 0, sizeof unused);
     ask->s = s;
     ask->end = s->kind == SCENE_C ? 2.0 : 0.1;
     ask->name = "IDA_1e-10";
-    return ida_measure(s, &how, ask->end, &unused, ask->reference);
+    return peer_measure(s, &how, ask->end, &unused, ask->reference);
 }
 
 static void compare(const question *ask)
@@ -297,17 +333,22 @@ static void compare(const question *ask)
     for (double step = 4e-3; step > 1.5e-5; step *= 0.5) report_library(ask, step, 0.0);
     for (int power = 4; power <= 9; ++power) report_library(ask, 0.0, pow(10.0, -power));
     for (int power = 3; power <= 9; ++power) {
-        const ida_method how = {pow(10.0, -power), 5, 0};
-        report_ida(ask, &how);
+        const peer_method how = {BY_IDA, pow(10.0, -power), 5, 0};
+        report_peer(ask, &how);
     }
     for (int power = 2; power <= 7; ++power) {
-        const ida_method how = {pow(10.0, -power), 2, 0};
-        report_ida(ask, &how);
+        const peer_method how = {BY_IDA, pow(10.0, -power), 2, 0};
+        report_peer(ask, &how);
     }
-    for (int power = 3; power <= 7; power += 2) {
-        const ida_method how = {pow(10.0, -power), 5, 1};
-        report_ida(ask, &how);
+    for (int power = 3; power <= 7; power += 4) {
+        const peer_method how = {BY_IDA, pow(10.0, -power), 5, 1};
+        report_peer(ask, &how);
     }
+    for (int order = 3; order <= 5; order += 2)
+        for (int power = 3; power <= 8; ++power) {
+            const peer_method how = {BY_ARKODE, pow(10.0, -power), order, 0};
+            report_peer(ask, &how);
+        }
 }
 
 static void run_scene(int kind)
@@ -339,13 +380,8 @@ int main(int count, char **words)
 {
     static const int kinds[] = {SCENE_C, SCENE_B};
     if (count < 2) return fputs("usage: peer_sundials CSV [C] [B]\n", stderr), 2;
-    table = fopen(words[1], "w");
-    if (!table) return perror(words[1]), 2;
-    fprintf(table, "%s\n", peer_columns);
-    yardstick_open(&unit);
-    for (int i = 0; i < 25; ++i) yardstick_measure(&unit);
+    if (table_open(&rows, &unit, words[1]) != 0) return 2;
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; ++i)
         if (is_wanted(scene_names[kinds[i]], count, words)) run_scene(kinds[i]);
-    if (fclose(table) != 0) return perror(words[1]), 2;
-    return failures > 0;
+    return table_close(&rows, words[1]) != 0 ? 2 : failures > 0;
 }

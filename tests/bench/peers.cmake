@@ -33,7 +33,8 @@ function(drillmbd_add_peer name header)
   target_link_libraries(peer_${name} PRIVATE drillmbd_internal ${links} m)
 endfunction()
 
-drillmbd_add_peer(sundials ida/ida.h sundials_ida sundials_nvecserial)
+drillmbd_add_peer(sundials ida/ida.h sundials_ida sundials_arkode sundials_nvecserial)
 if(TARGET peer_sundials) # its evaluations are counted: peer_equations.h
   target_link_options(peer_sundials PRIVATE -Wl,--wrap=dmb_system_evaluate)
 endif()
+drillmbd_add_peer(mujoco mujoco/mujoco.h mujoco)

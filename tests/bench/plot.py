@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Pictures of the benchmark. usage: plot.py FOLDER SCENE...
 
-Reads FOLDER/SCENE.csv; work_against_error.png of scene W and real_time_factor.png of C and R, into FOLDER.
+Reads FOLDER/SCENE.csv; work_against_error.png of scene W, on_the_average.png of M and real_time_factor.png of C and R,
+into FOLDER.
 """
 import pathlib
 import sys
@@ -80,6 +81,43 @@ def work_against_error(rows, folder):
     save(figure, folder / "work_against_error.png")
 
 
+def draw_mean(axes, rows, column, stretch):
+    groups = (("fixed steps", BLUE, "o-", lambda row: not row["tolerance"] and row["radius"] == "0.8" and
+               row["elements_per_pipe"] == "1"),
+              ("error-controlled, mean step", RED, "s", lambda row: row["tolerance"]),
+              ("other spectral radii", ORANGE, "^", lambda row: row["radius"] != "0.8"),
+              ("2 and 4 elements a pipe", "#5b3a86", "D", lambda row: row["elements_per_pipe"] != "1"))
+    for text, colour, style, belongs in groups:
+        own = [row for row in rows if belongs(row)]
+        axes.errorbar([1e3 * float(row["dt"]) for row in own], [float(row[stretch + column]) for row in own],
+                      yerr=[float(row[stretch + column + "_error"]) for row in own], fmt=style, markersize=5,
+                      linewidth=1.2, capsize=3, color=colour, label=text)
+    axes.set_xscale("log")
+    ticks = sorted({1e3 * float(row["dt"]) for row in rows if not row["tolerance"]})
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
+    axes.ticklabel_format(axis="y", useOffset=False)
+
+
+def on_the_average(rows, folder):
+    columns = (("force", "sum of wall forces [N]"), ("torque", "torque of the drive [N m]"),
+               ("sideways_mm", "sideways, r.m.s. [mm]"))
+    stretches = (("chatter_", "0.1 to 1.1 s"), ("", "2 to 3 s"))
+    figure, axes = plt.subplots(2, 3, figsize=(11, 6.4))
+    figure.suptitle("B on the average: four starts, mean and its standard error, against the step", fontsize=13,
+                    x=0.01, ha="left")
+    for line, (stretch, when) in zip(axes, stretches):
+        for place, (column, label) in zip(line, columns):
+            draw_mean(place, rows, column, stretch)
+            place.set_title(f"{label}, {when}", loc="left", fontsize=10)
+    for place in axes[1]:
+        place.set_xlabel("step [ms]")
+    handles, labels = axes[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="lower center", ncols=4)
+    figure.get_layout_engine().set(rect=(0, 0.06, 1, 0.94))
+    save(figure, folder / "on_the_average.png")
+
+
 def real_time_factor(rows, folder):
     rows = measured.chosen(rows, group="pipes")
     if not rows:
@@ -125,6 +163,8 @@ def main():
     folder, scenes = pathlib.Path(sys.argv[1]), sys.argv[2:]
     if "W" in scenes:
         work_against_error(measured.read(folder, "W"), folder)
+    if "M" in scenes:
+        on_the_average(measured.read(folder, "M"), folder)
     real_time_factor([row for scene in ("C", "R") if scene in scenes for row in measured.read(folder, scene)], folder)
 
 

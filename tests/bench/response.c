@@ -33,7 +33,7 @@ typedef struct cost {
 } cost;
 
 static yardstick unit;
-static table results;
+static result_table results;
 
 static const char *name_of(const tube *t)
 {
@@ -178,7 +178,7 @@ static void report(const tube *t, const cost *c)
                     none,
                     t->walled ? none : c->error,
                     t->walled ? "-" : "rms_of_tip_speed_vs_closed_form"};
-    row r;
+    result r;
     row_begin(&r, &h);
     row_number(&r, "spread", c->spread, 3);
     row_number(&r, "U_us", 1e6 * u, 4);

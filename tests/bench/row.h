@@ -18,10 +18,10 @@ typedef struct field {
     int digits;
 } field;
 
-typedef struct row {
+typedef struct result {
     field fields[ROW_MOST];
     int count;
-} row;
+} result;
 
 /* What every result has. */
 typedef struct head {
@@ -37,25 +37,25 @@ typedef struct head {
 } head;
 
 /* Rows of one file have the same fields in the same order. */
-typedef struct table {
+typedef struct result_table {
     FILE *file;
     int rows;
-    row first;
-} table;
+    result first;
+} result_table;
 
-static void row_number(row *r, const char *name, double value, int digits)
+static inline void row_number(result *r, const char *name, double value, int digits)
 {
     const field f = {name, NULL, value, digits};
     r->fields[r->count++] = f;
 }
 
-static void row_word(row *r, const char *name, const char *text)
+static inline void row_word(result *r, const char *name, const char *text)
 {
     const field f = {name, text, 0.0, 0};
     r->fields[r->count++] = f;
 }
 
-static void row_begin(row *r, const head *h)
+static inline void row_begin(result *r, const head *h)
 {
     r->count = 0;
     row_word(r, "scene", h->scene);
@@ -69,7 +69,7 @@ static void row_begin(row *r, const head *h)
     row_word(r, "error_kind", h->error_kind);
 }
 
-static void print_field(const field *f, int position, FILE *file)
+static inline void print_field(const field *f, int position, FILE *file)
 {
     if (f->text) {
         printf("%s=%s ", f->name, f->text);
@@ -81,7 +81,7 @@ static void print_field(const field *f, int position, FILE *file)
         printf("%s=- ", f->name);
 }
 
-static void row_put(const row *r, table *t)
+static inline void row_put(const result *r, result_table *t)
 {
     if (t->rows++ == 0) {
         t->first = *r;
@@ -101,7 +101,7 @@ static void row_put(const row *r, table *t)
 }
 
 /* A line for a result that is not there. */
-static void row_failed(const char *which, double elements, const char *what, const char *status, const char *message)
+static inline void row_failed(const char *which, double elements, const char *what, const char *status, const char *message)
 {
     printf("scene=%s elements=%.9g %s failed=%s\n", which, elements, what, status);
     fflush(stdout);
@@ -109,7 +109,7 @@ static void row_failed(const char *which, double elements, const char *what, con
 }
 
 /* Begins a program: its table and U. Returns 0, or 2 after saying why not. */
-static int table_open(table *t, yardstick *unit, const char *path)
+static inline int table_open(result_table *t, yardstick *unit, const char *path)
 {
     t->rows = 0;
     t->file = fopen(path, "w");
@@ -121,7 +121,7 @@ static int table_open(table *t, yardstick *unit, const char *path)
     return 0;
 }
 
-static int table_close(table *t, const char *path)
+static inline int table_close(result_table *t, const char *path)
 {
     return fclose(t->file) == 0 ? 0 : (perror(path), 2);
 }

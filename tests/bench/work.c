@@ -15,7 +15,7 @@
 enum { WORK_INSTANTS = 10, WORK_VALUES = 3, WORK_REPEATS = 2, WORK_SETTINGS = 9, WORK_SCENES = 4 };
 
 static yardstick unit;
-static table results;
+static result_table results;
 static int failures;
 
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
@@ -226,7 +226,7 @@ static void report(const plan *p, const setting *x, method *how, const reference
                     c.iterations,
                     difference(p, &c, &ref->course) / ref->scale,
                     p->error_kind};
-    row r;
+    result r;
     row_begin(&r, &h);
     row_number(&r, "spread", c.spread, 3);
     row_number(&r, "U_us", 1e6 * u, 4);

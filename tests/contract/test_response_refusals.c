@@ -256,6 +256,65 @@ static void memory_runs_out(void **state)
     end(&s);
 }
 
+/* ---- Speeds to avoid --------------------------------------------------------------------------------------------- */
+
+static int32_t ask_speeds(scene *s, const dmb_speeds_options *options, const dmb_order *order, double limit,
+                          dmb_speed_band *band)
+{
+    uint32_t room = 1;
+    return dmb_analysis_speeds(s->sim, options, order, 1, &s->output, &limit, 1, band, &room, NULL);
+}
+
+static void speeds_that_are_refused(void **state)
+{
+    (void)state;
+    scene s;
+    begin(&s, DMB_FREE_NONE, 0.0);
+    const dmb_speeds_options good = dmb_speeds_options_default();
+    dmb_speeds_options options = good;
+    dmb_order order = dmb_order_default();
+    dmb_speed_band band = dmb_speed_band_default();
+    double limit = 1.0;
+    const size_t live = s.budget.live;
+#define REFUSED(status, change, field)                                                             \
+    do {                                                                                           \
+        options = good;                                                                            \
+        order = dmb_order_default();                                                               \
+        limit = 1.0;                                                                               \
+        change;                                                                                    \
+        assert_int_equal(ask_speeds(&s, &options, &order, limit, &band), status);                  \
+        if (strstr(dmb_sim_message(s.sim), field) == NULL) fail_msg("%s", dmb_sim_message(s.sim)); \
+        assert_int_equal(s.budget.live, live);                                                     \
+    } while (0)
+    REFUSED(DMB_ERR_VALUE, options.points = 1, "points");
+    REFUSED(DMB_ERR_VALUE, options.speed_low = 0.0, "speed_low");
+    REFUSED(DMB_ERR_VALUE, options.speed_high = 0.5, "speed_high");
+    REFUSED(DMB_ERR_NOT_FINITE, options.speed_high = (double)INFINITY, "speed_high");
+    REFUSED(DMB_ERR_VALUE, options.threshold = 0.0, "threshold");
+    REFUSED(DMB_ERR_VALUE, options.margin = 0.6, "margin");
+    REFUSED(DMB_ERR_VALUE, options.refinement = 99, "refinement");
+    REFUSED(DMB_ERR_STRUCT_SIZE, options.struct_size = 7, "struct_size");
+    REFUSED(DMB_ERR_VALUE, order.order = 0.0, "order 0: order");
+    REFUSED(DMB_ERR_STRUCT_SIZE, order.struct_size = 9, "order 0: struct_size");
+    REFUSED(DMB_ERR_VALUE, order.input.kind = -1, "input 0: kind");
+    REFUSED(DMB_ERR_VALUE, limit = 0.0, "limits");
+#undef REFUSED
+    options = good;
+    limit = 1.0;
+    const size_t before = s.budget.calls;
+    assert_int_equal(ask_speeds(&s, &options, &order, limit, &band), DMB_OK);
+    const size_t calls = s.budget.calls - before;
+    for (size_t k = 1; k <= calls; k++) {
+        s.budget.refuse = s.budget.calls + k;
+        assert_int_equal(ask_speeds(&s, &options, &order, limit, &band), DMB_ERR_NO_MEMORY);
+        assert_int_equal(s.budget.live, live);
+    }
+    assert_int_equal(ask_speeds(&s, &options, NULL, limit, &band), DMB_ERR_NULL);
+    band.struct_size = 1;
+    assert_int_equal(ask_speeds(&s, &options, &order, limit, &band), DMB_ERR_STRUCT_SIZE);
+    end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -265,6 +324,7 @@ int main(void)
         cmocka_unit_test(fields_out_of_bounds),
         cmocka_unit_test(counts_and_pointers),
         cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(speeds_that_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

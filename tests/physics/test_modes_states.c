@@ -208,6 +208,36 @@ static void frozen_closed_contact(void **state)
     rig_close(&s);
 }
 
+/* Without its wall a string keeps the forces it lies on as dead loads: it bends as if it hung in space, alike in both
+ * planes. */
+static void wall_left_out_of_a_lying_string(void **state)
+{
+    (void)state;
+    rig s;
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_wall_def wall = s1_hole();
+    dmb_string_def string = dmb_string_def_default();
+    dmb_modes_options options = dmb_modes_options_default();
+    const s1_section v = s1_values();
+    rig_open(&s, 0, 0, -9.81);
+    add_wall(&s, &wall);
+    string.start_free = DMB_FREE_NONE;
+    pipe.string = add_string(&s, &string);
+    (void)add_pipes(&s, &pipe, 100);
+    rig_start(&s, NULL);
+    (void)find_equilibrium(&s, NULL);
+    options.contact = DMB_CONTACT_OPEN;
+    options.friction = 0;
+    options.count = 4;
+    dmb_modes *modes = find_modes(&s, &options);
+    const double want = pow(1.875104068712 / 150.0, 2) * sqrt(v.EI / v.mass) / (2.0 * PI);
+    check_below("lying string, wall left out: asymmetry of K", info_of(modes).asymmetry, 1e-10);
+    check_relative("  its first frequency", frequency_at(modes, 0), want, 1e-4);
+    check_relative("  the other plane", frequency_at(modes, 1), frequency_at(modes, 0), 1e-5);
+    dmb_modes_destroy(&modes);
+    rig_close(&s);
+}
+
 /* ---- Sums and parts ---------------------------------------------------------------------------------------------- */
 
 /* Two pipes with a tool joint each and a body at the end, nothing held. */
@@ -452,6 +482,7 @@ int main(void)
         cmocka_unit_test(body_on_the_wall),
         cmocka_unit_test(friction_overdamps),
         cmocka_unit_test(frozen_closed_contact),
+        cmocka_unit_test(wall_left_out_of_a_lying_string),
         cmocka_unit_test(sums_over_all_modes),
         cmocka_unit_test(few_and_all_agree),
         cmocka_unit_test(shapes_between_nodes),

@@ -284,6 +284,41 @@ static void reciprocity(void **state)
     rig_close(&s);
 }
 
+/* Forces on what guides hold, and eccentric masses there, go into the guides. Of a pipe that only slides and turns at
+ * its rig end, half an eccentric element hangs on the first node: the rest shakes as if that half were not there. */
+static void forces_on_guides(void **state)
+{
+    (void)state;
+    const double frequency = 3.0;
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    def.follows_hole = 0;
+    pipe.eccentricity = 1e-3;
+    pipe.string = add_string(&s, &def);
+    (void)add_pipes(&s, &pipe, 2);
+    (void)rig_start(&s, NULL);
+    const dmb_place guide = dmb_station(pipe.string, 0, 0.0), tip = dmb_station(pipe.string, 1, 1.0);
+    const dmb_place middle = dmb_station(pipe.string, 0, 1.0);
+    const dmb_output move = output_at(DMB_OUTPUT_DISPLACEMENT, tip, DMB_Y);
+    double complex none, own, at_middle, at_tip;
+    dmb_input force = force_at(guide, DMB_Y);
+    transfer(&s, NULL, &force, &move, &frequency, 1, &none);
+    check_below("force on a guide: displacement of the tip", cabs(none), 0.0);
+    const dmb_input eccentric = input_of(DMB_INPUT_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
+    transfer(&s, NULL, &eccentric, &move, &frequency, 1, &own);
+    force = force_at(middle, DMB_Y);
+    force.kind = DMB_INPUT_UNBALANCE;
+    transfer(&s, NULL, &force, &move, &frequency, 1, &at_middle);
+    force.place = tip;
+    transfer(&s, NULL, &force, &move, &frequency, 1, &at_tip);
+    const double unbalance = 1.5 * s1_values().mass * 1e-3;
+    check_below("eccentric pipes against unbalance at their free nodes",
+                misfit(own, unbalance * (at_middle + 0.5 * at_tip)), 1e-12);
+    rig_close(&s);
+}
+
 /* Drawn in two strings with a fixed joint, the nodes of the joint are condensed; the response is that of one string. */
 static void joint_against_shared_node(void **state)
 {
@@ -473,6 +508,7 @@ int main(void)
         cmocka_unit_test(moved_rods),
         cmocka_unit_test(controlled_mass),
         cmocka_unit_test(reciprocity),
+        cmocka_unit_test(forces_on_guides),
         cmocka_unit_test(joint_against_shared_node),
         cmocka_unit_test(drives_of_joints),
         cmocka_unit_test(peaks_and_sums),

@@ -1,0 +1,146 @@
+/* Speeds to avoid: bands of a Jeffcott rotor that is shaken at two orders of its speed against its closed form. */
+#include "harmonic.h"
+
+/* k 1e6 N/m, m 50 kg, damping ratio 0.02; 5e-3 kg m at the speed W, 60 N at 2 W; 1 mm allowed. */
+static double severity_of(double W)
+{
+    const double k = 1e6, m = 50.0, c = 2.0 * 0.02 * sqrt(k * m);
+    const double once = 5e-3 * W * W / cabs(k - m * W * W + i_ * W * c);
+    const double twice = 60.0 / cabs(k - 4.0 * m * W * W + 2.0 * i_ * W * c);
+    return (once + twice) / 1e-3;
+}
+
+/* Where the severity is 1 between two speeds. */
+static double edge(double below, double above)
+{
+    for (int i = 0; i < 200; i++) {
+        const double middle = 0.5 * (below + above);
+        if (severity_of(middle) > 1.0)
+            above = middle;
+        else
+            below = middle;
+    }
+    return above;
+}
+
+/* Golden section. */
+static double worst_between(double a, double b)
+{
+    const double g = 0.5 * (sqrt(5.0) - 1.0);
+    for (int i = 0; i < 100; i++) {
+        const double c = b - g * (b - a), d = a + g * (b - a);
+        if (severity_of(c) > severity_of(d))
+            b = d;
+        else
+            a = c;
+    }
+    return 0.5 * (a + b);
+}
+
+static dmb_place open_rotor(rig *s)
+{
+    rig_open(s, 0.0, 0.0, 0.0);
+    dmb_body_def disc = dmb_body_def_default();
+    disc.mass = 50.0;
+    disc.free_mask = 1 << DMB_Y;
+    dmb_joint_def shaft = dmb_joint_def_default();
+    shaft.kind = DMB_JOINT_FREE;
+    shaft.place_b = dmb_station(add_body(s, &disc), 0, 0.0);
+    shaft.stiffness[1] = 1e6;
+    shaft.damping[1] = 2.0 * 0.02 * sqrt(1e6 * 50.0);
+    must_model(s, dmb_model_add_joint(s->model, &shaft, NULL));
+    (void)rig_start(s, NULL);
+    return shaft.place_b;
+}
+
+enum { BANDS = 4, GRID = 60 };
+
+static int32_t find_bands(const rig *s, dmb_place place, double margin, uint32_t *count, dmb_speed_band *bands,
+                          double *severity)
+{
+    const double limit = 1e-3;
+    dmb_speeds_options options = dmb_speeds_options_default();
+    dmb_order orders[2] = {dmb_order_default(), dmb_order_default()};
+    const dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, place, DMB_Y);
+    orders[0].input = force_at(place, DMB_Y);
+    orders[0].input.kind = DMB_INPUT_UNBALANCE;
+    orders[0].input.amplitude = 5e-3;
+    orders[1].order = 2.0;
+    orders[1].input = force_at(place, DMB_Y);
+    orders[1].input.amplitude = 60.0;
+    options.points = GRID;
+    options.speed_low = 30.0;
+    options.speed_high = 300.0;
+    options.margin = margin;
+    for (uint32_t i = 0; i < *count; i++) bands[i] = dmb_speed_band_default();
+    const int32_t status = dmb_analysis_speeds(s->sim, &options, orders, 2, &output, &limit, 1, bands, count, severity);
+    must(s, status);
+    return status;
+}
+
+/* Edges and the share of the other order come from straight lines between points 4.6 rad/s apart. */
+static void bands_of_a_rotor(void **state)
+{
+    (void)state;
+    const double natural = sqrt(1e6 / 50.0), start[2] = {0.5 * natural, natural}, far[3] = {40.0, 100.0, 299.0};
+    uint32_t count = BANDS;
+    dmb_speed_band bands[BANDS];
+    double severity[GRID];
+    rig s;
+    const dmb_place place = open_rotor(&s);
+    assert_int_equal(find_bands(&s, place, 0.0, &count, bands, severity), DMB_OK);
+    assert_int_equal(count, 2);
+    for (uint32_t i = 0; i < 2; i++) {
+        const double worst = worst_between(0.95 * start[i], 1.05 * start[i]);
+        check_relative(i == 0 ? "band of order 2: low end" : "band of order 1: low end", bands[i].low,
+                       edge(far[i], worst), 2e-3);
+        check_relative("    high end", bands[i].high, edge(far[i + 1], worst), 2e-3);
+        check_relative("    worst speed", bands[i].speed, worst, 1e-4);
+        check_relative("    severity there", bands[i].severity, severity_of(worst), 1e-4);
+        check_relative("    its frequency", bands[i].frequency, (i == 0 ? 2.0 : 1.0) * bands[i].speed / (2.0 * PI),
+                       1e-14);
+        assert_int_equal(bands[i].order, 1 - i);
+        assert_int_equal(bands[i].output, 0);
+    }
+    double most = 0.0, least = 1e9;
+    for (int i = 0; i < GRID; i++) most = fmax(most, severity[i]), least = fmin(least, severity[i]);
+    check_relative("largest severity of the table", most, bands[1].severity, 1e-14);
+    check_relative("    first one", severity[0], severity_of(30.0), 1e-12);
+    assert_true(least > 0.0 && least < 0.5);
+    rig_close(&s);
+}
+
+/* A margin widens and joins; room for one band of two is told. */
+static void margins_and_room(void **state)
+{
+    (void)state;
+    uint32_t count = BANDS;
+    dmb_speed_band bands[BANDS], narrow[BANDS];
+    rig s;
+    const dmb_place place = open_rotor(&s);
+    (void)find_bands(&s, place, 0.0, &count, narrow, NULL);
+    count = BANDS;
+    assert_int_equal(find_bands(&s, place, 0.1, &count, bands, NULL), DMB_OK);
+    assert_int_equal(count, 2);
+    check_relative("with a margin of 0.1: low end", bands[0].low, 0.9 * narrow[0].low, 1e-14);
+    check_relative("    high end", bands[1].high, 1.1 * narrow[1].high, 1e-14);
+    count = BANDS;
+    assert_int_equal(find_bands(&s, place, 0.4, &count, bands, NULL), DMB_OK);
+    assert_int_equal(count, 1);
+    check_relative("with 0.4 they are one: severity", bands[0].severity, narrow[1].severity, 1e-14);
+    check_relative("    high end", bands[0].high, 1.4 * narrow[1].high, 1e-14);
+    count = 1;
+    assert_int_equal(find_bands(&s, place, 0.0, &count, bands, NULL), DMB_NOTE_FULL);
+    assert_int_equal(count, 1);
+    check_relative("room for one: the lowest", bands[0].speed, narrow[0].speed, 1e-14);
+    rig_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bands_of_a_rotor),
+        cmocka_unit_test(margins_and_room),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
