@@ -69,7 +69,7 @@ static void report(uint32_t elements, const answer *a)
     const double u = yardstick_value(&unit);
     const head h = {
         "A", elements, (double)NAN, a->seconds, u, (double)NAN, a->solves, worst, "largest_frequency_vs_given"};
-    result r;
+    result_row r;
     row_begin(&r, &h);
     row_number(&r, "spread", a->spread, 3);
     row_number(&r, "U_us", 1e6 * u, 4);

@@ -27,7 +27,7 @@ enum { BODIES = 96, PLANES = 24, ELEMENTS = 100 };
 enum { WALL_NONE = 0, WALL_LAW = 1, WALL_PLANES = 2 };
 
 static yardstick unit;
-static table rows;
+static result_table rows;
 static int failures;
 
 typedef struct chain_method {

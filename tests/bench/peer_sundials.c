@@ -21,7 +21,7 @@
 enum { ELEMENTS = 100 };
 
 static yardstick unit;
-static table rows;
+static result_table rows;
 static int failures;
 
 /* ---- SUNDIALS on the equations ----------------------------------------------------------------------------------- */
