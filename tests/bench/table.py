@@ -2,7 +2,8 @@
 """Tables and goals of the benchmark. usage: table.py [--fill README.md] FOLDER SCENE...
 
 Reads FOLDER/SCENE.csv, writes the tables of these scenes to FOLDER/tables.md, and prints each goal with what was
-measured. --fill puts the tables between the lines "<!-- table NAME -->" and "<!-- end -->" of a file.
+measured. --fill puts the tables, where all of their scenes were given, between the lines
+"<!-- table NAME -->" and "<!-- end -->" of a file.
 """
 import math
 import pathlib
@@ -214,7 +215,8 @@ def work(data):
 def settled(data):
     def mean(row, name):
         return f"{number(row[name], 5)} +- {number(row[name + '_error'], 2)}"
-    lines = [[f"{1e3 * float(row['dt']):.3g}" + (f" (tolerance {number(row['tolerance'])})" if row["tolerance"] else ""),
+    lines = [[f"{1e3 * float(row['dt']):.3g}" +
+              (f" (tolerance {number(row['tolerance'])})" if row["tolerance"] else ""),
               row["radius"], row["elements"], number(row["U_per_simulated_second"]), number(row["iterations"]),
               row["rejected"]] + [mean(row, prefix + name) for prefix in ("chatter_", "")
                                   for name in ("force", "torque", "sideways_mm")] for row in data["M"]]
@@ -299,27 +301,29 @@ def print_goals(data):
 
 # ---- Main ------------------------------------------------------------------------------------------------------------
 
-TABLES = {"elements": (elements, "CBR"), "others": (others, "CB"), "growth": (growth, "CBR"), "pipes": (pipes, "CR"),
-          "joints": (joints, "J"), "loop": (loop, "D"), "features": (features, "F"),
-          "work": (work, "W"), "settled": (settled, "M"),
-          "modes": (modes, "A"), "response": (response, "H")}
+# Name: function, scenes it needs.
+TABLES = {"goals": (goals, "CBRD"), "elements": (elements, "CBR"), "others": (others, "CB"),
+          "growth": (growth, "CBR"), "pipes": (pipes, "CR"), "joints": (joints, "J"), "loop": (loop, "D"),
+          "features": (features, "F"), "work": (work, "W"), "settled": (settled, "M"), "modes": (modes, "A"),
+          "response": (response, "H")}
 
 
 def make(data, cards):
-    """Name of each table: its text. Tables of scenes that were not measured are left out."""
-    made = {"machine": machine(data, cards)}
-    if any(met is not None for _, _, _, met in goals_of(data)):
-        made["goals"] = goals(data)
+    """Name of each table: its text, and whether all its scenes were measured. Those without any are left out."""
+    made = {"machine": (machine(data, cards), all(scene in data for scene in "CBRD"))}
     for name, (function, scenes) in TABLES.items():
         needed = [scene in data for scene in scenes]
-        if all(needed) or (len(scenes) > 1 and any(needed)):
-            made[name] = function(data)
+        if any(needed):
+            made[name] = (function(data), all(needed))
     return made
 
 
 def fill(path, made):
     text = path.read_text(encoding="utf-8")
-    for name, content in made.items():
+    for name, (content, complete) in made.items():
+        if not complete:
+            print(f"  {name}: left as it is, not all of its scenes were measured")
+            continue
         pattern = re.compile(rf"(<!-- table {name} -->\n).*?(<!-- end -->)", re.DOTALL)
         if not pattern.search(text):
             sys.exit(f"{path}: no place for the table {name}")
@@ -340,7 +344,7 @@ def main():
     if not data:
         sys.exit("no rows")
     made = make(data, measured.card(folder, next(iter(data))))
-    (folder / "tables.md").write_text("".join(f"## {name}\n\n{text}\n\n" for name, text in made.items()),
+    (folder / "tables.md").write_text("".join(f"## {name}\n\n{text}\n\n" for name, (text, _) in made.items()),
                                       encoding="utf-8")
     if target:
         fill(target, made)
