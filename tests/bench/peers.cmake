@@ -2,6 +2,7 @@
 # library.
 option(DMB_BUILD_PEERS "Build the peers of the benchmark that are installed (SUNDIALS, MuJoCo)" OFF)
 if(NOT DMB_BUILD_PEERS)
+  message(STATUS "Peers of the benchmark: not built, DMB_BUILD_PEERS is off")
   return()
 endif()
 
