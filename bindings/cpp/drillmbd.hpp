@@ -168,6 +168,58 @@ private:
     dmb_model *handle_;
 };
 
+// ---- Buckling -------------------------------------------------------------------------------------------------------
+// What sim::buckling finds.
+class buckling {
+public:
+    explicit buckling(dmb_buckling *handle = nullptr) noexcept : handle_(handle) {}
+    buckling(buckling &&other) noexcept : handle_(other.release()) {}
+    buckling &operator=(buckling &&other) noexcept
+    {
+        if (this != &other) reset(other.release());
+        return *this;
+    }
+    buckling(const buckling &) = delete;
+    buckling &operator=(const buckling &) = delete;
+    ~buckling() { dmb_buckling_destroy(&handle_); }
+
+    dmb_buckling *get() const noexcept { return handle_; }
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+    // The handle, now the caller's to destroy.
+    dmb_buckling *release() noexcept
+    {
+        dmb_buckling *given = handle_;
+        handle_ = nullptr;
+        return given;
+    }
+    // Takes over a handle, or nothing.
+    void reset(dmb_buckling *handle = nullptr) noexcept
+    {
+        dmb_buckling_destroy(&handle_);
+        handle_ = handle;
+    }
+    std::uint32_t size() const noexcept { return dmb_buckling_count(handle_); }
+
+#if defined(DRILLMBD_EXCEPTIONS)
+    double operator[](std::uint32_t mode) const
+    {
+        double factor = 0.0;
+        check(dmb_buckling_factor(handle_, mode, &factor));
+        return factor;
+    }
+    // [m, rad] displacement and rotation of a section, world frame.
+    std::array<double, 6> shape(std::uint32_t mode, dmb_place place) const
+    {
+        std::array<double, 6> answer{};
+        check(dmb_buckling_shape(handle_, mode, place, answer.data()));
+        return answer;
+    }
+#endif
+
+private:
+    dmb_buckling *handle_;
+};
+
 // ---- Modes ----------------------------------------------------------------------------------------------------------
 // What sim::modes finds.
 class modes {
@@ -329,6 +381,20 @@ public:
     {
         dmb_static_report report = dmb_static_report_default();
         done(try_static_start(options, &report));
+        return report;
+    }
+
+    drillmbd::buckling buckling(const dmb_buckling_options *options = nullptr)
+    {
+        dmb_buckling *found = nullptr;
+        done(dmb_analysis_buckling(handle_, options, &found));
+        return drillmbd::buckling(found);
+    }
+
+    dmb_path_report path(const dmb_path_options *options = nullptr)
+    {
+        dmb_path_report report = dmb_path_report_default();
+        done(dmb_analysis_path(handle_, options, &report));
         return report;
     }
 

@@ -278,6 +278,45 @@ void modes_of_a_string()
     EXPECT(thrown_by([&] { taken[10]; }) == DMB_ERR_VALUE);
 }
 
+// ---- Buckling -------------------------------------------------------------------------------------------------------
+void buckling_of_a_column()
+{
+    drillmbd::model model;
+    dmb_environment_def none = dmb_environment_def_default();
+    dmb_string_def clamped = dmb_string_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_load_def push = dmb_load_def_default();
+    none.gravity[2] = 0.0;
+    clamped.start_free = DMB_FREE_NONE;
+    for (double &stiffness : pipe.section_stiffness) stiffness = 1e5;
+    for (int i = 0; i < 3; i++) pipe.section_stiffness[i] = 1e12;
+    model.set_environment(none);
+    pipe.string = model.add_string(clamped);
+    const dmb_id string = model.add_pipes(pipe, 10);
+    push.place = dmb_station(string, 9, 1.0);
+    push.force[0] = -1.0;
+    model.add_load(push);
+    model.compile();
+    drillmbd::sim sim(model);
+    sim.static_start();
+    const double euler = 9.869604401089358 * 1e5 / 400.0;
+    dmb_buckling_options options = dmb_buckling_options_default();
+    options.scale = DMB_SCALE_LOADS;
+    drillmbd::buckling found = sim.buckling(&options);
+    EXPECT(found.size() == 1 && std::abs(found[0] + 1.0 - euler) < 1e-4 * euler);
+    const std::array<double, 6> tip = found.shape(0, push.place);
+    EXPECT(std::abs(tip[0]) < 1e-6 && std::hypot(tip[1], tip[2]) > 0.9);
+    drillmbd::buckling taken(std::move(found));
+    EXPECT(!found && taken);
+    EXPECT(thrown_by([&] { taken[1]; }) == DMB_ERR_VALUE);
+    dmb_path_options along = dmb_path_options_default();
+    along.factor_end = 2.0 * euler;
+    const dmb_path_report report = sim.path(&along);
+    EXPECT(report.bifurcations == 1 && std::abs(report.first_bifurcation + 1.0 - euler) < 1e-4 * euler);
+    along.factor_end = 0.0;
+    EXPECT(thrown_by([&] { sim.path(&along); }) == DMB_ERR_VALUE);
+}
+
 // ---- Failures -------------------------------------------------------------------------------------------------------
 void failures_throw()
 {
@@ -349,6 +388,7 @@ int main()
         nothing_is_left_behind();
         sim_in_the_callers_block();
         modes_of_a_string();
+        buckling_of_a_column();
         failures_throw();
         failures_return();
         owners_are_moved_only();

@@ -32,8 +32,7 @@ typedef struct dmb_static_report {
     double lateral_move;       /* [m] largest displacement from the starting pose */
     uint32_t cuts;             /* [-] load steps that did not converge and were halved */
     uint32_t line_searches;    /* [-] corrections that were shortened by a line search */
-    int32_t negative;          /* [-] negative eigenvalues of the stiffness: 0 of a stable equilibrium; -1: not counted,
-                                  in scenes with joints */
+    int32_t negative;          /* [-] negative eigenvalues of the stiffness: 0 of a stable equilibrium */
     int32_t reserved;
 } dmb_static_report;
 DMB_SIZED_STRUCT(dmb_static_report)
@@ -79,7 +78,7 @@ typedef struct dmb_buckling dmb_buckling;
  * the signs of the pivots (Sylvester), so that none is missed, and found by bisection. The sim is not changed.
  * DMB_NOTE_STOPPED where fewer than `count` lie below factor_max. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no
  * equilibrium or not stable; message says by how much), _SINGULAR (message says which part is free), _UNSUPPORTED
- * (scenes with joints), _NO_MEMORY, _CALLBACK; *buckling is NULL then. Some 40 counts a factor, each O(number of
+ * (scenes with joints: follow a path), _NO_MEMORY, _CALLBACK; *buckling is NULL then. Some 40 counts a factor, each O(number of
  * elements); memory: the sim's once more and 3 matrices, from its allocator. */
 DMB_API int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling);
 /* Gives the memory back and sets *buckling to NULL. NULL-safe. */
@@ -104,7 +103,7 @@ typedef struct dmb_path_point {
     uint32_t struct_size;
     uint32_t number;      /* [-] 0: the state the path begins in */
     int32_t kind;         /* DMB_PATH_... */
-    int32_t negative;     /* [-] negative eigenvalues of the stiffness, 0: stable; -1: not counted, with joints */
+    int32_t negative;     /* [-] negative eigenvalues of the stiffness, 0: stable */
     uint32_t iterations;  /* [-] of this point */
     uint32_t reserved;
     double factor;        /* [unit of the factor] */

@@ -126,7 +126,7 @@ static void find_factors(dmb_buckling *buckling, const dmb_buckling_options *opt
 static int32_t check_scene(dmb_sim *sim)
 {
     if (sim->scene->cluster_count == 0) return DMB_OK;
-    dmb_message_set(&sim->message, "buckling: the scene has joints, whose stiffness is not counted yet");
+    dmb_message_set(&sim->message, "buckling: the scene has joints; dmb_analysis_path finds its bifurcations");
     return DMB_ERR_UNSUPPORTED;
 }
 

@@ -163,10 +163,23 @@ static int32_t leave(dmb_path *path, double *arc)
     return tell(path, DMB_PATH_BRANCH);
 }
 
+/* A path that has crept for this many points, by less than this part of its longest step, is lost. */
+#define DMB_CREEP 1e-5
+#define DMB_CREEPS 50
+
+static int creeps(double arc, double *longest, uint32_t *points)
+{
+    *longest = fmax(*longest, arc);
+    *points = arc < DMB_CREEP * *longest ? *points + 1 : 0;
+    return *points > DMB_CREEPS;
+}
+
 static int32_t follow(dmb_path *path)
 {
     const dmb_path_options *o = path->options;
     double arc = (o->first_step > 0.0 ? o->first_step : 0.1 * fabs(o->factor_end)) / fabs(path->last.rate);
+    double longest = 0.0;
+    uint32_t crept = 0;
     int may_leave = o->branch != 0;
     int32_t status = tell(path, DMB_PATH_REGULAR);
     while (status == DMB_OK) {
@@ -174,6 +187,7 @@ static int32_t follow(dmb_path *path)
         if (path->report.points >= o->max_points) return DMB_NOTE_STOPPED;
         status = find_next(path, &arc, &event);
         if (status < 0) return status;
+        if (creeps(arc, &longest, &crept)) return DMB_ERR_NO_CONVERGENCE;
         dmb_path_accept(path);
         path->report.points++;
         status = tell(path, event == DMB_EVENT_LIMIT         ? DMB_PATH_LIMIT

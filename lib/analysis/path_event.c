@@ -22,9 +22,8 @@ int32_t dmb_path_end(const dmb_path *path, int32_t but)
 
 int32_t dmb_path_event(const dmb_path *path)
 {
-    const int counted = path->last.negative >= 0 && path->next.negative >= 0;
     if (path->side * path->next.rate < 0.0) return DMB_EVENT_LIMIT;
-    if (counted && path->last.negative != path->next.negative) return DMB_EVENT_BIFURCATION;
+    if (path->last.negative != path->next.negative) return DMB_EVENT_BIFURCATION;
     return dmb_path_end(path, DMB_EVENT_NONE);
 }
 
@@ -49,16 +48,21 @@ static double normalise(const dmb_path *path, double *x)
     return length;
 }
 
-/* Any vector, the same in every run. */
+/* The last mode and a little of everything, the same in every run: a shape across the plane of the last one would not
+ * be found from that one alone. */
+#define DMB_MODE_SEED 0.01
+
 static void begin_mode(const dmb_path *path)
 {
+    const dmb_scene *scene = path->work->scene;
     uint64_t seed = 88172645463325252u;
-    if (dmb_path_dot(path, path->mode, path->mode) > 0.0) return;
-    for (uint32_t i = 0; i < path->work->scene->row_count; i++) {
+    (void)normalise(path, path->mode);
+    for (uint32_t i = 0; i < scene->row_count; i++) {
         seed ^= seed << 13;
         seed ^= seed >> 7;
         seed ^= seed << 17;
-        path->mode[i] = path->work->scene->solved_row[i] ? (double)(seed >> 11) / 9007199254740992.0 - 0.5 : 0.0;
+        const double any = (double)(seed >> 11) / 9007199254740992.0 - 0.5;
+        path->mode[i] = scene->solved_row[i] ? path->mode[i] + DMB_MODE_SEED * any : 0.0;
     }
     (void)normalise(path, path->mode);
 }
@@ -149,46 +153,48 @@ static int32_t close_in(dmb_path *path, const quest *q, bracket *b, double withi
 #define DMB_CORNER 1e-4
 #define DMB_ROUNDINGS 100.0
 
-static int32_t turn_corner(dmb_path *path, const quest *q, double soft, double arc, int32_t *event)
+/* next stands just beyond it. */
+static void turn_corner(dmb_path *path, int32_t *event)
 {
-    const double at = path->next.arc - path->last.arc, rounding = dmb_stiffness_rounding(path->work);
-    const int smooth = fabs(path->softest) <= fmax(DMB_CORNER * soft, DMB_ROUNDINGS * rounding);
-    double unused;
-    int32_t status = probe(path, q, arc, &unused); /* just beyond it */
-    const int32_t beyond = path->next.negative;
-    if (status >= 0 && smooth && *event != DMB_EVENT_NONE) status = probe(path, q, at, &unused);
-    path->next.negative = beyond; /* at the bifurcation itself it is a matter of rounding */
-    if (status < 0 || smooth) return status;
     *event = DMB_EVENT_NONE;
-    if ((beyond - path->last.negative) % 2 == 0) return DMB_OK;
+    if ((path->next.negative - path->last.negative) % 2 == 0) return;
     *event = DMB_EVENT_LIMIT;
     path->next.rate = -path->next.rate;
     for (uint32_t i = 0; i < path->work->scene->row_count; i++) path->next.tangent[i] = -path->next.tangent[i];
     path->side = path->next.rate;
-    return DMB_OK;
 }
 
 /* The first place where the count changes, by the count to a thousandth of the step, and then by the eigenvalue that
- * changes sign there, which the count raises by its idea of rounding. */
+ * changes sign there, which the count raises by its idea of rounding: so from further back. */
 #define DMB_ISOLATED 1e-3
+#define DMB_STEP_BACK 0.1
 
 static int32_t locate_bifurcation(dmb_path *path, quest *q, double arc, int32_t *event)
 {
-    bracket all = {0.0, arc, 0.0, 0.0}, first = {0.0, arc, 1.0, -1.0};
-    int32_t status = probe_ends(path, q, &all);
-    const double soft = fmax(fabs(all.at_low), fabs(all.at_high));
-    q->counted = 1;
-    if (status >= 0) status = close_in(path, q, &first, DMB_ISOLATED * arc);
-    q->counted = 0;
-    all.high = first.high;
-    if (status >= 0) status = probe(path, q, all.high, &all.at_high);
-    if (status < 0) return status;
-    q->counted = all.at_low * all.at_high >= 0.0;
-    if (!q->counted) first = all;
+    bracket whole = {0.0, arc, 0.0, 0.0}, counted = {0.0, arc, 1.0, -1.0}, soft;
+    int32_t status = probe_ends(path, q, &whole);
+    const double size = fmax(fabs(whole.at_low), fabs(whole.at_high));
     path->side = path->last.rate;
-    if (soft <= DMB_ROUNDINGS * dmb_stiffness_rounding(path->work)) *event = DMB_EVENT_NONE; /* neutral all the way */
-    status = close_in(path, q, &first, DMB_LOCATED * arc);
-    return status < 0 ? status : turn_corner(path, q, soft, first.high, event);
+    q->counted = 1;
+    if (status >= 0) status = close_in(path, q, &counted, DMB_ISOLATED * arc);
+    soft.low = fmax(counted.low - DMB_STEP_BACK * arc, 0.0);
+    soft.high = counted.high;
+    q->counted = 0;
+    if (status >= 0) status = probe(path, q, soft.low, &soft.at_low);
+    if (status >= 0) status = probe(path, q, soft.high, &soft.at_high);
+    if (status < 0) return status;
+    const int32_t beyond = path->next.negative;
+    q->counted = soft.at_low * soft.at_high >= 0.0 || fabs(soft.at_low) <= DMB_CORNER * size;
+    if (q->counted) soft = counted;
+    status = close_in(path, q, &soft, DMB_LOCATED * arc);
+    if (status < 0) return status;
+    const double rounding = DMB_ROUNDINGS * dmb_stiffness_rounding(path->work);
+    if (size <= rounding) *event = DMB_EVENT_NONE; /* neutral all the way: it does not matter which sign it has */
+    const int corner = fabs(path->softest) > fmax(DMB_CORNER * size, rounding);
+    if (corner) status = probe(path, q, soft.high, &soft.at_high);
+    path->next.negative = beyond; /* at the bifurcation itself it is a matter of rounding */
+    if (corner && status >= 0) turn_corner(path, event);
+    return status;
 }
 
 int32_t dmb_path_locate(dmb_path *path, int32_t *event, double arc)

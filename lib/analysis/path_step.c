@@ -47,8 +47,7 @@ static int32_t solve_both(dmb_path *path)
     if (status < 0) return status;
     memcpy(path->move, work->correction, work->scene->row_count * sizeof(double));
     dmb_system_iteration_matrix(&path->search.evaluation);
-    path->next.negative = dmb_stiffness_negative(work);
-    const int64_t bad = dmb_factor_stiffness(work, &weakest);
+    const int64_t bad = dmb_stiffness_factor(work, &weakest, &path->next.negative);
     path->weakest = weakest.ratio;
     path->search.block = bad >= 0 ? (uint32_t)bad : weakest.block;
     if (bad >= 0) return DMB_ERR_SINGULAR;

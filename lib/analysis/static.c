@@ -185,6 +185,7 @@ int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb
     dmb_static_options taken;
     dmb_static_search search;
     dmb_static_report out;
+    dmb_block_weakest weakest;
     if (sim == NULL) return DMB_ERR_NULL;
     if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
     dmb_message_clear(&sim->message);
@@ -208,7 +209,7 @@ int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb
     out.cuts = search.cuts;
     out.line_searches = search.line_searches;
     dmb_system_iteration_matrix(&search.evaluation);
-    out.negative = dmb_stiffness_negative(sim);
+    (void)dmb_stiffness_factor(sim, &weakest, &out.negative);
     out.lateral_move = largest_displacement(sim);
     status = settle(&search);
     if (status >= 0 && report != NULL) (void)dmb_static_report_write(report, &out);

@@ -1,6 +1,7 @@
 #include "analysis/stiffness.h"
 
 #include "math/block_inertia.h"
+#include "math/dense_inertia.h"
 #include "system/owner.h"
 #include "system/solve.h"
 
@@ -30,17 +31,42 @@ double dmb_stiffness_rounding(const dmb_sim *sim)
     return sim->scale_row[0]; /* a displacement, of weight 1 */
 }
 
-int32_t dmb_stiffness_negative(dmb_sim *sim)
+static uint32_t negative_of_chains(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     uint32_t negative = 0;
-    if (scene->cluster_count) return -1;
     raise_rounding(sim);
     for (uint32_t c = 0; c < scene->chain_count; c++)
-        negative +=
-            dmb_block_negative(&scene->layout, sim->stiffness_diagonal, sim->stiffness_lower, sim->stiffness_upper,
-                               sim->scale_row, scene->chains[c].first, scene->chains[c].count);
-    return (int32_t)negative;
+        if (!scene->chains[c].linked)
+            negative +=
+                dmb_block_negative(&scene->layout, sim->stiffness_diagonal, sim->stiffness_lower, sim->stiffness_upper,
+                                   sim->scale_row, scene->chains[c].first, scene->chains[c].count);
+    return negative;
+}
+
+/* Of what the sparse elimination has left of each block when its turn came (Haynsworth 1968): its factors multiplied
+ * out, those of clusters into room that their reduction is done with. */
+static uint32_t negative_of_blocks(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_block_pattern *pattern = &scene->pattern;
+    uint32_t negative = 0;
+    for (uint32_t b = 0; b < scene->block_count; b++) {
+        double small[36];
+        double *A = b < scene->cluster_count ? sim->cluster_full + scene->clusters[b].full : small;
+        const uint32_t at = pattern->position[b], n = sim->linked_size[b];
+        dmb_dense_from_factors(n, sim->linked_value + pattern->diagonal[at], sim->linked_pivot + pattern->pivot[at], A);
+        negative += dmb_dense_negative(n, A);
+    }
+    return negative;
+}
+
+int64_t dmb_stiffness_factor(dmb_sim *sim, dmb_block_weakest *weakest, int32_t *negative)
+{
+    const uint32_t chains = negative_of_chains(sim);
+    const int64_t bad = dmb_factor_stiffness(sim, weakest);
+    *negative = bad >= 0 ? 0 : (int32_t)(chains + (sim->scene->cluster_count ? negative_of_blocks(sim) : 0));
+    return bad;
 }
 
 /* Residual of a state, relative to the forces that balance in it, up to which it counts as equilibrium. */

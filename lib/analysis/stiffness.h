@@ -4,10 +4,10 @@
 
 #include "system/evaluation.h"
 
-/* Negative eigenvalues of the iteration matrix in the stiffness_ blocks (held rows identity, not factored), of its
- * symmetric part where friction makes it unsymmetric; -1 in a scene with joints, whose reduced matrix is not there. What
- * is 0 but for rounding does not count: a buckled column may turn about its load. Uses scale_row. */
-int32_t dmb_stiffness_negative(dmb_sim *sim);
+/* Factors the iteration matrix in the stiffness_ blocks (held rows identity) as dmb_factor_stiffness, and counts its
+ * negative eigenvalues in the independent coordinates, of its symmetric part where friction makes it unsymmetric. What is
+ * 0 but for rounding does not count in chains without joints: a buckled column may turn about its load. Uses scale_row. */
+int64_t dmb_stiffness_factor(dmb_sim *sim, dmb_block_weakest *weakest, int32_t *negative);
 /* [N/m] below which an eigenvalue of the matrix whose signs were counted last counts as 0; scale_row still tells. */
 double dmb_stiffness_rounding(const dmb_sim *sim);
 /* DMB_ERR_ORDER, with a message of `who` in sim, unless the residual just evaluated is that of an equilibrium. */

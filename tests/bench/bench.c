@@ -32,7 +32,7 @@ static double error_of(const scene *s, const outcome *out, const reference *ref,
 static void put_outcome(const char *group, const scene *s, const method *how, const outcome *out, const reference *ref)
 {
     char kinds[2][64] = {"", ""};
-    result r;
+    result_row r;
     const int second = *quantity_names[s->kind][1] != 0;
     for (int i = 0; i <= second; ++i)
         snprintf(kinds[i], sizeof kinds[i], "%s_vs_%s", quantity_names[s->kind][i], ref->name);

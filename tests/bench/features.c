@@ -118,7 +118,7 @@ static int count_late(const double *sorted, int count)
     return late;
 }
 
-static void put_times(result *r, const double *cpu, const double *wall)
+static void put_times(result_row *r, const double *cpu, const double *wall)
 {
     static const char *const names[4][5] = {{"us_median", "us_99", "us_99.9", "us_largest", "us_smallest"},
                                             {"U_median", "U_99", "U_99.9", "U_largest", "U_smallest"},
@@ -135,7 +135,7 @@ static void put_times(result *r, const double *cpu, const double *wall)
     row_number(r, "wall_steps", LOOP_REPEATS * LOOP_STEPS, 6);
 }
 
-static void put_work(result *r, const loop *l, int worst)
+static void put_work(result_row *r, const loop *l, int worst)
 {
     const dmb_step_report *const report = &l->reports[worst];
     row_number(r, "worst_at", (worst + 1) * FEATURES_STEP, 6);
@@ -147,7 +147,7 @@ static void put_work(result *r, const loop *l, int worst)
 }
 
 /* Sorts the residuals. plain: without a bound on the work. */
-static void put_errors(result *r, loop *l, const loop *plain)
+static void put_errors(result_row *r, loop *l, const loop *plain)
 {
     qsort(l->residual, LOOP_STEPS, sizeof *l->residual, compare_doubles);
     row_number(r, "residual_median", quantile(l->residual, LOOP_STEPS, 0.5), 3);
@@ -165,7 +165,7 @@ static void report_loop(const scene *s, const way *w, loop *l, const loop *plain
 {
     static double cpu[LOOP_STEPS];
     const int worst = take_medians(l, cpu);
-    result r;
+    result_row r;
     qsort(cpu, LOOP_STEPS, sizeof *cpu, compare_doubles);
     qsort(l->wall, LOOP_REPEATS * LOOP_STEPS, sizeof *l->wall, compare_doubles);
     const double typical = quantile(cpu, LOOP_STEPS, 0.5);
@@ -320,7 +320,7 @@ static void report_rig(const scene *s, const variant *v, const method *how, cons
     const char *const kind = s->kind == SCENE_R               ? "torque_vs_dt/8"
                              : v->pipe_kind == DMB_PIPE_RIGID ? "tip_speed_vs_drive"
                                                               : "tip_speed_vs_exact";
-    result r;
+    result_row r;
     begin_outcome(&r, "F", info->elements, how, out, fabs(out->values[0] / answer - 1.0), kind);
     row_word(&r, "variant", v->name);
     row_number(&r, "repeats", how->repeats, 3);

@@ -185,7 +185,7 @@ static void report(uint32_t joints, int way, const cost *c, const cost *string)
                     c->iterations,
                     fabs(c->rotation / string->rotation - 1.0),
                     "rotation_vs_structural"};
-    result r;
+    result_row r;
     row_begin(&r, &h);
     row_number(&r, "spread", c->spread, 3);
     row_number(&r, "U_us", 1e6 * c->unit, 4);

@@ -80,7 +80,7 @@ static outcome measure(const scene *s, const method *how, yardstick *y)
 }
 
 /* The part of a row that every outcome has. */
-static inline void begin_outcome(result *r, const char *name, double elements, const method *how, const outcome *out,
+static inline void begin_outcome(result_row *r, const char *name, double elements, const method *how, const outcome *out,
                                  double error, const char *error_kind)
 {
     const head h = {name,

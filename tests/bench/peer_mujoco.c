@@ -27,7 +27,7 @@ enum { BODIES = 96, PLANES = 24, ELEMENTS = 100 };
 enum { WALL_NONE = 0, WALL_LAW = 1, WALL_PLANES = 2 };
 
 static yardstick unit;
-static table rows;
+static result_table rows;
 static int failures;
 
 typedef struct chain_method {
@@ -239,15 +239,15 @@ static void report_chain(int kind, const chain_method *how, double end, const do
     static const char *const walls[] = {"none", "law", "planes"};
     char setting[96], kinds[2][64];
     double values[2] = {0.0, 0.0};
-    peer_row result;
-    memset(&result, 0, sizeof result);
+    peer_row found;
+    memset(&found, 0, sizeof found);
     snprintf(setting, sizeof setting, "dt=%g;integrator=%s;joints=%s;wall=%s", how->step, how->integrator,
              how->ball ? "ball" : "hinges", walls[how->wall]);
     mjModel *const model = make_model(how);
     mjData *const data = model ? mj_makeData(model) : NULL;
     const double begin = processor_time();
     const int good = data && run_chain(model, data, how, kind, end);
-    result.seconds = processor_time() - begin;
+    found.seconds = processor_time() - begin;
     if (good) ask_chain(model, data, how, kind, values);
     if (data) mj_deleteData(data);
     if (model) mj_deleteModel(model);
@@ -257,23 +257,23 @@ static void report_chain(int kind, const chain_method *how, double end, const do
         return;
     }
     yardstick_measure(&unit);
-    result.code = "MuJoCo";
-    result.version = mj_versionString();
-    result.scene = scene_names[kind];
-    result.setting = setting;
-    result.elements = BODIES;
-    result.end = end;
-    result.steps = end / how->step;
-    result.residuals = result.tangents = (double)NAN;
-    result.yardstick = yardstick_value(&unit);
+    found.code = "MuJoCo";
+    found.version = mj_versionString();
+    found.scene = scene_names[kind];
+    found.setting = setting;
+    found.elements = BODIES;
+    found.end = end;
+    found.steps = end / how->step;
+    found.residuals = found.tangents = (double)NAN;
+    found.yardstick = yardstick_value(&unit);
     for (int i = 0; i < 2; i++) {
         const char *const quantity = quantity_names[kind][i];
         const double difference = fabs(values[i] - reference[i]);
-        result.error[i] = strstr(quantity, "_mm") ? difference : difference / fabs(reference[i]);
+        found.error[i] = strstr(quantity, "_mm") ? difference : difference / fabs(reference[i]);
         snprintf(kinds[i], sizeof kinds[i], "%s_vs_%s", quantity, name);
-        result.error_kind[i] = *quantity ? kinds[i] : NULL;
+        found.error_kind[i] = *quantity ? kinds[i] : NULL;
     }
-    peer_row_report(&rows, &result);
+    peer_row_report(&rows, &found);
 }
 
 /* ---- The plan ---------------------------------------------------------------------------------------------------- */

@@ -18,12 +18,12 @@ typedef struct peer_row {
     const char *error_kind[2]; /* the second NULL: one error only */
 } peer_row;
 
-static void peer_row_report(table *t, const peer_row *p)
+static void peer_row_report(result_table *t, const peer_row *p)
 {
     const double steps = p->steps, rtf = p->end / p->seconds, none = (double)NAN;
     const head h = {p->scene, p->elements, p->end / steps, p->seconds / steps, p->yardstick,
                     rtf,      none,        p->error[0],    p->error_kind[0]};
-    row r;
+    result_row r;
     row_begin(&r, &h);
     row_word(&r, "code", p->code);
     row_word(&r, "version", p->version);

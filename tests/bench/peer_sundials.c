@@ -21,7 +21,7 @@
 enum { ELEMENTS = 100 };
 
 static yardstick unit;
-static table rows;
+static result_table rows;
 static int failures;
 
 /* ---- SUNDIALS on the equations ----------------------------------------------------------------------------------- */
@@ -209,7 +209,7 @@ static int peer_go(peer_run *run, double end)
 }
 
 /* One timed run from time 0; creation left out, as with the library. */
-static int peer_measure(const scene *s, const peer_method *how, double end, peer_row *result, double values[2])
+static int peer_measure(const scene *s, const peer_method *how, double end, peer_row *found, double values[2])
 {
     dmb_sim *sim = NULL;
     peer_run run;
@@ -219,13 +219,13 @@ static int peer_measure(const scene *s, const peer_method *how, double end, peer
     residuals_evaluated = tangents_evaluated = 0.0;
     const double begin = processor_time();
     good = good && peer_go(&run, end);
-    result->seconds = processor_time() - begin;
-    result->residuals = residuals_evaluated;
-    result->tangents = tangents_evaluated;
+    found->seconds = processor_time() - begin;
+    found->residuals = residuals_evaluated;
+    found->tangents = tangents_evaluated;
     if (good && run.ida) IDAGetNumSteps(run.ida, &steps);
     if (good && run.arkode) ARKStepGetNumSteps(run.arkode, &steps);
-    result->steps = (double)steps;
-    result->end = end;
+    found->steps = (double)steps;
+    found->end = end;
     good = good &&
            equations_finish(&run.e, end, N_VGetArrayPointer(run.y), N_VGetArrayPointer(run.dy),
                             2.0 * BENCH_PI * fmax(0.0, end - 0.5)) >= 0 &&
@@ -233,7 +233,7 @@ static int peer_measure(const scene *s, const peer_method *how, double end, peer
     peer_close(&run, how);
     dmb_sim_destroy(&sim);
     yardstick_measure(&unit);
-    result->yardstick = yardstick_value(&unit);
+    found->yardstick = yardstick_value(&unit);
     return good;
 }
 
@@ -246,43 +246,43 @@ typedef struct question {
 } question;
 
 /* [-] relative, but a position in its own unit: it may be near 0. */
-static void fill_errors(const question *ask, const double values[2], peer_row *result)
+static void fill_errors(const question *ask, const double values[2], peer_row *found)
 {
     static char kinds[2][64];
     for (int i = 0; i < 2; i++) {
         const char *const quantity = quantity_names[ask->s->kind][i];
         const double difference = fabs(values[i] - ask->reference[i]);
-        result->error[i] = strstr(quantity, "_mm") ? difference : difference / fabs(ask->reference[i]);
+        found->error[i] = strstr(quantity, "_mm") ? difference : difference / fabs(ask->reference[i]);
         snprintf(kinds[i], sizeof kinds[i], "%s_vs_%s", quantity, ask->name);
-        result->error_kind[i] = kinds[i];
+        found->error_kind[i] = kinds[i];
     }
     if (ask->s->kind != SCENE_C) return;
     const double exact =
         exact_tip_speed(ask->s->pipes * ask->s->length, ask->end); /* the mesh's error is in this one */
-    result->error[1] = fabs(values[0] - exact) / exact;
-    result->error_kind[1] = "tip_speed_vs_exact";
+    found->error[1] = fabs(values[0] - exact) / exact;
+    found->error_kind[1] = "tip_speed_vs_exact";
 }
 
 static void report_peer(const question *ask, const peer_method *how)
 {
     char setting[96];
     double values[2];
-    peer_row result;
-    memset(&result, 0, sizeof result);
+    peer_row found;
+    memset(&found, 0, sizeof found);
     snprintf(setting, sizeof setting, "tolerance=%g;order=%d;jacobian=%s", how->tolerance, how->order,
              how->difference ? "differences" : "blocks");
-    result.code = how->code == BY_ARKODE ? "ARKODE" : "IDA";
-    result.version = SUNDIALS_VERSION;
-    result.scene = scene_names[ask->s->kind];
-    result.setting = setting;
-    result.elements = ELEMENTS;
-    if (!peer_measure(ask->s, how, ask->end, &result, values)) {
-        row_failed(result.scene, ELEMENTS, setting, "integrator", result.code);
+    found.code = how->code == BY_ARKODE ? "ARKODE" : "IDA";
+    found.version = SUNDIALS_VERSION;
+    found.scene = scene_names[ask->s->kind];
+    found.setting = setting;
+    found.elements = ELEMENTS;
+    if (!peer_measure(ask->s, how, ask->end, &found, values)) {
+        row_failed(found.scene, ELEMENTS, setting, "integrator", found.code);
         ++failures;
         return;
     }
-    fill_errors(ask, values, &result);
-    peer_row_report(&rows, &result);
+    fill_errors(ask, values, &found);
+    peer_row_report(&rows, &found);
 }
 
 static void report_library(const question *ask, double step, double tolerance)
@@ -290,26 +290,26 @@ static void report_library(const question *ask, double step, double tolerance)
     method how = method_fixed(step, ask->end);
     char setting[96], version[32];
     double values[2];
-    peer_row result;
+    peer_row found;
     how.tolerance = tolerance;
     how.ledger = 0;
-    memset(&result, 0, sizeof result);
+    memset(&found, 0, sizeof found);
     snprintf(version, sizeof version, "%d.%d.%d", DMB_VERSION_MAJOR, DMB_VERSION_MINOR, DMB_VERSION_PATCH);
     snprintf(setting, sizeof setting, step > 0.0 ? "dt=%g" : "tolerance=%g", step > 0.0 ? step : tolerance);
-    result.code = "drillmbd";
-    result.version = version;
-    result.scene = scene_names[ask->s->kind];
-    result.setting = setting;
-    result.elements = ELEMENTS;
+    found.code = "drillmbd";
+    found.version = version;
+    found.scene = scene_names[ask->s->kind];
+    found.setting = setting;
+    found.elements = ELEMENTS;
     residuals_evaluated = tangents_evaluated = 0.0;
-    if (!library_measure(ask->s, &how, &unit, &result, values)) {
+    if (!library_measure(ask->s, &how, &unit, &found, values)) {
         ++failures;
         return;
     }
-    result.residuals = residuals_evaluated;
-    result.tangents = tangents_evaluated;
-    fill_errors(ask, values, &result);
-    peer_row_report(&rows, &result);
+    found.residuals = residuals_evaluated;
+    found.tangents = tangents_evaluated;
+    fill_errors(ask, values, &found);
+    peer_row_report(&rows, &found);
 }
 
 /* ---- The plan ---------------------------------------------------------------------------------------------------- */

@@ -1,7 +1,8 @@
 # Other codes that run the scenes of the benchmark, each if it is there: programs of their own, never part of the
 # library.
-option(DMB_BUILD_PEERS "Build the peers of the benchmark that are installed (SUNDIALS, MuJoCo)" OFF)
+option(DMB_BUILD_PEERS "Build the peers of the benchmark that are installed (ARPACK, SUNDIALS, MuJoCo)" OFF)
 if(NOT DMB_BUILD_PEERS)
+  message(STATUS "Peers of the benchmark: not built, DMB_BUILD_PEERS is off")
   return()
 endif()
 
@@ -33,6 +34,7 @@ function(drillmbd_add_peer name header)
   target_link_libraries(peer_${name} PRIVATE drillmbd_internal ${links} m)
 endfunction()
 
+drillmbd_add_peer(arpack lapacke.h arpack) # ARPACK is Fortran and needs no header; LAPACKE's is there in any case
 drillmbd_add_peer(sundials ida/ida.h sundials_ida sundials_arkode sundials_nvecserial)
 if(TARGET peer_sundials) # its evaluations are counted: peer_equations.h
   target_link_options(peer_sundials PRIVATE -Wl,--wrap=dmb_system_evaluate)

@@ -178,7 +178,7 @@ static void report(const tube *t, const cost *c)
                     none,
                     t->walled ? none : c->error,
                     t->walled ? "-" : "rms_of_tip_speed_vs_closed_form"};
-    result r;
+    result_row r;
     row_begin(&r, &h);
     row_number(&r, "spread", c->spread, 3);
     row_number(&r, "U_us", 1e6 * u, 4);

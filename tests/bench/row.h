@@ -18,10 +18,10 @@ typedef struct field {
     int digits;
 } field;
 
-typedef struct result {
+typedef struct result_row {
     field fields[ROW_MOST];
     int count;
-} result;
+} result_row;
 
 /* What every result has. */
 typedef struct head {
@@ -40,22 +40,22 @@ typedef struct head {
 typedef struct result_table {
     FILE *file;
     int rows;
-    result first;
+    result_row first;
 } result_table;
 
-static inline void row_number(result *r, const char *name, double value, int digits)
+static inline void row_number(result_row *r, const char *name, double value, int digits)
 {
     const field f = {name, NULL, value, digits};
     r->fields[r->count++] = f;
 }
 
-static inline void row_word(result *r, const char *name, const char *text)
+static inline void row_word(result_row *r, const char *name, const char *text)
 {
     const field f = {name, text, 0.0, 0};
     r->fields[r->count++] = f;
 }
 
-static inline void row_begin(result *r, const head *h)
+static inline void row_begin(result_row *r, const head *h)
 {
     r->count = 0;
     row_word(r, "scene", h->scene);
@@ -81,7 +81,7 @@ static inline void print_field(const field *f, int position, FILE *file)
         printf("%s=- ", f->name);
 }
 
-static inline void row_put(const result *r, result_table *t)
+static inline void row_put(const result_row *r, result_table *t)
 {
     if (t->rows++ == 0) {
         t->first = *r;

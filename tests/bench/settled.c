@@ -147,7 +147,7 @@ static double mean_of(const double *values, double *standard_error)
     return mean;
 }
 
-static void put_means(result *r, const settled *x)
+static void put_means(result_row *r, const settled *x)
 {
     static const char *const names[SPANS][MEANS][2] = {
         {{"chatter_force", "chatter_force_error"},
@@ -179,7 +179,7 @@ static void report(const way *w, settled *x, double force)
                     x->iterations / x->steps,
                     fabs(mean / force - 1.0),
                     "mean_wall_force_vs_125us"};
-    result r;
+    result_row r;
     row_begin(&r, &h);
     row_number(&r, "spread", (x->seconds[STARTS - 1] - x->seconds[0]) / seconds, 3);
     row_number(&r, "U_us", 1e6 * u, 4);

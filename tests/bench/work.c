@@ -226,7 +226,7 @@ static void report(const plan *p, const setting *x, method *how, const reference
                     c.iterations,
                     difference(p, &c, &ref->course) / ref->scale,
                     p->error_kind};
-    result r;
+    result_row r;
     row_begin(&r, &h);
     row_number(&r, "spread", c.spread, 3);
     row_number(&r, "U_us", 1e6 * u, 4);

@@ -95,6 +95,56 @@ static void elastica_by_its_branch(void **state)
     check_elastica(32, 1e-6);
 }
 
+/* The whole column, its far end on a line by a joint, buckles in its plane under the same load. */
+static void pinned_column_with_a_joint(void **state)
+{
+    (void)state;
+    rig s;
+    tale t = {.points = 0};
+    const double EI = s1_values().EI, euler = PI * PI * EI / 100.0;
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def beam = beam_pipe(10.0, 32, 1e6 * EI, 1e6 * EI, EI, EI);
+    dmb_joint_def guide = dmb_joint_def_default();
+    dmb_load_def load = dmb_load_def_default();
+    dmb_path_options options = dmb_path_options_default();
+    dmb_path_report report = dmb_path_report_default();
+    rig_open(&s, 0.0, 0.0, 0.0);
+    def.follows_hole = 0;
+    def.start_free = 1 << DMB_RZ; /* in the x-y plane, and not free to turn about itself */
+    beam.string = add_string(&s, &def);
+    const dmb_id string = add_pipes(&s, &beam, 1);
+    guide.kind = DMB_JOINT_POINT_ON_LINE;
+    guide.place_b = load.place = t.place = dmb_station(string, 0, 1.0);
+    must_model(&s, dmb_model_add_joint(s.model, &guide, NULL));
+    load.force[0] = -euler;
+    load.programme = add_constant(&s, 0.0);
+    options.part = add_load(&s, &load);
+    (void)rig_start(&s, NULL);
+    const dmb_static_report rest = find_equilibrium(&s, NULL);
+    assert_int_equal(rest.negative, 0);
+    options.scale = DMB_SCALE_PART;
+    options.factor_end = 10.0;
+    options.place = load.place;
+    options.callback = hear;
+    options.callback_context = &t;
+    must(&s, dmb_analysis_path(s.sim, &options, &report));
+    show(&t);
+    check_relative("first bifurcation at Euler's load", report.first_bifurcation, 1.0, 1e-5);
+    double in_plane[2] = {0.0, 0.0};
+    for (uint32_t i = 0, k = 0; i < t.points; i++)
+        if (t.point[i].kind == DMB_PATH_BIFURCATION && k < 2) in_plane[k++] = t.point[i].factor;
+    /* across the plane the rig end is clamped: pinned at the other it buckles at 4.4934^2/pi^2 times the load */
+    check_relative("the next, clamped and pinned across the plane", in_plane[1], 4.493409458 * 4.493409458 / (PI * PI),
+                   1e-4);
+    options.branch = 1;
+    options.branch_size = 0.05;
+    options.displacement_end = -0.2589803939 * 10.0;
+    t.points = 0;
+    must(&s, dmb_analysis_path(s.sim, &options, &report));
+    check_close("P/Pcr at the shortening of 60 degrees", report.factor, 1.1517196205, 1e-5);
+    rig_close(&s);
+}
+
 /* ---- Two bars that snap through ---------------------------------------------------------------------------------- */
 
 /* Von Mises' truss: two bars of a stretch stiffness EA, hinged on the ground 2 b apart and to each other h above it. By
@@ -287,9 +337,8 @@ static void string_snakes_up_the_wall(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(elastica_by_its_branch),
-        cmocka_unit_test(truss_snaps_through),
-        cmocka_unit_test(deep_arch_falls),
+        cmocka_unit_test(elastica_by_its_branch),    cmocka_unit_test(pinned_column_with_a_joint),
+        cmocka_unit_test(truss_snaps_through),       cmocka_unit_test(deep_arch_falls),
         cmocka_unit_test(string_snakes_up_the_wall),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

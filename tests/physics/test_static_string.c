@@ -177,6 +177,39 @@ static void string_falls_from_the_axis(void **state)
     check_fall(1000, 0, 30.0);
 }
 
+/* A short string from the axis: the whole load at once fails, a quarter and an eighth of it too; a sixteenth does with
+ * corrections that the line search shortens, and from there steps double. */
+static void load_steps_choose_themselves(void **state)
+{
+    (void)state;
+    rig s;
+    dmb_wall_def wall = s1_hole();
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_string_def def = dmb_string_def_default();
+    dmb_static_options options = dmb_static_options_default();
+    double reaction[6];
+    def.start_free = DMB_FREE_NONE;
+    rig_open(&s, 0.0, 0.0, -9.81);
+    (void)add_wall(&s, &wall);
+    pipe.length = 1.0;
+    pipe.string = add_string(&s, &def);
+    const dmb_id string = add_pipes(&s, &pipe, 20);
+    (void)rig_start(&s, NULL);
+    options.lay_on_wall = 0;
+    const dmb_static_report report = find_equilibrium(&s, &options);
+    rig_end_reaction(&s, string, reaction);
+    print_message("    %u iterations, %u load steps, %u cuts, %u line searches\n", report.iterations, report.load_steps,
+                  report.cuts, report.line_searches);
+    assert_int_equal(report.method, DMB_STATIC_NEWTON);
+    assert_true(report.load_steps > 1 && report.load_steps < 16);
+    assert_true(report.cuts > 0);
+    assert_true(report.line_searches > 0);
+    assert_int_equal(report.negative, 0);
+    check_relative("    weight on wall and clamp", contacts_of(&s).normal_force + reaction[2],
+                   20.0 * s1_values().weight, 1e-6);
+    rig_close(&s);
+}
+
 /* ---- Hard case 3: long strings ----------------------------------------------------------------------------------- */
 
 static uint64_t bytes_of_string(uint32_t pipes, uint32_t *iterations)
@@ -294,11 +327,11 @@ static void elements_are_of_fourth_order(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pushed_axial_torsional_string),   cmocka_unit_test(turning_axial_torsional_string),
-        cmocka_unit_test(pushed_flexible_string),          cmocka_unit_test(turning_flexible_string),
-        cmocka_unit_test(string_falls_on_the_wall),        cmocka_unit_test(string_falls_from_the_axis),
-        cmocka_unit_test(long_strings_cost_in_proportion), cmocka_unit_test(forces_do_not_depend_on_the_mesh),
-        cmocka_unit_test(elements_are_of_fourth_order),
+        cmocka_unit_test(pushed_axial_torsional_string),    cmocka_unit_test(turning_axial_torsional_string),
+        cmocka_unit_test(pushed_flexible_string),           cmocka_unit_test(turning_flexible_string),
+        cmocka_unit_test(load_steps_choose_themselves),     cmocka_unit_test(string_falls_on_the_wall),
+        cmocka_unit_test(string_falls_from_the_axis),       cmocka_unit_test(long_strings_cost_in_proportion),
+        cmocka_unit_test(forces_do_not_depend_on_the_mesh), cmocka_unit_test(elements_are_of_fourth_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
