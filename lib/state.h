@@ -75,12 +75,11 @@
 
 /* ---- Kept: factors of an iteration matrix that later steps may do with (integrator/attempt). Written on acceptance only;
  * saved, restored and hashed, so that a restored sim iterates alike, but not set aside in `backup`: a call of several
- * steps leaves them alone. Empty in a scene with joints: kd, kl, kr = diagonal, link, r, else 0. */
+ * steps leaves them alone. Empty in a scene with joints: kd, kl = diagonal, link, else 0. */
 #define DMB_KEPT_LIST(X)                                                                                              \
     X(double, kept_diagonal, kd)                                                                                       \
     X(double, kept_lower, kl)                                                                                          \
     X(double, kept_upper, kl)                                                                                          \
-    X(uint8_t, kept_pivot, kr)                                                                                         \
     X(dmb_kept, kept, 1)
 
 /* ---- Work: rewritten in every step, never saved. */
@@ -98,7 +97,7 @@
     X(double, stiffness_upper, link)                                                                                   \
     X(double, inertia_diagonal, diagonal) /* mass, gyroscopic and damping parts, scaled to pose parameters */          \
     X(uint8_t, pivot, r)                                                                                               \
-    X(int32_t, solve_with_kept, 1)      /* 1: solve with the kept factors */                                           \
+    X(int32_t, factors, 1)              /* DMB_FACTORS_...: what corrections are solved with */                        \
     /* constraints, system/constraint_rows: */                                                                        \
     X(double, raw_velocity, raw)        /* of the trial before it is projected onto the constraints, integrator */     \
     X(double, raw_acceleration, raw)                                                                                   \
@@ -133,6 +132,10 @@
     X(double, linked_half, 6 * (column + c)) /* product of a link with the null space of a block */                         \
     X(dmb_linked_mode, linked_mode, 1)                                                                                 \
     X(uint8_t, backup, backup)          /* the state before a call that takes more than one step, state/backup */
+
+/* What corrections are solved with: nothing is factored, inverses of this step, those kept from an earlier one (both
+ * math/block_inverse), LU factors (math/block_tridiagonal: statics). */
+enum { DMB_FACTORS_NONE = 0, DMB_FACTORS_FRESH = 1, DMB_FACTORS_KEPT = 2, DMB_FACTORS_LU = 3 };
 
 /* Kinds of constraint rows. */
 enum { DMB_ROW_IDLE = 0, DMB_ROW_POSITION = 1, DMB_ROW_SPEED = 2 };

@@ -39,13 +39,15 @@ static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk 
         const double h = fit(sim, *wanted, time);
         if (!(sim->clock->time + h > sim->clock->time)) return dmb_walk_stuck(sim, h);
         int32_t status = dmb_attempt_step(sim, h, 1, &attempt);
-        if (status == DMB_NOTE_WORK_LIMITED) status = attempt.status = DMB_ERR_NO_CONVERGENCE; /* a step is a step here */
+        if (status == DMB_NOTE_WORK_LIMITED)
+            status = attempt.status = DMB_ERR_NO_CONVERGENCE; /* a step is a step here */
         const int smallest = !(h > sim->options.step_min * 1.0001);
-        if (status >= 0 && (attempt.error <= 1.0 || smallest)) {
-            const double next = next_step(sim, h, attempt.error);
+        const double error = status >= 0 ? dmb_attempt_error(sim, h) : 0.0;
+        if (status >= 0 && (error <= 1.0 || smallest)) {
+            const double next = next_step(sim, h, error);
             if (next > *wanted || h >= *wanted * 0.999 || next < h) *wanted = next;
             if (!(sim->clock->time + h < time)) attempt.evaluation.time = time;
-            if (attempt.error > 1.0) walk->too_coarse = 1;
+            if (error > 1.0) walk->too_coarse = 1;
             dmb_walk_commit(sim, &attempt, walk);
             dmb_walk_corner(sim);
             sim->clock->next_step = *wanted;
@@ -53,7 +55,7 @@ static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk 
         }
         dmb_walk_reject(sim, &attempt, walk);
         if (status < 0 && (smallest || status == DMB_ERR_CALLBACK)) return status;
-        *wanted = status >= 0 ? retry_step(sim, h, attempt.error) : fmax(0.25 * h, sim->options.step_min);
+        *wanted = status >= 0 ? retry_step(sim, h, error) : fmax(0.25 * h, sim->options.step_min);
     }
 }
 

@@ -99,11 +99,11 @@ static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
     dmb_system_move(sim);
 }
 
-/* Local error of the pose over its tolerance, largest row. */
-static double local_error(const dmb_sim *sim, const dmb_generalized_alpha *c, double h)
+double dmb_attempt_error(const dmb_sim *sim, double h)
 {
+    const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
     const dmb_scene *scene = sim->scene;
-    const double ratio = step_ratio(sim, h), factor = c->error * h * h;
+    const double ratio = step_ratio(sim, h), factor = c.error * h * h;
     double worst = 0.0;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
@@ -199,7 +199,6 @@ static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt)
     dmb_system_iteration_matrix(&attempt->evaluation);
     const int64_t bad = dmb_factor_matrix(sim);
     attempt->factored = DMB_FACTORS_FRESH;
-    *sim->solve_with_kept = 0;
     if (bad < 0) return DMB_OK;
     attempt->block = (uint32_t)bad;
     return DMB_ERR_SINGULAR;
@@ -243,7 +242,7 @@ static void begin_factors(dmb_sim *sim, dmb_attempt *attempt)
     const int usable = attempt->whole && sim->kept->step == attempt->step && sim->kept->pause == 0;
     attempt->factored = usable ? DMB_FACTORS_KEPT : DMB_FACTORS_NONE;
     attempt->tried |= usable;
-    *sim->solve_with_kept = usable;
+    *sim->factors = attempt->factored;
 }
 
 static int32_t newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
@@ -313,14 +312,13 @@ int32_t dmb_attempt_step(dmb_sim *sim, double step, int32_t whole, dmb_attempt *
     }
     if (status == DMB_OK && dmb_contact_opens(sim)) status = step_released(sim, &c, attempt);
     if (status >= 0 && sim->scene->cluster_count && check_dropped(sim) < 0) status = DMB_ERR_SINGULAR;
-    *sim->solve_with_kept = 0;
+    *sim->factors = DMB_FACTORS_NONE;
     sim->linked_mode->multipliers = 0;
     if (status >= 0) {
         attempt->evaluation.element = dmb_element_turned_too_far(sim);
         if (attempt->evaluation.element != UINT32_MAX) status = DMB_ERR_ROTATION;
     }
     attempt->status = status == DMB_NOTE_WORK_LIMITED ? status : status < 0 ? status : DMB_OK;
-    if (attempt->status >= 0) attempt->error = local_error(sim, &c, step);
     return attempt->status;
 }
 

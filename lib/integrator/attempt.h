@@ -8,7 +8,6 @@ typedef struct dmb_attempt {
     dmb_evaluation evaluation; /* the last one */
     double step;               /* [s] */
     double residual;           /* [-] relative, at the end */
-    double error;              /* [-] local error over its tolerance */
     uint32_t iterations;
     int32_t status;            /* DMB_OK, DMB_NOTE_WORK_LIMITED, or why the step failed */
     uint32_t block;            /* block found singular, with DMB_ERR_SINGULAR */
@@ -17,11 +16,11 @@ typedef struct dmb_attempt {
     int32_t tried;             /* 1: kept factors were tried */
 } dmb_attempt;
 
-enum { DMB_FACTORS_NONE = 0, DMB_FACTORS_FRESH = 1, DMB_FACTORS_KEPT = 2 };
-
 /* Tries a step from now to now + step [s]; returns attempt->status. now and the memory fields are not touched. whole: 1
  * unless the call would have to take this step back if a later one fails. */
 int32_t dmb_attempt_step(dmb_sim *sim, double step, int32_t whole, dmb_attempt *attempt);
+/* [-] Local error of the pose of a successful attempt of length `step` [s] over its tolerance, largest row. */
+double dmb_attempt_error(const dmb_sim *sim, double step);
 /* Makes the trial of a successful attempt the accepted state. */
 void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt);
 /* Message for a failed attempt: which part, at what time. */

@@ -5,11 +5,11 @@
 
 #define DMB_TURNING_MAX (2.0 * (DMB_PI - 2.5)) /* [rad] */
 
-/* [rad] that a node turned about its own axes in the step. */
-static double turned(const dmb_sim *sim, uint32_t node)
+/* [rad2] square of what a node turned about its own axes in the step. */
+static double turned_squared(const dmb_sim *sim, uint32_t node)
 {
     const double *z = sim->increment + sim->scene->layout.row[node];
-    return sim->scene->layout.size[node] == DMB_NODE_FULL ? dmb_vec3_norm(z + 3) : fabs(z[1]);
+    return sim->scene->layout.size[node] == DMB_NODE_FULL ? dmb_vec3_norm_squared(z + 3) : z[1] * z[1];
 }
 
 /* z_B - R^T z_A, R the orientation of B seen from A */
@@ -32,7 +32,8 @@ uint32_t dmb_element_turned_too_far(const dmb_sim *sim)
     for (uint32_t e = 0; e < scene->element_count; e++) {
         const uint32_t a = scene->element_node[e];
         if (scene->layout.size[a] == DMB_NODE_PATH && scene->layout.size[a + 1] == DMB_NODE_PATH) continue;
-        if (turned(sim, a) + turned(sim, a + 1) <= DMB_TURNING_MAX) continue; /* nearly always */
+        const double squares = turned_squared(sim, a) + turned_squared(sim, a + 1); /* (x + y)^2 <= 2 (x^2 + y^2) */
+        if (2.0 * squares <= DMB_TURNING_MAX * DMB_TURNING_MAX) continue;           /* nearly always */
         if (!(turned_apart(sim, a) <= DMB_TURNING_MAX)) return e;
     }
     return UINT32_MAX;

@@ -101,7 +101,7 @@ typedef struct dmb_kernels {
     /* stress <- K (d - d0) + (K/L) P z over the correction z of the nodes (run->velocity), at run->strain. */
     void (*extrapolate)(const dmb_beam_run *run);
     void (*advance)(const dmb_node_run *run);
-    /* dmb_block_factor and dmb_block_solve of math/block_tridiagonal.h */
+    /* as dmb_block_factor and dmb_block_solve, by the inverses of math/block_inverse.h */
     int64_t (*factor)(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count);
     void (*solve)(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,
                   double *rhs);

@@ -5,7 +5,7 @@
 #include "kernel/lane_group.h"
 #include "kernel/lanes_node.h"
 #include "kernel/lanes_wall.h"
-#include "math/block_kernels.h"
+#include "math/block_inverse.h"
 
 /* ---- Beams --------------------------------------------------------------------------------------------------------- */
 
@@ -175,7 +175,7 @@ static void rotations(const double *quaternion, uint32_t count, double *rotation
 
 static int64_t factor(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count)
 {
-    return factor_blocks(layout, matrix, first, count, NULL);
+    return factor_blocks(layout, matrix, first, count);
 }
 
 static void solve(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,

@@ -32,15 +32,15 @@ static inline double dmb_block_largest(size_t n, const double *D)
     return largest;
 }
 
-/* Compares the pivots of a factored block of n >= 1 rows, whose reciprocals stand on the diagonal of D, with the
- * weakest so far. failed: the column without a pivot, or < 0. */
-static inline void dmb_block_watch(size_t n, const double *D, double largest, int64_t failed, uint32_t block,
+/* Compares the pivots of a factored block of n >= 1 rows, given as reciprocals `stride` numbers apart, with the weakest
+ * so far. failed: the column without a pivot, or < 0. */
+static inline void dmb_block_watch(size_t n, const double *reciprocal, size_t stride, double largest, int64_t failed, uint32_t block,
                                    dmb_block_weakest *weakest)
 {
     size_t k = failed < 0 ? 0 : (size_t)failed;
     for (size_t i = 1; failed < 0 && i < n; i++)
-        if (fabs(D[n * i + i]) > fabs(D[n * k + k])) k = i;
-    const double ratio = failed < 0 ? 1.0 / (fabs(D[n * k + k]) * largest) : 0.0;
+        if (fabs(reciprocal[stride * i]) > fabs(reciprocal[stride * k])) k = i;
+    const double ratio = failed < 0 ? 1.0 / (fabs(reciprocal[stride * k]) * largest) : 0.0;
     if (!(failed >= 0 || ratio < weakest->ratio)) return;
     weakest->ratio = ratio;
     weakest->block = block;

@@ -1,6 +1,8 @@
 /* Block elimination down the chain, W_i = D_i^-1 U_i, D_{i+1} -= L_i W_i (block Thomas algorithm; Golub and
  * Van Loan, Matrix Computations, 4.5.1). */
-#include "math/block_kernels.h"
+#include "math/block_tridiagonal.h"
+
+#include "math/block_rows.h"
 
 int32_t dmb_block_count(uint32_t n, const uint8_t *size, dmb_block_totals *totals)
 {
@@ -29,6 +31,137 @@ void dmb_block_fill(uint32_t n, const uint8_t *size, uint32_t *row, uint32_t *di
     }
 }
 
+/* The rows of D_i and U_i side by side. */
+KERNEL void gather(int n, int m, const double *restrict D, const double *restrict U, work_row *restrict a)
+{
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++) a[i][j] = D[n * i + j];
+        for (int j = 0; j < m; j++) a[i][n + j] = U[m * i + j];
+    }
+}
+
+/* Gaussian elimination of the work rows. D receives the multipliers below its diagonal and the reciprocal pivots on
+ * it. Work rows are subtracted in full length, a fixed one; the columns already done then hold nothing of use.
+ * Returns the column without a pivot, or -1. */
+KERNEL int eliminate(int n, int m, work_row *restrict a, double *restrict D, uint8_t *restrict pivot)
+{
+    for (int k = 0; k < n; k++) {
+        const int p = pivot_of_column(n, k, a);
+        if (!dmb_block_pivot_holds(a[p][k])) return k;
+        pivot[k] = (uint8_t)p;
+        if (p != k) {
+            row_swap(n + m, a[k], a[p]);
+            row_swap(n, D + n * k, D + n * p);
+        }
+        const double r = 1.0 / a[k][k];
+        D[n * k + k] = r;
+        for (int i = k + 1; i < n; i++) {
+            const double f = a[i][k] * r;
+            D[n * i + k] = f;
+            row_subtract(n + m, f, a[k], a[i]);
+        }
+    }
+    return -1;
+}
+
+/* The eliminated rows of D_i go above the diagonal of its factors. */
+KERNEL void store_upper(int n, work_row *restrict a, double *restrict D)
+{
+    for (int i = 0; i < n; i++)
+        for (int j = i + 1; j < n; j++) D[n * i + j] = a[i][j];
+}
+
+/* Back substitution on the eliminated rows of U_i: W_i = D_i^-1 U_i */
+KERNEL void substitute_back(int n, int m, work_row *restrict a, const double *restrict D, double *restrict W)
+{
+    UNROLL
+    for (int k = n - 1; k >= 0; k--) {
+        double y[MAX];
+        for (int j = 0; j < m; j++) y[j] = a[k][n + j]; /* NOLINT(clang-analyzer-core.uninitialized.Assign) */
+        UNROLL
+        for (int c = k + 1; c < n; c++) row_subtract(m, a[k][c], W + m * c, y);
+        for (int j = 0; j < m; j++) W[m * k + j] = D[n * k + k] * y[j];
+    }
+}
+
+/* D_{i+1} -= L_i W_i */
+KERNEL void update_next(int n, int m, const double *restrict L, const double *restrict W, double *restrict next)
+{
+    for (int i = 0; i < m; i++) {
+        double y[MAX];
+        for (int j = 0; j < m; j++) y[j] = next[m * i + j];
+        for (int c = 0; c < n; c++) row_subtract(m, L[n * i + c], W + m * c, y);
+        for (int j = 0; j < m; j++) next[m * i + j] = y[j];
+    }
+}
+
+KERNEL void to_columns(int rows, int columns, double *A)
+{
+    double turned[MAX * MAX];
+    turn_round(rows, columns, A, turned);
+    for (int i = 0; i < rows * columns; i++) A[i] = turned[i];
+}
+
+/* One block of the factorisation. Returns the column without a pivot, or -1. */
+KERNEL int factor_block(int n, int m, double *restrict D, double *restrict U, double *restrict L, double *restrict next,
+                        uint8_t *restrict pivot)
+{
+    work_row a[MAX];
+    gather(n, m, D, U, a);
+    const int failed = eliminate(n, m, a, D, pivot);
+    if (failed >= 0) return failed;
+    store_upper(n, a, D);
+    substitute_back(n, m, a, D, U);
+    update_next(n, m, L, U, next);
+    to_columns(n, n, D);
+    to_columns(n, m, U);
+    to_columns(m, n, L);
+    return -1;
+}
+
+/* The factorisation; weakest is NULL, a constant, where nobody watches. */
+KERNEL int64_t factor_blocks(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count,
+                             dmb_block_weakest *weakest)
+{
+    const uint32_t end = first + count;
+    for (uint32_t i = first; i < end; i++) {
+        const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
+        double *D = matrix->diagonal + layout->diag[i], *next = matrix->diagonal + layout->diag[i + 1];
+        double *U = matrix->upper + layout->link[i], *L = matrix->lower + layout->link[i];
+        const double largest = weakest ? dmb_block_largest((size_t)n, D) : 0.0;
+        const int failed = BY_SIZE(factor_block, n, m, D, U, L, next, matrix->pivot + layout->row[i]);
+        if (weakest) dmb_block_watch((size_t)n, D, (size_t)n + 1, largest, failed, i, weakest);
+        if (failed >= 0) return (int64_t)i;
+    }
+    return -1;
+}
+
+/* b <- D_i^-1 b, then the next b -= L_i b */
+KERNEL void solve_down(int n, int m, const double *restrict D, const uint8_t *restrict pivot, const double *restrict L,
+                       double *restrict b, double *restrict next)
+{
+    double x[MAX];
+    for (int k = 0; k < n; k++) {
+        const double t = b[k];
+        b[k] = b[pivot[k]];
+        b[pivot[k]] = t;
+    }
+    for (int k = 0; k < n; k++) x[k] = b[k];
+    UNROLL
+    for (int k = 0; k < n; k++) {
+        UNROLL
+        for (int i = k + 1; i < n; i++) x[i] -= D[n * k + i] * x[k];
+    }
+    UNROLL
+    for (int k = n - 1; k >= 0; k--) {
+        x[k] *= D[n * k + k];
+        UNROLL
+        for (int i = 0; i < k; i++) x[i] -= D[n * k + i] * x[k];
+    }
+    for (int k = 0; k < n; k++) b[k] = x[k];
+    subtract_product(m, n, L, x, next);
+}
+
 int64_t dmb_block_factor(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count)
 {
     return factor_blocks(layout, matrix, first, count, NULL);
@@ -46,7 +179,17 @@ int64_t dmb_block_factor_watched(const dmb_block_layout *layout, dmb_block_matri
 void dmb_block_solve(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,
                      double *rhs)
 {
-    solve_blocks(layout, matrix, first, count, rhs);
+    const uint32_t end = first + count, *row = layout->row;
+    for (uint32_t i = first; i < end; i++) {
+        const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
+        const double *D = matrix->diagonal + layout->diag[i], *L = matrix->lower + layout->link[i];
+        BY_SIZE(solve_down, n, m, D, matrix->pivot + row[i], L, rhs + row[i], rhs + row[i + 1]);
+    }
+    for (uint32_t i = end; i-- > first;) {
+        if (i + 1 == end) continue;
+        const int n = layout->size[i], m = layout->size[i + 1];
+        BY_SIZE(solve_up, n, m, matrix->upper + layout->link[i], rhs + row[i + 1], rhs + row[i]);
+    }
 }
 
 /* y_i += D_i x_i + U_i x_{i+1}, and the next y += L_i x_i */

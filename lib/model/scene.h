@@ -194,6 +194,7 @@ typedef struct dmb_scene {
     size_t bytes;              /* of the arena, this struct included */
     int32_t features;          /* DMB_FEATURE_... that the scene really has: asked for and described */
     int32_t damped, arms;      /* 1: some element has a damping time, stands off its nodes by rigid arms */
+    int32_t beams_only;        /* 1: every element has two FULL nodes */
     const struct dmb_kernels *kernels; /* of a step, as wide as the processor takes */
     uint32_t node_count, row_count, element_count, type_count, batch_count, chain_count, lump_count;
     uint32_t site_count, path_site_count, drive_count, load_count, bit_count, programme_count;

@@ -150,6 +150,9 @@ static void fill_elements(const dmb_mesh *mesh, dmb_scene *scene)
     }
     scene->kernels = dmb_kernels_widest();
     copy_items(&mesh->batches, scene->batches);
+    scene->beams_only = 1;
+    for (uint32_t i = 0; i < scene->batch_count; ++i)
+        if (scene->batches[i].kernel != DMB_KERNEL_BEAM) scene->beams_only = 0;
 }
 
 static void fill_drives(const dmb_mesh *mesh, dmb_scene *scene)

@@ -17,9 +17,10 @@ static void clear(const dmb_evaluation *evaluation)
     memset(sim->scale_row, 0, scene->row_count * sizeof(double));
     if (!evaluation->tangent) return;
     memset(sim->stiffness_diagonal, 0, diagonal);
+    memset(sim->inertia_diagonal, 0, diagonal);
+    if (scene->beams_only) return; /* beams write their links */
     memset(sim->stiffness_lower, 0, link);
     memset(sim->stiffness_upper, 0, link);
-    memset(sim->inertia_diagonal, 0, diagonal);
 }
 
 static void update_rotations(dmb_sim *sim)

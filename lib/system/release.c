@@ -84,7 +84,6 @@ int32_t dmb_released_acceleration(const dmb_evaluation *evaluation)
     dmb_evaluation mass = *evaluation;
     const int32_t multipliers = sim->linked_mode->multipliers;
     sim->linked_mode->multipliers = 0;
-    *sim->solve_with_kept = 0;
     mass.mass_factor = 1.0;
     mass.velocity_factor = 0.0;
     mass.tangent = 1;

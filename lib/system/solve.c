@@ -90,21 +90,17 @@ dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double 
     return norm;
 }
 
-static dmb_block_matrix kept_of(const dmb_sim *sim)
-{
-    const dmb_block_matrix matrix = {sim->kept_diagonal, sim->kept_lower, sim->kept_upper, sim->kept_pivot};
-    return matrix;
-}
-
 static dmb_block_matrix matrix_of(const dmb_sim *sim)
 {
     const dmb_block_matrix matrix = {sim->stiffness_diagonal, sim->stiffness_lower, sim->stiffness_upper, sim->pivot};
-    return matrix;
+    const dmb_block_matrix kept = {sim->kept_diagonal, sim->kept_lower, sim->kept_upper, NULL};
+    return *sim->factors == DMB_FACTORS_KEPT ? kept : matrix;
 }
 
 int64_t dmb_factor_matrix(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
+    *sim->factors = DMB_FACTORS_FRESH;
     dmb_block_matrix matrix = matrix_of(sim);
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         if (scene->chains[c].linked) continue;
@@ -118,6 +114,7 @@ int64_t dmb_factor_matrix(dmb_sim *sim)
 int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest)
 {
     const dmb_scene *scene = sim->scene;
+    *sim->factors = DMB_FACTORS_LU;
     dmb_block_matrix matrix = matrix_of(sim);
     dmb_block_weakest chain_weakest;
     weakest->ratio = (double)INFINITY;
@@ -162,23 +159,24 @@ static void swap_blocks(double **a, double **b)
 
 void dmb_keep_factors(dmb_sim *sim)
 {
-    uint8_t *const pivot = sim->pivot;
     swap_blocks(&sim->stiffness_diagonal, &sim->kept_diagonal);
     swap_blocks(&sim->stiffness_lower, &sim->kept_lower);
     swap_blocks(&sim->stiffness_upper, &sim->kept_upper);
-    sim->pivot = sim->kept_pivot;
-    sim->kept_pivot = pivot;
 }
 
 void dmb_solve_correction(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    const dmb_block_matrix matrix = *sim->solve_with_kept ? kept_of(sim) : matrix_of(sim);
+    const dmb_block_matrix matrix = matrix_of(sim);
     for (uint32_t i = 0; i < scene->row_count; i++)
         sim->correction[i] = scene->solved_row[i] ? -sim->correction[i] : 0.0;
-    for (uint32_t c = 0; c < scene->chain_count; c++)
-        if (!scene->chains[c].linked)
-            scene->kernels->solve(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count,
-                                  sim->correction);
+    for (uint32_t c = 0; c < scene->chain_count; c++) {
+        const dmb_chain *chain = scene->chains + c;
+        if (chain->linked) continue;
+        if (*sim->factors == DMB_FACTORS_LU)
+            dmb_block_solve(&scene->layout, &matrix, chain->first, chain->count, sim->correction);
+        else
+            scene->kernels->solve(&scene->layout, &matrix, chain->first, chain->count, sim->correction);
+    }
     if (scene->cluster_count) dmb_linked_solve(sim);
 }
