@@ -18,6 +18,11 @@ DMB_DECLARE_STRUCT(dmb_modes_options)
 /* Up to so many coordinates, or where a third of all modes is asked for, the dense way is the faster one. */
 enum { DMB_DENSE_COORDINATES = 60, DMB_DENSE_SHARE = 3 };
 enum { DMB_SCALE_MODES = 12 };
+/* The last of the modes wanted is left out of the count, with those equal to it; a count that does not fit is tried
+ * again. */
+#define DMB_COUNT_MARGIN 1e-6
+#define DMB_COUNT_NOISE 64.0
+enum { DMB_COUNT_TRIES = 3 };
 /* The inverse of a singular K that cannot be pinned is taken this many times the noise of its eigenvalues off 0. */
 #define DMB_SHIFT_NOISE 1e5
 /* A rigid-body mode: an eigenvalue of up to so much noise, and this part of the strain energy there could be. */
@@ -364,10 +369,43 @@ static int32_t put_rigid(dmb_mode_search *search)
     return status;
 }
 
+/* How many modes of |s| below that of the last one wanted the search has missed, by the count of eigenvalues between
+ * the negative and the positive square; nothing can be counted where those are noise, with joints or damping. */
+static uint32_t missed(const dmb_mode_search *search)
+{
+    const dmb_modes *modes = search->modes;
+    const uint32_t last = search->options->count - 1, apart = search->rigid_count;
+    if (last < apart || modes->count <= last - apart) return 0;
+    const double size = modulus(modes, last - apart);
+    const double square = size * size * (1.0 - DMB_COUNT_MARGIN) - DMB_COUNT_NOISE * search->noise;
+    if (search->general || search->linear->scene.cluster_count) return 0;
+    if (!(square > DMB_RIGID_NOISE * search->noise)) return 0;
+    uint32_t found = apart;
+    for (uint32_t i = 0; i < modes->count; i++) found += modulus(modes, i) * modulus(modes, i) < square;
+    const uint32_t there =
+        dmb_linear_count_below(search->linear, square) - dmb_linear_count_below(search->linear, -square);
+    return there > found ? there - found : 0;
+}
+
+/* The search makes sure of what it finds; the count is a second witness. Where they still differ after some more modes
+ * were sought, an eigenvalue stands at the edge of the count. */
 static int32_t find_lowest(dmb_mode_search *search)
 {
-    const uint32_t wanted = search->options->count;
-    return is_dense(search, wanted) ? dmb_modes_dense(search) : dmb_modes_sparse(search, wanted);
+    uint32_t wanted = search->options->count;
+    if (is_dense(search, wanted)) return dmb_modes_dense(search);
+    for (int tries = 1;; tries++) {
+        const int32_t status = dmb_modes_sparse(search, wanted);
+        if (status < 0) return status;
+        dmb_modes_sort(search->modes, search->modes->count);
+        const uint32_t more = missed(search);
+        if (more == 0 || tries == DMB_COUNT_TRIES) return DMB_OK;
+        wanted += more + 2;
+        search->modes->count = 0;
+        if (is_dense(search, wanted)) return dmb_modes_dense(search);
+        dmb_modes_forget_rigid(search);
+        const int32_t again = choose_shift(search); /* the count has taken the factors */
+        if (again < 0) return again;
+    }
 }
 
 /* Whether the modes found reach beyond the band: what lies nearest the shift is complete. */

@@ -110,7 +110,7 @@ static int32_t reserve(dmb_mode_search *search, uint32_t count)
 
 void dmb_modes_forget_rigid(dmb_mode_search *search)
 {
-    dmb_release(&search->linear->allocator, search->rigid, search->rigid_bytes);
+    if (search->rigid != NULL) dmb_release(&search->linear->allocator, search->rigid, search->rigid_bytes);
     search->rigid = search->rigid_momentum = NULL;
     search->rigid_count = 0;
 }
