@@ -20,6 +20,7 @@
 #include <drillmbd/drillmbd.h>
 
 #include <cstddef>
+#include <complex>
 #include <cstdint>
 
 #if defined(__cpp_exceptions) || defined(__EXCEPTIONS) || defined(_CPPUNWIND)
@@ -282,6 +283,64 @@ private:
     dmb_modes *handle_;
 };
 
+// What sim::response finds.
+class response {
+public:
+    explicit response(dmb_response *handle = nullptr) noexcept : handle_(handle) {}
+    response(response &&other) noexcept : handle_(other.release()) {}
+    response &operator=(response &&other) noexcept
+    {
+        if (this != &other) reset(other.release());
+        return *this;
+    }
+    response(const response &) = delete;
+    response &operator=(const response &) = delete;
+    ~response() { dmb_response_destroy(&handle_); }
+
+    dmb_response *get() const noexcept { return handle_; }
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+    // The handle, now the caller's to destroy.
+    dmb_response *release() noexcept
+    {
+        dmb_response *given = handle_;
+        handle_ = nullptr;
+        return given;
+    }
+    // Takes over a handle, or nothing.
+    void reset(dmb_response *handle = nullptr) noexcept
+    {
+        dmb_response_destroy(&handle_);
+        handle_ = handle;
+    }
+
+#if defined(DRILLMBD_EXCEPTIONS)
+    // Number of frequencies.
+    std::uint32_t size() const
+    {
+        std::uint32_t shape[3];
+        check(dmb_response_shape(handle_, shape));
+        return shape[0];
+    }
+    std::vector<double> frequencies() const
+    {
+        std::vector<double> answer(size());
+        check(dmb_response_frequencies(handle_, answer.data()));
+        return answer;
+    }
+    // Output per unit of an input, or for all of them together, at each frequency.
+    std::vector<std::complex<double>> transfer(std::uint32_t input = DMB_COMBINED, std::uint32_t output = 0) const
+    {
+        std::vector<std::complex<double>> answer(size());
+        check(dmb_response_transfer(handle_, input, output, reinterpret_cast<double *>(answer.data())));
+        return answer;
+    }
+    void write_csv(const char *path) const { check(dmb_response_write_csv(handle_, path)); }
+#endif
+
+private:
+    dmb_response *handle_;
+};
+
 // ---- Sim ------------------------------------------------------------------------------------------------------------
 class sim {
 public:
@@ -398,6 +457,14 @@ public:
         return report;
     }
 
+    drillmbd::response response(const std::vector<dmb_input> &inputs, const std::vector<dmb_output> &outputs,
+                                const dmb_response_options *options = nullptr)
+    {
+        dmb_response *found = nullptr;
+        done(dmb_analysis_response(handle_, options, inputs.data(), static_cast<std::uint32_t>(inputs.size()),
+                                   outputs.data(), static_cast<std::uint32_t>(outputs.size()), &found));
+        return drillmbd::response(found);
+    }
     drillmbd::modes modes(const dmb_modes_options *options = nullptr)
     {
         dmb_modes *found = nullptr;

@@ -278,6 +278,35 @@ void modes_of_a_string()
     EXPECT(thrown_by([&] { taken[10]; }) == DMB_ERR_VALUE);
 }
 
+// ---- Frequency response ---------------------------------------------------------------------------------------------
+void response_of_a_body()
+{
+    drillmbd::model model;
+    dmb_environment_def none = dmb_environment_def_default();
+    dmb_body_def def = dmb_body_def_default();
+    none.gravity[2] = 0.0;
+    def.mass = 2.0;
+    model.set_environment(none);
+    const dmb_id body = model.add_body(def);
+    model.compile();
+    drillmbd::sim sim(model);
+    dmb_input force = dmb_input_default();
+    dmb_output move = dmb_output_default();
+    dmb_response_options options = dmb_response_options_default();
+    force.place = move.place = dmb_station(body, 0, 0.0);
+    move.kind = DMB_OUTPUT_ACCELERATION;
+    force.amplitude = 3.0;
+    options.points = 5;
+    drillmbd::response response = sim.response({force}, {move}, &options);
+    EXPECT(response.size() == 5 && response.frequencies().back() == 100.0);
+    EXPECT(std::abs(response.transfer(0)[2] - 0.5) < 1e-12 && std::abs(response.transfer()[2] - 1.5) < 1e-12);
+    drillmbd::response taken(std::move(response));
+    EXPECT(!response && taken);
+    options.frequency_low = 0.0;
+    EXPECT(thrown_by([&] { sim.response({force}, {move}, &options); }) == DMB_ERR_SINGULAR);
+    EXPECT(thrown_by([&] { taken.transfer(1); }) == DMB_ERR_VALUE);
+}
+
 // ---- Buckling -------------------------------------------------------------------------------------------------------
 void buckling_of_a_column()
 {
@@ -388,6 +417,7 @@ int main()
         nothing_is_left_behind();
         sim_in_the_callers_block();
         modes_of_a_string();
+        response_of_a_body();
         buckling_of_a_column();
         failures_throw();
         failures_return();

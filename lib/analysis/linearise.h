@@ -87,6 +87,9 @@ double dmb_linear_asymmetry(const dmb_linear *linear, const dmb_linear_matrix *A
 /* Factors k K + c C + m M in `work`: block-tridiagonal, block-sparse where joints connect. Node of a singular block, or
  * -1; weakest may be NULL. */
 int64_t dmb_linear_factor(dmb_linear *linear, double k, double c, double m, dmb_block_weakest *weakest);
+/* Eigenvalues of K d = square M d below `square`, by the signs of the factors of K - square M (Sylvester); without joints
+ * only. The factors of dmb_linear_factor are gone then. */
+uint32_t dmb_linear_count_below(dmb_linear *linear, double square);
 /* x <- R (R^T A R)^-1 R^T x by rows, A as factored last. */
 void dmb_linear_solve(dmb_linear *linear, double *x);
 

@@ -18,6 +18,11 @@ DMB_DECLARE_STRUCT(dmb_modes_options)
 /* Up to so many coordinates, or where a third of all modes is asked for, the dense way is the faster one. */
 enum { DMB_DENSE_COORDINATES = 60, DMB_DENSE_SHARE = 3 };
 enum { DMB_SCALE_MODES = 12 };
+/* The last of the modes wanted is left out of the count, with those equal to it; a count that does not fit is tried
+ * again. */
+#define DMB_COUNT_MARGIN 1e-6
+#define DMB_COUNT_NOISE 64.0
+enum { DMB_COUNT_TRIES = 3 };
 /* The inverse of a singular K that cannot be pinned is taken this many times the noise of its eigenvalues off 0. */
 #define DMB_SHIFT_NOISE 1e5
 /* A rigid-body mode: an eigenvalue of up to so much noise, and this part of the strain energy there could be. */
@@ -28,31 +33,31 @@ enum { DMB_SCALE_MODES = 12 };
 
 /* ---- The store --------------------------------------------------------------------------------------------------- */
 
-static size_t bytes_of(const dmb_modes *modes, uint32_t capacity, int32_t complex)
+static size_t bytes_of(const dmb_modes *modes, uint32_t capacity, int32_t with_im)
 {
-    return ((size_t)capacity * 2 + (size_t)capacity * modes->rows * (complex ? 2 : 1)) * sizeof(double) + capacity;
+    return ((size_t)capacity * 2 + (size_t)capacity * modes->rows * (with_im ? 2 : 1)) * sizeof(double) + capacity;
 }
 
-static void place(dmb_modes *modes, void *block, uint32_t capacity, int32_t complex)
+static void place(dmb_modes *modes, void *block, uint32_t capacity, int32_t with_im)
 {
     modes->s = block;
     modes->re = modes->s + 2 * (size_t)capacity;
-    modes->im = complex ? modes->re + (size_t)capacity * modes->rows : NULL;
-    modes->rigid = (uint8_t *)(modes->re + (size_t)capacity * modes->rows * (complex ? 2 : 1));
+    modes->im = with_im ? modes->re + (size_t)capacity * modes->rows : NULL;
+    modes->rigid = (uint8_t *)(modes->re + (size_t)capacity * modes->rows * (with_im ? 2 : 1));
     modes->capacity = capacity;
 }
 
-int32_t dmb_modes_reserve(dmb_modes *modes, uint32_t capacity, int32_t complex)
+int32_t dmb_modes_reserve(dmb_modes *modes, uint32_t capacity, int32_t with_im)
 {
     const dmb_modes old = *modes;
     const size_t part = (size_t)old.count * old.rows * sizeof(double);
-    void *block = dmb_allocate(&modes->allocator, bytes_of(modes, capacity, complex));
+    void *block = dmb_allocate(&modes->allocator, bytes_of(modes, capacity, with_im));
     if (block == NULL) return DMB_ERR_NO_MEMORY;
-    place(modes, block, capacity, complex);
+    place(modes, block, capacity, with_im);
     if (old.s == NULL) return DMB_OK;
     memcpy(modes->s, old.s, 2 * (size_t)old.count * sizeof(double));
     memcpy(modes->re, old.re, part);
-    if (old.im != NULL) memcpy(modes->im, old.im, part);
+    if (old.im != NULL && modes->im != NULL) memcpy(modes->im, old.im, part);
     memcpy(modes->rigid, old.rigid, old.count);
     dmb_release(&modes->allocator, old.s, bytes_of(&old, old.capacity, old.im != NULL));
     return DMB_OK;
@@ -133,12 +138,12 @@ static void normalise(const dmb_mode_search *search, double *x, double *y)
 }
 
 /* Strain energy over what the elements would store if each end moved alone: 0 but for rounding in rigid motion. */
-static double strain_ratio(const dmb_modes *modes, const double *rows)
+static double strain_ratio(const dmb_modes *modes, double *rows)
 {
     const dmb_scene *scene = modes->state->scene;
     dmb_configuration moved = modes->state->now;
     double stored = 0.0, possible = 0.0;
-    moved.velocity = (double *)(uintptr_t)rows;
+    moved.velocity = rows;
     for (uint32_t e = 0; e < scene->element_count; e++) {
         const dmb_element_type *type = scene->types + scene->element_type[e];
         const uint32_t a = scene->element_node[e], step = scene->layout.size[a] == DMB_NODE_PATH ? 3 : 1;
@@ -147,17 +152,17 @@ static double strain_ratio(const dmb_modes *modes, const double *rows)
         for (uint32_t i = 0; i < 6; i++) stored += type->stiffness[i] * rate[i] * rate[i];
         for (uint32_t i = 0; i < scene->layout.size[a]; i++) {
             const double z = rows[scene->layout.row[a] + i];
-            possible += type->stiffness[i * step] * z * z;
+            possible += type->stiffness[(size_t)i * step] * z * z;
         }
     }
     return possible > 0.0 ? stored / possible : 0.0;
 }
 
-static double strain_energy(const dmb_modes *modes, const double *rows)
+static double strain_energy(const dmb_modes *modes, double *rows)
 {
     dmb_configuration moved = modes->state->now;
     double sum = 0.0;
-    moved.velocity = (double *)(uintptr_t)rows;
+    moved.velocity = rows;
     for (uint32_t e = 0; e < modes->state->scene->element_count; e++) {
         const dmb_element_type *type = modes->state->scene->types + modes->state->scene->element_type[e];
         double rate[6];
@@ -167,7 +172,7 @@ static double strain_energy(const dmb_modes *modes, const double *rows)
     return sum;
 }
 
-int dmb_modes_is_rigid(const dmb_mode_search *search, double re, double im, const double *x, const double *y)
+int dmb_modes_is_rigid(const dmb_mode_search *search, double re, double im, double *x, double *y)
 {
     const dmb_modes *modes = search->modes;
     if (re * re + im * im > DMB_RIGID_NOISE * search->noise) return 0;
@@ -177,7 +182,7 @@ int dmb_modes_is_rigid(const dmb_mode_search *search, double re, double im, cons
 /* d^H K d is the strain energy twice where there is neither preload nor wall nor spring, and then the energy is the
  * sharper of the two: its terms are squares of small differences, those of K d cancel. With n elements to a bending
  * wave K d keeps eps n^4 of it, the energy eps n^2. It is taken where the two differ by the rounding of K d alone. */
-static double sharpened(const dmb_mode_search *search, double square, const double *x)
+static double sharpened(const dmb_mode_search *search, double square, double *x)
 {
     const dmb_linear *linear = search->linear;
     double terms = 0.0;
@@ -196,10 +201,11 @@ int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const doubl
     if (status < 0) return status;
     dmb_modes *modes = search->modes;
     const uint32_t k = modes->count - 1;
-    const double *d = modes->re + (size_t)modes->rows * k, sharp = sharpened(search, square, d), s = sqrt(fabs(sharp));
+    double *d = modes->re + (size_t)modes->rows * k;
+    const double sharp = sharpened(search, square, d), s = sqrt(fabs(sharp));
     modes->rigid[k] = !search->pinned && dmb_modes_is_rigid(search, s, 0.0, d, NULL);
-    modes->s[2 * k] = !modes->rigid[k] && sharp < 0.0 ? s : 0.0;
-    modes->s[2 * k + 1] = !modes->rigid[k] && sharp > 0.0 ? s : 0.0;
+    modes->s[2 * (size_t)k] = !modes->rigid[k] && sharp < 0.0 ? s : 0.0;
+    modes->s[2 * (size_t)k + 1] = !modes->rigid[k] && sharp > 0.0 ? s : 0.0;
     return DMB_OK;
 }
 
@@ -217,8 +223,8 @@ int32_t dmb_modes_add(dmb_mode_search *search, double re, double im, const doubl
     if (y != NULL) memcpy(also, y, rows * sizeof(double));
     normalise(search, to, y != NULL ? also : NULL);
     modes->rigid[k] = !search->pinned && dmb_modes_is_rigid(search, re, im, to, y != NULL ? also : NULL);
-    modes->s[2 * k] = modes->rigid[k] ? 0.0 : re;
-    modes->s[2 * k + 1] = modes->rigid[k] ? 0.0 : im;
+    modes->s[2 * (size_t)k] = modes->rigid[k] ? 0.0 : re;
+    modes->s[2 * (size_t)k + 1] = modes->rigid[k] ? 0.0 : im;
     return DMB_OK;
 }
 
@@ -226,7 +232,7 @@ int32_t dmb_modes_add(dmb_mode_search *search, double re, double im, const doubl
 
 static double modulus(const dmb_modes *modes, uint32_t i)
 {
-    return hypot(modes->s[2 * i], modes->s[2 * i + 1]);
+    return hypot(modes->s[2 * (size_t)i], modes->s[2 * (size_t)i + 1]);
 }
 
 static void swap(double *a, double *b, size_t n)
@@ -244,7 +250,7 @@ static void exchange(dmb_modes *modes, uint32_t i, uint32_t j)
     const uint8_t rigid = modes->rigid[i];
     modes->rigid[i] = modes->rigid[j];
     modes->rigid[j] = rigid;
-    swap(modes->s + 2 * i, modes->s + 2 * j, 2);
+    swap(modes->s + 2 * (size_t)i, modes->s + 2 * (size_t)j, 2);
     swap(modes->re + rows * i, modes->re + rows * j, rows);
     if (modes->im != NULL) swap(modes->im + rows * i, modes->im + rows * j, rows);
 }
@@ -364,10 +370,43 @@ static int32_t put_rigid(dmb_mode_search *search)
     return status;
 }
 
+/* How many modes of |s| below that of the last one wanted the search has missed, by the count of eigenvalues between
+ * the negative and the positive square; nothing can be counted where those are noise, with joints or damping. */
+static uint32_t missed(const dmb_mode_search *search)
+{
+    const dmb_modes *modes = search->modes;
+    const uint32_t last = search->options->count - 1, apart = search->rigid_count;
+    if (last < apart || modes->count <= last - apart) return 0;
+    const double size = modulus(modes, last - apart);
+    const double square = size * size * (1.0 - DMB_COUNT_MARGIN) - DMB_COUNT_NOISE * search->noise;
+    if (search->general || search->linear->scene.cluster_count) return 0;
+    if (!(square > DMB_RIGID_NOISE * search->noise)) return 0;
+    uint32_t found = apart;
+    for (uint32_t i = 0; i < modes->count; i++) found += modulus(modes, i) * modulus(modes, i) < square;
+    const uint32_t there =
+        dmb_linear_count_below(search->linear, square) - dmb_linear_count_below(search->linear, -square);
+    return there > found ? there - found : 0;
+}
+
+/* The search makes sure of what it finds; the count is a second witness. Where they still differ after some more modes
+ * were sought, an eigenvalue stands at the edge of the count. */
 static int32_t find_lowest(dmb_mode_search *search)
 {
-    const uint32_t wanted = search->options->count;
-    return is_dense(search, wanted) ? dmb_modes_dense(search) : dmb_modes_sparse(search, wanted);
+    uint32_t wanted = search->options->count;
+    if (is_dense(search, wanted)) return dmb_modes_dense(search);
+    for (int tries = 1;; tries++) {
+        const int32_t status = dmb_modes_sparse(search, wanted);
+        if (status < 0) return status;
+        dmb_modes_sort(search->modes, search->modes->count);
+        const uint32_t more = missed(search);
+        if (more == 0 || tries == DMB_COUNT_TRIES) return DMB_OK;
+        wanted += more + 2;
+        search->modes->count = 0;
+        if (is_dense(search, wanted)) return dmb_modes_dense(search);
+        dmb_modes_forget_rigid(search);
+        const int32_t again = choose_shift(search); /* the count has taken the factors */
+        if (again < 0) return again;
+    }
 }
 
 /* Whether the modes found reach beyond the band: what lies nearest the shift is complete. */
@@ -401,9 +440,9 @@ static int32_t find_band(dmb_mode_search *search)
 
 /* ---- Residual ---------------------------------------------------------------------------------------------------- */
 
-/* out += (a + i b) A (x + i y), real and imaginary part; terms += |a + i b| |diag A| |x + i y| */
+/* out += (a + i b) A (x + i y), real and imaginary part */
 typedef struct complex_rows {
-    double *re, *im, *terms, *product;
+    double *re, *im, *product;
 } complex_rows;
 
 static void add_product(const dmb_linear *linear, const dmb_linear_matrix *A, double a, double b, const double *d,
@@ -433,8 +472,8 @@ static double residual_of(const dmb_mode_search *search, uint32_t k)
 {
     const dmb_linear *linear = search->linear;
     const size_t rows = linear->rows;
-    const complex_rows out = {search->work, search->work + rows, NULL, search->work + 2 * rows};
-    const double *s = search->modes->s + 2 * k;
+    const complex_rows out = {search->work, search->work + rows, search->work + 2 * rows};
+    const double *s = search->modes->s + 2 * (size_t)k;
     double left = 0.0, terms = 0.0;
     memset(out.re, 0, 2 * rows * sizeof(double));
     for (int imaginary = 0; imaginary < (search->modes->im != NULL ? 2 : 1); imaginary++) {

@@ -40,13 +40,13 @@ typedef struct dmb_mode_search {
 } dmb_mode_search;
 
 /* Room for `capacity` modes, what was there being kept. DMB_ERR_NO_MEMORY. */
-int32_t dmb_modes_reserve(dmb_modes *modes, uint32_t capacity, int32_t complex);
+int32_t dmb_modes_reserve(dmb_modes *modes, uint32_t capacity, int32_t with_im);
 /* Adds a mode, d = x + i y by rows (y NULL: 0), normalised. */
 int32_t dmb_modes_add(dmb_mode_search *search, double re, double im, const double *x, const double *y);
 /* Adds an undamped mode of eigenvalue `square` = -s^2 of K d = square M d. */
 int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const double *x);
 /* Whether a mode leaves all elements unstrained at no frequency but rounding. */
-int dmb_modes_is_rigid(const dmb_mode_search *search, double re, double im, const double *x, const double *y);
+int dmb_modes_is_rigid(const dmb_mode_search *search, double re, double im, double *x, double *y);
 /* By rising frequency; keeps the first `keep`. */
 void dmb_modes_sort(dmb_modes *modes, uint32_t keep);
 

@@ -17,12 +17,13 @@ typedef struct dense {
 
 static int32_t open_dense(const dmb_mode_search *search, dense *d)
 {
-    const size_t n = search->linear->coordinates, damped = search->options->kind == DMB_MODES_DAMPED;
-    const size_t m = search->general ? (damped ? 2 * n : n) : 0, work = dmb_eigen_work(m > n ? m : n);
+    const size_t n = search->linear->coordinates, rows = search->linear->rows;
+    const int with_rates = search->options->kind == DMB_MODES_DAMPED;
+    const size_t m = search->general ? (with_rates ? 2 * n : n) : 0, work = dmb_eigen_work(m > n ? m : n);
     memset(d, 0, sizeof *d);
     d->n = n;
     if (work == SIZE_MAX) return DMB_ERR_TOO_LARGE;
-    d->bytes = (4 * n * n + 2 * m * m + 4 * n + work + 2 * search->linear->rows) * sizeof(double);
+    d->bytes = (4 * n * n + 2 * m * m + 4 * n + work + 2 * rows) * sizeof(double);
     d->block = dmb_allocate(&search->linear->allocator, d->bytes);
     if (d->block == NULL) return DMB_ERR_NO_MEMORY;
     d->M = d->block;
@@ -35,7 +36,7 @@ static int32_t open_dense(const dmb_mode_search *search, dense *d)
     d->im = d->re + 2 * n;
     d->work = d->im + 2 * n;
     d->x = d->work + work;
-    d->y = d->x + search->linear->rows;
+    d->y = d->x + rows;
     return DMB_OK;
 }
 

@@ -34,7 +34,7 @@ static double *entry(const dmb_linear *linear, const pin *p)
 /* Factors K with the pins; K itself is left as it was. */
 static int64_t factor_pinned(dmb_linear *linear, const pins *all, dmb_block_weakest *weakest)
 {
-    double kept[DMB_PINS_MAX];
+    double kept[DMB_PINS_MAX] = {0.0};
     for (uint32_t i = 0; i < all->count; i++) {
         kept[i] = *entry(linear, all->list + i);
         *entry(linear, all->list + i) += all->list[i].stiffness;
@@ -53,8 +53,8 @@ static void add_pin(const dmb_linear *linear, const dmb_block_weakest *weakest, 
     p->at = layout->diag[node] + (size_t)(size + 1) * weakest->unknown;
     p->row = layout->row[node] + weakest->unknown;
     p->reserved = 0;
-    p->stiffness = fabs(D[(size + 1) * weakest->unknown]);
-    for (uint32_t i = 0; p->stiffness == 0.0 && i < size * size; i++) p->stiffness = fabs(D[i]);
+    p->stiffness = fabs(D[(size_t)(size + 1) * weakest->unknown]);
+    for (size_t i = 0; p->stiffness == 0.0 && i < (size_t)size * size; i++) p->stiffness = fabs(D[i]);
     if (p->stiffness == 0.0) p->stiffness = 1.0; /* a body that nothing touches */
 }
 
@@ -110,7 +110,7 @@ static int32_t reserve(dmb_mode_search *search, uint32_t count)
 
 void dmb_modes_forget_rigid(dmb_mode_search *search)
 {
-    dmb_release(&search->linear->allocator, search->rigid, search->rigid_bytes);
+    if (search->rigid != NULL) dmb_release(&search->linear->allocator, search->rigid, search->rigid_bytes);
     search->rigid = search->rigid_momentum = NULL;
     search->rigid_count = 0;
 }

@@ -98,9 +98,10 @@ static int32_t refine(dmb_mode_search *search, const dmb_krylov *found)
     dmb_linear *linear = search->linear;
     const size_t k = found->count, rows = linear->rows, work = dmb_eigen_work(k);
     const size_t bytes = (2 * k * k + k + work + k * rows + rows) * sizeof(double);
-    double *K = dmb_allocate(&linear->allocator, bytes), *M = K + k * k, *values = M + k * k, *lapack = values + k;
-    double *products = lapack + work, *x = products + k * rows;
+    double *K = dmb_allocate(&linear->allocator, bytes);
     if (K == NULL) return DMB_ERR_NO_MEMORY;
+    double *M = K + k * k, *values = M + k * k, *lapack = values + k, *products = lapack + work,
+           *x = products + k * rows;
     project(linear, &linear->mass, found->x, k, products, M);
     project(linear, &linear->stiffness, found->x, k, products, K);
     int32_t status = dmb_eigen_pair(k, K, M, values, lapack) == 0 ? DMB_OK : DMB_ERR_NO_CONVERGENCE;
@@ -142,8 +143,8 @@ static void general_apply(void *context, const double *x, const double *Gx, doub
 static void general_draw(void *context, uint64_t *seed, double *x)
 {
     const inverse *A = context;
-    const uint32_t rows = A->linear->rows;
-    for (uint32_t part = 0; part < 2; part++) {
+    const size_t rows = A->linear->rows;
+    for (size_t part = 0; part < 2; part++) {
         draw_motion(A->linear, seed, x + part * rows, A->work);
         dmb_modes_take_rigid(A->search, A->search->rigid_momentum, A->search->rigid, x + part * rows);
     }

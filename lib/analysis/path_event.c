@@ -125,7 +125,7 @@ static int32_t probe_ends(dmb_path *path, const quest *q, bracket *b)
 static int32_t close_in(dmb_path *path, const quest *q, bracket *b, double within)
 {
     const double unit = fmax(fabs(b->at_low), fabs(b->at_high));
-    double value;
+    double value = 0.0;
     for (int k = 0, kept = 0; k < DMB_LOCATE_ITERATIONS && b->high - b->low > within; k++) {
         const double secant = b->high - b->at_high * (b->high - b->low) / (b->at_high - b->at_low);
         const double middle = q->counted ? 0.5 * (b->low + b->high) : secant;

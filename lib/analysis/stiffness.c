@@ -18,7 +18,7 @@ static void raise_rounding(dmb_sim *sim)
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
         for (uint32_t c = 0; c < size; c++) {
             const double weight = 2 * c < size ? 1.0 : turning;
-            const double stiffness = dmb_stiffness_of(sim, i)[(size + 1) * c] / weight;
+            const double stiffness = dmb_stiffness_of(sim, i)[(size_t)(size + 1) * c] / weight;
             sim->scale_row[row + c] = weight;
             if (scene->solved_row[row + c]) most = fmax(most, fabs(stiffness));
         }
