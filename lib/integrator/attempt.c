@@ -58,15 +58,21 @@ static motion motion_of(const dmb_sim *sim)
 /* Start of the iteration: v1' = v0'. */
 static void predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
 {
-    const double ratio = step_ratio(sim, h);
+    const double ratio = step_ratio(sim, h), am = c->am, beta = c->beta, whole = 1.0 - am;
+    const double to_v0 = h * (1.0 - c->gamma), to_v1 = h * c->gamma;
     const motion to = motion_of(sim);
-    for (uint32_t i = 0; i < sim->scene->row_count; i++) {
-        const double dv = sim->now.acceleration[i], v = sim->now.velocity[i], a0 = carried(sim, ratio, i);
-        const double a1 = (dv - c->am * a0) / (1.0 - c->am);
-        to.acceleration[i] = dv;
-        to.pseudo_acceleration[i] = a1;
-        to.velocity[i] = v + h * (1.0 - c->gamma) * a0 + h * c->gamma * a1;
-        sim->increment[i] = h * v + h * h * ((0.5 - c->beta) * a0 + c->beta * a1);
+    const uint32_t rows = sim->scene->row_count;
+    const double *restrict now_v = sim->now.velocity, *restrict now_dv = sim->now.acceleration,
+                           *restrict now_a =
+                               sim->now.pseudo_acceleration; /* nothing overlaps, so that this vectorises */
+    double *restrict v = to.velocity, *restrict dv = to.acceleration, *restrict a = to.pseudo_acceleration,
+                     *restrict increment = sim->increment;
+    for (uint32_t i = 0; i < rows; i++) {
+        const double a0 = now_dv[i] + ratio * (now_a[i] - now_dv[i]), a1 = (now_dv[i] - am * a0) / whole;
+        dv[i] = now_dv[i];
+        a[i] = a1;
+        v[i] = now_v[i] + to_v0 * a0 + to_v1 * a1;
+        increment[i] = h * now_v[i] + h * h * ((0.5 - beta) * a0 + beta * a1);
     }
 }
 
@@ -89,12 +95,15 @@ static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
     const double to_a = 1.0 / (h * h * c->beta), to_v = c->gamma / (h * c->beta);
     const double to_dv = to_a * (1.0 - c->am) / (1.0 - c->af);
     const motion to = motion_of(sim);
-    for (uint32_t i = 0; i < sim->scene->row_count; i++) {
-        const double z = sim->correction[i];
-        sim->increment[i] += z;
-        to.velocity[i] += to_v * z;
-        to.acceleration[i] += to_dv * z;
-        to.pseudo_acceleration[i] += to_a * z;
+    const uint32_t rows = sim->scene->row_count;
+    const double *restrict z = sim->correction;
+    double *restrict v = to.velocity, *restrict dv = to.acceleration, *restrict a = to.pseudo_acceleration,
+                     *restrict increment = sim->increment;
+    for (uint32_t i = 0; i < rows; i++) {
+        increment[i] += z[i];
+        v[i] += to_v * z[i];
+        dv[i] += to_dv * z[i];
+        a[i] += to_a * z[i];
     }
     dmb_system_move(sim);
 }

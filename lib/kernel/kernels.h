@@ -92,6 +92,16 @@ typedef struct dmb_wall_run {
     double rounding, potential, impact, friction; /* added to: [N2], [W] */
 } dmb_wall_run;
 
+/* Turns of FULL nodes about their own x axes. */
+typedef struct dmb_turn_run {
+    uint32_t count;
+    uint32_t reserved;
+    const double *reference, *quaternion; /* orientation at time 0 and now, shape (count, 4) */
+    const double *increment;              /* [m, rad] of the step, shape (count, 6) */
+    const double *start;                  /* [rad] turn at its start, shape (count) */
+    double *turn;                         /* [rad] revolutions counted */
+} dmb_turn_run;
+
 typedef struct dmb_kernels {
     uint32_t lanes;
     uint32_t reserved;
@@ -101,6 +111,7 @@ typedef struct dmb_kernels {
     /* stress <- K (d - d0) + (K/L) P z over the correction z of the nodes (run->velocity), at run->strain. */
     void (*extrapolate)(const dmb_beam_run *run);
     void (*advance)(const dmb_node_run *run);
+    void (*turns)(const dmb_turn_run *run);
     /* as dmb_block_factor and dmb_block_solve, by the inverses of math/block_inverse.h */
     int64_t (*factor)(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count);
     void (*solve)(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,

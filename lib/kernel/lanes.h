@@ -160,6 +160,22 @@ static void advance(const dmb_node_run *run)
     }
 }
 
+/* On the turn that the increment of the step leads to. */
+static void turns(const dmb_turn_run *run)
+{
+    for (uint32_t first = 0; first < run->count; first += LANES) {
+        const lane_group g = group_at(first, run->count);
+        dmb_real from[4], to[4], q[4], start, z[6];
+        load(run->reference, 4, 4, &g, 0, from);
+        load(run->quaternion, 4, 4, &g, 0, to);
+        load(run->increment, 6, 6, &g, 0, z);
+        load(run->start, 1, 1, &g, 0, &start);
+        dmb_quat_between(from, to, q);
+        const dmb_real turn = dmb_quat_twist(q, start + z[3]);
+        store(&turn, 1, &g, run->turn);
+    }
+}
+
 static void rotations(const double *quaternion, uint32_t count, double *rotation)
 {
     for (uint32_t first = 0; first < count; first += LANES) {
@@ -192,6 +208,7 @@ const dmb_kernels DMB_KERNELS = {.lanes = LANES,
                                  .node_forces = node_forces,
                                  .walls = walls,
                                  .advance = advance,
+                                 .turns = turns,
                                  .rotations = rotations,
                                  .factor = factor,
                                  .solve = solve};

@@ -318,16 +318,40 @@ static inline void dmb_quat_rotate_inverse(const dmb_real q[4], const dmb_real v
     dmb_quat_rotate(c, v, out);
 }
 
-#ifndef DMB_LANES
+/* atan2(y, x) by atan(r) = sum (-r^2)^k r/(2k+1), r the smaller of |x|, |y| over the larger, brought below tan(pi/8) by
+ * atan(r) = pi/4 + atan((r - 1)/(r + 1)). No call, so that it goes side by side; NaN where both are 0. */
+static inline dmb_real dmb_real_atan2(dmb_real y, dmb_real x)
+{
+    static const double odd[22] = {1.0,        1.0 / 3.0,  1.0 / 5.0,  1.0 / 7.0,  1.0 / 9.0,  1.0 / 11.0,
+                                   1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0, 1.0 / 19.0, 1.0 / 21.0, 1.0 / 23.0,
+                                   1.0 / 25.0, 1.0 / 27.0, 1.0 / 29.0, 1.0 / 31.0, 1.0 / 33.0, 1.0 / 35.0,
+                                   1.0 / 37.0, 1.0 / 39.0, 1.0 / 41.0, 1.0 / 43.0};
+    const dmb_real zero = dmb_real_of(0.0), ax = dmb_real_abs(x), ay = dmb_real_abs(y);
+    const dmb_mask steep = dmb_mask_less(ax, ay);
+    const dmb_real large = dmb_real_select(steep, ay, ax), small = dmb_real_select(steep, ax, ay);
+    const dmb_mask wide = dmb_mask_less(0.41421356237309503 * large, small);
+    const dmb_real r = dmb_real_select(wide, small - large, small) / dmb_real_select(wide, small + large, large);
+    const dmb_real z = -(r * r);
+    dmb_real angle = dmb_real_of(odd[21]);
+    for (int k = 20; k >= 0; k--) angle = angle * z + odd[k];
+    angle = angle * r + dmb_real_select(wide, dmb_real_of(0.25 * DMB_PI), zero);
+    angle = dmb_real_select(steep, 0.5 * DMB_PI - angle, angle);
+    angle = dmb_real_select(dmb_mask_less(x, zero), DMB_PI - angle, angle);
+    return dmb_real_follow(y, angle);
+}
 
 /* Rotation about the x axis in q = swing * twist: 2 atan2(qx, q0), on the turn nearest to the predicted angle.
  * Undefined where the swing is a half turn (qx = q0 = 0); the prediction is returned there. */
-static inline double dmb_quat_twist(const double q[4], double predicted)
+static inline dmb_real dmb_quat_twist(const dmb_real q[4], dmb_real predicted)
 {
-    if (q[0] == 0.0 && q[1] == 0.0) return predicted;
-    const double angle = 2.0 * atan2(q[1], q[0]);
-    return angle + 2.0 * DMB_PI * floor((predicted - angle) / (2.0 * DMB_PI) + 0.5);
+    const double whole = 6755399441055744.0; /* 1.5 2^52: adding and taking it off rounds to an integer */
+    const dmb_real angle = 2.0 * dmb_real_atan2(q[1], q[0]);
+    const dmb_real turns = ((predicted - angle) / (2.0 * DMB_PI) + whole) - whole;
+    const dmb_real twist = angle + 2.0 * DMB_PI * turns;
+    return dmb_real_select(dmb_mask_at_most(q[0] * q[0] + q[1] * q[1], dmb_real_of(0.0)), predicted, twist);
 }
+
+#ifndef DMB_LANES
 
 /* O = log R, |O| <= pi */
 static inline void dmb_so3_log(const double R[9], double O[3])

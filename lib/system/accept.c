@@ -1,20 +1,24 @@
 #include <string.h>
 
-#include "math/so3.h"
+#include "kernel/kernels.h"
 #include "system/bit.h"
 #include "system/evaluation.h"
 #include "system/joint_state.h"
+#include "system/node.h"
 
 /* Rotation about the node's own x axis since time 0, on the turn the increment of the step leads to. */
 static void unwrap_turns(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0; i < scene->node_count; i++) {
-        if (scene->layout.size[i] == DMB_NODE_PATH) continue;
-        const double predicted = sim->now.turn[i] + sim->increment[scene->layout.row[i] + 3];
-        double q[4];
-        dmb_quat_between(scene->reference_quaternion + 4 * i, sim->trial.quaternion + 4 * i, q);
-        sim->trial.turn[i] = dmb_quat_twist(q, predicted);
+    for (uint32_t i = 0, count; i<scene->node_count; i += count> 0 ? count : 1) {
+        count = dmb_full_nodes_at(scene, i);
+        const dmb_turn_run run = {.count = count,
+                                  .reference = scene->reference_quaternion + 4 * i,
+                                  .quaternion = sim->trial.quaternion + 4 * i,
+                                  .increment = sim->increment + scene->layout.row[i],
+                                  .start = sim->now.turn + i,
+                                  .turn = sim->trial.turn + i};
+        if (count > 0) scene->kernels->turns(&run);
     }
 }
 

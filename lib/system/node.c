@@ -71,6 +71,7 @@ void dmb_node_vector(const dmb_scene *scene, const dmb_configuration *configurat
 uint32_t dmb_full_nodes_at(const dmb_scene *scene, uint32_t node)
 {
     uint32_t end = node;
+    if (scene->row_count == DMB_NODE_FULL * scene->node_count) return scene->node_count - node;
     while (end < scene->node_count && scene->layout.size[end] == DMB_NODE_FULL) end++;
     return end - node;
 }
