@@ -18,6 +18,9 @@
 #define DMB_STEP_RATIO_MAX 1e3
 /* Kept factors converge linearly and end just below their tolerance, where fresh ones end far below: they aim lower. */
 #define DMB_KEPT_TOLERANCE 1e-1
+/* Steps count as equally long that differ by this part: by the rounding of times, and what no rate of convergence
+ * feels. */
+#define DMB_KEPT_STEP 1e-6
 /* Steps that begin with a residual above this part of their forces are those in which bodies meet: a correction by
  * kept factors would lead astray. */
 #define DMB_KEPT_START 0.1
@@ -248,7 +251,8 @@ static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt
 
 static void begin_factors(dmb_sim *sim, dmb_attempt *attempt)
 {
-    const int usable = attempt->whole && sim->kept->step == attempt->step && sim->kept->pause == 0;
+    const int usable = attempt->whole && fabs(sim->kept->step - attempt->step) <= DMB_KEPT_STEP * attempt->step &&
+                       sim->kept->pause == 0;
     attempt->factored = usable ? DMB_FACTORS_KEPT : DMB_FACTORS_NONE;
     attempt->tried |= usable;
     *sim->factors = attempt->factored;
