@@ -9,6 +9,7 @@
 #include "system/bit.h"
 #include "system/cluster.h"
 #include "system/owner.h"
+#include "system/solve.h"
 #include "system/start.h"
 
 DMB_DECLARE_STRUCT(dmb_static_report)
@@ -154,6 +155,7 @@ static int32_t settle(dmb_static_search *search)
         dmb_state_bring_back(sim);
         return status;
     }
+    dmb_forget_factors(sim);
     return DMB_OK;
 }
 

@@ -17,7 +17,7 @@
 /* Largest ratio of a step to the one before over which the pseudo-acceleration is carried. */
 #define DMB_STEP_RATIO_MAX 1e3
 /* Kept factors converge linearly and end just below their tolerance, where fresh ones end far below: they aim lower. */
-#define DMB_KEPT_TOLERANCE 1e-1
+#define DMB_KEPT_TOLERANCE 0.2
 /* Steps count as equally long that differ by this part: by the rounding of times, and what no rate of convergence
  * feels. */
 #define DMB_KEPT_STEP 1e-6
@@ -27,7 +27,7 @@
 /* Longest pause in steps between tries of kept factors. */
 #define DMB_PAUSE_MAX 31
 /* New factors cost about as much as this many corrections with old ones. */
-#define DMB_EXCESS_MAX 3
+#define DMB_EXCESS_MAX 2
 /* Misfit of an equation taken for redundant at which it is one no more, in lengths of the parts. */
 #define DMB_DROPPED_MISFIT 1e-7
 
@@ -165,9 +165,9 @@ static int32_t factors_will_do(const dmb_sim *sim, const dmb_attempt *attempt, c
 }
 
 /* The rounding of stiff elements hides what kept factors leave in soft directions: they go on while it pays. */
-static int32_t still_falls(const dmb_attempt *attempt, const newton_course *course)
+static int32_t still_falls(const dmb_sim *sim, const dmb_attempt *attempt, const newton_course *course)
 {
-    if (attempt->factored != DMB_FACTORS_KEPT) return 0;
+    if (attempt->factored != DMB_FACTORS_KEPT || dmb_contact_changes(sim)) return 0;
     return course->corrections == 0 || (course->corrections < 3 && attempt->residual < 0.25 * course->last);
 }
 
@@ -216,6 +216,12 @@ static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt)
     return DMB_ERR_SINGULAR;
 }
 
+/* What is asked for is reached: kept factors only aimed lower. */
+static int32_t is_met(const dmb_attempt *attempt, double own)
+{
+    return attempt->factored == DMB_FACTORS_KEPT && dmb_residual_norm_of(&attempt->evaluation, own).converged != 0;
+}
+
 /* One Newton iteration; 1: go on, 0 or DMB_NOTE_WORK_LIMITED: done, < 0: failed. */
 static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt, newton_course *course)
 {
@@ -228,12 +234,13 @@ static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt
     if (status < 0) return status;
     const dmb_residual_norm norm = dmb_residual_norm_of(evaluation, tolerance);
     attempt->residual = norm.relative;
-    const int32_t hidden = norm.converged == DMB_AT_ROUNDING && still_falls(attempt, course);
+    const int32_t hidden = norm.converged == DMB_AT_ROUNDING && still_falls(sim, attempt, course);
     if (norm.converged && !hidden) return 0;
     if (is_rounding(attempt, norm.balance, course) || is_unsharp(sim, attempt, course)) return 0;
     status = check_course(sim, attempt, course);
-    if (status != 1) return status;
+    if (status != 1) return is_met(attempt, own) ? 0 : status;
     if (!hidden && !factors_will_do(sim, attempt, course, tolerance)) {
+        if (course->corrections > 0 && is_met(attempt, own)) return 0;
         status = refactor(sim, attempt);
         if (status < 0) return status;
     }
@@ -251,8 +258,8 @@ static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt
 
 static void begin_factors(dmb_sim *sim, dmb_attempt *attempt)
 {
-    const int usable = attempt->whole && fabs(sim->kept->step - attempt->step) <= DMB_KEPT_STEP * attempt->step &&
-                       sim->kept->pause == 0;
+    const int usable = attempt->whole && !attempt->astray &&
+                       fabs(sim->kept->step - attempt->step) <= DMB_KEPT_STEP * attempt->step && sim->kept->pause == 0;
     attempt->factored = usable ? DMB_FACTORS_KEPT : DMB_FACTORS_NONE;
     attempt->tried |= usable;
     *sim->factors = attempt->factored;
@@ -305,25 +312,35 @@ static int32_t check_dropped(dmb_sim *sim)
     return DMB_ERR_SINGULAR;
 }
 
+/* From the prediction to the end of the iteration, and over again where contacts open. */
+static int32_t run(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
+{
+    set_up(sim, c, attempt->step, &attempt->evaluation);
+    predict(sim, c, attempt->step);
+    int32_t status = dmb_system_prescribe(&attempt->evaluation);
+    if (status < 0) return status;
+    if (sim->scene->cluster_count) keep_prescribed(sim);
+    dmb_system_move(sim);
+    status = newton(sim, c, attempt);
+    return status == DMB_OK && dmb_contact_opens(sim) ? step_released(sim, c, attempt) : status;
+}
+
 int32_t dmb_attempt_step(dmb_sim *sim, double step, int32_t whole, dmb_attempt *attempt)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
     int32_t status;
     memset(attempt, 0, sizeof *attempt);
     attempt->step = step;
-    attempt->whole = whole && sim->scene->cluster_count == 0;
+    attempt->whole = whole && sim->scene->cluster_count == 0 && !sim->options.bounded_work;
     attempt->block = UINT32_MAX;
     sim->linked_mode->row = UINT32_MAX;
     sim->linked_mode->multipliers = sim->options.constraint_method == DMB_METHOD_MULTIPLIERS;
-    set_up(sim, &c, step, &attempt->evaluation);
-    predict(sim, &c, step);
-    status = dmb_system_prescribe(&attempt->evaluation);
-    if (status >= 0) {
-        if (sim->scene->cluster_count) keep_prescribed(sim);
-        dmb_system_move(sim);
-        status = newton(sim, &c, attempt);
+    status = run(sim, &c, attempt);
+    if (attempt->tried && status < 0 && status != DMB_ERR_CALLBACK) { /* once more, with factors of its own */
+        attempt->astray = 1;
+        attempt->iterations = 0;
+        status = run(sim, &c, attempt);
     }
-    if (status == DMB_OK && dmb_contact_opens(sim)) status = step_released(sim, &c, attempt);
     if (status >= 0 && sim->scene->cluster_count && check_dropped(sim) < 0) status = DMB_ERR_SINGULAR;
     *sim->factors = DMB_FACTORS_NONE;
     sim->linked_mode->multipliers = 0;

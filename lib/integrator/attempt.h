@@ -14,6 +14,8 @@ typedef struct dmb_attempt {
     int32_t whole;             /* 1: the step stands by itself, so it may use and leave kept factors */
     int32_t factored;          /* DMB_FACTORS_...: what the last iteration was done with */
     int32_t tried;             /* 1: kept factors were tried */
+    int32_t astray;            /* 1: they led to nothing, and the step began again with factors of its own */
+    int32_t reserved;
 } dmb_attempt;
 
 /* Tries a step from now to now + step [s]; returns attempt->status. now and the memory fields are not touched. whole: 1

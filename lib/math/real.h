@@ -5,8 +5,13 @@
 #ifndef DMB_MATH_REAL_H
 #define DMB_MATH_REAL_H
 
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
+
+#if FLT_EVAL_METHOD == 1 || FLT_EVAL_METHOD == 2
+#error "doubles must be evaluated as doubles, on 32-bit x86 with -msse2 -mfpmath=sse"
+#endif
 
 #ifndef DMB_LANES
 

@@ -9,6 +9,7 @@
 #include "system/energy.h"
 #include "system/joint_state.h"
 #include "system/node.h"
+#include "system/solve.h"
 #include "system/start.h"
 
 /* [m, -] misfit of a joint at the carried poses that is no longer rounding; as for dmb_sim_set_joint. */
@@ -202,7 +203,10 @@ int32_t dmb_sim_carry_over(dmb_sim *sim, const dmb_sim *from)
     if (status < 0) return status;
     dmb_state_keep(sim);
     status = go_on(sim, from);
-    if (status >= 0) return keep_projection(sim, from);
-    dmb_state_bring_back(sim);
-    return status;
+    if (status < 0) {
+        dmb_state_bring_back(sim);
+        return status;
+    }
+    dmb_forget_factors(sim);
+    return keep_projection(sim, from);
 }

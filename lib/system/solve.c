@@ -17,9 +17,9 @@ static inline void add_squares(uint32_t size, const double *residual, const doub
                                double *rest, double *all)
 {
     for (uint32_t c = 0; c < size; c++) {
-        const double on = solved[c];
-        rest[c] += on * residual[c] * residual[c];
-        all[c] += on * scale[c] * scale[c];
+        const double r = solved[c] ? residual[c] : 0.0, s = solved[c] ? scale[c] : 0.0;
+        rest[c] += r * r;
+        all[c] += s * s;
     }
 }
 
@@ -145,7 +145,8 @@ int32_t dmb_factor_mass(dmb_evaluation *evaluation)
     memset(sim->stiffness_diagonal, 0, layout->diag[n] * sizeof(double));
     memset(sim->constraint_tangent, 0, sim->scene->tangent_count * sizeof(double));
     dmb_system_iteration_matrix(evaluation);
-    const int64_t bad = dmb_factor_matrix(sim);
+    dmb_block_weakest unused;
+    const int64_t bad = dmb_factor_stiffness(sim, &unused); /* LU: this is solved once, nobody looks at it again */
     evaluation->element = (uint32_t)bad;
     return bad >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
 }
@@ -162,6 +163,17 @@ void dmb_keep_factors(dmb_sim *sim)
     swap_blocks(&sim->stiffness_diagonal, &sim->kept_diagonal);
     swap_blocks(&sim->stiffness_lower, &sim->kept_lower);
     swap_blocks(&sim->stiffness_upper, &sim->kept_upper);
+}
+
+void dmb_forget_factors(dmb_sim *sim)
+{
+    const dmb_block_layout *layout = &sim->scene->layout;
+    const uint32_t n = sim->scene->node_count;
+    memset(sim->kept, 0, sizeof *sim->kept);
+    if (sim->scene->cluster_count) return; /* no room for any */
+    memset(sim->kept_diagonal, 0, layout->diag[n] * sizeof(double));
+    memset(sim->kept_lower, 0, layout->link[n - 1] * sizeof(double));
+    memset(sim->kept_upper, 0, layout->link[n - 1] * sizeof(double));
 }
 
 void dmb_solve_correction(dmb_sim *sim)
