@@ -2,11 +2,13 @@
 
 usage: compare_answer.py PROGRAM EXPECTED
 
-Both texts are compared word by word. Lines of the stored answer that begin with # are not compared; two of them mean
-something:
+Both texts are compared word by word. Lines of the stored answer that begin with # are not compared; three of them
+mean something:
     # arguments: --pipes 5 --time 0.2     what the program is called with
     # tolerance: 1e-6                     relative tolerance of the numbers with a point or exponent from here on
                                           (1e-9 without such a line)
+    # again: --threads 1                  the program is called once more with these arguments behind the others, and has
+                                          to print the same to the byte
 A word of the stored answer may carry its own tolerance: 0.125~1e-4 is absolute, 0.125~2% relative, and * stands for any
 word. Whole numbers and all other words must be the same. The program runs in an empty folder of its own.
 """
@@ -20,17 +22,19 @@ NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$")
 
 
 def stored_answer(path):
-    arguments, lines, tolerance = [], [], 1e-9
+    arguments, again, lines, tolerance = [], None, [], 1e-9
     with open(path, encoding="utf-8") as text:
         for line in text:
             line = line.rstrip("\n")
             if line.startswith("# arguments:"):
                 arguments = shlex.split(line.split(":", 1)[1])
+            elif line.startswith("# again:"):
+                again = arguments + shlex.split(line.split(":", 1)[1])
             elif line.startswith("# tolerance:"):
                 tolerance = float(line.split(":", 1)[1])
             elif not line.startswith("#") and line.strip():
                 lines.append((line.split(), tolerance))
-    return arguments, lines
+    return arguments, again, lines
 
 
 def same_word(expected, found, tolerance):
@@ -49,12 +53,16 @@ def same_word(expected, found, tolerance):
     return abs(float(found) - float(value)) <= bound
 
 
+def call(program, arguments):
+    with tempfile.TemporaryDirectory() as folder:
+        return subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL, check=False)
+
+
 def main():
     program, path = sys.argv[1:3]
-    arguments, expected = stored_answer(path)
-    with tempfile.TemporaryDirectory() as folder:
-        run = subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True,
-                             stdin=subprocess.DEVNULL, check=False)
+    arguments, again, expected = stored_answer(path)
+    run = call(program, arguments)
     found = [line.split() for line in run.stdout.splitlines() if line.strip()]
     if run.returncode != 0:
         print(run.stdout, run.stderr, f"exit status {run.returncode}", sep="\n")
@@ -66,6 +74,9 @@ def main():
             failures += 1
     if len(expected) != len(found):
         print(f"{len(found)} lines instead of {len(expected)}")
+        failures += 1
+    if again is not None and call(program, again).stdout != run.stdout:
+        print(f"called with {shlex.join(again)} it prints something else")
         failures += 1
     if failures:
         print("---- whole output ----", run.stdout, sep="\n")

@@ -1,0 +1,151 @@
+/* What the reference reports in the frequency domain, and what depends on which parameter. */
+#ifndef REFERENCE_STUDY_H
+#define REFERENCE_STUDY_H
+
+#include <drillmbd/drillmbd.h>
+#include <stdio.h>
+
+#define STUDY_TURN (2.0 * 3.14159265358979323846)  /* [rad] */
+#define STUDY_DIAMETER 0.073                       /* [m] of the pipes */
+#define STUDY_ROTATION (200.0 * STUDY_TURN / 60.0) /* [rad/s] 200 rpm */
+#define STUDY_FEED 10e-3                           /* [m/s] */
+#define STUDY_ECCENTRICITY 1e-3                    /* [m] of each pipe's mass, in directions of their own */
+#define STUDY_RIPPLE 0.02                          /* [-] part of feed and rotation speed by which the drives shake */
+#define STUDY_LOSS 0.03                            /* [-] structural damping of responses */
+#define STUDY_REFERENCE_CROSSOVER 1.58             /* [Hz] */
+
+enum { STUDY_MODES = 10, STUDY_TEXT = 320 };
+
+/* One string: what a parameter study changes. */
+typedef struct study_scene {
+    uint32_t pipes;
+    uint32_t elements; /* in each pipe */
+    double length;     /* [m] of a pipe */
+    double friction;   /* [-] of sliding on the wall; 0.05 more at rest */
+    double hole;       /* [m] diameter */
+    double modulus;    /* [Pa] Young's */
+    double wall;       /* [N/m2] stiffness of the wall per metre of pipe */
+    double bit;        /* [kg]; 0: none */
+    int32_t kind;      /* DMB_PIPE_... */
+    int32_t alone;     /* 1: neither wall nor weight */
+    int32_t unheld;    /* 1: the drives let go, the string moves along and around freely */
+    double drag; /* [N s/m2, N] resistance per metre and m/s along the hole, per metre and m/s of the skin around it */
+} study_scene;
+
+/* A described string, compiled, in a sim. */
+typedef struct study_string {
+    dmb_model *model;
+    dmb_sim *sim;
+    dmb_id string, drive[2]; /* feed, rotation */
+} study_string;
+
+/* 100 pipes of 1 m, 73 x 6 mm, in a hole of 94 mm, a bit of 5 kg. */
+study_scene study_base(void);
+/* The scene at rest: on the low side of the hole, pushed by the load on the bit, or where it is described if alone. */
+int32_t study_make(const study_scene *scene, study_string *string);
+void study_free(study_string *string);
+/* What the library said of the last failure. */
+const char *study_message(const study_string *string);
+/* [Hz] the `count` lowest frequencies. */
+int32_t study_lowest(study_string *string, int32_t contact, uint32_t count, double *frequencies);
+/* A table in the output folder; NULL (with a message) if it cannot be written. */
+FILE *study_table(const char *folder, const char *name, const char *head);
+
+/* ---- Jobs shared out to threads ----------------------------------------------------------------------------------
+ * Each writes to memory of its own and none reads another's, so the answers do not depend on the number of threads. */
+typedef struct study_job {
+    void (*work)(void *context);
+    void *context;
+} study_job;
+void study_share_out(const study_job *jobs, int count, int threads);
+
+/* ---- Modes (modes.c) --------------------------------------------------------------------------------------------- */
+enum { STUDY_TUBES = 3, STUDY_MESHES = 8, STUDY_SHAPES = 5, STUDY_PLACES = 101, STUDY_ALL = 640 };
+typedef struct study_modal {
+    int32_t status;
+    char message[STUDY_TEXT];
+    dmb_mode first[STUDY_MODES]; /* drives let go, a little drag */
+    int overdamped, rigid;       /* of them, before the first that swings */
+    double all[STUDY_ALL];       /* [Hz] every mode of the string without drag, rising */
+    uint32_t all_count, all_rigid;
+    double highest[STUDY_MESHES];             /* [Hz] with 1, 2, ... elements in each pipe */
+    double without_bit;                       /* [Hz] lowest of the string held by its drives */
+    double shape[STUDY_SHAPES][STUDY_PLACES]; /* [-] of modes 2, 4, ... 10, held; 1 at the far end */
+    double shape_frequency[STUDY_SHAPES];     /* [Hz] */
+    int shape_nodes[STUDY_SHAPES];            /* [-] places between the ends that stand still */
+    double tube[STUDY_TUBES];                 /* [Hz] lowest of steel tubes */
+} study_modal;
+extern const double study_tube_length[STUDY_TUBES], study_tube_reference[STUDY_TUBES];
+void study_modal_work(void *modal);
+void study_modal_print(const study_modal *modal);
+int study_modal_write(const char *folder, const study_modal *modal);
+
+/* ---- Response of the last pipe (response.c) ---------------------------------------------------------------------- */
+enum { STUDY_DRIVE = 0, STUDY_FRICTION = 1, STUDY_ECCENTRIC = 2, STUDY_TOGETHER = 3, STUDY_CAUSES = 4 };
+typedef struct study_response {
+    uint32_t points;
+    double *frequency; /* [Hz] shape (points) */
+    double *amplitude; /* [m] of the middle of the last pipe, shape (points, STUDY_CAUSES) */
+} study_response;
+/* Amplitudes from `low` to `high` [Hz]: `points` at equal ratios, and more at peaks. */
+int32_t study_respond(study_string *string, const study_scene *scene, double low, double high, uint32_t points,
+                      uint32_t refinement, study_response *response);
+void study_response_free(study_response *response);
+/* [Hz] first and last frequency at which eccentricity (times `eccentric`) becomes as strong as friction (times
+ * `friction`); NaN where that never is. */
+void study_crossover(const study_response *response, double friction, double eccentric, double found[2]);
+/* [m] at a frequency, between points by equal powers of it. */
+double study_amplitude_at(const study_response *response, int cause, double frequency);
+/* [-] friction over eccentricity at a frequency. */
+double study_ratio_at(const study_response *response, double frequency);
+/* [-] part of the grid's octaves between two frequencies in which eccentricity is stronger. */
+double study_eccentric_share(const study_response *response, double low, double high);
+
+enum { STUDY_CASES = 6 };
+typedef struct study_shaken {
+    int32_t status;
+    char message[STUDY_TEXT];
+    study_response response;
+    double crossover[STUDY_CASES][2]; /* [Hz] first and last, of the frictions and eccentricities below */
+} study_shaken;
+extern const double study_case_friction[STUDY_CASES], study_case_eccentricity[STUDY_CASES];
+void study_shaken_work(void *shaken);
+void study_shaken_print(const study_shaken *shaken);
+int study_shaken_write(const char *folder, const study_shaken *shaken);
+
+/* ---- Parameter studies (parameters.c) ---------------------------------------------------------------------------- */
+enum {
+    STUDY_LENGTHS = 0,
+    STUDY_PIPE_LENGTHS = 1,
+    STUDY_ELEMENTS = 2,
+    STUDY_FRICTIONS = 3,
+    STUDY_HOLES = 4,
+    STUDY_MODULI = 5,
+    STUDY_WALLS = 6,
+    STUDY_SETS = 7,
+    STUDY_VALUES = 10
+};
+typedef struct study_point {
+    int32_t status;
+    char message[STUDY_TEXT];
+    double value; /* of the parameter that this set varies */
+    study_scene scene;
+    double bending[STUDY_MODES]; /* [Hz] without a wall; every order twice, in two planes */
+    double on_wall[STUDY_MODES]; /* [Hz] swinging on the wall */
+    double axial, torsional;     /* [Hz] lowest */
+    double thrust, torque;       /* [N, N m] of the head, sliding into the hole and turning, load on the bit included */
+    double crossover;            /* [Hz] first */
+} study_point;
+typedef struct study_set {
+    int count;
+    study_point point[STUDY_VALUES];
+} study_set;
+void study_sets_describe(study_set sets[STUDY_SETS]);
+void study_point_work(void *point);
+void study_sets_print(const study_set sets[STUDY_SETS]);
+int study_sets_write(const char *folder, const study_set sets[STUDY_SETS]);
+
+/* ---- What the reference says (claims.c) -------------------------------------------------------------------------- */
+void study_claims_print(const study_modal *modal, const study_shaken *shaken, const study_set sets[STUDY_SETS]);
+
+#endif
