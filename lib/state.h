@@ -1,9 +1,10 @@
-/* The map of a sim: every field, who computes it from what, its shape and unit. The X-macro lists below drive the memory
- * layout, snapshot, restore and hash, and the test of the layout; there is no other list of fields.
+/* The map of a sim: every field, who computes it from what, its shape and unit. The X-macro lists below drive the
+ * memory layout, snapshot, restore and hash, and the test of the layout; there is no other list of fields.
  * n = scene->node_count, r = row_count, s = site_count, p = path_site_count, e = element_count, d = drive_count,
  * k = bit_count, load = load_count, history = history_count, diagonal and link = lengths of block storage;
- * j = joint_count, c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene with
- * joints only: raw = row_count, dense, square, full = storage of the clusters, block, value, pivots = of the linked system. */
+ * j = joint_count, c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene
+ * with joints only: raw = row_count, dense, square, full = storage of the clusters, block, value, pivots = of the
+ * linked system. */
 #ifndef DMB_STATE_H
 #define DMB_STATE_H
 
@@ -15,7 +16,7 @@
  * X(type, name, count) */
 #define DMB_CONFIGURATION_LIST(X)                                                                                     \
     /* integrator/attempt, from the increments of pose: */                                                            \
-    X(double, displacement, 3 * n)      /* [m] FULL: world, from reference_position; PATH: [0] along the axis, rest 0 */ \
+    X(double, displacement, 3 * n)    /* [m] FULL: world, from reference_position; PATH: [0] along the axis, rest 0 */ \
     X(double, quaternion, 4 * n)        /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */          \
     X(double, turn, n)                  /* [rad] about the node's own x axis since time 0, revolutions counted */      \
     X(double, velocity, r)              /* [m/s, rad/s] body frame; PATH: along and about the axis */                  \
@@ -58,7 +59,7 @@
     X(dmb_clock, clock, 1)              /* times and step lengths, integrator */                                       \
     X(dmb_ledger, ledger, 1)            /* [J] accumulated, system/ledger */                                           \
     X(dmb_counters, counters, 1)        /* [-] statistics, integrator */                                               \
-    X(double, residual_row, r)          /* [N, N m] residual of the accepted state: reactions in the rows not solved */ \
+    X(double, residual_row, r)         /* [N, N m] residual of the accepted state: reactions in the rows not solved */ \
     X(double, drive_work, d)            /* [J] */                                                                      \
     X(double, drive_input, d)           /* [unit of the programme] value set by the caller; NaN: the programme */      \
     X(double, history_angle, history)   /* [rad] samples of the cut surface, system/bit */                             \
@@ -73,9 +74,9 @@
     X(uint32_t, partition_column, column) /* [-] columns of a cluster, dependent ones first */                         \
     X(double, partition_quality, cluster) /* [-] of the choice when it was made */
 
-/* ---- Kept: factors of an iteration matrix that later steps may do with (integrator/attempt). Written on acceptance only;
- * saved, restored and hashed, so that a restored sim iterates alike, but not set aside in `backup`: a call of several
- * steps leaves them alone. Empty in a scene with joints: kd, kl = diagonal, link, else 0. */
+/* ---- Kept: factors of an iteration matrix that later steps may do with (integrator/attempt). Written on acceptance
+ * only; saved, restored and hashed, so that a restored sim iterates alike, but not set aside in `backup`: a step that a
+ * failing call may take back leaves them alone. Empty in a scene with joints: kd, kl = diagonal, link, else 0. */
 #define DMB_KEPT_LIST(X)                                                                                              \
     X(double, kept_diagonal, kd)                                                                                       \
     X(double, kept_lower, kl)                                                                                          \
@@ -92,11 +93,11 @@
     X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */        \
     X(double, site_return, s)           /* [m/s] a ring that opens in the step left the wall; else 0, system/release */\
     X(double, path_normal, p)           /* [N] */                                                                      \
-    X(double, stiffness_diagonal, diagonal) /* with respect to body-frame pose increments; then the iteration matrix */ \
+    X(double, stiffness_diagonal, diagonal) /* by body-frame pose increments; then the iteration matrix */            \
     X(double, stiffness_lower, link)    /* in statics the same, in a step at once the iteration matrix */              \
     X(double, stiffness_upper, link)                                                                                   \
     X(double, inertia_diagonal, diagonal) /* mass, gyroscopic and damping parts, scaled to pose parameters */          \
-    X(uint8_t, pivot, r)                                                                                               \
+    X(uint8_t, pivot, r)                /* LU factors only */                                                          \
     X(int32_t, factors, 1)              /* DMB_FACTORS_...: what corrections are solved with */                        \
     /* constraints, system/constraint_rows: */                                                                        \
     X(double, raw_velocity, raw)        /* of the trial before it is projected onto the constraints, integrator */     \
@@ -129,7 +130,7 @@
     X(uint32_t, linked_size, block)                                                                                    \
     X(uint32_t, linked_row, block)                                                                                     \
     X(double, linked_solution, pivots)                                                                                 \
-    X(double, linked_half, 6 * (column + c)) /* product of a link with the null space of a block */                         \
+    X(double, linked_half, 6 * (column + c)) /* product of a link with the null space of a block */                    \
     X(dmb_linked_mode, linked_mode, 1)                                                                                 \
     X(uint8_t, backup, backup)          /* the state before a call that takes more than one step, state/backup */
 
@@ -218,11 +219,12 @@ struct dmb_sim {
 
 /* to <- from, the whole configuration, both of the sim. state/layout */
 void dmb_configuration_copy(const dmb_sim *sim, const dmb_configuration *from, dmb_configuration *to);
-/* The state set aside while a call takes several steps, and back, so that a failing call changes nothing. state/backup */
+/* The state set aside while a call takes several steps, and back, so that a failing call changes nothing.
+ * state/backup */
 void dmb_state_keep(dmb_sim *sim);
 void dmb_state_bring_back(dmb_sim *sim);
-/* A sim of its own in the accepted state of `sim`, its trial too, for analyses that leave the sim alone; memory from the
- * sim's allocator, NULL if there is none. It is no handle for callers (no stamp, no hold on the model) and must not
+/* A sim of its own in the accepted state of `sim`, its trial too, for analyses that leave the sim alone; memory from
+ * the sim's allocator, NULL if there is none. It is no handle for callers (no stamp, no hold on the model) and must not
  * outlive the sim. state/copy */
 dmb_sim *dmb_state_copy(const dmb_sim *sim);
 /* NULL is fine. */

@@ -10,7 +10,7 @@ typedef struct dmb_beam_task {
     double mass_factor, velocity_factor; /* d v'/d pose parameters, d v/d pose parameters */
     int32_t dynamic;      /* 0: no inertia, damping, nor rates */
     int32_t tangent;      /* 1: blocks too */
-    int32_t extrapolated; /* 1: geometric stiffness with the stress given, 0: with the true stress, which is given back */
+    int32_t extrapolated; /* 1: geometric stiffness with the stress given, 0: with the true one, which is given back */
     int32_t rates;        /* 1: strain rates are needed, for the energy ledger or for damping */
     int32_t damped;       /* 1: damping_time is not 0 everywhere */
     int32_t inertia_only; /* 1: blocks without the stiffness */

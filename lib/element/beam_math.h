@@ -55,9 +55,9 @@ static inline void dmb_beam_load_constants(const dmb_element_type *type, int lan
     dmb_real_set_lane(&c->damping_time, lane, type->damping_time);
 }
 
-/* ---- Shape and forces ---------------------------------------------------------------------------------------------- */
+/* ---- Shape and forces -------------------------------------------------------------------------------------------- */
 
-/* Shape from the nodes' orientations, node A's rotation matrix and the vector from node A to node B [m], world frame. */
+/* Shape from the nodes' orientations, node A's rotation matrix, the vector from node A to node B [m], world frame. */
 static inline void dmb_beam_shape_at(const dmb_beam_constants *c, int arms, const dmb_real quaternion_a[4],
                                      const dmb_real rotation_a[9], const dmb_real quaternion_b[4],
                                      const dmb_real span[3], dmb_beam_shape *shape)
@@ -124,7 +124,7 @@ static inline void dmb_beam_add_force(const dmb_beam_shape *shape, const dmb_rea
     }
 }
 
-/* ---- Stiffness and damping ----------------------------------------------------------------------------------------- */
+/* ---- Stiffness and damping --------------------------------------------------------------------------------------- */
 
 /* Material part P^T (K/L) P, T6(-d)^-1 = R: [R^T k R, -R^T k T; -T^T k R, T^T k T] */
 static inline void dmb_beam_material_stiffness(const dmb_real k[6], const dmb_se3_tangent *T, const dmb_se3_tangent *R,
@@ -138,8 +138,8 @@ static inline void dmb_beam_material_stiffness(const dmb_real k[6], const dmb_se
 }
 
 /* Geometric part [D1(-d, s); D1(d, s)] P */
-static inline void dmb_beam_add_geometric_stiffness(const dmb_beam_shape *shape, const dmb_real stress[6], const dmb_se3_tangent *R,
-                                    dmb_beam_blocks *out)
+static inline void dmb_beam_add_geometric_stiffness(const dmb_beam_shape *shape, const dmb_real stress[6],
+                                                    const dmb_se3_tangent *R, dmb_beam_blocks *out)
 {
     dmb_se3_stress_blocks plus, minus;
     dmb_se3_stress_blocks_at(shape->d, stress, &shape->k, &plus, &minus);
@@ -160,7 +160,8 @@ static inline void dmb_beam_stiffness_blocks(const dmb_beam_constants *c, const 
 }
 
 /* out += s (rows of T6(-d)^-T or T6(d)^-T) diag(k) N, N any 6x6 */
-static inline void dmb_beam_add_rows(dmb_real s, const dmb_se3_tangent *T, const dmb_real k[6], const dmb_real N[36], dmb_real out[36])
+static inline void dmb_beam_add_rows(dmb_real s, const dmb_se3_tangent *T, const dmb_real k[6], const dmb_real N[36],
+                                     dmb_real out[36])
 {
     dmb_real full[36], kN[36], product[36];
     dmb_se3_tangent_matrix(T, full);
@@ -172,8 +173,9 @@ static inline void dmb_beam_add_rows(dmb_real s, const dmb_se3_tangent *T, const
 /* Adds the part that d' brings to the stiffness, and writes d g/d velocity times `factor`:
  * s gains tau K d'/L with d' = P V. Its derivative by V is tau P^T (K/L) P, by the pose tau P^T (K/L) X P with
  * X = d(d')/dd = X(d, V_B) + X(-d, V_A), both of THEORY 3's operators. */
-static inline void dmb_beam_damping_blocks(const dmb_beam_constants *c, const dmb_beam_shape *shape, const dmb_real velocity_a[6],
-                      const dmb_real velocity_b[6], dmb_real factor, dmb_beam_blocks *stiffness, dmb_beam_blocks *damping)
+static inline void dmb_beam_damping_blocks(const dmb_beam_constants *c, const dmb_beam_shape *shape,
+                                           const dmb_real velocity_a[6], const dmb_real velocity_b[6], dmb_real factor,
+                                           dmb_beam_blocks *stiffness, dmb_beam_blocks *damping)
 {
     dmb_real k[6], back[6], X[36], Xa[36], full[36], XT[36], XR[36];
     dmb_se3_tangent R;
@@ -197,10 +199,11 @@ static inline void dmb_beam_damping_blocks(const dmb_beam_constants *c, const dm
     dmb_beam_add_rows(dmb_real_of(1.0), &shape->T, k, XT, stiffness->bb);
 }
 
-/* ---- Inertia ------------------------------------------------------------------------------------------------------- */
+/* ---- Inertia ----------------------------------------------------------------------------------------------------- */
 
 /* One bending plane: u and t of both ends; the second plane enters with t = -theta_y. */
-static inline void dmb_beam_bending_times(const dmb_real m[6], dmb_real ua, dmb_real ta, dmb_real ub, dmb_real tb, dmb_real out[4])
+static inline void dmb_beam_bending_times(const dmb_real m[6], dmb_real ua, dmb_real ta, dmb_real ub, dmb_real tb,
+                                          dmb_real out[4])
 {
     out[0] = m[0] * ua + m[1] * ta + m[2] * ub + m[3] * tb;
     out[1] = m[1] * ua + m[4] * ta - m[3] * ub + m[5] * tb;
@@ -209,7 +212,8 @@ static inline void dmb_beam_bending_times(const dmb_real m[6], dmb_real ua, dmb_
 }
 
 /* Momentum p = M v of both ends [kg m/s, kg m2/s]; the same product gives M times accelerations. */
-static inline void dmb_beam_momentum(const dmb_beam_constants *mass, const dmb_real va[6], const dmb_real vb[6], dmb_real pa[6], dmb_real pb[6])
+static inline void dmb_beam_momentum(const dmb_beam_constants *mass, const dmb_real va[6], const dmb_real vb[6],
+                                     dmb_real pa[6], dmb_real pb[6])
 {
     dmb_real y[4], z[4];
     dmb_beam_bending_times(mass->bending[0], va[1], va[5], vb[1], vb[5], y);
@@ -264,7 +268,8 @@ static inline void dmb_beam_add_times_block(const dmb_real L[36], const dmb_beam
 }
 
 /* L = mass_factor I - velocity_factor v^^T */
-static inline void dmb_beam_inertia_rows(const dmb_real v[6], dmb_real mass_factor, dmb_real velocity_factor, dmb_real L[36])
+static inline void dmb_beam_inertia_rows(const dmb_real v[6], dmb_real mass_factor, dmb_real velocity_factor,
+                                         dmb_real L[36])
 {
     dmb_mat6_zero(L);
     dmb_mat6_add_skew(velocity_factor, v + 3, 0, 0, L);
@@ -282,9 +287,9 @@ static inline void dmb_beam_subtract_momentum(const dmb_real p[6], dmb_real fact
 }
 
 /* Adds mass_factor M + velocity_factor C_t to blocks, C_t = -blkdiag(v^^T) M - blkdiag(A(p)) (gyroscopic). */
-static inline void dmb_beam_add_inertia_blocks(const dmb_beam_constants *mass, const dmb_real va[6], const dmb_real vb[6], const dmb_real pa[6],
-                                  const dmb_real pb[6], dmb_real mass_factor, dmb_real velocity_factor,
-                                  dmb_beam_blocks *blocks)
+static inline void dmb_beam_add_inertia_blocks(const dmb_beam_constants *mass, const dmb_real va[6],
+                                               const dmb_real vb[6], const dmb_real pa[6], const dmb_real pb[6],
+                                               dmb_real mass_factor, dmb_real velocity_factor, dmb_beam_blocks *blocks)
 {
     dmb_real L[36];
     dmb_beam_mass_block m;

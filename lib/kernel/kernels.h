@@ -1,5 +1,5 @@
-/* The step's kernels over runs of equal parts. Every build holds them in several widths: how many elements or nodes side
- * by side. All widths give the same bits (math/real.h); the compile step takes the widest that the processor has. */
+/* The step's kernels over runs of equal parts. Every build holds them in several widths: how many elements or nodes
+ * side by side. All widths give the same bits (math/real.h); the compile step takes the widest the processor has. */
 #ifndef DMB_KERNEL_KERNELS_H
 #define DMB_KERNEL_KERNELS_H
 
@@ -26,7 +26,7 @@ typedef struct dmb_beam_run {
     const double *increment;     /* [m, rad] h Dq, shape (count + 1, 6) */
     double mass_factor, velocity_factor;   /* as in dmb_evaluation, as are: */
     int32_t dynamic, tangent, extrapolated, inertia_only, ledger, reserved;
-    int32_t damped, arms;        /* 1: some element of the run has a damping time, rigid arms */
+    int32_t damped, arms;        /* 1: some element of the scene has a damping time, rigid arms */
     double *residual, *scale;    /* added to, shape (count + 1, 6) */
     double *strain, *stress;     /* shape (count, 6) */
     double *stiffness_diagonal, *inertia_diagonal; /* added to, shape (count + 1, 36) */
@@ -43,7 +43,8 @@ typedef struct dmb_node_run {
     double *displacement, *quaternion; /* start moved by the increment */
 } dmb_node_run;
 
-/* Rigid masses, weight and external damping on a run of FULL nodes. Pointers are to the run's first node, row or block. */
+/* Rigid masses, weight and external damping on a run of FULL nodes. Pointers are to the run's first node, row or
+ * block. */
 typedef struct dmb_node_force_run {
     uint32_t count;              /* nodes */
     uint32_t first;              /* number of the first one, by which lumps name theirs */
@@ -120,7 +121,7 @@ typedef struct dmb_kernels {
     void (*node_forces)(dmb_node_force_run *run);
     /* Forces of the rings that touch and, if asked for, tangent blocks; what the trial keeps of all sites. */
     void (*walls)(dmb_wall_run *run);
-    /* rotation matrices, shape (count, 9), from run->start_quaternion */
+    /* rotation matrices, shape (count, 9), from quaternions, shape (count, 4) */
     void (*rotations)(const double *quaternion, uint32_t count, double *rotation);
 } dmb_kernels;
 

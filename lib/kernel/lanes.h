@@ -1,5 +1,5 @@
-/* The kernels in one width. A file that defines DMB_KERNELS, the name of its table, DMB_KERNELS_NAME and (but for one lane)
- * DMB_LANES includes this once. */
+/* The kernels in one width. A file that defines DMB_KERNELS, the name of its table, DMB_KERNELS_NAME and (but for one
+ * lane) DMB_LANES includes this once. */
 #include "element/beam_element.h"
 #include "kernel/kernels.h"
 #include "kernel/lane_group.h"
@@ -7,7 +7,7 @@
 #include "kernel/lanes_wall.h"
 #include "math/block_inverse.h"
 
-/* ---- Beams --------------------------------------------------------------------------------------------------------- */
+/* ---- Beams ------------------------------------------------------------------------------------------------------- */
 
 /* Constants of the types of a group; kept from group to group while the types are the same. */
 typedef struct lane_types {
@@ -96,8 +96,15 @@ static uint32_t failed_of(const dmb_beam_run *run, const lane_group *g, const dm
 
 static int32_t beams(dmb_beam_run *run)
 {
-    const dmb_beam_task task = {run->mass_factor, run->velocity_factor, run->dynamic, run->tangent, run->extrapolated,
-                                run->dynamic && (run->ledger || run->damped), run->damped, run->inertia_only, run->arms};
+    const dmb_beam_task task = {run->mass_factor,
+                                run->velocity_factor,
+                                run->dynamic,
+                                run->tangent,
+                                run->extrapolated,
+                                run->dynamic && (run->ledger || run->damped),
+                                run->damped,
+                                run->inertia_only,
+                                run->arms};
     lane_types types;
     for (uint32_t first = 0; first < run->count; first += LANES) {
         const lane_group g = group_at(first, run->count);
@@ -144,7 +151,7 @@ static void extrapolate(const dmb_beam_run *run)
     }
 }
 
-/* ---- Nodes --------------------------------------------------------------------------------------------------------- */
+/* ---- Nodes ------------------------------------------------------------------------------------------------------- */
 
 static void advance(const dmb_node_run *run)
 {
@@ -187,7 +194,7 @@ static void rotations(const double *quaternion, uint32_t count, double *rotation
     }
 }
 
-/* ---- Blocks: as wide as the compiler makes them for this processor --------------------------------------------------- */
+/* ---- Blocks: as wide as the compiler makes them for this processor ----------------------------------------------- */
 
 static int64_t factor(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count)
 {

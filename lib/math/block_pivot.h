@@ -34,8 +34,8 @@ static inline double dmb_block_largest(size_t n, const double *D)
 
 /* Compares the pivots of a factored block of n >= 1 rows, given as reciprocals `stride` numbers apart, with the weakest
  * so far. failed: the column without a pivot, or < 0. */
-static inline void dmb_block_watch(size_t n, const double *reciprocal, size_t stride, double largest, int64_t failed, uint32_t block,
-                                   dmb_block_weakest *weakest)
+static inline void dmb_block_watch(size_t n, const double *reciprocal, size_t stride, double largest, int64_t failed,
+                                   uint32_t block, dmb_block_weakest *weakest)
 {
     size_t k = failed < 0 ? 0 : (size_t)failed;
     for (size_t i = 1; failed < 0 && i < n; i++)

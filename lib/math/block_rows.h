@@ -1,7 +1,7 @@
 /* What block eliminations share: rows and columns of blocks. Each kernel is written once with the sizes n (this block)
- * and m (the next, 0 at the end of a chain) as arguments. BY_SIZE passes constants for 6-6 and 2-2, so the compiler makes
- * kernels of fixed size; other pairs take the same source with sizes from memory. Inner loops run along rows or columns,
- * so they vectorise without any change in the order of a sum: every width gives the same bits. */
+ * and m (the next, 0 at the end of a chain) as arguments. BY_SIZE passes constants for 6-6 and 2-2, so the compiler
+ * makes kernels of fixed size; other pairs take the same source with sizes from memory. Inner loops run along rows or
+ * columns, so they vectorise without any change in the order of a sum: every width gives the same bits. */
 #ifndef DMB_MATH_BLOCK_ROWS_H
 #define DMB_MATH_BLOCK_ROWS_H
 

@@ -208,7 +208,8 @@ static inline void dmb_adjoint_apply(const dmb_real R[9], const dmb_real x[3], c
 }
 
 /* out = Ad(R,x)^-1 v = (R^T (u - x x w); R^T w) */
-static inline void dmb_adjoint_inverse_apply(const dmb_real R[9], const dmb_real x[3], const dmb_real v[6], dmb_real out[6])
+static inline void dmb_adjoint_inverse_apply(const dmb_real R[9], const dmb_real x[3], const dmb_real v[6],
+                                             dmb_real out[6])
 {
     dmb_real u[3], c[3];
     dmb_vec3_cross(x, v + 3, c);
@@ -218,7 +219,8 @@ static inline void dmb_adjoint_inverse_apply(const dmb_real R[9], const dmb_real
 }
 
 /* out = Ad(R,x)^T p = (R^T pu; R^T (pw - x x pu)) */
-static inline void dmb_adjoint_transpose_apply(const dmb_real R[9], const dmb_real x[3], const dmb_real p[6], dmb_real out[6])
+static inline void dmb_adjoint_transpose_apply(const dmb_real R[9], const dmb_real x[3], const dmb_real p[6],
+                                               dmb_real out[6])
 {
     dmb_real m[3], c[3];
     dmb_vec3_cross(x, p, c);
@@ -240,7 +242,8 @@ static inline void dmb_adjoint_inverse_transpose_apply(const dmb_real R[9], cons
 }
 
 /* C = Ad(R,x)^T B Ad(R,x): a form given in the far frame, seen in the near one */
-static inline void dmb_adjoint_congruence(const dmb_real R[9], const dmb_real x[3], const dmb_real B[36], dmb_real *restrict C)
+static inline void dmb_adjoint_congruence(const dmb_real R[9], const dmb_real x[3], const dmb_real B[36],
+                                          dmb_real *restrict C)
 {
     dmb_real A[36];
     dmb_adjoint6(R, x, A);

@@ -25,7 +25,8 @@ typedef struct dmb_se3_stress_blocks {
 } dmb_se3_stress_blocks;
 
 /* out = y + p O x y + q O x (O x y); out may be y */
-static inline void dmb_so3_polynomial_apply(const dmb_real O[3], dmb_real p, dmb_real q, const dmb_real y[3], dmb_real out[3])
+static inline void dmb_so3_polynomial_apply(const dmb_real O[3], dmb_real p, dmb_real q, const dmb_real y[3],
+                                            dmb_real out[3])
 {
     dmb_real c[3], d[3];
     dmb_vec3_cross(O, y, c);
@@ -158,7 +159,8 @@ static inline void dmb_se3_tangent6(const dmb_real h[6], const dmb_so3_coefficie
 }
 
 /* T6(h)^-1 as a full matrix */
-static inline void dmb_se3_inverse_tangent6(const dmb_real h[6], const dmb_so3_inverse_coefficients *k, dmb_real out[36])
+static inline void dmb_se3_inverse_tangent6(const dmb_real h[6], const dmb_so3_inverse_coefficients *k,
+                                            dmb_real out[36])
 {
     dmb_se3_inverse_tangent T;
     dmb_se3_inverse_tangent_at(h, k, &T);
@@ -196,7 +198,8 @@ static inline void dmb_se3_tangent_apply_reverse(const dmb_se3_tangent *T, const
 }
 
 /* Its transpose: (S n; B n + S m); out may be s */
-static inline void dmb_se3_tangent_apply_reverse_transpose(const dmb_se3_tangent *T, const dmb_real s[6], dmb_real out[6])
+static inline void dmb_se3_tangent_apply_reverse_transpose(const dmb_se3_tangent *T, const dmb_real s[6],
+                                                           dmb_real out[6])
 {
     dmb_real b[3];
     dmb_mat3_vec(T->B, s, b);
@@ -274,8 +277,9 @@ static inline void dmb_se3_square_second_derivative(const dmb_real h[6], const d
 
 /* The blocks J(n) and J(m) + Hh of the stress derivative, s = (n; m), at h and at -h together: n~/2 and m~/2 stay,
  * the rest changes sign. Either of plus and minus may be NULL. */
-static inline void dmb_se3_stress_blocks_at(const dmb_real h[6], const dmb_real s[6], const dmb_so3_inverse_coefficients *k,
-                                            dmb_se3_stress_blocks *plus, dmb_se3_stress_blocks *minus)
+static inline void dmb_se3_stress_blocks_at(const dmb_real h[6], const dmb_real s[6],
+                                            const dmb_so3_inverse_coefficients *k, dmb_se3_stress_blocks *plus,
+                                            dmb_se3_stress_blocks *minus)
 {
     const dmb_so3_inverse_coefficients f = dmb_so3_inverse_coefficients_or(h + 3, k);
     dmb_real N[9], M[9], J[9], H[9], Hh[9];

@@ -211,7 +211,8 @@ static inline void dmb_quat_normalize(dmb_real q[4])
     dmb_real s = 1.0 - 0.5 * d;
     if (!dmb_real_below(dmb_real_abs(d), dmb_real_of(1e-8)))
         for (int lane = 0; lane < DMB_REAL_LANES; lane++)
-            if (!(fabs(dmb_real_lane(&d, lane)) < 1e-8)) dmb_real_set_lane(&s, lane, 1.0 / sqrt(dmb_real_lane(&n, lane)));
+            if (!(fabs(dmb_real_lane(&d, lane)) < 1e-8))
+                dmb_real_set_lane(&s, lane, 1.0 / sqrt(dmb_real_lane(&n, lane)));
     for (int i = 0; i < 4; i++) q[i] *= s;
 }
 
@@ -319,7 +320,8 @@ static inline void dmb_quat_rotate_inverse(const dmb_real q[4], const dmb_real v
 }
 
 /* atan2(y, x) by atan(r) = sum (-r^2)^k r/(2k+1), r the smaller of |x|, |y| over the larger, brought below tan(pi/8) by
- * atan(r) = pi/4 + atan((r - 1)/(r + 1)). No call, so that it goes side by side; NaN where both are 0. */
+ * atan(r) = pi/4 + atan((r - 1)/(r + 1)). No call, so that it goes side by side; NaN where both are 0,
+ * and -0 counts as 0. */
 static inline dmb_real dmb_real_atan2(dmb_real y, dmb_real x)
 {
     static const double odd[22] = {1.0,        1.0 / 3.0,  1.0 / 5.0,  1.0 / 7.0,  1.0 / 9.0,  1.0 / 11.0,

@@ -1,8 +1,8 @@
-#include "kernel/kernels.h"
 #include "model/scene_fill.h"
 
 #include <string.h>
 
+#include "kernel/kernels.h"
 #include "math/mat6.h"
 #include "math/so3.h"
 

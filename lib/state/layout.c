@@ -25,7 +25,7 @@ typedef struct field_counts {
         (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd, \
         (void)kl
 
-/* [byte] of the state: what a snapshot holds and a step keeps aside. */
+/* [byte] of the state that is set aside in `backup`. A snapshot holds the kept factors too. */
 #define DMB_ADD_BYTES(type, name, count) +(count) * sizeof(type)
 static uint64_t state_bytes(const field_counts *counts)
 {

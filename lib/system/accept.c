@@ -10,15 +10,19 @@
 static void unwrap_turns(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0, count; i<scene->node_count; i += count> 0 ? count : 1) {
+    for (uint32_t i = 0, count; i < scene->node_count; i += count) {
         count = dmb_full_nodes_at(scene, i);
-        const dmb_turn_run run = {.count = count,
-                                  .reference = scene->reference_quaternion + 4 * i,
-                                  .quaternion = sim->trial.quaternion + 4 * i,
-                                  .increment = sim->increment + scene->layout.row[i],
-                                  .start = sim->now.turn + i,
-                                  .turn = sim->trial.turn + i};
-        if (count > 0) scene->kernels->turns(&run);
+        if (count > 0) {
+            const dmb_turn_run run = {.count = count,
+                                      .reference = scene->reference_quaternion + 4 * i,
+                                      .quaternion = sim->trial.quaternion + 4 * i,
+                                      .increment = sim->increment + scene->layout.row[i],
+                                      .start = sim->now.turn + i,
+                                      .turn = sim->trial.turn + i};
+            scene->kernels->turns(&run);
+        } else {
+            count = 1;
+        }
     }
 }
 

@@ -142,7 +142,6 @@ static void mixed_side_of(const dmb_evaluation *evaluation, uint32_t node, mixed
     memset(side->J, 0, sizeof side->J);
     memset(side->z, 0, sizeof side->z);
     if (side->rows == DMB_NODE_FULL) {
-        dmb_vec3_copy(side->u, side->u);
         memcpy(side->q, sim->trial.quaternion + 4 * node, sizeof side->q);
         dmb_vec6_copy(sim->increment + scene->layout.row[node], side->z);
         for (int i = 0; i < 36; i += 7) side->J[i] = 1.0;

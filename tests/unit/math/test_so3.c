@@ -1,4 +1,6 @@
-/* Rotations: coefficients and operators against long double, identities, quaternions. */
+/* Rotations: coefficients and operators against long double, identities, quaternions, the arc tangent of turns. */
+#include <stdio.h>
+
 #include "math_test.h"
 
 #include "math/so3.h"
@@ -294,6 +296,58 @@ static void twist_follows_turns(void **state)
     assert_true(dmb_quat_twist(undefined, 12.5) == 12.5);
 }
 
+/* Largest difference from the C library's arc tangent so far, over pi, in all eight octants. */
+static double arc_tangent_error(double x, double y, double worst)
+{
+    for (int octant = 0; octant < 8; octant++) {
+        const double a = octant & 4 ? y : x, b = octant & 4 ? x : y;
+        const double u = octant & 1 ? -a : a, v = octant & 2 ? -b : b;
+        const double got = dmb_real_atan2(v, u), error = fabs(got - atan2(v, u)) / DMB_PI;
+        if (!(error <= 5e-16)) fail_msg("atan2(%.17g, %.17g) = %.17g, off by %.3g pi", v, u, got, error);
+        assert_true(signbit(got) == signbit(v));
+        worst = fmax(worst, error);
+    }
+    return worst;
+}
+
+/* Round the circle at sizes from 1e-300 to 1e300, and from the last digits on either side of tan(pi/8), where the
+ * formula changes, on to the diagonal. */
+static void arc_tangent_is_that_of_the_c_library(void **state)
+{
+    (void)state;
+    const double sizes[] = {1e-300, 1e-8, 1.0, 3e5, 1e300};
+    const double edge = 0.41421356237309503;
+    double worst = 0.0;
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
+        for (int i = 1; i <= 4000; i++) {
+            const double t = 0.25 * DMB_PI * i / 4000.0;
+            worst = arc_tangent_error(sizes[s] * cos(t), sizes[s] * sin(t), worst);
+        }
+        for (int i = -40; i <= 40; i++)
+            worst = arc_tangent_error(sizes[s], sizes[s] * edge * (1.0 + i * 0x1p-52), worst);
+        worst = arc_tangent_error(sizes[s], sizes[s], worst);
+    }
+    for (int i = 0; i <= 300; i++) worst = arc_tangent_error(1.0, pow(10.0, -i), worst);
+    printf("arc tangent: %.2g pi off the C library's at most\n", worst);
+}
+
+/* On the axes. A zero counts as positive whatever its sign, unlike in the C library: turns are asked for by the nearest
+ * revolution, to which both answers lead. Where both are 0 there is no angle. */
+static void arc_tangent_on_axes(void **state)
+{
+    (void)state;
+    const double sizes[] = {1e-300, 1.0, 1e300};
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
+        const double r = sizes[s];
+        assert_true(dmb_real_atan2(0.0, r) == 0.0 && !signbit(dmb_real_atan2(0.0, r)));
+        assert_true(dmb_real_atan2(-0.0, r) == 0.0);
+        assert_true(dmb_real_atan2(0.0, -r) == DMB_PI && dmb_real_atan2(-0.0, -r) == DMB_PI);
+        assert_true(dmb_real_atan2(r, 0.0) == 0.5 * DMB_PI && dmb_real_atan2(-r, 0.0) == -0.5 * DMB_PI);
+        assert_true(dmb_real_atan2(r, -0.0) == 0.5 * DMB_PI && dmb_real_atan2(-r, -0.0) == -0.5 * DMB_PI);
+    }
+    assert_true(isnan(dmb_real_atan2(0.0, 0.0)) && isnan(dmb_real_atan2(0.0, -0.0)));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -310,6 +364,8 @@ int main(void)
         cmocka_unit_test(million_steps_stay_orthonormal),
         cmocka_unit_test(normalize_near_and_far),
         cmocka_unit_test(twist_follows_turns),
+        cmocka_unit_test(arc_tangent_is_that_of_the_c_library),
+        cmocka_unit_test(arc_tangent_on_axes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
