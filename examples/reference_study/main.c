@@ -37,9 +37,14 @@ int main(int count, char **words)
     study_job jobs[2 + STUDY_SETS * STUDY_VALUES];
     const char *folder = NULL;
     int threads = 2, asked = 0;
-    for (int i = 1; i + 1 < count; i += 2) {
-        if (strcmp(words[i], "--output") == 0) folder = words[i + 1];
-        if (strcmp(words[i], "--threads") == 0) threads = atoi(words[i + 1]);
+    for (int i = 1; i < count; i += 2) {
+        const char *value = i + 1 < count ? words[i + 1] : NULL;
+        if (value != NULL && strcmp(words[i], "--output") == 0)
+            folder = value;
+        else if (value != NULL && strcmp(words[i], "--threads") == 0 && atoi(value) > 0)
+            threads = atoi(value);
+        else
+            return fprintf(stderr, "usage: reference_study [--output FOLDER] [--threads N]\n"), 2;
     }
     study_sets_describe(sets);
     jobs[asked++] = (study_job){study_modal_work, &modal};
