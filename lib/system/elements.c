@@ -74,51 +74,76 @@ static int32_t gather_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
 
 /* ---- Axial-torsional bar on the hole's axis: two PATH nodes ---------------------------------------------------- */
 
-static void gather_path(dmb_evaluation *evaluation, uint32_t e)
+/* One of its two coordinates: stretch or twist. */
+typedef struct bar_side {
+    double stiffness, damping; /* [N/m, N m/rad], times damping_time */
+    double change, rest;       /* [m, rad] deformation less that at the start, and that at the start */
+    double reach;              /* [m] size of the numbers that it is the difference of */
+    double va, vb, aa, ab;     /* speeds and accelerations of the nodes */
+    const double *mass;        /* AA = BB, AB */
+} bar_side;
+
+/* Forces of one coordinate into rows ra and rb. */
+static inline void bar_forces(dmb_evaluation *evaluation, const bar_side *s, uint32_t ra, uint32_t rb)
 {
-    static const int component[2] = {0, 3};
+    dmb_sim *sim = evaluation->sim;
+    const double elastic = s->stiffness * (s->change + s->rest), size = s->stiffness * s->reach;
+    evaluation->rounding += size * size;
+    double force = elastic, mass_a = 0.0, mass_b = 0.0;
+    if (evaluation->dynamic) {
+        const double rate = s->vb - s->va, viscous = s->damping * rate;
+        force += viscous;
+        mass_a = s->mass[0] * s->aa + s->mass[1] * s->ab;
+        mass_b = s->mass[1] * s->aa + s->mass[0] * s->ab;
+        evaluation->power[DMB_POWER_POTENTIAL] -= elastic * rate;
+        evaluation->power[DMB_POWER_DAMPING] -= viscous * rate;
+        evaluation->power[DMB_POWER_INERTIA] -= s->va * mass_a + s->vb * mass_b;
+    }
+    sim->correction[ra] += mass_a - force;
+    sim->correction[rb] += mass_b + force;
+    sim->scale_row[ra] += fabs(force) + fabs(mass_a);
+    sim->scale_row[rb] += fabs(force) + fabs(mass_b);
+}
+
+/* Tangent of coordinate c (0 or 1) between the nodes a and a + 1. */
+static void bar_tangent(const dmb_evaluation *evaluation, const bar_side *s, uint32_t a, uint32_t c)
+{
+    dmb_sim *sim = evaluation->sim;
+    const uint32_t link = sim->scene->layout.link[a] + 3 * c;
+    const double elastic = evaluation->inertia_only ? 0.0 : s->stiffness;
+    const double damped = evaluation->dynamic ? evaluation->velocity_factor * s->damping : 0.0;
+    const double heavy = evaluation->dynamic ? evaluation->mass_factor : 0.0;
+    const double between = heavy * s->mass[1] - (elastic + damped);
+    dmb_stiffness_of(sim, a)[3 * c] += elastic;
+    dmb_stiffness_of(sim, a + 1)[3 * c] += elastic;
+    sim->stiffness_upper[link] += between;
+    sim->stiffness_lower[link] += between;
+    if (!evaluation->dynamic) return;
+    dmb_inertia_of(sim, a)[3 * c] += heavy * s->mass[0] + damped;
+    dmb_inertia_of(sim, a + 1)[3 * c] += heavy * s->mass[0] + damped;
+}
+
+/* The length is left out of differences, which keeps their digits. */
+static void gather_path(dmb_evaluation *evaluation, uint32_t e, double per_length)
+{
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
     const dmb_configuration *trial = &sim->trial;
     const dmb_element_type *type = scene->types + scene->element_type[e];
-    const uint32_t a = scene->element_node[e], b = a + 1, ra = scene->layout.row[a], rb = scene->layout.row[b];
-    const double change[2] = {trial->displacement[3 * b] - trial->displacement[3 * a], trial->turn[b] - trial->turn[a]};
-    const double start[2] = {type->length, 0.0}; /* the length is left out of differences, which keeps their digits */
-    const double reach[2] = {fabs(trial->displacement[3 * a]) + fabs(trial->displacement[3 * b]),
-                             (fabs(trial->turn[a]) + fabs(trial->turn[b])) / scene->length_scale};
-    const double *mass[2] = {type->mass.axial, type->mass.torsion};
+    const uint32_t a = scene->element_node[e], ra = scene->layout.row[a], rb = ra + DMB_NODE_PATH;
+    const double *v = trial->velocity, *dv = trial->acceleration;
+    const double ua = trial->displacement[3 * a], ub = trial->displacement[3 * a + 3];
+    const double ta = trial->turn[a], tb = trial->turn[a + 1];
+    const bar_side side[2] = {
+        {type->stiffness[0], type->damping_time * type->stiffness[0], ub - ua, type->length - type->rest[0],
+         fabs(ua) + fabs(ub), v[ra], v[rb], dv[ra], dv[rb], type->mass.axial},
+        {type->stiffness[3], type->damping_time * type->stiffness[3], tb - ta, -type->rest[3],
+         per_length * (fabs(ta) + fabs(tb)), v[ra + 1], v[rb + 1], dv[ra + 1], dv[rb + 1], type->mass.torsion}};
+    sim->element_strain[6 * e] = type->length + side[0].change;
+    sim->element_strain[6 * e + 3] = side[1].change;
     for (uint32_t c = 0; c < 2; c++) {
-        const int k = component[c];
-        evaluation->rounding += type->stiffness[k] * reach[c] * (type->stiffness[k] * reach[c]);
-        const double stiffness = type->stiffness[k], elastic = stiffness * (change[c] + (start[c] - type->rest[k]));
-        const double *v = trial->velocity, *dv = trial->acceleration;
-        const double rate = evaluation->dynamic ? v[rb + c] - v[ra + c] : 0.0;
-        const double viscous = stiffness * type->damping_time * rate, force = elastic + viscous;
-        double fa = -force, fb = force, mass_a = 0.0, mass_b = 0.0;
-        sim->element_strain[6 * e + (uint32_t)k] = start[c] + change[c];
-        evaluation->power[DMB_POWER_POTENTIAL] -= elastic * rate;
-        evaluation->power[DMB_POWER_DAMPING] -= viscous * rate;
-        if (evaluation->dynamic) {
-            mass_a = mass[c][0] * dv[ra + c] + mass[c][1] * dv[rb + c];
-            mass_b = mass[c][1] * dv[ra + c] + mass[c][0] * dv[rb + c];
-            evaluation->power[DMB_POWER_INERTIA] -= v[ra + c] * mass_a + v[rb + c] * mass_b;
-        }
-        sim->correction[ra + c] += fa + mass_a;
-        sim->correction[rb + c] += fb + mass_b;
-        sim->scale_row[ra + c] += fabs(force) + fabs(mass_a);
-        sim->scale_row[rb + c] += fabs(force) + fabs(mass_b);
-        if (!evaluation->tangent) continue;
-        const double elastic_part = evaluation->inertia_only ? 0.0 : stiffness;
-        const double damped = evaluation->dynamic ? evaluation->velocity_factor * type->damping_time * stiffness : 0.0;
-        const double heavy = evaluation->dynamic ? evaluation->mass_factor : 0.0;
-        const double link = heavy * mass[c][1] - (elastic_part + damped);
-        dmb_stiffness_of(sim, a)[3 * c] += elastic_part;
-        dmb_stiffness_of(sim, b)[3 * c] += elastic_part;
-        sim->stiffness_upper[scene->layout.link[a] + 3 * c] += link;
-        sim->stiffness_lower[scene->layout.link[a] + 3 * c] += link;
-        if (!evaluation->dynamic) continue;
-        dmb_inertia_of(sim, a)[3 * c] += heavy * mass[c][0] + damped;
-        dmb_inertia_of(sim, b)[3 * c] += heavy * mass[c][0] + damped;
+        bar_forces(evaluation, side + c, ra + c, rb + c);
+        if (evaluation->tangent) bar_tangent(evaluation, side + c, a, c);
     }
 }
 
@@ -244,11 +269,12 @@ static int32_t gather_mixed(dmb_evaluation *evaluation, uint32_t e)
 
 static int32_t gather_batch(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
+    const double per_length = 1.0 / evaluation->sim->scene->length_scale;
     int32_t status = DMB_OK;
     if (batch->kernel == DMB_KERNEL_BEAM) return gather_beams(evaluation, batch);
     for (uint32_t e = batch->first; e < batch->first + batch->count && status >= 0; e++) {
         if (batch->kernel == DMB_KERNEL_PATH)
-            gather_path(evaluation, e);
+            gather_path(evaluation, e, per_length);
         else
             status = gather_mixed(evaluation, e);
     }

@@ -26,13 +26,15 @@ static void clear(const dmb_evaluation *evaluation)
 static void update_rotations(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
+    /* What a PATH node's own two equations do not need. */
+    const int path_poses = scene->features & DMB_FEATURE_GRAVITY || scene->load_count || scene->bit_count;
     double unused[3];
     for (uint32_t i = 0, count; i < scene->node_count; i += count) {
         count = dmb_full_nodes_at(scene, i);
         if (count > 0) {
             scene->kernels->rotations(sim->trial.quaternion + 4 * i, count, sim->rotation + 9 * i);
         } else {
-            dmb_node_pose(scene, &sim->trial, i, sim->rotation + 9 * i, unused);
+            if (path_poses) dmb_node_pose(scene, &sim->trial, i, sim->rotation + 9 * i, unused);
             count = 1;
         }
     }

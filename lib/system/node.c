@@ -68,7 +68,7 @@ void dmb_node_vector(const dmb_scene *scene, const dmb_configuration *configurat
     for (int i = 0; i < 6; i++) vector[i] = columns[i] * row[0] + columns[6 + i] * row[1];
 }
 
-uint32_t dmb_full_nodes_at(const dmb_scene *scene, uint32_t node)
+uint32_t dmb_count_full_nodes(const dmb_scene *scene, uint32_t node)
 {
     uint32_t end = node;
     if (scene->row_count == DMB_NODE_FULL * scene->node_count) return scene->node_count - node;

@@ -18,7 +18,11 @@ void dmb_path_columns(const dmb_scene *scene, const dmb_configuration *configura
 double dmb_path_depth(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node);
 
 /* How many FULL nodes follow one another from this one on; 0: it is a PATH node. */
-uint32_t dmb_full_nodes_at(const dmb_scene *scene, uint32_t node);
+uint32_t dmb_count_full_nodes(const dmb_scene *scene, uint32_t node);
+static inline uint32_t dmb_full_nodes_at(const dmb_scene *scene, uint32_t node)
+{
+    return scene->layout.size[node] == DMB_NODE_FULL ? dmb_count_full_nodes(scene, node) : 0;
+}
 /* Element before (side 0) or after (side 1) a node; UINT32_MAX at the ends of its chain. */
 uint32_t dmb_element_between(const dmb_scene *scene, uint32_t node, uint32_t side);
 
