@@ -15,7 +15,7 @@ static void open_pendulum(rig *s, uint32_t count, double L, double mass)
     rig_open(s, 0, 0, -9.81);
     for (uint32_t i = 0; i < count; i++) {
         const bar def = {{0.0, -(double)i * L}, {0.0, -(double)(i + 1) * L}, mass};
-        char name[8];
+        char name[24];
         const dmb_id below = add_bar(s, &def);
         (void)snprintf(name, sizeof name, "pin %u", i);
         (void)add_hinge(s, name, DMB_JOINT_REVOLUTE, i == 0 ? pin_ground(0.0, 0.0) : pin_on(above, 0.5 * L),
