@@ -106,7 +106,6 @@ typedef struct dmb_turn_run {
 typedef struct dmb_kernels {
     uint32_t lanes;
     uint32_t reserved;
-    const char *name;
     /* Forces and, if asked for, tangent blocks. Returns 0, or -1 with run->failed. */
     int32_t (*beams)(dmb_beam_run *run);
     /* stress <- K (d - d0) + (K/L) P z over the correction z of the nodes (run->velocity), at run->strain. */

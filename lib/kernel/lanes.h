@@ -1,5 +1,5 @@
-/* The kernels in one width. A file that defines DMB_KERNELS, the name of its table, DMB_KERNELS_NAME and (but for one
- * lane) DMB_LANES includes this once. */
+/* The kernels in one width. A file that defines DMB_KERNELS, the name of its table, and (but for one lane) DMB_LANES
+ * includes this once. */
 #include "element/beam_element.h"
 #include "kernel/kernels.h"
 #include "kernel/lane_group.h"
@@ -209,7 +209,6 @@ static void solve(const dmb_block_layout *layout, const dmb_block_matrix *matrix
 
 extern const dmb_kernels DMB_KERNELS;
 const dmb_kernels DMB_KERNELS = {.lanes = LANES,
-                                 .name = DMB_KERNELS_NAME,
                                  .beams = beams,
                                  .extrapolate = extrapolate,
                                  .node_forces = node_forces,

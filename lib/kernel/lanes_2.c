@@ -2,10 +2,9 @@
 #if defined(__GNUC__)
 #define DMB_LANES 2
 #define DMB_KERNELS dmb_kernels_2
-#define DMB_KERNELS_NAME "2"
 #include "kernel/lanes.h"
 #else
 #include "kernel/kernels.h"
 extern const dmb_kernels dmb_kernels_2;
-const dmb_kernels dmb_kernels_2 = {.name = "none"};
+const dmb_kernels dmb_kernels_2 = {.lanes = 0};
 #endif

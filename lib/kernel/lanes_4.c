@@ -2,10 +2,9 @@
 #if defined(__GNUC__) && defined(__AVX2__)
 #define DMB_LANES 4
 #define DMB_KERNELS dmb_kernels_4
-#define DMB_KERNELS_NAME "4"
 #include "kernel/lanes.h"
 #else
 #include "kernel/kernels.h"
 extern const dmb_kernels dmb_kernels_4;
-const dmb_kernels dmb_kernels_4 = {.name = "none"};
+const dmb_kernels dmb_kernels_4 = {.lanes = 0};
 #endif

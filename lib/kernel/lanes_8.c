@@ -2,10 +2,9 @@
 #if defined(__GNUC__) && defined(__AVX512F__)
 #define DMB_LANES 8
 #define DMB_KERNELS dmb_kernels_8
-#define DMB_KERNELS_NAME "8"
 #include "kernel/lanes.h"
 #else
 #include "kernel/kernels.h"
 extern const dmb_kernels dmb_kernels_8;
-const dmb_kernels dmb_kernels_8 = {.name = "none"};
+const dmb_kernels dmb_kernels_8 = {.lanes = 0};
 #endif

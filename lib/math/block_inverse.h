@@ -1,7 +1,7 @@
 /* Block elimination with the inverse X_i of each eliminated block: G_i = L_i X_i, D_{i+1} -= G_i U_i, W_i = X_i U_i. A
- * solution takes one product a block down the chain, one up, and no division: a fifth of the time on its way that LU
- * factors take. Where a block's stiffnesses lie 15 decades apart an inverse loses the soft ones, which LU factors keep;
- * so this is for steps, whose Newton iterations look at the residual again, and block_tridiagonal for statics.
+ * solution takes one product a block down the chain and one up; with LU factors two triangles lie on the way besides.
+ * Where a block's stiffnesses lie 15 decades apart an inverse loses the soft ones, which LU factors keep; so this is for
+ * steps, whose Newton iterations look at the residual again, and block_tridiagonal for statics.
  *
  * For the files that compile it in one width each, kernel/lanes.h. Functions as dmb_block_factor and dmb_block_solve;
  * factors are X in `diagonal`, W in `upper`, G in `lower`, column-major. */

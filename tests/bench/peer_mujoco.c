@@ -103,10 +103,10 @@ static void write_model(FILE *xml, const chain_method *how)
     fprintf(xml, "</worldbody></mujoco>\n");
 }
 
-/* MuJoCo reads files: a temporary one. */
+/* MuJoCo reads files: one in the present folder, gone at once. */
 static mjModel *make_model(const chain_method *how)
 {
-    char name[] = "/tmp/peer_mujoco_XXXXXX", error[500] = "no file";
+    char name[] = "peer_mujoco_XXXXXX", error[500] = "no file";
     const int file = mkstemp(name);
     FILE *const xml = file < 0 ? NULL : fdopen(file, "w");
     mjModel *model = NULL;
