@@ -25,6 +25,7 @@
 
 #if defined(__cpp_exceptions) || defined(__EXCEPTIONS) || defined(_CPPUNWIND)
 #define DRILLMBD_EXCEPTIONS 1
+#include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <stdexcept>
@@ -341,6 +342,23 @@ private:
     dmb_response *handle_;
 };
 
+#if defined(DRILLMBD_EXCEPTIONS)
+// What sim::sine finds.
+struct sine_response {
+    std::int32_t status; // DMB_OK, or DMB_NOTE_STOPPED: not settled
+    dmb_sine_report report;
+    // Of each output its mean and then its harmonics.
+    std::vector<std::vector<std::complex<double>>> amplitudes;
+};
+
+// What sim::speeds finds.
+struct speed_bands {
+    std::int32_t status; // DMB_OK, or DMB_NOTE_FULL: there are more bands than there was room for
+    std::vector<dmb_speed_band> bands;
+    std::vector<double> severity; // at the speeds of the grid
+};
+#endif
+
 // ---- Sim ------------------------------------------------------------------------------------------------------------
 class sim {
 public:
@@ -464,6 +482,38 @@ public:
         done(dmb_analysis_response(handle_, options, inputs.data(), static_cast<std::uint32_t>(inputs.size()),
                                    outputs.data(), static_cast<std::uint32_t>(outputs.size()), &found));
         return drillmbd::response(found);
+    }
+    // Runs on until the Fourier amplitudes at a frequency [Hz] have settled.
+    sine_response sine(double frequency, const std::vector<dmb_output> &outputs,
+                       const dmb_sine_options *options = nullptr)
+    {
+        const dmb_sine_options used = options != nullptr ? *options : dmb_sine_options_default();
+        const std::size_t width = 1 + std::min<std::size_t>(used.harmonics, 16); // more are refused
+        std::vector<std::complex<double>> numbers(width * outputs.size());
+        sine_response answer;
+        answer.report = dmb_sine_report_default();
+        answer.status = done(dmb_analysis_sine(handle_, frequency, &used, outputs.data(),
+                                               static_cast<std::uint32_t>(outputs.size()),
+                                               reinterpret_cast<double *>(numbers.data()), &answer.report));
+        for (std::size_t i = 0; i < numbers.size(); i += width)
+            answer.amplitudes.emplace_back(numbers.data() + i, numbers.data() + i + width);
+        return answer;
+    }
+    // Bands of rotary speed to avoid, `room` of them at most; limits: amplitudes that are allowed, one for each output.
+    speed_bands speeds(const std::vector<dmb_order> &orders, const std::vector<dmb_output> &outputs,
+                       const std::vector<double> &limits, const dmb_speeds_options *options = nullptr,
+                       std::uint32_t room = 64)
+    {
+        const dmb_speeds_options used = options != nullptr ? *options : dmb_speeds_options_default();
+        if (limits.size() != outputs.size()) throw error(DMB_ERR_VALUE, "limits: one for each output");
+        speed_bands answer;
+        answer.bands.assign(room, dmb_speed_band_default());
+        answer.severity.resize(std::min<std::size_t>(used.points, 100000)); // more are refused
+        answer.status = done(dmb_analysis_speeds(
+            handle_, &used, orders.data(), static_cast<std::uint32_t>(orders.size()), outputs.data(), limits.data(),
+            static_cast<std::uint32_t>(outputs.size()), answer.bands.data(), &room, answer.severity.data()));
+        answer.bands.resize(room);
+        return answer;
     }
     drillmbd::modes modes(const dmb_modes_options *options = nullptr)
     {

@@ -307,6 +307,72 @@ void response_of_a_body()
     EXPECT(thrown_by([&] { taken.transfer(1); }) == DMB_ERR_VALUE);
 }
 
+// 3 N at 5 Hz on 2 kg: 1.5 m/s2, sine: the real part of -i e^(iwt).
+void stepped_sine_of_a_body()
+{
+    drillmbd::model model;
+    dmb_body_def def = dmb_body_def_default();
+    dmb_drive_def push = dmb_drive_def_default();
+    dmb_term shake = dmb_term_default();
+    def.mass = 2.0;
+    def.free_mask = DMB_FREE_X;
+    shake.kind = DMB_TERM_HARMONIC;
+    shake.h1 = 3.0;
+    shake.omega = 10.0 * 3.14159265358979323846;
+    push.kind = DMB_DRIVE_LOAD;
+    push.part = model.add_body(def);
+    push.component = DMB_X;
+    push.programme = model.add_programme({shake});
+    model.add_drive(push);
+    model.compile();
+    drillmbd::sim sim(model);
+    dmb_output rate = dmb_output_default();
+    rate.kind = DMB_OUTPUT_ACCELERATION;
+    rate.place = dmb_station(push.part, 0, 0.0);
+    dmb_output speed = rate;
+    speed.kind = DMB_OUTPUT_VELOCITY;
+    dmb_sine_options options = dmb_sine_options_default();
+    options.harmonics = 2;
+    const drillmbd::sine_response found = sim.sine(5.0, {rate, speed}, &options);
+    EXPECT(found.status == DMB_OK && found.report.settled == 1 && found.report.windows == 3);
+    EXPECT(found.amplitudes.size() == 2 && found.amplitudes[1].size() == 3);
+    EXPECT(std::abs(found.amplitudes[0][1] - std::complex<double>(0.0, -1.5)) < 1e-12);
+    EXPECT(std::abs(found.amplitudes[1][1] + 1.5 / shake.omega) < 1e-3 * 1.5 / shake.omega);
+    EXPECT(std::abs(found.amplitudes[0][0]) < 1e-12 && std::abs(found.amplitudes[0][2]) < 1e-12);
+    options.harmonics = 17;
+    const std::uint64_t before = sim.hash();
+    EXPECT(thrown_by([&] { sim.sine(5.0, {rate}, &options); }) == DMB_ERR_VALUE);
+    EXPECT(sim.hash() == before);
+}
+
+// m r w^2/(m w^2) = r: the same at every speed, above a limit and below another.
+void speeds_of_a_body()
+{
+    drillmbd::model model;
+    dmb_environment_def none = dmb_environment_def_default();
+    dmb_body_def def = dmb_body_def_default();
+    none.gravity[2] = 0.0;
+    def.mass = 2.0;
+    model.set_environment(none);
+    dmb_order once = dmb_order_default();
+    dmb_output move = dmb_output_default();
+    once.input.kind = DMB_INPUT_UNBALANCE;
+    once.input.amplitude = 1e-3;
+    once.input.place = move.place = dmb_station(model.add_body(def), 0, 0.0);
+    model.compile();
+    drillmbd::sim sim(model);
+    dmb_speeds_options options = dmb_speeds_options_default();
+    options.points = 7;
+    const drillmbd::speed_bands found = sim.speeds({once}, {move}, {4e-4}, &options);
+    EXPECT(found.status == DMB_OK && found.bands.size() == 1 && found.severity.size() == 7);
+    EXPECT(found.bands[0].low == 1.0 && found.bands[0].high == 30.0);
+    EXPECT(std::abs(found.severity[3] - 1.25) < 1e-12);
+    EXPECT(sim.speeds({once}, {move}, {6e-4}).bands.empty());
+    EXPECT(thrown_by([&] { sim.speeds({once}, {move}, {}); }) == DMB_ERR_VALUE);
+    options.points = 1;
+    EXPECT(thrown_by([&] { sim.speeds({once}, {move}, {4e-4}, &options); }) == DMB_ERR_VALUE);
+}
+
 // ---- Buckling -------------------------------------------------------------------------------------------------------
 void buckling_of_a_column()
 {
@@ -418,6 +484,8 @@ int main()
         sim_in_the_callers_block();
         modes_of_a_string();
         response_of_a_body();
+        stepped_sine_of_a_body();
+        speeds_of_a_body();
         buckling_of_a_column();
         failures_throw();
         failures_return();
