@@ -1,6 +1,7 @@
 /* dmb_sim_advance: steps whose local error holds the tolerances. The estimate e = C h^2 (a1 - a0) is of third order, so
  *     h_new = h clamp(0.9 err^(-1/3), 0.2, 2), held while the ratio lies in 0.8 .. 1.25 (THEORY 4). */
 #include "base/sized_struct.h"
+#include "integrator/corner.h"
 #include "integrator/walk.h"
 
 /* What control wants next after an error of `error` tolerances. */

@@ -27,7 +27,5 @@ double dmb_attempt_error(const dmb_sim *sim, double step);
 void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt);
 /* Message for a failed attempt: which part, at what time. */
 void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt);
-/* [s] smallest corner later than t of any programme in use; INFINITY if none. */
-double dmb_next_corner(const dmb_sim *sim, double t);
 
 #endif

@@ -5,6 +5,7 @@
 #include "base/sized_struct.h"
 #include "drillmbd/sim.h"
 #include "integrator/attempt.h"
+#include "integrator/corner.h"
 #include "integrator/walk.h"
 
 DMB_DECLARE_STRUCT(dmb_step_report)
@@ -26,11 +27,11 @@ static int32_t take_substep(dmb_sim *sim, double end, double *cut, uint32_t *cut
         const double h = substep(sim, end, *cut);
         if (!(sim->clock->time + h > sim->clock->time)) return dmb_walk_stuck(sim, h);
         const int last = !(sim->clock->time + h < end);
-        if (!last && !walk->kept) {
+        if (!last && !walk->set_aside) {
             dmb_state_keep(sim);
-            walk->kept = 1;
+            walk->set_aside = 1;
         }
-        const int32_t status = dmb_attempt_step(sim, h, last && !walk->kept, &attempt);
+        const int32_t status = dmb_attempt_step(sim, h, last && !walk->set_aside, &attempt);
         if (status >= 0) {
             if (last) attempt.evaluation.time = end;
             dmb_walk_commit(sim, &attempt, walk);

@@ -61,7 +61,7 @@ int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_rep
 {
     dmb_step_report out = walk->report;
     if (status < 0 && restore) { /* counters too: a failing call changes nothing */
-        if (walk->kept) dmb_state_bring_back(sim);
+        if (walk->set_aside) dmb_state_bring_back(sim);
         *sim->counters = walk->counters;
         out.steps = 0;
     } else { /* work spent in vain on the way counts */

@@ -8,7 +8,7 @@
 typedef struct dmb_walk {
     dmb_step_report report;
     dmb_counters counters; /* as before the call */
-    int32_t kept;          /* the state before the call is set aside */
+    int32_t set_aside;  /* 1: the state before the call is in sim->backup */
     int32_t was_cut;
     int32_t limited;
     int32_t stopped;    /* max_steps used up */

@@ -1,0 +1,45 @@
+/* The motion that a step iterates on: predicted from the accepted state, then corrected by Newton. */
+#ifndef DMB_INTEGRATOR_STEP_MOTION_H
+#define DMB_INTEGRATOR_STEP_MOTION_H
+
+#include "integrator/generalized_alpha.h"
+#include "state.h"
+
+/* Largest ratio of a step to the one before over which the pseudo-acceleration is carried. */
+#define DMB_STEP_RATIO_MAX 1e3
+
+/* The trial itself, or what is projected onto the constraints to become it. Increments h Dq: sim->increment. */
+typedef struct dmb_step_motion {
+    double *velocity, *acceleration, *pseudo_acceleration;
+} dmb_step_motion;
+
+static inline dmb_step_motion dmb_step_motion_of(const dmb_sim *sim)
+{
+    const dmb_step_motion trial = {sim->trial.velocity, sim->trial.acceleration, sim->trial.pseudo_acceleration};
+    const dmb_step_motion raw = {sim->raw_velocity, sim->raw_acceleration, sim->raw_pseudo_acceleration};
+    return sim->scene->cluster_count ? raw : trial;
+}
+
+/* After a sliver of a step a0 - v0' is lost in what Newton left over, and the ratio would blow that up: a0 starts anew
+ * from the acceleration. */
+static inline double dmb_step_motion_ratio(const dmb_sim *sim, double step)
+{
+    if (!(sim->clock->step > 0.0)) return 1.0;
+    return step > DMB_STEP_RATIO_MAX * sim->clock->step ? 0.0 : step / sim->clock->step;
+}
+
+/* a0 of row i carried over to a new step length, v0' + (h/h_old)(a0 - v0'), which keeps second order (THEORY 4). */
+static inline double dmb_step_motion_carried(const dmb_sim *sim, double ratio, uint32_t i)
+{
+    const double a = sim->now.acceleration[i];
+    return a + ratio * (sim->now.pseudo_acceleration[i] - a);
+}
+
+/* Start of a step of length h [s]: v1' = v0'. */
+void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h);
+/* Takes over what motion drives of nodes have written into the trial. */
+void dmb_step_motion_keep_prescribed(dmb_sim *sim);
+/* Moves motion and trial by sim->correction, that of h Dq. */
+void dmb_step_motion_correct(dmb_sim *sim, const dmb_generalized_alpha *c, double h);
+
+#endif
