@@ -3,7 +3,7 @@
 #include "math/mat6.h"
 #include "math/so3.h"
 
-#define FLAT 1e-12 /* [-] sine of an angle below which the direction of the rest is rounding error */
+#define DMB_FLAT 1e-12 /* [-] sine of an angle below which the direction of the rest is rounding error */
 
 /* Dot-product rows, in their order, and free coordinates. */
 enum { P_X = 1, P_Y = 2, P_Z = 4, R_YX = 8, R_ZX = 16, R_YZ = 32, P = P_X | P_Y | P_Z };
@@ -103,7 +103,7 @@ static void lean_at(const double n[3], const double w[3], lean *l)
     dmb_vec3_copy(n, l->n);
     dmb_vec3_cross(n, w, l->rate);
     l->s = sqrt(n[1] * n[1] + n[2] * n[2]);
-    l->inverse = l->s > FLAT ? 1.0 / l->s : 0.0;
+    l->inverse = l->s > DMB_FLAT ? 1.0 / l->s : 0.0;
     dmb_vec3_set(0.0, -n[2] * l->inverse, n[1] * l->inverse, l->t);
     dmb_vec3_set(0.0, -n[1] * l->inverse, -n[2] * l->inverse, l->m);
     l->s_rate = -n[0] * dmb_vec3_dot(l->t, w);

@@ -2,13 +2,13 @@
 
 #include <stddef.h>
 
-#define PX "position x"
-#define PY "position y"
-#define PZ "position z"
+#define DMB_NAME_PX "position x"
+#define DMB_NAME_PY "position y"
+#define DMB_NAME_PZ "position z"
 /* R_yx = 0: the x axis of b has no part along y of a, which a turn about z would give; R_zx and R_yz likewise. */
-#define R_YX "rotation about z"
-#define R_ZX "rotation about y"
-#define R_YZ "rotation about x"
+#define DMB_NAME_R_YX "rotation about z"
+#define DMB_NAME_R_ZX "rotation about y"
+#define DMB_NAME_R_YZ "rotation about x"
 
 typedef struct kind_names {
     const char *kind;
@@ -17,14 +17,14 @@ typedef struct kind_names {
 
 /* Rows in the order of constraint/joint.h. */
 static const kind_names names[DMB_ROWS_KINDS] = {
-    [DMB_ROWS_FIXED] = {"fixed", {PX, PY, PZ, R_YX, R_ZX, R_YZ}},
-    [DMB_ROWS_REVOLUTE] = {"revolute", {PX, PY, PZ, R_YX, R_ZX}},
-    [DMB_ROWS_PRISMATIC] = {"prismatic", {PY, PZ, R_YX, R_ZX, R_YZ}},
-    [DMB_ROWS_CYLINDRICAL] = {"cylindrical", {PY, PZ, R_YX, R_ZX}},
-    [DMB_ROWS_UNIVERSAL] = {"universal", {PX, PY, PZ, R_YZ}},
-    [DMB_ROWS_SPHERICAL] = {"spherical", {PX, PY, PZ}},
-    [DMB_ROWS_PLANAR] = {"planar", {PX, R_YX, R_ZX}},
-    [DMB_ROWS_POINT_ON_LINE] = {"point-on-line", {PY, PZ}},
+    [DMB_ROWS_FIXED] = {"fixed", {DMB_NAME_PX, DMB_NAME_PY, DMB_NAME_PZ, DMB_NAME_R_YX, DMB_NAME_R_ZX, DMB_NAME_R_YZ}},
+    [DMB_ROWS_REVOLUTE] = {"revolute", {DMB_NAME_PX, DMB_NAME_PY, DMB_NAME_PZ, DMB_NAME_R_YX, DMB_NAME_R_ZX}},
+    [DMB_ROWS_PRISMATIC] = {"prismatic", {DMB_NAME_PY, DMB_NAME_PZ, DMB_NAME_R_YX, DMB_NAME_R_ZX, DMB_NAME_R_YZ}},
+    [DMB_ROWS_CYLINDRICAL] = {"cylindrical", {DMB_NAME_PY, DMB_NAME_PZ, DMB_NAME_R_YX, DMB_NAME_R_ZX}},
+    [DMB_ROWS_UNIVERSAL] = {"universal", {DMB_NAME_PX, DMB_NAME_PY, DMB_NAME_PZ, DMB_NAME_R_YZ}},
+    [DMB_ROWS_SPHERICAL] = {"spherical", {DMB_NAME_PX, DMB_NAME_PY, DMB_NAME_PZ}},
+    [DMB_ROWS_PLANAR] = {"planar", {DMB_NAME_PX, DMB_NAME_R_YX, DMB_NAME_R_ZX}},
+    [DMB_ROWS_POINT_ON_LINE] = {"point-on-line", {DMB_NAME_PY, DMB_NAME_PZ}},
     [DMB_ROWS_POINT_ON_HOLE] = {"point-on-hole", {"position across the hole, y", "position across the hole, z"}},
     [DMB_ROWS_DISTANCE] = {"distance", {"distance"}},
     [DMB_ROWS_FREE] = {"free", {NULL}},

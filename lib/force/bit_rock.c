@@ -6,7 +6,7 @@
 static const double two_pi = 6.28318530717958647693;
 
 enum { CAPACITY_MIN = 16, SPARE_SAMPLES = 8 };
-#define LEDGE_STEPS 4.0 /* [-] angle_steps over which the step in the rock behind the blade is smoothed */
+#define DMB_LEDGE_STEPS 4.0 /* [-] angle_steps over which the step in the rock behind the blade is smoothed */
 
 /* S(x) = x^2 (3 - 2x) on 0 .. 1, 0 before, 1 after */
 static double ramp(double x, double *slope)
@@ -98,7 +98,7 @@ static double surface_at(const dmb_bit_history *history, double angle, double *s
 double dmb_bit_history_surface(const dmb_bit_history *history, double Phi, double *slope)
 {
     const double newest = history->angle[history->head];
-    const double width = LEDGE_STEPS * history->angle_step;
+    const double width = DMB_LEDGE_STEPS * history->angle_step;
     double angle = Phi + history->offset;
 
     if (angle < newest - history->spacing) /* turned back by more than a blade since the last accepted step */

@@ -6,8 +6,8 @@
 #include "force/hole_math.h"
 #include "math/vec3.h"
 
-#define BEND_MIN 1e-12      /* [rad] a smaller change of direction counts as none */
-#define HORIZONTAL_MIN 1e-9 /* [-] horizontal part of the tangent below which the hole counts as vertical */
+#define DMB_BEND_MIN 1e-12      /* [rad] a smaller change of direction counts as none */
+#define DMB_HORIZONTAL_MIN 1e-9 /* [-] horizontal part of the tangent below which the hole counts as vertical */
 
 /* Divides by the length; through the largest component, so that no finite length over- or underflows. Returns 0 where
  * there is no direction. */
@@ -63,7 +63,7 @@ static int survey_arc(dmb_hole_station *from, const dmb_hole_station *to)
     if (!(bend <= DMB_HOLE_DOGLEG_MAX)) return 0;
     from->curvature = 0.0;
     dmb_vec3_zero(from->normal);
-    if (bend < BEND_MIN) return 1;
+    if (bend < DMB_BEND_MIN) return 1;
     from->curvature = bend / (to->depth - from->depth);
     dmb_vec3_cross(axis, from->tangent, from->normal);
     return normalise(from->normal);
@@ -185,7 +185,7 @@ void dmb_hole_frame_rotation(const dmb_hole *hole, double s, double R[9])
 
     dmb_hole_frame(hole, s, x, t, NULL);
     double y[3] = {0.0 - t[1], t[0], 0.0};
-    if (dmb_vec3_norm(y) < HORIZONTAL_MIN) {
+    if (dmb_vec3_norm(y) < DMB_HORIZONTAL_MIN) {
         dmb_vec3_set(0.0, 1.0, 0.0, y);
         dmb_vec3_axpy(-t[1], t, y);
     }

@@ -2,11 +2,11 @@
 
 #include <math.h>
 
-#define NO_STOP 1e29 /* a bound this far away is none */
+#define DMB_NO_STOP 1e29 /* a bound this far away is none */
 
 static int stop_acts(const dmb_joint_law *law)
 {
-    return law->stop_stiffness > 0.0 && (fabs(law->stop_low) < NO_STOP || fabs(law->stop_high) < NO_STOP);
+    return law->stop_stiffness > 0.0 && (fabs(law->stop_low) < DMB_NO_STOP || fabs(law->stop_high) < DMB_NO_STOP);
 }
 
 int dmb_joint_law_acts(const dmb_joint_law *law)

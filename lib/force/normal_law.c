@@ -4,9 +4,9 @@
 
 #include "force/normal_law_math.h"
 
-#define RESTITUTION_FLOOR 1e-6 /* [-] smallest e where mu grows like 1/e */
-#define SPEED_FLOOR 1e-12      /* [m/s] smallest v0 whatever the law says */
-#define ITERATIONS 60
+#define DMB_RESTITUTION_FLOOR 1e-6 /* [-] smallest e where mu grows like 1/e */
+#define DMB_SPEED_FLOOR 1e-12      /* [m/s] smallest v0 whatever the law says */
+#define DMB_NORMAL_LAW_ITERATIONS 60
 
 /* ---- Restitution and damping factor ------------------------------------------------------------------------------
  * One contact under K d^n (1 + mu d'/v0) obeys m v dv/(1 + mu v/v0) = -K d^n dd, so speed in and out do not depend on
@@ -54,7 +54,7 @@ static double factor_of_bouncy(double e)
     double high = 0.9;
     double mu = 1.5 * (1.0 - e) / (1.0 - e + e * e); /* root of the first two terms */
 
-    for (int i = 0; i < ITERATIONS; ++i) {
+    for (int i = 0; i < DMB_NORMAL_LAW_ITERATIONS; ++i) {
         double slope;
         const double value = balance(e, mu, &slope);
         if (value < 0.0)
@@ -75,7 +75,7 @@ static double factor_of_dull(double e)
 {
     double y = 0.0;
 
-    for (int i = 0; i < ITERATIONS; ++i) {
+    for (int i = 0; i < DMB_NORMAL_LAW_ITERATIONS; ++i) {
         const double mu = (1.0 - y) / e;
         const double decay = exp(-mu * (1.0 + e));
         const double value = y - (1.0 + mu) * decay;
@@ -90,7 +90,7 @@ static double factor_of_dull(double e)
 double dmb_exact_restitution_factor(double e)
 {
     if (e >= 1.0) return 0.0;
-    if (!(e > RESTITUTION_FLOOR)) e = RESTITUTION_FLOOR;
+    if (!(e > DMB_RESTITUTION_FLOOR)) e = DMB_RESTITUTION_FLOOR;
     return e > 0.62 ? factor_of_bouncy(e) : factor_of_dull(e);
 }
 
@@ -100,7 +100,7 @@ static double restitution_of_small(double mu)
     const double target = log_deficit(mu);
     double u = mu;
 
-    for (int i = 0; i < ITERATIONS; ++i) {
+    for (int i = 0; i < DMB_NORMAL_LAW_ITERATIONS; ++i) {
         const double next = u - (log_deficit(-u) - target) * (1.0 - u) / u;
         if (!(next < u)) break;
         u = next;
@@ -116,7 +116,7 @@ double dmb_exact_restitution(double mu)
     if (mu < 0.5) return restitution_of_small(mu);
     /* y = 1 - mu e = -W0(-(1+mu) exp(-(1+mu))), Newton in y = exp(y - 1 - (mu - ln(1 + mu))) from below */
     const double shift = 1.0 + log_deficit(mu);
-    for (int i = 0; i < ITERATIONS; ++i) {
+    for (int i = 0; i < DMB_NORMAL_LAW_ITERATIONS; ++i) {
         const double image = exp(y - shift);
         const double next = y + (image - y) / (1.0 - image);
         if (!(next > y)) break;
@@ -133,7 +133,7 @@ static double restitution_factor(int32_t kind, double e)
     case DMB_NORMAL_HUNT_CROSSLEY: /* Hunt, Crossley 1975 */ return 1.5 * (1.0 - e);
     case DMB_NORMAL_LANKARANI_NIKRAVESH: /* Lankarani, Nikravesh 1990 */ return 0.75 * (1.0 - e) * (1.0 + e);
     case DMB_NORMAL_FLORES: /* Flores, Machado, Silva, Martins 2011 */
-        return 1.6 * (1.0 - e) / fmax(e, RESTITUTION_FLOOR);
+        return 1.6 * (1.0 - e) / fmax(e, DMB_RESTITUTION_FLOOR);
     case DMB_NORMAL_EXACT: return dmb_exact_restitution_factor(e);
     default: return 0.0;
     }
@@ -149,7 +149,7 @@ void dmb_normal_law_setup(dmb_normal_law *law, int32_t kind, double stiffness, d
     law->damping = damping;
     law->impact_depth = impact_depth;
     law->mu = restitution_factor(kind, restitution);
-    law->approach_floor = fmax(approach_floor, SPEED_FLOOR);
+    law->approach_floor = fmax(approach_floor, DMB_SPEED_FLOOR);
 }
 
 void dmb_normal_force(const dmb_normal_law *law, double depth, double rate, double approach_speed, double *force,

@@ -5,10 +5,10 @@
 
 #include "math/gauss.h"
 
-#define RATE_STEP 1e-5         /* [s] half width of the difference that replaces a missing rate */
-#define RATE_STEP_FACTOR 1e-10 /* [-] the same relative to |t|, for times beyond 1e5 s */
-#define GAUSS_PART 0.05        /* [s] longest part under one 5-point rule */
-#define GAUSS_PARTS_MAX 1000.0
+#define DMB_RATE_STEP 1e-5         /* [s] half width of the difference that replaces a missing rate */
+#define DMB_RATE_STEP_FACTOR 1e-10 /* [-] the same relative to |t|, for times beyond 1e5 s */
+#define DMB_GAUSS_PART 0.05        /* [s] longest part under one 5-point rule */
+#define DMB_GAUSS_PARTS_MAX 1000.0
 
 /* ---- STEP and STEP5 ---------------------------------------------------------------------------------------------- */
 
@@ -155,7 +155,7 @@ static int32_t call(const dmb_term *term, double t, int32_t needed, double out[3
 /* Central difference; divides by the width that the rounded times really have. */
 static int32_t callback_difference(const dmb_term *term, double t, double *rate)
 {
-    const double width = fmax(RATE_STEP, RATE_STEP_FACTOR * fabs(t));
+    const double width = fmax(DMB_RATE_STEP, DMB_RATE_STEP_FACTOR * fabs(t));
     const double later = t + width;
     const double earlier = t - width;
     double above[3], below[3];
@@ -193,7 +193,7 @@ static int32_t callback_part(const dmb_term *term, double a, double b, double *s
 
 static int32_t callback_integral(const dmb_term *term, double t0, double t1, double *integral)
 {
-    const double parts = fmin(fmax(ceil((t1 - t0) / GAUSS_PART), 1.0), GAUSS_PARTS_MAX);
+    const double parts = fmin(fmax(ceil((t1 - t0) / DMB_GAUSS_PART), 1.0), DMB_GAUSS_PARTS_MAX);
     int32_t status = DMB_OK;
 
     if ((term->provides & DMB_PROVIDES_INTEGRAL) != 0) {

@@ -7,26 +7,24 @@
 
 #include "math/real.h"
 
-#define LANES DMB_REAL_LANES
-
 #if defined(DMB_LANES) && defined(__has_builtin)
 #if DMB_LANES >= 4 && __has_builtin(__builtin_shufflevector)
-#define LANES_TRANSPOSED
+#define DMB_LANES_TRANSPOSED
 #endif
 #endif
 
 /* Places of a group of lanes in a run: behind its end the last one is taken again, and left out when results are
  * stored. */
 typedef struct lane_group {
-    size_t place[LANES];
+    size_t place[DMB_REAL_LANES];
     uint32_t used;
 } lane_group;
 
 static inline lane_group group_at(uint32_t first, uint32_t count)
 {
     lane_group g;
-    g.used = count - first < LANES ? count - first : LANES;
-    for (uint32_t l = 0; l < LANES; l++) g.place[l] = l < g.used ? first + l : count - 1;
+    g.used = count - first < DMB_REAL_LANES ? count - first : DMB_REAL_LANES;
+    for (uint32_t l = 0; l < DMB_REAL_LANES; l++) g.place[l] = l < g.used ? first + l : count - 1;
     return g;
 }
 
@@ -40,13 +38,13 @@ static inline uint32_t lanes_used(const lane_group *g)
 static inline dmb_real load_one(const double *from, size_t size, const lane_group *g)
 {
     dmb_real x = dmb_real_of(from[size * g->place[0]]);
-    for (int l = 1; l < LANES; l++) dmb_real_set_lane(&x, l, from[size * g->place[l]]);
+    for (int l = 1; l < DMB_REAL_LANES; l++) dmb_real_set_lane(&x, l, from[size * g->place[l]]);
     return x;
 }
 
 /* ---- Four numbers of each lane ----------------------------------------------------------------------------------- */
 
-#ifdef LANES_TRANSPOSED
+#ifdef DMB_LANES_TRANSPOSED
 
 typedef double lane_row __attribute__((vector_size(32)));
 typedef double lane_row_anywhere __attribute__((vector_size(32), aligned(8)));
@@ -63,46 +61,46 @@ static inline void store_row(lane_row row, double *to)
 
 /* Pairs of numbers from two vectors, in each half of them alike. */
 #if DMB_LANES == 4
-#define LANES_EVEN 0, 4, 2, 6
-#define LANES_ODD 1, 5, 3, 7
-#define LANES_LOW 0, 1, 4, 5
-#define LANES_HIGH 2, 3, 6, 7
+#define DMB_LANES_EVEN 0, 4, 2, 6
+#define DMB_LANES_ODD 1, 5, 3, 7
+#define DMB_LANES_LOW 0, 1, 4, 5
+#define DMB_LANES_HIGH 2, 3, 6, 7
 #else
-#define LANES_EVEN 0, 8, 2, 10, 4, 12, 6, 14
-#define LANES_ODD 1, 9, 3, 11, 5, 13, 7, 15
-#define LANES_LOW 0, 1, 8, 9, 4, 5, 12, 13
-#define LANES_HIGH 2, 3, 10, 11, 6, 7, 14, 15
+#define DMB_LANES_EVEN 0, 8, 2, 10, 4, 12, 6, 14
+#define DMB_LANES_ODD 1, 9, 3, 11, 5, 13, 7, 15
+#define DMB_LANES_LOW 0, 1, 8, 9, 4, 5, 12, 13
+#define DMB_LANES_HIGH 2, 3, 10, 11, 6, 7, 14, 15
 #endif
 
 /* x[i]: number i of each lane; out[k]: the four numbers of lane k, and of lane 4 + k; or the other way round. */
 static inline void lanes_transpose(const dmb_real x[4], dmb_real out[4])
 {
-    const dmb_real a = __builtin_shufflevector(x[0], x[1], LANES_EVEN);
-    const dmb_real b = __builtin_shufflevector(x[0], x[1], LANES_ODD);
-    const dmb_real c = __builtin_shufflevector(x[2], x[3], LANES_EVEN);
-    const dmb_real d = __builtin_shufflevector(x[2], x[3], LANES_ODD);
-    out[0] = __builtin_shufflevector(a, c, LANES_LOW);
-    out[1] = __builtin_shufflevector(b, d, LANES_LOW);
-    out[2] = __builtin_shufflevector(a, c, LANES_HIGH);
-    out[3] = __builtin_shufflevector(b, d, LANES_HIGH);
+    const dmb_real a = __builtin_shufflevector(x[0], x[1], DMB_LANES_EVEN);
+    const dmb_real b = __builtin_shufflevector(x[0], x[1], DMB_LANES_ODD);
+    const dmb_real c = __builtin_shufflevector(x[2], x[3], DMB_LANES_EVEN);
+    const dmb_real d = __builtin_shufflevector(x[2], x[3], DMB_LANES_ODD);
+    out[0] = __builtin_shufflevector(a, c, DMB_LANES_LOW);
+    out[1] = __builtin_shufflevector(b, d, DMB_LANES_LOW);
+    out[2] = __builtin_shufflevector(a, c, DMB_LANES_HIGH);
+    out[3] = __builtin_shufflevector(b, d, DMB_LANES_HIGH);
 }
 
 /* The four numbers of one lane, from the first and the second half of transposed vectors. */
 #if DMB_LANES == 4
-#define LANES_FIRST(rows, k) (rows)[k]
-#define LANES_JOIN(from, size, g, k) load_row((from) + (size) * (g)->place[k])
+#define DMB_LANES_FIRST(rows, k) (rows)[k]
+#define DMB_LANES_JOIN(from, size, g, k) load_row((from) + (size) * (g)->place[k])
 #else
-#define LANES_FIRST(rows, k) __builtin_shufflevector((rows)[k], (rows)[k], 0, 1, 2, 3)
-#define LANES_SECOND(rows, k) __builtin_shufflevector((rows)[k], (rows)[k], 4, 5, 6, 7)
-#define LANES_JOIN(from, size, g, k)                                                                                   \
+#define DMB_LANES_FIRST(rows, k) __builtin_shufflevector((rows)[k], (rows)[k], 0, 1, 2, 3)
+#define DMB_LANES_SECOND(rows, k) __builtin_shufflevector((rows)[k], (rows)[k], 4, 5, 6, 7)
+#define DMB_LANES_JOIN(from, size, g, k)                                                                              \
     __builtin_shufflevector(load_row((from) + (size) * (g)->place[k]), load_row((from) + (size) * (g)->place[4 + k]), \
                             0, 1, 2, 3, 4, 5, 6, 7)
 #endif
 
 static inline void load_four(const double *from, size_t size, const lane_group *g, dmb_real x[4])
 {
-    const dmb_real rows[4] = {LANES_JOIN(from, size, g, 0), LANES_JOIN(from, size, g, 1), LANES_JOIN(from, size, g, 2),
-                              LANES_JOIN(from, size, g, 3)};
+    const dmb_real rows[4] = {DMB_LANES_JOIN(from, size, g, 0), DMB_LANES_JOIN(from, size, g, 1),
+                              DMB_LANES_JOIN(from, size, g, 2), DMB_LANES_JOIN(from, size, g, 3)};
     lanes_transpose(rows, x);
 }
 
@@ -110,15 +108,15 @@ static inline void store_four(const dmb_real x[4], size_t size, const lane_group
 {
     dmb_real rows[4];
     lanes_transpose(x, rows);
-    store_row(LANES_FIRST(rows, 0), to + size * g->place[0]);
-    if (g->used > 1) store_row(LANES_FIRST(rows, 1), to + size * g->place[1]);
-    if (g->used > 2) store_row(LANES_FIRST(rows, 2), to + size * g->place[2]);
-    if (g->used > 3) store_row(LANES_FIRST(rows, 3), to + size * g->place[3]);
+    store_row(DMB_LANES_FIRST(rows, 0), to + size * g->place[0]);
+    if (g->used > 1) store_row(DMB_LANES_FIRST(rows, 1), to + size * g->place[1]);
+    if (g->used > 2) store_row(DMB_LANES_FIRST(rows, 2), to + size * g->place[2]);
+    if (g->used > 3) store_row(DMB_LANES_FIRST(rows, 3), to + size * g->place[3]);
 #if DMB_LANES == 8
-    if (g->used > 4) store_row(LANES_SECOND(rows, 0), to + size * g->place[4]);
-    if (g->used > 5) store_row(LANES_SECOND(rows, 1), to + size * g->place[5]);
-    if (g->used > 6) store_row(LANES_SECOND(rows, 2), to + size * g->place[6]);
-    if (g->used > 7) store_row(LANES_SECOND(rows, 3), to + size * g->place[7]);
+    if (g->used > 4) store_row(DMB_LANES_SECOND(rows, 0), to + size * g->place[4]);
+    if (g->used > 5) store_row(DMB_LANES_SECOND(rows, 1), to + size * g->place[5]);
+    if (g->used > 6) store_row(DMB_LANES_SECOND(rows, 2), to + size * g->place[6]);
+    if (g->used > 7) store_row(DMB_LANES_SECOND(rows, 3), to + size * g->place[7]);
 #endif
 }
 
@@ -127,19 +125,19 @@ static inline void add_row(lane_row row, double *to)
     store_row(load_row(to) + row, to);
 }
 
-static inline void add_four(const dmb_real x[4], uint32_t lanes, double *const to[LANES], uint32_t at)
+static inline void add_four(const dmb_real x[4], uint32_t lanes, double *const to[DMB_REAL_LANES], uint32_t at)
 {
     dmb_real rows[4];
     lanes_transpose(x, rows);
-    if (lanes & 1) add_row(LANES_FIRST(rows, 0), to[0] + at);
-    if (lanes & 2) add_row(LANES_FIRST(rows, 1), to[1] + at);
-    if (lanes & 4) add_row(LANES_FIRST(rows, 2), to[2] + at);
-    if (lanes & 8) add_row(LANES_FIRST(rows, 3), to[3] + at);
+    if (lanes & 1) add_row(DMB_LANES_FIRST(rows, 0), to[0] + at);
+    if (lanes & 2) add_row(DMB_LANES_FIRST(rows, 1), to[1] + at);
+    if (lanes & 4) add_row(DMB_LANES_FIRST(rows, 2), to[2] + at);
+    if (lanes & 8) add_row(DMB_LANES_FIRST(rows, 3), to[3] + at);
 #if DMB_LANES == 8
-    if (lanes & 16) add_row(LANES_SECOND(rows, 0), to[4] + at);
-    if (lanes & 32) add_row(LANES_SECOND(rows, 1), to[5] + at);
-    if (lanes & 64) add_row(LANES_SECOND(rows, 2), to[6] + at);
-    if (lanes & 128) add_row(LANES_SECOND(rows, 3), to[7] + at);
+    if (lanes & 16) add_row(DMB_LANES_SECOND(rows, 0), to[4] + at);
+    if (lanes & 32) add_row(DMB_LANES_SECOND(rows, 1), to[5] + at);
+    if (lanes & 64) add_row(DMB_LANES_SECOND(rows, 2), to[6] + at);
+    if (lanes & 128) add_row(DMB_LANES_SECOND(rows, 3), to[7] + at);
 #endif
 }
 
@@ -156,9 +154,9 @@ static inline void store_four(const dmb_real x[4], size_t size, const lane_group
         for (uint32_t i = 0; i < 4; i++) to[size * g->place[l] + i] = dmb_real_lane(x + i, (int)l);
 }
 
-static inline void add_four(const dmb_real x[4], uint32_t lanes, double *const to[LANES], uint32_t at)
+static inline void add_four(const dmb_real x[4], uint32_t lanes, double *const to[DMB_REAL_LANES], uint32_t at)
 {
-    for (int l = 0; l < LANES; l++)
+    for (int l = 0; l < DMB_REAL_LANES; l++)
         for (uint32_t i = 0; lanes >> l & 1 && i < 4; i++) to[l][at + i] += dmb_real_lane(x + i, l);
 }
 
@@ -194,14 +192,14 @@ static inline void store(const dmb_real *x, uint32_t size, const lane_group *g, 
 static inline dmb_real load_line(const double *from, const lane_group *g)
 {
     dmb_real x;
-    if (g->used < LANES) return load_one(from, 1, g);
+    if (g->used < DMB_REAL_LANES) return load_one(from, 1, g);
     memcpy(&x, from + g->place[0], sizeof x);
     return x;
 }
 
 static inline void store_line(dmb_real x, const lane_group *g, double *to)
 {
-    if (g->used < LANES)
+    if (g->used < DMB_REAL_LANES)
         store(&x, 1, g, to);
     else
         memcpy(to + g->place[0], &x, sizeof x);
@@ -209,7 +207,7 @@ static inline void store_line(dmb_real x, const lane_group *g, double *to)
 
 /* to[l][i] += lane l of x[i], i < count >= 4, for the lanes given, one bit each; lane by lane, for some may go to the
  * same place. */
-static inline void add_lanes(const dmb_real *x, uint32_t count, uint32_t lanes, double *const to[LANES])
+static inline void add_lanes(const dmb_real *x, uint32_t count, uint32_t lanes, double *const to[DMB_REAL_LANES])
 {
     uint32_t i = 0;
     for (; i + 4 <= count; i += 4) add_four(x + i, lanes, to, i);

@@ -11,13 +11,13 @@
 
 /* Constants of the types of a group; kept from group to group while the types are the same. */
 typedef struct lane_types {
-    uint32_t type[LANES];
+    uint32_t type[DMB_REAL_LANES];
     dmb_beam_constants constants;
 } lane_types;
 
 static void load_types(const dmb_beam_run *run, const lane_group *g, int first, lane_types *types)
 {
-    for (int l = 0; l < LANES; l++) {
+    for (int l = 0; l < DMB_REAL_LANES; l++) {
         const uint32_t type = run->type[g->place[l]];
         if (!first && types->type[l] == type) continue;
         types->type[l] = type;
@@ -106,7 +106,7 @@ static int32_t beams(dmb_beam_run *run)
                                 run->inertia_only,
                                 run->arms};
     lane_types types;
-    for (uint32_t first = 0; first < run->count; first += LANES) {
+    for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
         const lane_group g = group_at(first, run->count);
         dmb_beam_input in;
         dmb_beam_output out;
@@ -130,7 +130,7 @@ static int32_t beams(dmb_beam_run *run)
 static void extrapolate(const dmb_beam_run *run)
 {
     lane_types types;
-    for (uint32_t first = 0; first < run->count; first += LANES) {
+    for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
         const lane_group g = group_at(first, run->count);
         dmb_beam_shape shape;
         dmb_real za[6], zb[6], dd[6], stress[6];
@@ -155,7 +155,7 @@ static void extrapolate(const dmb_beam_run *run)
 
 static void advance(const dmb_node_run *run)
 {
-    for (uint32_t first = 0; first < run->count; first += LANES) {
+    for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
         const lane_group g = group_at(first, run->count);
         dmb_real q[4], u[3], z[6];
         load(run->start_quaternion, 4, 4, &g, 0, q);
@@ -170,7 +170,7 @@ static void advance(const dmb_node_run *run)
 /* On the turn that the increment of the step leads to. */
 static void turns(const dmb_turn_run *run)
 {
-    for (uint32_t first = 0; first < run->count; first += LANES) {
+    for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
         const lane_group g = group_at(first, run->count);
         dmb_real from[4], to[4], q[4], start, z[6];
         load(run->reference, 4, 4, &g, 0, from);
@@ -185,7 +185,7 @@ static void turns(const dmb_turn_run *run)
 
 static void rotations(const double *quaternion, uint32_t count, double *rotation)
 {
-    for (uint32_t first = 0; first < count; first += LANES) {
+    for (uint32_t first = 0; first < count; first += DMB_REAL_LANES) {
         const lane_group g = group_at(first, count);
         dmb_real q[4], R[9];
         load(quaternion, 4, 4, &g, 0, q);
@@ -208,7 +208,7 @@ static void solve(const dmb_block_layout *layout, const dmb_block_matrix *matrix
 }
 
 extern const dmb_kernels DMB_KERNELS;
-const dmb_kernels DMB_KERNELS = {.lanes = LANES,
+const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .beams = beams,
                                  .extrapolate = extrapolate,
                                  .node_forces = node_forces,

@@ -27,14 +27,14 @@ static inline void node_apply(const dmb_real force[6], node_group *g)
 static inline int has_lumps(const dmb_node_force_run *run, const lane_group *g, uint32_t *next)
 {
     while (*next < run->lump_count && run->lumps[*next].node < run->first + g->place[0]) (*next)++;
-    return *next < run->lump_count && run->lumps[*next].node <= run->first + g->place[LANES - 1];
+    return *next < run->lump_count && run->lumps[*next].node <= run->first + g->place[DMB_REAL_LANES - 1];
 }
 
 /* Constants of the lumps on a group of nodes, from `next` on; 0 where there is none. */
 static inline void load_lumps(const dmb_node_force_run *run, const lane_group *g, uint32_t next, dmb_lump_constants *c)
 {
     static const dmb_lump none;
-    for (int l = 0; l < LANES; l++) {
+    for (int l = 0; l < DMB_REAL_LANES; l++) {
         const size_t node = run->first + g->place[l];
         while (next < run->lump_count && run->lumps[next].node < node) next++;
         const int has = next < run->lump_count && run->lumps[next].node == node;
@@ -70,8 +70,8 @@ static inline void store_weight_tangent(const dmb_node_force_run *run, const lan
                                  {zero, -turning[0], -turning[1], -turning[2]},
                                  {zero, -turning[3], -turning[4], -turning[5]},
                                  {zero, -turning[6], -turning[7], -turning[8]}};
-    double *to[LANES];
-    for (int l = 0; l < LANES; l++) to[l] = run->stiffness + 36 * g->place[l] + 2;
+    double *to[DMB_REAL_LANES];
+    for (int l = 0; l < DMB_REAL_LANES; l++) to[l] = run->stiffness + 36 * g->place[l] + 2;
     for (uint32_t i = 0; i < 6; i++) add_four(rows[i], lanes_used(g), to, 6 * i);
 }
 
@@ -105,7 +105,7 @@ static inline void add_damping(dmb_node_force_run *run, node_group *g)
 static void node_forces(dmb_node_force_run *run)
 {
     uint32_t next = 0;
-    for (uint32_t first = 0; first < run->count; first += LANES) {
+    for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
         node_group g;
         g.place = group_at(first, run->count);
         const int lumps = has_lumps(run, &g.place, &next), inertia = run->tangent && (lumps || run->damping);

@@ -22,7 +22,7 @@ typedef struct wall_group {
 
 static inline void load_sites(const dmb_wall_run *run, wall_group *g)
 {
-    for (int l = 0; l < LANES; l++) {
+    for (int l = 0; l < DMB_REAL_LANES; l++) {
         const dmb_site *site = run->sites + g->site.place[l];
         g->node.place[l] = site->node;
         g->row.place[l] = run->row[site->node];
@@ -49,7 +49,7 @@ static inline void load_motion(const dmb_wall_run *run, wall_group *g)
 /* Closest points of a surveyed axis, found one by one. */
 static inline void project_survey(const dmb_wall_run *run, wall_group *g, dmb_real point[3])
 {
-    for (int l = 0; l < LANES; l++) {
+    for (int l = 0; l < DMB_REAL_LANES; l++) {
         const size_t s = g->site.place[l];
         const double x[3] = {dmb_real_lane(g->x, l), dmb_real_lane(g->x + 1, l), dmb_real_lane(g->x + 2, l)};
         double at[3], tangent[3], bend[3];
@@ -151,7 +151,8 @@ static inline void bristles(const dmb_wall_run *run, const wall_group *g, dmb_re
     dmb_real z_old[2], v_old[2], z[2], stuck = dmb_real_of(0.0);
     load(run->now.bristle, 2, 2, &g->site, 0, z_old);
     load(run->now.slip, 2, 2, &g->site, 0, v_old);
-    for (int l = 0; l < LANES; l++) dmb_real_set_lane(&stuck, l, run->now.sticks[g->site.place[l]] ? 1.0 : 0.0);
+    for (int l = 0; l < DMB_REAL_LANES; l++)
+        dmb_real_set_lane(&stuck, l, run->now.sticks[g->site.place[l]] ? 1.0 : 0.0);
     const dmb_mask sticks =
         dmb_friction_bristle_at(run->friction_law, N, v, z_old, v_old, dmb_mask_less(dmb_real_of(0.0), stuck),
                                 run->step, z, F, by_speed, by_normal);
@@ -175,10 +176,10 @@ static inline void add_friction(const dmb_wall_run *run, const wall_group *g, dm
 static inline void subtract_blocks(const dmb_wall_run *run, const wall_group *g, uint32_t touching, int arms,
                                    dmb_real K[36], double *blocks)
 {
-    double *to[LANES];
+    double *to[DMB_REAL_LANES];
     if (arms) dmb_beam_block_to_nodes(g->offset, g->offset, K);
     for (int i = 0; i < 36; i++) K[i] = -K[i];
-    for (int l = 0; l < LANES; l++) to[l] = blocks + run->diagonal[g->node.place[l]];
+    for (int l = 0; l < DMB_REAL_LANES; l++) to[l] = blocks + run->diagonal[g->node.place[l]];
     add_lanes(K, 36, touching, to);
 }
 
@@ -212,18 +213,18 @@ static inline void add_forces(dmb_wall_run *run, const wall_group *g, uint32_t t
     const dmb_real rounding = rounding_of(g, c->by_depth[0]), potential = c->elastic * v[0];
     const dmb_real impact = (c->F[0] + c->elastic) * v[0], friction = c->F[1] * v[1] + c->F[2] * v[2];
     dmb_real force[6], magnitude[6];
-    double *residual[LANES], *scale[LANES];
+    double *residual[DMB_REAL_LANES], *scale[DMB_REAL_LANES];
     for (int i = 0; i < 6; i++) {
         force[i] = -wrench[i];
         magnitude[i] = dmb_real_abs(wrench[i]);
     }
-    for (int l = 0; l < LANES; l++) {
+    for (int l = 0; l < DMB_REAL_LANES; l++) {
         residual[l] = run->residual + g->row.place[l];
         scale[l] = run->scale + g->row.place[l];
     }
     add_lanes(force, 6, touching, residual);
     add_lanes(magnitude, 6, touching, scale);
-    for (int l = 0; l < LANES; l++) {
+    for (int l = 0; l < DMB_REAL_LANES; l++) {
         if (!(touching >> l & 1)) continue;
         run->rounding += dmb_real_lane(&rounding, l);
         if (!run->dynamic) continue;
@@ -252,7 +253,7 @@ static inline void press(dmb_wall_run *run, const wall_group *g, uint32_t touchi
 
 static void walls(dmb_wall_run *run)
 {
-    for (uint32_t first = 0; first < run->count; first += LANES) {
+    for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
         wall_group g;
         g.site = group_at(first, run->count);
         place_rings(run, &g);

@@ -1,27 +1,14 @@
 /* Block elimination down the chain, W_i = D_i^-1 U_i, D_{i+1} -= L_i W_i (block Thomas algorithm; Golub and Van Loan,
- * Matrix Computations, 4.5.1), in complex numbers. As in block_tridiagonal.c each kernel is written once with the sizes
- * n (this block) and m (the next, 0 at the end of a chain), and BY_SIZE makes kernels of fixed size of it. */
+ * Matrix Computations, 4.5.1), in complex numbers. Kernels as in block_tridiagonal.c (block_kernel.h). */
 #include "math/block_complex.h"
 
 #include <math.h>
 
-#define MAX DMB_BLOCK_SIZE_MAX
-
-#if defined(__GNUC__)
-#define KERNEL static inline __attribute__((always_inline))
-#else
-#define KERNEL static inline
-#endif
-
-/* kernel(n, m, ...) with constants for the two frequent pairs of neighbours, and for the ends of their chains */
-#define BY_SIZE(kernel, n, m, ...)                      \
-    ((n) == 6 && (m) == 6   ? kernel(6, 6, __VA_ARGS__) \
-     : (n) == 2 && (m) == 2 ? kernel(2, 2, __VA_ARGS__) \
-                            : kernel(n, m, __VA_ARGS__))
+#include "math/block_kernel.h"
 
 /* The row of D_i and behind it the row of U_i. */
 typedef struct work_row {
-    double re[2 * MAX], im[2 * MAX];
+    double re[2 * DMB_BLOCK_SIZE_MAX], im[2 * DMB_BLOCK_SIZE_MAX];
 } work_row;
 
 typedef struct complex_number {
@@ -35,13 +22,13 @@ static dmb_complex_array part(dmb_complex_array array, uint32_t offset)
 }
 
 /* The magnitude LAPACK pivots by. */
-KERNEL double magnitude(double re, double im)
+DMB_BLOCK_KERNEL double magnitude(double re, double im)
 {
     return fabs(re) + fabs(im);
 }
 
 /* 1/(a + ib) without overflow of squares (Smith 1962). */
-KERNEL complex_number reciprocal(double a, double b)
+DMB_BLOCK_KERNEL complex_number reciprocal(double a, double b)
 {
     complex_number out;
     if (fabs(a) >= fabs(b)) {
@@ -57,14 +44,14 @@ KERNEL complex_number reciprocal(double a, double b)
 }
 
 /* y[j] -= (fr + i fi) x[j] */
-KERNEL void row_subtract(int n, double fr, double fi, const double *restrict xr, const double *restrict xi,
-                         double *restrict yr, double *restrict yi)
+DMB_BLOCK_KERNEL void row_subtract(int n, double fr, double fi, const double *restrict xr, const double *restrict xi,
+                                   double *restrict yr, double *restrict yi)
 {
     for (int j = 0; j < n; j++) yr[j] -= fr * xr[j] - fi * xi[j];
     for (int j = 0; j < n; j++) yi[j] -= fr * xi[j] + fi * xr[j];
 }
 
-KERNEL void row_swap(int n, double *restrict x, double *restrict y)
+DMB_BLOCK_KERNEL void row_swap(int n, double *restrict x, double *restrict y)
 {
     for (int j = 0; j < n; j++) {
         const double t = x[j];
@@ -73,7 +60,7 @@ KERNEL void row_swap(int n, double *restrict x, double *restrict y)
     }
 }
 
-KERNEL void gather(int n, int m, dmb_complex_array D, dmb_complex_array U, work_row *restrict a)
+DMB_BLOCK_KERNEL void gather(int n, int m, dmb_complex_array D, dmb_complex_array U, work_row *restrict a)
 {
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) a[i].re[j] = D.re[n * i + j], a[i].im[j] = D.im[n * i + j];
@@ -81,7 +68,7 @@ KERNEL void gather(int n, int m, dmb_complex_array D, dmb_complex_array U, work_
     }
 }
 
-KERNEL int pivot_of_column(int n, int k, const work_row *a)
+DMB_BLOCK_KERNEL int pivot_of_column(int n, int k, const work_row *a)
 {
     int p = k;
     for (int i = k + 1; i < n; i++)
@@ -89,7 +76,7 @@ KERNEL int pivot_of_column(int n, int k, const work_row *a)
     return p;
 }
 
-KERNEL void exchange(int n, int m, int k, int p, work_row *restrict a, dmb_complex_array D)
+DMB_BLOCK_KERNEL void exchange(int n, int m, int k, int p, work_row *restrict a, dmb_complex_array D)
 {
     row_swap(n + m, a[k].re, a[p].re);
     row_swap(n + m, a[k].im, a[p].im);
@@ -99,7 +86,7 @@ KERNEL void exchange(int n, int m, int k, int p, work_row *restrict a, dmb_compl
 
 /* Gaussian elimination of the work rows. D receives the multipliers below its diagonal and the reciprocal pivots on it.
  * Returns the column without a pivot, or -1. */
-KERNEL int eliminate(int n, int m, work_row *restrict a, dmb_complex_array D, uint8_t *restrict pivot)
+DMB_BLOCK_KERNEL int eliminate(int n, int m, work_row *restrict a, dmb_complex_array D, uint8_t *restrict pivot)
 {
     for (int k = 0; k < n; k++) {
         const int p = pivot_of_column(n, k, a);
@@ -119,17 +106,18 @@ KERNEL int eliminate(int n, int m, work_row *restrict a, dmb_complex_array D, ui
     return -1;
 }
 
-KERNEL void store_upper(int n, const work_row *restrict a, dmb_complex_array D)
+DMB_BLOCK_KERNEL void store_upper(int n, const work_row *restrict a, dmb_complex_array D)
 {
     for (int i = 0; i < n; i++)
         for (int j = i + 1; j < n; j++) D.re[n * i + j] = a[i].re[j], D.im[n * i + j] = a[i].im[j];
 }
 
 /* Back substitution on the eliminated rows of U_i: W_i = D_i^-1 U_i */
-KERNEL void substitute_back(int n, int m, const work_row *restrict a, dmb_complex_array D, dmb_complex_array W)
+DMB_BLOCK_KERNEL void substitute_back(int n, int m, const work_row *restrict a, dmb_complex_array D,
+                                      dmb_complex_array W)
 {
     for (int k = n - 1; k >= 0; k--) {
-        double yr[MAX], yi[MAX];
+        double yr[DMB_BLOCK_SIZE_MAX], yi[DMB_BLOCK_SIZE_MAX];
         const double dr = D.re[n * k + k], di = D.im[n * k + k];
         for (int j = 0; j < m; j++) yr[j] = a[k].re[n + j], yi[j] = a[k].im[n + j];
         for (int c = k + 1; c < n; c++) row_subtract(m, a[k].re[c], a[k].im[c], W.re + m * c, W.im + m * c, yr, yi);
@@ -141,10 +129,10 @@ KERNEL void substitute_back(int n, int m, const work_row *restrict a, dmb_comple
 }
 
 /* D_{i+1} -= L_i W_i */
-KERNEL void update_next(int n, int m, dmb_complex_array L, dmb_complex_array W, dmb_complex_array next)
+DMB_BLOCK_KERNEL void update_next(int n, int m, dmb_complex_array L, dmb_complex_array W, dmb_complex_array next)
 {
     for (int i = 0; i < m; i++) {
-        double yr[MAX], yi[MAX];
+        double yr[DMB_BLOCK_SIZE_MAX], yi[DMB_BLOCK_SIZE_MAX];
         for (int j = 0; j < m; j++) yr[j] = next.re[m * i + j], yi[j] = next.im[m * i + j];
         for (int c = 0; c < n; c++)
             row_subtract(m, L.re[n * i + c], L.im[n * i + c], W.re + m * c, W.im + m * c, yr, yi);
@@ -153,10 +141,10 @@ KERNEL void update_next(int n, int m, dmb_complex_array L, dmb_complex_array W, 
 }
 
 /* One block of the factorisation. Returns the column without a pivot, or -1. */
-KERNEL int factor_block(int n, int m, dmb_complex_array D, dmb_complex_array U, dmb_complex_array L,
-                        dmb_complex_array next, uint8_t *restrict pivot)
+DMB_BLOCK_KERNEL int factor_block(int n, int m, dmb_complex_array D, dmb_complex_array U, dmb_complex_array L,
+                                  dmb_complex_array next, uint8_t *restrict pivot)
 {
-    work_row a[MAX];
+    work_row a[DMB_BLOCK_SIZE_MAX];
     gather(n, m, D, U, a);
     const int failed = eliminate(n, m, a, D, pivot);
     if (failed >= 0) return failed;
@@ -175,13 +163,15 @@ int64_t dmb_complex_block_factor(const dmb_block_layout *layout, const dmb_compl
         const dmb_complex_array D = part(matrix->diagonal, layout->diag[i]);
         const dmb_complex_array next = part(matrix->diagonal, layout->diag[i + 1]);
         const dmb_complex_array U = part(matrix->upper, layout->link[i]), L = part(matrix->lower, layout->link[i]);
-        if (BY_SIZE(factor_block, n, m, D, U, L, next, matrix->pivot + layout->row[i]) >= 0) return (int64_t)i;
+        if (DMB_BLOCK_BY_SIZE(factor_block, n, m, D, U, L, next, matrix->pivot + layout->row[i]) >= 0)
+            return (int64_t)i;
     }
     return -1;
 }
 
 /* y_i -= sum_j A_ij x_j */
-KERNEL void subtract_product(int rows, int columns, dmb_complex_array A, dmb_complex_array x, dmb_complex_array y)
+DMB_BLOCK_KERNEL void subtract_product(int rows, int columns, dmb_complex_array A, dmb_complex_array x,
+                                       dmb_complex_array y)
 {
     for (int i = 0; i < rows; i++) {
         double re = y.re[i], im = y.im[i];
@@ -195,7 +185,7 @@ KERNEL void subtract_product(int rows, int columns, dmb_complex_array A, dmb_com
     }
 }
 
-KERNEL void exchange_rows(int n, const uint8_t *restrict pivot, double *restrict b)
+DMB_BLOCK_KERNEL void exchange_rows(int n, const uint8_t *restrict pivot, double *restrict b)
 {
     for (int k = 0; k < n; k++) {
         const double t = b[k];
@@ -205,7 +195,7 @@ KERNEL void exchange_rows(int n, const uint8_t *restrict pivot, double *restrict
 }
 
 /* b_i -= D_ij b_j */
-KERNEL void subtract_term(int n, int i, int j, dmb_complex_array D, dmb_complex_array b)
+DMB_BLOCK_KERNEL void subtract_term(int n, int i, int j, dmb_complex_array D, dmb_complex_array b)
 {
     const double dr = D.re[n * i + j], di = D.im[n * i + j];
     b.re[i] -= dr * b.re[j] - di * b.im[j];
@@ -213,8 +203,8 @@ KERNEL void subtract_term(int n, int i, int j, dmb_complex_array D, dmb_complex_
 }
 
 /* b <- D_i^-1 b, then the next b -= L_i b */
-KERNEL void solve_down(int n, int m, dmb_complex_array D, const uint8_t *restrict pivot, dmb_complex_array L,
-                       dmb_complex_array b, dmb_complex_array next)
+DMB_BLOCK_KERNEL void solve_down(int n, int m, dmb_complex_array D, const uint8_t *restrict pivot, dmb_complex_array L,
+                                 dmb_complex_array b, dmb_complex_array next)
 {
     exchange_rows(n, pivot, b.re);
     exchange_rows(n, pivot, b.im);
@@ -237,12 +227,12 @@ void dmb_complex_block_solve(const dmb_block_layout *layout, const dmb_complex_b
         const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
         const dmb_complex_array D = part(matrix->diagonal, layout->diag[i]);
         const dmb_complex_array L = part(matrix->lower, layout->link[i]);
-        BY_SIZE(solve_down, n, m, D, matrix->pivot + row[i], L, part(rhs, row[i]), part(rhs, row[i + 1]));
+        DMB_BLOCK_BY_SIZE(solve_down, n, m, D, matrix->pivot + row[i], L, part(rhs, row[i]), part(rhs, row[i + 1]));
     }
     for (uint32_t i = end; i-- > first;) {
         if (i + 1 == end) continue;
         const int n = layout->size[i], m = layout->size[i + 1];
         const dmb_complex_array W = part(matrix->upper, layout->link[i]);
-        BY_SIZE(subtract_product, n, m, W, part(rhs, row[i + 1]), part(rhs, row[i]));
+        DMB_BLOCK_BY_SIZE(subtract_product, n, m, W, part(rhs, row[i + 1]), part(rhs, row[i]));
     }
 }

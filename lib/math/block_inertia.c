@@ -6,10 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#define MAX DMB_BLOCK_SIZE_MAX
-
 typedef struct front {
-    double a[2 * MAX][2 * MAX];
+    double a[2 * DMB_BLOCK_SIZE_MAX][2 * DMB_BLOCK_SIZE_MAX];
     int n, rows; /* of the block that is eliminated, and in all */
 } front;
 

@@ -1,7 +1,7 @@
 /* Block elimination with the inverse X_i of each eliminated block: G_i = L_i X_i, D_{i+1} -= G_i U_i, W_i = X_i U_i. A
  * solution takes one product a block down the chain and one up; with LU factors two triangles lie on the way besides.
- * Where a block's stiffnesses lie 15 decades apart an inverse loses the soft ones, which LU factors keep; so this is for
- * steps, whose Newton iterations look at the residual again, and block_tridiagonal for statics.
+ * Where a block's stiffnesses lie 15 decades apart an inverse loses the soft ones, which LU factors keep; so this is
+ * for steps, whose Newton iterations look at the residual again, and block_tridiagonal for statics.
  *
  * For the files that compile it in one width each, kernel/lanes.h. Functions as dmb_block_factor and dmb_block_solve;
  * factors are X in `diagonal`, W in `upper`, G in `lower`, column-major. */
@@ -11,7 +11,7 @@
 #include "math/block_rows.h"
 
 /* The rows of D_i and of the identity side by side. */
-KERNEL void gather(int n, const double *restrict D, work_row *restrict a)
+DMB_BLOCK_KERNEL void gather(int n, const double *restrict D, work_row *restrict a)
 {
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) a[i][j] = D[n * i + j];
@@ -21,7 +21,7 @@ KERNEL void gather(int n, const double *restrict D, work_row *restrict a)
 
 /* Gaussian elimination of the work rows; pivots come back as reciprocals. Rows are subtracted in full length, a fixed
  * one; the columns already done then hold nothing of use. Returns the column without a pivot, or -1. */
-KERNEL int eliminate(int n, work_row *restrict a, double *restrict reciprocal)
+DMB_BLOCK_KERNEL int eliminate(int n, work_row *restrict a, double *restrict reciprocal)
 {
     for (int k = 0; k < n; k++) {
         const int p = pivot_of_column(n, k, a);
@@ -34,24 +34,25 @@ KERNEL int eliminate(int n, work_row *restrict a, double *restrict reciprocal)
 }
 
 /* Back substitution on the right half of the eliminated rows: X = D_i^-1 */
-KERNEL void substitute_back(int n, work_row *restrict a, const double *restrict reciprocal, double *restrict X)
+DMB_BLOCK_KERNEL void substitute_back(int n, work_row *restrict a, const double *restrict reciprocal,
+                                      double *restrict X)
 {
-    UNROLL
+    DMB_BLOCK_UNROLL
     for (int k = n - 1; k >= 0; k--) {
-        double y[MAX];
+        double y[DMB_BLOCK_SIZE_MAX];
         for (int j = 0; j < n; j++) y[j] = a[k][n + j]; /* NOLINT(clang-analyzer-core.uninitialized.Assign) */
-        UNROLL
+        DMB_BLOCK_UNROLL
         for (int c = k + 1; c < n; c++) row_subtract(n, a[k][c], X + n * c, y);
         for (int j = 0; j < n; j++) X[n * k + j] = reciprocal[k] * y[j];
     }
 }
 
 /* C = A B */
-KERNEL void multiply(int rows, int inner, int columns, const double *restrict A, const double *restrict B,
-                     double *restrict C)
+DMB_BLOCK_KERNEL void multiply(int rows, int inner, int columns, const double *restrict A, const double *restrict B,
+                               double *restrict C)
 {
     for (int i = 0; i < rows; i++) {
-        double y[MAX];
+        double y[DMB_BLOCK_SIZE_MAX];
         for (int j = 0; j < columns; j++) y[j] = A[inner * i] * B[j];
         for (int k = 1; k < inner; k++)
             for (int j = 0; j < columns; j++) y[j] += A[inner * i + k] * B[columns * k + j];
@@ -60,11 +61,11 @@ KERNEL void multiply(int rows, int inner, int columns, const double *restrict A,
 }
 
 /* C -= A B */
-KERNEL void multiply_off(int rows, int inner, int columns, const double *restrict A, const double *restrict B,
-                         double *restrict C)
+DMB_BLOCK_KERNEL void multiply_off(int rows, int inner, int columns, const double *restrict A, const double *restrict B,
+                                   double *restrict C)
 {
     for (int i = 0; i < rows; i++) {
-        double y[MAX];
+        double y[DMB_BLOCK_SIZE_MAX];
         for (int j = 0; j < columns; j++) y[j] = C[columns * i + j];
         for (int k = 0; k < inner; k++) row_subtract(columns, A[inner * i + k], B + columns * k, y);
         for (int j = 0; j < columns; j++) C[columns * i + j] = y[j];
@@ -72,11 +73,12 @@ KERNEL void multiply_off(int rows, int inner, int columns, const double *restric
 }
 
 /* One block of the factorisation. Returns the column without a pivot, or -1. */
-KERNEL int factor_block(int n, int m, double *restrict D, double *restrict U, double *restrict L,
-                        double *restrict next)
+DMB_BLOCK_KERNEL int factor_block(int n, int m, double *restrict D, double *restrict U, double *restrict L,
+                                  double *restrict next)
 {
-    work_row a[MAX];
-    double reciprocal[MAX], X[MAX * MAX], G[MAX * MAX], W[MAX * MAX];
+    work_row a[DMB_BLOCK_SIZE_MAX];
+    double reciprocal[DMB_BLOCK_SIZE_MAX], X[DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX],
+        G[DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX], W[DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX];
     gather(n, D, a);
     const int failed = eliminate(n, a, reciprocal);
     if (failed >= 0) return failed;
@@ -99,16 +101,16 @@ static inline int64_t factor_blocks(const dmb_block_layout *layout, dmb_block_ma
         const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
         double *D = matrix->diagonal + layout->diag[i], *next = matrix->diagonal + layout->diag[i + 1];
         double *U = matrix->upper + layout->link[i], *L = matrix->lower + layout->link[i];
-        if (BY_SIZE(factor_block, n, m, D, U, L, next) >= 0) return (int64_t)i;
+        if (DMB_BLOCK_BY_SIZE(factor_block, n, m, D, U, L, next) >= 0) return (int64_t)i;
     }
     return -1;
 }
 
 /* The next b -= G_i b, then b <- X_i b: only the first is on the way down the chain. */
-KERNEL void solve_down(int n, int m, const double *restrict X, const double *restrict G, double *restrict b,
-                       double *restrict next)
+DMB_BLOCK_KERNEL void solve_down(int n, int m, const double *restrict X, const double *restrict G, double *restrict b,
+                                 double *restrict next)
 {
-    double y[MAX] = {0.0};
+    double y[DMB_BLOCK_SIZE_MAX] = {0.0};
     subtract_product(m, n, G, b, next);
     for (int j = 0; j < n; j++)
         for (int i = 0; i < n; i++) y[i] += b[j] * X[n * j + i];
@@ -122,12 +124,12 @@ static inline void solve_blocks(const dmb_block_layout *layout, const dmb_block_
     for (uint32_t i = first; i < end; i++) {
         const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
         const double *D = matrix->diagonal + layout->diag[i], *L = matrix->lower + layout->link[i];
-        BY_SIZE(solve_down, n, m, D, L, rhs + row[i], rhs + row[i + 1]);
+        DMB_BLOCK_BY_SIZE(solve_down, n, m, D, L, rhs + row[i], rhs + row[i + 1]);
     }
     for (uint32_t i = end; i-- > first;) {
         if (i + 1 == end) continue;
         const int n = layout->size[i], m = layout->size[i + 1];
-        BY_SIZE(solve_up, n, m, matrix->upper + layout->link[i], rhs + row[i + 1], rhs + row[i]);
+        DMB_BLOCK_BY_SIZE(solve_up, n, m, matrix->upper + layout->link[i], rhs + row[i + 1], rhs + row[i]);
     }
 }
 

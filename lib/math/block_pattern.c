@@ -12,7 +12,7 @@
 #include "base/checked_size.h"
 #include "math/fill_order.h"
 
-#define NONE UINT32_MAX
+#define DMB_NONE UINT32_MAX
 
 /* What the making of a pattern needs for its own time. */
 typedef struct analysis {
@@ -135,7 +135,7 @@ static void eliminate_row(analysis *s, uint32_t i, const uint32_t *column, uint3
         uint32_t k = s->position[s->neighbour[e]];
         if (k > i) continue;
         for (; s->mark[k] != i; k = s->parent[k]) {
-            if (s->parent[k] == NONE) s->parent[k] = i;
+            if (s->parent[k] == DMB_NONE) s->parent[k] = i;
             if (later != NULL) later[column[k] + s->count[k]] = i;
             s->count[k]++;
             s->mark[k] = i;
@@ -146,7 +146,7 @@ static void eliminate_row(analysis *s, uint32_t i, const uint32_t *column, uint3
 static void eliminate(analysis *s, const uint32_t *column, uint32_t *later)
 {
     for (uint32_t k = 0; k < s->n; k++) {
-        s->mark[k] = NONE;
+        s->mark[k] = DMB_NONE;
         s->count[k] = 0;
     }
     for (uint32_t i = 0; i < s->n; i++) eliminate_row(s, i, column, later);
@@ -163,7 +163,7 @@ static int32_t analyse(analysis *s, uint32_t edge_count, const dmb_block_edge *e
     if (status < 0) return status;
     for (uint32_t k = 0; k < s->n; k++) {
         s->position[s->order[k]] = k;
-        s->parent[k] = NONE;
+        s->parent[k] = DMB_NONE;
     }
     eliminate(s, NULL, NULL);
     return DMB_OK;

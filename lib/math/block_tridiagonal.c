@@ -8,7 +8,7 @@ int32_t dmb_block_count(uint32_t n, const uint8_t *size, dmb_block_totals *total
 {
     uint64_t rows = 0, diagonal = 0, link = 0;
     for (uint32_t i = 0; i < n; i++) {
-        if (size[i] < 1 || size[i] > MAX) return -1;
+        if (size[i] < 1 || size[i] > DMB_BLOCK_SIZE_MAX) return -1;
         rows += size[i];
         diagonal += (uint64_t)size[i] * size[i];
         if (i + 1 < n) link += (uint64_t)size[i] * size[i + 1];
@@ -32,7 +32,7 @@ void dmb_block_fill(uint32_t n, const uint8_t *size, uint32_t *row, uint32_t *di
 }
 
 /* The rows of D_i and U_i side by side. */
-KERNEL void gather(int n, int m, const double *restrict D, const double *restrict U, work_row *restrict a)
+DMB_BLOCK_KERNEL void gather(int n, int m, const double *restrict D, const double *restrict U, work_row *restrict a)
 {
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) a[i][j] = D[n * i + j];
@@ -43,7 +43,7 @@ KERNEL void gather(int n, int m, const double *restrict D, const double *restric
 /* Gaussian elimination of the work rows. D receives the multipliers below its diagonal and the reciprocal pivots on
  * it. Work rows are subtracted in full length, a fixed one; the columns already done then hold nothing of use.
  * Returns the column without a pivot, or -1. */
-KERNEL int eliminate(int n, int m, work_row *restrict a, double *restrict D, uint8_t *restrict pivot)
+DMB_BLOCK_KERNEL int eliminate(int n, int m, work_row *restrict a, double *restrict D, uint8_t *restrict pivot)
 {
     for (int k = 0; k < n; k++) {
         const int p = pivot_of_column(n, k, a);
@@ -65,48 +65,49 @@ KERNEL int eliminate(int n, int m, work_row *restrict a, double *restrict D, uin
 }
 
 /* The eliminated rows of D_i go above the diagonal of its factors. */
-KERNEL void store_upper(int n, work_row *restrict a, double *restrict D)
+DMB_BLOCK_KERNEL void store_upper(int n, work_row *restrict a, double *restrict D)
 {
     for (int i = 0; i < n; i++)
         for (int j = i + 1; j < n; j++) D[n * i + j] = a[i][j];
 }
 
 /* Back substitution on the eliminated rows of U_i: W_i = D_i^-1 U_i */
-KERNEL void substitute_back(int n, int m, work_row *restrict a, const double *restrict D, double *restrict W)
+DMB_BLOCK_KERNEL void substitute_back(int n, int m, work_row *restrict a, const double *restrict D, double *restrict W)
 {
-    UNROLL
+    DMB_BLOCK_UNROLL
     for (int k = n - 1; k >= 0; k--) {
-        double y[MAX];
+        double y[DMB_BLOCK_SIZE_MAX];
         for (int j = 0; j < m; j++) y[j] = a[k][n + j]; /* NOLINT(clang-analyzer-core.uninitialized.Assign) */
-        UNROLL
+        DMB_BLOCK_UNROLL
         for (int c = k + 1; c < n; c++) row_subtract(m, a[k][c], W + m * c, y);
         for (int j = 0; j < m; j++) W[m * k + j] = D[n * k + k] * y[j];
     }
 }
 
 /* D_{i+1} -= L_i W_i */
-KERNEL void update_next(int n, int m, const double *restrict L, const double *restrict W, double *restrict next)
+DMB_BLOCK_KERNEL void update_next(int n, int m, const double *restrict L, const double *restrict W,
+                                  double *restrict next)
 {
     for (int i = 0; i < m; i++) {
-        double y[MAX];
+        double y[DMB_BLOCK_SIZE_MAX];
         for (int j = 0; j < m; j++) y[j] = next[m * i + j];
         for (int c = 0; c < n; c++) row_subtract(m, L[n * i + c], W + m * c, y);
         for (int j = 0; j < m; j++) next[m * i + j] = y[j];
     }
 }
 
-KERNEL void to_columns(int rows, int columns, double *A)
+DMB_BLOCK_KERNEL void to_columns(int rows, int columns, double *A)
 {
-    double turned[MAX * MAX];
+    double turned[DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX];
     turn_round(rows, columns, A, turned);
     for (int i = 0; i < rows * columns; i++) A[i] = turned[i];
 }
 
 /* One block of the factorisation. Returns the column without a pivot, or -1. */
-KERNEL int factor_block(int n, int m, double *restrict D, double *restrict U, double *restrict L, double *restrict next,
-                        uint8_t *restrict pivot)
+DMB_BLOCK_KERNEL int factor_block(int n, int m, double *restrict D, double *restrict U, double *restrict L,
+                                  double *restrict next, uint8_t *restrict pivot)
 {
-    work_row a[MAX];
+    work_row a[DMB_BLOCK_SIZE_MAX];
     gather(n, m, D, U, a);
     const int failed = eliminate(n, m, a, D, pivot);
     if (failed >= 0) return failed;
@@ -120,8 +121,8 @@ KERNEL int factor_block(int n, int m, double *restrict D, double *restrict U, do
 }
 
 /* The factorisation; weakest is NULL, a constant, where nobody watches. */
-KERNEL int64_t factor_blocks(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count,
-                             dmb_block_weakest *weakest)
+DMB_BLOCK_KERNEL int64_t factor_blocks(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first,
+                                       uint32_t count, dmb_block_weakest *weakest)
 {
     const uint32_t end = first + count;
     for (uint32_t i = first; i < end; i++) {
@@ -129,7 +130,7 @@ KERNEL int64_t factor_blocks(const dmb_block_layout *layout, dmb_block_matrix *m
         double *D = matrix->diagonal + layout->diag[i], *next = matrix->diagonal + layout->diag[i + 1];
         double *U = matrix->upper + layout->link[i], *L = matrix->lower + layout->link[i];
         const double largest = weakest ? dmb_block_largest((size_t)n, D) : 0.0;
-        const int failed = BY_SIZE(factor_block, n, m, D, U, L, next, matrix->pivot + layout->row[i]);
+        const int failed = DMB_BLOCK_BY_SIZE(factor_block, n, m, D, U, L, next, matrix->pivot + layout->row[i]);
         if (weakest) dmb_block_watch((size_t)n, D, (size_t)n + 1, largest, failed, i, weakest);
         if (failed >= 0) return (int64_t)i;
     }
@@ -137,25 +138,25 @@ KERNEL int64_t factor_blocks(const dmb_block_layout *layout, dmb_block_matrix *m
 }
 
 /* b <- D_i^-1 b, then the next b -= L_i b */
-KERNEL void solve_down(int n, int m, const double *restrict D, const uint8_t *restrict pivot, const double *restrict L,
-                       double *restrict b, double *restrict next)
+DMB_BLOCK_KERNEL void solve_down(int n, int m, const double *restrict D, const uint8_t *restrict pivot,
+                                 const double *restrict L, double *restrict b, double *restrict next)
 {
-    double x[MAX];
+    double x[DMB_BLOCK_SIZE_MAX];
     for (int k = 0; k < n; k++) {
         const double t = b[k];
         b[k] = b[pivot[k]];
         b[pivot[k]] = t;
     }
     for (int k = 0; k < n; k++) x[k] = b[k];
-    UNROLL
+    DMB_BLOCK_UNROLL
     for (int k = 0; k < n; k++) {
-        UNROLL
+        DMB_BLOCK_UNROLL
         for (int i = k + 1; i < n; i++) x[i] -= D[n * k + i] * x[k];
     }
-    UNROLL
+    DMB_BLOCK_UNROLL
     for (int k = n - 1; k >= 0; k--) {
         x[k] *= D[n * k + k];
-        UNROLL
+        DMB_BLOCK_UNROLL
         for (int i = 0; i < k; i++) x[i] -= D[n * k + i] * x[k];
     }
     for (int k = 0; k < n; k++) b[k] = x[k];
@@ -183,17 +184,18 @@ void dmb_block_solve(const dmb_block_layout *layout, const dmb_block_matrix *mat
     for (uint32_t i = first; i < end; i++) {
         const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
         const double *D = matrix->diagonal + layout->diag[i], *L = matrix->lower + layout->link[i];
-        BY_SIZE(solve_down, n, m, D, matrix->pivot + row[i], L, rhs + row[i], rhs + row[i + 1]);
+        DMB_BLOCK_BY_SIZE(solve_down, n, m, D, matrix->pivot + row[i], L, rhs + row[i], rhs + row[i + 1]);
     }
     for (uint32_t i = end; i-- > first;) {
         if (i + 1 == end) continue;
         const int n = layout->size[i], m = layout->size[i + 1];
-        BY_SIZE(solve_up, n, m, matrix->upper + layout->link[i], rhs + row[i + 1], rhs + row[i]);
+        DMB_BLOCK_BY_SIZE(solve_up, n, m, matrix->upper + layout->link[i], rhs + row[i + 1], rhs + row[i]);
     }
 }
 
 /* y_i += D_i x_i + U_i x_{i+1}, and the next y += L_i x_i */
-KERNEL void add_product(int rows, int columns, const double *restrict A, const double *restrict x, double *restrict y)
+DMB_BLOCK_KERNEL void add_product(int rows, int columns, const double *restrict A, const double *restrict x,
+                                  double *restrict y)
 {
     for (int i = 0; i < rows; i++) {
         double s = y[i];
@@ -210,8 +212,8 @@ void dmb_block_multiply(const dmb_block_layout *layout, const dmb_block_matrix *
     for (uint32_t i = first; i < end; i++) {
         const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
         const uint32_t link = layout->link[i];
-        BY_SIZE(add_product, n, n, matrix->diagonal + layout->diag[i], x + row[i], y + row[i]);
-        BY_SIZE(add_product, n, m, matrix->upper + link, x + row[i + 1], y + row[i]);
-        BY_SIZE(add_product, m, n, matrix->lower + link, x + row[i], y + row[i + 1]);
+        DMB_BLOCK_BY_SIZE(add_product, n, n, matrix->diagonal + layout->diag[i], x + row[i], y + row[i]);
+        DMB_BLOCK_BY_SIZE(add_product, n, m, matrix->upper + link, x + row[i + 1], y + row[i]);
+        DMB_BLOCK_BY_SIZE(add_product, m, n, matrix->lower + link, x + row[i], y + row[i + 1]);
     }
 }

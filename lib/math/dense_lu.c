@@ -12,7 +12,7 @@
 #include "math/block_pivot.h"
 
 /* Columns of a panel: 32 rows of 600 columns take 150 kB, within a second-level cache. */
-#define PANEL 32
+#define DMB_PANEL 32
 
 static size_t smaller(size_t a, size_t b)
 {
@@ -48,7 +48,8 @@ static void subtract_product(size_t p, size_t q, size_t r, const double *F, size
 
 void dmb_dense_subtract_product(uint32_t p, uint32_t q, uint32_t r, const double *F, const double *X, double *Y)
 {
-    for (size_t c = 0; c < q; c += PANEL) subtract_product(p, smaller(PANEL, q - c), r, F + c, q, X + r * c, r, Y, r);
+    for (size_t c = 0; c < q; c += DMB_PANEL)
+        subtract_product(p, smaller(DMB_PANEL, q - c), r, F + c, q, X + r * c, r, Y, r);
 }
 
 static void swap_rows(size_t n, double *x, double *y)
@@ -91,8 +92,8 @@ static int64_t factor_panel(size_t n, size_t begin, size_t end, double *A, uint3
 int64_t dmb_dense_factor(uint32_t size, double *A, uint32_t *pivot)
 {
     const size_t n = size;
-    for (size_t begin = 0; begin < n; begin += PANEL) {
-        const size_t end = smaller(begin + PANEL, n), rest = n - end;
+    for (size_t begin = 0; begin < n; begin += DMB_PANEL) {
+        const size_t end = smaller(begin + DMB_PANEL, n), rest = n - end;
         const int64_t failed = factor_panel(n, begin, end, A, pivot);
         if (failed >= 0) return failed;
         double *top = A + n * begin + end; /* U12 */
@@ -106,8 +107,8 @@ int64_t dmb_dense_factor(uint32_t size, double *A, uint32_t *pivot)
 /* B <- L^-1 B */
 static void substitute_down(size_t n, size_t m, const double *A, double *B)
 {
-    for (size_t begin = 0; begin < n; begin += PANEL) {
-        const size_t end = smaller(begin + PANEL, n);
+    for (size_t begin = 0; begin < n; begin += DMB_PANEL) {
+        const size_t end = smaller(begin + DMB_PANEL, n);
         for (size_t i = begin + 1; i < end; i++)
             subtract_product(1, i - begin, m, A + n * i + begin, n, B + m * begin, m, B + m * i, m);
         subtract_product(n - end, end - begin, m, A + n * end + begin, n, B + m * begin, m, B + m * end, m);
@@ -118,7 +119,7 @@ static void substitute_down(size_t n, size_t m, const double *A, double *B)
 static void substitute_up(size_t n, size_t m, const double *A, double *B)
 {
     for (size_t end = n, begin; end > 0; end = begin) {
-        begin = (end - 1) / PANEL * PANEL;
+        begin = (end - 1) / DMB_PANEL * DMB_PANEL;
         for (size_t i = end; i-- > begin;) {
             subtract_product(1, end - i - 1, m, A + n * i + i + 1, n, B + m * (i + 1), m, B + m * i, m);
             for (size_t j = 0; j < m; j++) B[m * i + j] *= A[n * i + i];

@@ -6,7 +6,7 @@
 
 _Static_assert(sizeof(lapack_int) == sizeof(int32_t), "LAPACKE with 64-bit integers");
 
-#define ROW_MIN 1e-300
+#define DMB_ROW_MIN 1e-300
 enum { PANEL = 32 }; /* columns that dgeqp3 works on at a time, if it likes */
 
 static size_t least(uint32_t a, uint32_t b)
@@ -39,7 +39,7 @@ static void scale_row(const double *b, uint32_t columns, const double *weight, d
         finite = finite && fabs(row[j]) <= DBL_MAX;
         most = fmax(most, fabs(row[j]));
     }
-    const int usable = finite && most >= ROW_MIN;
+    const int usable = finite && most >= DMB_ROW_MIN;
     for (uint32_t j = 0; j < columns; j++) {
         row[j] = usable ? row[j] / most : 0.0;
         sum += row[j] * row[j];

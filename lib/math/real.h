@@ -13,6 +13,8 @@
 #error "doubles must be evaluated as doubles, on 32-bit x86 with -msse2 -mfpmath=sse"
 #endif
 
+#define DMB_PI 3.14159265358979323846
+
 #ifndef DMB_LANES
 
 #define DMB_REAL_LANES 1

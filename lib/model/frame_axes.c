@@ -4,7 +4,7 @@
 
 #include "math/vec3.h"
 
-#define ALONG 1e-6 /* [rad] directions closer than this span no plane */
+#define DMB_ALONG 1e-6 /* [rad] directions closer than this span no plane */
 
 static double largest_of(const double a[3])
 {
@@ -28,7 +28,7 @@ static bool across(const double x[3], const double direction[3], double y[3])
     if (!unit_along(direction, d)) return false;
     for (int pass = 0; pass < 2; ++pass) {
         dmb_vec3_axpy(-dmb_vec3_dot(x, d), x, d);
-        if (pass == 0 && dmb_vec3_norm(d) < ALONG) return false;
+        if (pass == 0 && dmb_vec3_norm(d) < DMB_ALONG) return false;
         if (!unit_along(d, d)) return false;
     }
     dmb_vec3_copy(d, y);

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#define WITHIN 1e-9 /* [-] of a pipe: what the caller's fraction may be off */
+#define DMB_WITHIN 1e-9 /* [-] of a pipe: what the caller's fraction may be off */
 
 /* The tool joint, counted back from the far end so that fraction 1 falls on it without round-off; then the ends of the
  * equal elements. */
@@ -17,7 +17,7 @@ static bool place_on_elastic(const dmb_mesh *mesh, const dmb_pipe_map *map, doub
         found->arm = map->joint - back - last->arm[1];
         return true;
     }
-    if (fabs(position - k) > WITHIN * map->elements) return false;
+    if (fabs(position - k) > DMB_WITHIN * map->elements) return false;
     if (k < 0.5) {
         found->node = first->node;
         found->arm = first->arm[0];

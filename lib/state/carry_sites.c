@@ -8,28 +8,28 @@
 /* [m] within which two places on one node are the same. */
 #define DMB_SAME_PLACE 1e-9
 
-#define DMB_COPY(field, width)                                                            \
+#define DMB_COPY_SITE(field, width)                                                       \
     memcpy(sim->now.field + (width) * (size_t)s, from->now.field + (width) * (size_t)old, \
            (width) * sizeof *sim->now.field)
 
 static void carry_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
 {
-    DMB_COPY(site_bristle, 2);
-    DMB_COPY(site_sticks, 1);
+    DMB_COPY_SITE(site_bristle, 2);
+    DMB_COPY_SITE(site_sticks, 1);
     if (what == DMB_CARRY_BRISTLES) return;
-    DMB_COPY(site_normal, 3);
-    DMB_COPY(site_depth, 1);
-    DMB_COPY(site_segment, 1);
-    DMB_COPY(site_penetration, 1);
-    DMB_COPY(site_approach, 1);
-    DMB_COPY(site_slip, 2);
+    DMB_COPY_SITE(site_normal, 3);
+    DMB_COPY_SITE(site_depth, 1);
+    DMB_COPY_SITE(site_segment, 1);
+    DMB_COPY_SITE(site_penetration, 1);
+    DMB_COPY_SITE(site_approach, 1);
+    DMB_COPY_SITE(site_slip, 2);
 }
 
 static void carry_path_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
 {
-    DMB_COPY(path_bristle, 2);
-    DMB_COPY(path_sticks, 1);
-    if (what == DMB_CARRY_ALL) DMB_COPY(path_slip, 2);
+    DMB_COPY_SITE(path_bristle, 2);
+    DMB_COPY_SITE(path_sticks, 1);
+    if (what == DMB_CARRY_ALL) DMB_COPY_SITE(path_slip, 2);
 }
 
 /* As at time 0: open, and where it is described; the restart finds it from there. */
