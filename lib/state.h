@@ -76,11 +76,13 @@
 
 /* ---- Kept: factors of an iteration matrix that later steps may do with (integrator/attempt). Written on acceptance
  * only; saved, restored and hashed, so that a restored sim iterates alike, but not set aside in `backup`: a step that a
- * failing call may take back leaves them alone. Empty in a scene with joints: kd, kl = diagonal, link, else 0. */
+ * failing call may take back leaves them alone. Empty in a scene with joints: kd, kl = diagonal, link, else 0; kn = n
+ * where there are contact sites too, else 0. */
 #define DMB_KEPT_LIST(X)                                                                                              \
     X(double, kept_diagonal, kd)                                                                                       \
     X(double, kept_lower, kl)                                                                                          \
     X(double, kept_upper, kl)                                                                                          \
+    X(double, kept_quaternion, 4 * kn)  /* of the nodes where they were made, system/solve */                          \
     X(dmb_kept, kept, 1)
 
 /* ---- Work: rewritten in every step, never saved. */

@@ -103,6 +103,14 @@ typedef struct dmb_turn_run {
     double *turn;                         /* [rad] revolutions counted */
 } dmb_turn_run;
 
+/* Vectors of FULL nodes, given in one frame of each and wanted in another that is twisted about the node's x axis. */
+typedef struct dmb_twist_run {
+    uint32_t count;
+    uint32_t reserved;
+    const double *from, *to; /* quaternions of the two frames, shape (count, 4); only their twist counts */
+    double *rows;            /* two vectors a node, shape (count, 6) */
+} dmb_twist_run;
+
 typedef struct dmb_kernels {
     uint32_t lanes;
     uint32_t reserved;
@@ -112,6 +120,7 @@ typedef struct dmb_kernels {
     void (*extrapolate)(const dmb_beam_run *run);
     void (*advance)(const dmb_node_run *run);
     void (*turns)(const dmb_turn_run *run);
+    void (*twist)(const dmb_twist_run *run);
     /* as dmb_block_factor and dmb_block_solve, by the inverses of math/block_inverse.h */
     int64_t (*factor)(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count);
     void (*solve)(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,

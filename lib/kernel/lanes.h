@@ -183,6 +183,20 @@ static void turns(const dmb_turn_run *run)
     }
 }
 
+static void twist(const dmb_twist_run *run)
+{
+    for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, run->count);
+        dmb_real from[4], to[4], q[4], x[6];
+        load(run->from, 4, 4, &g, 0, from);
+        load(run->to, 4, 4, &g, 0, to);
+        load(run->rows, 6, 6, &g, 0, x);
+        dmb_quat_between(to, from, q);
+        dmb_quat_twist_pair(q, x);
+        store(x, 6, &g, run->rows);
+    }
+}
+
 static void rotations(const double *quaternion, uint32_t count, double *rotation)
 {
     for (uint32_t first = 0; first < count; first += DMB_REAL_LANES) {
@@ -215,6 +229,7 @@ const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .walls = walls,
                                  .advance = advance,
                                  .turns = turns,
+                                 .twist = twist,
                                  .rotations = rotations,
                                  .factor = factor,
                                  .solve = solve};

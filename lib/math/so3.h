@@ -329,6 +329,22 @@ static inline dmb_real dmb_quat_twist(const dmb_real q[4], dmb_real predicted)
     return dmb_real_select(dmb_mask_at_most(q[0] * q[0] + q[1] * q[1], dmb_real_of(0.0)), predicted, twist);
 }
 
+/* x <- R x for both vectors of x, R the same twist: its half angle has cosine q0/n and sine qx/n, n^2 = q0^2 + qx^2.
+ * Undefined where the swing is a half turn; x stays as it is there. */
+static inline void dmb_quat_twist_pair(const dmb_real q[4], dmb_real x[6])
+{
+    const dmb_real n2 = q[0] * q[0] + q[1] * q[1];
+    const dmb_mask none = dmb_mask_at_most(n2, dmb_real_of(0.0));
+    const dmb_real by = 1.0 / dmb_real_select(none, dmb_real_of(1.0), n2);
+    const dmb_real c = dmb_real_select(none, dmb_real_of(1.0), (q[0] * q[0] - q[1] * q[1]) * by);
+    const dmb_real s = 2.0 * q[0] * q[1] * by;
+    for (int i = 1; i < 6; i += 3) {
+        const dmb_real y = c * x[i] - s * x[i + 1];
+        x[i + 1] = s * x[i] + c * x[i + 1];
+        x[i] = y;
+    }
+}
+
 #ifndef DMB_LANES
 
 /* O = log R, |O| <= pi */

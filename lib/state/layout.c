@@ -8,7 +8,7 @@
 /* The letters of state.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
     uint64_t n, r, s, p, e, d, k, load, history, diagonal, link, backup;
-    uint64_t j, c, cluster, column, raw, jacobian, tangent, dense, square, full, block, value, pivots, kd, kl;
+    uint64_t j, c, cluster, column, raw, jacobian, tangent, dense, square, full, block, value, pivots, kd, kl, kn;
 } field_counts;
 
 /* The letters as names, for the count expressions of the lists; not every list uses all of them. */
@@ -19,11 +19,11 @@ typedef struct field_counts {
     const uint64_t column = (of)->column, raw = (of)->raw, jacobian = (of)->jacobian, tangent = (of)->tangent;  \
     const uint64_t dense = (of)->dense, square = (of)->square, full = (of)->full, block = (of)->block;          \
     const uint64_t value = (of)->value, pivots = (of)->pivots;                                                  \
-    const uint64_t kd = (of)->kd, kl = (of)->kl;                                                 \
+    const uint64_t kd = (of)->kd, kl = (of)->kl, kn = (of)->kn;                                                 \
     (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,   \
         (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,     \
         (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd, \
-        (void)kl
+        (void)kl, (void)kn
 
 /* [byte] of the state that is set aside in `backup`. A snapshot holds the kept factors too. */
 #define DMB_ADD_BYTES(type, name, count) +(count) * sizeof(type)
@@ -50,6 +50,7 @@ static void count_constraints(const dmb_scene *scene, field_counts *c)
     c->block = scene->block_count;
     c->kd = any ? 0 : c->diagonal;
     c->kl = any ? 0 : c->link;
+    c->kn = any || scene->site_count == 0 ? 0 : scene->node_count;
     c->value = any ? scene->pattern.values : 0;
     c->pivots = any ? scene->pattern.rows : 0;
 }
