@@ -226,6 +226,10 @@ private:
 // What sim::modes finds.
 class modes {
 public:
+    struct energies {
+        double kinetic, strain;
+    };
+
     explicit modes(dmb_modes *handle = nullptr) noexcept : handle_(handle) {}
     modes(modes &&other) noexcept : handle_(other.release()) {}
     modes &operator=(modes &&other) noexcept
@@ -272,6 +276,13 @@ public:
         dmb_mode_shape answer = dmb_mode_shape_default();
         answer.frame = frame;
         check(dmb_modes_shape(handle_, index, place, &answer));
+        return answer;
+    }
+    // [J] in a pipe of a string, in a whole string (pipe UINT32_MAX), or (pipe 0) in a body or bit.
+    energies part(std::uint32_t index, dmb_id part, std::uint32_t pipe = UINT32_MAX) const
+    {
+        energies answer{};
+        check(dmb_modes_part(handle_, index, part, pipe, &answer.kinetic, &answer.strain));
         return answer;
     }
     void write_vtk(std::uint32_t index, double scale, double phase, std::uint32_t per_element, const char *path) const

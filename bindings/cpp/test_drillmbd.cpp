@@ -2,6 +2,7 @@
 #include "drillmbd.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <type_traits>
@@ -270,6 +271,13 @@ void modes_of_a_string()
     EXPECT(modes[0].rigid == 1 && modes[2].frequency > 1.0 && modes[3].frequency >= modes[2].frequency);
     const dmb_mode_shape tip = modes.shape(2, dmb_station(string, 3, 1.0));
     EXPECT(std::abs(tip.re[1]) + std::abs(tip.re[2]) > 0.1 && tip.im[1] == 0.0);
+    const drillmbd::modes::energies all = modes.part(2, string), first = modes.part(2, string, 0);
+    EXPECT(std::abs(all.kinetic / modes[2].kinetic - 1.0) < 1e-9 && std::abs(all.strain / modes[2].strain - 1.0) < 1e-9);
+    EXPECT(first.strain > 0.0 && first.strain < all.strain);
+    modes.write_vtk(2, 0.1, 0.0, 2, "mode.vtp");
+    EXPECT(std::remove("mode.vtp") == 0);
+    EXPECT(thrown_by([&] { modes.write_vtk(2, 0.1, 0.0, 2, "no such folder/mode.vtp"); }) == DMB_ERR_IO);
+    EXPECT(thrown_by([&] { modes.part(2, string, 4); }) == DMB_ERR_VALUE);
     drillmbd::modes taken(std::move(modes));
     EXPECT(!modes && taken);
     dmb_modes_options options = dmb_modes_options_default();
