@@ -60,7 +60,7 @@ typedef struct study_job {
 void study_share_out(const study_job *jobs, int count, int threads);
 
 /* ---- Modes (modes.c) --------------------------------------------------------------------------------------------- */
-enum { STUDY_TUBES = 3, STUDY_MESHES = 8, STUDY_SHAPES = 5, STUDY_PLACES = 101, STUDY_ALL = 640 };
+enum { STUDY_TUBES = 3, STUDY_MESHES = 10, STUDY_SHAPES = 5, STUDY_PLACES = 101, STUDY_ALL = 640 };
 typedef struct study_modal {
     int32_t status;
     char message[STUDY_TEXT];

@@ -182,7 +182,7 @@ int dmb_modes_is_rigid(const dmb_mode_search *search, double re, double im, doub
 /* d^H K d is the strain energy twice where there is neither preload nor wall nor spring, and then the energy is the
  * sharper of the two: its terms are squares of small differences, those of K d cancel. With n elements to a bending
  * wave K d keeps eps n^4 of it, the energy eps n^2. It is taken where the two differ by the rounding of K d alone. */
-static double sharpened(const dmb_mode_search *search, double square, double *x)
+double dmb_modes_sharpen(const dmb_mode_search *search, double square, double *x)
 {
     const dmb_linear *linear = search->linear;
     double terms = 0.0;
@@ -202,7 +202,7 @@ int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const doubl
     dmb_modes *modes = search->modes;
     const uint32_t k = modes->count - 1;
     double *d = modes->re + (size_t)modes->rows * k;
-    const double sharp = sharpened(search, square, d), s = sqrt(fabs(sharp));
+    const double sharp = dmb_modes_sharpen(search, square, d), s = sqrt(fabs(sharp));
     modes->rigid[k] = !search->pinned && dmb_modes_is_rigid(search, s, 0.0, d, NULL);
     modes->s[2 * (size_t)k] = !modes->rigid[k] && sharp < 0.0 ? s : 0.0;
     modes->s[2 * (size_t)k + 1] = !modes->rigid[k] && sharp > 0.0 ? s : 0.0;

@@ -45,6 +45,8 @@ int32_t dmb_modes_reserve(dmb_modes *modes, uint32_t capacity, int32_t with_im);
 int32_t dmb_modes_add(dmb_mode_search *search, double re, double im, const double *x, const double *y);
 /* Adds an undamped mode of eigenvalue `square` = -s^2 of K d = square M d. */
 int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const double *x);
+/* [1/s2] eigenvalue of an undamped mode x, x^T M x = 1, with the digits that its strain energy has where K x lost them. */
+double dmb_modes_sharpen(const dmb_mode_search *search, double square, double *x);
 /* Whether a mode leaves all elements unstrained at no frequency but rounding. */
 int dmb_modes_is_rigid(const dmb_mode_search *search, double re, double im, double *x, double *y);
 /* By rising frequency; keeps the first `keep`. */

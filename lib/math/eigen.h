@@ -18,11 +18,4 @@ int32_t dmb_eigen_pair(size_t n, double *K, double *M, double *values, double *w
  * of V plus i times column k + 1. */
 int32_t dmb_eigen_general(size_t n, double *A, double *re, double *im, double *V, double *work);
 
-/* M = L L^T (dpotrf), L in the lower part, the rest of M left alone. > 0: not positive definite. */
-int32_t dmb_cholesky(size_t n, double *M);
-/* A <- L^-1 A L^-T, A any square matrix; half: shape (n, n) of work. */
-int32_t dmb_cholesky_reduce(size_t n, const double *L, double *A, double *half);
-/* x <- L^-T x */
-int32_t dmb_cholesky_back(size_t n, const double *L, double *x);
-
 #endif

@@ -47,34 +47,3 @@ int32_t dmb_eigen_general(size_t n, double *A, double *re, double *im, double *V
     double none;
     return LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', 'V', m, A, m, re, im, &none, 1, V, m, work, 40 * m);
 }
-
-int32_t dmb_cholesky(size_t n, double *M)
-{
-    return LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', (lapack_int)n, M, (lapack_int)n);
-}
-
-static void transpose(size_t n, const double *from, double *to)
-{
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++) to[n * i + j] = from[n * j + i];
-}
-
-static int32_t solve_lower(size_t n, char how, const double *L, size_t columns, double *B)
-{
-    const lapack_int m = (lapack_int)n;
-    return LAPACKE_dtrtrs_work(LAPACK_COL_MAJOR, 'L', how, 'N', m, (lapack_int)columns, L, m, B, m);
-}
-
-int32_t dmb_cholesky_reduce(size_t n, const double *L, double *A, double *half)
-{
-    int32_t status = solve_lower(n, 'N', L, n, A);
-    transpose(n, A, half);
-    if (status == 0) status = solve_lower(n, 'N', L, n, half);
-    transpose(n, half, A);
-    return status;
-}
-
-int32_t dmb_cholesky_back(size_t n, const double *L, double *x)
-{
-    return solve_lower(n, 'T', L, 1, x);
-}

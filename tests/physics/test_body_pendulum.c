@@ -133,7 +133,7 @@ static void recur(recurrence *q, double h, double w2)
     q->dv = dv;
 }
 
-/* A bar of one axial-torsional element, one end held: its end is a linear oscillator of w^2 = 3 E/(rho L^2). */
+/* A bar of one axial-torsional element, one end held: its end is a linear oscillator of w^2 = 2.4 E/(rho L^2). */
 static dmb_id open_oscillator(rig *s, double r, double speed, double *w2)
 {
     dmb_pipe_def pipe = s1_pipe();
@@ -148,7 +148,7 @@ static dmb_id open_oscillator(rig *s, double r, double speed, double *w2)
     options.spectral_radius = r;
     options.newton_tolerance = 1e-14;
     assert_int_equal(rig_start(s, &options), DMB_NOTE_PROJECTED); /* the held end moved too */
-    *w2 = 3.0 * pipe.young_modulus / (pipe.density * pipe.length * pipe.length);
+    *w2 = 2.4 * pipe.young_modulus / (pipe.density * pipe.length * pipe.length);
     return string;
 }
 
