@@ -12,7 +12,7 @@ extern "C" {
  * A quantity q is the real part of (re + i im) e^(i w t), w = 2 pi frequency. */
 enum {
     DMB_INPUT_DRIVE = 0,     /* programme of the drive place.part [its unit]: speed of MOTION, force of LOAD, target speed
-                                of CONTROL; not MOTION of a rig end or body that joints act on: DMB_ERR_UNSUPPORTED */
+                                of CONTROL */
     DMB_INPUT_LOAD = 1,      /* [-] factor of the load place.part */
     DMB_INPUT_BIT_LOAD = 2,  /* [N] bottom-hole load of the bit place.part */
     DMB_INPUT_FORCE = 3,     /* [N, N m] `component` of a force or moment at `place`, in `frame` */
@@ -79,8 +79,8 @@ typedef struct dmb_response dmb_response;
  * (frequency and part that nothing holds there: at 0 a part that is free), _UNSUPPORTED, _NO_MEMORY, _CALLBACK, _ROTATION.
  * A motion drive at frequency 0 has no displacement: _SINGULAR too.
  * Memory: the sim's allocator, until dmb_response_destroy; the sim need not outlive the response.
- * Cost: O(points (elements + inputs)), some 0.1 ms a point of 100 elements; where joints act, the cube of the coordinates
- * of their nodes besides, and memory of their number times all rows. One thread; several responses of one sim may not be computed at a time. */
+ * Cost: O(points (elements + joints + inputs)), some 0.1 ms a point of 100 elements; of joints that share bodies the cube
+ * of the coordinates of those. One thread; several responses of one sim may not be computed at a time. */
 DMB_API int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_input *inputs,
                                       uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
                                       dmb_response **response);

@@ -79,41 +79,86 @@ static int32_t controlled_joint(const request *r, uint32_t i, const dmb_scene_dr
     return difference(r, r->copy->trial.drive_target + i, change, change * gain, 2.0);
 }
 
+/* x: what the pivot rows of a cluster have to move by, in their order; displacements of its dependent rows then. */
+static void move_dependent(const request *r, uint32_t cluster_index, double *x)
+{
+    const dmb_sim *copy = r->copy;
+    const dmb_cluster *cluster = copy->scene->clusters + cluster_index;
+    const dmb_partition partition = dmb_cluster_partition(copy, cluster_index);
+    dmb_partition_solve(&partition, copy->cluster_lu + cluster->square, copy->cluster_pivot + cluster->row, x);
+    for (uint32_t k = 0; k < partition.rank; k++) {
+        r->out->re[copy->scene->cluster_columns[cluster->column + partition.column_order[k]]] = x[k];
+        x[k] = 0.0;
+    }
+}
+
 /* Displacements of dependent rows that move the coordinate by one and hold every other equation: C_d x = unit. */
 static int32_t moved_joint(const request *r, const dmb_scene_drive *drive)
 {
-    const dmb_sim *copy = r->copy;
-    const dmb_constraint *constraint = copy->scene->constraints + drive->constraint;
-    const dmb_cluster *cluster = copy->scene->clusters + constraint->cluster;
-    const dmb_partition partition = dmb_cluster_partition(copy, constraint->cluster);
+    const dmb_constraint *constraint = r->copy->scene->constraints + drive->constraint;
+    const dmb_cluster *cluster = r->copy->scene->clusters + constraint->cluster;
+    const dmb_partition partition = dmb_cluster_partition(r->copy, constraint->cluster);
     double *x = r->out->im; /* long enough for the while: as many as the cluster has rows */
     uint32_t place = UINT32_MAX;
-    r->out->law = DMB_EXCITE_JOINT;
     for (uint32_t k = 0; k < partition.rank; k++) {
         x[k] = 0.0;
         if (partition.row_order[k] == constraint->row - cluster->row) place = k;
     }
     if (place == UINT32_MAX) return refuse(r, DMB_ERR_VALUE, "other equations hold the joint that the drive moves");
     x[place] = 1.0;
-    dmb_partition_solve(&partition, copy->cluster_lu + cluster->square, copy->cluster_pivot + cluster->row, x);
-    for (uint32_t k = 0; k < partition.rank; k++) {
-        r->out->re[copy->scene->cluster_columns[cluster->column + partition.column_order[k]]] = x[k];
-        x[k] = 0.0;
-    }
+    move_dependent(r, constraint->cluster, x);
     return DMB_OK;
 }
 
-static int acts_on(const dmb_scene *scene, uint32_t node)
+/* 1 if the displacements hold every equation of the cluster, redundant ones too: what is held may contradict them. */
+static int32_t holds(const request *r, uint32_t k)
 {
-    return scene->cluster_count > 0 && scene->node_cluster[node] != UINT32_MAX;
+    const dmb_cluster *cluster = r->copy->scene->clusters + k;
+    const uint32_t *row_of = r->copy->scene->cluster_columns + cluster->column;
+    for (uint32_t i = 0; i < cluster->rows; i++) {
+        const double *B = r->copy->cluster_matrix + cluster->dense + (size_t)i * cluster->columns;
+        double sum = 0.0, largest = 0.0;
+        for (uint32_t c = 0; c < cluster->columns; c++) {
+            sum += B[c] * r->out->re[row_of[c]];
+            largest = fmax(largest, fabs(B[c] * r->out->re[row_of[c]]));
+        }
+        if (fabs(sum) > 1e-6 * largest) return 0;
+    }
+    return 1;
 }
 
-static int32_t drive_of_node(const request *r, const dmb_scene_drive *drive)
+/* The row moves by one, and of the joints' nodes what depends on it: C_d x = -(column of the row). */
+static int32_t moved_node(const request *r, const dmb_scene_drive *drive)
 {
-    r->out->law = drive->kind == DMB_DRIVE_MOTION ? DMB_EXCITE_MOTION : DMB_EXCITE_CONTROL;
+    const dmb_scene *scene = r->copy->scene;
     r->out->re[drive->row] = 1.0;
-    if (drive->kind == DMB_DRIVE_MOTION && acts_on(r->copy->scene, drive->node))
-        return refuse(r, DMB_ERR_UNSUPPORTED, "a motion drive on a part that joints act on, other than of a joint");
+    if (scene->cluster_count == 0 || scene->node_cluster[drive->node] == UINT32_MAX) return DMB_OK;
+    const uint32_t k = scene->node_cluster[drive->node];
+    const dmb_cluster *cluster = scene->clusters + k;
+    const dmb_partition partition = dmb_cluster_partition(r->copy, k);
+    const uint32_t column = scene->node_place[drive->node] + drive->row - scene->layout.row[drive->node];
+    const double *B = r->copy->cluster_matrix + cluster->dense;
+    double *x = r->out->im;
+    for (uint32_t i = 0; i < partition.rank; i++) x[i] = -B[(size_t)partition.row_order[i] * cluster->columns + column];
+    move_dependent(r, k, x);
+    if (!holds(r, k)) return refuse(r, DMB_ERR_VALUE, "joints hold the part that the drive moves");
+    return DMB_OK;
+}
+
+static int32_t moved(const request *r, const dmb_scene_drive *drive)
+{
+    r->out->law = DMB_EXCITE_MOTION;
+    return drive->joint == UINT32_MAX ? moved_node(r, drive) : moved_joint(r, drive);
+}
+
+/* A force on a row grows by kp + ki/(i w) for a unit of the target. */
+static int32_t controlled(const request *r, uint32_t i, const dmb_scene_drive *drive)
+{
+    r->out->law = DMB_EXCITE_CONTROL;
+    r->out->gain = drive->gain;
+    r->out->integral_gain = drive->integral_gain;
+    if (drive->joint != UINT32_MAX) return controlled_joint(r, i, drive);
+    r->out->re[drive->row] = 1.0;
     return DMB_OK;
 }
 
@@ -128,12 +173,7 @@ static int32_t drive(const request *r)
     if (drive->kind == DMB_DRIVE_CONTROL && (force <= drive->limit_low || force >= drive->limit_high))
         return refuse(r, DMB_ERR_VALUE, "the drive is at its limit and answers to nothing");
     if (drive->kind == DMB_DRIVE_LOAD) return derivative(r, r->copy->trial.drive_target + i);
-    r->out->gain = drive->gain;
-    r->out->integral_gain = drive->integral_gain;
-    if (drive->joint == UINT32_MAX) return drive_of_node(r, drive);
-    if (drive->kind == DMB_DRIVE_MOTION) return moved_joint(r, drive);
-    r->out->law = DMB_EXCITE_CONTROL;
-    return controlled_joint(r, i, drive);
+    return drive->kind == DMB_DRIVE_MOTION ? moved(r, drive) : controlled(r, i, drive);
 }
 
 static int32_t load(const request *r)
@@ -243,14 +283,6 @@ static int32_t friction(const request *r)
     return DMB_OK;
 }
 
-/* Forces on rows that are held go into their guides; there a number would be taken for a displacement. */
-static void leave_out_held(const dmb_scene *scene, dmb_excitation *out)
-{
-    if (out->law == DMB_EXCITE_MOTION) return;
-    for (uint32_t r = 0; r < scene->row_count; r++)
-        if (!scene->solved_row[r]) out->re[r] = out->im[r] = 0.0;
-}
-
 static int32_t make(const request *r)
 {
     switch (r->input->kind) {
@@ -268,7 +300,5 @@ int32_t dmb_excitation_of(dmb_sim *copy, const dmb_input *input, uint32_t index,
                           dmb_excitation *out)
 {
     const request r = {copy, input, index, message, out};
-    const int32_t status = make(&r);
-    if (status >= 0) leave_out_held(copy->scene, out);
-    return status;
+    return make(&r);
 }

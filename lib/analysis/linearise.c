@@ -46,6 +46,8 @@ static void lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_linear *to)
     to->column = DMB_ARENA_ARRAY(arena, uint32_t, entries_of(scene));
     to->value = DMB_ARENA_DOUBLES(arena, entries_of(scene));
     to->held_columns = DMB_ARENA_DOUBLES(arena, 54 * (size_t)scene->held_count);
+    to->held_rows = DMB_ARENA_DOUBLES(arena, 54 * (size_t)scene->held_count);
+    to->whole_joints = DMB_ARENA_DOUBLES(arena, 3 * (size_t)scene->tangent_count);
 }
 
 static dmb_linear *allocate(const dmb_sim *sim)
@@ -347,39 +349,41 @@ static void clear_column(double *block, uint32_t rows, uint32_t columns, uint32_
     for (uint32_t r = 0; r < rows; r++) block[(size_t)columns * r + column] = 0.0;
 }
 
-static void clear_component(const dmb_block_layout *layout, uint32_t node, uint32_t c, dmb_linear_matrix *A)
+static void clear_rows_of(const dmb_block_layout *layout, uint32_t node, uint32_t c, dmb_linear_matrix *A)
 {
-    const uint32_t size = layout->size[node];
-    clear_row(A->diagonal + layout->diag[node], size, c);
-    clear_column(A->diagonal + layout->diag[node], size, size, c);
-    if (node > 0) {
-        const uint32_t before = layout->size[node - 1];
-        clear_row(A->lower + layout->link[node - 1], before, c);
-        clear_column(A->upper + layout->link[node - 1], before, size, c);
-    }
-    if (node + 1 < layout->n) {
-        const uint32_t after = layout->size[node + 1];
-        clear_row(A->upper + layout->link[node], after, c);
-        clear_column(A->lower + layout->link[node], after, size, c);
-    }
+    clear_row(A->diagonal + layout->diag[node], layout->size[node], c);
+    if (node > 0) clear_row(A->lower + layout->link[node - 1], layout->size[node - 1], c);
+    if (node + 1 < layout->n) clear_row(A->upper + layout->link[node], layout->size[node + 1], c);
 }
 
-static void clear_in_joints(const dmb_scene *scene, dmb_linear_matrix *A)
+static void clear_columns_of(const dmb_block_layout *layout, uint32_t node, uint32_t c, dmb_linear_matrix *A)
 {
-    for (uint32_t i = 0; i < scene->constraint_count; i++) {
-        const dmb_constraint *c = scene->constraints + i;
-        for (uint32_t k = 0; k < c->node_count; k++)
-            for (uint32_t r = 0; r < scene->layout.size[c->node[k]]; r++) {
-                if (scene->solved_row[scene->layout.row[c->node[k]] + r]) continue;
-                clear_row(A->joints + c->tangent, c->columns, c->column[k] + r);
-                clear_column(A->joints + c->tangent, c->columns, c->columns, c->column[k] + r);
-            }
-    }
+    const uint32_t size = layout->size[node];
+    clear_column(A->diagonal + layout->diag[node], size, size, c);
+    if (node > 0) clear_column(A->upper + layout->link[node - 1], layout->size[node - 1], size, c);
+    if (node + 1 < layout->n) clear_column(A->lower + layout->link[node], layout->size[node + 1], size, c);
+}
+
+static void clear_in_joint(const dmb_scene *scene, const dmb_constraint *c, int columns, double *joint)
+{
+    for (uint32_t k = 0; k < c->node_count; k++)
+        for (uint32_t r = 0; r < scene->layout.size[c->node[k]]; r++) {
+            if (scene->solved_row[scene->layout.row[c->node[k]] + r]) continue;
+            if (columns)
+                clear_column(joint, c->columns, c->columns, c->column[k] + r);
+            else
+                clear_row(joint, c->columns, c->column[k] + r);
+        }
 }
 
 static void copy_column(const double *block, uint32_t rows, uint32_t columns, uint32_t c, double *to)
 {
     for (uint32_t r = 0; r < rows; r++) to[r] = block[(size_t)columns * r + c];
+}
+
+static void copy_row(const double *block, uint32_t columns, uint32_t c, double *to)
+{
+    memcpy(to, block + (size_t)columns * c, columns * sizeof(double));
 }
 
 /* Before the columns are cleared. */
@@ -392,24 +396,43 @@ static void keep_column(const dmb_block_layout *layout, uint32_t node, uint32_t 
     if (node + 1 < layout->n) copy_column(A->lower + layout->link[node], layout->size[node + 1], size, c, to + 12);
 }
 
-static void keep_held_columns(dmb_linear *linear)
+/* Likewise. */
+static void keep_row(const dmb_block_layout *layout, uint32_t node, uint32_t c, const dmb_linear_matrix *A, double *to)
+{
+    copy_row(A->diagonal + layout->diag[node], layout->size[node], c, to + 6);
+    if (node > 0) copy_row(A->lower + layout->link[node - 1], layout->size[node - 1], c, to);
+    if (node + 1 < layout->n) copy_row(A->upper + layout->link[node], layout->size[node + 1], c, to + 12);
+}
+
+/* Columns, or rows, of what is held. */
+static void keep_held(dmb_linear *linear, int columns)
 {
     const dmb_scene *scene = &linear->scene;
     const dmb_linear_matrix *all[3] = {&linear->mass, &linear->damping, &linear->stiffness};
+    double *lines = columns ? linear->held_columns : linear->held_rows;
     for (uint32_t i = 0; i < scene->held_count; i++)
         for (size_t m = 0; m < 3; m++)
-            keep_column(&scene->layout, scene->held_node[i], scene->held_component[i], all[m],
-                        linear->held_columns + 54 * (size_t)i + 18 * m);
+            (columns ? keep_column : keep_row)(&scene->layout, scene->held_node[i], scene->held_component[i], all[m],
+                                               lines + 54 * (size_t)i + 18 * m);
 }
 
-static void hold(dmb_linear *linear)
+static void add_whole_joints(dmb_linear *linear, double factor)
+{
+    const dmb_linear_matrix *all[3] = {&linear->mass, &linear->damping, &linear->stiffness};
+    const size_t count = linear->scene.tangent_count;
+    for (size_t m = 0; m < 3; m++) add_array(factor, all[m]->joints, count, linear->whole_joints + m * count);
+}
+
+static void hold(dmb_linear *linear, int columns)
 {
     const dmb_scene *scene = &linear->scene;
     dmb_linear_matrix *all[3] = {&linear->mass, &linear->damping, &linear->stiffness};
     for (int m = 0; m < 3; m++) {
         for (uint32_t i = 0; i < scene->held_count; i++)
-            clear_component(&scene->layout, scene->held_node[i], scene->held_component[i], all[m]);
-        clear_in_joints(scene, all[m]);
+            (columns ? clear_columns_of : clear_rows_of)(&scene->layout, scene->held_node[i], scene->held_component[i],
+                                                         all[m]);
+        for (uint32_t i = 0; i < scene->constraint_count; i++)
+            clear_in_joint(scene, scene->constraints + i, columns, all[m]->joints + scene->constraints[i].tangent);
     }
 }
 
@@ -504,6 +527,23 @@ static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *optio
     return status < 0 ? status : take_damping(linear);
 }
 
+/* C += M v^, K += C_v v^ + M a^: a row that is held has no d, nor any v^ d, but what the others do to it counts. */
+static void turn_frames(dmb_linear *linear)
+{
+    dmb_sim *work = linear->work;
+    keep_held(linear, 1);
+    add_whole_joints(linear, 1.0);
+    hold(linear, 1);
+    add_whole_joints(linear, -1.0); /* columns that are held are left of it */
+    add_products(&linear->scene, &linear->damping, work->now.velocity, &linear->stiffness);
+    add_products(&linear->scene, &linear->mass, work->now.acceleration, &linear->stiffness);
+    add_products(&linear->scene, &linear->mass, work->now.velocity, &linear->damping);
+    hold(linear, 1);
+    keep_held(linear, 0);
+    add_whole_joints(linear, 1.0);
+    hold(linear, 0);
+}
+
 static int32_t linearise(dmb_linear *linear, const dmb_linear_options *options)
 {
     dmb_sim *work = linear->work;
@@ -513,12 +553,7 @@ static int32_t linearise(dmb_linear *linear, const dmb_linear_options *options)
     if (status >= 0) status = take_matrices(linear, options);
     work->linked_mode->multipliers = 0;
     if (status < 0) return status;
-    keep_held_columns(linear);
-    hold(linear); /* a row that is held has no d, nor any v^ d */
-    add_products(&linear->scene, &linear->damping, work->now.velocity, &linear->stiffness);
-    add_products(&linear->scene, &linear->mass, work->now.acceleration, &linear->stiffness);
-    add_products(&linear->scene, &linear->mass, work->now.velocity, &linear->damping);
-    hold(linear);
+    turn_frames(linear);
     return make_coordinates(linear);
 }
 

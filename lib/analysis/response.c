@@ -139,7 +139,7 @@ static int32_t no_displacement(const response_work *w, uint32_t input)
     return DMB_ERR_SINGULAR;
 }
 
-/* Right-hand side of an input: forces, and the displacement of a row that a drive moves. */
+/* Right-hand side of an input: forces, or displacements that a drive asks for. */
 static int32_t load(response_work *w, uint32_t input, double omega)
 {
     const dmb_excitation *e = w->inputs + input;
@@ -147,7 +147,7 @@ static int32_t load(response_work *w, uint32_t input, double omega)
     double re = 1.0, im = 0.0;
     if (e->law == DMB_EXCITE_INERTIA) re = omega * omega;
     if (e->law == DMB_EXCITE_CONTROL) re = e->gain, im = e->integral_gain == 0.0 ? 0.0 : -e->integral_gain / omega;
-    if (e->law == DMB_EXCITE_MOTION || e->law == DMB_EXCITE_JOINT) re = 0.0, im = -1.0 / omega;
+    if (e->law == DMB_EXCITE_MOTION) re = 0.0, im = -1.0 / omega;
     if (!isfinite(im)) return no_displacement(w, input);
     for (uint32_t r = 0; r < rows; r++) {
         w->x.re[r] = re * e->re[r] - im * e->im[r];
@@ -195,7 +195,7 @@ static int32_t solve_point(response_work *w, dmb_response *response, uint32_t po
     for (uint32_t i = 0; i < w->input_count; i++) {
         const int32_t status = load(w, i, omega);
         if (status < 0) return status;
-        dmb_dynamic_stiffness_solve(&w->stiffness, w->inputs[i].law == DMB_EXCITE_JOINT, w->x);
+        dmb_dynamic_stiffness_solve(&w->stiffness, w->inputs[i].law == DMB_EXCITE_MOTION, w->x);
         double *value = dmb_response_value(response, point, i);
         for (uint32_t k = 0; k < w->output_count; k++) answer(w, w->outputs + k, omega, value + 2 * (size_t)k);
     }

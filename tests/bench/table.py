@@ -238,8 +238,10 @@ def modes(data):
 
 def response(data):
     lines, growths = [], []
-    for scene in ("H", "HW"):
+    for scene in ("H", "HW", "HJ"):
         rows = chosen(data["H"], scene=scene)
+        if not rows:
+            continue
         lines += [[scene, row["elements"], row["points"], number(row["us_per_step"]), percent(row["spread"]),
                    number(row["U_per_step"]), number(row["us_two_points"]), number(row["error"], 2)] for row in rows]
         growths.append(f"{scene} {exponent(rows, 'elements', 'us_per_step')[0]:.3f}")

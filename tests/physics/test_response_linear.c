@@ -228,7 +228,7 @@ static void controlled_mass(void **state)
 
 /* ---- Reciprocity, joints ----------------------------------------------------------------------------------------- */
 
-enum { PIPES = 6 };
+enum { PIPES = 6, MANY = 60 };
 
 /* Six pipes of S1 with damping, clamped at the rig end; with joints: in two strings that a fixed joint connects. */
 static void open_chain(rig *s, int32_t joined, dmb_place *near, dmb_place *far)
@@ -347,6 +347,49 @@ static void joint_against_shared_node(void **state)
     rig_close(&two);
 }
 
+/* Sixty pipes of S1, clamped at the rig end, as one string or each as a string of its own, fixed to the one before. */
+static dmb_place open_many(rig *s, int32_t joined)
+{
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    rig_open(s, 0.0, 0.0, 0.0);
+    def.follows_hole = 0;
+    pipe.damping_time = 1e-4;
+    dmb_joint_def joint = dmb_joint_def_default();
+    for (uint32_t i = 0; i < (joined ? MANY : 1); i++) {
+        def.position[0] = 1.5 * i;
+        def.start_free = i == 0 ? DMB_FREE_NONE : DMB_FREE_ALL;
+        pipe.string = add_string(s, &def);
+        (void)add_pipes(s, &pipe, joined ? 1 : MANY);
+        joint.place_b = dmb_station(pipe.string, 0, 0.0);
+        if (i > 0) must_model(s, dmb_model_add_joint(s->model, &joint, NULL));
+        joint.place_a = dmb_station(pipe.string, 0, 1.0);
+    }
+    (void)rig_start(s, NULL);
+    return dmb_station(pipe.string, joined ? 0 : MANY - 1, 1.0);
+}
+
+static void many_joints_against_none(void **state)
+{
+    (void)state;
+    const double frequencies[4] = {0.0, 0.01, 3.0, 70.0};
+    rig one, many;
+    double worst = 0.0;
+    const dmb_place a = open_many(&one, 0), b = open_many(&many, 1);
+    for (int32_t c = DMB_X; c <= DMB_RZ; c++) {
+        double complex x[4], y[4];
+        const dmb_input at_a = force_at(a, c), at_b = force_at(b, c);
+        const dmb_output of_a = output_at(DMB_OUTPUT_DISPLACEMENT, a, c);
+        const dmb_output of_b = output_at(DMB_OUTPUT_DISPLACEMENT, b, c);
+        transfer(&one, NULL, &at_a, &of_a, frequencies, 4, x);
+        transfer(&many, NULL, &at_b, &of_b, frequencies, 4, y);
+        for (int f = 0; f < 4; f++) worst = fmax(worst, misfit(y[f], x[f]));
+    }
+    check_below("59 fixed joints against one string, tip receptances", worst, 1e-7);
+    rig_close(&one);
+    rig_close(&many);
+}
+
 /* Six pipes that are turned at the rig end, by a drive of the string or of a joint that holds it. */
 static dmb_id open_turned(rig *s, int32_t jointed, int32_t kind, dmb_place *tip)
 {
@@ -403,6 +446,49 @@ static void drives_of_joints(void **state)
         rig_close(&own);
         rig_close(&jointed);
     }
+}
+
+/* The same string fixed to a chuck, a body that a motion drive turns, against its own drive. */
+static void drive_of_a_part_with_joints(void **state)
+{
+    (void)state;
+    const double frequencies[3] = {0.5, 11.0, 200.0};
+    double complex x[3], y[3], p[3], q[3];
+    double worst = 0.0;
+    rig own, s;
+    dmb_place a;
+    const dmb_input of_string = input_of(DMB_INPUT_DRIVE, open_turned(&own, 0, DMB_DRIVE_MOTION, &a), DMB_X);
+    rig_open(&s, 0.0, 0.0, 0.0);
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_body_def chuck = dmb_body_def_default();
+    dmb_joint_def jaws = dmb_joint_def_default();
+    chuck.mass = 40.0;
+    chuck.free_mask = 1 << DMB_RX;
+    def.follows_hole = 0;
+    def.start_free = DMB_FREE_ALL;
+    pipe.damping_time = 1e-4;
+    pipe.string = add_string(&s, &def);
+    (void)add_pipes(&s, &pipe, PIPES);
+    jaws.place_a = dmb_station(add_body(&s, &chuck), 0, 0.0);
+    jaws.place_b = dmb_station(pipe.string, 0, 0.0);
+    must_model(&s, dmb_model_add_joint(s.model, &jaws, NULL));
+    const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_MOTION, jaws.place_a.part, DMB_RX, add_constant(&s, 0.0));
+    (void)rig_start(&s, NULL);
+    const dmb_place b = dmb_station(pipe.string, PIPES - 1, 1.0);
+    const dmb_input of_chuck = input_of(DMB_INPUT_DRIVE, drive, DMB_X);
+    const dmb_output at_a = output_at(DMB_OUTPUT_DISPLACEMENT, a, DMB_RX);
+    const dmb_output at_b = output_at(DMB_OUTPUT_DISPLACEMENT, b, DMB_RX);
+    const dmb_output in_a = output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(a.part, 0, 0.0), DMB_RX);
+    const dmb_output in_b = output_at(DMB_OUTPUT_SECTION_FORCE, jaws.place_b, DMB_RX);
+    transfer(&own, NULL, &of_string, &at_a, frequencies, 3, x);
+    transfer(&s, NULL, &of_chuck, &at_b, frequencies, 3, y);
+    transfer(&own, NULL, &of_string, &in_a, frequencies, 3, p);
+    transfer(&s, NULL, &of_chuck, &in_b, frequencies, 3, q);
+    for (int f = 0; f < 3; f++) worst = fmax(worst, fmax(misfit(y[f], x[f]), misfit(q[f], p[f])));
+    check_below("motion drive of a chuck against that of the string", worst, 1e-9);
+    rig_close(&own);
+    rig_close(&s);
 }
 
 /* ---- Peaks, all inputs together ---------------------------------------------------------------------------------- */
@@ -547,7 +633,9 @@ int main(void)
         cmocka_unit_test(reciprocity),
         cmocka_unit_test(forces_on_guides),
         cmocka_unit_test(joint_against_shared_node),
+        cmocka_unit_test(many_joints_against_none),
         cmocka_unit_test(drives_of_joints),
+        cmocka_unit_test(drive_of_a_part_with_joints),
         cmocka_unit_test(peaks_and_sums),
         cmocka_unit_test(eccentricity_grows_friction_does_not),
         cmocka_unit_test(load_on_the_bit),

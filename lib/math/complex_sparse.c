@@ -1,0 +1,243 @@
+/* As block_sparse.c, in complex numbers: with D = A_kk and the later blocks i, j that k is coupled with,
+ *
+ *     W_kj = D^-1 A_kj,    A_ij -= A_ik W_kj,    b_k <- D^-1 b_k,  b_i -= A_ik b_k;   backwards  b_k -= W_kj b_j
+ *
+ * (Golub and Van Loan, Matrix Computations, 3.2.10). Kernels are written once, with the sizes of beams' nodes
+ * as constants and for any size. Inner loops run along rows of doubles. */
+#include "math/complex_sparse.h"
+
+#include <math.h>
+#include <string.h>
+
+#if defined(__GNUC__)
+#define KERNEL static inline __attribute__((always_inline))
+#else
+#define KERNEL static inline
+#endif
+
+enum { SIX = 6 };
+
+static dmb_complex_array part(dmb_complex_array array, size_t offset)
+{
+    const dmb_complex_array out = {array.re + offset, array.im + offset};
+    return out;
+}
+
+/* y -= (fr + i fi) x */
+KERNEL void row_subtract(uint32_t n, double fr, double fi, const double *restrict xr, const double *restrict xi,
+                         double *restrict yr, double *restrict yi)
+{
+    for (uint32_t j = 0; j < n; j++) yr[j] -= fr * xr[j] - fi * xi[j];
+    for (uint32_t j = 0; j < n; j++) yi[j] -= fr * xi[j] + fi * xr[j];
+}
+
+/* x *= fr + i fi */
+KERNEL void row_scale(uint32_t n, double fr, double fi, double *restrict xr, double *restrict xi)
+{
+    for (uint32_t j = 0; j < n; j++) {
+        const double re = xr[j], im = xi[j];
+        xr[j] = fr * re - fi * im;
+        xi[j] = fr * im + fi * re;
+    }
+}
+
+KERNEL void row_swap(uint32_t n, double *x, double *y)
+{
+    for (uint32_t j = 0; j < n; j++) {
+        const double t = x[j];
+        x[j] = y[j];
+        y[j] = t;
+    }
+}
+
+/* ---- Blocks ------------------------------------------------------------------------------------------------------ */
+
+static uint32_t pivot_of_column(uint32_t n, uint32_t k, dmb_complex_array D)
+{
+    uint32_t p = k;
+    double most = fabs(D.re[n * k + k]) + fabs(D.im[n * k + k]);
+    for (uint32_t i = k + 1; i < n; i++) {
+        const double size = fabs(D.re[n * i + k]) + fabs(D.im[n * i + k]);
+        if (size > most) most = size, p = i;
+    }
+    return p;
+}
+
+/* 1/(a + i b) into both (Smith 1962). */
+static void invert(double *re, double *im)
+{
+    const double a = *re, b = *im;
+    if (fabs(a) >= fabs(b)) {
+        const double q = b / a, d = a + b * q;
+        *re = 1.0 / d;
+        *im = -q / d;
+    } else {
+        const double q = a / b, d = a * q + b;
+        *re = q / d;
+        *im = -1.0 / d;
+    }
+}
+
+/* The column without a pivot, or -1. */
+static int64_t factor_block(uint32_t n, dmb_complex_array D, uint32_t *pivot)
+{
+    for (uint32_t k = 0; k < n; k++) {
+        const uint32_t p = pivot_of_column(n, k, D), at = n * k + k;
+        if (!dmb_block_pivot_holds(fabs(D.re[n * p + k]) + fabs(D.im[n * p + k]))) return k;
+        pivot[k] = p;
+        if (p != k) {
+            row_swap(n, D.re + n * k, D.re + n * p);
+            row_swap(n, D.im + n * k, D.im + n * p);
+        }
+        invert(D.re + at, D.im + at);
+        for (uint32_t i = k + 1; i < n; i++) {
+            const uint32_t below = n * i + k;
+            row_scale(1, D.re[at], D.im[at], D.re + below, D.im + below);
+            row_subtract(n - k - 1, D.re[below], D.im[below], D.re + at + 1, D.im + at + 1, D.re + below + 1,
+                         D.im + below + 1);
+        }
+    }
+    return -1;
+}
+
+/* W (n x m) <- D^-1 W */
+KERNEL void solve_sized(uint32_t n, uint32_t m, dmb_complex_array D, const uint32_t *pivot, dmb_complex_array W)
+{
+    for (uint32_t k = 0; k < n; k++) {
+        if (pivot[k] == k) continue;
+        row_swap(m, W.re + m * k, W.re + m * pivot[k]);
+        row_swap(m, W.im + m * k, W.im + m * pivot[k]);
+    }
+    for (uint32_t i = 1; i < n; i++)
+        for (uint32_t j = 0; j < i; j++)
+            row_subtract(m, D.re[n * i + j], D.im[n * i + j], W.re + m * j, W.im + m * j, W.re + m * i, W.im + m * i);
+    for (uint32_t i = n; i-- > 0;) {
+        for (uint32_t j = i + 1; j < n; j++)
+            row_subtract(m, D.re[n * i + j], D.im[n * i + j], W.re + m * j, W.im + m * j, W.re + m * i, W.im + m * i);
+        row_scale(m, D.re[n * i + i], D.im[n * i + i], W.re + m * i, W.im + m * i);
+    }
+}
+
+static void solve_block(uint32_t n, uint32_t m, dmb_complex_array D, const uint32_t *pivot, dmb_complex_array W)
+{
+    if (n == SIX && m == SIX)
+        solve_sized(SIX, SIX, D, pivot, W);
+    else
+        solve_sized(n, m, D, pivot, W);
+}
+
+/* A (p x q) -= L (p x n) W (n x q) */
+KERNEL void update_sized(uint32_t p, uint32_t n, uint32_t q, dmb_complex_array L, dmb_complex_array W,
+                         dmb_complex_array A)
+{
+    for (uint32_t i = 0; i < p; i++)
+        for (uint32_t c = 0; c < n; c++)
+            row_subtract(q, L.re[n * i + c], L.im[n * i + c], W.re + q * c, W.im + q * c, A.re + q * i, A.im + q * i);
+}
+
+static void update_block(uint32_t p, uint32_t n, uint32_t q, dmb_complex_array L, dmb_complex_array W,
+                         dmb_complex_array A)
+{
+    if (p == SIX && n == SIX && q == SIX)
+        update_sized(SIX, SIX, SIX, L, W, A);
+    else
+        update_sized(p, n, q, L, W, A);
+}
+
+/* y (p) -= A (p x n) x (n) */
+static void update_vector(uint32_t p, uint32_t n, dmb_complex_array A, dmb_complex_array x, dmb_complex_array y)
+{
+    for (uint32_t i = 0; i < p; i++) {
+        double re = y.re[i], im = y.im[i];
+        for (uint32_t j = 0; j < n; j++) {
+            const double ar = A.re[n * i + j], ai = A.im[n * i + j];
+            re -= ar * x.re[j] - ai * x.im[j];
+            im -= ar * x.im[j] + ai * x.re[j];
+        }
+        y.re[i] = re;
+        y.im[i] = im;
+    }
+}
+
+/* ---- Factors ----------------------------------------------------------------------------------------------------- */
+
+void dmb_complex_sparse_clear(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix)
+{
+    memset(matrix->values.re, 0, sizeof(double) * pattern->values);
+    memset(matrix->values.im, 0, sizeof(double) * pattern->values);
+}
+
+/* Rows at run time of the block at a position. */
+static uint32_t size_at(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix, uint32_t position)
+{
+    return matrix->size[pattern->order[position]];
+}
+
+/* A_ij -= A_ik W_kj for the later blocks i of entry a, and j of entry a and of each entry behind it, both ways round.
+ */
+static void update_from(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix, uint32_t n, uint32_t a,
+                        uint32_t end)
+{
+    const dmb_complex_array v = matrix->values, L = part(v, pattern->lower[a]), W = part(v, pattern->upper[a]);
+    const uint32_t i = pattern->later[a], p = size_at(pattern, matrix, i);
+    update_block(p, n, p, L, W, part(v, pattern->diagonal[i]));
+    for (uint32_t b = a + 1; b < end; b++) {
+        const uint32_t j = pattern->later[b], q = size_at(pattern, matrix, j);
+        const uint32_t target = dmb_block_pattern_entry(pattern, i, j);
+        update_block(p, n, q, L, part(v, pattern->upper[b]), part(v, pattern->upper[target]));
+        update_block(q, n, p, part(v, pattern->lower[b]), W, part(v, pattern->lower[target]));
+    }
+}
+
+int64_t dmb_complex_sparse_factor(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix)
+{
+    for (uint32_t k = 0; k < pattern->n; k++) {
+        const uint32_t n = size_at(pattern, matrix, k), begin = pattern->column[k], end = pattern->column[k + 1];
+        const dmb_complex_array D = part(matrix->values, pattern->diagonal[k]);
+        uint32_t *pivot = matrix->pivot + pattern->pivot[k];
+        if (n == 0) continue;
+        if (factor_block(n, D, pivot) >= 0) return (int64_t)pattern->order[k];
+        for (uint32_t e = begin; e < end; e++) {
+            const uint32_t m = size_at(pattern, matrix, pattern->later[e]);
+            const dmb_complex_array W = part(matrix->values, pattern->upper[e]);
+            solve_block(n, m, D, pivot, W);
+        }
+        for (uint32_t e = begin; e < end; e++) update_from(pattern, matrix, n, e, end);
+    }
+    return -1;
+}
+
+/* ---- Solution ---------------------------------------------------------------------------------------------------- */
+
+/* b_k <- D^-1 b_k, then b_i -= A_ik b_k */
+static void solve_down(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix, const uint32_t *row,
+                       uint32_t k, dmb_complex_array rhs)
+{
+    const uint32_t block = pattern->order[k], n = matrix->size[block];
+    const dmb_complex_array b = part(rhs, row[block]);
+    solve_block(n, 1, part(matrix->values, pattern->diagonal[k]), matrix->pivot + pattern->pivot[k], b);
+    for (uint32_t e = pattern->column[k]; e < pattern->column[k + 1]; e++) {
+        const uint32_t other = pattern->order[pattern->later[e]];
+        const dmb_complex_array A = part(matrix->values, pattern->lower[e]);
+        update_vector(matrix->size[other], n, A, b, part(rhs, row[other]));
+    }
+}
+
+/* b_k -= W_kj x_j */
+static void solve_up(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix, const uint32_t *row,
+                     uint32_t k, dmb_complex_array rhs)
+{
+    const uint32_t block = pattern->order[k], n = matrix->size[block];
+    for (uint32_t e = pattern->column[k]; e < pattern->column[k + 1]; e++) {
+        const uint32_t other = pattern->order[pattern->later[e]];
+        const dmb_complex_array W = part(matrix->values, pattern->upper[e]);
+        update_vector(n, matrix->size[other], W, part(rhs, row[other]), part(rhs, row[block]));
+    }
+}
+
+void dmb_complex_sparse_solve(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix, const uint32_t *row,
+                              dmb_complex_array rhs)
+{
+    for (uint32_t k = 0; k < pattern->n; k++) solve_down(pattern, matrix, row, k, rhs);
+    for (uint32_t k = pattern->n; k-- > 0;) solve_up(pattern, matrix, row, k, rhs);
+}

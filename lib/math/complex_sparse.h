@@ -1,0 +1,31 @@
+/* Direct solver for complex block-sparse systems of symmetric pattern and unsymmetric values,
+ *
+ *     sum_j A_ij x_j = b_i,    A_ij of size_i rows and size_j columns, there where the pattern couples i and j
+ *
+ * made for the dynamic stiffness K + i w C - w^2 M of strings that joints connect. Real and imaginary parts stand in
+ * arrays of their own. Block elimination in the order of the pattern (block_pattern.h), with row pivoting inside each
+ * diagonal block; no allocation, always the same order of operations; any size of block up to its capacity, 0 too. */
+#ifndef DMB_MATH_COMPLEX_SPARSE_H
+#define DMB_MATH_COMPLEX_SPARSE_H
+
+#include "math/block_complex.h"
+#include "math/block_pattern.h"
+
+/* Each block is row-major without gaps, at its offset of the pattern. Factoring overwrites diagonal blocks by their LU
+ * factors with reciprocal pivots, A_kj by A_kk^-1 A_kj where k is eliminated before j, and A_jk by what is left of it
+ * when k's turn comes. */
+typedef struct dmb_complex_sparse {
+    dmb_complex_array values; /* (pattern->values) */
+    uint32_t *pivot;          /* (pattern->rows) row of its block exchanged with this one; written by factoring */
+    const uint32_t *size;     /* (n) rows of block i now, 0 .. capacity */
+} dmb_complex_sparse;
+
+/* All values zero, fill included: comes before the values of every new factorisation. */
+void dmb_complex_sparse_clear(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix);
+/* -1 when done, else the first singular block in the order of elimination, the matrix being half-way then. */
+int64_t dmb_complex_sparse_factor(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix);
+/* b on entry, x on return; the rows of block i begin at rhs[row[i]]. */
+void dmb_complex_sparse_solve(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix, const uint32_t *row,
+                              dmb_complex_array rhs);
+
+#endif
