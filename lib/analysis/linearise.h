@@ -76,6 +76,13 @@ typedef struct dmb_linear {
 int32_t dmb_linear_make(const dmb_sim *sim, const dmb_linear_options *options, dmb_linear **linear);
 void dmb_linear_release(dmb_linear **linear);
 
+/* Entry of component c of a node on the diagonal of A. */
+static inline double dmb_linear_diagonal(const dmb_linear *linear, const dmb_linear_matrix *A, uint32_t node,
+                                         uint32_t c)
+{
+    const dmb_block_layout *layout = &linear->scene.layout;
+    return A->diagonal[layout->diag[node] + (size_t)(layout->size[node] + 1) * c];
+}
 /* y = A x by rows, x and y apart. */
 void dmb_linear_multiply(const dmb_linear *linear, const dmb_linear_matrix *A, const double *x, double *y);
 /* d = R z, shape (rows) from (coordinates); rows that are held become 0. */

@@ -7,6 +7,8 @@
 
 /* Asymmetry of K, over its diagonal, that is rounding. */
 #define DMB_MODES_ASYMMETRY 1e-9
+/* An eigenvalue of up to so much noise may be 0. */
+#define DMB_RIGID_NOISE 1e3
 /* K is singular where a pivot is this part of its block. */
 #define DMB_MODES_LOOSE 1e-14
 
@@ -39,6 +41,8 @@ typedef struct dmb_mode_search {
     uint32_t reserved;
 } dmb_mode_search;
 
+/* A result without modes about the state of a sim; dmb_modes_destroy gives it back. DMB_ERR_NO_MEMORY. */
+int32_t dmb_modes_open(const dmb_sim *sim, dmb_modes **modes);
 /* Room for `capacity` modes, what was there being kept. DMB_ERR_NO_MEMORY. */
 int32_t dmb_modes_reserve(dmb_modes *modes, uint32_t capacity, int32_t with_im);
 /* Adds a mode, d = x + i y by rows (y NULL: 0), normalised. */
@@ -49,8 +53,20 @@ int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const doubl
 double dmb_modes_sharpen(const dmb_mode_search *search, double square, double *x);
 /* Whether a mode leaves all elements unstrained at no frequency but rounding. */
 int dmb_modes_is_rigid(const dmb_mode_search *search, double re, double im, double *x, double *y);
+/* [1/s] |s| of mode i. */
+double dmb_modes_size(const dmb_modes *modes, uint32_t i);
+void dmb_modes_exchange(dmb_modes *modes, uint32_t i, uint32_t j);
+/* Those of low to high [Hz] only. */
+void dmb_modes_keep_band(dmb_modes *modes, double low, double high);
+/* The roots 0 of rigid-body motions that are apart, give way to these motions; modes by rising frequency. */
+int32_t dmb_modes_put_rigid(dmb_mode_search *search);
 /* By rising frequency; keeps the first `keep`. */
 void dmb_modes_sort(dmb_modes *modes, uint32_t keep);
+
+/* The modes that the options ask for, and others with them. */
+int32_t dmb_modes_find(dmb_mode_search *search);
+/* [-] |(s^2 M + s C + K) d| of mode k over the norms of the terms that balance in it. */
+double dmb_modes_residual(const dmb_mode_search *search, uint32_t k);
 
 /* All modes, by LAPACK on the independent coordinates. */
 int32_t dmb_modes_dense(dmb_mode_search *search);

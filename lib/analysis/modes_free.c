@@ -7,6 +7,7 @@
 
 #include "analysis/modes.h"
 #include "base/allocator.h"
+#include "math/dot.h"
 
 enum { DMB_PINS_MAX = 24 };
 /* A pivot this small against its block may be rounding, or the softness of a long string. */
@@ -58,18 +59,11 @@ static void add_pin(const dmb_linear *linear, const dmb_block_weakest *weakest, 
     if (p->stiffness == 0.0) p->stiffness = 1.0; /* a body that nothing touches */
 }
 
-static double dot(size_t n, const double *a, const double *b)
-{
-    double sum = 0.0;
-    for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
-}
-
 void dmb_modes_take_rigid(const dmb_mode_search *search, const double *from, const double *by, double *x)
 {
     const size_t rows = search->linear->rows;
     for (uint32_t i = 0; i < search->rigid_count; i++) {
-        const double part = dot(rows, from + rows * i, x);
+        const double part = dmb_dot(rows, from + rows * i, x);
         for (size_t r = 0; r < rows; r++) x[r] -= part * by[rows * i + r];
     }
 }
@@ -85,14 +79,14 @@ static int take_motion(dmb_mode_search *search, const pin *p)
     dmb_linear_solve(linear, x);
     for (int pass = 0; pass < 2; pass++) dmb_modes_take_rigid(search, search->rigid_momentum, search->rigid, x);
     dmb_linear_multiply(linear, &linear->mass, x, Mx);
-    const double size = sqrt(dot(rows, x, Mx));
+    const double size = sqrt(dmb_dot(rows, x, Mx));
     if (!(size > 0.0) || !isfinite(size)) return 0;
     for (size_t r = 0; r < rows; r++) {
         x[r] /= size;
         Mx[r] /= size;
     }
     dmb_linear_multiply(linear, &linear->stiffness, x, search->work);
-    const double square = fabs(dot(rows, x, search->work));
+    const double square = fabs(dmb_dot(rows, x, search->work));
     if (!dmb_modes_is_rigid(search, sqrt(square), 0.0, x, NULL)) return 0;
     search->rigid_count++;
     return 1;
@@ -171,10 +165,10 @@ int dmb_modes_rigid_undamped(const dmb_mode_search *search)
                 x[row] = linear->scene.solved_row[row] ? ((seed >> 40 & 1) != 0 ? 1.0 : -1.0) : 0.0;
                 across += d * d * x[row] * x[row];
             }
-        if (dot(rows, y, y) > DMB_UNDAMPED * DMB_UNDAMPED * terms) return 0;
+        if (dmb_dot(rows, y, y) > DMB_UNDAMPED * DMB_UNDAMPED * terms) return 0;
         dmb_linear_multiply(linear, &linear->damping, x, y);
-        const double left = dot(rows, r, y);
-        if (left * left > DMB_UNDAMPED * DMB_UNDAMPED * across * dot(rows, r, r)) return 0;
+        const double left = dmb_dot(rows, r, y);
+        if (left * left > DMB_UNDAMPED * DMB_UNDAMPED * across * dmb_dot(rows, r, r)) return 0;
     }
     return 1;
 }

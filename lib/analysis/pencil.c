@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "math/block_inertia.h"
+#include "math/dot.h"
 
 static void lay_out_matrix(dmb_arena *arena, const dmb_block_layout *layout, dmb_pencil_matrix *A)
 {
@@ -84,13 +85,6 @@ double dmb_pencil_factor(dmb_pencil *pencil, uint32_t k, double guess, double mo
 
 /* ---- Vectors ----------------------------------------------------------------------------------------------------- */
 
-static double dot(uint32_t n, const double *a, const double *b)
-{
-    double sum = 0.0;
-    for (uint32_t i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
-}
-
 static void multiply(const dmb_pencil *pencil, const dmb_pencil_matrix *A, const double *x, double *y)
 {
     const dmb_scene *scene = pencil->scene;
@@ -124,7 +118,7 @@ static void take_apart(dmb_pencil *pencil, const double *other, uint32_t others,
     for (uint32_t k = 0; k < others; k++) {
         const double *y = other + (size_t)k * rows;
         multiply(pencil, &pencil->G, y, pencil->image);
-        const double share = dot(rows, pencil->image, x) / dot(rows, pencil->image, y);
+        const double share = dmb_dot(rows, pencil->image, x) / dmb_dot(rows, pencil->image, y);
         for (uint32_t i = 0; i < rows; i++) x[i] -= share * y[i];
     }
 }
@@ -166,7 +160,7 @@ double dmb_pencil_vector(dmb_pencil *pencil, double factor, const double *other,
     }
     take_apart(pencil, other, others, x);
     multiply(pencil, &pencil->K, x, pencil->image);
-    const double stiff = dot(rows, x, pencil->image);
+    const double stiff = dmb_dot(rows, x, pencil->image);
     multiply(pencil, &pencil->G, x, pencil->image);
-    return -stiff / dot(rows, x, pencil->image);
+    return -stiff / dmb_dot(rows, x, pencil->image);
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/allocator.h"
+#include "math/dot.h"
 #include "math/eigen.h"
 
 /* A vector shorter than this part of what it was before is rounding: the space is closed. */
@@ -27,17 +28,6 @@ typedef struct basis {
 
 /* ---- Vectors ----------------------------------------------------------------------------------------------------- */
 
-static double dot(size_t n, const double *a, const double *b)
-{
-    double part[8] = {0.0}, sum = 0.0;
-    size_t i = 0;
-    for (; i + 8 <= n; i += 8)
-        for (size_t k = 0; k < 8; k++) part[k] += a[i + k] * b[i + k];
-    for (; i < n; i++) sum += a[i] * b[i];
-    for (size_t k = 0; k < 8; k++) sum += part[k];
-    return sum;
-}
-
 static void add(size_t n, double factor, const double *x, double *y)
 {
     for (size_t i = 0; i < n; i++) y[i] += factor * x[i];
@@ -53,7 +43,7 @@ static void orthogonalise(const basis *b, size_t first, double *x, double *colum
 {
     const size_t n = b->A->length;
     for (size_t i = first; i < b->count; i++) {
-        const double part = dot(n, metric_of(b, i), x);
+        const double part = dmb_dot(n, metric_of(b, i), x);
         add(n, -part, b->vector[i], x);
         if (column != NULL) column[i] += part;
     }
@@ -65,7 +55,7 @@ static double append(basis *b, const double *x, double before)
     const size_t n = b->A->length;
     double *Gx = b->work + n;
     b->A->metric(b->A->context, x, Gx);
-    const double length = sqrt(fmax(dot(n, x, Gx), 0.0));
+    const double length = sqrt(fmax(dmb_dot(n, x, Gx), 0.0));
     if (!(length > DMB_KRYLOV_CLOSED * before) || b->count == b->limit) return 0.0;
     double *v = dmb_allocate_array(b->allocator, 2 * n, sizeof(double));
     if (v == NULL) return -1.0;
@@ -83,7 +73,7 @@ static int32_t throw_in(basis *b)
     double *x = b->work, *y = b->work + b->A->length;
     b->A->draw(b->A->context, &b->seed, x);
     b->A->metric(b->A->context, x, y);
-    const double before = sqrt(fabs(dot(b->A->length, x, y)));
+    const double before = sqrt(fabs(dmb_dot(b->A->length, x, y)));
     orthogonalise(b, 0, x, NULL);
     orthogonalise(b, 0, x, NULL);
     return append(b, x, before) < 0.0 ? DMB_ERR_NO_MEMORY : DMB_OK;
@@ -98,7 +88,7 @@ static int32_t process(basis *b, size_t start)
     b->A->apply(b->A->context, b->vector[k], metric_of(b, k), x);
     orthogonalise(b, b->A->symmetric && k > 2 * start ? k - 2 * start : 0, x, column);
     orthogonalise(b, 0, x, column);
-    const double before = sqrt(dot(b->count, column, column)), length = append(b, x, before);
+    const double before = sqrt(dmb_dot(b->count, column, column)), length = append(b, x, before);
     (void)n;
     if (length < 0.0) return DMB_ERR_NO_MEMORY;
     if (length > 0.0) column[b->count - 1] = length;

@@ -1,0 +1,52 @@
+/* How far a state is from an equilibrium. */
+#include <math.h>
+#include <string.h>
+
+#include "analysis/linearise_parts.h"
+#include "system/solve.h"
+
+dmb_evaluation dmb_linear_evaluation(dmb_sim *work)
+{
+    dmb_evaluation evaluation;
+    memset(&evaluation, 0, sizeof evaluation);
+    evaluation.sim = work;
+    evaluation.time = work->clock->time;
+    evaluation.pseudo_factor = 1.0;
+    evaluation.load_factor = 1.0;
+    evaluation.dynamic = 1;
+    return evaluation;
+}
+
+/* Largest force on a solved row; moments over the length of the chain. */
+static void find_largest(dmb_linear *linear)
+{
+    const dmb_scene *scene = &linear->scene;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        const double arm = 1.0 / scene->chains[scene->node_chain[i]].length;
+        for (uint32_t c = 0; c < size; c++) {
+            const double force = fabs(linear->unbalanced[row + c]) * (2 * c < size ? 1.0 : arm);
+            if (!scene->solved_row[row + c] || !(force > linear->largest_force)) continue;
+            linear->largest_force = force;
+            linear->largest_node = i;
+        }
+    }
+}
+
+/* In an equilibrium, at rest or turning, body-frame velocities stay as they are: what forces leave then is out of
+ * balance. */
+int32_t dmb_linear_take_balance(dmb_linear *linear)
+{
+    dmb_sim *work = linear->work;
+    dmb_evaluation evaluation = dmb_linear_evaluation(work);
+    memset(work->trial.acceleration, 0, linear->rows * sizeof(double));
+    const int32_t status = dmb_system_evaluate(&evaluation);
+    memcpy(work->trial.acceleration, work->now.acceleration, linear->rows * sizeof(double));
+    if (status < 0) return status;
+    const dmb_residual_norm norm = dmb_residual_norm_of(&evaluation, DMB_LINEAR_BALANCED);
+    linear->unbalance = norm.relative;
+    linear->balanced = norm.converged != 0;
+    memcpy(linear->unbalanced, work->correction, linear->rows * sizeof(double));
+    find_largest(linear);
+    return DMB_OK;
+}

@@ -1,0 +1,95 @@
+/* Independent coordinates z of the motions d = R z that joints leave. */
+#include <string.h>
+
+#include "analysis/linearise_parts.h"
+#include "base/allocator.h"
+#include "system/cluster.h"
+
+/* Marks in `column` (shape (rows), to begin with) the rows that joints make dependent, and makes G of each cluster. */
+static void find_dependent(dmb_linear *linear, uint8_t *dependent)
+{
+    dmb_sim *work = linear->work;
+    for (uint32_t k = 0; k < linear->scene.cluster_count; k++) {
+        const dmb_cluster *cluster = linear->scene.clusters + k;
+        const dmb_partition partition = dmb_cluster_partition(work, k);
+        dmb_partition_null_space(work->cluster_matrix + cluster->dense, cluster->columns, &partition,
+                                 work->cluster_lu + cluster->square, work->cluster_pivot + cluster->row,
+                                 work->cluster_null + cluster->dense);
+        for (uint32_t i = 0; i < partition.rank; i++)
+            dependent[linear->scene.cluster_columns[cluster->column + partition.column_order[i]]] = 1;
+    }
+}
+
+/* The row of G of a dependent row, as entries of R; number_of: coordinate of each row. */
+static uint32_t put_dependent(const dmb_linear *linear, uint32_t k, uint32_t place, const uint32_t *number_of,
+                              uint32_t at)
+{
+    const dmb_cluster *cluster = linear->scene.clusters + k;
+    const dmb_partition partition = dmb_cluster_partition(linear->work, k);
+    const uint32_t width = partition.columns - partition.rank;
+    const double *G = linear->work->cluster_null + cluster->dense + (size_t)place * width;
+    for (uint32_t m = 0; m < width; m++) {
+        const uint32_t row =
+            linear->scene.cluster_columns[cluster->column + partition.column_order[partition.rank + m]];
+        if (!linear->scene.solved_row[row] || G[m] == 0.0) continue;
+        linear->column[at] = number_of[row];
+        linear->value[at++] = G[m];
+    }
+    return at;
+}
+
+static uint32_t put_row(const dmb_linear *linear, uint32_t node, uint32_t c, const uint8_t *dependent,
+                        const uint32_t *number_of, uint32_t at)
+{
+    const dmb_scene *scene = &linear->scene;
+    const uint32_t row = scene->layout.row[node] + c;
+    if (!scene->solved_row[row]) return at;
+    if (!dependent[row]) {
+        linear->column[at] = number_of[row];
+        linear->value[at] = 1.0;
+        return at + 1;
+    }
+    const uint32_t k = scene->node_cluster[node];
+    const uint32_t place = linear->work->cluster_place[scene->clusters[k].column + scene->node_place[node] + c];
+    return put_dependent(linear, k, place, number_of, at);
+}
+
+int32_t dmb_linear_make_coordinates(dmb_linear *linear)
+{
+    const dmb_scene *scene = &linear->scene;
+    const size_t rows = linear->rows, bytes = rows * (sizeof(uint32_t) + 1);
+    uint32_t *number_of = dmb_allocate(&linear->allocator, bytes), at = 0;
+    if (number_of == NULL) return DMB_ERR_NO_MEMORY;
+    uint8_t *dependent = (uint8_t *)(number_of + rows);
+    find_dependent(linear, dependent);
+    for (uint32_t r = 0; r < rows; r++) {
+        if (dependent[r] || !scene->solved_row[r]) continue;
+        number_of[r] = linear->coordinates;
+        linear->row_of[linear->coordinates++] = r;
+    }
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        for (uint32_t c = 0; c < scene->layout.size[i]; c++) {
+            linear->start[scene->layout.row[i] + c] = at;
+            at = put_row(linear, i, c, dependent, number_of, at);
+        }
+    linear->start[rows] = at;
+    dmb_release(&linear->allocator, number_of, bytes);
+    return DMB_OK;
+}
+
+void dmb_linear_expand(const dmb_linear *linear, const double *z, double *d)
+{
+    for (uint32_t r = 0; r < linear->rows; r++) {
+        d[r] = 0.0;
+        for (uint32_t i = linear->start[r]; i < linear->start[r + 1]; i++)
+            d[r] += linear->value[i] * z[linear->column[i]];
+    }
+}
+
+void dmb_linear_restrict(const dmb_linear *linear, const double *f, double *g)
+{
+    memset(g, 0, linear->coordinates * sizeof(double));
+    for (uint32_t r = 0; r < linear->rows; r++)
+        for (uint32_t i = linear->start[r]; i < linear->start[r + 1]; i++)
+            g[linear->column[i]] += linear->value[i] * f[r];
+}
