@@ -8,10 +8,11 @@ mean something:
     # tolerance: 1e-6                     relative tolerance of the numbers with a point or exponent from here on
                                           (1e-9 without such a line)
     # again: --threads 1                  the program is called once more with these arguments behind the others, and has
-                                          to print the same to the byte
+                                          to print the same and leave the same files behind, to the byte
 A word of the stored answer may carry its own tolerance: 0.125~1e-4 is absolute, 0.125~2% relative, and * stands for any
 word. Whole numbers and all other words must be the same. The program runs in an empty folder of its own.
 """
+import pathlib
 import re
 import shlex
 import subprocess
@@ -54,15 +55,26 @@ def same_word(expected, found, tolerance):
 
 
 def call(program, arguments):
+    """What it said, and what it left behind: content of each file by its path."""
     with tempfile.TemporaryDirectory() as folder:
-        return subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True,
-                              stdin=subprocess.DEVNULL, check=False)
+        run = subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True,
+                             stdin=subprocess.DEVNULL, check=False)
+        places = sorted(pathlib.Path(folder).rglob("*"))
+        return run, {str(place.relative_to(folder)): place.read_bytes() for place in places if place.is_file()}
+
+
+def differences(once_more, run, files, arguments):
+    found = [] if once_more[0].stdout == run.stdout else ["what it prints"]
+    found += [name for name in sorted(files.keys() | once_more[1].keys()) if files.get(name) != once_more[1].get(name)]
+    for name in found:
+        print(f"called with {arguments} it is another: {name}")
+    return len(found)
 
 
 def main():
     program, path = sys.argv[1:3]
     arguments, again, expected = stored_answer(path)
-    run = call(program, arguments)
+    run, files = call(program, arguments)
     found = [line.split() for line in run.stdout.splitlines() if line.strip()]
     if run.returncode != 0:
         print(run.stdout, run.stderr, f"exit status {run.returncode}", sep="\n")
@@ -75,9 +87,8 @@ def main():
     if len(expected) != len(found):
         print(f"{len(found)} lines instead of {len(expected)}")
         failures += 1
-    if again is not None and call(program, again).stdout != run.stdout:
-        print(f"called with {shlex.join(again)} it prints something else")
-        failures += 1
+    if again is not None:
+        failures += differences(call(program, again), run, files, shlex.join(again))
     if failures:
         print("---- whole output ----", run.stdout, sep="\n")
     return 1 if failures else 0

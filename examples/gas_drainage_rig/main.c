@@ -6,29 +6,11 @@
  *     scene.c      the rig as the library sees it        report.c, summary.c   what the reader gets
  *
  * Begin with scene.c and run.c: they are all that touches the library. */
-#define _POSIX_C_SOURCE 200809L
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
 
+#include "folder.h"
 #include "report.h"
-
-/* Makes a folder and those above it. */
-static int make_folder(const char *path)
-{
-    char part[4096];
-    const size_t length = strlen(path);
-    if (length == 0 || length >= sizeof part) return -1;
-    for (size_t i = 1; i <= length; ++i) {
-        if (path[i] != '/' && path[i] != '\0') continue;
-        memcpy(part, path, i);
-        part[i] = '\0';
-        if (mkdir(part, 0777) != 0 && errno != EEXIST) return -1;
-    }
-    return 0;
-}
 
 /* Runs and reports the variants in turn. Returns how many came to their end. */
 static int run_all(rig_options *options, const rig_variant *variants, int count, rig_result *results)
@@ -55,7 +37,7 @@ int main(int count, char **words)
     rig_options options = rig_options_read(count, words);
     const rig_variant *variants = options.all ? shown : &options.variant;
     const int wanted = options.all ? SHOWN : 1;
-    if (make_folder(options.output) != 0) {
+    if (rig_make_folder(options.output) != 0) {
         perror(options.output);
         return EXIT_FAILURE;
     }

@@ -51,7 +51,19 @@ static uint32_t whole_number(const struct argp_state *state, const char *word, d
 
 /* ---- Options ----------------------------------------------------------------------------------------------------- */
 
-enum { KEY_LENGTH = 256, KEY_PIPES, KEY_BIT, KEY_ELEMENTS, KEY_STEP, KEY_TIME, KEY_RATE, KEY_SEED, KEY_QUICK, KEY_ALL };
+enum {
+    KEY_LENGTH = 256,
+    KEY_PIPES,
+    KEY_BIT,
+    KEY_ELEMENTS,
+    KEY_STEP,
+    KEY_TIME,
+    KEY_RATE,
+    KEY_SEED,
+    KEY_QUICK,
+    KEY_ALL,
+    KEY_DROP
+};
 
 static const struct argp_option table[] = {
     {0, 0, 0, 0, "What is modelled:", 1},
@@ -73,6 +85,7 @@ static const struct argp_option table[] = {
     {"elements", KEY_ELEMENTS, "N", 0, "elements in one pipe (1)", 2},
     {"step", KEY_STEP, "S", 0, "time step (1e-3)", 2},
     {"time", KEY_TIME, "S", 0, "stop at this time (end of the cycle)", 2},
+    {"drop", KEY_DROP, 0, 0, "start straight on the axis of the hole instead of at rest on its low side", 2},
     {"quick", KEY_QUICK, 0, 0, "a cycle of 8 s instead of 40 s: same ramps, 2 s of drilling and of pulling out", 2},
     {0, 0, 0, 0, "What is left behind:", 3},
     {"output", 'o', "FOLDER", 0, "folder for tables and ParaView files (./gas_drainage_rig)", 3},
@@ -87,6 +100,7 @@ static error_t take_computing(rig_options *options, int key, const char *word, c
     case KEY_STEP: options->step = number(state, word, 1e-7, 0.1); return 0;
     case KEY_TIME: options->end = number(state, word, 1e-3, 1e4); return 0;
     case KEY_RATE: options->rate = number(state, word, 1.0, 1e5); return 0;
+    case KEY_DROP: options->dropped = 1; return 0;
     case KEY_QUICK: options->cycle = rig_cycle_quick(); return 0;
     case 'o': options->output = word; return 0;
     case 'q': options->quiet = 1; return 0;
@@ -116,23 +130,31 @@ static error_t take_option(int key, char *word, struct argp_state *state)
     }
 }
 
+rig_options rig_options_default(void)
+{
+    const rig_options options = {.variant = {DMB_PIPE_FLEXIBLE, RIG_VIBRATION},
+                                 .all = 1,
+                                 .pipes = 100,
+                                 .elements = 1,
+                                 .seed = 1,
+                                 .length = 1.0,
+                                 .bit = 0.0,
+                                 .step = 1e-3,
+                                 .end = 40.0,
+                                 .rate = 1000.0,
+                                 .cycle = rig_cycle_full()};
+    return options;
+}
+
 rig_options rig_options_read(int count, char **words)
 {
     static const char about[] = "Drills 100 m into a coal seam and pulls the string out again: a rig head, flexible "
                                 "pipes, a bit and the wall of "
                                 "the hole, over the 40 s cycle start - drill - stop - rest - reverse start - pull out.";
     const struct argp parser = {table, take_option, NULL, about, NULL, NULL, NULL};
-    rig_options options = {.variant = {DMB_PIPE_FLEXIBLE, RIG_VIBRATION},
-                           .all = 1,
-                           .pipes = 100,
-                           .elements = 1,
-                           .seed = 1,
-                           .length = 1.0,
-                           .bit = 0.0,
-                           .step = 1e-3,
-                           .rate = 1000.0,
-                           .output = "gas_drainage_rig",
-                           .cycle = rig_cycle_full()};
+    rig_options options = rig_options_default();
+    options.end = 0.0;
+    options.output = "gas_drainage_rig";
     argp_parse(&parser, count, words, 0, NULL, &options);
     if (!(options.end > 0.0)) options.end = options.cycle.time[RIG_STAGES];
     return options;

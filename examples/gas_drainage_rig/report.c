@@ -144,8 +144,12 @@ void rig_report_variant(const rig_options *options, const rig_result *result)
                                           [RIG_FRICTION] = "contact + friction",
                                           [RIG_VIBRATION] = "contact + friction + vibration"};
     printf("\n---- %s, %s\n", rig_system_name(&result->variant), couples[result->variant.couple]);
-    printf("  %u freedoms, %u elements, %u places of contact; static start in %u iterations\n", result->info.freedoms,
-           result->info.elements, result->info.contact_sites, result->start.iterations);
+    printf("  %u freedoms, %u elements, %u places of contact; ", result->info.freedoms, result->info.elements,
+           result->info.contact_sites);
+    if (options->dropped)
+        printf("starts on the axis of the hole\n");
+    else
+        printf("static start in %u iterations\n", result->start.iterations);
     report_motions(options, result);
     report_forces(options, result);
     report_energy(result);

@@ -22,6 +22,7 @@ static rig_path file_of(const rig_options *options, const rig_result *result, co
 static int32_t write_string(const rig_options *options, const rig_result *result, const dmb_sim *sim)
 {
     char ending[40];
+    if (options->output == NULL) return DMB_OK;
     snprintf(ending, sizeof ending, "_string_at_%gs.vtp", dmb_sim_time(sim));
     const rig_path path = file_of(options, result, ending);
     return dmb_write_vtk_strings(sim, 4, path.text);
@@ -31,8 +32,18 @@ static int32_t write_string(const rig_options *options, const rig_result *result
 static int32_t write_hole(const rig_options *options, const rig_result *result, const dmb_model *model)
 {
     rig_path path;
+    if (options->output == NULL) return DMB_OK;
     snprintf(path.text, sizeof path.text, "%s/hole.vtp", options->output);
     return dmb_write_vtk_hole(model, 0.0, result->info.length + 1.0, 0.5, 48, path.text);
+}
+
+static int32_t write_table(const rig_options *options, const rig_result *result)
+{
+    if (options->output == NULL) return DMB_OK;
+    const rig_path path = file_of(options, result, ".csv");
+    const int32_t status = dmb_recorder_write_csv(&result->recording.recorder, path.text);
+    if (status < 0) fprintf(stderr, "%s: %s\n", path.text, dmb_status_text(status));
+    return status;
 }
 
 /* ---- Time -------------------------------------------------------------------------------------------------------- */
@@ -65,10 +76,10 @@ static int32_t run_through(const rig_options *options, dmb_sim *sim, rig_result 
     return status;
 }
 
-/* The string starts at rest on the low side of its hole. */
+/* The string starts at rest on the low side of its hole, or falls onto it. */
 static int32_t start_and_run(const rig_options *options, const rig_scene *scene, dmb_sim *sim, rig_result *result)
 {
-    int32_t status = dmb_analysis_static(sim, NULL, &result->start);
+    int32_t status = options->dropped ? DMB_OK : dmb_analysis_static(sim, NULL, &result->start);
     if (status >= 0) status = dmb_query_energy(sim, &result->energy_at_start);
     if (status >= 0) status = rig_recording_open(&result->recording, options, scene);
     if (status >= 0) status = run_through(options, sim, result);
@@ -79,10 +90,7 @@ static int32_t start_and_run(const rig_options *options, const rig_scene *scene,
     }
     dmb_query_statistics(sim, &result->statistics);
     dmb_query_energy(sim, &result->energy);
-    const rig_path path = file_of(options, result, ".csv");
-    status = dmb_recorder_write_csv(&result->recording.recorder, path.text);
-    if (status < 0) fprintf(stderr, "%s: %s\n", path.text, dmb_status_text(status));
-    return status;
+    return write_table(options, result);
 }
 
 /* ---- A variant --------------------------------------------------------------------------------------------------- */

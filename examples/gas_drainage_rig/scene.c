@@ -1,6 +1,9 @@
 #include "scene.h"
 
-static int32_t add_wall(dmb_model *model)
+/* ---- What it is made of -------------------------------------------------------------------------------------------
+ */
+
+dmb_wall_def rig_wall(void)
 {
     dmb_wall_def wall = dmb_wall_def_default();
     wall.diameter = 0.094;
@@ -9,6 +12,37 @@ static int32_t add_wall(dmb_model *model)
     wall.mu_static = 0.35;
     wall.mu_dynamic = 0.30;
     wall.stribeck_speed = 1e-2;
+    return wall;
+}
+
+dmb_pipe_def rig_pipe(void)
+{
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    pipe.length = 1.0;
+    pipe.outer_diameter = 0.073;
+    pipe.inner_diameter = 0.061;
+    pipe.young_modulus = 2.1e11;
+    pipe.poisson_ratio = 0.3;
+    pipe.density = 7850.0;
+    pipe.damping_time = 1e-4; /* [s] damps a mode of 10 Hz by 0.3 % of critical, as steel and its threads do */
+    pipe.eccentricity = 1e-3;
+    pipe.angle_spread = 3.14159265358979323846; /* any direction */
+    return pipe;
+}
+
+dmb_bit_def rig_bit(void)
+{
+    dmb_bit_def bit = dmb_bit_def_default();
+    bit.mass = 5.0;
+    bit.diameter = 0.0; /* soft coal breaks out around the bit, the last pipe lies on the wall */
+    return bit;
+}
+
+/* ---- The scene --------------------------------------------------------------------------------------------------- */
+
+static int32_t add_wall(dmb_model *model)
+{
+    const dmb_wall_def wall = rig_wall();
     return dmb_model_add_wall(model, &wall, NULL);
 }
 
@@ -24,29 +58,20 @@ static int32_t add_string(dmb_model *model, const rig_variant *variant, dmb_id *
 
 static int32_t add_pipes(dmb_model *model, const rig_options *options, dmb_id string)
 {
-    dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_pipe_def pipe = rig_pipe();
     pipe.string = string;
     pipe.length = options->length;
     pipe.elements = options->elements;
-    pipe.outer_diameter = 0.073;
-    pipe.inner_diameter = 0.061;
-    pipe.young_modulus = 2.1e11;
-    pipe.poisson_ratio = 0.3;
-    pipe.density = 7850.0;
-    pipe.damping_time = 1e-4; /* [s] damps a mode of 10 Hz by 0.3 % of critical, as steel and its threads do */
-    pipe.eccentricity = 1e-3;
-    pipe.angle_spread = 3.14159265358979323846; /* any direction */
     pipe.seed = options->seed;
     return dmb_model_add_pipes(model, &pipe, options->pipes, NULL);
 }
 
 static int32_t add_bit(dmb_model *model, rig_options *options, const rig_variant *variant, rig_scene *scene)
 {
-    dmb_bit_def bit = dmb_bit_def_default();
+    dmb_bit_def bit = rig_bit();
     int32_t status = DMB_OK;
     bit.string = scene->string;
-    bit.mass = 5.0;
-    bit.diameter = options->bit; /* 0: soft coal breaks out around the bit, the last pipe lies on the wall */
+    bit.diameter = options->bit;
     if (variant->couple != RIG_NO_COUPLING) status = rig_add_bottom_load(model, &options->cycle, &bit.load);
     return status < 0 ? status : dmb_model_add_bit(model, &bit, &scene->bit);
 }

@@ -2,7 +2,7 @@
 
 #include "study.h"
 
-enum { MOST_THREADS = 64 };
+enum { MOST_THREADS = 64 }; /* as options.c allows */
 
 typedef struct queue {
     const study_job *jobs;

@@ -85,7 +85,7 @@ static int32_t find_highest(study_modal *m, study_string *s, uint32_t elements)
     dmb_mode mode = dmb_mode_default();
     dmb_modes *modes = NULL;
     scene.pipes = 10;
-    scene.elements = elements;
+    scene.pipe.elements = elements;
     int32_t status = study_make(&scene, s);
     if (status >= 0) status = every_mode(s, &modes, &info);
     if (status >= 0) status = dmb_modes_get(modes, info.count - 1, &mode);
@@ -97,7 +97,7 @@ static int32_t find_highest(study_modal *m, study_string *s, uint32_t elements)
 static int32_t find_without_bit(study_modal *m, study_string *s)
 {
     study_scene scene = string_alone();
-    scene.bit = 0.0;
+    scene.bit.mass = 0.0;
     const int32_t status = study_make(&scene, s);
     return status < 0 ? status : study_lowest(s, DMB_CONTACT_AS_IS, 1, &m->without_bit);
 }
@@ -194,6 +194,7 @@ void study_modal_work(void *context)
     end_part(m, &s, find_without_bit(m, &s));
     end_part(m, &s, find_shapes(m, &s));
     for (uint32_t elements = 1; elements <= STUDY_MESHES; ++elements) end_part(m, &s, find_highest(m, &s, elements));
+    end_part(m, &s, study_find_by_modes(m, &s));
     for (int i = 0; i < STUDY_TUBES; ++i) end_part(m, &s, find_tube(m, &s, i));
 }
 
@@ -227,7 +228,9 @@ void study_modal_print(const study_modal *m)
     printf("  lowest of the string held by its drives %.5e Hz, without a bit %.5e Hz\n", m->shape_frequency[0],
            m->without_bit);
     printf("  highest by elements in a pipe of 1 m:");
-    for (int i = 0; i < STUDY_MESHES; ++i) printf("  %d: %.3e", i + 1, m->highest[i]);
+    for (int i = 0; i < STUDY_MESHES; ++i) printf("%s  %d: %.3e", i == 4 ? "\n   " : "", i + 1, m->highest[i]);
+    printf(" Hz\n  highest with pipes described by 12 shapes of their ends and normal modes: ");
+    for (int i = 0; i < STUDY_NORMALS; ++i) printf(" %d: %.3e", study_normal_modes[i], m->by_modes[i]);
     printf(" Hz\n\nShapes of the string held by its drives\n");
     for (int i = 0; i < STUDY_SHAPES; ++i)
         printf("  mode %2d  %12.5e Hz  stands still at %d places between its ends\n", 2 * i + 2, m->shape_frequency[i],
@@ -244,7 +247,7 @@ static int write_shapes(const char *folder, const study_modal *m)
     if (file == NULL) return 1;
     for (int i = 0; i < STUDY_PLACES; ++i) {
         fprintf(file, "%d", i);
-        for (int k = 0; k < STUDY_SHAPES; ++k) fprintf(file, ",%.9g", m->shape[k][i]);
+        for (int k = 0; k < STUDY_SHAPES; ++k) fprintf(file, ",%.17g", m->shape[k][i]);
         fprintf(file, "\n");
     }
     return fclose(file) != 0;
@@ -254,10 +257,11 @@ int study_modal_write(const char *folder, const study_modal *m)
 {
     FILE *file = study_table(folder, "modes.csv", "mode,frequency [Hz]");
     if (file == NULL) return 1;
-    for (uint32_t i = 0; i < m->all_count; ++i) fprintf(file, "%u,%.9g\n", i + 1, m->all[i]);
+    for (uint32_t i = 0; i < m->all_count; ++i) fprintf(file, "%u,%.17g\n", i + 1, m->all[i]);
     if (fclose(file) != 0) return 1;
-    file = study_table(folder, "highest.csv", "elements in a pipe,highest frequency [Hz]");
+    file = study_table(folder, "highest.csv", "coordinates of a pipe,by elements [Hz],by modes [Hz]");
     if (file == NULL) return 1;
-    for (int i = 0; i < STUDY_MESHES; ++i) fprintf(file, "%d,%.9g\n", i + 1, m->highest[i]);
+    for (int i = 0; i < STUDY_MESHES; ++i) fprintf(file, "%d,%.17g,nan\n", 6 * (i + 1), m->highest[i]);
+    for (int i = 0; i < STUDY_NORMALS; ++i) fprintf(file, "%d,nan,%.17g\n", 6 + study_normal_modes[i], m->by_modes[i]);
     return fclose(file) != 0 || write_shapes(folder, m);
 }

@@ -27,13 +27,16 @@ static study_scene scene_of(int set, double value)
     case STUDY_LENGTHS: scene.pipes = (uint32_t)value; break;
     case STUDY_PIPE_LENGTHS:
         scene.pipes = (uint32_t)lround(100.0 / value);
-        scene.length = value;
+        scene.pipe.length = value;
         break;
-    case STUDY_ELEMENTS: scene.elements = (uint32_t)value; break;
-    case STUDY_FRICTIONS: scene.friction = value; break;
-    case STUDY_HOLES: scene.hole = STUDY_DIAMETER + 2e-3 * value; break;
-    case STUDY_MODULI: scene.modulus = 1e9 * value; break;
-    default: scene.wall = 1e6 * value; break;
+    case STUDY_ELEMENTS: scene.pipe.elements = (uint32_t)value; break;
+    case STUDY_FRICTIONS:
+        scene.wall.mu_static += value - scene.wall.mu_dynamic;
+        scene.wall.mu_dynamic = value;
+        break;
+    case STUDY_HOLES: scene.wall.diameter = scene.pipe.outer_diameter + 2e-3 * value; break;
+    case STUDY_MODULI: scene.pipe.young_modulus = 1e9 * value; break;
+    default: scene.wall.stiffness = 1e6 * value; break;
     }
     return scene;
 }
@@ -51,18 +54,58 @@ void study_sets_describe(study_set sets[STUDY_SETS])
 
 /* ---- One point --------------------------------------------------------------------------------------------------- */
 
-/* Swinging without and on the wall, and the crossover. */
-static int32_t look_at_bending(study_point *p, study_string *s)
+/* How it lies: the deepest of the ends and middles of its pipes, and the first that is at the wall. */
+static int32_t look_at_rest(study_point *p, const study_string *s)
+{
+    const double clearance = study_clearance(&p->scene);
+    p->touch = (double)NAN;
+    for (uint32_t half = 1; half <= 2 * p->scene.pipes; ++half) {
+        dmb_pose pose = dmb_pose_default();
+        const int32_t status =
+            dmb_query_pose(s->sim, dmb_station(s->string, (half - 1) / 2, half % 2 == 1 ? 0.5 : 1.0), &pose);
+        if (status < 0) return status;
+        p->sag = fmax(p->sag, -pose.position[2]);
+        if (isnan(p->touch) && pose.position[2] <= -clearance) p->touch = 0.5 * half * p->scene.pipe.length;
+    }
+    return DMB_OK;
+}
+
+static int32_t look_at_buckling(study_point *p, study_string *s)
+{
+    dmb_buckling_options options = dmb_buckling_options_default();
+    dmb_buckling *found = NULL;
+    options.scale = DMB_SCALE_PART;
+    options.part = s->push;
+    int32_t status = dmb_analysis_buckling(s->sim, &options, &found);
+    if (status >= 0) status = dmb_buckling_factor(found, 0, &p->buckling);
+    dmb_buckling_destroy(&found);
+    return status;
+}
+
+static int32_t look_at_response(study_point *p, study_string *s)
 {
     study_response response = {0};
     double crossover[2] = {(double)NAN, (double)NAN};
-    int32_t status = study_make(&p->scene, s);
-    if (status >= 0) status = study_lowest(s, DMB_CONTACT_AS_IS, STUDY_MODES, p->on_wall);
-    if (status >= 0) status = study_respond(s, &p->scene, 0.5, 50.0, 250, 0, &response);
-    if (status >= 0) study_crossover(&response, 1.0, 1.0, crossover);
-    p->crossover = crossover[0];
+    const int32_t status = study_respond(s, &p->scene, 0.5, 50.0, 250, 4, &response);
+    if (status >= 0) {
+        const uint32_t most = study_peak(&response, STUDY_TOGETHER);
+        study_crossover(&response, 1.0, 1.0, crossover);
+        p->crossover = crossover[0];
+        p->peak = response.frequency[most];
+        p->amplitude = response.amplitude[(size_t)most * STUDY_CAUSES + STUDY_TOGETHER];
+    }
     study_response_free(&response);
     return status;
+}
+
+/* The string at rest on the wall. */
+static int32_t look_at_lying(study_point *p, study_string *s)
+{
+    int32_t status = study_make(&p->scene, s);
+    if (status >= 0) status = look_at_rest(p, s);
+    if (status >= 0) status = look_at_buckling(p, s);
+    if (status >= 0) status = study_lowest(s, DMB_CONTACT_AS_IS, STUDY_MODES, p->on_wall);
+    return status < 0 ? status : look_at_response(p, s);
 }
 
 static int32_t look_at_open_bending(study_point *p, study_string *s)
@@ -93,7 +136,7 @@ static int32_t look_at_head(study_point *p, study_string *s)
 {
     dmb_static_options options = dmb_static_options_default();
     dmb_drive_state feed = dmb_drive_state_default(), rotation = dmb_drive_state_default();
-    options.slip_axial = STUDY_FEED;
+    options.slip_axial = RIG_FEED;
     options.slip_rotation = STUDY_ROTATION;
     int32_t status = study_make(&p->scene, s);
     if (status >= 0) status = dmb_analysis_static(s->sim, &options, NULL);
@@ -101,12 +144,16 @@ static int32_t look_at_head(study_point *p, study_string *s)
     if (status >= 0) status = dmb_query_drive(s->sim, s->drive[1], &rotation);
     p->thrust = feed.force;
     p->torque = rotation.force;
+    options.slip_rotation = 0.0;
+    if (status >= 0) status = dmb_analysis_static(s->sim, &options, NULL);
+    if (status >= 0) status = dmb_query_drive(s->sim, s->drive[0], &feed);
+    p->push = feed.force;
     return status;
 }
 
 void study_point_work(void *context)
 {
-    static int32_t (*const looks[])(study_point *, study_string *) = {look_at_bending, look_at_open_bending,
+    static int32_t (*const looks[])(study_point *, study_string *) = {look_at_lying, look_at_open_bending,
                                                                       look_at_stretch, look_at_head};
     study_point *p = context;
     for (size_t i = 0; i < sizeof looks / sizeof looks[0] && p->status >= 0; ++i) {
@@ -119,22 +166,42 @@ void study_point_work(void *context)
 
 /* ---- Report ------------------------------------------------------------------------------------------------------ */
 
+/* A number, or that there is none. */
+static void print_number(int width, int digits, double value)
+{
+    if (isnan(value))
+        printf(" %*s", width, "none");
+    else
+        printf(" %*.*f", width, digits, value);
+}
+
 static void print_point(const study_point *p)
 {
-    printf("  %9g  %11.5e %11.5e  %8.4f  %8.4f  %8.4f %8.4f  %8.3f %8.3f", p->value, p->bending[0],
-           p->bending[STUDY_MODES - 1], p->torsional, p->axial, p->on_wall[0], p->on_wall[STUDY_MODES - 1], p->torque,
-           1e-3 * p->thrust);
-    if (isnan(p->crossover))
-        printf("      none\n");
-    else
-        printf("  %8.3f\n", p->crossover);
+    printf("  %5g  %9.3e %7.3f %7.3f %6.3f %6.3f", p->value, p->bending[0], p->torsional, p->axial, p->on_wall[0],
+           p->on_wall[STUDY_MODES - 1]);
+    printf(" %7.3f", 1e3 * p->sag);
+    print_number(5, 2, p->touch);
+    printf(" %7.2f %6.3f %6.3f %8.2f %6.3f %8.2f", p->torque, 1e-3 * p->thrust, 1e-3 * p->push, 1e-3 * p->buckling,
+           p->peak, 1e3 * p->amplitude);
+    print_number(6, 3, p->crossover);
+    printf("\n");
 }
 
 void study_sets_print(const study_set sets[STUDY_SETS])
 {
-    printf("Parameter studies\n"
-           "             bending without a wall    around     along   on the wall, Hz     torque   thrust  crossover\n"
-           "             first, Hz   fifth, Hz         Hz        Hz     1st     10th         Nm       kN         Hz\n");
+    printf(
+        "Parameter studies: one thing changed at a time of %u pipes of the rig\n"
+        "  without a wall: first frequencies of bending, around, along; on the wall: first and tenth frequency\n"
+        "  at rest: the deepest place below the hole's axis, and from where on it lies on the wall\n"
+        "  head: torque and thrust when it slides in and turns, thrust when it slides in only, the bit's load "
+        "included\n"
+        "  buckling: the load on the bit, on top of that, under which the string at rest buckles\n"
+        "  response: largest amplitude of the last pipe to all causes together, and the first crossover\n"
+        "           bending  around   along  1st on   10th     sag touch  torque thrust   push buckling   peak     peak"
+        "  cross\n"
+        "                Hz      Hz      Hz     Hz     Hz      mm     m     N m     kN     kN       kN     Hz       mm"
+        "     Hz\n",
+        study_base().pipes);
     for (int i = 0; i < STUDY_SETS; ++i) {
         printf("  %s\n", sets_asked[i].title);
         for (int k = 0; k < sets[i].count; ++k) print_point(sets[i].point + k);
@@ -146,16 +213,21 @@ int study_sets_write(const char *folder, const study_set sets[STUDY_SETS])
 {
     FILE *file = study_table(folder, "parameters.csv",
                              "parameter,value,bending 1 [Hz],bending 2 [Hz],bending 3 [Hz],bending 4 [Hz],"
-                             "bending 5 [Hz],torsional [Hz],axial [Hz],on the wall [Hz],torque [N m],thrust [N],"
-                             "crossover [Hz]");
+                             "bending 5 [Hz],torsional [Hz],axial [Hz],first on the wall [Hz],tenth on the wall [Hz],"
+                             "sag [m],touch [m],torque [N m],thrust [N],push [N],buckling [N],peak [Hz],"
+                             "peak amplitude [m],crossover [Hz]");
     if (file == NULL) return 1;
     for (int i = 0; i < STUDY_SETS; ++i)
         for (int k = 0; k < sets[i].count; ++k) {
             const study_point *p = sets[i].point + k;
+            const double values[] = {p->torsional, p->axial,    p->on_wall[0], p->on_wall[STUDY_MODES - 1],
+                                     p->sag,       p->touch,    p->torque,     p->thrust,
+                                     p->push,      p->buckling, p->peak,       p->amplitude,
+                                     p->crossover};
             fprintf(file, "%s,%g", sets_asked[i].name, p->value);
-            for (int order = 0; order < STUDY_MODES; order += 2) fprintf(file, ",%.9g", p->bending[order]);
-            fprintf(file, ",%.9g,%.9g,%.9g,%.9g,%.9g,%.6g\n", p->torsional, p->axial, p->on_wall[0], p->torque,
-                    p->thrust, p->crossover);
+            for (int order = 0; order < STUDY_MODES; order += 2) fprintf(file, ",%.17g", p->bending[order]);
+            for (size_t n = 0; n < sizeof values / sizeof values[0]; ++n) fprintf(file, ",%.17g", values[n]);
+            fprintf(file, "\n");
         }
     return fclose(file) != 0;
 }

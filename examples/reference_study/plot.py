@@ -3,8 +3,9 @@
 
 usage: plot.py FOLDER
 
-Reads the tables that reference_study has written into the folder, and writes four pictures beside them: the response of
-pipe 100, the modes, frequencies against lengths, and what depends on which parameter.
+Reads the tables that reference_study has written into the folder, and writes pictures beside them: the response of pipe
+100, the modes, frequencies against lengths, what depends on which parameter, and the kinetic energy of pipe 100 in time
+(not after a run with --short).
 """
 import csv
 import pathlib
@@ -89,9 +90,10 @@ def modes(folder):
     middle.semilogy(table["mode"][swings], table["frequency [Hz]"][swings], ".", color=BLUE, markersize=3,
                     label="one element a pipe")
     middle.set(xlabel="mode", ylabel="frequency [Hz]", title="All modes")
-    right.plot(highest["elements in a pipe"], highest["highest frequency [Hz]"], "o-", color=BLUE)
-    right.set(xlabel="elements in a pipe", ylabel="highest frequency [Hz]", title="The highest belongs to the mesh",
-              ylim=(0, None))
+    for key, label, color in (("by elements [Hz]", "elements", BLUE), ("by modes [Hz]", "12 shapes and normal modes", ORANGE)):
+        right.plot(highest["coordinates of a pipe"], highest[key], "o-", color=color, label=label)
+    right.set(xlabel="independent coordinates of a pipe", ylabel="highest frequency [Hz]",
+              title="The highest: how pipes are described", ylim=(0, None))
     for value in REFERENCE_RANGE:
         middle.axhline(value, color=RED, linewidth=1.2, linestyle="--",
                        label="range of the reference" if value == REFERENCE_RANGE[0] else None)
@@ -111,7 +113,7 @@ def lengths(folder):
             axes.loglog(points["value"], points[f"bending {order} [Hz]"], "o-", markersize=4, color=color,
                         label=f"bending without a wall, order {order}")
         for key, label, color in (("axial [Hz]", "along", RED), ("torsional [Hz]", "around", ORANGE),
-                                  ("on the wall [Hz]", "lowest on the wall", GREEN)):
+                                  ("first on the wall [Hz]", "lowest on the wall", GREEN)):
             axes.loglog(points["value"], points[key], "s-", markersize=4, color=color, label=label)
         axes.set(xlabel=name, title=title)
         ticks = [value for value in points["value"] if value not in (60, 70, 80, 90)]
@@ -125,41 +127,83 @@ def lengths(folder):
     finish(folder, figure, "frequencies_against_lengths.png")
 
 
+# What an engineer asks of a string, in rows; each: column, factor, label, colour, marker.
+QUESTIONS = (
+    ("frequency [Hz]", True, (("axial [Hz]", 1.0, "first along", RED, "s"),
+                              ("torsional [Hz]", 1.0, "first around", ORANGE, "D"),
+                              ("first on the wall [Hz]", 1.0, "lowest on the wall", GREEN, "^"),
+                              ("bending 1 [Hz]", 1.0, "first bending, no wall", BLUE, "o"))),
+    ("thrust of the head [kN]", False, (("push [N]", 1e-3, "sliding only", BLUE, "o"),
+                                        ("thrust [N]", 1e-3, "turning too", GREEN, "^"))),
+    ("torque [N m]", False, (("torque [N m]", 1.0, "turning", ORANGE, "D"),)),
+    ("from the head [m]", False, (("touch [m]", 1.0, "where it lies down on the wall", GREEN, "^"),)),
+    ("load on the bit [kN]", False, (("buckling [N]", 1e-3, "buckles the string at rest", RED, "s"),)),
+    ("amplitude [mm]", False, (("peak amplitude [m]", 1e3, "largest of pipe 100", BLUE, "o"),)),
+    ("frequency [Hz]", False, (("peak [Hz]", 1.0, "of that amplitude", BLUE, "o"),
+                               ("crossover [Hz]", 1.0, "crossover from friction\nto eccentricity", GREY, "v"))),
+)
+
+
 def parameters(folder):
-    quantities = (("bending 1 [Hz]", "first bending, no wall", BLUE, "o"), ("axial [Hz]", "first along", RED, "s"),
-                  ("on the wall [Hz]", "lowest on the wall", GREEN, "^"), ("torque [N m]", "torque of the head", ORANGE, "D"),
-                  ("crossover [Hz]", "crossover", GREY, "v"))
+    """A column for each parameter, a row for each question; the same scale along a row."""
     sets = parameter_sets(folder)
-    base = {key: values[-1] for key, values in sets["drilled length [m]"].items()}
-    figure, places = plt.subplots(2, 4, figsize=(16, 8))
-    for axes, (name, points) in zip(places.ravel(), sets.items()):
-        for key, label, color, marker in quantities:
-            axes.plot(points["value"], points[key] / base[key], marker + "-", color=color, markersize=5, linewidth=1.2,
-                      label=label)
-        if name == "drilled length [m]":
-            axes.set(xlabel=name + ", both scales logarithmic", yscale="log", xscale="log")
-            axes.set_xticks((10, 20, 50, 100), ("10", "20", "50", "100"))
-            axes.xaxis.set_minor_locator(NullLocator())
-        elif name == "wall stiffness [MN/m2]":
-            axes.set(xlabel=name, ylim=(0, 2), xscale="log")
+    figure, places = plt.subplots(len(QUESTIONS), len(sets), figsize=(20, 16), sharex="col", sharey="row",
+                                  height_ratios=[1.5] + [1.0] * (len(QUESTIONS) - 1))
+    for column, (name, points) in zip(places.T, sets.items()):
+        for axes, (_, _, lines) in zip(column, QUESTIONS):
+            for key, factor, label, color, marker in lines:
+                axes.plot(points["value"], factor * points[key], marker + "-", color=color, markersize=4.5, linewidth=1.2,
+                          label=label)
+        if points["value"][-1] / points["value"][0] > 50:
+            column[0].set_xscale("log")
+        if name == "elements in a pipe":
+            column[0].set_xticks(points["value"])
+        column[-1].set_xlabel(name)
+        column[0].set_title(name.split(" [")[0], fontweight="bold")
+    for row, (label, logarithmic, _) in zip(places, QUESTIONS):
+        row[0].set_ylabel(label)
+        if logarithmic:
+            row[0].set_yscale("log")
         else:
-            axes.set(xlabel=name, ylim=(0, 2))
-            if name == "elements in a pipe":
-                axes.set_xticks(points["value"])
-    for row in places:
-        row[0].set_ylabel("over that of the base string")
-    places[-1][-1].axis("off")
-    handles, labels = places[0][0].get_legend_handles_labels()
-    places[-1][-1].legend(handles, labels, loc="center", fontsize=12)
-    figure.suptitle("What depends on what: one parameter changed at a time, 100 pipes of 1 m in a hole of 94 mm",
-                    fontsize=13, x=0.01, ha="left")
+            row[0].set_ylim(bottom=0.0)
+        row[-1].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=11)
+    figure.align_ylabels(places[:, 0])
+    figure.suptitle("What depends on what: one parameter changed at a time, otherwise 100 pipes of 1 m, 73 x 6 mm steel, "
+                    "in a hole of 94 mm", fontsize=14, x=0.01, ha="left")
     finish(folder, figure, "parameter_studies.png")
+
+
+def kinetic_energy(folder):
+    if not (folder / "kinetic_energy.csv").exists():
+        return
+    table = columns(folder, "kinetic_energy.csv")
+    time = table["time [s]"]
+    drilling = time < 20.0
+    cases = (("vibration", "contact, friction and vibration", ORANGE), ("friction", "contact and friction", BLUE),
+             ("contact", "contact only", GREEN))
+    figure, places = plt.subplots(2, 2, figsize=(13, 7), sharey="row", sharex="col")
+    for column, (stage, title) in zip(places.T, ((drilling, "drilling"), (~drilling, "pulling out"))):
+        for case, label, color in cases:
+            more = 1e3 * (table[f"{case} mean [J]"] - table["contact mean [J]"])
+            column[0].plot(time[stage], more[stage], "o-", color=color, markersize=4, label=label)
+            column[1].semilogy(time[stage], table[f"{case} swing [J]"][stage], "o-", color=color, markersize=4)
+        column[0].set_title(title)
+        column[1].set_xlabel("time [s]")
+    places[0][0].set_ylabel("mean, more than\nwith contact only [mJ]")
+    places[1][0].set_ylabel("root mean square about it [J]")
+    for time_of, text in ((10.0, "10 s"), (15.0, "15 s")):
+        places[1][0].axvline(time_of, color=RED, linewidth=1.2, linestyle="--",
+                             label="the reference: decays within 10 s,\nsettles after 15 s" if text == "10 s" else None)
+    places[1][1].legend(*places[1][0].get_legend_handles_labels(), loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    places[0][1].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    figure.suptitle("Kinetic energy of pipe 100, over four revolutions each", fontsize=13, x=0.01, ha="left")
+    finish(folder, figure, "kinetic_energy_of_pipe_100.png")
 
 
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    for picture in (response, modes, lengths, parameters):
+    for picture in (response, modes, lengths, parameters, kinetic_energy):
         picture(pathlib.Path(sys.argv[1]))
 
 

@@ -6,8 +6,9 @@
 
 #define LOW 0.1    /* [Hz] */
 #define HIGH 100.0 /* [Hz] */
+#define ALIGNED_HIGH 20.0
 
-enum { POINTS = 400, REFINEMENT = 6, INPUTS = 4, AXES = 3 };
+enum { POINTS = 400, REFINEMENT = 6, ALIGNED_POINTS = 100, INPUTS = 4, AXES = 3 };
 /* Which cause an input is part of. */
 static const int cause_of[INPUTS] = {STUDY_DRIVE, STUDY_DRIVE, STUDY_FRICTION, STUDY_ECCENTRIC};
 
@@ -26,11 +27,11 @@ static void set_inputs(const study_string *s, const study_scene *scene, dmb_inpu
         inputs[i].kind = DMB_INPUT_DRIVE;
         inputs[i].place.part = s->drive[i];
     }
-    inputs[0].amplitude = STUDY_RIPPLE * STUDY_FEED;
-    inputs[1].amplitude = STUDY_RIPPLE * STUDY_ROTATION;
+    inputs[0].amplitude = RIG_SHAKE * RIG_FEED;
+    inputs[1].amplitude = RIG_SHAKE * STUDY_ROTATION;
     inputs[2].kind = DMB_INPUT_FRICTION;
     inputs[2].component = DMB_RX;
-    inputs[2].amplitude = scene->friction;
+    inputs[2].amplitude = scene->wall.mu_dynamic;
     inputs[3].kind = DMB_INPUT_ECCENTRICITY;
 }
 
@@ -137,6 +138,16 @@ void study_crossover(const study_response *r, double friction, double eccentric,
     }
 }
 
+uint32_t study_peak(const study_response *r, int cause)
+{
+    uint32_t most = 0;
+    for (uint32_t k = 1; k < r->points; ++k)
+        if (r->amplitude[(size_t)k * STUDY_CAUSES + (size_t)cause] >
+            r->amplitude[(size_t)most * STUDY_CAUSES + (size_t)cause])
+            most = k;
+    return most;
+}
+
 double study_amplitude_at(const study_response *r, int cause, double frequency)
 {
     uint32_t k = 1;
@@ -166,19 +177,35 @@ double study_eccentric_share(const study_response *r, double low, double high)
 
 /* ---- The last of a hundred pipes --------------------------------------------------------------------------------- */
 
+static int32_t shake(study_shaken *shaken, study_string *s)
+{
+    const study_scene scene = study_base();
+    int32_t status = study_make(&scene, s);
+    if (status >= 0) status = study_respond(s, &scene, LOW, HIGH, POINTS, REFINEMENT, &shaken->response);
+    for (int i = 0; i < STUDY_CASES && status >= 0; ++i)
+        study_crossover(&shaken->response, study_case_friction[i] / scene.wall.mu_dynamic,
+                        study_case_eccentricity[i] / scene.pipe.eccentricity, shaken->crossover[i]);
+    return status;
+}
+
+static int32_t shake_aligned(study_shaken *shaken, study_string *s)
+{
+    study_scene scene = study_base();
+    scene.pipe.angle_spread = 0.0;
+    const int32_t status = study_make(&scene, s);
+    return status < 0 ? status : study_respond(s, &scene, LOW, ALIGNED_HIGH, ALIGNED_POINTS, 0, &shaken->aligned);
+}
+
 void study_shaken_work(void *context)
 {
+    static int32_t (*const shakes[])(study_shaken *, study_string *) = {shake, shake_aligned};
     study_shaken *shaken = context;
-    const study_scene scene = study_base();
-    study_string s = {0};
-    shaken->status = study_make(&scene, &s);
-    if (shaken->status >= 0)
-        shaken->status = study_respond(&s, &scene, LOW, HIGH, POINTS, REFINEMENT, &shaken->response);
-    if (shaken->status < 0) (void)snprintf(shaken->message, sizeof shaken->message, "%s", study_message(&s));
-    for (int i = 0; i < STUDY_CASES && shaken->status >= 0; ++i)
-        study_crossover(&shaken->response, study_case_friction[i] / scene.friction,
-                        study_case_eccentricity[i] / STUDY_ECCENTRICITY, shaken->crossover[i]);
-    study_free(&s);
+    for (size_t i = 0; i < sizeof shakes / sizeof shakes[0] && shaken->status >= 0; ++i) {
+        study_string s = {0};
+        shaken->status = shakes[i](shaken, &s);
+        if (shaken->status < 0) (void)snprintf(shaken->message, sizeof shaken->message, "%s", study_message(&s));
+        study_free(&s);
+    }
 }
 
 static void print_amplitudes(const study_response *r)
@@ -200,13 +227,13 @@ void study_shaken_print(const study_shaken *shaken)
     printf(
         "  drives: %g %% of the feed of %g mm/s and of %.0f rpm; friction: %g of the wall force, around the string;\n"
         "  eccentric masses: %g mm; structural damping %g %%\n",
-        100.0 * STUDY_RIPPLE, 1e3 * STUDY_FEED, STUDY_ROTATION * 60.0 / STUDY_TURN, scene.friction,
-        1e3 * STUDY_ECCENTRICITY, 100.0 * STUDY_LOSS);
+        100.0 * RIG_SHAKE, 1e3 * RIG_FEED, STUDY_ROTATION * 60.0 / STUDY_TURN, scene.wall.mu_dynamic,
+        1e3 * scene.pipe.eccentricity, 100.0 * STUDY_LOSS);
     print_amplitudes(&shaken->response);
     printf("  linear: around the swinging of the pipes in the hole amplitudes are larger than its clearance of %g mm, "
            "and\n"
            "  only tell which cause is the stronger\n",
-           500.0 * (scene.hole - STUDY_DIAMETER));
+           1e3 * study_clearance(&scene));
     printf("  crossover from friction to eccentricity\n");
     for (int i = 0; i < STUDY_CASES; ++i)
         printf("    friction %.2f, eccentricity %.1f mm: first at %7.4f Hz, for the last time at %8.4f Hz\n",
@@ -222,9 +249,9 @@ int study_shaken_write(const char *folder, const study_shaken *shaken)
         study_table(folder, "response.csv", "frequency [Hz],drives [m],friction [m],eccentricity [m],all three [m]");
     if (file == NULL) return 1;
     for (uint32_t k = 0; k < r->points; ++k) {
-        fprintf(file, "%.9g", r->frequency[k]);
+        fprintf(file, "%.17g", r->frequency[k]);
         for (int cause = 0; cause < STUDY_CAUSES; ++cause)
-            fprintf(file, ",%.6g", r->amplitude[(size_t)k * STUDY_CAUSES + (size_t)cause]);
+            fprintf(file, ",%.17g", r->amplitude[(size_t)k * STUDY_CAUSES + (size_t)cause]);
         fprintf(file, "\n");
     }
     return fclose(file) != 0;

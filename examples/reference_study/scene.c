@@ -1,23 +1,19 @@
+#include <math.h>
 #include <stdio.h>
 
 #include "study.h"
 
-#define BOTTOM_LOAD 2960.0 /* [N] on the bit while it drills */
-#define DAMPING_TIME 1e-4  /* [s] of the steel, as in gas_drainage_rig */
-
 study_scene study_base(void)
 {
-    study_scene base = {0};
-    base.pipes = 100;
-    base.elements = 1;
-    base.length = 1.0;
-    base.friction = 0.30;
-    base.hole = 0.094;
-    base.modulus = 2.1e11;
-    base.wall = 1e7;
-    base.bit = 5.0;
+    study_scene base = {.wall = rig_wall(), .pipe = rig_pipe(), .bit = rig_bit()};
+    base.pipes = rig_options_default().pipes;
     base.kind = DMB_PIPE_FLEXIBLE;
     return base;
+}
+
+double study_clearance(const study_scene *scene)
+{
+    return 0.5 * (scene->wall.diameter - scene->pipe.outer_diameter);
 }
 
 /* Drag acts around the pipe on its skin. */
@@ -26,43 +22,41 @@ static int32_t set_surroundings(dmb_model *model, const study_scene *scene)
     dmb_environment_def def = dmb_environment_def_default();
     if (scene->alone) def.gravity[2] = 0.0;
     def.axial_damping = scene->drag;
-    def.torsional_damping = scene->drag * 0.25 * STUDY_DIAMETER * STUDY_DIAMETER;
+    def.torsional_damping = 0.25 * scene->drag * pow(scene->pipe.outer_diameter, 2.0);
     return dmb_model_set_environment(model, &def);
 }
 
 static int32_t add_wall(dmb_model *model, const study_scene *scene)
 {
-    dmb_wall_def wall = dmb_wall_def_default();
-    wall.diameter = scene->hole;
-    wall.stiffness = scene->wall;
-    wall.mu_dynamic = scene->friction;
-    wall.mu_static = scene->friction + 0.05;
-    return scene->alone ? DMB_OK : dmb_model_add_wall(model, &wall, NULL);
+    return scene->alone ? DMB_OK : dmb_model_add_wall(model, &scene->wall, NULL);
 }
 
 static int32_t add_pipes(study_string *s, const study_scene *scene)
 {
-    dmb_pipe_def pipe = dmb_pipe_def_default(); /* steel, wall of 6 mm */
-    pipe.outer_diameter = STUDY_DIAMETER;
-    pipe.elements = scene->elements;
-    pipe.length = scene->length;
-    pipe.young_modulus = scene->modulus;
-    pipe.damping_time = DAMPING_TIME;
-    pipe.eccentricity = scene->alone ? 0.0 : STUDY_ECCENTRICITY;
-    pipe.angle_spread = 0.5 * STUDY_TURN;
+    dmb_pipe_def pipe = scene->pipe;
+    if (scene->alone) pipe.eccentricity = 0.0;
     return dmb_model_add_pipes(s->model, &pipe, scene->pipes, &s->string);
 }
 
 static int32_t add_bit(dmb_model *model, const study_scene *scene)
 {
-    dmb_bit_def bit = dmb_bit_def_default();
+    dmb_bit_def bit = scene->bit;
     dmb_term load = dmb_term_default();
     int32_t status = DMB_OK;
-    bit.mass = scene->bit;
-    bit.diameter = 0.0; /* soft coal breaks out around it */
-    load.h0 = BOTTOM_LOAD;
+    load.h0 = RIG_BOTTOM_LOAD;
     if (!scene->alone) status = dmb_model_add_programme(model, &load, 1, &bit.load);
     return status < 0 ? status : dmb_model_add_bit(model, &bit, NULL);
+}
+
+/* What buckling grows: 1 N back along the hole, of which none acts before. */
+static int32_t add_push(study_string *s, const study_scene *scene)
+{
+    const dmb_term none = dmb_term_default(); /* of height 0 */
+    dmb_load_def push = dmb_load_def_default();
+    push.force[0] = -1.0;
+    push.place = dmb_station(s->string, scene->pipes - 1, 1.0);
+    const int32_t status = dmb_model_add_programme(s->model, &none, 1, &push.programme);
+    return status < 0 ? status : dmb_model_add_load(s->model, &push, &s->push);
 }
 
 /* The head holds the string in line with the hole. Its drives feed and turn; while the string is looked at they hold it
@@ -88,7 +82,8 @@ int32_t study_make(const study_scene *scene, study_string *s)
     if (status >= 0) status = set_surroundings(s->model, scene);
     if (status >= 0) status = add_wall(s->model, scene);
     if (status >= 0) status = add_pipes(s, scene);
-    if (status >= 0 && scene->bit > 0.0) status = add_bit(s->model, scene);
+    if (status >= 0 && scene->bit.mass > 0.0) status = add_bit(s->model, scene);
+    if (status >= 0 && !scene->alone) status = add_push(s, scene);
     if (status >= 0 && !scene->unheld) status = add_drives(s);
     if (status >= 0) status = dmb_model_compile(s->model, &compile);
     if (status >= 0) status = dmb_sim_create(s->model, NULL, &s->sim);

@@ -1,34 +1,28 @@
-/* What the reference reports in the frequency domain, and what depends on which parameter. */
+/* What the reference reports, and what depends on which parameter. */
 #ifndef REFERENCE_STUDY_H
 #define REFERENCE_STUDY_H
 
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 
-#define STUDY_TURN (2.0 * 3.14159265358979323846)  /* [rad] */
-#define STUDY_DIAMETER 0.073                       /* [m] of the pipes */
-#define STUDY_ROTATION (200.0 * STUDY_TURN / 60.0) /* [rad/s] 200 rpm */
-#define STUDY_FEED 10e-3                           /* [m/s] */
-#define STUDY_ECCENTRICITY 1e-3                    /* [m] of each pipe's mass, in directions of their own */
-#define STUDY_RIPPLE 0.02                          /* [-] part of feed and rotation speed by which the drives shake */
-#define STUDY_LOSS 0.03                            /* [-] structural damping of responses */
-#define STUDY_REFERENCE_CROSSOVER 1.58             /* [Hz] */
+#include "../gas_drainage_rig/run.h"
+
+#define STUDY_TURN (2.0 * 3.14159265358979323846)             /* [rad] */
+#define STUDY_ROTATION (RIG_ROTATION_RPM * STUDY_TURN / 60.0) /* [rad/s] */
+#define STUDY_LOSS 0.03                                       /* [-] structural damping of responses */
+#define STUDY_REFERENCE_CROSSOVER 1.58                        /* [Hz] */
 
 enum { STUDY_MODES = 10, STUDY_TEXT = 320 };
 
-/* One string: what a parameter study changes. */
+/* One string: that of gas_drainage_rig, and what a parameter study changes of it. */
 typedef struct study_scene {
+    dmb_wall_def wall;
+    dmb_pipe_def pipe;
+    dmb_bit_def bit; /* mass 0: none */
     uint32_t pipes;
-    uint32_t elements; /* in each pipe */
-    double length;     /* [m] of a pipe */
-    double friction;   /* [-] of sliding on the wall; 0.05 more at rest */
-    double hole;       /* [m] diameter */
-    double modulus;    /* [Pa] Young's */
-    double wall;       /* [N/m2] stiffness of the wall per metre of pipe */
-    double bit;        /* [kg]; 0: none */
-    int32_t kind;      /* DMB_PIPE_... */
-    int32_t alone;     /* 1: neither wall nor weight */
-    int32_t unheld;    /* 1: the drives let go, the string moves along and around freely */
+    int32_t kind;   /* DMB_PIPE_... */
+    int32_t alone;  /* 1: neither wall nor weight */
+    int32_t unheld; /* 1: the drives let go, the string moves along and around freely */
     double drag; /* [N s/m2, N] resistance per metre and m/s along the hole, per metre and m/s of the skin around it */
 } study_scene;
 
@@ -36,11 +30,13 @@ typedef struct study_scene {
 typedef struct study_string {
     dmb_model *model;
     dmb_sim *sim;
-    dmb_id string, drive[2]; /* feed, rotation */
+    dmb_id string, drive[2], push; /* feed and rotation; a load of 1 N on the far end, not acting before an analysis */
 } study_string;
 
-/* 100 pipes of 1 m, 73 x 6 mm, in a hole of 94 mm, a bit of 5 kg. */
+/* 100 pipes of the rig. */
 study_scene study_base(void);
+/* [m] between pipe and wall all around, from the middle of the hole */
+double study_clearance(const study_scene *scene);
 /* The scene at rest: on the low side of the hole, pushed by the load on the bit, or where it is described if alone. */
 int32_t study_make(const study_scene *scene, study_string *string);
 void study_free(study_string *string);
@@ -60,7 +56,7 @@ typedef struct study_job {
 void study_share_out(const study_job *jobs, int count, int threads);
 
 /* ---- Modes (modes.c) --------------------------------------------------------------------------------------------- */
-enum { STUDY_TUBES = 3, STUDY_MESHES = 10, STUDY_SHAPES = 5, STUDY_PLACES = 101, STUDY_ALL = 640 };
+enum { STUDY_TUBES = 3, STUDY_MESHES = 10, STUDY_NORMALS = 3, STUDY_SHAPES = 5, STUDY_PLACES = 101, STUDY_ALL = 640 };
 typedef struct study_modal {
     int32_t status;
     char message[STUDY_TEXT];
@@ -68,14 +64,17 @@ typedef struct study_modal {
     int overdamped, rigid;       /* of them, before the first that swings */
     double all[STUDY_ALL];       /* [Hz] every mode of the string without drag, rising */
     uint32_t all_count, all_rigid;
-    double highest[STUDY_MESHES];             /* [Hz] with 1, 2, ... elements in each pipe */
-    double without_bit;                       /* [Hz] lowest of the string held by its drives */
+    double highest[STUDY_MESHES];   /* [Hz] with 1, 2, ... elements in each pipe */
+    double by_modes[STUDY_NORMALS]; /* [Hz] highest with pipes described by 12 end and 16, 22, 28 normal modes */
+    double without_bit;             /* [Hz] lowest of the string held by its drives */
     double shape[STUDY_SHAPES][STUDY_PLACES]; /* [-] of modes 2, 4, ... 10, held; 1 at the far end */
     double shape_frequency[STUDY_SHAPES];     /* [Hz] */
     int shape_nodes[STUDY_SHAPES];            /* [-] places between the ends that stand still */
     double tube[STUDY_TUBES];                 /* [Hz] lowest of steel tubes */
 } study_modal;
+extern const int study_normal_modes[STUDY_NORMALS];
 extern const double study_tube_length[STUDY_TUBES], study_tube_reference[STUDY_TUBES];
+int32_t study_find_by_modes(study_modal *modal, study_string *string); /* pipe_modes.c */
 void study_modal_work(void *modal);
 void study_modal_print(const study_modal *modal);
 int study_modal_write(const char *folder, const study_modal *modal);
@@ -94,6 +93,8 @@ void study_response_free(study_response *response);
 /* [Hz] first and last frequency at which eccentricity (times `eccentric`) becomes as strong as friction (times
  * `friction`); NaN where that never is. */
 void study_crossover(const study_response *response, double friction, double eccentric, double found[2]);
+/* Number of the point with the largest amplitude. */
+uint32_t study_peak(const study_response *response, int cause);
 /* [m] at a frequency, between points by equal powers of it. */
 double study_amplitude_at(const study_response *response, int cause, double frequency);
 /* [-] friction over eccentricity at a frequency. */
@@ -107,6 +108,7 @@ typedef struct study_shaken {
     char message[STUDY_TEXT];
     study_response response;
     double crossover[STUDY_CASES][2]; /* [Hz] first and last, of the frictions and eccentricities below */
+    study_response aligned;           /* with the eccentric masses all to one side, at low frequencies */
 } study_shaken;
 extern const double study_case_friction[STUDY_CASES], study_case_eccentricity[STUDY_CASES];
 void study_shaken_work(void *shaken);
@@ -133,8 +135,12 @@ typedef struct study_point {
     double bending[STUDY_MODES]; /* [Hz] without a wall; every order twice, in two planes */
     double on_wall[STUDY_MODES]; /* [Hz] swinging on the wall */
     double axial, torsional;     /* [Hz] lowest */
-    double thrust, torque;       /* [N, N m] of the head, sliding into the hole and turning, load on the bit included */
-    double crossover;            /* [Hz] first */
+    double sag, touch;     /* [m] of the deepest place below the hole's axis; to where it lies down, from the head */
+    double thrust, torque; /* [N, N m] of the head, sliding into the hole and turning, load on the bit included */
+    double push;           /* [N] of the head, sliding without turning */
+    double buckling;       /* [N] at the bit, on top of its load, at which the string at rest buckles */
+    double peak, amplitude; /* [Hz, m] the largest of the last pipe to all causes together */
+    double crossover;       /* [Hz] first */
 } study_point;
 typedef struct study_set {
     int count;
@@ -145,7 +151,51 @@ void study_point_work(void *point);
 void study_sets_print(const study_set sets[STUDY_SETS]);
 int study_sets_write(const char *folder, const study_set sets[STUDY_SETS]);
 
+/* ---- The drilling cycle in time (cycles.c) ----------------------------------------------------------------------- */
+#define STUDY_JUMP 1.0 /* [m/s2] above this a change of speed between samples is a jump: a tenth of gravity */
+enum {
+    STUDY_RIGID = 0, /* with friction and vibration, as FULL */
+    STUDY_CONTACT = 1,
+    STUDY_RUBBING = 2, /* contact and friction */
+    STUDY_FULL = 3,    /* and vibration */
+    STUDY_RIGID_DROPPED = 4,
+    STUDY_FULL_DROPPED = 5,
+    STUDY_RUNS = 6,
+    STUDY_DRIVEN = 2, /* stages: drill, pull out */
+    STUDY_WINDOWS = 15
+};
+typedef struct study_run {
+    int32_t status;
+    rig_options options;
+    rig_variant variant;
+    int left;         /* [-] times that the end of the last pipe leaves the wall */
+    double last_left; /* [s] NaN: never */
+    /* Of runs that are not dropped: */
+    double height[2];                           /* [m] mean Z displacement of the end of the first pipe, of the bit */
+    double speed[RIG_PIPES];                    /* [m/s] root mean square Z speed of the ends of three pipes */
+    double jumps[RIG_PIPES];                    /* [1/s] of that speed */
+    double energy[STUDY_DRIVEN][STUDY_WINDOWS]; /* [J] kinetic, of the last pipe: means over four revolutions */
+    double swing[STUDY_DRIVEN][STUDY_WINDOWS];  /* [J] root mean square about them */
+    double wall_swing; /* [-] the same of the wall force at the last pipe while drilling, over its mean */
+} study_run;
+void study_runs_describe(study_run runs[STUDY_RUNS]);
+void study_run_work(void *run);
+/* [s] of one window */
+double study_window_begin(const study_run *run, int stage, int window);
+double study_window_end(const study_run *run, int stage, int window);
+/* [J] mean over one driven stage */
+double study_energy(const study_run *run, int stage);
+void study_runs_print(const study_run runs[STUDY_RUNS]);
+int study_runs_write(const char *folder, const study_run runs[STUDY_RUNS]);
+
 /* ---- What the reference says (claims.c) -------------------------------------------------------------------------- */
-void study_claims_print(const study_modal *modal, const study_shaken *shaken, const study_set sets[STUDY_SETS]);
+typedef struct study_results {
+    study_modal modal;
+    study_shaken shaken;
+    study_set sets[STUDY_SETS];
+    study_run runs[STUDY_RUNS];
+    int timed; /* 1: the runs in time were made */
+} study_results;
+void study_claims_print(const study_results *results);
 
 #endif

@@ -13,11 +13,13 @@
  * of them. */
 #include <drillmbd/drillmbd.h>
 
+#include <argp.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
+
+#include "../gas_drainage_rig/folder.h"
 
 #define TURN (2.0 * 3.14159265358979323846)
 #define RPM (60.0 / TURN) /* [1/min] of 1 rad/s */
@@ -250,19 +252,59 @@ static int write_severity(const char *folder, const depth *depths, int count)
 
 /* ---- Main -------------------------------------------------------------------------------------------------------- */
 
+typedef struct options {
+    const char *folder; /* NULL: no tables */
+    int threads, depth; /* depth 0: every DEPTH_STEP metres */
+} options;
+
+enum { KEY_THREADS = 256, KEY_DEPTH };
+
+static int whole_number(const struct argp_state *state, const char *word, long low, long high)
+{
+    char *rest = NULL;
+    const long value = strtol(word, &rest, 10);
+    if (rest == word || *rest != '\0' || value < low || value > high)
+        argp_error(state, "'%s' is not a whole number from %ld to %ld", word, low, high);
+    return (int)value;
+}
+
+static error_t take_option(int key, char *word, struct argp_state *state)
+{
+    options *asked = state->input;
+    switch (key) {
+    case 'o': asked->folder = word; return 0;
+    case KEY_THREADS: asked->threads = whole_number(state, word, 1, THREADS); return 0;
+    case KEY_DEPTH: asked->depth = whole_number(state, word, 1, 1000); return 0;
+    case ARGP_KEY_ARG: argp_error(state, "'%s' is not an option", word); return 0;
+    default: return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static options read_options(int count, char **words)
+{
+    static const struct argp_option table[] = {
+        {"output", 'o', "FOLDER", 0, "folder for tables; plot.py FOLDER makes the picture of them", 0},
+        {"threads", KEY_THREADS, "N", 0, "depths at a time (2), which changes no digit", 0},
+        {"depth", KEY_DEPTH, "METRES", 0, "one depth; otherwise every 10 m down to 150 m", 0},
+        {0, 0, 0, 0, 0, 0}};
+    static const char about[] = "Which rotary speeds should be kept away from, and at which depths?";
+    const struct argp parser = {table, take_option, NULL, about, NULL, NULL, NULL};
+    options asked = {NULL, 2, 0};
+    argp_parse(&parser, count, words, 0, NULL, &asked);
+    return asked;
+}
+
 int main(int count, char **words)
 {
     static depth depths[DEPTHS];
-    const char *folder = NULL;
-    int threads = 2, found = DEPTHS, failed = 0;
+    const options asked = read_options(count, words);
+    const char *folder = asked.folder;
+    const int found = asked.depth > 0 ? 1 : DEPTHS;
+    int failed = 0;
+    if (folder != NULL && rig_make_folder(folder) != 0) return perror(folder), EXIT_FAILURE;
     for (int i = 0; i < DEPTHS; i++) depths[i].pipes = (uint32_t)((i + 1) * DEPTH_STEP);
-    for (int i = 1; i + 1 < count; i += 2) {
-        if (strcmp(words[i], "--output") == 0) folder = words[i + 1];
-        if (strcmp(words[i], "--threads") == 0) threads = atoi(words[i + 1]);
-        if (strcmp(words[i], "--depth") == 0) depths[0].pipes = (uint32_t)atoi(words[i + 1]), found = 1;
-    }
-    if (threads < 1 || threads > THREADS) threads = 1;
-    share_out(depths, found, threads);
+    if (asked.depth > 0) depths[0].pipes = (uint32_t)asked.depth;
+    share_out(depths, found, asked.threads);
     printf("Speeds to avoid (severity above 1: a limit is exceeded)\n");
     for (int i = 0; i < found; i++) {
         if (depths[i].status < 0)

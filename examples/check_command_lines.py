@@ -1,0 +1,62 @@
+"""Checks what programs with options do with --help, with nonsense, and with a folder they cannot write.
+
+usage: check_command_lines.py PROGRAM...
+
+--help tells every option and ends well; every other call here is refused: exit status above 0, a message on standard
+error that names what was wrong, nothing on standard output.
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+OPTIONS = {
+    "gas_drainage_rig": ["--system", "--couple", "--pipes", "--length", "--elements", "--step", "--time", "--drop",
+                         "--quick", "--output", "--rate", "--quiet", "--bit", "--seed"],
+    "reference_study": ["--output", "--threads", "--short"],
+    "safe_speeds": ["--output", "--threads", "--depth"],
+}
+NONSENSE = {
+    "gas_drainage_rig": [["--pipes", "0"], ["--pipes", "2.5"], ["--pipes", "many"], ["--length", "-1"],
+                         ["--length", "nan"], ["--step", "0"], ["--step", "1e-3s"], ["--time", "inf"],
+                         ["--system", "wooden"], ["--couple", "x"], ["--elements", "0"], ["--bit", "95"],
+                         ["--rate", "0"], ["--seed", "-1"]],
+    "reference_study": [["--threads", "0"], ["--threads", "-2"], ["--threads", "2x"], ["--threads", "65"],
+                        ["--threads", "99999999999999999999"]],
+    "safe_speeds": [["--threads", "0"], ["--threads", "two"], ["--depth", "0"], ["--depth", "-5"],
+                    ["--depth", "5000"]],
+}
+COMMON = [["--nonsense"], ["nonsense"], ["--output"]]
+
+
+def call(program, arguments, folder):
+    return subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True, timeout=60,
+                          stdin=subprocess.DEVNULL, check=False)
+
+
+def failures_of(program, folder):
+    name = pathlib.Path(program).name
+    found = []
+    run = call(program, ["--help"], folder)
+    if run.returncode != 0 or any(option not in run.stdout for option in OPTIONS[name]):
+        found.append(f"{name} --help does not tell all options:\n{run.stdout}{run.stderr}")
+    (folder / "file").write_text("no folder\n", encoding="utf-8")
+    unwritable = [["--output", path] for path in ("file", "file/below", "/proc/no/such/place", "x" * 5000, "")]
+    for arguments in NONSENSE[name] + COMMON + unwritable:
+        run = call(program, arguments, folder)
+        wrong = arguments[-1][:100]
+        if run.returncode <= 0 or run.stdout or not run.stderr.strip() or wrong.lstrip("-") not in run.stderr:
+            found.append(f"{name} {' '.join(arguments)[:100]}: exit status {run.returncode}, says {run.stderr!r}")
+    return found
+
+
+def main():
+    found = []
+    for program in sys.argv[1:]:
+        with tempfile.TemporaryDirectory() as folder:
+            found += failures_of(program, pathlib.Path(folder))
+    print("\n".join(found))
+    return 1 if found else 0
+
+
+sys.exit(main())
