@@ -1,13 +1,5 @@
 #include "base/check.h"
 
-bool dmb_are_finite(const double *values, size_t count)
-{
-    for (size_t i = 0; i < count; ++i) {
-        if (!dmb_is_finite(values[i])) return false;
-    }
-    return true;
-}
-
 static void fail_component(dmb_check *check, int32_t status, const char *field, uint32_t component, double value,
                            const char *bound)
 {
@@ -64,16 +56,6 @@ void dmb_check_at_least(dmb_check *check, const char *field, double value, doubl
     judge_bound(check, field, DMB_NO_INDEX, value, value >= bound, ">=", bound);
 }
 
-void dmb_check_below(dmb_check *check, const char *field, double value, double bound)
-{
-    judge_bound(check, field, DMB_NO_INDEX, value, value < bound, "<", bound);
-}
-
-void dmb_check_at_most(dmb_check *check, const char *field, double value, double bound)
-{
-    judge_bound(check, field, DMB_NO_INDEX, value, value <= bound, "<=", bound);
-}
-
 void dmb_check_within(dmb_check *check, const char *field, double value, double low, double high)
 {
     judge_range(check, field, value, value >= low && value <= high, ">=", low, "<=", high);
@@ -106,13 +88,6 @@ void dmb_check_at_least_field(dmb_check *check, const char *field, double value,
 void dmb_check_all_finite(dmb_check *check, const char *field, const double *values, size_t count)
 {
     for (size_t i = 0; i < count; ++i) judge(check, field, (uint32_t)i, values[i], true, "finite");
-}
-
-void dmb_check_all_at_least(dmb_check *check, const char *field, const double *values, size_t count, double bound)
-{
-    for (size_t i = 0; i < count; ++i) {
-        judge_bound(check, field, (uint32_t)i, values[i], values[i] >= bound, ">=", bound);
-    }
 }
 
 void dmb_check_increasing(dmb_check *check, const char *field, const double *values, size_t count, size_t stride)

@@ -21,9 +21,6 @@ static inline bool dmb_is_finite(double value)
     return isfinite(value) != 0;
 }
 
-/* True if all count values are finite. */
-bool dmb_are_finite(const double *values, size_t count);
-
 typedef struct dmb_check {
     dmb_message *message; /* may be NULL */
     const char *part;     /* "pipe", "wall", ... */
@@ -48,8 +45,6 @@ void dmb_check_fail(dmb_check *check, int32_t status, const char *field, double 
 void dmb_check_finite(dmb_check *check, const char *field, double value);
 void dmb_check_above(dmb_check *check, const char *field, double value, double bound);          /* value > bound */
 void dmb_check_at_least(dmb_check *check, const char *field, double value, double bound);       /* value >= bound */
-void dmb_check_below(dmb_check *check, const char *field, double value, double bound);          /* value < bound */
-void dmb_check_at_most(dmb_check *check, const char *field, double value, double bound);        /* value <= bound */
 void dmb_check_within(dmb_check *check, const char *field, double value, double low, double high); /* low..high */
 void dmb_check_between(dmb_check *check, const char *field, double value, double low, double high); /* low < . < high */
 
@@ -59,7 +54,6 @@ void dmb_check_at_least_field(dmb_check *check, const char *field, double value,
 
 /* Arrays: the message names the component. */
 void dmb_check_all_finite(dmb_check *check, const char *field, const double *values, size_t count);
-void dmb_check_all_at_least(dmb_check *check, const char *field, const double *values, size_t count, double bound);
 void dmb_check_increasing(dmb_check *check, const char *field, const double *values, size_t count, size_t stride);
 
 /* Whole numbers: low <= value <= high. */

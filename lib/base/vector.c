@@ -40,11 +40,6 @@ int32_t dmb_vector_append(dmb_vector *vector, const dmb_allocator *allocator, co
     return DMB_OK;
 }
 
-void dmb_vector_truncate(dmb_vector *vector, size_t count)
-{
-    if (count < vector->count) vector->count = count;
-}
-
 void dmb_vector_release(dmb_vector *vector, const dmb_allocator *allocator)
 {
     dmb_release(allocator, vector->items, vector->capacity * vector->item_size);

@@ -31,9 +31,6 @@ int32_t dmb_vector_reserve(dmb_vector *vector, const dmb_allocator *allocator, s
 /* Appends count items, copied from items, or zeroed where items is NULL. Errors as of reserve. Amortised O(count). */
 int32_t dmb_vector_append(dmb_vector *vector, const dmb_allocator *allocator, const void *items, size_t count);
 
-/* Drops items from the end down to count, to undo appends; keeps the memory. */
-void dmb_vector_truncate(dmb_vector *vector, size_t count);
-
 /* Gives the memory back and empties the vector. */
 void dmb_vector_release(dmb_vector *vector, const dmb_allocator *allocator);
 

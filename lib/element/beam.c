@@ -22,33 +22,9 @@ void dmb_beam_stress(const dmb_element_type *type, const double d[6], double str
     dmb_beam_elastic_stress(&c, d, stress);
 }
 
-void dmb_beam_stiffness(const dmb_element_type *type, const dmb_beam_shape *shape, const double stress[6],
-                        dmb_beam_blocks *blocks)
-{
-    const dmb_beam_constants c = constants_of(type);
-    dmb_beam_stiffness_blocks(&c, shape, stress, blocks);
-}
-
-void dmb_beam_damping(const dmb_element_type *type, const dmb_beam_shape *shape, const double velocity_a[6],
-                      const double velocity_b[6], double factor, dmb_beam_blocks *stiffness, dmb_beam_blocks *damping)
-{
-    const dmb_beam_constants c = constants_of(type);
-    dmb_beam_damping_blocks(&c, shape, velocity_a, velocity_b, factor, stiffness, damping);
-}
-
-void dmb_beam_mass_times(const dmb_beam_mass *mass, const double va[6], const double vb[6], double pa[6],
-                         double pb[6])
+void dmb_beam_mass_times(const dmb_beam_mass *mass, const double va[6], const double vb[6], double pa[6], double pb[6])
 {
     dmb_beam_constants c;
     dmb_beam_load_mass(mass, 0, &c);
     dmb_beam_momentum(&c, va, vb, pa, pb);
-}
-
-void dmb_beam_add_inertia_tangent(const dmb_beam_mass *mass, const double va[6], const double vb[6],
-                                  const double pa[6], const double pb[6], double mass_factor, double velocity_factor,
-                                  dmb_beam_blocks *blocks)
-{
-    dmb_beam_constants c;
-    dmb_beam_load_mass(mass, 0, &c);
-    dmb_beam_add_inertia_blocks(&c, va, vb, pa, pb, mass_factor, velocity_factor, blocks);
 }

@@ -133,16 +133,6 @@ void dmb_bit_history_record(dmb_bit_history *history, double Phi, double U)
 
 /* ---- Forces ------------------------------------------------------------------------------------------------------ */
 
-void dmb_bit_rock_resultants(const dmb_bit_rock_law *law, double depth_of_cut, double engagement, double *weight,
-                             double *torque)
-{
-    const double a = law->radius;
-    const double contact = law->contact_strength * law->wear_length * engagement; /* sigma l g */
-
-    *weight = law->cutting_ratio * law->intrinsic_energy * a * depth_of_cut + a * contact;
-    *torque = 0.5 * a * a * (law->intrinsic_energy * depth_of_cut + law->contact_friction * contact);
-}
-
 double dmb_bit_rock_bottom(const dmb_bit_rock_law *law, double bottom, double U)
 {
     return fmax(bottom, U - law->intrusion_depth);

@@ -51,15 +51,11 @@ typedef struct dmb_bit_rock_result {
     int32_t reserved;
 } dmb_bit_rock_result;
 
-/* W = zeta eps a d + sigma a l g [N] and T = eps a^2 d/2 + mu gamma sigma a^2 l g/2 [N m] at depth of cut d [m] and
- * engagement g, in steady forward rotation. */
-void dmb_bit_rock_resultants(const dmb_bit_rock_law *law, double depth_of_cut, double engagement, double *weight,
-                             double *torque);
-
 /* [m] Where rock begins after a step accepted at U: max(bottom, U - intrusion_depth). Rate law only. */
 double dmb_bit_rock_bottom(const dmb_bit_rock_law *law, double bottom, double U);
 
-/* Forces and exact derivatives at one instant.
+/* Forces and exact derivatives at one instant: W = zeta eps a d + sigma a l g [N] and T = eps a^2 d/2
+ * + mu gamma sigma a^2 l g/2 [N m] at depth of cut d [m] and engagement g.
  * RATE (also REGENERATIVE without history): g = S((U - bottom)/intrusion_depth) with S(x) = x^2 (3 - 2x) on 0 .. 1, and
  *   d = g 2 pi max(V, 0)/Omega; bottom follows by dmb_bit_rock_bottom, so g = 1 in steady drilling, everything is
  *   taken up within intrusion_depth on touching, and nothing is left above it after lifting.

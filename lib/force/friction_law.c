@@ -14,13 +14,3 @@ void dmb_friction_bristle(const dmb_friction_law *law, double N, const double v[
 {
     *sticks = dmb_friction_bristle_at(law, N, v, z_old, v_old, stuck != 0, h, z, F, dF_dv, dF_dN);
 }
-
-double dmb_friction_power(const double F[2], const double v[2])
-{
-    return -(F[0] * v[0] + F[1] * v[1]);
-}
-
-double dmb_friction_bristle_energy(const dmb_friction_law *law, double N, const double z[2])
-{
-    return 0.5 * N * law->bristle_stiffness * (z[0] * z[0] + z[1] * z[1]);
-}

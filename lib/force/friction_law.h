@@ -47,10 +47,4 @@ void dmb_friction_bristle(const dmb_friction_law *law, double N, const double v[
                           const double v_old[2], int32_t stuck, double h, double z[2], double F[2], double dF_dv[4],
                           double dF_dN[2], int32_t *sticks);
 
-/* [W] Power that leaves the motion through a friction force: -F.v. For bristles that is loss plus growth of energy. */
-double dmb_friction_power(const double F[2], const double v[2]);
-
-/* [J] Elastic energy of the bristles, N sigma0 |z|^2/2. */
-double dmb_friction_bristle_energy(const dmb_friction_law *law, double N, const double z[2]);
-
 #endif

@@ -28,10 +28,6 @@ void dmb_normal_law_setup(dmb_normal_law *law, int32_t kind, double stiffness, d
  * mu (1 + e) = ln((1 + mu)/(1 - mu e)). To 1e-15 relative. e >= 1 gives 0; e below 1e-6 (or NaN) counts as 1e-6. */
 double dmb_exact_restitution_factor(double e);
 
-/* [-] The restitution that a damping factor mu really gives: [1 + W0(-(1+mu) exp(-(1+mu)))]/mu. To 1e-15 relative.
- * mu <= 0 gives 1. */
-double dmb_exact_restitution(double mu);
-
 /* Force [N/m, >= 0, pushing the bodies apart] at penetration depth [m] growing at rate [m/s], and its derivatives
  * [N/m2] and [N s/m2]. approach_speed [m/s]: d' at first touch, kept by the caller. 0 with zero derivatives for depth
  * <= 0 and where the law would pull. NaN in, NaN out. */

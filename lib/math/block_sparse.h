@@ -31,14 +31,6 @@ static inline double *dmb_block_sparse_diagonal(const dmb_block_pattern *pattern
     return matrix->values + pattern->diagonal[pattern->position[i]];
 }
 
-/* A_ij, i != j, size_i x size_j, row-major without gaps; NULL where the pattern has no such pair. */
-static inline double *dmb_block_sparse_entry(const dmb_block_pattern *pattern, const dmb_block_sparse *matrix,
-                                             uint32_t i, uint32_t j)
-{
-    const size_t offset = dmb_block_pattern_offset(pattern, i, j);
-    return offset == DMB_BLOCK_NO_OFFSET ? NULL : matrix->values + offset;
-}
-
 /* All values zero, fill included: has to come before the values of every new factorisation. */
 void dmb_block_sparse_clear(const dmb_block_pattern *pattern, dmb_block_sparse *matrix);
 

@@ -20,12 +20,6 @@ static inline void dmb_mat6_zero(dmb_real A[36])
     for (int i = 0; i < 36; i++) A[i] = dmb_real_of(0.0);
 }
 
-static inline void dmb_mat6_identity(dmb_real A[36])
-{
-    dmb_mat6_zero(A);
-    for (int i = 0; i < 36; i += 7) A[i] = dmb_real_of(1.0);
-}
-
 static inline void dmb_mat6_copy(const dmb_real A[36], dmb_real out[36])
 {
     for (int i = 0; i < 36; i++) out[i] = A[i];
@@ -58,12 +52,7 @@ static inline void dmb_mat6_add_outer(dmb_real s, const dmb_real a[6], const dmb
     }
 }
 
-/* The 3x3 block (i, j), i, j = 0 or 1, of a 6x6 matrix: read, write, add to. */
-static inline void dmb_mat6_get_block(const dmb_real A[36], int i, int j, dmb_real out[9])
-{
-    for (int r = 0; r < 3; r++) dmb_vec3_copy(A + 18 * i + 6 * r + 3 * j, out + 3 * r);
-}
-
+/* The 3x3 block (i, j), i, j = 0 or 1, of a 6x6 matrix: write, add to. */
 static inline void dmb_mat6_set_block(const dmb_real block[9], int i, int j, dmb_real A[36])
 {
     for (int r = 0; r < 3; r++) dmb_vec3_copy(block + 3 * r, A + 18 * i + 6 * r + 3 * j);
@@ -106,22 +95,6 @@ static inline void dmb_mat6_mul_tn(const dmb_real A[36], const dmb_real B[36], d
     for (int i = 0; i < 6; i++) dmb_mat6_row(A + i, 6, B, C + 6 * i);
 }
 
-/* C = A B^T */
-static inline void dmb_mat6_mul_nt(const dmb_real A[36], const dmb_real B[36], dmb_real *restrict C)
-{
-    dmb_real Bt[36];
-    dmb_mat6_transpose(B, Bt);
-    dmb_mat6_mul(A, Bt, C);
-}
-
-/* C = A^T B A */
-static inline void dmb_mat6_congruence(const dmb_real A[36], const dmb_real B[36], dmb_real *restrict C)
-{
-    dmb_real BA[36];
-    dmb_mat6_mul(B, A, BA);
-    dmb_mat6_mul_tn(A, BA, C);
-}
-
 /* y = A x; y may be x */
 static inline void dmb_mat6_vec(const dmb_real A[36], const dmb_real x[6], dmb_real y[6])
 {
@@ -136,18 +109,6 @@ static inline void dmb_mat6_tvec(const dmb_real A[36], const dmb_real x[6], dmb_
     dmb_real t[6];
     dmb_mat6_row(x, 1, A, t);
     dmb_vec6_copy(t, y);
-}
-
-/* ad(v) = [w~, u~; 0, w~], v = (u; w): the derivative of Ad, [v, y] = ad(v) y */
-static inline void dmb_ad6(const dmb_real v[6], dmb_real out[36])
-{
-    dmb_real W[9], U[9];
-    dmb_skew(v + 3, W);
-    dmb_skew(v, U);
-    dmb_mat6_zero(out);
-    dmb_mat6_set_block(W, 0, 0, out);
-    dmb_mat6_set_block(U, 0, 1, out);
-    dmb_mat6_set_block(W, 1, 1, out);
 }
 
 /* out = ad(v) y = (w x yu + u x yw; w x yw) */
@@ -216,49 +177,6 @@ static inline void dmb_adjoint_inverse_apply(const dmb_real R[9], const dmb_real
     dmb_vec3_sub(v, c, u);
     dmb_mat3_tvec(R, v + 3, out + 3);
     dmb_mat3_tvec(R, u, out);
-}
-
-/* out = Ad(R,x)^T p = (R^T pu; R^T (pw - x x pu)) */
-static inline void dmb_adjoint_transpose_apply(const dmb_real R[9], const dmb_real x[3], const dmb_real p[6],
-                                               dmb_real out[6])
-{
-    dmb_real m[3], c[3];
-    dmb_vec3_cross(x, p, c);
-    dmb_vec3_sub(p + 3, c, m);
-    dmb_mat3_tvec(R, p, out);
-    dmb_mat3_tvec(R, m, out + 3);
-}
-
-/* out = Ad(R,x)^-T p = (R pu; R pw + x x (R pu)): carries a wrench to the frame seen from outside */
-static inline void dmb_adjoint_inverse_transpose_apply(const dmb_real R[9], const dmb_real x[3], const dmb_real p[6],
-                                                       dmb_real out[6])
-{
-    dmb_real f[3], m[3], c[3];
-    dmb_mat3_vec(R, p, f);
-    dmb_mat3_vec(R, p + 3, m);
-    dmb_vec3_cross(x, f, c);
-    dmb_vec3_copy(f, out);
-    dmb_vec3_add(m, c, out + 3);
-}
-
-/* C = Ad(R,x)^T B Ad(R,x): a form given in the far frame, seen in the near one */
-static inline void dmb_adjoint_congruence(const dmb_real R[9], const dmb_real x[3], const dmb_real B[36],
-                                          dmb_real *restrict C)
-{
-    dmb_real A[36];
-    dmb_adjoint6(R, x, A);
-    dmb_mat6_congruence(A, B, C);
-}
-
-/* C = Ad(R,x)^-T B Ad(R,x)^-1; the inverse pose is (R^T, -R^T x) */
-static inline void dmb_adjoint_inverse_congruence(const dmb_real R[9], const dmb_real x[3], const dmb_real B[36],
-                                                  dmb_real *restrict C)
-{
-    dmb_real Rt[9], y[3];
-    dmb_mat3_transpose(R, Rt);
-    dmb_mat3_tvec(R, x, y);
-    dmb_vec3_scale(dmb_real_of(-1.0), y, y);
-    dmb_adjoint_congruence(Rt, y, B, C);
 }
 
 #endif

@@ -150,23 +150,6 @@ static inline void dmb_se3_tangent_matrix(const dmb_se3_tangent *T, dmb_real out
     dmb_mat6_set_block(T->S, 1, 1, out);
 }
 
-/* T6(h) as a full matrix */
-static inline void dmb_se3_tangent6(const dmb_real h[6], const dmb_so3_coefficients *k, dmb_real out[36])
-{
-    dmb_se3_tangent T;
-    dmb_se3_tangent_at(h, k, &T);
-    dmb_se3_tangent_matrix(&T, out);
-}
-
-/* T6(h)^-1 as a full matrix */
-static inline void dmb_se3_inverse_tangent6(const dmb_real h[6], const dmb_so3_inverse_coefficients *k,
-                                            dmb_real out[36])
-{
-    dmb_se3_inverse_tangent T;
-    dmb_se3_inverse_tangent_at(h, k, &T);
-    dmb_se3_tangent_matrix(&T, out);
-}
-
 /* out = T v = (S u + B w; S w); out may be v */
 static inline void dmb_se3_tangent_apply(const dmb_se3_tangent *T, const dmb_real v[6], dmb_real out[6])
 {
@@ -297,15 +280,6 @@ static inline void dmb_se3_stress_blocks_at(const dmb_real h[6], const dmb_real 
     }
 }
 
-/* out = [0, J; J, H] */
-static inline void dmb_se3_stress_matrix(const dmb_se3_stress_blocks *D, dmb_real out[36])
-{
-    dmb_mat6_zero(out);
-    dmb_mat6_set_block(D->J, 0, 1, out);
-    dmb_mat6_set_block(D->J, 1, 0, out);
-    dmb_mat6_set_block(D->H, 1, 1, out);
-}
-
 /* out += f [0, J; J, H] [S, B; 0, S] = f [0, J S; J S, J B + H S]: one block of an element's geometric stiffness */
 static inline void dmb_se3_stress_times_tangent(dmb_real f, const dmb_se3_stress_blocks *D, const dmb_se3_tangent *T,
                                                 dmb_real out[36])
@@ -318,15 +292,6 @@ static inline void dmb_se3_stress_times_tangent(dmb_real f, const dmb_se3_stress
     dmb_mat6_add_block(f, block, 1, 1, out);
     dmb_mat3_mul(D->H, T->S, block);
     dmb_mat6_add_block(f, block, 1, 1, out);
-}
-
-/* D1(h, s) = d/dh (T6(h)^-T s) at fixed s */
-static inline void dmb_se3_stress_derivative(const dmb_real h[6], const dmb_real s[6],
-                                             const dmb_so3_inverse_coefficients *k, dmb_real out[36])
-{
-    dmb_se3_stress_blocks D;
-    dmb_se3_stress_blocks_at(h, s, k, &D, NULL);
-    dmb_se3_stress_matrix(&D, out);
 }
 
 /* X(h, v) = d/dh (T6(h)^-1 v) at fixed v = (u; w): [Jm(w), Jm(u) + Hh(w); 0, Jm(w)], Jm(a) = -a~/2 + the odd part */

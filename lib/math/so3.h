@@ -167,12 +167,6 @@ static inline void dmb_so3_inverse_tangent(const dmb_real O[3], const dmb_so3_in
     dmb_so3_polynomial(O, dmb_real_of(0.5), f.c, S);
 }
 
-static inline void dmb_quat_identity(dmb_real q[4])
-{
-    q[0] = dmb_real_of(1.0);
-    q[1] = q[2] = q[3] = dmb_real_of(0.0);
-}
-
 static inline void dmb_quat_copy(const dmb_real q[4], dmb_real out[4])
 {
     for (int i = 0; i < 4; i++) out[i] = q[i];
@@ -223,15 +217,6 @@ static inline void dmb_quat_exp(const dmb_real O[3], dmb_real q[4])
     dmb_so3_coefficients_at(y, &half);
     q[0] = 1.0 - y * half.b;
     dmb_vec3_scale(0.5 * half.a, O, q + 1);
-}
-
-/* q <- q exp(O), kept at unit length: one step of a body-frame increment */
-static inline void dmb_quat_advance(dmb_real q[4], const dmb_real O[3])
-{
-    dmb_real d[4];
-    dmb_quat_exp(O, d);
-    dmb_quat_mul(q, d, q);
-    dmb_quat_normalize(q);
 }
 
 /* f with O = f v, for q0 >= 0: f = 2 atan(|v|/q0)/|v|. Below about a quarter of a radian
@@ -344,17 +329,5 @@ static inline void dmb_quat_twist_pair(const dmb_real q[4], dmb_real x[6])
         x[i] = y;
     }
 }
-
-#ifndef DMB_LANES
-
-/* O = log R, |O| <= pi */
-static inline void dmb_so3_log(const double R[9], double O[3])
-{
-    double q[4];
-    dmb_quat_from_matrix(R, q);
-    dmb_quat_log(q, O);
-}
-
-#endif
 
 #endif

@@ -126,13 +126,6 @@ static inline void dmb_mat3_transpose(const dmb_real A[9], dmb_real *restrict ou
     for (int i = 0; i < 3; i++) dmb_vec3_set(A[i], A[3 + i], A[6 + i], out + 3 * i);
 }
 
-static inline dmb_real dmb_mat3_determinant(const dmb_real A[9])
-{
-    dmb_real c[3];
-    dmb_vec3_cross(A + 3, A + 6, c);
-    return dmb_vec3_dot(A, c);
-}
-
 /* C = A B */
 static inline void dmb_mat3_mul(const dmb_real A[9], const dmb_real B[9], dmb_real *restrict C)
 {

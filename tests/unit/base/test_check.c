@@ -29,12 +29,9 @@ static const double not_a_number = (double)NAN, infinite = (double)INFINITY;
 
 static void finite_values(void **state)
 {
-    const double good[2] = {1.0, -1e308}, bad[3] = {1.0, 2.0, -infinite};
     (void)state;
     assert_true(dmb_is_finite(1e308) && dmb_is_finite(-0.0));
     assert_false(dmb_is_finite(not_a_number) || dmb_is_finite(infinite) || dmb_is_finite(-infinite));
-    assert_true(dmb_are_finite(good, 2) && dmb_are_finite(bad, 2) && dmb_are_finite(NULL, 0));
-    assert_false(dmb_are_finite(bad, 3));
     EXPECT(DMB_OK, "", dmb_check_finite(&check, "length", 1.0));
     EXPECT(DMB_ERR_NOT_FINITE, "pipe 3: length = inf, must be finite", dmb_check_finite(&check, "length", infinite));
 }
@@ -51,13 +48,6 @@ static void one_bound(void **state)
     EXPECT(DMB_OK, "", dmb_check_at_least(&check, "damping", 0.0, 0.0));
     EXPECT(DMB_ERR_VALUE, "pipe 3: damping = -1, must be finite and >= 0",
            dmb_check_at_least(&check, "damping", -1.0, 0.0));
-    EXPECT(DMB_OK, "", dmb_check_below(&check, "ratio", 0.49, 0.5));
-    EXPECT(DMB_ERR_VALUE, "pipe 3: ratio = 0.5, must be finite and < 0.5", dmb_check_below(&check, "ratio", 0.5, 0.5));
-    EXPECT(DMB_OK, "", dmb_check_at_most(&check, "ratio", 0.5, 0.5));
-    EXPECT(DMB_ERR_VALUE, "pipe 3: ratio = 0.6, must be finite and <= 0.5",
-           dmb_check_at_most(&check, "ratio", 0.6, 0.5));
-    EXPECT(DMB_ERR_NOT_FINITE, "pipe 3: ratio = -inf, must be finite and <= 0.5",
-           dmb_check_at_most(&check, "ratio", -infinite, 0.5));
 }
 
 static void ranges(void **state)
@@ -101,9 +91,6 @@ static void arrays(void **state)
     EXPECT(DMB_OK, "", dmb_check_all_finite(&check, "gravity", values, 2));
     EXPECT(DMB_ERR_NOT_FINITE, "pipe 3: gravity[2] = inf, must be finite",
            dmb_check_all_finite(&check, "gravity", values, 4));
-    EXPECT(DMB_OK, "", dmb_check_all_at_least(&check, "inertia", values, 2, 0.0));
-    EXPECT(DMB_ERR_VALUE, "pipe 3: inertia[0] = 0, must be finite and >= 0.5",
-           dmb_check_all_at_least(&check, "inertia", values, 2, 0.5));
     EXPECT(DMB_OK, "", dmb_check_increasing(&check, "time", falling, 2, 1));
     EXPECT(DMB_ERR_VALUE, "pipe 3: time[2] = 2, must be finite and > 2",
            dmb_check_increasing(&check, "time", falling, 3, 1));

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "matrices.h"
 
 #include "constraint/relative.h"
 #include "math/mat6.h"
@@ -84,7 +85,7 @@ static two_bodies later(const two_bodies *s, double t)
         double h[6], speed[6], T[36];
         for (int k = 0; k < 6; k++) h[k] = t * (s->v[i][k] + 0.5 * t * s->rate[i][k]);
         for (int k = 0; k < 6; k++) speed[k] = s->v[i][k] + t * s->rate[i][k];
-        dmb_se3_tangent6(h, NULL, T);
+        tangent_matrix(h, T);
         dmb_mat6_vec(T, speed, out.v[i]);
         out.body[i] = moved(&s->body[i], h);
     }

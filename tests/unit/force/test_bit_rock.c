@@ -38,13 +38,9 @@ static void check_all_zero(const result *r)
 static void coal_values(void **state)
 {
     const dmb_bit_rock_law law = coal(DMB_ROCK_RATE);
-    double W, T;
     result r;
     (void)state;
 
-    dmb_bit_rock_resultants(&law, 6e-3, 1.0, &W, &T);
-    CHECK_RELATIVE(W, 2162.0, 1e-14);
-    CHECK_RELATIVE(T, 71.7925, 1e-14);
     dmb_bit_rock_force(&law, NULL, 0.1, 0.1 + 1e-4, 0.02, 0.0, OMEGA_200_RPM, &r);
     CHECK_RELATIVE(r.depth_of_cut, 6e-3, 1e-14);
     CHECK_RELATIVE(r.weight_on_bit, 2162.0, 1e-14);

@@ -280,8 +280,8 @@ static void bristle_dissipates(void **state)
             dmb_friction_bristle(&law, 10, v, z_old, v_old, sticks, h, z, F, dF_dv, dF_dN, &sticks);
             const double mean_F[2] = {0.5 * (F[0] + F_old[0]), 0.5 * (F[1] + F_old[1])};
             const double mean_v[2] = {0.5 * (v[0] + v_old[0]), 0.5 * (v[1] + v_old[1])};
-            const double stored = dmb_friction_bristle_energy(&law, 10, z);
-            work += h * dmb_friction_power(mean_F, mean_v);
+            const double stored = 0.5 * 10 * law.bristle_stiffness * (z[0] * z[0] + z[1] * z[1]);
+            work -= h * (mean_F[0] * mean_v[0] + mean_F[1] * mean_v[1]);
             assert_true(work >= stored - 1e-9 - 1e-3 * stored);
             for (int k = 0; k < 2; ++k) {
                 v_old[k] = v[k];

@@ -12,6 +12,13 @@
 #define EDGES_MAX 4000
 
 /* A graph, its matrix, and a copy of the values before factoring. */
+/* A_ij, i != j, size_i x size_j, row-major without gaps; NULL where the pattern has no such pair. */
+static double *entry_of(const dmb_block_pattern *pattern, const dmb_block_sparse *matrix, uint32_t i, uint32_t j)
+{
+    const size_t offset = dmb_block_pattern_offset(pattern, i, j);
+    return offset == DMB_BLOCK_NO_OFFSET ? NULL : matrix->values + offset;
+}
+
 typedef struct block_system {
     uint32_t n, edges, rows;
     dmb_block_edge edge[EDGES_MAX];
@@ -189,8 +196,8 @@ static void draw_values(block_system *s, bool symmetric, random_stream *r)
     double *weight = numbers(s->n, sizeof(double));
     for (uint32_t e = 0; e < s->edges; e++) {
         const uint32_t a = s->edge[e].a, b = s->edge[e].b, p = s->size[a], q = s->size[b];
-        double *A = dmb_block_sparse_entry(&s->pattern, &s->matrix, a, b);
-        double *B = dmb_block_sparse_entry(&s->pattern, &s->matrix, b, a);
+        double *A = entry_of(&s->pattern, &s->matrix, a, b);
+        double *B = entry_of(&s->pattern, &s->matrix, b, a);
         if (a == b) continue;
         assert_non_null(A);
         assert_non_null(B);
@@ -301,7 +308,7 @@ static void sizes_change_on_one_pattern(void **state)
         draw_sizes(&s, i % 2 ? 2 : 1, &r);
         draw_values(&s, false, &r);
         compare(&s, &r);
-        assert_true(dmb_block_sparse_entry(&s.pattern, &s.matrix, 7, 8) == s.matrix.values + offset);
+        assert_true(entry_of(&s.pattern, &s.matrix, 7, 8) == s.matrix.values + offset);
     }
     memset(s.size, 0, sizeof(uint32_t) * s.n); /* nothing at all */
     s.rows = 0;
@@ -463,7 +470,7 @@ static void singular_block_is_reported(void **state)
                 draw_values(&s, false, &r);
                 const uint32_t n = s.size[bad], k = below(&r, n);
                 for (uint32_t i = 0; i < 16; i++) {
-                    double *A = dmb_block_sparse_entry(&s.pattern, &s.matrix, i, bad);
+                    double *A = entry_of(&s.pattern, &s.matrix, i, bad);
                     for (uint32_t p = 0; A != NULL && p < s.size[i]; p++) A[n * p + k] = 0.0;
                 }
                 memcpy(s.fresh, s.matrix.values, sizeof(double) * s.pattern.values);
@@ -513,7 +520,7 @@ static void weakest_pivot_is_found(void **state)
         draw_values(&s, false, &r);
         const uint32_t n = s.size[weak];
         for (uint32_t i = 0; i < s.n; i++) { /* the column hardly holds anything, and no one else does */
-            double *A = dmb_block_sparse_entry(&s.pattern, &s.matrix, i, weak);
+            double *A = entry_of(&s.pattern, &s.matrix, i, weak);
             for (uint32_t p = 0; A != NULL && p < s.size[i]; p++) A[n * p + 4] *= i == weak ? 1e-9 : 0.0;
         }
         memcpy(s.fresh, s.matrix.values, sizeof(double) * s.pattern.values);
@@ -602,7 +609,7 @@ static void entries_and_offsets(void **state)
                 if (a == b)
                     assert_true(s.matrix.values + offset == dmb_block_sparse_diagonal(&s.pattern, &s.matrix, a));
                 if (offset == DMB_BLOCK_NO_OFFSET) {
-                    assert_null(dmb_block_sparse_entry(&s.pattern, &s.matrix, a, b));
+                    assert_null(entry_of(&s.pattern, &s.matrix, a, b));
                     continue;
                 }
                 assert_true(offset + length <= s.pattern.values);

@@ -1,5 +1,6 @@
 /* Poses: exponential and logarithm, tangent operators, their derivatives against central differences. */
 #include "math_test.h"
+#include "matrices.h"
 
 #include "math/se3.h"
 
@@ -126,20 +127,20 @@ static void tangent_identities(void **state)
         double h[6], m[6], T[36], Ti[36], P[36], A[36], Q[36], R[9], x[3];
         draw_pose_vector(&r, test_angles[i % TEST_ANGLE_COUNT], h);
         negate(6, h, m);
-        dmb_se3_tangent6(h, NULL, T);
-        dmb_se3_inverse_tangent6(h, NULL, Ti);
+        tangent_matrix(h, T);
+        inverse_tangent_matrix(h, Ti);
         const double scale = 1.0 + max_abs(36, Ti);
         multiply(6, T, Ti, P);
         CHECK_BELOW(identity_error(6, P), 3e-15 * scale * scale);
         dmb_se3_exp(h, NULL, R, x); /* T6(-h) = Ad(exp h) T6(h) */
         dmb_adjoint6(R, x, A);
         multiply(6, A, T, P);
-        dmb_se3_tangent6(m, NULL, Q);
+        tangent_matrix(m, Q);
         CHECK_BELOW(max_difference(36, P, Q), 3e-15);
         dmb_se3_exp(m, NULL, R, x); /* T6^-1(-h) = T6^-1(h) Ad(exp(-h)) */
         dmb_adjoint6(R, x, A);
         multiply(6, Ti, A, P);
-        dmb_se3_inverse_tangent6(m, NULL, Q);
+        inverse_tangent_matrix(m, Q);
         CHECK_BELOW(max_difference(36, P, Q), 3e-15 * scale);
     }
 }
@@ -177,8 +178,8 @@ static void block_forms_match_full_matrices(void **state)
         draw_vector(&r, 6, k);
         negate(6, h, m);
         dmb_se3_inverse_tangent_at(h, NULL, &T);
-        dmb_se3_inverse_tangent6(h, NULL, A);
-        dmb_se3_inverse_tangent6(m, NULL, M);
+        inverse_tangent_matrix(h, A);
+        inverse_tangent_matrix(m, M);
         dmb_mat6_vec(A, v, y);
         dmb_se3_tangent_apply(&T, v, z);
         CHECK_BELOW(max_difference(6, y, z), 2e-15);
@@ -211,7 +212,7 @@ static void tangent_is_the_derivative_of_exp(void **state)
     for (int i = 0; i < 60; i++) {
         double h[6], T[36];
         draw_pose_vector(&r, 3.0 * fabs(draw(&r)) + 1e-3, h);
-        dmb_se3_tangent6(h, NULL, T);
+        tangent_matrix(h, T);
         for (int j = 0; j < 6; j++) {
             double d[2][6];
             for (int side = 0; side < 2; side++) {
@@ -271,7 +272,7 @@ static void derivatives_match_differences(void **state)
         double h[6], s[6], D[36], want[36];
         draw_pose_vector(&r, angles[i % 10], h);
         draw_vector(&r, 6, s);
-        dmb_se3_stress_derivative(h, s, NULL, D);
+        stress_derivative_matrix(h, s, D);
         difference(stress_map, h, s, want);
         CHECK_BELOW(max_difference(36, D, want), 1e-10);
         dmb_se3_velocity_derivative(h, s, NULL, D);
@@ -294,14 +295,14 @@ static void stress_blocks_serve_both_signs(void **state)
         negate(6, h, m);
         dmb_so3_inverse_coefficients_at(dmb_vec3_norm_squared(h + 3), &k);
         dmb_se3_stress_blocks_at(h, s, &k, &plus, &minus);
-        dmb_se3_stress_derivative(m, s, NULL, D);
-        dmb_se3_stress_matrix(&minus, E);
+        stress_derivative_matrix(m, s, D);
+        stress_matrix(&minus, E);
         CHECK_BELOW(max_difference(36, D, E), 1e-15);
-        dmb_se3_stress_derivative(h, s, NULL, D);
-        dmb_se3_stress_matrix(&plus, E);
+        stress_derivative_matrix(h, s, D);
+        stress_matrix(&plus, E);
         assert_memory_equal(D, E, sizeof D); /* given and own coefficients: the same bits */
         dmb_se3_inverse_tangent_at(h, &k, &T);
-        dmb_se3_inverse_tangent6(h, NULL, T6);
+        inverse_tangent_matrix(h, T6);
         multiply(6, E, T6, C);
         for (int j = 0; j < 36; j++) F[j] = s[j % 6];
         for (int j = 0; j < 36; j++) C[j] = s[j % 6] - 2.0 * C[j];
@@ -325,7 +326,7 @@ static void work_and_fixed_direction(void **state)
         dmb_se3_tangent_apply(&Ti, v, y);
         dmb_se3_tangent_apply_transpose(&Ti, s, z);
         CHECK_CLOSE(dmb_vec6_dot(s, y), dmb_vec6_dot(v, z), 1e-14);
-        dmb_se3_tangent6(h, NULL, T);
+        tangent_matrix(h, T);
         dmb_mat6_vec(T, h, y);
         CHECK_BELOW(max_difference(6, y, h), 2e-15);
         dmb_se3_tangent_apply(&Ti, h, y);

@@ -1,5 +1,6 @@
 /* Small matrices, adjoint maps, Gauss rules. */
 #include "math_test.h"
+#include "matrices.h"
 
 #include "math/gauss.h"
 #include "math/mat6.h"
@@ -56,7 +57,7 @@ static void matrix3_products(void **state)
         dmb_mat3_vec(T, x, y);
         dmb_mat3_tvec(A, x, z);
         CHECK_BELOW(max_difference(3, y, z), 1e-15);
-        CHECK_CLOSE(dmb_mat3_determinant(want), dmb_mat3_determinant(A) * dmb_mat3_determinant(B), 1e-14);
+        CHECK_CLOSE(determinant_of(want), determinant_of(A) * determinant_of(B), 1e-14);
     }
 }
 
@@ -65,7 +66,7 @@ static void matrix6_products(void **state)
     (void)state;
     random_stream r = {3};
     for (int i = 0; i < 100; i++) {
-        double A[36], B[36], T[36], C[36], D[36], want[36], x[6], y[6], z[6];
+        double A[36], B[36], T[36], C[36], want[36], x[6], y[6], z[6];
         draw_vector(&r, 36, A);
         draw_vector(&r, 36, B);
         draw_vector(&r, 6, x);
@@ -74,12 +75,6 @@ static void matrix6_products(void **state)
         CHECK_BELOW(max_difference(36, C, want), 2e-15);
         dmb_mat6_transpose(A, T);
         dmb_mat6_mul_tn(T, B, C);
-        CHECK_BELOW(max_difference(36, C, want), 2e-15);
-        multiply(6, want, T, D);
-        dmb_mat6_congruence(T, B, C); /* A B A^T */
-        CHECK_BELOW(max_difference(36, C, D), 1e-14);
-        dmb_mat6_transpose(B, T);
-        dmb_mat6_mul_nt(A, T, C);
         CHECK_BELOW(max_difference(36, C, want), 2e-15);
         dmb_mat6_vec(B, x, y);
         dmb_mat6_vec(A, y, y);
@@ -101,13 +96,12 @@ static void matrix6_products(void **state)
 static void blocks_of_matrix6(void **state)
 {
     (void)state;
-    double A[36] = {0}, block[9], back[9];
+    double A[36] = {0}, block[9];
     for (int i = 0; i < 9; i++) block[i] = i + 1.0;
     dmb_mat6_set_block(block, 1, 0, A);
     assert_true(A[18] == 1.0 && A[20] == 3.0 && A[32] == 9.0 && A[21] == 0.0);
     dmb_mat6_add_block(2.0, block, 1, 0, A);
-    dmb_mat6_get_block(A, 1, 0, back);
-    for (int i = 0; i < 9; i++) assert_true(back[i] == 3.0 * block[i]);
+    for (int i = 0; i < 9; i++) assert_true(A[18 + 6 * (i / 3) + i % 3] == 3.0 * block[i]);
 }
 
 static void adjoint_maps(void **state)
@@ -115,31 +109,30 @@ static void adjoint_maps(void **state)
     (void)state;
     random_stream r = {4};
     for (int i = 0; i < 200; i++) {
-        double O[3], R[9], x[3], v[6], A[36], T[36], y[6], z[6], M[36], C[36], D[36];
+        double O[3], R[9], x[3], v[6], A[36], y[6], z[6];
         draw_rotation(&r, 3.0 * fabs(draw(&r)) + 0.01, O);
         dmb_so3_exp(O, NULL, R);
         draw_vector(&r, 3, x);
         draw_vector(&r, 6, v);
-        draw_vector(&r, 36, M);
         dmb_adjoint6(R, x, A);
         dmb_mat6_vec(A, v, y);
         dmb_adjoint_apply(R, x, v, z);
         CHECK_BELOW(max_difference(6, y, z), 2e-15);
         dmb_adjoint_inverse_apply(R, x, z, z);
         CHECK_BELOW(max_difference(6, v, z), 3e-15);
-        dmb_mat6_tvec(A, v, y);
-        dmb_adjoint_transpose_apply(R, x, v, z);
-        CHECK_BELOW(max_difference(6, y, z), 2e-15);
-        dmb_adjoint_inverse_transpose_apply(R, x, z, z);
-        CHECK_BELOW(max_difference(6, v, z), 3e-15);
-        dmb_mat6_transpose(A, T);
-        multiply(6, T, M, C);
-        multiply(6, C, A, D);
-        dmb_adjoint_congruence(R, x, M, C);
-        CHECK_BELOW(max_difference(36, C, D), 1e-14);
-        dmb_adjoint_inverse_congruence(R, x, C, D);
-        CHECK_BELOW(max_difference(36, D, M), 3e-14);
     }
+}
+
+/* ad(v) = [w~, u~; 0, w~], v = (u; w): the derivative of Ad, [v, y] = ad(v) y */
+static void small_adjoint(const double v[6], double out[36])
+{
+    double W[9], U[9];
+    dmb_skew(v + 3, W);
+    dmb_skew(v, U);
+    dmb_mat6_zero(out);
+    dmb_mat6_set_block(W, 0, 0, out);
+    dmb_mat6_set_block(U, 0, 1, out);
+    dmb_mat6_set_block(W, 1, 1, out);
 }
 
 static void small_adjoint_and_coadjoint(void **state)
@@ -151,7 +144,7 @@ static void small_adjoint_and_coadjoint(void **state)
         draw_vector(&r, 6, v);
         draw_vector(&r, 6, p);
         draw_vector(&r, 6, y);
-        dmb_ad6(v, A);
+        small_adjoint(v, A);
         dmb_mat6_vec(A, y, a);
         dmb_ad_apply(v, y, b);
         CHECK_BELOW(max_difference(6, a, b), 1e-15);
