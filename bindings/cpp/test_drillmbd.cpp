@@ -278,6 +278,12 @@ void modes_of_a_string()
     EXPECT(std::remove("mode.vtp") == 0);
     EXPECT(thrown_by([&] { modes.write_vtk(2, 0.1, 0.0, 2, "no such folder/mode.vtp"); }) == DMB_ERR_IO);
     EXPECT(thrown_by([&] { modes.part(2, string, 4); }) == DMB_ERR_VALUE);
+    dmb_modes_options turning = dmb_modes_options_default();
+    turning.kind = DMB_MODES_DAMPED;
+    turning.axes = DMB_MODES_STILL;
+    turning.spin = 20.0;
+    const drillmbd::modes whirling = sim.modes(&turning);
+    EXPECT(std::abs(whirling[2].whirl) > 0.9 && std::abs(whirling[2].whirl + whirling[3].whirl) < 1e-6);
     drillmbd::modes taken(std::move(modes));
     EXPECT(!modes && taken);
     dmb_modes_options options = dmb_modes_options_default();

@@ -75,6 +75,7 @@ OUTPUT_DISPLACEMENT, OUTPUT_VELOCITY, OUTPUT_ACCELERATION, OUTPUT_SECTION_FORCE 
 CONTACT_AS_IS, CONTACT_OPEN, CONTACT_CLOSED = range(3)
 COMBINED = 0xFFFFFFFF
 MODES_UNDAMPED, MODES_DAMPED = range(2)
+MODES_TURNING, MODES_STILL = range(2)
 MODES_LOWEST, MODES_ALL, MODES_BAND = range(3)
 
 
@@ -540,7 +541,7 @@ class SineReport(_Sized):
 class ModesOptions(_Sized):
     _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("select", c_int32), ("count", c_uint32),
                 ("band", c_double * 2), ("contact", c_int32), ("friction", c_int32), ("contact_gap", c_double),
-                ("equilibrium_tolerance", c_double)]
+                ("equilibrium_tolerance", c_double), ("axes", c_int32), ("reserved", c_int32), ("spin", c_double)]
 
 
 @_mirrors("dmb_modes_info")
@@ -554,7 +555,7 @@ class ModesInfo(_Sized):
 class Mode(_Sized):
     _fields_ = [("struct_size", c_uint32), ("rigid", c_int32), ("frequency", c_double), ("damping", c_double),
                 ("eigenvalue", c_double * 2), ("kinetic", c_double), ("strain", c_double), ("share", c_double * 3),
-                ("participation", c_double * 3), ("effective_mass", c_double * 3)]
+                ("participation", c_double * 3), ("effective_mass", c_double * 3), ("whirl", c_double)]
 
 
 @_mirrors("dmb_mode_shape")

@@ -395,6 +395,11 @@ class ModesTest(unittest.TestCase):
         modes = self.sim.modes(select=mbd.MODES_BAND, band=(1.0, 100.0), kind=mbd.MODES_DAMPED)
         self.assertTrue(all(1.0 <= mode.frequency <= 100.0 for mode in modes))
 
+    def test_whirl(self):
+        modes = self.sim.modes(count=4, kind=mbd.MODES_DAMPED, axes=mbd.MODES_STILL, spin=20.0)
+        self.assertGreater(abs(modes[2].whirl), 0.9)
+        self.assertAlmostEqual(modes[2].whirl, -modes[3].whirl)
+
     def test_animation(self):
         modes = self.sim.modes(count=3)
         with tempfile.TemporaryDirectory() as folder:

@@ -14,6 +14,10 @@ typedef struct dmb_modes dmb_modes;
 
 enum { DMB_MODES_UNDAMPED = 0, /* M d'' + K d = 0 */ DMB_MODES_DAMPED = 1 /* with C: damping and gyroscopic terms */ };
 enum { DMB_MODES_LOWEST = 0, DMB_MODES_ALL = 1, DMB_MODES_BAND = 2 };
+/* Axes of small displacements: those of the parts, which turn with them (a standing wave of w is two there, at w + spin and
+ * |w - spin|), or axes that do not take part in turning about the part's own x axis: frequencies as they are seen from
+ * outside. The latter is for what is round: what is eccentric is out of balance. */
+enum { DMB_MODES_TURNING = 0, DMB_MODES_STILL = 1 };
 typedef struct dmb_modes_options {
     uint32_t struct_size;
     int32_t kind;              /* DMB_MODES_UNDAMPED (default), _DAMPED */
@@ -25,6 +29,10 @@ typedef struct dmb_modes_options {
     double contact_gap;        /* [m] of DMB_CONTACT_CLOSED, >= 0; default 0 */
     double equilibrium_tolerance; /* [-] residual over the forces that balance in it, > 0; above it the state is refused;
                                   default 1e-6 */
+    int32_t axes;              /* DMB_MODES_TURNING (default), _STILL */
+    int32_t reserved;
+    double spin;               /* [rad/s] strings turn at this speed in the state, about their own x axis; 0 (default): as
+                                  they do. A static state with slip_rotation of this speed is in balance with friction */
 } dmb_modes_options;
 DMB_SIZED_STRUCT(dmb_modes_options)
 
@@ -53,6 +61,8 @@ typedef struct dmb_mode {
                                   their own axes; of a rigid mode at unit |s|; sum 1, shape (3) */
     double participation[3];   /* [kg^0.5] d^T M e for a base that moves along world x, y, z, shape (3) */
     double effective_mass[3];  /* [kg] their squares: sum over all modes = mass that is free to move, shape (3) */
+    double whirl;              /* [-] part of the kinetic energy in circles from y to z (forward, of spin > 0) less that in
+                                  circles from z to y (backward), in `axes`: 1 .. -1; 0 of undamped modes */
 } dmb_mode;
 DMB_SIZED_STRUCT(dmb_mode)
 

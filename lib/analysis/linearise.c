@@ -5,6 +5,24 @@
 #include "analysis/linearise_parts.h"
 #include "system/cluster.h"
 
+static void spin_node(dmb_sim *work, uint32_t node, double spin)
+{
+    const uint32_t row = work->scene->layout.row[node] + (work->scene->layout.size[node] == DMB_NODE_PATH ? 1 : 3);
+    work->now.velocity[row] = work->trial.velocity[row] = spin;
+}
+
+/* The strings of the state turning about their own axes. */
+static void spin_strings(dmb_sim *work, double spin)
+{
+    const dmb_scene *scene = work->scene;
+    for (uint32_t i = 0; i < scene->pipe_count; i++) {
+        const dmb_pipe_map *pipe = scene->pipes + i;
+        if (pipe->elements == 0) spin_node(work, pipe->node, spin);
+        for (uint32_t e = pipe->element; e < pipe->element + pipe->elements; e++)
+            for (uint32_t end = 0; end < 2; end++) spin_node(work, scene->element_node[e] + end, spin);
+    }
+}
+
 /* The partition of the state, its rows and factors; and the forces of constraint, which the tangents take as given. */
 static int32_t settle(dmb_sim *work)
 {
@@ -38,13 +56,14 @@ static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *optio
 static int32_t linearise(dmb_linear *linear, const dmb_linear_options *options)
 {
     dmb_sim *work = linear->work;
+    if (options->spin != 0.0) spin_strings(work, options->spin);
     int32_t status = settle(work);
     if (status >= 0) status = dmb_linear_take_balance(linear);
     if (status >= 0) status = take_multipliers(work);
     if (status >= 0) status = take_matrices(linear, options);
     work->linked_mode->multipliers = 0;
     if (status < 0) return status;
-    dmb_linear_turn_frames(linear);
+    dmb_linear_turn_frames(linear, options->still);
     return dmb_linear_make_coordinates(linear);
 }
 

@@ -16,6 +16,12 @@
  *
  * so that gyroscopic and centrifugal terms of a steadily spinning string are in C and K, whose entries are constant
  * there: it is a relative equilibrium. Elsewhere in a run the coefficients are those of the moment.
+ * In axes that do not take part in the spin w about a node's x axis, d is turned back by it, d <- exp(w^ t) d: with g = v - w
+ * velocities of the perturbed motion are v + d' + g^ d, accelerations a + d'' + g^ d' - w^ (d' + g^ d) + a^ d, and
+ *
+ *     C = C_v - M w^ + M g^,     K = K_H + (C_v - M w^) g^ + M a^,
+ *
+ * constant for what is round, even where a turning string lies on the wall.
  * What is integrated along with the motion, bristles that stick and the integral part of speed controllers, is stiffness
  * here (the part that v^ d has in it, left out, is none for drives along and about the axis). The memory of a regenerative
  * rock law is not: its past is taken as given. A nonholonomic equation holds d as it holds d'. Friction has the derivative
@@ -35,6 +41,9 @@ typedef struct dmb_linear_options {
     int32_t contact;     /* DMB_LINEAR_CONTACT_... */
     int32_t no_friction; /* 1: friction on the wall does not change: it is a dead load */
     double gap;          /* [m] of DMB_LINEAR_CONTACT_CLOSED */
+    int32_t still;       /* 1: d in axes that do not spin about the node's x axis */
+    int32_t reserved;
+    double spin;         /* [rad/s] of the nodes of strings in the state, 0: as they do */
 } dmb_linear_options;
 
 /* A residual below this part of the forces that balance in it is equilibrium. */
@@ -61,6 +70,7 @@ typedef struct dmb_linear {
     uint32_t *row_of;          /* row that coordinate i is the displacement of, ascending, shape (coordinates) */
     uint32_t *start, *column;  /* R by rows: entries start[row] .. start[row + 1] - 1 */
     double *value;
+    double *spin, *rest;       /* velocities of the state: what the axes of d leave out, and the others, shape (rows) */
     double *held_columns;      /* columns of M, C_v and K_H of the rows that are held, in the rows of the node before, the
                                   node and the node after, six each: what a drive that moves them exerts on the others;
                                   shape (scene.held_count, 3, 18) */

@@ -25,8 +25,8 @@ dmb_linear_matrix dmb_linear_stiffness_of(const dmb_sim *work);
 int32_t dmb_linear_take_stiffness_and_mass(dmb_linear *linear);
 int32_t dmb_linear_take_damping(dmb_linear *linear);
 
-/* C += M v^, K += C_v v^ + M a^, and what is held is cleared. */
-void dmb_linear_turn_frames(dmb_linear *linear);
+/* C and K with the velocities of the axes of d (still: those that do not spin), and what is held is cleared. */
+void dmb_linear_turn_frames(dmb_linear *linear, int32_t still);
 
 /* The scene without what is not to act: the wall, or the change of its friction. */
 void dmb_linear_freeze(dmb_linear *linear, const dmb_linear_options *options);

@@ -52,6 +52,8 @@ static int32_t take_options(const dmb_modes_options *given, dmb_modes_options *o
     dmb_check_choice(&check, "friction", out->friction, 0, 1);
     dmb_check_within(&check, "contact_gap", out->contact_gap, 0.0, 1e6);
     dmb_check_above(&check, "equilibrium_tolerance", out->equilibrium_tolerance, 0.0);
+    dmb_check_choice(&check, "axes", out->axes, DMB_MODES_TURNING, DMB_MODES_STILL);
+    dmb_check_within(&check, "spin", out->spin, -1e6, 1e6);
     return check.status;
 }
 
@@ -113,7 +115,11 @@ static int32_t search_modes(dmb_mode_search *search)
 
 static int32_t analyse(const dmb_sim *sim, const dmb_modes_options *options, dmb_message *message, dmb_modes *modes)
 {
-    const dmb_linear_options how = {options->contact, !options->friction, options->contact_gap};
+    const dmb_linear_options how = {.contact = options->contact,
+                                    .no_friction = !options->friction,
+                                    .gap = options->contact_gap,
+                                    .still = options->axes == DMB_MODES_STILL,
+                                    .spin = options->spin};
     const size_t bytes = 6 * (size_t)modes->rows * sizeof(double);
     dmb_mode_search search;
     memset(&search, 0, sizeof search);

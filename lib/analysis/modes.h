@@ -21,6 +21,7 @@ struct dmb_modes {
     dmb_modes_info info;
     double *s;           /* [1/s] re, im >= 0, shape (capacity, 2) */
     double *re, *im;     /* body-frame increments by rows, d^H M d = 1, shape (capacity, rows); im NULL of undamped modes */
+    double *whirl;       /* [-] shape (capacity) */
     uint8_t *rigid;      /* shape (capacity) */
 };
 

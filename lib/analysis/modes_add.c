@@ -33,6 +33,31 @@ static void normalise(const dmb_mode_search *search, double *x, double *y)
     x[most] = fabs(x[most]);
 }
 
+/* y and z of a vector's complex amplitude (re, im), Y and Z, as (Y + sign i Z)/2 e1 and the amplitude that belongs to
+ * it: the circle from y to z (sign 1), e1 = (1, -i), or from z to y (sign -1), e1 = (1, i); its real part to `out`. */
+static void take_circle(const double *re, const double *im, double sign, double *out)
+{
+    out[0] = 0.5 * (re[0] - sign * im[1]);
+    out[1] = 0.5 * (sign * im[0] + re[1]);
+}
+
+/* d^H M d of the circles of one sense in d = x + i y. Their real and imaginary parts are alike: twice that of the real
+ * one. */
+static double circling(const dmb_mode_search *search, const double *x, const double *y, double sign)
+{
+    const dmb_block_layout *layout = &search->linear->scene.layout;
+    const size_t n = search->linear->rows;
+    double *circle = search->work, *product = circle + n;
+    memset(circle, 0, n * sizeof(double));
+    for (uint32_t i = 0; i < layout->n; i++)
+        for (uint32_t c = 1; c < layout->size[i] && layout->size[i] == DMB_NODE_FULL; c += 3) {
+            const size_t at = (size_t)layout->row[i] + c;
+            take_circle(x + at, y + at, sign, circle + at);
+        }
+    dmb_linear_multiply(search->linear, &search->linear->mass, circle, product);
+    return 2.0 * dmb_dot(n, circle, product);
+}
+
 int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const double *x)
 {
     int32_t status = dmb_modes_add(search, 0.0, 0.0, x, NULL);
@@ -63,5 +88,6 @@ int32_t dmb_modes_add(dmb_mode_search *search, double re, double im, const doubl
     modes->rigid[k] = !search->pinned && dmb_modes_is_rigid(search, re, im, to, y != NULL ? also : NULL);
     modes->s[2 * (size_t)k] = modes->rigid[k] ? 0.0 : re;
     modes->s[2 * (size_t)k + 1] = modes->rigid[k] ? 0.0 : im;
+    modes->whirl[k] = y != NULL ? circling(search, to, also, 1.0) - circling(search, to, also, -1.0) : 0.0;
     return DMB_OK;
 }

@@ -26,6 +26,7 @@ void dmb_modes_exchange(dmb_modes *modes, uint32_t i, uint32_t j)
     modes->rigid[i] = modes->rigid[j];
     modes->rigid[j] = rigid;
     swap(modes->s + 2 * (size_t)i, modes->s + 2 * (size_t)j, 2);
+    swap(modes->whirl + i, modes->whirl + j, 1);
     swap(modes->re + rows * i, modes->re + rows * j, rows);
     if (modes->im != NULL) swap(modes->im + rows * i, modes->im + rows * j, rows);
 }

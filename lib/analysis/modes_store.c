@@ -7,7 +7,7 @@
 
 static size_t bytes_of(const dmb_modes *modes, uint32_t capacity, int32_t with_im)
 {
-    return ((size_t)capacity * 2 + (size_t)capacity * modes->rows * (with_im ? 2 : 1)) * sizeof(double) + capacity;
+    return ((size_t)capacity * 3 + (size_t)capacity * modes->rows * (with_im ? 2 : 1)) * sizeof(double) + capacity;
 }
 
 static void place(dmb_modes *modes, void *block, uint32_t capacity, int32_t with_im)
@@ -15,7 +15,8 @@ static void place(dmb_modes *modes, void *block, uint32_t capacity, int32_t with
     modes->s = block;
     modes->re = modes->s + 2 * (size_t)capacity;
     modes->im = with_im ? modes->re + (size_t)capacity * modes->rows : NULL;
-    modes->rigid = (uint8_t *)(modes->re + (size_t)capacity * modes->rows * (with_im ? 2 : 1));
+    modes->whirl = modes->re + (size_t)capacity * modes->rows * (with_im ? 2 : 1);
+    modes->rigid = (uint8_t *)(modes->whirl + capacity);
     modes->capacity = capacity;
 }
 
@@ -30,6 +31,7 @@ int32_t dmb_modes_reserve(dmb_modes *modes, uint32_t capacity, int32_t with_im)
     memcpy(modes->s, old.s, 2 * (size_t)old.count * sizeof(double));
     memcpy(modes->re, old.re, part);
     if (old.im != NULL && modes->im != NULL) memcpy(modes->im, old.im, part);
+    memcpy(modes->whirl, old.whirl, old.count * sizeof(double));
     memcpy(modes->rigid, old.rigid, old.count);
     dmb_release(&modes->allocator, old.s, bytes_of(&old, old.capacity, old.im != NULL));
     return DMB_OK;

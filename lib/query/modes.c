@@ -95,6 +95,7 @@ static void describe(const dmb_modes *modes, uint32_t index, dmb_mode *mode)
         }
     }
     const double all = parts[0] + parts[1] + parts[2];
+    mode->whirl = modes->whirl[index];
     mode->kinetic = size * size * all;
     for (int i = 0; i < 3; i++) mode->share[i] = all > 0.0 ? parts[i] / all : 0.0;
 }

@@ -131,6 +131,7 @@ static void options_out_of_bounds_are_named(void **state)
                  {offsetof(dmb_modes_options, count), 0, "count"},
                  {offsetof(dmb_modes_options, contact), 3, "contact"},
                  {offsetof(dmb_modes_options, friction), 2, "friction"},
+                 {offsetof(dmb_modes_options, axes), 2, "axes"},
                  {offsetof(dmb_modes_options, struct_size), 12, "struct_size"}};
     for (size_t i = 0; i < sizeof whole / sizeof whole[0]; i++) {
         dmb_modes_options options = dmb_modes_options_default();
@@ -142,11 +143,12 @@ static void options_out_of_bounds_are_named(void **state)
         const char *field;
     } numbers[] = {{offsetof(dmb_modes_options, band), "band[0]"},
                    {offsetof(dmb_modes_options, band) + 8, "band[1]"},
+                   {offsetof(dmb_modes_options, spin), "spin"},
                    {offsetof(dmb_modes_options, contact_gap), "contact_gap"},
                    {offsetof(dmb_modes_options, equilibrium_tolerance), "equilibrium_tolerance"}};
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
         dmb_modes_options options = dmb_modes_options_default();
-        const double below = -1.0;
+        const double below = -1e7;
         memcpy((char *)&options + numbers[i].at, &below, sizeof below);
         expect_refusal(s.sim, &options, DMB_ERR_VALUE, numbers[i].field);
         memset((char *)&options + numbers[i].at, 0xff, sizeof below); /* NaN on every compiler */

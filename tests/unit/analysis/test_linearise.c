@@ -13,7 +13,7 @@
 
 enum { ROWS_MAX = 120 };
 
-static const dmb_linear_options as_it_is = {DMB_LINEAR_CONTACT_AS_IS, 0, 0.0};
+static const dmb_linear_options as_it_is = {.contact = DMB_LINEAR_CONTACT_AS_IS};
 
 static dmb_linear *linearise(const dmb_sim *sim, const dmb_linear_options *options)
 {
@@ -361,7 +361,7 @@ static void sticking_bristles_are_springs(void **state)
     check_relative("damping along the wall, N sigma1", linear->damping.diagonal[0], N * 0.5, 1e-6);
     check_relative("stiffness across", linear->stiffness.diagonal[14], 1e7, 1e-6);
     dmb_linear_release(&linear);
-    const dmb_linear_options frictionless = {DMB_LINEAR_CONTACT_AS_IS, 1, 0.0};
+    const dmb_linear_options frictionless = {.no_friction = 1};
     linear = linearise(s.sim, &frictionless);
     check_below("the same without friction", linear->stiffness.diagonal[0], 0.0);
     dmb_linear_release(&linear);
@@ -387,8 +387,8 @@ static void contacts_are_frozen(void **state)
 {
     (void)state;
     rig s;
-    const dmb_linear_options open = {DMB_LINEAR_CONTACT_OPEN, 0, 0.0};
-    const dmb_linear_options closed = {DMB_LINEAR_CONTACT_CLOSED, 0, 0.2};
+    const dmb_linear_options open = {.contact = DMB_LINEAR_CONTACT_OPEN};
+    const dmb_linear_options closed = {.contact = DMB_LINEAR_CONTACT_CLOSED, .gap = 0.2};
     open_lying_body(&s, DMB_FRICTION_NONE); /* 0.1 mm less than the sink away from the wall: just touching */
     dmb_linear *linear = linearise(s.sim, &closed);
     check_relative("held across from the gap", linear->stiffness.diagonal[14], 1e7, 1e-9);

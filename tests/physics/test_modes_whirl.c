@@ -1,0 +1,186 @@
+/* Modes of turning strings as they are seen from outside (Campbell): forward and backward whirl of a shaft, the same in
+ * axes that turn, and of a string that turns on the wall of its hole. */
+#include <stdio.h>
+
+#include "modal.h"
+
+/* ---- A shaft ----------------------------------------------------------------------------------------------------- */
+
+#define LENGTH 2.0
+#define BENDING 1e3 /* [N m2] EI */
+#define MASS 2.0    /* [kg/m] */
+#define ROTARY 0.05 /* [kg m] across, half of that about the axis */
+
+/* Pinned at both ends, without shear. */
+static void open_shaft(rig *s, uint32_t elements, double speed)
+{
+    dmb_pipe_def pipe = beam_pipe(LENGTH, elements, 1e9, 1e12, 1e6, BENDING);
+    dmb_string_def string = dmb_string_def_default();
+    pipe.section_mass = MASS;
+    pipe.section_inertia[0] = 2.0 * ROTARY;
+    pipe.section_inertia[1] = ROTARY;
+    rig_open(s, 0, 0, 0);
+    string.start_free = string.end_free = DMB_FREE_SPHERICAL;
+    string.velocity[3] = speed;
+    pipe.string = add_string(s, &string);
+    (void)add_pipes(s, &pipe, 1);
+    rig_start(s, NULL);
+}
+
+/* [1/s] Rayleigh's turning beam: (m + J b^2) w^2 -+ 2 J b^2 W w - EI b^4 = 0, b = n pi/L, upper sign forward. */
+static double shaft_frequency(uint32_t n, double speed, double sense)
+{
+    const double b2 = pow(n * PI / LENGTH, 2), J = ROTARY * b2, total = MASS + J;
+    return (sense * J * speed + sqrt(J * J * speed * speed + total * BENDING * b2 * b2)) / total;
+}
+
+static dmb_modes *modes_in_axes(const rig *s, int32_t axes, double spin, uint32_t count)
+{
+    dmb_modes_options options = dmb_modes_options_default();
+    options.kind = DMB_MODES_DAMPED;
+    options.count = count;
+    options.axes = axes;
+    options.spin = spin;
+    return find_modes(s, &options);
+}
+
+/* Lateral mode number n from 0 that whirls in a sense. */
+static dmb_mode whirling(const dmb_modes *modes, double sense, uint32_t n)
+{
+    for (uint32_t i = 0; i < info_of(modes).count; i++) {
+        const dmb_mode mode = mode_at(modes, i);
+        if (!mode.rigid && mode.whirl * sense > 0.5 && n-- == 0) return mode;
+    }
+    fail_msg("no such whirl of sense %g", sense);
+    return mode_at(modes, 0);
+}
+
+static void check_shaft(const dmb_modes *modes, double speed, double tolerance)
+{
+    for (uint32_t n = 1; n <= 3; n++)
+        for (int sense = 1; sense >= -1; sense -= 2) {
+            char what[80];
+            const dmb_mode mode = whirling(modes, sense, n - 1);
+            (void)snprintf(what, sizeof what, "    %s whirl %u", sense > 0 ? "forward" : "backward", n);
+            check_relative(what, mode.eigenvalue[1], shaft_frequency(n, speed, sense), tolerance);
+            check_close("        all of it in circles", mode.whirl, sense, 1e-9);
+        }
+}
+
+/* Turned by the option, and turning in the state. */
+static void whirl_of_a_shaft(void **state)
+{
+    (void)state;
+    const double speeds[2] = {20.0, 300.0}, tolerances[2] = {1e-6, 4e-4};
+    for (int i = 0; i < 2; i++) {
+        rig still, turning;
+        open_shaft(&still, 64, 0.0);
+        open_shaft(&turning, 64, speeds[i]);
+        dmb_modes *by_option = modes_in_axes(&still, DMB_MODES_STILL, speeds[i], 12);
+        dmb_modes *by_state = modes_in_axes(&turning, DMB_MODES_STILL, 0.0, 12);
+        tell("shaft turning at [rad/s]", speeds[i]);
+        check_shaft(by_option, speeds[i], tolerances[i]);
+        for (uint32_t k = 0; k < 6; k++)
+            check_relative("    the same by the state", frequency_at(by_state, 1 + k), frequency_at(by_option, 1 + k),
+                           1e-9);
+        dmb_modes_destroy(&by_option);
+        dmb_modes_destroy(&by_state);
+        rig_close(&still);
+        rig_close(&turning);
+    }
+}
+
+static double shaft_error(uint32_t elements, double speed)
+{
+    rig s;
+    open_shaft(&s, elements, 0.0);
+    dmb_modes *modes = modes_in_axes(&s, DMB_MODES_STILL, speed, 8);
+    const double error = whirling(modes, 1.0, 0).eigenvalue[1] / shaft_frequency(1, speed, 1.0) - 1.0;
+    dmb_modes_destroy(&modes);
+    rig_close(&s);
+    return fabs(error);
+}
+
+/* The spin of an element's ends tilts with them: its part of the gyroscopic terms is of second order. */
+static void whirl_converges(void **state)
+{
+    (void)state;
+    check_order("forward whirl at 300 rad/s", shaft_error(32, 300.0), shaft_error(64, 300.0), 2.0, 0.05);
+}
+
+/* Distance of the closest mode from a frequency [1/s], relative. */
+static double closest(const dmb_modes *modes, double w)
+{
+    double least = 1e9;
+    for (uint32_t i = 0; i < info_of(modes).count; i++)
+        least = fmin(least, fabs(mode_at(modes, i).eigenvalue[1] - w) / w);
+    return least;
+}
+
+/* In axes that turn, forward whirl of w is one of |w - W|, backward whirl one of w + W. */
+static void axes_that_turn_shift_by_the_speed(void **state)
+{
+    (void)state;
+    const double speed = 20.0;
+    rig s;
+    open_shaft(&s, 64, 0.0);
+    dmb_modes *outside = modes_in_axes(&s, DMB_MODES_STILL, speed, 12);
+    dmb_modes *inside = modes_in_axes(&s, DMB_MODES_TURNING, speed, 16);
+    for (uint32_t n = 0; n < 3; n++) {
+        check_below("forward, w - W", closest(inside, fabs(whirling(outside, 1.0, n).eigenvalue[1] - speed)), 1e-6);
+        check_below("backward, w + W", closest(inside, whirling(outside, -1.0, n).eigenvalue[1] + speed), 1e-6);
+    }
+    dmb_modes_destroy(&outside);
+    dmb_modes_destroy(&inside);
+    rig_close(&s);
+}
+
+/* ---- On the wall ------------------------------------------------------------------------------------------------- */
+
+/* A rigid pipe that turns on the wall climbs to atan(mu) and swings there: with N = m g cos(atan(mu)) at rest and the
+ * friction mu N along the wall, w^2 = g sqrt(1 + mu^2)/e, e the distance of its axis from the hole's. */
+static void swing_of_a_pipe_that_turns_on_the_wall(void **state)
+{
+    (void)state;
+    const double mu = 0.3, speed = 20.0;
+    rig s;
+    dmb_wall_def wall = s1_hole();
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_string_def string = dmb_string_def_default();
+    dmb_static_options rest = dmb_static_options_default();
+    rig_open(&s, 0, 0, -9.81);
+    wall.friction_law = DMB_FRICTION_COULOMB;
+    wall.mu_static = wall.mu_dynamic = mu;
+    wall.smoothing_speed = 1e-6;
+    wall.stiffness = 1e9;
+    add_wall(&s, &wall);
+    string.start_free = string.end_free = DMB_FREE_ALL;
+    pipe.kind = DMB_PIPE_RIGID;
+    pipe.string = add_string(&s, &string);
+    const dmb_id pipes = add_pipes(&s, &pipe, 1);
+    for (int32_t c = DMB_X; c <= DMB_RX; c += DMB_RX - DMB_X)
+        (void)add_simple_drive(&s, DMB_DRIVE_MOTION, pipes, c, add_constant(&s, 0.0));
+    rig_start(&s, NULL);
+    rest.slip_rotation = speed;
+    (void)find_equilibrium(&s, &rest);
+    const dmb_pose pose = pose_at(&s, dmb_station(pipes, 0, 0.5));
+    check_relative("climbed, tangent of the angle", fabs(pose.position[1] / pose.position[2]), mu, 1e-6);
+    const double e = hypot(pose.position[1], pose.position[2]), want = sqrt(9.81 * sqrt(1.0 + mu * mu) / e);
+    dmb_modes *modes = modes_in_axes(&s, DMB_MODES_STILL, speed, 4);
+    check_below("turning on the wall: out of balance", info_of(modes).unbalance, 1e-6);
+    check_below("    swings with sqrt(g sqrt(1 + mu^2)/e)", closest(modes, want), 1e-5);
+    tell("    [Hz]", want / (2.0 * PI));
+    dmb_modes_destroy(&modes);
+    rig_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(whirl_of_a_shaft),
+        cmocka_unit_test(whirl_converges),
+        cmocka_unit_test(axes_that_turn_shift_by_the_speed),
+        cmocka_unit_test(swing_of_a_pipe_that_turns_on_the_wall),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
