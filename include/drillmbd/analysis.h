@@ -74,11 +74,12 @@ DMB_SIZED_STRUCT(dmb_buckling_options)
 typedef struct dmb_buckling dmb_buckling;
 /* Linear buckling about the present static state (dmb_analysis_static first): the lowest factors > 0 at which
  * K + factor dK is singular. K is the tangent stiffness with its contacts as they are, closed ones holding and swinging
- * with F/e around the axis; dK is its change along the response of the state to the pattern of loads. Counted by
- * the signs of the pivots (Sylvester), so that none is missed, and found by bisection. The sim is not changed.
+ * with F/e around the axis; dK is its change along the response of the state to the pattern of loads; with joints both are
+ * those of the independent coordinates. Counted by the signs of the pivots (Sylvester), so that none is missed, and found by
+ * bisection. The sim is not changed.
  * DMB_NOTE_STOPPED where fewer than `count` lie below factor_max. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no
- * equilibrium or not stable; message says by how much), _SINGULAR (message says which part is free), _UNSUPPORTED
- * (scenes with joints: follow a path), _NO_MEMORY, _CALLBACK; *buckling is NULL then. Some 40 counts a factor, each O(number of
+ * equilibrium or not stable; message says by how much), _SINGULAR (message says which part is free), _UNSUPPORTED (a
+ * motion drive of a joint), _NO_MEMORY, _CALLBACK; *buckling is NULL then. Some 40 counts a factor, each O(number of
  * elements); memory: the sim's once more and 3 matrices, from its allocator. */
 DMB_API int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling);
 /* Gives the memory back and sets *buckling to NULL. NULL-safe. */

@@ -33,7 +33,8 @@ static void lay_out(dmb_arena *arena, const dmb_scene *scene, uint32_t count, dm
 {
     const size_t rows = scene->row_count;
     to->factor = DMB_ARENA_DOUBLES(arena, count);
-    to->shape = DMB_ARENA_DOUBLES(arena, count * rows);
+    to->vector = DMB_ARENA_DOUBLES(arena, (size_t)count * dmb_pencil_unknowns(scene));
+    to->shape = scene->cluster_count ? DMB_ARENA_DOUBLES(arena, count * rows) : to->vector;
     to->response = DMB_ARENA_DOUBLES(arena, rows);
     to->pattern.base = DMB_ARENA_DOUBLES(arena, dmb_load_pattern_size(scene));
     dmb_pencil_lay_out(arena, scene, &to->pencil);
@@ -76,6 +77,7 @@ static dmb_buckling *allocate(const dmb_sim *sim, uint32_t count)
     dmb_model_hold(made->work->model);
     dmb_arena_place(&arena, made->block, made->block_size);
     lay_out(&arena, sim->scene, count, made);
+    made->pencil.sim = made->work;
     return made;
 }
 
@@ -102,13 +104,14 @@ static void normalise(const dmb_scene *scene, double *x)
 
 static void find_shape(dmb_buckling *buckling, uint32_t k)
 {
-    const size_t rows = buckling->work->scene->row_count;
+    const size_t rows = buckling->work->scene->row_count, unknowns = buckling->pencil.unknowns;
     uint32_t first = k;
     while (first > 0 && buckling->factor[k] - buckling->factor[first - 1] < DMB_SAME_FACTOR * buckling->factor[k])
         first--;
-    double *x = buckling->shape + k * rows;
-    (void)dmb_pencil_vector(&buckling->pencil, buckling->factor[k], buckling->shape + first * rows, k - first, x);
-    normalise(buckling->work->scene, x);
+    double *x = buckling->vector + k * unknowns, *shape = buckling->shape + k * rows;
+    (void)dmb_pencil_vector(&buckling->pencil, buckling->factor[k], buckling->vector + first * unknowns, k - first, x);
+    dmb_buckling_expand(buckling, x, shape);
+    normalise(buckling->work->scene, shape);
 }
 
 static void find_factors(dmb_buckling *buckling, const dmb_buckling_options *options)
@@ -123,13 +126,6 @@ static void find_factors(dmb_buckling *buckling, const dmb_buckling_options *opt
     }
 }
 
-static int32_t check_scene(dmb_sim *sim)
-{
-    if (sim->scene->cluster_count == 0) return DMB_OK;
-    dmb_message_set(&sim->message, "buckling: the scene has joints; dmb_analysis_path finds its bifurcations");
-    return DMB_ERR_UNSUPPORTED;
-}
-
 int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling)
 {
     dmb_buckling_options taken;
@@ -139,7 +135,6 @@ int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options,
     if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
     dmb_message_clear(&sim->message);
     int32_t status = take_options(sim, options, &taken);
-    if (status >= 0) status = check_scene(sim);
     if (status >= 0) status = dmb_load_pattern_take(sim, "buckling options", taken.scale, taken.part, &pattern);
     if (status < 0) return status;
     dmb_buckling *made = allocate(sim, taken.count);

@@ -6,21 +6,44 @@
 #include "math/block_inertia.h"
 #include "math/dot.h"
 
-static void lay_out_matrix(dmb_arena *arena, const dmb_block_layout *layout, dmb_pencil_matrix *A)
+static size_t linked_values(const dmb_scene *scene)
 {
+    return scene->cluster_count ? scene->pattern.values : 0;
+}
+
+static size_t linked_rows(const dmb_scene *scene)
+{
+    return scene->cluster_count ? scene->pattern.rows : 0;
+}
+
+static void lay_out_matrix(dmb_arena *arena, const dmb_scene *scene, dmb_pencil_matrix *A)
+{
+    const dmb_block_layout *layout = &scene->layout;
     A->diagonal = DMB_ARENA_DOUBLES(arena, layout->diag[layout->n]);
     A->lower = DMB_ARENA_DOUBLES(arena, layout->link[layout->n - 1]);
     A->upper = DMB_ARENA_DOUBLES(arena, layout->link[layout->n - 1]);
+    A->linked = DMB_ARENA_DOUBLES(arena, linked_values(scene));
+}
+
+uint32_t dmb_pencil_unknowns(const dmb_scene *scene)
+{
+    return scene->row_count + (uint32_t)linked_rows(scene);
 }
 
 void dmb_pencil_lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_pencil *pencil)
 {
+    size_t largest = 0;
+    for (uint32_t k = 0; k < scene->cluster_count; k++)
+        if (scene->clusters[k].columns > largest) largest = scene->clusters[k].columns;
     pencil->scene = scene;
-    lay_out_matrix(arena, &scene->layout, &pencil->K);
-    lay_out_matrix(arena, &scene->layout, &pencil->G);
-    lay_out_matrix(arena, &scene->layout, &pencil->work);
+    pencil->unknowns = dmb_pencil_unknowns(scene);
+    lay_out_matrix(arena, scene, &pencil->K);
+    lay_out_matrix(arena, scene, &pencil->G);
+    lay_out_matrix(arena, scene, &pencil->work);
     pencil->pivot = DMB_ARENA_ARRAY(arena, uint8_t, scene->row_count);
-    pencil->image = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    pencil->linked_pivot = DMB_ARENA_ARRAY(arena, uint32_t, linked_rows(scene));
+    pencil->room = DMB_ARENA_DOUBLES(arena, largest * largest);
+    pencil->image = DMB_ARENA_DOUBLES(arena, pencil->unknowns);
 }
 
 static void combine(size_t n, const double *K, double factor, const double *G, double *out)
@@ -35,16 +58,42 @@ static void shift(dmb_pencil *pencil, double factor)
     combine(layout->diag[layout->n], pencil->K.diagonal, factor, pencil->G.diagonal, pencil->work.diagonal);
     combine(link, pencil->K.lower, factor, pencil->G.lower, pencil->work.lower);
     combine(link, pencil->K.upper, factor, pencil->G.upper, pencil->work.upper);
+    combine(linked_values(pencil->scene), pencil->K.linked, factor, pencil->G.linked, pencil->work.linked);
 }
+
+static dmb_block_sparse sparse_of(const dmb_pencil *pencil, const dmb_pencil_matrix *A)
+{
+    const dmb_block_sparse matrix = {A->linked, pencil->linked_pivot, pencil->sim->linked_size};
+    return matrix;
+}
+
+/* Chains without joints as they are; the others by the factors of `work`. */
+static int count_shifted(dmb_pencil *pencil, uint32_t *negative)
+{
+    const dmb_scene *scene = pencil->scene;
+    *negative = 0;
+    for (uint32_t c = 0; c < scene->chain_count; c++)
+        if (!scene->chains[c].linked)
+            *negative += dmb_block_negative(&scene->layout, pencil->work.diagonal, pencil->work.lower,
+                                            pencil->work.upper, NULL, scene->chains[c].first, scene->chains[c].count);
+    if (scene->cluster_count == 0) return 1;
+    dmb_block_sparse matrix = sparse_of(pencil, &pencil->work);
+    if (dmb_block_sparse_factor(&scene->pattern, &matrix) >= 0) return 0;
+    *negative += dmb_block_sparse_negative(&scene->pattern, &matrix, pencil->room);
+    return 1;
+}
+
+/* A factor at which one block is singular before its turn, though the whole is not, is stepped aside from. */
+#define DMB_ASIDE 1e-13
+#define DMB_ASIDE_TRIES 8
 
 uint32_t dmb_pencil_count(dmb_pencil *pencil, double factor)
 {
-    const dmb_scene *scene = pencil->scene;
     uint32_t negative = 0;
-    shift(pencil, factor);
-    for (uint32_t c = 0; c < scene->chain_count; c++)
-        negative += dmb_block_negative(&scene->layout, pencil->work.diagonal, pencil->work.lower, pencil->work.upper,
-                                       NULL, scene->chains[c].first, scene->chains[c].count);
+    for (int k = 0; k < DMB_ASIDE_TRIES; k++) {
+        shift(pencil, factor * (1.0 + DMB_ASIDE * k));
+        if (count_shifted(pencil, &negative)) break;
+    }
     return negative;
 }
 
@@ -89,8 +138,14 @@ static void multiply(const dmb_pencil *pencil, const dmb_pencil_matrix *A, const
 {
     const dmb_scene *scene = pencil->scene;
     const dmb_block_matrix matrix = {A->diagonal, A->lower, A->upper, pencil->pivot};
+    memset(y, 0, pencil->unknowns * sizeof(double));
     for (uint32_t c = 0; c < scene->chain_count; c++)
-        dmb_block_multiply(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count, x, y);
+        if (!scene->chains[c].linked)
+            dmb_block_multiply(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count, x, y);
+    if (scene->cluster_count == 0) return;
+    const dmb_block_sparse linked = sparse_of(pencil, A);
+    dmb_block_sparse_multiply(&scene->pattern, &linked, pencil->sim->linked_row, x + scene->row_count,
+                              y + scene->row_count);
 }
 
 static int factor_shifted(dmb_pencil *pencil, double factor)
@@ -99,8 +154,12 @@ static int factor_shifted(dmb_pencil *pencil, double factor)
     dmb_block_matrix matrix = {pencil->work.diagonal, pencil->work.lower, pencil->work.upper, pencil->pivot};
     shift(pencil, factor);
     for (uint32_t c = 0; c < scene->chain_count; c++)
-        if (dmb_block_factor(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count) >= 0) return 0;
-    return 1;
+        if (!scene->chains[c].linked &&
+            dmb_block_factor(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count) >= 0)
+            return 0;
+    if (scene->cluster_count == 0) return 1;
+    dmb_block_sparse linked = sparse_of(pencil, &pencil->work);
+    return dmb_block_sparse_factor(&scene->pattern, &linked) < 0;
 }
 
 static void solve_shifted(const dmb_pencil *pencil, double *x)
@@ -108,13 +167,17 @@ static void solve_shifted(const dmb_pencil *pencil, double *x)
     const dmb_scene *scene = pencil->scene;
     const dmb_block_matrix matrix = {pencil->work.diagonal, pencil->work.lower, pencil->work.upper, pencil->pivot};
     for (uint32_t c = 0; c < scene->chain_count; c++)
-        dmb_block_solve(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count, x);
+        if (!scene->chains[c].linked)
+            dmb_block_solve(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count, x);
+    if (scene->cluster_count == 0) return;
+    const dmb_block_sparse linked = sparse_of(pencil, &pencil->work);
+    dmb_block_sparse_solve(&scene->pattern, &linked, pencil->sim->linked_row, x + scene->row_count);
 }
 
 /* Vectors of one factor are taken apart in x . G x, which is negative for factors > 0. */
 static void take_apart(dmb_pencil *pencil, const double *other, uint32_t others, double *x)
 {
-    const uint32_t rows = pencil->scene->row_count;
+    const uint32_t rows = pencil->unknowns;
     for (uint32_t k = 0; k < others; k++) {
         const double *y = other + (size_t)k * rows;
         multiply(pencil, &pencil->G, y, pencil->image);
@@ -130,16 +193,24 @@ static void normalise(uint32_t rows, double *x)
     for (uint32_t i = 0; i < rows && most > 0.0; i++) x[i] /= most;
 }
 
-/* Any vector with a part in the one sought; the same in every run. */
-static void begin(uint32_t rows, uint32_t others, double *x)
+static int is_linked(const dmb_scene *scene, uint32_t node)
 {
+    return scene->cluster_count > 0 && scene->node_block[node] != UINT32_MAX;
+}
+
+/* Any vector with a part in the one sought; the same in every run. */
+static void begin(const dmb_pencil *pencil, uint32_t others, double *x)
+{
+    const dmb_scene *scene = pencil->scene;
     uint64_t seed = 88172645463325252u + others;
-    for (uint32_t i = 0; i < rows; i++) {
+    for (uint32_t i = 0; i < pencil->unknowns; i++) {
         seed ^= seed << 13;
         seed ^= seed >> 7;
         seed ^= seed << 17;
         x[i] = (double)(seed >> 11) / 9007199254740992.0 - 0.5;
     }
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        if (is_linked(scene, i)) memset(x + scene->layout.row[i], 0, scene->layout.size[i] * sizeof(double));
 }
 
 /* So close to the factor one iteration makes 7 digits of what is near, and one less of what is a hundredth away. */
@@ -148,8 +219,8 @@ static void begin(uint32_t rows, uint32_t others, double *x)
 
 double dmb_pencil_vector(dmb_pencil *pencil, double factor, const double *other, uint32_t others, double *x)
 {
-    const uint32_t rows = pencil->scene->row_count;
-    begin(rows, others, x);
+    const uint32_t rows = pencil->unknowns;
+    begin(pencil, others, x);
     if (!factor_shifted(pencil, factor * (1.0 - DMB_PENCIL_OFFSET))) return factor;
     for (int k = 0; k < DMB_PENCIL_ITERATIONS; k++) {
         take_apart(pencil, other, others, x);

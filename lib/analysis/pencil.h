@@ -1,6 +1,8 @@
-/* Symmetric pencil K + factor G of block-tridiagonal matrices, K positive definite: its critical factors > 0, counted
- * by Sylvester's law of inertia, found by bisection, and their vectors by inverse iteration (Parlett, The symmetric
- * eigenvalue problem, 3.3 and 4.2). */
+/* Symmetric pencil K + factor G of block-tridiagonal matrices, and block-sparse ones where joints connect chains, K
+ * positive definite: its critical factors > 0, counted by Sylvester's law of inertia, found by bisection, and their
+ * vectors by inverse iteration (Parlett, The symmetric eigenvalue problem, 3.3 and 4.2).
+ *
+ * A vector has the rows of the scene, 0 in those of linked chains, and then the reduced coordinates of these. */
 #ifndef DMB_ANALYSIS_PENCIL_H
 #define DMB_ANALYSIS_PENCIL_H
 
@@ -9,22 +11,29 @@
 
 typedef struct dmb_pencil_matrix {
     double *diagonal, *lower, *upper; /* storage of the scene's layout */
+    double *linked;                   /* values of the scene's pattern, reduced as in system/linked.h; none without joints */
 } dmb_pencil_matrix;
 
 typedef struct dmb_pencil {
     const dmb_scene *scene;
+    const dmb_sim *sim; /* its linked_size and linked_row; the caller's to set */
     dmb_pencil_matrix K, G, work;
-    uint8_t *pivot; /* (rows) */
-    double *image;  /* (rows) G x */
+    uint32_t unknowns;      /* length of a vector */
+    uint32_t reserved;
+    uint8_t *pivot;         /* (rows) */
+    uint32_t *linked_pivot; /* (rows of the pattern) */
+    double *room;           /* (square of the largest cluster) */
+    double *image;          /* (unknowns) G x */
 } dmb_pencil;
 
+uint32_t dmb_pencil_unknowns(const dmb_scene *scene);
 void dmb_pencil_lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_pencil *pencil);
 /* Factors in 0 .. factor. */
 uint32_t dmb_pencil_count(dmb_pencil *pencil, double factor);
 /* The factor number k = 0, 1 .. counted from 0 upwards to a relative `tolerance`, the search beginning at `guess` > 0;
  * infinite if it is beyond `most`. */
 double dmb_pencil_factor(dmb_pencil *pencil, uint32_t k, double guess, double most, double tolerance);
-/* Vector of a critical factor into x (rows), apart from `others` earlier ones of the same factor, shape (others, rows).
+/* Vector of a critical factor into x (unknowns), apart from `others` earlier ones of the same factor, (others, unknowns).
  * Returns the factor once more, as Rayleigh's quotient of the vector. */
 double dmb_pencil_vector(dmb_pencil *pencil, double factor, const double *other, uint32_t others, double *x);
 

@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "analysis/static_state.h"
+#include "analysis/stiffness.h"
 #include "math/se3.h"
 #include "system/cluster.h"
 #include "system/joint_state.h"
@@ -29,9 +30,8 @@ int32_t dmb_static_settle(dmb_static_search *search)
 }
 
 /* The sum in `increment` follows the turns. */
-int32_t dmb_static_move(dmb_static_search *search, const double *correction, double factor)
+void dmb_static_displace(dmb_sim *sim, const double *correction, double factor)
 {
-    dmb_sim *sim = search->sim;
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->row_count; i++) sim->increment[i] += factor * correction[i];
     for (uint32_t i = 0; i < scene->node_count; i++) {
@@ -45,7 +45,12 @@ int32_t dmb_static_move(dmb_static_search *search, const double *correction, dou
             sim->trial.turn[i] += z[1];
         }
     }
-    return scene->cluster_count ? dmb_static_settle(search) : DMB_OK;
+}
+
+int32_t dmb_static_move(dmb_static_search *search, const double *correction, double factor)
+{
+    dmb_static_displace(search->sim, correction, factor);
+    return search->sim->scene->cluster_count ? dmb_static_settle(search) : DMB_OK;
 }
 
 static void scale_correction(dmb_sim *sim, double factor)
@@ -86,17 +91,24 @@ static int32_t evaluate(dmb_static_search *search)
     return status < 0 ? status : judge(search);
 }
 
+/* What the factors tell of a part that nothing holds. */
+static int32_t look_at_factors(dmb_static_search *search, int64_t bad, const dmb_block_weakest *weakest)
+{
+    if (search->iterations == 0 && weakest->ratio < DMB_LOOSE_PIVOT) {
+        search->loose = 1;
+        search->loose_block = weakest->block;
+    }
+    search->block = (uint32_t)bad;
+    return bad >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
+}
+
 static int32_t solve(dmb_static_search *search)
 {
     dmb_system_iteration_matrix(&search->evaluation);
     dmb_block_weakest weakest;
     const int64_t bad = dmb_factor_stiffness(search->sim, &weakest);
-    if (search->iterations == 0 && weakest.ratio < DMB_LOOSE_PIVOT) {
-        search->loose = 1;
-        search->loose_block = weakest.block;
-    }
-    search->block = (uint32_t)bad;
-    if (bad >= 0) return DMB_ERR_SINGULAR;
+    const int32_t status = look_at_factors(search, bad, &weakest);
+    if (status < 0) return status;
     dmb_solve_correction(search->sim);
     search->iterations++;
     return DMB_OK;
@@ -161,6 +173,34 @@ static void add_pseudo_mass(dmb_sim *sim, double rate)
     }
 }
 
+/* Far from equilibrium a correction that turns parts far leaves elements compressed, and what stands on its head is
+ * unstable anyway: K + D/tau^2 is then indefinite, and its correction leads uphill or, near singular, anywhere. Pseudo
+ * mass is added for this correction alone until no eigenvalue is negative; the next one begins with this much more. */
+#define DMB_HEAVIER 4.0
+#define DMB_HEAVIER_TRIES 12
+#define DMB_HEAVIER_KEPT 2.0
+
+/* `rate` is where it begins, and the next one. */
+static int32_t solve_downhill(dmb_static_search *search, double *rate)
+{
+    dmb_block_weakest weakest;
+    double taken = *rate;
+    int32_t negative = 1;
+    for (int k = 0; k < DMB_HEAVIER_TRIES; k++, taken *= DMB_HEAVIER) {
+        int32_t status = k > 0 ? dmb_system_evaluate(&search->evaluation) : DMB_OK; /* the factors are in its place */
+        if (status < 0) return status;
+        add_pseudo_mass(search->sim, taken);
+        dmb_system_iteration_matrix(&search->evaluation);
+        status = look_at_factors(search, dmb_stiffness_factor(search->sim, &weakest, &negative), &weakest);
+        if (status < 0) return status;
+        if (negative == 0) break;
+    }
+    dmb_solve_correction(search->sim);
+    search->iterations++;
+    *rate = fmin(taken, DMB_HEAVIER_KEPT * *rate);
+    return DMB_OK;
+}
+
 /* [m] that one correction may move a node towards the wall: half the smallest clearance; infinite without a wall. */
 static double longest_move(const dmb_scene *scene)
 {
@@ -212,32 +252,55 @@ static double reach(const dmb_static_search *search, double limit)
     return search->caution * fmax(size.turn / DMB_LONGEST_TURN, apart);
 }
 
-/* Corrections this small a part of what they may be only creep: the next step of pseudo time is longer. */
-#define DMB_CREEP 0.25
+/* The residual's work along the last correction, over that of the one before it: -1 to 0 where the correction led
+ * downhill all the way. Below DOWNHILL pseudo time goes on in longer steps, beyond OVERSHOT in shorter ones. */
+#define DMB_DOWNHILL 0.2
+#define DMB_OVERSHOT 0.8
+#define DMB_OVERSHOT_FAR 2.0
+
+/* What the rate of the next correction is of the last one's: the residual's share where that tells more (switched
+ * evolution relaxation), which it does not while parts still travel. */
+static double change_of_rate(double work_ratio, double residual_ratio)
+{
+    if (work_ratio > DMB_OVERSHOT_FAR) return 8.0;
+    if (work_ratio > DMB_OVERSHOT) return 3.0;
+    return work_ratio < DMB_DOWNHILL ? fmin(fmax(residual_ratio, 0.1), 0.3) : 1.0;
+}
+
+/* Work of the residual in `correction` along a direction. */
+static double work_along(const dmb_sim *sim, const double *direction)
+{
+    double work = 0.0;
+    for (uint32_t i = 0; i < sim->scene->row_count; i++)
+        work += sim->scene->solved_row[i] ? direction[i] * sim->correction[i] : 0.0;
+    return work;
+}
 
 int32_t dmb_static_relaxation(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
+    const size_t bytes = sim->scene->row_count * sizeof(double);
     const double limit = longest_move(sim->scene);
-    double rate = 1e4, last = 1.0;
+    double *direction = sim->trial.acceleration, rate = 1e4, last = 1.0, work = 0.0; /* at rest: room for it */
     search->evaluation.extrapolated = 0;
     search->moved = (double)INFINITY;
     for (uint32_t k = 0;; k++) {
         int32_t status = evaluate(search);
         if (status <= 0) return status;
         if (k >= 20 * search->options->max_iterations) return DMB_ERR_NO_CONVERGENCE;
-        if (k > 0) rate *= fmin(fmax(search->residual / last, 0.2), 2.0); /* switched evolution relaxation */
+        if (k > 0) rate *= change_of_rate(work_along(sim, direction) / fabs(work), search->residual / last);
         last = search->residual;
-        add_pseudo_mass(sim, rate);
-        status = solve(search);
+        memcpy(direction, sim->correction, bytes);
+        status = solve_downhill(search, &rate);
         if (status < 0) return status;
         search->moved = largest_move(sim) / sim->scene->length_scale;
         const double part = reach(search, limit);
         if (part > 1.0) scale_correction(sim, 1.0 / part);
-        if (part < DMB_CREEP) rate *= 0.5;
-        dmb_system_extrapolate_stress(sim, sim->correction);
+        work = work_along(sim, direction);
+        memcpy(direction, sim->correction, bytes);
+        dmb_system_extrapolate_stress(sim, direction);
         search->evaluation.extrapolated = 1;
-        status = dmb_static_move(search, sim->correction, 1.0);
+        status = dmb_static_move(search, direction, 1.0);
         if (status < 0) return status;
     }
 }

@@ -48,7 +48,8 @@ void dmb_static_return(dmb_sim *sim);
 /* Shortens the last move, by `direction` (row_count), which ended where the residual was just evaluated; `before` is
  * direction . residual at its start. Leaves the residual and tangent of where it ends. */
 int32_t dmb_static_line_search(dmb_static_search *search, const double *direction, double before);
-/* The trial displaced by body-frame increments, closed at its joints. */
+/* The trial displaced by body-frame increments: as it comes, and closed at its joints. */
+void dmb_static_displace(dmb_sim *sim, const double *correction, double factor);
 int32_t dmb_static_move(dmb_static_search *search, const double *correction, double factor);
 /* Newton with the extrapolated element stress at the search's load factor. DMB_OK, or why it failed. */
 int32_t dmb_static_newton(dmb_static_search *search);

@@ -1,7 +1,6 @@
 #include "analysis/stiffness.h"
 
 #include "math/block_inertia.h"
-#include "math/dense_inertia.h"
 #include "system/owner.h"
 #include "system/solve.h"
 
@@ -44,21 +43,11 @@ static uint32_t negative_of_chains(dmb_sim *sim)
     return negative;
 }
 
-/* Of what the sparse elimination has left of each block when its turn came (Haynsworth 1968): its factors multiplied
- * out, those of clusters into room that their reduction is done with. */
+/* The room is that of the largest cluster, whose reduction is done with. */
 static uint32_t negative_of_blocks(const dmb_sim *sim)
 {
-    const dmb_scene *scene = sim->scene;
-    const dmb_block_pattern *pattern = &scene->pattern;
-    uint32_t negative = 0;
-    for (uint32_t b = 0; b < scene->block_count; b++) {
-        double small[36];
-        double *A = b < scene->cluster_count ? sim->cluster_full + scene->clusters[b].full : small;
-        const uint32_t at = pattern->position[b], n = sim->linked_size[b];
-        dmb_dense_from_factors(n, sim->linked_value + pattern->diagonal[at], sim->linked_pivot + pattern->pivot[at], A);
-        negative += dmb_dense_negative(n, A);
-    }
-    return negative;
+    const dmb_block_sparse factored = {sim->linked_value, sim->linked_pivot, sim->linked_size};
+    return dmb_block_sparse_negative(&sim->scene->pattern, &factored, sim->cluster_full);
 }
 
 int64_t dmb_stiffness_factor(dmb_sim *sim, dmb_block_weakest *weakest, int32_t *negative)

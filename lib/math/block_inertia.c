@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "math/dense_inertia.h"
+
 typedef struct front {
     double a[2 * DMB_BLOCK_SIZE_MAX][2 * DMB_BLOCK_SIZE_MAX];
     int n, rows; /* of the block that is eliminated, and in all */
@@ -120,4 +122,17 @@ uint32_t dmb_block_negative(const dmb_block_layout *layout, const double *diagon
         shift(&f);
     }
     return negative + eliminate(&f);
+}
+
+uint32_t dmb_block_sparse_negative(const dmb_block_pattern *pattern, const dmb_block_sparse *factored, double *room)
+{
+    double small[DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX];
+    uint32_t negative = 0;
+    for (uint32_t k = 0; k < pattern->n; k++) {
+        const uint32_t n = factored->size[pattern->order[k]];
+        double *A = n <= DMB_BLOCK_SIZE_MAX ? small : room;
+        dmb_dense_from_factors(n, factored->values + pattern->diagonal[k], factored->pivot + pattern->pivot[k], A);
+        negative += dmb_dense_negative(n, A);
+    }
+    return negative;
 }

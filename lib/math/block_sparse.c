@@ -264,3 +264,26 @@ void dmb_block_sparse_solve(const dmb_block_pattern *pattern, const dmb_block_sp
     for (uint32_t k = pattern->n; k-- > 0;)
         if (matrix->size[pattern->order[k]] > 0) solve_up(pattern, matrix, row, k, rhs);
 }
+
+/* y += A x */
+static void add_product(uint32_t rows, uint32_t columns, const double *A, const double *x, double *y)
+{
+    for (uint32_t i = 0; i < rows; i++)
+        for (uint32_t j = 0; j < columns; j++) y[i] += A[(size_t)columns * i + j] * x[j];
+}
+
+void dmb_block_sparse_multiply(const dmb_block_pattern *pattern, const dmb_block_sparse *matrix, const uint32_t *row,
+                               const double *x, double *y)
+{
+    for (uint32_t i = 0; i < pattern->n; i++)
+        for (uint32_t r = 0; r < matrix->size[i]; r++) y[row[i] + r] = 0.0;
+    for (uint32_t k = 0; k < pattern->n; k++) {
+        const uint32_t i = pattern->order[k], n = matrix->size[i];
+        add_product(n, n, matrix->values + pattern->diagonal[k], x + row[i], y + row[i]);
+        for (uint32_t e = pattern->column[k]; e < pattern->column[k + 1]; e++) {
+            const uint32_t j = pattern->order[pattern->later[e]], m = matrix->size[j];
+            add_product(n, m, matrix->values + pattern->upper[e], x + row[j], y + row[i]);
+            add_product(m, n, matrix->values + pattern->lower[e], x + row[i], y + row[j]);
+        }
+    }
+}

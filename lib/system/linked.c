@@ -268,7 +268,7 @@ static uint32_t node_of_block(const dmb_scene *scene, uint32_t block)
     return 0;
 }
 
-int64_t dmb_linked_factor(dmb_sim *sim, dmb_block_weakest *weakest)
+void dmb_linked_assemble(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     dmb_block_sparse matrix = matrix_of(sim);
@@ -278,6 +278,13 @@ int64_t dmb_linked_factor(dmb_sim *sim, dmb_block_weakest *weakest)
     assemble_nodes(sim, &matrix);
     assemble_clusters(sim, &matrix);
     assemble_links(sim);
+}
+
+int64_t dmb_linked_factor(dmb_sim *sim, dmb_block_weakest *weakest)
+{
+    const dmb_scene *scene = sim->scene;
+    dmb_block_sparse matrix = matrix_of(sim);
+    dmb_linked_assemble(sim);
     const int64_t bad = weakest != NULL ? dmb_block_sparse_factor_watched(&scene->pattern, &matrix, weakest)
                                         : dmb_block_sparse_factor(&scene->pattern, &matrix);
     if (weakest != NULL) weakest->block = node_of_block(scene, weakest->block);
@@ -320,6 +327,12 @@ static void move_multipliers(dmb_sim *sim)
     }
 }
 
+void dmb_linked_expand(dmb_sim *sim)
+{
+    for (uint32_t i = 0; i < sim->scene->node_count; i++)
+        if (sim->scene->node_block[i] != UINT32_MAX) scatter_node(sim, i);
+}
+
 void dmb_linked_solve(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -328,7 +341,6 @@ void dmb_linked_solve(dmb_sim *sim)
     for (uint32_t i = 0; i < scene->node_count; i++)
         if (scene->node_block[i] != UINT32_MAX) gather_node(sim, i);
     dmb_block_sparse_solve(&scene->pattern, &matrix, sim->linked_row, sim->linked_solution);
-    for (uint32_t i = 0; i < scene->node_count; i++)
-        if (scene->node_block[i] != UINT32_MAX) scatter_node(sim, i);
+    dmb_linked_expand(sim);
     if (is_full(sim)) move_multipliers(sim);
 }

@@ -10,11 +10,15 @@
 
 #include "system/evaluation.h"
 
-/* Assembles from the iteration matrix, and factors. Node of a singular block, or -1. weakest may be NULL; its block is a
+/* Assembles the reduced system from the iteration matrix. */
+void dmb_linked_assemble(dmb_sim *sim);
+/* Assembles, and factors. Node of a singular block, or -1. weakest may be NULL; its block is a
  * node too. */
 int64_t dmb_linked_factor(dmb_sim *sim, dmb_block_weakest *weakest);
 /* Residual in, correction out, in the rows of linked chains of `correction`; multipliers of the trial move too where they
  * are solved for. */
 void dmb_linked_solve(dmb_sim *sim);
+/* z = R y: linked_solution into the rows of linked chains of `correction`. */
+void dmb_linked_expand(dmb_sim *sim);
 
 #endif

@@ -1,8 +1,8 @@
 /* How robust: 1000 random scenes out of a Latin hypercube (stability_draw.h), each with its static start and 0.2 s.
- * usage: stability [second] [SEED [NUMBER [STEP]]]   (default: the first set, seed 1, all scenes; NUMBER: that scene
- * alone, step by step; STEP [s] takes the place of the one drawn). Prints a line for every failure, and one of counts.
- * tests/bench/run calls it. In the second set each run is also taken up from a snapshot by another sim, and has to come
- * out with the same hash. */
+ * usage: stability [second] [statics] [SEED [NUMBER [STEP]]]   (default: the first set, seed 1, all scenes; statics:
+ * the static starts alone; NUMBER: that scene alone, step by step; STEP [s] takes the place of the one drawn). Prints a
+ * line for every failure, and one of counts. tests/bench/run calls it. In the second set each run is also taken up from
+ * a snapshot by another sim, and has to come out with the same hash. */
 #include "stability_scene.h"
 
 #include <stdlib.h>
@@ -55,7 +55,7 @@ static struct counts {
     uint32_t unbalanced; /* finished with more than half of the energy unexplained */
     uint32_t newton, relaxed, static_failed, static_none;
     uint32_t worst, worst_static;
-    uint64_t steps, iterations, rejected, cut, limited, halved;
+    uint64_t steps, iterations, rejected, cut, limited, halved, static_iterations;
     double worst_seconds, worst_balance;
     uint32_t slowest, worst_balanced; /* numbers of scenes */
     double balance[SCENES];           /* [-] of the first `finished` */
@@ -108,6 +108,7 @@ static int32_t settle(trial *t)
         ++counts.newton;
     else
         ++counts.relaxed;
+    counts.static_iterations += report.iterations;
     if (report.iterations > counts.worst_static) counts.worst_static = report.iterations;
     if (t->verbose)
         printf("static=%s method=%d iterations=%u residual=%.2e move_mm=%.3g\n", dmb_status_name(t->status),
@@ -250,9 +251,17 @@ static void start(trial *t, unsigned long long seed)
         print_failure(t, seed);
 }
 
-static void go(trial *t, unsigned long long seed)
+typedef struct choice {
+    int second, statics; /* set; static starts alone */
+    unsigned long long seed;
+    int verbose;
+    double step; /* [s] in place of the one drawn; 0: as drawn */
+} choice;
+
+static void go(trial *t, const choice *c)
 {
-    start(t, seed);
+    start(t, c->seed);
+    if (t->sim && c->statics) return;
     if (t->sim) run(t);
     if (t->sim && t->status >= 0) count_finished(t);
     if (t->snapshot && t->status >= 0) run_again(t);
@@ -260,15 +269,8 @@ static void go(trial *t, unsigned long long seed)
     ++counts.failed;
     counts.not_finite += strcmp(t->stage, "finite") == 0;
     counts.unequal += strcmp(t->stage, "unequal") == 0;
-    print_failure(t, seed);
+    print_failure(t, c->seed);
 }
-
-typedef struct choice {
-    int second; /* set */
-    unsigned long long seed;
-    int verbose;
-    double step; /* [s] in place of the one drawn; 0: as drawn */
-} choice;
 
 static void try_scene(uint32_t number, const choice *c)
 {
@@ -280,7 +282,7 @@ static void try_scene(uint32_t number, const choice *c)
     t.verbose = c->verbose;
     if (c->step > 0.0) t.d->step = c->step;
     if (c->verbose) print_drawn(t.d);
-    go(&t, c->seed);
+    go(&t, c);
     free(t.snapshot);
     free(t.undo);
     dmb_sim_destroy(&t.sim);
@@ -311,9 +313,10 @@ static void print_summary(const choice *c)
         "scene=S set=%d seed=%llu scenes=%d finished=%u retried=%u failed=%u not_finite=%u unequal=%u unbalanced=%u ",
         c->second ? 2 : 1, c->seed, SCENES, (unsigned)counts.finished, (unsigned)counts.retried,
         (unsigned)counts.failed, (unsigned)counts.not_finite, (unsigned)counts.unequal, (unsigned)counts.unbalanced);
-    printf("static_newton=%u static_relaxed=%u static_failed=%u static_none=%u static_worst_iterations=%u ",
+    printf("static_newton=%u static_relaxed=%u static_failed=%u static_none=%u static_iterations=%llu "
+           "static_worst_iterations=%u ",
            (unsigned)counts.newton, (unsigned)counts.relaxed, (unsigned)counts.static_failed,
-           (unsigned)counts.static_none, (unsigned)counts.worst_static);
+           (unsigned)counts.static_none, (unsigned long long)counts.static_iterations, (unsigned)counts.worst_static);
     printf("steps=%llu cut=%llu rejected=%llu limited=%llu halved=%llu iterations=%.3g worst_iterations=%u ",
            (unsigned long long)counts.steps, (unsigned long long)counts.cut, (unsigned long long)counts.rejected,
            (unsigned long long)counts.limited, (unsigned long long)counts.halved,
@@ -326,15 +329,16 @@ static void print_summary(const choice *c)
 
 int main(int count, char **words)
 {
-    choice c = {0, 1, 0, 0.0};
+    choice c = {.seed = 1};
     if (count > 1 && strcmp(words[1], "second") == 0) c.second = 1, --count, ++words;
+    if (count > 1 && strcmp(words[1], "statics") == 0) c.statics = 1, --count, ++words;
     if (count > 1) c.seed = strtoull(words[1], NULL, 10);
     if (count > 3) c.step = strtod(words[3], NULL);
     draw_samples(c.seed);
     if (count > 2) {
         const unsigned long number = strtoul(words[2], NULL, 10);
         if (number >= SCENES)
-            return fputs("usage: stability [second] [SEED [NUMBER [STEP]]], NUMBER 0 .. 999\n", stderr), 2;
+            return fputs("usage: stability [second] [statics] [SEED [NUMBER [STEP]]], NUMBER 0 .. 999\n", stderr), 2;
         c.verbose = 1;
         try_scene((uint32_t)number, &c);
         return counts.failed > 0 || counts.static_failed > 0;

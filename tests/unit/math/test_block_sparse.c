@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "base/allocator.h"
+#include "math/block_inertia.h"
 #include "math/block_sparse.h"
 
 #define EDGES_MAX 4000
@@ -834,10 +835,79 @@ static int set_up(void **state)
     return 0;
 }
 
+/* A x, and what solving with A makes of it again. */
+static void multiplies(void **state)
+{
+    (void)state;
+    static block_system s;
+    random_stream r = {71};
+    for (size_t g = 0; g < GRAPH_COUNT; g++)
+        for (int kind = 0; kind < 3; kind++) {
+            set_graph(&s, 30, graphs[g], &r);
+            draw_capacities(&s, kind, &r);
+            make_system(&s);
+            draw_sizes(&s, kind, &r);
+            draw_values(&s, false, &r);
+            double *x = numbers(s.rows, sizeof(double)), *y = numbers(s.rows, sizeof(double));
+            draw_vector(&r, (int)s.rows, x);
+            memset(y, 1, s.rows * sizeof(double));
+            dmb_block_sparse_multiply(&s.pattern, &s.matrix, s.row, x, y);
+            assert_int_equal(dmb_block_sparse_factor(&s.pattern, &s.matrix), -1);
+            dmb_block_sparse_solve(&s.pattern, &s.matrix, s.row, y);
+            CHECK_BELOW(max_difference((int)s.rows, x, y), 1e-12);
+            free(x);
+            free(y);
+            free_system(&s);
+        }
+}
+
+static uint32_t negative_by_lapack(const block_system *s)
+{
+    const lapack_int N = (lapack_int)s->rows;
+    dense_matrix dense = {s->rows, numbers((size_t)s->rows * s->rows, sizeof(double))};
+    double *values = numbers(s->rows, sizeof(double));
+    uint32_t negative = 0;
+    for_each_value(s, put_dense, &dense);
+    if (N > 0) assert_int_equal(LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'N', 'U', N, dense.A, N, values), 0);
+    for (uint32_t i = 0; i < s->rows; i++) negative += values[i] < 0.0;
+    free(dense.A);
+    free(values);
+    return negative;
+}
+
+/* Symmetric matrices whose diagonal blocks have any sign: as many negative eigenvalues as LAPACK finds. */
+static void counts_negative_eigenvalues(void **state)
+{
+    (void)state;
+    static block_system s;
+    static double room[12 * 12];
+    random_stream r = {72};
+    for (size_t g = 0; g < GRAPH_COUNT; g++)
+        for (int t = 0; t < 30; t++) {
+            set_graph(&s, 12, graphs[g], &r);
+            shuffle_names(&s, &r);
+            draw_capacities(&s, t % 3, &r);
+            make_system(&s);
+            draw_sizes(&s, t % 3, &r);
+            draw_values(&s, true, &r);
+            for (uint32_t i = 0; i < s.n; i++) {
+                double *D = dmb_block_sparse_diagonal(&s.pattern, &s.matrix, i);
+                const double factor = draw(&r) < 0.0 ? -0.3 : 0.3;
+                for (uint32_t k = 0; k < s.size[i] * s.size[i]; k++) D[k] *= factor;
+            }
+            memcpy(s.fresh, s.matrix.values, sizeof(double) * s.pattern.values);
+            assert_int_equal(dmb_block_sparse_factor(&s.pattern, &s.matrix), -1);
+            assert_int_equal(dmb_block_sparse_negative(&s.pattern, &s.matrix, room), negative_by_lapack(&s));
+            free_system(&s);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(agrees_with_lapack),
+        cmocka_unit_test(multiplies),
+        cmocka_unit_test(counts_negative_eigenvalues),
         cmocka_unit_test(agrees_with_cholmod),
         cmocka_unit_test(sizes_change_on_one_pattern),
         cmocka_unit_test(large_blocks),
