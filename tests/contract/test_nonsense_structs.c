@@ -229,18 +229,13 @@ static int32_t singular_is_fine(int32_t status)
     return status == DMB_ERR_SINGULAR ? DMB_OK : status;
 }
 CALL(static_options, singular_is_fine(dmb_analysis_static(scene.sim, p, NULL)))
-/* The whole scene has joints, whose stiffness is not counted. */
-static int32_t unsupported_is_fine(int32_t status)
-{
-    return status == DMB_ERR_UNSUPPORTED ? DMB_OK : status;
-}
-static dmb_buckling *no_buckling;
-CALL(buckling_options, unsupported_is_fine(dmb_analysis_buckling(scene.sim, p, &no_buckling)))
 /* The whole scene is in no equilibrium. */
 static int32_t order_is_fine(int32_t status)
 {
     return status == DMB_ERR_ORDER || status == DMB_ERR_SINGULAR ? DMB_OK : status;
 }
+static dmb_buckling *no_buckling;
+CALL(buckling_options, order_is_fine(dmb_analysis_buckling(scene.sim, p, &no_buckling)))
 CALL(path_options, order_is_fine(dmb_analysis_path(scene.sim, p, NULL)))
 CALL(path_report, order_is_fine(dmb_analysis_path(scene.sim, NULL, p)))
 CALL(static_report, singular_is_fine(dmb_analysis_static(scene.sim, NULL, p)))
