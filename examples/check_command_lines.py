@@ -13,7 +13,7 @@ import tempfile
 OPTIONS = {
     "gas_drainage_rig": ["--system", "--couple", "--pipes", "--length", "--elements", "--step", "--time", "--drop",
                          "--quick", "--output", "--rate", "--quiet", "--bit", "--seed"],
-    "reference_study": ["--output", "--threads", "--short"],
+    "reference_study": ["--output", "--threads", "--step", "--short"],
     "safe_speeds": ["--output", "--threads", "--depth"],
 }
 NONSENSE = {
@@ -22,7 +22,7 @@ NONSENSE = {
                          ["--system", "wooden"], ["--couple", "x"], ["--elements", "0"], ["--bit", "95"],
                          ["--rate", "0"], ["--seed", "-1"]],
     "reference_study": [["--threads", "0"], ["--threads", "-2"], ["--threads", "2x"], ["--threads", "65"],
-                        ["--threads", "99999999999999999999"]],
+                        ["--threads", "99999999999999999999"], ["--step", "0"], ["--step", "1"], ["--step", "nan"]],
     "safe_speeds": [["--threads", "0"], ["--threads", "two"], ["--depth", "0"], ["--depth", "-5"],
                     ["--depth", "5000"]],
 }

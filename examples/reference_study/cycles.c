@@ -10,7 +10,7 @@
 /* Stages in which head and string move steadily: drill, pull out. */
 static const int driven[STUDY_DRIVEN] = {1, 5};
 
-void study_runs_describe(study_run runs[STUDY_RUNS])
+void study_runs_describe(study_run runs[STUDY_RUNS], double step)
 {
     static const rig_variant variants[STUDY_RUNS] = {
         [STUDY_RIGID] = {DMB_PIPE_RIGID, RIG_VIBRATION},
@@ -23,6 +23,7 @@ void study_runs_describe(study_run runs[STUDY_RUNS])
     for (int i = 0; i < STUDY_RUNS; ++i) {
         runs[i].options = rig_options_default();
         runs[i].options.quiet = 1;
+        runs[i].options.step = step;
         runs[i].variant = variants[i];
         runs[i].options.dropped = i >= STUDY_RIGID_DROPPED;
         if (runs[i].options.dropped) runs[i].options.end = DROP_END;
@@ -167,7 +168,7 @@ void study_runs_print(const study_run runs[STUDY_RUNS])
         "rigid, friction and vibration",    "flexible, contact only",       "flexible, friction",
         "flexible, friction and vibration", "rigid, dropped from the axis", "flexible, dropped from the axis"};
     const uint32_t pipes = runs->options.pipes;
-    printf("The drilling cycle of %g s in time\n", runs->options.end);
+    printf("The drilling cycle of %g s in time, with steps of %g ms\n", runs->options.end, 1e3 * runs->options.step);
     printf("                                     mean height, mm    Z speed, mm/s               jumps a second\n"
            "                                    pipe 1      bit   pipe 1  pipe %-3u pipe %-3u  pipe 1  pipe %-3u pipe "
            "%u\n",

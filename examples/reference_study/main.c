@@ -69,7 +69,7 @@ int main(int count, char **words)
     if (options.output != NULL && rig_make_folder(options.output) != 0) return perror(options.output), EXIT_FAILURE;
     results.timed = !options.brief;
     study_sets_describe(results.sets);
-    study_runs_describe(results.runs);
+    study_runs_describe(results.runs, options.step);
     work(&results, options.threads);
 
     int bad = any_failed(&results);

@@ -4,6 +4,7 @@
 
 typedef struct study_options {
     const char *output; /* folder for tables; NULL: none */
+    double step;        /* [s] of the drilling cycle in time */
     int threads;
     int brief; /* only the claims, without the runs in time */
 } study_options;

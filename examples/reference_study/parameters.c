@@ -3,6 +3,8 @@
 
 #include "study.h"
 
+enum { QUANTITIES = 9 };
+
 static const struct {
     const char *title, *name; /* of the report, of the table */
     int count;
@@ -28,6 +30,7 @@ static study_scene scene_of(int set, double value)
     case STUDY_PIPE_LENGTHS:
         scene.pipes = (uint32_t)lround(100.0 / value);
         scene.pipe.length = value;
+        scene.pipe.elements = (uint32_t)ceil(value); /* the wall touches nodes: no less often than with pipes of 1 m */
         break;
     case STUDY_ELEMENTS: scene.pipe.elements = (uint32_t)value; break;
     case STUDY_FRICTIONS:
@@ -54,18 +57,19 @@ void study_sets_describe(study_set sets[STUDY_SETS])
 
 /* ---- One point --------------------------------------------------------------------------------------------------- */
 
-/* How it lies: the deepest of the ends and middles of its pipes, and the first that is at the wall. */
+/* How it lies, looked at every half metre: the deepest place, and the first that is at the wall. */
 static int32_t look_at_rest(study_point *p, const study_string *s)
 {
-    const double clearance = study_clearance(&p->scene);
+    const double clearance = study_clearance(&p->scene), length = p->scene.pipe.length;
+    const int places = (int)lround(2.0 * p->scene.pipes * length);
     p->touch = (double)NAN;
-    for (uint32_t half = 1; half <= 2 * p->scene.pipes; ++half) {
+    for (int i = 1; i <= places; ++i) {
+        const uint32_t pipe = (uint32_t)(ceil(0.5 * i / length) - 1.0); /* the end of one rather than the next */
         dmb_pose pose = dmb_pose_default();
-        const int32_t status =
-            dmb_query_pose(s->sim, dmb_station(s->string, (half - 1) / 2, half % 2 == 1 ? 0.5 : 1.0), &pose);
+        const int32_t status = dmb_query_pose(s->sim, dmb_station(s->string, pipe, 0.5 * i / length - pipe), &pose);
         if (status < 0) return status;
         p->sag = fmax(p->sag, -pose.position[2]);
-        if (isnan(p->touch) && pose.position[2] <= -clearance) p->touch = 0.5 * half * p->scene.pipe.length;
+        if (isnan(p->touch) && pose.position[2] <= -clearance) p->touch = 0.5 * i;
     }
     return DMB_OK;
 }
@@ -187,6 +191,29 @@ static void print_point(const study_point *p)
     printf("\n");
 }
 
+/* What moves what: the largest over the smallest of each quantity in a study. */
+static void print_ranges(const study_set sets[STUDY_SETS])
+{
+    printf(
+        "  largest over smallest of each, in each study\n"
+        "                               bending  around   along  1st on  torque  thrust    push buckling  largest\n");
+    for (int i = 0; i < STUDY_SETS; ++i) {
+        double low[QUANTITIES], high[QUANTITIES];
+        for (int k = 0; k < sets[i].count; ++k) {
+            const study_point *p = sets[i].point + k;
+            const double values[QUANTITIES] = {p->bending[0], p->torsional, p->axial,    p->on_wall[0], p->torque,
+                                               p->thrust,     p->push,      p->buckling, p->amplitude};
+            for (int n = 0; n < QUANTITIES; ++n) {
+                low[n] = k == 0 ? values[n] : fmin(low[n], values[n]);
+                high[n] = k == 0 ? values[n] : fmax(high[n], values[n]);
+            }
+        }
+        printf("  %-27s", sets_asked[i].name);
+        for (int n = 0; n < QUANTITIES; ++n) printf(" %*.3f", n < 7 ? 7 : 8, high[n] / low[n]);
+        printf("\n");
+    }
+}
+
 void study_sets_print(const study_set sets[STUDY_SETS])
 {
     printf(
@@ -206,6 +233,7 @@ void study_sets_print(const study_set sets[STUDY_SETS])
         printf("  %s\n", sets_asked[i].title);
         for (int k = 0; k < sets[i].count; ++k) print_point(sets[i].point + k);
     }
+    print_ranges(sets);
     printf("\n");
 }
 

@@ -178,7 +178,7 @@ typedef struct study_run {
     double swing[STUDY_DRIVEN][STUDY_WINDOWS];  /* [J] root mean square about them */
     double wall_swing; /* [-] the same of the wall force at the last pipe while drilling, over its mean */
 } study_run;
-void study_runs_describe(study_run runs[STUDY_RUNS]);
+void study_runs_describe(study_run runs[STUDY_RUNS], double step);
 void study_run_work(void *run);
 /* [s] of one window */
 double study_window_begin(const study_run *run, int stage, int window);
