@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 """The picture of safe_speeds: which speeds to keep away from at which depth, and why.
 
-usage: plot.py FOLDER [DEPTH]
+usage: plot.py FOLDER
 
-Reads bands.csv, severity.csv and modes.csv of the folder and writes safe_speeds.png into it. The upper part is for the
-crew: green speeds are fine, yellow ones near a limit, red ones beyond it. The lower part is the Campbell diagram of one depth
-(default: the one nearest to 100 m): orders of the speed against the natural frequencies they meet.
+Reads bands.csv, severity.csv, orders.csv and campbell.csv of the folder and writes safe_speeds.png into it. The upper part is for the
+crew: green speeds are fine, yellow ones near a limit, red ones beyond it. The lower part is the Campbell diagram of one depth:
+orders of the speed against the natural frequencies that they meet, those of the string as it turns.
 """
 import csv
 import pathlib
@@ -17,12 +17,17 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.patheffects import withStroke
 
-ORDERS = (1, 2, 3, 4)
 LEVELS = (0.0, 0.5, 1.0, 2.0, 1e9)
 COLOURS = ("#cfe8d5", "#fbe9a9", "#f2a65a", "#c0392b")
 NAMES = ("fine", "near a limit (over half)", "avoid: beyond a limit", "avoid strictly: twice a limit and more")
-KINDS = {"axial": "#1f5fa8", "torsional": "#2e7d4f", "lateral": "#9aa0a6"}
+KINDS = {"axial": "#1f5fa8", "torsional": "#2e7d4f", "lateral": "#9aa0a6", "forward": "#7b3fa0",
+         "backward": "#b07a1e"}
+
+WHAT = {"axial": "string stretches to and fro", "torsional": "string twists to and fro",
+        "lateral": "pipes swing in the hole", "forward": "pipes whirl with the turning",
+        "backward": "pipes whirl against the turning"}
 
 plt.rcParams.update({"figure.dpi": 110, "font.size": 12, "axes.spines.top": False, "axes.spines.right": False,
                      "figure.constrained_layout.use": True})
@@ -63,7 +68,7 @@ def draw_map(axes, folder):
         worst = float(band["worst [rpm]"])
         if speeds[0] + 4 < worst < speeds[-1] - 4:
             axes.text(float(band["depth [m]"]), worst, f"{short(band['order'])}\n{worst:.0f}", ha="center", va="center",
-                      fontsize=8.5, color="white" if float(band["severity"]) >= 2.0 else "black")
+                      fontsize=8.5, weight="bold", path_effects=[withStroke(linewidth=2.5, foreground="white")])
     axes.set(xlabel="depth [m]", ylabel="speed [rpm]", xticks=depths, ylim=(speeds[0], speeds[-1]),
              title="Speeds to keep away from: order that shakes and worst speed [rpm]")
     for colour, name in zip(COLOURS, NAMES):
@@ -71,42 +76,71 @@ def draw_map(axes, folder):
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.13), ncol=2, frameon=False)
 
 
-def draw_campbell(axes, folder, wanted):
-    modes = rows(folder, "modes.csv")
-    depth = min({float(row["depth [m]"]) for row in modes}, key=lambda value: abs(value - wanted))
-    _, speeds, _ = severity_of(folder)
-    top = ORDERS[-1] * speeds[-1] / 60.0
-    drawn = set()
+def kind_of(row):
+    """Sideways motion in circles is told from that to and fro."""
+    if row["kind"] == "lateral" and abs(float(row["whirl"])) > 0.5:
+        return "forward" if float(row["whirl"]) > 0.0 else "backward"
+    return row["kind"]
+
+
+def lines_of(modes):
+    """Natural frequencies of a kind over the speed: the first, the second ... of each speed."""
+    lines = {}
     for row in modes:
-        frequency, kind = float(row["frequency [Hz]"]), row["kind"]
-        if float(row["depth [m]"]) != depth or frequency > top:
+        by_speed = lines.setdefault(kind_of(row), {})
+        by_speed.setdefault(float(row["speed [rpm]"]), []).append(float(row["frequency [Hz]"]))
+    for kind, by_speed in lines.items():
+        speeds = sorted(by_speed)
+        for number in range(min(len(found) for found in by_speed.values())):
+            yield kind, speeds, [sorted(by_speed[speed])[number] for speed in speeds]
+
+
+def draw_crossings(axes, speeds, line, order, colour):
+    for left, right, low, high in zip(speeds, speeds[1:], line, line[1:]):
+        before, after = low - order * left / 60.0, high - order * right / 60.0
+        if before * after > 0.0 or before == after:
             continue
+        speed = left + (right - left) * before / (before - after)
+        axes.plot(speed, order * speed / 60.0, "o", color=colour, markersize=8, zorder=5)
+        axes.annotate(f"{speed:.0f} rpm", (speed, order * speed / 60.0), (6, -13), textcoords="offset points",
+                      fontsize=10, weight="bold", color=colour, zorder=6,
+                      path_effects=[withStroke(linewidth=3, foreground="white")])
+
+
+def draw_campbell(axes, folder):
+    modes = rows(folder, "campbell.csv")
+    depth = float(modes[0]["depth [m]"])
+    orders = [(float(row["order"]), row["name"]) for row in rows(folder, "orders.csv")]
+    lowest, highest = (limit(float(row["speed [rpm]"]) for row in modes) for limit in (min, max))
+    top = max(order for order, _ in orders) * highest / 60.0
+    ends = np.array([lowest, highest])
+    drawn = set()
+    for kind, speeds, line in lines_of(modes):
         strong = kind != "lateral"
-        axes.axhline(frequency, color=KINDS[kind], linewidth=1.8 if strong else 0.6, zorder=2 if strong else 1,
-                     label=None if kind in drawn else f"natural frequency, {kind}")
+        axes.plot(speeds, line, color=KINDS[kind], linewidth=2.4 if strong else 0.7, zorder=3 if strong else 1,
+                  label=None if kind in drawn else WHAT[kind])
         drawn.add(kind)
-        for order in ORDERS:
-            speed = 60.0 * frequency / order
-            if strong and speeds[0] <= speed <= speeds[-1]:
-                axes.plot(speed, frequency, "o", color=KINDS[kind], markersize=5, zorder=4)
-    for order in ORDERS:
-        axes.plot(speeds, order * speeds / 60.0, color="#b3261e", linewidth=1.4, zorder=3)
-        axes.text(speeds[-1] + 2, order * speeds[-1] / 60.0, f"{order}x", color="#b3261e", va="center")
-    for band in rows(folder, "bands.csv"):
-        if float(band["depth [m]"]) == depth:
-            axes.axvspan(float(band["low [rpm]"]), float(band["high [rpm]"]), color="#f2a65a", alpha=0.35, zorder=0)
-    axes.set(xlabel="speed [rpm]", ylabel="frequency [Hz]", xlim=(speeds[0], speeds[-1]), ylim=(0, top),
-             title=f"Why, at {depth:.0f} m: where orders of the speed meet natural frequencies (bands to avoid shaded)")
-    axes.legend(loc="upper left", framealpha=0.95)
+        for order, _ in orders:
+            if strong:
+                draw_crossings(axes, speeds, line, order, KINDS[kind])
+    for order, name in orders:
+        axes.plot(ends, order * ends / 60.0, color="#b3261e", linewidth=1.6, zorder=2)
+        axes.text(highest + 3, order * highest / 60.0, f"{order:g}x  {name}", color="#b3261e", va="center")
+    for number, band in enumerate(row for row in rows(folder, "bands.csv") if float(row["depth [m]"]) == depth):
+        axes.axvspan(float(band["low [rpm]"]), float(band["high [rpm]"]), color="#f2a65a", alpha=0.35, zorder=0,
+                     label="speeds to keep away from" if number == 0 else None)
+    axes.set(xlabel="speed [rpm]", ylabel="frequency [Hz]", xlim=(lowest, highest), ylim=(0, top),
+             title=f"Why, at {depth:.0f} m: what shakes (red) meets a natural frequency of the turning string")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=2, frameon=False)
 
 
 def main():
-    if len(sys.argv) not in (2, 3):
+    if len(sys.argv) != 2:
         sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
     figure, (above, below) = plt.subplots(2, 1, figsize=(12, 13), height_ratios=(1.15, 1))
     draw_map(above, folder)
-    draw_campbell(below, folder, float(sys.argv[2]) if len(sys.argv) == 3 else 100.0)
+    draw_campbell(below, folder)
     figure.savefig(folder / "safe_speeds.png")
 
 

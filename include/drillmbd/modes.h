@@ -32,7 +32,8 @@ typedef struct dmb_modes_options {
     int32_t axes;              /* DMB_MODES_TURNING (default), _STILL */
     int32_t reserved;
     double spin;               /* [rad/s] strings turn at this speed in the state, about their own x axis; 0 (default): as
-                                  they do. A static state with slip_rotation of this speed is in balance with friction */
+                                  they do. A static state with slip_rotation of this speed is in balance with friction
+                                  but for the tilt of the pipes in the hole, some 1e-5 */
 } dmb_modes_options;
 DMB_SIZED_STRUCT(dmb_modes_options)
 
