@@ -9,6 +9,7 @@
 #include "system/bit.h"
 #include "system/cluster.h"
 #include "system/owner.h"
+#include "system/kept.h"
 #include "system/solve.h"
 #include "system/start.h"
 

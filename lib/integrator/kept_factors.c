@@ -1,7 +1,7 @@
 #include "integrator/kept_factors.h"
 
+#include "system/kept.h"
 #include "system/release.h"
-#include "system/solve.h"
 
 /* Steps count as equally long that differ by this part: by the rounding of times, and what no rate of convergence
  * feels. */

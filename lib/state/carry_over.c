@@ -9,6 +9,7 @@
 #include "system/energy.h"
 #include "system/joint_state.h"
 #include "system/node.h"
+#include "system/kept.h"
 #include "system/solve.h"
 #include "system/start.h"
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "kernel/kernels.h"
+#include "system/kept.h"
 #include "system/linked.h"
-#include "system/node.h"
 
 /* Rounding of a pose reaches a stiff element's force multiplied by EA/L: this many units of it count as zero. */
 #define DMB_ROUNDING_UNITS 4.0
@@ -94,8 +94,7 @@ dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double 
 static dmb_block_matrix matrix_of(const dmb_sim *sim)
 {
     const dmb_block_matrix matrix = {sim->stiffness_diagonal, sim->stiffness_lower, sim->stiffness_upper, sim->pivot};
-    const dmb_block_matrix kept = {sim->kept_diagonal, sim->kept_lower, sim->kept_upper, NULL};
-    return *sim->factors == DMB_FACTORS_KEPT ? kept : matrix;
+    return matrix;
 }
 
 int64_t dmb_factor_matrix(dmb_sim *sim)
@@ -152,61 +151,16 @@ int32_t dmb_factor_mass(dmb_evaluation *evaluation)
     return bad >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
 }
 
-static void swap_blocks(double **a, double **b)
-{
-    double *const other = *a;
-    *a = *b;
-    *b = other;
-}
-
-void dmb_keep_factors(dmb_sim *sim)
-{
-    const dmb_scene *scene = sim->scene;
-    if (scene->site_count) memcpy(sim->kept_quaternion, sim->trial.quaternion, 4 * scene->node_count * sizeof(double));
-    swap_blocks(&sim->stiffness_diagonal, &sim->kept_diagonal);
-    swap_blocks(&sim->stiffness_lower, &sim->kept_lower);
-    swap_blocks(&sim->stiffness_upper, &sim->kept_upper);
-}
-
-void dmb_forget_factors(dmb_sim *sim)
-{
-    const dmb_block_layout *layout = &sim->scene->layout;
-    const uint32_t n = sim->scene->node_count;
-    memset(sim->kept, 0, sizeof *sim->kept);
-    if (sim->scene->cluster_count) return; /* no room for any */
-    memset(sim->kept_diagonal, 0, layout->diag[n] * sizeof(double));
-    memset(sim->kept_lower, 0, layout->link[n - 1] * sizeof(double));
-    memset(sim->kept_upper, 0, layout->link[n - 1] * sizeof(double));
-}
-
-/* Rows of FULL nodes from one set of their frames to another, by the twist between the two. */
-static void twist_rows(dmb_sim *sim, const double *from, const double *to)
-{
-    const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0, count; i<scene->node_count; i += count> 0 ? count : 1) {
-        count = dmb_full_nodes_at(scene, i);
-        const dmb_twist_run run = {count, 0, from + 4 * i, to + 4 * i, sim->correction + scene->layout.row[i]};
-        scene->kernels->twist(&run);
-    }
-}
-
-static void clear_held(dmb_sim *sim)
-{
-    for (uint32_t i = 0; i < sim->scene->row_count; i++)
-        if (!sim->scene->solved_row[i]) sim->correction[i] = 0.0;
-}
-
-/* The wall stays where it is while pipes turn in it, and pipes are round: the iteration matrix of a pipe that has turned
- * about its axis is the old one in the old frame. So kept factors are taken in the frames in which they were made. (Where
- * only one of two directions across is held this mixes it with the other: an approximate inverse may.) */
 void dmb_solve_correction(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     const dmb_block_matrix matrix = matrix_of(sim);
-    const int twisted = *sim->factors == DMB_FACTORS_KEPT && scene->site_count > 0;
     for (uint32_t i = 0; i < scene->row_count; i++)
         sim->correction[i] = scene->solved_row[i] ? -sim->correction[i] : 0.0;
-    if (twisted) twist_rows(sim, sim->trial.quaternion, sim->kept_quaternion);
+    if (*sim->factors == DMB_FACTORS_KEPT) {
+        dmb_solve_kept(sim);
+        return;
+    }
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         const dmb_chain *chain = scene->chains + c;
         if (chain->linked) continue;
@@ -214,10 +168,6 @@ void dmb_solve_correction(dmb_sim *sim)
             dmb_block_solve(&scene->layout, &matrix, chain->first, chain->count, sim->correction);
         else
             scene->kernels->solve(&scene->layout, &matrix, chain->first, chain->count, sim->correction);
-    }
-    if (twisted) {
-        twist_rows(sim, sim->kept_quaternion, sim->trial.quaternion);
-        clear_held(sim);
     }
     if (scene->cluster_count) dmb_linked_solve(sim);
 }

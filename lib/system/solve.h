@@ -25,10 +25,6 @@ int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest);
 /* Evaluates with the factors the evaluation has, 1 for mass and 0 for velocity, and factors the mass matrix alone; the
  * residual is in `correction`. Errors as dmb_system_evaluate, DMB_ERR_SINGULAR with the node in evaluation->element. */
 int32_t dmb_factor_mass(dmb_evaluation *evaluation);
-/* The factors at hand become the kept ones. */
-void dmb_keep_factors(dmb_sim *sim);
-/* Nothing is left of kept factors: the state does not go on from the steps that made them. */
-void dmb_forget_factors(dmb_sim *sim);
 /* Residual in, Newton correction out, both in `correction`, by the factors that sim->factors tells. */
 void dmb_solve_correction(dmb_sim *sim);
 

@@ -8,6 +8,7 @@
 #include "math/so3.h"
 #include "state.h"
 #include "system/evaluation.h"
+#include "system/kept.h"
 #include "system/solve.h"
 
 enum { PIPES = 5, ROWS = 6 * (PIPES + 1) };
@@ -89,7 +90,7 @@ static void they_hold_at_any_angle(void **state)
         tell("angle [rad]", angles[k]);
         check_below("kept against fresh factors, of the correction", difference(ROWS, kept, fresh), 1e-9);
         tell("the same without the turn", difference(ROWS, first, fresh));
-        if (angles[k] > 0.5) assert_true(difference(ROWS, first, fresh) > 1e-2); /* else the wall is not in it */
+        if (angles[k] > 0.5) assert_true(difference(ROWS, first, fresh) > 1e-2); /* the wall is in it */
     }
     *sim->factors = DMB_FACTORS_NONE;
     rig_close(&s);
