@@ -1,7 +1,7 @@
 /* The map of a sim: every field, who computes it from what, its shape and unit. The X-macro lists below drive the
  * memory layout, snapshot, restore and hash, and the test of the layout; there is no other list of fields.
  * n = scene->node_count, r = row_count, s = site_count, p = path_site_count, e = element_count, d = drive_count,
- * k = bit_count, load = load_count, history = history_count, diagonal and link = lengths of block storage;
+ * sb, pb = s, p with the bristle law of friction, else 0; k = bit_count, load = load_count, history = history_count, diagonal and link = lengths of block storage;
  * j = joint_count, c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene
  * with joints only: raw = row_count, dense, square, full = storage of the clusters, block, value, pivots = of the
  * linked system. */
@@ -29,11 +29,11 @@
     X(double, site_penetration, s)      /* [m] < 0: gap */                                                             \
     X(double, site_approach, s)         /* [m/s] normal speed at the start of the present contact */                   \
     X(double, site_slip, 2 * s)         /* [m/s] along the axis and around it */                                       \
-    X(double, site_bristle, 2 * s)      /* [m] bristle deflection, same directions */                                  \
-    X(int32_t, site_sticks, s)          /* [-] 1 while the bristle law holds it */                                     \
+    X(double, site_bristle, 2 * sb)     /* [m] bristle deflection, same directions */                                  \
+    X(int32_t, site_sticks, sb)         /* [-] 1 while the bristle law holds it */                                     \
     X(double, path_slip, 2 * p)         /* [m/s] likewise of PATH nodes */                                             \
-    X(double, path_bristle, 2 * p)      /* [m] */                                                                      \
-    X(int32_t, path_sticks, p)          /* [-] */                                                                      \
+    X(double, path_bristle, 2 * pb)     /* [m] */                                                                      \
+    X(int32_t, path_sticks, pb)         /* [-] */                                                                      \
     /* system/drives, from programmes and velocity: */                                                                \
     X(double, drive_position, d)        /* [m, rad] of the component since time 0 */                                   \
     X(double, drive_integral, d)        /* [m, rad] integral of the speed error, CONTROL */                            \
@@ -88,7 +88,6 @@
 /* ---- Work: rewritten in every step, never saved. */
 #define DMB_WORK_LIST(X)                                                                                              \
     X(double, increment, r)             /* [m, rad] h Dq of this step, integrator */                                   \
-    X(double, rotation, 9 * n)          /* [-] body to world of the trial, row-major, system/evaluation */             \
     X(double, correction, r)            /* [m, rad] right-hand side, then Newton correction */                         \
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                      \
     X(double, element_strain, 6 * e)    /* [m, rad] d of the trial */                                                  \

@@ -3,6 +3,7 @@
 
 #include "analysis/linearise_parts.h"
 #include "math/mat6.h"
+#include "math/so3.h"
 
 void dmb_linear_freeze(dmb_linear *linear, const dmb_linear_options *options)
 {
@@ -38,8 +39,9 @@ static double wall_stiffness(const dmb_scene *scene, const dmb_site *site)
 static void add_wall(dmb_linear *linear, const dmb_site *site, const double normal[3])
 {
     const double arm[3] = {site->offset, 0.0, 0.0};
-    double j[6];
-    dmb_mat3_tvec(linear->work->rotation + 9 * (size_t)site->node, normal, j);
+    double j[6], R[9];
+    dmb_quat_to_matrix(linear->work->trial.quaternion + 4 * (size_t)site->node, R);
+    dmb_mat3_tvec(R, normal, j);
     dmb_vec3_cross(arm, j, j + 3);
     dmb_mat6_add_outer(wall_stiffness(&linear->scene, site), j, j,
                        linear->stiffness.diagonal + linear->scene.layout.diag[site->node]);

@@ -141,8 +141,10 @@ static int32_t settle(dmb_static_search *search)
     const dmb_scene *scene = sim->scene;
     dmb_system_accept(&search->evaluation);
     memset(sim->trial.velocity, 0, scene->row_count * sizeof(double));
-    memset(sim->trial.site_bristle, 0, 2 * scene->site_count * sizeof(double));
-    memset(sim->trial.path_bristle, 0, 2 * scene->path_site_count * sizeof(double));
+    if (dmb_scene_has_bristles(scene)) {
+        memset(sim->trial.site_bristle, 0, 2 * scene->site_count * sizeof(double));
+        memset(sim->trial.path_bristle, 0, 2 * scene->path_site_count * sizeof(double));
+    }
     memset(sim->trial.site_approach, 0, scene->site_count * sizeof(double));
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
     /* At the start the rock lies where the description puts it ahead of the bit; the forces of the restart need it

@@ -56,7 +56,7 @@ typedef struct dmb_node_force_run {
     const double *gravity;       /* [m/s2] (3); NULL: none acts */
     const double *weight_mass, *weight_moment; /* [kg], [kg m] shapes (count), (count, 3) */
     const double *damping;       /* node_damping of model/scene.h, shape (count, 5); NULL: none acts */
-    const double *rotation;      /* shape (count, 9) */
+    const double *quaternion;    /* shape (count, 4) */
     const double *velocity, *acceleration; /* shape (count, 6) */
     double *residual, *scale;    /* added to, shape (count, 6) */
     double *stiffness, *inertia; /* added to, shape (count, 36) */
@@ -73,14 +73,14 @@ typedef struct dmb_site_fields {
 /* Contact sites against the wall. Pointers are to the scene's first site, node, row or block. */
 typedef struct dmb_wall_run {
     uint32_t count;              /* sites */
-    uint32_t reserved;
+    int32_t bristles;            /* 1: the law of friction keeps bristles; else their fields are empty */
     const dmb_site *sites;
     const dmb_hole *hole;
     const dmb_normal_law *normal_law;
     const dmb_friction_law *friction_law; /* NULL: no friction acts */
     const uint32_t *row, *diagonal;       /* first row of each node, start of its diagonal block */
     const double *reference;     /* [m] positions of the nodes at displacement 0 */
-    const double *displacement, *rotation, *velocity; /* of the trial */
+    const double *displacement, *quaternion, *velocity; /* of the trial */
     const double *now_quaternion, *now_velocity;      /* of the last accepted instant, and: */
     dmb_site_fields now;         /* read */
     const double *site_return;   /* [m/s] a ring that opens in the step left the wall; else 0 */
@@ -129,8 +129,6 @@ typedef struct dmb_kernels {
     void (*node_forces)(dmb_node_force_run *run);
     /* Forces of the rings that touch and, if asked for, tangent blocks; what the trial keeps of all sites. */
     void (*walls)(dmb_wall_run *run);
-    /* rotation matrices, shape (count, 9), from quaternions, shape (count, 4) */
-    void (*rotations)(const double *quaternion, uint32_t count, double *rotation);
 } dmb_kernels;
 
 /* The kernels of 1, 2, 4 or 8 lanes; NULL where the build or the processor has none of that width. */

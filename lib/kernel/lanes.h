@@ -197,17 +197,6 @@ static void twist(const dmb_twist_run *run)
     }
 }
 
-static void rotations(const double *quaternion, uint32_t count, double *rotation)
-{
-    for (uint32_t first = 0; first < count; first += DMB_REAL_LANES) {
-        const lane_group g = group_at(first, count);
-        dmb_real q[4], R[9];
-        load(quaternion, 4, 4, &g, 0, q);
-        dmb_quat_to_matrix(q, R);
-        store(R, 9, &g, rotation);
-    }
-}
-
 /* ---- Blocks: as wide as the compiler makes them for this processor ----------------------------------------------- */
 
 static int64_t factor(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count)
@@ -230,6 +219,5 @@ const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .advance = advance,
                                  .turns = turns,
                                  .twist = twist,
-                                 .rotations = rotations,
                                  .factor = factor,
                                  .solve = solve};

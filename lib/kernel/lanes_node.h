@@ -77,8 +77,9 @@ static inline void store_weight_tangent(const dmb_node_force_run *run, const lan
 
 static inline void add_weight(dmb_node_force_run *run, node_group *g)
 {
-    dmb_real R[9], mass, moment[3], force[6], turning[9];
-    load(run->rotation, 9, 9, &g->place, 0, R);
+    dmb_real q[4], R[9], mass, moment[3], force[6], turning[9];
+    load(run->quaternion, 4, 4, &g->place, 0, q);
+    dmb_quat_to_matrix(q, R);
     mass = load_line(run->weight_mass, &g->place);
     load(run->weight_moment, 3, 3, &g->place, 0, moment);
     dmb_vec3_scale(dmb_real_of(run->load_factor), moment, moment);

@@ -36,8 +36,9 @@ static inline void load_sites(const dmb_wall_run *run, wall_group *g)
 
 static inline void load_motion(const dmb_wall_run *run, wall_group *g)
 {
-    dmb_real u[3];
-    load(run->rotation, 9, 9, &g->node, 0, g->R);
+    dmb_real q[4], u[3];
+    load(run->quaternion, 4, 4, &g->node, 0, q);
+    dmb_quat_to_matrix(q, g->R);
     load(run->reference, 3, 3, &g->node, 0, g->x);
     load(run->displacement, 3, 3, &g->node, 0, u);
     for (int i = 0; i < 3; i++) g->x[i] = g->x[i] + u[i] + g->R[3 * i] * g->offset;
@@ -261,7 +262,7 @@ static void walls(dmb_wall_run *run)
         const dmb_mask touches = dmb_mask_less(zero, g.penetration) | dmb_mask_at_most(g.clearance, zero);
         const uint32_t touching = dmb_mask_bits(touches) & lanes_used(&g.site);
         if (touching) press(run, &g, touching);
-        forget_bristles(run, &g, touching);
+        if (run->bristles) forget_bristles(run, &g, touching);
     }
 }
 

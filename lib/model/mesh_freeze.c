@@ -24,6 +24,24 @@ static void count_rows(const dmb_mesh *mesh, dmb_scene *scene)
     }
 }
 
+static int moves(const double velocity[6])
+{
+    for (int k = 0; k < 6; ++k)
+        if (velocity[k] != 0.0) return 1;
+    return 0;
+}
+
+/* True if a string or a body is described in motion. */
+static int starts_in_motion(const dmb_mesh *mesh)
+{
+    const dmb_model *model = mesh->model;
+    for (uint32_t i = 0; i < mesh->strings.count; ++i)
+        if (moves(dmb_mesh_string_def(mesh, i)->velocity)) return 1;
+    for (uint32_t i = 0; i < model->bodies.count; ++i)
+        if (moves(DMB_LIST_AT(const dmb_body_def, model->bodies, i)->velocity)) return 1;
+    return 0;
+}
+
 /* Fixed joints as one would count them on the drawing: between neighbouring pipes, between a pipe and its tool joint,
  * and where a body or a bit is fixed to a string. */
 static uint32_t structural_joints(const dmb_mesh *mesh)
@@ -79,6 +97,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->history_count = mesh->history_count;
     scene->structural_joint_count = structural_joints(mesh);
     count_rows(mesh, scene);
+    scene->velocity_count = starts_in_motion(mesh) ? scene->row_count : 0;
     count_constraints(mesh, scene);
 }
 
@@ -94,7 +113,7 @@ static void take_nodes(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to,
     to->reference_position = DMB_ARENA_DOUBLES(arena, 3 * n);
     to->reference_quaternion = DMB_ARENA_DOUBLES(arena, 4 * n);
     to->reference_depth = DMB_ARENA_DOUBLES(arena, n);
-    to->initial_velocity = DMB_ARENA_DOUBLES(arena, rows);
+    to->initial_velocity = DMB_ARENA_DOUBLES(arena, counts->velocity_count);
     to->free_row = DMB_ARENA_ARRAY(arena, uint8_t, rows);
     to->solved_row = DMB_ARENA_ARRAY(arena, uint8_t, rows);
     to->held_node = DMB_ARENA_ARRAY(arena, uint32_t, held);

@@ -201,6 +201,7 @@ typedef struct dmb_scene {
     uint32_t string_count, pipe_count, body_count;
     uint32_t history_count;    /* bit samples in all */
     uint32_t free_count, prescribed_count, held_count;
+    uint32_t velocity_count;   /* row_count, or 0 where everything is described at rest */
     uint32_t rigid_count, structural_joint_count;
     uint32_t joint_count, coupling_count, callback_count, constraint_count, cluster_count, law_count;
     uint32_t constraint_row_count;  /* room of all constraints */
@@ -219,7 +220,7 @@ typedef struct dmb_scene {
     double *reference_position;   /* [m] world, where displacement is 0, shape (node, 3); of a PATH node on the axis */
     double *reference_quaternion; /* [-] at time 0, scalar first, shape (node, 4) */
     double *reference_depth;      /* [m] measured depth at time 0, shape (node); 0 without a hole */
-    double *initial_velocity;     /* [m/s, rad/s] as described, shape (row) */
+    double *initial_velocity;     /* [m/s, rad/s] as described, shape (velocity_count) */
     uint8_t *free_row;            /* 1 where a row is free to move (drives included), shape (row) */
     uint8_t *solved_row;          /* 1 where a row is an unknown: free and not moved by a MOTION drive, shape (row) */
     uint32_t *held_node;          /* rows with solved_row 0: node and row within its block, shape (held_count) */
@@ -279,5 +280,11 @@ typedef struct dmb_scene {
     dmb_pipe_map *pipes;
     dmb_body_map *bodies;         /* described bodies, then bits */
 } dmb_scene;
+
+/* True if places of contact keep bristles from step to step. */
+static inline int32_t dmb_scene_has_bristles(const dmb_scene *scene)
+{
+    return scene->friction_law.kind == DMB_FRICTION_BRISTLE;
+}
 
 #endif

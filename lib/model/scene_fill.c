@@ -116,7 +116,7 @@ static void fill_nodes(const dmb_mesh *mesh, dmb_scene *scene)
     for (uint32_t i = 0; i < scene->node_count; ++i) {
         fill_pose(mesh, scene, i);
         fill_rows(mesh, scene, i, &held);
-        fill_velocity(mesh, scene, i);
+        if (scene->velocity_count) fill_velocity(mesh, scene, i);
         scene->node_element[i] = UINT32_MAX;
     }
     fill_chains(mesh, scene);

@@ -97,13 +97,8 @@ static void carry_bit(dmb_sim *sim, uint32_t k, const dmb_sim *from)
 static void carry_bits(dmb_sim *sim, const dmb_sim *from, dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = sim->scene;
-    double unused[3];
     memcpy(sim->now.bit_segment, from->now.bit_segment, scene->bit_count * sizeof *sim->now.bit_segment);
     memcpy(sim->trial.bit_segment, from->now.bit_segment, scene->bit_count * sizeof *sim->now.bit_segment);
-    for (uint32_t k = 0; k < scene->bit_count; k++) {
-        const uint32_t node = scene->bits[k].node;
-        dmb_node_pose(scene, &sim->trial, node, sim->rotation + 9 * (size_t)node, unused);
-    }
     dmb_gather_bits(evaluation);
     for (uint32_t k = 0; k < scene->bit_count; k++) carry_bit(sim, k, from);
 }

@@ -12,10 +12,17 @@
     memcpy(sim->now.field + (width) * (size_t)s, from->now.field + (width) * (size_t)old, \
            (width) * sizeof *sim->now.field)
 
+static int32_t bristles_go_on(const dmb_sim *sim, const dmb_sim *from)
+{
+    return dmb_scene_has_bristles(sim->scene) && dmb_scene_has_bristles(from->scene);
+}
+
 static void carry_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
 {
-    DMB_COPY_SITE(site_bristle, 2);
-    DMB_COPY_SITE(site_sticks, 1);
+    if (bristles_go_on(sim, from)) {
+        DMB_COPY_SITE(site_bristle, 2);
+        DMB_COPY_SITE(site_sticks, 1);
+    }
     if (what == DMB_CARRY_BRISTLES) return;
     DMB_COPY_SITE(site_normal, 3);
     DMB_COPY_SITE(site_depth, 1);
@@ -27,8 +34,10 @@ static void carry_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t o
 
 static void carry_path_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
 {
-    DMB_COPY_SITE(path_bristle, 2);
-    DMB_COPY_SITE(path_sticks, 1);
+    if (bristles_go_on(sim, from)) {
+        DMB_COPY_SITE(path_bristle, 2);
+        DMB_COPY_SITE(path_sticks, 1);
+    }
     if (what == DMB_CARRY_ALL) DMB_COPY_SITE(path_slip, 2);
 }
 
@@ -42,6 +51,7 @@ static void begin_site(dmb_sim *sim, uint32_t s)
     sim->now.site_segment[s] = 0;
     sim->now.site_penetration[s] = sim->now.site_approach[s] = 0.0;
     memset(sim->now.site_slip + 2 * (size_t)s, 0, 2 * sizeof(double));
+    if (!dmb_scene_has_bristles(sim->scene)) return;
     memset(sim->now.site_bristle + 2 * (size_t)s, 0, 2 * sizeof(double));
     sim->now.site_sticks[s] = 0;
 }
@@ -49,6 +59,7 @@ static void begin_site(dmb_sim *sim, uint32_t s)
 static void begin_path_site(dmb_sim *sim, uint32_t s)
 {
     memset(sim->now.path_slip + 2 * (size_t)s, 0, 2 * sizeof(double));
+    if (!dmb_scene_has_bristles(sim->scene)) return;
     memset(sim->now.path_bristle + 2 * (size_t)s, 0, 2 * sizeof(double));
     sim->now.path_sticks[s] = 0;
 }

@@ -7,7 +7,7 @@
 
 /* The letters of state.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
-    uint64_t n, r, s, p, e, d, k, load, history, diagonal, link, backup;
+    uint64_t n, r, s, p, sb, pb, e, d, k, load, history, diagonal, link, backup;
     uint64_t j, c, cluster, column, raw, jacobian, tangent, dense, square, full, block, value, pivots, kd, kl, kn;
 } field_counts;
 
@@ -19,11 +19,11 @@ typedef struct field_counts {
     const uint64_t column = (of)->column, raw = (of)->raw, jacobian = (of)->jacobian, tangent = (of)->tangent;  \
     const uint64_t dense = (of)->dense, square = (of)->square, full = (of)->full, block = (of)->block;          \
     const uint64_t value = (of)->value, pivots = (of)->pivots;                                                  \
-    const uint64_t kd = (of)->kd, kl = (of)->kl, kn = (of)->kn;                                                 \
+    const uint64_t kd = (of)->kd, kl = (of)->kl, kn = (of)->kn, sb = (of)->sb, pb = (of)->pb;                   \
     (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,   \
         (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,     \
         (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd, \
-        (void)kl, (void)kn
+        (void)kl, (void)kn, (void)sb, (void)pb
 
 /* [byte] of the state that is set aside in `backup`. A snapshot holds the kept factors too. */
 #define DMB_ADD_BYTES(type, name, count) +(count) * sizeof(type)
@@ -63,6 +63,8 @@ static field_counts counts_of(const dmb_scene *scene)
     c.r = scene->row_count;
     c.s = scene->site_count;
     c.p = scene->path_site_count;
+    c.sb = dmb_scene_has_bristles(scene) ? c.s : 0;
+    c.pb = dmb_scene_has_bristles(scene) ? c.p : 0;
     c.e = scene->element_count;
     c.d = scene->drive_count;
     c.k = scene->bit_count;

@@ -139,11 +139,12 @@ static void gather_bit(dmb_evaluation *evaluation, uint32_t k)
     const double load = evaluation->load_factor * sim->trial.bit_load[k];
     dmb_bit_rock_result r;
     bit_motion m;
-    double wrench[6];
+    double R[9], unused[3], wrench[6];
     if (scene->layout.size[node] == DMB_NODE_FULL) /* the turn follows the increment until the step is accepted */
         sim->trial.turn[node] = sim->now.turn[node] + sim->increment[scene->layout.row[node] + 3];
     sim->trial.bit_segment[k] = sim->now.bit_segment[k];
-    motion_of(scene, &sim->trial, sim->rotation + 9 * node, k, &sim->trial.bit_segment[k], &m);
+    dmb_node_pose(scene, &sim->trial, node, R, unused);
+    motion_of(scene, &sim->trial, R, k, &sim->trial.bit_segment[k], &m);
     memset(&r, 0, sizeof r);
     if (evaluation->dynamic) rock(sim, k, sim->now.bit_bottom[k], &m, &r);
     sim->trial.bit_advance[k] = m.advance;

@@ -23,23 +23,6 @@ static void clear(const dmb_evaluation *evaluation)
     memset(sim->stiffness_upper, 0, link);
 }
 
-static void update_rotations(dmb_sim *sim)
-{
-    const dmb_scene *scene = sim->scene;
-    /* What a PATH node's own two equations do not need. */
-    const int path_poses = scene->features & DMB_FEATURE_GRAVITY || scene->load_count || scene->bit_count;
-    double unused[3];
-    for (uint32_t i = 0, count; i < scene->node_count; i += count) {
-        count = dmb_full_nodes_at(scene, i);
-        if (count > 0) {
-            scene->kernels->rotations(sim->trial.quaternion + 4 * i, count, sim->rotation + 9 * i);
-        } else {
-            if (path_poses) dmb_node_pose(scene, &sim->trial, i, sim->rotation + 9 * i, unused);
-            count = 1;
-        }
-    }
-}
-
 void dmb_system_move(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -79,7 +62,6 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
     evaluation->rounding = 0.0;
     memset(evaluation->power, 0, sizeof evaluation->power);
     clear(evaluation);
-    update_rotations(evaluation->sim);
     dmb_gather_elements(evaluation);
     if (evaluation->status < 0) return evaluation->status;
     dmb_gather_nodes(evaluation);

@@ -24,14 +24,15 @@ static void frame_of_load(const dmb_sim *sim, const dmb_scene_load *load, double
 /* Body-frame wrench at the place of the load. */
 static void wrench_of(const dmb_sim *sim, const dmb_scene_load *load, double factor, double w[6])
 {
-    double R[9], f[3];
+    double R[9], body[9], f[3], unused[3];
     dmb_vec3_scale(factor, load->force, w);
     dmb_vec3_scale(factor, load->moment, w + 3);
     if (load->frame == DMB_FRAME_BODY) return;
     frame_of_load(sim, load, R);
+    dmb_node_pose(sim->scene, &sim->trial, load->node, body, unused);
     for (int k = 0; k < 6; k += 3) {
         dmb_mat3_vec(R, w + k, f);
-        dmb_mat3_tvec(sim->rotation + 9 * load->node, f, w + k);
+        dmb_mat3_tvec(body, f, w + k);
     }
 }
 

@@ -28,7 +28,7 @@ static dmb_node_force_run run_of(const dmb_evaluation *evaluation, uint32_t node
         .weight_mass = scene->weight_mass + node,
         .weight_moment = scene->weight_moment + 3 * node,
         .damping = damped ? scene->node_damping + 5 * node : NULL,
-        .rotation = sim->rotation + 9 * node,
+        .quaternion = sim->trial.quaternion + 4 * node,
         .velocity = sim->trial.velocity + row,
         .acceleration = sim->trial.acceleration + row,
         .residual = sim->correction + row,
@@ -73,8 +73,9 @@ static void gather_path_weight(dmb_evaluation *evaluation, uint32_t node)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
-    double f[6] = {0.0}, v[6];
-    dmb_mat3_tvec(sim->rotation + 9 * node, scene->gravity, f);
+    double f[6] = {0.0}, v[6], R[9], unused[3];
+    dmb_node_pose(scene, &sim->trial, node, R, unused);
+    dmb_mat3_tvec(R, scene->gravity, f);
     dmb_vec3_scale(evaluation->load_factor * scene->weight_mass[node], f, f);
     dmb_apply_wrench(sim, node, f);
     if (!evaluation->dynamic) return;

@@ -128,7 +128,7 @@ void dmb_path_site_force_of(const dmb_scene *scene, const dmb_configuration *con
     out->normal_force = side_force(scene, configuration, site, tension, 1.0, out->normal, out->tangent, &by_tension);
     out->closed = out->normal_force > 0.0;
     memcpy(out->slip, configuration->path_slip + 2 * p, sizeof out->slip);
-    dmb_finished_friction(&scene->friction_law, out->normal_force, out->slip, configuration->path_bristle + 2 * p,
-                          configuration->path_sticks[p], out->friction);
-    out->sticks = configuration->path_sticks[p];
+    const int32_t bristles = dmb_scene_has_bristles(scene);
+    dmb_finished_friction(&scene->friction_law, bristles ? configuration->path_bristle + 2 * p : NULL,
+                          bristles ? configuration->path_sticks[p] : 0, out);
 }

@@ -15,7 +15,10 @@ static void described_pose(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     memcpy(sim->now.quaternion, scene->reference_quaternion, 4 * scene->node_count * sizeof(double));
-    memcpy(sim->now.velocity, scene->initial_velocity, scene->row_count * sizeof(double));
+    if (scene->velocity_count)
+        memcpy(sim->now.velocity, scene->initial_velocity, scene->velocity_count * sizeof(double));
+    else
+        memset(sim->now.velocity, 0, scene->row_count * sizeof(double));
     for (uint32_t s = 0; s < scene->site_count; s++) {
         const double down[3] = {0.0, 0.0, -1.0}; /* until there is a normal */
         dmb_vec3_copy(down, sim->now.site_normal + 3 * s);

@@ -32,11 +32,12 @@ static dmb_wall_run run_of(const dmb_sim *sim)
         .sites = scene->sites,
         .hole = &scene->hole,
         .normal_law = &scene->normal_law,
+        .bristles = dmb_scene_has_bristles(scene),
         .row = scene->layout.row,
         .diagonal = scene->layout.diag,
         .reference = scene->reference_position,
         .displacement = sim->trial.displacement,
-        .rotation = sim->rotation,
+        .quaternion = sim->trial.quaternion,
         .velocity = sim->trial.velocity,
         .now_quaternion = sim->now.quaternion,
         .now_velocity = sim->now.velocity,
@@ -76,17 +77,18 @@ void dmb_gather_contacts(dmb_evaluation *evaluation)
 
 /* ---- Questions about a finished configuration -------------------------------------------------------------------- */
 
-void dmb_finished_friction(const dmb_friction_law *law, double N, const double slip[2], const double bristle[2],
-                           int32_t sticks, double F[2])
+void dmb_finished_friction(const dmb_friction_law *law, const double *bristle, int32_t sticks, dmb_site_force *out)
 {
+    const double N = out->normal_force, *slip = out->slip;
     double z[2], dv[4], dN[2];
     int32_t unused;
-    F[0] = F[1] = 0.0;
+    out->friction[0] = out->friction[1] = 0.0;
+    out->sticks = sticks;
     if (law->kind == DMB_FRICTION_NONE) return;
     if (law->kind == DMB_FRICTION_BRISTLE)
-        dmb_friction_bristle(law, N, slip, bristle, slip, sticks, 0.0, z, F, dv, dN, &unused);
+        dmb_friction_bristle(law, N, slip, bristle, slip, sticks, 0.0, z, out->friction, dv, dN, &unused);
     else
-        dmb_friction_smooth(law, N, slip, F, dv, dN);
+        dmb_friction_smooth(law, N, slip, out->friction, dv, dN);
 }
 
 /* Closest point of the axis, the direction from it and the speeds there. */
@@ -124,7 +126,7 @@ void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configur
                      configuration->site_approach[s], &out->normal_force, &depth, &dot);
     out->normal_force *= site->length;
     out->closed = 1;
-    dmb_finished_friction(&scene->friction_law, out->normal_force, out->slip, configuration->site_bristle + 2 * s,
-                          configuration->site_sticks[s], out->friction);
-    out->sticks = configuration->site_sticks[s];
+    const int32_t bristles = dmb_scene_has_bristles(scene);
+    dmb_finished_friction(&scene->friction_law, bristles ? configuration->site_bristle + 2 * s : NULL,
+                          bristles ? configuration->site_sticks[s] : 0, out);
 }

@@ -22,8 +22,8 @@ void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configur
 void dmb_path_site_force_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t path_site,
                             dmb_site_force *out);
 
-/* Friction of a finished state: bristles as they are, smooth laws by speed. */
-void dmb_finished_friction(const dmb_friction_law *law, double N, const double slip[2], const double bristle[2],
-                           int32_t sticks, double F[2]);
+/* Friction of a finished state under the normal force and at the slip in `out`: bristles as they are (NULL where the law
+ * has none), smooth laws by speed. */
+void dmb_finished_friction(const dmb_friction_law *law, const double *bristle, int32_t sticks, dmb_site_force *out);
 
 #endif

@@ -448,10 +448,10 @@ static void expect_finite_scene(const dmb_scene *s)
     expect_finite(s->reference_position, 3 * n);
     expect_finite(s->reference_quaternion, 4 * n);
     expect_finite(s->reference_depth, n);
-    expect_finite(s->initial_velocity, s->row_count);
+    expect_finite(s->initial_velocity, s->velocity_count);
     expect_finite(s->weight_mass, n);
     expect_finite(s->weight_moment, 3 * n);
-    expect_finite(s->node_damping, 3 * n);
+    expect_finite(s->node_damping, 5 * n);
     expect_finite(s->element_span, 3 * e);
     expect_finite(&s->mass, 3);
     expect_finite_joints(s);

@@ -4,6 +4,7 @@
 
 #include "check.h"
 #include "kernel/kernels.h"
+#include "math/so3.h"
 
 enum { NODES = 9, SITES = 21, ROWS = 6 * NODES, BLOCKS = 36 * NODES, STATIONS = 4, SEEDS = 6 };
 
@@ -15,7 +16,7 @@ typedef struct wall_input {
     dmb_normal_law normal_law;
     dmb_friction_law friction_law;
     uint32_t row[NODES], diagonal[NODES];
-    double reference[3 * NODES], displacement[3 * NODES], rotation[9 * NODES], velocity[ROWS];
+    double reference[3 * NODES], displacement[3 * NODES], quaternion[4 * NODES], velocity[ROWS];
     double now_quaternion[4 * NODES], now_velocity[ROWS], site_return[SITES];
     double normal[3 * SITES], depth[SITES], penetration[SITES], approach[SITES], slip[2 * SITES], bristle[2 * SITES];
     uint32_t segment[SITES];
@@ -52,12 +53,12 @@ static void draw_quaternion(uint64_t *seed, double q[4])
 }
 
 /* Near the identity, as pipes in a hole along x are. */
-static void draw_rotation(uint64_t *seed, double R[9])
+static void draw_pose(uint64_t *seed, double q[4])
 {
     const double a = draw_between(seed, -3.0, 3.0), b = draw_between(seed, -0.1, 0.1);
     const double turned[9] = {cos(b),          -sin(b),         0.0,   cos(a) * sin(b), cos(a) * cos(b), -sin(a),
                               sin(a) * sin(b), sin(a) * cos(b), cos(a)};
-    memcpy(R, turned, sizeof turned);
+    dmb_quat_from_matrix(turned, q);
 }
 
 static void draw_nodes(uint64_t *seed, wall_input *in)
@@ -66,7 +67,7 @@ static void draw_nodes(uint64_t *seed, wall_input *in)
         in->row[i] = 6 * i;
         in->diagonal[i] = 36 * i;
         in->reference[3 * i] = 5.0 * i;
-        draw_rotation(seed, in->rotation + 9 * i);
+        draw_pose(seed, in->quaternion + 4 * i);
         draw_quaternion(seed, in->now_quaternion + 4 * i);
     }
     draw_all(seed, -0.02, 0.02, 3 * NODES, in->displacement);
@@ -133,6 +134,7 @@ static dmb_wall_run run_of(const wall_case *c, wall_input *in, wall_output *out,
     const dmb_wall_run run = {
         .count = count,
         .sites = in->sites + first,
+        .bristles = c->friction_law == DMB_FRICTION_BRISTLE,
         .hole = &in->hole,
         .normal_law = &in->normal_law,
         .friction_law = c->friction_law == DMB_FRICTION_NONE ? NULL : &in->friction_law,
@@ -140,7 +142,7 @@ static dmb_wall_run run_of(const wall_case *c, wall_input *in, wall_output *out,
         .diagonal = in->diagonal,
         .reference = in->reference,
         .displacement = in->displacement,
-        .rotation = in->rotation,
+        .quaternion = in->quaternion,
         .velocity = in->velocity,
         .now_quaternion = in->now_quaternion,
         .now_velocity = in->now_velocity,

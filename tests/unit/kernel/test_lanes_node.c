@@ -12,7 +12,7 @@ typedef struct node_input {
     dmb_lump lumps[NODES];
     uint32_t lump_count;
     double gravity[3], weight_mass[NODES], weight_moment[3 * NODES], damping[5 * NODES];
-    double rotation[9 * NODES], velocity[ROWS], acceleration[ROWS];
+    double quaternion[4 * NODES], velocity[ROWS], acceleration[ROWS];
 } node_input;
 
 typedef struct node_output {
@@ -34,9 +34,10 @@ static void draw_input(uint64_t *seed, uint32_t spacing, node_input *in)
 {
     memset(in, 0, sizeof *in);
     for (uint32_t i = 0; i < NODES; i++) {
-        double O[3];
+        double O[3], R[9];
         draw_all(seed, 3, O);
-        dmb_so3_exp(O, NULL, in->rotation + 9 * i);
+        dmb_so3_exp(O, NULL, R);
+        dmb_quat_from_matrix(R, in->quaternion + 4 * i);
         if (spacing == 0 || i % spacing) continue;
         dmb_lump *lump = in->lumps + in->lump_count++;
         lump->node = FIRST + i;
@@ -70,7 +71,7 @@ static dmb_node_force_run run_of(const node_case *c, const node_input *in, node_
         .weight_mass = in->weight_mass + first,
         .weight_moment = in->weight_moment + 3 * first,
         .damping = c->damping && c->dynamic ? in->damping + 5 * first : NULL,
-        .rotation = in->rotation + 9 * first,
+        .quaternion = in->quaternion + 4 * first,
         .velocity = in->velocity + 6 * first,
         .acceleration = in->acceleration + 6 * first,
         .residual = out->residual + 6 * first,
@@ -133,14 +134,15 @@ static void all_widths_give_the_same_bits(void **state)
 static void point_mass(const node_input *in, uint32_t node, double m, const double x[3], double out[6])
 {
     const double *v = in->velocity + 6 * node, *a = in->acceleration + 6 * node;
-    double at[3], speed[3], turn[3], weight[3];
+    double at[3], speed[3], turn[3], weight[3], R[9];
     dmb_vec3_cross(v + 3, x, speed);
     dmb_vec3_add(speed, v, speed);
     dmb_vec3_cross(a + 3, x, at);
     dmb_vec3_add(at, a, at);
     dmb_vec3_cross(v + 3, speed, turn);
     dmb_vec3_add(at, turn, at);
-    dmb_mat3_tvec(in->rotation + 9 * node, in->gravity, weight);
+    dmb_quat_to_matrix(in->quaternion + 4 * node, R);
+    dmb_mat3_tvec(R, in->gravity, weight);
     dmb_vec3_axpy(-0.75, weight, at);
     dmb_vec3_scale(m, at, out);
     dmb_vec3_cross(x, out, out + 3);
