@@ -40,7 +40,17 @@ enum {
     DMB_OUTPUT_DISPLACEMENT = 0, /* [m, rad] of `place`, components along the axes of `frame` */
     DMB_OUTPUT_VELOCITY = 1,     /* [m/s, rad/s] its rate */
     DMB_OUTPUT_ACCELERATION = 2, /* [m/s2, rad/s2] the rate of that */
-    DMB_OUTPUT_SECTION_FORCE = 3 /* [N, N m] as dmb_query_section, section frame */
+    DMB_OUTPUT_SECTION_FORCE = 3, /* [N, N m] as dmb_query_section, section frame */
+    DMB_OUTPUT_SECTION_STRAIN = 4, /* [-, rad/m] likewise */
+    DMB_OUTPUT_CONTACT = 5,      /* [N] at contact site number place.pipe: component DMB_X, DMB_Y friction, 0 and 1 of
+                                    dmb_contact (not of bristles in a response: DMB_ERR_UNSUPPORTED); DMB_Z normal force */
+    DMB_OUTPUT_DRIVE = 6,        /* [N, N m] force of the drive place.part, as dmb_query_drive; no component */
+    DMB_OUTPUT_REACTION = 7,     /* [N, N m] on the part place.part, as dmb_query_reaction */
+    DMB_OUTPUT_JOINT_POSITION = 8, DMB_OUTPUT_JOINT_SPEED = 9, DMB_OUTPUT_JOINT_ACCELERATION = 10, /* coordinates of the */
+    DMB_OUTPUT_JOINT_REACTION = 11, DMB_OUTPUT_JOINT_ACTION = 12, /* joint place.part, its forces: as dmb_query_joint */
+    DMB_OUTPUT_MULTIPLIER = 13,  /* number `component` of place.part, as dmb_query_multipliers */
+    DMB_OUTPUT_BIT = 14          /* [N, N m] DMB_X weight, DMB_RX torque on the bit place.part by the rock law */
+    /* no outputs: energies and works, of second order; sums over contacts, bodies or states, which add up of these */
 };
 typedef struct dmb_output {
     uint32_t struct_size;

@@ -48,8 +48,9 @@ static dmb_complex_array take(dmb_arena *arena, size_t count)
 void dmb_dynamic_links_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_links_size size, dmb_dynamic_links *out)
 {
     const dmb_scene *scene = &linear->scene;
+    out->multiplier = take(arena, size.rows);
     out->rest = DMB_ARENA_DOUBLES(arena, 2 * (size_t)size.rows);
-    if (size.count == 0) return;
+    if (scene->cluster_count == 0) return;
     out->size = DMB_ARENA_ARRAY(arena, uint32_t, scene->block_count);
     out->row = DMB_ARENA_ARRAY(arena, uint32_t, scene->block_count);
     out->place = DMB_ARENA_ARRAY(arena, uint32_t, linear->coordinates);
@@ -110,7 +111,7 @@ static void add_scales(const dmb_linear *linear, const dmb_dynamic_links *links)
 void dmb_dynamic_links_number(const dmb_linear *linear, dmb_links_size size, dmb_dynamic_links *out)
 {
     out->count = size.count;
-    if (size.count == 0) return;
+    if (linear->scene.cluster_count == 0) return;
     out->matrix.size = out->size;
     number(linear, out);
     add_scales(linear, out);

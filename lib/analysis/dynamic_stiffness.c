@@ -109,7 +109,7 @@ int64_t dmb_dynamic_stiffness_factor(dmb_dynamic_stiffness *s, double omega)
         if (bad < 0) bad = loose_node(s, chain);
         if (bad >= 0) return bad;
     }
-    return s->links.count > 0 ? dmb_dynamic_links_factor(s) : -1;
+    return scene->cluster_count > 0 ? dmb_dynamic_links_factor(s) : -1;
 }
 
 /* Displacements that are told, and the forces -A p in their place. */
@@ -140,6 +140,6 @@ void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *s, int32_t moves, dmb_co
     for (uint32_t c = 0; c < scene->chain_count; c++)
         if (!scene->chains[c].linked)
             dmb_complex_block_solve(&scene->layout, &s->factors, scene->chains[c].first, scene->chains[c].count, x);
-    if (s->links.count > 0) dmb_dynamic_links_solve(s, x);
+    if (scene->cluster_count > 0) dmb_dynamic_links_solve(s, x);
     if (moves) add_told(s, x);
 }

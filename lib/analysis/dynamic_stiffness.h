@@ -18,12 +18,13 @@ typedef struct dmb_complex_number {
 
 /* The system R^T A R of chains that joints connect, in the blocks of the scene's pattern. */
 typedef struct dmb_dynamic_links {
-    uint32_t count;             /* of its coordinates; 0 without joints */
+    uint32_t count;             /* of its coordinates; 0 too where joints leave none */
     uint32_t *size, *row;       /* of each block: coordinates, and the first of them, shape (blocks of the scene) */
     uint32_t *place;            /* of coordinate i of the linear system among them; UINT32_MAX: none */
     dmb_complex_sparse matrix;
     dmb_complex_array solution; /* shape (count) */
     dmb_complex_array half;     /* A_ij R_j, shape (6, the widest block) */
+    dmb_complex_array multiplier; /* of one cluster, shape (the most rows of a cluster) */
     double *rest;               /* forces that constraints balance, shape (2, the most rows of a cluster) */
     double *stiffness, *mass;   /* what a pivot is held against: diagonals of R^T |K| R and R^T |M| R, shape (count) */
 } dmb_dynamic_links;

@@ -168,6 +168,7 @@ static int32_t drive(const request *r)
     if (i >= r->copy->scene->drive_count) return refuse(r, DMB_ERR_ID, "place.part names no drive of this model");
     const dmb_scene_drive *drive = r->copy->scene->drives + i;
     const double force = r->copy->now.drive_force[i];
+    r->out->drive = i;
     if (drive->joint != UINT32_MAX && r->copy->joint_state[drive->joint] == DMB_JOINT_OPEN)
         return refuse(r, DMB_ERR_VALUE, "the joint of the drive is open");
     if (drive->kind == DMB_DRIVE_CONTROL && (force <= drive->limit_low || force >= drive->limit_high))
@@ -202,7 +203,7 @@ static int32_t add_force(const request *r, int32_t component, double factor, dou
                         r->input->place.fraction, dmb_status_text(status));
         return status;
     }
-    for (uint32_t i = 0; i < f.count; i++) to[f.first + i] += factor * f.pose[i];
+    for (uint32_t i = 0; i < f.count; i++) to[f.row[i]] += factor * f.pose[i];
     return DMB_OK;
 }
 
@@ -300,5 +301,6 @@ int32_t dmb_excitation_of(dmb_sim *copy, const dmb_input *input, uint32_t index,
                           dmb_excitation *out)
 {
     const request r = {copy, input, index, message, out};
+    out->drive = UINT32_MAX;
     return make(&r);
 }

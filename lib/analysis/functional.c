@@ -56,9 +56,11 @@ static void narrow(const double *all, uint32_t rows, dmb_functional *out)
     while (first < rows && all[first] == 0.0) first++;
     while (end > first && all[end - 1] == 0.0) end--;
     memset(out, 0, sizeof *out);
-    out->first = first;
     out->count = end - first;
-    for (uint32_t i = 0; i < out->count; i++) out->pose[i] = all[first + i];
+    for (uint32_t i = 0; i < out->count; i++) {
+        out->row[i] = first + i;
+        out->pose[i] = all[first + i];
+    }
 }
 
 /* A velocity is linear in the velocities of the rows, and a small displacement in theirs by the same numbers. */
@@ -70,7 +72,7 @@ int32_t dmb_functional_of_motion(dmb_sim *copy, dmb_place place, int32_t frame, 
     return status;
 }
 
-/* ---- Section force ----------------------------------------------------------------------------------------------- */
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 static uint32_t node_of_row(const dmb_scene *scene, uint32_t row)
 {
@@ -85,30 +87,45 @@ static uint32_t node_of_row(const dmb_scene *scene, uint32_t row)
     return low;
 }
 
-/* Rows of the nodes around a place: the node or the two nodes it follows, and one more on either side. */
-static int32_t rows_around(dmb_sim *copy, dmb_place place, dmb_functional *out)
+void dmb_functional_take_node(const dmb_scene *scene, uint32_t node, dmb_functional *out)
+{
+    if (node == UINT32_MAX) return;
+    for (uint32_t i = 0; i < out->count; i++)
+        if (out->row[i] == scene->layout.row[node]) return;
+    for (uint32_t c = 0; c < scene->layout.size[node]; c++) out->row[out->count++] = scene->layout.row[node] + c;
+}
+
+int32_t dmb_functional_around(dmb_sim *copy, dmb_place place, dmb_functional *out)
 {
     const dmb_scene *scene = copy->scene;
     dmb_functional x;
     const int32_t status = dmb_functional_of_motion(copy, place, DMB_FRAME_BODY, DMB_X, &x);
     if (status < 0) return status;
-    uint32_t low = node_of_row(scene, x.first), high = node_of_row(scene, x.first + (x.count ? x.count - 1 : 0));
+    uint32_t low = node_of_row(scene, x.row[0]), high = node_of_row(scene, x.row[x.count ? x.count - 1 : 0]);
     if (low > 0) low--;
     if (high + 1 < scene->node_count) high++;
     memset(out, 0, sizeof *out);
-    out->first = scene->layout.row[low];
-    out->count = scene->layout.row[high + 1] - out->first;
+    for (uint32_t i = low; i <= high; i++) dmb_functional_take_node(scene, i, out);
     return DMB_OK;
 }
 
-static double section_component(const dmb_sim *copy, dmb_place place, int32_t component)
+void dmb_functional_add(double factor, const dmb_functional *from, dmb_functional *to)
 {
-    dmb_section section = dmb_section_default();
-    (void)dmb_query_section(copy, place, &section);
-    return section.force[component];
+    for (uint32_t i = 0; i < to->count; i++) {
+        to->pose[i] += factor * from->pose[i];
+        to->speed[i] += factor * from->speed[i];
+        to->acceleration[i] += factor * from->acceleration[i];
+    }
 }
 
-static double moved_section(dmb_sim *copy, dmb_place place, int32_t component, uint32_t row, double step)
+void dmb_functional_add_rate(double factor, const dmb_functional *from, dmb_functional *to)
+{
+    for (uint32_t i = 0; i < to->count; i++) to->speed[i] += factor * from->pose[i];
+}
+
+/* ---- Differences ------------------------------------------------------------------------------------------------- */
+
+static double moved_answer(dmb_sim *copy, dmb_answer *answer, const void *what, uint32_t row, double step)
 {
     const dmb_scene *scene = copy->scene;
     const uint32_t node = node_of_row(scene, row), c = row - scene->layout.row[node];
@@ -124,37 +141,36 @@ static double moved_section(dmb_sim *copy, dmb_place place, int32_t component, u
         x[0] += z[0];
         copy->now.turn[node] += z[1];
     }
-    const double value = section_component(copy, place, component);
+    const double value = answer(copy, what);
     memcpy(q, kept_q, sizeof kept_q);
     memcpy(x, kept_x, sizeof kept_x);
     copy->now.turn[node] = kept_turn;
     return value;
 }
 
-static double slope(double *number, double step, const dmb_sim *copy, dmb_place place, int32_t component)
+static double slope(double *number, double step, const dmb_sim *copy, dmb_answer *answer, const void *what)
 {
     const double kept = *number;
     *number = kept + step;
-    const double after = section_component(copy, place, component);
+    const double after = answer(copy, what);
     *number = kept - step;
-    const double before = section_component(copy, place, component);
+    const double before = answer(copy, what);
     *number = kept;
     return (after - before) / (2.0 * step);
 }
 
-/* Linear in accelerations and of second degree in speeds, so that central differences of any step are exact. */
-static void section_rows(dmb_sim *copy, dmb_place place, int32_t component, dmb_functional *out)
+/* Central differences of any step are exact by accelerations and speeds. */
+static void differences(dmb_sim *copy, dmb_answer *answer, const void *what, dmb_functional *out)
 {
     const dmb_scene *scene = copy->scene;
     for (uint32_t i = 0; i < out->count; i++) {
-        const uint32_t row = out->first + i, node = node_of_row(scene, row);
+        const uint32_t row = out->row[i], node = node_of_row(scene, row);
         const int turns = 2 * (row - scene->layout.row[node]) >= scene->layout.size[node];
         const double step = DMB_FUNCTIONAL_STEP * (turns ? 1.0 : scene->length_scale);
         out->pose[i] =
-            (moved_section(copy, place, component, row, step) - moved_section(copy, place, component, row, -step)) /
-            (2.0 * step);
-        out->speed[i] = slope(copy->now.velocity + row, 1.0, copy, place, component);
-        out->acceleration[i] = slope(copy->now.acceleration + row, 1.0, copy, place, component);
+            (moved_answer(copy, answer, what, row, step) - moved_answer(copy, answer, what, row, -step)) / (2.0 * step);
+        out->speed[i] = slope(copy->now.velocity + row, 1.0, copy, answer, what);
+        out->acceleration[i] = slope(copy->now.acceleration + row, 1.0, copy, answer, what);
     }
 }
 
@@ -167,11 +183,11 @@ static void add_turned(const double v[6], const double row[6], double to[6])
 }
 
 /* Body-frame speeds and accelerations change by d' + v^ d and d'' + v^ d' + a^ d. */
-static void turn_frames(const dmb_sim *copy, dmb_functional *out)
+void dmb_functional_turn_frames(const dmb_sim *copy, dmb_functional *out)
 {
     const dmb_scene *scene = copy->scene;
     for (uint32_t at = 0; at < out->count;) {
-        const uint32_t node = node_of_row(scene, out->first + at), row = scene->layout.row[node];
+        const uint32_t node = node_of_row(scene, out->row[at]), row = scene->layout.row[node];
         if (scene->layout.size[node] == DMB_NODE_FULL) {
             add_turned(copy->now.velocity + row, out->speed + at, out->pose + at);
             add_turned(copy->now.acceleration + row, out->acceleration + at, out->pose + at);
@@ -181,13 +197,8 @@ static void turn_frames(const dmb_sim *copy, dmb_functional *out)
     }
 }
 
-int32_t dmb_functional_of_section(dmb_sim *copy, dmb_place place, int32_t component, dmb_functional *out)
+void dmb_functional_of_answer(dmb_sim *copy, dmb_answer *answer, const void *what, dmb_functional *out)
 {
-    dmb_section section = dmb_section_default();
-    int32_t status = dmb_query_section(copy, place, &section);
-    if (status >= 0) status = rows_around(copy, place, out);
-    if (status < 0) return status;
-    section_rows(copy, place, component, out);
-    turn_frames(copy, out);
-    return DMB_OK;
+    differences(copy, answer, what, out);
+    dmb_functional_turn_frames(copy, out);
 }

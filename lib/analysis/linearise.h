@@ -93,6 +93,9 @@ static inline double dmb_linear_diagonal(const dmb_linear *linear, const dmb_lin
     const dmb_block_layout *layout = &linear->scene.layout;
     return A->diagonal[layout->diag[node] + (size_t)(layout->size[node] + 1) * c];
 }
+/* [N/m] that DMB_LINEAR_CONTACT_CLOSED has put behind ring number `site`, which does not touch; 0: nothing. */
+double dmb_linear_wall_stiffness(const dmb_linear *linear, uint32_t site, double gap);
+
 /* y = A x by rows, x and y apart. */
 void dmb_linear_multiply(const dmb_linear *linear, const dmb_linear_matrix *A, const double *x, double *y);
 /* d = R z, shape (rows) from (coordinates); rows that are held become 0. */

@@ -36,23 +36,29 @@ static double wall_stiffness(const dmb_scene *scene, const dmb_site *site)
 }
 
 /* k j j^T, j = (n; offset e_x x n) in body axes: the ring may not move across the wall. */
-static void add_wall(dmb_linear *linear, const dmb_site *site, const double normal[3])
+static void add_wall(dmb_linear *linear, const dmb_site *site, double stiffness, const double normal[3])
 {
     const double arm[3] = {site->offset, 0.0, 0.0};
     double j[6], R[9];
     dmb_quat_to_matrix(linear->work->trial.quaternion + 4 * (size_t)site->node, R);
     dmb_mat3_tvec(R, normal, j);
     dmb_vec3_cross(arm, j, j + 3);
-    dmb_mat6_add_outer(wall_stiffness(&linear->scene, site), j, j,
-                       linear->stiffness.diagonal + linear->scene.layout.diag[site->node]);
+    dmb_mat6_add_outer(stiffness, j, j, linear->stiffness.diagonal + linear->scene.layout.diag[site->node]);
+}
+
+double dmb_linear_wall_stiffness(const dmb_linear *linear, uint32_t s, double gap)
+{
+    const dmb_site *site = linear->scene.sites + s;
+    const double penetration = linear->work->trial.site_penetration[s];
+    if (penetration > 0.0 || site->clearance == 0.0 || penetration < -gap) return 0.0;
+    return wall_stiffness(&linear->scene, site);
 }
 
 void dmb_linear_close_contacts(dmb_linear *linear, double gap)
 {
-    const dmb_configuration *trial = &linear->work->trial;
     for (uint32_t s = 0; s < linear->scene.site_count; s++) {
-        const dmb_site *site = linear->scene.sites + s;
-        if (trial->site_penetration[s] > 0.0 || site->clearance == 0.0 || trial->site_penetration[s] < -gap) continue;
-        add_wall(linear, site, trial->site_normal + 3 * (size_t)s);
+        const double stiffness = dmb_linear_wall_stiffness(linear, s, gap);
+        if (stiffness > 0.0)
+            add_wall(linear, linear->scene.sites + s, stiffness, linear->work->trial.site_normal + 3 * (size_t)s);
     }
 }

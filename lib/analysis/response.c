@@ -6,9 +6,9 @@
 
 #include "analysis/dynamic_stiffness.h"
 #include "analysis/excitation.h"
-#include "analysis/functional.h"
 #include "analysis/response_object.h"
 #include "analysis/response_options.h"
+#include "analysis/response_output.h"
 #include "analysis/response_peaks.h"
 #include "base/allocator.h"
 #include "base/arena.h"
@@ -17,22 +17,15 @@
 #include "math/so3.h"
 #include "system/owner.h"
 
-/* An output: its value is (i w)^rate times what the functional says of the displacements. */
-typedef struct response_output {
-    dmb_functional functional;
-    int32_t rate;
-    int32_t elastic; /* 1: the part by pose is of the stiffness and has its structural damping */
-} response_output;
-
 typedef struct response_work {
     dmb_sim *sim; /* for its message */
     dmb_response_options options;
     dmb_linear *linear;
     dmb_dynamic_stiffness stiffness;
     dmb_excitation *inputs;
-    response_output *outputs;
+    dmb_response_output *outputs;
     uint32_t input_count, output_count;
-    dmb_complex_array x;
+    dmb_complex_array x, f; /* displacements, and the forces that lead to them, shape (rows) */
     void *block;
     size_t block_size;
 } response_work;
@@ -43,13 +36,15 @@ static void lay_out(dmb_arena *arena, response_work *w)
 {
     const uint32_t rows = w->sim->scene->row_count;
     w->inputs = DMB_ARENA_ARRAY(arena, dmb_excitation, w->input_count);
-    w->outputs = DMB_ARENA_ARRAY(arena, response_output, w->output_count);
-    double *numbers = DMB_ARENA_DOUBLES(arena, 2 * (size_t)rows * (w->input_count + 1u));
+    w->outputs = DMB_ARENA_ARRAY(arena, dmb_response_output, w->output_count);
+    double *numbers = DMB_ARENA_DOUBLES(arena, 2 * (size_t)rows * (w->input_count + 2u));
     if (numbers == NULL) return;
     w->x.re = numbers;
     w->x.im = numbers + rows;
+    w->f.re = numbers + 2 * (size_t)rows;
+    w->f.im = numbers + 3 * (size_t)rows;
     for (uint32_t i = 0; i < w->input_count; i++) {
-        w->inputs[i].re = numbers + 2 * (size_t)rows * (i + 1u);
+        w->inputs[i].re = numbers + 2 * (size_t)rows * (i + 2u);
         w->inputs[i].im = w->inputs[i].re + rows;
     }
 }
@@ -104,29 +99,14 @@ static int32_t take_inputs(response_work *w, const dmb_input *inputs, dmb_respon
     return status;
 }
 
-static int32_t take_output(response_work *w, const dmb_output *output, response_output *to)
-{
-    dmb_sim *copy = w->linear->work;
-    if (output->kind == DMB_OUTPUT_SECTION_FORCE) {
-        to->elastic = 1;
-        return dmb_functional_of_section(copy, output->place, output->component, &to->functional);
-    }
-    to->rate = output->kind;
-    return dmb_functional_of_motion(copy, output->place, output->frame, output->component, &to->functional);
-}
-
 static int32_t take_outputs(response_work *w, const dmb_output *outputs)
 {
     for (uint32_t i = 0; i < w->output_count; i++) {
         dmb_output output;
         int32_t status = dmb_output_take(outputs, i, &w->sim->message, &output);
         if (status < 0) return status;
-        status = take_output(w, &output, w->outputs + i);
-        if (status < 0) {
-            dmb_message_set(&w->sim->message, "output %u: place, pipe %u at %g: %s", i, output.place.pipe,
-                            output.place.fraction, dmb_status_text(status));
-            return status;
-        }
+        status = dmb_response_output_of(w->linear, &w->options, &output, i, &w->sim->message, w->outputs + i);
+        if (status < 0) return status;
     }
     return DMB_OK;
 }
@@ -139,7 +119,7 @@ static int32_t no_displacement(const response_work *w, uint32_t input)
     return DMB_ERR_SINGULAR;
 }
 
-/* Right-hand side of an input: forces, or displacements that a drive asks for. */
+/* Right-hand side of an input into x: forces, which are f too, or displacements that a drive asks for. */
 static int32_t load(response_work *w, uint32_t input, double omega)
 {
     const dmb_excitation *e = w->inputs + input;
@@ -152,29 +132,10 @@ static int32_t load(response_work *w, uint32_t input, double omega)
     for (uint32_t r = 0; r < rows; r++) {
         w->x.re[r] = re * e->re[r] - im * e->im[r];
         w->x.im[r] = re * e->im[r] + im * e->re[r];
+        w->f.re[r] = e->law == DMB_EXCITE_MOTION ? 0.0 : w->x.re[r];
+        w->f.im[r] = e->law == DMB_EXCITE_MOTION ? 0.0 : w->x.im[r];
     }
     return DMB_OK;
-}
-
-/* value = (i w)^rate sum (pose + i w speed - w^2 acceleration) d */
-static void answer(const response_work *w, const response_output *output, double omega, double value[2])
-{
-    const dmb_functional *f = &output->functional;
-    const double eta = output->elastic ? w->options.structural_damping : 0.0;
-    double re = 0.0, im = 0.0;
-    for (uint32_t i = 0; i < f->count; i++) {
-        const double dr = w->x.re[f->first + i], di = w->x.im[f->first + i];
-        const double a = f->pose[i] - omega * omega * f->acceleration[i], b = omega * f->speed[i] + eta * f->pose[i];
-        re += a * dr - b * di;
-        im += a * di + b * dr;
-    }
-    for (int32_t k = 0; k < output->rate; k++) {
-        const double kept = re;
-        re = -omega * im;
-        im = omega * kept;
-    }
-    value[0] = re;
-    value[1] = im;
 }
 
 static int32_t nothing_holds(const response_work *w, double frequency, uint32_t node)
@@ -197,7 +158,12 @@ static int32_t solve_point(response_work *w, dmb_response *response, uint32_t po
         if (status < 0) return status;
         dmb_dynamic_stiffness_solve(&w->stiffness, w->inputs[i].law == DMB_EXCITE_MOTION, w->x);
         double *value = dmb_response_value(response, point, i);
-        for (uint32_t k = 0; k < w->output_count; k++) answer(w, w->outputs + k, omega, value + 2 * (size_t)k);
+        for (uint32_t k = 0; k < w->output_count; k++) {
+            const dmb_complex_number found =
+                dmb_response_output_value(&w->stiffness, w->outputs + k, w->inputs + i, w->x, w->f);
+            value[2 * (size_t)k] = found.re;
+            value[2 * (size_t)k + 1] = found.im;
+        }
     }
     return DMB_OK;
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "analysis/answer.h"
 #include "math/so3.h"
 
 static void part_along(const double axes[9], int32_t frame, const double world[3], double out[3])
@@ -44,23 +45,15 @@ static double displacement(const dmb_sim *sim, const dmb_sine_output *o, int32_t
 
 static double value_of(const dmb_sim *sim, const dmb_sine_output *o, int32_t *status)
 {
-    dmb_motion motion = dmb_motion_default();
-    dmb_section section = dmb_section_default();
-    const int32_t c = o->output.component;
-    if (o->output.kind == DMB_OUTPUT_DISPLACEMENT) return displacement(sim, o, status);
-    if (o->output.kind == DMB_OUTPUT_SECTION_FORCE) {
-        *status = dmb_query_section(sim, o->output.place, &section);
-        return section.force[c];
-    }
-    motion.frame = o->output.frame;
-    *status = dmb_query_motion(sim, o->output.place, &motion);
-    return o->output.kind == DMB_OUTPUT_VELOCITY ? motion.velocity[c] : motion.acceleration[c];
+    return o->output.kind == DMB_OUTPUT_DISPLACEMENT ? displacement(sim, o, status)
+                                                     : dmb_answer_of(sim, &o->output, status);
 }
 
 int32_t dmb_sine_output_begin(const dmb_sim *sim, dmb_sine_output *output)
 {
     dmb_pose pose = dmb_pose_default();
-    int32_t status = dmb_query_pose(sim, output->output.place, &pose);
+    int32_t status = DMB_OK;
+    if (output->output.kind == DMB_OUTPUT_DISPLACEMENT) status = dmb_query_pose(sim, output->output.place, &pose);
     memcpy(output->start, pose.rotation, sizeof output->start);
     if (status >= 0) (void)value_of(sim, output, &status);
     return status;

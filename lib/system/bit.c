@@ -163,16 +163,33 @@ void dmb_gather_bits(dmb_evaluation *evaluation)
     for (uint32_t k = 0; k < evaluation->sim->scene->bit_count; k++) gather_bit(evaluation, k);
 }
 
-void dmb_bit_force_of(const dmb_sim *sim, uint32_t k, dmb_bit_rock_result *out, double *load)
+static void motion_now(const dmb_sim *sim, uint32_t k, bit_motion *m)
 {
-    const uint32_t node = sim->scene->bits[k].node;
     double R[9], displacement[3];
     uint32_t segment = sim->now.bit_segment[k];
+    dmb_node_pose(sim->scene, &sim->now, sim->scene->bits[k].node, R, displacement);
+    motion_of(sim->scene, &sim->now, R, k, &segment, m);
+}
+
+void dmb_bit_force_of(const dmb_sim *sim, uint32_t k, dmb_bit_rock_result *out, double *load)
+{
     bit_motion m;
-    dmb_node_pose(sim->scene, &sim->now, node, R, displacement);
-    motion_of(sim->scene, &sim->now, R, k, &segment, &m);
+    motion_now(sim, k, &m);
     rock(sim, k, sim->now.bit_bottom[k], &m, out);
     *load = sim->now.bit_load[k];
+}
+
+void dmb_bit_slope_of(const dmb_sim *sim, uint32_t k, dmb_bit_slope *out)
+{
+    bit_motion m;
+    dmb_bit_rock_result r;
+    motion_now(sim, k, &m);
+    rock(sim, k, sim->now.bit_bottom[k], &m, &r);
+    const dmb_bit_slope slope = {.weight = {r.dW_dU, r.dW_dPhi, r.dW_dV, r.dW_dOmega},
+                                 .torque = {r.dT_dU, r.dT_dPhi, r.dT_dV, r.dT_dOmega}};
+    *out = slope;
+    dmb_vec6_copy(m.along, out->along);
+    dmb_vec6_copy(m.about, out->about);
 }
 
 void dmb_bit_start(dmb_sim *sim, uint32_t k)

@@ -8,6 +8,14 @@ typedef struct dmb_bit_rock_result dmb_bit_rock_result;
 
 /* Rock law's answer and the bottom-hole load [N] of a bit in the accepted state. */
 void dmb_bit_force_of(const dmb_sim *sim, uint32_t bit, dmb_bit_rock_result *out, double *load);
+/* What a bit moves by along and about the axis of the hole, in the body frame of its node, and slopes of weight and torque
+ * by advance, angle, speed and spin. */
+typedef struct dmb_bit_slope {
+    double along[6], about[6];
+    double weight[4]; /* [N/m, N/rad, N s/m, N s/rad] */
+    double torque[4]; /* [N, N m/rad, N s, N m s/rad] */
+} dmb_bit_slope;
+void dmb_bit_slope_of(const dmb_sim *sim, uint32_t bit, dmb_bit_slope *out);
 /* The history of a bit as the rock law takes it. */
 dmb_bit_history dmb_bit_history_of(const dmb_sim *sim, uint32_t bit);
 /* Flat rock at the described distance, at the start. */

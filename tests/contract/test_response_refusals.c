@@ -191,12 +191,25 @@ static void fields_out_of_bounds(void **state)
     REFUSED(DMB_ERR_ID, s.input.kind = DMB_INPUT_DRIVE, "input 0: place.part names no drive");
     REFUSED(DMB_ERR_ID, s.input.kind = DMB_INPUT_BIT_LOAD, "input 0: place.part names no bit");
     REFUSED(DMB_ERR_STRUCT_SIZE, s.input.struct_size = 4, "input 0: struct_size");
-    REFUSED(DMB_ERR_VALUE, s.output.kind = 4, "output 0: kind");
+    REFUSED(DMB_ERR_VALUE, s.output.kind = 15, "output 0: kind");
     REFUSED(DMB_ERR_VALUE, s.output.component = -1, "output 0: component");
     REFUSED(DMB_ERR_VALUE, s.output.frame = -1, "output 0: frame");
     REFUSED(DMB_ERR_VALUE, s.output.place.fraction = 1.5, "output 0: place");
     REFUSED(DMB_ERR_ID, s.output.place.part = s.load, "output 0: place");
     REFUSED(DMB_ERR_STRUCT_SIZE, s.output.struct_size = 12, "output 0: struct_size");
+    REFUSED(DMB_ERR_ID, (s.output.kind = DMB_OUTPUT_SECTION_STRAIN, s.output.place.part = s.drive), "output 0: place");
+    REFUSED(DMB_ERR_VALUE, (s.output.kind = DMB_OUTPUT_CONTACT, s.output.place.pipe = 0), "output 0: place.pipe");
+    REFUSED(DMB_ERR_VALUE, (s.output.kind = DMB_OUTPUT_CONTACT, s.output.component = 3), "output 0: component");
+    REFUSED(DMB_ERR_UNSUPPORTED, (s.output.kind = DMB_OUTPUT_CONTACT, s.options.contact = DMB_CONTACT_OPEN),
+            "output 0: contact is left out");
+    REFUSED(DMB_ERR_ID, s.output.kind = DMB_OUTPUT_DRIVE, "output 0: place.part names no drive");
+    REFUSED(DMB_ERR_ID, (s.output.kind = DMB_OUTPUT_REACTION, s.output.place.part = s.load),
+            "output 0: place.part names no");
+    REFUSED(DMB_ERR_ID, s.output.kind = DMB_OUTPUT_JOINT_POSITION, "output 0: place.part names no joint");
+    REFUSED(DMB_ERR_ID, s.output.kind = DMB_OUTPUT_JOINT_REACTION, "output 0: place.part names no joint");
+    REFUSED(DMB_ERR_ID, s.output.kind = DMB_OUTPUT_MULTIPLIER, "output 0: component is no row");
+    REFUSED(DMB_ERR_ID, s.output.kind = DMB_OUTPUT_BIT, "output 0: place.part names no bit");
+    REFUSED(DMB_ERR_VALUE, (s.output.kind = DMB_OUTPUT_BIT, s.output.component = DMB_Y), "output 0: component");
 #undef REFUSED
     end(&s);
 }
