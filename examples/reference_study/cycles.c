@@ -6,6 +6,7 @@
 #define WINDOW (4.0 * 60.0 / RIG_ROTATION_RPM) /* [s] four revolutions */
 #define SLACK 1e-9                             /* [s] */
 #define DROP_END 1.0                           /* [s] */
+#define BIT_END 6.0                            /* [s] */
 
 /* Stages in which head and string move steadily: drill, pull out. */
 static const int driven[STUDY_DRIVEN] = {1, 5};
@@ -19,14 +20,23 @@ void study_runs_describe(study_run runs[STUDY_RUNS], double step)
         [STUDY_FULL] = {DMB_PIPE_FLEXIBLE, RIG_VIBRATION},
         [STUDY_RIGID_DROPPED] = {DMB_PIPE_RIGID, RIG_VIBRATION},
         [STUDY_FULL_DROPPED] = {DMB_PIPE_FLEXIBLE, RIG_VIBRATION},
+        [STUDY_RIGID_BIT] = {DMB_PIPE_RIGID, RIG_VIBRATION},
+        [STUDY_FULL_BIT] = {DMB_PIPE_FLEXIBLE, RIG_VIBRATION},
     };
     for (int i = 0; i < STUDY_RUNS; ++i) {
         runs[i].options = rig_options_default();
         runs[i].options.quiet = 1;
         runs[i].options.step = step;
         runs[i].variant = variants[i];
-        runs[i].options.dropped = i >= STUDY_RIGID_DROPPED;
-        if (runs[i].options.dropped) runs[i].options.end = DROP_END;
+        runs[i].whole = i < STUDY_RIGID_DROPPED;
+    }
+    for (int i = STUDY_RIGID_DROPPED; i <= STUDY_FULL_DROPPED; ++i) {
+        runs[i].options.dropped = 1;
+        runs[i].options.end = DROP_END;
+    }
+    for (int i = STUDY_RIGID_BIT; i <= STUDY_FULL_BIT; ++i) {
+        runs[i].options.bit = STUDY_BIT;
+        runs[i].options.end = BIT_END;
     }
 }
 
@@ -86,6 +96,12 @@ static void watch_wall(study_run *run, const dmb_recorder *recorder)
     }
 }
 
+static void watch_bit(study_run *run, const dmb_recorder *recorder)
+{
+    const double *time = run->options.cycle.time, end = fmin(time[driven[0] + 1], run->options.end);
+    run->bit_speed = swing(take(recorder, RIG_VELOCITY_Z + 6 * RIG_BIT, time[driven[0]], end), 0.0);
+}
+
 static void watch_motion(study_run *run, const dmb_recorder *recorder)
 {
     const double end = run->options.end, bound = STUDY_JUMP / run->options.rate;
@@ -120,7 +136,8 @@ void study_run_work(void *context)
     run->status = rig_run(&run->options, &run->variant, &result);
     const dmb_recorder *recorder = &result.recording.recorder;
     if (run->status >= 0) watch_wall(run, recorder);
-    if (run->status >= 0 && !run->options.dropped) {
+    if (run->status >= 0 && !run->options.dropped) watch_bit(run, recorder);
+    if (run->status >= 0 && run->whole) {
         watch_motion(run, recorder);
         watch_energy(run, recorder);
     }
@@ -164,28 +181,33 @@ static void print_energy(const study_run runs[STUDY_RUNS])
 
 void study_runs_print(const study_run runs[STUDY_RUNS])
 {
-    static const char *const names[STUDY_RUNS] = {
-        "rigid, friction and vibration",    "flexible, contact only",       "flexible, friction",
-        "flexible, friction and vibration", "rigid, dropped from the axis", "flexible, dropped from the axis"};
+    static const char *const names[STUDY_RUNS] = {"rigid, friction and vibration",
+                                                  "flexible, contact only",
+                                                  "flexible, friction",
+                                                  "flexible, friction and vibration",
+                                                  "rigid, dropped from the axis",
+                                                  "flexible, dropped from the axis",
+                                                  "rigid, a bit that meets the wall",
+                                                  "flexible, a bit that meets the wall"};
     const uint32_t pipes = runs->options.pipes;
     printf("The drilling cycle of %g s in time, with steps of %g ms\n", runs->options.end, 1e3 * runs->options.step);
-    printf("                                     mean height, mm    Z speed, mm/s               jumps a second\n"
-           "                                    pipe 1      bit   pipe 1  pipe %-3u pipe %-3u  pipe 1  pipe %-3u pipe "
-           "%u\n",
-           pipes / 2, pipes, pipes / 2, pipes);
+    printf(
+        "                                       mean height, mm    Z speed, mm/s               jumps a second\n"
+        "                                      pipe 1      bit   pipe 1  pipe %-3u pipe %-3u  pipe 1  pipe %-3u pipe "
+        "%u\n",
+        pipes / 2, pipes, pipes / 2, pipes);
     for (int i = 0; i < STUDY_RIGID_DROPPED; ++i) {
         const study_run *run = runs + i;
-        printf("  %-33s %7.3f %8.3f ", names[i], 1e3 * run->height[0], 1e3 * run->height[1]);
+        printf("  %-35s %7.3f %8.3f ", names[i], 1e3 * run->height[0], 1e3 * run->height[1]);
         for (int p = 0; p < RIG_PIPES; ++p) printf(" %8.3f", 1e3 * run->speed[p]);
         for (int p = 0; p < RIG_PIPES; ++p) printf(" %8.2f", run->jumps[p]);
         printf("\n");
     }
     for (int i = 0; i < STUDY_RUNS; ++i) {
-        printf("  %-33s pipe %u leaves the wall %d times", names[i], pipes, runs[i].left);
-        if (runs[i].left > 0)
-            printf(", the last time at %.2f s\n", runs[i].last_left);
-        else
-            printf("\n");
+        printf("  %-35s pipe %u leaves the wall %d times", names[i], pipes, runs[i].left);
+        if (runs[i].left > 0) printf(", the last time at %.2f s", runs[i].last_left);
+        if (!runs[i].options.dropped) printf("; Z speed of the bit while drilling %.3f mm/s", 1e3 * runs[i].bit_speed);
+        printf("\n");
     }
     print_energy(runs);
     printf("\n");

@@ -191,6 +191,13 @@ static void print_point(const study_point *p)
     printf("\n");
 }
 
+static void take_quantities(const study_point *p, double values[QUANTITIES])
+{
+    const double taken[QUANTITIES] = {p->bending[0], p->torsional, p->axial,    p->on_wall[0], p->torque,
+                                      p->thrust,     p->push,      p->buckling, p->amplitude};
+    for (int n = 0; n < QUANTITIES; ++n) values[n] = taken[n];
+}
+
 /* What moves what: the largest over the smallest of each quantity in a study. */
 static void print_ranges(const study_set sets[STUDY_SETS])
 {
@@ -198,14 +205,14 @@ static void print_ranges(const study_set sets[STUDY_SETS])
         "  largest over smallest of each, in each study\n"
         "                               bending  around   along  1st on  torque  thrust    push buckling  largest\n");
     for (int i = 0; i < STUDY_SETS; ++i) {
-        double low[QUANTITIES], high[QUANTITIES];
-        for (int k = 0; k < sets[i].count; ++k) {
-            const study_point *p = sets[i].point + k;
-            const double values[QUANTITIES] = {p->bending[0], p->torsional, p->axial,    p->on_wall[0], p->torque,
-                                               p->thrust,     p->push,      p->buckling, p->amplitude};
+        double low[QUANTITIES], high[QUANTITIES], values[QUANTITIES];
+        take_quantities(sets[i].point, low);
+        take_quantities(sets[i].point, high);
+        for (int k = 1; k < sets[i].count; ++k) {
+            take_quantities(sets[i].point + k, values);
             for (int n = 0; n < QUANTITIES; ++n) {
-                low[n] = k == 0 ? values[n] : fmin(low[n], values[n]);
-                high[n] = k == 0 ? values[n] : fmax(high[n], values[n]);
+                low[n] = fmin(low[n], values[n]);
+                high[n] = fmax(high[n], values[n]);
             }
         }
         printf("  %-27s", sets_asked[i].name);

@@ -155,7 +155,7 @@ static void join(const double full[MOST][MOST], int bends, double sign, double j
 }
 
 /* m becomes its Cholesky factor. */
-static void factor(int size, double m[MOST][MOST])
+static void cholesky(int size, double m[MOST][MOST])
 {
     for (int r = 0; r < size; ++r)
         for (int c = 0; c <= r; ++c) {
@@ -181,7 +181,7 @@ static void solve(int size, double m[MOST][MOST], double x[MOST])
 static double highest(int size, double k[MOST][MOST], double m[MOST][MOST])
 {
     double x[MOST], growth = 0.0;
-    factor(size, m);
+    cholesky(size, m);
     for (int i = 0; i < size; ++i) x[i] = 1.0 + 0.1 * i;
     for (int turn = 0; turn < TURNS; ++turn) {
         double y[MOST] = {0.0};
@@ -200,10 +200,10 @@ static double highest_of_string(const plane *p, int normal_modes)
     int bends = 0;
     double found = 0.0;
     while (bends < p->bends && p->order[bends] <= normal_modes) bends++;
-    for (double sign = -1.0; sign <= 1.0; sign += 2.0) {
+    for (int alike = 0; alike <= 1; ++alike) {
         double k[MOST][MOST], m[MOST][MOST];
-        join(p->k, bends, sign, k);
-        join(p->m, bends, sign, m);
+        join(p->k, bends, alike ? 1.0 : -1.0, k);
+        join(p->m, bends, alike ? 1.0 : -1.0, m);
         found = fmax(found, highest(2 + bends, k, m));
     }
     return found;

@@ -90,7 +90,8 @@ def modes(folder):
     middle.semilogy(table["mode"][swings], table["frequency [Hz]"][swings], ".", color=BLUE, markersize=3,
                     label="one element a pipe")
     middle.set(xlabel="mode", ylabel="frequency [Hz]", title="All modes")
-    for key, label, color in (("by elements [Hz]", "elements", BLUE), ("by modes [Hz]", "12 shapes and normal modes", ORANGE)):
+    for key, label, color in (("by elements [Hz]", "elements", BLUE),
+                              ("by modes [Hz]", "12 shapes and normal modes", ORANGE)):
         right.plot(highest["coordinates of a pipe"], highest[key], "o-", color=color, label=label)
     right.set(xlabel="independent coordinates of a pipe", ylabel="highest frequency [Hz]",
               title="The highest: how pipes are described", ylim=(0, None))
@@ -152,8 +153,8 @@ def parameters(folder):
     for column, (name, points) in zip(places.T, sets.items()):
         for axes, (_, _, lines) in zip(column, QUESTIONS):
             for key, factor, label, color, marker in lines:
-                axes.plot(points["value"], factor * points[key], marker + "-", color=color, markersize=4.5, linewidth=1.2,
-                          label=label)
+                axes.plot(points["value"], factor * points[key], marker + "-", color=color, markersize=4.5,
+                          linewidth=1.2, label=label)
         if points["value"][-1] / points["value"][0] > 50:
             column[0].set_xscale("log")
         if name == "elements in a pipe":
@@ -168,8 +169,8 @@ def parameters(folder):
             row[0].set_ylim(bottom=0.0)
         row[-1].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=11)
     figure.align_ylabels(places[:, 0])
-    figure.suptitle("What depends on what: one parameter changed at a time, otherwise 100 pipes of 1 m, 73 x 6 mm steel, "
-                    "in a hole of 94 mm", fontsize=14, x=0.01, ha="left")
+    figure.suptitle("What depends on what: one parameter changed at a time, otherwise 100 pipes of 1 m, 73 x 6 mm "
+                    "steel, in a hole of 94 mm", fontsize=14, x=0.01, ha="left")
     finish(folder, figure, "parameter_studies.png")
 
 

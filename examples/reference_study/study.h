@@ -152,6 +152,7 @@ void study_sets_print(const study_set sets[STUDY_SETS]);
 int study_sets_write(const char *folder, const study_set sets[STUDY_SETS]);
 
 /* ---- The drilling cycle in time (cycles.c) ----------------------------------------------------------------------- */
+#define STUDY_BIT 0.090 /* [m] diameter of that bit */
 #define STUDY_JUMP 1.0 /* [m/s2] above this a change of speed between samples is a jump: a tenth of gravity */
 enum {
     STUDY_RIGID = 0, /* with friction and vibration, as FULL */
@@ -160,7 +161,9 @@ enum {
     STUDY_FULL = 3,    /* and vibration */
     STUDY_RIGID_DROPPED = 4,
     STUDY_FULL_DROPPED = 5,
-    STUDY_RUNS = 6,
+    STUDY_RIGID_BIT = 6, /* with a bit that meets the wall itself */
+    STUDY_FULL_BIT = 7,
+    STUDY_RUNS = 8,
     STUDY_DRIVEN = 2, /* stages: drill, pull out */
     STUDY_WINDOWS = 15
 };
@@ -168,9 +171,11 @@ typedef struct study_run {
     int32_t status;
     rig_options options;
     rig_variant variant;
+    int whole;        /* 1: over the whole cycle */
     int left;         /* [-] times that the end of the last pipe leaves the wall */
     double last_left; /* [s] NaN: never */
-    /* Of runs that are not dropped: */
+    double bit_speed; /* [m/s] root mean square Z speed of the bit while drilling, of runs that are not dropped */
+    /* Of runs over the whole cycle: */
     double height[2];                           /* [m] mean Z displacement of the end of the first pipe, of the bit */
     double speed[RIG_PIPES];                    /* [m/s] root mean square Z speed of the ends of three pipes */
     double jumps[RIG_PIPES];                    /* [1/s] of that speed */
