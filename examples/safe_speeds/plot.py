@@ -95,13 +95,17 @@ def lines_of(modes):
             yield kind, speeds, [sorted(by_speed[speed])[number] for speed in speeds]
 
 
-def draw_crossings(axes, speeds, line, order, colour):
+def draw_crossings(axes, speeds, line, order, colour, told):
+    """Dots, and their speeds but for those that would hide one told before."""
     for left, right, low, high in zip(speeds, speeds[1:], line, line[1:]):
         before, after = low - order * left / 60.0, high - order * right / 60.0
         if before * after > 0.0 or before == after:
             continue
         speed = left + (right - left) * before / (before - after)
         axes.plot(speed, order * speed / 60.0, "o", color=colour, markersize=8, zorder=5)
+        if any(abs(speed - other) < 25.0 and abs(order * (speed - other)) < 60.0 for other in told):
+            continue
+        told.append(speed)
         axes.annotate(f"{speed:.0f} rpm", (speed, order * speed / 60.0), (6, -13), textcoords="offset points",
                       fontsize=10, weight="bold", color=colour, zorder=6,
                       path_effects=[withStroke(linewidth=3, foreground="white")])
@@ -114,7 +118,7 @@ def draw_campbell(axes, folder):
     lowest, highest = (limit(float(row["speed [rpm]"]) for row in modes) for limit in (min, max))
     top = max(order for order, _ in orders) * highest / 60.0
     ends = np.array([lowest, highest])
-    drawn = set()
+    drawn, told = set(), []
     for kind, speeds, line in lines_of(modes):
         strong = kind != "lateral"
         axes.plot(speeds, line, color=KINDS[kind], linewidth=2.4 if strong else 0.7, zorder=3 if strong else 1,
@@ -122,7 +126,7 @@ def draw_campbell(axes, folder):
         drawn.add(kind)
         for order, _ in orders:
             if strong:
-                draw_crossings(axes, speeds, line, order, KINDS[kind])
+                draw_crossings(axes, speeds, line, order, KINDS[kind], told)
     for order, name in orders:
         axes.plot(ends, order * ends / 60.0, color="#b3261e", linewidth=1.6, zorder=2)
         axes.text(highest + 3, order * highest / 60.0, f"{order:g}x  {name}", color="#b3261e", va="center")
