@@ -557,7 +557,8 @@ class ModesInfo(_Sized):
 class Mode(_Sized):
     _fields_ = [("struct_size", c_uint32), ("rigid", c_int32), ("frequency", c_double), ("damping", c_double),
                 ("eigenvalue", c_double * 2), ("kinetic", c_double), ("strain", c_double), ("share", c_double * 3),
-                ("participation", c_double * 3), ("effective_mass", c_double * 3), ("whirl", c_double)]
+                ("participation", c_double * 3), ("effective_mass", c_double * 3), ("whirl", c_double),
+                ("strain_share", c_double * 3)]
 
 
 @_mirrors("dmb_mode_shape")

@@ -64,6 +64,8 @@ typedef struct dmb_mode {
     double effective_mass[3];  /* [kg] their squares: sum over all modes = mass that is free to move, shape (3) */
     double whirl;              /* [-] part of the kinetic energy in circles from y to z (forward, of spin > 0) less that in
                                   circles from z to y (backward), in `axes`: 1 .. -1; 0 of undamped modes */
+    double strain_share[3];    /* [-] of the strain energy that is stretch, twist, bending with shear; sum 1, or 0 where
+                                  nothing is strained, shape (3) */
 } dmb_mode;
 DMB_SIZED_STRUCT(dmb_mode)
 

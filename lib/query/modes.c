@@ -50,16 +50,29 @@ int32_t dmb_modes_get_info(const dmb_modes *modes, dmb_modes_info *info)
 
 /* ---- Energies ---------------------------------------------------------------------------------------------------- */
 
-static double strain_energy(const dmb_sim *view, uint32_t first, uint32_t count)
+/* Adds that of stretch, of twist, of bending with shear. */
+static void add_strain_parts(const dmb_sim *view, uint32_t first, uint32_t count, double sum[3])
 {
-    double sum = 0.0;
     for (uint32_t e = first; e < first + count; e++) {
         const dmb_element_type *type = view->scene->types + view->scene->element_type[e];
         double rate[6];
         dmb_element_strain_rate(view->scene, &view->now, e, rate);
-        for (int i = 0; i < 6; i++) sum += 0.5 * type->stiffness[i] * rate[i] * rate[i];
+        for (int i = 0; i < 6; i++) sum[i % 3 ? 2 : i / 3] += 0.5 * type->stiffness[i] * rate[i] * rate[i];
     }
-    return sum;
+}
+
+static double strain_energy(const dmb_sim *view, uint32_t first, uint32_t count)
+{
+    double parts[3] = {0.0, 0.0, 0.0};
+    add_strain_parts(view, first, count, parts);
+    return parts[0] + parts[1] + parts[2];
+}
+
+/* Parts of their sum, 0 where that is 0. */
+static void take_shares(const double parts[3], double share[3])
+{
+    const double all = parts[0] + parts[1] + parts[2];
+    for (int i = 0; i < 3; i++) share[i] = all > 0.0 ? parts[i] / all : 0.0;
 }
 
 static void add_kinetic_parts(const dmb_sim *view, double sum[3])
@@ -78,7 +91,7 @@ static void add_kinetic_parts(const dmb_sim *view, double sum[3])
 static void describe(const dmb_modes *modes, uint32_t index, dmb_mode *mode)
 {
     const double *s = modes->s + 2 * (size_t)index, size = hypot(s[0], s[1]);
-    double parts[3] = {0.0, 0.0, 0.0};
+    double parts[3] = {0.0, 0.0, 0.0}, strain[3] = {0.0, 0.0, 0.0};
     mode->rigid = modes->rigid[index];
     mode->frequency = size / DMB_TWO_PI;
     mode->damping = size > 0.0 && s[0] != 0.0 ? -s[0] / size : 0.0;
@@ -87,17 +100,18 @@ static void describe(const dmb_modes *modes, uint32_t index, dmb_mode *mode)
         const dmb_sim view = moving(modes, index, part);
         dmb_momentum momentum = dmb_momentum_default();
         add_kinetic_parts(&view, parts);
-        mode->strain += strain_energy(&view, 0, view.scene->element_count);
+        add_strain_parts(&view, 0, view.scene->element_count, strain);
         (void)dmb_query_momentum(&view, &momentum);
         for (int i = 0; i < 3; i++) {
             if (part == 0) mode->participation[i] = momentum.linear[i];
             mode->effective_mass[i] += momentum.linear[i] * momentum.linear[i];
         }
     }
-    const double all = parts[0] + parts[1] + parts[2];
     mode->whirl = modes->whirl[index];
-    mode->kinetic = size * size * all;
-    for (int i = 0; i < 3; i++) mode->share[i] = all > 0.0 ? parts[i] / all : 0.0;
+    mode->kinetic = size * size * (parts[0] + parts[1] + parts[2]);
+    mode->strain = strain[0] + strain[1] + strain[2];
+    take_shares(parts, mode->share);
+    take_shares(strain, mode->strain_share);
 }
 
 int32_t dmb_modes_get(const dmb_modes *modes, uint32_t index, dmb_mode *mode)

@@ -1,42 +1,15 @@
 /* What the modal analysis refuses, and that it leaves the sim alone, memory that runs out included. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
-#include "drillmbd/drillmbd.h"
-
-/* ---- Memory that runs out ---------------------------------------------------------------------------------------- */
-
-typedef struct budget {
-    size_t calls, refused, live;
-} budget;
-
-static void *take(void *context, size_t size, size_t alignment)
-{
-    budget *b = context;
-    if (++b->calls == b->refused) return NULL;
-    ++b->live;
-    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-}
-
-static void give(void *context, void *block, size_t size, size_t alignment)
-{
-    budget *b = context;
-    (void)size, (void)alignment;
-    --b->live;
-    free(block);
-}
+#include "check.h"
+#include "scarce.h"
 
 typedef struct scene {
     dmb_model *model;
     dmb_sim *sim;
     dmb_id string;
-    budget budget;
+    scarce memory;
 } scene;
 
 /* Twelve pipes without a wall, rig end free in `free_mask`. */
@@ -45,14 +18,11 @@ static void open_scene(scene *s, int32_t free_mask, double gravity)
     dmb_environment_def environment = dmb_environment_def_default();
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
-    dmb_allocator allocator = dmb_allocator_default();
     dmb_sim_options options = dmb_sim_options_default();
     memset(s, 0, sizeof *s);
     environment.gravity[2] = -gravity;
     string.start_free = free_mask;
-    allocator.context = &s->budget;
-    allocator.allocate = take;
-    allocator.release = give;
+    const dmb_allocator allocator = scarce_allocator(&s->memory);
     options.allocator = &allocator;
     assert_int_equal(dmb_model_create(NULL, &s->model), DMB_OK);
     assert_int_equal(dmb_model_set_environment(s->model, &environment), DMB_OK);
@@ -66,15 +36,10 @@ static void close_scene(scene *s)
 {
     dmb_sim_destroy(&s->sim);
     dmb_model_destroy(&s->model);
-    assert_int_equal(s->budget.live, 0);
+    assert_int_equal(s->memory.live, 0);
 }
 
-static uint64_t hash_of(const dmb_sim *sim)
-{
-    uint64_t hash = 0;
-    assert_int_equal(dmb_sim_hash(sim, &hash), DMB_OK);
-    return hash;
-}
+/* ---- Memory that runs out ---------------------------------------------------------------------------------------- */
 
 static void memory_that_runs_out(void **state)
 {
@@ -88,17 +53,17 @@ static void memory_that_runs_out(void **state)
         options.select = way < 4 ? DMB_MODES_LOWEST : DMB_MODES_ALL;
         options.count = 4;
         const uint64_t hash = hash_of(s.sim);
-        const size_t live = s.budget.live;
-        s.budget.calls = 0;
+        const size_t live = s.memory.live;
+        s.memory.calls = 0;
         assert_int_equal(dmb_analysis_modes(s.sim, &options, &modes), DMB_OK);
         dmb_modes_destroy(&modes);
-        const size_t calls = s.budget.calls;
+        const size_t calls = s.memory.calls;
         assert_true(calls > 5);
-        for (s.budget.refused = 1; s.budget.refused <= calls; s.budget.refused++) {
-            s.budget.calls = 0;
+        for (s.memory.refused = 1; s.memory.refused <= calls; s.memory.refused++) {
+            s.memory.calls = 0;
             assert_int_equal(dmb_analysis_modes(s.sim, &options, &modes), DMB_ERR_NO_MEMORY);
             assert_null(modes);
-            assert_int_equal(s.budget.live, live);
+            assert_int_equal(s.memory.live, live);
         }
         assert_true(hash_of(s.sim) == hash);
         close_scene(&s);

@@ -1,39 +1,14 @@
 /* What a frequency response refuses, that refusing changes nothing and gives all memory back, and what it says. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
-#include "drillmbd/drillmbd.h"
-
-typedef struct budget {
-    size_t calls, refuse, live;
-} budget;
-
-static void *take(void *context, size_t size, size_t alignment)
-{
-    budget *b = context;
-    if (++b->calls == b->refuse) return NULL;
-    ++b->live;
-    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-}
-
-static void give(void *context, void *block, size_t size, size_t alignment)
-{
-    budget *b = context;
-    (void)size, (void)alignment;
-    --b->live;
-    free(block);
-}
+#include "check.h"
+#include "scarce.h"
 
 typedef struct scene {
-    budget budget;
+    scarce memory;
     dmb_model *model;
     dmb_sim *sim;
     dmb_id string, drive, load;
@@ -51,12 +26,9 @@ static void begin(scene *s, int32_t free_mask, double gravity)
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_load_def load = dmb_load_def_default();
     dmb_sim_options options = dmb_sim_options_default();
-    dmb_allocator allocator = dmb_allocator_default();
     const dmb_term zero = dmb_term_default();
     memset(s, 0, sizeof *s);
-    allocator.context = &s->budget;
-    allocator.allocate = take;
-    allocator.release = give;
+    const dmb_allocator allocator = scarce_allocator(&s->memory);
     options.allocator = &allocator;
     around.gravity[2] = gravity;
     string.start_free = free_mask;
@@ -83,7 +55,7 @@ static void end(scene *s)
 {
     dmb_sim_destroy(&s->sim);
     dmb_model_destroy(&s->model);
-    assert_int_equal(s->budget.live, 0);
+    assert_int_equal(s->memory.live, 0);
 }
 
 static int32_t ask(scene *s, dmb_response **response)
@@ -96,13 +68,13 @@ static void expect(scene *s, int32_t status, const char *first, const char *seco
 {
     dmb_response *response = (dmb_response *)(void *)s;
     uint64_t before, after;
-    const size_t live = s->budget.live;
+    const size_t live = s->memory.live;
     assert_int_equal(dmb_sim_hash(s->sim, &before), DMB_OK);
     assert_int_equal(ask(s, &response), status);
     assert_null(response);
     assert_int_equal(dmb_sim_hash(s->sim, &after), DMB_OK);
     assert_true(before == after);
-    assert_int_equal(s->budget.live, live);
+    assert_int_equal(s->memory.live, live);
     const char *message = dmb_sim_message(s->sim);
     if (strstr(message, first) == NULL || strstr(message, second) == NULL)
         fail_msg("the message lacks \"%s\" or \"%s\": %s", first, second, message);
@@ -157,9 +129,9 @@ static void fields_out_of_bounds(void **state)
     const double falling[3] = {1.0, 3.0, 2.0};
 #define REFUSED(status, change, field) \
     do {                               \
-        const budget kept = s.budget;  \
+        const scarce kept = s.memory;  \
         s = good;                      \
-        s.budget = kept;               \
+        s.memory = kept;               \
         change;                        \
         expect(&s, status, field, ""); \
     } while (0)
@@ -257,13 +229,13 @@ static void memory_runs_out(void **state)
     begin(&s, DMB_FREE_NONE, 0.0);
     s.options.points = 20;
     s.options.refinement = 3;
-    const size_t before = s.budget.calls;
+    const size_t before = s.memory.calls;
     assert_int_equal(ask(&s, &response), DMB_OK);
     dmb_response_destroy(&response);
-    const size_t calls = s.budget.calls - before;
+    const size_t calls = s.memory.calls - before;
     assert_true(calls > 5);
     for (size_t k = 1; k <= calls; k++) {
-        s.budget.refuse = s.budget.calls + k;
+        s.memory.refused = s.memory.calls + k;
         expect(&s, DMB_ERR_NO_MEMORY, "no memory", "");
     }
     end(&s);
@@ -288,7 +260,7 @@ static void speeds_that_are_refused(void **state)
     dmb_order order = dmb_order_default();
     dmb_speed_band band = dmb_speed_band_default();
     double limit = 1.0;
-    const size_t live = s.budget.live;
+    const size_t live = s.memory.live;
 #define REFUSED(status, change, field)                                                             \
     do {                                                                                           \
         options = good;                                                                            \
@@ -297,7 +269,7 @@ static void speeds_that_are_refused(void **state)
         change;                                                                                    \
         assert_int_equal(ask_speeds(&s, &options, &order, limit, &band), status);                  \
         if (strstr(dmb_sim_message(s.sim), field) == NULL) fail_msg("%s", dmb_sim_message(s.sim)); \
-        assert_int_equal(s.budget.live, live);                                                     \
+        assert_int_equal(s.memory.live, live);                                                     \
     } while (0)
     REFUSED(DMB_ERR_VALUE, options.points = 1, "points");
     REFUSED(DMB_ERR_VALUE, options.speed_low = 0.0, "speed_low");
@@ -314,13 +286,13 @@ static void speeds_that_are_refused(void **state)
 #undef REFUSED
     options = good;
     limit = 1.0;
-    const size_t before = s.budget.calls;
+    const size_t before = s.memory.calls;
     assert_int_equal(ask_speeds(&s, &options, &order, limit, &band), DMB_OK);
-    const size_t calls = s.budget.calls - before;
+    const size_t calls = s.memory.calls - before;
     for (size_t k = 1; k <= calls; k++) {
-        s.budget.refuse = s.budget.calls + k;
+        s.memory.refused = s.memory.calls + k;
         assert_int_equal(ask_speeds(&s, &options, &order, limit, &band), DMB_ERR_NO_MEMORY);
-        assert_int_equal(s.budget.live, live);
+        assert_int_equal(s.memory.live, live);
     }
     assert_int_equal(ask_speeds(&s, &options, NULL, limit, &band), DMB_ERR_NULL);
     band.struct_size = 1;

@@ -5,16 +5,9 @@
 
 /* ---- Scenes ------------------------------------------------------------------------------------------------------ */
 
-/* A straight string of `count` pipes without gravity. */
 static void open_pipes(rig *s, const dmb_pipe_def *pipe, uint32_t count, int32_t start_free, int32_t end_free)
 {
-    dmb_string_def string = dmb_string_def_default();
-    dmb_pipe_def with = *pipe;
-    rig_open(s, 0, 0, 0);
-    string.start_free = start_free;
-    string.end_free = end_free;
-    with.string = add_string(s, &string);
-    (void)add_pipes(s, &with, count);
+    (void)lay_string(s, pipe, count, start_free, end_free);
     rig_start(s, NULL);
 }
 
@@ -142,18 +135,14 @@ static void short_elements_converge_with_the_second_order(void **state)
 static void open_bar(rig *s, double length, uint32_t pipes, uint32_t elements, double tip_mass)
 {
     dmb_pipe_def pipe = s1_pipe();
-    dmb_string_def string = dmb_string_def_default();
-    rig_open(s, 0, 0, 0);
-    string.start_free = DMB_FREE_NONE;
     pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
-    pipe.string = add_string(s, &string);
     pipe.elements = elements;
     pipe.length = length / pipes;
-    (void)add_pipes(s, &pipe, pipes);
+    const dmb_id string = lay_string(s, &pipe, pipes, DMB_FREE_NONE, DMB_FREE_ALL);
     if (tip_mass > 0.0) {
         dmb_body_def body = dmb_body_def_default();
         body.attach = DMB_ATTACH_END;
-        body.string = pipe.string;
+        body.string = string;
         body.mass = tip_mass;
         (void)add_body(s, &body);
     }

@@ -108,15 +108,6 @@ static void whirl_converges(void **state)
     check_order("forward whirl at 300 rad/s", shaft_error(32, 300.0), shaft_error(64, 300.0), 2.0, 0.05);
 }
 
-/* Distance of the closest mode from a frequency [1/s], relative. */
-static double closest(const dmb_modes *modes, double w)
-{
-    double least = 1e9;
-    for (uint32_t i = 0; i < info_of(modes).count; i++)
-        least = fmin(least, fabs(mode_at(modes, i).eigenvalue[1] - w) / w);
-    return least;
-}
-
 /* In axes that turn, forward whirl of w is one of |w - W|, backward whirl one of w + W. */
 static void axes_that_turn_shift_by_the_speed(void **state)
 {
@@ -127,8 +118,9 @@ static void axes_that_turn_shift_by_the_speed(void **state)
     dmb_modes *outside = modes_in_axes(&s, DMB_MODES_STILL, speed, 12);
     dmb_modes *inside = modes_in_axes(&s, DMB_MODES_TURNING, speed, 16);
     for (uint32_t n = 0; n < 3; n++) {
-        check_below("forward, w - W", closest(inside, fabs(whirling(outside, 1.0, n).eigenvalue[1] - speed)), 1e-6);
-        check_below("backward, w + W", closest(inside, whirling(outside, -1.0, n).eigenvalue[1] + speed), 1e-6);
+        check_below("forward, w - W", closest_mode(inside, fabs(whirling(outside, 1.0, n).eigenvalue[1] - speed)),
+                    1e-6);
+        check_below("backward, w + W", closest_mode(inside, whirling(outside, -1.0, n).eigenvalue[1] + speed), 1e-6);
     }
     dmb_modes_destroy(&outside);
     dmb_modes_destroy(&inside);
@@ -168,7 +160,7 @@ static void swing_of_a_pipe_that_turns_on_the_wall(void **state)
     const double e = hypot(pose.position[1], pose.position[2]), want = sqrt(9.81 * sqrt(1.0 + mu * mu) / e);
     dmb_modes *modes = modes_in_axes(&s, DMB_MODES_STILL, speed, 4);
     check_below("turning on the wall: out of balance", info_of(modes).unbalance, 1e-6);
-    check_below("    swings with sqrt(g sqrt(1 + mu^2)/e)", closest(modes, want), 1e-5);
+    check_below("    swings with sqrt(g sqrt(1 + mu^2)/e)", closest_mode(modes, want), 1e-5);
     tell("    [Hz]", want / (2.0 * PI));
     dmb_modes_destroy(&modes);
     rig_close(&s);

@@ -2,6 +2,18 @@
 
 #include <string.h>
 
+dmb_id lay_string(rig *s, const dmb_pipe_def *pipe, uint32_t count, int32_t start_free, int32_t end_free)
+{
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def with = *pipe;
+    rig_open(s, 0, 0, 0);
+    string.start_free = start_free;
+    string.end_free = end_free;
+    with.string = add_string(s, &string);
+    (void)add_pipes(s, &with, count);
+    return with.string;
+}
+
 dmb_modes *find_modes(const rig *s, const dmb_modes_options *options)
 {
     dmb_modes *modes = NULL;
@@ -70,6 +82,14 @@ double frequency_of_kind(const dmb_modes *modes, int kind, uint32_t number)
     }
     fail_msg("no further mode of kind %d among %u", kind, count);
     return 0.0;
+}
+
+double closest_mode(const dmb_modes *modes, double w)
+{
+    double least = 1e9;
+    for (uint32_t i = 0; i < info_of(modes).count; i++)
+        least = fmin(least, fabs(mode_at(modes, i).eigenvalue[1] - w) / w);
+    return least;
 }
 
 modes_refusal refused_modes(const rig *s, const dmb_modes_options *options)
