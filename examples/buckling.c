@@ -152,53 +152,78 @@ static int32_t on_the_low_side(void)
 
 /* ---- As a helix -------------------------------------------------------------------------------------------------- */
 
-#define TURNS 8.0    /* [m] pitch of the loads that wind the string up: not the one it takes */
-#define RAMP 8       /* static states from a fifth of the push to the whole */
-#define BIT_PUSH 2e5 /* [N] */
+/* A string without weight, its rig end beside the axis, wound up by loads that turn with a pitch of its own. The push
+ * at the bit goes by a programme, another takes the winding loads off over one tick. */
+typedef struct helix_case {
+    uint32_t pipes;
+    double pipe, clearance; /* [m] */
+    double friction;
+    double pitch, winding;      /* [m, N] of the loads that wind it up: not the pitch it takes */
+    double from, to;            /* [N] push at the bit */
+    double begins, ends, wound; /* ticks: ramp of the push, end of the winding loads */
+} helix_case;
 
-/* 100 m without weight, its rig end beside the axis. A programme in place of the load's ramps up the push, another
- * takes the winding loads off. */
-static int32_t describe_helix(string_model *s)
+static dmb_term step_of(double h0, double h1, double from, double to)
 {
-    dmb_environment_def nowhere = dmb_environment_def_default();
+    dmb_term term = dmb_term_default();
+    term.kind = DMB_TERM_STEP;
+    term.h0 = h0;
+    term.h1 = h1;
+    term.x0 = from * TICK;
+    term.x1 = to * TICK;
+    return term;
+}
+
+static dmb_wall_def rough_wall(const helix_case *c)
+{
     dmb_wall_def wall = dmb_wall_def_default();
-    dmb_string_def def = dmb_string_def_default();
-    dmb_pipe_def pipe = steel_pipe(0.75, 1);
-    dmb_load_def load = dmb_load_def_default();
-    dmb_term ramp = dmb_term_default(), off = dmb_term_default();
-    int32_t status = dmb_model_create(NULL, &s->model);
-    s->sim = NULL;
-    s->pipes = 133;
-    nowhere.gravity[2] = 0.0;
+    wall.diameter = 0.073 + 2.0 * c->clearance;
     wall.stiffness = WALL;
     wall.friction_law = DMB_FRICTION_COULOMB;
-    wall.mu_static = wall.mu_dynamic = 0.3;
+    wall.mu_static = wall.mu_dynamic = c->friction;
     wall.smoothing_speed = 1.0; /* the assumed slip turns friction up: mu slip/sqrt(slip^2 + 1) */
-    def.start_free = DMB_FREE_NONE;
-    def.offset[0] = CLEARANCE;
-    ramp.kind = off.kind = DMB_TERM_STEP;
-    ramp.h0 = 0.2;
-    ramp.h1 = off.h0 = 1.0;
-    ramp.x1 = off.x0 = RAMP * TICK;
-    off.x1 = (RAMP + 1) * TICK;
-    if (status >= 0) status = dmb_model_set_environment(s->model, &nowhere);
-    if (status >= 0) status = dmb_model_add_wall(s->model, &wall, NULL);
-    if (status >= 0) status = dmb_model_add_string(s->model, &def, &pipe.string);
-    if (status >= 0) status = dmb_model_add_pipes(s->model, &pipe, s->pipes, &s->string);
-    if (status >= 0) status = dmb_model_add_programme(s->model, &ramp, 1, &load.programme);
+    return wall;
+}
+
+static int32_t add_push(string_model *s, const helix_case *c)
+{
+    const dmb_term ramp = step_of(c->from, c->to, c->begins, c->ends),
+                   off = step_of(1.0, 0.0, c->wound, c->wound + 1.0);
+    dmb_load_def load = dmb_load_def_default();
+    int32_t status = dmb_model_add_programme(s->model, &ramp, 1, &load.programme);
     load.frame = DMB_FRAME_HOLE;
     load.place = dmb_station(s->string, s->pipes - 1, 1.0);
-    load.force[0] = -BIT_PUSH;
+    load.force[0] = -1.0;
     if (status >= 0) status = dmb_model_add_load(s->model, &load, NULL);
     if (status >= 0) status = dmb_model_add_programme(s->model, &off, 1, &load.programme);
     load.force[0] = 0.0;
     for (uint32_t i = 0; i < s->pipes && status >= 0; i++) {
-        const double angle = 2.0 * PI * 0.75 * (i + 1) / TURNS;
+        const double angle = 2.0 * PI * c->pipe * (i + 1) / c->pitch;
         load.place = dmb_station(s->string, i, 1.0);
-        load.force[1] = 450.0 * cos(angle);
-        load.force[2] = 450.0 * sin(angle);
+        load.force[1] = c->winding * cos(angle);
+        load.force[2] = c->winding * sin(angle);
         status = dmb_model_add_load(s->model, &load, NULL);
     }
+    return status;
+}
+
+static int32_t describe_helix(string_model *s, const helix_case *c)
+{
+    dmb_environment_def nowhere = dmb_environment_def_default();
+    const dmb_wall_def wall = rough_wall(c);
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def pipe = steel_pipe(c->pipe, 1);
+    int32_t status = dmb_model_create(NULL, &s->model);
+    s->sim = NULL;
+    s->pipes = c->pipes;
+    nowhere.gravity[2] = 0.0;
+    def.start_free = DMB_FREE_NONE;
+    def.offset[0] = c->clearance;
+    if (status >= 0) status = dmb_model_set_environment(s->model, &nowhere);
+    if (status >= 0) status = dmb_model_add_wall(s->model, &wall, NULL);
+    if (status >= 0) status = dmb_model_add_string(s->model, &def, &pipe.string);
+    if (status >= 0) status = dmb_model_add_pipes(s->model, &pipe, s->pipes, &s->string);
+    if (status >= 0) status = add_push(s, c);
     if (status >= 0) status = dmb_model_compile(s->model, NULL);
     return status < 0 ? status : dmb_sim_create(s->model, NULL, &s->sim);
 }
@@ -212,24 +237,37 @@ static int32_t settle(const string_model *s, double slip)
     return dmb_analysis_static(s->sim, &options, NULL);
 }
 
+/* Static states from tick to tick, with a push that grows. */
+static int32_t settle_for(const string_model *s, int ticks, double slip)
+{
+    int32_t status = settle(s, slip);
+    for (int k = 0; k < ticks && status >= 0; k++) {
+        status = dmb_sim_step(s->sim, TICK, NULL);
+        if (status >= 0) status = settle(s, slip);
+    }
+    return status;
+}
+
+#define FRICTION 0.3
+#define BIT_PUSH 2e5 /* [N] */
+
+/* A push of the bit and what the rig has to push for it: where the string locks up is told by the two. */
 static int32_t as_a_helix(void)
 {
+    const helix_case c = {133, 0.75, CLEARANCE, FRICTION, 8.0, 450.0, 0.2 * BIT_PUSH, BIT_PUSH, 0.0, 8.0, 8.0};
     const double slips[5] = {0.1, 0.2, 0.5, 1.0, 2.0}, length = 0.75 * 133;
     string_model s;
-    int32_t status = describe_helix(&s);
-    for (int k = 0; k <= RAMP && status >= 0; k++) {
-        status = settle(&s, 0.0);
-        if (status >= 0) status = dmb_sim_step(s.sim, TICK, NULL);
-    }
-    if (status >= 0) status = settle(&s, 0.0);
-    if (status >= 0) printf("friction   rig force [kN]   closed form [kN]   lock-up at [m]\n");
+    int32_t status = describe_helix(&s, &c);
+    if (status >= 0) status = settle_for(&s, 9, 0.0);
+    if (status >= 0) printf("friction   rig force [kN]   closed form [kN]   locks up at [m]   closed form [m]\n");
     for (int k = 0; k < 5 && status >= 0; k++) {
         double reaction[6];
-        const double mu = 0.3 * slips[k] / hypot(slips[k], 1.0), lost = mu * CLEARANCE / (4.0 * BENDING);
+        const double mu = FRICTION * slips[k] / hypot(slips[k], 1.0), lost = mu * CLEARANCE / (4.0 * BENDING);
         status = settle(&s, slips[k]);
         if (status >= 0) status = dmb_query_reaction(s.sim, s.string, reaction);
         if (status >= 0)
-            printf("%8.4f %16.3f %18.3f %16.1f\n", mu, reaction[0] / 1e3, 1e-3 / (1.0 / BIT_PUSH - lost * length),
+            printf("%8.4f %16.3f %18.3f %17.1f %17.1f\n", mu, reaction[0] / 1e3,
+                   1e-3 / (1.0 / BIT_PUSH - lost * length), length / (1.0 - BIT_PUSH / reaction[0]),
                    1.0 / (lost * BIT_PUSH));
     }
     if (status < 0) (void)failed(&s, status);
@@ -238,8 +276,42 @@ static int32_t as_a_helix(void)
     return status < 0;
 }
 
+/* ---- Locked up --------------------------------------------------------------------------------------------------- */
+
+#define WIDE 0.0635 /* [m] clearance of a washed-out hole */
+#define ROUGH 0.5   /* friction in it */
+#define SLIDING 1e3 /* [m/s] assumed slip that takes all of the friction */
+
+/* 150 m in a wide and rough hole: the rig pushes more and more, and less and less of it arrives. Friction acts at the
+ * surface of the pipe and turns the helix back a little, so that a thick pipe gets more through than the closed form
+ * tells. */
+static int32_t locked_up(void)
+{
+    const double length = 150.0, limit = 4.0 * BENDING / (ROUGH * WIDE * length);
+    const helix_case c = {300, 0.5, WIDE, ROUGH, 16.0, 100.0, 0.3 * limit, 0.7 * limit, 1.0, 5.0, 0.0};
+    string_model s;
+    int32_t status = describe_helix(&s, &c);
+    if (status >= 0) status = settle_for(&s, 1, SLIDING);
+    if (status >= 0) printf("\n150 m: rig push [kN]   at the bit [kN]   bit gets no more than [kN]\n");
+    for (int k = 0; k <= 4 && status >= 0; k++) {
+        double reaction[6];
+        dmb_section bit = dmb_section_default();
+        if (k > 0) status = settle_for(&s, 1, SLIDING);
+        if (status >= 0) status = dmb_query_reaction(s.sim, s.string, reaction);
+        if (status >= 0) status = dmb_query_section(s.sim, dmb_station(s.string, s.pipes - 1, 1.0), &bit);
+        if (status >= 0)
+            printf("%22.1f %17.1f %27.1f\n", reaction[0] / 1e3, -bit.force[0] / 1e3,
+                   1e-3 / (-1.0 / bit.force[0] - 1.0 / reaction[0]));
+    }
+    if (status >= 0) printf("4 EI/(mu r L), thin pipe %42.1f\n", limit / 1e3);
+    if (status < 0) (void)failed(&s, status);
+    dmb_sim_destroy(&s.sim);
+    dmb_model_destroy(&s.model);
+    return status < 0;
+}
+
 int main(void)
 {
-    const int32_t first = on_the_low_side(), second = as_a_helix();
-    return first || second;
+    const int32_t first = on_the_low_side(), second = as_a_helix(), third = locked_up();
+    return first || second || third;
 }
