@@ -18,7 +18,8 @@ enum {
     DMB_INPUT_FORCE = 3,     /* [N, N m] `component` of a force or moment at `place`, in `frame` */
     DMB_INPUT_UNBALANCE = 4, /* [kg m] mass times its distance from the axis at `place`: force times w^2. component
                                 DMB_RX: turning from y to z of `frame`; DMB_X .. DMB_Z: to and fro along that axis */
-    DMB_INPUT_ECCENTRICITY = 5, /* [-] the scene's own eccentric masses (not of axial-torsional pipes), each times this
+    DMB_INPUT_ECCENTRICITY = 5, /* [-] the scene's own eccentric masses (those of axial-torsional pipes, which are held
+                                across the hole, do nothing: DMB_ERR_UNSUPPORTED where all are), each times this
                                 factor, turning with the frequency about the axes of their pipes, from y to z, as they
                                 lie in the state at t = 0 */
     DMB_INPUT_FRICTION = 6   /* [-] coefficient: every ring that touches the wall is rubbed by it times its normal force

@@ -224,12 +224,9 @@ static int32_t unbalance(const request *r)
 /* ---- The scene's own excitations --------------------------------------------------------------------------------- */
 
 /* The centrifugal wrench g turns with the frequency: g_y + i g_z along y and g_z - i g_y along z. */
-static void add_lump(const dmb_sim *copy, uint32_t i, dmb_excitation *out)
+static void add_lump(const dmb_sim *copy, uint32_t i, const double g[6], dmb_excitation *out)
 {
-    const uint32_t node = copy->scene->lumps[i].node, row = copy->scene->layout.row[node];
-    double g[6];
-    if (copy->scene->layout.size[node] != DMB_NODE_FULL) return;
-    dmb_unbalance_of_lump(copy->scene, i, g);
+    const uint32_t row = copy->scene->layout.row[copy->scene->lumps[i].node];
     for (uint32_t c = 0; c < 6; c += 3) {
         out->re[row + c + 1] += g[c + 1];
         out->im[row + c + 1] += g[c + 2];
@@ -238,10 +235,23 @@ static void add_lump(const dmb_sim *copy, uint32_t i, dmb_excitation *out)
     }
 }
 
+/* PATH nodes are held across the hole, in time too: what pulls them sideways moves nothing. */
 static int32_t eccentricity(const request *r)
 {
+    const dmb_scene *scene = r->copy->scene;
+    uint32_t felt = 0, unfelt = 0;
     r->out->law = DMB_EXCITE_INERTIA;
-    for (uint32_t i = 0; i < r->copy->scene->lump_count; i++) add_lump(r->copy, i, r->out);
+    for (uint32_t i = 0; i < scene->lump_count; i++) {
+        double g[6];
+        dmb_unbalance_of_lump(scene, i, g);
+        const int eccentric = g[1] != 0.0 || g[2] != 0.0 || g[4] != 0.0 || g[5] != 0.0;
+        const int full = scene->layout.size[scene->lumps[i].node] == DMB_NODE_FULL;
+        felt += eccentric && full;
+        unfelt += eccentric && !full;
+        if (full) add_lump(r->copy, i, g, r->out);
+    }
+    if (unfelt > 0 && felt == 0)
+        return refuse(r, DMB_ERR_UNSUPPORTED, "axial-torsional pipes do not feel their eccentric masses");
     return DMB_OK;
 }
 

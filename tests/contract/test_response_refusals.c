@@ -120,6 +120,87 @@ static void state_out_of_balance(void **state)
     end(&s);
 }
 
+/* A model that is described by hand: a body, a joint to the ground, a motion drive, a string of eccentric pipes. */
+static void describe_body(scene *s, int32_t free_mask, int32_t joint_kind, int32_t driven)
+{
+    dmb_environment_def none = dmb_environment_def_default();
+    dmb_body_def body = dmb_body_def_default();
+    dmb_joint_def joint = dmb_joint_def_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    const dmb_term zero = dmb_term_default();
+    none.gravity[2] = 0.0;
+    body.free_mask = free_mask;
+    joint.kind = joint_kind;
+    drive.component = DMB_RX;
+    assert_int_equal(dmb_model_create(NULL, &s->model), DMB_OK);
+    assert_int_equal(dmb_model_set_environment(s->model, &none), DMB_OK);
+    assert_int_equal(dmb_model_add_body(s->model, &body, &drive.part), DMB_OK);
+    joint.place_b = dmb_station(drive.part, 0, 0.0);
+    assert_int_equal(dmb_model_add_joint(s->model, &joint, NULL), DMB_OK);
+    assert_int_equal(dmb_model_add_programme(s->model, &zero, 1, &drive.programme), DMB_OK);
+    if (driven) assert_int_equal(dmb_model_add_drive(s->model, &drive, &s->drive), DMB_OK);
+    s->input = dmb_input_default();
+    s->output = dmb_output_default();
+    s->input.place = s->output.place = joint.place_b;
+}
+
+static void start(scene *s)
+{
+    assert_true(dmb_model_compile(s->model, NULL) >= 0);
+    assert_true(dmb_sim_create(s->model, NULL, &s->sim) >= 0);
+    s->options = dmb_response_options_default();
+    s->options.points = 3;
+}
+
+/* A wheel that turns freely in its bearing. */
+static void frequency_zero_with_a_free_joint(void **state)
+{
+    (void)state;
+    scene s;
+    memset(&s, 0, sizeof s);
+    describe_body(&s, DMB_FREE_ALL, DMB_JOINT_REVOLUTE, 0);
+    start(&s);
+    dmb_response *response = NULL;
+    assert_int_equal(ask(&s, &response), DMB_OK);
+    dmb_response_destroy(&response);
+    s.options.frequency_low = 0.0;
+    expect(&s, DMB_ERR_SINGULAR, "frequency 0 Hz", "body 0");
+    end(&s);
+}
+
+/* A drive at rest may turn what a joint to the ground does not let turn; its speed has no response. */
+static void drive_that_joints_hold(void **state)
+{
+    (void)state;
+    scene s;
+    memset(&s, 0, sizeof s);
+    describe_body(&s, 1 << DMB_RX, DMB_JOINT_FIXED, 1);
+    start(&s);
+    s.input.kind = DMB_INPUT_DRIVE;
+    s.input.place.part = s.drive;
+    expect(&s, DMB_ERR_VALUE, "input 0", "joints hold the part");
+    end(&s);
+}
+
+static void eccentric_masses_that_nothing_feels(void **state)
+{
+    (void)state;
+    scene s;
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    memset(&s, 0, sizeof s);
+    assert_int_equal(dmb_model_create(NULL, &s.model), DMB_OK);
+    pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
+    pipe.eccentricity = 1e-3;
+    assert_int_equal(dmb_model_add_pipes(s.model, &pipe, 3, &s.string), DMB_OK);
+    start(&s);
+    s.input = dmb_input_default();
+    s.output = dmb_output_default();
+    s.output.place = dmb_station(s.string, 2, 1.0);
+    s.input.kind = DMB_INPUT_ECCENTRICITY;
+    expect(&s, DMB_ERR_UNSUPPORTED, "input 0", "axial-torsional");
+    end(&s);
+}
+
 static void fields_out_of_bounds(void **state)
 {
     (void)state;
@@ -243,11 +324,24 @@ static void memory_runs_out(void **state)
 
 /* ---- Speeds to avoid --------------------------------------------------------------------------------------------- */
 
+/* The state stays as it is, and on error so does what would be written. */
 static int32_t ask_speeds(scene *s, const dmb_speeds_options *options, const dmb_order *order, double limit,
                           dmb_speed_band *band)
 {
     uint32_t room = 1;
-    return dmb_analysis_speeds(s->sim, options, order, 1, &s->output, &limit, 1, band, &room, NULL);
+    uint64_t before, after;
+    double severity[200];
+    const dmb_speed_band kept = *band;
+    memset(severity, 0x5A, sizeof severity);
+    const double mark = severity[0];
+    assert_int_equal(dmb_sim_hash(s->sim, &before), DMB_OK);
+    const int32_t status = dmb_analysis_speeds(s->sim, options, order, 1, &s->output, &limit, 1, band, &room, severity);
+    assert_int_equal(dmb_sim_hash(s->sim, &after), DMB_OK);
+    assert_true(before == after);
+    if (status >= 0) return status;
+    assert_true(room == 1 && severity[0] == mark && severity[199] == mark);
+    assert_memory_equal(band, &kept, sizeof kept);
+    return status;
 }
 
 static void speeds_that_are_refused(void **state)
@@ -300,16 +394,33 @@ static void speeds_that_are_refused(void **state)
     end(&s);
 }
 
+static void speeds_of_a_state_out_of_balance(void **state)
+{
+    (void)state;
+    scene s;
+    begin(&s, DMB_FREE_NONE, -9.81);
+    const dmb_speeds_options options = dmb_speeds_options_default();
+    const dmb_order order = dmb_order_default();
+    dmb_speed_band band = dmb_speed_band_default();
+    assert_int_equal(ask_speeds(&s, &options, &order, 1.0, &band), DMB_ERR_VALUE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "not an equilibrium"));
+    end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frequency_zero_with_a_free_part),
         cmocka_unit_test(motion_drive_at_frequency_zero),
         cmocka_unit_test(state_out_of_balance),
+        cmocka_unit_test(frequency_zero_with_a_free_joint),
+        cmocka_unit_test(drive_that_joints_hold),
+        cmocka_unit_test(eccentric_masses_that_nothing_feels),
         cmocka_unit_test(fields_out_of_bounds),
         cmocka_unit_test(counts_and_pointers),
         cmocka_unit_test(memory_runs_out),
         cmocka_unit_test(speeds_that_are_refused),
+        cmocka_unit_test(speeds_of_a_state_out_of_balance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -180,6 +180,68 @@ static void string_on_its_wall(void **state)
     }
 }
 
+/* Bottom-hole load and a force of the drive at one frequency, each with its own amplitude and phase: the response of
+ * both together. */
+static void two_inputs_together(void **state)
+{
+    (void)state;
+    const double frequency = 11.0, load = 30.0, push = 20.0, lead = 0.9;
+    double complex h[2];
+    double amplitudes[2][4][2];
+    dmb_term terms[2] = {dmb_term_default(), dmb_term_default()};
+    dmb_id bit = {0, 0};
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    dmb_bit_def def = dmb_bit_def_default();
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_joint_def spring = dmb_joint_def_default();
+    for (int k = 0; k < 2; k++) {
+        terms[k].kind = DMB_TERM_HARMONIC;
+        terms[k].omega = 2.0 * PI * frequency;
+    }
+    terms[0].h1 = load;
+    terms[1].h1 = push;
+    terms[1].phase = lead;
+    string.start_free = DMB_FREE_X;
+    pipe.damping_time = 1e-3;
+    pipe.string = add_string(&s, &string);
+    (void)add_pipes(&s, &pipe, 4);
+    def.string = pipe.string;
+    def.load = add_programme(&s, terms, 1);
+    must_model(&s, dmb_model_add_bit(s.model, &def, &bit));
+    spring.kind = DMB_JOINT_FREE;
+    spring.place_b = dmb_station(pipe.string, 0, 0.0);
+    spring.stiffness[0] = 4e5;
+    spring.damping[0] = 2e3;
+    must_model(&s, dmb_model_add_joint(s.model, &spring, NULL));
+    const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_LOAD, pipe.string, DMB_X, add_programme(&s, terms + 1, 1));
+    (void)rig_start(&s, NULL);
+    dmb_input inputs[2] = {input_of(DMB_INPUT_BIT_LOAD, bit, DMB_X), input_of(DMB_INPUT_DRIVE, drive, DMB_X)};
+    inputs[0].amplitude = load;
+    inputs[1].amplitude = push;
+    inputs[1].phase = lead;
+    const dmb_output outputs[2] = {output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(bit, 0, 0.0), DMB_X),
+                                   output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(pipe.string, 1, 0.5), DMB_X)};
+    dmb_response_options about = dmb_response_options_default();
+    dmb_sine_options options = dmb_sine_options_default();
+    dmb_response *response = NULL;
+    about.frequencies = &frequency;
+    about.points = 1;
+    about.equilibrium_tolerance = 1.0; /* at time 0 the second is not at rest: the scene is linear all the same */
+    options.steps_per_period = 400;
+    options.tolerance = 1e-4;
+    must(&s, dmb_analysis_response(s.sim, &about, inputs, 2, outputs, 2, &response));
+    must(&s, dmb_analysis_sine(s.sim, frequency, &options, outputs, 2, &amplitudes[0][0][0], NULL));
+    for (uint32_t k = 0; k < 2; k++) {
+        assert_int_equal(dmb_response_transfer(response, DMB_COMBINED, k, (double *)(h + k)), DMB_OK);
+        check_below(k == 0 ? "bit load and drive together: motion of the bit" : "    force in the string",
+                    cabs(number(amplitudes[k][1]) - h[k] / i_) / cabs(h[k]), 1e-3);
+    }
+    dmb_response_destroy(&response);
+    rig_close(&s);
+}
+
 /* ---- A stop ------------------------------------------------------------------------------------------------------ */
 
 /* m 2 kg, k 800 N/m, c 8 N s/m, stop of 1e5 N/m at 5 mm, force 20 sin(w t) N. */
@@ -247,9 +309,8 @@ static void oscillator_that_meets_a_stop(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(spinning_jeffcott_rotor),
-        cmocka_unit_test(shaken_cantilever),
-        cmocka_unit_test(string_on_its_wall),
+        cmocka_unit_test(spinning_jeffcott_rotor),      cmocka_unit_test(shaken_cantilever),
+        cmocka_unit_test(string_on_its_wall),           cmocka_unit_test(two_inputs_together),
         cmocka_unit_test(oscillator_that_meets_a_stop),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
