@@ -250,6 +250,19 @@ def response(data):
                     lines) + f"\n\nGrowth: exponents {', '.join(growths)}."
 
 
+def buckling(data):
+    lines, growths = [], []
+    for scene in ("E", "EJ"):
+        rows = chosen(data["E"], scene=scene)
+        if not rows:
+            continue
+        lines += [[scene, row["elements"], number(row["us_per_step"]), percent(row["spread"]), number(row["U_per_step"]),
+                   number(row["error"], 2)] for row in rows]
+        growths.append(f"{scene} {exponent(rows, 'elements', 'us_per_step')[0]:.3f}")
+    return markdown(["scene", "elements", "us", "spread", "U", "error"], lines) + \
+        f"\n\nGrowth: exponents {', '.join(growths)}."
+
+
 # ---- Goals -----------------------------------------------------------------------------------------------------------
 
 
@@ -312,7 +325,7 @@ def print_goals(data):
 TABLES = {"goals": (goals, "CBRD"), "elements": (elements, "CBR"), "others": (others, "CB"),
           "growth": (growth, "CBR"), "pipes": (pipes, "CR"), "joints": (joints, "J"), "loop": (loop, "D"),
           "features": (features, "F"), "work": (work, "W"), "settled": (settled, "M"), "modes": (modes, "A"),
-          "response": (response, "H")}
+          "response": (response, "H"), "buckling": (buckling, "E")}
 
 
 def make(data, cards):
