@@ -92,30 +92,24 @@ static uint32_t string_of(dmb_check *check, const dmb_model *model, dmb_id id)
     return dmb_model_part_index(model, id, DMB_PART_STRING);
 }
 
-/* Number of the next pipe of a string. Strings are mostly built one after the other, so the last runs are looked at
- * first. */
-static uint32_t pipes_so_far(const dmb_model *model, uint32_t string)
-{
-    for (uint32_t i = model->runs.count; i > 0; --i) {
-        const dmb_pipe_run *run = DMB_LIST_AT(const dmb_pipe_run, model->runs, i - 1);
-        if (run->string == string) return run->first + run->count;
-    }
-    return 0;
-}
-
 /* Both or nothing: the string, if it has to be made, and the run. */
 static int32_t append_run(dmb_model *model, const dmb_pipe_def *def, uint32_t string, uint32_t count)
 {
     const uint32_t strings = model->strings.count;
-    dmb_pipe_run run = {*def, string, pipes_so_far(model, string), count, 0};
     int32_t status = DMB_OK;
-    if (run.first > (uint32_t)DMB_NODES_MAX - count) return DMB_ERR_TOO_LARGE;
     if (string == strings) {
-        const dmb_string_def made = dmb_string_def_default();
+        const dmb_string_plan made = {dmb_string_def_default(), 0, 0};
         status = dmb_list_append(&model->strings, &model->allocator, &made, sizeof made);
+        if (status < 0) return status;
     }
+    dmb_string_plan *plan = DMB_LIST_AT(dmb_string_plan, model->strings, string);
+    const dmb_pipe_run run = {*def, string, plan->pipes, count, 0};
+    if (run.first > (uint32_t)DMB_NODES_MAX - count) status = DMB_ERR_TOO_LARGE;
     if (status >= 0) status = dmb_list_append(&model->runs, &model->allocator, &run, sizeof run);
-    if (status < 0) model->strings.count = strings;
+    if (status >= 0)
+        plan->pipes += count;
+    else
+        model->strings.count = strings;
     return status;
 }
 

@@ -107,7 +107,7 @@ static inline const dmb_pipe_run *dmb_mesh_run_at(const dmb_mesh *mesh, uint32_t
 }
 static inline const dmb_string_def *dmb_mesh_string_def(const dmb_mesh *mesh, uint32_t i)
 {
-    return DMB_LIST_AT(const dmb_string_def, mesh->model->strings, i);
+    return &DMB_LIST_AT(const dmb_string_plan, mesh->model->strings, i)->def;
 }
 
 /* True if all count numbers are equal. */

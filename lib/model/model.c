@@ -49,7 +49,7 @@ static void release_parts(dmb_model *model)
     }
     dmb_wall_release(&model->wall, allocator);
     dmb_list_release(&model->programmes, allocator, sizeof(dmb_programme));
-    dmb_list_release(&model->strings, allocator, sizeof(dmb_string_def));
+    dmb_list_release(&model->strings, allocator, sizeof(dmb_string_plan));
     dmb_list_release(&model->runs, allocator, sizeof(dmb_pipe_run));
     dmb_list_release(&model->bodies, allocator, sizeof(dmb_body_def));
     dmb_list_release(&model->bits, allocator, sizeof(dmb_bit_def));

@@ -15,6 +15,13 @@ enum {
     DMB_PART_DRIVE = 6, DMB_PART_LOAD = 7, DMB_PART_JOINT = 8, DMB_PART_COUPLING = 9, DMB_PART_CONSTRAINT = 10
 };
 
+/* A string and how far it has been built. */
+typedef struct dmb_string_plan {
+    dmb_string_def def;
+    uint32_t pipes; /* that its runs have so far */
+    uint32_t reserved;
+} dmb_string_plan;
+
 /* One call of dmb_model_add_pipes. */
 typedef struct dmb_pipe_run {
     dmb_pipe_def def;
@@ -42,7 +49,7 @@ struct dmb_model {
     dmb_wall_def wall;     /* survey points to the model's own copy */
     uint32_t wall_count;   /* 0 or 1 */
     dmb_list programmes;   /* dmb_programme, terms and tables are the model's own copies */
-    dmb_list strings;      /* dmb_string_def */
+    dmb_list strings;      /* dmb_string_plan */
     dmb_list runs;         /* dmb_pipe_run, in the order they were added */
     dmb_list bodies;       /* dmb_body_def */
     dmb_list bits;         /* dmb_bit_def */
