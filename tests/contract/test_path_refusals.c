@@ -1,94 +1,50 @@
 /* What a path refuses, with the sim as it was, and what it needs. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "purse.h"
+#include "pushed_column.h"
 
-#include "drillmbd/drillmbd.h"
-
-typedef struct column {
-    dmb_model *model;
-    dmb_sim *sim;
-    dmb_id string, load;
-} column;
-
-/* Ten pipes pushed and pushed aside at the far end. */
-static column make(int32_t start_free, double push, const dmb_allocator *allocator)
+static pushed_column make(int32_t start_free, double push, const dmb_allocator *allocator)
 {
-    column c;
-    memset(&c, 0, sizeof c);
-    dmb_environment_def nowhere = dmb_environment_def_default();
-    dmb_string_def string = dmb_string_def_default();
-    dmb_pipe_def pipe = dmb_pipe_def_default();
-    dmb_load_def load = dmb_load_def_default();
-    dmb_sim_options options = dmb_sim_options_default();
-    nowhere.gravity[2] = 0.0;
-    string.start_free = start_free;
-    options.allocator = allocator;
-    assert_int_equal(dmb_model_create(NULL, &c.model), DMB_OK);
-    assert_int_equal(dmb_model_set_environment(c.model, &nowhere), DMB_OK);
-    assert_int_equal(dmb_model_add_string(c.model, &string, &c.string), DMB_OK);
-    assert_int_equal(dmb_model_add_pipes(c.model, &pipe, 10, NULL), DMB_OK);
-    load.place = dmb_station(c.string, 9, 1.0);
-    load.force[0] = -push;
-    load.force[1] = 0.1 * push;
-    assert_int_equal(dmb_model_add_load(c.model, &load, &c.load), DMB_OK);
-    assert_int_equal(dmb_model_compile(c.model, NULL), DMB_OK);
-    assert_int_equal(dmb_sim_create(c.model, &options, &c.sim), DMB_OK);
-    return c;
+    const column_choice choice = {start_free, push, 0.1 * push, 0.0, allocator};
+    return column_open(&choice);
 }
 
-static void end(column *c)
+static void refused(const pushed_column *c, const dmb_path_options *options, int32_t status, const char *says)
 {
-    dmb_sim_destroy(&c->sim);
-    dmb_model_destroy(&c->model);
-}
-
-static uint64_t hash_of(const dmb_sim *sim)
-{
-    uint64_t hash = 0;
-    assert_int_equal(dmb_sim_hash(sim, &hash), DMB_OK);
-    return hash;
-}
-
-static void refused(const column *c, const dmb_path_options *options, int32_t status, const char *says)
-{
-    const uint64_t before = hash_of(c->sim);
+    const uint64_t before = rig_hash(&c->s);
     dmb_path_report report = dmb_path_report_default(), same = report;
-    assert_int_equal(dmb_analysis_path(c->sim, options, &report), status);
+    assert_int_equal(dmb_analysis_path(c->s.sim, options, &report), status);
     assert_memory_equal(&report, &same, sizeof report);
-    if (strstr(dmb_sim_message(c->sim), says) == NULL) fail_msg("'%s' does not say %s", dmb_sim_message(c->sim), says);
-    assert_true(hash_of(c->sim) == before);
+    must_say(&c->s, says);
+    assert_true(rig_hash(&c->s) == before);
 }
 
 static void states_without_a_path(void **state)
 {
     (void)state;
-    column c = make(DMB_FREE_NONE, 100.0, NULL);
+    pushed_column c = make(DMB_FREE_NONE, 100.0, NULL);
     refused(&c, NULL, DMB_ERR_ORDER, "no equilibrium");
-    end(&c);
+    column_close(&c);
     c = make(DMB_FREE_RX, 0.0, NULL);
     dmb_path_options options = dmb_path_options_default();
     options.scale = DMB_SCALE_PART;
     options.part = c.load;
     refused(&c, &options, DMB_ERR_SINGULAR, "string 0");
-    end(&c);
+    column_close(&c);
     c = make(DMB_FREE_NONE, 0.0, NULL);
     refused(&c, &options, DMB_ERR_ID, "part"); /* the id of another model */
     options.part = c.load;
     refused(&c, &options, DMB_ERR_SINGULAR, "moves nothing");
-    end(&c);
+    column_close(&c);
 }
 
 static void options_out_of_bounds(void **state)
 {
     (void)state;
-    column c = make(DMB_FREE_NONE, 100.0, NULL);
-    assert_int_equal(dmb_analysis_static(c.sim, NULL, NULL), DMB_OK);
+    pushed_column c = make(DMB_FREE_NONE, 100.0, NULL);
+    assert_int_equal(dmb_analysis_static(c.s.sim, NULL, NULL), DMB_OK);
     const struct {
         const char *field;
         size_t offset;
@@ -130,14 +86,14 @@ static void options_out_of_bounds(void **state)
     options.struct_size = 8;
     refused(&c, &options, DMB_ERR_STRUCT_SIZE, "struct_size");
     assert_int_equal(dmb_analysis_path(NULL, NULL, NULL), DMB_ERR_NULL);
-    assert_int_equal(dmb_analysis_path((dmb_sim *)(void *)c.model, NULL, NULL), DMB_ERR_HANDLE);
-    end(&c);
+    assert_int_equal(dmb_analysis_path((dmb_sim *)(void *)c.s.model, NULL, NULL), DMB_ERR_HANDLE);
+    column_close(&c);
 }
 
 /* ---- Stopping, and going on from a point ------------------------------------------------------------------------- */
 
 typedef struct saved {
-    const column *c;
+    const pushed_column *c;
     void *snapshot;
     size_t size;
     double tip;
@@ -159,75 +115,51 @@ static int32_t save_third(void *context, const dmb_sim *at, const dmb_path_point
 static void stopped_and_gone_on_from(void **state)
 {
     (void)state;
-    column c = make(DMB_FREE_NONE, 100.0, NULL);
+    pushed_column c = make(DMB_FREE_NONE, 100.0, NULL);
     saved s = {&c, NULL, 0, 0.0};
     dmb_pose pose = dmb_pose_default();
     dmb_path_options options = dmb_path_options_default();
     dmb_path_report report = dmb_path_report_default();
-    assert_int_equal(dmb_analysis_static(c.sim, NULL, NULL), DMB_OK);
+    assert_int_equal(dmb_analysis_static(c.s.sim, NULL, NULL), DMB_OK);
     options.factor_end = 10.0;
     options.callback = save_third;
     options.callback_context = &s;
-    assert_int_equal(dmb_analysis_path(c.sim, &options, &report), DMB_NOTE_STOPPED);
+    assert_int_equal(dmb_analysis_path(c.s.sim, &options, &report), DMB_NOTE_STOPPED);
     assert_int_equal(report.points, 3);
-    assert_int_equal(dmb_sim_restore(c.sim, s.snapshot, s.size), DMB_OK);
-    assert_int_equal(dmb_query_pose(c.sim, dmb_station(c.string, 9, 1.0), &pose), DMB_OK);
+    assert_int_equal(dmb_sim_restore(c.s.sim, s.snapshot, s.size), DMB_OK);
+    assert_int_equal(dmb_query_pose(c.s.sim, dmb_station(c.string, 9, 1.0), &pose), DMB_OK);
     assert_true(pose.displacement[1] == s.tip);
     options.callback = NULL;
     options.max_points = 2;
-    assert_int_equal(dmb_analysis_static(c.sim, NULL, NULL), DMB_OK);
-    assert_int_equal(dmb_analysis_path(c.sim, &options, &report), DMB_NOTE_STOPPED);
+    assert_int_equal(dmb_analysis_static(c.s.sim, NULL, NULL), DMB_OK);
+    assert_int_equal(dmb_analysis_path(c.s.sim, &options, &report), DMB_NOTE_STOPPED);
     assert_int_equal(report.points, 2);
     free(s.snapshot);
-    end(&c);
+    column_close(&c);
 }
 
 /* ---- Memory that is not there ------------------------------------------------------------------------------------ */
-
-typedef struct purse {
-    int left, held;
-} purse;
-
-static void *take(void *context, size_t size, size_t alignment)
-{
-    purse *p = context;
-    if (p->left-- <= 0) return NULL;
-    p->held++;
-    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-}
-
-static void give(void *context, void *block, size_t size, size_t alignment)
-{
-    purse *p = context;
-    (void)size;
-    (void)alignment;
-    p->held--;
-    free(block);
-}
 
 static void every_allocation_may_fail(void **state)
 {
     (void)state;
     purse p = {1000, 0};
-    dmb_allocator allocator = dmb_allocator_default();
-    allocator.context = &p;
-    allocator.allocate = take;
-    allocator.release = give;
-    column c = make(DMB_FREE_NONE, 100.0, &allocator);
-    assert_int_equal(dmb_analysis_static(c.sim, NULL, NULL), DMB_OK);
-    const uint64_t before = hash_of(c.sim);
+    const dmb_allocator allocator = purse_allocator(&p);
+    pushed_column c = make(DMB_FREE_NONE, 100.0, &allocator);
+    assert_int_equal(dmb_analysis_static(c.s.sim, NULL, NULL), DMB_OK);
+    const uint64_t before = rig_hash(&c.s);
     const int held = p.held;
     int failures = 0;
     for (int n = 0; n < 100; n++, failures++) {
         p.left = n;
-        const int32_t status = dmb_analysis_path(c.sim, NULL, NULL);
+        const int32_t status = dmb_analysis_path(c.s.sim, NULL, NULL);
         assert_int_equal(p.held, held);
-        assert_true(hash_of(c.sim) == before);
+        assert_true(rig_hash(&c.s) == before);
         if (status == DMB_OK) break;
         assert_int_equal(status, DMB_ERR_NO_MEMORY);
     }
     assert_int_equal(failures, 2);
-    end(&c);
+    column_close(&c);
 }
 
 int main(void)

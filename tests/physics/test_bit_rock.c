@@ -6,21 +6,21 @@
 static const double a = 0.047, eps = 10e6, zeta = 0.6, sigma = 10e6, wear = 1e-3, mu_gamma = 0.5;
 static const double feed = 0.02, turning = 20.943951;
 
-typedef struct rig {
-    contact_scene scene;
+typedef struct drilling {
+    rig scene;
     dmb_id bit, feed, turn;
-} rig;
+} drilling;
 
-static dmb_id motion(rig *r, int32_t component, const dmb_term *terms, uint32_t count)
+static dmb_id motion(drilling *r, int32_t component, const dmb_term *terms, uint32_t count)
 {
     dmb_drive_def drive = dmb_drive_def_default();
     drive.component = component;
-    drive.programme = scene_add_terms(&r->scene, terms, count);
-    return scene_add_drive(&r->scene, &drive);
+    drive.programme = add_programme(&r->scene, terms, count);
+    return add_drive(&r->scene, &drive);
 }
 
 /* Feed and rotation by the sums of `count` terms each, feed first. */
-static void build_with(rig *r, const dmb_bit_def *bit, int32_t pipe_kind, const dmb_term *terms, uint32_t count)
+static void build_with(drilling *r, const dmb_bit_def *bit, int32_t pipe_kind, const dmb_term *terms, uint32_t count)
 {
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_string_def string = dmb_string_def_default();
@@ -30,15 +30,15 @@ static void build_with(rig *r, const dmb_bit_def *bit, int32_t pipe_kind, const 
         string.velocity[3] += terms[count + i].h0;
     }
     scene_open(&r->scene, 0.0);
-    scene_add_string(&r->scene, &string);
-    scene_add_pipes(&r->scene, &pipe, 1);
+    add_string(&r->scene, &string);
+    add_pipes(&r->scene, &pipe, 1);
     r->bit = scene_add_bit(&r->scene, bit);
     r->feed = motion(r, DMB_X, terms, count);
     r->turn = motion(r, DMB_RX, terms + count, count);
-    scene_start(&r->scene, NULL, NULL);
+    rig_start_with(&r->scene, NULL, NULL);
 }
 
-static void build(rig *r, int32_t rock_law, double bottom)
+static void build(drilling *r, int32_t rock_law, double bottom)
 {
     dmb_bit_def bit = dmb_bit_def_default();
     dmb_term terms[2] = {dmb_term_default(), dmb_term_default()};
@@ -49,14 +49,14 @@ static void build(rig *r, int32_t rock_law, double bottom)
     build_with(r, &bit, DMB_PIPE_RIGID, terms, 1);
 }
 
-static dmb_bit_state bit_of(const rig *r)
+static dmb_bit_state bit_of(const drilling *r)
 {
     dmb_bit_state state = dmb_bit_state_default();
     assert_int_equal(dmb_query_bit(r->scene.sim, r->bit, &state), DMB_OK);
     return state;
 }
 
-static dmb_drive_state drive_of(const rig *r, dmb_id id)
+static dmb_drive_state drive_of(const drilling *r, dmb_id id)
 {
     dmb_drive_state state = dmb_drive_state_default();
     assert_int_equal(dmb_query_drive(r->scene.sim, id, &state), DMB_OK);
@@ -68,7 +68,7 @@ static dmb_drive_state drive_of(const rig *r, dmb_id id)
 static void rate_law(void **state)
 {
     const double d = 2.0 * PI * feed / turning;
-    rig r;
+    drilling r;
     (void)state;
     build(&r, DMB_ROCK_RATE, 0.0);
     for (int i = 0; i < 100; i++) scene_step(&r.scene, 1e-3);
@@ -83,7 +83,7 @@ static void rate_law(void **state)
     CHECK_RELATIVE(bit.advance, 0.1 * feed, 1e-12);
     CHECK_RELATIVE(drive_of(&r, r.feed).force, bit.weight, 1e-10);
     CHECK_RELATIVE(drive_of(&r, r.turn).force, bit.torque, 1e-10);
-    scene_close(&r.scene);
+    rig_close(&r.scene);
 }
 
 /* All that the drives spend is spent at the bit. */
@@ -92,10 +92,10 @@ static void drilling_energy(void **state)
     static const int32_t laws[] = {DMB_ROCK_RATE, DMB_ROCK_REGENERATIVE};
     (void)state;
     for (int k = 0; k < 2; k++) {
-        rig r;
+        drilling r;
         build(&r, laws[k], 0.0);
         for (int i = 0; i < 1000; i++) scene_step(&r.scene, 1e-3);
-        const dmb_energy energy = scene_energy(&r.scene);
+        const dmb_energy energy = energy_of(&r.scene);
         const double spent = drive_of(&r, r.feed).work + drive_of(&r, r.turn).work;
         CHECK_RELATIVE(energy.drives, spent, 1e-12);
         CHECK_RELATIVE(energy.rock, spent, 1e-12);
@@ -103,7 +103,7 @@ static void drilling_energy(void **state)
         CHECK_BELOW(energy.error, 1e-12);
         /* W V + T Om over 1 s, less what the first revolution and the wear flat's engagement took */
         if (laws[k] == DMB_ROCK_RATE) CHECK_RELATIVE(spent, 2162.0 * feed + 71.7925 * turning, 1e-2);
-        scene_close(&r.scene);
+        rig_close(&r.scene);
     }
 }
 
@@ -112,7 +112,7 @@ static void drilling_energy(void **state)
 static void regenerative_law(void **state)
 {
     const double spacing = 0.5 * PI / turning;
-    rig r;
+    drilling r;
     (void)state;
     build(&r, DMB_ROCK_REGENERATIVE, 0.0);
     for (int i = 0; i < 50; i++) scene_step(&r.scene, spacing / 100.0);
@@ -122,13 +122,13 @@ static void regenerative_law(void **state)
     CHECK_RELATIVE(bit.depth_of_cut, 6e-3, 1e-6);
     CHECK_RELATIVE(bit.weight, 2162.0, 1e-6);
     CHECK_RELATIVE(bit.torque, 71.7925, 1e-6);
-    scene_close(&r.scene);
+    rig_close(&r.scene);
 }
 
 /* Off bottom there is nothing until the distance is drilled through. */
 static void off_bottom(void **state)
 {
-    rig r;
+    drilling r;
     (void)state;
     build(&r, DMB_ROCK_RATE, 0.01);
     for (int i = 0; i < 499; i++) {
@@ -141,7 +141,7 @@ static void off_bottom(void **state)
     for (int i = 0; i < 20; i++) scene_step(&r.scene, 1e-3);
     assert_int_equal(bit_of(&r).on_bottom, 1);
     CHECK_RELATIVE(bit_of(&r).weight, 2162.0, 2e-8);
-    scene_close(&r.scene);
+    rig_close(&r.scene);
 }
 
 /* The bottom-hole load is a force against the feed from its programme, with or without rock. */
@@ -151,17 +151,17 @@ static void bottom_hole_load(void **state)
     dmb_term step = scene_step_term(0.0, 0.0, 1.0, 2960.0);
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
-    rig r;
+    drilling r;
     double reaction[6];
     (void)state;
     scene_open(&r.scene, 0.0);
     string.start_free = DMB_FREE_NONE;
-    scene_add_string(&r.scene, &string);
+    add_string(&r.scene, &string);
     pipe.kind = DMB_PIPE_RIGID;
-    const dmb_id id = scene_add_pipes(&r.scene, &pipe, 2);
-    def.load = scene_add_terms(&r.scene, &step, 1);
+    const dmb_id id = add_pipes(&r.scene, &pipe, 2);
+    def.load = add_programme(&r.scene, &step, 1);
     r.bit = scene_add_bit(&r.scene, &def);
-    scene_start(&r.scene, NULL, NULL);
+    rig_start_with(&r.scene, NULL, NULL);
     for (int i = 1; i <= 12; i++) {
         const double t = 0.1 * i, x = fmin(t, 1.0);
         scene_step(&r.scene, 0.1);
@@ -169,7 +169,7 @@ static void bottom_hole_load(void **state)
         assert_int_equal(dmb_query_reaction(r.scene.sim, id, reaction), DMB_OK);
         CHECK_RELATIVE(reaction[0], bit_of(&r).load, 1e-12);
     }
-    scene_close(&r.scene);
+    rig_close(&r.scene);
 }
 
 /* ---- Hard case 15 ------------------------------------------------------------------------------------------------ */
@@ -188,7 +188,7 @@ static void reverse_rotation(void **state)
             scene_step_term(1.5, 0.0, 2.0, -turning),   scene_step_term(3.0, 0.0, 3.5, 2.0 * turning)};
         double deepest = 0.0;
         int met = 0;
-        rig r;
+        drilling r;
         bit.rock_law = laws[k];
         bit.history = 64;
         build_with(&r, &bit, DMB_PIPE_RIGID, terms, 3);
@@ -208,7 +208,7 @@ static void reverse_rotation(void **state)
         assert_int_equal(met, 1);
         CHECK_RELATIVE(bit_of(&r).depth_of_cut, 6e-3, 1e-4);
         CHECK_RELATIVE(bit_of(&r).weight, 2162.0, 1e-4);
-        scene_close(&r.scene);
+        rig_close(&r.scene);
     }
 }
 
@@ -217,7 +217,7 @@ static void reverse_on_bottom(void **state)
 {
     dmb_bit_def bit = dmb_bit_def_default();
     dmb_term terms[2] = {dmb_term_default(), dmb_term_default()};
-    rig r;
+    drilling r;
     (void)state;
     bit.rock_law = DMB_ROCK_RATE;
     terms[0].h0 = 1e-3;
@@ -227,7 +227,7 @@ static void reverse_on_bottom(void **state)
     CHECK_CLOSE(bit_of(&r).depth_of_cut, 0.0, 0.0);
     CHECK_RELATIVE(bit_of(&r).weight, sigma * a * wear, 1e-10);
     CHECK_RELATIVE(bit_of(&r).torque, -0.5 * mu_gamma * sigma * a * a * wear, 1e-10);
-    scene_close(&r.scene);
+    rig_close(&r.scene);
 }
 
 /* A string that twists and stretches carries the same torque and weight to the bit, once the start has died out. */
@@ -238,7 +238,7 @@ static void through_a_flexible_pipe(void **state)
     for (int k = 0; k < 2; k++) {
         dmb_bit_def bit = dmb_bit_def_default();
         const dmb_term terms[2] = {scene_step_term(0.0, 0.0, 0.5, feed), scene_step_term(0.0, 0.0, 0.2, turning)};
-        rig r;
+        drilling r;
         bit.rock_law = DMB_ROCK_RATE;
         build_with(&r, &bit, kinds[k], terms, 1);
         for (int i = 0; i < 2000; i++) scene_step(&r.scene, 1e-3);
@@ -247,7 +247,7 @@ static void through_a_flexible_pipe(void **state)
         CHECK_RELATIVE(now.torque, 71.7925, 1e-6);
         CHECK_RELATIVE(drive_of(&r, r.feed).force, 2162.0, 1e-6);
         CHECK_RELATIVE(drive_of(&r, r.turn).force, 71.7925, 1e-6);
-        scene_close(&r.scene);
+        rig_close(&r.scene);
     }
 }
 

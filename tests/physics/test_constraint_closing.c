@@ -5,13 +5,6 @@
 
 static const double g = 9.81, step = 1e-3;
 
-static uint64_t hash_of(const rig *s)
-{
-    uint64_t hash = 0;
-    must(s, dmb_sim_hash(s->sim, &hash));
-    return hash;
-}
-
 static void expect_message(const rig *s, const char *text)
 {
     if (strstr(dmb_sim_message(s->sim), text) == NULL)
@@ -41,7 +34,7 @@ static void close_turned(int32_t kind, const double turn[3], int32_t wanted)
 {
     dmb_id joint;
     rig s = turned_body(kind, turn, &joint);
-    const uint64_t before = hash_of(&s);
+    const uint64_t before = rig_hash(&s);
     const int32_t status = dmb_sim_set_joint(s.sim, joint, DMB_JOINT_ACTIVE);
     print_message("    kind %d, turned by %g %g %g: %s: %s\n", (int)kind, turn[0], turn[1], turn[2],
                   dmb_status_name(status), dmb_sim_message(s.sim));
@@ -49,7 +42,7 @@ static void close_turned(int32_t kind, const double turn[3], int32_t wanted)
     if (status < 0) {
         expect_message(&s, "joint 0 (plug): turned over");
         expect_message(&s, "3.14159 rad");
-        assert_true(hash_of(&s) == before);
+        assert_true(rig_hash(&s) == before);
         must(&s, dmb_sim_set_joint(s.sim, joint, DMB_JOINT_LOCKED)); /* where it is */
     }
     take_steps(&s, step, 10);

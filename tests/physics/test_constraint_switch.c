@@ -6,13 +6,6 @@
 
 static const double g = 9.81, length = 0.8, mass = 1.5, step = 1e-3;
 
-static uint64_t hash_of(const rig *s)
-{
-    uint64_t hash = 0;
-    must(s, dmb_sim_hash(s->sim, &hash));
-    return hash;
-}
-
 static void expect_message(const rig *s, const char *text)
 {
     if (strstr(dmb_sim_message(s->sim), text) == NULL)
@@ -206,12 +199,12 @@ static void apart_cannot_close(void **state)
     take_steps(&p.s, step, 250);
     must(&p.s, dmb_sim_set_joint(p.s.sim, p.hinge[1], DMB_JOINT_OPEN));
     take_steps(&p.s, step, 10);
-    const uint64_t before = hash_of(&p.s);
+    const uint64_t before = rig_hash(&p.s);
     const dmb_pose pose = pose_at(&p.s, dmb_station(p.bar[1], 0, 0.0));
     assert_int_equal(dmb_sim_set_joint(p.s.sim, p.hinge[1], DMB_JOINT_ACTIVE), DMB_ERR_GEOMETRY);
     print_message("    said: %s\n", dmb_sim_message(p.s.sim));
     expect_message(&p.s, "joint 1 (elbow)");
-    assert_true(hash_of(&p.s) == before);
+    assert_true(rig_hash(&p.s) == before);
     const dmb_pose same = pose_at(&p.s, dmb_station(p.bar[1], 0, 0.0));
     check_below("pose after the refusal", largest_difference(3, same.position, pose.position), 0.0);
     pendulum twin = pendulum_of(NULL); /* goes on as if nothing had been asked */
@@ -219,7 +212,7 @@ static void apart_cannot_close(void **state)
     must(&twin.s, dmb_sim_set_joint(twin.s.sim, twin.hinge[1], DMB_JOINT_OPEN));
     take_steps(&twin.s, step, 60);
     take_steps(&p.s, step, 50);
-    assert_true(hash_of(&p.s) == hash_of(&twin.s));
+    assert_true(rig_hash(&p.s) == rig_hash(&twin.s));
     rig_close(&twin.s);
     rig_close(&p.s);
 }
@@ -285,14 +278,14 @@ static void states_survive_snapshots(void **state)
         assert_true(size <= sizeof block);
         must(&p.s, dmb_sim_snapshot(p.s.sim, block, size));
         run_on(&p, 300);
-        const uint64_t end = hash_of(&p.s);
+        const uint64_t end = rig_hash(&p.s);
         assert_true(dmb_sim_create(p.s.model, NULL, &fresh) >= 0);
         dmb_sim *old = p.s.sim;
         p.s.sim = fresh;
         run_on(&p, 7);
         must(&p.s, dmb_sim_restore(p.s.sim, block, size));
         run_on(&p, 300);
-        assert_true(hash_of(&p.s) == end);
+        assert_true(rig_hash(&p.s) == end);
         assert_int_equal(joint_at(&p.s, p.hinge[1]).state, to);
         dmb_sim_destroy(&old);
         rig_close(&p.s);
@@ -305,13 +298,13 @@ static void same_state_is_no_change(void **state)
     (void)state;
     pendulum p = pendulum_of(NULL);
     run_on(&p, 100);
-    const uint64_t before = hash_of(&p.s);
+    const uint64_t before = rig_hash(&p.s);
     assert_int_equal(dmb_sim_set_joint(p.s.sim, p.hinge[1], DMB_JOINT_ACTIVE), DMB_OK);
-    assert_true(hash_of(&p.s) == before);
+    assert_true(rig_hash(&p.s) == before);
     assert_int_equal(dmb_sim_set_joint(p.s.sim, p.hinge[1], 3), DMB_ERR_VALUE);
     assert_int_equal(dmb_sim_set_joint(p.s.sim, p.hinge[1], -1), DMB_ERR_VALUE);
     assert_int_equal(dmb_sim_set_joint(p.s.sim, p.bar[1], DMB_JOINT_OPEN), DMB_ERR_ID);
-    assert_true(hash_of(&p.s) == before);
+    assert_true(rig_hash(&p.s) == before);
     rig_close(&p.s);
 }
 
@@ -389,11 +382,11 @@ static void driven_joint_cannot_lock(void **state)
     (void)state;
     wheel w = wheel_of(DMB_DRIVE_MOTION, 3.0, 3.0);
     take_steps(&w.s, step, 50);
-    const uint64_t before = hash_of(&w.s);
+    const uint64_t before = rig_hash(&w.s);
     assert_int_equal(dmb_sim_set_joint(w.s.sim, w.joint, DMB_JOINT_LOCKED), DMB_ERR_GEOMETRY);
     print_message("    said: %s\n", dmb_sim_message(w.s.sim));
     expect_message(&w.s, "drive 0");
-    assert_true(hash_of(&w.s) == before);
+    assert_true(rig_hash(&w.s) == before);
     take_steps(&w.s, step, 50);
     check_close("angle after 0.1 s [rad]", joint_at(&w.s, w.joint).position[DMB_RX], 0.3, 1e-13);
     rig_close(&w.s);
@@ -410,13 +403,13 @@ static void driven_joint_locked_at_rest(void **state)
     int32_t status = DMB_OK;
     uint64_t before = 0;
     for (int i = 0; i < 100 && status >= 0; i++) {
-        before = hash_of(&w.s);
+        before = rig_hash(&w.s);
         status = dmb_sim_step(w.s.sim, step, NULL);
     }
     print_message("    %s at %g s: %s\n", dmb_status_name(status), dmb_sim_time(w.s.sim), dmb_sim_message(w.s.sim));
     assert_int_equal(status, DMB_ERR_SINGULAR);
     expect_message(&w.s, "drive 0");
-    assert_true(hash_of(&w.s) == before);
+    assert_true(rig_hash(&w.s) == before);
     must(&w.s, dmb_sim_set_joint(w.s.sim, w.joint, DMB_JOINT_ACTIVE));
     while (dmb_sim_time(w.s.sim) < 0.3 - 0.5 * step) must(&w.s, dmb_sim_step(w.s.sim, step, NULL));
     check_close("speed at the end [rad/s]", joint_at(&w.s, w.joint).speed[DMB_RX], 2.0, 1e-12);
@@ -499,11 +492,11 @@ static void gear_that_has_slipped(void **state)
     must(&s, dmb_sim_set_joint(s.sim, joint[0], DMB_JOINT_LOCKED));
     take_steps(&s, step, 50);
     must(&s, dmb_sim_set_joint(s.sim, joint[0], DMB_JOINT_ACTIVE));
-    const uint64_t before = hash_of(&s);
+    const uint64_t before = rig_hash(&s);
     assert_int_equal(dmb_sim_set_joint(s.sim, joint[1], DMB_JOINT_ACTIVE), DMB_ERR_GEOMETRY);
     print_message("    said: %s\n", dmb_sim_message(s.sim));
     expect_message(&s, "coupling 0 (gear)");
-    assert_true(hash_of(&s) == before);
+    assert_true(rig_hash(&s) == before);
     rig_close(&s);
 }
 
@@ -569,13 +562,13 @@ static void refused_jump_changes_nothing(void **state)
     int64_t n = 0;
     open_jumper(&one);
     take_steps(&one.s, step, 480); /* another partition would suit the ball by now */
-    const uint64_t before = hash_of(&one.s);
+    const uint64_t before = rig_hash(&one.s);
     for (one.with.fails_at = one.with.calls; n == 0 || status < 0; one.with.fails_at = one.with.calls + ++n) {
         status = dmb_sim_set_drive(one.s.sim, one.drive, 3.0);
         if (status >= 0) break;
         assert_int_equal(status, DMB_ERR_CALLBACK);
         expect_message(&one.s, "constraint 0 (shell)");
-        assert_true(hash_of(&one.s) == before);
+        assert_true(rig_hash(&one.s) == before);
     }
     tell("calls of one jump", (double)n);
     assert_true(n > 10);
@@ -585,7 +578,7 @@ static void refused_jump_changes_nothing(void **state)
     must(&twin.s, dmb_sim_set_drive(twin.s.sim, twin.drive, 3.0));
     take_steps(&twin.s, step, 200);
     take_steps(&one.s, step, 200);
-    assert_true(hash_of(&one.s) == hash_of(&twin.s));
+    assert_true(rig_hash(&one.s) == rig_hash(&twin.s));
     rig_close(&twin.s);
     rig_close(&one.s);
 }
@@ -646,14 +639,14 @@ static void bead_in_a_curved_hole(void **state)
     assert_true(size <= sizeof block);
     must(&s, dmb_sim_snapshot(s.sim, block, size));
     take_steps(&s, step, 500);
-    const uint64_t later = hash_of(&s);
+    const uint64_t later = rig_hash(&s);
     const dmb_pose still = pose_at(&s, dmb_station(body, 0, 0.0));
     check_below("locked for 1 s: way along the hole [m]", largest_difference(3, held.position, still.position), 1e-13);
     const double weight[3] = {0.0, 0.0, mass * g};
     check_below("the lock carries the weight [N]", largest_difference(3, joint_at(&s, joint).reaction, weight), 1e-11);
     must(&s, dmb_sim_restore(s.sim, block, size));
     take_steps(&s, step, 500);
-    assert_true(hash_of(&s) == later);
+    assert_true(rig_hash(&s) == later);
     must(&s, dmb_sim_set_joint(s.sim, joint, DMB_JOINT_ACTIVE));
     const dmb_energy rest = energy_of(&s);
     take_steps(&s, step, 500);

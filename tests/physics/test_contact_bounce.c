@@ -9,7 +9,7 @@
 static const double g = 9.81, e = 0.8;
 
 typedef struct flight {
-    contact_scene scene;
+    rig scene;
     dmb_id ball;
 } flight;
 
@@ -22,9 +22,9 @@ static void drop(flight *f, double tolerance)
     options.step_min = 1e-12;
     wall.approach_speed = 1e-5;
     scene_open(&f->scene, g);
-    scene_add_wall(&f->scene, &wall);
-    f->ball = scene_add_body(&f->scene, &ball);
-    scene_start(&f->scene, NULL, &options);
+    add_wall(&f->scene, &wall);
+    f->ball = add_body(&f->scene, &ball);
+    rig_start_with(&f->scene, NULL, &options);
 }
 
 static double height(const flight *f)
@@ -61,7 +61,7 @@ static void first_impact(void **state)
     print_message("first impact %.12f s\n", before);
     CHECK_RELATIVE(impact_time(1), 0.451523640986, 1e-11);
     CHECK_RELATIVE(before, 0.451523640986, 1e-8); /* 1e-3 asked */
-    scene_close(&f.scene);
+    rig_close(&f.scene);
 }
 
 /* Asked in the middle of each flight. */
@@ -75,7 +75,7 @@ static void apex_heights(void **state)
         const double want = pow(e, 2.0 * n);
         CHECK_RELATIVE(apex(&f), want, 1e-3); /* the weight acts during the contact: g T/v, 8e-4 at n = 10 */
     }
-    scene_close(&f.scene);
+    rig_close(&f.scene);
 }
 
 /* The last instant at which the ball is faster than 2e-4 m/s; the bounces left out take 2 v/(g (1-e)) = 2e-4 s. */
@@ -89,12 +89,12 @@ static void stop_time(void **state)
         scene_advance(&f.scene, t);
         if (fabs(scene_speed(&f.scene, f.ball, DMB_Z)) > 2e-4) stop = t;
     }
-    const dmb_statistics statistics = scene_statistics(&f.scene);
+    const dmb_statistics statistics = statistics_of(&f.scene);
     print_message("stop %.9f s, %llu steps, %llu rejected\n", stop, (unsigned long long)statistics.steps,
                   (unsigned long long)statistics.rejected);
     CHECK_RELATIVE(stop, 4.063712768872, 1e-3);
     CHECK_CLOSE(height(&f), -g / 1e10, 1e-12); /* rests at m g/K */
-    scene_close(&f.scene);
+    rig_close(&f.scene);
 }
 
 /* Each impact takes (1 - e^2) of the energy of arrival: the ledger's impact term after n of them is
@@ -106,12 +106,12 @@ static void energy_of_impacts(void **state)
     drop(&f, 1e-13);
     for (int n = 1; n <= 8; n++) {
         scene_advance(&f.scene, 0.5 * (impact_time(n) + impact_time(n + 1)));
-        const dmb_energy energy = scene_energy(&f.scene);
+        const dmb_energy energy = energy_of(&f.scene);
         CHECK_RELATIVE(energy.impact, g * (1.0 - pow(e, 2.0 * n)), 1e-4);
         CHECK_CLOSE(energy.unexplained, 0.0, 1e-9 * g);
         CHECK_CLOSE(energy.scheme, 0.0, 1e-5 * g);
     }
-    scene_close(&f.scene);
+    rig_close(&f.scene);
 }
 
 int main(void)

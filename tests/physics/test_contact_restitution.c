@@ -50,14 +50,14 @@ static impact fly(const dmb_wall_def *wall, double mass, double speed)
     const double depth = depth_scale(wall, mass, speed);
     const dmb_sim_options options = fine_options(depth, speed);
     dmb_body_def ball = scene_ball(mass, 2.0 * depth, 1 << DMB_Z);
-    contact_scene scene;
+    rig scene;
     impact result = {0.0, 0.0, 0.0, 0.0};
     double entry = 0.0, d0 = -2.0 * depth, v0 = speed, t0 = 0.0;
     ball.velocity[2] = -speed;
     scene_open(&scene, 0.0);
-    scene_add_wall(&scene, wall);
-    scene_add_body(&scene, &ball);
-    scene_start(&scene, NULL, &options);
+    add_wall(&scene, wall);
+    add_body(&scene, &ball);
+    rig_start_with(&scene, NULL, &options);
     for (int i = 0; i < 2000; i++) {
         scene_advance(&scene, t0 + 0.02 * depth / speed);
         const dmb_contact c = scene_contact(&scene, 0);
@@ -75,7 +75,7 @@ static impact fly(const dmb_wall_def *wall, double mass, double speed)
         if (d1 < -depth && v1 < 0.0) break;
     }
     assert_true(d0 < 0.0);
-    scene_close(&scene);
+    rig_close(&scene);
     return result;
 }
 
@@ -254,16 +254,16 @@ static void stiffness_times_length(void **state)
     for (int i = 0; i < 2; i++) {
         const dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_EXACT, i == 0 ? 1e7 : 2e7, 1.5, 0.5);
         dmb_body_def ball = scene_ball(1.0, 1e-3, 1 << DMB_Z);
-        contact_scene scene;
+        rig scene;
         ball.contact_length = i == 0 ? 1.0 : 0.5;
         ball.velocity[2] = -1.0;
         scene_open(&scene, 0.0);
-        scene_add_wall(&scene, &wall);
-        const dmb_id id = scene_add_body(&scene, &ball);
-        scene_start(&scene, NULL, NULL);
+        add_wall(&scene, &wall);
+        const dmb_id id = add_body(&scene, &ball);
+        rig_start_with(&scene, NULL, NULL);
         for (int k = 0; k < 1000; k++) scene_step(&scene, 1e-5);
         speed[i] = scene_speed(&scene, id, DMB_Z);
-        scene_close(&scene);
+        rig_close(&scene);
     }
     assert_true(speed[0] > 0.1);
     CHECK_CLOSE(speed[0], speed[1], 1e-14);

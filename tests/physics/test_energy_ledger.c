@@ -34,7 +34,7 @@ static dmb_energy run_rig(double h, double newton_tolerance, int32_t friction_la
     const dmb_term feed = scene_step_term(0.0, 0.0, 0.1, 0.01), turn = scene_step_term(0.0, 0.0, 0.1, 20.0);
     const dmb_term push = scene_step_term(0.05, 0.0, 0.15, 1.0);
     dmb_sim_options options = dmb_sim_options_default();
-    contact_scene scene;
+    rig scene;
     options.newton_tolerance = newton_tolerance;
     environment.lateral_damping = environment.axial_damping = environment.torsional_damping = 5.0;
     wall.friction_law = friction_law;
@@ -44,22 +44,22 @@ static dmb_energy run_rig(double h, double newton_tolerance, int32_t friction_la
     bit.bottom = 5e-4;
     scene_open(&scene, 9.81);
     scene_must(&scene, dmb_model_set_environment(scene.model, &environment));
-    scene_add_wall(&scene, &wall);
-    const dmb_id id = scene_add_pipes(&scene, &pipe, 10);
+    add_wall(&scene, &wall);
+    const dmb_id id = add_pipes(&scene, &pipe, 10);
     scene_add_bit(&scene, &bit);
     load.place = dmb_station(id, 4, 1.0);
     load.force[1] = 200.0;
-    load.programme = scene_add_terms(&scene, &push, 1);
-    scene_add_load(&scene, &load);
-    drive.programme = scene_add_terms(&scene, &feed, 1);
-    scene_add_drive(&scene, &drive);
+    load.programme = add_programme(&scene, &push, 1);
+    add_load(&scene, &load);
+    drive.programme = add_programme(&scene, &feed, 1);
+    add_drive(&scene, &drive);
     drive.component = DMB_RX;
-    drive.programme = scene_add_terms(&scene, &turn, 1);
-    scene_add_drive(&scene, &drive);
-    scene_start(&scene, NULL, &options);
+    drive.programme = add_programme(&scene, &turn, 1);
+    add_drive(&scene, &drive);
+    rig_start_with(&scene, NULL, &options);
     for (int i = 0; i < (int)(0.25 / h + 0.5); i++) scene_step(&scene, h);
-    const dmb_energy energy = scene_energy(&scene);
-    scene_close(&scene);
+    const dmb_energy energy = energy_of(&scene);
+    rig_close(&scene);
     return energy;
 }
 
@@ -102,24 +102,24 @@ static double scheme_of_vibration(double h, double radius)
     dmb_load_def load = dmb_load_def_default();
     const dmb_term pulse[2] = {scene_step_term(0.0, 0.0, 0.01, 1.0), scene_step_term(0.01, 0.0, 0.02, -1.0)};
     dmb_sim_options options = dmb_sim_options_default();
-    contact_scene scene;
+    rig scene;
     options.spectral_radius = radius;
     options.newton_tolerance = 1e-12;
     string.start_free = DMB_FREE_NONE;
     pipe.length = 10.0;
     pipe.elements = 4;
     scene_open(&scene, 0.0);
-    scene_add_string(&scene, &string);
-    const dmb_id id = scene_add_pipes(&scene, &pipe, 1);
+    add_string(&scene, &string);
+    const dmb_id id = add_pipes(&scene, &pipe, 1);
     load.place = dmb_station(id, 0, 1.0);
     load.force[1] = 100.0;
-    load.programme = scene_add_terms(&scene, pulse, 2);
-    scene_add_load(&scene, &load);
-    scene_start(&scene, NULL, &options);
+    load.programme = add_programme(&scene, pulse, 2);
+    add_load(&scene, &load);
+    rig_start_with(&scene, NULL, &options);
     for (int i = 0; i < (int)(0.5 / h + 0.5); i++) scene_step(&scene, h);
-    const dmb_energy e = scene_energy(&scene);
+    const dmb_energy e = energy_of(&scene);
     check_closed(&e, 1e-9);
-    scene_close(&scene);
+    rig_close(&scene);
     return e.scheme / e.loads;
 }
 
@@ -150,7 +150,7 @@ static void linear_bar_keeps_energy(void **state)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_string_def string = dmb_string_def_default();
     dmb_sim_options options = dmb_sim_options_default();
-    contact_scene scene;
+    rig scene;
     double low = 1e300, high = 0.0;
     (void)state;
     options.spectral_radius = 1.0;
@@ -159,16 +159,16 @@ static void linear_bar_keeps_energy(void **state)
     string.velocity[0] = 0.0;
     pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
     scene_open(&scene, 0.0);
-    scene_add_string(&scene, &string);
-    const dmb_id id = scene_add_pipes(&scene, &pipe, 10);
+    add_string(&scene, &string);
+    const dmb_id id = add_pipes(&scene, &pipe, 10);
     dmb_load_def load = dmb_load_def_default();
     const dmb_term pulse[2] = {scene_step_term(0.0, 0.0, 0.005, 1.0), scene_step_term(0.005, 0.0, 0.01, -1.0)};
     load.place = dmb_station(id, 9, 1.0);
     load.force[0] = 1e5;
     load.moment[0] = 1e3;
-    load.programme = scene_add_terms(&scene, pulse, 2);
-    scene_add_load(&scene, &load);
-    scene_start(&scene, NULL, &options);
+    load.programme = add_programme(&scene, pulse, 2);
+    add_load(&scene, &load);
+    rig_start_with(&scene, NULL, &options);
     while (dmb_sim_time(scene.sim) < 0.0101) scene_step(&scene, 1e-4);
     for (int i = 0; i < 100000; i++) {
         scene_step(&scene, 1e-4);
@@ -179,7 +179,7 @@ static void linear_bar_keeps_energy(void **state)
     }
     print_message("linear bar: energy within %.2e over 1e5 steps\n", (high - low) / high);
     CHECK_BELOW((high - low) / high, 1e-9);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* ---- Single terms ------------------------------------------------------------------------------------------------ */
@@ -190,27 +190,27 @@ static void friction_work(void **state)
     dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_HUNT_CROSSLEY, 1e8, 1.0, 0.5);
     dmb_body_def body = scene_ball(1.0, -9.81e-8, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
     dmb_load_def load = dmb_load_def_default();
-    contact_scene scene;
+    rig scene;
     (void)state;
     wall.friction_law = DMB_FRICTION_COULOMB;
     wall.mu_static = wall.mu_dynamic = 0.3;
     wall.smoothing_speed = 1e-6;
     body.velocity[0] = 1.0;
     scene_open(&scene, 9.81);
-    scene_add_wall(&scene, &wall);
-    const dmb_id id = scene_add_body(&scene, &body);
+    add_wall(&scene, &wall);
+    const dmb_id id = add_body(&scene, &body);
     load.place = dmb_station(id, 0, 0.0);
     load.force[0] = 5.0;
-    scene_add_load(&scene, &load);
-    scene_start(&scene, NULL, NULL);
+    add_load(&scene, &load);
+    rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < 1000; i++) scene_step(&scene, 1e-3);
-    const dmb_energy e = scene_energy(&scene);
+    const dmb_energy e = energy_of(&scene);
     const double way = scene_displacement(&scene, id, 0);
     CHECK_RELATIVE(e.friction, 0.3 * 9.81 * way, 1e-6);
     CHECK_RELATIVE(e.loads, 5.0 * way, 1e-6);
     CHECK_RELATIVE(e.kinetic - 0.5, e.loads - e.friction, 1e-6);
     check_closed(&e, 1e-9);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* One impact takes (1 - e^2) of the energy of arrival, whatever the law asks for. */
@@ -222,21 +222,21 @@ static void impact_loss(void **state)
         const dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_EXACT, 1e7, 1.5, asked[k]);
         dmb_body_def ball = scene_ball(2.0, 0.01, 1 << DMB_Z);
         dmb_sim_options options = dmb_sim_options_default();
-        contact_scene scene;
+        rig scene;
         options.tolerance_translation = 1e-12;
         options.step_min = 1e-13;
         ball.velocity[2] = -3.0;
         scene_open(&scene, 0.0);
-        scene_add_wall(&scene, &wall);
-        scene_add_body(&scene, &ball);
-        scene_start(&scene, NULL, &options);
+        add_wall(&scene, &wall);
+        add_body(&scene, &ball);
+        rig_start_with(&scene, NULL, &options);
         scene_advance(&scene, 0.1);
-        const dmb_energy e = scene_energy(&scene);
+        const dmb_energy e = energy_of(&scene);
         CHECK_CLOSE(e.impact, 9.0 * (1.0 - asked[k] * asked[k]), 1e-5 * 9.0);
         CHECK_CLOSE(e.kinetic, 9.0 * asked[k] * asked[k], 1e-5 * 9.0);
         CHECK_CLOSE(e.contact, 0.0, 0.0);
         check_closed(&e, 1e-9);
-        scene_close(&scene);
+        rig_close(&scene);
     }
 }
 
@@ -247,18 +247,18 @@ static void drive_work(void **state)
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_drive_state told = dmb_drive_state_default();
     const dmb_term up = scene_step_term(0.0, 0.0, 0.5, 2.0);
-    contact_scene scene;
+    rig scene;
     (void)state;
     body.mass = 3.0;
     body.free_mask = 1 << DMB_Z;
     scene_open(&scene, 9.81);
-    drive.part = scene_add_body(&scene, &body);
+    drive.part = add_body(&scene, &body);
     drive.component = DMB_Z;
-    drive.programme = scene_add_terms(&scene, &up, 1);
-    const dmb_id id = scene_add_drive(&scene, &drive);
-    scene_start(&scene, NULL, NULL);
+    drive.programme = add_programme(&scene, &up, 1);
+    const dmb_id id = add_drive(&scene, &drive);
+    rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < 1000; i++) scene_step(&scene, 1e-3);
-    const dmb_energy e = scene_energy(&scene);
+    const dmb_energy e = energy_of(&scene);
     CHECK_RELATIVE(scene_displacement(&scene, drive.part, 2), 1.5, 1e-12); /* .5 on the way up, 1 after it */
     CHECK_RELATIVE(e.gravity, 3.0 * 9.81 * 1.5, 1e-12);
     CHECK_RELATIVE(e.kinetic, 6.0, 1e-12);
@@ -269,7 +269,7 @@ static void drive_work(void **state)
     CHECK_RELATIVE(told.power, 2.0 * told.force, 1e-12);
     CHECK_RELATIVE(told.position, 1.5, 1e-12);
     check_closed(&e, 1e-12);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* A speed control brings a rotor up: what it gives is in the rotor and nowhere else. */
@@ -277,25 +277,25 @@ static void control_work(void **state)
 {
     dmb_body_def body = dmb_body_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
-    contact_scene scene;
+    rig scene;
     (void)state;
     body.inertia[0] = 0.2;
     body.free_mask = DMB_FREE_RX;
     scene_open(&scene, 0.0);
     drive.kind = DMB_DRIVE_CONTROL;
-    drive.part = scene_add_body(&scene, &body);
+    drive.part = add_body(&scene, &body);
     drive.component = DMB_RX;
     drive.gain = 1.0;
     drive.integral_gain = 0.5;
-    drive.programme = scene_add_constant(&scene, 30.0);
-    scene_add_drive(&scene, &drive);
-    scene_start(&scene, NULL, NULL);
+    drive.programme = add_constant(&scene, 30.0);
+    add_drive(&scene, &drive);
+    rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < 2000; i++) scene_step(&scene, 1e-3);
-    const dmb_energy e = scene_energy(&scene);
+    const dmb_energy e = energy_of(&scene);
     CHECK_RELATIVE(e.drives, e.kinetic, 1e-5);
     CHECK_RELATIVE(e.kinetic, 0.1 * pow(scene_speed(&scene, drive.part, DMB_RX), 2.0), 1e-12);
     check_closed(&e, 1e-9);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* External damping of a sliding pipe: v = v0 exp(-c t/m), and damping takes what the motion loses. */
@@ -305,7 +305,7 @@ static void damping_work(void **state)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_string_def string = dmb_string_def_default();
     dmb_motion motion = dmb_motion_default();
-    contact_scene scene;
+    rig scene;
     (void)state;
     environment.axial_damping = 10.0;
     string.velocity[0] = 2.0;
@@ -313,17 +313,17 @@ static void damping_work(void **state)
     scene_open(&scene, 0.0);
     environment.gravity[2] = 0.0;
     scene_must(&scene, dmb_model_set_environment(scene.model, &environment));
-    scene_add_string(&scene, &string);
-    const dmb_id id = scene_add_pipes(&scene, &pipe, 4);
-    scene_start(&scene, NULL, NULL);
+    add_string(&scene, &string);
+    const dmb_id id = add_pipes(&scene, &pipe, 4);
+    rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < 1000; i++) scene_step(&scene, 1e-3);
-    const dmb_energy e = scene_energy(&scene);
+    const dmb_energy e = energy_of(&scene);
     const double mass = scene_info(&scene).mass, decay = exp(-10.0 * 4.0 / mass);
     assert_int_equal(dmb_query_motion(scene.sim, dmb_station(id, 2, 0.0), &motion), DMB_OK);
     CHECK_RELATIVE(motion.velocity[0], 2.0 * decay, 1e-6);
     CHECK_RELATIVE(e.damping, 0.5 * mass * 4.0 * (1.0 - decay * decay), 1e-5);
     check_closed(&e, 1e-9);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* The ledger can be left out: no answer then, and less memory. */
@@ -332,15 +332,15 @@ static void left_out(void **state)
     dmb_sim_options options = dmb_sim_options_default();
     dmb_energy energy = dmb_energy_default();
     const dmb_body_def body = dmb_body_def_default();
-    contact_scene scene;
+    rig scene;
     (void)state;
     options.energy_ledger = 0;
     scene_open(&scene, 9.81);
-    scene_add_body(&scene, &body);
-    scene_start(&scene, NULL, &options);
+    add_body(&scene, &body);
+    rig_start_with(&scene, NULL, &options);
     scene_step(&scene, 1e-3);
     assert_int_equal(dmb_query_energy(scene.sim, &energy), DMB_ERR_UNSUPPORTED);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 int main(void)

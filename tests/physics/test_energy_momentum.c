@@ -1,15 +1,8 @@
 /* Momentum of a system that nothing acts on is constant; what acts on it changes it by its impulse. */
 #include "contact_scene.h"
 
-static dmb_momentum momentum_of(const contact_scene *scene)
-{
-    dmb_momentum momentum = dmb_momentum_default();
-    assert_int_equal(dmb_query_momentum(scene->sim, &momentum), DMB_OK);
-    return momentum;
-}
-
 /* Flexible and rigid pipes, an eccentric mass and a bit, thrown with v (1, 2, 3) and omega (20, 0, 6). */
-static void build(contact_scene *scene, double g, double radius)
+static void build(rig *scene, double g, double radius)
 {
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
@@ -28,14 +21,14 @@ static void build(contact_scene *scene, double g, double radius)
     options.spectral_radius = radius;
     options.newton_tolerance = 1e-12;
     scene_open(scene, g);
-    scene_add_string(scene, &string);
-    scene_add_pipes(scene, &pipe, 2);
+    add_string(scene, &string);
+    add_pipes(scene, &pipe, 2);
     pipe.kind = DMB_PIPE_RIGID;
     pipe.length = 0.5;
-    scene_add_pipes(scene, &pipe, 1);
-    scene_add_body(scene, &head);
+    add_pipes(scene, &pipe, 1);
+    add_body(scene, &head);
     scene_add_bit(scene, &bit);
-    scene_start(scene, NULL, &options);
+    rig_start_with(scene, NULL, &options);
 }
 
 static double norm(const double a[3])
@@ -56,7 +49,7 @@ typedef struct drift {
 static drift free_flight(double h)
 {
     drift most = {0.0, 0.0, 0.0};
-    contact_scene scene;
+    rig scene;
     build(&scene, 0.0, 0.9);
     const dmb_momentum start = momentum_of(&scene);
     const double energy = scene_total_energy(&scene);
@@ -67,7 +60,7 @@ static drift free_flight(double h)
         most.angular = fmax(most.angular, change(now.angular, start.angular) / norm(start.angular));
         most.energy = fmax(most.energy, fabs(scene_total_energy(&scene) / energy - 1.0));
     }
-    scene_close(&scene);
+    rig_close(&scene);
     return most;
 }
 
@@ -94,7 +87,7 @@ static void constant_in_free_flight(void **state)
 /* Under its weight the momentum grows by m g t, the centre of mass flies on a parabola. */
 static void falls_on_a_parabola(void **state)
 {
-    contact_scene scene;
+    rig scene;
     (void)state;
     build(&scene, 9.81, 0.9);
     const dmb_momentum start = momentum_of(&scene);
@@ -107,7 +100,7 @@ static void falls_on_a_parabola(void **state)
         CHECK_CLOSE(now.linear[i], start.linear[i] + now.mass * g * t, 1e-5 * norm(start.linear));
         CHECK_CLOSE(now.centre[i], start.centre[i] + v * t + 0.5 * g * t * t, 1e-5);
     }
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* A wall gives what it takes: a flat impact turns the momentum across it round by 1 + e, and leaves that along it. */
@@ -116,22 +109,22 @@ static void impulse_of_the_wall(void **state)
     const dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_EXACT, 1e7, 1.0, 0.6);
     dmb_body_def ball = scene_ball(2.0, 0.01, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
     dmb_sim_options options = dmb_sim_options_default();
-    contact_scene scene;
+    rig scene;
     (void)state;
     options.tolerance_translation = 1e-11;
     options.step_min = 1e-12;
     ball.velocity[0] = 1.0;
     ball.velocity[2] = -2.0;
     scene_open(&scene, 0.0);
-    scene_add_wall(&scene, &wall);
-    scene_add_body(&scene, &ball);
-    scene_start(&scene, NULL, &options);
+    add_wall(&scene, &wall);
+    add_body(&scene, &ball);
+    rig_start_with(&scene, NULL, &options);
     scene_advance(&scene, 0.1);
     const dmb_momentum now = momentum_of(&scene);
     CHECK_RELATIVE(now.linear[0], 2.0, 1e-12);
     CHECK_CLOSE(now.linear[1], 0.0, 1e-12);
     CHECK_RELATIVE(now.linear[2], 2.0 * 2.0 * 0.6, 1e-5);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* A rolling ring: friction at the rim gives linear momentum as it takes spin, R dp = -dL, until v = -omega R. In a hole
@@ -140,7 +133,7 @@ static void friction_couples_spin_and_travel(void **state)
 {
     dmb_wall_def wall = scene_wide_wall(DMB_NORMAL_HUNT_CROSSLEY, 1e7, 1.0, 0.5);
     dmb_body_def ring = scene_ball(2.0, -2.0 * 9.81 / 1e7, 1 << DMB_Y | 1 << DMB_Z | DMB_FREE_RX);
-    contact_scene scene;
+    rig scene;
     (void)state;
     wall.friction_law = DMB_FRICTION_COULOMB;
     wall.smoothing_speed = 1e-4;
@@ -149,15 +142,15 @@ static void friction_couples_spin_and_travel(void **state)
     ring.inertia[0] = 5e-3; /* a ring: m R^2 */
     ring.velocity[3] = 10.0;
     scene_open(&scene, 9.81);
-    scene_add_wall(&scene, &wall);
-    const dmb_id id = scene_add_body(&scene, &ring);
-    scene_start(&scene, NULL, NULL);
+    add_wall(&scene, &wall);
+    const dmb_id id = add_body(&scene, &ring);
+    rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < 1000; i++) scene_step(&scene, 1e-4);
     const double v = scene_speed(&scene, id, DMB_Y), w = scene_speed(&scene, id, DMB_RX);
     CHECK_RELATIVE(w, 5.0, 2e-3); /* half of the spin is left, the other half became travel */
     CHECK_RELATIVE(fabs(v), 0.05 * 5.0, 1e-2);
     assert_true(v < 0.0); /* turning from y to z, the lowest point moves to +y, friction pushes to -y */
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 int main(void)

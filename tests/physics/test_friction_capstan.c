@@ -8,7 +8,7 @@
 static const double far_force = 1000.0, mu = 0.3, radius = 20.0, lead = 5.0;
 
 typedef struct capstan {
-    contact_scene scene;
+    rig scene;
     dmb_id string, drive;
 } capstan;
 
@@ -35,15 +35,15 @@ static void build(capstan *c, uint32_t n, int32_t friction_law, double speed)
     string.start_free = DMB_FREE_X;
     string.velocity[0] = speed;
     scene_open(&c->scene, 0.0);
-    scene_add_wall(&c->scene, &wall);
-    c->string = scene_add_string(&c->scene, &string);
-    scene_add_pipes(&c->scene, &pipe, 3 * n + 1);
+    add_wall(&c->scene, &wall);
+    c->string = add_string(&c->scene, &string);
+    add_pipes(&c->scene, &pipe, 3 * n + 1);
     load.frame = DMB_FRAME_HOLE;
     load.place = dmb_station(c->string, 3 * n, 1.0);
     load.force[0] = far_force;
-    scene_add_load(&c->scene, &load);
-    drive.programme = scene_add_constant(&c->scene, speed);
-    c->drive = scene_add_drive(&c->scene, &drive);
+    add_load(&c->scene, &load);
+    drive.programme = add_constant(&c->scene, speed);
+    c->drive = add_drive(&c->scene, &drive);
 }
 
 static double rig_force(const capstan *c)
@@ -60,12 +60,12 @@ static double static_ratio(uint32_t n, double slip)
     dmb_static_report report = dmb_static_report_default();
     capstan c;
     build(&c, n, DMB_FRICTION_COULOMB, 0.0);
-    scene_start(&c.scene, NULL, NULL);
+    rig_start_with(&c.scene, NULL, NULL);
     options.slip_axial = slip;
     scene_must(&c.scene, dmb_analysis_static(c.scene.sim, &options, &report));
     const double ratio = -rig_force(&c) / far_force;
     CHECK_BELOW(report.iterations, 12);
-    scene_close(&c.scene);
+    rig_close(&c.scene);
     return ratio;
 }
 
@@ -95,13 +95,13 @@ static void rotation_frees(void **state)
     capstan c;
     (void)state;
     build(&c, 50, DMB_FRICTION_COULOMB, 0.0);
-    scene_start(&c.scene, NULL, NULL);
+    rig_start_with(&c.scene, NULL, NULL);
     options.slip_axial = -0.05;
     options.slip_rotation = 200.0 * 2.0 * PI / 60.0;
     scene_must(&c.scene, dmb_analysis_static(c.scene.sim, &options, NULL));
     /* axial share of friction .05/|(.05, omega R)|, R = 36.5 mm: .06526669 (CASES) */
     CHECK_RELATIVE(-rig_force(&c) / far_force, exp(0.5 * PI * mu * 0.06526669), 1e-6);
-    scene_close(&c.scene);
+    rig_close(&c.scene);
 }
 
 /* Moving: the drive pulls at 1 cm/s from the static state on; the bend takes the same share with every law. The ends of
@@ -117,7 +117,7 @@ static void while_moving(void **state)
         capstan c;
         build(&c, 40, laws[i], -0.01);
         fine.spectral_radius = 0.5;
-        scene_start(&c.scene, NULL, &fine);
+        rig_start_with(&c.scene, NULL, &fine);
         options.slip_axial = -0.01;
         scene_must(&c.scene, dmb_analysis_static(c.scene.sim, &options, NULL));
         for (int k = 0; k < 4000; k++) {
@@ -126,7 +126,7 @@ static void while_moving(void **state)
         }
         print_message("law %d: moving ratio %.9f\n", laws[i], sum);
         CHECK_RELATIVE(sum, exp(0.5 * PI * mu), 1e-4);
-        scene_close(&c.scene);
+        rig_close(&c.scene);
     }
 }
 

@@ -6,7 +6,7 @@ static const double g = 9.81;
 static const double stiffness = 1e8;
 
 /* Mass 1 kg, speed v along the hole, gravity tilted by `slope` [rad] from the vertical towards +x. */
-static dmb_id block(contact_scene *scene, dmb_wall_def *wall, double slope, double v, const dmb_sim_options *options)
+static dmb_id block(rig *scene, dmb_wall_def *wall, double slope, double v, const dmb_sim_options *options)
 {
     dmb_environment_def environment = dmb_environment_def_default();
     dmb_body_def body = scene_ball(1.0, -g * cos(slope) / stiffness, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
@@ -18,9 +18,9 @@ static dmb_id block(contact_scene *scene, dmb_wall_def *wall, double slope, doub
     environment.gravity[2] = -g * cos(slope);
     scene_open(scene, g);
     scene_must(scene, dmb_model_set_environment(scene->model, &environment));
-    scene_add_wall(scene, wall);
-    const dmb_id id = scene_add_body(scene, &body);
-    scene_start(scene, NULL, options);
+    add_wall(scene, wall);
+    const dmb_id id = add_body(scene, &body);
+    rig_start_with(scene, NULL, options);
     return id;
 }
 
@@ -46,7 +46,7 @@ static dmb_sim_options fine_options(void)
 }
 
 /* Time at which the speed first reaches zero, by a straight line between two instants. */
-static double stop_of(contact_scene *scene, dmb_id id)
+static double stop_of(rig *scene, dmb_id id)
 {
     double t = 0.67, v = 0.0;
     scene_advance(scene, t);
@@ -68,7 +68,7 @@ static void stops(void **state)
     for (int i = 0; i < 3; i++) {
         dmb_wall_def wall = friction(laws[i], 0.3, 0.3);
         const dmb_sim_options options = fine_options();
-        contact_scene scene;
+        rig scene;
         const dmb_id id = block(&scene, &wall, 0.0, 2.0, &options);
         const double stop = stop_of(&scene, id);
         scene_advance(&scene, 1.0);
@@ -77,10 +77,10 @@ static void stops(void **state)
         CHECK_RELATIVE(stop, 0.679578661, 1e-5);
         CHECK_RELATIVE(way, 0.679578661, 1e-5);
         CHECK_BELOW(fabs(scene_speed(&scene, id, DMB_X)), 1e-6);
-        const dmb_energy energy = scene_energy(&scene);
+        const dmb_energy energy = energy_of(&scene);
         CHECK_RELATIVE(energy.friction, 2.0, 1e-5); /* all of m v0^2/2 */
         CHECK_BELOW(fabs(energy.unexplained), 1e-8);
-        scene_close(&scene);
+        rig_close(&scene);
     }
 }
 
@@ -89,7 +89,7 @@ static void ambrosio_lets_go(void **state)
 {
     dmb_wall_def wall = friction(DMB_FRICTION_AMBROSIO, 0.3, 0.3);
     const dmb_sim_options options = fine_options();
-    contact_scene scene;
+    rig scene;
     (void)state;
     wall.smoothing_speed = 0.01;
     wall.full_speed = 0.02;
@@ -99,7 +99,7 @@ static void ambrosio_lets_go(void **state)
     CHECK_RELATIVE(scene_speed(&scene, id, DMB_X), 0.01 + 0.01 * exp(-2.0), 1e-5);
     scene_advance(&scene, full + 30.0 / decay);
     CHECK_RELATIVE(scene_speed(&scene, id, DMB_X), 0.01, 1e-5);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* CASES: 20 degrees at mu .4 sticks. Bristles hold without creep: after the first swing has died out the block does not
@@ -109,7 +109,7 @@ static void sticks_on_incline(void **state)
     const double slope = 20.0 * PI / 180.0;
     dmb_wall_def wall = friction(DMB_FRICTION_BRISTLE, 0.4, 0.4);
     dmb_sim_options options = fine_options();
-    contact_scene scene;
+    rig scene;
     (void)state;
     wall.bristle_stiffness = 1e5;
     wall.bristle_damping = 5e2; /* no overshoot beyond mu at the start: damping ratio 2.4 */
@@ -125,7 +125,7 @@ static void sticks_on_incline(void **state)
     CHECK_RELATIVE(late, tan(slope) / 1e5, 1e-6); /* 4e-7: bristles add up speeds, the pose does better */
     assert_int_equal(contact.sticks, 1);
     CHECK_RELATIVE(contact.friction[0], -g * sin(slope), 1e-7);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* Where the slope is steeper than mu_s it slides at a = g (sin - mu cos). Bristles without damping first swing as a
@@ -140,13 +140,13 @@ static void slides_on_steep_incline(void **state)
     for (int i = 0; i < 2; i++) {
         dmb_wall_def wall = friction(laws[i], 0.4, 0.4);
         const dmb_sim_options options = fine_options();
-        contact_scene scene;
+        rig scene;
         wall.bristle_damping = 0.0;
         const dmb_id id = block(&scene, &wall, slope, 0.0, &options);
         scene_advance(&scene, 1.0);
         print_message("law %d: %.9f m/s\n", laws[i], scene_speed(&scene, id, DMB_X));
         CHECK_RELATIVE(scene_speed(&scene, id, DMB_X), a + (laws[i] == DMB_FRICTION_BRISTLE ? let_go : 0.0), 1e-5);
-        scene_close(&scene);
+        rig_close(&scene);
     }
 }
 
@@ -155,13 +155,13 @@ static void smoothed_law_creeps(void **state)
 {
     const double slope = 20.0 * PI / 180.0, k = tan(slope);
     dmb_wall_def wall = friction(DMB_FRICTION_COULOMB, 0.4, 0.4);
-    contact_scene scene;
+    rig scene;
     (void)state;
     wall.smoothing_speed = 1e-3;
     const dmb_id id = block(&scene, &wall, slope, 0.0, NULL);
     scene_advance(&scene, 10.0);
     CHECK_RELATIVE(scene_speed(&scene, id, DMB_X), 1e-3 * k / sqrt(0.16 - k * k), 1e-6);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* CASES: v_ax .05 m/s, 200 rpm, R .0365 m: friction acts against the sliding velocity, so its axial share is
@@ -170,7 +170,7 @@ static void direction(void **state)
 {
     dmb_wall_def wall = friction(DMB_FRICTION_COULOMB, 0.3, 0.3);
     dmb_body_def body = scene_ball(1.0, -1e-3, DMB_FREE_ALL);
-    contact_scene scene;
+    rig scene;
     (void)state;
     wall.normal_law = DMB_NORMAL_HUNT_CROSSLEY;
     wall.diameter = 4.0 + 2.0 * 0.0365;
@@ -178,9 +178,9 @@ static void direction(void **state)
     body.velocity[0] = 0.05;
     body.velocity[3] = 200.0 * 2.0 * PI / 60.0;
     scene_open(&scene, g);
-    scene_add_wall(&scene, &wall);
-    scene_add_body(&scene, &body);
-    scene_start(&scene, NULL, NULL);
+    add_wall(&scene, &wall);
+    add_body(&scene, &body);
+    rig_start_with(&scene, NULL, NULL);
     const dmb_contact contact = scene_contact(&scene, 0);
     const double size = hypot(contact.friction[0], contact.friction[1]);
     CHECK_RELATIVE(size, 0.3 * contact.normal_force, 1e-12);
@@ -188,7 +188,7 @@ static void direction(void **state)
     CHECK_CLOSE(contact.slip[0], 0.05, 1e-15);
     CHECK_CLOSE(fabs(contact.slip[1]), 0.0365 * body.velocity[3], 1e-15);
     assert_true(contact.friction[1] * contact.slip[1] < 0.0);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 int main(void)

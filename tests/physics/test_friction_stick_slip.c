@@ -10,7 +10,7 @@
 static const double inertia = 0.5, spring = 73.0, speed = 5.0, held = 300.0, sliding = 200.0;
 
 typedef struct rotor {
-    contact_scene scene;
+    rig scene;
     dmb_place place;
     int component; /* of velocity in the world frame */
 } rotor;
@@ -71,19 +71,19 @@ static void build_block(rotor *r, const dmb_wall_def *wall, const dmb_sim_option
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_load_def load = dmb_load_def_default();
     scene_open(&r->scene, 0.0);
-    scene_add_wall(&r->scene, wall);
-    const dmb_id id = scene_add_body(&r->scene, &body);
+    add_wall(&r->scene, wall);
+    const dmb_id id = add_body(&r->scene, &body);
     r->place = dmb_station(id, 0, 0.0);
     r->component = DMB_X;
     load.place = r->place;
     load.force[2] = -press;
-    scene_add_load(&r->scene, &load);
+    add_load(&r->scene, &load);
     drive.kind = DMB_DRIVE_CONTROL;
     drive.part = id;
     drive.integral_gain = spring;
-    drive.programme = scene_add_constant(&r->scene, speed);
-    scene_add_drive(&r->scene, &drive);
-    scene_start(&r->scene, NULL, options);
+    drive.programme = add_constant(&r->scene, speed);
+    add_drive(&r->scene, &drive);
+    rig_start_with(&r->scene, NULL, options);
 }
 
 /* A disc of J = .5 behind a light bar; the weight of the disc times the pipe's radius is 1000 N m of torque. */
@@ -110,14 +110,14 @@ static void build_bar(rotor *r, const dmb_wall_def *wall, const dmb_sim_options 
     string.start_free = DMB_FREE_RX;
     string.end_free = DMB_FREE_RX;
     scene_open(&r->scene, 9.81);
-    scene_add_wall(&r->scene, &hole);
-    scene_add_string(&r->scene, &string);
-    const dmb_id id = scene_add_pipes(&r->scene, &pipe, 1);
-    scene_add_body(&r->scene, &disc);
+    add_wall(&r->scene, &hole);
+    add_string(&r->scene, &string);
+    const dmb_id id = add_pipes(&r->scene, &pipe, 1);
+    add_body(&r->scene, &disc);
     drive.component = DMB_RX;
-    drive.programme = scene_add_constant(&r->scene, speed);
-    scene_add_drive(&r->scene, &drive);
-    scene_start(&r->scene, NULL, options);
+    drive.programme = add_constant(&r->scene, speed);
+    add_drive(&r->scene, &drive);
+    rig_start_with(&r->scene, NULL, options);
     r->place = dmb_station(id, 0, 1.0);
     r->component = DMB_RX;
 }
@@ -157,9 +157,9 @@ static cycle measure(rotor *r, int cycles, double sample)
     return c;
 }
 
-static void tell(const char *what, const rotor *r, cycle c)
+static void tell_cycle(const char *what, const rotor *r, cycle c)
 {
-    const dmb_statistics s = scene_statistics(&r->scene);
+    const dmb_statistics s = statistics_of(&r->scene);
     print_message("%s: slip %.7f stick %.7f period %.7f peak %.6f (%llu steps, %llu rejected)\n", what, c.slip, c.stick,
                   c.period, c.peak, (unsigned long long)s.steps, (unsigned long long)s.rejected);
 }
@@ -189,9 +189,9 @@ static void bristle(void (*build)(rotor *, const dmb_wall_def *, const dmb_sim_o
     rotor r;
     build(&r, &wall, &options);
     const cycle c = measure(&r, 2, 1e-4);
-    tell(what, &r, c);
+    tell_cycle(what, &r, c);
     check_cycle(c, closed_form(held, sliding), 1e-4);
-    scene_close(&r.scene);
+    rig_close(&r.scene);
 }
 
 static void bristle_block(void **state)
@@ -227,8 +227,8 @@ static cycle run_smoothed(void (*build)(rotor *, const dmb_wall_def *, const dmb
     rotor r;
     build(&r, wall, &options);
     const cycle c = measure(&r, 2, 1e-4);
-    tell("smoothed", &r, c);
-    scene_close(&r.scene);
+    tell_cycle("smoothed", &r, c);
+    rig_close(&r.scene);
     return c;
 }
 
@@ -280,27 +280,27 @@ static void falling_branch(void **state)
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_load_def load = dmb_load_def_default();
     dmb_sim_options options = fine_options(1e-13);
-    contact_scene scene;
+    rig scene;
     (void)state;
     options.newton_tolerance = 1e-13;
     body.velocity[0] = V + disturbance;
     scene_open(&scene, 0.0);
-    scene_add_wall(&scene, &wall);
-    drive.part = scene_add_body(&scene, &body);
+    add_wall(&scene, &wall);
+    drive.part = add_body(&scene, &body);
     load.place = dmb_station(drive.part, 0, 0.0);
     load.force[0] = N * (0.2 + 0.1 * exp(-V / v_s));
     load.force[2] = -N;
-    scene_add_load(&scene, &load);
+    add_load(&scene, &load);
     drive.kind = DMB_DRIVE_CONTROL;
     drive.integral_gain = spring;
-    drive.programme = scene_add_constant(&scene, V);
-    scene_add_drive(&scene, &drive);
-    scene_start(&scene, NULL, &options);
+    drive.programme = add_constant(&scene, V);
+    add_drive(&scene, &drive);
+    rig_start_with(&scene, NULL, &options);
     scene_advance(&scene, t);
     const double growth = (scene_speed(&scene, drive.part, DMB_X) - V) / disturbance;
     print_message("disturbance grows to %.6f, s %.4f\n", growth, s);
     CHECK_CLOSE(growth, exp(s * t) * (cos(w * t) + s / w * sin(w * t)), 1e-4 * exp(s * t));
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 int main(void)

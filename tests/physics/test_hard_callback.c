@@ -35,17 +35,17 @@ enum {
     ROLES = 6
 };
 
-static void add_drive(contact_scene *scene, int32_t kind, dmb_id programme_id, dmb_id excitation)
+static void add_drive_of(rig *scene, int32_t kind, dmb_id programme_id, dmb_id excitation)
 {
     dmb_drive_def drive = dmb_drive_def_default();
     drive.kind = kind;
     drive.programme = programme_id;
     drive.excitation = excitation;
     drive.gain = 100.0;
-    scene_add_drive(scene, &drive);
+    add_drive(scene, &drive);
 }
 
-static void build(contact_scene *scene, moody *m, int32_t role)
+static void build(rig *scene, moody *m, int32_t role)
 {
     const dmb_id none = {0, 0};
     dmb_pipe_def pipe = dmb_pipe_def_default();
@@ -58,36 +58,36 @@ static void build(contact_scene *scene, moody *m, int32_t role)
     term.callback_context = m;
     term.provides = DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL;
     scene_open(scene, 9.81);
-    scene_add_wall(scene, &wall);
-    const dmb_id id = scene_add_terms(scene, &term, 1);
-    const dmb_id zero = scene_add_constant(scene, 0.0);
-    const dmb_id string = scene_add_pipes(scene, &pipe, 3);
+    add_wall(scene, &wall);
+    const dmb_id id = add_programme(scene, &term, 1);
+    const dmb_id zero = add_constant(scene, 0.0);
+    const dmb_id string = add_pipes(scene, &pipe, 3);
     if (role == ROLE_BIT) bit.load = id;
     scene_add_bit(scene, &bit);
     if (role == ROLE_LOAD) {
         load.place = dmb_station(string, 2, 1.0);
         load.force[0] = 100.0;
         load.programme = id;
-        scene_add_load(scene, &load);
+        add_load(scene, &load);
     }
-    add_drive(scene,
-              role == ROLE_LOAD_DRIVE ? DMB_DRIVE_LOAD
-              : role == ROLE_CONTROL  ? DMB_DRIVE_CONTROL
-                                      : DMB_DRIVE_MOTION,
-              role <= ROLE_CONTROL ? id : zero, role == ROLE_EXCITATION ? id : none);
-    scene_start(scene, NULL, NULL);
+    add_drive_of(scene,
+                 role == ROLE_LOAD_DRIVE ? DMB_DRIVE_LOAD
+                 : role == ROLE_CONTROL  ? DMB_DRIVE_CONTROL
+                                         : DMB_DRIVE_MOTION,
+                 role <= ROLE_CONTROL ? id : zero, role == ROLE_EXCITATION ? id : none);
+    rig_start_with(scene, NULL, NULL);
 }
 
 /* Fails at .05 s in the middle of a run of steps. */
 static void check_role(int32_t role, int32_t answer, int controlled)
 {
     moody m = {answer, 0.05, 0};
-    contact_scene scene;
+    rig scene;
     uint64_t before = 0;
     int32_t status = DMB_OK;
     build(&scene, &m, role);
     for (int i = 0; i < 100 && status >= 0; i++) {
-        before = scene_hash(&scene);
+        before = rig_hash(&scene);
         status = controlled ? dmb_sim_advance(scene.sim, dmb_sim_time(scene.sim) + 1e-3, NULL)
                             : dmb_sim_step(scene.sim, 1e-3, NULL);
     }
@@ -95,15 +95,15 @@ static void check_role(int32_t role, int32_t answer, int controlled)
     assert_non_null(strstr(dmb_sim_message(scene.sim), "callback"));
     const double time = dmb_sim_time(scene.sim);
     assert_true(time > 0.04 && time < 0.05 + 1e-9);
-    if (!controlled) assert_true(scene_hash(&scene) == before);
-    before = scene_hash(&scene);
+    if (!controlled) assert_true(rig_hash(&scene) == before);
+    before = rig_hash(&scene);
     assert_true((controlled ? dmb_sim_advance(scene.sim, 1.0, NULL) : dmb_sim_step(scene.sim, 0.1, NULL)) ==
                 DMB_ERR_CALLBACK);
     assert_true(dmb_sim_time(scene.sim) < 0.05 + 1e-9);
     m.answer = ANSWER_GOOD;
     for (int i = 0; i < 50; i++) scene_step(&scene, 1e-3);
     assert_true(dmb_sim_time(scene.sim) > 0.09);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 static void in_every_role(void **state)
@@ -128,7 +128,7 @@ static void failure_leaves_no_trace(void **state)
     (void)state;
     for (int k = 0; k < 2; k++) {
         moody m = {ANSWER_NAN, 0.05, 0};
-        contact_scene scene;
+        rig scene;
         if (k == 0) m.answer = ANSWER_GOOD;
         build(&scene, &m, ROLE_MOTION);
         for (int i = 0; i < 100; i++) {
@@ -139,8 +139,8 @@ static void failure_leaves_no_trace(void **state)
                 i--;
             }
         }
-        hash[k] = scene_hash(&scene);
-        scene_close(&scene);
+        hash[k] = rig_hash(&scene);
+        rig_close(&scene);
     }
     assert_true(hash[0] == hash[1]);
 }
@@ -149,7 +149,7 @@ static void failure_leaves_no_trace(void **state)
 static void failure_after_partial_steps(void **state)
 {
     moody m = {ANSWER_ERROR, 0.05, 0};
-    contact_scene scene;
+    rig scene;
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_term terms[3] = {dmb_term_default(), scene_step_term(0.01, 0.0, 0.02, 1e-3),
@@ -160,23 +160,23 @@ static void failure_after_partial_steps(void **state)
     terms[0].callback_context = &m;
     terms[0].provides = DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL;
     scene_open(&scene, 0.0);
-    scene_add_pipes(&scene, &pipe, 1);
-    drive.programme = scene_add_terms(&scene, terms, 3);
-    scene_add_drive(&scene, &drive);
-    scene_start(&scene, NULL, NULL);
+    add_pipes(&scene, &pipe, 1);
+    drive.programme = add_programme(&scene, terms, 3);
+    add_drive(&scene, &drive);
+    rig_start_with(&scene, NULL, NULL);
     scene_step(&scene, 5e-3);
-    const uint64_t before = scene_hash(&scene);
+    const uint64_t before = rig_hash(&scene);
     assert_int_equal(dmb_sim_step(scene.sim, 0.06, NULL), DMB_ERR_CALLBACK);
-    assert_true(scene_hash(&scene) == before);
+    assert_true(rig_hash(&scene) == before);
     CHECK_CLOSE(dmb_sim_time(scene.sim), 5e-3, 0.0);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* At the very start there is no sim. */
 static void failure_at_the_start(void **state)
 {
     moody m = {ANSWER_NAN, -1.0, 0};
-    contact_scene scene;
+    rig scene;
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_drive_def drive = dmb_drive_def_default();
     dmb_term term = dmb_term_default();
@@ -185,13 +185,13 @@ static void failure_at_the_start(void **state)
     term.callback = programme;
     term.callback_context = &m;
     scene_open(&scene, 0.0);
-    scene_add_pipes(&scene, &pipe, 1);
-    drive.programme = scene_add_terms(&scene, &term, 1);
-    scene_add_drive(&scene, &drive);
+    add_pipes(&scene, &pipe, 1);
+    drive.programme = add_programme(&scene, &term, 1);
+    add_drive(&scene, &drive);
     scene_must(&scene, dmb_model_compile(scene.model, NULL));
     assert_int_equal(dmb_sim_create(scene.model, NULL, &scene.sim), DMB_ERR_CALLBACK);
     assert_null(scene.sim);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 int main(void)

@@ -9,7 +9,7 @@
 static const double stiffness = 1e9, weight = 139.3513, g = 9.81;
 
 typedef struct chatter {
-    contact_scene scene;
+    rig scene;
     dmb_id string;
 } chatter;
 
@@ -31,10 +31,10 @@ static void build(chatter *c, int32_t law, const dmb_sim_options *options)
     pipe.young_modulus = 210e9;
     pipe.damping_time = 5e-4;
     scene_open(&c->scene, g);
-    scene_add_wall(&c->scene, &wall);
-    c->string = scene_add_string(&c->scene, &string);
-    scene_add_pipes(&c->scene, &pipe, 99);
-    scene_start(&c->scene, NULL, options);
+    add_wall(&c->scene, &wall);
+    c->string = add_string(&c->scene, &string);
+    add_pipes(&c->scene, &pipe, 99);
+    rig_start_with(&c->scene, NULL, options);
     assert_int_equal(scene_info(&c->scene).contact_sites, 100);
 }
 
@@ -94,7 +94,7 @@ static void resolved_steps(void **state)
         CHECK_BELOW(seen.rejected, 19);
         CHECK_BELOW(seen.growth, 1e-2);
         CHECK_BELOW(seen.above, 1e-12);
-        scene_close(&c.scene);
+        rig_close(&c.scene);
     }
 }
 
@@ -117,7 +117,7 @@ static void unresolved_steps(void **state)
         CHECK_BELOW(seen.rejected, 19);
         CHECK_BELOW(seen.growth, 0.1);
         CHECK_BELOW(seen.above, 1e-12);
-        scene_close(&c.scene);
+        rig_close(&c.scene);
     }
 }
 
@@ -135,7 +135,7 @@ static void controlled_steps(void **state)
     CHECK_BELOW(report.rejected, 19);
     CHECK_BELOW(report.worst, 12);
     CHECK_BELOW(scene_total_energy(&c.scene), start);
-    scene_close(&c.scene);
+    rig_close(&c.scene);
 }
 
 int main(void)

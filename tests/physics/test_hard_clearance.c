@@ -11,7 +11,7 @@ static dmb_body_def ring(double diameter, int32_t free_mask)
     return body;
 }
 
-static void check_finite(const contact_scene *scene, dmb_id id)
+static void check_finite(const rig *scene, dmb_id id)
 {
     for (int i = 0; i < 3; i++) assert_true(isfinite(scene_position(scene, id, i)));
     for (int i = 0; i < 6; i++) assert_true(isfinite(scene_speed(scene, id, i)));
@@ -27,14 +27,14 @@ static void concentric(void **state)
 {
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_body_def body = ring(0.073, DMB_FREE_ALL);
-    contact_scene scene;
+    rig scene;
     (void)state;
     body.velocity[0] = 1.0;
     body.velocity[3] = 20.0;
     scene_open(&scene, 0.0);
-    scene_add_wall(&scene, &wall);
-    const dmb_id id = scene_add_body(&scene, &body);
-    scene_start(&scene, NULL, NULL);
+    add_wall(&scene, &wall);
+    const dmb_id id = add_body(&scene, &body);
+    rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < 200; i++) {
         const dmb_contact contact = scene_contact(&scene, 0);
         assert_int_equal(contact.closed, 0);
@@ -46,7 +46,7 @@ static void concentric(void **state)
     CHECK_CLOSE(scene_position(&scene, id, 1), 0.0, 0.0);
     CHECK_CLOSE(scene_position(&scene, id, 2), 0.0, 0.0);
     CHECK_RELATIVE(scene_speed(&scene, id, DMB_RX), 20.0, 1e-13);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* From the axis it falls straight down, and comes to rest on the floor. */
@@ -54,17 +54,17 @@ static void leaves_the_axis(void **state)
 {
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_body_def body = ring(0.073, DMB_FREE_ALL);
-    contact_scene scene;
+    rig scene;
     (void)state;
     scene_open(&scene, 9.81);
-    scene_add_wall(&scene, &wall);
-    const dmb_id id = scene_add_body(&scene, &body);
-    scene_start(&scene, NULL, NULL);
+    add_wall(&scene, &wall);
+    const dmb_id id = add_body(&scene, &body);
+    rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < 4000; i++) scene_step(&scene, 1e-3);
     check_finite(&scene, id);
     CHECK_CLOSE(scene_position(&scene, id, 1), 0.0, 1e-12);
     CHECK_RELATIVE(scene_contact(&scene, 0).gap, -2.0 * 9.81 / 1e7, 1e-3);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* Oscillating through the axis, the normal turns over at once; the path stays straight. */
@@ -72,21 +72,21 @@ static void through_the_axis(void **state)
 {
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_body_def body = ring(0.073, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
-    contact_scene scene;
+    rig scene;
     (void)state;
     wall.restitution = 1.0;
     wall.friction_law = DMB_FRICTION_NONE;
     body.velocity[1] = 0.3;
     body.velocity[2] = 0.4;
     scene_open(&scene, 0.0);
-    scene_add_wall(&scene, &wall);
-    const dmb_id id = scene_add_body(&scene, &body);
-    scene_start(&scene, NULL, NULL);
+    add_wall(&scene, &wall);
+    const dmb_id id = add_body(&scene, &body);
+    rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < 20000; i++) scene_step(&scene, 1e-5);
     check_finite(&scene, id);
     CHECK_CLOSE(4.0 * scene_position(&scene, id, 1) - 3.0 * scene_position(&scene, id, 2), 0.0, 1e-12);
     CHECK_RELATIVE(hypot(scene_speed(&scene, id, 1), scene_speed(&scene, id, 2)), 0.5, 1e-3);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* Hole and ring of one diameter: a pipe pinned to the axis by K in every direction. It sinks by m g/K, and swings with
@@ -98,23 +98,23 @@ static void pinned(void **state)
     for (int k = 0; k < 3; k++) {
         dmb_wall_def wall = dmb_wall_def_default();
         dmb_body_def body = ring(0.094, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
-        contact_scene scene;
+        rig scene;
         const double w = sqrt(1e7 / 2.0), quarter = 0.5 * PI / w;
         wall.restitution = 1.0;
         wall.friction_law = DMB_FRICTION_NONE;
         body.velocity[1] = push[k][0];
         body.velocity[2] = push[k][1];
         scene_open(&scene, 0.0);
-        scene_add_wall(&scene, &wall);
-        const dmb_id id = scene_add_body(&scene, &body);
-        scene_start(&scene, NULL, NULL);
+        add_wall(&scene, &wall);
+        const dmb_id id = add_body(&scene, &body);
+        rig_start_with(&scene, NULL, NULL);
         for (int i = 0; i < 500; i++) scene_step(&scene, quarter / 500.0);
         CHECK_RELATIVE(hypot(scene_position(&scene, id, 1), scene_position(&scene, id, 2)), 0.1 / w, 1e-4);
         for (int i = 0; i < 500; i++) scene_step(&scene, quarter / 500.0);
         CHECK_CLOSE(scene_speed(&scene, id, 1), -push[k][0], 1e-4 * 0.1);
         CHECK_CLOSE(scene_speed(&scene, id, 2), -push[k][1], 1e-4 * 0.1);
         check_finite(&scene, id);
-        scene_close(&scene);
+        rig_close(&scene);
     }
 }
 
@@ -122,18 +122,18 @@ static void pinned_under_weight(void **state)
 {
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_body_def body = ring(0.094, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
-    contact_scene scene;
+    rig scene;
     (void)state;
     wall.normal_law = DMB_NORMAL_KELVIN_VOIGT;
     wall.damping = 4e3;
     scene_open(&scene, 9.81);
-    scene_add_wall(&scene, &wall);
-    const dmb_id id = scene_add_body(&scene, &body);
-    scene_start(&scene, NULL, NULL);
+    add_wall(&scene, &wall);
+    const dmb_id id = add_body(&scene, &body);
+    rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < 500; i++) scene_step(&scene, 1e-4);
     CHECK_RELATIVE(scene_position(&scene, id, 2), -2.0 * 9.81 / 1e7, 1e-6);
     CHECK_RELATIVE(scene_contact(&scene, 0).normal_force, 2.0 * 9.81, 1e-6);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* A whole pinned string in statics: the weight goes into the wall node by node. */
@@ -143,13 +143,13 @@ static void pinned_string(void **state)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_contact_sum sum = dmb_contact_sum_default();
     dmb_static_report report = dmb_static_report_default();
-    contact_scene scene;
+    rig scene;
     (void)state;
     wall.diameter = pipe.outer_diameter;
     scene_open(&scene, 9.81);
-    scene_add_wall(&scene, &wall);
-    scene_add_pipes(&scene, &pipe, 20);
-    scene_start(&scene, NULL, NULL);
+    add_wall(&scene, &wall);
+    add_pipes(&scene, &pipe, 20);
+    rig_start_with(&scene, NULL, NULL);
     scene_must(&scene, dmb_analysis_static(scene.sim, NULL, &report));
     assert_int_equal(dmb_query_contact_sum(scene.sim, &sum), DMB_OK);
     const double weight = scene_info(&scene).mass * 9.81;
@@ -158,13 +158,13 @@ static void pinned_string(void **state)
     CHECK_CLOSE(sum.normal_force / weight, 1.0, 0.05); /* the guide of the rig end takes the rest, half a pipe */
     CHECK_BELOW(report.iterations, 20);
     for (int i = 0; i < 100; i++) scene_step(&scene, 1e-3);
-    CHECK_BELOW(scene_energy(&scene).kinetic, 1e-12);
-    scene_close(&scene);
+    CHECK_BELOW(energy_of(&scene).kinetic, 1e-12);
+    rig_close(&scene);
 }
 
 /* ---- Refusals ---------------------------------------------------------------------------------------------------- */
 
-static void refuse(contact_scene *scene, const char *part, const char *field, const char *value)
+static void refuse(rig *scene, const char *part, const char *field, const char *value)
 {
     assert_int_equal(dmb_model_compile(scene->model, NULL), DMB_ERR_GEOMETRY);
     const char *text = dmb_model_message(scene->model);
@@ -173,7 +173,7 @@ static void refuse(contact_scene *scene, const char *part, const char *field, co
     assert_non_null(strstr(text, field));
     assert_non_null(strstr(text, value));
     assert_non_null(strstr(text, "0.094"));
-    scene_close(scene);
+    rig_close(scene);
 }
 
 static void negative_clearance(void **state)
@@ -182,28 +182,28 @@ static void negative_clearance(void **state)
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_bit_def bit = dmb_bit_def_default();
     const dmb_body_def body = ring(0.095, DMB_FREE_ALL);
-    contact_scene scene;
+    rig scene;
     (void)state;
     scene_open(&scene, 9.81);
-    scene_add_wall(&scene, &wall);
-    scene_add_body(&scene, &body);
+    add_wall(&scene, &wall);
+    add_body(&scene, &body);
     refuse(&scene, "body 0", "contact_diameter", "0.095");
     scene_open(&scene, 9.81);
-    scene_add_wall(&scene, &wall);
+    add_wall(&scene, &wall);
     pipe.outer_diameter = 0.0945;
-    scene_add_pipes(&scene, &pipe, 2);
+    add_pipes(&scene, &pipe, 2);
     refuse(&scene, "string 0", "outer_diameter", "0.0945");
     scene_open(&scene, 9.81);
-    scene_add_wall(&scene, &wall);
+    add_wall(&scene, &wall);
     pipe.outer_diameter = 0.073;
     pipe.joint_length = 0.1;
     pipe.joint_outer_diameter = 0.0975;
-    scene_add_pipes(&scene, &pipe, 2);
+    add_pipes(&scene, &pipe, 2);
     refuse(&scene, "string 0", "joint_outer_diameter", "0.0975");
     scene_open(&scene, 9.81);
-    scene_add_wall(&scene, &wall);
+    add_wall(&scene, &wall);
     pipe.joint_outer_diameter = 0.08;
-    scene_add_pipes(&scene, &pipe, 2);
+    add_pipes(&scene, &pipe, 2);
     bit.diameter = 0.1;
     scene_add_bit(&scene, &bit);
     refuse(&scene, "bit 0", "diameter", "0.1");

@@ -21,7 +21,7 @@ static void flush_denormals(int on)
 enum { PIPES = 10, VALUES = 12 * (PIPES + 1) };
 
 /* Displacements and velocities of every pipe's far end. */
-static void read_state(const contact_scene *scene, dmb_id string, double values[VALUES])
+static void read_state(const rig *scene, dmb_id string, double values[VALUES])
 {
     for (uint32_t i = 0; i <= PIPES; i++) {
         const dmb_place place = dmb_station(string, i > 0 ? i - 1 : 0, i > 0 ? 1.0 : 0.0);
@@ -36,7 +36,7 @@ static void read_state(const contact_scene *scene, dmb_id string, double values[
 }
 
 /* Flexible pipes that fall onto the wall, are fed and turned, with friction and eccentricity. */
-static dmb_id build_rig(contact_scene *scene)
+static dmb_id build_rig(rig *scene)
 {
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
@@ -45,19 +45,19 @@ static dmb_id build_rig(contact_scene *scene)
     pipe.eccentricity = 1e-3;
     pipe.damping_time = 1e-4;
     scene_open(scene, 9.81);
-    scene_add_wall(scene, &wall);
-    const dmb_id id = scene_add_pipes(scene, &pipe, PIPES);
-    drive.programme = scene_add_terms(scene, &feed, 1);
-    scene_add_drive(scene, &drive);
+    add_wall(scene, &wall);
+    const dmb_id id = add_pipes(scene, &pipe, PIPES);
+    drive.programme = add_programme(scene, &feed, 1);
+    add_drive(scene, &drive);
     drive.component = DMB_RX;
-    drive.programme = scene_add_terms(scene, &turn, 1);
-    scene_add_drive(scene, &drive);
-    scene_start(scene, NULL, NULL);
+    drive.programme = add_programme(scene, &turn, 1);
+    add_drive(scene, &drive);
+    rig_start_with(scene, NULL, NULL);
     return id;
 }
 
 /* A heavily damped bar whose motion dies out. */
-static dmb_id build_bar(contact_scene *scene, double speed)
+static dmb_id build_bar(rig *scene, double speed)
 {
     dmb_environment_def environment = dmb_environment_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
@@ -69,38 +69,38 @@ static dmb_id build_bar(contact_scene *scene, double speed)
     environment.axial_damping = 1e6;
     scene_open(scene, 0.0);
     scene_must(scene, dmb_model_set_environment(scene->model, &environment));
-    scene_add_string(scene, &string);
-    const dmb_id id = scene_add_pipes(scene, &pipe, PIPES);
-    scene_start(scene, NULL, NULL);
+    add_string(scene, &string);
+    const dmb_id id = add_pipes(scene, &pipe, PIPES);
+    rig_start_with(scene, NULL, NULL);
     return id;
 }
 
-static dmb_id build_fading(contact_scene *scene)
+static dmb_id build_fading(rig *scene)
 {
     return build_bar(scene, 1e-3);
 }
 
 /* Speeds and forces that are denormal numbers from the start, or become so. Squares of forces below 1e-154 N are 0, and
  * count as solved: what is left of the speeds there has no meaning but to stay as small. */
-static dmb_id build_denormal(contact_scene *scene)
+static dmb_id build_denormal(rig *scene)
 {
     return build_bar(scene, 1e-306);
 }
 
-static void run(dmb_id (*build)(contact_scene *), int steps, double h, int flush, double values[VALUES],
+static void run(dmb_id (*build)(rig *), int steps, double h, int flush, double values[VALUES],
                 dmb_statistics *work)
 {
-    contact_scene scene;
+    rig scene;
     flush_denormals(flush);
     const dmb_id id = build(&scene);
     for (int i = 0; i < steps; i++) scene_step(&scene, h);
     read_state(&scene, id, values);
-    *work = scene_statistics(&scene);
-    scene_close(&scene);
+    *work = statistics_of(&scene);
+    rig_close(&scene);
     flush_denormals(0);
 }
 
-static double compare(dmb_id (*build)(contact_scene *), int steps, double h)
+static double compare(dmb_id (*build)(rig *), int steps, double h)
 {
     double with[VALUES], without[VALUES], scale[2] = {0.0, 0.0}, worst = 0.0;
     dmb_statistics flushed, kept;

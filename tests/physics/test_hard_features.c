@@ -16,7 +16,7 @@ enum {
     WITH_ALL = 127
 };
 
-static dmb_id describe(contact_scene *scene, int parts, int32_t pipe_kind)
+static dmb_id describe(rig *scene, int parts, int32_t pipe_kind)
 {
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
@@ -31,23 +31,23 @@ static dmb_id describe(contact_scene *scene, int parts, int32_t pipe_kind)
     scene_must(scene, dmb_model_set_environment(scene->model, &environment));
     wall.normal_law = parts & WITH_WALL ? DMB_NORMAL_HUNT_CROSSLEY : DMB_NORMAL_NONE;
     wall.friction_law = parts & WITH_FRICTION ? DMB_FRICTION_STRIBECK : DMB_FRICTION_NONE;
-    scene_add_wall(scene, &wall);
+    add_wall(scene, &wall);
     pipe.kind = pipe_kind;
     pipe.eccentricity = parts & WITH_ECCENTRICITY ? 1e-3 : 0.0;
-    const dmb_id string = scene_add_pipes(scene, &pipe, PIPES);
+    const dmb_id string = add_pipes(scene, &pipe, PIPES);
     bit.rock_law = parts & WITH_ROCK ? DMB_ROCK_REGENERATIVE : DMB_ROCK_NONE;
     scene_add_bit(scene, &bit);
     shake.kind = DMB_TERM_HARMONIC;
     shake.h1 = 1e-3;
     shake.omega = 50.0;
-    drive.programme = scene_add_terms(scene, &feed, 1);
-    const dmb_id excitation = scene_add_terms(scene, &shake, 1);
+    drive.programme = add_programme(scene, &feed, 1);
+    const dmb_id excitation = add_programme(scene, &shake, 1);
     if (parts & WITH_EXCITATION) drive.excitation = excitation;
-    scene_add_drive(scene, &drive);
+    add_drive(scene, &drive);
     drive.component = DMB_RX;
-    drive.programme = scene_add_terms(scene, &turn, 1);
+    drive.programme = add_programme(scene, &turn, 1);
     drive.excitation.index = drive.excitation.generation = 0;
-    scene_add_drive(scene, &drive);
+    add_drive(scene, &drive);
     return string;
 }
 
@@ -75,18 +75,18 @@ typedef struct outcome {
 static outcome run(int described, int left_in, int32_t pipe_kind)
 {
     dmb_compile_options compile = dmb_compile_options_default();
-    contact_scene scene;
+    rig scene;
     outcome out;
     const dmb_id string = describe(&scene, described, pipe_kind);
     compile.features = mask_of(left_in);
-    scene_start(&scene, &compile, NULL);
+    rig_start_with(&scene, &compile, NULL);
     for (int i = 0; i < 200; i++) scene_step(&scene, 1e-3);
     out.info = scene_info(&scene);
     out.tip = dmb_pose_default();
     assert_int_equal(dmb_query_pose(scene.sim, dmb_station(string, PIPES - 1, 1.0), &out.tip), DMB_OK);
-    out.work = scene_energy(&scene).drives;
+    out.work = energy_of(&scene).drives;
     out.energy = scene_total_energy(&scene);
-    scene_close(&scene);
+    rig_close(&scene);
     return out;
 }
 
@@ -154,20 +154,20 @@ static void pipe_kind_of_compile(void **state)
     (void)state;
     for (int k = 0; k < 3; k++) {
         dmb_compile_options compile = dmb_compile_options_default();
-        contact_scene scene, plain;
+        rig scene, plain;
         compile.pipe_kind = kinds[k];
         describe(&scene, WITH_ALL, DMB_PIPE_FLEXIBLE);
         describe(&plain, WITH_ALL, kinds[k]);
-        scene_start(&scene, &compile, NULL);
-        scene_start(&plain, NULL, NULL);
+        rig_start_with(&scene, &compile, NULL);
+        rig_start_with(&plain, NULL, NULL);
         for (int i = 0; i < 100; i++) {
             scene_step(&scene, 1e-3);
             scene_step(&plain, 1e-3);
         }
         freedoms[k] = scene_info(&scene).freedoms;
         CHECK_CLOSE(scene_total_energy(&scene), scene_total_energy(&plain), 0.0);
-        scene_close(&scene);
-        scene_close(&plain);
+        rig_close(&scene);
+        rig_close(&plain);
     }
     print_message("freedoms: flexible %u, axial-torsional %u, rigid %u\n", freedoms[0], freedoms[1], freedoms[2]);
     assert_true(freedoms[0] > freedoms[1] && freedoms[1] > freedoms[2]);

@@ -19,16 +19,16 @@ static double bounce(double h, double steps)
 {
     const dmb_wall_def wall = wall_of(1e6); /* the contact lasts 3 ms */
     dmb_body_def ball = scene_ball(1.0, steps * h, 1 << DMB_Z);
-    contact_scene scene;
+    rig scene;
     ball.velocity[2] = -1.0;
     scene_open(&scene, 0.0);
-    scene_add_wall(&scene, &wall);
-    const dmb_id id = scene_add_body(&scene, &ball);
-    scene_start(&scene, NULL, NULL);
+    add_wall(&scene, &wall);
+    const dmb_id id = add_body(&scene, &ball);
+    rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < (int)(steps + 6e-3 / h); i++) scene_step(&scene, h);
     assert_int_equal(scene_contact(&scene, 0).closed, 0);
     const double v = scene_speed(&scene, id, DMB_Z);
-    scene_close(&scene);
+    rig_close(&scene);
     return v;
 }
 
@@ -50,12 +50,12 @@ static void on_step_boundary(void **state)
 
 /* ---- Two at one instant ------------------------------------------------------------------------------------------ */
 
-static dmb_id add_ball_at(contact_scene *scene, double x, double gap, double speed)
+static dmb_id add_ball_at(rig *scene, double x, double gap, double speed)
 {
     dmb_body_def ball = scene_ball(1.0, gap, 1 << DMB_Z);
     ball.position[0] = x;
     ball.velocity[2] = -speed;
-    return scene_add_body(scene, &ball);
+    return add_body(scene, &ball);
 }
 
 /* Two balls that meet the wall together fly as each one alone, bit for bit; with step control too. */
@@ -66,19 +66,19 @@ static void two_at_one_instant(void **state)
         double z[3];
         for (int k = 0; k < 2; k++) {
             const dmb_wall_def wall = wall_of(1e6);
-            contact_scene scene;
+            rig scene;
             scene_open(&scene, 9.81);
-            scene_add_wall(&scene, &wall);
+            add_wall(&scene, &wall);
             const dmb_id a = add_ball_at(&scene, 0.0, 0.01, 1.0);
             const dmb_id b = k == 1 ? add_ball_at(&scene, 1.0, 0.01, 1.0) : a;
-            scene_start(&scene, NULL, NULL);
+            rig_start_with(&scene, NULL, NULL);
             if (controlled)
                 scene_advance(&scene, 0.5);
             else
                 for (int i = 0; i < 500; i++) scene_step(&scene, 1e-3);
             z[k] = scene_position(&scene, a, 2);
             z[2] = scene_position(&scene, b, 2);
-            scene_close(&scene);
+            rig_close(&scene);
         }
         print_message("two at one instant: %.3g and %.3g m from one alone\n", z[1] - z[0], z[2] - z[0]);
         CHECK_CLOSE(z[1], z[0], 0.0);
@@ -92,7 +92,7 @@ static void flat_landing(void **state)
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_string_def string = dmb_string_def_default();
-    contact_scene scene;
+    rig scene;
     double tilt = 0.0;
     (void)state;
     wall.friction_law = DMB_FRICTION_NONE;
@@ -100,10 +100,10 @@ static void flat_landing(void **state)
     string.start_free = string.end_free = DMB_FREE_ALL;
     string.velocity[2] = -0.5;
     scene_open(&scene, 9.81);
-    scene_add_wall(&scene, &wall);
-    scene_add_string(&scene, &string);
-    const dmb_id id = scene_add_pipes(&scene, &pipe, 1);
-    scene_start(&scene, NULL, NULL);
+    add_wall(&scene, &wall);
+    add_string(&scene, &string);
+    const dmb_id id = add_pipes(&scene, &pipe, 1);
+    rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < 1000; i++) {
         dmb_pose near = dmb_pose_default(), far = dmb_pose_default();
         scene_step(&scene, 1e-4);
@@ -114,7 +114,7 @@ static void flat_landing(void **state)
         CHECK_CLOSE(scene_contact(&scene, 0).normal_force, scene_contact(&scene, 1).normal_force, 1e-6);
     }
     print_message("flat landing: ends apart by %.2e m\n", tilt);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* ---- Grazing ----------------------------------------------------------------------------------------------------- */
@@ -131,12 +131,12 @@ static void grazing(void **state)
     for (int k = 0; k < 3; k++) {
         const dmb_wall_def wall = wall_of(1e7);
         dmb_body_def ball = scene_ball(1.0, 1e-12, 1 << DMB_Z);
-        contact_scene scene;
+        rig scene;
         ball.velocity[2] = -1e-12;
         scene_open(&scene, 0.0);
-        scene_add_wall(&scene, &wall);
-        const dmb_id id = scene_add_body(&scene, &ball);
-        scene_start(&scene, NULL, NULL);
+        add_wall(&scene, &wall);
+        const dmb_id id = add_body(&scene, &ball);
+        rig_start_with(&scene, NULL, NULL);
         for (int i = 0; i < 100; i++) {
             const dmb_step_report report = scene_step(&scene, steps[k]);
             CHECK_BELOW(report.worst, 12);
@@ -146,7 +146,7 @@ static void grazing(void **state)
         print_message("grazing at 1e-12 m/s, step %g: leaves at %.2e m/s\n", steps[k], v);
         CHECK_BELOW(fabs(v), grazing_speed);
         CHECK_BELOW(fabs(scene_contact(&scene, 0).gap), 1e-8);
-        scene_close(&scene);
+        rig_close(&scene);
     }
 }
 
@@ -155,18 +155,18 @@ static void grazing_flight(void **state)
 {
     const dmb_wall_def wall = wall_of(1e7);
     dmb_body_def ball = scene_ball(1.0, 1e-13, DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z);
-    contact_scene scene;
+    rig scene;
     (void)state;
     ball.velocity[0] = 3.0;
     ball.velocity[2] = -1e-12;
     scene_open(&scene, 0.0);
-    scene_add_wall(&scene, &wall);
-    const dmb_id id = scene_add_body(&scene, &ball);
-    scene_start(&scene, NULL, NULL);
+    add_wall(&scene, &wall);
+    const dmb_id id = add_body(&scene, &ball);
+    rig_start_with(&scene, NULL, NULL);
     scene_advance(&scene, 1.0);
     CHECK_RELATIVE(scene_speed(&scene, id, DMB_X), 3.0, 1e-14);
     CHECK_BELOW(fabs(scene_speed(&scene, id, DMB_Z)), grazing_speed);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* ---- Accumulation ------------------------------------------------------------------------------------------------ */
@@ -180,13 +180,13 @@ static void accumulation(void **state)
     for (int k = 0; k < 4; k++) {
         const dmb_wall_def wall = wall_of(1e7);
         const dmb_body_def ball = scene_ball(1.0, 0.01, 1 << DMB_Z);
-        contact_scene scene;
+        rig scene;
         dmb_step_report report = dmb_step_report_default();
         uint32_t rejected = 0;
         scene_open(&scene, 9.81);
-        scene_add_wall(&scene, &wall);
-        scene_add_body(&scene, &ball);
-        scene_start(&scene, NULL, NULL);
+        add_wall(&scene, &wall);
+        add_body(&scene, &ball);
+        rig_start_with(&scene, NULL, NULL);
         const double start = scene_total_energy(&scene);
         double most = start;
         for (int i = 0; steps[k] > 0.0 && i < (int)(2.0 / steps[k]); i++) {
@@ -200,7 +200,7 @@ static void accumulation(void **state)
         CHECK_RELATIVE(scene_contact(&scene, 0).gap, -9.81 / 1e7, 1e-2);
         CHECK_BELOW((most - start) / (9.81 * 0.01), 1e-12);
         CHECK_BELOW(report.steps, 2000);
-        scene_close(&scene);
+        rig_close(&scene);
     }
 }
 
@@ -218,12 +218,12 @@ static void no_tunnelling(void **state)
         for (int phase = 0; phase < 20; phase++) {
             const dmb_wall_def wall = wall_of(stiffness[k]);
             dmb_body_def ball = scene_ball(1.0, 0.1 + 0.005 * phase + 1e-4, 1 << DMB_Z);
-            contact_scene scene;
+            rig scene;
             ball.velocity[2] = -10.0;
             scene_open(&scene, 0.0);
-            scene_add_wall(&scene, &wall);
-            const dmb_id id = scene_add_body(&scene, &ball);
-            scene_start(&scene, NULL, NULL);
+            add_wall(&scene, &wall);
+            const dmb_id id = add_body(&scene, &ball);
+            rig_start_with(&scene, NULL, NULL);
             for (int i = 0; i < 30; i++) {
                 const int32_t status = dmb_sim_step(scene.sim, 1e-2, NULL);
                 if (status < 0) break; /* refusing is an answer too */
@@ -232,7 +232,7 @@ static void no_tunnelling(void **state)
                 fastest = fmax(fastest, fabs(v));
                 CHECK_BELOW(kinetic_of(v), kinetic_of(10.0) * 1.0001);
             }
-            scene_close(&scene);
+            rig_close(&scene);
         }
     print_message("deepest %.3e m, fastest %.6f m/s\n", deepest, fastest);
     CHECK_BELOW(deepest, 0.02);
@@ -247,24 +247,24 @@ static void narrow_hole(void **state)
     for (int phase = 0; phase < 20; phase++) {
         dmb_wall_def wall = wall_of(1e8);
         dmb_body_def ball = dmb_body_def_default();
-        contact_scene scene;
+        rig scene;
         wall.diameter = 0.094;
         ball.contact_diameter = 0.073;
         ball.position[2] = 0.0005 * phase - 0.005;
         ball.velocity[2] = -10.0;
         ball.free_mask = DMB_FREE_X | 1 << DMB_Y | 1 << DMB_Z;
         scene_open(&scene, 9.81);
-        scene_add_wall(&scene, &wall);
-        scene_add_body(&scene, &ball);
-        scene_start(&scene, NULL, NULL);
+        add_wall(&scene, &wall);
+        add_body(&scene, &ball);
+        rig_start_with(&scene, NULL, NULL);
         for (int i = 0; i < 50; i++) {
             const int32_t status = dmb_sim_step(scene.sim, 1e-2, NULL);
             if (status < 0) break;
             deepest = fmax(deepest, -scene_contact(&scene, 0).gap);
             CHECK_BELOW(-scene_contact(&scene, 0).gap, 0.02);                   /* of the step's 100 mm */
-            CHECK_BELOW(scene_energy(&scene).kinetic, 1.01 * kinetic_of(10.0)); /* and 1 % for the height */
+            CHECK_BELOW(energy_of(&scene).kinetic, 1.01 * kinetic_of(10.0)); /* and 1 % for the height */
         }
-        scene_close(&scene);
+        rig_close(&scene);
     }
     print_message("narrow hole: deepest %.3e m\n", deepest);
 }

@@ -19,24 +19,24 @@ static answer load_string(const int32_t *kinds, uint32_t count, const double for
     dmb_load_def load = dmb_load_def_default();
     dmb_section section = dmb_section_default();
     dmb_pose pose = dmb_pose_default();
-    contact_scene scene;
+    rig scene;
     answer out;
     dmb_id id = {0, 0};
     memset(&out, 0, sizeof out);
     string.start_free = DMB_FREE_NONE;
     scene_open(&scene, 0.0);
-    scene_add_string(&scene, &string);
+    add_string(&scene, &string);
     for (uint32_t i = 0; i < count; i++) {
         pipe.kind = kinds[i];
-        id = scene_add_pipes(&scene, &pipe, 1);
+        id = add_pipes(&scene, &pipe, 1);
     }
     load.place = dmb_station(id, count - 1, 1.0);
     for (int i = 0; i < 3; i++) {
         load.force[i] = force[i];
         load.moment[i] = moment[i];
     }
-    scene_add_load(&scene, &load);
-    scene_start(&scene, NULL, NULL);
+    add_load(&scene, &load);
+    rig_start_with(&scene, NULL, NULL);
     scene_must(&scene, dmb_analysis_static(scene.sim, NULL, NULL));
     assert_int_equal(dmb_query_pose(scene.sim, load.place, &pose), DMB_OK);
     assert_int_equal(dmb_query_rotation(scene.sim, load.place, &out.twist), DMB_OK);
@@ -50,7 +50,7 @@ static answer load_string(const int32_t *kinds, uint32_t count, const double for
     }
     out.shortening = -pose.displacement[0];
     out.mass = scene_info(&scene).mass;
-    scene_close(&scene);
+    rig_close(&scene);
     return out;
 }
 
@@ -120,29 +120,29 @@ static void rigid_lever(void **state)
     dmb_string_def string = dmb_string_def_default();
     dmb_load_def load = dmb_load_def_default();
     dmb_pose pose = dmb_pose_default();
-    contact_scene scene;
+    rig scene;
     dmb_id id = {0, 0};
     (void)state;
     string.start_free = DMB_FREE_NONE;
     scene_open(&scene, 0.0);
-    scene_add_string(&scene, &string);
+    add_string(&scene, &string);
     for (int i = 0; i < 2; i++) {
         dmb_pipe_def one = pipe;
         one.kind = kinds[i];
-        id = scene_add_pipes(&scene, &one, 1);
+        id = add_pipes(&scene, &one, 1);
     }
     load.place = dmb_station(id, 1, 1.0);
     for (int i = 0; i < 3; i++) {
         load.force[i] = force[i];
         load.moment[i] = none[i];
     }
-    scene_add_load(&scene, &load);
-    scene_start(&scene, NULL, NULL);
+    add_load(&scene, &load);
+    rig_start_with(&scene, NULL, NULL);
     scene_must(&scene, dmb_analysis_static(scene.sim, NULL, NULL));
     assert_int_equal(dmb_query_pose(scene.sim, load.place, &pose), DMB_OK);
     CHECK_RELATIVE(pose.displacement[1], (1.0 / 3.0 + 1.0 + 1.0) / EI + 1.0 / GA, 1e-6);
     CHECK_RELATIVE(pose.rotation[3], (0.5 + 1.0) / EI, 1e-6);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* ---- Rigid string ------------------------------------------------------------------------------------------------ */
@@ -168,7 +168,7 @@ static void free_top(void **state)
     dmb_sim_options options = dmb_sim_options_default();
     dmb_momentum momentum = dmb_momentum_default();
     dmb_pose pose = dmb_pose_default();
-    contact_scene scene;
+    rig scene;
     (void)state;
     inertia_of_pipes(2, &mass, &axial, &across);
     string.start_free = string.end_free = DMB_FREE_ALL;
@@ -178,9 +178,9 @@ static void free_top(void **state)
     pipe.kind = DMB_PIPE_RIGID;
     options.spectral_radius = 1.0;
     scene_open(&scene, 0.0);
-    scene_add_string(&scene, &string);
-    const dmb_id id = scene_add_pipes(&scene, &pipe, 2);
-    scene_start(&scene, NULL, &options);
+    add_string(&scene, &string);
+    const dmb_id id = add_pipes(&scene, &pipe, 2);
+    rig_start_with(&scene, NULL, &options);
     assert_int_equal(scene_info(&scene).freedoms, 6);
     assert_int_equal(scene_info(&scene).rigid_bodies, 1);
     const double H[3] = {axial * 40.0, 0.0, across * 3.0}, size = hypot(H[0], H[2]), rate = size / across;
@@ -197,9 +197,9 @@ static void free_top(void **state)
             CHECK_CLOSE(momentum.angular[k], H[k], 1e-4 * size);
             CHECK_CLOSE(momentum.linear[k], 0.0, 1e-4 * mass);
         }
-        CHECK_RELATIVE(scene_energy(&scene).kinetic, 0.5 * (axial * 1600.0 + across * 9.0), 1e-6);
+        CHECK_RELATIVE(energy_of(&scene).kinetic, 0.5 * (axial * 1600.0 + across * 9.0), 1e-6);
     }
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* A rigid string hinged at its rig end is a compound pendulum: w^2 = m g s/J for small swings, J = m l^2/3 + m r^2/4.
@@ -211,7 +211,7 @@ static void compound_pendulum(void **state)
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_motion motion = dmb_motion_default();
-    contact_scene scene;
+    rig scene;
     (void)state;
     inertia_of_pipes(3, &mass, &axial, &across);
     const double w = sqrt(mass * g * 0.5 * l / (across + 0.25 * mass * l * l)), quarter = 0.5 * PI / w;
@@ -221,14 +221,14 @@ static void compound_pendulum(void **state)
     string.velocity[5] = amplitude * w;
     pipe.kind = DMB_PIPE_RIGID;
     scene_open(&scene, g);
-    scene_add_string(&scene, &string);
-    const dmb_id id = scene_add_pipes(&scene, &pipe, 3);
-    scene_start(&scene, NULL, NULL);
+    add_string(&scene, &string);
+    const dmb_id id = add_pipes(&scene, &pipe, 3);
+    rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < 4000; i++) scene_step(&scene, quarter / 2000.0);
     motion.frame = DMB_FRAME_BODY;
     assert_int_equal(dmb_query_motion(scene.sim, dmb_station(id, 0, 0.0), &motion), DMB_OK);
     CHECK_RELATIVE(motion.velocity[5], -amplitude * w, 1e-5); /* half a period later */
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* A rigid string on the floor of its hole rests on its sites: their forces carry its weight. */
@@ -239,22 +239,22 @@ static void rigid_string_at_rest(void **state)
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_contact_sum sum = dmb_contact_sum_default();
-    contact_scene scene;
+    rig scene;
     (void)state;
     inertia_of_pipes(4, &mass, &axial, &across);
     string.start_free = string.end_free = DMB_FREE_ALL;
     pipe.kind = DMB_PIPE_RIGID;
     scene_open(&scene, 9.81);
-    scene_add_wall(&scene, &wall);
-    scene_add_string(&scene, &string);
-    scene_add_pipes(&scene, &pipe, 4);
-    scene_start(&scene, NULL, NULL);
+    add_wall(&scene, &wall);
+    add_string(&scene, &string);
+    add_pipes(&scene, &pipe, 4);
+    rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < 3000; i++) scene_step(&scene, 1e-3);
     assert_int_equal(dmb_query_contact_sum(scene.sim, &sum), DMB_OK);
     CHECK_RELATIVE(sum.normal_force, mass * 9.81, 1e-3);
     for (uint32_t i = 0; i < 5; i++) /* a site stands for a metre, at the ends for half of one: all sink alike */
         CHECK_RELATIVE(-scene_contact(&scene, i).gap, mass * 9.81 / 4.0 / 1e7, 1e-2);
-    scene_close(&scene);
+    rig_close(&scene);
 }
 
 /* One motion of many kinds: a string of each kind driven along its axis by a motion drive carries m a at its rig end.
@@ -268,18 +268,18 @@ static void driven_alike(void **state)
         dmb_drive_def drive = dmb_drive_def_default();
         dmb_drive_state told = dmb_drive_state_default();
         const dmb_term ramp = scene_step_term(0.0, 0.0, 2.0, 1.0);
-        contact_scene scene;
+        rig scene;
         pipe.kind = kinds[k];
         pipe.damping_time = 1e-4;
         scene_open(&scene, 0.0);
-        scene_add_pipes(&scene, &pipe, 4);
-        drive.programme = scene_add_terms(&scene, &ramp, 1);
-        const dmb_id id = scene_add_drive(&scene, &drive);
-        scene_start(&scene, NULL, NULL);
+        add_pipes(&scene, &pipe, 4);
+        drive.programme = add_programme(&scene, &ramp, 1);
+        const dmb_id id = add_drive(&scene, &drive);
+        rig_start_with(&scene, NULL, NULL);
         for (int i = 0; i < 1000; i++) scene_step(&scene, 1e-3);
         assert_int_equal(dmb_query_drive(scene.sim, id, &told), DMB_OK);
         CHECK_RELATIVE(told.force, scene_info(&scene).mass * 0.75, 1e-4); /* steepest slope of the ramp, 1.5/2 */
-        scene_close(&scene);
+        rig_close(&scene);
     }
 }
 

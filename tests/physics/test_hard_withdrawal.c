@@ -7,22 +7,22 @@
 
 static const double feed = 0.01, turning = 200.0 * 2.0 * PI / 60.0, load = 2960.0;
 
-typedef struct rig {
-    contact_scene scene;
+typedef struct withdrawal {
+    rig scene;
     dmb_id string, feed, turn;
-} rig;
+} withdrawal;
 
-static dmb_id add_motion(rig *r, int32_t component, double speed)
+static dmb_id add_motion(withdrawal *r, int32_t component, double speed)
 {
     dmb_drive_def drive = dmb_drive_def_default();
     const dmb_term terms[2] = {scene_step_term(0.5, speed, 1.5, 0.0), scene_step_term(2.5, 0.0, 3.5, -speed)};
     drive.component = component;
-    drive.programme = scene_add_terms(&r->scene, terms, 2);
-    return scene_add_drive(&r->scene, &drive);
+    drive.programme = add_programme(&r->scene, terms, 2);
+    return add_drive(&r->scene, &drive);
 }
 
 /* Stop from 19 to 20, rest to 21, reverse start to 22, withdrawal. */
-static void build(rig *r, int32_t pipe_kind, int32_t friction_law, double speed, double spin)
+static void build(withdrawal *r, int32_t pipe_kind, int32_t friction_law, double speed, double spin)
 {
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_string_def string = dmb_string_def_default();
@@ -37,17 +37,17 @@ static void build(rig *r, int32_t pipe_kind, int32_t friction_law, double speed,
     pipe.kind = pipe_kind;
     pipe.damping_time = 1e-4;
     scene_open(&r->scene, 9.81);
-    scene_add_wall(&r->scene, &wall);
-    r->string = scene_add_string(&r->scene, &string);
-    scene_add_pipes(&r->scene, &pipe, 40);
-    bit.load = scene_add_terms(&r->scene, terms, 1);
+    add_wall(&r->scene, &wall);
+    r->string = add_string(&r->scene, &string);
+    add_pipes(&r->scene, &pipe, 40);
+    bit.load = add_programme(&r->scene, terms, 1);
     scene_add_bit(&r->scene, &bit);
     r->feed = add_motion(r, DMB_X, speed);
     r->turn = add_motion(r, DMB_RX, spin);
-    scene_start(&r->scene, NULL, NULL);
+    rig_start_with(&r->scene, NULL, NULL);
 }
 
-static uint32_t slips_backwards(const rig *r, uint32_t sites)
+static uint32_t slips_backwards(const withdrawal *r, uint32_t sites)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < sites; i++) count += scene_contact(&r->scene, i).slip[0] < 0.0;
@@ -59,7 +59,7 @@ static void cycle(int32_t pipe_kind, int32_t law, double speed, double spin, dou
 {
     dmb_static_options options = dmb_static_options_default();
     uint32_t worst[2] = {0, 0}, rejected[2] = {0, 0}, sites; /* up to 20 s, and from there on */
-    rig r;
+    withdrawal r;
     build(&r, pipe_kind, law, speed, spin);
     options.slip_axial = speed;
     options.slip_rotation = spin;
@@ -71,19 +71,19 @@ static void cycle(int32_t pipe_kind, int32_t law, double speed, double spin, dou
         worst[k] = report.worst > worst[k] ? report.worst : worst[k];
         rejected[k] += report.rejected;
     }
-    const dmb_energy energy = scene_energy(&r.scene);
+    const dmb_energy energy = energy_of(&r.scene);
     print_message(
         "pipes %d, law %d, step %g: worst %u then %u, rejected %u then %u, mean %.2f, friction %.1f J, balance "
         "%.1e\n",
         pipe_kind, law, h, worst[0], worst[1], rejected[0], rejected[1],
-        (double)scene_statistics(&r.scene).iterations / (double)scene_statistics(&r.scene).steps, energy.friction,
+        (double)statistics_of(&r.scene).iterations / (double)statistics_of(&r.scene).steps, energy.friction,
         energy.error);
     assert_true(slips_backwards(&r, sites) >= sites - 2);
     CHECK_BELOW(worst[1], most);
     CHECK_BELOW(rejected[1], 0);
     CHECK_BELOW(worst[0], 12);
     CHECK_BELOW(rejected[0], 20);
-    scene_close(&r.scene);
+    rig_close(&r.scene);
 }
 
 static void flexible(void **state)
@@ -123,29 +123,29 @@ static void whole_rig(void **state)
     dmb_term shake = dmb_term_default(), terms[1] = {scene_step_term(0.5, load, 1.5, 0.0)};
     dmb_static_options options = dmb_static_options_default();
     uint32_t worst[2] = {0, 0}, rejected[2] = {0, 0};
-    rig r;
+    withdrawal r;
     (void)state;
     scene_open(&r.scene, 9.81);
-    scene_add_wall(&r.scene, &wall);
+    add_wall(&r.scene, &wall);
     string.velocity[0] = feed;
     string.velocity[3] = turning;
-    r.string = scene_add_string(&r.scene, &string);
+    r.string = add_string(&r.scene, &string);
     pipe.damping_time = 1e-4;
     pipe.eccentricity = 1e-3;
     pipe.angle_spread = PI;
-    scene_add_pipes(&r.scene, &pipe, 100);
+    add_pipes(&r.scene, &pipe, 100);
     bit.rock_law = DMB_ROCK_REGENERATIVE;
-    bit.load = scene_add_terms(&r.scene, terms, 1);
+    bit.load = add_programme(&r.scene, terms, 1);
     scene_add_bit(&r.scene, &bit);
     shake.kind = DMB_TERM_HARMONIC;
     shake.h1 = 5e-4;
     shake.omega = 10.0 * PI;
     const dmb_term feeds[2] = {scene_step_term(0.5, feed, 1.5, 0.0), scene_step_term(2.5, 0.0, 3.5, -feed)};
-    drive.programme = scene_add_terms(&r.scene, feeds, 2);
-    drive.excitation = scene_add_terms(&r.scene, &shake, 1);
-    r.feed = scene_add_drive(&r.scene, &drive);
+    drive.programme = add_programme(&r.scene, feeds, 2);
+    drive.excitation = add_programme(&r.scene, &shake, 1);
+    r.feed = add_drive(&r.scene, &drive);
     r.turn = add_motion(&r, DMB_RX, turning);
-    scene_start(&r.scene, NULL, NULL);
+    rig_start_with(&r.scene, NULL, NULL);
     options.slip_axial = feed;
     options.slip_rotation = turning;
     scene_must(&r.scene, dmb_analysis_static(r.scene.sim, &options, NULL));
@@ -157,7 +157,7 @@ static void whole_rig(void **state)
     }
     print_message("whole rig: worst %u then %u, rejected %u then %u\n", worst[0], worst[1], rejected[0], rejected[1]);
     CHECK_BELOW(worst[1], 10);
-    scene_close(&r.scene);
+    rig_close(&r.scene);
 }
 
 int main(void)

@@ -1,7 +1,7 @@
 /* Pendulum by a revolute joint: the elliptic motion, order of the scheme in pose, speed and reaction, steps of changing
  * length, the two methods. */
 #include "mechanism.h"
-#include "ode.h"
+#include "pendulum.h"
 
 typedef struct pendulum {
     rig s;
@@ -37,13 +37,6 @@ static double speed_of(const pendulum *p)
     return joint_at(&p->s, p->hinge).speed[DMB_RX];
 }
 
-static void rate_of(void *context, double t, const double *y, double *rate)
-{
-    (void)t;
-    rate[0] = y[1];
-    rate[1] = -*(const double *)context * sin(y[0]);
-}
-
 /* ---- CASES.md: L 1 from (-1, 0) ---------------------------------------------------------------------------------- */
 
 /* Released at rest from (-1, 0), g 9.81. The scheme's own error at 10 s with a step of 1e-3 is 2.5e-5 m (a recurrence
@@ -51,19 +44,17 @@ static void rate_of(void *context, double t, const double *y, double *rate)
  * the step. */
 static void swing_from_the_side(double r, double h, int places, double tolerance)
 {
-    static const double time[3] = {1.0, 5.0, 10.0};
-    static const double x[3] = {0.9862917511, -0.9423054350, -0.2750874626};
-    static const double z[3] = {-0.1650108531, -0.3347543384, -0.9614192051};
     const dmb_sim_options options = sharp_options(r, 1e-11);
     pendulum p = open_pendulum(9.81, -0.5 * PI, 0.0, &options);
     uint32_t done = 0;
     for (int k = 0; k < places; k++) {
-        const uint32_t steps = (uint32_t)lround(time[k] / h);
+        const pendulum_place *want = pendulum_from_the_side + k;
+        const uint32_t steps = (uint32_t)lround(want->time / h);
         take_steps(&p.s, h, steps - done);
         done = steps;
         const dmb_pose pose = pose_at(&p.s, dmb_station(p.bob, 0, 0.0));
-        check_below("    place of the bob", fmax(fabs(pose.position[0] - x[k]), fabs(pose.position[2] - z[k])),
-                    tolerance);
+        check_below("    place of the bob",
+                    fmax(fabs(pose.position[0] - want->across), fabs(pose.position[2] - want->up)), tolerance);
         check_below("    out of the plane", pose.position[1], 1e-15);
     }
     check_below("    misfit of the hinge", joint_at(&p.s, p.hinge).misfit, 1e-14);
@@ -92,11 +83,12 @@ typedef struct errors {
 /* Tension of the rod w^2 + g cos q towards the hinge; the reaction acts on the bob's body. */
 static errors errors_at(double t, double h, double r)
 {
-    double g = 9.81, y[2] = {1.0, 0.5};
+    const double g = 9.81;
+    double y[2] = {1.0, 0.5};
     const dmb_sim_options options = sharp_options(r, 1e-13);
     errors e;
     pendulum p = open_pendulum(g, y[0], y[1], &options);
-    ode_solve(rate_of, &g, 0.0, t, 400, 2, y);
+    pendulum_solve(g, t, y);
     take_steps(&p.s, h, (uint32_t)lround(t / h));
     const dmb_joint_state joint = joint_at(&p.s, p.hinge);
     const double tension = y[1] * y[1] + g * cos(y[0]);
@@ -143,12 +135,12 @@ static void start_is_consistent(void **state)
 /* CASES.md: q'' = -sin q from 1.5 and 0.3 over 8 s, steps in the ratio 1 : 3 : 0.5 : 2, r 0.9; errors of (q, q'). */
 static double pattern_error(uint32_t steps)
 {
-    static const double pattern[4] = {1.0, 3.0, 0.5, 2.0};
-    double g = 1.0, y[2] = {1.5, 0.3};
+    const double g = 1.0;
+    double y[2] = {1.5, 0.3};
     const dmb_sim_options options = sharp_options(0.9, 1e-13);
     pendulum p = open_pendulum(g, y[0], y[1], &options);
-    ode_solve(rate_of, &g, 0.0, 8.0, 400, 2, y);
-    for (uint32_t i = 0; i < steps; i++) take_steps(&p.s, 8.0 / steps * pattern[i % 4] / 1.625, 1);
+    pendulum_solve(g, 8.0, y);
+    for (uint32_t i = 0; i < steps; i++) take_steps(&p.s, pendulum_pattern_step(steps, i), 1);
     const double error = hypot(angle_of(&p) - y[0], speed_of(&p) - y[1]);
     assert_true(fabs(dmb_sim_time(p.s.sim) - 8.0) < 1e-12);
     rig_close(&p.s);
@@ -158,13 +150,7 @@ static double pattern_error(uint32_t steps)
 static void changing_steps_keep_second_order(void **state)
 {
     (void)state;
-    const double want[4] = {3.85e-4, 9.63e-5, 2.41e-5, 6.02e-6};
-    double error[4];
-    for (uint32_t k = 0; k < 4; k++) {
-        error[k] = pattern_error(400u << k);
-        check_relative("steps 1:3:.5:2, error over that of the reference", error[k], want[k], 0.01);
-        if (k > 0) check_order("    order", error[k - 1], error[k], 2.0, 0.01);
-    }
+    check_pendulum_pattern(pattern_error);
 }
 
 /* ---- The two methods --------------------------------------------------------------------------------------------- */

@@ -188,6 +188,13 @@ double rotation_at(const rig *s, dmb_place place)
     return angle;
 }
 
+uint64_t rig_hash(const rig *s)
+{
+    uint64_t hash = 0;
+    must(s, dmb_sim_hash(s->sim, &hash));
+    return hash;
+}
+
 /* ---- Reference string and beams ---------------------------------------------------------------------------------- */
 
 dmb_pipe_def s1_pipe(void)

@@ -49,6 +49,7 @@ dmb_momentum momentum_of(const rig *s);
 dmb_contact_sum contacts_of(const rig *s);
 dmb_statistics statistics_of(const rig *s);
 double rotation_at(const rig *s, dmb_place place);
+uint64_t rig_hash(const rig *s);
 
 /* Pipe of the reference string S1: OD 73, ID 55 mm, 1.5 m, E 210e9, nu 0.3, rho 7850, kappa 0.5. */
 dmb_pipe_def s1_pipe(void);
