@@ -3,9 +3,9 @@
 
 usage: plot.py FOLDER
 
-Reads bands.csv, severity.csv, orders.csv and campbell.csv of the folder and writes safe_speeds.png into it. The upper part is for the
-crew: green speeds are fine, yellow ones near a limit, red ones beyond it. The lower part is the Campbell diagram of one depth:
-orders of the speed against the natural frequencies that they meet, those of the string as it turns.
+Reads the tables of the folder and writes safe_speeds.png into it. The upper part is for the crew: green speeds are fine,
+yellow ones near a limit, red ones beyond it. Below is the Campbell diagram of one depth: orders of the speed against the
+natural frequencies that they meet, those of the string as it turns; and natural frequencies over the depth.
 """
 import csv
 import pathlib
@@ -103,9 +103,10 @@ def draw_crossings(axes, speeds, line, order, colour, told):
             continue
         speed = left + (right - left) * before / (before - after)
         axes.plot(speed, order * speed / 60.0, "o", color=colour, markersize=8, zorder=5)
-        if any(abs(speed - other) < 25.0 and abs(order * (speed - other)) < 60.0 for other in told):
+        frequency = order * speed / 60.0
+        if any(abs(speed - x) < 25.0 and abs(frequency - y) < 1.0 for x, y in told):
             continue
-        told.append(speed)
+        told.append((speed, frequency))
         axes.annotate(f"{speed:.0f} rpm", (speed, order * speed / 60.0), (6, -13), textcoords="offset points",
                       fontsize=10, weight="bold", color=colour, zorder=6,
                       path_effects=[withStroke(linewidth=3, foreground="white")])
@@ -138,13 +139,26 @@ def draw_campbell(axes, folder):
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=2, frameon=False)
 
 
+def draw_depths(axes, folder):
+    modes = rows(folder, "modes.csv")
+    depths = sorted({float(row["depth [m]"]) for row in modes})
+    for kind in ("lateral", "torsional", "axial"):
+        found = [row for row in modes if row["kind"] == kind]
+        axes.plot([float(row["depth [m]"]) for row in found], [float(row["frequency [Hz]"]) for row in found],
+                  "_" if kind == "lateral" else "o", color=KINDS[kind], markersize=6 if kind == "lateral" else 7,
+                  zorder=1 if kind == "lateral" else 2, label=WHAT[kind])
+    axes.set(xlabel="depth [m]", ylabel="frequency [Hz]", xticks=depths, ylim=(0, None),
+             title="Natural frequencies over the depth")
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
-    figure, (above, below) = plt.subplots(2, 1, figsize=(12, 13), height_ratios=(1.15, 1))
-    draw_map(above, folder)
-    draw_campbell(below, folder)
+    figure, (crew, campbell, depths) = plt.subplots(3, 1, figsize=(12, 18), height_ratios=(1.15, 1, 0.75))
+    draw_map(crew, folder)
+    draw_campbell(campbell, folder)
+    draw_depths(depths, folder)
     figure.savefig(folder / "safe_speeds.png")
 
 
