@@ -4,7 +4,8 @@
 
 #include <stdint.h>
 
-/* Consistent mass of an axisymmetric beam, constant in the body frame (Timoshenko cubic shapes, THEORY 3).
+/* Mass of an axisymmetric beam, constant in the body frame: sideways consistent (Timoshenko cubic shapes, THEORY 3), along
+ * and around half way to a lumped one (model/beam_element.c).
  * bending[plane]: plane 0 is (u_y, theta_z), plane 1 is (u_z, -theta_y); six numbers each:
  *   [0] u_A u_A = u_B u_B   [1] u_A t_A = -u_B t_B   [2] u_A u_B   [3] u_A t_B = -u_B t_A   [4] t_A t_A = t_B t_B   [5] t_A t_B */
 typedef struct dmb_beam_mass {

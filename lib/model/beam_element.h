@@ -1,4 +1,4 @@
-/* Constants of a flexible element: stiffness and consistent mass. */
+/* Constants of a flexible element: stiffness and mass. */
 #ifndef DMB_MODEL_BEAM_ELEMENT_H
 #define DMB_MODEL_BEAM_ELEMENT_H
 
