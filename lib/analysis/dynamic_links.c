@@ -196,6 +196,7 @@ static void add_joint(const dmb_dynamic_stiffness *s, const dmb_constraint *c, u
     const uint32_t rows = scene->layout.size[c->node[a]], columns = scene->layout.size[c->node[b]];
     double re[DMB_NODE_FULL * DMB_NODE_FULL], im[DMB_NODE_FULL * DMB_NODE_FULL];
     const dmb_complex_array X = {re, im};
+    int acts = 0; /* most joints without laws and loads add nothing */
     for (uint32_t r = 0; r < rows; r++)
         for (uint32_t q = 0; q < columns; q++) {
             const size_t at = c->tangent + (size_t)(c->column[a] + r) * c->columns + c->column[b] + q;
@@ -203,8 +204,9 @@ static void add_joint(const dmb_dynamic_stiffness *s, const dmb_constraint *c, u
                                                            s->linear->stiffness.joints[at]);
             re[columns * r + q] = x.re;
             im[columns * r + q] = x.im;
+            acts |= x.re != 0.0 || x.im != 0.0;
         }
-    add_block(s, c->node[a], c->node[b], X, columns, diagonal_of(scene, c->node[a]));
+    if (acts) add_block(s, c->node[a], c->node[b], X, columns, diagonal_of(scene, c->node[a]));
 }
 
 static void add_joints(const dmb_dynamic_stiffness *s)

@@ -242,6 +242,53 @@ static void two_inputs_together(void **state)
     rig_close(&s);
 }
 
+/* Four eccentric pipes of S1 in a fluid that damps them from outside, without weight: turned in time, against the
+ * response of the string at rest to its own eccentric masses, which only rotary inertia knows apart. */
+static void open_eccentric(rig *s, double speed, dmb_id *string)
+{
+    dmb_environment_def fluid = dmb_environment_def_default();
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    rig_open(s, 0.0, 0.0, 0.0);
+    fluid.gravity[2] = 0.0;
+    fluid.lateral_damping = 30.0;
+    must_model(s, dmb_model_set_environment(s->model, &fluid));
+    def.follows_hole = 0;
+    def.velocity[3] = speed;
+    pipe.eccentricity = 1e-4;
+    pipe.string = *string = add_string(s, &def);
+    (void)add_pipes(s, &pipe, 4);
+    (void)add_simple_drive(s, DMB_DRIVE_MOTION, pipe.string, DMB_RX, add_constant(s, speed));
+    (void)rig_start(s, NULL);
+}
+
+static void eccentric_string_that_turns(void **state)
+{
+    (void)state;
+    const double frequencies[2] = {1.5, 4.0};
+    for (int i = 0; i < 2; i++) {
+        const double frequency = frequencies[i];
+        double complex linear;
+        double amplitudes[1][4][2];
+        dmb_sine_options options = dmb_sine_options_default();
+        dmb_id at_rest, string;
+        rig still, turning;
+        open_eccentric(&still, 0.0, &at_rest);
+        open_eccentric(&turning, 2.0 * PI * frequency, &string);
+        const dmb_input own = input_of(DMB_INPUT_ECCENTRICITY, (dmb_id){0, 0}, DMB_X);
+        const dmb_output there = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(at_rest, 3, 1.0), DMB_Y);
+        const dmb_output here = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(string, 3, 1.0), DMB_Y);
+        options.steps_per_period = 400;
+        options.tolerance = 1e-4;
+        transfer(&still, NULL, &own, &there, &frequency, 1, &linear);
+        must(&turning, dmb_analysis_sine(turning.sim, frequency, &options, &here, 1, &amplitudes[0][0][0], NULL));
+        check_below("eccentric string that turns: whirl of its end",
+                    cabs(number(amplitudes[0][1]) - linear) / cabs(linear), 1e-3);
+        rig_close(&still);
+        rig_close(&turning);
+    }
+}
+
 /* ---- A stop ------------------------------------------------------------------------------------------------------ */
 
 /* m 2 kg, k 800 N/m, c 8 N s/m, stop of 1e5 N/m at 5 mm, force 20 sin(w t) N. */
@@ -309,9 +356,9 @@ static void oscillator_that_meets_a_stop(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(spinning_jeffcott_rotor),      cmocka_unit_test(shaken_cantilever),
-        cmocka_unit_test(string_on_its_wall),           cmocka_unit_test(two_inputs_together),
-        cmocka_unit_test(oscillator_that_meets_a_stop),
+        cmocka_unit_test(spinning_jeffcott_rotor),     cmocka_unit_test(shaken_cantilever),
+        cmocka_unit_test(string_on_its_wall),          cmocka_unit_test(two_inputs_together),
+        cmocka_unit_test(eccentric_string_that_turns), cmocka_unit_test(oscillator_that_meets_a_stop),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
