@@ -34,6 +34,21 @@ typedef struct dmb_beam_run {
     double rounding, potential, damping, inertia;  /* added to: [N2], [W] */
 } dmb_beam_run;
 
+/* A run of axial-torsional bars: bar i lies between the nodes i and i + 1 of the run, all of them PATH. Pointers are to
+ * the run's first bar, node or row. */
+typedef struct dmb_bar_run {
+    uint32_t count;              /* bars */
+    int32_t dynamic;             /* as in dmb_evaluation */
+    const dmb_element_type *types;
+    const uint32_t *type;        /* of each bar */
+    const double *displacement;  /* [m] shape (count + 1, 3), of which the first is along the axis */
+    const double *turn;          /* [rad] shape (count + 1) */
+    const double *velocity, *acceleration; /* shape (count + 1, 2) */
+    double per_length;           /* [1/m] makes angles comparable with displacements */
+    double *residual, *scale;    /* added to, shape (count + 1, 2) */
+    double rounding, potential, damping, inertia; /* added to: [N2], [W] */
+} dmb_bar_run;
+
 /* A run of FULL nodes. */
 typedef struct dmb_node_run {
     uint32_t count;
@@ -116,6 +131,8 @@ typedef struct dmb_kernels {
     uint32_t reserved;
     /* Forces and, if asked for, tangent blocks. Returns 0, or -1 with run->failed. */
     int32_t (*beams)(dmb_beam_run *run);
+    /* Forces. */
+    void (*bars)(dmb_bar_run *run);
     /* stress <- K (d - d0) + (K/L) P z over the correction z of the nodes (run->velocity), at run->strain. */
     void (*extrapolate)(const dmb_beam_run *run);
     void (*advance)(const dmb_node_run *run);

@@ -3,6 +3,7 @@
 #include "element/beam_element.h"
 #include "kernel/kernels.h"
 #include "kernel/lane_group.h"
+#include "kernel/lanes_bar.h"
 #include "kernel/lanes_node.h"
 #include "kernel/lanes_wall.h"
 #include "math/block_inverse.h"
@@ -213,6 +214,7 @@ static void solve(const dmb_block_layout *layout, const dmb_block_matrix *matrix
 extern const dmb_kernels DMB_KERNELS;
 const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .beams = beams,
+                                 .bars = bars,
                                  .extrapolate = extrapolate,
                                  .node_forces = node_forces,
                                  .walls = walls,

@@ -117,10 +117,60 @@ DMB_BLOCK_KERNEL void solve_down(int n, int m, const double *restrict X, const d
     for (int i = 0; i < n; i++) b[i] = y[i];
 }
 
+/* A chain whose blocks all have n rows: they follow one another, and what goes down or up it stays in registers. */
+DMB_BLOCK_KERNEL void solve_even(int n, uint32_t count, const double *restrict X, const double *restrict G,
+                                 const double *restrict W, double *restrict b)
+{
+    const size_t block = (size_t)(n * n);
+    double x[DMB_BLOCK_SIZE_MAX], next[DMB_BLOCK_SIZE_MAX] = {0.0};
+    for (int i = 0; i < n; i++) x[i] = b[i];
+    for (uint32_t k = 0; k < count; k++) {
+        double y[DMB_BLOCK_SIZE_MAX] = {0.0};
+        if (k + 1 < count) {
+            for (int i = 0; i < n; i++) next[i] = b[n + i];
+            for (int j = 0; j < n; j++) row_subtract(n, x[j], G + block * k + n * j, next);
+        }
+        for (int j = 0; j < n; j++)
+            for (int i = 0; i < n; i++) y[i] += x[j] * X[block * k + (size_t)(n * j + i)];
+        for (int i = 0; i < n; i++) b[i] = y[i];
+        for (int i = 0; i < n; i++) x[i] = next[i];
+        b += n;
+    }
+    b -= n;
+    for (int i = 0; i < n; i++) x[i] = b[i];
+    for (uint32_t k = count - 1; k-- > 0;) {
+        b -= n;
+        for (int i = 0; i < n; i++) next[i] = b[i];
+        for (int j = 0; j < n; j++) row_subtract(n, x[j], W + block * k + n * j, next);
+        for (int i = 0; i < n; i++) b[i] = x[i] = next[i];
+    }
+}
+
+/* Rows of every block of a range if they all have as many, else 0: the mean of the squares is the square of the mean
+ * for equal numbers only. */
+static inline int even_size(const dmb_block_layout *layout, uint32_t first, uint32_t count)
+{
+    const uint32_t n = layout->size[first], end = first + count;
+    const int even =
+        layout->row[end] - layout->row[first] == n * count && layout->diag[end] - layout->diag[first] == n * n * count;
+    return even ? (int)n : 0;
+}
+
 static inline void solve_blocks(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first,
                                 uint32_t count, double *rhs)
 {
     const uint32_t end = first + count, *row = layout->row;
+    const double *D0 = matrix->diagonal + layout->diag[first], *L0 = matrix->lower + layout->link[first];
+    const double *U0 = matrix->upper + layout->link[first];
+    const int even = even_size(layout, first, count);
+    if (even == 6) {
+        solve_even(6, count, D0, L0, U0, rhs + row[first]);
+        return;
+    }
+    if (even == 2) {
+        solve_even(2, count, D0, L0, U0, rhs + row[first]);
+        return;
+    }
     for (uint32_t i = first; i < end; i++) {
         const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
         const double *D = matrix->diagonal + layout->diag[i], *L = matrix->lower + layout->link[i];

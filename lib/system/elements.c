@@ -72,79 +72,65 @@ static int32_t gather_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
     return DMB_OK;
 }
 
-/* ---- Axial-torsional bar on the hole's axis: two PATH nodes ---------------------------------------------------- */
+/* ---- Axial-torsional bars on the hole's axis: PATH nodes --------------------------------------------------------- */
 
-/* One of its two coordinates: stretch or twist. */
-typedef struct bar_side {
-    double stiffness, damping; /* [N/m, N m/rad], times damping_time */
-    double change, rest;       /* [m, rad] deformation less that at the start, and that at the start */
-    double reach;              /* [m] size of the numbers that it is the difference of */
-    double va, vb, aa, ab;     /* speeds and accelerations of the nodes */
-    const double *mass;        /* AA = BB, AB */
-} bar_side;
-
-/* Forces of one coordinate into rows ra and rb. */
-static inline void bar_forces(dmb_evaluation *evaluation, const bar_side *s, uint32_t ra, uint32_t rb)
+static void bar_forces(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
-    dmb_sim *sim = evaluation->sim;
-    const double elastic = s->stiffness * (s->change + s->rest), size = s->stiffness * s->reach;
-    evaluation->rounding += size * size;
-    double force = elastic, mass_a = 0.0, mass_b = 0.0;
-    if (evaluation->dynamic) {
-        const double rate = s->vb - s->va, viscous = s->damping * rate;
-        force += viscous;
-        mass_a = s->mass[0] * s->aa + s->mass[1] * s->ab;
-        mass_b = s->mass[1] * s->aa + s->mass[0] * s->ab;
-        evaluation->power[DMB_POWER_POTENTIAL] -= elastic * rate;
-        evaluation->power[DMB_POWER_DAMPING] -= viscous * rate;
-        evaluation->power[DMB_POWER_INERTIA] -= s->va * mass_a + s->vb * mass_b;
-    }
-    sim->correction[ra] += mass_a - force;
-    sim->correction[rb] += mass_b + force;
-    sim->scale_row[ra] += fabs(force) + fabs(mass_a);
-    sim->scale_row[rb] += fabs(force) + fabs(mass_b);
+    const dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const uint32_t e = batch->first, a = scene->element_node[e], row = scene->layout.row[a];
+    dmb_bar_run run = {
+        .count = batch->count,
+        .dynamic = evaluation->dynamic,
+        .types = scene->types,
+        .type = scene->element_type + e,
+        .displacement = sim->trial.displacement + 3 * a,
+        .turn = sim->trial.turn + a,
+        .velocity = sim->trial.velocity + row,
+        .acceleration = sim->trial.acceleration + row,
+        .per_length = 1.0 / scene->length_scale,
+        .residual = sim->correction + row,
+        .scale = sim->scale_row + row,
+        .rounding = evaluation->rounding,
+        .potential = evaluation->power[DMB_POWER_POTENTIAL],
+        .damping = evaluation->power[DMB_POWER_DAMPING],
+        .inertia = evaluation->power[DMB_POWER_INERTIA],
+    };
+    scene->kernels->bars(&run);
+    evaluation->rounding = run.rounding;
+    evaluation->power[DMB_POWER_POTENTIAL] = run.potential;
+    evaluation->power[DMB_POWER_DAMPING] = run.damping;
+    evaluation->power[DMB_POWER_INERTIA] = run.inertia;
 }
 
-/* Tangent of coordinate c (0 or 1) between the nodes a and a + 1. */
-static void bar_tangent(const dmb_evaluation *evaluation, const bar_side *s, uint32_t a, uint32_t c)
+/* Tangent of one coordinate, 0 stretch or 1 twist, between the nodes a and a + 1. */
+static void bar_tangent(const dmb_evaluation *evaluation, const dmb_element_type *type, uint32_t a, uint32_t c)
 {
     dmb_sim *sim = evaluation->sim;
     const uint32_t link = sim->scene->layout.link[a] + 3 * c;
-    const double elastic = evaluation->inertia_only ? 0.0 : s->stiffness;
-    const double damped = evaluation->dynamic ? evaluation->velocity_factor * s->damping : 0.0;
+    const double *mass = c == 0 ? type->mass.axial : type->mass.torsion;
+    const double elastic = evaluation->inertia_only ? 0.0 : type->stiffness[3 * c];
+    const double damped =
+        evaluation->dynamic ? evaluation->velocity_factor * type->damping_time * type->stiffness[3 * c] : 0.0;
     const double heavy = evaluation->dynamic ? evaluation->mass_factor : 0.0;
-    const double between = heavy * s->mass[1] - (elastic + damped);
+    const double between = heavy * mass[1] - (elastic + damped);
     dmb_stiffness_of(sim, a)[3 * c] += elastic;
     dmb_stiffness_of(sim, a + 1)[3 * c] += elastic;
     sim->stiffness_upper[link] += between;
     sim->stiffness_lower[link] += between;
     if (!evaluation->dynamic) return;
-    dmb_inertia_of(sim, a)[3 * c] += heavy * s->mass[0] + damped;
-    dmb_inertia_of(sim, a + 1)[3 * c] += heavy * s->mass[0] + damped;
+    dmb_inertia_of(sim, a)[3 * c] += heavy * mass[0] + damped;
+    dmb_inertia_of(sim, a + 1)[3 * c] += heavy * mass[0] + damped;
 }
 
-/* The length is left out of differences, which keeps their digits. */
-static void gather_path(dmb_evaluation *evaluation, uint32_t e, double per_length)
+static void gather_bars(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
-    dmb_sim *sim = evaluation->sim;
-    const dmb_scene *scene = sim->scene;
-    const dmb_configuration *trial = &sim->trial;
-    const dmb_element_type *type = scene->types + scene->element_type[e];
-    const uint32_t a = scene->element_node[e], ra = scene->layout.row[a], rb = ra + DMB_NODE_PATH;
-    const double *v = trial->velocity, *dv = trial->acceleration;
-    const double ua = trial->displacement[3 * a], ub = trial->displacement[3 * a + 3];
-    const double ta = trial->turn[a], tb = trial->turn[a + 1];
-    const bar_side side[2] = {
-        {type->stiffness[0], type->damping_time * type->stiffness[0], ub - ua, type->length - type->rest[0],
-         fabs(ua) + fabs(ub), v[ra], v[rb], dv[ra], dv[rb], type->mass.axial},
-        {type->stiffness[3], type->damping_time * type->stiffness[3], tb - ta, -type->rest[3],
-         per_length * (fabs(ta) + fabs(tb)), v[ra + 1], v[rb + 1], dv[ra + 1], dv[rb + 1], type->mass.torsion}};
-    sim->element_strain[6 * e] = type->length + side[0].change;
-    sim->element_strain[6 * e + 3] = side[1].change;
-    for (uint32_t c = 0; c < 2; c++) {
-        bar_forces(evaluation, side + c, ra + c, rb + c);
-        if (evaluation->tangent) bar_tangent(evaluation, side + c, a, c);
-    }
+    const dmb_scene *scene = evaluation->sim->scene;
+    bar_forces(evaluation, batch);
+    if (!evaluation->tangent) return;
+    for (uint32_t e = batch->first; e < batch->first + batch->count; e++)
+        for (uint32_t c = 0; c < 2; c++)
+            bar_tangent(evaluation, scene->types + scene->element_type[e], scene->element_node[e], c);
 }
 
 /* ---- A beam with one FULL and one PATH node: the PATH side is seen through its two columns ---------------------- */
@@ -269,15 +255,14 @@ static int32_t gather_mixed(dmb_evaluation *evaluation, uint32_t e)
 
 static int32_t gather_batch(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
-    const double per_length = 1.0 / evaluation->sim->scene->length_scale;
     int32_t status = DMB_OK;
     if (batch->kernel == DMB_KERNEL_BEAM) return gather_beams(evaluation, batch);
-    for (uint32_t e = batch->first; e < batch->first + batch->count && status >= 0; e++) {
-        if (batch->kernel == DMB_KERNEL_PATH)
-            gather_path(evaluation, e, per_length);
-        else
-            status = gather_mixed(evaluation, e);
+    if (batch->kernel == DMB_KERNEL_PATH) {
+        gather_bars(evaluation, batch);
+        return DMB_OK;
     }
+    for (uint32_t e = batch->first; e < batch->first + batch->count && status >= 0; e++)
+        status = gather_mixed(evaluation, e);
     return status;
 }
 

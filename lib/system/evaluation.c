@@ -23,6 +23,20 @@ static void clear(const dmb_evaluation *evaluation)
     memset(sim->stiffness_upper, 0, link);
 }
 
+/* Along the axis and about it, from node `first` on as long as there are PATH nodes; what else a pose has stays.
+ * Returns how many they are. */
+static uint32_t move_path_nodes(dmb_sim *sim, uint32_t first)
+{
+    const dmb_scene *scene = sim->scene;
+    const double *z = sim->increment + scene->layout.row[first];
+    uint32_t i = first;
+    for (; i < scene->node_count && scene->layout.size[i] == DMB_NODE_PATH; i++, z += DMB_NODE_PATH) {
+        sim->trial.displacement[3 * i] = sim->now.displacement[3 * i] + z[0];
+        sim->trial.turn[i] = sim->now.turn[i] + z[1];
+    }
+    return i - first;
+}
+
 void dmb_system_move(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -40,19 +54,20 @@ void dmb_system_move(dmb_sim *sim)
             scene->kernels->advance(&run);
             continue;
         }
-        memcpy(sim->trial.displacement + 3 * i, sim->now.displacement + 3 * i, 3 * sizeof(double));
-        memcpy(sim->trial.quaternion + 4 * i, sim->now.quaternion + 4 * i, 4 * sizeof(double));
-        sim->trial.displacement[3 * i] += z[0];
-        sim->trial.turn[i] = sim->now.turn[i] + z[1];
-        count = 1;
+        count = move_path_nodes(sim, i);
     }
 }
 
 static int32_t finite_status(const dmb_sim *sim)
 {
-    double sum = 0.0;
-    for (uint32_t i = 0; i < sim->scene->row_count; i++) sum += fabs(sim->correction[i]);
-    return isfinite(sum) ? DMB_OK : DMB_ERR_NOT_FINITE;
+    double sums[8] = {0.0}; /* side by side */
+    const double *r = sim->correction;
+    const uint32_t rows = sim->scene->row_count, even = rows - rows % 8;
+    for (uint32_t i = 0; i < even; i += 8)
+        for (uint32_t k = 0; k < 8; k++) sums[k] += fabs(r[i + k]);
+    for (uint32_t i = even; i < rows; i++) sums[0] += fabs(r[i]);
+    for (uint32_t k = 1; k < 8; k++) sums[0] += sums[k];
+    return isfinite(sums[0]) ? DMB_OK : DMB_ERR_NOT_FINITE;
 }
 
 int32_t dmb_system_evaluate(dmb_evaluation *evaluation)

@@ -108,6 +108,7 @@ static void gather_path(dmb_evaluation *evaluation, uint32_t node, const dmb_lum
 void dmb_gather_nodes(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
+    if (!(scene->features & (DMB_FEATURE_GRAVITY | DMB_FEATURE_DAMPING)) && scene->lump_count == 0) return;
     for (uint32_t i = 0, lump = 0, count; i < scene->node_count; i += count) {
         count = dmb_full_nodes_at(scene, i);
         while (lump < scene->lump_count && scene->lumps[lump].node < i) lump++;

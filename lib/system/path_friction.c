@@ -9,15 +9,27 @@
 #include "system/wall_contact.h"
 
 /* Mean tension of the elements on both sides of a node [N]. */
-static double tension_at(const dmb_scene *scene, const double *strain, uint32_t node)
+/* [m] stretch of an element beyond rest at the trial; a mixed one has left it. */
+static double stretch_of(const dmb_sim *sim, uint32_t element)
 {
+    const dmb_scene *scene = sim->scene;
+    const dmb_element_type *type = scene->types + scene->element_type[element];
+    const uint32_t a = scene->element_node[element];
+    const double *u = sim->trial.displacement + 3 * a;
+    if (scene->layout.size[a] != DMB_NODE_PATH || scene->layout.size[a + 1] != DMB_NODE_PATH)
+        return sim->element_strain[6 * element] - type->rest[0];
+    return (u[3] - u[0]) + (type->length - type->rest[0]);
+}
+
+static double tension_at(const dmb_sim *sim, uint32_t node)
+{
+    const dmb_scene *scene = sim->scene;
     double sum = 0.0;
     uint32_t count = 0;
     for (uint32_t e = 0; e < 2; e++) {
         const uint32_t element = dmb_element_between(scene, node, e);
         if (element == UINT32_MAX) continue;
-        const dmb_element_type *type = scene->types + scene->element_type[element];
-        sum += type->stiffness[0] * (strain[6 * element] - type->rest[0]);
+        sum += scene->types[scene->element_type[element]].stiffness[0] * stretch_of(sim, element);
         count++;
     }
     return count ? sum / count : 0.0;
@@ -82,7 +94,7 @@ static void gather_path_site(dmb_evaluation *evaluation, uint32_t p)
     const double spin = evaluation->dynamic ? row[1] : evaluation->slip[1];
     const double v[2] = {evaluation->dynamic ? row[0] : evaluation->slip[0], site->radius * spin};
     double direction[3], tangent[3], by_tension, F[2], dv[4], dN[2];
-    const double tension = tension_at(scene, sim->element_strain, site->node);
+    const double tension = tension_at(sim, site->node);
     const double N =
         side_force(scene, &sim->trial, site, tension, evaluation->load_factor, direction, tangent, &by_tension);
     sim->path_normal[p] = N;

@@ -10,53 +10,76 @@
 /* Rounding of a pose reaches a stiff element's force multiplied by EA/L: this many units of it count as zero. */
 #define DMB_ROUNDING_UNITS 4.0
 
+/* Sums that are made side by side: of one FULL node, of four PATH nodes. */
+enum { SIDE_BY_SIDE = 8 };
+
 typedef struct norms {
     double rest, all; /* squares of residual and of the terms that balance, [N2] */
 } norms;
 
-static inline void add_squares(uint32_t size, const double *residual, const double *scale, const uint8_t *solved,
-                               double *rest, double *all)
+/* Rows i .. i + size - 1 into the sums beside them; rows that are not unknown count 0. */
+static inline void add_squares(uint32_t size, const double *restrict residual, const double *restrict scale,
+                               const uint8_t *restrict solved, double *restrict rest, double *restrict all)
 {
+    static const uint8_t every[SIDE_BY_SIDE] = {1, 1, 1, 1, 1, 1, 1, 1};
+    if (memcmp(solved, every, size) == 0) {
+        for (uint32_t c = 0; c < size; c++) rest[c] += residual[c] * residual[c];
+        for (uint32_t c = 0; c < size; c++) all[c] += scale[c] * scale[c];
+        return;
+    }
     for (uint32_t c = 0; c < size; c++) {
-        const double r = solved[c] ? residual[c] : 0.0, s = solved[c] ? scale[c] : 0.0;
-        rest[c] += r * r;
-        all[c] += s * s;
+        rest[c] += solved[c] ? residual[c] * residual[c] : 0.0;
+        all[c] += solved[c] ? scale[c] * scale[c] : 0.0;
     }
 }
 
 /* Closes the sums of nodes of one size: translations weigh 1, rotations `arm`. */
-static void add_components(uint32_t size, double arm, double *rest, double *all, norms *n)
+static void add_components(uint32_t size, double arm, const double *rest, const double *all, norms *n)
 {
-    for (uint32_t c = 0; c < size; c++) {
-        const double weight = 2 * c < size ? 1.0 : arm;
+    for (uint32_t c = 0; c < SIDE_BY_SIDE; c++) {
+        const double weight = 2 * (c % size) < size ? 1.0 : arm;
         n->rest += weight * rest[c];
         n->all += weight * all[c];
-        rest[c] = all[c] = 0.0;
     }
 }
 
-/* Rows side by side, component by component, so that they vectorise; rows that are not unknown count 0. */
+/* `rows` rows of nodes of one size, `width` rows side by side, whole nodes, so that they vectorise. */
+static inline void add_rows(uint32_t width, const dmb_sim *sim, uint32_t row, uint32_t rows, double *rest, double *all)
+{
+    const double *residual = sim->correction + row, *scale = sim->scale_row + row;
+    const uint8_t *solved = sim->scene->solved_row + row;
+    double r[SIDE_BY_SIDE] = {0.0}, s[SIDE_BY_SIDE] = {0.0};
+    uint32_t i = 0;
+    for (; i + width <= rows; i += width) add_squares(width, residual + i, scale + i, solved + i, r, s);
+    if (i < rows) add_squares(rows - i, residual + i, scale + i, solved + i, r, s);
+    memcpy(rest, r, sizeof r);
+    memcpy(all, s, sizeof s);
+}
+
+/* Nodes from `first` on that have as many rows as it. */
+static uint32_t nodes_alike(const dmb_scene *scene, uint32_t first, uint32_t end)
+{
+    uint32_t i = first + 1;
+    while (i < end && scene->layout.size[i] == scene->layout.size[first]) i++;
+    return i - first;
+}
+
 static norms norms_of(const dmb_sim *sim, const dmb_chain *chain)
 {
     const dmb_scene *scene = sim->scene;
     const double arm = 1.0 / (chain->length * chain->length);
-    double rest[DMB_BLOCK_SIZE_MAX] = {0.0}, all[DMB_BLOCK_SIZE_MAX] = {0.0};
+    const uint32_t end = chain->first + chain->count;
     norms n = {0.0, 0.0};
-    uint32_t size = scene->layout.size[chain->first];
-    for (uint32_t i = chain->first; i < chain->first + chain->count; i++) {
-        const uint32_t row = scene->layout.row[i];
-        const double *residual = sim->correction + row, *scale = sim->scale_row + row;
-        const uint8_t *solved = scene->solved_row + row;
-        if (scene->layout.size[i] != size) {
-            add_components(size, arm, rest, all, &n);
-            size = scene->layout.size[i];
-        }
+    for (uint32_t i = chain->first, count; i < end; i += count) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        double rest[SIDE_BY_SIDE], all[SIDE_BY_SIDE];
+        count = nodes_alike(scene, i, end);
         if (size == DMB_NODE_FULL)
-            add_squares(DMB_NODE_FULL, residual, scale, solved, rest, all);
+            add_rows(DMB_NODE_FULL, sim, row, count * size, rest, all);
         else
-            add_squares(size, residual, scale, solved, rest, all);
+            add_rows(SIDE_BY_SIDE, sim, row, count * size, rest, all);
+        add_components(size, arm, rest, all, &n);
     }
-    add_components(size, arm, rest, all, &n);
     return n;
 }
 

@@ -44,6 +44,33 @@ static uint64_t hash_of_string(uint32_t pipes, uint32_t elements, uint32_t lanes
     return hash_of(&s);
 }
 
+/* Axial-torsional pipes of two types hanging from the rig, turned, damped; behind them flexible ones, or none. */
+static uint64_t hash_of_bars(uint32_t pipes, uint32_t flexible, uint32_t lanes)
+{
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_drive_def turn = dmb_drive_def_default();
+    dmb_term term = dmb_term_default();
+    rig s;
+    rig_open(&s, 9.81, 0.0, 0.0);
+    pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
+    pipe.damping_time = 1e-4;
+    add_pipes(&s, &pipe, pipes);
+    pipe.length = 0.7;
+    add_pipes(&s, &pipe, 2);
+    pipe.kind = DMB_PIPE_FLEXIBLE;
+    if (flexible) add_pipes(&s, &pipe, flexible);
+    term.kind = DMB_TERM_STEP;
+    term.x1 = 0.02;
+    term.h1 = 10.0;
+    turn.component = DMB_RX;
+    turn.programme = add_programme(&s, &term, 1);
+    add_drive(&s, &turn);
+    rig_start(&s, NULL);
+    use_lanes(&s, lanes);
+    for (int i = 0; i < 60; i++) must(&s, dmb_sim_step(s.sim, 1e-3, NULL));
+    return hash_of(&s);
+}
+
 static void every_width_gives_the_same_bits(void **state)
 {
     static const full_rig_choice choices[] = {{DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0},
@@ -58,6 +85,9 @@ static void every_width_gives_the_same_bits(void **state)
         for (uint32_t pipes = 1; pipes <= 9; pipes += 2)
             for (uint32_t elements = 1; elements <= 2; elements++)
                 assert_true(hash_of_string(pipes, elements, lanes) == hash_of_string(pipes, elements, 1));
+        for (uint32_t pipes = 1; pipes <= 9; pipes++)
+            for (uint32_t flexible = 0; flexible <= 3; flexible += 3)
+                assert_true(hash_of_bars(pipes, flexible, lanes) == hash_of_bars(pipes, flexible, 1));
         print_message("    kernels of %u lanes: same bits as one\n", (unsigned)lanes);
     }
 }

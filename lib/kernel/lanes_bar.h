@@ -1,0 +1,166 @@
+/* Axial-torsional bars side by side: row after row of their nodes, in which stretch and twist take turns. */
+#ifndef DMB_KERNEL_LANES_BAR_H
+#define DMB_KERNEL_LANES_BAR_H
+
+#include "kernel/kernels.h"
+#include "kernel/lane_group.h"
+
+/* Sums in eight parts, row i in part i % 8, whatever the width: their order is that of all widths. */
+enum { SUM_PARTS = 8 / DMB_REAL_LANES };
+
+typedef struct lane_sum {
+    dmb_real part[SUM_PARTS];
+} lane_sum;
+
+/* Lanes that repeat the last row count nothing. */
+static inline void sum_add(dmb_real x, const lane_group *g, lane_sum *sum)
+{
+    const size_t part = g->place[0] / DMB_REAL_LANES % SUM_PARTS;
+    for (uint32_t l = g->used; l < DMB_REAL_LANES; l++) dmb_real_set_lane(&x, (int)l, 0.0);
+    sum->part[part] = sum->part[part] + x;
+}
+
+static inline double sum_total(const lane_sum *sum)
+{
+    double total = 0.0;
+    for (int i = 0; i < SUM_PARTS; i++)
+        for (int l = 0; l < DMB_REAL_LANES; l++) total += dmb_real_lane(sum->part + i, l);
+    return total;
+}
+
+/* Constants of the bar and coordinate of each lane; kept from group to group while these are the same. */
+typedef struct bar_constants {
+    uint32_t key[DMB_REAL_LANES]; /* 0: none yet */
+    dmb_real stiffness, damping;  /* [N/m, N m/rad], times damping_time */
+    dmb_real rest;                /* [m, rad] deformation at the start */
+    dmb_real per_length;          /* [1, 1/m] */
+    dmb_real mass[2];             /* [kg, kg m2] AA = BB, AB */
+} bar_constants;
+
+static inline void load_bar(const dmb_bar_run *run, const dmb_element_type *type, int twist, int l, bar_constants *c)
+{
+    const double stiffness = type->stiffness[twist ? 3 : 0], *mass = twist ? type->mass.torsion : type->mass.axial;
+    dmb_real_set_lane(&c->stiffness, l, stiffness);
+    dmb_real_set_lane(&c->damping, l, type->damping_time * stiffness);
+    dmb_real_set_lane(&c->rest, l, twist ? -type->rest[3] : type->length - type->rest[0]);
+    dmb_real_set_lane(&c->per_length, l, twist ? run->per_length : 1.0);
+    dmb_real_set_lane(c->mass, l, mass[0]);
+    dmb_real_set_lane(c->mass + 1, l, mass[1]);
+}
+
+/* True if they are those of whole bars of one type, and the group has these too. */
+static inline int are_same_bars(const dmb_bar_run *run, const lane_group *g, const bar_constants *c)
+{
+    uint32_t other = g->used < DMB_REAL_LANES || DMB_REAL_LANES == 1 ? 1 : 0;
+    for (int l = 0; l < DMB_REAL_LANES; l += 2) other |= c->key[l] ^ (1 + 2 * run->type[g->place[l] / 2]);
+    return other == 0;
+}
+
+static inline void load_bars(const dmb_bar_run *run, const lane_group *g, bar_constants *c)
+{
+    if (are_same_bars(run, g, c)) return;
+    for (int l = 0; l < DMB_REAL_LANES; l++) {
+        const uint32_t type = run->type[g->place[l] / 2], twist = g->place[l] & 1, key = 1 + 2 * type + twist;
+        if (c->key[l] == key) continue;
+        c->key[l] = key;
+        load_bar(run, run->types + type, (int)twist, l, c);
+    }
+}
+
+/* Way along the axis and turn about it of the node that is `after` nodes behind the one of each row. */
+static inline dmb_real load_place(const dmb_bar_run *run, const lane_group *g, size_t after)
+{
+    dmb_real x = dmb_real_of(0.0);
+    for (int l = 0; l < DMB_REAL_LANES; l++) {
+        const size_t node = g->place[l] / 2 + after;
+        dmb_real_set_lane(&x, l, g->place[l] & 1 ? run->turn[node] : run->displacement[3 * node]);
+    }
+    return x;
+}
+
+/* What goes to the far nodes of the last bars of a group: it is added with the forces on these as near nodes, for
+ * memory that is written and read at once in other places keeps the processor waiting. */
+typedef struct bar_ends {
+    double residual[2], scale[2];
+} bar_ends;
+
+/* x two rows on: behind the last two of the group before, which those of this one replace. */
+static inline dmb_real two_rows_on(dmb_real x, const lane_group *g, double last[2])
+{
+    dmb_real on = x;
+    for (int l = 0; l < DMB_REAL_LANES; l++) dmb_real_set_lane(&on, l, l < 2 ? last[l] : dmb_real_lane(&x, l - 2));
+    last[0] = g->used > 1 ? dmb_real_lane(&x, (int)g->used - 2) : last[1];
+    last[1] = dmb_real_lane(&x, (int)g->used - 1);
+    return on;
+}
+
+static inline void add_line(dmb_real a, dmb_real b, const lane_group *g, double *to)
+{
+    store_line((load_line(to, g) + b) + a, g, to);
+}
+
+/* Forces of a bar on the rows of its nodes, a and b, the latter two rows on; and what they do. */
+typedef struct bar_forces {
+    dmb_real elastic, viscous, mass_a, mass_b;
+} bar_forces;
+
+/* The length is left out of differences, which keeps their digits. */
+static inline dmb_real elastic_force(const dmb_bar_run *run, const lane_group *g, const bar_constants *c,
+                                     lane_sum *rounding)
+{
+    const dmb_real xa = load_place(run, g, 0), xb = load_place(run, g, 1);
+    const dmb_real size = c->stiffness * (c->per_length * (dmb_real_abs(xa) + dmb_real_abs(xb)));
+    sum_add(size * size, g, rounding);
+    return c->stiffness * ((xb - xa) + c->rest);
+}
+
+static inline void motion_forces(const dmb_bar_run *run, const lane_group *g, const bar_constants *c,
+                                 lane_sum powers[3], bar_forces *f)
+{
+    const dmb_real va = load_line(run->velocity, g), vb = load_line(run->velocity + 2, g);
+    const dmb_real aa = load_line(run->acceleration, g), ab = load_line(run->acceleration + 2, g);
+    const dmb_real rate = vb - va;
+    f->viscous = c->damping * rate;
+    f->mass_a = c->mass[0] * aa + c->mass[1] * ab;
+    f->mass_b = c->mass[1] * aa + c->mass[0] * ab;
+    sum_add(f->elastic * rate, g, powers);
+    sum_add(f->viscous * rate, g, powers + 1);
+    sum_add(va * f->mass_a + vb * f->mass_b, g, powers + 2);
+}
+
+static inline void add_bar_forces(const dmb_bar_run *run, const lane_group *g, const bar_forces *f, bar_ends *ends)
+{
+    const dmb_real force = f->elastic + f->viscous, size = dmb_real_abs(force);
+    add_line(f->mass_a - force, two_rows_on(f->mass_b + force, g, ends->residual), g, run->residual);
+    add_line(size + dmb_real_abs(f->mass_a), two_rows_on(size + dmb_real_abs(f->mass_b), g, ends->scale), g,
+             run->scale);
+}
+
+static void bars(dmb_bar_run *run)
+{
+    const dmb_real zero = dmb_real_of(0.0);
+    lane_sum rounding, powers[3];
+    bar_constants constants;
+    bar_ends ends = {{0.0, 0.0}, {0.0, 0.0}};
+    memset(&constants, 0, sizeof constants);
+    memset(&rounding, 0, sizeof rounding);
+    memset(powers, 0, sizeof powers);
+    for (uint32_t first = 0; first < 2 * run->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, 2 * run->count);
+        bar_forces f = {zero, zero, zero, zero};
+        load_bars(run, &g, &constants);
+        f.elastic = elastic_force(run, &g, &constants, &rounding);
+        if (run->dynamic) motion_forces(run, &g, &constants, powers, &f);
+        add_bar_forces(run, &g, &f, &ends);
+    }
+    for (size_t i = 0; i < 2; i++) {
+        run->residual[2 * (size_t)run->count + i] += ends.residual[i];
+        run->scale[2 * (size_t)run->count + i] += ends.scale[i];
+    }
+    run->rounding += sum_total(&rounding);
+    run->potential -= sum_total(powers);
+    run->damping -= sum_total(powers + 1);
+    run->inertia -= sum_total(powers + 2);
+}
+
+#endif
