@@ -197,6 +197,18 @@ static int32_t locate_bifurcation(dmb_path *path, quest *q, double arc, int32_t 
     return status;
 }
 
+/* From where the stiffness is singular, a step may come out on another path far away: between the two there is no end.
+ */
+#define DMB_AT_END 1e-6
+
+static int is_at_end(const dmb_path *path, int32_t event, double before)
+{
+    const dmb_path_options *o = path->options;
+    const double end = event == DMB_EVENT_FACTOR ? o->factor_end : o->displacement_end;
+    const double at = event == DMB_EVENT_FACTOR ? path->next.factor : path->next.watched;
+    return fabs(at - end) <= DMB_AT_END * (fabs(before) + 1e-3 * fabs(end));
+}
+
 int32_t dmb_path_locate(dmb_path *path, int32_t *event, double arc)
 {
     quest q = {*event, 0};
@@ -205,8 +217,10 @@ int32_t dmb_path_locate(dmb_path *path, int32_t *event, double arc)
     const int32_t beyond = path->next.negative;
     if (*event == DMB_EVENT_BIFURCATION) return locate_bifurcation(path, &q, arc, event);
     int32_t status = probe_ends(path, &q, &b);
+    const double before = b.at_low;
     if (status >= 0) status = close_in(path, &q, &b, DMB_LOCATED * arc);
-    if (status < 0 || *event != DMB_EVENT_LIMIT) return status;
+    if (status < 0) return status;
+    if (*event != DMB_EVENT_LIMIT) return is_at_end(path, *event, before) ? DMB_OK : DMB_ERR_NO_CONVERGENCE;
     path->next.negative = beyond; /* at the limit point itself it is a matter of rounding */
     path->side = side;
     return DMB_OK;
