@@ -63,7 +63,7 @@ typedef struct dmb_mode {
     double participation[3];   /* [kg^0.5] d^T M e for a base that moves along world x, y, z, shape (3) */
     double effective_mass[3];  /* [kg] their squares: sum over all modes = mass that is free to move, shape (3) */
     double whirl;              /* [-] part of the kinetic energy in circles from y to z (forward, of spin > 0) less that in
-                                  circles from z to y (backward), in `axes`: 1 .. -1; 0 of undamped modes */
+                                  circles from z to y (backward), in `axes`: 1 .. -1; 0 of real shapes */
     double strain_share[3];    /* [-] of the strain energy that is stretch, twist, bending with shear; sum 1, or 0 where
                                   nothing is strained, shape (3) */
 } dmb_mode;

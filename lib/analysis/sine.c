@@ -35,8 +35,7 @@ typedef struct sine_run {
     size_t block_size;
 } sine_run;
 
-/* ---- Windows ------------------------------------------------------------------------------------------------------
- */
+/* ---- Windows ----------------------------------------------------------------------------------------------------- */
 
 static uint32_t steps_of(const sine_run *r)
 {
@@ -107,8 +106,7 @@ static int32_t run_window(sine_run *r)
     return DMB_OK;
 }
 
-/* ---- Settling -----------------------------------------------------------------------------------------------------
- */
+/* ---- Settling ---------------------------------------------------------------------------------------------------- */
 
 /* Largest difference of a harmonic between the two windows over the largest harmonic of the output. */
 static double change_of(const sine_run *r, uint32_t o)
@@ -155,8 +153,7 @@ static int32_t settle(sine_run *r)
     return DMB_NOTE_STOPPED;
 }
 
-/* ---- The call -----------------------------------------------------------------------------------------------------
- */
+/* ---- The call ---------------------------------------------------------------------------------------------------- */
 
 static int32_t take_memory(sine_run *r)
 {

@@ -49,8 +49,7 @@ typedef struct speeds_run {
     uint32_t room, count;
 } speeds_run;
 
-/* ---- Checks -------------------------------------------------------------------------------------------------------
- */
+/* ---- Checks ------------------------------------------------------------------------------------------------------ */
 
 static int32_t take_options(dmb_sim *sim, const dmb_speeds_options *given, dmb_speeds_options *out)
 {
@@ -97,8 +96,7 @@ static int32_t check_counts(const speeds_run *r)
     return check.status;
 }
 
-/* ---- Curves -------------------------------------------------------------------------------------------------------
- */
+/* ---- Curves ------------------------------------------------------------------------------------------------------ */
 
 /* speed, severity, and output behind them, in one block */
 static size_t curve_bytes(uint32_t points)
@@ -196,8 +194,7 @@ static int32_t gather_speeds(speeds_run *r)
     return DMB_OK;
 }
 
-/* ---- Answers ------------------------------------------------------------------------------------------------------
- */
+/* ---- Answers ----------------------------------------------------------------------------------------------------- */
 
 static void write_bands(const speeds_run *r, dmb_speed_band *bands)
 {

@@ -42,8 +42,7 @@ double dmb_speeds_sum(const dmb_speeds_curve *curves, uint32_t count, double spe
     return sum;
 }
 
-/* ---- Bands --------------------------------------------------------------------------------------------------------
- */
+/* ---- Bands ------------------------------------------------------------------------------------------------------- */
 
 typedef struct search {
     const dmb_speeds_curve *curves;
