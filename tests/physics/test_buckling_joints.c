@@ -44,10 +44,7 @@ static double factor_of(const dmb_buckling *found, uint32_t mode)
 /* A joint between strings or to the ground (part {0, 0}), whose place is then the origin. */
 static dmb_joint_def joint_of(int32_t kind, dmb_place a, dmb_place b, double spring)
 {
-    dmb_joint_def joint = dmb_joint_def_default();
-    joint.kind = kind;
-    joint.place_a = a;
-    joint.place_b = b;
+    dmb_joint_def joint = joint_between(kind, a, b);
     joint.stiffness[DMB_RY] = joint.stiffness[DMB_RZ] = spring;
     return joint;
 }

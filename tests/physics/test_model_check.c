@@ -41,22 +41,12 @@ static dmb_place at(dmb_id part)
     return dmb_station(part, 0, 0.0);
 }
 
-static dmb_id join(rig *s, const dmb_joint_def *joint)
-{
-    dmb_id id = {0, 0};
-    must_model(s, dmb_model_add_joint(s->model, joint, &id));
-    return id;
-}
-
 static dmb_id connect(rig *s, int32_t kind, dmb_place a, dmb_place b, const char *name)
 {
-    dmb_joint_def joint = dmb_joint_def_default();
-    joint.kind = kind;
-    joint.place_a = a;
-    joint.place_b = b;
+    dmb_joint_def joint = joint_between(kind, a, b);
     joint.match = 1;
     strncpy(joint.name, name, sizeof joint.name - 1);
-    return join(s, &joint);
+    return add_joint(s, &joint);
 }
 
 static const dmb_place ground = {{0, 0}, 0, 0, 0.0};
@@ -74,16 +64,13 @@ static dmb_id bar(rig *s, double x, double z)
 /* A hinge about the world's y axis at (x, 0, z); body frames are parallel to the world's. */
 static dmb_id hinge(rig *s, dmb_id a, dmb_id b, const double from_a[3], const char *name)
 {
-    dmb_joint_def joint = dmb_joint_def_default();
-    joint.kind = DMB_JOINT_REVOLUTE;
-    joint.place_a = at(a);
-    joint.place_b = at(b);
+    dmb_joint_def joint = joint_between(DMB_JOINT_REVOLUTE, at(a), at(b));
     joint.match = 1;
     joint.axis_a[0] = 0.0;
     joint.axis_a[1] = 1.0;
     memcpy(joint.origin_a, from_a, sizeof joint.origin_a);
     strncpy(joint.name, name, sizeof joint.name - 1);
-    return join(s, &joint);
+    return add_joint(s, &joint);
 }
 
 /* Hinges at (0, 0), (0.5, 1), (2.5, 1.3), (2.4, 0) of the x-z plane. */
@@ -178,10 +165,10 @@ static void inconsistent_equations_are_refused(void **state)
     joint.kind = DMB_JOINT_FIXED;
     joint.place_a = at(none);
     joint.place_b = at(body);
-    (void)join(&s, &joint);
+    (void)add_joint(&s, &joint);
     joint.origin_a[1] = 0.01;
     strncpy(joint.name, "elsewhere", sizeof joint.name - 1);
-    (void)join(&s, &joint);
+    (void)add_joint(&s, &joint);
     must_model(&s, dmb_model_compile(s.model, NULL));
     assert_int_equal(dmb_sim_create(s.model, NULL, &s.sim), DMB_ERR_GEOMETRY);
     assert_null(s.sim);
@@ -445,7 +432,7 @@ static void springs_hold(void **state)
         joint.kind = DMB_JOINT_FREE;
         joint.place_b = at(body);
         joint.stiffness[DMB_Z] = with ? 1e4 : 0.0;
-        (void)join(&s, &joint);
+        (void)add_joint(&s, &joint);
         (void)rig_start(&s, NULL);
         assert_int_equal(check_of(&s).warnings, 1 - with);
         rig_close(&s);
@@ -554,7 +541,7 @@ static void nearly_dependent_and_nearly_singular(void **state)
         rod.origin_a[0] = 1.0;
         rod.origin_a[1] = 1e-5 * k;
         rod.length = sqrt(1.0 + rod.origin_a[1] * rod.origin_a[1]);
-        (void)join(&s, &rod);
+        (void)add_joint(&s, &rod);
     }
     const dmb_id turned = bar(&s, 5.0, 0.0);
     dmb_joint_def ball = dmb_joint_def_default();
@@ -567,7 +554,7 @@ static void nearly_dependent_and_nearly_singular(void **state)
     ball.normal_b[0] = -sin(angle);
     ball.normal_b[1] = cos(angle);
     ball.friction[DMB_RX] = 1.0;
-    (void)join(&s, &ball);
+    (void)add_joint(&s, &ball);
     (void)rig_start(&s, NULL);
     const dmb_check_report r = check_of(&s);
     assert_int_equal(r.warnings, 2);

@@ -34,6 +34,19 @@ static void show(const tale *t)
                       kinds[t->point[i].kind]);
 }
 
+/* The path of a load on its own, looked at in one component of the place where it acts, told to t. */
+static dmb_path_options path_of(dmb_id load, dmb_place place, int32_t component, tale *t)
+{
+    dmb_path_options options = dmb_path_options_default();
+    options.scale = DMB_SCALE_PART;
+    options.part = load;
+    options.place = place;
+    options.component = component;
+    options.callback = hear;
+    options.callback_context = t;
+    return options;
+}
+
 /* ---- Euler's column ---------------------------------------------------------------------------------------------- */
 
 /* Half of S1, 10 m pinned: pinned at the rig end, the middle moves but does not turn. Pushed straight up to Euler's
@@ -47,7 +60,6 @@ static void check_elastica(uint32_t elements, double tolerance)
     dmb_string_def def = dmb_string_def_default();
     dmb_pipe_def beam = beam_pipe(5.0, elements, 1e7 * EI, 1e7 * EI, EI, EI);
     dmb_load_def load = dmb_load_def_default();
-    dmb_path_options options = dmb_path_options_default();
     dmb_path_report report = dmb_path_report_default();
     rig_open(&s, 0.0, 0.0, 0.0);
     def.follows_hole = 0;
@@ -62,16 +74,11 @@ static void check_elastica(uint32_t elements, double tolerance)
     (void)rig_start(&s, NULL);
     (void)find_equilibrium(&s, NULL);
     t.place = dmb_station(string, 0, 0.0);
-    options.scale = DMB_SCALE_PART;
-    options.part = push;
-    options.place = load.place;
-    options.component = DMB_X;
+    dmb_path_options options = path_of(push, load.place, DMB_X, &t);
     options.branch = 1;
     options.branch_size = 0.05;
     options.factor_end = 2.0;
     options.displacement_end = -0.2589803939 * 5.0;
-    options.callback = hear;
-    options.callback_context = &t;
     uint64_t before, after;
     must(&s, dmb_sim_hash(s.sim, &before));
     must(&s, dmb_analysis_path(s.sim, &options, &report));
@@ -106,7 +113,6 @@ static void pinned_column_with_a_joint(void **state)
     dmb_pipe_def beam = beam_pipe(10.0, 32, 1e6 * EI, 1e6 * EI, EI, EI);
     dmb_joint_def guide = dmb_joint_def_default();
     dmb_load_def load = dmb_load_def_default();
-    dmb_path_options options = dmb_path_options_default();
     dmb_path_report report = dmb_path_report_default();
     rig_open(&s, 0.0, 0.0, 0.0);
     def.follows_hole = 0;
@@ -118,15 +124,12 @@ static void pinned_column_with_a_joint(void **state)
     must_model(&s, dmb_model_add_joint(s.model, &guide, NULL));
     load.force[0] = -euler;
     load.programme = add_constant(&s, 0.0);
-    options.part = add_load(&s, &load);
+    const dmb_id push = add_load(&s, &load);
     (void)rig_start(&s, NULL);
     const dmb_static_report rest = find_equilibrium(&s, NULL);
     assert_int_equal(rest.negative, 0);
-    options.scale = DMB_SCALE_PART;
+    dmb_path_options options = path_of(push, load.place, DMB_X, &t);
     options.factor_end = 10.0;
-    options.place = load.place;
-    options.callback = hear;
-    options.callback_context = &t;
     must(&s, dmb_analysis_path(s.sim, &options, &report));
     show(&t);
     check_relative("first bifurcation at Euler's load", report.first_bifurcation, 1.0, 1e-5);
@@ -162,7 +165,6 @@ static void truss_snaps_through(void **state)
     dmb_pipe_def bar = beam_pipe(L, 1, EA, 1e8, 1e8, 1e8);
     dmb_joint_def guide = dmb_joint_def_default();
     dmb_load_def load = dmb_load_def_default();
-    dmb_path_options options = dmb_path_options_default();
     dmb_path_report report = dmb_path_report_default();
     rig_open(&s, 0.0, 0.0, 0.0);
     def.follows_hole = 0;
@@ -183,15 +185,10 @@ static void truss_snaps_through(void **state)
     (void)rig_start(&s, NULL);
     (void)find_equilibrium(&s, NULL);
     t.place = load.place;
-    options.scale = DMB_SCALE_PART;
-    options.part = push;
-    options.place = load.place;
-    options.component = DMB_Z;
+    dmb_path_options options = path_of(push, load.place, DMB_Z, &t);
     options.factor_end = 2.0 * limit;
     options.first_step = 0.2 * limit;
     options.displacement_end = -2.0 * h;
-    options.callback = hear;
-    options.callback_context = &t;
     must(&s, dmb_analysis_path(s.sim, &options, &report));
     show(&t);
     assert_int_equal(report.limits, 2);
@@ -220,7 +217,6 @@ static double arch_limit(uint32_t elements)
     dmb_string_def def = dmb_string_def_default();
     dmb_pipe_def half = beam_pipe(0.5 * R * angle, elements, 1e4 * EI, 1e4 * EI, EI, EI);
     dmb_load_def load = dmb_load_def_default();
-    dmb_path_options options = dmb_path_options_default();
     dmb_path_report report = dmb_path_report_default();
     rig_open(&s, 0.0, 0.0, 0.0);
     def.follows_hole = 0;
@@ -237,15 +233,10 @@ static double arch_limit(uint32_t elements)
     (void)rig_start(&s, NULL);
     (void)find_equilibrium(&s, NULL);
     t.place = load.place;
-    options.scale = DMB_SCALE_PART;
-    options.part = push;
-    options.place = load.place;
-    options.component = DMB_Y;
+    dmb_path_options options = path_of(push, load.place, DMB_Y, &t);
     options.factor_end = 20.0;
     options.first_step = 1.0;
     options.displacement_end = -1.3 * R;
-    options.callback = hear;
-    options.callback_context = &t;
     const int32_t status = dmb_analysis_path(s.sim, &options, &report);
     show(&t);
     must(&s, status);
@@ -277,7 +268,6 @@ static dmb_path_report follow_frame(uint32_t elements, tale *t)
     dmb_pipe_def far = beam_pipe(96.0, elements - elements / 5, EA, GA, EI, EI);
     dmb_joint_def corner = dmb_joint_def_default();
     dmb_load_def load = dmb_load_def_default();
-    dmb_path_options options = dmb_path_options_default();
     dmb_path_report report = dmb_path_report_default();
     rig_open(&s, 0.0, 0.0, 0.0);
     def.follows_hole = 0;
@@ -299,16 +289,12 @@ static dmb_path_report follow_frame(uint32_t elements, tale *t)
     load.place = t->place = dmb_station(near.string, 0, 1.0);
     load.force[2] = -EI / (120.0 * 120.0);
     load.programme = add_constant(&s, 0.0);
-    options.part = add_load(&s, &load);
+    const dmb_id push = add_load(&s, &load);
     (void)rig_start(&s, NULL);
-    options.scale = DMB_SCALE_PART;
-    options.place = load.place;
-    options.component = DMB_Z;
+    dmb_path_options options = path_of(push, load.place, DMB_Z, t);
     options.factor_end = 200.0;
     options.first_step = 1.0;
     options.displacement_end = -95.0;
-    options.callback = hear;
-    options.callback_context = t;
     must(&s, dmb_analysis_path(s.sim, &options, &report));
     rig_close(&s);
     return report;

@@ -88,17 +88,6 @@ static dmb_id add_one_pipe(rig *s, uint32_t number)
     return add_pipes(s, &pipe, 1);
 }
 
-static dmb_id add_joint(rig *s, int32_t kind, dmb_place a, dmb_place b)
-{
-    dmb_joint_def joint = dmb_joint_def_default();
-    dmb_id id = {0, 0};
-    joint.kind = kind;
-    joint.place_a = a;
-    joint.place_b = b;
-    must_model(s, dmb_model_add_joint(s->model, &joint, &id));
-    return id;
-}
-
 /* From the rig to the bit: what a joint has at its rig side is frame a. */
 static void describe_parts(rig_pair *p)
 {
@@ -111,12 +100,12 @@ static void describe_parts(rig_pair *p)
     bit.position[0] = PIPES;
     p->own_bit = add_body(s, &bit);
     dmb_place last = dmb_station(p->own_head, 0, 0.0);
-    p->guide = add_joint(s, DMB_JOINT_CYLINDRICAL, dmb_station(ground, 0, 0.0), last);
+    p->guide = add_joint_between(s, DMB_JOINT_CYLINDRICAL, dmb_station(ground, 0, 0.0), last);
     for (uint32_t i = 0; i < PIPES; i++) {
-        p->fixed[i] = add_joint(s, DMB_JOINT_FIXED, last, dmb_station(p->pipe[i], 0, 0.0));
+        p->fixed[i] = add_joint_between(s, DMB_JOINT_FIXED, last, dmb_station(p->pipe[i], 0, 0.0));
         last = dmb_station(p->pipe[i], 0, 1.0);
     }
-    p->fixed[PIPES] = add_joint(s, DMB_JOINT_FIXED, last, dmb_station(p->own_bit, 0, 0.0));
+    p->fixed[PIPES] = add_joint_between(s, DMB_JOINT_FIXED, last, dmb_station(p->own_bit, 0, 0.0));
     add_drives(s, p->guide, p->own_drive);
 }
 

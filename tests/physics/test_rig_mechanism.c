@@ -4,22 +4,10 @@
 
 #include "mechanism.h"
 
-static dmb_id join(rig *s, int32_t kind, dmb_place a, dmb_place b)
-{
-    dmb_joint_def joint = dmb_joint_def_default();
-    joint.kind = kind;
-    joint.place_a = a;
-    joint.place_b = b;
-    return add_joint(s, &joint);
-}
-
 /* Frame a on the ground or on a body at `at`, its x axis along `axis`; frame b where that is at time 0. */
 static dmb_id join_at(rig *s, int32_t kind, dmb_place a, const double at[3], const double axis[3], dmb_place b)
 {
-    dmb_joint_def joint = dmb_joint_def_default();
-    joint.kind = kind;
-    joint.place_a = a;
-    joint.place_b = b;
+    dmb_joint_def joint = joint_between(kind, a, b);
     joint.match = 1;
     memcpy(joint.origin_a, at, sizeof joint.origin_a);
     memcpy(joint.axis_a, axis, sizeof joint.axis_a);
@@ -103,9 +91,9 @@ static void open_ring(ring *r, uint32_t elements, double push, const dmb_term *r
     def.position[2] = 2.0 * RADIUS;
     def.rotation[1] = PI;
     r->half[1] = add_arc(s, &def, &pipe);
-    r->clamp = join(s, DMB_JOINT_FIXED, ground(), dmb_station(r->half[0], 0, 0.0));
-    r->top = join(s, DMB_JOINT_FIXED, dmb_station(r->half[0], 0, 1.0), dmb_station(r->half[1], 0, 0.0));
-    r->bottom = join(s, DMB_JOINT_FIXED, dmb_station(r->half[1], 0, 1.0), dmb_station(r->half[0], 0, 0.0));
+    r->clamp = add_joint_between(s, DMB_JOINT_FIXED, ground(), dmb_station(r->half[0], 0, 0.0));
+    r->top = add_joint_between(s, DMB_JOINT_FIXED, dmb_station(r->half[0], 0, 1.0), dmb_station(r->half[1], 0, 0.0));
+    r->bottom = add_joint_between(s, DMB_JOINT_FIXED, dmb_station(r->half[1], 0, 1.0), dmb_station(r->half[0], 0, 0.0));
     if (release != NULL) programme = add_programme(s, release, 1);
     add_push(s, dmb_station(r->half[0], 0, 1.0), push, programme);
     (void)rig_start(s, options);
@@ -371,7 +359,7 @@ static void open_shafts(shafts *m, double bend, double load)
     m->out = add_body(s, &shaft);
     m->bearing[0] = join_at(s, DMB_JOINT_REVOLUTE, ground(), origin, along_x, whole(m->in));
     m->bearing[1] = join_at(s, DMB_JOINT_CYLINDRICAL, ground(), origin, axis, whole(m->out));
-    m->cross = join(s, DMB_JOINT_UNIVERSAL, whole(m->in), whole(m->out));
+    m->cross = add_joint_between(s, DMB_JOINT_UNIVERSAL, whole(m->in), whole(m->out));
     m->motor = add_motor(s, m->bearing[0], 10.0, 0.1);
     torque.frame = DMB_FRAME_BODY;
     torque.place = whole(m->out);
@@ -445,7 +433,8 @@ static void open_rods(rods *r, double speed)
     add_bent_hole(s);
     for (uint32_t i = 0; i < RODS; i++) r->rod[i] = add_rod(s, i);
     for (uint32_t i = 0; i + 1 < RODS; i++)
-        r->cross[i] = join(s, DMB_JOINT_UNIVERSAL, dmb_station(r->rod[i], 0, 1.0), dmb_station(r->rod[i + 1], 0, 0.0));
+        r->cross[i] = add_joint_between(s, DMB_JOINT_UNIVERSAL, dmb_station(r->rod[i], 0, 1.0),
+                                        dmb_station(r->rod[i + 1], 0, 0.0));
     rise.kind = DMB_TERM_STEP5;
     rise.h1 = speed;
     r->drive[0] = add_simple_drive(s, DMB_DRIVE_MOTION, r->rod[0], DMB_X, add_constant(s, 0.0));
@@ -569,7 +558,7 @@ static void two_strings_on_one_head(void **state)
     head.mass = 50.0;
     head.centre[2] = 0.1;
     const dmb_id body = add_body(&s, &head);
-    const dmb_id base = join(&s, DMB_JOINT_FIXED, ground(), whole(body));
+    const dmb_id base = add_joint_between(&s, DMB_JOINT_FIXED, ground(), whole(body));
     const dmb_place at = whole(body);
     for (int i = 0; i < 2; i++) {
         const double root[3] = {0.0, side[i], 0.0};
@@ -603,7 +592,7 @@ static void body_beside_a_string(void **state)
     rig_open(&s, 0.0, 0.0, -9.81);
     const dmb_id string = add_free_string(&s, 0.0, 0.0, 6);
     const dmb_place root = dmb_station(string, 0, 0.0);
-    const dmb_id clamp = join(&s, DMB_JOINT_FIXED, ground(), root);
+    const dmb_id clamp = add_joint_between(&s, DMB_JOINT_FIXED, ground(), root);
     body.mass = 30.0;
     body.position[0] = 4.0;
     body.position[1] = 0.25;
@@ -647,7 +636,8 @@ static dmb_id open_long(rig *s, int centralised, dmb_id centraliser[LONG / SPACI
     pipe.string = add_string(s, &def);
     const dmb_id string = add_pipes(s, &pipe, LONG);
     for (uint32_t i = 0; centralised && i < LONG / SPACING; i++)
-        centraliser[i] = join(s, DMB_JOINT_POINT_ON_HOLE, ground(), dmb_station(string, SPACING * (i + 1) - 1, 1.0));
+        centraliser[i] =
+            add_joint_between(s, DMB_JOINT_POINT_ON_HOLE, ground(), dmb_station(string, SPACING * (i + 1) - 1, 1.0));
     (void)rig_start(s, NULL);
     return string;
 }
@@ -751,8 +741,8 @@ static void string_held_twice(void **state)
     const dmb_id string = add_free_string(&s, 0.0, 0.0, 6);
     at[0] = at[1] = dmb_station(string, 0, 0.0);
     at[2] = at[3] = dmb_station(string, 5, 1.0);
-    joints[0] = join(&s, DMB_JOINT_FIXED, ground(), at[0]);
-    joints[1] = join(&s, DMB_JOINT_FIXED, ground(), at[1]);
+    joints[0] = add_joint_between(&s, DMB_JOINT_FIXED, ground(), at[0]);
+    joints[1] = add_joint_between(&s, DMB_JOINT_FIXED, ground(), at[1]);
     joints[2] = join_at(&s, DMB_JOINT_POINT_ON_LINE, ground(), end, along_x, at[2]);
     joints[3] = join_at(&s, DMB_JOINT_CYLINDRICAL, ground(), end, along_x, at[3]);
     load.place = dmb_station(string, 2, 1.0);
@@ -781,7 +771,7 @@ static void reaction_follows_a_load_that_jumps(void **state)
     body.mass = 2.0;
     body.centre[1] = 0.5;
     body.inertia[0] = 0.1;
-    const dmb_id part = add_body(&s, &body), hinge = join(&s, DMB_JOINT_REVOLUTE, ground(), whole(part));
+    const dmb_id part = add_body(&s, &body), hinge = add_joint_between(&s, DMB_JOINT_REVOLUTE, ground(), whole(part));
     const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_LOAD, hinge, DMB_RX, add_constant(&s, 0.0));
     (void)rig_start(&s, NULL);
     must(&s, dmb_sim_set_drive(s.sim, drive, 3.0));

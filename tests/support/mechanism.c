@@ -26,13 +26,6 @@ dmb_id add_bar(rig *s, const bar *def)
     return add_body(s, &body);
 }
 
-dmb_id add_joint(rig *s, const dmb_joint_def *def)
-{
-    dmb_id id = {0, 0};
-    must_model(s, dmb_model_add_joint(s->model, def, &id));
-    return id;
-}
-
 pin pin_ground(double x, double z)
 {
     const pin p = {ground_id, x, z};

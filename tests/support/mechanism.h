@@ -14,7 +14,6 @@ typedef struct bar {
 } bar;
 dmb_body_def bar_body(const bar *def);
 dmb_id add_bar(rig *s, const bar *def);
-dmb_id add_joint(rig *s, const dmb_joint_def *def);
 
 /* One end of a joint: a part, and where on it: along the bar's x from its middle; of the ground: world x and z. */
 typedef struct pin {

@@ -85,6 +85,28 @@ dmb_id add_load(rig *s, const dmb_load_def *def)
     return id;
 }
 
+dmb_id add_joint(rig *s, const dmb_joint_def *def)
+{
+    dmb_id id = {0, 0};
+    must_model(s, dmb_model_add_joint(s->model, def, &id));
+    return id;
+}
+
+dmb_joint_def joint_between(int32_t kind, dmb_place a, dmb_place b)
+{
+    dmb_joint_def joint = dmb_joint_def_default();
+    joint.kind = kind;
+    joint.place_a = a;
+    joint.place_b = b;
+    return joint;
+}
+
+dmb_id add_joint_between(rig *s, int32_t kind, dmb_place a, dmb_place b)
+{
+    const dmb_joint_def joint = joint_between(kind, a, b);
+    return add_joint(s, &joint);
+}
+
 dmb_id add_programme(rig *s, const dmb_term *terms, uint32_t count)
 {
     dmb_id id = {0, 0};

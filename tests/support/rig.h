@@ -30,6 +30,10 @@ dmb_id add_body(rig *s, const dmb_body_def *def);
 dmb_id add_wall(rig *s, const dmb_wall_def *def);
 dmb_id add_drive(rig *s, const dmb_drive_def *def);
 dmb_id add_load(rig *s, const dmb_load_def *def);
+dmb_id add_joint(rig *s, const dmb_joint_def *def);
+/* A joint of that kind between two places with all else by default; and the same, added. */
+dmb_joint_def joint_between(int32_t kind, dmb_place a, dmb_place b);
+dmb_id add_joint_between(rig *s, int32_t kind, dmb_place a, dmb_place b);
 dmb_id add_programme(rig *s, const dmb_term *terms, uint32_t count);
 dmb_id add_constant(rig *s, double value);
 /* A callback that provides value, rate and integral. */

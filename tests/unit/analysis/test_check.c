@@ -52,19 +52,9 @@ static dmb_place at(dmb_id part)
     return dmb_station(part, 0, 0.0);
 }
 
-static dmb_id join(rig *s, const dmb_joint_def *joint)
-{
-    dmb_id id = {0, 0};
-    must_model(s, dmb_model_add_joint(s->model, joint, &id));
-    return id;
-}
-
 static dmb_joint_def joint_of(int32_t kind, dmb_place a, dmb_place b, const char *name)
 {
-    dmb_joint_def joint = dmb_joint_def_default();
-    joint.kind = kind;
-    joint.place_a = a;
-    joint.place_b = b;
+    dmb_joint_def joint = joint_between(kind, a, b);
     joint.match = 1;
     strncpy(joint.name, name, sizeof joint.name - 1);
     return joint;
@@ -103,13 +93,13 @@ static void open_scene(rig *s, const dmb_sim_options *options)
     const dmb_id b = add_body(s, &body);
     dmb_joint_def joint = joint_of(DMB_JOINT_POINT_ON_HOLE, ground, dmb_station(string, 2, 1.0), "centraliser");
     joint.match = 0;
-    (void)join(s, &joint);
+    (void)add_joint(s, &joint);
     joint = joint_of(DMB_JOINT_REVOLUTE, ground, at(a), "hinge");
-    const dmb_id hinge = join(s, &joint);
+    const dmb_id hinge = add_joint(s, &joint);
     joint = joint_of(DMB_JOINT_CYLINDRICAL, ground, at(a), "again");
-    (void)join(s, &joint);
+    (void)add_joint(s, &joint);
     joint = joint_of(DMB_JOINT_PLANAR, ground, at(b), "sheet");
-    const dmb_id sheet = join(s, &joint);
+    const dmb_id sheet = add_joint(s, &joint);
     coupling.joint[0] = hinge;
     coupling.joint[1] = sheet;
     must_model(s, dmb_model_add_coupling(s->model, &coupling, NULL));
