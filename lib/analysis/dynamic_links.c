@@ -194,7 +194,7 @@ static void add_joint(const dmb_dynamic_stiffness *s, const dmb_constraint *c, u
 {
     const dmb_scene *scene = &s->linear->scene;
     const uint32_t rows = scene->layout.size[c->node[a]], columns = scene->layout.size[c->node[b]];
-    double re[DMB_NODE_FULL * DMB_NODE_FULL], im[DMB_NODE_FULL * DMB_NODE_FULL];
+    double re[DMB_NODE_FULL * DMB_NODE_FULL] = {0.0}, im[DMB_NODE_FULL * DMB_NODE_FULL] = {0.0};
     const dmb_complex_array X = {re, im};
     int acts = 0; /* most joints without laws and loads add nothing */
     for (uint32_t r = 0; r < rows; r++)

@@ -373,7 +373,7 @@ static int32_t of_bit(const request *r)
     if (k >= scene->bit_count) return refuse(r, DMB_ERR_ID, "place.part names no bit of this model");
     dmb_bit_slope_of(r->copy, k, &slope);
     const double *by = r->output->component == DMB_X ? slope.weight : slope.torque;
-    const uint32_t stride = scene->layout.size[scene->bits[k].node] == DMB_NODE_FULL ? 1 : 3;
+    const size_t stride = scene->layout.size[scene->bits[k].node] == DMB_NODE_FULL ? 1 : 3;
     dmb_functional_take_node(scene, scene->bits[k].node, out);
     for (uint32_t c = 0; c < out->count; c++) {
         out->pose[c] = by[0] * slope.along[stride * c] + by[1] * slope.about[stride * c];

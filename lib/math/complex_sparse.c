@@ -24,26 +24,26 @@ static dmb_complex_array part(dmb_complex_array array, size_t offset)
 }
 
 /* y -= (fr + i fi) x */
-KERNEL void row_subtract(uint32_t n, double fr, double fi, const double *restrict xr, const double *restrict xi,
+KERNEL void row_subtract(size_t n, double fr, double fi, const double *restrict xr, const double *restrict xi,
                          double *restrict yr, double *restrict yi)
 {
-    for (uint32_t j = 0; j < n; j++) yr[j] -= fr * xr[j] - fi * xi[j];
-    for (uint32_t j = 0; j < n; j++) yi[j] -= fr * xi[j] + fi * xr[j];
+    for (size_t j = 0; j < n; j++) yr[j] -= fr * xr[j] - fi * xi[j];
+    for (size_t j = 0; j < n; j++) yi[j] -= fr * xi[j] + fi * xr[j];
 }
 
 /* x *= fr + i fi */
-KERNEL void row_scale(uint32_t n, double fr, double fi, double *restrict xr, double *restrict xi)
+KERNEL void row_scale(size_t n, double fr, double fi, double *restrict xr, double *restrict xi)
 {
-    for (uint32_t j = 0; j < n; j++) {
+    for (size_t j = 0; j < n; j++) {
         const double re = xr[j], im = xi[j];
         xr[j] = fr * re - fi * im;
         xi[j] = fr * im + fi * re;
     }
 }
 
-KERNEL void row_swap(uint32_t n, double *x, double *y)
+KERNEL void row_swap(size_t n, double *x, double *y)
 {
-    for (uint32_t j = 0; j < n; j++) {
+    for (size_t j = 0; j < n; j++) {
         const double t = x[j];
         x[j] = y[j];
         y[j] = t;
@@ -52,11 +52,11 @@ KERNEL void row_swap(uint32_t n, double *x, double *y)
 
 /* ---- Blocks ------------------------------------------------------------------------------------------------------ */
 
-static uint32_t pivot_of_column(uint32_t n, uint32_t k, dmb_complex_array D)
+static size_t pivot_of_column(size_t n, size_t k, dmb_complex_array D)
 {
-    uint32_t p = k;
+    size_t p = k;
     double most = fabs(D.re[n * k + k]) + fabs(D.im[n * k + k]);
-    for (uint32_t i = k + 1; i < n; i++) {
+    for (size_t i = k + 1; i < n; i++) {
         const double size = fabs(D.re[n * i + k]) + fabs(D.im[n * i + k]);
         if (size > most) most = size, p = i;
     }
@@ -79,19 +79,19 @@ static void invert(double *re, double *im)
 }
 
 /* The column without a pivot, or -1. */
-static int64_t factor_block(uint32_t n, dmb_complex_array D, uint32_t *pivot)
+static int64_t factor_block(size_t n, dmb_complex_array D, uint32_t *pivot)
 {
-    for (uint32_t k = 0; k < n; k++) {
-        const uint32_t p = pivot_of_column(n, k, D), at = n * k + k;
-        if (!dmb_block_pivot_holds(fabs(D.re[n * p + k]) + fabs(D.im[n * p + k]))) return k;
-        pivot[k] = p;
+    for (size_t k = 0; k < n; k++) {
+        const size_t p = pivot_of_column(n, k, D), at = n * k + k;
+        if (!dmb_block_pivot_holds(fabs(D.re[n * p + k]) + fabs(D.im[n * p + k]))) return (int64_t)k;
+        pivot[k] = (uint32_t)p;
         if (p != k) {
             row_swap(n, D.re + n * k, D.re + n * p);
             row_swap(n, D.im + n * k, D.im + n * p);
         }
         invert(D.re + at, D.im + at);
-        for (uint32_t i = k + 1; i < n; i++) {
-            const uint32_t below = n * i + k;
+        for (size_t i = k + 1; i < n; i++) {
+            const size_t below = n * i + k;
             row_scale(1, D.re[at], D.im[at], D.re + below, D.im + below);
             row_subtract(n - k - 1, D.re[below], D.im[below], D.re + at + 1, D.im + at + 1, D.re + below + 1,
                          D.im + below + 1);
@@ -101,24 +101,24 @@ static int64_t factor_block(uint32_t n, dmb_complex_array D, uint32_t *pivot)
 }
 
 /* W (n x m) <- D^-1 W */
-KERNEL void solve_sized(uint32_t n, uint32_t m, dmb_complex_array D, const uint32_t *pivot, dmb_complex_array W)
+KERNEL void solve_sized(size_t n, size_t m, dmb_complex_array D, const uint32_t *pivot, dmb_complex_array W)
 {
-    for (uint32_t k = 0; k < n; k++) {
+    for (size_t k = 0; k < n; k++) {
         if (pivot[k] == k) continue;
         row_swap(m, W.re + m * k, W.re + m * pivot[k]);
         row_swap(m, W.im + m * k, W.im + m * pivot[k]);
     }
-    for (uint32_t i = 1; i < n; i++)
-        for (uint32_t j = 0; j < i; j++)
+    for (size_t i = 1; i < n; i++)
+        for (size_t j = 0; j < i; j++)
             row_subtract(m, D.re[n * i + j], D.im[n * i + j], W.re + m * j, W.im + m * j, W.re + m * i, W.im + m * i);
-    for (uint32_t i = n; i-- > 0;) {
-        for (uint32_t j = i + 1; j < n; j++)
+    for (size_t i = n; i-- > 0;) {
+        for (size_t j = i + 1; j < n; j++)
             row_subtract(m, D.re[n * i + j], D.im[n * i + j], W.re + m * j, W.im + m * j, W.re + m * i, W.im + m * i);
         row_scale(m, D.re[n * i + i], D.im[n * i + i], W.re + m * i, W.im + m * i);
     }
 }
 
-static void solve_block(uint32_t n, uint32_t m, dmb_complex_array D, const uint32_t *pivot, dmb_complex_array W)
+static void solve_block(size_t n, size_t m, dmb_complex_array D, const uint32_t *pivot, dmb_complex_array W)
 {
     if (n == SIX && m == SIX)
         solve_sized(SIX, SIX, D, pivot, W);
@@ -127,16 +127,14 @@ static void solve_block(uint32_t n, uint32_t m, dmb_complex_array D, const uint3
 }
 
 /* A (p x q) -= L (p x n) W (n x q) */
-KERNEL void update_sized(uint32_t p, uint32_t n, uint32_t q, dmb_complex_array L, dmb_complex_array W,
-                         dmb_complex_array A)
+KERNEL void update_sized(size_t p, size_t n, size_t q, dmb_complex_array L, dmb_complex_array W, dmb_complex_array A)
 {
-    for (uint32_t i = 0; i < p; i++)
-        for (uint32_t c = 0; c < n; c++)
+    for (size_t i = 0; i < p; i++)
+        for (size_t c = 0; c < n; c++)
             row_subtract(q, L.re[n * i + c], L.im[n * i + c], W.re + q * c, W.im + q * c, A.re + q * i, A.im + q * i);
 }
 
-static void update_block(uint32_t p, uint32_t n, uint32_t q, dmb_complex_array L, dmb_complex_array W,
-                         dmb_complex_array A)
+static void update_block(size_t p, size_t n, size_t q, dmb_complex_array L, dmb_complex_array W, dmb_complex_array A)
 {
     if (p == SIX && n == SIX && q == SIX)
         update_sized(SIX, SIX, SIX, L, W, A);
@@ -145,11 +143,11 @@ static void update_block(uint32_t p, uint32_t n, uint32_t q, dmb_complex_array L
 }
 
 /* y (p) -= A (p x n) x (n) */
-static void update_vector(uint32_t p, uint32_t n, dmb_complex_array A, dmb_complex_array x, dmb_complex_array y)
+static void update_vector(size_t p, size_t n, dmb_complex_array A, dmb_complex_array x, dmb_complex_array y)
 {
-    for (uint32_t i = 0; i < p; i++) {
+    for (size_t i = 0; i < p; i++) {
         double re = y.re[i], im = y.im[i];
-        for (uint32_t j = 0; j < n; j++) {
+        for (size_t j = 0; j < n; j++) {
             const double ar = A.re[n * i + j], ai = A.im[n * i + j];
             re -= ar * x.re[j] - ai * x.im[j];
             im -= ar * x.im[j] + ai * x.re[j];
