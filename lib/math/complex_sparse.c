@@ -9,11 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#if defined(__GNUC__)
-#define KERNEL static inline __attribute__((always_inline))
-#else
-#define KERNEL static inline
-#endif
+#include "math/block_kernel.h"
 
 enum { SIX = 6 };
 
@@ -24,15 +20,15 @@ static dmb_complex_array part(dmb_complex_array array, size_t offset)
 }
 
 /* y -= (fr + i fi) x */
-KERNEL void row_subtract(size_t n, double fr, double fi, const double *restrict xr, const double *restrict xi,
-                         double *restrict yr, double *restrict yi)
+DMB_BLOCK_KERNEL void row_subtract(size_t n, double fr, double fi, const double *restrict xr, const double *restrict xi,
+                                   double *restrict yr, double *restrict yi)
 {
     for (size_t j = 0; j < n; j++) yr[j] -= fr * xr[j] - fi * xi[j];
     for (size_t j = 0; j < n; j++) yi[j] -= fr * xi[j] + fi * xr[j];
 }
 
 /* x *= fr + i fi */
-KERNEL void row_scale(size_t n, double fr, double fi, double *restrict xr, double *restrict xi)
+DMB_BLOCK_KERNEL void row_scale(size_t n, double fr, double fi, double *restrict xr, double *restrict xi)
 {
     for (size_t j = 0; j < n; j++) {
         const double re = xr[j], im = xi[j];
@@ -41,7 +37,7 @@ KERNEL void row_scale(size_t n, double fr, double fi, double *restrict xr, doubl
     }
 }
 
-KERNEL void row_swap(size_t n, double *x, double *y)
+DMB_BLOCK_KERNEL void row_swap(size_t n, double *x, double *y)
 {
     for (size_t j = 0; j < n; j++) {
         const double t = x[j];
@@ -101,7 +97,7 @@ static int64_t factor_block(size_t n, dmb_complex_array D, uint32_t *pivot)
 }
 
 /* W (n x m) <- D^-1 W */
-KERNEL void solve_sized(size_t n, size_t m, dmb_complex_array D, const uint32_t *pivot, dmb_complex_array W)
+DMB_BLOCK_KERNEL void solve_sized(size_t n, size_t m, dmb_complex_array D, const uint32_t *pivot, dmb_complex_array W)
 {
     for (size_t k = 0; k < n; k++) {
         if (pivot[k] == k) continue;
@@ -127,7 +123,8 @@ static void solve_block(size_t n, size_t m, dmb_complex_array D, const uint32_t 
 }
 
 /* A (p x q) -= L (p x n) W (n x q) */
-KERNEL void update_sized(size_t p, size_t n, size_t q, dmb_complex_array L, dmb_complex_array W, dmb_complex_array A)
+DMB_BLOCK_KERNEL void update_sized(size_t p, size_t n, size_t q, dmb_complex_array L, dmb_complex_array W,
+                                   dmb_complex_array A)
 {
     for (size_t i = 0; i < p; i++)
         for (size_t c = 0; c < n; c++)
