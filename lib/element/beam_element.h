@@ -111,18 +111,15 @@ static inline void dmb_beam_tangent(const dmb_beam_task *task, const dmb_beam_co
                                     const dmb_beam_shape *shape, const dmb_real va[6], const dmb_real vb[6],
                                     const dmb_real pa[6], const dmb_real pb[6], dmb_beam_output *out)
 {
-    if (task->inertia_only)
-        dmb_beam_clear_blocks(&out->K);
-    else
+    const dmb_real factor = dmb_real_of(task->velocity_factor);
+    if (task->dynamic && task->damped)
+        dmb_beam_damped_blocks(c, shape, out->stress, va, vb, factor, &out->K, &out->C);
+    else if (!task->inertia_only)
         dmb_beam_stiffness_blocks(c, shape, out->stress, &out->K);
+    if (task->inertia_only) dmb_beam_clear_blocks(&out->K);
     if (task->dynamic) {
-        if (task->damped) {
-            dmb_beam_damping_blocks(c, shape, va, vb, dmb_real_of(task->velocity_factor), &out->K, &out->C);
-        } else {
-            dmb_beam_clear_blocks(&out->C);
-        }
-        dmb_beam_add_inertia_blocks(c, va, vb, pa, pb, dmb_real_of(task->mass_factor),
-                                    dmb_real_of(task->velocity_factor), &out->C);
+        if (!task->damped) dmb_beam_clear_blocks(&out->C);
+        dmb_beam_add_inertia_blocks(c, va, vb, pa, pb, dmb_real_of(task->mass_factor), factor, &out->C);
     }
     if (!task->arms) return;
     dmb_beam_blocks_to_nodes(c->arm, &out->K);
@@ -159,6 +156,7 @@ static inline int dmb_beam_element(const dmb_beam_task *task, const dmb_beam_con
     }
     out->rounding = c->stiffness[0] * c->stiffness[0] * in->reach * in->reach;
     dmb_beam_internal_force(task, c, &shape, in->va, in->vb, out);
+    for (int i = 0; i < 6; i++) pa[i] = pb[i] = dmb_real_of(0.0);
     if (task->dynamic) {
         dmb_beam_momentum(c, in->va, in->vb, pa, pb);
         dmb_beam_inertia_force(c, in->va, in->vb, in->aa, in->ab, pa, pb, out);

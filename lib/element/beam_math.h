@@ -159,44 +159,38 @@ static inline void dmb_beam_stiffness_blocks(const dmb_beam_constants *c, const 
     dmb_beam_add_geometric_stiffness(shape, stress, &R, blocks);
 }
 
-/* out += s (rows of T6(-d)^-T or T6(d)^-T) diag(k) N, N any 6x6 */
-static inline void dmb_beam_add_rows(dmb_real s, const dmb_se3_tangent *T, const dmb_real k[6], const dmb_real N[36],
-                                     dmb_real out[36])
+/* The same with damping, which takes part in the stiffness too: s gains tau K d'/L with d' = P V. Its derivative by V is
+ * tau P^T (K/L) P, written to `damping` times `factor`; by the pose it is tau P^T (K/L) X P with X = d(d')/dd =
+ * X(d, V_B) + X(-d, V_A), both of THEORY 3's operators. So the material part becomes P^T (K/L) (1 + tau X) P. */
+static inline void dmb_beam_damped_blocks(const dmb_beam_constants *c, const dmb_beam_shape *shape,
+                                          const dmb_real stress[6], const dmb_real velocity_a[6],
+                                          const dmb_real velocity_b[6], dmb_real factor, dmb_beam_blocks *stiffness,
+                                          dmb_beam_blocks *damping)
 {
-    dmb_real full[36], kN[36], product[36];
-    dmb_se3_tangent_matrix(T, full);
-    for (int i = 0; i < 36; i++) kN[i] = k[i / 6] * N[i];
-    dmb_mat6_mul_tn(full, kN, product);
-    dmb_mat6_axpy(s, product, out);
-}
-
-/* Adds the part that d' brings to the stiffness, and writes d g/d velocity times `factor`:
- * s gains tau K d'/L with d' = P V. Its derivative by V is tau P^T (K/L) P, by the pose tau P^T (K/L) X P with
- * X = d(d')/dd = X(d, V_B) + X(-d, V_A), both of THEORY 3's operators. */
-static inline void dmb_beam_damping_blocks(const dmb_beam_constants *c, const dmb_beam_shape *shape,
-                                           const dmb_real velocity_a[6], const dmb_real velocity_b[6], dmb_real factor,
-                                           dmb_beam_blocks *stiffness, dmb_beam_blocks *damping)
-{
-    dmb_real k[6], back[6], X[36], Xa[36], full[36], XT[36], XR[36];
-    dmb_se3_tangent R;
+    dmb_real k[6], back[6];
+    dmb_se3_tangent R, X, Xa, YT = shape->T, YR;
     for (int i = 0; i < 6; i++) {
         k[i] = factor * c->damping_time * c->stiffness[i];
         back[i] = -shape->d[i];
     }
     dmb_se3_tangent_reverse(&shape->T, &R);
     dmb_beam_material_stiffness(k, &shape->T, &R, damping);
-    for (int i = 0; i < 6; i++) k[i] = c->damping_time * c->stiffness[i];
-    dmb_se3_velocity_derivative(shape->d, velocity_b, &shape->k, X);
-    dmb_se3_velocity_derivative(back, velocity_a, &shape->k, Xa);
-    dmb_mat6_add(X, Xa, X);
-    dmb_se3_tangent_matrix(&shape->T, full);
-    dmb_mat6_mul(X, full, XT);
-    dmb_se3_tangent_matrix(&R, full);
-    dmb_mat6_mul(X, full, XR);
-    dmb_beam_add_rows(dmb_real_of(1.0), &R, k, XR, stiffness->aa);
-    dmb_beam_add_rows(dmb_real_of(-1.0), &R, k, XT, stiffness->ab);
-    dmb_beam_add_rows(dmb_real_of(-1.0), &shape->T, k, XR, stiffness->ba);
-    dmb_beam_add_rows(dmb_real_of(1.0), &shape->T, k, XT, stiffness->bb);
+    dmb_se3_velocity_derivative_at(shape->d, velocity_b, &shape->k, &X);
+    dmb_se3_velocity_derivative_at(back, velocity_a, &shape->k, &Xa);
+    dmb_mat3_add(X.S, Xa.S, X.S);
+    dmb_mat3_add(X.B, Xa.B, X.B);
+    YR = R;
+    dmb_se3_add_tangent_product(c->damping_time, &X, &shape->T, &YT);
+    dmb_se3_add_tangent_product(c->damping_time, &X, &R, &YR);
+    dmb_se3_tangent_congruence(&R, c->stiffness, &YR, stiffness->aa);
+    dmb_se3_tangent_congruence(&R, c->stiffness, &YT, stiffness->ab);
+    dmb_se3_tangent_congruence(&shape->T, c->stiffness, &YR, stiffness->ba);
+    dmb_se3_tangent_congruence(&shape->T, c->stiffness, &YT, stiffness->bb);
+    for (int i = 0; i < 36; i++) {
+        stiffness->ab[i] = -stiffness->ab[i];
+        stiffness->ba[i] = -stiffness->ba[i];
+    }
+    dmb_beam_add_geometric_stiffness(shape, stress, &R, stiffness);
 }
 
 /* ---- Inertia ----------------------------------------------------------------------------------------------------- */

@@ -294,24 +294,43 @@ static inline void dmb_se3_stress_times_tangent(dmb_real f, const dmb_se3_stress
     dmb_mat6_add_block(f, block, 1, 1, out);
 }
 
-/* X(h, v) = d/dh (T6(h)^-1 v) at fixed v = (u; w): [Jm(w), Jm(u) + Hh(w); 0, Jm(w)], Jm(a) = -a~/2 + the odd part */
-static inline void dmb_se3_velocity_derivative(const dmb_real h[6], const dmb_real v[6],
-                                               const dmb_so3_inverse_coefficients *k, dmb_real out[36])
+/* X(h, v) = d/dh (T6(h)^-1 v) at fixed v = (u; w): [Jm(w), Jm(u) + Hh(w); 0, Jm(w)], Jm(a) = -a~/2 + the odd part.
+ * Of the shape of T6 itself, so it comes as that. */
+static inline void dmb_se3_velocity_derivative_at(const dmb_real h[6], const dmb_real v[6],
+                                                  const dmb_so3_inverse_coefficients *k, dmb_se3_tangent *X)
 {
     const dmb_so3_inverse_coefficients f = dmb_so3_inverse_coefficients_or(h + 3, k);
     dmb_real skew[9], J[9], H[9];
-    dmb_mat6_zero(out);
-    dmb_so3_square_derivative(h + 3, v + 3, &f, J);
+    dmb_so3_square_derivative(h + 3, v + 3, &f, X->S);
     dmb_skew(v + 3, skew);
-    dmb_mat3_axpy(dmb_real_of(-0.5), skew, J);
-    dmb_mat6_set_block(J, 0, 0, out);
-    dmb_mat6_set_block(J, 1, 1, out);
+    dmb_mat3_axpy(dmb_real_of(-0.5), skew, X->S);
     dmb_so3_square_derivative(h + 3, v, &f, J);
     dmb_skew(v, skew);
     dmb_mat3_axpy(dmb_real_of(-0.5), skew, J);
     dmb_se3_square_second_derivative(h, v + 3, &f, H);
-    dmb_mat3_add(J, H, H);
-    dmb_mat6_set_block(H, 0, 1, out);
+    dmb_mat3_add(J, H, X->B);
+}
+
+/* The same as a full matrix. */
+static inline void dmb_se3_velocity_derivative(const dmb_real h[6], const dmb_real v[6],
+                                               const dmb_so3_inverse_coefficients *k, dmb_real out[36])
+{
+    dmb_se3_tangent X;
+    dmb_se3_velocity_derivative_at(h, v, k, &X);
+    dmb_se3_tangent_matrix(&X, out);
+}
+
+/* out += s X T: [J S, J B + H S; 0, J S] */
+static inline void dmb_se3_add_tangent_product(dmb_real s, const dmb_se3_tangent *X, const dmb_se3_tangent *T,
+                                               dmb_se3_tangent *out)
+{
+    dmb_real product[9];
+    dmb_mat3_mul(X->S, T->S, product);
+    dmb_mat3_axpy(s, product, out->S);
+    dmb_mat3_mul(X->S, T->B, product);
+    dmb_mat3_axpy(s, product, out->B);
+    dmb_mat3_mul(X->B, T->S, product);
+    dmb_mat3_axpy(s, product, out->B);
 }
 
 #endif

@@ -31,12 +31,13 @@ static void stiffness_of(const dmb_element_type *type, const dmb_beam_shape *sha
     dmb_beam_stiffness_blocks(&c, shape, stress, blocks);
 }
 
-static void damping_of(const dmb_element_type *type, const dmb_beam_shape *shape, const double velocity_a[6],
-                       const double velocity_b[6], double factor, dmb_beam_blocks *stiffness, dmb_beam_blocks *damping)
+static void damped_of(const dmb_element_type *type, const dmb_beam_shape *shape, const double stress[6],
+                      const double velocity_a[6], const double velocity_b[6], double factor, dmb_beam_blocks *stiffness,
+                      dmb_beam_blocks *damping)
 {
     dmb_beam_constants c;
     dmb_beam_load_constants(type, 0, &c);
-    dmb_beam_damping_blocks(&c, shape, velocity_a, velocity_b, factor, stiffness, damping);
+    dmb_beam_damped_blocks(&c, shape, stress, velocity_a, velocity_b, factor, stiffness, damping);
 }
 
 static void add_inertia_tangent(const dmb_beam_mass *mass, const double va[6], const double vb[6], const double pa[6],
@@ -217,8 +218,10 @@ static double stiffness_error(const dmb_element_type *type, const two_ends *ends
     double rate[6];
     dmb_beam_strain_rate(&shape, va, vb, rate);
     for (int i = 0; i < 6; i++) s[i] += type->damping_time * type->stiffness[i] * rate[i];
-    stiffness_of(type, &shape, s, &blocks);
-    if (type->damping_time != 0.0) damping_of(type, &shape, va, vb, 1.0, &blocks, &damping);
+    if (type->damping_time != 0.0)
+        damped_of(type, &shape, s, va, vb, 1.0, &blocks, &damping);
+    else
+        stiffness_of(type, &shape, s, &blocks);
     dmb_beam_blocks_to_nodes(type->arm, &blocks);
     assemble(&blocks, K);
     for (int c = 0; c < 12; c++) {
@@ -276,8 +279,8 @@ static void damping_is_the_derivative_by_velocity(void **state)
         soft_type(0.4, k % 2 ? arms : no_arm, &type);
         draw_ends(&seed, angles[k % ANGLES], &ends);
         shape_of(&type, &ends, &shape);
-        memset(&unused, 0, sizeof unused);
-        damping_of(&type, &shape, ends.va, ends.vb, factor, &unused, &damping);
+        const double stress[6] = {0.0};
+        damped_of(&type, &shape, stress, ends.va, ends.vb, factor, &unused, &damping);
         dmb_beam_blocks_to_nodes(type.arm, &damping);
         assemble(&damping, C);
         for (int c = 0; c < 12; c++) {
