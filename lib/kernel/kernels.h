@@ -126,6 +126,29 @@ typedef struct dmb_twist_run {
     double *rows;            /* two vectors a node, shape (count, 6) */
 } dmb_twist_run;
 
+/* Rows at the start of a step (integrator/step_motion): with a0 = v0' + ratio (a - v0') of the accepted state,
+ * a1 = a_from_dv v0' + a_from_a0 a0, v1 = v0 + v_from_a0 a0 + v_from_a1 a1, h Dq = h v0 + z_from_a0 a0 + z_from_a1 a1. */
+typedef struct dmb_predict_run {
+    uint32_t count;
+    uint32_t reserved;
+    double step, ratio; /* [s], [-] */
+    double a_from_dv, a_from_a0, v_from_a0, v_from_a1, z_from_a0, z_from_a1; /* [-], [s], [s2] */
+    const double *now_velocity, *now_acceleration, *now_pseudo_acceleration;
+    double *velocity, *acceleration, *pseudo_acceleration, *increment; /* written */
+} dmb_predict_run;
+
+/* Rows moved by a correction of h Dq. */
+typedef struct dmb_correct_run {
+    uint32_t count;
+    uint32_t reserved;
+    double to_velocity, to_acceleration, to_pseudo_acceleration; /* [1/s], [1/s2] */
+    const double *correction;
+    double *velocity, *acceleration, *pseudo_acceleration, *increment; /* added to */
+} dmb_correct_run;
+
+/* Sums of squares that are made side by side: of four FULL nodes, of twelve PATH nodes. */
+#define DMB_SQUARES 24
+
 typedef struct dmb_kernels {
     uint32_t lanes;
     uint32_t reserved;
@@ -138,6 +161,11 @@ typedef struct dmb_kernels {
     void (*advance)(const dmb_node_run *run);
     void (*turns)(const dmb_turn_run *run);
     void (*twist)(const dmb_twist_run *run);
+    void (*predict)(const dmb_predict_run *run);
+    void (*correct)(const dmb_correct_run *run);
+    /* rest[i % 24] = sum residual[i]^2, all[i % 24] = sum scale[i]^2 over the rows with solved[i] = 1 */
+    void (*squares)(uint32_t count, const double *residual, const double *scale, const uint8_t *solved,
+                    double rest[DMB_SQUARES], double all[DMB_SQUARES]);
     /* as dmb_block_factor and dmb_block_solve, by the inverses of math/block_inverse.h */
     int64_t (*factor)(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count);
     void (*solve)(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,

@@ -5,6 +5,7 @@
 #include "kernel/lane_group.h"
 #include "kernel/lanes_bar.h"
 #include "kernel/lanes_node.h"
+#include "kernel/lanes_row.h"
 #include "kernel/lanes_wall.h"
 #include "math/block_inverse.h"
 
@@ -221,5 +222,8 @@ const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .advance = advance,
                                  .turns = turns,
                                  .twist = twist,
+                                 .predict = predict,
+                                 .correct = correct,
+                                 .squares = squares,
                                  .factor = factor,
                                  .solve = solve};

@@ -10,50 +10,18 @@
 /* Rounding of a pose reaches a stiff element's force multiplied by EA/L: this many units of it count as zero. */
 #define DMB_ROUNDING_UNITS 4.0
 
-/* Sums that are made side by side: of one FULL node, of four PATH nodes. */
-enum { SIDE_BY_SIDE = 8 };
-
 typedef struct norms {
     double rest, all; /* squares of residual and of the terms that balance, [N2] */
 } norms;
 
-/* Rows i .. i + size - 1 into the sums beside them; rows that are not unknown count 0. */
-static inline void add_squares(uint32_t size, const double *restrict residual, const double *restrict scale,
-                               const uint8_t *restrict solved, double *restrict rest, double *restrict all)
-{
-    static const uint8_t every[SIDE_BY_SIDE] = {1, 1, 1, 1, 1, 1, 1, 1};
-    if (memcmp(solved, every, size) == 0) {
-        for (uint32_t c = 0; c < size; c++) rest[c] += residual[c] * residual[c];
-        for (uint32_t c = 0; c < size; c++) all[c] += scale[c] * scale[c];
-        return;
-    }
-    for (uint32_t c = 0; c < size; c++) {
-        rest[c] += solved[c] ? residual[c] * residual[c] : 0.0;
-        all[c] += solved[c] ? scale[c] * scale[c] : 0.0;
-    }
-}
-
 /* Closes the sums of nodes of one size: translations weigh 1, rotations `arm`. */
 static void add_components(uint32_t size, double arm, const double *rest, const double *all, norms *n)
 {
-    for (uint32_t c = 0; c < SIDE_BY_SIDE; c++) {
+    for (uint32_t c = 0; c < DMB_SQUARES; c++) {
         const double weight = 2 * (c % size) < size ? 1.0 : arm;
         n->rest += weight * rest[c];
         n->all += weight * all[c];
     }
-}
-
-/* `rows` rows of nodes of one size, `width` rows side by side, whole nodes, so that they vectorise. */
-static inline void add_rows(uint32_t width, const dmb_sim *sim, uint32_t row, uint32_t rows, double *rest, double *all)
-{
-    const double *residual = sim->correction + row, *scale = sim->scale_row + row;
-    const uint8_t *solved = sim->scene->solved_row + row;
-    double r[SIDE_BY_SIDE] = {0.0}, s[SIDE_BY_SIDE] = {0.0};
-    uint32_t i = 0;
-    for (; i + width <= rows; i += width) add_squares(width, residual + i, scale + i, solved + i, r, s);
-    if (i < rows) add_squares(rows - i, residual + i, scale + i, solved + i, r, s);
-    memcpy(rest, r, sizeof r);
-    memcpy(all, s, sizeof s);
 }
 
 /* Nodes from `first` on that have as many rows as it. */
@@ -72,12 +40,10 @@ static norms norms_of(const dmb_sim *sim, const dmb_chain *chain)
     norms n = {0.0, 0.0};
     for (uint32_t i = chain->first, count; i < end; i += count) {
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
-        double rest[SIDE_BY_SIDE], all[SIDE_BY_SIDE];
+        double rest[DMB_SQUARES], all[DMB_SQUARES];
         count = nodes_alike(scene, i, end);
-        if (size == DMB_NODE_FULL)
-            add_rows(DMB_NODE_FULL, sim, row, count * size, rest, all);
-        else
-            add_rows(SIDE_BY_SIDE, sim, row, count * size, rest, all);
+        scene->kernels->squares(count * size, sim->correction + row, sim->scale_row + row, scene->solved_row + row,
+                                rest, all);
         add_components(size, arm, rest, all, &n);
     }
     return n;

@@ -156,7 +156,8 @@ static void releasing_changes_no_speed(void **state)
     must(&p.s, dmb_sim_set_joint(p.s.sim, p.hinge[1], DMB_JOINT_LOCKED));
     take_steps(&p.s, step, 100);
     bar_speeds(&p, before);
-    check_below("energy into impact [J]", energy_before_and_after(&p, &energy, DMB_JOINT_ACTIVE, DMB_OK), 0.0);
+    /* of 15 J; the rows that go on hold to rounding already */
+    check_below("energy into impact [J]", energy_before_and_after(&p, &energy, DMB_JOINT_ACTIVE, DMB_OK), 1e-14);
     bar_speeds(&p, after);
     check_below("jump of the speeds", largest_difference(2, before, after), 1e-13);
     take_steps(&p.s, step, 500);

@@ -1,0 +1,69 @@
+/* Rows one after the other, all alike: as wide as the compiler makes the loops for this processor. */
+#ifndef DMB_KERNEL_LANES_ROW_H
+#define DMB_KERNEL_LANES_ROW_H
+
+#include <string.h>
+
+#include "kernel/kernels.h"
+
+/* Nothing overlaps, so that these vectorise. */
+static void predict(const dmb_predict_run *run)
+{
+    const double h = run->step, ratio = run->ratio, a_a0 = run->a_from_a0, a_dv = run->a_from_dv;
+    const double v_a0 = run->v_from_a0, v_a1 = run->v_from_a1, z_a0 = run->z_from_a0, z_a1 = run->z_from_a1;
+    const double *restrict now_v = run->now_velocity, *restrict now_dv = run->now_acceleration,
+                           *restrict now_a = run->now_pseudo_acceleration;
+    double *restrict v = run->velocity, *restrict dv = run->acceleration, *restrict a = run->pseudo_acceleration,
+                     *restrict z = run->increment;
+    for (uint32_t i = 0; i < run->count; i++) {
+        const double a0 = now_dv[i] + ratio * (now_a[i] - now_dv[i]), a1 = a_dv * now_dv[i] + a_a0 * a0;
+        dv[i] = now_dv[i];
+        a[i] = a1;
+        v[i] = now_v[i] + v_a0 * a0 + v_a1 * a1;
+        z[i] = h * now_v[i] + (z_a0 * a0 + z_a1 * a1);
+    }
+}
+
+static void correct(const dmb_correct_run *run)
+{
+    const double to_v = run->to_velocity, to_dv = run->to_acceleration, to_a = run->to_pseudo_acceleration;
+    const double *restrict z = run->correction;
+    double *restrict v = run->velocity, *restrict dv = run->acceleration, *restrict a = run->pseudo_acceleration,
+                     *restrict increment = run->increment;
+    for (uint32_t i = 0; i < run->count; i++) {
+        increment[i] += z[i];
+        v[i] += to_v * z[i];
+        dv[i] += to_dv * z[i];
+        a[i] += to_a * z[i];
+    }
+}
+
+/* Rows i .. i + count - 1 into the sums beside them. */
+static inline void add_squares(uint32_t count, const double *restrict residual, const double *restrict scale,
+                               const uint8_t *restrict solved, double *restrict rest, double *restrict all)
+{
+    static const uint8_t every[DMB_SQUARES] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+    if (memcmp(solved, every, count) == 0) {
+        for (uint32_t c = 0; c < count; c++) rest[c] += residual[c] * residual[c];
+        for (uint32_t c = 0; c < count; c++) all[c] += scale[c] * scale[c];
+        return;
+    }
+    for (uint32_t c = 0; c < count; c++) {
+        rest[c] += solved[c] ? residual[c] * residual[c] : 0.0;
+        all[c] += solved[c] ? scale[c] * scale[c] : 0.0;
+    }
+}
+
+static void squares(uint32_t count, const double *residual, const double *scale, const uint8_t *solved,
+                    double rest[DMB_SQUARES], double all[DMB_SQUARES])
+{
+    double r[DMB_SQUARES] = {0.0}, s[DMB_SQUARES] = {0.0};
+    uint32_t i = 0;
+    for (; i + DMB_SQUARES <= count; i += DMB_SQUARES)
+        add_squares(DMB_SQUARES, residual + i, scale + i, solved + i, r, s);
+    if (i < count) add_squares(count - i, residual + i, scale + i, solved + i, r, s);
+    memcpy(rest, r, sizeof r);
+    memcpy(all, s, sizeof s);
+}
+
+#endif
