@@ -310,8 +310,9 @@ static int32_t locked_up(void)
     return status < 0;
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1) return fprintf(stderr, "'%s' is not wanted: buckling takes no arguments\n", words[1]), 2;
     const int32_t first = on_the_low_side(), second = as_a_helix(), third = locked_up();
     return first || second || third;
 }

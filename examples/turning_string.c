@@ -159,13 +159,28 @@ static void print(const turning *t)
            t->amplitudes[2][0][0]);
 }
 
+static const char usage[] = "usage: turning_string [--threads N], N from 1 to 64 (2), which changes no digit\n";
+
+/* 0: refused, and said why. */
+static int read_threads(int count, char **words)
+{
+    char *rest = NULL;
+    if (count == 1) return 2;
+    if (strcmp(words[1], "--threads") != 0 || count > 3)
+        return fprintf(stderr, "'%s' is not wanted\n%s", words[count > 3 ? 3 : 1], usage), 0;
+    if (count == 2) return fprintf(stderr, "--threads needs a number\n%s", usage), 0;
+    const long threads = strtol(words[2], &rest, 10);
+    if (rest != words[2] && *rest == '\0' && threads >= 1 && threads <= THREADS) return (int)threads;
+    return fprintf(stderr, "'%s' is not a whole number from 1 to %d\n%s", words[2], THREADS, usage), 0;
+}
+
 int main(int count, char **words)
 {
     static turning all[SPEEDS];
-    const int threads = count == 3 && strcmp(words[1], "--threads") == 0 ? atoi(words[2]) : 2;
     int failed = 0;
-    if ((count != 1 && count != 3) || threads < 1 || threads > THREADS)
-        return fputs("usage: turning_string [--threads N]\n", stderr), 2;
+    if (count == 2 && strcmp(words[1], "--help") == 0) return fputs(usage, stdout) == EOF;
+    const int threads = read_threads(count, words);
+    if (threads == 0) return 2;
     for (int i = 0; i < SPEEDS; i++) all[i].frequency = 2.5 + 0.25 * i;
     run_all(all, threads);
     puts("Middle of the string: sideways and up and down [mm], force of its ring on the wall [N]");
