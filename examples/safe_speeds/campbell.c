@@ -3,6 +3,7 @@
 #include "campbell.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "scene.h"
@@ -42,7 +43,9 @@ static int32_t find_modes(campbell *c, dmb_sim *sim)
     options.equilibrium_tolerance = TILT;
     int32_t status = dmb_analysis_modes(sim, &options, &modes);
     if (status >= 0) status = dmb_modes_get_info(modes, &info);
-    for (uint32_t i = 0; i < info.count && c->count < CAMPBELL_MODES && status >= 0; i++) {
+    if (status >= 0) c->modes = calloc((size_t)info.count + 1, sizeof *c->modes);
+    if (status >= 0 && c->modes == NULL) status = DMB_ERR_NO_MEMORY;
+    for (uint32_t i = 0; i < info.count && status >= 0; i++) {
         dmb_mode *mode = c->modes + c->count;
         *mode = dmb_mode_default();
         status = dmb_modes_get(modes, i, mode);

@@ -4,7 +4,7 @@
 
 #include <drillmbd/drillmbd.h>
 
-enum { CAMPBELL_SPEEDS = 10, CAMPBELL_MODES = 400, KINDS = 3 };
+enum { CAMPBELL_SPEEDS = 10, KINDS = 3 };
 extern const char *const kind_names[KINDS];
 
 typedef struct campbell {
@@ -12,7 +12,7 @@ typedef struct campbell {
     double rpm, highest; /* [Hz] looked for up to here */
     int32_t status;
     char message[256];
-    dmb_mode modes[CAMPBELL_MODES];
+    dmb_mode *modes; /* shape (count), the caller's to free */
 } campbell;
 
 /* Axial, torsional or lateral: what most of its kinetic energy is. */

@@ -29,7 +29,7 @@
 #define BLADES 4
 #define CAMPBELL_DEPTH 100 /* [m] unless one depth is asked for */
 
-enum { DEPTHS = 15, DEPTH_STEP = 10, BANDS = 24, SPEEDS = 271, MODES = 400, ORDERS = 6, LIMITS = 5 };
+enum { DEPTHS = 15, DEPTH_STEP = 10, BANDS = 24, SPEEDS = 271, ORDERS = 6, LIMITS = 5 };
 
 static char given_name[32]; /* of the last order, where one is asked for */
 static const char *const order_names[ORDERS] = {"1x eccentric pipes", "2x misalignment",   "3x walking bit",
@@ -47,8 +47,9 @@ typedef struct depth {
     char message[256];
     dmb_speed_band bands[BANDS];
     uint32_t band_count, mode_count;
+    int more_bands; /* than there is room for */
     double severity[SPEEDS];
-    dmb_mode modes[MODES];
+    dmb_mode *modes;
 } depth;
 
 /* ---- Analyses ---------------------------------------------------------------------------------------------------- */
@@ -93,8 +94,11 @@ static int32_t find_bands(depth *d)
     options.structural_damping = 0.03;
     d->band_count = BANDS;
     for (uint32_t i = 0; i < BANDS; i++) d->bands[i] = dmb_speed_band_default();
-    return dmb_analysis_speeds(d->scene.sim, &options, orders, d->given_order > 0.0 ? ORDERS : ORDERS - 1, outputs,
-                               limits, LIMITS, d->bands, &d->band_count, d->severity);
+    const int32_t status =
+        dmb_analysis_speeds(d->scene.sim, &options, orders, d->given_order > 0.0 ? ORDERS : ORDERS - 1, outputs, limits,
+                            LIMITS, d->bands, &d->band_count, d->severity);
+    d->more_bands = status == DMB_NOTE_FULL;
+    return status;
 }
 
 /* [Hz] that orders of the speed can reach. */
@@ -113,10 +117,12 @@ static int32_t find_modes(depth *d)
     options.friction = 0;
     int32_t status = dmb_analysis_modes(d->scene.sim, &options, &modes);
     if (status >= 0) status = dmb_modes_get_info(modes, &info);
-    d->mode_count = info.count < MODES ? info.count : MODES;
-    for (uint32_t i = 0; i < d->mode_count && status >= 0; i++) {
+    if (status >= 0) d->modes = calloc((size_t)info.count + 1, sizeof *d->modes);
+    if (status >= 0 && d->modes == NULL) status = DMB_ERR_NO_MEMORY;
+    for (uint32_t i = 0; i < info.count && status >= 0; i++) {
         d->modes[i] = dmb_mode_default();
         status = dmb_modes_get(modes, i, d->modes + i);
+        d->mode_count += status >= 0;
     }
     dmb_modes_destroy(&modes);
     return status;
@@ -149,6 +155,7 @@ static void print_depth(const depth *d)
         printf("    %6.1f to %6.1f rpm   worst %5.1f   severity %6.2f   %s: %s\n", b->low * RPM, b->high * RPM,
                b->speed * RPM, b->severity, order_names[b->order], limit_names[b->output]);
     }
+    if (d->more_bands) printf("    and more than the first %d that are told here\n", BANDS);
 }
 
 static int write_bands(const char *folder, const depth *depths, int count)
@@ -296,5 +303,7 @@ int main(int count, char **words)
         failed |= write_bands(asked.folder, depths, found) | write_modes(asked.folder, depths, found) |
                   write_severity(asked.folder, depths, found) | write_orders(asked.folder, asked.order) |
                   campbell_write(asked.folder, turning);
+    for (int i = 0; i < DEPTHS; i++) free(depths[i].modes);
+    for (int i = 0; i < CAMPBELL_SPEEDS; i++) free(turning[i].modes);
     return failed;
 }
