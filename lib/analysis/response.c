@@ -77,7 +77,8 @@ static int32_t check_balance(const response_work *w)
 
 static int32_t linearise(response_work *w)
 {
-    const dmb_linear_options options = {.contact = w->options.contact, .no_friction = !w->options.friction, .gap = w->options.contact_gap};
+    const dmb_linear_options options = {
+        .contact = w->options.contact, .no_friction = !w->options.friction, .gap = w->options.contact_gap};
     int32_t status = dmb_linear_make(w->sim, &options, &w->linear);
     if (status == DMB_OK) status = check_balance(w);
     if (status < 0) return status;

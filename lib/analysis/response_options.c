@@ -152,7 +152,8 @@ int32_t dmb_output_take(const dmb_output *outputs, uint32_t i, dmb_message *mess
     dmb_check_choice(&check, "kind", out->kind, DMB_OUTPUT_DISPLACEMENT, DMB_OUTPUT_BIT);
     dmb_check_choice(&check, "component", out->component, DMB_X, out->kind == DMB_OUTPUT_CONTACT ? DMB_Z : DMB_RZ);
     if (out->kind == DMB_OUTPUT_BIT && check.status == DMB_OK && out->component != DMB_X && out->component != DMB_RX)
-        dmb_check_fail(&check, DMB_ERR_VALUE, "component", out->component, "DMB_X (weight on the bit) or DMB_RX (torque)");
+        dmb_check_fail(&check, DMB_ERR_VALUE, "component", out->component,
+                       "DMB_X (weight on the bit) or DMB_RX (torque)");
     dmb_check_choice(&check, "frame", out->frame, DMB_FRAME_WORLD, DMB_FRAME_BODY);
     return check.status;
 }

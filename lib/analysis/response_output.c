@@ -306,10 +306,9 @@ static int32_t of_joint(const request *r)
 {
     int32_t status;
     (void)dmb_answer_of(r->copy, r->output, &status);
-    if (status < 0)
-        return refuse(r, status,
-                      status == DMB_ERR_ID ? "place.part names no joint of this model"
-                                           : "frame must be DMB_FRAME_WORLD or DMB_FRAME_BODY");
+    if (status == DMB_ERR_ID) return refuse(r, status, "place.part names no joint of this model");
+    if (status == DMB_ERR_VALUE) return refuse(r, status, "frame must be DMB_FRAME_WORLD or DMB_FRAME_BODY");
+    if (status < 0) return refuse(r, status, dmb_status_text(status));
     r->out->elastic = r->output->kind > DMB_OUTPUT_JOINT_ACCELERATION;
     if (r->output->kind == DMB_OUTPUT_JOINT_REACTION)
         reaction_of_joint(r, joint_of(r));
@@ -323,6 +322,12 @@ static int32_t of_joint(const request *r)
 
 /* ---- Drives, bits ------------------------------------------------------------------------------------------------ */
 
+/* A drive of an open joint. */
+static int without_effect(const request *r, const dmb_scene_drive *drive)
+{
+    return drive->joint != UINT32_MAX && r->copy->joint_state[drive->joint] == DMB_JOINT_OPEN;
+}
+
 /* kp (v* - v) + ki integral(v* - v), none at its limits. */
 static void control(const request *r, uint32_t i, const dmb_scene_drive *drive)
 {
@@ -330,7 +335,7 @@ static void control(const request *r, uint32_t i, const dmb_scene_drive *drive)
     dmb_functional position;
     memset(&position, 0, sizeof position);
     if (force <= drive->limit_low || force >= drive->limit_high) return;
-    if (drive->joint != UINT32_MAX && r->copy->joint_state[drive->joint] == DMB_JOINT_OPEN) return;
+    if (without_effect(r, drive)) return;
     if (drive->joint != UINT32_MAX) {
         coordinate(r, drive->joint, drive->component, &position);
     } else {
@@ -352,7 +357,7 @@ static int32_t of_drive(const request *r)
     if (i >= scene->drive_count) return refuse(r, DMB_ERR_ID, "place.part names no drive of this model");
     const dmb_scene_drive *drive = scene->drives + i;
     r->out->drive = i;
-    r->out->direct = drive->kind == DMB_DRIVE_LOAD;
+    r->out->direct = drive->kind == DMB_DRIVE_LOAD && !without_effect(r, drive);
     if (drive->kind == DMB_DRIVE_CONTROL) control(r, i, drive);
     if (drive->kind != DMB_DRIVE_MOTION) return DMB_OK;
     if (drive->joint != UINT32_MAX) {

@@ -256,6 +256,53 @@ static void driven_gears(void **state)
     rig_close(&s);
 }
 
+/* A wheel on its bearing's spring, loaded by a drive of the bearing. */
+static dmb_id open_loaded_wheel(rig *s, dmb_id *bearing, dmb_place *wheel)
+{
+    dmb_body_def body = dmb_body_def_default();
+    dmb_joint_def def = dmb_joint_def_default();
+    rig_open(s, 0.0, 0.0, 0.0);
+    body.free_mask = DMB_FREE_ALL;
+    def.kind = DMB_JOINT_REVOLUTE;
+    def.place_b = *wheel = part(add_body(s, &body));
+    def.stiffness[DMB_RX] = 400.0;
+    must_model(s, dmb_model_add_joint(s->model, &def, bearing));
+    const dmb_id drive = add_simple_drive(s, DMB_DRIVE_LOAD, *bearing, DMB_RX, add_constant(s, 0.0));
+    (void)rig_start(s, NULL);
+    return drive;
+}
+
+/* The force of a load is its target. While its joint is open there is none, nor one of the joint's spring. */
+static void load_of_a_joint_that_opens(void **state)
+{
+    (void)state;
+    const dmb_response_options options = dmb_response_options_default();
+    const double frequency = 5.0;
+    rig s;
+    dmb_id bearing = {0, 0};
+    dmb_place wheel;
+    double complex value;
+    dmb_response *response = NULL;
+    const dmb_id drive = open_loaded_wheel(&s, &bearing, &wheel);
+    const dmb_input input = input_of(DMB_INPUT_DRIVE, drive, DMB_X);
+    dmb_input torque = input_of(DMB_INPUT_FORCE, wheel.part, DMB_RX);
+    torque.place = wheel;
+    const dmb_output force = output_at(DMB_OUTPUT_DRIVE, part(drive), DMB_X);
+    const dmb_output action = output_at(DMB_OUTPUT_JOINT_ACTION, part(bearing), DMB_RX);
+    transfer(&s, &options, &input, &force, &frequency, 1, &value);
+    check_below("a load of a joint: its force over its target, off 1 by", cabs(value - 1.0), 1e-15);
+    transfer(&s, &options, &torque, &action, &frequency, 1, &value);
+    assert_true(cabs(value) > 0.0);
+    must(&s, dmb_sim_set_joint(s.sim, bearing, DMB_JOINT_OPEN));
+    transfer(&s, &options, &torque, &force, &frequency, 1, &value);
+    assert_true(cabs(value) == 0.0);
+    transfer(&s, &options, &torque, &action, &frequency, 1, &value);
+    assert_true(cabs(value) == 0.0);
+    assert_int_equal(dmb_analysis_response(s.sim, &options, &input, 1, &force, 1, &response), DMB_ERR_VALUE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "the joint of the drive is open"));
+    rig_close(&s);
+}
+
 /* ---- The bit ----------------------------------------------------------------------------------------------------- */
 
 /* Drills coal at 20 mm/s and 200 rpm by the rate law, two pipes between drives and bit; the feed shakes. */
@@ -302,9 +349,13 @@ static void shaken_bit(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fed_on_the_wall),     cmocka_unit_test(pulled_on_the_wall),
-        cmocka_unit_test(turned_in_a_bearing), cmocka_unit_test(pulled_in_a_bearing),
-        cmocka_unit_test(driven_gears),        cmocka_unit_test(shaken_bit),
+        cmocka_unit_test(fed_on_the_wall),
+        cmocka_unit_test(pulled_on_the_wall),
+        cmocka_unit_test(turned_in_a_bearing),
+        cmocka_unit_test(pulled_in_a_bearing),
+        cmocka_unit_test(driven_gears),
+        cmocka_unit_test(shaken_bit),
+        cmocka_unit_test(load_of_a_joint_that_opens),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
