@@ -8,7 +8,6 @@
 #include "system/node.h"
 #include "system/wall_contact.h"
 
-/* Mean tension of the elements on both sides of a node [N]. */
 /* [m] stretch of an element beyond rest at the trial; a mixed one has left it. */
 static double stretch_of(const dmb_sim *sim, uint32_t element)
 {
@@ -21,6 +20,7 @@ static double stretch_of(const dmb_sim *sim, uint32_t element)
     return (u[3] - u[0]) + (type->length - type->rest[0]);
 }
 
+/* Mean tension of the elements on both sides of a node [N]. */
 static double tension_at(const dmb_sim *sim, uint32_t node)
 {
     const dmb_scene *scene = sim->scene;
