@@ -46,10 +46,11 @@ static double stiffness_times_reach(const dmb_sim *sim, const dmb_scene_joint *j
 }
 
 /* Before the first correction of a step a residual that a stiff spring's rounding could make may as well be that of a
- * soft part, which would then fly on as if nothing held it; one correction moves it to where it belongs. */
+ * soft part, which would then fly on as if nothing held it; one correction moves it to where it belongs. Without a
+ * step, as about a state that is linearised, nothing flies on. */
 static int rounding_counts(const dmb_evaluation *evaluation)
 {
-    return !evaluation->dynamic || evaluation->extrapolated;
+    return !evaluation->dynamic || evaluation->extrapolated || evaluation->step == 0.0;
 }
 
 static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, coordinate_forces *f)

@@ -77,6 +77,38 @@ static void spring_and_damper_of_a_joint(void **state)
     rig_close(&s);
 }
 
+/* A body that slides along an oblique axis against a spring, unloaded: nothing but rounding of the place acts, and a
+ * state that statics take is one that modes take. */
+static void spring_without_load(void **state)
+{
+    (void)state;
+    for (double stiffness = 1.0; stiffness <= 1e8; stiffness *= 100.0) {
+        rig s;
+        dmb_body_def body = dmb_body_def_default();
+        dmb_joint_def joint = dmb_joint_def_default();
+        rig_open(&s, 0, 0, 0);
+        body.mass = 3.0;
+        for (int c = 0; c < 3; c++) {
+            body.position[c] = 0.3 + 0.7 * c;
+            body.rotation[c] = 0.4 - 0.3 * c;
+            joint.origin_a[c] = 0.1 + 0.2 * c;
+            joint.axis_a[c] = 1.0 / (1.0 + c);
+        }
+        joint.kind = DMB_JOINT_CYLINDRICAL;
+        joint.place_a = dmb_station(ground_id, 0, 0.0);
+        joint.place_b = dmb_station(add_body(&s, &body), 0, 0.0);
+        joint.match = 1;
+        joint.stiffness[DMB_X] = stiffness;
+        (void)add_joint(&s, &joint);
+        (void)mechanism_start(&s, NULL);
+        dmb_modes *modes = lowest_modes(&s, DMB_MODES_UNDAMPED, 2);
+        check_relative("unloaded spring along an oblique axis, sqrt(k/m)", frequency_at(modes, 1),
+                       sqrt(stiffness / 3.0) / (2.0 * PI), 1e-10);
+        dmb_modes_destroy(&modes);
+        rig_close(&s);
+    }
+}
+
 /* ---- A string of strings ----------------------------------------------------------------------------------------- */
 
 /* Pipes one after the other from x = 0, clamped at the start: one string, or strings of one pipe each with fixed
@@ -185,6 +217,7 @@ int main(void)
         cmocka_unit_test(pendulum),
         cmocka_unit_test(double_pendulum),
         cmocka_unit_test(spring_and_damper_of_a_joint),
+        cmocka_unit_test(spring_without_load),
         cmocka_unit_test(explicit_joints_change_nothing),
         cmocka_unit_test(whole_spectrum_with_joints),
         cmocka_unit_test(free_with_joints),
