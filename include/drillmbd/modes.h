@@ -55,7 +55,9 @@ typedef struct dmb_mode {
     int32_t rigid;             /* 1: a rigid-body mode: nothing holds or strains it */
     double frequency;          /* [Hz] |s|/(2 pi) */
     double damping;            /* [-] -Re s/|s|; 1 of an overdamped root, which counts as one mode; 0 of a rigid one */
-    double eigenvalue[2];      /* [1/s] s, real and imaginary part >= 0, shape (2) */
+    double eigenvalue[2];      /* [1/s] s, real and imaginary part >= 0, shape (2). Flutter is two modes, one that grows and one
+                                  that decays. Without damping, divergence (s, -s) is one mode, s > 0; of an unsymmetric K
+                                  the sparse search tells both */
     double kinetic;            /* [J] |s|^2 d^H M d/2 of the shape as normalised: d^H M d = 1 kg m2 (or kg) */
     double strain;             /* [J] in elements alike, elastic part */
     double share[3];           /* [-] of the kinetic energy that is axial, torsional, lateral motion of pipes and bodies in

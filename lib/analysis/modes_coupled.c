@@ -104,7 +104,8 @@ static void expand(const dmb_mode_search *search, const dmb_dense *d, const doub
 }
 
 /* The root of eigenvalue i: s itself, or of s^2 = -value the one that grows, where that is complex (flutter) or
- * negative: s and its negative are both modes then. */
+ * negative. The vector V of a complex value belongs to the roots -+ s*: where s grows, to -s*, and its conjugate to s.
+ */
 static void root_of(const dmb_mode_search *search, const dmb_dense *d, size_t i, double s[2])
 {
     const double re = d->re[i], im = d->im[i], size = hypot(re, im);
@@ -113,6 +114,14 @@ static void root_of(const dmb_mode_search *search, const dmb_dense *d, size_t i,
     if (is_damped(search)) return;
     s[0] = im > 0.0 || re < 0.0 ? sqrt(0.5 * fmax(size - re, 0.0)) : 0.0;
     s[1] = sqrt(0.5 * fmax(size + re, 0.0));
+}
+
+/* Of two undamped modes that meet in flutter one grows and the other decays, in conjugate shapes. */
+static int32_t add_flutter(dmb_mode_search *search, dmb_dense *d, const double s[2])
+{
+    const int32_t status = dmb_modes_add(search, -s[0], s[1], d->x, d->y);
+    for (uint32_t i = 0; i < search->linear->rows; i++) d->y[i] = -d->y[i];
+    return status < 0 ? status : dmb_modes_add(search, s[0], s[1], d->x, d->y);
 }
 
 static int32_t take_modes(dmb_mode_search *search, dmb_dense *d, size_t m)
@@ -125,7 +134,8 @@ static int32_t take_modes(dmb_mode_search *search, dmb_dense *d, size_t m)
         root_of(search, d, i, s);
         expand(search, d, d->V + m * i, d->x);
         if (paired) expand(search, d, d->V + m * (i + 1), d->y);
-        status = dmb_modes_add(search, s[0], s[1], d->x, paired ? d->y : NULL);
+        status = paired && !is_damped(search) ? add_flutter(search, d, s)
+                                              : dmb_modes_add(search, s[0], s[1], d->x, paired ? d->y : NULL);
     }
     return status;
 }

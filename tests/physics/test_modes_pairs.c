@@ -1,7 +1,85 @@
-/* Modes whose roots come in pairs: rigid-body motions with drag, real modes among complex ones. */
+/* Modes whose roots come in pairs: flutter, rigid-body motions with drag, real modes among complex ones. */
 #include <stdio.h>
 
 #include "modal.h"
+
+/* ---- Flutter ----------------------------------------------------------------------------------------------------- */
+
+/* Beck's column, clamped at the start, pushed at its end along its own axis by P = 22 EI/L^2: above 20.05 EI/L^2 its
+ * two lowest bending modes have met, one grows and the other decays (Beck 1952). */
+static dmb_id open_column(rig *s, uint32_t pipes)
+{
+    const s1_section v = s1_values();
+    const double L = 1.5 * pipes;
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_load_def load = dmb_load_def_default();
+    const dmb_id string = lay_string(s, &pipe, pipes, DMB_FREE_NONE, DMB_FREE_ALL);
+    load.place = dmb_station(string, pipes - 1, 1.0);
+    load.frame = DMB_FRAME_BODY;
+    load.force[0] = -22.0 * v.EI / (L * L);
+    (void)add_load(s, &load);
+    rig_start(s, NULL);
+    (void)find_equilibrium(s, NULL);
+    return string;
+}
+
+/* [1/s] growth of the modes in flutter; two of them grow and two decay, in both planes. */
+static double check_flutter(const char *what, const dmb_modes *modes)
+{
+    uint32_t growing = 0, decaying = 0;
+    double growth = 0.0;
+    for (uint32_t i = 0; i < info_of(modes).count; i++) {
+        const dmb_mode mode = mode_at(modes, i);
+        if (!(mode.eigenvalue[1] > 0.0) || fabs(mode.eigenvalue[0]) < 1e-3 * mode.eigenvalue[1]) continue;
+        growing += mode.eigenvalue[0] > 0.0;
+        decaying += mode.eigenvalue[0] < 0.0;
+        growth = fmax(growth, mode.eigenvalue[0]);
+    }
+    print_message("%s: %u modes grow, %u decay, at %.6g 1/s\n", what, growing, decaying, growth);
+    assert_int_equal(growing, 2);
+    assert_int_equal(decaying, 2);
+    check_below("  residual", info_of(modes).residual, 1e-9);
+    return growth;
+}
+
+/* Sine of the angle by which the middle leads the end in a mode that grows, sideways: its sign is that of the shape's
+ * imaginary part. */
+static double phase_of(const dmb_modes *modes, dmb_place middle, dmb_place end)
+{
+    for (uint32_t i = 0; i < info_of(modes).count; i++) {
+        if (!(mode_at(modes, i).eigenvalue[0] > 1e-3 * mode_at(modes, i).eigenvalue[1])) continue;
+        const dmb_mode_shape a = shape_at(modes, i, middle), b = shape_at(modes, i, end);
+        const uint32_t c = hypot(b.re[1], b.im[1]) > hypot(b.re[2], b.im[2]) ? 1 : 2;
+        return (a.im[c] * b.re[c] - a.re[c] * b.im[c]) / (hypot(a.re[c], a.im[c]) * hypot(b.re[c], b.im[c]));
+    }
+    fail_msg("no mode grows");
+    return 0.0;
+}
+
+/* Dense and sparse, without damping and by the equations with damping: the same pairs in the same shapes. */
+static void flutter_grows_in_one_shape(void **state)
+{
+    (void)state;
+    static const uint32_t pipes[2] = {8, 40};
+    for (int way = 0; way < 2; way++) {
+        rig s;
+        double phase[2], growth[2];
+        const dmb_id string = open_column(&s, pipes[way]);
+        const dmb_place middle = dmb_station(string, pipes[way] / 2, 0.0),
+                        end = dmb_station(string, pipes[way] - 1, 1.0);
+        for (int32_t kind = DMB_MODES_UNDAMPED; kind <= DMB_MODES_DAMPED; kind++) {
+            dmb_modes *modes = lowest_modes(&s, kind, 12);
+            assert_int_equal(info_of(modes).dense, way == 0);
+            growth[kind] = check_flutter(way == 0 ? "dense" : "sparse", modes);
+            phase[kind] = phase_of(modes, middle, end);
+            dmb_modes_destroy(&modes);
+        }
+        check_relative("  growth, undamped against damped equations", growth[0], growth[1], 1e-7);
+        check_close("  phase of the middle against the end", phase[0], phase[1], 1e-6);
+        assert_true(fabs(phase[1]) > 1e-2);
+        rig_close(&s);
+    }
+}
 
 /* ---- Rigid-body motions ------------------------------------------------------------------------------------------ */
 
@@ -86,6 +164,7 @@ static void whirl_stays_within_one(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(flutter_grows_in_one_shape),
         cmocka_unit_test(rigid_modes_of_a_damped_string_are_real),
         cmocka_unit_test(rigid_modes_with_drag),
         cmocka_unit_test(whirl_stays_within_one),
