@@ -114,16 +114,21 @@ static void find_shape(dmb_buckling *buckling, uint32_t k)
     normalise(buckling->work->scene, shape);
 }
 
-static void find_factors(dmb_buckling *buckling, const dmb_buckling_options *options)
+static int32_t find_factors(dmb_buckling *buckling, const dmb_buckling_options *options, dmb_message *message)
 {
     double guess = fmin(1.0, options->factor_max);
     for (uint32_t k = 0; k < options->count; k++) {
         const double factor = dmb_pencil_factor(&buckling->pencil, k, guess, options->factor_max, options->tolerance);
-        if (!isfinite(factor)) return;
+        if (isnan(factor)) {
+            dmb_message_set(message, "buckling: critical factor %u cannot be counted, the stiffness stays singular", k);
+            return DMB_ERR_SINGULAR;
+        }
+        if (!isfinite(factor)) return DMB_NOTE_STOPPED;
         buckling->factor[k] = guess = factor;
         buckling->count = k + 1;
         find_shape(buckling, k);
     }
+    return DMB_OK;
 }
 
 int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling)
@@ -142,13 +147,12 @@ int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options,
     pattern.base = made->pattern.base;
     made->pattern = pattern;
     status = dmb_buckling_linearise(made, sim, &taken);
-    if (status < 0) {
+    if (status >= 0) status = find_factors(made, &taken, &sim->message);
+    if (status < 0)
         dmb_buckling_destroy(&made);
-        return status;
-    }
-    find_factors(made, &taken);
-    *buckling = made;
-    return made->count < taken.count ? DMB_NOTE_STOPPED : DMB_OK;
+    else
+        *buckling = made;
+    return status;
 }
 
 uint32_t dmb_buckling_count(const dmb_buckling *buckling)

@@ -172,7 +172,12 @@ void dmb_buckling_expand(dmb_buckling *buckling, const double *vector, double *s
 
 static int32_t stable(dmb_buckling *buckling, dmb_sim *sim)
 {
-    const uint32_t negative = dmb_pencil_count(&buckling->pencil, 0.0);
+    uint32_t negative;
+    if (!dmb_pencil_count(&buckling->pencil, 0.0, &negative)) {
+        dmb_message_set(&sim->message,
+                        "buckling: the stiffness is singular, its negative eigenvalues cannot be counted");
+        return DMB_ERR_SINGULAR;
+    }
     if (negative == 0) return DMB_OK;
     dmb_message_set(&sim->message,
                     "buckling: the state is not stable, its stiffness has negative eigenvalues = %u, must be 0",

@@ -83,48 +83,81 @@ static int count_shifted(dmb_pencil *pencil, uint32_t *negative)
     return 1;
 }
 
-/* A factor at which one block is singular before its turn, though the whole is not, is stepped aside from. */
+/* A factor at which one block is singular before its turn, though the whole is not, is stepped aside from: by a part of
+ * itself, and at 0 by one that changes K in the same digits. */
 #define DMB_ASIDE 1e-13
 #define DMB_ASIDE_TRIES 8
 
-uint32_t dmb_pencil_count(dmb_pencil *pencil, double factor)
+static double largest(size_t n, const double *values, double most)
 {
-    uint32_t negative = 0;
-    for (int k = 0; k < DMB_ASIDE_TRIES; k++) {
-        shift(pencil, factor * (1.0 + DMB_ASIDE * k));
-        if (count_shifted(pencil, &negative)) break;
-    }
-    return negative;
+    for (size_t i = 0; i < n; i++) most = fmax(most, fabs(values[i]));
+    return most;
 }
 
-/* Powers of 4 from the guess on, upwards or downwards, until the factor lies between low and high. */
+static double size_of(const dmb_pencil *pencil, const dmb_pencil_matrix *A)
+{
+    const dmb_block_layout *layout = &pencil->scene->layout;
+    return largest(linked_values(pencil->scene), A->linked, largest(layout->diag[layout->n], A->diagonal, 0.0));
+}
+
+static double aside_of(const dmb_pencil *pencil, double factor)
+{
+    if (factor != 0.0) return DMB_ASIDE * factor;
+    const double G = size_of(pencil, &pencil->G);
+    return G > 0.0 ? DMB_ASIDE * size_of(pencil, &pencil->K) / G : 0.0;
+}
+
+int dmb_pencil_count(dmb_pencil *pencil, double factor, uint32_t *count)
+{
+    for (int k = 0; k < DMB_ASIDE_TRIES; k++) {
+        shift(pencil, k == 0 ? factor : factor + k * aside_of(pencil, factor));
+        if (count_shifted(pencil, count)) return 1;
+    }
+    *count = 0;
+    return 0;
+}
+
+/* 1 where more than k factors lie below this one, 0 where not, -1 where they cannot be counted. */
+static int exceeds(dmb_pencil *pencil, double factor, uint32_t k)
+{
+    uint32_t count;
+    return dmb_pencil_count(pencil, factor, &count) ? count > k : -1;
+}
+
+/* Powers of 4 from the guess on, upwards or downwards, until the factor lies between low and high: 1. 0 if it is beyond
+ * `most`, -1 if it cannot be told. */
 static int bracket(dmb_pencil *pencil, uint32_t k, double guess, double most, double *low, double *high)
 {
     *high = fmin(guess, most);
-    if (dmb_pencil_count(pencil, *high) > k) {
-        *low = 0.25 * *high;
-        while (*low > 1e-300 && dmb_pencil_count(pencil, *low) > k) {
+    int beyond = exceeds(pencil, *high, k);
+    if (beyond > 0) {
+        for (*low = 0.25 * *high; *low > 1e-300; *low *= 0.25) {
+            beyond = exceeds(pencil, *low, k);
+            if (beyond <= 0) break;
             *high = *low;
-            *low *= 0.25;
         }
-        return 1;
+        return beyond < 0 ? -1 : 1;
     }
-    do {
+    while (beyond == 0) {
         if (*high >= most) return 0;
         *low = *high;
         *high = fmin(4.0 * *high, most);
-    } while (dmb_pencil_count(pencil, *high) <= k);
-    return 1;
+        beyond = exceeds(pencil, *high, k);
+    }
+    return beyond;
 }
 
 double dmb_pencil_factor(dmb_pencil *pencil, uint32_t k, double guess, double most, double tolerance)
 {
-    double low, high;
-    if (!bracket(pencil, k, guess, most, &low, &high)) return (double)INFINITY;
+    double low = 0.0, high = 0.0;
+    const int found = bracket(pencil, k, guess, most, &low, &high);
+    if (found <= 0) return found == 0 ? (double)INFINITY : (double)NAN;
     while (high - low > tolerance * high) {
         const double middle = 0.5 * (low + high);
         if (!(middle > low && middle < high)) break;
-        if (dmb_pencil_count(pencil, middle) > k)
+        const int beyond = exceeds(pencil, middle, k);
+        if (beyond < 0) return (double)NAN;
+        if (beyond > 0)
             high = middle;
         else
             low = middle;

@@ -28,10 +28,10 @@ typedef struct dmb_pencil {
 
 uint32_t dmb_pencil_unknowns(const dmb_scene *scene);
 void dmb_pencil_lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_pencil *pencil);
-/* Factors in 0 .. factor. */
-uint32_t dmb_pencil_count(dmb_pencil *pencil, double factor);
+/* Factors in 0 .. factor: 1. 0 if a block stays singular at all factors next to it, and nothing can be counted. */
+int dmb_pencil_count(dmb_pencil *pencil, double factor, uint32_t *count);
 /* The factor number k = 0, 1 .. counted from 0 upwards to a relative `tolerance`, the search beginning at `guess` > 0;
- * infinite if it is beyond `most`. */
+ * infinite if it is beyond `most`, NaN if it cannot be counted. */
 double dmb_pencil_factor(dmb_pencil *pencil, uint32_t k, double guess, double most, double tolerance);
 /* Vector of a critical factor into x (unknowns), apart from `others` earlier ones of the same factor, (others, unknowns).
  * Returns the factor once more, as Rayleigh's quotient of the vector. */
