@@ -132,7 +132,7 @@ def real_time_factor(rows, folder):
         y = [float(row["rtf"]) for row in chosen]
         axes.loglog(x, y, "o-", color=COLOURS[scene], linewidth=1.8, label=text)
         for i, row in enumerate(chosen):
-            axes.annotate(f"{y[i]:.2g}×\nerror {float(row['error']):.0e}", (x[i], y[i]),
+            axes.annotate(f"{y[i]:.{max(2, len(str(int(y[i]))))}g}×\nerror {float(row['error']):.0e}", (x[i], y[i]),
                           xytext=(0, 8) if scene == "C" else (0, -26), textcoords="offset points", fontsize=8.5,
                           color=COLOURS[scene], ha="center")
     axes.axhline(1.0, color=RED, linewidth=1.2)
