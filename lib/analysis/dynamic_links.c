@@ -3,22 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "system/owner.h"
+
 static int is_linked(const dmb_scene *scene, uint32_t node)
 {
     return scene->cluster_count > 0 && scene->node_block[node] != UINT32_MAX;
-}
-
-static uint32_t node_of_row(const dmb_scene *scene, uint32_t row)
-{
-    uint32_t low = 0, high = scene->node_count;
-    while (high - low > 1) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (scene->layout.row[middle] <= row)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
 }
 
 /* ---- Coordinates ------------------------------------------------------------------------------------------------- */
@@ -29,7 +18,7 @@ dmb_links_size dmb_dynamic_links_size(const dmb_linear *linear)
     const dmb_scene *scene = &linear->scene;
     dmb_links_size size = {0, DMB_NODE_FULL, 0};
     for (uint32_t i = 0; i < linear->coordinates; i++)
-        size.count += (uint32_t)is_linked(scene, node_of_row(scene, linear->row_of[i]));
+        size.count += (uint32_t)is_linked(scene, dmb_node_of_row(scene, linear->row_of[i]));
     for (uint32_t k = 0; k < scene->cluster_count; k++) {
         if (scene->clusters[k].columns > size.widest) size.widest = scene->clusters[k].columns;
         if (scene->clusters[k].rows > size.rows) size.rows = scene->clusters[k].rows;
@@ -68,7 +57,7 @@ static void number(const dmb_linear *linear, dmb_dynamic_links *links)
     const dmb_scene *scene = &linear->scene;
     uint32_t row = 0;
     for (uint32_t i = 0; i < linear->coordinates; i++) {
-        const uint32_t node = node_of_row(scene, linear->row_of[i]);
+        const uint32_t node = dmb_node_of_row(scene, linear->row_of[i]);
         links->place[i] = is_linked(scene, node) ? links->size[scene->node_block[node]]++ : UINT32_MAX;
     }
     for (uint32_t b = 0; b < scene->block_count; b++) {
@@ -77,7 +66,7 @@ static void number(const dmb_linear *linear, dmb_dynamic_links *links)
     }
     for (uint32_t i = 0; i < linear->coordinates; i++)
         if (links->place[i] != UINT32_MAX)
-            links->place[i] += links->row[scene->node_block[node_of_row(scene, linear->row_of[i])]];
+            links->place[i] += links->row[scene->node_block[dmb_node_of_row(scene, linear->row_of[i])]];
 }
 
 /* Share of a row in the diagonals that pivots are held against. */
@@ -223,7 +212,7 @@ static void add_joints(const dmb_dynamic_stiffness *s)
 static uint32_t node_of_place(const dmb_dynamic_stiffness *s, uint32_t place)
 {
     for (uint32_t i = 0; i < s->linear->coordinates; i++)
-        if (s->links.place[i] == place) return node_of_row(&s->linear->scene, s->linear->row_of[i]);
+        if (s->links.place[i] == place) return dmb_node_of_row(&s->linear->scene, s->linear->row_of[i]);
     return 0;
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "math/se3.h"
+#include "system/owner.h"
 
 /* Central differences of the pose: (h/L)^2 of non-linearity and eps L/h of rounding are both near 1e-10. */
 #define DMB_FUNCTIONAL_STEP 1e-5
@@ -74,19 +75,6 @@ int32_t dmb_functional_of_motion(dmb_sim *copy, dmb_place place, int32_t frame, 
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-static uint32_t node_of_row(const dmb_scene *scene, uint32_t row)
-{
-    uint32_t low = 0, high = scene->node_count;
-    while (high - low > 1) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (scene->layout.row[middle] <= row)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 void dmb_functional_take_node(const dmb_scene *scene, uint32_t node, dmb_functional *out)
 {
     if (node == UINT32_MAX) return;
@@ -101,7 +89,7 @@ int32_t dmb_functional_around(dmb_sim *copy, dmb_place place, dmb_functional *ou
     dmb_functional x;
     const int32_t status = dmb_functional_of_motion(copy, place, DMB_FRAME_BODY, DMB_X, &x);
     if (status < 0) return status;
-    uint32_t low = node_of_row(scene, x.row[0]), high = node_of_row(scene, x.row[x.count ? x.count - 1 : 0]);
+    uint32_t low = dmb_node_of_row(scene, x.row[0]), high = dmb_node_of_row(scene, x.row[x.count ? x.count - 1 : 0]);
     if (low > 0) low--;
     if (high + 1 < scene->node_count) high++;
     memset(out, 0, sizeof *out);
@@ -128,7 +116,7 @@ void dmb_functional_add_rate(double factor, const dmb_functional *from, dmb_func
 static double moved_answer(dmb_sim *copy, dmb_answer *answer, const void *what, uint32_t row, double step)
 {
     const dmb_scene *scene = copy->scene;
-    const uint32_t node = node_of_row(scene, row), c = row - scene->layout.row[node];
+    const uint32_t node = dmb_node_of_row(scene, row), c = row - scene->layout.row[node];
     double *q = copy->now.quaternion + 4 * (size_t)node, *x = copy->now.displacement + 3 * (size_t)node;
     double kept_q[4], kept_x[3], z[6] = {0.0};
     const double kept_turn = copy->now.turn[node];
@@ -164,7 +152,7 @@ static void differences(dmb_sim *copy, dmb_answer *answer, const void *what, dmb
 {
     const dmb_scene *scene = copy->scene;
     for (uint32_t i = 0; i < out->count; i++) {
-        const uint32_t row = out->row[i], node = node_of_row(scene, row);
+        const uint32_t row = out->row[i], node = dmb_node_of_row(scene, row);
         const int turns = 2 * (row - scene->layout.row[node]) >= scene->layout.size[node];
         const double step = DMB_FUNCTIONAL_STEP * (turns ? 1.0 : scene->length_scale);
         out->pose[i] =
@@ -187,7 +175,7 @@ void dmb_functional_turn_frames(const dmb_sim *copy, dmb_functional *out)
 {
     const dmb_scene *scene = copy->scene;
     for (uint32_t at = 0; at < out->count;) {
-        const uint32_t node = node_of_row(scene, out->row[at]), row = scene->layout.row[node];
+        const uint32_t node = dmb_node_of_row(scene, out->row[at]), row = scene->layout.row[node];
         if (scene->layout.size[node] == DMB_NODE_FULL) {
             add_turned(copy->now.velocity + row, out->speed + at, out->pose + at);
             add_turned(copy->now.acceleration + row, out->acceleration + at, out->pose + at);

@@ -14,6 +14,7 @@
 #include "system/bit.h"
 #include "system/contact_slope.h"
 #include "system/joint_motion.h"
+#include "system/owner.h"
 
 typedef struct request {
     dmb_linear *linear;
@@ -215,25 +216,12 @@ static void take_multiplier(const request *r, uint32_t constraint, uint32_t k, d
     r->out->multiplier_count = k + 1;
 }
 
-static uint32_t constraint_of(const dmb_sim *copy, dmb_id part)
-{
-    const dmb_scene *scene = copy->scene;
-    const uint32_t joint = dmb_model_part_index(copy->model, part, DMB_PART_JOINT);
-    const uint32_t coupling = dmb_model_part_index(copy->model, part, DMB_PART_COUPLING);
-    const uint32_t drive = dmb_model_part_index(copy->model, part, DMB_PART_DRIVE);
-    const uint32_t callback = dmb_model_part_index(copy->model, part, DMB_PART_CONSTRAINT);
-    if (joint < scene->joint_count) return scene->joints[joint].constraint;
-    if (coupling < scene->coupling_count) return scene->couplings[coupling].constraint;
-    if (drive < scene->drive_count) return scene->drives[drive].constraint;
-    return scene->callbacks[callback].constraint;
-}
-
 static int32_t of_multiplier(const request *r)
 {
     int32_t status;
     (void)dmb_answer_of(r->copy, r->output, &status);
     if (status < 0) return refuse(r, status, "component is no row of a joint, coupling, constraint or joint drive");
-    take_multiplier(r, constraint_of(r->copy, r->output->place.part), (uint32_t)r->output->component, 1.0);
+    take_multiplier(r, dmb_constraint_of_part(r->copy, r->output->place.part), (uint32_t)r->output->component, 1.0);
     return DMB_OK;
 }
 

@@ -4,6 +4,7 @@
 #include "query/constraint.h"
 #include "system/constraint_rows.h"
 #include "system/node.h"
+#include "system/owner.h"
 
 DMB_DECLARE_STRUCT(dmb_joint_state)
 
@@ -91,26 +92,12 @@ int32_t dmb_query_joint(const dmb_sim *sim, dmb_id joint, dmb_joint_state *state
     return dmb_joint_state_write(state, &answer);
 }
 
-/* The constraint of a part that has one. */
-static uint32_t constraint_of(const dmb_sim *sim, dmb_id part)
-{
-    const dmb_scene *scene = sim->scene;
-    const uint32_t joint = dmb_model_part_index(sim->model, part, DMB_PART_JOINT);
-    const uint32_t coupling = dmb_model_part_index(sim->model, part, DMB_PART_COUPLING);
-    const uint32_t drive = dmb_model_part_index(sim->model, part, DMB_PART_DRIVE);
-    const uint32_t callback = dmb_model_part_index(sim->model, part, DMB_PART_CONSTRAINT);
-    if (joint < scene->joint_count) return scene->joints[joint].constraint;
-    if (coupling < scene->coupling_count) return scene->couplings[coupling].constraint;
-    if (drive < scene->drive_count) return scene->drives[drive].constraint;
-    return callback < scene->callback_count ? scene->callbacks[callback].constraint : UINT32_MAX;
-}
-
 int32_t dmb_query_multipliers(const dmb_sim *sim, dmb_id part, double multipliers[6], uint32_t *count)
 {
     const int32_t status = dmb_ask(sim, multipliers);
     if (status < 0) return status;
     if (count == NULL) return DMB_ERR_NULL;
-    const uint32_t i = constraint_of(sim, part);
+    const uint32_t i = dmb_constraint_of_part(sim, part);
     if (i == UINT32_MAX) return DMB_ERR_ID;
     *count = dmb_constraint_active(sim, i);
     for (uint32_t k = 0; k < *count; k++) multipliers[k] = sim->now.multiplier[sim->scene->constraints[i].row + k];
