@@ -31,6 +31,8 @@
     X(double, site_slip, 2 * s)         /* [m/s] along the axis and around it */                                       \
     X(double, site_bristle, 2 * sb)     /* [m] bristle deflection, same directions */                                  \
     X(int32_t, site_sticks, sb)         /* [-] 1 while the bristle law holds it */                                     \
+    X(double, friction_slip, 2)         /* [m/s, rad/s] speeds along the hole and of turning that friction on the wall \
+                                           acts as at in a static state, system/evaluation; 0: at those of the nodes */ \
     X(double, path_slip, 2 * p)         /* [m/s] likewise of PATH nodes */                                             \
     X(double, path_bristle, 2 * pb)     /* [m] */                                                                      \
     X(int32_t, path_sticks, pb)         /* [-] */                                                                      \

@@ -59,7 +59,8 @@ typedef struct dmb_contact {
     double normal[3];        /* [-] outward, from the axis to the wall, world frame, shape (3) */
     double normal_force;     /* [N] on the wall, >= 0 */
     double approach;         /* [m/s] normal speed towards the wall */
-    double friction[2];      /* [N] on the pipe: along its axis, along axis x normal, shape (2) */
+    double friction[2];      /* [N] on the pipe: along its axis, along axis x normal; after a static start that assumed a
+                                slip (dmb_static_options) what its equilibrium took, until the next step; shape (2) */
     double slip[2];          /* [m/s] of the contact point on the wall, same directions, shape (2) */
 } dmb_contact;
 DMB_SIZED_STRUCT(dmb_contact)

@@ -116,7 +116,7 @@ static double largest_residual(const dmb_sim *sim)
 }
 
 /* Friction of an assumed slip vanishes with the speeds, so that the state at rest is not held by the same forces.
- * Reactions and drive forces are those of the static state until the first step. */
+ * Reactions, drive forces and friction are those of the static state until the first step. */
 static int32_t keep_static_reactions(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
@@ -125,6 +125,7 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     const int32_t status = dmb_system_evaluate(&search->evaluation);
     if (status < 0) return status;
     memcpy(sim->residual_row, sim->correction, scene->row_count * sizeof(double));
+    memcpy(sim->now.friction_slip, sim->trial.friction_slip, 2 * sizeof(double));
     memcpy(sim->now.multiplier, sim->trial.multiplier, scene->constraint_row_count * sizeof(double));
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         const uint32_t row = scene->drives[i].row;

@@ -15,11 +15,14 @@ static uint64_t site_count(const dmb_scene *scene)
 
 static void force_of(const dmb_sim *sim, uint32_t site, dmb_site_force *force)
 {
-    const uint32_t full = sim->scene->site_count;
+    const dmb_scene *scene = sim->scene;
+    const uint32_t full = scene->site_count;
     if (site < full)
-        dmb_site_force_of(sim->scene, &sim->now, site, force);
+        dmb_site_force_of(scene, &sim->now, site, force);
     else
-        dmb_path_site_force_of(sim->scene, &sim->now, site - full, force);
+        dmb_path_site_force_of(scene, &sim->now, site - full, force);
+    dmb_assumed_friction(&scene->friction_law, &sim->now,
+                         site < full ? scene->sites[site].radius : scene->path_sites[site - full].radius, force);
 }
 
 static void describe(const dmb_scene *scene, uint32_t site, dmb_contact *contact)

@@ -77,6 +77,8 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
     evaluation->rounding = 0.0;
     memset(evaluation->power, 0, sizeof evaluation->power);
     clear(evaluation);
+    for (int i = 0; i < 2; i++)
+        evaluation->sim->trial.friction_slip[i] = evaluation->slipping ? evaluation->slip[i] : 0.0;
     dmb_gather_elements(evaluation);
     if (evaluation->status < 0) return evaluation->status;
     dmb_gather_nodes(evaluation);

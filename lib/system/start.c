@@ -178,6 +178,7 @@ int32_t dmb_system_jump(dmb_sim *sim)
     const dmb_scene *scene = sim->scene;
     memcpy(sim->now.acceleration, sim->trial.acceleration, scene->row_count * sizeof(double));
     memcpy(sim->now.pseudo_acceleration, sim->trial.acceleration, scene->row_count * sizeof(double));
+    memcpy(sim->now.friction_slip, sim->trial.friction_slip, 2 * sizeof(double));
     memcpy(sim->now.drive_target, sim->trial.drive_target, scene->drive_count * sizeof(double));
     memcpy(sim->now.drive_force, sim->trial.drive_force, scene->drive_count * sizeof(double));
     memcpy(sim->now.drive_speed, sim->trial.drive_speed, scene->drive_count * sizeof(double));

@@ -91,6 +91,16 @@ void dmb_finished_friction(const dmb_friction_law *law, const double *bristle, i
         dmb_friction_smooth(law, N, slip, out->friction, dv, dN);
 }
 
+void dmb_assumed_friction(const dmb_friction_law *law, const dmb_configuration *configuration, double radius,
+                          dmb_site_force *out)
+{
+    const double v[2] = {configuration->friction_slip[0], radius * configuration->friction_slip[1]};
+    double dv[4], dN[2];
+    if ((v[0] == 0.0 && v[1] == 0.0) || !out->closed) return;
+    dmb_friction_smooth(law, out->normal_force, v, out->friction, dv, dN);
+    out->sticks = 0;
+}
+
 /* Closest point of the axis, the direction from it and the speeds there. */
 static void frame_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t s, dmb_site_force *out,
                      dmb_contact_frame *f)
@@ -122,7 +132,9 @@ void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configur
     out->slip[0] = f.speed[1];
     out->slip[1] = f.speed[2];
     if (!(out->penetration > 0.0 || site->clearance == 0.0)) return;
-    dmb_normal_force(&scene->normal_law, fmax(out->penetration, DMB_CONTACT_PENETRATION), out->rate,
+    const double *assumed = configuration->friction_slip;
+    const double rate = assumed[0] != 0.0 || assumed[1] != 0.0 ? 0.0 : out->rate; /* statics know none */
+    dmb_normal_force(&scene->normal_law, fmax(out->penetration, DMB_CONTACT_PENETRATION), rate,
                      configuration->site_approach[s], &out->normal_force, &depth, &dot);
     out->normal_force *= site->length;
     out->closed = 1;
