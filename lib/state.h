@@ -206,6 +206,8 @@ typedef struct dmb_configuration {
 struct dmb_sim {
     uint32_t magic;
     int32_t owns_memory;           /* 1: block came from `allocator` */
+    int32_t busy;                  /* DMB_BUSY_...: a call on it is under way; neither saved nor hashed */
+    int32_t reserved;
     dmb_model *model;
     const dmb_scene *scene;
     dmb_sim_options options;
@@ -219,6 +221,20 @@ struct dmb_sim {
     DMB_WORK_LIST(DMB_FIELD)
 };
 #undef DMB_FIELD
+
+/* A call that runs functions of the caller's (programmes, constraints, allocator, path) makes its sim busy, so that these
+ * cannot pull it from under the call. READABLE: the accepted state is whole, it may be asked; CHANGING: it may not. */
+enum { DMB_BUSY_NOT = 0, DMB_BUSY_READABLE = 1, DMB_BUSY_CHANGING = 2 };
+
+/* Begins a call that changes the sim or runs functions of the caller's: the message is clear and the sim busy until
+ * dmb_sim_leave. Errors: DMB_ERR_NULL, _HANDLE; DMB_ERR_ORDER with a message where it is busy already. state/busy */
+int32_t dmb_sim_enter(dmb_sim *sim, int32_t busy);
+/* The same for a call that asks only and leaves the message; a sim is never made const, and `busy` is all it writes. */
+int32_t dmb_sim_occupy(const dmb_sim *sim);
+/* Gives the status back. */
+int32_t dmb_sim_leave(dmb_sim *sim, int32_t status);
+/* Does nothing but leave the message of a call that is refused. */
+void dmb_sim_refuse_re_entry(dmb_sim *sim);
 
 /* to <- from, the whole configuration, both of the sim. state/layout */
 void dmb_configuration_copy(const dmb_sim *sim, const dmb_configuration *from, dmb_configuration *to);

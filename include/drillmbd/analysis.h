@@ -113,8 +113,8 @@ typedef struct dmb_path_point {
     double displacement;  /* [m] of the watched place and component since time 0; 0: none is watched */
 } dmb_path_point;
 DMB_SIZED_STRUCT(dmb_path_point)
-/* Called at each point with a sim that stands there at rest: every query answers, snapshots may be taken and restored
- * into the sim the path began with. Returns 0, or nonzero to stop. */
+/* Called at each point with a sim that stands there at rest: every query answers, snapshots may be taken and, after the
+ * call, restored into the sim the path began with. Returns 0, or nonzero to stop. */
 typedef int32_t (*dmb_path_fn)(void *context, const dmb_sim *at, const dmb_path_point *point);
 typedef struct dmb_path_options {
     uint32_t struct_size;

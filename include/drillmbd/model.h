@@ -25,7 +25,9 @@ DMB_SIZED_STRUCT(dmb_model_options)
 
 /* Creates an empty model. options may be NULL. Errors: DMB_ERR_NULL, _STRUCT_SIZE, _NO_MEMORY; *model is NULL then. */
 DMB_API int32_t dmb_model_create(const dmb_model_options *options, dmb_model **model);
-/* Gives up the caller's hold and sets *model to NULL; sims made from the model keep it alive. NULL-safe. */
+/* Gives up the caller's hold and sets *model to NULL; sims made from the model keep it alive. The hold is one: while they
+ * do, copies of the handle are refused (DMB_ERR_HANDLE) and destroying through them does nothing. Nor does it within a
+ * call that describes or compiles the model (by its allocator or log), where such calls give DMB_ERR_ORDER. NULL-safe. */
 DMB_API void dmb_model_destroy(dmb_model **model);
 /* What the last failing or noteworthy call on this model said: "part, field, value, bound". Never NULL; lives until the
  * next call on the model. A compiled model shared between threads keeps the message of its compilation. */

@@ -1,6 +1,12 @@
 /* libdrillmbd - run a compiled scene: create, step, advance, snapshot.
  * A sim belongs to one thread at a time; many sims may share one model. After create nothing allocates, locks or does
- * input or output. A call that fails leaves the last accepted state whole. */
+ * input or output. A call that fails leaves the last accepted state whole.
+ *
+ * Functions of the caller's (programmes, constraints, allocator, log) may not change the sim they are called for: from
+ * within them dmb_sim_destroy does nothing, and calls that change the sim or analyse it give DMB_ERR_ORDER. In a step,
+ * and in analyses that leave the sim alone, queries, snapshot and hash tell of the last accepted state; in calls that change
+ * it at once (dmb_analysis_static, dmb_sim_set_drive, _set_joint, _carry_over) they give DMB_ERR_ORDER too. They return,
+ * by no longjmp or exception: the sim would stay busy for ever. */
 #ifndef DRILLMBD_SIM_H
 #define DRILLMBD_SIM_H
 
@@ -53,7 +59,7 @@ DMB_API int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options,
 /* The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used. */
 DMB_API int32_t dmb_sim_create_in(dmb_model *model, const dmb_sim_options *options, void *block, size_t size,
                                   dmb_sim **sim);
-/* Gives the memory back and sets *sim to NULL. NULL-safe. */
+/* Gives the memory back and sets *sim to NULL; does nothing within a call on this sim. NULL-safe. */
 DMB_API void dmb_sim_destroy(dmb_sim **sim);
 /* What the last failing or noteworthy call on this sim said. Never NULL; lives until the next call on the sim. */
 DMB_API const char *dmb_sim_message(const dmb_sim *sim);

@@ -46,9 +46,9 @@ void dmb_buckling_destroy(dmb_buckling **buckling)
     if (dmb_handle_is(*buckling, DMB_HANDLE_BUCKLING)) {
         const dmb_allocator allocator = (*buckling)->allocator;
         dmb_model *model = (*buckling)->work != NULL ? (*buckling)->work->model : NULL;
+        (*buckling)->magic = DMB_HANDLE_DEAD;
         dmb_state_discard((*buckling)->work);
         dmb_release(&allocator, (*buckling)->block, (*buckling)->block_size);
-        (*buckling)->magic = DMB_HANDLE_DEAD;
         dmb_release(&allocator, *buckling, sizeof **buckling);
         if (model != NULL) dmb_model_release(model);
     }
@@ -131,14 +131,10 @@ static int32_t find_factors(dmb_buckling *buckling, const dmb_buckling_options *
     return DMB_OK;
 }
 
-int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling)
+static int32_t analyse(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling)
 {
     dmb_buckling_options taken;
     dmb_load_pattern pattern;
-    if (sim == NULL || buckling == NULL) return DMB_ERR_NULL;
-    *buckling = NULL;
-    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
-    dmb_message_clear(&sim->message);
     int32_t status = take_options(sim, options, &taken);
     if (status >= 0) status = dmb_load_pattern_take(sim, "buckling options", taken.scale, taken.part, &pattern);
     if (status < 0) return status;
@@ -153,6 +149,14 @@ int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options,
     else
         *buckling = made;
     return status;
+}
+
+int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling)
+{
+    if (sim == NULL || buckling == NULL) return DMB_ERR_NULL;
+    *buckling = NULL;
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    return status < 0 ? status : dmb_sim_leave(sim, analyse(sim, options, buckling));
 }
 
 uint32_t dmb_buckling_count(const dmb_buckling *buckling)

@@ -78,7 +78,7 @@ static void count_line(void *context, const char *text)
     ++*lines;
 }
 
-int32_t dmb_model_check_make(const dmb_sim *sim, dmb_model_check *check)
+static int32_t make(const dmb_sim *sim, dmb_model_check *check)
 {
     dmb_check_report *report = &check->report;
     uint32_t lines = 0;
@@ -87,7 +87,7 @@ int32_t dmb_model_check_make(const dmb_sim *sim, dmb_model_check *check)
     int32_t status = dmb_cluster_rank_make(sim, &check->rank);
     if (status >= 0) status = dmb_find_loose_parts(sim, &check->loose);
     if (status < 0) {
-        dmb_model_check_release(check);
+        dmb_cluster_rank_release(sim, &check->rank);
         return status;
     }
     count_parts(sim->scene, report);
@@ -100,20 +100,27 @@ int32_t dmb_model_check_make(const dmb_sim *sim, dmb_model_check *check)
     return DMB_OK;
 }
 
-void dmb_model_check_release(dmb_model_check *check)
+int32_t dmb_model_check_open(const dmb_sim *sim, dmb_model_check *check)
+{
+    int32_t status = dmb_sim_occupy(sim);
+    if (status < 0) return status;
+    status = make(sim, check);
+    return status < 0 ? dmb_sim_leave((dmb_sim *)sim, status) : DMB_OK;
+}
+
+void dmb_model_check_close(dmb_model_check *check)
 {
     dmb_cluster_rank_release(check->sim, &check->rank);
+    (void)dmb_sim_leave((dmb_sim *)check->sim, DMB_OK);
 }
 
 int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report)
 {
     dmb_model_check check;
-    if (sim == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
-    if (report == NULL) return DMB_ERR_NULL;
-    int32_t status = dmb_model_check_make(sim, &check);
+    if (sim == NULL || report == NULL) return DMB_ERR_NULL;
+    int32_t status = dmb_model_check_open(sim, &check);
     if (status < 0) return status;
     status = dmb_check_report_write(report, &check.report);
-    dmb_model_check_release(&check);
+    dmb_model_check_close(&check);
     return status;
 }

@@ -209,10 +209,10 @@ int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t size, siz
     if (sim == NULL) return DMB_ERR_NULL;
     if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
     if (text == NULL && (size > 0 || needed == NULL)) return DMB_ERR_NULL;
-    const int32_t status = dmb_model_check_make(sim, &check);
+    const int32_t status = dmb_model_check_open(sim, &check);
     if (status < 0) return status;
     put_all(&s, &check);
-    dmb_model_check_release(&check);
+    dmb_model_check_close(&check);
     if (size > 0) text[s.used < size ? s.used : size - 1] = '\0';
     if (needed != NULL) *needed = s.used + 1;
     return s.used < size ? DMB_OK : DMB_NOTE_FULL;

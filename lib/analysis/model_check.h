@@ -19,9 +19,10 @@ typedef struct dmb_model_check {
     dmb_check_report report;
 } dmb_model_check;
 
-/* Takes the check of a live sim, report and all. Errors: as dmb_analysis_check; nothing is held then. */
-int32_t dmb_model_check_make(const dmb_sim *sim, dmb_model_check *check);
-void dmb_model_check_release(dmb_model_check *check);
+/* Takes the check of a sim, report and all; the sim is busy until the check is closed. Errors: as dmb_analysis_check;
+ * nothing is held then. */
+int32_t dmb_model_check_open(const dmb_sim *sim, dmb_model_check *check);
+void dmb_model_check_close(dmb_model_check *check);
 
 /* Parts on which gravity acts and no guide, drive, joint with the ground, spring, wall or rock. DMB_ERR_NO_MEMORY. */
 int32_t dmb_find_loose_parts(const dmb_sim *sim, dmb_loose_parts *loose);

@@ -141,12 +141,11 @@ int32_t dmb_analysis_modes(dmb_sim *sim, const dmb_modes_options *options, dmb_m
     dmb_modes_options taken;
     if (modes == NULL) return DMB_ERR_NULL;
     *modes = NULL;
-    if (sim == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
-    dmb_message_clear(&sim->message);
-    int32_t status = take_options(options, &taken, &sim->message);
+    int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    if (status < 0) return status;
+    status = take_options(options, &taken, &sim->message);
     if (status >= 0) status = dmb_modes_open(sim, modes);
     if (status >= 0) status = analyse(sim, &taken, &sim->message, *modes);
     if (status < 0) dmb_modes_destroy(modes);
-    return status;
+    return dmb_sim_leave(sim, status);
 }

@@ -227,7 +227,8 @@ static int32_t allocate_and_run(dmb_path *path)
     path->work = block != NULL ? dmb_state_copy(sim) : NULL;
     int32_t status = DMB_ERR_NO_MEMORY;
     if (path->work != NULL) {
-        path->work->magic = DMB_HANDLE_SIM; /* so that the callback can ask it */
+        path->work->magic = DMB_HANDLE_SIM; /* so that the callback can ask it, and no more */
+        path->work->busy = DMB_BUSY_READABLE;
         dmb_arena_place(&arena, block, size);
         lay_out(&arena, sim->scene, path);
         status = run(path);
@@ -239,13 +240,10 @@ static int32_t allocate_and_run(dmb_path *path)
     return status;
 }
 
-int32_t dmb_analysis_path(dmb_sim *sim, const dmb_path_options *options, dmb_path_report *report)
+static int32_t analyse(dmb_sim *sim, const dmb_path_options *options, dmb_path_report *report)
 {
     dmb_path_options taken;
     dmb_path path;
-    if (sim == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
-    dmb_message_clear(&sim->message);
     memset(&path, 0, sizeof path);
     path.sim = sim;
     path.options = &taken;
@@ -259,4 +257,10 @@ int32_t dmb_analysis_path(dmb_sim *sim, const dmb_path_options *options, dmb_pat
     if (status >= 0) status = allocate_and_run(&path);
     if (status >= 0 && report != NULL) (void)dmb_path_report_write(report, &path.report);
     return status;
+}
+
+int32_t dmb_analysis_path(dmb_sim *sim, const dmb_path_options *options, dmb_path_report *report)
+{
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    return status < 0 ? status : dmb_sim_leave(sim, analyse(sim, options, report));
 }

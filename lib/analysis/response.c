@@ -220,20 +220,14 @@ static int32_t check_counts(dmb_sim *sim, uint32_t inputs, uint32_t outputs)
     return check.status;
 }
 
-int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_input *inputs,
-                              uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
-                              dmb_response **response)
+static int32_t analyse(dmb_sim *sim, const dmb_response_options *options, const dmb_input *inputs, uint32_t input_count,
+                       const dmb_output *outputs, uint32_t output_count, dmb_response **response)
 {
     response_work w;
-    if (response == NULL) return DMB_ERR_NULL;
-    *response = NULL;
-    if (sim == NULL || inputs == NULL || outputs == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
     memset(&w, 0, sizeof w);
     w.sim = sim;
     w.input_count = input_count;
     w.output_count = output_count;
-    dmb_message_clear(&sim->message);
     int32_t status = dmb_response_options_take(options, &sim->message, &w.options);
     if (status >= 0) status = check_counts(sim, input_count, output_count);
     if (status < 0) return status;
@@ -246,4 +240,16 @@ int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options,
     else
         *response = made;
     return status < 0 ? status : DMB_OK;
+}
+
+int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_input *inputs,
+                              uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
+                              dmb_response **response)
+{
+    if (response == NULL) return DMB_ERR_NULL;
+    *response = NULL;
+    if (sim == NULL || inputs == NULL || outputs == NULL) return DMB_ERR_NULL;
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    if (status < 0) return status;
+    return dmb_sim_leave(sim, analyse(sim, options, inputs, input_count, outputs, output_count, response));
 }

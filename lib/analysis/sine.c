@@ -96,7 +96,9 @@ static int32_t run_window(sine_run *r)
         dmb_step_report report = dmb_step_report_default();
         const double now = dmb_sim_time(r->sim);
         add_sample(r, now);
+        r->sim->busy = DMB_BUSY_NOT; /* handed on to the step, which takes it */
         const int32_t status = dmb_sim_step(r->sim, r->begin + (j + 1) * r->step - now, &report);
+        r->sim->busy = DMB_BUSY_READABLE;
         if (status < 0) return status;
         r->report.steps += report.steps;
         r->report.rejected += report.rejected;
@@ -196,14 +198,11 @@ static int32_t run(sine_run *r, const dmb_output *outputs)
     return status;
 }
 
-int32_t dmb_analysis_sine(dmb_sim *sim, double frequency, const dmb_sine_options *options, const dmb_output *outputs,
-                          uint32_t output_count, double *amplitudes, dmb_sine_report *report)
+static int32_t analyse(dmb_sim *sim, double frequency, const dmb_sine_options *options, const dmb_output *outputs,
+                       uint32_t output_count, double *amplitudes, dmb_sine_report *report)
 {
     sine_run r;
-    if (sim == NULL || outputs == NULL || amplitudes == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
     memset(&r, 0, sizeof r);
-    dmb_message_clear(&sim->message);
     r.sim = sim;
     r.report = dmb_sine_report_default();
     if (report != NULL && dmb_sine_report_read(&r.report, report) < 0) return DMB_ERR_STRUCT_SIZE;
@@ -223,4 +222,13 @@ int32_t dmb_analysis_sine(dmb_sim *sim, double frequency, const dmb_sine_options
     }
     if (r.block != NULL) dmb_release(&sim->allocator, r.block, r.block_size);
     return status;
+}
+
+int32_t dmb_analysis_sine(dmb_sim *sim, double frequency, const dmb_sine_options *options, const dmb_output *outputs,
+                          uint32_t output_count, double *amplitudes, dmb_sine_report *report)
+{
+    if (sim == NULL || outputs == NULL || amplitudes == NULL) return DMB_ERR_NULL;
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    if (status < 0) return status;
+    return dmb_sim_leave(sim, analyse(sim, frequency, options, outputs, output_count, amplitudes, report));
 }

@@ -160,7 +160,9 @@ static int32_t follow_order(speeds_run *r, uint32_t k)
     int32_t status = take_order(r, k, &order);
     if (status < 0) return status;
     const dmb_response_options options = response_options(r, order.order);
+    r->sim->busy = DMB_BUSY_NOT; /* handed on to the analysis, which takes it */
     status = dmb_analysis_response(r->sim, &options, &order.input, 1, r->outputs, r->output_count, &response);
+    r->sim->busy = DMB_BUSY_READABLE;
     if (status < 0) return status;
     (void)dmb_response_shape(response, shape);
     r->curves[k].order = order.order;
@@ -243,16 +245,12 @@ static void release(speeds_run *r)
     if (r->speeds != NULL) dmb_release(allocator, r->speeds, r->points * sizeof(double));
 }
 
-int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
-                            uint32_t order_count, const dmb_output *outputs, const double *limits,
-                            uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count, double *severity)
+static int32_t analyse(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders, uint32_t order_count,
+                       const dmb_output *outputs, const double *limits, uint32_t output_count, dmb_speed_band *bands,
+                       uint32_t *band_count, double *severity)
 {
     speeds_run r = {.sim = sim, .orders = orders, .outputs = outputs, .limits = limits};
     dmb_speed_band unused;
-    if (sim == NULL || orders == NULL || outputs == NULL || limits == NULL || bands == NULL || band_count == NULL)
-        return DMB_ERR_NULL;
-    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
-    dmb_message_clear(&sim->message);
     if (dmb_speed_band_read(&unused, bands) < 0) return DMB_ERR_STRUCT_SIZE;
     r.order_count = order_count;
     r.output_count = output_count;
@@ -270,4 +268,16 @@ int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, con
     }
     release(&r);
     return status;
+}
+
+int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
+                            uint32_t order_count, const dmb_output *outputs, const double *limits,
+                            uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count, double *severity)
+{
+    if (sim == NULL || orders == NULL || outputs == NULL || limits == NULL || bands == NULL || band_count == NULL)
+        return DMB_ERR_NULL;
+    int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    if (status < 0) return status;
+    status = analyse(sim, options, orders, order_count, outputs, limits, output_count, bands, band_count, severity);
+    return dmb_sim_leave(sim, status);
 }

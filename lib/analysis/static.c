@@ -186,15 +186,12 @@ static void explain(dmb_static_search *search, int32_t status)
     }
 }
 
-int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)
+static int32_t analyse(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)
 {
     dmb_static_options taken;
     dmb_static_search search;
     dmb_static_report out;
     dmb_block_weakest weakest;
-    if (sim == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
-    dmb_message_clear(&sim->message);
     (void)dmb_static_report_init(&out, (uint32_t)sizeof out);
     if (report != NULL && dmb_static_report_read(&out, report) < 0) return DMB_ERR_STRUCT_SIZE;
     int32_t status = dmb_static_options_take(sim, options, &taken);
@@ -220,4 +217,10 @@ int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb
     status = settle(&search);
     if (status >= 0 && report != NULL) (void)dmb_static_report_write(report, &out);
     return status;
+}
+
+int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)
+{
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_CHANGING);
+    return status < 0 ? status : dmb_sim_leave(sim, analyse(sim, options, report));
 }

@@ -60,7 +60,7 @@ static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk 
     }
 }
 
-int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report)
+static int32_t advance(dmb_sim *sim, double time, dmb_step_report *report)
 {
     dmb_walk walk;
     int32_t status = dmb_walk_begin(sim, report, &walk);
@@ -73,4 +73,10 @@ int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report)
         walk.stopped = walk.report.steps == sim->options.max_steps && sim->clock->time < time;
     }
     return dmb_walk_end(sim, status, 0, report, &walk);
+}
+
+int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report)
+{
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    return status < 0 ? status : dmb_sim_leave(sim, advance(sim, time, report));
 }

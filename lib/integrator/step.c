@@ -1,7 +1,6 @@
 /* dmb_sim_step: one step of the asked length, divided at programme corners and where Newton does not converge. */
 #include <string.h>
 
-#include "base/handle.h"
 #include "base/sized_struct.h"
 #include "drillmbd/sim.h"
 #include "integrator/attempt.h"
@@ -50,7 +49,7 @@ static int32_t take_substep(dmb_sim *sim, double end, double *cut, uint32_t *cut
     }
 }
 
-int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report)
+static int32_t step(dmb_sim *sim, double duration, dmb_step_report *report)
 {
     dmb_walk walk;
     double cut = (double)INFINITY;
@@ -66,4 +65,10 @@ int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report)
         if (status == DMB_NOTE_WORK_LIMITED) walk.limited = 1;
     }
     return dmb_walk_end(sim, status, 1, report, &walk);
+}
+
+int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report)
+{
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    return status < 0 ? status : dmb_sim_leave(sim, step(sim, duration, report));
 }

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/check.h"
-#include "base/handle.h"
 #include "base/sized_struct.h"
 #include "system/start.h"
 
@@ -12,9 +11,6 @@ DMB_DECLARE_STRUCT(dmb_step_report)
 int32_t dmb_walk_begin(dmb_sim *sim, const dmb_step_report *report, dmb_walk *walk)
 {
     memset(walk, 0, sizeof *walk);
-    if (sim == NULL) return DMB_ERR_NULL;
-    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
-    dmb_message_clear(&sim->message);
     (void)dmb_step_report_init(&walk->report, (uint32_t)sizeof walk->report);
     walk->counters = *sim->counters;
     dmb_step_report unused; /* only its size matters: what the caller's report holds is from an earlier call */
@@ -41,7 +37,10 @@ void dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
 /* A failure here leaves everything as before, the accelerations of before included, which is what there was anyway. */
 void dmb_walk_corner(dmb_sim *sim)
 {
-    if (dmb_system_rate_jumps(sim)) (void)dmb_system_jump(sim);
+    if (!dmb_system_rate_jumps(sim)) return;
+    sim->busy = DMB_BUSY_CHANGING;
+    (void)dmb_system_jump(sim);
+    sim->busy = DMB_BUSY_READABLE;
 }
 
 int32_t dmb_walk_stuck(dmb_sim *sim, double step)

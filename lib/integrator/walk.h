@@ -16,7 +16,7 @@ typedef struct dmb_walk {
     int32_t reserved;
 } dmb_walk;
 
-/* Checks handle and report. */
+/* Checks the report. */
 int32_t dmb_walk_begin(dmb_sim *sim, const dmb_step_report *report, dmb_walk *walk);
 /* DMB_ERR_NOT_FINITE or DMB_ERR_VALUE with a message unless value is finite and > bound. */
 int32_t dmb_walk_check(dmb_sim *sim, const char *field, double value, double bound);

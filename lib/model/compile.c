@@ -62,5 +62,5 @@ int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options)
     if (status < 0) return dmb_describe_close(model, "compile", status);
     tell(model, scene);
     model->scene = scene;
-    return DMB_OK;
+    return dmb_describe_close(model, "compile", DMB_OK);
 }

@@ -5,8 +5,9 @@
 
 #include "model/model.h"
 
-/* DMB_OK for a model that may still be described and a definition that is there. Errors: DMB_ERR_NULL, _HANDLE; _ORDER
- * for a compiled model, whose message stays because other threads may be reading it. */
+/* DMB_OK for a model that may still be described and a definition that is there; the model is busy then until
+ * dmb_describe_close. Errors: DMB_ERR_NULL, _HANDLE; _ORDER for a busy model, and for a compiled one, whose message stays
+ * because other threads may be reading it. */
 int32_t dmb_describe_open(dmb_model *model, const void *def);
 /* Ends a call: a refusal without a message gets one, `part` before the text of the status, and the log is told. */
 int32_t dmb_describe_close(dmb_model *model, const char *part, int32_t status);

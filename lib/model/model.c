@@ -33,6 +33,7 @@ int32_t dmb_model_create(const dmb_model_options *options, dmb_model **model)
     created->magic = DMB_HANDLE_MODEL;
     created->stamp = next_stamp();
     atomic_init(&created->holders, 1u);
+    atomic_init(&created->owned, 1u);
     created->allocator = allocator;
     created->log = read.log;
     created->log_context = read.log_context;
@@ -74,14 +75,35 @@ void dmb_model_release(dmb_model *model)
     /* whoever lets go last must see what the others wrote before they let go */
     if (atomic_fetch_sub_explicit(&model->holders, 1u, memory_order_acq_rel) != 1u) return;
     release_parts(model);
-    model->magic = DMB_HANDLE_DEAD;
     dmb_release(&allocator, model, sizeof *model);
+}
+
+/* The caller has one hold, however many copies of the handle there are. From then on the model is no handle for
+ * callers, though sims may keep it alive. */
+static void give_up(dmb_model *model)
+{
+    if (atomic_exchange(&model->owned, 0u) == 0u) return;
+    model->magic = DMB_HANDLE_DEAD;
+    dmb_model_release(model);
+}
+
+static void refuse_re_entry(dmb_model *model)
+{
+    if (model->message.text[0] != '\0') return; /* what the call under way says */
+    dmb_message_set(&model->message, "model: in a call of its own, whose allocator or log function may not change it; "
+                                     "do so when that call has returned");
 }
 
 void dmb_model_destroy(dmb_model **model)
 {
     if (model == NULL) return;
-    if (dmb_handle_is(*model, DMB_HANDLE_MODEL)) dmb_model_release(*model);
+    if (dmb_handle_is(*model, DMB_HANDLE_MODEL)) {
+        if ((*model)->busy) {
+            refuse_re_entry(*model);
+            return;
+        }
+        give_up(*model);
+    }
     *model = NULL;
 }
 
@@ -135,6 +157,11 @@ int32_t dmb_describe_open(dmb_model *model, const void *def)
     if (model == NULL) return DMB_ERR_NULL;
     if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
     if (model->scene != NULL) return DMB_ERR_ORDER;
+    if (model->busy) {
+        refuse_re_entry(model);
+        return DMB_ERR_ORDER;
+    }
+    model->busy = 1;
     dmb_message_clear(&model->message);
     return def != NULL ? DMB_OK : dmb_describe_close(model, "definition", DMB_ERR_NULL);
 }
@@ -142,9 +169,11 @@ int32_t dmb_describe_open(dmb_model *model, const void *def)
 int32_t dmb_describe_close(dmb_model *model, const char *part, int32_t status)
 {
     const dmb_log log = {model->log, model->log_context};
-    if (status >= 0) return status;
-    if (model->message.text[0] == '\0') dmb_message_set(&model->message, "%s: %s", part, dmb_status_text(status));
-    dmb_log_text(&log, DMB_LOG_ERROR, model->message.text);
+    if (status < 0) {
+        if (model->message.text[0] == '\0') dmb_message_set(&model->message, "%s: %s", part, dmb_status_text(status));
+        dmb_log_text(&log, DMB_LOG_ERROR, model->message.text);
+    }
+    model->busy = 0;
     return status;
 }
 

@@ -41,6 +41,8 @@ struct dmb_model {
     uint32_t magic;
     uint32_t stamp;        /* generation of the ids it gives out, never 0 */
     atomic_uint holders;   /* the caller and every live sim */
+    atomic_uint owned;     /* 1 until the caller destroys it: a copied handle gives nothing up a second time */
+    uint32_t busy;         /* 1 while a call describes or compiles it */
     dmb_allocator allocator;
     dmb_log_fn log;
     void *log_context;

@@ -184,18 +184,9 @@ static int32_t keep_projection(dmb_sim *sim, const dmb_sim *from)
     return DMB_NOTE_PROJECTED;
 }
 
-int32_t dmb_sim_carry_over(dmb_sim *sim, const dmb_sim *from)
+static int32_t carry_over(dmb_sim *sim, const dmb_sim *from)
 {
-    int32_t status = dmb_sim_check(sim);
-    if (status < 0) return status;
-    dmb_message_clear(&sim->message);
-    status = dmb_sim_check(from);
-    if (status < 0) return status;
-    if (sim == from) {
-        dmb_message_set(&sim->message, "carry over: sim and from are one, must be two");
-        return DMB_ERR_VALUE;
-    }
-    status = dmb_carry_check(sim, from);
+    int32_t status = dmb_carry_check(sim, from);
     if (status < 0) return status;
     dmb_state_keep(sim);
     status = go_on(sim, from);
@@ -205,4 +196,26 @@ int32_t dmb_sim_carry_over(dmb_sim *sim, const dmb_sim *from)
     }
     dmb_forget_factors(sim);
     return keep_projection(sim, from);
+}
+
+/* Callbacks of the model of `sim` may not change `from` either. */
+static int32_t with_both(dmb_sim *sim, dmb_sim *from)
+{
+    if (sim == from) {
+        dmb_message_set(&sim->message, "carry over: sim and from are one, must be two");
+        return DMB_ERR_VALUE;
+    }
+    int32_t status = dmb_sim_check(from);
+    if (status < 0) return status;
+    const int32_t busy = from->busy; /* not free where this is called from a callback of its own */
+    from->busy = DMB_BUSY_READABLE;
+    status = carry_over(sim, from);
+    from->busy = busy;
+    return status;
+}
+
+int32_t dmb_sim_carry_over(dmb_sim *sim, const dmb_sim *from)
+{
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_CHANGING);
+    return status < 0 ? status : dmb_sim_leave(sim, with_both(sim, (dmb_sim *)from));
 }

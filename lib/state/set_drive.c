@@ -22,13 +22,9 @@ static int32_t jump_to(dmb_sim *sim, uint32_t index, double value)
     return status;
 }
 
-int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value)
+static int32_t set_drive(dmb_sim *sim, dmb_id drive, double value)
 {
-    const int32_t status = dmb_sim_check(sim);
-    uint32_t index;
-    if (status < 0) return status;
-    dmb_message_clear(&sim->message);
-    index = dmb_model_part_index(sim->model, drive, DMB_PART_DRIVE);
+    const uint32_t index = dmb_model_part_index(sim->model, drive, DMB_PART_DRIVE);
     if (index >= sim->scene->drive_count) return refuse(sim, DMB_ERR_ID, "drive: the id names no drive of this model");
     if (sim->scene->drives[index].kind == DMB_DRIVE_MOTION) {
         dmb_message_set(&sim->message, "drive %u: its kind is DMB_DRIVE_MOTION, whose speed may not jump", index);
@@ -43,4 +39,10 @@ int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value)
         return DMB_ERR_VALUE;
     }
     return jump_to(sim, index, isnan(value) ? (double)NAN : value); /* one NaN, so that equal states hash alike */
+}
+
+int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value)
+{
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_CHANGING);
+    return status < 0 ? status : dmb_sim_leave(sim, set_drive(sim, drive, value));
 }

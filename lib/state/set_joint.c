@@ -2,11 +2,8 @@
 #include "state/handle.h"
 #include "system/joint_state.h"
 
-int32_t dmb_sim_set_joint(dmb_sim *sim, dmb_id joint, int32_t state)
+static int32_t set_joint(dmb_sim *sim, dmb_id joint, int32_t state)
 {
-    const int32_t status = dmb_sim_check(sim);
-    if (status < 0) return status;
-    dmb_message_clear(&sim->message);
     const uint32_t j = dmb_model_part_index(sim->model, joint, DMB_PART_JOINT);
     if (j >= sim->scene->joint_count) {
         dmb_message_set(&sim->message, "joint: the id names no joint of this model");
@@ -17,4 +14,10 @@ int32_t dmb_sim_set_joint(dmb_sim *sim, dmb_id joint, int32_t state)
         return DMB_ERR_VALUE;
     }
     return dmb_joint_switch(sim, j, state);
+}
+
+int32_t dmb_sim_set_joint(dmb_sim *sim, dmb_id joint, int32_t state)
+{
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_CHANGING);
+    return status < 0 ? status : dmb_sim_leave(sim, set_joint(sim, joint, state));
 }

@@ -104,19 +104,20 @@ static void release_drives(dmb_sim *sim)
     for (uint32_t i = 0; i < sim->scene->drive_count; ++i) sim->drive_input[i] = (double)NAN;
 }
 
-/* Makes the sim in a block and sets it to time 0. */
+/* Makes the sim in a block and sets it to time 0. The hold on the model, taken before, becomes the sim's. */
 static int32_t begin(const creation *c, dmb_model *model, void *block, size_t size, int32_t owns_memory, dmb_sim **out)
 {
     dmb_sim *sim = dmb_sim_carve(model->scene, block, size);
     int32_t status;
-    if (sim == NULL) return DMB_ERR_TOO_LARGE; /* not reached: the size was checked */
-    sim->magic = DMB_HANDLE_SIM;
+    if (sim == NULL) { /* not reached: the size was checked */
+        dmb_model_release(model);
+        return DMB_ERR_TOO_LARGE;
+    }
     sim->owns_memory = owns_memory;
     sim->model = model;
     sim->options = c->options;
     sim->allocator = c->allocator;
     sim->options.allocator = NULL; /* the caller's struct may be gone; the copy is the one to use */
-    dmb_model_hold(model);
     release_drives(sim);
     status = dmb_system_start(sim);
     tell(&sim->options, status, &sim->message);
@@ -124,6 +125,7 @@ static int32_t begin(const creation *c, dmb_model *model, void *block, size_t si
         give_back(sim);
         return status;
     }
+    sim->magic = DMB_HANDLE_SIM; /* no handle before: callbacks and log may know the block */
     *out = sim;
     return status;
 }
@@ -137,10 +139,12 @@ int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options, dmb_sim
     *sim = NULL;
     status = prepare(&c, model, options);
     if (status < 0) return status;
+    dmb_model_hold(model); /* the allocator and the log may destroy the caller's handle */
     block = dmb_allocate(&c.allocator, c.bytes);
     if (block == NULL) {
         dmb_message_set(&c.message, "sim: no memory for %zu bytes", c.bytes);
         tell(&c.options, DMB_ERR_NO_MEMORY, &c.message);
+        dmb_model_release(model);
         return DMB_ERR_NO_MEMORY;
     }
     return begin(&c, model, block, c.bytes, 1, sim);
@@ -160,23 +164,30 @@ int32_t dmb_sim_create_in(dmb_model *model, const dmb_sim_options *options, void
         tell(&c.options, DMB_ERR_VALUE, &c.message);
         return DMB_ERR_VALUE;
     }
+    dmb_model_hold(model);
     return begin(&c, model, block, size, 0, sim);
 }
 
 void dmb_sim_destroy(dmb_sim **sim)
 {
     if (sim == NULL) return;
-    if (dmb_sim_check(*sim) == DMB_OK) give_back(*sim);
+    if (dmb_handle_is(*sim, DMB_HANDLE_SIM)) {
+        if ((*sim)->busy != DMB_BUSY_NOT) {
+            dmb_sim_refuse_re_entry(*sim);
+            return;
+        }
+        give_back(*sim);
+    }
     *sim = NULL;
 }
 
 const char *dmb_sim_message(const dmb_sim *sim)
 {
-    const int32_t status = dmb_sim_check(sim);
-    return status == DMB_OK ? sim->message.text : dmb_status_text(status);
+    if (sim == NULL) return dmb_status_text(DMB_ERR_NULL);
+    return dmb_handle_is(sim, DMB_HANDLE_SIM) ? sim->message.text : dmb_status_text(DMB_ERR_HANDLE);
 }
 
 double dmb_sim_time(const dmb_sim *sim)
 {
-    return dmb_sim_check(sim) == DMB_OK ? sim->clock->time : (double)NAN;
+    return dmb_handle_is(sim, DMB_HANDLE_SIM) ? sim->clock->time : (double)NAN;
 }

@@ -103,14 +103,12 @@ static int32_t check_snapshot(dmb_sim *sim, const void *block, size_t size)
     return DMB_OK;
 }
 
-int32_t dmb_sim_restore(dmb_sim *sim, const void *block, size_t size)
+static int32_t restore(dmb_sim *sim, const unsigned char *block, size_t size)
 {
-    int32_t status = dmb_sim_check(sim);
     dmb_field fields[DMB_FIELD_MAX];
     const unsigned char *from = block;
     size_t count;
-    if (status < 0) return status;
-    dmb_message_clear(&sim->message);
+    int32_t status;
     if (block == NULL) return DMB_ERR_NULL;
     status = check_snapshot(sim, block, size);
     if (status < 0) return status;
@@ -121,6 +119,12 @@ int32_t dmb_sim_restore(dmb_sim *sim, const void *block, size_t size)
         from += fields[i].bytes;
     }
     return DMB_OK;
+}
+
+int32_t dmb_sim_restore(dmb_sim *sim, const void *block, size_t size)
+{
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_CHANGING);
+    return status < 0 ? status : dmb_sim_leave(sim, restore(sim, block, size));
 }
 
 int32_t dmb_sim_hash(const dmb_sim *sim, uint64_t *hash)

@@ -155,7 +155,7 @@ static void compiled_is_frozen(void **state)
     dmb_model_destroy(&model);
 }
 
-/* A holder keeps the model alive after its maker has let go. */
+/* A holder keeps the model alive after its maker has let go, though it is no handle from then on. */
 static void holders(void **state)
 {
     dmb_model *model = new_model(), *kept = model;
@@ -165,7 +165,8 @@ static void holders(void **state)
     (void)compiled(model);
     dmb_model_hold(model);
     dmb_model_destroy(&model);
-    assert_int_equal(kept->magic, DMB_HANDLE_MODEL);
+    assert_int_equal(kept->magic, DMB_HANDLE_DEAD);
+    assert_int_equal(kept->holders, 1);
     assert_int_equal(kept->scene->node_count, 2);
     dmb_model_release(kept);
 }
