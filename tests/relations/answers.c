@@ -4,7 +4,7 @@
 #include <string.h>
 
 typedef struct taker {
-    const scene *s;
+    const scene *s; /* the original one */
     scene_view view;
     double roll[SCENE_STRINGS];
     const built *b;
@@ -72,15 +72,23 @@ static void put_motion(taker *t, dmb_place place, double roll, double R[9])
 
 /* ---- Strings ----------------------------------------------------------------------------------------------------- */
 
+/* Quarters and ends of the pipes: a middle is an end where pipes are halved. */
+static dmb_place station_of(const taker *t, uint32_t k, uint32_t pipe, double fraction)
+{
+    if (!t->view.halved) return dmb_station(t->b->string[k], pipe, fraction);
+    return dmb_station(t->b->string[k], fraction > 0.5 ? 2 * pipe + 1 : 2 * pipe,
+                       fraction > 0.5 ? 2.0 * fraction - 1.0 : 2.0 * fraction);
+}
+
 static void put_station(taker *t, uint32_t k, uint32_t pipe, double fraction)
 {
-    const dmb_place place = dmb_station(t->b->string[k], pipe, fraction);
+    const dmb_place place = station_of(t, k, pipe, fraction);
     dmb_section section = dmb_section_default();
     double R[9], turn = 0.0;
     put_motion(t, place, t->roll[k], R);
     if (dmb_query_rotation(t->b->sim, place, &turn) < 0) turn = (double)NAN;
     put(t, ANSWER_ROTATION, t->view.handed * turn);
-    if (t->s->string[k].pipe[pipe].kind == DMB_PIPE_RIGID) return;
+    if (t->s->string[k].pipe[pipe].kind == DMB_PIPE_RIGID || t->view.motion_only) return;
     if (dmb_query_section(t->b->sim, place, &section) < 0) put(t, ANSWER_FORCE, (double)NAN);
     put_wrench_in(t, R, section.force);
 }
@@ -90,9 +98,10 @@ static void put_string(taker *t, uint32_t k)
     double reaction[6], R[9];
     put_station(t, k, 0, 0.0);
     for (uint32_t p = 0; p < t->s->string[k].pipes; ++p) {
-        put_station(t, k, p, 0.5);
+        put_station(t, k, p, 0.25);
         put_station(t, k, p, 1.0);
     }
+    if (t->view.motion_only) return;
     put_motion(t, dmb_station(t->b->string[k], 0, 0.0), t->roll[k], R);
     if (dmb_query_reaction(t->b->sim, t->b->string[k], reaction) < 0) put(t, ANSWER_FORCE, (double)NAN);
     put_wrench_in(t, R, reaction);
@@ -105,7 +114,8 @@ enum { SLOTS_STRING = SCENE_PIPES + 1, SLOTS = SCENE_STRINGS * SLOTS_STRING + SC
 static uint32_t slot_of(const taker *t, const dmb_contact *c)
 {
     for (uint32_t k = 0; k < t->s->strings; ++k)
-        if (t->b->string[k].index == c->part.index) return k * SLOTS_STRING + (c->pipe == UINT32_MAX ? 0 : c->pipe + 1);
+        if (t->b->string[k].index == c->part.index)
+            return k * SLOTS_STRING + (c->pipe == UINT32_MAX ? 0 : (t->view.halved ? c->pipe / 2 : c->pipe) + 1);
     for (uint32_t i = 0; i < t->s->bodies; ++i)
         if (t->b->body[i].index == c->part.index) return SCENE_STRINGS * SLOTS_STRING + i;
     return SLOTS - 1;
@@ -135,7 +145,7 @@ static void put_contacts(taker *t)
 
 static void put_joint(taker *t, uint32_t i)
 {
-    dmb_joint_state j = dmb_joint_state_default();
+    dmb_joint_state j = dmb_joint_state_default(), again = dmb_joint_state_default();
     if (dmb_query_joint(t->b->sim, t->b->joint[i], &j) < 0) put(t, ANSWER_FORCE, (double)NAN);
     for (int k = 0; k < 6; ++k) {
         const double sign = k >= 2 && k <= 4 ? t->view.handed : 1.0;
@@ -145,6 +155,9 @@ static void put_joint(taker *t, uint32_t i)
         put(t, k < 3 ? ANSWER_FORCE : ANSWER_MOMENT,
             sign * j.action[k] / (force_unit(t) * (k < 3 ? 1.0 : t->view.length)));
     }
+    if (t->view.doubled && dmb_query_joint(t->b->sim, t->b->joint[i + t->s->joints], &again) < 0)
+        put(t, ANSWER_FORCE, (double)NAN);
+    for (int k = 0; k < 6; ++k) j.reaction[k] += again.reaction[k];
     put_wrench(t, j.reaction, j.reaction + 3);
 }
 
@@ -188,7 +201,7 @@ static void put_bit(taker *t)
 
 void answers_take(const scene *original, const scene *transformed, const scene_view *view, const built *b, answers *out)
 {
-    taker t = {transformed, view ? *view : view_identity(), {0.0}, b, out};
+    taker t = {original, view ? *view : view_identity(), {0.0}, b, out};
     double R[9];
     out->count = 0;
     out->overflow = 0;
@@ -199,7 +212,7 @@ void answers_take(const scene *original, const scene *transformed, const scene_v
     for (uint32_t i = 0; i < t.s->joints; ++i) put_joint(&t, i);
     for (uint32_t i = 0; i < t.s->drives; ++i) put_drive(&t, i);
     if (t.s->has_bit) put_bit(&t);
-    if (t.s->has_wall) put_contacts(&t);
+    if (t.s->has_wall && !t.view.motion_only) put_contacts(&t);
     put_energy(&t);
 }
 

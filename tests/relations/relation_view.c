@@ -9,7 +9,8 @@ static scene seen;
 static void compare(trial *t, const scene_view *view, int reversed)
 {
     scene_transform(&t->s, view, &seen);
-    hold_runs(t, &seen, view, reversed, STEPS);
+    const comparison c = {&seen, view, reversed, STEPS, NULL, 0};
+    hold_runs(t, &c);
 }
 
 /* Axial-torsional pipes in a bent hole turn with its frame, whose y axis is horizontal: about the vertical alone is

@@ -50,11 +50,17 @@ void scene_perturb(const scene *s, double p, scene *out);
 /* The condition of the scene is measured: how far a run goes that begins 1e-9 aside. */
 #define PERTURBATION 1e-9
 #define NEWTON_TOLERANCE 1e-12 /* of scene_options */
-/* Holds |a - b| of each group against  1000 (floor + e |a|) growth + 1000 (e/p) |c - a|,  c the answers of the
- * perturbed run, growth what it made of its perturbation, e the rounding of a double. alike: the runs took the same
- * decisions; otherwise they differ by what Newton leaves over, and e is its tolerance, the floor as much higher. */
-void hold_rounding(trial *t, const answers *a, const answers *b, const answers *perturbed, int alike,
-                   const double floor[ANSWER_GROUPS]);
+/* The condition of a scene: how far apart two of its runs end of which one begins PERTURBATION aside, by group. */
+typedef struct condition {
+    double apart[ANSWER_GROUPS], growth;
+} condition;
+/* Takes the larger one of what c has and of what a perturbed run says; begin with zeros. */
+void condition_add(condition *c, const answers *a, const answers *perturbed, double perturbation);
+/* Holds |a - b| of each group against  1000 (floor + e |a|) growth + 1000 (e/p) apart,  e the rounding of a double.
+ * alike: the runs took the same decisions; otherwise they differ by what Newton leaves over: e is its tolerance then, and
+ * the floor as much higher. Returns 1 if all hold; silent: says nothing where they do not. */
+int hold_rounding(trial *t, const answers *a, const answers *b, const condition *c, int alike,
+                  const double floor[ANSWER_GROUPS], int silent);
 
 /* The decisions of a run: how its steps were divided, and how many iterations each took, as numbers to compare. */
 typedef struct decisions {
@@ -71,9 +77,17 @@ typedef struct run_record {
     decisions decisions;
     answers answers;
 } run_record;
-/* The trial's scene against `seen`, which a view has made of it: both are run, and the scene a hair aside, and held
- * together by hold_rounding. reversed: parts of `seen` are added in the other order. */
-void hold_runs(trial *t, const scene *seen, const scene_view *view, int reversed, uint32_t steps);
+/* The trial's scene against `seen`, which a view has made of it. Both are run, and the scene a hair aside, and held
+ * together by hold_rounding. */
+typedef struct comparison {
+    const scene *seen;
+    const scene_view *view;
+    int reversed;                   /* parts of `seen` are added in the other order */
+    uint32_t steps;
+    const dmb_sim_options *options; /* of the run of `seen`; NULL: scene_options */
+    int loose;                      /* other equations with the same solution: what Newton leaves over differs */
+} comparison;
+void hold_runs(trial *t, const comparison *c);
 
 #define RELATION(name) extern const relation relation_##name;
 #include "relations.def"

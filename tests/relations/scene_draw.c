@@ -84,6 +84,17 @@ static programme_data run_up(double value, double time)
     return p;
 }
 
+programme_data programme_step(double c, double more, double begin, double time)
+{
+    programme_data p = constant(c);
+    p.terms = 2;
+    p.term[1].kind = DMB_TERM_STEP5;
+    p.term[1].x0 = begin;
+    p.term[1].x1 = begin + time;
+    p.term[1].h1 = more;
+    return p;
+}
+
 static programme_data shaken(double value, double part, double omega)
 {
     programme_data p = constant(value);

@@ -13,7 +13,7 @@
 
 enum {
     SCENE_STRINGS = 3,
-    SCENE_PIPES = 16, /* of one string */
+    SCENE_PIPES = 20, /* of one string */
     SCENE_BODIES = 6,
     SCENE_JOINTS = 12,
     SCENE_DRIVES = 3,
@@ -132,6 +132,8 @@ double draw_number(stream *t, double low, double high);
 double draw_size(stream *t, double low, double high); /* evenly over the orders of magnitude */
 uint32_t draw_count(stream *t, uint32_t low, uint32_t high); /* low .. high */
 int draw_chance(stream *t, double probability);
+/* c, and from `begin` on within `time` smoothly c + more (fifth-order step). */
+programme_data programme_step(double c, double more, double begin, double time);
 void draw_direction(stream *t, double unit[3]);
 enum { TOPIC_OF_RELATION = 100 }; /* topics from here on are free for relations */
 

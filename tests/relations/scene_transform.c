@@ -72,7 +72,7 @@ void vector_of_rotation(const double R[9], double v[3])
 
 scene_view view_identity(void)
 {
-    const scene_view v = {{1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, 1.0, 1.0, 1.0};
+    const scene_view v = {{1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, 1.0, 1.0, 1.0, 0, 0, 0};
     return v;
 }
 
@@ -377,6 +377,58 @@ static void transform_load(const scene_view *v, const double *roll, load_data *l
     polar(matrix, M * L * L * v->handed, l->def.moment);
 }
 
+/* ---- Other descriptions of the same scene -------------------------------------------------------------------------- */
+
+static void halve_place(part_ref *r)
+{
+    if (r->kind != PART_STRING) return;
+    r->pipe = r->fraction > 0.5 ? 2 * r->pipe + 1 : 2 * r->pipe;
+}
+
+static void halve(scene *s)
+{
+    for (uint32_t k = 0; k < s->strings; ++k) {
+        string_data *const string = &s->string[k];
+        for (uint32_t i = string->pipes; i-- > 0;) {
+            dmb_pipe_def half = string->pipe[i];
+            half.length *= 0.5;
+            half.elements /= 2;
+            string->pipe[2 * i] = string->pipe[2 * i + 1] = half;
+        }
+        string->pipes *= 2;
+    }
+    for (uint32_t i = 0; i < s->joints; ++i) {
+        halve_place(&s->joint[i].a);
+        halve_place(&s->joint[i].b);
+    }
+    for (uint32_t i = 0; i < s->loads; ++i) halve_place(&s->load[i].place);
+}
+
+/* A kind that holds some of what `kind` holds. */
+static int32_t weaker(int32_t kind, uint32_t choice)
+{
+    static const int32_t held[][3] = {{DMB_JOINT_FIXED, DMB_JOINT_REVOLUTE, DMB_JOINT_UNIVERSAL},
+                                      {DMB_JOINT_REVOLUTE, DMB_JOINT_CYLINDRICAL, DMB_JOINT_SPHERICAL},
+                                      {DMB_JOINT_PRISMATIC, DMB_JOINT_CYLINDRICAL, DMB_JOINT_PRISMATIC},
+                                      {DMB_JOINT_CYLINDRICAL, DMB_JOINT_CYLINDRICAL, DMB_JOINT_CYLINDRICAL},
+                                      {DMB_JOINT_UNIVERSAL, DMB_JOINT_SPHERICAL, DMB_JOINT_UNIVERSAL},
+                                      {DMB_JOINT_SPHERICAL, DMB_JOINT_SPHERICAL, DMB_JOINT_SPHERICAL}};
+    return held[kind][choice];
+}
+
+static void double_joints(scene *s)
+{
+    stream t = stream_of(s->seed, s->number, TOPIC_OF_RELATION + 50);
+    const uint32_t joints = s->joints;
+    for (uint32_t i = 0; i < joints; ++i) {
+        joint_data *const j = &s->joint[s->joints++];
+        *j = s->joint[i];
+        j->def.kind = weaker(j->def.kind, draw_count(&t, 0, 2));
+        memset(j->def.stiffness, 0, sizeof j->def.stiffness);
+        memset(j->def.damping, 0, sizeof j->def.damping);
+    }
+}
+
 void scene_transform(const scene *original, const scene_view *v, scene *out)
 {
     double roll[SCENE_STRINGS];
@@ -397,4 +449,6 @@ void scene_transform(const scene *original, const scene_view *v, scene *out)
     for (uint32_t i = 0; i < out->joints; ++i) transform_joint(v, roll, &out->joint[i]);
     for (uint32_t i = 0; i < out->drives; ++i) transform_drive(v, &out->drive[i]);
     for (uint32_t i = 0; i < out->loads; ++i) transform_load(v, roll, &out->load[i]);
+    if (v->halved) halve(out);
+    if (v->doubled) double_joints(out);
 }
