@@ -8,6 +8,13 @@
 extern "C" {
 #endif
 
+/* Same bits, by level. Same build, same machine and same calls give
+ *   1. steps, and all that is read off a state: the same bits, whatever else runs, in any number of threads;
+ *   2. statics, paths, buckling, responses, stepped sine, speeds to avoid: the same bits likewise; they call no BLAS;
+ *   3. modes, and `condition` of a model check: LAPACK's digits. They differ by rounding with the host's BLAS and the number
+ *      of its threads: eigenvalues by some 1e-12 of themselves, shapes by as much over the distance to the next frequency;
+ *      counts, ranks and rigid-body modes do not. One thread of BLAS (OPENBLAS_NUM_THREADS=1) gives the same bits here too. */
+
 typedef struct dmb_static_options {
     uint32_t struct_size;
     uint32_t max_iterations;   /* [-] of one load step, 1 .. 10000; default 60 */

@@ -7,15 +7,29 @@
 #include "base/allocator.h"
 #include "math/eigen.h"
 
+/* `rows`: of the eigenproblem. */
+static int32_t refuse_size(const dmb_mode_search *search, size_t rows)
+{
+    dmb_message_set(search->message,
+                    "modes: all modes at once are an eigenproblem of %zu rows (%u coordinates%s), must be <= %d: ask for "
+                    "the lowest ones or a band",
+                    rows, search->linear->coordinates, rows > search->linear->coordinates ? ", damped" : "",
+                    DMB_EIGEN_MAX);
+    return DMB_ERR_TOO_LARGE;
+}
+
 static int32_t open_dense(const dmb_mode_search *search, dmb_dense *d)
 {
     const size_t n = search->linear->coordinates, rows = search->linear->rows;
-    const size_t m = dmb_coupled_size(search), work = dmb_eigen_work(m > n ? m : n);
-    const size_t square = search->general ? 4 * n * n + n : 2 * n * n;
+    const size_t m = dmb_coupled_size(search), pair = dmb_eigen_work(n), coupled = dmb_eigen_general_work(m);
     memset(d, 0, sizeof *d);
     d->n = n;
-    if (work == SIZE_MAX) return DMB_ERR_TOO_LARGE;
-    d->bytes = (square + 2 * m * m + 6 * n + work + 2 * rows) * sizeof(double);
+    if (pair == SIZE_MAX || coupled == SIZE_MAX) return refuse_size(search, m > n ? m : n);
+    const size_t square = search->general ? 4 * n * n + n : 2 * n * n, work = pair > coupled ? pair : coupled;
+    const double bytes = ((double)square + 2.0 * (double)m * (double)m + 6.0 * (double)n + (double)work +
+                          2.0 * (double)rows) * (double)sizeof(double);
+    if (bytes > 0.5 * (double)SIZE_MAX) return refuse_size(search, m > n ? m : n);
+    d->bytes = (size_t)bytes;
     d->block = dmb_allocate(&search->linear->allocator, d->bytes);
     if (d->block == NULL) return DMB_ERR_NO_MEMORY;
     d->M = d->block;

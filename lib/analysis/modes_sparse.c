@@ -97,6 +97,7 @@ static int32_t refine(dmb_mode_search *search, const dmb_krylov *found)
 {
     dmb_linear *linear = search->linear;
     const size_t k = found->count, rows = linear->rows, work = dmb_eigen_work(k);
+    if (work == SIZE_MAX) return DMB_ERR_TOO_LARGE;
     const size_t bytes = (2 * k * k + k + work + k * rows + rows) * sizeof(double);
     double *K = dmb_allocate(&linear->allocator, bytes);
     if (K == NULL) return DMB_ERR_NO_MEMORY;

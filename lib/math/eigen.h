@@ -6,8 +6,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Doubles of work for n rows; SIZE_MAX if that overflows. */
+/* Most rows: LAPACK counts its work in integers of 32 bits. */
+enum { DMB_EIGEN_MAX = 32766 };
+
+/* Doubles of work for n rows, of dmb_eigen_symmetric and _pair, and of dmb_eigen_general; SIZE_MAX above DMB_EIGEN_MAX,
+ * and where they do not fit the address space. */
 size_t dmb_eigen_work(size_t n);
+size_t dmb_eigen_general_work(size_t n);
 
 /* A x = value x, A symmetric (dsyevd): values ascending; A becomes the orthonormal vectors. */
 int32_t dmb_eigen_symmetric(size_t n, double *A, double *values, double *work);

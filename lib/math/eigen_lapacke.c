@@ -4,12 +4,22 @@
 
 _Static_assert(sizeof(lapack_int) == sizeof(int32_t), "LAPACKE with 64-bit integers");
 
-/* What dsyevd and dsygvd ask for with vectors: 1 + 6n + 2n^2 doubles and 3 + 5n integers; dgeev does with 4n and likes
- * some tens of n. */
+/* dsyevd and dsygvd ask for 1 + 6n + 2n^2 doubles and 3 + 5n integers, and count both in integers of 32 bits, which
+ * 1 + 6n + 2n^2 fits up to n = 32766. */
+_Static_assert(1 + 6 * (int64_t)DMB_EIGEN_MAX + 2 * (int64_t)DMB_EIGEN_MAX * DMB_EIGEN_MAX <= INT32_MAX,
+               "work of dsyevd and dsygvd");
+
 size_t dmb_eigen_work(size_t n)
 {
-    if (n > 46000) return SIZE_MAX; /* 2n^2 is to fit LAPACK's integers */
-    return 1 + 6 * n + 2 * n * n + (3 + 5 * n) + 40 * n;
+    if (n > DMB_EIGEN_MAX) return SIZE_MAX;
+    const uint64_t m = n, count = 1 + 6 * m + 2 * m * m + (3 + 5 * m);
+    return count <= SIZE_MAX / sizeof(double) ? (size_t)count : SIZE_MAX;
+}
+
+/* dgeev needs 4n; its blocked parts take some tens of n. */
+size_t dmb_eigen_general_work(size_t n)
+{
+    return n > DMB_EIGEN_MAX ? SIZE_MAX : 40 * n;
 }
 
 static lapack_int doubles(size_t n)

@@ -257,9 +257,11 @@ typedef struct store {
 
 static int32_t open_basis(basis *b, store *s)
 {
-    const size_t m = b->limit, n = b->A->length, lapack = dmb_eigen_work(m);
-    if (lapack == SIZE_MAX) return DMB_ERR_TOO_LARGE;
-    s->bytes = m * sizeof(double *) + (3 * m * m + 2 * m + 2 * n + lapack + m) * sizeof(double);
+    const size_t m = b->limit, n = b->A->length;
+    const size_t lapack = b->A->symmetric ? dmb_eigen_work(m) : dmb_eigen_general_work(m);
+    const uint64_t squares = 3 * (uint64_t)m * m + lapack;
+    if (lapack == SIZE_MAX || squares > SIZE_MAX / (2 * sizeof(double))) return DMB_ERR_TOO_LARGE;
+    s->bytes = m * sizeof(double *) + ((size_t)squares + 2 * m + 2 * n + m) * sizeof(double);
     s->block = dmb_allocate(b->allocator, s->bytes);
     if (s->block == NULL) return DMB_ERR_NO_MEMORY;
     b->vector = s->block;

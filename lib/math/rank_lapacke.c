@@ -8,6 +8,8 @@ _Static_assert(sizeof(lapack_int) == sizeof(int32_t), "LAPACKE with 64-bit integ
 
 #define DMB_ROW_MIN 1e-300
 enum { PANEL = 32 }; /* columns that dgeqp3 works on at a time, if it likes */
+/* LAPACK counts its work, 34 rows + 32 or 3 min + 2 (rows + columns), in integers of 32 bits. */
+_Static_assert(34 * (int64_t)DMB_RANK_SIDE_MAX + PANEL <= INT32_MAX, "work of dgeqp3");
 
 static size_t least(uint32_t a, uint32_t b)
 {
@@ -24,6 +26,7 @@ static size_t lapack_work(uint32_t rows, uint32_t columns)
 
 size_t dmb_rank_work(uint32_t rows, uint32_t columns)
 {
+    if (rows > DMB_RANK_SIDE_MAX || columns > DMB_RANK_SIDE_MAX) return SIZE_MAX;
     const size_t rest = 2 * least(rows, columns) + lapack_work(rows, columns);
     if (columns != 0 && rows > (SIZE_MAX / sizeof(double) - rest) / columns) return SIZE_MAX;
     return (size_t)rows * columns + rest;

@@ -9,6 +9,8 @@
 
 /* Above so many equations or coordinates singular values are estimated by the diagonal of R. */
 enum { DMB_RANK_SINGULAR_MAX = 300 };
+/* Most equations, and most coordinates: what LAPACK needs is counted in 32 bits. */
+enum { DMB_RANK_SIDE_MAX = 1 << 25 };
 
 typedef struct dmb_rank {
     uint32_t rank;
@@ -16,7 +18,8 @@ typedef struct dmb_rank {
     double largest, smallest; /* [-] first and rank-th singular value; 1 and 1 where the rank is 0 */
 } dmb_rank;
 
-/* Doubles of work for a matrix of that shape; SIZE_MAX if that overflows. */
+/* Doubles of work for a matrix of that shape; SIZE_MAX if that overflows, or a side is above
+ * DMB_RANK_SIDE_MAX. */
 size_t dmb_rank_work(uint32_t rows, uint32_t columns);
 
 /* B: shape (rows, columns), row-major, left alone. Rows are scaled to unit length in columns times weight (>= 0), as a

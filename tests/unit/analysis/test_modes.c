@@ -119,11 +119,40 @@ static void sturm_counts_agree(void **state)
     }
 }
 
+/* An eigenproblem of more rows than LAPACK can count is refused before any memory is asked for; few modes are not. */
+static void too_many_coordinates_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        uint32_t pipes;
+        int32_t kind;
+    } scenes[2] = {{5470, DMB_MODES_UNDAMPED}, {2740, DMB_MODES_DAMPED}};
+    for (int i = 0; i < 2; i++) {
+        rig s;
+        const dmb_pipe_def pipe = s1_pipe();
+        dmb_modes_options options = dmb_modes_options_default();
+        (void)lay_string(&s, &pipe, scenes[i].pipes, DMB_FREE_NONE, DMB_FREE_ALL);
+        rig_start(&s, NULL);
+        options.kind = scenes[i].kind;
+        options.select = DMB_MODES_ALL;
+        const modes_refusal refusal = refused_modes(&s, &options);
+        assert_int_equal(refusal.status, DMB_ERR_TOO_LARGE);
+        assert_non_null(strstr(refusal.text, "32766"));
+        options.select = DMB_MODES_LOWEST;
+        options.count = 1;
+        dmb_modes *modes = find_modes(&s, &options);
+        assert_int_equal(info_of(modes).dense, 0);
+        dmb_modes_destroy(&modes);
+        rig_close(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(modes_are_orthonormal),
         cmocka_unit_test(sturm_counts_agree),
+        cmocka_unit_test(too_many_coordinates_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
