@@ -246,7 +246,10 @@ DMB_API int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_
  * the origin of b in a [m]; RX, RY, RZ the angles of the rotation Ry(RY) Rz(RZ) Rx(RX) from a to b [rad], RX and RY
  * counted over full turns. The x axis of the frames is the joint's axis. Parts need not fit as described,
  * dmb_sim_create brings them together; but axes that a joint keeps parallel (x; fixed, prismatic: y too) should be less
- * than a right angle apart: where they end up pointing against each other it is refused, DMB_ERR_GEOMETRY. */
+ * than a right angle apart: where they end up pointing against each other it is refused, DMB_ERR_GEOMETRY. So is, at
+ * creation, in statics and in a run, |RZ| within 0.01 rad of a right angle, where RX and RY are not defined: of a
+ * universal joint, and of others with springs, dampers, stops, friction, drives or couplings on an angle; and a rim that
+ * rolls and lies flat (sine of its angle with the plane 1e-3). Locked and open joints may stand there. */
 enum {
     DMB_JOINT_FIXED = 0,
     DMB_JOINT_REVOLUTE = 1,      /* RX free */

@@ -81,7 +81,8 @@ DMB_SIZED_STRUCT(dmb_step_report)
 
 /* Advances by `duration` [s] > 0 in one step of generalized-alpha, divided at programme corners, and halved where Newton
  * does not converge (DMB_NOTE_STEP_CUT). report may be NULL. Errors: DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR,
- * _ROTATION, _CALLBACK, _NOT_FINITE; the state is then that before the call. O(number of elements) an iteration.
+ * _ROTATION, _GEOMETRY (a joint where its angles are not defined: model.h), _CALLBACK, _NOT_FINITE; the state is then that
+ * before the call. O(number of elements) an iteration.
  * Chung, Hulbert 1993; Bruls, Cardona, Arnold 2012. */
 DMB_API int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report);
 /* Advances to `time` [s] with steps chosen to hold the local error tolerances, bounded_work or not. DMB_NOTE_TOLERANCE where

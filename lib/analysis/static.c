@@ -8,6 +8,7 @@
 #include "math/vec3.h"
 #include "system/bit.h"
 #include "system/cluster.h"
+#include "system/joint_state.h"
 #include "system/owner.h"
 #include "system/kept.h"
 #include "system/solve.h"
@@ -124,6 +125,7 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     search->evaluation.tangent = 0;
     const int32_t status = dmb_system_evaluate(&search->evaluation);
     if (status < 0) return status;
+    if (scene->cluster_count) dmb_joint_reactions(&search->evaluation);
     memcpy(sim->residual_row, sim->correction, scene->row_count * sizeof(double));
     memcpy(sim->now.friction_slip, sim->trial.friction_slip, 2 * sizeof(double));
     memcpy(sim->now.multiplier, sim->trial.multiplier, scene->constraint_row_count * sizeof(double));

@@ -7,6 +7,7 @@
 #include "integrator/step_motion.h"
 #include "integrator/turning.h"
 #include "system/cluster.h"
+#include "system/joint_state.h"
 #include "system/ledger.h"
 #include "system/release.h"
 
@@ -113,6 +114,10 @@ int32_t dmb_attempt_step(dmb_sim *sim, double step, int32_t whole, dmb_attempt *
         status = run(sim, &c, attempt);
     }
     if (status >= 0 && sim->scene->cluster_count && check_dropped(sim) < 0) status = DMB_ERR_SINGULAR;
+    if (status >= 0 && sim->scene->joint_count) {
+        const int32_t refused = dmb_joints_refuse_edges(sim, 1, attempt->evaluation.time);
+        if (refused < 0) status = refused;
+    }
     *sim->factors = DMB_FACTORS_NONE;
     sim->linked_mode->multipliers = 0;
     if (status >= 0) {

@@ -23,6 +23,7 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
         dmb_message_set(&sim->message, "%s %u, pipe %u: iteration matrix singular at time %g, step %g", owner.kind,
                         owner.index, owner.pipe, attempt->evaluation.time, attempt->step);
         break;
+    case DMB_ERR_GEOMETRY: /* said where it was found */ break;
     case DMB_ERR_CALLBACK:
         if (sim->linked_mode->row != UINT32_MAX) {
             dmb_message name;

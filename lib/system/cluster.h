@@ -35,7 +35,7 @@ int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t 
 /* Multipliers that balance the residual in the dependent rows, into trial.multiplier; and B^T multiplier into the
  * residual. With linked_mode->multipliers the multipliers are taken as they are. */
 void dmb_clusters_balance(dmb_evaluation *evaluation);
-/* Multipliers of least norm where rows are redundant. */
+/* Multipliers of the trial: those of least norm where rows are redundant. Once a state, not in iterations. */
 void dmb_clusters_least_norm(dmb_sim *sim);
 
 /* Largest misfit of an equation of position at the rows at hand, *row telling which; dropped: of dropped rows only. */

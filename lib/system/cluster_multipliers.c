@@ -55,7 +55,6 @@ void dmb_clusters_balance(dmb_evaluation *evaluation)
     const int given = sim->linked_mode->multipliers;
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
         if (!given) solve_multipliers(sim, k);
-        if (!given) least_norm(sim, k);
         add_multipliers(sim, k);
         if (!given) clear_dependent(sim, k);
     }

@@ -6,6 +6,9 @@
 
 /* Turns of the coordinates of the trial; in statics after every move. */
 void dmb_joints_follow(dmb_evaluation *evaluation);
+/* After the last evaluation of a state: multipliers of least norm where rows are redundant (iterations need only some
+ * that balance: B^T f is the same), forces of the motion drives of joints, power of the callers' constraints. */
+void dmb_joint_reactions(dmb_evaluation *evaluation);
 /* End of an accepted step: turns of the coordinates, multipliers of least norm, partition where it has become poor. */
 void dmb_joints_accept(dmb_evaluation *evaluation);
 /* Joint j is locked from now on, or no longer: where it holds frame b, in the pose of now. */
@@ -22,6 +25,11 @@ int32_t dmb_assemble(dmb_sim *sim);
 /* Refuses a joint whose frames, in the trial, point against each other where it keeps them parallel: its equations hold
  * there too. DMB_ERR_GEOMETRY with a message. */
 int32_t dmb_joint_refuse_flip(dmb_sim *sim, uint32_t joint);
+
+/* Refuses active joints whose trial stands where their angles or equations are not defined: a universal joint, or one
+ * with springs, drives or couplings on its angles, at a right angle of RZ; a rim that lies flat. moving: the way from now
+ * counts too. DMB_ERR_GEOMETRY with a message. system/joint_edge */
+int32_t dmb_joints_refuse_edges(dmb_sim *sim, int moving, double time);
 
 /* Largest changes of the speeds from now to trial into counters->projection. */
 void dmb_note_projection(dmb_sim *sim);

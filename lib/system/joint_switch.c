@@ -64,7 +64,8 @@ static int32_t check_fit(dmb_evaluation *evaluation, uint32_t j, int32_t was)
     int32_t status = dmb_clusters_gather(evaluation);
     for (uint32_t i = 0; i < scene->constraint_count && status >= 0; i++)
         if (holds_anew(scene, scene->constraints + i, j, was)) status = check_rows(sim, scene->constraints + i);
-    return status < 0 ? status : dmb_joint_refuse_flip(sim, j);
+    if (status >= 0) status = dmb_joint_refuse_flip(sim, j);
+    return status < 0 ? status : dmb_joints_refuse_edges(sim, 0, evaluation->time);
 }
 
 /* correction := what M does to the acceleration of the trial, in the independent rows: a difference of residuals. */
@@ -137,7 +138,6 @@ static void take_motion(dmb_sim *sim, double stored)
 static void take_forces(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    dmb_clusters_least_norm(sim);
     memcpy(sim->now.multiplier, sim->trial.multiplier, scene->constraint_row_count * sizeof(double));
     memcpy(sim->now.drive_position, sim->trial.drive_position, scene->drive_count * sizeof(double));
     memcpy(sim->now.drive_speed, sim->trial.drive_speed, scene->drive_count * sizeof(double));

@@ -208,26 +208,11 @@ static int32_t gather_curvatures(dmb_evaluation *evaluation)
     return status;
 }
 
-/* Force of the motion drives on their coordinates, and power of what moves the callers' constraints: -f . B v = f .
- * rate. */
-static void take_reactions(dmb_evaluation *evaluation)
-{
-    dmb_sim *sim = evaluation->sim;
-    const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0; i < scene->constraint_count; i++) {
-        const dmb_constraint *c = scene->constraints + i;
-        if (c->kind == DMB_OF_DRIVE) sim->trial.drive_force[c->index] = -sim->trial.multiplier[c->row];
-        for (uint32_t k = 0; k < c->rows && c->kind == DMB_OF_CALLBACK; k++)
-            evaluation->power[DMB_POWER_LOADS] += sim->trial.multiplier[c->row + k] * sim->constraint_rate[c->row + k];
-    }
-}
-
 int32_t dmb_gather_joints(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     if (evaluation->tangent) memset(sim->constraint_tangent, 0, sim->scene->tangent_count * sizeof(double));
     gather_forces(evaluation);
     dmb_clusters_balance(evaluation);
-    take_reactions(evaluation);
     return evaluation->tangent ? gather_curvatures(evaluation) : DMB_OK;
 }

@@ -127,6 +127,7 @@ static int32_t make_consistent(dmb_sim *sim, dmb_evaluation *evaluation)
     int32_t status = settle_speeds(sim, evaluation);
     if (status >= 0) status = solve_accelerations(sim, evaluation);
     if (status < 0) return status;
+    if (sim->scene->cluster_count) dmb_joint_reactions(evaluation);
     memcpy(sim->residual_row, sim->correction, sim->scene->row_count * sizeof(double));
     for (uint32_t i = 0; i < sim->scene->drive_count; i++)
         if (sim->scene->drives[i].kind == DMB_DRIVE_MOTION && sim->scene->drives[i].joint == UINT32_MAX)
@@ -146,6 +147,7 @@ int32_t dmb_system_restart(dmb_sim *sim)
 {
     dmb_evaluation evaluation;
     int32_t status = present(sim, &evaluation);
+    if (status >= 0 && sim->scene->joint_count) status = dmb_joints_refuse_edges(sim, 0, evaluation.time);
     if (status >= 0) {
         memcpy(sim->now.drive_target, sim->trial.drive_target, sim->scene->drive_count * sizeof(double));
         project_speeds(sim);
