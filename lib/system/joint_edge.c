@@ -45,15 +45,13 @@ static double chord_distance(const double a[2], const double b[2])
     return hypot(a[0] + t * d[0], a[1] + t * d[1]);
 }
 
-/* s of the trial; the smallest on the way from now to it, as far as a step tells. A universal joint that holds R_yz = 0
- * has R_yy = cos RZ, which is negative beyond the right angle. */
+/* s of the trial; the smallest on the way from now to it, as far as a step tells. */
 static double smallest_cosine(const dmb_sim *sim, uint32_t j, const double R[9], int moving)
 {
     const double here[2] = {R[4], R[5]};
     const double s = hypot(here[0], here[1]);
     dmb_relative before;
     double turned[9];
-    if (sim->scene->joints[j].kind == DMB_ROWS_UNIVERSAL && R[4] < 0.0) return 0.0;
     if (!moving) return s;
     dmb_joint_motion_of(sim->scene, &sim->now, j, &before, NULL);
     dmb_mat3_mul_nt(R, before.R, turned);
