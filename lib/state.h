@@ -1,5 +1,7 @@
 /* The map of a sim: every field, who computes it from what, its shape and unit. The X-macro lists below drive the
- * memory layout, snapshot, restore and hash, and the test of the layout; there is no other list of fields.
+ * memory layout, snapshot, restore and hash, and the test of the layout; there is no other list of fields. Each saved
+ * field names the check that its bytes in a snapshot must pass (state/snapshot_check.h): a snapshot may be forged, and no
+ * step may read or write out of bounds by what it says.
  * n = scene->node_count, r = row_count, s = site_count, p = path_site_count, e = element_count, d = drive_count,
  * sb, pb = s, p with the bristle law of friction, else 0; k = bit_count, load = load_count, history = history_count, diagonal and link = lengths of block storage;
  * j = joint_count, c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene
@@ -13,81 +15,81 @@
 #include "model/model.h"
 
 /* ---- Configuration: kept twice, as `now` (accepted) and `trial`; a step writes trial and swaps on acceptance.
- * X(type, name, count) */
+ * X(type, name, count, check) */
 #define DMB_CONFIGURATION_LIST(X)                                                                                     \
     /* integrator/attempt, from the increments of pose: */                                                            \
-    X(double, displacement, 3 * n)    /* [m] FULL: world, from reference_position; PATH: [0] along the axis, rest 0 */ \
-    X(double, quaternion, 4 * n)        /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */          \
-    X(double, turn, n)                  /* [rad] about the node's own x axis since time 0, revolutions counted */      \
-    X(double, velocity, r)              /* [m/s, rad/s] body frame; PATH: along and about the axis */                  \
-    X(double, acceleration, r)          /* [m/s2, rad/s2] time derivative of velocity */                               \
-    X(double, pseudo_acceleration, r)   /* [m/s2, rad/s2] the a of generalized-alpha */                                \
+    X(double, displacement, 3 * n, NUMBERS) /* [m] FULL: world, from reference_position; PATH: [0] along axis, rest 0 */ \
+    X(double, quaternion, 4 * n, NUMBERS)         /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */ \
+    X(double, turn, n, NUMBERS) /* [rad] about the node's own x axis since time 0, revolutions counted */             \
+    X(double, velocity, r, NUMBERS)               /* [m/s, rad/s] body frame; PATH: along and about the axis */       \
+    X(double, acceleration, r, NUMBERS)           /* [m/s2, rad/s2] time derivative of velocity */                    \
+    X(double, pseudo_acceleration, r, NUMBERS)    /* [m/s2, rad/s2] the a of generalized-alpha */                     \
     /* system/wall_contact, from pose and velocity: */                                                                \
-    X(double, site_normal, 3 * s)       /* [-] world, last normal that was defined */                                  \
-    X(double, site_depth, s)            /* [m] measured depth of the closest axis point */                             \
-    X(uint32_t, site_segment, s)        /* [-] segment of the hole's axis it was found in */                           \
-    X(double, site_penetration, s)      /* [m] < 0: gap */                                                             \
-    X(double, site_approach, s)         /* [m/s] normal speed at the start of the present contact */                   \
-    X(double, site_slip, 2 * s)         /* [m/s] along the axis and around it */                                       \
-    X(double, site_bristle, 2 * sb)     /* [m] bristle deflection, same directions */                                  \
-    X(int32_t, site_sticks, sb)         /* [-] 1 while the bristle law holds it */                                     \
-    X(double, friction_slip, 2)         /* [m/s, rad/s] speeds along the hole and of turning that friction on the wall \
+    X(double, site_normal, 3 * s, NUMBERS)        /* [-] world, last normal that was defined */                       \
+    X(double, site_depth, s, NUMBERS)             /* [m] measured depth of the closest axis point */                  \
+    X(uint32_t, site_segment, s, SEGMENTS)        /* [-] segment of the hole's axis it was found in */                \
+    X(double, site_penetration, s, NUMBERS)       /* [m] < 0: gap */                                                  \
+    X(double, site_approach, s, NUMBERS)          /* [m/s] normal speed at the start of the present contact */        \
+    X(double, site_slip, 2 * s, NUMBERS)          /* [m/s] along the axis and around it */                            \
+    X(double, site_bristle, 2 * sb, NUMBERS)      /* [m] bristle deflection, same directions */                       \
+    X(int32_t, site_sticks, sb, FLAGS)            /* [-] 1 while the bristle law holds it */                          \
+    X(double, friction_slip, 2, NUMBERS) /* [m/s, rad/s] speeds along the hole and of turning that friction on the wall \
                                            acts as at in a static state, system/evaluation; 0: at those of the nodes */ \
-    X(double, path_slip, 2 * p)         /* [m/s] likewise of PATH nodes */                                             \
-    X(double, path_bristle, 2 * pb)     /* [m] */                                                                      \
-    X(int32_t, path_sticks, pb)         /* [-] */                                                                      \
+    X(double, path_slip, 2 * p, NUMBERS)          /* [m/s] likewise of PATH nodes */                                  \
+    X(double, path_bristle, 2 * pb, NUMBERS)      /* [m] */                                                           \
+    X(int32_t, path_sticks, pb, FLAGS)            /* [-] */                                                           \
     /* system/drives, from programmes and velocity: */                                                                \
-    X(double, drive_position, d)        /* [m, rad] of the component since time 0 */                                   \
-    X(double, drive_integral, d)        /* [m, rad] integral of the speed error, CONTROL */                            \
-    X(double, drive_target, d)          /* [unit of the programme] */                                                  \
-    X(double, drive_force, d)           /* [N, N m] on the part */                                                     \
-    X(double, drive_speed, d)           /* [m/s, rad/s] of a joint's coordinate; 0 of other drives */                  \
-    X(double, drive_rate, d)            /* [m/s2, rad/s2] prescribed on a joint's coordinate */                        \
-    X(double, load_factor, load)        /* [-] programme of each load */                                               \
-    X(double, bit_load, k)              /* [N] bottom-hole load of each bit */                                         \
+    X(double, drive_position, d, NUMBERS)         /* [m, rad] of the component since time 0 */                        \
+    X(double, drive_integral, d, NUMBERS)         /* [m, rad] integral of the speed error, CONTROL */                 \
+    X(double, drive_target, d, NUMBERS)           /* [unit of the programme] */                                       \
+    X(double, drive_force, d, NUMBERS)            /* [N, N m] on the part */                                          \
+    X(double, drive_speed, d, NUMBERS)            /* [m/s, rad/s] of a joint's coordinate; 0 of other drives */       \
+    X(double, drive_rate, d, NUMBERS)             /* [m/s2, rad/s2] prescribed on a joint's coordinate */             \
+    X(double, load_factor, load, NUMBERS)         /* [-] programme of each load */                                    \
+    X(double, bit_load, k, NUMBERS)               /* [N] bottom-hole load of each bit */                              \
     /* system/bit: */                                                                                                 \
-    X(double, bit_bottom, k)            /* [m] advance at which rock begins */                                         \
-    X(double, bit_advance, k)           /* [m] along the hole since time 0 */                                          \
-    X(uint32_t, bit_segment, k)         /* [-] */                                                                      \
+    X(double, bit_bottom, k, NUMBERS)             /* [m] advance at which rock begins */                              \
+    X(double, bit_advance, k, NUMBERS)            /* [m] along the hole since time 0 */                               \
+    X(uint32_t, bit_segment, k, SEGMENTS)         /* [-] */                                                           \
     /* system/constraint_rows, from pose: */                                                                          \
-    X(double, joint_turn, 2 * j)        /* [rad] coordinates RX and RY, revolutions counted */                         \
-    X(double, joint_depth, j)           /* [m] measured depth of the point of a joint on the hole's axis */            \
-    X(uint32_t, joint_segment, j)       /* [-] segment of the axis it was found in */                                  \
+    X(double, joint_turn, 2 * j, NUMBERS)         /* [rad] coordinates RX and RY, revolutions counted */              \
+    X(double, joint_depth, j, NUMBERS)            /* [m] measured depth of the point of a joint on the hole's axis */ \
+    X(uint32_t, joint_segment, j, JOINT_SEGMENTS) /* [-] segment of the axis it was found in */                       \
     /* system/cluster, from the residual: */                                                                          \
-    X(double, multiplier, c)            /* [N, N m] residual + B^T multiplier = 0 */
+    X(double, multiplier, c, NUMBERS)             /* [N, N m] residual + B^T multiplier = 0 */
 
 /* ---- Memory: kept once, written on acceptance only. Saved, restored and hashed like `now`. */
 #define DMB_MEMORY_LIST(X)                                                                                            \
-    X(dmb_clock, clock, 1)              /* times and step lengths, integrator */                                       \
-    X(dmb_ledger, ledger, 1)            /* [J] accumulated, system/ledger */                                           \
-    X(dmb_counters, counters, 1)        /* [-] statistics, integrator */                                               \
-    X(double, residual_row, r)         /* [N, N m] residual of the accepted state: reactions in the rows not solved */ \
-    X(double, drive_work, d)            /* [J] */                                                                      \
-    X(double, drive_input, d)           /* [unit of the programme] value set by the caller; NaN: the programme */      \
-    X(double, history_angle, history)   /* [rad] samples of the cut surface, system/bit */                             \
-    X(double, history_surface, history) /* [m] */                                                                      \
-    X(dmb_history_head, history_head, k)                                                                              \
-    X(int32_t, joint_state, j)          /* DMB_JOINT_..., system/joint_switch */                                       \
-    X(double, joint_lock, 12 * j)       /* [-, m] R and p of frame b in frame a where the joint was locked */          \
-    X(double, constraint_offset, c)     /* [m, rad] what a coupling keeps */                                           \
-    X(double, drive_offset, d)          /* [m, rad] coordinate of a driven joint at time 0 */                          \
-    X(uint32_t, partition_rank, cluster) /* [-] dependent columns, system/cluster */                                   \
-    X(uint32_t, partition_row, c)       /* [-] rows of a cluster, pivot rows first */                                  \
-    X(uint32_t, partition_column, column) /* [-] columns of a cluster, dependent ones first */                         \
-    X(double, partition_quality, cluster) /* [-] of the choice when it was made */
+    X(dmb_clock, clock, 1, CLOCK)                 /* times and step lengths, integrator */                            \
+    X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/ledger */                                \
+    X(dmb_counters, counters, 1, COUNTERS)        /* [-] statistics, integrator */                                    \
+    X(double, residual_row, r, NUMBERS)           /* [N, N m] residual of the accepted state: reactions in held rows */ \
+    X(double, drive_work, d, NUMBERS)             /* [J] */                                                           \
+    X(double, drive_input, d, INPUTS) /* [unit of the programme] value set by the caller; NaN: the programme */       \
+    X(double, history_angle, history, NUMBERS)    /* [rad] samples of the cut surface, system/bit */                  \
+    X(double, history_surface, history, NUMBERS)  /* [m] */                                                           \
+    X(dmb_history_head, history_head, k, HISTORY_HEADS)                                                               \
+    X(int32_t, joint_state, j, JOINT_STATES)      /* DMB_JOINT_..., system/joint_switch */                            \
+    X(double, joint_lock, 12 * j, NUMBERS)        /* [-, m] R and p of frame b in frame a where the joint was locked */ \
+    X(double, constraint_offset, c, NUMBERS)      /* [m, rad] what a coupling keeps */                                \
+    X(double, drive_offset, d, NUMBERS)           /* [m, rad] coordinate of a driven joint at time 0 */               \
+    X(uint32_t, partition_rank, cluster, RANKS)   /* [-] dependent columns, system/cluster */                         \
+    X(uint32_t, partition_row, c, ROW_ORDER)      /* [-] rows of a cluster, pivot rows first */                       \
+    X(uint32_t, partition_column, column, COLUMN_ORDER) /* [-] columns of a cluster, dependent ones first */          \
+    X(double, partition_quality, cluster, NUMBERS) /* [-] of the choice when it was made */
 
 /* ---- Kept: factors of an iteration matrix that later steps may do with (integrator/attempt). Written on acceptance
  * only; saved, restored and hashed, so that a restored sim iterates alike, but not set aside in `backup`: a step that a
  * failing call may take back leaves them alone. Empty in a scene with joints: kd, kl = diagonal, link, else 0; kn = n
  * where there are contact sites too, else 0. */
 #define DMB_KEPT_LIST(X)                                                                                              \
-    X(double, kept_diagonal, kd)                                                                                       \
-    X(double, kept_lower, kl)                                                                                          \
-    X(double, kept_upper, kl)                                                                                          \
-    X(double, kept_quaternion, 4 * kn)  /* of the nodes where they were made, system/solve */                          \
-    X(dmb_kept, kept, 1)
+    X(double, kept_diagonal, kd, NUMBERS)                                                                             \
+    X(double, kept_lower, kl, NUMBERS)                                                                                \
+    X(double, kept_upper, kl, NUMBERS)                                                                                \
+    X(double, kept_quaternion, 4 * kn, NUMBERS)   /* of the nodes where they were made, system/solve */               \
+    X(dmb_kept, kept, 1, KEPT)
 
-/* ---- Work: rewritten in every step, never saved. */
+/* ---- Work: rewritten in every step, never saved. X(type, name, count) */
 #define DMB_WORK_LIST(X)                                                                                              \
     X(double, increment, r)             /* [m, rad] h Dq of this step, integrator */                                   \
     X(double, correction, r)            /* [m, rad] right-hand side, then Newton correction */                         \
@@ -198,7 +200,8 @@ typedef struct dmb_history_head {
     double offset; /* [rad] */
 } dmb_history_head;
 
-#define DMB_FIELD(type, name, count) type *name;
+#define DMB_WORK_FIELD(type, name, count) type *name;
+#define DMB_FIELD(type, name, count, check) type *name;
 typedef struct dmb_configuration {
     DMB_CONFIGURATION_LIST(DMB_FIELD)
 } dmb_configuration;
@@ -218,9 +221,10 @@ struct dmb_sim {
     dmb_configuration now, trial;
     DMB_MEMORY_LIST(DMB_FIELD)
     DMB_KEPT_LIST(DMB_FIELD)
-    DMB_WORK_LIST(DMB_FIELD)
+    DMB_WORK_LIST(DMB_WORK_FIELD)
 };
 #undef DMB_FIELD
+#undef DMB_WORK_FIELD
 
 /* A call that runs functions of the caller's (programmes, constraints, allocator, path) makes its sim busy, so that these
  * cannot pull it from under the call. READABLE: the accepted state is whole, it may be asked; CHANGING: it may not. */

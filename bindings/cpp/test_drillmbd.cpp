@@ -1,5 +1,5 @@
 // The C++ binding: owners that clean up and can be moved, failures as exceptions or statuses, a scene from end to end.
-#include <drillmbd/drillmbd.hpp>
+#include "drillmbd.hpp"
 
 #include <cmath>
 #include <cstdio>

@@ -120,8 +120,9 @@ DMB_API int32_t dmb_sim_set_joint(dmb_sim *sim, dmb_id joint, int32_t state);
 DMB_API int32_t dmb_sim_carry_over(dmb_sim *sim, const dmb_sim *from);
 
 /* Snapshot of all that changes: bytes, save into and restore from the caller's memory. A snapshot fits every sim of the
- * same compiled model with the same options (checked; DMB_ERR_VALUE). Restored sims go on bit for bit: a snapshot holds
- * the factors kept from step to step too (about 0.9 kB an element; none with joints). */
+ * same compiled model with the same options. Bytes that are no state of it, forged ones too, are refused (DMB_ERR_VALUE,
+ * the message tells field, value and bound); what is taken cannot lead a step out of bounds. Restored sims go on bit for
+ * bit: a snapshot holds the factors kept from step to step too (about 0.9 kB an element; none with joints). */
 DMB_API int32_t dmb_sim_snapshot_size(const dmb_sim *sim, size_t *size);
 DMB_API int32_t dmb_sim_snapshot(const dmb_sim *sim, void *block, size_t size);
 DMB_API int32_t dmb_sim_restore(dmb_sim *sim, const void *block, size_t size);

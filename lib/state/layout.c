@@ -4,6 +4,7 @@
 
 #include "base/allocator.h"
 #include "base/arena.h"
+#include "state/snapshot_check.h"
 
 /* The letters of state.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
@@ -26,7 +27,7 @@ typedef struct field_counts {
         (void)kl, (void)kn, (void)sb, (void)pb
 
 /* [byte] of the state that is set aside in `backup`. A snapshot holds the kept factors too. */
-#define DMB_ADD_BYTES(type, name, count) +(count) * sizeof(type)
+#define DMB_ADD_BYTES(type, name, count, check) +(count) * sizeof(type)
 static uint64_t state_bytes(const field_counts *counts)
 {
     DMB_COUNT_NAMES(counts);
@@ -84,7 +85,8 @@ static void *take(dmb_arena *arena, uint64_t count, size_t item_size)
     return dmb_arena_take(arena, (size_t)count, item_size, DMB_ALIGNMENT);
 }
 
-#define DMB_TAKE(type, name, count) to->name = (type *)take(arena, (count), sizeof(type));
+#define DMB_TAKE_WORK(type, name, count) to->name = (type *)take(arena, (count), sizeof(type));
+#define DMB_TAKE(type, name, count, check) DMB_TAKE_WORK(type, name, count)
 
 static void take_configuration(dmb_arena *arena, const field_counts *counts, dmb_configuration *to)
 {
@@ -107,7 +109,7 @@ static void take_kept(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
 static void take_work(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
 {
     DMB_COUNT_NAMES(counts);
-    DMB_WORK_LIST(DMB_TAKE)
+    DMB_WORK_LIST(DMB_TAKE_WORK)
 }
 
 /* The struct itself comes first, so that the sim's address is the first cache line of the block. While counting there
@@ -157,7 +159,7 @@ typedef struct field_table {
     int32_t reserved;
 } field_table;
 
-static void put_field(field_table *table, const char *name, void *data, uint64_t count, size_t item_size)
+static void put_field(field_table *table, const char *name, void *data, uint64_t count, size_t item_size, int32_t check)
 {
     dmb_field *field;
     if (table->count == DMB_FIELD_MAX) return;
@@ -166,10 +168,12 @@ static void put_field(field_table *table, const char *name, void *data, uint64_t
     field->data = data;
     field->bytes = (size_t)count * item_size;
     field->group = table->group;
-    field->reserved = 0;
+    field->check = check;
 }
 
-#define DMB_PUT(type, name, count) put_field(table, #name, from->name, (count), sizeof(type));
+#define DMB_PUT(type, name, count, check) \
+    put_field(table, #name, from->name, (count), sizeof(type), DMB_CHECK_##check);
+#define DMB_PUT_WORK(type, name, count) put_field(table, #name, from->name, (count), sizeof(type), -1);
 
 static void put_configuration(field_table *table, const field_counts *counts, const dmb_configuration *from)
 {
@@ -192,7 +196,7 @@ static void put_kept(field_table *table, const field_counts *counts, const dmb_s
 static void put_work(field_table *table, const field_counts *counts, const dmb_sim *from)
 {
     DMB_COUNT_NAMES(counts);
-    DMB_WORK_LIST(DMB_PUT)
+    DMB_WORK_LIST(DMB_PUT_WORK)
 }
 
 size_t dmb_sim_fields(const dmb_sim *sim, int32_t first_group, int32_t last_group, dmb_field fields[DMB_FIELD_MAX])
@@ -209,7 +213,7 @@ size_t dmb_sim_fields(const dmb_sim *sim, int32_t first_group, int32_t last_grou
     return table.count;
 }
 
-#define DMB_COPY_FIELD(type, name, count) memcpy(to->name, from->name, (size_t)(count) * sizeof(type));
+#define DMB_COPY_FIELD(type, name, count, check) memcpy(to->name, from->name, (size_t)(count) * sizeof(type));
 
 void dmb_configuration_copy(const dmb_sim *sim, const dmb_configuration *from, dmb_configuration *to)
 {

@@ -21,15 +21,17 @@ typedef struct dmb_field {
     void *data;
     size_t bytes; /* without padding */
     int32_t group;
-    int32_t reserved;
+    int32_t check; /* DMB_CHECK_... of state/snapshot_check.h; -1 of work */
 } dmb_field;
 
-#define DMB_ONE_MORE(type, name, count) +1
+#define DMB_ONE_MORE(type, name, count, check) +1
+#define DMB_ONE_WORK_MORE(type, name, count) +1
 enum {
     DMB_FIELD_MAX = 0 DMB_CONFIGURATION_LIST(DMB_ONE_MORE) DMB_CONFIGURATION_LIST(DMB_ONE_MORE)
-        DMB_MEMORY_LIST(DMB_ONE_MORE) DMB_KEPT_LIST(DMB_ONE_MORE) DMB_WORK_LIST(DMB_ONE_MORE)
+        DMB_MEMORY_LIST(DMB_ONE_MORE) DMB_KEPT_LIST(DMB_ONE_MORE) DMB_WORK_LIST(DMB_ONE_WORK_MORE)
 };
 #undef DMB_ONE_MORE
+#undef DMB_ONE_WORK_MORE
 
 /* The fields of the groups first .. last in the order of their lists. Returns how many. The data may be written only
  * where the sim may. */

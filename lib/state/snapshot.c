@@ -6,6 +6,7 @@
 #include "state/fnv.h"
 #include "state/handle.h"
 #include "state/layout.h"
+#include "state/snapshot_check.h"
 
 /* "DMDBSNP1" read as a number: a snapshot of another byte order does not fit. */
 #define DMB_SNAPSHOT_MAGIC UINT64_C(0x31504E5342444D44)
@@ -17,7 +18,7 @@ typedef struct snapshot_header {
     uint64_t size;  /* [byte] of the whole snapshot */
     uint64_t scene; /* fingerprints of what it fits */
     uint64_t options;
-    uint64_t content; /* hash of what follows: a damaged snapshot is refused */
+    uint64_t content; /* hash of what follows: a damaged snapshot is refused, a forged one by what it says */
 } snapshot_header;
 
 static size_t saved_fields(const dmb_sim *sim, dmb_field fields[DMB_FIELD_MAX])
@@ -114,6 +115,8 @@ static int32_t restore(dmb_sim *sim, const unsigned char *block, size_t size)
     if (status < 0) return status;
     count = saved_fields(sim, fields);
     from += sizeof(snapshot_header);
+    status = dmb_snapshot_check(sim, fields, count, from);
+    if (status < 0) return status;
     for (size_t i = 0; i < count; ++i) {
         memcpy(fields[i].data, from, fields[i].bytes);
         from += fields[i].bytes;
