@@ -1,5 +1,6 @@
 #include "constraint/joint.h"
 
+#include "math/elementary.h"
 #include "math/mat6.h"
 #include "math/so3.h"
 
@@ -164,8 +165,8 @@ double dmb_joint_flip(int32_t kind, const double R[9])
 {
     const uint32_t held = kinds[kind].held;
     if ((held & R_YX) == 0) return 0.0;
-    if (!(R[0] > 0.0)) return atan2(hypot(R[3], R[6]), R[0]);
-    return (held & R_YZ) != 0 && !(R[4] > 0.0) ? atan2(hypot(R[1], R[7]), R[4]) : 0.0;
+    if (!(R[0] > 0.0)) return dmb_atan2(sqrt(R[3] * R[3] + R[6] * R[6]), R[0]);
+    return (held & R_YZ) != 0 && !(R[4] > 0.0) ? dmb_atan2(sqrt(R[1] * R[1] + R[7] * R[7]), R[4]) : 0.0;
 }
 
 /* Column j of W = sum_k f_k JV_k^T, JV being the derivative of J along direction j: JV is linear in the motion, so six
@@ -242,9 +243,9 @@ void dmb_joint_coordinates_at(const double R[9], const double p[3], const double
         dmb_vec3_cross(R + 3 * k, V + 3, c->JV[k]);
     }
     lean_at(R + 3, V + 3, &l);
-    c->value[3] = l.inverse > 0.0 ? on_turn_of(near[0], atan2(-R[5], R[4])) : near[0];
-    c->value[4] = l.inverse > 0.0 ? on_turn_of(near[1], atan2(-R[6], R[0])) : near[1];
-    c->value[5] = atan2(R[3], l.s); /* asin loses half the digits near a right angle */
+    c->value[3] = l.inverse > 0.0 ? on_turn_of(near[0], dmb_atan2(-R[5], R[4])) : near[0];
+    c->value[4] = l.inverse > 0.0 ? on_turn_of(near[1], dmb_atan2(-R[6], R[0])) : near[1];
+    c->value[5] = dmb_atan2(R[3], l.s); /* asin loses half the digits near a right angle */
     angle_gradients(&l, c);
 }
 

@@ -6,9 +6,9 @@
 #include <stddef.h>
 
 #include "force/friction_law.h"
-#include "math/real.h"
+#include "math/exponential.h"
 
-#define DMB_STRIBECK_END 100.0 /* [-] from this many v_s on, exp(-s/v_s) (1e-44, later denormal) counts as 0 */
+#define DMB_STRIBECK_END 100.0 /* [-] from this many v_s on, exp(-s/v_s) (1e-44) counts as 0 */
 
 static inline dmb_real dmb_friction_norm(dmb_real a, dmb_real b)
 {

@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "force/hole_math.h"
+#include "math/elementary.h"
 #include "math/vec3.h"
 
 #define DMB_BEND_MIN 1e-12      /* [rad] a smaller change of direction counts as none */
@@ -47,9 +48,13 @@ int32_t dmb_hole_setup_straight(dmb_hole *hole, const double origin[3], const do
 
 static void survey_tangent(const double row[3], double t[3])
 {
-    t[0] = sin(row[1]) * cos(row[2]);
-    t[1] = sin(row[1]) * sin(row[2]);
-    t[2] = -cos(row[1]);
+    double sine, cosine, sine_azimuth, cosine_azimuth;
+
+    dmb_sin_cos(row[1], &sine, &cosine);
+    dmb_sin_cos(row[2], &sine_azimuth, &cosine_azimuth);
+    t[0] = sine * cosine_azimuth;
+    t[1] = sine * sine_azimuth;
+    t[2] = -cosine;
     (void)normalise(t);
 }
 
@@ -59,7 +64,7 @@ static int survey_arc(dmb_hole_station *from, const dmb_hole_station *to)
     double axis[3];
 
     dmb_vec3_cross(from->tangent, to->tangent, axis);
-    const double bend = atan2(dmb_vec3_norm(axis), dmb_vec3_dot(from->tangent, to->tangent));
+    const double bend = dmb_atan2(dmb_vec3_norm(axis), dmb_vec3_dot(from->tangent, to->tangent));
     if (!(bend <= DMB_HOLE_DOGLEG_MAX)) return 0;
     from->curvature = 0.0;
     dmb_vec3_zero(from->normal);
@@ -73,9 +78,10 @@ static int survey_arc(dmb_hole_station *from, const dmb_hole_station *to)
 static void along_arc(const dmb_hole_station *from, double r, double x[3], double t[3], double curvature[3])
 {
     const double angle = from->curvature * r;
-    const double sine = sin(angle);
-    const double cosine = cos(angle);
-    const double half = sin(0.5 * angle);
+    double sine, cosine;
+
+    dmb_sin_cos(angle, &sine, &cosine);
+    const double half = dmb_sin(0.5 * angle);
     const double forward = from->curvature != 0.0 ? sine / from->curvature : r;
     const double sideways = from->curvature != 0.0 ? 2.0 * half * half / from->curvature : 0.0;
 
@@ -238,7 +244,7 @@ static void project_on_arc(const dmb_hole_station *from, const double x[3], doub
     const double c = rho > 0.0 ? towards / rho : 1.0;
     const double sideways = k * a * a / (1.0 + c);
 
-    *s = from->depth + (k != 0.0 ? atan2(k * a, c) / k : ahead);
+    *s = from->depth + (k != 0.0 ? dmb_atan2(k * a, c) / k : ahead);
     for (int i = 0; i < 3; ++i) {
         point[i] = from->point[i] + a * from->tangent[i] + sideways * from->normal[i];
         tangent[i] = c * from->tangent[i] + k * a * from->normal[i];

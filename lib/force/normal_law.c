@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "force/normal_law_math.h"
+#include "math/exponential.h"
 
 #define DMB_RESTITUTION_FLOOR 1e-6 /* [-] smallest e where mu grows like 1/e */
 #define DMB_SPEED_FLOOR 1e-12      /* [m/s] smallest v0 whatever the law says */
@@ -63,7 +64,7 @@ static double factor_of_dull(double e)
 
     for (int i = 0; i < DMB_NORMAL_LAW_ITERATIONS; ++i) {
         const double mu = (1.0 - y) / e;
-        const double decay = exp(-mu * (1.0 + e));
+        const double decay = dmb_real_exp(-mu * (1.0 + e));
         const double value = y - (1.0 + mu) * decay;
         const double slope = 1.0 - decay * (e + mu * (1.0 + e)) / e;
         const double next = y - value / slope;

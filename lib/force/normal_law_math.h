@@ -3,7 +3,7 @@
 #define DMB_FORCE_NORMAL_LAW_MATH_H
 
 #include "force/normal_law.h"
-#include "math/real.h"
+#include "math/elementary.h"
 
 /* Per metre of pipe. */
 typedef struct dmb_normal_response {
@@ -13,7 +13,7 @@ typedef struct dmb_normal_response {
     dmb_real d_rate;  /* [N s/m2] */
 } dmb_normal_response;
 
-/* d^(n-1), without pow() for the line contact n = 1 and the sphere n = 3/2 */
+/* d^(n-1), without a power for the line contact n = 1 and the sphere n = 3/2 */
 static inline dmb_real dmb_normal_reduced_power(double exponent, dmb_real depth)
 {
     if (exponent == 1.0) return dmb_real_of(1.0);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "math/elementary.h"
 #include "math/gauss.h"
 
 #define DMB_RATE_STEP 1e-5         /* [s] half width of the difference that replaces a missing rate */
@@ -68,9 +69,11 @@ static double step_integral(const dmb_term *term, double t0, double t1)
 static void harmonic_value(const dmb_term *term, double t, double *value, double *rate)
 {
     const double angle = term->omega * t + term->phase;
+    double sine, cosine;
 
-    *value = term->h0 + term->h1 * sin(angle);
-    *rate = term->h1 * term->omega * cos(angle);
+    dmb_sin_cos(angle, &sine, &cosine);
+    *value = term->h0 + term->h1 * sine;
+    *rate = term->h1 * term->omega * cosine;
 }
 
 /* (cos A - cos B)/omega = 2 sin((A+B)/2) sin((B-A)/2)/omega = (t1-t0) sin(middle) sin(half)/half */
@@ -78,9 +81,9 @@ static double harmonic_integral(const dmb_term *term, double t0, double t1)
 {
     const double middle = term->omega * (0.5 * t0 + 0.5 * t1) + term->phase;
     const double half = 0.5 * term->omega * (t1 - t0);
-    const double shape = half != 0.0 ? sin(half) / half : 1.0;
+    const double shape = half != 0.0 ? dmb_sin(half) / half : 1.0;
 
-    return (t1 - t0) * (term->h0 + term->h1 * sin(middle) * shape);
+    return (t1 - t0) * (term->h0 + term->h1 * dmb_sin(middle) * shape);
 }
 
 /* ---- TABLE ------------------------------------------------------------------------------------------------------- */

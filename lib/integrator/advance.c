@@ -3,11 +3,12 @@
 #include "base/sized_struct.h"
 #include "integrator/corner.h"
 #include "integrator/walk.h"
+#include "math/elementary.h"
 
 /* What control wants next after an error of `error` tolerances. */
 static double next_step(const dmb_sim *sim, double h, double error)
 {
-    double ratio = error > 0.0 ? 0.9 / cbrt(error) : 2.0;
+    double ratio = error > 0.0 ? 0.9 * dmb_pow(error, -1.0 / 3.0) : 2.0;
     ratio = fmin(fmax(ratio, 0.2), 2.0);
     if (ratio > 0.8 && ratio < 1.25) ratio = 1.0;
     return fmin(fmax(ratio * h, sim->options.step_min), sim->options.step_max);

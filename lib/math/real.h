@@ -8,12 +8,14 @@
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 
 #if FLT_EVAL_METHOD == 1 || FLT_EVAL_METHOD == 2
 #error "doubles must be evaluated as doubles, on 32-bit x86 with -msse2 -mfpmath=sse"
 #endif
 
 #define DMB_PI 3.14159265358979323846
+#define DMB_ROUNDING 0x1.8p52 /* added and taken off again, it rounds a number below 2^51 to an integer */
 
 #ifndef DMB_LANES
 
@@ -81,12 +83,22 @@ static inline dmb_real dmb_real_select(dmb_mask mask, dmb_real a, dmb_real b)
 {
     return mask ? a : b;
 }
+/* 2^k of a k from -1022 to 1023, given as k + DMB_ROUNDING: the lowest bits of that are k. */
+static inline dmb_real dmb_real_power_of_two(dmb_real shifted)
+{
+    uint64_t bits;
+    memcpy(&bits, &shifted, sizeof bits);
+    bits = (bits << 52) + (UINT64_C(1023) << 52);
+    memcpy(&shifted, &bits, sizeof bits);
+    return shifted;
+}
 
 #else
 
 #define DMB_REAL_LANES DMB_LANES
 typedef double dmb_real __attribute__((vector_size(8 * DMB_LANES)));
 typedef int64_t dmb_real_bits __attribute__((vector_size(8 * DMB_LANES)));
+typedef uint64_t dmb_real_word __attribute__((vector_size(8 * DMB_LANES)));
 
 static inline dmb_real dmb_real_of(double x)
 {
@@ -153,24 +165,17 @@ static inline dmb_real dmb_real_select(dmb_mask mask, dmb_real a, dmb_real b)
 {
     return (dmb_real)(((dmb_real_bits)a & mask) | ((dmb_real_bits)b & ~mask));
 }
+static inline dmb_real dmb_real_power_of_two(dmb_real shifted)
+{
+    return (dmb_real)(((dmb_real_word)shifted << 52) + (UINT64_C(1023) << 52));
+}
 
 #endif
 
-/* Square root, which IEEE 754 rounds exactly; exponential and power by the host's own functions, lane by lane. */
+/* Square root, which IEEE 754 rounds exactly. */
 static inline dmb_real dmb_real_sqrt(dmb_real x)
 {
     for (int lane = 0; lane < DMB_REAL_LANES; lane++) dmb_real_set_lane(&x, lane, sqrt(dmb_real_lane(&x, lane)));
-    return x;
-}
-static inline dmb_real dmb_real_exp(dmb_real x)
-{
-    for (int lane = 0; lane < DMB_REAL_LANES; lane++) dmb_real_set_lane(&x, lane, exp(dmb_real_lane(&x, lane)));
-    return x;
-}
-static inline dmb_real dmb_real_pow(dmb_real x, double exponent)
-{
-    for (int lane = 0; lane < DMB_REAL_LANES; lane++)
-        dmb_real_set_lane(&x, lane, pow(dmb_real_lane(&x, lane), exponent));
     return x;
 }
 

@@ -1,12 +1,13 @@
 /* Rotations away from zero. */
 #include "math/so3_far.h"
 
+#include "math/elementary.h"
 #include "math/so3.h"
 
 static void dmb_so3_coefficients_closed(double x, dmb_so3_coefficients *k)
 {
-    const double t = sqrt(x), s = sin(0.5 * t);
-    k->a = sin(t) / t;
+    const double t = sqrt(x), s = dmb_sin(0.5 * t);
+    k->a = dmb_sin(t) / t;
     k->b = 2.0 * s * s / x;
     k->a2 = (1.0 - k->a) / x;
     k->db = (k->a - 2.0 * k->b) / x;
@@ -54,8 +55,10 @@ static void dmb_so3_inverse_coefficients_poles(double x, dmb_so3_inverse_coeffic
 /* e = (ib + g - 2)/x^2, ib = (t/2)^2/sin^2(t/2)   e2 = ((dib + dg)/x^2 - 4 e/t)/t */
 static void dmb_so3_inverse_coefficients_closed(double x, dmb_so3_inverse_coefficients *k)
 {
-    const double t = sqrt(x), h = 0.5 * t, s = sin(h);
-    const double g = h * cos(h) / s, ib = h * h / (s * s);
+    const double t = sqrt(x), h = 0.5 * t;
+    double s, c;
+    dmb_sin_cos(h, &s, &c);
+    const double g = h * c / s, ib = h * h / (s * s);
     const double dib = ib / h * (1.0 - g), dg = (g - ib) / t;
     k->c = (1.0 - g) / x;
     k->e = (ib + g - 2.0) / (x * x);
@@ -74,5 +77,5 @@ void dmb_so3_far_inverse_coefficients(double x, double out[3])
 
 double dmb_quat_far_log_factor(double q0, double n)
 {
-    return n > 0.0 ? 2.0 * atan2(sqrt(n), q0) / sqrt(n) : 2.0;
+    return n > 0.0 ? 2.0 * dmb_atan2(sqrt(n), q0) / sqrt(n) : 2.0;
 }

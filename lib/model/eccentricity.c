@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "math/elementary.h"
+
 bool dmb_pipe_is_eccentric(const dmb_pipe_def *def)
 {
     return def->eccentricity > 0.0 || def->eccentricity_spread > 0.0;
@@ -27,6 +29,8 @@ void dmb_pipe_offset(const dmb_pipe_def *def, uint32_t pipe, double e[2])
 {
     const double distance = fmax(0.0, def->eccentricity + def->eccentricity_spread * draw(def->seed, pipe, 0));
     const double angle = def->eccentricity_angle + def->angle_spread * draw(def->seed, pipe, 1);
-    e[0] = distance * cos(angle);
-    e[1] = distance * sin(angle);
+    double sine, cosine;
+    dmb_sin_cos(angle, &sine, &cosine);
+    e[0] = distance * cosine;
+    e[1] = distance * sine;
 }

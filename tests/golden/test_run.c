@@ -13,10 +13,9 @@
 
 #include "drillmbd/drillmbd.h"
 
-/* -ffp-contract=off leaves compilers no choice: gcc 12 and clang 14 give the same bits from -O0 to -O3. Two things
- * beyond the sources can move the last one: the sine, exponential and the like of the C library, which round in their
- * own way, and gcc 12 with -mfma, which fuses alternating sums of products all the same (unless
- * -fno-tree-slp-vectorize). That moves the figures by 1e-11 of their scale. */
+/* -ffp-contract=off leaves compilers no choice: gcc 12 and clang 14 give the same bits from -O0 to -O3. Sine,
+ * exponential and the like are the library's own (contract/test_processors). gcc 12 with -mfma fuses alternating sums of
+ * products all the same (unless -fno-tree-slp-vectorize), which moves the figures by 1e-11 of their scale. */
 #if defined(__x86_64__)
 #define ARCHITECTURE "x86_64"
 #elif defined(__aarch64__)
