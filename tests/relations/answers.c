@@ -107,7 +107,8 @@ static void put_string(taker *t, uint32_t k)
     put_wrench_in(t, R, reaction);
 }
 
-/* ---- Contacts, by part and pipe: their numbers go by the order in which parts were added ------------------------------- */
+/* ---- Contacts, by part and pipe: their numbers go by the order in which parts were added
+ * ------------------------------- */
 
 enum { SLOTS_STRING = SCENE_PIPES + 1, SLOTS = SCENE_STRINGS * SLOTS_STRING + SCENE_BODIES + 1 };
 
@@ -141,7 +142,8 @@ static void put_contacts(taker *t)
         for (int k = 0; k < 5; ++k) put(t, ANSWER_FORCE, slot[i][k]);
 }
 
-/* ---- Joints, drives, sums ------------------------------------------------------------------------------------------ */
+/* ---- Joints, drives, sums ------------------------------------------------------------------------------------------
+ */
 
 static void put_joint(taker *t, uint32_t i)
 {
@@ -185,8 +187,8 @@ static void put_energy(taker *t)
     const double unit = force_unit(t) * t->view.length;
     dmb_energy e = dmb_energy_default();
     if (dmb_query_energy(t->b->sim, &e) < 0) put(t, ANSWER_ENERGY, (double)NAN);
-    const double list[] = {e.kinetic, e.strain, e.gravity, e.contact, e.drives, e.loads,
-                           e.friction, e.impact, e.damping, e.rock, e.scheme, e.input};
+    const double list[] = {e.kinetic,  e.strain, e.gravity, e.contact, e.drives, e.loads,
+                           e.friction, e.impact, e.damping, e.rock,    e.scheme, e.input};
     for (size_t i = 0; i < sizeof list / sizeof list[0]; ++i) put(t, ANSWER_ENERGY, list[i] / unit);
 }
 
@@ -220,8 +222,8 @@ void answers_take(const scene *original, const scene *transformed, const scene_v
 
 const char *answer_group_name(answer_group group)
 {
-    static const char *const names[] = {"positions", "rotations", "velocities", "spins", "forces", "moments",
-                                        "energies"};
+    static const char *const names[] = {"positions", "rotations", "velocities", "spins",
+                                        "forces",    "moments",   "energies"};
     return names[group];
 }
 

@@ -1,5 +1,5 @@
-/* All that the queries say about a sim, as numbers that two runs can be compared by: vectors in the axes, units and origin
- * of the original scene, parts in its order. */
+/* All that the queries say about a sim, as numbers that two runs can be compared by: vectors in the axes, units and
+ * origin of the original scene, parts in its order. */
 #ifndef DMB_RELATIONS_ANSWERS_H
 #define DMB_RELATIONS_ANSWERS_H
 

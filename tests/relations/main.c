@@ -75,8 +75,8 @@ static int run_relation(const relation *r, const arguments *a)
     for (uint32_t i = 0; i < most && c.count[VERDICT_HELD] + c.count[VERDICT_BROKEN] < wanted; ++i)
         run_scene(r, a->seed, a->one ? a->scene : i, a->verbose || a->one, &c);
     const uint32_t exercised = c.count[VERDICT_HELD] + c.count[VERDICT_BROKEN];
-    printf("%-14s %5u exercised of %5u drawn (%u refused, %u left out), %u broken; worst %.2g of its tolerance\n", r->name,
-           (unsigned)exercised, (unsigned)c.drawn, (unsigned)c.count[VERDICT_REFUSED],
+    printf("%-14s %5u exercised of %5u drawn (%u refused, %u left out), %u broken; worst %.2g of its tolerance\n",
+           r->name, (unsigned)exercised, (unsigned)c.drawn, (unsigned)c.count[VERDICT_REFUSED],
            (unsigned)c.count[VERDICT_LEFT_OUT], (unsigned)c.count[VERDICT_BROKEN], c.ratio);
     for (uint32_t i = 0; i < c.reasons; ++i) printf("  %5u: %s\n", (unsigned)c.reason[i].count, c.reason[i].what);
     if (exercised < wanted) printf("  TOO FEW: %u wanted\n", (unsigned)wanted);
@@ -103,11 +103,16 @@ static int read_option(int argc, char **argv, int *i, arguments *a)
     if (strcmp(name, "--verbose") == 0) return a->verbose = 1;
     if (value == NULL) return 0;
     ++*i;
-    if (strcmp(name, "--only") == 0) a->only = value;
-    else if (strcmp(name, "--scenes") == 0) a->scenes = (uint32_t)strtoul(value, NULL, 10);
-    else if (strcmp(name, "--seed") == 0) a->seed = strtoull(value, NULL, 10);
-    else if (strcmp(name, "--scene") == 0) a->scene = (uint32_t)strtoul(value, NULL, 10), a->one = 1;
-    else return 0;
+    if (strcmp(name, "--only") == 0)
+        a->only = value;
+    else if (strcmp(name, "--scenes") == 0)
+        a->scenes = (uint32_t)strtoul(value, NULL, 10);
+    else if (strcmp(name, "--seed") == 0)
+        a->seed = strtoull(value, NULL, 10);
+    else if (strcmp(name, "--scene") == 0)
+        a->scene = (uint32_t)strtoul(value, NULL, 10), a->one = 1;
+    else
+        return 0;
     return 1;
 }
 

@@ -5,8 +5,8 @@
 enum { STEPS = 100 };
 static scene seen;
 
-/* Strings in a hole that bends begin bent by it, and spring: in such steps the iterates of the two methods come to other
- * poses, up to 4e-6 m apart (seed 1, scene 43 of all families), though both fulfil the equations to 1e-11. */
+/* Strings in a hole that bends begin bent by it, and spring: in such steps the iterates of the two methods come to
+ * other poses, up to 4e-6 m apart (seed 1, scene 43 of all families), though both fulfil the equations to 1e-11. */
 static int begins_with_a_jolt(const scene *s)
 {
     return s->family == FAMILY_BENT;
@@ -35,7 +35,8 @@ static void check_redundant(trial *t)
     hold_runs(t, &c);
 }
 
-/* ---- Locked and released ------------------------------------------------------------------------------------------- */
+/* ---- Locked and released -------------------------------------------------------------------------------------------
+ */
 
 static answers plain, other, aside;
 static scene perturbed;
@@ -87,10 +88,21 @@ static void check_locked(trial *t)
     }
 }
 
-const relation relation_multipliers = {"multipliers", "steps in independent coordinates against steps with multipliers",
-                                       {FAMILY_ALL, WISH_JOINTS, 4}, 40, 0.7, check_multipliers};
-const relation relation_redundant = {"redundant", "a run with each joint held twice against that with each held once",
-                                     {FAMILY_ALL, WISH_JOINTS, 4}, 40, 0.7, check_redundant};
-const relation relation_locked = {"locked", "joints locked and released at rest against joints that never were",
-                                  {FAMILY_LINE, WISH_STILL | WISH_JOINTS | WISH_ELASTIC | WISH_NO_CONTROL, 3}, 40, 0.5,
+const relation relation_multipliers = {"multipliers",
+                                       "steps in independent coordinates against steps with multipliers",
+                                       {FAMILY_ALL, WISH_JOINTS, 4},
+                                       40,
+                                       0.7,
+                                       check_multipliers};
+const relation relation_redundant = {"redundant",
+                                     "a run with each joint held twice against that with each held once",
+                                     {FAMILY_ALL, WISH_JOINTS, 4},
+                                     40,
+                                     0.7,
+                                     check_redundant};
+const relation relation_locked = {"locked",
+                                  "joints locked and released at rest against joints that never were",
+                                  {FAMILY_LINE, WISH_STILL | WISH_JOINTS | WISH_ELASTIC | WISH_NO_CONTROL, 3},
+                                  40,
+                                  0.5,
                                   check_locked};

@@ -6,7 +6,8 @@
 enum { STEPS = 100, TOPIC_MESH = TOPIC_OF_RELATION + 10 };
 static scene seen;
 
-/* ---- Two elements or two pipes ------------------------------------------------------------------------------------- */
+/* ---- Two elements or two pipes -------------------------------------------------------------------------------------
+ */
 
 /* Of rigid pipes each end is a ring that meets the wall, so more of them are another scene. */
 static void check_merged(trial *t)
@@ -29,7 +30,8 @@ static void check_merged(trial *t)
     hold_runs(t, &c);
 }
 
-/* ---- Bars ---------------------------------------------------------------------------------------------------------- */
+/* ---- Bars ----------------------------------------------------------------------------------------------------------
+ */
 
 static void set_kind(scene *s, int32_t kind)
 {
@@ -52,7 +54,8 @@ static void check_bars(trial *t)
     hold_runs(t, &c);
 }
 
-/* ---- Stiff pipes --------------------------------------------------------------------------------------------------- */
+/* ---- Stiff pipes ---------------------------------------------------------------------------------------------------
+ */
 
 static answers rigid, stiff, stiffer;
 
@@ -109,11 +112,22 @@ static void check_rigid(trial *t)
          30.0 * rounding + (0.02 + 10.0 * part) * near[ANSWER_POSITION]);
 }
 
-const relation relation_merged = {"merged", "a run of n pipes of two elements against that of 2n pipes of one",
-                                  {FAMILY_ALL & ~FAMILY_BODIES, 0, 0}, 40, 0.7, check_merged};
-const relation relation_bars = {"bars", "flexible pipes that nothing bends against axial-torsional ones",
-                                {FAMILY_HOLE, WISH_ROUND | WISH_NO_FRICTION | WISH_FLEXIBLE | WISH_NO_JOINTS, 0}, 40, 0.7,
+const relation relation_merged = {"merged",
+                                  "a run of n pipes of two elements against that of 2n pipes of one",
+                                  {FAMILY_ALL & ~FAMILY_BODIES, 0, 0},
+                                  40,
+                                  0.7,
+                                  check_merged};
+const relation relation_bars = {"bars",
+                                "flexible pipes that nothing bends against axial-torsional ones",
+                                {FAMILY_HOLE, WISH_ROUND | WISH_NO_FRICTION | WISH_FLEXIBLE | WISH_NO_JOINTS, 0},
+                                40,
+                                0.7,
                                 check_bars};
-const relation relation_rigid = {"rigid", "static states of flexible pipes as E grows against rigid pipes",
-                                 {FAMILY_LINE, WISH_STILL | WISH_FLEXIBLE | WISH_ELASTIC | WISH_JOINTS | WISH_NO_CONTROL, 3}, 40, 0.5,
-                                 check_rigid};
+const relation relation_rigid = {
+    "rigid",
+    "static states of flexible pipes as E grows against rigid pipes",
+    {FAMILY_LINE, WISH_STILL | WISH_FLEXIBLE | WISH_ELASTIC | WISH_JOINTS | WISH_NO_CONTROL, 3},
+    40,
+    0.5,
+    check_rigid};

@@ -1,10 +1,12 @@
-/* A run that goes on from a snapshot of its middle against the run straight through: the same bits. A run handed over to
- * another sim and back (dmb_sim_carry_over) against one that stays: the same to rounding, and the state of any run handed over. */
+/* A run that goes on from a snapshot of its middle against the run straight through: the same bits. A run handed over
+ * to another sim and back (dmb_sim_carry_over) against one that stays: the same to rounding, and the state of any run
+ * handed over. */
 #include "relations.h"
 
 enum { STEPS = 60, BYTES = 4000000 };
 
-/* ---- Snapshots ----------------------------------------------------------------------------------------------------- */
+/* ---- Snapshots -----------------------------------------------------------------------------------------------------
+ */
 
 static unsigned char block[BYTES];
 
@@ -55,13 +57,16 @@ static void check_snapshot(trial *t)
     options.max_steps = 500;
     int32_t status = scene_open(&t->s, 0, &options, &a);
     if (status >= 0) status = straight_and_restored(&t->s, &options, &a, &again, hash);
-    if (status < 0) refused(t, status, a.message);
-    else if (hash[0] != hash[1]) broken(t, "other bits after a snapshot", (double)hash[0], (double)hash[1]);
+    if (status < 0)
+        refused(t, status, a.message);
+    else if (hash[0] != hash[1])
+        broken(t, "other bits after a snapshot", (double)hash[0], (double)hash[1]);
     dmb_sim_destroy(&again);
     scene_close(&a);
 }
 
-/* ---- Carried over -------------------------------------------------------------------------------------------------- */
+/* ---- Carried over --------------------------------------------------------------------------------------------------
+ */
 
 static answers plain, other, aside;
 static scene perturbed, longer;
@@ -137,7 +142,8 @@ static void check_carried(trial *t)
     }
 }
 
-/* ---- Handed over under way ----------------------------------------------------------------------------------------- */
+/* ---- Handed over under way -----------------------------------------------------------------------------------------
+ */
 
 /* What is handed over is the state: positions, speeds, forces and works are those of the sim it comes from. What comes
  * after is another run, since accelerations are made anew. */
@@ -153,18 +159,25 @@ static void check_handed(trial *t)
     } else {
         answers_take(&t->s, &t->s, NULL, &b, &plain);
         status = hand_over(&t->s, &b);
-        if (status < 0) broken(t, b.message, status, 0.0);
-        else answers_take(&t->s, &t->s, NULL, &b, &other);
+        if (status < 0)
+            broken(t, b.message, status, 0.0);
+        else
+            answers_take(&t->s, &t->s, NULL, &b, &other);
         rounding_of(&t->s, t->s.span + 10.0, t->s.step, floor);
         if (status >= 0) (void)hold_rounding(t, &plain, &other, &none, 1, floor, 0);
     }
     scene_close(&b);
 }
 
-const relation relation_snapshot = {"snapshot", "a run from a snapshot of its middle against the run straight through",
-                                    {FAMILY_ALL, 0, 0}, 40, 0.7, check_snapshot};
-const relation relation_carried = {"carried", "a run handed over to another model and back against one that stays",
-                                   {FAMILY_LINE, WISH_STILL | WISH_ELASTIC | WISH_NO_CONTROL, 4}, 40, 0.5,
+const relation relation_snapshot = {
+    "snapshot",    "a run from a snapshot of its middle against the run straight through", {FAMILY_ALL, 0, 0}, 40, 0.7,
+    check_snapshot};
+const relation relation_carried = {"carried",
+                                   "a run handed over to another model and back against one that stays",
+                                   {FAMILY_LINE, WISH_STILL | WISH_ELASTIC | WISH_NO_CONTROL, 4},
+                                   40,
+                                   0.5,
                                    check_carried};
-const relation relation_handed = {"handed", "the state of a run under way against what another sim makes of it",
-                                  {FAMILY_ALL, 0, 4}, 40, 0.7, check_handed};
+const relation relation_handed = {
+    "handed",    "the state of a run under way against what another sim makes of it", {FAMILY_ALL, 0, 4}, 40, 0.7,
+    check_handed};

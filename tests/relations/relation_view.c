@@ -61,7 +61,7 @@ static void check_units(trial *t)
 {
     stream n = stream_of(t->s.seed, t->s.number, TOPIC_VIEW + 2);
     scene_view view = view_identity();
-    view.length = draw_chance(&n, 0.5) ? 1000.0 : 1.0; /* millimetres */
+    view.length = draw_chance(&n, 0.5) ? 1000.0 : 1.0;                      /* millimetres */
     view.mass = view.length == 1.0 || draw_chance(&n, 0.5) ? 1000.0 : 1e-3; /* grams or tonnes */
     compare(t, &view, 0);
 }
@@ -72,13 +72,13 @@ static void check_order(trial *t)
     compare(t, &view, 1);
 }
 
-const relation relation_turned = {"turned", "a run against that of the scene turned, gravity with it",
-                                  {FAMILY_ALL, 0, 0}, 40, 0.7, check_turned};
-const relation relation_moved = {"moved", "a run against that of the scene moved by some 100 m",
-                                 {FAMILY_ALL, 0, 0}, 40, 0.7, check_moved};
-const relation relation_mirrored = {"mirrored", "a run against that of the scene in a mirror",
-                                    {FAMILY_ALL, WISH_NO_BIT, 0}, 40, 0.7, check_mirrored};
-const relation relation_units = {"units", "a run against that in millimetres, in grams or in tonnes",
-                                 {FAMILY_ALL, 0, 0}, 40, 0.7, check_units};
-const relation relation_order = {"order", "a run against that of the parts added in another order",
-                                 {FAMILY_ALL, 0, 0}, 40, 0.7, check_order};
+const relation relation_turned = {
+    "turned", "a run against that of the scene turned, gravity with it", {FAMILY_ALL, 0, 0}, 40, 0.7, check_turned};
+const relation relation_moved = {
+    "moved", "a run against that of the scene moved by some 100 m", {FAMILY_ALL, 0, 0}, 40, 0.7, check_moved};
+const relation relation_mirrored = {
+    "mirrored", "a run against that of the scene in a mirror", {FAMILY_ALL, WISH_NO_BIT, 0}, 40, 0.7, check_mirrored};
+const relation relation_units = {
+    "units", "a run against that in millimetres, in grams or in tonnes", {FAMILY_ALL, 0, 0}, 40, 0.7, check_units};
+const relation relation_order = {
+    "order", "a run against that of the parts added in another order", {FAMILY_ALL, 0, 0}, 40, 0.7, check_order};

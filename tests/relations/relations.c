@@ -134,12 +134,25 @@ int hold_rounding(trial *t, const answers *a, const answers *b, const condition 
     answers_difference(a, b, difference);
     answers_size(a, size);
     for (int g = 0; g < ANSWER_GROUPS; ++g) {
-        const double tolerance = 1000.0 * (c->growth * (e / DBL_EPSILON * floor[g] + e * size[g]) +
-                                           e / PERTURBATION * c->apart[g]);
+        const double tolerance =
+            1000.0 * (c->growth * (e / DBL_EPSILON * floor[g] + e * size[g]) + e / PERTURBATION * c->apart[g]);
         good &= difference[g] <= tolerance;
         if (!silent) hold(t, answer_group_name((answer_group)g), difference[g], tolerance);
     }
     return good;
+}
+
+void scene_kick(scene *s, const double force[3], double time)
+{
+    load_data *const kick = &s->load[s->loads++];
+    kick->def = dmb_load_def_default();
+    memcpy(kick->def.force, force, sizeof kick->def.force);
+    kick->place = s->load[0].place;
+    kick->programme = programme_step(0.0, 1.0, 0.0, 0.5 * time);
+    kick->programme.term[0] = kick->programme.term[1];
+    kick->programme.term[0].x0 = 0.5 * time;
+    kick->programme.term[0].x1 = time;
+    kick->programme.term[0].h1 = -1.0;
 }
 
 /* ---- Runs -------------------------------------------------------------------------------------------------------- */
@@ -206,7 +219,8 @@ static int32_t hold_condition(trial *t, const comparison *first, int alike, cons
     return DMB_OK;
 }
 
-/* Steps that Newton fails at are divided: that it fails may hang on rounding, and then the runs differ as their steps. */
+/* Steps that Newton fails at are divided: that it fails may hang on rounding, and then the runs differ as their steps.
+ */
 void hold_runs(trial *t, const comparison *c)
 {
     double floor[ANSWER_GROUPS];

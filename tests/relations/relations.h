@@ -40,10 +40,11 @@ void broken(trial *t, const char *what, double a, double b);
 void left_out(trial *t, const char *reason);
 void refused(trial *t, int32_t status, const char *message);
 
-/* ---- Two runs that differ by rounding ------------------------------------------------------------------------------ */
+/* ---- Two runs that differ by rounding ------------------------------------------------------------------------------
+ */
 
-/* Rounding of poses, and all that follows from it in one step: [units of the groups] for coordinates as large as `reach`.
- * A coordinate X is known to eps X; a stiff element makes a force of that, a step h a speed eps X/h. */
+/* Rounding of poses, and all that follows from it in one step: [units of the groups] for coordinates as large as
+ * `reach`. A coordinate X is known to eps X; a stiff element makes a force of that, a step h a speed eps X/h. */
 void rounding_of(const scene *s, double reach, double step, double floor[ANSWER_GROUPS]);
 /* The scene with every load, speed and dimension that can vary by itself changed by the part p. */
 void scene_perturb(const scene *s, double p, scene *out);
@@ -57,8 +58,8 @@ typedef struct condition {
 /* Takes the larger one of what c has and of what a perturbed run says; begin with zeros. */
 void condition_add(condition *c, const answers *a, const answers *perturbed, double perturbation);
 /* Holds |a - b| of each group against  1000 (floor + e |a|) growth + 1000 (e/p) apart,  e the rounding of a double.
- * alike: the runs took the same decisions; otherwise they differ by what Newton leaves over: e is its tolerance then, and
- * the floor as much higher. Returns 1 if all hold; silent: says nothing where they do not. */
+ * alike: the runs took the same decisions; otherwise they differ by what Newton leaves over: e is its tolerance then,
+ * and the floor as much higher. Returns 1 if all hold; silent: says nothing where they do not. */
 int hold_rounding(trial *t, const answers *a, const answers *b, const condition *c, int alike,
                   const double floor[ANSWER_GROUPS], int silent);
 
@@ -69,6 +70,9 @@ typedef struct decisions {
 } decisions;
 /* `steps` steps; returns the first failure, whose text is in b->message. d may be NULL. */
 int32_t run_steps(built *b, double step, uint32_t steps, decisions *d);
+
+/* A push of `force` for the first `time` seconds, where the first load acts: a load more, 0 at time 0. */
+void scene_kick(scene *s, const double force[3], double time);
 
 /* A run and all that is asked of it. */
 typedef struct run_record {
@@ -82,7 +86,7 @@ typedef struct run_record {
 typedef struct comparison {
     const scene *seen;
     const scene_view *view;
-    int reversed;                   /* parts of `seen` are added in the other order */
+    int reversed; /* parts of `seen` are added in the other order */
     uint32_t steps;
     const dmb_sim_options *options; /* of the run of `seen`; NULL: scene_options */
     int loose;                      /* other equations with the same solution: what Newton leaves over differs */

@@ -8,7 +8,7 @@ typedef struct built {
     dmb_model *model;
     dmb_sim *sim;
     dmb_id string[SCENE_STRINGS], body[SCENE_BODIES], joint[SCENE_JOINTS], drive[SCENE_DRIVES], load[SCENE_LOADS], bit;
-    int32_t status;     /* of what failed first, or the note of dmb_sim_create */
+    int32_t status; /* of what failed first, or the note of dmb_sim_create */
     char message[256];
 } built;
 

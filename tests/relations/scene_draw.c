@@ -1,59 +1,25 @@
 #include "scene_draw.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-enum { TOPIC_FAMILY, TOPIC_RUN, TOPIC_MUD, TOPIC_HOLE, TOPIC_STRING, TOPIC_PIPE, TOPIC_JOINT, TOPIC_DRIVE, TOPIC_LOAD,
-       TOPIC_BODY, TOPIC_BIT, TOPIC_MOTION };
+enum {
+    TOPIC_FAMILY,
+    TOPIC_RUN,
+    TOPIC_MUD,
+    TOPIC_HOLE,
+    TOPIC_STRING,
+    TOPIC_PIPE,
+    TOPIC_JOINT,
+    TOPIC_DRIVE,
+    TOPIC_LOAD,
+    TOPIC_BODY,
+    TOPIC_BIT,
+    TOPIC_MOTION
+};
 
-/* ---- Numbers ----------------------------------------------------------------------------------------------------- */
-
-/* splitmix64 */
-static uint64_t next_bits(uint64_t *state)
-{
-    uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-    return z ^ z >> 31;
-}
-
-stream stream_of(uint64_t seed, uint32_t number, uint32_t topic)
-{
-    stream t = {seed};
-    t.state = next_bits(&t.state) ^ number;
-    t.state = next_bits(&t.state) ^ topic;
-    t.state = next_bits(&t.state);
-    return t;
-}
-
-double draw_number(stream *t, double low, double high)
-{
-    return low + (high - low) * ((double)(next_bits(&t->state) >> 11) * 0x1p-53);
-}
-
-double draw_size(stream *t, double low, double high)
-{
-    return low * pow(high / low, draw_number(t, 0.0, 1.0));
-}
-
-uint32_t draw_count(stream *t, uint32_t low, uint32_t high)
-{
-    return low + (uint32_t)draw_number(t, 0.0, (double)(high - low + 1));
-}
-
-int draw_chance(stream *t, double probability)
-{
-    return draw_number(t, 0.0, 1.0) < probability;
-}
-
-void draw_direction(stream *t, double unit[3])
-{
-    const double z = draw_number(t, -1.0, 1.0), angle = draw_number(t, -PI, PI), r = sqrt(1.0 - z * z);
-    unit[0] = r * cos(angle);
-    unit[1] = r * sin(angle);
-    unit[2] = z;
-}
+/* ---- Tools --------------------------------------------------------------------------------------------------------
+ */
 
 static stream topic_of(const scene *s, uint32_t topic)
 {
@@ -236,13 +202,13 @@ static void join_strings(scene *s, uint32_t k, stream *t, uint32_t flags)
 {
     static const int32_t kinds[] = {DMB_JOINT_FIXED,       DMB_JOINT_REVOLUTE,  DMB_JOINT_PRISMATIC,
                                     DMB_JOINT_CYLINDRICAL, DMB_JOINT_UNIVERSAL, DMB_JOINT_SPHERICAL};
-    joint_data *const j =
-        new_joint(s, string_place(k - 1, s->string[k - 1].pipes - 1, 1.0), string_place(k, 0, 0.0));
+    joint_data *const j = new_joint(s, string_place(k - 1, s->string[k - 1].pipes - 1, 1.0), string_place(k, 0, 0.0));
     j->def.kind = kinds[draw_count(t, 0, 5)];
     draw_springs(t, j->def.kind, flags, &j->def);
 }
 
-/* Where string k begins, `before` metres from the rig end of the first, which stands at x with its axis along `axis`. */
+/* Where string k begins, `before` metres from the rig end of the first, which stands at x with its axis along `axis`.
+ */
 static void draw_start(scene *s, uint32_t k, double before, const double x[3], const double rotation[3],
                        const double axis[3])
 {
@@ -473,8 +439,8 @@ static void draw_body(scene *s, stream *t, const double x[3])
  * is the ground, else drawn. */
 static void join_bodies(scene *s, stream *t, part_ref a, part_ref b, const double x[3], uint32_t flags)
 {
-    static const int32_t kinds[] = {DMB_JOINT_REVOLUTE, DMB_JOINT_CYLINDRICAL, DMB_JOINT_UNIVERSAL,
-                                    DMB_JOINT_SPHERICAL, DMB_JOINT_PRISMATIC, DMB_JOINT_REVOLUTE};
+    static const int32_t kinds[] = {DMB_JOINT_REVOLUTE,  DMB_JOINT_CYLINDRICAL, DMB_JOINT_UNIVERSAL,
+                                    DMB_JOINT_SPHERICAL, DMB_JOINT_PRISMATIC,   DMB_JOINT_REVOLUTE};
     joint_data *const j = new_joint(s, a, b);
     double normal[3];
     j->def.kind = kinds[draw_count(t, 0, 5)];
@@ -539,60 +505,7 @@ void scene_draw(uint64_t seed, uint32_t number, const scene_wish *wish, scene *o
     if (out->family == FAMILY_BODIES) draw_bodies(out, wish);
 }
 
-/* ---- In words ---------------------------------------------------------------------------------------------------- */
-
-const char *scene_family_name(uint32_t family)
+int scene_drives_tilt(const scene *s)
 {
-    switch (family) {
-    case FAMILY_HOLE: return "hole";
-    case FAMILY_BENT: return "bent";
-    case FAMILY_LINE: return "line";
-    case FAMILY_FREE: return "free";
-    case FAMILY_RING: return "ring";
-    default: return "bodies";
-    }
-}
-
-static void print_strings(const scene *s)
-{
-    static const char *const kinds[] = {"flexible", "axial_torsional", "rigid"};
-    const dmb_pipe_def *const p = &s->string[0].pipe[0];
-    if (s->strings == 0) return;
-    printf(" pipes=");
-    for (uint32_t k = 0; k < s->strings; ++k) printf("%s%u", k > 0 ? "+" : "", (unsigned)s->string[k].pipes);
-    printf(" kind=%s elements=%u length=%.4g od_mm=%.4g id_mm=%.4g tool_joint=%.3g damping_time=%g start_free=%d",
-           kinds[p->kind], (unsigned)p->elements, p->length, 1e3 * p->outer_diameter, 1e3 * p->inner_diameter,
-           p->joint_length, p->damping_time, (int)s->string[0].def.start_free);
-}
-
-static void print_wall(const scene *s)
-{
-    static const char *const normal[] = {"kelvin_voigt", "hunt_crossley", "lankarani", "flores", "exact", "impact"};
-    static const char *const friction[] = {"none", "coulomb", "ambrosio", "stribeck", "bristle"};
-    if (!s->has_wall) return;
-    printf(" hole_mm=%.4g stiffness=%.3g normal=%s friction=%s mu=%.3g inclination_deg=%.4g", 1e3 * s->wall.diameter,
-           s->wall.stiffness, normal[s->wall.normal_law], friction[s->wall.friction_law + 1], s->wall.mu_static,
-           180.0 / PI * asin(s->wall.direction[2]));
-    if (s->has_bit) printf(" bit=%d", (int)s->bit.rock_law);
-}
-
-void scene_print(const scene *s)
-{
-    printf("  seed %llu scene %u: %s dt=%.4g radius=%.3g drag=%.3g mud=%.4g", (unsigned long long)s->seed,
-           (unsigned)s->number, scene_family_name(s->family), s->step, s->radius, s->environment.lateral_damping,
-           s->environment.fluid_density);
-    print_strings(s);
-    print_wall(s);
-    printf(" bodies=%u joints=", (unsigned)s->bodies);
-    for (uint32_t i = 0; i < s->joints; ++i) printf("%s%d", i > 0 ? "," : "", (int)s->joint[i].def.kind);
-    printf(" drives=");
-    for (uint32_t i = 0; i < s->drives; ++i)
-        printf("%s%d:%d:%.4g", i > 0 ? "," : "", (int)s->drive[i].def.component, (int)s->drive[i].def.kind,
-               s->drive[i].programme.term[0].h1);
-    for (uint32_t i = 0; i < s->loads; ++i) {
-        const dmb_load_def *const l = &s->load[i].def;
-        printf(" load=%d:%.4g,%.4g,%.4g;%.4g,%.4g,%.4g", (int)l->frame, l->force[0], l->force[1], l->force[2],
-               l->moment[0], l->moment[1], l->moment[2]);
-    }
-    printf("\n");
+    return s->drives > 0 && s->string[0].def.start_free == DMB_FREE_ALL;
 }

@@ -67,12 +67,12 @@ typedef struct load_data {
 typedef struct scene {
     uint64_t seed;
     uint32_t number;
-    uint32_t family;         /* one FAMILY_ bit */
-    double span;             /* [m] length of all strings, or reach of the bodies */
-    double step, radius;     /* [s, -] of generalized-alpha */
+    uint32_t family;     /* one FAMILY_ bit */
+    double span;         /* [m] length of all strings, or reach of the bodies */
+    double step, radius; /* [s, -] of generalized-alpha */
     dmb_environment_def environment;
     int32_t has_wall, has_bit;
-    dmb_wall_def wall;       /* its survey is the one below */
+    dmb_wall_def wall; /* its survey is the one below */
     uint32_t survey_count;
     double survey[SCENE_SURVEY][3];
     uint32_t strings, bodies, joints, drives, loads;
@@ -81,7 +81,7 @@ typedef struct scene {
     joint_data joint[SCENE_JOINTS];
     drive_data drive[SCENE_DRIVES];
     load_data load[SCENE_LOADS];
-    dmb_bit_def bit;         /* at the end of bit_string */
+    dmb_bit_def bit; /* at the end of bit_string */
     uint32_t bit_string;
     programme_data bit_load;
 } scene;
@@ -97,24 +97,24 @@ enum {
 };
 
 enum {
-    WISH_STILL = 1,      /* drives hold, nothing moves at time 0, loads are constant */
-    WISH_DAMPED = 2,     /* every part loses energy when it moves */
-    WISH_FLEXIBLE = 4,   /* flexible pipes only */
+    WISH_STILL = 1,    /* drives hold, nothing moves at time 0, loads are constant */
+    WISH_DAMPED = 2,   /* every part loses energy when it moves */
+    WISH_FLEXIBLE = 4, /* flexible pipes only */
     WISH_NO_FRICTION = 8,
     WISH_NO_BIT = 16,
     WISH_NO_JOINTS = 32,
-    WISH_JOINTS = 64,    /* at least one */
+    WISH_JOINTS = 64,        /* at least one */
     WISH_CONSERVATIVE = 128, /* symmetric stiffness: no follower loads, no moments with a fixed axis, no friction */
-    WISH_ROUND = 256,    /* no eccentric mass */
-    WISH_ELASTIC = 512,  /* what joints leave free is held by springs, so that a state of rest is one point */
+    WISH_ROUND = 256,        /* no eccentric mass */
+    WISH_ELASTIC = 512,      /* what joints leave free is held by springs, so that a state of rest is one point */
     WISH_NO_LOADS = 1024,
     WISH_NO_CONTROL = 2048,
-    WISH_HARD = 4096     /* walls keep their damping, but none of chattering laws: Kelvin-Voigt only */
+    WISH_HARD = 4096 /* walls keep their damping, but none of chattering laws: Kelvin-Voigt only */
 };
 
 typedef struct scene_wish {
-    uint32_t families; /* FAMILY_ bits to choose from */
-    uint32_t flags;    /* WISH_ bits */
+    uint32_t families;   /* FAMILY_ bits to choose from */
+    uint32_t flags;      /* WISH_ bits */
     uint32_t most_pipes; /* of one string; 0: 6 */
 } scene_wish;
 
@@ -123,13 +123,18 @@ void scene_draw(uint64_t seed, uint32_t number, const scene_wish *wish, scene *o
 void scene_print(const scene *s);
 const char *scene_family_name(uint32_t family);
 
+/* Rigid strings in a hole tilt at their rig end. A drive along an axis that tilts holds a speed and no place (it is not
+ * holonomic): where it comes to rest depends on the way, and its force turns with the string, so that K is unsymmetric.
+ */
+int scene_drives_tilt(const scene *s);
+
 /* Numbers of a topic of a scene. */
 typedef struct stream {
     uint64_t state;
 } stream;
 stream stream_of(uint64_t seed, uint32_t number, uint32_t topic);
 double draw_number(stream *t, double low, double high);
-double draw_size(stream *t, double low, double high); /* evenly over the orders of magnitude */
+double draw_size(stream *t, double low, double high);        /* evenly over the orders of magnitude */
 uint32_t draw_count(stream *t, uint32_t low, uint32_t high); /* low .. high */
 int draw_chance(stream *t, double probability);
 /* c, and from `begin` on within `time` smoothly c + more (fifth-order step). */

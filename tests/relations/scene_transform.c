@@ -3,71 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- Matrices ---------------------------------------------------------------------------------------------------- */
-
-void matrix_times(const double a[9], const double b[9], double out[9])
-{
-    double c[9];
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k) {
-            c[3 * i + k] = 0.0;
-            for (int l = 0; l < 3; ++l) c[3 * i + k] += a[3 * i + l] * b[3 * l + k];
-        }
-    memcpy(out, c, sizeof c);
-}
-
-static void transpose(const double a[9], double out[9])
-{
-    double c[9];
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k) c[3 * i + k] = a[3 * k + i];
-    memcpy(out, c, sizeof c);
-}
-
-void matrix_apply(const double a[9], const double x[3], double out[3])
-{
-    double c[3];
-    for (int i = 0; i < 3; ++i) c[i] = a[3 * i] * x[0] + a[3 * i + 1] * x[1] + a[3 * i + 2] * x[2];
-    memcpy(out, c, sizeof c);
-}
-
-void matrix_apply_transposed(const double a[9], const double x[3], double out[3])
-{
-    double t[9];
-    transpose(a, t);
-    matrix_apply(t, x, out);
-}
-
-/* Rodrigues */
-void rotation_of_vector(const double v[3], double R[9])
-{
-    const double t = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]), half = sin(0.5 * t);
-    const double a = t > 0.0 ? sin(t) / t : 1.0, b = t > 0.0 ? 2.0 * half * half / (t * t) : 0.5;
-    const double skew[9] = {0.0, -v[2], v[1], v[2], 0.0, -v[0], -v[1], v[0], 0.0};
-    matrix_times(skew, skew, R);
-    for (int i = 0; i < 9; ++i) R[i] = (i % 4 == 0 ? 1.0 : 0.0) + a * skew[i] + b * R[i];
-}
-
-/* By the quaternion's largest component, q0 first (Shepperd). */
-void vector_of_rotation(const double R[9], double v[3])
-{
-    const double p[4] = {1.0 + R[0] + R[4] + R[8], 1.0 + R[0] - R[4] - R[8], 1.0 - R[0] + R[4] - R[8],
-                         1.0 - R[0] - R[4] + R[8]};
-    const double odd[3] = {R[7] - R[5], R[2] - R[6], R[3] - R[1]};
-    const double even[3] = {R[5] + R[7], R[2] + R[6], R[1] + R[3]}; /* yz, zx, xy */
-    double q[4];
-    int m = 0;
-    for (int i = 1; i < 4; ++i) m = p[i] > p[m] ? i : m;
-    q[m] = 0.5 * sqrt(p[m]);
-    for (int i = 1; i < 4 && m == 0; ++i) q[i] = 0.25 * odd[i - 1] / q[0];
-    for (int i = 1; i < 4 && m > 0; ++i)
-        if (i != m) q[i] = 0.25 * even[6 - i - m - 1] / q[m];
-    if (m > 0) q[0] = 0.25 * odd[m - 1] / q[m];
-    const double size = sqrt(q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    const double angle = 2.0 * atan2(size, fabs(q[0])), f = size > 0.0 ? (q[0] < 0.0 ? -angle : angle) / size : 2.0;
-    for (int i = 0; i < 3; ++i) v[i] = f * q[i + 1];
-}
-
 /* ---- Views ------------------------------------------------------------------------------------------------------- */
 
 scene_view view_identity(void)
@@ -101,7 +36,7 @@ void view_rotation_back(const scene_view *view, double roll, const double in[9],
     const double c = cos(roll), s = sin(roll), h = view->handed;
     const double turn[9] = {1.0, 0.0, 0.0, 0.0, c, -s * h, 0.0, s, c * h}; /* Rx(roll) Q */
     double t[9];
-    transpose(view->matrix, t);
+    matrix_transpose(view->matrix, t);
     matrix_times(t, in, out);
     matrix_times(out, turn, out);
 }
@@ -235,8 +170,8 @@ static void transform_surroundings(const scene_view *v, scene *s)
     w->damping *= M / L;
     w->bristle_stiffness /= L;
     w->bristle_damping /= L;
-    double *const lengths[] = {&w->diameter, &w->impact_depth, &w->approach_speed, &w->stribeck_speed,
-                               &w->smoothing_speed, &w->full_speed};
+    double *const lengths[] = {&w->diameter,       &w->impact_depth,    &w->approach_speed,
+                               &w->stribeck_speed, &w->smoothing_speed, &w->full_speed};
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; ++i) *lengths[i] *= L;
     for (uint32_t i = 0; i < s->survey_count; ++i) {
         double t[3];
@@ -290,7 +225,7 @@ static void transform_body(const scene_view *v, double roll, dmb_body_def *b)
     double J[9] = {b->inertia[0], b->inertia[3], b->inertia[4], b->inertia[3], b->inertia[1],
                    b->inertia[5], b->inertia[4], b->inertia[5], b->inertia[2]};
     double t[9];
-    transpose(a.matrix, t);
+    matrix_transpose(a.matrix, t);
     matrix_times(a.matrix, J, J);
     matrix_times(J, t, J);
     const double inertia[6] = {J[0], J[4], J[8], J[1], J[2], J[5]};
@@ -307,8 +242,8 @@ static void transform_body(const scene_view *v, double roll, dmb_body_def *b)
 static void transform_bit(const scene_view *v, scene *s)
 {
     const double L = v->length, M = v->mass;
-    double *const lengths[] = {&s->bit.diameter, &s->bit.length, &s->bit.radius, &s->bit.wear_length,
-                               &s->bit.intrusion_depth, &s->bit.bottom};
+    double *const lengths[] = {&s->bit.diameter,    &s->bit.length,          &s->bit.radius,
+                               &s->bit.wear_length, &s->bit.intrusion_depth, &s->bit.bottom};
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; ++i) *lengths[i] *= L;
     s->bit.mass *= M;
     scale(M * L * L, 2, s->bit.inertia);
@@ -356,8 +291,8 @@ static void transform_drive(const scene_view *v, drive_data *d)
 {
     const double L = v->length, M = v->mass;
     const int turns = d->def.component >= DMB_RX;
-    const double sign = d->def.component == DMB_Z || d->def.component == DMB_RX || d->def.component == DMB_RY
-                            ? v->handed : 1.0;
+    const double sign =
+        d->def.component == DMB_Z || d->def.component == DMB_RX || d->def.component == DMB_RY ? v->handed : 1.0;
     const double force = M * L * (turns ? L : 1.0);
     scale_programme(sign * (d->def.kind == DMB_DRIVE_LOAD ? force : turns ? 1.0 : L), &d->programme);
     d->def.gain *= M * (turns ? L * L : 1.0);
@@ -377,7 +312,8 @@ static void transform_load(const scene_view *v, const double *roll, load_data *l
     polar(matrix, M * L * L * v->handed, l->def.moment);
 }
 
-/* ---- Other descriptions of the same scene -------------------------------------------------------------------------- */
+/* ---- Other descriptions of the same scene --------------------------------------------------------------------------
+ */
 
 static void halve_place(part_ref *r)
 {

@@ -2,13 +2,14 @@
 #ifndef DMB_RELATIONS_SCENE_TRANSFORM_H
 #define DMB_RELATIONS_SCENE_TRANSFORM_H
 
+#include "matrix3.h"
 #include "scene_draw.h"
 
 /* x' = length (P x + shift). Lengths come out in units of 1/length metres, masses in units of 1/mass kilograms; seconds
  * and radians stay. P is a rotation, or one times a mirror: handed is its determinant, 1 or -1. */
 typedef struct scene_view {
-    double matrix[9];  /* [-] P, row by row */
-    double shift[3];   /* [m] */
+    double matrix[9]; /* [-] P, row by row */
+    double shift[3];  /* [m] */
     double length, mass;
     double handed;
     int32_t halved;      /* pipes of two elements become two pipes of one each */
@@ -24,16 +25,11 @@ scene_view view_turned(const double rotation[3]);
 double view_roll(const scene *original, const scene *transformed, const scene_view *view, uint32_t k);
 void scene_transform(const scene *original, const scene_view *view, scene *out);
 
-/* Vectors of the transformed scene back in the original one. polar: 1 of forces and velocities, 0 of moments and spins. */
+/* Vectors of the transformed scene back in the original one. polar: 1 of forces and velocities, 0 of moments and spins.
+ */
 void view_back(const scene_view *view, int polar, const double in[3], double out[3]);
 void view_position_back(const scene_view *view, const double in[3], double out[3]);
 /* R = P^T R' Rx(roll) Q, Q = diag(1, 1, handed). */
 void view_rotation_back(const scene_view *view, double roll, const double in[9], double out[9]);
-
-void rotation_of_vector(const double vector[3], double matrix[9]);
-void vector_of_rotation(const double matrix[9], double vector[3]);
-void matrix_times(const double a[9], const double b[9], double out[9]);
-void matrix_apply(const double a[9], const double x[3], double out[3]);
-void matrix_apply_transposed(const double a[9], const double x[3], double out[3]);
 
 #endif
