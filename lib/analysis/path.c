@@ -153,6 +153,14 @@ static int32_t find_next(dmb_path *path, double *arc, int32_t *event)
     }
 }
 
+/* Where another path crosses, the stiffness is singular and the tangent found there is mostly the shape of the other
+ * path, by rounding. Both go through in the directions in which they came: that of the point before. */
+static void go_straight_on(dmb_path *path)
+{
+    memcpy(path->next.tangent, path->last.tangent, path->work->scene->row_count * sizeof(double));
+    path->next.rate = path->last.rate;
+}
+
 static int32_t leave(dmb_path *path, double *arc)
 {
     if (path->options->branch_size > 0.0) *arc = path->options->branch_size;
@@ -188,6 +196,7 @@ static int32_t follow(dmb_path *path)
         status = find_next(path, &arc, &event);
         if (status < 0) return status;
         if (creeps(arc, &longest, &crept)) return DMB_ERR_NO_CONVERGENCE;
+        if (event == DMB_EVENT_BIFURCATION) go_straight_on(path);
         dmb_path_accept(path);
         path->report.points++;
         status = tell(path, event == DMB_EVENT_LIMIT         ? DMB_PATH_LIMIT

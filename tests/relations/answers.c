@@ -70,7 +70,7 @@ static void put_motion(taker *t, dmb_place place, double roll, double R[9])
     memcpy(R, pose.rotation, sizeof pose.rotation);
 }
 
-/* ---- Strings ----------------------------------------------------------------------------------------------------- */
+/* ---- Strings ---------------------------------------------------------------------------------------------------- */
 
 /* Quarters and ends of the pipes: a middle is an end where pipes are halved. */
 static dmb_place station_of(const taker *t, uint32_t k, uint32_t pipe, double fraction)
@@ -107,8 +107,7 @@ static void put_string(taker *t, uint32_t k)
     put_wrench_in(t, R, reaction);
 }
 
-/* ---- Contacts, by part and pipe: their numbers go by the order in which parts were added
- * ------------------------------- */
+/* ---- Contacts, by part and pipe: their numbers go by the order in which parts were added ------------------------ */
 
 enum { SLOTS_STRING = SCENE_PIPES + 1, SLOTS = SCENE_STRINGS * SLOTS_STRING + SCENE_BODIES + 1 };
 
@@ -142,8 +141,7 @@ static void put_contacts(taker *t)
         for (int k = 0; k < 5; ++k) put(t, ANSWER_FORCE, slot[i][k]);
 }
 
-/* ---- Joints, drives, sums ------------------------------------------------------------------------------------------
- */
+/* ---- Joints, drives, sums --------------------------------------------------------------------------------------- */
 
 static void put_joint(taker *t, uint32_t i)
 {
@@ -218,7 +216,7 @@ void answers_take(const scene *original, const scene *transformed, const scene_v
     put_energy(&t);
 }
 
-/* ---- Comparison -------------------------------------------------------------------------------------------------- */
+/* ---- Comparison ------------------------------------------------------------------------------------------------- */
 
 const char *answer_group_name(answer_group group)
 {

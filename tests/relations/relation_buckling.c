@@ -5,8 +5,7 @@
 
 enum { TOPIC_BUCKLING = TOPIC_OF_RELATION + 40 };
 
-/* ---- The line -------------------------------------------------------------------------------------------------------
- */
+/* ---- The line --------------------------------------------------------------------------------------------------- */
 
 /* Euler's load of the strings as one clamped-free column */
 static double column_load(const scene *s)
@@ -39,11 +38,7 @@ static double shortening(const scene *s, double push)
     return push * flexible / s->span;
 }
 
-/* The path is followed to the first bifurcation only. A round line buckles to all sides at once, and beyond such a
- * point dmb_analysis_path does not stay on the straight path, though told to: it goes on along a branch. */
-
-/* ---- The path
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- The path --------------------------------------------------------------------------------------------------- */
 
 typedef struct signs {
     double stable, unstable; /* [-] largest factor with no negative eigenvalue, smallest with one */
@@ -54,8 +49,8 @@ static int32_t look(void *context, const dmb_sim *at, const dmb_path_point *poin
 {
     signs *const s = context;
     (void)at;
-    s->at = point->negative;
-    if (point->kind != DMB_PATH_REGULAR) return 1;
+    if (point->kind == DMB_PATH_BIFURCATION) s->at = point->negative;
+    if (point->kind != DMB_PATH_REGULAR) return 0; /* there the sign is told for what is beyond */
     if (point->negative == 0 && point->factor > s->stable) s->stable = point->factor;
     if (point->negative > 0 && point->factor < s->unstable) s->unstable = point->factor;
     return 0;
@@ -78,12 +73,13 @@ static void hold_path(trial *t, built *b, double factor, double tolerance)
     if (report.bifurcations == 0) broken(t, "no bifurcation on the path", report.factor, factor);
     hold(t, "factor beside the bifurcation of the path", fabs(report.first_bifurcation / factor - 1.0), tolerance);
     hold(t, "last stable point of the path over the factor", s.stable / factor - 1.0, tolerance);
-    if (s.unstable < 1e300) broken(t, "unstable before the bifurcation", s.unstable, factor);
+    hold(t, "factor over the first unstable point of the path", 1.0 - s.unstable / factor, tolerance);
+    if (s.unstable == 1e300) broken(t, "no unstable point beyond the bifurcation", report.factor, factor);
+    if (report.limits > 0) broken(t, "limit points of a straight path", report.limits, 0.0);
     if (s.at < 1) broken(t, "negative eigenvalues at the bifurcation", s.at, 1.0);
 }
 
-/* ---- In time
- * --------------------------------------------------------------------------------------------------------- */
+/* ---- In time ---------------------------------------------------------------------------------------------------- */
 
 static answers rest, now;
 
@@ -160,8 +156,7 @@ static void hold_runs_apart(trial *t, double critical)
     hold(t, "distance below beside that above the critical load", 15.0 * stayed / left, 1.0);
 }
 
-/* ---- All
- * ------------------------------------------------------------------------------------------------------------- */
+/* ---- All -------------------------------------------------------------------------------------------------------- */
 
 static void check_buckled(trial *t)
 {

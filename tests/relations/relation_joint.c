@@ -5,21 +5,55 @@
 enum { STEPS = 100 };
 static scene seen;
 
-/* Strings in a hole that bends begin bent by it, and spring: in such steps the iterates of the two methods come to
- * other poses, up to 4e-6 m apart (seed 1, scene 43 of all families), though both fulfil the equations to 1e-11. */
+/* Each iterate is brought back onto the constraints by the least change, so where a step ends hangs a little on the way
+ * there: by squares of the corrections, far below rounding in smooth motion. Strings in a hole that bends begin bent by
+ * it, and spring: there the two methods come to poses up to 4e-6 m apart (seed 1, scene 43), though both fulfil the
+ * equations to 1e-11. Held against the error of the scheme then: a tenth of what half the step changes. */
 static int begins_with_a_jolt(const scene *s)
 {
     return s->family == FAMILY_BENT;
 }
 
-static void check_multipliers(trial *t)
+static answers plain, other, aside;
+
+static int32_t run_method(const scene *s, int32_t method, uint32_t divide, char message[256], answers *out)
 {
-    if (begins_with_a_jolt(&t->s)) {
-        left_out(t, "a start with a jolt");
+    built b;
+    dmb_sim_options options = scene_options(s);
+    options.constraint_method = method;
+    int32_t status = scene_open(s, 0, &options, &b);
+    if (status >= 0) status = run_steps(&b, s->step / divide, STEPS / 5 * divide, NULL);
+    if (status >= 0) answers_take(s, s, NULL, &b, out);
+    memcpy(message, b.message, sizeof b.message);
+    scene_close(&b);
+    return status;
+}
+
+static void hold_within_the_scheme(trial *t)
+{
+    char message[256];
+    double difference[ANSWER_GROUPS], scheme[ANSWER_GROUPS];
+    int32_t status = run_method(&t->s, DMB_METHOD_INDEPENDENT, 1, message, &plain);
+    if (status >= 0) status = run_method(&t->s, DMB_METHOD_INDEPENDENT, 2, message, &aside);
+    if (status >= 0) status = run_method(&t->s, DMB_METHOD_MULTIPLIERS, 1, message, &other);
+    if (status < 0) {
+        refused(t, status, message);
         return;
     }
+    answers_difference(&plain, &other, difference);
+    answers_difference(&plain, &aside, scheme);
+    for (int g = ANSWER_POSITION; g <= ANSWER_SPIN; ++g)
+        hold(t, answer_group_name((answer_group)g), difference[g], 0.1 * scheme[g] + 1e-10 * t->s.span);
+}
+
+static void check_multipliers(trial *t)
+{
     const scene_view view = view_identity();
     dmb_sim_options options = scene_options(&t->s);
+    if (begins_with_a_jolt(&t->s)) {
+        hold_within_the_scheme(t);
+        return;
+    }
     options.constraint_method = DMB_METHOD_MULTIPLIERS;
     const comparison c = {&t->s, &view, 0, STEPS, &options, 1};
     hold_runs(t, &c);
@@ -35,10 +69,8 @@ static void check_redundant(trial *t)
     hold_runs(t, &c);
 }
 
-/* ---- Locked and released -------------------------------------------------------------------------------------------
- */
+/* ---- Locked and released ---------------------------------------------------------------------------------------- */
 
-static answers plain, other, aside;
 static scene perturbed;
 
 /* From the static state on: 20 steps at rest, joints locked in the middle of them or not, then 60 in which the load

@@ -6,8 +6,7 @@
 enum { STEPS = 100, TOPIC_MESH = TOPIC_OF_RELATION + 10 };
 static scene seen;
 
-/* ---- Two elements or two pipes -------------------------------------------------------------------------------------
- */
+/* ---- Two elements or two pipes ---------------------------------------------------------------------------------- */
 
 /* Of rigid pipes each end is a ring that meets the wall, so more of them are another scene. */
 static void check_merged(trial *t)
@@ -30,8 +29,7 @@ static void check_merged(trial *t)
     hold_runs(t, &c);
 }
 
-/* ---- Bars ----------------------------------------------------------------------------------------------------------
- */
+/* ---- Bars ------------------------------------------------------------------------------------------------------- */
 
 static void set_kind(scene *s, int32_t kind)
 {
@@ -54,8 +52,7 @@ static void check_bars(trial *t)
     hold_runs(t, &c);
 }
 
-/* ---- Stiff pipes ---------------------------------------------------------------------------------------------------
- */
+/* ---- Stiff pipes ------------------------------------------------------------------------------------------------ */
 
 static answers rigid, stiff, stiffer;
 

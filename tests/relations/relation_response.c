@@ -6,8 +6,7 @@
 
 enum { TOPIC_RESPONSE = TOPIC_OF_RELATION + 70, PLACES = 3, FREQUENCIES = 5, MODES_MOST = 500 };
 
-/* ---- Tools ---------------------------------------------------------------------------------------------------------
- */
+/* ---- Tools ------------------------------------------------------------------------------------------------------ */
 
 static int32_t open_at_rest(const scene *s, const dmb_sim_options *options, built *b)
 {
@@ -97,8 +96,7 @@ static int32_t transfer(built *b, const dmb_response_options *options, const spo
     return status;
 }
 
-/* ---- Reciprocity ---------------------------------------------------------------------------------------------------
- */
+/* ---- Reciprocity ------------------------------------------------------------------------------------------------ */
 
 /* K, C and M are symmetric at a state of rest under dead loads without friction. */
 static void check_reciprocal(trial *t)
@@ -122,8 +120,7 @@ static void check_reciprocal(trial *t)
     scene_close(&b);
 }
 
-/* ---- Sum over the modes --------------------------------------------------------------------------------------------
- */
+/* ---- Sum over the modes ----------------------------------------------------------------------------------------- */
 
 static void no_damping(scene *s)
 {
@@ -201,8 +198,7 @@ static void check_modal(trial *t)
     scene_close(&b);
 }
 
-/* ---- Effective masses ----------------------------------------------------------------------------------------------
- */
+/* ---- Effective masses ------------------------------------------------------------------------------------------- */
 
 /* Issue 11, 8: of two rigid-body motions, along and around, one is told where rounding mixes them (seed 1, scene 348).
  * To be switched on when the count of rigid motions is mended: then this returns 0. */
@@ -255,8 +251,7 @@ static void check_masses(trial *t)
     scene_close(&b);
 }
 
-/* ---- Free vibration ------------------------------------------------------------------------------------------------
- */
+/* ---- Free vibration --------------------------------------------------------------------------------------------- */
 
 enum { SAMPLES = 240, FINE = 16 };
 
@@ -362,8 +357,7 @@ static void check_decay(trial *t)
     hold(t, "motion after a pulse beside the modes, at one step", raw, 0.05 * unit);
 }
 
-/* ---- Stepped sine --------------------------------------------------------------------------------------------------
- */
+/* ---- Stepped sine ----------------------------------------------------------------------------------------------- */
 
 static int32_t sine_at(const scene *s, const spot *at, double frequency, uint32_t steps, double complex *out)
 {

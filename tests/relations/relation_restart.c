@@ -5,8 +5,7 @@
 
 enum { STEPS = 60, BYTES = 4000000 };
 
-/* ---- Snapshots -----------------------------------------------------------------------------------------------------
- */
+/* ---- Snapshots -------------------------------------------------------------------------------------------------- */
 
 static unsigned char block[BYTES];
 
@@ -65,8 +64,7 @@ static void check_snapshot(trial *t)
     scene_close(&a);
 }
 
-/* ---- Carried over --------------------------------------------------------------------------------------------------
- */
+/* ---- Carried over ----------------------------------------------------------------------------------------------- */
 
 static answers plain, other, aside;
 static scene perturbed, longer;
@@ -142,8 +140,7 @@ static void check_carried(trial *t)
     }
 }
 
-/* ---- Handed over under way -----------------------------------------------------------------------------------------
- */
+/* ---- Handed over under way -------------------------------------------------------------------------------------- */
 
 /* What is handed over is the state: positions, speeds, forces and works are those of the sim it comes from. What comes
  * after is another run, since accelerations are made anew. */

@@ -4,8 +4,7 @@
 
 enum { MODES_MOST = 600, TOPIC_STATIC = TOPIC_OF_RELATION + 30 };
 
-/* ---- Tools ---------------------------------------------------------------------------------------------------------
- */
+/* ---- Tools ------------------------------------------------------------------------------------------------------ */
 
 static answers rest, before, after;
 
@@ -51,8 +50,7 @@ static void take_positions(const scene *s, const built *b, answers *out)
     answers_take(s, s, &view, b, out);
 }
 
-/* ---- Settled -------------------------------------------------------------------------------------------------------
- */
+/* ---- Settled ---------------------------------------------------------------------------------------------------- */
 
 /* [kg, m] of the pipes, [kg] of the bodies fixed to them */
 static void masses(const scene *s, double *per_metre, double *inertia, double *share)
@@ -134,8 +132,7 @@ static void check_settled(trial *t)
     scene_close(&b);
 }
 
-/* ---- Negative eigenvalues -------------------------------------------------------------------------------------------
- */
+/* ---- Negative eigenvalues --------------------------------------------------------------------------------------- */
 
 /* A straight line without weight, pushed or pulled along by so many times Euler's load. */
 static void straighten(scene *s, double push)
@@ -173,8 +170,7 @@ static void check_negative(trial *t)
     scene_close(&b);
 }
 
-/* ---- Growth and decay
- * ------------------------------------------------------------------------------------------------ */
+/* ---- Growth and decay ------------------------------------------------------------------------------------------- */
 
 /* Root of the mean square of how far the stations are from rest, over `steps` steps. */
 static int32_t distance(const scene *s, built *b, double step, uint32_t steps, double *out)

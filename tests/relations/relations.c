@@ -1,6 +1,6 @@
 #include "relations.h"
 
-/* ---- Verdicts ---------------------------------------------------------------------------------------------------- */
+/* ---- Verdicts --------------------------------------------------------------------------------------------------- */
 
 static void say_broken(trial *t, const char *what, double figure, double tolerance)
 {
@@ -38,7 +38,7 @@ void refused(trial *t, int32_t status, const char *message)
     (void)snprintf(t->what, sizeof t->what, "%s: %.150s", dmb_status_name(status), message);
 }
 
-/* ---- Rounding ---------------------------------------------------------------------------------------------------- */
+/* ---- Rounding --------------------------------------------------------------------------------------------------- */
 
 /* Stiffest element, stiffest ring of the wall, stiffest spring, and the mass that a node moves in a step: [N/m]. */
 static double stiffest(const scene *s, double step)
@@ -155,7 +155,7 @@ void scene_kick(scene *s, const double force[3], double time)
     kick->programme.term[0].h1 = -1.0;
 }
 
-/* ---- Runs -------------------------------------------------------------------------------------------------------- */
+/* ---- Runs ------------------------------------------------------------------------------------------------------- */
 
 /* FNV-1a of numbers */
 static void follow(uint64_t *hash, uint32_t number)

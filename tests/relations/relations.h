@@ -40,8 +40,7 @@ void broken(trial *t, const char *what, double a, double b);
 void left_out(trial *t, const char *reason);
 void refused(trial *t, int32_t status, const char *message);
 
-/* ---- Two runs that differ by rounding ------------------------------------------------------------------------------
- */
+/* ---- Two runs that differ by rounding --------------------------------------------------------------------------- */
 
 /* Rounding of poses, and all that follows from it in one step: [units of the groups] for coordinates as large as
  * `reach`. A coordinate X is known to eps X; a stiff element makes a force of that, a step h a speed eps X/h. */

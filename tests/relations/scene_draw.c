@@ -18,8 +18,7 @@ enum {
     TOPIC_MOTION
 };
 
-/* ---- Tools --------------------------------------------------------------------------------------------------------
- */
+/* ---- Tools ------------------------------------------------------------------------------------------------------ */
 
 static stream topic_of(const scene *s, uint32_t topic)
 {
@@ -31,7 +30,7 @@ static void scaled(double size, const double unit[3], double out[3])
     for (int i = 0; i < 3; ++i) out[i] = size * unit[i];
 }
 
-/* ---- Programmes -------------------------------------------------------------------------------------------------- */
+/* ---- Programmes ------------------------------------------------------------------------------------------------- */
 
 static programme_data constant(double value)
 {
@@ -71,7 +70,7 @@ static programme_data shaken(double value, double part, double omega)
     return p;
 }
 
-/* ---- Surroundings ------------------------------------------------------------------------------------------------ */
+/* ---- Surroundings ----------------------------------------------------------------------------------------------- */
 
 static void draw_mud(scene *s, uint32_t flags)
 {
@@ -122,7 +121,7 @@ static void draw_wall(scene *s, uint32_t flags, double outer, double length)
     if (s->family == FAMILY_BENT) draw_survey(s, &t, inclination, length + 2.0);
 }
 
-/* ---- Strings ----------------------------------------------------------------------------------------------------- */
+/* ---- Strings ---------------------------------------------------------------------------------------------------- */
 
 static int32_t draw_kind(scene *s, stream *t, uint32_t flags)
 {
@@ -246,7 +245,7 @@ static void draw_strings(scene *s, const scene_wish *wish, const double x[3], co
     }
 }
 
-/* ---- Drives and bits --------------------------------------------------------------------------------------------- */
+/* ---- Drives and bits -------------------------------------------------------------------------------------------- */
 
 static drive_data *new_drive(scene *s, int32_t component, programme_data programme)
 {
@@ -323,7 +322,7 @@ static void draw_in_hole(scene *s, const scene_wish *wish)
     draw_bit(s, wish->flags);
 }
 
-/* ---- Strings without a hole -------------------------------------------------------------------------------------- */
+/* ---- Strings without a hole ------------------------------------------------------------------------------------- */
 
 /* [N] Euler's push of the strings as one clamped-free column: the scale of what loads may be. */
 static double column_load(const scene *s)
@@ -421,7 +420,7 @@ static void draw_ring(scene *s, const scene_wish *wish)
     if (s->string[0].def.start_free == DMB_FREE_ALL) s->environment.gravity[2] = 0.0;
 }
 
-/* ---- Bodies ------------------------------------------------------------------------------------------------------ */
+/* ---- Bodies ----------------------------------------------------------------------------------------------------- */
 
 static void draw_body(scene *s, stream *t, const double x[3])
 {
@@ -476,7 +475,7 @@ static void draw_bodies(scene *s, const scene_wish *wish)
     }
 }
 
-/* ---- All --------------------------------------------------------------------------------------------------------- */
+/* ---- All -------------------------------------------------------------------------------------------------------- */
 
 static uint32_t draw_family(const scene *s, uint32_t families)
 {

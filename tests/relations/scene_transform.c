@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- Views ------------------------------------------------------------------------------------------------------- */
+/* ---- Views ------------------------------------------------------------------------------------------------------ */
 
 scene_view view_identity(void)
 {
@@ -41,7 +41,7 @@ void view_rotation_back(const scene_view *view, double roll, const double in[9],
     matrix_times(out, turn, out);
 }
 
-/* ---- The hole's frame -------------------------------------------------------------------------------------------- */
+/* ---- The hole's frame ------------------------------------------------------------------------------------------- */
 
 static void survey_tangent(const double row[3], double t[3])
 {
@@ -99,7 +99,7 @@ double view_roll(const scene *original, const scene *transformed, const scene_vi
                  seen[0] * y2[0] + seen[1] * y2[1] + seen[2] * y2[2]);
 }
 
-/* ---- Data -------------------------------------------------------------------------------------------------------- */
+/* ---- Data ------------------------------------------------------------------------------------------------------- */
 
 /* How the axes of a part see the transformation: B = Rx(roll) diag(1, 1, handed). */
 typedef struct axes {
@@ -312,8 +312,7 @@ static void transform_load(const scene_view *v, const double *roll, load_data *l
     polar(matrix, M * L * L * v->handed, l->def.moment);
 }
 
-/* ---- Other descriptions of the same scene --------------------------------------------------------------------------
- */
+/* ---- Other descriptions of the same scene ----------------------------------------------------------------------- */
 
 static void halve_place(part_ref *r)
 {
