@@ -27,7 +27,7 @@ typedef struct reason {
 } reason;
 
 typedef struct tally {
-    uint32_t drawn, count[VERDICTS], reasons;
+    uint32_t drawn, telling, count[VERDICTS], reasons;
     double ratio;
     reason reason[REASONS];
 } tally;
@@ -49,12 +49,14 @@ static void count_reason(tally *c, const char *what)
 static void run_scene(const relation *r, uint64_t seed, uint32_t number, int verbose, tally *c)
 {
     present.verdict = VERDICT_HELD;
+    present.telling = 0;
     present.ratio = 0.0;
     present.what[0] = present.broken[0] = '\0';
     scene_draw(seed, number, &r->wish, &present.s);
     r->check(&present);
     ++c->drawn;
     ++c->count[present.verdict];
+    c->telling += present.telling && present.verdict <= VERDICT_BROKEN;
     if (present.verdict == VERDICT_REFUSED || present.verdict == VERDICT_LEFT_OUT) count_reason(c, present.what);
     if (!(present.ratio <= c->ratio) && present.verdict != VERDICT_REFUSED) c->ratio = present.ratio;
     if (present.verdict == VERDICT_BROKEN) {
@@ -80,8 +82,11 @@ static int run_relation(const relation *r, const arguments *a)
            (unsigned)c.count[VERDICT_LEFT_OUT], (unsigned)c.count[VERDICT_BROKEN], c.ratio);
     for (uint32_t i = 0; i < c.reasons; ++i) printf("  %5u: %s\n", (unsigned)c.reason[i].count, c.reason[i].what);
     if (exercised < wanted) printf("  TOO FEW: %u wanted\n", (unsigned)wanted);
+    const int told = a->one || c.telling >= r->telling * exercised;
+    if (r->telling > 0.0) printf("  %5u of them telling\n", (unsigned)c.telling);
+    if (!told) printf("  TOO FEW of them telling: %g wanted\n", r->telling * exercised);
     (void)fflush(stdout);
-    return c.count[VERDICT_BROKEN] == 0 && exercised >= wanted;
+    return c.count[VERDICT_BROKEN] == 0 && exercised >= wanted && told;
 }
 
 static int list(void)

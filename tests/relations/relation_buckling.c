@@ -190,4 +190,5 @@ const relation relation_buckled = {
     {FAMILY_LINE, WISH_STILL | WISH_ELASTIC | WISH_NO_CONTROL | WISH_ROUND | WISH_FLEXIBLE | WISH_CONSERVATIVE, 3},
     12,
     0.4,
-    check_buckled};
+    check_buckled,
+    0.0};

@@ -125,16 +125,19 @@ const relation relation_multipliers = {"multipliers",
                                        {FAMILY_ALL, WISH_JOINTS, 4},
                                        40,
                                        0.7,
-                                       check_multipliers};
+                                       check_multipliers,
+                                       0.0};
 const relation relation_redundant = {"redundant",
                                      "a run with each joint held twice against that with each held once",
                                      {FAMILY_ALL, WISH_JOINTS, 4},
                                      40,
                                      0.7,
-                                     check_redundant};
+                                     check_redundant,
+                                     0.0};
 const relation relation_locked = {"locked",
                                   "joints locked and released at rest against joints that never were",
                                   {FAMILY_LINE, WISH_STILL | WISH_JOINTS | WISH_ELASTIC | WISH_NO_CONTROL, 3},
                                   40,
                                   0.5,
-                                  check_locked};
+                                  check_locked,
+                                  0.0};

@@ -114,17 +114,20 @@ const relation relation_merged = {"merged",
                                   {FAMILY_ALL & ~FAMILY_BODIES, 0, 0},
                                   40,
                                   0.7,
-                                  check_merged};
+                                  check_merged,
+                                  0.0};
 const relation relation_bars = {"bars",
                                 "flexible pipes that nothing bends against axial-torsional ones",
                                 {FAMILY_HOLE, WISH_ROUND | WISH_NO_FRICTION | WISH_FLEXIBLE | WISH_NO_JOINTS, 0},
                                 40,
                                 0.7,
-                                check_bars};
+                                check_bars,
+                                0.0};
 const relation relation_rigid = {
     "rigid",
     "static states of flexible pipes as E grows against rigid pipes",
     {FAMILY_LINE, WISH_STILL | WISH_FLEXIBLE | WISH_ELASTIC | WISH_JOINTS | WISH_NO_CONTROL, 3},
     40,
     0.5,
-    check_rigid};
+    check_rigid,
+    0.0};

@@ -445,25 +445,33 @@ const relation relation_reciprocal = {"reciprocal",
                                       {FAMILY_LINE | FAMILY_HOLE | FAMILY_BENT, AT_REST, 4},
                                       40,
                                       0.5,
-                                      check_reciprocal};
+                                      check_reciprocal,
+                                      0.0};
 const relation relation_modal = {"modal",
                                  "frequency responses against the sum over all modes",
                                  {FAMILY_LINE | FAMILY_HOLE | FAMILY_BENT, AT_REST, 3},
                                  15,
                                  0.5,
-                                 check_modal};
+                                 check_modal,
+                                 0.0};
 const relation relation_masses = {"masses",
                                   "the sum of the effective masses of all modes against the mass",
                                   {FAMILY_LINE | FAMILY_FREE, AT_REST | WISH_NO_JOINTS | WISH_NO_LOADS, 4},
                                   20,
                                   0.4,
-                                  check_masses};
-const relation relation_decay = {
-    "decay",    "a pulse and the free vibration after it against the modes", {FAMILY_LINE, AT_REST, 3}, 10, 0.4,
-    check_decay};
+                                  check_masses,
+                                  0.0};
+const relation relation_decay = {"decay",
+                                 "a pulse and the free vibration after it against the modes",
+                                 {FAMILY_LINE, AT_REST, 3},
+                                 10,
+                                 0.4,
+                                 check_decay,
+                                 0.0};
 const relation relation_sine = {"sine",
                                 "stepped sine in time against the frequency response",
                                 {FAMILY_LINE, WISH_STILL | WISH_ELASTIC | WISH_NO_CONTROL | WISH_DAMPED, 2},
                                 8,
                                 0.3,
-                                check_sine};
+                                check_sine,
+                                0.0};

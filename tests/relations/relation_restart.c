@@ -166,15 +166,24 @@ static void check_handed(trial *t)
     scene_close(&b);
 }
 
-const relation relation_snapshot = {
-    "snapshot",    "a run from a snapshot of its middle against the run straight through", {FAMILY_ALL, 0, 0}, 40, 0.7,
-    check_snapshot};
+const relation relation_snapshot = {"snapshot",
+                                    "a run from a snapshot of its middle against the run straight through",
+                                    {FAMILY_ALL, 0, 0},
+                                    40,
+                                    0.7,
+                                    check_snapshot,
+                                    0.0};
 const relation relation_carried = {"carried",
                                    "a run handed over to another model and back against one that stays",
                                    {FAMILY_LINE, WISH_STILL | WISH_ELASTIC | WISH_NO_CONTROL, 4},
                                    40,
                                    0.5,
-                                   check_carried};
-const relation relation_handed = {
-    "handed",    "the state of a run under way against what another sim makes of it", {FAMILY_ALL, 0, 4}, 40, 0.7,
-    check_handed};
+                                   check_carried,
+                                   0.0};
+const relation relation_handed = {"handed",
+                                  "the state of a run under way against what another sim makes of it",
+                                  {FAMILY_ALL, 0, 4},
+                                  40,
+                                  0.7,
+                                  check_handed,
+                                  0.0};

@@ -73,12 +73,14 @@ static void check_order(trial *t)
 }
 
 const relation relation_turned = {
-    "turned", "a run against that of the scene turned, gravity with it", {FAMILY_ALL, 0, 0}, 40, 0.7, check_turned};
+    "turned", "a run against that of the scene turned, gravity with it", {FAMILY_ALL, 0, 0}, 40, 0.7, check_turned,
+    0.0};
 const relation relation_moved = {
-    "moved", "a run against that of the scene moved by some 100 m", {FAMILY_ALL, 0, 0}, 40, 0.7, check_moved};
+    "moved", "a run against that of the scene moved by some 100 m", {FAMILY_ALL, 0, 0}, 40, 0.7, check_moved, 0.0};
 const relation relation_mirrored = {
-    "mirrored", "a run against that of the scene in a mirror", {FAMILY_ALL, WISH_NO_BIT, 0}, 40, 0.7, check_mirrored};
+    "mirrored", "a run against that of the scene in a mirror", {FAMILY_ALL, WISH_NO_BIT, 0}, 40, 0.7, check_mirrored,
+    0.0};
 const relation relation_units = {
-    "units", "a run against that in millimetres, in grams or in tonnes", {FAMILY_ALL, 0, 0}, 40, 0.7, check_units};
+    "units", "a run against that in millimetres, in grams or in tonnes", {FAMILY_ALL, 0, 0}, 40, 0.7, check_units, 0.0};
 const relation relation_order = {
-    "order", "a run against that of the parts added in another order", {FAMILY_ALL, 0, 0}, 40, 0.7, check_order};
+    "order", "a run against that of the parts added in another order", {FAMILY_ALL, 0, 0}, 40, 0.7, check_order, 0.0};

@@ -20,6 +20,7 @@ typedef enum verdict {
 typedef struct trial {
     scene s;
     verdict verdict;
+    int32_t telling;  /* 1 where the scene shows both sides of the relation; set by those that ask for it */
     double ratio;     /* [-] worst figure over its tolerance */
     char what[200];   /* of it; reason of a refusal or of leaving out */
     char broken[400]; /* what did not hold */
@@ -31,6 +32,7 @@ typedef struct relation {
     uint32_t in_suite; /* [-] scenes exercised in the ordinary suite */
     double least;      /* [-] part of the scenes drawn that must exercise it */
     void (*check)(trial *t);
+    double telling; /* [-] part of those that exercise it that must be telling */
 } relation;
 
 /* figure <= tolerance, or the relation is broken. */
