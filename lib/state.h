@@ -136,6 +136,16 @@
     X(uint32_t, linked_row, block)                                                                                     \
     X(double, linked_solution, pivots)                                                                                 \
     X(double, linked_half, 6 * (column + c)) /* product of a link with the null space of a block */                    \
+    /* sparse clusters, system/sparse: */                                                                             \
+    X(double, sparse_value, sparse_values)                                                                            \
+    X(double, sparse_length, sparse_rows) /* square of the length of a row of B, then its pivot over that */          \
+    X(double, sparse_vector, sparse_rows)                                                                             \
+    X(double, raw_residual, sparse_raw) /* before the forces of constraint */                                         \
+    X(double, sparse_scale, sparse_c)   /* [N/m, ...] factor of each row in the linked system */                      \
+    X(uint32_t, sparse_slot, sparse_c)  /* place of each row in its block; UINT32_MAX: not chosen */                  \
+    X(uint32_t, sparse_size, sparse_block) /* rows of each block, nodes and multipliers */                            \
+    X(uint32_t, sparse_plus, sparse_block) /* of them those of the node */                                            \
+    X(uint32_t, sparse_row, sparse_block)                                                                             \
     X(dmb_linked_mode, linked_mode, 1)                                                                                 \
     X(uint8_t, backup, backup)          /* the state before a call that takes more than one step, state/backup */
 
@@ -151,6 +161,8 @@ typedef struct dmb_linked_mode {
     int32_t multipliers; /* 1: solve for all coordinates and multipliers, DMB_METHOD_MULTIPLIERS */
     int32_t assembling;  /* 1: initial coordinates of joints are rows too, couplings and joint drives are not */
     uint32_t row;        /* constraint row that could not be satisfied, for messages; UINT32_MAX: none */
+    int32_t metric;      /* 1: sparse_value has factors of the rows at hand, for projections */
+    int32_t weak;        /* 1: with rows that those before nearly hold */
     int32_t reserved;
     double misfit;       /* its misfit */
     double length;       /* [m] longest length of the chains that joints connect: what moves are long or short by */
@@ -250,6 +262,9 @@ void dmb_state_bring_back(dmb_sim *sim);
  * the sim's allocator, NULL if there is none. It is no handle for callers (no stamp, no hold on the model) and must not
  * outlive the sim. state/copy */
 dmb_sim *dmb_state_copy(const dmb_sim *sim);
+/* DMB_ERR_TOO_LARGE, with a message that begins with `who`, where such a copy cannot be: it has dense matrices of
+ * clusters. */
+int32_t dmb_state_copy_check(dmb_sim *sim, const char *who);
 /* NULL is fine. */
 void dmb_state_discard(dmb_sim *copy);
 

@@ -65,7 +65,8 @@ static dmb_buckling *allocate(const dmb_sim *sim, uint32_t count)
     made->magic = DMB_HANDLE_BUCKLING;
     made->allocator = sim->allocator;
     dmb_arena_count(&arena);
-    lay_out(&arena, sim->scene, count, &nowhere);
+    const dmb_scene *scene = dmb_dense_scene(sim->scene);
+    lay_out(&arena, scene, count, &nowhere);
     made->block_size = dmb_arena_block_size(&arena);
     if (!arena.overflow) made->block = dmb_allocate(&sim->allocator, made->block_size);
     if (made->block != NULL) made->work = dmb_state_copy(sim);
@@ -76,7 +77,7 @@ static dmb_buckling *allocate(const dmb_sim *sim, uint32_t count)
     made->work->magic = DMB_HANDLE_SIM;
     dmb_model_hold(made->work->model);
     dmb_arena_place(&arena, made->block, made->block_size);
-    lay_out(&arena, sim->scene, count, made);
+    lay_out(&arena, scene, count, made);
     made->pencil.sim = made->work;
     return made;
 }
@@ -136,6 +137,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_buckling_options *options, dmb_bu
     dmb_buckling_options taken;
     dmb_load_pattern pattern;
     int32_t status = take_options(sim, options, &taken);
+    if (status >= 0) status = dmb_state_copy_check(sim, "buckling");
     if (status >= 0) status = dmb_load_pattern_take(sim, "buckling options", taken.scale, taken.part, &pattern);
     if (status < 0) return status;
     dmb_buckling *made = allocate(sim, taken.count);

@@ -46,10 +46,11 @@ dmb_linear *dmb_linear_allocate(const dmb_sim *sim)
     dmb_linear *linear = dmb_allocate(&sim->allocator, sizeof *linear);
     if (linear == NULL) return NULL;
     linear->allocator = sim->allocator;
-    linear->scene = *sim->scene;
-    linear->rows = sim->scene->row_count;
+    const dmb_scene *scene = dmb_dense_scene(sim->scene);
+    linear->scene = *scene;
+    linear->rows = scene->row_count;
     dmb_arena_count(&arena);
-    lay_out(&arena, sim->scene, &nowhere);
+    lay_out(&arena, scene, &nowhere);
     linear->block_size = dmb_arena_block_size(&arena);
     if (!arena.overflow) linear->block = dmb_allocate(&sim->allocator, linear->block_size);
     if (linear->block != NULL) linear->work = dmb_state_copy(sim);
@@ -58,7 +59,7 @@ dmb_linear *dmb_linear_allocate(const dmb_sim *sim)
         return NULL;
     }
     dmb_arena_place(&arena, linear->block, linear->block_size);
-    lay_out(&arena, sim->scene, linear);
+    lay_out(&arena, scene, linear);
     return linear;
 }
 

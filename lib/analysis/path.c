@@ -230,7 +230,8 @@ static int32_t allocate_and_run(dmb_path *path)
     dmb_arena arena;
     dmb_arena_count(&arena);
     double *const none = path->pattern.base;
-    lay_out(&arena, sim->scene, path);
+    const dmb_scene *scene = dmb_dense_scene(sim->scene);
+    lay_out(&arena, scene, path);
     const size_t size = dmb_arena_block_size(&arena);
     void *block = arena.overflow ? NULL : dmb_allocate(&sim->allocator, size);
     path->work = block != NULL ? dmb_state_copy(sim) : NULL;
@@ -239,7 +240,7 @@ static int32_t allocate_and_run(dmb_path *path)
         path->work->magic = DMB_HANDLE_SIM; /* so that the callback can ask it, and no more */
         path->work->busy = DMB_BUSY_READABLE;
         dmb_arena_place(&arena, block, size);
-        lay_out(&arena, sim->scene, path);
+        lay_out(&arena, scene, path);
         status = run(path);
         path->work->magic = DMB_HANDLE_DEAD;
     }
@@ -262,6 +263,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_path_options *options, dmb_path_r
     path.report.first_limit = path.report.first_bifurcation = (double)NAN;
     int32_t status = take_options(sim, options, &taken);
     if (status >= 0) status = check_place(sim, &taken);
+    if (status >= 0) status = dmb_state_copy_check(sim, "path");
     if (status >= 0) status = dmb_load_pattern_take(sim, "path options", taken.scale, taken.part, &path.pattern);
     if (status >= 0) status = allocate_and_run(&path);
     if (status >= 0 && report != NULL) (void)dmb_path_report_write(report, &path.report);

@@ -230,6 +230,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_response_options *options, const 
     w.output_count = output_count;
     int32_t status = dmb_response_options_take(options, &sim->message, &w.options);
     if (status >= 0) status = check_counts(sim, input_count, output_count);
+    if (status >= 0) status = dmb_state_copy_check(sim, "response");
     if (status < 0) return status;
     dmb_response *made = dmb_response_new(&sim->allocator, input_count, output_count);
     status = made != NULL ? run(&w, inputs, outputs, made) : DMB_ERR_NO_MEMORY;

@@ -257,6 +257,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_speeds_options *options, const dm
     r.room = *band_count;
     int32_t status = take_options(sim, options, &r.options);
     if (status >= 0) status = check_counts(&r);
+    if (status >= 0) status = dmb_state_copy_check(sim, "speeds");
     if (status < 0) return status;
     status = run(&r);
     if (status == DMB_ERR_NO_MEMORY) dmb_message_set(&sim->message, "speeds: no memory");

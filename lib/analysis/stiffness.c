@@ -1,6 +1,7 @@
 #include "analysis/stiffness.h"
 
 #include "math/block_inertia.h"
+#include "system/linked_sparse.h"
 #include "system/owner.h"
 #include "system/solve.h"
 
@@ -47,7 +48,9 @@ static uint32_t negative_of_chains(dmb_sim *sim)
 static uint32_t negative_of_blocks(const dmb_sim *sim)
 {
     const dmb_block_sparse factored = {sim->linked_value, sim->linked_pivot, sim->linked_size};
-    return dmb_block_sparse_negative(&sim->scene->pattern, &factored, sim->cluster_full);
+    const uint32_t negative = dmb_block_sparse_negative(&sim->scene->pattern, &factored, sim->cluster_full);
+    const uint32_t held = dmb_linked_sparse_rows(sim);
+    return negative > held ? negative - held : 0;
 }
 
 int64_t dmb_stiffness_factor(dmb_sim *sim, dmb_block_weakest *weakest, int32_t *negative)

@@ -266,23 +266,16 @@ static int32_t check_size(const dmb_mesh *mesh, const dmb_cluster *cluster)
     return check.status;
 }
 
-/* Dense storage of the clusters. */
-static int32_t place_storage(const dmb_mesh *mesh)
+/* A cluster is dense where that is the faster way. */
+static int32_t choose_storage(const dmb_mesh *mesh)
 {
-    size_t dense = 0, square = 0, full = 0;
-    for (uint32_t c = 0; c < mesh->clusters.count; ++c) {
+    int32_t status = DMB_OK;
+    for (uint32_t c = 0; c < mesh->clusters.count && status >= 0; ++c) {
         dmb_cluster *cluster = cluster_at(mesh, c);
-        const int32_t status = check_size(mesh, cluster);
-        if (status < 0) return status;
-        cluster->dense = dense;
-        cluster->square = square;
-        cluster->full = full;
-        if (!dmb_checked_add_size(dense, (size_t)cluster->rows * cluster->columns, &dense) ||
-            !dmb_checked_add_size(square, (size_t)cluster->rows * cluster->rows, &square) ||
-            !dmb_checked_add_size(full, (size_t)cluster->columns * cluster->columns, &full))
-            return DMB_ERR_TOO_LARGE;
+        cluster->sparse = cluster->node_count >= mesh->model->sparse_nodes;
+        if (!cluster->sparse) status = check_size(mesh, cluster);
     }
-    return DMB_OK;
+    return status;
 }
 
 int32_t dmb_mesh_constraints(dmb_mesh *mesh)
@@ -292,5 +285,5 @@ int32_t dmb_mesh_constraints(dmb_mesh *mesh)
     status = make_clusters(mesh);
     if (status >= 0) status = sort_by_cluster(mesh);
     if (status >= 0 && !number_rows(mesh)) status = DMB_ERR_TOO_LARGE;
-    return status < 0 ? status : place_storage(mesh);
+    return status < 0 ? status : choose_storage(mesh);
 }

@@ -4,6 +4,7 @@
 #include "base/arena.h"
 #include "math/vec3.h"
 #include "model/scene_fill.h"
+#include "model/scene_dense.h"
 #include "model/scene_link.h"
 
 /* ---- Counts ------------------------------------------------------------------------------------------------------ */
@@ -71,9 +72,6 @@ static void count_constraints(const dmb_mesh *mesh, dmb_scene *scene)
     scene->jacobian_count = last->jacobian + last->rows * last->columns;
     scene->tangent_count = last->tangent + last->columns * last->columns;
     scene->cluster_column_count = cluster->column + cluster->columns;
-    scene->dense_count = cluster->dense + (size_t)cluster->rows * cluster->columns;
-    scene->square_count = cluster->square + (size_t)cluster->rows * cluster->rows;
-    scene->full_count = cluster->full + (size_t)cluster->columns * cluster->columns;
 }
 
 static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
@@ -205,8 +203,11 @@ int32_t dmb_mesh_freeze(const dmb_mesh *mesh, dmb_scene **out)
     dmb_arena_place(&arena, block, counts.bytes);
     dmb_scene *scene = lay_out(&arena, &counts, &w, stations);
     int32_t status = arena.overflow ? DMB_ERR_TOO_LARGE : dmb_scene_fill(mesh, scene, &w);
+    if (status >= 0 && !dmb_scene_place_storage(scene->cluster_count, scene->clusters, scene)) status = DMB_ERR_TOO_LARGE;
     if (status >= 0) status = dmb_scene_link(scene, allocator);
+    if (status >= 0) status = dmb_scene_make_dense(scene, allocator);
     if (status < 0) {
+        dmb_block_pattern_release(&scene->pattern, allocator);
         dmb_release(allocator, block, counts.bytes);
     } else {
         *out = scene;

@@ -7,6 +7,7 @@
 #include "model/defaults.h"
 #include "model/describe.h"
 #include "model/limits.h"
+#include "model/scene_dense.h"
 
 /* Stamps are never reused within a process (but after 2^32 models), so that an id of another model is recognised. */
 static uint32_t next_stamp(void)
@@ -37,6 +38,7 @@ int32_t dmb_model_create(const dmb_model_options *options, dmb_model **model)
     created->allocator = allocator;
     created->log = read.log;
     created->log_context = read.log_context;
+    created->sparse_nodes = DMB_SPARSE_NODES;
     created->environment = dmb_environment_def_default();
     *model = created;
     return DMB_OK;
@@ -60,6 +62,7 @@ static void release_parts(dmb_model *model)
     dmb_list_release(&model->couplings, allocator, sizeof(dmb_coupling_def));
     dmb_list_release(&model->constraints, allocator, sizeof(dmb_constraint_def));
     if (model->scene == NULL) return;
+    dmb_scene_release_dense(model->scene->dense, allocator);
     dmb_block_pattern_release(&model->scene->pattern, allocator);
     dmb_release(allocator, model->scene, model->scene->bytes);
 }

@@ -61,6 +61,8 @@ struct dmb_model {
     dmb_list couplings;    /* dmb_coupling_def */
     dmb_list constraints;  /* dmb_constraint_def */
     dmb_scene *scene;      /* NULL until compiled, then never changed */
+    uint32_t sparse_nodes; /* nodes from which on a cluster is sparse: DMB_SPARSE_NODES, but for tests */
+    uint32_t reserved;
 };
 
 /* The parts of an id, or UINT32_MAX when it does not name a part of that kind of this model. */

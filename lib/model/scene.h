@@ -168,6 +168,7 @@ typedef struct dmb_constraint {
     uint32_t jacobian;    /* start of its (rows x columns) in constraint_jacobian */
     uint32_t tangent;     /* start of its (columns x columns) in constraint_tangent */
     uint32_t cluster;
+    uint32_t block;       /* of the pattern that its multipliers belong to; of a sparse cluster only */
 } dmb_constraint;
 
 /* Nodes that constraints connect directly, and those constraints: one partition, one block of the linked system. */
@@ -176,8 +177,8 @@ typedef struct dmb_cluster {
     uint32_t node, node_count;   /* range of cluster_nodes */
     uint32_t row, rows;          /* range of constraint rows, room included */
     uint32_t column, columns;    /* range of cluster_columns */
-    uint32_t block;              /* in the pattern */
-    uint32_t reserved;
+    uint32_t block;              /* in the pattern; none of a sparse cluster */
+    int32_t sparse;              /* 1: each of its nodes has a block, with multipliers; there is no dense storage */
     size_t dense;                /* start in work of (rows x columns) */
     size_t square;               /* start in work of (rows x rows) */
     size_t full;                 /* start in work of (columns x columns) */
@@ -208,6 +209,7 @@ typedef struct dmb_scene {
     uint32_t constraint_node_count; /* length of cluster_nodes */
     uint32_t cluster_column_count;  /* length of cluster_columns */
     uint32_t linked_count;          /* nodes of linked chains */
+    uint32_t sparse_count;          /* sparse clusters */
     uint32_t block_count;           /* blocks of the pattern */
     uint32_t jacobian_count, tangent_count; /* lengths of constraint_jacobian and constraint_tangent */
     size_t dense_count, square_count, full_count; /* lengths of the clusters' dense storage */
@@ -273,13 +275,21 @@ typedef struct dmb_scene {
     uint32_t *node_cluster;       /* UINT32_MAX: none, shape (node) */
     size_t *link_offset;          /* storage in the pattern of link i, i+1 (upper, lower); SIZE_MAX where none or inside
                                      one block, shape (node, 2) */
-    dmb_block_pattern pattern;    /* blocks: clusters, then the other nodes of linked chains */
+    dmb_block_pattern pattern;    /* blocks: dense clusters, then the other nodes of linked chains */
+    const struct dmb_scene *dense; /* the same with dense clusters only, for analyses that need independent coordinates;
+                                      NULL where no cluster is sparse, and where one is too large */
 
     /* maps from parts to the mesh */
     dmb_string_map *strings;
     dmb_pipe_map *pipes;
     dmb_body_map *bodies;         /* described bodies, then bits */
 } dmb_scene;
+
+/* The scene in which copies for analyses are made (state/copy). */
+static inline const dmb_scene *dmb_dense_scene(const dmb_scene *scene)
+{
+    return scene->dense != NULL ? scene->dense : scene;
+}
 
 /* True if places of contact keep bristles from step to step. */
 static inline int32_t dmb_scene_has_bristles(const dmb_scene *scene)

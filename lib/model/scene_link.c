@@ -1,6 +1,7 @@
 #include "model/scene_link.h"
 
 #include "base/vector.h"
+#include "model/scene_bridge.h"
 
 /* ---- Nodes of clusters ------------------------------------------------------------------------------------------- */
 
@@ -11,7 +12,7 @@ static void place_nodes(dmb_scene *scene, uint32_t c)
     for (uint32_t i = 0; i < cluster->node_count; ++i) {
         const uint32_t node = scene->cluster_nodes[cluster->node + i];
         scene->node_cluster[node] = c;
-        scene->node_block[node] = cluster->block;
+        if (!cluster->sparse) scene->node_block[node] = cluster->block;
         scene->node_place[node] = place;
         for (uint32_t k = 0; k < scene->layout.size[node]; ++k) column[place++] = scene->layout.row[node] + k;
     }
@@ -25,17 +26,27 @@ static int32_t has_cluster(const dmb_scene *scene, const dmb_chain *chain)
     return 0;
 }
 
-/* The clusters have the first blocks; the other nodes of linked chains have one each. */
+/* Dense clusters have the first blocks. */
+static void number_clusters(dmb_scene *scene)
+{
+    scene->block_count = scene->sparse_count = scene->linked_count = 0;
+    for (uint32_t c = 0; c < scene->cluster_count; ++c) {
+        dmb_cluster *cluster = &scene->clusters[c];
+        cluster->block = cluster->sparse ? UINT32_MAX : scene->block_count++;
+        scene->sparse_count += cluster->sparse != 0;
+    }
+}
+
+/* The other nodes of linked chains have one each. */
 static void number_blocks(dmb_scene *scene)
 {
-    scene->block_count = scene->cluster_count;
     for (uint32_t c = 0; c < scene->chain_count; ++c) {
         dmb_chain *chain = &scene->chains[c];
         chain->linked = has_cluster(scene, chain);
         if (!chain->linked) continue;
         scene->linked_count += chain->count;
         for (uint32_t i = chain->first; i < chain->first + chain->count; ++i) {
-            if (scene->node_cluster[i] == UINT32_MAX) scene->node_block[i] = scene->block_count++;
+            if (scene->node_block[i] == UINT32_MAX) scene->node_block[i] = scene->block_count++;
         }
     }
 }
@@ -49,30 +60,105 @@ static int leads_on(const dmb_scene *scene, uint32_t i)
     return scene->node_block[i] != scene->node_block[i + 1];
 }
 
-/* A cluster's block has room for its multipliers too. */
+static int is_sparse(const dmb_scene *scene, const dmb_constraint *constraint)
+{
+    return scene->clusters[constraint->cluster].sparse;
+}
+
+static int32_t add_edge(const dmb_allocator *allocator, uint32_t a, uint32_t b, dmb_vector *edges)
+{
+    const dmb_block_edge edge = {a, b};
+    return dmb_vector_append(edges, allocator, &edge, 1);
+}
+
+/* Elements, and constraints of sparse clusters. */
+static int32_t list_edges(const dmb_scene *scene, const dmb_allocator *allocator, dmb_vector *edges)
+{
+    int32_t status = dmb_vector_reserve(edges, allocator, scene->linked_count);
+    for (uint32_t i = 0; i < scene->node_count && status >= 0; ++i) {
+        if (leads_on(scene, i)) status = add_edge(allocator, scene->node_block[i], scene->node_block[i + 1], edges);
+    }
+    for (uint32_t i = 0; i < scene->constraint_count && status >= 0; ++i) {
+        const dmb_constraint *c = scene->constraints + i;
+        if (!is_sparse(scene, c)) continue;
+        for (uint32_t a = 0; a < c->node_count; ++a)
+            for (uint32_t b = 0; b < a && status >= 0; ++b)
+                status = add_edge(allocator, scene->node_block[c->node[a]], scene->node_block[c->node[b]], edges);
+    }
+    return status;
+}
+
+/* A dense cluster's block has room for its multipliers too. */
 static void fill_capacity(const dmb_scene *scene, uint32_t *capacity)
 {
-    for (uint32_t i = 0; i < scene->node_count; ++i) {
-        const uint32_t block = scene->node_block[i];
-        if (block == UINT32_MAX) continue;
-        const dmb_cluster *cluster = block < scene->cluster_count ? &scene->clusters[block] : NULL;
-        capacity[block] = cluster != NULL ? cluster->columns + cluster->rows : scene->layout.size[i];
+    for (uint32_t c = 0; c < scene->cluster_count; ++c) {
+        const dmb_cluster *cluster = &scene->clusters[c];
+        if (!cluster->sparse) capacity[cluster->block] = cluster->columns + cluster->rows;
     }
+    for (uint32_t i = 0; i < scene->node_count; ++i) {
+        const uint32_t k = scene->node_cluster[i];
+        if (scene->node_block[i] == UINT32_MAX || (k != UINT32_MAX && !scene->clusters[k].sparse)) continue;
+        capacity[scene->node_block[i]] = scene->layout.size[i];
+    }
+}
+
+static uint32_t last_block(const dmb_scene *scene, const dmb_block_pattern *pattern, const dmb_constraint *c)
+{
+    uint32_t block = scene->node_block[c->node[0]];
+    for (uint32_t k = 1; k < c->node_count; ++k) {
+        const uint32_t other = scene->node_block[c->node[k]];
+        if (pattern->position[other] > pattern->position[block]) block = other;
+    }
+    return block;
+}
+
+/* Multipliers are eliminated with a node before which all other nodes of their constraint are, so that their pivots are
+ * those of -B S^-1 B^T; of bridges, and of the drives of such joints, already with the node beyond: what is there moves
+ * as one with the bridge open, so that no equation before can hold what the bridge does. */
+static void place_multipliers(const dmb_scene *scene, const dmb_block_pattern *pattern, const uint32_t *beyond,
+                              uint32_t *capacity)
+{
+    for (uint32_t i = 0; i < scene->constraint_count; ++i) {
+        dmb_constraint *c = scene->constraints + i;
+        if (!is_sparse(scene, c)) continue;
+        const uint32_t joint = c->kind == DMB_OF_DRIVE ? scene->joints[scene->drives[c->index].joint].constraint : i;
+        const uint32_t node = beyond[joint];
+        c->block = node != UINT32_MAX ? scene->node_block[node] : last_block(scene, pattern, c);
+        capacity[c->block] += c->rows;
+    }
+}
+
+/* The order of elimination does not depend on capacities: it is made first, then room for the multipliers. */
+static int32_t make_room(dmb_scene *scene, const dmb_allocator *allocator, uint32_t *capacity, const dmb_vector *edges)
+{
+    dmb_vector beyond = dmb_vector_of(sizeof(uint32_t));
+    dmb_block_pattern first;
+    int32_t status = dmb_vector_append(&beyond, allocator, NULL, scene->constraint_count);
+    if (status >= 0) status = dmb_scene_bridges(scene, allocator, beyond.items);
+    if (status >= 0)
+        status = dmb_block_pattern_make(allocator, scene->block_count, capacity, (uint32_t)edges->count, edges->items,
+                                        &first);
+    if (status >= 0) {
+        place_multipliers(scene, &first, beyond.items, capacity);
+        dmb_block_pattern_release(&first, allocator);
+    }
+    dmb_vector_release(&beyond, allocator);
+    return status;
 }
 
 static int32_t make_pattern(dmb_scene *scene, const dmb_allocator *allocator)
 {
     dmb_vector capacity = dmb_vector_of(sizeof(uint32_t)), edges = dmb_vector_of(sizeof(dmb_block_edge));
     int32_t status = dmb_vector_append(&capacity, allocator, NULL, scene->block_count);
-    if (status >= 0) status = dmb_vector_reserve(&edges, allocator, scene->linked_count);
-    for (uint32_t i = 0; i < scene->node_count && status >= 0; ++i) {
-        const dmb_block_edge edge = {scene->node_block[i], leads_on(scene, i) ? scene->node_block[i + 1] : 0};
-        if (leads_on(scene, i)) status = dmb_vector_append(&edges, allocator, &edge, 1);
-    }
-    if (status >= 0) {
-        fill_capacity(scene, capacity.items);
+    if (status >= 0) status = list_edges(scene, allocator, &edges);
+    if (status >= 0) fill_capacity(scene, capacity.items);
+    if (status >= 0 && scene->sparse_count) status = make_room(scene, allocator, capacity.items, &edges);
+    if (status >= 0)
         status = dmb_block_pattern_make(allocator, scene->block_count, capacity.items, (uint32_t)edges.count,
                                         edges.items, &scene->pattern);
+    for (uint32_t b = 0; b < scene->block_count && status >= 0 && scene->sparse_count; ++b) {
+        const size_t rows = *DMB_VECTOR_AT(uint32_t, &capacity, b); /* for signs of eigenvalues: analysis/stiffness */
+        if (rows * rows > scene->full_count) scene->full_count = rows * rows;
     }
     dmb_vector_release(&capacity, allocator);
     dmb_vector_release(&edges, allocator);
@@ -94,6 +180,7 @@ int32_t dmb_scene_link(dmb_scene *scene, const dmb_allocator *allocator)
 {
     if (scene->cluster_count == 0) return DMB_OK;
     for (uint32_t i = 0; i < scene->node_count; ++i) scene->node_cluster[i] = scene->node_block[i] = UINT32_MAX;
+    number_clusters(scene);
     for (uint32_t c = 0; c < scene->cluster_count; ++c) place_nodes(scene, c);
     number_blocks(scene);
     const int32_t status = make_pattern(scene, allocator);

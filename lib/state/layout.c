@@ -10,6 +10,7 @@
 typedef struct field_counts {
     uint64_t n, r, s, p, sb, pb, e, d, k, load, history, diagonal, link, backup;
     uint64_t j, c, cluster, column, raw, jacobian, tangent, dense, square, full, block, value, pivots, kd, kl, kn;
+    uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block;
 } field_counts;
 
 /* The letters as names, for the count expressions of the lists; not every list uses all of them. */
@@ -21,6 +22,10 @@ typedef struct field_counts {
     const uint64_t dense = (of)->dense, square = (of)->square, full = (of)->full, block = (of)->block;          \
     const uint64_t value = (of)->value, pivots = (of)->pivots;                                                  \
     const uint64_t kd = (of)->kd, kl = (of)->kl, kn = (of)->kn, sb = (of)->sb, pb = (of)->pb;                   \
+    const uint64_t sparse_values = (of)->sparse_values, sparse_rows = (of)->sparse_rows;                        \
+    const uint64_t sparse_raw = (of)->sparse_raw, sparse_c = (of)->sparse_c;                                    \
+    const uint64_t sparse_block = (of)->sparse_block;                                                           \
+    (void)sparse_values, (void)sparse_rows, (void)sparse_raw, (void)sparse_c, (void)sparse_block;               \
     (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,   \
         (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,     \
         (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd, \
@@ -54,6 +59,12 @@ static void count_constraints(const dmb_scene *scene, field_counts *c)
     c->kn = any || scene->site_count == 0 ? 0 : scene->node_count;
     c->value = any ? scene->pattern.values : 0;
     c->pivots = any ? scene->pattern.rows : 0;
+    const uint64_t sparse = scene->sparse_count > 0;
+    c->sparse_values = sparse ? scene->pattern.values : 0;
+    c->sparse_rows = sparse ? scene->pattern.rows : 0;
+    c->sparse_raw = sparse ? scene->row_count : 0;
+    c->sparse_c = sparse ? scene->constraint_row_count : 0;
+    c->sparse_block = sparse ? scene->block_count : 0;
 }
 
 static field_counts counts_of(const dmb_scene *scene)

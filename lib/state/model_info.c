@@ -46,6 +46,7 @@ static void fill_info(const dmb_scene *scene, dmb_model_info *info)
     info->prescribed = scene->prescribed_count;
     info->structural_joints = scene->structural_joint_count;
     info->model_bytes = scene->bytes + scene->pattern.block_size;
+    if (scene->dense != NULL) info->model_bytes += scene->dense->bytes + scene->dense->pattern.block_size;
     info->sim_bytes = dmb_sim_bytes(scene);
     info->mass = scene->mass;
     info->length = scene->length;

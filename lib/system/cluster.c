@@ -3,6 +3,7 @@
 
 #include "system/cluster_parts.h"
 #include "system/constraint_rows.h"
+#include "system/sparse.h"
 
 dmb_partition dmb_cluster_partition(const dmb_sim *sim, uint32_t k)
 {
@@ -54,8 +55,9 @@ int32_t dmb_clusters_gather(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     const int32_t status = dmb_constraint_rows(evaluation);
+    sim->linked_mode->metric = 0;
     for (uint32_t k = 0; k < sim->scene->cluster_count && status >= 0; k++)
-        gather_matrix(sim, sim->scene->clusters + k);
+        if (!sim->scene->clusters[k].sparse) gather_matrix(sim, sim->scene->clusters + k);
     return status;
 }
 
@@ -71,11 +73,12 @@ int32_t dmb_clusters_factor(dmb_sim *sim)
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
         const dmb_cluster *cluster = sim->scene->clusters + k;
         const dmb_partition partition = dmb_cluster_partition(sim, k);
+        if (cluster->sparse) continue;
         dmb_cluster_note_places(sim, k); /* the choice may have come back with an older state */
         sim->cluster_quality[k] = dmb_partition_factor(
             dmb_cluster_matrix(sim, cluster), cluster->columns, sim->cluster_weight + cluster->column, &partition,
             sim->cluster_lu + cluster->square, sim->cluster_pivot + cluster->row);
         if (!(sim->cluster_quality[k] > 0.0)) return dmb_cluster_singular(sim, cluster->row, 0.0);
     }
-    return DMB_OK;
+    return sim->scene->sparse_count ? dmb_sparse_refresh(sim) : DMB_OK;
 }

@@ -1,6 +1,7 @@
 /* The choice of dependent coordinates, and when it is made anew. */
 #include "math/vec3.h"
 #include "system/cluster_parts.h"
+#include "system/sparse.h"
 
 /* The choice is made anew when its quality falls below this part of what it was. */
 #define DMB_QUALITY_FALL 0.1
@@ -43,31 +44,68 @@ static void choose(dmb_sim *sim, uint32_t k)
 
 void dmb_clusters_choose(dmb_sim *sim)
 {
-    for (uint32_t k = 0; k < sim->scene->cluster_count; k++) choose(sim, k);
+    for (uint32_t k = 0; k < sim->scene->cluster_count; k++)
+        if (!sim->scene->clusters[k].sparse) choose(sim, k);
+    dmb_sparse_choose(sim);
 }
 
-/* A number that tells sets of dependent columns apart, in whatever order. */
-static uint64_t mark_of_dependent(const dmb_sim *sim, uint32_t k)
+/* A number that tells sets apart, in whatever order. */
+static uint64_t mark_of(uint32_t count, const uint32_t *items)
 {
-    const uint32_t *order = sim->partition_column + sim->scene->clusters[k].column;
-    uint64_t sum = sim->partition_rank[k];
-    for (uint32_t i = 0; i < sim->partition_rank[k]; i++) {
-        const uint64_t mixed = (order[i] + UINT64_C(1)) * UINT64_C(0x9E3779B97F4A7C15);
+    uint64_t sum = count;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint64_t mixed = (items[i] + UINT64_C(1)) * UINT64_C(0x9E3779B97F4A7C15);
         sum += mixed ^ mixed >> 29;
     }
     return sum;
 }
 
+/* Of dependent columns; of the rows that are chosen. */
+static uint64_t mark_of_dependent(const dmb_sim *sim, uint32_t k)
+{
+    return mark_of(sim->partition_rank[k], sim->partition_column + sim->scene->clusters[k].column);
+}
+
+static uint64_t mark_of_rows(const dmb_sim *sim, uint32_t k)
+{
+    return mark_of(sim->partition_rank[k], sim->partition_row + sim->scene->clusters[k].row);
+}
+
+/* Whether the choice of a cluster is to be made anew. */
+static int is_due(dmb_sim *sim, uint32_t k)
+{
+    const int fallen = sim->cluster_quality[k] < DMB_QUALITY_FALL * sim->partition_quality[k];
+    sim->partition_quality[k] = fmax(sim->partition_quality[k], sim->cluster_quality[k]);
+    return fallen || sim->partition_rank[k] != dmb_cluster_active_rows(sim, sim->scene->clusters + k);
+}
+
+/* Sparse clusters choose together. */
+static void watch_sparse(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    uint64_t before = 0, after = 0;
+    int due = 0;
+    for (uint32_t k = 0; k < scene->cluster_count; k++) {
+        if (!scene->clusters[k].sparse) continue;
+        due |= is_due(sim, k);
+        before += mark_of_rows(sim, k);
+    }
+    if (!due) return;
+    dmb_sparse_choose(sim);
+    for (uint32_t k = 0; k < scene->cluster_count; k++)
+        if (scene->clusters[k].sparse) after += mark_of_rows(sim, k);
+    sim->counters->switches += before != after;
+}
+
 void dmb_clusters_watch(dmb_sim *sim)
 {
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
-        const int fallen = sim->cluster_quality[k] < DMB_QUALITY_FALL * sim->partition_quality[k];
-        sim->partition_quality[k] = fmax(sim->partition_quality[k], sim->cluster_quality[k]);
-        if (!fallen && sim->partition_rank[k] == dmb_cluster_active_rows(sim, sim->scene->clusters + k)) continue;
+        if (sim->scene->clusters[k].sparse || !is_due(sim, k)) continue;
         const uint64_t before = mark_of_dependent(sim, k);
         choose(sim, k);
         sim->counters->switches += before != mark_of_dependent(sim, k);
     }
+    if (sim->scene->sparse_count) watch_sparse(sim);
 }
 
 int32_t dmb_clusters_refresh(dmb_evaluation *evaluation)

@@ -1,5 +1,6 @@
 /* How far a trial is from satisfying its equations of position, in metres. */
 #include "system/cluster_parts.h"
+#include "system/sparse.h"
 
 /* [m] least move that satisfies a row of a cluster alone: its misfit over the length of its row in weighted columns. */
 static double way_of(const dmb_sim *sim, uint32_t k, uint32_t row)
@@ -32,8 +33,13 @@ static double misfit_of(const dmb_sim *sim, uint32_t k, int32_t dropped, uint32_
 double dmb_clusters_pivot_misfit(const dmb_sim *sim, uint32_t *row)
 {
     double most = 0.0;
-    for (uint32_t k = 0; k < sim->scene->cluster_count; k++) most = fmax(most, misfit_of(sim, k, 0, row));
-    return most;
+    for (uint32_t k = 0; k < sim->scene->cluster_count; k++)
+        if (!sim->scene->clusters[k].sparse) most = fmax(most, misfit_of(sim, k, 0, row));
+    if (sim->scene->sparse_count == 0) return most;
+    uint32_t found = *row;
+    const double here = dmb_sparse_misfit(sim, 0, &found);
+    if (here > most) *row = found;
+    return fmax(most, here);
 }
 
 double dmb_clusters_misfit(const dmb_sim *sim, int32_t dropped, uint32_t *row)
@@ -43,10 +49,17 @@ double dmb_clusters_misfit(const dmb_sim *sim, int32_t dropped, uint32_t *row)
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++)
         for (int32_t which = dropped; which <= 1; which++) {
             uint32_t found = UINT32_MAX;
+            if (sim->scene->clusters[k].sparse) continue;
             const double here = misfit_of(sim, k, which, &found);
             if (!(here > most)) continue;
             most = here;
             *row = found;
         }
+    for (int32_t which = dropped; which <= 1 && sim->scene->sparse_count; which++) {
+        uint32_t found = UINT32_MAX;
+        const double here = dmb_sparse_misfit(sim, which, &found);
+        if (here > most) *row = found;
+        most = fmax(most, here);
+    }
     return most;
 }

@@ -1,5 +1,6 @@
 /* Multipliers of the constraints: forces that balance the dependent rows. */
 #include "system/cluster_parts.h"
+#include "system/sparse.h"
 
 /* C_d^T f = -residual in the dependent columns. */
 static void solve_multipliers(dmb_sim *sim, uint32_t k)
@@ -54,13 +55,17 @@ void dmb_clusters_balance(dmb_evaluation *evaluation)
     dmb_sim *sim = evaluation->sim;
     const int given = sim->linked_mode->multipliers;
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
+        if (sim->scene->clusters[k].sparse) continue;
         if (!given) solve_multipliers(sim, k);
         add_multipliers(sim, k);
         if (!given) clear_dependent(sim, k);
     }
+    dmb_sparse_balance(sim, given);
 }
 
 void dmb_clusters_least_norm(dmb_sim *sim)
 {
-    for (uint32_t k = 0; k < sim->scene->cluster_count; k++) least_norm(sim, k);
+    for (uint32_t k = 0; k < sim->scene->cluster_count; k++)
+        if (!sim->scene->clusters[k].sparse) least_norm(sim, k);
+    dmb_sparse_least_norm(sim);
 }

@@ -4,6 +4,7 @@
 #include "math/se3.h"
 #include "system/cluster_parts.h"
 #include "system/constraint_rows.h"
+#include "system/sparse.h"
 
 /* Projections onto the constraints end at this misfit times the size of the scene, or when they no longer help. */
 #define DMB_SETTLED 2e-15
@@ -18,18 +19,24 @@ static int32_t factor_gram(dmb_sim *sim)
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
         const dmb_cluster *cluster = sim->scene->clusters + k;
         const dmb_partition partition = dmb_cluster_partition(sim, k);
+        if (cluster->sparse) continue;
         if (dmb_partition_gram(dmb_cluster_matrix(sim, cluster), cluster->columns,
                                sim->cluster_metric + cluster->column, &partition,
                                sim->cluster_gram + cluster->square) < 0)
             return dmb_cluster_singular(sim, cluster->row, 0.0);
     }
-    return DMB_OK;
+    return sim->scene->sparse_count ? dmb_sparse_factor(sim, 0) : DMB_OK;
 }
 
-/* Shortest change of the rows of a cluster with B x = d, d by constraint row, into cluster_move. */
+/* Shortest change of the rows of a cluster with B x = d, d by constraint row, into cluster_move. That of sparse clusters
+ * has been found before. */
 static const double *shortest(dmb_sim *sim, uint32_t k, const double *d)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
+    if (cluster->sparse) {
+        dmb_sparse_take(sim, k, sim->cluster_move);
+        return sim->cluster_move;
+    }
     const dmb_partition partition = dmb_cluster_partition(sim, k);
     for (uint32_t i = 0; i < partition.rank; i++) sim->cluster_rows[i] = d[cluster->row + partition.row_order[i]];
     dmb_partition_project(dmb_cluster_matrix(sim, cluster), cluster->columns, sim->cluster_metric + cluster->column,
@@ -64,6 +71,7 @@ static double move_poses(dmb_sim *sim, double most)
 {
     const dmb_scene *scene = sim->scene;
     double largest = 0.0;
+    if (scene->sparse_count) dmb_sparse_project(sim, sim->constraint_value);
     for (uint32_t k = 0; k < scene->cluster_count; k++) {
         const dmb_cluster *cluster = scene->clusters + k;
         const double *x = shortest(sim, k, sim->constraint_value);
@@ -120,12 +128,16 @@ static int32_t settle_poses(dmb_evaluation *evaluation)
 static void settle_rows(dmb_sim *sim, const double *level, double *v, double *also, double factor)
 {
     const dmb_scene *scene = sim->scene;
+    double *d = sim->cluster_scratch;
+    if (scene->sparse_count) {
+        dmb_sparse_deficit(sim, level, v, d);
+        dmb_sparse_project(sim, d);
+    }
     for (uint32_t k = 0; k < scene->cluster_count; k++) {
         const dmb_cluster *cluster = scene->clusters + k;
         const uint32_t *row_of = scene->cluster_columns + cluster->column;
         const double *B = dmb_cluster_matrix(sim, cluster);
-        double *d = sim->cluster_scratch;
-        for (uint32_t r = 0; r < cluster->rows; r++) {
+        for (uint32_t r = 0; r < (cluster->sparse ? 0 : cluster->rows); r++) {
             double sum = level[cluster->row + r];
             for (uint32_t c = 0; c < cluster->columns; c++) sum += B[(size_t)r * cluster->columns + c] * v[row_of[c]];
             d[cluster->row + r] = -sum;
@@ -151,10 +163,12 @@ static void leave_weak(dmb_sim *sim)
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
         const dmb_cluster *cluster = sim->scene->clusters + k;
         const dmb_partition partition = dmb_cluster_partition(sim, k);
+        if (cluster->sparse) continue;
         dmb_partition_leave_weak(dmb_cluster_matrix(sim, cluster), cluster->columns,
                                  sim->cluster_metric + cluster->column, &partition,
                                  sim->cluster_gram + cluster->square);
     }
+    if (sim->scene->sparse_count && sim->linked_mode->weak) (void)dmb_sparse_factor(sim, 1);
 }
 
 int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t from_raw)

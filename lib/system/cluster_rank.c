@@ -5,7 +5,7 @@
 #include "base/allocator.h"
 #include "base/arena.h"
 #include "math/row_rank.h"
-#include "system/cluster.h"
+#include "system/cluster_parts.h"
 #include "system/constraint_rows.h"
 
 /* What the rows are evaluated in, and LAPACK's memory. */
@@ -38,9 +38,9 @@ static size_t largest_work(const dmb_scene *scene)
 }
 
 /* All that dmb_clusters_gather writes. Its pose and motion are those of the accepted state, read in place. */
-static void lay_out(dmb_arena *arena, const dmb_sim *sim, scratch *s)
+static void lay_out(dmb_arena *arena, scratch *s)
 {
-    const dmb_scene *scene = sim->scene;
+    const dmb_scene *scene = s->sim.scene;
     const size_t c = scene->constraint_row_count;
     dmb_sim *to = &s->sim;
     to->trial.joint_depth = DMB_ARENA_DOUBLES(arena, scene->joint_count);
@@ -61,15 +61,16 @@ static int32_t open_scratch(const dmb_sim *sim, scratch *s, dmb_cluster_rank *ra
 {
     dmb_arena arena;
     s->sim = *sim;
+    s->sim.scene = dmb_dense_scene(sim->scene);
     s->sim.trial = sim->now;
     dmb_arena_count(&arena);
-    lay_out(&arena, sim, s);
+    lay_out(&arena, s);
     rank->block_size = dmb_arena_block_size(&arena);
     if (arena.overflow) return DMB_ERR_NO_MEMORY;
     rank->block = dmb_allocate(&sim->allocator, rank->block_size);
     if (rank->block == NULL) return DMB_ERR_NO_MEMORY;
     dmb_arena_place(&arena, rank->block, rank->block_size);
-    lay_out(&arena, sim, s);
+    lay_out(&arena, s);
     memcpy(s->sim.trial.joint_segment, sim->now.joint_segment, sim->scene->joint_count * sizeof(uint32_t));
     rank->redundant = s->redundant;
     return DMB_OK;
@@ -127,9 +128,26 @@ static void mark_redundant(scratch *s, uint32_t k, uint32_t rows, const dmb_rank
     for (uint32_t i = found->rank; i < rows; i++) redundant[acting_row(s, cluster, (uint32_t)s->order[i])] = 1;
 }
 
+/* Of a cluster that is too large for LAPACK: what the choice of rows says. */
+static void take_choice(scratch *s, uint32_t k, dmb_cluster_rank *rank)
+{
+    const dmb_rank found = {.rank = s->sim.partition_rank[k]};
+    const uint32_t rows = dmb_cluster_active_rows(&s->sim, s->sim.scene->clusters + k);
+    mark_redundant(s, k, rows, &found);
+    rank->rows += rows;
+    rank->rank += found.rank;
+    if (!(s->sim.partition_quality[k] < rank->condition)) return;
+    rank->condition = s->sim.partition_quality[k];
+    rank->poorest = k;
+}
+
 static void rank_cluster(scratch *s, uint32_t k, dmb_cluster_rank *rank)
 {
     const dmb_cluster *cluster = s->sim.scene->clusters + k;
+    if (cluster->sparse) {
+        take_choice(s, k, rank);
+        return;
+    }
     const uint32_t rows = pack_rows(s, cluster);
     dmb_rank found;
     dmb_rank_of_rows(s->sim.cluster_matrix + cluster->dense, rows, cluster->columns,

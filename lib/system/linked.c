@@ -3,12 +3,20 @@
 #include <string.h>
 
 #include "system/cluster.h"
+#include "system/linked_sparse.h"
 
 /* ---- Columns of nodes in their block ----------------------------------------------------------------------------- */
 
 static int is_full(const dmb_sim *sim)
 {
     return sim->linked_mode->multipliers;
+}
+
+/* The dense cluster of a node, or UINT32_MAX: a block of its own. */
+static uint32_t cluster_of(const dmb_scene *scene, uint32_t node)
+{
+    const uint32_t k = scene->node_cluster[node];
+    return k != UINT32_MAX && scene->clusters[k].sparse ? UINT32_MAX : k;
 }
 
 /* Unknowns of a cluster's block. */
@@ -34,7 +42,7 @@ static const double *row_of_null_space(const dmb_sim *sim, uint32_t k, uint32_t 
 /* out (rows x size of node's block) += X (rows x size of node) R_node */
 static void times_null_space(const dmb_sim *sim, uint32_t node, const double *X, uint32_t rows, double *out)
 {
-    const uint32_t k = sim->scene->node_cluster[node], size = sim->scene->layout.size[node];
+    const uint32_t k = cluster_of(sim->scene, node), size = sim->scene->layout.size[node];
     const uint32_t width = k == UINT32_MAX ? size : cluster_size(sim, k);
     for (uint32_t c = 0; c < size; c++) {
         uint32_t one = c;
@@ -55,7 +63,7 @@ static void times_null_space(const dmb_sim *sim, uint32_t node, const double *X,
 /* out (size of node's block x columns) += R_node^T X (size of node x columns) */
 static void null_space_times(const dmb_sim *sim, uint32_t node, const double *X, uint32_t columns, double *out)
 {
-    const uint32_t k = sim->scene->node_cluster[node], size = sim->scene->layout.size[node];
+    const uint32_t k = cluster_of(sim->scene, node), size = sim->scene->layout.size[node];
     const uint32_t height = k == UINT32_MAX ? size : cluster_size(sim, k);
     for (uint32_t c = 0; c < size; c++) {
         const double *x = X + (size_t)c * columns, *G = NULL;
@@ -194,10 +202,11 @@ static void set_sizes(dmb_sim *sim)
     const dmb_scene *scene = sim->scene;
     uint32_t row = 0;
     for (uint32_t i = 0; i < scene->node_count; i++)
-        if (scene->node_block[i] != UINT32_MAX && scene->node_cluster[i] == UINT32_MAX)
+        if (scene->node_block[i] != UINT32_MAX && cluster_of(scene, i) == UINT32_MAX)
             sim->linked_size[scene->node_block[i]] = scene->layout.size[i];
     for (uint32_t k = 0; k < scene->cluster_count; k++)
-        sim->linked_size[scene->clusters[k].block] = cluster_size(sim, k);
+        if (!scene->clusters[k].sparse) sim->linked_size[scene->clusters[k].block] = cluster_size(sim, k);
+    if (scene->sparse_count) dmb_linked_sparse_sizes(sim);
     for (uint32_t b = 0; b < scene->block_count; b++) {
         sim->linked_row[b] = row;
         row += sim->linked_size[b];
@@ -209,6 +218,7 @@ static void assemble_clusters(dmb_sim *sim, dmb_block_sparse *matrix)
     const dmb_scene *scene = sim->scene;
     for (uint32_t k = 0; k < scene->cluster_count; k++) {
         const dmb_cluster *cluster = scene->clusters + k;
+        if (cluster->sparse) continue;
         const double *D = full_matrix(sim, cluster);
         double *A = dmb_block_sparse_diagonal(&scene->pattern, matrix, cluster->block);
         if (is_full(sim)) {
@@ -224,18 +234,21 @@ static void assemble_link(dmb_sim *sim, uint32_t i, uint32_t j, const double *S,
 {
     const dmb_scene *scene = sim->scene;
     const uint32_t size = scene->layout.size[i], width = sim->linked_size[scene->node_block[j]];
-    const uint32_t ki = scene->node_cluster[i], kj = scene->node_cluster[j];
+    const uint32_t ki = cluster_of(scene, i), kj = cluster_of(scene, j);
     if (ki == UINT32_MAX && kj == UINT32_MAX) {
         put(S, size, scene->layout.size[j], sim->linked_value + offset, width);
         return;
     }
-    if (kj == UINT32_MAX) {
+    if (kj == UINT32_MAX && width == scene->layout.size[j]) {
         null_space_times(sim, i, S, width, sim->linked_value + offset);
         return;
     }
     double *half = sim->linked_half;
     memset(half, 0, (size_t)size * width * sizeof(double));
-    times_null_space(sim, j, S, size, half);
+    if (kj == UINT32_MAX)
+        put(S, size, scene->layout.size[j], half, width);
+    else
+        times_null_space(sim, j, S, size, half);
     null_space_times(sim, i, half, width, sim->linked_value + offset);
 }
 
@@ -254,10 +267,11 @@ static void assemble_nodes(dmb_sim *sim, const dmb_block_sparse *matrix)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->node_count; i++) {
-        if (scene->node_block[i] == UINT32_MAX || scene->node_cluster[i] != UINT32_MAX) continue;
-        const size_t size = scene->layout.size[i];
-        memcpy(dmb_block_sparse_diagonal(&scene->pattern, matrix, scene->node_block[i]), dmb_stiffness_of(sim, i),
-               size * size * sizeof(double));
+        if (scene->node_block[i] == UINT32_MAX || cluster_of(scene, i) != UINT32_MAX) continue;
+        const uint32_t size = scene->layout.size[i];
+        put(dmb_stiffness_of(sim, i), size, size,
+            dmb_block_sparse_diagonal(&scene->pattern, matrix, scene->node_block[i]),
+            sim->linked_size[scene->node_block[i]]);
     }
 }
 
@@ -268,23 +282,31 @@ static uint32_t node_of_block(const dmb_scene *scene, uint32_t block)
     return 0;
 }
 
-void dmb_linked_assemble(dmb_sim *sim)
+/* hold: of statics, see linked_sparse.h */
+static void assemble(dmb_sim *sim, int hold)
 {
     const dmb_scene *scene = sim->scene;
     dmb_block_sparse matrix = matrix_of(sim);
     set_sizes(sim);
     dmb_block_sparse_clear(&scene->pattern, &matrix);
-    for (uint32_t k = 0; k < scene->cluster_count && !is_full(sim); k++) make_null_space(sim, k);
+    for (uint32_t k = 0; k < scene->cluster_count && !is_full(sim); k++)
+        if (!scene->clusters[k].sparse) make_null_space(sim, k);
     assemble_nodes(sim, &matrix);
     assemble_clusters(sim, &matrix);
     assemble_links(sim);
+    dmb_linked_sparse_put(sim, hold);
+}
+
+void dmb_linked_assemble(dmb_sim *sim)
+{
+    assemble(sim, 0);
 }
 
 int64_t dmb_linked_factor(dmb_sim *sim, dmb_block_weakest *weakest)
 {
     const dmb_scene *scene = sim->scene;
     dmb_block_sparse matrix = matrix_of(sim);
-    dmb_linked_assemble(sim);
+    assemble(sim, weakest != NULL);
     const int64_t bad = weakest != NULL ? dmb_block_sparse_factor_watched(&scene->pattern, &matrix, weakest)
                                         : dmb_block_sparse_factor(&scene->pattern, &matrix);
     if (weakest != NULL) weakest->block = node_of_block(scene, weakest->block);
@@ -304,7 +326,7 @@ static void gather_node(const dmb_sim *sim, uint32_t node)
 static void scatter_node(dmb_sim *sim, uint32_t node)
 {
     const dmb_scene *scene = sim->scene;
-    const uint32_t k = scene->node_cluster[node], size = scene->layout.size[node];
+    const uint32_t k = cluster_of(scene, node), size = scene->layout.size[node];
     const double *y = sim->linked_solution + sim->linked_row[scene->node_block[node]];
     double *z = sim->correction + scene->layout.row[node];
     for (uint32_t c = 0; c < size; c++) {
@@ -321,6 +343,7 @@ static void move_multipliers(dmb_sim *sim)
     const dmb_scene *scene = sim->scene;
     for (uint32_t k = 0; k < scene->cluster_count; k++) {
         const dmb_cluster *cluster = scene->clusters + k;
+        if (cluster->sparse) continue;
         const double *change = sim->linked_solution + sim->linked_row[cluster->block] + cluster->columns;
         for (uint32_t i = 0; i < sim->partition_rank[k]; i++)
             sim->trial.multiplier[cluster->row + sim->partition_row[cluster->row + i]] += change[i];
@@ -343,4 +366,5 @@ void dmb_linked_solve(dmb_sim *sim)
     dmb_block_sparse_solve(&scene->pattern, &matrix, sim->linked_row, sim->linked_solution);
     dmb_linked_expand(sim);
     if (is_full(sim)) move_multipliers(sim);
+    if (scene->sparse_count) dmb_linked_sparse_move(sim);
 }
