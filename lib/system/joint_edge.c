@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "constraint/joint.h"
+#include "math/elementary.h"
 #include "math/so3.h"
 #include "system/constraint_rows.h"
 #include "system/joint_state.h"
@@ -42,20 +43,21 @@ static double chord_distance(const double a[2], const double b[2])
     const double d[2] = {b[0] - a[0], b[1] - a[1]}, square = d[0] * d[0] + d[1] * d[1];
     double t = square > 0.0 ? -(a[0] * d[0] + a[1] * d[1]) / square : 0.0;
     t = fmin(fmax(t, 0.0), 1.0);
-    return hypot(a[0] + t * d[0], a[1] + t * d[1]);
+    const double x = a[0] + t * d[0], y = a[1] + t * d[1];
+    return sqrt(x * x + y * y);
 }
 
 /* s of the trial; the smallest on the way from now to it, as far as a step tells. */
 static double smallest_cosine(const dmb_sim *sim, uint32_t j, const double R[9], int moving)
 {
     const double here[2] = {R[4], R[5]};
-    const double s = hypot(here[0], here[1]);
+    const double s = sqrt(here[0] * here[0] + here[1] * here[1]);
     dmb_relative before;
     double turned[9];
     if (!moving) return s;
     dmb_joint_motion_of(sim->scene, &sim->now, j, &before, NULL);
     dmb_mat3_mul_nt(R, before.R, turned);
-    if (turned[0] + turned[4] + turned[8] < 1.0 + 2.0 * cos(DMB_SHORT_TURN)) return s;
+    if (turned[0] + turned[4] + turned[8] < 1.0 + 2.0 * dmb_cos(DMB_SHORT_TURN)) return s;
     const double from[2] = {before.R[4], before.R[5]};
     return fmin(s, chord_distance(from, here));
 }
@@ -68,7 +70,8 @@ static int32_t refuse_angle(dmb_sim *sim, uint32_t j, double s, double time)
                                      "axis_b, normal_b), or put nothing on its angles";
     dmb_message owner;
     dmb_constraint_text(sim->scene, sim->scene->joints[j].constraint, &owner);
-    dmb_message_set(&sim->message, "%s: |RZ| = %g rad at time %g, must be < %g; %s", owner.text, acos(fmin(s, 1.0)), time,
+    const double angle = dmb_atan2(sqrt(fmax(1.0 - s * s, 0.0)), s);
+    dmb_message_set(&sim->message, "%s: |RZ| = %g rad at time %g, must be < %g; %s", owner.text, angle, time,
                     0.5 * DMB_PI - DMB_RIGHT_ANGLE_EDGE,
                     sim->scene->joints[j].kind == DMB_ROWS_UNIVERSAL ? universal : other);
     return DMB_ERR_GEOMETRY;
@@ -92,10 +95,10 @@ static int32_t check_joint(dmb_sim *sim, uint32_t j, int moving, double time)
     dmb_relative relative;
     if (sim->joint_state[j] != DMB_JOINT_ACTIVE || !(rolls || angles)) return DMB_OK;
     dmb_joint_motion_of(sim->scene, &sim->trial, j, &relative, NULL);
-    const double sine = hypot(relative.R[1], relative.R[2]); /* of the x axes of a and b */
+    const double sine = sqrt(relative.R[1] * relative.R[1] + relative.R[2] * relative.R[2]); /* of the x axes of a and b */
     if (rolls && !(sine > DMB_RIM_EDGE)) return refuse_flat(sim, j, sine, time);
     const double s = angles ? smallest_cosine(sim, j, relative.R, moving) : 1.0;
-    return s > sin(DMB_RIGHT_ANGLE_EDGE) ? DMB_OK : refuse_angle(sim, j, s, time);
+    return s > dmb_sin(DMB_RIGHT_ANGLE_EDGE) ? DMB_OK : refuse_angle(sim, j, s, time);
 }
 
 int32_t dmb_joints_refuse_edges(dmb_sim *sim, int moving, double time)
