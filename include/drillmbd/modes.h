@@ -22,7 +22,8 @@ typedef struct dmb_modes_options {
     uint32_t struct_size;
     int32_t kind;              /* DMB_MODES_UNDAMPED (default), _DAMPED */
     int32_t select;            /* DMB_MODES_LOWEST (default), _ALL, _BAND */
-    uint32_t count;            /* [-] of LOWEST, 1 .. number of coordinates; default 10 */
+    uint32_t count;            /* [-] of LOWEST, 1 .. number of coordinates, twice that if DAMPED, where every real root is a
+                                  mode (fewer come back where there are fewer); default 10 */
     double band[2];            /* [Hz] of BAND, 0 <= band[0] < band[1]; default 0 and 100, shape (2) */
     int32_t contact;           /* DMB_CONTACT_..., default DMB_CONTACT_AS_IS */
     int32_t friction;          /* 1 (default): the slope of the friction law on the wall acts; 0: friction is a dead load */
@@ -40,7 +41,9 @@ DMB_SIZED_STRUCT(dmb_modes_options)
 typedef struct dmb_modes_info {
     uint32_t struct_size;
     uint32_t count;            /* [-] modes found, by rising frequency */
-    uint32_t rigid;            /* [-] of them rigid-body modes */
+    uint32_t rigid;            /* [-] of them rigid-body modes: motions of all parts as rigid bodies that neither joints nor
+                                  guides nor any force hold, K d = 0. They are found as such, not as small eigenvalues;
+                                  each is told once, with s = 0 */
     uint32_t coordinates;      /* [-] independent coordinates of the linear system */
     int32_t dense;             /* 1: by LAPACK on all coordinates; 0: by Krylov subspaces on sparse factors */
     uint32_t solves;           /* [-] with those factors */
@@ -55,9 +58,8 @@ typedef struct dmb_mode {
     int32_t rigid;             /* 1: a rigid-body mode: nothing holds or strains it */
     double frequency;          /* [Hz] |s|/(2 pi) */
     double damping;            /* [-] -Re s/|s|; 1 of an overdamped root, which counts as one mode; 0 of a rigid one */
-    double eigenvalue[2];      /* [1/s] s, real and imaginary part >= 0, shape (2). Flutter is two modes, one that grows and one
-                                  that decays. Without damping, divergence (s, -s) is one mode, s > 0; of an unsymmetric K
-                                  the sparse search tells both */
+    double eigenvalue[2];      /* [1/s] s, real and imaginary part >= 0, shape (2). Flutter is two modes, one that grows and
+                                  one that decays. Without damping, divergence (s, -s) is one mode, s > 0 */
     double kinetic;            /* [J] |s|^2 d^H M d/2 of the shape as normalised: d^H M d = 1 kg m2 (or kg) */
     double strain;             /* [J] in elements alike, elastic part */
     double share[3];           /* [-] of the kinetic energy that is axial, torsional, lateral motion of pipes and bodies in
@@ -83,9 +85,10 @@ DMB_SIZED_STRUCT(dmb_mode_shape)
  * changed; sim takes the message, and need not outlive the result. options may be NULL. Memory: the sim's allocator,
  * until dmb_modes_destroy. LOWEST: smallest |s|. Few modes: block Lanczos (full reorthogonalisation in the M-inner
  * product), damped or unsymmetric ones block Arnoldi, both on the inverse of K (rigid-body motions apart, or shifted),
- * linear in the number of elements; ALL, and many: LAPACK (dsygvd, dgeev), cubic. *modes is NULL on error: DMB_ERR_VALUE
- * (option; more modes than coordinates; a band without modes; a state out of balance: by how much and where),
- * _NO_CONVERGENCE, _SINGULAR, _CALLBACK, _NOT_FINITE, _ROTATION, _NO_MEMORY, _TOO_LARGE. */
+ * linear in the number of elements; ALL, and many: LAPACK (dsygvd, dgeev), cubic. A mode that does not satisfy its
+ * equations to rounding, after some inverse iteration, is refused with its residual and the bound (_NO_CONVERGENCE).
+ * *modes is NULL on error: DMB_ERR_VALUE (option; more modes than coordinates; a band without modes; a state out of
+ * balance: by how much and where), _NO_CONVERGENCE, _SINGULAR, _CALLBACK, _NOT_FINITE, _ROTATION, _NO_MEMORY, _TOO_LARGE. */
 DMB_API int32_t dmb_analysis_modes(dmb_sim *sim, const dmb_modes_options *options, dmb_modes **modes);
 /* Gives the memory back and sets *modes to NULL. NULL-safe. */
 DMB_API void dmb_modes_destroy(dmb_modes **modes);

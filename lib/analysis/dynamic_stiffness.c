@@ -58,9 +58,12 @@ void dmb_dynamic_stiffness_release(dmb_dynamic_stiffness *stiffness)
 static void assemble_array(const dmb_dynamic_stiffness *s, size_t count, const double *restrict M,
                            const double *restrict C, const double *restrict K, double *restrict re, double *restrict im)
 {
-    const double w = s->omega, w2 = w * w, eta = s->structural_damping;
+    const double w = s->omega, w2 = w * w, eta = s->structural_damping, g = s->growth;
     for (size_t i = 0; i < count; i++) re[i] = K[i] - w2 * M[i];
     for (size_t i = 0; i < count; i++) im[i] = w * C[i] + eta * K[i];
+    if (g == 0.0) return;
+    for (size_t i = 0; i < count; i++) re[i] += g * (C[i] + g * M[i]);
+    for (size_t i = 0; i < count; i++) im[i] += 2.0 * g * w * M[i];
 }
 
 /* Rows and columns that are held are zero but for a one. */
@@ -99,7 +102,13 @@ static int64_t loose_node(const dmb_dynamic_stiffness *s, const dmb_chain *chain
 
 int64_t dmb_dynamic_stiffness_factor(dmb_dynamic_stiffness *s, double omega)
 {
+    return dmb_dynamic_stiffness_factor_at(s, 0.0, omega);
+}
+
+int64_t dmb_dynamic_stiffness_factor_at(dmb_dynamic_stiffness *s, double growth, double omega)
+{
     const dmb_scene *scene = &s->linear->scene;
+    s->growth = growth;
     s->omega = omega;
     assemble(s);
     for (uint32_t c = 0; c < scene->chain_count; c++) {

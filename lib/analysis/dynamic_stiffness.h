@@ -2,6 +2,8 @@
  *
  *     A(w) = (1 + i eta) K + i w C - w^2 M,     A d = f,
  *
+ * or of motions that grow too, d ~ e^(p t), p = growth + i w: A(p) = (1 + i eta) K + p C + p^2 M,
+ *
  * assembled in complex blocks, factored and solved: block-tridiagonal along a chain, block-sparse in the independent
  * coordinates where joints connect chains (analysis/dynamic_links). Rows that guides hold do not move. What drives move
  * moves as told: of displacements p that hold all equations of joints, d = p + R z, R^T A R z = -R^T A p. */
@@ -33,6 +35,7 @@ typedef struct dmb_dynamic_stiffness {
     const dmb_linear *linear;
     double structural_damping;  /* [-] eta */
     double omega;               /* [rad/s] of the present factors */
+    double growth;              /* [1/s] likewise; 0 of a response */
     dmb_complex_block_matrix factors; /* of chains without joints; the blocks of A of the others */
     dmb_complex_array told;     /* p, shape (rows) */
     dmb_dynamic_links links;
@@ -46,6 +49,8 @@ void dmb_dynamic_stiffness_release(dmb_dynamic_stiffness *stiffness);
 
 /* Factors at w. A node that nothing holds there, or -1. */
 int64_t dmb_dynamic_stiffness_factor(dmb_dynamic_stiffness *stiffness, double omega);
+/* The same at growth + i omega. */
+int64_t dmb_dynamic_stiffness_factor_at(dmb_dynamic_stiffness *stiffness, double growth, double omega);
 /* x, shape (rows): forces on entry (those on rows that are held do nothing), displacements of all rows on return.
  * moves 1: on entry displacements p. */
 void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *stiffness, int32_t moves, dmb_complex_array x);
@@ -59,15 +64,19 @@ static inline int32_t dmb_dynamic_is_loose(const dmb_dynamic_stiffness *s, doubl
                                            double mass)
 {
     const double a = re < 0.0 ? -re : re, b = im < 0.0 ? -im : im;
-    return (a > b ? a : b) * (stiffness + s->omega * s->omega * mass) * DMB_LOOSE_PIVOT > 1.0;
+    const double square = s->omega * s->omega + s->growth * s->growth;
+    return (a > b ? a : b) * (stiffness + square * mass) * DMB_LOOSE_PIVOT > 1.0;
 }
 
 /* An entry of A at the present frequency from those of M, C and K. */
 static inline dmb_complex_number dmb_dynamic_entry(const dmb_dynamic_stiffness *s, double mass, double damping,
                                                    double stiffness)
 {
-    const double w = s->omega;
-    const dmb_complex_number a = {stiffness - w * w * mass, w * damping + s->structural_damping * stiffness};
+    const double w = s->omega, g = s->growth;
+    dmb_complex_number a = {stiffness - w * w * mass, w * damping + s->structural_damping * stiffness};
+    if (g == 0.0) return a;
+    a.re += g * (damping + g * mass);
+    a.im += 2.0 * g * w * mass;
     return a;
 }
 

@@ -63,6 +63,7 @@ static int32_t linearise(dmb_linear *linear, const dmb_linear_options *options)
     if (status >= 0) status = take_matrices(linear, options);
     work->linked_mode->multipliers = 0;
     if (status < 0) return status;
+    dmb_linear_judge_rounding(linear);
     dmb_linear_turn_frames(linear, options->still);
     return dmb_linear_make_coordinates(linear);
 }

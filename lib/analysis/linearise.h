@@ -96,12 +96,18 @@ static inline double dmb_linear_diagonal(const dmb_linear *linear, const dmb_lin
 /* [N/m] that DMB_LINEAR_CONTACT_CLOSED has put behind ring number `site`, which does not touch; 0: nothing. */
 double dmb_linear_wall_stiffness(const dmb_linear *linear, uint32_t site, double gap);
 
+/* A = 0. */
+void dmb_linear_clear(const dmb_linear *linear, dmb_linear_matrix *A);
 /* y = A x by rows, x and y apart. */
 void dmb_linear_multiply(const dmb_linear *linear, const dmb_linear_matrix *A, const double *x, double *y);
+/* y = |A| |x|: the size of the terms that add up to A x. */
+void dmb_linear_terms(const dmb_linear *linear, const dmb_linear_matrix *A, const double *x, double *y);
 /* d = R z, shape (rows) from (coordinates); rows that are held become 0. */
 void dmb_linear_expand(const dmb_linear *linear, const double *z, double *d);
 /* g = R^T f, shape (coordinates) from (rows). */
 void dmb_linear_restrict(const dmb_linear *linear, const double *f, double *g);
+/* g = |R|^T |f|. */
+void dmb_linear_restrict_terms(const dmb_linear *linear, const double *f, double *g);
 /* R^T A R, shape (coordinates, coordinates), column by column; work: shape (2 rows + coordinates). */
 void dmb_linear_dense(const dmb_linear *linear, const dmb_linear_matrix *A, double *work, double *out);
 /* [-] |x.Ky - y.Kx| for x, y of random signs over the roots of the diagonal: of rounding size where K is symmetric. */

@@ -1,9 +1,15 @@
 /* How far a state is from an equilibrium. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "analysis/linearise_parts.h"
+#include "math/vec3.h"
+#include "system/node.h"
 #include "system/solve.h"
+
+/* Units of rounding of a pose that count. */
+#define DMB_LINEAR_ROUNDING (16.0 * DBL_EPSILON)
 
 dmb_evaluation dmb_linear_evaluation(dmb_sim *work)
 {
@@ -49,4 +55,26 @@ int32_t dmb_linear_take_balance(dmb_linear *linear)
     memcpy(linear->unbalanced, work->correction, linear->rows * sizeof(double));
     find_largest(linear);
     return DMB_OK;
+}
+
+/* Poses are rounded where they are: eps |x| of a displacement, and through the stiffness between them sqrt(K_ii K_tt)
+ * eps |x| of a force or moment, K_tt the largest of the node's translations. A string that nothing loads leaves no
+ * more. */
+void dmb_linear_judge_rounding(dmb_linear *linear)
+{
+    const dmb_scene *scene = &linear->scene;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        double rotation[9], place[3], most = 0.0;
+        dmb_node_pose(scene, &linear->work->now, i, rotation, place);
+        dmb_vec3_add(place, scene->reference_position + 3 * (size_t)i, place);
+        for (uint32_t c = 0; 2 * c < size; c++)
+            most = fmax(most, fabs(dmb_linear_diagonal(linear, &linear->stiffness, i, c)));
+        for (uint32_t c = 0; c < size; c++) {
+            const double own = fabs(dmb_linear_diagonal(linear, &linear->stiffness, i, c));
+            const double rounding = DMB_LINEAR_ROUNDING * dmb_vec3_norm(place) * sqrt(own * most);
+            if (scene->solved_row[row + c] && !(fabs(linear->unbalanced[row + c]) <= rounding)) return;
+        }
+    }
+    linear->balanced = 1;
 }

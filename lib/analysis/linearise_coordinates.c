@@ -1,4 +1,5 @@
 /* Independent coordinates z of the motions d = R z that joints leave. */
+#include <math.h>
 #include <string.h>
 
 #include "analysis/linearise_parts.h"
@@ -92,4 +93,12 @@ void dmb_linear_restrict(const dmb_linear *linear, const double *f, double *g)
     for (uint32_t r = 0; r < linear->rows; r++)
         for (uint32_t i = linear->start[r]; i < linear->start[r + 1]; i++)
             g[linear->column[i]] += linear->value[i] * f[r];
+}
+
+void dmb_linear_restrict_terms(const dmb_linear *linear, const double *f, double *g)
+{
+    memset(g, 0, linear->coordinates * sizeof(double));
+    for (uint32_t r = 0; r < linear->rows; r++)
+        for (uint32_t i = linear->start[r]; i < linear->start[r + 1]; i++)
+            g[linear->column[i]] += fabs(linear->value[i] * f[r]);
 }

@@ -12,6 +12,8 @@ dmb_linear *dmb_linear_allocate(const dmb_sim *sim);
 dmb_evaluation dmb_linear_evaluation(dmb_sim *work);
 /* What forces leave over where body-frame velocities stay as they are. */
 int32_t dmb_linear_take_balance(dmb_linear *linear);
+/* What is left is balanced where it is no more than rounding of the poses; K is there. */
+void dmb_linear_judge_rounding(dmb_linear *linear);
 
 static inline void dmb_linear_add_array(double factor, const double *from, size_t count, double *to)
 {

@@ -22,6 +22,15 @@ static void add_joint_products(const dmb_scene *scene, const double *joints, con
     }
 }
 
+void dmb_linear_clear(const dmb_linear *linear, dmb_linear_matrix *A)
+{
+    const dmb_block_layout *layout = &linear->scene.layout;
+    memset(A->diagonal, 0, layout->diag[layout->n] * sizeof(double));
+    memset(A->lower, 0, layout->link[layout->n - 1] * sizeof(double));
+    memset(A->upper, 0, layout->link[layout->n - 1] * sizeof(double));
+    memset(A->joints, 0, linear->scene.tangent_count * sizeof(double));
+}
+
 void dmb_linear_multiply(const dmb_linear *linear, const dmb_linear_matrix *A, const double *x, double *y)
 {
     const dmb_scene *scene = &linear->scene;
@@ -29,6 +38,44 @@ void dmb_linear_multiply(const dmb_linear *linear, const dmb_linear_matrix *A, c
     for (uint32_t c = 0; c < scene->chain_count; c++)
         dmb_block_multiply(&scene->layout, &blocks, scene->chains[c].first, scene->chains[c].count, x, y);
     add_joint_products(scene, A->joints, x, y);
+}
+
+/* y += |A| |x|, A of that shape, by rows */
+static void add_terms(const double *A, uint32_t rows, uint32_t columns, const double *x, double *y)
+{
+    for (uint32_t r = 0; r < rows; r++)
+        for (uint32_t c = 0; c < columns; c++) y[r] += fabs(A[(size_t)columns * r + c] * x[c]);
+}
+
+static void add_joint_terms(const dmb_scene *scene, const double *joints, const double *x, double *y)
+{
+    const dmb_block_layout *layout = &scene->layout;
+    for (uint32_t i = 0; i < scene->constraint_count; i++) {
+        const dmb_constraint *c = scene->constraints + i;
+        for (uint32_t k = 0; k < c->node_count; k++)
+            for (uint32_t r = 0; r < layout->size[c->node[k]]; r++) {
+                const double *row = joints + c->tangent + (size_t)(c->column[k] + r) * c->columns;
+                for (uint32_t l = 0; l < c->node_count; l++)
+                    add_terms(row + c->column[l], 1, layout->size[c->node[l]], x + layout->row[c->node[l]],
+                              y + layout->row[c->node[k]] + r);
+            }
+    }
+}
+
+void dmb_linear_terms(const dmb_linear *linear, const dmb_linear_matrix *A, const double *x, double *y)
+{
+    const dmb_scene *scene = &linear->scene;
+    const dmb_block_layout *layout = &scene->layout;
+    memset(y, 0, linear->rows * sizeof(double));
+    for (uint32_t i = 0; i < layout->n; i++) {
+        const uint32_t size = layout->size[i], row = layout->row[i];
+        add_terms(A->diagonal + layout->diag[i], size, size, x + row, y + row);
+        if (i + 1 == layout->n || scene->node_chain[i + 1] != scene->node_chain[i]) continue;
+        const uint32_t next = layout->size[i + 1], below = layout->row[i + 1];
+        add_terms(A->upper + layout->link[i], size, next, x + below, y + row);
+        add_terms(A->lower + layout->link[i], next, size, x + row, y + below);
+    }
+    add_joint_terms(scene, A->joints, x, y);
 }
 
 void dmb_linear_dense(const dmb_linear *linear, const dmb_linear_matrix *A, double *work, double *out)

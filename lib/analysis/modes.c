@@ -23,10 +23,11 @@ static void measure(dmb_mode_search *search)
             const double m = dmb_linear_diagonal(linear, &linear->mass, i, c);
             if (m > 0.0) most = fmax(most, fabs(dmb_linear_diagonal(linear, &linear->stiffness, i, c)) / m);
         }
-    search->noise = DBL_EPSILON * most;
+    search->noise = DMB_NOISE * most;
     search->modes->info.unbalance = linear->unbalance;
     search->modes->info.coordinates = linear->coordinates;
     search->modes->info.asymmetry = dmb_linear_asymmetry(linear, &linear->stiffness, search->work);
+    if (search->options->kind == DMB_MODES_UNDAMPED) dmb_linear_clear(search->linear, &search->linear->damping);
     search->general =
         search->options->kind == DMB_MODES_DAMPED || !(search->modes->info.asymmetry <= DMB_MODES_ASYMMETRY);
 }
@@ -73,14 +74,35 @@ static int32_t check_balance(const dmb_mode_search *search)
 
 static int32_t check_count(const dmb_mode_search *search)
 {
+    const int32_t damped = search->options->kind == DMB_MODES_DAMPED;
     const uint32_t n = search->linear->coordinates, count = search->options->count;
     if (n == 0) {
         dmb_message_set(search->message, "modes: the scene has no coordinates that are free to move");
         return DMB_ERR_VALUE;
     }
-    if (search->options->select != DMB_MODES_LOWEST || count <= n) return DMB_OK;
-    dmb_message_set(search->message, "modes options: count = %u, must be <= %u, the number of coordinates", count, n);
+    if (search->options->select != DMB_MODES_LOWEST || count <= (damped ? 2 * (uint64_t)n : n)) return DMB_OK;
+    dmb_message_set(search->message, "modes options: count = %u, must be <= %u, %s", count, damped ? 2 * n : n,
+                    damped ? "twice the number of coordinates: every real root is a mode"
+                           : "the number of coordinates");
     return DMB_ERR_VALUE;
+}
+
+/* A mode is one only if its equations balance to rounding. */
+static int32_t check_residuals(const dmb_mode_search *search)
+{
+    const dmb_modes *modes = search->modes;
+    for (uint32_t k = 0; k < modes->count; k++) {
+        if (modes->rigid[k]) continue;
+        const dmb_mode_defect defect = dmb_modes_defect(search, k);
+        if (defect.value <= defect.bound) continue;
+        dmb_message_set(
+            search->message,
+            "modes: mode %u of %g Hz was not found sharply: residual = %g of the forces that balance in it, "
+            "must be <= %g: ask for fewer modes, another band, or all of them",
+            k, dmb_modes_size(modes, k) / 6.283185307179586, defect.value, defect.bound);
+        return DMB_ERR_NO_CONVERGENCE;
+    }
+    return DMB_OK;
 }
 
 /* The ones asked for, in order, and what is told about all of them. */
@@ -96,11 +118,14 @@ static int32_t finish(dmb_mode_search *search)
         return DMB_ERR_VALUE;
     }
     modes->info.count = modes->count;
+    dmb_modes_weigh_coordinates(search);
+    const int32_t status = dmb_modes_polish(search);
+    if (status < 0) return status;
     for (uint32_t k = 0; k < modes->count; k++) {
         modes->info.rigid += modes->rigid[k];
         modes->info.residual = fmax(modes->info.residual, dmb_modes_residual(search, k));
     }
-    return DMB_OK;
+    return check_residuals(search);
 }
 
 static int32_t search_modes(dmb_mode_search *search)
@@ -120,7 +145,7 @@ static int32_t analyse(const dmb_sim *sim, const dmb_modes_options *options, dmb
                                     .gap = options->contact_gap,
                                     .still = options->axes == DMB_MODES_STILL,
                                     .spin = options->spin};
-    const size_t bytes = 6 * (size_t)modes->rows * sizeof(double);
+    const size_t bytes = 10 * (size_t)modes->rows * sizeof(double); /* of work, and the masses of coordinates */
     dmb_mode_search search;
     memset(&search, 0, sizeof search);
     search.options = options;
@@ -129,6 +154,7 @@ static int32_t analyse(const dmb_sim *sim, const dmb_modes_options *options, dmb
     int32_t status = dmb_linear_make(sim, &how, &search.linear);
     if (status < 0) return status;
     search.work = dmb_allocate(&modes->allocator, bytes);
+    search.coordinate_mass = search.work + 9 * (size_t)modes->rows;
     status = search.work != NULL ? search_modes(&search) : DMB_ERR_NO_MEMORY;
     if (search.rigid != NULL) dmb_modes_forget_rigid(&search);
     dmb_release(&modes->allocator, search.work, bytes);

@@ -1,4 +1,4 @@
-/* A mode that was found: normalised, and told whether it is rigid. */
+/* A mode that was found: normalised, and whether it is a rigid-body motion once more. */
 #include <math.h>
 #include <string.h>
 
@@ -83,92 +83,46 @@ static double whirl_of(const dmb_mode_search *search, const double *x, const dou
 
 /* ---- Rigid-body motions ------------------------------------------------------------------------------------------ */
 
-/* A motion of which so much is left, by its square, is one of its own. */
-#define DMB_MOTION_NEW 1e-4
+/* So much of a shape, by its square, is beside the rigid-body motions where it is made of them. */
+#define DMB_BESIDE_RIGID 1e-6
 
-/* Takes the rigid-body motions before mode k out of x; part of the square of 1 that is left of it. */
-static double take_apart(const dmb_mode_search *search, uint32_t k, double *x)
+/* x^T M x of what x has beside the rigid-body motions; its own in *whole. */
+static double beside_rigid(const dmb_mode_search *search, const double *x, double *whole)
 {
-    const dmb_modes *modes = search->modes;
-    const size_t n = modes->rows;
-    double *product = search->work;
-    for (uint32_t i = 0; i < k; i++) {
-        const double *r = modes->re + n * i;
-        if (!modes->rigid[i]) continue;
-        dmb_linear_multiply(search->linear, &search->linear->mass, r, product);
-        const double part = dmb_dot(n, product, x);
-        for (size_t j = 0; j < n; j++) x[j] -= part * r[j];
-    }
+    const size_t n = search->linear->rows;
+    double *product = search->work, sum;
     dmb_linear_multiply(search->linear, &search->linear->mass, x, product);
-    return dmb_dot(n, x, product);
+    *whole += sum = dmb_dot(n, x, product);
+    for (uint32_t i = 0; i < search->rigid_count; i++) {
+        const double part = dmb_dot(n, search->rigid_momentum + n * i, x);
+        sum -= part * part;
+    }
+    return sum;
 }
 
-/* x as the next rigid-body mode: what is left of it beside those before, or nothing if that is rounding; `always`:
- * itself then. `x` is not in the place that it goes to. */
-static void add_motion(const dmb_mode_search *search, const double *x, int always)
+int dmb_modes_is_rigid_root(const dmb_mode_search *search, double re, double im, const double *x, const double *y)
 {
-    dmb_modes *modes = search->modes;
-    const uint32_t k = modes->count;
-    const size_t n = modes->rows;
-    double *to = modes->re + n * k;
-    memcpy(to, x, n * sizeof(double));
-    if (take_apart(search, k, to) >= DMB_MOTION_NEW)
-        (void)take_apart(search, k, to);
-    else if (always)
-        memcpy(to, x, n * sizeof(double));
-    else
-        return;
-    memset(modes->im + n * k, 0, n * sizeof(double));
-    normalise(search, to, NULL);
-    modes->s[2 * (size_t)k] = modes->s[2 * (size_t)k + 1] = modes->whirl[k] = 0.0;
-    modes->rigid[k] = 1;
-    modes->count++;
-}
-
-/* Roots 0 of several rigid-body motions come with any combination of these, of rounding's choice, and where two such
- * roots come out as a complex pair, its real and imaginary part are two motions. Without damping each motion has the
- * root twice, and pairs that come later make up the same motions again. */
-static void add_rigid(const dmb_mode_search *search, const double *x, const double *y)
-{
-    const size_t n = search->modes->rows;
-    double *kept = search->work + 2 * n;
-    memcpy(kept, x, n * sizeof(double));
-    if (y != NULL) memcpy(kept + n, y, n * sizeof(double));
-    add_motion(search, kept, y == NULL);
-    if (y != NULL) add_motion(search, kept + n, 0);
+    double whole = 0.0, beside = 0.0;
+    if (search->rigid_count == 0 || search->apart) return 0;
+    if (re * re + im * im > DMB_RIGID_NOISE * search->noise) return 0;
+    beside = beside_rigid(search, x, &whole) + (y != NULL ? beside_rigid(search, y, &whole) : 0.0);
+    return beside <= DMB_BESIDE_RIGID * whole;
 }
 
 /* ---- Adding ------------------------------------------------------------------------------------------------------ */
 
-int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const double *x)
-{
-    int32_t status = dmb_modes_add(search, 0.0, 0.0, x, NULL);
-    if (status < 0) return status;
-    dmb_modes *modes = search->modes;
-    const uint32_t k = modes->count - 1;
-    double *d = modes->re + (size_t)modes->rows * k;
-    const double sharp = dmb_modes_sharpen(search, square, d), s = sqrt(fabs(sharp));
-    modes->rigid[k] = !search->pinned && dmb_modes_is_rigid(search, s, 0.0, d, NULL);
-    modes->s[2 * (size_t)k] = !modes->rigid[k] && sharp < 0.0 ? s : 0.0;
-    modes->s[2 * (size_t)k + 1] = !modes->rigid[k] && sharp > 0.0 ? s : 0.0;
-    return DMB_OK;
-}
-
-/* Room for one more, or for both parts of a pair. */
+/* Room for one more. */
 static int32_t make_room(dmb_mode_search *search)
 {
     dmb_modes *modes = search->modes;
-    if (modes->count + 2 <= modes->capacity) return DMB_OK;
+    if (modes->count < modes->capacity) return DMB_OK;
     return dmb_modes_reserve(modes, 2 * modes->capacity + 16, search->general);
 }
 
-int32_t dmb_modes_add(dmb_mode_search *search, double re, double im, const double *x, const double *y)
+void dmb_modes_put(dmb_mode_search *search, uint32_t k, double re, double im, const double *x, const double *y)
 {
     dmb_modes *modes = search->modes;
     const size_t rows = modes->rows;
-    const int32_t status = make_room(search);
-    if (status < 0) return status;
-    const uint32_t k = modes->count;
     double *to = modes->re + rows * k, *also = modes->im != NULL ? modes->im + rows * k : NULL;
     memcpy(to, x, rows * sizeof(double));
     if (y != NULL)
@@ -176,14 +130,33 @@ int32_t dmb_modes_add(dmb_mode_search *search, double re, double im, const doubl
     else if (also != NULL)
         memset(also, 0, rows * sizeof(double)); /* a mode found before may have stood here */
     normalise(search, to, y != NULL ? also : NULL);
-    modes->rigid[k] = !search->pinned && dmb_modes_is_rigid(search, re, im, to, y != NULL ? also : NULL);
-    if (modes->rigid[k] && search->general) {
-        add_rigid(search, to, y != NULL ? also : NULL);
-        return DMB_OK;
-    }
-    modes->count++;
-    modes->s[2 * (size_t)k] = modes->rigid[k] ? 0.0 : re;
-    modes->s[2 * (size_t)k + 1] = modes->rigid[k] ? 0.0 : im;
+    modes->rigid[k] = 0;
+    modes->s[2 * (size_t)k] = re;
+    modes->s[2 * (size_t)k + 1] = im;
     modes->whirl[k] = y != NULL ? whirl_of(search, to, also) : 0.0;
+}
+
+int32_t dmb_modes_add(dmb_mode_search *search, double re, double im, const double *x, const double *y)
+{
+    const int32_t status = make_room(search);
+    if (status < 0) return status;
+    dmb_modes_put(search, search->modes->count++, re, im, x, y);
+    return DMB_OK;
+}
+
+void dmb_modes_put_square(dmb_mode_search *search, uint32_t k, double square, const double *x)
+{
+    dmb_modes *modes = search->modes;
+    dmb_modes_put(search, k, 0.0, 0.0, x, NULL);
+    const double sharp = dmb_modes_sharpen(search, square, modes->re + (size_t)modes->rows * k), s = sqrt(fabs(sharp));
+    modes->s[2 * (size_t)k] = sharp < 0.0 ? s : 0.0;
+    modes->s[2 * (size_t)k + 1] = sharp > 0.0 ? s : 0.0;
+}
+
+int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const double *x)
+{
+    const int32_t status = make_room(search);
+    if (status < 0) return status;
+    dmb_modes_put_square(search, search->modes->count++, square, x);
     return DMB_OK;
 }

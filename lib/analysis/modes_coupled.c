@@ -34,7 +34,7 @@ static void take_rates(const dmb_mode_search *search, dmb_dense *d)
         dmb_linear_expand(search->linear, d->X + d->n * i, d->x);
         d->square[i] = dmb_modes_sharpen(search, d->square[i], d->x);
         d->rate[i] = sqrt(fabs(d->square[i]));
-        if (dmb_modes_is_rigid(search, d->rate[i], 0.0, d->x, NULL)) d->square[i] = d->rate[i] = 0.0;
+        if (i < d->m) d->square[i] = d->rate[i] = 0.0;
         if (d->rate[i] > 0.0 && (least == 0.0 || d->rate[i] < least)) least = d->rate[i];
     }
     for (size_t i = 0; i < d->n; i++)
@@ -47,6 +47,25 @@ static void couple(dmb_dense *d)
     dmb_dense_congruence(d->n, d->X, d->coupling, d->half);
 }
 
+/* X^T K r = 0 of a rigid-body motion r to the last digit, of which the symmetric part has been taken off K: its skew
+ * part is as much as what r^T K X has of it, and the other way round. */
+static void couple_motions(dmb_dense *d)
+{
+    const size_t n = d->n;
+    for (size_t k = 0; k < d->m; k++)
+        for (size_t i = 0; i < n; i++) {
+            d->coupling[n * k + i] = 0.0; /* of row i by motion k */
+            if (i >= d->m) d->coupling[n * i + k] *= 2.0;
+        }
+}
+
+/* Damping that leaves the motions alone does so to the last digit. */
+static void uncouple_motions(dmb_dense *d)
+{
+    for (size_t k = 0; k < d->m; k++)
+        for (size_t i = 0; i < d->n; i++) d->coupling[d->n * k + i] = d->coupling[d->n * i + k] = 0.0;
+}
+
 /* A skew part that is rounding is left out. */
 static void couple_stiffness(const dmb_mode_search *search, dmb_dense *d)
 {
@@ -54,6 +73,7 @@ static void couple_stiffness(const dmb_mode_search *search, dmb_dense *d)
         memset(d->coupling, 0, d->n * d->n * sizeof(double));
     else
         couple(d);
+    couple_motions(d);
 }
 
 /* Place of mode i, the highest first. */
@@ -124,13 +144,20 @@ static int32_t add_flutter(dmb_mode_search *search, dmb_dense *d, const double s
     return status < 0 ? status : dmb_modes_add(search, s[0], s[1], d->x, d->y);
 }
 
+/* A motion that nothing turns back has a column of zeros, which the balancing of dgeev sets aside: its root is 0
+ * sharply. */
+static int is_motion(const dmb_mode_search *search, const dmb_dense *d, size_t i)
+{
+    return search->rigid_count > 0 && d->re[i] == 0.0 && d->im[i] == 0.0;
+}
+
 static int32_t take_modes(dmb_mode_search *search, dmb_dense *d, size_t m)
 {
     int32_t status = DMB_OK;
     for (size_t i = 0; i < m && status >= 0; i++) {
         double s[2];
         const int paired = d->im[i] > 0.0;
-        if (d->im[i] < 0.0) continue;
+        if (d->im[i] < 0.0 || is_motion(search, d, i)) continue;
         root_of(search, d, i, s);
         expand(search, d, d->V + m * i, d->x);
         if (paired) expand(search, d, d->V + m * (i + 1), d->y);
@@ -149,6 +176,7 @@ int32_t dmb_modes_coupled(dmb_mode_search *search, dmb_dense *d)
         fill_stiffness(d);
         dmb_linear_dense(search->linear, &search->linear->damping, search->work, d->coupling);
         couple(d);
+        if (search->apart) uncouple_motions(d);
         fill_damping(d);
     } else {
         fill_undamped(d);

@@ -2,19 +2,22 @@
  * and where damping or an unsymmetric K couples these modes, their own equations (modes_coupled). */
 #include "analysis/modes_dense.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/allocator.h"
+#include "math/dense_product.h"
+#include "math/dot.h"
 #include "math/eigen.h"
 
 /* `rows`: of the eigenproblem. */
 static int32_t refuse_size(const dmb_mode_search *search, size_t rows)
 {
-    dmb_message_set(search->message,
-                    "modes: all modes at once are an eigenproblem of %zu rows (%u coordinates%s), must be <= %d: ask for "
-                    "the lowest ones or a band",
-                    rows, search->linear->coordinates, rows > search->linear->coordinates ? ", damped" : "",
-                    DMB_EIGEN_MAX);
+    dmb_message_set(
+        search->message,
+        "modes: all modes at once are an eigenproblem of %zu rows (%u coordinates%s), must be <= %d: ask for "
+        "the lowest ones or a band",
+        rows, search->linear->coordinates, rows > search->linear->coordinates ? ", damped" : "", DMB_EIGEN_MAX);
     return DMB_ERR_TOO_LARGE;
 }
 
@@ -24,10 +27,13 @@ static int32_t open_dense(const dmb_mode_search *search, dmb_dense *d)
     const size_t m = dmb_coupled_size(search), pair = dmb_eigen_work(n), coupled = dmb_eigen_general_work(m);
     memset(d, 0, sizeof *d);
     d->n = n;
+    d->m = search->rigid_count;
     if (pair == SIZE_MAX || coupled == SIZE_MAX) return refuse_size(search, m > n ? m : n);
     const size_t square = search->general ? 4 * n * n + n : 2 * n * n, work = pair > coupled ? pair : coupled;
+    const size_t motions = 2 * (size_t)search->rigid_count * n;
     const double bytes = ((double)square + 2.0 * (double)m * (double)m + 6.0 * (double)n + (double)work +
-                          2.0 * (double)rows) * (double)sizeof(double);
+                          (double)motions + 2.0 * (double)rows) *
+                         (double)sizeof(double);
     if (bytes > 0.5 * (double)SIZE_MAX) return refuse_size(search, m > n ? m : n);
     d->bytes = (size_t)bytes;
     d->block = dmb_allocate(&search->linear->allocator, d->bytes);
@@ -45,6 +51,7 @@ static int32_t open_dense(const dmb_mode_search *search, dmb_dense *d)
     d->work = d->im + 2 * n;
     d->x = d->work + work;
     d->y = d->x + rows;
+    d->motion = d->y + rows;
     return DMB_OK;
 }
 
@@ -61,10 +68,90 @@ static void split_stiffness(size_t n, double *K, double *skew)
         }
 }
 
+/* ---- Rigid-body motions ------------------------------------------------------------------------------------------ */
+
+/* Over the largest K_ii/M_ii, which is an eigenvalue itself where elements are equal. */
+#define DMB_AMONG_HIGHEST 1.2345
+
+static double *motion(const dmb_dense *d, size_t i)
+{
+    return d->motion + d->n * i;
+}
+
+static void take_motions(const dmb_mode_search *search, const dmb_dense *d)
+{
+    const size_t m = search->rigid_count, rows = search->linear->rows;
+    for (size_t i = 0; i < m; i++) {
+        for (size_t k = 0; k < d->n; k++) motion(d, i)[k] = search->rigid[rows * i + search->linear->row_of[k]];
+        dmb_linear_restrict(search->linear, search->rigid_momentum + rows * i, motion(d, m + i));
+    }
+}
+
+/* K <- P^T K P + sigma M r r^T M, P = 1 - r r^T M: r is an eigenvector, of an eigenvalue sigma among the highest, so
+ * that rounding does not mix it with the lowest. K is symmetric, its columns those of d->X. */
+static void move_motion(const dmb_mode_search *search, dmb_dense *d, size_t i)
+{
+    const size_t n = d->n;
+    const double *r = motion(d, i), *g = motion(d, search->rigid_count + i);
+    double *u = d->work, sigma = search->noise / DMB_NOISE;
+    dmb_dense_times(n, d->X, r, u);
+    sigma = dmb_dot(n, r, u) + (sigma > 0.0 ? DMB_AMONG_HIGHEST * sigma : 1.0);
+    for (size_t k = 0; k < n; k++)
+        for (size_t j = 0; j < n; j++) d->X[n * k + j] += sigma * g[j] * g[k] - g[j] * u[k] - u[j] * g[k];
+}
+
+/* What vector k is made of the motions, by its square. */
+static double made_of_motions(const dmb_dense *d, size_t k)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < d->m; i++) {
+        const double part = dmb_dot(d->n, motion(d, d->m + i), d->X + d->n * k);
+        sum += part * part;
+    }
+    return sum;
+}
+
+/* Vector number `from` is left out, and those before it move up by one. */
+static void move_up(dmb_dense *d, size_t from)
+{
+    for (size_t k = from; k > 0; k--) {
+        d->square[k] = d->square[k - 1];
+        d->rate[k] = d->rate[k - 1];
+        memcpy(d->X + d->n * k, d->X + d->n * (k - 1), d->n * sizeof(double));
+    }
+}
+
+/* The vectors that are nearest to the motions give way to them, in the first places; the others lose what they have of
+ * them, which is rounding but where an eigenvalue is sigma by chance: then it is 2/3 of three vectors at most. */
+static void put_motions(dmb_dense *d)
+{
+    const size_t n = d->n;
+    for (size_t k = 0; k < n; k++) d->rate[k] = made_of_motions(d, k);
+    for (size_t i = 0; i < d->m; i++) {
+        size_t most = i;
+        for (size_t k = i; k < n; k++)
+            if (d->rate[k] > d->rate[most]) most = k;
+        move_up(d, most);
+        d->square[0] = d->rate[0] = 0.0;
+    }
+    for (size_t i = 0; i < d->m; i++) memcpy(d->X + n * i, motion(d, i), n * sizeof(double));
+    for (size_t k = d->m; k < n; k++) {
+        double *x = d->X + n * k;
+        const double left = 1.0 / sqrt(1.0 - d->rate[k]);
+        for (size_t i = 0; i < d->m; i++) {
+            const double part = dmb_dot(n, motion(d, d->m + i), x);
+            for (size_t j = 0; j < n; j++) x[j] -= part * motion(d, i)[j];
+        }
+        for (size_t j = 0; j < n; j++) x[j] *= left;
+    }
+}
+
+/* ---- All modes --------------------------------------------------------------------------------------------------- */
+
 static int32_t take_symmetric(dmb_mode_search *search, dmb_dense *d)
 {
     int32_t status = DMB_OK;
-    for (size_t i = 0; i < d->n && status >= 0; i++) {
+    for (size_t i = d->m; i < d->n && status >= 0; i++) {
         dmb_linear_expand(search->linear, d->X + d->n * i, d->x);
         status = dmb_modes_add_square(search, d->square[i], d->x);
     }
@@ -77,12 +164,15 @@ static int32_t solve(dmb_mode_search *search, dmb_dense *d)
     dmb_linear_dense(linear, &linear->mass, search->work, d->M);
     dmb_linear_dense(linear, &linear->stiffness, search->work, d->X);
     split_stiffness(d->n, d->X, search->general ? d->coupling : NULL);
+    take_motions(search, d);
+    for (size_t i = 0; i < search->rigid_count; i++) move_motion(search, d, i);
     const int32_t failed = dmb_eigen_pair(d->n, d->X, d->M, d->square, d->work);
     if (failed > (int32_t)d->n) {
         dmb_message_set(search->message, "modes: something that moves has no mass");
         return DMB_ERR_SINGULAR;
     }
     if (failed != 0) return DMB_ERR_NO_CONVERGENCE;
+    put_motions(d);
     return search->general ? dmb_modes_coupled(search, d) : take_symmetric(search, d);
 }
 

@@ -5,14 +5,16 @@
 #include "analysis/modes.h"
 
 typedef struct dmb_dense {
-    size_t n;            /* coordinates */
-    double *M, *X;       /* mass, gone after the modes X of the symmetric part of K, X^T M X = I, shape (n, n) */
-    double *square;      /* [1/s2] their eigenvalues, ascending, shape (n) */
-    double *rate;        /* [1/s] what their displacements are measured by, shape (n) */
-    double *coupling;    /* skew part of K, then C; shape (n, n), as the following only where they are coupled */
-    double *half;        /* work, shape (n + 1, n) */
-    double *system, *V;  /* the coupled equations and their vectors, shape (m, m), m of dmb_coupled_size */
-    double *re, *im;     /* shape (2n) */
+    size_t n;             /* coordinates */
+    size_t m;             /* rigid-body motions, which are the first of X */
+    double *M, *X;        /* mass, gone after the modes X of the symmetric part of K, X^T M X = I, shape (n, n) */
+    double *square;       /* [1/s2] their eigenvalues, ascending, shape (n) */
+    double *motion;       /* rigid-body motions by coordinates, and M times them, shape (2, rigid_count, n) */
+    double *rate;         /* [1/s] what their displacements are measured by, shape (n) */
+    double *coupling;     /* skew part of K, then C; shape (n, n), as the following only where they are coupled */
+    double *half;         /* work, shape (n + 1, n) */
+    double *system, *V;   /* the coupled equations and their vectors, shape (m, m), m of dmb_coupled_size */
+    double *re, *im;      /* shape (2n) */
     double *work, *x, *y; /* of LAPACK; rows */
     void *block;
     size_t bytes;

@@ -1,7 +1,7 @@
-/* Rigid-body motions of a scene whose stiffness is singular. Where elimination meets a pivot that is rounding, the
- * unknown is pinned to the ground by a spring, until K + pins can be factored. A force on one pin then moves the bodies
- * rigidly, the others staying where they are: these motions r_i are the kernel of K. On forces that they are orthogonal
- * to, (K + pins)^-1 is an inverse of K, and no shift has to compete with the lowest eigenvalues. */
+/* Rigid-body motions out of the way of a search for few modes: K with pins to the ground in as many rows as there are
+ * motions can be factored, and on forces that the motions are orthogonal to, (K + pins)^-1 is an inverse of K, so that
+ * no shift has to compete with the lowest eigenvalues. The rows are those in which the motions r_i differ most,
+ * measured by mass, one after the other: (K + pins) x = 0 means x . pins x = 0 as r_i . K = 0, so x is none of them. */
 #include <math.h>
 #include <string.h>
 
@@ -9,97 +9,21 @@
 #include "base/allocator.h"
 #include "math/dot.h"
 
-enum { DMB_PINS_MAX = 24 };
-/* A pivot this small against its block may be rounding, or the softness of a long string. */
-#define DMB_WEAK 1e-11
 /* What C makes of a motion it leaves alone, over its terms. */
 #define DMB_UNDAMPED 1e-11
 
 typedef struct pin {
-    size_t at; /* in the diagonal storage of K */
-    uint32_t row;
-    uint32_t reserved;
-    double stiffness;
+    double *entry; /* of K */
+    double before, stiffness;
 } pin;
-
-typedef struct pins {
-    pin list[DMB_PINS_MAX];
-    uint32_t count;
-} pins;
-
-static double *entry(const dmb_linear *linear, const pin *p)
-{
-    return linear->stiffness.diagonal + p->at;
-}
-
-/* Factors K with the pins; K itself is left as it was. */
-static int64_t factor_pinned(dmb_linear *linear, const pins *all, dmb_block_weakest *weakest)
-{
-    double kept[DMB_PINS_MAX] = {0.0};
-    for (uint32_t i = 0; i < all->count; i++) {
-        kept[i] = *entry(linear, all->list + i);
-        *entry(linear, all->list + i) += all->list[i].stiffness;
-    }
-    const int64_t bad = dmb_linear_factor(linear, 1.0, 0.0, 0.0, weakest);
-    for (uint32_t i = all->count; i-- > 0;) *entry(linear, all->list + i) = kept[i];
-    return bad;
-}
-
-static void add_pin(const dmb_linear *linear, const dmb_block_weakest *weakest, pins *all)
-{
-    const dmb_block_layout *layout = &linear->scene.layout;
-    const uint32_t node = weakest->block, size = layout->size[node];
-    const double *D = linear->stiffness.diagonal + layout->diag[node];
-    pin *p = all->list + all->count++;
-    p->at = layout->diag[node] + (size_t)(size + 1) * weakest->unknown;
-    p->row = layout->row[node] + weakest->unknown;
-    p->reserved = 0;
-    p->stiffness = fabs(D[(size_t)(size + 1) * weakest->unknown]);
-    for (size_t i = 0; p->stiffness == 0.0 && i < (size_t)size * size; i++) p->stiffness = fabs(D[i]);
-    if (p->stiffness == 0.0) p->stiffness = 1.0; /* a body that nothing touches */
-}
 
 void dmb_modes_take_rigid(const dmb_mode_search *search, const double *from, const double *by, double *x)
 {
     const size_t rows = search->linear->rows;
-    for (uint32_t i = 0; i < search->rigid_count; i++) {
+    for (uint32_t i = 0; search->apart && i < search->rigid_count; i++) {
         const double part = dmb_dot(rows, from + rows * i, x);
         for (size_t r = 0; r < rows; r++) x[r] -= part * by[rows * i + r];
     }
-}
-
-/* The motion of a pin, orthogonal to those before; 0 if it is not rigid. */
-static int take_motion(dmb_mode_search *search, const pin *p)
-{
-    dmb_linear *linear = search->linear;
-    const size_t rows = linear->rows;
-    double *x = search->rigid + rows * search->rigid_count, *Mx = search->rigid_momentum + rows * search->rigid_count;
-    memset(x, 0, rows * sizeof(double));
-    x[p->row] = p->stiffness;
-    dmb_linear_solve(linear, x);
-    for (int pass = 0; pass < 2; pass++) dmb_modes_take_rigid(search, search->rigid_momentum, search->rigid, x);
-    dmb_linear_multiply(linear, &linear->mass, x, Mx);
-    const double size = sqrt(dmb_dot(rows, x, Mx));
-    if (!(size > 0.0) || !isfinite(size)) return 0;
-    for (size_t r = 0; r < rows; r++) {
-        x[r] /= size;
-        Mx[r] /= size;
-    }
-    dmb_linear_multiply(linear, &linear->stiffness, x, search->work);
-    const double square = fabs(dmb_dot(rows, x, search->work));
-    if (!dmb_modes_is_rigid(search, sqrt(square), 0.0, x, NULL)) return 0;
-    search->rigid_count++;
-    return 1;
-}
-
-static int32_t reserve(dmb_mode_search *search, uint32_t count)
-{
-    const size_t rows = search->linear->rows;
-    search->rigid_bytes = 2 * rows * count * sizeof(double);
-    search->rigid = dmb_allocate(&search->linear->allocator, search->rigid_bytes);
-    if (search->rigid == NULL) return DMB_ERR_NO_MEMORY;
-    search->rigid_momentum = search->rigid + rows * count;
-    return DMB_OK;
 }
 
 void dmb_modes_forget_rigid(dmb_mode_search *search)
@@ -109,41 +33,88 @@ void dmb_modes_forget_rigid(dmb_mode_search *search)
     search->rigid_count = 0;
 }
 
-/* Pins wherever elimination meets a pivot that may be rounding. */
-static void place_pins(dmb_linear *linear, pins *all)
+/* ---- Pins -------------------------------------------------------------------------------------------------------- */
+
+/* Motions by rows, each row times the root of its mass; 0 where a row is no coordinate. W: shape (rows, rigid_count).
+ */
+static void weigh_rows(const dmb_mode_search *search, double *W)
 {
-    dmb_block_weakest weakest = {(double)INFINITY, 0, 0};
-    for (all->count = 0; all->count < DMB_PINS_MAX;) {
-        const int64_t bad = factor_pinned(linear, all, &weakest);
-        if (bad < 0 && !(weakest.ratio < DMB_WEAK)) return;
-        add_pin(linear, &weakest, all);
-    }
+    const dmb_linear *linear = search->linear;
+    const dmb_block_layout *layout = &linear->scene.layout;
+    const size_t m = search->rigid_count, rows = linear->rows;
+    memset(W, 0, rows * m * sizeof(double));
+    for (uint32_t n = 0, i = 0; n < layout->n; n++)
+        for (uint32_t k = 0; k < layout->size[n]; k++) {
+            const uint32_t row = layout->row[n] + k;
+            if (i == linear->coordinates || linear->row_of[i] != row) continue;
+            const double weight = sqrt(fmax(dmb_linear_diagonal(linear, &linear->mass, n, k), 0.0));
+            for (size_t j = 0; j < m; j++) W[m * row + j] = weight * search->rigid[rows * j + row];
+            i++;
+        }
 }
 
-/* Whether a force on each pin moves the bodies rigidly: what is only soft bends. */
-static int all_are_rigid(dmb_mode_search *search, const pins *all)
+/* The row that is longest, and what it tells is taken out of all of them. */
+static uint32_t next_pin(size_t rows, size_t m, double *W, double *direction)
 {
-    search->rigid_count = 0;
-    if (factor_pinned(search->linear, all, NULL) >= 0) return 0;
-    for (uint32_t i = 0; i < all->count; i++)
-        if (!take_motion(search, all->list + i)) return 0;
-    return 1;
+    size_t most = 0;
+    double square = -1.0;
+    for (size_t r = 0; r < rows; r++) {
+        const double here = dmb_dot(m, W + m * r, W + m * r);
+        if (here > square) square = here, most = r;
+    }
+    for (size_t j = 0; j < m; j++) direction[j] = square > 0.0 ? W[m * most + j] / sqrt(square) : 0.0;
+    for (size_t r = 0; r < rows; r++) {
+        const double part = dmb_dot(m, W + m * r, direction);
+        for (size_t j = 0; j < m; j++) W[m * r + j] -= part * direction[j];
+    }
+    return (uint32_t)most;
+}
+
+/* Of the size that the row has, or its mass gives it. */
+static void place_pin(const dmb_mode_search *search, uint32_t row, pin *p)
+{
+    const dmb_linear *linear = search->linear;
+    const dmb_block_layout *layout = &linear->scene.layout;
+    uint32_t low = 0, high = layout->n;
+    while (high - low > 1) { /* the node of the row */
+        const uint32_t middle = low + (high - low) / 2;
+        *(layout->row[middle] <= row ? &low : &high) = middle;
+    }
+    const size_t at = layout->diag[low] + (size_t)(layout->size[low] + 1) * (row - layout->row[low]);
+    p->entry = linear->stiffness.diagonal + at;
+    p->before = *p->entry;
+    p->stiffness = fabs(p->before);
+    if (!(p->stiffness > 0.0)) p->stiffness = linear->mass.diagonal[at] * fmax(search->noise / DMB_NOISE, 1.0);
+    if (!(p->stiffness > 0.0)) p->stiffness = 1.0;
+}
+
+/* Factors K with pins; K itself is left as it was. */
+static int64_t factor_pinned(dmb_mode_search *search, double *W)
+{
+    const size_t m = search->rigid_count, rows = search->linear->rows;
+    double *direction = W + rows * m;
+    pin *pins = (pin *)(void *)(direction + m);
+    weigh_rows(search, W);
+    for (size_t i = 0; i < m; i++) {
+        place_pin(search, next_pin(rows, m, W, direction), pins + i);
+        *pins[i].entry = pins[i].before + pins[i].stiffness;
+    }
+    dmb_block_weakest weakest;
+    const int64_t bad = dmb_linear_factor(search->linear, 1.0, 0.0, 0.0, &weakest);
+    for (size_t i = m; i-- > 0;) *pins[i].entry = pins[i].before;
+    return bad >= 0 || weakest.ratio < DMB_MODES_LOOSE ? 0 : -1;
 }
 
 int32_t dmb_modes_pin(dmb_mode_search *search)
 {
-    pins all;
-    if (search->linear->scene.cluster_count) return 0;
-    place_pins(search->linear, &all);
-    if (all.count == 0 || all.count == DMB_PINS_MAX) return 0;
-    const int32_t status = reserve(search, all.count);
-    if (status < 0) return status;
-    for (; all.count > 0; all.count--) /* the last ones were the least weak */
-        if (all_are_rigid(search, &all)) return 1;
-    dmb_modes_forget_rigid(search);
-    return 0;
+    const size_t m = search->rigid_count, rows = search->linear->rows;
+    const size_t bytes = (rows * m + m) * sizeof(double) + m * sizeof(pin);
+    double *W = dmb_allocate(&search->linear->allocator, bytes);
+    if (W == NULL) return DMB_ERR_NO_MEMORY;
+    search->pinned = factor_pinned(search, W) < 0;
+    dmb_release(&search->linear->allocator, W, bytes);
+    return DMB_OK;
 }
-
 /* C r = 0 to rounding of its terms; r . C x vanishes for any x where C^T r does, which a few x tell. */
 int dmb_modes_rigid_undamped(const dmb_mode_search *search)
 {

@@ -54,21 +54,9 @@ void dmb_modes_keep_band(dmb_modes *modes, double low, double high)
     modes->count = kept;
 }
 
-/* The eigenvalues 0 that rigid-body motions have among those found, twice where s is sought, give way to the motions
- * themselves: roots next to a double one are far off. */
 int32_t dmb_modes_put_rigid(dmb_mode_search *search)
 {
     dmb_modes *modes = search->modes;
-    uint32_t roots = modes->info.dense ? (search->general ? 2 : 1) * search->rigid_count : 0;
-    dmb_modes_sort(modes, modes->count);
-    uint32_t first = 0;
-    while (roots > 0 && first < modes->count) {
-        const uint32_t here = search->general && modes->s[2 * first + 1] > 0.0 ? 2 : 1;
-        roots -= here < roots ? here : roots;
-        first++;
-    }
-    for (uint32_t i = first; i < modes->count; i++) dmb_modes_exchange(modes, i - first, i);
-    modes->count -= first;
     int32_t status = DMB_OK;
     for (uint32_t i = 0; i < search->rigid_count && status >= 0; i++) {
         status = dmb_modes_add(search, 0.0, 0.0, search->rigid + (size_t)modes->rows * i, NULL);

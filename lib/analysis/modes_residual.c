@@ -1,9 +1,15 @@
 /* How well the modes satisfy their equations. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "analysis/modes.h"
 #include "math/dot.h"
+
+/* A mode that a search has found leaves this part of the forces that balance in it, and so many times the rounding of
+ * their terms. */
+#define DMB_MODE_CONVERGED 1e-8
+#define DMB_MODE_ROUNDING 1024.0
 
 /* out += (a + i b) A (x + i y), real and imaginary part */
 typedef struct complex_rows {
@@ -55,4 +61,79 @@ double dmb_modes_residual(const dmb_mode_search *search, uint32_t k)
         left += dmb_dot(linear->coordinates, g, g);
     }
     return terms > 0.0 ? sqrt(left / terms) : 0.0;
+}
+
+/* ---- Whether a mode is one --------------------------------------------------------------------------------------- */
+
+/* Of forces by rows, on the coordinates and over the root of the mass of each, so that forces and moments are of one
+ * kind: for an undamped mode with x^T M x = 1 the norm of M x is about 1, that of K x about its eigenvalue. */
+static double norm_of(const dmb_mode_search *search, const double *re, const double *im, int terms)
+{
+    const dmb_linear *linear = search->linear;
+    double *g = search->work + 8 * (size_t)linear->rows, sum = 0.0;
+    for (int part = 0; part < (im != NULL ? 2 : 1); part++) {
+        (terms ? dmb_linear_restrict_terms : dmb_linear_restrict)(linear, part ? im : re, g);
+        for (uint32_t i = 0; i < linear->coordinates; i++)
+            if (search->coordinate_mass[i] > 0.0) sum += g[i] * g[i] / search->coordinate_mass[i];
+    }
+    return sqrt(sum);
+}
+
+/* Diagonal of R^T M R, couplings between the nodes of a joint left out. */
+void dmb_modes_weigh_coordinates(const dmb_mode_search *search)
+{
+    const dmb_linear *linear = search->linear;
+    const dmb_block_layout *layout = &linear->scene.layout;
+    memset(search->coordinate_mass, 0, linear->coordinates * sizeof(double));
+    for (uint32_t n = 0; n < layout->n; n++)
+        for (uint32_t c = 0; c < layout->size[n]; c++) {
+            const double m = fabs(dmb_linear_diagonal(linear, &linear->mass, n, c));
+            const uint32_t row = layout->row[n] + c;
+            for (uint32_t i = linear->start[row]; i < linear->start[row + 1]; i++)
+                search->coordinate_mass[linear->column[i]] += linear->value[i] * linear->value[i] * m;
+        }
+}
+
+/* sum |A_ij| |x_j| by rows, added to `to` with a factor */
+static void add_terms(const dmb_linear *linear, const dmb_linear_matrix *A, double factor, const double *x, double *y,
+                      double *to)
+{
+    dmb_linear_terms(linear, A, x, y);
+    for (uint32_t i = 0; i < linear->rows; i++) to[i] += factor * y[i];
+}
+
+dmb_mode_defect dmb_modes_defect(const dmb_mode_search *search, uint32_t k)
+{
+    const dmb_linear *linear = search->linear;
+    const dmb_modes *modes = search->modes;
+    const size_t rows = linear->rows;
+    const double *s = modes->s + 2 * (size_t)k, size = hypot(s[0], s[1]);
+    const int parts = modes->im != NULL ? 2 : 1, damped = search->options->kind == DMB_MODES_DAMPED;
+    const dmb_linear_matrix *matrix[3] = {&linear->stiffness, &linear->mass, damped ? &linear->damping : NULL};
+    const double factor[3][2] = {{1.0, 0.0}, {s[0] * s[0] - s[1] * s[1], 2.0 * s[0] * s[1]}, {s[0], s[1]}};
+    double *left = search->work + 3 * rows, *one = left + 2 * rows, *terms = search->work;
+    double forces = 0.0;
+    memset(left, 0, 2 * rows * sizeof(double));
+    for (int m = 0; m < 3; m++) {
+        const complex_rows out = {one, one + rows, search->work};
+        if (matrix[m] == NULL) continue;
+        memset(one, 0, 2 * rows * sizeof(double));
+        for (int part = 0; part < parts; part++)
+            add_product(linear, matrix[m], factor[m][0], factor[m][1], (part ? modes->im : modes->re) + rows * k, part,
+                        &out);
+        for (size_t i = 0; i < 2 * rows; i++) left[i] += one[i];
+        forces += norm_of(search, one, one + rows, 0);
+    }
+    dmb_mode_defect defect = {norm_of(search, left, left + rows, 0), 0.0};
+    memset(terms, 0, rows * sizeof(double));
+    for (int m = 0; m < 3; m++)
+        for (int part = 0; part < parts && matrix[m] != NULL; part++)
+            add_terms(linear, matrix[m], hypot(factor[m][0], factor[m][1]), (part ? modes->im : modes->re) + rows * k,
+                      one, terms);
+    (void)size;
+    double rounding = DBL_EPSILON * norm_of(search, terms, NULL, 1);
+    if (modes->info.dense) rounding += search->noise;
+    defect.value = forces > 0.0 ? defect.value / forces : 0.0;
+    defect.bound = DMB_MODE_CONVERGED + (forces > 0.0 ? DMB_MODE_ROUNDING * rounding / forces : 0.0);
+    return defect;
 }

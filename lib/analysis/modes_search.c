@@ -23,14 +23,13 @@ static int is_dense(const dmb_mode_search *search, uint32_t wanted)
     return search->options->select == DMB_MODES_ALL || n <= DMB_DENSE_COORDINATES || wanted > n / DMB_DENSE_SHARE;
 }
 
-/* Rigid-body motions, where K is singular by them alone and they are free of damping. */
+/* Rigid-body motions are apart where K is symmetric and no damping feels them. */
 static int32_t set_rigid_apart(dmb_mode_search *search)
 {
-    if (!(search->modes->info.asymmetry <= DMB_MODES_ASYMMETRY)) return DMB_OK;
-    const int32_t found = dmb_modes_pin(search);
-    if (found <= 0) return found;
-    search->pinned = search->options->kind == DMB_MODES_UNDAMPED || dmb_modes_rigid_undamped(search);
-    if (!search->pinned) dmb_modes_forget_rigid(search);
+    const int32_t status = dmb_modes_find_rigid(search);
+    if (status < 0 || search->rigid_count == 0) return status;
+    search->apart = search->modes->info.asymmetry <= DMB_MODES_ASYMMETRY &&
+                    (search->options->kind == DMB_MODES_UNDAMPED || dmb_modes_rigid_undamped(search));
     return DMB_OK;
 }
 
@@ -55,11 +54,16 @@ static int32_t find_scale(dmb_mode_search *search, double *square)
  * of them that is not 0. */
 static int32_t choose_shift(dmb_mode_search *search)
 {
-    dmb_block_weakest weakest = {(double)INFINITY, 0, 0};
-    const int64_t bad = dmb_linear_factor(search->linear, 1.0, 0.0, 0.0, &weakest);
-    int32_t status = set_rigid_apart(search);
     double square;
-    if (status < 0 || search->pinned || (bad < 0 && !(weakest.ratio < DMB_MODES_LOOSE))) return status;
+    int32_t status = DMB_OK;
+    if (search->apart) {
+        status = dmb_modes_pin(search);
+        if (status < 0 || search->pinned) return status;
+    } else {
+        dmb_block_weakest weakest = {(double)INFINITY, 0, 0};
+        const int64_t bad = dmb_linear_factor(search->linear, 1.0, 0.0, 0.0, &weakest);
+        if (bad < 0 && !(weakest.ratio < DMB_MODES_LOOSE) && search->rigid_count == 0) return DMB_OK;
+    }
     if (is_dense(search, search->options->count)) return DMB_OK;
     status = find_scale(search, &square);
     if (status >= 0 && square > 0.0) search->shift = search->general ? sqrt(square) : -square;
@@ -71,7 +75,7 @@ static int32_t choose_shift(dmb_mode_search *search)
 static uint32_t missed(const dmb_mode_search *search)
 {
     const dmb_modes *modes = search->modes;
-    const uint32_t last = search->options->count - 1, apart = search->rigid_count;
+    const uint32_t last = search->options->count - 1, apart = search->apart ? search->rigid_count : 0;
     if (last < apart || modes->count <= last - apart) return 0;
     const double size = dmb_modes_size(modes, last - apart);
     const double square = size * size * (1.0 - DMB_COUNT_MARGIN) - DMB_COUNT_NOISE * search->noise;
@@ -94,12 +98,14 @@ static int32_t find_lowest(dmb_mode_search *search)
         const int32_t status = dmb_modes_sparse(search, wanted);
         if (status < 0) return status;
         dmb_modes_sort(search->modes, search->modes->count);
-        const uint32_t more = missed(search);
+        const uint32_t here = search->modes->count + search->rigid_count;
+        const uint32_t more = here < search->options->count && wanted < search->linear->coordinates
+                                  ? search->options->count - here /* pairs that were told once */
+                                  : missed(search);
         if (more == 0 || tries == DMB_COUNT_TRIES) return DMB_OK;
         wanted += more + 2;
         search->modes->count = 0;
         if (is_dense(search, wanted)) return dmb_modes_dense(search);
-        dmb_modes_forget_rigid(search);
         const int32_t again = choose_shift(search); /* the count has taken the factors */
         if (again < 0) return again;
     }
@@ -124,7 +130,7 @@ static int32_t find_band(dmb_mode_search *search)
     const double low = search->options->band[0], high = search->options->band[1];
     if (low > 0.0 && !search->general) {
         search->shift = 0.5 * DMB_TWO_PI * DMB_TWO_PI * (low * low + high * high);
-        search->pinned = 0; /* the rigid-body motions stay apart */
+        search->pinned = 0;
     }
     for (uint32_t wanted = 16;; wanted *= 2) {
         search->modes->count = 0;
@@ -137,12 +143,13 @@ static int32_t find_band(dmb_mode_search *search)
 int32_t dmb_modes_find(dmb_mode_search *search)
 {
     const dmb_modes_options *options = search->options;
-    int32_t status = choose_shift(search);
+    int32_t status = set_rigid_apart(search);
+    if (status >= 0 && options->select != DMB_MODES_ALL) status = choose_shift(search);
     if (status >= 0)
         status = options->select == DMB_MODES_LOWEST ? find_lowest(search)
                  : options->select == DMB_MODES_ALL  ? dmb_modes_dense(search)
                                                      : find_band(search);
-    if (status >= 0 && search->rigid_count > 0) status = dmb_modes_put_rigid(search);
+    if (status >= 0) status = dmb_modes_put_rigid(search);
     if (status == DMB_ERR_NO_CONVERGENCE) dmb_message_set(search->message, "modes: the eigenvalues did not converge");
     return status;
 }

@@ -4,8 +4,8 @@
  *     general:    (x; w), w = s x, from s (x; M w) = (w; -K x - C w) with a real shift p:
  *                 A (a; b) = (x; w),  Q x = -(M b + (C + p M) a),  Q = K + p C + p^2 M,  w = a + p x,
  *                 s = p + 1/value, in the metric blkdiag(f^2 M, M), f making both parts of one size
- *     pinned:     the same with p = 0, K + pins for K, and its inverse between P^T and P, P = I - sum r_i r_i^T M, r_i
- * the rigid-body motions */
+ * Where rigid-body motions r_i are apart, the inverse stands between P^T and P, P = I - sum r_i r_i^T M; where they are
+ * pinned, p = 0 and K + pins is in the place of K. */
 #include <math.h>
 #include <string.h>
 
@@ -110,6 +110,7 @@ static int32_t refine(dmb_mode_search *search, const dmb_krylov *found)
         memset(x, 0, rows * sizeof(double));
         for (size_t j = 0; j < k; j++)
             for (size_t r = 0; r < rows; r++) x[r] += K[k * i + j] * found->x[rows * j + r];
+        if (dmb_modes_is_rigid_root(search, sqrt(fabs(values[i])), 0.0, x, NULL)) continue;
         status = dmb_modes_add_square(search, values[i], x);
     }
     dmb_release(&linear->allocator, K, bytes);
@@ -151,6 +152,7 @@ static void general_draw(void *context, uint64_t *seed, double *x)
     }
 }
 
+/* The half of a divergence pair (s, -s) that decays is no mode of its own. */
 static int32_t take_general(dmb_mode_search *search, const dmb_krylov *found)
 {
     const size_t rows = search->linear->rows;
@@ -160,6 +162,8 @@ static int32_t take_general(dmb_mode_search *search, const dmb_krylov *found)
         const double re = search->shift + found->re[k] / size2, im = -found->im[k] / size2;
         double *x = found->x + 2 * rows * k, *y = found->y + 2 * rows * k;
         for (size_t i = 0; i < rows; i++) y[i] = -y[i]; /* the conjugate, of im > 0 */
+        const int decays = search->options->kind == DMB_MODES_UNDAMPED && im == 0.0 && re < 0.0;
+        if (decays || dmb_modes_is_rigid_root(search, re, im, x, im != 0.0 ? y : NULL)) continue;
         status = dmb_modes_add(search, re, fabs(im), x, im != 0.0 ? y : NULL);
     }
     return status;
@@ -198,6 +202,11 @@ static int32_t factor(dmb_mode_search *search)
     return DMB_ERR_SINGULAR;
 }
 
+static uint32_t apart_count(const dmb_mode_search *search)
+{
+    return search->apart ? search->rigid_count : 0;
+}
+
 static dmb_operator operator_of(const dmb_mode_search *search, inverse *A)
 {
     const int general = search->general;
@@ -205,7 +214,7 @@ static dmb_operator operator_of(const dmb_mode_search *search, inverse *A)
     memset(&operator, 0, sizeof operator);
     operator.context = A;
     operator.length =(general ? 2 : 1) * (size_t)search->linear->rows;
-    operator.dimension =(general ? 2 : 1) * ((size_t)search->linear->coordinates - search->rigid_count);
+    operator.dimension =(general ? 2 : 1) * ((size_t)search->linear->coordinates - apart_count(search));
     operator.symmetric = !general;
     operator.metric = general ? general_metric : symmetric_metric;
     operator.apply = general ? general_apply : symmetric_apply;
@@ -219,11 +228,13 @@ int32_t dmb_modes_sparse(dmb_mode_search *search, uint32_t wanted)
     inverse A = {search, linear, NULL, search->shift, 1.0, search->work};
     dmb_krylov found;
     int32_t status = factor(search);
-    if (status < 0 || wanted <= search->rigid_count) return status;
+    if (status < 0 || wanted <= apart_count(search)) return status;
     if (search->options->kind == DMB_MODES_DAMPED) A.damping = &linear->damping;
     if (search->general) A.scale = low_frequency(search);
+    /* Motions that are not apart are found too, each with one root 0 or two, and left out. */
+    const uint32_t values = search->apart ? wanted - search->rigid_count : wanted + search->rigid_count;
     const dmb_operator operator= operator_of(search, &A);
-    status = dmb_krylov_largest(&operator, wanted - search->rigid_count, search->shift != 0.0 ? 4 : 2,
+    status = dmb_krylov_largest(&operator, values, search->shift != 0.0 ? 4 : 2,
                                 search->general ? DMB_MODES_GENERAL_TOLERANCE : DMB_MODES_SYMMETRIC_TOLERANCE,
                                 &linear->allocator, &found);
     if (status < 0) return status;

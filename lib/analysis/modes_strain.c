@@ -1,35 +1,12 @@
-/* What the strain energy of a mode tells: whether it is rigid, and its eigenvalue more sharply. */
+/* What the strain energy of a mode tells of its eigenvalue. */
 #include <float.h>
 #include <math.h>
 
 #include "analysis/modes.h"
 #include "system/energy.h"
 
-/* A rigid-body mode: an eigenvalue of up to so much noise, and this part of the strain energy there could be. */
-#define DMB_RIGID_STRAIN 1e-19
 /* Rounding of d^H K d in units of its terms: their number is in the hundreds of thousands at most. */
 #define DMB_SHARPEN_UNITS 64.0
-
-/* Strain energy over what the elements would store if each end moved alone: 0 but for rounding in rigid motion. */
-static double strain_ratio(const dmb_modes *modes, double *rows)
-{
-    const dmb_scene *scene = modes->state->scene;
-    dmb_configuration moved = modes->state->now;
-    double stored = 0.0, possible = 0.0;
-    moved.velocity = rows;
-    for (uint32_t e = 0; e < scene->element_count; e++) {
-        const dmb_element_type *type = scene->types + scene->element_type[e];
-        const uint32_t a = scene->element_node[e], step = scene->layout.size[a] == DMB_NODE_PATH ? 3 : 1;
-        double rate[6];
-        dmb_element_strain_rate(scene, &moved, e, rate);
-        for (uint32_t i = 0; i < 6; i++) stored += type->stiffness[i] * rate[i] * rate[i];
-        for (uint32_t i = 0; i < scene->layout.size[a]; i++) {
-            const double z = rows[scene->layout.row[a] + i];
-            possible += type->stiffness[(size_t)i * step] * z * z;
-        }
-    }
-    return possible > 0.0 ? stored / possible : 0.0;
-}
 
 static double strain_energy(const dmb_modes *modes, double *rows)
 {
@@ -43,13 +20,6 @@ static double strain_energy(const dmb_modes *modes, double *rows)
         for (int i = 0; i < 6; i++) sum += 0.5 * type->stiffness[i] * rate[i] * rate[i];
     }
     return sum;
-}
-
-int dmb_modes_is_rigid(const dmb_mode_search *search, double re, double im, double *x, double *y)
-{
-    const dmb_modes *modes = search->modes;
-    if (re * re + im * im > DMB_RIGID_NOISE * search->noise) return 0;
-    return strain_ratio(modes, x) <= DMB_RIGID_STRAIN && (y == NULL || strain_ratio(modes, y) <= DMB_RIGID_STRAIN);
 }
 
 /* d^H K d is the strain energy twice where there is neither preload nor wall nor spring, and then the energy is the

@@ -1,5 +1,5 @@
-/* Work of LAPACK's eigensolvers against what their manual pages ask for, up to the size where 32 bits no longer count it;
- * and a small problem of each kind against its closed form. */
+/* Work of LAPACK's eigensolvers against what their manual pages ask for, up to the size where 32 bits no longer count
+ * it; and a small problem of each kind against its closed form. */
 #include <math.h>
 
 #include "check.h"
