@@ -85,7 +85,10 @@ DMB_SIZED_STRUCT(dmb_mode_shape)
  * changed; sim takes the message, and need not outlive the result. options may be NULL. Memory: the sim's allocator,
  * until dmb_modes_destroy. LOWEST: smallest |s|. Few modes: block Lanczos (full reorthogonalisation in the M-inner
  * product), damped or unsymmetric ones block Arnoldi, both on the inverse of K (rigid-body motions apart, or shifted),
- * linear in the number of elements; ALL, and many: LAPACK (dsygvd, dgeev), cubic. A mode that does not satisfy its
+ * linear in the number of elements; ALL, and many: LAPACK (dsygvd, dgeev), cubic. A BAND of many modes is divided:
+ * undamped by the counts of eigenvalues below its pieces, which must all be found, in time that grows with the modes; of
+ * damped ones up to some 250 are found at once, more by shifts all over the half plane of their roots, which takes minutes.
+ * A mode that does not satisfy its
  * equations to rounding, after some inverse iteration, is refused with its residual and the bound (_NO_CONVERGENCE).
  * *modes is NULL on error: DMB_ERR_VALUE (option; more modes than coordinates; a band without modes; a state out of
  * balance: by how much and where), _NO_CONVERGENCE, _SINGULAR, _CALLBACK, _NOT_FINITE, _ROTATION, _NO_MEMORY, _TOO_LARGE. */

@@ -119,6 +119,8 @@ int64_t dmb_linear_factor(dmb_linear *linear, double k, double c, double m, dmb_
 /* Eigenvalues of K d = square M d below `square`, by the signs of the factors of K - square M (Sylvester); without joints
  * only. The factors of dmb_linear_factor are gone then. */
 uint32_t dmb_linear_count_below(dmb_linear *linear, double square);
+/* The same with joints too; -1 where a block is singular there. */
+int64_t dmb_linear_count(dmb_linear *linear, double square);
 /* x <- R (R^T A R)^-1 R^T x by rows, A as factored last. */
 void dmb_linear_solve(dmb_linear *linear, double *x);
 

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "analysis/linearise_parts.h"
+#include "analysis/stiffness.h"
 #include "math/block_inertia.h"
 #include "system/solve.h"
 
@@ -41,6 +42,14 @@ uint32_t dmb_linear_count_below(dmb_linear *linear, double square)
         count += dmb_block_negative(&scene->layout, A.diagonal, A.lower, A.upper, NULL, scene->chains[c].first,
                                     scene->chains[c].count);
     return count;
+}
+
+int64_t dmb_linear_count(dmb_linear *linear, double square)
+{
+    dmb_block_weakest unused;
+    int32_t negative = 0;
+    (void)combine(linear, 1.0, 0.0, -square);
+    return dmb_stiffness_factor(linear->work, &unused, &negative) >= 0 ? -1 : negative;
 }
 
 void dmb_linear_solve(dmb_linear *linear, double *x)

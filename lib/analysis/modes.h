@@ -44,6 +44,7 @@ typedef struct dmb_mode_search {
     double *rigid, *rigid_momentum; /* all rigid-body motions r, r^T M r = I, and M r, shape (rigid_count, rows) */
     size_t rigid_bytes;
     uint32_t rigid_count;
+    int32_t partly; /* 1: a search may give back fewer modes than wanted, those that have converged */
     int32_t apart; /* 1: they are uncoupled from all else, r^T K = 0, C r = 0, r^T C = 0, and taken out of the search */
 } dmb_mode_search;
 
@@ -92,6 +93,17 @@ void dmb_modes_weigh_coordinates(const dmb_mode_search *search);
 int32_t dmb_modes_dense(dmb_mode_search *search);
 /* `wanted` modes nearest the shift, by Krylov subspaces, rigid-body motions that are pinned apart. */
 int32_t dmb_modes_sparse(dmb_mode_search *search, uint32_t wanted);
+
+/* Likewise the roots nearest growth + i omega, omega >= 0, and to its conjugate; growth gives way a little where a root
+ * stands. *least: smallest value of the operator among them, 0 if these are all; roots of larger dmb_shifted_value are
+ * complete. */
+int32_t dmb_modes_shifted(dmb_mode_search *search, double *growth, double omega, uint32_t wanted, double *least);
+/* Value that the operator of a shift has at the root re + i im. */
+double dmb_shifted_value(double growth, double omega, double re, double im);
+/* All modes of low to high [Hz] and some at its edges, piece by piece: of symmetric problems, and of general ones.
+ * DMB_ERR_NO_CONVERGENCE, _SINGULAR, _NO_MEMORY. */
+int32_t dmb_modes_band_of_squares(dmb_mode_search *search, double low, double high);
+int32_t dmb_modes_band_of_roots(dmb_mode_search *search, double low, double high);
 
 /* Finds all rigid-body motions. DMB_ERR_NO_MEMORY. */
 int32_t dmb_modes_find_rigid(dmb_mode_search *search);

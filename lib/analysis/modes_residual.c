@@ -8,7 +8,7 @@
 
 /* A mode that a search has found leaves this part of the forces that balance in it, and so many times the rounding of
  * their terms. */
-#define DMB_MODE_CONVERGED 1e-8
+#define DMB_MODE_CONVERGED 1e-10
 #define DMB_MODE_ROUNDING 1024.0
 
 /* out += (a + i b) A (x + i y), real and imaginary part */

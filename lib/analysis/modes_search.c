@@ -9,6 +9,8 @@
 /* Up to so many coordinates, or where a third of all modes is asked for, the dense way is the faster one. */
 enum { DMB_DENSE_COORDINATES = 60, DMB_DENSE_SHARE = 3 };
 enum { DMB_SCALE_MODES = 12 };
+/* A band of more modes is divided. Damped roots stand in a plane, where many pieces make one search. */
+enum { DMB_BAND_AT_ONCE = 64, DMB_ROOTS_AT_ONCE = 256 };
 /* The last of the modes wanted is left out of the count, with those equal to it; a count that does not fit is tried
  * again. */
 #define DMB_COUNT_MARGIN 1e-6
@@ -132,12 +134,15 @@ static int32_t find_band(dmb_mode_search *search)
         search->shift = 0.5 * DMB_TWO_PI * DMB_TWO_PI * (low * low + high * high);
         search->pinned = 0;
     }
-    for (uint32_t wanted = 16;; wanted *= 2) {
+    const uint32_t most = search->general ? DMB_ROOTS_AT_ONCE : DMB_BAND_AT_ONCE;
+    for (uint32_t wanted = 16; wanted <= most; wanted *= 2) {
         search->modes->count = 0;
         if (is_dense(search, wanted)) return dmb_modes_dense(search);
         const int32_t status = dmb_modes_sparse(search, wanted);
-        if (status < 0 || covers_band(search, low, high)) return status;
+        if (status >= 0 && covers_band(search, low, high)) return status;
+        if (status < 0 && status != DMB_ERR_NO_CONVERGENCE) return status;
     }
+    return (search->general ? dmb_modes_band_of_roots : dmb_modes_band_of_squares)(search, low, high);
 }
 
 int32_t dmb_modes_find(dmb_mode_search *search)

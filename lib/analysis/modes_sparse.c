@@ -216,6 +216,7 @@ static dmb_operator operator_of(const dmb_mode_search *search, inverse *A)
     operator.length =(general ? 2 : 1) * (size_t)search->linear->rows;
     operator.dimension =(general ? 2 : 1) * ((size_t)search->linear->coordinates - apart_count(search));
     operator.symmetric = !general;
+    operator.partly = search->partly;
     operator.metric = general ? general_metric : symmetric_metric;
     operator.apply = general ? general_apply : symmetric_apply;
     operator.draw = general ? general_draw : symmetric_draw;

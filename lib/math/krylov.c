@@ -10,6 +10,9 @@
 /* A vector shorter than this part of what it was before is rounding: the space is closed. */
 #define DMB_KRYLOV_CLOSED 1e-13
 
+/* The space grows by at least this part of it before it is looked at again. */
+enum { DMB_KRYLOV_GROWTH = 12 };
+
 typedef struct basis {
     const dmb_operator *A;
     const dmb_allocator *allocator;
@@ -154,6 +157,14 @@ static double residual(const basis *b, uint32_t i)
     return sqrt(sum);
 }
 
+/* Values that have converged before the first that has not. */
+static uint32_t converged(const basis *b, uint32_t wanted, double tolerance)
+{
+    uint32_t k = 0;
+    while (k < wanted && k < b->values && residual(b, b->order[k]) <= tolerance * modulus(b, b->order[k])) k++;
+    return k;
+}
+
 static int have_converged(const basis *b, uint32_t wanted, double tolerance)
 {
     if (b->values < wanted) return b->processed == b->count; /* these are all */
@@ -206,7 +217,9 @@ static int32_t search(basis *b, uint32_t wanted, size_t start, double tolerance)
         }
         if (status < 0) return status;
         if (target == end) return DMB_ERR_NO_CONVERGENCE;
-        target = smaller(end, target + 2 * start + 2);
+        const size_t more =
+            2 * (size_t)start + 2; /* a projection costs the cube of the space: it grows by a part of it */
+        target = smaller(end, target + (target / DMB_KRYLOV_GROWTH > more ? target / DMB_KRYLOV_GROWTH : more));
     }
 }
 
@@ -292,11 +305,15 @@ int32_t dmb_krylov_largest(const dmb_operator *A, uint32_t wanted, uint32_t star
     b.A = A;
     b.allocator = allocator;
     b.seed = 1;
-    b.limit = smaller(A->dimension, 4 * (size_t)wanted + 150) + start + 2;
+    b.limit = smaller(A->dimension, (A->symmetric ? 4 : 8) * (size_t)wanted + 150) + start + 2; /* pairs count once */
     int32_t status = open_basis(&b, &s);
     if (status < 0) return status;
     for (uint32_t k = 0; k < start && status >= 0; k++) status = throw_in(&b);
     if (status >= 0) status = search(&b, wanted, start, tolerance);
+    if (status == DMB_ERR_NO_CONVERGENCE && A->partly && b.values > 0) {
+        wanted = converged(&b, wanted, tolerance);
+        if (wanted > 0) status = DMB_OK;
+    }
     if (status >= 0) status = answer(&b, wanted, out);
     close_basis(&b, &s);
     return status;
