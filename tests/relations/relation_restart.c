@@ -144,8 +144,19 @@ static void check_carried(trial *t)
 
 /* What is handed over is the state: positions, speeds, forces and works are those of the sim it comes from. What comes
  * after is another run, since accelerations are made anew. */
+/* The step in which a bristle breaks away ends with the friction of sticking, and the state after it has that of
+ * sliding: accelerations made anew are other ones (seed 1, scene 306). */
+static int bristles_break_away(const scene *s)
+{
+    return s->has_wall && s->wall.friction_law == DMB_FRICTION_BRISTLE;
+}
+
 static void check_handed(trial *t)
 {
+    if (bristles_break_away(&t->s)) {
+        left_out(t, "bristles, which may break away");
+        return;
+    }
     built b;
     double floor[ANSWER_GROUPS];
     const condition none = {{0.0}, 1.0};
