@@ -355,6 +355,33 @@ static void what_does_not_fit_is_refused(void **state)
     assert_int_equal(r.status, DMB_ERR_GEOMETRY);
 }
 
+/* Three equations of a plane ring are redundant, however long it is. */
+static void redundant_in_a_long_ring(void **state)
+{
+    enum { N = 400 };
+    const double r = 0.5 / sin(PI / N);
+    dmb_id first = ground_id, last = ground_id;
+    rig s;
+    (void)state;
+    rig_open(&s, 0.0, 0.0, -9.81);
+    for (int i = 0; i < N; i++) {
+        const double a = 2.0 * PI * i / N, b = 2.0 * PI * (i + 1) / N;
+        const bar def = {{r * cos(a), r * sin(a)}, {r * cos(b), r * sin(b)}, 1.0};
+        const dmb_id here = add_bar(&s, &def);
+        (void)add_hinge(&s, "", DMB_JOINT_REVOLUTE, i ? pin_on(last, 0.5) : pin_ground(r, 0.0), pin_on(here, -0.5));
+        if (i == 0) first = here;
+        last = here;
+    }
+    (void)add_hinge(&s, "", DMB_JOINT_REVOLUTE, pin_on(last, 0.5), pin_on(first, -0.5));
+    (void)mechanism_start(&s, NULL);
+    for (int k = 0; k < 5; k++) must(&s, dmb_sim_step(s.sim, 1e-3, NULL));
+    const dmb_statistics statistics = statistics_of(&s);
+    assert_int_equal(statistics.dependent, 5 * (N + 1) - 3);
+    assert_int_equal(statistics.redundant, 3);
+    check_below("    misfit of a ring of 400", statistics.misfit, 1e-12);
+    rig_close(&s);
+}
+
 /* Steps are not bounded; analyses that need dense matrices are. */
 static void longer_than_dense_matrices(void **state)
 {
@@ -387,6 +414,7 @@ int main(void)
         cmocka_unit_test(the_same_at_rest),
         cmocka_unit_test(a_snapshot_goes_on_with_the_same_bits),
         cmocka_unit_test(what_does_not_fit_is_refused),
+        cmocka_unit_test(redundant_in_a_long_ring),
         cmocka_unit_test(longer_than_dense_matrices),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
