@@ -75,13 +75,24 @@ static double largest_move(const dmb_sim *sim)
  * it can hide a soft part that still moves. A part so soft that rounding itself moves it gets this many corrections. */
 #define DMB_NO_MOVE 1e-9
 #define DMB_MOVES_ENOUGH 20
+/* Ten times as large they may be where they shrink so fast, once small, that the next one, their square over the one
+ * before, is this small. */
+#define DMB_NO_MOVE_LEFT 1e-12
+#define DMB_SMALL_MOVE 1e-3
+
+static int is_still(const dmb_static_search *search)
+{
+    const double now = search->moved, before = search->moved_before;
+    if (now <= DMB_NO_MOVE) return 1;
+    return now <= 10.0 * DMB_NO_MOVE && before <= DMB_SMALL_MOVE && now * now <= DMB_NO_MOVE_LEFT * before;
+}
 
 /* 0: in equilibrium, 1: not yet, < 0: failed */
 static int32_t judge(dmb_static_search *search)
 {
     const dmb_residual_norm norm = dmb_residual_norm_of(&search->evaluation, search->options->tolerance);
     search->residual = norm.relative;
-    if (norm.converged == DMB_CONVERGED || (norm.converged && search->moved <= DMB_NO_MOVE)) return 0;
+    if (norm.converged == DMB_CONVERGED || (norm.converged && is_still(search))) return 0;
     return 1;
 }
 
@@ -131,6 +142,7 @@ static int32_t correct(dmb_static_search *search, uint32_t iteration)
     memcpy(direction, sim->correction, rows * sizeof(double));
     int32_t status = solve(search);
     if (status < 0) return status;
+    search->moved_before = search->moved;
     search->moved = iteration + 1 < DMB_MOVES_ENOUGH ? largest_move(sim) / sim->scene->length_scale : 0.0;
     scale_correction(sim, damping(iteration));
     for (uint32_t i = 0; i < rows; i++) {
@@ -148,7 +160,7 @@ static int32_t correct(dmb_static_search *search, uint32_t iteration)
 int32_t dmb_static_newton(dmb_static_search *search)
 {
     search->evaluation.extrapolated = 0;
-    search->moved = (double)INFINITY;
+    search->moved = search->moved_before = (double)INFINITY;
     int32_t status = dmb_system_evaluate(&search->evaluation);
     for (uint32_t k = 0; status >= 0; k++) {
         status = judge(search);
@@ -283,7 +295,7 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
     const double limit = longest_move(sim->scene);
     double *direction = sim->trial.acceleration, rate = 1e4, last = 1.0, work = 0.0; /* at rest: room for it */
     search->evaluation.extrapolated = 0;
-    search->moved = (double)INFINITY;
+    search->moved = search->moved_before = (double)INFINITY;
     for (uint32_t k = 0;; k++) {
         int32_t status = evaluate(search);
         if (status <= 0) return status;
@@ -293,6 +305,7 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
         memcpy(direction, sim->correction, bytes);
         status = solve_downhill(search, &rate);
         if (status < 0) return status;
+        search->moved_before = search->moved;
         search->moved = largest_move(sim) / sim->scene->length_scale;
         const double part = reach(search, limit);
         if (part > 1.0) scale_correction(sim, 1.0 / part);

@@ -19,6 +19,7 @@ typedef struct dmb_static_search {
     uint32_t loose_block;
     double residual;     /* [-] relative, last */
     double moved;        /* [-] largest correction before it, in length scales */
+    double moved_before; /* [-] the one before that */
     double caution;      /* [-] the relaxation's corrections are this much shorter */
 } dmb_static_search;
 

@@ -49,7 +49,7 @@ static inline void dmb_beam_internal_force(const dmb_beam_task *task, const dmb_
                                            dmb_beam_output *out)
 {
     dmb_real stress[6], rate[6];
-    dmb_beam_elastic_stress(c, shape->d, stress);
+    dmb_beam_elastic_stress(c, shape, stress);
     dmb_vec6_copy(shape->d, out->strain);
     if (task->rates) {
         dmb_beam_strain_rate(shape, va, vb, rate);
@@ -118,8 +118,8 @@ static inline void dmb_beam_tangent(const dmb_beam_task *task, const dmb_beam_co
         dmb_beam_stiffness_blocks(c, shape, out->stress, &out->K);
     if (task->inertia_only) dmb_beam_clear_blocks(&out->K);
     if (task->dynamic) {
-        if (!task->damped) dmb_beam_clear_blocks(&out->C);
-        dmb_beam_add_inertia_blocks(c, va, vb, pa, pb, dmb_real_of(task->mass_factor), factor, &out->C);
+        dmb_beam_add_inertia_blocks(c, va, vb, pa, pb, dmb_real_of(task->mass_factor), factor, !task->damped,
+                                    &out->C);
     }
     if (!task->arms) return;
     dmb_beam_blocks_to_nodes(c->arm, &out->K);

@@ -1,7 +1,23 @@
 /* The mathematics of the flexible element, in a number that is a double or lanes of doubles (math/real.h).
  *
- * Relative nodal coordinates: d = log(H_A^-1 H_B), strain (d - d0)/L, diagonal stiffness (Sonneville, Cardona, Bruls
- * 2014). Blind to rigid motion and to the number of revolutions. */
+ * Relative nodal coordinates: d = log(H_A^-1 H_B), strain e/L with e = d - d0, diagonal stiffness (Sonneville, Cardona,
+ * Bruls 2014). Blind to rigid motion and to the number of revolutions.
+ *
+ * The corrected shear GA* stands for bending inside the element too, and this must not shorten it. Let x = d - d0. The
+ * sideways x_y turns the chord by g = x_y/L against the end sections; the Timoshenko cubic that belongs to it (THEORY 3,
+ * P = 12 EI/(GA L^2), s = 1/(1 + P) = 1 - (GA*)/GA) has the slope w' = s g (6 (r - r^2) + P) and the section rotation
+ * t = 6 s g (r - r^2), r = 0 .. 1. Its axial strain is u' + t w' - t^2/2, on the average over r
+ *     x_x/L + c g^2,   c = s^2 (6/5 + P) - (3/5) s^2 = s (1 - 0.4 s),   in each plane.
+ * Without it a pulled element has the transverse tangent GA* - N, with it GA* + N/5 (slender), which is the cubic's.
+ *
+ * In an element that is bent by O the sideways part of the logarithm is (O/2)/sin(O/2) times the integral of
+ * cos(O r) t, r = -1/2 .. 1/2. Its flexibility by t with EI t''/L = -force cos(O r) (O/2)/sin(O/2) is L^2/(12 EI) times
+ * 1 + O^2/30 + ..., so x_y counts 1 - s O_z^2/60 times. Both together: elastica of fourth order with a constant that is
+ * seven times smaller than with the first alone.
+ *     e_x = x_x + (b_y x_y^2 + b_z x_z^2)/2,   b = 2 c/L,   p = O_z x_y - O_y x_z,   h = s/60,
+ *     e_y = x_y - h_y O_z p,   e_z = x_z + h_z O_y p,   rotations e = O - O0;   energy e^T (K/L) e/2.
+ * With S = (K/L) e, E = de/dd and H = sum of S_i d2 e_i/dd2:
+ *     g = P^T s,  s = E^T S;   tangent  P^T (E^T (K/L) E + H) P + [D1(-d, s); D1(d, s)] P. */
 #ifndef DMB_ELEMENT_BEAM_MATH_H
 #define DMB_ELEMENT_BEAM_MATH_H
 
@@ -14,16 +30,24 @@
 /* The constants of element_type.h that a step needs, as numbers of this file's kind. */
 typedef struct dmb_beam_constants {
     dmb_real stiffness[6], rest[6]; /* [N/m, N m/rad], [m, rad] */
+    dmb_real coupling[2], bend[2];  /* [1/m] b, [-] h, of the planes y and z */
     dmb_real arm[2];                /* [m] */
     dmb_real damping_time;          /* [s] */
     dmb_real axial[2], torsion[2], bending[2][6]; /* [kg], [kg m2], mixed: dmb_beam_mass */
 } dmb_beam_constants;
 
-/* Relative pose of the two ends and the operator that goes with it. */
+/* E, which is 1 but for the rows (1, slope; 0, move) of translation, and of these (y, z) by (O_y, O_z) turn. */
+typedef struct dmb_beam_map {
+    dmb_real slope[2], move[4]; /* [-] */
+    dmb_real turn[4];           /* [m] */
+} dmb_beam_map;
+
+/* Relative pose of the two ends and the operators that go with it. */
 typedef struct dmb_beam_shape {
     dmb_real d[6];                    /* [m, rad] log(H_A^-1 H_B) */
     dmb_so3_inverse_coefficients k;   /* of d's rotation */
     dmb_se3_inverse_tangent T;        /* T6(d)^-1; its reverse is T6(-d)^-1 */
+    dmb_beam_map E;
 } dmb_beam_shape;
 
 /* Tangent blocks of an element, rows (A, B) by columns (A, B), each shape (6, 6). */
@@ -50,12 +74,58 @@ static inline void dmb_beam_load_constants(const dmb_element_type *type, int lan
         dmb_real_set_lane(&c->stiffness[i], lane, type->stiffness[i]);
         dmb_real_set_lane(&c->rest[i], lane, type->rest[i]);
     }
-    for (int i = 0; i < 2; i++) dmb_real_set_lane(&c->arm[i], lane, type->arm[i]);
+    for (int i = 0; i < 2; i++) {
+        dmb_real_set_lane(&c->coupling[i], lane, type->coupling[i]);
+        dmb_real_set_lane(&c->bend[i], lane, type->bend[i]);
+        dmb_real_set_lane(&c->arm[i], lane, type->arm[i]);
+    }
     dmb_beam_load_mass(&type->mass, lane, c);
     dmb_real_set_lane(&c->damping_time, lane, type->damping_time);
 }
 
 /* ---- Shape and forces -------------------------------------------------------------------------------------------- */
+
+/* E and e of element's d. */
+static inline void dmb_beam_map_at(const dmb_beam_constants *c, const dmb_real d[6], dmb_beam_map *E)
+{
+    const dmb_real y = d[1] - c->rest[1], z = d[2] - c->rest[2], p = d[5] * y - d[4] * z;
+    const dmb_real hy = c->bend[0] * d[5], hz = c->bend[1] * d[4];
+    E->slope[0] = c->coupling[0] * y;
+    E->slope[1] = c->coupling[1] * z;
+    E->move[0] = 1.0 - hy * d[5];
+    E->move[1] = hy * d[4];
+    E->move[2] = hz * d[5];
+    E->move[3] = 1.0 - hz * d[4];
+    E->turn[0] = hy * z;
+    E->turn[1] = -(c->bend[0] * p + hy * y);
+    E->turn[2] = c->bend[1] * p - hz * z;
+    E->turn[3] = hz * y;
+}
+
+/* The rate of E as d moves at `rate`. */
+static inline void dmb_beam_map_rate(const dmb_beam_constants *c, const dmb_real d[6], const dmb_real rate[6],
+                                     dmb_beam_map *E)
+{
+    const dmb_real y = d[1] - c->rest[1], z = d[2] - c->rest[2], dy = rate[1], dz = rate[2];
+    const dmb_real p = rate[5] * y + d[5] * dy - rate[4] * z - d[4] * dz, cross = rate[5] * d[4] + d[5] * rate[4];
+    E->slope[0] = c->coupling[0] * dy;
+    E->slope[1] = c->coupling[1] * dz;
+    E->move[0] = -2.0 * c->bend[0] * d[5] * rate[5];
+    E->move[1] = c->bend[0] * cross;
+    E->move[2] = c->bend[1] * cross;
+    E->move[3] = -2.0 * c->bend[1] * d[4] * rate[4];
+    E->turn[0] = c->bend[0] * (rate[5] * z + d[5] * dz);
+    E->turn[1] = -(c->bend[0] * (p + rate[5] * y + d[5] * dy));
+    E->turn[2] = c->bend[1] * (p - rate[4] * z - d[4] * dz);
+    E->turn[3] = c->bend[1] * (rate[4] * y + d[4] * dy);
+}
+
+/* The operators of a shape whose d and k are there. */
+static inline void dmb_beam_operators_at(const dmb_beam_constants *c, dmb_beam_shape *shape)
+{
+    dmb_se3_inverse_tangent_at(shape->d, &shape->k, &shape->T);
+    dmb_beam_map_at(c, shape->d, &shape->E);
+}
 
 /* Shape from the nodes' orientations, node A's rotation matrix, the vector from node A to node B [m], world frame. */
 static inline void dmb_beam_shape_at(const dmb_beam_constants *c, int arms, const dmb_real quaternion_a[4],
@@ -72,7 +142,7 @@ static inline void dmb_beam_shape_at(const dmb_beam_constants *c, int arms, cons
         x[0] -= c->arm[0];
     }
     dmb_se3_log_from_quat(q, x, &shape->k, shape->d);
-    dmb_se3_inverse_tangent_at(shape->d, &shape->k, &shape->T);
+    dmb_beam_operators_at(c, shape);
 }
 
 /* 1 where the relative rotation is within DMB_BEAM_ROTATION_MAX in every lane; not so for a NaN. */
@@ -96,7 +166,7 @@ static inline void dmb_arm_wrench(dmb_real arm, dmb_real f[6])
 }
 
 /* d' = P V [m/s, rad/s] from the velocities of the element's ends, P = [-T6(-d)^-1, T6(d)^-1]. */
-static inline void dmb_beam_strain_rate(const dmb_beam_shape *shape, const dmb_real velocity_a[6],
+static inline void dmb_beam_shape_rate(const dmb_beam_shape *shape, const dmb_real velocity_a[6],
                                         const dmb_real velocity_b[6], dmb_real rate[6])
 {
     dmb_real a[6];
@@ -105,19 +175,54 @@ static inline void dmb_beam_strain_rate(const dmb_beam_shape *shape, const dmb_r
     for (int i = 0; i < 6; i++) rate[i] -= a[i];
 }
 
-/* Elastic stress K (d - d0)/L [N, N m]. */
-static inline void dmb_beam_elastic_stress(const dmb_beam_constants *c, const dmb_real d[6], dmb_real stress[6])
+/* e' = E P V [m/s, rad/s] */
+static inline void dmb_beam_strain_rate(const dmb_beam_shape *shape, const dmb_real velocity_a[6],
+                                        const dmb_real velocity_b[6], dmb_real rate[6])
 {
-    for (int i = 0; i < 6; i++) stress[i] = c->stiffness[i] * (d[i] - c->rest[i]);
+    const dmb_beam_map *E = &shape->E;
+    dmb_beam_shape_rate(shape, velocity_a, velocity_b, rate);
+    const dmb_real y = rate[1], z = rate[2];
+    rate[0] += E->slope[0] * y + E->slope[1] * z;
+    rate[1] = E->move[0] * y + E->move[1] * z + E->turn[0] * rate[4] + E->turn[1] * rate[5];
+    rate[2] = E->move[2] * y + E->move[3] * z + E->turn[2] * rate[4] + E->turn[3] * rate[5];
 }
 
-/* Internal forces g = P^T s on the element's ends (residual side), added to force_a and force_b. */
+/* e [m, rad], strain times length. */
+static inline void dmb_beam_strain(const dmb_beam_constants *c, const dmb_beam_shape *shape, dmb_real e[6])
+{
+    for (int i = 0; i < 6; i++) e[i] = shape->d[i] - c->rest[i];
+    const dmb_real *O = shape->d + 3, p = O[2] * e[1] - O[1] * e[2];
+    e[0] += 0.5 * (shape->E.slope[0] * e[1] + shape->E.slope[1] * e[2]);
+    e[1] -= c->bend[0] * O[2] * p;
+    e[2] += c->bend[1] * O[1] * p;
+}
+
+/* Elastic stress S = (K/L) e [N, N m]. */
+static inline void dmb_beam_elastic_stress(const dmb_beam_constants *c, const dmb_beam_shape *shape, dmb_real stress[6])
+{
+    dmb_beam_strain(c, shape, stress);
+    for (int i = 0; i < 6; i++) stress[i] = c->stiffness[i] * stress[i];
+}
+
+/* s = E^T S: what works with d instead of e. */
+static inline void dmb_beam_wrench(const dmb_beam_shape *shape, const dmb_real stress[6], dmb_real s[6])
+{
+    const dmb_beam_map *E = &shape->E;
+    dmb_vec6_copy(stress, s);
+    s[1] = E->slope[0] * stress[0] + E->move[0] * stress[1] + E->move[2] * stress[2];
+    s[2] = E->slope[1] * stress[0] + E->move[1] * stress[1] + E->move[3] * stress[2];
+    s[4] += E->turn[0] * stress[1] + E->turn[2] * stress[2];
+    s[5] += E->turn[1] * stress[1] + E->turn[3] * stress[2];
+}
+
+/* Internal forces g = P^T E^T S on the element's ends (residual side), added to force_a and force_b. */
 static inline void dmb_beam_add_force(const dmb_beam_shape *shape, const dmb_real stress[6], dmb_real force_a[6],
                                       dmb_real force_b[6])
 {
-    dmb_real a[6], b[6];
-    dmb_se3_tangent_apply_reverse_transpose(&shape->T, stress, a);
-    dmb_se3_tangent_apply_transpose(&shape->T, stress, b);
+    dmb_real s[6], a[6], b[6];
+    dmb_beam_wrench(shape, stress, s);
+    dmb_se3_tangent_apply_reverse_transpose(&shape->T, s, a);
+    dmb_se3_tangent_apply_transpose(&shape->T, s, b);
     for (int i = 0; i < 6; i++) {
         force_a[i] -= a[i];
         force_b[i] += b[i];
@@ -126,70 +231,189 @@ static inline void dmb_beam_add_force(const dmb_beam_shape *shape, const dmb_rea
 
 /* ---- Stiffness and damping --------------------------------------------------------------------------------------- */
 
-/* Material part P^T (K/L) P, T6(-d)^-1 = R: [R^T k R, -R^T k T; -T^T k R, T^T k T] */
-static inline void dmb_beam_material_stiffness(const dmb_real k[6], const dmb_se3_tangent *T, const dmb_se3_tangent *R,
-                               dmb_beam_blocks *out)
+/* A 6x6 matrix by the coordinates of d: [u, g; g^T, w], where g and w couple (y, z) and (O_y, O_z) alone. */
+typedef struct dmb_beam_material {
+    dmb_real u[9], g[4], twist, w[4];
+} dmb_beam_material;
+
+/* E^T diag(k) E */
+static inline void dmb_beam_material_at(const dmb_real k[6], const dmb_beam_map *E, dmb_beam_material *D)
 {
-    dmb_se3_tangent_congruence(R, k, R, out->aa);
-    dmb_se3_tangent_congruence(T, k, T, out->bb);
-    dmb_se3_tangent_congruence(R, k, T, out->ab);
+    D->u[0] = k[0];
+    D->twist = k[3];
+    for (int i = 0; i < 2; i++) {
+        D->u[1 + i] = D->u[3 * (1 + i)] = k[0] * E->slope[i];
+        for (int j = 0; j < 2; j++) {
+            const dmb_real y = k[1] * E->move[i], z = k[2] * E->move[2 + i];
+            D->u[3 * (1 + i) + 1 + j] = k[0] * E->slope[i] * E->slope[j] + y * E->move[j] + z * E->move[2 + j];
+            D->g[2 * i + j] = y * E->turn[j] + z * E->turn[2 + j];
+            D->w[2 * i + j] = k[1] * E->turn[i] * E->turn[j] + k[2] * E->turn[2 + i] * E->turn[2 + j];
+        }
+        D->w[3 * i] += k[4 + i];
+    }
+}
+
+/* D += H, of S_x b/2 x^2 and q p with q = h_z S_z O_y - h_y S_y O_z */
+static inline void dmb_beam_add_curved_strain(const dmb_beam_constants *c, const dmb_real d[6], const dmb_real stress[6],
+                                              dmb_beam_material *D)
+{
+    const dmb_real y = d[1] - c->rest[1], z = d[2] - c->rest[2];
+    const dmb_real Y = c->bend[0] * stress[1], Z = c->bend[1] * stress[2], q = Z * d[4] - Y * d[5];
+    D->u[4] += stress[0] * c->coupling[0];
+    D->u[8] += stress[0] * c->coupling[1];
+    D->g[0] += Z * d[5];
+    D->g[1] += q - Y * d[5];
+    D->g[2] -= q + Z * d[4];
+    D->g[3] += Y * d[4];
+    D->w[0] -= 2.0 * Z * z;
+    D->w[1] += Z * y + Y * z;
+    D->w[2] += Z * y + Y * z;
+    D->w[3] -= 2.0 * Y * y;
+}
+
+/* Z = D T */
+static inline void dmb_beam_material_rows(const dmb_beam_material *D, const dmb_se3_tangent *T, dmb_se3_rows *Z)
+{
+    dmb_mat3_mul(D->u, T->S, Z->U);
+    dmb_mat3_mul(D->u, T->B, Z->V);
+    dmb_vec3_scale(D->twist, T->S, Z->W);
+    dmb_vec3_zero(Z->X);
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 3; j++) {
+            const int to = 3 * (1 + i) + j;
+            const dmb_real *g = D->g, *w = D->w + 2 * i, *S = T->S + 3 + j, *B = T->B + 3 + j;
+            Z->V[to] += g[2 * i] * S[0] + g[2 * i + 1] * S[3];
+            Z->X[to] = g[i] * S[0] + g[2 + i] * S[3];
+            Z->W[to] = (g[i] * B[0] + g[2 + i] * B[3]) + (w[0] * S[0] + w[1] * S[3]);
+        }
+}
+
+/* P^T D P with a symmetric D, T6(-d)^-1 = R: [R^T D R, -R^T D T; -T^T D R, T^T D T] */
+static inline void dmb_beam_material_stiffness(const dmb_beam_material *D, const dmb_se3_tangent *T,
+                                               const dmb_se3_tangent *R, dmb_beam_blocks *out)
+{
+    dmb_se3_rows ahead, back;
+    dmb_beam_material_rows(D, T, &ahead);
+    dmb_beam_material_rows(D, R, &back);
+    dmb_se3_tangent_times_own_rows(R, &back, out->aa);
+    dmb_se3_tangent_times_own_rows(T, &ahead, out->bb);
+    dmb_se3_tangent_times_rows(R, &ahead, out->ab);
     for (int i = 0; i < 36; i++) out->ab[i] = -out->ab[i];
     dmb_mat6_transpose(out->ab, out->ba);
 }
 
-/* Geometric part [D1(-d, s); D1(d, s)] P */
+/* [-R, T]^T [-back, ahead] */
+static inline void dmb_beam_rows_stiffness(const dmb_se3_tangent *T, const dmb_se3_tangent *R, const dmb_se3_rows *ahead,
+                                           const dmb_se3_rows *back, dmb_beam_blocks *out)
+{
+    dmb_se3_tangent_times_rows(R, back, out->aa);
+    dmb_se3_tangent_times_rows(R, ahead, out->ab);
+    dmb_se3_tangent_times_rows(T, back, out->ba);
+    dmb_se3_tangent_times_rows(T, ahead, out->bb);
+    for (int i = 0; i < 36; i++) {
+        out->ab[i] = -out->ab[i];
+        out->ba[i] = -out->ba[i];
+    }
+}
+
+/* Geometric part [D1(-d, s); D1(d, s)] P, s = E^T S */
 static inline void dmb_beam_add_geometric_stiffness(const dmb_beam_shape *shape, const dmb_real stress[6],
                                                     const dmb_se3_tangent *R, dmb_beam_blocks *out)
 {
     dmb_se3_stress_blocks plus, minus;
-    dmb_se3_stress_blocks_at(shape->d, stress, &shape->k, &plus, &minus);
+    dmb_real s[6];
+    dmb_beam_wrench(shape, stress, s);
+    dmb_se3_stress_blocks_at(shape->d, s, &shape->k, &plus, &minus);
     dmb_se3_stress_times_tangent(dmb_real_of(-1.0), &minus, R, out->aa);
     dmb_se3_stress_times_tangent(dmb_real_of(1.0), &minus, &shape->T, out->ab);
     dmb_se3_stress_times_tangent(dmb_real_of(-1.0), &plus, R, out->ba);
     dmb_se3_stress_times_tangent(dmb_real_of(1.0), &plus, &shape->T, out->bb);
 }
 
-/* d g/d pose (body-frame increments of both ends) = P^T (K/L) P + geometric part with `stress`; written to blocks. */
+/* d g/d pose (body-frame increments of both ends), with H and s of the geometric part from `stress` (S); written to
+ * blocks. */
 static inline void dmb_beam_stiffness_blocks(const dmb_beam_constants *c, const dmb_beam_shape *shape,
                                              const dmb_real stress[6], dmb_beam_blocks *blocks)
 {
     dmb_se3_tangent R;
+    dmb_beam_material D;
     dmb_se3_tangent_reverse(&shape->T, &R);
-    dmb_beam_material_stiffness(c->stiffness, &shape->T, &R, blocks);
+    dmb_beam_material_at(c->stiffness, &shape->E, &D);
+    dmb_beam_add_curved_strain(c, shape->d, stress, &D);
+    dmb_beam_material_stiffness(&D, &shape->T, &R, blocks);
     dmb_beam_add_geometric_stiffness(shape, stress, &R, blocks);
 }
 
-/* The same with damping, which takes part in the stiffness too: s gains tau K d'/L with d' = P V. Its derivative by V is
- * tau P^T (K/L) P, written to `damping` times `factor`; by the pose it is tau P^T (K/L) X P with X = d(d')/dd =
- * X(d, V_B) + X(-d, V_A), both of THEORY 3's operators. So the material part becomes P^T (K/L) (1 + tau X) P. */
+/* Z += f E^T (K/L) (E X + E') T: what the damping stress of one end changes by, E' the rate of E. */
+static inline void dmb_beam_add_viscous_rows(const dmb_beam_constants *c, const dmb_beam_map *E,
+                                             const dmb_beam_map *rate, const dmb_se3_tangent *X,
+                                             const dmb_se3_tangent *T, dmb_se3_rows *Z)
+{
+    const dmb_real f = c->damping_time, *k = c->stiffness;
+    dmb_se3_tangent Y;
+    for (int i = 0; i < 9; i++) Y.S[i] = Y.B[i] = dmb_real_of(0.0);
+    dmb_se3_add_tangent_product(f, X, T, &Y);
+    for (int j = 0; j < 3; j++) {
+        const dmb_real *YS = Y.S + j, *YB = Y.B + j, *S = T->S + j, *B = T->B + j;
+        dmb_real U[3], V[3];
+        U[0] = YS[0] + E->slope[0] * YS[3] + E->slope[1] * YS[6] + f * (rate->slope[0] * S[3] + rate->slope[1] * S[6]);
+        V[0] = YB[0] + E->slope[0] * YB[3] + E->slope[1] * YB[6] + f * (rate->slope[0] * B[3] + rate->slope[1] * B[6]);
+        for (int i = 0; i < 2; i++) {
+            const dmb_real *m = E->move + 2 * i, *t = E->turn + 2 * i, *dm = rate->move + 2 * i, *dt = rate->turn + 2 * i;
+            U[1 + i] = m[0] * YS[3] + m[1] * YS[6] + f * (dm[0] * S[3] + dm[1] * S[6]);
+            V[1 + i] = m[0] * YB[3] + m[1] * YB[6] + t[0] * YS[3] + t[1] * YS[6] +
+                       f * (dm[0] * B[3] + dm[1] * B[6] + dt[0] * S[3] + dt[1] * S[6]);
+        }
+        for (int i = 0; i < 3; i++) {
+            U[i] *= k[i];
+            V[i] *= k[i];
+            Z->W[3 * i + j] += k[3 + i] * YS[3 * i];
+        }
+        Z->U[j] += U[0];
+        Z->V[j] += V[0];
+        for (int i = 0; i < 2; i++) {
+            const int to = 3 * (1 + i) + j;
+            Z->U[to] += E->slope[i] * U[0] + E->move[i] * U[1] + E->move[2 + i] * U[2];
+            Z->V[to] += E->slope[i] * V[0] + E->move[i] * V[1] + E->move[2 + i] * V[2];
+            Z->X[to] += E->turn[i] * U[1] + E->turn[2 + i] * U[2];
+            Z->W[to] += E->turn[i] * V[1] + E->turn[2 + i] * V[2];
+        }
+    }
+}
+
+/* The same with damping, which takes part in the stiffness too: S gains tau (K/L) E d' with d' = P V. Its derivative by
+ * V is tau P^T E^T (K/L) E P, written to `damping` times `factor`; by the pose it is tau P^T E^T (K/L) (E X + E') P with
+ * X = d(d')/dd = X(d, V_B) + X(-d, V_A), both of THEORY 3's operators. */
 static inline void dmb_beam_damped_blocks(const dmb_beam_constants *c, const dmb_beam_shape *shape,
                                           const dmb_real stress[6], const dmb_real velocity_a[6],
                                           const dmb_real velocity_b[6], dmb_real factor, dmb_beam_blocks *stiffness,
                                           dmb_beam_blocks *damping)
 {
-    dmb_real k[6], back[6];
-    dmb_se3_tangent R, X, Xa, YT = shape->T, YR;
+    dmb_real k[6], back[6], rate[6];
+    dmb_se3_tangent R, X, Xa;
+    dmb_beam_material D;
+    dmb_beam_map moving;
+    dmb_se3_rows Za, Zb;
     for (int i = 0; i < 6; i++) {
         k[i] = factor * c->damping_time * c->stiffness[i];
         back[i] = -shape->d[i];
     }
     dmb_se3_tangent_reverse(&shape->T, &R);
-    dmb_beam_material_stiffness(k, &shape->T, &R, damping);
+    dmb_beam_material_at(k, &shape->E, &D);
+    dmb_beam_material_stiffness(&D, &shape->T, &R, damping);
     dmb_se3_velocity_derivative_at(shape->d, velocity_b, &shape->k, &X);
     dmb_se3_velocity_derivative_at(back, velocity_a, &shape->k, &Xa);
     dmb_mat3_add(X.S, Xa.S, X.S);
     dmb_mat3_add(X.B, Xa.B, X.B);
-    YR = R;
-    dmb_se3_add_tangent_product(c->damping_time, &X, &shape->T, &YT);
-    dmb_se3_add_tangent_product(c->damping_time, &X, &R, &YR);
-    dmb_se3_tangent_congruence(&R, c->stiffness, &YR, stiffness->aa);
-    dmb_se3_tangent_congruence(&R, c->stiffness, &YT, stiffness->ab);
-    dmb_se3_tangent_congruence(&shape->T, c->stiffness, &YR, stiffness->ba);
-    dmb_se3_tangent_congruence(&shape->T, c->stiffness, &YT, stiffness->bb);
-    for (int i = 0; i < 36; i++) {
-        stiffness->ab[i] = -stiffness->ab[i];
-        stiffness->ba[i] = -stiffness->ba[i];
-    }
+    dmb_beam_shape_rate(shape, velocity_a, velocity_b, rate);
+    dmb_beam_map_rate(c, shape->d, rate, &moving);
+    dmb_beam_material_at(c->stiffness, &shape->E, &D);
+    dmb_beam_add_curved_strain(c, shape->d, stress, &D);
+    dmb_beam_material_rows(&D, &shape->T, &Zb);
+    dmb_beam_material_rows(&D, &R, &Za);
+    dmb_beam_add_viscous_rows(c, &shape->E, &moving, &X, &shape->T, &Zb);
+    dmb_beam_add_viscous_rows(c, &shape->E, &moving, &X, &R, &Za);
+    dmb_beam_rows_stiffness(&shape->T, &R, &Zb, &Za, stiffness);
     dmb_beam_add_geometric_stiffness(shape, stress, &R, stiffness);
 }
 
@@ -248,16 +472,18 @@ static inline void dmb_beam_block_ab(const dmb_beam_constants *m, double side, d
     }
 }
 
-/* out += L M_block; M_block has entries (0,0) (3,3), (1,1) (1,5) (5,1) (5,5), (2,2) (2,4) (4,2) (4,4) */
-static inline void dmb_beam_add_times_block(const dmb_real L[36], const dmb_beam_mass_block *m, dmb_real out[36])
+/* out += L M_block, or = where it is fresh; M_block has entries (0,0) (3,3), (1,1) (1,5) (5,1) (5,5), (2,2) (2,4) (4,2)
+ * (4,4) */
+static inline void dmb_beam_add_times_block(const dmb_real L[36], const dmb_beam_mass_block *m, int fresh, dmb_real out[36])
 {
     for (int i = 0; i < 36; i += 6) {
-        out[i] += L[i] * m->axial;
-        out[i + 1] += L[i + 1] * m->uu[0] + L[i + 5] * m->tu[0];
-        out[i + 2] += L[i + 2] * m->uu[1] - L[i + 4] * m->tu[1];
-        out[i + 3] += L[i + 3] * m->torsion;
-        out[i + 4] += L[i + 4] * m->tt[1] - L[i + 2] * m->ut[1];
-        out[i + 5] += L[i + 1] * m->ut[0] + L[i + 5] * m->tt[0];
+        const dmb_real row[6] = {L[i] * m->axial,
+                                 L[i + 1] * m->uu[0] + L[i + 5] * m->tu[0],
+                                 L[i + 2] * m->uu[1] - L[i + 4] * m->tu[1],
+                                 L[i + 3] * m->torsion,
+                                 L[i + 4] * m->tt[1] - L[i + 2] * m->ut[1],
+                                 L[i + 1] * m->ut[0] + L[i + 5] * m->tt[0]};
+        for (int j = 0; j < 6; j++) out[i + j] = fresh ? row[j] : out[i + j] + row[j];
     }
 }
 
@@ -280,24 +506,26 @@ static inline void dmb_beam_subtract_momentum(const dmb_real p[6], dmb_real fact
     dmb_mat6_add_skew(-factor, p + 3, 1, 1, out);
 }
 
-/* Adds mass_factor M + velocity_factor C_t to blocks, C_t = -blkdiag(v^^T) M - blkdiag(A(p)) (gyroscopic). */
+/* Adds mass_factor M + velocity_factor C_t to blocks, or writes it to fresh ones;
+ * C_t = -blkdiag(v^^T) M - blkdiag(A(p)) (gyroscopic). */
 static inline void dmb_beam_add_inertia_blocks(const dmb_beam_constants *mass, const dmb_real va[6],
                                                const dmb_real vb[6], const dmb_real pa[6], const dmb_real pb[6],
-                                               dmb_real mass_factor, dmb_real velocity_factor, dmb_beam_blocks *blocks)
+                                               dmb_real mass_factor, dmb_real velocity_factor, int fresh,
+                                               dmb_beam_blocks *blocks)
 {
     dmb_real L[36];
     dmb_beam_mass_block m;
     dmb_beam_inertia_rows(va, mass_factor, velocity_factor, L);
     dmb_beam_block_aa(mass, 1.0, &m);
-    dmb_beam_add_times_block(L, &m, blocks->aa);
+    dmb_beam_add_times_block(L, &m, fresh, blocks->aa);
     dmb_beam_block_ab(mass, 1.0, &m);
-    dmb_beam_add_times_block(L, &m, blocks->ab);
+    dmb_beam_add_times_block(L, &m, fresh, blocks->ab);
     dmb_beam_subtract_momentum(pa, velocity_factor, blocks->aa);
     dmb_beam_inertia_rows(vb, mass_factor, velocity_factor, L);
     dmb_beam_block_aa(mass, -1.0, &m);
-    dmb_beam_add_times_block(L, &m, blocks->bb);
+    dmb_beam_add_times_block(L, &m, fresh, blocks->bb);
     dmb_beam_block_ab(mass, -1.0, &m);
-    dmb_beam_add_times_block(L, &m, blocks->ba);
+    dmb_beam_add_times_block(L, &m, fresh, blocks->ba);
     dmb_beam_subtract_momentum(pb, velocity_factor, blocks->bb);
 }
 

@@ -18,6 +18,8 @@ typedef struct dmb_beam_mass {
 typedef struct dmb_element_type {
     double length;        /* [m] between its two ends, rigid arms not counted */
     double stiffness[6];  /* [N/m, N m/rad] K/L, shear stiffness corrected: 1/GA* = 1/GA + L^2/(12 EI) */
+    double coupling[2];   /* [1/m] 2 c/L of the planes y and z: what sideways strain adds to the axial one (beam_math.h) */
+    double bend[2];       /* [-] s/60: how curvature softens sideways strain (beam_math.h) */
     double strain_stiffness[6]; /* [N, N m2] K itself, uncorrected shear (for queries) */
     double damping_time;  /* [s] tau; 0 when damping is left out */
     double rest[6];       /* [m, rad] d0 = L (1, 0, 0, curvature) */

@@ -141,13 +141,13 @@ static void extrapolate(const dmb_beam_run *run)
         load(run->velocity, 6, 6, &g, 0, za);
         load(run->velocity, 6, 6, &g, 1, zb);
         dmb_so3_inverse_coefficients_at(dmb_vec3_norm_squared(shape.d + 3), &shape.k);
-        dmb_se3_inverse_tangent_at(shape.d, &shape.k, &shape.T);
+        dmb_beam_operators_at(&types.constants, &shape);
         if (run->arms) {
             dmb_arm_velocity(types.constants.arm[0], za);
             dmb_arm_velocity(-types.constants.arm[1], zb);
         }
         dmb_beam_strain_rate(&shape, za, zb, dd);
-        dmb_beam_elastic_stress(&types.constants, shape.d, stress);
+        dmb_beam_elastic_stress(&types.constants, &shape, stress);
         for (int i = 0; i < 6; i++) stress[i] = stress[i] + types.constants.stiffness[i] * dd[i];
         store(stress, 6, &g, run->stress);
     }

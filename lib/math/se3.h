@@ -191,26 +191,41 @@ static inline void dmb_se3_tangent_apply_reverse_transpose(const dmb_se3_tangent
     dmb_vec3_add(out + 3, b, out + 3);
 }
 
-/* C = A^T diag(k) B for two such operators: the material stiffness of an element.
- * Blocks [Sa^T ku Sb, Sa^T ku Bb; Ba^T ku Sb, Ba^T ku Bb + Sa^T kw Sb] */
-static inline void dmb_se3_tangent_congruence(const dmb_se3_tangent *A, const dmb_real k[6], const dmb_se3_tangent *B,
-                                              dmb_real *restrict C)
+/* A 6x6 matrix [U, V; X, W]. */
+typedef struct dmb_se3_rows {
+    dmb_real U[9], V[9], X[9], W[9];
+} dmb_se3_rows;
+
+/* C = T^T Z for a T6 = [S, B; 0, S]: [S^T U, S^T V; B^T U + S^T X, B^T V + S^T W]. Of X only the last two rows are not 0. */
+static inline void dmb_se3_tangent_times_rows(const dmb_se3_tangent *T, const dmb_se3_rows *Z, dmb_real *restrict C)
 {
-    dmb_real kS[9], kB[9], kW[9], block[9];
-    for (int i = 0; i < 3; i++) {
-        dmb_vec3_scale(k[i], B->S + 3 * i, kS + 3 * i);
-        dmb_vec3_scale(k[i], B->B + 3 * i, kB + 3 * i);
-        dmb_vec3_scale(k[3 + i], B->S + 3 * i, kW + 3 * i);
-    }
-    dmb_mat3_mul_tn(A->S, kS, block);
+    dmb_real block[9];
+    dmb_mat3_mul_tn(T->S, Z->U, block);
     dmb_mat6_set_block(block, 0, 0, C);
-    dmb_mat3_mul_tn(A->S, kB, block);
+    dmb_mat3_mul_tn(T->S, Z->V, block);
     dmb_mat6_set_block(block, 0, 1, C);
-    dmb_mat3_mul_tn(A->B, kS, block);
+    dmb_mat3_mul_tn(T->B, Z->U, block);
+    for (int i = 1; i < 3; i++) dmb_mat3_add_outer(dmb_real_of(1.0), T->S + 3 * i, Z->X + 3 * i, block);
     dmb_mat6_set_block(block, 1, 0, C);
-    dmb_mat3_mul_tn(A->B, kB, block);
+    dmb_mat3_mul_tn(T->B, Z->V, block);
     dmb_mat6_set_block(block, 1, 1, C);
-    dmb_mat3_mul_tn(A->S, kW, block);
+    dmb_mat3_mul_tn(T->S, Z->W, block);
+    dmb_mat6_add_block(dmb_real_of(1.0), block, 1, 1, C);
+}
+
+/* The same where the product is symmetric. */
+static inline void dmb_se3_tangent_times_own_rows(const dmb_se3_tangent *T, const dmb_se3_rows *Z, dmb_real *restrict C)
+{
+    dmb_real block[9], turned[9];
+    dmb_mat3_mul_tn(T->S, Z->U, block);
+    dmb_mat6_set_block(block, 0, 0, C);
+    dmb_mat3_mul_tn(T->S, Z->V, block);
+    dmb_mat6_set_block(block, 0, 1, C);
+    dmb_mat3_transpose(block, turned);
+    dmb_mat6_set_block(turned, 1, 0, C);
+    dmb_mat3_mul_tn(T->B, Z->V, block);
+    dmb_mat6_set_block(block, 1, 1, C);
+    dmb_mat3_mul_tn(T->S, Z->W, block);
     dmb_mat6_add_block(dmb_real_of(1.0), block, 1, 1, C);
 }
 
@@ -218,10 +233,8 @@ static inline void dmb_se3_tangent_congruence(const dmb_se3_tangent *A, const dm
 static inline void dmb_so3_double_cross_gradient(const dmb_real r[3], const dmb_real a[3], dmb_real out[9])
 {
     const dmb_real d = dmb_vec3_dot(r, a);
-    dmb_mat3_zero(out);
-    out[0] = out[4] = out[8] = d;
-    dmb_mat3_add_outer(dmb_real_of(1.0), r, a, out);
-    dmb_mat3_add_outer(dmb_real_of(-2.0), a, r, out);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) out[3 * i + j] = (i == j ? d + r[i] * a[j] : r[i] * a[j]) + -2.0 * a[i] * r[j];
 }
 
 /* d/dO (c O~^2 a) = c ((O.a) I + O a^T - 2 a O^T) + e w O^T, w = O x (O x a). Odd in O: the part of both J and Jm

@@ -16,6 +16,14 @@ double dmb_corrected_shear(double EI, double GA, double length)
     return GA * (P / (1.0 + P));
 }
 
+/* b = 2 c/L, c = s (1 - 0.4 s), and h = s/60 of element/beam_math.h, s = 1 - (GA*)/GA = 1/(1 + P) */
+static void sideways_strain(double EI, double GA, double length, double *coupling, double *bend)
+{
+    const double s = 1.0 / (1.0 + dmb_shear_ratio(EI, GA, length));
+    *coupling = 2.0 * s * (1.0 - 0.4 * s) / length;
+    *bend = s / 60.0;
+}
+
 /* ---- Mass -------------------------------------------------------------------------------------------------------- */
 
 /* Shapes of sideways displacement (N) and of section rotation (G) at x = 0 .. 1, for u_A, theta_A, u_B, theta_B. */
@@ -96,6 +104,8 @@ void dmb_element_type_of(const dmb_pipe_def *def, const double arm[2], double da
     }
     type->stiffness[1] = dmb_corrected_shear(K[5], K[1], L) / L;
     type->stiffness[2] = dmb_corrected_shear(K[4], K[2], L) / L;
+    sideways_strain(K[5], K[1], L, &type->coupling[0], &type->bend[0]);
+    sideways_strain(K[4], K[2], L, &type->coupling[1], &type->bend[1]);
     type->damping_time = damping_time;
     type->rest[0] = L;
     for (int i = 0; i < 3; ++i) type->rest[3 + i] = L * def->curvature[i];

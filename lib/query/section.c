@@ -1,9 +1,27 @@
-#include "math/mat6.h"
+#include "math/se3.h"
 #include "query/ask.h"
+#include "query/relative_pose.h"
 #include "query/spot.h"
 #include "system/energy.h"
 
 DMB_DECLARE_STRUCT(dmb_section)
+
+/* From the element's helix to the section itself, which lies off it by exp(c) (query/section_shape.h): what it carries is
+ * the same load in its own axes about its own centre. Under an axial force both tell. */
+static void to_the_section(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_spot *spot,
+                           double force[6])
+{
+    dmb_section_shape shape;
+    double e[6], c[6], R[9], x[3], moment[3];
+    dmb_element_strain(scene, configuration, spot->element, e);
+    dmb_spot_shape(scene, spot, &shape);
+    dmb_section_shape_correct(&shape, e, c);
+    dmb_se3_exp(c, NULL, R, x);
+    dmb_vec3_cross(x, force, moment);
+    dmb_vec3_sub(force + 3, moment, moment);
+    dmb_mat3_tvec(R, force, force);
+    dmb_mat3_tvec(R, moment, force + 3);
+}
 
 /* Between the ends forces go straight, and bending moments by the parabola that belongs to them, dm/dx = -e_x x n; exact
  * under uniform weight. A tool joint hands on the load at its near end, its own mass left out. */
@@ -16,23 +34,20 @@ static void section_force(const dmb_scene *scene, const dmb_configuration *confi
     for (int i = 0; i < 6; i++) force[i] = ends[i] + x * (ends[6 + i] - ends[i]);
     force[4] -= bow * (ends[8] - ends[2]);
     force[5] += bow * (ends[7] - ends[1]);
+    to_the_section(scene, configuration, spot, force);
     force[4] += spot->beyond * force[2];
     force[5] -= spot->beyond * force[1];
 }
 
-/* Mean strain (d - d0)/L. The sideways part of d is mostly bending of the element, which the corrected stiffness GA*
- * accounts for; shear proper is the share (GA* : GA) of it. Bars on the hole's axis only stretch and twist. */
+/* Mean strain e/L. Its sideways part is mostly bending of the element, which the corrected stiffness GA* accounts for;
+ * shear proper is the share (GA* : GA) of it. */
 static void section_strain(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_spot *spot,
                            double strain[6])
 {
     const dmb_element_type *type = &scene->types[scene->element_type[spot->element]];
-    const uint32_t a = scene->element_node[spot->element];
-    const int path = scene->layout.size[a] == DMB_NODE_PATH && scene->layout.size[a + 1] == DMB_NODE_PATH;
-    double d[6];
-    dmb_element_strain(scene, configuration, spot->element, d);
-    for (int i = 0; i < 6; i++) strain[i] = (d[i] - type->rest[i]) / type->length;
+    dmb_element_strain(scene, configuration, spot->element, strain);
+    for (int i = 0; i < 6; i++) strain[i] /= type->length;
     for (int i = 1; i < 3; i++) strain[i] *= type->stiffness[i] * type->length / type->strain_stiffness[i];
-    if (path) strain[1] = strain[2] = strain[4] = strain[5] = 0.0;
 }
 
 int32_t dmb_query_section(const dmb_sim *sim, dmb_place place, dmb_section *section)

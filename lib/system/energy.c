@@ -111,19 +111,20 @@ static void shape_of(const dmb_scene *scene, const dmb_configuration *c, uint32_
     (void)dmb_beam_deform(type_of(scene, e), qa, Ra, qb, span, shape);
 }
 
-void dmb_element_strain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, double d[6])
+void dmb_element_strain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, double e[6])
 {
     const uint32_t a = scene->element_node[element];
     if (is_path(scene, a) && is_path(scene, a + 1)) {
-        memset(d, 0, 6 * sizeof(double));
-        d[0] = type_of(scene, element)->length +
-               (configuration->displacement[3 * a + 3] - configuration->displacement[3 * a]);
-        d[3] = configuration->turn[a + 1] - configuration->turn[a];
+        const dmb_element_type *type = type_of(scene, element);
+        const double *u = configuration->displacement + 3 * (size_t)a, *turn = configuration->turn + a;
+        memset(e, 0, 6 * sizeof(double));
+        e[0] = (u[3] - u[0]) + (type->length - type->rest[0]);
+        e[3] = (turn[1] - turn[0]) - type->rest[3];
         return;
     }
     dmb_beam_shape shape;
     shape_of(scene, configuration, element, &shape);
-    dmb_vec6_copy(shape.d, d);
+    dmb_beam_strain_of(type_of(scene, element), &shape, e);
 }
 
 void dmb_element_strain_rate(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
@@ -145,19 +146,14 @@ void dmb_element_strain_rate(const dmb_scene *scene, const dmb_configuration *co
     dmb_beam_strain_rate(&shape, va, vb, rate);
 }
 
-/* (d - d0)^T K (d - d0) / (2 L); a bar stretches and twists only */
+/* e^T K e / (2 L) */
 double dmb_strain_energy(const dmb_scene *scene, const dmb_configuration *configuration)
 {
-    double sum = 0.0, d[6];
+    double sum = 0.0, x[6];
     for (uint32_t e = 0; e < scene->element_count; e++) {
         const dmb_element_type *type = type_of(scene, e);
-        const uint32_t a = scene->element_node[e];
-        const int step = is_path(scene, a) && is_path(scene, a + 1) ? 3 : 1;
-        dmb_element_strain(scene, configuration, e, d);
-        for (int i = 0; i < 6; i += step) {
-            const double x = d[i] - type->rest[i];
-            sum += 0.5 * type->stiffness[i] * x * x;
-        }
+        dmb_element_strain(scene, configuration, e, x);
+        for (int i = 0; i < 6; i++) sum += 0.5 * type->stiffness[i] * x[i] * x[i];
     }
     return sum;
 }
@@ -197,12 +193,12 @@ void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *
     double va[6], vb[6], stress[6], rate[6];
     memset(force, 0, 12 * sizeof(double));
     if (is_path(scene, a) && is_path(scene, a + 1)) {
-        double d[6];
-        dmb_element_strain(scene, configuration, element, d);
+        double e[6];
+        dmb_element_strain(scene, configuration, element, e);
         for (uint32_t c = 0; c < 2; c++) {
             const double speed = configuration->velocity[rb + c] - configuration->velocity[ra + c];
             const uint32_t i = 3 * c;
-            force[i] = type->stiffness[i] * (d[i] - type->rest[i] + type->damping_time * speed);
+            force[i] = type->stiffness[i] * (e[i] + type->damping_time * speed);
             force[6 + i] = force[i];
         }
         return;
@@ -211,7 +207,7 @@ void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *
     shape_of(scene, configuration, element, &shape);
     end_velocities(scene, configuration, element, va, vb);
     dmb_beam_strain_rate(&shape, va, vb, rate);
-    dmb_beam_stress(type, shape.d, stress);
+    dmb_beam_stress(type, &shape, stress);
     for (int i = 0; i < 6; i++) stress[i] += type->damping_time * type->stiffness[i] * rate[i];
     dmb_beam_add_force(&shape, stress, force, force + 6);
     for (int i = 0; i < 6; i++) force[i] = -force[i]; /* at A the far side is the element itself */

@@ -12,8 +12,8 @@ double dmb_strain_energy(const dmb_scene *scene, const dmb_configuration *config
 double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *configuration);
 /* Stored in the wall's normal stiffness. What bristles store counts as spent by friction until it comes back. */
 double dmb_contact_energy(const dmb_scene *scene, const dmb_configuration *configuration);
-/* Relative pose of an element's ends: d = log(H_A^-1 H_B) at its flexible ends, shape (6). */
-void dmb_element_strain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, double d[6]);
+/* Strain of an element times its length, e of element/beam_math.h, shape (6). */
+void dmb_element_strain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, double e[6]);
 /* Change of that by a small motion of the nodes, given as `velocity` of the configuration, shape (6). */
 void dmb_element_strain_rate(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                              double rate[6]);

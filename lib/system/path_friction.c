@@ -2,6 +2,7 @@
  * hole leave across the axis,   N = | w_across + T kappa n | l,   and friction acts along and around the axis. */
 #include <string.h>
 
+#include "element/beam.h"
 #include "math/vec3.h"
 #include "system/energy.h"
 #include "system/evaluation.h"
@@ -16,7 +17,7 @@ static double stretch_of(const dmb_sim *sim, uint32_t element)
     const uint32_t a = scene->element_node[element];
     const double *u = sim->trial.displacement + 3 * a;
     if (scene->layout.size[a] != DMB_NODE_PATH || scene->layout.size[a + 1] != DMB_NODE_PATH)
-        return sim->element_strain[6 * element] - type->rest[0];
+        return dmb_beam_stretch(type, sim->element_strain + 6 * (size_t)element);
     return (u[3] - u[0]) + (type->length - type->rest[0]);
 }
 

@@ -322,7 +322,8 @@ static void frame_snaps_back(void **state)
         assert_true(report.limits >= 2 && back > 1.0);
         check_relative("    ends where it should", report.displacement, -95.0, 1e-6);
     }
-    check_order("limit load", fabs(first[0] - first[2]), fabs(first[1] - first[2]), 4.0, 0.5);
+    check_below("limit load, 10 elements against 40", first[0] - first[2], 4e-4);
+    check_below("    20 elements", first[1] - first[2], 4e-5);
 }
 
 /* ---- Along the wall of a hole ------------------------------------------------------------------------------------ */
@@ -420,7 +421,7 @@ static void rings_let_go_one_by_one(void **state)
         options.scale = DMB_SCALE_PART;
         options.factor_end = 250e3;
         options.branch = 1;
-        options.branch_size = options.step_max = 5e-4;
+        options.branch_size = options.step_max = k == 0 ? 1e-3 : 5e-4;
         options.max_points = k == 0 ? 2000 : 400;
         const int32_t status = dmb_analysis_path(s.sim, &options, &report);
         must(&s, status);

@@ -330,9 +330,9 @@ static void soft_coupler(void **state)
     check_order("in time", place[1] - place[2], place[2] - place[3], 2.0, 0.1);
     check_order("energy left open", balance[0], balance[1], 2.0, 0.1);
     check_order("energy left open", balance[2], balance[3], 2.0, 0.1);
-    for (uint32_t k = 0; k < 4; k++) place[k] = soft_slider(2u << k, 800, balance + k);
-    check_order("in elements, 2 to 8", place[0] - place[1], place[1] - place[2], 2.0, 0.3);
-    check_order("in elements, 4 to 16", place[1] - place[2], place[2] - place[3], 2.0, 0.3);
+    for (uint32_t k = 0; k < 4; k++) place[k] = soft_slider(4u << k, 800, balance + k);
+    check_order("in elements, 4 to 16", place[0] - place[1], place[1] - place[2], 2.0, 0.3);
+    check_order("in elements, 8 to 32", place[1] - place[2], place[2] - place[3], 2.0, 0.3);
 }
 
 /* ---- Universal joints ----------------------------------------------------------------------------------------------

@@ -193,7 +193,7 @@ static void load_steps_choose_themselves(void **state)
     (void)add_wall(&s, &wall);
     pipe.length = 1.0;
     pipe.string = add_string(&s, &def);
-    const dmb_id string = add_pipes(&s, &pipe, 20);
+    const dmb_id string = add_pipes(&s, &pipe, 40);
     (void)rig_start(&s, NULL);
     options.lay_on_wall = 0;
     const dmb_static_report report = find_equilibrium(&s, &options);
@@ -206,7 +206,7 @@ static void load_steps_choose_themselves(void **state)
     assert_true(report.line_searches > 0);
     assert_int_equal(report.negative, 0);
     check_relative("    weight on wall and clamp", contacts_of(&s).normal_force + reaction[2],
-                   20.0 * s1_values().weight, 1e-6);
+                   40.0 * s1_values().weight, 1e-6);
     rig_close(&s);
 }
 
@@ -320,7 +320,8 @@ static void elements_are_of_fourth_order(void **state)
                       error[k].moment / fabs(exact.moment));
     }
     check_order("contact force, 8 and 16 elements", error[2].normal, error[3].normal, 4.0, 0.3);
-    check_order("sag, 8 and 16 elements", error[2].sag, error[3].sag, 4.0, 0.3);
+    check_below("sag, 8 elements, falling faster than that", error[2].sag / fabs(exact.sag), 3e-6);
+    check_below("sag, 16 elements", error[3].sag / fabs(exact.sag), 1.5e-7);
     check_order("moment in the clamp, 8 and 16 elements", error[2].moment, error[3].moment, 4.0, 0.3);
 }
 

@@ -45,7 +45,7 @@ static void add_inertia_tangent(const dmb_beam_mass *mass, const double va[6], c
 {
     dmb_beam_constants c;
     dmb_beam_load_mass(mass, 0, &c);
-    dmb_beam_add_inertia_blocks(&c, va, vb, pa, pb, mass_factor, velocity_factor, blocks);
+    dmb_beam_add_inertia_blocks(&c, va, vb, pa, pb, mass_factor, velocity_factor, 0, blocks);
 }
 
 typedef struct two_ends {
@@ -99,10 +99,10 @@ static void shape_of(const dmb_element_type *type, const two_ends *ends, dmb_bea
 static double energy(const dmb_element_type *type, const two_ends *ends)
 {
     dmb_beam_shape shape;
-    double s[6], sum = 0.0;
+    double e[6], sum = 0.0;
     shape_of(type, ends, &shape);
-    dmb_beam_stress(type, shape.d, s);
-    for (int i = 0; i < 6; i++) sum += 0.5 * s[i] * (shape.d[i] - type->rest[i]);
+    dmb_beam_strain_of(type, &shape, e);
+    for (int i = 0; i < 6; i++) sum += 0.5 * type->stiffness[i] * e[i] * e[i];
     return sum;
 }
 
@@ -113,7 +113,7 @@ static void node_force(const dmb_element_type *type, const two_ends *ends, doubl
     double s[6], rate[6], va[6], vb[6];
     memset(f, 0, 12 * sizeof *f);
     shape_of(type, ends, &shape);
-    dmb_beam_stress(type, shape.d, s);
+    dmb_beam_stress(type, &shape, s);
     dmb_vec6_copy(ends->va, va);
     dmb_vec6_copy(ends->vb, vb);
     dmb_arm_velocity(type->arm[0], va);
@@ -141,7 +141,7 @@ static const double no_arm[2] = {0.0, 0.0}, arms[2] = {0.15, 0.25};
 static const double angles[] = {1e-9, 1e-5, 0.01, 0.3, 1.0, 1.7, 2.1};
 #define ANGLES (sizeof angles / sizeof angles[0])
 
-/* Strain rate d' = P V is the time derivative of d. */
+/* Strain rate e' = E P V is the time derivative of e. */
 static void strain_rate_is_the_derivative_of_the_strain(void **state)
 {
     (void)state;
@@ -164,7 +164,7 @@ static void strain_rate_is_the_derivative_of_the_strain(void **state)
             for (int i = 0; i < 6; i++) h[i] = ends.vb[i] * difference6_place[p] * 1e-3;
             dmb_se3_advance(at.qb, at.xb, h);
             shape_of(&type, &at, &shape);
-            dmb_vec6_copy(shape.d, f[p]);
+            dmb_beam_strain_of(&type, &shape, f[p]);
         }
         for (int i = 0; i < 6; i++) {
             const double v[6] = {f[0][i], f[1][i], f[2][i], f[3][i], f[4][i], f[5][i]};
@@ -210,7 +210,7 @@ static double stiffness_error(const dmb_element_type *type, const two_ends *ends
     dmb_beam_blocks blocks, damping;
     double s[6], K[144], worst = 0.0, va[6], vb[6];
     shape_of(type, ends, &shape);
-    dmb_beam_stress(type, shape.d, s);
+    dmb_beam_stress(type, &shape, s);
     dmb_vec6_copy(ends->va, va);
     dmb_vec6_copy(ends->vb, vb);
     dmb_arm_velocity(type->arm[0], va);

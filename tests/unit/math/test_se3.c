@@ -171,11 +171,11 @@ static void block_forms_match_full_matrices(void **state)
     (void)state;
     random_stream r = {26};
     for (int i = 0; i < 200; i++) {
-        double h[6], m[6], v[6], k[6], A[36], M[36], y[6], z[6], kA[36], At[36], C[36], D[36];
+        double h[6], m[6], v[6], A[36], M[36], y[6], z[6], kA[36], At[36], C[36], D[36];
         dmb_se3_inverse_tangent T, reverse;
+        dmb_se3_rows rows;
         draw_pose_vector(&r, 2.5 * fabs(draw(&r)) + 1e-6, h);
         draw_vector(&r, 6, v);
-        draw_vector(&r, 6, k);
         negate(6, h, m);
         dmb_se3_inverse_tangent_at(h, NULL, &T);
         inverse_tangent_matrix(h, A);
@@ -194,11 +194,16 @@ static void block_forms_match_full_matrices(void **state)
         dmb_mat6_tvec(M, v, y);
         dmb_se3_tangent_apply_reverse_transpose(&T, v, z);
         CHECK_BELOW(max_difference(6, y, z), 2e-15);
-        for (int j = 0; j < 36; j++) kA[j] = k[j / 6] * A[j];
+        draw_vector(&r, 36, kA);
+        for (int j = 0; j < 3; j++) kA[18 + j] = 0.0;
         transpose(6, M, At);
         multiply(6, At, kA, C);
         dmb_se3_tangent_reverse(&T, &reverse);
-        dmb_se3_tangent_congruence(&reverse, k, &T, D);
+        for (int j = 0; j < 9; j++) {
+            rows.U[j] = kA[6 * (j / 3) + j % 3], rows.V[j] = kA[6 * (j / 3) + 3 + j % 3];
+            rows.X[j] = kA[18 + 6 * (j / 3) + j % 3], rows.W[j] = kA[18 + 6 * (j / 3) + 3 + j % 3];
+        }
+        dmb_se3_tangent_times_rows(&reverse, &rows, D);
         CHECK_BELOW(max_difference(36, C, D), 5e-15);
     }
 }
