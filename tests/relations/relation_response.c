@@ -200,13 +200,20 @@ static void check_modal(trial *t)
 
 /* ---- Effective masses ------------------------------------------------------------------------------------------- */
 
-/* Issue 11, 8: of two rigid-body motions, along and around, one is told where rounding mixes them (seed 1, scene 348).
- * To be switched on when the count of rigid motions is mended: then this returns 0. */
-static int rigid_motions_are_miscounted(const scene *s, const dmb_modes *found)
+/* Six of a free string, two of a guided one, along and around; joints add what their springs do not hold. */
+static void hold_rigid_motions(trial *t, const dmb_modes *found)
 {
+    const uint32_t wanted = t->s.family == FAMILY_FREE ? 6U : 2U;
     dmb_modes_info info = dmb_modes_info_default();
     (void)dmb_modes_get_info(found, &info);
-    return info.rigid != (s->family == FAMILY_FREE ? 6U : 2U);
+    if (t->s.joints == 0 && info.rigid != wanted) broken(t, "rigid-body motions", info.rigid, wanted);
+}
+
+/* Issue 11, 8: all modes of free rigid strings with joints between them miss up to 0.3 % of the mass (seed 1, scenes 97
+ * and 205). To be switched on when that is mended: then this returns 0. */
+static int rigid_and_jointed(const scene *s)
+{
+    return s->joints > 0 && s->string[0].pipe[0].kind == DMB_PIPE_RIGID;
 }
 
 /* Free strings move as they are in each direction, guided ones along their guide: all of their mass does. */
@@ -223,6 +230,10 @@ static void check_masses(trial *t)
         left_out(t, "a guide that lets nothing move");
         return;
     }
+    if (rigid_and_jointed(&t->s)) {
+        left_out(t, "free rigid strings with joints");
+        return;
+    }
     options.select = DMB_MODES_ALL;
     int32_t status = scene_open(&t->s, 0, NULL, &b);
     if (status >= 0) status = dmb_analysis_modes(b.sim, &options, &found);
@@ -231,7 +242,7 @@ static void check_masses(trial *t)
         scene_close(&b);
         return;
     }
-    if (rigid_motions_are_miscounted(&t->s, found)) left_out(t, "rigid motions are miscounted");
+    hold_rigid_motions(t, found);
     (void)dmb_model_get_info(b.model, &info);
     rotation_of_vector(t->s.string[0].def.rotation, R);
     dmb_mode mode = dmb_mode_default();
@@ -456,7 +467,7 @@ const relation relation_modal = {"modal",
                                  0.0};
 const relation relation_masses = {"masses",
                                   "the sum of the effective masses of all modes against the mass",
-                                  {FAMILY_LINE | FAMILY_FREE, AT_REST | WISH_NO_JOINTS | WISH_NO_LOADS, 4},
+                                  {FAMILY_LINE | FAMILY_FREE, AT_REST | WISH_NO_LOADS, 4},
                                   20,
                                   0.4,
                                   check_masses,
