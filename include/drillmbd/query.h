@@ -229,7 +229,8 @@ typedef struct dmb_recorder {
 DMB_SIZED_STRUCT(dmb_recorder)
 /* Writes a row if its time has come. DMB_NOTE_FULL when the table has no room. O(channels). */
 DMB_API int32_t dmb_recorder_take(dmb_recorder *recorder, const dmb_sim *sim);
-/* Writes the table as CSV (comma, '.', a header line of names [units], 17 digits). DMB_ERR_IO on failure. */
+/* Writes the table as CSV (comma, '.', a header line of names [units], 17 digits, nan). DMB_ERR_IO on failure: this and all
+ * that write files write beside path (path.part0) and rename, so that the old file stays, unless path is a device. */
 DMB_API int32_t dmb_recorder_write_csv(const dmb_recorder *recorder, const char *path);
 /* VTK XML poly-data for ParaView: the strings as lines with fields (displacement, velocity, diameter, axial force,
  * torque, bending moment, normal force), `per_element` points an element (1 .. 64). DMB_ERR_IO on failure. */

@@ -97,15 +97,45 @@ static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
     return DMB_ERR_SINGULAR;
 }
 
+static double displacement_of(const dmb_sim *sim, uint32_t node)
+{
+    double d[3];
+    dmb_vec3_sub(sim->trial.displacement + 3 * (size_t)node, sim->now.displacement + 3 * (size_t)node, d);
+    return dmb_vec3_norm(d);
+}
+
 static double largest_displacement(const dmb_sim *sim)
 {
     double most = 0.0;
-    for (uint32_t i = 0; i < sim->scene->node_count; i++) {
-        double d[3];
-        dmb_vec3_sub(sim->trial.displacement + 3 * i, sim->now.displacement + 3 * i, d);
-        most = fmax(most, dmb_vec3_norm(d));
-    }
+    for (uint32_t i = 0; i < sim->scene->node_count; i++) most = fmax(most, displacement_of(sim, i));
     return most;
+}
+
+/* A part that nothing holds is moved so far that rounding of its poses hides the force on it, which then counts as none.
+ * Relative residuals above this are those forces, not what rounding leaves of others. */
+#define DMB_UNBALANCED 1e-3
+#define DMB_TURNED_FAR 1e4 /* [rad] */
+
+/* Has a node gone further than the scene is long, or turned for ever? */
+static int has_gone(const dmb_sim *sim, uint32_t *node)
+{
+    for (*node = 0; *node < sim->scene->node_count; ++*node) {
+        if (displacement_of(sim, *node) > sim->scene->length) return 1;
+        const uint32_t size = sim->scene->layout.size[*node]; /* rotations are the upper half of its rows */
+        const double *turned = sim->increment + sim->scene->layout.row[*node] + size / 2;
+        for (uint32_t c = 0; c < size / 2; c++)
+            if (fabs(turned[c]) > DMB_TURNED_FAR) return 1;
+    }
+    return 0;
+}
+
+static int32_t refuse_loose(dmb_static_search *search, int32_t status)
+{
+    uint32_t node = 0;
+    if (status < 0 || search->residual <= DMB_UNBALANCED) return status;
+    if (!search->loose && !has_gone(search->sim, &node)) return status;
+    search->block = search->loose ? search->loose_block : node;
+    return DMB_ERR_SINGULAR;
 }
 
 static double largest_residual(const dmb_sim *sim)
@@ -165,6 +195,30 @@ static int32_t settle(dmb_static_search *search)
     return DMB_OK;
 }
 
+static int is_held_along(const dmb_scene *scene, const dmb_string_map *string)
+{
+    for (uint32_t i = 0; i < scene->held_count; i++)
+        if (scene->held_component[i] == 0 && scene->held_node[i] - string->first_node < string->node_count) return 1;
+    for (uint32_t k = 0; k < scene->bit_count; k++)
+        if (scene->bits[k].law.kind != DMB_ROCK_NONE && scene->bits[k].node - string->first_node < string->node_count)
+            return 1;
+    return scene->chains[scene->node_chain[string->first_node]].linked; /* joints may hold it */
+}
+
+/* What moves along for ever is seen as poses that do not converge, or bend too far on the way: the string is named. */
+static void name_free_string(dmb_sim *sim, int32_t status)
+{
+    const dmb_scene *scene = sim->scene;
+    if (status != DMB_ERR_NO_CONVERGENCE && status != DMB_ERR_ROTATION) return;
+    for (uint32_t i = 0; i < scene->string_count; i++) {
+        const dmb_message said = sim->message;
+        if (is_held_along(scene, scene->strings + i)) continue;
+        dmb_message_set(&sim->message, "static: string %u: nothing holds it along its axis, give it a drive, a guide or a "
+                        "joint; %s", i, said.text);
+        return;
+    }
+}
+
 static void explain(dmb_static_search *search, int32_t status)
 {
     dmb_sim *sim = search->sim;
@@ -201,9 +255,10 @@ static int32_t analyse(dmb_sim *sim, const dmb_static_options *options, dmb_stat
     dmb_static_set_up(&search, sim, &taken);
     dmb_static_slip(&search, taken.slip_axial, taken.slip_rotation);
     dmb_state_keep(sim);
-    status = search_equilibrium(&search, &out.method);
+    status = refuse_loose(&search, search_equilibrium(&search, &out.method));
     if (status < 0) {
         explain(&search, status);
+        name_free_string(sim, status);
         dmb_state_bring_back(sim); /* the partition of joints may have changed on the way */
         return status;
     }

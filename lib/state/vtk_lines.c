@@ -49,12 +49,21 @@ static void walk_string(dmb_text_file *file, const dmb_sim *sim, uint32_t string
     put(file, picture->context, &at);
 }
 
+static uint64_t points_of(const dmb_sim *sim, uint32_t per_element)
+{
+    uint64_t points = 0;
+    for (uint32_t i = 0; i < sim->scene->string_count; i++) points += points_of_string(sim->scene, i, per_element);
+    return points;
+}
+
 static void put_array(dmb_text_file *file, const dmb_sim *sim, const dmb_vtk_picture *picture,
                       const dmb_vtk_array *array)
 {
-    dmb_vtk_begin_numbers(file, array->name, array->components);
+    dmb_vtk_look(file);
     for (uint32_t i = 0; i < sim->scene->string_count; i++) walk_string(file, sim, i, picture, array->put);
-    dmb_vtk_end_array(file);
+    dmb_vtk_begin_looked(file, array->name, array->components, points_of(sim, picture->per_element));
+    for (uint32_t i = 0; i < sim->scene->string_count; i++) walk_string(file, sim, i, picture, array->put);
+    dmb_vtk_end_looked(file);
 }
 
 static void put_points(dmb_text_file *file, const dmb_sim *sim, const dmb_vtk_picture *picture)
@@ -97,7 +106,7 @@ int32_t dmb_vtk_write_lines(const dmb_sim *sim, const dmb_vtk_picture *picture, 
     if (path == NULL) return DMB_ERR_NULL;
     if (picture->per_element < 1 || picture->per_element > DMB_POINTS_MAX) return DMB_ERR_VALUE;
     counts.lines = sim->scene->string_count;
-    for (uint32_t i = 0; i < counts.lines; i++) counts.points += points_of_string(sim->scene, i, picture->per_element);
+    counts.points = points_of(sim, picture->per_element);
     const int32_t status = dmb_text_open(&file, path);
     if (status < 0) return status;
     dmb_vtk_begin(&file, &counts, sim->clock->time);

@@ -1,6 +1,7 @@
 #include "state/vtk_xml.h"
 
 #include <math.h>
+#include <string.h>
 
 void dmb_vtk_open_tag(dmb_text_file *file, const char *tag)
 {
@@ -54,7 +55,8 @@ void dmb_vtk_end(dmb_text_file *file)
     dmb_text_put(file, "</Piece>\n</PolyData>\n</VTKFile>\n");
 }
 
-static void begin_array(dmb_text_file *file, const char *type, const char *name, uint32_t components)
+static void begin_array(dmb_text_file *file, const char *type, const char *name, uint32_t components,
+                        const char *format)
 {
     dmb_text_put(file, "<DataArray type=\"");
     dmb_text_put(file, type);
@@ -62,17 +64,19 @@ static void begin_array(dmb_text_file *file, const char *type, const char *name,
     dmb_text_put(file, name);
     dmb_text_put(file, "\"");
     put_attribute(file, "NumberOfComponents", components);
-    dmb_text_put(file, " format=\"ascii\">\n");
+    dmb_text_put(file, " format=\"");
+    dmb_text_put(file, format);
+    dmb_text_put(file, "\">\n");
 }
 
 void dmb_vtk_begin_numbers(dmb_text_file *file, const char *name, uint32_t components)
 {
-    begin_array(file, "Float64", name, components);
+    begin_array(file, "Float64", name, components, "ascii");
 }
 
 void dmb_vtk_begin_indices(dmb_text_file *file, const char *name)
 {
-    begin_array(file, "Int64", name, 1);
+    begin_array(file, "Int64", name, 1, "ascii");
 }
 
 void dmb_vtk_end_array(dmb_text_file *file)
@@ -80,11 +84,48 @@ void dmb_vtk_end_array(dmb_text_file *file)
     dmb_vtk_close_tag(file, "DataArray");
 }
 
+void dmb_vtk_look(dmb_text_file *file)
+{
+    file->looking = 1;
+    file->strange = 0;
+}
+
+void dmb_vtk_begin_looked(dmb_text_file *file, const char *name, uint32_t components, uint64_t tuples)
+{
+    file->looking = 0;
+    begin_array(file, "Float64", name, components, file->strange ? "binary" : "ascii");
+    if (!file->strange) return;
+    dmb_text_begin_base64(file);
+    dmb_text_put_word(file, tuples * components * sizeof(double)); /* in header_type, one stream with the numbers */
+}
+
+void dmb_vtk_end_looked(dmb_text_file *file)
+{
+    if (file->base64) {
+        dmb_text_end_base64(file);
+        dmb_text_put(file, "\n");
+    }
+    dmb_vtk_end_array(file);
+}
+
+static void put_word(dmb_text_file *file, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    dmb_text_put_word(file, bits);
+}
+
 void dmb_vtk_put_tuple(dmb_text_file *file, const double *values, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
-        if (i > 0) dmb_text_put(file, " ");
-        dmb_text_put_number(file, isfinite(values[i]) ? values[i] : 0.0);
+        if (file->looking) {
+            file->strange |= !isfinite(values[i]);
+        } else if (file->base64) {
+            put_word(file, values[i]);
+        } else {
+            if (i > 0) dmb_text_put(file, " ");
+            dmb_text_put_number(file, values[i]);
+        }
     }
-    dmb_text_put(file, "\n");
+    if (!file->looking && !file->base64) dmb_text_put(file, "\n");
 }

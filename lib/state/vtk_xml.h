@@ -19,7 +19,12 @@ void dmb_vtk_close_tag(dmb_text_file *file, const char *tag);
 void dmb_vtk_begin_numbers(dmb_text_file *file, const char *name, uint32_t components);
 void dmb_vtk_begin_indices(dmb_text_file *file, const char *name);
 void dmb_vtk_end_array(dmb_text_file *file);
-/* One tuple and the end of its line. What is not finite is written as 0: readers of the text form stop at "nan". */
+/* Numbers that may not be finite: readers stop at "nan" in text, so that such an array goes out in base 64, with the number
+ * of its bytes first. look: what is put until dmb_vtk_begin_looked is only looked at. */
+void dmb_vtk_look(dmb_text_file *file);
+void dmb_vtk_begin_looked(dmb_text_file *file, const char *name, uint32_t components, uint64_t tuples);
+void dmb_vtk_end_looked(dmb_text_file *file);
+/* One tuple and the end of its line. */
 void dmb_vtk_put_tuple(dmb_text_file *file, const double *values, uint32_t count);
 
 #endif
