@@ -6,7 +6,7 @@ static const size_t header = sizeof(uint32_t); /* struct_size itself */
 
 int32_t dmb_struct_check_size(uint32_t size, size_t known, size_t oldest)
 {
-    if (size < oldest || size % 8 != 0 || size > known + DMB_STRUCT_MAX_EXTRA) return DMB_ERR_STRUCT_SIZE;
+    if (size < oldest || size % DMB_STRUCT_UNIT != 0 || size > known + DMB_STRUCT_MAX_EXTRA) return DMB_ERR_STRUCT_SIZE;
     return DMB_OK;
 }
 

@@ -9,6 +9,16 @@
 
 #include "drillmbd/base.h"
 
+/* Sizes of structs with pointers go with the target. The first releases were for 64 bits, where sizes are multiples of 8;
+ * elsewhere the library and its callers are built together, and the first release is this one. */
+#if UINTPTR_MAX > UINT32_MAX
+enum { DMB_STRUCT_UNIT = 8 };
+#define DMB_FIRST_SIZE(T, bytes) (bytes)
+#else
+enum { DMB_STRUCT_UNIT = 4 };
+#define DMB_FIRST_SIZE(T, bytes) sizeof(T)
+#endif
+
 /* A struct_size this much above what the library knows is taken for garbage. */
 enum { DMB_STRUCT_MAX_EXTRA = 1024 };
 
@@ -24,29 +34,29 @@ int32_t dmb_struct_read(void *dst, size_t known, size_t oldest, const void *src)
  * known. Errors: DMB_ERR_NULL; DMB_ERR_STRUCT_SIZE, with dst unchanged. */
 int32_t dmb_struct_write(void *dst, size_t known, size_t oldest, const void *src);
 
-/* DMB_ERR_STRUCT_SIZE unless size is a multiple of 8 from oldest to known + DMB_STRUCT_MAX_EXTRA. */
+/* DMB_ERR_STRUCT_SIZE unless size is a multiple of DMB_STRUCT_UNIT from oldest to known + DMB_STRUCT_MAX_EXTRA. */
 int32_t dmb_struct_check_size(uint32_t size, size_t known, size_t oldest);
 
 /* Stands once in a source file for every struct T of the public headers. Makes from the sized initialiser
  *     T_init                                 the exported one
  *     int32_t T_read(T *out, const void *src)  defaults overlaid with the caller's struct; *out unchanged on error
  *     int32_t T_write(void *dst, const T *src) an answer written into the caller's struct
- * oldest_size is sizeof(T) in the first release that had it. Example:
+ * oldest_size is sizeof(T) in the first release that had it, with pointers of 64 bits. Example:
  *     DMB_DEFINE_INIT(dmb_term, 96, {.kind = DMB_TERM_CONSTANT, .x1 = 1.0})  */
 #define DMB_DEFINE_INIT(T, oldest_size, ...)                                                                          \
     static const T T##_defaults = __VA_ARGS__;                                                                        \
     _Static_assert(offsetof(T, struct_size) == 0, #T " does not begin with struct_size");                             \
-    _Static_assert(sizeof(T) % 8 == 0 && (oldest_size) % 8 == 0, #T " is not a multiple of 8 bytes");                 \
-    _Static_assert((oldest_size) <= sizeof(T), #T " is shorter than in its first release");                           \
+    _Static_assert(sizeof(T) % DMB_STRUCT_UNIT == 0 && (oldest_size) % 8 == 0, #T " is not a multiple of its unit");  \
+    _Static_assert(DMB_FIRST_SIZE(T, oldest_size) <= sizeof(T), #T " is shorter than in its first release");          \
     DMB_DECLARE_STRUCT(T)                                                                                             \
     int32_t T##_init(T *out, uint32_t size)                                                                           \
     {                                                                                                                 \
-        return dmb_struct_init(out, size, &T##_defaults, sizeof(T), (oldest_size));                                   \
+        return dmb_struct_init(out, size, &T##_defaults, sizeof(T), DMB_FIRST_SIZE(T, oldest_size));                  \
     }                                                                                                                 \
     int32_t T##_read(T *out, const void *src)                                                                         \
     {                                                                                                                 \
         T filled = T##_defaults;                                                                                      \
-        int32_t status = dmb_struct_read(&filled, sizeof(T), (oldest_size), src);                                     \
+        int32_t status = dmb_struct_read(&filled, sizeof(T), DMB_FIRST_SIZE(T, oldest_size), src);                    \
         if (status < 0) return status;                                                                                \
         filled.struct_size = (uint32_t)sizeof(T);                                                                     \
         *out = filled;                                                                                                \
@@ -54,7 +64,7 @@ int32_t dmb_struct_check_size(uint32_t size, size_t known, size_t oldest);
     }                                                                                                                 \
     int32_t T##_write(void *dst, const T *src)                                                                        \
     {                                                                                                                 \
-        return dmb_struct_write(dst, sizeof(T), (oldest_size), src);                                                  \
+        return dmb_struct_write(dst, sizeof(T), DMB_FIRST_SIZE(T, oldest_size), src);                                 \
     }
 
 /* Declares T_read and T_write, for use in a file other than that of DMB_DEFINE_INIT. */

@@ -38,7 +38,8 @@ static void check(int32_t kind, int place, int load, int32_t start_free)
     const int about = (start_free & DMB_FREE_RX) != 0 && load == TWISTED;
     const int32_t status = dmb_analysis_static(sim, NULL, NULL);
     if (!along && !about) {
-        if (status < 0) fail_msg("kind %d, place %d, load %d, free %d: %s", kind, place, load, start_free, dmb_sim_message(sim));
+        if (status < 0)
+            fail_msg("kind %d, place %d, load %d, free %d: %s", kind, place, load, start_free, dmb_sim_message(sim));
     } else {
         if (status >= 0) fail_msg("kind %d, place %d, load %d, free %d: at rest", kind, place, load, start_free);
         if (strstr(dmb_sim_message(sim), "string 0") == NULL || strstr(dmb_sim_message(sim), "nothing holds it") == NULL)
