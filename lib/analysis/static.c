@@ -114,13 +114,15 @@ static double largest_displacement(const dmb_sim *sim)
 /* A part that nothing holds is moved so far that rounding of its poses hides the force on it, which then counts as none.
  * Relative residuals above this are those forces, not what rounding leaves of others. */
 #define DMB_UNBALANCED 1e-3
+#define DMB_GONE_FAR 1e3   /* [-] lengths of the scene or of its elements */
 #define DMB_TURNED_FAR 1e4 /* [rad] */
 
-/* Has a node gone further than the scene is long, or turned for ever? */
+/* Has a node gone much further than the scene is long, or turned for ever? */
 static int has_gone(const dmb_sim *sim, uint32_t *node)
 {
+    const double far = DMB_GONE_FAR * fmax(sim->scene->length, sim->scene->length_scale);
     for (*node = 0; *node < sim->scene->node_count; ++*node) {
-        if (displacement_of(sim, *node) > sim->scene->length) return 1;
+        if (displacement_of(sim, *node) > far) return 1;
         const uint32_t size = sim->scene->layout.size[*node]; /* rotations are the upper half of its rows */
         const double *turned = sim->increment + sim->scene->layout.row[*node] + size / 2;
         for (uint32_t c = 0; c < size / 2; c++)
@@ -133,8 +135,8 @@ static int32_t refuse_loose(dmb_static_search *search, int32_t status)
 {
     uint32_t node = 0;
     if (status < 0 || search->residual <= DMB_UNBALANCED) return status;
-    if (!search->loose && !has_gone(search->sim, &node)) return status;
-    search->block = search->loose ? search->loose_block : node;
+    if (!has_gone(search->sim, &node)) return status;
+    search->block = node;
     return DMB_ERR_SINGULAR;
 }
 
