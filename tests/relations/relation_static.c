@@ -219,11 +219,14 @@ static leading leading_of(const dmb_mode *modes, int32_t count)
     return l;
 }
 
+/* The rate is measured where the other modes have fallen behind by e to this. */
+#define OTHERS_GONE 14.0
+
 /* Growth of the distance from rest between two windows of one period each: e^(real (end - begin)). */
 static void hold_growth(trial *t, const leading *l, built *b)
 {
     const double period = l->imaginary > 0.0 ? 2.0 * PI / l->imaginary : 0.2 / fabs(l->real);
-    const uint32_t of_period = 100, first = (uint32_t)ceil(8.0 / (l->real - l->next) / period) + 2;
+    const uint32_t of_period = 100, first = (uint32_t)ceil(OTHERS_GONE / (l->real - l->next) / period) + 2;
     const uint32_t apart = (uint32_t)fmax(1.0, ceil(1.5 / fabs(l->real) / period));
     const double step = period / of_period;
     double d[2] = {0.0, 0.0};
@@ -243,7 +246,8 @@ static void hold_growth(trial *t, const leading *l, built *b)
         left_out(t, "motion too large or too small to be told");
         return;
     }
-    /* Scheme: (h |s|)^2/12 of |s|; other modes: e^-8; size of the motion: its square; rounding: 1e-13 of the span. */
+    /* Scheme: (h |s|)^2/12 of |s|; other modes: e^-14, which the kick may excite more; size of the motion: its square;
+     * rounding: 1e-13 of the span. */
     const double size = hypot(l->real, l->imaginary), rate = log(d[1] / d[0]) / (apart * period);
     const double scheme = pow(step * size, 2.0) / 6.0 * size;
     const double other = (4e-4 + 1e-13 * t->s.span / fmin(d[0], d[1])) / (apart * period) + 1e-3 * fabs(l->real);
@@ -274,7 +278,7 @@ static void kick_growing(scene *s, const leading *l)
 {
     stream n = stream_of(s->seed, s->number, TOPIC_STATIC + 1);
     const double period = l->imaginary > 0.0 ? 2.0 * PI / l->imaginary : 0.2 / fabs(l->real);
-    const double first = 8.0 / (l->real - l->next), speed = 1e-6 * s->span * exp(-l->real * first) / period;
+    const double first = OTHERS_GONE / (l->real - l->next), speed = 1e-6 * s->span * exp(-l->real * first) / period;
     double m, j, share, force[3];
     masses(s, &m, &j, &share);
     draw_direction(&n, force);
@@ -298,7 +302,8 @@ static void check_growth(trial *t)
         l = leading_of(modes, status);
     if (status >= 0) take_positions(&t->s, &b, &rest);
     scene_close(&b);
-    if (t->verdict == VERDICT_HELD && -8.0 * l.real > 4.0 * (l.real - l.next)) left_out(t, "modes of nearly one rate");
+    if (t->verdict == VERDICT_HELD && -OTHERS_GONE * l.real > 6.0 * (l.real - l.next))
+        left_out(t, "modes of nearly one rate");
     if (t->verdict != VERDICT_HELD) return;
     t->telling = l.real > 0.0;
     kick_growing(&t->s, &l);
