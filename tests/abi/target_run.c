@@ -11,6 +11,7 @@
 #include "math/row_rank.h"
 
 size_t dmb_eigen_work(size_t n) { (void)n; return 1; }
+size_t dmb_eigen_general_work(size_t n) { (void)n; return 1; }
 int32_t dmb_eigen_symmetric(size_t n, double *A, double *values, double *work)
 {
     (void)n, (void)A, (void)values, (void)work;

@@ -8,7 +8,7 @@
 
 #include "random_scene.h"
 
-enum { INPUTS = 60, BYTES = 1200, JOINTS = 4, ACTIONS_MAX = 8 };
+enum { INPUTS = 20, BYTES = 1200, JOINTS = 4, ACTIONS_MAX = 8 };
 
 typedef struct scene {
     random_scene parts; /* first: callbacks of programmes look at it */
