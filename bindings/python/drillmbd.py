@@ -365,14 +365,15 @@ class StepReport(_Sized):
 class StaticOptions(_Sized):
     _fields_ = [("struct_size", c_uint32), ("max_iterations", c_uint32), ("tolerance", c_double),
                 ("slip_axial", c_double), ("slip_rotation", c_double), ("load_steps", c_uint32),
-                ("lay_on_wall", c_int32)]
+                ("lay_on_wall", c_int32), ("steady", c_int32), ("reserved", c_int32)]
 
 
 @_mirrors("dmb_static_report")
 class StaticReport(_Sized):
     _fields_ = [("struct_size", c_uint32), ("iterations", c_uint32), ("load_steps", c_uint32), ("method", c_int32),
                 ("residual", c_double), ("largest_force", c_double), ("lateral_move", c_double),
-                ("cuts", c_uint32), ("line_searches", c_uint32), ("negative", c_int32), ("reserved", c_int32)]
+                ("cuts", c_uint32), ("line_searches", c_uint32), ("negative", c_int32), ("reserved", c_int32),
+                ("steady", c_int32), ("steady_reserved", c_int32)]
 
 
 @_mirrors("dmb_buckling_options")

@@ -15,6 +15,16 @@ extern "C" {
  *      of its threads: eigenvalues by some 1e-12 of themselves, shapes by as much over the distance to the next frequency;
  *      counts, ranks and rigid-body modes do not. One thread of BLAS (OPENBLAS_NUM_THREADS=1) gives the same bits here too. */
 
+/* Steady states of a scene whose motion drives (DMB_DRIVE_MOTION) move at the present time, in which a run goes on without
+ * a transient. Programmes that change count with their speed at that time. */
+enum {
+    DMB_STEADY_AUTO = 0,    /* AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and
+                               about their axis, RIGID else, or where masses are eccentric; AT_REST with DMB_NOTE_NOT_STEADY
+                               (message says why) where neither is steady */
+    DMB_STEADY_AT_REST = 1, /* all is at rest; only what motion drives move takes their speed */
+    DMB_STEADY_SLIDING = 2, /* axes at rest, strings slide along the hole and turn about their own axis as their drives say */
+    DMB_STEADY_RIGID = 3    /* all turns about one fixed axis like a rigid body, under centrifugal forces */
+};
 typedef struct dmb_static_options {
     uint32_t struct_size;
     uint32_t max_iterations;   /* [-] of one load step, 1 .. 10000; default 60 */
@@ -25,6 +35,8 @@ typedef struct dmb_static_options {
                                   them by itself; default 0: the whole load at once */
     int32_t lay_on_wall;       /* 1 (default): start from the string lying on the low side of its hole; 0: from the
                                   present pose */
+    int32_t steady;            /* DMB_STEADY_..., default DMB_STEADY_AUTO */
+    int32_t reserved;
 } dmb_static_options;
 DMB_SIZED_STRUCT(dmb_static_options)
 
@@ -41,15 +53,22 @@ typedef struct dmb_static_report {
     uint32_t line_searches;    /* [-] corrections that were shortened by a line search */
     int32_t negative;          /* [-] negative eigenvalues of the stiffness: 0 of a stable equilibrium */
     int32_t reserved;
+    int32_t steady;            /* DMB_STEADY_AT_REST, _SLIDING or _RIGID: what the state is */
+    int32_t steady_reserved;
 } dmb_static_report;
 DMB_SIZED_STRUCT(dmb_static_report)
 
 /* Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, by
  * Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017); where that fails in load steps (gravity,
  * loads and bit load from 0, drives as they are) that are halved when they fail and doubled when they do not, with a
- * line search in the shortest; and by pseudo-transient continuation where that fails too. The rock law does not act in
- * the static state (at time 0 its bottom is laid ahead of the bit as described); a speed controller acts as at speed 0.
- * Speeds become those of the motion drives, the energy ledger starts anew. options and report may be NULL. Errors:
+ * line search in the shortest; and by pseudo-transient continuation where that fails too. At rest the rock law does not
+ * act (at time 0 its bottom is laid ahead of the bit as described); a speed controller acts as at speed 0.
+ * Where motion drives move, the state is a steady one (`steady`): speeds of all nodes are those of the sliding or the rigid
+ * motion, friction acts by the slip that there is, damping and drag act, controllers act by that speed, and a bit that
+ * stands on rock cuts (at time 0: where none is described ahead of it). SLIDING asks that what turns is round (no eccentric
+ * mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, guides, joints to the ground and a
+ * hole agree with the axis; else DMB_ERR_UNSUPPORTED says what does not. Both take memory, one matrix and some vectors, from
+ * the sim's allocator. The energy ledger starts anew. options and report may be NULL. Errors:
  * DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the state is then
  * that before the call. O(number of elements) an iteration. */
 DMB_API int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "analysis/linearise_parts.h"
+#include "math/mat6.h"
 #include "math/vec3.h"
 #include "system/node.h"
 #include "system/solve.h"
@@ -39,20 +40,53 @@ static void find_largest(dmb_linear *linear)
     }
 }
 
-/* In an equilibrium, at rest or turning, body-frame velocities stay as they are: what forces leave then is out of
- * balance. */
-int32_t dmb_linear_take_balance(dmb_linear *linear)
+/* Accelerations of the trial in a relative equilibrium: none where body-frame velocities stay as they are; -ad(w) g
+ * where strings slide and turn with their axes at rest, V = g + w, w the spin about the node's x axis
+ * (analysis/steady.h). */
+static void steady_accelerations(dmb_linear *linear, int sliding)
+{
+    const dmb_scene *scene = &linear->scene;
+    dmb_configuration *trial = &linear->work->trial;
+    memset(trial->acceleration, 0, linear->rows * sizeof(double));
+    for (uint32_t i = 0; sliding && i < scene->node_count; i++) {
+        const uint32_t row = scene->layout.row[i];
+        double w[6] = {0.0}, g[6], *a = trial->acceleration + row;
+        if (scene->layout.size[i] != DMB_NODE_FULL) continue;
+        dmb_vec6_copy(trial->velocity + row, g);
+        w[3] = g[3];
+        g[3] = 0.0;
+        dmb_ad_apply(w, g, a);
+        for (int k = 0; k < 6; k++) a[k] = -a[k];
+    }
+}
+
+/* What forces leave over with those accelerations is out of balance. */
+static int32_t balance_of(dmb_linear *linear, int sliding, dmb_residual_norm *norm)
 {
     dmb_sim *work = linear->work;
     dmb_evaluation evaluation = dmb_linear_evaluation(work);
-    memset(work->trial.acceleration, 0, linear->rows * sizeof(double));
+    steady_accelerations(linear, sliding);
     const int32_t status = dmb_system_evaluate(&evaluation);
     memcpy(work->trial.acceleration, work->now.acceleration, linear->rows * sizeof(double));
+    if (status >= 0) *norm = dmb_residual_norm_of(&evaluation, DMB_LINEAR_BALANCED);
+    return status;
+}
+
+/* The better of both. */
+int32_t dmb_linear_take_balance(dmb_linear *linear)
+{
+    dmb_residual_norm rigid, sliding, best;
+    int32_t status = balance_of(linear, 1, &sliding);
+    if (status >= 0) status = balance_of(linear, 0, &rigid);
+    best = rigid;
+    if (status >= 0 && !rigid.converged && sliding.relative < rigid.relative) {
+        status = balance_of(linear, 1, &sliding);
+        best = sliding;
+    }
     if (status < 0) return status;
-    const dmb_residual_norm norm = dmb_residual_norm_of(&evaluation, DMB_LINEAR_BALANCED);
-    linear->unbalance = norm.relative;
-    linear->balanced = norm.converged != 0;
-    memcpy(linear->unbalanced, work->correction, linear->rows * sizeof(double));
+    linear->unbalance = best.relative;
+    linear->balanced = best.converged != 0;
+    memcpy(linear->unbalanced, linear->work->correction, linear->rows * sizeof(double));
     find_largest(linear);
     return DMB_OK;
 }

@@ -21,6 +21,9 @@ static inline void dmb_linear_add_array(double factor, const double *from, size_
 }
 /* to += factor from, all of their blocks. */
 void dmb_linear_add(const dmb_scene *scene, double factor, const dmb_linear_matrix *from, dmb_linear_matrix *to);
+/* to += factor A blkdiag(v^), v by rows; a PATH node turns about its own axis alone and has none. */
+void dmb_linear_add_products(const dmb_scene *scene, double factor, const dmb_linear_matrix *A, const double *rows,
+                             dmb_linear_matrix *to);
 /* The blocks of stiffness of a sim. */
 dmb_linear_matrix dmb_linear_stiffness_of(const dmb_sim *work);
 /* The tangents by pose and acceleration, and after them that by velocity. */

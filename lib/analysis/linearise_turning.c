@@ -29,9 +29,8 @@ static void add_node_products(const dmb_scene *scene, double factor, const dmb_l
                          to->lower + layout->link[node]);
 }
 
-/* to += factor A blkdiag(v^), v by rows; a PATH node turns about its own axis alone and has none. */
-static void add_products(const dmb_scene *scene, double factor, const dmb_linear_matrix *A, const double *rows,
-                         dmb_linear_matrix *to)
+void dmb_linear_add_products(const dmb_scene *scene, double factor, const dmb_linear_matrix *A, const double *rows,
+                             dmb_linear_matrix *to)
 {
     for (uint32_t i = 0; i < scene->node_count; i++)
         if (scene->layout.size[i] == DMB_NODE_FULL) add_node_products(scene, factor, A, rows, i, to);
@@ -66,10 +65,10 @@ void dmb_linear_turn_frames(dmb_linear *linear, int32_t still)
     dmb_linear_add_whole_joints(linear, 1.0);
     dmb_linear_hold(linear, 1);
     dmb_linear_add_whole_joints(linear, -1.0); /* columns that are held are left of it */
-    if (still) add_products(&linear->scene, -1.0, &linear->mass, linear->spin, &linear->damping);
-    add_products(&linear->scene, 1.0, &linear->damping, linear->rest, &linear->stiffness);
-    add_products(&linear->scene, 1.0, &linear->mass, linear->work->now.acceleration, &linear->stiffness);
-    add_products(&linear->scene, 1.0, &linear->mass, linear->rest, &linear->damping);
+    if (still) dmb_linear_add_products(&linear->scene, -1.0, &linear->mass, linear->spin, &linear->damping);
+    dmb_linear_add_products(&linear->scene, 1.0, &linear->damping, linear->rest, &linear->stiffness);
+    dmb_linear_add_products(&linear->scene, 1.0, &linear->mass, linear->work->now.acceleration, &linear->stiffness);
+    dmb_linear_add_products(&linear->scene, 1.0, &linear->mass, linear->rest, &linear->damping);
     dmb_linear_hold(linear, 1);
     dmb_linear_keep_held(linear, 0);
     dmb_linear_add_whole_joints(linear, 1.0);

@@ -34,6 +34,12 @@ void dmb_static_slip(dmb_static_search *search, double axial, double rotation)
     search->evaluation.slip[1] = rotation;
 }
 
+int32_t dmb_static_evaluate(dmb_static_search *search)
+{
+    return search->steady != NULL ? dmb_steady_evaluate(search->steady, &search->evaluation)
+                                  : dmb_system_evaluate(&search->evaluation);
+}
+
 int32_t dmb_static_begin(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
@@ -74,7 +80,7 @@ static int32_t end_growing_steps(dmb_static_search *search, int32_t status)
     dmb_state_bring_back(sim);
     if (status < 0 || sim->scene->cluster_count == 0) return status;
     status = dmb_static_settle(search);
-    return status < 0 ? status : dmb_system_evaluate(&search->evaluation);
+    return status < 0 ? status : dmb_static_evaluate(search);
 }
 
 /* Newton in the load steps asked for, or at once where they are the library's choice, then in steps that grow, then the
@@ -155,7 +161,7 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     dmb_sim *sim = search->sim;
     const dmb_scene *scene = sim->scene;
     search->evaluation.tangent = 0;
-    const int32_t status = dmb_system_evaluate(&search->evaluation);
+    const int32_t status = dmb_static_evaluate(search);
     if (status < 0) return status;
     if (scene->cluster_count) dmb_joint_reactions(&search->evaluation);
     memcpy(sim->residual_row, sim->correction, scene->row_count * sizeof(double));
@@ -169,24 +175,53 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     return DMB_OK;
 }
 
-/* The found pose becomes the state, at rest but for motion drives. */
-static int32_t settle(dmb_static_search *search)
+/* Velocities of the state: none, or those of the steady motion, with what contacts remember of it. */
+static int32_t take_motion(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
     const dmb_scene *scene = sim->scene;
-    dmb_system_accept(&search->evaluation);
-    memset(sim->trial.velocity, 0, scene->row_count * sizeof(double));
+    const int32_t tangent = search->evaluation.tangent;
+    int32_t status = DMB_OK;
+    if (search->steady == NULL) {
+        memset(sim->trial.velocity, 0, scene->row_count * sizeof(double));
+    } else {
+        search->evaluation.tangent = 0;
+        search->evaluation.load_factor = 1.0;
+        status = dmb_static_evaluate(search);
+        search->evaluation.tangent = tangent;
+        if (status >= 0) status = dmb_steady_check_springs(&search->evaluation);
+    }
     if (dmb_scene_has_bristles(scene)) {
         memset(sim->trial.site_bristle, 0, 2 * scene->site_count * sizeof(double));
         memset(sim->trial.path_bristle, 0, 2 * scene->path_site_count * sizeof(double));
     }
     memset(sim->trial.site_approach, 0, scene->site_count * sizeof(double));
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
-    /* At the start the rock lies where the description puts it ahead of the bit; the forces of the restart need it
-     * there. */
-    for (uint32_t k = 0; k < scene->bit_count && sim->clock->time == 0.0; k++) dmb_bit_start(sim, k);
+    if (search->steady != NULL) dmb_steady_deflect_bristles(sim);
+    return status;
+}
+
+/* At the start the rock lies where the description puts it ahead of the bit; the forces of the restart need it there.
+ * Where bits drill it is as they have left it. */
+static void lay_rock(dmb_static_search *search)
+{
+    dmb_sim *sim = search->sim;
+    for (uint32_t k = 0; k < sim->scene->bit_count; k++) {
+        if (sim->clock->time == 0.0) dmb_bit_start(sim, k);
+        if (search->steady != NULL && k < DMB_STEADY_BITS && search->evaluation.drilling >> k & 1)
+            dmb_bit_start_steady(sim, k);
+    }
+}
+
+/* The found pose becomes the state. */
+static int32_t settle(dmb_static_search *search)
+{
+    dmb_sim *sim = search->sim;
+    dmb_system_accept(&search->evaluation);
+    int32_t status = take_motion(search);
+    lay_rock(search);
     const dmb_counters counters = *sim->counters;
-    int32_t status = dmb_system_restart(sim);
+    if (status >= 0) status = dmb_system_restart(sim);
     *sim->counters = counters;
     if (status >= 0 && search->evaluation.slipping) status = keep_static_reactions(search);
     if (status < 0) {
@@ -244,36 +279,72 @@ static void explain(dmb_static_search *search, int32_t status)
     }
 }
 
+static void tell(const dmb_static_search *search, dmb_static_report *out)
+{
+    out->iterations = search->iterations;
+    out->load_steps = search->load_steps;
+    out->residual = search->residual;
+    out->largest_force = largest_residual(search->sim);
+    out->cuts = search->cuts;
+    out->line_searches = search->line_searches;
+    out->steady = search->steady != NULL ? search->steady->kind : DMB_STEADY_AT_REST;
+    out->lateral_move = largest_displacement(search->sim);
+}
+
+static int32_t find(dmb_static_search *search, dmb_static_report *out)
+{
+    dmb_sim *sim = search->sim;
+    dmb_block_weakest weakest;
+    const int32_t status = refuse_loose(search, search_equilibrium(search, &out->method));
+    if (status < 0) {
+        explain(search, status);
+        name_free_string(sim, status);
+        dmb_state_bring_back(sim); /* the partition of joints may have changed on the way */
+        return status;
+    }
+    tell(search, out);
+    dmb_system_iteration_matrix(&search->evaluation);
+    (void)dmb_stiffness_factor(sim, &weakest, &out->negative);
+    return settle(search);
+}
+
+/* In the steady state that drives and options ask for. */
+static int32_t run(dmb_static_search *search, dmb_static_report *out)
+{
+    dmb_sim *sim = search->sim;
+    const dmb_static_options *options = search->options;
+    dmb_steady steady;
+    dmb_state_keep(sim);
+    int32_t chosen = dmb_steady_choose(sim, options->steady, search->evaluation.slipping, &steady);
+    dmb_state_bring_back(sim);
+    int32_t status = chosen;
+    if (chosen >= 0) {
+        search->steady = steady.kind != DMB_STEADY_AT_REST ? &steady : NULL;
+        for (uint32_t k = 0; k < sim->scene->bit_count && k < DMB_STEADY_BITS; k++)
+            search->evaluation.drilling |= (uint32_t)dmb_bit_on_bottom(sim, k) << k;
+        status = find(search, out);
+    }
+    if (status == DMB_ERR_UNSUPPORTED && options->steady == DMB_STEADY_AUTO && search->steady != NULL) {
+        dmb_static_set_up(search, sim, options); /* found not to be steady */
+        status = find(search, out);
+        chosen = DMB_NOTE_NOT_STEADY;
+    }
+    dmb_steady_release(&steady);
+    return status == DMB_OK ? chosen : status;
+}
+
 static int32_t analyse(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)
 {
     dmb_static_options taken;
     dmb_static_search search;
     dmb_static_report out;
-    dmb_block_weakest weakest;
     (void)dmb_static_report_init(&out, (uint32_t)sizeof out);
     if (report != NULL && dmb_static_report_read(&out, report) < 0) return DMB_ERR_STRUCT_SIZE;
     int32_t status = dmb_static_options_take(sim, options, &taken);
     if (status < 0) return status;
     dmb_static_set_up(&search, sim, &taken);
     dmb_static_slip(&search, taken.slip_axial, taken.slip_rotation);
-    dmb_state_keep(sim);
-    status = refuse_loose(&search, search_equilibrium(&search, &out.method));
-    if (status < 0) {
-        explain(&search, status);
-        name_free_string(sim, status);
-        dmb_state_bring_back(sim); /* the partition of joints may have changed on the way */
-        return status;
-    }
-    out.iterations = search.iterations;
-    out.load_steps = search.load_steps;
-    out.residual = search.residual;
-    out.largest_force = largest_residual(sim);
-    out.cuts = search.cuts;
-    out.line_searches = search.line_searches;
-    dmb_system_iteration_matrix(&search.evaluation);
-    (void)dmb_stiffness_factor(sim, &weakest, &out.negative);
-    out.lateral_move = largest_displacement(sim);
-    status = settle(&search);
+    status = run(&search, &out);
     if (status >= 0 && report != NULL) (void)dmb_static_report_write(report, &out);
     return status;
 }

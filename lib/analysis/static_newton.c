@@ -98,7 +98,7 @@ static int32_t judge(dmb_static_search *search)
 
 static int32_t evaluate(dmb_static_search *search)
 {
-    const int32_t status = dmb_system_evaluate(&search->evaluation);
+    const int32_t status = dmb_static_evaluate(search);
     return status < 0 ? status : judge(search);
 }
 
@@ -132,13 +132,13 @@ static double damping(uint32_t iteration)
     return iteration % 4 == 3 ? 1.0 : 0.5;
 }
 
-/* The correction takes the place of the residual; the line search looks at the work of both. At rest the trial's
- * accelerations are room for it. */
+/* The correction takes the place of the residual; the line search looks at the work of both. No force depends on
+ * pseudo accelerations, which are room for it. */
 static int32_t correct(dmb_static_search *search, uint32_t iteration)
 {
     dmb_sim *sim = search->sim;
     const uint32_t rows = sim->scene->row_count;
-    double *direction = sim->trial.acceleration, work = 0.0;
+    double *direction = sim->trial.pseudo_acceleration, work = 0.0;
     memcpy(direction, sim->correction, rows * sizeof(double));
     int32_t status = solve(search);
     if (status < 0) return status;
@@ -152,7 +152,7 @@ static int32_t correct(dmb_static_search *search, uint32_t iteration)
     dmb_system_extrapolate_stress(sim, sim->correction);
     search->evaluation.extrapolated = 1;
     status = dmb_static_move(search, direction, 1.0);
-    if (status >= 0) status = dmb_system_evaluate(&search->evaluation);
+    if (status >= 0) status = dmb_static_evaluate(search);
     if (status >= 0 && search->searching) status = dmb_static_line_search(search, direction, work);
     return status;
 }
@@ -161,7 +161,7 @@ int32_t dmb_static_newton(dmb_static_search *search)
 {
     search->evaluation.extrapolated = 0;
     search->moved = search->moved_before = (double)INFINITY;
-    int32_t status = dmb_system_evaluate(&search->evaluation);
+    int32_t status = dmb_static_evaluate(search);
     for (uint32_t k = 0; status >= 0; k++) {
         status = judge(search);
         if (status <= 0) return status;
@@ -199,7 +199,7 @@ static int32_t solve_downhill(dmb_static_search *search, double *rate)
     double taken = *rate;
     int32_t negative = 1;
     for (int k = 0; k < DMB_HEAVIER_TRIES; k++, taken *= DMB_HEAVIER) {
-        int32_t status = k > 0 ? dmb_system_evaluate(&search->evaluation) : DMB_OK; /* the factors are in its place */
+        int32_t status = k > 0 ? dmb_static_evaluate(search) : DMB_OK; /* the factors are in its place */
         if (status < 0) return status;
         add_pseudo_mass(search->sim, taken);
         dmb_system_iteration_matrix(&search->evaluation);
@@ -293,7 +293,7 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
     dmb_sim *sim = search->sim;
     const size_t bytes = sim->scene->row_count * sizeof(double);
     const double limit = longest_move(sim->scene);
-    double *direction = sim->trial.acceleration, rate = 1e4, last = 1.0, work = 0.0; /* at rest: room for it */
+    double *direction = sim->trial.pseudo_acceleration, rate = 1e4, last = 1.0, work = 0.0; /* room for it */
     search->evaluation.extrapolated = 0;
     search->moved = search->moved_before = (double)INFINITY;
     for (uint32_t k = 0;; k++) {

@@ -2,6 +2,7 @@
 #ifndef DMB_ANALYSIS_STATIC_STATE_H
 #define DMB_ANALYSIS_STATIC_STATE_H
 
+#include "analysis/steady.h"
 #include "drillmbd/analysis.h"
 #include "system/evaluation.h"
 
@@ -9,6 +10,7 @@ typedef struct dmb_static_search {
     dmb_sim *sim;
     const dmb_static_options *options;
     dmb_evaluation evaluation;
+    dmb_steady *steady;  /* NULL: at rest */
     uint32_t iterations; /* in all */
     uint32_t load_steps; /* of the last try */
     uint32_t cuts;       /* load steps that were cut */
@@ -30,6 +32,9 @@ typedef struct dmb_static_search {
 void dmb_static_set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_options *options);
 /* Friction acts as at these speeds, both 0: not at all. */
 void dmb_static_slip(dmb_static_search *search, double axial, double rotation);
+
+/* Residual and tangent of the trial at rest, or in its steady motion. */
+int32_t dmb_static_evaluate(dmb_static_search *search);
 
 typedef int32_t (*dmb_static_method)(dmb_static_search *search);
 

@@ -97,7 +97,7 @@ int32_t dmb_static_line_search(dmb_static_search *search, const double *directio
         if (status < 0) return status;
         s = next;
         search->evaluation.extrapolated = 0;
-        status = dmb_system_evaluate(&search->evaluation);
+        status = dmb_static_evaluate(search);
         if (status < 0) return status;
         const double work = work_of(search->sim, direction);
         if (fabs(work) <= DMB_WORK_LEFT * fabs(before) || s <= DMB_SHORTEST_MOVE) return DMB_OK;

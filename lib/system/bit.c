@@ -92,6 +92,40 @@ static void rock(const dmb_sim *sim, uint32_t k, double bottom, const bit_motion
                        m->spin, out);
 }
 
+int dmb_bit_on_bottom(const dmb_sim *sim, uint32_t k)
+{
+    if (sim->clock->time == 0.0) return sim->scene->bits[k].bottom <= 0.0;
+    return sim->now.bit_advance[k] >= sim->now.bit_bottom[k];
+}
+
+/* [m] a blade cuts at a steady speed and spin; 0: none does. */
+static double steady_cut(const dmb_scene_bit *bit, double speed, double spin)
+{
+    return speed > 0.0 && spin > 0.0 ? 2.0 * DMB_PI * speed / (spin * bit->law.blades) : 0.0;
+}
+
+/* Steady drilling depends on speeds alone: the rock lies a steady cut ahead wherever the bit is. */
+static void rock_in_steady_drilling(const dmb_sim *sim, uint32_t k, const bit_motion *m, dmb_bit_rock_result *out)
+{
+    const dmb_scene_bit *bit = sim->scene->bits + k;
+    memset(out, 0, sizeof *out);
+    if (bit->law.kind == DMB_ROCK_NONE) return;
+    const double cut = steady_cut(bit, m->speed, m->spin), spacing = 2.0 * DMB_PI / bit->law.blades;
+    double angle[2] = {m->angle - 2.0 * spacing, m->angle - 0.5 * spacing};
+    double surface[2] = {m->advance - 2.0 * cut, m->advance - 0.5 * cut};
+    dmb_bit_history h;
+    memset(&h, 0, sizeof h);
+    h.angle = angle;
+    h.surface = surface;
+    h.capacity = h.count = 2;
+    h.head = 1;
+    h.spacing = spacing;
+    h.angle_step = 0.1 * spacing;
+    dmb_bit_rock_force(&bit->law, bit->history_capacity ? &h : NULL, m->advance - bit->law.intrusion_depth, m->advance,
+                       m->speed, m->angle, m->spin, out);
+    out->dW_dU = out->dW_dPhi = out->dT_dU = out->dT_dPhi = 0.0;
+}
+
 /* K -= -(along dW + about dT) x (dU along + dPhi about), C likewise with V and Omega; and the load turns with the body.
  */
 static void add_tangent(dmb_evaluation *evaluation, uint32_t k, const bit_motion *m, const dmb_bit_rock_result *r,
@@ -146,7 +180,11 @@ static void gather_bit(dmb_evaluation *evaluation, uint32_t k)
     dmb_node_pose(scene, &sim->trial, node, R, unused);
     motion_of(scene, &sim->trial, R, k, &sim->trial.bit_segment[k], &m);
     memset(&r, 0, sizeof r);
-    if (evaluation->dynamic) rock(sim, k, sim->now.bit_bottom[k], &m, &r);
+    const int drills = evaluation->steady && k < DMB_STEADY_BITS && evaluation->drilling >> k & 1;
+    if (drills)
+        rock_in_steady_drilling(sim, k, &m, &r);
+    else if (evaluation->dynamic && !evaluation->steady)
+        rock(sim, k, sim->now.bit_bottom[k], &m, &r);
     sim->trial.bit_advance[k] = m.advance;
     const double axial = -(load + r.weight_on_bit);
     for (int i = 0; i < 6; i++) wrench[i] = axial * m.along[i] - r.torque_on_bit * m.about[i];
@@ -201,6 +239,34 @@ void dmb_bit_start(dmb_sim *sim, uint32_t k)
     (void)dmb_bit_history_init(&h, &bit->law, h.angle, h.surface, h.capacity, sim->now.turn[bit->node],
                                sim->now.bit_bottom[k]);
     keep_history(sim, k, &h);
+}
+
+/* The surface falls behind the bit by a cut a blade spacing, and is sampled as a run would. */
+static void lay_helix(dmb_sim *sim, uint32_t k, double cut, double angle, double advance)
+{
+    const dmb_scene_bit *bit = sim->scene->bits + k;
+    dmb_bit_history h = dmb_bit_history_of(sim, k);
+    const double reach = h.spacing + 2.0 * h.angle_step;
+    const uint32_t samples = (uint32_t)floor(reach / (1.000001 * h.angle_step));
+    const double slope = cut / h.spacing;
+    (void)dmb_bit_history_init(&h, &bit->law, h.angle, h.surface, h.capacity, angle - reach, advance - slope * reach);
+    for (uint32_t i = 1; i <= samples; i++) {
+        const double behind = reach * (double)(samples - i) / samples;
+        dmb_bit_history_record(&h, angle - behind, advance - slope * behind);
+    }
+    keep_history(sim, k, &h);
+}
+
+void dmb_bit_start_steady(dmb_sim *sim, uint32_t k)
+{
+    const dmb_scene_bit *bit = sim->scene->bits + k;
+    bit_motion m;
+    motion_now(sim, k, &m);
+    sim->now.bit_advance[k] = sim->trial.bit_advance[k] = m.advance;
+    if (bit->law.kind == DMB_ROCK_NONE) return;
+    const double cut = steady_cut(bit, m.speed, m.spin);
+    sim->now.bit_bottom[k] = sim->trial.bit_bottom[k] = m.advance - bit->law.intrusion_depth;
+    if (bit->history_capacity) lay_helix(sim, k, cut, m.angle, m.advance);
 }
 
 void dmb_bit_accept(dmb_sim *sim, uint32_t k)

@@ -154,7 +154,7 @@ void dmb_joint_coordinates_in(const dmb_evaluation *evaluation, uint32_t j, cons
     const dmb_sim *sim = evaluation->sim;
     const double *last = sim->now.joint_turn + 2 * (size_t)j;
     double expected[2];
-    if (!evaluation->dynamic) last = sim->trial.joint_turn + 2 * (size_t)j; /* statics follow it move by move */
+    if (!evaluation->dynamic || evaluation->steady) last = sim->trial.joint_turn + 2 * (size_t)j; /* statics follow it move by move */
     dmb_joint_coordinates_at(relative->R, relative->p, relative->V, last, coordinates);
     if (!(evaluation->step > 0.0)) return;
     turning_of(sim, j, relative, coordinates, expected);

@@ -10,6 +10,8 @@
 
 #include "state.h"
 
+enum { DMB_STEADY_BITS = 32 };
+
 typedef struct dmb_evaluation {
     dmb_sim *sim;             /* trial is read; work arrays are written */
     double time;              /* [s] of the trial */
@@ -21,7 +23,8 @@ typedef struct dmb_evaluation {
     int32_t dynamic;          /* 0: no inertia, damping, nor rates: statics */
     int32_t tangent;          /* 1: fill stiffness_ and inertia_ blocks too */
     int32_t inertia_only;     /* 1: tangents by motion alone, links of elements without their stiffness */
-    int32_t reserved;
+    int32_t steady;           /* 1: bristles are deflected and rock is cut as after sliding and drilling on for long */
+    uint32_t drilling;        /* steady: bit k of it is 1 where bit number k cuts, of the first DMB_STEADY_BITS bits */
     int32_t extrapolated;     /* 1: geometric stiffness with element_stress as it stands, 0: with the true stress */
     int32_t slipping;         /* statics: friction acts as at the speed slip[] */
     double slip[2];           /* [m/s, rad/s] along the hole, of rotation */

@@ -78,12 +78,16 @@ static void friction(const dmb_evaluation *evaluation, uint32_t p, double N, con
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_friction_law *law = &sim->scene->friction_law;
-    if (law->kind == DMB_FRICTION_BRISTLE && evaluation->dynamic)
+    if (law->kind == DMB_FRICTION_BRISTLE && evaluation->steady) {
+        const dmb_friction_law sliding = dmb_sliding_law(law);
+        dmb_friction_smooth(&sliding, N, v, F, dv, dN);
+    } else if (law->kind == DMB_FRICTION_BRISTLE && evaluation->dynamic) {
         dmb_friction_bristle(law, N, v, sim->now.path_bristle + 2 * p, sim->now.path_slip + 2 * p,
                              sim->now.path_sticks[p], evaluation->step, sim->trial.path_bristle + 2 * p, F, dv, dN,
                              &sim->trial.path_sticks[p]);
-    else
+    } else {
         dmb_friction_smooth(law, N, v, F, dv, dN);
+    }
 }
 
 static void gather_path_site(dmb_evaluation *evaluation, uint32_t p)

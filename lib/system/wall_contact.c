@@ -52,12 +52,26 @@ static dmb_wall_run run_of(const dmb_sim *sim)
     return run;
 }
 
+dmb_friction_law dmb_sliding_law(const dmb_friction_law *law)
+{
+    dmb_friction_law sliding = *law;
+    sliding.kind = DMB_FRICTION_STRIBECK;
+    sliding.smoothing_speed = 0.0;
+    return sliding;
+}
+
 void dmb_gather_contacts(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     dmb_wall_run run = run_of(evaluation->sim);
     if (scene->friction_law.kind != DMB_FRICTION_NONE && (evaluation->dynamic || evaluation->slipping))
         run.friction_law = &scene->friction_law;
+    dmb_friction_law sliding;
+    if (evaluation->steady && run.friction_law != NULL && run.bristles) {
+        sliding = dmb_sliding_law(run.friction_law);
+        run.friction_law = &sliding;
+        run.bristles = 0;
+    }
     run.slip[0] = evaluation->slip[0];
     run.slip[1] = evaluation->slip[1];
     run.step = evaluation->step;

@@ -261,7 +261,7 @@ static int32_t call_recorder(void *p)
 static const entry entries[] = {
     ENTRY(allocator, 0), ENTRY(model_options, 0), ENTRY(environment_def, 0), ENTRY(term, 0), ENTRY(wall_def, 0),
     ENTRY(string_def, 0), ENTRY(pipe_def, 0), ENTRY(body_def, 0), ENTRY(bit_def, 0), ENTRY(drive_def, 0),
-    ENTRY(load_def, 0), ENTRY(compile_options, 0), GROWN(sim_options, 96, 0), ENTRY(static_options, 0),
+    ENTRY(load_def, 0), ENTRY(compile_options, 0), GROWN(sim_options, 96, 0), GROWN(static_options, 40, 0),
     GROWN(model_info, 72, 1), ENTRY(step_report, 1), GROWN(static_report, 40, 1), ENTRY(buckling_options, 0), ENTRY(path_options, 0), ENTRY(path_report, 1), ENTRY(pose, 1),
     ENTRY(motion, 1), ENTRY(section, 1), ENTRY(contact, 1), ENTRY(contact_sum, 1), ENTRY(energy, 1), ENTRY(momentum, 1),
     ENTRY(drive_state, 1), ENTRY(bit_state, 1), GROWN(statistics, 72, 1), ENTRY(recorder, 0),
