@@ -171,6 +171,8 @@ typedef struct dmb_linked_mode {
 
 typedef struct dmb_clock {
     double time;        /* [s] */
+    double rest;        /* [s] rounding of time, for the next sum: time + rest is that of all steps (Kahan 1965) */
+    double corner;      /* [s] corners of programmes up to here lie behind, even one that is an ulp later than time */
     double step;        /* [s] length of the last accepted step; 0 before the first */
     double next_step;   /* [s] proposal of the step control; 0: none yet */
     double power[8];    /* [W] of the accepted state, DMB_POWER_... */

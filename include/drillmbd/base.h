@@ -49,7 +49,7 @@ DMB_API uint32_t dmb_version(void);
     X(DMB_ERR_TOO_LARGE, -9, "a size overflows or exceeds its limit")                                                 \
     X(DMB_ERR_SINGULAR, -10, "a stiffness or iteration matrix is singular")                                           \
     X(DMB_ERR_NO_CONVERGENCE, -11, "the iteration did not converge")                                                  \
-    X(DMB_ERR_CALLBACK, -12, "a callback failed or returned a value that is not finite")                              \
+    X(DMB_ERR_CALLBACK, -12, "a callback failed or returned a value beyond +-1e30")                              \
     X(DMB_ERR_IO, -13, "a file could not be written")                                                                 \
     X(DMB_ERR_ROTATION, -14, "relative rotation in one element exceeds 2.5 rad")                                      \
     X(DMB_ERR_GEOMETRY, -15, "parts do not fit together")                                                             \

@@ -68,7 +68,8 @@ enum {
     DMB_TERM_CALLBACK = 5  /* the caller's function */
 };
 /* out[0] = value, out[1] = its time derivative, out[2] = its integral from 0 to t. The callback must write out[0];
- * what `provides` does not announce is built by differences and quadrature. Returns 0, or nonzero to stop the step. */
+ * what `provides` does not announce is built by differences and quadrature. All within
+ * +-1e30. Returns 0, or nonzero to stop the step. */
 typedef int32_t (*dmb_programme_fn)(void *context, double time, double out[3]);
 enum { DMB_PROVIDES_RATE = 1, DMB_PROVIDES_INTEGRAL = 2 };
 

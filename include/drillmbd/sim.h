@@ -79,8 +79,8 @@ typedef struct dmb_step_report {
 } dmb_step_report;
 DMB_SIZED_STRUCT(dmb_step_report)
 
-/* Advances by `duration` [s] > 0 in one step of generalized-alpha, divided at programme corners, and halved where Newton
- * does not converge (DMB_NOTE_STEP_CUT). report may be NULL. Errors: DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR,
+/* Advances by `duration` [s], > 0 and <= 1e18, in one step of generalized-alpha, divided at programme corners, and halved
+ * where Newton does not converge (DMB_NOTE_STEP_CUT). report may be NULL. Errors: DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR,
  * _ROTATION, _GEOMETRY (a joint where its angles are not defined: model.h), _CALLBACK, _NOT_FINITE; the state is then that
  * before the call. O(number of elements) an iteration.
  * Chung, Hulbert 1993; Bruls, Cardona, Arnold 2012. */

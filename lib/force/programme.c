@@ -104,6 +104,13 @@ static uint32_t knots_until(const dmb_term *term, double t)
     return low;
 }
 
+/* Number of knots before t. */
+static uint32_t knots_before(const dmb_term *term, double t)
+{
+    const uint32_t until = knots_until(term, t);
+    return until > 0 && term->table_time[until - 1] == t ? until - 1 : until;
+}
+
 /* Value at t given the number of knots at or before it. */
 static double table_at(const dmb_term *term, uint32_t before, double t)
 {
@@ -115,15 +122,20 @@ static double table_at(const dmb_term *term, uint32_t before, double t)
     return y[before - 1] + (y[before] - y[before - 1]) * ((t - x[before - 1]) / (x[before] - x[before - 1]));
 }
 
+/* Slope of the part after `before` knots. */
+static double table_slope(const dmb_term *term, uint32_t before)
+{
+    if (before == 0 || before == term->table_count) return 0.0;
+    return (term->table_value[before] - term->table_value[before - 1]) /
+           (term->table_time[before] - term->table_time[before - 1]);
+}
+
 static void table_value(const dmb_term *term, double t, double *value, double *rate)
 {
     const uint32_t before = knots_until(term, t);
 
     *value = table_at(term, before, t);
-    *rate = 0.0;
-    if (before > 0 && before < term->table_count)
-        *rate = (term->table_value[before] - term->table_value[before - 1]) /
-                (term->table_time[before] - term->table_time[before - 1]);
+    *rate = table_slope(term, before);
 }
 
 /* Trapezia from knot to knot: exact. */
@@ -144,14 +156,20 @@ static double table_integral(const dmb_term *term, double t0, double t1)
 
 /* ---- CALLBACK ---------------------------------------------------------------------------------------------------- */
 
-/* One call; out[0 .. needed] of the announced kinds must come back finite. */
+/* True of a number, NaN not being one, within bounds. */
+static int is_sound(double x)
+{
+    return fabs(x) <= DMB_CALLBACK_MAX;
+}
+
+/* One call; out[0 .. needed] of the announced kinds must come back, and within bounds. */
 static int32_t call(const dmb_term *term, double t, int32_t needed, double out[3])
 {
     out[0] = out[1] = out[2] = (double)NAN;
     if (term->callback == NULL || term->callback(term->callback_context, t, out) != 0) return DMB_ERR_CALLBACK;
-    if (needed == 0 && !isfinite(out[0])) return DMB_ERR_CALLBACK;
-    if ((needed & DMB_PROVIDES_RATE) != 0 && !(isfinite(out[0]) && isfinite(out[1]))) return DMB_ERR_CALLBACK;
-    if ((needed & DMB_PROVIDES_INTEGRAL) != 0 && !isfinite(out[2])) return DMB_ERR_CALLBACK;
+    if (needed == 0 && !is_sound(out[0])) return DMB_ERR_CALLBACK;
+    if ((needed & DMB_PROVIDES_RATE) != 0 && !(is_sound(out[0]) && is_sound(out[1]))) return DMB_ERR_CALLBACK;
+    if ((needed & DMB_PROVIDES_INTEGRAL) != 0 && !is_sound(out[2])) return DMB_ERR_CALLBACK;
     return DMB_OK;
 }
 
@@ -263,6 +281,23 @@ int32_t dmb_programme_value(const dmb_programme *programme, double t, double *va
     if (!isfinite(sum) || !isfinite(slope_sum)) return DMB_ERR_NOT_FINITE;
     *value = sum;
     if (rate != NULL) *rate = slope_sum;
+    return DMB_OK;
+}
+
+int32_t dmb_programme_rate_before(const dmb_programme *programme, double t, double *rate)
+{
+    double sum = 0.0;
+
+    if (!isfinite(t)) return DMB_ERR_NOT_FINITE;
+    for (uint32_t i = 0; i < programme->count; ++i) {
+        const dmb_term *term = &programme->terms[i];
+        double value, slope = 0.0;
+        const int32_t status = term_value(term, t, &value, &slope);
+        if (status != DMB_OK) return status;
+        sum += term->kind == DMB_TERM_TABLE ? table_slope(term, knots_before(term, t)) : slope;
+    }
+    if (!isfinite(sum)) return DMB_ERR_NOT_FINITE;
+    *rate = sum;
     return DMB_OK;
 }
 

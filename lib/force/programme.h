@@ -8,6 +8,9 @@
 
 #include "drillmbd/model.h"
 
+/* [units of a programme, a constraint] Callbacks may give no more, as numbers of a model may not. */
+#define DMB_CALLBACK_MAX 1e30
+
 typedef struct dmb_programme {
     const dmb_term *terms; /* full-size terms, checked by the model, shape (count) */
     uint32_t count;        /* [-] */
@@ -16,9 +19,13 @@ typedef struct dmb_programme {
 /* Value at time t [unit] and its rate [unit/s]; rate may be NULL. At a corner the rate is the one from the right.
  * A callback that does not provide its rate is differenced over +-1e-5 s (over +-1e-10 |t| beyond 1e5 s), so it is also
  * called at slightly negative times. Nothing is written on failure.
- * Errors: DMB_ERR_CALLBACK (nonzero return, or a value that is not finite or was not written), DMB_ERR_NOT_FINITE (t is
+ * Errors: DMB_ERR_CALLBACK (nonzero return, or a value beyond
+ * +-DMB_CALLBACK_MAX, not finite or not written), DMB_ERR_NOT_FINITE (t is
  * not finite, or the sum overflows). O(count), plus log2(table_count) per table. */
 int32_t dmb_programme_value(const dmb_programme *programme, double t, double *value, double *rate);
+
+/* The rate at t from the left, which at a knot of a table is the slope that ends there [unit/s]. Otherwise as above. */
+int32_t dmb_programme_rate_before(const dmb_programme *programme, double t, double *rate);
 
 /* Integral from t0 to t1 [unit s]; t1 < t0 gives the negative. Exact to round-off relative to the integral over the
  * interval, whatever the size of t0, for every kind but CALLBACK: there the difference of the provided integral, or

@@ -26,21 +26,23 @@ static double first_step(const dmb_sim *sim)
     return fmin(sim->options.step_max, fmax(1e-4, sim->options.step_min));
 }
 
-/* Step length that ends neither beyond `time` nor a corner; without leaving a sliver. */
-static double fit(const dmb_sim *sim, double h, double time)
+/* A step of about h that ends neither beyond `time` nor a corner; without leaving a sliver. */
+static dmb_step_end fit(const dmb_sim *sim, double h, double time)
 {
-    const double t = sim->clock->time, left = fmin(time, dmb_next_corner(sim, t + 1e-12 * (1.0 + fabs(t)))) - t;
-    if (h >= left) return left;
-    return h > 0.5 * left ? 0.5 * left : h;
+    const dmb_step_end goal = dmb_step_end_at(sim, time);
+    const dmb_step_end end = dmb_step_end_before_corner(sim, &goal, h);
+    if (h >= end.step) return end;
+    return dmb_step_end_after(sim, h > 0.5 * end.step ? 0.5 * end.step : h);
 }
 
 static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk *walk)
 {
     dmb_attempt attempt;
     for (;;) {
-        const double h = fit(sim, *wanted, time);
-        if (!(sim->clock->time + h > sim->clock->time)) return dmb_walk_stuck(sim, h);
-        int32_t status = dmb_attempt_step(sim, h, 1, &attempt);
+        const dmb_step_end end = fit(sim, *wanted, time);
+        const double h = end.step;
+        if (!(end.time > sim->clock->time)) return dmb_walk_stuck(sim, "length", h);
+        int32_t status = dmb_attempt_step(sim, &end, 1, &attempt);
         if (status == DMB_NOTE_WORK_LIMITED)
             status = attempt.status = DMB_ERR_NO_CONVERGENCE; /* a step is a step here */
         const int smallest = !(h > sim->options.step_min * 1.0001);
@@ -48,7 +50,6 @@ static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk 
         if (status >= 0 && (error <= 1.0 || smallest)) {
             const double next = next_step(sim, h, error);
             if (next > *wanted || h >= *wanted * 0.999 || next < h) *wanted = next;
-            if (!(sim->clock->time + h < time)) attempt.evaluation.time = time;
             if (error > 1.0) walk->too_coarse = 1;
             dmb_walk_commit(sim, &attempt, walk);
             dmb_walk_corner(sim);

@@ -33,12 +33,15 @@ double dmb_attempt_error(const dmb_sim *sim, double h)
     return worst;
 }
 
-static void set_up(dmb_sim *sim, const dmb_generalized_alpha *c, double h, dmb_evaluation *evaluation)
+static void set_up(dmb_sim *sim, const dmb_generalized_alpha *c, const dmb_step_end *end, dmb_evaluation *evaluation)
 {
+    const double h = end->step;
     memset(evaluation, 0, sizeof *evaluation);
     evaluation->sim = sim;
-    evaluation->time = sim->clock->time + h;
+    evaluation->time = end->time;
     evaluation->step = h;
+    evaluation->corner = end->corner;
+    evaluation->inside = end->inside;
     evaluation->mass_factor = (1.0 - c->am) / (h * h * c->beta * (1.0 - c->af));
     evaluation->velocity_factor = c->gamma / (h * c->beta);
     evaluation->pseudo_factor = (1.0 - c->af) / (1.0 - c->am);
@@ -51,7 +54,7 @@ static void set_up(dmb_sim *sim, const dmb_generalized_alpha *c, double h, dmb_e
  * a0 less M^-1 of their forces, and no a0 - v0' at their nodes from there on, which would ring in free flight. */
 static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
 {
-    const double h = attempt->step, ratio = dmb_step_motion_ratio(sim, h);
+    const double h = attempt->end.step, ratio = dmb_step_motion_ratio(sim, h);
     const dmb_step_motion to = dmb_step_motion_of(sim);
     int32_t status = dmb_released_acceleration(&attempt->evaluation);
     if (status < 0) return status;
@@ -66,7 +69,7 @@ static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_a
         to.acceleration[i] = ((1.0 - c->am) * a1 + c->am * a0 - c->af * dv) / (1.0 - c->af);
         to.velocity[i] = v + h * ((1.0 - c->gamma) * a0 + c->gamma * a1);
     }
-    set_up(sim, c, h, &attempt->evaluation);
+    set_up(sim, c, &attempt->end, &attempt->evaluation);
     status = dmb_newton(sim, c, attempt);
     dmb_release_end(sim);
     return status;
@@ -87,8 +90,8 @@ static int32_t check_dropped(dmb_sim *sim)
 /* From the prediction to the end of the iteration, and over again where contacts open. */
 static int32_t run(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
 {
-    set_up(sim, c, attempt->step, &attempt->evaluation);
-    dmb_step_motion_predict(sim, c, attempt->step);
+    set_up(sim, c, &attempt->end, &attempt->evaluation);
+    dmb_step_motion_predict(sim, c, attempt->end.step);
     int32_t status = dmb_system_prescribe(&attempt->evaluation);
     if (status < 0) return status;
     if (sim->scene->cluster_count) dmb_step_motion_keep_prescribed(sim);
@@ -97,12 +100,12 @@ static int32_t run(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *at
     return status == DMB_OK && dmb_contact_opens(sim) ? step_released(sim, c, attempt) : status;
 }
 
-int32_t dmb_attempt_step(dmb_sim *sim, double step, int32_t whole, dmb_attempt *attempt)
+int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_attempt *attempt)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
     int32_t status;
     memset(attempt, 0, sizeof *attempt);
-    attempt->step = step;
+    attempt->end = *end;
     attempt->whole = whole && sim->scene->cluster_count == 0 && !sim->options.bounded_work;
     attempt->block = UINT32_MAX;
     sim->linked_mode->row = UINT32_MAX;
@@ -137,8 +140,10 @@ void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt)
     const dmb_configuration old = sim->now;
     sim->now = sim->trial;
     sim->trial = old;
-    sim->clock->time = attempt->evaluation.time;
-    sim->clock->step = attempt->step;
+    sim->clock->time = attempt->end.time;
+    sim->clock->rest = attempt->end.rest;
+    sim->clock->step = attempt->end.step;
+    if (attempt->end.corner > 0.0) sim->clock->corner = attempt->end.corner;
     counters->steps++;
     counters->iterations += attempt->iterations;
     if (attempt->status == DMB_NOTE_WORK_LIMITED) counters->limited++;

@@ -2,11 +2,12 @@
 #ifndef DMB_INTEGRATOR_ATTEMPT_H
 #define DMB_INTEGRATOR_ATTEMPT_H
 
+#include "integrator/corner.h"
 #include "system/evaluation.h"
 
 typedef struct dmb_attempt {
     dmb_evaluation evaluation; /* the last one */
-    double step;               /* [s] */
+    dmb_step_end end;
     double residual;           /* [-] relative, at the end */
     uint32_t iterations;
     int32_t status;            /* DMB_OK, DMB_NOTE_WORK_LIMITED, or why the step failed */
@@ -18,9 +19,9 @@ typedef struct dmb_attempt {
     int32_t reserved;
 } dmb_attempt;
 
-/* Tries a step from now to now + step [s]; returns attempt->status. now and the memory fields are not touched. whole: 1
+/* Tries a step from now to `end`; returns attempt->status. now and the memory fields are not touched. whole: 1
  * unless the call would have to take this step back if a later one fails. */
-int32_t dmb_attempt_step(dmb_sim *sim, double step, int32_t whole, dmb_attempt *attempt);
+int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_attempt *attempt);
 /* [-] Local error of the pose of a successful attempt of length `step` [s] over its tolerance, largest row. */
 double dmb_attempt_error(const dmb_sim *sim, double step);
 /* Makes the trial of a successful attempt the accepted state. */

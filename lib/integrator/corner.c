@@ -1,13 +1,21 @@
+/* Time is kept as a double and its rounding, so that n steps of h end at the double next to n h: 1000 s of 1 ms at
+ * 1000 s, and sums that reach a corner reach that corner. */
 #include "integrator/corner.h"
 
+#include <float.h>
 #include <math.h>
 
+#define DMB_SLIVER 1e-6         /* [-] part of a step that is not worth a step of its own */
+#define DMB_CORNER_ROUNDING 4.0 /* [ulp] between the sum of steps as the caller rounds them and the corner it means */
+
+/* [s] Smallest corner later than t of a programme; INFINITY if none. */
 static double corner_of(const dmb_scene *scene, uint32_t programme, double t)
 {
     return programme == UINT32_MAX ? (double)INFINITY : dmb_programme_next_corner(scene->programmes + programme, t);
 }
 
-double dmb_next_corner(const dmb_sim *sim, double t)
+/* [s] Smallest corner later than t of any programme in use; INFINITY if none. */
+static double next_corner(const dmb_sim *sim, double t)
 {
     const dmb_scene *scene = sim->scene;
     double next = (double)INFINITY;
@@ -19,4 +27,83 @@ double dmb_next_corner(const dmb_sim *sim, double t)
     for (uint32_t i = 0; i < scene->load_count; i++) next = fmin(next, corner_of(scene, scene->loads[i].programme, t));
     for (uint32_t i = 0; i < scene->bit_count; i++) next = fmin(next, corner_of(scene, scene->bits[i].load, t));
     return next;
+}
+
+/* [s] The first corner that no step has met. */
+static double corner_ahead(const dmb_sim *sim)
+{
+    return next_corner(sim, fmax(sim->clock->time, sim->clock->corner));
+}
+
+/* True where only the rounding of sums of steps lies between them. */
+static int is_same_time(double a, double b)
+{
+    return fabs(a - b) <= DMB_CORNER_ROUNDING * DBL_EPSILON * fabs(b);
+}
+
+/* [s] from the present time */
+static double length_to(const dmb_sim *sim, double time)
+{
+    return time - sim->clock->time;
+}
+
+dmb_step_end dmb_step_end_after(const dmb_sim *sim, double step)
+{
+    dmb_step_end end = {.arrives = 0};
+    const double t = sim->clock->time, sum = t + step, part = sum - t;
+    const double error = ((t - (sum - part)) + (step - part)) + sim->clock->rest; /* of sum; Moller, Knuth */
+    end.time = sum + error;
+    end.rest = (sum - end.time) + error;
+    end.step = length_to(sim, end.time);
+    return end;
+}
+
+dmb_step_end dmb_step_end_at(const dmb_sim *sim, double time)
+{
+    const dmb_step_end end = {.step = length_to(sim, time), .time = time};
+    return end;
+}
+
+dmb_step_end dmb_step_end_before_corner(const dmb_sim *sim, const dmb_step_end *goal, double h)
+{
+    const double left = length_to(sim, goal->time), sliver = DMB_SLIVER * fmin(left, h);
+    const double corner = corner_ahead(sim), distance = length_to(sim, corner);
+    dmb_step_end end = *goal;
+    end.step = left;
+    end.arrives = 1;
+    if (distance > left + sliver) return end;
+    const int alone = distance >= left - sliver && length_to(sim, next_corner(sim, corner)) > left + sliver;
+    if (alone || is_same_time(goal->time, corner)) {
+        end.corner = corner;
+        return end;
+    }
+    if (distance > left) return end;
+    end = dmb_step_end_at(sim, corner);
+    end.corner = corner;
+    return end;
+}
+
+dmb_step_end dmb_step_end_over_corners(const dmb_sim *sim, const dmb_step_end *goal)
+{
+    const double left = length_to(sim, goal->time), sliver = DMB_SLIVER * left;
+    const double first = corner_ahead(sim), second = next_corner(sim, first);
+    const double to_first = length_to(sim, first), to_second = length_to(sim, second);
+    dmb_step_end end = *goal;
+    end.step = left;
+    end.arrives = 1;
+    if (to_second <= left + sliver) return end;
+    if (fabs(to_first - left) <= sliver)
+        end.corner = first;
+    else if (to_first < left)
+        end.inside = first;
+    return end;
+}
+
+dmb_step_end dmb_step_end_on_corner(dmb_step_end end)
+{
+    if (!(end.corner > 0.0) || !is_same_time(end.time, end.corner)) return end;
+    end.rest += end.time - end.corner;
+    end.step -= end.time - end.corner;
+    end.time = end.corner;
+    return end;
 }

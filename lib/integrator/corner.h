@@ -1,10 +1,29 @@
-/* Corners of programmes: no step goes over one. */
+/* Ends of steps: where the clock will stand, and corners of programmes, which no step goes over. */
 #ifndef DMB_INTEGRATOR_CORNER_H
 #define DMB_INTEGRATOR_CORNER_H
 
 #include "state.h"
 
-/* [s] smallest corner later than t of any programme in use; INFINITY if none. */
-double dmb_next_corner(const dmb_sim *sim, double t);
+/* Where a step ends. */
+typedef struct dmb_step_end {
+    double step;       /* [s] its length, from time to time */
+    double time, rest; /* [s] of the clock there, and what its rounding leaves for the next sum */
+    double corner;     /* [s] corner that it ends at, to within rounding or a sliver; 0: none */
+    double inside;     /* [s] the one corner inside, of a step that is not divided there; 0: none */
+    int32_t arrives;   /* 1: this is where the call is to end */
+    int32_t reserved;
+} dmb_step_end;
+
+/* A step of length `step` [s] from the present time, but for the rounding of times. */
+dmb_step_end dmb_step_end_after(const dmb_sim *sim, double step);
+/* One to the time `time` [s], exactly. */
+dmb_step_end dmb_step_end_at(const dmb_sim *sim, double time);
+/* The step to `goal` or, if that comes first, to the next corner. A single corner no farther from the goal
+ * than a sliver of steps of length `h` [s] is met with it: a step of next to nothing is not worth its noise. */
+dmb_step_end dmb_step_end_before_corner(const dmb_sim *sim, const dmb_step_end *goal, double h);
+/* The goal with the corners that the step meets, not divided there. */
+dmb_step_end dmb_step_end_over_corners(const dmb_sim *sim, const dmb_step_end *goal);
+/* The same end, on the corner itself where only the rounding of sums of steps lies between them. */
+dmb_step_end dmb_step_end_on_corner(dmb_step_end end);
 
 #endif

@@ -16,8 +16,9 @@
 
 void dmb_kept_factors_begin(dmb_sim *sim, dmb_attempt *attempt)
 {
-    const int usable = attempt->whole && !attempt->astray &&
-                       fabs(sim->kept->step - attempt->step) <= DMB_KEPT_STEP * attempt->step && sim->kept->pause == 0;
+    const double step = attempt->end.step;
+    const int usable = attempt->whole && !attempt->astray && fabs(sim->kept->step - step) <= DMB_KEPT_STEP * step &&
+                       sim->kept->pause == 0;
     attempt->factored = usable ? DMB_FACTORS_KEPT : DMB_FACTORS_NONE;
     attempt->tried |= usable;
     *sim->factors = attempt->factored;
@@ -66,7 +67,7 @@ void dmb_kept_factors_end(dmb_sim *sim, const dmb_attempt *attempt)
     } else if (attempt->factored == DMB_FACTORS_FRESH) {
         count_pause(sim->kept, attempt->tried);
         dmb_keep_factors(sim);
-        sim->kept->step = attempt->step;
+        sim->kept->step = attempt->end.step;
         sim->kept->corrections = sim->kept->excess = 0;
     }
 }

@@ -94,7 +94,7 @@ static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *a
         dmb_system_extrapolate_stress(sim, sim->correction);
         attempt->evaluation.extrapolated = 1;
     }
-    dmb_step_motion_correct(sim, c, attempt->step);
+    dmb_step_motion_correct(sim, c, attempt->end.step);
 }
 
 /* One Newton iteration; 1: go on, otherwise as dmb_newton. */

@@ -9,42 +9,45 @@
 
 DMB_DECLARE_STRUCT(dmb_step_report)
 
+/* [s] Longer steps are mistakes; halved on the way to each corner, they would not end either. */
+#define DMB_DURATION_MAX 1e18
+
 /* The next substep: not over a corner, nor leaving a sliver before the end. */
-static double substep(const dmb_sim *sim, double end, double cut)
+static dmb_step_end substep(const dmb_sim *sim, const dmb_step_end *goal, double cut)
 {
-    const double t = sim->clock->time, left = end - t;
-    double h = fmin(left, cut);
-    if (!sim->options.bounded_work) h = fmin(h, dmb_next_corner(sim, t + 1e-9 * left) - t);
-    return left - h < 1e-6 * h ? left : h;
+    if (sim->options.bounded_work) return dmb_step_end_on_corner(dmb_step_end_over_corners(sim, goal));
+    const dmb_step_end end = dmb_step_end_before_corner(sim, goal, cut);
+    if (end.step - cut < 1e-6 * cut) return dmb_step_end_on_corner(end);
+    return dmb_step_end_after(sim, cut);
 }
 
 /* One accepted step of at most `cut`, halving on failure. */
-static int32_t take_substep(dmb_sim *sim, double end, double *cut, uint32_t *cuts, dmb_walk *walk)
+static int32_t take_substep(dmb_sim *sim, const dmb_step_end *goal, double *cut, uint32_t *cuts, dmb_walk *walk)
 {
     dmb_attempt attempt;
     for (;;) {
-        const double h = substep(sim, end, *cut);
-        if (!(sim->clock->time + h > sim->clock->time)) return dmb_walk_stuck(sim, h);
-        const int last = !(sim->clock->time + h < end);
+        const dmb_step_end end = substep(sim, goal, *cut);
+        if (!(end.time > sim->clock->time)) return dmb_walk_stuck(sim, "length", end.step);
+        const int last = end.arrives;
         if (!last && !walk->set_aside) {
             dmb_state_keep(sim);
             walk->set_aside = 1;
         }
-        const int32_t status = dmb_attempt_step(sim, h, last && !walk->set_aside, &attempt);
+        const int32_t status = dmb_attempt_step(sim, &end, last && !walk->set_aside, &attempt);
         if (status >= 0) {
-            if (last) attempt.evaluation.time = end;
             dmb_walk_commit(sim, &attempt, walk);
             dmb_walk_corner(sim);
-            *cut = *cuts > 0 ? 2.0 * h : (double)INFINITY; /* a corner nearby does not shorten what follows */
+            walk->arrived = last;
+            *cut = *cuts > 0 ? 2.0 * end.step : (double)INFINITY; /* a corner nearby does not shorten what follows */
             if (*cuts > 0) --*cuts;
             return status;
         }
         dmb_walk_reject(sim, &attempt, walk);
         if (sim->options.bounded_work || status == DMB_ERR_CALLBACK || *cuts >= sim->options.max_cuts ||
-            0.5 * h < sim->options.step_min)
+            0.5 * end.step < sim->options.step_min)
             return status;
         ++*cuts;
-        *cut = 0.5 * h;
+        *cut = 0.5 * end.step;
         walk->was_cut = 1;
     }
 }
@@ -58,10 +61,12 @@ static int32_t step(dmb_sim *sim, double duration, dmb_step_report *report)
     if (status < 0) return status;
     status = dmb_walk_check(sim, "duration", duration, 0.0);
     if (status < 0) return status;
-    const double end = sim->clock->time + duration;
-    if (!(end > sim->clock->time)) return dmb_walk_check(sim, "duration", 0.0, 0.0);
-    while (status >= 0 && sim->clock->time < end) {
-        status = take_substep(sim, end, &cut, &cuts, &walk);
+    status = dmb_walk_check_at_most(sim, "duration", duration, DMB_DURATION_MAX);
+    if (status < 0) return status;
+    const dmb_step_end goal = dmb_step_end_after(sim, duration);
+    if (!(goal.time > sim->clock->time)) return dmb_walk_stuck(sim, "duration", duration);
+    while (status >= 0 && !walk.arrived) {
+        status = take_substep(sim, &goal, &cut, &cuts, &walk);
         if (status == DMB_NOTE_WORK_LIMITED) walk.limited = 1;
     }
     return dmb_walk_end(sim, status, 1, report, &walk);

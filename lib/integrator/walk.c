@@ -1,5 +1,6 @@
 #include "integrator/walk.h"
 
+#include <float.h>
 #include <string.h>
 
 #include "base/check.h"
@@ -24,13 +25,20 @@ int32_t dmb_walk_check(dmb_sim *sim, const char *field, double value, double bou
     return check.status;
 }
 
+int32_t dmb_walk_check_at_most(dmb_sim *sim, const char *field, double value, double bound)
+{
+    dmb_check check = dmb_check_of(&sim->message, "step", DMB_NO_INDEX);
+    dmb_check_within(&check, field, value, 0.0, bound);
+    return check.status;
+}
+
 void dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
 {
     walk->report.steps++;
     walk->report.iterations += attempt->iterations;
     if (attempt->iterations > walk->report.worst) walk->report.worst = attempt->iterations;
     walk->report.residual = fmax(walk->report.residual, attempt->residual);
-    walk->report.last_step = attempt->step;
+    walk->report.last_step = attempt->end.step;
     dmb_attempt_commit(sim, attempt);
 }
 
@@ -43,9 +51,13 @@ void dmb_walk_corner(dmb_sim *sim)
     sim->busy = DMB_BUSY_READABLE;
 }
 
-int32_t dmb_walk_stuck(dmb_sim *sim, double step)
+int32_t dmb_walk_stuck(dmb_sim *sim, const char *field, double step)
 {
-    dmb_message_set(&sim->message, "step: a length of %g at time %g is lost in rounding", step, sim->clock->time);
+    const double t = sim->clock->time;
+    dmb_message_set(&sim->message,
+                    "step: %s = %g s is lost in the rounding of time at %g s, must be >= %g s there; leave it out or "
+                    "add it to the next step",
+                    field, step, t, 4.0 * DBL_EPSILON * t);
     return DMB_ERR_VALUE;
 }
 

@@ -13,18 +13,20 @@ typedef struct dmb_walk {
     int32_t limited;
     int32_t stopped;    /* max_steps used up */
     int32_t too_coarse; /* a step of step_min was taken above the error tolerance */
-    int32_t reserved;
+    int32_t arrived;    /* 1: the call's last step is done */
 } dmb_walk;
 
 /* Checks the report. */
 int32_t dmb_walk_begin(dmb_sim *sim, const dmb_step_report *report, dmb_walk *walk);
 /* DMB_ERR_NOT_FINITE or DMB_ERR_VALUE with a message unless value is finite and > bound. */
 int32_t dmb_walk_check(dmb_sim *sim, const char *field, double value, double bound);
+/* DMB_ERR_VALUE with a message unless value is <= bound. */
+int32_t dmb_walk_check_at_most(dmb_sim *sim, const char *field, double value, double bound);
 void dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk);
 /* Accelerations anew where a motion programme has a kink at the time reached. */
 void dmb_walk_corner(dmb_sim *sim);
-/* DMB_ERR_VALUE: the clock cannot tell a step of this length. */
-int32_t dmb_walk_stuck(dmb_sim *sim, double step);
+/* DMB_ERR_VALUE: the clock cannot tell a step of this length, the value of `field`. */
+int32_t dmb_walk_stuck(dmb_sim *sim, const char *field, double step);
 void dmb_walk_reject(dmb_sim *sim, const dmb_attempt *attempt, dmb_walk *walk);
 /* Writes the report and gives the status of the call; on failure with `restore` the state before the call is back. */
 int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_report *report, const dmb_walk *walk);

@@ -58,7 +58,7 @@ static int32_t close_positions(dmb_evaluation *evaluation)
     if (status == DMB_ERR_CALLBACK) {
         dmb_message owner;
         dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, sim->linked_mode->row), &owner);
-        dmb_message_set(&sim->message, "%s: the callback failed or gave a value that is not finite at time %g",
+        dmb_message_set(&sim->message, "%s: the callback failed or gave a value beyond +-1e30 at time %g",
                         owner.text, sim->clock->time);
         return status;
     }

@@ -73,7 +73,7 @@ static int32_t call(const question *ask, double value[ROWS], double jacobian[ROW
         return DMB_ERR_CALLBACK;
     for (uint32_t i = 0; i < ROWS; i++) sum += fabs(value[i]);
     for (uint32_t i = 0; i < ROWS * COLUMNS; i++) sum += fabs(J[i]);
-    return isfinite(sum) ? DMB_OK : DMB_ERR_CALLBACK;
+    return sum <= DMB_CALLBACK_MAX ? DMB_OK : DMB_ERR_CALLBACK; /* nor is a NaN */
 }
 
 /* The question a little further on: all places by s times their speeds and the time by s. */
@@ -303,7 +303,7 @@ static int32_t check_jacobian(dmb_sim *sim, const question *ask, const char *own
     int32_t status = call(ask, value, given);
     if (status >= 0) status = jacobian_by_differences(ask, found);
     if (status >= 0) status = row_sizes(ask, value, given, found, size);
-    if (status < 0) dmb_message_set(&sim->message, "%s: the callback failed or gave a value that is not finite", owner);
+    if (status < 0) dmb_message_set(&sim->message, "%s: the callback failed or gave a value beyond +-1e30", owner);
     for (uint32_t i = 0; status >= 0 && i < ask->callback->rows * columns; i++) {
         if (fabs(given[i] - found[i]) <= DMB_JACOBIAN_CHECK * size[i / columns]) continue;
         dmb_message_set(&sim->message, "%s: jacobian[%u][%u] = %g, must be %g by differences", owner, i / columns,

@@ -29,21 +29,23 @@ static int32_t travel_of(const dmb_sim *sim, const dmb_scene_drive *drive, doubl
     return status;
 }
 
-static int has_corner(const dmb_scene *scene, uint32_t programme, double from, double to)
-{
-    return programme != UINT32_MAX && dmb_programme_next_corner(scene->programmes + programme, from) <= to;
-}
-
-/* At a corner programmes tell the slope to come; the step that ends there ends with the slope it had. */
-static int32_t rate_before_corner(const dmb_sim *sim, uint32_t i, double time, double step, double *rate)
+/* Slope of the target with which a step ends at the corner of a programme; the programme itself tells the one to come. */
+static int32_t rate_before(const dmb_sim *sim, uint32_t i, double time, double *rate)
 {
     const dmb_scene_drive *drive = sim->scene->drives + i;
-    const double before = time - 1e-9 * step, after = time + 1e-9 * step;
+    double extra = 0.0;
+    int32_t status = dmb_programme_rate_before(sim->scene->programmes + drive->programme, time, rate);
+    if (status >= 0 && drive->excitation != UINT32_MAX)
+        status = dmb_programme_rate_before(sim->scene->programmes + drive->excitation, time, &extra);
+    *rate += extra;
+    return status;
+}
+
+/* Slope of the target from the present time on: beyond the corner reached, also where that is an ulp later. */
+static int32_t rate_to_come(const dmb_sim *sim, uint32_t i, double *rate)
+{
     double value;
-    if (!has_corner(sim->scene, drive->programme, before, after) &&
-        !has_corner(sim->scene, drive->excitation, before, after))
-        return DMB_OK;
-    return target_of(sim, i, before, &value, rate);
+    return target_of(sim, i, fmax(sim->clock->time, sim->clock->corner), &value, rate);
 }
 
 static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
@@ -53,9 +55,11 @@ static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
     double rate, travel;
     int32_t status = target_of(sim, i, evaluation->time, &sim->trial.drive_target[i], &rate);
     if (status < 0 || drive->kind != DMB_DRIVE_MOTION) return status;
-    if (evaluation->step > 0.0) status = rate_before_corner(sim, i, evaluation->time, evaluation->step, &rate);
-    if (status < 0) return status;
-    status = travel_of(sim, drive, evaluation->time - evaluation->step, evaluation->time, &travel);
+    if (!(evaluation->step > 0.0))
+        status = rate_to_come(sim, i, &rate);
+    else if (evaluation->corner > 0.0)
+        status = rate_before(sim, i, fmin(evaluation->time, evaluation->corner), &rate);
+    if (status >= 0) status = travel_of(sim, drive, sim->clock->time, evaluation->time, &travel);
     if (status < 0) return status;
     if (drive->joint != UINT32_MAX) { /* its constraint moves the coordinate */
         sim->trial.drive_position[i] = sim->now.drive_position[i] + travel;
@@ -75,7 +79,7 @@ int32_t dmb_system_rate_jumps(const dmb_sim *sim)
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         double value, rate;
         if (scene->drives[i].kind != DMB_DRIVE_MOTION) continue;
-        if (target_of(sim, i, sim->clock->time, &value, &rate) < 0) continue;
+        if (target_of(sim, i, fmax(sim->clock->time, sim->clock->corner), &value, &rate) < 0) continue;
         const int on_joint = scene->drives[i].joint != UINT32_MAX;
         const double last = on_joint ? sim->now.drive_rate[i] : sim->now.acceleration[scene->drives[i].row];
         if (fabs(rate - last) > 1e-6 * (fabs(rate) + fabs(last) + fabs(value)))

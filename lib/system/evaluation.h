@@ -16,6 +16,8 @@ typedef struct dmb_evaluation {
     dmb_sim *sim;             /* trial is read; work arrays are written */
     double time;              /* [s] of the trial */
     double step;              /* [s] from now to trial; 0 in statics */
+    double corner;            /* [s] of a programme, at which the step ends; 0: none */
+    double inside;            /* [s] of a programme, which the step is not divided at; 0: none */
     double mass_factor;       /* [1/s2] d v'/d pose parameters */
     double velocity_factor;   /* [1/s] d v/d pose parameters */
     double pseudo_factor;     /* [-] d a/d v' of generalized-alpha, (1 - af)/(1 - am) */
@@ -40,7 +42,8 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation);
 /* Targets of all drives at evaluation->time, loads' factors, and the motion of prescribed rows over the step: increment,
  * velocity and acceleration of the trial. Once a step, before the first evaluation. DMB_ERR_CALLBACK. */
 int32_t dmb_system_prescribe(dmb_evaluation *evaluation);
-/* 1 if at the present time the programme of a motion drive goes on with another slope than the step before ended with. */
+/* 1 if after the corner reached the programme of a motion drive goes on with another slope than the step before ended
+ * with. */
 int32_t dmb_system_rate_jumps(const dmb_sim *sim);
 /* Pose of the trial: that of now moved by `increment`. */
 void dmb_system_move(dmb_sim *sim);

@@ -35,17 +35,27 @@ void dmb_ledger_jump(dmb_sim *sim, const dmb_evaluation *evaluation)
     powers(sim, evaluation, sim->clock->power);
 }
 
+/* [s] Share of the step that the powers at its start and end stand for: half and half, or up to a corner inside, at
+ * which powers jump, and from there on. */
+static void shares_of(const dmb_evaluation *evaluation, double *first, double *second)
+{
+    *first = *second = 0.5 * evaluation->step;
+    if (!(evaluation->inside > 0.0)) return;
+    *first = evaluation->inside - evaluation->sim->clock->time;
+    *second = evaluation->step - *first;
+}
+
 void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation)
 {
-    const double half = 0.5 * evaluation->step;
-    double power[8], *last = sim->clock->power;
+    double power[8], *last = sim->clock->power, first, second;
+    shares_of(evaluation, &first, &second);
     powers(sim, evaluation, power);
-    for (int k = 0; k < DMB_POWER_COUNT; k++) sim->ledger->work[k] += half * (last[k] + power[k]);
-    sim->ledger->input += half * (fabs(last[DMB_POWER_LOADS]) + fabs(power[DMB_POWER_LOADS]));
+    for (int k = 0; k < DMB_POWER_COUNT; k++) sim->ledger->work[k] += first * last[k] + second * power[k];
+    sim->ledger->input += first * fabs(last[DMB_POWER_LOADS]) + second * fabs(power[DMB_POWER_LOADS]);
     for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
         const double before = drive_power(sim, &sim->now, i), after = drive_power(sim, &sim->trial, i);
-        sim->drive_work[i] += half * (before + after);
-        sim->ledger->input += half * (fabs(before) + fabs(after));
+        sim->drive_work[i] += first * before + second * after;
+        sim->ledger->input += first * fabs(before) + second * fabs(after);
     }
     memcpy(last, power, sizeof power);
 }

@@ -92,10 +92,10 @@ static void explain(dmb_sim *sim, const dmb_evaluation *evaluation, int32_t stat
     } else if (status == DMB_ERR_CALLBACK && sim->linked_mode->row != UINT32_MAX) {
         dmb_message owner;
         dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, sim->linked_mode->row), &owner);
-        dmb_message_set(&sim->message, "%s: its callback failed or gave a value that is not finite at time %g",
+        dmb_message_set(&sim->message, "%s: its callback failed or gave a value beyond +-1e30 at time %g",
                         owner.text, evaluation->time);
     } else if (status == DMB_ERR_CALLBACK) {
-        dmb_message_set(&sim->message, "programme: the callback failed or gave a value that is not finite at time %g",
+        dmb_message_set(&sim->message, "programme: the callback failed or gave a value beyond +-1e30 at time %g",
                         evaluation->time);
     } else if (status == DMB_ERR_NOT_FINITE) {
         dmb_message_set(&sim->message, "forces: not finite at time %g", evaluation->time);

@@ -50,6 +50,13 @@ static void end(scene *s)
     dmb_model_destroy(&s->model);
 }
 
+static uint64_t hash_of(const dmb_sim *sim)
+{
+    uint64_t hash = 0;
+    assert_int_equal(dmb_sim_hash(sim, &hash), DMB_OK);
+    return hash;
+}
+
 static void steps_are_bounded(void **state)
 {
     (void)state;
@@ -72,6 +79,23 @@ static void clock_that_stands_still_is_refused(void **state)
     assert_int_equal(dmb_sim_advance(s.sim, 2.0 * late, NULL), DMB_ERR_VALUE);
     assert_non_null(strstr(dmb_sim_message(s.sim), "rounding"));
     assert_true(dmb_sim_time(s.sim) == late);
+    end(&s);
+}
+
+/* The refusal names the duration that was asked for, and the least there is at this time. */
+static void duration_below_the_rounding_of_time_is_refused(void **state)
+{
+    (void)state;
+    scene s = at_rest();
+    assert_int_equal(dmb_sim_step(s.sim, 1e-300, NULL), DMB_OK); /* at time 0 there is none */
+    assert_int_equal(dmb_sim_step(s.sim, 0.5, NULL), DMB_OK);
+    const uint64_t before = hash_of(s.sim);
+    assert_int_equal(dmb_sim_step(s.sim, 1e-300, NULL), DMB_ERR_VALUE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "duration = 1e-300 s is lost in the rounding of time at 0.5 s"));
+    assert_non_null(strstr(dmb_sim_message(s.sim), ">= 4.44089e-16 s"));
+    assert_true(hash_of(s.sim) == before);
+    assert_int_equal(dmb_sim_step(s.sim, 4.45e-16, NULL), DMB_OK);
+    assert_int_equal(dmb_sim_step(s.sim, 0.0, NULL), DMB_ERR_VALUE);
     end(&s);
 }
 
@@ -106,6 +130,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(steps_are_bounded),
         cmocka_unit_test(clock_that_stands_still_is_refused),
+        cmocka_unit_test(duration_below_the_rounding_of_time_is_refused),
         cmocka_unit_test(smallest_step_above_the_tolerance_is_told),
         cmocka_unit_test(bounded_work_does_not_loosen_advance),
     };

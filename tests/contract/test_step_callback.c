@@ -3,8 +3,8 @@
 #include "whole_scene.h"
 
 /* What the function does, from `from` on. */
-enum { WELL, REFUSES, REFUSES_WITH_MINUS_ONE, GIVES_NAN, GIVES_INFINITY, GIVES_MINUS_INFINITY, WRITES_NOTHING,
-       NO_RATE, NAN_RATE, NO_INTEGRAL, INFINITE_INTEGRAL, MISDEEDS };
+enum { WELL, REFUSES, REFUSES_WITH_MINUS_ONE, GIVES_NAN, GIVES_INFINITY, GIVES_MINUS_INFINITY, GIVES_TOO_MUCH,
+       GIVES_FAR_TOO_MUCH, WRITES_NOTHING, NO_RATE, NAN_RATE, NO_INTEGRAL, INFINITE_INTEGRAL, MISDEEDS };
 
 typedef struct source {
     int misdeed;
@@ -28,6 +28,8 @@ static int32_t value_of_time(void *context, double time, double out[3])
         out[2] = misdeed == INFINITE_INTEGRAL ? (double)INFINITY : time + 0.5 * (1.0 - cos(time));
     if (misdeed == GIVES_NAN) out[0] = (double)NAN;
     if (misdeed == GIVES_INFINITY) out[0] = (double)INFINITY;
+    if (misdeed == GIVES_TOO_MUCH) out[0] = 1.0001e30;
+    if (misdeed == GIVES_FAR_TOO_MUCH) out[0] = -1e308;
     if (misdeed == GIVES_MINUS_INFINITY) out[0] = -(double)INFINITY;
     return misdeed == REFUSES ? 7 : misdeed == REFUSES_WITH_MINUS_ONE ? -1 : 0;
 }

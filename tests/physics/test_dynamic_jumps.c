@@ -77,7 +77,7 @@ static void target_set_by_hand(void **state)
 static void kink_of_a_motion_programme(void **state)
 {
     (void)state;
-    keeps_second_order("order after a kink of the speed", DMB_DRIVE_MOTION, kink, (double)NAN, 64.0);
+    keeps_second_order("order after a kink of the speed", DMB_DRIVE_MOTION, kink, (double)NAN, 512.0);
 }
 
 /* A bit laid on the rock by its weight stays at rest. */
