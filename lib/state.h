@@ -92,6 +92,7 @@
 /* ---- Work: rewritten in every step, never saved. X(type, name, count) */
 #define DMB_WORK_LIST(X)                                                                                              \
     X(double, increment, r)             /* [m, rad] h Dq of this step, integrator */                                   \
+    X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/free_rigid */         \
     X(double, correction, r)            /* [m, rad] right-hand side, then Newton correction */                         \
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                      \
     X(double, element_strain, 6 * e)    /* [m, rad] d of the trial */                                                  \

@@ -7,6 +7,7 @@
 #include "integrator/step_motion.h"
 #include "integrator/turning.h"
 #include "system/cluster.h"
+#include "system/free_rigid.h"
 #include "system/joint_state.h"
 #include "system/ledger.h"
 #include "system/release.h"
@@ -14,20 +15,40 @@
 /* Misfit of an equation taken for redundant at which it is one no more, in lengths of the parts. */
 #define DMB_DROPPED_MISFIT 1e-7
 
+static double tolerance_of(const dmb_sim *sim, uint32_t size, uint32_t k)
+{
+    return 2 * k < size ? sim->options.tolerance_translation : sim->options.tolerance_rotation;
+}
+
+/* a1 - a0 of a free rigid body, largest over its tolerances. */
+static double rigid_jump(const dmb_sim *sim, double ratio, uint32_t rigid)
+{
+    const double *motion = dmb_free_rigid_motion(sim, rigid);
+    double start[18], most = 0.0;
+    dmb_free_rigid_start(sim, rigid, start);
+    for (uint32_t k = 0; k < 6; k++) {
+        const double a0 = start[6 + k] + ratio * (start[12 + k] - start[6 + k]);
+        most = fmax(most, fabs(motion[12 + k] - a0) / tolerance_of(sim, 6, k));
+    }
+    return most;
+}
+
 double dmb_attempt_error(const dmb_sim *sim, double h)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
     const dmb_scene *scene = sim->scene;
     const double ratio = dmb_step_motion_ratio(sim, h), factor = c.error * h * h;
     double worst = 0.0;
-    for (uint32_t i = 0; i < scene->node_count; i++) {
+    for (uint32_t i = 0, rigid = 0; i < scene->node_count; i++) {
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        if (rigid < scene->free_rigid_count && scene->free_rigids[rigid].node == i) {
+            worst = fmax(worst, fabs(factor) * rigid_jump(sim, ratio, rigid++));
+            continue;
+        }
         for (uint32_t k = 0; k < size; k++) {
             if (!scene->solved_row[row + k]) continue;
-            const double tolerance =
-                2 * k < size ? sim->options.tolerance_translation : sim->options.tolerance_rotation;
             const double jump = sim->trial.pseudo_acceleration[row + k] - dmb_step_motion_carried(sim, ratio, row + k);
-            worst = fmax(worst, fabs(factor * jump) / tolerance);
+            worst = fmax(worst, fabs(factor * jump) / tolerance_of(sim, size, k));
         }
     }
     return worst;
@@ -50,6 +71,33 @@ static void set_up(dmb_sim *sim, const dmb_generalized_alpha *c, const dmb_step_
     evaluation->tangent = 1;
 }
 
+/* Row i of a motion whose increment over h is z, from speed v, acceleration dv and pseudo-acceleration a0. */
+static void refit(const dmb_generalized_alpha *c, double h, double z, double v, double dv, double a0,
+                  const dmb_step_motion *to, uint32_t i)
+{
+    const double a1 = ((z - h * v) / (h * h) - (0.5 - c->beta) * a0) / c->beta;
+    to->pseudo_acceleration[i] = a1;
+    to->acceleration[i] = ((1.0 - c->am) * a1 + c->am * a0 - c->af * dv) / (1.0 - c->af);
+    to->velocity[i] = v + h * ((1.0 - c->gamma) * a0 + c->gamma * a1);
+}
+
+/* A free rigid body in the step once more: as below, at its centre of mass. */
+static void refit_rigid(dmb_sim *sim, const dmb_generalized_alpha *c, double h, uint32_t rigid)
+{
+    const uint32_t row = sim->scene->layout.row[sim->scene->free_rigids[rigid].node];
+    const double ratio = dmb_step_motion_ratio(sim, h);
+    double start[18], gone[6], *motion = dmb_free_rigid_motion(sim, rigid);
+    const dmb_step_motion to = {motion, motion + 6, motion + 12};
+    dmb_free_rigid_start(sim, rigid, start);
+    for (uint32_t k = 0; k < 6; k++) gone[k] = sim->correction[row + k];
+    dmb_free_rigid_added(sim->scene, rigid, gone);
+    for (uint32_t k = 0; k < 6; k++) {
+        const double dv = start[6 + k] - gone[k];
+        const double a0 = dv + (1.0 - sim->scale_row[row + k]) * ratio * (start[12 + k] - start[6 + k]);
+        refit(c, h, sim->increment[row + k], start[k], dv, a0, &to, k);
+    }
+}
+
 /* The step once more, from the increments found so far, with what opening contacts did taken off the history: v0' and
  * a0 less M^-1 of their forces, and no a0 - v0' at their nodes from there on, which would ring in free flight. */
 static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
@@ -60,15 +108,13 @@ static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_a
     if (status < 0) return status;
     for (uint32_t i = 0; i < sim->scene->row_count; i++) {
         if (!sim->scene->solved_row[i]) continue;
-        const double v = sim->now.velocity[i], gone = sim->correction[i];
-        const double dv = sim->now.acceleration[i] - gone;
+        const double dv = sim->now.acceleration[i] - sim->correction[i];
         const double a0 =
             dv + (1.0 - sim->scale_row[i]) * (dmb_step_motion_carried(sim, ratio, i) - sim->now.acceleration[i]);
-        const double a1 = ((sim->increment[i] - h * v) / (h * h) - (0.5 - c->beta) * a0) / c->beta;
-        to.pseudo_acceleration[i] = a1;
-        to.acceleration[i] = ((1.0 - c->am) * a1 + c->am * a0 - c->af * dv) / (1.0 - c->af);
-        to.velocity[i] = v + h * ((1.0 - c->gamma) * a0 + c->gamma * a1);
+        refit(c, h, sim->increment[i], sim->now.velocity[i], dv, a0, &to, i);
     }
+    for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) refit_rigid(sim, c, h, i);
+    dmb_free_rigids_place(sim);
     set_up(sim, c, &attempt->end, &attempt->evaluation);
     status = dmb_newton(sim, c, attempt);
     dmb_release_end(sim);
@@ -95,7 +141,7 @@ static int32_t run(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *at
     int32_t status = dmb_system_prescribe(&attempt->evaluation);
     if (status < 0) return status;
     if (sim->scene->cluster_count) dmb_step_motion_keep_prescribed(sim);
-    dmb_system_move(sim);
+    dmb_step_motion_place(sim);
     status = dmb_newton(sim, c, attempt);
     return status == DMB_OK && dmb_contact_opens(sim) ? step_released(sim, c, attempt) : status;
 }

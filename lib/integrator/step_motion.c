@@ -2,6 +2,7 @@
 
 #include "kernel/kernels.h"
 #include "system/evaluation.h"
+#include "system/free_rigid.h"
 
 void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
 {
@@ -26,6 +27,7 @@ void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
         .increment = sim->increment,
     };
     sim->scene->kernels->predict(&run);
+    if (sim->scene->free_rigid_count) dmb_free_rigids_predict(sim, &run);
 }
 
 void dmb_step_motion_keep_prescribed(dmb_sim *sim)
@@ -56,5 +58,12 @@ void dmb_step_motion_correct(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
         .increment = sim->increment,
     };
     sim->scene->kernels->correct(&run);
+    if (sim->scene->free_rigid_count) dmb_free_rigids_correct(sim, &run);
+    dmb_step_motion_place(sim);
+}
+
+void dmb_step_motion_place(dmb_sim *sim)
+{
     dmb_system_move(sim);
+    if (sim->scene->free_rigid_count) dmb_free_rigids_place(sim);
 }

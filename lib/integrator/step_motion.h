@@ -39,6 +39,8 @@ static inline double dmb_step_motion_carried(const dmb_sim *sim, double ratio, u
 void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h);
 /* Takes over what motion drives of nodes have written into the trial. */
 void dmb_step_motion_keep_prescribed(dmb_sim *sim);
+/* Pose of the trial: that of now moved by the increments. */
+void dmb_step_motion_place(dmb_sim *sim);
 /* Moves motion and trial by sim->correction, that of h Dq. */
 void dmb_step_motion_correct(dmb_sim *sim, const dmb_generalized_alpha *c, double h);
 

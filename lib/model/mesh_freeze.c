@@ -55,6 +55,23 @@ static uint32_t structural_joints(const dmb_mesh *mesh)
     return count;
 }
 
+/* True for a chain of one node that nothing holds, leads or connects. */
+static int is_free_rigid(const dmb_mesh *mesh, uint32_t i)
+{
+    const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
+    const int alone = node->string == UINT32_MAX || dmb_mesh_string_at(mesh, node->string)->node_count == 1;
+    return alone && node->size == DMB_NODE_FULL && node->lump != UINT32_MAX && dmb_free_rows(node) == DMB_FREE_ALL &&
+           dmb_prescribed_rows(node) == 0;
+}
+
+static uint32_t count_free_rigids(const dmb_mesh *mesh)
+{
+    uint32_t count = 0;
+    if (mesh->clusters.count > 0) return 0;
+    for (uint32_t i = 0; i < mesh->nodes.count; ++i) count += is_free_rigid(mesh, i) ? 1 : 0;
+    return count;
+}
+
 /* Rows and storage of constraints and clusters end where those of the last one do. */
 static void count_constraints(const dmb_mesh *mesh, dmb_scene *scene)
 {
@@ -94,6 +111,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->body_count = (uint32_t)mesh->bodies.count; /* bits included */
     scene->history_count = mesh->history_count;
     scene->structural_joint_count = structural_joints(mesh);
+    scene->free_rigid_count = count_free_rigids(mesh);
     count_rows(mesh, scene);
     scene->velocity_count = starts_in_motion(mesh) ? scene->row_count : 0;
     count_constraints(mesh, scene);
@@ -123,6 +141,7 @@ static void take_nodes(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to,
     to->chains = DMB_ARENA_ARRAY(arena, dmb_chain, counts->chain_count);
     to->node_chain = DMB_ARENA_ARRAY(arena, uint32_t, n);
     to->lumps = DMB_ARENA_ARRAY(arena, dmb_lump, counts->lump_count);
+    to->free_rigids = DMB_ARENA_ARRAY(arena, dmb_free_rigid, counts->free_rigid_count);
 }
 
 static void take_elements(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to)

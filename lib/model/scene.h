@@ -103,6 +103,12 @@ typedef struct dmb_chain {
     int32_t reserved;
 } dmb_chain;
 
+/* A node that carries nothing but a rigid mass and moves freely: its centre of mass is what is integrated. */
+typedef struct dmb_free_rigid {
+    double centre[3];      /* [m] of mass, from the node, body frame */
+    uint32_t node, lump;
+} dmb_free_rigid;
+
 /* ---- Joints and constraints ---- */
 
 /* A frame fixed to a node's frame, or standing in the world. */
@@ -204,6 +210,7 @@ typedef struct dmb_scene {
     uint32_t free_count, prescribed_count, held_count;
     uint32_t velocity_count;   /* row_count, or 0 where everything is described at rest */
     uint32_t rigid_count, structural_joint_count;
+    uint32_t free_rigid_count;
     uint32_t joint_count, coupling_count, callback_count, constraint_count, cluster_count, law_count;
     uint32_t constraint_row_count;  /* room of all constraints */
     uint32_t constraint_node_count; /* length of cluster_nodes */
@@ -243,6 +250,7 @@ typedef struct dmb_scene {
     dmb_chain *chains;
     uint32_t *node_chain;         /* chain of each node, shape (node) */
     dmb_lump *lumps;              /* at most one a node, by node */
+    dmb_free_rigid *free_rigids;  /* by node, none in scenes with joints; shape (free_rigid_count) */
 
     /* wall */
     dmb_hole hole;                /* valid if has_hole */

@@ -99,6 +99,31 @@ static void fill_lumps(const dmb_mesh *mesh, dmb_scene *scene)
     }
 }
 
+/* A chain of its own; before elements are filled in. */
+static int is_alone(const dmb_scene *scene, uint32_t node)
+{
+    for (uint32_t c = 0; c < scene->chain_count; ++c)
+        if (scene->chains[c].first == node) return scene->chains[c].count == 1;
+    return 0;
+}
+
+/* As they were counted: single nodes that are wholly free. */
+static void fill_free_rigids(dmb_scene *scene)
+{
+    dmb_free_rigid *next = scene->free_rigids;
+    for (uint32_t i = 0; i < scene->lump_count && scene->free_rigid_count > 0; ++i) {
+        const dmb_lump *lump = scene->lumps + i;
+        const uint32_t row = scene->layout.row[lump->node];
+        int is_free = scene->layout.size[lump->node] == DMB_NODE_FULL && is_alone(scene, lump->node);
+        for (uint32_t k = 0; k < scene->layout.size[lump->node]; ++k) is_free = is_free && scene->solved_row[row + k];
+        if (!is_free) continue;
+        dmb_vec3_scale(1.0 / lump->mass, lump->moment, next->centre);
+        next->node = lump->node;
+        next->lump = i;
+        ++next;
+    }
+}
+
 static void fill_chains(const dmb_mesh *mesh, dmb_scene *scene)
 {
     uint32_t chain = 0;
@@ -121,6 +146,7 @@ static void fill_nodes(const dmb_mesh *mesh, dmb_scene *scene)
     }
     fill_chains(mesh, scene);
     fill_lumps(mesh, scene);
+    fill_free_rigids(scene);
 }
 
 /* ---- Elements and the rest --------------------------------------------------------------------------------------- */

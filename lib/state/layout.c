@@ -9,7 +9,7 @@
 /* The letters of state.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
     uint64_t n, r, s, p, sb, pb, e, d, k, load, history, diagonal, link, backup;
-    uint64_t j, c, cluster, column, raw, jacobian, tangent, dense, square, full, block, value, pivots, kd, kl, kn;
+    uint64_t f, j, c, cluster, column, raw, jacobian, tangent, dense, square, full, block, value, pivots, kd, kl, kn;
     uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block;
 } field_counts;
 
@@ -26,10 +26,11 @@ typedef struct field_counts {
     const uint64_t sparse_raw = (of)->sparse_raw, sparse_c = (of)->sparse_c;                                    \
     const uint64_t sparse_block = (of)->sparse_block;                                                           \
     (void)sparse_values, (void)sparse_rows, (void)sparse_raw, (void)sparse_c, (void)sparse_block;               \
+    const uint64_t f = (of)->f;                                                                                 \
     (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,   \
         (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,     \
         (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd, \
-        (void)kl, (void)kn, (void)sb, (void)pb
+        (void)kl, (void)kn, (void)sb, (void)pb, (void)f
 
 /* [byte] of the state that is set aside in `backup`. A snapshot holds the kept factors too. */
 #define DMB_ADD_BYTES(type, name, count, check) +(count) * sizeof(type)
@@ -74,6 +75,7 @@ static field_counts counts_of(const dmb_scene *scene)
     c.n = n;
     c.r = scene->row_count;
     c.s = scene->site_count;
+    c.f = scene->free_rigid_count;
     c.p = scene->path_site_count;
     c.sb = dmb_scene_has_bristles(scene) ? c.s : 0;
     c.pb = dmb_scene_has_bristles(scene) ? c.p : 0;

@@ -4,13 +4,19 @@
  * links; what is left are the blocks of the nodes, to which all forces add. */
 #include "math/se3.h"
 #include "system/evaluation.h"
+#include "system/free_rigid.h"
 
-static void tangent_columns(dmb_sim *sim, uint32_t node)
+/* next: the first free rigid body that may be on the node */
+static void tangent_columns(dmb_sim *sim, uint32_t node, uint32_t *next)
 {
     const dmb_scene *scene = sim->scene;
     const dmb_block_layout *layout = &scene->layout;
     dmb_se3_tangent T;
     if (layout->size[node] != DMB_NODE_FULL) return;
+    if (*next < scene->free_rigid_count && scene->free_rigids[*next].node == node) { /* done */
+        ++*next;
+        return;
+    }
     dmb_se3_tangent_at(sim->increment + layout->row[node], NULL, &T);
     dmb_se3_times_tangent(dmb_stiffness_of(sim, node), DMB_NODE_FULL, &T);
 }
@@ -52,7 +58,10 @@ void dmb_system_iteration_matrix(const dmb_evaluation *evaluation)
     const dmb_block_layout *layout = &scene->layout;
     const uint32_t n = scene->node_count;
     if (evaluation->dynamic) {
-        for (uint32_t i = 0; i < n; i++) tangent_columns(sim, i);
+        const int stepping = evaluation->velocity_factor > 0.0;
+        uint32_t next = stepping ? 0 : scene->free_rigid_count;
+        if (stepping && scene->free_rigid_count) dmb_free_rigids_matrix(evaluation);
+        for (uint32_t i = 0; i < n; i++) tangent_columns(sim, i, &next);
         add(sim->inertia_diagonal, sim->stiffness_diagonal, layout->diag[n]);
     }
     for (uint32_t i = 0; i < scene->held_count; i++) hold_row(sim, scene->held_node[i], scene->held_component[i]);

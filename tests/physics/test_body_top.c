@@ -233,7 +233,7 @@ static void tumbling_keeps_momentum_and_energy(void **state)
     check_order("momentum", e[1].momentum, e[2].momentum, 2.0, 0.02);
     check_order("energy", e[1].energy, e[2].energy, 2.0, 0.02);
     check_order("attitude", e[1].attitude, e[2].attitude, 2.0, 0.05);
-    check_order("path", e[1].path, e[2].path, 2.0, 0.05);
+    for (int k = 0; k < 3; k++) check_below("path: straight to rounding", e[k].path, 1e-12);
 }
 
 int main(void)

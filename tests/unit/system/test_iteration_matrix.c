@@ -5,10 +5,25 @@
 #include "element/beam.h"
 #include "system/energy.h"
 #include "system/evaluation.h"
+#include "system/free_rigid.h"
 
 #define ROWS_MAX 80
 #define TO_VELOCITY 2.0     /* [1/s] gamma/(h beta); of a size that lets every term be seen */
 #define TO_ACCELERATION 3.0 /* [1/s2] (1-am)/(h^2 beta (1-af)) */
+
+/* Free rigid bodies move at their centres of mass. */
+static void move_rigids(dmb_sim *sim, uint32_t row, double z)
+{
+    for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) {
+        const uint32_t first = sim->scene->layout.row[sim->scene->free_rigids[i].node];
+        double *motion = dmb_free_rigid_motion(sim, i);
+        dmb_free_rigid_start(sim, i, motion);
+        if (row < first || row >= first + 6) continue;
+        motion[row - first] += TO_VELOCITY * z;
+        motion[6 + row - first] += TO_ACCELERATION * z;
+    }
+    dmb_free_rigids_place(sim);
+}
 
 /* Trial of the increments `base` plus z in one row. */
 static void move_to(dmb_sim *sim, const double *base, uint32_t row, double z)
@@ -30,6 +45,7 @@ static void move_to(dmb_sim *sim, const double *base, uint32_t row, double z)
             sim->trial.turn[i] += h[1];
         }
     }
+    move_rigids(sim, row, z);
 }
 
 static void evaluate(dmb_sim *sim, int32_t tangent, dmb_evaluation *e)
