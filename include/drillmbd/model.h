@@ -112,9 +112,9 @@ enum {
 typedef struct dmb_wall_def {
     uint32_t struct_size;
     uint32_t survey_count;     /* [-] 0 (straight hole along `direction`), or 2 .. 2^16 */
-    const double *survey;      /* [m, rad, rad] measured depth, inclination from the downward vertical, azimuth from +x
-                                  towards +y; depths strictly increasing; minimum curvature between; shape
-                                  (survey_count, 3); copied */
+    const double *survey;      /* [m, rad, rad] measured depth, inclination from the downward vertical (0 .. pi), azimuth
+                                  from +x towards +y (-2 pi .. 2 pi); depths strictly increasing; minimum curvature
+                                  between; shape (survey_count, 3); copied */
     double origin[3];          /* [m] start of the axis, world frame; default 0, shape (3) */
     double direction[3];       /* [-] of a straight hole, any length, world frame; default (1, 0, 0), shape (3) */
     double diameter;           /* [m] of the hole, > 0; default 0.094 */

@@ -1,4 +1,5 @@
 /* The hole: its axis and the laws of its wall. */
+#include <math.h>
 #include <string.h>
 
 #include "base/allocator.h"
@@ -9,6 +10,19 @@
 
 enum { STATIONS_MIN = 2, STATIONS_MAX = 1 << 16 };
 
+static const double pi = 3.14159265358979323846;
+static const double rounding = 1e-9; /* [rad] a survey's last digits may lie beyond the bounds */
+
+/* Beyond its bounds an angle has no meaning of its own; a survey in degrees is the likely cause. */
+static void check_angle(dmb_check *check, uint32_t station, const char *name, double angle, double low, double high)
+{
+    if (check->status < 0 || (angle >= low - rounding && angle <= high + rounding)) return;
+    check->status = isfinite(angle) ? DMB_ERR_VALUE : DMB_ERR_NOT_FINITE;
+    dmb_message_set(check->message,
+                    "wall, station %u: %s = %g rad, must be in [%g, %g] rad; a survey in degrees is given times pi/180",
+                    station, name, angle, low, high);
+}
+
 static void check_survey(dmb_check *check, dmb_message *message, const dmb_wall_def *def)
 {
     dmb_check station;
@@ -18,8 +32,8 @@ static void check_survey(dmb_check *check, dmb_message *message, const dmb_wall_
         const double *row = def->survey + 3 * (size_t)i;
         station = dmb_check_of(message, "wall, station", i);
         dmb_check_within(&station, "measured depth", row[0], -DMB_POSITION_MAX, DMB_POSITION_MAX);
-        dmb_check_within(&station, "inclination", row[1], -DMB_ANGLE_MAX, DMB_ANGLE_MAX);
-        dmb_check_within(&station, "azimuth", row[2], -DMB_ANGLE_MAX, DMB_ANGLE_MAX);
+        check_angle(&station, i, "inclination", row[1], 0.0, pi);
+        check_angle(&station, i, "azimuth", row[2], -2.0 * pi, 2.0 * pi);
         /* closer than that, the curvature between two stations has no meaning */
         if (i > 0) dmb_check_at_least(&station, "measured depth", row[0], row[-3] + DMB_LENGTH_MIN);
         check->status = station.status;
