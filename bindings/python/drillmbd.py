@@ -34,13 +34,14 @@ except ImportError:
 VERSION = (0, 1, 0)  # of the interface mirrored here
 
 # ---- Constants, as in the headers without DMB_ ----------------------------------------------------------------------
-OK, NOTE_STEP_CUT, NOTE_WORK_LIMITED, NOTE_PROJECTED, NOTE_STOPPED, NOTE_FULL, NOTE_TOLERANCE = range(7)
+OK, NOTE_STEP_CUT, NOTE_WORK_LIMITED, NOTE_PROJECTED, NOTE_STOPPED, NOTE_FULL, NOTE_TOLERANCE, NOTE_UNSTABLE = range(8)
 (ERR_NULL, ERR_HANDLE, ERR_STRUCT_SIZE, ERR_ID, ERR_VALUE, ERR_NOT_FINITE, ERR_ORDER, ERR_NO_MEMORY, ERR_TOO_LARGE,
  ERR_SINGULAR, ERR_NO_CONVERGENCE, ERR_CALLBACK, ERR_IO, ERR_ROTATION, ERR_GEOMETRY,
  ERR_UNSUPPORTED) = range(-1, -17, -1)
 
 LOG_ERROR, LOG_WARNING, LOG_INFO = range(3)
 STATIC_NEWTON, STATIC_RELAXATION = range(2)
+STIFFNESS_SYMMETRIC, STIFFNESS_UNSYMMETRIC = range(2)
 SCALE_ALL, SCALE_LOADS, SCALE_PART = range(3)
 PATH_REGULAR, PATH_LIMIT, PATH_BIFURCATION, PATH_BRANCH = range(4)
 X, Y, Z, RX, RY, RZ = range(6)
@@ -372,7 +373,7 @@ class StaticOptions(_Sized):
 class StaticReport(_Sized):
     _fields_ = [("struct_size", c_uint32), ("iterations", c_uint32), ("load_steps", c_uint32), ("method", c_int32),
                 ("residual", c_double), ("largest_force", c_double), ("lateral_move", c_double),
-                ("cuts", c_uint32), ("line_searches", c_uint32), ("negative", c_int32), ("reserved", c_int32),
+                ("cuts", c_uint32), ("line_searches", c_uint32), ("negative", c_int32), ("stiffness", c_int32),
                 ("steady", c_int32), ("steady_reserved", c_int32)]
 
 
@@ -386,7 +387,7 @@ class BucklingOptions(_Sized):
 @_mirrors("dmb_path_point")
 class PathPoint(_Sized):
     _fields_ = [("struct_size", c_uint32), ("number", c_uint32), ("kind", c_int32), ("negative", c_int32),
-                ("iterations", c_uint32), ("reserved", c_uint32), ("factor", c_double), ("rate", c_double),
+                ("iterations", c_uint32), ("stiffness", c_int32), ("factor", c_double), ("rate", c_double),
                 ("arc", c_double), ("displacement", c_double)]
 
 

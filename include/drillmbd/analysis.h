@@ -40,6 +40,13 @@ typedef struct dmb_static_options {
 } dmb_static_options;
 DMB_SIZED_STRUCT(dmb_static_options)
 
+/* Kinds of stiffness that the stability of a static state is judged by. */
+enum {
+    DMB_STIFFNESS_SYMMETRIC = 0,  /* forces have a potential: the state is stable where no eigenvalue is negative */
+    DMB_STIFFNESS_UNSYMMETRIC = 1 /* friction that slips, moments with a fixed axis, followers: the state diverges by each
+                                     real negative eigenvalue; by complex ones it may flutter, which depends on mass and
+                                     damping and is a question for dmb_analysis_modes with DMB_MODES_DAMPED */
+};
 enum { DMB_STATIC_NEWTON = 0, DMB_STATIC_RELAXATION = 1 };
 typedef struct dmb_static_report {
     uint32_t struct_size;
@@ -51,8 +58,12 @@ typedef struct dmb_static_report {
     double lateral_move;       /* [m] largest displacement from the starting pose */
     uint32_t cuts;             /* [-] load steps that did not converge and were halved */
     uint32_t line_searches;    /* [-] corrections that were shortened by a line search */
-    int32_t negative;          /* [-] negative eigenvalues of the stiffness: 0 of a stable equilibrium */
-    int32_t reserved;
+    int32_t negative;          /* [-] eigenvalues of the stiffness by which the equilibrium is unstable, those that are 0 but
+                                  for rounding apart. SYMMETRIC: negative ones, exactly. UNSYMMETRIC: real negative ones
+                                  among those nearest 0, 36 or all, as many as the sign of the determinant agrees with;
+                                  -1: they could not be counted, or the state moves (`steady`) and the stiffness
+                                  alone does not tell */
+    int32_t stiffness;         /* DMB_STIFFNESS_...: the kind that was judged */
     int32_t steady;            /* DMB_STEADY_AT_REST, _SLIDING or _RIGID: what the state is */
     int32_t steady_reserved;
 } dmb_static_report;
@@ -68,7 +79,8 @@ DMB_SIZED_STRUCT(dmb_static_report)
  * stands on rock cuts (at time 0: where none is described ahead of it). SLIDING asks that what turns is round (no eccentric
  * mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, guides, joints to the ground and a
  * hole agree with the axis; else DMB_ERR_UNSUPPORTED says what does not. Both take memory, one matrix and some vectors, from
- * the sim's allocator. The energy ledger starts anew. options and report may be NULL. Errors:
+ * the sim's allocator. The energy ledger starts anew. options and report may be NULL.
+ * DMB_NOTE_UNSTABLE where the equilibrium at rest is one that the string would leave (report->negative > 0). Errors:
  * DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the state is then
  * that before the call. O(number of elements) an iteration. */
 DMB_API int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report);
@@ -130,9 +142,9 @@ typedef struct dmb_path_point {
     uint32_t struct_size;
     uint32_t number;      /* [-] 0: the state the path begins in */
     int32_t kind;         /* DMB_PATH_... */
-    int32_t negative;     /* [-] negative eigenvalues of the stiffness, 0: stable */
+    int32_t negative;     /* [-] as in dmb_static_report, of the 12 nearest 0 where UNSYMMETRIC; 0: stable */
     uint32_t iterations;  /* [-] of this point */
-    uint32_t reserved;
+    int32_t stiffness;    /* DMB_STIFFNESS_... */
     double factor;        /* [unit of the factor] */
     double rate;          /* [unit of the factor/m] of the factor along the path, < 0 where it falls */
     double arc;           /* [m] length of the path so far, root of the mean square of what the nodes move */
@@ -179,10 +191,10 @@ DMB_SIZED_STRUCT(dmb_path_report)
 /* Follows the path from the present static state on by arc length: a step along the tangent, then Newton in the plane
  * across it (Riks 1979) with the factor bordering the stiffness (Crisfield 1981), the step as long as Newton likes it.
  * Limit points, bifurcations and the ends are located to 1e-8 of the step by regula falsi. The sim is not changed.
- * options and report may be NULL. DMB_NOTE_STOPPED after max_points or by the callback. Errors: DMB_ERR_VALUE, _ID,
- * _ORDER (the state is no equilibrium), _SINGULAR (message says which part is free, or that the factor moves nothing),
- * _NO_CONVERGENCE (message says where the path was lost), _UNSUPPORTED, _NO_MEMORY, _CALLBACK. O(number of elements) an
- * iteration; memory: the sim's once more. */
+ * options and report may be NULL; where the path was lost the report tells how far it came. DMB_NOTE_STOPPED after
+ * max_points or by the callback. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no equilibrium), _SINGULAR (message says which part is free, or that the factor moves nothing),
+ * _NO_CONVERGENCE (message says where the path was lost), _ROTATION (above 2.5 rad in an element, likewise), _UNSUPPORTED,
+ * _NO_MEMORY, _CALLBACK. O(number of elements) an iteration; memory: the sim's once more. */
 DMB_API int32_t dmb_analysis_path(dmb_sim *sim, const dmb_path_options *options, dmb_path_report *report);
 
 /* ---- Model check -------------------------------------------------------------------------------------------------

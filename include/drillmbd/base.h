@@ -37,6 +37,7 @@ DMB_API uint32_t dmb_version(void);
     X(DMB_NOTE_STOPPED, 4, "done; stopped early at the bound on steps")                                               \
     X(DMB_NOTE_FULL, 5, "done; the caller's memory is full, nothing more is recorded")                                \
     X(DMB_NOTE_TOLERANCE, 6, "done; the smallest step allowed was too long for the error tolerance")                  \
+    X(DMB_NOTE_UNSTABLE, 7, "done; the equilibrium that was found is not stable")                                     \
     X(DMB_NOTE_NOT_STEADY, 8, "done; drives move but no steady state was found: only what they move has a speed")     \
     X(DMB_ERR_NULL, -1, "a required pointer is NULL")                                                                 \
     X(DMB_ERR_HANDLE, -2, "not a live object of this kind")                                                           \

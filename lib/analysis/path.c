@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "base/handle.h"
 #include "base/sized_struct.h"
+#include "system/owner.h"
 
 DMB_DECLARE_STRUCT(dmb_path_options)
 DMB_DECLARE_STRUCT(dmb_path_report)
@@ -65,6 +66,13 @@ static void explain(dmb_path *path, int32_t status)
     if (path->sim->message.text[0] != '\0') return;
     if (status == DMB_ERR_SINGULAR) {
         (void)dmb_stiffness_explain(path->sim, "path", path->search.block);
+    } else if (status == DMB_ERR_ROTATION) {
+        const dmb_owner owner = dmb_owner_of_element(path->work->scene, path->turned);
+        dmb_message_set(
+            &path->sim->message,
+            "path: ends at factor = %g, %s %u, pipe %u: relative rotation in one element above 2.5 rad; use "
+            "more elements",
+            path->last.factor, owner.kind, owner.index, owner.pipe);
     } else {
         dmb_message_set(&path->sim->message, "path: lost at factor = %g after %u points, relative residual = %g",
                         path->last.factor, path->report.points, path->search.residual);
@@ -96,6 +104,7 @@ static int32_t begin(dmb_path *path)
     for (uint32_t i = 0; i < scene->row_count; i++) path->next.tangent[i] *= sense;
     path->side = path->next.rate;
     dmb_path_accept(path);
+    path->begun = 1;
     return DMB_OK;
 }
 
@@ -108,6 +117,7 @@ static int32_t tell(dmb_path *path, int32_t kind)
     point.number = path->report.points;
     point.kind = kind;
     point.negative = path->last.negative;
+    point.stiffness = path->last.stiffness;
     point.iterations = path->iterations;
     point.factor = path->last.factor;
     point.rate = path->last.rate;
@@ -135,9 +145,15 @@ static int32_t locate(dmb_path *path, int32_t *event, double arc)
     return dmb_path_locate(path, event, path->next.arc - path->last.arc);
 }
 
+static int32_t lost(const dmb_path *path)
+{
+    return path->turned != UINT32_MAX ? DMB_ERR_ROTATION : DMB_ERR_NO_CONVERGENCE;
+}
+
 /* The next point, at an event or at *arc; a step that fails is halved. *event tells. */
 static int32_t find_next(dmb_path *path, double *arc, int32_t *event)
 {
+    path->turned = UINT32_MAX;
     for (int cuts = 0;; cuts++, path->report.cuts++) {
         *arc = fmin(*arc, path->options->step_max);
         int32_t status = dmb_path_correct(path, path->last.tangent, path->last.rate, *arc);
@@ -148,7 +164,8 @@ static int32_t find_next(dmb_path *path, double *arc, int32_t *event)
             status = locate(path, event, *arc);
         }
         if (status >= 0 || status == DMB_ERR_CALLBACK) return status;
-        if (cuts >= DMB_CUTS_IN_A_ROW) return DMB_ERR_NO_CONVERGENCE;
+        if (status == DMB_ERR_ROTATION) path->turned = path->search.evaluation.element;
+        if (cuts >= DMB_CUTS_IN_A_ROW) return lost(path);
         *arc *= 0.5;
     }
 }
@@ -195,7 +212,7 @@ static int32_t follow(dmb_path *path)
         if (path->report.points >= o->max_points) return DMB_NOTE_STOPPED;
         status = find_next(path, &arc, &event);
         if (status < 0) return status;
-        if (creeps(arc, &longest, &crept)) return DMB_ERR_NO_CONVERGENCE;
+        if (creeps(arc, &longest, &crept)) return lost(path);
         if (event == DMB_EVENT_BIFURCATION) go_straight_on(path);
         dmb_path_accept(path);
         path->report.points++;
@@ -266,7 +283,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_path_options *options, dmb_path_r
     if (status >= 0) status = dmb_state_copy_check(sim, "path");
     if (status >= 0) status = dmb_load_pattern_take(sim, "path options", taken.scale, taken.part, &path.pattern);
     if (status >= 0) status = allocate_and_run(&path);
-    if (status >= 0 && report != NULL) (void)dmb_path_report_write(report, &path.report);
+    if (path.begun && report != NULL) (void)dmb_path_report_write(report, &path.report);
     return status;
 }
 

@@ -12,8 +12,8 @@ typedef struct dmb_path_place {
     double rate;      /* [unit of the factor/m] along the tangent */
     double arc;       /* [m] from the start */
     double watched;   /* [m] */
-    int32_t negative; /* eigenvalues of the stiffness */
-    int32_t reserved;
+    int32_t negative;  /* eigenvalues of the stiffness, as in dmb_path_point */
+    int32_t stiffness; /* DMB_STIFFNESS_... */
     double *tangent;  /* (rows) [m, rad] body-frame displacements a metre of arc */
 } dmb_path_place;
 
@@ -30,8 +30,11 @@ typedef struct dmb_path {
     double *mode;          /* (rows) softest shape of the stiffness factored last, unit length */
     double side;           /* rate of the last point but at limit points, where it is that beyond */
     double softest;        /* [N/m] eigenvalue of that shape */
+    double rounding;       /* [N/m] of eigenvalues of the stiffness judged last */
     double weakest;        /* [-] pivot of the stiffness factored last, against its block */
     uint32_t iterations;   /* of the point sought */
+    uint32_t turned;       /* element that the step tried last twisted or bent too far; UINT32_MAX: none */
+    int32_t begun;         /* 1: from a state in equilibrium, so that the report tells something */
     dmb_path_report report;
 } dmb_path;
 

@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "analysis/path.h"
-#include "analysis/stiffness.h"
 #include "system/solve.h"
 
 static int passes(double end, double last, double next)
@@ -188,7 +187,7 @@ static int32_t locate_bifurcation(dmb_path *path, quest *q, double arc, int32_t 
     if (q->counted) soft = counted;
     status = close_in(path, q, &soft, DMB_LOCATED * arc);
     if (status < 0) return status;
-    const double rounding = DMB_ROUNDINGS * dmb_stiffness_rounding(path->work);
+    const double rounding = DMB_ROUNDINGS * path->rounding;
     if (size <= rounding) *event = DMB_EVENT_NONE; /* neutral all the way: it does not matter which sign it has */
     const int corner = fabs(path->softest) > fmax(DMB_CORNER * size, rounding);
     if (corner) status = probe(path, q, soft.high, &soft.at_high);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "analysis/path.h"
-#include "analysis/stiffness.h"
+#include "analysis/stability.h"
 #include "system/solve.h"
 
 double dmb_path_dot(const dmb_path *path, const double *a, const double *b)
@@ -37,17 +37,34 @@ static void solve(dmb_path *path, double *x)
     memcpy(x, work->correction, bytes);
 }
 
+/* Factors of the stiffness; `judged`: its stability too, for the next point. */
+static int32_t factor(dmb_path *path, int judged, dmb_block_weakest *weakest, int64_t *bad)
+{
+    dmb_stability found = {0};
+    if (!judged) {
+        dmb_system_iteration_matrix(&path->search.evaluation);
+        *bad = dmb_factor_stiffness(path->work, weakest);
+        return DMB_OK;
+    }
+    const int32_t status = dmb_stability_judge(&path->search.evaluation, 0, weakest, bad, &found);
+    path->next.negative = found.negative;
+    path->next.stiffness = found.stiffness;
+    path->rounding = found.rounding;
+    return status;
+}
+
 /* What a unit of the factor moves, from the stiffness evaluated just now; path->move: the residual's correction. */
-static int32_t solve_both(dmb_path *path)
+static int32_t solve_both(dmb_path *path, int judged)
 {
     dmb_sim *work = path->work;
     dmb_block_weakest weakest;
+    int64_t bad;
     int32_t status =
         dmb_load_pattern_derivative(&path->pattern, &path->search.evaluation, path->next.factor, path->loaded);
     if (status < 0) return status;
     memcpy(path->move, work->correction, work->scene->row_count * sizeof(double));
-    dmb_system_iteration_matrix(&path->search.evaluation);
-    const int64_t bad = dmb_stiffness_factor(work, &weakest, &path->next.negative);
+    status = factor(path, judged, &weakest, &bad);
+    if (status < 0) return status;
     path->weakest = weakest.ratio;
     path->search.block = bad >= 0 ? (uint32_t)bad : weakest.block;
     if (bad >= 0) return DMB_ERR_SINGULAR;
@@ -90,7 +107,7 @@ int32_t dmb_path_correct(dmb_path *path, const double *direction, double rate, d
         path->search.residual = norm.relative;
         if (norm.converged) return DMB_OK;
         if (path->iterations >= path->options->max_iterations) return DMB_ERR_NO_CONVERGENCE;
-        status = solve_both(path);
+        status = solve_both(path, 0);
         if (status < 0) return status;
         path->iterations++;
         path->report.iterations++;
@@ -117,7 +134,7 @@ int32_t dmb_path_tangent(dmb_path *path, const double *towards)
 {
     path->search.evaluation.extrapolated = 0;
     int32_t status = dmb_path_evaluate(path, 1);
-    if (status >= 0) status = solve_both(path);
+    if (status >= 0) status = solve_both(path, 1);
     if (status < 0) return status;
     double length = sqrt(dmb_path_dot(path, path->loaded, path->loaded));
     if (!(length > 0.0) && path->weakest >= DMB_LOOSE_PIVOT)

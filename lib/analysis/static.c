@@ -1,16 +1,16 @@
 #include <string.h>
 
+#include "analysis/stability.h"
 #include "analysis/static_options.h"
 #include "analysis/static_state.h"
-#include "analysis/stiffness.h"
 #include "base/handle.h"
 #include "base/sized_struct.h"
 #include "math/vec3.h"
 #include "system/bit.h"
 #include "system/cluster.h"
 #include "system/joint_state.h"
-#include "system/owner.h"
 #include "system/kept.h"
+#include "system/owner.h"
 #include "system/solve.h"
 #include "system/start.h"
 
@@ -291,11 +291,28 @@ static void tell(const dmb_static_search *search, dmb_static_report *out)
     out->lateral_move = largest_displacement(search->sim);
 }
 
+/* The state just found, by its true tangent. */
+static int32_t judge_stability(dmb_static_search *search, dmb_static_report *out)
+{
+    dmb_block_weakest weakest;
+    dmb_stability found = {0};
+    int64_t bad = -1;
+    if (search->steady != NULL) { /* inertia and damping have their part in it: a question for modes */
+        out->negative = -1;
+        return DMB_OK;
+    }
+    search->evaluation.extrapolated = 0;
+    int32_t status = dmb_system_evaluate(&search->evaluation);
+    if (status >= 0) status = dmb_stability_judge(&search->evaluation, 1, &weakest, &bad, &found);
+    out->negative = bad >= 0 ? -1 : found.negative;
+    out->stiffness = found.stiffness;
+    return status;
+}
+
 static int32_t find(dmb_static_search *search, dmb_static_report *out)
 {
     dmb_sim *sim = search->sim;
-    dmb_block_weakest weakest;
-    const int32_t status = refuse_loose(search, search_equilibrium(search, &out->method));
+    int32_t status = refuse_loose(search, search_equilibrium(search, &out->method));
     if (status < 0) {
         explain(search, status);
         name_free_string(sim, status);
@@ -303,8 +320,11 @@ static int32_t find(dmb_static_search *search, dmb_static_report *out)
         return status;
     }
     tell(search, out);
-    dmb_system_iteration_matrix(&search->evaluation);
-    (void)dmb_stiffness_factor(sim, &weakest, &out->negative);
+    status = judge_stability(search, out);
+    if (status < 0) {
+        dmb_state_bring_back(sim);
+        return status;
+    }
     return settle(search);
 }
 
@@ -333,6 +353,17 @@ static int32_t run(dmb_static_search *search, dmb_static_report *out)
     return status == DMB_OK ? chosen : status;
 }
 
+static int32_t tell_unstable(dmb_sim *sim, const dmb_static_report *out)
+{
+    dmb_message_set(
+        &sim->message,
+        "static: the equilibrium is unstable, its %s stiffness has %snegative eigenvalues = %d, 0 of a stable "
+        "one; start nearer to the one wanted, push aside for a moment, or damp a run in time until it rests",
+        out->stiffness == DMB_STIFFNESS_SYMMETRIC ? "symmetric" : "unsymmetric",
+        out->stiffness == DMB_STIFFNESS_SYMMETRIC ? "" : "real ", out->negative);
+    return DMB_NOTE_UNSTABLE;
+}
+
 static int32_t analyse(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)
 {
     dmb_static_options taken;
@@ -346,7 +377,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_static_options *options, dmb_stat
     dmb_static_slip(&search, taken.slip_axial, taken.slip_rotation);
     status = run(&search, &out);
     if (status >= 0 && report != NULL) (void)dmb_static_report_write(report, &out);
-    return status;
+    return status == DMB_OK && out.negative > 0 ? tell_unstable(sim, &out) : status;
 }
 
 int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)

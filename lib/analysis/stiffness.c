@@ -31,7 +31,7 @@ double dmb_stiffness_rounding(const dmb_sim *sim)
     return sim->scale_row[0]; /* a displacement, of weight 1 */
 }
 
-static uint32_t negative_of_chains(dmb_sim *sim)
+uint32_t dmb_stiffness_negative_of_chains(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     uint32_t negative = 0;
@@ -55,7 +55,7 @@ static uint32_t negative_of_blocks(const dmb_sim *sim)
 
 int64_t dmb_stiffness_factor(dmb_sim *sim, dmb_block_weakest *weakest, int32_t *negative)
 {
-    const uint32_t chains = negative_of_chains(sim);
+    const uint32_t chains = dmb_stiffness_negative_of_chains(sim);
     const int64_t bad = dmb_factor_stiffness(sim, weakest);
     *negative = bad >= 0 ? 0 : (int32_t)(chains + (sim->scene->cluster_count ? negative_of_blocks(sim) : 0));
     return bad;
