@@ -203,6 +203,12 @@ public:
     std::uint32_t size() const noexcept { return dmb_buckling_count(handle_); }
 
 #if defined(DRILLMBD_EXCEPTIONS)
+    dmb_buckling_info info() const
+    {
+        dmb_buckling_info answer = dmb_buckling_info_default();
+        check(dmb_buckling_get_info(handle_, &answer));
+        return answer;
+    }
     double operator[](std::uint32_t mode) const
     {
         double factor = 0.0;

@@ -34,7 +34,8 @@ except ImportError:
 VERSION = (0, 1, 0)  # of the interface mirrored here
 
 # ---- Constants, as in the headers without DMB_ ----------------------------------------------------------------------
-OK, NOTE_STEP_CUT, NOTE_WORK_LIMITED, NOTE_PROJECTED, NOTE_STOPPED, NOTE_FULL, NOTE_TOLERANCE, NOTE_UNSTABLE = range(8)
+OK, NOTE_STEP_CUT, NOTE_WORK_LIMITED, NOTE_PROJECTED, NOTE_STOPPED, NOTE_FULL, NOTE_TOLERANCE, NOTE_UNSTABLE, \
+    NOTE_NOT_STEADY, NOTE_EXTRAPOLATED = range(10)
 (ERR_NULL, ERR_HANDLE, ERR_STRUCT_SIZE, ERR_ID, ERR_VALUE, ERR_NOT_FINITE, ERR_ORDER, ERR_NO_MEMORY, ERR_TOO_LARGE,
  ERR_SINGULAR, ERR_NO_CONVERGENCE, ERR_CALLBACK, ERR_IO, ERR_ROTATION, ERR_GEOMETRY,
  ERR_UNSUPPORTED) = range(-1, -17, -1)
@@ -42,6 +43,7 @@ OK, NOTE_STEP_CUT, NOTE_WORK_LIMITED, NOTE_PROJECTED, NOTE_STOPPED, NOTE_FULL, N
 LOG_ERROR, LOG_WARNING, LOG_INFO = range(3)
 STATIC_NEWTON, STATIC_RELAXATION = range(2)
 STIFFNESS_SYMMETRIC, STIFFNESS_UNSYMMETRIC = range(2)
+BUCKLING_EXTRAPOLATED, BUCKLING_BIFURCATION, BUCKLING_LIMIT, BUCKLING_STABLE = range(4)
 SCALE_ALL, SCALE_LOADS, SCALE_PART = range(3)
 PATH_REGULAR, PATH_LIMIT, PATH_BIFURCATION, PATH_BRANCH = range(4)
 X, Y, Z, RX, RY, RZ = range(6)
@@ -379,9 +381,16 @@ class StaticReport(_Sized):
 
 @_mirrors("dmb_buckling_options")
 class BucklingOptions(_Sized):
-    _fields_ = [("struct_size", c_uint32), ("count", c_uint32), ("scale", c_int32), ("reserved", c_int32),
+    _fields_ = [("struct_size", c_uint32), ("count", c_uint32), ("scale", c_int32), ("follow", c_int32),
                 ("part", Id), ("factor_max", c_double), ("tolerance", c_double), ("step", c_double),
                 ("slip_axial", c_double), ("slip_rotation", c_double)]
+
+
+@_mirrors("dmb_buckling_info")
+class BucklingInfo(_Sized):
+    _fields_ = [("struct_size", c_uint32), ("count", c_uint32), ("confirmed", c_uint32), ("linearisations", c_uint32),
+                ("points", c_uint32), ("stiffness", c_int32), ("end", c_int32), ("reserved", c_int32),
+                ("estimate", c_double), ("linearised_at", c_double), ("reached", c_double)]
 
 
 @_mirrors("dmb_path_point")
@@ -631,6 +640,7 @@ def _declare_all():
     _declare("dmb_sim_hash", status, sim, POINTER(c_uint64))
     _declare("dmb_analysis_static", status, sim, POINTER(StaticOptions), POINTER(StaticReport))
     _declare("dmb_analysis_buckling", status, sim, POINTER(BucklingOptions), POINTER(buckling))
+    _declare("dmb_buckling_get_info", status, buckling, POINTER(BucklingInfo))
     _declare("dmb_analysis_path", status, sim, POINTER(PathOptions), POINTER(PathReport))
     _declare("dmb_buckling_destroy", None, POINTER(buckling))
     _declare("dmb_buckling_count", count, buckling)
@@ -1222,12 +1232,15 @@ class _SimAt(Sim):
 
 # ---- Buckling --------------------------------------------------------------------------------------------------------
 class Buckling:
-    """Critical factors, rising, and their shapes. status is NOTE_STOPPED where fewer were found than asked for."""
+    """Critical factors, rising, and their shapes. status is NOTE_STOPPED where fewer were found than asked for,
+    NOTE_EXTRAPOLATED where info.confirmed is less than their number."""
 
     def __init__(self, sim, options):
         self._handle = c_void_p()
         self._scene = sim._scene  # the model's callbacks
         self.status = sim._check(_lib.dmb_analysis_buckling(sim._handle, byref(options), byref(self._handle)))
+        self.info = BucklingInfo()
+        _check(_lib.dmb_buckling_get_info(self._handle, byref(self.info)))
         value = c_double()
         self.factors = []
         for mode in range(_lib.dmb_buckling_count(self._handle)):

@@ -80,6 +80,7 @@ static int32_t look_at_buckling(study_point *p, study_string *s)
     dmb_buckling *found = NULL;
     options.scale = DMB_SCALE_PART;
     options.part = s->push;
+    options.follow = 0; /* eccentric masses keep the string from a sharp end of its equilibria */
     int32_t status = dmb_analysis_buckling(s->sim, &options, &found);
     if (status >= 0) status = dmb_buckling_factor(found, 0, &p->buckling);
     dmb_buckling_destroy(&found);

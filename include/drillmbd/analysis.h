@@ -61,9 +61,9 @@ typedef struct dmb_static_report {
     int32_t negative;          /* [-] eigenvalues of the stiffness by which the equilibrium is unstable, those that are 0 but
                                   for rounding apart. SYMMETRIC: negative ones, exactly. UNSYMMETRIC: real negative ones
                                   among those nearest 0, 36 or all, as many as the sign of the determinant agrees with;
-                                  -1: they could not be counted, or the state moves (`steady`) and the stiffness
-                                  alone does not tell */
-    int32_t stiffness;         /* DMB_STIFFNESS_...: the kind that was judged */
+                                  -1: they could not be counted. Of a state that moves (`steady`): of the symmetric
+                                  part, which does not tell whether it stays so (dmb_analysis_modes) */
+    int32_t stiffness;         /* DMB_STIFFNESS_...: the kind that was judged; SYMMETRIC of a state that moves */
     int32_t steady;            /* DMB_STEADY_AT_REST, _SLIDING or _RIGID: what the state is */
     int32_t steady_reserved;
 } dmb_static_report;
@@ -98,28 +98,60 @@ typedef struct dmb_buckling_options {
     uint32_t struct_size;
     uint32_t count;          /* [-] of critical factors wanted, 1 .. 10000; default 1 */
     int32_t scale;           /* DMB_SCALE_..., default DMB_SCALE_LOADS */
-    int32_t reserved;
+    int32_t follow;          /* 1 (default): along the equilibria to the lowest factor; 0: extrapolated from the present
+                                state alone */
     dmb_id part;             /* load or drive of DMB_SCALE_PART */
     double factor_max;       /* [unit of the factor] not looked beyond, > 0; default 1e12 */
     double tolerance;        /* [-] relative, of the factors, 1e-15 .. 0.1; default 1e-10 */
     double step;             /* [unit of the factor] difference that the change of the stiffness is taken over; 0
                                 (default): what moves the string by a millionth of an element */
-    double slip_axial;       /* [m/s] friction as in dmb_static_options; the symmetric part of the stiffness counts */
+    double slip_axial;       /* [m/s] friction as in dmb_static_options; the stiffness is unsymmetric then */
     double slip_rotation;    /* [rad/s] */
 } dmb_buckling_options;
 DMB_SIZED_STRUCT(dmb_buckling_options)
+/* What ended the way along the equilibria. */
+enum {
+    DMB_BUCKLING_EXTRAPOLATED = 0, /* there was none: follow = 0, or nothing buckles about the present state */
+    DMB_BUCKLING_BIFURCATION = 1,  /* an eigenvalue of the stiffness passes 0 and the equilibria go on, unstable */
+    DMB_BUCKLING_LIMIT = 2,        /* the factor is at a maximum of the path, or a contact that opens turns it back */
+    DMB_BUCKLING_STABLE = 3        /* none: they stay stable up to `reached` */
+};
+typedef struct dmb_buckling_info {
+    uint32_t struct_size;
+    uint32_t count;          /* [-] factors */
+    uint32_t confirmed;      /* [-] of them, the lowest: the first stood up on the path of equilibria, others are the same or
+                                have not changed from one linearisation to the other; the rest are extrapolations */
+    uint32_t linearisations; /* [-] of states on the way, the present one included */
+    uint32_t points;         /* [-] equilibria found on the way */
+    int32_t stiffness;       /* DMB_STIFFNESS_... of the state linearised last. UNSYMMETRIC: factors are those of divergence,
+                                det K = 0; what flutters may do so before (dmb_analysis_modes) */
+    int32_t end;             /* DMB_BUCKLING_... */
+    int32_t reserved;
+    double estimate;         /* [unit of the factor] the lowest factor, from the present state alone; infinite: none */
+    double linearised_at;    /* [unit of the factor] state that the shapes and further factors were linearised about */
+    double reached;          /* [unit of the factor] last stable equilibrium on the way */
+} dmb_buckling_info;
+DMB_SIZED_STRUCT(dmb_buckling_info)
 /* Critical factors and shapes; destroyed by the caller, one thread at a time. */
 typedef struct dmb_buckling dmb_buckling;
-/* Linear buckling about the present static state (dmb_analysis_static first): the lowest factors > 0 at which
- * K + factor dK is singular. K is the tangent stiffness with its contacts as they are, closed ones holding and swinging
- * with F/e around the axis; dK is its change along the response of the state to the pattern of loads; with joints both are
- * those of the independent coordinates. Counted by the signs of the pivots (Sylvester), so that none is missed, and found by
- * bisection. The sim is not changed.
- * DMB_NOTE_STOPPED where fewer than `count` lie below factor_max. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no
- * equilibrium or not stable; message says by how much), _SINGULAR (message says which part is free), _UNSUPPORTED (a
- * motion drive of a joint), _NO_MEMORY, _CALLBACK; *buckling is NULL then. Some 40 counts a factor, each O(number of
- * elements); memory: the sim's once more and 3 matrices, from its allocator. */
+/* Buckling from the present static state on (dmb_analysis_static first): the lowest factors > 0 at which K + factor dK is
+ * singular. K is the tangent stiffness with its contacts as they are, closed ones holding and swinging with F/e around the
+ * axis; dK is its change along the response of the state to the pattern of loads, both in the frames of the state; with
+ * joints both are those of the independent coordinates. A symmetric K is counted by the signs of the pivots (Sylvester), so
+ * that no factor is missed, and factors are found by bisection; of an unsymmetric one they are the real eigenvalues by Krylov
+ * subspaces, and what may flutter before is not looked for.
+ * That is an extrapolation, good where sections turn and contacts shift little on the way. So the equilibria are followed
+ * (dmb_analysis_path) to the factor, linearised again, and so on until an eigenvalue of their stiffness passes 0: the lowest
+ * factor is where the path loses its stability, at a bifurcation or limit point, and shape and further factors are linearised
+ * just before. dmb_buckling_get_info tells. The sim is not changed.
+ * DMB_NOTE_STOPPED where fewer than `count` lie below factor_max or can be told (beyond a limit point none can; message says
+ * how far the equilibria stay stable where there is none). DMB_NOTE_EXTRAPOLATED where some of the factors are not confirmed.
+ * Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no equilibrium or not stable; message says by how much), _SINGULAR (message
+ * says which part is free), _NO_CONVERGENCE (the equilibria could not be followed; message says how far), _UNSUPPORTED (a
+ * motion drive of a joint), _NO_MEMORY, _CALLBACK; *buckling is NULL then. Some 40 counts a factor and 10 to 100 iterations on
+ * the way, each O(number of elements); memory: the sim's twice more and 3 matrices, from its allocator. */
 DMB_API int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling);
+DMB_API int32_t dmb_buckling_get_info(const dmb_buckling *buckling, dmb_buckling_info *info);
 /* Gives the memory back and sets *buckling to NULL. NULL-safe. */
 DMB_API void dmb_buckling_destroy(dmb_buckling **buckling);
 /* Factors found; 0 for NULL. */
@@ -192,9 +224,10 @@ DMB_SIZED_STRUCT(dmb_path_report)
  * across it (Riks 1979) with the factor bordering the stiffness (Crisfield 1981), the step as long as Newton likes it.
  * Limit points, bifurcations and the ends are located to 1e-8 of the step by regula falsi. The sim is not changed.
  * options and report may be NULL; where the path was lost the report tells how far it came. DMB_NOTE_STOPPED after
- * max_points or by the callback. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no equilibrium), _SINGULAR (message says which part is free, or that the factor moves nothing),
- * _NO_CONVERGENCE (message says where the path was lost), _ROTATION (above 2.5 rad in an element, likewise), _UNSUPPORTED,
- * _NO_MEMORY, _CALLBACK. O(number of elements) an iteration; memory: the sim's once more. */
+ * max_points or by the callback. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no equilibrium), _SINGULAR (message
+ * says which part is free, or that the factor moves nothing), _NO_CONVERGENCE (message says where the path was lost),
+ * _ROTATION (above 2.5 rad in an element, likewise), _UNSUPPORTED, _NO_MEMORY, _CALLBACK. O(number of elements) an
+ * iteration; memory: the sim's once more. */
 DMB_API int32_t dmb_analysis_path(dmb_sim *sim, const dmb_path_options *options, dmb_path_report *report);
 
 /* ---- Model check -------------------------------------------------------------------------------------------------

@@ -39,6 +39,7 @@ DMB_API uint32_t dmb_version(void);
     X(DMB_NOTE_TOLERANCE, 6, "done; the smallest step allowed was too long for the error tolerance")                  \
     X(DMB_NOTE_UNSTABLE, 7, "done; the equilibrium that was found is not stable")                                     \
     X(DMB_NOTE_NOT_STEADY, 8, "done; drives move but no steady state was found: only what they move has a speed")     \
+    X(DMB_NOTE_EXTRAPOLATED, 9, "done; some of the answers are extrapolations that were not confirmed")               \
     X(DMB_ERR_NULL, -1, "a required pointer is NULL")                                                                 \
     X(DMB_ERR_HANDLE, -2, "not a live object of this kind")                                                           \
     X(DMB_ERR_STRUCT_SIZE, -3, "struct_size is not a size this library knows")                                        \

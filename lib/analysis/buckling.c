@@ -8,6 +8,7 @@
 #include "base/sized_struct.h"
 
 DMB_DECLARE_STRUCT(dmb_buckling_options)
+DMB_DECLARE_STRUCT(dmb_buckling_info)
 
 static int32_t take_options(dmb_sim *sim, const dmb_buckling_options *given, dmb_buckling_options *out)
 {
@@ -19,6 +20,7 @@ static int32_t take_options(dmb_sim *sim, const dmb_buckling_options *given, dmb
     }
     dmb_check_count(&check, "count", out->count, 1, 10000);
     dmb_check_choice(&check, "scale", out->scale, DMB_SCALE_ALL, DMB_SCALE_PART);
+    dmb_check_choice(&check, "follow", out->follow, 0, 1);
     dmb_check_within(&check, "factor_max", out->factor_max, 1e-300, 1e300);
     dmb_check_within(&check, "tolerance", out->tolerance, 1e-15, 0.1);
     dmb_check_within(&check, "step", out->step, 0.0, 1e30);
@@ -33,11 +35,13 @@ static void lay_out(dmb_arena *arena, const dmb_scene *scene, uint32_t count, dm
 {
     const size_t rows = scene->row_count;
     to->factor = DMB_ARENA_DOUBLES(arena, count);
+    to->first = DMB_ARENA_DOUBLES(arena, count);
     to->vector = DMB_ARENA_DOUBLES(arena, (size_t)count * dmb_pencil_unknowns(scene));
     to->shape = scene->cluster_count ? DMB_ARENA_DOUBLES(arena, count * rows) : to->vector;
     to->response = DMB_ARENA_DOUBLES(arena, rows);
     to->pattern.base = DMB_ARENA_DOUBLES(arena, dmb_load_pattern_size(scene));
     dmb_pencil_lay_out(arena, scene, &to->pencil);
+    dmb_frames_lay_out(arena, scene, &to->frames);
 }
 
 void dmb_buckling_destroy(dmb_buckling **buckling)
@@ -103,33 +107,98 @@ static void normalise(const dmb_scene *scene, double *x)
 /* Factors this close count as one, with vectors apart from each other. */
 #define DMB_SAME_FACTOR 1e-6
 
-static void find_shape(dmb_buckling *buckling, uint32_t k)
+static void store_shape(dmb_buckling *buckling, uint32_t k)
 {
     const size_t rows = buckling->work->scene->row_count, unknowns = buckling->pencil.unknowns;
-    uint32_t first = k;
-    while (first > 0 && buckling->factor[k] - buckling->factor[first - 1] < DMB_SAME_FACTOR * buckling->factor[k])
-        first--;
-    double *x = buckling->vector + k * unknowns, *shape = buckling->shape + k * rows;
-    (void)dmb_pencil_vector(&buckling->pencil, buckling->factor[k], buckling->vector + first * unknowns, k - first, x);
-    dmb_buckling_expand(buckling, x, shape);
-    normalise(buckling->work->scene, shape);
+    dmb_buckling_expand(buckling, buckling->vector + k * unknowns, buckling->shape + k * rows);
+    normalise(buckling->work->scene, buckling->shape + k * rows);
 }
 
-static int32_t find_factors(dmb_buckling *buckling, const dmb_buckling_options *options, dmb_message *message)
+/* distance: of the factor from the state that is linearised. */
+static void find_shape(dmb_buckling *buckling, uint32_t k, double distance)
 {
-    double guess = fmin(1.0, options->factor_max);
+    const size_t unknowns = buckling->pencil.unknowns;
+    uint32_t first = k;
+    while (first > 0 && buckling->factor[k] - buckling->factor[first - 1] < DMB_SAME_FACTOR * distance) first--;
+    (void)dmb_pencil_vector(&buckling->pencil, distance, buckling->vector + first * unknowns, k - first,
+                            buckling->vector + k * unknowns);
+    store_shape(buckling, k);
+}
+
+static int32_t find_symmetric(dmb_buckling *buckling, const dmb_buckling_options *options, dmb_message *message)
+{
+    const double most = options->factor_max - buckling->at;
+    double guess = fmin(buckling->at > 0.0 && isfinite(buckling->first[0]) ? buckling->first[0] : 1.0, most);
     for (uint32_t k = 0; k < options->count; k++) {
-        const double factor = dmb_pencil_factor(&buckling->pencil, k, guess, options->factor_max, options->tolerance);
+        const double factor = dmb_pencil_factor(&buckling->pencil, k, guess, most, options->tolerance);
         if (isnan(factor)) {
             dmb_message_set(message, "buckling: critical factor %u cannot be counted, the stiffness stays singular", k);
             return DMB_ERR_SINGULAR;
         }
         if (!isfinite(factor)) return DMB_NOTE_STOPPED;
-        buckling->factor[k] = guess = factor;
+        guess = factor;
+        buckling->factor[k] = buckling->at + factor;
         buckling->count = k + 1;
-        find_shape(buckling, k);
+        find_shape(buckling, k, factor);
     }
     return DMB_OK;
+}
+
+static int32_t find_general(dmb_buckling *buckling, const dmb_buckling_options *options, dmb_message *message)
+{
+    const int32_t status =
+        dmb_pencil_general(&buckling->pencil, options->count, options->factor_max - buckling->at, &buckling->allocator,
+                           buckling->factor, buckling->vector, &buckling->count);
+    if (status < 0 && status != DMB_ERR_NO_MEMORY)
+        dmb_message_set(
+            message, "buckling: the critical factors of the unsymmetric stiffness at factor = %g cannot be found, %s",
+            buckling->at, dmb_status_text(status));
+    if (status < 0) return status;
+    for (uint32_t k = 0; k < buckling->count; k++) {
+        buckling->factor[k] += buckling->at;
+        store_shape(buckling, k);
+    }
+    return buckling->count < options->count ? DMB_NOTE_STOPPED : DMB_OK;
+}
+
+int32_t dmb_buckling_find(dmb_buckling *buckling, const dmb_buckling_options *options, dmb_message *message)
+{
+    buckling->count = 0;
+    buckling->info.linearisations++;
+    buckling->info.linearised_at = buckling->at;
+    return buckling->info.stiffness == DMB_STIFFNESS_UNSYMMETRIC ? find_general(buckling, options, message)
+                                                                 : find_symmetric(buckling, options, message);
+}
+
+/* Where the loads move nothing, rigid links in line, the stiffness is linear in them: there is no way to follow. */
+static int moves(const dmb_buckling *buckling)
+{
+    for (uint32_t i = 0; i < buckling->work->scene->row_count; i++)
+        if (buckling->response[i] != 0.0) return 1;
+    return 0;
+}
+
+static void confirm_all(dmb_buckling *buckling)
+{
+    buckling->info.confirmed = buckling->count;
+    buckling->info.end = DMB_BUCKLING_BIFURCATION;
+}
+
+/* About the present state, and then along the equilibria. */
+static int32_t run(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options)
+{
+    int32_t status = dmb_buckling_linearise(buckling, sim, options);
+    if (status >= 0) status = dmb_buckling_find(buckling, options, &sim->message);
+    if (status < 0) return status;
+    for (uint32_t k = 0; k < options->count; k++)
+        buckling->first[k] = k < buckling->count ? buckling->factor[k] : (double)INFINITY;
+    buckling->info.estimate = buckling->first[0];
+    if (!moves(buckling))
+        confirm_all(buckling);
+    else if (options->follow && buckling->count > 0)
+        status = dmb_buckling_follow(buckling, sim, options);
+    buckling->info.count = buckling->count;
+    return status == DMB_OK && buckling->info.confirmed < buckling->count ? DMB_NOTE_EXTRAPOLATED : status;
 }
 
 static int32_t analyse(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling)
@@ -144,8 +213,8 @@ static int32_t analyse(dmb_sim *sim, const dmb_buckling_options *options, dmb_bu
     if (made == NULL) return DMB_ERR_NO_MEMORY;
     pattern.base = made->pattern.base;
     made->pattern = pattern;
-    status = dmb_buckling_linearise(made, sim, &taken);
-    if (status >= 0) status = find_factors(made, &taken, &sim->message);
+    (void)dmb_buckling_info_init(&made->info, (uint32_t)sizeof made->info);
+    status = run(made, sim, &taken);
     if (status < 0)
         dmb_buckling_destroy(&made);
     else
@@ -159,6 +228,13 @@ int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options,
     *buckling = NULL;
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     return status < 0 ? status : dmb_sim_leave(sim, analyse(sim, options, buckling));
+}
+
+int32_t dmb_buckling_get_info(const dmb_buckling *buckling, dmb_buckling_info *info)
+{
+    if (buckling == NULL || info == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(buckling, DMB_HANDLE_BUCKLING)) return DMB_ERR_HANDLE;
+    return dmb_buckling_info_write(info, &buckling->info);
 }
 
 uint32_t dmb_buckling_count(const dmb_buckling *buckling)

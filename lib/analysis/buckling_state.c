@@ -2,11 +2,13 @@
  *     K = dr/dx,   x' = -K^-1 dr/dfactor,   G = d/dfactor K(x + factor x', factor)
  * G by a central difference of the exact tangent, so that what the state does before it buckles is in it. With joints K
  * is that of the independent coordinates, R^T K R with the forces of constraint in it, and so is its difference: R and
- * those forces change along the response too. */
+ * those forces change along the response too. All in the frames of the present state (frames.h). */
 #include <string.h>
 
 #include "analysis/buckling.h"
+#include "analysis/stability.h"
 #include "analysis/stiffness.h"
+#include "analysis/symmetry.h"
 #include "system/cluster.h"
 #include "system/joint_state.h"
 #include "system/linked.h"
@@ -15,14 +17,28 @@
 /* The pattern moves the state by this part of an element for the difference. */
 #define DMB_DIFFERENCE_MOVE 1e-6
 
-/* x' by the factors of K; a motion drive moves its own row by 1. */
-static int32_t respond(dmb_buckling *buckling, dmb_sim *sim)
+static int32_t unstable(dmb_sim *sim, int32_t negative)
+{
+    dmb_message_set(&sim->message,
+                    "buckling: the state is not stable, its stiffness has negative eigenvalues = %d, must be 0; find a "
+                    "stable one with dmb_analysis_static first",
+                    negative);
+    return DMB_ERR_ORDER;
+}
+
+/* x' by the factors of K, which has to be that of a stable state; a motion drive moves its own row by 1. */
+static int32_t respond(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *search)
 {
     dmb_sim *work = buckling->work;
     dmb_block_weakest weakest;
-    const int64_t bad = dmb_factor_stiffness(work, &weakest);
+    dmb_stability found = {0};
+    int64_t bad = -1;
+    const int32_t status = dmb_stability_judge(&search->evaluation, 0, &weakest, &bad, &found);
+    if (status < 0) return status;
     if (bad >= 0 || weakest.ratio < DMB_LOOSE_PIVOT)
         return dmb_stiffness_explain(sim, "buckling", bad >= 0 ? (uint32_t)bad : weakest.block);
+    buckling->info.stiffness = found.stiffness;
+    if (found.negative != 0) return unstable(sim, found.negative);
     memcpy(work->correction, buckling->response, work->scene->row_count * sizeof(double));
     dmb_solve_correction(work);
     memcpy(buckling->response, work->correction, work->scene->row_count * sizeof(double));
@@ -50,7 +66,7 @@ static int32_t place_at(dmb_buckling *buckling, dmb_static_search *search, doubl
     dmb_sim *work = buckling->work;
     dmb_configuration_copy(work, &work->now, &work->trial);
     memset(work->increment, 0, work->scene->row_count * sizeof(double));
-    dmb_load_pattern_set(&buckling->pattern, &search->evaluation, factor);
+    dmb_load_pattern_set(&buckling->pattern, &search->evaluation, buckling->at + factor);
     if (factor != 0.0) dmb_static_displace(work, buckling->response, factor);
     if (work->scene->cluster_count == 0) return DMB_OK;
     const int32_t status = dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
@@ -70,58 +86,29 @@ static void add_to(size_t n, double factor, const double *from, double *to)
     for (size_t i = 0; i < n; i++) to[i] += factor * from[i];
 }
 
-/* A += factor K of the evaluation, its rows held. */
-static void take_matrix(const dmb_evaluation *evaluation, double factor, dmb_pencil_matrix *A)
+/* A += factor K of the evaluation, its rows held, in the frames of the present state. 0 where that cannot be done. */
+static int take_matrix(dmb_buckling *buckling, const dmb_evaluation *evaluation, double factor, dmb_pencil_matrix *A)
 {
     dmb_sim *work = evaluation->sim;
     const dmb_block_layout *layout = &work->scene->layout;
     const size_t link = layout->link[layout->n - 1];
     dmb_system_iteration_matrix(evaluation);
+    dmb_frames_turn_chains(work);
     add_to(layout->diag[layout->n], factor, work->stiffness_diagonal, A->diagonal);
     add_to(link, factor, work->stiffness_lower, A->lower);
     add_to(link, factor, work->stiffness_upper, A->upper);
-    if (work->scene->cluster_count == 0) return;
+    if (work->scene->cluster_count == 0) return 1;
     dmb_linked_assemble(work);
+    if (!dmb_frames_turn_linked(work, &buckling->frames)) return 0;
     add_to(work->scene->pattern.values, factor, work->linked_value, A->linked);
+    return 1;
 }
 
-/* U and L^T of shape (n, m) become their mean, and L its transpose. */
-static void average_link(uint32_t n, uint32_t m, double *U, double *L)
-{
-    for (uint32_t i = 0; i < n; i++)
-        for (uint32_t j = 0; j < m; j++)
-            U[(size_t)m * i + j] = L[(size_t)n * j + i] = 0.5 * (U[(size_t)m * i + j] + L[(size_t)n * j + i]);
-}
-
-static void average_block(uint32_t n, double *D)
-{
-    for (uint32_t i = 0; i < n; i++)
-        for (uint32_t j = 0; j < i; j++)
-            D[(size_t)n * i + j] = D[(size_t)n * j + i] = 0.5 * (D[(size_t)n * i + j] + D[(size_t)n * j + i]);
-}
-
-static void make_linked_symmetric(const dmb_sim *work, dmb_pencil_matrix *A)
-{
-    const dmb_block_pattern *pattern = &work->scene->pattern;
-    for (uint32_t k = 0; k < pattern->n; k++) {
-        const uint32_t n = work->linked_size[pattern->order[k]];
-        average_block(n, A->linked + pattern->diagonal[k]);
-        for (uint32_t e = pattern->column[k]; e < pattern->column[k + 1]; e++)
-            average_link(n, work->linked_size[pattern->order[pattern->later[e]]], A->linked + pattern->upper[e],
-                         A->linked + pattern->lower[e]);
-    }
-}
-
-/* Its symmetric part: in an equilibrium without friction the rest is rounding. */
+/* Its symmetric part: in an equilibrium of forces with a potential the rest is rounding. */
 static void make_symmetric(const dmb_sim *work, dmb_pencil_matrix *A)
 {
-    const dmb_block_layout *layout = &work->scene->layout;
-    for (uint32_t k = 0; k < layout->n; k++) {
-        average_block(layout->size[k], A->diagonal + layout->diag[k]);
-        if (k + 1 < layout->n)
-            average_link(layout->size[k], layout->size[k + 1], A->upper + layout->link[k], A->lower + layout->link[k]);
-    }
-    if (work->scene->cluster_count) make_linked_symmetric(work, A);
+    dmb_make_blocks_symmetric(&work->scene->layout, A->diagonal, A->lower, A->upper);
+    if (work->scene->cluster_count) dmb_make_linked_symmetric(work, A->linked);
 }
 
 static int32_t differences(dmb_buckling *buckling, dmb_static_search *search, double step)
@@ -130,8 +117,9 @@ static int32_t differences(dmb_buckling *buckling, dmb_static_search *search, do
     for (int side = -1; side <= 1; side += 2) {
         const int32_t status = evaluate_at(buckling, search, side * step);
         if (status < 0) return status;
-        take_matrix(&search->evaluation, 0.5 * side / step, &pencil->G);
+        if (!take_matrix(buckling, &search->evaluation, 0.5 * side / step, &pencil->G)) return DMB_ERR_SINGULAR;
     }
+    if (buckling->info.stiffness == DMB_STIFFNESS_UNSYMMETRIC) return DMB_OK;
     make_symmetric(buckling->work, &pencil->K);
     make_symmetric(buckling->work, &pencil->G);
     return DMB_OK;
@@ -143,8 +131,8 @@ static int32_t stiffness_now(dmb_buckling *buckling, dmb_sim *sim, dmb_static_se
     int32_t status = evaluate_at(buckling, search, 0.0);
     if (status >= 0) status = dmb_stiffness_balanced(sim, "buckling", &search->evaluation);
     if (status >= 0)
-        status = dmb_load_pattern_derivative(&buckling->pattern, &search->evaluation, 0.0, buckling->response);
-    if (status >= 0) take_matrix(&search->evaluation, 1.0, &buckling->pencil.K);
+        status = dmb_load_pattern_derivative(&buckling->pattern, &search->evaluation, buckling->at, buckling->response);
+    if (status >= 0 && !take_matrix(buckling, &search->evaluation, 1.0, &buckling->pencil.K)) status = DMB_ERR_SINGULAR;
     return status;
 }
 
@@ -173,16 +161,27 @@ void dmb_buckling_expand(dmb_buckling *buckling, const double *vector, double *s
 static int32_t stable(dmb_buckling *buckling, dmb_sim *sim)
 {
     uint32_t negative;
+    if (buckling->info.stiffness == DMB_STIFFNESS_UNSYMMETRIC) return DMB_OK; /* judged before */
     if (!dmb_pencil_count(&buckling->pencil, 0.0, &negative)) {
         dmb_message_set(&sim->message,
                         "buckling: the stiffness is singular, its negative eigenvalues cannot be counted");
         return DMB_ERR_SINGULAR;
     }
-    if (negative == 0) return DMB_OK;
-    dmb_message_set(&sim->message,
-                    "buckling: the state is not stable, its stiffness has negative eigenvalues = %u, must be 0",
-                    negative);
-    return DMB_ERR_ORDER;
+    return negative == 0 ? DMB_OK : unstable(sim, (int32_t)negative);
+}
+
+/* Matrices to be summed up begin with zeros. */
+static void clear(dmb_buckling *buckling)
+{
+    const dmb_scene *scene = buckling->work->scene;
+    const size_t link = scene->layout.link[scene->layout.n - 1] * sizeof(double);
+    dmb_pencil_matrix *const both[2] = {&buckling->pencil.K, &buckling->pencil.G};
+    for (int k = 0; k < 2; k++) {
+        memset(both[k]->diagonal, 0, scene->layout.diag[scene->layout.n] * sizeof(double));
+        memset(both[k]->lower, 0, link);
+        memset(both[k]->upper, 0, link);
+        if (scene->cluster_count) memset(both[k]->linked, 0, scene->pattern.values * sizeof(double));
+    }
 }
 
 /* The trial in the state at rest, with a partition that suits it. */
@@ -204,8 +203,9 @@ int32_t dmb_buckling_linearise(dmb_buckling *buckling, dmb_sim *sim, const dmb_b
     int32_t status = begin(buckling, &search);
     if (status < 0) return status;
     dmb_load_pattern_begin(&buckling->pattern, buckling->work);
+    clear(buckling);
     status = stiffness_now(buckling, sim, &search);
-    if (status >= 0) status = respond(buckling, sim);
+    if (status >= 0) status = respond(buckling, sim, &search);
     if (status >= 0) status = differences(buckling, &search, difference_of(buckling, options->step));
     if (status >= 0) status = keep_reduction(buckling, &search);
     return status < 0 ? status : stable(buckling, sim);

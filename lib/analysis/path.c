@@ -105,6 +105,7 @@ static int32_t begin(dmb_path *path)
     path->side = path->next.rate;
     dmb_path_accept(path);
     path->begun = 1;
+    path->turned = UINT32_MAX;
     return DMB_OK;
 }
 
@@ -145,15 +146,17 @@ static int32_t locate(dmb_path *path, int32_t *event, double arc)
     return dmb_path_locate(path, event, path->next.arc - path->last.arc);
 }
 
+/* Where steps went too far lately, that is why. */
+#define DMB_TURNED_NEAR 1e-3
+
 static int32_t lost(const dmb_path *path)
 {
-    return path->turned != UINT32_MAX ? DMB_ERR_ROTATION : DMB_ERR_NO_CONVERGENCE;
+    const int near = fabs(path->last.factor - path->turned_at) <= DMB_TURNED_NEAR * fabs(path->last.factor);
+    return path->turned != UINT32_MAX && near ? DMB_ERR_ROTATION : DMB_ERR_NO_CONVERGENCE;
 }
 
-/* The next point, at an event or at *arc; a step that fails is halved. *event tells. */
-static int32_t find_next(dmb_path *path, double *arc, int32_t *event)
+int32_t dmb_path_find_next(dmb_path *path, double *arc, int32_t *event)
 {
-    path->turned = UINT32_MAX;
     for (int cuts = 0;; cuts++, path->report.cuts++) {
         *arc = fmin(*arc, path->options->step_max);
         int32_t status = dmb_path_correct(path, path->last.tangent, path->last.rate, *arc);
@@ -164,7 +167,10 @@ static int32_t find_next(dmb_path *path, double *arc, int32_t *event)
             status = locate(path, event, *arc);
         }
         if (status >= 0 || status == DMB_ERR_CALLBACK) return status;
-        if (status == DMB_ERR_ROTATION) path->turned = path->search.evaluation.element;
+        if (status == DMB_ERR_ROTATION) {
+            path->turned = path->search.evaluation.element;
+            path->turned_at = path->last.factor;
+        }
         if (cuts >= DMB_CUTS_IN_A_ROW) return lost(path);
         *arc *= 0.5;
     }
@@ -210,7 +216,7 @@ static int32_t follow(dmb_path *path)
     while (status == DMB_OK) {
         int32_t event = DMB_EVENT_NONE;
         if (path->report.points >= o->max_points) return DMB_NOTE_STOPPED;
-        status = find_next(path, &arc, &event);
+        status = dmb_path_find_next(path, &arc, &event);
         if (status < 0) return status;
         if (creeps(arc, &longest, &crept)) return lost(path);
         if (event == DMB_EVENT_BIFURCATION) go_straight_on(path);
@@ -230,40 +236,42 @@ static int32_t follow(dmb_path *path)
     return status;
 }
 
-static int32_t run(dmb_path *path)
-{
-    path->statics.tolerance = path->options->tolerance;
-    dmb_static_set_up(&path->search, path->work, &path->statics);
-    dmb_static_slip(&path->search, path->options->slip_axial, path->options->slip_rotation);
-    int32_t status = begin(path);
-    if (status >= 0) status = follow(path);
-    if (status < 0) explain(path, status);
-    return status;
-}
-
-static int32_t allocate_and_run(dmb_path *path)
+int32_t dmb_path_open(dmb_path *path)
 {
     dmb_sim *sim = path->sim;
     dmb_arena arena;
-    dmb_arena_count(&arena);
-    double *const none = path->pattern.base;
     const dmb_scene *scene = dmb_dense_scene(sim->scene);
+    dmb_arena_count(&arena);
     lay_out(&arena, scene, path);
-    const size_t size = dmb_arena_block_size(&arena);
-    void *block = arena.overflow ? NULL : dmb_allocate(&sim->allocator, size);
-    path->work = block != NULL ? dmb_state_copy(sim) : NULL;
-    int32_t status = DMB_ERR_NO_MEMORY;
-    if (path->work != NULL) {
-        path->work->magic = DMB_HANDLE_SIM; /* so that the callback can ask it, and no more */
-        path->work->busy = DMB_BUSY_READABLE;
-        dmb_arena_place(&arena, block, size);
-        lay_out(&arena, scene, path);
-        status = run(path);
-        path->work->magic = DMB_HANDLE_DEAD;
-    }
-    path->pattern.base = none;
+    path->block_size = dmb_arena_block_size(&arena);
+    path->block = arena.overflow ? NULL : dmb_allocate(&sim->allocator, path->block_size);
+    path->work = path->block != NULL ? dmb_state_copy(sim) : NULL;
+    if (path->work == NULL) return DMB_ERR_NO_MEMORY;
+    path->work->magic = DMB_HANDLE_SIM; /* so that a callback can ask it, and no more */
+    path->work->busy = DMB_BUSY_READABLE;
+    dmb_arena_place(&arena, path->block, path->block_size);
+    lay_out(&arena, scene, path);
+    path->statics.tolerance = path->options->tolerance;
+    dmb_static_set_up(&path->search, path->work, &path->statics);
+    dmb_static_slip(&path->search, path->options->slip_axial, path->options->slip_rotation);
+    return begin(path);
+}
+
+void dmb_path_close(dmb_path *path)
+{
+    if (path->work != NULL) path->work->magic = DMB_HANDLE_DEAD;
     dmb_state_discard(path->work);
-    if (block != NULL) dmb_release(&sim->allocator, block, size);
+    if (path->block != NULL) dmb_release(&path->sim->allocator, path->block, path->block_size);
+    path->work = NULL;
+    path->block = NULL;
+}
+
+static int32_t run(dmb_path *path)
+{
+    int32_t status = dmb_path_open(path);
+    if (status >= 0) status = follow(path);
+    if (status < 0 && status != DMB_ERR_NO_MEMORY) explain(path, status);
+    dmb_path_close(path);
     return status;
 }
 
@@ -282,7 +290,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_path_options *options, dmb_path_r
     if (status >= 0) status = check_place(sim, &taken);
     if (status >= 0) status = dmb_state_copy_check(sim, "path");
     if (status >= 0) status = dmb_load_pattern_take(sim, "path options", taken.scale, taken.part, &path.pattern);
-    if (status >= 0) status = allocate_and_run(&path);
+    if (status >= 0) status = run(&path);
     if (path.begun && report != NULL) (void)dmb_path_report_write(report, &path.report);
     return status;
 }

@@ -33,10 +33,20 @@ typedef struct dmb_path {
     double rounding;       /* [N/m] of eigenvalues of the stiffness judged last */
     double weakest;        /* [-] pivot of the stiffness factored last, against its block */
     uint32_t iterations;   /* of the point sought */
-    uint32_t turned;       /* element that the step tried last twisted or bent too far; UINT32_MAX: none */
+    uint32_t turned;       /* element that a step has twisted or bent too far; UINT32_MAX: none */
+    double turned_at;      /* [unit of the factor] where that step began */
     int32_t begun;         /* 1: from a state in equilibrium, so that the report tells something */
     dmb_path_report report;
+    void *block;
+    size_t block_size;
 } dmb_path;
+
+/* Memory, and the first point, from zeros but for sim, options and pattern. Errors: as dmb_analysis_path; dmb_path_close
+ * gives the memory back in any case. */
+int32_t dmb_path_open(dmb_path *path);
+void dmb_path_close(dmb_path *path);
+/* The next point, at an event or at *arc; a step that fails is halved. *event tells. */
+int32_t dmb_path_find_next(dmb_path *path, double *arc, int32_t *event);
 
 /* [m2] a . b over the nodes, rotations times the length scale, the mean of the nodes. */
 double dmb_path_dot(const dmb_path *path, const double *a, const double *b);

@@ -167,7 +167,7 @@ double dmb_pencil_factor(dmb_pencil *pencil, uint32_t k, double guess, double mo
 
 /* ---- Vectors ----------------------------------------------------------------------------------------------------- */
 
-static void multiply(const dmb_pencil *pencil, const dmb_pencil_matrix *A, const double *x, double *y)
+void dmb_pencil_multiply(const dmb_pencil *pencil, const dmb_pencil_matrix *A, const double *x, double *y)
 {
     const dmb_scene *scene = pencil->scene;
     const dmb_block_matrix matrix = {A->diagonal, A->lower, A->upper, pencil->pivot};
@@ -181,7 +181,7 @@ static void multiply(const dmb_pencil *pencil, const dmb_pencil_matrix *A, const
                               y + scene->row_count);
 }
 
-static int factor_shifted(dmb_pencil *pencil, double factor)
+int dmb_pencil_shift_and_factor(dmb_pencil *pencil, double factor)
 {
     const dmb_scene *scene = pencil->scene;
     dmb_block_matrix matrix = {pencil->work.diagonal, pencil->work.lower, pencil->work.upper, pencil->pivot};
@@ -195,7 +195,7 @@ static int factor_shifted(dmb_pencil *pencil, double factor)
     return dmb_block_sparse_factor(&scene->pattern, &linked) < 0;
 }
 
-static void solve_shifted(const dmb_pencil *pencil, double *x)
+void dmb_pencil_solve(const dmb_pencil *pencil, double *x)
 {
     const dmb_scene *scene = pencil->scene;
     const dmb_block_matrix matrix = {pencil->work.diagonal, pencil->work.lower, pencil->work.upper, pencil->pivot};
@@ -213,7 +213,7 @@ static void take_apart(dmb_pencil *pencil, const double *other, uint32_t others,
     const uint32_t rows = pencil->unknowns;
     for (uint32_t k = 0; k < others; k++) {
         const double *y = other + (size_t)k * rows;
-        multiply(pencil, &pencil->G, y, pencil->image);
+        dmb_pencil_multiply(pencil, &pencil->G, y, pencil->image);
         const double share = dmb_dot(rows, pencil->image, x) / dmb_dot(rows, pencil->image, y);
         for (uint32_t i = 0; i < rows; i++) x[i] -= share * y[i];
     }
@@ -232,10 +232,9 @@ static int is_linked(const dmb_scene *scene, uint32_t node)
 }
 
 /* Any vector with a part in the one sought; the same in every run. */
-static void begin(const dmb_pencil *pencil, uint32_t others, double *x)
+void dmb_pencil_draw(const dmb_pencil *pencil, uint64_t seed, double *x)
 {
     const dmb_scene *scene = pencil->scene;
-    uint64_t seed = 88172645463325252u + others;
     for (uint32_t i = 0; i < pencil->unknowns; i++) {
         seed ^= seed << 13;
         seed ^= seed >> 7;
@@ -253,18 +252,18 @@ static void begin(const dmb_pencil *pencil, uint32_t others, double *x)
 double dmb_pencil_vector(dmb_pencil *pencil, double factor, const double *other, uint32_t others, double *x)
 {
     const uint32_t rows = pencil->unknowns;
-    begin(pencil, others, x);
-    if (!factor_shifted(pencil, factor * (1.0 - DMB_PENCIL_OFFSET))) return factor;
+    dmb_pencil_draw(pencil, 88172645463325252u + others, x);
+    if (!dmb_pencil_shift_and_factor(pencil, factor * (1.0 - DMB_PENCIL_OFFSET))) return factor;
     for (int k = 0; k < DMB_PENCIL_ITERATIONS; k++) {
         take_apart(pencil, other, others, x);
-        multiply(pencil, &pencil->G, x, pencil->image);
+        dmb_pencil_multiply(pencil, &pencil->G, x, pencil->image);
         memcpy(x, pencil->image, rows * sizeof(double));
-        solve_shifted(pencil, x);
+        dmb_pencil_solve(pencil, x);
         normalise(rows, x);
     }
     take_apart(pencil, other, others, x);
-    multiply(pencil, &pencil->K, x, pencil->image);
+    dmb_pencil_multiply(pencil, &pencil->K, x, pencil->image);
     const double stiff = dmb_dot(rows, x, pencil->image);
-    multiply(pencil, &pencil->G, x, pencil->image);
+    dmb_pencil_multiply(pencil, &pencil->G, x, pencil->image);
     return -stiff / dmb_dot(rows, x, pencil->image);
 }

@@ -37,4 +37,19 @@ double dmb_pencil_factor(dmb_pencil *pencil, uint32_t k, double guess, double mo
  * Returns the factor once more, as Rayleigh's quotient of the vector. */
 double dmb_pencil_vector(dmb_pencil *pencil, double factor, const double *other, uint32_t others, double *x);
 
+
+/* ---- Where K or G is not symmetric ---- */
+/* The same factors, as many as `wanted`, and their vectors, shape (wanted, unknowns): the real positive eigenvalues 1/factor
+ * of -K^-1 G that are largest, by Krylov subspaces. *found: how many there are below `most`. DMB_ERR_NO_MEMORY, _SINGULAR,
+ * _NO_CONVERGENCE. */
+int32_t dmb_pencil_general(dmb_pencil *pencil, uint32_t wanted, double most, const dmb_allocator *allocator,
+                           double *factors, double *vectors, uint32_t *found);
+
+/* What these are made of. y = A x; factors of K + factor G into `work`, 0 where they are singular; x <- (K + factor G)^-1 x;
+ * any vector, the same for the same seed > 0. */
+void dmb_pencil_multiply(const dmb_pencil *pencil, const dmb_pencil_matrix *A, const double *x, double *y);
+int dmb_pencil_shift_and_factor(dmb_pencil *pencil, double factor);
+void dmb_pencil_solve(const dmb_pencil *pencil, double *x);
+void dmb_pencil_draw(const dmb_pencil *pencil, uint64_t seed, double *x);
+
 #endif

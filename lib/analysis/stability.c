@@ -7,6 +7,7 @@
 #include "math/block_inertia.h"
 #include "math/krylov.h"
 #include "system/linked.h"
+#include "system/linked_sparse.h"
 #include "system/solve.h"
 
 /* ---- Iteration matrix raised by rho D ------------------------------------------------------------------------------
@@ -28,7 +29,9 @@ static void raise_diagonal(dmb_sim *sim, double rho, int linked)
 static uint32_t negative_of_linked(dmb_sim *sim)
 {
     const dmb_block_sparse matrix = {sim->linked_value, sim->linked_pivot, sim->linked_size};
-    return dmb_block_sparse_negative(&sim->scene->pattern, &matrix, sim->cluster_full);
+    const uint32_t negative = dmb_block_sparse_negative(&sim->scene->pattern, &matrix, sim->cluster_full);
+    const uint32_t held = dmb_linked_sparse_rows(sim); /* of equations that stand in the system: one each */
+    return negative > held ? negative - held : 0;
 }
 
 /* Negative eigenvalues of H + rho D; the blocks are used up. -1: a block is singular before its turn. */
@@ -146,7 +149,7 @@ static int determinant_is_negative(const dmb_sim *sim)
         for (uint32_t k = 0; k < n; k++) exchanged ^= sim->linked_pivot[pattern->pivot[b] + k] != k;
         odd ^= is_negative(n, sim->linked_value + pattern->diagonal[b], exchanged);
     }
-    return odd;
+    return odd ^ (scene->cluster_count ? (int)(dmb_linked_sparse_rows(sim) & 1) : 0);
 }
 
 /* ---- Divergence ----------------------------------------------------------------------------------------------------

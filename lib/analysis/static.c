@@ -3,6 +3,7 @@
 #include "analysis/stability.h"
 #include "analysis/static_options.h"
 #include "analysis/static_state.h"
+#include "analysis/stiffness.h"
 #include "base/handle.h"
 #include "base/sized_struct.h"
 #include "math/vec3.h"
@@ -117,8 +118,8 @@ static double largest_displacement(const dmb_sim *sim)
     return most;
 }
 
-/* A part that nothing holds is moved so far that rounding of its poses hides the force on it, which then counts as none.
- * Relative residuals above this are those forces, not what rounding leaves of others. */
+/* A part that nothing holds is moved so far that rounding of its poses hides the force on it, which then counts as
+ * none. Relative residuals above this are those forces, not what rounding leaves of others. */
 #define DMB_UNBALANCED 1e-3
 #define DMB_GONE_FAR 1e3   /* [-] lengths of the scene or of its elements */
 #define DMB_TURNED_FAR 1e4 /* [rad] */
@@ -250,8 +251,10 @@ static void name_free_string(dmb_sim *sim, int32_t status)
     for (uint32_t i = 0; i < scene->string_count; i++) {
         const dmb_message said = sim->message;
         if (is_held_along(scene, scene->strings + i)) continue;
-        dmb_message_set(&sim->message, "static: string %u: nothing holds it along its axis, give it a drive, a guide or a "
-                        "joint; %s", i, said.text);
+        dmb_message_set(&sim->message,
+                        "static: string %u: nothing holds it along its axis, give it a drive, a guide or a "
+                        "joint; %s",
+                        i, said.text);
         return;
     }
 }
@@ -297,8 +300,10 @@ static int32_t judge_stability(dmb_static_search *search, dmb_static_report *out
     dmb_block_weakest weakest;
     dmb_stability found = {0};
     int64_t bad = -1;
-    if (search->steady != NULL) { /* inertia and damping have their part in it: a question for modes */
-        out->negative = -1;
+    if (search->steady !=
+        NULL) { /* inertia and damping have their part in it: whether it stays is a question for modes */
+        dmb_system_iteration_matrix(&search->evaluation);
+        (void)dmb_stiffness_factor(search->sim, &weakest, &out->negative);
         return DMB_OK;
     }
     search->evaluation.extrapolated = 0;
@@ -377,7 +382,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_static_options *options, dmb_stat
     dmb_static_slip(&search, taken.slip_axial, taken.slip_rotation);
     status = run(&search, &out);
     if (status >= 0 && report != NULL) (void)dmb_static_report_write(report, &out);
-    return status == DMB_OK && out.negative > 0 ? tell_unstable(sim, &out) : status;
+    return status == DMB_OK && out.negative > 0 && out.steady == DMB_STEADY_AT_REST ? tell_unstable(sim, &out) : status;
 }
 
 int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)

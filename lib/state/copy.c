@@ -19,9 +19,17 @@ static int32_t choose(dmb_sim *copy)
     return status;
 }
 
-dmb_sim *dmb_state_copy(const dmb_sim *sim)
+void dmb_state_take(const dmb_sim *sim, dmb_sim *copy)
 {
     dmb_field from[DMB_FIELD_MAX], to[DMB_FIELD_MAX];
+    const size_t count = dmb_sim_fields(sim, DMB_GROUP_NOW, DMB_GROUP_MEMORY, from);
+    (void)dmb_sim_fields(copy, DMB_GROUP_NOW, DMB_GROUP_MEMORY, to);
+    for (size_t i = 0; i < count; i++) memcpy(to[i].data, from[i].data, from[i].bytes);
+    dmb_configuration_copy(copy, &copy->now, &copy->trial);
+}
+
+dmb_sim *dmb_state_copy(const dmb_sim *sim)
+{
     const dmb_scene *scene = sim->scene->sparse_count ? sim->scene->dense : sim->scene;
     const size_t bytes = scene != NULL ? dmb_sim_bytes(scene) : SIZE_MAX;
     void *block = bytes == SIZE_MAX ? NULL : dmb_allocate(&sim->allocator, bytes);
@@ -31,10 +39,7 @@ dmb_sim *dmb_state_copy(const dmb_sim *sim)
     copy->options = sim->options;
     copy->allocator = sim->allocator;
     dmb_clusters_prepare(copy); /* before the partition of the state takes its place */
-    const size_t count = dmb_sim_fields(sim, DMB_GROUP_NOW, DMB_GROUP_MEMORY, from);
-    (void)dmb_sim_fields(copy, DMB_GROUP_NOW, DMB_GROUP_MEMORY, to);
-    for (size_t i = 0; i < count; i++) memcpy(to[i].data, from[i].data, from[i].bytes);
-    dmb_configuration_copy(copy, &copy->now, &copy->trial);
+    dmb_state_take(sim, copy);
     if (sim->scene->sparse_count && choose(copy) < 0) {
         dmb_state_discard(copy);
         return NULL;

@@ -54,9 +54,12 @@ DMB_DEFINE_INIT(dmb_static_report, 40, {.iterations = 0})
 DMB_DEFINE_INIT(dmb_buckling_options, 64, {
     .count = 1,
     .scale = DMB_SCALE_LOADS,
+    .follow = 1,
     .factor_max = 1e12,
     .tolerance = 1e-10,
 })
+
+DMB_DEFINE_INIT(dmb_buckling_info, 56, {.count = 0})
 
 DMB_DEFINE_INIT(dmb_path_options, 136, {
     .max_points = 200,

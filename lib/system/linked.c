@@ -39,6 +39,12 @@ static const double *row_of_null_space(const dmb_sim *sim, uint32_t k, uint32_t 
     return sim->cluster_null + cluster->dense + (size_t)(*one == UINT32_MAX ? place : 0) * (cluster->columns - rank);
 }
 
+const double *dmb_linked_null_space_row(const dmb_sim *sim, uint32_t k, uint32_t c, uint32_t *one)
+{
+    const double *row = row_of_null_space(sim, k, c, one);
+    return *one == UINT32_MAX ? row : NULL;
+}
+
 /* out (rows x size of node's block) += X (rows x size of node) R_node */
 static void times_null_space(const dmb_sim *sim, uint32_t node, const double *X, uint32_t rows, double *out)
 {

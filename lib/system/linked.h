@@ -18,6 +18,8 @@ int64_t dmb_linked_factor(dmb_sim *sim, dmb_block_weakest *weakest);
 /* Residual in, correction out, in the rows of linked chains of `correction`; multipliers of the trial move too where they
  * are solved for. */
 void dmb_linked_solve(dmb_sim *sim);
+/* Row of R of column c of cluster k: G's, or NULL where it is a single 1 at *one. After assembling independent coordinates. */
+const double *dmb_linked_null_space_row(const dmb_sim *sim, uint32_t k, uint32_t c, uint32_t *one);
 /* z = R y: linked_solution into the rows of linked chains of `correction`. */
 void dmb_linked_expand(dmb_sim *sim);
 
