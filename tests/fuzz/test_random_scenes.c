@@ -4,6 +4,8 @@
  * As a test it runs a fixed number of seeded inputs; a number as argument runs that one alone. With libFuzzer:
  *     clang -g -O1 -fsanitize=fuzzer,address,undefined -DDMB_FUZZER -DDMB_STATIC -Iinclude -Ilib \
  *         tests/fuzz/test_random_scenes.c $(find lib -name '*.c') -lm -o random_scenes && ./random_scenes */
+#include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -136,7 +138,8 @@ static void act_step(dmb_sim *sim, random_scene *scene)
         const double time = dmb_sim_time(sim);
         const int32_t status = dmb_sim_step(sim, h, NULL);
         must_be_known(status);
-        MUST(dmb_sim_time(sim) == (status < 0 ? time : time + h));
+        /* the clock keeps the rounding of its sums, so a sum may end at the double beside time + h */
+        MUST(status < 0 ? dmb_sim_time(sim) == time : fabs(dmb_sim_time(sim) - (time + h)) <= DBL_EPSILON * (time + h));
         MUST(status >= 0 || hash_of(sim) == before);
         MUST(status >= 0 || dmb_sim_message(sim)[0] != '\0');
         tally.steps += status >= 0;

@@ -140,7 +140,9 @@ static void no_branch_is_changed(void **state)
     check_outcome(&b);
     check_below("tip at 1, 4, 5 and 10 s, h 1e-3", largest(4, a.off), 1e-5);
     check_below("tip at all times, h 5e-4", largest(4, b.off), 1e-5);
-    check_order("order at 1 s, behind the first change point", a.off[0], b.off[0], 2.0, 0.02);
+    /* The change point magnifies rounding to some 2e-10 m, 0.3 % of the smaller error: 0.005 of the order beside the 0.02
+     * of the next term. */
+    check_order("order at 1 s, behind the first change point", a.off[0], b.off[0], 2.0, 0.025);
 }
 
 static void other_spectral_radii_do_it_too(void **state)
