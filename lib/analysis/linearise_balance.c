@@ -75,11 +75,12 @@ static int32_t balance_of(dmb_linear *linear, int sliding, dmb_residual_norm *no
 /* The better of both. */
 int32_t dmb_linear_take_balance(dmb_linear *linear)
 {
-    dmb_residual_norm rigid, sliding, best;
+    dmb_residual_norm rigid = {0}, sliding = {0}, best;
     int32_t status = balance_of(linear, 1, &sliding);
     if (status >= 0) status = balance_of(linear, 0, &rigid);
+    if (status < 0) return status;
     best = rigid;
-    if (status >= 0 && !rigid.converged && sliding.relative < rigid.relative) {
+    if (!rigid.converged && sliding.relative < rigid.relative) {
         status = balance_of(linear, 1, &sliding);
         best = sliding;
     }
