@@ -114,6 +114,7 @@ static void create_refuses_it(void **state)
         assert_int_equal(r.status, DMB_ERR_GEOMETRY);
         assert_non_null(strstr(r.text, "cross"));
         assert_non_null(strstr(r.text, "|RZ| = 1.56"));
+        rig_close(&a.s);
     }
     arm below = describe_arm(EDGE - 1e-3, 0.0, 0.0);
     const dmb_joint_def def = arm_joint(&below, DMB_JOINT_UNIVERSAL);
@@ -186,6 +187,7 @@ static void a_rim_that_lies_flat(void **state)
     print_message("    %s\n", r.text);
     assert_int_equal(r.status, DMB_ERR_GEOMETRY);
     assert_non_null(strstr(r.text, "lies flat"));
+    rig_close(&a.s);
 }
 
 int main(void)

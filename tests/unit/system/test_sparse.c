@@ -353,6 +353,7 @@ static void what_does_not_fit_is_refused(void **state)
     const refusal r = refused_start(&m.s);
     print_message("    %s\n", r.text);
     assert_int_equal(r.status, DMB_ERR_GEOMETRY);
+    rig_close(&m.s);
 }
 
 /* Three equations of a plane ring are redundant, however long it is. */
