@@ -662,6 +662,13 @@ class ErrorTest(unittest.TestCase):
             self.assert_error(mbd.ERR_NOT_FINITE, model.add_wall, diameter=math.nan)
             self.assert_error(mbd.ERR_VALUE, model.add_pipes, 0)
 
+    def test_inertia_of_no_body(self):
+        with mbd.Model() as model:
+            error = self.assert_error(mbd.ERR_VALUE, model.add_body, inertia=(0.3, 0.001, 0.001, 0, 0, 0))
+            self.assertIn("principal moments 0.3, 0.001, 0.001", error.message)
+            self.assert_error(mbd.ERR_VALUE, model.add_bit, inertia=(0.3, 0.1))
+            model.add_body(inertia=(0.002, 0.001, 0.001, 0, 0, 0))
+
     def test_order(self):
         with mbd.Model() as model:
             model.add_pipes(1)

@@ -177,7 +177,8 @@ typedef struct dmb_pipe_def {
     double joint_outer_diameter; /* [m] default 0: as the pipe */
     double joint_inner_diameter; /* [m] default 0: as the pipe */
     double joint_mass;         /* [kg] 0: from the diameters, length and density */
-    double joint_inertia[2];   /* [kg m2] about its axis and across, at its centre; 0: from the geometry; shape (2) */
+    double joint_inertia[2];   /* [kg m2] about its axis and across, at its centre, the first <= twice the
+                                  second; 0: from the geometry; shape (2) */
     double eccentricity;       /* [m] distance of the pipe's centre of mass from its axis, >= 0; default 0 */
     double eccentricity_angle; /* [rad] from y towards z of the section frame; default 0 */
     double eccentricity_spread; /* [m] uniform random addition -spread .. spread (cut at 0) pipe by pipe; default 0 */
@@ -185,7 +186,8 @@ typedef struct dmb_pipe_def {
     double curvature[3];       /* [rad/m] unstressed twist and curvature about x, y, z; default 0, shape (3) */
     double section_stiffness[6]; /* [N, N, N, N m2, N m2, N m2] EA, GA_y, GA_z, GJ, EI_y, EI_z; 0: from the diameters */
     double section_mass;       /* [kg/m] 0: from the diameters */
-    double section_inertia[2]; /* [kg m] rotary inertia per metre about x and across; 0: from the diameters; shape (2) */
+    double section_inertia[2]; /* [kg m] rotary inertia per metre about x and across; 0: from the diameters; of a rigid
+                                  pipe as a body about its axis <= twice across; shape (2) */
 } dmb_pipe_def;
 DMB_SIZED_STRUCT(dmb_pipe_def)
 /* Appends count (1 .. 2^20) equal pipes at the far end of a string; *string (may be NULL) names the string.
@@ -202,7 +204,8 @@ typedef struct dmb_body_def {
     double mass;            /* [kg] > 0; default 1 */
     double centre[3];       /* [m] centre of mass from the reference point, body frame; default 0, shape (3) */
     double inertia[6];      /* [kg m2] xx, yy, zz, xy, xz, yz elements of the inertia matrix at the centre of mass, body
-                               axes, positive definite; default 1e-3 on the diagonal, shape (6) */
+                               axes, positive definite, no principal moment above the sum of the other two by more
+                               than 1e-6 of itself; default 1e-3 on the diagonal, shape (6) */
     double position[3];     /* [m] reference point of a free body, world frame; default 0, shape (3) */
     double rotation[3];     /* [rad] rotation vector of a free body; default 0, shape (3) */
     double velocity[6];     /* [m/s, rad/s] of a free body at time 0, body frame; default 0, shape (6) */
@@ -225,7 +228,8 @@ typedef struct dmb_bit_def {
     dmb_id string;          /* the bit is fixed to the far end of it; {0, 0}: the model's first string */
     dmb_id load;            /* [N] programme of the bottom-hole load along the hole's axis, > 0 against the feed; {0, 0}: none */
     double mass;            /* [kg] > 0; default 5 */
-    double inertia[2];      /* [kg m2] about the axis and across, at the centre; 0 (default): of a solid cylinder */
+    double inertia[2];      /* [kg m2] about the axis and across, at the centre, the first <= twice the second;
+                               0 (default): of a solid cylinder */
     double diameter;        /* [m] gauge that meets the wall, <= hole; 0: no contact; default 0.092 */
     double length;          /* [m] > 0, centre at half of it beyond the string's end; default 0.1 */
     double radius;          /* [m] a of the rock law, > 0; default 0.047 */

@@ -2,7 +2,9 @@
 #include "model/defaults.h"
 #include "model/describe.h"
 #include "model/field_check.h"
+#include "model/inertia_check.h"
 #include "model/limits.h"
+#include "model/section.h"
 
 enum { ELEMENTS_MAX = 1024, COUNT_MAX = 1 << 20 };
 
@@ -48,6 +50,15 @@ static void check_joint(dmb_check *check, const dmb_pipe_def *def)
     }
 }
 
+static void check_rigid_parts(dmb_check *check, const dmb_pipe_def *def)
+{
+    dmb_rigid_part joint;
+    if (check->status < 0) return;
+    dmb_joint_of(def, &joint);
+    dmb_check_inertia_of_revolution(check, "joint_inertia", joint.inertia);
+    if (def->kind == DMB_PIPE_RIGID) dmb_check_rigid_pipe_inertia(check, def);
+}
+
 static void check_eccentricity(dmb_check *check, const dmb_pipe_def *def)
 {
     dmb_check_within(check, "eccentricity", def->eccentricity, 0.0, DMB_LENGTH_MAX);
@@ -79,6 +90,7 @@ static int32_t check_pipes(dmb_model *model, uint32_t string, const dmb_pipe_def
     check_material(&check, def);
     check_section(&check, def);
     check_joint(&check, def);
+    check_rigid_parts(&check, def);
     check_eccentricity(&check, def);
     check_curvature(&check, def);
     return check.status;

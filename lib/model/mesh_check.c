@@ -1,5 +1,6 @@
 /* The scene as a whole: what one description alone could not know. */
 #include "model/field_check.h"
+#include "model/inertia_check.h"
 #include "model/limits.h"
 #include "model/mesh.h"
 #include "model/section.h"
@@ -99,6 +100,7 @@ static int32_t check_run(const dmb_mesh *mesh, dmb_message *message, const dmb_p
     if (kind == DMB_PIPE_RIGID && curvature_of(&run->def) > 0.0) {
         dmb_check_fail(&check, DMB_ERR_UNSUPPORTED, "curvature", curvature_of(&run->def), "0 for rigid pipes");
     }
+    if (kind == DMB_PIPE_RIGID) dmb_check_rigid_pipe_inertia(&check, &run->def);
     return check.status;
 }
 

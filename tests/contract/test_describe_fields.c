@@ -847,11 +847,11 @@ static void inertia_must_be_positive_definite(void **state)
         double inertia[6];
         int32_t status;
     } cases[] = {{{1, 1, 1, 0, 0, 0}, DMB_OK},
-                 {{1, 1, 1, 0.9, 0, 0}, DMB_OK},
+                 {{0.55, 0.55, 1, 0.45, 0, 0}, DMB_OK},
                  {{1, 1, 1, 1, 0, 0}, DMB_ERR_VALUE},
                  {{1, 1, 1, 0.6, 0.6, -0.6}, DMB_ERR_VALUE},
-                 {{1e-15, 1e-15, 1e-15, 0, 0, 9e-16}, DMB_OK},
-                 {{1e17, 1e17, 1e17, 0, 0, 9e16}, DMB_OK},
+                 {{1e-15, 5.5e-16, 5.5e-16, 0, 0, 4.5e-16}, DMB_OK},
+                 {{1e17, 5.5e16, 5.5e16, 0, 0, 4.5e16}, DMB_OK},
                  {{1, -1, 1, 0, 0, 0}, DMB_ERR_VALUE}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {

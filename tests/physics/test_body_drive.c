@@ -5,12 +5,12 @@
 
 #include "rig.h"
 
-/* A body of 2 kg, 0.3 kg m2 about x, that slides and turns along x without gravity. */
+/* A body of 2 kg, 0.3 kg m2 about each axis, that slides and turns along x without gravity. */
 static dmb_id add_slider(rig *s)
 {
     dmb_body_def body = dmb_body_def_default();
     body.mass = 2.0;
-    body.inertia[0] = 0.3;
+    for (int i = 0; i < 3; i++) body.inertia[i] = 0.3;
     body.free_mask = DMB_FREE_CYLINDRICAL;
     return add_body(s, &body);
 }

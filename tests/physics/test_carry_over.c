@@ -697,7 +697,7 @@ static scene joints_of(uint32_t pipes)
     s.string = add_string(&s.r, &string);
     (void)add_pipes(&s.r, &pipe, pipes);
     turbine.mass = 8.0;
-    turbine.inertia[0] = 0.05;
+    for (int i = 0; i < 3; i++) turbine.inertia[i] = 0.05;
     turbine.position[0] = 10.0;
     s.head = add_body(&s.r, &turbine);
     ring.kind = DMB_JOINT_POINT_ON_HOLE;

@@ -279,7 +279,7 @@ static void control_work(void **state)
     dmb_drive_def drive = dmb_drive_def_default();
     rig scene;
     (void)state;
-    body.inertia[0] = 0.2;
+    for (int i = 0; i < 3; i++) body.inertia[i] = 0.2;
     body.free_mask = DMB_FREE_RX;
     scene_open(&scene, 0.0);
     drive.kind = DMB_DRIVE_CONTROL;

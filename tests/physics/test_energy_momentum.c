@@ -139,7 +139,8 @@ static void friction_couples_spin_and_travel(void **state)
     wall.smoothing_speed = 1e-4;
     wall.diameter = 200.1;
     ring.position[2] = -100.0 - 2.0 * 9.81 / 1e7;
-    ring.inertia[0] = 5e-3; /* a ring: m R^2 */
+    ring.inertia[0] = 5e-3; /* a ring: m R^2, half of it across */
+    ring.inertia[1] = ring.inertia[2] = 2.5e-3;
     ring.velocity[3] = 10.0;
     scene_open(&scene, 9.81);
     add_wall(&scene, &wall);

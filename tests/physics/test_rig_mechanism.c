@@ -353,7 +353,7 @@ static void open_shafts(shafts *m, double bend, double load)
     const double axis[3] = {cos(bend), 0.0, sin(bend)};
     rig_open(s, 0.0, 0.0, 0.0);
     shaft.mass = 2.0;
-    shaft.inertia[0] = 0.01;
+    for (int i = 0; i < 3; i++) shaft.inertia[i] = 0.01;
     m->in = add_body(s, &shaft);
     shaft.rotation[1] = -bend;
     m->out = add_body(s, &shaft);
@@ -770,7 +770,7 @@ static void reaction_follows_a_load_that_jumps(void **state)
     rig_open(&s, 0.0, 0.0, 0.0);
     body.mass = 2.0;
     body.centre[1] = 0.5;
-    body.inertia[0] = 0.1;
+    for (int i = 0; i < 3; i++) body.inertia[i] = 0.1;
     const dmb_id part = add_body(&s, &body), hinge = add_joint_between(&s, DMB_JOINT_REVOLUTE, ground(), whole(part));
     const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_LOAD, hinge, DMB_RX, add_constant(&s, 0.0));
     (void)rig_start(&s, NULL);
