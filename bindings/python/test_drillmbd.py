@@ -263,14 +263,14 @@ class SceneTest(unittest.TestCase):
         self.assertEqual(recorder.take(), mbd.NOTE_FULL)
 
     def test_recorder_without_numpy(self):
-        numpy, mbd.numpy = mbd.numpy, None
+        numpy, mbd.recorder.numpy = mbd.recorder.numpy, None
         try:
             recorder = self.sim.recorder([(self.rig.tip, mbd.CHANNEL_POSITION_X)], capacity=3)
             recorder.take()
             self.assertEqual(len(recorder.table), 1)
             self.assertAlmostEqual(recorder.table[0][1], 5.0)
         finally:
-            mbd.numpy = numpy
+            mbd.recorder.numpy = numpy
 
     def test_files(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,0 +1,43 @@
+"""libdrillmbd from Python: describe - compile - run - ask. Needs ctypes only; uses numpy for arrays, pandas for frames,
+matplotlib for pictures where they are there.
+
+    import drillmbd as mbd
+
+    model = mbd.Model()
+    model.add_wall(diameter=0.094)
+    string = model.add_pipes(100, outer_diameter=0.073, inner_diameter=0.061)
+    model.add_bit(mass=5.0)
+    feed = model.add_programme(mbd.Term(kind=mbd.TERM_STEP, x1=1.0, h1=0.01))
+    model.add_drive(programme=feed)
+    model.compile()
+    with model.sim() as sim:
+        sim.run(40.0, step=1e-3)
+        print(sim.pose(mbd.station(string, 99, 1.0)).position[:])
+
+Structs carry the names of the C interface without dmb_ and in capitals (dmb_pipe_def is PipeDef), with the same fields,
+units and defaults: help(drillmbd.PipeDef) shows them. Functions that take one also take its fields as keywords. A call
+that fails raises Error; a status above 0 is in the `status` of the answer. Everything is in SI units, angles in radians.
+The library is the file that the environment variable DRILLMBD_LIBRARY names, otherwise the one beside this package,
+otherwise the one the system finds.
+"""
+from . import _structs, analysis, enums, errors, model, profile, recorder, sim
+from ._keep import station
+from ._library import lib as _lib
+from ._optional import numpy
+from ._record import Sized as _Sized
+from ._structs import *  # noqa: F401,F403
+from ._structs import STRUCTS
+from .analysis import Buckling, Modes, Response, output
+from .enums import *  # noqa: F401,F403
+from .enums import ENUMS, VERSION, __version__
+from .errors import Error, status_name, status_text
+from .model import Model
+from .profile import Profile
+from .recorder import Recorder
+from .sim import Progress, Sim
+
+__all__ = ["STRUCTS", "VERSION", "__version__", "Buckling", "Error", "Model", "Modes", "Profile", "Progress", "Recorder",
+           "Response", "Sim", "output", "station", "status_name", "status_text"]
+__all__ += [name for name, value in vars(_structs).items() if name.endswith("_FN") or value in STRUCTS.values()]
+__all__ += [name for name, value in vars(enums).items() if name.isupper() and isinstance(value, int)]
+__all__ += [cls.__name__ for cls in ENUMS]

@@ -1,0 +1,273 @@
+"""The functions of the C interface. Made from the headers by generate.py: do not edit, run that instead."""
+from __future__ import annotations
+
+import ctypes
+from ctypes import POINTER, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_uint64, c_void_p  # noqa: F401
+from typing import Any
+
+from ._structs import *  # noqa: F403
+
+# name: (result, arguments...)
+PROTOTYPES: dict[str, tuple[Any, ...]] = {
+    "dmb_allocator_init": (c_int32, POINTER(Allocator), c_uint32,),
+    "dmb_analysis_buckling": (c_int32, c_void_p, POINTER(BucklingOptions), POINTER(c_void_p),),
+    "dmb_analysis_check": (c_int32, c_void_p, POINTER(CheckReport),),
+    "dmb_analysis_check_text": (c_int32, c_void_p, c_char_p, c_size_t, POINTER(c_size_t),),
+    "dmb_analysis_modes": (c_int32, c_void_p, POINTER(ModesOptions), POINTER(c_void_p),),
+    "dmb_analysis_path": (c_int32, c_void_p, POINTER(PathOptions), POINTER(PathReport),),
+    "dmb_analysis_response": (c_int32, c_void_p, POINTER(ResponseOptions), POINTER(Input), c_uint32, POINTER(Output), c_uint32, POINTER(c_void_p),),
+    "dmb_analysis_sine": (c_int32, c_void_p, c_double, POINTER(SineOptions), POINTER(Output), c_uint32, POINTER(c_double), POINTER(SineReport),),
+    "dmb_analysis_speeds": (c_int32, c_void_p, POINTER(SpeedsOptions), POINTER(Order), c_uint32, POINTER(Output), POINTER(c_double), c_uint32, POINTER(SpeedBand), POINTER(c_uint32), POINTER(c_double),),
+    "dmb_analysis_static": (c_int32, c_void_p, POINTER(StaticOptions), POINTER(StaticReport),),
+    "dmb_bit_def_init": (c_int32, POINTER(BitDef), c_uint32,),
+    "dmb_bit_state_init": (c_int32, POINTER(BitState), c_uint32,),
+    "dmb_body_def_init": (c_int32, POINTER(BodyDef), c_uint32,),
+    "dmb_buckling_count": (c_uint32, c_void_p,),
+    "dmb_buckling_destroy": (None, POINTER(c_void_p),),
+    "dmb_buckling_factor": (c_int32, c_void_p, c_uint32, POINTER(c_double),),
+    "dmb_buckling_get_info": (c_int32, c_void_p, POINTER(BucklingInfo),),
+    "dmb_buckling_info_init": (c_int32, POINTER(BucklingInfo), c_uint32,),
+    "dmb_buckling_options_init": (c_int32, POINTER(BucklingOptions), c_uint32,),
+    "dmb_buckling_shape": (c_int32, c_void_p, c_uint32, Place, POINTER(c_double),),
+    "dmb_check_report_init": (c_int32, POINTER(CheckReport), c_uint32,),
+    "dmb_compile_options_init": (c_int32, POINTER(CompileOptions), c_uint32,),
+    "dmb_constraint_def_init": (c_int32, POINTER(ConstraintDef), c_uint32,),
+    "dmb_contact_init": (c_int32, POINTER(Contact), c_uint32,),
+    "dmb_contact_sum_init": (c_int32, POINTER(ContactSum), c_uint32,),
+    "dmb_coupling_def_init": (c_int32, POINTER(CouplingDef), c_uint32,),
+    "dmb_drive_def_init": (c_int32, POINTER(DriveDef), c_uint32,),
+    "dmb_drive_state_init": (c_int32, POINTER(DriveState), c_uint32,),
+    "dmb_energy_init": (c_int32, POINTER(Energy), c_uint32,),
+    "dmb_environment_def_init": (c_int32, POINTER(EnvironmentDef), c_uint32,),
+    "dmb_input_init": (c_int32, POINTER(Input), c_uint32,),
+    "dmb_joint_def_init": (c_int32, POINTER(JointDef), c_uint32,),
+    "dmb_joint_state_init": (c_int32, POINTER(JointState), c_uint32,),
+    "dmb_load_def_init": (c_int32, POINTER(LoadDef), c_uint32,),
+    "dmb_mode_init": (c_int32, POINTER(Mode), c_uint32,),
+    "dmb_mode_shape_init": (c_int32, POINTER(ModeShape), c_uint32,),
+    "dmb_model_add_bit": (c_int32, c_void_p, POINTER(BitDef), POINTER(Id),),
+    "dmb_model_add_body": (c_int32, c_void_p, POINTER(BodyDef), POINTER(Id),),
+    "dmb_model_add_constraint": (c_int32, c_void_p, POINTER(ConstraintDef), POINTER(Id),),
+    "dmb_model_add_coupling": (c_int32, c_void_p, POINTER(CouplingDef), POINTER(Id),),
+    "dmb_model_add_drive": (c_int32, c_void_p, POINTER(DriveDef), POINTER(Id),),
+    "dmb_model_add_joint": (c_int32, c_void_p, POINTER(JointDef), POINTER(Id),),
+    "dmb_model_add_load": (c_int32, c_void_p, POINTER(LoadDef), POINTER(Id),),
+    "dmb_model_add_pipes": (c_int32, c_void_p, POINTER(PipeDef), c_uint32, POINTER(Id),),
+    "dmb_model_add_programme": (c_int32, c_void_p, POINTER(Term), c_uint32, POINTER(Id),),
+    "dmb_model_add_string": (c_int32, c_void_p, POINTER(StringDef), POINTER(Id),),
+    "dmb_model_add_wall": (c_int32, c_void_p, POINTER(WallDef), POINTER(Id),),
+    "dmb_model_compile": (c_int32, c_void_p, POINTER(CompileOptions),),
+    "dmb_model_create": (c_int32, POINTER(ModelOptions), POINTER(c_void_p),),
+    "dmb_model_destroy": (None, POINTER(c_void_p),),
+    "dmb_model_get_info": (c_int32, c_void_p, POINTER(ModelInfo),),
+    "dmb_model_info_init": (c_int32, POINTER(ModelInfo), c_uint32,),
+    "dmb_model_message": (c_char_p, c_void_p,),
+    "dmb_model_options_init": (c_int32, POINTER(ModelOptions), c_uint32,),
+    "dmb_model_set_environment": (c_int32, c_void_p, POINTER(EnvironmentDef),),
+    "dmb_modes_destroy": (None, POINTER(c_void_p),),
+    "dmb_modes_get": (c_int32, c_void_p, c_uint32, POINTER(Mode),),
+    "dmb_modes_get_info": (c_int32, c_void_p, POINTER(ModesInfo),),
+    "dmb_modes_info_init": (c_int32, POINTER(ModesInfo), c_uint32,),
+    "dmb_modes_options_init": (c_int32, POINTER(ModesOptions), c_uint32,),
+    "dmb_modes_part": (c_int32, c_void_p, c_uint32, Id, c_uint32, POINTER(c_double), POINTER(c_double),),
+    "dmb_modes_shape": (c_int32, c_void_p, c_uint32, Place, POINTER(ModeShape),),
+    "dmb_momentum_init": (c_int32, POINTER(Momentum), c_uint32,),
+    "dmb_motion_init": (c_int32, POINTER(Motion), c_uint32,),
+    "dmb_order_init": (c_int32, POINTER(Order), c_uint32,),
+    "dmb_output_init": (c_int32, POINTER(Output), c_uint32,),
+    "dmb_path_options_init": (c_int32, POINTER(PathOptions), c_uint32,),
+    "dmb_path_point_init": (c_int32, POINTER(PathPoint), c_uint32,),
+    "dmb_path_report_init": (c_int32, POINTER(PathReport), c_uint32,),
+    "dmb_pipe_def_init": (c_int32, POINTER(PipeDef), c_uint32,),
+    "dmb_pose_init": (c_int32, POINTER(Pose), c_uint32,),
+    "dmb_query_bit": (c_int32, c_void_p, Id, POINTER(BitState),),
+    "dmb_query_contact": (c_int32, c_void_p, c_uint32, POINTER(Contact),),
+    "dmb_query_contact_sum": (c_int32, c_void_p, POINTER(ContactSum),),
+    "dmb_query_drive": (c_int32, c_void_p, Id, POINTER(DriveState),),
+    "dmb_query_energy": (c_int32, c_void_p, POINTER(Energy),),
+    "dmb_query_joint": (c_int32, c_void_p, Id, POINTER(JointState),),
+    "dmb_query_kinetic_energy": (c_int32, c_void_p, Id, c_uint32, POINTER(c_double),),
+    "dmb_query_momentum": (c_int32, c_void_p, POINTER(Momentum),),
+    "dmb_query_motion": (c_int32, c_void_p, Place, POINTER(Motion),),
+    "dmb_query_multipliers": (c_int32, c_void_p, Id, POINTER(c_double), POINTER(c_uint32),),
+    "dmb_query_pose": (c_int32, c_void_p, Place, POINTER(Pose),),
+    "dmb_query_reaction": (c_int32, c_void_p, Id, POINTER(c_double),),
+    "dmb_query_rotation": (c_int32, c_void_p, Place, POINTER(c_double),),
+    "dmb_query_section": (c_int32, c_void_p, Place, POINTER(Section),),
+    "dmb_query_statistics": (c_int32, c_void_p, POINTER(Statistics),),
+    "dmb_recorder_init": (c_int32, POINTER(RecorderStruct), c_uint32,),
+    "dmb_recorder_take": (c_int32, POINTER(RecorderStruct), c_void_p,),
+    "dmb_recorder_write_csv": (c_int32, POINTER(RecorderStruct), c_char_p,),
+    "dmb_response_destroy": (None, POINTER(c_void_p),),
+    "dmb_response_frequencies": (c_int32, c_void_p, POINTER(c_double),),
+    "dmb_response_options_init": (c_int32, POINTER(ResponseOptions), c_uint32,),
+    "dmb_response_shape": (c_int32, c_void_p, POINTER(c_uint32),),
+    "dmb_response_transfer": (c_int32, c_void_p, c_uint32, c_uint32, POINTER(c_double),),
+    "dmb_response_write_csv": (c_int32, c_void_p, c_char_p,),
+    "dmb_section_init": (c_int32, POINTER(Section), c_uint32,),
+    "dmb_sim_advance": (c_int32, c_void_p, c_double, POINTER(StepReport),),
+    "dmb_sim_carry_over": (c_int32, c_void_p, c_void_p,),
+    "dmb_sim_create": (c_int32, c_void_p, POINTER(SimOptions), POINTER(c_void_p),),
+    "dmb_sim_create_in": (c_int32, c_void_p, POINTER(SimOptions), c_void_p, c_size_t, POINTER(c_void_p),),
+    "dmb_sim_destroy": (None, POINTER(c_void_p),),
+    "dmb_sim_hash": (c_int32, c_void_p, POINTER(c_uint64),),
+    "dmb_sim_memory_size": (c_int32, c_void_p, POINTER(SimOptions), POINTER(c_size_t),),
+    "dmb_sim_message": (c_char_p, c_void_p,),
+    "dmb_sim_options_init": (c_int32, POINTER(SimOptions), c_uint32,),
+    "dmb_sim_restore": (c_int32, c_void_p, c_void_p, c_size_t,),
+    "dmb_sim_set_drive": (c_int32, c_void_p, Id, c_double,),
+    "dmb_sim_set_joint": (c_int32, c_void_p, Id, c_int32,),
+    "dmb_sim_snapshot": (c_int32, c_void_p, c_void_p, c_size_t,),
+    "dmb_sim_snapshot_size": (c_int32, c_void_p, POINTER(c_size_t),),
+    "dmb_sim_step": (c_int32, c_void_p, c_double, POINTER(StepReport),),
+    "dmb_sim_time": (c_double, c_void_p,),
+    "dmb_sine_options_init": (c_int32, POINTER(SineOptions), c_uint32,),
+    "dmb_sine_report_init": (c_int32, POINTER(SineReport), c_uint32,),
+    "dmb_speed_band_init": (c_int32, POINTER(SpeedBand), c_uint32,),
+    "dmb_speeds_options_init": (c_int32, POINTER(SpeedsOptions), c_uint32,),
+    "dmb_static_options_init": (c_int32, POINTER(StaticOptions), c_uint32,),
+    "dmb_static_report_init": (c_int32, POINTER(StaticReport), c_uint32,),
+    "dmb_statistics_init": (c_int32, POINTER(Statistics), c_uint32,),
+    "dmb_status_name": (c_char_p, c_int32,),
+    "dmb_status_text": (c_char_p, c_int32,),
+    "dmb_step_report_init": (c_int32, POINTER(StepReport), c_uint32,),
+    "dmb_string_def_init": (c_int32, POINTER(StringDef), c_uint32,),
+    "dmb_term_init": (c_int32, POINTER(Term), c_uint32,),
+    "dmb_version": (c_uint32,),
+    "dmb_wall_def_init": (c_int32, POINTER(WallDef), c_uint32,),
+    "dmb_write_vtk_hole": (c_int32, c_void_p, c_double, c_double, c_double, c_uint32, c_char_p,),
+    "dmb_write_vtk_mode": (c_int32, c_void_p, c_uint32, c_double, c_double, c_uint32, c_char_p,),
+    "dmb_write_vtk_strings": (c_int32, c_void_p, c_uint32, c_char_p,),
+}
+
+FUNCTION_DOCS = {
+    "dmb_analysis_buckling":
+        "Buckling from the present static state on (dmb_analysis_static first): the lowest factors > 0 at which K + factor dK is singular. K is the tangent stiffness with its contacts as they are, closed ones holding and swinging with F/e around the axis; dK is its change along the response of the state to the pattern of loads, both in the frames of the state; with joints both are those of the independent coordinates. A symmetric K is counted by the signs of the pivots (Sylvester), so that no factor is missed, and factors are found by bisection; of an unsymmetric one they are the real eigenvalues by Krylov subspaces, and what may flutter before is not looked for. That is an extrapolation, good where sections turn and contacts shift little on the way. So the equilibria are followed (dmb_analysis_path) to the factor, linearised again, and so on until an eigenvalue of their stiffness passes 0: the lowest factor is where the path loses its stability, at a bifurcation or limit point, and shape and further factors are linearised just before. dmb_buckling_get_info tells. The sim is not changed. NOTE_STOPPED where fewer than `count` lie below factor_max or can be told (beyond a limit point none can; message says how far the equilibria stay stable where there is none). NOTE_EXTRAPOLATED where some of the factors are not confirmed. Errors: ERR_VALUE, _ID, _ORDER (the state is no equilibrium or not stable; message says by how much), _SINGULAR (message says which part is free), _NO_CONVERGENCE (the equilibria could not be followed; message says how far), _UNSUPPORTED (a motion drive of a joint), _NO_MEMORY, _CALLBACK; *buckling is NULL then. Some 40 counts a factor and 10 to 100 iterations on the way, each O(number of elements); memory: the sim's twice more and 3 matrices, from its allocator.",
+    "dmb_analysis_check":
+        "Counts the last accepted state of a sim. The rank is LAPACK's, by QR with column pivoting; it is held against that of the partition the sim steps with (a warning if they differ). Changes nothing; calls the callbacks of constraints. Memory for the time of the call comes from the allocator of the sim's options. Cost: elements, and the cube of the coordinates of each cluster. Errors: ERR_NULL, _HANDLE, _STRUCT_SIZE, _NO_MEMORY, _CALLBACK, _NOT_FINITE.",
+    "dmb_analysis_check_text":
+        "The same as a sheet of text, lines ending with '/n', '.' as decimal mark: counts, solvers, redundant equations by name (directions are those of frame a of the joint), warnings. Writes at most `size` bytes, always 0-terminated; *needed (may be NULL) is what the whole text takes, its 0 included. text may be NULL where size is 0. NOTE_FULL if the text is cut. Errors as dmb_analysis_check, with text and *needed left alone.",
+    "dmb_analysis_modes":
+        "Modes about the accepted state of a sim, which should be an equilibrium, at rest or spinning steadily. The state is not changed; sim takes the message, and need not outlive the result. options may be NULL. Memory: the sim's allocator, until dmb_modes_destroy. LOWEST: smallest |s|. Few modes: block Lanczos (full reorthogonalisation in the M-inner product), damped or unsymmetric ones block Arnoldi, both on the inverse of K (rigid-body motions apart, or shifted), linear in the number of elements; ALL, and many: LAPACK (dsygvd, dgeev), cubic. A BAND of many modes is divided: undamped by the counts of eigenvalues below its pieces, which must all be found, in time that grows with the modes; of damped ones up to some 250 are found at once, more by shifts all over the half plane of their roots, which takes minutes. A mode that does not satisfy its equations to rounding, after some inverse iteration, is refused with its residual and the bound (_NO_CONVERGENCE). *modes is NULL on error: ERR_VALUE (option; more modes than coordinates; a band without modes; a state out of balance: by how much and where), _NO_CONVERGENCE, _SINGULAR, _CALLBACK, _NOT_FINITE, _ROTATION, _NO_MEMORY, _TOO_LARGE.",
+    "dmb_analysis_path":
+        "Follows the path from the present static state on by arc length: a step along the tangent, then Newton in the plane across it (Riks 1979) with the factor bordering the stiffness (Crisfield 1981), the step as long as Newton likes it. Limit points, bifurcations and the ends are located to 1e-8 of the step by regula falsi. The sim is not changed. options and report may be NULL; where the path was lost the report tells how far it came. NOTE_STOPPED after max_points or by the callback. Errors: ERR_VALUE, _ID, _ORDER (the state is no equilibrium), _SINGULAR (message says which part is free, or that the factor moves nothing), _NO_CONVERGENCE (message says where the path was lost), _ROTATION (above 2.5 rad in an element, likewise), _UNSUPPORTED, _NO_MEMORY, _CALLBACK. O(number of elements) an iteration; memory: the sim's once more.",
+    "dmb_analysis_response":
+        "Transfer functions from every input to every output about the accepted state of a sim, which must be an equilibrium, at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency, directly, in complex blocks. Of a state that spins, frames of `place` are its section's, which turn with it, and so are all frequencies. inputs, outputs: shapes (input_count), (output_count), 1 .. 1024 each, every struct of the size that the first says. options may be NULL. The state is not changed; sim takes the message. *response is NULL on error: ERR_VALUE (option, component, band; a state out of balance: by how much and where), _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR (frequency and part that nothing holds there: at 0 a part that is free), _UNSUPPORTED, _NO_MEMORY, _CALLBACK, _ROTATION. A motion drive at frequency 0 has no displacement: _SINGULAR too. Memory: the sim's allocator, until dmb_response_destroy; the sim need not outlive the response. Cost: O(points (elements + joints + inputs)), some 0.1 ms a point of 100 elements; of joints that share bodies the cube of the coordinates of those. One thread; several responses of one sim may not be computed at a time.",
+    "dmb_analysis_sine":
+        "Runs the sim on in fixed steps until the Fourier amplitudes of successive windows agree. amplitudes, shape (output_count, 1 + harmonics, 2): mean and 0, then for k = 1, 2, ... the k-th harmonic: its part of the output is the real part of (re + i im) e^(2 pi i k frequency t), t the sim's time. Displacements are those since time 0 in the axes of the world or (FRAME_BODY) those the place has at the call, less their drift over the window; component RX is the rotation of dmb_query_rotation, RY and RZ are of the rotation vector from the pose at the call, below pi. Other outputs: as the queries answer. options and report may be NULL. NOTE_STOPPED: not settled in `windows`; the amplitudes are those of the last. Errors: ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID, _UNSUPPORTED, _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last accepted state. amplitudes and report are left alone on error. Cost: steps.",
+    "dmb_analysis_speeds":
+        "Bands of rotary speed to avoid about the accepted state of a sim. Severity of a speed: the sum over the orders of the largest amplitude of an output over its limit, by the linear response at order times speed; 1 is the limit even where all orders add up. limits: [unit of the output] > 0, shape (output_count). bands: *band_count on entry is room, the size of each what the first says; on return the number of bands, by rising speed, NOTE_FULL where more were found than there was room. severity, shape (points), may be NULL: largest within half a step of the grid around each speed. Call it for a sim of each depth or state. Errors: as dmb_analysis_response, with nothing written. Cost: that of order_count responses.",
+    "dmb_analysis_static":
+        "Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, by Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017); where that fails in load steps (gravity, loads and bit load from 0, drives as they are) that are halved when they fail and doubled when they do not, with a line search in the shortest; and by pseudo-transient continuation where that fails too. At rest the rock law does not act (at time 0 its bottom is laid ahead of the bit as described); a speed controller acts as at speed 0. Where motion drives move, the state is a steady one (`steady`): speeds of all nodes are those of the sliding or the rigid motion, friction acts by the slip that there is, damping and drag act, controllers act by that speed, and a bit that stands on rock cuts (at time 0: where none is described ahead of it). SLIDING asks that what turns is round (no eccentric mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, guides, joints to the ground and a hole agree with the axis; else ERR_UNSUPPORTED says what does not. Both take memory, one matrix and some vectors, from the sim's allocator. The energy ledger starts anew. options and report may be NULL. NOTE_UNSTABLE where the equilibrium at rest is one that the string would leave (report->negative > 0). Errors: ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the state is then that before the call. O(number of elements) an iteration.",
+    "dmb_buckling_count":
+        "Factors found; 0 for NULL.",
+    "dmb_buckling_destroy":
+        "Gives the memory back and sets *buckling to NULL. NULL-safe.",
+    "dmb_buckling_factor":
+        "[unit of the factor] The critical factor number `mode`, rising from 0 on. ERR_NULL, _HANDLE, _VALUE.",
+    "dmb_buckling_shape":
+        "[m, rad] displacement and rotation of a section in the buckling shape, world frame, the largest displacement of a node being 1 m in its own axes; shape (6). Errors as above and those of dmb_query_motion.",
+    "dmb_model_add_joint":
+        "Adds a joint. Errors: ERR_ID; ERR_VALUE for a part joined to itself, an axis of zero length, two grounds.",
+    "dmb_model_add_pipes":
+        "Appends count (1 .. 2^20) equal pipes at the far end of a string; *string (may be NULL) names the string. Pipes are numbered along the whole string, 0 at the rig end.",
+    "dmb_model_add_programme":
+        "Adds a programme of term_count terms (1 .. 64), each with the same struct_size.",
+    "dmb_model_add_string":
+        "Adds a string without pipes. The first dmb_model_add_pipes without a string makes one by default.",
+    "dmb_model_add_wall":
+        "Adds the hole. One hole a model; wall may be NULL.",
+    "dmb_model_compile":
+        "Checks the scene as a whole, meshes and numbers it, chooses kernels, and freezes the model: no more parts can be added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was. Errors: ERR_ORDER (already compiled), _ID (the first string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(number of elements).",
+    "dmb_model_create":
+        "Creates an empty model. options may be NULL. Errors: ERR_NULL, _STRUCT_SIZE, _NO_MEMORY; *model is NULL then.",
+    "dmb_model_destroy":
+        "Gives up the caller's hold and sets *model to NULL; sims made from the model keep it alive. The hold is one: while they do, copies of the handle are refused (ERR_HANDLE) and destroying through them does nothing. Nor does it within a call that describes or compiles the model (by its allocator or log), where such calls give ERR_ORDER. NULL-safe.",
+    "dmb_model_get_info":
+        "Counts of a compiled model. Errors: ERR_ORDER before compile.",
+    "dmb_model_message":
+        "What the last failing or noteworthy call on this model said: \"part, field, value, bound\". Never NULL; lives until the next call on the model. A compiled model shared between threads keeps the message of its compilation.",
+    "dmb_modes_destroy":
+        "Gives the memory back and sets *modes to NULL. NULL-safe.",
+    "dmb_modes_get":
+        "Mode number index. O(number of elements). Errors of this and what follows: ERR_NULL, _HANDLE, _STRUCT_SIZE, _ID, _VALUE (index, place, frame), _NOT_FINITE.",
+    "dmb_modes_part":
+        "[J] kinetic and strain energy of the mode, as in dmb_mode, in a pipe of a string with half of what is fixed to its two ends, in a whole string (pipe = UINT32_MAX), or in a body or bit (pipe 0). O(elements of it).",
+    "dmb_modes_shape":
+        "Shape at a place, between nodes by the element's own shape functions. O(1).",
+    "dmb_query_contact":
+        "Contact of one site, sites counted along the strings and then the bodies.",
+    "dmb_query_contact_sum":
+        "O(number of sites).",
+    "dmb_query_energy":
+        "Energy ledger since the start; ERR_UNSUPPORTED where the options left it out. O(number of nodes).",
+    "dmb_query_kinetic_energy":
+        "[J] kinetic energy of one pipe of a string with half of what is fixed to its two ends, or of a body.",
+    "dmb_query_momentum":
+        "O(number of nodes).",
+    "dmb_query_multipliers":
+        "Multipliers of a joint, coupling, constraint or joint drive: count of its rows (at most 6), in the units of a force per unit of its value. *count on return is the number of rows.",
+    "dmb_query_reaction":
+        "[N, N m] force and moment of the guide and the motion drives on the rig end of a string or on a guided body, body frame, shape (6); 0 in components that are free.",
+    "dmb_query_rotation":
+        "[rad] rotation about the pipe's own axis since time 0, revolutions counted.",
+    "dmb_query_section":
+        "Section loads of a flexible or axial-torsional pipe; ERR_UNSUPPORTED on rigid ones.",
+    "dmb_query_statistics":
+        "O(number of joints, couplings and constraints).",
+    "dmb_recorder_take":
+        "Writes a row if its time has come. NOTE_FULL when the table has no room. O(channels).",
+    "dmb_recorder_write_csv":
+        "Writes the table as CSV (comma, '.', a header line of names [units], 17 digits, nan). ERR_IO on failure: this and all that write files write beside path (path.part0) and rename, so that the old file stays, unless path is a device.",
+    "dmb_response_destroy":
+        "Gives the memory back and sets *response to NULL. NULL-safe.",
+    "dmb_response_frequencies":
+        "[Hz] ascending, shape (points). ERR_NULL, _HANDLE.",
+    "dmb_response_shape":
+        "Numbers of frequencies (those of refinement included), inputs and outputs, shape (3). ERR_NULL, _HANDLE.",
+    "dmb_response_write_csv":
+        "CSV: frequency, then amplitude and phase [rad] of each transfer function and of the combined outputs; header line, '.' as decimal mark. ERR_IO on failure.",
+    "dmb_sim_advance":
+        "Advances to `time` [s] with steps chosen to hold the local error tolerances, bounded_work or not. NOTE_TOLERANCE where a step of step_min was too long for them, NOTE_STOPPED after max_steps. Errors as dmb_sim_step; the state is then the last accepted one, whose time dmb_sim_time tells.",
+    "dmb_sim_carry_over":
+        "Goes on where `from` stands, in a sim of another model: the same but for pipes more or fewer at the rig end of its strings, rods added or taken off; where the model describes its strings to begin, and what its programmes say from now on, may differ. The head lets go, draws back and grips the new rig end: guide, drives and bodies fixed to the rig end are there at once, so do it at rest. Pipes are matched from the far end and stay where and as they are; added ones start unstressed in line with the old rig end, moving with it (where that is tilted they may poke the wall; dmb_analysis_static settles the string, but begins the ledger anew). Guides hold the new rig end where it is; speeds that they and the drives do not allow are projected: NOTE_PROJECTED, dmb_sim_message tells by how much. Time, statistics, drives, contacts, joints and cut rock go on. So does the energy ledger: energies change by what pipes bring in or take along, works and balance do not. Displacements and the advance of bits count from the poses the new model describes; turns go on, but for what these differ by about the axis in a hole that bends. What pipes have drawn at random goes by their number from the rig, so it is drawn anew. Fails unless all else is of the same kind and number: ERR_VALUE, with what differs; ERR_GEOMETRY: a joint that is not open does not fit; ERR_SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE as dmb_sim_create. sim is then as it was. from is not changed. O(number of elements).",
+    "dmb_sim_create":
+        "Makes a sim at time 0 in the described pose and speed. options may be NULL. NOTE_PROJECTED when initial velocities did not fit the allowed motion; dmb_sim_message tells by how much. Errors: _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The sim holds the model until it is destroyed. O(number of elements).",
+    "dmb_sim_create_in":
+        "The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used.",
+    "dmb_sim_destroy":
+        "Gives the memory back and sets *sim to NULL; does nothing within a call on this sim. NULL-safe.",
+    "dmb_sim_hash":
+        "FNV-1a hash of all that changes; equal states give equal hashes on one build.",
+    "dmb_sim_memory_size":
+        "Bytes of the block that dmb_sim_create_in needs. O(1). Errors: ERR_ORDER (model not compiled), ERR_VALUE.",
+    "dmb_sim_message":
+        "What the last failing or noteworthy call on this sim said. Never NULL; lives until the next call on the sim.",
+    "dmb_sim_set_drive":
+        "From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For DRIVE_LOAD and DRIVE_CONTROL; accelerations are made to fit the jump. ERR_UNSUPPORTED for DRIVE_MOTION, whose speed may not jump.",
+    "dmb_sim_set_joint":
+        "From now on the joint is JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the impulse of least kinetic energy (NOTE_PROJECTED; dmb_sim_message tells by how much), accelerations are made anew. That energy, and what springs and stops that are let go or taken up store, goes to `impact`. Couplings and drives of an open joint do not act: a drive follows the coordinate and goes on from where it is when the joint closes; a coupling keeps what it kept, so a gear that has slipped meanwhile cannot close. A joint that a motion drive moves cannot be locked. Errors, which change nothing: ERR_ID, _VALUE; _GEOMETRY: the joint's parts or couplings do not fit within 1e-6 m and rad, or its frames point against each other where it keeps them parallel; a drive's speed cannot be had; _SINGULAR, _NO_CONVERGENCE, _CALLBACK, _NOT_FINITE.",
+    "dmb_sim_snapshot_size":
+        "Snapshot of all that changes: bytes, save into and restore from the caller's memory. A snapshot fits every sim of the same compiled model with the same options. Bytes that are no state of it, forged ones too, are refused (ERR_VALUE, the message tells field, value and bound); what is taken cannot lead a step out of bounds. Restored sims go on bit for bit: a snapshot holds the factors kept from step to step too (about 0.9 kB an element; none with joints).",
+    "dmb_sim_step":
+        "Advances by `duration` [s], > 0 and <= 1e18, in one step of generalized-alpha, divided at programme corners, and halved where Newton does not converge (NOTE_STEP_CUT). report may be NULL. Errors: ERR_VALUE, _NO_CONVERGENCE, _SINGULAR, _ROTATION, _GEOMETRY (a joint where its angles are not defined: model.h), _CALLBACK, _NOT_FINITE; the state is then that before the call. O(number of elements) an iteration. Chung, Hulbert 1993; Bruls, Cardona, Arnold 2012.",
+    "dmb_sim_time":
+        "[s] time of the last accepted state; NaN for NULL.",
+    "dmb_status_name":
+        "Name (\"ERR_VALUE\") and text of a status; for an unknown one \"UNKNOWN\" and its text. Never NULL. Thread-safe.",
+    "dmb_version":
+        "Version of the linked library, 10000 major + 100 minor + patch. Cannot fail.",
+    "dmb_write_vtk_hole":
+        "The hole as a tube of `around` facets (3 .. 360) with a ring each `spacing` [m] from depth0 to depth1 [m].",
+    "dmb_write_vtk_mode":
+        "A frame of its animation for ParaView: the strings displaced by scale Re(shape e^(i phase)), as dmb_write_vtk_strings writes them, with fields displacement and rotation. A numbered series of frames plays. ERR_IO on failure.",
+    "dmb_write_vtk_strings":
+        "VTK XML poly-data for ParaView: the strings as lines with fields (displacement, velocity, diameter, axial force, torque, bending moment, normal force), `per_element` points an element (1 .. 64). ERR_IO on failure.",
+}
+
+
+def declare(library: ctypes.CDLL) -> None:
+    """Tells ctypes the types of all functions."""
+    for name, (result, *arguments) in PROTOTYPES.items():
+        function = getattr(library, name)
+        function.restype, function.argtypes = result, arguments

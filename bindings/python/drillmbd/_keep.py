@@ -1,0 +1,128 @@
+"""What the library may still call back, and help with arguments."""
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from ._functions import FUNCTION_DOCS
+from ._record import Record, flat, numbers
+from ._structs import CONSTRAINT_FN, LOG_FN, PROGRAMME_FN, Id, Place
+from .enums import PROVIDES_INTEGRAL, PROVIDES_JACOBIAN, PROVIDES_RATE
+from .errors import Error
+
+S = TypeVar("S", bound=Record)
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def station(part: Id, pipe: int = 0, fraction: float = 0.0) -> Place:
+    """A place on a part: a station of a string (pipe from 0 at the rig end, fraction 0 .. 1 along it), or the reference
+    point of a body."""
+    return Place(part, pipe, 0, fraction)
+
+
+def as_id(part: Id | None) -> Id:
+    """The id, or the id of nothing for None."""
+    return Id() if part is None else part
+
+
+def as_place(place: Place | Id | None) -> Place:
+    """The place; a part stands for its reference point, None for no place."""
+    return place if isinstance(place, Place) else station(as_id(place))
+
+
+def struct(cls: type[S], given: S | None, fields: dict[str, Any]) -> S:
+    """The caller's struct, or one made of keywords."""
+    if given is None:
+        return cls(**fields)
+    if fields:
+        raise TypeError(f"give a {cls.__name__} or its fields, not both")
+    if not isinstance(given, cls):
+        raise TypeError(f"a {cls.__name__} is needed, {type(given).__name__} given")
+    return given
+
+
+def path_of(path: Any) -> bytes:
+    """The path as the C library takes it."""
+    return os.fsencode(path)
+
+
+def mirrors(name: str) -> Callable[[F], F]:
+    """A method whose docstring goes on with what the header says of the C function."""
+    def put(method: F) -> F:
+        text = FUNCTION_DOCS.get(name, "")
+        method.__doc__ = "\n\n".join(part for part in (method.__doc__, text and f"{name}: {text}") if part)
+        return method
+    return put
+
+
+class Keep:
+    """Functions that the library may still call: held by the model and by every sim made from it. What a callback raises
+    is kept until the call returns in the same thread."""
+
+    def __init__(self) -> None:
+        self.references: list[Any] = []
+        self.raised = threading.local()
+
+    def programme(self, function: Callable[[float], Any], provides: int) -> Any:
+        """The C function around a Python function of time. An exception stops the step and comes out of the call."""
+        wanted = 3 if provides & PROVIDES_INTEGRAL else 2 if provides & PROVIDES_RATE else 1
+
+        def call(_context: Any, time: float, out: Any) -> int:
+            try:
+                answer = function(time)
+                answer = tuple(answer) if wanted > 1 else (answer,)
+                for i, value in enumerate(numbers(answer, wanted)):
+                    out[i] = value
+                return 0
+            except BaseException as error:  # must not unwind through C
+                self.raised.error = error
+                return 1
+
+        wrapped = PROGRAMME_FN(call)
+        self.references.append(wrapped)
+        return wrapped
+
+    def constraint(self, function: Callable[..., Any], rows: int, provides: int) -> Any:
+        """The C function around a Python function of time and poses."""
+        def call(_context: Any, time: float, count: int, poses: Any, value: Any, jacobian: Any) -> int:
+            try:
+                answer = function(time, [list(poses[i]) for i in range(count)])
+                values, derivatives = answer if provides & PROVIDES_JACOBIAN else (answer, None)
+                for i, number in enumerate(numbers(flat(values), rows)):
+                    value[i] = number
+                if derivatives is not None:
+                    for i, number in enumerate(numbers(flat(derivatives), 6 * rows * count)):
+                        jacobian[i] = number
+                return 0
+            except BaseException as error:  # must not unwind through C
+                self.raised.error = error
+                return 1
+
+        wrapped = CONSTRAINT_FN(call)
+        self.references.append(wrapped)
+        return wrapped
+
+    def log(self, function: Callable[[int, str], None]) -> Any:
+        """The C function around a Python function of level and text."""
+        def call(_context: Any, level: int, text: bytes) -> None:
+            try:
+                function(level, text.decode(errors="replace"))
+            except BaseException as error:
+                self.raised.error = error
+
+        wrapped = LOG_FN(call)
+        self.references.append(wrapped)
+        return wrapped
+
+    def check(self, status: int, message: bytes) -> int:
+        """Raises Error for a failed call, because of what a callback raised if there is such."""
+        raised = getattr(self.raised, "error", None)
+        if raised is not None:
+            self.raised.error = None
+            if not isinstance(raised, Exception):
+                raise raised  # KeyboardInterrupt and the like
+        if status < 0:
+            raise Error(status, message.decode()) from raised
+        return status

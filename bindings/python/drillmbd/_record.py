@@ -1,0 +1,242 @@
+"""What every struct of the interface has in common: fields that are checked, defaults from the library, a description
+in plain Python that it can be made from again, and so copies and pickles."""
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable, Iterable, Sequence
+from ctypes import c_double
+from typing import Any, ClassVar
+
+_FUNCTION: Any = ctypes.CFUNCTYPE(None).__mro__[1]
+
+
+def numbers(values: Iterable[Any], count: int) -> list[Any]:
+    """The values as a list of `count`. Raises ValueError if they are more or fewer."""
+    values = list(values)
+    if len(values) != count:
+        raise ValueError(f"{count} numbers are needed, {len(values)} given")
+    return values
+
+
+def flat(values: Any) -> list[float]:
+    """A number, a sequence, or a sequence of sequences as one list."""
+    try:
+        values = list(values)
+    except TypeError:
+        return [float(values)]
+    return [number for value in values for number in flat(value)]
+
+
+def _plain(value: Any) -> Any:
+    """A field as plain Python: arrays as lists, texts as str."""
+    if isinstance(value, ctypes.Array):
+        return [_plain(one) for one in value]
+    return value.decode(errors="replace") if isinstance(value, bytes) else value
+
+
+def _is_pointer(kind: Any) -> bool:
+    return isinstance(kind, type) and (issubclass(kind, ctypes._Pointer) or issubclass(kind, _FUNCTION)
+                                       or kind is ctypes.c_void_p)
+
+
+class Record(ctypes.Structure):
+    """A struct that knows its fields: a misspelt one is an error, a sequence fills an array, a part stands for its
+    reference point where a place is needed and None for no part."""
+    c_name: ClassVar[str] = ""
+    about: ClassVar[str] = ""
+    field_docs: ClassVar[dict[str, tuple[str, str]]] = {}  # field -> (unit, meaning)
+
+    def __init_subclass__(cls, **more: Any) -> None:
+        super().__init_subclass__(**more)
+        if cls.c_name:
+            own = cls.__doc__ if "__doc__" in cls.__dict__ else None
+            mixed = cls.__mro__[1].__doc__ if cls.__mro__[1].__name__.endswith("Part") else None
+            parts = [f"{cls.c_name} of the headers.", mixed or own or "", cls.about]
+            fields = "\n".join(f"{name}: " + (f"[{unit}] " if unit else "") + text
+                               for name, (unit, text) in cls.field_docs.items())
+            cls.__doc__ = "\n\n".join(part for part in [*parts, fields] if part)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            if not hasattr(type(self), name):
+                raise AttributeError(f"{type(self).__name__} has no field '{name}'")
+            present = getattr(self, name)
+            if isinstance(present, ctypes.Array):
+                value = type(present)(*numbers(value, len(present)))
+            elif isinstance(present, bytes) and isinstance(value, str):
+                value = value.encode()
+            elif type(present).__name__ == "Place" and type(value).__name__ != "Place":
+                value = type(present)(type(present)().part if value is None else value)
+        super().__setattr__(name, value)
+
+    def __repr__(self) -> str:
+        fields = ", ".join(f"{name}={value!r}" for name, value in self.describe(every=True).items())
+        return f"{type(self).__name__}({fields})"
+
+    def describe(self, every: bool = False) -> dict[str, Any]:
+        """The fields as plain Python, lists for arrays: type(self)(**fields) makes an equal struct. `every` shows those
+        at their defaults too. Functions of the caller's are those of Python that were given."""
+        default = None if every else type(self)()
+        found = {}
+        for name, kind in self._fields_:
+            if name == "struct_size" or name.endswith("reserved") or _is_pointer(kind):
+                continue
+            value = _plain(getattr(self, name))
+            if every or value != _plain(getattr(default, name)):
+                found[name] = value
+        return found
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Record) or type(other) is not type(self):
+            return NotImplemented
+        return self.describe() == other.describe()
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> Any:
+        return _make, (type(self), self.describe())
+
+    def __copy__(self) -> Any:
+        return type(self)(**self.describe())
+
+    def __deepcopy__(self, memo: Any) -> Any:
+        return self.__copy__()
+
+
+def _make(cls: type[Record], fields: dict[str, Any]) -> Record:
+    return cls(**fields)
+
+
+class Sized(Record):
+    """A struct with struct_size, filled with the library's defaults and then with the given fields."""
+    status: Any = 0  # of the call that answered with it
+    _template: ClassVar[bytes] = b""
+
+    def __init__(self, **fields: Any) -> None:
+        super().__init__()
+        template = type(self)._template or self._learn()
+        ctypes.memmove(ctypes.byref(self), template, len(template))
+        for name, value in fields.items():
+            setattr(self, name, value)
+
+    @classmethod
+    def _learn(cls) -> bytes:
+        """The defaults, asked from the library once."""
+        from ._library import lib
+        from .errors import check
+        blank = cls.from_buffer_copy(bytes(ctypes.sizeof(cls)))
+        check(getattr(lib, cls.c_name + "_init")(ctypes.byref(blank), ctypes.sizeof(cls)))
+        cls._template = bytes(blank)
+        return cls._template
+
+    @classmethod
+    def blank(cls) -> Any:
+        """One with the defaults, as fast as can be."""
+        return cls.from_buffer_copy(cls._template or cls._learn())
+
+
+# ---- Structs with more than fields -----------------------------------------------------------------------------------
+class IdPart:
+    """Names a part of a model. Id() names nothing."""
+    index: int
+    generation: int
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, IdPart) and (self.index, self.generation) == (other.index, other.generation)
+
+    def __hash__(self) -> int:
+        return hash((self.index, self.generation))
+
+    def __bool__(self) -> bool:
+        return self.generation != 0
+
+
+class TermPart:
+    """One term of a programme. `table` takes pairs (time, value) or two sequences, (times, values); `function` takes a
+    function of time that returns a value, or (value, rate), or (value, rate, integral)."""
+
+    def __init__(self, table: Any = None, function: Callable[[float], Any] | None = None, **fields: Any) -> None:
+        super().__init__(**fields)
+        self._function = function
+        self._table: list[tuple[float, float]] = []
+        if table is not None:
+            self._set_table(*_columns(table))
+        if function is not None:
+            self.kind = 5
+
+    def _set_table(self, times: Sequence[float], values: Sequence[float]) -> None:
+        self.kind, self.table_count = 4, len(times)
+        self.table_time, self.table_value = (c_double * len(times))(*times), (c_double * len(times))(*values)
+        self._table = list(zip(times, values))
+
+    def describe(self, every: bool = False) -> dict[str, Any]:
+        """The fields as plain Python, `table` and `function` as given."""
+        found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
+        for name in ("table_count",) + (("kind",) if self._table or self._function else ()):
+            found.pop(name, None)
+        if self._table:
+            found["table"] = list(self._table)
+        if self._function is not None:
+            found["function"] = self._function
+        return found
+
+
+def _columns(table: Any) -> tuple[list[float], list[float]]:
+    """The times and values of a table given as pairs or as two sequences. Two pairs are pairs, unless arrays."""
+    table = table if hasattr(table, "__len__") else list(table)
+    columns = isinstance(table, tuple) and len(table) == 2 and all(hasattr(one, "__len__") for one in table)
+    if columns and not all(isinstance(one, tuple) and len(one) == 2 for one in table):
+        times, values = table
+    else:
+        times, values = zip(*table) if len(table) else ((), ())
+    times, values = [float(t) for t in times], [float(v) for v in values]
+    if len(times) != len(values):
+        raise ValueError(f"a table needs as many values as times: {len(values)} and {len(times)} given")
+    return times, values
+
+
+class WallPart:
+    """The hole. `stations` takes triples (measured depth [m], inclination [rad], azimuth [rad])."""
+
+    def __init__(self, stations: Any = None, **fields: Any) -> None:
+        super().__init__(**fields)
+        self._stations: list[list[float]] = []
+        if stations is not None:
+            self._stations = [[float(number) for number in numbers(triple, 3)] for triple in stations]
+            values = [number for triple in self._stations for number in triple]
+            self.survey_count, self.survey = len(self._stations), (c_double * len(values))(*values)
+
+    def describe(self, every: bool = False) -> dict[str, Any]:
+        """The fields as plain Python, `stations` as given."""
+        found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
+        found.pop("survey_count", None)
+        if self._stations:
+            found["stations"] = [list(triple) for triple in self._stations]
+        return found
+
+
+class ConstraintPart:
+    """A constraint on the poses of one to four `places`. `function` takes the time and a sequence of poses, each of
+    twelve numbers (position, rotation matrix by rows), and returns `rows` numbers (or one, if rows is 1); with
+    provides=PROVIDES_JACOBIAN a pair of these and of the rows x 6 places jacobian, flat or row by row."""
+    count: int
+    place: Any
+
+    def __init__(self, places: Any = None, function: Callable[..., Any] | None = None, **fields: Any) -> None:
+        super().__init__(**fields)
+        self._function = function
+        if places is not None:
+            kind = type(self.place[0])
+            given = [place if isinstance(place, kind) else kind(place) for place in places]
+            self.count = len(given)
+            self.place = (given + [kind()] * 4)[:4]
+
+    def describe(self, every: bool = False) -> dict[str, Any]:
+        """The fields as plain Python, `places` and `function` as given."""
+        found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
+        for name in ("count", "place"):
+            found.pop(name, None)
+        found["places"] = list(self.place)[:self.count]
+        if self._function is not None:
+            found["function"] = self._function
+        return found

@@ -1,0 +1,2085 @@
+"""The structs and types of callbacks of the C interface. Made from the headers by generate.py: do not edit, run that instead."""
+# mypy: disable-error-code="misc"
+from __future__ import annotations
+
+from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_uint64,
+                    c_void_p)
+from typing import Any, ClassVar
+
+from ._record import ConstraintPart, IdPart, Record, Sized, TermPart, WallPart
+
+
+class Id(IdPart, Record):
+    c_name, about = "dmb_id", "Names of parts ---------------------------------------------------------------------------------------------- A small value, given out by the dmb_model_add_ functions and checked at every use: kind, index and the model it belongs to. {0, 0} names nothing."
+    index: int
+    generation: int
+    _fields_: ClassVar[Any] = [
+        ("index", c_uint32),
+        ("generation", c_uint32),
+    ]
+    field_docs = {
+        "index": ("-", "kind in the upper 8 bits, number of the part within its kind in the lower 24"),
+        "generation": ("-", "stamp of the model that gave it out; 0 only in the id that names nothing"),
+    }
+
+
+class Allocator(Sized):
+    c_name, about = "dmb_allocator", "Memory and log"
+    struct_size: int
+    reserved: int
+    context: Any
+    allocate: Any
+    release: Any
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("context", c_void_p),
+        ("allocate", CFUNCTYPE(c_void_p, c_void_p, c_size_t, c_size_t)),
+        ("release", CFUNCTYPE(None, c_void_p, c_void_p, c_size_t, c_size_t)),
+    ]
+    field_docs = {
+        "context": ("", "handed to both functions"),
+        "allocate": ("byte", "NULL on failure"),
+        "release": ("", "what allocate gave, same sizes"),
+    }
+
+
+class EnvironmentDef(Sized):
+    c_name, about = "dmb_environment_def", "Surroundings"
+    struct_size: int
+    reserved: int
+    gravity: 'Array[c_double]'
+    fluid_density: float
+    lateral_damping: float
+    axial_damping: float
+    torsional_damping: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("gravity", c_double * 3),
+        ("fluid_density", c_double),
+        ("lateral_damping", c_double),
+        ("axial_damping", c_double),
+        ("torsional_damping", c_double),
+    ]
+    field_docs = {
+        "gravity": ("m/s2", "world frame, default (0, 0, -9.81), shape (3)"),
+        "fluid_density": ("kg/m3", "mud or air inside and outside the pipes, for the buoyancy of pipes and tool joints (bits and bodies get none); default 0"),
+        "lateral_damping": ("N s/m2", "external damping force per metre of pipe and m/s of sideways speed; default 0"),
+        "axial_damping": ("N s/m2", "the same along the pipe; default 0"),
+        "torsional_damping": ("N s", "external moment per metre of pipe and rad/s of spin; default 0"),
+    }
+
+
+class WallDef(WallPart, Sized):
+    c_name, about = "dmb_wall_def", ""
+    struct_size: int
+    survey_count: int
+    survey: Any
+    origin: 'Array[c_double]'
+    direction: 'Array[c_double]'
+    diameter: float
+    normal_law: int
+    friction_law: int
+    stiffness: float
+    exponent: float
+    restitution: float
+    damping: float
+    impact_depth: float
+    approach_speed: float
+    mu_static: float
+    mu_dynamic: float
+    stribeck_speed: float
+    smoothing_speed: float
+    full_speed: float
+    bristle_stiffness: float
+    bristle_damping: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("survey_count", c_uint32),
+        ("survey", POINTER(c_double)),
+        ("origin", c_double * 3),
+        ("direction", c_double * 3),
+        ("diameter", c_double),
+        ("normal_law", c_int32),
+        ("friction_law", c_int32),
+        ("stiffness", c_double),
+        ("exponent", c_double),
+        ("restitution", c_double),
+        ("damping", c_double),
+        ("impact_depth", c_double),
+        ("approach_speed", c_double),
+        ("mu_static", c_double),
+        ("mu_dynamic", c_double),
+        ("stribeck_speed", c_double),
+        ("smoothing_speed", c_double),
+        ("full_speed", c_double),
+        ("bristle_stiffness", c_double),
+        ("bristle_damping", c_double),
+    ]
+    field_docs = {
+        "survey_count": ("-", "0 (straight hole along `direction`), or 2 .. 2^16"),
+        "survey": ("m, rad, rad", "measured depth, inclination from the downward vertical (0 .. pi), azimuth from +x towards +y (-2 pi .. 2 pi); depths strictly increasing; minimum curvature between; shape (survey_count, 3); copied"),
+        "origin": ("m", "start of the axis, world frame; default 0, shape (3)"),
+        "direction": ("-", "of a straight hole, any length, world frame; default (1, 0, 0), shape (3)"),
+        "diameter": ("m", "of the hole, > 0; default 0.094"),
+        "normal_law": ("", "NORMAL_..., default NORMAL_HUNT_CROSSLEY"),
+        "friction_law": ("", "FRICTION_..., default FRICTION_STRIBECK"),
+        "stiffness": ("N/m^(n+1)", "K per metre of pipe, > 0; default 1e7"),
+        "exponent": ("-", "n, 1 .. 3; default 1"),
+        "restitution": ("-", "e, 0 .. 1 (> 0 for FLORES and EXACT); default 0.4"),
+        "damping": ("N s/m2", "c per metre of pipe, of KELVIN_VOIGT and IMPACT; default 0"),
+        "impact_depth": ("m", "full damping from here on, of IMPACT; default 1e-4"),
+        "approach_speed": ("m/s", "floor of v0, > 0; default 0.01"),
+        "mu_static": ("-", ">= mu_dynamic; default 0.35"),
+        "mu_dynamic": ("-", ">= 0; default 0.30"),
+        "stribeck_speed": ("m/s", "> 0; default 1e-2"),
+        "smoothing_speed": ("m/s", "> 0; default 1e-3"),
+        "full_speed": ("m/s", "of AMBROSIO, > smoothing_speed; default 1e-2"),
+        "bristle_stiffness": ("1/m", "tangential stiffness over normal force, > 0; default 1e4"),
+        "bristle_damping": ("s/m", "tangential damping over normal force, >= 0; default 0"),
+    }
+
+
+class StringDef(Sized):
+    c_name, about = "dmb_string_def", "Strings and pipes"
+    struct_size: int
+    follows_hole: int
+    start_depth: float
+    offset: 'Array[c_double]'
+    position: 'Array[c_double]'
+    rotation: 'Array[c_double]'
+    velocity: 'Array[c_double]'
+    start_free: int
+    end_free: int
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("follows_hole", c_int32),
+        ("start_depth", c_double),
+        ("offset", c_double * 2),
+        ("position", c_double * 3),
+        ("rotation", c_double * 3),
+        ("velocity", c_double * 6),
+        ("start_free", c_int32),
+        ("end_free", c_int32),
+    ]
+    field_docs = {
+        "follows_hole": ("", "1: starts on the hole's axis at start_depth; 0: straight from `position`. default 1"),
+        "start_depth": ("m", "measured depth of the rig end; default 0"),
+        "offset": ("m", "sideways shift from the hole's axis along its y and z axes; default 0, shape (2)"),
+        "position": ("m", "rig end, world frame, where follows_hole is 0 or there is no hole; shape (3)"),
+        "rotation": ("rad", "rotation vector of the rig end's frame, as above; shape (3)"),
+        "velocity": ("m/s, rad/s", "of the string as one rigid body, rig end, body frame, at time 0; shape (6)"),
+        "start_free": ("-", "mask of free components at the rig end; default FREE_CYLINDRICAL"),
+        "end_free": ("-", "the same at the far end; default FREE_ALL"),
+    }
+
+
+class CompileOptions(Sized):
+    c_name, about = "dmb_compile_options", ""
+    struct_size: int
+    features: int
+    pipe_kind: int
+    reserved: int
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("features", c_int32),
+        ("pipe_kind", c_int32),
+        ("reserved", c_int32),
+    ]
+    field_docs = {
+        "features": ("", "mask of FEATURE_...; what is left out is not there in the step; default FEATURE_ALL"),
+        "pipe_kind": ("", "PIPE_... for every pipe, or -1 (default): as described"),
+    }
+
+
+class ModelInfo(Sized):
+    c_name, about = "dmb_model_info", ""
+    struct_size: int
+    strings: int
+    pipes: int
+    rigid_bodies: int
+    nodes: int
+    elements: int
+    contact_sites: int
+    freedoms: int
+    prescribed: int
+    structural_joints: int
+    model_bytes: int
+    sim_bytes: int
+    mass: float
+    length: float
+    joints: int
+    constraint_rows: int
+    clusters: int
+    linked_nodes: int
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("strings", c_uint32),
+        ("pipes", c_uint32),
+        ("rigid_bodies", c_uint32),
+        ("nodes", c_uint32),
+        ("elements", c_uint32),
+        ("contact_sites", c_uint32),
+        ("freedoms", c_uint32),
+        ("prescribed", c_uint32),
+        ("structural_joints", c_uint32),
+        ("model_bytes", c_uint64),
+        ("sim_bytes", c_uint64),
+        ("mass", c_double),
+        ("length", c_double),
+        ("joints", c_uint32),
+        ("constraint_rows", c_uint32),
+        ("clusters", c_uint32),
+        ("linked_nodes", c_uint32),
+    ]
+    field_docs = {
+        "strings": ("-", ""),
+        "pipes": ("-", ""),
+        "rigid_bodies": ("-", "merged ones count once"),
+        "nodes": ("-", ""),
+        "elements": ("-", "flexible and axial-torsional"),
+        "contact_sites": ("-", ""),
+        "freedoms": ("-", "free velocity components, prescribed ones not counted"),
+        "prescribed": ("-", "components moved by drives"),
+        "structural_joints": ("-", "fixed joints that cost no unknowns"),
+        "model_bytes": ("byte", "held by the compiled scene"),
+        "sim_bytes": ("byte", "of one sim with default options"),
+        "mass": ("kg", ""),
+        "length": ("m", "of all strings"),
+        "joints": ("-", "described joints"),
+        "constraint_rows": ("-", "equations of joints, couplings, callbacks and joint drives, active at time 0"),
+        "clusters": ("-", "groups of parts that joints connect directly"),
+        "linked_nodes": ("-", "nodes solved by the sparse solver; the others by the block-tridiagonal one"),
+    }
+
+
+class StepReport(Sized):
+    c_name, about = "dmb_step_report", ""
+    struct_size: int
+    steps: int
+    iterations: int
+    rejected: int
+    worst: int
+    reserved: int
+    time: float
+    residual: float
+    last_step: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("steps", c_uint32),
+        ("iterations", c_uint32),
+        ("rejected", c_uint32),
+        ("worst", c_uint32),
+        ("reserved", c_uint32),
+        ("time", c_double),
+        ("residual", c_double),
+        ("last_step", c_double),
+    ]
+    field_docs = {
+        "steps": ("-", "accepted integration steps in this call"),
+        "iterations": ("-", "Newton iterations, rejected steps included"),
+        "rejected": ("-", "steps tried and not accepted"),
+        "worst": ("-", "iterations of the worst accepted step"),
+        "time": ("s", "reached"),
+        "residual": ("-", "largest relative residual of an accepted step"),
+        "last_step": ("s", "length of the last accepted step"),
+    }
+
+
+class Pose(Sized):
+    c_name, about = "dmb_pose", ""
+    struct_size: int
+    reserved: int
+    position: 'Array[c_double]'
+    rotation: 'Array[c_double]'
+    displacement: 'Array[c_double]'
+    depth: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("position", c_double * 3),
+        ("rotation", c_double * 9),
+        ("displacement", c_double * 3),
+        ("depth", c_double),
+    ]
+    field_docs = {
+        "position": ("m", "of the section's centre, world frame, shape (3)"),
+        "rotation": ("-", "columns are the section's axes in the world frame, row-major, shape (3, 3)"),
+        "displacement": ("m", "position less that at time 0 as described, world frame, shape (3)"),
+        "depth": ("m", "measured depth of the closest point of the hole's axis; 0 without a hole"),
+    }
+
+
+class Motion(Sized):
+    c_name, about = "dmb_motion", ""
+    struct_size: int
+    frame: int
+    velocity: 'Array[c_double]'
+    acceleration: 'Array[c_double]'
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("frame", c_int32),
+        ("velocity", c_double * 6),
+        ("acceleration", c_double * 6),
+    ]
+    field_docs = {
+        "frame": ("", "in: FRAME_WORLD (default) or FRAME_BODY"),
+        "velocity": ("m/s, rad/s", "of the section's centre, in `frame`, shape (6)"),
+        "acceleration": ("m/s2, rad/s2", "likewise, shape (6); in the body frame the rate of the body-frame velocity"),
+    }
+
+
+class Section(Sized):
+    c_name, about = "dmb_section", ""
+    struct_size: int
+    reserved: int
+    force: 'Array[c_double]'
+    strain: 'Array[c_double]'
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("force", c_double * 6),
+        ("strain", c_double * 6),
+    ]
+    field_docs = {
+        "force": ("N, N m", "on the near side from the far side: axial (tension > 0), shear y, z; torque, bending moment y, z; section frame; the pipe's own weight and inertia included between its nodes, where wall forces act (axial-torsional pipes: mean of the element); shape (6)"),
+        "strain": ("-, -, -, rad/m, rad/m, rad/m", "mean of the element: stretch, shear; twist, curvature; shape (6)"),
+    }
+
+
+class ContactSum(Sized):
+    c_name, about = "dmb_contact_sum", ""
+    struct_size: int
+    closed: int
+    normal_force: float
+    friction: 'Array[c_double]'
+    deepest: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("closed", c_uint32),
+        ("normal_force", c_double),
+        ("friction", c_double * 2),
+        ("deepest", c_double),
+    ]
+    field_docs = {
+        "closed": ("-", "sites that touch"),
+        "normal_force": ("N", "sum over the sites"),
+        "friction": ("N", "sum of the friction components over the sites, shape (2)"),
+        "deepest": ("m", "largest penetration, >= 0"),
+    }
+
+
+class Energy(Sized):
+    c_name, about = "dmb_energy", ""
+    struct_size: int
+    reserved: int
+    kinetic: float
+    strain: float
+    gravity: float
+    contact: float
+    drives: float
+    loads: float
+    friction: float
+    impact: float
+    damping: float
+    rock: float
+    scheme: float
+    input: float
+    balance: float
+    unexplained: float
+    error: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_int32),
+        ("kinetic", c_double),
+        ("strain", c_double),
+        ("gravity", c_double),
+        ("contact", c_double),
+        ("drives", c_double),
+        ("loads", c_double),
+        ("friction", c_double),
+        ("impact", c_double),
+        ("damping", c_double),
+        ("rock", c_double),
+        ("scheme", c_double),
+        ("input", c_double),
+        ("balance", c_double),
+        ("unexplained", c_double),
+        ("error", c_double),
+    ]
+    field_docs = {
+        "kinetic": ("J", "now"),
+        "strain": ("J", "now, flexible pipes, springs and stops of joints"),
+        "gravity": ("J", "now, 0 at time 0 as described"),
+        "contact": ("J", "now, stored in the wall's stiffness"),
+        "drives": ("J", "work put in by all drives since the start"),
+        "loads": ("J", "work of described loads, the bottom-hole load, the caller's constraints that move"),
+        "friction": ("J", "taken by friction on the wall and in joints, what bristles store included"),
+        "impact": ("J", "dissipated by the damping of the normal law and of stops, and what dmb_sim_set_joint takes: impulses, springs let go less those taken up, so it may be negative"),
+        "damping": ("J", "dissipated by material and external damping and dampers of joints"),
+        "rock": ("J", "spent at the bit"),
+        "scheme": ("J", "taken out by the time integration: what its discrete inertia and potential forces did less what the energies changed"),
+        "input": ("J", "integral of the sum of each drive's |power| and of |power| of all loads, the scale of `error`"),
+        "balance": ("J", "input and changes of energy that physics leaves open: scheme + unexplained"),
+        "unexplained": ("J", "balance - scheme: from unconverged iterations only"),
+        "error": ("-", "|balance| / input, 0 while input is 0"),
+    }
+
+
+class Momentum(Sized):
+    c_name, about = "dmb_momentum", ""
+    struct_size: int
+    reserved: int
+    linear: 'Array[c_double]'
+    angular: 'Array[c_double]'
+    mass: float
+    centre: 'Array[c_double]'
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("linear", c_double * 3),
+        ("angular", c_double * 3),
+        ("mass", c_double),
+        ("centre", c_double * 3),
+    ]
+    field_docs = {
+        "linear": ("kg m/s", "world frame, shape (3)"),
+        "angular": ("kg m2/s", "about the world's origin, world frame, shape (3)"),
+        "mass": ("kg", ""),
+        "centre": ("m", "centre of mass, world frame, shape (3)"),
+    }
+
+
+class DriveState(Sized):
+    c_name, about = "dmb_drive_state", ""
+    struct_size: int
+    reserved: int
+    target: float
+    position: float
+    speed: float
+    force: float
+    power: float
+    work: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("target", c_double),
+        ("position", c_double),
+        ("speed", c_double),
+        ("force", c_double),
+        ("power", c_double),
+        ("work", c_double),
+    ]
+    field_docs = {
+        "target": ("unit of the programme", "now, excitation included"),
+        "position": ("m, rad", "of the component since time 0, unwrapped"),
+        "speed": ("m/s, rad/s", ""),
+        "force": ("N, N m", "that the drive exerts on the part, along the component"),
+        "power": ("W", ""),
+        "work": ("J", "since the start; 0 without the energy ledger"),
+    }
+
+
+class JointState(Sized):
+    c_name, about = "dmb_joint_state", ""
+    struct_size: int
+    frame: int
+    state: int
+    rows: int
+    redundant: int
+    reserved: int
+    position: 'Array[c_double]'
+    speed: 'Array[c_double]'
+    acceleration: 'Array[c_double]'
+    reaction: 'Array[c_double]'
+    action: 'Array[c_double]'
+    misfit: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("frame", c_int32),
+        ("state", c_int32),
+        ("rows", c_uint32),
+        ("redundant", c_uint32),
+        ("reserved", c_uint32),
+        ("position", c_double * 6),
+        ("speed", c_double * 6),
+        ("acceleration", c_double * 6),
+        ("reaction", c_double * 6),
+        ("action", c_double * 6),
+        ("misfit", c_double),
+    ]
+    field_docs = {
+        "frame": ("", "in: frame of `reaction`: FRAME_WORLD (default) or FRAME_BODY, which is frame b of the joint; there is none for frame a: ERR_VALUE"),
+        "state": ("", "JOINT_..."),
+        "rows": ("-", "equations it holds now"),
+        "redundant": ("-", "of them dropped because others already hold what they hold"),
+        "position": ("m, rad", "coordinates, RX and RY counted over full turns, shape (6)"),
+        "speed": ("m/s, rad/s", "their rates, shape (6)"),
+        "acceleration": ("m/s2, rad/s2", "the rates of those, shape (6)"),
+        "reaction": ("N, N m", "force and moment of the constraint on b from a, at the origin of b, shape (6); of redundant joints those of least norm"),
+        "action": ("N, N m", "generalised force of springs, dampers, stops and friction on the coordinates, shape (6)"),
+        "misfit": ("m, -", "largest violation of its equations of position"),
+    }
+
+
+class BitState(Sized):
+    c_name, about = "dmb_bit_state", ""
+    struct_size: int
+    on_bottom: int
+    advance: float
+    bottom: float
+    depth_of_cut: float
+    weight: float
+    torque: float
+    load: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("on_bottom", c_int32),
+        ("advance", c_double),
+        ("bottom", c_double),
+        ("depth_of_cut", c_double),
+        ("weight", c_double),
+        ("torque", c_double),
+        ("load", c_double),
+    ]
+    field_docs = {
+        "on_bottom": ("", "1 while cutting or touching"),
+        "advance": ("m", "along the hole's axis since time 0"),
+        "bottom": ("m", "advance at which rock begins"),
+        "depth_of_cut": ("m", "per revolution, all blades"),
+        "weight": ("N", "weight on bit from the rock law, >= 0"),
+        "torque": ("N m", "torque on bit from the rock law, against the rotation"),
+        "load": ("N", "bottom-hole load of the programme"),
+    }
+
+
+class Statistics(Sized):
+    c_name, about = "dmb_statistics", ""
+    struct_size: int
+    worst_iterations: int
+    steps: int
+    rejected: int
+    iterations: int
+    limited: int
+    bytes: int
+    worst_residual: float
+    projection: 'Array[c_double]'
+    assembly: 'Array[c_double]'
+    switches: int
+    dependent: int
+    redundant: int
+    misfit: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("worst_iterations", c_uint32),
+        ("steps", c_uint64),
+        ("rejected", c_uint64),
+        ("iterations", c_uint64),
+        ("limited", c_uint64),
+        ("bytes", c_uint64),
+        ("worst_residual", c_double),
+        ("projection", c_double * 2),
+        ("assembly", c_double * 2),
+        ("switches", c_uint64),
+        ("dependent", c_uint32),
+        ("redundant", c_uint32),
+        ("misfit", c_double),
+    ]
+    field_docs = {
+        "worst_iterations": ("-", "of an accepted step"),
+        "steps": ("-", "accepted"),
+        "rejected": ("-", ""),
+        "iterations": ("-", "in accepted and rejected steps"),
+        "limited": ("-", "steps accepted above the tolerance in bounded-work mode"),
+        "bytes": ("byte", "of the sim"),
+        "worst_residual": ("-", "relative, of an accepted step"),
+        "projection": ("m/s, rad/s", "largest correction of initial velocities, shape (2)"),
+        "assembly": ("m, rad", "largest correction of the described pose when joints were closed, shape (2)"),
+        "switches": ("-", "times the independent coordinates of a cluster were chosen anew"),
+        "dependent": ("-", "coordinates that constraints determine now"),
+        "redundant": ("-", "equations that are dropped now"),
+        "misfit": ("m, -", "largest violation of an equation of position of a joint now; couplings, drives and the caller's constraints do not count"),
+    }
+
+
+class StaticOptions(Sized):
+    c_name, about = "dmb_static_options", ""
+    struct_size: int
+    max_iterations: int
+    tolerance: float
+    slip_axial: float
+    slip_rotation: float
+    load_steps: int
+    lay_on_wall: int
+    steady: int
+    reserved: int
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("max_iterations", c_uint32),
+        ("tolerance", c_double),
+        ("slip_axial", c_double),
+        ("slip_rotation", c_double),
+        ("load_steps", c_uint32),
+        ("lay_on_wall", c_int32),
+        ("steady", c_int32),
+        ("reserved", c_int32),
+    ]
+    field_docs = {
+        "max_iterations": ("-", "of one load step, 1 .. 10000; default 60"),
+        "tolerance": ("-", "residual over the norm of the forces that balance in it; default 1e-10"),
+        "slip_axial": ("m/s", "friction acts as if the string slid along the hole at this speed; default 0"),
+        "slip_rotation": ("rad/s", "and turned at this speed; both 0: no friction in the static state"),
+        "load_steps": ("-", "equal steps from no load to full load, at most 10000, before the library chooses them by itself; default 0: the whole load at once"),
+        "lay_on_wall": ("", "1 (default): start from the string lying on the low side of its hole; 0: from the present pose"),
+        "steady": ("", "STEADY_..., default STEADY_AUTO"),
+    }
+
+
+class StaticReport(Sized):
+    c_name, about = "dmb_static_report", ""
+    struct_size: int
+    iterations: int
+    load_steps: int
+    method: int
+    residual: float
+    largest_force: float
+    lateral_move: float
+    cuts: int
+    line_searches: int
+    negative: int
+    stiffness: int
+    steady: int
+    steady_reserved: int
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("iterations", c_uint32),
+        ("load_steps", c_uint32),
+        ("method", c_int32),
+        ("residual", c_double),
+        ("largest_force", c_double),
+        ("lateral_move", c_double),
+        ("cuts", c_uint32),
+        ("line_searches", c_uint32),
+        ("negative", c_int32),
+        ("stiffness", c_int32),
+        ("steady", c_int32),
+        ("steady_reserved", c_int32),
+    ]
+    field_docs = {
+        "iterations": ("-", "in all"),
+        "load_steps": ("-", "carried out"),
+        "method": ("", "STATIC_...: the last resort that was needed"),
+        "residual": ("-", "relative, at the end"),
+        "largest_force": ("N, N m over the element length", "largest component of the residual at the end"),
+        "lateral_move": ("m", "largest displacement from the starting pose"),
+        "cuts": ("-", "load steps that did not converge and were halved"),
+        "line_searches": ("-", "corrections that were shortened by a line search"),
+        "negative": ("-", "eigenvalues of the stiffness by which the equilibrium is unstable, those that are 0 but for rounding apart. SYMMETRIC: negative ones, exactly. UNSYMMETRIC: real negative ones among those nearest 0, 36 or all, as many as the sign of the determinant agrees with; -1: they could not be counted. Of a state that moves (`steady`): of the symmetric part, which does not tell whether it stays so (dmb_analysis_modes)"),
+        "stiffness": ("", "STIFFNESS_...: the kind that was judged; SYMMETRIC of a state that moves"),
+        "steady": ("", "STEADY_AT_REST, _SLIDING or _RIGID: what the state is"),
+    }
+
+
+class BucklingInfo(Sized):
+    c_name, about = "dmb_buckling_info", ""
+    struct_size: int
+    count: int
+    confirmed: int
+    linearisations: int
+    points: int
+    stiffness: int
+    end: int
+    reserved: int
+    estimate: float
+    linearised_at: float
+    reached: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("count", c_uint32),
+        ("confirmed", c_uint32),
+        ("linearisations", c_uint32),
+        ("points", c_uint32),
+        ("stiffness", c_int32),
+        ("end", c_int32),
+        ("reserved", c_int32),
+        ("estimate", c_double),
+        ("linearised_at", c_double),
+        ("reached", c_double),
+    ]
+    field_docs = {
+        "count": ("-", "factors"),
+        "confirmed": ("-", "of them, the lowest: the first stood up on the path of equilibria, others are the same or have not changed from one linearisation to the other; the rest are extrapolations"),
+        "linearisations": ("-", "of states on the way, the present one included"),
+        "points": ("-", "equilibria found on the way"),
+        "stiffness": ("", "STIFFNESS_... of the state linearised last. UNSYMMETRIC: factors are those of divergence, det K = 0; what flutters may do so before (dmb_analysis_modes)"),
+        "end": ("", "BUCKLING_..."),
+        "estimate": ("unit of the factor", "the lowest factor, from the present state alone; infinite: none"),
+        "linearised_at": ("unit of the factor", "state that the shapes and further factors were linearised about"),
+        "reached": ("unit of the factor", "last stable equilibrium on the way"),
+    }
+
+
+class PathPoint(Sized):
+    c_name, about = "dmb_path_point", ""
+    struct_size: int
+    number: int
+    kind: int
+    negative: int
+    iterations: int
+    stiffness: int
+    factor: float
+    rate: float
+    arc: float
+    displacement: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("number", c_uint32),
+        ("kind", c_int32),
+        ("negative", c_int32),
+        ("iterations", c_uint32),
+        ("stiffness", c_int32),
+        ("factor", c_double),
+        ("rate", c_double),
+        ("arc", c_double),
+        ("displacement", c_double),
+    ]
+    field_docs = {
+        "number": ("-", "0: the state the path begins in"),
+        "kind": ("", "PATH_..."),
+        "negative": ("-", "as in dmb_static_report, of the 12 nearest 0 where UNSYMMETRIC; 0: stable"),
+        "iterations": ("-", "of this point"),
+        "stiffness": ("", "STIFFNESS_..."),
+        "factor": ("unit of the factor", ""),
+        "rate": ("unit of the factor/m", "of the factor along the path, < 0 where it falls"),
+        "arc": ("m", "length of the path so far, root of the mean square of what the nodes move"),
+        "displacement": ("m", "of the watched place and component since time 0; 0: none is watched"),
+    }
+
+
+class PathReport(Sized):
+    c_name, about = "dmb_path_report", ""
+    struct_size: int
+    points: int
+    limits: int
+    bifurcations: int
+    iterations: int
+    cuts: int
+    factor: float
+    displacement: float
+    first_limit: float
+    first_bifurcation: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("points", c_uint32),
+        ("limits", c_uint32),
+        ("bifurcations", c_uint32),
+        ("iterations", c_uint32),
+        ("cuts", c_uint32),
+        ("factor", c_double),
+        ("displacement", c_double),
+        ("first_limit", c_double),
+        ("first_bifurcation", c_double),
+    ]
+    field_docs = {
+        "points": ("-", "beyond the start, limit points and bifurcations included"),
+        "limits": ("-", "limit points passed"),
+        "bifurcations": ("-", "passed or left at"),
+        "iterations": ("-", "in all"),
+        "cuts": ("-", "steps that were halved"),
+        "factor": ("unit of the factor", "at the end"),
+        "displacement": ("m", "at the end"),
+        "first_limit": ("unit of the factor", "at the first limit point; NaN: none"),
+        "first_bifurcation": ("unit of the factor", "at the first bifurcation; NaN: none"),
+    }
+
+
+class CheckReport(Sized):
+    c_name, about = "dmb_check_report", "Model check ------------------------------------------------------------------------------------------------- What a scene consists of, how many degrees of freedom it has, and what looks wrong with it."
+    struct_size: int
+    rigid_parts: int
+    flexible_parts: int
+    elements: int
+    structural_joints: int
+    joints: 'Array[c_uint32]'
+    open_joints: int
+    locked_joints: int
+    couplings: int
+    constraints: int
+    motion_drives: int
+    other_drives: int
+    loads: int
+    coordinates: int
+    held: int
+    prescribed: int
+    rows: int
+    rank: int
+    freedoms: int
+    redundant: int
+    tridiagonal_nodes: int
+    sparse_nodes: int
+    blocks: int
+    fill: int
+    clusters: int
+    largest_cluster: int
+    warnings: int
+    gruebler: int
+    largest_misfit: float
+    condition: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("rigid_parts", c_uint32),
+        ("flexible_parts", c_uint32),
+        ("elements", c_uint32),
+        ("structural_joints", c_uint32),
+        ("joints", c_uint32 * 16),
+        ("open_joints", c_uint32),
+        ("locked_joints", c_uint32),
+        ("couplings", c_uint32),
+        ("constraints", c_uint32),
+        ("motion_drives", c_uint32),
+        ("other_drives", c_uint32),
+        ("loads", c_uint32),
+        ("coordinates", c_uint32),
+        ("held", c_uint32),
+        ("prescribed", c_uint32),
+        ("rows", c_uint32),
+        ("rank", c_uint32),
+        ("freedoms", c_uint32),
+        ("redundant", c_uint32),
+        ("tridiagonal_nodes", c_uint32),
+        ("sparse_nodes", c_uint32),
+        ("blocks", c_uint32),
+        ("fill", c_uint32),
+        ("clusters", c_uint32),
+        ("largest_cluster", c_uint32),
+        ("warnings", c_uint32),
+        ("gruebler", c_int64),
+        ("largest_misfit", c_double),
+        ("condition", c_double),
+    ]
+    field_docs = {
+        "rigid_parts": ("-", "bodies and bits (fixed to a string or not), rigid pipes, rigid tool joints"),
+        "flexible_parts": ("-", "flexible and axial-torsional pipes"),
+        "elements": ("-", "of those"),
+        "structural_joints": ("-", "fixed joints inside strings, which cost no unknowns"),
+        "joints": ("-", "described joints that are not open, by JOINT_ kind, shape (16)"),
+        "open_joints": ("-", "described joints that are open now"),
+        "locked_joints": ("-", "of `joints` those that are locked now"),
+        "couplings": ("-", ""),
+        "constraints": ("-", "the caller's"),
+        "motion_drives": ("-", "DRIVE_MOTION"),
+        "other_drives": ("-", "DRIVE_LOAD and _CONTROL"),
+        "loads": ("-", ""),
+        "coordinates": ("-", "velocity components of all nodes: 6 or (axial-torsional) 2 each"),
+        "held": ("-", "of them held by guides: start_free, end_free, free_mask"),
+        "prescribed": ("-", "of them moved by motion drives of strings and bodies"),
+        "rows": ("-", "equations that act now: of joints, couplings, constraints, joint motion drives"),
+        "rank": ("-", "of their matrix in the coordinates that are neither held nor prescribed"),
+        "freedoms": ("-", "true degrees of freedom: coordinates - held - prescribed - rank"),
+        "redundant": ("-", "equations that others imply: rows - rank"),
+        "tridiagonal_nodes": ("-", "nodes whose chains the block-tridiagonal solver takes"),
+        "sparse_nodes": ("-", "nodes of chains that equations connect: the sparse solver's"),
+        "blocks": ("-", "of the sparse solver: clusters and the other nodes of those chains"),
+        "fill": ("-", "couplings of blocks that its elimination adds, in CHOLMOD's order"),
+        "clusters": ("-", "groups of nodes that equations connect directly"),
+        "largest_cluster": ("-", "coordinates of the largest"),
+        "warnings": ("-", "lines of warning in the text"),
+        "gruebler": ("-", "coordinates - held - prescribed - rows; < freedoms if equations are redundant"),
+        "largest_misfit": ("m, -", "largest violation of an equation of position"),
+        "condition": ("-", "smallest over largest singular value of a cluster's equations, redundant ones apart, at unit length, rotations at the mean element length; of the worst cluster; an estimate above 300 equations; 1 without any"),
+    }
+
+
+class ModesOptions(Sized):
+    c_name, about = "dmb_modes_options", ""
+    struct_size: int
+    kind: int
+    select: int
+    count: int
+    band: 'Array[c_double]'
+    contact: int
+    friction: int
+    contact_gap: float
+    equilibrium_tolerance: float
+    axes: int
+    reserved: int
+    spin: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("select", c_int32),
+        ("count", c_uint32),
+        ("band", c_double * 2),
+        ("contact", c_int32),
+        ("friction", c_int32),
+        ("contact_gap", c_double),
+        ("equilibrium_tolerance", c_double),
+        ("axes", c_int32),
+        ("reserved", c_int32),
+        ("spin", c_double),
+    ]
+    field_docs = {
+        "kind": ("", "MODES_UNDAMPED (default), _DAMPED"),
+        "select": ("", "MODES_LOWEST (default), _ALL, _BAND"),
+        "count": ("-", "of LOWEST, 1 .. number of coordinates, twice that if DAMPED, where every real root is a mode (fewer come back where there are fewer); default 10"),
+        "band": ("Hz", "of BAND, 0 <= band[0] < band[1]; default 0 and 100, shape (2)"),
+        "contact": ("", "CONTACT_..., default CONTACT_AS_IS"),
+        "friction": ("", "1 (default): the slope of the friction law on the wall acts; 0: friction is a dead load"),
+        "contact_gap": ("m", "of CONTACT_CLOSED, >= 0; default 0"),
+        "equilibrium_tolerance": ("-", "residual over the forces that balance in it, > 0; above it the state is refused; default 1e-6"),
+        "axes": ("", "MODES_TURNING (default), _STILL"),
+        "spin": ("rad/s", "strings turn at this speed in the state, about their own x axis; 0 (default): as they do. A static state with slip_rotation of this speed is in balance with friction but for the tilt of the pipes in the hole, some 1e-5"),
+    }
+
+
+class ModesInfo(Sized):
+    c_name, about = "dmb_modes_info", ""
+    struct_size: int
+    count: int
+    rigid: int
+    coordinates: int
+    dense: int
+    solves: int
+    unbalance: float
+    asymmetry: float
+    residual: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("count", c_uint32),
+        ("rigid", c_uint32),
+        ("coordinates", c_uint32),
+        ("dense", c_int32),
+        ("solves", c_uint32),
+        ("unbalance", c_double),
+        ("asymmetry", c_double),
+        ("residual", c_double),
+    ]
+    field_docs = {
+        "count": ("-", "modes found, by rising frequency"),
+        "rigid": ("-", "of them rigid-body modes: motions of all parts as rigid bodies that neither joints nor guides nor any force hold, K d = 0. They are found as such, not as small eigenvalues; each is told once, with s = 0"),
+        "coordinates": ("-", "independent coordinates of the linear system"),
+        "dense": ("", "1: by LAPACK on all coordinates; 0: by Krylov subspaces on sparse factors"),
+        "solves": ("-", "with those factors"),
+        "unbalance": ("-", "relative residual of the state without its body-frame accelerations"),
+        "asymmetry": ("-", "of K; above 1e-9 it is treated as unsymmetric (friction, follower loads)"),
+        "residual": ("-", "largest |(s^2 M + s C + K) d| over the norms of the terms that balance in it"),
+    }
+
+
+class Mode(Sized):
+    c_name, about = "dmb_mode", ""
+    struct_size: int
+    rigid: int
+    frequency: float
+    damping: float
+    eigenvalue: 'Array[c_double]'
+    kinetic: float
+    strain: float
+    share: 'Array[c_double]'
+    participation: 'Array[c_double]'
+    effective_mass: 'Array[c_double]'
+    whirl: float
+    strain_share: 'Array[c_double]'
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("rigid", c_int32),
+        ("frequency", c_double),
+        ("damping", c_double),
+        ("eigenvalue", c_double * 2),
+        ("kinetic", c_double),
+        ("strain", c_double),
+        ("share", c_double * 3),
+        ("participation", c_double * 3),
+        ("effective_mass", c_double * 3),
+        ("whirl", c_double),
+        ("strain_share", c_double * 3),
+    ]
+    field_docs = {
+        "rigid": ("", "1: a rigid-body mode: nothing holds or strains it"),
+        "frequency": ("Hz", "|s|/(2 pi)"),
+        "damping": ("-", "-Re s/|s|; 1 of an overdamped root, which counts as one mode; 0 of a rigid one"),
+        "eigenvalue": ("1/s", "s, real and imaginary part >= 0, shape (2). Flutter is two modes, one that grows and one that decays. Without damping, divergence (s, -s) is one mode, s > 0"),
+        "kinetic": ("J", "|s|^2 d^H M d/2 of the shape as normalised: d^H M d = 1 kg m2 (or kg)"),
+        "strain": ("J", "in elements alike, elastic part"),
+        "share": ("-", "of the kinetic energy that is axial, torsional, lateral motion of pipes and bodies in their own axes; of a rigid mode at unit |s|; sum 1, shape (3)"),
+        "participation": ("kg^0.5", "d^T M e for a base that moves along world x, y, z, shape (3)"),
+        "effective_mass": ("kg", "their squares: sum over all modes = mass that is free to move, shape (3)"),
+        "whirl": ("-", "part of the kinetic energy in circles from y to z (forward, of spin > 0) less that in circles from z to y (backward), in `axes`: 1 .. -1; 0 of real shapes"),
+        "strain_share": ("-", "of the strain energy that is stretch, twist, bending with shear; sum 1, or 0 where nothing is strained, shape (3)"),
+    }
+
+
+class ModeShape(Sized):
+    c_name, about = "dmb_mode_shape", ""
+    struct_size: int
+    frame: int
+    re: 'Array[c_double]'
+    im: 'Array[c_double]'
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("frame", c_int32),
+        ("re", c_double * 6),
+        ("im", c_double * 6),
+    ]
+    field_docs = {
+        "frame": ("", "in: FRAME_WORLD (default) or FRAME_BODY, axes of re and im"),
+        "re": ("m, rad", "displacement and rotation of the place, d = Re(shape e^(s t)), shape (6)"),
+        "im": ("m, rad", "0 of undamped modes, shape (6)"),
+    }
+
+
+class ResponseOptions(Sized):
+    c_name, about = "dmb_response_options", "Frequency response"
+    struct_size: int
+    points: int
+    frequency_low: float
+    frequency_high: float
+    frequencies: Any
+    logarithmic: int
+    refinement: int
+    structural_damping: float
+    equilibrium_tolerance: float
+    contact: int
+    friction: int
+    contact_gap: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("points", c_uint32),
+        ("frequency_low", c_double),
+        ("frequency_high", c_double),
+        ("frequencies", POINTER(c_double)),
+        ("logarithmic", c_int32),
+        ("refinement", c_uint32),
+        ("structural_damping", c_double),
+        ("equilibrium_tolerance", c_double),
+        ("contact", c_int32),
+        ("friction", c_int32),
+        ("contact_gap", c_double),
+    ]
+    field_docs = {
+        "points": ("-", "of the grid, 2 .. 1e6; 1 where both ends are one frequency; default 1000"),
+        "frequency_low": ("Hz", ">= 0; > 0 of a logarithmic grid; default 1"),
+        "frequency_high": ("Hz", ">= frequency_low; default 100"),
+        "frequencies": ("Hz", "ascending, shape (points): these instead of a grid; NULL (default): the grid"),
+        "logarithmic": ("", "1: equal ratios between frequencies; 0 (default): equal differences"),
+        "refinement": ("-", "times the intervals on both sides of each peak of a transfer function are halved, 0 .. 40; default 0. A peak that falls between two points unseen is not found"),
+        "structural_damping": ("-", "eta: stiffness (1 + i eta) K, >= 0; default 0"),
+        "equilibrium_tolerance": ("-", "residual over the forces that balance in it; default 1e-6"),
+        "contact": ("", "CONTACT_..., default CONTACT_AS_IS"),
+        "friction": ("", "1 (default): the slope of the friction law damps or drives; 0: left out"),
+        "contact_gap": ("m", "of CONTACT_CLOSED, >= 0; default 0"),
+    }
+
+
+class SineOptions(Sized):
+    c_name, about = "dmb_sine_options", "Stepped sine ------------------------------------------------------------------------------------------------ Response in time to what the scene's own programmes do at one frequency, where the linear one does not hold: contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC programme, a drive's speed), carry the state over (dmb_sim_carry_over) to go up or down from one to the next. Calls on different sims share nothing: hand them to as many threads as there are cores, the answers are the same to the bit."
+    struct_size: int
+    steps_per_period: int
+    periods: int
+    windows: int
+    harmonics: int
+    reserved: int
+    tolerance: float
+    floor: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("steps_per_period", c_uint32),
+        ("periods", c_uint32),
+        ("windows", c_uint32),
+        ("harmonics", c_uint32),
+        ("reserved", c_uint32),
+        ("tolerance", c_double),
+        ("floor", c_double),
+    ]
+    field_docs = {
+        "steps_per_period": ("-", "16 .. 1e6; default 100. The scheme's frequency error is (2 pi/this)^2/12 or so"),
+        "periods": ("-", "of a window, 1 .. 1e4; more than 1 where multiples of the period are awaited; default 4"),
+        "windows": ("-", "at most, 3 .. 1e6; default 500"),
+        "harmonics": ("-", "1 .. 16, at most an eighth of steps_per_period; default 3"),
+        "tolerance": ("-", "settled: what is still to come, by how the last windows differed, is below this part of the largest harmonic of each output; default 1e-3"),
+        "floor": ("unit of the output", "changes of a harmonic below it count as none, > 0; default 1e-12"),
+    }
+
+
+class SineReport(Sized):
+    c_name, about = "dmb_sine_report", ""
+    struct_size: int
+    settled: int
+    windows: int
+    rejected: int
+    steps: int
+    change: float
+    remaining: float
+    time: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("settled", c_int32),
+        ("windows", c_uint32),
+        ("rejected", c_uint32),
+        ("steps", c_uint64),
+        ("change", c_double),
+        ("remaining", c_double),
+        ("time", c_double),
+    ]
+    field_docs = {
+        "settled": ("", "1 if it was"),
+        "windows": ("-", "run"),
+        "rejected": ("-", "steps tried and not accepted"),
+        "steps": ("-", "accepted"),
+        "change": ("-", "between the last two windows, of the largest harmonic, worst output"),
+        "remaining": ("-", "estimated still to come"),
+        "time": ("s", "reached"),
+    }
+
+
+class SpeedsOptions(Sized):
+    c_name, about = "dmb_speeds_options", ""
+    struct_size: int
+    points: int
+    speed_low: float
+    speed_high: float
+    threshold: float
+    margin: float
+    refinement: int
+    contact: int
+    friction: int
+    reserved: int
+    contact_gap: float
+    structural_damping: float
+    equilibrium_tolerance: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("points", c_uint32),
+        ("speed_low", c_double),
+        ("speed_high", c_double),
+        ("threshold", c_double),
+        ("margin", c_double),
+        ("refinement", c_uint32),
+        ("contact", c_int32),
+        ("friction", c_int32),
+        ("reserved", c_int32),
+        ("contact_gap", c_double),
+        ("structural_damping", c_double),
+        ("equilibrium_tolerance", c_double),
+    ]
+    field_docs = {
+        "points": ("-", "of the grid of speeds, 2 .. 1e5; default 200"),
+        "speed_low": ("rad/s", "> 0; default 1"),
+        "speed_high": ("rad/s", "> speed_low; default 30"),
+        "threshold": ("-", "severity above which a speed is to be avoided, > 0; default 1"),
+        "margin": ("-", "by which bands are wider on both sides, part of the speed, 0 .. 0.5; default 0.03"),
+        "refinement": ("-", "as of a response, for each order; default 12"),
+        "contact": ("", "these as of a response, but for friction, default 0: a string that turns slides,"),
+        "friction": ("", "and sliding has next to no slope"),
+        "contact_gap": ("", ""),
+        "structural_damping": ("", ""),
+        "equilibrium_tolerance": ("", ""),
+    }
+
+
+class SpeedBand(Sized):
+    c_name, about = "dmb_speed_band", ""
+    struct_size: int
+    order: int
+    output: int
+    reserved: int
+    low: float
+    high: float
+    speed: float
+    severity: float
+    frequency: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("order", c_uint32),
+        ("output", c_uint32),
+        ("reserved", c_uint32),
+        ("low", c_double),
+        ("high", c_double),
+        ("speed", c_double),
+        ("severity", c_double),
+        ("frequency", c_double),
+    ]
+    field_docs = {
+        "order": ("-", "number of the order that counts most at the worst speed"),
+        "output": ("-", "number of its output that is worst"),
+        "low": ("rad/s", "of the band, margin included"),
+        "high": ("rad/s", "of the band, margin included"),
+        "speed": ("rad/s", "the worst in it"),
+        "severity": ("-", "there"),
+        "frequency": ("Hz", "of that order there"),
+    }
+
+
+LOG_FN = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
+
+
+PROGRAMME_FN = CFUNCTYPE(c_int32, c_void_p, c_double, POINTER(c_double))
+
+
+CONSTRAINT_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double), POINTER(c_double))
+
+
+class Place(Record):
+    c_name, about = "dmb_place", "A place on a part: a station of a string, or the reference point of a body. Made by dmb_station."
+    part: Id
+    pipe: int
+    reserved: int
+    fraction: float
+    _fields_: ClassVar[Any] = [
+        ("part", Id),
+        ("pipe", c_uint32),
+        ("reserved", c_uint32),
+        ("fraction", c_double),
+    ]
+    field_docs = {
+        "part": ("", "a string, a body or a bit"),
+        "pipe": ("-", "pipe of the string, 0 at the rig end; 0 for a body"),
+        "fraction": ("-", "0 at the rig end of the pipe .. 1 at its far end; 0 for a body"),
+    }
+
+
+class ModelOptions(Sized):
+    c_name, about = "dmb_model_options", ""
+    struct_size: int
+    reserved: int
+    allocator: Any
+    log: Any
+    log_context: Any
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("allocator", POINTER(Allocator)),
+        ("log", LOG_FN),
+        ("log_context", c_void_p),
+    ]
+    field_docs = {
+        "allocator": ("", "copied; NULL: malloc and free"),
+        "log": ("", "NULL: silent"),
+        "log_context": ("", ""),
+    }
+
+
+class Term(TermPart, Sized):
+    c_name, about = "dmb_term", ""
+    struct_size: int
+    kind: int
+    x0: float
+    x1: float
+    h0: float
+    h1: float
+    omega: float
+    phase: float
+    table_time: Any
+    table_value: Any
+    table_count: int
+    provides: int
+    callback: Any
+    callback_context: Any
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("x0", c_double),
+        ("x1", c_double),
+        ("h0", c_double),
+        ("h1", c_double),
+        ("omega", c_double),
+        ("phase", c_double),
+        ("table_time", POINTER(c_double)),
+        ("table_value", POINTER(c_double)),
+        ("table_count", c_uint32),
+        ("provides", c_int32),
+        ("callback", PROGRAMME_FN),
+        ("callback_context", c_void_p),
+    ]
+    field_docs = {
+        "kind": ("", "TERM_..., default TERM_CONSTANT"),
+        "x0": ("s", "start and end of STEP and STEP5, x1 > x0; default 0 and 1"),
+        "x1": ("s", "start and end of STEP and STEP5, x1 > x0; default 0 and 1"),
+        "h0": ("unit of the programme", "default 0 and 0"),
+        "h1": ("unit of the programme", "default 0 and 0"),
+        "omega": ("rad/s", "of HARMONIC; default 0"),
+        "phase": ("rad", "of HARMONIC; default 0"),
+        "table_time": ("s", "strictly increasing, shape (table_count); copied"),
+        "table_value": ("unit of the programme", "shape (table_count); copied"),
+        "table_count": ("-", "1 .. 2^20"),
+        "provides": ("", "PROVIDES_..., of CALLBACK"),
+        "callback": ("", "of CALLBACK; pure: same answer for the same time, callable from any thread"),
+        "callback_context": ("", ""),
+    }
+
+
+class PipeDef(Sized):
+    c_name, about = "dmb_pipe_def", ""
+    struct_size: int
+    kind: int
+    string: Id
+    elements: int
+    seed: int
+    length: float
+    outer_diameter: float
+    inner_diameter: float
+    young_modulus: float
+    poisson_ratio: float
+    density: float
+    shear_factor: float
+    damping_time: float
+    joint_length: float
+    joint_outer_diameter: float
+    joint_inner_diameter: float
+    joint_mass: float
+    joint_inertia: 'Array[c_double]'
+    eccentricity: float
+    eccentricity_angle: float
+    eccentricity_spread: float
+    angle_spread: float
+    curvature: 'Array[c_double]'
+    section_stiffness: 'Array[c_double]'
+    section_mass: float
+    section_inertia: 'Array[c_double]'
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("string", Id),
+        ("elements", c_uint32),
+        ("seed", c_uint32),
+        ("length", c_double),
+        ("outer_diameter", c_double),
+        ("inner_diameter", c_double),
+        ("young_modulus", c_double),
+        ("poisson_ratio", c_double),
+        ("density", c_double),
+        ("shear_factor", c_double),
+        ("damping_time", c_double),
+        ("joint_length", c_double),
+        ("joint_outer_diameter", c_double),
+        ("joint_inner_diameter", c_double),
+        ("joint_mass", c_double),
+        ("joint_inertia", c_double * 2),
+        ("eccentricity", c_double),
+        ("eccentricity_angle", c_double),
+        ("eccentricity_spread", c_double),
+        ("angle_spread", c_double),
+        ("curvature", c_double * 3),
+        ("section_stiffness", c_double * 6),
+        ("section_mass", c_double),
+        ("section_inertia", c_double * 2),
+    ]
+    field_docs = {
+        "kind": ("", "PIPE_..., default PIPE_FLEXIBLE"),
+        "string": ("", "where to append; {0, 0}: the model's first string, made if there is none"),
+        "elements": ("-", "elements in a pipe, 1 .. 1024; default 1"),
+        "seed": ("-", "of the random eccentricity; default 1"),
+        "length": ("m", "of one pipe with its joint, > 0; default 1"),
+        "outer_diameter": ("m", "> inner_diameter; default 0.073"),
+        "inner_diameter": ("m", ">= 0; default 0.061"),
+        "young_modulus": ("Pa", "> 0; default 2.1e11"),
+        "poisson_ratio": ("-", "-1 < nu < 0.5; default 0.3"),
+        "density": ("kg/m3", "> 0; default 7850"),
+        "shear_factor": ("-", "kappa in GA = kappa G A, > 0; default 0.5 (thin tube)"),
+        "damping_time": ("s", "tau of stress-proportional damping s = K (d + tau d')/L; default 0"),
+        "joint_length": ("m", "of the rigid tool joint at the far end of each pipe; 0: none; < length; default 0"),
+        "joint_outer_diameter": ("m", "default 0: as the pipe"),
+        "joint_inner_diameter": ("m", "default 0: as the pipe"),
+        "joint_mass": ("kg", "0: from the diameters, length and density"),
+        "joint_inertia": ("kg m2", "about its axis and across, at its centre, the first <= twice the second; 0: from the geometry; shape (2)"),
+        "eccentricity": ("m", "distance of the pipe's centre of mass from its axis, >= 0; default 0"),
+        "eccentricity_angle": ("rad", "from y towards z of the section frame; default 0"),
+        "eccentricity_spread": ("m", "uniform random addition -spread .. spread (cut at 0) pipe by pipe; default 0"),
+        "angle_spread": ("rad", "uniform random addition -spread .. spread pipe by pipe; default 0"),
+        "curvature": ("rad/m", "unstressed twist and curvature about x, y, z; default 0, shape (3)"),
+        "section_stiffness": ("N, N, N, N m2, N m2, N m2", "EA, GA_y, GA_z, GJ, EI_y, EI_z; 0: from the diameters"),
+        "section_mass": ("kg/m", "0: from the diameters"),
+        "section_inertia": ("kg m", "rotary inertia per metre about x and across; 0: from the diameters; of a rigid pipe as a body about its axis <= twice across; shape (2)"),
+    }
+
+
+class BodyDef(Sized):
+    c_name, about = "dmb_body_def", ""
+    struct_size: int
+    attach: int
+    string: Id
+    mass: float
+    centre: 'Array[c_double]'
+    inertia: 'Array[c_double]'
+    position: 'Array[c_double]'
+    rotation: 'Array[c_double]'
+    velocity: 'Array[c_double]'
+    free_mask: int
+    reserved: int
+    contact_diameter: float
+    contact_length: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("attach", c_int32),
+        ("string", Id),
+        ("mass", c_double),
+        ("centre", c_double * 3),
+        ("inertia", c_double * 6),
+        ("position", c_double * 3),
+        ("rotation", c_double * 3),
+        ("velocity", c_double * 6),
+        ("free_mask", c_int32),
+        ("reserved", c_int32),
+        ("contact_diameter", c_double),
+        ("contact_length", c_double),
+    ]
+    field_docs = {
+        "attach": ("", "ATTACH_START (rig head) or _END: fixed to that end of `string`, no unknowns of its own, reference point and axes those of the end; ATTACH_NONE: a body of its own (default)"),
+        "string": ("", "{0, 0}: the model's first string"),
+        "mass": ("kg", "> 0; default 1"),
+        "centre": ("m", "centre of mass from the reference point, body frame; default 0, shape (3)"),
+        "inertia": ("kg m2", "xx, yy, zz, xy, xz, yz elements of the inertia matrix at the centre of mass, body axes, positive definite, no principal moment above the sum of the other two by more than 1e-6 of itself; default 1e-3 on the diagonal, shape (6)"),
+        "position": ("m", "reference point of a free body, world frame; default 0, shape (3)"),
+        "rotation": ("rad", "rotation vector of a free body; default 0, shape (3)"),
+        "velocity": ("m/s, rad/s", "of a free body at time 0, body frame; default 0, shape (6)"),
+        "free_mask": ("-", "free components of a free body at its reference point; default FREE_ALL"),
+        "contact_diameter": ("m", "of the ring at the reference point that meets the wall; 0: none (default)"),
+        "contact_length": ("m", "length of wall it stands for, > 0; default 1"),
+    }
+
+
+class BitDef(Sized):
+    c_name, about = "dmb_bit_def", ""
+    struct_size: int
+    rock_law: int
+    string: Id
+    load: Id
+    mass: float
+    inertia: 'Array[c_double]'
+    diameter: float
+    length: float
+    radius: float
+    intrinsic_energy: float
+    cutting_ratio: float
+    contact_strength: float
+    wear_length: float
+    contact_friction: float
+    intrusion_depth: float
+    bottom: float
+    blades: int
+    history: int
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("rock_law", c_int32),
+        ("string", Id),
+        ("load", Id),
+        ("mass", c_double),
+        ("inertia", c_double * 2),
+        ("diameter", c_double),
+        ("length", c_double),
+        ("radius", c_double),
+        ("intrinsic_energy", c_double),
+        ("cutting_ratio", c_double),
+        ("contact_strength", c_double),
+        ("wear_length", c_double),
+        ("contact_friction", c_double),
+        ("intrusion_depth", c_double),
+        ("bottom", c_double),
+        ("blades", c_uint32),
+        ("history", c_uint32),
+    ]
+    field_docs = {
+        "rock_law": ("", "ROCK_..., default ROCK_NONE"),
+        "string": ("", "the bit is fixed to the far end of it; {0, 0}: the model's first string"),
+        "load": ("N", "programme of the bottom-hole load along the hole's axis, > 0 against the feed; {0, 0}: none"),
+        "mass": ("kg", "> 0; default 5"),
+        "inertia": ("kg m2", "about the axis and across, at the centre, the first <= twice the second; 0 (default): of a solid cylinder"),
+        "diameter": ("m", "gauge that meets the wall, <= hole; 0: no contact; default 0.092"),
+        "length": ("m", "> 0, centre at half of it beyond the string's end; default 0.1"),
+        "radius": ("m", "a of the rock law, > 0; default 0.047"),
+        "intrinsic_energy": ("Pa", "eps, > 0; default 1e7"),
+        "cutting_ratio": ("-", "zeta, > 0; default 0.6"),
+        "contact_strength": ("Pa", "sigma, >= 0; default 1e7"),
+        "wear_length": ("m", "l, >= 0; default 1e-3"),
+        "contact_friction": ("-", "the product mu gamma, >= 0; default 0.5"),
+        "intrusion_depth": ("m", "over which the wear-flat force is taken up, > 0; default 1e-4"),
+        "bottom": ("m", "distance of the hole bottom ahead of the bit at time 0, >= 0; default 0"),
+        "blades": ("-", "1 .. 64; default 4"),
+        "history": ("-", "samples of the cut surface kept for the regenerative law, 64 .. 2^20; default 1024"),
+    }
+
+
+class CouplingDef(Sized):
+    c_name, about = "dmb_coupling_def", "Two joint coordinates that go together: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear: two revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi)."
+    struct_size: int
+    reserved: int
+    name: bytes
+    joint: 'Array[Id]'
+    component: 'Array[c_int32]'
+    ratio: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_int32),
+        ("name", c_char * 24),
+        ("joint", Id * 2),
+        ("component", c_int32 * 2),
+        ("ratio", c_double),
+    ]
+    field_docs = {
+        "name": ("", "for messages, ends with 0; default \"\""),
+        "joint": ("", "may be the same"),
+        "component": ("", "X .. RZ, free in its joint; default RX"),
+        "ratio": ("-, m/rad, rad/m", "not 0; default 1"),
+    }
+
+
+class DriveDef(Sized):
+    c_name, about = "dmb_drive_def", ""
+    struct_size: int
+    kind: int
+    part: Id
+    component: int
+    reserved: int
+    programme: Id
+    excitation: Id
+    gain: float
+    integral_gain: float
+    limit_low: float
+    limit_high: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("part", Id),
+        ("component", c_int32),
+        ("reserved", c_int32),
+        ("programme", Id),
+        ("excitation", Id),
+        ("gain", c_double),
+        ("integral_gain", c_double),
+        ("limit_low", c_double),
+        ("limit_high", c_double),
+    ]
+    field_docs = {
+        "kind": ("", "DRIVE_..., default DRIVE_MOTION"),
+        "part": ("", "a string (its rig end), a body of its own, or a joint; {0, 0}: the model's first string"),
+        "component": ("", "X (feed, default) .. RZ; must be free there; of a joint: its coordinate"),
+        "programme": ("", "required"),
+        "excitation": ("", "programme added to the first (vibration); {0, 0}: none"),
+        "gain": ("N s/m, N m s", "kp of CONTROL, >= 0; default 0"),
+        "integral_gain": ("N/m, N m", "ki of CONTROL, >= 0; default 0"),
+        "limit_low": ("N, N m", "default -1e30"),
+        "limit_high": ("N, N m", "> limit_low; default 1e30"),
+    }
+
+
+class SimOptions(Sized):
+    c_name, about = "dmb_sim_options", ""
+    struct_size: int
+    max_iterations: int
+    allocator: Any
+    log: Any
+    log_context: Any
+    spectral_radius: float
+    newton_tolerance: float
+    tolerance_translation: float
+    tolerance_rotation: float
+    step_min: float
+    step_max: float
+    max_cuts: int
+    bounded_work: int
+    energy_ledger: int
+    max_steps: int
+    constraint_method: int
+    reserved: int
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("max_iterations", c_uint32),
+        ("allocator", POINTER(Allocator)),
+        ("log", LOG_FN),
+        ("log_context", c_void_p),
+        ("spectral_radius", c_double),
+        ("newton_tolerance", c_double),
+        ("tolerance_translation", c_double),
+        ("tolerance_rotation", c_double),
+        ("step_min", c_double),
+        ("step_max", c_double),
+        ("max_cuts", c_uint32),
+        ("bounded_work", c_int32),
+        ("energy_ledger", c_int32),
+        ("max_steps", c_uint32),
+        ("constraint_method", c_int32),
+        ("reserved", c_int32),
+    ]
+    field_docs = {
+        "max_iterations": ("-", "Newton iterations of one step, 1 .. 1000; default 12"),
+        "allocator": ("", "copied; NULL: the model's"),
+        "log": ("", "NULL: silent"),
+        "log_context": ("", ""),
+        "spectral_radius": ("-", "of generalized-alpha at infinite frequency, 0 .. 1; default 0.8"),
+        "newton_tolerance": ("-", "residual over the norm of the forces that balance in it, 1e-14 .. 1e-1; default 1e-8. What rounding of the poses makes of a stiff pipe's force counts as zero; a step solved with factors of an earlier one aims at a fifth of it"),
+        "tolerance_translation": ("m", "local error of dmb_sim_advance a step, > 0; default 1e-6"),
+        "tolerance_rotation": ("rad", "the same for rotation, > 0; default 1e-5"),
+        "step_min": ("s", "of dmb_sim_advance and of divided steps, > 0; default 1e-9"),
+        "step_max": ("s", "of dmb_sim_advance, > step_min; default 0.1"),
+        "max_cuts": ("-", "times a step that does not converge is halved, 0 .. 30; default 12"),
+        "bounded_work": ("", "1: dmb_sim_step does one step of at most max_iterations and accepts a finite result with NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not divided at corners; for control loops; default 0"),
+        "energy_ledger": ("", "1 (default): keep the energy ledger; 0: not there in the step"),
+        "max_steps": ("-", "accepted steps in one dmb_sim_advance, which then ends with NOTE_STOPPED; 0 (default): no bound"),
+        "constraint_method": ("", "METHOD_..., how joints enter the linear algebra of a step; default METHOD_INDEPENDENT"),
+    }
+
+
+class Contact(Sized):
+    c_name, about = "dmb_contact", ""
+    struct_size: int
+    closed: int
+    sticks: int
+    site: int
+    part: Id
+    pipe: int
+    reserved: int
+    length: float
+    gap: float
+    normal: 'Array[c_double]'
+    normal_force: float
+    approach: float
+    friction: 'Array[c_double]'
+    slip: 'Array[c_double]'
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("closed", c_int32),
+        ("sticks", c_int32),
+        ("site", c_uint32),
+        ("part", Id),
+        ("pipe", c_uint32),
+        ("reserved", c_uint32),
+        ("length", c_double),
+        ("gap", c_double),
+        ("normal", c_double * 3),
+        ("normal_force", c_double),
+        ("approach", c_double),
+        ("friction", c_double * 2),
+        ("slip", c_double * 2),
+    ]
+    field_docs = {
+        "closed": ("", "1 when touching"),
+        "sticks": ("", "1 when the bristle law holds it"),
+        "site": ("-", "number of the site, 0 .. info.contact_sites - 1"),
+        "part": ("", "string or body the site belongs to"),
+        "pipe": ("-", "pipe whose far end it is; UINT32_MAX for the rig end of the string"),
+        "length": ("m", "of pipe it stands for"),
+        "gap": ("m", "to the wall, < 0 when penetrating"),
+        "normal": ("-", "outward, from the axis to the wall, world frame, shape (3)"),
+        "normal_force": ("N", "on the wall, >= 0"),
+        "approach": ("m/s", "normal speed towards the wall"),
+        "friction": ("N", "on the pipe: along its axis, along axis x normal; after a static start that assumed a slip (dmb_static_options) what its equilibrium took, until the next step; shape (2)"),
+        "slip": ("m/s", "of the contact point on the wall, same directions, shape (2)"),
+    }
+
+
+class BucklingOptions(Sized):
+    c_name, about = "dmb_buckling_options", ""
+    struct_size: int
+    count: int
+    scale: int
+    follow: int
+    part: Id
+    factor_max: float
+    tolerance: float
+    step: float
+    slip_axial: float
+    slip_rotation: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("count", c_uint32),
+        ("scale", c_int32),
+        ("follow", c_int32),
+        ("part", Id),
+        ("factor_max", c_double),
+        ("tolerance", c_double),
+        ("step", c_double),
+        ("slip_axial", c_double),
+        ("slip_rotation", c_double),
+    ]
+    field_docs = {
+        "count": ("-", "of critical factors wanted, 1 .. 10000; default 1"),
+        "scale": ("", "SCALE_..., default SCALE_LOADS"),
+        "follow": ("", "1 (default): along the equilibria to the lowest factor; 0: extrapolated from the present state alone"),
+        "part": ("", "load or drive of SCALE_PART"),
+        "factor_max": ("unit of the factor", "not looked beyond, > 0; default 1e12"),
+        "tolerance": ("-", "relative, of the factors, 1e-15 .. 0.1; default 1e-10"),
+        "step": ("unit of the factor", "difference that the change of the stiffness is taken over; 0 (default): what moves the string by a millionth of an element"),
+        "slip_axial": ("m/s", "friction as in dmb_static_options; the stiffness is unsymmetric then"),
+        "slip_rotation": ("rad/s", ""),
+    }
+
+
+PATH_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(PathPoint))
+
+
+class JointDef(Sized):
+    c_name, about = "dmb_joint_def", ""
+    struct_size: int
+    kind: int
+    name: bytes
+    place_a: Place
+    place_b: Place
+    origin_a: 'Array[c_double]'
+    axis_a: 'Array[c_double]'
+    normal_a: 'Array[c_double]'
+    origin_b: 'Array[c_double]'
+    axis_b: 'Array[c_double]'
+    normal_b: 'Array[c_double]'
+    match: int
+    state: int
+    length: float
+    stiffness: 'Array[c_double]'
+    damping: 'Array[c_double]'
+    rest: 'Array[c_double]'
+    friction: 'Array[c_double]'
+    friction_speed: float
+    stop_low: 'Array[c_double]'
+    stop_high: 'Array[c_double]'
+    stop_stiffness: float
+    stop_damping: float
+    initial_mask: int
+    reserved: int
+    initial_position: 'Array[c_double]'
+    initial_speed: 'Array[c_double]'
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("name", c_char * 24),
+        ("place_a", Place),
+        ("place_b", Place),
+        ("origin_a", c_double * 3),
+        ("axis_a", c_double * 3),
+        ("normal_a", c_double * 3),
+        ("origin_b", c_double * 3),
+        ("axis_b", c_double * 3),
+        ("normal_b", c_double * 3),
+        ("match", c_int32),
+        ("state", c_int32),
+        ("length", c_double),
+        ("stiffness", c_double * 6),
+        ("damping", c_double * 6),
+        ("rest", c_double * 6),
+        ("friction", c_double * 6),
+        ("friction_speed", c_double),
+        ("stop_low", c_double * 6),
+        ("stop_high", c_double * 6),
+        ("stop_stiffness", c_double),
+        ("stop_damping", c_double),
+        ("initial_mask", c_int32),
+        ("reserved", c_int32),
+        ("initial_position", c_double * 6),
+        ("initial_speed", c_double * 6),
+    ]
+    field_docs = {
+        "kind": ("", "JOINT_..., default JOINT_FIXED"),
+        "name": ("", "for messages, ends with 0; default \"\""),
+        "place_a": ("", "node of a string (pipe end, element end), a body or a bit; part {0, 0}: the ground"),
+        "place_b": ("", "likewise, not the ground"),
+        "origin_a": ("m", "of frame a, in the frame of place a (ground: world); default 0, shape (3)"),
+        "axis_a": ("-", "its x axis, any length > 0; default (1, 0, 0), shape (3)"),
+        "normal_a": ("-", "its y axis, made perpendicular to x; 0 (default): y of the place's frame, or z if x is along that; shape (3)"),
+        "origin_b": ("m", "of frame b, in the frame of place b, shape (3)"),
+        "axis_b": ("-", "shape (3)"),
+        "normal_b": ("-", "shape (3)"),
+        "match": ("", "1: frame b is where frame a is at time 0 as described, and origin_b, axis_b, normal_b count for nothing; 0 (default): frame b as given"),
+        "state": ("", "JOINT_... at time 0; default JOINT_ACTIVE"),
+        "length": ("m", "of DISTANCE, radius of ROLLING; > 0; default 1"),
+        "stiffness": ("N/m, N m/rad", "of springs along the coordinates, >= 0; default 0, shape (6)"),
+        "damping": ("N s/m, N m s", ">= 0; not there without FEATURE_DAMPING; default 0, shape (6)"),
+        "rest": ("m, rad", "where the springs are unstressed; default 0, shape (6)"),
+        "friction": ("N, N m", "friction that does not depend on the reaction, >= 0; not there without FEATURE_FRICTION; default 0, shape (6)"),
+        "friction_speed": ("m/s, rad/s", "over which friction is smoothed, f s/sqrt(s^2 + friction_speed^2), > 0; default 1e-3"),
+        "stop_low": ("m, rad", "default -1e30, shape (6)"),
+        "stop_high": ("m, rad", "> stop_low; default 1e30, shape (6)"),
+        "stop_stiffness": ("N/m, N m/rad", "of the stops, > 0; default 1e6"),
+        "stop_damping": ("N s/m, N m s", "while in the stop, never pulling, >= 0; default 0"),
+        "initial_mask": ("-", "coordinates that are given below, bits 1 << X ...; they must be free, and no more than 6 with the joint's equations: 5 of KNIFE_EDGE and DISTANCE, 3 of ROLLING, none of a joint described locked; of one described open they count all the same; default 0"),
+        "initial_position": ("m, rad", "at time 0, shape (6)"),
+        "initial_speed": ("m/s, rad/s", "at time 0, shape (6)"),
+    }
+
+
+class ConstraintDef(ConstraintPart, Sized):
+    c_name, about = "dmb_constraint_def", ""
+    struct_size: int
+    kind: int
+    name: bytes
+    rows: int
+    count: int
+    place: 'Array[Place]'
+    provides: int
+    reserved: int
+    callback: Any
+    callback_context: Any
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("name", c_char * 24),
+        ("rows", c_uint32),
+        ("count", c_uint32),
+        ("place", Place * 4),
+        ("provides", c_int32),
+        ("reserved", c_int32),
+        ("callback", CONSTRAINT_FN),
+        ("callback_context", c_void_p),
+    ]
+    field_docs = {
+        "kind": ("", "CONSTRAINT_..., default CONSTRAINT_HOLONOMIC"),
+        "name": ("", "for messages, ends with 0; default \"\""),
+        "rows": ("-", "1 .. 6; default 1"),
+        "count": ("-", "of places, 1 .. 4; default 1"),
+        "place": ("", "as of a joint, not the ground, shape (count)"),
+        "provides": ("", "PROVIDES_JACOBIAN or 0 (default): built by differences. Nonholonomic must provide it. What is provided is compared with differences when a sim is made: ERR_CALLBACK"),
+        "callback": ("", "required"),
+        "callback_context": ("", ""),
+    }
+
+
+class LoadDef(Sized):
+    c_name, about = "dmb_load_def", ""
+    struct_size: int
+    frame: int
+    place: Place
+    force: 'Array[c_double]'
+    moment: 'Array[c_double]'
+    programme: Id
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("frame", c_int32),
+        ("place", Place),
+        ("force", c_double * 3),
+        ("moment", c_double * 3),
+        ("programme", Id),
+    ]
+    field_docs = {
+        "frame": ("", "FRAME_WORLD: dead load (default); FRAME_BODY: follower"),
+        "place": ("", "pipe end of a string (fraction 0 or 1), or a body"),
+        "force": ("N", "in `frame`, shape (3)"),
+        "moment": ("N m", "in `frame`, shape (3)"),
+        "programme": ("-", "factor over time; {0, 0}: 1"),
+    }
+
+
+class Channel(Record):
+    c_name, about = "dmb_channel", ""
+    place: Place
+    quantity: int
+    reserved: int
+    _fields_: ClassVar[Any] = [
+        ("place", Place),
+        ("quantity", c_int32),
+        ("reserved", c_int32),
+    ]
+    field_docs = {
+        "place": ("", ""),
+        "quantity": ("", "CHANNEL_..."),
+    }
+
+
+class PathOptions(Sized):
+    c_name, about = "dmb_path_options", ""
+    struct_size: int
+    max_points: int
+    max_iterations: int
+    scale: int
+    part: Id
+    place: Place
+    component: int
+    branch: int
+    factor_end: float
+    displacement_end: float
+    first_step: float
+    step_max: float
+    branch_size: float
+    tolerance: float
+    slip_axial: float
+    slip_rotation: float
+    callback: Any
+    callback_context: Any
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("max_points", c_uint32),
+        ("max_iterations", c_uint32),
+        ("scale", c_int32),
+        ("part", Id),
+        ("place", Place),
+        ("component", c_int32),
+        ("branch", c_int32),
+        ("factor_end", c_double),
+        ("displacement_end", c_double),
+        ("first_step", c_double),
+        ("step_max", c_double),
+        ("branch_size", c_double),
+        ("tolerance", c_double),
+        ("slip_axial", c_double),
+        ("slip_rotation", c_double),
+        ("callback", PATH_FN),
+        ("callback_context", c_void_p),
+    ]
+    field_docs = {
+        "max_points": ("-", "1 .. 1000000; default 200"),
+        "max_iterations": ("-", "of one point, 2 .. 1000; default 15"),
+        "scale": ("", "SCALE_..., default SCALE_LOADS"),
+        "part": ("", "load or drive of SCALE_PART"),
+        "place": ("", "what is watched; part {0, 0} (default): nothing"),
+        "component": ("", "of its displacement in the world, X (default) .. Z"),
+        "branch": ("", "1 or -1: leaves the path at the first bifurcation, to that side; 0 (default): stays"),
+        "factor_end": ("unit of the factor", "ends there; the path begins towards it; not 0; default 1"),
+        "displacement_end": ("m", "ends there; default 1e30: nowhere"),
+        "first_step": ("unit of the factor", "> 0; 0 (default): a tenth of factor_end"),
+        "step_max": ("m", "longest arc from point to point, > 0; default 1e30"),
+        "branch_size": ("m", "arc of the first step on a branch; 0 (default): that of the step before"),
+        "tolerance": ("-", "of the residual, as in dmb_static_options; default 1e-10"),
+        "slip_axial": ("m/s", "friction as in dmb_static_options"),
+        "slip_rotation": ("rad/s", ""),
+        "callback": ("", "may be NULL"),
+        "callback_context": ("", ""),
+    }
+
+
+class Input(Sized):
+    c_name, about = "dmb_input", ""
+    struct_size: int
+    kind: int
+    place: Place
+    component: int
+    frame: int
+    amplitude: float
+    phase: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("place", Place),
+        ("component", c_int32),
+        ("frame", c_int32),
+        ("amplitude", c_double),
+        ("phase", c_double),
+    ]
+    field_docs = {
+        "kind": ("", "INPUT_..., default INPUT_FORCE"),
+        "place": ("", "as the kind says"),
+        "component": ("", "X .. RZ, default X"),
+        "frame": ("", "FRAME_WORLD (default) or FRAME_BODY: axes of the place in the state"),
+        "amplitude": ("unit of the kind", "in the combined response; default 1"),
+        "phase": ("rad", "in the combined response; default 0"),
+    }
+
+
+class Output(Sized):
+    c_name, about = "dmb_output", ""
+    struct_size: int
+    kind: int
+    place: Place
+    component: int
+    frame: int
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("place", Place),
+        ("component", c_int32),
+        ("frame", c_int32),
+    ]
+    field_docs = {
+        "kind": ("", "OUTPUT_..., default OUTPUT_DISPLACEMENT"),
+        "place": ("", ""),
+        "component": ("", "X .. RZ, default X"),
+        "frame": ("", "FRAME_WORLD (default) or FRAME_BODY"),
+    }
+
+
+class RecorderStruct(Sized):
+    c_name, about = "dmb_recorder", ""
+    struct_size: int
+    channel_count: int
+    channels: Any
+    table: Any
+    capacity: int
+    rows: int
+    interval: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("channel_count", c_uint32),
+        ("channels", POINTER(Channel)),
+        ("table", POINTER(c_double)),
+        ("capacity", c_uint64),
+        ("rows", c_uint64),
+        ("interval", c_double),
+    ]
+    field_docs = {
+        "channel_count": ("-", "1 .. 4096"),
+        "channels": ("", "shape (channel_count); the caller's, kept alive by it"),
+        "table": ("", "shape (capacity, 1 + channel_count); the caller's"),
+        "capacity": ("-", "rows of table"),
+        "rows": ("-", "rows written; start with 0"),
+        "interval": ("s", "between samples, 0: every call"),
+    }
+
+
+class Order(Sized):
+    c_name, about = "dmb_order", "Safe speeds ------------------------------------------------------------------------------------------------- A string that turns at W [rad/s] is shaken at orders of its speed: at W by eccentric masses, at 2 W by misalignment, at 3 W by a tricone bit, at the number of blades times W by the cut."
+    struct_size: int
+    reserved: int
+    order: float
+    input: Input
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("order", c_double),
+        ("input", Input),
+    ]
+    field_docs = {
+        "order": ("-", "frequency over rotary speed, > 0; default 1"),
+        "input": ("", "what acts, with its amplitude; default: the scene's eccentric masses, as they are"),
+    }
+
+
+STRUCTS: dict[str, Any] = {}  # name in C -> class
+STRUCTS["dmb_id"] = Id
+STRUCTS["dmb_place"] = Place
+STRUCTS["dmb_allocator"] = Allocator
+STRUCTS["dmb_model_options"] = ModelOptions
+STRUCTS["dmb_environment_def"] = EnvironmentDef
+STRUCTS["dmb_term"] = Term
+STRUCTS["dmb_wall_def"] = WallDef
+STRUCTS["dmb_string_def"] = StringDef
+STRUCTS["dmb_pipe_def"] = PipeDef
+STRUCTS["dmb_body_def"] = BodyDef
+STRUCTS["dmb_bit_def"] = BitDef
+STRUCTS["dmb_joint_def"] = JointDef
+STRUCTS["dmb_coupling_def"] = CouplingDef
+STRUCTS["dmb_constraint_def"] = ConstraintDef
+STRUCTS["dmb_drive_def"] = DriveDef
+STRUCTS["dmb_load_def"] = LoadDef
+STRUCTS["dmb_compile_options"] = CompileOptions
+STRUCTS["dmb_model_info"] = ModelInfo
+STRUCTS["dmb_sim_options"] = SimOptions
+STRUCTS["dmb_step_report"] = StepReport
+STRUCTS["dmb_pose"] = Pose
+STRUCTS["dmb_motion"] = Motion
+STRUCTS["dmb_section"] = Section
+STRUCTS["dmb_contact"] = Contact
+STRUCTS["dmb_contact_sum"] = ContactSum
+STRUCTS["dmb_energy"] = Energy
+STRUCTS["dmb_momentum"] = Momentum
+STRUCTS["dmb_drive_state"] = DriveState
+STRUCTS["dmb_joint_state"] = JointState
+STRUCTS["dmb_bit_state"] = BitState
+STRUCTS["dmb_statistics"] = Statistics
+STRUCTS["dmb_channel"] = Channel
+STRUCTS["dmb_recorder"] = RecorderStruct
+STRUCTS["dmb_static_options"] = StaticOptions
+STRUCTS["dmb_static_report"] = StaticReport
+STRUCTS["dmb_buckling_options"] = BucklingOptions
+STRUCTS["dmb_buckling_info"] = BucklingInfo
+STRUCTS["dmb_path_point"] = PathPoint
+STRUCTS["dmb_path_options"] = PathOptions
+STRUCTS["dmb_path_report"] = PathReport
+STRUCTS["dmb_check_report"] = CheckReport
+STRUCTS["dmb_modes_options"] = ModesOptions
+STRUCTS["dmb_modes_info"] = ModesInfo
+STRUCTS["dmb_mode"] = Mode
+STRUCTS["dmb_mode_shape"] = ModeShape
+STRUCTS["dmb_input"] = Input
+STRUCTS["dmb_output"] = Output
+STRUCTS["dmb_response_options"] = ResponseOptions
+STRUCTS["dmb_sine_options"] = SineOptions
+STRUCTS["dmb_sine_report"] = SineReport
+STRUCTS["dmb_order"] = Order
+STRUCTS["dmb_speeds_options"] = SpeedsOptions
+STRUCTS["dmb_speed_band"] = SpeedBand

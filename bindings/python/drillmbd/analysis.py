@@ -1,0 +1,292 @@
+"""Analyses of a scene about a state: statics, buckling, paths, model check, modes, responses, speeds to avoid."""
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable, Iterator, Sequence
+from ctypes import byref, c_double, c_size_t, c_uint32, c_void_p
+from typing import TYPE_CHECKING, Any
+
+from ._keep import Keep, as_id, as_place, mirrors, path_of, struct
+from ._library import lib as _lib
+from ._optional import need, numpy
+from ._record import numbers
+from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckReport, Id, Input, Mode, ModeShape, ModesInfo,
+                       ModesOptions, Order, Output, PathOptions, PathPoint, PathReport, Place, ResponseOptions, SpeedBand,
+                       SpeedsOptions, StaticOptions, StaticReport)
+from .enums import COMBINED, FRAME_WORLD, OUTPUT_DISPLACEMENT, Component
+from .errors import check
+
+if TYPE_CHECKING:
+    from .sim import Sim
+
+
+class Analyses:
+    """The analyses of a Sim."""
+    _handle: c_void_p
+    _scene: Keep
+
+    def _check(self, status: int) -> int:
+        raise NotImplementedError
+
+    @mirrors("dmb_analysis_static")
+    def static(self, options: StaticOptions | None = None, **fields: Any) -> StaticReport:
+        """Puts the sim at rest in equilibrium; returns the report."""
+        options, report = struct(StaticOptions, options, fields), StaticReport()
+        report.status = self._check(_lib.dmb_analysis_static(self._handle, byref(options), byref(report)))
+        return report
+
+    @mirrors("dmb_analysis_buckling")
+    def buckling(self, options: BucklingOptions | None = None, **fields: Any) -> Buckling:
+        """Critical factors and shapes about the present static state."""
+        return Buckling(self, struct(BucklingOptions, options, fields))
+
+    @mirrors("dmb_analysis_path")
+    def path(self, visit: Callable[[Sim, PathPoint], Any] | None = None, options: PathOptions | None = None,
+             **fields: Any) -> PathReport:
+        """Follows the path of equilibrium from here; returns the report. visit(at, point) is called at each point with a
+        sim that stands there and may be asked until it returns; what is true stops the path."""
+        from .sim import SimAt
+        options, report = struct(PathOptions, options, fields), PathReport()
+        raised: list[BaseException] = []
+
+        def call(_context: Any, handle: Any, point: Any) -> int:
+            at = SimAt(self, handle)  # type: ignore[arg-type]
+            try:
+                assert visit is not None
+                return 1 if visit(at, PathPoint.from_buffer_copy(point.contents)) else 0
+            except BaseException as error:  # must not unwind through C
+                raised.append(error)
+                return 1
+            finally:
+                at.close()
+
+        if visit is not None:
+            options.callback = PATH_FN(call)
+        status = _lib.dmb_analysis_path(self._handle, byref(options), byref(report))
+        if raised:
+            raise raised[0]
+        report.status = self._check(status)
+        return report
+
+    @mirrors("dmb_analysis_check")
+    def check(self) -> CheckReport:
+        """Parts, joints, degrees of freedom, redundant equations and the number of warnings: the model check."""
+        report = CheckReport()
+        report.status = self._scene.check(_lib.dmb_analysis_check(self._handle, byref(report)), b"")
+        return report
+
+    @mirrors("dmb_analysis_check_text")
+    def check_text(self) -> str:
+        """The model check as a sheet of text, redundant equations and warnings by name."""
+        size = c_size_t()
+        self._scene.check(_lib.dmb_analysis_check_text(self._handle, None, 0, byref(size)), b"")
+        text = ctypes.create_string_buffer(size.value)
+        self._scene.check(_lib.dmb_analysis_check_text(self._handle, text, size.value, None), b"")
+        return text.value.decode()
+
+    @mirrors("dmb_analysis_response")
+    def response(self, inputs: Sequence[Input], outputs: Sequence[Output], options: ResponseOptions | None = None,
+                 frequencies: Any = None, **fields: Any) -> Response:
+        """Frequency response from every Input to every Output about the present state, at `frequencies` [Hz] or on the
+        grid that the ResponseOptions describe."""
+        options = struct(ResponseOptions, options, fields)
+        if frequencies is not None:
+            frequencies = [float(f) for f in frequencies]
+            options.frequencies, options.points = (c_double * len(frequencies))(*frequencies), len(frequencies)
+        given, asked, handle = (Input * len(inputs))(*inputs), (Output * len(outputs))(*outputs), c_void_p()
+        self._check(_lib.dmb_analysis_response(self._handle, byref(options), given, len(inputs), asked, len(outputs),
+                                               byref(handle)))
+        return Response(handle)
+
+    @mirrors("dmb_analysis_sine")
+    def sine(self, frequency: float, outputs: Sequence[Output], options: Any = None, **fields: Any) -> tuple[Any, Any]:
+        """Runs on until the Fourier amplitudes at frequency [Hz] have settled. Returns a list for each Output, mean and
+        then the complex harmonics, and the report, whose status may be NOTE_STOPPED."""
+        options = struct(STRUCTS["dmb_sine_options"], options, fields)
+        report: Any = STRUCTS["dmb_sine_report"]()
+        asked, width = (Output * len(outputs))(*outputs), 1 + options.harmonics
+        values = (c_double * (2 * width * len(outputs)))()
+        report.status = self._check(_lib.dmb_analysis_sine(self._handle, frequency, byref(options), asked, len(outputs),
+                                                           values, byref(report)))
+        found = [complex(values[2 * i], values[2 * i + 1]) for i in range(width * len(outputs))]
+        return [[found[i * width].real] + found[i * width + 1:(i + 1) * width] for i in range(len(outputs))], report
+
+    @mirrors("dmb_analysis_modes")
+    def modes(self, options: ModesOptions | None = None, **fields: Any) -> Modes:
+        """Natural frequencies and modes about the present state, as the ModesOptions say: a Modes, a sequence of Mode."""
+        options, handle = struct(ModesOptions, options, fields), c_void_p()
+        self._check(_lib.dmb_analysis_modes(self._handle, byref(options), byref(handle)))
+        return Modes(handle, self._scene)
+
+    @mirrors("dmb_analysis_speeds")
+    def speeds(self, orders: Sequence[Order], outputs: Sequence[Output], limits: Sequence[float], room: int = 64,
+               options: SpeedsOptions | None = None, **fields: Any) -> tuple[list[SpeedBand], list[float]]:
+        """Bands of rotary speed [rad/s] to avoid, at most `room` of them, and the severity at the speeds of the grid: each
+        Order shakes, and limits are the amplitudes allowed of the Outputs."""
+        options = struct(SpeedsOptions, options, fields)
+        allowed = (c_double * len(outputs))(*numbers(limits, len(outputs)))
+        shakes, asked = (Order * len(orders))(*orders), (Output * len(outputs))(*outputs)
+        bands, count = (SpeedBand * room)(*[SpeedBand() for _ in range(room)]), c_uint32(room)
+        severity = (c_double * options.points)()
+        self._check(_lib.dmb_analysis_speeds(self._handle, byref(options), shakes, len(orders), asked, allowed,
+                                             len(outputs), bands, byref(count), severity))
+        return list(bands)[:count.value], list(severity)
+
+
+# ---- Frequency response ----------------------------------------------------------------------------------------------
+class Response:
+    """Transfer functions that Sim.response has found. `shape`: numbers of frequencies, inputs and outputs."""
+
+    def __init__(self, handle: c_void_p) -> None:
+        self._handle = handle
+        shape = (c_uint32 * 3)()
+        check(_lib.dmb_response_shape(handle, shape))
+        self.shape = tuple(shape)  # points, inputs, outputs
+
+    def __del__(self) -> None:
+        if _lib is not None:
+            _lib.dmb_response_destroy(byref(self._handle))
+
+    @property
+    def frequencies(self) -> Any:
+        """[Hz] ascending: a numpy array, or a list; shape (points)."""
+        values = (c_double * self.shape[0])()
+        check(_lib.dmb_response_frequencies(self._handle, values))
+        return numpy.array(values) if numpy is not None else list(values)
+
+    def transfer(self, input: int = COMBINED, output: int = 0) -> Any:
+        """The output per unit of the input, or for all inputs with their amplitudes and phases (COMBINED): complex
+        numbers, one for each frequency; shape (points)."""
+        values = (c_double * (2 * self.shape[0]))()
+        check(_lib.dmb_response_transfer(self._handle, input, output, values))
+        if numpy is not None:
+            return numpy.array(values).view(complex)
+        return [complex(values[2 * i], values[2 * i + 1]) for i in range(self.shape[0])]
+
+    def frame(self, names: Sequence[str] | None = None) -> Any:
+        """The combined outputs as a pandas frame of complex numbers over the frequency; names of the outputs with their
+        units."""
+        names = names or [f"output {i}" for i in range(self.shape[2])]
+        columns = {"frequency [Hz]": self.frequencies}
+        columns.update((name, self.transfer(COMBINED, i)) for i, name in enumerate(names))
+        return need("pandas").DataFrame(columns)
+
+    @mirrors("dmb_response_write_csv")
+    def write_csv(self, path: Any) -> None:
+        """Writes amplitudes and phases as CSV."""
+        check(_lib.dmb_response_write_csv(self._handle, path_of(path)))
+
+
+# ---- Buckling --------------------------------------------------------------------------------------------------------
+class Buckling:
+    """Critical factors, rising, and their shapes. status is NOTE_STOPPED where fewer were found than asked for,
+    NOTE_EXTRAPOLATED where info.confirmed is less than their number."""
+
+    def __init__(self, sim: Any, options: BucklingOptions) -> None:
+        self._handle = c_void_p()
+        self._scene = sim._scene  # the model's callbacks
+        self.status = sim._check(_lib.dmb_analysis_buckling(sim._handle, byref(options), byref(self._handle)))
+        self.info = BucklingInfo()
+        check(_lib.dmb_buckling_get_info(self._handle, byref(self.info)))
+        value = c_double()
+        self.factors: list[float] = []
+        for mode in range(_lib.dmb_buckling_count(self._handle)):
+            check(_lib.dmb_buckling_factor(self._handle, mode, byref(value)))
+            self.factors.append(value.value)
+
+    @mirrors("dmb_buckling_shape")
+    def shape(self, mode: int, place: Place) -> list[float]:
+        """[m, rad] displacement and rotation of a section, world frame; six numbers"""
+        values = (c_double * 6)()
+        check(_lib.dmb_buckling_shape(self._handle, mode, place, values))
+        return list(values)
+
+    def shapes(self, mode: int, places: Sequence[Place]) -> Any:
+        """[m, rad] the same at many places: shape (places, 6), a numpy array or lists."""
+        return _array([self.shape(mode, place) for place in places])
+
+    def close(self) -> None:
+        """Gives the memory back."""
+        _lib.dmb_buckling_destroy(byref(self._handle))
+
+    def __enter__(self) -> Buckling:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_handle", None) and _lib is not None:
+            self.close()
+
+
+# ---- Modes -----------------------------------------------------------------------------------------------------------
+class Modes:
+    """Modes that Sim.modes has found, by rising frequency: modes[0].frequency, len(modes)."""
+
+    def __init__(self, handle: c_void_p, scene: Keep) -> None:
+        self._handle, self._scene = handle, scene
+        self.info = ModesInfo()
+        check(_lib.dmb_modes_get_info(handle, byref(self.info)))
+
+    def __del__(self) -> None:
+        if _lib is not None:
+            _lib.dmb_modes_destroy(byref(self._handle))
+
+    def __len__(self) -> int:
+        return self.info.count
+
+    def __getitem__(self, index: int) -> Mode:
+        if not 0 <= index < len(self):
+            raise IndexError(index)
+        mode = Mode()
+        check(_lib.dmb_modes_get(self._handle, index, byref(mode)))
+        return mode
+
+    def __iter__(self) -> Iterator[Mode]:
+        return (self[index] for index in range(len(self)))
+
+    @property
+    def frequencies(self) -> Any:
+        """[Hz] of all modes: shape (modes), a numpy array or a list."""
+        return _array([mode.frequency for mode in self])
+
+    @mirrors("dmb_modes_shape")
+    def shape(self, index: int, place: Place, frame: int = FRAME_WORLD) -> ModeShape:
+        """Displacement and rotation at a place [m, rad], real and imaginary part: re, im"""
+        shape = ModeShape(frame=frame)
+        check(_lib.dmb_modes_shape(self._handle, index, place, byref(shape)))
+        return shape
+
+    def shapes(self, index: int, places: Sequence[Place], frame: int = FRAME_WORLD) -> Any:
+        """[m, rad] complex displacement and rotation at many places: shape (places, 6), a numpy array or lists."""
+        found = [self.shape(index, place, frame) for place in places]
+        return _array([[complex(re, im) for re, im in zip(one.re, one.im)] for one in found])
+
+    @mirrors("dmb_modes_part")
+    def part(self, index: int, part: Id, pipe: int = 0xFFFFFFFF) -> tuple[float, float]:
+        """[J] kinetic and strain energy of a mode in a pipe of a string, in a whole string, or (pipe 0) in a body"""
+        kinetic, strain = c_double(), c_double()
+        check(_lib.dmb_modes_part(self._handle, index, as_id(part), pipe, byref(kinetic), byref(strain)))
+        return kinetic.value, strain.value
+
+    def frame(self) -> Any:
+        """A pandas frame, one row for each mode: frequency, damping and shares of motion."""
+        rows = [(mode.frequency, mode.damping, bool(mode.rigid), *mode.share, *mode.effective_mass) for mode in self]
+        columns = ["frequency [Hz]", "damping [-]", "rigid", "share axial [-]", "share torsional [-]", "share lateral [-]",
+                   "effective mass x [kg]", "effective mass y [kg]", "effective mass z [kg]"]
+        return need("pandas").DataFrame(rows, columns=columns)
+
+    @mirrors("dmb_write_vtk_mode")
+    def write_vtk(self, index: int, path: Any, scale: float = 1.0, phase: float = 0.0, per_element: int = 8) -> None:
+        """A frame of the mode's animation."""
+        check(_lib.dmb_write_vtk_mode(self._handle, index, scale, phase, per_element, path_of(path)))
+
+
+def output(place: Any, component: int = 0, kind: int = OUTPUT_DISPLACEMENT, frame: int = FRAME_WORLD) -> Output:
+    """An Output of a response: `component` (X .. RZ) of a quantity (OUTPUT_...) at a place."""
+    return Output(kind=kind, place=as_place(place), component=Component(component), frame=frame)
+
+
+def _array(values: Any) -> Any:
+    return numpy.array(values) if numpy is not None else values

@@ -1,0 +1,594 @@
+"""The constants of the C interface as enumerations, and its version. Made from the headers by generate.py: do not edit, run that instead."""
+
+from enum import IntEnum, IntFlag
+
+VERSION = (0, 1, 0)
+__version__ = "0.1.0"
+
+
+class Status(IntEnum):
+    """Values DMB_... of the headers."""
+    OK = 0  #: done
+    NOTE_STEP_CUT = 1  #: done; the step was divided to converge
+    NOTE_WORK_LIMITED = 2  #: done; the bounded number of iterations was used up above the tolerance
+    NOTE_PROJECTED = 3  #: done; poses or velocities were projected onto the allowed motion
+    NOTE_STOPPED = 4  #: done; stopped early at the bound on steps
+    NOTE_FULL = 5  #: done; the caller's memory is full, nothing more is recorded
+    NOTE_TOLERANCE = 6  #: done; the smallest step allowed was too long for the error tolerance
+    NOTE_UNSTABLE = 7  #: done; the equilibrium that was found is not stable
+    NOTE_NOT_STEADY = 8  #: done; drives move but no steady state was found: only what they move has a speed
+    NOTE_EXTRAPOLATED = 9  #: done; some of the answers are extrapolations that were not confirmed
+    ERR_NULL = -1  #: a required pointer is NULL
+    ERR_HANDLE = -2  #: not a live object of this kind
+    ERR_STRUCT_SIZE = -3  #: struct_size is not a size this library knows
+    ERR_ID = -4  #: the id does not name a part of this model
+    ERR_VALUE = -5  #: a value lies outside its bounds
+    ERR_NOT_FINITE = -6  #: a value is NaN or infinite
+    ERR_ORDER = -7  #: the call does not fit the state of the object
+    ERR_NO_MEMORY = -8  #: memory could not be allocated
+    ERR_TOO_LARGE = -9  #: a size overflows or exceeds its limit
+    ERR_SINGULAR = -10  #: a stiffness or iteration matrix is singular
+    ERR_NO_CONVERGENCE = -11  #: the iteration did not converge
+    ERR_CALLBACK = -12  #: a callback failed or returned a value beyond +-1e30
+    ERR_IO = -13  #: a file could not be written
+    ERR_ROTATION = -14  #: relative rotation in one element exceeds 2.5 rad
+    ERR_GEOMETRY = -15  #: parts do not fit together
+    ERR_UNSUPPORTED = -16  #: a combination that this version does not offer
+
+
+OK = Status.OK
+NOTE_STEP_CUT = Status.NOTE_STEP_CUT
+NOTE_WORK_LIMITED = Status.NOTE_WORK_LIMITED
+NOTE_PROJECTED = Status.NOTE_PROJECTED
+NOTE_STOPPED = Status.NOTE_STOPPED
+NOTE_FULL = Status.NOTE_FULL
+NOTE_TOLERANCE = Status.NOTE_TOLERANCE
+NOTE_UNSTABLE = Status.NOTE_UNSTABLE
+NOTE_NOT_STEADY = Status.NOTE_NOT_STEADY
+NOTE_EXTRAPOLATED = Status.NOTE_EXTRAPOLATED
+ERR_NULL = Status.ERR_NULL
+ERR_HANDLE = Status.ERR_HANDLE
+ERR_STRUCT_SIZE = Status.ERR_STRUCT_SIZE
+ERR_ID = Status.ERR_ID
+ERR_VALUE = Status.ERR_VALUE
+ERR_NOT_FINITE = Status.ERR_NOT_FINITE
+ERR_ORDER = Status.ERR_ORDER
+ERR_NO_MEMORY = Status.ERR_NO_MEMORY
+ERR_TOO_LARGE = Status.ERR_TOO_LARGE
+ERR_SINGULAR = Status.ERR_SINGULAR
+ERR_NO_CONVERGENCE = Status.ERR_NO_CONVERGENCE
+ERR_CALLBACK = Status.ERR_CALLBACK
+ERR_IO = Status.ERR_IO
+ERR_ROTATION = Status.ERR_ROTATION
+ERR_GEOMETRY = Status.ERR_GEOMETRY
+ERR_UNSUPPORTED = Status.ERR_UNSUPPORTED
+
+
+class LogLevel(IntEnum):
+    """Values DMB_LOG_... of the headers."""
+    ERROR = 0
+    WARNING = 1
+    INFO = 2
+
+
+LOG_ERROR = LogLevel.ERROR
+LOG_WARNING = LogLevel.WARNING
+LOG_INFO = LogLevel.INFO
+
+
+class Component(IntEnum):
+    """Values DMB_... of the headers."""
+    X = 0
+    Y = 1
+    Z = 2
+    RX = 3
+    RY = 4
+    RZ = 5
+
+
+X = Component.X
+Y = Component.Y
+Z = Component.Z
+RX = Component.RX
+RY = Component.RY
+RZ = Component.RZ
+
+
+class Free(IntFlag):
+    """Bits DMB_FREE_... of the headers."""
+    NONE = 0
+    X = 1
+    RX = 8
+    RZ = 32
+    CYLINDRICAL = 9
+    SPHERICAL = 56
+    ALL = 63
+
+
+FREE_NONE = Free.NONE
+FREE_X = Free.X
+FREE_RX = Free.RX
+FREE_RZ = Free.RZ
+FREE_CYLINDRICAL = Free.CYLINDRICAL
+FREE_SPHERICAL = Free.SPHERICAL
+FREE_ALL = Free.ALL
+
+
+class TermKind(IntEnum):
+    """Values DMB_TERM_... of the headers."""
+    CONSTANT = 0  #: h0
+    STEP = 1  #: h0 before x0, h1 after x1, D^2 (3 - 2D) between, D = (t - x0)/(x1 - x0)
+    STEP5 = 2  #: the same with D^3 (10 - 15 D + 6 D^2)
+    HARMONIC = 3  #: h0 + h1 sin(omega t + phase)
+    TABLE = 4  #: straight lines through (time, value) pairs, constant outside
+    CALLBACK = 5  #: the caller's function
+
+
+TERM_CONSTANT = TermKind.CONSTANT
+TERM_STEP = TermKind.STEP
+TERM_STEP5 = TermKind.STEP5
+TERM_HARMONIC = TermKind.HARMONIC
+TERM_TABLE = TermKind.TABLE
+TERM_CALLBACK = TermKind.CALLBACK
+
+
+class ProgrammeProvides(IntFlag):
+    """Bits DMB_PROVIDES_... of the headers."""
+    RATE = 1
+    INTEGRAL = 2
+
+
+PROVIDES_RATE = ProgrammeProvides.RATE
+PROVIDES_INTEGRAL = ProgrammeProvides.INTEGRAL
+
+
+class NormalLaw(IntEnum):
+    """Values DMB_NORMAL_... of the headers."""
+    NONE = -1  #: no contact
+    KELVIN_VOIGT = 0  #: K d^n + c d', never pulling
+    HUNT_CROSSLEY = 1  #: K d^n (1 + mu d'/v0), mu = 3(1-e)/2
+    LANKARANI_NIKRAVESH = 2  #: mu = 3(1-e^2)/4
+    FLORES = 3  #: mu = 8(1-e)/(5e)
+    EXACT = 4  #: mu such that the restitution asked for is the one given
+    IMPACT = 5  #: K d^n + STEP(d; 0, 0, impact_depth, damping) d', never pulling
+
+
+NORMAL_NONE = NormalLaw.NONE
+NORMAL_KELVIN_VOIGT = NormalLaw.KELVIN_VOIGT
+NORMAL_HUNT_CROSSLEY = NormalLaw.HUNT_CROSSLEY
+NORMAL_LANKARANI_NIKRAVESH = NormalLaw.LANKARANI_NIKRAVESH
+NORMAL_FLORES = NormalLaw.FLORES
+NORMAL_EXACT = NormalLaw.EXACT
+NORMAL_IMPACT = NormalLaw.IMPACT
+
+
+class FrictionLaw(IntEnum):
+    """Values DMB_FRICTION_... of the headers."""
+    NONE = -1
+    COULOMB = 0  #: mu_dynamic s_/s with s = sqrt(v^2 + smoothing_speed^2)
+    AMBROSIO = 1  #: 0 up to smoothing_speed, linear up to full_speed, mu_dynamic beyond
+    STRIBECK = 2  #: mu_d + (mu_s - mu_d) exp(-s/stribeck_speed), smoothed like COULOMB
+    BRISTLE = 3  #: elastic bristle that truly sticks, breaking away at mu(v)
+
+
+FRICTION_NONE = FrictionLaw.NONE
+FRICTION_COULOMB = FrictionLaw.COULOMB
+FRICTION_AMBROSIO = FrictionLaw.AMBROSIO
+FRICTION_STRIBECK = FrictionLaw.STRIBECK
+FRICTION_BRISTLE = FrictionLaw.BRISTLE
+
+
+class PipeKind(IntEnum):
+    """Values DMB_PIPE_... of the headers."""
+    FLEXIBLE = 0  #: SE(3) beam elements: bending, shear, stretch, torsion
+    AXIAL_TORSIONAL = 1  #: stretch and torsion on the hole's axis, 2 coordinates a node
+    RIGID = 2  #: neighbouring rigid pipes are one rigid body
+
+
+PIPE_FLEXIBLE = PipeKind.FLEXIBLE
+PIPE_AXIAL_TORSIONAL = PipeKind.AXIAL_TORSIONAL
+PIPE_RIGID = PipeKind.RIGID
+
+
+class Attach(IntEnum):
+    """Values DMB_ATTACH_... of the headers."""
+    NONE = 0
+    START = 1
+    END = 2
+
+
+ATTACH_NONE = Attach.NONE
+ATTACH_START = Attach.START
+ATTACH_END = Attach.END
+
+
+class RockLaw(IntEnum):
+    """Values DMB_ROCK_... of the headers."""
+    NONE = 0
+    RATE = 1  #: Detournay, Defourny 1992: depth of cut 2 pi V/Omega
+    REGENERATIVE = 2  #: Richard, Germay, Detournay 2007: depth of cut over the surface the last blade left
+
+
+ROCK_NONE = RockLaw.NONE
+ROCK_RATE = RockLaw.RATE
+ROCK_REGENERATIVE = RockLaw.REGENERATIVE
+
+
+class JointKind(IntEnum):
+    """Values DMB_JOINT_... of the headers."""
+    FIXED = 0
+    REVOLUTE = 1  #: RX free
+    PRISMATIC = 2  #: X free
+    CYLINDRICAL = 3  #: X, RX free
+    UNIVERSAL = 4  #: RY, RZ free: crossed axes y of a and z of b
+    SPHERICAL = 5  #: RX, RY, RZ free
+    PLANAR = 6  #: Y, Z, RX free: x is the normal of the plane
+    POINT_ON_LINE = 7  #: X, RX, RY, RZ free: origin of b on the x axis of a
+    POINT_ON_HOLE = 8  #: origin of b on the axis of the hole; a must be the ground (guide, centraliser)
+    DISTANCE = 9  #: origins `length` apart
+    FREE = 10  #: holds nothing: carries springs, dampers, stops, friction
+    KNIFE_EDGE = 11  #: nonholonomic: the origin of b does not move along y of b (no lateral slip)
+    ROLLING = 12  #: a rim of radius `length` about x of b rolls without slip on the plane y, z of a; it stands on the side x > 0
+
+
+JOINT_FIXED = JointKind.FIXED
+JOINT_REVOLUTE = JointKind.REVOLUTE
+JOINT_PRISMATIC = JointKind.PRISMATIC
+JOINT_CYLINDRICAL = JointKind.CYLINDRICAL
+JOINT_UNIVERSAL = JointKind.UNIVERSAL
+JOINT_SPHERICAL = JointKind.SPHERICAL
+JOINT_PLANAR = JointKind.PLANAR
+JOINT_POINT_ON_LINE = JointKind.POINT_ON_LINE
+JOINT_POINT_ON_HOLE = JointKind.POINT_ON_HOLE
+JOINT_DISTANCE = JointKind.DISTANCE
+JOINT_FREE = JointKind.FREE
+JOINT_KNIFE_EDGE = JointKind.KNIFE_EDGE
+JOINT_ROLLING = JointKind.ROLLING
+
+
+class JointMode(IntEnum):
+    """Values DMB_JOINT_... of the headers."""
+    ACTIVE = 0  #: holds what its kind says
+    LOCKED = 1  #: holds all six coordinates where they were when it was locked
+    OPEN = 2  #: holds nothing; its springs, dampers, stops and friction do not act
+
+
+JOINT_ACTIVE = JointMode.ACTIVE
+JOINT_LOCKED = JointMode.LOCKED
+JOINT_OPEN = JointMode.OPEN
+
+
+class ConstraintKind(IntEnum):
+    """Values DMB_CONSTRAINT_... of the headers."""
+    HOLONOMIC = 0
+    NONHOLONOMIC = 1
+
+
+CONSTRAINT_HOLONOMIC = ConstraintKind.HOLONOMIC
+CONSTRAINT_NONHOLONOMIC = ConstraintKind.NONHOLONOMIC
+
+
+class ConstraintProvides(IntFlag):
+    """Bits DMB_PROVIDES_... of the headers."""
+    JACOBIAN = 1
+
+
+PROVIDES_JACOBIAN = ConstraintProvides.JACOBIAN
+
+
+class DriveKind(IntEnum):
+    """Values DMB_DRIVE_... of the headers."""
+    MOTION = 0  #: the speed of the component follows the programme exactly [m/s, rad/s]
+    LOAD = 1  #: the programme is a force or torque on the component [N, N m]
+    CONTROL = 2  #: force = clamp(kp (v* - v) + ki integral(v* - v)), v* from the programme
+
+
+DRIVE_MOTION = DriveKind.MOTION
+DRIVE_LOAD = DriveKind.LOAD
+DRIVE_CONTROL = DriveKind.CONTROL
+
+
+class Frame(IntEnum):
+    """Values DMB_FRAME_... of the headers."""
+    WORLD = 0
+    BODY = 1
+    HOLE = 2
+
+
+FRAME_WORLD = Frame.WORLD
+FRAME_BODY = Frame.BODY
+FRAME_HOLE = Frame.HOLE
+
+
+class Feature(IntFlag):
+    """Bits DMB_FEATURE_... of the headers."""
+    GRAVITY = 1
+    CONTACT = 2
+    FRICTION = 4
+    ECCENTRICITY = 8
+    EXCITATION = 16
+    ROCK = 32
+    DAMPING = 64
+    VIBRATION = 24  #: eccentricity and drive excitation
+    ALL = 127
+
+
+FEATURE_GRAVITY = Feature.GRAVITY
+FEATURE_CONTACT = Feature.CONTACT
+FEATURE_FRICTION = Feature.FRICTION
+FEATURE_ECCENTRICITY = Feature.ECCENTRICITY
+FEATURE_EXCITATION = Feature.EXCITATION
+FEATURE_ROCK = Feature.ROCK
+FEATURE_DAMPING = Feature.DAMPING
+FEATURE_VIBRATION = Feature.VIBRATION
+FEATURE_ALL = Feature.ALL
+
+
+class ConstraintMethod(IntEnum):
+    """Values DMB_METHOD_... of the headers."""
+    INDEPENDENT = 0  #: the step solves for independent coordinates, found by partition
+    MULTIPLIERS = 1  #: for comparison: for all coordinates and the multipliers; steps only, not statics
+
+
+METHOD_INDEPENDENT = ConstraintMethod.INDEPENDENT
+METHOD_MULTIPLIERS = ConstraintMethod.MULTIPLIERS
+
+
+class Quantity(IntEnum):
+    """Values DMB_CHANNEL_... of the headers."""
+    DISPLACEMENT_X = 0
+    DISPLACEMENT_Y = 1
+    DISPLACEMENT_Z = 2  #: [m] world
+    VELOCITY_X = 3
+    VELOCITY_Y = 4
+    VELOCITY_Z = 5  #: [m/s] world
+    POSITION_X = 6
+    POSITION_Y = 7
+    POSITION_Z = 8  #: [m] world
+    ROTATION = 9  #: [rad] unwrapped
+    SPIN = 10  #: [rad/s] about the pipe's axis
+    AXIAL_FORCE = 11  #: [N] tension > 0
+    TORQUE = 12  #: [N m]
+    BENDING_MOMENT = 13  #: [N m] magnitude
+    KINETIC_ENERGY = 14  #: [J] of the pipe or body
+    NORMAL_FORCE = 15  #: [N] at the pipe's far end, or of the body
+    DRIVE_FORCE = 16  #: [N, N m] place.part is a drive
+    DRIVE_SPEED = 17  #: [m/s, rad/s] place.part is a drive
+    BIT_WEIGHT = 18  #: [N] place.part is a bit, bottom-hole load included
+    ENERGY_ERROR = 19  #: [-] of the ledger; place is ignored
+    COUNT = 20
+
+
+CHANNEL_DISPLACEMENT_X = Quantity.DISPLACEMENT_X
+CHANNEL_DISPLACEMENT_Y = Quantity.DISPLACEMENT_Y
+CHANNEL_DISPLACEMENT_Z = Quantity.DISPLACEMENT_Z
+CHANNEL_VELOCITY_X = Quantity.VELOCITY_X
+CHANNEL_VELOCITY_Y = Quantity.VELOCITY_Y
+CHANNEL_VELOCITY_Z = Quantity.VELOCITY_Z
+CHANNEL_POSITION_X = Quantity.POSITION_X
+CHANNEL_POSITION_Y = Quantity.POSITION_Y
+CHANNEL_POSITION_Z = Quantity.POSITION_Z
+CHANNEL_ROTATION = Quantity.ROTATION
+CHANNEL_SPIN = Quantity.SPIN
+CHANNEL_AXIAL_FORCE = Quantity.AXIAL_FORCE
+CHANNEL_TORQUE = Quantity.TORQUE
+CHANNEL_BENDING_MOMENT = Quantity.BENDING_MOMENT
+CHANNEL_KINETIC_ENERGY = Quantity.KINETIC_ENERGY
+CHANNEL_NORMAL_FORCE = Quantity.NORMAL_FORCE
+CHANNEL_DRIVE_FORCE = Quantity.DRIVE_FORCE
+CHANNEL_DRIVE_SPEED = Quantity.DRIVE_SPEED
+CHANNEL_BIT_WEIGHT = Quantity.BIT_WEIGHT
+CHANNEL_ENERGY_ERROR = Quantity.ENERGY_ERROR
+CHANNEL_COUNT = Quantity.COUNT
+
+
+class Steady(IntEnum):
+    """Values DMB_STEADY_... of the headers."""
+    AUTO = 0  #: AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and about their axis, RIGID else, or where masses are eccentric; AT_REST with NOTE_NOT_STEADY (message says why) where neither is steady
+    AT_REST = 1  #: all is at rest; only what motion drives move takes their speed
+    SLIDING = 2  #: axes at rest, strings slide along the hole and turn about their own axis as their drives say
+    RIGID = 3  #: all turns about one fixed axis like a rigid body, under centrifugal forces
+
+
+STEADY_AUTO = Steady.AUTO
+STEADY_AT_REST = Steady.AT_REST
+STEADY_SLIDING = Steady.SLIDING
+STEADY_RIGID = Steady.RIGID
+
+
+class Stiffness(IntEnum):
+    """Values DMB_STIFFNESS_... of the headers."""
+    SYMMETRIC = 0  #: forces have a potential: the state is stable where no eigenvalue is negative
+    UNSYMMETRIC = 1  #: friction that slips, moments with a fixed axis, followers: the state diverges by each real negative eigenvalue; by complex ones it may flutter, which depends on mass and damping and is a question for dmb_analysis_modes with MODES_DAMPED
+
+
+STIFFNESS_SYMMETRIC = Stiffness.SYMMETRIC
+STIFFNESS_UNSYMMETRIC = Stiffness.UNSYMMETRIC
+
+
+class StaticMethod(IntEnum):
+    """Values DMB_STATIC_... of the headers."""
+    NEWTON = 0
+    RELAXATION = 1
+
+
+STATIC_NEWTON = StaticMethod.NEWTON
+STATIC_RELAXATION = StaticMethod.RELAXATION
+
+
+class Scale(IntEnum):
+    """Values DMB_SCALE_... of the headers."""
+    ALL = 0  #: gravity, all loads, bit loads, forces of load drives: 1 + factor times the present ones
+    LOADS = 1  #: the same without gravity
+    PART = 2  #: one part: `factor` times a load as described; [N, N m] of a load drive; [m, rad] that a motion drive of a string or body moves its component by
+
+
+SCALE_ALL = Scale.ALL
+SCALE_LOADS = Scale.LOADS
+SCALE_PART = Scale.PART
+
+
+class BucklingEnd(IntEnum):
+    """Values DMB_BUCKLING_... of the headers."""
+    EXTRAPOLATED = 0  #: there was none: follow = 0, or nothing buckles about the present state
+    BIFURCATION = 1  #: an eigenvalue of the stiffness passes 0 and the equilibria go on, unstable
+    LIMIT = 2  #: the factor is at a maximum of the path, or a contact that opens turns it back
+    STABLE = 3  #: none: they stay stable up to `reached`
+
+
+BUCKLING_EXTRAPOLATED = BucklingEnd.EXTRAPOLATED
+BUCKLING_BIFURCATION = BucklingEnd.BIFURCATION
+BUCKLING_LIMIT = BucklingEnd.LIMIT
+BUCKLING_STABLE = BucklingEnd.STABLE
+
+
+class PathKind(IntEnum):
+    """Values DMB_PATH_... of the headers."""
+    REGULAR = 0
+    LIMIT = 1  #: the factor is at a maximum or minimum of the path
+    BIFURCATION = 2  #: another path crosses: the stiffness is singular and the factor goes on
+    BRANCH = 3  #: first point of the path that crossed
+
+
+PATH_REGULAR = PathKind.REGULAR
+PATH_LIMIT = PathKind.LIMIT
+PATH_BIFURCATION = PathKind.BIFURCATION
+PATH_BRANCH = PathKind.BRANCH
+
+
+class ContactState(IntEnum):
+    """Values DMB_CONTACT_... of the headers."""
+    AS_IS = 0  #: rings that touch the wall press on it, others do not
+    OPEN = 1  #: there is no wall; what it presses with in the state stays as a dead load
+    CLOSED = 2  #: rings up to `contact_gap` from the wall are held across it too
+
+
+CONTACT_AS_IS = ContactState.AS_IS
+CONTACT_OPEN = ContactState.OPEN
+CONTACT_CLOSED = ContactState.CLOSED
+
+
+class ModesKind(IntEnum):
+    """Values DMB_MODES_... of the headers."""
+    UNDAMPED = 0  #: M d'' + K d = 0
+    DAMPED = 1  #: with C: damping and gyroscopic terms
+
+
+MODES_UNDAMPED = ModesKind.UNDAMPED
+MODES_DAMPED = ModesKind.DAMPED
+
+
+class ModesSelect(IntEnum):
+    """Values DMB_MODES_... of the headers."""
+    LOWEST = 0
+    ALL = 1
+    BAND = 2
+
+
+MODES_LOWEST = ModesSelect.LOWEST
+MODES_ALL = ModesSelect.ALL
+MODES_BAND = ModesSelect.BAND
+
+
+class ModesAxes(IntEnum):
+    """Values DMB_MODES_... of the headers."""
+    TURNING = 0
+    STILL = 1
+
+
+MODES_TURNING = ModesAxes.TURNING
+MODES_STILL = ModesAxes.STILL
+
+
+class InputKind(IntEnum):
+    """Values DMB_INPUT_... of the headers."""
+    DRIVE = 0  #: programme of the drive place.part [its unit]: speed of MOTION, force of LOAD, target speed of CONTROL
+    LOAD = 1  #: [-] factor of the load place.part
+    BIT_LOAD = 2  #: [N] bottom-hole load of the bit place.part
+    FORCE = 3  #: [N, N m] `component` of a force or moment at `place`, in `frame`
+    UNBALANCE = 4  #: [kg m] mass times its distance from the axis at `place`: force times w^2. component RX: turning from y to z of `frame`; X .. Z: to and fro along that axis
+    ECCENTRICITY = 5  #: [-] the scene's own eccentric masses (those of axial-torsional pipes, which are held across the hole, do nothing: ERR_UNSUPPORTED where all are), each times this factor, turning with the frequency about the axes of their pipes, from y to z, as they lie in the state at t = 0
+    FRICTION = 6  #: [-] coefficient: every ring that touches the wall is rubbed by it times its normal force in the state, along the hole (component X) or around it (RX)
+
+
+INPUT_DRIVE = InputKind.DRIVE
+INPUT_LOAD = InputKind.LOAD
+INPUT_BIT_LOAD = InputKind.BIT_LOAD
+INPUT_FORCE = InputKind.FORCE
+INPUT_UNBALANCE = InputKind.UNBALANCE
+INPUT_ECCENTRICITY = InputKind.ECCENTRICITY
+INPUT_FRICTION = InputKind.FRICTION
+
+
+class OutputKind(IntEnum):
+    """Values DMB_OUTPUT_... of the headers."""
+    DISPLACEMENT = 0  #: [m, rad] of `place`, components along the axes of `frame`
+    VELOCITY = 1  #: [m/s, rad/s] its rate
+    ACCELERATION = 2  #: [m/s2, rad/s2] the rate of that
+    SECTION_FORCE = 3  #: [N, N m] as dmb_query_section, section frame
+    SECTION_STRAIN = 4  #: [-, rad/m] likewise
+    CONTACT = 5  #: [N] at contact site number place.pipe: component X, Y friction, 0 and 1 of dmb_contact (not of bristles in a response: ERR_UNSUPPORTED); Z normal force
+    DRIVE = 6  #: [N, N m] force of the drive place.part, as dmb_query_drive; no component
+    REACTION = 7  #: [N, N m] on the part place.part, as dmb_query_reaction
+    JOINT_POSITION = 8
+    JOINT_SPEED = 9
+    JOINT_ACCELERATION = 10  #: coordinates of the
+    JOINT_REACTION = 11
+    JOINT_ACTION = 12  #: joint place.part, its forces: as dmb_query_joint
+    MULTIPLIER = 13  #: number `component` of place.part, as dmb_query_multipliers
+    BIT = 14  #: [N, N m] X weight, RX torque on the bit place.part by the rock law
+
+
+OUTPUT_DISPLACEMENT = OutputKind.DISPLACEMENT
+OUTPUT_VELOCITY = OutputKind.VELOCITY
+OUTPUT_ACCELERATION = OutputKind.ACCELERATION
+OUTPUT_SECTION_FORCE = OutputKind.SECTION_FORCE
+OUTPUT_SECTION_STRAIN = OutputKind.SECTION_STRAIN
+OUTPUT_CONTACT = OutputKind.CONTACT
+OUTPUT_DRIVE = OutputKind.DRIVE
+OUTPUT_REACTION = OutputKind.REACTION
+OUTPUT_JOINT_POSITION = OutputKind.JOINT_POSITION
+OUTPUT_JOINT_SPEED = OutputKind.JOINT_SPEED
+OUTPUT_JOINT_ACCELERATION = OutputKind.JOINT_ACCELERATION
+OUTPUT_JOINT_REACTION = OutputKind.JOINT_REACTION
+OUTPUT_JOINT_ACTION = OutputKind.JOINT_ACTION
+OUTPUT_MULTIPLIER = OutputKind.MULTIPLIER
+OUTPUT_BIT = OutputKind.BIT
+
+
+COMBINED = 0xFFFFFFFF
+
+ENUMS = (
+    Status,
+    LogLevel,
+    Component,
+    Free,
+    TermKind,
+    ProgrammeProvides,
+    NormalLaw,
+    FrictionLaw,
+    PipeKind,
+    Attach,
+    RockLaw,
+    JointKind,
+    JointMode,
+    ConstraintKind,
+    ConstraintProvides,
+    DriveKind,
+    Frame,
+    Feature,
+    ConstraintMethod,
+    Quantity,
+    Steady,
+    Stiffness,
+    StaticMethod,
+    Scale,
+    BucklingEnd,
+    PathKind,
+    ContactState,
+    ModesKind,
+    ModesSelect,
+    ModesAxes,
+    InputKind,
+    OutputKind,
+)

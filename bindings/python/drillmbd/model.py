@@ -1,0 +1,228 @@
+"""A scene: describe, compile. What was described is kept, so a model copies, compares and pickles."""
+from __future__ import annotations
+
+from collections.abc import Callable
+from ctypes import byref, c_size_t, c_void_p
+from typing import TYPE_CHECKING, Any
+
+from ._keep import Keep, as_id, mirrors, path_of, struct
+from ._library import lib as _lib
+from ._record import Record
+from ._structs import (BitDef, BodyDef, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef, Id, JointDef,
+                       LoadDef, ModelInfo, ModelOptions, PipeDef, Place, SimOptions, StringDef, Term, WallDef)
+
+if TYPE_CHECKING:
+    from .sim import Sim
+
+
+class Model:
+    """A scene. Describe it with the add_ functions, compile it once, then make any number of sims of it.
+
+    `calls` is the description: pairs of the method's name and its arguments. copy.copy and pickle make a model by the
+    same calls; its parts have ids of their own, which `own` finds. A log function is not taken along."""
+
+    def __init__(self, log: Callable[[int, str], None] | None = None) -> None:
+        self._keep = Keep()
+        self._handle = c_void_p()
+        self.calls: list[tuple[str, tuple[Any, ...]]] = []
+        self.ids: list[Id] = []  # given out so far, in the order of their calls
+        options = ModelOptions()
+        if log is not None:
+            options.log = self._keep.log(log)
+        self._keep.check(_lib.dmb_model_create(byref(options), byref(self._handle)), b"")
+
+    # ---- Life -------------------------------------------------------------------------------------------------------
+    def close(self) -> None:
+        """Gives the model back; its sims go on."""
+        _lib.dmb_model_destroy(byref(self._handle))
+
+    def __enter__(self) -> Model:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_handle", None) and _lib is not None:
+            self.close()
+
+    def __reduce__(self) -> Any:
+        return _remake, (type(self), self.calls)
+
+    def __copy__(self) -> Model:
+        return _remake(type(self), self.calls)
+
+    def __deepcopy__(self, memo: Any) -> Model:
+        return _remake(type(self), self.calls)
+
+    def same_scene(self, other: Model) -> bool:
+        """True where both were described by the same calls."""
+        def bare(model: Model) -> Any:
+            return [(name, _map_ids(arguments, lambda part: (part.index, bool(part)))) for name, arguments in model.calls]
+        return bool(bare(self) == bare(other))
+
+    def own(self, part: Any) -> Any:
+        """The part (or place) of this model that `part` is in the model that this one was copied from."""
+        generation = self.ids[0].generation if self.ids else 0
+        return _map_ids(part, lambda one: Id(one.index, generation) if one else Id())
+
+    # ---- Calls ------------------------------------------------------------------------------------------------------
+    @property
+    def message(self) -> str:
+        """What the last failing or noteworthy call on this model said."""
+        return str(_lib.dmb_model_message(self._handle).decode())
+
+    def _check(self, status: int) -> int:
+        return self._keep.check(status, _lib.dmb_model_message(self._handle))
+
+    def _note(self, name: str, *arguments: Any) -> None:
+        self.calls.append((name, tuple(one.describe() if isinstance(one, Record) and not isinstance(one, Id) else one
+                                       for one in arguments)))
+
+    def _add(self, kind: str, cls: Any, given: Any, fields: dict[str, Any]) -> Id:
+        part, definition = Id(), struct(cls, given, fields)
+        self._check(getattr(_lib, "dmb_model_add_" + kind)(self._handle, byref(definition), byref(part)))
+        self._note("add_" + kind, definition)
+        self.ids.append(part)
+        return part
+
+    @mirrors("dmb_model_set_environment")
+    def set_environment(self, definition: EnvironmentDef | None = None, **fields: Any) -> None:
+        """Sets gravity [m/s2], fluid and damping, by an EnvironmentDef or its fields."""
+        definition = struct(EnvironmentDef, definition, fields)
+        self._check(_lib.dmb_model_set_environment(self._handle, byref(definition)))
+        self._note("set_environment", definition)
+
+    @mirrors("dmb_model_add_programme")
+    def add_programme(self, *terms: Any) -> Id:
+        """A programme of one or more terms. A number stands for a constant term, a function of time for a callback."""
+        made = [self._term(term) for term in terms]
+        array, part = (Term * len(terms))(*made), Id()
+        self._check(_lib.dmb_model_add_programme(self._handle, array, len(terms), byref(part)))
+        self._note("add_programme", *made)
+        self.ids.append(part)
+        return part
+
+    def _term(self, term: Any) -> Any:
+        if callable(term):
+            term = Term(function=term)
+        elif not isinstance(term, Term):
+            term = Term(h0=float(term))
+        if term._function is not None:
+            term.callback = self._keep.programme(term._function, term.provides)
+        return term
+
+    def add_wall(self, definition: WallDef | None = None, **fields: Any) -> Id:
+        """Adds the hole, by a WallDef or its fields; returns its id. One hole a model."""
+        return self._add("wall", WallDef, definition, fields)
+
+    @mirrors("dmb_model_add_string")
+    def add_string(self, definition: StringDef | None = None, **fields: Any) -> Id:
+        """Adds a string without pipes, by a StringDef or its fields; returns its id."""
+        return self._add("string", StringDef, definition, fields)
+
+    @mirrors("dmb_model_add_pipes")
+    def add_pipes(self, count: int = 1, definition: PipeDef | None = None, **fields: Any) -> Id:
+        """Appends `count` equal pipes, by a PipeDef or its fields; returns the string they belong to."""
+        string, definition = Id(), struct(PipeDef, definition, fields)
+        self._check(_lib.dmb_model_add_pipes(self._handle, byref(definition), count, byref(string)))
+        self._note("add_pipes", count, definition)
+        self.ids.append(string)
+        return string
+
+    def add_body(self, definition: BodyDef | None = None, **fields: Any) -> Id:
+        """Adds a rigid body, by a BodyDef or its fields; returns its id."""
+        return self._add("body", BodyDef, definition, fields)
+
+    def add_bit(self, definition: BitDef | None = None, **fields: Any) -> Id:
+        """Adds a bit at the far end of a string, by a BitDef or its fields; returns its id."""
+        return self._add("bit", BitDef, definition, fields)
+
+    @mirrors("dmb_model_add_joint")
+    def add_joint(self, definition: JointDef | None = None, **fields: Any) -> Id:
+        """Adds a joint between place_a (None: the ground) and place_b, by a JointDef or its fields; returns its id."""
+        return self._add("joint", JointDef, definition, fields)
+
+    def add_coupling(self, definition: CouplingDef | None = None, **fields: Any) -> Id:
+        """Adds a gear or screw between two joint coordinates, by a CouplingDef or its fields; returns its id."""
+        return self._add("coupling", CouplingDef, definition, fields)
+
+    def add_constraint(self, definition: ConstraintDef | None = None, **fields: Any) -> Id:
+        """Adds a constraint on poses that a Python function says, by a ConstraintDef or its fields; returns its id."""
+        definition = struct(ConstraintDef, definition, fields)
+        if definition._function is not None:
+            definition.callback = self._keep.constraint(definition._function, definition.rows, definition.provides)
+        return self._add("constraint", ConstraintDef, definition, {})
+
+    def add_drive(self, definition: DriveDef | None = None, **fields: Any) -> Id:
+        """Adds a drive of a component of motion, by a DriveDef or its fields; returns its id."""
+        return self._add("drive", DriveDef, definition, fields)
+
+    def add_load(self, definition: LoadDef | None = None, **fields: Any) -> Id:
+        """Adds a force [N] and moment [N m] at a place, by a LoadDef or its fields; returns its id."""
+        return self._add("load", LoadDef, definition, fields)
+
+    @mirrors("dmb_model_compile")
+    def compile(self, options: CompileOptions | None = None, **fields: Any) -> int:
+        """Checks and freezes the scene; returns the status."""
+        options = struct(CompileOptions, options, fields)
+        status = self._check(_lib.dmb_model_compile(self._handle, byref(options)))
+        self._note("compile", options)
+        return status
+
+    # ---- Questions --------------------------------------------------------------------------------------------------
+    @mirrors("dmb_model_get_info")
+    def info(self) -> ModelInfo:
+        """Counts, mass [kg], length [m] and memory of the compiled scene."""
+        info = ModelInfo()
+        info.status = self._check(_lib.dmb_model_get_info(self._handle, byref(info)))
+        return info
+
+    @mirrors("dmb_sim_memory_size")
+    def sim_memory_size(self, options: SimOptions | None = None, **fields: Any) -> int:
+        """[byte] that one sim takes."""
+        size, options = c_size_t(), struct(SimOptions, options, fields)
+        self._check(_lib.dmb_sim_memory_size(self._handle, byref(options), byref(size)))
+        return size.value
+
+    def sim(self, options: SimOptions | None = None, log: Callable[[int, str], None] | None = None, **fields: Any) -> Sim:
+        """A sim of the compiled scene at time 0, with the given SimOptions or fields of it."""
+        from .sim import Sim
+        return Sim(self, options, log, **fields)
+
+    @mirrors("dmb_write_vtk_hole")
+    def write_vtk_hole(self, path: Any, depth0: float, depth1: float, spacing: float = 1.0, around: int = 24) -> None:
+        """Writes the hole from depth0 to depth1 [m] as a tube for ParaView."""
+        self._check(_lib.dmb_write_vtk_hole(self._handle, depth0, depth1, spacing, around, path_of(path)))
+
+
+# ---- Making a model again --------------------------------------------------------------------------------------------
+_DEFINITIONS: dict[str, Any] = {
+    "set_environment": EnvironmentDef, "add_wall": WallDef, "add_string": StringDef, "add_pipes": PipeDef,
+    "add_body": BodyDef, "add_bit": BitDef, "add_joint": JointDef, "add_coupling": CouplingDef,
+    "add_constraint": ConstraintDef, "add_drive": DriveDef, "add_load": LoadDef, "compile": CompileOptions,
+    "add_programme": Term}
+
+
+def _map_ids(value: Any, change: Callable[[Id], Any]) -> Any:
+    """The value with every id in it changed."""
+    if isinstance(value, Id):
+        return change(value)
+    if isinstance(value, Place):
+        part = change(value.part)
+        return Place(part, value.pipe, 0, value.fraction) if isinstance(part, Id) else (part, value.pipe, value.fraction)
+    if isinstance(value, dict):
+        return {key: _map_ids(one, change) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return type(value)(_map_ids(one, change) for one in value)
+    return value
+
+
+def _remake(cls: type[Model], calls: list[tuple[str, tuple[Any, ...]]]) -> Model:
+    """A model by the calls that described another. Ids carry the number of a part and the stamp of its model."""
+    model = cls()
+    for name, arguments in calls:
+        fields = [_map_ids(one, lambda part: model.own(as_id(part))) for one in arguments]
+        definitions = [_DEFINITIONS[name](**one) if isinstance(one, dict) else one for one in fields]
+        getattr(model, name)(*definitions)
+    return model

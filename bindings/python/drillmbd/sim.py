@@ -1,0 +1,299 @@
+"""A run: step, advance, ask, snapshot."""
+from __future__ import annotations
+
+import ctypes
+import time as clock
+from collections.abc import Callable, Sequence
+from ctypes import byref, c_double, c_size_t, c_uint32, c_uint64, c_void_p
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from . import analysis
+from ._keep import Keep, as_place, mirrors, path_of, struct
+from ._library import lib as _lib
+from ._structs import (STRUCTS, BitState, Contact, DriveState, Energy, Id, JointState, Momentum, Motion, Place, Pose,
+                       Section, SimOptions, Statistics, StepReport)
+from .enums import FRAME_WORLD, NOTE_STOPPED, OK
+from .errors import check
+from .recorder import Recorder
+
+if TYPE_CHECKING:
+    from .model import Model
+    from .profile import Profile
+
+_step, _advance, _set_status = _lib.dmb_sim_step, _lib.dmb_sim_advance, object.__setattr__
+
+
+@dataclass
+class Progress:
+    """How far Sim.run has come, for its progress function."""
+    time: float       #: [s] of the sim
+    end: float        #: [s] where the run ends
+    steps: int        #: [-] accepted so far in this run
+    elapsed: float    #: [s] by the clock since the run began
+    begin: float = 0.0  #: [s] of the sim, where the run began
+
+    @property
+    def fraction(self) -> float:
+        """[-] done, 0 .. 1"""
+        return (self.time - self.begin) / (self.end - self.begin) if self.end > self.begin else 1.0
+
+    @property
+    def real_time_factor(self) -> float:
+        """[-] simulated time over time by the clock"""
+        return (self.time - self.begin) / self.elapsed if self.elapsed > 0.0 else 0.0
+
+
+class Sim(analysis.Analyses):
+    """All that changes. One thread at a time; the library does not hold Python's lock while it runs."""
+
+    def __init__(self, model: Model, options: SimOptions | None = None,
+                 log: Callable[[int, str], None] | None = None, **fields: Any) -> None:
+        self._handle = c_void_p()
+        self._keep = Keep()  # its own log
+        self._scene = model._keep  # callbacks live as long as the last sim
+        options = struct(SimOptions, options, fields)
+        said: list[str] = []
+
+        def tell(level: int, text: str) -> None:
+            said.append(text)
+            if log is not None:
+                log(level, text)
+
+        options.log = self._keep.log(tell)
+        status = _lib.dmb_sim_create(model._handle, byref(options), byref(self._handle))
+        self._keep.check(OK, b"")
+        self.status = self._scene.check(status, said[-1].encode() if said else b"")
+
+    def close(self) -> None:
+        """Gives the memory back; what is asked afterwards is an Error."""
+        _lib.dmb_sim_destroy(byref(self._handle))
+
+    def __enter__(self) -> Sim:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_handle", None) and _lib is not None:
+            self.close()
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a Sim does not pickle: pickle its model and sim.snapshot(), which a sim of that model restores")
+
+    @property
+    def message(self) -> str:
+        """What the last failing or noteworthy call on this sim said."""
+        return str(_lib.dmb_sim_message(self._handle).decode())
+
+    @property
+    def time(self) -> float:
+        """[s] of the last accepted state"""
+        return float(_lib.dmb_sim_time(self._handle))
+
+    def _check(self, status: int) -> int:
+        return self._scene.check(status, _lib.dmb_sim_message(self._handle) if status < 0 else b"")
+
+    # ---- Running ----------------------------------------------------------------------------------------------------
+    def _run(self, function: Any, value: float) -> StepReport:
+        report: StepReport = StepReport.blank()
+        _set_status(report, "status", self._check(function(self._handle, value, byref(report))))
+        return report
+
+    @mirrors("dmb_sim_step")
+    def step(self, duration: float) -> StepReport:
+        """Advances by duration [s]; returns the report, whose status may be a note."""
+        return self._run(_step, duration)
+
+    @mirrors("dmb_sim_advance")
+    def advance(self, time: float) -> StepReport:
+        """Advances to time [s] with steps of its own choice."""
+        return self._run(_advance, time)
+
+    def run(self, end: float, step: float | None = None, recorder: Recorder | None = None,
+            progress: Callable[[Progress], Any] | None = None, every: float = 0.2) -> Progress:
+        """Runs to time `end` [s]: with equal steps of `step` [s] (the last one shorter where they do not fit), or with
+        steps of the library's choice, which then end at each hundredth of the run. The recorder takes a row after each
+        step. progress(Progress) is called each `every` seconds by the clock and at the end; what it returns, if true,
+        stops the run there. Ctrl-C raises KeyboardInterrupt between two steps: the sim stays whole and can go on, and
+        the recorder has all rows so far."""
+        begin, started, steps = self.time, clock.monotonic(), 0
+        told = started
+        number, count = 0, max(1, round((end - begin) / step - 1e-9)) if step else 100
+        if step and begin + count * step < end - 1e-9 * step:
+            count += 1
+        if recorder is not None and len(recorder) == 0:
+            recorder.take()
+        while number < count and end > begin:
+            number += 1
+            if step:
+                report = self.step(step if number < count else end - self.time)
+            else:
+                target = end if number == count else begin + (end - begin) * number / count
+                report = self.advance(target)
+                if report.status == NOTE_STOPPED:  # max_steps of one call; go on
+                    number -= 1
+            steps += report.steps
+            if recorder is not None:
+                recorder.take()
+            now = clock.monotonic()
+            if progress is not None and (now - told >= every or number == count):
+                told = now
+                if progress(Progress(self.time, end, steps, now - started, begin)):
+                    break
+        return Progress(self.time, end, steps, clock.monotonic() - started, begin)
+
+    @mirrors("dmb_sim_set_drive")
+    def set_drive(self, drive: Id, value: float | None) -> None:
+        """The drive's programme is the constant value [its unit] from now on; None: its programme again."""
+        self._check(_lib.dmb_sim_set_drive(self._handle, drive, float("nan") if value is None else value))
+
+    @mirrors("dmb_sim_set_joint")
+    def set_joint(self, joint: Id, state: int) -> int:
+        """The joint is JOINT_ACTIVE, JOINT_LOCKED or JOINT_OPEN from now on; returns the status, NOTE_PROJECTED if
+        speeds changed."""
+        return self._check(_lib.dmb_sim_set_joint(self._handle, joint, state))
+
+    @mirrors("dmb_sim_carry_over")
+    def carry_over(self, other: Sim) -> int:
+        """Goes on where `other` stands, a sim of another model: pipes may have come or gone at the rig end."""
+        return self._check(_lib.dmb_sim_carry_over(self._handle, other._handle))
+
+    @mirrors("dmb_sim_snapshot")
+    def snapshot(self) -> bytes:
+        """All that changes, as bytes; a copy."""
+        size = c_size_t()
+        self._check(_lib.dmb_sim_snapshot_size(self._handle, byref(size)))
+        block = ctypes.create_string_buffer(size.value)
+        self._check(_lib.dmb_sim_snapshot(self._handle, block, size.value))
+        return block.raw
+
+    @mirrors("dmb_sim_restore")
+    def restore(self, snapshot: Any) -> None:
+        """Goes back, or on, to a snapshot of a sim of the same model and options."""
+        snapshot = bytes(snapshot)
+        self._check(_lib.dmb_sim_restore(self._handle, snapshot, len(snapshot)))
+
+    @mirrors("dmb_sim_hash")
+    def hash(self) -> int:
+        """A number that is equal for equal states."""
+        found = c_uint64()
+        self._check(_lib.dmb_sim_hash(self._handle, byref(found)))
+        return found.value
+
+    # ---- Questions --------------------------------------------------------------------------------------------------
+    def _ask(self, function: Any, answer: Any, *arguments: Any) -> Any:
+        _set_status(answer, "status", check(function(self._handle, *arguments, byref(answer))))  # no message
+        return answer
+
+    def _ask_number(self, function: Any, *arguments: Any) -> float:
+        value = c_double()
+        check(function(self._handle, *arguments, byref(value)))
+        return value.value
+
+    def pose(self, place: Place) -> Pose:
+        """Position [m], rotation matrix, displacement [m] and measured depth [m] of a place."""
+        answer: Pose = self._ask(_lib.dmb_query_pose, Pose.blank(), place)
+        return answer
+
+    def motion(self, place: Place, frame: int = FRAME_WORLD) -> Motion:
+        """Velocity [m/s, rad/s] and acceleration [m/s2, rad/s2] of a place, each six numbers, in `frame`."""
+        answer: Motion = self._ask(_lib.dmb_query_motion, Motion(frame=frame), place)
+        return answer
+
+    def rotation(self, place: Place) -> float:
+        """[rad] about the pipe's own axis since time 0, revolutions counted"""
+        return self._ask_number(_lib.dmb_query_rotation, place)
+
+    @mirrors("dmb_query_section")
+    def section(self, place: Place) -> Section:
+        """Forces [N, N m] and strains of a section, six numbers each."""
+        answer: Section = self._ask(_lib.dmb_query_section, Section.blank(), place)
+        return answer
+
+    def contact(self, site: int) -> Contact:
+        """Gap [m], forces [N] and slip [m/s] at contact site number `site`, of info().contact_sites."""
+        answer: Contact = self._ask(_lib.dmb_query_contact, Contact.blank(), site)
+        return answer
+
+    def contact_sum(self) -> Any:
+        """Sums over all contact sites: closed ones, normal force [N], friction [N], deepest penetration [m]."""
+        return self._ask(_lib.dmb_query_contact_sum, STRUCTS["dmb_contact_sum"]())
+
+    def kinetic_energy(self, part: Id, pipe: int = 0) -> float:
+        """[J] of one pipe of a string, or of a body"""
+        return self._ask_number(_lib.dmb_query_kinetic_energy, part, pipe)
+
+    @mirrors("dmb_query_energy")
+    def energy(self) -> Energy:
+        """The energy ledger [J]."""
+        answer: Energy = self._ask(_lib.dmb_query_energy, Energy.blank())
+        return answer
+
+    def momentum(self) -> Momentum:
+        """Linear [kg m/s] and angular [kg m2/s] momentum, mass [kg] and its centre [m]."""
+        answer: Momentum = self._ask(_lib.dmb_query_momentum, Momentum.blank())
+        return answer
+
+    def drive(self, drive: Id) -> DriveState:
+        """Target, position, speed, force, power [W] and work [J] of a drive."""
+        answer: DriveState = self._ask(_lib.dmb_query_drive, DriveState.blank(), drive)
+        return answer
+
+    def reaction(self, part: Id) -> list[float]:
+        """[N, N m] of guide and motion drives on the rig end of a string or a body, body frame, six numbers"""
+        values = (c_double * 6)()
+        check(_lib.dmb_query_reaction(self._handle, part, values))
+        return list(values)
+
+    def joint(self, joint: Id, frame: int = FRAME_WORLD) -> JointState:
+        """Coordinates, rates, reaction [N, N m] and action of a joint, six numbers each."""
+        answer: JointState = self._ask(_lib.dmb_query_joint, JointState(frame=frame), joint)
+        return answer
+
+    def multipliers(self, part: Id) -> list[float]:
+        """[N, N m per unit of its value] of a joint, coupling, constraint or joint drive, one for each row"""
+        values, count = (c_double * 6)(), c_uint32()
+        check(_lib.dmb_query_multipliers(self._handle, part, values, byref(count)))
+        return list(values)[:count.value]
+
+    def bit(self, bit: Id) -> BitState:
+        """Advance [m], depth of cut [m], weight [N] and torque [N m] of a bit."""
+        answer: BitState = self._ask(_lib.dmb_query_bit, BitState.blank(), bit)
+        return answer
+
+    def statistics(self) -> Statistics:
+        """Steps, iterations and memory so far."""
+        answer: Statistics = self._ask(_lib.dmb_query_statistics, Statistics.blank())
+        return answer
+
+    # ---- Tables and files -------------------------------------------------------------------------------------------
+    def recorder(self, channels: Sequence[Any], capacity: int, interval: float = 0.0) -> Recorder:
+        """A Recorder of `capacity` rows, one each `interval` [s] or (0) for each take()."""
+        return Recorder(self, channels, capacity, interval)
+
+    def profile(self, string: Id, pipes: int, per_pipe: int = 2) -> Profile:
+        """The string from end to end as arrays: poses, forces and contact at `per_pipe` stations of each of its `pipes`
+        pipes and at its rig end."""
+        from .profile import profile
+        return profile(self, string, pipes, per_pipe)
+
+    @mirrors("dmb_write_vtk_strings")
+    def write_vtk(self, path: Any, per_element: int = 8) -> None:
+        """Writes the strings as lines with fields for ParaView."""
+        check(_lib.dmb_write_vtk_strings(self._handle, per_element, path_of(path)))
+
+
+class SimAt(Sim):
+    """A sim that the library lends to a callback."""
+
+    def __init__(self, of: Sim, handle: Any) -> None:
+        self._handle, self._keep, self._scene = c_void_p(handle), of._keep, of._scene
+
+    def close(self) -> None:
+        """Nothing is given back: it is not ours."""
+        self._handle = None  # type: ignore[assignment]
+
+
+__all__ = ["Progress", "Sim", "as_place"]

@@ -1,0 +1,351 @@
+#!/usr/bin/env python3
+"""Makes three modules of the package from the public headers, which own these facts: enums.py (constants), _structs.py
+(structs with unit and meaning of every field, types of callbacks) and _functions.py (prototypes, comments of functions).
+
+usage: generate.py            writes them
+       generate.py --check    tells whether they are up to date; exit status 1 if not
+"""
+import pathlib
+import re
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+HEADERS = HERE.parents[1] / "include" / "drillmbd"
+PACKAGE = HERE / "drillmbd"
+
+# Names of enumerations whose members share too little, or whose prefix says too little. Key: the first member.
+ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "TERM_CONSTANT": "TermKind",
+              "NORMAL_NONE": "NormalLaw", "FRICTION_NONE": "FrictionLaw", "PIPE_FLEXIBLE": "PipeKind",
+              "ROCK_NONE": "RockLaw", "JOINT_FIXED": "JointKind", "JOINT_ACTIVE": "JointMode",
+              "CONSTRAINT_HOLONOMIC": "ConstraintKind", "PROVIDES_RATE": "ProgrammeProvides",
+              "PROVIDES_JACOBIAN": "ConstraintProvides", "DRIVE_MOTION": "DriveKind",
+              "CHANNEL_DISPLACEMENT_X": "Quantity", "INPUT_DRIVE": "InputKind", "OUTPUT_DISPLACEMENT": "OutputKind",
+              "PATH_REGULAR": "PathKind", "CONTACT_AS_IS": "ContactState", "MODES_UNDAMPED": "ModesKind",
+              "MODES_LOWEST": "ModesSelect",
+              "MODES_TURNING": "ModesAxes", "MODES_AXES_TURNING": "ModesAxes",
+              "STATIC_NEWTON": "StaticMethod", "METHOD_INDEPENDENT": "ConstraintMethod",
+              "BUCKLING_EXTRAPOLATED": "BucklingEnd", "SCALE_ALL": "Scale"}
+FLAGS = ("FREE", "FEATURE", "PROVIDES")  # prefixes of bits of masks
+STRUCT_NAMES = {"dmb_recorder": "RecorderStruct"}
+MIXINS = {"Id": "IdPart", "Term": "TermPart", "WallDef": "WallPart", "ConstraintDef": "ConstraintPart"}
+NUMBERS = {"int32_t": "c_int32", "uint32_t": "c_uint32", "int64_t": "c_int64", "uint64_t": "c_uint64",
+           "double": "c_double", "size_t": "c_size_t", "char": "c_char"}
+PYTHON = {"c_double": "float", "c_char": "bytes"}
+
+
+# ---- Reading ---------------------------------------------------------------------------------------------------------
+def header_text():
+    """All headers, each after those it includes."""
+    texts = {path.name: path.read_text(encoding="utf-8") for path in sorted(HEADERS.glob("*.h"))}
+    order = []
+
+    def take(name):
+        for other in re.findall(r'^#include "(\w+\.h)"', texts[name], re.M):
+            if other in texts and other not in order:
+                take(other)
+        if name not in order:
+            order.append(name)
+
+    for name in texts:
+        take(name)
+    return "\n".join(texts[name] for name in order)
+
+
+def words(comment):
+    """The text of a comment as one line, without the marks of the C language."""
+    text = re.sub(r"^/\*|\*/$", "", comment.strip())
+    text = re.sub(r"\n\s*\*?\s*", " ", text)
+    text = re.sub(r"\bDMB_(?=[A-Z])", "", text)
+    return " ".join(text.replace("\\", "/").split()).strip("- ")
+
+
+def without_comments(text):
+    return re.sub(r"/\*.*?\*/", " ", text, flags=re.S)
+
+
+def class_name(c_name):
+    return STRUCT_NAMES.get(c_name) or "".join(word.capitalize() for word in c_name.split("_")[1:])
+
+
+def function_type(c_name):
+    """dmb_path_fn -> PATH_FN"""
+    return c_name[4:].upper()
+
+
+class Reader:
+    def __init__(self, text):
+        self.text = text
+        self.opaque = re.findall(r"^typedef struct (\w+) \1;", text, re.M)
+        self.callbacks = re.findall(r"^typedef (\w+) \(\*(\w+)\)\(([^;]*?)\);", without_comments(text), re.M | re.S)
+        self.sized = re.findall(r"^DMB_SIZED_STRUCT\((\w+)\)", text, re.M)
+
+    def ctype(self, declaration, argument=False):
+        """'const dmb_pose *pose' -> 'POINTER(Pose)'; the type of a field or an argument, its name left out."""
+        declaration = " ".join(declaration.replace("const ", "").split())
+        pointer_to_array = re.match(r"double \(\*\w*\)\[(\d+)\]$", declaration)
+        if pointer_to_array:
+            return f"POINTER(c_double * {pointer_to_array.group(1)})"
+        kind, stars, array = re.match(r"(\w+) ?(\**) ?\w*((?:\[\w*\])?)$", declaration).groups()
+        depth = len(stars)
+        if array and argument:
+            depth += 1
+        if kind in self.opaque or kind == "void":
+            base, depth = "c_void_p", depth - 1
+        elif kind == "char" and depth:
+            base, depth = "c_char_p", depth - 1
+        elif kind in NUMBERS:
+            base = NUMBERS[kind]
+        elif any(kind == name for _, name, _ in self.callbacks):
+            base = function_type(kind)
+        else:
+            base = class_name(kind)
+        for _ in range(depth):
+            base = f"POINTER({base})"
+        if array and not argument:
+            base = f"{base} * {array[1:-1]}"
+        return base
+
+    def arguments(self, text):
+        text = " ".join(text.split())
+        return [] if text in ("void", "") else [self.ctype(part.strip(), True) for part in text.split(",")]
+
+    def signature(self, result, arguments):
+        back = "None" if result == "void" else self.ctype(result + " x")
+        return ", ".join([back, *self.arguments(arguments)])
+
+    def fields(self, body):
+        """[(name, ctype, unit, text)] of a struct."""
+        found = []
+        for match in re.finditer(r"([^;/]+);[ \t]*(/\*.*?\*/)?", body, re.S):
+            declaration = " ".join(match.group(1).split())
+            unit, text = unit_and_text(words(match.group(2) or ""))
+            function = re.match(r"(\w+ ?\*?) ?\(\*(\w+)\)\((.*)\)$", declaration)
+            if function:
+                kind = f"CFUNCTYPE({self.signature(function.group(1).strip(), function.group(3))})"
+                found.append((function.group(2), kind, unit, text))
+                continue
+            first, *rest = declaration.split(",")
+            base, name, array = re.match(r"(.*?[ *])(\w+)(\[\w+\])?$", first).groups()
+            for part in [name + (array or "")] + [other.strip() for other in rest]:
+                bare = re.match(r"\w+", part).group(0)
+                found.append((bare, self.ctype(base.strip() + " " + part), unit, text))
+        return found
+
+    def structs(self):
+        """[(C name, [field], text)]"""
+        found = []
+        for match in re.finditer(r"^typedef struct (\w+) \{\n(.*?)^\} \1;", self.text, re.M | re.S):
+            found.append((match.group(1), self.fields(match.group(2)), self.comment_before(match.start())))
+        return found
+
+    def comment_before(self, place):
+        before = self.text[:place].rstrip(" ")
+        match = re.search(r"/\*(?:(?!\*/).)*\*/\n\Z", before, re.S)
+        text = words(match.group(0)) if match else ""
+        return re.sub(r"^---- .*?-{4,} ?(\* )?", "", text)
+
+    def enums(self):
+        """[(class name, [(member, value, text)])]; the members of one enum that begin differently are apart."""
+        found = [("Status", [(name, int(value), words(text)) for name, value, text in
+                             re.findall(r'^\s*X\(DMB_(\w+), (-?\d+), "(.*?)"\)', self.text, re.M)])]
+        for body in re.findall(r"^enum \w*\s*\{(.*?)\};", re.sub(r"^#define.*$", "", self.text, flags=re.M),
+                               re.M | re.S):
+            if "DMB_STATUS_LIST" in body:
+                continue
+            members = [(name, int(value), words(text)) for name, value, text in
+                       re.findall(r"DMB_(\w+) = (-?\d+),?[ \t]*(/\*.*?\*/)?", body, re.S)]
+            for group in split_by_prefix(members):
+                found.append((enum_class(group[0][0], group), group))
+        return found
+
+    def prototypes(self):
+        """[(name, signature, text)]"""
+        found = []
+        for match in re.finditer(r"^DMB_API\s+([^;{]*?)\(([^;{]*?)\);", self.text, re.M | re.S):
+            result, name = re.match(r"(.*?[ *])(\w+)$", " ".join(match.group(1).split())).groups()
+            found.append((name, self.signature(result.replace("const", "").strip(),
+                                               without_comments(match.group(2))), self.comment_before(match.start())))
+        for name in self.sized:
+            found.append((name + "_init", f"c_int32, POINTER({class_name(name)}), c_uint32", ""))
+        return found
+
+
+def unit_and_text(text):
+    match = re.match(r"\[([^\]]*)\]\s*;?\s*(.*)$", text)
+    return match.groups() if match else ("", text)
+
+
+def split_by_prefix(members):
+    """X, Y, Z, RX, ... and FREE_... stand in one enum of the header."""
+    groups = {}
+    for member in members:
+        prefix = member[0].split("_")[0] if "_" in member[0] else ""
+        groups.setdefault(prefix, []).append(member)
+    return list(groups.values())
+
+
+def enum_class(first, members):
+    prefix = first.split("_")[0]
+    return ENUM_NAMES.get(first) or prefix.capitalize()
+
+
+# ---- Writing ---------------------------------------------------------------------------------------------------------
+def quoted(text):
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def enum_lines(name, members):
+    prefix = members[0][0].split("_")[0] + "_" if "_" in members[0][0] else ""
+    kind = "IntFlag" if prefix[:-1] in FLAGS else "IntEnum"
+    if name == "Status":
+        prefix = ""
+    yield f"class {name}({kind}):"
+    yield f'    """{"Bits" if kind == "IntFlag" else "Values"} DMB_{prefix}... of the headers."""'
+    for member, value, text in members:
+        short = member[len(prefix):]
+        short = short if not short[0].isdigit() else "_" + short
+        yield f"    {short} = {value}" + (f"  #: {text}" if text else "")
+    yield ""
+    yield ""
+    for member, _, _ in members:
+        short = member[len(prefix):]
+        yield f"{member} = {name}.{short if not short[0].isdigit() else '_' + short}"
+    yield ""
+    yield ""
+
+
+def python_type(kind):
+    array = re.match(r"(\w+) \* (\d+)$", kind)
+    if array:
+        return "bytes" if array.group(1) == "c_char" else f"'Array[{array.group(1)}]'"
+    if kind in PYTHON:
+        return PYTHON[kind]
+    if kind.startswith(("c_int", "c_uint", "c_size")):
+        return "int"
+    return kind if re.match(r"[A-Z][a-z]\w*$", kind) else "Any"
+
+
+def struct_lines(reader, c_name, fields, text):
+    name = class_name(c_name)
+    bases = ([MIXINS[name]] if name in MIXINS else []) + ["Sized" if c_name in reader.sized else "Record"]
+    yield f"class {name}({', '.join(bases)}):"
+    shown = [field for field in fields if field[0] != "struct_size" and not field[0].endswith("reserved")]
+    yield f"    c_name, about = {quoted(c_name)}, {quoted(text)}"
+    for field, kind, _, _ in fields:
+        yield f"    {field}: {python_type(kind)}"
+    yield "    _fields_: ClassVar[Any] = ["
+    for field, kind, _, _ in fields:
+        yield f"        ({quoted(field)}, {kind}),"
+    yield "    ]"
+    yield "    field_docs = {"
+    for field, _, unit, meaning in shown:
+        yield f"        {quoted(field)}: ({quoted(unit)}, {quoted(meaning)}),"
+    yield "    }"
+    yield ""
+    yield ""
+
+
+MADE = '"""{} Made from the headers by generate.py: do not edit, run that instead."""\n'
+STRUCTS_HEAD = MADE.format("The structs and types of callbacks of the C interface.") + '''# mypy: disable-error-code="misc"
+from __future__ import annotations
+
+from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_uint64,
+                    c_void_p)
+from typing import Any, ClassVar
+
+from ._record import ConstraintPart, IdPart, Record, Sized, TermPart, WallPart
+
+'''
+FUNCTIONS_HEAD = MADE.format("The functions of the C interface.") + '''from __future__ import annotations
+
+import ctypes
+from ctypes import POINTER, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_uint64, c_void_p  # noqa: F401
+from typing import Any
+
+from ._structs import *  # noqa: F403
+
+'''
+
+
+def order_items(reader):
+    """Structs and types of callbacks, each after what it names."""
+    items = [("struct", s[0], s, {m for f in s[1] for m in re.findall(r"[A-Za-z_]\w*", f[1])})
+             for s in reader.structs()]
+    items += [("callback", name, (result, name, arguments),
+               set(re.findall(r"[A-Za-z_]\w*", reader.signature(result, arguments))))
+              for result, name, arguments in reader.callbacks]
+    python = {name: class_name(name) if kind == "struct" else function_type(name) for kind, name, _, _ in items}
+    known, waiting = set(), items
+    while waiting:
+        ready = [item for item in waiting if not (item[3] & set(python.values())) - known]
+        if not ready:
+            sys.exit(f"generate: {[item[1] for item in waiting]} name each other")
+        yield from ready
+        known |= {python[item[1]] for item in ready}
+        waiting = [item for item in waiting if item not in ready]
+
+
+def enums_text(reader):
+    version = [re.search(rf"^#define DMB_VERSION_{part} (\d+)", reader.text, re.M).group(1)
+               for part in ("MAJOR", "MINOR", "PATCH")]
+    lines = [MADE.format("The constants of the C interface as enumerations, and its version."),
+             "from enum import IntEnum, IntFlag",
+             "", f"VERSION = ({', '.join(version)})", f'__version__ = "{".".join(version)}"', "", ""]
+    enums = reader.enums()
+    for name, members in enums:
+        lines += enum_lines(name, members)
+    lines += [f"{name} = 0xFFFFFFFF" for name in re.findall(r"^#define DMB_(\w+) UINT32_MAX", reader.text, re.M)]
+    lines += ["", "ENUMS = ("] + [f"    {name}," for name, _ in enums] + [")"]
+    return lines
+
+
+def structs_text(reader):
+    lines = STRUCTS_HEAD.splitlines() + [""]
+    for kind, _, content, _ in order_items(reader):
+        if kind == "struct":
+            lines += struct_lines(reader, *content)
+        else:
+            lines += [f"{function_type(content[1])} = CFUNCTYPE({reader.signature(content[0], content[2])})", "", ""]
+    lines.append("STRUCTS: dict[str, Any] = {}  # name in C -> class")
+    return lines + [f"STRUCTS[{quoted(name)}] = {class_name(name)}" for name, _, _ in reader.structs()]
+
+
+def functions_text(reader):
+    prototypes = sorted(reader.prototypes())
+    lines = FUNCTIONS_HEAD.splitlines() + ["# name: (result, arguments...)", "PROTOTYPES: dict[str, tuple[Any, ...]] = {"]
+    lines += [f"    {quoted(name)}: ({signature},)," for name, signature, _ in prototypes]
+    lines += ["}", "", "FUNCTION_DOCS = {"]
+    lines += [f"    {quoted(name)}:\n        {quoted(text)}," for name, _, text in prototypes if text]
+    return lines + ["}", "", "", "def declare(library: ctypes.CDLL) -> None:",
+                    '    """Tells ctypes the types of all functions."""',
+                    "    for name, (result, *arguments) in PROTOTYPES.items():",
+                    "        function = getattr(library, name)",
+                    "        function.restype, function.argtypes = result, arguments"]
+
+
+def generated():
+    """{path: text}"""
+    reader = Reader(header_text())
+    made = {"enums.py": enums_text, "_structs.py": structs_text, "_functions.py": functions_text}
+    return {PACKAGE / name: re.sub(r"\n{4,}", "\n\n\n", "\n".join(lines(reader)) + "\n")
+            for name, lines in made.items()}
+
+
+def main():
+    texts = generated()
+    if sys.argv[1:] == ["--check"]:
+        old = [path.name for path, text in texts.items()
+               if not path.exists() or path.read_text(encoding="utf-8") != text]
+        if old:
+            print(f"{', '.join(old)}: not what the headers say; run bindings/python/generate.py")
+        return 1 if old else 0
+    if sys.argv[1:]:
+        print(__doc__)
+        return 2
+    for path, text in texts.items():
+        path.write_text(text, encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

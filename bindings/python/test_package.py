@@ -1,0 +1,367 @@
+"""Tests of the package around the interface: documentation and types of all names, made files up to date, errors taken
+apart, models that copy and pickle, runs with progress and Ctrl-C, arrays, frames and pictures."""
+import copy
+import gc
+import inspect
+import math
+import os
+import pathlib
+import pickle
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+import drillmbd as mbd
+from drillmbd import _optional
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def there(*names):
+    """Whether optional packages are there; the test says which it skips for."""
+    missing = []
+    for name in names:
+        try:
+            _optional.need(name)
+        except ImportError:
+            missing.append(name)
+    return unittest.skipIf(missing, f"not there: {', '.join(missing)}")
+
+
+def ramp(time):
+    """A programme that pickles: a function of a module."""
+    return 0.05 * min(time / 0.02, 1.0)
+
+
+def full_model():
+    """Every kind of part but a Python constraint."""
+    model = mbd.Model()
+    model.set_environment(fluid_density=1000.0)
+    model.add_wall(stations=[(0, math.pi / 2, 0), (10, math.pi / 2, 0), (40, 1.6, 0.05)])
+    string = model.add_string(start_free=mbd.FREE_CYLINDRICAL)
+    model.add_pipes(2, string=string, kind=mbd.PIPE_RIGID)
+    model.add_pipes(2, mbd.PipeDef(string=string, joint_length=0.1, eccentricity=1e-3))
+    body = model.add_body(mass=2.0, position=(5, 0, 0.5))
+    load = model.add_programme(mbd.Term(kind=mbd.TERM_HARMONIC, h1=1.0, omega=30.0), 0.5,
+                               mbd.Term(table=([0.0, 0.01], [0.0, 1.0])))
+    model.add_bit(rock_law=mbd.ROCK_RATE, load=load)
+    model.add_load(place=mbd.station(body), force=(10, 0, 0), programme=load)
+    hinge = model.add_joint(kind=mbd.JOINT_REVOLUTE, name="hinge", place_b=body, origin_a=(5, 0, 1), axis_a=(0, 1, 0),
+                            match=1)
+    model.add_drive(part=hinge, component=mbd.RX, kind=mbd.DRIVE_LOAD, programme=load)
+    feed = model.add_drive(programme=model.add_programme(ramp))
+    model.compile(features=mbd.FEATURE_ALL & ~mbd.FEATURE_EXCITATION)
+    return model, string, feed
+
+
+def hash_after(model, steps=5):
+    with model.sim() as sim:
+        for _ in range(steps):
+            sim.step(1e-3)
+        return sim.hash()
+
+
+class NamesTest(unittest.TestCase):
+    def test_made_files_are_what_the_headers_say(self):
+        done = subprocess.run([sys.executable, HERE / "generate.py", "--check"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_all_names_are_there_and_documented(self):
+        for name in mbd.__all__:
+            value = getattr(mbd, name)
+            if inspect.isclass(value) and not name.endswith("_FN"):
+                self.assertTrue(value.__doc__, name)
+                for member, method in vars(value).items():
+                    if inspect.isfunction(method) and not member.startswith("_"):
+                        self.assertTrue(method.__doc__, f"{name}.{member}")
+            elif inspect.isfunction(value):
+                self.assertTrue(value.__doc__, name)
+
+    def test_fields_tell_unit_and_meaning(self):
+        for struct in mbd.STRUCTS.values():
+            if issubclass(struct, mbd._Sized):
+                self.assertIn(struct.c_name, struct.__doc__)
+        self.assertEqual(mbd.WallDef.field_docs["stiffness"][0], "N/m^(n+1)")
+        self.assertIn("diameter: [m] of the hole, > 0; default 0.094", mbd.WallDef.__doc__)
+
+    def test_constants_are_enumerations(self):
+        self.assertIs(mbd.JOINT_REVOLUTE, mbd.JointKind.REVOLUTE)
+        self.assertEqual(mbd.FREE_X | mbd.FREE_RX, mbd.FREE_CYLINDRICAL)
+        self.assertEqual(mbd.Status(-5), mbd.ERR_VALUE)
+        self.assertEqual(mbd.Quantity.BIT_WEIGHT, mbd.CHANNEL_BIT_WEIGHT)
+
+    def test_version(self):
+        self.assertEqual(mbd.__version__, ".".join(map(str, mbd.VERSION)))
+        self.assertEqual(mbd._lib.dmb_version(), sum(n * f for n, f in zip(mbd.VERSION, (10000, 100, 1))))
+
+    def test_types(self):
+        try:
+            import mypy  # noqa: F401
+        except ImportError:
+            self.skipTest("not there: mypy")
+        with tempfile.TemporaryDirectory() as cache:
+            done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", cache, HERE / "drillmbd"],
+                                  capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(HERE)})
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_library_that_is_not_there_or_no_library(self):
+        for name in ("/nonexistent/libdrillmbd.so", __file__):
+            done = subprocess.run([sys.executable, "-c", "import drillmbd"], capture_output=True, text=True,
+                                  env={**os.environ, "DRILLMBD_LIBRARY": name, "PYTHONPATH": str(HERE)})
+            self.assertIn("ImportError", done.stderr)
+            self.assertIn(name, done.stderr)
+
+
+class ErrorPartsTest(unittest.TestCase):
+    def caught(self, function, *arguments, **fields):
+        with self.assertRaises(mbd.Error) as caught:
+            function(*arguments, **fields)
+        return caught.exception
+
+    def test_parts_of_a_message(self):
+        model = mbd.Model()
+        error = self.caught(model.add_wall, diameter=-0.5)
+        self.assertEqual((error.status, error.part, error.field, error.value), (mbd.ERR_VALUE, "wall", "diameter", -0.5))
+        self.assertTrue(error.bound)
+        body = model.add_body()
+        error = self.caught(model.add_joint, name="crank", place_b=body, axis_a=(0, 0, 0))
+        self.assertEqual((error.part, error.field, error.value), ("joint 0 (crank)", "axis_a", 0.0))
+        self.assertEqual(error.bound, "be of length > 0")
+
+    def test_message_without_parts(self):
+        error = mbd.Error(mbd.ERR_NULL)
+        self.assertEqual((error.part, error.field, error.value, error.bound), (None, None, None, None))
+        self.assertTrue(error.message)
+
+    def test_advice(self):
+        error = mbd.Error(-5, "pipe 3: length = 0 m, must be > 0 m; leave it out")
+        self.assertEqual((error.field, error.value, error.bound, error.advice), ("length", 0.0, "be > 0 m", "leave it out"))
+
+    def test_errors_pickle(self):
+        error = pickle.loads(pickle.dumps(self.caught(mbd.Model().add_wall, diameter=-0.5)))
+        self.assertEqual((error.status, error.field), (mbd.ERR_VALUE, "diameter"))
+
+
+class DescriptionTest(unittest.TestCase):
+    def test_structs_copy_compare_and_pickle(self):
+        for made in (mbd.PipeDef(length=2.0, curvature=(1, 2, 3)), mbd.Term(table=[(0, 1), (2, 5)]),
+                     mbd.WallDef(stations=[(0, 1.5, 0), (30, 1.6, 0.1)]), mbd.Term(function=ramp),
+                     mbd.JointDef(name="hinge"), mbd.station(mbd.Id(1, 2), 3, 0.5), mbd.Id(3, 4)):
+            for other in (copy.copy(made), copy.deepcopy(made), pickle.loads(pickle.dumps(made))):
+                self.assertEqual(other, made)
+        self.assertNotEqual(mbd.PipeDef(), mbd.PipeDef(length=2.0))
+        self.assertNotEqual(mbd.Term(table=[(0, 1), (2, 5)]), mbd.Term(table=[(0, 1), (2, 6)]))
+
+    def test_table_as_pairs_or_columns(self):
+        pairs = mbd.Term(table=[(0, 1), (2, 5)])
+        self.assertEqual(mbd.Term(table=([0, 2], [1, 5])), pairs)
+        self.assertEqual(mbd.Term(table=((0, 1), (2, 5))), pairs)
+        if mbd.numpy is not None:
+            times, values = mbd.numpy.array([0.0, 2.0]), mbd.numpy.array([1.0, 5.0])
+            self.assertEqual(mbd.Term(table=(times, values)), pairs)
+            self.assertEqual(mbd.Term(table=mbd.numpy.array([[0.0, 1.0], [2.0, 5.0]])), pairs)
+        with self.assertRaises(ValueError):
+            mbd.Term(table=([0, 1, 2], [1, 5]))
+
+    def test_models_copy_and_pickle(self):
+        model, string, feed = full_model()
+        expected = hash_after(model)
+        for other in (copy.copy(model), copy.deepcopy(model), pickle.loads(pickle.dumps(model))):
+            self.assertTrue(other.same_scene(model))
+            self.assertEqual(hash_after(other), expected)
+            with other.sim() as sim:
+                sim.step(1e-3)
+                self.assertGreater(sim.drive(other.own(feed)).speed, 0.0)
+                self.assertGreater(sim.pose(other.own(mbd.station(string, 3, 1.0))).depth, 3.0)
+                with self.assertRaises(mbd.Error):
+                    sim.drive(feed)  # the id of another model
+        different = mbd.Model()
+        different.add_pipes(3)
+        self.assertFalse(different.same_scene(model))
+
+    def test_failed_calls_are_not_described(self):
+        model = mbd.Model()
+        with self.assertRaises(mbd.Error):
+            model.add_wall(diameter=-1.0)
+        self.assertEqual(model.calls, [])
+
+    def test_lambda_does_not_pickle(self):
+        model = mbd.Model()
+        model.add_programme(lambda time: time)
+        with self.assertRaises((pickle.PicklingError, AttributeError)):
+            pickle.dumps(model)
+
+    def test_sim_says_how_it_is_kept(self):
+        model, _, _ = full_model()
+        with model.sim() as sim, self.assertRaisesRegex(TypeError, "snapshot"):
+            pickle.dumps(sim)
+
+
+class RunTest(unittest.TestCase):
+    def setUp(self):
+        self.model = mbd.Model()
+        self.string = self.model.add_pipes(3)
+        self.model.add_drive(programme=self.model.add_programme(0.01))
+        self.model.compile()
+        self.sim = self.model.sim()
+
+    def test_equal_steps(self):
+        by_hand = self.model.sim()
+        for _ in range(20):
+            by_hand.step(1e-3)
+        done = self.sim.run(0.02, step=1e-3)
+        self.assertEqual(done.steps, 20)
+        self.assertAlmostEqual(self.sim.time, 0.02)
+        self.assertAlmostEqual(self.sim.pose(mbd.station(self.string)).displacement[0],
+                               by_hand.pose(mbd.station(self.string)).displacement[0])
+
+    def test_last_step_is_shorter(self):
+        self.sim.run(0.0025, step=1e-3)
+        self.assertEqual(self.sim.time, 0.0025)
+        self.assertEqual(self.sim.statistics().steps, 3)
+
+    def test_steps_of_its_own(self):
+        self.assertEqual(self.sim.run(0.05).fraction, 1.0)
+        self.assertEqual(self.sim.time, 0.05)
+        self.assertEqual(self.sim.run(0.05).steps, 0)
+
+    def test_bounded_advances_go_on(self):
+        with self.model.sim(max_steps=2, step_max=1e-4) as sim:
+            sim.run(0.01)
+            self.assertEqual(sim.time, 0.01)
+
+    def test_progress_stops(self):
+        seen = []
+
+        def progress(at):
+            seen.append(at)
+            return at.time > 0.005
+
+        done = self.sim.run(0.1, step=1e-3, progress=progress, every=0.0)
+        self.assertAlmostEqual(done.time, 0.006)
+        self.assertEqual([at.steps for at in seen], list(range(1, 7)))
+        self.assertGreater(seen[-1].real_time_factor, 0.0)
+
+    def test_recorder_in_a_run(self):
+        recorder = self.sim.recorder([(self.string, mbd.CHANNEL_POSITION_X, "rig end [m]")], capacity=100)
+        self.sim.run(0.01, step=1e-3, recorder=recorder)
+        self.assertEqual(len(recorder), 11)
+        self.assertEqual(recorder.columns, ["time [s]", "rig end [m]"])
+
+    def test_interrupt_leaves_what_is_done(self):
+        recorder = self.sim.recorder([(self.string, mbd.CHANNEL_POSITION_X)], capacity=10 ** 6)
+        threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            self.sim.run(1e3, step=1e-3, recorder=recorder)
+        self.assertGreater(len(recorder), 1)
+        reached = self.sim.time
+        self.sim.step(1e-3)
+        self.assertGreater(self.sim.time, reached)
+
+    @there("numpy")
+    def test_table_shares_memory(self):
+        recorder = self.sim.recorder([(self.string, mbd.CHANNEL_POSITION_X)], capacity=5)
+        recorder.take()
+        table = recorder.table
+        self.assertTrue(mbd.numpy.shares_memory(table, recorder._memory))
+        del recorder
+        gc.collect()
+        self.assertEqual(table.shape, (1, 2))
+
+
+class ArraysTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.model = mbd.Model()
+        cls.model.add_wall(diameter=0.094)
+        cls.string = cls.model.add_string(start_free=mbd.FREE_NONE)
+        cls.model.add_pipes(10, string=cls.string)
+        cls.model.compile()
+        cls.sim = cls.model.sim()
+        cls.sim.static()
+        cls.places = [mbd.station(cls.string, i, 1.0) for i in range(10)]
+
+    @there("numpy")
+    def test_profile(self):
+        found = self.sim.profile(self.string, 10)
+        self.assertEqual(found.position.shape, (21, 3))
+        self.assertEqual(found.force.shape, (21, 6))
+        self.assertAlmostEqual(found.along[-1], 10.0, 3)
+        self.assertAlmostEqual(found.contact_force.sum(), self.sim.contact_sum().normal_force)
+        with self.assertRaises(ValueError):
+            self.sim.profile(self.string, 10, 0)
+
+    @there("numpy")
+    def test_shapes(self):
+        modes = self.sim.modes(count=6, contact=mbd.CONTACT_OPEN)
+        shapes = modes.shapes(0, self.places)
+        self.assertEqual(shapes.shape, (10, 6))
+        self.assertEqual(shapes[4, 1], complex(modes.shape(0, self.places[4]).re[1], modes.shape(0, self.places[4]).im[1]))
+        self.assertEqual(list(modes.frequencies), sorted(mode.frequency for mode in modes))
+
+    @there("numpy", "pandas")
+    def test_frames(self):
+        frame = self.sim.profile(self.string, 10).frame()
+        self.assertEqual(frame.shape[0], 21)
+        self.assertIn("axial force [N]", frame.columns)
+        recorder = self.model.sim().recorder([(self.places[9], mbd.CHANNEL_POSITION_Z)], capacity=4)
+        recorder.take()
+        self.assertTrue(recorder.frame().columns[1].endswith("[m]"))
+        self.assertIn("frequency [Hz]", self.sim.modes(count=3, contact=mbd.CONTACT_OPEN).frame().columns)
+
+    @there("numpy", "matplotlib.pyplot")
+    def test_pictures(self):
+        import matplotlib
+        matplotlib.use("Agg")
+        from drillmbd import plots
+        profile = self.sim.profile(self.string, 10)
+        modes = self.sim.modes(count=4, contact=mbd.CONTACT_OPEN)
+        response = self.sim.response([mbd.Input(place=self.places[9], component=mbd.Z)],
+                                     [mbd.Output(place=self.places[9], component=mbd.Z)], points=20,
+                                     contact=mbd.CONTACT_OPEN)
+        band = mbd.SpeedBand(low=2.0, high=3.0)
+        figures = [plots.profile(profile, "statics"), plots.string(profile, 0.094),
+                   plots.shapes(modes, self.places, [i + 1.0 for i in range(10)]), plots.response(response, ["tip [m/N]"]),
+                   plots.severity([1.0, 2.0, 3.0], [0.1, 2.0, 0.3], [band]),
+                   plots.history(mbd.numpy.zeros((3, 3)), ["time [s]", "a [m]", "b [N]"]),
+                   plots.buckling(modes.shapes(0, self.places).real, range(10), 2.5)]
+        with tempfile.TemporaryDirectory() as folder:
+            for number, figure in enumerate(figures):
+                for axes in figure.axes:
+                    self.assertTrue(axes.get_xlabel() or axes.get_ylabel() or axes.get_shared_x_axes())
+                path = pathlib.Path(folder, f"{number}.png")
+                figure.savefig(path)
+                self.assertGreater(path.stat().st_size, 5000)
+        matplotlib.pyplot.close("all")
+
+
+class GrowthTest(unittest.TestCase):
+    """10000 cycles by measure.py; here a part of them."""
+
+    def test_cycles_do_not_grow(self):
+        def cycle():
+            model = mbd.Model()
+            string = model.add_string(start_free=mbd.FREE_X)
+            model.add_drive(part=model.add_pipes(2, string=string), programme=model.add_programme(ramp))
+            model.compile()
+            with model.sim() as sim:
+                sim.step(1e-3)
+                sim.static()
+                copy.copy(model).close()
+
+        for _ in range(100):
+            cycle()
+        gc.collect()
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        for _ in range(400):
+            cycle()
+        gc.collect()
+        self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 1024)  # [KiB]
+
+
+if __name__ == "__main__":
+    unittest.main()
