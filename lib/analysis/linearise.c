@@ -53,18 +53,32 @@ static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *optio
     return status < 0 ? status : dmb_linear_take_damping(linear);
 }
 
+/* What is left over may be rounding of poses, which the stiffness tells. */
+static int32_t judge_rounding(dmb_linear *linear)
+{
+    linear->work->linked_mode->multipliers = 1;
+    const int32_t status = dmb_linear_take_stiffness_and_mass(linear);
+    linear->work->linked_mode->multipliers = 0;
+    dmb_linear_judge_rounding(linear);
+    return status;
+}
+
 static int32_t linearise(dmb_linear *linear, const dmb_linear_options *options)
 {
     dmb_sim *work = linear->work;
     if (options->spin != 0.0) spin_strings(work, options->spin);
     int32_t status = settle(work);
     if (status >= 0) status = dmb_linear_take_balance(linear);
+    if (status >= 0 && !linear->balanced) status = take_multipliers(work);
+    if (status >= 0 && !linear->balanced) status = judge_rounding(linear);
+    if (status >= 0) dmb_linear_take_steady_accelerations(linear);
     if (status >= 0) status = take_multipliers(work);
     if (status >= 0) status = take_matrices(linear, options);
     work->linked_mode->multipliers = 0;
     if (status < 0) return status;
     dmb_linear_judge_rounding(linear);
     dmb_linear_turn_frames(linear, options->still);
+    dmb_linear_take_stiffness_size(linear);
     return dmb_linear_make_coordinates(linear);
 }
 

@@ -65,7 +65,9 @@ typedef struct dmb_linear {
     double largest_force;      /* [N, N m over the element length] largest entry of it that a node feels */
     uint32_t largest_node;     /* where */
     int32_t balanced;          /* 1: what is left is rounding, or below DMB_LINEAR_BALANCED */
+    int32_t slides;            /* 1: axes at rest balance it better than body-frame velocities that stay as they are */
     uint32_t rows;             /* of the scene */
+    double *stiffness_size;    /* [N/m, N m] |K_ii| with the joints' parts, shape (rows) */
     uint32_t coordinates;      /* length of z */
     uint32_t *row_of;          /* row that coordinate i is the displacement of, ascending, shape (coordinates) */
     uint32_t *start, *column;  /* R by rows: entries start[row] .. start[row + 1] - 1 */
@@ -110,8 +112,8 @@ void dmb_linear_restrict(const dmb_linear *linear, const double *f, double *g);
 void dmb_linear_restrict_terms(const dmb_linear *linear, const double *f, double *g);
 /* R^T A R, shape (coordinates, coordinates), column by column; work: shape (2 rows + coordinates). */
 void dmb_linear_dense(const dmb_linear *linear, const dmb_linear_matrix *A, double *work, double *out);
-/* [-] |x.Ky - y.Kx| for x, y of random signs over the roots of the diagonal: of rounding size where K is symmetric. */
-double dmb_linear_asymmetry(const dmb_linear *linear, const dmb_linear_matrix *A, double *work);
+/* [-] |x.Ky - y.Kx| for x, y of random signs over the roots of the stiffness: of rounding size where K is symmetric. */
+double dmb_linear_asymmetry(const dmb_linear *linear, double *work);
 
 /* Factors k K + c C + m M in `work`: block-tridiagonal, block-sparse where joints connect. Node of a singular block, or
  * -1; weakest may be NULL. */

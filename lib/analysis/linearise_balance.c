@@ -80,7 +80,8 @@ int32_t dmb_linear_take_balance(dmb_linear *linear)
     if (status >= 0) status = balance_of(linear, 0, &rigid);
     if (status < 0) return status;
     best = rigid;
-    if (!rigid.converged && sliding.relative < rigid.relative) {
+    linear->slides = !rigid.converged && sliding.relative < rigid.relative;
+    if (linear->slides) {
         status = balance_of(linear, 1, &sliding);
         best = sliding;
     }
@@ -92,22 +93,31 @@ int32_t dmb_linear_take_balance(dmb_linear *linear)
     return DMB_OK;
 }
 
+/* The accelerations of an equilibrium are those of its kind. The ones in the sim are what the residual makes of them:
+ * rounding over the masses, and through M a^ and the multipliers a stiffness where there is none. */
+void dmb_linear_take_steady_accelerations(dmb_linear *linear)
+{
+    if (!linear->balanced) return;
+    steady_accelerations(linear, linear->slides);
+    memcpy(linear->work->now.acceleration, linear->work->trial.acceleration, linear->rows * sizeof(double));
+}
+
 /* Poses are rounded where they are: eps |x| of a displacement, and through the stiffness between them sqrt(K_ii K_tt)
- * eps |x| of a force or moment, K_tt the largest of the node's translations. A string that nothing loads leaves no
- * more. */
+ * eps |x| of a force or moment, K_tt the largest of the node's translations; angles to eps. A string that nothing loads
+ * leaves no more. */
 void dmb_linear_judge_rounding(dmb_linear *linear)
 {
     const dmb_scene *scene = &linear->scene;
+    dmb_linear_take_stiffness_size(linear);
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
         double rotation[9], place[3], most = 0.0;
         dmb_node_pose(scene, &linear->work->now, i, rotation, place);
         dmb_vec3_add(place, scene->reference_position + 3 * (size_t)i, place);
-        for (uint32_t c = 0; 2 * c < size; c++)
-            most = fmax(most, fabs(dmb_linear_diagonal(linear, &linear->stiffness, i, c)));
+        for (uint32_t c = 0; 2 * c < size; c++) most = fmax(most, linear->stiffness_size[row + c]);
         for (uint32_t c = 0; c < size; c++) {
-            const double own = fabs(dmb_linear_diagonal(linear, &linear->stiffness, i, c));
-            const double rounding = DMB_LINEAR_ROUNDING * dmb_vec3_norm(place) * sqrt(own * most);
+            const double own = linear->stiffness_size[row + c], angle = 2 * c < size ? 0.0 : own;
+            const double rounding = DMB_LINEAR_ROUNDING * (dmb_vec3_norm(place) * sqrt(own * most) + angle);
             if (scene->solved_row[row + c] && !(fabs(linear->unbalanced[row + c]) <= rounding)) return;
         }
     }

@@ -29,6 +29,7 @@ static void lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_linear *to)
     lay_out_matrix(arena, scene, &to->stiffness);
     to->spin = DMB_ARENA_DOUBLES(arena, rows);
     to->rest = DMB_ARENA_DOUBLES(arena, rows);
+    to->stiffness_size = DMB_ARENA_DOUBLES(arena, rows);
     to->unbalanced = DMB_ARENA_DOUBLES(arena, rows);
     to->row_of = DMB_ARENA_ARRAY(arena, uint32_t, rows);
     to->start = DMB_ARENA_ARRAY(arena, uint32_t, rows + 1);

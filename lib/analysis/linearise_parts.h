@@ -12,6 +12,8 @@ dmb_linear *dmb_linear_allocate(const dmb_sim *sim);
 dmb_evaluation dmb_linear_evaluation(dmb_sim *work);
 /* What forces leave over where body-frame velocities stay as they are. */
 int32_t dmb_linear_take_balance(dmb_linear *linear);
+/* Of a state that is balanced. */
+void dmb_linear_take_steady_accelerations(dmb_linear *linear);
 /* What is left is balanced where it is no more than rounding of the poses; K is there. */
 void dmb_linear_judge_rounding(dmb_linear *linear);
 
@@ -24,6 +26,8 @@ void dmb_linear_add(const dmb_scene *scene, double factor, const dmb_linear_matr
 /* to += factor A blkdiag(v^), v by rows; a PATH node turns about its own axis alone and has none. */
 void dmb_linear_add_products(const dmb_scene *scene, double factor, const dmb_linear_matrix *A, const double *rows,
                              dmb_linear_matrix *to);
+/* stiffness_size of the stiffness as it is. */
+void dmb_linear_take_stiffness_size(dmb_linear *linear);
 /* The blocks of stiffness of a sim. */
 dmb_linear_matrix dmb_linear_stiffness_of(const dmb_sim *work);
 /* The tangents by pose and acceleration, and after them that by velocity. */

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/linearise.h"
+#include "analysis/linearise_parts.h"
 #include "math/dot.h"
 
 static void add_joint_products(const dmb_scene *scene, const double *joints, const double *x, double *y)
@@ -92,34 +92,70 @@ void dmb_linear_dense(const dmb_linear *linear, const dmb_linear_matrix *A, doub
     }
 }
 
-/* +-1 by a linear congruential generator, over the root of the diagonal; 0 where there is none. */
-static void draw_signs(const dmb_linear *linear, const dmb_linear_matrix *A, uint64_t *seed, double *x)
+void dmb_linear_take_stiffness_size(dmb_linear *linear)
+{
+    const dmb_scene *scene = &linear->scene;
+    const dmb_block_layout *layout = &scene->layout;
+    double *size = linear->stiffness_size;
+    for (uint32_t i = 0; i < layout->n; i++)
+        for (uint32_t c = 0; c < layout->size[i]; c++)
+            size[layout->row[i] + c] = dmb_linear_diagonal(linear, &linear->stiffness, i, c);
+    for (uint32_t i = 0; i < scene->constraint_count; i++) {
+        const dmb_constraint *c = scene->constraints + i;
+        const double *A = linear->stiffness.joints + c->tangent;
+        for (uint32_t k = 0; k < c->node_count; k++)
+            for (uint32_t r = c->column[k]; r < c->column[k] + layout->size[c->node[k]]; r++)
+                size[layout->row[c->node[k]] + r - c->column[k]] += A[(size_t)r * c->columns + r];
+    }
+    for (uint32_t r = 0; r < linear->rows; r++) size[r] = fabs(size[r]);
+}
+
+/* Largest |K_ii|, of rotations over the square of the length scale. */
+static double largest_stiffness(const dmb_linear *linear, double turning)
 {
     const dmb_block_layout *layout = &linear->scene.layout;
+    double most = 0.0;
+    for (uint32_t i = 0; i < layout->n; i++)
+        for (uint32_t c = 0; c < layout->size[i]; c++)
+            most = fmax(most, linear->stiffness_size[layout->row[i] + c] / (2 * c < layout->size[i] ? 1.0 : turning));
+    return most;
+}
+
+/* A stiffness below this part of the largest one has rounding of that in it, of 1e-11 of it. */
+#define DMB_STIFFNESS_SMALL 1e-5
+
+/* +-1 by a linear congruential generator, over the root of the stiffness; 0 where there is none. */
+static void draw_signs(const dmb_linear *linear, uint64_t *seed, double *x)
+{
+    const dmb_block_layout *layout = &linear->scene.layout;
+    const double turning = linear->scene.length_scale * linear->scene.length_scale;
+    const double least = DMB_STIFFNESS_SMALL * largest_stiffness(linear, turning);
     for (uint32_t i = 0; i < layout->n; i++)
         for (uint32_t c = 0; c < layout->size[i]; c++) {
-            const double size = fabs(A->diagonal[layout->diag[i] + (layout->size[i] + 1) * c]);
+            const uint32_t row = layout->row[i] + c;
+            const double size = fmax(linear->stiffness_size[row], least * (2 * c < layout->size[i] ? 1.0 : turning));
             *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-            x[layout->row[i] + c] = size > 0.0 ? ((*seed >> 40 & 1) != 0 ? 1.0 : -1.0) / sqrt(size) : 0.0;
+            x[row] = size > 0.0 ? ((*seed >> 40 & 1) != 0 ? 1.0 : -1.0) / sqrt(size) : 0.0;
         }
 }
 
 /* Signs on the coordinates, carried on to the rows that joints make dependent. */
-static void draw(const dmb_linear *linear, const dmb_linear_matrix *A, uint64_t *seed, double *z, double *x)
+static void draw(const dmb_linear *linear, uint64_t *seed, double *z, double *x)
 {
-    draw_signs(linear, A, seed, x);
+    draw_signs(linear, seed, x);
     for (uint32_t i = 0; i < linear->coordinates; i++) z[i] = x[linear->row_of[i]];
     dmb_linear_expand(linear, z, x);
 }
 
-double dmb_linear_asymmetry(const dmb_linear *linear, const dmb_linear_matrix *A, double *work)
+double dmb_linear_asymmetry(const dmb_linear *linear, double *work)
 {
     const size_t rows = linear->rows;
+    const dmb_linear_matrix *A = &linear->stiffness;
     double *x = work, *y = x + rows, *product = y + rows, *z = product + rows, most = 0.0;
     uint64_t seed = 1;
     for (int k = 0; k < 4; k++) {
-        draw(linear, A, &seed, z, x);
-        draw(linear, A, &seed, z, y);
+        draw(linear, &seed, z, x);
+        draw(linear, &seed, z, y);
         dmb_linear_multiply(linear, A, y, product);
         const double one = dmb_dot(rows, x, product);
         dmb_linear_multiply(linear, A, x, product);

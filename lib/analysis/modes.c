@@ -21,12 +21,12 @@ static void measure(dmb_mode_search *search)
     for (uint32_t i = 0; i < layout->n; i++)
         for (uint32_t c = 0; c < layout->size[i]; c++) {
             const double m = dmb_linear_diagonal(linear, &linear->mass, i, c);
-            if (m > 0.0) most = fmax(most, fabs(dmb_linear_diagonal(linear, &linear->stiffness, i, c)) / m);
+            if (m > 0.0) most = fmax(most, linear->stiffness_size[layout->row[i] + c] / m);
         }
     search->noise = DMB_NOISE * most;
     search->modes->info.unbalance = linear->unbalance;
     search->modes->info.coordinates = linear->coordinates;
-    search->modes->info.asymmetry = dmb_linear_asymmetry(linear, &linear->stiffness, search->work);
+    search->modes->info.asymmetry = dmb_linear_asymmetry(linear, search->work);
     if (search->options->kind == DMB_MODES_UNDAMPED) dmb_linear_clear(search->linear, &search->linear->damping);
     search->general =
         search->options->kind == DMB_MODES_DAMPED || !(search->modes->info.asymmetry <= DMB_MODES_ASYMMETRY);
@@ -87,24 +87,6 @@ static int32_t check_count(const dmb_mode_search *search)
     return DMB_ERR_VALUE;
 }
 
-/* A mode is one only if its equations balance to rounding. */
-static int32_t check_residuals(const dmb_mode_search *search)
-{
-    const dmb_modes *modes = search->modes;
-    for (uint32_t k = 0; k < modes->count; k++) {
-        if (modes->rigid[k]) continue;
-        const dmb_mode_defect defect = dmb_modes_defect(search, k);
-        if (defect.value <= defect.bound) continue;
-        dmb_message_set(
-            search->message,
-            "modes: mode %u of %g Hz was not found sharply: residual = %g of the forces that balance in it, "
-            "must be <= %g: ask for fewer modes, another band, or all of them",
-            k, dmb_modes_size(modes, k) / 6.283185307179586, defect.value, defect.bound);
-        return DMB_ERR_NO_CONVERGENCE;
-    }
-    return DMB_OK;
-}
-
 /* The ones asked for, in order, and what is told about all of them. */
 static int32_t finish(dmb_mode_search *search)
 {
@@ -125,7 +107,7 @@ static int32_t finish(dmb_mode_search *search)
         modes->info.rigid += modes->rigid[k];
         modes->info.residual = fmax(modes->info.residual, dmb_modes_residual(search, k));
     }
-    return check_residuals(search);
+    return dmb_modes_check(search);
 }
 
 static int32_t search_modes(dmb_mode_search *search)

@@ -67,6 +67,8 @@ int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const doubl
 /* [1/s2] eigenvalue of an undamped mode x, x^T M x = 1, with the digits that its strain energy has where K x lost them.
  */
 double dmb_modes_sharpen(const dmb_mode_search *search, double square, double *x);
+/* [1/s2] twice the strain energy of a motion. */
+double dmb_modes_twice_strain_energy(const dmb_modes *modes, double *x);
 /* Whether what was found is a root 0 of rigid-body motions once more, y NULL: x is real. */
 int dmb_modes_is_rigid_root(const dmb_mode_search *search, double re, double im, const double *x, const double *y);
 /* [1/s] |s| of mode i. */
@@ -85,6 +87,8 @@ int32_t dmb_modes_find(dmb_mode_search *search);
 double dmb_modes_residual(const dmb_mode_search *search, uint32_t k);
 /* The same against the forces themselves, as a vector over the roots of the masses of its coordinates. */
 dmb_mode_defect dmb_modes_defect(const dmb_mode_search *search, uint32_t k);
+/* Whether every mode is one. DMB_ERR_NO_CONVERGENCE. */
+int32_t dmb_modes_check(dmb_mode_search *search);
 /* Makes those sharper that leave more than they may. DMB_ERR_NO_MEMORY. */
 int32_t dmb_modes_polish(dmb_mode_search *search);
 void dmb_modes_weigh_coordinates(const dmb_mode_search *search);

@@ -32,7 +32,7 @@ static double norm_of_terms(const dmb_linear *linear, const double *x, double sq
     double sum = 0.0;
     for (uint32_t i = 0; i < layout->n; i++)
         for (uint32_t c = 0; c < layout->size[i]; c++) {
-            const double k = fabs(dmb_linear_diagonal(linear, &linear->stiffness, i, c));
+            const double k = linear->stiffness_size[layout->row[i] + c];
             const double m = dmb_linear_diagonal(linear, &linear->mass, i, c), z = x[layout->row[i] + c];
             sum += (k + square * m) * (k + square * m) * z * z;
         }
@@ -107,7 +107,7 @@ dmb_mode_defect dmb_modes_defect(const dmb_mode_search *search, uint32_t k)
     const dmb_linear *linear = search->linear;
     const dmb_modes *modes = search->modes;
     const size_t rows = linear->rows;
-    const double *s = modes->s + 2 * (size_t)k, size = hypot(s[0], s[1]);
+    const double *s = modes->s + 2 * (size_t)k;
     const int parts = modes->im != NULL ? 2 : 1, damped = search->options->kind == DMB_MODES_DAMPED;
     const dmb_linear_matrix *matrix[3] = {&linear->stiffness, &linear->mass, damped ? &linear->damping : NULL};
     const double factor[3][2] = {{1.0, 0.0}, {s[0] * s[0] - s[1] * s[1], 2.0 * s[0] * s[1]}, {s[0], s[1]}};
@@ -130,10 +130,67 @@ dmb_mode_defect dmb_modes_defect(const dmb_mode_search *search, uint32_t k)
         for (int part = 0; part < parts && matrix[m] != NULL; part++)
             add_terms(linear, matrix[m], hypot(factor[m][0], factor[m][1]), (part ? modes->im : modes->re) + rows * k,
                       one, terms);
-    (void)size;
     double rounding = DBL_EPSILON * norm_of(search, terms, NULL, 1);
     if (modes->info.dense) rounding += search->noise;
     defect.value = forces > 0.0 ? defect.value / forces : 0.0;
     defect.bound = DMB_MODE_CONVERGED + (forces > 0.0 ? DMB_MODE_ROUNDING * rounding / forces : 0.0);
     return defect;
+}
+
+/* ---- Refusal ----------------------------------------------------------------------------------------------------- */
+
+/* Where forces are rounding, the root may still be told by the strain: with d^H M d = 1 and e twice its energy,
+ * s^2 + s d^H C d + e = 0, unless most of the stiffness is not of strain. */
+#define DMB_ENERGY_TELLS 0.5
+
+static int energy_tells(const dmb_mode_search *search, uint32_t k)
+{
+    const dmb_linear *linear = search->linear;
+    const dmb_modes *modes = search->modes;
+    const size_t rows = linear->rows;
+    double *x = modes->re + rows * k, *y = modes->im != NULL ? modes->im + rows * k : NULL;
+    double *Cx = search->work, *Cy = Cx + rows, c[2] = {0.0, 0.0};
+    const double *s = modes->s + 2 * (size_t)k;
+    if (search->options->kind == DMB_MODES_DAMPED) {
+        dmb_linear_multiply(linear, &linear->damping, x, Cx);
+        c[0] = dmb_dot(rows, x, Cx);
+        if (y != NULL) {
+            dmb_linear_multiply(linear, &linear->damping, y, Cy);
+            c[0] += dmb_dot(rows, y, Cy);
+            c[1] = dmb_dot(rows, x, Cy) - dmb_dot(rows, y, Cx);
+        }
+    }
+    const double e =
+        dmb_modes_twice_strain_energy(modes, x) + (y != NULL ? dmb_modes_twice_strain_energy(modes, y) : 0.0);
+    const double re = s[0] * s[0] - s[1] * s[1] + s[0] * c[0] - s[1] * c[1] + e;
+    const double im = 2.0 * s[0] * s[1] + s[0] * c[1] + s[1] * c[0];
+    const double size = hypot(s[0], s[1]);
+    return hypot(re, im) <= DMB_ENERGY_TELLS * (size * size + size * hypot(c[0], c[1]) + e);
+}
+
+/* A mode is one only if its equations balance to rounding, and only where its forces are more than that. */
+int32_t dmb_modes_check(dmb_mode_search *search)
+{
+    const dmb_modes *modes = search->modes;
+    for (uint32_t k = 0; k < modes->count; k++) {
+        const double frequency = dmb_modes_size(modes, k) / 6.283185307179586;
+        if (modes->rigid[k]) continue;
+        const dmb_mode_defect defect = dmb_modes_defect(search, k);
+        if (!(defect.value <= defect.bound)) {
+            dmb_message_set(
+                search->message,
+                "modes: mode %u of %g Hz was not found sharply: residual = %g of the forces that balance in it, "
+                "must be <= %g: ask for fewer modes, another band, or all of them",
+                k, frequency, defect.value, defect.bound);
+            return DMB_ERR_NO_CONVERGENCE;
+        }
+        if (defect.bound < 1.0 || energy_tells(search, k)) continue;
+        dmb_message_set(
+            search->message,
+            "modes: mode %u of %g Hz cannot be told from a rigid-body motion: rounding is %g of its forces, must be "
+            "< 1: hold what may move freely, soften what is stiffest, or ask for a band above it",
+            k, frequency, defect.bound);
+        return DMB_ERR_NO_CONVERGENCE;
+    }
+    return DMB_OK;
 }

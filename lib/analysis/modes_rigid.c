@@ -188,6 +188,20 @@ static void add_unbalanced(const conditions *c)
     }
 }
 
+/* Frames turn a stiffness and its rounding into all rows of a node. */
+static void add_rounding(const conditions *c)
+{
+    const dmb_block_layout *layout = &c->linear->scene.layout;
+    const double arm = c->linear->scene.length_scale;
+    for (uint32_t i = 0; i < layout->n; i++) {
+        const uint32_t size = layout->size[i], row = layout->row[i];
+        double most = 0.0;
+        for (uint32_t k = 0; k < size; k++) most = fmax(most, c->terms_d[row + k] / (2 * k < size ? 1.0 : arm));
+        most *= DMB_RIGID_AWAY / c->tolerance;
+        for (uint32_t k = 0; k < size; k++) c->terms_d[row + k] += most * (2 * k < size ? 1.0 : arm);
+    }
+}
+
 /* R^T K d */
 static int32_t put_forces(conditions *c, uint32_t candidate)
 {
@@ -195,6 +209,7 @@ static int32_t put_forces(conditions *c, uint32_t candidate)
     int32_t status = DMB_OK;
     dmb_linear_multiply(linear, &linear->stiffness, c->d, c->Kd);
     dmb_linear_terms(linear, &linear->stiffness, c->d, c->terms_d);
+    add_rounding(c);
     add_unbalanced(c);
     dmb_linear_restrict(linear, c->Kd, c->g);
     dmb_linear_restrict_terms(linear, c->terms_d, c->terms_g);

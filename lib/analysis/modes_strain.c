@@ -8,7 +8,7 @@
 /* Rounding of d^H K d in units of its terms: their number is in the hundreds of thousands at most. */
 #define DMB_SHARPEN_UNITS 64.0
 
-static double strain_energy(const dmb_modes *modes, double *rows)
+double dmb_modes_twice_strain_energy(const dmb_modes *modes, double *rows)
 {
     dmb_configuration moved = modes->state->now;
     double sum = 0.0;
@@ -17,7 +17,7 @@ static double strain_energy(const dmb_modes *modes, double *rows)
         const dmb_element_type *type = modes->state->scene->types + modes->state->scene->element_type[e];
         double rate[6];
         dmb_element_strain_rate(modes->state->scene, &moved, e, rate);
-        for (int i = 0; i < 6; i++) sum += 0.5 * type->stiffness[i] * rate[i] * rate[i];
+        for (int i = 0; i < 6; i++) sum += type->stiffness[i] * rate[i] * rate[i];
     }
     return sum;
 }
@@ -32,8 +32,8 @@ double dmb_modes_sharpen(const dmb_mode_search *search, double square, double *x
     for (uint32_t i = 0; i < linear->scene.node_count; i++)
         for (uint32_t c = 0; c < linear->scene.layout.size[i]; c++) {
             const double z = x[linear->scene.layout.row[i] + c];
-            terms += fabs(dmb_linear_diagonal(linear, &linear->stiffness, i, c)) * z * z;
+            terms += linear->stiffness_size[linear->scene.layout.row[i] + c] * z * z;
         }
-    const double twice = 2.0 * strain_energy(search->modes, x);
+    const double twice = dmb_modes_twice_strain_energy(search->modes, x);
     return fabs(square - twice) <= DMB_SHARPEN_UNITS * DBL_EPSILON * terms ? twice : square;
 }
