@@ -95,6 +95,13 @@ static inline double dmb_linear_diagonal(const dmb_linear *linear, const dmb_lin
     const dmb_block_layout *layout = &linear->scene.layout;
     return A->diagonal[layout->diag[node] + (size_t)(layout->size[node] + 1) * c];
 }
+/* Of a displacement 1, of a rotation the square of the length scale. */
+static inline double dmb_linear_weight(const dmb_linear *linear, uint32_t node, uint32_t c)
+{
+    return 2 * c < linear->scene.layout.size[node] ? 1.0 : linear->scene.length_scale * linear->scene.length_scale;
+}
+/* [N/m] per weight, what a stiffness is measured by that is less: such a one may be rounding of others. */
+double dmb_linear_stiffness_at_least(const dmb_linear *linear);
 /* [N/m] that DMB_LINEAR_CONTACT_CLOSED has put behind ring number `site`, which does not touch; 0: nothing. */
 double dmb_linear_wall_stiffness(const dmb_linear *linear, uint32_t site, double gap);
 

@@ -110,30 +110,28 @@ void dmb_linear_take_stiffness_size(dmb_linear *linear)
     for (uint32_t r = 0; r < linear->rows; r++) size[r] = fabs(size[r]);
 }
 
-/* Largest |K_ii|, of rotations over the square of the length scale. */
-static double largest_stiffness(const dmb_linear *linear, double turning)
+/* A stiffness below this part of the largest one has rounding of that in it, of 1e-11 of it. */
+#define DMB_STIFFNESS_SMALL 1e-5
+
+double dmb_linear_stiffness_at_least(const dmb_linear *linear)
 {
     const dmb_block_layout *layout = &linear->scene.layout;
     double most = 0.0;
     for (uint32_t i = 0; i < layout->n; i++)
         for (uint32_t c = 0; c < layout->size[i]; c++)
-            most = fmax(most, linear->stiffness_size[layout->row[i] + c] / (2 * c < layout->size[i] ? 1.0 : turning));
-    return most;
+            most = fmax(most, linear->stiffness_size[layout->row[i] + c] / dmb_linear_weight(linear, i, c));
+    return DMB_STIFFNESS_SMALL * most;
 }
-
-/* A stiffness below this part of the largest one has rounding of that in it, of 1e-11 of it. */
-#define DMB_STIFFNESS_SMALL 1e-5
 
 /* +-1 by a linear congruential generator, over the root of the stiffness; 0 where there is none. */
 static void draw_signs(const dmb_linear *linear, uint64_t *seed, double *x)
 {
     const dmb_block_layout *layout = &linear->scene.layout;
-    const double turning = linear->scene.length_scale * linear->scene.length_scale;
-    const double least = DMB_STIFFNESS_SMALL * largest_stiffness(linear, turning);
+    const double least = dmb_linear_stiffness_at_least(linear);
     for (uint32_t i = 0; i < layout->n; i++)
         for (uint32_t c = 0; c < layout->size[i]; c++) {
             const uint32_t row = layout->row[i] + c;
-            const double size = fmax(linear->stiffness_size[row], least * (2 * c < layout->size[i] ? 1.0 : turning));
+            const double size = fmax(linear->stiffness_size[row], least * dmb_linear_weight(linear, i, c));
             *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
             x[row] = size > 0.0 ? ((*seed >> 40 & 1) != 0 ? 1.0 : -1.0) / sqrt(size) : 0.0;
         }

@@ -29,10 +29,11 @@ static void add_product(const dmb_linear *linear, const dmb_linear_matrix *A, do
 static double norm_of_terms(const dmb_linear *linear, const double *x, double square)
 {
     const dmb_block_layout *layout = &linear->scene.layout;
+    const double least = dmb_linear_stiffness_at_least(linear);
     double sum = 0.0;
     for (uint32_t i = 0; i < layout->n; i++)
         for (uint32_t c = 0; c < layout->size[i]; c++) {
-            const double k = linear->stiffness_size[layout->row[i] + c];
+            const double k = fmax(linear->stiffness_size[layout->row[i] + c], least * dmb_linear_weight(linear, i, c));
             const double m = dmb_linear_diagonal(linear, &linear->mass, i, c), z = x[layout->row[i] + c];
             sum += (k + square * m) * (k + square * m) * z * z;
         }

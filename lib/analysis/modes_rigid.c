@@ -2,7 +2,8 @@
  *
  * Parts are runs of nodes that elements connect. A part of nodes that move freely has six candidates, translations
  * along the axes of the world and rotations about them through its middle, d = Ad(H^-1) xi at each node; one on the
- * axis of a hole has two. With B the candidates of all parts, the motions sought are B q with
+ * axis of a hole has two. A string that is bent may turn about its own axis, section by section: what is round and
+ * was straight has no stiffness against that, which is therefore one more candidate. With B the candidates of all parts, the motions sought are B q with
  *
  *     (1 - R E) B q = 0     joints and guides let it happen (E takes the coordinates out of d),
  *     R^T K B q = 0         nothing that acts in the state turns it back.
@@ -27,6 +28,8 @@
 #define DMB_RIGID_AWAY (16.0 * DBL_EPSILON)
 /* Forces that the state leaves over turn with a motion. */
 #define DMB_RIGID_UNBALANCED 8.0
+/* [rad] A string turns about its own axis otherwise than as a rigid body where it is bent by so much. */
+#define DMB_RIGID_BENT 1e-6
 /* The conditions are dense in the candidates: 200 parts. */
 enum { DMB_CANDIDATES_MAX = 1200 };
 
@@ -39,6 +42,8 @@ typedef struct rigid_part {
     uint32_t first, count; /* nodes */
     uint32_t candidate;    /* number of its first one */
     uint32_t candidates;
+    int32_t full;           /* 1: of nodes that move freely */
+    double bend;            /* [rad] largest angle between the axes of its nodes and that of the first */
     double middle[3], size; /* [m] */
 } rigid_part;
 
@@ -69,11 +74,15 @@ static void node_place(const dmb_linear *linear, uint32_t node, double rotation[
 
 static void measure_part(conditions *c, rigid_part *p)
 {
-    double rotation[9], place[3], away = 0.0;
+    double rotation[9], place[3], axis[3], first[3] = {0.0, 0.0, 0.0}, away = 0.0;
     for (uint32_t i = p->first; i < p->first + p->count; i++) {
         node_place(c->linear, i, rotation, place);
         for (int k = 0; k < 3; k++) p->middle[k] += place[k] / p->count;
         away = fmax(away, dmb_vec3_norm(place));
+        for (int k = 0; k < 3; k++) axis[k] = rotation[3 * k];
+        if (i == p->first) dmb_vec3_copy(axis, first);
+        dmb_vec3_sub(axis, first, axis);
+        p->bend = fmax(p->bend, dmb_vec3_norm(axis));
     }
     p->size = p->count > 1 ? 0.0 : c->linear->scene.chains[c->linear->scene.node_chain[p->first]].length;
     for (uint32_t i = p->first; i < p->first + p->count; i++) {
@@ -102,9 +111,10 @@ static void find_parts(conditions *c)
     for (uint32_t k = 0; k < c->part_count; k++) {
         rigid_part *p = c->parts + k;
         p->candidate = c->candidates;
-        p->candidates = scene->layout.size[p->first];
-        c->candidates += p->candidates;
+        p->full = scene->layout.size[p->first] == DMB_NODE_FULL;
         measure_part(c, p);
+        p->candidates = scene->layout.size[p->first] + (p->full && p->bend > DMB_RIGID_BENT ? 1U : 0U);
+        c->candidates += p->candidates;
     }
 }
 
@@ -113,11 +123,11 @@ static void add_candidate(const conditions *c, const rigid_part *p, uint32_t can
 {
     const dmb_block_layout *layout = &c->linear->scene.layout;
     double turn[3] = {0.0, 0.0, 0.0};
-    if (p->candidates == DMB_NODE_FULL && candidate >= 3) turn[candidate - 3] = factor / p->size;
+    if (p->full && candidate >= 3 && candidate < DMB_NODE_FULL) turn[candidate - 3] = factor / p->size;
     for (uint32_t i = p->first; i < p->first + p->count; i++) {
         double rotation[9], arm[3], shift[3], local[3], *to = d + layout->row[i];
-        if (p->candidates != DMB_NODE_FULL) {
-            to[candidate] += factor;
+        if (!p->full || candidate == DMB_NODE_FULL) {
+            to[p->full ? 3 : candidate] += p->full ? factor / p->size : factor;
             continue;
         }
         node_place(c->linear, i, rotation, arm);
@@ -354,6 +364,9 @@ static void motion_of(const conditions *c, const double *q, double *r)
     dmb_linear_expand(linear, c->g, r);
 }
 
+/* So little of a motion is beside those before it where it is one of them again. */
+#define DMB_RIGID_AGAIN 1e-6
+
 /* The motion as one more of those that are orthonormal in M. */
 static void take_motion(const conditions *c, const double *q)
 {
@@ -365,7 +378,7 @@ static void take_motion(const conditions *c, const double *q)
         if (pass > 0) dmb_modes_take_rigid(search, search->rigid_momentum, search->rigid, r);
         dmb_linear_multiply(c->linear, &c->linear->mass, r, Mr);
         const double size = sqrt(dmb_dot(rows, r, Mr));
-        if (!(size > 0.0) || !isfinite(size)) return;
+        if (!(size > (pass > 0 ? DMB_RIGID_AGAIN : 0.0)) || !isfinite(size)) return;
         for (size_t i = 0; i < rows; i++) r[i] /= size;
     }
     dmb_linear_multiply(c->linear, &c->linear->mass, r, Mr);
