@@ -1,5 +1,7 @@
 /* Time is kept as a double and its rounding, so that n steps of h end at the double next to n h: 1000 s of 1 ms at
- * 1000 s, and sums that reach a corner reach that corner. */
+ * 1000 s, and sums that reach a corner reach that corner. A step that no corner cuts has the length that was asked for, to
+ * the last bit, and not the difference of two rounded times: lengths that differ by an ulp of the time excite what a change
+ * of step excites. */
 #include "integrator/corner.h"
 
 #include <float.h>
@@ -47,26 +49,31 @@ static double length_to(const dmb_sim *sim, double time)
     return time - sim->clock->time;
 }
 
+/* [s] To the goal from the present time; as it was asked for where no part of it is done. */
+static double length_left(const dmb_sim *sim, const dmb_step_end *goal)
+{
+    return goal->begin == sim->clock->time ? goal->step : length_to(sim, goal->time);
+}
+
 dmb_step_end dmb_step_end_after(const dmb_sim *sim, double step)
 {
-    dmb_step_end end = {.arrives = 0};
+    dmb_step_end end = {.step = step, .begin = sim->clock->time};
     const double t = sim->clock->time, sum = t + step, part = sum - t;
     const double error = ((t - (sum - part)) + (step - part)) + sim->clock->rest; /* of sum; Moller, Knuth */
     end.time = sum + error;
     end.rest = (sum - end.time) + error;
-    end.step = length_to(sim, end.time);
     return end;
 }
 
 dmb_step_end dmb_step_end_at(const dmb_sim *sim, double time)
 {
-    const dmb_step_end end = {.step = length_to(sim, time), .time = time};
+    const dmb_step_end end = {.step = length_to(sim, time), .begin = sim->clock->time, .time = time};
     return end;
 }
 
 dmb_step_end dmb_step_end_before_corner(const dmb_sim *sim, const dmb_step_end *goal, double h)
 {
-    const double left = length_to(sim, goal->time), sliver = DMB_SLIVER * fmin(left, h);
+    const double left = length_left(sim, goal), sliver = DMB_SLIVER * fmin(left, h);
     const double corner = corner_ahead(sim), distance = length_to(sim, corner);
     dmb_step_end end = *goal;
     end.step = left;
@@ -85,7 +92,7 @@ dmb_step_end dmb_step_end_before_corner(const dmb_sim *sim, const dmb_step_end *
 
 dmb_step_end dmb_step_end_over_corners(const dmb_sim *sim, const dmb_step_end *goal)
 {
-    const double left = length_to(sim, goal->time), sliver = DMB_SLIVER * left;
+    const double left = length_left(sim, goal), sliver = DMB_SLIVER * left;
     const double first = corner_ahead(sim), second = next_corner(sim, first);
     const double to_first = length_to(sim, first), to_second = length_to(sim, second);
     dmb_step_end end = *goal;

@@ -6,7 +6,8 @@
 
 /* Where a step ends. */
 typedef struct dmb_step_end {
-    double step;       /* [s] its length, from time to time */
+    double step;       /* [s] its length */
+    double begin;      /* [s] of the clock where it begins */
     double time, rest; /* [s] of the clock there, and what its rounding leaves for the next sum */
     double corner;     /* [s] corner that it ends at, to within rounding or a sliver; 0: none */
     double inside;     /* [s] the one corner inside, of a step that is not divided there; 0: none */
@@ -14,7 +15,7 @@ typedef struct dmb_step_end {
     int32_t reserved;
 } dmb_step_end;
 
-/* A step of length `step` [s] from the present time, but for the rounding of times. */
+/* A step of exactly `step` [s] from the present time. */
 dmb_step_end dmb_step_end_after(const dmb_sim *sim, double step);
 /* One to the time `time` [s], exactly. */
 dmb_step_end dmb_step_end_at(const dmb_sim *sim, double time);

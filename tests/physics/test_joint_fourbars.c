@@ -96,9 +96,11 @@ static void note_branch(const fourbars *m, outcome *o)
     o->misfit = fmax(o->misfit, statistics_of(&m->s).misfit);
 }
 
+/* The change point magnifies what Newton leaves: with 1e-8 of the forces the errors at 1 s scatter by 1 %, 0.03 of the
+ * order. */
 static outcome run(double h, double r, int places)
 {
-    const dmb_sim_options options = sharp_options(r, 1e-8);
+    const dmb_sim_options options = sharp_options(r, 1e-12);
     outcome o = {.cuts = 0};
     fourbars m = open_fourbars(1.0, &options);
     uint32_t done = 0;
@@ -140,9 +142,7 @@ static void no_branch_is_changed(void **state)
     check_outcome(&b);
     check_below("tip at 1, 4, 5 and 10 s, h 1e-3", largest(4, a.off), 1e-5);
     check_below("tip at all times, h 5e-4", largest(4, b.off), 1e-5);
-    /* The change point magnifies rounding to some 2e-10 m, 0.3 % of the smaller error: 0.005 of the order beside the 0.02
-     * of the next term. */
-    check_order("order at 1 s, behind the first change point", a.off[0], b.off[0], 2.0, 0.025);
+    check_order("order at 1 s, behind the first change point", a.off[0], b.off[0], 2.0, 0.02);
 }
 
 static void other_spectral_radii_do_it_too(void **state)
