@@ -221,6 +221,16 @@ typedef struct dmb_configuration {
     DMB_CONFIGURATION_LIST(DMB_FIELD)
 } dmb_configuration;
 
+/* The caller's progress function, and how far the call under way is; neither saved nor hashed. state/progress */
+typedef struct dmb_progress {
+    dmb_progress_fn function; /* NULL: nobody is told */
+    void *context;
+    double done;       /* [-] of the caller's call */
+    double from, to;   /* [-] part of it that the call under way is */
+    int32_t cancelled; /* 1: it ends */
+    int32_t nested;    /* [-] calls that the one under way is part of */
+} dmb_progress;
+
 struct dmb_sim {
     uint32_t magic;
     int32_t owns_memory;           /* 1: block came from `allocator` */
@@ -233,6 +243,8 @@ struct dmb_sim {
     void *block;
     size_t block_size;
     dmb_message message;
+    dmb_progress *progress;        /* own_progress; in a copy for an analysis that of the sim */
+    dmb_progress own_progress;
     dmb_configuration now, trial;
     DMB_MEMORY_LIST(DMB_FIELD)
     DMB_KEPT_LIST(DMB_FIELD)
@@ -252,8 +264,27 @@ int32_t dmb_sim_enter(dmb_sim *sim, int32_t busy);
 int32_t dmb_sim_occupy(const dmb_sim *sim);
 /* Gives the status back. */
 int32_t dmb_sim_leave(dmb_sim *sim, int32_t status);
+/* Between these two the sim is handed to a public call that is part of the one under way, from .. to of it. */
+void dmb_sim_hand_on(dmb_sim *sim, double from, double to);
+void dmb_sim_take_back(dmb_sim *sim);
 /* Does nothing but leave the message of a call that is refused. */
 void dmb_sim_refuse_re_entry(dmb_sim *sim);
+
+/* A call begins; so much of it is done; the caller is told. DMB_ERR_CANCELLED where it is to end, then and at all later
+ * ones. dmb_progress_end: that status in the place of one that came of it. state/progress */
+void dmb_progress_begin(dmb_sim *sim);
+void dmb_progress_at(const dmb_sim *sim, double fraction);
+int32_t dmb_progress_tell(const dmb_sim *sim);
+int32_t dmb_progress_end(const dmb_sim *sim, int32_t status);
+static inline int32_t dmb_progress_pulse(const dmb_sim *sim)
+{
+    return sim->progress->function == NULL ? DMB_OK : dmb_progress_tell(sim);
+}
+/* 1: the call fails by the caller's will or function, nothing else is tried. */
+static inline int dmb_is_final(int32_t status)
+{
+    return status == DMB_ERR_CALLBACK || status == DMB_ERR_CANCELLED;
+}
 
 /* to <- from, the whole configuration, both of the sim. state/layout */
 void dmb_configuration_copy(const dmb_sim *sim, const dmb_configuration *from, dmb_configuration *to);

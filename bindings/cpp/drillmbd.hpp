@@ -27,6 +27,7 @@
 #define DRILLMBD_EXCEPTIONS 1
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <initializer_list>
 #include <stdexcept>
 #include <string>
@@ -447,6 +448,11 @@ public:
     {
         return dmb_analysis_static(handle_, options, report);
     }
+    // function(context, fraction) is told of long calls from now on and may end them; see dmb_sim_set_progress.
+    std::int32_t try_set_progress(dmb_progress_fn function, void *context = nullptr) noexcept
+    {
+        return dmb_sim_set_progress(handle_, function, context);
+    }
     std::int32_t try_restore(const void *block, std::size_t size) noexcept
     {
         return dmb_sim_restore(handle_, block, size);
@@ -462,6 +468,20 @@ public:
     sim(const model &of, const dmb_sim_options &options, void *block, std::size_t size) : handle_(nullptr)
     {
         check(dmb_sim_create_in(of.get(), &options, block, size, &handle_));
+    }
+
+    // Does call(), which makes calls of this sim; told(fraction) is told of them and ends one by true: it throws an error
+    // of DMB_ERR_CANCELLED, or advance returns DMB_NOTE_CANCELLED. What told throws ends it too and comes out of here.
+    template <typename Told, typename Call> void with_progress(Told told, Call call)
+    {
+        teller<Told> heard(*this, told);
+        try {
+            call();
+        } catch (...) {
+            if (heard.thrown) std::rethrow_exception(heard.thrown);
+            throw;
+        }
+        if (heard.thrown) std::rethrow_exception(heard.thrown);
     }
 
     std::int32_t step(double duration, dmb_step_report *report = nullptr) { return done(try_step(duration, report)); }
@@ -614,6 +634,29 @@ public:
     }
 
 private:
+    // A function object as a C function, while it lives; what it throws must not unwind through C.
+    template <typename Told> struct teller {
+        teller(sim &of, Told &function) : told(function), owner(of)
+        {
+            owner.done(dmb_sim_set_progress(owner.handle_, &teller::call, this));
+        }
+        ~teller() { (void)dmb_sim_set_progress(owner.handle_, nullptr, nullptr); }
+        teller(const teller &) = delete;
+        teller &operator=(const teller &) = delete;
+        static std::int32_t call(void *context, double fraction) noexcept
+        {
+            teller *self = static_cast<teller *>(context);
+            try {
+                return self->told(fraction) ? 1 : 0;
+            } catch (...) {
+                self->thrown = std::current_exception();
+                return 1;
+            }
+        }
+        Told &told;
+        sim &owner;
+        std::exception_ptr thrown;
+    };
     std::int32_t done(std::int32_t status) const { return check(status, message()); }
     template <typename Function, typename Answer, typename... Arguments>
     Answer ask(Function function, Answer answer, Arguments... arguments) const

@@ -426,6 +426,34 @@ void buckling_of_a_column()
     EXPECT(thrown_by([&] { sim.path(&along); }) == DMB_ERR_VALUE);
 }
 
+// ---- Progress -------------------------------------------------------------------------------------------------------
+void calls_are_told_and_ended()
+{
+    drillmbd::model model;
+    describe(model);
+    drillmbd::sim sim(model);
+    int told = 0;
+    std::int32_t status = DMB_OK;
+    sim.with_progress([&](double fraction) { return ++told, fraction > 0.5; }, [&] { status = sim.advance(1.0); });
+    EXPECT(status == DMB_NOTE_CANCELLED && told > 1 && sim.time() > 0.5 && sim.time() < 1.0);
+    EXPECT(thrown_by([&] {
+               sim.with_progress([](double) { return true; }, [&] { sim.static_start(); });
+           }) == DMB_ERR_CANCELLED);
+    for (int kind = 0; kind < 2; kind++) {
+        std::string text;
+        try {
+            sim.with_progress([](double) -> bool { throw std::logic_error("enough"); },
+                              [&] { kind == 0 ? (void)sim.advance(2.0) : (void)sim.static_start(); });
+        } catch (const std::logic_error &error) {
+            text = error.what();
+        }
+        EXPECT(text == "enough");
+    }
+    told = 0;
+    sim.step(1e-3); // nobody is told any more
+    EXPECT(told == 0);
+}
+
 // ---- Failures -------------------------------------------------------------------------------------------------------
 void failures_throw()
 {
@@ -501,6 +529,7 @@ int main()
         stepped_sine_of_a_body();
         speeds_of_a_body();
         buckling_of_a_column();
+        calls_are_told_and_ended();
         failures_throw();
         failures_return();
         owners_are_moved_only();

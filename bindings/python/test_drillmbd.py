@@ -6,6 +6,7 @@ import math
 import os
 import pathlib
 import re
+import signal
 import tempfile
 import threading
 import unittest
@@ -52,7 +53,7 @@ def ctypes_of(declaration):
     plain = {"int32_t": ctypes.c_int32, "uint32_t": ctypes.c_uint32, "double": ctypes.c_double,
              "size_t": ctypes.c_size_t, "uint64_t": ctypes.c_uint64, "void": ctypes.c_void_p, "char": ctypes.c_char_p,
              "dmb_model": ctypes.c_void_p, "dmb_sim": ctypes.c_void_p, "dmb_buckling": ctypes.c_void_p,
-             "dmb_response": ctypes.c_void_p, "dmb_modes": ctypes.c_void_p,
+             "dmb_response": ctypes.c_void_p, "dmb_modes": ctypes.c_void_p, "dmb_progress_fn": mbd.PROGRESS_FN,
              **mbd.STRUCTS}
     kind, stars, array = re.match(r"(?:const )?(\w+) (\**)\w+(\[\d+\])?$", declaration).groups()
     depth = len(stars) + bool(array)
@@ -771,6 +772,62 @@ class CallbackTest(unittest.TestCase):
         model, _ = self.build(programme)
         with model.sim() as sim, self.assertRaises(KeyboardInterrupt):
             sim.step(1e-3)
+
+
+# ---- Progress --------------------------------------------------------------------------------------------------------
+class ProgressTest(unittest.TestCase):
+    def test_told(self):
+        rig, fractions = Rig(), []
+        with rig.model.sim() as sim:
+            sim.on_progress = fractions.append  # None: goes on
+            self.assertEqual(sim.advance(0.02).status, mbd.OK)
+            self.assertGreater(len(fractions), 3)
+            self.assertEqual(fractions, sorted(fractions))
+            sim.on_progress = None
+            told = len(fractions)
+            sim.step(1e-3)
+            self.assertEqual(len(fractions), told)
+
+    def test_cancel(self):
+        rig = Rig()
+        with rig.model.sim() as sim:
+            sim.on_progress = lambda fraction: fraction > 0.5
+            report = sim.advance(1.0)
+            self.assertEqual(report.status, mbd.NOTE_CANCELLED)
+            self.assertTrue(0.5 < sim.time < 1.0)
+            before = sim.hash()
+            sim.on_progress = lambda fraction: True
+            for call in (sim.static, sim.modes, lambda: sim.step(1e-3)):
+                with self.assertRaises(mbd.Error) as caught:
+                    call()
+                self.assertEqual(caught.exception.status, mbd.ERR_CANCELLED)
+                self.assertEqual(sim.hash(), before)
+
+    def test_exceptions_pass(self):
+        rig = Rig()
+        with rig.model.sim() as sim:
+            def told(_fraction):
+                raise LookupError("enough")
+            sim.on_progress = told
+            for call in (sim.static, lambda: sim.advance(1.0)):
+                with self.assertRaisesRegex(LookupError, "enough"):
+                    call()
+            sim.on_progress = None
+            sim.advance(1e-3)
+
+    def test_interrupt(self):
+        rig = Rig()
+        with rig.model.sim() as sim:
+            for told in (None, lambda fraction: False):
+                sim.on_progress = told
+                timer = threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT))
+                timer.start()
+                with self.assertRaises(KeyboardInterrupt):
+                    sim.advance(sim.time + 1e6)
+                timer.join()
+                self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+            sim.on_progress = None
+            self.assertEqual(sim.step(1e-3).status, mbd.OK)
 
 
 # ---- Who goes first --------------------------------------------------------------------------------------------------

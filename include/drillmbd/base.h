@@ -40,6 +40,7 @@ DMB_API uint32_t dmb_version(void);
     X(DMB_NOTE_UNSTABLE, 7, "done; the equilibrium that was found is not stable")                                     \
     X(DMB_NOTE_NOT_STEADY, 8, "done; drives move but no steady state was found: only what they move has a speed")     \
     X(DMB_NOTE_EXTRAPOLATED, 9, "done; some of the answers are extrapolations that were not confirmed")               \
+    X(DMB_NOTE_CANCELLED, 10, "done up to where the caller's progress function ended it")                             \
     X(DMB_ERR_NULL, -1, "a required pointer is NULL")                                                                 \
     X(DMB_ERR_HANDLE, -2, "not a live object of this kind")                                                           \
     X(DMB_ERR_STRUCT_SIZE, -3, "struct_size is not a size this library knows")                                        \
@@ -55,7 +56,8 @@ DMB_API uint32_t dmb_version(void);
     X(DMB_ERR_IO, -13, "a file could not be written")                                                                 \
     X(DMB_ERR_ROTATION, -14, "relative rotation in one element exceeds 2.5 rad")                                      \
     X(DMB_ERR_GEOMETRY, -15, "parts do not fit together")                                                             \
-    X(DMB_ERR_UNSUPPORTED, -16, "a combination that this version does not offer")
+    X(DMB_ERR_UNSUPPORTED, -16, "a combination that this version does not offer")                                     \
+    X(DMB_ERR_CANCELLED, -17, "the caller's progress function ended the call")
 
 #define DMB_STATUS_ENUM_ENTRY(name, value, text) name = (value),
 enum { DMB_STATUS_LIST(DMB_STATUS_ENUM_ENTRY) DMB_STATUS_END_ = -1000 };

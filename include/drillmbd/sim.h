@@ -2,8 +2,8 @@
  * A sim belongs to one thread at a time; many sims may share one model. After create nothing allocates, locks or does
  * input or output. A call that fails leaves the last accepted state whole.
  *
- * Functions of the caller's (programmes, constraints, allocator, log) may not change the sim they are called for: from
- * within them dmb_sim_destroy does nothing, and calls that change the sim or analyse it give DMB_ERR_ORDER. In a step,
+ * Functions of the caller's (programmes, constraints, progress, allocator, log) may not change the sim they are called for:
+ * from within them dmb_sim_destroy does nothing, and calls that change the sim or analyse it give DMB_ERR_ORDER. In a step,
  * and in analyses that leave the sim alone, queries, snapshot and hash tell of the last accepted state; in calls that change
  * it at once (dmb_analysis_static, dmb_sim_set_drive, _set_joint, _carry_over) they give DMB_ERR_ORDER too. They return,
  * by no longjmp or exception: the sim would stay busy for ever. */
@@ -66,6 +66,18 @@ DMB_API const char *dmb_sim_message(const dmb_sim *sim);
 /* [s] time of the last accepted state; NaN for NULL. */
 DMB_API double dmb_sim_time(const dmb_sim *sim);
 
+/* [-] fraction, 0 .. 1, of the call that is done: never falls within a call, and is a guess where the work cannot be
+ * foreseen. Returns 0, or nonzero to end the call. */
+typedef int32_t (*dmb_progress_fn)(void *context, double fraction);
+/* From now on dmb_sim_step, _advance and all analyses of this sim call `function` at bounded intervals, in the thread of the
+ * call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK's is one
+ * interval. Nonzero ends the call: DMB_ERR_CANCELLED with all that a failing call leaves alone as before (dmb_analysis_sine:
+ * the sim is in its last accepted state), but for dmb_sim_advance, which ends with DMB_NOTE_CANCELLED in its last accepted
+ * state; the same call may be made again. To end a call from another thread or a signal handler, let the function look at a
+ * flag that these set. It may not change the sim (above) nor jump out. NULL: nobody is told, as after create, and nothing
+ * is paid. Neither saved in snapshots nor hashed. Errors: DMB_ERR_NULL, _HANDLE; _ORDER within a call on the sim. */
+DMB_API int32_t dmb_sim_set_progress(dmb_sim *sim, dmb_progress_fn function, void *context);
+
 typedef struct dmb_step_report {
     uint32_t struct_size;
     uint32_t steps;        /* [-] accepted integration steps in this call */
@@ -81,13 +93,13 @@ DMB_SIZED_STRUCT(dmb_step_report)
 
 /* Advances by `duration` [s], > 0 and <= 1e18, in one step of generalized-alpha, divided at programme corners, and halved
  * where Newton does not converge (DMB_NOTE_STEP_CUT). report may be NULL. Errors: DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR,
- * _ROTATION, _GEOMETRY (a joint where its angles are not defined: model.h), _CALLBACK, _NOT_FINITE; the state is then that
- * before the call. O(number of elements) an iteration.
+ * _ROTATION, _GEOMETRY (a joint where its angles are not defined: model.h), _CALLBACK, _NOT_FINITE, _CANCELLED; the state is
+ * then that before the call. O(number of elements) an iteration.
  * Chung, Hulbert 1993; Bruls, Cardona, Arnold 2012. */
 DMB_API int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report);
 /* Advances to `time` [s] with steps chosen to hold the local error tolerances, bounded_work or not. DMB_NOTE_TOLERANCE where
- * a step of step_min was too long for them, DMB_NOTE_STOPPED after max_steps. Errors as dmb_sim_step; the state is then the
- * last accepted one, whose time dmb_sim_time tells. */
+ * a step of step_min was too long for them, DMB_NOTE_STOPPED after max_steps, DMB_NOTE_CANCELLED. Errors as dmb_sim_step; the
+ * state is then the last accepted one, whose time dmb_sim_time tells. */
 DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report);
 /* From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For
  * DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; accelerations are made to fit the jump. DMB_ERR_UNSUPPORTED for DMB_DRIVE_MOTION, whose speed may not jump. */

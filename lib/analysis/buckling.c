@@ -130,6 +130,7 @@ static int32_t find_symmetric(dmb_buckling *buckling, const dmb_buckling_options
     const double most = options->factor_max - buckling->at;
     double guess = fmin(buckling->at > 0.0 && isfinite(buckling->first[0]) ? buckling->first[0] : 1.0, most);
     for (uint32_t k = 0; k < options->count; k++) {
+        dmb_progress_at(buckling->work, 0.5 * k / options->count);
         const double factor = dmb_pencil_factor(&buckling->pencil, k, guess, most, options->tolerance);
         if (isnan(factor)) {
             dmb_message_set(message, "buckling: critical factor %u cannot be counted, the stiffness stays singular", k);
@@ -214,7 +215,8 @@ static int32_t analyse(dmb_sim *sim, const dmb_buckling_options *options, dmb_bu
     pattern.base = made->pattern.base;
     made->pattern = pattern;
     (void)dmb_buckling_info_init(&made->info, (uint32_t)sizeof made->info);
-    status = run(made, sim, &taken);
+    status = dmb_progress_end(sim, run(made, sim, &taken));
+    made->work->progress = &made->work->own_progress; /* it may outlive the sim */
     if (status < 0)
         dmb_buckling_destroy(&made);
     else

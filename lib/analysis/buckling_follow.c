@@ -61,7 +61,7 @@ static int32_t linearise_here(follower *f)
 
 static int32_t say_lost(follower *f, int32_t status)
 {
-    if (status == DMB_ERR_NO_MEMORY || status == DMB_ERR_CALLBACK) return status;
+    if (status == DMB_ERR_NO_MEMORY || dmb_is_final(status)) return status;
     dmb_message_set(
         &f->sim->message,
         "buckling: the equilibria are stable up to factor = %g and could not be followed to the critical factor "
@@ -93,7 +93,7 @@ static int32_t linearise_before(follower *f, double arc)
 {
     dmb_path *path = &f->path;
     int32_t status = DMB_ERR_NO_CONVERGENCE;
-    for (int k = 0; k < 4 && status < 0 && status != DMB_ERR_NO_MEMORY; k++) {
+    for (int k = 0; k < 4 && status < 0 && status != DMB_ERR_NO_MEMORY && !dmb_is_final(status); k++) {
         dmb_message_clear(&f->sim->message);
         status = DMB_OK;
         if (step_back[k] > 0.0) {
@@ -196,6 +196,7 @@ static int32_t step(follower *f)
 {
     dmb_path *path = &f->path;
     int32_t event = DMB_EVENT_NONE;
+    dmb_progress_at(f->sim, 0.5 + 0.5 * path->last.factor / f->estimate);
     int32_t status = find_next(f, &event);
     if (status < 0) return say_lost(f, status);
     f->buckling->info.points++;

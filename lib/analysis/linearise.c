@@ -84,9 +84,11 @@ static int32_t linearise(dmb_linear *linear, const dmb_linear_options *options)
 
 int32_t dmb_linear_make(const dmb_sim *sim, const dmb_linear_options *options, dmb_linear **linear)
 {
+    int32_t status = dmb_progress_pulse(sim);
+    if (status < 0) return status;
     *linear = dmb_linear_allocate(sim);
     if (*linear == NULL) return DMB_ERR_NO_MEMORY;
-    const int32_t status = linearise(*linear, options);
+    status = linearise(*linear, options);
     if (status < 0) dmb_linear_release(linear);
     return status;
 }

@@ -154,7 +154,7 @@ int32_t dmb_analysis_modes(dmb_sim *sim, const dmb_modes_options *options, dmb_m
     status = take_options(options, &taken, &sim->message);
     if (status >= 0) status = dmb_state_copy_check(sim, "modes");
     if (status >= 0) status = dmb_modes_open(sim, modes);
-    if (status >= 0) status = analyse(sim, &taken, &sim->message, *modes);
+    if (status >= 0) status = dmb_progress_end(sim, analyse(sim, &taken, &sim->message, *modes));
     if (status < 0) dmb_modes_destroy(modes);
     return dmb_sim_leave(sim, status);
 }

@@ -166,12 +166,16 @@ static int32_t solve(dmb_mode_search *search, dmb_dense *d)
     split_stiffness(d->n, d->X, search->general ? d->coupling : NULL);
     take_motions(search, d);
     for (size_t i = 0; i < search->rigid_count; i++) move_motion(search, d, i);
+    int32_t status = dmb_progress_pulse(linear->work);
+    if (status < 0) return status;
     const int32_t failed = dmb_eigen_pair(d->n, d->X, d->M, d->square, d->work);
     if (failed > (int32_t)d->n) {
         dmb_message_set(search->message, "modes: something that moves has no mass");
         return DMB_ERR_SINGULAR;
     }
     if (failed != 0) return DMB_ERR_NO_CONVERGENCE;
+    status = dmb_progress_pulse(linear->work);
+    if (status < 0) return status;
     put_motions(d);
     return search->general ? dmb_modes_coupled(search, d) : take_symmetric(search, d);
 }

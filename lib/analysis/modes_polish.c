@@ -143,6 +143,9 @@ int32_t dmb_modes_polish(dmb_mode_search *search)
     double *block = NULL;
     int32_t status = DMB_OK;
     for (uint32_t k = 0; k < search->modes->count && status >= 0; k++) {
+        dmb_progress_at(search->linear->work, 0.8 + 0.2 * k / search->modes->count);
+        status = dmb_progress_pulse(search->linear->work);
+        if (status < 0) break;
         const dmb_mode_defect defect = dmb_modes_defect(search, k);
         if (search->modes->rigid[k] || defect.value <= defect.bound) continue;
         if (block == NULL) {

@@ -88,6 +88,12 @@ static void draw(void *context, uint64_t *seed, double *x)
     }
 }
 
+static int32_t go_on(void *context)
+{
+    const shifted *T = context;
+    return dmb_progress_pulse(T->search->linear->work);
+}
+
 /* x^H M w of two complex vectors */
 static number form(const shifted *T, const double *x, const double *y, const double *w, const double *v)
 {
@@ -141,6 +147,7 @@ static int32_t run(shifted *T, uint32_t wanted, double *least)
     operator.metric = metric;
     operator.apply = apply;
     operator.draw = draw;
+    operator.go_on = go_on;
     int32_t status = dmb_krylov_largest(&operator, wanted, 4, DMB_SHIFTED_TOLERANCE, &linear->allocator, &found);
     if (status < 0) return status;
     *least = found.applications >= operator.dimension && found.count<wanted

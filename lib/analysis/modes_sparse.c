@@ -207,6 +207,12 @@ static uint32_t apart_count(const dmb_mode_search *search)
     return search->apart ? search->rigid_count : 0;
 }
 
+static int32_t go_on(void *context)
+{
+    const inverse *A = context;
+    return dmb_progress_pulse(A->linear->work);
+}
+
 static dmb_operator operator_of(const dmb_mode_search *search, inverse *A)
 {
     const int general = search->general;
@@ -220,6 +226,7 @@ static dmb_operator operator_of(const dmb_mode_search *search, inverse *A)
     operator.metric = general ? general_metric : symmetric_metric;
     operator.apply = general ? general_apply : symmetric_apply;
     operator.draw = general ? general_draw : symmetric_draw;
+    operator.go_on = go_on;
     return operator;
 }
 

@@ -166,7 +166,7 @@ int32_t dmb_path_find_next(dmb_path *path, double *arc, int32_t *event)
             if (*event == DMB_EVENT_NONE) return DMB_OK;
             status = locate(path, event, *arc);
         }
-        if (status >= 0 || status == DMB_ERR_CALLBACK) return status;
+        if (status >= 0 || dmb_is_final(status)) return status;
         if (status == DMB_ERR_ROTATION) {
             path->turned = path->search.evaluation.element;
             path->turned_at = path->last.factor;
@@ -216,6 +216,7 @@ static int32_t follow(dmb_path *path)
     while (status == DMB_OK) {
         int32_t event = DMB_EVENT_NONE;
         if (path->report.points >= o->max_points) return DMB_NOTE_STOPPED;
+        dmb_progress_at(path->sim, fmax((double)path->report.points / o->max_points, path->last.factor / o->factor_end));
         status = dmb_path_find_next(path, &arc, &event);
         if (status < 0) return status;
         if (creeps(arc, &longest, &crept)) return lost(path);
@@ -291,6 +292,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_path_options *options, dmb_path_r
     if (status >= 0) status = dmb_state_copy_check(sim, "path");
     if (status >= 0) status = dmb_load_pattern_take(sim, "path options", taken.scale, taken.part, &path.pattern);
     if (status >= 0) status = run(&path);
+    status = dmb_progress_end(sim, status);
     if (path.begun && report != NULL) (void)dmb_path_report_write(report, &path.report);
     return status;
 }

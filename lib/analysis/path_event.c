@@ -251,7 +251,7 @@ int32_t dmb_path_leave(dmb_path *path, double *arc)
     for (int k = 0; k < DMB_LEAVE_TRIES; k++, *arc *= 0.5) {
         status = dmb_path_correct(path, path->mode, 0.0, *arc);
         if (status >= 0) status = dmb_path_tangent(path, path->mode);
-        if (status >= 0 || status == DMB_ERR_CALLBACK) break;
+        if (status >= 0 || dmb_is_final(status)) break;
         path->report.cuts++;
     }
     path->side = path->next.rate;

@@ -20,11 +20,17 @@ double dmb_path_dot(const dmb_path *path, const double *a, const double *b)
     return sum / scene->node_count;
 }
 
-int32_t dmb_path_evaluate(dmb_path *path, int32_t tangent)
+static int32_t evaluate(dmb_path *path, int32_t tangent)
 {
     path->search.evaluation.tangent = tangent;
     dmb_load_pattern_set(&path->pattern, &path->search.evaluation, path->next.factor);
     return dmb_system_evaluate(&path->search.evaluation);
+}
+
+int32_t dmb_path_evaluate(dmb_path *path, int32_t tangent)
+{
+    const int32_t status = dmb_progress_pulse(path->work);
+    return status < 0 ? status : evaluate(path, tangent);
 }
 
 /* x <- -K^-1 x by the factors at hand; a motion drive moves its own row by 1 a unit of the factor. */
@@ -152,7 +158,7 @@ void dmb_path_accept(dmb_path *path)
     dmb_sim *work = path->work;
     const dmb_path_place place = path->last;
     path->search.evaluation.extrapolated = 0;
-    (void)dmb_path_evaluate(path, 0); /* reactions; it has succeeded before */
+    (void)evaluate(path, 0); /* reactions; it has succeeded before */
     dmb_system_accept(&path->search.evaluation);
     memset(work->increment, 0, work->scene->row_count * sizeof(double));
     dmb_configuration_copy(work, &work->trial, &work->now);

@@ -109,6 +109,8 @@ static double aside_of(const dmb_pencil *pencil, double factor)
 
 int dmb_pencil_count(dmb_pencil *pencil, double factor, uint32_t *count)
 {
+    *count = 0;
+    if (pencil->sim != NULL && dmb_progress_pulse(pencil->sim) < 0) return 0;
     for (int k = 0; k < DMB_ASIDE_TRIES; k++) {
         shift(pencil, k == 0 ? factor : factor + k * aside_of(pencil, factor));
         if (count_shifted(pencil, count)) return 1;

@@ -16,7 +16,7 @@ typedef struct dmb_pencil_matrix {
 
 typedef struct dmb_pencil {
     const dmb_scene *scene;
-    const dmb_sim *sim; /* its linked_size and linked_row; the caller's to set */
+    const dmb_sim *sim; /* its linked_size, linked_row and progress; the caller's to set, NULL without joints and progress */
     dmb_pencil_matrix K, G, work;
     uint32_t unknowns;      /* length of a vector */
     uint32_t reserved;

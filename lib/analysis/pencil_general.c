@@ -30,6 +30,12 @@ static void draw(void *context, uint64_t *seed, double *x)
     dmb_pencil_solve(pencil, x);
 }
 
+static int32_t go_on(void *context)
+{
+    const dmb_pencil *pencil = context;
+    return dmb_progress_pulse(pencil->sim);
+}
+
 /* A double real value is split by rounding into two, or into a pair this close to the real axis. */
 #define DMB_REAL_PAIR 1e-5
 #define DMB_GENERAL_TOLERANCE 1e-9
@@ -60,7 +66,8 @@ int32_t dmb_pencil_general(dmb_pencil *pencil, uint32_t wanted, double most, con
                                   .dimension = pencil->unknowns,
                                   .metric = metric,
                                   .apply = apply,
-                                  .draw = draw};
+                                  .draw = draw,
+                                  .go_on = go_on};
     *found = 0;
     if (!dmb_pencil_shift_and_factor(pencil, 0.0)) return DMB_ERR_SINGULAR;
     for (uint32_t values = 2 * wanted + DMB_GENERAL_MORE; *found < wanted; values *= 3) {

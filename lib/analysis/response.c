@@ -152,6 +152,8 @@ static int32_t nothing_holds(const response_work *w, double frequency, uint32_t 
 static int32_t solve_point(response_work *w, dmb_response *response, uint32_t point)
 {
     const double frequency = response->frequency[point], omega = 2.0 * DMB_PI * frequency;
+    const int32_t told = dmb_progress_pulse(w->sim);
+    if (told < 0) return told;
     const int64_t bad = dmb_dynamic_stiffness_factor(&w->stiffness, omega);
     if (bad >= 0) return nothing_holds(w, frequency, (uint32_t)bad);
     for (uint32_t i = 0; i < w->input_count; i++) {
@@ -175,6 +177,7 @@ static int32_t solve_grid(response_work *w, dmb_response *response)
 {
     int32_t status = dmb_response_resize(response, w->options.points);
     for (uint32_t i = 0; i < w->options.points && status >= 0; i++) {
+        dmb_progress_at(w->sim, (double)i / w->options.points / (1.0 + w->options.refinement));
         response->frequency[i] = dmb_response_grid(&w->options, i);
         status = solve_point(w, response, i);
     }
@@ -201,7 +204,10 @@ static int32_t run(response_work *w, const dmb_input *inputs, const dmb_output *
     if (status >= 0) status = take_inputs(w, inputs, response);
     if (status >= 0) status = take_outputs(w, outputs);
     if (status >= 0) status = solve_grid(w, response);
-    for (uint32_t k = 0; k < w->options.refinement && status == DMB_OK; k++) status = refine(w, response);
+    for (uint32_t k = 0; k < w->options.refinement && status == DMB_OK; k++) {
+        dmb_progress_at(w->sim, (1.0 + k) / (1.0 + w->options.refinement));
+        status = refine(w, response);
+    }
     return status;
 }
 

@@ -96,9 +96,10 @@ static int32_t run_window(sine_run *r)
         dmb_step_report report = dmb_step_report_default();
         const double now = dmb_sim_time(r->sim);
         add_sample(r, now);
-        r->sim->busy = DMB_BUSY_NOT; /* handed on to the step, which takes it */
+        const double done = (r->report.windows + (double)j / n) / r->options.windows;
+        dmb_sim_hand_on(r->sim, done, done);
         const int32_t status = dmb_sim_step(r->sim, r->begin + (j + 1) * r->step - now, &report);
-        r->sim->busy = DMB_BUSY_READABLE;
+        dmb_sim_take_back(r->sim);
         if (status < 0) return status;
         r->report.steps += report.steps;
         r->report.rejected += report.rejected;

@@ -160,9 +160,9 @@ static int32_t follow_order(speeds_run *r, uint32_t k)
     int32_t status = take_order(r, k, &order);
     if (status < 0) return status;
     const dmb_response_options options = response_options(r, order.order);
-    r->sim->busy = DMB_BUSY_NOT; /* handed on to the analysis, which takes it */
+    dmb_sim_hand_on(r->sim, (double)k / r->order_count, (k + 1.0) / r->order_count);
     status = dmb_analysis_response(r->sim, &options, &order.input, 1, r->outputs, r->output_count, &response);
-    r->sim->busy = DMB_BUSY_READABLE;
+    dmb_sim_take_back(r->sim);
     if (status < 0) return status;
     (void)dmb_response_shape(response, shape);
     r->curves[k].order = order.order;

@@ -95,6 +95,11 @@ static void draw(void *context, uint64_t *seed, double *x)
     memcpy(x, sim->correction, rows * sizeof(double));
 }
 
+static int32_t go_on(void *context)
+{
+    return dmb_progress_pulse(context);
+}
+
 static uint32_t coordinates_of(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
@@ -188,7 +193,8 @@ static int32_t look(search *s)
                                   .dimension = s->dimension,
                                   .metric = metric,
                                   .apply = apply,
-                                  .draw = draw};
+                                  .draw = draw,
+                                  .go_on = go_on};
     dmb_krylov found;
     const int32_t status =
         dmb_krylov_largest(&inverse, s->wanted, 2, DMB_DIVERGENCE_TOLERANCE, &sim->allocator, &found);

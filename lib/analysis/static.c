@@ -37,6 +37,8 @@ void dmb_static_slip(dmb_static_search *search, double axial, double rotation)
 
 int32_t dmb_static_evaluate(dmb_static_search *search)
 {
+    const int32_t status = dmb_progress_pulse(search->sim);
+    if (status < 0) return status;
     return search->steady != NULL ? dmb_steady_evaluate(search->steady, &search->evaluation)
                                   : dmb_system_evaluate(&search->evaluation);
 }
@@ -55,7 +57,7 @@ int32_t dmb_static_begin(dmb_static_search *search)
 
 static int may_try_again(int32_t status)
 {
-    return status < 0 && status != DMB_ERR_CALLBACK;
+    return status < 0 && !dmb_is_final(status);
 }
 
 /* Where it goes astray it begins again with shorter corrections, but not for a part that nothing holds. Between walls

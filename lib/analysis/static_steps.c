@@ -28,6 +28,7 @@ int32_t dmb_static_equal_steps(dmb_static_search *search, dmb_static_method meth
     int32_t status = dmb_static_begin(search);
     search->load_steps = steps;
     for (uint32_t k = 1; k <= steps && status >= 0; k++) {
+        dmb_progress_at(search->sim, (k - 1.0) / steps);
         search->evaluation.load_factor = (double)k / steps;
         status = method(search);
     }
@@ -42,6 +43,7 @@ static int32_t step(dmb_static_search *search, double *reached, double *length)
     const double shortest = *reached > 0.0 ? DMB_SHORTEST_LOAD_STEP : DMB_SHORTEST_FIRST_STEP;
     search->searching = *length <= shortest;
     search->evaluation.load_factor = target;
+    dmb_progress_at(search->sim, *reached);
     const int32_t status = dmb_static_newton(search);
     if (status >= 0) {
         *reached = target;
@@ -53,7 +55,7 @@ static int32_t step(dmb_static_search *search, double *reached, double *length)
     *length *= 0.5;
     search->cuts++;
     dmb_static_return(search->sim);
-    return status == DMB_ERR_CALLBACK || *length < shortest ? status : DMB_OK;
+    return dmb_is_final(status) || *length < shortest ? status : DMB_OK;
 }
 
 int32_t dmb_static_growing_steps(dmb_static_search *search)

@@ -57,7 +57,7 @@ static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk 
             return status;
         }
         dmb_walk_reject(sim, &attempt, walk);
-        if (status < 0 && (smallest || status == DMB_ERR_CALLBACK)) return status;
+        if (status < 0 && (smallest || dmb_is_final(status))) return status;
         *wanted = status >= 0 ? retry_step(sim, h, error) : fmax(0.25 * h, sim->options.step_min);
     }
 }
@@ -69,8 +69,10 @@ static int32_t advance(dmb_sim *sim, double time, dmb_step_report *report)
     if (status < 0) return status;
     status = dmb_walk_check(sim, "time", time, sim->clock->time);
     if (status < 0) return status;
+    const double start = sim->clock->time;
     double wanted = first_step(sim);
     while (status >= 0 && sim->clock->time < time && !walk.stopped) {
+        dmb_progress_at(sim, (sim->clock->time - start) / (time - start));
         status = advance_once(sim, time, &wanted, &walk);
         walk.stopped = walk.report.steps == sim->options.max_steps && sim->clock->time < time;
     }

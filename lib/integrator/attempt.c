@@ -157,7 +157,7 @@ int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, d
     sim->linked_mode->row = UINT32_MAX;
     sim->linked_mode->multipliers = sim->options.constraint_method == DMB_METHOD_MULTIPLIERS;
     status = run(sim, &c, attempt);
-    if (attempt->tried && status < 0 && status != DMB_ERR_CALLBACK) { /* once more, with factors of its own */
+    if (attempt->tried && status < 0 && !dmb_is_final(status)) { /* once more, with factors of its own */
         attempt->astray = 1;
         attempt->iterations = 0;
         status = run(sim, &c, attempt);

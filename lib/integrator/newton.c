@@ -100,7 +100,8 @@ static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *a
 /* One Newton iteration; 1: go on, otherwise as dmb_newton. */
 static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt, dmb_newton_course *course)
 {
-    int32_t status = evaluate(sim, attempt);
+    int32_t status = dmb_progress_pulse(sim);
+    if (status >= 0) status = evaluate(sim, attempt);
     if (status >= 0) status = judge(sim, attempt, course);
     if (status != 1) return status;
     if (!course->hidden && !dmb_kept_factors_will_do(sim, attempt, course)) {

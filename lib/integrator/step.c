@@ -43,7 +43,7 @@ static int32_t take_substep(dmb_sim *sim, const dmb_step_end *goal, double *cut,
             return status;
         }
         dmb_walk_reject(sim, &attempt, walk);
-        if (sim->options.bounded_work || status == DMB_ERR_CALLBACK || *cuts >= sim->options.max_cuts ||
+        if (sim->options.bounded_work || dmb_is_final(status) || *cuts >= sim->options.max_cuts ||
             0.5 * end.step < sim->options.step_min)
             return status;
         ++*cuts;

@@ -39,6 +39,8 @@ void dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
     if (attempt->iterations > walk->report.worst) walk->report.worst = attempt->iterations;
     walk->report.residual = fmax(walk->report.residual, attempt->residual);
     walk->report.last_step = attempt->end.step;
+    walk->rejected = walk->report.rejected;
+    walk->iterations = walk->report.iterations;
     dmb_attempt_commit(sim, attempt);
 }
 
@@ -71,16 +73,25 @@ void dmb_walk_reject(dmb_sim *sim, const dmb_attempt *attempt, dmb_walk *walk)
 int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_report *report, const dmb_walk *walk)
 {
     dmb_step_report out = walk->report;
+    if (status == DMB_ERR_CANCELLED) { /* tried again by the call that goes on from here, whose bits are then the same */
+        out.rejected = walk->rejected;
+        out.iterations = walk->iterations;
+    }
     if (status < 0 && restore) { /* counters too: a failing call changes nothing */
         if (walk->set_aside) dmb_state_bring_back(sim);
         *sim->counters = walk->counters;
         out.steps = 0;
     } else { /* work spent in vain on the way counts */
-        sim->counters->rejected = walk->counters.rejected + walk->report.rejected;
-        sim->counters->iterations = walk->counters.iterations + walk->report.iterations;
+        sim->counters->rejected = walk->counters.rejected + out.rejected;
+        sim->counters->iterations = walk->counters.iterations + out.iterations;
     }
     out.time = sim->clock->time;
     if (report != NULL) (void)dmb_step_report_write(report, &out);
+    if (status == DMB_ERR_CANCELLED && !restore) {
+        dmb_message_set(&sim->message, "stopped at time %g after %u steps by the caller's progress function", out.time,
+                        out.steps);
+        return DMB_NOTE_CANCELLED;
+    }
     if (status < 0) return status;
     if (walk->limited) {
         dmb_message_set(&sim->message, "step to time %g: relative residual = %g after %u iterations, accepted as asked",

@@ -180,6 +180,8 @@ static int32_t extend(basis *b, size_t target, size_t start)
 {
     int32_t status = DMB_OK;
     while (b->processed < target && status >= 0) {
+        if (b->A->go_on != NULL) status = b->A->go_on(b->A->context);
+        if (status < 0) return status;
         if (b->processed == b->count) {
             const size_t before = b->count;
             if (b->count < b->A->dimension) status = throw_in(b);

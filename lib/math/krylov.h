@@ -19,6 +19,7 @@ typedef struct dmb_operator {
     void (*metric)(void *context, const double *x, double *y);                   /* y = G x */
     void (*apply)(void *context, const double *x, const double *Gx, double *y);  /* y = A x */
     void (*draw)(void *context, uint64_t *seed, double *x);                      /* any vector of the space */
+    int32_t (*go_on)(void *context); /* may be NULL: asked before each vector, < 0 ends the search */
 } dmb_operator;
 
 typedef struct dmb_krylov {

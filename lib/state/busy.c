@@ -23,17 +23,43 @@ static int32_t take(dmb_sim *sim, int32_t busy)
 int32_t dmb_sim_enter(dmb_sim *sim, int32_t busy)
 {
     const int32_t status = take(sim, busy);
-    if (status == DMB_OK) dmb_message_clear(&sim->message);
+    if (status == DMB_OK) {
+        dmb_message_clear(&sim->message);
+        dmb_progress_begin(sim);
+    }
     return status;
 }
 
 int32_t dmb_sim_occupy(const dmb_sim *sim)
 {
-    return take((dmb_sim *)sim, DMB_BUSY_READABLE);
+    const int32_t status = take((dmb_sim *)sim, DMB_BUSY_READABLE);
+    if (status == DMB_OK) dmb_progress_begin((dmb_sim *)sim);
+    return status;
 }
 
+/* However a failure on the way was explained, that the caller ended the call is why. */
 int32_t dmb_sim_leave(dmb_sim *sim, int32_t status)
 {
     sim->busy = DMB_BUSY_NOT;
-    return status;
+    if (status >= 0 || !sim->progress->cancelled) return status;
+    dmb_message_set(&sim->message, "sim: the caller's progress function ended the call at time %g, %.0f %% of it done; make "
+                                   "it again for its answer",
+                    sim->clock->time, 100.0 * sim->progress->done);
+    return DMB_ERR_CANCELLED;
+}
+
+void dmb_sim_hand_on(dmb_sim *sim, double from, double to)
+{
+    sim->busy = DMB_BUSY_NOT;
+    sim->progress->nested++;
+    sim->progress->from = from;
+    sim->progress->to = to;
+}
+
+void dmb_sim_take_back(dmb_sim *sim)
+{
+    sim->busy = DMB_BUSY_READABLE;
+    sim->progress->nested--;
+    sim->progress->from = 0.0;
+    sim->progress->to = 1.0;
 }

@@ -36,6 +36,7 @@ dmb_sim *dmb_state_copy(const dmb_sim *sim)
     dmb_sim *copy = dmb_sim_carve(scene, block, bytes);
     if (copy == NULL) return NULL;
     copy->model = sim->model;
+    copy->progress = sim->progress;
     copy->options = sim->options;
     copy->allocator = sim->allocator;
     dmb_clusters_prepare(copy); /* before the partition of the state takes its place */

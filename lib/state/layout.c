@@ -158,6 +158,7 @@ dmb_sim *dmb_sim_carve(const dmb_scene *scene, void *block, size_t size)
     sim = lay_out(&arena, scene);
     if (sim == NULL) return NULL;
     sim->scene = scene;
+    sim->progress = &sim->own_progress;
     sim->block = block;
     sim->block_size = size;
     return sim;

@@ -175,8 +175,13 @@ int32_t dmb_cluster_rank_make(const dmb_sim *sim, dmb_cluster_rank *rank)
         return status;
     }
     rank->misfit = dmb_clusters_misfit(&s.sim, 0, &rank->misfit_row);
-    for (uint32_t k = 0; k < sim->scene->cluster_count; k++) rank_cluster(&s, k, rank);
-    return DMB_OK;
+    for (uint32_t k = 0; k < sim->scene->cluster_count && status >= 0; k++) {
+        dmb_progress_at(sim, (double)k / sim->scene->cluster_count);
+        status = dmb_progress_pulse(sim);
+        if (status >= 0) rank_cluster(&s, k, rank);
+    }
+    if (status < 0) dmb_cluster_rank_release(sim, rank);
+    return status;
 }
 
 void dmb_cluster_rank_release(const dmb_sim *sim, dmb_cluster_rank *rank)

@@ -1220,6 +1220,9 @@ PROGRAMME_FN = CFUNCTYPE(c_int32, c_void_p, c_double, POINTER(c_double))
 CONSTRAINT_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double), POINTER(c_double))
 
 
+PROGRESS_FN = CFUNCTYPE(c_int32, c_void_p, c_double)
+
+
 class Place(Record):
     c_name, about = "dmb_place", "A place on a part: a station of a string, or the reference point of a body. Made by dmb_station."
     part: Id

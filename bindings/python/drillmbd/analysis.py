@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ._keep import Keep, as_id, as_place, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._optional import need, numpy
+from ._progress import Teller
 from ._record import numbers
 from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckReport, Id, Input, Mode, ModeShape, ModesInfo,
                        ModesOptions, Order, Output, PathOptions, PathPoint, PathReport, Place, ResponseOptions, SpeedBand,
@@ -24,15 +25,19 @@ class Analyses:
     """The analyses of a Sim."""
     _handle: c_void_p
     _scene: Keep
+    _teller: Teller
 
     def _check(self, status: int) -> int:
         raise NotImplementedError
+
+    def _long(self, function: Any, *arguments: Any) -> int:
+        return self._teller.long_call(self._handle, function, *arguments)
 
     @mirrors("dmb_analysis_static")
     def static(self, options: StaticOptions | None = None, **fields: Any) -> StaticReport:
         """Puts the sim at rest in equilibrium; returns the report."""
         options, report = struct(StaticOptions, options, fields), StaticReport()
-        report.status = self._check(_lib.dmb_analysis_static(self._handle, byref(options), byref(report)))
+        report.status = self._check(self._long(_lib.dmb_analysis_static, byref(options), byref(report)))
         return report
 
     @mirrors("dmb_analysis_buckling")
@@ -62,7 +67,7 @@ class Analyses:
 
         if visit is not None:
             options.callback = PATH_FN(call)
-        status = _lib.dmb_analysis_path(self._handle, byref(options), byref(report))
+        status = self._long(_lib.dmb_analysis_path, byref(options), byref(report))
         if raised:
             raise raised[0]
         report.status = self._check(status)
@@ -72,7 +77,9 @@ class Analyses:
     def check(self) -> CheckReport:
         """Parts, joints, degrees of freedom, redundant equations and the number of warnings: the model check."""
         report = CheckReport()
-        report.status = self._scene.check(_lib.dmb_analysis_check(self._handle, byref(report)), b"")
+        status = self._long(_lib.dmb_analysis_check, byref(report))
+        self._teller.rethrow()
+        report.status = self._scene.check(status, b"")
         return report
 
     @mirrors("dmb_analysis_check_text")
@@ -94,7 +101,7 @@ class Analyses:
             frequencies = [float(f) for f in frequencies]
             options.frequencies, options.points = (c_double * len(frequencies))(*frequencies), len(frequencies)
         given, asked, handle = (Input * len(inputs))(*inputs), (Output * len(outputs))(*outputs), c_void_p()
-        self._check(_lib.dmb_analysis_response(self._handle, byref(options), given, len(inputs), asked, len(outputs),
+        self._check(self._long(_lib.dmb_analysis_response, byref(options), given, len(inputs), asked, len(outputs),
                                                byref(handle)))
         return Response(handle)
 
@@ -106,7 +113,7 @@ class Analyses:
         report: Any = STRUCTS["dmb_sine_report"]()
         asked, width = (Output * len(outputs))(*outputs), 1 + options.harmonics
         values = (c_double * (2 * width * len(outputs)))()
-        report.status = self._check(_lib.dmb_analysis_sine(self._handle, frequency, byref(options), asked, len(outputs),
+        report.status = self._check(self._long(_lib.dmb_analysis_sine, frequency, byref(options), asked, len(outputs),
                                                            values, byref(report)))
         found = [complex(values[2 * i], values[2 * i + 1]) for i in range(width * len(outputs))]
         return [[found[i * width].real] + found[i * width + 1:(i + 1) * width] for i in range(len(outputs))], report
@@ -115,7 +122,7 @@ class Analyses:
     def modes(self, options: ModesOptions | None = None, **fields: Any) -> Modes:
         """Natural frequencies and modes about the present state, as the ModesOptions say: a Modes, a sequence of Mode."""
         options, handle = struct(ModesOptions, options, fields), c_void_p()
-        self._check(_lib.dmb_analysis_modes(self._handle, byref(options), byref(handle)))
+        self._check(self._long(_lib.dmb_analysis_modes, byref(options), byref(handle)))
         return Modes(handle, self._scene)
 
     @mirrors("dmb_analysis_speeds")
@@ -128,7 +135,7 @@ class Analyses:
         shakes, asked = (Order * len(orders))(*orders), (Output * len(outputs))(*outputs)
         bands, count = (SpeedBand * room)(*[SpeedBand() for _ in range(room)]), c_uint32(room)
         severity = (c_double * options.points)()
-        self._check(_lib.dmb_analysis_speeds(self._handle, byref(options), shakes, len(orders), asked, allowed,
+        self._check(self._long(_lib.dmb_analysis_speeds, byref(options), shakes, len(orders), asked, allowed,
                                              len(outputs), bands, byref(count), severity))
         return list(bands)[:count.value], list(severity)
 
@@ -185,7 +192,7 @@ class Buckling:
     def __init__(self, sim: Any, options: BucklingOptions) -> None:
         self._handle = c_void_p()
         self._scene = sim._scene  # the model's callbacks
-        self.status = sim._check(_lib.dmb_analysis_buckling(sim._handle, byref(options), byref(self._handle)))
+        self.status = sim._check(sim._long(_lib.dmb_analysis_buckling, byref(options), byref(self._handle)))
         self.info = BucklingInfo()
         check(_lib.dmb_buckling_get_info(self._handle, byref(self.info)))
         value = c_double()

@@ -18,6 +18,7 @@ class Status(IntEnum):
     NOTE_UNSTABLE = 7  #: done; the equilibrium that was found is not stable
     NOTE_NOT_STEADY = 8  #: done; drives move but no steady state was found: only what they move has a speed
     NOTE_EXTRAPOLATED = 9  #: done; some of the answers are extrapolations that were not confirmed
+    NOTE_CANCELLED = 10  #: done up to where the caller's progress function ended it
     ERR_NULL = -1  #: a required pointer is NULL
     ERR_HANDLE = -2  #: not a live object of this kind
     ERR_STRUCT_SIZE = -3  #: struct_size is not a size this library knows
@@ -34,6 +35,7 @@ class Status(IntEnum):
     ERR_ROTATION = -14  #: relative rotation in one element exceeds 2.5 rad
     ERR_GEOMETRY = -15  #: parts do not fit together
     ERR_UNSUPPORTED = -16  #: a combination that this version does not offer
+    ERR_CANCELLED = -17  #: the caller's progress function ended the call
 
 
 OK = Status.OK
@@ -46,6 +48,7 @@ NOTE_TOLERANCE = Status.NOTE_TOLERANCE
 NOTE_UNSTABLE = Status.NOTE_UNSTABLE
 NOTE_NOT_STEADY = Status.NOTE_NOT_STEADY
 NOTE_EXTRAPOLATED = Status.NOTE_EXTRAPOLATED
+NOTE_CANCELLED = Status.NOTE_CANCELLED
 ERR_NULL = Status.ERR_NULL
 ERR_HANDLE = Status.ERR_HANDLE
 ERR_STRUCT_SIZE = Status.ERR_STRUCT_SIZE
@@ -62,6 +65,7 @@ ERR_IO = Status.ERR_IO
 ERR_ROTATION = Status.ERR_ROTATION
 ERR_GEOMETRY = Status.ERR_GEOMETRY
 ERR_UNSUPPORTED = Status.ERR_UNSUPPORTED
+ERR_CANCELLED = Status.ERR_CANCELLED
 
 
 class LogLevel(IntEnum):

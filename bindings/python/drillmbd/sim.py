@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 from . import analysis
 from ._keep import Keep, as_place, mirrors, path_of, struct
 from ._library import lib as _lib
+from ._progress import Teller
 from ._structs import (STRUCTS, BitState, Contact, DriveState, Energy, Id, JointState, Momentum, Motion, Place, Pose,
                        Section, SimOptions, Statistics, StepReport)
-from .enums import FRAME_WORLD, NOTE_STOPPED, OK
+from .enums import FRAME_WORLD, NOTE_CANCELLED, NOTE_STOPPED, OK
 from .errors import check
 from .recorder import Recorder
 
@@ -45,13 +46,15 @@ class Progress:
 
 
 class Sim(analysis.Analyses):
-    """All that changes. One thread at a time; the library does not hold Python's lock while it runs."""
+    """All that changes. One thread at a time; the library does not hold Python's lock while it runs. In the main thread
+    Ctrl-C ends advance and the analyses: KeyboardInterrupt, with the sim whole."""
 
     def __init__(self, model: Model, options: SimOptions | None = None,
                  log: Callable[[int, str], None] | None = None, **fields: Any) -> None:
         self._handle = c_void_p()
         self._keep = Keep()  # its own log
         self._scene = model._keep  # callbacks live as long as the last sim
+        self._teller = Teller()
         options = struct(SimOptions, options, fields)
         said: list[str] = []
 
@@ -92,31 +95,43 @@ class Sim(analysis.Analyses):
         """[s] of the last accepted state"""
         return float(_lib.dmb_sim_time(self._handle))
 
+    @property
+    @mirrors("dmb_sim_set_progress")
+    def on_progress(self) -> Callable[[float], Any] | None:
+        """function(fraction): called with 0 .. 1 at bounded intervals of step, advance and analyses. It ends the call by
+        returning what is true (ERR_CANCELLED; advance returns NOTE_CANCELLED) or by raising, which comes out of the call.
+        None: nobody is told."""
+        return self._teller.function
+
+    @on_progress.setter
+    def on_progress(self, function: Callable[[float], Any] | None) -> None:
+        check(self._teller.set(self._handle, function))
+
     def _check(self, status: int) -> int:
+        self._teller.rethrow()
         return self._scene.check(status, _lib.dmb_sim_message(self._handle) if status < 0 else b"")
 
     # ---- Running ----------------------------------------------------------------------------------------------------
-    def _run(self, function: Any, value: float) -> StepReport:
-        report: StepReport = StepReport.blank()
-        _set_status(report, "status", self._check(function(self._handle, value, byref(report))))
-        return report
-
     @mirrors("dmb_sim_step")
     def step(self, duration: float) -> StepReport:
         """Advances by duration [s]; returns the report, whose status may be a note."""
-        return self._run(_step, duration)
+        report: StepReport = StepReport.blank()
+        _set_status(report, "status", self._check(_step(self._handle, duration, byref(report))))
+        return report
 
     @mirrors("dmb_sim_advance")
     def advance(self, time: float) -> StepReport:
         """Advances to time [s] with steps of its own choice."""
-        return self._run(_advance, time)
+        report: StepReport = StepReport.blank()
+        _set_status(report, "status", self._check(self._teller.long_call(self._handle, _advance, time, byref(report))))
+        return report
 
     def run(self, end: float, step: float | None = None, recorder: Recorder | None = None,
             progress: Callable[[Progress], Any] | None = None, every: float = 0.2) -> Progress:
         """Runs to time `end` [s]: with equal steps of `step` [s] (the last one shorter where they do not fit), or with
         steps of the library's choice, which then end at each hundredth of the run. The recorder takes a row after each
         step. progress(Progress) is called each `every` seconds by the clock and at the end; what it returns, if true,
-        stops the run there. Ctrl-C raises KeyboardInterrupt between two steps: the sim stays whole and can go on, and
+        stops the run there. Ctrl-C raises KeyboardInterrupt: the sim stays whole and can go on, and
         the recorder has all rows so far."""
         begin, started, steps = self.time, clock.monotonic(), 0
         told = started
@@ -132,6 +147,9 @@ class Sim(analysis.Analyses):
             else:
                 target = end if number == count else begin + (end - begin) * number / count
                 report = self.advance(target)
+                if report.status == NOTE_CANCELLED:
+                    steps += report.steps
+                    break
                 if report.status == NOTE_STOPPED:  # max_steps of one call; go on
                     number -= 1
             steps += report.steps

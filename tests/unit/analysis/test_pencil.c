@@ -35,6 +35,7 @@ static void open_pair(pair *p, const dmb_allocator *allocator, double coupling, 
     p->sim.linked_size = p->size;
     p->pencil.scene = &p->scene;
     p->pencil.sim = &p->sim;
+    p->sim.progress = &p->sim.own_progress;
     p->pencil.K.linked = p->K;
     p->pencil.G.linked = p->G;
     p->pencil.work.linked = p->work;

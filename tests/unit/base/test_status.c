@@ -21,7 +21,7 @@ static void names_and_texts(void **state)
 
 static void unknown_status(void **state)
 {
-    const int32_t values[] = {-17, 999, -1000, INT32_MIN, INT32_MAX};
+    const int32_t values[] = {-500, 999, -1000, INT32_MIN, INT32_MAX};
     (void)state;
     for (size_t i = 0; i < sizeof values / sizeof values[0]; ++i) {
         assert_string_equal(dmb_status_name(values[i]), "DMB_UNKNOWN");

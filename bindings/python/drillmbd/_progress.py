@@ -1,0 +1,68 @@
+"""Long calls are told and ended: by a function of the caller's, or by Ctrl-C."""
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Callable
+from ctypes import c_void_p
+from typing import Any
+
+from ._library import lib as _lib
+from ._structs import PROGRESS_FN
+
+_NOBODY = PROGRESS_FN()
+
+
+class Teller:
+    """The C function of a sim's progress. It knows nothing of the sim, which holds it."""
+
+    def __init__(self) -> None:
+        self.function: Callable[[float], Any] | None = None
+        self.raised: BaseException | None = None
+        self.interrupted = False
+
+        def call(_context: Any, fraction: float) -> int:
+            try:
+                return 1 if self.interrupted or (self.function is not None and self.function(fraction)) else 0
+            except BaseException as error:  # must not unwind through C
+                self.raised = error
+                return 1
+
+        self.call = PROGRESS_FN(call)
+
+    def set(self, handle: c_void_p, function: Callable[[float], Any] | None) -> int:
+        """The status of telling this function from now on."""
+        status = int(_lib.dmb_sim_set_progress(handle, _NOBODY if function is None else self.call, None))
+        if status >= 0:
+            self.function = function
+        return status
+
+    def rethrow(self) -> None:
+        """Raises what the function has raised in the last call."""
+        raised, self.raised = self.raised, None
+        if raised is not None:
+            raise raised
+
+    def _interrupt(self, _number: int, _frame: Any) -> None:
+        self.interrupted = True
+
+    def long_call(self, handle: c_void_p, function: Any, *arguments: Any) -> int:
+        """The status of a call that Ctrl-C ends; KeyboardInterrupt if it has. Python's own handler would raise where C
+        has called, or not before the call has ended."""
+        if threading.current_thread() is not threading.main_thread() or \
+                signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+            return int(function(handle, *arguments))
+        self.interrupted = False
+        signal.signal(signal.SIGINT, self._interrupt)
+        try:
+            if self.function is None:
+                _lib.dmb_sim_set_progress(handle, self.call, None)
+            status = int(function(handle, *arguments))
+        finally:
+            if self.function is None:
+                _lib.dmb_sim_set_progress(handle, _NOBODY, None)
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+        if self.interrupted:
+            self.interrupted = False
+            raise KeyboardInterrupt
+        return status
