@@ -100,7 +100,10 @@ public:
         dmb_model_destroy(&handle_);
         handle_ = handle;
     }
+    // Of the last call on this model that failed; of a sim::create of it in this thread too.
     const char *message() const noexcept { return dmb_model_message(handle_); }
+    // Goes on without the parts that were refused: compile fails otherwise.
+    void clear_refused() noexcept { (void)dmb_model_clear_refused(handle_); }
     std::int32_t try_compile(const dmb_compile_options *options = nullptr) noexcept
     {
         return dmb_model_compile(handle_, options);
@@ -459,15 +462,15 @@ public:
     }
 
 #if defined(DRILLMBD_EXCEPTIONS)
-    explicit sim(const model &of) : handle_(nullptr) { check(dmb_sim_create(of.get(), nullptr, &handle_)); }
+    explicit sim(const model &of) : handle_(nullptr) { begun(of, dmb_sim_create(of.get(), nullptr, &handle_)); }
     sim(const model &of, const dmb_sim_options &options) : handle_(nullptr)
     {
-        check(dmb_sim_create(of.get(), &options, &handle_));
+        begun(of, dmb_sim_create(of.get(), &options, &handle_));
     }
     // In the caller's block, which has to outlive the sim.
     sim(const model &of, const dmb_sim_options &options, void *block, std::size_t size) : handle_(nullptr)
     {
-        check(dmb_sim_create_in(of.get(), &options, block, size, &handle_));
+        begun(of, dmb_sim_create_in(of.get(), &options, block, size, &handle_));
     }
 
     // Does call(), which makes calls of this sim; told(fraction) is told of them and ends one by true: it throws an error
@@ -657,6 +660,8 @@ private:
         sim &owner;
         std::exception_ptr thrown;
     };
+    // The model says why a create failed.
+    static void begun(const model &of, std::int32_t status) { check(status, of.message()); }
     std::int32_t done(std::int32_t status) const { return check(status, message()); }
     template <typename Function, typename Answer, typename... Arguments>
     Answer ask(Function function, Answer answer, Arguments... arguments) const

@@ -192,6 +192,7 @@ void joints()
     const dmb_id plane = model.add_constraint(constraint);
     joint.place_b.part = dmb_id{0, 0};
     EXPECT(thrown_by([&] { model.add_joint(joint); }) == DMB_ERR_ID);
+    model.clear_refused();
     EXPECT(model.compile() == DMB_OK);
     EXPECT(thrown_by([&] { model.add_constraint(constraint); }) == DMB_ERR_ORDER);
     EXPECT(model.info().constraint_rows == 13);
@@ -464,7 +465,23 @@ void failures_throw()
     EXPECT(thrown_by([&] { drillmbd::sim sim(model); }) == DMB_ERR_ORDER);
     EXPECT(thrown_by([&] { model.info(); }) == DMB_ERR_ORDER);
     EXPECT(thrown_by([&] { model.compile(); }) == DMB_ERR_VALUE);
+    EXPECT(std::string(model.message()).find("1 refused part") != std::string::npos);
+    dmb_body_def body = dmb_body_def_default();
+    body.inertia[0] = 0.3;
+    EXPECT(thrown_by([&] { model.add_body(body); }) == DMB_ERR_VALUE);
+    EXPECT(std::string(model.message()).find("principal moments 0.3, 0.001, 0.001") != std::string::npos);
+    EXPECT(thrown_by([&] { model.compile(); }) == DMB_ERR_VALUE);
+    model.clear_refused();
     const parts made = describe(model);
+    dmb_sim_options wrong = dmb_sim_options_default();
+    wrong.spectral_radius = 2.0;
+    try {
+        drillmbd::sim none(model, wrong);
+        EXPECT(false);
+    } catch (const drillmbd::error &error) {
+        EXPECT(std::string(error.what()).find("spectral_radius = 2") != std::string::npos);
+        EXPECT(std::string(model.message()).find("spectral_radius = 2") != std::string::npos);
+    }
     drillmbd::sim sim(model);
     EXPECT(thrown_by([&] { sim.pose(dmb_station(made.string, 9, 0.0)); }) == DMB_ERR_VALUE);
     EXPECT(thrown_by([&] { sim.drive(made.string); }) == DMB_ERR_ID);

@@ -520,6 +520,7 @@ class WholeModelTest(unittest.TestCase):
             with self.assertRaises(mbd.Error):
                 model.add_wall(diameter=-1.0)
             model.add_pipes(1)
+            model.clear_refused()
             model.compile()
         self.assertEqual([level for level, _ in lines], [mbd.LOG_ERROR, mbd.LOG_INFO])
         self.assertIn("diameter", lines[0][1])
@@ -669,6 +670,31 @@ class ErrorTest(unittest.TestCase):
             self.assertIn("principal moments 0.3, 0.001, 0.001", error.message)
             self.assert_error(mbd.ERR_VALUE, model.add_bit, inertia=(0.3, 0.1))
             model.add_body(inertia=(0.002, 0.001, 0.001, 0, 0, 0))
+
+    def test_refused_part_is_remembered(self):
+        with mbd.Model() as model:
+            model.add_pipes(1)
+            self.assert_error(mbd.ERR_VALUE, model.add_body, mass=-1.0)
+            error = self.assert_error(mbd.ERR_VALUE, model.compile)
+            self.assertIn("1 refused part missing", error.message)
+            self.assertIn("body 0: mass = -1", error.message)
+            model.add_body(mass=1.0)  # after all
+            model.compile()
+        with mbd.Model() as model:
+            model.add_pipes(1)
+            self.assert_error(mbd.ERR_VALUE, model.add_body, mass=-1.0)
+            model.clear_refused()
+            model.compile()
+
+    def test_reason_of_a_failed_create(self):
+        with mbd.Model() as model:
+            model.add_pipes(1)
+            model.compile()
+            error = self.assert_error(mbd.ERR_VALUE, model.sim, spectral_radius=2.0)
+            self.assertIn("spectral_radius = 2", error.message)
+            self.assertEqual(model.message, error.message)
+            model.sim().close()
+            self.assertIn("compiled", model.message)
 
     def test_order(self):
         with mbd.Model() as model:

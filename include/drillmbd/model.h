@@ -30,8 +30,13 @@ DMB_API int32_t dmb_model_create(const dmb_model_options *options, dmb_model **m
  * call that describes or compiles the model (by its allocator or log), where such calls give DMB_ERR_ORDER. NULL-safe. */
 DMB_API void dmb_model_destroy(dmb_model **model);
 /* What the last failing or noteworthy call on this model said: "part, field, value, bound". Never NULL; lives until the
- * next call on the model. A compiled model shared between threads keeps the message of its compilation. */
+ * next call on the model. A compiled model shared between threads keeps the message of its compilation; after a
+ * dmb_sim_create that failed, the thread that called it reads the reason here, until its next create of the model. */
 DMB_API const char *dmb_model_message(const dmb_model *model);
+/* Parts that were refused are remembered: dmb_model_compile fails with the status and message of the first, unless it was
+ * added after all: a later one of its kind with the same name, or with at most one other field where one of them has none
+ * (environment, wall: any). This forgets them all. */
+DMB_API int32_t dmb_model_clear_refused(dmb_model *model);
 
 /* ---- Components of motion ----------------------------------------------------------------------------------------
  * Components of body-frame velocity, also bits of a mask. A set of free components must be closed under motion: none,
@@ -405,7 +410,7 @@ typedef struct dmb_compile_options {
 DMB_SIZED_STRUCT(dmb_compile_options)
 /* Checks the scene as a whole, meshes and numbers it, chooses kernels, and freezes the model: no more parts can be
  * added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was.
- * Errors: DMB_ERR_ORDER (already compiled), _ID (the first string is meant and there is none), _VALUE, _GEOMETRY,
+ * Errors: that of a part that was refused (dmb_model_clear_refused); DMB_ERR_ORDER (already compiled), _ID (the first string is meant and there is none), _VALUE, _GEOMETRY,
  * _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(number of elements). */
 DMB_API int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options);
 

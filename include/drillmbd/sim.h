@@ -52,7 +52,7 @@ DMB_SIZED_STRUCT(dmb_sim_options)
 /* Bytes of the block that dmb_sim_create_in needs. O(1). Errors: DMB_ERR_ORDER (model not compiled), DMB_ERR_VALUE. */
 DMB_API int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *options, size_t *size);
 /* Makes a sim at time 0 in the described pose and speed. options may be NULL. DMB_NOTE_PROJECTED when initial
- * velocities did not fit the allowed motion; dmb_sim_message tells by how much. Errors: _ORDER, _VALUE, _NO_MEMORY,
+ * velocities did not fit the allowed motion; dmb_sim_message tells by how much. Errors (dmb_model_message says why): _ORDER, _VALUE, _NO_MEMORY,
  * _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The sim holds the model until it
  * is destroyed. O(number of elements). */
 DMB_API int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options, dmb_sim **sim);

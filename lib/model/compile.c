@@ -51,9 +51,10 @@ int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options)
     dmb_compile_options read;
     dmb_scene *scene = NULL;
     dmb_mesh mesh;
-    int32_t status = dmb_describe_open(model, model);
+    int32_t status = dmb_describe_open(model, "compile", model);
     if (status < 0) return status;
-    status = take_options(model, options, &read);
+    status = dmb_refused_check(&model->refused, &model->message);
+    if (status >= 0) status = take_options(model, options, &read);
     if (status >= 0) {
         dmb_mesh_init(&mesh, model, &read);
         status = make_scene(&mesh, &scene);

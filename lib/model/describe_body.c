@@ -43,12 +43,12 @@ static int32_t check_body(dmb_model *model, const dmb_body_def *def)
 int32_t dmb_model_add_body(dmb_model *model, const dmb_body_def *def, dmb_id *body)
 {
     dmb_body_def read = dmb_body_def_default();
-    int32_t status = dmb_describe_open(model, def);
+    int32_t status = dmb_describe_open(model, "body", def);
     if (status < 0) return status;
     status = dmb_body_def_read(&read, def);
     if (status >= 0) status = check_body(model, &read);
     if (status >= 0) status = dmb_describe_append(model, &model->bodies, &read, sizeof read, DMB_PART_BODY, body);
-    return dmb_describe_close(model, "body", status);
+    return dmb_describe_end(model, "body", &read, sizeof read, status);
 }
 
 /* ---- Bits -------------------------------------------------------------------------------------------------------- */
@@ -94,10 +94,10 @@ static int32_t check_bit(dmb_model *model, const dmb_bit_def *def)
 int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_id *bit)
 {
     dmb_bit_def read = dmb_bit_def_default();
-    int32_t status = dmb_describe_open(model, def);
+    int32_t status = dmb_describe_open(model, "bit", def);
     if (status < 0) return status;
     status = dmb_bit_def_read(&read, def);
     if (status >= 0) status = check_bit(model, &read);
     if (status >= 0) status = dmb_describe_append(model, &model->bits, &read, sizeof read, DMB_PART_BIT, bit);
-    return dmb_describe_close(model, "bit", status);
+    return dmb_describe_end(model, "bit", &read, sizeof read, status);
 }

@@ -35,12 +35,12 @@ static int32_t check_constraint(dmb_model *model, const dmb_constraint_def *def)
 int32_t dmb_model_add_constraint(dmb_model *model, const dmb_constraint_def *def, dmb_id *constraint)
 {
     dmb_constraint_def read = dmb_constraint_def_default();
-    int32_t status = dmb_describe_open(model, def);
+    int32_t status = dmb_describe_open(model, "constraint", def);
     if (status < 0) return status;
     status = dmb_constraint_def_read(&read, def);
     if (status >= 0) status = check_constraint(model, &read);
     if (status >= 0) {
         status = dmb_describe_append(model, &model->constraints, &read, sizeof read, DMB_PART_CONSTRAINT, constraint);
     }
-    return dmb_describe_close(model, "constraint", status);
+    return dmb_describe_end(model, "constraint", &read, sizeof read, status);
 }

@@ -58,12 +58,12 @@ static int32_t check_drive(dmb_model *model, const dmb_drive_def *def)
 int32_t dmb_model_add_drive(dmb_model *model, const dmb_drive_def *def, dmb_id *drive)
 {
     dmb_drive_def read = dmb_drive_def_default();
-    int32_t status = dmb_describe_open(model, def);
+    int32_t status = dmb_describe_open(model, "drive", def);
     if (status < 0) return status;
     status = dmb_drive_def_read(&read, def);
     if (status >= 0) status = check_drive(model, &read);
     if (status >= 0) status = dmb_describe_append(model, &model->drives, &read, sizeof read, DMB_PART_DRIVE, drive);
-    return dmb_describe_close(model, "drive", status);
+    return dmb_describe_end(model, "drive", &read, sizeof read, status);
 }
 
 /* ---- Loads ------------------------------------------------------------------------------------------------------- */
@@ -91,10 +91,10 @@ static int32_t check_load(dmb_model *model, const dmb_load_def *def)
 int32_t dmb_model_add_load(dmb_model *model, const dmb_load_def *def, dmb_id *load)
 {
     dmb_load_def read = dmb_load_def_default();
-    int32_t status = dmb_describe_open(model, def);
+    int32_t status = dmb_describe_open(model, "load", def);
     if (status < 0) return status;
     status = dmb_load_def_read(&read, def);
     if (status >= 0) status = check_load(model, &read);
     if (status >= 0) status = dmb_describe_append(model, &model->loads, &read, sizeof read, DMB_PART_LOAD, load);
-    return dmb_describe_close(model, "load", status);
+    return dmb_describe_end(model, "load", &read, sizeof read, status);
 }

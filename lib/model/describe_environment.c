@@ -18,10 +18,10 @@ static int32_t check_environment(dmb_model *model, const dmb_environment_def *de
 int32_t dmb_model_set_environment(dmb_model *model, const dmb_environment_def *def)
 {
     dmb_environment_def read;
-    int32_t status = dmb_describe_open(model, def);
+    int32_t status = dmb_describe_open(model, "environment", def);
     if (status < 0) return status;
     status = dmb_environment_def_read(&read, def);
     if (status >= 0) status = check_environment(model, &read);
     if (status >= 0) model->environment = read;
-    return dmb_describe_close(model, "environment", status);
+    return dmb_describe_end(model, "environment", NULL, 0, status);
 }

@@ -152,12 +152,12 @@ static int32_t check_joint(dmb_model *model, const dmb_joint_def *def)
 int32_t dmb_model_add_joint(dmb_model *model, const dmb_joint_def *def, dmb_id *joint)
 {
     dmb_joint_def read = dmb_joint_def_default();
-    int32_t status = dmb_describe_open(model, def);
+    int32_t status = dmb_describe_open(model, "joint", def);
     if (status < 0) return status;
     status = dmb_joint_def_read(&read, def);
     if (status >= 0) status = check_joint(model, &read);
     if (status >= 0) status = dmb_describe_append(model, &model->joints, &read, sizeof read, DMB_PART_JOINT, joint);
-    return dmb_describe_close(model, "joint", status);
+    return dmb_describe_end(model, "joint", &read, sizeof read, status);
 }
 
 /* ---- Couplings --------------------------------------------------------------------------------------------------- */
@@ -202,12 +202,12 @@ static int32_t check_coupling(dmb_model *model, const dmb_coupling_def *def)
 int32_t dmb_model_add_coupling(dmb_model *model, const dmb_coupling_def *def, dmb_id *coupling)
 {
     dmb_coupling_def read = dmb_coupling_def_default();
-    int32_t status = dmb_describe_open(model, def);
+    int32_t status = dmb_describe_open(model, "coupling", def);
     if (status < 0) return status;
     status = dmb_coupling_def_read(&read, def);
     if (status >= 0) status = check_coupling(model, &read);
     if (status >= 0) {
         status = dmb_describe_append(model, &model->couplings, &read, sizeof read, DMB_PART_COUPLING, coupling);
     }
-    return dmb_describe_close(model, "coupling", status);
+    return dmb_describe_end(model, "coupling", &read, sizeof read, status);
 }

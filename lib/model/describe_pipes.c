@@ -128,8 +128,9 @@ static int32_t append_run(dmb_model *model, const dmb_pipe_def *def, uint32_t st
 int32_t dmb_model_add_pipes(dmb_model *model, const dmb_pipe_def *def, uint32_t count, dmb_id *string)
 {
     dmb_pipe_def read = dmb_pipe_def_default();
+    const dmb_described given = {"pipes", &read, sizeof read, count};
     uint32_t index = 0;
-    int32_t status = dmb_describe_open(model, def);
+    int32_t status = dmb_describe_open(model, "pipes", def);
     if (status < 0) return status;
     status = dmb_pipe_def_read(&read, def);
     if (status >= 0) {
@@ -140,5 +141,5 @@ int32_t dmb_model_add_pipes(dmb_model *model, const dmb_pipe_def *def, uint32_t 
     if (status >= 0) status = check_pipes(model, index, &read, count);
     if (status >= 0) status = append_run(model, &read, index, count);
     if (status >= 0 && string != NULL) *string = dmb_model_id(model, DMB_PART_STRING, index);
-    return dmb_describe_close(model, "pipes", status);
+    return dmb_describe_part(model, &given, status);
 }

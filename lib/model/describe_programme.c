@@ -155,13 +155,16 @@ static int32_t append_programme(dmb_model *model, const dmb_term *terms, uint32_
 
 int32_t dmb_model_add_programme(dmb_model *model, const dmb_term *terms, uint32_t term_count, dmb_id *programme)
 {
-    int32_t status = dmb_describe_open(model, terms);
+    dmb_term first = dmb_term_default();
+    const dmb_described given = {"programme", &first, sizeof first, term_count};
+    int32_t status = dmb_describe_open(model, "programme", terms);
     size_t numbers;
     if (status < 0) return status;
+    if (term_count > 0) (void)read_term(terms, 0, terms->struct_size, &first);
     dmb_check check = dmb_check_of(&model->message, "programme", model->programmes.count);
     dmb_check_count(&check, "term_count", term_count, 1, TERMS_MAX);
     status = check.status;
     if (status >= 0) status = check_terms(model, terms, term_count, &numbers);
     if (status >= 0) status = append_programme(model, terms, term_count, numbers, programme);
-    return dmb_describe_close(model, "programme", status);
+    return dmb_describe_part(model, &given, status);
 }

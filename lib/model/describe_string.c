@@ -22,12 +22,12 @@ static int32_t check_string(dmb_model *model, const dmb_string_def *def)
 int32_t dmb_model_add_string(dmb_model *model, const dmb_string_def *def, dmb_id *string)
 {
     dmb_string_plan plan = {dmb_string_def_default(), 0, 0};
-    int32_t status = dmb_describe_open(model, def);
+    int32_t status = dmb_describe_open(model, "string", def);
     if (status < 0) return status;
     status = dmb_string_def_read(&plan.def, def);
     if (status >= 0) status = check_string(model, &plan.def);
     if (status >= 0) {
         status = dmb_describe_append(model, &model->strings, &plan, sizeof plan, DMB_PART_STRING, string);
     }
-    return dmb_describe_close(model, "string", status);
+    return dmb_describe_end(model, "string", &plan.def, sizeof plan.def, status);
 }

@@ -126,11 +126,11 @@ void dmb_wall_release(dmb_wall_def *wall, const dmb_allocator *allocator)
 int32_t dmb_model_add_wall(dmb_model *model, const dmb_wall_def *def, dmb_id *wall)
 {
     dmb_wall_def read = dmb_wall_def_default();
-    int32_t status = dmb_describe_open(model, def);
+    int32_t status = dmb_describe_open(model, "wall", def);
     if (status < 0) return status;
     if (model->wall_count > 0) {
         dmb_message_set(&model->message, "wall: the model has one already, must be one hole a model");
-        return dmb_describe_close(model, "wall", DMB_ERR_ORDER);
+        return dmb_describe_end(model, "wall", NULL, 0, DMB_ERR_ORDER);
     }
     status = dmb_wall_def_read(&read, def);
     if (status >= 0) status = check_wall(model, &read);
@@ -140,5 +140,5 @@ int32_t dmb_model_add_wall(dmb_model *model, const dmb_wall_def *def, dmb_id *wa
         model->wall_count = 1;
         if (wall != NULL) *wall = dmb_model_id(model, DMB_PART_WALL, 0);
     }
-    return dmb_describe_close(model, "wall", status);
+    return dmb_describe_end(model, "wall", NULL, 0, status);
 }

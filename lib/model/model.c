@@ -4,6 +4,7 @@
 #include "base/allocator.h"
 #include "base/handle.h"
 #include "base/log.h"
+#include "model/create_message.h"
 #include "model/defaults.h"
 #include "model/describe.h"
 #include "model/limits.h"
@@ -114,7 +115,8 @@ const char *dmb_model_message(const dmb_model *model)
 {
     if (model == NULL) return dmb_status_text(DMB_ERR_NULL);
     if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return dmb_status_text(DMB_ERR_HANDLE);
-    return model->message.text;
+    const char *create = dmb_create_message(model);
+    return create != NULL ? create : model->message.text;
 }
 
 /* ---- Ids --------------------------------------------------------------------------------------------------------- */
@@ -155,7 +157,7 @@ uint32_t dmb_model_part_index(const dmb_model *model, dmb_id id, uint32_t kind)
 
 /* ---- What all descriptions share --------------------------------------------------------------------------------- */
 
-int32_t dmb_describe_open(dmb_model *model, const void *def)
+int32_t dmb_describe_open(dmb_model *model, const char *part, const void *def)
 {
     if (model == NULL) return DMB_ERR_NULL;
     if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
@@ -165,8 +167,10 @@ int32_t dmb_describe_open(dmb_model *model, const void *def)
         return DMB_ERR_ORDER;
     }
     model->busy = 1;
+    dmb_create_message_clear(model);
     dmb_message_clear(&model->message);
-    return def != NULL ? DMB_OK : dmb_describe_close(model, "definition", DMB_ERR_NULL);
+    if (def != NULL) return DMB_OK;
+    return dmb_describe_end(model, part, NULL, 0, DMB_ERR_NULL);
 }
 
 int32_t dmb_describe_close(dmb_model *model, const char *part, int32_t status)
@@ -178,6 +182,24 @@ int32_t dmb_describe_close(dmb_model *model, const char *part, int32_t status)
     }
     model->busy = 0;
     return status;
+}
+
+int32_t dmb_describe_part(dmb_model *model, const dmb_described *part, int32_t status)
+{
+    (void)dmb_describe_close(model, part->part, status);
+    if (status < 0)
+        dmb_refused_remember(&model->refused, part, status, &model->message);
+    else
+        dmb_refused_added(&model->refused, part);
+    return status;
+}
+
+int32_t dmb_model_clear_refused(dmb_model *model)
+{
+    const int32_t status = dmb_describe_open(model, "model", model);
+    if (status < 0) return status;
+    model->refused.kept = model->refused.further = 0;
+    return dmb_describe_close(model, "model", DMB_OK);
 }
 
 int32_t dmb_describe_append(dmb_model *model, dmb_list *list, const void *item, size_t item_size, uint32_t kind,

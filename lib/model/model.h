@@ -7,6 +7,7 @@
 #include "base/message.h"
 #include "drillmbd/model.h"
 #include "force/programme.h"
+#include "model/refused.h"
 #include "model/scene.h"
 
 /* Kinds in the upper 8 bits of dmb_id.index. */
@@ -60,6 +61,7 @@ struct dmb_model {
     dmb_list joints;       /* dmb_joint_def */
     dmb_list couplings;    /* dmb_coupling_def */
     dmb_list constraints;  /* dmb_constraint_def */
+    dmb_refusals refused;  /* parts that were refused and not added since */
     dmb_scene *scene;      /* NULL until compiled, then never changed */
     uint32_t sparse_nodes; /* nodes from which on a cluster is sparse: DMB_SPARSE_NODES, but for tests */
     uint32_t reserved;

@@ -4,6 +4,7 @@
 #include "base/allocator.h"
 #include "base/log.h"
 #include "base/sized_struct.h"
+#include "model/create_message.h"
 #include "state/handle.h"
 #include "state/layout.h"
 #include "state/options.h"
@@ -11,8 +12,8 @@
 
 DMB_DECLARE_STRUCT(dmb_sim_options)
 
-/* What a create is told, checked. There is no sim yet to hold a message, and the model is shared between threads: a
- * refusal is told to the log only. */
+/* What a create is told, checked. There is no sim yet to hold a message: a refusal is told to the log, and to the model for
+ * the calling thread. */
 typedef struct creation {
     dmb_sim_options options;
     dmb_allocator allocator;
@@ -26,6 +27,14 @@ static void tell(const dmb_sim_options *options, int32_t status, const dmb_messa
     if (status == DMB_OK) return;
     dmb_log_text(&log, status < 0 ? DMB_LOG_ERROR : DMB_LOG_WARNING,
                  message->text[0] != '\0' ? message->text : dmb_status_text(status));
+}
+
+/* Ends a call that failed, whose model is one. */
+static int32_t fail(const dmb_model *model, const dmb_sim_options *options, int32_t status, const dmb_message *message)
+{
+    dmb_create_message_set(model, message->text[0] != '\0' ? message->text : dmb_status_text(status));
+    tell(options, status, message);
+    return status;
 }
 
 /* The caller's log, even where the rest of the options is refused; none where the struct itself cannot be read. */
@@ -71,7 +80,10 @@ static int32_t prepare(creation *c, const dmb_model *model, const dmb_sim_option
     if (status == DMB_OK) status = dmb_sim_options_take(&c->options, options, &c->message);
     if (status == DMB_OK) status = take_allocator(c, model);
     if (status == DMB_OK) status = take_size(c, model);
-    if (status < 0) tell_refusal(options, status, &c->message);
+    if (status >= 0) return status;
+    if (dmb_handle_is(model, DMB_HANDLE_MODEL))
+        dmb_create_message_set(model, c->message.text[0] != '\0' ? c->message.text : dmb_status_text(status));
+    tell_refusal(options, status, &c->message);
     return status;
 }
 
@@ -120,11 +132,13 @@ static int32_t begin(const creation *c, dmb_model *model, void *block, size_t si
     sim->options.allocator = NULL; /* the caller's struct may be gone; the copy is the one to use */
     release_drives(sim);
     status = dmb_system_start(sim);
-    tell(&sim->options, status, &sim->message);
     if (status < 0) {
+        (void)fail(model, &sim->options, status, &sim->message);
         give_back(sim);
         return status;
     }
+    dmb_create_message_clear(model);
+    tell(&sim->options, status, &sim->message);
     sim->magic = DMB_HANDLE_SIM; /* no handle before: callbacks and log may know the block */
     *out = sim;
     return status;
@@ -143,9 +157,9 @@ int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options, dmb_sim
     block = dmb_allocate(&c.allocator, c.bytes);
     if (block == NULL) {
         dmb_message_set(&c.message, "sim: no memory for %zu bytes", c.bytes);
-        tell(&c.options, DMB_ERR_NO_MEMORY, &c.message);
+        status = fail(model, &c.options, DMB_ERR_NO_MEMORY, &c.message);
         dmb_model_release(model);
-        return DMB_ERR_NO_MEMORY;
+        return status;
     }
     return begin(&c, model, block, c.bytes, 1, sim);
 }
@@ -161,8 +175,7 @@ int32_t dmb_sim_create_in(dmb_model *model, const dmb_sim_options *options, void
     if (status < 0) return status;
     if (size < c.bytes) {
         dmb_message_set(&c.message, "sim: size of the block = %zu, must be >= %zu", size, c.bytes);
-        tell(&c.options, DMB_ERR_VALUE, &c.message);
-        return DMB_ERR_VALUE;
+        return fail(model, &c.options, DMB_ERR_VALUE, &c.message);
     }
     dmb_model_hold(model);
     return begin(&c, model, block, size, 0, sim);

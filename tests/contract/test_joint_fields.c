@@ -57,6 +57,7 @@ static void finish(scene_under_test *s, uint32_t joints, uint32_t couplings, uin
     assert_int_equal(s->model->joints.count, joints);
     assert_int_equal(s->model->couplings.count, couplings);
     assert_int_equal(s->model->constraints.count, constraints);
+    assert_int_equal(dmb_model_clear_refused(s->model), DMB_OK);
     assert_int_equal(dmb_model_compile(s->model, NULL), DMB_OK);
     dmb_model_destroy(&s->model);
 }

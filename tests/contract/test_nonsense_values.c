@@ -261,6 +261,7 @@ static void definitions_refuse_strange_ids(void **state)
         refused("constraint's place", dmb_model_add_constraint(model, &constraint, NULL), DMB_ERR_ID);
         assert_true(dmb_model_message(model)[0] != '\0');
     }
+    whole_must(model, dmb_model_clear_refused(model));
     whole_must(model, dmb_model_compile(model, NULL)); /* none of it has been taken */
     dmb_model_destroy(&model);
 }

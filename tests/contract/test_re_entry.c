@@ -389,6 +389,7 @@ static void meddle_with_model(describer *d)
     d->calls++;
     assert_int_equal(dmb_model_add_pipes(handle, &pipe, 1, NULL), DMB_ERR_ORDER);
     assert_int_equal(dmb_model_compile(handle, NULL), DMB_ERR_ORDER);
+    assert_int_equal(dmb_model_clear_refused(handle), DMB_ERR_ORDER);
     dmb_model_destroy(&handle);
     assert_ptr_equal(handle, d->model);
 }
@@ -434,6 +435,8 @@ static void models_are_kept_too(void **state)
     assert_int_equal(dmb_model_add_pipes(model, &pipe, 1, NULL), DMB_ERR_VALUE);
     assert_non_null(strstr(dmb_model_message(model), "outer_diameter"));
     assert_int_equal(dmb_model_add_pipes(model, NULL, 1, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_model_compile(model, NULL), DMB_ERR_VALUE);
+    must(dmb_model_clear_refused(model));
     must(dmb_model_compile(model, NULL));
     assert_true(d.calls > 4);
     d.model = NULL;

@@ -329,6 +329,7 @@ static void run_input(const uint8_t *data, size_t size)
     MUST(c->parts.model != NULL);
     draw_links(c);
     present_action = "compile";
+    (void)dmb_model_clear_refused(c->parts.model); /* some are on purpose */
     if (dmb_model_compile(c->parts.model, NULL) >= 0) {
         const dmb_sim_options options = draw_options(&c->parts);
         present_action = "create";

@@ -246,6 +246,7 @@ static int32_t compile(random_scene *scene)
     dmb_compile_options options = dmb_compile_options_default();
     if (draw_chance(&scene->source, 40)) options.features = (int32_t)draw_byte(&scene->source) & DMB_FEATURE_ALL;
     if (draw_chance(&scene->source, 40)) options.pipe_kind = (int32_t)draw_below(&scene->source, 3);
+    (void)dmb_model_clear_refused(scene->model); /* some are on purpose */
     const int32_t status = dmb_model_compile(scene->model, &options);
     must_be_known(status);
     MUST(status >= 0 || dmb_model_message(scene->model)[0] != '\0');

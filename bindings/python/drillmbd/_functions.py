@@ -56,6 +56,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_add_programme": (c_int32, c_void_p, POINTER(Term), c_uint32, POINTER(Id),),
     "dmb_model_add_string": (c_int32, c_void_p, POINTER(StringDef), POINTER(Id),),
     "dmb_model_add_wall": (c_int32, c_void_p, POINTER(WallDef), POINTER(Id),),
+    "dmb_model_clear_refused": (c_int32, c_void_p,),
     "dmb_model_compile": (c_int32, c_void_p, POINTER(CompileOptions),),
     "dmb_model_create": (c_int32, POINTER(ModelOptions), POINTER(c_void_p),),
     "dmb_model_destroy": (None, POINTER(c_void_p),),
@@ -178,8 +179,10 @@ FUNCTION_DOCS = {
         "Adds a string without pipes. The first dmb_model_add_pipes without a string makes one by default.",
     "dmb_model_add_wall":
         "Adds the hole. One hole a model; wall may be NULL.",
+    "dmb_model_clear_refused":
+        "Parts that were refused are remembered: dmb_model_compile fails with the status and message of the first, unless it was added after all: a later one of its kind with the same name, or with at most one other field where one of them has none (environment, wall: any). This forgets them all.",
     "dmb_model_compile":
-        "Checks the scene as a whole, meshes and numbers it, chooses kernels, and freezes the model: no more parts can be added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was. Errors: ERR_ORDER (already compiled), _ID (the first string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(number of elements).",
+        "Checks the scene as a whole, meshes and numbers it, chooses kernels, and freezes the model: no more parts can be added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was. Errors: that of a part that was refused (dmb_model_clear_refused); ERR_ORDER (already compiled), _ID (the first string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(number of elements).",
     "dmb_model_create":
         "Creates an empty model. options may be NULL. Errors: ERR_NULL, _STRUCT_SIZE, _NO_MEMORY; *model is NULL then.",
     "dmb_model_destroy":
@@ -187,7 +190,7 @@ FUNCTION_DOCS = {
     "dmb_model_get_info":
         "Counts of a compiled model. Errors: ERR_ORDER before compile.",
     "dmb_model_message":
-        "What the last failing or noteworthy call on this model said: \"part, field, value, bound\". Never NULL; lives until the next call on the model. A compiled model shared between threads keeps the message of its compilation.",
+        "What the last failing or noteworthy call on this model said: \"part, field, value, bound\". Never NULL; lives until the next call on the model. A compiled model shared between threads keeps the message of its compilation; after a dmb_sim_create that failed, the thread that called it reads the reason here, until its next create of the model.",
     "dmb_modes_destroy":
         "Gives the memory back and sets *modes to NULL. NULL-safe.",
     "dmb_modes_get":
@@ -233,7 +236,7 @@ FUNCTION_DOCS = {
     "dmb_sim_carry_over":
         "Goes on where `from` stands, in a sim of another model: the same but for pipes more or fewer at the rig end of its strings, rods added or taken off; where the model describes its strings to begin, and what its programmes say from now on, may differ. The head lets go, draws back and grips the new rig end: guide, drives and bodies fixed to the rig end are there at once, so do it at rest. Pipes are matched from the far end and stay where and as they are; added ones start unstressed in line with the old rig end, moving with it (where that is tilted they may poke the wall; dmb_analysis_static settles the string, but begins the ledger anew). Guides hold the new rig end where it is; speeds that they and the drives do not allow are projected: NOTE_PROJECTED, dmb_sim_message tells by how much. Time, statistics, drives, contacts, joints and cut rock go on. So does the energy ledger: energies change by what pipes bring in or take along, works and balance do not. Displacements and the advance of bits count from the poses the new model describes; turns go on, but for what these differ by about the axis in a hole that bends. What pipes have drawn at random goes by their number from the rig, so it is drawn anew. Fails unless all else is of the same kind and number: ERR_VALUE, with what differs; ERR_GEOMETRY: a joint that is not open does not fit; ERR_SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE as dmb_sim_create. sim is then as it was. from is not changed. O(number of elements).",
     "dmb_sim_create":
-        "Makes a sim at time 0 in the described pose and speed. options may be NULL. NOTE_PROJECTED when initial velocities did not fit the allowed motion; dmb_sim_message tells by how much. Errors: _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The sim holds the model until it is destroyed. O(number of elements).",
+        "Makes a sim at time 0 in the described pose and speed. options may be NULL. NOTE_PROJECTED when initial velocities did not fit the allowed motion; dmb_sim_message tells by how much. Errors (dmb_model_message says why): _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The sim holds the model until it is destroyed. O(number of elements).",
     "dmb_sim_create_in":
         "The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used.",
     "dmb_sim_destroy":

@@ -170,6 +170,11 @@ class Model:
         self._note("compile", options)
         return status
 
+    @mirrors("dmb_model_clear_refused")
+    def clear_refused(self) -> None:
+        """Goes on without the parts whose add_ raised an Error: compile refuses otherwise."""
+        self._check(_lib.dmb_model_clear_refused(self._handle))
+
     # ---- Questions --------------------------------------------------------------------------------------------------
     @mirrors("dmb_model_get_info")
     def info(self) -> ModelInfo:

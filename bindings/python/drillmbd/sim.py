@@ -56,17 +56,12 @@ class Sim(analysis.Analyses):
         self._scene = model._keep  # callbacks live as long as the last sim
         self._teller = Teller()
         options = struct(SimOptions, options, fields)
-        said: list[str] = []
-
-        def tell(level: int, text: str) -> None:
-            said.append(text)
-            if log is not None:
-                log(level, text)
-
-        options.log = self._keep.log(tell)
+        if log is not None:
+            options.log = self._keep.log(log)
         status = _lib.dmb_sim_create(model._handle, byref(options), byref(self._handle))
+        message = _lib.dmb_model_message(model._handle)
         self._keep.check(OK, b"")
-        self.status = self._scene.check(status, said[-1].encode() if said else b"")
+        self.status = self._scene.check(status, message)
 
     def close(self) -> None:
         """Gives the memory back; what is asked afterwards is an Error."""

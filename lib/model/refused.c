@@ -1,0 +1,149 @@
+#include "model/refused.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#include "drillmbd/model.h"
+
+/* ---- Fields of definitions --------------------------------------------------------------------------------------- */
+
+/* A field longer than 8 bytes. Others are compared in steps of 8 bytes: a double, an id, or two whole numbers. */
+typedef struct wide_field {
+    const char *part;
+    size_t begin, end;
+    int is_name;
+} wide_field;
+
+#define FIELDS(part, T, first, last)                                            \
+    {                                                                           \
+        part, offsetof(T, first), offsetof(T, last) + sizeof(((T *)0)->last), 0 \
+    }
+#define FIELD(part, T, name) FIELDS(part, T, name, name)
+#define NAME(part, T)                                                          \
+    {                                                                          \
+        part, offsetof(T, name), offsetof(T, name) + sizeof(((T *)0)->name), 1 \
+    }
+
+static const wide_field wide_fields[] = {
+    FIELDS("programme", dmb_term, table_time, table_count),
+    FIELD("string", dmb_string_def, offset),
+    FIELD("string", dmb_string_def, position),
+    FIELD("string", dmb_string_def, rotation),
+    FIELD("string", dmb_string_def, velocity),
+    FIELD("pipes", dmb_pipe_def, joint_inertia),
+    FIELD("pipes", dmb_pipe_def, curvature),
+    FIELD("pipes", dmb_pipe_def, section_stiffness),
+    FIELD("pipes", dmb_pipe_def, section_inertia),
+    FIELD("body", dmb_body_def, centre),
+    FIELD("body", dmb_body_def, inertia),
+    FIELD("body", dmb_body_def, position),
+    FIELD("body", dmb_body_def, rotation),
+    FIELD("body", dmb_body_def, velocity),
+    FIELD("bit", dmb_bit_def, inertia),
+    NAME("joint", dmb_joint_def),
+    FIELD("joint", dmb_joint_def, place_a),
+    FIELD("joint", dmb_joint_def, place_b),
+    FIELD("joint", dmb_joint_def, origin_a),
+    FIELD("joint", dmb_joint_def, axis_a),
+    FIELD("joint", dmb_joint_def, normal_a),
+    FIELD("joint", dmb_joint_def, origin_b),
+    FIELD("joint", dmb_joint_def, axis_b),
+    FIELD("joint", dmb_joint_def, normal_b),
+    FIELD("joint", dmb_joint_def, stiffness),
+    FIELD("joint", dmb_joint_def, damping),
+    FIELD("joint", dmb_joint_def, rest),
+    FIELD("joint", dmb_joint_def, friction),
+    FIELD("joint", dmb_joint_def, stop_low),
+    FIELD("joint", dmb_joint_def, stop_high),
+    FIELD("joint", dmb_joint_def, initial_position),
+    FIELD("joint", dmb_joint_def, initial_speed),
+    NAME("coupling", dmb_coupling_def),
+    FIELD("coupling", dmb_coupling_def, joint),
+    NAME("constraint", dmb_constraint_def),
+    FIELD("constraint", dmb_constraint_def, place),
+    FIELD("load", dmb_load_def, place),
+    FIELD("load", dmb_load_def, force),
+    FIELD("load", dmb_load_def, moment),
+};
+
+/* A part of each kind fits; what does not would only be compared in its beginning. */
+typedef char joints_fit[sizeof(dmb_joint_def) <= DMB_REFUSED_BYTES ? 1 : -1];
+typedef char constraints_fit[sizeof(dmb_constraint_def) <= DMB_REFUSED_BYTES ? 1 : -1];
+typedef char pipes_fit[sizeof(dmb_pipe_def) <= DMB_REFUSED_BYTES ? 1 : -1];
+
+/* The field of a definition that begins at or before `offset` and goes beyond it. */
+static wide_field field_at(const char *part, size_t offset)
+{
+    wide_field field = {part, offset, offset + 8 - offset % 8, 0};
+    for (size_t i = 0; i < sizeof wide_fields / sizeof wide_fields[0]; ++i) {
+        const wide_field *wide = &wide_fields[i];
+        if (strcmp(wide->part, part) == 0 && offset >= wide->begin && offset < wide->end) return *wide;
+    }
+    return field;
+}
+
+/* ---- The same part? ---------------------------------------------------------------------------------------------- */
+
+static bool is_same_kind(const dmb_refusal *refusal, const dmb_described *given)
+{
+    return strcmp(refusal->part, given->part) == 0;
+}
+
+/* Two definitions of one size, field by field. */
+static bool is_same_part(const dmb_refusal *refusal, const dmb_described *given)
+{
+    const unsigned char *a = refusal->definition, *b = given->definition;
+    uint32_t differ = refusal->count != given->count;
+    size_t offset = 0;
+    while (offset < given->size) {
+        const wide_field field = field_at(given->part, offset);
+        const size_t end = field.end < given->size ? field.end : given->size;
+        const bool equal = memcmp(a + offset, b + offset, end - offset) == 0;
+        if (field.is_name && a[offset] != '\0' && b[offset] != '\0') return equal;
+        differ += !equal;
+        offset = end;
+    }
+    return differ <= 1;
+}
+
+/* ---- Remembered and forgotten ------------------------------------------------------------------------------------ */
+
+void dmb_refused_remember(dmb_refusals *refused, const dmb_described *given, int32_t status, const dmb_message *message)
+{
+    if (refused->kept == DMB_REFUSED_KEPT) {
+        refused->further += refused->further < UINT32_MAX;
+        return;
+    }
+    dmb_refusal *refusal = &refused->first[refused->kept++];
+    refusal->part = given->part;
+    refusal->status = status;
+    refusal->count = given->count;
+    refusal->message = *message;
+    refusal->size = status == DMB_ERR_STRUCT_SIZE || given->size > DMB_REFUSED_BYTES ? 0 : given->size;
+    if (refusal->size > 0) memcpy(refusal->definition, given->definition, refusal->size);
+}
+
+void dmb_refused_added(dmb_refusals *refused, const dmb_described *given)
+{
+    for (uint32_t i = 0; i < refused->kept; ++i) {
+        const dmb_refusal *refusal = &refused->first[i];
+        if (!is_same_kind(refusal, given)) continue;
+        if (refusal->size != 0 && !is_same_part(refusal, given)) continue;
+        --refused->kept;
+        memmove(&refused->first[i], &refused->first[i + 1], (refused->kept - i) * sizeof refused->first[0]);
+        return;
+    }
+}
+
+int32_t dmb_refused_check(const dmb_refusals *refused, dmb_message *message)
+{
+    const uint32_t count = refused->kept + refused->further;
+    if (count == 0) return DMB_OK;
+    if (refused->kept == 0) {
+        dmb_message_set(message, "%u refused parts missing: add them, or dmb_model_clear_refused to do without", count);
+        return DMB_ERR_ORDER;
+    }
+    dmb_message_set(message, "%u refused part%s missing (add %s, or dmb_model_clear_refused to do without): %s", count,
+                    count == 1 ? "" : "s", count == 1 ? "it" : "them", refused->first[0].message.text);
+    return refused->first[0].status;
+}
