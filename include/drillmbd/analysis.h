@@ -61,8 +61,8 @@ typedef struct dmb_static_report {
     int32_t negative;          /* [-] eigenvalues of the stiffness by which the equilibrium is unstable, those that are 0 but
                                   for rounding apart. SYMMETRIC: negative ones, exactly. UNSYMMETRIC: real negative ones
                                   among those nearest 0, 36 or all, as many as the sign of the determinant agrees with;
-                                  -1: they could not be counted. Of a state that moves (`steady`): of the symmetric
-                                  part, which does not tell whether it stays so (dmb_analysis_modes) */
+                                  -1: not counted, which bounded work did not allow. Of a state that moves (`steady`): of
+                                  the symmetric part, which does not tell whether it stays so (dmb_analysis_modes) */
     int32_t stiffness;         /* DMB_STIFFNESS_...: the kind that was judged; SYMMETRIC of a state that moves */
     int32_t steady;            /* DMB_STEADY_AT_REST, _SLIDING or _RIGID: what the state is */
     int32_t steady_reserved;

@@ -33,7 +33,7 @@ static int32_t respond(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *
     dmb_block_weakest weakest;
     dmb_stability found = {0};
     int64_t bad = -1;
-    const int32_t status = dmb_stability_judge(&search->evaluation, 0, &weakest, &bad, &found);
+    const int32_t status = dmb_stability_judge(search, 0, &weakest, &bad, &found);
     if (status < 0) return status;
     if (bad >= 0 || weakest.ratio < DMB_LOOSE_PIVOT)
         return dmb_stiffness_explain(sim, "buckling", bad >= 0 ? (uint32_t)bad : weakest.block);

@@ -52,7 +52,7 @@ static int32_t factor(dmb_path *path, int judged, dmb_block_weakest *weakest, in
         *bad = dmb_factor_stiffness(path->work, weakest);
         return DMB_OK;
     }
-    const int32_t status = dmb_stability_judge(&path->search.evaluation, 0, weakest, bad, &found);
+    const int32_t status = dmb_stability_judge(&path->search, 0, weakest, bad, &found);
     path->next.negative = found.negative;
     path->next.stiffness = found.stiffness;
     path->rounding = found.rounding;

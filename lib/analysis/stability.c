@@ -1,7 +1,9 @@
 #include "analysis/stability.h"
 
+#include <math.h>
 #include <string.h>
 
+#include "analysis/stability_friction.h"
 #include "analysis/stiffness.h"
 #include "analysis/symmetry.h"
 #include "math/block_inertia.h"
@@ -35,13 +37,14 @@ static uint32_t negative_of_linked(dmb_sim *sim)
 }
 
 /* Negative eigenvalues of H + rho D; the blocks are used up. -1: a block is singular before its turn. */
-static int32_t negative_of_symmetric_part(dmb_evaluation *evaluation, double rho)
+static int32_t negative_of_symmetric_part(dmb_static_search *state, double rho, int friction_turned)
 {
-    dmb_sim *sim = evaluation->sim;
+    dmb_sim *sim = state->sim;
     const dmb_scene *scene = sim->scene;
     uint32_t negative = 0;
-    if (dmb_system_evaluate(evaluation) < 0) return -1;
-    dmb_system_iteration_matrix(evaluation);
+    if (dmb_static_evaluate(state) < 0) return -1;
+    dmb_system_iteration_matrix(&state->evaluation);
+    if (friction_turned && dmb_stability_turn_friction(&state->evaluation) <= 0) return -1;
     raise_diagonal(sim, rho, 0);
     for (uint32_t c = 0; c < scene->chain_count; c++)
         if (!scene->chains[c].linked)
@@ -166,7 +169,7 @@ static int determinant_is_negative(const dmb_sim *sim)
 #define DMB_DIVERGENCE_TOLERANCE 1e-8
 
 typedef struct search {
-    dmb_evaluation *evaluation;
+    dmb_static_search *state;
     double rounding;
     int32_t odd;      /* 1: det K < 0 */
     int32_t complete; /* 1: there are no other negative ones */
@@ -174,23 +177,33 @@ typedef struct search {
     uint32_t wanted, dimension;
 } search;
 
+/* Products that making vectors orthogonal may take, by the square of their number times their length. */
+#define DMB_DIVERGENCE_WORK 5e8
+#define DMB_DIVERGENCE_LEAST 48
+
+static size_t most_vectors(uint32_t rows)
+{
+    return (size_t)fmax(DMB_DIVERGENCE_LEAST, sqrt(DMB_DIVERGENCE_WORK / rows));
+}
+
 /* The iteration matrix and its factors once more. */
-static int32_t factor_again(dmb_evaluation *evaluation)
+static int32_t factor_again(dmb_static_search *state)
 {
     dmb_block_weakest unused;
-    const int32_t status = dmb_system_evaluate(evaluation);
+    const int32_t status = dmb_static_evaluate(state);
     if (status < 0) return status;
-    dmb_system_iteration_matrix(evaluation);
-    (void)dmb_factor_stiffness(evaluation->sim, &unused);
+    dmb_system_iteration_matrix(&state->evaluation);
+    (void)dmb_factor_stiffness(state->sim, &unused);
     return DMB_OK;
 }
 
 static int32_t look(search *s)
 {
-    dmb_sim *sim = s->evaluation->sim;
+    dmb_sim *sim = s->state->sim;
     const dmb_operator inverse = {.context = sim,
                                   .length = sim->scene->row_count,
                                   .dimension = s->dimension,
+                                  .most = most_vectors(sim->scene->row_count),
                                   .metric = metric,
                                   .apply = apply,
                                   .draw = draw,
@@ -199,32 +212,40 @@ static int32_t look(search *s)
     const int32_t status =
         dmb_krylov_largest(&inverse, s->wanted, 2, DMB_DIVERGENCE_TOLERANCE, &sim->allocator, &found);
     if (status < 0) {
-        (void)factor_again(s->evaluation);
+        (void)factor_again(s->state);
         return status;
     }
     s->negative = count_negative(&found, s->rounding);
     const double last = found.count ? hypot(found.re[found.count - 1], found.im[found.count - 1]) : 0.0;
     dmb_krylov_release(&found);
-    s->complete =
-        s->wanted >= s->dimension || (last > 0.0 && negative_of_symmetric_part(s->evaluation, 1.0 / last) == 0);
-    return factor_again(s->evaluation);
+    s->complete = s->wanted >= s->dimension || (last > 0.0 && negative_of_symmetric_part(s->state, 1.0 / last, 0) == 0);
+    return factor_again(s->state);
 }
 
-static int32_t judge_unsymmetric(dmb_evaluation *evaluation, int thorough, dmb_stability *out)
+/* Whether a symmetric part says that there is none; the factors are gone then. */
+static int has_none(dmb_static_search *state, double rounding)
 {
-    search s = {.evaluation = evaluation,
+    return negative_of_symmetric_part(state, rounding, 0) == 0 || negative_of_symmetric_part(state, rounding, 1) == 0;
+}
+
+static int32_t judge_unsymmetric(dmb_static_search *state, int thorough, dmb_stability *out)
+{
+    search s = {.state = state,
                 .rounding = out->rounding,
-                .odd = determinant_is_negative(evaluation->sim),
+                .odd = determinant_is_negative(state->sim),
                 .wanted = DMB_DIVERGENCE_FIRST,
-                .dimension = coordinates_of(evaluation->sim)};
+                .dimension = coordinates_of(state->sim)};
+    const int32_t none = has_none(state, out->rounding), status = factor_again(state);
+    out->negative = 0;
+    if (status < 0 || none) return status;
     out->negative = -1;
     for (int agrees = 0; !s.complete && s.wanted <= DMB_DIVERGENCE_MOST &&
                          !(agrees && !(thorough && s.wanted <= DMB_DIVERGENCE_THOROUGH));
          s.wanted *= 3) {
         if (s.wanted > s.dimension) s.wanted = s.dimension;
-        const int32_t status = look(&s);
-        if (status == DMB_ERR_NO_CONVERGENCE) return DMB_OK;
-        if (status < 0) return status;
+        const int32_t looked = look(&s);
+        if (looked == DMB_ERR_NO_CONVERGENCE) return DMB_OK;
+        if (looked < 0) return looked;
         agrees = (s.negative & 1) == s.odd;
         if (s.complete || agrees) out->negative = s.negative;
     }
@@ -245,12 +266,12 @@ static int64_t judge_linked_again(dmb_sim *sim, uint32_t chains, dmb_stability *
     return bad;
 }
 
-int32_t dmb_stability_judge(dmb_evaluation *evaluation, int thorough, dmb_block_weakest *weakest, int64_t *bad,
+int32_t dmb_stability_judge(dmb_static_search *state, int thorough, dmb_block_weakest *weakest, int64_t *bad,
                             dmb_stability *out)
 {
-    dmb_sim *sim = evaluation->sim;
+    dmb_sim *sim = state->sim;
     const dmb_scene *scene = sim->scene;
-    dmb_system_iteration_matrix(evaluation);
+    dmb_system_iteration_matrix(&state->evaluation);
     const uint32_t chains = dmb_stiffness_negative_of_chains(sim);
     out->rounding = dmb_stiffness_rounding(sim);
     if (scene->cluster_count) dmb_linked_assemble(sim);
@@ -259,7 +280,7 @@ int32_t dmb_stability_judge(dmb_evaluation *evaluation, int thorough, dmb_block_
     out->negative = (int32_t)chains;
     *bad = dmb_factor_stiffness(sim, weakest);
     if (*bad >= 0) return DMB_OK;
-    if (out->stiffness == DMB_STIFFNESS_UNSYMMETRIC) return judge_unsymmetric(evaluation, thorough, out);
+    if (out->stiffness == DMB_STIFFNESS_UNSYMMETRIC) return judge_unsymmetric(state, thorough, out);
     if (scene->cluster_count == 0) return DMB_OK;
     const uint32_t linked = negative_of_linked(sim);
     out->negative = (int32_t)(chains + linked);

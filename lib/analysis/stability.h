@@ -1,7 +1,9 @@
 /* Whether a static state is stable: by the signs of its stiffness K where that is symmetric, and where it is not by the
  * real negative eigenvalues of K x = mu D x, D the weights 1 of displacements and length_scale^2 of rotations. By each of
  * these the state diverges, and none can come or go but through det K = 0, whatever D. They are looked for among the
- * eigenvalues nearest 0, by Krylov subspaces on x -> K^-1 D x, until
+ * eigenvalues nearest 0, unless a positive definite symmetric part, with or without what friction adds to it
+ * (analysis/stability_friction.h), says that there is none: by Krylov subspaces on x -> K^-1 D x, as many vectors as some
+ * hundreds of millions of products allow, until
  *     the symmetric part H leaves none further out: mu >= -rho where H + rho D is positive definite, x.Hx = mu x.Dx; or
  *     so many have been seen, and the sign of det K agrees with their number.
  * The sign alone would not do: what is round diverges in two directions at once. Flutter is not looked for: it depends on
@@ -9,7 +11,7 @@
 #ifndef DMB_ANALYSIS_STABILITY_H
 #define DMB_ANALYSIS_STABILITY_H
 
-#include "system/evaluation.h"
+#include "analysis/static_state.h"
 
 typedef struct dmb_stability {
     int32_t stiffness;  /* DMB_STIFFNESS_... */
@@ -23,7 +25,7 @@ typedef struct dmb_stability {
  * of a state that was asked for, looked at once more where rounding may decide; 0: of one on a path, where what counts is
  * that the same is counted at each point. `correction` is left alone where K is
  * symmetric, and else the residual. Errors: DMB_ERR_NO_MEMORY, and as dmb_system_evaluate. */
-int32_t dmb_stability_judge(dmb_evaluation *evaluation, int thorough, dmb_block_weakest *weakest, int64_t *bad,
+int32_t dmb_stability_judge(dmb_static_search *state, int thorough, dmb_block_weakest *weakest, int64_t *bad,
                             dmb_stability *out);
 
 #endif

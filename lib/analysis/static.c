@@ -310,7 +310,7 @@ static int32_t judge_stability(dmb_static_search *search, dmb_static_report *out
     }
     search->evaluation.extrapolated = 0;
     int32_t status = dmb_system_evaluate(&search->evaluation);
-    if (status >= 0) status = dmb_stability_judge(&search->evaluation, 1, &weakest, &bad, &found);
+    if (status >= 0) status = dmb_stability_judge(search, 1, &weakest, &bad, &found);
     out->negative = bad >= 0 ? -1 : found.negative;
     out->stiffness = found.stiffness;
     return status;

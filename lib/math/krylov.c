@@ -308,6 +308,7 @@ int32_t dmb_krylov_largest(const dmb_operator *A, uint32_t wanted, uint32_t star
     b.allocator = allocator;
     b.seed = 1;
     b.limit = smaller(A->dimension, (A->symmetric ? 4 : 8) * (size_t)wanted + 150) + start + 2; /* pairs count once */
+    if (A->most > 0) b.limit = smaller(b.limit, A->most + start + 2);
     int32_t status = open_basis(&b, &s);
     if (status < 0) return status;
     for (uint32_t k = 0; k < start && status >= 0; k++) status = throw_in(&b);
