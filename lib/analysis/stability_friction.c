@@ -1,12 +1,10 @@
 #include "analysis/stability_friction.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/allocator.h"
-#include "force/contact_math.h"
-#include "math/so3.h"
-#include "system/node.h"
-#include "system/wall_contact.h"
+#include "system/contact_slope.h"
 
 /* |f| that is allowed. */
 #define DMB_FRICTION_MOST 1.8
@@ -20,57 +18,17 @@ typedef struct friction_field {
     double most;     /* largest |f| */
 } friction_field;
 
-/* Closest point of the hole's axis to a ring, and the frame there. */
-static void frame_of(const dmb_evaluation *evaluation, uint32_t s, dmb_contact_frame *f)
-{
-    const dmb_sim *sim = evaluation->sim;
-    const dmb_scene *scene = sim->scene;
-    const dmb_site *site = scene->sites + s;
-    double R[9], x[3], at[3], tangent[3], depth = sim->trial.site_depth[s];
-    uint32_t segment = sim->trial.site_segment[s];
-    dmb_quat_to_matrix(sim->trial.quaternion + 4 * (size_t)site->node, R);
-    dmb_vec3_add(scene->reference_position + 3 * (size_t)site->node, sim->trial.displacement + 3 * (size_t)site->node,
-                 x);
-    for (int i = 0; i < 3; i++) x[i] += R[3 * i] * site->offset;
-    dmb_hole_project(&scene->hole, x, &depth, &segment, at, tangent);
-    f->radius = site->radius;
-    dmb_contact_frame_at(R, sim->trial.site_normal + 3 * (size_t)s, tangent, f);
-}
-
-/* Forces along and around for a unit of normal force; 0: it does not slip. */
-static int friction_by_normal(const dmb_evaluation *evaluation, uint32_t s, double radius, double by_normal[2])
-{
-    const dmb_sim *sim = evaluation->sim;
-    dmb_friction_law law = sim->scene->friction_law;
-    double v[2] = {evaluation->slip[0], radius * evaluation->slip[1]}, force[2], by_speed[4];
-    if (evaluation->dynamic) memcpy(v, sim->trial.site_slip + 2 * (size_t)s, sizeof v);
-    if (law.kind == DMB_FRICTION_NONE || (v[0] == 0.0 && v[1] == 0.0)) return 0;
-    if (evaluation->steady && dmb_scene_has_bristles(sim->scene)) law = dmb_sliding_law(&law);
-    dmb_friction_smooth(&law, 1.0, v, force, by_speed, by_normal);
-    return 1;
-}
-
 static void add_ring(const dmb_evaluation *evaluation, uint32_t s, friction_field *field)
 {
     const dmb_scene *scene = evaluation->sim->scene;
-    const dmb_site *site = scene->sites + s;
-    const double length = scene->length_scale;
-    double by_normal[2], f[6], size = 0.0, *E = field->E + ENTRIES * (size_t)site->node;
-    dmb_contact_frame frame;
-    if (!(evaluation->sim->trial.site_penetration[s] > 0.0)) return;
-    if (!friction_by_normal(evaluation, s, site->radius, by_normal)) return;
-    frame_of(evaluation, s, &frame);
-    for (int i = 0; i < 3; i++) {
-        f[i] = -(by_normal[0] * frame.t[i] + by_normal[1] * frame.b[i]);
-        f[3 + i] = -(by_normal[0] * frame.turn_t[i] + by_normal[1] * frame.turn_b[i]);
-    }
-    f[4] -= site->offset * f[2]; /* its moment about the node */
-    f[5] += site->offset * f[1];
-    for (int i = 0; i < 6; i++) size += f[i] * f[i] / (i < 3 ? 1.0 : length * length);
+    const uint32_t node = scene->sites[s].node;
+    double n[3], f[6], size = 0.0, *E = field->E + ENTRIES * (size_t)node;
+    if (!dmb_contact_friction_by_normal(evaluation, s, n, f)) return;
+    for (int i = 0; i < 6; i++) size += f[i] * f[i] / (i < 3 ? 1.0 : scene->length_scale * scene->length_scale);
     field->most = fmax(field->most, sqrt(size));
-    field->rings[site->node]++;
+    field->rings[node]++;
     for (int i = 0; i < 6; i++)
-        for (int j = 0; j < 3; j++) E[3 * i + j] += f[i] * frame.n[j];
+        for (int j = 0; j < 3; j++) E[3 * i + j] += f[i] * n[j];
 }
 
 /* Between rings in proportion, beyond the last ones as there. */
