@@ -61,9 +61,10 @@ typedef struct dmb_static_report {
     int32_t negative;          /* [-] eigenvalues of the stiffness by which the equilibrium is unstable, those that are 0 but
                                   for rounding apart. SYMMETRIC: negative ones, exactly. UNSYMMETRIC: real negative ones
                                   among those nearest 0, 36 or all, as many as the sign of the determinant agrees with;
-                                  -1: not counted, which bounded work did not allow. Of a state that moves (`steady`): of
-                                  the symmetric part, which does not tell whether it stays so (dmb_analysis_modes) */
-    int32_t stiffness;         /* DMB_STIFFNESS_...: the kind that was judged; SYMMETRIC of a state that moves */
+                                  -1: not counted, which bounded work did not allow. Of a state that moves (`steady`): of the
+                                  stiffness in its moving axes, centrifugal forces included; gyroscopic ones may hold it
+                                  all the same, or damping not (dmb_analysis_modes) */
+    int32_t stiffness;         /* DMB_STIFFNESS_...: the kind that was judged */
     int32_t steady;            /* DMB_STEADY_AT_REST, _SLIDING or _RIGID: what the state is */
     int32_t steady_reserved;
 } dmb_static_report;

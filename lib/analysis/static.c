@@ -302,14 +302,8 @@ static int32_t judge_stability(dmb_static_search *search, dmb_static_report *out
     dmb_block_weakest weakest;
     dmb_stability found = {0};
     int64_t bad = -1;
-    if (search->steady !=
-        NULL) { /* inertia and damping have their part in it: whether it stays is a question for modes */
-        dmb_system_iteration_matrix(&search->evaluation);
-        (void)dmb_stiffness_factor(search->sim, &weakest, &out->negative);
-        return DMB_OK;
-    }
     search->evaluation.extrapolated = 0;
-    int32_t status = dmb_system_evaluate(&search->evaluation);
+    int32_t status = dmb_static_evaluate(search);
     if (status >= 0) status = dmb_stability_judge(search, 1, &weakest, &bad, &found);
     out->negative = bad >= 0 ? -1 : found.negative;
     out->stiffness = found.stiffness;

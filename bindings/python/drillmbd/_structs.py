@@ -675,8 +675,8 @@ class StaticReport(Sized):
         "lateral_move": ("m", "largest displacement from the starting pose"),
         "cuts": ("-", "load steps that did not converge and were halved"),
         "line_searches": ("-", "corrections that were shortened by a line search"),
-        "negative": ("-", "eigenvalues of the stiffness by which the equilibrium is unstable, those that are 0 but for rounding apart. SYMMETRIC: negative ones, exactly. UNSYMMETRIC: real negative ones among those nearest 0, 36 or all, as many as the sign of the determinant agrees with; -1: they could not be counted. Of a state that moves (`steady`): of the symmetric part, which does not tell whether it stays so (dmb_analysis_modes)"),
-        "stiffness": ("", "STIFFNESS_...: the kind that was judged; SYMMETRIC of a state that moves"),
+        "negative": ("-", "eigenvalues of the stiffness by which the equilibrium is unstable, those that are 0 but for rounding apart. SYMMETRIC: negative ones, exactly. UNSYMMETRIC: real negative ones among those nearest 0, 36 or all, as many as the sign of the determinant agrees with; -1: not counted, which bounded work did not allow. Of a state that moves (`steady`): of the stiffness in its moving axes, centrifugal forces included; gyroscopic ones may hold it all the same, or damping not (dmb_analysis_modes)"),
+        "stiffness": ("", "STIFFNESS_...: the kind that was judged"),
         "steady": ("", "STEADY_AT_REST, _SLIDING or _RIGID: what the state is"),
     }
 
