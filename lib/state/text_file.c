@@ -20,6 +20,17 @@
 enum { TRIES = 100 }; /* names of files beside that may be taken, by runs that were killed or are under way */
 
 #if DMB_POSIX
+/* Of a name so many bytes stand in that of the file beside it: names end at 255. */
+enum { NAME_MAX_BESIDE = 200 };
+
+/* Where the ending of the file beside goes. */
+static size_t stem_of(const char *path, size_t length)
+{
+    const char *slash = strrchr(path, '/');
+    const size_t folder = slash != NULL ? (size_t)(slash - path) + 1 : 0;
+    return length - folder > NAME_MAX_BESIDE ? folder + NAME_MAX_BESIDE : length;
+}
+
 /* A file that is there keeps its links and its mode. */
 static int32_t open_beside(dmb_text_file *file, const char *path)
 {
@@ -33,10 +44,11 @@ static int32_t open_beside(dmb_text_file *file, const char *path)
     if (!file->beside) return file->stream != NULL ? DMB_OK : DMB_ERR_IO;
     if (length == 0 || length >= DMB_PATH_MAX) return DMB_ERR_IO;
     memcpy(file->path, target, length + 1);
-    memcpy(file->part, target, length);
+    const size_t stem = stem_of(target, length);
+    memcpy(file->part, target, stem);
     for (uint32_t i = 0; i < TRIES && file->stream == NULL; i++) {
-        memcpy(file->part + length, ".part", 6);
-        (void)dmb_number_from_u64(file->part + length + 5, i);
+        memcpy(file->part + stem, ".part", 6);
+        (void)dmb_number_from_u64(file->part + stem + 5, i);
         file->stream = fopen(file->part, "wbx"); /* never one that is there */
     }
     if (file->stream == NULL) return DMB_ERR_IO;

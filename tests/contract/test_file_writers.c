@@ -277,6 +277,94 @@ static void places_of_all_kinds(void **state)
     close_scene(&s);
 }
 
+/* ---- Places where nothing can be written ----------------------------------------------------------------------------- */
+
+/* Runs with the rights of nobody where it has those of root, whom a read-only folder does not stop. */
+static int give_up_rights(void)
+{
+    return geteuid() == 0 && seteuid(65534) == 0;
+}
+
+static void take_rights_back(int given_up)
+{
+    if (given_up) assert_int_equal(seteuid(0), 0);
+}
+
+/* In a folder in which no file may be made, a writable file that is there stays whole too: its place cannot be taken. */
+static void read_only_folders(void **state)
+{
+    (void)state;
+    scene s;
+    open_scene(&s);
+    for (int writer = 0; writer < WRITERS; writer++)
+        for (int with_old = 0; with_old < 2; with_old++) {
+            (void)remove(s.path);
+            if (with_old) put_old(s.path);
+            if (with_old) assert_int_equal(chmod(s.path, 0666), 0);
+            assert_int_equal(chmod(s.folder, 0555), 0);
+            const int given_up = give_up_rights();
+            if (geteuid() == 0)
+                print_message("root may write anywhere: not checked\n");
+            else
+                assert_int_equal(write_to(writer, &s, s.path), DMB_ERR_IO);
+            take_rights_back(given_up);
+            assert_int_equal(chmod(s.folder, 0755), 0);
+            check_untouched(&s, with_old);
+        }
+    close_scene(&s);
+}
+
+/* Below what is a file, in folders of the kernel's, where a folder has its name, behind a link to nowhere or to itself. */
+static void places_that_are_none(void **state)
+{
+    (void)state;
+    scene s;
+    char path[160], name[160];
+    open_scene(&s);
+    put_old(s.path);
+    for (int writer = 0; writer < WRITERS; writer++) {
+        (void)snprintf(path, sizeof path, "%s/below", s.path);
+        assert_int_equal(write_to(writer, &s, path), DMB_ERR_IO);
+        assert_int_equal(write_to(writer, &s, "/proc/none"), DMB_ERR_IO);
+        assert_int_equal(write_to(writer, &s, "/sys/none"), DMB_ERR_IO);
+        assert_int_equal(write_to(writer, &s, "/proc/self/fd/none"), DMB_ERR_IO);
+        (void)snprintf(path, sizeof path, "%s/nowhere/", s.folder);
+        assert_int_equal(write_to(writer, &s, path), DMB_ERR_IO);
+        (void)snprintf(name, sizeof name, "%s/loop", s.folder);
+        assert_int_equal(symlink("loop", name), 0);
+        const int32_t status = write_to(writer, &s, name); /* a link that leads nowhere gives way to the file */
+        struct stat found;
+        assert_int_equal(status, DMB_OK);
+        assert_int_equal(lstat(name, &found), 0);
+        assert_true(S_ISREG(found.st_mode));
+        assert_int_equal(remove(name), 0);
+        check_untouched(&s, 1);
+    }
+    close_scene(&s);
+}
+
+/* Names as long as the system allows are written, though there is no room for more letters beside them; longer ones are
+ * refused. */
+static void long_names(void **state)
+{
+    (void)state;
+    scene s;
+    char path[400];
+    struct stat found;
+    open_scene(&s);
+    for (int writer = 0; writer < WRITERS; writer++)
+        for (size_t length = 240; length <= 257; length++) {
+            const int start = snprintf(path, sizeof path, "%s/", s.folder);
+            memset(path + start, 'n', length);
+            path[(size_t)start + length] = '\0';
+            assert_int_equal(write_to(writer, &s, path), length <= 255 ? DMB_OK : DMB_ERR_IO);
+            if (length <= 255) assert_int_equal(stat(path, &found), 0);
+            (void)remove(path);
+            assert_int_equal(files_in(s.folder), 0);
+        }
+    close_scene(&s);
+}
+
 /* ---- What is not a number -------------------------------------------------------------------------------------------- */
 
 static uint32_t digit_of(char c)
@@ -379,7 +467,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_call_fails_once), cmocka_unit_test(space_runs_out),
-        cmocka_unit_test(places_of_all_kinds),   cmocka_unit_test(what_is_no_number),
+        cmocka_unit_test(places_of_all_kinds),   cmocka_unit_test(read_only_folders),
+        cmocka_unit_test(places_that_are_none),  cmocka_unit_test(long_names),
+        cmocka_unit_test(what_is_no_number),
         cmocka_unit_test(response_reads_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
