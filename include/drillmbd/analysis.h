@@ -149,7 +149,8 @@ typedef struct dmb_buckling dmb_buckling;
  * how far the equilibria stay stable where there is none). DMB_NOTE_EXTRAPOLATED where some of the factors are not confirmed.
  * Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no equilibrium or not stable; message says by how much), _SINGULAR (message
  * says which part is free), _NO_CONVERGENCE (the equilibria could not be followed; message says how far), _UNSUPPORTED (a
- * motion drive of a joint), _NO_MEMORY, _CALLBACK; *buckling is NULL then. Some 40 counts a factor and 10 to 100 iterations on
+ * motion drive of a joint; a state that slides or turns by its drives: take DMB_STEADY_AT_REST, and the slip here, for
+ * it), _NO_MEMORY, _CALLBACK, _CANCELLED; *buckling is NULL then. Some 40 counts a factor and 10 to 100 iterations on
  * the way, each O(number of elements); memory: the sim's twice more and 3 matrices, from its allocator. */
 DMB_API int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling);
 DMB_API int32_t dmb_buckling_get_info(const dmb_buckling *buckling, dmb_buckling_info *info);
@@ -227,8 +228,8 @@ DMB_SIZED_STRUCT(dmb_path_report)
  * options and report may be NULL; where the path was lost the report tells how far it came. DMB_NOTE_STOPPED after
  * max_points or by the callback. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no equilibrium), _SINGULAR (message
  * says which part is free, or that the factor moves nothing), _NO_CONVERGENCE (message says where the path was lost),
- * _ROTATION (above 2.5 rad in an element, likewise), _UNSUPPORTED, _NO_MEMORY, _CALLBACK. O(number of elements) an
- * iteration; memory: the sim's once more. */
+ * _ROTATION (above 2.5 rad in an element, likewise), _UNSUPPORTED (as of buckling), _NO_MEMORY, _CALLBACK, _CANCELLED. O(number
+ * of elements) an iteration; memory: the sim's once more. */
 DMB_API int32_t dmb_analysis_path(dmb_sim *sim, const dmb_path_options *options, dmb_path_report *report);
 
 /* ---- Model check -------------------------------------------------------------------------------------------------

@@ -188,7 +188,8 @@ static void confirm_all(dmb_buckling *buckling)
 /* About the present state, and then along the equilibria. */
 static int32_t run(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options)
 {
-    int32_t status = dmb_buckling_linearise(buckling, sim, options);
+    int32_t status = dmb_steady_refuse_moving(sim, buckling->work, "buckling");
+    if (status >= 0) status = dmb_buckling_linearise(buckling, sim, options);
     if (status >= 0) status = dmb_buckling_find(buckling, options, &sim->message);
     if (status < 0) return status;
     for (uint32_t k = 0; k < options->count; k++)

@@ -83,13 +83,15 @@ static int32_t begin(dmb_path *path)
 {
     dmb_sim *work = path->work;
     const dmb_scene *scene = work->scene;
+    int32_t status = dmb_steady_refuse_moving(path->sim, work, "path");
+    if (status < 0) return status;
     memset(work->increment, 0, scene->row_count * sizeof(double));
     memset(work->now.velocity, 0, scene->row_count * sizeof(double));
     memset(work->now.acceleration, 0, scene->row_count * sizeof(double));
     memset(work->now.pseudo_acceleration, 0, scene->row_count * sizeof(double));
     dmb_configuration_copy(work, &work->now, &work->trial);
     work->linked_mode->row = UINT32_MAX;
-    int32_t status = dmb_system_prescribe(&path->search.evaluation);
+    status = dmb_system_prescribe(&path->search.evaluation);
     if (status >= 0 && scene->cluster_count) status = dmb_static_settle(&path->search);
     if (status < 0) return status;
     memset(work->trial.velocity, 0, scene->row_count * sizeof(double));

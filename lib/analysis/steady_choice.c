@@ -307,6 +307,51 @@ static int32_t choose(dmb_sim *sim, int32_t wanted, dmb_steady *out)
     return DMB_NOTE_NOT_STEADY;
 }
 
+/* [-] Part of the largest speed by which a state may differ from a steady one and be taken for it. */
+#define DMB_STEADY_LIKE 1e-2
+
+/* 1: the nodes of the accepted state have the speeds of the trial, rotations times the length scale. */
+static int is_moving_so(const dmb_sim *work)
+{
+    const dmb_scene *scene = work->scene;
+    double most = 0.0, off = 0.0;
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        for (uint32_t c = 0; c < scene->layout.size[i]; c++) {
+            const uint32_t row = scene->layout.row[i] + c;
+            const double arm = 2 * c < scene->layout.size[i] ? 1.0 : scene->length_scale;
+            most = fmax(most, arm * fabs(work->trial.velocity[row]));
+            off = fmax(off, arm * fabs(work->trial.velocity[row] - work->now.velocity[row]));
+        }
+    return most > 0.0 && off <= DMB_STEADY_LIKE * most;
+}
+
+int32_t dmb_steady_refuse_moving(dmb_sim *sim, dmb_sim *work, const char *who)
+{
+    dmb_steady steady;
+    dmb_evaluation evaluation;
+    memset(&evaluation, 0, sizeof evaluation);
+    evaluation.sim = work;
+    evaluation.time = work->clock->time;
+    evaluation.load_factor = 1.0;
+    dmb_state_keep(work);
+    int32_t status = dmb_steady_choose(work, DMB_STEADY_AUTO, 0, &steady);
+    int like = 0;
+    if (status >= 0 && steady.kind != DMB_STEADY_AT_REST) {
+        status = dmb_steady_move(&steady, &evaluation, 1.0);
+        like = status >= 0 && is_moving_so(work);
+    }
+    const char *const kind = steady.kind == DMB_STEADY_RIGID ? "turns as a whole" : "slides or turns in itself";
+    dmb_steady_release(&steady);
+    dmb_state_bring_back(work);
+    dmb_message_clear(&work->message);
+    if (!like) return dmb_is_final(status) || status == DMB_ERR_NO_MEMORY ? status : DMB_OK;
+    dmb_message_set(&sim->message,
+                    "%s: the state %s by its motion drives, and is judged at rest only; call dmb_analysis_static with "
+                    "DMB_STEADY_AT_REST first, for the friction of sliding with slip_axial and slip_rotation here too",
+                    who, kind);
+    return DMB_ERR_UNSUPPORTED;
+}
+
 int32_t dmb_steady_choose(dmb_sim *sim, int32_t wanted, int assumed, dmb_steady *out)
 {
     int moving = 0;
