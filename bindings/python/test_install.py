@@ -49,6 +49,8 @@ class InstallTest(unittest.TestCase):
             DRILLMBD_BUNDLE=str(BUILD / "libdrillmbd.so"))
         out = run(python, "-c", PROGRAM)
         self.assertIn(str(self.folder / "env"), out)
+        self.assertIn("usage: drillmbd", run(self.folder / "env" / "bin" / "drillmbd", "--help"))
+        self.assertIn("drillmbd/scene/scene.schema.json", run(python, "-m", "pip", "show", "-f", "drillmbd"))
         self.assertIn("py.typed", run(python, "-m", "pip", "show", "-f", "drillmbd"))
 
     def test_pip_without_a_library_of_its_own(self):
@@ -69,6 +71,7 @@ class InstallTest(unittest.TestCase):
         self.assertIn(str(prefix), out)
         moved = self.folder / "elsewhere"
         prefix.rename(moved)
+        self.assertIn("usage: drillmbd", run(moved / "bin" / "drillmbd", "--help"))
         run(sys.executable, "-c", PROGRAM, PYTHONPATH=str(moved / package.parents[1].relative_to(prefix)))
 
 

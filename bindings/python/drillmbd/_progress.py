@@ -4,13 +4,13 @@ from __future__ import annotations
 import signal
 import threading
 from collections.abc import Callable
-from ctypes import c_void_p
+from ctypes import c_void_p, cast
 from typing import Any
 
 from ._library import lib as _lib
 from ._structs import PROGRESS_FN
 
-_NOBODY = PROGRESS_FN()
+_NOBODY = cast(c_void_p(), PROGRESS_FN)
 
 
 class Teller:

@@ -56,15 +56,18 @@ class Model:
         return _remake(type(self), self.calls)
 
     def same_scene(self, other: Model) -> bool:
-        """True where both were described by the same calls."""
+        """True where both were described alike: parts of a kind in the same order, whatever the order of kinds."""
         def bare(model: Model) -> Any:
-            return [(name, _map_ids(arguments, lambda part: (part.index, bool(part)))) for name, arguments in model.calls]
+            found: dict[str, list[Any]] = {}
+            for name, arguments in model.calls:
+                found.setdefault(name, []).append(map_ids(arguments, lambda part: (part.index, bool(part))))
+            return found
         return bool(bare(self) == bare(other))
 
     def own(self, part: Any) -> Any:
         """The part (or place) of this model that `part` is in the model that this one was copied from."""
         generation = self.ids[0].generation if self.ids else 0
-        return _map_ids(part, lambda one: Id(one.index, generation) if one else Id())
+        return map_ids(part, lambda one: Id(one.index, generation) if one else Id())
 
     # ---- Calls ------------------------------------------------------------------------------------------------------
     @property
@@ -209,7 +212,7 @@ _DEFINITIONS: dict[str, Any] = {
     "add_programme": Term}
 
 
-def _map_ids(value: Any, change: Callable[[Id], Any]) -> Any:
+def map_ids(value: Any, change: Callable[[Id], Any]) -> Any:
     """The value with every id in it changed."""
     if isinstance(value, Id):
         return change(value)
@@ -217,9 +220,9 @@ def _map_ids(value: Any, change: Callable[[Id], Any]) -> Any:
         part = change(value.part)
         return Place(part, value.pipe, 0, value.fraction) if isinstance(part, Id) else (part, value.pipe, value.fraction)
     if isinstance(value, dict):
-        return {key: _map_ids(one, change) for key, one in value.items()}
+        return {key: map_ids(one, change) for key, one in value.items()}
     if isinstance(value, (list, tuple)):
-        return type(value)(_map_ids(one, change) for one in value)
+        return type(value)(map_ids(one, change) for one in value)
     return value
 
 
@@ -227,7 +230,7 @@ def _remake(cls: type[Model], calls: list[tuple[str, tuple[Any, ...]]]) -> Model
     """A model by the calls that described another. Ids carry the number of a part and the stamp of its model."""
     model = cls()
     for name, arguments in calls:
-        fields = [_map_ids(one, lambda part: model.own(as_id(part))) for one in arguments]
+        fields = [map_ids(one, lambda part: model.own(as_id(part))) for one in arguments]
         definitions = [_DEFINITIONS[name](**one) if isinstance(one, dict) else one for one in fields]
         getattr(model, name)(*definitions)
     return model

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 import time as clock
 from collections.abc import Callable, Sequence
 from ctypes import byref, c_double, c_size_t, c_uint32, c_uint64, c_void_p
@@ -43,6 +44,29 @@ class Progress:
     def real_time_factor(self) -> float:
         """[-] simulated time over time by the clock"""
         return (self.time - self.begin) / self.elapsed if self.elapsed > 0.0 else 0.0
+
+
+class _Lengths:
+    """The calls that a run is divided into: equal steps and a shorter last one, or hundredths."""
+
+    def __init__(self, begin: float, end: float, step: float | None) -> None:
+        self.begin, self.end, self.length, self.rest = begin, end, step, 0.0
+        self.count = 100 if end > begin else 0
+        if step is not None and not step > 0.0:
+            raise ValueError(f"step = {step} s, must be > 0")
+        if step:
+            self.count = max(0, math.floor((end - begin) / step + 1e-6))
+            rest = end - begin - self.count * step
+            if rest > 1e-6 * step:
+                self.rest, self.count = rest, self.count + 1
+
+    def step(self, number: int) -> float:
+        """[s] length of step `number`, from 1."""
+        return self.rest if self.rest and number == self.count else self.length or 0.0
+
+    def target(self, number: int) -> float:
+        """[s] where call `number` ends, from 1."""
+        return self.end if number == self.count else self.begin + (self.end - self.begin) * number / self.count
 
 
 class Sim(analysis.Analyses):
@@ -123,25 +147,22 @@ class Sim(analysis.Analyses):
 
     def run(self, end: float, step: float | None = None, recorder: Recorder | None = None,
             progress: Callable[[Progress], Any] | None = None, every: float = 0.2) -> Progress:
-        """Runs to time `end` [s]: with equal steps of `step` [s] (the last one shorter where they do not fit), or with
-        steps of the library's choice, which then end at each hundredth of the run. The recorder takes a row after each
-        step. progress(Progress) is called each `every` seconds by the clock and at the end; what it returns, if true,
-        stops the run there. Ctrl-C raises KeyboardInterrupt: the sim stays whole and can go on, and
-        the recorder has all rows so far."""
+        """Runs to time `end` [s]: with equal steps of `step` [s] (a last one shorter where they do not fit; a millionth of
+        a step counts as none), or with steps of the library's choice, which then end at each hundredth of the run. The
+        recorder takes a row after each step. progress(Progress) is called each `every` seconds by the clock and at the
+        end; what it returns, if true, stops the run there. Ctrl-C raises KeyboardInterrupt: the sim stays whole and can
+        go on, and the recorder has all rows so far."""
         begin, started, steps = self.time, clock.monotonic(), 0
-        told = started
-        number, count = 0, max(1, round((end - begin) / step - 1e-9)) if step else 100
-        if step and begin + count * step < end - 1e-9 * step:
-            count += 1
+        told, number = started, 0
+        lengths = _Lengths(begin, end, step)
         if recorder is not None and len(recorder) == 0:
             recorder.take()
-        while number < count and end > begin:
+        while number < lengths.count:
             number += 1
             if step:
-                report = self.step(step if number < count else end - self.time)
+                report = self.step(lengths.step(number))
             else:
-                target = end if number == count else begin + (end - begin) * number / count
-                report = self.advance(target)
+                report = self.advance(lengths.target(number))
                 if report.status == NOTE_CANCELLED:
                     steps += report.steps
                     break
@@ -151,7 +172,7 @@ class Sim(analysis.Analyses):
             if recorder is not None:
                 recorder.take()
             now = clock.monotonic()
-            if progress is not None and (now - told >= every or number == count):
+            if progress is not None and (now - told >= every or number == lengths.count):
                 told = now
                 if progress(Progress(self.time, end, steps, now - started, begin)):
                     break

@@ -1,0 +1,121 @@
+"""The command `drillmbd`, also `python3 -m drillmbd`: asks a scene file one question and writes the answer."""
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from . import __version__
+from .errors import Error
+
+EXAMPLES = """examples:
+  drillmbd check rig.toml                     is the scene complete? what does it consist of?
+  drillmbd run rig.toml --output out          run it, with table, pictures and files for ParaView
+  drillmbd run rig.toml --until "5 s" --step "2 ms"
+  drillmbd static rig.toml --output out       where does the string lie, what bears it?
+  drillmbd modes rig.toml                     natural frequencies
+  drillmbd response rig.toml --output out     what shakes how much, by [response]
+  drillmbd speeds rig.toml                    rotary speeds to keep away from, by [speeds]
+  drillmbd buckle rig.toml                    critical factors, by [buckling]
+  drillmbd save rig.toml copy.toml            the scene in SI units, comments left out
+  drillmbd schema > scene.schema.json         for editors that check TOML
+
+exit status: 0 done; 1 the library refused or failed; 2 wrong command line or scene file; 3 a file could not be read or
+written; 130 stopped by Ctrl-C, what was done is written.
+
+Not there yet: torque-drag, stuck, report, sweep, probability, fmu."""
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    found = argparse.ArgumentParser(prog="drillmbd", description="Multibody dynamics of drill strings from scene files.",
+                                    epilog=EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter)
+    found.add_argument("--version", action="version", version=f"drillmbd {__version__}")
+    commands = found.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for name, text in (("check", "reads the scene and tells what it consists of and what looks wrong"),
+                       ("static", "finds the static state"), ("run", "runs the scene in time"),
+                       ("modes", "finds natural frequencies about the static state"),
+                       ("response", "finds the response to what shakes about the static state"),
+                       ("speeds", "finds rotary speeds to keep away from"), ("buckle", "finds what it buckles at")):
+        command = commands.add_parser(name, help=text, description=text)
+        command.add_argument("scene", help="a scene file (TOML)")
+        command.add_argument("--output", "-o", metavar="FOLDER", help="where tables, pictures and summary.json are written")
+        command.add_argument("--quiet", "-q", action="store_true", help="no progress, no summary on the terminal")
+        if name == "run":
+            command.add_argument("--until", metavar="TIME", help='ends there, as "5 s", instead of [run] end')
+            command.add_argument("--step", metavar="TIME", help='length of a step, as "1 ms", instead of [run] step')
+        if name == "modes":
+            command.add_argument("--count", type=int, metavar="N", help="number of modes, instead of [modes] count")
+    save = commands.add_parser("save", help="writes the scene back, in SI units")
+    save.add_argument("scene")
+    save.add_argument("target", help="the new file; - for the terminal")
+    commands.add_parser("schema", help="prints the JSON schema of scene files")
+    return found
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs the command; returns the exit status."""
+    options = parser().parse_args(arguments)
+    try:
+        return _guarded(lambda: _ask(options))
+    except BrokenPipeError:
+        sys.stderr.close()
+        return 3
+
+
+def _guarded(ask: Callable[[], int]) -> int:
+    from .scene import CannotSave, SceneError
+    try:
+        return ask()
+    except SceneError as error:
+        return _tell(2, str(error))
+    except (Usage, CannotSave) as error:
+        return _tell(2, f"drillmbd: {error}")
+    except Error as error:
+        return _tell(1, f"drillmbd: {error}")
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        where = f": {error.filename}" if error.filename else ""
+        return _tell(3, f"drillmbd: {error.strerror or error}{where}")
+    except ImportError as error:
+        return _tell(2, f"drillmbd: {error}")
+    except KeyboardInterrupt:
+        return _tell(130, "drillmbd: stopped")
+
+
+def _tell(status: int, text: str) -> int:
+    print(text, file=sys.stderr)
+    return status
+
+
+class Usage(ValueError):
+    """A command line or a scene that does not fit the question."""
+
+
+def _ask(options: Any) -> int:
+    from . import scene
+    from .questions import QUESTIONS, Output
+    if options.command == "schema":
+        from .scene.schema import text
+        print(text(), end="")
+        return 0
+    if options.command == "save":
+        saved = scene.saves(scene.load(options.scene))
+        if options.target == "-":
+            print(saved, end="")
+        else:
+            with open(options.target, "w", encoding="utf-8") as file:
+                file.write(saved)
+        return 0
+    needed = {"response": "response", "speeds": "speeds", "buckle": "buckling"}.get(options.command)
+    loaded = scene.load(options.scene)
+    if needed and needed not in loaded.analyses:
+        raise Usage(f"{options.scene} has no [{needed}], which says what {options.command} is about")
+    output = Output(options.output, options.scene, loaded, options.command, options.quiet)
+    return QUESTIONS[options.command](loaded, output, options)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

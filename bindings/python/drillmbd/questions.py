@@ -1,0 +1,392 @@
+"""The questions that the command asks of a scene, and where it puts the answers."""
+from __future__ import annotations
+
+import csv
+import json
+import math
+import os
+import pathlib
+import sys
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from . import __version__, enums, station
+from ._optional import need
+from .enums import Status
+from .scene import Scene, saves
+from .scene.units import UnitError, parse
+from .sim import Progress, Sim
+
+RPM = 2.0 * math.pi / 60.0
+MOST_ROWS = 50_000_000
+
+
+class Output:
+    """The folder of the answer and the lines on the terminal."""
+
+    def __init__(self, folder: str | None, file: str, scene: Scene, command: str, quiet: bool) -> None:
+        self.folder = pathlib.Path(folder) if folder is not None else None
+        self.quiet, self.scene = quiet, scene
+        self.summary: dict[str, Any] = {"command": command, "scene": os.path.basename(file), "title": scene.title,
+                                        "drillmbd": __version__, "notes": [], "files": []}
+        if self.folder is not None:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            self.path("scene.toml").write_text(saves(scene), encoding="utf-8")
+
+    def path(self, name: str) -> pathlib.Path:
+        """A file in the folder; it is named in the summary."""
+        assert self.folder is not None
+        if name not in self.summary["files"]:
+            self.summary["files"].append(name)
+        return self.folder / name
+
+    def say(self, text: str) -> None:
+        """A line on the terminal."""
+        if not self.quiet:
+            print(text)
+
+    def note(self, status: int, of: str) -> None:
+        """What a status above 0 says."""
+        if status > 0:
+            from .errors import status_text
+            self.note_text(f"{of}: {status_text(status)}")
+
+    def note_text(self, text: str) -> None:
+        """Something to know."""
+        self.summary["notes"].append(text)
+        self.say(f"note: {text}")
+
+    def table(self, name: str, heads: list[str], rows: Iterable[Iterable[Any]]) -> None:
+        """A CSV file."""
+        if self.folder is not None:
+            with open(self.path(name), "w", encoding="utf-8", newline="") as file:
+                writer = csv.writer(file, lineterminator="\n")
+                writer.writerow(heads)
+                writer.writerows([[repr(float(one)) if isinstance(one, float) else one for one in row] for row in rows])
+
+    def picture(self, name: str, draw: Callable[[Any], Any]) -> None:
+        """A picture by a function of drillmbd.plots, where matplotlib is there."""
+        if self.folder is None:
+            return
+        try:
+            need("matplotlib").use("Agg")
+            from . import plots
+            figure = draw(plots)
+        except ImportError as error:
+            self.summary["notes"].append(f"no {name}: {error}")
+            return
+        figure.savefig(self.path(name), dpi=110)
+        need("matplotlib.pyplot").close(figure)
+
+    def finish(self, status: int = 0) -> int:
+        """Writes the summary; returns the status."""
+        self.summary["status"] = status
+        if self.folder is not None:
+            self.path("summary.json").write_text(json.dumps(_finite(self.summary), indent=1) + "\n", encoding="utf-8")
+            self.say(f"{len(self.summary['files'])} files in {self.folder}")
+        return status
+
+
+def _finite(value: Any) -> Any:
+    """The value as JSON has it: no NaN, no infinity."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, dict):
+        return {key: _finite(one) for key, one in value.items()}
+    return [_finite(one) for one in value] if isinstance(value, (list, tuple)) else value
+
+
+def record(struct: Any) -> dict[str, Any]:
+    """A struct as plain Python for the summary."""
+    return {key: value for key, value in struct.describe(every=True).items() if isinstance(value, (int, float, list, str))
+            and not (isinstance(value, list) and value and not isinstance(value[0], (int, float)))}
+
+
+# ---- The questions ---------------------------------------------------------------------------------------------------
+def check(scene: Scene, output: Output, options: Any) -> int:
+    """What it consists of."""
+    with scene.new_sim() as sim:
+        output.note(sim.status, "start")
+        report, text = sim.check(), sim.check_text()
+    output.summary.update(model=record(scene.model.info()), check=record(report))
+    output.say(text.rstrip("\n"))
+    if output.folder is not None:
+        output.path("check.txt").write_text(text, encoding="utf-8")
+    return output.finish()
+
+
+def to_rest(scene: Scene, sim: Sim, output: Output, linear: bool = False) -> None:
+    """The static state that [static] describes. Linear analyses start from an equilibrium without assumed slip."""
+    values = scene.fields_of("static")
+    if linear and (values.pop("slip_axial", 0.0), values.pop("slip_rotation", 0.0)) != (0.0, 0.0):
+        output.note_text("the static state is taken without the slip of [static]: friction that it assumes is gone when "
+                         "the string swings")
+    report = sim.static(**values)
+    output.note(report.status, "static")
+    output.summary["static"] = {**record(report), "status_name": Status(report.status).name}
+    output.say(f"static state: {report.iterations} iterations, residual {report.residual:.1e}, "
+               f"displacement up to {1e3 * report.lateral_move:.4g} mm")
+
+
+def profiles(scene: Scene, sim: Sim, output: Output, word: str) -> None:
+    """Each string's profile as table and picture."""
+    for name, pipes in scene.pipes.items():
+        found = sim.profile(scene.names[name], pipes)
+        per_contact = found.contact_force.sum()
+        output.say(f"{name}: axial force {found.axial_force.min():.4g} .. {found.axial_force.max():.4g} N, torque up to "
+                   f"{abs(found.torque).max():.4g} N m, bending up to {found.bending_moment.max():.4g} N m, on the wall "
+                   f"{per_contact:.4g} N")
+        output.summary.setdefault("strings", {})[name] = {
+            "axial_force_N": [float(found.axial_force.min()), float(found.axial_force.max())],
+            "torque_N_m": [float(found.torque.min()), float(found.torque.max())],
+            "bending_moment_N_m": float(found.bending_moment.max()), "wall_force_N": float(per_contact)}
+        if output.folder is not None:
+            heads = ["along [m]", "depth [m]", "x [m]", "y [m]", "z [m]", "axial force [N]", "torque [N m]",
+                     "bending moment [N m]"]
+            rows = zip(found.along, found.depth, *found.position.T, found.axial_force, found.torque, found.bending_moment)
+            output.table(f"{word}_{_file(name)}.csv", heads, ([float(one) for one in row] for row in rows))
+            output.picture(f"{word}_{_file(name)}.png", lambda plots: plots.profile(found, f"{name}: {word}"))
+            output.picture(f"{word}_{_file(name)}_shape.png", lambda plots: plots.string(found, None, name))
+
+
+def _file(name: str) -> str:
+    from .scene.save import clean_name
+    return clean_name(name)
+
+
+def holes(scene: Scene, sim: Sim, output: Output) -> None:
+    """The hole as far as the strings lie in it, for ParaView."""
+    if output.folder is None or not any(name == "add_wall" for name, _ in scene.model.calls):
+        return
+    ends = [sim.pose(station(scene.names[name], pipe, fraction)).depth
+            for name, pipes in scene.pipes.items() for pipe, fraction in ((0, 0.0), (pipes - 1, 1.0))]
+    if ends and max(ends) > min(ends):
+        scene.model.write_vtk_hole(output.path("hole.vtp"), max(0.0, min(ends)), max(ends),
+                                   max((max(ends) - min(ends)) / 500.0, 0.1))
+
+
+def static(scene: Scene, output: Output, options: Any) -> int:
+    """The static state."""
+    with scene.new_sim() as sim:
+        output.note(sim.status, "start")
+        to_rest(scene, sim, output)
+        profiles(scene, sim, output, "static")
+        if output.folder is not None:
+            sim.write_vtk(output.path("static.vtp"))
+        holes(scene, sim, output)
+        output.summary["hash"] = f"{sim.hash():016x}"
+    return output.finish()
+
+
+def _time(text: str | None, known: float | None, what: str) -> float | None:
+    from .command import Usage
+    if text is None:
+        return known
+    try:
+        found = parse(text, "s")
+    except UnitError as error:
+        raise Usage(f"--{what} {text}: {error}") from error
+    if not found > 0.0:
+        raise Usage(f"--{what} {text}: must be > 0 s")
+    return found
+
+
+class Bar:
+    """Progress: tqdm where it is there and somebody looks, else nothing."""
+
+    def __init__(self, end: float, begin: float, quiet: bool) -> None:
+        self.bar: Any = None
+        self.begin, self.done = begin, begin
+        if not quiet and sys.stderr.isatty():
+            try:
+                self.bar = need("tqdm").tqdm(total=end - begin, unit="s", unit_scale=False,
+                                             bar_format="{percentage:3.0f} %|{bar}| {n:.2f}/{total:.2f} s, left "
+                                                        "{remaining}{postfix}")
+            except ImportError:
+                pass
+
+    def __call__(self, at: Progress) -> None:
+        if self.bar is not None:
+            self.bar.set_postfix_str(f"{at.real_time_factor:.1f} times real time", refresh=False)
+            self.bar.update(at.time - self.done)
+        self.done = at.time
+
+    def close(self) -> None:
+        """Leaves the line."""
+        if self.bar is not None:
+            self.bar.close()
+
+
+def run(scene: Scene, output: Output, options: Any) -> int:
+    """The scene in time."""
+    from .command import Usage
+    end = _time(options.until, scene.run.get("end"), "until")
+    step = _time(options.step, scene.run.get("step"), "step")
+    if end is None:
+        raise Usage(f"{options.scene} has no [run] end; give it, or --until TIME")
+    with scene.new_sim() as sim:
+        output.note(sim.status, "start")
+        if scene.run.get("static", 0):
+            to_rest(scene, sim, output)
+        interval = scene.output.get("interval", 0.0)
+        rows = int(end / interval + 2) if interval else int(end / step + 3) if step else 1_000_000
+        if rows * (1 + len(scene.channels)) > MOST_ROWS:
+            raise Usage(f"{rows} rows of {1 + len(scene.channels)} numbers are more than {MOST_ROWS}: "
+                        "give a longer [output] interval")
+        recorder = sim.recorder([(place, quantity, name) for name, place, quantity in scene.channels], rows, interval
+                                ) if scene.channels else None
+        stopped = _go(scene, sim, output, end, step, recorder)
+        _run_answers(scene, sim, output, recorder, stopped)
+    return output.finish(130 if stopped else 0)
+
+
+def _go(scene: Scene, sim: Sim, output: Output, end: float, step: float | None, recorder: Any) -> bool:
+    """Runs to the end in stretches from one file for ParaView to the next; True where Ctrl-C stopped it."""
+    every = scene.output.get("vtk_interval") if output.folder is not None else None
+    if every and step:
+        every = max(1, round(every / step)) * step  # whole steps: files change no step
+    bar, frame, steps, elapsed, begin = Bar(end, sim.time, output.quiet), 0, 0, 0.0, sim.time
+    stopped = False
+    try:
+        while end - sim.time > (1e-6 * step if step else 0.0):
+            if every:
+                sim.write_vtk(output.path(f"string_{frame:04d}.vtp"))
+                frame += 1
+            done = sim.run(min(end, begin + frame * every) if every else end, step, recorder, bar)
+            steps, elapsed = steps + done.steps, elapsed + done.elapsed
+    except KeyboardInterrupt:
+        stopped = True
+        output.summary["notes"].append(f"stopped by Ctrl-C at {sim.time:g} s of {end:g} s")
+    bar.close()
+    if every:
+        sim.write_vtk(output.path(f"string_{frame:04d}.vtp"))
+    output.summary["run"] = {"time_s": sim.time, "end_s": end, "steps": sim.statistics().steps,
+                             "elapsed_s": elapsed, "real_time_factor": (sim.time - begin) / elapsed if elapsed else None}
+    output.say(f"{'stopped at' if stopped else 'ran to'} {sim.time:g} s in {sim.statistics().steps} steps"
+               + (f", {(sim.time - begin) / elapsed:.1f} times real time" if elapsed else ""))
+    return stopped
+
+
+def _run_answers(scene: Scene, sim: Sim, output: Output, recorder: Any, stopped: bool) -> None:
+    if sim.statistics().steps and scene.sim.get("energy_ledger", 1):
+        output.summary["energy_error"] = sim.energy().error
+        output.say(f"energy error {sim.energy().error:.1e} of the work put in")
+    if recorder is not None and len(recorder):
+        table = recorder.table
+        ranges = {name: [float(column.min()), float(column.max())]
+                  for name, column in zip(recorder.columns[1:], table.T[1:])}
+        output.summary["channels"] = ranges
+        for name, (low, high) in ranges.items():
+            output.say(f"{name}: {low:.5g} .. {high:.5g}")
+        output.table("run.csv", recorder.columns, table.tolist())
+        output.picture("run.png", lambda plots: plots.recording(recorder, scene.title))
+    profiles(scene, sim, output, "end")
+    holes(scene, sim, output)
+    output.summary["hash"] = f"{sim.hash():016x}"
+
+
+def _stations(scene: Scene) -> list[tuple[str, list[Any], list[float]]]:
+    """Name, places and distances along each string."""
+    return [(name, [station(scene.names[name], pipe, 1.0) for pipe in range(pipes)],
+             [float(pipe + 1) for pipe in range(pipes)]) for name, pipes in scene.pipes.items()]
+
+
+def modes(scene: Scene, output: Output, options: Any) -> int:
+    """Natural frequencies."""
+    values = scene.fields_of("modes")
+    if options.count is not None:
+        values["count"] = options.count
+    with scene.new_sim() as sim:
+        to_rest(scene, sim, output, linear=True)
+        found = sim.modes(**values)
+        heads = ["frequency [Hz]", "damping [-]", "rigid", "axial [-]", "torsional [-]", "lateral [-]"]
+        rows = [(mode.frequency, mode.damping, mode.rigid, *mode.share) for mode in found]
+        output.say("   ".join(heads))
+        for row in rows:
+            output.say(f"{row[0]:14.6g} {row[1]:13.4g} {row[2]:7d} {row[3]:11.3f} {row[4]:15.3f} {row[5]:13.3f}")
+        output.table("modes.csv", heads, rows)
+        output.summary["modes"] = {"frequency_Hz": [row[0] for row in rows], "damping": [row[1] for row in rows]}
+        for name, places, along in _stations(scene):
+            output.picture(f"modes_{_file(name)}.png",
+                           lambda plots: _along_pipes(plots.shapes(found, places, along, 6, "modes")))
+        if output.folder is not None:
+            for index in range(min(len(found), 12)):
+                found.write_vtk(index, output.path(f"mode_{index:02d}.vtp"))
+    return output.finish()
+
+
+def _along_pipes(figure: Any) -> Any:
+    figure.axes[-1].set_xlabel("pipe, from the rig [-]")
+    return figure
+
+
+def response(scene: Scene, output: Output, options: Any) -> int:
+    """What shakes how much."""
+    numpy = need("numpy")
+    with scene.new_sim() as sim:
+        to_rest(scene, sim, output, linear=True)
+        found = sim.response(scene.inputs(), scene.outputs("response"), **scene.fields_of("response"))
+        names = scene.output_names("response")
+        peaks = {}
+        for index, name in enumerate(names):
+            size = numpy.abs(found.transfer(output=index))
+            at = int(size.argmax())
+            peaks[name] = {"amplitude": float(size[at]), "frequency_Hz": float(found.frequencies[at])}
+            output.say(f"{name}: largest {size[at]:.4g} at {found.frequencies[at]:.4g} Hz")
+        output.summary["response"] = peaks
+        if output.folder is not None:
+            found.write_csv(output.path("response.csv"))
+        output.picture("response.png", lambda plots: plots.response(found, names, scene.title))
+    return output.finish()
+
+
+def speeds(scene: Scene, output: Output, options: Any) -> int:
+    """Rotary speeds to keep away from."""
+    settings = scene.analyses["speeds"]
+    with scene.new_sim() as sim:
+        to_rest(scene, sim, output, linear=True)
+        values = scene.fields_of("speeds")
+        bands, severity = sim.speeds(scene.orders(), scene.outputs("speeds"), [one["limit"] for one in settings["output"]],
+                                     **values)
+        from ._structs import SpeedsOptions
+        used: Any = SpeedsOptions(**values)
+    grid = [used.speed_low + (used.speed_high - used.speed_low) * i / (used.points - 1) for i in range(used.points)]
+    names = scene.output_names("speeds")
+    for band in bands:
+        output.say(f"keep away from {band.low / RPM:.0f} .. {band.high / RPM:.0f} rpm: {names[band.output]}, severity "
+                   f"{band.severity:.3g} at {band.speed / RPM:.0f} rpm, order {settings['order'][band.order]['order']:g}")
+    if not bands:
+        output.say(f"no speed to keep away from between {used.speed_low / RPM:.0f} and {used.speed_high / RPM:.0f} rpm, "
+                   f"severity up to {max(severity):.3g}")
+    output.summary["speeds"] = [{"low_rpm": band.low / RPM, "high_rpm": band.high / RPM, "worst_rpm": band.speed / RPM,
+                                 "severity": band.severity, "output": names[band.output]} for band in bands]
+    output.table("speeds.csv", ["speed [rpm]", "severity [-]"], [(w / RPM, s) for w, s in zip(grid, severity)])
+    output.picture("speeds.png", lambda plots: plots.severity(grid, severity, bands, used.threshold, scene.title))
+    return output.finish()
+
+
+def buckle(scene: Scene, output: Output, options: Any) -> int:
+    """Critical factors."""
+    ends = {int(value): value.name.lower() for value in enums.BucklingEnd}
+    with scene.new_sim() as sim:
+        to_rest(scene, sim, output)
+        with sim.buckling(**scene.fields_of("buckling")) as found:
+            output.note(found.status, "buckling")
+            confirmed = found.info.confirmed
+            for index, factor in enumerate(found.factors):
+                output.say(f"factor {factor:.6g}: " + ("confirmed" if index < confirmed else "extrapolated"))
+            if not found.factors:
+                output.say("it does not buckle as far as it was looked for")
+            output.summary["buckling"] = {"factors": found.factors, "confirmed": confirmed, "end": ends[found.info.end]}
+            output.table("buckling.csv", ["factor", "confirmed"],
+                         [(factor, int(index < confirmed)) for index, factor in enumerate(found.factors)])
+            for name, places, along in _stations(scene) if found.factors else []:
+                shape = found.shapes(0, places)
+                output.picture(f"buckling_{_file(name)}.png", lambda plots: _along_pipes(
+                    plots.buckling(shape, along, found.factors[0], scene.title)))
+    return output.finish()
+
+
+QUESTIONS: dict[str, Callable[[Scene, Output, Any], int]] = {
+    "check": check, "static": static, "run": run, "modes": modes, "response": response, "speeds": speeds,
+    "buckle": buckle}

@@ -1,0 +1,13 @@
+"""Scene files: a drill string in its hole, its rig and what is asked of it, in TOML with units. Needs pint.
+
+    from drillmbd import scene
+    rig = scene.load("rig.toml")          # SceneError tells everything that is wrong, with lines
+    with rig.new_sim() as sim: ...
+    scene.save(rig, "copy.toml")
+"""
+from .content import Scene
+from .load import load, loads
+from .problems import Problem, SceneError
+from .save import CannotSave, save, saves
+
+__all__ = ["CannotSave", "Problem", "Scene", "SceneError", "load", "loads", "save", "saves"]

@@ -1,0 +1,69 @@
+"""A scene: a compiled model with the names of its parts, and what is to be asked of it."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from .._structs import Id, Input, Order, Output, Place
+from ..enums import INPUT_ECCENTRICITY
+from ..model import Model, map_ids
+from ..sim import Sim
+
+PARTS = ("string", "body", "bit", "joint", "coupling", "drive", "load")  # in the order in which they are described
+SINGLE = ("environment", "hole")
+ANALYSES = ("static", "modes", "response", "speeds", "buckling")
+
+
+@dataclass
+class Scene:
+    """What a scene file says."""
+    title: str
+    model: Model                    #: compiled
+    names: dict[str, Id]            #: of parts and programmes
+    pipes: dict[str, int]           #: number of pipes of each string
+    programme_units: dict[str, str] = field(default_factory=dict)
+    sim: dict[str, Any] = field(default_factory=dict)      #: fields of SimOptions
+    run: dict[str, Any] = field(default_factory=dict)      #: end [s], step [s], static
+    output: dict[str, Any] = field(default_factory=dict)   #: interval [s], vtk_interval [s]
+    channels: list[tuple[str, Place | None, int]] = field(default_factory=list)  #: name, place, quantity
+    analyses: dict[str, dict[str, Any]] = field(default_factory=dict)  #: fields of their options, by name
+
+    def new_sim(self) -> Sim:
+        """A sim with the options of the scene."""
+        return self.model.sim(**self.sim)
+
+    def fields_of(self, analysis: str) -> dict[str, Any]:
+        """The fields of the options of an analysis."""
+        return {key: value for key, value in self.analyses.get(analysis, {}).items()
+                if key not in ("input", "output") and not (analysis == "speeds" and key == "order")}
+
+    def inputs(self) -> list[Input]:
+        """Of the response."""
+        return [Input(**one) for one in self.analyses["response"]["input"]]
+
+    def outputs(self, analysis: str) -> list[Output]:
+        """Of the response or of the speeds."""
+        return [Output(**{key: value for key, value in one.items() if key not in ("name", "unit", "limit")})
+                for one in self.analyses[analysis]["output"]]
+
+    def output_names(self, analysis: str) -> list[str]:
+        """Names of the outputs with their units."""
+        return [f"{one['name']} [{one['unit']}]" for one in self.analyses[analysis]["output"]]
+
+    def orders(self) -> list[Order]:
+        """Of the speeds."""
+        found = []
+        for one in self.analyses["speeds"]["order"]:
+            values = {key: value for key, value in one.items() if key != "order"}
+            values.setdefault("kind", INPUT_ECCENTRICITY)
+            found.append(Order(order=one["order"], input=Input(**values)))
+        return found
+
+    def same_as(self, other: Scene) -> bool:
+        """Whether both say the same."""
+        def asked(scene: Scene) -> Any:
+            channels = [(name, place and (place.part.index, place.pipe, place.fraction), quantity)
+                        for name, place, quantity in scene.channels]
+            analyses = map_ids(scene.analyses, lambda part: (part.index, bool(part)))
+            return scene.title, scene.sim, scene.run, scene.output, channels, scene.pipes, analyses
+        return asked(self) == asked(other) and self.model.same_scene(other.model)

@@ -1,0 +1,213 @@
+"""What may stand in a table of a scene file: the fields of a struct of the interface, with the units, enumerations and
+meaning that the headers give them. Nothing is written down twice."""
+from __future__ import annotations
+
+import ctypes
+import functools
+import re
+from dataclasses import dataclass
+from enum import IntEnum, IntFlag
+from typing import Any
+
+from .. import _structs, enums
+from .._structs import Id, Place
+from . import units
+from .problems import meant
+
+# Fields whose text in the header does not name the enumeration.
+ENUM_OF = {"component": enums.Component, "initial_mask": enums.Free, "start_free": enums.Free, "end_free": enums.Free,
+           "free_mask": enums.Free, "pipe_kind": enums.PipeKind, "contact": enums.ContactState}
+UNIT_OF = {"contact_gap": "m"}  # where one comment stands for several fields
+LEFT_OUT = {"struct_size", "survey_count", "table_count", "provides", "callback_context", "callback", "log", "allocator",
+            "log_context"}
+
+
+@dataclass(frozen=True)
+class Field:
+    """One key of a table."""
+    name: str
+    kind: str            #: quantity, integer, enum, flags, text, id, place
+    unit: str = ""       #: as in the header, alternatives with a comma
+    count: int = 0       #: of an array; 0: a single value
+    enum: Any = None
+    about: str = ""
+
+    def unit_at(self, index: int) -> str:
+        """The unit of one number of an array: three of translation then three of rotation, or one each."""
+        listed = [one.strip() for one in self.unit.split(",")]
+        if self.count and len(listed) == self.count:
+            return listed[index]
+        if self.count == 6 and len(listed) == 2:
+            return listed[index // 3]
+        return self.unit
+
+
+@functools.lru_cache(maxsize=None)
+def fields_of(struct: Any) -> dict[str, Field]:
+    """The keys that mirror the fields of a struct."""
+    found = {}
+    for name, kind in struct._fields_:
+        if name not in LEFT_OUT and "reserved" not in name and not _is_pointer(kind):
+            unit, about = struct.field_docs.get(name, ("", ""))
+            found[name] = _field(name, kind, unit, about)
+    return found
+
+
+def _is_pointer(kind: Any) -> bool:
+    return hasattr(kind, "contents") or kind is ctypes.c_void_p or hasattr(kind, "_flags_")
+
+
+def _field(name: str, kind: Any, unit: str, about: str) -> Field:
+    count = 0
+    if issubclass(kind, ctypes.Array):
+        if kind._type_ is ctypes.c_char:
+            return Field(name, "text", about=about)
+        count, kind = kind._length_, kind._type_
+    if kind is Id:
+        return Field(name, "id", count=count, about=about)
+    if kind is Place:
+        return Field(name, "place", count=count, about=about)
+    if kind is ctypes.c_double:
+        return Field(name, "quantity", unit or UNIT_OF.get(name, ""), count, about=about)
+    enum = ENUM_OF.get(name) or (_enum_in(about) if kind is ctypes.c_int32 else None)
+    if enum is not None:
+        return Field(name, "flags" if issubclass(enum, IntFlag) else "enum", "", count, enum, about)
+    return Field(name, "integer", "", count, about=about)
+
+
+def _enum_in(about: str) -> Any:
+    """The enumeration that the text of a field names a member of."""
+    for word in re.findall(r"\b[A-Z]+_[A-Z0-9_]+", about):
+        member = getattr(enums, word, None)
+        if isinstance(member, (IntEnum, IntFlag)) and not isinstance(member, enums.Status):
+            return type(member)
+    return None
+
+
+# ---- Names of values -------------------------------------------------------------------------------------------------
+def word_of(member: Any) -> str:
+    """TermKind.STEP5 as "step5", NormalLaw.HUNT_CROSSLEY as "hunt-crossley"."""
+    return str(member.name).lower().replace("_", "-")
+
+
+def words_of(enum: Any) -> dict[str, int]:
+    """What may be written for an enumeration, with its value."""
+    if enum is enums.Free:
+        return {word_of(member): 1 << member.value for member in enums.Component}
+    return {word_of(member): int(member.value) for member in enum.__members__.values() if word_of(member) != "count"}
+
+
+def flag_words(enum: Any, value: int) -> list[str]:
+    """A mask as the words of its bits."""
+    return [word for word, bit in words_of(enum).items() if bit & value and bit & (bit - 1) == 0]
+
+
+class ValueProblem(ValueError):
+    """A value that does not fit its field."""
+
+
+def read(field: Field, value: Any, unit: str | None = None) -> Any:
+    """The plain value (SI) of what is written for a field; ids and places are left to the caller."""
+    if field.count:
+        if not isinstance(value, list) or len(value) != field.count:
+            raise ValueProblem(f"must be an array of {field.count}" + _length(value))
+        return [_single(field, one, field.unit_at(i) if unit is None else unit) for i, one in enumerate(value)]
+    return _single(field, value, field.unit if unit is None else unit)
+
+
+def _length(value: Any) -> str:
+    return f", not of {len(value)}" if isinstance(value, list) else ""
+
+
+def _single(field: Field, value: Any, unit: str) -> Any:
+    if field.kind == "quantity":
+        try:
+            return units.parse(value, "-" if unit == "" else unit)
+        except units.UnitError as error:
+            raise ValueProblem(str(error)) from error
+    if field.kind == "integer":
+        if not isinstance(value, int):
+            raise ValueProblem("must be a whole number")
+        if not -2 ** 31 <= value < 2 ** 32:
+            raise ValueProblem("must be below 2^32")
+        return int(value)
+    if field.kind == "text":
+        if not isinstance(value, str):
+            raise ValueProblem("must be a text")
+        if len(value.encode()) > 23:
+            raise ValueProblem("must be of at most 23 bytes")
+        return value
+    words = words_of(field.enum)
+    if field.kind == "enum":
+        if not isinstance(value, str) or value not in words:
+            raise ValueProblem("must be one of the words" + meant(str(value), words))
+        return words[value]
+    return _flags(value, words)
+
+
+def _flags(value: Any, words: dict[str, int]) -> int:
+    if not isinstance(value, list):
+        raise ValueProblem(f"must be an array of words; possible are {', '.join(words)}")
+    mask = 0
+    for one in value:
+        if not isinstance(one, str) or one not in words:
+            raise ValueProblem(f"{one!r} is none of the words" + meant(str(one), words))
+        mask |= words[one]
+    return mask
+
+
+def write(field: Field, value: Any, unit: str | None = None) -> Any:
+    """A plain value as it is written; the inverse of read."""
+    if field.count:
+        return [_written(field, one, field.unit_at(i) if unit is None else unit) for i, one in enumerate(value)]
+    return _written(field, value, field.unit if unit is None else unit)
+
+
+def _written(field: Field, value: Any, unit: str) -> Any:
+    if field.kind == "quantity":
+        return units.text(value, unit.split(",")[0].strip())
+    if field.kind == "enum":
+        return next(word for word, number in words_of(field.enum).items() if number == value)
+    if field.kind == "flags":
+        return flag_words(field.enum, value)
+    return value
+
+
+# ---- Units that depend on the table ----------------------------------------------------------------------------------
+def by_component(units_of_two: str, component: int) -> str:
+    """The first of "N/m, N m" for a translation, the second for a rotation."""
+    listed = [one.strip() for one in units_of_two.split(",")]
+    return listed[0] if len(listed) == 1 or component < 3 else listed[1]
+
+
+def drive_unit(kind: int, component: int) -> str:
+    """The unit of a drive's programme."""
+    return by_component("N, N m" if kind == enums.DRIVE_LOAD else "m/s, rad/s", component)
+
+
+def output_unit(kind: int, component: int) -> str:
+    """The unit of an output of a response."""
+    about: dict[int, str] = {enums.OUTPUT_DISPLACEMENT: "m, rad", enums.OUTPUT_VELOCITY: "m/s, rad/s",
+             enums.OUTPUT_ACCELERATION: "m/s2, rad/s2", enums.OUTPUT_SECTION_FORCE: "N, N m",
+             enums.OUTPUT_SECTION_STRAIN: "-, rad/m", enums.OUTPUT_CONTACT: "N", enums.OUTPUT_REACTION: "N, N m",
+             enums.OUTPUT_JOINT_POSITION: "m, rad", enums.OUTPUT_JOINT_SPEED: "m/s, rad/s",
+             enums.OUTPUT_JOINT_ACCELERATION: "m/s2, rad/s2", enums.OUTPUT_JOINT_REACTION: "N, N m",
+             enums.OUTPUT_JOINT_ACTION: "N, N m", enums.OUTPUT_BIT: "N, N m"}
+    return by_component(about.get(kind, "N, N m"), component)
+
+
+def input_unit(kind: int, component: int) -> str:
+    """The unit of the amplitude of an input, that of a drive's programme apart."""
+    known: dict[int, str] = {enums.INPUT_FORCE: by_component("N, N m", component), enums.INPUT_BIT_LOAD: "N",
+                             enums.INPUT_UNBALANCE: "kg m"}
+    return known.get(kind, "-")
+
+
+DEFINITIONS: dict[str, Any] = {
+    "environment": _structs.EnvironmentDef, "hole": _structs.WallDef, "string": _structs.StringDef,
+    "pipes": _structs.PipeDef, "body": _structs.BodyDef, "bit": _structs.BitDef, "joint": _structs.JointDef,
+    "coupling": _structs.CouplingDef, "drive": _structs.DriveDef, "load": _structs.LoadDef, "term": _structs.Term,
+    "compile": _structs.CompileOptions, "sim": _structs.SimOptions, "static": _structs.StaticOptions,
+    "modes": _structs.ModesOptions, "response": _structs.ResponseOptions, "speeds": _structs.SpeedsOptions,
+    "buckling": _structs.BucklingOptions, "input": _structs.Input, "output": _structs.Output,
+    "order": _structs.Order}

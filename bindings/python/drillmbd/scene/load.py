@@ -1,0 +1,539 @@
+"""Reads a scene file and makes its model; tells everything that is wrong with it at once."""
+from __future__ import annotations
+
+import os
+import pathlib
+import re
+from collections.abc import Callable
+from typing import Any
+
+from .. import enums
+from .._keep import station
+from .._structs import Id, Place, Term
+from ..errors import Error
+from ..model import Model
+from . import fields, survey, units
+from .content import ANALYSES, PARTS, SINGLE, Scene
+from .fields import DEFINITIONS, Field, ValueProblem, fields_of
+from .lines import Path, find_lines
+from .problems import Problem, Problems, SceneError, meant
+from .terms import PerRevolution
+
+MOST_BYTES = 50_000_000
+RUN = {"end": Field("end", "quantity", "s", about="where the run ends"),
+       "step": Field("step", "quantity", "s", about="length of a step; left out: chosen by the library"),
+       "static": Field("static", "integer", about="true: starts from the static state of [static]")}
+OUTPUT = {"interval": Field("interval", "quantity", "s", about="between rows of the table"),
+          "vtk_interval": Field("vtk_interval", "quantity", "s", about="between files for ParaView; left out: none")}
+
+
+def load(path: Any) -> Scene:
+    """The scene of a TOML file. Raises SceneError with everything that is wrong, OSError where it cannot be read."""
+    path = pathlib.Path(path)
+    if path.stat().st_size > MOST_BYTES:
+        raise SceneError(str(path), [Problem(1, "the file", None, f"must be below {MOST_BYTES} bytes")])
+    data = path.read_bytes()
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = data[:error.start].count(b"\n") + 1
+        raise SceneError(str(path), [Problem(line, "the file", None, "must be text in UTF-8")]) from error
+    return loads(text, str(path), path.parent)
+
+
+def loads(text: str, name: str = "scene", folder: Any = ".") -> Scene:
+    """The scene of a TOML text; files that it names are looked for in `folder`."""
+    import tomllib
+    try:
+        content = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        match = re.search(r"line (\d+)", str(error))
+        line = int(match.group(1)) if match else text.count("\n") + 1
+        raise SceneError(name, [Problem(line, "the file", None, f"is no TOML: {error}")]) from error
+    loader = Loader(content, Problems(find_lines(text)), pathlib.Path(folder))
+    scene = loader.scene()
+    if loader.problems.found:
+        raise SceneError(name, loader.problems.found)
+    assert scene is not None
+    return scene
+
+
+class Loader:
+    """Goes through the content: names, units of programmes, then part by part into the model."""
+
+    def __init__(self, content: dict[str, Any], problems: Problems, folder: pathlib.Path) -> None:
+        self.content, self.problems, self.folder = content, problems, folder
+        self.model, self.names = Model(), dict[str, Any]()  # name -> id, None where it was refused
+        self.kinds: dict[str, str] = {}                     # name -> "string", "drive", ...
+        self.pipes: dict[str, int] = {}                     # string -> number of its pipes
+        self.units: dict[str, str] = {}                     # programme -> unit
+        self.terms: dict[str, list[dict[str, Any]]] = {}    # programme -> its terms, plain
+
+    # ---- Shape of the file ------------------------------------------------------------------------------------------
+    def scene(self) -> Scene | None:
+        """The whole."""
+        known = ["title", "run", "output", "channel", "programme", *SINGLE, *PARTS, *ANALYSES, "compile", "sim"]
+        for key in self.content:
+            if key not in known:
+                self.problems.unknown((key,), known)
+        title = self.content.get("title", "")
+        if not isinstance(title, str):
+            self.problems.add(("title",), title, "must be a text")
+        self._collect_names()
+        self._find_programme_units()
+        self._describe()
+        scene = Scene(title=str(title), model=self.model, names={n: i for n, i in self.names.items() if i is not None},
+                      pipes=self.pipes, programme_units=self.units)
+        self._settings(scene)
+        compiled = self.read(("compile",), self._table(("compile",)), fields_of(DEFINITIONS["compile"]))
+        if not self.problems.found:
+            self._compile(compiled)
+        return None if self.problems.found else scene
+
+    def _table(self, path: Path) -> dict[str, Any]:
+        value: Any = self.content
+        for part in path:
+            value = value.get(part, {}) if isinstance(value, dict) else {}
+        if not isinstance(value, dict):
+            self.problems.add(path, value, "must be a table")
+            return {}
+        return value
+
+    def _tables(self, holder: dict[str, Any], path: Path, key: str) -> list[tuple[Path, dict[str, Any]]]:
+        """An array of tables below a table; one table counts as an array of one."""
+        value = holder.get(key, [])
+        value = [value] if isinstance(value, dict) else value
+        if not isinstance(value, list):
+            self.problems.add(path + (key,), value, f"must be an array of tables: [[{key}]]")
+            return []
+        found = []
+        for number, one in enumerate(value):
+            here = path + ((key, number) if isinstance(holder.get(key), list) else (key,))
+            if isinstance(one, dict):
+                found.append((here, one))
+            else:
+                self.problems.add(here, one, "must be a table")
+        return found
+
+    def parts(self, kind: str) -> list[tuple[Path, dict[str, Any]]]:
+        """All tables of a kind of part."""
+        return self._tables(self.content, (), kind)
+
+    # ---- Names ------------------------------------------------------------------------------------------------------
+    def _collect_names(self) -> None:
+        for kind in ("programme", *PARTS):
+            for number, (path, table) in enumerate(self.parts(kind)):
+                name = table.get("name", f"{kind}-{number}")
+                if not isinstance(name, str) or not name:
+                    self.problems.add(path + ("name",), name, "must be a text that is not empty")
+                elif name in self.kinds:
+                    self.problems.add(path + ("name",), name, f"names a {self.kinds[name]} already; every name once")
+                else:
+                    self.kinds[name] = kind
+
+    def _put(self, name: str, kind: str, made: Id | None) -> None:
+        """Notes the id of a part, if the name is its own."""
+        if self.kinds.get(name) == kind:
+            self.names[name] = made
+
+    def _name(self, kind: str, number: int, table: dict[str, Any]) -> str:
+        name = table.get("name", f"{kind}-{number}")
+        return name if isinstance(name, str) and name else f"{kind}-{number}"
+
+    def _find_programme_units(self) -> None:
+        """A programme has the unit of what it is used for."""
+        uses: list[tuple[Path, Any, str]] = []
+        for path, table in self.parts("drive"):
+            uses += [(path + (key,), table.get(key), self._drive_unit(table)) for key in ("programme", "excitation")]
+        uses += [(path + ("load",), table.get("load"), "N") for path, table in self.parts("bit")]
+        uses += [(path + ("programme",), table.get("programme"), "-") for path, table in self.parts("load")]
+        for path, name, unit in uses:
+            if isinstance(name, str) and self.kinds.get(name) == "programme":
+                if self.units.setdefault(name, unit) != unit:
+                    self.problems.add(path, name, f"is used in {self.units[name]} elsewhere and in {unit} here; "
+                                                  "make two programmes")
+
+    def _drive_unit(self, table: dict[str, Any]) -> str:
+        """The unit of the programme of a drive."""
+        known = fields_of(DEFINITIONS["drive"])
+        return fields.drive_unit(*(self._word(known[key], table.get(key), 0) for key in ("kind", "component")))
+
+    def _word(self, field: Field, value: Any, default: int) -> int:
+        try:
+            return default if value is None else int(fields.read(field, value))
+        except ValueProblem:
+            return default
+
+    # ---- One table --------------------------------------------------------------------------------------------------
+    def read(self, path: Path, table: dict[str, Any], known: dict[str, Field], extra: tuple[str, ...] = (),
+             unit_of: Callable[[str], str | None] = lambda name: None) -> dict[str, Any]:
+        """The plain values of a table; what is wrong becomes a problem and is left out. `extra` keys are the caller's."""
+        found = {}
+        for key, value in table.items():
+            if key in extra:
+                continue
+            if key not in known:
+                self.problems.unknown(path + (key,), [*known, *extra])
+                continue
+            field = known[key]
+            if field.kind in ("id", "place"):
+                made = self._reference(path + (key,), field, value)
+                if made is not None:
+                    found[key] = made
+                continue
+            try:
+                found[key] = fields.read(field, value, unit_of(key))
+            except ValueProblem as error:
+                self.problems.add(path + (key,), value, str(error))
+        return found
+
+    def _reference(self, path: Path, field: Field, value: Any) -> Any:
+        if field.kind == "place":
+            return self._place(path, value)
+        if field.count:
+            if not isinstance(value, list) or len(value) != field.count:
+                self.problems.add(path, value, f"must be an array of {field.count} names")
+                return None
+            made = [self._id(path, one) for one in value]
+            return None if None in made else made
+        return self._id(path, value)
+
+    def _id(self, path: Path, value: Any) -> Id | None:
+        if isinstance(value, str) and value in self.names:
+            return self.names[value]  # type: ignore[no-any-return]
+        if not isinstance(value, str) or value not in self.kinds:
+            self.problems.add(path, value, "names no part" + meant(str(value), self.kinds))
+        elif not self.problems.found:
+            self.problems.add(path, value, f"names a {self.kinds[value]} that is made after this; programmes come first, "
+                                           "then strings, bodies, bits, joints, couplings, drives, loads")
+        return None
+
+    def _place(self, path: Path, value: Any) -> Place | None:
+        if isinstance(value, str):
+            value = {"part": value}
+        if not isinstance(value, dict) or "part" not in value:
+            self.problems.add(path, value, 'must be a name, or a table as {part = "main", pipe = 3, fraction = 1.0}')
+            return None
+        for key in value:
+            if key not in ("part", "pipe", "fraction"):
+                self.problems.unknown(path + (key,), ("part", "pipe", "fraction"))
+        name, pipe, fraction = value["part"], value.get("pipe", 0), value.get("fraction", 0.0)
+        part = self._id(path + ("part",), name)
+        pipes = self.pipes.get(name, 0) if isinstance(name, str) else 0
+        pipe = pipes - 1 if pipe == "last" and pipes else pipe
+        if isinstance(pipe, bool) or not isinstance(pipe, int) or pipe < 0 or (pipes and pipe >= pipes):
+            bound = f"0 .. {pipes - 1}" if pipes else ">= 0"
+            self.problems.add(path + ("pipe",), value.get("pipe"), f'must be a whole number {bound}, or "last"')
+            return None
+        if isinstance(fraction, bool) or not isinstance(fraction, (int, float)) or not 0 <= fraction <= 1:
+            self.problems.add(path + ("fraction",), fraction, "must be a number 0 .. 1")
+            return None
+        return None if part is None else station(part, pipe, float(fraction))
+
+    # ---- Parts into the model ---------------------------------------------------------------------------------------
+    def _add(self, path: Path, add: Callable[..., Any], struct: Any, values: dict[str, Any]) -> Any:
+        """The id of what was added. Each field that the library refuses becomes a problem; it is left out then, so that
+        the next one is found."""
+        values = dict(values)
+        while True:
+            try:
+                return add(struct(**values))
+            except Error as error:
+                field = re.match(r"\w*", error.field or "")
+                name = field.group(0) if field else ""
+                known = fields_of(struct).get(name)
+                unit = f" (in {known.unit})" if known and known.unit not in ("", "-") else ""
+                written = self._written(path + (name,))
+                text = f"must {error.bound}{unit}" if error.bound and name in values else error.message
+                self.problems.add(path + (name,) if name in values else path, written if name in values else None, text)
+                if values.pop(name, None) is None:
+                    return None
+            except ValueError as error:
+                self.problems.add(path, None, str(error))
+                return None
+
+    def _written(self, path: Path) -> Any:
+        value: Any = self.content
+        for part in path:
+            try:
+                value = value[part]
+            except (KeyError, IndexError, TypeError):
+                return None
+        return value
+
+    def _describe(self) -> None:
+        if "environment" in self.content:
+            values = self.read(("environment",), self._table(("environment",)), fields_of(DEFINITIONS["environment"]))
+            self._add(("environment",), self.model.set_environment, DEFINITIONS["environment"], values)
+        if "hole" in self.content:
+            self._hole()
+        for number, (path, table) in enumerate(self.parts("programme")):
+            self._programme(path, self._name("programme", number, table), table)
+        for number, (path, table) in enumerate(self.parts("string")):
+            self._string(path, self._name("string", number, table), table)
+        for kind in PARTS[1:]:
+            for number, (path, table) in enumerate(self.parts(kind)):
+                self._part(kind, path, self._name(kind, number, table), table)
+
+    def _hole(self) -> None:
+        path, table = ("hole",), self._table(("hole",))
+        exponent = table.get("exponent", 1.0)
+        power = float(exponent) if isinstance(exponent, (int, float)) and 0 < exponent < 10 else 1.0
+        special = {"stiffness": f"N/m^{power + 1.0:g}"}
+        values = self.read(path, table, fields_of(DEFINITIONS["hole"]), ("survey", "survey_file"), special.get)
+        if "survey" in table and "survey_file" in table:
+            self.problems.add(path + ("survey_file",), table["survey_file"], "must be left out where there is a survey")
+        elif "survey" in table:
+            values["stations"] = survey.inline(self.problems, path + ("survey",), table["survey"])
+        elif "survey_file" in table:
+            values["stations"] = survey.from_file(self.problems, path + ("survey_file",), table["survey_file"], self.folder)
+        if values.get("stations", ()) is not None:
+            self._add(path, self.model.add_wall, DEFINITIONS["hole"], values)
+
+    def _programme(self, path: Path, name: str, table: dict[str, Any]) -> None:
+        for key in table:
+            if key not in ("name", "unit", "term"):
+                self.problems.unknown(path + (key,), ("name", "unit", "term"))
+        unit = self.units.get(name) or table.get("unit")
+        if not isinstance(unit, str):
+            self.problems.add(path, None, f"programme {name} is used by no drive, load or bit: take it out, or "
+                                          "give its unit")
+            return
+        self.units[name] = unit
+        terms = self._tables(table, path, "term")
+        if not terms:
+            self.problems.add(path, None, "must have at least one term")
+        plain = [one for one in (self._term(where, term, unit) for where, term in terms) if one is not None]
+        if terms and len(plain) == len(terms):
+            self._put(name, "programme", self._add_programme(path, plain))
+            self.terms[name] = plain
+        else:
+            self._put(name, "programme", None)
+
+    def _add_programme(self, path: Path, plain: list[dict[str, Any]]) -> Any:
+        try:
+            terms = [Term(**one) for one in plain]
+            plain[:] = [term.describe() for term in terms]  # as a saved file has them
+            return self.model.add_programme(*terms)
+        except Error as error:
+            self.problems.add(path, None, error.message)
+        except ValueError as error:
+            self.problems.add(path, None, str(error))
+        return None
+
+    def _term(self, path: Path, table: dict[str, Any], unit: str) -> dict[str, Any] | None:
+        """The fields of a Term."""
+        if table.get("kind") == "per-revolution":
+            return self._per_revolution(path, table)
+        before = len(self.problems.found)
+        try:
+            units.factor_and_kind(unit)
+        except units.UnitError as error:
+            self.problems.add(path[:2] + ("unit",), unit, str(error))
+            return None
+        values = self.read(path, table, fields_of(DEFINITIONS["term"]), ("table",),
+                           lambda name: unit if name in ("h0", "h1") else None)
+        if values.get("kind") == enums.TERM_CALLBACK:
+            self.problems.add(path + ("kind",), "callback", "is for programs; a file has tables")
+        if "table" in table:
+            values["table"] = self._time_table(path + ("table",), table["table"], unit)
+            values.pop("kind", None)
+        elif values.get("kind") == enums.TERM_TABLE:
+            self.problems.add(path, None, 'must have a table, as table = [["0 s", "0 m/s"], ["1 s", "0.1 m/s"]]')
+        return values if len(self.problems.found) == before else None
+
+    def _time_table(self, path: Path, rows: Any, unit: str) -> list[tuple[float, float]]:
+        found: list[tuple[float, float]] = []
+        if not isinstance(rows, list) or not rows:
+            self.problems.add(path, rows, "must be an array of pairs of time and value")
+            return found
+        for number, row in enumerate(rows):
+            if not isinstance(row, list) or len(row) != 2:
+                self.problems.add(path + (number,), row, "must be a pair of time and value")
+                continue
+            try:
+                found.append((units.parse(row[0], "s"), units.parse(row[1], unit)))
+            except units.UnitError as error:
+                self.problems.add(path + (number,), row, str(error))
+        return found
+
+    def _per_revolution(self, path: Path, table: dict[str, Any]) -> dict[str, Any] | None:
+        number = {"share": Field("share", "quantity", "-"), "order": Field("order", "quantity", "-")}
+        values = self.read(path, table, number, ("kind", "of"))
+        of = table.get("of")
+        if not isinstance(of, str) or of not in self.terms:
+            known = [name for name in self.terms]
+            self.problems.add(path + ("of",), of, "must name a programme that stands before this one"
+                              + meant(str(of), known))
+            return None
+        if not PerRevolution.knows(self.terms[of]) or not values.get("order", 1.0) > 0.0:
+            self.problems.add(path, None, "must follow a programme of constants, steps and harmonics, by an order > 0")
+            return None
+        function = PerRevolution(of, values.get("share", 0.0), values.get("order", 1.0), tuple(self.terms[of]))
+        return {"function": function, "provides": int(enums.PROVIDES_RATE | enums.PROVIDES_INTEGRAL)}
+
+    def _string(self, path: Path, name: str, table: dict[str, Any]) -> None:
+        values = self.read(path, table, fields_of(DEFINITIONS["string"]), ("name", "pipes"))
+        string = self._add(path, self.model.add_string, DEFINITIONS["string"], values)
+        self.pipes[name] = 0
+        self._put(name, "string", string)
+        sections = self._tables(table, path, "pipes")
+        if not sections:
+            self.problems.add(path, None, "must have pipes: [[string.pipes]]")
+        for where, section in sections:
+            count = section.get("count", 1)
+            if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= 2 ** 20:
+                self.problems.add(where + ("count",), count, "must be a whole number 1 .. 2^20")
+                count = 1
+            known = {key: field for key, field in fields_of(DEFINITIONS["pipes"]).items() if key != "string"}
+            plain = self.read(where, section, known, ("count",))
+            if string is not None:
+                plain["string"] = string
+                self._add(where, lambda one, n=count: self.model.add_pipes(n, one),
+                          DEFINITIONS["pipes"], plain)
+            self.pipes[name] += count
+
+    def _part(self, kind: str, path: Path, name: str, table: dict[str, Any]) -> None:
+        struct, before = DEFINITIONS[kind], len(self.problems.found)
+        known = {key: field for key, field in fields_of(struct).items() if key != "name"}
+        table = dict(table)
+        self._inline_programmes(kind, path, table)
+        component = self._word(fields_of(DEFINITIONS["drive"])["component"], table.get("component"), 0)
+        special = {key: fields.by_component(known[key].unit, component)
+                   for key in ("gain", "integral_gain", "limit_low", "limit_high") if kind == "drive"}
+        values = self.read(path, table, known, ("name",), special.get)
+        if kind in ("joint", "coupling") and "name" in table:
+            try:
+                values["name"] = fields.read(fields_of(struct)["name"], name)
+            except ValueProblem as error:
+                self.problems.add(path + ("name",), name, str(error))
+        if kind == "drive" and "programme" not in table:
+            self.problems.add(path, None, "must have a programme")
+        refused = any(isinstance(value, str) and self.names.get(value, "") is None for value in table.values())
+        self._put(name, kind, None)
+        if not refused and not (kind == "drive" and "programme" not in values) and not (
+                len(self.problems.found) > before and kind in ("joint", "coupling", "load")):
+            self._put(name, kind, self._add(path, getattr(self.model, "add_" + kind), struct, values))
+
+    def _inline_programmes(self, kind: str, path: Path, table: dict[str, Any]) -> None:
+        """programme = "120 rpm" stands for a programme of that constant."""
+        keys = {"drive": ("programme", "excitation"), "bit": ("load",), "load": ("programme",)}.get(kind, ())
+        unit = {"bit": "N", "load": "-"}.get(kind) or self._drive_unit(table)
+        for key in keys:
+            value = table.get(key)
+            if key in table and (not isinstance(value, str) or (value not in self.kinds and re.match(r"\s*[-+.\d]", value))):
+                try:
+                    constant = units.parse(value, unit)
+                except units.UnitError as error:
+                    self.problems.add(path + (key,), value, f"{error}; or the name of a programme")
+                    del table[key]
+                    continue
+                name = f"{key} of {'.'.join(map(str, path))}"
+                self.kinds[name], self.units[name], self.terms[name] = "programme", unit, [{"h0": constant}]
+                self.names[name] = self._add_programme(path + (key,), self.terms[name])
+                table[key] = name
+
+    # ---- What is asked ----------------------------------------------------------------------------------------------
+    def _settings(self, scene: Scene) -> None:
+        scene.sim = self.read(("sim",), self._table(("sim",)), fields_of(DEFINITIONS["sim"]))
+        scene.run = self.read(("run",), self._table(("run",)), RUN)
+        scene.output = self.read(("output",), self._table(("output",)), OUTPUT)
+        for key, table in (("end", scene.run), ("step", scene.run), ("interval", scene.output),
+                           ("vtk_interval", scene.output)):
+            if key in table and not table[key] > 0.0:
+                section = "run" if table is scene.run else "output"
+                self.problems.add((section, key), self._written((section, key)), "must be > 0 s")
+        for number, (path, table) in enumerate(self.parts("channel")):
+            self._channel(scene, path, number, table)
+        for kind in ANALYSES:
+            if kind in self.content:
+                scene.analyses[kind] = self._analysis(kind)
+
+    def _channel(self, scene: Scene, path: Path, number: int, table: dict[str, Any]) -> None:
+        known = {"quantity": Field("quantity", "enum", enum=enums.Quantity), "place": Field("place", "place")}
+        values = self.read(path, table, known, ("name",))
+        name = table.get("name", f"channel-{number}")
+        if not isinstance(name, str):
+            self.problems.add(path + ("name",), name, "must be a text")
+        if "quantity" not in table:
+            self.problems.add(path, None, "must have a quantity")
+        if "quantity" in values and ("place" in values or "place" not in table):
+            scene.channels.append((str(name), values.get("place"), values["quantity"]))
+
+    def _analysis(self, kind: str) -> dict[str, Any]:
+        table = self._table((kind,))
+        extra = {"response": ("input", "output"), "speeds": ("order", "output")}.get(kind, ())
+        unit = self._factor_unit(table) if kind == "buckling" else None
+        values = self.read((kind,), table, fields_of(DEFINITIONS[kind]), extra,
+                           lambda name: unit if name in ("factor_max", "step") else None)
+        if kind == "response":
+            values["input"] = [self._input(path, one) for path, one in self._tables(table, (kind,), "input")]
+        if kind == "speeds":
+            order = {"order": fields_of(DEFINITIONS["order"])["order"]}
+            values["order"] = [{**self._input(path, one, ("order",)),
+                                "order": self.read(path, {k: v for k, v in one.items() if k == "order"}, order
+                                                   ).get("order", 1.0)}
+                               for path, one in self._tables(table, (kind,), "order")]
+        if extra:
+            values["output"] = [self._output(path, one, kind == "speeds")
+                                for path, one in self._tables(table, (kind,), "output")]
+            for key in extra:
+                if not values[key]:
+                    self.problems.add((kind,), None, f"must have at least one [[{kind}.{key}]]")
+        return values
+
+    def _factor_unit(self, table: dict[str, Any]) -> str:
+        """The factor of a drive of a motion is a length or an angle; else it is a number."""
+        name = table.get("part")
+        for number, (_, drive) in enumerate(self.parts("drive")):
+            if self._name("drive", number, drive) == name:
+                kind = self._word(fields_of(DEFINITIONS["drive"])["kind"], drive.get("kind"), 0)
+                component = self._word(fields_of(DEFINITIONS["drive"])["component"], drive.get("component"), 0)
+                return fields.by_component("m, rad" if kind == enums.DRIVE_MOTION else "N, N m", component)
+        return "-"
+
+    def _input(self, path: Path, table: dict[str, Any], extra: tuple[str, ...] = ()) -> dict[str, Any]:
+        known = fields_of(DEFINITIONS["input"])
+        eccentric = int(enums.INPUT_ECCENTRICITY) if extra else int(enums.INPUT_FORCE)
+        kind = self._word(known["kind"], table.get("kind"), eccentric)
+        component = self._word(known["component"], table.get("component"), 0)
+        unit = fields.input_unit(kind, component)
+        if kind == enums.INPUT_DRIVE:
+            place = table.get("place")
+            name = place.get("part") if isinstance(place, dict) else place
+            unit = next((self._drive_unit(drive) for number, (_, drive) in enumerate(self.parts("drive"))
+                         if self._name("drive", number, drive) == name), unit)
+        return self.read(path, table, known, extra, lambda key: unit if key == "amplitude" else None)
+
+    def _output(self, path: Path, table: dict[str, Any], limited: bool) -> dict[str, Any]:
+        known = fields_of(DEFINITIONS["output"])
+        values = self.read(path, table, known, ("name", "limit") if limited else ("name",))
+        unit = fields.output_unit(values.get("kind", 0), values.get("component", 0))
+        values["name"] = str(table.get("name", f"output-{path[-1]}"))
+        if limited:
+            try:
+                values["limit"] = units.parse(table.get("limit"), unit)
+                if not values["limit"] > 0.0:
+                    raise units.UnitError("must be > 0")
+            except units.UnitError as error:
+                self.problems.add(path + ("limit",), table.get("limit"), str(error))
+        values["unit"] = unit
+        return values
+
+    def _compile(self, values: dict[str, Any]) -> None:
+        try:
+            self.model.compile(**values)
+        except Error as error:
+            self.problems.add(self._path_of(error.part or ""), None, error.message)
+
+    def _path_of(self, part: str) -> Path:
+        """The table of a part that the library calls "joint 1 (crank)"; the whole file else."""
+        match = re.match(r"(\w+) (\d+)", part)
+        if match and match.group(1) in self.content:
+            return (match.group(1), int(match.group(2)))
+        return (part,) if part in self.content else ("hole",) if part.startswith("wall") else ()
+
+
+def load_all(folder: Any) -> dict[str, Scene]:
+    """The scenes of all .toml files in a folder, by name."""
+    return {name: load(os.path.join(folder, name)) for name in sorted(os.listdir(folder)) if name.endswith(".toml")}

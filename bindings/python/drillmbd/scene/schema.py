@@ -1,0 +1,90 @@
+"""The JSON schema of scene files, for editors: made from the same fields as the reading."""
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from .. import enums
+from .content import ANALYSES, PARTS
+from .fields import DEFINITIONS, Field, fields_of, words_of
+from .load import OUTPUT, RUN
+
+_NAME = {"type": "string", "minLength": 1}
+_PLACE: dict[str, Any] = {"oneOf": [_NAME, {
+    "type": "object", "required": ["part"], "additionalProperties": False,
+    "properties": {"part": _NAME, "pipe": {"oneOf": [{"type": "integer", "minimum": 0}, {"const": "last"}]},
+                   "fraction": {"type": "number", "minimum": 0, "maximum": 1}}}]}
+_QUANTITY: dict[str, Any] = {"oneOf": [{"type": "string", "pattern": r"^\s*[-+]?[\d.]"}, {"type": "number"}]}
+
+
+def _field(field: Field) -> dict[str, Any]:
+    number: dict[str, Any] = {"type": ["number", "string"]}
+    single: dict[str, Any] = {"quantity": _QUANTITY if field.unit not in ("", "-") else number,
+                              "integer": {"type": ["integer", "boolean"]}, "text": {"type": "string"},
+                              "id": _NAME, "place": _PLACE}.get(field.kind, {})
+    if field.kind == "enum":
+        single = {"enum": list(words_of(field.enum))}
+    if field.kind == "flags":
+        single = {"type": "array", "items": {"enum": list(words_of(field.enum))}}
+    made = dict(single)
+    if field.count:
+        made = {"type": "array", "items": single, "minItems": field.count, "maxItems": field.count}
+    about = (f"[{field.unit}] " if field.unit else "") + field.about
+    return {**made, "description": about} if about else made
+
+
+def _object(known: dict[str, Field], required: tuple[str, ...] = (), **more: Any) -> dict[str, Any]:
+    found: dict[str, Any] = {"type": "object", "additionalProperties": False,
+                             "properties": {**{name: _field(field) for name, field in known.items()}, **more}}
+    return {**found, "required": list(required)} if required else found
+
+
+def _many(one: dict[str, Any]) -> dict[str, Any]:
+    return {"oneOf": [{"type": "array", "items": one}, one]}
+
+
+def _term() -> dict[str, Any]:
+    known = fields_of(DEFINITIONS["term"])
+    table = {"type": "array", "minItems": 1, "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": _QUANTITY}}
+    made = _object(known, table=table, of=_NAME, share={"type": ["number", "string"]}, order={"type": ["number", "string"]})
+    made["properties"]["kind"]["enum"].append("per-revolution")
+    made["properties"]["kind"]["enum"].remove("callback")
+    return made
+
+
+def schema() -> dict[str, Any]:
+    """The schema as plain Python."""
+    row = {"type": "array", "minItems": 3, "maxItems": 3, "items": _QUANTITY}
+    pipes = _object({key: field for key, field in fields_of(DEFINITIONS["pipes"]).items() if key != "string"},
+                    count={"type": "integer", "minimum": 1})
+    properties: dict[str, Any] = {
+        "title": {"type": "string"}, "environment": _object(fields_of(DEFINITIONS["environment"])),
+        "hole": _object(fields_of(DEFINITIONS["hole"]), survey={"type": "array", "minItems": 2, "items": row},
+                        survey_file={"type": "string", "description": "CSV: depth [m], inclination [deg], azimuth [deg]"}),
+        "programme": _many(_object({}, ("term",), name=_NAME, unit=_NAME, term=_many(_term()))),
+        "compile": _object(fields_of(DEFINITIONS["compile"])), "sim": _object(fields_of(DEFINITIONS["sim"])),
+        "run": _object(RUN), "output": _object(OUTPUT),
+        "channel": _many(_object({"quantity": Field("quantity", "enum", enum=enums.Quantity),
+                                  "place": Field("place", "place")}, ("quantity",), name=_NAME))}
+    for kind in PARTS:
+        more: dict[str, Any] = {"name": _NAME, **({"pipes": _many(pipes)} if kind == "string" else {})}
+        properties[kind] = _many(_object(fields_of(DEFINITIONS[kind]), **more))
+    for kind in ANALYSES:
+        properties[kind] = _object(fields_of(DEFINITIONS[kind]), **_asked(kind))
+    return {"$schema": "http://json-schema.org/draft-07/schema#", "title": "A scene of libdrillmbd", "type": "object",
+            "additionalProperties": False, "properties": properties}
+
+
+def _asked(kind: str) -> dict[str, Any]:
+    output = fields_of(DEFINITIONS["output"])
+    if kind == "response":
+        return {"input": _many(_object(fields_of(DEFINITIONS["input"]))), "output": _many(_object(output, name=_NAME))}
+    if kind == "speeds":
+        order = {"order": fields_of(DEFINITIONS["order"])["order"], **fields_of(DEFINITIONS["input"])}
+        return {"order": _many(_object(order)), "output": _many(_object(output, ("limit",), name=_NAME, limit=_QUANTITY))}
+    return {}
+
+
+def text() -> str:
+    """The schema as the file that ships."""
+    return json.dumps(schema(), indent=1, sort_keys=True) + "\n"

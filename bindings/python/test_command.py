@@ -1,0 +1,243 @@
+"""Tests of the command: every question of a scene with its files, what is refused with its exit status, Ctrl-C, help."""
+import contextlib
+import csv
+import io
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+try:
+    import numpy  # noqa: F401
+    import pint  # noqa: F401
+except ImportError as missing:
+    raise unittest.SkipTest(f"not there: {missing.name}") from missing
+
+from drillmbd.command import main  # noqa: E402
+
+HERE = pathlib.Path(__file__).resolve().parent
+COMMAND = (sys.executable, "-W", "ignore", "-m", "drillmbd")
+ENVIRONMENT = {**os.environ, "PYTHONPATH": str(HERE)}
+
+SCENE = """title = "short rig"
+[hole]
+diameter = "94 mm"
+[[string]]
+name = "main"
+[[string.pipes]]
+count = 8
+eccentricity = "1 mm"
+[[bit]]
+name = "bit"
+diameter = 0
+[[programme]]
+name = "turning"
+term = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
+[[drive]]
+name = "feed"
+programme = "0 m/s"
+[[drive]]
+name = "head"
+component = "rx"
+programme = "turning"
+[run]
+end = "20 ms"
+step = "1 ms"
+static = true
+[output]
+interval = "2 ms"
+vtk_interval = "10 ms"
+[[channel]]
+name = "torque [N m]"
+quantity = "drive-force"
+place = "head"
+[static]
+slip_axial = "1 mm/s"
+[modes]
+count = 5
+[response]
+frequency_low = "1 Hz"
+frequency_high = "30 Hz"
+points = 30
+[[response.input]]
+kind = "eccentricity"
+[[response.output]]
+name = "middle"
+place = {part = "main", pipe = 4}
+component = "z"
+[speeds]
+speed_low = "30 rpm"
+speed_high = "300 rpm"
+points = 30
+[[speeds.order]]
+order = 1
+[[speeds.output]]
+name = "middle"
+place = {part = "main", pipe = 4}
+component = "z"
+limit = "0.01 um"
+"""
+
+COLUMN = """[environment]
+gravity = [0, 0, 0]
+[[string]]
+name = "column"
+follows_hole = false
+start_free = []
+[[string.pipes]]
+count = 5
+section_stiffness = ["1e12 N", "1e12 N", "1e12 N", "1e5 N m2", "1e5 N m2", "1e5 N m2"]
+[[programme]]
+name = "none yet"
+term = {h0 = 0}
+[[load]]
+name = "push"
+place = {part = "column", pipe = "last", fraction = 1.0}
+force = ["-1 N", 0, 0]
+programme = "none yet"
+[buckling]
+scale = "part"
+part = "push"
+"""
+
+
+class CommandTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.scene = self.write("rig.toml", SCENE)
+        self.output = self.folder / "out"
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text, encoding="utf-8")
+        return self.folder / name
+
+    def ask(self, *words, status=0):
+        """In this process, which has loaded the packages."""
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            try:
+                found = main([str(word) for word in words])
+            except SystemExit as stop:  # argparse
+                found = stop.code
+        self.assertEqual(found, status, out.getvalue() + err.getvalue())
+        return out.getvalue() if status == 0 else err.getvalue()
+
+    def answer(self, command, *more):
+        out = self.ask(command, self.scene, "--output", self.output, *more)
+        summary = json.loads((self.output / "summary.json").read_text(encoding="utf-8"))
+        for name in summary["files"]:
+            self.assertGreater((self.output / name).stat().st_size, 30, name)
+        return out, summary
+
+    def test_check(self):
+        out, summary = self.answer("check")
+        self.assertIn("degrees of freedom", out)
+        self.assertEqual(summary["model"]["pipes"], 8)
+
+    def test_static(self):
+        out, summary = self.answer("static")
+        self.assertIn("axial force", out)
+        self.assertIn("static_main.csv", summary["files"])
+        self.assertIn("static.vtp", summary["files"])
+        self.assertEqual(summary["static"]["status_name"], "OK")
+        with open(self.output / "static_main.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.reader(file))
+        self.assertEqual(len(rows), 18)
+        self.assertEqual(rows[0][5], "axial force [N]")
+
+    def test_run_and_its_hash(self):
+        out, summary = self.answer("run")
+        self.assertEqual(summary["run"]["steps"], 20)
+        self.assertIn("ran to 0.02 s", out)
+        with open(self.output / "run.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.reader(file))
+        self.assertEqual((len(rows), rows[0]), (12, ["time [s]", "torque [N m]"]))
+        self.assertEqual(len([name for name in summary["files"] if name.startswith("string_")]), 3)
+        # the scene that was written beside gives the same bits, without files and in another folder
+        self.scene = self.output / "scene.toml"
+        self.output = self.folder / "again"
+        self.assertEqual(self.answer("run")[1]["hash"], summary["hash"])
+        self.assertEqual(self.answer("run", "--until", "0.005 s", "--step", "0.5 ms")[1]["run"]["steps"], 10)
+
+    def test_modes_response_speeds(self):
+        out, summary = self.answer("modes", "--count", "3")
+        self.assertEqual(len(summary["modes"]["frequency_Hz"]), 3)
+        self.assertIn("without the slip", summary["notes"][0])
+        self.assertIn("mode_00.vtp", summary["files"])
+        out, summary = self.answer("response")
+        self.assertIn("middle [m]: largest", out)
+        out, summary = self.answer("speeds")
+        self.assertTrue(summary["speeds"])
+        self.assertIn("keep away from", out)
+
+    def test_buckle(self):
+        self.scene = self.write("column.toml", COLUMN)
+        out, summary = self.answer("buckle")
+        self.assertAlmostEqual(summary["buckling"]["factors"][0] / (3.141592653589793 ** 2 * 1e5 / 100.0), 1.0, 3)
+        self.assertEqual(summary["buckling"]["end"], "bifurcation")
+
+    def test_without_a_folder_nothing_is_written(self):
+        self.ask("static", self.scene)
+        self.assertEqual(self.ask("run", self.scene, "--quiet"), "")
+        self.assertEqual(os.listdir(self.folder), ["rig.toml"])
+
+    def test_save_and_schema(self):
+        self.ask("save", self.scene, self.folder / "copy.toml")
+        self.assertEqual(self.ask("save", self.folder / "copy.toml", "-"), (self.folder / "copy.toml").read_text())
+        self.assertEqual(json.loads(self.ask("schema"))["type"], "object")
+
+    def test_help(self):
+        self.assertIn("examples:", self.ask("--help"))
+        for command in ("check", "static", "run", "modes", "response", "speeds", "buckle", "save", "schema"):
+            self.assertIn("usage: drillmbd", self.ask(command, "--help"))
+        self.assertRegex(self.ask("--version"), r"drillmbd \d+\.\d+\.\d+")
+
+    def test_refusals(self):
+        bad = self.write("bad.toml", SCENE.replace("diameter = \"94 mm\"", "diametre = \"94 mm\"\nmu_static = -1"))
+        told = self.ask("check", bad, status=2)
+        self.assertIn("bad.toml:3: hole.diametre: unknown key; did you mean diameter?", told)
+        self.assertIn("bad.toml:4: hole.mu_static = -1: must", told)
+        self.ask(status=2)
+        self.ask("chek", self.scene, status=2)
+        self.ask("run", self.scene, "--until", "5 kg", status=2)
+        self.ask("run", self.scene, "--until", "-5 s", status=2)
+        self.assertIn("[buckling]", self.ask("buckle", self.scene, status=2))
+        self.assertIn("none.toml", self.ask("check", self.folder / "none.toml", status=3))
+        self.assertIn("modes", self.ask("modes", self.scene, "--count", "100000", status=1))
+        no_end = self.write("end.toml", SCENE.replace('end = "20 ms"\n', ""))
+        self.assertIn("--until", self.ask("run", no_end, status=2))
+
+    def test_folder_that_cannot_be_written(self):
+        for target in ("/dev/null/out", self.scene, "/proc/out"):
+            self.ask("static", self.scene, "--output", target, status=3)
+
+    def test_as_a_program(self):
+        done = subprocess.run([*COMMAND, "static", self.scene], capture_output=True, text=True, env=ENVIRONMENT)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = subprocess.run([*COMMAND, "check", "none.toml"], capture_output=True, text=True, env=ENVIRONMENT)
+        self.assertEqual((done.returncode, done.stderr), (3, "drillmbd: No such file or directory: none.toml\n"))
+
+    def test_ctrl_c_leaves_what_is_done(self):
+        process = subprocess.Popen([*COMMAND, "run", self.scene, "--until", "2000 s", "--output", self.output],
+                                   stderr=subprocess.PIPE, stdout=subprocess.PIPE, env=ENVIRONMENT,
+                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+        limit = time.monotonic() + 120.0
+        while not (self.output / "string_0001.vtp").exists() and time.monotonic() < limit:
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 130)
+        summary = json.loads((self.output / "summary.json").read_text(encoding="utf-8"))
+        self.assertIn("stopped by Ctrl-C", summary["notes"][-1])
+        self.assertIn("run.csv", summary["files"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,428 @@
+"""Tests of scene files: units, shipped scenes against the C program and themselves, file to model to file, and bad files:
+each fault told with its line, key and bound, and nothing but SceneError whatever the bytes."""
+import json
+import math
+import os
+import pathlib
+import random
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import drillmbd as mbd
+
+try:
+    import pint  # noqa: F401
+
+    from drillmbd import scene
+    from drillmbd.scene import fields, lines, schema, units
+except ImportError as missing:
+    raise unittest.SkipTest(f"not there: {missing.name}") from missing
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+SCENES = sorted((ROOT / "examples" / "scenes").glob("*.toml"))
+BUILD = pathlib.Path(os.environ.get("DRILLMBD_BUILD", ROOT / "build" / "release")).resolve()
+
+SMALL = """title = "small"
+[hole]
+diameter = "94 mm"
+[[programme]]
+name = "feed"
+term = {kind = "step", x1 = "1 s", h1 = "10 mm/s"}
+[[string]]
+name = "main"
+[[string.pipes]]
+count = 3
+[[drive]]
+name = "head"
+programme = "feed"
+[run]
+end = "10 ms"
+step = "1 ms"
+"""
+
+EVERYTHING = """title = "every kind of part"
+[environment]
+gravity = [0, 0, "-9.8 m/s^2"]
+fluid_density = "1 g/cm^3"
+[hole]
+survey = [["0 m", "90 deg", 0], ["30 m", "92 deg", "2 deg"]]
+exponent = 1.5
+stiffness = "2e9 N/m^2.5"
+friction_law = "bristle"
+[[programme]]
+name = "shake"
+term = [{kind = "harmonic", h1 = "3 N", omega = "300 rpm", phase = "90 deg"}, {table = [[0, 0], ["1 s", "5 N"]]}]
+[[programme]]
+name = "half"
+term = {h0 = 0.5}
+[[programme]]
+name = "unused"
+unit = "m/s"
+term = {h0 = "1 m/s"}
+[[string]]
+name = "main"
+start_free = ["x", "rx"]
+[[string.pipes]]
+count = 2
+kind = "rigid"
+[[string.pipes]]
+count = 4
+joint_length = "10 cm"
+curvature = [0, "1 deg/m", 0]
+[[string]]
+name = "other"
+follows_hole = false
+position = ["1 m", 0, "1 mm"]
+[[string.pipes]]
+[[body]]
+name = "head"
+attach = "start"
+string = "main"
+mass = "30 kg"
+[[body]]
+name = "swing"
+mass = "2 kg"
+position = ["5 m", 0, "2 m"]
+inertia = ["10 kg m2", "10 kg m^2", "10 kg m^2", 0, 0, 0]
+[[body]]
+name = "wheel"
+mass = "2 kg"
+position = ["5 m", "1 m", "2 m"]
+[[bit]]
+name = "bit"
+string = "main"
+rock_law = "rate"
+load = "shake"
+[[joint]]
+name = "hinge"
+kind = "revolute"
+place_b = "swing"
+origin_a = ["5 m", 0, "3 m"]
+axis_a = [0, 1, 0]
+match = true
+stiffness = [0, 0, 0, "2 N m/deg", 0, 0]
+[[joint]]
+name = "axle"
+kind = "revolute"
+place_b = "wheel"
+origin_a = ["5 m", "1 m", "2 m"]
+axis_a = [0, 1, 0]
+match = true
+[[coupling]]
+joint = ["hinge", "axle"]
+ratio = -2
+[[drive]]
+name = "torque"
+kind = "load"
+part = "hinge"
+component = "rx"
+programme = "3 N m"
+[[drive]]
+name = "feed"
+kind = "control"
+component = "x"
+programme = "10 mm/s"
+gain = "1 kN s/m"
+limit_high = "5 kN"
+[[load]]
+name = "weight"
+place = {part = "main", pipe = 3, fraction = 1.0}
+force = [0, 0, "-10 N"]
+programme = "half"
+[compile]
+features = ["gravity", "contact", "friction", "damping"]
+[sim]
+spectral_radius = 0.9
+[run]
+end = "20 ms"
+step = "1 ms"
+[output]
+interval = "2 ms"
+[[channel]]
+name = "swing"
+quantity = "position-z"
+place = "swing"
+[static]
+slip_axial = "1 mm/s"
+[response]
+frequency_low = "1 Hz"
+frequency_high = "10 Hz"
+[[response.input]]
+kind = "drive"
+place = "torque"
+amplitude = "2 N m"
+[[response.output]]
+place = "swing"
+component = "z"
+[speeds]
+speed_high = "100 rpm"
+[[speeds.order]]
+order = 2
+kind = "unbalance"
+place = "swing"
+amplitude = "3 g m"
+[[speeds.output]]
+place = "swing"
+limit = "1 mm"
+[buckling]
+part = "feed"
+scale = "part"
+factor_max = "100 kN"
+"""
+
+
+def problems(text, folder="."):
+    try:
+        scene.loads(text, "x.toml", folder)
+    except scene.SceneError as error:
+        return error.problems
+    return []
+
+
+def after_run(loaded, steps=20):
+    with loaded.new_sim() as sim:
+        for _ in range(steps):
+            sim.step(1e-3)
+        return sim.hash()
+
+
+class UnitsTest(unittest.TestCase):
+    def test_quantities(self):
+        for text, wanted, value in (
+                ("63.5 mm", "m", 0.0635), ("120 rpm", "rad/s", 120 * math.pi / 30), ("90 deg", "rad", math.pi / 2),
+                ("-9.81 m/s^2", "m/s2", -9.81), ("210 GPa", "Pa", 2.1e11), ("2 %", "-", 0.02), ("5", "-", 5.0),
+                ("12 rev/min", "rad/s", 12 * math.pi / 30), ("10 N m s/deg", "N m s", 1800 / math.pi),
+                ("4.5 in", "m", 0.1143), ("1e7 N/m^2", "N/m^2", 1e7), ("3 kg m2", "kg m2", 3.0), (0, "m", 0.0),
+                ("5 kN", "N, N m", 5e3), ("5 kN m", "N, N m", 5e3), ("1_000 m", "m", 1000.0), ("8 1/s", "Hz", 8.0)):
+            self.assertAlmostEqual(units.parse(text, wanted) / (value or 1.0), 1.0 if value else 0.0, 14, text)
+        self.assertEqual(units.parse("63.5 mm", "m"), 0.0635)  # the double itself
+        self.assertEqual(units.parse("0.1 ms", "s"), 1e-4)
+
+    def test_other_kinds_are_refused(self):
+        for text, wanted in (("120 kg", "m/s"), ("5 Hz", "rad/s"), ("60 rpm", "Hz"), (5, "m"), ("5", "m"), ("1", "rad"),
+                             ("mm", "m"), ("5 furlongs per", "m"), (True, "m"), (None, "m"), ([1], "m"), ("1e999 m", "m"),
+                             ("nan m", "m"), ("5 m", "N, N m"), ("5 m", "-"), ("1 __import__('os')", "m"), ("5 ()", "m")):
+            with self.assertRaises(units.UnitError, msg=text):
+                units.parse(text, wanted)
+
+    def test_all_units_of_the_headers_are_known(self):
+        for struct in fields.DEFINITIONS.values():
+            for field in fields.fields_of(struct).values():
+                for unit in field.unit.split(","):
+                    if field.kind == "quantity" and unit and "unit of" not in unit and "n+1" not in unit:
+                        units.factor_and_kind(unit.strip())
+
+
+class ShippedTest(unittest.TestCase):
+    def test_there_are_three(self):
+        self.assertGreaterEqual(len(SCENES), 3)
+
+    def test_file_to_model_to_file(self):
+        for path in SCENES:
+            first = scene.load(path)
+            text = scene.saves(first)
+            second = scene.loads(text)
+            self.assertTrue(second.same_as(first), path)
+            self.assertEqual(scene.saves(second), text)
+            self.assertEqual(after_run(second), after_run(first))
+
+    def test_same_bits_as_the_c_program(self):
+        compiler = shutil.which(os.environ.get("CC", "cc"))
+        if compiler is None or not (BUILD / "libdrillmbd.so").exists():
+            self.skipTest("not there: a C compiler, or the library of the build")
+        rig = ROOT / "examples" / "gas_drainage_rig"
+        with tempfile.TemporaryDirectory() as folder:
+            program = pathlib.Path(folder, "rig")
+            subprocess.run([compiler, "-std=c11", "-O1", "-ffp-contract=off", f"-I{rig}", f"-I{ROOT / 'include'}",
+                            HERE / "scene_rig.c", rig / "scene.c", rig / "cycle.c", "-o", program, f"-L{BUILD}",
+                            "-ldrillmbd", "-lm", f"-Wl,-rpath,{BUILD}"], check=True)
+            expected = subprocess.run([program], capture_output=True, text=True, check=True).stdout.split()
+        loaded = scene.load(ROOT / "examples" / "scenes" / "reference_rig.toml")
+        with loaded.new_sim() as sim:
+            sim.static(**loaded.fields_of("static"))
+            found = [f"{sim.hash():016x}"]
+            sim.run(0.05, step=loaded.run["step"])
+            found.append(f"{sim.hash():016x}")
+        self.assertEqual(found, expected)
+
+    def test_every_kind_of_part(self):
+        first = scene.loads(EVERYTHING)
+        text = scene.saves(first)
+        second = scene.loads(text)
+        self.assertTrue(second.same_as(first))
+        self.assertEqual(scene.saves(second), text)
+        self.assertEqual(after_run(second), after_run(first))
+        self.assertEqual(first.analyses["buckling"]["factor_max"], 1e5)
+        self.assertEqual(first.analyses["response"]["input"][0]["amplitude"], 2.0)
+
+    def test_model_without_a_file(self):
+        model = mbd.Model()
+        model.add_wall()
+        string = model.add_pipes(3)
+        model.add_drive(part=string, programme=model.add_programme(mbd.Term(kind=mbd.TERM_STEP, h1=0.1)))
+        model.compile()
+        again = scene.loads(scene.saves(model))
+        with model.sim() as one, again.new_sim() as other:
+            for sim in (one, other):
+                sim.run(0.01, step=1e-3)
+            self.assertEqual(one.hash(), other.hash())
+
+    def test_functions_cannot_be_saved(self):
+        model = mbd.Model()
+        model.add_pipes(1)
+        model.add_drive(programme=model.add_programme(lambda time: time))
+        model.compile()
+        with self.assertRaisesRegex(scene.CannotSave, "function of Python"):
+            scene.saves(model)
+
+    def test_schema(self):
+        shipped = HERE / "drillmbd" / "scene" / "scene.schema.json"
+        self.assertEqual(shipped.read_text(encoding="utf-8"), schema.text(),
+                         "python3 -m drillmbd schema > bindings/python/drillmbd/scene/scene.schema.json")
+        try:
+            import jsonschema
+        except ImportError:
+            self.skipTest("not there: jsonschema")
+        import tomllib
+        jsonschema.Draft7Validator.check_schema(schema.schema())
+        check = jsonschema.Draft7Validator(json.loads(shipped.read_text(encoding="utf-8")))
+        for text in [path.read_text(encoding="utf-8") for path in SCENES] + [SMALL, EVERYTHING]:
+            check.validate(tomllib.loads(text))
+            check.validate(tomllib.loads(scene.saves(scene.loads(text, folder=ROOT / "examples" / "scenes"))))
+        for bad in ("[hole]\ndiametre = 1", "[hole]\nnormal_law = \"hertz\"", "[[drive]]\nprogramme = 3", "strings = 1"):
+            self.assertFalse(check.is_valid(tomllib.loads(bad)), bad)
+
+
+class LinesTest(unittest.TestCase):
+    def test_lines(self):
+        found = lines.find_lines('a = 1\n[b]\n"c d" = [\n1,\n]\ne.f = """\n[x]\n"""\n'
+                                 '[[g]]\nh = 1\n[[g.i]]\n[[g]]\n[[g.i]]\nj=2\n')
+        self.assertEqual([found[path] for path in (("a",), ("b",), ("b", "c d"), ("b", "e", "f"), ("g", 0, "h"),
+                                                   ("g", 0, "i", 0), ("g", 1), ("g", 1, "i", 0, "j"))],
+                         [1, 2, 3, 6, 10, 11, 12, 14])
+        self.assertNotIn(("x",), found)
+        self.assertEqual(lines.line_of(found, ("b", "c d", 3)), 3)
+
+
+class BadFilesTest(unittest.TestCase):
+    def one(self, old, new, line, key, *parts):
+        """The file with a fault has this one problem."""
+        self.assertIn(old, SMALL)
+        found = problems(SMALL.replace(old, new, 1))
+        self.assertEqual(len(found), 1, [str(one) for one in found])
+        self.assertEqual((found[0].line, found[0].key), (line, key), str(found[0]))
+        for part in parts:
+            self.assertIn(part, str(found[0]))
+
+    def test_single_faults(self):
+        self.assertEqual(problems(SMALL), [])
+        self.one("diameter", "diametre", 3, "hole.diametre", "unknown key", "did you mean diameter?")
+        self.one('"94 mm"', '"94 kg"', 3, "hole.diameter", '"94 kg"', "has the unit 'kg'", "length")
+        self.one('"94 mm"', '"-94 mm"', 3, "hole.diameter", '"-94 mm"', "must", "(in m)")
+        self.one('"94 mm"', "94", 3, "hole.diameter", "must have a unit")
+        self.one('"94 mm"', '"94 zz"', 3, "hole.diameter", "'zz' is not a known unit")
+        self.one('kind = "step"', 'kind = "stop"', 6, "programme[0].term.kind", "did you mean step?")
+        self.one('h1 = "10 mm/s"', 'h1 = "120 kg"', 6, "programme[0].term.h1", "has the unit 'kg'", "speed")
+        self.one('h1 = "10 mm/s"', 'h1 = "10 rpm"', 6, "programme[0].term.h1", "speed, as \"10 mm/s\"")
+        self.one("count = 3", "count = 0", 10, "string[0].pipes[0].count", "1 .. 2^20")
+        self.one("count = 3", 'count = 3\nouter_diameter = "50 mm"', 11, "string[0].pipes[0].outer_diameter", "must")
+        self.one('end = "10 ms"', 'end = "-10 ms"', 15, "run.end", "must be > 0 s")
+        self.one('end = "10 ms"', 'end = "10 m"', 15, "run.end", "has the unit 'm'", "time")
+        self.one("[run]", "[rum]", 14, "rum", "unknown key", "did you mean run?")
+        self.one('name = "main"', 'name = "feed"', 8, "string[0].name", "names a programme already")
+        self.one('name = "main"', "name = 3", 8, "string[0].name", "must be a text")
+        self.one('title = "small"', "title = 3", 1, "title", "must be a text")
+        self.one('step = "1 ms"', 'step = "1 ms"\n[[channel]]\nplace = "main"', 17, "channel[0]", "must have a quantity")
+        self.one('step = "1 ms"', 'step = "1 ms"\n[[channel]]\nquantity = "spin"\nplace = {part = "main", pipe = 3}', 19,
+                 "channel[0].place.pipe", "0 .. 2")
+
+    def test_name_that_is_none(self):
+        found = problems(SMALL.replace('programme = "feed"', 'programme = "fed"'))
+        self.assertIn("drive[0].programme", [one.key for one in found])
+        self.assertTrue(any("names no part; did you mean feed?" in str(one) for one in found))
+
+    def test_all_faults_at_once(self):
+        text = SMALL.replace('"94 mm"', '"-94 mm"\nrestitution = 3\nmu_dynamics = 0.1').replace('"10 ms"', '"10 kg"')
+        keys = [one.key for one in problems(text)]
+        self.assertEqual(keys, ["hole.diameter", "hole.restitution", "hole.mu_dynamics", "run.end"])
+
+    def test_faults_of_the_whole_scene(self):
+        found = problems(SMALL + '[[bit]]\ndiameter = "10 m"\n')
+        self.assertEqual(len(found), 1)
+        self.assertIn("must", str(found[0]))
+
+    def test_no_toml(self):
+        for text, line in (("title = \n", 1), ("[hole\n", 1), ("a = 1\na = 2\n", 2), ("x = " + "[" * 5000, 1)):
+            found = problems(text)
+            self.assertEqual(len(found), 1)
+            self.assertIn("is no TOML", str(found[0]))
+            self.assertLessEqual(abs(found[0].line - line), 1)
+
+    def test_programme_used_twice(self):
+        found = problems(SMALL + '[[drive]]\ncomponent = "rx"\nprogramme = "feed"\n')
+        self.assertIn("make two programmes", str(found[0]))
+
+    def test_not_a_text_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "x.toml")
+            path.write_bytes(b"title = 'a'\n\xff\xfe\x00")
+            with self.assertRaisesRegex(scene.SceneError, "x.toml:2: the file: must be text in UTF-8"):
+                scene.load(path)
+            with self.assertRaises(OSError):
+                scene.load(pathlib.Path(folder, "none.toml"))
+
+    def test_surveys(self):
+        def told(name_or_rows, csv=None):
+            with tempfile.TemporaryDirectory() as folder:
+                if csv is not None:
+                    pathlib.Path(folder, "s.csv").write_text(csv, encoding="utf-8")
+                found = problems(SMALL.replace('diameter = "94 mm"', name_or_rows), folder)
+            return " ".join(str(one) for one in found)
+
+        heads = "depth [m], inclination [deg], azimuth [deg]\n"
+        good = heads + "0, 90, 0\n30, 95, 1\n"
+        self.assertEqual(told('survey_file = "s.csv"', good), "")
+        feet = "Measured depth [ft],Inclination [rad],Azimuth [deg]\n0,1.5,0\n99,1.6,0\n"
+        self.assertEqual(told('survey_file = "s.csv"', feet), "")
+        for csv, part in ((None, "could not be read"), ("", "line 1 must be heads"), (heads, "at least two rows"),
+                          (heads + "0, ninety, 0\n30, 95, 1\n", "line 2 (0, ninety, 0)"),
+                          (heads + "0, 90\n30, 95, 1\n", "has 2 columns"), ("depth [kg], i [deg], a [deg]\n", "heads"),
+                          (heads + "30, 90, 0\n0, 95, 1\n", "must"), (heads + "0, 900, 0\n30, 95, 1\n", "must")):
+            self.assertIn(part, told('survey_file = "s.csv"', csv), csv)
+        self.assertIn("at least two rows", told("survey = []"))
+        self.assertIn("must be a row", told('survey = [["0 m"], ["1 m", "1 rad", "0 rad"]]'))
+        self.assertIn("must be a length", told('survey = [["x", "1 rad", "0 rad"], ["1 m", "1 rad", "0 rad"]]'))
+
+    def test_files_cut_at_every_line(self):
+        for text in [path.read_text(encoding="utf-8") for path in SCENES] + [EVERYTHING]:
+            rows = text.splitlines(keepends=True)
+            for end in range(len(rows)):
+                for one in problems("".join(rows[:end]), ROOT / "examples" / "scenes"):
+                    self.assertTrue(1 <= one.line <= end + 1)
+
+    def test_every_key_misspelt(self):
+        rows = EVERYTHING.splitlines()
+        for number, row in enumerate(rows):
+            key = row.split("=")[0].strip()
+            if "=" in row and key not in ("title", "term"):
+                wrong = "\n".join(rows[:number] + [row.replace(key, key + "x", 1)] + rows[number + 1:])
+                told = [one for one in problems(wrong) if "unknown key" in one.text]
+                self.assertEqual([one.line for one in told], [number + 1], row)
+                self.assertIn(f"did you mean {key}?", str(told[0]))
+
+    def test_values_of_other_types(self):
+        """Every value replaced by every kind of value: SceneError or a scene, nothing else."""
+        draw = random.Random(1)
+        rows = EVERYTHING.splitlines()
+        for number, row in enumerate(rows):
+            if "=" in row:
+                for value in draw.sample(['"x"', "3", "-1e300", "nan", "true", "[]", "{}", '["1 m", 2]', "1979-05-27", '""',
+                                          '"-1 m"', "[[[]]]", '{part = "main", pipe = -1}'], 5):
+                    problems("\n".join(rows[:number] + [row.split("=")[0] + "= " + value] + rows[number + 1:]))
+
+
+if __name__ == "__main__":
+    unittest.main()
