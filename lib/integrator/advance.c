@@ -1,16 +1,20 @@
-/* dmb_sim_advance: steps whose local error holds the tolerances. The estimate e = C h^2 (a1 - a0) is of third order, so
- *     h_new = h clamp(0.9 err^(-1/3), 0.2, 2), held while the ratio lies in 0.8 .. 1.25 (THEORY 4). */
+/* dmb_sim_advance: steps whose local error holds the tolerances. The estimate is of third order, so
+ *     h_new = h clamp(0.9 err^(-1/3), 0.2, 2)
+ * with the error ahead of the step, not its own (dmb_step_error): steps that follow the error through the zeros of an
+ * oscillation change four times a period, and each change leaves a part of h_1^2 - h_2^2 of what equal steps take back
+ * (THEORY 4). */
 #include "base/sized_struct.h"
 #include "integrator/corner.h"
 #include "integrator/walk.h"
 #include "math/elementary.h"
 
-/* What control wants next after an error of `error` tolerances. */
+/* What control wants next after an error of `error` tolerances. Without clusters the factors of a step of the same length
+ * may serve (kept_factors), so lengths within a tenth are held; with them every step makes its own. */
 static double next_step(const dmb_sim *sim, double h, double error)
 {
     double ratio = error > 0.0 ? 0.9 * dmb_pow(error, -1.0 / 3.0) : 2.0;
     ratio = fmin(fmax(ratio, 0.2), 2.0);
-    if (ratio > 0.8 && ratio < 1.25) ratio = 1.0;
+    if (sim->scene->cluster_count == 0 && ratio > 0.9 && ratio < 1.0 / 0.9) ratio = 1.0;
     return fmin(fmax(ratio * h, sim->options.step_min), sim->options.step_max);
 }
 
@@ -35,10 +39,18 @@ static dmb_step_end fit(const dmb_sim *sim, double h, double time)
     return dmb_step_end_after(sim, h > 0.5 * end.step ? 0.5 * end.step : h);
 }
 
+/* The step wanted after one of length h; of one that was cut short only when it tells more. */
+static double wanted_after(const dmb_sim *sim, double h, double wanted, double error, int retried)
+{
+    const double next = next_step(sim, h, error);
+    if (next > wanted && retried) return wanted; /* it has just failed at more */
+    return next > wanted || h >= wanted * 0.999 || next < h ? next : wanted;
+}
+
 static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk *walk)
 {
     dmb_attempt attempt;
-    for (;;) {
+    for (int retried = 0;; retried = 1) {
         const dmb_step_end end = fit(sim, *wanted, time);
         const double h = end.step;
         if (!(end.time > sim->clock->time)) return dmb_walk_stuck(sim, "length", h);
@@ -46,11 +58,10 @@ static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk 
         if (status == DMB_NOTE_WORK_LIMITED)
             status = attempt.status = DMB_ERR_NO_CONVERGENCE; /* a step is a step here */
         const int smallest = !(h > sim->options.step_min * 1.0001);
-        const double error = status >= 0 ? dmb_attempt_error(sim, h) : 0.0;
-        if (status >= 0 && (error <= 1.0 || smallest)) {
-            const double next = next_step(sim, h, error);
-            if (next > *wanted || h >= *wanted * 0.999 || next < h) *wanted = next;
-            if (error > 1.0) walk->too_coarse = 1;
+        const dmb_step_error error = status >= 0 ? dmb_attempt_error(sim, h) : (dmb_step_error){0.0, 0.0};
+        if (status >= 0 && (error.here <= 1.0 || smallest)) {
+            *wanted = wanted_after(sim, h, *wanted, error.ahead, retried);
+            if (error.here > 1.0) walk->too_coarse = 1;
             dmb_walk_commit(sim, &attempt, walk);
             dmb_walk_corner(sim);
             sim->clock->next_step = *wanted;
@@ -58,7 +69,7 @@ static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk 
         }
         dmb_walk_reject(sim, &attempt, walk);
         if (status < 0 && (smallest || dmb_is_final(status))) return status;
-        *wanted = status >= 0 ? retry_step(sim, h, error) : fmax(0.25 * h, sim->options.step_min);
+        *wanted = status >= 0 ? retry_step(sim, h, error.ahead) : fmax(0.25 * h, sim->options.step_min);
     }
 }
 

@@ -20,38 +20,69 @@ static double tolerance_of(const dmb_sim *sim, uint32_t size, uint32_t k)
     return 2 * k < size ? sim->options.tolerance_translation : sim->options.tolerance_rotation;
 }
 
-/* a1 - a0 of a free rigid body, largest over its tolerances. */
-static double rigid_jump(const dmb_sim *sim, double ratio, uint32_t rigid)
+/* Largest of all rows over their tolerances: |a1 - a0| [1/s2], acceleration, speed. */
+typedef struct motion_norms {
+    double jump, acceleration, speed;
+} motion_norms;
+
+static void add_row(motion_norms *most, double tolerance, double jump, double acceleration, double speed)
+{
+    most->jump = fmax(most->jump, fabs(jump) / tolerance);
+    most->acceleration = fmax(most->acceleration, fabs(acceleration) / tolerance);
+    most->speed = fmax(most->speed, fabs(speed) / tolerance);
+}
+
+/* A free rigid body, at its centre of mass. */
+static void add_rigid(const dmb_sim *sim, double ratio, uint32_t rigid, motion_norms *most)
 {
     const double *motion = dmb_free_rigid_motion(sim, rigid);
-    double start[18], most = 0.0;
+    double start[18];
     dmb_free_rigid_start(sim, rigid, start);
     for (uint32_t k = 0; k < 6; k++) {
         const double a0 = start[6 + k] + ratio * (start[12 + k] - start[6 + k]);
-        most = fmax(most, fabs(motion[12 + k] - a0) / tolerance_of(sim, 6, k));
+        add_row(most, tolerance_of(sim, 6, k), motion[12 + k] - a0, motion[6 + k], motion[k]);
     }
+}
+
+static void add_node(const dmb_sim *sim, double ratio, uint32_t node, motion_norms *most)
+{
+    const uint32_t size = sim->scene->layout.size[node], row = sim->scene->layout.row[node];
+    for (uint32_t k = 0; k < size; k++) {
+        const uint32_t i = row + k;
+        if (!sim->scene->solved_row[i]) continue;
+        const double jump = sim->trial.pseudo_acceleration[i] - dmb_step_motion_carried(sim, ratio, i);
+        add_row(most, tolerance_of(sim, size, k), jump, sim->trial.acceleration[i], sim->trial.velocity[i]);
+    }
+}
+
+static motion_norms norms_of(const dmb_sim *sim, double h)
+{
+    const dmb_scene *scene = sim->scene;
+    const double ratio = dmb_step_motion_ratio(sim, h);
+    motion_norms most = {0.0, 0.0, 0.0};
+    for (uint32_t i = 0, rigid = 0; i < scene->node_count; i++)
+        if (rigid < scene->free_rigid_count && scene->free_rigids[rigid].node == i)
+            add_rigid(sim, ratio, rigid++, &most);
+        else
+            add_node(sim, ratio, i, &most);
     return most;
 }
 
-double dmb_attempt_error(const dmb_sim *sim, double h)
+/* [-] Most that the error ahead is over the error here: what is left of Newton and rounding tells no frequency. */
+#define DMB_AHEAD_MAX 64.0
+
+/* The error goes with x''' = (a1 - a0)/h. In an oscillation of frequency w, x''' = -w^2 x', which tells w, and the larger
+ * of |x'''| and w |x''| is within sqrt 2 of the largest |x'''| of the period, at any time. Where steps do not resolve the
+ * motion, h w > 1, the acceleration does not change by more than itself. */
+dmb_step_error dmb_attempt_error(const dmb_sim *sim, double h)
 {
     const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
-    const dmb_scene *scene = sim->scene;
-    const double ratio = dmb_step_motion_ratio(sim, h), factor = c.error * h * h;
-    double worst = 0.0;
-    for (uint32_t i = 0, rigid = 0; i < scene->node_count; i++) {
-        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
-        if (rigid < scene->free_rigid_count && scene->free_rigids[rigid].node == i) {
-            worst = fmax(worst, fabs(factor) * rigid_jump(sim, ratio, rigid++));
-            continue;
-        }
-        for (uint32_t k = 0; k < size; k++) {
-            if (!scene->solved_row[row + k]) continue;
-            const double jump = sim->trial.pseudo_acceleration[row + k] - dmb_step_motion_carried(sim, ratio, row + k);
-            worst = fmax(worst, fabs(factor * jump) / tolerance_of(sim, size, k));
-        }
-    }
-    return worst;
+    const motion_norms most = norms_of(sim, h);
+    const double squared = most.speed > 0.0 ? fmin(1.0, h * most.jump / most.speed) : 0.0; /* (h w)^2 */
+    const double ahead = fmin(sqrt(squared) * most.acceleration, DMB_AHEAD_MAX * most.jump);
+    const double factor = fabs(c.error) * h * h;
+    const dmb_step_error error = {factor * most.jump, factor * fmax(most.jump, ahead)};
+    return error;
 }
 
 static void set_up(dmb_sim *sim, const dmb_generalized_alpha *c, const dmb_step_end *end, dmb_evaluation *evaluation)

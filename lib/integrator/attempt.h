@@ -19,11 +19,17 @@ typedef struct dmb_attempt {
     int32_t reserved;
 } dmb_attempt;
 
+/* [-] Local error of the pose of a step over its tolerance, largest row, and what it may become within a quarter of a
+ * period: it goes with the rate of the acceleration, which is 0 twice in each. */
+typedef struct dmb_step_error {
+    double here, ahead;
+} dmb_step_error;
+
 /* Tries a step from now to `end`; returns attempt->status. now and the memory fields are not touched. whole: 1
  * unless the call would have to take this step back if a later one fails. */
 int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_attempt *attempt);
-/* [-] Local error of the pose of a successful attempt of length `step` [s] over its tolerance, largest row. */
-double dmb_attempt_error(const dmb_sim *sim, double step);
+/* Of a successful attempt of length `step` [s]. */
+dmb_step_error dmb_attempt_error(const dmb_sim *sim, double step);
 /* Makes the trial of a successful attempt the accepted state. */
 void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt);
 /* Message for a failed attempt: which part, at what time. */

@@ -56,7 +56,7 @@ static double estimate_over_error(double r, double h)
     double y[2] = {angle_of(&s, id), motion_at(&s, dmb_station(id, 0, 0.0), DMB_FRAME_BODY).velocity[5]};
     ode_solve(pendulum_rate, NULL, 0.0, h, 2, 2, y);
     assert_int_equal(try_step(&s, h, &attempt), DMB_OK);
-    const double estimate = dmb_attempt_error(s.sim, h);
+    const double estimate = dmb_attempt_error(s.sim, h).here;
     dmb_attempt_commit(s.sim, &attempt);
     const double error = fabs(angle_of(&s, id) - y[0]);
     rig_close(&s);
