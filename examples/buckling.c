@@ -96,14 +96,14 @@ typedef struct picture {
 static int32_t look(void *context, const dmb_sim *at, const dmb_path_point *point)
 {
     picture *p = context;
-    dmb_contact_sum contacts = dmb_contact_sum_default();
+    dmb_contact_total contacts = dmb_contact_total_default();
     p->swing = 0.0;
     for (uint32_t i = 0; i < p->s->pipes; i++) {
         dmb_pose pose = dmb_pose_default();
         if (dmb_query_pose(at, dmb_station(p->s->string, i, 1.0), &pose) < 0) return 1;
         p->swing = fmax(p->swing, fabs(atan2(pose.position[1], -pose.position[2])));
     }
-    if (dmb_query_contact_sum(at, &contacts) < 0) return 1;
+    if (dmb_query_contact_total(at, &contacts) < 0) return 1;
     p->wall = contacts.normal_force;
     return point->kind == DMB_PATH_LIMIT; /* it carries no more */
 }

@@ -151,7 +151,7 @@ int main(void)
     if (status >= 0) status = experiment(&r);
     if (status >= 0) status = dmb_query_statistics(r.sim, &statistics);
     if (status >= 0)
-        printf("worst step: %u iterations\n", statistics.worst_iterations);
+        printf("worst step: %u iterations\n", statistics.most_iterations);
     else
         fprintf(stderr, "%s: %s%s\n", dmb_status_text(status), dmb_model_message(r.model), dmb_sim_message(r.sim));
     dmb_sim_destroy(&r.sim);

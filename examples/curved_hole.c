@@ -73,11 +73,11 @@ static int32_t ask(dmb_model *model, dmb_sim *sim, dmb_id string)
 {
     double upward[PIPES], total[PIPES], reaction[6];
     dmb_model_info info = dmb_model_info_default();
-    dmb_contact_sum sum = dmb_contact_sum_default();
+    dmb_contact_total sum = dmb_contact_total_default();
     int32_t status = dmb_model_get_info(model, &info);
     if (status >= 0) status = side_forces(sim, info.contact_sites, upward, total);
     if (status >= 0) status = print_pipes(sim, string, upward, total);
-    if (status >= 0) status = dmb_query_contact_sum(sim, &sum);
+    if (status >= 0) status = dmb_query_contact_total(sim, &sum);
     if (status >= 0) status = dmb_query_reaction(sim, string, reaction);
     if (status >= 0)
         printf("weight %.3f N, on the wall %.3f N at %u places, held by the rig %.3f N\n", 9.81 * info.mass,

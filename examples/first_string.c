@@ -38,7 +38,7 @@ int main(void)
     dmb_sim *sim = NULL;
     dmb_id string;
     dmb_pose pose = dmb_pose_default();
-    dmb_contact_sum contact = dmb_contact_sum_default();
+    dmb_contact_total contact = dmb_contact_total_default();
     int32_t status = dmb_model_create(NULL, &model);
     if (status >= 0) status = describe(model, &string);
     if (status >= 0) status = dmb_sim_create(model, NULL, &sim);
@@ -47,7 +47,7 @@ int main(void)
 
     /* Pipes count from 0 at the rig; 1.0 is the far end of a pipe. */
     if (status >= 0) status = dmb_query_pose(sim, dmb_station(string, 9, 1.0), &pose);
-    if (status >= 0) status = dmb_query_contact_sum(sim, &contact);
+    if (status >= 0) status = dmb_query_contact_total(sim, &contact);
     if (status < 0)
         fprintf(stderr, "%s: %s%s\n", dmb_status_text(status), dmb_model_message(model), dmb_sim_message(sim));
     printf("time %.3f s, pipe 10: %.3f mm along, %.3f mm sideways, %.3f mm up\n", dmb_sim_time(sim),

@@ -24,7 +24,7 @@ static int rest(unsigned elements, double answer[3])
     dmb_id string;
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
-    dmb_contact_sum sum = dmb_contact_sum_default();
+    dmb_contact_total sum = dmb_contact_total_default();
     dmb_pose pose = dmb_pose_default();
     double reaction[6];
     wall.stiffness = 1e5;
@@ -36,7 +36,7 @@ static int rest(unsigned elements, double answer[3])
     dmb_sim_create(model, NULL, &sim);
     if (dmb_analysis_static(sim, NULL, NULL) < 0) return fail(dmb_sim_message(sim));
     dmb_query_reaction(sim, string, reaction);
-    dmb_query_contact_sum(sim, &sum);
+    dmb_query_contact_total(sim, &sum);
     dmb_query_pose(sim, dmb_station(string, 2, 1.0), &pose);
     answer[0] = reaction[2];
     answer[1] = sum.normal_force;

@@ -1,7 +1,7 @@
 /* How does a hole grow rod by rod?
  *
  * A rig holds only so much feed: it drills one rod's length, stops, lets go of the string, puts a rod in between and
- * drills on. Every number of rods is a model of its own, described by one function; dmb_sim_carry_over takes the state
+ * drills on. Every number of rods is a model of its own, described by one function; dmb_sim_transfer_state takes the state
  * from one to the next: shape and speed of the string, cut rock, contacts, drives, time and energy ledger. At the end
  * the string is pulled out by two rods, which are taken off. */
 #include <drillmbd/drillmbd.h>
@@ -67,7 +67,7 @@ static int32_t change_rods(rig *r, uint32_t n, double feed)
 {
     rig next = {0};
     int32_t status = describe(&next, n, dmb_sim_time(r->sim), feed);
-    if (status >= 0) status = dmb_sim_carry_over(next.sim, r->sim);
+    if (status >= 0) status = dmb_sim_transfer_state(next.sim, r->sim);
     dmb_sim_destroy(&r->sim);
     dmb_model_destroy(&r->model);
     *r = next;
@@ -85,14 +85,14 @@ static int32_t run(rig *r, double until)
 static int32_t feed_one_rod(rig *r, uint32_t n, const char *what)
 {
     dmb_drive_state motor = dmb_drive_state_default();
-    dmb_contact_sum wall = dmb_contact_sum_default();
+    dmb_contact_total wall = dmb_contact_total_default();
     dmb_energy energy = dmb_energy_default();
     dmb_pose bit = dmb_pose_default();
     double angle = 0.0;
     const double begin = dmb_sim_time(r->sim);
     int32_t status = run(r, begin + STAGE - RAMP);
     if (status >= 0) status = dmb_query_drive(r->sim, r->motor, &motor);
-    if (status >= 0) status = dmb_query_contact_sum(r->sim, &wall);
+    if (status >= 0) status = dmb_query_contact_total(r->sim, &wall);
     if (status >= 0) status = run(r, begin + STAGE + REST);
     if (status >= 0) status = dmb_query_pose(r->sim, dmb_station(r->bit, 0, 0.0), &bit);
     if (status >= 0) status = dmb_query_rotation(r->sim, dmb_station(r->bit, 0, 0.0), &angle);

@@ -2,7 +2,7 @@
  *
  * An axial-torsional string of length L and weight w per metre lies in a horizontal hole. Sliding along, it needs
  *     F = mu w L + bit load,   and is shorter by   (mu w L^2/2 + load L)/(E A).
- * Turning on the spot, it needs
+ * Turning on the point, it needs
  *     M = mu w L r + bit torque,   and is twisted by   (mu w r L^2/2 + torque L)/(G J).
  * The static analysis takes friction as if the string slid at a given speed, so that its direction is known. */
 #include <drillmbd/drillmbd.h>
@@ -62,7 +62,7 @@ static int32_t solve(const string_model *s, int turning, double *effort, double 
 {
     dmb_static_options options = dmb_static_options_default();
     dmb_drive_state drive = dmb_drive_state_default();
-    dmb_contact_sum sum = dmb_contact_sum_default();
+    dmb_contact_total sum = dmb_contact_total_default();
     dmb_pose pose = dmb_pose_default();
     const dmb_place end = dmb_station(s->string, PIPES - 1, 1.0);
     dmb_sim *sim = NULL;
@@ -70,7 +70,7 @@ static int32_t solve(const string_model *s, int turning, double *effort, double 
     *(turning ? &options.slip_rotation : &options.slip_axial) = 1.0;
     if (status >= 0) status = dmb_analysis_static(sim, &options, NULL);
     if (status >= 0) status = dmb_query_drive(sim, turning ? s->rotation : s->feed, &drive);
-    if (status >= 0) status = dmb_query_contact_sum(sim, &sum);
+    if (status >= 0) status = dmb_query_contact_total(sim, &sum);
     if (status >= 0) status = dmb_query_pose(sim, end, &pose);
     *give = -pose.displacement[0];
     if (status >= 0 && turning) {

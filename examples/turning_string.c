@@ -29,7 +29,7 @@ typedef struct turning {
     dmb_output outputs[OUTPUTS];
     double linear[OUTPUTS];           /* amplitude at the frequency */
     double amplitudes[OUTPUTS][4][2]; /* mean, 1x, 2x, 3x */
-    dmb_sine_report report;
+    dmb_stepped_sine_report report;
     int32_t status;
 } turning;
 
@@ -98,11 +98,11 @@ static int32_t find_linear(turning *t)
 
 static void run(turning *t)
 {
-    dmb_sine_options options = dmb_sine_options_default();
+    dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     options.steps_per_period = 200;
     options.windows = 60;
     options.tolerance = 0.01;
-    t->report = dmb_sine_report_default();
+    t->report = dmb_stepped_sine_report_default();
     t->status = describe(t);
     if (t->status >= 0) t->status = dmb_analysis_static(t->sim, NULL, NULL);
     ask(t);
@@ -110,7 +110,7 @@ static void run(turning *t)
     if (t->status >= 0) t->status = dmb_sim_advance(t->sim, 1.0, NULL);
     if (t->status >= 0)
         t->status =
-            dmb_analysis_sine(t->sim, t->frequency, &options, t->outputs, OUTPUTS, &t->amplitudes[0][0][0], &t->report);
+            dmb_analysis_stepped_sine(t->sim, t->frequency, &options, t->outputs, OUTPUTS, &t->amplitudes[0][0][0], &t->report);
     if (t->status < 0)
         fprintf(stderr, "%g Hz: %s%s\n", t->frequency, dmb_model_message(t->model), dmb_sim_message(t->sim));
     dmb_sim_destroy(&t->sim);

@@ -28,7 +28,7 @@ feed = model.add_drive(programme=feeding)
 rotation = model.add_drive(component=mbd.RX, programme=turning)
 model.compile()
 info = model.info()
-print(f"{info.pipes} pipes, {info.mass:.1f} kg, {info.freedoms} degrees of freedom")
+print(f"{info.pipes} pipes, {info.mass:.1f} kg, {info.degrees_of_freedom} degrees of freedom")
 
 # What does not fit is refused; the error tells part, field, value and bound.
 try:

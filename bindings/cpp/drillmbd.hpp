@@ -340,7 +340,7 @@ public:
     std::uint32_t size() const
     {
         std::uint32_t shape[3];
-        check(dmb_response_shape(handle_, shape));
+        check(dmb_response_dimensions(handle_, shape));
         return shape[0];
     }
     std::vector<double> frequencies() const
@@ -367,7 +367,7 @@ private:
 // What sim::sine finds.
 struct sine_response {
     std::int32_t status; // DMB_OK, or DMB_NOTE_STOPPED: not settled
-    dmb_sine_report report;
+    dmb_stepped_sine_report report;
     // Of each output its mean and then its harmonics.
     std::vector<std::vector<std::complex<double>>> amplitudes;
 };
@@ -445,7 +445,7 @@ public:
     {
         return dmb_sim_set_joint(handle_, joint, state);
     }
-    std::int32_t try_carry_over(const sim &from) noexcept { return dmb_sim_carry_over(handle_, from.get()); }
+    std::int32_t try_transfer_state(const sim &from) noexcept { return dmb_sim_transfer_state(handle_, from.get()); }
     std::int32_t try_static_start(const dmb_static_options *options = nullptr,
                                   dmb_static_report *report = nullptr) noexcept
     {
@@ -493,7 +493,7 @@ public:
     // The status may be the note that speeds were projected.
     std::int32_t set_joint(dmb_id which, std::int32_t state) { return done(try_set_joint(which, state)); }
     // Goes on where `from` stands, a sim of another model: pipes may have come or gone at the rig end.
-    std::int32_t carry_over(const sim &from) { return done(try_carry_over(from)); }
+    std::int32_t transfer_state(const sim &from) { return done(try_transfer_state(from)); }
     dmb_static_report static_start(const dmb_static_options *options = nullptr)
     {
         dmb_static_report report = dmb_static_report_default();
@@ -525,14 +525,14 @@ public:
     }
     // Runs on until the Fourier amplitudes at a frequency [Hz] have settled.
     sine_response sine(double frequency, const std::vector<dmb_output> &outputs,
-                       const dmb_sine_options *options = nullptr)
+                       const dmb_stepped_sine_options *options = nullptr)
     {
-        const dmb_sine_options used = options != nullptr ? *options : dmb_sine_options_default();
+        const dmb_stepped_sine_options used = options != nullptr ? *options : dmb_stepped_sine_options_default();
         const std::size_t width = 1 + std::min<std::size_t>(used.harmonics, 16); // more are refused
         std::vector<std::complex<double>> numbers(width * outputs.size());
         sine_response answer;
-        answer.report = dmb_sine_report_default();
-        answer.status = done(dmb_analysis_sine(handle_, frequency, &used, outputs.data(),
+        answer.report = dmb_stepped_sine_report_default();
+        answer.status = done(dmb_analysis_stepped_sine(handle_, frequency, &used, outputs.data(),
                                                static_cast<std::uint32_t>(outputs.size()),
                                                reinterpret_cast<double *>(numbers.data()), &answer.report));
         for (std::size_t i = 0; i < numbers.size(); i += width)
@@ -589,7 +589,7 @@ public:
     dmb_section section(const dmb_place &place) const { return ask(dmb_query_section, dmb_section_default(), place); }
     double rotation(const dmb_place &place) const { return ask(dmb_query_rotation, 0.0, place); }
     dmb_contact contact(std::uint32_t site) const { return ask(dmb_query_contact, dmb_contact_default(), site); }
-    dmb_contact_sum contact_sum() const { return ask(dmb_query_contact_sum, dmb_contact_sum_default()); }
+    dmb_contact_total contact_total() const { return ask(dmb_query_contact_total, dmb_contact_total_default()); }
     double kinetic_energy(dmb_id part, std::uint32_t pipe = 0) const
     {
         return ask(dmb_query_kinetic_energy, 0.0, part, pipe);

@@ -110,7 +110,7 @@ void scene_from_end_to_end()
     EXPECT(sim.rotation(tip) > 0.0);
     EXPECT(std::isfinite(sim.section(dmb_station(made.string, 2, 0.5)).force[0]));
     EXPECT(sim.contact(0).site == 0);
-    EXPECT(sim.contact_sum().normal_force >= 0.0);
+    EXPECT(sim.contact_total().normal_force >= 0.0);
     EXPECT(sim.kinetic_energy(made.string, 2) > 0.0);
     EXPECT(sim.energy().kinetic > 0.0);
     EXPECT(std::fabs(sim.momentum().mass - model.info().mass) < 1e-9);
@@ -149,7 +149,7 @@ void statics()
     model.compile();
     drillmbd::sim sim(model);
     EXPECT(sim.static_start().residual < 1e-9);
-    EXPECT(sim.contact_sum().normal_force > 100.0);
+    EXPECT(sim.contact_total().normal_force > 100.0);
 }
 
 // Both rods in the plane y = 0, where the hinges keep them anyway.
@@ -281,7 +281,7 @@ void modes_of_a_string()
     EXPECT(thrown_by([&] { modes.part(2, string, 4); }) == DMB_ERR_VALUE);
     dmb_modes_options turning = dmb_modes_options_default();
     turning.kind = DMB_MODES_DAMPED;
-    turning.axes = DMB_MODES_STILL;
+    turning.axes = DMB_MODES_AXES_AT_REST;
     turning.spin = 20.0;
     const drillmbd::modes whirling = sim.modes(&turning);
     EXPECT(std::abs(whirling[2].whirl) > 0.9 && std::abs(whirling[2].whirl + whirling[3].whirl) < 1e-6);
@@ -346,7 +346,7 @@ void stepped_sine_of_a_body()
     rate.place = dmb_station(push.part, 0, 0.0);
     dmb_output speed = rate;
     speed.kind = DMB_OUTPUT_VELOCITY;
-    dmb_sine_options options = dmb_sine_options_default();
+    dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     options.harmonics = 2;
     const drillmbd::sine_response found = sim.sine(5.0, {rate, speed}, &options);
     EXPECT(found.status == DMB_OK && found.report.settled == 1 && found.report.windows == 3);

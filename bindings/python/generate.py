@@ -22,7 +22,7 @@ ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "TERM_C
               "CHANNEL_DISPLACEMENT_X": "Quantity", "INPUT_DRIVE": "InputKind", "OUTPUT_DISPLACEMENT": "OutputKind",
               "PATH_REGULAR": "PathKind", "CONTACT_AS_IS": "ContactState", "MODES_UNDAMPED": "ModesKind",
               "MODES_LOWEST": "ModesSelect",
-              "MODES_TURNING": "ModesAxes", "MODES_AXES_TURNING": "ModesAxes",
+              "MODES_AXES_TURNING": "ModesAxes", "MODES_AXES_TURNING": "ModesAxes",
               "STATIC_NEWTON": "StaticMethod", "METHOD_INDEPENDENT": "ConstraintMethod",
               "BUCKLING_EXTRAPOLATED": "BucklingEnd", "SCALE_ALL": "Scale"}
 FLAGS = ("FREE", "FEATURE", "PROVIDES")  # prefixes of bits of masks

@@ -291,7 +291,7 @@ class ArraysTest(unittest.TestCase):
         self.assertEqual(found.position.shape, (21, 3))
         self.assertEqual(found.force.shape, (21, 6))
         self.assertAlmostEqual(found.along[-1], 10.0, 3)
-        self.assertAlmostEqual(found.contact_force.sum(), self.sim.contact_sum().normal_force)
+        self.assertAlmostEqual(found.contact_force.sum(), self.sim.contact_total().normal_force)
         with self.assertRaises(ValueError):
             self.sim.profile(self.string, 10, 0)
 

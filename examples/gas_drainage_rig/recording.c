@@ -52,11 +52,11 @@ int32_t rig_recording_open(rig_recording *recording, const rig_options *options,
 /* The sum over the wall is no channel of the recorder, so it is asked for whenever a row was written. */
 int32_t rig_recording_take(rig_recording *recording, const dmb_sim *sim)
 {
-    const uint64_t before = recording->recorder.rows;
-    dmb_contact_sum sum = dmb_contact_sum_default();
+    const uint64_t before = recording->recorder.row_count;
+    dmb_contact_total sum = dmb_contact_total_default();
     int32_t status = dmb_recorder_take(&recording->recorder, sim);
-    if (status < 0 || recording->recorder.rows == before) return status;
-    status = dmb_query_contact_sum(sim, &sum);
+    if (status < 0 || recording->recorder.row_count == before) return status;
+    status = dmb_query_contact_total(sim, &sum);
     recording->wall_force[before] = sum.normal_force;
     return status;
 }
@@ -74,7 +74,7 @@ static rig_extent extent(const rig_recording *recording, const double *value, si
     rig_extent found = {HUGE_VAL, -HUGE_VAL, 0.0, 0.0};
     const double *time = recording->recorder.table, slack = 1e-9;
     double count = 0.0;
-    for (uint64_t row = 0; row < recording->recorder.rows; ++row, time += RIG_COLUMNS, value += stride) {
+    for (uint64_t row = 0; row < recording->recorder.row_count; ++row, time += RIG_COLUMNS, value += stride) {
         if (*time < from - slack || *time > to + slack) continue;
         if (count > 0.0) found.jump = fmax(found.jump, fabs(value[0] - value[-(ptrdiff_t)stride]));
         found.low = fmin(found.low, *value);

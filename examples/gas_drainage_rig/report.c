@@ -130,7 +130,7 @@ static void report_cost(const rig_options *options, const rig_result *result)
     const double steps = (double)statistics->steps;
     printf("\n  %-36s%13.0f\n", "steps", steps);
     printf("  %-36s%13.3f\n", "iterations a step", (double)statistics->iterations / steps);
-    printf("  %-36s%13u\n", "iterations of the worst step", statistics->worst_iterations);
+    printf("  %-36s%13u\n", "iterations of the worst step", statistics->most_iterations);
     printf("  %-36s%13.0f\n", "steps rejected", (double)statistics->rejected);
     printf("  %-36s%13.3f s\n", "computing time", result->seconds);
     printf("  %-36s%13.2f simulated seconds a second\n", "real-time factor", options->end / result->seconds);
@@ -144,7 +144,7 @@ void rig_report_variant(const rig_options *options, const rig_result *result)
                                           [RIG_FRICTION] = "contact + friction",
                                           [RIG_VIBRATION] = "contact + friction + vibration"};
     printf("\n---- %s, %s\n", rig_system_name(&result->variant), couples[result->variant.couple]);
-    printf("  %u freedoms, %u elements, %u places of contact; ", result->info.freedoms, result->info.elements,
+    printf("  %u degrees_of_freedom, %u elements, %u places of contact; ", result->info.degrees_of_freedom, result->info.elements,
            result->info.contact_sites);
     if (options->dropped)
         printf("starts on the axis of the hole\n");

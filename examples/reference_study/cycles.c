@@ -52,8 +52,8 @@ static span take(const dmb_recorder *recorder, int column, double from, double t
 {
     const double *rows = recorder->table;
     uint64_t first = 0, last;
-    while (first < recorder->rows && rows[first * RIG_COLUMNS] < from - SLACK) first++;
-    for (last = first; last < recorder->rows && rows[last * RIG_COLUMNS] < to - SLACK;) last++;
+    while (first < recorder->row_count && rows[first * RIG_COLUMNS] < from - SLACK) first++;
+    for (last = first; last < recorder->row_count && rows[last * RIG_COLUMNS] < to - SLACK;) last++;
     const span taken = {rows + first * RIG_COLUMNS + column, last - first};
     return taken;
 }
@@ -89,7 +89,7 @@ static void watch_wall(study_run *run, const dmb_recorder *recorder)
 {
     const double *row = recorder->table;
     run->last_left = (double)NAN;
-    for (uint64_t k = 1; k < recorder->rows; ++k, row += RIG_COLUMNS) {
+    for (uint64_t k = 1; k < recorder->row_count; ++k, row += RIG_COLUMNS) {
         if (row[RIG_NORMAL_FORCE] <= 0.0 || row[RIG_COLUMNS + RIG_NORMAL_FORCE] > 0.0) continue;
         run->left++;
         run->last_left = row[RIG_COLUMNS];

@@ -58,7 +58,7 @@ static int32_t add_axis(const dmb_response *response, uint32_t axis, const dmb_i
 static int32_t take(const dmb_response *response, const dmb_input inputs[INPUTS], study_response *r)
 {
     uint32_t shape[3] = {0, 0, 0};
-    int32_t status = dmb_response_shape(response, shape);
+    int32_t status = dmb_response_dimensions(response, shape);
     if (status < 0) return status;
     r->points = shape[0];
     r->frequency = calloc(r->points, sizeof *r->frequency);

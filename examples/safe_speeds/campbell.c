@@ -38,7 +38,7 @@ static int32_t find_modes(campbell *c, dmb_sim *sim)
     options.kind = DMB_MODES_DAMPED;
     options.select = DMB_MODES_BAND;
     options.band[1] = c->highest;
-    options.axes = DMB_MODES_STILL;
+    options.axes = DMB_MODES_AXES_AT_REST;
     options.spin = c->rpm / RPM;
     options.equilibrium_tolerance = TILT;
     int32_t status = dmb_analysis_modes(sim, &options, &modes);

@@ -422,7 +422,7 @@ typedef struct dmb_model_info {
     uint32_t nodes;            /* [-] */
     uint32_t elements;         /* [-] flexible and axial-torsional */
     uint32_t contact_sites;    /* [-] */
-    uint32_t freedoms;         /* [-] free velocity components, prescribed ones not counted */
+    uint32_t degrees_of_freedom;         /* [-] free velocity components, prescribed ones not counted */
     uint32_t prescribed;       /* [-] components moved by drives */
     uint32_t structural_joints; /* [-] fixed joints that cost no unknowns */
     uint64_t model_bytes;      /* [byte] held by the compiled scene */
@@ -432,7 +432,7 @@ typedef struct dmb_model_info {
     uint32_t joints;           /* [-] described joints */
     uint32_t constraint_rows;  /* [-] equations of joints, couplings, callbacks and joint drives, active at time 0 */
     uint32_t clusters;         /* [-] groups of parts that joints connect directly */
-    uint32_t linked_nodes;     /* [-] nodes solved by the sparse solver; the others by the block-tridiagonal one */
+    uint32_t reduced_nodes;     /* [-] nodes solved by the sparse solver; the others by the block-tridiagonal one */
 } dmb_model_info;
 DMB_SIZED_STRUCT(dmb_model_info)
 /* Counts of a compiled model. Errors: DMB_ERR_ORDER before compile. */

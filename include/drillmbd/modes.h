@@ -17,7 +17,7 @@ enum { DMB_MODES_LOWEST = 0, DMB_MODES_ALL = 1, DMB_MODES_BAND = 2 };
 /* Axes of small displacements: those of the parts, which turn with them (a standing wave of w is two there, at w + spin and
  * |w - spin|), or axes that do not take part in turning about the part's own x axis: frequencies as they are seen from
  * outside. The latter is for what is round: what is eccentric is out of balance. */
-enum { DMB_MODES_TURNING = 0, DMB_MODES_STILL = 1 };
+enum { DMB_MODES_AXES_TURNING = 0, DMB_MODES_AXES_AT_REST = 1 };
 typedef struct dmb_modes_options {
     uint32_t struct_size;
     int32_t kind;              /* DMB_MODES_UNDAMPED (default), _DAMPED */
@@ -30,7 +30,7 @@ typedef struct dmb_modes_options {
     double contact_gap;        /* [m] of DMB_CONTACT_CLOSED, >= 0; default 0 */
     double equilibrium_tolerance; /* [-] residual over the forces that balance in it, > 0; above it the state is refused;
                                   default 1e-6 */
-    int32_t axes;              /* DMB_MODES_TURNING (default), _STILL */
+    int32_t axes;              /* DMB_MODES_AXES_TURNING (default), _STILL */
     int32_t reserved;
     double spin;               /* [rad/s] strings turn at this speed in the state, about their own x axis; 0 (default): as
                                   they do. A static state with slip_rotation of this speed is in balance with friction
@@ -47,7 +47,7 @@ typedef struct dmb_modes_info {
     uint32_t coordinates;      /* [-] independent coordinates of the linear system */
     int32_t dense;             /* 1: by LAPACK on all coordinates; 0: by Krylov subspaces on sparse factors */
     uint32_t solves;           /* [-] with those factors */
-    double unbalance;          /* [-] relative residual of the state without its body-frame accelerations */
+    double residual_of_state;         /* [-] relative residual of the state without its body-frame accelerations */
     double asymmetry;          /* [-] of K; above 1e-9 it is treated as unsymmetric (friction, follower loads) */
     double residual;           /* [-] largest |(s^2 M + s C + K) d| over the norms of the terms that balance in it */
 } dmb_modes_info;

@@ -66,16 +66,16 @@ typedef struct dmb_contact {
 DMB_SIZED_STRUCT(dmb_contact)
 /* Contact of one site, sites counted along the strings and then the bodies. */
 DMB_API int32_t dmb_query_contact(const dmb_sim *sim, uint32_t site, dmb_contact *contact);
-typedef struct dmb_contact_sum {
+typedef struct dmb_contact_total {
     uint32_t struct_size;
     uint32_t closed;          /* [-] sites that touch */
     double normal_force;      /* [N] sum over the sites */
     double friction[2];       /* [N] sum of the friction components over the sites, shape (2) */
     double deepest;           /* [m] largest penetration, >= 0 */
-} dmb_contact_sum;
-DMB_SIZED_STRUCT(dmb_contact_sum)
+} dmb_contact_total;
+DMB_SIZED_STRUCT(dmb_contact_total)
 /* O(number of sites). */
-DMB_API int32_t dmb_query_contact_sum(const dmb_sim *sim, dmb_contact_sum *sum);
+DMB_API int32_t dmb_query_contact_total(const dmb_sim *sim, dmb_contact_total *sum);
 
 /* [J] kinetic energy of one pipe of a string with half of what is fixed to its two ends, or of a body. */
 DMB_API int32_t dmb_query_kinetic_energy(const dmb_sim *sim, dmb_id part, uint32_t pipe, double *energy);
@@ -139,7 +139,7 @@ typedef struct dmb_joint_state {
     int32_t frame;         /* in: frame of `reaction`: DMB_FRAME_WORLD (default) or DMB_FRAME_BODY, which is frame b
                               of the joint; there is none for frame a: DMB_ERR_VALUE */
     int32_t state;         /* DMB_JOINT_... */
-    uint32_t rows;         /* [-] equations it holds now */
+    uint32_t constraint_rows; /* [-] equations it holds now */
     uint32_t redundant;    /* [-] of them dropped because others already hold what they hold */
     uint32_t reserved;
     double position[6];    /* [m, rad] coordinates, RX and RY counted over full turns, shape (6) */
@@ -149,7 +149,7 @@ typedef struct dmb_joint_state {
                               of redundant joints those of least norm */
     double action[6];      /* [N, N m] generalised force of springs, dampers, stops and friction on the coordinates,
                               shape (6) */
-    double misfit;         /* [m, -] largest violation of its equations of position */
+    double violation;         /* [m, -] largest violation of its equations of position */
 } dmb_joint_state;
 DMB_SIZED_STRUCT(dmb_joint_state)
 DMB_API int32_t dmb_query_joint(const dmb_sim *sim, dmb_id joint, dmb_joint_state *state);
@@ -172,19 +172,19 @@ DMB_API int32_t dmb_query_bit(const dmb_sim *sim, dmb_id bit, dmb_bit_state *sta
 
 typedef struct dmb_statistics {
     uint32_t struct_size;
-    uint32_t worst_iterations;  /* [-] of an accepted step */
+    uint32_t most_iterations;  /* [-] of an accepted step */
     uint64_t steps;             /* [-] accepted */
     uint64_t rejected;          /* [-] */
     uint64_t iterations;        /* [-] in accepted and rejected steps */
-    uint64_t limited;           /* [-] steps accepted above the tolerance in bounded-work mode */
+    uint64_t limited_steps;           /* [-] steps accepted above the tolerance in bounded-work mode */
     uint64_t bytes;             /* [byte] of the sim */
-    double worst_residual;      /* [-] relative, of an accepted step */
+    double largest_residual;      /* [-] relative, of an accepted step */
     double projection[2];       /* [m/s, rad/s] largest correction of initial velocities, shape (2) */
     double assembly[2];         /* [m, rad] largest correction of the described pose when joints were closed, shape (2) */
     uint64_t switches;          /* [-] times the independent coordinates of a cluster were chosen anew */
     uint32_t dependent;         /* [-] coordinates that constraints determine now */
     uint32_t redundant;         /* [-] equations that are dropped now */
-    double misfit;              /* [m, -] largest violation of an equation of position of a joint now; couplings, drives
+    double violation;              /* [m, -] largest violation of an equation of position of a joint now; couplings, drives
                                    and the caller's constraints do not count */
 } dmb_statistics;
 DMB_SIZED_STRUCT(dmb_statistics)
@@ -223,7 +223,7 @@ typedef struct dmb_recorder {
     const dmb_channel *channels;    /* shape (channel_count); the caller's, kept alive by it */
     double *table;                  /* shape (capacity, 1 + channel_count); the caller's */
     uint64_t capacity;              /* [-] rows of table */
-    uint64_t rows;                  /* [-] rows written; start with 0 */
+    uint64_t row_count;                  /* [-] rows written; start with 0 */
     double interval;                /* [s] between samples, 0: every call */
 } dmb_recorder;
 DMB_SIZED_STRUCT(dmb_recorder)

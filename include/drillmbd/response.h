@@ -98,7 +98,7 @@ DMB_API int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *
 /* Gives the memory back and sets *response to NULL. NULL-safe. */
 DMB_API void dmb_response_destroy(dmb_response **response);
 /* Numbers of frequencies (those of refinement included), inputs and outputs, shape (3). DMB_ERR_NULL, _HANDLE. */
-DMB_API int32_t dmb_response_shape(const dmb_response *response, uint32_t shape[3]);
+DMB_API int32_t dmb_response_dimensions(const dmb_response *response, uint32_t shape[3]);
 /* [Hz] ascending, shape (points). DMB_ERR_NULL, _HANDLE. */
 DMB_API int32_t dmb_response_frequencies(const dmb_response *response, double *frequencies);
 /* Output per unit of the input at each frequency, real and imaginary part, shape (points, 2). input DMB_COMBINED: the
@@ -112,9 +112,9 @@ DMB_API int32_t dmb_response_write_csv(const dmb_response *response, const char 
 /* ---- Stepped sine ------------------------------------------------------------------------------------------------
  * Response in time to what the scene's own programmes do at one frequency, where the linear one does not hold: contacts
  * that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC
- * programme, a drive's speed), carry the state over (dmb_sim_carry_over) to go up or down from one to the next. Calls on
+ * programme, a drive's speed), carry the state over (dmb_sim_transfer_state) to go up or down from one to the next. Calls on
  * different sims share nothing: hand them to as many threads as there are cores, the answers are the same to the bit. */
-typedef struct dmb_sine_options {
+typedef struct dmb_stepped_sine_options {
     uint32_t struct_size;
     uint32_t steps_per_period; /* [-] 16 .. 1e6; default 100. The scheme's frequency error is (2 pi/this)^2/12 or so */
     uint32_t periods;          /* [-] of a window, 1 .. 1e4; more than 1 where multiples of the period are awaited;
@@ -125,10 +125,10 @@ typedef struct dmb_sine_options {
     double tolerance;          /* [-] settled: what is still to come, by how the last windows differed, is below this part
                                   of the largest harmonic of each output; default 1e-3 */
     double floor;              /* [unit of the output] changes of a harmonic below it count as none, > 0; default 1e-12 */
-} dmb_sine_options;
-DMB_SIZED_STRUCT(dmb_sine_options)
+} dmb_stepped_sine_options;
+DMB_SIZED_STRUCT(dmb_stepped_sine_options)
 
-typedef struct dmb_sine_report {
+typedef struct dmb_stepped_sine_report {
     uint32_t struct_size;
     int32_t settled;     /* 1 if it was */
     uint32_t windows;    /* [-] run */
@@ -137,8 +137,8 @@ typedef struct dmb_sine_report {
     double change;       /* [-] between the last two windows, of the largest harmonic, worst output */
     double remaining;    /* [-] estimated still to come */
     double time;         /* [s] reached */
-} dmb_sine_report;
-DMB_SIZED_STRUCT(dmb_sine_report)
+} dmb_stepped_sine_report;
+DMB_SIZED_STRUCT(dmb_stepped_sine_report)
 
 /* Runs the sim on in fixed steps until the Fourier amplitudes of successive windows agree. amplitudes, shape
  * (output_count, 1 + harmonics, 2): mean and 0, then for k = 1, 2, ... the k-th harmonic: its part of the output is the
@@ -149,9 +149,9 @@ DMB_SIZED_STRUCT(dmb_sine_report)
  * amplitudes are those of the last. Errors: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID, _UNSUPPORTED,
  * _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last accepted state. amplitudes
  * and report are left alone on error. Cost: steps. */
-DMB_API int32_t dmb_analysis_sine(dmb_sim *sim, double frequency, const dmb_sine_options *options,
+DMB_API int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const dmb_stepped_sine_options *options,
                                   const dmb_output *outputs, uint32_t output_count, double *amplitudes,
-                                  dmb_sine_report *report);
+                                  dmb_stepped_sine_report *report);
 
 /* ---- Safe speeds -------------------------------------------------------------------------------------------------
  * A string that turns at W [rad/s] is shaken at orders of its speed: at W by eccentric masses, at 2 W by misalignment, at

@@ -5,7 +5,7 @@
  * Functions of the caller's (programmes, constraints, progress, allocator, log) may not change the sim they are called for:
  * from within them dmb_sim_destroy does nothing, and calls that change the sim or analyse it give DMB_ERR_ORDER. In a step,
  * and in analyses that leave the sim alone, queries, snapshot and hash tell of the last accepted state; in calls that change
- * it at once (dmb_analysis_static, dmb_sim_set_drive, _set_joint, _carry_over) they give DMB_ERR_ORDER too. They return,
+ * it at once (dmb_analysis_static, dmb_sim_set_drive, _set_joint, _transfer_state) they give DMB_ERR_ORDER too. They return,
  * by no longjmp or exception: the sim would stay busy for ever. */
 #ifndef DRILLMBD_SIM_H
 #define DRILLMBD_SIM_H
@@ -71,7 +71,7 @@ DMB_API double dmb_sim_time(const dmb_sim *sim);
 typedef int32_t (*dmb_progress_fn)(void *context, double fraction);
 /* From now on dmb_sim_step, _advance and all analyses of this sim call `function` at bounded intervals, in the thread of the
  * call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK's is one
- * interval. Nonzero ends the call: DMB_ERR_CANCELLED with all that a failing call leaves alone as before (dmb_analysis_sine:
+ * interval. Nonzero ends the call: DMB_ERR_CANCELLED with all that a failing call leaves alone as before (dmb_analysis_stepped_sine:
  * the sim is in its last accepted state), but for dmb_sim_advance, which ends with DMB_NOTE_CANCELLED in its last accepted
  * state; the same call may be made again. To end a call from another thread or a signal handler, let the function look at a
  * flag that these set. It may not change the sim (above) nor jump out. NULL: nobody is told, as after create, and nothing
@@ -83,7 +83,7 @@ typedef struct dmb_step_report {
     uint32_t steps;        /* [-] accepted integration steps in this call */
     uint32_t iterations;   /* [-] Newton iterations, rejected steps included */
     uint32_t rejected;     /* [-] steps tried and not accepted */
-    uint32_t worst;        /* [-] iterations of the worst accepted step */
+    uint32_t most_iterations; /* [-] of an accepted step */
     uint32_t reserved;
     double time;           /* [s] reached */
     double residual;       /* [-] largest relative residual of an accepted step */
@@ -129,7 +129,7 @@ DMB_API int32_t dmb_sim_set_joint(dmb_sim *sim, dmb_id joint, int32_t state);
  * Fails unless all else is of the same kind and number: DMB_ERR_VALUE, with what differs; DMB_ERR_GEOMETRY: a joint
  * that is not open does not fit; DMB_ERR_SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE as dmb_sim_create. sim is then as
  * it was. from is not changed. O(number of elements). */
-DMB_API int32_t dmb_sim_carry_over(dmb_sim *sim, const dmb_sim *from);
+DMB_API int32_t dmb_sim_transfer_state(dmb_sim *sim, const dmb_sim *from);
 
 /* Snapshot of all that changes: bytes, save into and restore from the caller's memory. A snapshot fits every sim of the
  * same compiled model with the same options. Bytes that are no state of it, forged ones too, are refused (DMB_ERR_VALUE,

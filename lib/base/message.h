@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "drillmbd/base.h"
 typedef struct dmb_message {
     char text[256];
 } dmb_message;
@@ -37,5 +38,17 @@ const char *dmb_part_text(dmb_message *text, const char *part, uint32_t index, c
 
 /* Empties the message. */
 void dmb_message_clear(dmb_message *message);
+
+/* The caller's log. Never used during a step. */
+
+typedef struct dmb_log {
+    dmb_log_fn write; /* NULL: silent */
+    void *context;
+} dmb_log;
+
+static inline void dmb_log_text(const dmb_log *log, int32_t level, const char *text)
+{
+    if (log->write != NULL) log->write(log->context, level, text);
+}
 
 #endif

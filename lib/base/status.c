@@ -1,5 +1,4 @@
 #include "drillmbd/base.h"
-
 const char *dmb_status_name(int32_t status)
 {
     switch (status) {
@@ -18,4 +17,9 @@ const char *dmb_status_text(int32_t status)
 #undef DMB_STATUS_TEXT_CASE
     default: return "not a status of this library";
     }
+}
+
+uint32_t dmb_version(void)
+{
+    return 10000u * DMB_VERSION_MAJOR + 100u * DMB_VERSION_MINOR + DMB_VERSION_PATCH;
 }

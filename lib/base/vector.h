@@ -2,7 +2,7 @@
 #ifndef DMB_BASE_VECTOR_H
 #define DMB_BASE_VECTOR_H
 
-#include "base/allocator.h"
+#include "base/memory.h"
 
 typedef struct dmb_vector {
     void *items;

@@ -18,7 +18,6 @@
 #define DMB_CONSTRAINT_JOINT_H
 
 #include <stdint.h>
-
 /* Kinds are numbered as DMB_JOINT_... in model.h. */
 enum {
     DMB_ROWS_FIXED = 0, DMB_ROWS_REVOLUTE = 1, DMB_ROWS_PRISMATIC = 2, DMB_ROWS_CYLINDRICAL = 3, DMB_ROWS_UNIVERSAL = 4,
@@ -67,5 +66,13 @@ void dmb_joint_coordinates_at(const double R[9], const double p[3], const double
                               dmb_joint_coordinates *c);
 /* W: derivative of sum_k f_k J_k^T along xi, k = 0 .. 5. */
 void dmb_joint_coordinates_tangent(const double R[9], const double p[3], const double f[6], double W[36]);
+
+/* What people call joints and their equations, for reports. */
+
+/* "revolute" and the like; "joint" for a kind that is none. */
+const char *dmb_joint_kind_name(int32_t kind);
+/* What row `row` of a kind holds, seen from frame a: "position y", "rotation about z". A locked joint has the rows of
+ * DMB_ROWS_FIXED. "row" where the kind has no such row. */
+const char *dmb_joint_row_name(int32_t kind, uint32_t row);
 
 #endif

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 /* Mass of an axisymmetric beam, constant in the body frame: sideways consistent (Timoshenko cubic shapes, THEORY 3), along
- * and around half way to a lumped one (model/beam_element.c).
+ * and around half way to a lumped one (model/section.c).
  * bending[plane]: plane 0 is (u_y, theta_z), plane 1 is (u_z, -theta_y); six numbers each:
  *   [0] u_A u_A = u_B u_B   [1] u_A t_A = -u_B t_B   [2] u_A u_B   [3] u_A t_B = -u_B t_A   [4] t_A t_A = t_B t_B   [5] t_A t_B */
 typedef struct dmb_beam_mass {
@@ -32,12 +32,12 @@ typedef struct dmb_element_type {
 
 /* Rigid mass fixed to a node: tool joint, bit, rig head, rigid pipes, free body, eccentric part of pipes. Symmetric spatial
  * inertia at the node's reference point, body frame: [m I, -b~; b~, J]. `mass` is 0 where only an eccentric part was added. */
-typedef struct dmb_lump {
+typedef struct dmb_rigid_mass {
     double mass;      /* [kg] */
     double moment[3]; /* [kg m] b = mass times centre */
     double inertia[6]; /* [kg m2] xx, yy, zz, xy, xz, yz elements of J at the reference point */
     uint32_t node;
     uint32_t reserved;
-} dmb_lump;
+} dmb_rigid_mass;
 
 #endif

@@ -4,10 +4,11 @@
 #ifndef DMB_FORCE_FRICTION_LAW_H
 #define DMB_FORCE_FRICTION_LAW_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "drillmbd/model.h"
-
+#include "math/real.h"
 typedef struct dmb_friction_law {
     int32_t kind; /* DMB_FRICTION_... */
     int32_t reserved;
@@ -46,5 +47,151 @@ void dmb_friction_smooth(const dmb_friction_law *law, double N, const double v[2
 void dmb_friction_bristle(const dmb_friction_law *law, double N, const double v[2], const double z_old[2],
                           const double v_old[2], int32_t stuck, double h, double z[2], double F[2], double dF_dv[4],
                           double dF_dN[2], int32_t *sticks);
+
+/* The friction laws of friction_law.h in a number that is a double or lanes of doubles (math/real.h). Where dF_dv is
+ * NULL, it is not wanted. */
+
+#define DMB_STRIBECK_END 100.0 /* [-] from this many v_s on, exp(-s/v_s) (1e-44) counts as 0 */
+
+static inline dmb_real dmb_friction_norm(dmb_real a, dmb_real b)
+{
+    return dmb_real_sqrt(a * a + b * b);
+}
+
+/* ---- Smooth laws ---------------------------------------------------------------------------------------------------
+ */
+
+/* mu(s) and mu'(s) of the Stribeck curve mu_d + (mu_s - mu_d) exp(-s/v_s) */
+static inline dmb_real dmb_stribeck(const dmb_friction_law *law, dmb_real s, dmb_real *slope)
+{
+    const dmb_mask end = dmb_mask_at_most(dmb_real_of(DMB_STRIBECK_END * law->stribeck_speed), s);
+    *slope = dmb_real_of(0.0);
+    if (law->mu_static == law->mu_dynamic || !dmb_mask_any(dmb_mask_not(end))) return dmb_real_of(law->mu_dynamic);
+    const dmb_real bump = (law->mu_static - law->mu_dynamic) * dmb_real_exp(-s / law->stribeck_speed);
+    *slope = dmb_real_select(end, *slope, -bump / law->stribeck_speed);
+    return dmb_real_select(end, dmb_real_of(law->mu_dynamic), law->mu_dynamic + bump);
+}
+
+/* F = -N f v, dF/dv = -N [f I + g v v^T] with g = (df/d|v|)/|v|, dF/dN = -f v */
+static inline void dmb_friction_radial(dmb_real N, const dmb_real v[2], dmb_real f, dmb_real g, dmb_real F[2],
+                                       dmb_real *dF_dv, dmb_real dF_dN[2])
+{
+    dF_dN[0] = -f * v[0];
+    dF_dN[1] = -f * v[1];
+    F[0] = N * dF_dN[0];
+    F[1] = N * dF_dN[1];
+    if (dF_dv == NULL) return;
+    dF_dv[0] = -N * (f + g * v[0] * v[0]);
+    dF_dv[1] = dF_dv[2] = -N * g * v[0] * v[1];
+    dF_dv[3] = -N * (f + g * v[1] * v[1]);
+}
+
+/* Ambrosio 2003: friction fades in between v0 and v1. f = mu_d c/|v|. */
+static inline void dmb_friction_ambrosio(const dmb_friction_law *law, dmb_real speed, dmb_real *f, dmb_real *g)
+{
+    const double width = law->full_speed - law->smoothing_speed;
+    const dmb_mask slow = dmb_mask_at_most(speed, dmb_real_of(law->smoothing_speed));
+    const dmb_mask fast = dmb_mask_at_most(dmb_real_of(law->full_speed), speed);
+    const dmb_real zero = dmb_real_of(0.0), v = dmb_real_select(slow, dmb_real_of(1.0), speed);
+    const dmb_real full = law->mu_dynamic / v;
+    *f = dmb_real_select(fast, full, law->mu_dynamic * (v - law->smoothing_speed) / (width * v));
+    *g = dmb_real_select(fast, -full / (v * v), law->mu_dynamic * law->smoothing_speed / (width * v * v * v));
+    *f = dmb_real_select(slow, zero, *f);
+    *g = dmb_real_select(slow, zero, *g);
+}
+
+/* f = mu(s)/s, g = (mu'/s - mu/s^2)/s with ds/d|v| = |v|/s */
+static inline void dmb_friction_smoothed(const dmb_friction_law *law, dmb_real speed, dmb_real *f, dmb_real *g)
+{
+    const dmb_real zero = dmb_real_of(0.0), s = dmb_friction_norm(speed, dmb_real_of(law->smoothing_speed));
+    const dmb_mask rests = dmb_mask_at_most(s, zero);
+    dmb_real slope = zero, mu = dmb_real_of(law->mu_dynamic);
+    if (law->kind != DMB_FRICTION_COULOMB) mu = dmb_stribeck(law, s, &slope);
+    const dmb_real divisor = dmb_real_select(rests, dmb_real_of(1.0), s);
+    *f = dmb_real_select(rests, zero, mu / divisor);
+    *g = dmb_real_select(rests, zero, (slope - *f) / (divisor * divisor));
+}
+
+/* As dmb_friction_smooth. */
+static inline void dmb_friction_smooth_at(const dmb_friction_law *law, dmb_real N, const dmb_real v[2], dmb_real F[2],
+                                          dmb_real *dF_dv, dmb_real dF_dN[2])
+{
+    const dmb_real speed = dmb_friction_norm(v[0], v[1]);
+    dmb_real f = dmb_real_of(0.0), g = dmb_real_of(0.0);
+    if (law->kind == DMB_FRICTION_AMBROSIO)
+        dmb_friction_ambrosio(law, speed, &f, &g);
+    else if (law->kind != DMB_FRICTION_NONE)
+        dmb_friction_smoothed(law, speed, &f, &g);
+    dmb_friction_radial(N, v, f, g, F, dF_dv, dF_dN);
+}
+
+/* ---- Bristles ------------------------------------------------------------------------------------------------------
+ */
+
+/* Brings a vector back onto the circle |x| <= limit, radially, and its derivative dx (2,2) with it:
+ * d(limit x/|x|) = limit/|x| (I - e e^T) dx + e d_limit^T, e = x/|x|. Returns where it had to. */
+static inline dmb_mask dmb_onto_circle(dmb_real x[2], dmb_real dx[4], dmb_real limit, const dmb_real d_limit[2])
+{
+    const dmb_real length = dmb_friction_norm(x[0], x[1]);
+    const dmb_mask outside = dmb_mask_less(limit, length);
+    if (!dmb_mask_any(outside)) return outside;
+    const dmb_real divisor = dmb_real_select(outside, length, dmb_real_of(1.0));
+    const dmb_real e[2] = {x[0] / divisor, x[1] / divisor}, ratio = limit / divisor;
+    for (int j = 0; j < 2; ++j) {
+        const dmb_real along = e[0] * dx[j] + e[1] * dx[2 + j];
+        for (int i = 0; i < 2; ++i) {
+            const dmb_real moved = ratio * (dx[2 * i + j] - e[i] * along) + e[i] * d_limit[j];
+            dx[2 * i + j] = dmb_real_select(outside, moved, dx[2 * i + j]);
+        }
+    }
+    for (int i = 0; i < 2; ++i) x[i] = dmb_real_select(outside, limit * e[i], x[i]);
+    return outside;
+}
+
+/* Limit of friction over normal force and its gradient: mu_static from sticking, else the Stribeck curve at |v|. */
+static inline dmb_real dmb_bristle_limit(const dmb_friction_law *law, const dmb_real v[2], dmb_mask stuck,
+                                         dmb_real d_mu[2])
+{
+    const dmb_real zero = dmb_real_of(0.0), speed = dmb_friction_norm(v[0], v[1]);
+    const dmb_mask slides = dmb_mask_less(zero, speed) & dmb_mask_not(stuck);
+    dmb_real slope;
+    const dmb_real mu = dmb_stribeck(law, speed, &slope);
+    const dmb_real divisor = dmb_real_select(slides, speed, dmb_real_of(1.0));
+    const dmb_real factor = dmb_real_select(slides, slope / divisor, zero);
+    d_mu[0] = factor * v[0];
+    d_mu[1] = factor * v[1];
+    return dmb_real_select(stuck, dmb_real_of(law->mu_static), mu);
+}
+
+/* As dmb_friction_bristle; returns where it sticks. z_old and v_old may be z and v. */
+static inline dmb_mask dmb_friction_bristle_at(const dmb_friction_law *law, dmb_real N, const dmb_real v[2],
+                                               const dmb_real z_old[2], const dmb_real v_old[2], dmb_mask stuck,
+                                               double h, dmb_real z[2], dmb_real F[2], dmb_real *dF_dv,
+                                               dmb_real dF_dN[2])
+{
+    const double sigma0 = law->bristle_stiffness, sigma1 = law->bristle_damping;
+    const dmb_real zero = dmb_real_of(0.0), half = dmb_real_of(0.5 * h);
+    dmb_real d_mu[2], dq[4] = {half, zero, zero, half};
+    const dmb_real mu = dmb_bristle_limit(law, v, stuck, d_mu);
+    const dmb_real d_limit[2] = {d_mu[0] / sigma0, d_mu[1] / sigma0};
+    for (int i = 0; i < 2; ++i) z[i] = z_old[i] + 0.5 * h * (v_old[i] + v[i]);
+    dmb_mask slides = dmb_onto_circle(z, dq, mu / sigma0, d_limit);
+
+    dmb_real q[2] = {sigma0 * z[0], sigma0 * z[1]};
+    for (int i = 0; i < 4; ++i) dq[i] *= sigma0;
+    if (sigma1 != 0.0) { /* without damping q is inside already */
+        q[0] += sigma1 * v[0];
+        q[1] += sigma1 * v[1];
+        dq[0] += sigma1;
+        dq[3] += sigma1;
+        slides = slides | dmb_onto_circle(q, dq, mu, d_mu);
+    }
+    for (int i = 0; i < 2; ++i) {
+        dF_dN[i] = -q[i];
+        F[i] = -N * q[i];
+    }
+    for (int i = 0; dF_dv != NULL && i < 4; ++i) dF_dv[i] = -N * dq[i];
+    return dmb_mask_not(slides);
+}
 
 #endif

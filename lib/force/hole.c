@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "force/hole_math.h"
 #include "math/elementary.h"
 #include "math/vec3.h"
 

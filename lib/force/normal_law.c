@@ -2,8 +2,7 @@
 
 #include <math.h>
 
-#include "force/normal_law_math.h"
-#include "math/exponential.h"
+#include "math/real.h"
 
 #define DMB_RESTITUTION_FLOOR 1e-6 /* [-] smallest e where mu grows like 1/e */
 #define DMB_SPEED_FLOOR 1e-12      /* [m/s] smallest v0 whatever the law says */

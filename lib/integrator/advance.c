@@ -5,8 +5,9 @@
  * (THEORY 4). */
 #include "base/sized_struct.h"
 #include "integrator/corner.h"
-#include "integrator/walk.h"
+#include "integrator/step.h"
 #include "math/elementary.h"
+#include "sim/access.h"
 
 /* What control wants next after an error of `error` tolerances. Without clusters the factors of a step of the same length
  * may serve (kept_factors), so lengths within a tenth are held; with them every step makes its own. */

@@ -2,16 +2,18 @@
 
 #include <string.h>
 
-#include "integrator/kept_factors.h"
 #include "integrator/newton.h"
 #include "integrator/step_motion.h"
-#include "integrator/turning.h"
-#include "system/cluster.h"
-#include "system/free_rigid.h"
-#include "system/joint_state.h"
+#include "math/so3.h"
+#include "sim/node.h"
+#include "system/assemble/drives.h"
+#include "system/assemble/free_rigid.h"
+#include "system/constrain/cluster.h"
+#include "system/constrain/constraint_rows.h"
+#include "system/constrain/joint_edge.h"
+#include "system/constrain/joint_state.h"
 #include "system/ledger.h"
 #include "system/release.h"
-
 /* Misfit of an equation taken for redundant at which it is one no more, in lengths of the parts. */
 #define DMB_DROPPED_MISFIT 1e-7
 
@@ -157,10 +159,10 @@ static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_a
 static int32_t check_dropped(dmb_sim *sim)
 {
     uint32_t row;
-    const double misfit = dmb_clusters_misfit(sim, 1, &row);
-    if (!(misfit > DMB_DROPPED_MISFIT * sim->linked_mode->length)) return DMB_OK;
-    sim->linked_mode->row = row;
-    sim->linked_mode->misfit = fabs(sim->constraint_value[row]);
+    const double violation = dmb_clusters_violation(sim, 1, &row);
+    if (!(violation > DMB_DROPPED_MISFIT * sim->reduced_mode->length)) return DMB_OK;
+    sim->reduced_mode->row = row;
+    sim->reduced_mode->violation = fabs(sim->constraint_value[row]);
     return DMB_ERR_SINGULAR;
 }
 
@@ -185,8 +187,8 @@ int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, d
     attempt->end = *end;
     attempt->whole = whole && sim->scene->cluster_count == 0 && !sim->options.bounded_work;
     attempt->block = UINT32_MAX;
-    sim->linked_mode->row = UINT32_MAX;
-    sim->linked_mode->multipliers = sim->options.constraint_method == DMB_METHOD_MULTIPLIERS;
+    sim->reduced_mode->row = UINT32_MAX;
+    sim->reduced_mode->multipliers = sim->options.constraint_method == DMB_METHOD_MULTIPLIERS;
     status = run(sim, &c, attempt);
     if (attempt->tried && status < 0 && !dmb_is_final(status)) { /* once more, with factors of its own */
         attempt->astray = 1;
@@ -199,7 +201,7 @@ int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, d
         if (refused < 0) status = refused;
     }
     *sim->factors = DMB_FACTORS_NONE;
-    sim->linked_mode->multipliers = 0;
+    sim->reduced_mode->multipliers = 0;
     if (status >= 0) {
         attempt->evaluation.element = dmb_element_turned_too_far(sim);
         if (attempt->evaluation.element != UINT32_MAX) status = DMB_ERR_ROTATION;
@@ -212,7 +214,7 @@ void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt)
 {
     dmb_counters *counters = sim->counters;
     dmb_system_accept(&attempt->evaluation);
-    dmb_kept_factors_end(sim, attempt);
+    dmb_factor_reuse_end(sim, attempt);
     if (sim->options.energy_ledger) dmb_ledger_add(sim, &attempt->evaluation);
     const dmb_configuration old = sim->now;
     sim->now = sim->trial;
@@ -224,6 +226,88 @@ void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt)
     counters->steps++;
     counters->iterations += attempt->iterations;
     if (attempt->status == DMB_NOTE_WORK_LIMITED) counters->limited++;
-    if (attempt->iterations > counters->worst_iterations) counters->worst_iterations = attempt->iterations;
-    counters->worst_residual = fmax(counters->worst_residual, attempt->residual);
+    if (attempt->iterations > counters->most_iterations) counters->most_iterations = attempt->iterations;
+    counters->largest_residual = fmax(counters->largest_residual, attempt->residual);
+}
+
+#define DMB_TURNING_MAX (2.0 * (DMB_PI - 2.5)) /* [rad] */
+
+/* [rad2] square of what a node turned about its own axes in the step. */
+static double turned_squared(const dmb_sim *sim, uint32_t node)
+{
+    const double *z = sim->increment + sim->scene->layout.row[node];
+    return sim->scene->layout.size[node] == DMB_NODE_FULL ? dmb_vec3_norm_squared(z + 3) : z[1] * z[1];
+}
+
+/* z_B - R^T z_A, R the orientation of B seen from A */
+static double turned_apart(const dmb_sim *sim, uint32_t a)
+{
+    double Ra[9], Rb[9], u[3], za[6], zb[6], world[3], apart[3];
+    dmb_node_pose(sim->scene, &sim->now, a, Ra, u);
+    dmb_node_pose(sim->scene, &sim->now, a + 1, Rb, u);
+    dmb_node_vector(sim->scene, &sim->now, a, sim->increment, za);
+    dmb_node_vector(sim->scene, &sim->now, a + 1, sim->increment, zb);
+    dmb_mat3_vec(Ra, za + 3, world);
+    dmb_mat3_tvec(Rb, world, apart);
+    dmb_vec3_sub(zb + 3, apart, apart);
+    return dmb_vec3_norm(apart);
+}
+
+uint32_t dmb_element_turned_too_far(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t e = 0; e < scene->element_count; e++) {
+        const uint32_t a = scene->element_node[e];
+        if (scene->layout.size[a] == DMB_NODE_PATH && scene->layout.size[a + 1] == DMB_NODE_PATH) continue;
+        const double squares = turned_squared(sim, a) + turned_squared(sim, a + 1); /* (x + y)^2 <= 2 (x^2 + y^2) */
+        if (2.0 * squares <= DMB_TURNING_MAX * DMB_TURNING_MAX) continue;           /* nearly always */
+        if (!(turned_apart(sim, a) <= DMB_TURNING_MAX)) return e;
+    }
+    return UINT32_MAX;
+}
+
+/* What a failed attempt says: which part, at what time. */
+
+void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
+{
+    dmb_owner owner;
+    switch (attempt->status) {
+    case DMB_ERR_ROTATION:
+        owner = dmb_owner_of_element(sim->scene, attempt->evaluation.element);
+        dmb_message_set(&sim->message,
+                        "%s %u, pipe %u: relative rotation in one element above 2.5 rad at time %g, step %g",
+                        owner.kind, owner.index, owner.pipe, attempt->evaluation.time, attempt->end.step);
+        break;
+    case DMB_ERR_SINGULAR:
+        if (attempt->block == UINT32_MAX) {
+            dmb_clusters_explain(sim, "its equations are singular");
+            break;
+        }
+        owner = dmb_owner_of_node(sim->scene, attempt->block);
+        dmb_message_set(&sim->message, "%s %u, pipe %u: iteration matrix singular at time %g, step %g", owner.kind,
+                        owner.index, owner.pipe, attempt->evaluation.time, attempt->end.step);
+        break;
+    case DMB_ERR_GEOMETRY: /* said where it was found */ break;
+    case DMB_ERR_CALLBACK:
+        if (sim->reduced_mode->row != UINT32_MAX) {
+            dmb_message name;
+            dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, sim->reduced_mode->row), &name);
+            dmb_message_set(&sim->message, "%s: its callback failed or gave a value beyond +-1e30 at time %g",
+                            name.text, attempt->evaluation.time);
+            break;
+        }
+        dmb_message_set(&sim->message,
+                        "callback of a programme or constraint: it failed or gave a value beyond +-1e30 at time %g",
+                        attempt->evaluation.time);
+        break;
+    default:
+        if (sim->reduced_mode->row != UINT32_MAX) {
+            dmb_clusters_explain(sim, "its equations cannot be satisfied");
+            break;
+        }
+        dmb_message_set(&sim->message,
+                        "step to time %g of length %g: %u iterations, relative residual = %g, must be <= %g",
+                        attempt->evaluation.time, attempt->end.step, attempt->iterations, attempt->residual,
+                        sim->options.newton_tolerance);
+    }
 }

@@ -3,8 +3,8 @@
 #define DMB_INTEGRATOR_ATTEMPT_H
 
 #include "integrator/corner.h"
-#include "system/evaluation.h"
-
+#include "sim/sim.h"
+#include "system/assemble/evaluation.h"
 typedef struct dmb_attempt {
     dmb_evaluation evaluation; /* the last one */
     dmb_step_end end;
@@ -34,5 +34,12 @@ dmb_step_error dmb_attempt_error(const dmb_sim *sim, double step);
 void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt);
 /* Message for a failed attempt: which part, at what time. */
 void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt);
+
+/* Elements that may have lost a revolution within one step. */
+
+/* Element whose ends turned against each other by more than 2 (pi - 2.5) rad in the step from now to trial; UINT32_MAX if
+ * there is none. Less than that cannot lead from below 2.5 rad past pi to below 2.5 rad, where the logarithm would be a
+ * revolution short. O(number of elements). */
+uint32_t dmb_element_turned_too_far(const dmb_sim *sim);
 
 #endif

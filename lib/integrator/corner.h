@@ -2,7 +2,7 @@
 #ifndef DMB_INTEGRATOR_CORNER_H
 #define DMB_INTEGRATOR_CORNER_H
 
-#include "state.h"
+#include "sim/sim.h"
 
 /* Where a step ends. */
 typedef struct dmb_step_end {

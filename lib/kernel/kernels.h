@@ -9,7 +9,7 @@
 #include "force/friction_law.h"
 #include "force/hole.h"
 #include "force/normal_law.h"
-#include "force/site.h"
+#include "force/contact_law.h"
 #include "math/block_tridiagonal.h"
 
 /* A run of beams: element i lies between the nodes i and i + 1 of the run, all of them FULL. Pointers are to the run's
@@ -62,9 +62,9 @@ typedef struct dmb_node_run {
  * block. */
 typedef struct dmb_node_force_run {
     uint32_t count;              /* nodes */
-    uint32_t first;              /* number of the first one, by which lumps name theirs */
-    const dmb_lump *lumps;       /* in the order of their nodes, none before the run; those behind it are left */
-    uint32_t lump_count;         /* 0 in statics */
+    uint32_t first;              /* number of the first one, by which rigid_masses name theirs */
+    const dmb_rigid_mass *rigid_masses;       /* in the order of their nodes, none before the run; those behind it are left */
+    uint32_t rigid_mass_count;         /* 0 in statics */
     int32_t dynamic, tangent;    /* as in dmb_evaluation, as are: */
     int32_t reserved;
     double mass_factor, velocity_factor, load_factor;
@@ -78,7 +78,7 @@ typedef struct dmb_node_force_run {
     double inertia_power, potential, damping_power; /* added to: [W] */
 } dmb_node_force_run;
 
-/* What a configuration keeps of its contact sites: the fields site_... of state.h. */
+/* What a configuration keeps of its contact sites: the fields site_... of sim/sim.h. */
 typedef struct dmb_site_fields {
     double *normal, *depth, *penetration, *approach, *slip, *bristle;
     uint32_t *segment;

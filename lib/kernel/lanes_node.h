@@ -2,8 +2,8 @@
 #ifndef DMB_KERNEL_LANES_NODE_H
 #define DMB_KERNEL_LANES_NODE_H
 
-#include "element/lump_math.h"
-#include "force/node_math.h"
+#include "element/rigid_mass.h"
+#include "force/weight_and_damping.h"
 #include "kernel/kernels.h"
 #include "kernel/lane_group.h"
 
@@ -24,40 +24,40 @@ static inline void node_apply(const dmb_real force[6], node_group *g)
 
 /* Lumps stand in the order of their nodes; *next becomes the first that is not before the group. Returns 1 if it is on
  * one of the group's nodes. */
-static inline int has_lumps(const dmb_node_force_run *run, const lane_group *g, uint32_t *next)
+static inline int has_rigid_masses(const dmb_node_force_run *run, const lane_group *g, uint32_t *next)
 {
-    while (*next < run->lump_count && run->lumps[*next].node < run->first + g->place[0]) (*next)++;
-    return *next < run->lump_count && run->lumps[*next].node <= run->first + g->place[DMB_REAL_LANES - 1];
+    while (*next < run->rigid_mass_count && run->rigid_masses[*next].node < run->first + g->place[0]) (*next)++;
+    return *next < run->rigid_mass_count && run->rigid_masses[*next].node <= run->first + g->place[DMB_REAL_LANES - 1];
 }
 
-/* Constants of the lumps on a group of nodes, from `next` on; 0 where there is none. */
-static inline void load_lumps(const dmb_node_force_run *run, const lane_group *g, uint32_t next, dmb_lump_constants *c)
+/* Constants of the rigid_masses on a group of nodes, from `next` on; 0 where there is none. */
+static inline void load_rigid_masses(const dmb_node_force_run *run, const lane_group *g, uint32_t next, dmb_rigid_mass_constants *c)
 {
-    static const dmb_lump none;
+    static const dmb_rigid_mass none;
     for (int l = 0; l < DMB_REAL_LANES; l++) {
         const size_t node = run->first + g->place[l];
-        while (next < run->lump_count && run->lumps[next].node < node) next++;
-        const int has = next < run->lump_count && run->lumps[next].node == node;
-        dmb_lump_load(has ? run->lumps + next : &none, l, c);
+        while (next < run->rigid_mass_count && run->rigid_masses[next].node < node) next++;
+        const int has = next < run->rigid_mass_count && run->rigid_masses[next].node == node;
+        dmb_rigid_mass_load(has ? run->rigid_masses + next : &none, l, c);
     }
 }
 
 /* f = M v' - v^^T p */
-static inline void add_lumps(dmb_node_force_run *run, uint32_t next, node_group *g)
+static inline void add_rigid_masses(dmb_node_force_run *run, uint32_t next, node_group *g)
 {
-    dmb_lump_constants lump;
+    dmb_rigid_mass_constants rigid_mass;
     dmb_real a[6], f[6], p[6], turning[6];
-    load_lumps(run, &g->place, next, &lump);
+    load_rigid_masses(run, &g->place, next, &rigid_mass);
     load(run->acceleration, 6, 6, &g->place, 0, a);
-    dmb_lump_momentum(&lump, a, f);
+    dmb_rigid_mass_momentum(&rigid_mass, a, f);
     const dmb_real power = dmb_vec6_dot(g->v, f);
     for (uint32_t l = 0; l < g->place.used; l++) run->inertia_power -= dmb_real_lane(&power, (int)l);
-    dmb_lump_momentum(&lump, g->v, p);
+    dmb_rigid_mass_momentum(&rigid_mass, g->v, p);
     dmb_ad_transpose(g->v, p, turning);
     for (int i = 0; i < 6; i++) f[i] = -f[i];
     node_apply(f, g); /* one by one: on a free body these two are all that balances */
     node_apply(turning, g);
-    if (run->tangent) dmb_lump_add_tangent(&lump, g->v, p, run->mass_factor, run->velocity_factor, g->C);
+    if (run->tangent) dmb_rigid_mass_add_tangent(&rigid_mass, g->v, p, run->mass_factor, run->velocity_factor, g->C);
 }
 
 static inline void store_weight_tangent(const dmb_node_force_run *run, const lane_group *g, const dmb_real force[6],
@@ -109,12 +109,12 @@ static void node_forces(dmb_node_force_run *run)
     for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
         node_group g;
         g.place = group_at(first, run->count);
-        const int lumps = has_lumps(run, &g.place, &next), inertia = run->tangent && (lumps || run->damping);
+        const int rigid_masses = has_rigid_masses(run, &g.place, &next), inertia = run->tangent && (rigid_masses || run->damping);
         load(run->residual, 6, 6, &g.place, 0, g.residual);
         load(run->scale, 6, 6, &g.place, 0, g.scale);
         if (run->dynamic) load(run->velocity, 6, 6, &g.place, 0, g.v);
         if (inertia) load(run->inertia, 36, 36, &g.place, 0, g.C);
-        if (lumps) add_lumps(run, next, &g);
+        if (rigid_masses) add_rigid_masses(run, next, &g);
         if (run->gravity) add_weight(run, &g);
         if (run->damping) add_damping(run, &g);
         store(g.residual, 6, &g.place, run->residual);

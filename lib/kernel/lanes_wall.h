@@ -4,8 +4,8 @@
 #define DMB_KERNEL_LANES_WALL_H
 
 #include "element/beam_math.h"
-#include "force/contact_math.h"
-#include "force/hole_math.h"
+#include "force/contact_law.h"
+#include "force/hole.h"
 #include "kernel/kernels.h"
 #include "kernel/lane_group.h"
 #include "math/so3.h"

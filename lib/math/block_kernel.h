@@ -4,6 +4,11 @@
 #ifndef DMB_MATH_BLOCK_KERNEL_H
 #define DMB_MATH_BLOCK_KERNEL_H
 
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 /* The kernels must be folded for constant sizes even where the compiler finds them long. */
 #if defined(__GNUC__)
 #define DMB_BLOCK_KERNEL static inline __attribute__((always_inline))
@@ -23,5 +28,46 @@
     ((n) == 6 && (m) == 6   ? kernel(6, 6, __VA_ARGS__) \
      : (n) == 2 && (m) == 2 ? kernel(2, 2, __VA_ARGS__) \
                             : kernel(n, m, __VA_ARGS__))
+
+/* Pivots of the block solvers: which are too small, and the report of the weakest one. */
+
+/* A pivot smaller than this (or not finite) makes a block singular. */
+#define DMB_BLOCK_PIVOT_MIN 1e-300
+
+/* The weakest pivot met: small means that the unknown is hardly held. */
+typedef struct dmb_block_weakest {
+    double ratio;     /* |pivot| / largest entry of its diagonal block before elimination; infinity when no block */
+    uint32_t block;   /* index of the block */
+    uint32_t unknown; /* index of the unknown inside the block */
+} dmb_block_weakest;
+
+static inline bool dmb_block_pivot_holds(double pivot)
+{
+    return fabs(pivot) >= DMB_BLOCK_PIVOT_MIN && fabs(pivot) <= DBL_MAX;
+}
+
+/* The largest magnitude in a block of n rows and columns. */
+static inline double dmb_block_largest(size_t n, const double *D)
+{
+    double largest = 0.0;
+    for (size_t i = 0; i < n * n; i++)
+        if (fabs(D[i]) > largest) largest = fabs(D[i]);
+    return largest;
+}
+
+/* Compares the pivots of a factored block of n >= 1 rows, given as reciprocals `stride` numbers apart, with the weakest
+ * so far. failed: the column without a pivot, or < 0. */
+static inline void dmb_block_watch(size_t n, const double *reciprocal, size_t stride, double largest, int64_t failed,
+                                   uint32_t block, dmb_block_weakest *weakest)
+{
+    size_t k = failed < 0 ? 0 : (size_t)failed;
+    for (size_t i = 1; failed < 0 && i < n; i++)
+        if (fabs(reciprocal[stride * i]) > fabs(reciprocal[stride * k])) k = i;
+    const double ratio = failed < 0 ? 1.0 / (fabs(reciprocal[stride * k]) * largest) : 0.0;
+    if (!(failed >= 0 || ratio < weakest->ratio)) return;
+    weakest->ratio = ratio;
+    weakest->block = block;
+    weakest->unknown = (uint32_t)k;
+}
 
 #endif

@@ -7,10 +7,9 @@
 
 #include <string.h>
 
-#include "base/allocator.h"
-#include "base/arena.h"
+#include "base/memory.h"
 #include "base/checked_size.h"
-#include "math/fill_order.h"
+#include "math/bridge_cholmod.h"
 
 #define DMB_NONE UINT32_MAX
 

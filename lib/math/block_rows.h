@@ -6,7 +6,6 @@
 #include <math.h>
 
 #include "math/block_kernel.h"
-#include "math/block_pivot.h"
 #include "math/block_tridiagonal.h"
 
 /* One row of the work array: the row of D_i and behind it the row of U_i. */

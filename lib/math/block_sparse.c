@@ -13,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "math/dense_lu.h"
+#include "math/dense.h"
 
 enum { SIX = 6 };
 

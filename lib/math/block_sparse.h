@@ -13,7 +13,7 @@
 #define DMB_MATH_BLOCK_SPARSE_H
 
 #include "math/block_pattern.h"
-#include "math/block_pivot.h"
+#include "math/block_kernel.h"
 
 /* A matrix. All arrays belong to the caller; each thread has its own values and pivot. Factoring overwrites diagonal
  * blocks by their LU factors with reciprocal pivots, A_kj by A_kk^-1 A_kj where k is eliminated before j, and A_jk by

@@ -12,7 +12,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "math/block_pivot.h"
+#include "math/block_kernel.h"
 
 #define DMB_BLOCK_SIZE_MAX 6
 

@@ -3,8 +3,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "math/arc_tangent.h"
-#include "math/exponential.h"
+#include "math/real.h"
 
 /* ---- Sums of two doubles: a number as high + low, |low| at most half a unit of high (Dekker 1971, Knuth) ------------ */
 

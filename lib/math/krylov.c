@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/allocator.h"
-#include "math/dot.h"
-#include "math/eigen.h"
+#include "base/memory.h"
+#include "math/dense.h"
+#include "math/bridge_lapacke.h"
 
 /* A vector shorter than this part of what it was before is rounding: the space is closed. */
 #define DMB_KRYLOV_CLOSED 1e-13

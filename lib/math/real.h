@@ -9,7 +9,6 @@
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
-
 #if FLT_EVAL_METHOD == 1 || FLT_EVAL_METHOD == 2
 #error "doubles must be evaluated as doubles, on 32-bit x86 with -msse2 -mfpmath=sse"
 #endif
@@ -177,6 +176,60 @@ static inline dmb_real dmb_real_sqrt(dmb_real x)
 {
     for (int lane = 0; lane < DMB_REAL_LANES; lane++) dmb_real_set_lane(&x, lane, sqrt(dmb_real_lane(&x, lane)));
     return x;
+}
+
+/* The angle of a direction in the plane, in the number of math/real.h. */
+
+/* atan2(y, x) by atan(r) = sum (-r^2)^k r/(2k+1), r the smaller of |x|, |y| over the larger, brought below tan(pi/8) by
+ * atan(r) = pi/4 + atan((r - 1)/(r + 1)). No call, so that it goes side by side; NaN where both are 0,
+ * and -0 counts as 0. */
+static inline dmb_real dmb_real_atan2(dmb_real y, dmb_real x)
+{
+    static const double odd[22] = {1.0,        1.0 / 3.0,  1.0 / 5.0,  1.0 / 7.0,  1.0 / 9.0,  1.0 / 11.0,
+                                   1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0, 1.0 / 19.0, 1.0 / 21.0, 1.0 / 23.0,
+                                   1.0 / 25.0, 1.0 / 27.0, 1.0 / 29.0, 1.0 / 31.0, 1.0 / 33.0, 1.0 / 35.0,
+                                   1.0 / 37.0, 1.0 / 39.0, 1.0 / 41.0, 1.0 / 43.0};
+    const dmb_real zero = dmb_real_of(0.0), ax = dmb_real_abs(x), ay = dmb_real_abs(y);
+    const dmb_mask steep = dmb_mask_less(ax, ay);
+    const dmb_real large = dmb_real_select(steep, ay, ax), small = dmb_real_select(steep, ax, ay);
+    const dmb_mask wide = dmb_mask_less(0.41421356237309503 * large, small);
+    const dmb_real r = dmb_real_select(wide, small - large, small) / dmb_real_select(wide, small + large, large);
+    const dmb_real z = -(r * r);
+    dmb_real angle = dmb_real_of(odd[21]);
+    for (int k = 20; k >= 0; k--) angle = angle * z + odd[k];
+    angle = angle * r + dmb_real_select(wide, dmb_real_of(0.25 * DMB_PI), zero);
+    angle = dmb_real_select(steep, 0.5 * DMB_PI - angle, angle);
+    angle = dmb_real_select(dmb_mask_less(x, zero), DMB_PI - angle, angle);
+    return dmb_real_follow(y, angle);
+}
+
+/* The exponential, in the number of math/real.h. */
+
+#define DMB_LN2_HIGH 0x1.62e42fefa4000p-1 /* 41 bits, so that its product with an exponent is exact */
+#define DMB_LN2_LOW -0x1.8432a1b0e2634p-43
+#define DMB_LOG2_E 0x1.71547652b82fep+0
+
+/* e^(x + tail) of -708 <= x <= 709, |tail| tiny beside x: e^x = 2^k e^r, k the integer nearest to x/ln 2, |r| <= 0.35, with
+ * e^r = 1 + r + r^2 (1/2! + r/3! + ... + r^11/13!). No call, so that it goes side by side. */
+static inline dmb_real dmb_real_exp_near(dmb_real x, dmb_real tail)
+{
+    static const double series[12] = {1.0 / 2.0,       1.0 / 6.0,        1.0 / 24.0,        1.0 / 120.0,
+                                      1.0 / 720.0,     1.0 / 5040.0,     1.0 / 40320.0,     1.0 / 362880.0,
+                                      1.0 / 3628800.0, 1.0 / 39916800.0, 1.0 / 479001600.0, 1.0 / 6227020800.0};
+    const dmb_real shifted = x * DMB_LOG2_E + DMB_ROUNDING, k = shifted - DMB_ROUNDING;
+    const dmb_real high = x - k * DMB_LN2_HIGH, low = tail - k * DMB_LN2_LOW;
+    const dmb_real r = high + low, rest = (high - r) + low;
+    dmb_real sum = dmb_real_of(series[11]);
+    for (int i = 10; i >= 0; i--) sum = sum * r + series[i];
+    return (1.0 + (r + (r * r * sum + rest))) * dmb_real_power_of_two(shifted);
+}
+
+/* e^x to 0.9 units in the last place; 0 below -708, where it would be denormal before long; infinity above 709. */
+static inline dmb_real dmb_real_exp(dmb_real x)
+{
+    const dmb_mask low = dmb_mask_less(x, dmb_real_of(-708.0)), high = dmb_mask_less(dmb_real_of(709.0), x);
+    const dmb_real y = dmb_real_exp_near(dmb_real_select(low | high, dmb_real_of(0.0), x), dmb_real_of(0.0));
+    return dmb_real_select(low, dmb_real_of(0.0), dmb_real_select(high, dmb_real_of((double)INFINITY), y));
 }
 
 #endif

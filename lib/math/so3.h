@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "math/arc_tangent.h"
+#include "math/real.h"
 #include "math/so3_far.h"
 #include "math/vec3.h"
 

@@ -1,9 +1,176 @@
-/* Drives and loads. */
+#include "model/describe_drive.h"
+
+#include <string.h>
+
+#include "base/checked_size.h"
+#include "base/memory.h"
 #include "constraint/joint.h"
-#include "model/defaults.h"
-#include "model/describe.h"
+#include "model/definition_defaults.h"
 #include "model/field_check.h"
 #include "model/limits.h"
+#include "model/model.h"
+enum { TERMS_MAX = 64, TABLE_MAX = 1 << 20 };
+
+/* ---- Checks ------------------------------------------------------------------------------------------------------ */
+
+static void check_ramp(dmb_check *check, const dmb_term *term)
+{
+    dmb_check_above_field(check, "x1", term->x1, "x0", term->x0);
+    if (term->x1 - term->x0 < DMB_TIME_MIN) dmb_check_fail(check, DMB_ERR_VALUE, "x1", term->x1, "> x0 by 1e-12 s");
+}
+
+/* Times increase, and no line between two points is so steep that its slope overflows. */
+static void check_table(dmb_check *check, const dmb_term *term)
+{
+    const double *x = term->table_time, *y = term->table_value;
+    dmb_check_count(check, "table_count", term->table_count, 1, TABLE_MAX);
+    dmb_check_pointer(check, "table_time", x);
+    dmb_check_pointer(check, "table_value", y);
+    if (check->status < 0) return;
+    dmb_check_each_within(check, "table_time", x, term->table_count, -DMB_TIME_MAX, DMB_TIME_MAX);
+    dmb_check_each_within(check, "table_value", y, term->table_count, -DMB_FORCE_MAX, DMB_FORCE_MAX);
+    dmb_check_increasing(check, "table_time", x, term->table_count, 1);
+    for (uint32_t i = 1; i < term->table_count && check->status == DMB_OK; ++i) {
+        if (x[i] - x[i - 1] >= DMB_TIME_MIN) continue;
+        dmb_check_fail(check, DMB_ERR_VALUE, "table_time", x[i], "> the time before by 1e-12 s");
+    }
+}
+
+static void check_callback(dmb_check *check, const dmb_term *term)
+{
+    dmb_check_mask(check, "provides", term->provides, DMB_PROVIDES_RATE | DMB_PROVIDES_INTEGRAL);
+    if (term->callback != NULL || check->status < 0) return;
+    check->status = DMB_ERR_NULL;
+    dmb_message_set(check->message, "%s %u: callback is NULL", check->part, check->index);
+}
+
+static void check_term(dmb_check *check, const dmb_term *term)
+{
+    dmb_check_choice(check, "kind", term->kind, DMB_TERM_CONSTANT, DMB_TERM_CALLBACK);
+    dmb_check_within(check, "x0", term->x0, -DMB_TIME_MAX, DMB_TIME_MAX);
+    dmb_check_within(check, "x1", term->x1, -DMB_TIME_MAX, DMB_TIME_MAX);
+    dmb_check_within(check, "h0", term->h0, -DMB_FORCE_MAX, DMB_FORCE_MAX);
+    dmb_check_within(check, "h1", term->h1, -DMB_FORCE_MAX, DMB_FORCE_MAX);
+    dmb_check_within(check, "omega", term->omega, -DMB_SPEED_MAX, DMB_SPEED_MAX);
+    dmb_check_within(check, "phase", term->phase, -DMB_ANGLE_MAX, DMB_ANGLE_MAX);
+    if (check->status < 0) return;
+    if (term->kind == DMB_TERM_STEP || term->kind == DMB_TERM_STEP5) check_ramp(check, term);
+    if (term->kind == DMB_TERM_TABLE) check_table(check, term);
+    if (term->kind == DMB_TERM_CALLBACK) check_callback(check, term);
+}
+
+/* ---- The caller's array ------------------------------------------------------------------------------------------ */
+
+/* Term i of the caller's array, whose items are as far apart as the first one says. All say the same. */
+static int32_t read_term(const dmb_term *terms, uint32_t i, uint32_t stride, dmb_term *out)
+{
+    const unsigned char *item = (const unsigned char *)terms + (size_t)i * stride;
+    uint32_t size;
+    memcpy(&size, item, sizeof size);
+    *out = dmb_term_default();
+    return size == stride ? dmb_term_read(out, item) : DMB_ERR_STRUCT_SIZE;
+}
+
+/* Checks every term and counts the numbers of its tables (both columns). */
+static int32_t check_terms(dmb_model *model, const dmb_term *terms, uint32_t count, size_t *numbers)
+{
+    dmb_message part;
+    dmb_message_set(&part, "programme %u, term", model->programmes.count);
+    *numbers = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        dmb_check check = dmb_check_of(&model->message, part.text, i);
+        dmb_term term;
+        int32_t status = read_term(terms, i, terms->struct_size, &term);
+        if (status < 0) return status;
+        check_term(&check, &term);
+        if (check.status < 0) return check.status;
+        if (term.kind == DMB_TERM_TABLE) *numbers += 2 * (size_t)term.table_count; /* at most 64 x 2^21 */
+    }
+    return DMB_OK;
+}
+
+/* ---- The model's copy -------------------------------------------------------------------------------------------- */
+
+static size_t block_size(uint32_t count, size_t numbers)
+{
+    return count * sizeof(dmb_term) + numbers * sizeof(double); /* below 2^31 */
+}
+
+static double *copy_numbers(const double *from, uint32_t count, double *to)
+{
+    memcpy(to, from, count * sizeof *to);
+    return to + count;
+}
+
+/* What a term does not use is forgotten, so that no pointer of the caller is kept but the callback's context. */
+static void forget_unused(dmb_term *term)
+{
+    if (term->kind != DMB_TERM_TABLE) {
+        term->table_time = term->table_value = NULL;
+        term->table_count = 0;
+    }
+    if (term->kind != DMB_TERM_CALLBACK) {
+        term->callback = NULL;
+        term->callback_context = NULL;
+    }
+}
+
+static void copy_terms(const dmb_term *terms, uint32_t count, dmb_term *copy)
+{
+    double *numbers = (double *)(void *)(copy + count);
+    for (uint32_t i = 0; i < count; ++i) {
+        dmb_term *term = copy + i;
+        (void)read_term(terms, i, terms->struct_size, term);
+        forget_unused(term);
+        if (term->kind != DMB_TERM_TABLE) continue;
+        double *values = copy_numbers(term->table_time, term->table_count, numbers);
+        term->table_time = numbers;
+        numbers = copy_numbers(term->table_value, term->table_count, values);
+        term->table_value = values;
+    }
+}
+
+void dmb_programme_release(dmb_programme *programme, const dmb_allocator *allocator)
+{
+    void *block;
+    size_t numbers = 0;
+    for (uint32_t i = 0; i < programme->count; ++i) numbers += 2 * (size_t)programme->terms[i].table_count;
+    memcpy(&block, &programme->terms, sizeof block); /* the model owns what others may only read */
+    dmb_release(allocator, block, block_size(programme->count, numbers));
+    programme->terms = NULL;
+    programme->count = 0;
+}
+
+static int32_t append_programme(dmb_model *model, const dmb_term *terms, uint32_t count, size_t numbers, dmb_id *id)
+{
+    dmb_programme programme = {NULL, count};
+    int32_t status;
+    dmb_term *copy = dmb_allocate(&model->allocator, block_size(count, numbers));
+    if (copy == NULL) return DMB_ERR_NO_MEMORY;
+    copy_terms(terms, count, copy);
+    programme.terms = copy;
+    status = dmb_describe_append(model, &model->programmes, &programme, sizeof programme, DMB_PART_PROGRAMME, id);
+    if (status < 0) dmb_programme_release(&programme, &model->allocator);
+    return status;
+}
+
+int32_t dmb_model_add_programme(dmb_model *model, const dmb_term *terms, uint32_t term_count, dmb_id *programme)
+{
+    dmb_term first = dmb_term_default();
+    const dmb_described given = {"programme", &first, sizeof first, term_count};
+    int32_t status = dmb_describe_open(model, "programme", terms);
+    size_t numbers;
+    if (status < 0) return status;
+    if (term_count > 0) (void)read_term(terms, 0, terms->struct_size, &first);
+    dmb_check check = dmb_check_of(&model->message, "programme", model->programmes.count);
+    dmb_check_count(&check, "term_count", term_count, 1, TERMS_MAX);
+    status = check.status;
+    if (status >= 0) status = check_terms(model, terms, term_count, &numbers);
+    if (status >= 0) status = append_programme(model, terms, term_count, numbers, programme);
+    return dmb_describe_part(model, &given, status);
+}
+
+/* Drives and loads. */
 
 /* ---- Drives ------------------------------------------------------------------------------------------------------ */
 

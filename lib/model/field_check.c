@@ -1,7 +1,6 @@
 #include "model/field_check.h"
 
 #include <string.h>
-
 static bool within(double value, double low, double high)
 {
     return value >= low && value <= high;
@@ -81,4 +80,12 @@ void dmb_check_place(dmb_check *check, const dmb_model *model, const char *field
     if (!on_body) dmb_check_id(check, model, part.text, place->part, DMB_PART_STRING, "string, a body or a bit");
     dmb_check_within(check, fraction.text, place->fraction, 0.0, on_body ? 0.0 : 1.0);
     if (on_body) dmb_check_count(check, pipe.text, place->pipe, 0, 0);
+}
+
+void dmb_check_motion_mask(dmb_check *check, const char *field, int32_t mask)
+{
+    dmb_check_mask(check, field, mask, DMB_FREE_ALL);
+    if (dmb_mask_is_closed(mask)) return;
+    dmb_check_fail(check, DMB_ERR_UNSUPPORTED, field, mask,
+                   "closed under motion: none, all, one, axial and spin, spherical, translations or planar");
 }

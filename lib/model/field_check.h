@@ -1,11 +1,13 @@
-/* Checks of fields, beyond those of base/check.h: numbers and arrays between two bounds, zero standing for "by
+/* Checks of fields, beyond those of base/value_check.h: numbers and arrays between two bounds, zero standing for "by
  * default", names, ids and places. */
 #ifndef DMB_MODEL_FIELD_CHECK_H
 #define DMB_MODEL_FIELD_CHECK_H
 
-#include "base/check.h"
-#include "model/model.h"
+#include <stdbool.h>
 
+#include "base/value_check.h"
+#include "drillmbd/model.h"
+#include "model/model.h"
 /* Zero, or low <= value <= high. */
 void dmb_check_zero_or_within(dmb_check *check, const char *field, double value, double low, double high);
 /* low <= value <= high for each of count values; the message names the component. */
@@ -32,5 +34,39 @@ void dmb_check_id_or_none(dmb_check *check, const dmb_model *model, const char *
 /* A place on a string, a body or a bit: its fraction 0 .. 1, and 0 with pipe 0 on a body or bit. That the string has
  * such a pipe is for the compile step to find out. */
 void dmb_check_place(dmb_check *check, const dmb_model *model, const char *field, const dmb_place *place);
+
+/* Sets of free components of motion. */
+
+enum {
+    DMB_FREE_TRANSLATIONS = 1 << DMB_X | 1 << DMB_Y | 1 << DMB_Z,
+    DMB_FREE_SIDEWAYS = 1 << DMB_Y | 1 << DMB_Z,
+    DMB_FREE_TILTING = 1 << DMB_RY | 1 << DMB_RZ
+};
+
+/* True if the set is closed under motion (a group of displacements), so that it means the same at every instant: none,
+ * all, one component, cylindrical pair, three rotations, three translations, planar motion. Herve 1978. */
+static inline bool dmb_mask_is_closed(int32_t mask)
+{
+    switch (mask) {
+    case DMB_FREE_NONE:
+    case DMB_FREE_ALL:
+    case DMB_FREE_CYLINDRICAL:
+    case DMB_FREE_SPHERICAL:
+    case DMB_FREE_TRANSLATIONS:
+    case 1 << DMB_Y | 1 << DMB_Z | 1 << DMB_RX:
+    case 1 << DMB_X | 1 << DMB_Z | 1 << DMB_RY:
+    case 1 << DMB_X | 1 << DMB_Y | 1 << DMB_RZ: return true;
+    default: return mask > 0 && mask < 64 && (mask & (mask - 1)) == 0;
+    }
+}
+
+/* True if the set means the same at any point of the body's x axis, so that a node anywhere on it will do. */
+static inline bool dmb_mask_is_axial(int32_t mask)
+{
+    return mask == DMB_FREE_ALL || (mask & ~DMB_FREE_CYLINDRICAL) == 0;
+}
+
+/* DMB_ERR_VALUE for a mask with other bits than the six components, DMB_ERR_UNSUPPORTED for one that is not closed. */
+void dmb_check_motion_mask(dmb_check *check, const char *field, int32_t mask);
 
 #endif

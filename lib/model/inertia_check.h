@@ -2,7 +2,7 @@
 #ifndef DMB_MODEL_INERTIA_CHECK_H
 #define DMB_MODEL_INERTIA_CHECK_H
 
-#include "base/check.h"
+#include "base/value_check.h"
 #include "drillmbd/model.h"
 
 /* xx, yy, zz, xy, xz, yz elements at the centre of mass: positive definite, and no principal moment larger than the sum

@@ -8,7 +8,7 @@
  *   bodies          bodies, bits               nodes of free bodies, bodies
  *   poses           hole, nodes, elements      nodes (pose), elements (span)
  *   types           runs, elements             types, elements (type, kernel), batches
- *   masses          runs, bodies, bits         lumps, nodes (weight, damped)
+ *   masses          runs, bodies, bits         rigid_masses, nodes (weight, damped)
  *   sites           pipes, bodies              sites, path_sites
  *   joints          joints, couplings, ...     joints, couplings, callbacks, laws
  *   actions         drives, loads, bits        drives, loads, bits, nodes (prescribed), driven
@@ -22,7 +22,7 @@
 #include <stdbool.h>
 
 #include "base/vector.h"
-#include "model/describe.h"
+#include "model/model.h"
 
 typedef struct dmb_mesh_node {
     double at;               /* [m] from the rig end along the string; 0 of a free body */
@@ -34,7 +34,7 @@ typedef struct dmb_mesh_node {
     double damped[3];        /* [m, m2, m3] integrals of 1, x, x^2 over the pipe whose external damping it carries */
     uint32_t string;         /* UINT32_MAX: free body `body` */
     uint32_t body;
-    uint32_t lump;           /* in lumps; UINT32_MAX: none */
+    uint32_t rigid_mass;           /* in rigid_masses; UINT32_MAX: none */
     uint8_t size;            /* DMB_NODE_FULL or DMB_NODE_PATH */
     uint8_t free;            /* mask of free components; of a PATH node X and RX count */
     uint8_t prescribed;      /* mask of components moved by MOTION drives */
@@ -63,7 +63,7 @@ typedef struct dmb_mesh {
     dmb_vector elements;  /* dmb_mesh_element */
     dmb_vector types;     /* dmb_element_type */
     dmb_vector batches;   /* dmb_batch */
-    dmb_vector lumps;     /* dmb_lump */
+    dmb_vector rigid_masses;     /* dmb_rigid_mass */
     dmb_vector sites;     /* dmb_site */
     dmb_vector path_sites; /* dmb_path_site */
     dmb_vector drives;    /* dmb_scene_drive; row is filled by freeze */

@@ -1,6 +1,6 @@
 /* Drives, loads and bits, from the parts they are described on to nodes. */
 #include "model/field_check.h"
-#include "model/mesh_place.h"
+#include "model/mesh_joint.h"
 
 static uint32_t programme_of(const dmb_mesh *mesh, dmb_id id)
 {

@@ -1,11 +1,10 @@
 /* The finished scene in one block: counts first, then the arrays are laid out twice (counting, placing), then filled.
  */
-#include "base/allocator.h"
-#include "base/arena.h"
+#include "base/memory.h"
 #include "math/vec3.h"
 #include "model/scene_fill.h"
 #include "model/scene_dense.h"
-#include "model/scene_link.h"
+#include "model/reduced_pattern.h"
 
 /* ---- Counts ------------------------------------------------------------------------------------------------------ */
 
@@ -60,7 +59,7 @@ static int is_free_rigid(const dmb_mesh *mesh, uint32_t i)
 {
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
     const int alone = node->string == UINT32_MAX || dmb_mesh_string_at(mesh, node->string)->node_count == 1;
-    return alone && node->size == DMB_NODE_FULL && node->lump != UINT32_MAX && dmb_free_rows(node) == DMB_FREE_ALL &&
+    return alone && node->size == DMB_NODE_FULL && node->rigid_mass != UINT32_MAX && dmb_free_rows(node) == DMB_FREE_ALL &&
            dmb_prescribed_rows(node) == 0;
 }
 
@@ -99,7 +98,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->batch_count = (uint32_t)mesh->batches.count;
     scene->chain_count =
         (uint32_t)(mesh->nodes.count - mesh->elements.count); /* a chain has one node more than elements */
-    scene->lump_count = (uint32_t)mesh->lumps.count;
+    scene->rigid_mass_count = (uint32_t)mesh->rigid_masses.count;
     scene->site_count = (uint32_t)mesh->sites.count;
     scene->path_site_count = (uint32_t)mesh->path_sites.count;
     scene->drive_count = (uint32_t)mesh->drives.count;
@@ -140,7 +139,7 @@ static void take_nodes(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to,
     to->node_element = DMB_ARENA_ARRAY(arena, uint32_t, n);
     to->chains = DMB_ARENA_ARRAY(arena, dmb_chain, counts->chain_count);
     to->node_chain = DMB_ARENA_ARRAY(arena, uint32_t, n);
-    to->lumps = DMB_ARENA_ARRAY(arena, dmb_lump, counts->lump_count);
+    to->rigid_masses = DMB_ARENA_ARRAY(arena, dmb_rigid_mass, counts->rigid_mass_count);
     to->free_rigids = DMB_ARENA_ARRAY(arena, dmb_free_rigid, counts->free_rigid_count);
 }
 

@@ -1,21 +1,81 @@
-/* Rigid masses on the nodes, and what gravity and external damping act on. */
-#include "model/eccentricity.h"
-#include "model/lump_sum.h"
+#include "model/mesh_mass.h"
+
+#include <math.h>
+
+#include "math/elementary.h"
 #include "model/mesh.h"
 #include "model/section.h"
+/* J_node = J_centre + m (|c|^2 I - c c^T), parallel axes */
+void dmb_rigid_mass_add(dmb_rigid_mass *rigid_mass, double mass, const double c[3], const double inertia[6])
+{
+    rigid_mass->mass += mass;
+    for (int i = 0; i < 3; ++i) rigid_mass->moment[i] += mass * c[i];
+    rigid_mass->inertia[0] += inertia[0] + mass * (c[1] * c[1] + c[2] * c[2]);
+    rigid_mass->inertia[1] += inertia[1] + mass * (c[0] * c[0] + c[2] * c[2]);
+    rigid_mass->inertia[2] += inertia[2] + mass * (c[0] * c[0] + c[1] * c[1]);
+    rigid_mass->inertia[3] += inertia[3] - mass * c[0] * c[1];
+    rigid_mass->inertia[4] += inertia[4] - mass * c[0] * c[2];
+    rigid_mass->inertia[5] += inertia[5] - mass * c[1] * c[2];
+}
+
+/* The difference of m (|c|^2 I - c c^T) between c = (x, e_y, e_z) and (x, 0, 0): -m e~ e~ and the product with x */
+void dmb_rigid_mass_shift(dmb_rigid_mass *rigid_mass, double mass, double x, const double e[2])
+{
+    rigid_mass->moment[1] += mass * e[0];
+    rigid_mass->moment[2] += mass * e[1];
+    rigid_mass->inertia[0] += mass * (e[0] * e[0] + e[1] * e[1]);
+    rigid_mass->inertia[1] += mass * e[1] * e[1];
+    rigid_mass->inertia[2] += mass * e[0] * e[0];
+    rigid_mass->inertia[3] -= mass * x * e[0];
+    rigid_mass->inertia[4] -= mass * x * e[1];
+    rigid_mass->inertia[5] -= mass * e[0] * e[1];
+}
+
+bool dmb_pipe_is_eccentric(const dmb_pipe_def *def)
+{
+    return def->eccentricity > 0.0 || def->eccentricity_spread > 0.0;
+}
+
+/* SplitMix64 (Steele, Lea, Flood 2014): a counter through a mixing function, so that draw number k needs no others. */
+static uint64_t mix(uint64_t z)
+{
+    z += UINT64_C(0x9E3779B97F4A7C15);
+    z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
+    return z ^ (z >> 31);
+}
+
+/* Uniform in -1 .. 1, the 53 upper bits of a draw. */
+static double draw(uint32_t seed, uint32_t pipe, uint32_t which)
+{
+    const uint64_t bits = mix(mix((uint64_t)seed << 32 | pipe) + which);
+    return (double)(bits >> 11) * 0x1p-52 - 1.0;
+}
+
+void dmb_pipe_offset(const dmb_pipe_def *def, uint32_t pipe, double e[2])
+{
+    const double distance = fmax(0.0, def->eccentricity + def->eccentricity_spread * draw(def->seed, pipe, 0));
+    const double angle = def->eccentricity_angle + def->angle_spread * draw(def->seed, pipe, 1);
+    double sine, cosine;
+    dmb_sin_cos(angle, &sine, &cosine);
+    e[0] = distance * cosine;
+    e[1] = distance * sine;
+}
+
+/* Rigid masses on the nodes, and what gravity and external damping act on. */
 
 /* ---- Sums on a node ---------------------------------------------------------------------------------------------- */
 
-/* The lump of a node, made if there is none; NULL without memory. */
-static dmb_lump *lump_of(dmb_mesh *mesh, uint32_t node)
+/* The rigid_mass of a node, made if there is none; NULL without memory. */
+static dmb_rigid_mass *rigid_mass_of(dmb_mesh *mesh, uint32_t node)
 {
     dmb_mesh_node *n = dmb_mesh_node_at(mesh, node);
-    if (n->lump == UINT32_MAX) {
-        const dmb_lump lump = {.node = node};
-        if (dmb_vector_append(&mesh->lumps, &mesh->model->allocator, &lump, 1) < 0) return NULL;
-        n->lump = (uint32_t)mesh->lumps.count - 1;
+    if (n->rigid_mass == UINT32_MAX) {
+        const dmb_rigid_mass rigid_mass = {.node = node};
+        if (dmb_vector_append(&mesh->rigid_masses, &mesh->model->allocator, &rigid_mass, 1) < 0) return NULL;
+        n->rigid_mass = (uint32_t)mesh->rigid_masses.count - 1;
     }
-    return DMB_VECTOR_AT(dmb_lump, &mesh->lumps, n->lump);
+    return DMB_VECTOR_AT(dmb_rigid_mass, &mesh->rigid_masses, n->rigid_mass);
 }
 
 /* Gravity on a mass at a place of the node's frame. */
@@ -29,9 +89,9 @@ static void add_weight(dmb_mesh_node *node, double mass, const double centre[3])
 static int32_t add_body(dmb_mesh *mesh, uint32_t node, double mass, const double centre[3], const double inertia[6],
                         double buoyancy)
 {
-    dmb_lump *lump = lump_of(mesh, node);
-    if (lump == NULL) return DMB_ERR_NO_MEMORY;
-    dmb_lump_add(lump, mass, centre, inertia);
+    dmb_rigid_mass *rigid_mass = rigid_mass_of(mesh, node);
+    if (rigid_mass == NULL) return DMB_ERR_NO_MEMORY;
+    dmb_rigid_mass_add(rigid_mass, mass, centre, inertia);
     add_weight(dmb_mesh_node_at(mesh, node), buoyancy * mass, centre);
     dmb_mesh_node_at(mesh, node)->rigid = 1;
     mesh->mass += mass;
@@ -51,9 +111,9 @@ static int32_t add_part(dmb_mesh *mesh, uint32_t node, const dmb_rigid_part *par
 static int32_t add_offset(dmb_mesh *mesh, uint32_t node, double mass, double x, const double e[2])
 {
     dmb_mesh_node *n = dmb_mesh_node_at(mesh, node);
-    dmb_lump *lump = lump_of(mesh, node);
-    if (lump == NULL) return DMB_ERR_NO_MEMORY;
-    dmb_lump_shift(lump, mass, x, e);
+    dmb_rigid_mass *rigid_mass = rigid_mass_of(mesh, node);
+    if (rigid_mass == NULL) return DMB_ERR_NO_MEMORY;
+    dmb_rigid_mass_shift(rigid_mass, mass, x, e);
     n->weight_moment[1] += mass * e[0];
     n->weight_moment[2] += mass * e[1];
     return DMB_OK;

@@ -18,7 +18,7 @@
 #include "force/joint_law.h"
 #include "force/normal_law.h"
 #include "force/programme.h"
-#include "force/site.h"
+#include "force/contact_law.h"
 #include "math/block_sparse.h"
 #include "math/block_tridiagonal.h"
 
@@ -106,7 +106,7 @@ typedef struct dmb_chain {
 /* A node that carries nothing but a rigid mass and moves freely: its centre of mass is what is integrated. */
 typedef struct dmb_free_rigid {
     double centre[3];      /* [m] of mass, from the node, body frame */
-    uint32_t node, lump;
+    uint32_t node, rigid_mass;
 } dmb_free_rigid;
 
 /* ---- Joints and constraints ---- */
@@ -203,7 +203,7 @@ typedef struct dmb_scene {
     int32_t damped, arms;      /* 1: some element has a damping time, stands off its nodes by rigid arms */
     int32_t beams_only;        /* 1: every element has two FULL nodes */
     const struct dmb_kernels *kernels; /* of a step, as wide as the processor takes */
-    uint32_t node_count, row_count, element_count, type_count, batch_count, chain_count, lump_count;
+    uint32_t node_count, row_count, element_count, type_count, batch_count, chain_count, rigid_mass_count;
     uint32_t site_count, path_site_count, drive_count, load_count, bit_count, programme_count;
     uint32_t string_count, pipe_count, body_count;
     uint32_t history_count;    /* bit samples in all */
@@ -215,7 +215,7 @@ typedef struct dmb_scene {
     uint32_t constraint_row_count;  /* room of all constraints */
     uint32_t constraint_node_count; /* length of cluster_nodes */
     uint32_t cluster_column_count;  /* length of cluster_columns */
-    uint32_t linked_count;          /* nodes of linked chains */
+    uint32_t reduced_count;          /* nodes of linked chains */
     uint32_t sparse_count;          /* sparse clusters */
     uint32_t block_count;           /* blocks of the pattern */
     uint32_t jacobian_count, tangent_count; /* lengths of constraint_jacobian and constraint_tangent */
@@ -235,7 +235,7 @@ typedef struct dmb_scene {
     uint32_t *held_node;          /* rows with solved_row 0: node and row within its block, shape (held_count) */
     uint32_t *held_component;
     double *weight_mass;          /* [kg] that gravity acts on, buoyancy taken off, shape (node) */
-    double *weight_moment;        /* [kg m] b of the weight, body frame: torque b x R^T g, shape (node, 3); lumps and the
+    double *weight_moment;        /* [kg m] b of the weight, body frame: torque b x R^T g, shape (node, 3); rigid_masses and the
                                      +- rho A L^2/12 of the cubic shape (sum of both sides) included */
     double *node_damping;         /* [N s/m, N m s; N s/m, N s, N m s] external damping: axial, torsional; lateral times the
                                      integrals of 1, x, x^2 over the pipe it stands for, shape (node, 5) */
@@ -249,7 +249,7 @@ typedef struct dmb_scene {
     dmb_batch *batches;
     dmb_chain *chains;
     uint32_t *node_chain;         /* chain of each node, shape (node) */
-    dmb_lump *lumps;              /* at most one a node, by node */
+    dmb_rigid_mass *rigid_masses;              /* at most one a node, by node */
     dmb_free_rigid *free_rigids;  /* by node, none in scenes with joints; shape (free_rigid_count) */
 
     /* wall */
@@ -293,7 +293,7 @@ typedef struct dmb_scene {
     dmb_body_map *bodies;         /* described bodies, then bits */
 } dmb_scene;
 
-/* The scene in which copies for analyses are made (state/copy). */
+/* The scene in which copies for analyses are made (system/copy). */
 static inline const dmb_scene *dmb_dense_scene(const dmb_scene *scene)
 {
     return scene->dense != NULL ? scene->dense : scene;

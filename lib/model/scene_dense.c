@@ -2,11 +2,10 @@
 
 #include <string.h>
 
-#include "base/allocator.h"
-#include "base/arena.h"
+#include "base/memory.h"
 #include "base/checked_size.h"
 #include "model/limits.h"
-#include "model/scene_link.h"
+#include "model/reduced_pattern.h"
 
 int32_t dmb_scene_place_storage(uint32_t count, dmb_cluster *clusters, dmb_scene *scene)
 {

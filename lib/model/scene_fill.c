@@ -90,12 +90,12 @@ static void fill_velocity(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i)
 }
 
 /* Lumps were made string by string; here they go by node. */
-static void fill_lumps(const dmb_mesh *mesh, dmb_scene *scene)
+static void fill_rigid_masses(const dmb_mesh *mesh, dmb_scene *scene)
 {
-    dmb_lump *next = scene->lumps;
+    dmb_rigid_mass *next = scene->rigid_masses;
     for (uint32_t i = 0; i < scene->node_count; ++i) {
-        const uint32_t lump = dmb_mesh_node_at(mesh, i)->lump;
-        if (lump != UINT32_MAX) *next++ = *DMB_VECTOR_AT(dmb_lump, &mesh->lumps, lump);
+        const uint32_t rigid_mass = dmb_mesh_node_at(mesh, i)->rigid_mass;
+        if (rigid_mass != UINT32_MAX) *next++ = *DMB_VECTOR_AT(dmb_rigid_mass, &mesh->rigid_masses, rigid_mass);
     }
 }
 
@@ -111,15 +111,15 @@ static int is_alone(const dmb_scene *scene, uint32_t node)
 static void fill_free_rigids(dmb_scene *scene)
 {
     dmb_free_rigid *next = scene->free_rigids;
-    for (uint32_t i = 0; i < scene->lump_count && scene->free_rigid_count > 0; ++i) {
-        const dmb_lump *lump = scene->lumps + i;
-        const uint32_t row = scene->layout.row[lump->node];
-        int is_free = scene->layout.size[lump->node] == DMB_NODE_FULL && is_alone(scene, lump->node);
-        for (uint32_t k = 0; k < scene->layout.size[lump->node]; ++k) is_free = is_free && scene->solved_row[row + k];
+    for (uint32_t i = 0; i < scene->rigid_mass_count && scene->free_rigid_count > 0; ++i) {
+        const dmb_rigid_mass *rigid_mass = scene->rigid_masses + i;
+        const uint32_t row = scene->layout.row[rigid_mass->node];
+        int is_free = scene->layout.size[rigid_mass->node] == DMB_NODE_FULL && is_alone(scene, rigid_mass->node);
+        for (uint32_t k = 0; k < scene->layout.size[rigid_mass->node]; ++k) is_free = is_free && scene->solved_row[row + k];
         if (!is_free) continue;
-        dmb_vec3_scale(1.0 / lump->mass, lump->moment, next->centre);
-        next->node = lump->node;
-        next->lump = i;
+        dmb_vec3_scale(1.0 / rigid_mass->mass, rigid_mass->moment, next->centre);
+        next->node = rigid_mass->node;
+        next->rigid_mass = i;
         ++next;
     }
 }
@@ -145,7 +145,7 @@ static void fill_nodes(const dmb_mesh *mesh, dmb_scene *scene)
         scene->node_element[i] = UINT32_MAX;
     }
     fill_chains(mesh, scene);
-    fill_lumps(mesh, scene);
+    fill_rigid_masses(mesh, scene);
     fill_free_rigids(scene);
 }
 
@@ -290,11 +290,11 @@ static void fill_lengths(dmb_scene *scene)
         for (uint32_t i = 0; i < chain->count; ++i) chain_of[chain->first + i] = c;
         chain->length = chain->count > 1 ? mean_element(scene, chain) : 0.0;
     }
-    for (uint32_t i = 0; i < scene->lump_count; ++i) {
-        const dmb_lump *lump = scene->lumps + i;
-        dmb_chain *chain = scene->chains + chain_of[lump->node];
-        const double trace = lump->inertia[0] + lump->inertia[1] + lump->inertia[2];
-        if (chain->count == 1 && lump->mass > 0.0) chain->length = sqrt(0.5 * trace / lump->mass);
+    for (uint32_t i = 0; i < scene->rigid_mass_count; ++i) {
+        const dmb_rigid_mass *rigid_mass = scene->rigid_masses + i;
+        dmb_chain *chain = scene->chains + chain_of[rigid_mass->node];
+        const double trace = rigid_mass->inertia[0] + rigid_mass->inertia[1] + rigid_mass->inertia[2];
+        if (chain->count == 1 && rigid_mass->mass > 0.0) chain->length = sqrt(0.5 * trace / rigid_mass->mass);
     }
     for (uint32_t j = 0; j < scene->joint_count; ++j) {
         lengthen(scene, chain_of, &scene->joints[j].a);

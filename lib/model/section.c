@@ -1,7 +1,9 @@
 #include "model/section.h"
 
-#include "math/so3.h"
+#include <string.h>
 
+#include "math/gauss.h"
+#include "math/so3.h"
 static double given_or(double given, double otherwise)
 {
     return given > 0.0 ? given : otherwise;
@@ -78,4 +80,117 @@ void dmb_bit_body_of(const dmb_bit_def *def, dmb_rigid_part *part)
 double dmb_buoyancy_factor(const dmb_pipe_def *def, double fluid_density)
 {
     return 1.0 - fluid_density / def->density;
+}
+
+double dmb_shear_ratio(double EI, double GA, double length)
+{
+    return 12.0 * (EI / length) / (GA * length);
+}
+
+/* GA/(1 + GA L^2/(12 EI)), written with the ratio P = 12 EI/(GA L^2): GA P/(1 + P) */
+double dmb_corrected_shear(double EI, double GA, double length)
+{
+    const double P = dmb_shear_ratio(EI, GA, length);
+    return GA * (P / (1.0 + P));
+}
+
+/* b = 2 c/L, c = s (1 - 0.4 s), and h = s/60 of element/beam_math.h, s = 1 - (GA*)/GA = 1/(1 + P) */
+static void sideways_strain(double EI, double GA, double length, double *coupling, double *bend)
+{
+    const double s = 1.0 / (1.0 + dmb_shear_ratio(EI, GA, length));
+    *coupling = 2.0 * s * (1.0 - 0.4 * s) / length;
+    *bend = s / 60.0;
+}
+
+/* ---- Mass -------------------------------------------------------------------------------------------------------- */
+
+/* Shapes of sideways displacement (N) and of section rotation (G) at x = 0 .. 1, for u_A, theta_A, u_B, theta_B. */
+static void shapes(double x, double P, double L, double N[4], double G[4])
+{
+    const double q = 1.0 / (1.0 + P), x2 = x * x, x3 = x2 * x;
+    N[0] = (1.0 - 3.0 * x2 + 2.0 * x3 + P * (1.0 - x)) * q;
+    N[1] = L * (x - 2.0 * x2 + x3 + 0.5 * P * (x - x2)) * q;
+    N[2] = (3.0 * x2 - 2.0 * x3 + P * x) * q;
+    N[3] = L * (x3 - x2 - 0.5 * P * (x - x2)) * q;
+    G[0] = 6.0 * (x2 - x) * q / L;
+    G[1] = (1.0 - 4.0 * x + 3.0 * x2 + P * (1.0 - x)) * q;
+    G[2] = -G[0];
+    G[3] = (3.0 * x2 - 2.0 * x + P * x) * q;
+}
+
+/* Integral of rho A N_i N_j + rho I G_i G_j over the length. Degree 6: five Gauss points are exact. */
+static void bending_mass(double mass, double rotary, double P, double L, double out[6])
+{
+    static const int row[6] = {0, 0, 0, 0, 1, 1}, column[6] = {0, 1, 2, 3, 1, 3};
+    const dmb_gauss_rule *rule = dmb_gauss(5);
+    for (int k = 0; k < 6; ++k) out[k] = 0.0;
+    for (int i = 0; i < rule->count; ++i) {
+        double N[4], G[4];
+        shapes(rule->node[i], P, L, N, G);
+        for (int k = 0; k < 6; ++k) {
+            const double integrand = mass * N[row[k]] * N[column[k]] + rotary * G[row[k]] * G[column[k]];
+            out[k] += L * rule->weight[i] * integrand;
+        }
+    }
+}
+
+/* Along and around: (1 - s/2) consistent (1/3, 1/6) + s/2 lumped (1/2, 0) mass, 5/12 and 1/12 at s = 1. Straight shapes
+ * are too stiff by EA h^2/12 times the integral of u''^2; the lumped part is too heavy by s rho A h^2/12 times that of
+ * u'^2. Waves longer than a pipe have EA u'' = -w^2 rho A u in the element, and EA u'^2 = w^2 (rho A + mass of the joints
+ * per length) u^2 on average: the two cancel where s is the element's share in what moves with the pipe, and frequencies
+ * are of fourth order (without joints: Goudreau 1970; blending of quadratures, Ainsworth, Wajid 2010). */
+static void straight_mass(double total, double share, double out[2])
+{
+    out[0] = total * (4.0 + share) / 12.0;
+    out[1] = total * (2.0 - share) / 12.0;
+}
+
+void dmb_beam_mass_of(const dmb_pipe_section *section, double length, const double share[2], dmb_beam_mass *mass)
+{
+    const double *K = section->stiffness;
+    straight_mass(section->mass * length, share[0], mass->axial);
+    straight_mass(section->inertia[0] * length, share[1], mass->torsion);
+    /* u_y goes with the moment about z, u_z with that about y */
+    bending_mass(section->mass, section->inertia[1], dmb_shear_ratio(K[5], K[1], length), length, mass->bending[0]);
+    bending_mass(section->mass, section->inertia[1], dmb_shear_ratio(K[4], K[2], length), length, mass->bending[1]);
+}
+
+/* [-] of a pipe without its joint in the mass and in the inertia about the axis that move with it. */
+static void shares_of(const dmb_pipe_def *def, const dmb_pipe_section *section, double share[2])
+{
+    const double length = dmb_pipe_body_length(def);
+    dmb_rigid_part joint;
+    dmb_joint_of(def, &joint);
+    share[0] = section->mass * length / (section->mass * length + joint.mass);
+    share[1] = section->inertia[0] * length / (section->inertia[0] * length + joint.inertia[0]);
+}
+
+/* ---- Type -------------------------------------------------------------------------------------------------------- */
+
+void dmb_element_type_of(const dmb_pipe_def *def, const double arm[2], double damping_time, dmb_element_type *type)
+{
+    const double L = dmb_pipe_body_length(def) / def->elements;
+    dmb_pipe_section section;
+    const double *K = section.stiffness;
+    double share[2];
+    memset(type, 0, sizeof *type);
+    dmb_section_of(def, &section);
+    type->length = L;
+    for (int i = 0; i < 6; ++i) {
+        type->strain_stiffness[i] = K[i];
+        type->stiffness[i] = K[i] / L;
+    }
+    type->stiffness[1] = dmb_corrected_shear(K[5], K[1], L) / L;
+    type->stiffness[2] = dmb_corrected_shear(K[4], K[2], L) / L;
+    sideways_strain(K[5], K[1], L, &type->coupling[0], &type->bend[0]);
+    sideways_strain(K[4], K[2], L, &type->coupling[1], &type->bend[1]);
+    type->damping_time = damping_time;
+    type->rest[0] = L;
+    for (int i = 0; i < 3; ++i) type->rest[3 + i] = L * def->curvature[i];
+    type->arm[0] = arm[0];
+    type->arm[1] = arm[1];
+    shares_of(def, &section, share);
+    dmb_beam_mass_of(&section, L, share, &type->mass);
+    type->mass_per_metre = section.mass;
+    type->diameter = def->outer_diameter;
 }

@@ -3,7 +3,7 @@
 #define DMB_MODEL_SECTION_H
 
 #include "drillmbd/model.h"
-
+#include "element/element_type.h"
 typedef struct dmb_pipe_section {
     double stiffness[6]; /* [N, N, N, N m2, N m2, N m2] EA, GA_y, GA_z, GJ, EI_y, EI_z */
     double mass;         /* [kg/m] */
@@ -33,5 +33,21 @@ void dmb_bit_body_of(const dmb_bit_def *def, dmb_rigid_part *part);
 
 /* [-] share of a pipe's weight that is left in the fluid inside and outside it: 1 - rho_fluid/rho. */
 double dmb_buoyancy_factor(const dmb_pipe_def *def, double fluid_density);
+
+/* Constants of a flexible element: stiffness and mass. */
+
+/* 12 EI/(GA L^2): shear over bending flexibility of an element. */
+double dmb_shear_ratio(double EI, double GA, double length);
+
+/* GA* of 1/GA* = 1/GA + L^2/(12 EI), which makes the element's linear statics exact at its nodes. */
+double dmb_corrected_shear(double EI, double GA, double length);
+
+/* Sideways: consistent mass with the cubic shapes of a Timoshenko beam (THEORY 3), rotary inertia included. Along and
+ * around: half way from the consistent mass of straight shapes to a lumped one at share 1; share [-]: of the pipe alone
+ * in the mass and in the inertia about the axis that move with it, tool joints included, shape (2). */
+void dmb_beam_mass_of(const dmb_pipe_section *section, double length, const double share[2], dmb_beam_mass *mass);
+
+/* The type of an element of a pipe between rigid arms [m]. damping_time [s] is that of the pipe, or 0. */
+void dmb_element_type_of(const dmb_pipe_def *def, const double arm[2], double damping_time, dmb_element_type *type);
 
 #endif

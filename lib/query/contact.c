@@ -2,11 +2,11 @@
 #include <math.h>
 
 #include "math/vec3.h"
-#include "query/ask.h"
-#include "system/wall_contact.h"
+#include "sim/access.h"
+#include "system/assemble/wall_contact.h"
 
 DMB_DECLARE_STRUCT(dmb_contact)
-DMB_DECLARE_STRUCT(dmb_contact_sum)
+DMB_DECLARE_STRUCT(dmb_contact_total)
 
 static uint64_t site_count(const dmb_scene *scene)
 {
@@ -56,10 +56,10 @@ int32_t dmb_query_contact(const dmb_sim *sim, uint32_t site, dmb_contact *contac
     return dmb_contact_write(contact, &answer);
 }
 
-int32_t dmb_query_contact_sum(const dmb_sim *sim, dmb_contact_sum *sum)
+int32_t dmb_query_contact_total(const dmb_sim *sim, dmb_contact_total *sum)
 {
     const int32_t status = dmb_ask(sim, sum);
-    dmb_contact_sum answer = {0};
+    dmb_contact_total answer = {0};
     if (status < 0) return status;
     for (uint32_t i = 0; i < site_count(sim->scene); i++) {
         dmb_site_force force;
@@ -71,5 +71,5 @@ int32_t dmb_query_contact_sum(const dmb_sim *sim, dmb_contact_sum *sum)
         answer.friction[1] += force.friction[1];
         answer.deepest = fmax(answer.deepest, force.penetration);
     }
-    return dmb_contact_sum_write(sum, &answer);
+    return dmb_contact_total_write(sum, &answer);
 }

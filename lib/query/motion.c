@@ -1,11 +1,39 @@
 #include "math/mat6.h"
-#include "query/ask.h"
+#include "math/vec3.h"
 #include "query/interpolation.h"
+#include "sim/access.h"
+DMB_DECLARE_STRUCT(dmb_pose)
+
+int32_t dmb_query_pose(const dmb_sim *sim, dmb_place place, dmb_pose *pose)
+{
+    int32_t status = dmb_ask(sim, pose);
+    dmb_material_point point;
+    dmb_material_point_pose found;
+    dmb_pose answer = {0};
+    if (status == DMB_OK) status = dmb_material_point_of(sim, place, &point);
+    if (status < 0) return status;
+    dmb_material_point_pose_of(sim->scene, &sim->now, &point, &found);
+    dmb_vec3_copy(found.position, answer.position);
+    dmb_mat3_copy(found.rotation, answer.rotation);
+    dmb_vec3_copy(found.displacement, answer.displacement);
+    answer.depth = dmb_material_point_depth(sim->scene, &sim->now, &point, found.position);
+    return dmb_pose_write(pose, &answer);
+}
+
+int32_t dmb_query_rotation(const dmb_sim *sim, dmb_place place, double *angle)
+{
+    int32_t status = dmb_ask(sim, angle);
+    dmb_material_point point;
+    if (status == DMB_OK) status = dmb_material_point_of(sim, place, &point);
+    if (status < 0) return status;
+    *angle = dmb_material_point_turn(&sim->now, &point);
+    return DMB_OK;
+}
 
 DMB_DECLARE_STRUCT(dmb_motion)
 
 /* World axes: R u, R w; the acceleration of a point is R (a_u + w x u), its rotation's R a_w. */
-static void to_world(const dmb_spot_motion *body, const double R[9], dmb_motion *out)
+static void to_world(const dmb_material_point_motion *body, const double R[9], dmb_motion *out)
 {
     const double *v = body->velocity, *a = body->acceleration;
     double total[3];
@@ -20,18 +48,18 @@ static void to_world(const dmb_spot_motion *body, const double R[9], dmb_motion 
 int32_t dmb_query_motion(const dmb_sim *sim, dmb_place place, dmb_motion *motion)
 {
     int32_t status = dmb_ask(sim, motion);
-    dmb_spot spot;
-    dmb_spot_pose pose;
-    dmb_spot_motion body;
+    dmb_material_point point;
+    dmb_material_point_pose pose;
+    dmb_material_point_motion body;
     dmb_motion answer;
     if (status == DMB_OK) status = dmb_motion_read(&answer, motion);
     if (status < 0) return status;
     if (answer.frame != DMB_FRAME_WORLD && answer.frame != DMB_FRAME_BODY) return DMB_ERR_VALUE;
-    status = dmb_spot_of(sim, place, &spot);
+    status = dmb_material_point_of(sim, place, &point);
     if (status < 0) return status;
-    dmb_spot_motion_of(sim->scene, &sim->now, &spot, &body);
+    dmb_material_point_motion_of(sim->scene, &sim->now, &point, &body);
     if (answer.frame == DMB_FRAME_WORLD) {
-        dmb_spot_pose_of(sim->scene, &sim->now, &spot, &pose);
+        dmb_material_point_pose_of(sim->scene, &sim->now, &point, &pose);
         to_world(&body, pose.rotation, &answer);
     } else {
         dmb_vec6_copy(body.velocity, answer.velocity);

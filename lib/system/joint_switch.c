@@ -1,16 +1,20 @@
-/* Joints that lock, open and close in a run. Speeds that the new equations do not allow change by the impulse of least
- * kinetic energy, M (v+ - v-) + B^T impulse = 0, B v+ + rate = 0. */
+#include "system/joint_switch.h"
+
 #include <string.h>
 
 #include "math/vec3.h"
-#include "system/cluster.h"
-#include "system/constraint_rows.h"
-#include "system/energy.h"
-#include "system/joint_state.h"
-#include "system/solve.h"
+#include "sim/layout.h"
+#include "system/assemble/drives.h"
+#include "system/constrain/assembly.h"
+#include "system/constrain/cluster.h"
+#include "system/constrain/constraint_rows.h"
+#include "system/assemble/energy.h"
+#include "system/constrain/joint_edge.h"
+#include "system/constrain/joint_state.h"
+#include "system/solve/solve.h"
 #include "system/start.h"
 
-/* [m, -] misfit with which a joint may still close. */
+/* [m, -] violation with which a joint may still close. */
 #define DMB_CLOSING_MISFIT 1e-6
 
 static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
@@ -46,10 +50,10 @@ static int holds_anew(const dmb_scene *scene, const dmb_constraint *c, uint32_t 
 static int32_t check_rows(dmb_sim *sim, const dmb_constraint *c)
 {
     for (uint32_t r = c->row; r < c->row + c->rows; r++) {
-        const double misfit = fabs(sim->constraint_value[r]);
-        if (misfit <= DMB_CLOSING_MISFIT) continue;
-        sim->linked_mode->row = r;
-        sim->linked_mode->misfit = misfit;
+        const double violation = fabs(sim->constraint_value[r]);
+        if (violation <= DMB_CLOSING_MISFIT) continue;
+        sim->reduced_mode->row = r;
+        sim->reduced_mode->violation = violation;
         dmb_clusters_explain(sim, "its parts are apart, so it cannot close");
         return DMB_ERR_GEOMETRY;
     }
@@ -171,11 +175,11 @@ int32_t dmb_joint_switch(dmb_sim *sim, uint32_t joint, int32_t state)
     double jump[2] = {0.0, 0.0};
     dmb_message name;
     if (sim->joint_state[joint] == state) return DMB_OK;
-    dmb_state_keep(sim);
-    sim->linked_mode->row = UINT32_MAX;
+    dmb_state_back_up(sim);
+    sim->reduced_mode->row = UINT32_MAX;
     const int32_t status = change(sim, joint, state, jump);
     if (status < 0) {
-        dmb_state_bring_back(sim);
+        dmb_state_restore(sim);
         if (sim->message.text[0] == '\0') dmb_clusters_explain(sim, "its equations cannot be satisfied");
         return status;
     }

@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-#include "system/drives.h"
-#include "system/energy.h"
-#include "system/joint_state.h"
+#include "system/assemble/drives.h"
+#include "system/assemble/energy.h"
+#include "system/constrain/joint_state.h"
 
 static double drive_power(const dmb_sim *sim, const dmb_configuration *c, uint32_t i)
 {

@@ -4,7 +4,7 @@
 #ifndef DMB_SYSTEM_LEDGER_H
 #define DMB_SYSTEM_LEDGER_H
 
-#include "system/evaluation.h"
+#include "system/assemble/evaluation.h"
 
 /* Sets the ledger to zero at the present state (now) with the powers of the evaluation. */
 void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation);

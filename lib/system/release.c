@@ -4,8 +4,8 @@
 
 #include "element/beam.h"
 #include "math/so3.h"
-#include "system/solve.h"
-#include "system/wall_contact.h"
+#include "system/solve/solve.h"
+#include "system/assemble/wall_contact.h"
 
 static int opens(const dmb_sim *sim, uint32_t s)
 {
@@ -82,13 +82,13 @@ int32_t dmb_released_acceleration(const dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     dmb_evaluation mass = *evaluation;
-    const int32_t multipliers = sim->linked_mode->multipliers;
-    sim->linked_mode->multipliers = 0;
+    const int32_t multipliers = sim->reduced_mode->multipliers;
+    sim->reduced_mode->multipliers = 0;
     mass.mass_factor = 1.0;
     mass.velocity_factor = 0.0;
     mass.tangent = 1;
     const int32_t status = dmb_factor_mass(&mass);
     if (status >= 0) released_forces(sim);
-    sim->linked_mode->multipliers = multipliers;
+    sim->reduced_mode->multipliers = multipliers;
     return status < 0 ? status : DMB_OK;
 }

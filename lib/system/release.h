@@ -5,7 +5,7 @@
 #ifndef DMB_SYSTEM_RELEASE_H
 #define DMB_SYSTEM_RELEASE_H
 
-#include "system/evaluation.h"
+#include "system/assemble/evaluation.h"
 
 /* 1 if a ring meets or leaves the wall between now and trial, or another side of it. O(number of sites). */
 int32_t dmb_contact_changes(const dmb_sim *sim);

@@ -3,13 +3,17 @@
 #include <string.h>
 
 #include "math/so3.h"
-#include "system/bit.h"
-#include "system/cluster.h"
-#include "system/constraint_rows.h"
-#include "system/joint_state.h"
+#include "sim/layout.h"
+#include "system/assemble/bit.h"
+#include "system/assemble/drives.h"
+#include "system/constrain/assembly.h"
+#include "system/constrain/cluster.h"
+#include "system/constrain/constraint_rows.h"
+#include "system/constrain/joint_edge.h"
+#include "system/constrain/joint_state.h"
 #include "system/ledger.h"
-#include "system/owner.h"
-#include "system/solve.h"
+#include "sim/node.h"
+#include "system/solve/solve.h"
 
 static void described_pose(dmb_sim *sim)
 {
@@ -61,7 +65,7 @@ static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
     evaluation->pseudo_factor = 1.0;
     evaluation->dynamic = 1;
     evaluation->tangent = 1;
-    sim->linked_mode->row = UINT32_MAX;
+    sim->reduced_mode->row = UINT32_MAX;
     memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
 }
 
@@ -89,9 +93,9 @@ static void explain(dmb_sim *sim, const dmb_evaluation *evaluation, int32_t stat
         const dmb_owner owner = dmb_owner_of_element(sim->scene, evaluation->element);
         dmb_message_set(&sim->message, "%s %u, pipe %u: relative rotation in one element above 2.5 rad", owner.kind,
                         owner.index, owner.pipe);
-    } else if (status == DMB_ERR_CALLBACK && sim->linked_mode->row != UINT32_MAX) {
+    } else if (status == DMB_ERR_CALLBACK && sim->reduced_mode->row != UINT32_MAX) {
         dmb_message owner;
-        dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, sim->linked_mode->row), &owner);
+        dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, sim->reduced_mode->row), &owner);
         dmb_message_set(&sim->message, "%s: its callback failed or gave a value beyond +-1e30 at time %g",
                         owner.text, evaluation->time);
     } else if (status == DMB_ERR_CALLBACK) {

@@ -2,7 +2,7 @@
 #ifndef DMB_SYSTEM_START_H
 #define DMB_SYSTEM_START_H
 
-#include "state.h"
+#include "sim/sim.h"
 
 /* Described poses and speeds, speeds projected onto the allowed motion, consistent accelerations, ledger at zero. Returns
  * DMB_OK, DMB_NOTE_PROJECTED with a message, or why there is no start. */

@@ -6,9 +6,8 @@
 #include <string.h>
 
 #include "drillmbd/drillmbd.h"
-#include "math/eigen.h"
-#include "math/fill_order.h"
-#include "math/row_rank.h"
+#include "math/bridge_lapacke.h"
+#include "math/bridge_cholmod.h"
 
 size_t dmb_eigen_work(size_t n) { (void)n; return 1; }
 size_t dmb_eigen_general_work(size_t n) { (void)n; return 1; }

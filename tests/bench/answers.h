@@ -9,7 +9,7 @@ static int32_t scene_ask(const scene *s, const dmb_sim *sim, double values[2])
 {
     const dmb_place tip = dmb_station(s->string, s->pipes - 1, 1.0);
     dmb_motion motion = dmb_motion_default();
-    dmb_contact_sum sum = dmb_contact_sum_default();
+    dmb_contact_total sum = dmb_contact_total_default();
     dmb_drive_state drive = dmb_drive_state_default();
     dmb_pose pose = dmb_pose_default();
     int32_t status = DMB_OK;
@@ -25,7 +25,7 @@ static int32_t scene_ask(const scene *s, const dmb_sim *sim, double values[2])
         values[1] = 1e3 * pose.position[2];
     } else {
         status = dmb_query_rotation(sim, tip, &values[0]);
-        if (status >= 0) status = dmb_query_contact_sum(sim, &sum);
+        if (status >= 0) status = dmb_query_contact_total(sim, &sum);
         if (status >= 0) status = dmb_query_pose(sim, tip, &pose);
         values[1] = s->kind == SCENE_B_COSINE ? sum.normal_force : 1e3 * pose.position[2];
     }

@@ -139,11 +139,11 @@ static void put_work(result_row *r, const loop *l, int worst)
 {
     const dmb_step_report *const report = &l->reports[worst];
     row_number(r, "worst_at", (worst + 1) * FEATURES_STEP, 6);
-    row_number(r, "worst_iterations", report->iterations, 6);
+    row_number(r, "most_iterations", report->iterations, 6);
     row_number(r, "worst_steps", report->steps, 6);
     row_number(r, "worst_rejected", report->rejected, 6);
     row_number(r, "rejected", (double)l->statistics.rejected, 6);
-    row_number(r, "limited", (double)l->statistics.limited, 6);
+    row_number(r, "limited", (double)l->statistics.limited_steps, 6);
 }
 
 /* Sorts the residuals. plain: without a bound on the work. */
@@ -152,7 +152,7 @@ static void put_errors(result_row *r, loop *l, const loop *plain)
     qsort(l->residual, LOOP_STEPS, sizeof *l->residual, compare_doubles);
     row_number(r, "residual_median", quantile(l->residual, LOOP_STEPS, 0.5), 3);
     row_number(r, "residual_99", quantile(l->residual, LOOP_STEPS, 0.99), 3);
-    row_number(r, "residual_largest", l->statistics.worst_residual, 3);
+    row_number(r, "residual_largest", l->statistics.largest_residual, 3);
     row_number(r, "rotation", l->answers[0], 10);
     row_number(r, "wall_force", l->answers[1], 6);
     row_number(r, "rotation_to_plain", l->answers[0] - plain->answers[0], 3);
@@ -326,7 +326,7 @@ static void report_rig(const scene *s, const variant *v, const method *how, cons
     row_number(&r, "repeats", how->repeats, 3);
     row_number(&r, "pipes", s->pipes, 9);
     row_number(&r, "sites", info->contact_sites, 9);
-    row_number(&r, "freedoms", info->freedoms, 9);
+    row_number(&r, "degrees_of_freedom", info->degrees_of_freedom, 9);
     row_number(&r, "sim_bytes", bytes, 12);
     row_number(&r, "model_bytes", (double)info->model_bytes, 12);
     row_number(&r, "sim_bytes_per_pipe", bytes / s->pipes, 5);

@@ -84,7 +84,7 @@ static void walk(limit_scene *s, result *r)
         r->steps += report.steps;
         r->rejected += report.rejected;
         r->iterations += report.iterations;
-        if (r->status >= 0 && report.worst > r->worst) r->worst = report.worst;
+        if (r->status >= 0 && report.most_iterations > r->worst) r->worst = report.most_iterations;
         r->finite = watch(s, &e, r);
         r->used_up = r->iterations > MOST_ITERATIONS;
     }

@@ -127,7 +127,7 @@ typedef struct drifted {
     double last;    /* [-] change at the end */
     double balance; /* [-] of the ledger at the end */
     double ortho;   /* [-] largest element of R^T R - 1 */
-    double misfit;  /* [m] of joints; of strings held at the rig end, of its place across */
+    double violation;  /* [m] of joints; of strings held at the rig end, of its place across */
     double crept;   /* [m] of the far end along the hole in the second half */
     double half;    /* [m] where it was after the first half */
 } drifted;
@@ -166,7 +166,7 @@ static void look(const limit_scene *s, int sample, drifted *d)
     d->last = (now - d->first) / d->scale;
     d->energy = fmax(d->energy, fabs(d->last));
     d->balance = e.balance / d->scale;
-    d->misfit = fmax(d->misfit, statistics.misfit);
+    d->violation = fmax(d->violation, statistics.violation);
     if (drift_pipes > 0) look_at_string(s, sample, d);
 }
 
@@ -195,28 +195,28 @@ static void print_drift(const drifter *of, const limit_scene *s, const drifted *
     if (s->sim) (void)dmb_query_statistics(s->sim, &n);
     const double mean = (double)n.iterations / fmax(1.0, (double)n.steps);
     printf("drift=%s dt=%g radius=%g status=%s t=%.6g steps=%llu iterations=%.3g worst=%u rejected=%llu energy=%.1e "
-           "energy_end=%.1e balance=%.1e orthonormal=%.1e misfit=%.1e crept=%.3e\n",
+           "energy_end=%.1e balance=%.1e orthonormal=%.1e violation=%.1e crept=%.3e\n",
            of->name, of->step, of->radius, dmb_status_name(s->status), s->sim ? dmb_sim_time(s->sim) : 0.0,
-           (unsigned long long)n.steps, mean, (unsigned)n.worst_iterations, (unsigned long long)n.rejected, d->energy,
-           d->last, d->balance, d->ortho, d->misfit, d->crept);
+           (unsigned long long)n.steps, mean, (unsigned)n.most_iterations, (unsigned long long)n.rejected, d->energy,
+           d->last, d->balance, d->ortho, d->violation, d->crept);
     fflush(stdout);
     fprintf(csv, "%s,%.9g,%g,%s,%llu,%.6g,%u,%llu,%.3e,%.3e,%.3e,%.3e,%.3e,%.6e\n", of->name, of->step, of->radius,
-            dmb_status_name(s->status), (unsigned long long)n.steps, mean, (unsigned)n.worst_iterations,
-            (unsigned long long)n.rejected, d->energy, d->last, d->balance, d->ortho, d->misfit, d->crept);
+            dmb_status_name(s->status), (unsigned long long)n.steps, mean, (unsigned)n.most_iterations,
+            (unsigned long long)n.rejected, d->energy, d->last, d->balance, d->ortho, d->violation, d->crept);
     fprintf(table, "| %s | %g | %g | %.2f/%u | %llu | %.1e | %.1e | %.1e | %.1e | %.1e | %.1e |\n", of->name, of->step,
-            of->radius, mean, (unsigned)n.worst_iterations, (unsigned long long)n.rejected, d->energy, d->last,
-            d->balance, d->ortho, d->misfit, d->crept);
+            of->radius, mean, (unsigned)n.most_iterations, (unsigned long long)n.rejected, d->energy, d->last,
+            d->balance, d->ortho, d->violation, d->crept);
 }
 
 /* only: name of the one to run, or NULL for all. */
 static int drift(FILE *csv, FILE *table, const char *only)
 {
     int failed = 0;
-    fputs("drift,dt,radius,status,steps,iterations,worst,rejected,energy,energy_end,balance,orthonormal,misfit,crept\n",
+    fputs("drift,dt,radius,status,steps,iterations,worst,rejected,energy,energy_end,balance,orthonormal,violation,crept\n",
           csv);
     fputs(
         "\n| scene | dt s | r | iterations, worst | rejected | energy, most | at the end | balance | off orthonormal | "
-        "misfit m | crept m |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+        "violation m | crept m |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
         table);
     for (size_t i = 0; i < sizeof drifters / sizeof *drifters; ++i) {
         limit_scene s;

@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "analysis/linearise.h"
-#include "base/allocator.h"
+#include "analysis/linear/linearise.h"
+#include "base/memory.h"
 #include "scenes.h"
 #include "yardstick.h"
 

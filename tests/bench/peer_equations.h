@@ -2,7 +2,7 @@
  *
  *     u' = R v         q' = q o omega/2         residual(u, q, v, v') = 0
  *
- * The residual and its tangents are the library's own (system/evaluation.h), so that what differs is the integrator
+ * The residual and its tangents are the library's own (system/assemble/evaluation.h), so that what differs is the integrator
  * alone. Unknowns of a node: displacement u (3, world), quaternion q (4), body-frame velocity (v, omega) (6). Nodes
  * that drives and guides hold altogether move as the library prescribes; their unknowns stand still. Nodes held in part
  * are refused.
@@ -20,7 +20,8 @@
 
 #include "math/block_tridiagonal.h"
 #include "math/se3.h"
-#include "system/evaluation.h"
+#include "system/assemble/drives.h"
+#include "system/assemble/evaluation.h"
 
 enum { PEER_U = 0, PEER_Q = 3, PEER_V = 7, PEER_NODE = 13 };
 

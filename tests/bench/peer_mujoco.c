@@ -180,7 +180,7 @@ static double press(const mjModel *model, mjData *data)
 
 /* ---- A run ------------------------------------------------------------------------------------------------------- */
 
-static double contact_sum(const mjModel *model, const mjData *data)
+static double contact_total(const mjModel *model, const mjData *data)
 {
     double sum = 0.0, force[6];
     for (int i = 0; i < data->ncon; i++) {
@@ -204,7 +204,7 @@ static void ask_chain(const mjModel *model, mjData *data, const chain_method *ho
     for (int i = 0; i < BODIES; i++) rotation += data->qpos[3 * i]; /* joints bend little: turns add up */
     values[0] = rotation;
     values[1] = 1e3 * (data->xipos[3 * BODIES + 2] + 0.5 * BODY_LENGTH * data->xmat[9 * BODIES + 6]);
-    if (kind == SCENE_B_COSINE) values[1] = how->wall == WALL_LAW ? press(model, data) : contact_sum(model, data);
+    if (kind == SCENE_B_COSINE) values[1] = how->wall == WALL_LAW ? press(model, data) : contact_total(model, data);
 }
 
 /* MuJoCo would write a file MUJOCO_LOG.TXT; what it warns of is counted in its data. */

@@ -56,10 +56,10 @@ static int32_t sideways(const scene *s, const dmb_sim *sim, double *square)
 
 static int32_t take_sample(const scene *s, const dmb_sim *sim, double sums[MEANS])
 {
-    dmb_contact_sum contact = dmb_contact_sum_default();
+    dmb_contact_total contact = dmb_contact_total_default();
     dmb_drive_state drive = dmb_drive_state_default();
     double square = 0.0;
-    int32_t status = dmb_query_contact_sum(sim, &contact);
+    int32_t status = dmb_query_contact_total(sim, &contact);
     if (status >= 0) status = dmb_query_drive(sim, s->turn, &drive);
     if (status >= 0) status = sideways(s, sim, &square);
     sums[0] += contact.normal_force;

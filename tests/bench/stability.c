@@ -119,9 +119,9 @@ static int32_t settle(trial *t)
 static void print_step(const trial *t, const dmb_step_report *r)
 {
     dmb_energy e = dmb_energy_default();
-    dmb_contact_sum sum = dmb_contact_sum_default();
+    dmb_contact_total sum = dmb_contact_total_default();
     (void)dmb_query_energy(t->sim, &e);
-    (void)dmb_query_contact_sum(t->sim, &sum);
+    (void)dmb_query_contact_total(t->sim, &sum);
     printf("t=%.6f status=%d steps=%u iterations=%u rejected=%u residual=%.1e kinetic=%.4g balance=%.2e closed=%u "
            "normal=%.4g deepest_mm=%.3g\n",
            dmb_sim_time(t->sim), (int)t->status, (unsigned)r->steps, (unsigned)r->iterations, (unsigned)r->rejected,
@@ -228,15 +228,15 @@ static void count_finished(const trial *t)
     if (!(balance <= 0.5))
         printf("unbalanced=%u balance=%.2g walk=%s bound=%u dt=%.3g limited=%llu of %llu steps\n",
                (unsigned)t->d->number, balance, walk_names[t->d->walk], (unsigned)t->d->bound, t->d->step,
-               (unsigned long long)s.limited, (unsigned long long)s.steps);
+               (unsigned long long)s.limited_steps, (unsigned long long)s.steps);
     counts.steps += s.steps;
     counts.iterations += s.iterations;
     counts.rejected += s.rejected;
-    counts.limited += s.limited;
-    if (s.worst_iterations > counts.worst) counts.worst = s.worst_iterations;
+    counts.limited += s.limited_steps;
+    if (s.most_iterations > counts.worst) counts.worst = s.most_iterations;
     if (t->verbose)
         printf("steps=%llu iterations=%llu rejected=%llu worst=%u balance=%.2e\n", (unsigned long long)s.steps,
-               (unsigned long long)s.iterations, (unsigned long long)s.rejected, (unsigned)s.worst_iterations, balance);
+               (unsigned long long)s.iterations, (unsigned long long)s.rejected, (unsigned)s.most_iterations, balance);
 }
 
 /* Speed controllers hold nothing at rest: such strings start as described, on the axis of the hole. */
@@ -314,10 +314,10 @@ static void print_summary(const choice *c)
         c->second ? 2 : 1, c->seed, SCENES, (unsigned)counts.finished, (unsigned)counts.retried,
         (unsigned)counts.failed, (unsigned)counts.not_finite, (unsigned)counts.unequal, (unsigned)counts.unbalanced);
     printf("static_newton=%u static_relaxed=%u static_failed=%u static_none=%u static_iterations=%llu "
-           "static_worst_iterations=%u ",
+           "static_most_iterations=%u ",
            (unsigned)counts.newton, (unsigned)counts.relaxed, (unsigned)counts.static_failed,
            (unsigned)counts.static_none, (unsigned long long)counts.static_iterations, (unsigned)counts.worst_static);
-    printf("steps=%llu cut=%llu rejected=%llu limited=%llu halved=%llu iterations=%.3g worst_iterations=%u ",
+    printf("steps=%llu cut=%llu rejected=%llu limited=%llu halved=%llu iterations=%.3g most_iterations=%u ",
            (unsigned long long)counts.steps, (unsigned long long)counts.cut, (unsigned long long)counts.rejected,
            (unsigned long long)counts.limited, (unsigned long long)counts.halved,
            (double)counts.iterations / fmax(1.0, (double)counts.steps), (unsigned)counts.worst);

@@ -158,7 +158,7 @@ def loop(data):
                                                               ("median", "99", "99.9", "largest")] +
                      [", ".join(number(row[f"U_{q}"]) for q in ("median", "99", "99.9", "largest")),
                       number(row["of_step_99.9"]), number(row["of_step_largest"]),
-                      f"{row['worst_iterations']} in {row['worst_steps']}, {row['worst_rejected']}",
+                      f"{row['most_iterations']} in {row['worst_steps']}, {row['worst_rejected']}",
                       number(row["iterations"]), row["rejected"], row["limited"]])
         answers.append([row["variant"]] + [number(row[f"residual_{q}"], 2) for q in ("median", "99", "largest")] +
                        [number(row["error"], 3), number(row["rotation_to_plain"], 2),

@@ -227,7 +227,7 @@ static void call_response(dmb_sim *sim, const scene *s, answer *a)
     a->status = dmb_analysis_response(sim, &options, &input, 1, &output, 1, &response);
     if (a->status < 0) assert_null(response);
     if (response == NULL) return;
-    must(dmb_response_shape(response, shape));
+    must(dmb_response_dimensions(response, shape));
     must(dmb_response_transfer(response, 0, 0, values));
     say(a, shape[0]);
     for (int i = 0; i < 20; i++) say(a, values[i]);
@@ -236,13 +236,13 @@ static void call_response(dmb_sim *sim, const scene *s, answer *a)
 
 static void call_sine(dmb_sim *sim, const scene *s, answer *a)
 {
-    dmb_sine_options options = dmb_sine_options_default();
+    dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     const dmb_output output = middle(s);
     double amplitudes[64] = {0.0};
     options.windows = 3;
     options.harmonics = options.periods = 1;
     options.steps_per_period = 16;
-    a->status = dmb_analysis_sine(sim, 50.0, &options, &output, 1, amplitudes, NULL);
+    a->status = dmb_analysis_stepped_sine(sim, 50.0, &options, &output, 1, amplitudes, NULL);
     for (int i = 0; i < 4; i++) say(a, amplitudes[i]);
 }
 
@@ -270,7 +270,7 @@ static void call_check(dmb_sim *sim, answer *a)
     dmb_check_report report = dmb_check_report_default();
     char text[4096] = "";
     a->status = dmb_analysis_check(sim, &report);
-    say(a, report.freedoms);
+    say(a, report.degrees_of_freedom);
     say(a, report.rank);
     if (a->status >= 0) a->status = dmb_analysis_check_text(sim, text, sizeof text, NULL);
     say(a, (double)strlen(text));

@@ -11,7 +11,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "base/check.h"
+#include "base/value_check.h"
 #include "model/model.h"
 
 /* ---- What there is to describe ----------------------------------------------------------------------------------- */
@@ -460,10 +460,10 @@ static void expect_finite_scene(const dmb_scene *s)
         for (int k = 0; k < 6; ++k) assert_true(s->types[i].stiffness[k] > 0.0);
         assert_true(s->types[i].mass.axial[0] > 0.0 && s->types[i].mass.bending[0][0] > 0.0);
     }
-    for (size_t i = 0; i < s->lump_count; ++i) {
-        expect_finite(&s->lumps[i].mass, 1);
-        expect_finite(s->lumps[i].moment, 3);
-        expect_finite(s->lumps[i].inertia, 6);
+    for (size_t i = 0; i < s->rigid_mass_count; ++i) {
+        expect_finite(&s->rigid_masses[i].mass, 1);
+        expect_finite(s->rigid_masses[i].moment, 3);
+        expect_finite(s->rigid_masses[i].inertia, 6);
     }
     for (size_t i = 0; i < s->site_count; ++i) {
         expect_finite(&s->sites[i].offset, 4);

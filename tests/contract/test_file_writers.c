@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "sim_test.h"
-#include "state.h"
+#include "sim/sim.h"
 
 /* ---- Calls that fail: these stand before those of the C library ------------------------------------------------------ */
 
@@ -432,7 +432,7 @@ static void response_reads_back(void **state)
     uint32_t shape[3];
     double frequencies[8], values[3][2][16];
     open_scene(&s);
-    must(dmb_response_shape(s.response, shape));
+    must(dmb_response_dimensions(s.response, shape));
     assert_true(shape[0] == 5 && shape[1] == 1 && shape[2] == 2);
     must(dmb_response_frequencies(s.response, frequencies));
     for (uint32_t k = 0; k < 2; k++) {

@@ -78,7 +78,7 @@ static void bar_between_two_hinges(void **state)
     const dmb_id body = add_bar(&s, &only);
     (void)add_hinge(&s, "near", DMB_JOINT_REVOLUTE, pin_ground(0.0, 0.0), pin_on(body, -0.5));
     (void)add_hinge(&s, "far", DMB_JOINT_REVOLUTE, pin_ground(1.001, 0.0), pin_on(body, 0.5));
-    expect_no_start(&s, DMB_ERR_GEOMETRY, "joint ", "misfit");
+    expect_no_start(&s, DMB_ERR_GEOMETRY, "joint ", "violation");
 }
 
 /* A crank whose angle is given beyond what the other bars allow. */
@@ -95,7 +95,7 @@ static void initial_angle_out_of_reach(void **state)
     (void)add_joint(&s, &first);
     (void)add_hinge(&s, "pin", DMB_JOINT_REVOLUTE, pin_on(a, 0.25), pin_on(b, -0.5));
     (void)add_hinge(&s, "end", DMB_JOINT_REVOLUTE, pin_ground(1.5, 0.0), pin_on(b, 0.5));
-    expect_no_start(&s, DMB_ERR_GEOMETRY, "joint ", "misfit");
+    expect_no_start(&s, DMB_ERR_GEOMETRY, "joint ", "violation");
 }
 
 /* Two speeds given for coordinates that hang together. */
@@ -323,7 +323,7 @@ static void constraint_that_cannot_hold(void **state)
     def.place[0] = dmb_station(add_body(&s, &ball), 0, 0.0);
     def.callback = impossible;
     must_model(&s, dmb_model_add_constraint(s.model, &def, NULL));
-    expect_no_start(&s, DMB_ERR_GEOMETRY, "constraint 0", "misfit = 1");
+    expect_no_start(&s, DMB_ERR_GEOMETRY, "constraint 0", "violation = 1");
 }
 
 /* ---- Driven out of reach ----------------------------------------------------------------------------------------- */
@@ -384,7 +384,7 @@ static void advance_beyond_its_reach(void **state)
     const double time = dmb_sim_time(p.s.sim);
     assert_true(dmb_sim_advance(p.s.sim, 1.0, NULL) < 0);
     check_close("once more: not much further [s]", dmb_sim_time(p.s.sim), time, 1e-6);
-    check_below("misfit", statistics_of(&p.s).misfit, 1e-9);
+    check_below("violation", statistics_of(&p.s).violation, 1e-9);
     must(&p.s, dmb_sim_set_joint(p.s.sim, p.pin, DMB_JOINT_OPEN));
     must(&p.s, dmb_sim_advance(p.s.sim, time + 1e-3, NULL));
     rig_close(&p.s);
@@ -402,9 +402,9 @@ static void bounded_work_beyond_its_reach(void **state)
     assert_true(dmb_sim_create(p.s.model, &options, &p.s.sim) >= 0);
     for (int i = 0; i < 1000 && status >= 0; i++) {
         status = dmb_sim_step(p.s.sim, step, NULL);
-        const double misfit = statistics_of(&p.s).misfit;
-        if (!(misfit <= 1e-7))
-            fail_msg("misfit %g at %g s, %s", misfit, dmb_sim_time(p.s.sim), dmb_status_name(status));
+        const double violation = statistics_of(&p.s).violation;
+        if (!(violation <= 1e-7))
+            fail_msg("violation %g at %g s, %s", violation, dmb_sim_time(p.s.sim), dmb_status_name(status));
     }
     print_message("    %s at %g s: %s\n", dmb_status_name(status), dmb_sim_time(p.s.sim), dmb_sim_message(p.s.sim));
     expect_stuck(&p.s, status);
@@ -536,11 +536,11 @@ static void driven_through_a_change_point(void **state)
     double worst = 0.0;
     for (int i = 0; i < 3000 && status >= 0; i++) {
         status = dmb_sim_step(s.sim, step, NULL);
-        worst = fmax(worst, statistics_of(&s).misfit);
+        worst = fmax(worst, statistics_of(&s).violation);
     }
     print_message("    %s at %g s (flat at %g s): %s\n", dmb_status_name(status), dmb_sim_time(s.sim), 0.5 * PI,
                   dmb_sim_message(s.sim));
-    check_below("largest misfit", worst, 1e-7);
+    check_below("largest violation", worst, 1e-7);
     if (status < 0) expect_stuck(&s, status);
     rig_close(&s);
 }

@@ -372,7 +372,7 @@ static void methods_agree(void **state)
     (void)state;
     static joint_scene other;
     dmb_joint_state a = dmb_joint_state_default(), b = dmb_joint_state_default();
-    double worst = 0.0, misfit[2];
+    double worst = 0.0, violation[2];
     dmb_sim_options options = scene_options(DMB_METHOD_MULTIPLIERS);
     options.newton_tolerance = 1e-12;
     joint_scene_open(&other, NULL);
@@ -388,11 +388,11 @@ static void methods_agree(void **state)
         worst = fmax(worst, largest_difference(6, a.position, b.position));
         worst = fmax(worst, largest_difference(6, a.speed, b.speed));
     }
-    misfit[0] = statistics_of(&scene.s).misfit;
-    misfit[1] = statistics_of(&other.s).misfit;
+    violation[0] = statistics_of(&scene.s).violation;
+    violation[1] = statistics_of(&other.s).violation;
     check_below("methods apart after 41 steps: coordinates and speeds", worst, 1e-7);
-    check_below("misfit, independent coordinates", misfit[0], 1e-12);
-    check_below("misfit, multipliers", misfit[1], 1e-12);
+    check_below("violation, independent coordinates", violation[0], 1e-12);
+    check_below("violation, multipliers", violation[1], 1e-12);
     rig_close(&other.s);
     close_scene();
 }
@@ -416,7 +416,7 @@ static void advance_holds_its_tolerance(void **state)
     }
     tell("steps of error control in 0.05 s", (double)statistics_of(&scene.s).steps);
     check_below("error control against steps of 5e-5 s: coordinates", worst, 1e-4);
-    check_below("misfit", statistics_of(&scene.s).misfit, 1e-12);
+    check_below("violation", statistics_of(&scene.s).violation, 1e-12);
     rig_close(&other.s);
     close_scene();
 }

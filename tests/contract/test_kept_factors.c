@@ -2,7 +2,7 @@
  * them alone, and what does not go on from the steps that made them forgets them. */
 #include "rig.h"
 
-#include "state.h"
+#include "sim/sim.h"
 
 /* A string of five pipes turned at the rig, falling onto its wall. */
 static void open_string(rig *s, const dmb_sim_options *options)

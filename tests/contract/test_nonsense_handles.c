@@ -36,9 +36,9 @@ static int32_t sim_set_joint(dmb_sim *sim, int missing)
 {
     return missing ? DMB_ERR_NULL : dmb_sim_set_joint(sim, scene.parts.hinge, DMB_JOINT_LOCKED);
 }
-static int32_t sim_carry_over(dmb_sim *sim, int missing)
+static int32_t sim_transfer_state(dmb_sim *sim, int missing)
 {
-    return dmb_sim_carry_over(sim, GIVEN(scene.sim));
+    return dmb_sim_transfer_state(sim, GIVEN(scene.sim));
 }
 static int32_t sim_static(dmb_sim *sim, int missing)
 {
@@ -88,10 +88,10 @@ static int32_t query_contact(dmb_sim *sim, int missing)
     dmb_contact answer = dmb_contact_default();
     return dmb_query_contact(sim, 0, GIVEN(&answer));
 }
-static int32_t query_contact_sum(dmb_sim *sim, int missing)
+static int32_t query_contact_total(dmb_sim *sim, int missing)
 {
-    dmb_contact_sum answer = dmb_contact_sum_default();
-    return dmb_query_contact_sum(sim, GIVEN(&answer));
+    dmb_contact_total answer = dmb_contact_total_default();
+    return dmb_query_contact_total(sim, GIVEN(&answer));
 }
 static int32_t query_kinetic_energy(dmb_sim *sim, int missing)
 {
@@ -161,10 +161,10 @@ static const struct {
     sim_call call;
 } sim_calls[] = {
     {"step", sim_step}, {"advance", sim_advance}, {"set_drive", sim_set_drive}, {"set_joint", sim_set_joint},
-    {"carry_over", sim_carry_over}, {"static", sim_static},
+    {"transfer_state", sim_transfer_state}, {"static", sim_static},
     {"snapshot_size", sim_snapshot_size}, {"snapshot", sim_snapshot}, {"restore", sim_restore}, {"hash", sim_hash},
     {"pose", query_pose}, {"motion", query_motion}, {"rotation", query_rotation}, {"section", query_section},
-    {"contact", query_contact}, {"contact_sum", query_contact_sum}, {"kinetic_energy", query_kinetic_energy},
+    {"contact", query_contact}, {"contact_total", query_contact_total}, {"kinetic_energy", query_kinetic_energy},
     {"energy", query_energy}, {"momentum", query_momentum}, {"drive", query_drive}, {"reaction", query_reaction},
     {"joint", query_joint}, {"multipliers", query_multipliers}, {"multiplier count", query_multiplier_count},
     {"bit", query_bit}, {"statistics", query_statistics}, {"recorder_take", recorder_take},

@@ -45,7 +45,7 @@ INIT(model_options) INIT(environment_def) INIT(term) INIT(wall_def) INIT(string_
 INIT(bit_def) INIT(drive_def) INIT(load_def) INIT(compile_options) INIT(model_info) INIT(sim_options)
 INIT(step_report) INIT(static_options) INIT(static_report) INIT(buckling_options) INIT(path_options) INIT(path_report)
 INIT(pose) INIT(motion) INIT(section) INIT(contact)
-INIT(contact_sum) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state) INIT(statistics) INIT(recorder)
+INIT(contact_total) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state) INIT(statistics) INIT(recorder)
 INIT(allocator) INIT(joint_state) INIT(joint_def) INIT(coupling_def) INIT(constraint_def)
 
 static int32_t call_model_options(void *p)
@@ -215,7 +215,7 @@ CALL(pose, dmb_query_pose(scene.sim, middle(), p))
 CALL(motion, dmb_query_motion(scene.sim, middle(), p))
 CALL(section, dmb_query_section(scene.sim, middle(), p))
 CALL(contact, dmb_query_contact(scene.sim, 0, p))
-CALL(contact_sum, dmb_query_contact_sum(scene.sim, p))
+CALL(contact_total, dmb_query_contact_total(scene.sim, p))
 CALL(energy, dmb_query_energy(scene.sim, p))
 CALL(momentum, dmb_query_momentum(scene.sim, p))
 CALL(drive_state, dmb_query_drive(scene.sim, scene.parts.turning, p))
@@ -248,7 +248,7 @@ static int32_t call_recorder(void *p)
         recorder->channel_count = 1;
         recorder->table = scene.table;
         recorder->capacity = 4;
-        recorder->rows = 0;
+        recorder->row_count = 0;
     }
     const int32_t status = dmb_recorder_write_csv(recorder, "/dev/null");
     assert_int_equal(dmb_recorder_take(recorder, scene.sim), status);
@@ -263,7 +263,7 @@ static const entry entries[] = {
     ENTRY(string_def, 0), ENTRY(pipe_def, 0), ENTRY(body_def, 0), ENTRY(bit_def, 0), ENTRY(drive_def, 0),
     ENTRY(load_def, 0), ENTRY(compile_options, 0), GROWN(sim_options, 96, 0), GROWN(static_options, 40, 0),
     GROWN(model_info, 72, 1), ENTRY(step_report, 1), GROWN(static_report, 40, 1), ENTRY(buckling_options, 0), ENTRY(path_options, 0), ENTRY(path_report, 1), ENTRY(pose, 1),
-    ENTRY(motion, 1), ENTRY(section, 1), ENTRY(contact, 1), ENTRY(contact_sum, 1), ENTRY(energy, 1), ENTRY(momentum, 1),
+    ENTRY(motion, 1), ENTRY(section, 1), ENTRY(contact, 1), ENTRY(contact_total, 1), ENTRY(energy, 1), ENTRY(momentum, 1),
     ENTRY(drive_state, 1), ENTRY(bit_state, 1), GROWN(statistics, 72, 1), ENTRY(recorder, 0),
     ENTRY(joint_state, 1), ENTRY(joint_def, 0), ENTRY(coupling_def, 0), ENTRY(constraint_def, 0),
     {"advance's report", sizeof(dmb_step_report), sizeof(dmb_step_report), init_step_report, call_advance_report, 1},

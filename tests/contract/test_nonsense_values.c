@@ -121,7 +121,7 @@ static int32_t record(dmb_id id, int32_t quantity)
     recorder.table = table;
     recorder.capacity = 1;
     const int32_t status = dmb_recorder_take(&recorder, scene.sim);
-    assert_int_equal(recorder.rows, status < 0 ? 0 : 1);
+    assert_int_equal(recorder.row_count, status < 0 ? 0 : 1);
     return status;
 }
 static int32_t record_position(dmb_id id)
@@ -630,7 +630,7 @@ static void recorders_that_are_none_are_refused(void **state)
     BAD(table, NULL, DMB_ERR_NULL);
     BAD(interval, -1.0, DMB_ERR_VALUE);
     BAD(interval, (double)NAN, DMB_ERR_NOT_FINITE);
-    BAD(rows, WHOLE_ROWS + 1, DMB_ERR_VALUE);
+    BAD(row_count, WHOLE_ROWS + 1, DMB_ERR_VALUE);
     BAD(capacity, UINT64_MAX, DMB_ERR_VALUE);
 #undef BAD
     a.recorder = good;
@@ -638,7 +638,7 @@ static void recorders_that_are_none_are_refused(void **state)
     refused("quantity", dmb_recorder_take(&a.recorder, scene.sim), DMB_ERR_VALUE);
     a.channels[2].quantity = -1;
     refused("quantity", dmb_recorder_take(&a.recorder, scene.sim), DMB_ERR_VALUE);
-    assert_int_equal(a.recorder.rows, 0);
+    assert_int_equal(a.recorder.row_count, 0);
 }
 
 static void full_recorder_says_so(void **state)
@@ -648,7 +648,7 @@ static void full_recorder_says_so(void **state)
     whole_answers_init(&a, &scene.parts);
     for (int i = 0; i < WHOLE_ROWS; i++) assert_int_equal(dmb_recorder_take(&a.recorder, scene.sim), DMB_OK);
     assert_int_equal(dmb_recorder_take(&a.recorder, scene.sim), DMB_NOTE_FULL);
-    assert_int_equal(a.recorder.rows, WHOLE_ROWS);
+    assert_int_equal(a.recorder.row_count, WHOLE_ROWS);
 }
 
 static void writers_refuse_nonsense(void **state)

@@ -59,14 +59,14 @@ static int32_t call_response(dmb_sim *sim, scene *s)
 
 static int32_t call_sine(dmb_sim *sim, scene *s)
 {
-    dmb_sine_options options = dmb_sine_options_default();
+    dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     dmb_output output = dmb_output_default();
     double amplitudes[64];
     options.windows = 3;
     options.harmonics = options.periods = 1;
     options.steps_per_period = 16;
     output.place = dmb_station(s->string, 0, 1.0);
-    return dmb_analysis_sine(sim, 50.0, &options, &output, 1, amplitudes, NULL);
+    return dmb_analysis_stepped_sine(sim, 50.0, &options, &output, 1, amplitudes, NULL);
 }
 
 static int32_t call_speeds(dmb_sim *sim, scene *s)
@@ -135,7 +135,7 @@ static int32_t make_call(int call, dmb_sim *sim, scene *s)
     case CHECK: return dmb_analysis_check(sim, &report);
     case CHECK_TEXT: return dmb_analysis_check_text(sim, text, sizeof text, NULL);
     case RESTORE: return dmb_sim_restore(sim, s->agent.snapshot, s->agent.snapshot_size);
-    case CARRY_OVER: return dmb_sim_carry_over(sim, s->agent.other);
+    case CARRY_OVER: return dmb_sim_transfer_state(sim, s->agent.other);
     default: return 1000;
     }
 }
@@ -334,7 +334,7 @@ static void source_of_a_transfer(void **state)
     }
     s[0].agent.other = sim[1];
     s[0].string = s[1].string; /* whose it asks */
-    assert_true(dmb_sim_carry_over(sim[0], sim[1]) >= 0);
+    assert_true(dmb_sim_transfer_state(sim[0], sim[1]) >= 0);
     assert_true(s[0].agent.calls > 0);
     assert_true(dmb_sim_step(sim[1], 1e-3, NULL) >= 0);
     for (int i = 0; i < 2; i++) dmb_sim_destroy(&sim[i]), dmb_model_destroy(&s[i].model);

@@ -285,10 +285,10 @@ static void counts_and_pointers(void **state)
     assert_int_equal(dmb_analysis_response((dmb_sim *)(void *)s.model, NULL, &s.input, 1, &s.output, 1, &response),
                      DMB_ERR_HANDLE);
     assert_int_equal(ask(&s, &response), DMB_OK);
-    assert_int_equal(dmb_response_shape(response, NULL), DMB_ERR_NULL);
-    assert_int_equal(dmb_response_shape(NULL, shape), DMB_ERR_NULL);
-    assert_int_equal(dmb_response_shape((const dmb_response *)(const void *)s.sim, shape), DMB_ERR_HANDLE);
-    assert_int_equal(dmb_response_shape(response, shape), DMB_OK);
+    assert_int_equal(dmb_response_dimensions(response, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_response_dimensions(NULL, shape), DMB_ERR_NULL);
+    assert_int_equal(dmb_response_dimensions((const dmb_response *)(const void *)s.sim, shape), DMB_ERR_HANDLE);
+    assert_int_equal(dmb_response_dimensions(response, shape), DMB_OK);
     assert_true(shape[0] == 3 && shape[1] == 1 && shape[2] == 1);
     assert_int_equal(dmb_response_frequencies(response, NULL), DMB_ERR_NULL);
     assert_int_equal(dmb_response_transfer(response, 1, 0, &number), DMB_ERR_VALUE);

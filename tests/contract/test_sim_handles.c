@@ -21,7 +21,7 @@ SIMPLE_QUERY(dmb_motion, motion, sim, somewhere)
 SIMPLE_QUERY(double, rotation, sim, somewhere)
 SIMPLE_QUERY(dmb_section, section, sim, somewhere)
 SIMPLE_QUERY(dmb_contact, contact, sim, 0)
-SIMPLE_QUERY(dmb_contact_sum, contact_sum, sim)
+SIMPLE_QUERY(dmb_contact_total, contact_total, sim)
 SIMPLE_QUERY(double, kinetic_energy, sim, something, 0)
 SIMPLE_QUERY(dmb_energy, energy, sim)
 SIMPLE_QUERY(dmb_momentum, momentum, sim)
@@ -62,7 +62,7 @@ static const named_call calls[] = {
     QUERY(rotation, 0),
     QUERY(section, sizeof(dmb_section)),
     QUERY(contact, sizeof(dmb_contact)),
-    QUERY(contact_sum, sizeof(dmb_contact_sum)),
+    QUERY(contact_total, sizeof(dmb_contact_total)),
     QUERY(kinetic_energy, 0),
     QUERY(energy, sizeof(dmb_energy)),
     QUERY(momentum, sizeof(dmb_momentum)),
@@ -113,7 +113,7 @@ static void check_changing(dmb_sim *sim, int32_t wanted)
     assert_int_equal(dmb_sim_restore(sim, block, sizeof block), wanted);
     assert_int_equal(dmb_analysis_static(sim, NULL, NULL), wanted);
     assert_int_equal(dmb_recorder_take(&recorder, sim), wanted);
-    assert_int_equal(recorder.rows, 0);
+    assert_int_equal(recorder.row_count, 0);
     assert_int_equal(dmb_write_vtk_strings(sim, 1, "/nonexistent/x.vtp"), wanted);
     assert_true(isnan(dmb_sim_time(sim)));
     assert_non_null(dmb_sim_message(sim));

@@ -187,18 +187,18 @@ static void recorder(void **state)
         must(dmb_recorder_take(&recorder, sim));
         rig_run(sim, 1);
     }
-    assert_int_equal(recorder.rows, 4);
+    assert_int_equal(recorder.row_count, 4);
     for (int i = 0; i < 4; i++) {
         const double wanted[] = {0.0, 3e-3, 5e-3, 8e-3};
         assert_true(fabs(table[i * (1 + DMB_CHANNEL_COUNT)] - wanted[i]) < 1e-12);
     }
     assert_int_equal(dmb_recorder_take(&recorder, sim), DMB_NOTE_FULL);
-    recorder.rows = 2;
+    recorder.row_count = 2;
     channels[DMB_CHANNEL_COUNT - 1].quantity = DMB_CHANNEL_COUNT;
     assert_int_equal(dmb_recorder_take(&recorder, sim), DMB_ERR_VALUE);
     channels[3].place.part = r.feed;
     assert_int_equal(dmb_recorder_take(&recorder, sim), DMB_ERR_ID);
-    assert_int_equal(recorder.rows, 2);
+    assert_int_equal(recorder.row_count, 2);
     recorder.struct_size = 4;
     memcpy(before, table, sizeof before);
     assert_int_equal(dmb_recorder_take(&recorder, sim), DMB_ERR_STRUCT_SIZE);

@@ -19,10 +19,10 @@ typedef struct job {
     dmb_model *model;
     dmb_sim *sim;
     dmb_output output;
-    dmb_sine_options options;
+    dmb_stepped_sine_options options;
     int32_t status;
     double amplitudes[NUMBERS];
-    dmb_sine_report report;
+    dmb_stepped_sine_report report;
     uint64_t hash;
 } job;
 
@@ -49,15 +49,15 @@ static void begin(job *j, double frequency)
     j->output = dmb_output_default();
     j->output.kind = DMB_OUTPUT_SECTION_FORCE;
     j->output.place = dmb_station(drive.part, 0, 0.0);
-    j->options = dmb_sine_options_default();
+    j->options = dmb_stepped_sine_options_default();
     j->options.steps_per_period = 32;
     j->options.windows = 40;
-    j->report = dmb_sine_report_default();
+    j->report = dmb_stepped_sine_report_default();
 }
 
 static void run(job *j)
 {
-    j->status = dmb_analysis_sine(j->sim, j->frequency, &j->options, &j->output, 1, j->amplitudes, &j->report);
+    j->status = dmb_analysis_stepped_sine(j->sim, j->frequency, &j->options, &j->output, 1, j->amplitudes, &j->report);
     (void)dmb_sim_hash(j->sim, &j->hash);
 }
 
@@ -164,11 +164,11 @@ static void refusals(void **state)
     REFUSED(DMB_ERR_VALUE, j.output.place.pipe = 5, "output 0: place, pipe 5");
 #undef REFUSED
     j = good;
-    assert_int_equal(dmb_analysis_sine(NULL, 1.0, NULL, &j.output, 1, j.amplitudes, NULL), DMB_ERR_NULL);
-    assert_int_equal(dmb_analysis_sine(j.sim, 1.0, NULL, NULL, 1, j.amplitudes, NULL), DMB_ERR_NULL);
-    assert_int_equal(dmb_analysis_sine(j.sim, 1.0, NULL, &j.output, 1, NULL, NULL), DMB_ERR_NULL);
-    assert_int_equal(dmb_analysis_sine(j.sim, 1.0, NULL, &j.output, 0, j.amplitudes, NULL), DMB_ERR_VALUE);
-    assert_int_equal(dmb_analysis_sine((dmb_sim *)(void *)j.model, 1.0, NULL, &j.output, 1, j.amplitudes, NULL),
+    assert_int_equal(dmb_analysis_stepped_sine(NULL, 1.0, NULL, &j.output, 1, j.amplitudes, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_analysis_stepped_sine(j.sim, 1.0, NULL, NULL, 1, j.amplitudes, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_analysis_stepped_sine(j.sim, 1.0, NULL, &j.output, 1, NULL, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_analysis_stepped_sine(j.sim, 1.0, NULL, &j.output, 0, j.amplitudes, NULL), DMB_ERR_VALUE);
+    assert_int_equal(dmb_analysis_stepped_sine((dmb_sim *)(void *)j.model, 1.0, NULL, &j.output, 1, j.amplitudes, NULL),
                      DMB_ERR_HANDLE);
     end(&j);
 }

@@ -107,7 +107,7 @@ static void bounded_work_is_bounded(void **state)
     whole_answers_init(&answers, &parts);
     assert_int_equal(whole_ask(sim, &parts, &answers), DMB_OK);
     assert_true(isfinite(answers.energy.kinetic) && isfinite(answers.pose[4].position[0]));
-    assert_true(limited > 0 && answers.statistics.limited == (uint64_t)limited);
+    assert_true(limited > 0 && answers.statistics.limited_steps == (uint64_t)limited);
     dmb_sim_destroy(&sim);
     dmb_model_destroy(&model);
 }

@@ -123,7 +123,7 @@ static void bounded_work_accepts_and_tells(void **state)
     assert_true(report.iterations <= 1);
     assert_true(dmb_sim_message(s.sim)[0] != '\0');
     assert_int_equal(dmb_query_statistics(s.sim, &statistics), DMB_OK);
-    assert_int_equal(statistics.limited, 1);
+    assert_int_equal(statistics.limited_steps, 1);
     close_scene(&s);
 }
 
@@ -285,14 +285,14 @@ static void report_is_of_this_call(void **state)
         fresh = dmb_step_report_default();
         used.iterations += 1000;
         used.residual += 1e9;
-        used.worst += 100;
+        used.most_iterations += 100;
         if (i % 2 == 0) {
             assert_true(dmb_sim_step(s.sim, 1e-3, &used) >= 0);
             assert_true(used.steps <= 2);
         } else {
             assert_true(dmb_sim_advance(s.sim, dmb_sim_time(s.sim) + 1e-3, &used) >= 0);
         }
-        assert_true(used.iterations < 1000 && used.worst < 100 && used.residual < 1.0);
+        assert_true(used.iterations < 1000 && used.most_iterations < 100 && used.residual < 1.0);
         assert_true(used.time == dmb_sim_time(s.sim));
         assert_int_equal(used.struct_size, fresh.struct_size);
     }

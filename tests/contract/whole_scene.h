@@ -483,7 +483,7 @@ typedef struct whole_answers {
     dmb_motion motion;
     dmb_section section;
     dmb_contact contact;
-    dmb_contact_sum contact_sum;
+    dmb_contact_total contact_total;
     dmb_energy energy;
     dmb_momentum momentum;
     dmb_drive_state drive;
@@ -506,7 +506,7 @@ static inline void whole_answers_init(whole_answers *a, const whole_parts *parts
     a->motion = dmb_motion_default();
     a->section = dmb_section_default();
     a->contact = dmb_contact_default();
-    a->contact_sum = dmb_contact_sum_default();
+    a->contact_total = dmb_contact_total_default();
     a->energy = dmb_energy_default();
     a->momentum = dmb_momentum_default();
     a->drive = dmb_drive_state_default();
@@ -540,7 +540,7 @@ static inline int32_t whole_ask(const dmb_sim *sim, const whole_parts *parts, wh
     WHOLE_ASK(dmb_query_rotation(sim, middle, &a->rotation));
     WHOLE_ASK(dmb_query_section(sim, middle, &a->section));
     WHOLE_ASK(dmb_query_contact(sim, 0, &a->contact));
-    WHOLE_ASK(dmb_query_contact_sum(sim, &a->contact_sum));
+    WHOLE_ASK(dmb_query_contact_total(sim, &a->contact_total));
     WHOLE_ASK(dmb_query_kinetic_energy(sim, parts->string, 3, &a->kinetic_energy));
     WHOLE_ASK(dmb_query_energy(sim, &a->energy));
     WHOLE_ASK(dmb_query_momentum(sim, &a->momentum));

@@ -8,9 +8,9 @@
 
 #include "../contract/joint_scene.h"
 #include "../contract/whole_scene.h"
-#include "state/layout.h"
-#include "state/snapshot_check.h"
-#include "state/fnv.h"
+#include "sim/layout.h"
+#include "sim/state_check.h"
+#include "run/fingerprint.h"
 
 enum { CHANGES = 80, HEADER = 48, CONTENT_AT = 40 }; /* bytes of the header; where its checksum stands */
 

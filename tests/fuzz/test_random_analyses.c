@@ -227,13 +227,13 @@ static void act_speeds(dmb_sim *sim, scene *c)
 
 static void act_sine(dmb_sim *sim, scene *c)
 {
-    dmb_sine_options options = dmb_sine_options_default();
+    dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     const dmb_output output = draw_output(c);
     double amplitudes[4];
     options.steps_per_period = 16;
     options.periods = options.harmonics = 1;
     options.windows = 3;
-    must_be_known(dmb_analysis_sine(sim, draw_size(&c->parts.source, 10.0, 1e4), &options, &output, 1, amplitudes, NULL));
+    must_be_known(dmb_analysis_stepped_sine(sim, draw_size(&c->parts.source, 10.0, 1e4), &options, &output, 1, amplitudes, NULL));
 }
 
 static void act_buckling(dmb_sim *sim, scene *c)
@@ -279,7 +279,7 @@ static void act_transfer(dmb_sim *sim, scene *c)
     const uint64_t before = hash_of(sim);
     if (dmb_sim_create(c->parts.model, NULL, &other) < 0) return;
     const uint64_t fresh = hash_of(other);
-    const int32_t status = dmb_sim_carry_over(other, sim);
+    const int32_t status = dmb_sim_transfer_state(other, sim);
     must_be_known(status);
     MUST(status >= 0 || hash_of(other) == fresh);
     if (status >= 0) must_be_known(dmb_sim_step(other, 1e-4, NULL));

@@ -92,17 +92,17 @@ static void ask_sums(const dmb_sim *sim)
 {
     dmb_energy energy = dmb_energy_default();
     dmb_momentum momentum = dmb_momentum_default();
-    dmb_contact_sum sum = dmb_contact_sum_default();
+    dmb_contact_total sum = dmb_contact_total_default();
     dmb_statistics statistics = dmb_statistics_default();
     const int32_t status = dmb_query_energy(sim, &energy);
     MUST(status == DMB_OK || status == DMB_ERR_UNSUPPORTED);
     MUST(dmb_query_momentum(sim, &momentum) == DMB_OK);
-    MUST(dmb_query_contact_sum(sim, &sum) == DMB_OK);
+    MUST(dmb_query_contact_total(sim, &sum) == DMB_OK);
     MUST(dmb_query_statistics(sim, &statistics) == DMB_OK);
     must_be_finite(&energy.kinetic, 15);
     must_be_finite(momentum.linear, 10);
     must_be_finite(&sum.normal_force, 4);
-    must_be_finite(&statistics.worst_residual, 3);
+    must_be_finite(&statistics.largest_residual, 3);
     MUST(sum.normal_force >= 0.0 && sum.deepest >= 0.0);
 }
 

@@ -167,11 +167,11 @@ static void note_poses(void)
 static void note_forces(void)
 {
     dmb_section section = dmb_section_default();
-    dmb_contact_sum sum = dmb_contact_sum_default();
+    dmb_contact_total sum = dmb_contact_total_default();
     dmb_bit_state bit = dmb_bit_state_default();
     dmb_drive_state feed = dmb_drive_state_default(), turning = dmb_drive_state_default();
     must(dmb_query_section(run.sim, dmb_station(run.string, 3, 0.5), &section));
-    must(dmb_query_contact_sum(run.sim, &sum));
+    must(dmb_query_contact_total(run.sim, &sum));
     must(dmb_query_bit(run.sim, run.bit, &bit));
     must(dmb_query_drive(run.sim, run.feed, &feed));
     must(dmb_query_drive(run.sim, run.turning, &turning));

@@ -54,9 +54,9 @@ int main(void)
         return 1;
     }
     failed = describe(model) || fails("info", dmb_model_get_info(model, &info), model);
-    if (!failed && (info.strings != 1 || info.pipes != 3 || info.freedoms == 0 || !(info.mass > 5.0))) {
-        fprintf(stderr, "strings %lu, pipes %lu, freedoms %lu, mass %g\n", (unsigned long)info.strings,
-                (unsigned long)info.pipes, (unsigned long)info.freedoms, info.mass);
+    if (!failed && (info.strings != 1 || info.pipes != 3 || info.degrees_of_freedom == 0 || !(info.mass > 5.0))) {
+        fprintf(stderr, "strings %lu, pipes %lu, degrees_of_freedom %lu, mass %g\n", (unsigned long)info.strings,
+                (unsigned long)info.pipes, (unsigned long)info.degrees_of_freedom, info.mass);
         failed = 1;
     }
     dmb_model_destroy(&model);

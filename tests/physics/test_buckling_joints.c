@@ -4,7 +4,7 @@
 
 #define EI 2e5 /* [N m2] of all columns; stiff in stretch and shear, which the closed forms leave out */
 
-enum { PINNED = 0, CLAMPED = 1, CLAMPED_ROLLER = 1, FREE_TO_MOVE = 7 }; /* ends of columns; freedoms of strings */
+enum { PINNED = 0, CLAMPED = 1, CLAMPED_ROLLER = 1, FREE_TO_MOVE = 7 }; /* ends of columns; degrees_of_freedom of strings */
 
 static dmb_id add_push(rig *s, dmb_place place)
 {

@@ -143,7 +143,7 @@ static choice with_pipes(choice c, uint32_t pipes)
 
 static int32_t go_over(scene *to, const scene *from)
 {
-    const int32_t status = dmb_sim_carry_over(to->r.sim, from->r.sim);
+    const int32_t status = dmb_sim_transfer_state(to->r.sim, from->r.sim);
     if (status < 0) fail_msg("carry over: %s: %s", dmb_status_name(status), dmb_sim_message(to->r.sim));
     return status;
 }
@@ -614,8 +614,8 @@ static void axial_pipes_stay_on_the_axis(void **state)
     take_steps(&b.r, 1e-3, 5);
     rig_close(&b.r);
     b = mixed_of("FAAF", DMB_FREE_CYLINDRICAL);
-    assert_int_equal(dmb_sim_carry_over(b.r.sim, a.r.sim), DMB_ERR_VALUE);
-    assert_int_equal(dmb_sim_carry_over(a.r.sim, b.r.sim), DMB_ERR_VALUE);
+    assert_int_equal(dmb_sim_transfer_state(b.r.sim, a.r.sim), DMB_ERR_VALUE);
+    assert_int_equal(dmb_sim_transfer_state(a.r.sim, b.r.sim), DMB_ERR_VALUE);
     rig_close(&a.r), rig_close(&b.r);
 }
 
@@ -657,7 +657,7 @@ static void head_lets_go_and_grips(void **state)
     scene a = head_of(3, 0.5), b = head_of(4, 0.5);
     take_steps(&a.r, 1e-3, 50);
     const uint64_t before = hash_of(&b);
-    assert_int_equal(dmb_sim_carry_over(b.r.sim, a.r.sim), DMB_ERR_GEOMETRY); /* still closed */
+    assert_int_equal(dmb_sim_transfer_state(b.r.sim, a.r.sim), DMB_ERR_GEOMETRY); /* still closed */
     print_message("%s\n", dmb_sim_message(b.r.sim));
     assert_true(hash_of(&b) == before);
     must(&a.r, dmb_sim_set_joint(a.r.sim, a.joint, DMB_JOINT_OPEN));
@@ -671,7 +671,7 @@ static void head_lets_go_and_grips(void **state)
     must(&b.r, dmb_sim_set_joint(b.r.sim, b.joint, DMB_JOINT_ACTIVE));
     take_steps(&b.r, 1e-3, 20);
     must(&b.r, dmb_query_joint(b.r.sim, b.joint, &told));
-    check_below("misfit", told.misfit, 1e-12);
+    check_below("violation", told.violation, 1e-12);
     scene c = head_of(4, 0.5), d = head_of(5, 0.5);
     (void)go_over(&c, &b);
     take_steps(&c.r, 1e-3, 5);
@@ -734,7 +734,7 @@ static void joints_stay_closed(void **state)
     assert_true(x.position[3] > 1.0);
     check_below("coordinates", largest_difference(6, x.position, y.position), 1e-12);
     check_below("their rates", largest_difference(6, x.speed, y.speed), 1e-11);
-    check_below("misfit", y.misfit, 1e-12);
+    check_below("violation", y.violation, 1e-12);
     dmb_energy e = energy_of(&a.r), f = energy_of(&b.r);
     check_ledger(&e, &f);
     run_to(&b, 0.25);
@@ -761,7 +761,7 @@ static void joints_stay_closed(void **state)
 static void check_refused(scene *to, const scene *from, const char *word)
 {
     const uint64_t before = hash_of(to);
-    assert_int_equal(dmb_sim_carry_over(to->r.sim, from->r.sim), DMB_ERR_VALUE);
+    assert_int_equal(dmb_sim_transfer_state(to->r.sim, from->r.sim), DMB_ERR_VALUE);
     print_message("%s\n", dmb_sim_message(to->r.sim));
     if (strstr(dmb_sim_message(to->r.sim), word) == NULL) fail_msg("\"%s\" is not in it", word);
     assert_true(hash_of(to) == before);
@@ -817,11 +817,11 @@ static void wrong_handles(void **state)
     scene s = rig_of(&c);
     uint64_t junk[64] = {0};
     const uint64_t before = hash_of(&s);
-    assert_int_equal(dmb_sim_carry_over(NULL, s.r.sim), DMB_ERR_NULL);
-    assert_int_equal(dmb_sim_carry_over(s.r.sim, NULL), DMB_ERR_NULL);
-    assert_int_equal(dmb_sim_carry_over((dmb_sim *)(void *)junk, s.r.sim), DMB_ERR_HANDLE);
-    assert_int_equal(dmb_sim_carry_over(s.r.sim, (dmb_sim *)(void *)junk), DMB_ERR_HANDLE);
-    assert_int_equal(dmb_sim_carry_over(s.r.sim, s.r.sim), DMB_ERR_VALUE);
+    assert_int_equal(dmb_sim_transfer_state(NULL, s.r.sim), DMB_ERR_NULL);
+    assert_int_equal(dmb_sim_transfer_state(s.r.sim, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_sim_transfer_state((dmb_sim *)(void *)junk, s.r.sim), DMB_ERR_HANDLE);
+    assert_int_equal(dmb_sim_transfer_state(s.r.sim, (dmb_sim *)(void *)junk), DMB_ERR_HANDLE);
+    assert_int_equal(dmb_sim_transfer_state(s.r.sim, s.r.sim), DMB_ERR_VALUE);
     assert_true(hash_of(&s) == before);
     rig_close(&s.r);
 }

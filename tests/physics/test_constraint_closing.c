@@ -46,7 +46,7 @@ static void close_turned(int32_t kind, const double turn[3], int32_t wanted)
         must(&s, dmb_sim_set_joint(s.sim, joint, DMB_JOINT_LOCKED)); /* where it is */
     }
     take_steps(&s, step, 10);
-    check_below("misfit", joint_at(&s, joint).misfit, 1e-14);
+    check_below("violation", joint_at(&s, joint).violation, 1e-14);
     rig_close(&s);
 }
 
@@ -81,7 +81,7 @@ static int32_t on_sphere(void *context, double time, uint32_t count, const doubl
 }
 
 /* Only what the switch makes hold is asked to fit. */
-static void misfit_of_others_does_not_count(void **state)
+static void violation_of_others_does_not_count(void **state)
 {
     (void)state;
     double unit = 1e12, worst = 0.0;
@@ -110,7 +110,7 @@ static void misfit_of_others_does_not_count(void **state)
         must(&s, dmb_sim_set_joint(s.sim, joint, DMB_JOINT_OPEN));
         must(&s, dmb_sim_set_joint(s.sim, joint, DMB_JOINT_ACTIVE));
     }
-    tell("largest misfit of the sphere [pm]", worst);
+    tell("largest violation of the sphere [pm]", worst);
     assert_true(worst > 1e-6);
     rig_close(&s);
 }
@@ -119,7 +119,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(turned_over_cannot_close),
-        cmocka_unit_test(misfit_of_others_does_not_count),
+        cmocka_unit_test(violation_of_others_does_not_count),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

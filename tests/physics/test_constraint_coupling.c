@@ -6,7 +6,7 @@
 
 static const double g = 9.81, step = 1e-3;
 
-static dmb_id lump(rig *s, double y, double mass, double inertia)
+static dmb_id rigid_mass(rig *s, double y, double mass, double inertia)
 {
     dmb_body_def body = dmb_body_def_default();
     body.mass = mass;
@@ -60,8 +60,8 @@ static void gear_pair(void **state)
     rig s;
     double f[6];
     rig_open(&s, 0.0, 0.0, -g);
-    const dmb_id one = joint_on(&s, DMB_JOINT_REVOLUTE, 0.0, lump(&s, 0.0, 1.0, J1), along_x);
-    const dmb_id two = joint_on(&s, DMB_JOINT_REVOLUTE, 1.0, lump(&s, 1.0, 2.0, J2), along_x);
+    const dmb_id one = joint_on(&s, DMB_JOINT_REVOLUTE, 0.0, rigid_mass(&s, 0.0, 1.0, J1), along_x);
+    const dmb_id two = joint_on(&s, DMB_JOINT_REVOLUTE, 1.0, rigid_mass(&s, 1.0, 2.0, J2), along_x);
     const dmb_id gear = couple(&s, one, DMB_RX, two, DMB_RX, ratio);
     const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_LOAD, one, DMB_RX, add_constant(&s, T));
     (void)mechanism_start(&s, NULL);
@@ -89,7 +89,7 @@ static void gear_train(void **state)
     dmb_id joint[3];
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
-    for (int i = 0; i < 3; i++) joint[i] = joint_on(&s, DMB_JOINT_REVOLUTE, i, lump(&s, i, 1.0, J[i]), along_z);
+    for (int i = 0; i < 3; i++) joint[i] = joint_on(&s, DMB_JOINT_REVOLUTE, i, rigid_mass(&s, i, 1.0, J[i]), along_z);
     (void)couple(&s, joint[0], DMB_RX, joint[1], DMB_RX, r1);
     (void)couple(&s, joint[1], DMB_RX, joint[2], DMB_RX, r2);
     (void)add_simple_drive(&s, DMB_DRIVE_LOAD, joint[0], DMB_RX, add_constant(&s, T));
@@ -110,7 +110,7 @@ static void falling_nut(void **state)
     double f[6];
     rig s;
     rig_open(&s, 0.0, 0.0, -g);
-    const dmb_id joint = joint_on(&s, DMB_JOINT_CYLINDRICAL, 0.0, lump(&s, 0.0, m, J), down);
+    const dmb_id joint = joint_on(&s, DMB_JOINT_CYLINDRICAL, 0.0, rigid_mass(&s, 0.0, m, J), down);
     const dmb_id screw = couple(&s, joint, DMB_X, joint, DMB_RX, lead / (2.0 * PI));
     (void)mechanism_start(&s, NULL);
     take_steps(&s, step, 10000);
@@ -151,7 +151,7 @@ static void programmes_are_followed(void **state)
     double worst[4] = {0.0, 0.0, 0.0, 0.0}, force = 0.0, angle = 0.0;
     rig s;
     rig_open(&s, 0.0, 0.0, -g);
-    const dmb_id joint = joint_on(&s, DMB_JOINT_CYLINDRICAL, 0.0, lump(&s, 0.0, m, J), up);
+    const dmb_id joint = joint_on(&s, DMB_JOINT_CYLINDRICAL, 0.0, rigid_mass(&s, 0.0, m, J), up);
     term.kind = DMB_TERM_STEP;
     term.x0 = 0.1037;
     term.x1 = 0.7;
@@ -217,7 +217,7 @@ static void driven_four_bar(void **state)
     }
     const dmb_energy energy = energy_of(&s);
     check_below("crank angle over four turns [rad]", worst, 1e-11);
-    check_below("largest misfit", statistics_of(&s).misfit, 1e-14);
+    check_below("largest violation", statistics_of(&s).violation, 1e-14);
     tell("redundant rows", statistics_of(&s).redundant);
     tell("work of the drive [J]", energy.drives);
     check_below("balance over input", energy.error, 1e-5);
@@ -234,7 +234,7 @@ static void force_between_two_bodies(void **state)
     dmb_joint_def def = dmb_joint_def_default();
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
-    const dmb_id a = lump(&s, 0.0, m1, 1.0), b = lump(&s, 0.0, m2, 1.0);
+    const dmb_id a = rigid_mass(&s, 0.0, m1, 1.0), b = rigid_mass(&s, 0.0, m2, 1.0);
     def.kind = DMB_JOINT_PRISMATIC;
     def.place_a = dmb_station(a, 0, 0.0);
     def.place_b = dmb_station(b, 0, 0.0);
@@ -271,7 +271,7 @@ static void check_controller(const char *what, int32_t kind, int32_t component, 
     rig_open(&s, 0.0, 0.0, 0.0);
     drive.kind = DMB_DRIVE_CONTROL;
     drive.part =
-        joint_on(&s, kind, 0.0, lump(&s, 0.0, component == DMB_X ? m : 1.0, component == DMB_X ? 1.0 : m), along_x);
+        joint_on(&s, kind, 0.0, rigid_mass(&s, 0.0, component == DMB_X ? m : 1.0, component == DMB_X ? 1.0 : m), along_x);
     drive.component = component;
     drive.programme = add_constant(&s, target);
     drive.gain = kp;
@@ -304,7 +304,7 @@ static void drives_find_their_joints(void **state)
     dmb_id joint[4], drive[7];
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
-    for (int i = 0; i < 4; i++) joint[i] = joint_on(&s, DMB_JOINT_CYLINDRICAL, i, lump(&s, i, 2.0, 0.5), along_x);
+    for (int i = 0; i < 4; i++) joint[i] = joint_on(&s, DMB_JOINT_CYLINDRICAL, i, rigid_mass(&s, i, 2.0, 0.5), along_x);
     for (int i = 0; i < 7; i++)
         drive[i] = add_simple_drive(&s, DMB_DRIVE_LOAD, joint[on[i]], component[i], add_constant(&s, 1.0 + i));
     (void)mechanism_start(&s, NULL);
@@ -332,7 +332,7 @@ static void limits_hold(void **state)
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
     drive.kind = DMB_DRIVE_CONTROL;
-    drive.part = joint_on(&s, DMB_JOINT_REVOLUTE, 0.0, lump(&s, 0.0, 1.0, 0.5), along_x);
+    drive.part = joint_on(&s, DMB_JOINT_REVOLUTE, 0.0, rigid_mass(&s, 0.0, 1.0, 0.5), along_x);
     drive.component = DMB_RX;
     drive.programme = add_constant(&s, 10.0);
     drive.gain = 20.0;

@@ -61,13 +61,13 @@ static void check_four_bar(double angle, double speed)
     rocker_of(angle, speed, &rocker, &rate);
     check_close("rocker angle, by geometry [rad]", last.position[DMB_RX], rocker, 1e-13);
     check_close("rocker speed [rad/s]", last.speed[DMB_RX], rate, 1e-12);
-    check_below("misfit", statistics.misfit, 1e-14);
+    check_below("violation", statistics.violation, 1e-14);
     tell("parts were moved by up to [m]", statistics.assembly[0]);
     tell("and turned by up to [rad]", statistics.assembly[1]);
     assert_true(statistics.assembly[1] >= fabs(angle - 0.5 * PI) - 1e-12);
     assert_int_equal(statistics.steps, 0);
     take_steps(&m.s, step, 100);
-    check_below("misfit later", statistics_of(&m.s).misfit, 1e-14);
+    check_below("violation later", statistics_of(&m.s).violation, 1e-14);
     rig_close(&m.s);
 }
 

@@ -90,7 +90,7 @@ static void locking_is_a_plastic_impact(void **state)
     expect_message(&p.s, " rad/s");
     take_steps(&p.s, step, 300);
     check_close("bend stays [rad]", joint_at(&p.s, p.hinge[1]).position[DMB_RX], bend, 1e-14);
-    check_below("misfit", statistics_of(&p.s).misfit, 1e-14);
+    check_below("violation", statistics_of(&p.s).violation, 1e-14);
     tell("balance at the end over the energy lost", fabs(energy_of(&p.s).balance) / impact);
     rig_close(&p.s);
 }
@@ -119,7 +119,7 @@ static void locked_pendulum_is_one_body(void **state)
 }
 
 /* The reaction right after the switch belongs to the new equations: it carries the second bar. */
-static double newton_misfit(const pendulum *p)
+static double newton_violation(const pendulum *p)
 {
     const dmb_motion motion = motion_at(&p->s, dmb_station(p->bar[1], 0, 0.0), DMB_FRAME_WORLD);
     const dmb_joint_state elbow = joint_at(&p->s, p->hinge[1]);
@@ -136,13 +136,13 @@ static void reactions_are_made_anew(void **state)
     (void)state;
     pendulum p = pendulum_of(NULL);
     take_steps(&p.s, step, 300);
-    check_below("reaction against Newton's law before", newton_misfit(&p), 1e-9);
+    check_below("reaction against Newton's law before", newton_violation(&p), 1e-9);
     must(&p.s, dmb_sim_set_joint(p.s.sim, p.hinge[1], DMB_JOINT_LOCKED));
-    check_below("reaction against Newton's law, locked", newton_misfit(&p), 1e-9);
+    check_below("reaction against Newton's law, locked", newton_violation(&p), 1e-9);
     must(&p.s, dmb_sim_set_joint(p.s.sim, p.hinge[1], DMB_JOINT_ACTIVE));
-    check_below("reaction against Newton's law, released", newton_misfit(&p), 1e-9);
+    check_below("reaction against Newton's law, released", newton_violation(&p), 1e-9);
     must(&p.s, dmb_sim_set_joint(p.s.sim, p.hinge[1], DMB_JOINT_OPEN));
-    check_below("reaction against Newton's law, open", newton_misfit(&p), 1e-9);
+    check_below("reaction against Newton's law, open", newton_violation(&p), 1e-9);
     rig_close(&p.s);
 }
 
@@ -189,7 +189,7 @@ static void open_joint_lets_go(void **state)
     for (int i = 0; i < 3; i++) want[i] = from.position[i] + t * before.velocity[i] - (i == 2 ? 0.5 * g * t * t : 0.0);
     check_below("place after 0.4 s of flight [m]", largest_difference(3, to.position, want), 1e-6);
     check_below("spin in flight", motion_at(&p.s, flies, DMB_FRAME_WORLD).velocity[4] - before.velocity[4], 1e-12);
-    assert_int_equal(joint_at(&p.s, p.hinge[1]).rows, 0);
+    assert_int_equal(joint_at(&p.s, p.hinge[1]).constraint_rows, 0);
     rig_close(&p.s);
 }
 
@@ -319,7 +319,7 @@ static void described_locked(void **state)
     pendulum_mass(0.0, M);
     const double turning = M[0][0] + 2.0 * M[0][1] + M[1][1];
     assert_int_equal(joint_at(&p.s, p.hinge[1]).state, DMB_JOINT_LOCKED);
-    assert_int_equal(joint_at(&p.s, p.hinge[1]).rows, 6);
+    assert_int_equal(joint_at(&p.s, p.hinge[1]).constraint_rows, 6);
     check_relative("one bar of twice the length: first acceleration", joint_at(&p.s, p.hinge[0]).acceleration[DMB_RX],
                    -2.0 * mass * g * length / turning, 1e-12);
     take_steps(&p.s, step, 300);
@@ -336,7 +336,7 @@ static void described_open(void **state)
     dmb_joint_def like = dmb_joint_def_default();
     like.state = DMB_JOINT_OPEN;
     pendulum p = pendulum_of(&like);
-    assert_int_equal(joint_at(&p.s, p.hinge[1]).rows, 0);
+    assert_int_equal(joint_at(&p.s, p.hinge[1]).constraint_rows, 0);
     take_steps(&p.s, step, 200);
     const dmb_pose pose = pose_at(&p.s, dmb_station(p.bar[1], 0, 0.0));
     check_close("height of the free bar [m]", pose.position[2], -0.5 * g * 0.04, 1e-12);
@@ -631,7 +631,7 @@ static void bead_in_a_curved_hole(void **state)
     const dmb_energy sliding = energy_of(&s);
     check_below("sliding: energy over the kinetic", (sliding.kinetic + sliding.gravity - start) / sliding.kinetic,
                 1e-5);
-    check_below("misfit", joint_at(&s, joint).misfit, 1e-13);
+    check_below("violation", joint_at(&s, joint).violation, 1e-13);
     must(&s, dmb_sim_set_joint(s.sim, joint, DMB_JOINT_LOCKED));
     check_relative("kinetic energy into impact", energy_of(&s).impact, sliding.kinetic, 1e-12);
     const dmb_pose held = pose_at(&s, dmb_station(body, 0, 0.0));

@@ -4,7 +4,7 @@
 
 #include "mechanism.h"
 
-static dmb_id lump(rig *s, double y, double mass, double inertia)
+static dmb_id rigid_mass(rig *s, double y, double mass, double inertia)
 {
     dmb_body_def body = dmb_body_def_default();
     body.mass = mass;
@@ -65,7 +65,7 @@ static void torque_from_rest(void **state)
         const double T = 1000.0 * (k & 1 ? -1.0 : 1.0), h = k & 2 ? 0.3 : 0.1;
         rig s;
         rig_open(&s, 0.0, 0.0, 0.0);
-        const dmb_id joint = axle_on(&s, 0.0, lump(&s, 0.0, 1.0, 1.0));
+        const dmb_id joint = axle_on(&s, 0.0, rigid_mass(&s, 0.0, 1.0, 1.0));
         const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_LOAD, joint, DMB_RX, add_constant(&s, T));
         (void)mechanism_start(&s, NULL);
         for (int i = 1; i <= 5; i++) {
@@ -84,7 +84,7 @@ static void torque_that_reverses(void **state)
     const double T = 400.0, h = 0.2;
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
-    const dmb_id joint = axle_on(&s, 0.0, lump(&s, 0.0, 1.0, 1.0));
+    const dmb_id joint = axle_on(&s, 0.0, rigid_mass(&s, 0.0, 1.0, 1.0));
     const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_LOAD, joint, DMB_RX, add_constant(&s, T));
     (void)mechanism_start(&s, NULL);
     whole_steps(&s, h, 3);
@@ -107,7 +107,7 @@ static void follow(double speed, double time, double h)
     dmb_term term = dmb_term_default();
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
-    const dmb_id joint = axle_on(&s, 0.0, lump(&s, 0.0, 1.0, 1.0));
+    const dmb_id joint = axle_on(&s, 0.0, rigid_mass(&s, 0.0, 1.0, 1.0));
     term.kind = DMB_TERM_STEP;
     term.x1 = time;
     term.h1 = speed;
@@ -139,7 +139,7 @@ static void gears_by_torque(void **state)
     dmb_coupling_def gear = dmb_coupling_def_default();
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
-    for (int i = 0; i < 2; i++) gear.joint[i] = axle_on(&s, i, lump(&s, i, 1.0, J[i]));
+    for (int i = 0; i < 2; i++) gear.joint[i] = axle_on(&s, i, rigid_mass(&s, i, 1.0, J[i]));
     gear.ratio = ratio;
     must_model(&s, dmb_model_add_coupling(s.model, &gear, NULL));
     (void)add_simple_drive(&s, DMB_DRIVE_LOAD, gear.joint[0], DMB_RX, add_constant(&s, T));
@@ -150,7 +150,7 @@ static void gears_by_torque(void **state)
         check_relative("first wheel [rad]", angle(&s, gear.joint[0]), 0.5 * a * t * t, 1e-11);
         check_relative("second wheel [rad]", angle(&s, gear.joint[1]), 0.5 * a * t * t / ratio, 1e-11);
     }
-    check_below("misfit", statistics_of(&s).misfit, 1e-11);
+    check_below("violation", statistics_of(&s).violation, 1e-11);
     rig_close(&s);
 }
 
@@ -189,7 +189,7 @@ static void wheel_on_a_table(void **state)
     const double J[2] = {2.0, 0.5}, T = 300.0, h = 0.2;
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
-    const dmb_id table = lump(&s, 0.0, 1.0, J[0]), wheel = lump(&s, 0.0, 1.0, J[1]);
+    const dmb_id table = rigid_mass(&s, 0.0, 1.0, J[0]), wheel = rigid_mass(&s, 0.0, 1.0, J[1]);
     const dmb_id first = axle_on(&s, 0.0, table);
     const dmb_joint_def def = joint_on(DMB_JOINT_REVOLUTE, table, 0.0, wheel, 0.0);
     const dmb_id second = add_joint(&s, &def);
@@ -213,7 +213,7 @@ static void spring_wound_in_statics(void **state)
     for (size_t i = 0; i < sizeof torque / sizeof torque[0]; i++) {
         rig s;
         rig_open(&s, 0.0, 0.0, 0.0);
-        const dmb_id body = lump(&s, 0.0, 1.0, 1.0);
+        const dmb_id body = rigid_mass(&s, 0.0, 1.0, 1.0);
         dmb_joint_def def = joint_on(DMB_JOINT_REVOLUTE, ground_id, 0.0, body, 0.0);
         dmb_load_def load = dmb_load_def_default();
         def.stiffness[DMB_RX] = 0.1;

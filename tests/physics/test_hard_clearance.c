@@ -141,7 +141,7 @@ static void pinned_string(void **state)
 {
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
-    dmb_contact_sum sum = dmb_contact_sum_default();
+    dmb_contact_total sum = dmb_contact_total_default();
     dmb_static_report report = dmb_static_report_default();
     rig scene;
     (void)state;
@@ -151,7 +151,7 @@ static void pinned_string(void **state)
     add_pipes(&scene, &pipe, 20);
     rig_start_with(&scene, NULL, NULL);
     scene_must(&scene, dmb_analysis_static(scene.sim, NULL, &report));
-    assert_int_equal(dmb_query_contact_sum(scene.sim, &sum), DMB_OK);
+    assert_int_equal(dmb_query_contact_total(scene.sim, &sum), DMB_OK);
     const double weight = scene_info(&scene).mass * 9.81;
     print_message("pinned string: %u iterations, %.6f of the weight on the wall\n", report.iterations,
                   sum.normal_force / weight);

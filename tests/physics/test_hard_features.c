@@ -111,7 +111,7 @@ static void same_as_never_described(void **state)
             CHECK_CLOSE(left_out.energy, never.energy, 0.0);
             for (int j = 0; j < 3; j++) CHECK_CLOSE(left_out.tip.position[j], never.tip.position[j], 0.0);
             assert_int_equal(left_out.info.contact_sites, never.info.contact_sites);
-            assert_int_equal(left_out.info.freedoms, never.info.freedoms);
+            assert_int_equal(left_out.info.degrees_of_freedom, never.info.degrees_of_freedom);
             assert_int_equal(left_out.info.sim_bytes, never.info.sim_bytes);
         }
 }
@@ -140,17 +140,17 @@ static void counts(void **state)
     assert_true(no_contact.model_bytes < all.model_bytes);
     assert_true(no_friction.sim_bytes <= all.sim_bytes);
     assert_true(no_rock.sim_bytes < all.sim_bytes);
-    assert_int_equal(no_vibration.freedoms, all.freedoms);
+    assert_int_equal(no_vibration.degrees_of_freedom, all.degrees_of_freedom);
     /* axial-torsional pipes have sites for friction's sake alone */
     assert_true(run(WITH_ALL, WITH_ALL, DMB_PIPE_AXIAL_TORSIONAL).info.contact_sites > 0);
     assert_int_equal(run(WITH_ALL, WITH_ALL & ~WITH_FRICTION, DMB_PIPE_AXIAL_TORSIONAL).info.contact_sites, 0);
 }
 
-/* pipe_kind of the compile options turns all pipes into one kind: fewer freedoms, no description changed. */
+/* pipe_kind of the compile options turns all pipes into one kind: fewer degrees_of_freedom, no description changed. */
 static void pipe_kind_of_compile(void **state)
 {
     static const int32_t kinds[] = {DMB_PIPE_FLEXIBLE, DMB_PIPE_AXIAL_TORSIONAL, DMB_PIPE_RIGID};
-    uint32_t freedoms[3];
+    uint32_t degrees_of_freedom[3];
     (void)state;
     for (int k = 0; k < 3; k++) {
         dmb_compile_options compile = dmb_compile_options_default();
@@ -164,13 +164,13 @@ static void pipe_kind_of_compile(void **state)
             scene_step(&scene, 1e-3);
             scene_step(&plain, 1e-3);
         }
-        freedoms[k] = scene_info(&scene).freedoms;
+        degrees_of_freedom[k] = scene_info(&scene).degrees_of_freedom;
         CHECK_CLOSE(scene_total_energy(&scene), scene_total_energy(&plain), 0.0);
         rig_close(&scene);
         rig_close(&plain);
     }
-    print_message("freedoms: flexible %u, axial-torsional %u, rigid %u\n", freedoms[0], freedoms[1], freedoms[2]);
-    assert_true(freedoms[0] > freedoms[1] && freedoms[1] > freedoms[2]);
+    print_message("degrees_of_freedom: flexible %u, axial-torsional %u, rigid %u\n", degrees_of_freedom[0], degrees_of_freedom[1], degrees_of_freedom[2]);
+    assert_true(degrees_of_freedom[0] > degrees_of_freedom[1] && degrees_of_freedom[1] > degrees_of_freedom[2]);
 }
 
 int main(void)

@@ -181,7 +181,7 @@ static void free_top(void **state)
     add_string(&scene, &string);
     const dmb_id id = add_pipes(&scene, &pipe, 2);
     rig_start_with(&scene, NULL, &options);
-    assert_int_equal(scene_info(&scene).freedoms, 6);
+    assert_int_equal(scene_info(&scene).degrees_of_freedom, 6);
     assert_int_equal(scene_info(&scene).rigid_bodies, 1);
     const double H[3] = {axial * 40.0, 0.0, across * 3.0}, size = hypot(H[0], H[2]), rate = size / across;
     for (int i = 1; i <= 10000; i++) {
@@ -238,7 +238,7 @@ static void rigid_string_at_rest(void **state)
     dmb_wall_def wall = dmb_wall_def_default();
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
-    dmb_contact_sum sum = dmb_contact_sum_default();
+    dmb_contact_total sum = dmb_contact_total_default();
     rig scene;
     (void)state;
     inertia_of_pipes(4, &mass, &axial, &across);
@@ -250,7 +250,7 @@ static void rigid_string_at_rest(void **state)
     add_pipes(&scene, &pipe, 4);
     rig_start_with(&scene, NULL, NULL);
     for (int i = 0; i < 3000; i++) scene_step(&scene, 1e-3);
-    assert_int_equal(dmb_query_contact_sum(scene.sim, &sum), DMB_OK);
+    assert_int_equal(dmb_query_contact_total(scene.sim, &sum), DMB_OK);
     CHECK_RELATIVE(sum.normal_force, mass * 9.81, 1e-3);
     for (uint32_t i = 0; i < 5; i++) /* a site stands for a metre, at the ends for half of one: all sink alike */
         CHECK_RELATIVE(-scene_contact(&scene, i).gap, mass * 9.81 / 4.0 / 1e7, 1e-2);

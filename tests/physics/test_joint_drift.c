@@ -23,13 +23,13 @@ static void open_bar(rig *s, dmb_id *hinge, const dmb_sim_options *options)
     (void)mechanism_start(s, options);
 }
 
-/* The misfit is of the last state each time: it cannot build up, whatever the number of steps. */
-static double worst_misfit(const rig *s, double h, uint32_t steps)
+/* The violation is of the last state each time: it cannot build up, whatever the number of steps. */
+static double largest_violation(const rig *s, double h, uint32_t steps)
 {
     double most = 0.0;
     for (uint32_t k = 0; k < steps; k += 100) {
         take_steps(s, h, 100);
-        most = fmax(most, statistics_of(s).misfit);
+        most = fmax(most, statistics_of(s).violation);
     }
     return most;
 }
@@ -43,7 +43,7 @@ static void hinge_does_not_drift(void **state)
     open_bar(&s, &hinge, &options);
     const double low = 0.5 * 9.81 * sin(-0.3);
     print_message("    %d steps of 1e-3 s\n", PENDULUM_STEPS);
-    check_below("misfit of the hinge [m]", worst_misfit(&s, 1e-3, PENDULUM_STEPS), 1e-12);
+    check_below("violation of the hinge [m]", largest_violation(&s, 1e-3, PENDULUM_STEPS), 1e-12);
     const dmb_joint_state joint = joint_at(&s, hinge);
     const double energy =
         0.5 / 3.0 * joint.speed[DMB_RX] * joint.speed[DMB_RX] + 0.5 * 9.81 * sin(joint.position[DMB_RX]);
@@ -76,9 +76,9 @@ static void four_bar_does_not_drift(void **state)
     print_message("    %d steps of 1e-3 s\n", FOURBAR_STEPS);
     for (int k = 0; k < FOURBAR_STEPS; k++) {
         must(&s, dmb_sim_step(s.sim, 1e-3, NULL));
-        if (k % 100 == 0) most = fmax(most, statistics_of(&s).misfit);
+        if (k % 100 == 0) most = fmax(most, statistics_of(&s).violation);
     }
-    check_below("misfit of the four hinges [m]", most, 1e-12);
+    check_below("violation of the four hinges [m]", most, 1e-12);
     assert_int_equal(statistics_of(&s).redundant, 3);
     rig_close(&s);
 }

@@ -83,7 +83,7 @@ static void reference_of_the_four_bars(void **state)
 typedef struct outcome {
     double off[4]; /* [m] tip at the times of the table */
     double branch; /* [rad] largest difference between the angles of the cranks */
-    double misfit; /* [m] */
+    double violation; /* [m] */
     uint32_t cuts; /* steps that were divided */
     uint32_t reserved;
     dmb_statistics statistics;
@@ -93,7 +93,7 @@ static void note_branch(const fourbars *m, outcome *o)
 {
     const double a = joint_at(&m->s, m->joints[0]).position[DMB_RX];
     for (int i = 1; i < 3; i++) o->branch = fmax(o->branch, fabs(joint_at(&m->s, m->joints[i]).position[DMB_RX] - a));
-    o->misfit = fmax(o->misfit, statistics_of(&m->s).misfit);
+    o->violation = fmax(o->violation, statistics_of(&m->s).violation);
 }
 
 /* The change point magnifies what Newton leaves: with 1e-8 of the forces the errors at 1 s scatter by 1 %, 0.03 of the
@@ -129,7 +129,7 @@ static void check_outcome(const outcome *o)
     assert_int_equal(o->statistics.redundant, 6);
     assert_int_equal(o->statistics.dependent, 29);
     check_below("    cranks out of parallel: another branch", o->branch, 1e-9);
-    check_below("    misfit of the joints", o->misfit, 1e-14);
+    check_below("    violation of the joints", o->violation, 1e-14);
 }
 
 /* CASES.md asks for 1e-5 at h 1e-3. The rotations of the bars are what the step integrates: the projection moves their

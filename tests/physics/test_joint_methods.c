@@ -176,8 +176,8 @@ static void compare_methods(const char *what, build_fn build, double h, uint32_t
     tell("    the first part has moved by [m]", largest_difference(3, start.position, end.position));
     check_below("    poses and speeds of the two methods", motion, 1e-9);
     check_below("    their reactions, relative", force, 1e-9);
-    check_below("    misfit, independent", statistics_of(&a.s).misfit, 1e-14);
-    check_below("    misfit, multipliers", statistics_of(&b.s).misfit, 1e-14);
+    check_below("    violation, independent", statistics_of(&a.s).violation, 1e-14);
+    check_below("    violation, multipliers", statistics_of(&b.s).violation, 1e-14);
     tell("    iterations a step, independent", (double)statistics_of(&a.s).iterations / steps);
     tell("    iterations a step, multipliers", (double)statistics_of(&b.s).iterations / steps);
     rig_close(&a.s);

@@ -57,7 +57,7 @@ static void swing_from_the_side(double r, double h, int places, double tolerance
                     fmax(fabs(pose.position[0] - want->across), fabs(pose.position[2] - want->up)), tolerance);
         check_below("    out of the plane", pose.position[1], 1e-15);
     }
-    check_below("    misfit of the hinge", joint_at(&p.s, p.hinge).misfit, 1e-14);
+    check_below("    violation of the hinge", joint_at(&p.s, p.hinge).violation, 1e-14);
     rig_close(&p.s);
 }
 

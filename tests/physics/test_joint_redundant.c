@@ -116,7 +116,7 @@ static uint32_t redundant_rows(const fourbar *m, int print)
     uint32_t sum = 0;
     for (int i = 0; i < 4; i++) {
         const dmb_joint_state joint = joint_at(&m->s, m->joints[i]);
-        if (print) print_message("    joint %c: %u of %u rows redundant\n", 'A' + i, joint.redundant, joint.rows);
+        if (print) print_message("    joint %c: %u of %u rows redundant\n", 'A' + i, joint.redundant, joint.constraint_rows);
         sum += joint.redundant;
     }
     return sum;
@@ -281,17 +281,17 @@ static void least_norm_is_symmetric(void **state)
 
 /* ---- What does not fit ------------------------------------------------------------------------------------------- */
 
-/* The number behind "misfit = " in a message. */
-static double misfit_told(const char *text)
+/* The number behind "violation = " in a message. */
+static double violation_told(const char *text)
 {
-    double misfit = (double)NAN;
-    const char *at = strstr(text, "misfit = ");
+    double violation = (double)NAN;
+    const char *at = strstr(text, "violation = ");
     assert_non_null(at);
-    assert_int_equal(sscanf(at, "misfit = %lf", &misfit), 1);
-    return misfit;
+    assert_int_equal(sscanf(at, "violation = %lf", &violation), 1);
+    return violation;
 }
 
-/* Rows that others nearly hold share the misfit, so that it is of the size of 1e-3. */
+/* Rows that others nearly hold share the violation, so that it is of the size of 1e-3. */
 static void check_refusal(rig *s)
 {
     const refusal said = refused_start(s);
@@ -300,8 +300,8 @@ static void check_refusal(rig *s)
     assert_null(s->sim);
     assert_non_null(strstr(said.text, "joint "));
     assert_non_null(strstr(said.text, "("));
-    const double misfit = fabs(misfit_told(said.text));
-    assert_true(misfit > 1e-4 && misfit < 3e-3);
+    const double violation = fabs(violation_told(said.text));
+    assert_true(violation > 1e-4 && violation < 3e-3);
     rig_close(s);
 }
 
@@ -342,7 +342,7 @@ static void rod_too_long_is_refused(void **state)
     (void)mechanism_start(&m.s, NULL);
     assert_int_equal(statistics_of(&m.s).redundant, 4);
     take_steps(&m.s, 1e-3, 100);
-    check_below("the rod that fits: misfit after 0.1 s", joint_at(&m.s, prop).misfit, 1e-14);
+    check_below("the rod that fits: violation after 0.1 s", joint_at(&m.s, prop).violation, 1e-14);
     rig_close(&m.s);
 }
 
@@ -360,7 +360,7 @@ static void rod_put_in_later_is_refused(void **state)
     assert_int_equal(dmb_sim_set_joint(m.s.sim, prop, DMB_JOINT_ACTIVE), DMB_ERR_GEOMETRY);
     print_message("    %s\n", dmb_sim_message(m.s.sim));
     assert_non_null(strstr(dmb_sim_message(m.s.sim), "prop"));
-    check_relative("misfit told", fabs(misfit_told(dmb_sim_message(m.s.sim))), 1e-3, 1e-3);
+    check_relative("violation told", fabs(violation_told(dmb_sim_message(m.s.sim))), 1e-3, 1e-3);
     must(&m.s, dmb_sim_hash(m.s.sim, &after));
     assert_true(before == after);
     take_steps(&m.s, 1e-3, 100);

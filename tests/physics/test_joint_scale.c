@@ -4,7 +4,7 @@
 #include "drillmbd/drillmbd.h"
 
 typedef struct outcome {
-    double angle, speed, slide, misfit; /* slide and misfit over the size */
+    double angle, speed, slide, violation; /* slide and violation over the size */
     uint64_t iterations;
 } outcome;
 
@@ -72,7 +72,7 @@ static outcome run(double size)
     must(dmb_query_statistics(sim, &statistics), "statistics");
     dmb_sim_destroy(&sim);
     dmb_model_destroy(&model);
-    const outcome o = {turned.position[3], turned.speed[3], slid.position[0] / size, statistics.misfit / size,
+    const outcome o = {turned.position[3], turned.speed[3], slid.position[0] / size, statistics.violation / size,
                        statistics.iterations};
     return o;
 }
@@ -89,7 +89,7 @@ static void size_does_not_matter(void **state)
         check_close("    angle [rad]", o.angle, one.angle, 1e-9);
         check_close("    speed [rad/s]", o.speed, one.speed, 1e-8);
         check_close("    slide over size", o.slide, one.slide, 1e-9);
-        check_below("    misfit over size", o.misfit, 1e-12);
+        check_below("    violation over size", o.violation, 1e-12);
         check_close("    iterations", (double)o.iterations, (double)one.iterations, 0.02 * (double)one.iterations);
     }
 }

@@ -117,17 +117,17 @@ static void four_bar(void **state)
     assert_int_equal(r.flexible_parts, 0);
     assert_int_equal(r.joints[DMB_JOINT_REVOLUTE], 4);
     assert_int_equal(r.coordinates, 18);
-    assert_int_equal(r.rows, 20);
+    assert_int_equal(r.constraint_rows, 20);
     assert_int_equal(r.gruebler, -2);
     assert_int_equal(r.rank, 17);
-    assert_int_equal(r.freedoms, 1);
+    assert_int_equal(r.degrees_of_freedom, 1);
     assert_int_equal(r.redundant, 3);
     assert_int_equal(r.clusters, 1);
     assert_int_equal(r.largest_cluster, 18);
     assert_int_equal(r.sparse_nodes, 3);
     assert_int_equal(r.tridiagonal_nodes, 0);
     assert_int_equal(r.warnings, 1);
-    check_below("misfit", r.largest_misfit, 1e-12);
+    check_below("violation", r.largest_violation, 1e-12);
     assert_true(r.condition > 1e-3 && r.condition <= 1.0);
     assert_int_equal(redundant_lines(text_of(&s)), 3);
     rig_close(&s);
@@ -147,8 +147,8 @@ static void redundant_rows_are_those_that_are_dropped(void **state)
     assert_int_equal(statistics.redundant, 3);
     assert_int_equal(r.redundant, 3);
     assert_int_equal(r.rank, statistics.dependent);
-    assert_int_equal(r.freedoms, 1);
-    check_below("misfit", r.largest_misfit, 1e-12);
+    assert_int_equal(r.degrees_of_freedom, 1);
+    check_below("violation", r.largest_violation, 1e-12);
     assert_int_equal(redundant_lines(text_of(&s)), 3);
     rig_close(&s);
 }
@@ -191,25 +191,25 @@ static void locked_open_and_coupled(void **state)
     (void)add_simple_drive(&s, DMB_DRIVE_MOTION, first, DMB_RX, add_constant(&s, 0.0));
     (void)rig_start(&s, NULL);
     dmb_check_report r = check_of(&s);
-    assert_int_equal(r.rows, 12);
-    assert_int_equal(r.freedoms, 0);
+    assert_int_equal(r.constraint_rows, 12);
+    assert_int_equal(r.degrees_of_freedom, 0);
     assert_int_equal(r.couplings, 1);
     assert_int_equal(r.warnings, 0);
     must(&s, dmb_sim_set_joint(s.sim, second, DMB_JOINT_LOCKED));
     r = check_of(&s);
     assert_int_equal(r.locked_joints, 1);
     assert_int_equal(r.joints[DMB_JOINT_REVOLUTE], 2);
-    assert_int_equal(r.rows, 13);
+    assert_int_equal(r.constraint_rows, 13);
     assert_int_equal(r.redundant, 1);
-    assert_int_equal(r.freedoms, 0);
+    assert_int_equal(r.degrees_of_freedom, 0);
     (void)text_of(&s);
     must(&s, dmb_sim_set_joint(s.sim, second, DMB_JOINT_ACTIVE));
     must(&s, dmb_sim_set_joint(s.sim, first, DMB_JOINT_OPEN));
     r = check_of(&s);
     assert_int_equal(r.open_joints, 1);
     assert_int_equal(r.joints[DMB_JOINT_REVOLUTE], 1);
-    assert_int_equal(r.rows, 5);
-    assert_int_equal(r.freedoms, 7);
+    assert_int_equal(r.constraint_rows, 5);
+    assert_int_equal(r.degrees_of_freedom, 7);
     expect_line(text_of(&s), "drive 0: joint 0 (first) is open");
     rig_close(&s);
 }
@@ -284,7 +284,7 @@ static void expect_reference_parts(const dmb_check_report *r)
     assert_int_equal(r->elements, PIPES);
     assert_int_equal(r->motion_drives, 2);
     assert_int_equal(r->other_drives, 0);
-    assert_int_equal(r->freedoms, 600);
+    assert_int_equal(r->degrees_of_freedom, 600);
     assert_int_equal(r->gruebler, 600);
     assert_int_equal(r->redundant, 0);
 }
@@ -301,8 +301,8 @@ static void reference_with_joints(void **state)
     assert_int_equal(r.joints[DMB_JOINT_CYLINDRICAL], 1);
     assert_int_equal(r.coordinates, 1212);
     assert_int_equal(r.held + r.prescribed, 0);
-    assert_int_equal(r.rows, 101 * 6 + 4 + 2);
-    assert_int_equal(r.rank, r.rows);
+    assert_int_equal(r.constraint_rows, 101 * 6 + 4 + 2);
+    assert_int_equal(r.rank, r.constraint_rows);
     assert_int_equal(r.clusters, 101);
     assert_int_equal(r.sparse_nodes, 202);
     assert_int_equal(r.tridiagonal_nodes, 0);
@@ -323,7 +323,7 @@ static void reference_structural(void **state)
     assert_int_equal(r.coordinates, 606);
     assert_int_equal(r.held, 4);
     assert_int_equal(r.prescribed, 2);
-    assert_int_equal(r.rows + r.rank + r.clusters + r.blocks + r.sparse_nodes, 0);
+    assert_int_equal(r.constraint_rows + r.rank + r.clusters + r.blocks + r.sparse_nodes, 0);
     assert_int_equal(r.tridiagonal_nodes, 101);
     assert_int_equal(r.warnings, 0);
     check_close("condition", r.condition, 1.0, 0.0);
@@ -352,7 +352,7 @@ static void parts_of_a_mixed_string(void **state)
     assert_int_equal(r.flexible_parts, 2);
     assert_int_equal(r.elements, 8);
     assert_int_equal(r.structural_joints, 4 + 2 + 1);
-    assert_int_equal(r.freedoms, 9 * 6 - 4);
+    assert_int_equal(r.degrees_of_freedom, 9 * 6 - 4);
     rig_close(&s);
 }
 
@@ -389,7 +389,7 @@ static void branch(void **state)
     assert_int_equal(r.sparse_nodes, 7 + 4);
     assert_int_equal(r.tridiagonal_nodes, 3);
     assert_int_equal(r.blocks, 1 + 6 + 3);
-    assert_int_equal(r.freedoms, (6 + 4 + 2) * 6 - 4);
+    assert_int_equal(r.degrees_of_freedom, (6 + 4 + 2) * 6 - 4);
     assert_int_equal(r.fill, 0);
     assert_int_equal(r.warnings, 0);
     expect_line(text_of(&s), "block-tridiagonal 3 nodes, sparse 11 nodes in 10 blocks");

@@ -76,8 +76,8 @@ static void whirl_of_a_shaft(void **state)
         rig still, turning;
         open_shaft(&still, 64, 0.0);
         open_shaft(&turning, 64, speeds[i]);
-        dmb_modes *by_option = modes_in_axes(&still, DMB_MODES_STILL, speeds[i], 12);
-        dmb_modes *by_state = modes_in_axes(&turning, DMB_MODES_STILL, 0.0, 12);
+        dmb_modes *by_option = modes_in_axes(&still, DMB_MODES_AXES_AT_REST, speeds[i], 12);
+        dmb_modes *by_state = modes_in_axes(&turning, DMB_MODES_AXES_AT_REST, 0.0, 12);
         tell("shaft turning at [rad/s]", speeds[i]);
         check_shaft(by_option, speeds[i], tolerances[i]);
         for (uint32_t k = 0; k < 6; k++)
@@ -94,7 +94,7 @@ static double shaft_error(uint32_t elements, double speed)
 {
     rig s;
     open_shaft(&s, elements, 0.0);
-    dmb_modes *modes = modes_in_axes(&s, DMB_MODES_STILL, speed, 8);
+    dmb_modes *modes = modes_in_axes(&s, DMB_MODES_AXES_AT_REST, speed, 8);
     const double error = whirling(modes, 1.0, 0).eigenvalue[1] / shaft_frequency(1, speed, 1.0) - 1.0;
     dmb_modes_destroy(&modes);
     rig_close(&s);
@@ -115,8 +115,8 @@ static void axes_that_turn_shift_by_the_speed(void **state)
     const double speed = 20.0;
     rig s;
     open_shaft(&s, 64, 0.0);
-    dmb_modes *outside = modes_in_axes(&s, DMB_MODES_STILL, speed, 12);
-    dmb_modes *inside = modes_in_axes(&s, DMB_MODES_TURNING, speed, 16);
+    dmb_modes *outside = modes_in_axes(&s, DMB_MODES_AXES_AT_REST, speed, 12);
+    dmb_modes *inside = modes_in_axes(&s, DMB_MODES_AXES_TURNING, speed, 16);
     for (uint32_t n = 0; n < 3; n++) {
         check_below("forward, w - W", closest_mode(inside, fabs(whirling(outside, 1.0, n).eigenvalue[1] - speed)),
                     1e-6);
@@ -158,8 +158,8 @@ static void swing_of_a_pipe_that_turns_on_the_wall(void **state)
     const dmb_pose pose = pose_at(&s, dmb_station(pipes, 0, 0.5));
     check_relative("climbed, tangent of the angle", fabs(pose.position[1] / pose.position[2]), mu, 1e-6);
     const double e = hypot(pose.position[1], pose.position[2]), want = sqrt(9.81 * sqrt(1.0 + mu * mu) / e);
-    dmb_modes *modes = modes_in_axes(&s, DMB_MODES_STILL, speed, 4);
-    check_below("turning on the wall: out of balance", info_of(modes).unbalance, 1e-6);
+    dmb_modes *modes = modes_in_axes(&s, DMB_MODES_AXES_AT_REST, speed, 4);
+    check_below("turning on the wall: out of balance", info_of(modes).residual_of_state, 1e-6);
     check_below("    swings with sqrt(g sqrt(1 + mu^2)/e)", closest_mode(modes, want), 1e-5);
     tell("    [Hz]", want / (2.0 * PI));
     dmb_modes_destroy(&modes);
@@ -187,7 +187,7 @@ static void few_and_all_of_a_turning_string(void **state)
     rest.slip_rotation = speed;
     (void)find_equilibrium(&s, &rest);
     dmb_modes_options options = dmb_modes_options_default();
-    options.axes = DMB_MODES_STILL;
+    options.axes = DMB_MODES_AXES_AT_REST;
     options.spin = speed;
     options.equilibrium_tolerance = 1e-4; /* the rest slips around the hole's axis, the pipes turn about their own */
     for (options.kind = DMB_MODES_UNDAMPED; options.kind <= DMB_MODES_DAMPED; options.kind++) {

@@ -360,8 +360,8 @@ static dmb_id open_lying(rig *s, uint32_t pipes)
 static int32_t swings(void *context, const dmb_sim *at, const dmb_path_point *point)
 {
     double *most = context;
-    dmb_contact_sum contacts = dmb_contact_sum_default();
-    assert_int_equal(dmb_query_contact_sum(at, &contacts), DMB_OK);
+    dmb_contact_total contacts = dmb_contact_total_default();
+    assert_int_equal(dmb_query_contact_total(at, &contacts), DMB_OK);
     if (point->kind == DMB_PATH_BRANCH) *most = contacts.normal_force;
     if (*most == 0.0) return 0;
     assert_int_equal(point->negative, 0);

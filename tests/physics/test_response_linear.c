@@ -6,7 +6,7 @@
 #include "harmonic.h"
 
 /* |got - want| / |want| */
-static double misfit(double complex got, double complex want)
+static double violation(double complex got, double complex want)
 {
     return cabs(got - want) / cabs(want);
 }
@@ -53,9 +53,9 @@ static void jeffcott_rotor(void **state)
         const double complex exact = 1e-4 * r * r / (1.0 - r * r + 2.0 * i_ * 0.02 * r);
         (void)snprintf(what, sizeof what, "Jeffcott at r = %g: amplitude of the table", r);
         check_relative(what, cabs(y[i]), amplitude[i], 1e-6);
-        check_below("    with phase, of the closed form", misfit(y[i], exact), 1e-11);
-        check_below("    z a quarter of a turn behind y", misfit(z[i], -i_ * exact), 1e-11);
-        check_below("    the same as a given unbalance of m e", misfit(given[i] * 50.0 * 1e-4, exact), 1e-11);
+        check_below("    with phase, of the closed form", violation(y[i], exact), 1e-11);
+        check_below("    z a quarter of a turn behind y", violation(z[i], -i_ * exact), 1e-11);
+        check_below("    the same as a given unbalance of m e", violation(given[i] * 50.0 * 1e-4, exact), 1e-11);
     }
     check_close("phase at resonance", carg(y[2]) * 180.0 / PI, -90.0, 1e-9);
     rig_close(&s);
@@ -95,8 +95,8 @@ static void spinning_rotor(void **state)
     for (int i = 0; i < 3; i++) {
         const double w = 2.0 * PI * frequencies[i];
         const double complex a = k - m * (w * w + W * W) + i_ * w * c, b = 2.0 * i_ * w * m * W + c * W;
-        check_below("spinning rotor, its own axes: along the force", misfit(y[i], a / (a * a + b * b)), 1e-9);
-        check_below("    across it", misfit(z[i], -b / (a * a + b * b)), 1e-9);
+        check_below("spinning rotor, its own axes: along the force", violation(y[i], a / (a * a + b * b)), 1e-9);
+        check_below("    across it", violation(z[i], -b / (a * a + b * b)), 1e-9);
     }
     rig_close(&s);
 }
@@ -172,8 +172,8 @@ static double rod_moved_at_its_end(int32_t c, uint32_t elements)
     transfer(&s, NULL, &input, &load, frequencies, 3, section);
     for (int i = 0; i < 3; i++) {
         const double w = 2.0 * PI * frequencies[i], k = w * sqrt(inertia / stiffness);
-        worst = fmax(worst, misfit(tip[i], 1.0 / (i_ * w * cos(k * 150.0))));
-        worst = fmax(worst, misfit(section[i], stiffness * k * tan(k * 150.0) / (i_ * w)));
+        worst = fmax(worst, violation(tip[i], 1.0 / (i_ * w * cos(k * 150.0))));
+        worst = fmax(worst, violation(section[i], stiffness * k * tan(k * 150.0) / (i_ * w)));
     }
     rig_close(&s);
     return worst;
@@ -220,8 +220,8 @@ static void controlled_mass(void **state)
     transfer(&s, NULL, &force, &a, frequencies, 4, free);
     for (int i = 0; i < 4; i++) {
         const double complex iw = 2.0 * PI * frequencies[i] * i_, c = 40.0 + 300.0 / iw;
-        check_below("controlled mass: speed over target", misfit(h[i], c / (7.0 * iw + c)), 1e-8);
-        check_below("    acceleration of a free mass under a load drive", misfit(free[i], 1.0 / 7.0), 1e-12);
+        check_below("controlled mass: speed over target", violation(h[i], c / (7.0 * iw + c)), 1e-8);
+        check_below("    acceleration of a free mass under a load drive", violation(free[i], 1.0 / 7.0), 1e-12);
     }
     rig_close(&s);
 }
@@ -315,7 +315,7 @@ static void forces_on_guides(void **state)
     transfer(&s, NULL, &force, &move, &frequency, 1, &at_tip);
     const double unbalance = 1.5 * s1_values().mass * 1e-3;
     check_below("eccentric pipes against unbalance at their free nodes",
-                misfit(own, unbalance * (at_middle + 0.5 * at_tip)), 1e-12);
+                violation(own, unbalance * (at_middle + 0.5 * at_tip)), 1e-12);
     rig_close(&s);
 }
 
@@ -340,7 +340,7 @@ static void joint_against_shared_node(void **state)
         transfer(&two, NULL, &at_c, &of_d, frequencies, 4, y);
         transfer(&one, NULL, &at_a, &load_b, frequencies, 4, p);
         transfer(&two, NULL, &at_c, &load_d, frequencies, 4, q);
-        for (int f = 0; f < 4; f++) worst = fmax(worst, fmax(misfit(y[f], x[f]), misfit(q[f], p[f])));
+        for (int f = 0; f < 4; f++) worst = fmax(worst, fmax(violation(y[f], x[f]), violation(q[f], p[f])));
     }
     check_below("two strings and a fixed joint against one string", worst, 1e-9);
     rig_close(&one);
@@ -383,7 +383,7 @@ static void many_joints_against_none(void **state)
         const dmb_output of_b = output_at(DMB_OUTPUT_DISPLACEMENT, b, c);
         transfer(&one, NULL, &at_a, &of_a, frequencies, 4, x);
         transfer(&many, NULL, &at_b, &of_b, frequencies, 4, y);
-        for (int f = 0; f < 4; f++) worst = fmax(worst, misfit(y[f], x[f]));
+        for (int f = 0; f < 4; f++) worst = fmax(worst, violation(y[f], x[f]));
     }
     check_below("59 fixed joints against one string, tip receptances", worst, 1e-7);
     rig_close(&one);
@@ -440,7 +440,7 @@ static void drives_of_joints(void **state)
         const dmb_output at_b = output_at(DMB_OUTPUT_DISPLACEMENT, b, DMB_RX);
         transfer(&own, NULL, &of_string, &at_a, frequencies, 3, x);
         transfer(&jointed, NULL, &of_joint, &at_b, frequencies, 3, y);
-        for (int f = 0; f < 3; f++) worst = fmax(worst, misfit(y[f], x[f]));
+        for (int f = 0; f < 3; f++) worst = fmax(worst, violation(y[f], x[f]));
         (void)snprintf(what, sizeof what, "%s drive of a joint against that of the string", names[kind]);
         check_below(what, worst, 1e-9);
         rig_close(&own);
@@ -485,7 +485,7 @@ static void drive_of_a_part_with_joints(void **state)
     transfer(&s, NULL, &of_chuck, &at_b, frequencies, 3, y);
     transfer(&own, NULL, &of_string, &in_a, frequencies, 3, p);
     transfer(&s, NULL, &of_chuck, &in_b, frequencies, 3, q);
-    for (int f = 0; f < 3; f++) worst = fmax(worst, fmax(misfit(y[f], x[f]), misfit(q[f], p[f])));
+    for (int f = 0; f < 3; f++) worst = fmax(worst, fmax(violation(y[f], x[f]), violation(q[f], p[f])));
     check_below("motion drive of a chuck against that of the string", worst, 1e-9);
     rig_close(&own);
     rig_close(&s);
@@ -527,7 +527,7 @@ static void peaks_and_sums(void **state)
     options.logarithmic = 1;
     options.refinement = LEVELS;
     must(&s, dmb_analysis_response(s.sim, &options, inputs, 2, &output, 1, &response));
-    assert_int_equal(dmb_response_shape(response, shape), DMB_OK);
+    assert_int_equal(dmb_response_dimensions(response, shape), DMB_OK);
     assert_true(shape[0] > GRID && shape[0] <= ROOM);
     assert_int_equal(dmb_response_frequencies(response, frequencies), DMB_OK);
     assert_int_equal(dmb_response_transfer(response, 0, 0, (double *)one), DMB_OK);
@@ -535,7 +535,7 @@ static void peaks_and_sums(void **state)
     assert_int_equal(dmb_response_transfer(response, DMB_COMBINED, 0, (double *)all), DMB_OK);
     for (uint32_t i = 0; i < shape[0]; i++) {
         if (i > 0) assert_true(frequencies[i] > frequencies[i - 1]);
-        off = fmax(off, misfit(all[i], 2.0 * one[i] + 0.3 * cexp(0.7 * i_) * two[i]));
+        off = fmax(off, violation(all[i], 2.0 * one[i] + 0.3 * cexp(0.7 * i_) * two[i]));
         if (cabs(one[i]) > highest) highest = cabs(one[i]), at = frequencies[i];
     }
     print_message("%u points\n", shape[0]);
@@ -617,7 +617,7 @@ static void load_on_the_bit(void **state)
     transfer(&s, NULL, &load, &thrust, frequencies, 3, by_load);
     transfer(&s, NULL, &force, &thrust, frequencies, 3, by_force);
     for (int i = 0; i < 3; i++)
-        check_below("bottom-hole load against a force on the bit", misfit(by_load[i], -by_force[i]), 1e-9);
+        check_below("bottom-hole load against a force on the bit", violation(by_load[i], -by_force[i]), 1e-9);
     check_relative("    thrust at the clamp at frequency 0", creal(by_load[0]), -1.0, 1e-9);
     rig_close(&s);
 }

@@ -18,7 +18,7 @@ static void compare(const rig *still, const rig *shaken, double tolerance, doubl
                     double amplitude, const named_output *outputs, const named_output *others, uint32_t count)
 {
     dmb_response_options about = dmb_response_options_default();
-    dmb_sine_options options = dmb_sine_options_default();
+    dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     dmb_output asked[OUTPUTS_MAX];
     double amplitudes[OUTPUTS_MAX][4][2];
     double complex linear[OUTPUTS_MAX];
@@ -30,7 +30,7 @@ static void compare(const rig *still, const rig *shaken, double tolerance, doubl
         transfer(still, &about, input, &outputs[k].output, &frequency, 1, linear + k);
     }
     const int32_t status =
-        dmb_analysis_sine(shaken->sim, frequency, &options, asked, count, &amplitudes[0][0][0], NULL);
+        dmb_analysis_stepped_sine(shaken->sim, frequency, &options, asked, count, &amplitudes[0][0][0], NULL);
     must(shaken, status);
     assert_int_equal(status, DMB_OK);
     for (uint32_t k = 0; k < count; k++) {

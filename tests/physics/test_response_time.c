@@ -14,7 +14,7 @@ static double complex number(const double *pair)
 /* ---- Jeffcott rotor ---------------------------------------------------------------------------------------------- */
 
 /* The rotor of CASES, k 1e6 N/m, m 50 kg, e 1e-4 m, damping ratio 0.02, turned at r times its natural frequency. */
-static double complex rotor_amplitude(double r, dmb_sine_report *report)
+static double complex rotor_amplitude(double r, dmb_stepped_sine_report *report)
 {
     const double natural = sqrt(1e6 / 50.0), frequency = r * natural / (2.0 * PI);
     double amplitudes[2][2][2];
@@ -34,13 +34,13 @@ static double complex rotor_amplitude(double r, dmb_sine_report *report)
     must_model(&s, dmb_model_add_joint(s.model, &shaft, NULL));
     (void)add_simple_drive(&s, DMB_DRIVE_MOTION, body, DMB_RX, add_constant(&s, r * natural));
     (void)rig_start(&s, NULL);
-    dmb_sine_options options = dmb_sine_options_default();
+    dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     options.steps_per_period = 400;
     options.harmonics = 1;
     options.tolerance = 1e-4;
     const dmb_output outputs[2] = {output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Y),
                                    output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Z)};
-    const int32_t status = dmb_analysis_sine(s.sim, frequency, &options, outputs, 2, &amplitudes[0][0][0], report);
+    const int32_t status = dmb_analysis_stepped_sine(s.sim, frequency, &options, outputs, 2, &amplitudes[0][0][0], report);
     must(&s, status);
     assert_int_equal(status, DMB_OK);
     rig_close(&s);
@@ -56,7 +56,7 @@ static void spinning_jeffcott_rotor(void **state)
     const double amplitude[5] = {3.3321487799e-5, 4.1886342861e-4, 2.5e-3, 5.6394477810e-4, 1.3328595119e-4};
     for (int i = 0; i < 5; i++) {
         char what[64];
-        dmb_sine_report report = dmb_sine_report_default();
+        dmb_stepped_sine_report report = dmb_stepped_sine_report_default();
         const double r = ratio[i];
         const double complex got = rotor_amplitude(r, &report);
         (void)snprintf(what, sizeof what, "rotor at r = %g: amplitude of the table", r);
@@ -74,15 +74,15 @@ enum { OUTPUTS = 4 };
 static void compare_with_linear(const rig *s, const char *what, double frequency, const dmb_input *input,
                                 double amplitude, const dmb_output *outputs)
 {
-    dmb_sine_options options = dmb_sine_options_default();
-    dmb_sine_report report = dmb_sine_report_default();
+    dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
+    dmb_stepped_sine_report report = dmb_stepped_sine_report_default();
     double amplitudes[OUTPUTS][4][2];
     double complex linear[OUTPUTS];
     options.steps_per_period = 400;
     options.tolerance = 1e-4;
     for (int k = 0; k < OUTPUTS; k++) transfer(s, NULL, input, outputs + k, &frequency, 1, linear + k);
     const int32_t status =
-        dmb_analysis_sine(s->sim, frequency, &options, outputs, OUTPUTS, &amplitudes[0][0][0], &report);
+        dmb_analysis_stepped_sine(s->sim, frequency, &options, outputs, OUTPUTS, &amplitudes[0][0][0], &report);
     must(s, status);
     print_message("%s, %g Hz: %u windows, %.1e to come\n", what, frequency, report.windows, report.remaining);
     assert_int_equal(status, DMB_OK);
@@ -224,7 +224,7 @@ static void two_inputs_together(void **state)
     const dmb_output outputs[2] = {output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(bit, 0, 0.0), DMB_X),
                                    output_at(DMB_OUTPUT_SECTION_FORCE, dmb_station(pipe.string, 1, 0.5), DMB_X)};
     dmb_response_options about = dmb_response_options_default();
-    dmb_sine_options options = dmb_sine_options_default();
+    dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
     dmb_response *response = NULL;
     about.frequencies = &frequency;
     about.points = 1;
@@ -232,7 +232,7 @@ static void two_inputs_together(void **state)
     options.steps_per_period = 400;
     options.tolerance = 1e-4;
     must(&s, dmb_analysis_response(s.sim, &about, inputs, 2, outputs, 2, &response));
-    must(&s, dmb_analysis_sine(s.sim, frequency, &options, outputs, 2, &amplitudes[0][0][0], NULL));
+    must(&s, dmb_analysis_stepped_sine(s.sim, frequency, &options, outputs, 2, &amplitudes[0][0][0], NULL));
     for (uint32_t k = 0; k < 2; k++) {
         assert_int_equal(dmb_response_transfer(response, DMB_COMBINED, k, (double *)(h + k)), DMB_OK);
         check_below(k == 0 ? "bit load and drive together: motion of the bit" : "    force in the string",
@@ -270,7 +270,7 @@ static void eccentric_string_that_turns(void **state)
         const double frequency = frequencies[i];
         double complex linear;
         double amplitudes[1][4][2];
-        dmb_sine_options options = dmb_sine_options_default();
+        dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
         dmb_id at_rest, string;
         rig still, turning;
         open_eccentric(&still, 0.0, &at_rest);
@@ -281,7 +281,7 @@ static void eccentric_string_that_turns(void **state)
         options.steps_per_period = 400;
         options.tolerance = 1e-4;
         transfer(&still, NULL, &own, &there, &frequency, 1, &linear);
-        must(&turning, dmb_analysis_sine(turning.sim, frequency, &options, &here, 1, &amplitudes[0][0][0], NULL));
+        must(&turning, dmb_analysis_stepped_sine(turning.sim, frequency, &options, &here, 1, &amplitudes[0][0][0], NULL));
         check_below("eccentric string that turns: whirl of its end",
                     cabs(number(amplitudes[0][1]) - linear) / cabs(linear), 1e-3);
         rig_close(&still);
@@ -321,7 +321,7 @@ static void oscillator_that_meets_a_stop(void **state)
         rig s;
         double amplitudes[1][4][2];
         double complex want[4];
-        dmb_sine_report report = dmb_sine_report_default();
+        dmb_stepped_sine_report report = dmb_stepped_sine_report_default();
         rig_open(&s, 0.0, 0.0, 0.0);
         dmb_body_def mass = dmb_body_def_default();
         mass.mass = 2.0;
@@ -337,11 +337,11 @@ static void oscillator_that_meets_a_stop(void **state)
         must_model(&s, dmb_model_add_joint(s.model, &spring, NULL));
         (void)add_simple_drive(&s, DMB_DRIVE_LOAD, body, DMB_X, add_sine(&s, 20.0, frequencies[i]));
         (void)rig_start(&s, NULL);
-        dmb_sine_options options = dmb_sine_options_default();
+        dmb_stepped_sine_options options = dmb_stepped_sine_options_default();
         options.steps_per_period = 4000;
         options.periods = 1;
         const dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_X);
-        must(&s, dmb_analysis_sine(s.sim, frequencies[i], &options, &output, 1, &amplitudes[0][0][0], &report));
+        must(&s, dmb_analysis_stepped_sine(s.sim, frequencies[i], &options, &output, 1, &amplitudes[0][0][0], &report));
         assert_int_equal(report.settled, 1);
         reference_harmonics(frequencies[i], want);
         print_message("stop, %g Hz: %u windows; mean and three harmonics %.3e %.3e %.3e %.3e m\n", frequencies[i],

@@ -150,14 +150,14 @@ static void counts(void **state)
     const dmb_model_info whole = info_of(&p.whole), parts = info_of(&p.parts);
     const dmb_statistics statistics = statistics_of(&p.parts);
     assert_int_equal(whole.joints, 0);
-    assert_int_equal(whole.freedoms, 600);
+    assert_int_equal(whole.degrees_of_freedom, 600);
     assert_int_equal(whole.prescribed, 2);
     assert_int_equal(parts.joints, 102);
     assert_int_equal(parts.constraint_rows, 606 + 4 + 2);
     assert_int_equal(parts.clusters, 101);
     assert_int_equal(parts.nodes, 202);
-    assert_int_equal(parts.linked_nodes, 202);
-    assert_int_equal(parts.freedoms, 1212);
+    assert_int_equal(parts.reduced_nodes, 202);
+    assert_int_equal(parts.degrees_of_freedom, 1212);
     assert_int_equal(parts.prescribed, 0);
     assert_int_equal(statistics.dependent, 612);
     assert_int_equal(statistics.redundant, 0);
@@ -166,7 +166,7 @@ static void counts(void **state)
     check_relative("mass", parts.mass, whole.mass, 1e-14);
     tell("bytes of the sim", (double)parts.sim_bytes);
     tell("bytes of the sim of the whole", (double)whole.sim_bytes);
-    check_below("misfit of the described pose [m]", statistics.assembly[0], 1e-12);
+    check_below("violation of the described pose [m]", statistics.assembly[0], 1e-12);
     close_pair(&p);
 }
 
@@ -230,7 +230,7 @@ static void start_up(const rig_pair *p, uint32_t steps)
     const dmb_statistics whole = statistics_of(&p->whole), parts = statistics_of(&p->parts);
     check_difference(&most);
     check_below("    wall [N]", most.wall, 1e-3); /* places at the edge of contact: a gap of 1e-12 m is 1e-5 N */
-    check_below("    misfit of the joints [m]", parts.misfit, 1e-14);
+    check_below("    violation of the joints [m]", parts.violation, 1e-14);
     print_message("    iterations: whole %.0f, parts %.0f; torque %.2f N m, wall %.1f N\n", (double)whole.iterations,
                   (double)parts.iterations, drive_force(&p->whole, p->drive[1]), contacts_of(&p->whole).normal_force);
     assert_int_equal(parts.switches, 0);

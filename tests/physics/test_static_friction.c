@@ -139,7 +139,7 @@ static void check_law(const scene *s, const totals *sum)
 
 static void check_sum_query(const scene *s, const totals *sum)
 {
-    const dmb_contact_sum told = contacts_of(&s->rig);
+    const dmb_contact_total told = contacts_of(&s->rig);
     assert_int_equal(told.closed, sum->closed);
     for (int k = 0; k < 2; k++)
         check_close("sum of friction", told.friction[k], sum->friction[k], 1e-9 * sum->normal);

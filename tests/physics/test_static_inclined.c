@@ -17,7 +17,7 @@ static void rest(double inclination, double stiffness)
     dmb_string_def string = dmb_string_def_default();
     dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_static_report report = dmb_static_report_default();
-    dmb_contact_sum sum = dmb_contact_sum_default();
+    dmb_contact_total sum = dmb_contact_total_default();
     dmb_model_info info = dmb_model_info_default();
     double reaction[6];
     must(dmb_model_create(NULL, &model), "create");
@@ -33,7 +33,7 @@ static void rest(double inclination, double stiffness)
     must(dmb_model_get_info(model, &info), "info");
     must(dmb_sim_create(model, NULL, &sim), "sim");
     must(dmb_analysis_static(sim, NULL, &report), dmb_sim_message(sim));
-    must(dmb_query_contact_sum(sim, &sum), "sum");
+    must(dmb_query_contact_total(sim, &sum), "sum");
     tell("iterations", report.iterations);
     check_below("relative residual", report.residual, 1e-8);
     must(dmb_query_reaction(sim, pipe.string, reaction), "reaction");

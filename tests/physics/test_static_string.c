@@ -102,7 +102,7 @@ static void pushed_flexible_string(void **state)
     const dmb_id string = open_s1(&s, &choice);
     const dmb_static_report report = rest(&s, FAST, 0.0);
     rig_end_reaction(&s, string, reaction);
-    const dmb_contact_sum sum = contacts_of(&s);
+    const dmb_contact_total sum = contacts_of(&s);
     const dmb_pose tip = pose_at(&s, dmb_station(string, 99, 1.0));
     check_relative("wall and guide carry the weight", sum.normal_force + reaction[2], weight, 1e-6);
     check_relative("rig force", reaction[0], 2960.0 + 0.3 * sum.normal_force, 1e-9);
@@ -123,7 +123,7 @@ static void turning_flexible_string(void **state)
     const dmb_id string = open_s1(&s, &choice);
     const dmb_static_report report = rest(&s, 0.0, FAST);
     rig_end_reaction(&s, string, reaction);
-    const dmb_contact_sum sum = contacts_of(&s);
+    const dmb_contact_total sum = contacts_of(&s);
     check_below("iterations", report.iterations, 20.0);
     /* Each ring rests at the angle atan(mu) up the wall: normal and friction together balance the weight. */
     check_relative("wall carries the weight through normal and friction",
@@ -151,7 +151,7 @@ static void check_fall(uint32_t nodes, int32_t lay, double iterations)
     const dmb_id string = open_s1(&s, &choice);
     options.lay_on_wall = lay;
     const dmb_static_report report = find_equilibrium(&s, &options);
-    const dmb_contact_sum sum = contacts_of(&s);
+    const dmb_contact_total sum = contacts_of(&s);
     rig_end_reaction(&s, string, reaction);
     print_message("    %u nodes, %s\n", nodes, lay ? "laid on the wall first" : "from the axis");
     check_below("    iterations", report.iterations, iterations);

@@ -160,7 +160,7 @@ static void bit_cuts_in_the_steady_state(void **state)
         (void)rig_start(&s.rig, NULL);
         (void)rest(&s, DMB_STEADY_AUTO);
         const dmb_bit_state found = bit_of(&s, bit);
-        const dmb_contact_sum sum = contacts_of(&s.rig);
+        const dmb_contact_total sum = contacts_of(&s.rig);
         check_close("weight on bit", found.weight, ahead ? 0.0 : 2162.0, 2e-4);
         check_close("torque on bit", found.torque, ahead ? 0.0 : 71.7925, 2e-5);
         check_close("feed", force_of(&s, s.feed), found.weight - sum.friction[0], 1e-4 * sum.normal_force);
@@ -219,11 +219,11 @@ static void modes_about_a_sliding_string(void **state)
     (void)rig_start(&s.rig, NULL);
     (void)rest(&s, DMB_STEADY_AUTO);
     dmb_modes_options options = dmb_modes_options_default();
-    options.axes = DMB_MODES_STILL;
+    options.axes = DMB_MODES_AXES_AT_REST;
     options.kind = DMB_MODES_DAMPED;
     options.count = 6;
     dmb_modes *modes = find_modes(&s.rig, &options);
-    check_below("out of balance", info_of(modes).unbalance, 1e-8);
+    check_below("out of balance", info_of(modes).residual_of_state, 1e-8);
     check_below("residual", info_of(modes).residual, 1e-9);
     dmb_modes_destroy(&modes);
     rig_close(&s.rig);

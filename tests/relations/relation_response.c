@@ -29,20 +29,20 @@ static int reciprocal(trial *t)
 }
 
 /* A place and a component of it in the world. */
-typedef struct spot {
+typedef struct material_point {
     part_ref place;
     int32_t component;
-} spot;
+} material_point;
 
-static spot draw_spot(const scene *s, stream *n, int32_t components)
+static material_point draw_spot(const scene *s, stream *n, int32_t components)
 {
     const uint32_t k = draw_count(n, 0, s->strings - 1);
     const part_ref place = {PART_STRING, k, draw_count(n, 0, s->string[k].pipes - 1), 1.0};
-    const spot out = {place, (int32_t)draw_count(n, 0, (uint32_t)components - 1)};
+    const material_point out = {place, (int32_t)draw_count(n, 0, (uint32_t)components - 1)};
     return out;
 }
 
-static dmb_input input_of(const built *b, const spot *at)
+static dmb_input input_of(const built *b, const material_point *at)
 {
     dmb_input input = dmb_input_default();
     input.place = built_place(b, at->place);
@@ -50,7 +50,7 @@ static dmb_input input_of(const built *b, const spot *at)
     return input;
 }
 
-static dmb_output output_of(const built *b, const spot *at)
+static dmb_output output_of(const built *b, const material_point *at)
 {
     dmb_output output = dmb_output_default();
     output.place = built_place(b, at->place);
@@ -72,8 +72,8 @@ static double complex number(const double pair[2])
     return pair[0] + pair[1] * (double complex)I;
 }
 
-/* Transfer functions between the spots, shape (PLACES inputs, PLACES outputs, FREQUENCIES). */
-static int32_t transfer(built *b, const dmb_response_options *options, const spot *spots,
+/* Transfer functions between the material_points, shape (PLACES inputs, PLACES outputs, FREQUENCIES). */
+static int32_t transfer(built *b, const dmb_response_options *options, const material_point *material_points,
                         double complex h[PLACES][PLACES][FREQUENCIES])
 {
     dmb_input inputs[PLACES];
@@ -81,8 +81,8 @@ static int32_t transfer(built *b, const dmb_response_options *options, const spo
     double values[FREQUENCIES][2];
     dmb_response *response = NULL;
     for (int i = 0; i < PLACES; ++i) {
-        inputs[i] = input_of(b, &spots[i]);
-        outputs[i] = output_of(b, &spots[i]);
+        inputs[i] = input_of(b, &material_points[i]);
+        outputs[i] = output_of(b, &material_points[i]);
     }
     const int32_t status = dmb_analysis_response(b->sim, options, inputs, PLACES, outputs, PLACES, &response);
     if (status < 0) return built_fail(b, status);
@@ -104,13 +104,13 @@ static void check_reciprocal(trial *t)
     stream n = stream_of(t->s.seed, t->s.number, TOPIC_RESPONSE);
     double complex h[PLACES][PLACES][FREQUENCIES];
     double list[FREQUENCIES];
-    spot spots[PLACES];
+    material_point material_points[PLACES];
     built b;
     if (!reciprocal(t)) return;
     const dmb_response_options options = frequencies_from(&n, list, 0.5, 500.0);
     int32_t status = open_at_rest(&t->s, NULL, &b);
-    for (int i = 0; i < PLACES; ++i) spots[i] = draw_spot(&t->s, &n, 6);
-    if (status >= 0) status = transfer(&b, &options, spots, h);
+    for (int i = 0; i < PLACES; ++i) material_points[i] = draw_spot(&t->s, &n, 6);
+    if (status >= 0) status = transfer(&b, &options, material_points, h);
     if (status < 0) refused(t, status, b.message);
     for (int i = 0; i < PLACES && t->verdict == VERDICT_HELD; ++i)
         for (int k = 0; k < i; ++k)
@@ -131,13 +131,13 @@ static void no_damping(scene *s)
     for (uint32_t i = 0; i < s->joints; ++i) memset(s->joint[i].def.damping, 0, sizeof s->joint[i].def.damping);
 }
 
-/* All undamped modes: squares of the frequencies [1/s2], and shapes at the spots. */
+/* All undamped modes: squares of the frequencies [1/s2], and shapes at the material_points. */
 typedef struct modal {
     uint32_t count;
     double square[MODES_MOST], shape[MODES_MOST][PLACES];
 } modal;
 
-static int32_t take_modes(built *b, const spot *spots, modal *m)
+static int32_t take_modes(built *b, const material_point *material_points, modal *m)
 {
     dmb_modes *found = NULL;
     dmb_modes_options options = dmb_modes_options_default();
@@ -154,8 +154,8 @@ static int32_t take_modes(built *b, const spot *spots, modal *m)
         m->square[i] = mode.eigenvalue[1] * mode.eigenvalue[1] - mode.eigenvalue[0] * mode.eigenvalue[0];
         for (int k = 0; k < PLACES; ++k) {
             dmb_mode_shape shape = dmb_mode_shape_default();
-            (void)dmb_modes_shape(found, i, built_place(b, spots[k].place), &shape);
-            m->shape[i][k] = shape.re[spots[k].component];
+            (void)dmb_modes_shape(found, i, built_place(b, material_points[k].place), &shape);
+            m->shape[i][k] = shape.re[material_points[k].component];
         }
     }
     dmb_modes_destroy(&found);
@@ -169,16 +169,16 @@ static void check_modal(trial *t)
     stream n = stream_of(t->s.seed, t->s.number, TOPIC_RESPONSE + 1);
     double complex h[PLACES][PLACES][FREQUENCIES];
     double list[FREQUENCIES];
-    spot spots[PLACES];
+    material_point material_points[PLACES];
     built b;
     if (!reciprocal(t)) return;
     dmb_response_options options = frequencies_from(&n, list, 0.5, 500.0);
     options.structural_damping = draw_number(&n, 0.005, 0.05);
     no_damping(&t->s);
     int32_t status = open_at_rest(&t->s, NULL, &b);
-    for (int i = 0; i < PLACES; ++i) spots[i] = draw_spot(&t->s, &n, 6);
-    if (status >= 0) status = transfer(&b, &options, spots, h);
-    if (status >= 0) status = take_modes(&b, spots, &m);
+    for (int i = 0; i < PLACES; ++i) material_points[i] = draw_spot(&t->s, &n, 6);
+    if (status >= 0) status = transfer(&b, &options, material_points, h);
+    if (status >= 0) status = take_modes(&b, material_points, &m);
     if (status < 0) refused(t, status, b.message);
     for (int i = 0; i < PLACES && t->verdict == VERDICT_HELD; ++i)
         for (int k = 0; k < PLACES; ++k)
@@ -233,7 +233,7 @@ static void check_masses(trial *t)
     }
     hold_rigid_motions(t, found);
     { dmb_modes_info mi = dmb_modes_info_default(); (void)dmb_modes_get_info(found, &mi);
-      printf("DBG rigid %u count %u coords %u unbalance %g asym %g residual %g\n", mi.rigid, mi.count, mi.coordinates, mi.unbalance, mi.asymmetry, mi.residual);
+      printf("DBG rigid %u count %u coords %u unbalance %g asym %g residual %g\n", mi.rigid, mi.count, mi.coordinates, mi.residual_of_state, mi.asymmetry, mi.residual);
     dmb_mode mm = dmb_mode_default(); for (uint32_t i = 0; dmb_modes_get(found, i, &mm) >= 0; ++i) printf("DBG %u f %g s %g %g\n", i, mm.frequency, mm.eigenvalue[0], mm.eigenvalue[1]); }
     (void)dmb_model_get_info(b.model, &info);
     rotation_of_vector(t->s.string[0].def.rotation, R);
@@ -265,7 +265,7 @@ static double pulse_at(double now, double time)
     return e * e * e * (10.0 - 15.0 * e + 6.0 * e * e);
 }
 
-/* q'' + w2 q = f phi of each mode, exact for a force that is straight between fine samples. The spots are x, y, z of
+/* q'' + w2 q = f phi of each mode, exact for a force that is straight between fine samples. The material_points are x, y, z of
  * one place. */
 static void superpose(const modal *m, const double force[3], double step, double time, double out[SAMPLES][3])
 {
@@ -310,15 +310,15 @@ static int32_t sample_run(const scene *s, part_ref place, double step, uint32_t 
 static double modes_of_load(trial *t, modal *m)
 {
     built b;
-    spot spots[PLACES];
+    material_point material_points[PLACES];
     double lowest = 1e300;
     m->count = 0;
     for (int i = 0; i < PLACES; ++i) {
-        spots[i].place = t->s.load[0].place;
-        spots[i].component = i;
+        material_points[i].place = t->s.load[0].place;
+        material_points[i].component = i;
     }
     int32_t status = open_at_rest(&t->s, NULL, &b);
-    if (status >= 0) status = take_modes(&b, spots, m);
+    if (status >= 0) status = take_modes(&b, material_points, m);
     if (status < 0) refused(t, status, b.message);
     scene_close(&b);
     for (uint32_t k = 0; k < m->count; ++k) lowest = fmin(lowest, m->square[k]);
@@ -362,13 +362,13 @@ static void check_decay(trial *t)
 
 /* ---- Stepped sine ----------------------------------------------------------------------------------------------- */
 
-static int32_t sine_at(const scene *s, const spot *at, double frequency, uint32_t steps, double complex *out)
+static int32_t sine_at(const scene *s, const material_point *at, double frequency, uint32_t steps, double complex *out)
 {
     built b;
     double amplitudes[2][2];
     dmb_sim_options options = scene_options(s);
-    dmb_sine_options sine = dmb_sine_options_default();
-    dmb_sine_report report = dmb_sine_report_default();
+    dmb_stepped_sine_options sine = dmb_stepped_sine_options_default();
+    dmb_stepped_sine_report report = dmb_stepped_sine_report_default();
     options.newton_tolerance = 1e-10;
     sine.steps_per_period = steps;
     sine.harmonics = 1;
@@ -376,7 +376,7 @@ static int32_t sine_at(const scene *s, const spot *at, double frequency, uint32_
     sine.windows = 100;
     int32_t status = open_at_rest(s, &options, &b);
     const dmb_output output = output_of(&b, at);
-    if (status >= 0) status = dmb_analysis_sine(b.sim, frequency, &sine, &output, 1, amplitudes[0], &report);
+    if (status >= 0) status = dmb_analysis_stepped_sine(b.sim, frequency, &sine, &output, 1, amplitudes[0], &report);
     scene_close(&b);
     *out = number(amplitudes[1]);
     return status;
@@ -397,7 +397,7 @@ static void check_sine(trial *t)
         left_out(t, "no load that could vary");
         return;
     }
-    const spot at = {t->s.load[0].place, (int32_t)draw_count(&n, 0, 2)};
+    const material_point at = {t->s.load[0].place, (int32_t)draw_count(&n, 0, 2)};
     dmb_static_report report = dmb_static_report_default();
     dmb_static_options stays = dmb_static_options_default();
     int32_t status = open_at_rest(&t->s, NULL, &b);

@@ -1,5 +1,5 @@
 /* A run that goes on from a snapshot of its middle against the run straight through: the same bits. A run handed over
- * to another sim and back (dmb_sim_carry_over) against one that stays: the same to rounding, and the state of any run
+ * to another sim and back (dmb_sim_transfer_state) against one that stays: the same to rounding, and the state of any run
  * handed over. */
 #include "relations.h"
 
@@ -94,7 +94,7 @@ static int32_t hand_over(const scene *to, built *b)
 {
     built next;
     int32_t status = scene_open(to, 0, NULL, &next);
-    if (status >= 0) status = dmb_sim_carry_over(next.sim, b->sim);
+    if (status >= 0) status = dmb_sim_transfer_state(next.sim, b->sim);
     if (status < 0) (void)built_fail(&next, status);
     scene_close(b);
     *b = next;

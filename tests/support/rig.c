@@ -189,10 +189,10 @@ dmb_momentum momentum_of(const rig *s)
     return momentum;
 }
 
-dmb_contact_sum contacts_of(const rig *s)
+dmb_contact_total contacts_of(const rig *s)
 {
-    dmb_contact_sum sum = dmb_contact_sum_default();
-    must(s, dmb_query_contact_sum(s->sim, &sum));
+    dmb_contact_total sum = dmb_contact_total_default();
+    must(s, dmb_query_contact_total(s->sim, &sum));
     return sum;
 }
 

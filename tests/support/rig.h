@@ -50,7 +50,7 @@ dmb_pose pose_at(const rig *s, dmb_place place);
 dmb_motion motion_at(const rig *s, dmb_place place, int32_t frame);
 dmb_energy energy_of(const rig *s);
 dmb_momentum momentum_of(const rig *s);
-dmb_contact_sum contacts_of(const rig *s);
+dmb_contact_total contacts_of(const rig *s);
 dmb_statistics statistics_of(const rig *s);
 double rotation_at(const rig *s, dmb_place place);
 uint64_t rig_hash(const rig *s);

@@ -16,9 +16,9 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_analysis_modes": (c_int32, c_void_p, POINTER(ModesOptions), POINTER(c_void_p),),
     "dmb_analysis_path": (c_int32, c_void_p, POINTER(PathOptions), POINTER(PathReport),),
     "dmb_analysis_response": (c_int32, c_void_p, POINTER(ResponseOptions), POINTER(Input), c_uint32, POINTER(Output), c_uint32, POINTER(c_void_p),),
-    "dmb_analysis_sine": (c_int32, c_void_p, c_double, POINTER(SineOptions), POINTER(Output), c_uint32, POINTER(c_double), POINTER(SineReport),),
     "dmb_analysis_speeds": (c_int32, c_void_p, POINTER(SpeedsOptions), POINTER(Order), c_uint32, POINTER(Output), POINTER(c_double), c_uint32, POINTER(SpeedBand), POINTER(c_uint32), POINTER(c_double),),
     "dmb_analysis_static": (c_int32, c_void_p, POINTER(StaticOptions), POINTER(StaticReport),),
+    "dmb_analysis_stepped_sine": (c_int32, c_void_p, c_double, POINTER(SteppedSineOptions), POINTER(Output), c_uint32, POINTER(c_double), POINTER(SteppedSineReport),),
     "dmb_bit_def_init": (c_int32, POINTER(BitDef), c_uint32,),
     "dmb_bit_state_init": (c_int32, POINTER(BitState), c_uint32,),
     "dmb_body_def_init": (c_int32, POINTER(BodyDef), c_uint32,),
@@ -33,7 +33,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_compile_options_init": (c_int32, POINTER(CompileOptions), c_uint32,),
     "dmb_constraint_def_init": (c_int32, POINTER(ConstraintDef), c_uint32,),
     "dmb_contact_init": (c_int32, POINTER(Contact), c_uint32,),
-    "dmb_contact_sum_init": (c_int32, POINTER(ContactSum), c_uint32,),
+    "dmb_contact_total_init": (c_int32, POINTER(ContactTotal), c_uint32,),
     "dmb_coupling_def_init": (c_int32, POINTER(CouplingDef), c_uint32,),
     "dmb_drive_def_init": (c_int32, POINTER(DriveDef), c_uint32,),
     "dmb_drive_state_init": (c_int32, POINTER(DriveState), c_uint32,),
@@ -83,7 +83,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_pose_init": (c_int32, POINTER(Pose), c_uint32,),
     "dmb_query_bit": (c_int32, c_void_p, Id, POINTER(BitState),),
     "dmb_query_contact": (c_int32, c_void_p, c_uint32, POINTER(Contact),),
-    "dmb_query_contact_sum": (c_int32, c_void_p, POINTER(ContactSum),),
+    "dmb_query_contact_total": (c_int32, c_void_p, POINTER(ContactTotal),),
     "dmb_query_drive": (c_int32, c_void_p, Id, POINTER(DriveState),),
     "dmb_query_energy": (c_int32, c_void_p, POINTER(Energy),),
     "dmb_query_joint": (c_int32, c_void_p, Id, POINTER(JointState),),
@@ -100,14 +100,13 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_recorder_take": (c_int32, POINTER(RecorderStruct), c_void_p,),
     "dmb_recorder_write_csv": (c_int32, POINTER(RecorderStruct), c_char_p,),
     "dmb_response_destroy": (None, POINTER(c_void_p),),
+    "dmb_response_dimensions": (c_int32, c_void_p, POINTER(c_uint32),),
     "dmb_response_frequencies": (c_int32, c_void_p, POINTER(c_double),),
     "dmb_response_options_init": (c_int32, POINTER(ResponseOptions), c_uint32,),
-    "dmb_response_shape": (c_int32, c_void_p, POINTER(c_uint32),),
     "dmb_response_transfer": (c_int32, c_void_p, c_uint32, c_uint32, POINTER(c_double),),
     "dmb_response_write_csv": (c_int32, c_void_p, c_char_p,),
     "dmb_section_init": (c_int32, POINTER(Section), c_uint32,),
     "dmb_sim_advance": (c_int32, c_void_p, c_double, POINTER(StepReport),),
-    "dmb_sim_carry_over": (c_int32, c_void_p, c_void_p,),
     "dmb_sim_create": (c_int32, c_void_p, POINTER(SimOptions), POINTER(c_void_p),),
     "dmb_sim_create_in": (c_int32, c_void_p, POINTER(SimOptions), c_void_p, c_size_t, POINTER(c_void_p),),
     "dmb_sim_destroy": (None, POINTER(c_void_p),),
@@ -123,8 +122,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_sim_snapshot_size": (c_int32, c_void_p, POINTER(c_size_t),),
     "dmb_sim_step": (c_int32, c_void_p, c_double, POINTER(StepReport),),
     "dmb_sim_time": (c_double, c_void_p,),
-    "dmb_sine_options_init": (c_int32, POINTER(SineOptions), c_uint32,),
-    "dmb_sine_report_init": (c_int32, POINTER(SineReport), c_uint32,),
+    "dmb_sim_transfer_state": (c_int32, c_void_p, c_void_p,),
     "dmb_speed_band_init": (c_int32, POINTER(SpeedBand), c_uint32,),
     "dmb_speeds_options_init": (c_int32, POINTER(SpeedsOptions), c_uint32,),
     "dmb_static_options_init": (c_int32, POINTER(StaticOptions), c_uint32,),
@@ -133,6 +131,8 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_status_name": (c_char_p, c_int32,),
     "dmb_status_text": (c_char_p, c_int32,),
     "dmb_step_report_init": (c_int32, POINTER(StepReport), c_uint32,),
+    "dmb_stepped_sine_options_init": (c_int32, POINTER(SteppedSineOptions), c_uint32,),
+    "dmb_stepped_sine_report_init": (c_int32, POINTER(SteppedSineReport), c_uint32,),
     "dmb_string_def_init": (c_int32, POINTER(StringDef), c_uint32,),
     "dmb_term_init": (c_int32, POINTER(Term), c_uint32,),
     "dmb_version": (c_uint32,),
@@ -155,12 +155,12 @@ FUNCTION_DOCS = {
         "Follows the path from the present static state on by arc length: a step along the tangent, then Newton in the plane across it (Riks 1979) with the factor bordering the stiffness (Crisfield 1981), the step as long as Newton likes it. Limit points, bifurcations and the ends are located to 1e-8 of the step by regula falsi. The sim is not changed. options and report may be NULL; where the path was lost the report tells how far it came. NOTE_STOPPED after max_points or by the callback. Errors: ERR_VALUE, _ID, _ORDER (the state is no equilibrium), _SINGULAR (message says which part is free, or that the factor moves nothing), _NO_CONVERGENCE (message says where the path was lost), _ROTATION (above 2.5 rad in an element, likewise), _UNSUPPORTED (as of buckling), _NO_MEMORY, _CALLBACK, _CANCELLED. O(number of elements) an iteration; memory: the sim's once more.",
     "dmb_analysis_response":
         "Transfer functions from every input to every output about the accepted state of a sim, which must be an equilibrium, at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency, directly, in complex blocks. Of a state that spins, frames of `place` are its section's, which turn with it, and so are all frequencies. inputs, outputs: shapes (input_count), (output_count), 1 .. 1024 each, every struct of the size that the first says. options may be NULL. The state is not changed; sim takes the message. *response is NULL on error: ERR_VALUE (option, component, band; a state out of balance: by how much and where), _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR (frequency and part that nothing holds there: at 0 a part that is free), _UNSUPPORTED, _NO_MEMORY, _CALLBACK, _ROTATION. A motion drive at frequency 0 has no displacement: _SINGULAR too. Memory: the sim's allocator, until dmb_response_destroy; the sim need not outlive the response. Cost: O(points (elements + joints + inputs)), some 0.1 ms a point of 100 elements; of joints that share bodies the cube of the coordinates of those. One thread; several responses of one sim may not be computed at a time.",
-    "dmb_analysis_sine":
-        "Runs the sim on in fixed steps until the Fourier amplitudes of successive windows agree. amplitudes, shape (output_count, 1 + harmonics, 2): mean and 0, then for k = 1, 2, ... the k-th harmonic: its part of the output is the real part of (re + i im) e^(2 pi i k frequency t), t the sim's time. Displacements are those since time 0 in the axes of the world or (FRAME_BODY) those the place has at the call, less their drift over the window; component RX is the rotation of dmb_query_rotation, RY and RZ are of the rotation vector from the pose at the call, below pi. Other outputs: as the queries answer. options and report may be NULL. NOTE_STOPPED: not settled in `windows`; the amplitudes are those of the last. Errors: ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID, _UNSUPPORTED, _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last accepted state. amplitudes and report are left alone on error. Cost: steps.",
     "dmb_analysis_speeds":
         "Bands of rotary speed to avoid about the accepted state of a sim. Severity of a speed: the sum over the orders of the largest amplitude of an output over its limit, by the linear response at order times speed; 1 is the limit even where all orders add up. limits: [unit of the output] > 0, shape (output_count). bands: *band_count on entry is room, the size of each what the first says; on return the number of bands, by rising speed, NOTE_FULL where more were found than there was room. severity, shape (points), may be NULL: largest within half a step of the grid around each speed. Call it for a sim of each depth or state. Errors: as dmb_analysis_response, with nothing written. Cost: that of order_count responses.",
     "dmb_analysis_static":
         "Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, by Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017); where that fails in load steps (gravity, loads and bit load from 0, drives as they are) that are halved when they fail and doubled when they do not, with a line search in the shortest; and by pseudo-transient continuation where that fails too. At rest the rock law does not act (at time 0 its bottom is laid ahead of the bit as described); a speed controller acts as at speed 0. Where motion drives move, the state is a steady one (`steady`): speeds of all nodes are those of the sliding or the rigid motion, friction acts by the slip that there is, damping and drag act, controllers act by that speed, and a bit that stands on rock cuts (at time 0: where none is described ahead of it). SLIDING asks that what turns is round (no eccentric mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, guides, joints to the ground and a hole agree with the axis; else ERR_UNSUPPORTED says what does not. Both take memory, one matrix and some vectors, from the sim's allocator. The energy ledger starts anew. options and report may be NULL. NOTE_UNSTABLE where the equilibrium at rest is one that the string would leave (report->negative > 0). Errors: ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the state is then that before the call. O(number of elements) an iteration.",
+    "dmb_analysis_stepped_sine":
+        "Runs the sim on in fixed steps until the Fourier amplitudes of successive windows agree. amplitudes, shape (output_count, 1 + harmonics, 2): mean and 0, then for k = 1, 2, ... the k-th harmonic: its part of the output is the real part of (re + i im) e^(2 pi i k frequency t), t the sim's time. Displacements are those since time 0 in the axes of the world or (FRAME_BODY) those the place has at the call, less their drift over the window; component RX is the rotation of dmb_query_rotation, RY and RZ are of the rotation vector from the pose at the call, below pi. Other outputs: as the queries answer. options and report may be NULL. NOTE_STOPPED: not settled in `windows`; the amplitudes are those of the last. Errors: ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID, _UNSUPPORTED, _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last accepted state. amplitudes and report are left alone on error. Cost: steps.",
     "dmb_buckling_count":
         "Factors found; 0 for NULL.",
     "dmb_buckling_destroy":
@@ -201,7 +201,7 @@ FUNCTION_DOCS = {
         "Shape at a place, between nodes by the element's own shape functions. O(1).",
     "dmb_query_contact":
         "Contact of one site, sites counted along the strings and then the bodies.",
-    "dmb_query_contact_sum":
+    "dmb_query_contact_total":
         "O(number of sites).",
     "dmb_query_energy":
         "Energy ledger since the start; ERR_UNSUPPORTED where the options left it out. O(number of nodes).",
@@ -225,16 +225,14 @@ FUNCTION_DOCS = {
         "Writes the table as CSV (comma, '.', a header line of names [units], 17 digits, nan). ERR_IO on failure: this and all that write files write beside path (path.part0) and rename, so that the old file stays, unless path is a device.",
     "dmb_response_destroy":
         "Gives the memory back and sets *response to NULL. NULL-safe.",
+    "dmb_response_dimensions":
+        "Numbers of frequencies (those of refinement included), inputs and outputs, shape (3). ERR_NULL, _HANDLE.",
     "dmb_response_frequencies":
         "[Hz] ascending, shape (points). ERR_NULL, _HANDLE.",
-    "dmb_response_shape":
-        "Numbers of frequencies (those of refinement included), inputs and outputs, shape (3). ERR_NULL, _HANDLE.",
     "dmb_response_write_csv":
         "CSV: frequency, then amplitude and phase [rad] of each transfer function and of the combined outputs; header line, '.' as decimal mark. ERR_IO on failure.",
     "dmb_sim_advance":
         "Advances to `time` [s] with steps chosen to hold the local error tolerances, bounded_work or not. NOTE_TOLERANCE where a step of step_min was too long for them, NOTE_STOPPED after max_steps, NOTE_CANCELLED. Errors as dmb_sim_step; the state is then the last accepted one, whose time dmb_sim_time tells.",
-    "dmb_sim_carry_over":
-        "Goes on where `from` stands, in a sim of another model: the same but for pipes more or fewer at the rig end of its strings, rods added or taken off; where the model describes its strings to begin, and what its programmes say from now on, may differ. The head lets go, draws back and grips the new rig end: guide, drives and bodies fixed to the rig end are there at once, so do it at rest. Pipes are matched from the far end and stay where and as they are; added ones start unstressed in line with the old rig end, moving with it (where that is tilted they may poke the wall; dmb_analysis_static settles the string, but begins the ledger anew). Guides hold the new rig end where it is; speeds that they and the drives do not allow are projected: NOTE_PROJECTED, dmb_sim_message tells by how much. Time, statistics, drives, contacts, joints and cut rock go on. So does the energy ledger: energies change by what pipes bring in or take along, works and balance do not. Displacements and the advance of bits count from the poses the new model describes; turns go on, but for what these differ by about the axis in a hole that bends. What pipes have drawn at random goes by their number from the rig, so it is drawn anew. Fails unless all else is of the same kind and number: ERR_VALUE, with what differs; ERR_GEOMETRY: a joint that is not open does not fit; ERR_SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE as dmb_sim_create. sim is then as it was. from is not changed. O(number of elements).",
     "dmb_sim_create":
         "Makes a sim at time 0 in the described pose and speed. options may be NULL. NOTE_PROJECTED when initial velocities did not fit the allowed motion; dmb_sim_message tells by how much. Errors (dmb_model_message says why): _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The sim holds the model until it is destroyed. O(number of elements).",
     "dmb_sim_create_in":
@@ -252,13 +250,15 @@ FUNCTION_DOCS = {
     "dmb_sim_set_joint":
         "From now on the joint is JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the impulse of least kinetic energy (NOTE_PROJECTED; dmb_sim_message tells by how much), accelerations are made anew. That energy, and what springs and stops that are let go or taken up store, goes to `impact`. Couplings and drives of an open joint do not act: a drive follows the coordinate and goes on from where it is when the joint closes; a coupling keeps what it kept, so a gear that has slipped meanwhile cannot close. A joint that a motion drive moves cannot be locked. Errors, which change nothing: ERR_ID, _VALUE; _GEOMETRY: the joint's parts or couplings do not fit within 1e-6 m and rad, or its frames point against each other where it keeps them parallel; a drive's speed cannot be had; _SINGULAR, _NO_CONVERGENCE, _CALLBACK, _NOT_FINITE.",
     "dmb_sim_set_progress":
-        "From now on dmb_sim_step, _advance and all analyses of this sim call `function` at bounded intervals, in the thread of the call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK's is one interval. Nonzero ends the call: ERR_CANCELLED with all that a failing call leaves alone as before (dmb_analysis_sine: the sim is in its last accepted state), but for dmb_sim_advance, which ends with NOTE_CANCELLED in its last accepted state; the same call may be made again. To end a call from another thread or a signal handler, let the function look at a flag that these set. It may not change the sim (above) nor jump out. NULL: nobody is told, as after create, and nothing is paid. Neither saved in snapshots nor hashed. Errors: ERR_NULL, _HANDLE; _ORDER within a call on the sim.",
+        "From now on dmb_sim_step, _advance and all analyses of this sim call `function` at bounded intervals, in the thread of the call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK's is one interval. Nonzero ends the call: ERR_CANCELLED with all that a failing call leaves alone as before (dmb_analysis_stepped_sine: the sim is in its last accepted state), but for dmb_sim_advance, which ends with NOTE_CANCELLED in its last accepted state; the same call may be made again. To end a call from another thread or a signal handler, let the function look at a flag that these set. It may not change the sim (above) nor jump out. NULL: nobody is told, as after create, and nothing is paid. Neither saved in snapshots nor hashed. Errors: ERR_NULL, _HANDLE; _ORDER within a call on the sim.",
     "dmb_sim_snapshot_size":
         "Snapshot of all that changes: bytes, save into and restore from the caller's memory. A snapshot fits every sim of the same compiled model with the same options. Bytes that are no state of it, forged ones too, are refused (ERR_VALUE, the message tells field, value and bound); what is taken cannot lead a step out of bounds. Restored sims go on bit for bit: a snapshot holds the factors kept from step to step too (about 0.9 kB an element; none with joints).",
     "dmb_sim_step":
         "Advances by `duration` [s], > 0 and <= 1e18, in one step of generalized-alpha, divided at programme corners, and halved where Newton does not converge (NOTE_STEP_CUT). report may be NULL. Errors: ERR_VALUE, _NO_CONVERGENCE, _SINGULAR, _ROTATION, _GEOMETRY (a joint where its angles are not defined: model.h), _CALLBACK, _NOT_FINITE, _CANCELLED; the state is then that before the call. O(number of elements) an iteration. Chung, Hulbert 1993; Bruls, Cardona, Arnold 2012.",
     "dmb_sim_time":
         "[s] time of the last accepted state; NaN for NULL.",
+    "dmb_sim_transfer_state":
+        "Goes on where `from` stands, in a sim of another model: the same but for pipes more or fewer at the rig end of its strings, rods added or taken off; where the model describes its strings to begin, and what its programmes say from now on, may differ. The head lets go, draws back and grips the new rig end: guide, drives and bodies fixed to the rig end are there at once, so do it at rest. Pipes are matched from the far end and stay where and as they are; added ones start unstressed in line with the old rig end, moving with it (where that is tilted they may poke the wall; dmb_analysis_static settles the string, but begins the ledger anew). Guides hold the new rig end where it is; speeds that they and the drives do not allow are projected: NOTE_PROJECTED, dmb_sim_message tells by how much. Time, statistics, drives, contacts, joints and cut rock go on. So does the energy ledger: energies change by what pipes bring in or take along, works and balance do not. Displacements and the advance of bits count from the poses the new model describes; turns go on, but for what these differ by about the axis in a hole that bends. What pipes have drawn at random goes by their number from the rig, so it is drawn anew. Fails unless all else is of the same kind and number: ERR_VALUE, with what differs; ERR_GEOMETRY: a joint that is not open does not fit; ERR_SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE as dmb_sim_create. sim is then as it was. from is not changed. O(number of elements).",
     "dmb_status_name":
         "Name (\"ERR_VALUE\") and text of a status; for an unknown one \"UNKNOWN\" and its text. Never NULL. Thread-safe.",
     "dmb_version":

@@ -202,7 +202,7 @@ class ModelInfo(Sized):
     nodes: int
     elements: int
     contact_sites: int
-    freedoms: int
+    degrees_of_freedom: int
     prescribed: int
     structural_joints: int
     model_bytes: int
@@ -212,7 +212,7 @@ class ModelInfo(Sized):
     joints: int
     constraint_rows: int
     clusters: int
-    linked_nodes: int
+    reduced_nodes: int
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("strings", c_uint32),
@@ -221,7 +221,7 @@ class ModelInfo(Sized):
         ("nodes", c_uint32),
         ("elements", c_uint32),
         ("contact_sites", c_uint32),
-        ("freedoms", c_uint32),
+        ("degrees_of_freedom", c_uint32),
         ("prescribed", c_uint32),
         ("structural_joints", c_uint32),
         ("model_bytes", c_uint64),
@@ -231,7 +231,7 @@ class ModelInfo(Sized):
         ("joints", c_uint32),
         ("constraint_rows", c_uint32),
         ("clusters", c_uint32),
-        ("linked_nodes", c_uint32),
+        ("reduced_nodes", c_uint32),
     ]
     field_docs = {
         "strings": ("-", ""),
@@ -240,7 +240,7 @@ class ModelInfo(Sized):
         "nodes": ("-", ""),
         "elements": ("-", "flexible and axial-torsional"),
         "contact_sites": ("-", ""),
-        "freedoms": ("-", "free velocity components, prescribed ones not counted"),
+        "degrees_of_freedom": ("-", "free velocity components, prescribed ones not counted"),
         "prescribed": ("-", "components moved by drives"),
         "structural_joints": ("-", "fixed joints that cost no unknowns"),
         "model_bytes": ("byte", "held by the compiled scene"),
@@ -250,7 +250,7 @@ class ModelInfo(Sized):
         "joints": ("-", "described joints"),
         "constraint_rows": ("-", "equations of joints, couplings, callbacks and joint drives, active at time 0"),
         "clusters": ("-", "groups of parts that joints connect directly"),
-        "linked_nodes": ("-", "nodes solved by the sparse solver; the others by the block-tridiagonal one"),
+        "reduced_nodes": ("-", "nodes solved by the sparse solver; the others by the block-tridiagonal one"),
     }
 
 
@@ -260,7 +260,7 @@ class StepReport(Sized):
     steps: int
     iterations: int
     rejected: int
-    worst: int
+    most_iterations: int
     reserved: int
     time: float
     residual: float
@@ -270,7 +270,7 @@ class StepReport(Sized):
         ("steps", c_uint32),
         ("iterations", c_uint32),
         ("rejected", c_uint32),
-        ("worst", c_uint32),
+        ("most_iterations", c_uint32),
         ("reserved", c_uint32),
         ("time", c_double),
         ("residual", c_double),
@@ -280,7 +280,7 @@ class StepReport(Sized):
         "steps": ("-", "accepted integration steps in this call"),
         "iterations": ("-", "Newton iterations, rejected steps included"),
         "rejected": ("-", "steps tried and not accepted"),
-        "worst": ("-", "iterations of the worst accepted step"),
+        "most_iterations": ("-", "of an accepted step"),
         "time": ("s", "reached"),
         "residual": ("-", "largest relative residual of an accepted step"),
         "last_step": ("s", "length of the last accepted step"),
@@ -348,8 +348,8 @@ class Section(Sized):
     }
 
 
-class ContactSum(Sized):
-    c_name, about = "dmb_contact_sum", ""
+class ContactTotal(Sized):
+    c_name, about = "dmb_contact_total", ""
     struct_size: int
     closed: int
     normal_force: float
@@ -486,7 +486,7 @@ class JointState(Sized):
     struct_size: int
     frame: int
     state: int
-    rows: int
+    constraint_rows: int
     redundant: int
     reserved: int
     position: 'Array[c_double]'
@@ -494,12 +494,12 @@ class JointState(Sized):
     acceleration: 'Array[c_double]'
     reaction: 'Array[c_double]'
     action: 'Array[c_double]'
-    misfit: float
+    violation: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("frame", c_int32),
         ("state", c_int32),
-        ("rows", c_uint32),
+        ("constraint_rows", c_uint32),
         ("redundant", c_uint32),
         ("reserved", c_uint32),
         ("position", c_double * 6),
@@ -507,19 +507,19 @@ class JointState(Sized):
         ("acceleration", c_double * 6),
         ("reaction", c_double * 6),
         ("action", c_double * 6),
-        ("misfit", c_double),
+        ("violation", c_double),
     ]
     field_docs = {
         "frame": ("", "in: frame of `reaction`: FRAME_WORLD (default) or FRAME_BODY, which is frame b of the joint; there is none for frame a: ERR_VALUE"),
         "state": ("", "JOINT_..."),
-        "rows": ("-", "equations it holds now"),
+        "constraint_rows": ("-", "equations it holds now"),
         "redundant": ("-", "of them dropped because others already hold what they hold"),
         "position": ("m, rad", "coordinates, RX and RY counted over full turns, shape (6)"),
         "speed": ("m/s, rad/s", "their rates, shape (6)"),
         "acceleration": ("m/s2, rad/s2", "the rates of those, shape (6)"),
         "reaction": ("N, N m", "force and moment of the constraint on b from a, at the origin of b, shape (6); of redundant joints those of least norm"),
         "action": ("N, N m", "generalised force of springs, dampers, stops and friction on the coordinates, shape (6)"),
-        "misfit": ("m, -", "largest violation of its equations of position"),
+        "violation": ("m, -", "largest violation of its equations of position"),
     }
 
 
@@ -557,49 +557,49 @@ class BitState(Sized):
 class Statistics(Sized):
     c_name, about = "dmb_statistics", ""
     struct_size: int
-    worst_iterations: int
+    most_iterations: int
     steps: int
     rejected: int
     iterations: int
-    limited: int
+    limited_steps: int
     bytes: int
-    worst_residual: float
+    largest_residual: float
     projection: 'Array[c_double]'
     assembly: 'Array[c_double]'
     switches: int
     dependent: int
     redundant: int
-    misfit: float
+    violation: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
-        ("worst_iterations", c_uint32),
+        ("most_iterations", c_uint32),
         ("steps", c_uint64),
         ("rejected", c_uint64),
         ("iterations", c_uint64),
-        ("limited", c_uint64),
+        ("limited_steps", c_uint64),
         ("bytes", c_uint64),
-        ("worst_residual", c_double),
+        ("largest_residual", c_double),
         ("projection", c_double * 2),
         ("assembly", c_double * 2),
         ("switches", c_uint64),
         ("dependent", c_uint32),
         ("redundant", c_uint32),
-        ("misfit", c_double),
+        ("violation", c_double),
     ]
     field_docs = {
-        "worst_iterations": ("-", "of an accepted step"),
+        "most_iterations": ("-", "of an accepted step"),
         "steps": ("-", "accepted"),
         "rejected": ("-", ""),
         "iterations": ("-", "in accepted and rejected steps"),
-        "limited": ("-", "steps accepted above the tolerance in bounded-work mode"),
+        "limited_steps": ("-", "steps accepted above the tolerance in bounded-work mode"),
         "bytes": ("byte", "of the sim"),
-        "worst_residual": ("-", "relative, of an accepted step"),
+        "largest_residual": ("-", "relative, of an accepted step"),
         "projection": ("m/s, rad/s", "largest correction of initial velocities, shape (2)"),
         "assembly": ("m, rad", "largest correction of the described pose when joints were closed, shape (2)"),
         "switches": ("-", "times the independent coordinates of a cluster were chosen anew"),
         "dependent": ("-", "coordinates that constraints determine now"),
         "redundant": ("-", "equations that are dropped now"),
-        "misfit": ("m, -", "largest violation of an equation of position of a joint now; couplings, drives and the caller's constraints do not count"),
+        "violation": ("m, -", "largest violation of an equation of position of a joint now; couplings, drives and the caller's constraints do not count"),
     }
 
 
@@ -812,9 +812,9 @@ class CheckReport(Sized):
     coordinates: int
     held: int
     prescribed: int
-    rows: int
+    constraint_rows: int
     rank: int
-    freedoms: int
+    degrees_of_freedom: int
     redundant: int
     tridiagonal_nodes: int
     sparse_nodes: int
@@ -824,7 +824,7 @@ class CheckReport(Sized):
     largest_cluster: int
     warnings: int
     gruebler: int
-    largest_misfit: float
+    largest_violation: float
     condition: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
@@ -843,9 +843,9 @@ class CheckReport(Sized):
         ("coordinates", c_uint32),
         ("held", c_uint32),
         ("prescribed", c_uint32),
-        ("rows", c_uint32),
+        ("constraint_rows", c_uint32),
         ("rank", c_uint32),
-        ("freedoms", c_uint32),
+        ("degrees_of_freedom", c_uint32),
         ("redundant", c_uint32),
         ("tridiagonal_nodes", c_uint32),
         ("sparse_nodes", c_uint32),
@@ -855,7 +855,7 @@ class CheckReport(Sized):
         ("largest_cluster", c_uint32),
         ("warnings", c_uint32),
         ("gruebler", c_int64),
-        ("largest_misfit", c_double),
+        ("largest_violation", c_double),
         ("condition", c_double),
     ]
     field_docs = {
@@ -874,9 +874,9 @@ class CheckReport(Sized):
         "coordinates": ("-", "velocity components of all nodes: 6 or (axial-torsional) 2 each"),
         "held": ("-", "of them held by guides: start_free, end_free, free_mask"),
         "prescribed": ("-", "of them moved by motion drives of strings and bodies"),
-        "rows": ("-", "equations that act now: of joints, couplings, constraints, joint motion drives"),
+        "constraint_rows": ("-", "equations that act now: of joints, couplings, constraints, joint motion drives"),
         "rank": ("-", "of their matrix in the coordinates that are neither held nor prescribed"),
-        "freedoms": ("-", "true degrees of freedom: coordinates - held - prescribed - rank"),
+        "degrees_of_freedom": ("-", "true degrees of freedom: coordinates - held - prescribed - rank"),
         "redundant": ("-", "equations that others imply: rows - rank"),
         "tridiagonal_nodes": ("-", "nodes whose chains the block-tridiagonal solver takes"),
         "sparse_nodes": ("-", "nodes of chains that equations connect: the sparse solver's"),
@@ -885,8 +885,8 @@ class CheckReport(Sized):
         "clusters": ("-", "groups of nodes that equations connect directly"),
         "largest_cluster": ("-", "coordinates of the largest"),
         "warnings": ("-", "lines of warning in the text"),
-        "gruebler": ("-", "coordinates - held - prescribed - rows; < freedoms if equations are redundant"),
-        "largest_misfit": ("m, -", "largest violation of an equation of position"),
+        "gruebler": ("-", "coordinates - held - prescribed - rows; < degrees_of_freedom if equations are redundant"),
+        "largest_violation": ("m, -", "largest violation of an equation of position"),
         "condition": ("-", "smallest over largest singular value of a cluster's equations, redundant ones apart, at unit length, rotations at the mean element length; of the worst cluster; an estimate above 300 equations; 1 without any"),
     }
 
@@ -928,7 +928,7 @@ class ModesOptions(Sized):
         "friction": ("", "1 (default): the slope of the friction law on the wall acts; 0: friction is a dead load"),
         "contact_gap": ("m", "of CONTACT_CLOSED, >= 0; default 0"),
         "equilibrium_tolerance": ("-", "residual over the forces that balance in it, > 0; above it the state is refused; default 1e-6"),
-        "axes": ("", "MODES_TURNING (default), _STILL"),
+        "axes": ("", "MODES_AXES_TURNING (default), _STILL"),
         "spin": ("rad/s", "strings turn at this speed in the state, about their own x axis; 0 (default): as they do. A static state with slip_rotation of this speed is in balance with friction but for the tilt of the pipes in the hole, some 1e-5"),
     }
 
@@ -941,7 +941,7 @@ class ModesInfo(Sized):
     coordinates: int
     dense: int
     solves: int
-    unbalance: float
+    residual_of_state: float
     asymmetry: float
     residual: float
     _fields_: ClassVar[Any] = [
@@ -951,7 +951,7 @@ class ModesInfo(Sized):
         ("coordinates", c_uint32),
         ("dense", c_int32),
         ("solves", c_uint32),
-        ("unbalance", c_double),
+        ("residual_of_state", c_double),
         ("asymmetry", c_double),
         ("residual", c_double),
     ]
@@ -961,7 +961,7 @@ class ModesInfo(Sized):
         "coordinates": ("-", "independent coordinates of the linear system"),
         "dense": ("", "1: by LAPACK on all coordinates; 0: by Krylov subspaces on sparse factors"),
         "solves": ("-", "with those factors"),
-        "unbalance": ("-", "relative residual of the state without its body-frame accelerations"),
+        "residual_of_state": ("-", "relative residual of the state without its body-frame accelerations"),
         "asymmetry": ("-", "of K; above 1e-9 it is treated as unsymmetric (friction, follower loads)"),
         "residual": ("-", "largest |(s^2 M + s C + K) d| over the norms of the terms that balance in it"),
     }
@@ -1072,8 +1072,8 @@ class ResponseOptions(Sized):
     }
 
 
-class SineOptions(Sized):
-    c_name, about = "dmb_sine_options", "Stepped sine ------------------------------------------------------------------------------------------------ Response in time to what the scene's own programmes do at one frequency, where the linear one does not hold: contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC programme, a drive's speed), carry the state over (dmb_sim_carry_over) to go up or down from one to the next. Calls on different sims share nothing: hand them to as many threads as there are cores, the answers are the same to the bit."
+class SteppedSineOptions(Sized):
+    c_name, about = "dmb_stepped_sine_options", "Stepped sine ------------------------------------------------------------------------------------------------ Response in time to what the scene's own programmes do at one frequency, where the linear one does not hold: contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC programme, a drive's speed), carry the state over (dmb_sim_transfer_state) to go up or down from one to the next. Calls on different sims share nothing: hand them to as many threads as there are cores, the answers are the same to the bit."
     struct_size: int
     steps_per_period: int
     periods: int
@@ -1102,8 +1102,8 @@ class SineOptions(Sized):
     }
 
 
-class SineReport(Sized):
-    c_name, about = "dmb_sine_report", ""
+class SteppedSineReport(Sized):
+    c_name, about = "dmb_stepped_sine_report", ""
     struct_size: int
     settled: int
     windows: int
@@ -1993,7 +1993,7 @@ class RecorderStruct(Sized):
     channels: Any
     table: Any
     capacity: int
-    rows: int
+    row_count: int
     interval: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
@@ -2001,7 +2001,7 @@ class RecorderStruct(Sized):
         ("channels", POINTER(Channel)),
         ("table", POINTER(c_double)),
         ("capacity", c_uint64),
-        ("rows", c_uint64),
+        ("row_count", c_uint64),
         ("interval", c_double),
     ]
     field_docs = {
@@ -2009,7 +2009,7 @@ class RecorderStruct(Sized):
         "channels": ("", "shape (channel_count); the caller's, kept alive by it"),
         "table": ("", "shape (capacity, 1 + channel_count); the caller's"),
         "capacity": ("-", "rows of table"),
-        "rows": ("-", "rows written; start with 0"),
+        "row_count": ("-", "rows written; start with 0"),
         "interval": ("s", "between samples, 0: every call"),
     }
 
@@ -2057,7 +2057,7 @@ STRUCTS["dmb_pose"] = Pose
 STRUCTS["dmb_motion"] = Motion
 STRUCTS["dmb_section"] = Section
 STRUCTS["dmb_contact"] = Contact
-STRUCTS["dmb_contact_sum"] = ContactSum
+STRUCTS["dmb_contact_total"] = ContactTotal
 STRUCTS["dmb_energy"] = Energy
 STRUCTS["dmb_momentum"] = Momentum
 STRUCTS["dmb_drive_state"] = DriveState
@@ -2081,8 +2081,8 @@ STRUCTS["dmb_mode_shape"] = ModeShape
 STRUCTS["dmb_input"] = Input
 STRUCTS["dmb_output"] = Output
 STRUCTS["dmb_response_options"] = ResponseOptions
-STRUCTS["dmb_sine_options"] = SineOptions
-STRUCTS["dmb_sine_report"] = SineReport
+STRUCTS["dmb_stepped_sine_options"] = SteppedSineOptions
+STRUCTS["dmb_stepped_sine_report"] = SteppedSineReport
 STRUCTS["dmb_order"] = Order
 STRUCTS["dmb_speeds_options"] = SpeedsOptions
 STRUCTS["dmb_speed_band"] = SpeedBand

@@ -105,15 +105,15 @@ class Analyses:
                                                byref(handle)))
         return Response(handle)
 
-    @mirrors("dmb_analysis_sine")
+    @mirrors("dmb_analysis_stepped_sine")
     def sine(self, frequency: float, outputs: Sequence[Output], options: Any = None, **fields: Any) -> tuple[Any, Any]:
         """Runs on until the Fourier amplitudes at frequency [Hz] have settled. Returns a list for each Output, mean and
         then the complex harmonics, and the report, whose status may be NOTE_STOPPED."""
-        options = struct(STRUCTS["dmb_sine_options"], options, fields)
-        report: Any = STRUCTS["dmb_sine_report"]()
+        options = struct(STRUCTS["dmb_stepped_sine_options"], options, fields)
+        report: Any = STRUCTS["dmb_stepped_sine_report"]()
         asked, width = (Output * len(outputs))(*outputs), 1 + options.harmonics
         values = (c_double * (2 * width * len(outputs)))()
-        report.status = self._check(self._long(_lib.dmb_analysis_sine, frequency, byref(options), asked, len(outputs),
+        report.status = self._check(self._long(_lib.dmb_analysis_stepped_sine, frequency, byref(options), asked, len(outputs),
                                                            values, byref(report)))
         found = [complex(values[2 * i], values[2 * i + 1]) for i in range(width * len(outputs))]
         return [[found[i * width].real] + found[i * width + 1:(i + 1) * width] for i in range(len(outputs))], report
@@ -147,7 +147,7 @@ class Response:
     def __init__(self, handle: c_void_p) -> None:
         self._handle = handle
         shape = (c_uint32 * 3)()
-        check(_lib.dmb_response_shape(handle, shape))
+        check(_lib.dmb_response_dimensions(handle, shape))
         self.shape = tuple(shape)  # points, inputs, outputs
 
     def __del__(self) -> None:

@@ -496,12 +496,12 @@ MODES_BAND = ModesSelect.BAND
 
 class ModesAxes(IntEnum):
     """Values DMB_MODES_... of the headers."""
-    TURNING = 0
-    STILL = 1
+    AXES_TURNING = 0
+    AXES_AT_REST = 1
 
 
-MODES_TURNING = ModesAxes.TURNING
-MODES_STILL = ModesAxes.STILL
+MODES_AXES_TURNING = ModesAxes.AXES_TURNING
+MODES_AXES_AT_REST = ModesAxes.AXES_AT_REST
 
 
 class InputKind(IntEnum):

@@ -57,7 +57,7 @@ class Recorder:
         return check(_lib.dmb_recorder_take(byref(self._struct), self._sim._handle))
 
     def __len__(self) -> int:
-        return int(self._struct.rows)
+        return int(self._struct.row_count)
 
     @property
     def columns(self) -> list[str]:

@@ -189,10 +189,10 @@ class Sim(analysis.Analyses):
         speeds changed."""
         return self._check(_lib.dmb_sim_set_joint(self._handle, joint, state))
 
-    @mirrors("dmb_sim_carry_over")
-    def carry_over(self, other: Sim) -> int:
+    @mirrors("dmb_sim_transfer_state")
+    def transfer_state(self, other: Sim) -> int:
         """Goes on where `other` stands, a sim of another model: pipes may have come or gone at the rig end."""
-        return self._check(_lib.dmb_sim_carry_over(self._handle, other._handle))
+        return self._check(_lib.dmb_sim_transfer_state(self._handle, other._handle))
 
     @mirrors("dmb_sim_snapshot")
     def snapshot(self) -> bytes:
@@ -251,9 +251,9 @@ class Sim(analysis.Analyses):
         answer: Contact = self._ask(_lib.dmb_query_contact, Contact.blank(), site)
         return answer
 
-    def contact_sum(self) -> Any:
+    def contact_total(self) -> Any:
         """Sums over all contact sites: closed ones, normal force [N], friction [N], deepest penetration [m]."""
-        return self._ask(_lib.dmb_query_contact_sum, STRUCTS["dmb_contact_sum"]())
+        return self._ask(_lib.dmb_query_contact_total, STRUCTS["dmb_contact_total"]())
 
     def kinetic_energy(self, part: Id, pipe: int = 0) -> float:
         """[J] of one pipe of a string, or of a body"""

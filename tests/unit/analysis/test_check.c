@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "constraint/joint_names.h"
+#include "constraint/joint.h"
 #include "rig.h"
-#include "state.h"
-#include "system/cluster_rank.h"
+#include "sim/sim.h"
+#include "system/constrain/cluster_rank.h"
 
 /* ---- Allocator that counts and fails ----------------------------------------------------------------------------- */
 
@@ -143,13 +143,13 @@ static void counts(void **state)
     (void)state;
     open_scene(&s, NULL);
     must(&s, dmb_analysis_check(s.sim, &r));
-    assert_int_equal(r.rows, 2 + 5 + 4 + 3 + 1 + 1 + 2);
+    assert_int_equal(r.constraint_rows, 2 + 5 + 4 + 3 + 1 + 1 + 2);
     assert_int_equal(r.redundant, 4 + 1);
     assert_int_equal(r.constraints, 1);
     assert_int_equal(r.couplings, 1);
     assert_int_equal(r.motion_drives, 1);
-    assert_int_equal(r.freedoms, 6 * 6 - 4 - 2 + 12 - 11);
-    assert_int_equal((int64_t)r.freedoms, r.gruebler + r.redundant);
+    assert_int_equal(r.degrees_of_freedom, 6 * 6 - 4 - 2 + 12 - 11);
+    assert_int_equal((int64_t)r.degrees_of_freedom, r.gruebler + r.redundant);
     must(&s, dmb_analysis_check_text(s.sim, text, sizeof text, NULL));
     assert_non_null(strstr(text, "    constraint 0 (plane): row "));
     rig_close(&s);

@@ -5,10 +5,10 @@
 #include "../system/stirred_rig.h"
 #include "mechanism.h"
 
-#include "analysis/linearise.h"
+#include "analysis/linear/linearise.h"
 #include "math/se3.h"
-#include "system/cluster.h"
-#include "system/evaluation.h"
+#include "system/constrain/cluster.h"
+#include "system/assemble/evaluation.h"
 #include "system/start.h"
 
 enum { ROWS_MAX = 120 };
@@ -104,10 +104,10 @@ static void residual_at(dmb_linear *linear, const dmb_sim *sim, const perturbati
     }
     move_integrals(work, sim, p->d, e);
     for (uint32_t i = 0; i < rows; i++) work->increment[i] = e * p->d[i]; /* turns of bits follow it */
-    work->linked_mode->multipliers = 1;
+    work->reduced_mode->multipliers = 1;
     if (work->scene->cluster_count) assert_int_equal(dmb_clusters_gather(&evaluation), DMB_OK);
     assert_int_equal(dmb_system_evaluate(&evaluation), DMB_OK);
-    work->linked_mode->multipliers = 0;
+    work->reduced_mode->multipliers = 0;
     for (uint32_t i = 0; i < rows; i++)
         if (!linear->scene.solved_row[i]) work->correction[i] = 0.0;
     dmb_linear_restrict(linear, work->correction, g);
@@ -121,10 +121,10 @@ static void add_restricted(const dmb_linear *linear, const dmb_linear_matrix *A,
     for (uint32_t i = 0; i < linear->coordinates; i++) g[i] += part[i];
 }
 
-static double misfit_of(dmb_linear *linear, const dmb_sim *sim, uint64_t *seed)
+static double violation_of(dmb_linear *linear, const dmb_sim *sim, uint64_t *seed)
 {
     perturbation p;
-    double f[6][ROWS_MAX], predicted[ROWS_MAX] = {0.0}, misfit = 0.0;
+    double f[6][ROWS_MAX], predicted[ROWS_MAX] = {0.0}, violation = 0.0;
     const double h = 2e-5;
     draw_rows(linear, seed, p.d);
     draw_rows(linear, seed, p.rate);
@@ -135,16 +135,16 @@ static double misfit_of(dmb_linear *linear, const dmb_sim *sim, uint64_t *seed)
     add_restricted(linear, &linear->mass, p.second, predicted);
     for (uint32_t i = 0; i < linear->coordinates; i++) {
         const double six[6] = {f[0][i], f[1][i], f[2][i], f[3][i], f[4][i], f[5][i]};
-        misfit = fmax(misfit, fabs(difference6(six, h) - predicted[i]));
+        violation = fmax(violation, fabs(difference6(six, h) - predicted[i]));
     }
-    return misfit / largest(linear->coordinates, predicted);
+    return violation / largest(linear->coordinates, predicted);
 }
 
-static double worst_misfit(dmb_linear *linear, const dmb_sim *sim)
+static double largest_violation(dmb_linear *linear, const dmb_sim *sim)
 {
     uint64_t seed = 5;
     double worst = 0.0;
-    for (int k = 0; k < 5; k++) worst = fmax(worst, misfit_of(linear, sim, &seed));
+    for (int k = 0; k < 5; k++) worst = fmax(worst, violation_of(linear, sim, &seed));
     return worst;
 }
 
@@ -154,7 +154,7 @@ static void check_stirred(const char *what, const full_rig_choice *choice)
     full_rig_open(&s, choice);
     stir(&s, 11);
     dmb_linear *linear = linearise(s.sim, &as_it_is);
-    check_below(what, worst_misfit(linear, s.sim), 1e-8);
+    check_below(what, largest_violation(linear, s.sim), 1e-8);
     dmb_linear_release(&linear);
     rig_close(&s);
 }
@@ -202,7 +202,7 @@ static void matrices_are_derivatives_with_joints(void **state)
     take_steps(&s, 0.01, 7);
     dmb_linear *linear = linearise(s.sim, &as_it_is);
     assert_int_equal(linear->coordinates, 1 + 2 + 3);
-    check_below("three bars in motion", worst_misfit(linear, s.sim), 1e-8);
+    check_below("three bars in motion", largest_violation(linear, s.sim), 1e-8);
     dmb_linear_release(&linear);
     rig_close(&s);
 }
@@ -294,7 +294,7 @@ static void stiffness_at_rest_is_symmetric(void **state)
     rig_close(&s);
 }
 
-static double factored_misfit(dmb_linear *linear, double k, double c, double m)
+static double factored_violation(dmb_linear *linear, double k, double c, double m)
 {
     uint64_t seed = 3;
     double x[ROWS_MAX], y[ROWS_MAX] = {0.0}, sum[ROWS_MAX] = {0.0}, g[ROWS_MAX], z[ROWS_MAX];
@@ -318,12 +318,12 @@ static void factors_solve(void **state)
     open_lying_string(&s, DMB_FRICTION_NONE);
     (void)find_equilibrium(&s, NULL);
     dmb_linear *linear = linearise(s.sim, &as_it_is);
-    check_below("K + 10 C + 100 M of a string", factored_misfit(linear, 1.0, 10.0, 100.0), 1e-9);
+    check_below("K + 10 C + 100 M of a string", factored_violation(linear, 1.0, 10.0, 100.0), 1e-9);
     dmb_linear_release(&linear);
     rig_close(&s);
     open_mechanism(&s);
     linear = linearise(s.sim, &as_it_is);
-    check_below("K + 10 C + 100 M of a mechanism", factored_misfit(linear, 1.0, 10.0, 100.0), 1e-12);
+    check_below("K + 10 C + 100 M of a mechanism", factored_violation(linear, 1.0, 10.0, 100.0), 1e-12);
     dmb_linear_release(&linear);
     rig_close(&s);
 }

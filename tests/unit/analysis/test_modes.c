@@ -3,7 +3,7 @@
 
 #include "modal.h"
 
-#include "analysis/modes.h"
+#include "analysis/modes/modes.h"
 #include "math/block_inertia.h"
 
 enum { ROWS_MAX = 1300 };

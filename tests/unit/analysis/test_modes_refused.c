@@ -5,7 +5,7 @@
 
 #include "modal.h"
 
-#include "analysis/modes.h"
+#include "analysis/modes/modes.h"
 
 typedef struct judged {
     dmb_mode_search search;

@@ -3,8 +3,8 @@
 
 #include "check.h"
 
-#include "analysis/pencil.h"
-#include "base/allocator.h"
+#include "analysis/buckling/pencil.h"
+#include "base/memory.h"
 
 /* Two blocks of one row, coupled. */
 typedef struct pair {
@@ -32,14 +32,14 @@ static void open_pair(pair *p, const dmb_allocator *allocator, double coupling, 
     assert_true(p->scene.pattern.values == 4);
     p->scene.cluster_count = 1;
     p->scene.layout = (dmb_block_layout){.n = 1, .diag = p->none, .link = p->none};
-    p->sim.linked_size = p->size;
+    p->sim.reduced_size = p->size;
     p->pencil.scene = &p->scene;
     p->pencil.sim = &p->sim;
     p->sim.progress = &p->sim.own_progress;
     p->pencil.K.linked = p->K;
     p->pencil.G.linked = p->G;
     p->pencil.work.linked = p->work;
-    p->pencil.linked_pivot = p->pivot;
+    p->pencil.reduced_pivot = p->pivot;
     set(&p->scene.pattern, p->K, 0.0, coupling);
     set(&p->scene.pattern, p->G, by_factor, 0.0);
 }

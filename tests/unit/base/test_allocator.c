@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 
-#include "base/allocator.h"
+#include "base/memory.h"
 
 /* Counts, remembers the last request, and can be told to fail or to ignore the alignment. */
 typedef struct ledger {

@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 
-#include "base/arena.h"
+#include "base/memory.h"
 
 typedef struct layout {
     double *positions, *forces;

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "base/check.h"
+#include "base/value_check.h"
 
 static dmb_message message;
 

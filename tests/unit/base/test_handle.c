@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "base/handle.h"
-#include "base/log.h"
+#include "base/message.h"
 
 static void stamps(void **state)
 {

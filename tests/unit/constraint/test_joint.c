@@ -211,13 +211,13 @@ static void rows_hold_what_is_not_free(void **state)
         dmb_joint_rows rows;
         for (int i = 0; i < ROUNDS; i++) {
             double c[6];
-            uint32_t freedoms = 0;
+            uint32_t degrees_of_freedom = 0;
             for (int k = 0; k < 6; k++) c[k] = (free >> k & 1U) != 0 ? draw_between(&seed, -1.4, 1.4) : 0.0;
-            for (int k = 0; k < 6; k++) freedoms += free >> k & 1U;
+            for (int k = 0; k < 6; k++) degrees_of_freedom += free >> k & 1U;
             const pose good = pose_of(c);
             dmb_joint_rows_at(kind, 1.0, good.R, good.p, still, &rows);
             assert_int_equal(rows.count, dmb_joint_row_count(kind));
-            assert_int_equal(rows.count, 6 - freedoms);
+            assert_int_equal(rows.count, 6 - degrees_of_freedom);
             assert_int_equal(rows.holonomic, (1U << rows.count) - 1U);
             if (rows.count > 0) assert_true(largest_value(&rows) < 1e-15);
             for (int k = 0; k < 6; k++) { /* any other coordinate is felt */
@@ -342,7 +342,7 @@ static double slip(const pose *at, double r, const double V[6], double rows_time
     return largest(3, rows_times_V);
 }
 
-/* An upright disc, its axis along y of a, its z axis up: spin w_x takes it along -y of b, along t. Spinning on the spot
+/* An upright disc, its axis along y of a, its z axis up: spin w_x takes it along -y of b, along t. Spinning on the material_point
  * about the normal does not slip either; sliding along and across does, and is told apart. */
 static void upright_disc(void **state)
 {

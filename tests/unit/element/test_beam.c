@@ -6,7 +6,7 @@
 
 #include "element/beam.h"
 #include "element/lump.h"
-#include "model/beam_element.h"
+#include "model/section.h"
 
 /* A short stubby pipe whose stiffnesses are of one size, so that no term hides behind another. */
 static void soft_type(double damping_time, const double arm[2], dmb_element_type *type)
@@ -340,17 +340,17 @@ static void inertia_tangent_is_the_derivative_of_the_inertia_force(void **state)
 }
 
 /* The same for a rigid mass with its centre off the axis. */
-static void lump_tangent_is_the_derivative_of_its_force(void **state)
+static void rigid_mass_tangent_is_the_derivative_of_its_force(void **state)
 {
     (void)state;
     uint64_t seed = 17;
-    const dmb_lump lump = {2.0, {0.3, -0.4, 0.2}, {1.0, 1.3, 1.5, 0.1, -0.2, 0.15}, 0, 0};
+    const dmb_rigid_mass rigid_mass = {2.0, {0.3, -0.4, 0.2}, {1.0, 1.3, 1.5, 0.1, -0.2, 0.15}, 0, 0};
     double v[6], a[6], p[6], C[36] = {0.0}, worst = 0.0;
-    dmb_lump_constants constants;
+    dmb_rigid_mass_constants constants;
     for (int i = 0; i < 6; i++) v[i] = draw_between(&seed, -1.0, 1.0), a[i] = draw_between(&seed, -1.0, 1.0);
-    dmb_lump_mass_times(&lump, v, p);
-    dmb_lump_load(&lump, 0, &constants);
-    dmb_lump_add_tangent(&constants, v, p, 0.7, 1.9, C);
+    dmb_rigid_mass_times(&rigid_mass, v, p);
+    dmb_rigid_mass_load(&rigid_mass, 0, &constants);
+    dmb_rigid_mass_add_tangent(&constants, v, p, 0.7, 1.9, C);
     for (int c = 0; c < 6; c++) {
         double f[2][6];
         for (int side = 0; side < 2; side++) {
@@ -358,8 +358,8 @@ static void lump_tangent_is_the_derivative_of_its_force(void **state)
             double vs[6], as[6], g[6];
             dmb_vec6_copy(v, vs), dmb_vec6_copy(a, as);
             vs[c] += 1.9 * e, as[c] += 0.7 * e;
-            dmb_lump_mass_times(&lump, as, f[side]);
-            dmb_lump_mass_times(&lump, vs, p);
+            dmb_rigid_mass_times(&rigid_mass, as, f[side]);
+            dmb_rigid_mass_times(&rigid_mass, vs, p);
             dmb_ad_transpose(vs, p, g);
             for (int i = 0; i < 6; i++) f[side][i] -= g[i];
         }
@@ -520,7 +520,7 @@ int main(void)
         cmocka_unit_test(damped_stiffness_is_the_derivative_of_the_force),
         cmocka_unit_test(damping_is_the_derivative_by_velocity),
         cmocka_unit_test(inertia_tangent_is_the_derivative_of_the_inertia_force),
-        cmocka_unit_test(lump_tangent_is_the_derivative_of_its_force),
+        cmocka_unit_test(rigid_mass_tangent_is_the_derivative_of_its_force),
         cmocka_unit_test(internal_forces_leave_the_spatial_momentum_alone),
         cmocka_unit_test(mass_carries_rigid_motion_exactly),
         cmocka_unit_test(mass_matrix_is_symmetric),

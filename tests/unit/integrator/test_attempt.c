@@ -6,7 +6,7 @@
 #include "rig.h"
 
 #include "integrator/attempt.h"
-#include "state.h"
+#include "sim/sim.h"
 
 static dmb_id open_pendulum(rig *s, const dmb_sim_options *options)
 {

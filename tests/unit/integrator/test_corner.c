@@ -2,7 +2,7 @@
  * full again behind a corner that did. */
 #include "rig.h"
 
-#include "state.h"
+#include "sim/sim.h"
 
 /* A free body, pushed by a table with a corner at `corner` [s]. */
 static void open_scene(rig *s, double corner)

@@ -5,7 +5,7 @@
 #include "check.h"
 #include "kernel/kernels.h"
 #include "math/se3.h"
-#include "model/beam_element.h"
+#include "model/section.h"
 
 enum { ELEMENTS = 19, NODES = ELEMENTS + 1, ROWS = 6 * NODES, BLOCKS = 36 * NODES, TYPES = 3 };
 

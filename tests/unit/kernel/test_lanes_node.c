@@ -9,8 +9,8 @@
 enum { NODES = 21, FIRST = 3, ROWS = 6 * NODES, BLOCKS = 36 * NODES };
 
 typedef struct node_input {
-    dmb_lump lumps[NODES];
-    uint32_t lump_count;
+    dmb_rigid_mass rigid_masses[NODES];
+    uint32_t rigid_mass_count;
     double gravity[3], weight_mass[NODES], weight_moment[3 * NODES], damping[5 * NODES];
     double quaternion[4 * NODES], velocity[ROWS], acceleration[ROWS];
 } node_input;
@@ -19,7 +19,7 @@ typedef struct node_output {
     double residual[ROWS], scale[ROWS], stiffness[BLOCKS], inertia[BLOCKS], power[3];
 } node_output;
 
-/* One way of asking. Of every `spacing` nodes one has a lump; 0: none. */
+/* One way of asking. Of every `spacing` nodes one has a rigid_mass; 0: none. */
 typedef struct node_case {
     int32_t gravity, damping, dynamic, tangent;
     uint32_t spacing;
@@ -39,11 +39,11 @@ static void draw_input(uint64_t *seed, uint32_t spacing, node_input *in)
         dmb_so3_exp(O, NULL, R);
         dmb_quat_from_matrix(R, in->quaternion + 4 * i);
         if (spacing == 0 || i % spacing) continue;
-        dmb_lump *lump = in->lumps + in->lump_count++;
-        lump->node = FIRST + i;
-        lump->mass = draw_between(seed, 1.0, 2.0);
-        draw_all(seed, 3, lump->moment);
-        draw_all(seed, 6, lump->inertia);
+        dmb_rigid_mass *rigid_mass = in->rigid_masses + in->rigid_mass_count++;
+        rigid_mass->node = FIRST + i;
+        rigid_mass->mass = draw_between(seed, 1.0, 2.0);
+        draw_all(seed, 3, rigid_mass->moment);
+        draw_all(seed, 6, rigid_mass->inertia);
     }
     draw_all(seed, 3, in->gravity);
     draw_all(seed, NODES, in->weight_mass);
@@ -60,8 +60,8 @@ static dmb_node_force_run run_of(const node_case *c, const node_input *in, node_
     const dmb_node_force_run run = {
         .count = count,
         .first = FIRST + first,
-        .lumps = in->lumps,
-        .lump_count = c->dynamic ? in->lump_count : 0,
+        .rigid_masses = in->rigid_masses,
+        .rigid_mass_count = c->dynamic ? in->rigid_mass_count : 0,
         .dynamic = c->dynamic,
         .tangent = c->tangent,
         .mass_factor = 3.0e5,
@@ -89,7 +89,7 @@ static void run_part(const dmb_kernels *kernels, const node_case *c, const node_
                      uint32_t first, uint32_t count)
 {
     dmb_node_force_run run = run_of(c, in, out, first, count);
-    while (run.lump_count > 0 && run.lumps->node < run.first) run.lumps++, run.lump_count--;
+    while (run.rigid_mass_count > 0 && run.rigid_masses->node < run.first) run.rigid_masses++, run.rigid_mass_count--;
     kernels->node_forces(&run);
     out->power[0] = run.inertia_power;
     out->power[1] = run.potential;
@@ -159,17 +159,17 @@ static void forces_are_those_of_point_masses(void **state)
     memset(&out, 0, sizeof out);
     draw_input(&seed, 1, &in);
     for (uint32_t i = 0; i < NODES; i++) {
-        const double m = in.lumps[i].mass;
+        const double m = in.rigid_masses[i].mass;
         double x[3];
         draw_all(&seed, 3, x);
         const double square = dmb_vec3_norm_squared(x);
         for (int k = 0; k < 3; k++) {
-            in.lumps[i].moment[k] = in.weight_moment[3 * i + (uint32_t)k] = m * x[k];
-            in.lumps[i].inertia[k] = m * (square - x[k] * x[k]);
+            in.rigid_masses[i].moment[k] = in.weight_moment[3 * i + (uint32_t)k] = m * x[k];
+            in.rigid_masses[i].inertia[k] = m * (square - x[k] * x[k]);
         }
-        in.lumps[i].inertia[3] = -m * x[0] * x[1];
-        in.lumps[i].inertia[4] = -m * x[0] * x[2];
-        in.lumps[i].inertia[5] = -m * x[1] * x[2];
+        in.rigid_masses[i].inertia[3] = -m * x[0] * x[1];
+        in.rigid_masses[i].inertia[4] = -m * x[0] * x[2];
+        in.rigid_masses[i].inertia[5] = -m * x[1] * x[2];
         in.weight_mass[i] = m;
         point_mass(&in, i, m, x, expected + 6 * i);
     }

@@ -4,7 +4,7 @@
 #include "rig.h"
 
 #include "kernel/kernels.h"
-#include "state.h"
+#include "sim/sim.h"
 
 static void use_lanes(rig *s, uint32_t lanes)
 {

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/allocator.h"
+#include "base/memory.h"
 #include "math/block_signed.h"
 
 enum { BLOCKS = 7, NODE = 3, ROWS = 2, MOST = BLOCKS * (NODE + ROWS) };

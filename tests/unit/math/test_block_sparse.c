@@ -6,7 +6,7 @@
 #include <lapacke.h>
 #include <stdlib.h>
 
-#include "base/allocator.h"
+#include "base/memory.h"
 #include "math/block_inertia.h"
 #include "math/block_sparse.h"
 

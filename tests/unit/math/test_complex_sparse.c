@@ -5,7 +5,7 @@
 #include <lapacke.h>
 #include <stdlib.h>
 
-#include "base/allocator.h"
+#include "base/memory.h"
 #include "math/complex_sparse.h"
 
 enum { BLOCKS = 24, CAPACITY = 9, ROWS_MAX = BLOCKS * CAPACITY };

@@ -3,7 +3,7 @@
 
 #include "check.h"
 #include "math/dense_inertia.h"
-#include "math/dense_lu.h"
+#include "math/dense.h"
 
 #define MOST 20
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "check.h"
-#include "math/dense_product.h"
+#include "math/dense.h"
 
 enum { LARGEST = 9 };
 

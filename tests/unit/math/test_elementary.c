@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "math/elementary.h"
-#include "math/exponential.h"
+#include "math/real.h"
 
 enum { DRAWS = 20000 };
 

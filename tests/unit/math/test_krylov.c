@@ -1,5 +1,5 @@
 /* Eigenvalues of operators with known ones: a diagonal in a metric of its own, equal values, complex pairs, a space
- * that closes early. And the dense problems of math/eigen that they rest on. */
+ * that closes early. And the dense problems of math/bridge_lapacke that they rest on. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
-#include "base/allocator.h"
-#include "math/eigen.h"
+#include "base/memory.h"
+#include "math/bridge_lapacke.h"
 #include "math/krylov.h"
 
 enum { N = 200 };

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "constraint/partition.h"
-#include "math/row_rank.h"
+#include "math/bridge_lapacke.h"
 
 enum { MAX = 40 };
 

@@ -1,7 +1,7 @@
 #include "model_test.h"
 
 #include "element/beam.h"
-#include "model/beam_element.h"
+#include "model/section.h"
 
 static const double no_arm[2] = {0.0, 0.0};
 

@@ -273,7 +273,7 @@ static void two_bodies(void **state)
     assert_int_equal(scene->node_place[2], 6);
     assert_int_equal(scene->node_block[1], UINT32_MAX);
     assert_int_equal(scene->node_cluster[1], UINT32_MAX);
-    assert_int_equal(scene->linked_count, 2);
+    assert_int_equal(scene->reduced_count, 2);
     assert_int_equal(scene->block_count, 1);
     assert_int_equal(scene->pattern.n, 1);
     assert_int_equal(scene->pattern.rows, 18);
@@ -359,7 +359,7 @@ static void hundred_strings(void **state)
     const dmb_scene *scene = compiled(model);
     assert_int_equal(scene->node_count, 2 * COUNT);
     assert_int_equal(scene->cluster_count, COUNT - 1);
-    assert_int_equal(scene->linked_count, 2 * COUNT);
+    assert_int_equal(scene->reduced_count, 2 * COUNT);
     assert_int_equal(scene->block_count, COUNT + 1);
     assert_int_equal(scene->pattern.entries, COUNT);
     assert_int_equal(scene->pattern.fill, 0);
@@ -410,7 +410,7 @@ static void within_a_string(void **state)
     add_string(model, 0.0, 1.0, 0.0, 4, 1, 0.0);
     join(model, DMB_JOINT_DISTANCE, dmb_station(string, 1, 0.0), dmb_station(string, 1, 1.0));
     const dmb_scene *scene = compiled(model);
-    assert_int_equal(scene->linked_count, 5);
+    assert_int_equal(scene->reduced_count, 5);
     assert_int_equal(scene->block_count, 4);
     assert_true(scene->link_offset[2] == SIZE_MAX);
     assert_true(scene->link_offset[0] != SIZE_MAX && scene->link_offset[4] != SIZE_MAX);
@@ -488,7 +488,7 @@ static void plain_string(void **state)
     drive.programme = add_constant(model, 1.0);
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
     const dmb_scene *scene = compiled(model);
-    assert_int_equal(scene->cluster_count + scene->constraint_count + scene->joint_count + scene->linked_count, 0);
+    assert_int_equal(scene->cluster_count + scene->constraint_count + scene->joint_count + scene->reduced_count, 0);
     assert_int_equal(scene->block_count + scene->constraint_row_count + scene->cluster_column_count, 0);
     assert_null(scene->joints);
     assert_null(scene->node_block);
@@ -519,7 +519,7 @@ static void counts_told(void **state)
     assert_int_equal(info.joints, 3);
     assert_int_equal(info.constraint_rows, 11);
     assert_int_equal(info.clusters, 1);
-    assert_int_equal(info.linked_nodes, 2);
+    assert_int_equal(info.reduced_nodes, 2);
     assert_true(info.model_bytes > model->scene->bytes);
     info.struct_size = 72; /* a caller of the first release */
     info.clusters = 77;

@@ -1,7 +1,6 @@
 #include "model_test.h"
 
-#include "model/eccentricity.h"
-#include "model/lump_sum.h"
+#include "model/mesh_mass.h"
 
 /* Total weight and its first moment about the rig end: sum over nodes of m x + b_x. */
 static void weights(const dmb_scene *scene, double *mass, double *moment)
@@ -13,10 +12,10 @@ static void weights(const dmb_scene *scene, double *mass, double *moment)
     }
 }
 
-static double lump_mass(const dmb_scene *scene)
+static double rigid_mass_mass(const dmb_scene *scene)
 {
     double sum = 0.0;
-    for (uint32_t i = 0; i < scene->lump_count; ++i) sum += scene->lumps[i].mass;
+    for (uint32_t i = 0; i < scene->rigid_mass_count; ++i) sum += scene->rigid_masses[i].mass;
     return sum;
 }
 
@@ -45,7 +44,7 @@ static void total_mass_and_first_moment(void **state)
     assert_near(mass, scene->mass, 1e-14);
     assert_near(moment, mass * 15.0, 1e-14);
     assert_near(element_mass(scene), scene->mass, 1e-14);
-    assert_int_equal(scene->lump_count, 0);
+    assert_int_equal(scene->rigid_mass_count, 0);
     /* +- m L/12 at the ends of the string, nothing between */
     assert_near(scene->weight_moment[0], m * 1.5 * 1.5 / 12.0, 1e-7);
     assert_near(scene->weight_moment[3 * 20], -m * 1.5 * 1.5 / 12.0, 1e-7);
@@ -92,8 +91,8 @@ static void every_part_is_weighed(void **state)
         assert_near(scene->mass, expected, 1e-14);
         assert_near(mass, expected, 1e-14);
         assert_near(moment, expected_moment, 1e-13);
-        assert_near(lump_mass(scene) + element_mass(scene), expected, 1e-14);
-        for (uint32_t i = 1; i < scene->lump_count; ++i) assert_true(scene->lumps[i - 1].node < scene->lumps[i].node);
+        assert_near(rigid_mass_mass(scene) + element_mass(scene), expected, 1e-14);
+        for (uint32_t i = 1; i < scene->rigid_mass_count; ++i) assert_true(scene->rigid_masses[i - 1].node < scene->rigid_masses[i].node);
         dmb_model_destroy(&model);
     }
 }
@@ -119,27 +118,27 @@ static void weight_beyond_an_arm(void **state)
     assert_near(scene->types[0].arm[0], 3.0, 0.0);
     assert_near(moment, mass * 3.75, 1e-14);
     /* product of inertia of the eccentric half element 3 m ahead of the node */
-    assert_near(scene->lumps[0].inertia[3], -0.75 * 14.2050261 * 3.0 * 1e-3, 1e-7);
+    assert_near(scene->rigid_masses[0].inertia[3], -0.75 * 14.2050261 * 3.0 * 1e-3, 1e-7);
     dmb_model_destroy(&model);
 }
 
-static void lump_is_the_spatial_inertia(void **state)
+static void rigid_mass_is_the_spatial_inertia(void **state)
 {
-    dmb_lump lump = {0};
+    dmb_rigid_mass rigid_mass = {0};
     const double c[3] = {0.5, -0.2, 0.1}, J[6] = {1.0, 2.0, 3.0, 0.1, 0.2, 0.3}, e[2] = {0.003, -0.004};
-    dmb_lump direct = {0}, shifted = {0};
+    dmb_rigid_mass direct = {0}, shifted = {0};
     const double at[3] = {0.7, 0.0, 0.0}, moved[3] = {0.7, 0.003, -0.004}, none[6] = {0};
     (void)state;
-    dmb_lump_add(&lump, 4.0, c, J);
-    assert_near(lump.mass, 4.0, 0.0);
-    assert_near(lump.moment[1], -0.8, 1e-15);
-    assert_near(lump.inertia[0], 1.0 + 4.0 * 0.05, 1e-15);
-    assert_near(lump.inertia[1], 2.0 + 4.0 * 0.26, 1e-15);
-    assert_near(lump.inertia[3], 0.1 + 4.0 * 0.1, 1e-15);
-    assert_near(lump.inertia[5], 0.3 + 4.0 * 0.02, 1e-15);
-    dmb_lump_add(&direct, 4.0, moved, none);
-    dmb_lump_add(&shifted, 4.0, at, none);
-    dmb_lump_shift(&shifted, 4.0, 0.7, e);
+    dmb_rigid_mass_add(&rigid_mass, 4.0, c, J);
+    assert_near(rigid_mass.mass, 4.0, 0.0);
+    assert_near(rigid_mass.moment[1], -0.8, 1e-15);
+    assert_near(rigid_mass.inertia[0], 1.0 + 4.0 * 0.05, 1e-15);
+    assert_near(rigid_mass.inertia[1], 2.0 + 4.0 * 0.26, 1e-15);
+    assert_near(rigid_mass.inertia[3], 0.1 + 4.0 * 0.1, 1e-15);
+    assert_near(rigid_mass.inertia[5], 0.3 + 4.0 * 0.02, 1e-15);
+    dmb_rigid_mass_add(&direct, 4.0, moved, none);
+    dmb_rigid_mass_add(&shifted, 4.0, at, none);
+    dmb_rigid_mass_shift(&shifted, 4.0, 0.7, e);
     for (int i = 0; i < 3; ++i) assert_close(shifted.moment[i], direct.moment[i], 1e-15);
     for (int i = 0; i < 6; ++i) assert_close(shifted.inertia[i], direct.inertia[i], 1e-15);
 }
@@ -155,11 +154,11 @@ static void merged_pipes_are_one_tube(void **state)
     pipe.kind = DMB_PIPE_RIGID;
     add_pipes(model, &pipe, 10);
     scene = compiled(model);
-    assert_int_equal(scene->lump_count, 1);
-    assert_near(scene->lumps[0].mass, m, 1e-7);
-    assert_near(scene->lumps[0].moment[0], m * 7.5, 1e-7);
-    assert_near(scene->lumps[0].inertia[0], m * (ro * ro + ri * ri) / 2.0, 1e-7);
-    assert_near(scene->lumps[0].inertia[1], m * ((ro * ro + ri * ri) / 4.0 + 15.0 * 15.0 / 3.0), 1e-7);
+    assert_int_equal(scene->rigid_mass_count, 1);
+    assert_near(scene->rigid_masses[0].mass, m, 1e-7);
+    assert_near(scene->rigid_masses[0].moment[0], m * 7.5, 1e-7);
+    assert_near(scene->rigid_masses[0].inertia[0], m * (ro * ro + ri * ri) / 2.0, 1e-7);
+    assert_near(scene->rigid_masses[0].inertia[1], m * ((ro * ro + ri * ri) / 4.0 + 15.0 * 15.0 / 3.0), 1e-7);
     dmb_model_destroy(&model);
 }
 
@@ -203,31 +202,31 @@ static const dmb_scene *eccentric_scene(dmb_model **model, double spread, double
 }
 
 /* Half of each element's mass times the offset on each node; types stay shared; no mass is added. */
-static void eccentric_lumps(void **state)
+static void eccentric_rigid_masses(void **state)
 {
     dmb_model *model;
     const dmb_scene *scene = eccentric_scene(&model, 0.0, 0.0, 1, DMB_FEATURE_ALL);
     const double half = 0.5 * 1.5 * 14.2050261, ey = 1e-3 * cos(0.5), ez = 1e-3 * sin(0.5);
     (void)state;
-    assert_int_equal(scene->lump_count, 6);
+    assert_int_equal(scene->rigid_mass_count, 6);
     assert_int_equal(scene->type_count, 1);
     assert_int_equal(scene->rigid_count, 0);
     for (uint32_t i = 0; i < 6; ++i) {
-        const dmb_lump *lump = &scene->lumps[i];
+        const dmb_rigid_mass *rigid_mass = &scene->rigid_masses[i];
         const double m = i == 0 || i == 5 ? half : 2.0 * half;
-        assert_int_equal(lump->node, i);
-        assert_near(lump->mass, 0.0, 0.0);
-        assert_near(lump->moment[0], 0.0, 0.0);
-        assert_near(lump->moment[1], m * ey, 1e-7);
-        assert_near(lump->moment[2], m * ez, 1e-7);
-        assert_near(lump->inertia[0], m * 1e-6, 1e-7);
-        assert_near(lump->inertia[1], m * ez * ez, 1e-7);
-        assert_near(lump->inertia[5], -m * ey * ez, 1e-7);
+        assert_int_equal(rigid_mass->node, i);
+        assert_near(rigid_mass->mass, 0.0, 0.0);
+        assert_near(rigid_mass->moment[0], 0.0, 0.0);
+        assert_near(rigid_mass->moment[1], m * ey, 1e-7);
+        assert_near(rigid_mass->moment[2], m * ez, 1e-7);
+        assert_near(rigid_mass->inertia[0], m * 1e-6, 1e-7);
+        assert_near(rigid_mass->inertia[1], m * ez * ez, 1e-7);
+        assert_near(rigid_mass->inertia[5], -m * ey * ez, 1e-7);
         assert_near(scene->weight_moment[3 * i + 1], m * ey, 1e-7);
     }
     dmb_model_destroy(&model);
     scene = eccentric_scene(&model, 0.0, 0.0, 1, DMB_FEATURE_ALL & ~DMB_FEATURE_ECCENTRICITY);
-    assert_int_equal(scene->lump_count, 0);
+    assert_int_equal(scene->rigid_mass_count, 0);
     assert_int_equal(scene->features & DMB_FEATURE_ECCENTRICITY, 0);
     dmb_model_destroy(&model);
 }
@@ -247,7 +246,7 @@ static void eccentric_joints_too(void **state)
         pipe.eccentricity = 2e-3;
         add_pipes(model, &pipe, 1);
         scene = compiled(model);
-        for (uint32_t i = 0; i < scene->lump_count; ++i) sum += scene->lumps[i].moment[1];
+        for (uint32_t i = 0; i < scene->rigid_mass_count; ++i) sum += scene->rigid_masses[i].moment[1];
         assert_near(sum, scene->mass * 2e-3, 1e-14);
         dmb_model_destroy(&model);
     }
@@ -260,8 +259,8 @@ static void random_eccentricity_is_reproducible(void **state)
     const dmb_scene *sb = eccentric_scene(&b, 5e-4, 3.0, 7, DMB_FEATURE_ALL);
     const dmb_scene *sc = eccentric_scene(&c, 5e-4, 3.0, 8, DMB_FEATURE_ALL);
     (void)state;
-    assert_memory_equal(sa->lumps, sb->lumps, 6 * sizeof(dmb_lump));
-    assert_memory_not_equal(sa->lumps, sc->lumps, 6 * sizeof(dmb_lump));
+    assert_memory_equal(sa->rigid_masses, sb->rigid_masses, 6 * sizeof(dmb_rigid_mass));
+    assert_memory_not_equal(sa->rigid_masses, sc->rigid_masses, 6 * sizeof(dmb_rigid_mass));
     dmb_model_destroy(&a);
     dmb_model_destroy(&b);
     dmb_model_destroy(&c);
@@ -354,7 +353,7 @@ static void what_is_left_out_is_not_there(void **state)
     assert_int_equal(scene->drives[0].excitation, UINT32_MAX);
     assert_int_equal(scene->bits[0].law.kind, DMB_ROCK_NONE);
     assert_int_equal(scene->history_count, 0);
-    assert_int_equal(scene->lump_count, 1); /* the bit */
+    assert_int_equal(scene->rigid_mass_count, 1); /* the bit */
     dmb_model_destroy(&model);
 }
 
@@ -381,10 +380,10 @@ int main(void)
         TEST(total_mass_and_first_moment),
         TEST(every_part_is_weighed),
         TEST(weight_beyond_an_arm),
-        TEST(lump_is_the_spatial_inertia),
+        TEST(rigid_mass_is_the_spatial_inertia),
         TEST(merged_pipes_are_one_tube),
         TEST(buoyancy_takes_from_pipes_and_joints),
-        TEST(eccentric_lumps),
+        TEST(eccentric_rigid_masses),
         TEST(eccentric_joints_too),
         TEST(random_eccentricity_is_reproducible),
         TEST(random_eccentricity_is_uniform),

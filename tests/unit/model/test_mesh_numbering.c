@@ -29,7 +29,7 @@ static void reference_scene(void **state)
     assert_int_equal(info.nodes, 101);
     assert_int_equal(info.elements, 100);
     assert_int_equal(info.structural_joints, 101);
-    assert_int_equal(info.freedoms, 600); /* 606 less a guide of 4 and two drives */
+    assert_int_equal(info.degrees_of_freedom, 600); /* 606 less a guide of 4 and two drives */
     assert_int_equal(info.prescribed, 2);
     assert_int_equal(info.contact_sites, 101); /* pipe ends but the guided one, and the bit */
     assert_int_equal(info.model_bytes, scene->bytes);

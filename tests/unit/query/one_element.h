@@ -64,25 +64,25 @@ static inline void one_element_move(one_element *o, int node, const double h[6])
     dmb_se3_advance(o->quaternion + 4 * node, o->displacement + 3 * node, h);
 }
 
-static inline dmb_spot one_element_spot(double x)
+static inline dmb_material_point one_element_spot(double x)
 {
-    const dmb_spot spot = {0, 0, 0.0, x, 0.0, 0, 0};
-    return spot;
+    const dmb_material_point point = {0, 0, 0.0, x, 0.0, 0, 0};
+    return point;
 }
 
-static inline dmb_spot_pose one_element_pose(const one_element *o, double x)
+static inline dmb_material_point_pose one_element_pose(const one_element *o, double x)
 {
-    const dmb_spot spot = one_element_spot(x);
-    dmb_spot_pose pose;
-    dmb_spot_pose_of(&o->scene, &o->configuration, &spot, &pose);
+    const dmb_material_point point = one_element_spot(x);
+    dmb_material_point_pose pose;
+    dmb_material_point_pose_of(&o->scene, &o->configuration, &point, &pose);
     return pose;
 }
 
-static inline dmb_spot_motion one_element_motion(const one_element *o, double x)
+static inline dmb_material_point_motion one_element_motion(const one_element *o, double x)
 {
-    const dmb_spot spot = one_element_spot(x);
-    dmb_spot_motion motion;
-    dmb_spot_motion_of(&o->scene, &o->configuration, &spot, &motion);
+    const dmb_material_point point = one_element_spot(x);
+    dmb_material_point_motion motion;
+    dmb_material_point_motion_of(&o->scene, &o->configuration, &point, &motion);
     return motion;
 }
 

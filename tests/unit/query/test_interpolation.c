@@ -17,10 +17,10 @@ static void ends_are_reproduced(void **state)
     one_element_move(&o, 0, large_a);
     one_element_move(&o, 1, large_b);
     for (int end = 0; end < 2; end++) {
-        const dmb_spot fixed = {(uint32_t)end, 0, end ? -0.35 : 0.2, end, 0.0, 1, 0};
-        const dmb_spot_pose inner = one_element_pose(&o, end);
-        dmb_spot_pose outer;
-        dmb_spot_pose_of(&o.scene, &o.configuration, &fixed, &outer);
+        const dmb_material_point fixed = {(uint32_t)end, 0, end ? -0.35 : 0.2, end, 0.0, 1, 0};
+        const dmb_material_point_pose inner = one_element_pose(&o, end);
+        dmb_material_point_pose outer;
+        dmb_material_point_pose_of(&o.scene, &o.configuration, &fixed, &outer);
         for (int i = 0; i < 9; i++) CHECK_CLOSE(inner.rotation[i], outer.rotation[i], 4e-15);
         for (int i = 0; i < 3; i++) CHECK_CLOSE(inner.position[i], outer.position[i], 1e-14);
         for (int i = 0; i < 3; i++) CHECK_CLOSE(inner.displacement[i], outer.displacement[i], 4e-15);
@@ -35,7 +35,7 @@ static void rigid_motion_is_exact(void **state)
     one_element o;
     one_element_make(&o, 1.3, 0.2, 0.35, 50.0);
     for (int i = 0; i < STATIONS; i++) {
-        const dmb_spot_pose pose = one_element_pose(&o, stations[i]);
+        const dmb_material_point_pose pose = one_element_pose(&o, stations[i]);
         for (int k = 0; k < 3; k++) CHECK_CLOSE(pose.displacement[k], 0.0, 2e-16);
     }
     const double along[3] = {1.85, 0.0, 0.0};
@@ -45,7 +45,7 @@ static void rigid_motion_is_exact(void **state)
     dmb_quat_rotate(o.quaternion, along, far_place);
     for (int k = 0; k < 3; k++) o.displacement[3 + k] = o.displacement[k] + far_place[k] - o.span[k];
     for (int i = 0; i < STATIONS; i++) {
-        const dmb_spot_pose pose = one_element_pose(&o, stations[i]);
+        const dmb_material_point_pose pose = one_element_pose(&o, stations[i]);
         const double arm[3] = {0.2 + 1.3 * stations[i], 0.0, 0.0};
         double want[3], R[9];
         dmb_quat_rotate(o.quaternion, arm, want);
@@ -69,7 +69,7 @@ static void small_bending_follows_the_cubic_shapes(void **state)
     one_element_move(&o, 1, b);
     for (int i = 0; i < STATIONS; i++) {
         const double x = stations[i];
-        const dmb_spot_pose pose = one_element_pose(&o, x);
+        const dmb_material_point_pose pose = one_element_pose(&o, x);
         double u[3], Q[9], theta[3], R0[9];
         dmb_quat_to_matrix(o.reference_quaternion, R0);
         dmb_mat3_tvec(R0, pose.displacement, u);
@@ -105,7 +105,7 @@ static void uniform_curvature_is_an_exact_arc(void **state)
     one_element_move(&o, 1, d);
     for (int i = 0; i < STATIONS; i++) {
         const double turn = stations[i] * angle;
-        const dmb_spot_pose pose = one_element_pose(&o, stations[i]);
+        const dmb_material_point_pose pose = one_element_pose(&o, stations[i]);
         double x[3], R0[9];
         dmb_vec3_sub(pose.position, o.reference_position, x);
         dmb_quat_to_matrix(o.reference_quaternion, R0);
@@ -146,9 +146,9 @@ static void velocity_is_the_derivative_of_pose(void **state)
     moving(&before), advance(&before, -t);
     moving(&after), advance(&after, t);
     for (int i = 0; i < STATIONS; i++) {
-        const dmb_spot_pose p0 = one_element_pose(&before, stations[i]), p1 = one_element_pose(&after, stations[i]);
-        const dmb_spot_pose p = one_element_pose(&now, stations[i]);
-        const dmb_spot_motion m = one_element_motion(&now, stations[i]);
+        const dmb_material_point_pose p0 = one_element_pose(&before, stations[i]), p1 = one_element_pose(&after, stations[i]);
+        const dmb_material_point_pose p = one_element_pose(&now, stations[i]);
+        const dmb_material_point_motion m = one_element_motion(&now, stations[i]);
         double dx[3], Q[9], O[3];
         dmb_vec3_sub(p1.displacement, p0.displacement, dx);
         dmb_mat3_tvec(p.rotation, dx, dx);
@@ -169,8 +169,8 @@ static void acceleration_is_the_derivative_of_velocity(void **state)
     moving(&before), advance(&before, -t);
     moving(&after), advance(&after, t);
     for (int i = 0; i < STATIONS; i++) {
-        const dmb_spot_motion m = one_element_motion(&now, stations[i]);
-        const dmb_spot_motion m0 = one_element_motion(&before, stations[i]),
+        const dmb_material_point_motion m = one_element_motion(&now, stations[i]);
+        const dmb_material_point_motion m0 = one_element_motion(&before, stations[i]),
                               m1 = one_element_motion(&after, stations[i]);
         for (int k = 0; k < 6; k++) CHECK_CLOSE(m.acceleration[k], (m1.velocity[k] - m0.velocity[k]) / (2.0 * t), 1e-6);
     }
@@ -194,8 +194,8 @@ static void rigid_spin_of_a_bent_element(void **state)
     dmb_vec3_cross(world, r, v);
     dmb_mat3_tvec(Rb, v, o.velocity + 6);
     for (int i = 0; i < STATIONS; i++) {
-        const dmb_spot_pose p = one_element_pose(&o, stations[i]);
-        const dmb_spot_motion m = one_element_motion(&o, stations[i]);
+        const dmb_material_point_pose p = one_element_pose(&o, stations[i]);
+        const dmb_material_point_motion m = one_element_motion(&o, stations[i]);
         for (int k = 0; k < 3; k++) r[k] = p.position[k] - o.reference_position[k] - o.displacement[k];
         dmb_mat3_copy(p.rotation, R);
         dmb_vec3_cross(world, r, v);
@@ -213,8 +213,8 @@ static void turns_are_linear(void **state)
     one_element_make(&o, 1.0, 0.0, 0.0, 8.0);
     o.turn[0] = 628.0, o.turn[1] = 632.0;
     for (int i = 0; i < STATIONS; i++) {
-        const dmb_spot spot = one_element_spot(stations[i]);
-        CHECK_CLOSE(dmb_spot_turn(&o.configuration, &spot), 628.0 + 4.0 * stations[i], 1e-12);
+        const dmb_material_point point = one_element_spot(stations[i]);
+        CHECK_CLOSE(dmb_material_point_turn(&o.configuration, &point), 628.0 + 4.0 * stations[i], 1e-12);
     }
 }
 

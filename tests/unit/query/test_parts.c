@@ -49,7 +49,7 @@ static void contact_at_rest(void **state)
     hole_rig r = make(DMB_PIPE_FLEXIBLE, DMB_FREE_X);
     dmb_model_info info = dmb_model_info_default();
     find_equilibrium(&r.s, NULL);
-    dmb_contact_sum sum = contacts_of(&r.s);
+    dmb_contact_total sum = contacts_of(&r.s);
     double total = 0.0, deepest = 0.0, length = 0.0, reaction[6];
     uint32_t closed = 0;
     must_model(&r.s, dmb_model_get_info(r.s.model, &info));
@@ -87,7 +87,7 @@ static void friction_of_a_sliding_string(void **state)
     for (int32_t kind = DMB_PIPE_FLEXIBLE; kind <= DMB_PIPE_AXIAL_TORSIONAL; kind++) {
         hole_rig r = make(kind, DMB_FREE_CYLINDRICAL);
         run(&r.s, 60);
-        const dmb_contact_sum sum = contacts_of(&r.s);
+        const dmb_contact_total sum = contacts_of(&r.s);
         dmb_model_info info = dmb_model_info_default();
         double around = 0.0, along = 0.0;
         must_model(&r.s, dmb_model_get_info(r.s.model, &info));
@@ -152,7 +152,7 @@ static void bit_and_statistics(void **state)
     const dmb_pose pose = pose_at(&r.s, dmb_station(r.bit, 0, 0.0));
     CHECK_CLOSE(bit.advance, pose.displacement[0], 1e-9);
     assert_true(after.steps - before.steps >= 30); /* divided steps count as what they are */
-    assert_true(after.iterations > before.iterations && after.worst_iterations > 0);
+    assert_true(after.iterations > before.iterations && after.most_iterations > 0);
     assert_int_equal(after.bytes, info.sim_bytes);
     rig_close(&r.s);
 }

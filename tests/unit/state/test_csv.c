@@ -61,7 +61,7 @@ static dmb_recorder recorder(void)
     r.channel_count = CHANNELS;
     r.channels = channels;
     r.table = table;
-    r.capacity = r.rows = ROWS;
+    r.capacity = r.row_count = ROWS;
     return r;
 }
 
@@ -121,7 +121,7 @@ static void header_names_and_units(void **state)
     static char text[1 << 16];
     dmb_recorder r = recorder();
     char *name = temporary();
-    r.rows = 0;
+    r.row_count = 0;
     assert_int_equal(dmb_recorder_write_csv(&r, name), DMB_OK);
     read_back(name, text, sizeof text);
     assert_string_equal(text, "time [s],velocity_z string 0 pipe 99 at 0.5 [m/s],drive_force drive 2 [N or N m],"
@@ -173,7 +173,7 @@ static void bad_recorders_are_refused(void **state)
     assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);
     r = recorder(), r.channel_count = 4097;
     assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);
-    r = recorder(), r.rows = ROWS + 1;
+    r = recorder(), r.row_count = ROWS + 1;
     assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);
     r = recorder(), r.capacity = UINT64_MAX;
     assert_int_equal(dmb_recorder_write_csv(&r, "x"), DMB_ERR_VALUE);

@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
-#include "base/allocator.h"
-#include "state/layout.h"
+#include "base/memory.h"
+#include "sim/layout.h"
 
 enum { NODES = 7 };
 

@@ -7,7 +7,8 @@
 #include "full_rig.h"
 
 #include "math/se3.h"
-#include "state.h"
+#include "sim/layout.h"
+#include "sim/sim.h"
 
 static inline void push_into_wall(dmb_sim *sim, uint32_t s)
 {

@@ -8,11 +8,12 @@
 
 #include "math/mat6.h"
 #include "math/se3.h"
-#include "state.h"
-#include "system/cluster.h"
-#include "system/constraint_rows.h"
-#include "system/evaluation.h"
-#include "system/joint_state.h"
+#include "sim/layout.h"
+#include "sim/sim.h"
+#include "system/constrain/cluster.h"
+#include "system/constrain/constraint_rows.h"
+#include "system/assemble/evaluation.h"
+#include "system/constrain/joint_state.h"
 
 enum { ROWS_MAX = 400, KINDS = DMB_JOINT_ROLLING + 1, EQUATIONS_MAX = 300 };
 
@@ -92,7 +93,7 @@ static void add_hole(rig *s, int32_t curved)
     (void)add_wall(s, &wall);
 }
 
-static dmb_id add_lump(rig *s, uint64_t *seed, double x, double y, double z)
+static dmb_id add_rigid_mass(rig *s, uint64_t *seed, double x, double y, double z)
 {
     dmb_body_def body = dmb_body_def_default();
     body.position[0] = x;
@@ -169,7 +170,7 @@ static void add_bodies(rig *s, uint64_t *seed, parts *p)
     for (int32_t line = 0; line < 2; line++)
         for (int32_t kind = 0; kind < KINDS; kind++) {
             const double z = line == 0 && kind == DMB_JOINT_POINT_ON_HOLE ? 0.2 : 1.0 + line;
-            p->body[line][kind] = add_lump(s, seed, 0.45 * kind, 0.0, z);
+            p->body[line][kind] = add_rigid_mass(s, seed, 0.45 * kind, 0.0, z);
         }
 }
 
@@ -236,7 +237,7 @@ static void open_path_scene(rig *s, uint64_t seed)
     add_hole(s, 0);
     dmb_pipe_def pipe = beam_pipe(1.0, 1, 90.0, 40.0, 30.0, 20.0);
     pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
-    const dmb_id string = add_pipes(s, &pipe, 3), body = add_lump(s, &seed, 2.0, 0.3, 0.4);
+    const dmb_id string = add_pipes(s, &pipe, 3), body = add_rigid_mass(s, &seed, 2.0, 0.3, 0.4);
     const dmb_place far = dmb_station(string, 1, 1.0), on = dmb_station(body, 0, 0.0);
     (void)add_kind(s, &seed, DMB_JOINT_REVOLUTE, far, on);
     (void)add_kind(s, &seed, DMB_JOINT_FREE, dmb_station(string, 2, 1.0), on);
@@ -313,7 +314,7 @@ static void stir(rig *s, uint64_t seed, int32_t locked)
     }
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
     memset(sim->increment, 0, scene->row_count * sizeof(double));
-    sim->linked_mode->multipliers = 1; /* multipliers are taken as they are */
+    sim->reduced_mode->multipliers = 1; /* multipliers are taken as they are */
 }
 
 static dmb_evaluation evaluation_of(dmb_sim *sim, int32_t dynamic)

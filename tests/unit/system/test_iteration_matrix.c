@@ -1,11 +1,13 @@
 /* The iteration matrix of a step against differences of the residual by the increments h Dq, which move pose, velocity
  * and acceleration together; and the extrapolated stress of the elements against their true one. */
+#include "sim/layout.h"
 #include "stirred_rig.h"
 
 #include "element/beam.h"
-#include "system/energy.h"
-#include "system/evaluation.h"
-#include "system/free_rigid.h"
+#include "system/assemble/elements.h"
+#include "system/assemble/energy.h"
+#include "system/assemble/evaluation.h"
+#include "system/assemble/free_rigid.h"
 
 #define ROWS_MAX 80
 #define TO_VELOCITY 2.0     /* [1/s] gamma/(h beta); of a size that lets every term be seen */

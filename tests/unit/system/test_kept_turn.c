@@ -6,10 +6,10 @@
 
 #include "check.h"
 #include "math/so3.h"
-#include "state.h"
-#include "system/evaluation.h"
-#include "system/kept.h"
-#include "system/solve.h"
+#include "sim/layout.h"
+#include "sim/sim.h"
+#include "system/assemble/evaluation.h"
+#include "system/solve/solve.h"
 
 enum { PIPES = 5, ROWS = 6 * (PIPES + 1) };
 

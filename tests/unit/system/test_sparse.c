@@ -5,7 +5,7 @@
 #include "mechanism.h"
 
 #include "model/limits.h"
-#include "state.h"
+#include "sim/sim.h"
 
 enum { MOST = 64, DENSE = 1 << 20, SPARSE = 2, STEPS = 60 };
 
@@ -236,7 +236,7 @@ static void compare(const char *name, scene_fn *describe, double tolerance)
     check_below("    by multipliers", motion_difference(&dense.s, &given.s, dense.bars, given.bars, dense.bar_count),
                 tolerance);
     check_below("    reactions", reaction_difference(&dense, &sparse), 100.0 * tolerance);
-    check_below("    misfit", other.misfit, 1e-12);
+    check_below("    violation", other.violation, 1e-12);
     assert_int_equal(one.dependent, other.dependent);
     assert_int_equal(one.redundant, other.redundant);
     assert_true(other.iterations <= one.iterations + STEPS / 4);
@@ -379,7 +379,7 @@ static void redundant_in_a_long_ring(void **state)
     const dmb_statistics statistics = statistics_of(&s);
     assert_int_equal(statistics.dependent, 5 * (N + 1) - 3);
     assert_int_equal(statistics.redundant, 3);
-    check_below("    misfit of a ring of 400", statistics.misfit, 1e-12);
+    check_below("    violation of a ring of 400", statistics.violation, 1e-12);
     rig_close(&s);
 }
 
@@ -401,7 +401,7 @@ static void longer_than_dense_matrices(void **state)
     for (int k = 0; k < 5; k++) must(&s, dmb_sim_step(s.sim, 1e-3, NULL));
     const dmb_statistics statistics = statistics_of(&s);
     assert_int_equal(statistics.dependent, 5 * 260);
-    check_below("    misfit of 260 links", statistics.misfit, 1e-12);
+    check_below("    violation of 260 links", statistics.violation, 1e-12);
     assert_int_equal(dmb_analysis_modes(s.sim, NULL, &modes), DMB_ERR_TOO_LARGE);
     print_message("    %s\n", dmb_sim_message(s.sim));
     assert_non_null(strstr(dmb_sim_message(s.sim), "modes: cluster of joint 0 (link): coordinates = 1560, must be <= 1200"));

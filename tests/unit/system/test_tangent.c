@@ -3,12 +3,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "sim/layout.h"
 #include "stirred_rig.h"
 
 #include "math/se3.h"
-#include "state.h"
-#include "system/energy.h"
-#include "system/evaluation.h"
+#include "sim/sim.h"
+#include "system/assemble/energy.h"
+#include "system/assemble/evaluation.h"
 
 #define ROWS_MAX 80
 

@@ -1,0 +1,275 @@
+#include "analysis/buckling/buckling.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/value_check.h"
+#include "base/handle.h"
+#include "base/sized_struct.h"
+#include "sim/access.h"
+#include "system/copy.h"
+
+DMB_DECLARE_STRUCT(dmb_buckling_options)
+DMB_DECLARE_STRUCT(dmb_buckling_info)
+
+static int32_t take_options(dmb_sim *sim, const dmb_buckling_options *given, dmb_buckling_options *out)
+{
+    dmb_check check = dmb_check_of(&sim->message, "buckling options", DMB_NO_INDEX);
+    (void)dmb_buckling_options_init(out, (uint32_t)sizeof *out);
+    if (given != NULL && dmb_buckling_options_read(out, given) < 0) {
+        dmb_message_set(&sim->message, "buckling options: struct_size is not one this library knows");
+        return DMB_ERR_STRUCT_SIZE;
+    }
+    dmb_check_count(&check, "count", out->count, 1, 10000);
+    dmb_check_choice(&check, "scale", out->scale, DMB_SCALE_ALL, DMB_SCALE_PART);
+    dmb_check_choice(&check, "follow", out->follow, 0, 1);
+    dmb_check_within(&check, "factor_max", out->factor_max, 1e-300, 1e300);
+    dmb_check_within(&check, "tolerance", out->tolerance, 1e-15, 0.1);
+    dmb_check_within(&check, "step", out->step, 0.0, 1e30);
+    dmb_check_within(&check, "slip_axial", out->slip_axial, -1e6, 1e6);
+    dmb_check_within(&check, "slip_rotation", out->slip_rotation, -1e6, 1e6);
+    return check.status;
+}
+
+/* ---- Memory ------------------------------------------------------------------------------------------------------ */
+
+static void lay_out(dmb_arena *arena, const dmb_scene *scene, uint32_t count, dmb_buckling *to)
+{
+    const size_t rows = scene->row_count;
+    to->factor = DMB_ARENA_DOUBLES(arena, count);
+    to->first = DMB_ARENA_DOUBLES(arena, count);
+    to->vector = DMB_ARENA_DOUBLES(arena, (size_t)count * dmb_pencil_unknowns(scene));
+    to->shape = scene->cluster_count ? DMB_ARENA_DOUBLES(arena, count * rows) : to->vector;
+    to->response = DMB_ARENA_DOUBLES(arena, rows);
+    to->pattern.base = DMB_ARENA_DOUBLES(arena, dmb_load_pattern_size(scene));
+    dmb_pencil_lay_out(arena, scene, &to->pencil);
+    dmb_frames_lay_out(arena, scene, &to->frames);
+}
+
+void dmb_buckling_destroy(dmb_buckling **buckling)
+{
+    if (buckling == NULL || *buckling == NULL) return;
+    if (dmb_handle_is(*buckling, DMB_HANDLE_BUCKLING)) {
+        const dmb_allocator allocator = (*buckling)->allocator;
+        dmb_model *model = (*buckling)->work != NULL ? (*buckling)->work->model : NULL;
+        (*buckling)->magic = DMB_HANDLE_DEAD;
+        dmb_state_discard((*buckling)->work);
+        dmb_release(&allocator, (*buckling)->block, (*buckling)->block_size);
+        dmb_release(&allocator, *buckling, sizeof **buckling);
+        if (model != NULL) dmb_model_release(model);
+    }
+    *buckling = NULL;
+}
+
+/* The copy of the sim is asked for shapes like any sim, and holds the model like one. */
+static dmb_buckling *allocate(const dmb_sim *sim, uint32_t count)
+{
+    dmb_arena arena;
+    dmb_buckling nowhere;
+    dmb_buckling *made = dmb_allocate(&sim->allocator, sizeof *made);
+    if (made == NULL) return NULL;
+    made->magic = DMB_HANDLE_BUCKLING;
+    made->allocator = sim->allocator;
+    dmb_arena_count(&arena);
+    const dmb_scene *scene = dmb_dense_scene(sim->scene);
+    lay_out(&arena, scene, count, &nowhere);
+    made->block_size = dmb_arena_block_size(&arena);
+    if (!arena.overflow) made->block = dmb_allocate(&sim->allocator, made->block_size);
+    if (made->block != NULL) made->work = dmb_state_copy(sim);
+    if (made->work == NULL) {
+        dmb_buckling_destroy(&made);
+        return NULL;
+    }
+    made->work->magic = DMB_HANDLE_SIM;
+    dmb_model_hold(made->work->model);
+    dmb_arena_place(&arena, made->block, made->block_size);
+    lay_out(&arena, scene, count, made);
+    made->pencil.sim = made->work;
+    return made;
+}
+
+/* ---- Factors and shapes ------------------------------------------------------------------------------------------ */
+
+/* Largest displacement 1 m, or rotation 1 rad where nothing else moves; its largest component positive. */
+static void normalise(const dmb_scene *scene, double *x)
+{
+    double most[2] = {0.0, 0.0};
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i];
+        for (uint32_t c = 0; c < size; c++) {
+            const double value = x[scene->layout.row[i] + c];
+            double *of = most + (2 * c < size ? 0 : 1);
+            if (fabs(value) > fabs(*of)) *of = value;
+        }
+    }
+    const double unit = fabs(most[0]) > 1e-9 * fabs(most[1]) ? most[0] : most[1];
+    for (uint32_t i = 0; i < scene->row_count; i++) x[i] /= unit;
+}
+
+/* Factors this close count as one, with vectors apart from each other. */
+#define DMB_SAME_FACTOR 1e-6
+
+static void store_shape(dmb_buckling *buckling, uint32_t k)
+{
+    const size_t rows = buckling->work->scene->row_count, unknowns = buckling->pencil.unknowns;
+    dmb_buckling_expand(buckling, buckling->vector + k * unknowns, buckling->shape + k * rows);
+    normalise(buckling->work->scene, buckling->shape + k * rows);
+}
+
+/* distance: of the factor from the state that is linearised. */
+static void find_shape(dmb_buckling *buckling, uint32_t k, double distance)
+{
+    const size_t unknowns = buckling->pencil.unknowns;
+    uint32_t first = k;
+    while (first > 0 && buckling->factor[k] - buckling->factor[first - 1] < DMB_SAME_FACTOR * distance) first--;
+    (void)dmb_pencil_vector(&buckling->pencil, distance, buckling->vector + first * unknowns, k - first,
+                            buckling->vector + k * unknowns);
+    store_shape(buckling, k);
+}
+
+static int32_t find_symmetric(dmb_buckling *buckling, const dmb_buckling_options *options, dmb_message *message)
+{
+    const double most = options->factor_max - buckling->at;
+    double guess = fmin(buckling->at > 0.0 && isfinite(buckling->first[0]) ? buckling->first[0] : 1.0, most);
+    for (uint32_t k = 0; k < options->count; k++) {
+        dmb_progress_at(buckling->work, 0.5 * k / options->count);
+        const double factor = dmb_pencil_factor(&buckling->pencil, k, guess, most, options->tolerance);
+        if (isnan(factor)) {
+            dmb_message_set(message, "buckling: critical factor %u cannot be counted, the stiffness stays singular", k);
+            return DMB_ERR_SINGULAR;
+        }
+        if (!isfinite(factor)) return DMB_NOTE_STOPPED;
+        guess = factor;
+        buckling->factor[k] = buckling->at + factor;
+        buckling->count = k + 1;
+        find_shape(buckling, k, factor);
+    }
+    return DMB_OK;
+}
+
+static int32_t find_general(dmb_buckling *buckling, const dmb_buckling_options *options, dmb_message *message)
+{
+    const int32_t status =
+        dmb_pencil_general(&buckling->pencil, options->count, options->factor_max - buckling->at, &buckling->allocator,
+                           buckling->factor, buckling->vector, &buckling->count);
+    if (status < 0 && status != DMB_ERR_NO_MEMORY)
+        dmb_message_set(
+            message, "buckling: the critical factors of the unsymmetric stiffness at factor = %g cannot be found, %s",
+            buckling->at, dmb_status_text(status));
+    if (status < 0) return status;
+    for (uint32_t k = 0; k < buckling->count; k++) {
+        buckling->factor[k] += buckling->at;
+        store_shape(buckling, k);
+    }
+    return buckling->count < options->count ? DMB_NOTE_STOPPED : DMB_OK;
+}
+
+int32_t dmb_buckling_find(dmb_buckling *buckling, const dmb_buckling_options *options, dmb_message *message)
+{
+    buckling->count = 0;
+    buckling->info.linearisations++;
+    buckling->info.linearised_at = buckling->at;
+    return buckling->info.stiffness == DMB_STIFFNESS_UNSYMMETRIC ? find_general(buckling, options, message)
+                                                                 : find_symmetric(buckling, options, message);
+}
+
+/* Where the loads move nothing, rigid links in line, the stiffness is linear in them: there is no way to follow. */
+static int moves(const dmb_buckling *buckling)
+{
+    for (uint32_t i = 0; i < buckling->work->scene->row_count; i++)
+        if (buckling->response[i] != 0.0) return 1;
+    return 0;
+}
+
+static void confirm_all(dmb_buckling *buckling)
+{
+    buckling->info.confirmed = buckling->count;
+    buckling->info.end = DMB_BUCKLING_BIFURCATION;
+}
+
+/* About the present state, and then along the equilibria. */
+static int32_t run(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options)
+{
+    int32_t status = dmb_steady_refuse_moving(sim, buckling->work, "buckling");
+    if (status >= 0) status = dmb_buckling_linearise(buckling, sim, options);
+    if (status >= 0) status = dmb_buckling_find(buckling, options, &sim->message);
+    if (status < 0) return status;
+    for (uint32_t k = 0; k < options->count; k++)
+        buckling->first[k] = k < buckling->count ? buckling->factor[k] : (double)INFINITY;
+    buckling->info.estimate = buckling->first[0];
+    if (!moves(buckling))
+        confirm_all(buckling);
+    else if (options->follow && buckling->count > 0)
+        status = dmb_buckling_follow(buckling, sim, options);
+    buckling->info.count = buckling->count;
+    return status == DMB_OK && buckling->info.confirmed < buckling->count ? DMB_NOTE_EXTRAPOLATED : status;
+}
+
+static int32_t analyse(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling)
+{
+    dmb_buckling_options taken;
+    dmb_load_pattern pattern;
+    int32_t status = take_options(sim, options, &taken);
+    if (status >= 0) status = dmb_state_copy_check(sim, "buckling");
+    if (status >= 0) status = dmb_load_pattern_take(sim, "buckling options", taken.scale, taken.part, &pattern);
+    if (status < 0) return status;
+    dmb_buckling *made = allocate(sim, taken.count);
+    if (made == NULL) return DMB_ERR_NO_MEMORY;
+    pattern.base = made->pattern.base;
+    made->pattern = pattern;
+    (void)dmb_buckling_info_init(&made->info, (uint32_t)sizeof made->info);
+    status = dmb_progress_end(sim, run(made, sim, &taken));
+    made->work->progress = &made->work->own_progress; /* it may outlive the sim */
+    if (status < 0)
+        dmb_buckling_destroy(&made);
+    else
+        *buckling = made;
+    return status;
+}
+
+int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling)
+{
+    if (sim == NULL || buckling == NULL) return DMB_ERR_NULL;
+    *buckling = NULL;
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    return status < 0 ? status : dmb_sim_leave(sim, analyse(sim, options, buckling));
+}
+
+int32_t dmb_buckling_get_info(const dmb_buckling *buckling, dmb_buckling_info *info)
+{
+    if (buckling == NULL || info == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(buckling, DMB_HANDLE_BUCKLING)) return DMB_ERR_HANDLE;
+    return dmb_buckling_info_write(info, &buckling->info);
+}
+
+uint32_t dmb_buckling_count(const dmb_buckling *buckling)
+{
+    return dmb_handle_is(buckling, DMB_HANDLE_BUCKLING) ? buckling->count : 0;
+}
+
+static int32_t check_mode(const dmb_buckling *buckling, uint32_t mode, const double *answer)
+{
+    if (buckling == NULL || answer == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(buckling, DMB_HANDLE_BUCKLING)) return DMB_ERR_HANDLE;
+    return mode < buckling->count ? DMB_OK : DMB_ERR_VALUE;
+}
+
+int32_t dmb_buckling_factor(const dmb_buckling *buckling, uint32_t mode, double *factor)
+{
+    const int32_t status = check_mode(buckling, mode, factor);
+    if (status == DMB_OK) *factor = buckling->factor[mode];
+    return status;
+}
+
+/* The shape is a field of small displacements; a field of velocities is interpolated alike. */
+int32_t dmb_buckling_shape(const dmb_buckling *buckling, uint32_t mode, dmb_place place, double shape[6])
+{
+    int32_t status = check_mode(buckling, mode, shape);
+    dmb_motion motion = dmb_motion_default();
+    if (status < 0) return status;
+    const size_t rows = buckling->work->scene->row_count;
+    memcpy(buckling->work->now.velocity, buckling->shape + mode * rows, rows * sizeof(double));
+    status = dmb_query_motion(buckling->work, place, &motion);
+    if (status == DMB_OK) memcpy(shape, motion.velocity, sizeof motion.velocity);
+    return status;
+}

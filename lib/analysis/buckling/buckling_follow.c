@@ -1,0 +1,239 @@
+/* From the present state along the equilibria to where they lose their stability. A factor from one linearisation is an
+ * extrapolation: forces turn, contacts shift and open, sections turn on the way. So the path of equilibria is followed
+ * (by arc length, so that it may end at a limit point) as far as the factor, linearised again there where nothing has
+ * happened, and so on until an eigenvalue of its stiffness passes 0. A last linearisation just before it gives the
+ * shape, the further factors and, where K is smooth, more digits. */
+#include <math.h>
+#include <string.h>
+
+#include "analysis/buckling/buckling.h"
+#include "analysis/buckling/path.h"
+#include "sim/access.h"
+#include "system/copy.h"
+
+/* Points and linearisations after which a path that stays stable is given up. */
+#define DMB_FOLLOW_POINTS 2000
+#define DMB_FOLLOW_LINEARISATIONS 400
+/* First step, over the distance of the factor. The last steps: so much of the distance while it is longer than this
+ * part of the factor, to linearise there, then a little more than the distance, so that a short unstable stretch is not
+ * passed over. Where the linearisation moves away as it is approached it is too careful, and the path goes on by a part
+ * of its factor at a time. */
+#define DMB_FOLLOW_FIRST 0.25
+#define DMB_FOLLOW_APPROACH 0.9
+#define DMB_FOLLOW_NEAR 0.02
+#define DMB_FOLLOW_PAST 1.05
+#define DMB_FOLLOW_GROWTH 0.05
+#define DMB_FOLLOW_MOVES 0.3
+
+typedef struct follower {
+    dmb_buckling *buckling;
+    dmb_sim *sim;
+    const dmb_buckling_options *options;
+    dmb_path_options path_options;
+    dmb_path path;
+    double estimate; /* [unit of the factor] where stability is expected to end, by the last linearisation */
+    double target;   /* [unit of the factor] where it is linearised again */
+    double arc;
+} follower;
+
+static int32_t open_path(follower *f)
+{
+    const dmb_buckling_options *o = f->options;
+    dmb_path *path = &f->path;
+    (void)dmb_path_options_init(&f->path_options, (uint32_t)sizeof f->path_options);
+    f->path_options.scale = o->scale;
+    f->path_options.part = o->part;
+    f->path_options.factor_end = o->factor_max;
+    f->path_options.slip_axial = o->slip_axial;
+    f->path_options.slip_rotation = o->slip_rotation;
+    path->sim = f->sim;
+    path->options = &f->path_options;
+    path->pattern = f->buckling->pattern;
+    return dmb_path_open(path);
+}
+
+/* K and G, factors and shapes about the last point of the path. */
+static int32_t linearise_here(follower *f)
+{
+    f->buckling->at = f->path.last.factor;
+    dmb_state_take(f->path.work, f->buckling->work);
+    const int32_t status = dmb_buckling_linearise(f->buckling, f->sim, f->options);
+    return status < 0 ? status : dmb_buckling_find(f->buckling, f->options, &f->sim->message);
+}
+
+static int32_t say_lost(follower *f, int32_t status)
+{
+    if (status == DMB_ERR_NO_MEMORY || dmb_is_final(status)) return status;
+    dmb_message_set(
+        &f->sim->message,
+        "buckling: the equilibria are stable up to factor = %g and could not be followed to the critical factor "
+        "that the last of them tells, %g; use finer elements or a softer wall, or follow = 0 for the extrapolation "
+        "from the present state, %g",
+        f->path.last.factor, f->estimate, f->buckling->first[0]);
+    return DMB_ERR_NO_CONVERGENCE;
+}
+
+static int32_t say_stable(follower *f)
+{
+    dmb_message_set(
+        &f->sim->message,
+        "buckling: the equilibria are stable up to factor = %g, beyond the critical factor %g that the present "
+        "state tells; follow = 0 gives that one",
+        f->path.last.factor, f->buckling->first[0]);
+    f->buckling->count = 0;
+    f->buckling->info.end = DMB_BUCKLING_STABLE;
+    return DMB_NOTE_STOPPED;
+}
+
+/* ---- Where it ends -------------------------------------------------------------------------------------------------
+ */
+
+/* Part of the last step before its end, at which the state is linearised. */
+static const double step_back[] = {0.98, 0.9, 0.5, 0.0};
+
+static int32_t linearise_before(follower *f, double arc)
+{
+    dmb_path *path = &f->path;
+    int32_t status = DMB_ERR_NO_CONVERGENCE;
+    for (int k = 0; k < 4 && status < 0 && status != DMB_ERR_NO_MEMORY && !dmb_is_final(status); k++) {
+        dmb_message_clear(&f->sim->message);
+        status = DMB_OK;
+        if (step_back[k] > 0.0) {
+            status = dmb_path_correct(path, path->last.tangent, path->last.rate, step_back[k] * arc);
+            if (status >= 0) status = dmb_path_tangent(path, path->last.tangent);
+            if (status >= 0 && path->next.negative != 0) status = DMB_ERR_ORDER;
+            if (status >= 0) dmb_path_accept(path);
+        }
+        if (status >= 0) status = linearise_here(f);
+    }
+    return status;
+}
+
+/* Factors are the same to this part of them. */
+#define DMB_FOLLOW_AGREES 1e-5
+#define DMB_FOLLOW_SAME 1e-6
+
+static int same(double a, double b, double part)
+{
+    return fabs(a - b) <= part * fabs(b);
+}
+
+/* The first factor is where the path has its event; others that the first linearisation has told alike, or that are the
+ * same as the first, are as good. */
+static void confirm(dmb_buckling *b, double event)
+{
+    uint32_t k = 1;
+    if (!same(b->factor[0], event, DMB_FOLLOW_AGREES)) b->factor[0] = event;
+    while (k < b->count &&
+           (same(b->factor[k], b->factor[0], DMB_FOLLOW_SAME) || same(b->factor[k], b->first[k], DMB_FOLLOW_SAME)))
+        k++;
+    b->info.confirmed = k;
+}
+
+static int32_t end_at_event(follower *f, int32_t event)
+{
+    dmb_buckling *b = f->buckling;
+    const double factor = f->path.next.factor, arc = f->path.next.arc - f->path.last.arc;
+    int32_t status = linearise_before(f, arc);
+    if (status < 0) return status;
+    if (b->count == 0) return say_lost(f, DMB_ERR_NO_CONVERGENCE);
+    b->info.end = event == DMB_EVENT_LIMIT ? DMB_BUCKLING_LIMIT : DMB_BUCKLING_BIFURCATION;
+    /* beyond a limit point, or a corner where a contact opens or closes, this linearisation says nothing */
+    if (event == DMB_EVENT_LIMIT || !same(b->factor[0], factor, DMB_FOLLOW_AGREES)) b->count = 1;
+    confirm(b, factor);
+    return b->count < f->options->count ? DMB_NOTE_STOPPED : DMB_OK;
+}
+
+/* ---- The way
+ * --------------------------------------------------------------------------------------------------------- */
+
+static void choose_target(follower *f, int careful)
+{
+    const double factor = f->path.last.factor, distance = f->estimate - factor;
+    const double part = distance > DMB_FOLLOW_NEAR * f->estimate ? DMB_FOLLOW_APPROACH : DMB_FOLLOW_PAST;
+    f->target = factor + (careful ? fmax(DMB_FOLLOW_PAST * distance, DMB_FOLLOW_GROWTH * factor) : part * distance);
+}
+
+/* Steps grow as the path's own do, but not past the target. */
+static void choose_arc(follower *f)
+{
+    const dmb_path_place *last = &f->path.last;
+    const double growth = fmin(fmax(sqrt(5.0 / (f->path.iterations + 1.0)), 0.5), 2.0);
+    f->arc = fmin(f->arc * growth, (f->target - last->factor) / fabs(last->rate));
+}
+
+#define DMB_FOLLOW_THERE 0.999
+
+/* At the target. 1: to be gone on from; else the status of the whole. */
+static int32_t look_ahead(follower *f)
+{
+    const double before = f->estimate, distance = before - f->buckling->at;
+    const int32_t status = linearise_here(f);
+    if (status < 0) return status;
+    if (f->buckling->count == 0 || f->buckling->info.linearisations >= DMB_FOLLOW_LINEARISATIONS) return say_stable(f);
+    f->estimate = f->buckling->factor[0];
+    choose_target(f, fabs(f->estimate - before) > DMB_FOLLOW_MOVES * distance);
+    return 1;
+}
+
+/* A step past a bifurcation may come down on the path that crosses, which is stable, and one past a limit point on
+ * another one: the direction has turned. It is taken again in shorter ones, until it is a corner, where a contact
+ * opens. */
+#define DMB_FOLLOW_STRAIGHT 0.9
+#define DMB_FOLLOW_SHORTER 0.25
+#define DMB_FOLLOW_TRIES 8
+
+static int32_t find_next(follower *f, int32_t *event)
+{
+    dmb_path *path = &f->path;
+    for (int k = 0;; k++, f->arc *= DMB_FOLLOW_SHORTER) {
+        const int32_t status = dmb_path_find_next(path, &f->arc, event);
+        if (status < 0 || *event != DMB_EVENT_NONE || path->next.negative != 0 || k >= DMB_FOLLOW_TRIES) return status;
+        if (dmb_path_dot(path, path->last.tangent, path->next.tangent) >= DMB_FOLLOW_STRAIGHT) return status;
+    }
+}
+
+/* 1: to be gone on from; else the status of the whole. */
+static int32_t step(follower *f)
+{
+    dmb_path *path = &f->path;
+    int32_t event = DMB_EVENT_NONE;
+    dmb_progress_at(f->sim, 0.5 + 0.5 * path->last.factor / f->estimate);
+    int32_t status = find_next(f, &event);
+    if (status < 0) return say_lost(f, status);
+    f->buckling->info.points++;
+    if (event == DMB_EVENT_LIMIT || event == DMB_EVENT_BIFURCATION || path->next.negative > 0)
+        return end_at_event(f, event);
+    if (path->next.negative < 0) return say_lost(f, DMB_ERR_NO_CONVERGENCE);
+    dmb_path_accept(path);
+    if (event == DMB_EVENT_FACTOR) return say_stable(f);
+    return path->last.factor < DMB_FOLLOW_THERE * f->target ? 1 : look_ahead(f);
+}
+
+static int32_t walk(follower *f)
+{
+    int32_t status = open_path(f);
+    if (status < 0) return status;
+    choose_target(f, 0);
+    f->arc = DMB_FOLLOW_FIRST * f->target / fabs(f->path.last.rate);
+    for (int k = 0; k < DMB_FOLLOW_POINTS; k++) {
+        status = step(f);
+        if (status != 1) return status;
+        choose_arc(f);
+    }
+    return say_lost(f, DMB_ERR_NO_CONVERGENCE);
+}
+
+int32_t dmb_buckling_follow(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options)
+{
+    follower f;
+    memset(&f, 0, sizeof f);
+    f.buckling = buckling;
+    f.sim = sim;
+    f.options = options;
+    f.estimate = buckling->factor[0];
+    const int32_t status = walk(&f);
+    buckling->info.reached = f.path.last.factor;
+    dmb_path_close(&f.path);
+    return status;
+}

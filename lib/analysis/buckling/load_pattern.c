@@ -1,0 +1,119 @@
+#include "analysis/buckling/load_pattern.h"
+
+#include <string.h>
+
+#include "drillmbd/analysis.h"
+
+size_t dmb_load_pattern_size(const dmb_scene *scene)
+{
+    return (size_t)scene->load_count + scene->bit_count + scene->drive_count;
+}
+
+static int32_t take_drive(dmb_sim *sim, const char *who, dmb_load_pattern *pattern)
+{
+    const dmb_scene_drive *drive = sim->scene->drives + pattern->drive;
+    if (drive->kind == DMB_DRIVE_CONTROL) {
+        dmb_message_set(&sim->message, "%s: drive %u is a speed controller, whose force is not given", who,
+                        pattern->drive);
+        return DMB_ERR_VALUE;
+    }
+    if (drive->kind != DMB_DRIVE_MOTION) return DMB_OK;
+    if (drive->joint != UINT32_MAX) {
+        dmb_message_set(&sim->message, "%s: drive %u moves a joint, use one of a string or body", who, pattern->drive);
+        return DMB_ERR_UNSUPPORTED;
+    }
+    pattern->row = drive->row;
+    return DMB_OK;
+}
+
+int32_t dmb_load_pattern_take(dmb_sim *sim, const char *who, int32_t scale, dmb_id part, dmb_load_pattern *pattern)
+{
+    const dmb_scene *scene = sim->scene;
+    pattern->scale = scale;
+    pattern->load = pattern->drive = pattern->row = UINT32_MAX;
+    pattern->base = NULL;
+    if (scale < DMB_SCALE_ALL || scale > DMB_SCALE_PART) {
+        dmb_message_field(&sim->message, who, DMB_NO_INDEX, "scale", scale, "a DMB_SCALE_");
+        return DMB_ERR_VALUE;
+    }
+    if (scale != DMB_SCALE_PART) return DMB_OK;
+    const uint32_t load = dmb_model_part_index(sim->model, part, DMB_PART_LOAD);
+    if (load < scene->load_count) {
+        pattern->load = load;
+        return DMB_OK;
+    }
+    pattern->drive = dmb_model_part_index(sim->model, part, DMB_PART_DRIVE);
+    if (pattern->drive < scene->drive_count) return take_drive(sim, who, pattern);
+    dmb_message_set(&sim->message, "%s: part names no load and no drive of this model", who);
+    return DMB_ERR_ID;
+}
+
+void dmb_load_pattern_begin(const dmb_load_pattern *pattern, const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    double *base = pattern->base;
+    for (uint32_t i = 0; i < scene->load_count; i++) *base++ = sim->trial.load_factor[i];
+    for (uint32_t i = 0; i < scene->bit_count; i++) *base++ = sim->trial.bit_load[i];
+    for (uint32_t i = 0; i < scene->drive_count; i++) *base++ = sim->trial.drive_target[i];
+}
+
+/* Gravity, loads and bit loads scale in the evaluation where all do; else one by one. */
+void dmb_load_pattern_set(const dmb_load_pattern *pattern, dmb_evaluation *evaluation, double factor)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const double *base = pattern->base, all = 1.0 + factor;
+    const double loads = pattern->scale == DMB_SCALE_LOADS ? all : 1.0;
+    const double drives = pattern->scale == DMB_SCALE_PART ? 1.0 : all;
+    evaluation->load_factor = pattern->scale == DMB_SCALE_ALL ? all : 1.0;
+    for (uint32_t i = 0; i < scene->load_count; i++)
+        sim->trial.load_factor[i] = loads * *base++ + (i == pattern->load ? factor : 0.0);
+    for (uint32_t i = 0; i < scene->bit_count; i++) sim->trial.bit_load[i] = loads * *base++;
+    for (uint32_t i = 0; i < scene->drive_count; i++, base++) {
+        if (scene->drives[i].kind != DMB_DRIVE_LOAD) continue;
+        sim->trial.drive_target[i] = i == pattern->drive ? *base + factor : drives * *base;
+    }
+}
+
+/* Column of the tangent that belongs to the moved row. */
+static void moved_column(const dmb_sim *sim, uint32_t row, double *out)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_block_layout *layout = &scene->layout;
+    uint32_t node = 0;
+    while (layout->row[node + 1] <= row) node++;
+    const uint32_t c = row - layout->row[node], size = layout->size[node];
+    memset(out, 0, scene->row_count * sizeof(double));
+    for (uint32_t i = 0; i < size; i++) out[layout->row[node] + i] = dmb_stiffness_of(sim, node)[size * i + c];
+    if (node > 0 && scene->node_element[node - 1] != UINT32_MAX)
+        for (uint32_t i = 0; i < layout->size[node - 1]; i++)
+            out[layout->row[node - 1] + i] = sim->stiffness_upper[layout->link[node - 1] + size * i + c];
+    if (scene->node_element[node] != UINT32_MAX)
+        for (uint32_t i = 0; i < layout->size[node + 1]; i++)
+            out[layout->row[node + 1] + i] = sim->stiffness_lower[layout->link[node] + size * i + c];
+}
+
+/* Loads enter the residual linearly: its change over a unit of the factor is the derivative. */
+int32_t dmb_load_pattern_derivative(const dmb_load_pattern *pattern, dmb_evaluation *evaluation, double factor,
+                                    double *derivative)
+{
+    dmb_sim *sim = evaluation->sim;
+    const uint32_t rows = sim->scene->row_count;
+    const int32_t tangent = evaluation->tangent;
+    if (pattern->row != UINT32_MAX) {
+        moved_column(sim, pattern->row, derivative);
+        return DMB_OK;
+    }
+    memcpy(derivative, sim->correction, rows * sizeof(double));
+    evaluation->tangent = 0;
+    dmb_load_pattern_set(pattern, evaluation, factor + 1.0);
+    const int32_t status = dmb_system_evaluate(evaluation);
+    dmb_load_pattern_set(pattern, evaluation, factor);
+    evaluation->tangent = tangent;
+    for (uint32_t i = 0; i < rows; i++) {
+        const double before = derivative[i];
+        derivative[i] = sim->correction[i] - before;
+        sim->correction[i] = before;
+    }
+    return status;
+}

@@ -1,0 +1,309 @@
+#include "analysis/buckling/path.h"
+
+#include <string.h>
+
+#include "analysis/linear/stiffness.h"
+#include "base/memory.h"
+#include "base/value_check.h"
+#include "base/handle.h"
+#include "base/sized_struct.h"
+#include "sim/access.h"
+#include "sim/layout.h"
+#include "sim/node.h"
+#include "system/assemble/drives.h"
+#include "system/copy.h"
+
+DMB_DECLARE_STRUCT(dmb_path_options)
+DMB_DECLARE_STRUCT(dmb_path_report)
+
+static int32_t take_options(dmb_sim *sim, const dmb_path_options *given, dmb_path_options *out)
+{
+    dmb_check check = dmb_check_of(&sim->message, "path options", DMB_NO_INDEX);
+    (void)dmb_path_options_init(out, (uint32_t)sizeof *out);
+    if (given != NULL && dmb_path_options_read(out, given) < 0) {
+        dmb_message_set(&sim->message, "path options: struct_size is not one this library knows");
+        return DMB_ERR_STRUCT_SIZE;
+    }
+    dmb_check_count(&check, "max_points", out->max_points, 1, 1000000);
+    dmb_check_count(&check, "max_iterations", out->max_iterations, 2, 1000);
+    dmb_check_choice(&check, "scale", out->scale, DMB_SCALE_ALL, DMB_SCALE_PART);
+    dmb_check_choice(&check, "component", out->component, DMB_X, DMB_Z);
+    dmb_check_choice(&check, "branch", out->branch, -1, 1);
+    dmb_check_within(&check, "factor_end", out->factor_end, -1e30, 1e30);
+    if (out->factor_end == 0.0) dmb_check_fail(&check, DMB_ERR_VALUE, "factor_end", 0.0, "not 0");
+    dmb_check_within(&check, "displacement_end", out->displacement_end, -1e30, 1e30);
+    dmb_check_within(&check, "first_step", out->first_step, 0.0, 1e30);
+    dmb_check_above(&check, "step_max", out->step_max, 0.0);
+    dmb_check_within(&check, "branch_size", out->branch_size, 0.0, 1e6);
+    dmb_check_within(&check, "tolerance", out->tolerance, 1e-15, 0.1);
+    dmb_check_within(&check, "slip_axial", out->slip_axial, -1e6, 1e6);
+    dmb_check_within(&check, "slip_rotation", out->slip_rotation, -1e6, 1e6);
+    return check.status;
+}
+
+static int32_t check_place(dmb_sim *sim, const dmb_path_options *options)
+{
+    dmb_pose pose = dmb_pose_default();
+    if (options->place.part.generation == 0) return DMB_OK;
+    const int32_t status = dmb_query_pose(sim, options->place, &pose);
+    if (status < 0) dmb_message_set(&sim->message, "path options: place is no place of this model");
+    return status;
+}
+
+/* ---- Memory ------------------------------------------------------------------------------------------------------ */
+
+static void lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_path *to)
+{
+    to->last.tangent = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    to->next.tangent = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    to->loaded = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    to->move = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    to->mode = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    to->pattern.base = DMB_ARENA_DOUBLES(arena, dmb_load_pattern_size(scene));
+}
+
+/* ---- Start ------------------------------------------------------------------------------------------------------- */
+
+static void explain(dmb_path *path, int32_t status)
+{
+    if (path->sim->message.text[0] != '\0') return;
+    if (status == DMB_ERR_SINGULAR) {
+        (void)dmb_stiffness_explain(path->sim, "path", path->search.block);
+    } else if (status == DMB_ERR_ROTATION) {
+        const dmb_owner owner = dmb_owner_of_element(path->work->scene, path->turned);
+        dmb_message_set(
+            &path->sim->message,
+            "path: ends at factor = %g, %s %u, pipe %u: relative rotation in one element above 2.5 rad; use "
+            "more elements",
+            path->last.factor, owner.kind, owner.index, owner.pipe);
+    } else {
+        dmb_message_set(&path->sim->message, "path: lost at factor = %g after %u points, relative residual = %g",
+                        path->last.factor, path->report.points, path->search.residual);
+    }
+}
+
+static int32_t begin(dmb_path *path)
+{
+    dmb_sim *work = path->work;
+    const dmb_scene *scene = work->scene;
+    int32_t status = dmb_steady_refuse_moving(path->sim, work, "path");
+    if (status < 0) return status;
+    memset(work->increment, 0, scene->row_count * sizeof(double));
+    memset(work->now.velocity, 0, scene->row_count * sizeof(double));
+    memset(work->now.acceleration, 0, scene->row_count * sizeof(double));
+    memset(work->now.pseudo_acceleration, 0, scene->row_count * sizeof(double));
+    dmb_configuration_copy(work, &work->now, &work->trial);
+    work->reduced_mode->row = UINT32_MAX;
+    status = dmb_system_prescribe(&path->search.evaluation);
+    if (status >= 0 && scene->cluster_count) status = dmb_static_settle(&path->search);
+    if (status < 0) return status;
+    memset(work->trial.velocity, 0, scene->row_count * sizeof(double));
+    dmb_load_pattern_begin(&path->pattern, work);
+    status = dmb_path_evaluate(path, 1);
+    if (status >= 0) status = dmb_stiffness_balanced(path->sim, "path", &path->search.evaluation);
+    if (status >= 0) status = dmb_path_tangent(path, path->next.tangent); /* 0: along a rising factor */
+    if (status >= 0 && path->weakest < DMB_LOOSE_PIVOT) status = DMB_ERR_SINGULAR;
+    if (status < 0) return status;
+    const double sense = path->options->factor_end < 0.0 ? -1.0 : 1.0;
+    path->next.rate *= sense;
+    for (uint32_t i = 0; i < scene->row_count; i++) path->next.tangent[i] *= sense;
+    path->side = path->next.rate;
+    dmb_path_accept(path);
+    path->begun = 1;
+    path->turned = UINT32_MAX;
+    return DMB_OK;
+}
+
+/* ---- The way ----------------------------------------------------------------------------------------------------- */
+
+/* 0, or DMB_NOTE_STOPPED where the caller says so. */
+static int32_t tell(dmb_path *path, int32_t kind)
+{
+    dmb_path_point point = dmb_path_point_default();
+    point.number = path->report.points;
+    point.kind = kind;
+    point.negative = path->last.negative;
+    point.stiffness = path->last.stiffness;
+    point.iterations = path->iterations;
+    point.factor = path->last.factor;
+    point.rate = path->last.rate;
+    point.arc = path->last.arc;
+    point.displacement = path->last.watched;
+    path->report.factor = path->last.factor;
+    path->report.displacement = path->last.watched;
+    if (kind == DMB_PATH_LIMIT && path->report.limits++ == 0) path->report.first_limit = point.factor;
+    if (kind == DMB_PATH_BIFURCATION && path->report.bifurcations++ == 0) path->report.first_bifurcation = point.factor;
+    if (path->options->callback == NULL) return DMB_OK;
+    return path->options->callback(path->options->callback_context, path->work, &point) ? DMB_NOTE_STOPPED : DMB_OK;
+}
+
+#define DMB_CUTS_IN_A_ROW 40
+/* Newton iterations of a step that is as long as the one before. */
+#define DMB_GOOD_ITERATIONS 5.0
+
+/* The event, or an end that lies before it. */
+static int32_t locate(dmb_path *path, int32_t *event, double arc)
+{
+    const int32_t status = dmb_path_locate(path, event, arc);
+    const int32_t end = dmb_path_end(path, *event);
+    if (status < 0 || end == DMB_EVENT_NONE) return status;
+    *event = end;
+    return dmb_path_locate(path, event, path->next.arc - path->last.arc);
+}
+
+/* Where steps went too far lately, that is why. */
+#define DMB_TURNED_NEAR 1e-3
+
+static int32_t lost(const dmb_path *path)
+{
+    const int near = fabs(path->last.factor - path->turned_at) <= DMB_TURNED_NEAR * fabs(path->last.factor);
+    return path->turned != UINT32_MAX && near ? DMB_ERR_ROTATION : DMB_ERR_NO_CONVERGENCE;
+}
+
+int32_t dmb_path_find_next(dmb_path *path, double *arc, int32_t *event)
+{
+    for (int cuts = 0;; cuts++, path->report.cuts++) {
+        *arc = fmin(*arc, path->options->step_max);
+        int32_t status = dmb_path_correct(path, path->last.tangent, path->last.rate, *arc);
+        if (status >= 0) status = dmb_path_tangent(path, path->last.tangent);
+        if (status >= 0) {
+            *event = dmb_path_event(path);
+            if (*event == DMB_EVENT_NONE) return DMB_OK;
+            status = locate(path, event, *arc);
+        }
+        if (status >= 0 || dmb_is_final(status)) return status;
+        if (status == DMB_ERR_ROTATION) {
+            path->turned = path->search.evaluation.element;
+            path->turned_at = path->last.factor;
+        }
+        if (cuts >= DMB_CUTS_IN_A_ROW) return lost(path);
+        *arc *= 0.5;
+    }
+}
+
+/* Where another path crosses, the stiffness is singular and the tangent found there is mostly the shape of the other
+ * path, by rounding. Both go through in the directions in which they came: that of the point before. */
+static void go_straight_on(dmb_path *path)
+{
+    memcpy(path->next.tangent, path->last.tangent, path->work->scene->row_count * sizeof(double));
+    path->next.rate = path->last.rate;
+}
+
+static int32_t leave(dmb_path *path, double *arc)
+{
+    if (path->options->branch_size > 0.0) *arc = path->options->branch_size;
+    const int32_t status = dmb_path_leave(path, arc);
+    if (status < 0) return status;
+    dmb_path_accept(path);
+    path->report.points++;
+    return tell(path, DMB_PATH_BRANCH);
+}
+
+/* A path that has crept for this many points, by less than this part of its longest step, is lost. */
+#define DMB_CREEP 1e-5
+#define DMB_CREEPS 50
+
+static int creeps(double arc, double *longest, uint32_t *points)
+{
+    *longest = fmax(*longest, arc);
+    *points = arc < DMB_CREEP * *longest ? *points + 1 : 0;
+    return *points > DMB_CREEPS;
+}
+
+static int32_t follow(dmb_path *path)
+{
+    const dmb_path_options *o = path->options;
+    double arc = (o->first_step > 0.0 ? o->first_step : 0.1 * fabs(o->factor_end)) / fabs(path->last.rate);
+    double longest = 0.0;
+    uint32_t crept = 0;
+    int may_leave = o->branch != 0;
+    int32_t status = tell(path, DMB_PATH_REGULAR);
+    while (status == DMB_OK) {
+        int32_t event = DMB_EVENT_NONE;
+        if (path->report.points >= o->max_points) return DMB_NOTE_STOPPED;
+        dmb_progress_at(path->sim, fmax((double)path->report.points / o->max_points, path->last.factor / o->factor_end));
+        status = dmb_path_find_next(path, &arc, &event);
+        if (status < 0) return status;
+        if (creeps(arc, &longest, &crept)) return lost(path);
+        if (event == DMB_EVENT_BIFURCATION) go_straight_on(path);
+        dmb_path_accept(path);
+        path->report.points++;
+        status = tell(path, event == DMB_EVENT_LIMIT         ? DMB_PATH_LIMIT
+                            : event == DMB_EVENT_BIFURCATION ? DMB_PATH_BIFURCATION
+                                                             : DMB_PATH_REGULAR);
+        if (event == DMB_EVENT_FACTOR || event == DMB_EVENT_DISPLACEMENT) return status;
+        if (status == DMB_OK && event == DMB_EVENT_BIFURCATION && may_leave) {
+            may_leave = 0;
+            status = leave(path, &arc);
+        } else if (event == DMB_EVENT_NONE) {
+            arc *= fmin(fmax(sqrt(DMB_GOOD_ITERATIONS / (path->iterations + 1.0)), 0.5), 2.0);
+        }
+    }
+    return status;
+}
+
+int32_t dmb_path_open(dmb_path *path)
+{
+    dmb_sim *sim = path->sim;
+    dmb_arena arena;
+    const dmb_scene *scene = dmb_dense_scene(sim->scene);
+    dmb_arena_count(&arena);
+    lay_out(&arena, scene, path);
+    path->block_size = dmb_arena_block_size(&arena);
+    path->block = arena.overflow ? NULL : dmb_allocate(&sim->allocator, path->block_size);
+    path->work = path->block != NULL ? dmb_state_copy(sim) : NULL;
+    if (path->work == NULL) return DMB_ERR_NO_MEMORY;
+    path->work->magic = DMB_HANDLE_SIM; /* so that a callback can ask it, and no more */
+    path->work->busy = DMB_BUSY_READABLE;
+    dmb_arena_place(&arena, path->block, path->block_size);
+    lay_out(&arena, scene, path);
+    path->statics.tolerance = path->options->tolerance;
+    dmb_static_set_up(&path->search, path->work, &path->statics);
+    dmb_static_slip(&path->search, path->options->slip_axial, path->options->slip_rotation);
+    return begin(path);
+}
+
+void dmb_path_close(dmb_path *path)
+{
+    if (path->work != NULL) path->work->magic = DMB_HANDLE_DEAD;
+    dmb_state_discard(path->work);
+    if (path->block != NULL) dmb_release(&path->sim->allocator, path->block, path->block_size);
+    path->work = NULL;
+    path->block = NULL;
+}
+
+static int32_t run(dmb_path *path)
+{
+    int32_t status = dmb_path_open(path);
+    if (status >= 0) status = follow(path);
+    if (status < 0 && status != DMB_ERR_NO_MEMORY) explain(path, status);
+    dmb_path_close(path);
+    return status;
+}
+
+static int32_t analyse(dmb_sim *sim, const dmb_path_options *options, dmb_path_report *report)
+{
+    dmb_path_options taken;
+    dmb_path path;
+    memset(&path, 0, sizeof path);
+    path.sim = sim;
+    path.options = &taken;
+    (void)dmb_path_report_init(&path.report, (uint32_t)sizeof path.report);
+    if (report != NULL && dmb_path_report_read(&path.report, report) < 0) return DMB_ERR_STRUCT_SIZE;
+    (void)dmb_path_report_init(&path.report, (uint32_t)sizeof path.report);
+    path.report.first_limit = path.report.first_bifurcation = (double)NAN;
+    int32_t status = take_options(sim, options, &taken);
+    if (status >= 0) status = check_place(sim, &taken);
+    if (status >= 0) status = dmb_state_copy_check(sim, "path");
+    if (status >= 0) status = dmb_load_pattern_take(sim, "path options", taken.scale, taken.part, &path.pattern);
+    if (status >= 0) status = run(&path);
+    status = dmb_progress_end(sim, status);
+    if (path.begun && report != NULL) (void)dmb_path_report_write(report, &path.report);
+    return status;
+}
+
+int32_t dmb_analysis_path(dmb_sim *sim, const dmb_path_options *options, dmb_path_report *report)
+{
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    return status < 0 ? status : dmb_sim_leave(sim, analyse(sim, options, report));
+}

@@ -1,0 +1,273 @@
+/* Functionals by asking the public queries about a copy of the state in which one row at a time moves. */
+#include "analysis/linear/functional.h"
+
+#include <string.h>
+
+#include "math/se3.h"
+#include "sim/node.h"
+/* Central differences of the pose: (h/L)^2 of non-linearity and eps L/h of rounding are both near 1e-10. */
+#define DMB_FUNCTIONAL_STEP 1e-5
+
+/* ---- Motion ------------------------------------------------------------------------------------------------------ */
+
+static int32_t motion_component(const dmb_sim *copy, dmb_place place, int32_t frame, int32_t component, double *value)
+{
+    dmb_motion motion = dmb_motion_default();
+    motion.frame = frame;
+    const int32_t status = dmb_query_motion(copy, place, &motion);
+    *value = motion.velocity[component];
+    return status;
+}
+
+static void exchange(double **a, double **b)
+{
+    double *kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/* The state's own speeds step aside into the trial, and come back. */
+static void exchange_motion(dmb_sim *copy)
+{
+    exchange(&copy->now.velocity, &copy->trial.velocity);
+    exchange(&copy->now.acceleration, &copy->trial.acceleration);
+}
+
+/* The answer for each row moving alone at unit speed. */
+static int32_t all_rows(dmb_sim *copy, dmb_place place, int32_t frame, int32_t component, double *all)
+{
+    const uint32_t rows = copy->scene->row_count;
+    int32_t status = DMB_OK;
+    exchange_motion(copy);
+    memset(copy->now.velocity, 0, rows * sizeof(double));
+    memset(copy->now.acceleration, 0, rows * sizeof(double));
+    for (uint32_t r = 0; r < rows && status >= 0; r++) {
+        copy->now.velocity[r] = 1.0;
+        status = motion_component(copy, place, frame, component, all + r);
+        copy->now.velocity[r] = 0.0;
+    }
+    exchange_motion(copy);
+    return status;
+}
+
+static void narrow(const double *all, uint32_t rows, dmb_functional *out)
+{
+    uint32_t first = 0, end = rows;
+    while (first < rows && all[first] == 0.0) first++;
+    while (end > first && all[end - 1] == 0.0) end--;
+    memset(out, 0, sizeof *out);
+    out->count = end - first;
+    for (uint32_t i = 0; i < out->count; i++) {
+        out->row[i] = first + i;
+        out->pose[i] = all[first + i];
+    }
+}
+
+/* A velocity is linear in the velocities of the rows, and a small displacement in theirs by the same numbers. */
+int32_t dmb_functional_of_motion(dmb_sim *copy, dmb_place place, int32_t frame, int32_t component, dmb_functional *out)
+{
+    double *all = copy->correction;
+    const int32_t status = all_rows(copy, place, frame, component, all);
+    if (status >= 0) narrow(all, copy->scene->row_count, out);
+    return status;
+}
+
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
+
+void dmb_functional_take_node(const dmb_scene *scene, uint32_t node, dmb_functional *out)
+{
+    if (node == UINT32_MAX) return;
+    for (uint32_t i = 0; i < out->count; i++)
+        if (out->row[i] == scene->layout.row[node]) return;
+    for (uint32_t c = 0; c < scene->layout.size[node]; c++) out->row[out->count++] = scene->layout.row[node] + c;
+}
+
+int32_t dmb_functional_around(dmb_sim *copy, dmb_place place, dmb_functional *out)
+{
+    const dmb_scene *scene = copy->scene;
+    dmb_functional x;
+    const int32_t status = dmb_functional_of_motion(copy, place, DMB_FRAME_BODY, DMB_X, &x);
+    if (status < 0) return status;
+    uint32_t low = dmb_node_of_row(scene, x.row[0]), high = dmb_node_of_row(scene, x.row[x.count ? x.count - 1 : 0]);
+    if (low > 0) low--;
+    if (high + 1 < scene->node_count) high++;
+    memset(out, 0, sizeof *out);
+    for (uint32_t i = low; i <= high; i++) dmb_functional_take_node(scene, i, out);
+    return DMB_OK;
+}
+
+void dmb_functional_add(double factor, const dmb_functional *from, dmb_functional *to)
+{
+    for (uint32_t i = 0; i < to->count; i++) {
+        to->pose[i] += factor * from->pose[i];
+        to->speed[i] += factor * from->speed[i];
+        to->acceleration[i] += factor * from->acceleration[i];
+    }
+}
+
+void dmb_functional_add_rate(double factor, const dmb_functional *from, dmb_functional *to)
+{
+    for (uint32_t i = 0; i < to->count; i++) to->speed[i] += factor * from->pose[i];
+}
+
+/* ---- Differences ------------------------------------------------------------------------------------------------- */
+
+static double moved_answer(dmb_sim *copy, dmb_answer *answer, const void *what, uint32_t row, double step)
+{
+    const dmb_scene *scene = copy->scene;
+    const uint32_t node = dmb_node_of_row(scene, row), c = row - scene->layout.row[node];
+    double *q = copy->now.quaternion + 4 * (size_t)node, *x = copy->now.displacement + 3 * (size_t)node;
+    double kept_q[4], kept_x[3], z[6] = {0.0};
+    const double kept_turn = copy->now.turn[node];
+    memcpy(kept_q, q, sizeof kept_q);
+    memcpy(kept_x, x, sizeof kept_x);
+    z[c] = step;
+    if (scene->layout.size[node] == DMB_NODE_FULL) {
+        dmb_se3_advance(q, x, z);
+    } else {
+        x[0] += z[0];
+        copy->now.turn[node] += z[1];
+    }
+    const double value = answer(copy, what);
+    memcpy(q, kept_q, sizeof kept_q);
+    memcpy(x, kept_x, sizeof kept_x);
+    copy->now.turn[node] = kept_turn;
+    return value;
+}
+
+static double slope(double *number, double step, const dmb_sim *copy, dmb_answer *answer, const void *what)
+{
+    const double kept = *number;
+    *number = kept + step;
+    const double after = answer(copy, what);
+    *number = kept - step;
+    const double before = answer(copy, what);
+    *number = kept;
+    return (after - before) / (2.0 * step);
+}
+
+/* Central differences of any step are exact by accelerations and speeds. */
+static void differences(dmb_sim *copy, dmb_answer *answer, const void *what, dmb_functional *out)
+{
+    const dmb_scene *scene = copy->scene;
+    for (uint32_t i = 0; i < out->count; i++) {
+        const uint32_t row = out->row[i], node = dmb_node_of_row(scene, row);
+        const int turns = 2 * (row - scene->layout.row[node]) >= scene->layout.size[node];
+        const double step = DMB_FUNCTIONAL_STEP * (turns ? 1.0 : scene->length_scale);
+        out->pose[i] =
+            (moved_answer(copy, answer, what, row, step) - moved_answer(copy, answer, what, row, -step)) / (2.0 * step);
+        out->speed[i] = slope(copy->now.velocity + row, 1.0, copy, answer, what);
+        out->acceleration[i] = slope(copy->now.acceleration + row, 1.0, copy, answer, what);
+    }
+}
+
+/* to += row v^, row^T v^ = ad(v)^T row */
+static void add_turned(const double v[6], const double row[6], double to[6])
+{
+    double product[6];
+    dmb_ad_transpose(v, row, product);
+    for (int i = 0; i < 6; i++) to[i] += product[i];
+}
+
+/* Body-frame speeds and accelerations change by d' + v^ d and d'' + v^ d' + a^ d. */
+void dmb_functional_turn_frames(const dmb_sim *copy, dmb_functional *out)
+{
+    const dmb_scene *scene = copy->scene;
+    for (uint32_t at = 0; at < out->count;) {
+        const uint32_t node = dmb_node_of_row(scene, out->row[at]), row = scene->layout.row[node];
+        if (scene->layout.size[node] == DMB_NODE_FULL) {
+            add_turned(copy->now.velocity + row, out->speed + at, out->pose + at);
+            add_turned(copy->now.acceleration + row, out->acceleration + at, out->pose + at);
+            add_turned(copy->now.velocity + row, out->acceleration + at, out->speed + at);
+        }
+        at += scene->layout.size[node];
+    }
+}
+
+void dmb_functional_of_answer(dmb_sim *copy, dmb_answer *answer, const void *what, dmb_functional *out)
+{
+    differences(copy, answer, what, out);
+    dmb_functional_turn_frames(copy, out);
+}
+
+static double of_motion(const dmb_sim *sim, const dmb_output *o, int32_t *status)
+{
+    dmb_motion motion = dmb_motion_default();
+    motion.frame = o->frame;
+    *status = dmb_query_motion(sim, o->place, &motion);
+    return o->kind == DMB_OUTPUT_VELOCITY ? motion.velocity[o->component] : motion.acceleration[o->component];
+}
+
+static double of_section(const dmb_sim *sim, const dmb_output *o, int32_t *status)
+{
+    dmb_section section = dmb_section_default();
+    *status = dmb_query_section(sim, o->place, &section);
+    return o->kind == DMB_OUTPUT_SECTION_FORCE ? section.force[o->component] : section.strain[o->component];
+}
+
+static double of_contact(const dmb_sim *sim, const dmb_output *o, int32_t *status)
+{
+    dmb_contact contact = dmb_contact_default();
+    *status = dmb_query_contact(sim, o->place.pipe, &contact);
+    return o->component == DMB_Z ? contact.normal_force : contact.friction[o->component == DMB_Y];
+}
+
+static double of_drive(const dmb_sim *sim, const dmb_output *o, int32_t *status)
+{
+    dmb_drive_state state = dmb_drive_state_default();
+    *status = dmb_query_drive(sim, o->place.part, &state);
+    return state.force;
+}
+
+static double of_guide(const dmb_sim *sim, const dmb_output *o, int32_t *status)
+{
+    double reaction[6] = {0.0};
+    *status = dmb_query_reaction(sim, o->place.part, reaction);
+    return reaction[o->component];
+}
+
+static double of_joint(const dmb_sim *sim, const dmb_output *o, int32_t *status)
+{
+    dmb_joint_state state = dmb_joint_state_default();
+    state.frame = o->frame;
+    *status = dmb_query_joint(sim, o->place.part, &state);
+    switch (o->kind) {
+    case DMB_OUTPUT_JOINT_POSITION: return state.position[o->component];
+    case DMB_OUTPUT_JOINT_SPEED: return state.speed[o->component];
+    case DMB_OUTPUT_JOINT_ACCELERATION: return state.acceleration[o->component];
+    case DMB_OUTPUT_JOINT_REACTION: return state.reaction[o->component];
+    default: return state.action[o->component];
+    }
+}
+
+static double of_multiplier(const dmb_sim *sim, const dmb_output *o, int32_t *status)
+{
+    double multipliers[6] = {0.0};
+    uint32_t count = 0;
+    *status = dmb_query_multipliers(sim, o->place.part, multipliers, &count);
+    if (*status >= 0 && (uint32_t)o->component >= count) *status = DMB_ERR_VALUE;
+    return multipliers[o->component];
+}
+
+static double of_bit(const dmb_sim *sim, const dmb_output *o, int32_t *status)
+{
+    dmb_bit_state state = dmb_bit_state_default();
+    *status = dmb_query_bit(sim, o->place.part, &state);
+    return o->component == DMB_X ? state.weight : state.torque;
+}
+
+double dmb_answer_of(const dmb_sim *sim, const dmb_output *output, int32_t *status)
+{
+    switch (output->kind) {
+    case DMB_OUTPUT_VELOCITY:
+    case DMB_OUTPUT_ACCELERATION: return of_motion(sim, output, status);
+    case DMB_OUTPUT_SECTION_FORCE:
+    case DMB_OUTPUT_SECTION_STRAIN: return of_section(sim, output, status);
+    case DMB_OUTPUT_CONTACT: return of_contact(sim, output, status);
+    case DMB_OUTPUT_DRIVE: return of_drive(sim, output, status);
+    case DMB_OUTPUT_REACTION: return of_guide(sim, output, status);
+    case DMB_OUTPUT_MULTIPLIER: return of_multiplier(sim, output, status);
+    case DMB_OUTPUT_BIT: return of_bit(sim, output, status);
+    default: return of_joint(sim, output, status);
+    }
+}

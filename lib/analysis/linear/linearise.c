@@ -1,0 +1,291 @@
+#include "analysis/linear/linearise.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "math/mat6.h"
+#include "math/vec3.h"
+#include "sim/access.h"
+#include "sim/node.h"
+#include "system/constrain/cluster.h"
+#include "system/copy.h"
+#include "system/solve/solve.h"
+static void spin_node(dmb_sim *work, uint32_t node, double spin)
+{
+    const uint32_t row = work->scene->layout.row[node] + (work->scene->layout.size[node] == DMB_NODE_PATH ? 1 : 3);
+    work->now.velocity[row] = work->trial.velocity[row] = spin;
+}
+
+/* The strings of the state turning about their own axes. */
+static void spin_strings(dmb_sim *work, double spin)
+{
+    const dmb_scene *scene = work->scene;
+    for (uint32_t i = 0; i < scene->pipe_count; i++) {
+        const dmb_pipe_map *pipe = scene->pipes + i;
+        if (pipe->elements == 0) spin_node(work, pipe->node, spin);
+        for (uint32_t e = pipe->element; e < pipe->element + pipe->elements; e++)
+            for (uint32_t end = 0; end < 2; end++) spin_node(work, scene->element_node[e] + end, spin);
+    }
+}
+
+/* The partition of the state, its rows and factors; and the forces of constraint, which the tangents take as given. */
+static int32_t settle(dmb_sim *work)
+{
+    dmb_evaluation evaluation = dmb_linear_evaluation(work);
+    memset(work->increment, 0, work->scene->row_count * sizeof(double));
+    work->reduced_mode->row = UINT32_MAX;
+    return work->scene->cluster_count ? dmb_clusters_settle(&evaluation, 0, 0) : DMB_OK;
+}
+
+static int32_t take_multipliers(dmb_sim *work)
+{
+    dmb_evaluation evaluation = dmb_linear_evaluation(work);
+    return work->scene->cluster_count ? dmb_system_evaluate(&evaluation) : DMB_OK;
+}
+
+static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *options)
+{
+    dmb_sim *work = linear->work;
+    dmb_evaluation evaluation = dmb_linear_evaluation(work);
+    double *before = work->trial.pseudo_acceleration; /* which no force depends on */
+    work->reduced_mode->multipliers = 1;               /* they are given */
+    int32_t status = dmb_system_evaluate(&evaluation);
+    memcpy(before, work->correction, linear->rows * sizeof(double));
+    dmb_linear_freeze(linear, options);
+    if (status >= 0) status = dmb_linear_take_stiffness_and_mass(linear);
+    if (status >= 0) dmb_linear_add_dead_loads(linear, before);
+    if (status >= 0 && options->contact == DMB_LINEAR_CONTACT_CLOSED) dmb_linear_close_contacts(linear, options->gap);
+    return status < 0 ? status : dmb_linear_take_damping(linear);
+}
+
+/* What is left over may be rounding of poses, which the stiffness tells. */
+static int32_t judge_rounding(dmb_linear *linear)
+{
+    linear->work->reduced_mode->multipliers = 1;
+    const int32_t status = dmb_linear_take_stiffness_and_mass(linear);
+    linear->work->reduced_mode->multipliers = 0;
+    dmb_linear_judge_rounding(linear);
+    return status;
+}
+
+static int32_t linearise(dmb_linear *linear, const dmb_linear_options *options)
+{
+    dmb_sim *work = linear->work;
+    if (options->spin != 0.0) spin_strings(work, options->spin);
+    int32_t status = settle(work);
+    if (status >= 0) status = dmb_linear_take_balance(linear);
+    if (status >= 0 && !linear->balanced) status = take_multipliers(work);
+    if (status >= 0 && !linear->balanced) status = judge_rounding(linear);
+    if (status >= 0) dmb_linear_take_steady_accelerations(linear);
+    if (status >= 0) status = take_multipliers(work);
+    if (status >= 0) status = take_matrices(linear, options);
+    work->reduced_mode->multipliers = 0;
+    if (status < 0) return status;
+    dmb_linear_judge_rounding(linear);
+    dmb_linear_turn_frames(linear, options->still);
+    dmb_linear_take_stiffness_size(linear);
+    return dmb_linear_make_coordinates(linear);
+}
+
+int32_t dmb_linear_make(const dmb_sim *sim, const dmb_linear_options *options, dmb_linear **linear)
+{
+    int32_t status = dmb_progress_pulse(sim);
+    if (status < 0) return status;
+    *linear = dmb_linear_allocate(sim);
+    if (*linear == NULL) return DMB_ERR_NO_MEMORY;
+    status = linearise(*linear, options);
+    if (status < 0) dmb_linear_release(linear);
+    return status;
+}
+
+/* Memory of the linear system. */
+
+static void lay_out_matrix(dmb_arena *arena, const dmb_scene *scene, dmb_linear_matrix *A)
+{
+    const dmb_block_layout *layout = &scene->layout;
+    A->diagonal = DMB_ARENA_DOUBLES(arena, layout->diag[layout->n]);
+    A->lower = DMB_ARENA_DOUBLES(arena, layout->link[layout->n - 1]);
+    A->upper = DMB_ARENA_DOUBLES(arena, layout->link[layout->n - 1]);
+    A->joints = DMB_ARENA_DOUBLES(arena, scene->tangent_count);
+}
+
+/* Entries of R: one of an independent row, as many as its cluster has columns of a dependent one at most. */
+static size_t entries_of(const dmb_scene *scene)
+{
+    size_t sum = scene->row_count;
+    for (uint32_t k = 0; k < scene->cluster_count; k++)
+        sum += (size_t)scene->clusters[k].columns * scene->clusters[k].columns;
+    return sum;
+}
+
+static void lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_linear *to)
+{
+    const size_t rows = scene->row_count;
+    lay_out_matrix(arena, scene, &to->mass);
+    lay_out_matrix(arena, scene, &to->damping);
+    lay_out_matrix(arena, scene, &to->stiffness);
+    to->spin = DMB_ARENA_DOUBLES(arena, rows);
+    to->rest = DMB_ARENA_DOUBLES(arena, rows);
+    to->stiffness_size = DMB_ARENA_DOUBLES(arena, rows);
+    to->unbalanced = DMB_ARENA_DOUBLES(arena, rows);
+    to->row_of = DMB_ARENA_ARRAY(arena, uint32_t, rows);
+    to->start = DMB_ARENA_ARRAY(arena, uint32_t, rows + 1);
+    to->column = DMB_ARENA_ARRAY(arena, uint32_t, entries_of(scene));
+    to->value = DMB_ARENA_DOUBLES(arena, entries_of(scene));
+    to->held_columns = DMB_ARENA_DOUBLES(arena, 54 * (size_t)scene->held_count);
+    to->held_rows = DMB_ARENA_DOUBLES(arena, 54 * (size_t)scene->held_count);
+    to->whole_joints = DMB_ARENA_DOUBLES(arena, 3 * (size_t)scene->tangent_count);
+}
+
+dmb_linear *dmb_linear_allocate(const dmb_sim *sim)
+{
+    dmb_arena arena;
+    dmb_linear nowhere;
+    dmb_linear *linear = dmb_allocate(&sim->allocator, sizeof *linear);
+    if (linear == NULL) return NULL;
+    linear->allocator = sim->allocator;
+    const dmb_scene *scene = dmb_dense_scene(sim->scene);
+    linear->scene = *scene;
+    linear->rows = scene->row_count;
+    dmb_arena_count(&arena);
+    lay_out(&arena, scene, &nowhere);
+    linear->block_size = dmb_arena_block_size(&arena);
+    if (!arena.overflow) linear->block = dmb_allocate(&sim->allocator, linear->block_size);
+    if (linear->block != NULL) linear->work = dmb_state_copy(sim);
+    if (linear->work == NULL) {
+        dmb_linear_release(&linear);
+        return NULL;
+    }
+    dmb_arena_place(&arena, linear->block, linear->block_size);
+    lay_out(&arena, scene, linear);
+    return linear;
+}
+
+void dmb_linear_release(dmb_linear **linear)
+{
+    if (*linear == NULL) return;
+    const dmb_allocator allocator = (*linear)->allocator;
+    dmb_state_discard((*linear)->work);
+    dmb_release(&allocator, (*linear)->block, (*linear)->block_size);
+    dmb_release(&allocator, *linear, sizeof **linear);
+    *linear = NULL;
+}
+
+/* How far a state is from an equilibrium. */
+
+/* Units of rounding of a pose that count. */
+#define DMB_LINEAR_ROUNDING (16.0 * DBL_EPSILON)
+
+dmb_evaluation dmb_linear_evaluation(dmb_sim *work)
+{
+    dmb_evaluation evaluation;
+    memset(&evaluation, 0, sizeof evaluation);
+    evaluation.sim = work;
+    evaluation.time = work->clock->time;
+    evaluation.pseudo_factor = 1.0;
+    evaluation.load_factor = 1.0;
+    evaluation.dynamic = 1;
+    return evaluation;
+}
+
+/* Largest force on a solved row; moments over the length of the chain. */
+static void find_largest(dmb_linear *linear)
+{
+    const dmb_scene *scene = &linear->scene;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        const double arm = 1.0 / scene->chains[scene->node_chain[i]].length;
+        for (uint32_t c = 0; c < size; c++) {
+            const double force = fabs(linear->unbalanced[row + c]) * (2 * c < size ? 1.0 : arm);
+            if (!scene->solved_row[row + c] || !(force > linear->largest_force)) continue;
+            linear->largest_force = force;
+            linear->largest_node = i;
+        }
+    }
+}
+
+/* Accelerations of the trial in a relative equilibrium: none where body-frame velocities stay as they are; -ad(w) g
+ * where strings slide and turn with their axes at rest, V = g + w, w the spin about the node's x axis
+ * (analysis/static/steady.h). */
+static void steady_accelerations(dmb_linear *linear, int sliding)
+{
+    const dmb_scene *scene = &linear->scene;
+    dmb_configuration *trial = &linear->work->trial;
+    memset(trial->acceleration, 0, linear->rows * sizeof(double));
+    for (uint32_t i = 0; sliding && i < scene->node_count; i++) {
+        const uint32_t row = scene->layout.row[i];
+        double w[6] = {0.0}, g[6], *a = trial->acceleration + row;
+        if (scene->layout.size[i] != DMB_NODE_FULL) continue;
+        dmb_vec6_copy(trial->velocity + row, g);
+        w[3] = g[3];
+        g[3] = 0.0;
+        dmb_ad_apply(w, g, a);
+        for (int k = 0; k < 6; k++) a[k] = -a[k];
+    }
+}
+
+/* What forces leave over with those accelerations is out of balance. */
+static int32_t balance_of(dmb_linear *linear, int sliding, dmb_residual_norm *norm)
+{
+    dmb_sim *work = linear->work;
+    dmb_evaluation evaluation = dmb_linear_evaluation(work);
+    steady_accelerations(linear, sliding);
+    const int32_t status = dmb_system_evaluate(&evaluation);
+    memcpy(work->trial.acceleration, work->now.acceleration, linear->rows * sizeof(double));
+    if (status >= 0) *norm = dmb_residual_norm_of(&evaluation, DMB_LINEAR_BALANCED);
+    return status;
+}
+
+/* The better of both. */
+int32_t dmb_linear_take_balance(dmb_linear *linear)
+{
+    dmb_residual_norm rigid = {0}, sliding = {0}, best;
+    int32_t status = balance_of(linear, 1, &sliding);
+    if (status >= 0) status = balance_of(linear, 0, &rigid);
+    if (status < 0) return status;
+    best = rigid;
+    linear->slides = !rigid.converged && sliding.relative < rigid.relative;
+    if (linear->slides) {
+        status = balance_of(linear, 1, &sliding);
+        best = sliding;
+    }
+    if (status < 0) return status;
+    linear->unbalance = best.relative;
+    linear->balanced = best.converged != 0;
+    memcpy(linear->unbalanced, linear->work->correction, linear->rows * sizeof(double));
+    find_largest(linear);
+    return DMB_OK;
+}
+
+/* The accelerations of an equilibrium are those of its kind. The ones in the sim are what the residual makes of them:
+ * rounding over the masses, and through M a^ and the multipliers a stiffness where there is none. */
+void dmb_linear_take_steady_accelerations(dmb_linear *linear)
+{
+    if (!linear->balanced) return;
+    steady_accelerations(linear, linear->slides);
+    memcpy(linear->work->now.acceleration, linear->work->trial.acceleration, linear->rows * sizeof(double));
+}
+
+/* Poses are rounded where they are: eps |x| of a displacement, and through the stiffness between them sqrt(K_ii K_tt)
+ * eps |x| of a force or moment, K_tt the largest of the node's translations; angles to eps. A string that nothing loads
+ * leaves no more. */
+void dmb_linear_judge_rounding(dmb_linear *linear)
+{
+    const dmb_scene *scene = &linear->scene;
+    dmb_linear_take_stiffness_size(linear);
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        double rotation[9], place[3], most = 0.0;
+        dmb_node_pose(scene, &linear->work->now, i, rotation, place);
+        dmb_vec3_add(place, scene->reference_position + 3 * (size_t)i, place);
+        for (uint32_t c = 0; 2 * c < size; c++) most = fmax(most, linear->stiffness_size[row + c]);
+        for (uint32_t c = 0; c < size; c++) {
+            const double own = linear->stiffness_size[row + c], angle = 2 * c < size ? 0.0 : own;
+            const double rounding = DMB_LINEAR_ROUNDING * (dmb_vec3_norm(place) * sqrt(own * most) + angle);
+            if (scene->solved_row[row + c] && !(fabs(linear->unbalanced[row + c]) <= rounding)) return;
+        }
+    }
+    linear->balanced = 1;
+}

@@ -1,0 +1,235 @@
+/* Mass, damping and stiffness from the tangents that steps solve with. */
+#include <math.h>
+#include <string.h>
+
+#include "analysis/linear/linearise.h"
+#include "math/mat6.h"
+#include "math/so3.h"
+/* [s] What is integrated over a step is told from the rest by two steps this short and twice as long: a power of two,
+ * over which nothing slips far. */
+#define DMB_LINEAR_STEP 0x1p-24
+
+static void copy_blocks(const dmb_block_layout *layout, const double *diagonal, const double *lower,
+                        const double *upper, dmb_linear_matrix *to)
+{
+    memcpy(to->diagonal, diagonal, layout->diag[layout->n] * sizeof(double));
+    memcpy(to->lower, lower, layout->link[layout->n - 1] * sizeof(double));
+    memcpy(to->upper, upper, layout->link[layout->n - 1] * sizeof(double));
+}
+
+void dmb_linear_add(const dmb_scene *scene, double factor, const dmb_linear_matrix *from, dmb_linear_matrix *to)
+{
+    const dmb_block_layout *layout = &scene->layout;
+    dmb_linear_add_array(factor, from->diagonal, layout->diag[layout->n], to->diagonal);
+    dmb_linear_add_array(factor, from->lower, layout->link[layout->n - 1], to->lower);
+    dmb_linear_add_array(factor, from->upper, layout->link[layout->n - 1], to->upper);
+    dmb_linear_add_array(factor, from->joints, scene->tangent_count, to->joints);
+}
+
+dmb_linear_matrix dmb_linear_stiffness_of(const dmb_sim *work)
+{
+    const dmb_linear_matrix A = {work->stiffness_diagonal, work->stiffness_lower, work->stiffness_upper,
+                                 work->constraint_tangent};
+    return A;
+}
+
+/* At increments of 0 the links hold stiffness plus inertia, or inertia alone. */
+static int32_t evaluate_tangent(dmb_linear *linear, double mass_factor, double velocity_factor, double step,
+                                int32_t inertia_only)
+{
+    dmb_evaluation evaluation = dmb_linear_evaluation(linear->work);
+    memset(linear->work->increment, 0, linear->rows * sizeof(double));
+    evaluation.tangent = 1;
+    evaluation.inertia_only = inertia_only;
+    evaluation.mass_factor = mass_factor;
+    evaluation.velocity_factor = velocity_factor;
+    evaluation.step = step;
+    return dmb_system_evaluate(&evaluation);
+}
+
+int32_t dmb_linear_take_stiffness_and_mass(dmb_linear *linear)
+{
+    dmb_sim *work = linear->work;
+    int32_t status = evaluate_tangent(linear, 0.0, 0.0, 0.0, 0);
+    const dmb_linear_matrix K = dmb_linear_stiffness_of(work);
+    const dmb_block_layout *layout = &linear->scene.layout;
+    if (status < 0) return status;
+    copy_blocks(layout, K.diagonal, K.lower, K.upper, &linear->stiffness);
+    memcpy(linear->stiffness.joints, K.joints, linear->scene.tangent_count * sizeof(double));
+    status = evaluate_tangent(linear, 1.0, 0.0, 0.0, 1);
+    if (status < 0) return status;
+    copy_blocks(layout, work->inertia_diagonal, K.lower, K.upper, &linear->mass);
+    return DMB_OK;
+}
+
+/* The tangent by velocity: nodes and elements keep it with the inertia, joints with their stiffness. */
+static int32_t add_velocity_tangent(dmb_linear *linear, double factor, double step, dmb_linear_matrix *to)
+{
+    dmb_sim *work = linear->work;
+    const int32_t status = evaluate_tangent(linear, 0.0, 1.0, step, 1);
+    dmb_linear_matrix C = dmb_linear_stiffness_of(work);
+    if (status < 0) return status;
+    C.diagonal = work->inertia_diagonal;
+    dmb_linear_add(&linear->scene, factor, &C, to);
+    return DMB_OK;
+}
+
+static int has_integrals(const dmb_scene *scene)
+{
+    if (scene->friction_law.kind == DMB_FRICTION_BRISTLE) return 1;
+    for (uint32_t i = 0; i < scene->drive_count; i++)
+        if (scene->drives[i].kind == DMB_DRIVE_CONTROL && scene->drives[i].integral_gain != 0.0) return 1;
+    return 0;
+}
+
+/* Over a step h the tangent by velocity is C + h/2 S, S being the stiffness of what the trapezoidal rule integrates. */
+int32_t dmb_linear_take_damping(dmb_linear *linear)
+{
+    const double h = DMB_LINEAR_STEP;
+    dmb_linear_matrix *C = &linear->damping, *K = &linear->stiffness;
+    int32_t status;
+    if (!has_integrals(&linear->scene)) {
+        status = add_velocity_tangent(linear, 1.0, 0.0, C);
+        dmb_linear_add_array(-1.0, K->joints, linear->scene.tangent_count, C->joints);
+        return status;
+    }
+    /* C = 2 C(h) - C(2h) - K,   S = (C(2h) - C(h)) 2/h */
+    status = add_velocity_tangent(linear, 2.0, h, C);
+    if (status >= 0) status = add_velocity_tangent(linear, -1.0, 2.0 * h, C);
+    dmb_linear_add_array(-1.0, K->joints, linear->scene.tangent_count, C->joints);
+    if (status >= 0) status = add_velocity_tangent(linear, 2.0 / h, 2.0 * h, K);
+    return status < 0 ? status : add_velocity_tangent(linear, -2.0 / h, h, K);
+}
+
+/* The wall as it is, left out, or closed. */
+
+void dmb_linear_freeze(dmb_linear *linear, const dmb_linear_options *options)
+{
+    if (options->contact == DMB_LINEAR_CONTACT_OPEN) linear->scene.site_count = linear->scene.path_site_count = 0;
+    if (options->no_friction) linear->scene.friction_law.kind = DMB_FRICTION_NONE;
+    linear->work->scene = &linear->scene;
+}
+
+/* Forces that the frozen scene lacks stay as dead loads, with what they add to the stiffness by the body turning under
+ * them, d(R^T f) = (R^T f)~ dtheta: the state is the same equilibrium. `before`: residual with them. */
+void dmb_linear_add_dead_loads(dmb_linear *linear, const double *before)
+{
+    const dmb_block_layout *layout = &linear->scene.layout;
+    for (uint32_t i = 0; i < layout->n; i++) {
+        double w[6];
+        if (layout->size[i] != DMB_NODE_FULL) continue;
+        for (uint32_t k = 0; k < 6; k++)
+            w[k] = linear->work->correction[layout->row[i] + k] - before[layout->row[i] + k];
+        dmb_mat6_add_skew(-1.0, w, 0, 1, linear->stiffness.diagonal + layout->diag[i]);
+        dmb_mat6_add_skew(-1.0, w + 3, 1, 1, linear->stiffness.diagonal + layout->diag[i]);
+    }
+}
+
+/* [N/m] of the wall under a ring that carries the weight of its node, a newton at least. */
+static double wall_stiffness(const dmb_scene *scene, const dmb_site *site)
+{
+    const double weight = fmax(scene->weight_mass[site->node] * dmb_vec3_norm(scene->gravity), 1.0);
+    const double K = site->length * scene->normal_law.stiffness, exponent = scene->normal_law.exponent;
+    return K * exponent * pow(weight / K, (exponent - 1.0) / exponent);
+}
+
+/* k j j^T, j = (n; offset e_x x n) in body axes: the ring may not move across the wall. */
+static void add_wall(dmb_linear *linear, const dmb_site *site, double stiffness, const double normal[3])
+{
+    const double arm[3] = {site->offset, 0.0, 0.0};
+    double j[6], R[9];
+    dmb_quat_to_matrix(linear->work->trial.quaternion + 4 * (size_t)site->node, R);
+    dmb_mat3_tvec(R, normal, j);
+    dmb_vec3_cross(arm, j, j + 3);
+    dmb_mat6_add_outer(stiffness, j, j, linear->stiffness.diagonal + linear->scene.layout.diag[site->node]);
+}
+
+double dmb_linear_wall_stiffness(const dmb_linear *linear, uint32_t s, double gap)
+{
+    const dmb_site *site = linear->scene.sites + s;
+    const double penetration = linear->work->trial.site_penetration[s];
+    if (penetration > 0.0 || site->clearance == 0.0 || penetration < -gap) return 0.0;
+    return wall_stiffness(&linear->scene, site);
+}
+
+void dmb_linear_close_contacts(dmb_linear *linear, double gap)
+{
+    for (uint32_t s = 0; s < linear->scene.site_count; s++) {
+        const double stiffness = dmb_linear_wall_stiffness(linear, s, gap);
+        if (stiffness > 0.0)
+            add_wall(linear, linear->scene.sites + s, stiffness, linear->work->trial.site_normal + 3 * (size_t)s);
+    }
+}
+
+/* Products with the velocities of the state, which its frames turn with. */
+
+/* to += factor A v^ in rows of six columns: row^T v^ = ad(v)^T row */
+static void add_row_products(double factor, const double *A, uint32_t rows, size_t stride, const double v[6],
+                             double *to)
+{
+    for (uint32_t r = 0; r < rows; r++) {
+        double product[6];
+        dmb_ad_transpose(v, A + stride * r, product);
+        for (int i = 0; i < 6; i++) to[stride * r + (size_t)i] += factor * product[i];
+    }
+}
+
+static void add_node_products(const dmb_scene *scene, double factor, const dmb_linear_matrix *A, const double *rows,
+                              uint32_t node, dmb_linear_matrix *to)
+{
+    const dmb_block_layout *layout = &scene->layout;
+    const double *v = rows + layout->row[node];
+    add_row_products(factor, A->diagonal + layout->diag[node], 6, 6, v, to->diagonal + layout->diag[node]);
+    if (node > 0)
+        add_row_products(factor, A->upper + layout->link[node - 1], layout->size[node - 1], 6, v,
+                         to->upper + layout->link[node - 1]);
+    if (node + 1 < layout->n)
+        add_row_products(factor, A->lower + layout->link[node], layout->size[node + 1], 6, v,
+                         to->lower + layout->link[node]);
+}
+
+void dmb_linear_add_products(const dmb_scene *scene, double factor, const dmb_linear_matrix *A, const double *rows,
+                             dmb_linear_matrix *to)
+{
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        if (scene->layout.size[i] == DMB_NODE_FULL) add_node_products(scene, factor, A, rows, i, to);
+    for (uint32_t i = 0; i < scene->constraint_count; i++) {
+        const dmb_constraint *c = scene->constraints + i;
+        for (uint32_t k = 0; k < c->node_count; k++)
+            if (scene->layout.size[c->node[k]] == DMB_NODE_FULL)
+                add_row_products(factor, A->joints + c->tangent + c->column[k], c->columns, c->columns,
+                                 rows + scene->layout.row[c->node[k]], to->joints + c->tangent + c->column[k]);
+    }
+}
+
+/* The spin that the axes of d leave out, and the rest of the velocities. */
+static void part_velocities(dmb_linear *linear, int32_t still)
+{
+    const dmb_scene *scene = &linear->scene;
+    memcpy(linear->rest, linear->work->now.velocity, linear->rows * sizeof(double));
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t row = scene->layout.row[i] + 3;
+        if (!still || scene->layout.size[i] != DMB_NODE_FULL) continue;
+        linear->spin[row] = linear->rest[row];
+        linear->rest[row] = 0.0;
+    }
+}
+
+/* The matrices with their frames' velocities (linearise.h): a row that is held has no d, nor any v^ d, but what the
+ * others do to it counts. */
+void dmb_linear_turn_frames(dmb_linear *linear, int32_t still)
+{
+    part_velocities(linear, still);
+    dmb_linear_keep_held(linear, 1);
+    dmb_linear_add_whole_joints(linear, 1.0);
+    dmb_linear_hold(linear, 1);
+    dmb_linear_add_whole_joints(linear, -1.0); /* columns that are held are left of it */
+    if (still) dmb_linear_add_products(&linear->scene, -1.0, &linear->mass, linear->spin, &linear->damping);
+    dmb_linear_add_products(&linear->scene, 1.0, &linear->damping, linear->rest, &linear->stiffness);
+    dmb_linear_add_products(&linear->scene, 1.0, &linear->mass, linear->work->now.acceleration, &linear->stiffness);
+    dmb_linear_add_products(&linear->scene, 1.0, &linear->mass, linear->rest, &linear->damping);
+    dmb_linear_hold(linear, 1);
+    dmb_linear_keep_held(linear, 0);
+    dmb_linear_add_whole_joints(linear, 1.0);
+    dmb_linear_hold(linear, 0);
+}

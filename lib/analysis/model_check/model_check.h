@@ -1,0 +1,34 @@
+/* What the model check finds, before it is answered as a struct or as text. */
+#ifndef DMB_ANALYSIS_MODEL_CHECK_MODEL_CHECK_H
+#define DMB_ANALYSIS_MODEL_CHECK_MODEL_CHECK_H
+
+#include "drillmbd/analysis.h"
+#include "sim/sim.h"
+#include "system/constrain/cluster_rank.h"
+
+/* Groups of parts that joints connect and nothing holds. */
+typedef struct dmb_loose_parts {
+    uint32_t groups;
+    uint32_t node; /* first node of the first group */
+} dmb_loose_parts;
+
+typedef struct dmb_model_check {
+    const dmb_sim *sim;
+    dmb_cluster_rank rank; /* holds memory */
+    dmb_loose_parts loose;
+    dmb_check_report report;
+} dmb_model_check;
+
+/* Takes the check of a sim, report and all; the sim is busy until the check is closed. Errors: as dmb_analysis_check;
+ * nothing is held then. */
+int32_t dmb_model_check_open(const dmb_sim *sim, dmb_model_check *check);
+void dmb_model_check_close(dmb_model_check *check);
+
+/* Parts on which gravity acts and no guide, drive, joint with the ground, spring, wall or rock. DMB_ERR_NO_MEMORY. */
+int32_t dmb_find_loose_parts(const dmb_sim *sim, dmb_loose_parts *loose);
+
+/* Calls `line` with each warning, without end of line. */
+typedef void (*dmb_check_line_fn)(void *context, const char *text);
+void dmb_model_check_warnings(const dmb_model_check *check, dmb_check_line_fn line, void *context);
+
+#endif

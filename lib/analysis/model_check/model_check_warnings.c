@@ -1,0 +1,308 @@
+/* What looks wrong with a scene, a line for each kind of thing: the first or worst case by name, and how many more. */
+#include <float.h>
+#include <math.h>
+
+#include "analysis/model_check/model_check.h"
+#include "math/vec3.h"
+#include "system/constrain/constraint_rows.h"
+#include "sim/node.h"
+
+#define DMB_POOR_CONDITION 1e-4 /* smallest over largest singular value of the equations */
+#define DMB_LARGE_MISFIT 1e-8   /* [m, -] that an equation of position may be off */
+#define DMB_SMALL_MASS 1e-9     /* of the largest one */
+#define DMB_NEARLY_SQUARE 0.05  /* [rad] this near to where coordinates or equations lose their meaning */
+#define DMB_SUNK 0.01           /* of the hole's radius: deeper than a part that lies on the wall */
+#define DMB_DEPTH_ROUNDING 1e-6 /* [m] */
+
+/* Where the lines go. */
+typedef struct sink {
+    const dmb_model_check *check;
+    const dmb_sim *sim;
+    const dmb_scene *scene;
+    dmb_check_line_fn line;
+    void *context;
+} sink;
+
+static void say(const sink *to, const dmb_message *text)
+{
+    to->line(to->context, text->text);
+}
+
+/* " (and 3 more)", or nothing. */
+static const char *more(uint32_t count, dmb_message *text)
+{
+    dmb_message_clear(text);
+    if (count > 1) dmb_message_set(text, " (and %u more)", count - 1);
+    return text->text;
+}
+
+static const char *node_name(const dmb_scene *scene, uint32_t node, dmb_message *text)
+{
+    const dmb_owner owner = dmb_owner_of_node(scene, node);
+    if (owner.kind[0] == 's')
+        dmb_message_set(text, "string %u, pipe %u", owner.index, owner.pipe);
+    else
+        dmb_message_set(text, "%s %u", owner.kind, owner.index);
+    return text->text;
+}
+
+static const char *joint_name(const dmb_scene *scene, uint32_t j, dmb_message *text)
+{
+    dmb_constraint_text(scene, scene->joints[j].constraint, text);
+    return text->text;
+}
+
+/* ---- Equations --------------------------------------------------------------------------------------------------- */
+
+static void redundancy(const sink *to)
+{
+    dmb_message text;
+    const uint32_t count = to->check->report.redundant;
+    if (count == 0) return;
+    dmb_message_set(
+        &text, "redundant: %u equation(s) that others imply; their joints' reactions are those of least norm", count);
+    say(to, &text);
+}
+
+static void disagreement(const sink *to)
+{
+    dmb_message text;
+    if (to->check->rank.differing == 0) return;
+    dmb_message_set(&text,
+                    "rank: LAPACK and the partition differ in %u cluster(s): equations there are all but redundant",
+                    to->check->rank.differing);
+    say(to, &text);
+}
+
+static void conditioning(const sink *to)
+{
+    const dmb_cluster_rank *rank = &to->check->rank;
+    dmb_message text, owner;
+    if (!(rank->condition < DMB_POOR_CONDITION)) return;
+    dmb_constraint_text(to->scene, to->scene->clusters[rank->poorest].constraint, &owner);
+    dmb_message_set(&text,
+                    "conditioning: equations around %s are nearly redundant, smallest singular value %g of the largest",
+                    owner.text, rank->condition);
+    say(to, &text);
+}
+
+static void violation(const sink *to)
+{
+    const dmb_cluster_rank *rank = &to->check->rank;
+    dmb_message text, row;
+    if (!(rank->violation > DMB_LARGE_MISFIT)) return;
+    dmb_constraint_row_text(to->sim, rank->violation_row, &row);
+    dmb_message_set(&text, "violation: %s is off by %g", row.text, rank->violation);
+    say(to, &text);
+}
+
+/* ---- Joints ------------------------------------------------------------------------------------------------------ */
+
+static int in_coupling(const dmb_scene *scene, uint32_t j)
+{
+    for (uint32_t i = 0; i < scene->coupling_count; i++)
+        for (int k = 0; k < 2; k++)
+            if (scene->couplings[i].joint[k] == j && scene->couplings[i].component[k] >= DMB_RX) return 1;
+    return 0;
+}
+
+static int in_drive(const dmb_scene *scene, uint32_t j)
+{
+    for (uint32_t i = 0; i < scene->drive_count; i++)
+        if (scene->drives[i].joint == j && scene->drives[i].component >= DMB_RX) return 1;
+    return 0;
+}
+
+/* Angles RX and RY where RZ is near a right angle (constraint/joint.h), and a rim that lies nearly flat. */
+static int nearly_singular(const dmb_sim *sim, uint32_t j)
+{
+    const dmb_scene_joint *joint = sim->scene->joints + j;
+    const int uses_angles = joint->law_mask >> DMB_RX != 0 || in_drive(sim->scene, j) || in_coupling(sim->scene, j);
+    dmb_relative relative;
+    if (sim->joint_state[j] == DMB_JOINT_OPEN) return 0;
+    if (!uses_angles && joint->kind != DMB_JOINT_ROLLING) return 0;
+    dmb_joint_motion_of(sim->scene, &sim->now, j, &relative, NULL);
+    if (joint->kind == DMB_JOINT_ROLLING && fabs(relative.R[0]) > cos(DMB_NEARLY_SQUARE)) return 1;
+    return uses_angles && fabs(relative.R[3]) > cos(DMB_NEARLY_SQUARE);
+}
+
+static void singular_joints(const sink *to)
+{
+    dmb_message text, name, rest;
+    uint32_t count = 0, first = 0;
+    for (uint32_t j = 0; j < to->scene->joint_count; j++) {
+        if (!nearly_singular(to->sim, j)) continue;
+        if (count++ == 0) first = j;
+    }
+    if (count == 0) return;
+    dmb_message_set(&text, "%s%s: nearly singular, its angles are all but undefined here",
+                    joint_name(to->scene, first, &name), more(count, &rest));
+    say(to, &text);
+}
+
+static void idle_drives(const sink *to)
+{
+    for (uint32_t i = 0; i < to->scene->drive_count; i++) {
+        const uint32_t j = to->scene->drives[i].joint;
+        dmb_message text, name;
+        if (j == UINT32_MAX || to->sim->joint_state[j] == DMB_JOINT_ACTIVE) continue;
+        dmb_message_set(&text, "drive %u: %s is %s", i, joint_name(to->scene, j, &name),
+                        to->sim->joint_state[j] == DMB_JOINT_OPEN ? "open, the drive does nothing" : "locked");
+        say(to, &text);
+    }
+}
+
+/* ---- Support and mass -------------------------------------------------------------------------------------------- */
+
+static void loose_parts(const sink *to)
+{
+    dmb_message text, name, rest;
+    const dmb_loose_parts *loose = &to->check->loose;
+    if (loose->groups == 0) return;
+    dmb_message_set(&text, "%s%s: no guide, drive, joint, spring or wall holds it against gravity, it will fall",
+                    node_name(to->scene, loose->node, &name), more(loose->groups, &rest));
+    say(to, &text);
+}
+
+/* Mass of a node, and its smallest moment of inertia, of rigid_mass and neighbouring elements. */
+static void mass_of(const dmb_scene *scene, uint32_t node, const dmb_rigid_mass **rigid_mass, double out[2])
+{
+    double inertia[3] = {0.0, 0.0, 0.0};
+    out[0] = 0.0;
+    if (*rigid_mass != scene->rigid_masses + scene->rigid_mass_count && (*rigid_mass)->node == node) {
+        out[0] += (*rigid_mass)->mass;
+        dmb_vec3_add(inertia, (*rigid_mass)->inertia, inertia);
+        ++*rigid_mass;
+    }
+    for (uint32_t side = 0; side < 2; side++) {
+        const uint32_t e = dmb_element_between(scene, node, side);
+        if (e == UINT32_MAX) continue;
+        const dmb_beam_mass *mass = &scene->types[scene->element_type[e]].mass;
+        out[0] += mass->axial[0] + mass->axial[1];
+        inertia[0] += mass->torsion[0] + mass->torsion[1];
+        inertia[1] += mass->bending[1][4];
+        inertia[2] += mass->bending[0][4];
+    }
+    out[1] = scene->layout.size[node] == DMB_NODE_PATH ? inertia[0] : fmin(inertia[0], fmin(inertia[1], inertia[2]));
+}
+
+static void small_masses(const sink *to)
+{
+    static const char *const what[2] = {"mass", "moment of inertia"}, *const unit[2] = {"kg", "kg m2"};
+    const dmb_rigid_mass *rigid_mass = to->scene->rigid_masses;
+    double low[2] = {DBL_MAX, DBL_MAX}, high[2] = {0.0, 0.0}, here[2];
+    uint32_t where[2] = {0, 0};
+    dmb_message text, name;
+    for (uint32_t i = 0; i < to->scene->node_count; i++) {
+        mass_of(to->scene, i, &rigid_mass, here);
+        for (int k = 0; k < 2; k++) {
+            high[k] = fmax(high[k], here[k]);
+            if (!(here[k] < low[k])) continue;
+            low[k] = here[k];
+            where[k] = i;
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        if (low[k] >= DMB_SMALL_MASS * high[k]) continue;
+        dmb_message_set(&text, "%s: %s of %g %s is next to nothing beside the largest, %g %s",
+                        node_name(to->scene, where[k], &name), what[k], low[k], unit[k], high[k], unit[k]);
+        say(to, &text);
+    }
+}
+
+/* ---- Hole -------------------------------------------------------------------------------------------------------- */
+
+/* Where parts still stand as described any overlap is one; later the wall gives way under what lies on it. */
+static double allowed_penetration(const dmb_sim *sim, uint32_t node)
+{
+    const double *u = sim->now.displacement + 3 * (size_t)node;
+    if (dmb_vec3_norm(u) > 0.0) return DMB_SUNK * sim->scene->hole.radius;
+    return 1e-12 * (1.0 + dmb_vec3_norm(sim->scene->reference_position + 3 * (size_t)node));
+}
+
+static void outside_sideways(const sink *to)
+{
+    dmb_message text, name, rest;
+    double most = 0.0;
+    uint32_t count = 0, worst = 0;
+    for (uint32_t s = 0; s < to->scene->site_count; s++) {
+        const double here = to->sim->now.site_penetration[s];
+        const uint32_t node = to->scene->sites[s].node;
+        if (!(here > allowed_penetration(to->sim, node))) continue;
+        count++;
+        if (!(here > most)) continue;
+        most = here;
+        worst = node;
+    }
+    if (count == 0) return;
+    dmb_message_set(&text, "%s%s: outside the hole, %g m deep in its wall", node_name(to->scene, worst, &name),
+                    more(count, &rest), most);
+    say(to, &text);
+}
+
+static void outside_lengthwise(const sink *to, int past_end)
+{
+    const dmb_hole *hole = &to->scene->hole;
+    const double end = hole->stations > 0 ? hole->station[hole->stations - 1].depth : DBL_MAX;
+    const double start = hole->stations > 0 ? hole->station[0].depth : 0.0;
+    uint32_t count = 0, first = 0;
+    double by = 0.0;
+    dmb_message text, rest;
+    for (uint32_t i = 0; i < to->scene->string_count; i++) {
+        const dmb_string_map *string = to->scene->strings + i;
+        const double near = to->scene->reference_depth[string->start_node] + string->start_arm;
+        const double far = to->scene->reference_depth[string->end_node] + string->end_arm;
+        const double out = past_end ? far - end : start - near;
+        if (!(out > DMB_DEPTH_ROUNDING)) continue;
+        if (count++ != 0) continue;
+        first = i;
+        by = out;
+    }
+    if (count == 0) return;
+    dmb_message_set(&text, "string %u%s: described %g m %s; the hole goes on straight there", first, more(count, &rest),
+                    by, past_end ? "beyond the end of the survey" : "before the start of the hole");
+    say(to, &text);
+}
+
+/* 1 if a string could leave the axis. */
+static int moves_sideways(const dmb_scene *scene, const dmb_string_map *string)
+{
+    for (uint32_t i = string->first_node; i < string->first_node + string->node_count; i++) {
+        const uint8_t *open = scene->free_row + scene->layout.row[i];
+        if (scene->layout.size[i] == DMB_NODE_FULL && (open[DMB_Y] || open[DMB_Z])) return 1;
+    }
+    return 0;
+}
+
+/* Contact is a feature of the scene: with it every string that moves sideways has sites, without it none. */
+static void no_contact(const sink *to)
+{
+    dmb_message text;
+    if (to->scene->features & DMB_FEATURE_CONTACT) return;
+    for (uint32_t i = 0; i < to->scene->string_count; i++) {
+        const dmb_string_map *string = to->scene->strings + i;
+        if (!moves_sideways(to->scene, string)) continue;
+        dmb_message_set(
+            &text, "string %u: a hole is described, but its wall is not met: no normal law, or contact left out", i);
+        say(to, &text);
+        return;
+    }
+}
+
+void dmb_model_check_warnings(const dmb_model_check *check, dmb_check_line_fn line, void *context)
+{
+    const sink to = {check, check->sim, check->sim->scene, line, context};
+    redundancy(&to);
+    disagreement(&to);
+    conditioning(&to);
+    violation(&to);
+    singular_joints(&to);
+    idle_drives(&to);
+    loose_parts(&to);
+    small_masses(&to);
+    if (!to.scene->has_hole) return;
+    outside_sideways(&to);
+    outside_lengthwise(&to, 0);
+    outside_lengthwise(&to, 1);
+    no_contact(&to);
+}

@@ -1,0 +1,123 @@
+/* Modes of a linear system: what dmb_analysis_modes answers with, and the ways to find them. */
+#ifndef DMB_ANALYSIS_MODES_MODES_H
+#define DMB_ANALYSIS_MODES_MODES_H
+
+#include <float.h>
+
+#include "analysis/linear/linearise.h"
+#include "drillmbd/modes.h"
+
+/* Asymmetry of K, over its diagonal, that is rounding. */
+#define DMB_MODES_ASYMMETRY 1e-9
+/* Rounding of K_ii/M_ii, as a part of it. */
+#define DMB_NOISE DBL_EPSILON
+/* An eigenvalue of up to so much noise may be 0. */
+#define DMB_RIGID_NOISE 1e3
+/* K is singular where a pivot is this part of its block. */
+#define DMB_MODES_LOOSE 1e-14
+
+struct dmb_modes {
+    uint32_t magic;
+    uint32_t count, capacity;
+    uint32_t rows;
+    dmb_allocator allocator;
+    dmb_sim *state; /* the state they are about; a copy, which holds the model */
+    dmb_modes_info info;
+    double *s;       /* [1/s] re, im >= 0, shape (capacity, 2) */
+    double *re, *im; /* body-frame increments by rows, d^H M d = 1, shape (capacity, rows); im NULL of undamped modes */
+    double *whirl;   /* [-] shape (capacity) */
+    uint8_t *rigid;  /* shape (capacity) */
+};
+
+/* What is searched, and where it goes. */
+typedef struct dmb_mode_search {
+    dmb_linear *linear;
+    const dmb_modes_options *options;
+    dmb_modes *modes;
+    dmb_message *message;    /* of the sim */
+    double *work;            /* shape (9 rows) */
+    double *coordinate_mass; /* [kg, kg m2] diagonal of R^T M R or so, shape (coordinates) */
+    double noise;    /* [1/s2] what rounding of K makes of an eigenvalue 0, largest K_ii/M_ii times an epsilon */
+    int32_t general; /* 1: damped, or K not symmetric */
+    int32_t pinned;  /* 1: the factors are those of K with its rigid-body motions pinned, and p = 0 */
+    double shift;    /* of the sparse search: of s^2, of s where general */
+    double *rigid, *rigid_momentum; /* all rigid-body motions r, r^T M r = I, and M r, shape (rigid_count, rows) */
+    size_t rigid_bytes;
+    uint32_t rigid_count;
+    int32_t partly; /* 1: a search may give back fewer modes than wanted, those that have converged */
+    int32_t apart; /* 1: they are uncoupled from all else, r^T K = 0, C r = 0, r^T C = 0, and taken out of the search */
+} dmb_mode_search;
+
+/* What a mode leaves of its equations, over the norms of the forces that balance in them, and what it may leave. */
+typedef struct dmb_mode_defect {
+    double value, bound;
+} dmb_mode_defect;
+
+/* A result without modes about the state of a sim; dmb_modes_destroy gives it back. DMB_ERR_NO_MEMORY. */
+int32_t dmb_modes_open(const dmb_sim *sim, dmb_modes **modes);
+/* Room for `capacity` modes, what was there being kept. DMB_ERR_NO_MEMORY. */
+int32_t dmb_modes_reserve(dmb_modes *modes, uint32_t capacity, int32_t with_im);
+/* Adds a mode, d = x + i y by rows (y NULL: 0), normalised. */
+int32_t dmb_modes_add(dmb_mode_search *search, double re, double im, const double *x, const double *y);
+/* The same two in the place of mode k. */
+void dmb_modes_put_square(dmb_mode_search *search, uint32_t k, double square, const double *x);
+void dmb_modes_put(dmb_mode_search *search, uint32_t k, double re, double im, const double *x, const double *y);
+/* Adds an undamped mode of eigenvalue `square` = -s^2 of K d = square M d. */
+int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const double *x);
+/* [1/s2] eigenvalue of an undamped mode x, x^T M x = 1, with the digits that its strain energy has where K x lost them.
+ */
+double dmb_modes_sharpen(const dmb_mode_search *search, double square, double *x);
+/* [1/s2] twice the strain energy of a motion. */
+double dmb_modes_twice_strain_energy(const dmb_modes *modes, double *x);
+/* Whether what was found is a root 0 of rigid-body motions once more, y NULL: x is real. */
+int dmb_modes_is_rigid_root(const dmb_mode_search *search, double re, double im, const double *x, const double *y);
+/* [1/s] |s| of mode i. */
+double dmb_modes_size(const dmb_modes *modes, uint32_t i);
+void dmb_modes_exchange(dmb_modes *modes, uint32_t i, uint32_t j);
+/* Those of low to high [Hz] only. */
+void dmb_modes_keep_band(dmb_modes *modes, double low, double high);
+/* Adds the rigid-body motions, which no search adds. */
+int32_t dmb_modes_put_rigid(dmb_mode_search *search);
+/* By rising frequency; keeps the first `keep`. */
+void dmb_modes_sort(dmb_modes *modes, uint32_t keep);
+
+/* The modes that the options ask for, and others with them. */
+int32_t dmb_modes_find(dmb_mode_search *search);
+/* [-] |(s^2 M + s C + K) d| of mode k over the norms of the terms that balance in it. */
+double dmb_modes_residual(const dmb_mode_search *search, uint32_t k);
+/* The same against the forces themselves, as a vector over the roots of the masses of its coordinates. */
+dmb_mode_defect dmb_modes_defect(const dmb_mode_search *search, uint32_t k);
+/* Whether every mode is one. DMB_ERR_NO_CONVERGENCE. */
+int32_t dmb_modes_check(dmb_mode_search *search);
+/* Makes those sharper that leave more than they may. DMB_ERR_NO_MEMORY. */
+int32_t dmb_modes_polish(dmb_mode_search *search);
+void dmb_modes_weigh_coordinates(const dmb_mode_search *search);
+
+/* All modes, by LAPACK on the independent coordinates. */
+int32_t dmb_modes_dense(dmb_mode_search *search);
+/* `wanted` modes nearest the shift, by Krylov subspaces, rigid-body motions that are pinned apart. */
+int32_t dmb_modes_sparse(dmb_mode_search *search, uint32_t wanted);
+
+/* Likewise the roots nearest growth + i omega, omega >= 0, and to its conjugate; growth gives way a little where a root
+ * stands. *least: smallest value of the operator among them, 0 if these are all; roots of larger dmb_shifted_value are
+ * complete. */
+int32_t dmb_modes_shifted(dmb_mode_search *search, double *growth, double omega, uint32_t wanted, double *least);
+/* Value that the operator of a shift has at the root re + i im. */
+double dmb_shifted_value(double growth, double omega, double re, double im);
+/* All modes of low to high [Hz] and some at its edges, piece by piece: of symmetric problems, and of general ones.
+ * DMB_ERR_NO_CONVERGENCE, _SINGULAR, _NO_MEMORY. */
+int32_t dmb_modes_band_of_squares(dmb_mode_search *search, double low, double high);
+int32_t dmb_modes_band_of_roots(dmb_mode_search *search, double low, double high);
+
+/* Finds all rigid-body motions. DMB_ERR_NO_MEMORY. */
+int32_t dmb_modes_find_rigid(dmb_mode_search *search);
+/* Factors K with pins where its rigid-body motions are apart: pinned 1, or 0 if something else is singular too.
+ * DMB_ERR_NO_MEMORY. */
+int32_t dmb_modes_pin(dmb_mode_search *search);
+void dmb_modes_forget_rigid(dmb_mode_search *search);
+/* Whether C leaves the rigid-body motions alone: C r = 0 and r^T C = 0. */
+int dmb_modes_rigid_undamped(const dmb_mode_search *search);
+/* x -= sum by_i (from_i . x) over the rigid-body motions, where they are apart. */
+void dmb_modes_take_rigid(const dmb_mode_search *search, const double *from, const double *by, double *x);
+
+#endif

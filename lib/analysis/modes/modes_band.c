@@ -1,0 +1,301 @@
+/* Modes of a band, piece by piece. A search tells the modes nearest its shift, so all of those within its reach: the
+ * band is covered by such reaches.
+ *
+ *     symmetric:  the eigenvalues s^2 stand on a line, and the signs of the factors of K - s^2 M count them: a piece is
+ *                 cut until a search finds as many as there are (Grimes, Lewis, Simon 1994)
+ *     general:    the roots s stand in the half plane of im >= 0; a rectangle of it that a search from its middle does
+ *                 not reach to its corners is cut in two */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "analysis/modes/modes.h"
+#include "base/memory.h"
+
+#define DMB_TWO_PI 6.283185307179586477
+/* Modes of a piece; pieces that wait; how often a piece may be cut. */
+enum { DMB_PIECE = 24, DMB_MARGIN = 6, DMB_PIECES = 128, DMB_CUTS = 60 };
+/* A piece of eigenvalues is not made narrower than this part of them. */
+#define DMB_NARROW 1e-4
+/* Reach that is taken for granted. */
+#define DMB_SURE 0.98
+
+/* ---- Symmetric --------------------------------------------------------------------------------------------------- */
+
+/* A piece of the line and how many eigenvalues are below its ends, those 0 of rigid-body motions left out. */
+typedef struct interval {
+    double from, to;
+    int64_t below_from, below_to;
+    int cuts;
+} interval;
+
+static double square_of(const dmb_modes *modes, uint32_t i)
+{
+    const double *s = modes->s + 2 * (size_t)i;
+    return s[0] > 0.0 ? -s[0] * s[0] : s[1] * s[1];
+}
+
+/* Below *square, which steps aside where a block is singular; -1 if that does not help. */
+static int64_t count_below(const dmb_mode_search *search, double *square, double aside)
+{
+    for (int i = 0; i < 4; i++, *square += aside) {
+        const int64_t count = dmb_linear_count(search->linear, *square);
+        if (count >= 0) return count - (*square > 0.0 && search->apart ? (int64_t)search->rigid_count : 0);
+    }
+    return -1;
+}
+
+/* An eigenvalue or several equal ones may be all of it. */
+static int is_narrow(const interval *piece)
+{
+    return piece->to - piece->from <= DMB_NARROW * fmax(fabs(piece->from), fabs(piece->to));
+}
+
+/* Those from `first` on that are in the interval stay; how many. */
+static int64_t keep_squares(dmb_modes *modes, uint32_t first, const interval *in)
+{
+    uint32_t kept = first;
+    for (uint32_t i = first; i < modes->count; i++) {
+        const double square = square_of(modes, i);
+        if (square < in->from || square >= in->to) continue;
+        if (kept != i) dmb_modes_exchange(modes, kept, i);
+        kept++;
+    }
+    modes->count = kept;
+    return (int64_t)kept - first;
+}
+
+/* 1: all that the counts promise was found; 0: not so. */
+static int32_t search_interval(dmb_mode_search *search, const interval *piece, uint32_t there)
+{
+    dmb_modes *modes = search->modes;
+    const uint32_t first = modes->count;
+    int32_t status = DMB_ERR_SINGULAR;
+    for (int i = 0; i < 3 && status == DMB_ERR_SINGULAR; i++) { /* a shift may hit an eigenvalue */
+        search->shift = piece->from + (0.5 + 0.01 * i) * (piece->to - piece->from);
+        modes->count = first;
+        status = dmb_modes_sparse(search, there + DMB_MARGIN + search->rigid_count);
+    }
+    if (status < 0 && status != DMB_ERR_NO_CONVERGENCE) return status;
+    if (status >= 0 && keep_squares(modes, first, piece) == (int64_t)there) return 1;
+    modes->count = first;
+    return 0;
+}
+
+/* Halves of the piece without eigenvalues are left out: from a shift among them they differ, from afar they are all
+ * alike. The middle that is left, and how many are below it. */
+static int32_t shrink(const dmb_mode_search *search, interval *piece, double *middle, int64_t *below)
+{
+    for (int i = 0; i < DMB_CUTS; i++) {
+        *middle = piece->from + 0.4567 * (piece->to - piece->from);
+        *below = count_below(search, middle, 1e-3 * (piece->to - piece->from));
+        if (*below < 0) return DMB_ERR_SINGULAR;
+        if (*below == piece->below_from && !is_narrow(piece))
+            piece->from = *middle;
+        else if (*below == piece->below_to && !is_narrow(piece))
+            piece->to = *middle;
+        else
+            break;
+    }
+    return DMB_OK;
+}
+
+static int32_t search_squares(dmb_mode_search *search, interval all)
+{
+    interval waiting[DMB_PIECES];
+    uint32_t count = 0;
+    all.below_from = count_below(search, &all.from, -1e-9 * fabs(all.from));
+    all.below_to = count_below(search, &all.to, 1e-9 * fabs(all.to));
+    if (all.below_from < 0 || all.below_to < 0) return DMB_ERR_SINGULAR;
+    waiting[count++] = all;
+    while (count > 0) {
+        interval piece = waiting[--count];
+        const int64_t there = piece.below_to - piece.below_from;
+        double middle;
+        int64_t below;
+        if (there <= 0) continue;
+        if (shrink(search, &piece, &middle, &below) < 0) return DMB_ERR_SINGULAR;
+        if (there <= DMB_PIECE) {
+            const int32_t status = search_interval(search, &piece, (uint32_t)there);
+            if (status < 0) return status;
+            if (status > 0) continue;
+        }
+        if (piece.cuts == DMB_CUTS || count + 2 > DMB_PIECES) return DMB_ERR_NO_CONVERGENCE;
+        waiting[count++] = (interval){middle, piece.to, below, piece.below_to, piece.cuts + 1};
+        waiting[count++] = (interval){piece.from, middle, piece.below_from, below, piece.cuts + 1};
+    }
+    return DMB_OK;
+}
+
+int32_t dmb_modes_band_of_squares(dmb_mode_search *search, double low, double high)
+{
+    const double a = DMB_TWO_PI * low * DMB_TWO_PI * low, b = DMB_TWO_PI * high * DMB_TWO_PI * high;
+    const double edge = 1e-9 * b; /* modes at the ends of the band are told by their frequencies */
+    search->modes->count = 0;
+    search->pinned = 0;
+    search->partly = 1; /* those in the piece converge first */
+    if (a <= edge) return search_squares(search, (interval){.from = -b - edge, .to = b + edge});
+    const int32_t status = search_squares(search, (interval){.from = a - edge, .to = b + edge});
+    return status < 0 ? status : search_squares(search, (interval){.from = -b - edge, .to = -a + edge});
+}
+
+/* ---- General ----------------------------------------------------------------------------------------------------- */
+
+typedef struct rectangle {
+    double re[2], im[2];
+    int cuts;
+} rectangle;
+
+/* A search: its shift, how small its operator's values became, and the roots it told. */
+typedef struct reach {
+    double growth, omega, least;
+    double root[2 * DMB_PIECE][2];
+    uint32_t count;
+} reach;
+
+typedef struct covering {
+    dmb_mode_search *search;
+    double low, high; /* [1/s] of |s| */
+    reach *reaches;
+    uint32_t count, room;
+} covering;
+
+static int holds(const rectangle *r, const double s[2])
+{
+    return s[0] >= r->re[0] && s[0] < r->re[1] && s[1] >= r->im[0] && s[1] < r->im[1];
+}
+
+/* Whether the reach has all roots of a rectangle: |value| of the operator, whose logarithm is harmonic, is least on its
+ * edge. */
+static int covers(const reach *w, const rectangle *r)
+{
+    enum { POINTS = 24 };
+    for (int side = 0; side < 4; side++)
+        for (int i = 0; i <= POINTS; i++) {
+            const double x = (double)i / POINTS;
+            const double re = side < 2 ? r->re[side] : r->re[0] + x * (r->re[1] - r->re[0]);
+            const double im = side < 2 ? r->im[0] + x * (r->im[1] - r->im[0]) : r->im[side - 2];
+            if (!(DMB_SURE * dmb_shifted_value(w->growth, w->omega, re, im) > w->least)) return 0;
+        }
+    return 1;
+}
+
+/* Whether an earlier search has covered it and told no root in it. */
+static int is_empty(const covering *c, const rectangle *r)
+{
+    for (uint32_t i = 0; i < c->count; i++) {
+        const reach *w = c->reaches + i;
+        uint32_t inside = 0;
+        if (!covers(w, r)) continue;
+        for (uint32_t k = 0; k < w->count; k++) inside += holds(r, w->root[k]) != 0;
+        if (inside == 0) return 1;
+    }
+    return 0;
+}
+
+/* Whether all of a rectangle is out of the band. */
+static int is_outside(const covering *c, const rectangle *r)
+{
+    const double near_re = fmax(fmax(r->re[0], -r->re[1]), 0.0), near = hypot(near_re, r->im[0]);
+    const double far = hypot(fmax(fabs(r->re[0]), fabs(r->re[1])), r->im[1]);
+    return near > c->high || far < c->low;
+}
+
+static int32_t make_room(covering *c)
+{
+    const dmb_allocator *allocator = &c->search->linear->allocator;
+    const uint32_t room = 2 * c->room + 64;
+    if (c->count < c->room) return DMB_OK;
+    reach *more = dmb_allocate_array(allocator, room, sizeof *more);
+    if (more == NULL) return DMB_ERR_NO_MEMORY;
+    if (c->count > 0) memcpy(more, c->reaches, c->count * sizeof *more);
+    if (c->reaches != NULL) dmb_release(allocator, c->reaches, c->room * sizeof *more);
+    c->reaches = more;
+    c->room = room;
+    return DMB_OK;
+}
+
+/* Roots of little damping stand beside the imaginary axis, not on the circle about growth through its own conjugate. */
+static double shift_growth(const rectangle *r)
+{
+    const double width = r->re[1] - r->re[0];
+    if (r->im[0] > 0.0 && r->re[0] < 0.0 && r->re[1] > 0.0) return fmin(0.03 * width, r->re[1]);
+    return 0.5 * (r->re[0] + r->re[1]);
+}
+
+/* 1: the rectangle is done, its modes added; 0: it was not reached to its corners. */
+static int32_t search_rectangle(covering *c, const rectangle *r)
+{
+    dmb_modes *modes = c->search->modes;
+    const uint32_t first = modes->count;
+    int32_t status = make_room(c);
+    if (status < 0) return status;
+    reach *w = c->reaches + c->count;
+    w->growth = shift_growth(r);
+    w->omega = r->im[0] > 0.0 ? 0.5 * (r->im[0] + r->im[1]) : 0.0;
+    w->count = 0;
+    status = dmb_modes_shifted(c->search, &w->growth, w->omega, DMB_PIECE, &w->least);
+    if (status == DMB_ERR_NO_CONVERGENCE) return 0; /* too far off all roots */
+    if (status < 0) return status;
+    for (uint32_t i = first; i < modes->count && w->count < 2 * DMB_PIECE; i++, w->count++)
+        memcpy(w->root[w->count], modes->s + 2 * (size_t)i, 2 * sizeof(double));
+    c->count++;
+    const int done = covers(w, r);
+    uint32_t kept = first;
+    for (uint32_t i = first; i < modes->count && done; i++) {
+        if (!holds(r, modes->s + 2 * (size_t)i)) continue;
+        if (kept != i) dmb_modes_exchange(modes, kept, i);
+        kept++;
+    }
+    modes->count = kept;
+    return done;
+}
+
+/* In two along its longer side, off the middle, where roots like to be; what has the imaginary axis in it comes last,
+ * and is cut to a square about it. */
+static void cut(const rectangle *r, rectangle out[2])
+{
+    const double width = r->re[1] - r->re[0], height = r->im[1] - r->im[0];
+    const int axis = r->re[0] < 0.0 && r->re[1] > 0.0, left = -r->re[0] > r->re[1];
+    out[0] = out[1] = *r;
+    out[0].cuts = out[1].cuts = r->cuts + 1;
+    if (axis && r->im[0] > 0.0 && width > 1.2 * height && (left ? -r->re[0] : r->re[1]) > 0.6 * height) {
+        if (left)
+            out[0].re[1] = out[1].re[0] = -0.5 * height;
+        else
+            out[0].re[0] = out[1].re[1] = 0.5 * height;
+    } else if (width > (axis ? 1.2 : 1.0) * height) {
+        out[0].re[1] = out[1].re[0] = r->re[0] + 0.4567 * width;
+    } else {
+        out[0].im[1] = out[1].im[0] = r->im[0] + 0.4567 * height;
+    }
+}
+
+static int32_t cover(covering *c, rectangle all)
+{
+    rectangle waiting[DMB_PIECES];
+    uint32_t count = 0;
+    waiting[count++] = all;
+    while (count > 0) {
+        const rectangle r = waiting[--count];
+        if (is_outside(c, &r) || is_empty(c, &r)) continue;
+        const int32_t status = search_rectangle(c, &r);
+        if (status < 0) return status;
+        if (status > 0) continue;
+        if (r.cuts == DMB_CUTS || count + 2 > DMB_PIECES) return DMB_ERR_NO_CONVERGENCE;
+        cut(&r, waiting + count);
+        count += 2;
+    }
+    return DMB_OK;
+}
+
+int32_t dmb_modes_band_of_roots(dmb_mode_search *search, double low, double high)
+{
+    covering c = {.search = search, .low = DMB_TWO_PI * low, .high = DMB_TWO_PI * high};
+    const double edge = (1.0 + 1e-9) * c.high;
+    const rectangle all = {{-edge, edge}, {0.0, edge}, 0};
+    search->modes->count = 0;
+    const int32_t status = cover(&c, all);
+    if (c.reaches != NULL) dmb_release(&search->linear->allocator, c.reaches, c.room * sizeof(reach));
+    return status;
+}

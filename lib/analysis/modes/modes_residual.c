@@ -1,0 +1,357 @@
+/* How well the modes satisfy their equations. */
+#include <complex.h>
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "analysis/linear/dynamic_stiffness.h"
+#include "analysis/modes/modes.h"
+#include "base/memory.h"
+#include "math/dense.h"
+#include "sim/access.h"
+/* A mode that a search has found leaves this part of the forces that balance in it, and so many times the rounding of
+ * their terms. */
+#define DMB_MODE_CONVERGED 1e-10
+#define DMB_MODE_ROUNDING 1024.0
+
+/* out += (a + i b) A (x + i y), real and imaginary part */
+typedef struct complex_rows {
+    double *re, *im, *product;
+} complex_rows;
+
+static void add_product(const dmb_linear *linear, const dmb_linear_matrix *A, double a, double b, const double *d,
+                        int imaginary, const complex_rows *out)
+{
+    dmb_linear_multiply(linear, A, d, out->product);
+    for (uint32_t i = 0; i < linear->rows; i++) {
+        out->re[i] += (imaginary ? -b : a) * out->product[i];
+        out->im[i] += (imaginary ? a : b) * out->product[i];
+    }
+}
+
+static double norm_of_terms(const dmb_linear *linear, const double *x, double square)
+{
+    const dmb_block_layout *layout = &linear->scene.layout;
+    const double least = dmb_linear_stiffness_at_least(linear);
+    double sum = 0.0;
+    for (uint32_t i = 0; i < layout->n; i++)
+        for (uint32_t c = 0; c < layout->size[i]; c++) {
+            const double k = fmax(linear->stiffness_size[layout->row[i] + c], least * dmb_linear_weight(linear, i, c));
+            const double m = dmb_linear_diagonal(linear, &linear->mass, i, c), z = x[layout->row[i] + c];
+            sum += (k + square * m) * (k + square * m) * z * z;
+        }
+    return sum;
+}
+
+double dmb_modes_residual(const dmb_mode_search *search, uint32_t k)
+{
+    const dmb_linear *linear = search->linear;
+    const size_t rows = linear->rows;
+    const complex_rows out = {search->work, search->work + rows, search->work + 2 * rows};
+    const double *s = search->modes->s + 2 * (size_t)k;
+    double left = 0.0, terms = 0.0;
+    memset(out.re, 0, 2 * rows * sizeof(double));
+    for (int imaginary = 0; imaginary < (search->modes->im != NULL ? 2 : 1); imaginary++) {
+        const double *d = (imaginary ? search->modes->im : search->modes->re) + rows * k;
+        add_product(linear, &linear->stiffness, 1.0, 0.0, d, imaginary, &out);
+        add_product(linear, &linear->mass, s[0] * s[0] - s[1] * s[1], 2.0 * s[0] * s[1], d, imaginary, &out);
+        if (search->options->kind == DMB_MODES_DAMPED)
+            add_product(linear, &linear->damping, s[0], s[1], d, imaginary, &out);
+        terms += norm_of_terms(linear, d, s[0] * s[0] + s[1] * s[1]);
+    }
+    for (int imaginary = 0; imaginary < 2; imaginary++) {
+        double *g = search->work + 3 * rows;
+        dmb_linear_restrict(linear, imaginary ? out.im : out.re, g);
+        left += dmb_dot(linear->coordinates, g, g);
+    }
+    return terms > 0.0 ? sqrt(left / terms) : 0.0;
+}
+
+/* ---- Whether a mode is one --------------------------------------------------------------------------------------- */
+
+/* Of forces by rows, on the coordinates and over the root of the mass of each, so that forces and moments are of one
+ * kind: for an undamped mode with x^T M x = 1 the norm of M x is about 1, that of K x about its eigenvalue. */
+static double norm_of(const dmb_mode_search *search, const double *re, const double *im, int terms)
+{
+    const dmb_linear *linear = search->linear;
+    double *g = search->work + 8 * (size_t)linear->rows, sum = 0.0;
+    for (int part = 0; part < (im != NULL ? 2 : 1); part++) {
+        (terms ? dmb_linear_restrict_terms : dmb_linear_restrict)(linear, part ? im : re, g);
+        for (uint32_t i = 0; i < linear->coordinates; i++)
+            if (search->coordinate_mass[i] > 0.0) sum += g[i] * g[i] / search->coordinate_mass[i];
+    }
+    return sqrt(sum);
+}
+
+/* Diagonal of R^T M R, couplings between the nodes of a joint left out. */
+void dmb_modes_weigh_coordinates(const dmb_mode_search *search)
+{
+    const dmb_linear *linear = search->linear;
+    const dmb_block_layout *layout = &linear->scene.layout;
+    memset(search->coordinate_mass, 0, linear->coordinates * sizeof(double));
+    for (uint32_t n = 0; n < layout->n; n++)
+        for (uint32_t c = 0; c < layout->size[n]; c++) {
+            const double m = fabs(dmb_linear_diagonal(linear, &linear->mass, n, c));
+            const uint32_t row = layout->row[n] + c;
+            for (uint32_t i = linear->start[row]; i < linear->start[row + 1]; i++)
+                search->coordinate_mass[linear->column[i]] += linear->value[i] * linear->value[i] * m;
+        }
+}
+
+/* sum |A_ij| |x_j| by rows, added to `to` with a factor */
+static void add_terms(const dmb_linear *linear, const dmb_linear_matrix *A, double factor, const double *x, double *y,
+                      double *to)
+{
+    dmb_linear_terms(linear, A, x, y);
+    for (uint32_t i = 0; i < linear->rows; i++) to[i] += factor * y[i];
+}
+
+dmb_mode_defect dmb_modes_defect(const dmb_mode_search *search, uint32_t k)
+{
+    const dmb_linear *linear = search->linear;
+    const dmb_modes *modes = search->modes;
+    const size_t rows = linear->rows;
+    const double *s = modes->s + 2 * (size_t)k;
+    const int parts = modes->im != NULL ? 2 : 1, damped = search->options->kind == DMB_MODES_DAMPED;
+    const dmb_linear_matrix *matrix[3] = {&linear->stiffness, &linear->mass, damped ? &linear->damping : NULL};
+    const double factor[3][2] = {{1.0, 0.0}, {s[0] * s[0] - s[1] * s[1], 2.0 * s[0] * s[1]}, {s[0], s[1]}};
+    double *left = search->work + 3 * rows, *one = left + 2 * rows, *terms = search->work;
+    double forces = 0.0;
+    memset(left, 0, 2 * rows * sizeof(double));
+    for (int m = 0; m < 3; m++) {
+        const complex_rows out = {one, one + rows, search->work};
+        if (matrix[m] == NULL) continue;
+        memset(one, 0, 2 * rows * sizeof(double));
+        for (int part = 0; part < parts; part++)
+            add_product(linear, matrix[m], factor[m][0], factor[m][1], (part ? modes->im : modes->re) + rows * k, part,
+                        &out);
+        for (size_t i = 0; i < 2 * rows; i++) left[i] += one[i];
+        forces += norm_of(search, one, one + rows, 0);
+    }
+    dmb_mode_defect defect = {norm_of(search, left, left + rows, 0), 0.0};
+    memset(terms, 0, rows * sizeof(double));
+    for (int m = 0; m < 3; m++)
+        for (int part = 0; part < parts && matrix[m] != NULL; part++)
+            add_terms(linear, matrix[m], hypot(factor[m][0], factor[m][1]), (part ? modes->im : modes->re) + rows * k,
+                      one, terms);
+    double rounding = DBL_EPSILON * norm_of(search, terms, NULL, 1);
+    if (modes->info.dense) rounding += search->noise;
+    defect.value = forces > 0.0 ? defect.value / forces : 0.0;
+    defect.bound = DMB_MODE_CONVERGED + (forces > 0.0 ? DMB_MODE_ROUNDING * rounding / forces : 0.0);
+    return defect;
+}
+
+/* ---- Refusal ----------------------------------------------------------------------------------------------------- */
+
+/* Where forces are rounding, the root may still be told by the strain: with d^H M d = 1 and e twice its energy,
+ * s^2 + s d^H C d + e = 0, unless most of the stiffness is not of strain. */
+#define DMB_ENERGY_TELLS 0.5
+
+static int energy_tells(const dmb_mode_search *search, uint32_t k)
+{
+    const dmb_linear *linear = search->linear;
+    const dmb_modes *modes = search->modes;
+    const size_t rows = linear->rows;
+    double *x = modes->re + rows * k, *y = modes->im != NULL ? modes->im + rows * k : NULL;
+    double *Cx = search->work, *Cy = Cx + rows, c[2] = {0.0, 0.0};
+    const double *s = modes->s + 2 * (size_t)k;
+    if (search->options->kind == DMB_MODES_DAMPED) {
+        dmb_linear_multiply(linear, &linear->damping, x, Cx);
+        c[0] = dmb_dot(rows, x, Cx);
+        if (y != NULL) {
+            dmb_linear_multiply(linear, &linear->damping, y, Cy);
+            c[0] += dmb_dot(rows, y, Cy);
+            c[1] = dmb_dot(rows, x, Cy) - dmb_dot(rows, y, Cx);
+        }
+    }
+    const double e =
+        dmb_modes_twice_strain_energy(modes, x) + (y != NULL ? dmb_modes_twice_strain_energy(modes, y) : 0.0);
+    const double re = s[0] * s[0] - s[1] * s[1] + s[0] * c[0] - s[1] * c[1] + e;
+    const double im = 2.0 * s[0] * s[1] + s[0] * c[1] + s[1] * c[0];
+    const double size = hypot(s[0], s[1]);
+    return hypot(re, im) <= DMB_ENERGY_TELLS * (size * size + size * hypot(c[0], c[1]) + e);
+}
+
+/* A mode is one only if its equations balance to rounding, and only where its forces are more than that. */
+int32_t dmb_modes_check(dmb_mode_search *search)
+{
+    const dmb_modes *modes = search->modes;
+    for (uint32_t k = 0; k < modes->count; k++) {
+        const double frequency = dmb_modes_size(modes, k) / 6.283185307179586;
+        if (modes->rigid[k]) continue;
+        const dmb_mode_defect defect = dmb_modes_defect(search, k);
+        if (!(defect.value <= defect.bound)) {
+            dmb_message_set(
+                search->message,
+                "modes: mode %u of %g Hz was not found sharply: residual = %g of the forces that balance in it, "
+                "must be <= %g: ask for fewer modes, another band, or all of them",
+                k, frequency, defect.value, defect.bound);
+            return DMB_ERR_NO_CONVERGENCE;
+        }
+        if (defect.bound < 1.0 || energy_tells(search, k)) continue;
+        dmb_message_set(
+            search->message,
+            "modes: mode %u of %g Hz cannot be told from a rigid-body motion: rounding is %g of its forces, must be "
+            "< 1: hold what may move freely, soften what is stiffest, or ask for a band above it",
+            k, frequency, defect.bound);
+        return DMB_ERR_NO_CONVERGENCE;
+    }
+    return DMB_OK;
+}
+
+/* A mode sharper than the subspace gave it, by inverse iteration at p next to its root (Ruhe 1973):
+ *
+ *     general:    Q(p) y = Q'(s) x,   Q(s) = s^2 M + s C + K,   and s from y^H Q(s) y = 0
+ *     symmetric:  (K - p M) y = M x,  and s^2 from Rayleigh's quotient
+ *
+ * Each turn takes |s - p| over the distance to the next root off the error. */
+
+/* How far p is from the root, for pivots; and turns at most. */
+#define DMB_POLISH_ASIDE 1e-7
+enum { DMB_POLISH_TURNS = 3 };
+
+typedef double complex number;
+
+static number number_of(double re, double im)
+{
+    return re + im * (number)_Complex_I;
+}
+
+typedef struct polish {
+    dmb_mode_search *search;
+    dmb_dynamic_stiffness stiffness;
+    dmb_complex_array x, f; /* shape (rows) */
+    double *product;        /* shape (2 rows) */
+} polish;
+
+/* x^H A x */
+static number form(const polish *p, const dmb_linear_matrix *A)
+{
+    const dmb_linear *linear = p->search->linear;
+    const size_t n = linear->rows;
+    double *re = p->product, *im = re + n;
+    dmb_linear_multiply(linear, A, p->x.re, re);
+    dmb_linear_multiply(linear, A, p->x.im, im);
+    return number_of(dmb_dot(n, p->x.re, re) + dmb_dot(n, p->x.im, im),
+                     dmb_dot(n, p->x.re, im) - dmb_dot(n, p->x.im, re));
+}
+
+/* f += factor A x */
+static void add_forces(const polish *p, const dmb_linear_matrix *A, number factor)
+{
+    const dmb_linear *linear = p->search->linear;
+    const size_t n = linear->rows;
+    double *re = p->product, *im = re + n;
+    dmb_linear_multiply(linear, A, p->x.re, re);
+    dmb_linear_multiply(linear, A, p->x.im, im);
+    for (size_t i = 0; i < n; i++) {
+        p->f.re[i] += creal(factor) * re[i] - cimag(factor) * im[i];
+        p->f.im[i] += creal(factor) * im[i] + cimag(factor) * re[i];
+    }
+}
+
+/* The root of y^H Q(s) y that is next to s. */
+static number root_next_to(const polish *p, number s)
+{
+    const dmb_linear *linear = p->search->linear;
+    const number m = form(p, &linear->mass), c = form(p, &linear->damping), k = form(p, &linear->stiffness);
+    const number half = -0.5 * c / m, away = csqrt(half * half - k / m);
+    const number a = half + away, b = half - away;
+    return cabs(a - s) < cabs(b - s) ? a : b;
+}
+
+static int turn(polish *p, number s)
+{
+    const dmb_linear *linear = p->search->linear;
+    const size_t bytes = linear->rows * sizeof(double);
+    const number at = s * (1.0 + DMB_POLISH_ASIDE);
+    double most = 0.0;
+    if (dmb_dynamic_stiffness_factor_at(&p->stiffness, creal(at), cimag(at)) >= 0) return 0;
+    memset(p->f.re, 0, bytes);
+    memset(p->f.im, 0, bytes);
+    add_forces(p, &linear->mass, 2.0 * s);
+    add_forces(p, &linear->damping, 1.0);
+    memcpy(p->x.re, p->f.re, bytes);
+    memcpy(p->x.im, p->f.im, bytes);
+    dmb_dynamic_stiffness_solve(&p->stiffness, 0, p->x);
+    for (uint32_t i = 0; i < linear->rows; i++) most = fmax(most, hypot(p->x.re[i], p->x.im[i]));
+    if (!(most > 0.0) || !isfinite(most)) return 0;
+    for (uint32_t i = 0; i < linear->rows; i++) {
+        p->x.re[i] /= most;
+        p->x.im[i] /= most;
+    }
+    return 1;
+}
+
+static void sharpen_general(polish *p, uint32_t k)
+{
+    dmb_modes *modes = p->search->modes;
+    const size_t rows = modes->rows, bytes = rows * sizeof(double);
+    number s = number_of(modes->s[2 * (size_t)k], modes->s[2 * (size_t)k + 1]);
+    const int real = cimag(s) == 0.0;
+    memcpy(p->x.re, modes->re + rows * k, bytes);
+    memcpy(p->x.im, modes->im + rows * k, bytes);
+    for (int i = 0; i < DMB_POLISH_TURNS; i++) {
+        if (!turn(p, s)) return;
+        if (real) memset(p->x.im, 0, bytes);
+        s = root_next_to(p, s);
+        if (real ? cimag(s) != 0.0 : !(cimag(s) > 0.0)) return;
+        dmb_modes_put(p->search, k, creal(s), cimag(s), p->x.re, real ? NULL : p->x.im);
+        const dmb_mode_defect defect = dmb_modes_defect(p->search, k);
+        if (defect.value <= defect.bound) return;
+    }
+}
+
+static void sharpen_symmetric(polish *p, uint32_t k)
+{
+    dmb_mode_search *search = p->search;
+    dmb_linear *linear = search->linear;
+    const dmb_modes *modes = search->modes;
+    const size_t rows = modes->rows;
+    double *x = p->x.re, *Ax = p->product;
+    memcpy(x, modes->re + rows * k, rows * sizeof(double));
+    for (int i = 0; i < DMB_POLISH_TURNS; i++) {
+        const double size = dmb_modes_size(modes, k),
+                     square = modes->s[2 * (size_t)k] > 0.0 ? -size * size : size * size;
+        if (dmb_linear_factor(linear, 1.0, 0.0, -square * (1.0 + DMB_POLISH_ASIDE), NULL) >= 0) return;
+        dmb_linear_multiply(linear, &linear->mass, x, Ax);
+        memcpy(x, Ax, rows * sizeof(double));
+        dmb_linear_solve(linear, x);
+        dmb_modes_take_rigid(search, search->rigid_momentum, search->rigid, x);
+        dmb_linear_multiply(linear, &linear->mass, x, Ax);
+        const double mass = dmb_dot(rows, x, Ax);
+        if (!(mass > 0.0) || !isfinite(mass)) return;
+        for (size_t r = 0; r < rows; r++) x[r] /= sqrt(mass);
+        dmb_linear_multiply(linear, &linear->stiffness, x, Ax);
+        dmb_modes_put_square(search, k, dmb_dot(rows, x, Ax), x);
+        const dmb_mode_defect defect = dmb_modes_defect(search, k);
+        if (defect.value <= defect.bound) return;
+    }
+}
+
+int32_t dmb_modes_polish(dmb_mode_search *search)
+{
+    const size_t rows = search->linear->rows, bytes = 6 * rows * sizeof(double);
+    polish p = {.search = search};
+    double *block = NULL;
+    int32_t status = DMB_OK;
+    for (uint32_t k = 0; k < search->modes->count && status >= 0; k++) {
+        dmb_progress_at(search->linear->work, 0.8 + 0.2 * k / search->modes->count);
+        status = dmb_progress_pulse(search->linear->work);
+        if (status < 0) break;
+        const dmb_mode_defect defect = dmb_modes_defect(search, k);
+        if (search->modes->rigid[k] || defect.value <= defect.bound) continue;
+        if (block == NULL) {
+            block = dmb_allocate(&search->linear->allocator, bytes);
+            status = block != NULL ? DMB_OK : DMB_ERR_NO_MEMORY;
+            if (status >= 0 && search->general) status = dmb_dynamic_stiffness_make(search->linear, 0.0, &p.stiffness);
+            p.x = (dmb_complex_array){block, block + rows};
+            p.f = (dmb_complex_array){block + 2 * rows, block + 3 * rows};
+            p.product = block + 4 * rows;
+        }
+        if (status >= 0) (search->general ? sharpen_general : sharpen_symmetric)(&p, k);
+    }
+    dmb_dynamic_stiffness_release(&p.stiffness);
+    if (block != NULL) dmb_release(&search->linear->allocator, block, bytes);
+    return status;
+}

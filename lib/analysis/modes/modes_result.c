@@ -1,0 +1,294 @@
+/* A mode that was found: normalised, and whether it is a rigid-body motion once more. */
+#include <math.h>
+#include <string.h>
+
+#include "analysis/modes/modes.h"
+#include "base/handle.h"
+#include "base/memory.h"
+#include "math/dense.h"
+#include "system/copy.h"
+/* x + i y times the phase that makes its real part largest, over the root of d^H M d. */
+static void normalise(const dmb_mode_search *search, double *x, double *y)
+{
+    const size_t n = search->linear->rows;
+    double *Mx = search->work, *My = Mx + n, xx, yy = 0.0, xy = 0.0;
+    dmb_linear_multiply(search->linear, &search->linear->mass, x, Mx);
+    xx = dmb_dot(n, x, Mx);
+    if (y != NULL) {
+        dmb_linear_multiply(search->linear, &search->linear->mass, y, My);
+        yy = dmb_dot(n, y, My);
+        xy = dmb_dot(n, x, My);
+    }
+    const double size = xx + yy > 0.0 ? 1.0 / sqrt(xx + yy) : 0.0, phase = -0.5 * atan2(2.0 * xy, xx - yy);
+    const double c = size * cos(phase), s = size * sin(phase);
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        const double re = x[i];
+        x[i] = c * re - (y != NULL ? s * y[i] : 0.0);
+        if (y != NULL) y[i] = s * re + c * y[i];
+        if (fabs(x[i]) > fabs(x[most])) most = i;
+    }
+    for (size_t i = 0; x[most] < 0.0 && i < n; i++) {
+        x[i] = i == most ? x[i] : -x[i];
+        if (y != NULL) y[i] = -y[i];
+    }
+    x[most] = fabs(x[most]);
+}
+
+/* y and z of a vector's complex amplitude (re, im), Y and Z, as (Y + sign i Z)/2 e1 and the amplitude that belongs to
+ * it: the circle from y to z (sign 1), e1 = (1, -i), or from z to y (sign -1), e1 = (1, i); its real part to `out`. */
+static void take_circle(const double *re, const double *im, double sign, double *out)
+{
+    out[0] = 0.5 * (re[0] - sign * im[1]);
+    out[1] = 0.5 * (sign * im[0] + re[1]);
+}
+
+/* d^H M d of the circles of one sense in d = x + i y. Their real and imaginary parts are alike: twice that of the real
+ * one. */
+static double circling(const dmb_mode_search *search, const double *x, const double *y, double sign)
+{
+    const dmb_block_layout *layout = &search->linear->scene.layout;
+    const size_t n = search->linear->rows;
+    double *circle = search->work, *product = circle + n;
+    memset(circle, 0, n * sizeof(double));
+    for (uint32_t i = 0; i < layout->n; i++)
+        for (uint32_t c = 1; c < layout->size[i] && layout->size[i] == DMB_NODE_FULL; c += 3) {
+            const size_t at = (size_t)layout->row[i] + c;
+            take_circle(x + at, y + at, sign, circle + at);
+        }
+    dmb_linear_multiply(search->linear, &search->linear->mass, circle, product);
+    return 2.0 * dmb_dot(n, circle, product);
+}
+
+/* x^H M x of the rest: motion along and around, and nodes that do not leave the axis. */
+static double not_circling(const dmb_mode_search *search, const double *x)
+{
+    const dmb_block_layout *layout = &search->linear->scene.layout;
+    const size_t n = search->linear->rows;
+    double *rest = search->work, *product = rest + n;
+    memcpy(rest, x, n * sizeof(double));
+    for (uint32_t i = 0; i < layout->n; i++)
+        for (uint32_t c = 1; c < layout->size[i] && layout->size[i] == DMB_NODE_FULL; c += 3)
+            rest[layout->row[i] + c] = rest[layout->row[i] + c + 1] = 0.0;
+    dmb_linear_multiply(search->linear, &search->linear->mass, rest, product);
+    return dmb_dot(n, rest, product);
+}
+
+/* Forward less backward over the sum of the parts. That is d^H M d = 1 where the mass is round; eccentric mass couples
+ * the parts, and their sum differs from 1. */
+static double whirl_of(const dmb_mode_search *search, const double *x, const double *y)
+{
+    const double forward = circling(search, x, y, 1.0), backward = circling(search, x, y, -1.0);
+    const double sum = forward + backward + not_circling(search, x) + not_circling(search, y);
+    return sum > 0.0 ? (forward - backward) / sum : 0.0;
+}
+
+/* ---- Rigid-body motions ------------------------------------------------------------------------------------------ */
+
+/* So much of a shape, by its square, is beside the rigid-body motions where it is made of them. */
+#define DMB_BESIDE_RIGID 1e-6
+
+/* x^T M x of what x has beside the rigid-body motions; its own in *whole. */
+static double beside_rigid(const dmb_mode_search *search, const double *x, double *whole)
+{
+    const size_t n = search->linear->rows;
+    double *product = search->work, sum;
+    dmb_linear_multiply(search->linear, &search->linear->mass, x, product);
+    *whole += sum = dmb_dot(n, x, product);
+    for (uint32_t i = 0; i < search->rigid_count; i++) {
+        const double part = dmb_dot(n, search->rigid_momentum + n * i, x);
+        sum -= part * part;
+    }
+    return sum;
+}
+
+int dmb_modes_is_rigid_root(const dmb_mode_search *search, double re, double im, const double *x, const double *y)
+{
+    double whole = 0.0, beside = 0.0;
+    if (search->rigid_count == 0 || search->apart) return 0;
+    if (re * re + im * im > DMB_RIGID_NOISE * search->noise) return 0;
+    beside = beside_rigid(search, x, &whole) + (y != NULL ? beside_rigid(search, y, &whole) : 0.0);
+    return beside <= DMB_BESIDE_RIGID * whole;
+}
+
+/* ---- Adding ------------------------------------------------------------------------------------------------------ */
+
+/* Room for one more. */
+static int32_t make_room(dmb_mode_search *search)
+{
+    dmb_modes *modes = search->modes;
+    if (modes->count < modes->capacity) return DMB_OK;
+    return dmb_modes_reserve(modes, 2 * modes->capacity + 16, search->general);
+}
+
+void dmb_modes_put(dmb_mode_search *search, uint32_t k, double re, double im, const double *x, const double *y)
+{
+    dmb_modes *modes = search->modes;
+    const size_t rows = modes->rows;
+    double *to = modes->re + rows * k, *also = modes->im != NULL ? modes->im + rows * k : NULL;
+    memcpy(to, x, rows * sizeof(double));
+    if (y != NULL)
+        memcpy(also, y, rows * sizeof(double));
+    else if (also != NULL)
+        memset(also, 0, rows * sizeof(double)); /* a mode found before may have stood here */
+    normalise(search, to, y != NULL ? also : NULL);
+    modes->rigid[k] = 0;
+    modes->s[2 * (size_t)k] = re;
+    modes->s[2 * (size_t)k + 1] = im;
+    modes->whirl[k] = y != NULL ? whirl_of(search, to, also) : 0.0;
+}
+
+int32_t dmb_modes_add(dmb_mode_search *search, double re, double im, const double *x, const double *y)
+{
+    const int32_t status = make_room(search);
+    if (status < 0) return status;
+    dmb_modes_put(search, search->modes->count++, re, im, x, y);
+    return DMB_OK;
+}
+
+void dmb_modes_put_square(dmb_mode_search *search, uint32_t k, double square, const double *x)
+{
+    dmb_modes *modes = search->modes;
+    dmb_modes_put(search, k, 0.0, 0.0, x, NULL);
+    const double sharp = dmb_modes_sharpen(search, square, modes->re + (size_t)modes->rows * k), s = sqrt(fabs(sharp));
+    modes->s[2 * (size_t)k] = sharp < 0.0 ? s : 0.0;
+    modes->s[2 * (size_t)k + 1] = sharp > 0.0 ? s : 0.0;
+}
+
+int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const double *x)
+{
+    const int32_t status = make_room(search);
+    if (status < 0) return status;
+    dmb_modes_put_square(search, search->modes->count++, square, x);
+    return DMB_OK;
+}
+
+/* The order of modes, and which of them are kept. */
+
+#define DMB_TWO_PI 6.283185307179586477
+
+double dmb_modes_size(const dmb_modes *modes, uint32_t i)
+{
+    return hypot(modes->s[2 * (size_t)i], modes->s[2 * (size_t)i + 1]);
+}
+
+static void swap(double *a, double *b, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double kept = a[i];
+        a[i] = b[i];
+        b[i] = kept;
+    }
+}
+
+void dmb_modes_exchange(dmb_modes *modes, uint32_t i, uint32_t j)
+{
+    const size_t rows = modes->rows;
+    const uint8_t rigid = modes->rigid[i];
+    modes->rigid[i] = modes->rigid[j];
+    modes->rigid[j] = rigid;
+    swap(modes->s + 2 * (size_t)i, modes->s + 2 * (size_t)j, 2);
+    swap(modes->whirl + i, modes->whirl + j, 1);
+    swap(modes->re + rows * i, modes->re + rows * j, rows);
+    if (modes->im != NULL) swap(modes->im + rows * i, modes->im + rows * j, rows);
+}
+
+void dmb_modes_sort(dmb_modes *modes, uint32_t keep)
+{
+    for (uint32_t i = 0; i < modes->count && i < keep; i++) {
+        uint32_t least = i;
+        for (uint32_t j = i + 1; j < modes->count; j++)
+            if (dmb_modes_size(modes, j) < dmb_modes_size(modes, least)) least = j;
+        if (least != i) dmb_modes_exchange(modes, i, least);
+    }
+    if (modes->count > keep) modes->count = keep;
+}
+
+void dmb_modes_keep_band(dmb_modes *modes, double low, double high)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < modes->count; i++) {
+        const double f = dmb_modes_size(modes, i) / DMB_TWO_PI;
+        if (f < low || f > high) continue;
+        if (kept != i) dmb_modes_exchange(modes, kept, i);
+        kept++;
+    }
+    modes->count = kept;
+}
+
+int32_t dmb_modes_put_rigid(dmb_mode_search *search)
+{
+    dmb_modes *modes = search->modes;
+    int32_t status = DMB_OK;
+    for (uint32_t i = 0; i < search->rigid_count && status >= 0; i++) {
+        status = dmb_modes_add(search, 0.0, 0.0, search->rigid + (size_t)modes->rows * i, NULL);
+        if (status >= 0) modes->rigid[modes->count - 1] = 1;
+    }
+    return status;
+}
+
+/* Memory of the modes that were found. */
+
+static size_t bytes_of(const dmb_modes *modes, uint32_t capacity, int32_t with_im)
+{
+    return ((size_t)capacity * 3 + (size_t)capacity * modes->rows * (with_im ? 2 : 1)) * sizeof(double) + capacity;
+}
+
+static void place(dmb_modes *modes, void *block, uint32_t capacity, int32_t with_im)
+{
+    modes->s = block;
+    modes->re = modes->s + 2 * (size_t)capacity;
+    modes->im = with_im ? modes->re + (size_t)capacity * modes->rows : NULL;
+    modes->whirl = modes->re + (size_t)capacity * modes->rows * (with_im ? 2 : 1);
+    modes->rigid = (uint8_t *)(modes->whirl + capacity);
+    modes->capacity = capacity;
+}
+
+int32_t dmb_modes_reserve(dmb_modes *modes, uint32_t capacity, int32_t with_im)
+{
+    const dmb_modes old = *modes;
+    const size_t part = (size_t)old.count * old.rows * sizeof(double);
+    void *block = dmb_allocate(&modes->allocator, bytes_of(modes, capacity, with_im));
+    if (block == NULL) return DMB_ERR_NO_MEMORY;
+    place(modes, block, capacity, with_im);
+    if (old.s == NULL) return DMB_OK;
+    memcpy(modes->s, old.s, 2 * (size_t)old.count * sizeof(double));
+    memcpy(modes->re, old.re, part);
+    if (old.im != NULL && modes->im != NULL) memcpy(modes->im, old.im, part);
+    memcpy(modes->whirl, old.whirl, old.count * sizeof(double));
+    memcpy(modes->rigid, old.rigid, old.count);
+    dmb_release(&modes->allocator, old.s, bytes_of(&old, old.capacity, old.im != NULL));
+    return DMB_OK;
+}
+
+void dmb_modes_destroy(dmb_modes **modes)
+{
+    if (modes == NULL || *modes == NULL) return;
+    dmb_modes *m = *modes;
+    *modes = NULL;
+    if (!dmb_handle_is(m, DMB_HANDLE_MODES)) return;
+    const dmb_allocator allocator = m->allocator;
+    dmb_model *model = m->state != NULL ? m->state->model : NULL;
+    m->magic = DMB_HANDLE_DEAD;
+    if (m->s != NULL) dmb_release(&allocator, m->s, bytes_of(m, m->capacity, m->im != NULL));
+    dmb_state_discard(m->state);
+    if (model != NULL) dmb_model_release(model);
+    dmb_release(&allocator, m, sizeof *m);
+}
+
+int32_t dmb_modes_open(const dmb_sim *sim, dmb_modes **modes)
+{
+    dmb_modes *m = dmb_allocate(&sim->allocator, sizeof *m);
+    if (m == NULL) return DMB_ERR_NO_MEMORY;
+    m->magic = DMB_HANDLE_MODES;
+    m->allocator = sim->allocator;
+    m->rows = sim->scene->row_count;
+    m->state = dmb_state_copy(sim);
+    if (m->state != NULL) {
+        m->state->magic = DMB_HANDLE_SIM; /* queries look through it */
+        m->state->progress = &m->state->own_progress; /* it may outlive the sim */
+        dmb_model_hold(m->state->model);
+    }
+    *modes = m;
+    return m->state != NULL ? DMB_OK : DMB_ERR_NO_MEMORY;
+}

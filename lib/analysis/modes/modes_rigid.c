@@ -1,0 +1,454 @@
+/* Rigid-body motions: the null space of K among motions that move every part as a rigid body.
+ *
+ * Parts are runs of nodes that elements connect. A part of nodes that move freely has six candidates, translations
+ * along the axes of the world and rotations about them through its middle, d = Ad(H^-1) xi at each node; one on the
+ * axis of a hole has two. A string that is bent may turn about its own axis, section by section: what is round and
+ * was straight has no stiffness against that, which is therefore one more candidate. With B the candidates of all parts, the motions sought are B q with
+ *
+ *     (1 - R E) B q = 0     joints and guides let it happen (E takes the coordinates out of d),
+ *     R^T K B q = 0         nothing that acts in the state turns it back.
+ *
+ * An element's strain is 0 in a candidate, so that its part of K B is rounding however long, bent or soft the string
+ * is: a row is 0 where it is below a part of its terms, sum |K_ij| |B_jk|, and the rank is that of few and well-scaled
+ * numbers, by Givens rotations of its rows and Householder's QR with column pivoting (Golub, Van Loan 2013, 5.2
+ * and 5.4). */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "analysis/modes/modes.h"
+#include "base/memory.h"
+#include "math/dense.h"
+#include "math/so3.h"
+#include "sim/node.h"
+
+/* A row of the conditions below this part of its terms is rounding; and what is added to it for each size of a part
+ * that the part lies away from the origin, whose poses are rounded there. */
+#define DMB_RIGID_ROUNDING 1e-12
+#define DMB_RIGID_AWAY (16.0 * DBL_EPSILON)
+/* Forces that the state leaves over turn with a motion. */
+#define DMB_RIGID_UNBALANCED 8.0
+/* [rad] A string turns about its own axis otherwise than as a rigid body where it is bent by so much. */
+#define DMB_RIGID_BENT 1e-6
+/* The conditions are dense in the candidates: 200 parts. */
+enum { DMB_CANDIDATES_MAX = 1200 };
+
+typedef struct entry {
+    uint32_t condition, candidate;
+    double value;
+} entry;
+
+typedef struct rigid_part {
+    uint32_t first, count; /* nodes */
+    uint32_t candidate;    /* number of its first one */
+    uint32_t candidates;
+    int32_t full;           /* 1: of nodes that move freely */
+    double bend;            /* [rad] largest angle between the axes of its nodes and that of the first */
+    double middle[3], size; /* [m] */
+} rigid_part;
+
+typedef struct conditions {
+    dmb_mode_search *search;
+    dmb_linear *linear;
+    const dmb_allocator *allocator;
+    rigid_part *parts; /* shape (nodes) */
+    uint32_t part_count, candidates;
+    uint32_t count; /* conditions: rows, then coordinates */
+    entry *entries; /* by candidate */
+    size_t entry_count, entry_room;
+    double *terms;            /* of each condition, shape (count) */
+    double *d, *Kd, *terms_d; /* shape (rows) */
+    double *g, *terms_g;      /* shape (coordinates) */
+    double tolerance;
+    void *block;
+    size_t bytes;
+} conditions;
+
+/* ---- Parts and candidates ---------------------------------------------------------------------------------------- */
+
+static void node_place(const dmb_linear *linear, uint32_t node, double rotation[9], double place[3])
+{
+    dmb_node_pose(&linear->scene, &linear->work->now, node, rotation, place);
+    dmb_vec3_add(place, linear->scene.reference_position + 3 * (size_t)node, place);
+}
+
+static void measure_part(conditions *c, rigid_part *p)
+{
+    double rotation[9], place[3], axis[3], first[3] = {0.0, 0.0, 0.0}, away = 0.0;
+    for (uint32_t i = p->first; i < p->first + p->count; i++) {
+        node_place(c->linear, i, rotation, place);
+        for (int k = 0; k < 3; k++) p->middle[k] += place[k] / p->count;
+        away = fmax(away, dmb_vec3_norm(place));
+        for (int k = 0; k < 3; k++) axis[k] = rotation[3 * k];
+        if (i == p->first) dmb_vec3_copy(axis, first);
+        dmb_vec3_sub(axis, first, axis);
+        p->bend = fmax(p->bend, dmb_vec3_norm(axis));
+    }
+    p->size = p->count > 1 ? 0.0 : c->linear->scene.chains[c->linear->scene.node_chain[p->first]].length;
+    for (uint32_t i = p->first; i < p->first + p->count; i++) {
+        node_place(c->linear, i, rotation, place);
+        dmb_vec3_sub(place, p->middle, place);
+        p->size = fmax(p->size, dmb_vec3_norm(place));
+    }
+    if (!(p->size > 0.0)) p->size = 1.0;
+    c->tolerance = fmax(c->tolerance, DMB_RIGID_ROUNDING + DMB_RIGID_AWAY * away / p->size);
+}
+
+static int begins_part(const dmb_scene *scene, uint32_t node)
+{
+    if (node == 0 || scene->node_chain[node] != scene->node_chain[node - 1]) return 1;
+    return scene->layout.size[node] != scene->layout.size[node - 1] ||
+           dmb_element_between(scene, node - 1, 1) == UINT32_MAX;
+}
+
+static void find_parts(conditions *c)
+{
+    const dmb_scene *scene = &c->linear->scene;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        if (begins_part(scene, i)) c->parts[c->part_count++].first = i;
+        c->parts[c->part_count - 1].count++;
+    }
+    for (uint32_t k = 0; k < c->part_count; k++) {
+        rigid_part *p = c->parts + k;
+        p->candidate = c->candidates;
+        p->full = scene->layout.size[p->first] == DMB_NODE_FULL;
+        measure_part(c, p);
+        p->candidates = scene->layout.size[p->first] + (p->full && p->bend > DMB_RIGID_BENT ? 1U : 0U);
+        c->candidates += p->candidates;
+    }
+}
+
+/* d += factor times the motion of a part, by its candidate. */
+static void add_candidate(const conditions *c, const rigid_part *p, uint32_t candidate, double factor, double *d)
+{
+    const dmb_block_layout *layout = &c->linear->scene.layout;
+    double turn[3] = {0.0, 0.0, 0.0};
+    if (p->full && candidate >= 3 && candidate < DMB_NODE_FULL) turn[candidate - 3] = factor / p->size;
+    for (uint32_t i = p->first; i < p->first + p->count; i++) {
+        double rotation[9], arm[3], shift[3], local[3], *to = d + layout->row[i];
+        if (!p->full || candidate == DMB_NODE_FULL) {
+            to[p->full ? 3 : candidate] += p->full ? factor / p->size : factor;
+            continue;
+        }
+        node_place(c->linear, i, rotation, arm);
+        dmb_vec3_sub(arm, p->middle, arm);
+        dmb_vec3_cross(turn, arm, shift);
+        if (candidate < 3) shift[candidate] += factor;
+        dmb_mat3_tvec(rotation, shift, local);
+        dmb_vec3_add(to, local, to);
+        dmb_mat3_tvec(rotation, turn, local);
+        dmb_vec3_add(to + 3, local, to + 3);
+    }
+}
+
+/* ---- Conditions -------------------------------------------------------------------------------------------------- */
+
+static int32_t put(conditions *c, uint32_t condition, uint32_t candidate, double value)
+{
+    if (c->entry_count == c->entry_room) {
+        const size_t room = 2 * c->entry_room + 1024;
+        entry *more = dmb_allocate_array(c->allocator, room, sizeof *more);
+        if (more == NULL) return DMB_ERR_NO_MEMORY;
+        if (c->entry_count > 0) memcpy(more, c->entries, c->entry_count * sizeof *more);
+        if (c->entries != NULL) dmb_release(c->allocator, c->entries, c->entry_room * sizeof *more);
+        c->entries = more;
+        c->entry_room = room;
+    }
+    const entry made = {condition, candidate, value};
+    c->entries[c->entry_count++] = made;
+    return DMB_OK;
+}
+
+/* Keeps a value that is more than rounding of its terms, and these. */
+static int32_t put_row(conditions *c, uint32_t condition, uint32_t candidate, double value, double terms)
+{
+    c->terms[condition] += terms;
+    return fabs(value) > c->tolerance * terms ? put(c, condition, candidate, value) : DMB_OK;
+}
+
+/* (1 - R E) d */
+static int32_t put_held_rows(conditions *c, uint32_t candidate)
+{
+    const dmb_linear *linear = c->linear;
+    int32_t status = DMB_OK;
+    for (uint32_t r = 0; r < linear->rows && status >= 0; r++) {
+        double value = c->d[r], terms = fabs(value);
+        for (uint32_t i = linear->start[r]; i < linear->start[r + 1]; i++) {
+            const double part = linear->value[i] * c->d[linear->row_of[linear->column[i]]];
+            value -= part;
+            terms += fabs(part);
+        }
+        if (terms > 0.0) status = put_row(c, r, candidate, value, terms);
+    }
+    return status;
+}
+
+/* What is left of the forces in the state does not count as holding: it turns with a motion. */
+static void add_unbalanced(const conditions *c)
+{
+    const dmb_block_layout *layout = &c->linear->scene.layout;
+    for (uint32_t i = 0; i < layout->n; i++) {
+        const uint32_t size = layout->size[i], row = layout->row[i];
+        double force = 0.0, motion = 0.0;
+        for (uint32_t k = 0; k < size; k++) {
+            force += fabs(c->linear->unbalanced[row + k]);
+            motion += fabs(c->d[row + k]);
+        }
+        for (uint32_t k = 0; k < size; k++) c->terms_d[row + k] += DMB_RIGID_UNBALANCED / c->tolerance * force * motion;
+    }
+}
+
+/* Frames turn a stiffness and its rounding into all rows of a node. */
+static void add_rounding(const conditions *c)
+{
+    const dmb_block_layout *layout = &c->linear->scene.layout;
+    const double arm = c->linear->scene.length_scale;
+    for (uint32_t i = 0; i < layout->n; i++) {
+        const uint32_t size = layout->size[i], row = layout->row[i];
+        double most = 0.0;
+        for (uint32_t k = 0; k < size; k++) most = fmax(most, c->terms_d[row + k] / (2 * k < size ? 1.0 : arm));
+        most *= DMB_RIGID_AWAY / c->tolerance;
+        for (uint32_t k = 0; k < size; k++) c->terms_d[row + k] += most * (2 * k < size ? 1.0 : arm);
+    }
+}
+
+/* R^T K d */
+static int32_t put_forces(conditions *c, uint32_t candidate)
+{
+    dmb_linear *linear = c->linear;
+    int32_t status = DMB_OK;
+    dmb_linear_multiply(linear, &linear->stiffness, c->d, c->Kd);
+    dmb_linear_terms(linear, &linear->stiffness, c->d, c->terms_d);
+    add_rounding(c);
+    add_unbalanced(c);
+    dmb_linear_restrict(linear, c->Kd, c->g);
+    dmb_linear_restrict_terms(linear, c->terms_d, c->terms_g);
+    for (uint32_t i = 0; i < linear->coordinates && status >= 0; i++)
+        if (c->terms_g[i] > 0.0) status = put_row(c, linear->rows + i, candidate, c->g[i], c->terms_g[i]);
+    return status;
+}
+
+static int32_t make_conditions(conditions *c)
+{
+    int32_t status = DMB_OK;
+    for (uint32_t k = 0; k < c->part_count; k++)
+        for (uint32_t i = 0; i < c->parts[k].candidates && status >= 0; i++) {
+            memset(c->d, 0, c->linear->rows * sizeof(double));
+            add_candidate(c, c->parts + k, i, 1.0, c->d);
+            status = put_held_rows(c, c->parts[k].candidate + i);
+            if (status >= 0) status = put_forces(c, c->parts[k].candidate + i);
+        }
+    return status;
+}
+
+/* ---- Null space -------------------------------------------------------------------------------------------------- */
+
+/* Takes a row of n numbers, of which the first `from` are 0, into the triangle R, shape (n, n) by rows; row is lost. */
+static void rotate_in(size_t n, size_t from, double *R, double *row)
+{
+    for (size_t k = from; k < n; k++) {
+        double *pivot = R + n * k;
+        if (row[k] == 0.0) continue;
+        const double size = hypot(pivot[k], row[k]), c = pivot[k] / size, s = row[k] / size;
+        for (size_t j = k; j < n; j++) {
+            const double above = pivot[j], here = row[j];
+            pivot[j] = c * above + s * here;
+            row[j] = c * here - s * above;
+        }
+        row[k] = 0.0;
+    }
+}
+
+static double tail_square(size_t n, size_t k, const double *A, size_t column)
+{
+    double sum = 0.0;
+    for (size_t i = k; i < n; i++) sum += A[n * i + column] * A[n * i + column];
+    return sum;
+}
+
+static void exchange_columns(size_t n, double *A, uint32_t *order, size_t a, size_t b)
+{
+    const uint32_t kept = order[a];
+    order[a] = order[b];
+    order[b] = kept;
+    for (size_t i = 0; a != b && i < n; i++) {
+        const double value = A[n * i + a];
+        A[n * i + a] = A[n * i + b];
+        A[n * i + b] = value;
+    }
+}
+
+/* The reflection that makes column k of A zero below its diagonal, on all columns after it; v: shape (2n). */
+static void reflect(size_t n, size_t k, double norm, double *A, double *v)
+{
+    double *products = v + n, square = 0.0;
+    const double alpha = A[n * k + k] > 0.0 ? -norm : norm;
+    for (size_t i = k; i < n; i++) v[i] = A[n * i + k];
+    v[k] -= alpha;
+    for (size_t i = k; i < n; i++) square += v[i] * v[i];
+    memset(products, 0, n * sizeof(double));
+    for (size_t i = k; i < n; i++)
+        for (size_t j = k; j < n; j++) products[j] += v[i] * A[n * i + j];
+    for (size_t i = k; i < n; i++)
+        for (size_t j = k; j < n; j++) A[n * i + j] -= 2.0 / square * v[i] * products[j];
+}
+
+/* Rank of A, shape (n, n) by rows, which becomes the triangle [T11 T12; 0 0] of its columns in `order`. */
+static size_t triangulate(size_t n, double tolerance, double *A, uint32_t *order, double *v)
+{
+    for (size_t k = 0; k < n; k++) order[k] = (uint32_t)k;
+    for (size_t k = 0; k < n; k++) {
+        size_t most = k;
+        double square = -1.0;
+        for (size_t j = k; j < n; j++) {
+            const double here = tail_square(n, k, A, j);
+            if (here > square) square = here, most = j;
+        }
+        if (!(sqrt(square) > tolerance)) return k;
+        exchange_columns(n, A, order, k, most);
+        reflect(n, k, sqrt(square), A, v);
+    }
+    return n;
+}
+
+/* Null vector number i of the triangle: q = (-T11^-1 T12 e_i; e_i) in the order of its columns. */
+static void null_vector(size_t n, size_t rank, const double *A, const uint32_t *order, size_t i, double *work,
+                        double *q)
+{
+    for (size_t k = rank; k-- > 0;) {
+        double sum = -A[n * k + rank + i];
+        for (size_t j = k + 1; j < rank; j++) sum -= A[n * k + j] * work[j];
+        work[k] = sum / A[n * k + k];
+    }
+    memset(q, 0, n * sizeof(double));
+    for (size_t k = 0; k < rank; k++) q[order[k]] = work[k];
+    q[order[rank + i]] = 1.0;
+}
+
+/* ---- Motions ----------------------------------------------------------------------------------------------------- */
+
+/* Where the entries of each condition begin among those sorted by it. */
+static void sort_entries(const conditions *c, size_t *start, entry *sorted)
+{
+    for (size_t i = 0; i < c->entry_count; i++) start[c->entries[i].condition + 1]++;
+    for (uint32_t r = 0; r < c->count; r++) start[r + 1] += start[r];
+    for (size_t i = 0; i < c->entry_count; i++) sorted[start[c->entries[i].condition]++] = c->entries[i];
+    for (uint32_t r = c->count; r > 0; r--) start[r] = start[r - 1];
+    start[0] = 0;
+}
+
+static void gather(const conditions *c, const size_t *start, const entry *sorted, double *R, double *row)
+{
+    const size_t n = c->candidates;
+    for (uint32_t r = 0; r < c->count; r++) {
+        if (start[r] == start[r + 1]) continue;
+        memset(row, 0, n * sizeof(double));
+        for (size_t i = start[r]; i < start[r + 1]; i++) {
+            const double value = sorted[i].value / c->terms[r];
+            row[sorted[i].candidate] = fabs(value) > c->tolerance ? value : 0.0;
+        }
+        rotate_in(n, sorted[start[r]].candidate, R, row);
+    }
+}
+
+/* r = R E B q, which joints let happen to the last digit. */
+static void motion_of(const conditions *c, const double *q, double *r)
+{
+    const dmb_linear *linear = c->linear;
+    memset(c->d, 0, linear->rows * sizeof(double));
+    for (uint32_t k = 0; k < c->part_count; k++)
+        for (uint32_t i = 0; i < c->parts[k].candidates; i++)
+            if (q[c->parts[k].candidate + i] != 0.0)
+                add_candidate(c, c->parts + k, i, q[c->parts[k].candidate + i], c->d);
+    for (uint32_t i = 0; i < linear->coordinates; i++) c->g[i] = c->d[linear->row_of[i]];
+    dmb_linear_expand(linear, c->g, r);
+}
+
+/* So little of a motion is beside those before it where it is one of them again. */
+#define DMB_RIGID_AGAIN 1e-6
+
+/* The motion as one more of those that are orthonormal in M. */
+static void take_motion(const conditions *c, const double *q)
+{
+    dmb_mode_search *search = c->search;
+    const size_t rows = c->linear->rows;
+    double *r = search->rigid + rows * search->rigid_count, *Mr = search->rigid_momentum + rows * search->rigid_count;
+    motion_of(c, q, r);
+    for (int pass = 0; pass < 3; pass++) {
+        if (pass > 0) dmb_modes_take_rigid(search, search->rigid_momentum, search->rigid, r);
+        dmb_linear_multiply(c->linear, &c->linear->mass, r, Mr);
+        const double size = sqrt(dmb_dot(rows, r, Mr));
+        if (!(size > (pass > 0 ? DMB_RIGID_AGAIN : 0.0)) || !isfinite(size)) return;
+        for (size_t i = 0; i < rows; i++) r[i] /= size;
+    }
+    dmb_linear_multiply(c->linear, &c->linear->mass, r, Mr);
+    search->rigid_count++;
+}
+
+static int32_t reserve(dmb_mode_search *search, size_t count)
+{
+    const size_t rows = search->linear->rows;
+    search->rigid_bytes = 2 * rows * count * sizeof(double);
+    search->rigid = dmb_allocate(&search->linear->allocator, search->rigid_bytes);
+    if (search->rigid == NULL) return DMB_ERR_NO_MEMORY;
+    search->rigid_momentum = search->rigid + rows * count;
+    return DMB_OK;
+}
+
+static int32_t take_null_space(conditions *c)
+{
+    const size_t n = c->candidates, starts = ((size_t)c->count + 2) * sizeof(size_t);
+    const size_t bytes =
+        (n * n + 4 * n) * sizeof(double) + c->entry_count * sizeof(entry) + starts + n * sizeof(uint32_t);
+    double *R = dmb_allocate(c->allocator, bytes);
+    if (R == NULL) return DMB_ERR_NO_MEMORY;
+    double *v = R + n * n, *q = v + 2 * n, *work = q + n;
+    entry *sorted = (entry *)(void *)(work + n);
+    size_t *start = (size_t *)(void *)(sorted + c->entry_count);
+    uint32_t *order = (uint32_t *)(void *)(start + c->count + 2);
+    sort_entries(c, start, sorted);
+    gather(c, start, sorted, R, q);
+    const size_t rank = triangulate(n, c->tolerance, R, order, v);
+    const int32_t status = rank < n ? reserve(c->search, n - rank) : DMB_OK;
+    for (size_t i = 0; i < n - rank && status >= 0; i++) {
+        null_vector(n, rank, R, order, i, work, q);
+        take_motion(c, q);
+    }
+    dmb_release(c->allocator, R, bytes);
+    return status;
+}
+
+static int32_t open_conditions(conditions *c)
+{
+    const dmb_linear *linear = c->linear;
+    const size_t rows = linear->rows, n = linear->coordinates, nodes = linear->scene.node_count;
+    c->count = linear->rows + linear->coordinates;
+    c->bytes = (rows + n + 3 * rows + 2 * n) * sizeof(double) + nodes * sizeof(rigid_part);
+    c->block = dmb_allocate(c->allocator, c->bytes);
+    if (c->block == NULL) return DMB_ERR_NO_MEMORY;
+    c->terms = c->block;
+    c->d = c->terms + rows + n;
+    c->Kd = c->d + rows;
+    c->terms_d = c->Kd + rows;
+    c->g = c->terms_d + rows;
+    c->terms_g = c->g + n;
+    c->parts = (rigid_part *)(void *)(c->terms_g + n);
+    return DMB_OK;
+}
+
+int32_t dmb_modes_find_rigid(dmb_mode_search *search)
+{
+    conditions c = {.search = search, .linear = search->linear, .allocator = &search->linear->allocator};
+    int32_t status = open_conditions(&c);
+    if (status < 0) return status;
+    find_parts(&c);
+    if (c.candidates <= DMB_CANDIDATES_MAX) {
+        search->apart = 1; /* while they are made orthogonal */
+        status = make_conditions(&c);
+        if (status >= 0) status = take_null_space(&c);
+        search->apart = 0;
+    }
+    if (c.entries != NULL) dmb_release(c.allocator, c.entries, c.entry_room * sizeof(entry));
+    dmb_release(c.allocator, c.block, c.bytes);
+    return status;
+}

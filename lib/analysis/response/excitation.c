@@ -1,0 +1,315 @@
+/* Rows of force of each kind of input. A force at a place is the transpose of the motion there (virtual work), so that
+ * receptances are reciprocal to rounding; what the scene describes acts by the difference its factor makes to the
+ * residual, which is linear in it. */
+#include "analysis/response/excitation.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "analysis/linear/functional.h"
+#include "math/vec3.h"
+#include "system/constrain/cluster.h"
+#include "system/assemble/evaluation.h"
+#include "sim/node.h"
+#include "system/assemble/wall_contact.h"
+
+/* Differences of the residual with a factor this large lose nothing to the forces of the state. */
+#define DMB_EXCITATION_FACTOR 1e6
+
+typedef struct request {
+    dmb_sim *copy;
+    const dmb_input *input;
+    uint32_t index;
+    dmb_message *message;
+    dmb_excitation *out;
+} request;
+
+static int32_t refuse(const request *r, int32_t status, const char *why)
+{
+    dmb_message_set(r->message, "input %u: %s", r->index, why);
+    return status;
+}
+
+/* ---- Described actions ------------------------------------------------------------------------------------------- */
+
+static int32_t residual(dmb_sim *copy, double step)
+{
+    dmb_evaluation evaluation;
+    memset(&evaluation, 0, sizeof evaluation);
+    evaluation.sim = copy;
+    evaluation.time = copy->clock->time;
+    evaluation.step = step;
+    evaluation.pseudo_factor = 1.0;
+    evaluation.load_factor = 1.0;
+    evaluation.dynamic = 1;
+    return dmb_system_evaluate(&evaluation);
+}
+
+/* rows = -(what the residual changes by) / scale where *factor grows by `change`; constraint forces stay as they are.
+ */
+static int32_t difference(const request *r, double *factor, double change, double scale, double step)
+{
+    dmb_sim *copy = r->copy;
+    const double kept = *factor;
+    const int32_t multipliers = copy->reduced_mode->multipliers;
+    copy->reduced_mode->multipliers = 1;
+    *factor = kept + change;
+    int32_t status = residual(copy, step);
+    for (uint32_t i = 0; i < copy->scene->row_count; i++) r->out->re[i] = -copy->correction[i];
+    *factor = kept;
+    if (status >= 0) status = residual(copy, step);
+    for (uint32_t i = 0; i < copy->scene->row_count; i++) r->out->re[i] = (r->out->re[i] + copy->correction[i]) / scale;
+    copy->reduced_mode->multipliers = multipliers;
+    return status;
+}
+
+static int32_t derivative(const request *r, double *factor)
+{
+    return difference(r, factor, DMB_EXCITATION_FACTOR, DMB_EXCITATION_FACTOR, 0.0);
+}
+
+/* Over a step of 2 s the force of a controller grows by kp + ki for a unit of its target, held within its limits. */
+static int32_t controlled_joint(const request *r, uint32_t i, const dmb_scene_drive *drive)
+{
+    const double gain = drive->gain + drive->integral_gain, now = r->copy->now.drive_force[i];
+    const double room = 0.25 * fmin(drive->limit_high - now, now - drive->limit_low);
+    const double change = fmin(DMB_EXCITATION_FACTOR, room) / gain;
+    if (!(gain > 0.0)) return refuse(r, DMB_ERR_VALUE, "the drive has no gain and answers to nothing");
+    return difference(r, r->copy->trial.drive_target + i, change, change * gain, 2.0);
+}
+
+/* x: what the pivot rows of a cluster have to move by, in their order; displacements of its dependent rows then. */
+static void move_dependent(const request *r, uint32_t cluster_index, double *x)
+{
+    const dmb_sim *copy = r->copy;
+    const dmb_cluster *cluster = copy->scene->clusters + cluster_index;
+    const dmb_partition partition = dmb_cluster_partition(copy, cluster_index);
+    dmb_partition_solve(&partition, copy->cluster_lu + cluster->square, copy->cluster_pivot + cluster->row, x);
+    for (uint32_t k = 0; k < partition.rank; k++) {
+        r->out->re[copy->scene->cluster_columns[cluster->column + partition.column_order[k]]] = x[k];
+        x[k] = 0.0;
+    }
+}
+
+/* Displacements of dependent rows that move the coordinate by one and hold every other equation: C_d x = unit. */
+static int32_t moved_joint(const request *r, const dmb_scene_drive *drive)
+{
+    const dmb_constraint *constraint = r->copy->scene->constraints + drive->constraint;
+    const dmb_cluster *cluster = r->copy->scene->clusters + constraint->cluster;
+    const dmb_partition partition = dmb_cluster_partition(r->copy, constraint->cluster);
+    double *x = r->out->im; /* long enough for the while: as many as the cluster has rows */
+    uint32_t place = UINT32_MAX;
+    for (uint32_t k = 0; k < partition.rank; k++) {
+        x[k] = 0.0;
+        if (partition.row_order[k] == constraint->row - cluster->row) place = k;
+    }
+    if (place == UINT32_MAX) return refuse(r, DMB_ERR_VALUE, "other equations hold the joint that the drive moves");
+    x[place] = 1.0;
+    move_dependent(r, constraint->cluster, x);
+    return DMB_OK;
+}
+
+/* 1 if the displacements hold every equation of the cluster, redundant ones too: what is held may contradict them. */
+static int32_t holds(const request *r, uint32_t k)
+{
+    const dmb_cluster *cluster = r->copy->scene->clusters + k;
+    const uint32_t *row_of = r->copy->scene->cluster_columns + cluster->column;
+    for (uint32_t i = 0; i < cluster->rows; i++) {
+        const double *B = r->copy->cluster_matrix + cluster->dense + (size_t)i * cluster->columns;
+        double sum = 0.0, largest = 0.0;
+        for (uint32_t c = 0; c < cluster->columns; c++) {
+            sum += B[c] * r->out->re[row_of[c]];
+            largest = fmax(largest, fabs(B[c] * r->out->re[row_of[c]]));
+        }
+        if (fabs(sum) > 1e-6 * largest) return 0;
+    }
+    return 1;
+}
+
+/* The row moves by one, and of the joints' nodes what depends on it: C_d x = -(column of the row). */
+static int32_t moved_node(const request *r, const dmb_scene_drive *drive)
+{
+    const dmb_scene *scene = r->copy->scene;
+    r->out->re[drive->row] = 1.0;
+    if (scene->cluster_count == 0 || scene->node_cluster[drive->node] == UINT32_MAX) return DMB_OK;
+    const uint32_t k = scene->node_cluster[drive->node];
+    const dmb_cluster *cluster = scene->clusters + k;
+    const dmb_partition partition = dmb_cluster_partition(r->copy, k);
+    const uint32_t column = scene->node_place[drive->node] + drive->row - scene->layout.row[drive->node];
+    const double *B = r->copy->cluster_matrix + cluster->dense;
+    double *x = r->out->im;
+    for (uint32_t i = 0; i < partition.rank; i++) x[i] = -B[(size_t)partition.row_order[i] * cluster->columns + column];
+    move_dependent(r, k, x);
+    if (!holds(r, k)) return refuse(r, DMB_ERR_VALUE, "joints hold the part that the drive moves");
+    return DMB_OK;
+}
+
+static int32_t moved(const request *r, const dmb_scene_drive *drive)
+{
+    r->out->law = DMB_EXCITE_MOTION;
+    return drive->joint == UINT32_MAX ? moved_node(r, drive) : moved_joint(r, drive);
+}
+
+/* A force on a row grows by kp + ki/(i w) for a unit of the target. */
+static int32_t controlled(const request *r, uint32_t i, const dmb_scene_drive *drive)
+{
+    r->out->law = DMB_EXCITE_CONTROL;
+    r->out->gain = drive->gain;
+    r->out->integral_gain = drive->integral_gain;
+    if (drive->joint != UINT32_MAX) return controlled_joint(r, i, drive);
+    r->out->re[drive->row] = 1.0;
+    return DMB_OK;
+}
+
+static int32_t drive(const request *r)
+{
+    const uint32_t i = dmb_model_part_index(r->copy->model, r->input->place.part, DMB_PART_DRIVE);
+    if (i >= r->copy->scene->drive_count) return refuse(r, DMB_ERR_ID, "place.part names no drive of this model");
+    const dmb_scene_drive *drive = r->copy->scene->drives + i;
+    const double force = r->copy->now.drive_force[i];
+    r->out->drive = i;
+    if (drive->joint != UINT32_MAX && r->copy->joint_state[drive->joint] == DMB_JOINT_OPEN)
+        return refuse(r, DMB_ERR_VALUE, "the joint of the drive is open");
+    if (drive->kind == DMB_DRIVE_CONTROL && (force <= drive->limit_low || force >= drive->limit_high))
+        return refuse(r, DMB_ERR_VALUE, "the drive is at its limit and answers to nothing");
+    if (drive->kind == DMB_DRIVE_LOAD) return derivative(r, r->copy->trial.drive_target + i);
+    return drive->kind == DMB_DRIVE_MOTION ? moved(r, drive) : controlled(r, i, drive);
+}
+
+static int32_t load(const request *r)
+{
+    const uint32_t i = dmb_model_part_index(r->copy->model, r->input->place.part, DMB_PART_LOAD);
+    if (i >= r->copy->scene->load_count) return refuse(r, DMB_ERR_ID, "place.part names no load of this model");
+    return derivative(r, r->copy->trial.load_factor + i);
+}
+
+static int32_t bit_load(const request *r)
+{
+    const uint32_t i = dmb_model_part_index(r->copy->model, r->input->place.part, DMB_PART_BIT);
+    if (i >= r->copy->scene->bit_count) return refuse(r, DMB_ERR_ID, "place.part names no bit of this model");
+    return derivative(r, r->copy->trial.bit_load + i);
+}
+
+/* ---- Forces at places -------------------------------------------------------------------------------------------- */
+
+/* to += factor times the rows of a unit force */
+static int32_t add_force(const request *r, int32_t component, double factor, double *to)
+{
+    dmb_functional f;
+    const int32_t status = dmb_functional_of_motion(r->copy, r->input->place, r->input->frame, component, &f);
+    if (status < 0) {
+        dmb_message_set(r->message, "input %u: place, pipe %u at %g: %s", r->index, r->input->place.pipe,
+                        r->input->place.fraction, dmb_status_text(status));
+        return status;
+    }
+    for (uint32_t i = 0; i < f.count; i++) to[f.row[i]] += factor * f.pose[i];
+    return DMB_OK;
+}
+
+static int32_t force(const request *r)
+{
+    return add_force(r, r->input->component, 1.0, r->out->re);
+}
+
+/* U w^2 along y, and the same along z a quarter of a turn later: cos wt, cos(wt - pi/2) = Re(e^iwt), Re(-i e^iwt). */
+static int32_t unbalance(const request *r)
+{
+    r->out->law = DMB_EXCITE_INERTIA;
+    if (r->input->component != DMB_RX) return force(r);
+    const int32_t status = add_force(r, DMB_Y, 1.0, r->out->re);
+    return status < 0 ? status : add_force(r, DMB_Z, -1.0, r->out->im);
+}
+
+/* ---- The scene's own excitations --------------------------------------------------------------------------------- */
+
+/* The centrifugal wrench g turns with the frequency: g_y + i g_z along y and g_z - i g_y along z. */
+static void add_rigid_mass(const dmb_sim *copy, uint32_t i, const double g[6], dmb_excitation *out)
+{
+    const uint32_t row = copy->scene->layout.row[copy->scene->rigid_masses[i].node];
+    for (uint32_t c = 0; c < 6; c += 3) {
+        out->re[row + c + 1] += g[c + 1];
+        out->im[row + c + 1] += g[c + 2];
+        out->re[row + c + 2] += g[c + 2];
+        out->im[row + c + 2] -= g[c + 1];
+    }
+}
+
+/* PATH nodes are held across the hole, in time too: what pulls them sideways moves nothing. */
+static int32_t eccentricity(const request *r)
+{
+    const dmb_scene *scene = r->copy->scene;
+    uint32_t felt = 0, unfelt = 0;
+    r->out->law = DMB_EXCITE_INERTIA;
+    for (uint32_t i = 0; i < scene->rigid_mass_count; i++) {
+        double g[6];
+        dmb_unbalance_of(scene, i, g);
+        const int eccentric = g[1] != 0.0 || g[2] != 0.0 || g[4] != 0.0 || g[5] != 0.0;
+        const int full = scene->layout.size[scene->rigid_masses[i].node] == DMB_NODE_FULL;
+        felt += eccentric && full;
+        unfelt += eccentric && !full;
+        if (full) add_rigid_mass(r->copy, i, g, r->out);
+    }
+    if (unfelt > 0 && felt == 0)
+        return refuse(r, DMB_ERR_UNSUPPORTED, "axial-torsional pipes do not feel their eccentric masses");
+    return DMB_OK;
+}
+
+/* Normal force times a unit coefficient along the hole, (t; -r b), or around it, (b; r t) with b = t x n, as in
+ * system/assemble/wall_contact. */
+static void add_ring(const dmb_sim *copy, uint32_t s, int32_t around, double *rows)
+{
+    const dmb_site *site = copy->scene->sites + s;
+    double R[9], u[3], n[3], t[3], b[3], w[6];
+    dmb_site_force f;
+    dmb_site_force_of(copy->scene, &copy->now, s, &f);
+    if (!f.closed) return;
+    dmb_node_pose(copy->scene, &copy->now, site->node, R, u);
+    dmb_mat3_tvec(R, f.normal, n);
+    dmb_mat3_tvec(R, f.tangent, t);
+    dmb_vec3_cross(t, n, b);
+    dmb_vec3_scale(f.normal_force, around ? b : t, w);
+    dmb_vec3_scale(f.normal_force * (around ? site->radius : -site->radius), around ? t : b, w + 3);
+    w[4] -= site->offset * w[2];
+    w[5] += site->offset * w[1];
+    for (uint32_t i = 0; i < 6; i++) rows[copy->scene->layout.row[site->node] + i] += w[i];
+}
+
+static void add_path(const dmb_sim *copy, uint32_t s, int32_t around, double *rows)
+{
+    const dmb_path_site *site = copy->scene->path_sites + s;
+    const uint32_t row = copy->scene->layout.row[site->node];
+    dmb_site_force f;
+    dmb_path_site_force_of(copy->scene, &copy->now, s, &f);
+    rows[around ? row + 1 : row] += f.normal_force * (around ? site->radius : 1.0);
+}
+
+static int32_t friction(const request *r)
+{
+    const int32_t around = r->input->component == DMB_RX;
+    if (!around && r->input->component != DMB_X)
+        return refuse(r, DMB_ERR_VALUE, "component must be DMB_X (friction along the hole) or DMB_RX (around it)");
+    for (uint32_t s = 0; s < r->copy->scene->site_count; s++) add_ring(r->copy, s, around, r->out->re);
+    for (uint32_t s = 0; s < r->copy->scene->path_site_count; s++) add_path(r->copy, s, around, r->out->re);
+    return DMB_OK;
+}
+
+static int32_t make(const request *r)
+{
+    switch (r->input->kind) {
+    case DMB_INPUT_DRIVE: return drive(r);
+    case DMB_INPUT_LOAD: return load(r);
+    case DMB_INPUT_BIT_LOAD: return bit_load(r);
+    case DMB_INPUT_FORCE: return force(r);
+    case DMB_INPUT_UNBALANCE: return unbalance(r);
+    case DMB_INPUT_ECCENTRICITY: return eccentricity(r);
+    default: return friction(r);
+    }
+}
+
+int32_t dmb_excitation_of(dmb_sim *copy, const dmb_input *input, uint32_t index, dmb_message *message,
+                          dmb_excitation *out)
+{
+    const request r = {copy, input, index, message, out};
+    out->drive = UINT32_MAX;
+    return make(&r);
+}

@@ -1,0 +1,159 @@
+#include "analysis/response/response_options.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/value_check.h"
+#include "base/sized_struct.h"
+
+DMB_DEFINE_INIT(dmb_input, 56, {.kind = DMB_INPUT_FORCE, .amplitude = 1.0})
+
+DMB_DEFINE_INIT(dmb_output, 40, {.kind = DMB_OUTPUT_DISPLACEMENT})
+
+DMB_DEFINE_INIT(dmb_response_options, 72,
+                {
+                    .points = 1000,
+                    .frequency_low = 1.0,
+                    .frequency_high = 100.0,
+                    .equilibrium_tolerance = 1e-6,
+                    .contact = DMB_CONTACT_AS_IS,
+                    .friction = 1,
+                })
+
+DMB_DEFINE_INIT(dmb_stepped_sine_options, 40,
+                {
+                    .steps_per_period = 100,
+                    .periods = 4,
+                    .windows = 500,
+                    .harmonics = 3,
+                    .tolerance = 1e-3,
+                    .floor = 1e-12,
+                })
+
+DMB_DEFINE_INIT(dmb_stepped_sine_report, 48, {.settled = 0})
+
+enum { POINTS_MAX = 1000000, REFINEMENT_MAX = 40 };
+#define DMB_FREQUENCY_MAX 1e9 /* [Hz] its square times a mass is far from overflow */
+
+/* ---- Options ----------------------------------------------------------------------------------------------------- */
+
+static void check_band(dmb_check *check, const dmb_response_options *o)
+{
+    dmb_check_within(check, "frequency_low", o->frequency_low, 0.0, DMB_FREQUENCY_MAX);
+    dmb_check_within(check, "frequency_high", o->frequency_high, 0.0, DMB_FREQUENCY_MAX);
+    dmb_check_at_least_field(check, "frequency_high", o->frequency_high, "frequency_low", o->frequency_low);
+    if (check->status < 0) return;
+    if (o->logarithmic) dmb_check_above(check, "frequency_low", o->frequency_low, 0.0);
+    if (o->frequency_high == o->frequency_low) dmb_check_count(check, "points", o->points, 1, 1);
+    if (o->frequency_high > o->frequency_low) dmb_check_count(check, "points", o->points, 2, POINTS_MAX);
+}
+
+static void check_list(dmb_check *check, const dmb_response_options *o)
+{
+    dmb_check_count(check, "points", o->points, 1, POINTS_MAX);
+    for (uint32_t i = 0; i < o->points && check->status == DMB_OK; i++) {
+        dmb_check_within(check, "frequencies", o->frequencies[i], 0.0, DMB_FREQUENCY_MAX);
+        if (i > 0)
+            dmb_check_above_field(check, "frequencies", o->frequencies[i], "the one before", o->frequencies[i - 1]);
+    }
+}
+
+int32_t dmb_response_options_take(const dmb_response_options *given, dmb_message *message, dmb_response_options *out)
+{
+    dmb_check check = dmb_check_of(message, "response options", DMB_NO_INDEX);
+    *out = dmb_response_options_default();
+    if (given != NULL && dmb_response_options_read(out, given) < 0) {
+        dmb_message_set(message, "response options: struct_size is not one this library knows");
+        return DMB_ERR_STRUCT_SIZE;
+    }
+    dmb_check_choice(&check, "logarithmic", out->logarithmic, 0, 1);
+    dmb_check_count(&check, "refinement", out->refinement, 0, REFINEMENT_MAX);
+    dmb_check_within(&check, "structural_damping", out->structural_damping, 0.0, 1e3);
+    dmb_check_within(&check, "equilibrium_tolerance", out->equilibrium_tolerance, 1e-6, 1.0);
+    dmb_check_choice(&check, "contact", out->contact, DMB_CONTACT_AS_IS, DMB_CONTACT_CLOSED);
+    dmb_check_choice(&check, "friction", out->friction, 0, 1);
+    dmb_check_within(&check, "contact_gap", out->contact_gap, 0.0, 1e6);
+    if (check.status == DMB_OK && out->frequencies != NULL)
+        check_list(&check, out);
+    else
+        check_band(&check, out);
+    return check.status;
+}
+
+int32_t dmb_stepped_sine_options_take(const dmb_stepped_sine_options *given, double frequency, dmb_message *message,
+                              dmb_stepped_sine_options *out)
+{
+    dmb_check check = dmb_check_of(message, "sine options", DMB_NO_INDEX);
+    *out = dmb_stepped_sine_options_default();
+    if (given != NULL && dmb_stepped_sine_options_read(out, given) < 0) {
+        dmb_message_set(message, "sine options: struct_size is not one this library knows");
+        return DMB_ERR_STRUCT_SIZE;
+    }
+    dmb_check_within(&check, "frequency", frequency, 1e-9, DMB_FREQUENCY_MAX);
+    dmb_check_count(&check, "steps_per_period", out->steps_per_period, 16, 1000000);
+    dmb_check_count(&check, "periods", out->periods, 1, 10000);
+    dmb_check_count(&check, "windows", out->windows, 3, 1000000);
+    dmb_check_count(&check, "harmonics", out->harmonics, 1, DMB_STEPPED_SINE_HARMONICS_MAX);
+    if (check.status == DMB_OK && out->harmonics > out->steps_per_period / 8)
+        dmb_check_fail(&check, DMB_ERR_VALUE, "harmonics", out->harmonics, "<= steps_per_period/8");
+    dmb_check_within(&check, "tolerance", out->tolerance, 1e-12, 1.0);
+    dmb_check_within(&check, "floor", out->floor, 1e-300, 1e30);
+    return check.status;
+}
+
+double dmb_response_grid(const dmb_response_options *o, uint32_t i)
+{
+    if (o->frequencies != NULL) return o->frequencies[i];
+    if (i == 0) return o->frequency_low;
+    if (i == o->points - 1) return o->frequency_high;
+    const double x = (double)i / (o->points - 1);
+    if (o->logarithmic) return o->frequency_low * pow(o->frequency_high / o->frequency_low, x);
+    return o->frequency_low + x * (o->frequency_high - o->frequency_low);
+}
+
+/* ---- Inputs and outputs ------------------------------------------------------------------------------------------ */
+
+static const void *item_of(const void *items, uint32_t stride, uint32_t i, uint32_t *size)
+{
+    const unsigned char *item = (const unsigned char *)items + (size_t)stride * i;
+    memcpy(size, item, sizeof *size);
+    return item;
+}
+
+int32_t dmb_input_take(const dmb_input *inputs, uint32_t i, dmb_message *message, dmb_input *out)
+{
+    dmb_check check = dmb_check_of(message, "input", i);
+    uint32_t size;
+    const void *item = item_of(inputs, inputs->struct_size, i, &size);
+    *out = dmb_input_default();
+    if (size != inputs->struct_size || dmb_input_read(out, item) < 0) {
+        dmb_message_set(message, "input %u: struct_size is not one this library knows, or not that of the first", i);
+        return DMB_ERR_STRUCT_SIZE;
+    }
+    const int32_t last = out->kind == DMB_INPUT_UNBALANCE ? DMB_RX : DMB_RZ;
+    dmb_check_choice(&check, "kind", out->kind, DMB_INPUT_DRIVE, DMB_INPUT_FRICTION);
+    dmb_check_choice(&check, "component", out->component, DMB_X, last);
+    dmb_check_choice(&check, "frame", out->frame, DMB_FRAME_WORLD, DMB_FRAME_BODY);
+    dmb_check_within(&check, "amplitude", out->amplitude, -1e30, 1e30);
+    dmb_check_within(&check, "phase", out->phase, -1e9, 1e9);
+    return check.status;
+}
+
+int32_t dmb_output_take(const dmb_output *outputs, uint32_t i, dmb_message *message, dmb_output *out)
+{
+    dmb_check check = dmb_check_of(message, "output", i);
+    uint32_t size;
+    const void *item = item_of(outputs, outputs->struct_size, i, &size);
+    *out = dmb_output_default();
+    if (size != outputs->struct_size || dmb_output_read(out, item) < 0) {
+        dmb_message_set(message, "output %u: struct_size is not one this library knows, or not that of the first", i);
+        return DMB_ERR_STRUCT_SIZE;
+    }
+    dmb_check_choice(&check, "kind", out->kind, DMB_OUTPUT_DISPLACEMENT, DMB_OUTPUT_BIT);
+    dmb_check_choice(&check, "component", out->component, DMB_X, out->kind == DMB_OUTPUT_CONTACT ? DMB_Z : DMB_RZ);
+    if (out->kind == DMB_OUTPUT_BIT && check.status == DMB_OK && out->component != DMB_X && out->component != DMB_RX)
+        dmb_check_fail(&check, DMB_ERR_VALUE, "component", out->component,
+                       "DMB_X (weight on the bit) or DMB_RX (torque)");
+    dmb_check_choice(&check, "frame", out->frame, DMB_FRAME_WORLD, DMB_FRAME_BODY);
+    return check.status;
+}

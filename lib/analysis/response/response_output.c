@@ -1,0 +1,468 @@
+/* Contacts, bits and joints' laws by the chain rule, since their laws are not smooth over the step of a difference:
+ *
+ *     dN = N_d dd + N_r dr,   dF = F_v dv + F_N dN      (depth d, its rate r, slip v)
+ *
+ * Forces of guides are the rows of A x - f that are not solved, those of constraints what balances the dependent rows.
+ */
+#include "analysis/response/response_output.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "analysis/linear/functional.h"
+#include "analysis/linear/dynamic_forces.h"
+#include "system/assemble/bit.h"
+#include "system/assemble/wall_contact.h"
+#include "system/constrain/joint_motion.h"
+#include "sim/node.h"
+
+typedef struct request {
+    dmb_linear *linear;
+    dmb_sim *copy;
+    const dmb_response_options *options;
+    const dmb_output *output;
+    dmb_response_output *out;
+    uint32_t index;
+    dmb_message *message;
+} request;
+
+static int32_t refuse(const request *r, int32_t status, const char *why)
+{
+    dmb_message_set(r->message, "output %u: %s", r->index, why);
+    return status;
+}
+
+static int32_t refuse_place(const request *r, int32_t status)
+{
+    const dmb_place place = r->output->place;
+    dmb_message_set(r->message, "output %u: place, pipe %u at %g: %s", r->index, place.pipe, place.fraction,
+                    dmb_status_text(status));
+    return status;
+}
+
+/* ---- Motion, section --------------------------------------------------------------------------------------------- */
+
+static double answer(const dmb_sim *copy, const void *what)
+{
+    int32_t status;
+    return dmb_answer_of(copy, what, &status);
+}
+
+static int32_t of_motion(const request *r)
+{
+    const dmb_output *o = r->output;
+    const int32_t status = dmb_functional_of_motion(r->copy, o->place, o->frame, o->component, &r->out->functional);
+    r->out->rate = o->kind;
+    return status < 0 ? refuse_place(r, status) : DMB_OK;
+}
+
+static int32_t of_section(const request *r)
+{
+    int32_t status;
+    (void)dmb_answer_of(r->copy, r->output, &status);
+    if (status >= 0) status = dmb_functional_around(r->copy, r->output->place, &r->out->functional);
+    if (status < 0) return refuse_place(r, status);
+    r->out->elastic = r->output->kind == DMB_OUTPUT_SECTION_FORCE;
+    dmb_functional_of_answer(r->copy, answer, r->output, &r->out->functional);
+    return DMB_OK;
+}
+
+/* ---- Contact ----------------------------------------------------------------------------------------------------- */
+
+/* What of a contact is asked. */
+enum { ASK_GAP = 0, ASK_APPROACH = 1, ASK_SLIP = 2, ASK_NORMAL = 4 };
+typedef struct contact_question {
+    uint32_t site;
+    int32_t what;
+} contact_question;
+
+static double contact_answer(const dmb_sim *copy, const void *what)
+{
+    const contact_question *q = what;
+    dmb_contact contact = dmb_contact_default();
+    (void)dmb_query_contact(copy, q->site, &contact);
+    if (q->what == ASK_GAP) return contact.gap;
+    if (q->what == ASK_APPROACH) return contact.approach;
+    return q->what == ASK_NORMAL ? contact.normal_force : contact.slip[q->what - ASK_SLIP];
+}
+
+static void ask_contact(const request *r, int32_t what, dmb_functional *out)
+{
+    const contact_question q = {r->output->place.pipe, what};
+    *out = r->out->functional;
+    dmb_functional_of_answer(r->copy, contact_answer, &q, out);
+}
+
+/* Rows without numbers. */
+static void take_site(const request *r, uint32_t site)
+{
+    const dmb_scene *scene = r->copy->scene;
+    const uint32_t node = dmb_contact_node(scene, site);
+    dmb_functional_take_node(scene, node, &r->out->functional);
+    if (site < scene->site_count) return;
+    if (node > 0) dmb_functional_take_node(scene, node - 1, &r->out->functional);
+    if (node + 1 < scene->node_count) dmb_functional_take_node(scene, node + 1, &r->out->functional);
+}
+
+static void normal_force(const request *r, const dmb_contact_slope *slope, dmb_functional *out)
+{
+    const dmb_scene *scene = r->copy->scene;
+    const uint32_t site = r->output->place.pipe;
+    dmb_functional part;
+    if (site >= scene->site_count) {
+        ask_contact(r, ASK_NORMAL, out);
+        return;
+    }
+    *out = r->out->functional;
+    ask_contact(r, ASK_GAP, &part);
+    dmb_functional_add(-slope->normal_by_depth, &part, out);
+    if (r->options->contact == DMB_CONTACT_CLOSED)
+        dmb_functional_add(-dmb_linear_wall_stiffness(r->linear, site, r->options->contact_gap), &part, out);
+    ask_contact(r, ASK_APPROACH, &part);
+    dmb_functional_add(slope->normal_by_rate, &part, out);
+}
+
+/* Slips of PATH nodes are their own speeds. */
+static void slip(const request *r, int32_t direction, dmb_functional *out)
+{
+    const dmb_scene *scene = r->copy->scene;
+    const uint32_t site = r->output->place.pipe;
+    if (site < scene->site_count) {
+        ask_contact(r, ASK_SLIP + direction, out);
+        return;
+    }
+    *out = r->out->functional;
+    out->speed[direction] = direction == 0 ? 1.0 : scene->path_sites[site - scene->site_count].radius;
+}
+
+static void friction(const request *r, int32_t direction, const dmb_contact_slope *slope, const dmb_functional *normal,
+                     dmb_functional *out)
+{
+    dmb_functional part;
+    *out = r->out->functional;
+    dmb_functional_add(slope->friction_by_normal[direction], normal, out);
+    for (int32_t k = 0; k < 2; k++) {
+        slip(r, k, &part);
+        dmb_functional_add(slope->friction_by_slip[2 * direction + k], &part, out);
+    }
+}
+
+static int32_t of_contact(const request *r)
+{
+    const dmb_scene *scene = r->copy->scene;
+    const int32_t c = r->output->component;
+    dmb_contact_slope slope;
+    dmb_functional normal, along;
+    if (r->options->contact == DMB_CONTACT_OPEN)
+        return refuse(r, DMB_ERR_UNSUPPORTED, "contact is left out, its forces do not change");
+    if (r->output->place.pipe >= (uint64_t)scene->site_count + scene->path_site_count)
+        return refuse(r, DMB_ERR_VALUE, "place.pipe is no number of a contact site");
+    if (c != DMB_Z && scene->friction_law.kind == DMB_FRICTION_BRISTLE)
+        return refuse(r, DMB_ERR_UNSUPPORTED, "friction of bristles is not an output");
+    dmb_contact_slope_of(scene, &r->copy->now, r->output->place.pipe, &slope);
+    take_site(r, r->output->place.pipe);
+    r->out->elastic = 1;
+    normal_force(r, &slope, &normal);
+    if (c != DMB_Z) friction(r, c, &slope, &normal, &along);
+    r->out->functional = c == DMB_Z ? normal : along;
+    return DMB_OK;
+}
+
+/* ---- Forces of guides and constraints ---------------------------------------------------------------------------- */
+
+static void take_cluster_of_node(const request *r, uint32_t node)
+{
+    const dmb_scene *scene = r->copy->scene;
+    if (scene->cluster_count > 0) r->out->cluster = scene->node_cluster[node];
+}
+
+static void take_guide(const request *r, uint32_t held, double weight)
+{
+    r->out->guide[r->out->guide_count] = held;
+    r->out->guide_weight[r->out->guide_count++] = weight;
+    take_cluster_of_node(r, r->copy->scene->held_node[held]);
+}
+
+static uint32_t row_of_held(const dmb_scene *scene, uint32_t i)
+{
+    return scene->layout.row[scene->held_node[i]] + scene->held_component[i];
+}
+
+/* The query is linear in what the rows that are held have left. */
+static int32_t of_guide(const request *r)
+{
+    const dmb_scene *scene = r->copy->scene;
+    int32_t status;
+    const double base = dmb_answer_of(r->copy, r->output, &status);
+    if (status < 0) return refuse(r, status, "place.part names no string or body of this model");
+    for (uint32_t i = 0; i < scene->held_count && r->out->guide_count < 6; i++) {
+        double *left = r->copy->residual_row + row_of_held(scene, i), kept = *left;
+        const double scale = fmax(fabs(base), 1.0);
+        *left += scale;
+        const double weight = (dmb_answer_of(r->copy, r->output, &status) - base) / scale;
+        *left = kept;
+        if (weight != 0.0) take_guide(r, i, weight);
+    }
+    return DMB_OK;
+}
+
+static void take_multiplier(const request *r, uint32_t constraint, uint32_t k, double weight)
+{
+    const dmb_scene *scene = r->copy->scene;
+    const dmb_constraint *c = scene->constraints + constraint;
+    r->out->cluster = c->cluster;
+    r->out->multiplier = c->row - scene->clusters[c->cluster].row;
+    r->out->multiplier_weight[k] = weight;
+    r->out->multiplier_count = k + 1;
+}
+
+static int32_t of_multiplier(const request *r)
+{
+    int32_t status;
+    (void)dmb_answer_of(r->copy, r->output, &status);
+    if (status < 0) return refuse(r, status, "component is no row of a joint, coupling, constraint or joint drive");
+    take_multiplier(r, dmb_constraint_of_part(r->copy, r->output->place.part), (uint32_t)r->output->component, 1.0);
+    return DMB_OK;
+}
+
+/* ---- Joints ------------------------------------------------------------------------------------------------------ */
+
+static uint32_t joint_of(const request *r)
+{
+    return dmb_model_part_index(r->copy->model, r->output->place.part, DMB_PART_JOINT);
+}
+
+static const dmb_constraint *take_joint_nodes(const request *r, uint32_t j, dmb_functional *out)
+{
+    const dmb_scene *scene = r->copy->scene;
+    const dmb_constraint *c = scene->constraints + scene->joints[j].constraint;
+    for (uint32_t i = 0; i < c->node_count; i++) dmb_functional_take_node(scene, c->node[i], out);
+    return c;
+}
+
+/* A coordinate moves by J V, V what frame b moves by as seen from frame a. */
+static void coordinate(const request *r, uint32_t j, int32_t component, dmb_functional *out)
+{
+    const dmb_sim *copy = r->copy;
+    const dmb_constraint *c = take_joint_nodes(r, j, out);
+    double row[DMB_CONSTRAINT_COLUMNS] = {0.0};
+    dmb_relative relative;
+    dmb_joint_coordinates at;
+    dmb_joint_motion_of(copy->scene, &copy->now, j, &relative, NULL);
+    dmb_joint_coordinates_at(relative.R, relative.p, relative.V, copy->now.joint_turn + 2 * (size_t)j, &at);
+    dmb_add_joint_row(copy->scene, c, j, &relative, 1.0, at.J[component], row);
+    memcpy(out->pose, row, out->count * sizeof(double));
+}
+
+/* by position and by speed, dF = F_x dx + F_v dx' */
+static void law_of_joint(const request *r, uint32_t j)
+{
+    const dmb_scene_joint *joint = r->copy->scene->joints + j;
+    const int32_t c = r->output->component;
+    const dmb_functional *none = &r->out->functional;
+    dmb_joint_state state = dmb_joint_state_default();
+    dmb_functional position = *none;
+    dmb_joint_force force;
+    coordinate(r, j, c, &position);
+    (void)take_joint_nodes(r, j, &r->out->functional);
+    if (joint->law == UINT32_MAX || (joint->law_mask >> c & 1) == 0 || r->copy->joint_state[j] == DMB_JOINT_OPEN)
+        return;
+    (void)dmb_query_joint(r->copy, r->output->place.part, &state);
+    dmb_joint_force_at(r->copy->scene->laws + joint->law + c, state.position[c], state.speed[c], &force);
+    dmb_functional_add(force.by_position, &position, &r->out->functional);
+    dmb_functional_add_rate(force.by_speed, &position, &r->out->functional);
+}
+
+/* Linear in the multipliers, and turning with the bodies. */
+static void reaction_of_joint(const request *r, uint32_t j)
+{
+    const dmb_constraint *c = take_joint_nodes(r, j, &r->out->functional);
+    int32_t status;
+    const double base = dmb_answer_of(r->copy, r->output, &status), step = fmax(fabs(base), 1.0);
+    dmb_functional_of_answer(r->copy, answer, r->output, &r->out->functional);
+    for (uint32_t k = 0; k < c->rows && k < 6; k++) {
+        double *f = r->copy->now.multiplier + c->row + k;
+        const double kept = *f;
+        *f = kept + step;
+        take_multiplier(r, r->copy->scene->joints[j].constraint, k,
+                        (dmb_answer_of(r->copy, r->output, &status) - base) / step);
+        *f = kept;
+    }
+}
+
+static int32_t of_joint(const request *r)
+{
+    int32_t status;
+    (void)dmb_answer_of(r->copy, r->output, &status);
+    if (status == DMB_ERR_ID) return refuse(r, status, "place.part names no joint of this model");
+    if (status == DMB_ERR_VALUE) return refuse(r, status, "frame must be DMB_FRAME_WORLD or DMB_FRAME_BODY");
+    if (status < 0) return refuse(r, status, dmb_status_text(status));
+    r->out->elastic = r->output->kind > DMB_OUTPUT_JOINT_ACCELERATION;
+    if (r->output->kind == DMB_OUTPUT_JOINT_REACTION)
+        reaction_of_joint(r, joint_of(r));
+    else if (r->output->kind == DMB_OUTPUT_JOINT_ACTION)
+        law_of_joint(r, joint_of(r));
+    else
+        coordinate(r, joint_of(r), r->output->component, &r->out->functional);
+    if (!r->out->elastic) r->out->rate = r->output->kind - DMB_OUTPUT_JOINT_POSITION;
+    return DMB_OK;
+}
+
+/* ---- Drives, bits ------------------------------------------------------------------------------------------------ */
+
+/* A drive of an open joint. */
+static int without_effect(const request *r, const dmb_scene_drive *drive)
+{
+    return drive->joint != UINT32_MAX && r->copy->joint_state[drive->joint] == DMB_JOINT_OPEN;
+}
+
+/* kp (v* - v) + ki integral(v* - v), none at its limits. */
+static void control(const request *r, uint32_t i, const dmb_scene_drive *drive)
+{
+    const double force = r->copy->now.drive_force[i];
+    dmb_functional position;
+    memset(&position, 0, sizeof position);
+    if (force <= drive->limit_low || force >= drive->limit_high) return;
+    if (without_effect(r, drive)) return;
+    if (drive->joint != UINT32_MAX) {
+        coordinate(r, drive->joint, drive->component, &position);
+    } else {
+        dmb_functional_take_node(r->copy->scene, drive->node, &position);
+        position.pose[drive->row - r->copy->scene->layout.row[drive->node]] = 1.0;
+    }
+    r->out->functional = position;
+    memset(r->out->functional.pose, 0, sizeof position.pose);
+    dmb_functional_add(-drive->integral_gain, &position, &r->out->functional);
+    dmb_functional_add_rate(-drive->gain, &position, &r->out->functional);
+    r->out->direct = drive->gain;
+    r->out->integral = drive->integral_gain;
+}
+
+static int32_t of_drive(const request *r)
+{
+    const dmb_scene *scene = r->copy->scene;
+    const uint32_t i = dmb_model_part_index(r->copy->model, r->output->place.part, DMB_PART_DRIVE);
+    if (i >= scene->drive_count) return refuse(r, DMB_ERR_ID, "place.part names no drive of this model");
+    const dmb_scene_drive *drive = scene->drives + i;
+    r->out->drive = i;
+    r->out->direct = drive->kind == DMB_DRIVE_LOAD && !without_effect(r, drive);
+    if (drive->kind == DMB_DRIVE_CONTROL) control(r, i, drive);
+    if (drive->kind != DMB_DRIVE_MOTION) return DMB_OK;
+    if (drive->joint != UINT32_MAX) {
+        take_multiplier(r, drive->constraint, 0, -1.0);
+        return DMB_OK;
+    }
+    for (uint32_t h = 0; h < scene->held_count; h++)
+        if (row_of_held(scene, h) == drive->row) take_guide(r, h, 1.0);
+    return DMB_OK;
+}
+
+static int32_t of_bit(const request *r)
+{
+    const dmb_scene *scene = r->copy->scene;
+    const uint32_t k = dmb_model_part_index(r->copy->model, r->output->place.part, DMB_PART_BIT);
+    dmb_functional *out = &r->out->functional;
+    dmb_bit_slope slope;
+    if (k >= scene->bit_count) return refuse(r, DMB_ERR_ID, "place.part names no bit of this model");
+    dmb_bit_slope_of(r->copy, k, &slope);
+    const double *by = r->output->component == DMB_X ? slope.weight : slope.torque;
+    const size_t stride = scene->layout.size[scene->bits[k].node] == DMB_NODE_FULL ? 1 : 3;
+    dmb_functional_take_node(scene, scene->bits[k].node, out);
+    for (uint32_t c = 0; c < out->count; c++) {
+        out->pose[c] = by[0] * slope.along[stride * c] + by[1] * slope.about[stride * c];
+        out->speed[c] = by[2] * slope.along[stride * c] + by[3] * slope.about[stride * c];
+    }
+    dmb_functional_turn_frames(r->copy, out);
+    r->out->elastic = 1;
+    return DMB_OK;
+}
+
+/* ---- All of them ------------------------------------------------------------------------------------------------- */
+
+static int32_t make(const request *r)
+{
+    switch (r->output->kind) {
+    case DMB_OUTPUT_DISPLACEMENT:
+    case DMB_OUTPUT_VELOCITY:
+    case DMB_OUTPUT_ACCELERATION: return of_motion(r);
+    case DMB_OUTPUT_SECTION_FORCE:
+    case DMB_OUTPUT_SECTION_STRAIN: return of_section(r);
+    case DMB_OUTPUT_CONTACT: return of_contact(r);
+    case DMB_OUTPUT_DRIVE: return of_drive(r);
+    case DMB_OUTPUT_REACTION: return of_guide(r);
+    case DMB_OUTPUT_MULTIPLIER: return of_multiplier(r);
+    case DMB_OUTPUT_BIT: return of_bit(r);
+    default: return of_joint(r);
+    }
+}
+
+int32_t dmb_response_output_of(dmb_linear *linear, const dmb_response_options *options, const dmb_output *output,
+                               uint32_t index, dmb_message *message, dmb_response_output *out)
+{
+    const request r = {linear, linear->work, options, output, out, index, message};
+    memset(out, 0, sizeof *out);
+    out->cluster = out->drive = UINT32_MAX;
+    return make(&r);
+}
+
+/* ---- Values ------------------------------------------------------------------------------------------------------ */
+
+/* (i w)^rate sum (pose + i w speed - w^2 acceleration) d */
+static dmb_complex_number of_functional(const dmb_dynamic_stiffness *s, const dmb_response_output *output,
+                                        dmb_complex_array x)
+{
+    const dmb_functional *f = &output->functional;
+    const double omega = s->omega, eta = output->elastic ? s->structural_damping : 0.0;
+    dmb_complex_number sum = {0.0, 0.0};
+    for (uint32_t i = 0; i < f->count; i++) {
+        const double dr = x.re[f->row[i]], di = x.im[f->row[i]];
+        const double a = f->pose[i] - omega * omega * f->acceleration[i], b = omega * f->speed[i] + eta * f->pose[i];
+        sum.re += a * dr - b * di;
+        sum.im += a * di + b * dr;
+    }
+    for (int32_t k = 0; k < output->rate; k++) {
+        const double kept = sum.re;
+        sum.re = -omega * sum.im;
+        sum.im = omega * kept;
+    }
+    return sum;
+}
+
+/* What is left in a row that is held: (A x - f)_r + (B^T multiplier)_r. */
+static dmb_complex_number of_held_row(const dmb_dynamic_stiffness *s, const dmb_response_output *output, uint32_t held,
+                                      dmb_complex_array x, dmb_complex_array f)
+{
+    const dmb_scene *scene = &s->linear->scene;
+    const uint32_t node = scene->held_node[held], c = scene->held_component[held], row = row_of_held(scene, held);
+    dmb_complex_number sum = dmb_dynamic_row(s, node, c, x);
+    sum.re -= f.re[row];
+    sum.im -= f.im[row];
+    if (output->cluster == UINT32_MAX) return sum;
+    const dmb_cluster *cluster = scene->clusters + output->cluster;
+    const double *B = s->linear->work->cluster_matrix + cluster->dense + scene->node_place[node] + c;
+    for (uint32_t k = 0; k < cluster->rows; k++) {
+        sum.re += B[(size_t)k * cluster->columns] * s->links.multiplier.re[k];
+        sum.im += B[(size_t)k * cluster->columns] * s->links.multiplier.im[k];
+    }
+    return sum;
+}
+
+dmb_complex_number dmb_response_output_value(const dmb_dynamic_stiffness *s, const dmb_response_output *output,
+                                             const dmb_excitation *input, dmb_complex_array x, dmb_complex_array f)
+{
+    dmb_complex_number value = of_functional(s, output, x);
+    if (output->cluster != UINT32_MAX) dmb_dynamic_multipliers(s, output->cluster, x, f, s->links.multiplier);
+    for (uint32_t k = 0; k < output->multiplier_count; k++) {
+        value.re += output->multiplier_weight[k] * s->links.multiplier.re[output->multiplier + k];
+        value.im += output->multiplier_weight[k] * s->links.multiplier.im[output->multiplier + k];
+    }
+    for (uint32_t k = 0; k < output->guide_count; k++) {
+        const dmb_complex_number left = of_held_row(s, output, output->guide[k], x, f);
+        value.re += output->guide_weight[k] * left.re;
+        value.im += output->guide_weight[k] * left.im;
+    }
+    if (output->drive == UINT32_MAX || output->drive != input->drive) return value;
+    value.re += output->direct;
+    value.im -= output->integral != 0.0 ? output->integral / s->omega : 0.0;
+    return value;
+}

@@ -1,0 +1,396 @@
+#include "analysis/response/speeds.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "analysis/response/response_options.h"
+#include "base/handle.h"
+#include "base/memory.h"
+#include "base/sized_struct.h"
+#include "base/value_check.h"
+#include "drillmbd/response.h"
+#include "math/so3.h"
+#include "sim/access.h"
+#include "sim/sim.h"
+#include "system/copy.h"
+/* Last point at or below the speed, but for the last of all. */
+static uint32_t place_of(const dmb_speeds_curve *curve, double speed)
+{
+    uint32_t low = 0, high = curve->count - 1;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (curve->speed[middle] <= speed)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static double value_at(const dmb_speeds_curve *curve, double speed, uint32_t *output)
+{
+    const uint32_t i = place_of(curve, speed);
+    const double width = curve->speed[i + 1] - curve->speed[i];
+    const double x = fmin(fmax((speed - curve->speed[i]) / width, 0.0), 1.0);
+    *output = curve->output[x < 0.5 ? i : i + 1];
+    return (1.0 - x) * curve->severity[i] + x * curve->severity[i + 1];
+}
+
+double dmb_speeds_sum(const dmb_speeds_curve *curves, uint32_t count, double speed, uint32_t *order, uint32_t *output)
+{
+    double sum = 0.0, most = -1.0;
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t worst;
+        const double value = value_at(curves + k, speed, &worst);
+        sum += value;
+        if (!(value > most)) continue;
+        most = value;
+        *order = k;
+        *output = worst;
+    }
+    return sum;
+}
+
+/* ---- Bands ------------------------------------------------------------------------------------------------------- */
+
+typedef struct search {
+    const dmb_speeds_curve *curves;
+    const dmb_speeds_options *options;
+    dmb_speed_band *bands;
+    dmb_speed_band open; /* the one that is being followed */
+    uint32_t count, room;
+    int32_t is_open;
+} search;
+
+static void begin_band(search *s, double speed)
+{
+    s->open = dmb_speed_band_default();
+    s->open.low = fmax(speed * (1.0 - s->options->margin), s->options->speed_low);
+    s->is_open = 1;
+}
+
+static void visit(search *s, double speed, double severity, uint32_t order, uint32_t output)
+{
+    if (!(severity > s->open.severity)) return;
+    s->open.severity = severity;
+    s->open.speed = speed;
+    s->open.order = order;
+    s->open.output = output;
+    s->open.frequency = s->curves[order].order * speed / (2.0 * DMB_PI);
+}
+
+/* A band that reaches into the one before goes on in it. */
+static void end_band(search *s, double speed)
+{
+    s->open.high = fmin(speed * (1.0 + s->options->margin), s->options->speed_high);
+    s->is_open = 0;
+    dmb_speed_band *before = s->count > 0 && s->count <= s->room ? s->bands + s->count - 1 : NULL;
+    if (before != NULL && before->high >= s->open.low) {
+        const double low = before->low;
+        if (s->open.severity > before->severity) {
+            *before = s->open;
+            before->low = low;
+        }
+        before->high = fmax(before->high, s->open.high);
+        return;
+    }
+    if (s->count < s->room) s->bands[s->count] = s->open;
+    s->count++;
+}
+
+/* Where the straight line between two speeds meets the threshold. */
+static double crossing(const search *s, double a, double at_a, double b, double at_b)
+{
+    return a + (b - a) * (s->options->threshold - at_a) / (at_b - at_a);
+}
+
+uint32_t dmb_speeds_bands(const dmb_speeds_curve *curves, uint32_t count, const dmb_speeds_options *options,
+                          const double *speeds, uint32_t points, dmb_speed_band *bands, uint32_t room)
+{
+    search s = {.curves = curves, .options = options, .bands = bands, .room = room};
+    double last = 0.0;
+    for (uint32_t i = 0; i < points; i++) {
+        uint32_t order = 0, output = 0;
+        const double severity = dmb_speeds_sum(curves, count, speeds[i], &order, &output);
+        const int32_t above = severity > options->threshold;
+        if (above && !s.is_open)
+            begin_band(&s, i == 0 ? speeds[0] : crossing(&s, speeds[i - 1], last, speeds[i], severity));
+        if (above) visit(&s, speeds[i], severity, order, output);
+        if (!above && s.is_open) end_band(&s, crossing(&s, speeds[i - 1], last, speeds[i], severity));
+        last = severity;
+    }
+    if (s.is_open) end_band(&s, speeds[points - 1]);
+    return s.count;
+}
+
+/* Safe speeds: the frequency response at each order of the rotary speed, held against limits. */
+
+DMB_DEFINE_INIT(
+    dmb_order, 72,
+    {
+        .order = 1.0,
+        .input = {.struct_size = (uint32_t)sizeof(dmb_input), .kind = DMB_INPUT_ECCENTRICITY, .amplitude = 1.0},
+    })
+
+DMB_DEFINE_INIT(dmb_speeds_options, 80,
+                {
+                    .points = 200,
+                    .speed_low = 1.0,
+                    .speed_high = 30.0,
+                    .threshold = 1.0,
+                    .margin = 0.03,
+                    .refinement = 12,
+                    .contact = DMB_CONTACT_AS_IS,
+                    .equilibrium_tolerance = 1e-6,
+                })
+
+DMB_DEFINE_INIT(dmb_speed_band, 56, {.severity = 0.0})
+
+enum { POINTS_MAX = 100000, ORDERS_MAX = 256, BANDS_MAX = 100000 };
+
+typedef struct speeds_run {
+    dmb_sim *sim;
+    dmb_speeds_options options;
+    const dmb_order *orders;
+    const dmb_output *outputs;
+    const double *limits;
+    uint32_t order_count, output_count, points; /* points: of all curves */
+    dmb_speeds_curve *curves;                   /* shape (order_count) */
+    double *speeds;                             /* of all curves, ascending, shape (points) */
+    dmb_speed_band *found;                      /* shape (room) */
+    uint32_t room, count;
+} speeds_run;
+
+/* ---- Checks ------------------------------------------------------------------------------------------------------ */
+
+static int32_t take_options(dmb_sim *sim, const dmb_speeds_options *given, dmb_speeds_options *out)
+{
+    dmb_check check = dmb_check_of(&sim->message, "speeds options", DMB_NO_INDEX);
+    *out = dmb_speeds_options_default();
+    if (given != NULL && dmb_speeds_options_read(out, given) < 0) {
+        dmb_message_set(&sim->message, "speeds options: struct_size is not one this library knows");
+        return DMB_ERR_STRUCT_SIZE;
+    }
+    dmb_check_count(&check, "points", out->points, 2, POINTS_MAX);
+    dmb_check_within(&check, "speed_low", out->speed_low, 1e-6, 1e6);
+    dmb_check_above_field(&check, "speed_high", out->speed_high, "speed_low", out->speed_low);
+    dmb_check_within(&check, "speed_high", out->speed_high, 1e-6, 1e6);
+    dmb_check_within(&check, "threshold", out->threshold, 1e-9, 1e9);
+    dmb_check_within(&check, "margin", out->margin, 0.0, 0.5);
+    return check.status;
+}
+
+/* Order number i of the caller's array, whose items are as far apart as the first one says. */
+static int32_t take_order(const speeds_run *r, uint32_t i, dmb_order *out)
+{
+    dmb_check check = dmb_check_of(&r->sim->message, "order", i);
+    const unsigned char *item = (const unsigned char *)r->orders + (size_t)i * r->orders->struct_size;
+    uint32_t size;
+    memcpy(&size, item, sizeof size);
+    *out = dmb_order_default();
+    if (size != r->orders->struct_size || dmb_order_read(out, item) < 0) {
+        dmb_message_set(&r->sim->message,
+                        "order %u: struct_size is not one this library knows, or not that of the first", i);
+        return DMB_ERR_STRUCT_SIZE;
+    }
+    dmb_check_within(&check, "order", out->order, 1e-3, 1e3);
+    return check.status;
+}
+
+static int32_t check_counts(const speeds_run *r)
+{
+    dmb_check check = dmb_check_of(&r->sim->message, "speeds", DMB_NO_INDEX);
+    dmb_check_count(&check, "order_count", r->order_count, 1, ORDERS_MAX);
+    dmb_check_count(&check, "output_count", r->output_count, 1, DMB_RESPONSE_INPUTS_MAX);
+    dmb_check_count(&check, "band_count", r->room, 1, BANDS_MAX);
+    for (uint32_t i = 0; i < r->output_count && check.status == DMB_OK; i++)
+        dmb_check_within(&check, "limits", r->limits[i], 1e-30, 1e30);
+    return check.status;
+}
+
+/* ---- Curves ------------------------------------------------------------------------------------------------------ */
+
+/* speed, severity, and output behind them, in one block */
+static size_t curve_bytes(uint32_t points)
+{
+    return points * (2 * sizeof(double) + sizeof(uint32_t));
+}
+
+static int32_t make_curve(const speeds_run *r, dmb_speeds_curve *curve, uint32_t points)
+{
+    double *block = dmb_allocate(&r->sim->allocator, curve_bytes(points));
+    if (block == NULL) return DMB_ERR_NO_MEMORY;
+    curve->count = points;
+    curve->speed = block;
+    curve->severity = block + points;
+    curve->output = (uint32_t *)(void *)(curve->severity + points);
+    return DMB_OK;
+}
+
+/* Largest of the outputs over their limits, one after the other. */
+static int32_t read_curve(const speeds_run *r, const dmb_response *response, const dmb_order *order,
+                          dmb_speeds_curve *curve)
+{
+    const size_t bytes = 2 * (size_t)curve->count * sizeof(double);
+    double *values = dmb_allocate(&r->sim->allocator, bytes);
+    if (values == NULL) return DMB_ERR_NO_MEMORY;
+    (void)dmb_response_frequencies(response, curve->speed);
+    for (uint32_t i = 0; i < curve->count; i++) curve->speed[i] *= 2.0 * DMB_PI / order->order;
+    for (uint32_t k = 0; k < r->output_count; k++) {
+        (void)dmb_response_transfer(response, DMB_COMBINED, k, values);
+        for (uint32_t i = 0; i < curve->count; i++) {
+            const double severity = hypot(values[2 * (size_t)i], values[2 * (size_t)i + 1]) / r->limits[k];
+            if (k > 0 && !(severity > curve->severity[i])) continue;
+            curve->severity[i] = severity;
+            curve->output[i] = k;
+        }
+    }
+    dmb_release(&r->sim->allocator, values, bytes);
+    return DMB_OK;
+}
+
+static dmb_response_options response_options(const speeds_run *r, double order)
+{
+    dmb_response_options options = dmb_response_options_default();
+    options.points = r->options.points;
+    options.frequency_low = order * r->options.speed_low / (2.0 * DMB_PI);
+    options.frequency_high = order * r->options.speed_high / (2.0 * DMB_PI);
+    options.refinement = r->options.refinement;
+    options.structural_damping = r->options.structural_damping;
+    options.equilibrium_tolerance = r->options.equilibrium_tolerance;
+    options.contact = r->options.contact;
+    options.friction = r->options.friction;
+    options.contact_gap = r->options.contact_gap;
+    return options;
+}
+
+static int32_t follow_order(speeds_run *r, uint32_t k)
+{
+    dmb_order order;
+    dmb_response *response = NULL;
+    uint32_t shape[3];
+    int32_t status = take_order(r, k, &order);
+    if (status < 0) return status;
+    const dmb_response_options options = response_options(r, order.order);
+    dmb_sim_hand_on(r->sim, (double)k / r->order_count, (k + 1.0) / r->order_count);
+    status = dmb_analysis_response(r->sim, &options, &order.input, 1, r->outputs, r->output_count, &response);
+    dmb_sim_take_back(r->sim);
+    if (status < 0) return status;
+    (void)dmb_response_dimensions(response, shape);
+    r->curves[k].order = order.order;
+    status = make_curve(r, r->curves + k, shape[0]);
+    if (status >= 0) status = read_curve(r, response, &order, r->curves + k);
+    dmb_response_destroy(&response);
+    return status;
+}
+
+/* The curve whose next point comes first, the points of each being taken in turn. */
+static dmb_speeds_curve *first_of(const speeds_run *r)
+{
+    dmb_speeds_curve *first = NULL;
+    for (uint32_t k = 0; k < r->order_count; k++) {
+        dmb_speeds_curve *curve = r->curves + k;
+        if (curve->taken == curve->count) continue;
+        if (first == NULL || curve->speed[curve->taken] < first->speed[first->taken]) first = curve;
+    }
+    return first;
+}
+
+static int32_t gather_speeds(speeds_run *r)
+{
+    for (uint32_t k = 0; k < r->order_count; k++) r->points += r->curves[k].count;
+    r->speeds = dmb_allocate_array(&r->sim->allocator, r->points, sizeof(double));
+    if (r->speeds == NULL) return DMB_ERR_NO_MEMORY;
+    for (uint32_t i = 0; i < r->points; i++) {
+        dmb_speeds_curve *curve = first_of(r);
+        r->speeds[i] = curve->speed[curve->taken++];
+    }
+    return DMB_OK;
+}
+
+/* ---- Answers ----------------------------------------------------------------------------------------------------- */
+
+static void write_bands(const speeds_run *r, dmb_speed_band *bands)
+{
+    const uint32_t stride = bands->struct_size;
+    for (uint32_t i = 0; i < r->count && i < r->room; i++) {
+        unsigned char *to = (unsigned char *)bands + (size_t)stride * i;
+        memcpy(to, &stride, sizeof stride);
+        (void)dmb_speed_band_write(to, r->found + i);
+    }
+}
+
+/* Points of all curves belong to the speed of the grid that is nearest. */
+static void write_severity(const speeds_run *r, double *severity)
+{
+    const double low = r->options.speed_low, last = r->options.points - 1;
+    const double step = (r->options.speed_high - low) / last;
+    uint32_t order, output;
+    for (uint32_t i = 0; i < r->options.points; i++)
+        severity[i] = dmb_speeds_sum(r->curves, r->order_count, low + i * step, &order, &output);
+    for (uint32_t i = 0; i < r->points; i++) {
+        double *to = severity + (size_t)fmin(fmax(floor((r->speeds[i] - low) / step + 0.5), 0.0), last);
+        *to = fmax(*to, dmb_speeds_sum(r->curves, r->order_count, r->speeds[i], &order, &output));
+    }
+}
+
+static int32_t run(speeds_run *r)
+{
+    int32_t status = DMB_OK;
+    r->curves = dmb_allocate_array(&r->sim->allocator, r->order_count, sizeof *r->curves);
+    r->found = dmb_allocate_array(&r->sim->allocator, r->room, sizeof *r->found);
+    if (r->curves == NULL || r->found == NULL) return DMB_ERR_NO_MEMORY;
+    for (uint32_t k = 0; k < r->order_count && status >= 0; k++) status = follow_order(r, k);
+    if (status >= 0) status = gather_speeds(r);
+    if (status < 0) return status;
+    r->count = dmb_speeds_bands(r->curves, r->order_count, &r->options, r->speeds, r->points, r->found, r->room);
+    return DMB_OK;
+}
+
+static void release(speeds_run *r)
+{
+    const dmb_allocator *allocator = &r->sim->allocator;
+    for (uint32_t k = 0; r->curves != NULL && k < r->order_count; k++)
+        if (r->curves[k].speed != NULL) dmb_release(allocator, r->curves[k].speed, curve_bytes(r->curves[k].count));
+    if (r->curves != NULL) dmb_release(allocator, r->curves, r->order_count * sizeof *r->curves);
+    if (r->found != NULL) dmb_release(allocator, r->found, r->room * sizeof *r->found);
+    if (r->speeds != NULL) dmb_release(allocator, r->speeds, r->points * sizeof(double));
+}
+
+static int32_t analyse(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders, uint32_t order_count,
+                       const dmb_output *outputs, const double *limits, uint32_t output_count, dmb_speed_band *bands,
+                       uint32_t *band_count, double *severity)
+{
+    speeds_run r = {.sim = sim, .orders = orders, .outputs = outputs, .limits = limits};
+    dmb_speed_band unused;
+    if (dmb_speed_band_read(&unused, bands) < 0) return DMB_ERR_STRUCT_SIZE;
+    r.order_count = order_count;
+    r.output_count = output_count;
+    r.room = *band_count;
+    int32_t status = take_options(sim, options, &r.options);
+    if (status >= 0) status = check_counts(&r);
+    if (status >= 0) status = dmb_state_copy_check(sim, "speeds");
+    if (status < 0) return status;
+    status = run(&r);
+    if (status == DMB_ERR_NO_MEMORY) dmb_message_set(&sim->message, "speeds: no memory");
+    if (status >= 0) {
+        write_bands(&r, bands);
+        if (severity != NULL) write_severity(&r, severity);
+        *band_count = r.count < r.room ? r.count : r.room;
+        if (r.count > r.room) status = DMB_NOTE_FULL;
+    }
+    release(&r);
+    return status;
+}
+
+int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
+                            uint32_t order_count, const dmb_output *outputs, const double *limits,
+                            uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count, double *severity)
+{
+    if (sim == NULL || orders == NULL || outputs == NULL || limits == NULL || bands == NULL || band_count == NULL)
+        return DMB_ERR_NULL;
+    int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    if (status < 0) return status;
+    status = analyse(sim, options, orders, order_count, outputs, limits, output_count, bands, band_count, severity);
+    return dmb_sim_leave(sim, status);
+}

@@ -1,0 +1,25 @@
+/* Severity over speed: one curve an order, their sum, and the bands in which it is above a threshold. */
+#ifndef DMB_ANALYSIS_RESPONSE_SPEEDS_H
+#define DMB_ANALYSIS_RESPONSE_SPEEDS_H
+
+#include "drillmbd/response.h"
+
+/* Of one order; straight between its points. */
+typedef struct dmb_speeds_curve {
+    double order;      /* [-] */
+    uint32_t count;
+    uint32_t taken;    /* points that have been merged with those of other curves */
+    double *speed;     /* [rad/s] ascending, shape (count) */
+    double *severity;  /* shape (count) */
+    uint32_t *output;  /* which is worst, shape (count) */
+} dmb_speeds_curve;
+
+/* Sum of the curves at a speed; *order: which of them is largest there, *output: its worst output. */
+double dmb_speeds_sum(const dmb_speeds_curve *curves, uint32_t count, double speed, uint32_t *order, uint32_t *output);
+
+/* The bands above the threshold, widened by the margin and joined where they meet. speeds: points of all curves,
+ * ascending. bands: room of them; returns how many there are, more than room if they do not fit. */
+uint32_t dmb_speeds_bands(const dmb_speeds_curve *curves, uint32_t count, const dmb_speeds_options *options,
+                          const double *speeds, uint32_t points, dmb_speed_band *bands, uint32_t room);
+
+#endif

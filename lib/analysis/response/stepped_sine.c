@@ -1,0 +1,297 @@
+#include "analysis/response/stepped_sine.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "analysis/linear/functional.h"
+#include "analysis/response/response_options.h"
+#include "base/handle.h"
+#include "base/memory.h"
+#include "base/sized_struct.h"
+#include "base/value_check.h"
+#include "math/so3.h"
+#include "sim/access.h"
+#include "sim/sim.h"
+static void part_along(const double axes[9], int32_t frame, const double world[3], double out[3])
+{
+    if (frame == DMB_FRAME_BODY)
+        dmb_mat3_tvec(axes, world, out);
+    else
+        dmb_vec3_copy(world, out);
+}
+
+/* Rotation vector, in world axes, from the start to now. */
+static void rotation_since(const double start[9], const double now[9], double out[3])
+{
+    double turned[9], q[4], own[3];
+    dmb_mat3_mul_tn(start, now, turned);
+    dmb_quat_from_matrix(turned, q);
+    dmb_quat_log(q, own);
+    dmb_mat3_vec(start, own, out);
+}
+
+static double displacement(const dmb_sim *sim, const dmb_stepped_sine_output *o, int32_t *status)
+{
+    const int32_t c = o->output.component;
+    dmb_pose pose = dmb_pose_default();
+    double angle = 0.0, world[3], out[3];
+    if (c == DMB_RX) {
+        *status = dmb_query_rotation(sim, o->output.place, &angle);
+        return angle;
+    }
+    *status = dmb_query_pose(sim, o->output.place, &pose);
+    if (*status < 0) return 0.0;
+    if (c < DMB_RX)
+        dmb_vec3_copy(pose.displacement, world);
+    else
+        rotation_since(o->start, pose.rotation, world);
+    part_along(o->start, o->output.frame, world, out);
+    return out[c % 3];
+}
+
+static double value_of(const dmb_sim *sim, const dmb_stepped_sine_output *o, int32_t *status)
+{
+    return o->output.kind == DMB_OUTPUT_DISPLACEMENT ? displacement(sim, o, status)
+                                                     : dmb_answer_of(sim, &o->output, status);
+}
+
+int32_t dmb_stepped_sine_output_begin(const dmb_sim *sim, dmb_stepped_sine_output *output)
+{
+    dmb_pose pose = dmb_pose_default();
+    int32_t status = DMB_OK;
+    if (output->output.kind == DMB_OUTPUT_DISPLACEMENT) status = dmb_query_pose(sim, output->output.place, &pose);
+    memcpy(output->start, pose.rotation, sizeof output->start);
+    if (status >= 0) (void)value_of(sim, output, &status);
+    return status;
+}
+
+double dmb_stepped_sine_sample(const dmb_sim *sim, const dmb_stepped_sine_output *output)
+{
+    int32_t status;
+    return value_of(sim, output, &status);
+}
+
+/* Stepped sine at one frequency. Over a window of n = periods times steps_per_period steps
+ *
+ *     A_k = 2/n sum_j (x_j - s (t_j - t_m)) e^(-i k w t_j),     mean = 1/n sum_j (x_j - s (t_j - t_m)),
+ *
+ * s being the drift of a displacement from the first to the last instant over the length of the window and t_m its
+ * middle. Successive windows that differ by c_1, c_2 = q c_1, ... leave c_2 q/(1 - q) to come (Aitken). */
+
+DMB_DECLARE_STRUCT(dmb_stepped_sine_report)
+
+typedef struct sine_run {
+    dmb_sim *sim;
+    dmb_stepped_sine_options options;
+    double omega;
+    uint32_t outputs, width; /* width: numbers of one output, 2 (1 + harmonics) */
+    dmb_stepped_sine_output *output;
+    double *first;                                 /* value at the start of the window, shape (outputs) */
+    double *sum;                                   /* shape (outputs, width) */
+    double *last;                                  /* amplitudes of the window before, same shape */
+    double ramp[2 * (DMB_STEPPED_SINE_HARMONICS_MAX + 1)]; /* sum of (t_j - t_m) e^(-i k w t_j) */
+    double begin, step;                            /* [s] of the window and of a step */
+    double change[2];                              /* the window before, this one */
+    dmb_stepped_sine_report report;
+    void *block;
+    size_t block_size;
+} sine_run;
+
+/* ---- Windows ----------------------------------------------------------------------------------------------------- */
+
+static uint32_t steps_of(const sine_run *r)
+{
+    return r->options.periods * r->options.steps_per_period;
+}
+
+/* Cosine and minus sine of the harmonics at an instant, as the sums take them. */
+static void turn_of(const sine_run *r, double time, double *turn)
+{
+    for (size_t k = 0; k <= r->options.harmonics; k++) {
+        turn[2 * k] = cos((double)k * r->omega * time);
+        turn[2 * k + 1] = -sin((double)k * r->omega * time);
+    }
+}
+
+static void add_sample(sine_run *r, double time)
+{
+    double turn[2 * (DMB_STEPPED_SINE_HARMONICS_MAX + 1)];
+    const double middle = r->begin + 0.5 * r->step * steps_of(r);
+    turn_of(r, time, turn);
+    for (uint32_t i = 0; i < r->width; i++) r->ramp[i] += (time - middle) * turn[i];
+    for (uint32_t o = 0; o < r->outputs; o++) {
+        const double x = dmb_stepped_sine_sample(r->sim, r->output + o);
+        if (time == r->begin) r->first[o] = x;
+        for (uint32_t i = 0; i < r->width; i++) r->sum[(size_t)r->width * o + i] += x * turn[i];
+    }
+}
+
+static void begin_window(sine_run *r)
+{
+    r->begin = dmb_sim_time(r->sim);
+    memset(r->ramp, 0, sizeof r->ramp);
+    memset(r->sum, 0, (size_t)r->outputs * r->width * sizeof(double));
+}
+
+static double drift_of(const sine_run *r, uint32_t o)
+{
+    if (r->output[o].output.kind != DMB_OUTPUT_DISPLACEMENT) return 0.0;
+    return (dmb_stepped_sine_sample(r->sim, r->output + o) - r->first[o]) / (r->step * steps_of(r));
+}
+
+/* Sums become amplitudes. */
+static void end_window(sine_run *r)
+{
+    for (uint32_t o = 0; o < r->outputs; o++) {
+        double *A = r->sum + (size_t)r->width * o;
+        const double drift = drift_of(r, o);
+        for (uint32_t i = 0; i < r->width; i++) A[i] = (i < 2 ? 1.0 : 2.0) / steps_of(r) * (A[i] - drift * r->ramp[i]);
+    }
+}
+
+/* Each step ends at a whole number of steps from the start of the window, so that nothing adds up. */
+static int32_t run_window(sine_run *r)
+{
+    const uint32_t n = steps_of(r);
+    begin_window(r);
+    for (uint32_t j = 0; j < n; j++) {
+        dmb_step_report report = dmb_step_report_default();
+        const double now = dmb_sim_time(r->sim);
+        add_sample(r, now);
+        const double done = (r->report.windows + (double)j / n) / r->options.windows;
+        dmb_sim_hand_on(r->sim, done, done);
+        const int32_t status = dmb_sim_step(r->sim, r->begin + (j + 1) * r->step - now, &report);
+        dmb_sim_take_back(r->sim);
+        if (status < 0) return status;
+        r->report.steps += report.steps;
+        r->report.rejected += report.rejected;
+    }
+    end_window(r);
+    r->report.windows++;
+    return DMB_OK;
+}
+
+/* ---- Settling ---------------------------------------------------------------------------------------------------- */
+
+/* Largest difference of a harmonic between the two windows over the largest harmonic of the output. */
+static double change_of(const sine_run *r, uint32_t o)
+{
+    const double *A = r->sum + (size_t)r->width * o, *B = r->last + (size_t)r->width * o;
+    double most = 0.0, largest = r->options.floor / r->options.tolerance;
+    for (uint32_t i = 2; i < r->width; i += 2) {
+        most = fmax(most, hypot(A[i] - B[i], A[i + 1] - B[i + 1]));
+        largest = fmax(largest, hypot(A[i], A[i + 1]));
+    }
+    return most / largest;
+}
+
+static void compare(sine_run *r)
+{
+    double worst = 0.0;
+    for (uint32_t o = 0; o < r->outputs; o++) worst = fmax(worst, change_of(r, o));
+    r->change[0] = r->change[1];
+    r->change[1] = worst;
+}
+
+/* Changes that no longer fall are what the motion itself does from window to window. */
+static double remaining(const sine_run *r)
+{
+    const double q = r->change[1] / r->change[0];
+    if (r->change[1] == 0.0) return 0.0;
+    return q < 1.0 ? fmax(r->change[1], r->change[1] * q / (1.0 - q)) : r->change[1];
+}
+
+static int32_t settle(sine_run *r)
+{
+    const size_t bytes = (size_t)r->outputs * r->width * sizeof(double);
+    while (r->report.windows < r->options.windows) {
+        const int32_t status = run_window(r);
+        if (status < 0) return status;
+        if (r->report.windows > 1) compare(r);
+        memcpy(r->last, r->sum, bytes);
+        if (r->report.windows < 3) continue;
+        r->report.change = r->change[1];
+        r->report.remaining = remaining(r);
+        r->report.settled = r->report.remaining <= r->options.tolerance;
+        if (r->report.settled) return DMB_OK;
+    }
+    return DMB_NOTE_STOPPED;
+}
+
+/* ---- The call ---------------------------------------------------------------------------------------------------- */
+
+static int32_t take_memory(sine_run *r)
+{
+    const size_t numbers = (size_t)r->outputs * (1 + 2 * (size_t)r->width);
+    r->block_size = r->outputs * sizeof(dmb_stepped_sine_output) + numbers * sizeof(double);
+    r->block = dmb_allocate(&r->sim->allocator, r->block_size);
+    if (r->block == NULL) {
+        dmb_message_set(&r->sim->message, "sine: no memory for %zu bytes", r->block_size);
+        return DMB_ERR_NO_MEMORY;
+    }
+    r->output = r->block;
+    r->first = (double *)(void *)(r->output + r->outputs);
+    r->sum = r->first + r->outputs;
+    r->last = r->sum + (size_t)r->outputs * r->width;
+    return DMB_OK;
+}
+
+static int32_t take_outputs(sine_run *r, const dmb_output *outputs)
+{
+    for (uint32_t i = 0; i < r->outputs; i++) {
+        dmb_output *output = &r->output[i].output;
+        int32_t status = dmb_output_take(outputs, i, &r->sim->message, output);
+        if (status < 0) return status;
+        status = dmb_stepped_sine_output_begin(r->sim, r->output + i);
+        if (status < 0) {
+            dmb_message_set(&r->sim->message, "output %u: place, pipe %u at %g: %s", i, output->place.pipe,
+                            output->place.fraction, dmb_status_text(status));
+            return status;
+        }
+    }
+    return DMB_OK;
+}
+
+static int32_t run(sine_run *r, const dmb_output *outputs)
+{
+    int32_t status = take_memory(r);
+    if (status >= 0) status = take_outputs(r, outputs);
+    if (status >= 0) status = settle(r);
+    r->report.time = dmb_sim_time(r->sim);
+    return status;
+}
+
+static int32_t analyse(dmb_sim *sim, double frequency, const dmb_stepped_sine_options *options, const dmb_output *outputs,
+                       uint32_t output_count, double *amplitudes, dmb_stepped_sine_report *report)
+{
+    sine_run r;
+    memset(&r, 0, sizeof r);
+    r.sim = sim;
+    r.report = dmb_stepped_sine_report_default();
+    if (report != NULL && dmb_stepped_sine_report_read(&r.report, report) < 0) return DMB_ERR_STRUCT_SIZE;
+    r.report = dmb_stepped_sine_report_default();
+    int32_t status = dmb_stepped_sine_options_take(options, frequency, &sim->message, &r.options);
+    dmb_check check = dmb_check_of(&sim->message, "sine", DMB_NO_INDEX);
+    if (status >= 0) dmb_check_count(&check, "output_count", output_count, 1, DMB_RESPONSE_INPUTS_MAX);
+    if (status < 0 || check.status < 0) return status < 0 ? status : check.status;
+    r.outputs = output_count;
+    r.width = 2 * (1 + r.options.harmonics);
+    r.omega = 2.0 * DMB_PI * frequency;
+    r.step = 1.0 / (frequency * r.options.steps_per_period);
+    status = run(&r, outputs);
+    if (status >= 0) {
+        memcpy(amplitudes, r.sum, (size_t)r.outputs * r.width * sizeof(double));
+        if (report != NULL) (void)dmb_stepped_sine_report_write(report, &r.report);
+    }
+    if (r.block != NULL) dmb_release(&sim->allocator, r.block, r.block_size);
+    return status;
+}
+
+int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const dmb_stepped_sine_options *options, const dmb_output *outputs,
+                          uint32_t output_count, double *amplitudes, dmb_stepped_sine_report *report)
+{
+    if (sim == NULL || outputs == NULL || amplitudes == NULL) return DMB_ERR_NULL;
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    if (status < 0) return status;
+    return dmb_sim_leave(sim, analyse(sim, frequency, options, outputs, output_count, amplitudes, report));
+}

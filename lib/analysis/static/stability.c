@@ -1,0 +1,387 @@
+#include "analysis/static/stability.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "analysis/linear/stiffness.h"
+#include "analysis/static/stability_friction.h"
+#include "math/block_inertia.h"
+#include "math/krylov.h"
+#include "sim/access.h"
+#include "system/solve/reduced_sparse.h"
+#include "system/solve/reduced_system.h"
+#include "system/solve/solve.h"
+/* ---- Symmetric part ---------------------------------------------------------------------------------------------- */
+
+/* U and L^T of shape (n, m) become their mean, and L its transpose. */
+static void average_link(uint32_t n, uint32_t m, double *U, double *L)
+{
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t j = 0; j < m; j++)
+            U[(size_t)m * i + j] = L[(size_t)n * j + i] = 0.5 * (U[(size_t)m * i + j] + L[(size_t)n * j + i]);
+}
+
+static void average_block(uint32_t n, double *D)
+{
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t j = 0; j < i; j++)
+            D[(size_t)n * i + j] = D[(size_t)n * j + i] = 0.5 * (D[(size_t)n * i + j] + D[(size_t)n * j + i]);
+}
+
+void dmb_make_blocks_symmetric(const dmb_block_layout *layout, double *diagonal, double *lower, double *upper)
+{
+    for (uint32_t k = 0; k < layout->n; k++) {
+        average_block(layout->size[k], diagonal + layout->diag[k]);
+        if (k + 1 < layout->n)
+            average_link(layout->size[k], layout->size[k + 1], upper + layout->link[k], lower + layout->link[k]);
+    }
+}
+
+void dmb_make_reduced_symmetric(const dmb_sim *sim, double *values)
+{
+    const dmb_block_pattern *pattern = &sim->scene->pattern;
+    for (uint32_t k = 0; k < pattern->n; k++) {
+        const uint32_t n = sim->reduced_size[pattern->order[k]];
+        average_block(n, values + pattern->diagonal[k]);
+        for (uint32_t e = pattern->column[k]; e < pattern->column[k + 1]; e++)
+            average_link(n, sim->reduced_size[pattern->order[pattern->later[e]]], values + pattern->upper[e],
+                         values + pattern->lower[e]);
+    }
+}
+
+/* ---- Asymmetry --------------------------------------------------------------------------------------------------- */
+
+/* Of entries ij of A, shape (n, m), and ji of B, shape (m, n); Di, Dj: diagonal blocks of their rows. */
+static double worst_pair(uint32_t n, uint32_t m, const double *A, const double *B, const double *Di, const double *Dj,
+                         double rounding)
+{
+    double worst = 0.0;
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t j = 0; j < m; j++) {
+            const double apart = fabs(A[(size_t)m * i + j] - B[(size_t)n * j + i]);
+            if (!(apart > rounding)) continue;
+            const double size = sqrt(fabs(Di[(size_t)(n + 1) * i] * Dj[(size_t)(m + 1) * j]));
+            worst = fmax(worst, apart / fmax(size, rounding));
+        }
+    return worst;
+}
+
+static double asymmetry_of_chain(const dmb_sim *sim, const dmb_chain *chain, double rounding)
+{
+    const dmb_block_layout *layout = &sim->scene->layout;
+    double worst = 0.0;
+    for (uint32_t k = chain->first; k < chain->first + chain->count; k++) {
+        const uint32_t n = layout->size[k];
+        const double *D = sim->stiffness_diagonal + layout->diag[k];
+        worst = fmax(worst, worst_pair(n, n, D, D, D, D, rounding));
+        if (k + 1 == chain->first + chain->count) continue;
+        worst = fmax(worst, worst_pair(n, layout->size[k + 1], sim->stiffness_upper + layout->link[k],
+                                       sim->stiffness_lower + layout->link[k], D,
+                                       sim->stiffness_diagonal + layout->diag[k + 1], rounding));
+    }
+    return worst;
+}
+
+static double asymmetry_of_reduced(const dmb_sim *sim, double rounding)
+{
+    const dmb_block_pattern *pattern = &sim->scene->pattern;
+    const double *values = sim->reduced_value;
+    double worst = 0.0;
+    for (uint32_t k = 0; k < pattern->n; k++) {
+        const uint32_t n = sim->reduced_size[pattern->order[k]];
+        const double *D = values + pattern->diagonal[k];
+        worst = fmax(worst, worst_pair(n, n, D, D, D, D, rounding));
+        for (uint32_t e = pattern->column[k]; e < pattern->column[k + 1]; e++) {
+            const uint32_t later = pattern->later[e];
+            worst = fmax(worst, worst_pair(n, sim->reduced_size[pattern->order[later]], values + pattern->upper[e],
+                                           values + pattern->lower[e], D, values + pattern->diagonal[later], rounding));
+        }
+    }
+    return worst;
+}
+
+double dmb_asymmetry_of(const dmb_sim *sim, double rounding)
+{
+    const dmb_scene *scene = sim->scene;
+    const double arm = fmax(1.0, scene->length_scale), unit = rounding * arm * arm;
+    double worst = scene->cluster_count ? asymmetry_of_reduced(sim, unit) : 0.0;
+    for (uint32_t c = 0; c < scene->chain_count; c++)
+        if (!scene->chains[c].linked) worst = fmax(worst, asymmetry_of_chain(sim, scene->chains + c, unit));
+    return worst;
+}
+
+/* ---- Iteration matrix raised by rho D ------------------------------------------------------------------------------
+ */
+
+static void raise_diagonal(dmb_sim *sim, double rho, int linked)
+{
+    const dmb_scene *scene = sim->scene;
+    const double turning = scene->length_scale * scene->length_scale;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        if (scene->chains[scene->node_chain[i]].linked != linked) continue;
+        for (uint32_t c = 0; c < size; c++)
+            if (scene->solved_row[row + c])
+                dmb_stiffness_of(sim, i)[(size_t)(size + 1) * c] += rho * (2 * c < size ? 1.0 : turning);
+    }
+}
+
+static uint32_t negative_of_reduced(dmb_sim *sim)
+{
+    const dmb_block_sparse matrix = {sim->reduced_value, sim->reduced_pivot, sim->reduced_size};
+    const uint32_t negative = dmb_block_sparse_negative(&sim->scene->pattern, &matrix, sim->cluster_full);
+    const uint32_t held = dmb_reduced_sparse_rows(sim); /* of equations that stand in the system: one each */
+    return negative > held ? negative - held : 0;
+}
+
+/* Negative eigenvalues of H + rho D; the blocks are used up. -1: a block is singular before its turn. */
+static int32_t negative_of_symmetric_part(dmb_static_search *state, double rho, int friction_turned)
+{
+    dmb_sim *sim = state->sim;
+    const dmb_scene *scene = sim->scene;
+    uint32_t negative = 0;
+    if (dmb_static_evaluate(state) < 0) return -1;
+    dmb_system_iteration_matrix(&state->evaluation);
+    if (friction_turned && dmb_stability_turn_friction(&state->evaluation) <= 0) return -1;
+    raise_diagonal(sim, rho, 0);
+    for (uint32_t c = 0; c < scene->chain_count; c++)
+        if (!scene->chains[c].linked)
+            negative += dmb_block_negative(&scene->layout, sim->stiffness_diagonal, sim->stiffness_lower,
+                                           sim->stiffness_upper, NULL, scene->chains[c].first, scene->chains[c].count);
+    if (scene->cluster_count == 0) return (int32_t)negative;
+    raise_diagonal(sim, rho, 1);
+    dmb_reduced_assemble(sim);
+    dmb_make_reduced_symmetric(sim, sim->reduced_value);
+    dmb_block_sparse matrix = {sim->reduced_value, sim->reduced_pivot, sim->reduced_size};
+    if (dmb_block_sparse_factor(&scene->pattern, &matrix) >= 0) return -1;
+    return (int32_t)(negative + negative_of_reduced(sim));
+}
+
+/* ---- Real eigenvalues nearest 0 ------------------------------------------------------------------------------------
+ */
+
+/* y = D x */
+static void metric(void *context, const double *x, double *y)
+{
+    const dmb_sim *sim = context;
+    const dmb_scene *scene = sim->scene;
+    const double turning = scene->length_scale * scene->length_scale;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        for (uint32_t c = 0; c < size; c++) y[row + c] = (2 * c < size ? 1.0 : turning) * x[row + c];
+    }
+}
+
+/* y = K^-1 D x by the factors at hand, which solve for -K^-1 */
+static void apply(void *context, const double *x, const double *Dx, double *y)
+{
+    dmb_sim *sim = context;
+    const uint32_t rows = sim->scene->row_count;
+    (void)x;
+    for (uint32_t i = 0; i < rows; i++) sim->correction[i] = -Dx[i];
+    dmb_solve_correction(sim);
+    memcpy(y, sim->correction, rows * sizeof(double));
+}
+
+/* A displacement that random forces give, so that it is one that guides and joints allow. */
+static void draw(void *context, uint64_t *seed, double *x)
+{
+    dmb_sim *sim = context;
+    const uint32_t rows = sim->scene->row_count;
+    for (uint32_t i = 0; i < rows; i++) {
+        *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+        sim->correction[i] = (double)(*seed >> 11) * 0x1p-52 - 1.0;
+    }
+    dmb_solve_correction(sim);
+    memcpy(x, sim->correction, rows * sizeof(double));
+}
+
+static int32_t go_on(void *context)
+{
+    return dmb_progress_pulse(context);
+}
+
+static uint32_t coordinates_of(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    uint32_t count = 0, rank = 0;
+    for (uint32_t i = 0; i < scene->row_count; i++) count += scene->solved_row[i] != 0;
+    for (uint32_t k = 0; k < scene->cluster_count; k++) rank += sim->partition_rank[k];
+    return count > rank ? count - rank : 0;
+}
+
+/* A real double value is split by rounding into two, or into a pair this close to the real axis. */
+#define DMB_REAL_PAIR 1e-5
+
+/* Negative ones among 1/value, those down to -rounding apart. */
+static int32_t count_negative(const dmb_krylov *found, double rounding)
+{
+    int32_t negative = 0;
+    for (uint32_t i = 0; i < found->count; i++) {
+        const int pair = found->im[i] != 0.0;
+        if (fabs(found->im[i]) > DMB_REAL_PAIR * fabs(found->re[i])) continue;
+        if (found->re[i] < 0.0 && -1.0 / found->re[i] > rounding) negative += pair ? 2 : 1;
+    }
+    return negative;
+}
+
+/* ---- Sign of the determinant ---------------------------------------------------------------------------------------
+ */
+
+/* Exchanges of rows and negative pivots change the sign; factors have the reciprocal pivots on their diagonals. */
+static int is_negative(uint32_t n, const double *LU, int exchanged)
+{
+    int odd = exchanged;
+    for (uint32_t k = 0; k < n; k++) odd ^= LU[(size_t)(n + 1) * k] < 0.0;
+    return odd;
+}
+
+/* 1: det K < 0, by the factors of dmb_factor_stiffness. */
+static int determinant_is_negative(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_block_pattern *pattern = &scene->pattern;
+    int odd = 0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t n = scene->layout.size[i];
+        int exchanged = 0;
+        if (scene->chains[scene->node_chain[i]].linked) continue;
+        for (uint32_t k = 0; k < n; k++) exchanged ^= sim->pivot[scene->layout.row[i] + k] != k;
+        odd ^= is_negative(n, sim->stiffness_diagonal + scene->layout.diag[i], exchanged);
+    }
+    for (uint32_t b = 0; scene->cluster_count && b < pattern->n; b++) {
+        const uint32_t n = sim->reduced_size[pattern->order[b]];
+        int exchanged = 0;
+        for (uint32_t k = 0; k < n; k++) exchanged ^= sim->reduced_pivot[pattern->pivot[b] + k] != k;
+        odd ^= is_negative(n, sim->reduced_value + pattern->diagonal[b], exchanged);
+    }
+    return odd ^ (scene->cluster_count ? (int)(dmb_reduced_sparse_rows(sim) & 1) : 0);
+}
+
+/* ---- Divergence ----------------------------------------------------------------------------------------------------
+ */
+
+#define DMB_DIVERGENCE_FIRST 12
+#define DMB_DIVERGENCE_THOROUGH 36
+#define DMB_DIVERGENCE_MOST 108
+#define DMB_DIVERGENCE_TOLERANCE 1e-8
+
+typedef struct search {
+    dmb_static_search *state;
+    double rounding;
+    int32_t odd;      /* 1: det K < 0 */
+    int32_t complete; /* 1: there are no other negative ones */
+    int32_t negative;
+    uint32_t wanted, dimension;
+} search;
+
+/* Products that making vectors orthogonal may take, by the square of their number times their length. */
+#define DMB_DIVERGENCE_WORK 5e8
+#define DMB_DIVERGENCE_LEAST 48
+
+static size_t most_vectors(uint32_t rows)
+{
+    return (size_t)fmax(DMB_DIVERGENCE_LEAST, sqrt(DMB_DIVERGENCE_WORK / rows));
+}
+
+/* The iteration matrix and its factors once more. */
+static int32_t factor_again(dmb_static_search *state)
+{
+    dmb_block_weakest unused;
+    const int32_t status = dmb_static_evaluate(state);
+    if (status < 0) return status;
+    dmb_system_iteration_matrix(&state->evaluation);
+    (void)dmb_factor_stiffness(state->sim, &unused);
+    return DMB_OK;
+}
+
+static int32_t look(search *s)
+{
+    dmb_sim *sim = s->state->sim;
+    const dmb_operator inverse = {.context = sim,
+                                  .length = sim->scene->row_count,
+                                  .dimension = s->dimension,
+                                  .most = most_vectors(sim->scene->row_count),
+                                  .metric = metric,
+                                  .apply = apply,
+                                  .draw = draw,
+                                  .go_on = go_on};
+    dmb_krylov found;
+    const int32_t status =
+        dmb_krylov_largest(&inverse, s->wanted, 2, DMB_DIVERGENCE_TOLERANCE, &sim->allocator, &found);
+    if (status < 0) {
+        (void)factor_again(s->state);
+        return status;
+    }
+    s->negative = count_negative(&found, s->rounding);
+    const double last = found.count ? hypot(found.re[found.count - 1], found.im[found.count - 1]) : 0.0;
+    dmb_krylov_release(&found);
+    s->complete = s->wanted >= s->dimension || (last > 0.0 && negative_of_symmetric_part(s->state, 1.0 / last, 0) == 0);
+    return factor_again(s->state);
+}
+
+/* Whether a symmetric part says that there is none; the factors are gone then. */
+static int has_none(dmb_static_search *state, double rounding)
+{
+    return negative_of_symmetric_part(state, rounding, 0) == 0 || negative_of_symmetric_part(state, rounding, 1) == 0;
+}
+
+static int32_t judge_unsymmetric(dmb_static_search *state, int thorough, dmb_stability *out)
+{
+    search s = {.state = state,
+                .rounding = out->rounding,
+                .odd = determinant_is_negative(state->sim),
+                .wanted = DMB_DIVERGENCE_FIRST,
+                .dimension = coordinates_of(state->sim)};
+    const int32_t none = has_none(state, out->rounding), status = factor_again(state);
+    out->negative = 0;
+    if (status < 0 || none) return status;
+    out->negative = -1;
+    for (int agrees = 0; !s.complete && s.wanted <= DMB_DIVERGENCE_MOST &&
+                         !(agrees && !(thorough && s.wanted <= DMB_DIVERGENCE_THOROUGH));
+         s.wanted *= 3) {
+        if (s.wanted > s.dimension) s.wanted = s.dimension;
+        const int32_t looked = look(&s);
+        if (looked == DMB_ERR_NO_CONVERGENCE) return DMB_OK;
+        if (looked < 0) return looked;
+        agrees = (s.negative & 1) == s.odd;
+        if (s.complete || agrees) out->negative = s.negative;
+    }
+    return DMB_OK;
+}
+
+/* ---- Judgement -----------------------------------------------------------------------------------------------------
+ */
+
+/* With joints what is 0 but for rounding has any sign: it is judged again with that much more on the diagonal. */
+static int64_t judge_reduced_again(dmb_sim *sim, uint32_t chains, dmb_stability *out)
+{
+    raise_diagonal(sim, out->rounding, 1);
+    int64_t bad = dmb_reduced_factor(sim, NULL);
+    if (bad < 0) out->negative = (int32_t)(chains + negative_of_reduced(sim));
+    raise_diagonal(sim, -out->rounding, 1);
+    if (bad < 0) bad = dmb_reduced_factor(sim, NULL);
+    return bad;
+}
+
+int32_t dmb_stability_judge(dmb_static_search *state, int thorough, dmb_block_weakest *weakest, int64_t *bad,
+                            dmb_stability *out)
+{
+    dmb_sim *sim = state->sim;
+    const dmb_scene *scene = sim->scene;
+    dmb_system_iteration_matrix(&state->evaluation);
+    const uint32_t chains = dmb_stiffness_negative_of_chains(sim);
+    out->rounding = dmb_stiffness_rounding(sim);
+    if (scene->cluster_count) dmb_reduced_assemble(sim);
+    out->asymmetry = dmb_asymmetry_of(sim, out->rounding);
+    out->stiffness = out->asymmetry > DMB_UNSYMMETRIC ? DMB_STIFFNESS_UNSYMMETRIC : DMB_STIFFNESS_SYMMETRIC;
+    out->negative = (int32_t)chains;
+    *bad = dmb_factor_stiffness(sim, weakest);
+    if (*bad >= 0) return DMB_OK;
+    if (out->stiffness == DMB_STIFFNESS_UNSYMMETRIC) return judge_unsymmetric(state, thorough, out);
+    if (scene->cluster_count == 0) return DMB_OK;
+    const uint32_t linked = negative_of_reduced(sim);
+    out->negative = (int32_t)(chains + linked);
+    if (linked > 0 && thorough) *bad = judge_reduced_again(sim, chains, out);
+    return DMB_OK;
+}

@@ -1,0 +1,106 @@
+#include "analysis/static/stability_friction.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "system/assemble/wall_contact.h"
+
+/* |f| that is allowed. */
+#define DMB_FRICTION_MOST 1.8
+
+enum { ENTRIES = 18 };
+
+/* f n^T of each node, n in its translations; mean of its rings. */
+typedef struct friction_field {
+    double *E;       /* shape (node, 6, 3) */
+    uint32_t *rings; /* of each node */
+    double most;     /* largest |f| */
+} friction_field;
+
+static void add_ring(const dmb_evaluation *evaluation, uint32_t s, friction_field *field)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    const uint32_t node = scene->sites[s].node;
+    double n[3], f[6], size = 0.0, *E = field->E + ENTRIES * (size_t)node;
+    if (!dmb_contact_friction_by_normal(evaluation, s, n, f)) return;
+    for (int i = 0; i < 6; i++) size += f[i] * f[i] / (i < 3 ? 1.0 : scene->length_scale * scene->length_scale);
+    field->most = fmax(field->most, sqrt(size));
+    field->rings[node]++;
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 3; j++) E[3 * i + j] += f[i] * n[j];
+}
+
+/* Between rings in proportion, beyond the last ones as there. */
+static void fill_chain(const dmb_chain *chain, friction_field *field)
+{
+    const uint32_t end = chain->first + chain->count;
+    uint32_t before = UINT32_MAX;
+    for (uint32_t i = chain->first; i < end; i++) {
+        if (field->rings[i] == 0) continue;
+        const double *here = field->E + ENTRIES * (size_t)i,
+                     *last = before < end ? here - ENTRIES * (size_t)(i - before) : here;
+        for (uint32_t k = before < end ? before + 1 : chain->first; k < i; k++) {
+            const double part = before < end ? (double)(k - before) / (double)(i - before) : 1.0;
+            for (int e = 0; e < ENTRIES; e++)
+                field->E[ENTRIES * (size_t)k + (size_t)e] = last[e] + part * (here[e] - last[e]);
+        }
+        before = i;
+    }
+    for (uint32_t k = before + 1; before < end && k < end; k++)
+        memcpy(field->E + ENTRIES * (size_t)k, field->E + ENTRIES * (size_t)before, ENTRIES * sizeof(double));
+}
+
+static void gather_rings(const dmb_evaluation *evaluation, friction_field *field)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    for (uint32_t s = 0; s < scene->site_count; s++) add_ring(evaluation, s, field);
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        for (int e = 0; field->rings[i] > 1 && e < ENTRIES; e++)
+            field->E[ENTRIES * (size_t)i + (size_t)e] /= field->rings[i];
+    for (uint32_t c = 0; c < scene->chain_count; c++) fill_chain(scene->chains + c, field);
+}
+
+/* A <- A - E A, A of 6 rows of the node; what is held keeps its rows, and has none to give. */
+static void turn_rows(const dmb_scene *scene, uint32_t node, const double *E, uint32_t columns, double *A)
+{
+    const uint8_t *solved = scene->solved_row + scene->layout.row[node];
+    for (uint32_t c = 0; c < columns; c++) {
+        double n[3];
+        for (uint32_t j = 0; j < 3; j++) n[j] = solved[j] ? A[(size_t)columns * j + c] : 0.0;
+        for (uint32_t i = 0; i < 6; i++)
+            if (solved[i])
+                for (uint32_t j = 0; j < 3; j++) A[(size_t)columns * i + c] -= E[3 * i + j] * n[j];
+    }
+}
+
+static void turn_chain(dmb_sim *sim, const dmb_chain *chain, const double *fields)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_block_layout *layout = &scene->layout;
+    for (uint32_t i = chain->first; i < chain->first + chain->count; i++) {
+        const double *E = fields + ENTRIES * (size_t)i;
+        if (layout->size[i] != DMB_NODE_FULL) continue;
+        turn_rows(scene, i, E, 6, sim->stiffness_diagonal + layout->diag[i]);
+        if (i > chain->first) turn_rows(scene, i, E, layout->size[i - 1], sim->stiffness_lower + layout->link[i - 1]);
+        if (i + 1 < chain->first + chain->count)
+            turn_rows(scene, i, E, layout->size[i + 1], sim->stiffness_upper + layout->link[i]);
+    }
+}
+
+int32_t dmb_stability_turn_friction(const dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const size_t bytes = scene->node_count * (ENTRIES * sizeof(double) + sizeof(uint32_t));
+    if (scene->site_count == 0 || scene->friction_law.kind == DMB_FRICTION_NONE) return 0;
+    friction_field field = {.E = dmb_allocate(&sim->allocator, bytes)};
+    if (field.E == NULL) return DMB_ERR_NO_MEMORY;
+    field.rings = (uint32_t *)(void *)(field.E + ENTRIES * (size_t)scene->node_count);
+    gather_rings(evaluation, &field);
+    const int done = field.most > 0.0 && field.most < DMB_FRICTION_MOST;
+    for (uint32_t c = 0; c < scene->chain_count && done; c++)
+        if (!scene->chains[c].linked) turn_chain(sim, scene->chains + c, field.E);
+    dmb_release(&sim->allocator, field.E, bytes);
+    return done;
+}

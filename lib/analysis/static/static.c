@@ -1,0 +1,418 @@
+#include "analysis/static/static.h"
+
+#include <string.h>
+
+#include "analysis/linear/stiffness.h"
+#include "analysis/static/stability.h"
+#include "base/handle.h"
+#include "base/sized_struct.h"
+#include "base/value_check.h"
+#include "math/vec3.h"
+#include "sim/access.h"
+#include "sim/layout.h"
+#include "sim/node.h"
+#include "system/assemble/bit.h"
+#include "system/assemble/drives.h"
+#include "system/constrain/cluster.h"
+#include "system/constrain/joint_state.h"
+#include "system/solve/solve.h"
+#include "system/start.h"
+DMB_DECLARE_STRUCT(dmb_static_options)
+
+int32_t dmb_static_options_take(dmb_sim *sim, const dmb_static_options *given, dmb_static_options *out)
+{
+    dmb_check check = dmb_check_of(&sim->message, "static options", DMB_NO_INDEX);
+    (void)dmb_static_options_init(out, (uint32_t)sizeof *out);
+    if (given != NULL) {
+        const int32_t status = dmb_static_options_read(out, given);
+        if (status < 0) {
+            dmb_message_set(&sim->message, "static options: struct_size is not one this library knows");
+            return status;
+        }
+    }
+    dmb_check_count(&check, "max_iterations", out->max_iterations, 1, 10000);
+    dmb_check_within(&check, "tolerance", out->tolerance, 1e-15, 0.1);
+    dmb_check_within(&check, "slip_axial", out->slip_axial, -1e6, 1e6);
+    dmb_check_within(&check, "slip_rotation", out->slip_rotation, -1e6, 1e6);
+    dmb_check_count(&check, "load_steps", out->load_steps, 0, 10000);
+    dmb_check_choice(&check, "lay_on_wall", out->lay_on_wall, 0, 1);
+    dmb_check_choice(&check, "steady", out->steady, DMB_STEADY_AUTO, DMB_STEADY_RIGID);
+    if (check.status >= 0 && out->steady >= DMB_STEADY_SLIDING && (out->slip_axial != 0.0 || out->slip_rotation != 0.0)) {
+        dmb_message_set(&sim->message, "static options: a slip is assumed of a state at rest, and steady asks for a moving "
+                                       "one; set slip_axial and slip_rotation to 0");
+        return DMB_ERR_VALUE;
+    }
+    return check.status;
+}
+
+DMB_DECLARE_STRUCT(dmb_static_report)
+
+void dmb_static_set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_options *options)
+{
+    memset(search, 0, sizeof *search);
+    search->sim = sim;
+    search->options = options;
+    search->evaluation.sim = sim;
+    search->evaluation.time = sim->clock->time;
+    search->evaluation.load_factor = 1.0;
+    search->evaluation.tangent = 1;
+}
+
+void dmb_static_slip(dmb_static_search *search, double axial, double rotation)
+{
+    search->evaluation.slipping = axial != 0.0 || rotation != 0.0;
+    search->evaluation.slip[0] = axial;
+    search->evaluation.slip[1] = rotation;
+}
+
+int32_t dmb_static_evaluate(dmb_static_search *search)
+{
+    const int32_t status = dmb_progress_pulse(search->sim);
+    if (status < 0) return status;
+    return search->steady != NULL ? dmb_steady_evaluate(search->steady, &search->evaluation)
+                                  : dmb_system_evaluate(&search->evaluation);
+}
+
+int32_t dmb_static_begin(dmb_static_search *search)
+{
+    dmb_sim *sim = search->sim;
+    dmb_configuration_copy(sim, &sim->now, &sim->trial);
+    memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
+    int32_t status = dmb_system_prescribe(&search->evaluation);
+    if (status >= 0 && search->options->lay_on_wall) dmb_static_lay_on_wall(sim);
+    if (status < 0 || sim->scene->cluster_count == 0) return status;
+    sim->reduced_mode->row = UINT32_MAX;
+    return dmb_static_settle(search);
+}
+
+static int may_try_again(int32_t status)
+{
+    return status < 0 && !dmb_is_final(status);
+}
+
+/* Where it goes astray it begins again with shorter corrections, but not for a part that nothing holds. Between walls
+ * they are short enough. */
+#define DMB_CAUTION_MAX 10.0
+
+static int32_t relax(dmb_static_search *search, uint32_t steps, int singular)
+{
+    int32_t status = DMB_ERR_NO_CONVERGENCE;
+    for (search->caution = 1.0; may_try_again(status) && search->caution < DMB_CAUTION_MAX; search->caution *= 3.0) {
+        status = dmb_static_equal_steps(search, dmb_static_relaxation, steps);
+        const int in_hole = search->sim->scene->site_count > 0;
+        if (status != DMB_ERR_ROTATION && (singular || search->loose || in_hole)) break;
+    }
+    return status;
+}
+
+/* The starting state is `now` again. Joints may have chosen their partition anew on the way, which goes back with it.
+ */
+static int32_t end_growing_steps(dmb_static_search *search, int32_t status)
+{
+    dmb_sim *sim = search->sim;
+    dmb_state_restore(sim);
+    if (status < 0 || sim->scene->cluster_count == 0) return status;
+    status = dmb_static_settle(search);
+    return status < 0 ? status : dmb_static_evaluate(search);
+}
+
+/* Newton in the load steps asked for, or at once where they are the library's choice, then in steps that grow, then the
+ * relaxation. What nothing holds in its starting pose may yet fall onto the wall, so the relaxation comes at once;
+ * where that fails too, the part is free. */
+static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
+{
+    const uint32_t steps = search->options->load_steps > 0 ? search->options->load_steps : 1;
+    int32_t status = dmb_static_equal_steps(search, dmb_static_newton, steps);
+    *method = DMB_STATIC_NEWTON;
+    if (may_try_again(status) && status != DMB_ERR_SINGULAR)
+        status = end_growing_steps(search, dmb_static_growing_steps(search));
+    if (!may_try_again(status)) return status;
+    const uint32_t singular_block = search->block;
+    const int singular = status == DMB_ERR_SINGULAR;
+    *method = DMB_STATIC_RELAXATION;
+    status = relax(search, steps, singular);
+    if (status >= 0 || !(singular || search->loose)) return status;
+    search->block = singular ? singular_block : search->loose_block;
+    return DMB_ERR_SINGULAR;
+}
+
+static double displacement_of(const dmb_sim *sim, uint32_t node)
+{
+    double d[3];
+    dmb_vec3_sub(sim->trial.displacement + 3 * (size_t)node, sim->now.displacement + 3 * (size_t)node, d);
+    return dmb_vec3_norm(d);
+}
+
+static double largest_displacement(const dmb_sim *sim)
+{
+    double most = 0.0;
+    for (uint32_t i = 0; i < sim->scene->node_count; i++) most = fmax(most, displacement_of(sim, i));
+    return most;
+}
+
+/* A part that nothing holds is moved so far that rounding of its poses hides the force on it, which then counts as
+ * none. Relative residuals above this are those forces, not what rounding leaves of others. */
+#define DMB_UNBALANCED 1e-3
+#define DMB_GONE_FAR 1e3   /* [-] lengths of the scene or of its elements */
+#define DMB_TURNED_FAR 1e4 /* [rad] */
+
+/* Has a node gone much further than the scene is long, or turned for ever? */
+static int has_gone(const dmb_sim *sim, uint32_t *node)
+{
+    const double far = DMB_GONE_FAR * fmax(sim->scene->length, sim->scene->length_scale);
+    for (*node = 0; *node < sim->scene->node_count; ++*node) {
+        if (displacement_of(sim, *node) > far) return 1;
+        const uint32_t size = sim->scene->layout.size[*node]; /* rotations are the upper half of its rows */
+        const double *turned = sim->increment + sim->scene->layout.row[*node] + size / 2;
+        for (uint32_t c = 0; c < size / 2; c++)
+            if (fabs(turned[c]) > DMB_TURNED_FAR) return 1;
+    }
+    return 0;
+}
+
+static int32_t refuse_loose(dmb_static_search *search, int32_t status)
+{
+    uint32_t node = 0;
+    if (status < 0 || search->residual <= DMB_UNBALANCED) return status;
+    if (!has_gone(search->sim, &node)) return status;
+    search->block = node;
+    return DMB_ERR_SINGULAR;
+}
+
+static double largest_residual(const dmb_sim *sim)
+{
+    double most = 0.0;
+    for (uint32_t i = 0; i < sim->scene->row_count; i++)
+        if (sim->scene->solved_row[i]) most = fmax(most, fabs(sim->correction[i]));
+    return most;
+}
+
+/* Friction of an assumed slip vanishes with the speeds, so that the state at rest is not held by the same forces.
+ * Reactions, drive forces and friction are those of the static state until the first step. */
+static int32_t keep_static_reactions(dmb_static_search *search)
+{
+    dmb_sim *sim = search->sim;
+    const dmb_scene *scene = sim->scene;
+    search->evaluation.tangent = 0;
+    const int32_t status = dmb_static_evaluate(search);
+    if (status < 0) return status;
+    if (scene->cluster_count) dmb_joint_reactions(&search->evaluation);
+    memcpy(sim->residual_row, sim->correction, scene->row_count * sizeof(double));
+    memcpy(sim->now.friction_slip, sim->trial.friction_slip, 2 * sizeof(double));
+    memcpy(sim->now.multiplier, sim->trial.multiplier, scene->constraint_row_count * sizeof(double));
+    for (uint32_t i = 0; i < scene->drive_count; i++) {
+        const uint32_t row = scene->drives[i].row;
+        if (scene->drives[i].kind == DMB_DRIVE_MOTION)
+            sim->now.drive_force[i] = row != UINT32_MAX ? sim->correction[row] : sim->trial.drive_force[i];
+    }
+    return DMB_OK;
+}
+
+/* Velocities of the state: none, or those of the steady motion, with what contacts remember of it. */
+static int32_t take_motion(dmb_static_search *search)
+{
+    dmb_sim *sim = search->sim;
+    const dmb_scene *scene = sim->scene;
+    const int32_t tangent = search->evaluation.tangent;
+    int32_t status = DMB_OK;
+    if (search->steady == NULL) {
+        memset(sim->trial.velocity, 0, scene->row_count * sizeof(double));
+    } else {
+        search->evaluation.tangent = 0;
+        search->evaluation.load_factor = 1.0;
+        status = dmb_static_evaluate(search);
+        search->evaluation.tangent = tangent;
+        if (status >= 0) status = dmb_steady_check_springs(&search->evaluation);
+    }
+    if (dmb_scene_has_bristles(scene)) {
+        memset(sim->trial.site_bristle, 0, 2 * scene->site_count * sizeof(double));
+        memset(sim->trial.path_bristle, 0, 2 * scene->path_site_count * sizeof(double));
+    }
+    memset(sim->trial.site_approach, 0, scene->site_count * sizeof(double));
+    dmb_configuration_copy(sim, &sim->trial, &sim->now);
+    if (search->steady != NULL) dmb_steady_deflect_bristles(sim);
+    return status;
+}
+
+/* At the start the rock lies where the description puts it ahead of the bit; the forces of the restart need it there.
+ * Where bits drill it is as they have left it. */
+static void lay_rock(dmb_static_search *search)
+{
+    dmb_sim *sim = search->sim;
+    for (uint32_t k = 0; k < sim->scene->bit_count; k++) {
+        if (sim->clock->time == 0.0) dmb_bit_start(sim, k);
+        if (search->steady != NULL && k < DMB_STEADY_BITS && search->evaluation.drilling >> k & 1)
+            dmb_bit_start_steady(sim, k);
+    }
+}
+
+/* The found pose becomes the state. */
+static int32_t settle(dmb_static_search *search)
+{
+    dmb_sim *sim = search->sim;
+    dmb_system_accept(&search->evaluation);
+    int32_t status = take_motion(search);
+    lay_rock(search);
+    const dmb_counters counters = *sim->counters;
+    if (status >= 0) status = dmb_system_restart(sim);
+    *sim->counters = counters;
+    if (status >= 0 && search->evaluation.slipping) status = keep_static_reactions(search);
+    if (status < 0) {
+        dmb_state_restore(sim);
+        return status;
+    }
+    dmb_forget_factors(sim);
+    return DMB_OK;
+}
+
+static int is_held_along(const dmb_scene *scene, const dmb_string_map *string)
+{
+    for (uint32_t i = 0; i < scene->held_count; i++)
+        if (scene->held_component[i] == 0 && scene->held_node[i] - string->first_node < string->node_count) return 1;
+    for (uint32_t k = 0; k < scene->bit_count; k++)
+        if (scene->bits[k].law.kind != DMB_ROCK_NONE && scene->bits[k].node - string->first_node < string->node_count)
+            return 1;
+    return scene->chains[scene->node_chain[string->first_node]].linked; /* joints may hold it */
+}
+
+/* What moves along for ever is seen as poses that do not converge, or bend too far on the way: the string is named. */
+static void name_free_string(dmb_sim *sim, int32_t status)
+{
+    const dmb_scene *scene = sim->scene;
+    if (status != DMB_ERR_NO_CONVERGENCE && status != DMB_ERR_ROTATION) return;
+    for (uint32_t i = 0; i < scene->string_count; i++) {
+        const dmb_message said = sim->message;
+        if (is_held_along(scene, scene->strings + i)) continue;
+        dmb_message_set(&sim->message,
+                        "static: string %u: nothing holds it along its axis, give it a drive, a guide or a "
+                        "joint; %s",
+                        i, said.text);
+        return;
+    }
+}
+
+static void explain(dmb_static_search *search, int32_t status)
+{
+    dmb_sim *sim = search->sim;
+    dmb_owner owner;
+    if (sim->scene->cluster_count && sim->reduced_mode->row != UINT32_MAX) {
+        dmb_clusters_explain(sim, "its equations cannot be satisfied");
+    } else if (status == DMB_ERR_SINGULAR) {
+        owner = dmb_owner_of_node(sim->scene, search->block);
+        dmb_message_set(&sim->message, "static: %s %u, pipe %u: nothing holds it, the stiffness is singular",
+                        owner.kind, owner.index, owner.pipe);
+    } else if (status == DMB_ERR_ROTATION) {
+        owner = dmb_owner_of_element(sim->scene, search->evaluation.element);
+        dmb_message_set(&sim->message, "static: %s %u, pipe %u: relative rotation in one element above 2.5 rad",
+                        owner.kind, owner.index, owner.pipe);
+    } else if (status == DMB_ERR_CALLBACK) {
+        dmb_message_set(&sim->message, "static: the callback of a programme or constraint failed at time %g",
+                        search->evaluation.time);
+    } else {
+        dmb_message_set(&sim->message, "static: %u iterations, relative residual = %g, must be <= %g",
+                        search->iterations, search->residual, search->options->tolerance);
+    }
+}
+
+static void tell(const dmb_static_search *search, dmb_static_report *out)
+{
+    out->iterations = search->iterations;
+    out->load_steps = search->load_steps;
+    out->residual = search->residual;
+    out->largest_force = largest_residual(search->sim);
+    out->cuts = search->cuts;
+    out->line_searches = search->line_searches;
+    out->steady = search->steady != NULL ? search->steady->kind : DMB_STEADY_AT_REST;
+    out->lateral_move = largest_displacement(search->sim);
+}
+
+/* The state just found, by its true tangent. */
+static int32_t judge_stability(dmb_static_search *search, dmb_static_report *out)
+{
+    dmb_block_weakest weakest;
+    dmb_stability found = {0};
+    int64_t bad = -1;
+    search->evaluation.extrapolated = 0;
+    int32_t status = dmb_static_evaluate(search);
+    if (status >= 0) status = dmb_stability_judge(search, 1, &weakest, &bad, &found);
+    out->negative = bad >= 0 ? -1 : found.negative;
+    out->stiffness = found.stiffness;
+    return status;
+}
+
+static int32_t find(dmb_static_search *search, dmb_static_report *out)
+{
+    dmb_sim *sim = search->sim;
+    int32_t status = refuse_loose(search, search_equilibrium(search, &out->method));
+    if (status < 0) {
+        explain(search, status);
+        name_free_string(sim, status);
+        dmb_state_restore(sim); /* the partition of joints may have changed on the way */
+        return status;
+    }
+    tell(search, out);
+    status = judge_stability(search, out);
+    if (status < 0) {
+        dmb_state_restore(sim);
+        return status;
+    }
+    return settle(search);
+}
+
+/* In the steady state that drives and options ask for. */
+static int32_t run(dmb_static_search *search, dmb_static_report *out)
+{
+    dmb_sim *sim = search->sim;
+    const dmb_static_options *options = search->options;
+    dmb_steady steady;
+    dmb_state_back_up(sim);
+    int32_t chosen = dmb_steady_choose(sim, options->steady, search->evaluation.slipping, &steady);
+    dmb_state_restore(sim);
+    int32_t status = chosen;
+    if (chosen >= 0) {
+        search->steady = steady.kind != DMB_STEADY_AT_REST ? &steady : NULL;
+        for (uint32_t k = 0; k < sim->scene->bit_count && k < DMB_STEADY_BITS; k++)
+            search->evaluation.drilling |= (uint32_t)dmb_bit_on_bottom(sim, k) << k;
+        status = find(search, out);
+    }
+    if (status == DMB_ERR_UNSUPPORTED && options->steady == DMB_STEADY_AUTO && search->steady != NULL) {
+        dmb_static_set_up(search, sim, options); /* found not to be steady */
+        status = find(search, out);
+        chosen = DMB_NOTE_NOT_STEADY;
+    }
+    dmb_steady_release(&steady);
+    return status == DMB_OK ? chosen : status;
+}
+
+static int32_t tell_unstable(dmb_sim *sim, const dmb_static_report *out)
+{
+    dmb_message_set(
+        &sim->message,
+        "static: the equilibrium is unstable, its %s stiffness has %snegative eigenvalues = %d, 0 of a stable "
+        "one; start nearer to the one wanted, push aside for a moment, or damp a run in time until it rests",
+        out->stiffness == DMB_STIFFNESS_SYMMETRIC ? "symmetric" : "unsymmetric",
+        out->stiffness == DMB_STIFFNESS_SYMMETRIC ? "" : "real ", out->negative);
+    return DMB_NOTE_UNSTABLE;
+}
+
+static int32_t analyse(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)
+{
+    dmb_static_options taken;
+    dmb_static_search search;
+    dmb_static_report out;
+    (void)dmb_static_report_init(&out, (uint32_t)sizeof out);
+    if (report != NULL && dmb_static_report_read(&out, report) < 0) return DMB_ERR_STRUCT_SIZE;
+    int32_t status = dmb_static_options_take(sim, options, &taken);
+    if (status < 0) return status;
+    dmb_static_set_up(&search, sim, &taken);
+    dmb_static_slip(&search, taken.slip_axial, taken.slip_rotation);
+    status = run(&search, &out);
+    if (status >= 0 && report != NULL) (void)dmb_static_report_write(report, &out);
+    return status == DMB_OK && out.negative > 0 && out.steady == DMB_STEADY_AT_REST ? tell_unstable(sim, &out) : status;
+}
+
+int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report)
+{
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_CHANGING);
+    return status < 0 ? status : dmb_sim_leave(sim, analyse(sim, options, report));
+}

@@ -1,0 +1,71 @@
+/* Iterations towards equilibrium, on the trial configuration. */
+#ifndef DMB_ANALYSIS_STATIC_STATIC_H
+#define DMB_ANALYSIS_STATIC_STATIC_H
+
+#include "analysis/static/steady.h"
+#include "drillmbd/analysis.h"
+#include "sim/sim.h"
+#include "system/assemble/evaluation.h"
+typedef struct dmb_static_search {
+    dmb_sim *sim;
+    const dmb_static_options *options;
+    dmb_evaluation evaluation;
+    dmb_steady *steady;  /* NULL: at rest */
+    uint32_t iterations; /* in all */
+    uint32_t load_steps; /* of the last try */
+    uint32_t cuts;       /* load steps that were cut */
+    uint32_t line_searches;
+    int32_t searching;   /* 1: corrections that overshoot are shortened */
+    uint32_t block;      /* block found singular */
+    int32_t loose;       /* 1: nothing seems to hold loose_block in the starting pose */
+    uint32_t loose_block;
+    double residual;     /* [-] relative, last */
+    double moved;        /* [-] largest correction before it, in length scales */
+    double moved_before; /* [-] the one before that */
+    double caution;      /* [-] the relaxation's corrections are this much shorter */
+} dmb_static_search;
+
+/* A pivot this small against its block is rounding: 100 m of unsupported pipe still leave 1e-9. */
+#define DMB_LOOSE_PIVOT 1e-15
+
+/* At the sim's present time, without friction; options may be NULL where nothing iterates. */
+void dmb_static_set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_options *options);
+/* Friction acts as at these speeds, both 0: not at all. */
+void dmb_static_slip(dmb_static_search *search, double axial, double rotation);
+
+/* Residual and tangent of the trial at rest, or in its steady motion. */
+int32_t dmb_static_evaluate(dmb_static_search *search);
+
+typedef int32_t (*dmb_static_method)(dmb_static_search *search);
+
+/* Trial at the starting pose, drives and loads at their present values. */
+int32_t dmb_static_begin(dmb_static_search *search);
+/* From the start to the whole load in equal steps, or in steps that are halved and doubled, with the line search. The
+ * latter uses `now` and dmb_static_keep. */
+int32_t dmb_static_equal_steps(dmb_static_search *search, dmb_static_method method, uint32_t steps);
+int32_t dmb_static_growing_steps(dmb_static_search *search);
+/* Poses of the trial onto the joints, with a partition that suits the place. */
+int32_t dmb_static_settle(dmb_static_search *search);
+/* Displaces the trial to the low side of the hole, where there is gravity and a wall. */
+void dmb_static_lay_on_wall(dmb_sim *sim);
+/* The trial and its increments set aside as `now`, whose accepted state is in the backup, and back. */
+void dmb_static_keep(dmb_sim *sim);
+void dmb_static_return(dmb_sim *sim);
+/* Shortens the last move, by `direction` (row_count), which ended where the residual was just evaluated; `before` is
+ * direction . residual at its start. Leaves the residual and tangent of where it ends. */
+int32_t dmb_static_line_search(dmb_static_search *search, const double *direction, double before);
+/* The trial displaced by body-frame increments: as it comes, and closed at its joints. */
+void dmb_static_displace(dmb_sim *sim, const double *correction, double factor);
+int32_t dmb_static_move(dmb_static_search *search, const double *correction, double factor);
+/* Newton with the extrapolated element stress at the search's load factor. DMB_OK, or why it failed. */
+int32_t dmb_static_newton(dmb_static_search *search);
+/* Pseudo-transient continuation: (K + D/tau^2) z = -residual with growing tau and limited corrections (Kelley, Keyes
+ * 1998); slower and surer. */
+int32_t dmb_static_relaxation(dmb_static_search *search);
+
+/* Options of the static start, checked. */
+
+/* Defaults overlaid with what is given (may be NULL); on refusal a message naming the field. */
+int32_t dmb_static_options_take(dmb_sim *sim, const dmb_static_options *given, dmb_static_options *out);
+
+#endif

@@ -1,0 +1,365 @@
+#include <string.h>
+
+#include "analysis/linear/stiffness.h"
+#include "analysis/static/static.h"
+#include "math/se3.h"
+#include "math/vec3.h"
+#include "system/assemble/elements.h"
+#include "system/constrain/cluster.h"
+#include "system/constrain/joint_state.h"
+#include "system/solve/solve.h"
+static int32_t choose_anew(dmb_static_search *search)
+{
+    const int32_t status = dmb_clusters_gather(&search->evaluation);
+    if (status >= 0) dmb_clusters_choose(search->sim);
+    return status;
+}
+
+/* Joints closed, and the partition chosen anew where it has become poor. A long way may have made it useless at once.
+ */
+int32_t dmb_static_settle(dmb_static_search *search)
+{
+    int32_t status = dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
+    if (status == DMB_ERR_SINGULAR) {
+        status = choose_anew(search);
+        if (status >= 0) status = dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
+    }
+    if (status < 0) return status;
+    search->sim->reduced_mode->row = UINT32_MAX;
+    dmb_joints_follow(&search->evaluation);
+    return dmb_clusters_refresh(&search->evaluation);
+}
+
+/* The sum in `increment` follows the turns. */
+void dmb_static_displace(dmb_sim *sim, const double *correction, double factor)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->row_count; i++) sim->increment[i] += factor * correction[i];
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i];
+        double z[6] = {0.0};
+        for (uint32_t c = 0; c < size; c++) z[c] = factor * correction[scene->layout.row[i] + c];
+        if (size == DMB_NODE_FULL) {
+            dmb_se3_advance(sim->trial.quaternion + 4 * i, sim->trial.displacement + 3 * i, z);
+        } else {
+            sim->trial.displacement[3 * i] += z[0];
+            sim->trial.turn[i] += z[1];
+        }
+    }
+}
+
+int32_t dmb_static_move(dmb_static_search *search, const double *correction, double factor)
+{
+    dmb_static_displace(search->sim, correction, factor);
+    return search->sim->scene->cluster_count ? dmb_static_settle(search) : DMB_OK;
+}
+
+static void scale_correction(dmb_sim *sim, double factor)
+{
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) sim->correction[i] *= factor;
+}
+
+/* Largest correction, rotations times the length scale. */
+static double largest_move(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    double most = 0.0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        for (uint32_t c = 0; c < size; c++)
+            most = fmax(most, fabs(sim->correction[row + c]) * (2 * c < size ? 1.0 : scene->length_scale));
+    }
+    return most;
+}
+
+/* A residual of rounding size is equilibrium once corrections are this small, in length scales; next to stiff elements
+ * it can hide a soft part that still moves. A part so soft that rounding itself moves it gets this many corrections. */
+#define DMB_NO_MOVE 1e-9
+#define DMB_MOVES_ENOUGH 20
+/* Ten times as large they may be where they shrink so fast, once small, that the next one, their square over the one
+ * before, is this small. */
+#define DMB_NO_MOVE_LEFT 1e-12
+#define DMB_SMALL_MOVE 1e-3
+
+static int is_still(const dmb_static_search *search)
+{
+    const double now = search->moved, before = search->moved_before;
+    if (now <= DMB_NO_MOVE) return 1;
+    return now <= 10.0 * DMB_NO_MOVE && before <= DMB_SMALL_MOVE && now * now <= DMB_NO_MOVE_LEFT * before;
+}
+
+/* 0: in equilibrium, 1: not yet, < 0: failed */
+static int32_t judge(dmb_static_search *search)
+{
+    const dmb_residual_norm norm = dmb_residual_norm_of(&search->evaluation, search->options->tolerance);
+    search->residual = norm.relative;
+    if (norm.converged == DMB_CONVERGED || (norm.converged && is_still(search))) return 0;
+    return 1;
+}
+
+static int32_t evaluate(dmb_static_search *search)
+{
+    const int32_t status = dmb_static_evaluate(search);
+    return status < 0 ? status : judge(search);
+}
+
+/* What the factors tell of a part that nothing holds. */
+static int32_t look_at_factors(dmb_static_search *search, int64_t bad, const dmb_block_weakest *weakest)
+{
+    if (search->iterations == 0 && weakest->ratio < DMB_LOOSE_PIVOT) {
+        search->loose = 1;
+        search->loose_block = weakest->block;
+    }
+    search->block = (uint32_t)bad;
+    return bad >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
+}
+
+static int32_t solve(dmb_static_search *search)
+{
+    dmb_system_iteration_matrix(&search->evaluation);
+    dmb_block_weakest weakest;
+    const int64_t bad = dmb_factor_stiffness(search->sim, &weakest);
+    const int32_t status = look_at_factors(search, bad, &weakest);
+    if (status < 0) return status;
+    dmb_solve_correction(search->sim);
+    search->iterations++;
+    return DMB_OK;
+}
+
+/* Where nodes keep opening and closing the wall in turn, shorter corrections break the cycle. */
+static double damping(uint32_t iteration)
+{
+    if (iteration < 12) return 1.0;
+    return iteration % 4 == 3 ? 1.0 : 0.5;
+}
+
+/* The correction takes the place of the residual; the line search looks at the work of both. No force depends on
+ * pseudo accelerations, which are room for it. */
+static int32_t correct(dmb_static_search *search, uint32_t iteration)
+{
+    dmb_sim *sim = search->sim;
+    const uint32_t rows = sim->scene->row_count;
+    double *direction = sim->trial.pseudo_acceleration, work = 0.0;
+    memcpy(direction, sim->correction, rows * sizeof(double));
+    int32_t status = solve(search);
+    if (status < 0) return status;
+    search->moved_before = search->moved;
+    search->moved = iteration + 1 < DMB_MOVES_ENOUGH ? largest_move(sim) / sim->scene->length_scale : 0.0;
+    scale_correction(sim, damping(iteration));
+    for (uint32_t i = 0; i < rows; i++) {
+        work += sim->scene->solved_row[i] ? direction[i] * sim->correction[i] : 0.0;
+        direction[i] = sim->correction[i];
+    }
+    dmb_system_extrapolate_stress(sim, sim->correction);
+    search->evaluation.extrapolated = 1;
+    status = dmb_static_move(search, direction, 1.0);
+    if (status >= 0) status = dmb_static_evaluate(search);
+    if (status >= 0 && search->searching) status = dmb_static_line_search(search, direction, work);
+    return status;
+}
+
+int32_t dmb_static_newton(dmb_static_search *search)
+{
+    search->evaluation.extrapolated = 0;
+    search->moved = search->moved_before = (double)INFINITY;
+    int32_t status = dmb_static_evaluate(search);
+    for (uint32_t k = 0; status >= 0; k++) {
+        status = judge(search);
+        if (status <= 0) return status;
+        if (k >= search->options->max_iterations) return DMB_ERR_NO_CONVERGENCE;
+        status = correct(search, k);
+    }
+    return status;
+}
+
+/* Pseudo mass of a row over tau^2: the weight it carries, of a rotation that of a rod of the length scale. */
+static void add_pseudo_mass(dmb_sim *sim, double rate)
+{
+    const dmb_scene *scene = sim->scene;
+    const double mean = scene->mass / scene->node_count;
+    const double arm = scene->length_scale * scene->length_scale / 12.0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i];
+        for (uint32_t c = 0; c < size; c++)
+            if (scene->solved_row[scene->layout.row[i] + c])
+                dmb_stiffness_of(sim, i)[(size + 1) * c] += rate * mean * (2 * c < size ? 1.0 : arm);
+    }
+}
+
+/* Far from equilibrium a correction that turns parts far leaves elements compressed, and what stands on its head is
+ * unstable anyway: K + D/tau^2 is then indefinite, and its correction leads uphill or, near singular, anywhere. Pseudo
+ * mass is added for this correction alone until no eigenvalue is negative; the next one begins with this much more. */
+#define DMB_HEAVIER 4.0
+#define DMB_HEAVIER_TRIES 12
+#define DMB_HEAVIER_KEPT 2.0
+
+/* `rate` is where it begins, and the next one. */
+static int32_t solve_downhill(dmb_static_search *search, double *rate)
+{
+    dmb_block_weakest weakest;
+    double taken = *rate;
+    int32_t negative = 1;
+    for (int k = 0; k < DMB_HEAVIER_TRIES; k++, taken *= DMB_HEAVIER) {
+        int32_t status = k > 0 ? dmb_static_evaluate(search) : DMB_OK; /* the factors are in its place */
+        if (status < 0) return status;
+        add_pseudo_mass(search->sim, taken);
+        dmb_system_iteration_matrix(&search->evaluation);
+        status = look_at_factors(search, dmb_stiffness_factor(search->sim, &weakest, &negative), &weakest);
+        if (status < 0) return status;
+        if (negative == 0) break;
+    }
+    dmb_solve_correction(search->sim);
+    search->iterations++;
+    *rate = fmin(taken, DMB_HEAVIER_KEPT * *rate);
+    return DMB_OK;
+}
+
+/* [m] that one correction may move a node towards the wall: half the smallest clearance; infinite without a wall. */
+static double longest_move(const dmb_scene *scene)
+{
+    double limit = (double)INFINITY;
+    for (uint32_t s = 0; s < scene->site_count; s++)
+        if (scene->sites[s].clearance > 0.0) limit = fmin(limit, 0.5 * scene->sites[s].clearance);
+    return limit;
+}
+
+/* [-] along the hole, in length scales, where the wall stays as far away */
+#define DMB_LONGEST_SLIDE 0.2
+/* [rad] What hangs free moves far before it rests, but any part of it only turns. */
+#define DMB_LONGEST_TURN 0.3
+
+/* Largest parts of a correction. */
+typedef struct correction_size {
+    double along, across; /* [m] in the axes of the nodes; all of what only slides is along */
+    double turn;          /* [rad] */
+} correction_size;
+
+static correction_size size_of_correction(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    correction_size size = {0.0, 0.0, 0.0};
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const double *z = sim->correction + scene->layout.row[i];
+        size.along = fmax(size.along, fabs(z[0]));
+        if (scene->layout.size[i] != DMB_NODE_FULL) continue;
+        size.across = fmax(size.across, fmax(fabs(z[1]), fabs(z[2])));
+        size.turn = fmax(size.turn, fmax(fabs(z[3]), fmax(fabs(z[4]), fabs(z[5]))));
+    }
+    return size;
+}
+
+/* [-] The two ends of a joint travel on different screws and come apart by half the product of way and turn, which the
+ * elements beside the joint then have to make up for: part of the length scale that may be. */
+#define DMB_LONGEST_GAP 0.15
+
+/* [-] largest correction over what one may be */
+static double reach(const dmb_static_search *search, double limit)
+{
+    const dmb_scene *scene = search->sim->scene;
+    const correction_size size = size_of_correction(search->sim);
+    if (isfinite(limit)) {
+        const double across = fmax(size.across, size.turn * scene->length_scale) / limit;
+        return search->caution * fmax(across, size.along / (DMB_LONGEST_SLIDE * scene->length_scale));
+    }
+    const double apart = scene->cluster_count ? sqrt(0.5 * search->moved * size.turn / DMB_LONGEST_GAP) : 0.0;
+    return search->caution * fmax(size.turn / DMB_LONGEST_TURN, apart);
+}
+
+/* The residual's work along the last correction, over that of the one before it: -1 to 0 where the correction led
+ * downhill all the way. Below DOWNHILL pseudo time goes on in longer steps, beyond OVERSHOT in shorter ones. */
+#define DMB_DOWNHILL 0.2
+#define DMB_OVERSHOT 0.8
+#define DMB_OVERSHOT_FAR 2.0
+
+/* What the rate of the next correction is of the last one's: the residual's share where that tells more (switched
+ * evolution relaxation), which it does not while parts still travel. */
+static double change_of_rate(double work_ratio, double residual_ratio)
+{
+    if (work_ratio > DMB_OVERSHOT_FAR) return 8.0;
+    if (work_ratio > DMB_OVERSHOT) return 3.0;
+    return work_ratio < DMB_DOWNHILL ? fmin(fmax(residual_ratio, 0.1), 0.3) : 1.0;
+}
+
+/* Work of the residual in `correction` along a direction. */
+static double work_along(const dmb_sim *sim, const double *direction)
+{
+    double work = 0.0;
+    for (uint32_t i = 0; i < sim->scene->row_count; i++)
+        work += sim->scene->solved_row[i] ? direction[i] * sim->correction[i] : 0.0;
+    return work;
+}
+
+int32_t dmb_static_relaxation(dmb_static_search *search)
+{
+    dmb_sim *sim = search->sim;
+    const size_t bytes = sim->scene->row_count * sizeof(double);
+    const double limit = longest_move(sim->scene);
+    double *direction = sim->trial.pseudo_acceleration, rate = 1e4, last = 1.0, work = 0.0; /* room for it */
+    search->evaluation.extrapolated = 0;
+    search->moved = search->moved_before = (double)INFINITY;
+    for (uint32_t k = 0;; k++) {
+        int32_t status = evaluate(search);
+        if (status <= 0) return status;
+        if (k >= 20 * search->options->max_iterations) return DMB_ERR_NO_CONVERGENCE;
+        if (k > 0) rate *= change_of_rate(work_along(sim, direction) / fabs(work), search->residual / last);
+        last = search->residual;
+        memcpy(direction, sim->correction, bytes);
+        status = solve_downhill(search, &rate);
+        if (status < 0) return status;
+        search->moved_before = search->moved;
+        search->moved = largest_move(sim) / sim->scene->length_scale;
+        const double part = reach(search, limit);
+        if (part > 1.0) scale_correction(sim, 1.0 / part);
+        work = work_along(sim, direction);
+        memcpy(direction, sim->correction, bytes);
+        dmb_system_extrapolate_stress(sim, direction);
+        search->evaluation.extrapolated = 1;
+        status = dmb_static_move(search, direction, 1.0);
+        if (status < 0) return status;
+    }
+}
+
+/* A string at rest lies on the low side of its hole. Starting there, the wall is closed from the first iteration on and
+ * Newton does not meet the softness of a string that hangs free. */
+
+static double sink(const dmb_scene *scene, const dmb_site *site, double weight)
+{
+    return pow(weight / (scene->normal_law.stiffness * site->length), 1.0 / scene->normal_law.exponent);
+}
+
+static void lay_site(dmb_sim *sim, const dmb_site *site)
+{
+    const dmb_scene *scene = sim->scene;
+    const uint32_t node = site->node;
+    double *u = sim->trial.displacement + 3 * node, x[3], point[3], tangent[3], down[3];
+    double depth = scene->reference_depth[node];
+    uint32_t segment = 0;
+    dmb_vec3_add(scene->reference_position + 3 * node, u, x);
+    dmb_hole_project(&scene->hole, x, &depth, &segment, point, tangent);
+    dmb_vec3_copy(scene->gravity, down);
+    dmb_vec3_axpy(-dmb_vec3_dot(down, tangent), tangent, down);
+    const double across = dmb_vec3_norm(down);
+    if (!(across > 1e-9 * dmb_vec3_norm(scene->gravity))) return;
+    dmb_vec3_scale((site->clearance + sink(scene, site, scene->weight_mass[node] * across)) / across, down, down);
+    dmb_vec3_add(point, down, down);
+    dmb_vec3_sub(down, x, down);
+    dmb_vec3_add(u, down, u);
+}
+
+static int free_sideways(const dmb_scene *scene, uint32_t node)
+{
+    const uint8_t *solved = scene->solved_row + scene->layout.row[node];
+    return scene->layout.size[node] == DMB_NODE_FULL && solved[DMB_Y] && solved[DMB_Z];
+}
+
+void dmb_static_lay_on_wall(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    if (!(scene->features & DMB_FEATURE_GRAVITY)) return;
+    for (uint32_t s = 0; s < scene->site_count; s++) {
+        const dmb_site *site = scene->sites + s;
+        const int first = s == 0 || scene->sites[s - 1].node != site->node;
+        if (first && site->offset == 0.0 && site->clearance >= 0.0 && free_sideways(scene, site->node))
+            lay_site(sim, site);
+    }
+}

@@ -1,0 +1,291 @@
+/* Motion and equations of a steady state (steady.h). */
+#include "analysis/static/steady.h"
+
+#include <string.h>
+
+#include "analysis/linear/linearise.h"
+#include "math/mat6.h"
+#include "math/so3.h"
+#include "sim/layout.h"
+#include "system/assemble/bit.h"
+#include "system/assemble/drives.h"
+#include "system/constrain/cluster.h"
+#include "system/constrain/constraint_rows.h"
+#include "system/constrain/joint_motion.h"
+#include "sim/node.h"
+#include "system/assemble/wall_contact.h"
+
+/* ---- Velocities and accelerations -------------------------------------------------------------------------------- */
+
+static void position_of(const dmb_sim *sim, uint32_t node, double R[9], double x[3])
+{
+    dmb_node_pose(sim->scene, &sim->trial, node, R, x);
+    dmb_vec3_add(x, sim->scene->reference_position + 3 * (size_t)node, x);
+}
+
+static void move_rigid(dmb_steady *steady, dmb_sim *sim, double factor)
+{
+    const dmb_scene *scene = sim->scene;
+    double twist[6];
+    for (int i = 0; i < 6; i++) twist[i] = factor * steady->twist[i];
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        double R[9], x[3];
+        position_of(sim, i, R, x);
+        dmb_adjoint_inverse_apply(R, x, twist, sim->trial.velocity + scene->layout.row[i]);
+    }
+    memcpy(steady->frame_velocity, sim->trial.velocity, scene->row_count * sizeof(double));
+    memset(sim->trial.acceleration, 0, scene->row_count * sizeof(double));
+}
+
+/* g = (R^T v t; R^T (v t x k)), V = g + w, V' = -ad(w) g. */
+static void slide_node(dmb_steady *steady, dmb_sim *sim, uint32_t node, double v, double spin)
+{
+    const dmb_scene *scene = sim->scene;
+    const uint32_t row = scene->layout.row[node];
+    double R[9], x[3], along[3], turning[3] = {0.0, 0.0, 0.0};
+    double *g = steady->frame_velocity + row, *V = sim->trial.velocity + row, *a = sim->trial.acceleration + row;
+    position_of(sim, node, R, x);
+    if (scene->has_hole) {
+        double point[3], curvature[3], s = scene->reference_depth[node];
+        uint32_t segment = 0;
+        dmb_hole_project(&scene->hole, x, &s, &segment, point, along);
+        dmb_hole_frame(&scene->hole, s, point, NULL, curvature);
+        dmb_vec3_cross(along, curvature, turning);
+        dmb_mat3_tvec(R, along, g);
+        dmb_mat3_tvec(R, turning, g + 3);
+    } else {
+        dmb_vec3_set(1.0, 0.0, 0.0, g);
+        dmb_vec3_zero(g + 3);
+    }
+    for (int i = 0; i < 6; i++) V[i] = g[i] = v * g[i];
+    V[3] += spin;
+    const double w[6] = {0.0, 0.0, 0.0, spin, 0.0, 0.0};
+    dmb_ad_apply(w, g, a);
+    for (int i = 0; i < 6; i++) a[i] = -a[i];
+}
+
+static void slide_strings(dmb_steady *steady, dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t s = steady->string[i], row = scene->layout.row[i];
+        if (s == UINT32_MAX) continue;
+        const double v = steady->speed[2 * s], spin = steady->speed[2 * s + 1];
+        if (scene->layout.size[i] == DMB_NODE_FULL) {
+            slide_node(steady, sim, i, v, spin);
+        } else {
+            sim->trial.velocity[row] = v;
+            sim->trial.velocity[row + 1] = spin;
+            sim->trial.acceleration[row] = sim->trial.acceleration[row + 1] = 0.0;
+        }
+    }
+    for (uint32_t i = 0; i < scene->held_count; i++) { /* a guide keeps its end from following a bend */
+        const uint32_t node = scene->held_node[i], row = scene->layout.row[node] + scene->held_component[i];
+        sim->trial.velocity[row] = sim->trial.acceleration[row] = steady->frame_velocity[row] = 0.0;
+    }
+    for (uint32_t i = 0; i < scene->drive_count; i++) {
+        const dmb_scene_drive *drive = scene->drives + i;
+        if (drive->kind != DMB_DRIVE_MOTION || drive->row == UINT32_MAX) continue;
+        sim->trial.velocity[drive->row] = sim->trial.drive_target[i];
+        if (drive->component == 0) steady->frame_velocity[drive->row] = sim->trial.drive_target[i];
+    }
+}
+
+/* [-] largest change of the rows of strings (all: of all rows) from what they were, over the largest of them. */
+static double change_of(const dmb_steady *steady, const dmb_sim *sim, const double *before, int all)
+{
+    const dmb_scene *scene = sim->scene;
+    double most = 0.0, change = 0.0;
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        for (uint32_t r = scene->layout.row[i]; r < scene->layout.row[i] + scene->layout.size[i]; r++) {
+            most = fmax(most, fabs(before[r]));
+            if (all || steady->string[i] != UINT32_MAX) change = fmax(change, fabs(sim->trial.velocity[r] - before[r]));
+        }
+    return most > 0.0 ? change / most : 0.0;
+}
+
+#define DMB_STEADY_JOINTS 1e-9
+#define DMB_STEADY_TRIES 300
+
+/* Bodies move as joints to strings, whose motion is given, make them: projections onto both in turn. */
+static int32_t slide_bodies(dmb_steady *steady, dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const size_t bytes = sim->scene->row_count * sizeof(double);
+    int32_t status = DMB_OK;
+    for (int k = 0; k < DMB_STEADY_TRIES && status >= 0; k++) {
+        memcpy(steady->before, sim->trial.velocity, bytes);
+        status = dmb_clusters_settle(evaluation, DMB_SETTLE_SPEED | DMB_SETTLE_ACCELERATION, 0);
+        steady->violation = change_of(steady, sim, steady->before, 0);
+        slide_strings(steady, sim);
+        if (steady->violation <= 1e-3 * DMB_STEADY_JOINTS) break;
+    }
+    return status;
+}
+
+int32_t dmb_steady_move(dmb_steady *steady, dmb_evaluation *evaluation, double factor)
+{
+    dmb_sim *sim = evaluation->sim;
+    if (steady->kind == DMB_STEADY_RIGID) {
+        move_rigid(steady, sim, factor);
+        return DMB_OK;
+    }
+    slide_strings(steady, sim);
+    return sim->scene->cluster_count ? slide_bodies(steady, evaluation) : DMB_OK;
+}
+
+/* The whole turns as one body, so that joints let it as fast as it does. */
+static int32_t violation_of_rigid(dmb_steady *steady, dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    memcpy(steady->before, sim->trial.velocity, sim->scene->row_count * sizeof(double));
+    const int32_t status = dmb_clusters_settle(evaluation, DMB_SETTLE_SPEED, 0);
+    steady->violation = change_of(steady, sim, steady->before, 1);
+    return status;
+}
+
+static void rest_bodies(const dmb_steady *steady, dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        for (uint32_t r = scene->layout.row[i]; r < scene->layout.row[i] + scene->layout.size[i]; r++)
+            if (steady->string[i] == UINT32_MAX) sim->trial.velocity[r] = sim->trial.acceleration[r] = 0.0;
+}
+
+int32_t dmb_steady_check_joints(dmb_steady *steady, dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    if (sim->scene->cluster_count == 0) return DMB_OK;
+    dmb_configuration_copy(sim, &sim->now, &sim->trial);
+    memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
+    sim->reduced_mode->row = UINT32_MAX;
+    int32_t status = dmb_system_prescribe(evaluation);
+    rest_bodies(steady, sim);
+    if (status >= 0) status = dmb_steady_move(steady, evaluation, 1.0);
+    if (status >= 0 && steady->kind == DMB_STEADY_RIGID) status = violation_of_rigid(steady, evaluation);
+    if (status == DMB_ERR_CALLBACK) return status;
+    if (status >= 0 && steady->violation <= DMB_STEADY_JOINTS) return DMB_OK;
+    dmb_message_set(
+        &sim->message,
+        "static: joints do not allow %s at the speeds of the drives, which they change by %g of the largest, must "
+        "be <= %g; take DMB_STEADY_AT_REST",
+        steady->kind == DMB_STEADY_RIGID ? "the whole to turn as one body" : "strings to slide and turn",
+        steady->violation, DMB_STEADY_JOINTS);
+    return DMB_ERR_UNSUPPORTED;
+}
+
+/* [-] Part of the largest speed that a coordinate with a spring may change at. */
+#define DMB_STEADY_SPRING 1e-6
+
+int32_t dmb_steady_check_springs(const dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    double most = 0.0;
+    for (uint32_t i = 0; i < scene->row_count; i++) most = fmax(most, fabs(sim->trial.velocity[i]));
+    for (uint32_t j = 0; j < scene->joint_count; j++) {
+        const dmb_scene_joint *joint = scene->joints + j;
+        dmb_relative relative;
+        dmb_joint_coordinates c;
+        if (joint->law == UINT32_MAX || sim->joint_state[j] == DMB_JOINT_OPEN) continue;
+        dmb_joint_motion_of(scene, &sim->trial, j, &relative, NULL);
+        dmb_joint_coordinates_in(evaluation, j, &relative, &c);
+        for (int i = 0; i < 6; i++) {
+            const double speed = dmb_vec6_dot(c.J[i], relative.V);
+            if ((joint->law_mask >> i & 1) == 0 || scene->laws[joint->law + (uint32_t)i].stiffness == 0.0) continue;
+            if (fabs(speed) <= DMB_STEADY_SPRING * most) continue;
+            dmb_message_set(
+                &sim->message,
+                "static: joint %u: its spring along coordinate %d changes at a speed of %g, must be 0 in a steady "
+                "state; take DMB_STEADY_AT_REST",
+                j, i, speed);
+            return DMB_ERR_UNSUPPORTED;
+        }
+    }
+    return DMB_OK;
+}
+
+/* ---- Residual and tangent ---------------------------------------------------------------------------------------- */
+
+static void copy(const double *from, size_t count, double *to)
+{
+    memcpy(to, from, count * sizeof(double));
+}
+
+/* dr/dV at increments of 0: nodes and elements keep it with the inertia, joints on top of their stiffness. */
+static int32_t take_damping(dmb_steady *steady, dmb_evaluation *at)
+{
+    const dmb_sim *sim = at->sim;
+    const dmb_block_layout *layout = &sim->scene->layout;
+    dmb_linear_matrix *C = &steady->damping;
+    at->velocity_factor = 1.0;
+    at->inertia_only = 1;
+    const int32_t status = dmb_system_evaluate(at);
+    at->velocity_factor = 0.0;
+    at->inertia_only = 0;
+    copy(sim->inertia_diagonal, layout->diag[layout->n], C->diagonal);
+    copy(sim->stiffness_lower, layout->link[layout->n - 1], C->lower);
+    copy(sim->stiffness_upper, layout->link[layout->n - 1], C->upper);
+    copy(sim->constraint_tangent, sim->scene->tangent_count, C->joints);
+    return status;
+}
+
+static int32_t evaluate(dmb_steady *steady, dmb_evaluation *at)
+{
+    dmb_sim *sim = at->sim;
+    int32_t status = at->tangent ? take_damping(steady, at) : DMB_OK;
+    if (status >= 0) status = dmb_system_evaluate(at);
+    if (status < 0 || !at->tangent) return status;
+    dmb_linear_matrix K = dmb_linear_stiffness_of(sim);
+    dmb_linear_add_array(-1.0, K.joints, sim->scene->tangent_count, steady->damping.joints);
+    dmb_linear_add_products(sim->scene, 1.0, &steady->damping, steady->frame_velocity, &K);
+    return DMB_OK;
+}
+
+int32_t dmb_steady_evaluate(dmb_steady *steady, dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const size_t bytes = sim->scene->row_count * sizeof(double);
+    dmb_evaluation at = *evaluation;
+    int32_t status = dmb_steady_move(steady, evaluation, sqrt(evaluation->load_factor));
+    if (status < 0) return status;
+    at.dynamic = at.steady = 1;
+    at.pseudo_factor = 1.0;
+    memcpy(steady->increment, sim->increment, bytes);
+    memset(sim->increment, 0, bytes);
+    status = evaluate(steady, &at);
+    memcpy(sim->increment, steady->increment, bytes);
+    at.dynamic = evaluation->dynamic;
+    at.steady = evaluation->steady;
+    at.pseudo_factor = evaluation->pseudo_factor;
+    *evaluation = at;
+    return status;
+}
+
+/* ---- The state --------------------------------------------------------------------------------------------------- */
+
+/* So far beyond the limit that rounding does not make a bristle stick. */
+#define DMB_STEADY_BEYOND (1.0 + 1e-9)
+
+/* z = mu(|v|)/sigma0 v/|v|: where bristles are while their ring slides on. */
+static void deflect(const dmb_friction_law *law, const double v[2], double z[2], int32_t *sticks)
+{
+    const dmb_friction_law sliding = dmb_sliding_law(law);
+    double F[2], dv[4], dN[2];
+    dmb_friction_smooth(&sliding, 1.0, v, F, dv, dN);
+    for (int i = 0; i < 2; i++) z[i] = -DMB_STEADY_BEYOND * F[i] / law->bristle_stiffness;
+    *sticks = 0;
+}
+
+void dmb_steady_deflect_bristles(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    if (!dmb_scene_has_bristles(scene)) return;
+    for (uint32_t s = 0; s < scene->site_count; s++)
+        if (sim->now.site_penetration[s] > 0.0 || scene->sites[s].clearance == 0.0)
+            deflect(&scene->friction_law, sim->now.site_slip + 2 * (size_t)s, sim->now.site_bristle + 2 * (size_t)s,
+                    sim->now.site_sticks + s);
+    for (uint32_t p = 0; p < scene->path_site_count; p++)
+        deflect(&scene->friction_law, sim->now.path_slip + 2 * (size_t)p, sim->now.path_bristle + 2 * (size_t)p,
+                sim->now.path_sticks + p);
+}

@@ -1,0 +1,138 @@
+/* Strings that slide and turn with their axes at rest: the speeds that drives give them, and what does not allow it. */
+#include <math.h>
+#include <string.h>
+
+#include "analysis/static/steady.h"
+#include "base/memory.h"
+#include "sim/node.h"
+
+/* Sections of a string that turns about its own axis: its masses, its rest shape. */
+static int32_t check_round(dmb_sim *sim, const dmb_steady *steady)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->rigid_mass_count; i++) {
+        const dmb_rigid_mass *rigid_mass = scene->rigid_masses + i;
+        const uint32_t s = steady->string[rigid_mass->node];
+        double g[6];
+        if (s == UINT32_MAX || steady->speed[2 * s + 1] == 0.0 || scene->layout.size[rigid_mass->node] != DMB_NODE_FULL)
+            continue;
+        dmb_unbalance_of(scene, i, g);
+        const int round = g[1] == 0.0 && g[2] == 0.0 && g[4] == 0.0 && g[5] == 0.0 &&
+                          fabs(rigid_mass->inertia[1] - rigid_mass->inertia[2]) <= DMB_STEADY_SAME * rigid_mass->inertia[1];
+        const dmb_owner owner = dmb_owner_of_node(scene, rigid_mass->node);
+        if (!round)
+            return REFUSE(
+                sim,
+                "%s %u, pipe %u: its mass is not round about its axis, so that turning about an axis at rest is "
+                "not steady; leave the eccentricity out, or take DMB_STEADY_RIGID or _AT_REST",
+                owner.kind, owner.index, owner.pipe);
+    }
+    for (uint32_t e = 0; e < scene->element_count; e++) {
+        const uint32_t s = steady->string[scene->element_node[e]];
+        const double *rest = scene->types[scene->element_type[e]].rest;
+        if (s == UINT32_MAX || steady->speed[2 * s + 1] == 0.0 || (rest[4] == 0.0 && rest[5] == 0.0)) continue;
+        const dmb_owner owner = dmb_owner_of_element(scene, e);
+        return REFUSE(sim,
+                      "%s %u, pipe %u: it is bent when unloaded, so that turning about an axis at rest is not steady; "
+                      "take DMB_STEADY_AT_REST",
+                      owner.kind, owner.index, owner.pipe);
+    }
+    return DMB_OK;
+}
+
+static int across(const double f[3])
+{
+    return f[1] != 0.0 || f[2] != 0.0;
+}
+
+/* Loads and forces of drives that turn with a string that turns. */
+static int32_t check_turning_loads(dmb_sim *sim, const dmb_steady *steady)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->load_count; i++) {
+        const dmb_scene_load *load = scene->loads + i;
+        const uint32_t s = steady->string[load->node];
+        if (s == UINT32_MAX || steady->speed[2 * s + 1] == 0.0 || load->frame != DMB_FRAME_BODY) continue;
+        if (across(load->force) || across(load->moment))
+            return REFUSE(sim,
+                          "load %u: it turns with its string, across the axis; take DMB_STEADY_AT_REST, or another "
+                          "frame for it",
+                          i);
+    }
+    for (uint32_t i = 0; i < scene->drive_count; i++) {
+        const dmb_scene_drive *drive = scene->drives + i;
+        if (drive->kind == DMB_DRIVE_MOTION || drive->node == UINT32_MAX || drive->component % 3 == 0) continue;
+        const uint32_t s = steady->string[drive->node];
+        if (s != UINT32_MAX && steady->speed[2 * s + 1] != 0.0)
+            return REFUSE(sim, "drive %u: its force turns with its string, across the axis; take DMB_STEADY_AT_REST",
+                          i);
+    }
+    return DMB_OK;
+}
+
+/* Speeds of the strings; `taken`: drive that gave each, UINT32_MAX none yet. */
+static int32_t take_speed(dmb_sim *sim, dmb_steady *steady, uint32_t i, uint32_t *taken)
+{
+    const dmb_scene_drive *drive = sim->scene->drives + i;
+    if (drive->kind != DMB_DRIVE_MOTION) return DMB_OK;
+    const uint32_t s = drive->node == UINT32_MAX ? UINT32_MAX : steady->string[drive->node];
+    const double speed = dmb_steady_target(sim, i);
+    if (s == UINT32_MAX || drive->component % 3 != 0)
+        return speed == 0.0 ? DMB_OK
+                            : REFUSE(sim,
+                                     "drive %u: it does not move a string along or about its axis, so that strings do "
+                                     "not slide at rest; take DMB_STEADY_RIGID or _AT_REST",
+                                     i);
+    const uint32_t k = 2 * s + (uint32_t)drive->component / 3;
+    if (taken[k] != UINT32_MAX && fabs(steady->speed[k] - speed) > DMB_STEADY_SAME * fabs(speed))
+        return REFUSE(
+            sim,
+            "drives %u and %u: they move string %u at %g and at %g, which is not steady; give them one speed, "
+            "or take DMB_STEADY_AT_REST",
+            taken[k], i, s, steady->speed[k], speed);
+    taken[k] = i;
+    steady->speed[k] = speed;
+    return DMB_OK;
+}
+
+static int is_driven(const dmb_scene *scene, uint32_t row)
+{
+    for (uint32_t k = 0; k < scene->drive_count; k++)
+        if (scene->drives[k].kind == DMB_DRIVE_MOTION && scene->drives[k].row == row) return 1;
+    return 0;
+}
+
+/* A guide that holds a string where it slides or turns would squeeze or wind it up. */
+static int32_t check_ends(dmb_sim *sim, const dmb_steady *steady)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->held_count; i++) {
+        const uint32_t node = scene->held_node[i], s = steady->string[node], c = scene->held_component[i];
+        const uint32_t half = scene->layout.size[node] / 2;
+        if (s == UINT32_MAX || c % half != 0 || is_driven(scene, scene->layout.row[node] + c)) continue;
+        const double speed = steady->speed[2 * s + c / half];
+        if (speed == 0.0) continue;
+        return REFUSE(
+            sim,
+            "string %u: a guide keeps it from %s, a drive moves it at %g, which is not steady; free the guide, "
+            "or take DMB_STEADY_AT_REST",
+            s, c == 0 ? "sliding" : "turning", speed);
+    }
+    return DMB_OK;
+}
+
+int32_t dmb_steady_choose_sliding(dmb_sim *sim, dmb_steady *steady)
+{
+    const dmb_scene *scene = sim->scene;
+    uint32_t *taken = dmb_allocate_array(&sim->allocator, 2 * (size_t)scene->string_count, sizeof *taken);
+    int32_t status = DMB_OK;
+    if (taken == NULL) return DMB_ERR_NO_MEMORY;
+    steady->kind = DMB_STEADY_SLIDING;
+    memset(steady->speed, 0, 2 * (size_t)scene->string_count * sizeof(double));
+    for (uint32_t i = 0; i < 2 * scene->string_count; i++) taken[i] = UINT32_MAX;
+    for (uint32_t i = 0; i < scene->drive_count && status >= 0; i++) status = take_speed(sim, steady, i, taken);
+    dmb_release(&sim->allocator, taken, 2 * (size_t)scene->string_count * sizeof *taken);
+    if (status >= 0) status = check_ends(sim, steady);
+    if (status >= 0) status = check_round(sim, steady);
+    return status < 0 ? status : check_turning_loads(sim, steady);
+}

@@ -1,0 +1,58 @@
+/* Memory from the allocator the caller gave. Every block is aligned to DMB_ALIGNMENT and zeroed. */
+#ifndef DMB_BASE_MEMORY_H
+#define DMB_BASE_MEMORY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "drillmbd/base.h"
+enum { DMB_ALIGNMENT = 64 }; /* [byte] a cache line, and enough for any vector load */
+
+/* Copies the caller's allocator, or the default one where given is NULL. Errors: DMB_ERR_STRUCT_SIZE; DMB_ERR_NULL if
+ * one of its two functions is missing. *out is unchanged then. */
+int32_t dmb_allocator_copy(dmb_allocator *out, const dmb_allocator *given);
+
+/* A zeroed block of size bytes (0 counts as 1), or NULL. */
+void *dmb_allocate(const dmb_allocator *allocator, size_t size);
+
+/* A zeroed block of count items of item_size bytes, or NULL; an overflow counts as no memory. */
+void *dmb_allocate_array(const dmb_allocator *allocator, size_t count, size_t item_size);
+
+/* Gives a block back, with the size it was asked for. block may be NULL. */
+void dmb_release(const dmb_allocator *allocator, void *block, size_t size);
+
+/* Many arrays in one block. The same code runs twice: once counting, once placing.
+ *
+ *     dmb_arena arena;
+ *     dmb_arena_count(&arena);                       lay_out(&arena, &state);   every take returns NULL
+ *     block = dmb_allocate(allocator, dmb_arena_block_size(&arena));
+ *     dmb_arena_place(&arena, block, size);          lay_out(&arena, &state);   the same takes return memory
+ *     if (arena.overflow) ...
+ */
+
+typedef struct dmb_arena {
+    unsigned char *base; /* first aligned byte of the block; NULL while counting */
+    size_t size;         /* [byte] from base on; SIZE_MAX while counting */
+    size_t used;         /* [byte] taken so far, alignment gaps included */
+    bool overflow;       /* a take did not fit, or its size overflowed; stays set */
+} dmb_arena;
+
+/* Begins the counting pass. */
+void dmb_arena_count(dmb_arena *arena);
+
+/* [byte] of a block of any alignment that holds all that was taken; SIZE_MAX after an overflow. */
+size_t dmb_arena_block_size(const dmb_arena *arena);
+
+/* Begins the placing pass in a block of any alignment. NULL or too small a block sets overflow. */
+void dmb_arena_place(dmb_arena *arena, void *block, size_t size);
+
+/* count items of item_size bytes, zeroed. align is a power of two up to DMB_ALIGNMENT. NULL while counting and after an
+ * overflow; otherwise not NULL, even for no items. */
+void *dmb_arena_take(dmb_arena *arena, size_t count, size_t item_size, size_t align);
+
+/* Arrays of numbers begin on a cache line; other items as the type asks. */
+#define DMB_ARENA_DOUBLES(arena, count) ((double *)dmb_arena_take((arena), (count), sizeof(double), 64))
+#define DMB_ARENA_ARRAY(arena, T, count) ((T *)dmb_arena_take((arena), (count), sizeof(T), _Alignof(T)))
+
+#endif

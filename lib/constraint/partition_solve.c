@@ -1,0 +1,250 @@
+/* Projection by B W^2 B^T = U^T U. A row of B meets few others, and U of a chain stays sparse in any order of its rows:
+ * what is eliminated is a stretch of the chain, which fills between its two ends only. gram holds U from the diagonal
+ * on (of which it has the reciprocal) and notes below it: in row n - 1 - k the places in row k of U that are not zero,
+ * in the last row the blocks of columns in which rows 1 .. n - 1 of B are not zero. Nothing is noted of row 0. */
+#include <string.h>
+
+#include "constraint/partition_rows.h"
+#define DMB_GRAM_PIVOT_MIN 1e-16  /* part of its diagonal that a pivot of B W^2 B^T must exceed */
+#define DMB_ALL_PLACES UINT32_MAX /* in place of their number: those behind the diagonal, not listed */
+
+/* ---- Notes ------------------------------------------------------------------------------------------------------- */
+
+static uint32_t note(const double *notes, size_t i)
+{
+    uint32_t value;
+    memcpy(&value, (const char *)notes + i * sizeof value, sizeof value);
+    return value;
+}
+
+static void set_note(double *notes, size_t i, uint32_t value)
+{
+    memcpy((char *)notes + i * sizeof value, &value, sizeof value);
+}
+
+static inline uint64_t blocks_of(size_t n, const double *gram, size_t k)
+{
+    uint64_t blocks = UINT64_MAX;
+    if (k > 0) memcpy(&blocks, gram + n * (n - 1) + k - 1, sizeof blocks);
+    return blocks;
+}
+
+/* Zeros for U, the blocks of all rows, and no lists yet: project may follow whatever becomes of the factors. */
+static void gram_clear(const double *B, uint32_t stride, const dmb_partition *p, double *gram)
+{
+    const size_t n = p->rank;
+    for (size_t k = 0; k < n; k++)
+        for (size_t r = k; r < n; r++) gram[n * k + r] = 0.0;
+    for (size_t k = 1; k < n; k++) {
+        const uint64_t blocks = find_blocks(p->columns, pivot_row_of(B, stride, p, k));
+        memcpy(gram + n * (n - 1) + k - 1, &blocks, sizeof blocks);
+        if (k + 1 < n) set_note(gram + n * (n - 1 - k), 0, DMB_ALL_PLACES);
+    }
+}
+
+/* Number of the places listed for row k of U, from note 1 on. */
+static inline uint32_t place_count(size_t n, const double *gram, size_t k)
+{
+    return k == 0 || k + 1 == n ? DMB_ALL_PLACES : note(gram + n * (n - 1 - k), 0);
+}
+
+/* Lists the places of row k of U, unless most are taken. */
+static void list_places(size_t n, size_t k, double *gram)
+{
+    if (k == 0 || k + 1 == n) return;
+    double *notes = gram + n * (n - 1 - k);
+    uint32_t count = 0;
+    for (size_t r = k + 1; r < n; r++) {
+        if (gram[n * k + r] == 0.0) continue;
+        if (2 * ((size_t)count + 1) > n - 1 - k) return;
+        set_note(notes, ++count, (uint32_t)r);
+    }
+    set_note(notes, 0, count);
+}
+
+/* ---- Factors ----------------------------------------------------------------------------------------------------- */
+
+/* Subtracts from the rows below what row k of U has of them. */
+static void gram_eliminate(size_t n, size_t k, double *gram)
+{
+    const double *row = gram + n * k, *notes = gram + n * (n - 1 - k);
+    const uint32_t count = place_count(n, gram, k);
+    if (count == DMB_ALL_PLACES) {
+        for (size_t r = k + 1; r < n; r++)
+            if (row[r] != 0.0) row_subtract(n - r, row[r], row + r, gram + n * r + r);
+        return;
+    }
+    for (size_t i = 1; i <= count; i++) {
+        const size_t r = note(notes, i);
+        const double f = row[r];
+        for (size_t j = i; j <= count; j++) {
+            const size_t s = note(notes, j);
+            gram[n * r + s] -= f * row[s];
+        }
+    }
+}
+
+/* Row k of U; false where its pivot is none. One at most `weak` of its diagonal is left out: its row of U is zero. */
+static bool gram_step(const double *B, uint32_t stride, const double *weight, const dmb_partition *p, size_t k,
+                      double weak, double *gram)
+{
+    const size_t n = p->rank;
+    const double *b = pivot_row_of(B, stride, p, k);
+    const uint64_t blocks = blocks_of(n, gram, k);
+    double *row = gram + n * k;
+    run runs[DMB_RUNS];
+    const size_t count = find_runs(p->columns, b, blocks, runs);
+    const double m = dot_in_runs(count, runs, b, b, weight), pivot = m + row[k];
+    const bool kept = !(weak > 0.0 && pivot < weak * m);
+    if (kept && !(pivot > DMB_GRAM_PIVOT_MIN * m && pivot <= DBL_MAX)) return false;
+    for (size_t r = k + 1; r < n && kept; r++)
+        if (blocks & blocks_of(n, gram, r))
+            row[r] += dot_in_runs(count, runs, b, pivot_row_of(B, stride, p, r), weight);
+    row[k] = kept ? 1.0 / sqrt(pivot) : 0.0;
+    row_multiply(n - k - 1, row[k], row + k + 1);
+    list_places(n, k, gram);
+    gram_eliminate(n, k, gram);
+    return true;
+}
+
+static int32_t gram_factor(const double *B, uint32_t stride, const double *weight, const dmb_partition *p, double weak,
+                           double *gram)
+{
+    gram_clear(B, stride, p, gram);
+    for (size_t k = 0; k < p->rank; k++)
+        if (!gram_step(B, stride, weight, p, k, weak, gram)) return -1;
+    return 0;
+}
+
+/* Golub and Van Loan, 4.2, by outer products. */
+int32_t dmb_partition_gram(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
+                           double *gram)
+{
+    return gram_factor(B, stride, weight, partition, 0.0, gram);
+}
+
+/* Factors anew without the weak rows, if there are any: those behind must not lean on them. */
+void dmb_partition_leave_weak(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
+                              double *gram)
+{
+    const size_t n = partition->rank;
+    bool weak = false;
+    for (size_t k = 0; k < n && !weak; k++) {
+        const double *b = pivot_row_of(B, stride, partition, k);
+        const double root = gram[n * k + k];
+        run runs[DMB_RUNS];
+        const size_t count = find_runs(partition->columns, b, blocks_of(n, gram, k), runs);
+        weak = root * root * dot_in_runs(count, runs, b, b, weight) * DMB_WEAK_PIVOT > 1.0;
+    }
+    if (weak) (void)gram_factor(B, stride, weight, partition, DMB_WEAK_PIVOT, gram);
+}
+
+/* ---- Solves ------------------------------------------------------------------------------------------------------ */
+
+/* U^T y = d, a row of U at a time. */
+static void gram_forward(size_t n, const double *gram, double *d)
+{
+    for (size_t k = 0; k < n; k++) {
+        const double *row = gram + n * k, *notes = gram + n * (n - 1 - k);
+        const uint32_t count = place_count(n, gram, k);
+        d[k] *= row[k];
+        if (count == DMB_ALL_PLACES) row_subtract(n - k - 1, d[k], row + k + 1, d + k + 1);
+        for (size_t i = 1; i <= count && count != DMB_ALL_PLACES; i++) {
+            const size_t r = note(notes, i);
+            d[r] -= row[r] * d[k];
+        }
+    }
+}
+
+/* U d = y */
+static void gram_backward(size_t n, const double *gram, double *d)
+{
+    for (size_t k = n; k-- > 0;) {
+        const double *row = gram + n * k, *notes = gram + n * (n - 1 - k);
+        const uint32_t count = place_count(n, gram, k);
+        double sum = 0.0;
+        if (count == DMB_ALL_PLACES) sum = dot(n - k - 1, row + k + 1, d + k + 1);
+        for (size_t i = 1; i <= count && count != DMB_ALL_PLACES; i++) {
+            const size_t r = note(notes, i);
+            sum += row[r] * d[r];
+        }
+        d[k] = (d[k] - sum) * row[k];
+    }
+}
+
+/* x += f b in the blocks given */
+static void add_row(size_t n, uint64_t blocks, double f, const double *b, double *x)
+{
+    const size_t size = block_size(n);
+    for (size_t from = 0; from < n && blocks != 0; from += size, blocks >>= 1)
+        if (blocks & 1) row_subtract(smaller(size, n - from), -f, b + from, x + from);
+}
+
+void dmb_partition_project(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
+                           const double *gram, double *d, double *x)
+{
+    const size_t n = partition->rank, columns = partition->columns;
+    gram_forward(n, gram, d);
+    gram_backward(n, gram, d);
+    for (size_t j = 0; j < columns; j++) x[j] = 0.0;
+    for (size_t k = 0; k < n; k++)
+        add_row(columns, blocks_of(n, gram, k), d[k], pivot_row_of(B, stride, partition, k), x);
+    for (size_t j = 0; j < columns; j++) x[j] *= weight[j] * weight[j];
+}
+
+/* Multipliers of least norm: what of them does nothing is taken off. */
+
+/* Row s of N = [X, -I], X = B_red(:, dep) C_d^-1: redundant row s as combination of the pivot rows, less itself. */
+static void left_null_vector(const double *B, uint32_t stride, const dmb_partition *p, const double *lu,
+                             const uint32_t *pivot, size_t s, double *v)
+{
+    const size_t n = p->rank;
+    const double *b = B + (size_t)p->row_order[n + s] * stride;
+    for (size_t k = 0; k < n; k++) v[k] = b[p->column_order[k]];
+    dmb_partition_solve_transposed(p, lu, pivot, v);
+    for (size_t k = n; k < p->rows; k++) v[k] = k == n + s ? -1.0 : 0.0;
+}
+
+/* The longest of the rows of N from s on, moved to s. */
+static void longest_first(size_t n, size_t redundant, size_t s, double *N)
+{
+    size_t at = s;
+    double most = 0.0;
+    for (size_t t = s; t < redundant; t++) {
+        const double square = dot(n, N + n * t, N + n * t);
+        if (!(square > most)) continue;
+        most = square;
+        at = t;
+    }
+    if (at != s) row_swap(n, N + n * s, N + n * at);
+}
+
+/* Row s of N at unit length, once more orthogonal to the rows before it ("twice is enough": Giraud, Langou, Rozloznik,
+ * Comput. Math. Appl. 50, 2005), and the rows behind orthogonal to it. Each row has its -1 where those before it have
+ * zeros, so no length is below 1. */
+static void orthonormalise(size_t n, size_t redundant, size_t s, double *N)
+{
+    double *v = N + n * s;
+    for (size_t t = 0; t < s; t++) row_subtract(n, dot(n, N + n * t, v), N + n * t, v);
+    row_multiply(n, 1.0 / sqrt(dot(n, v, v)), v);
+    for (size_t t = s + 1; t < redundant; t++) row_subtract(n, dot(n, v, N + n * t), v, N + n * t);
+}
+
+/* f - N^T (N N^T)^-1 N f by modified Gram-Schmidt on the rows of N, the longest first (Golub and Van
+ * Loan, 5.2, 5.4). Not by Cholesky of N N^T = X X^T + I, which has the square of the condition number of N: X holds
+ * the ratios of lengths of rows, which differ by their units. Without "longest first" B^T f suffers when these span ten
+ * decades. */
+void dmb_partition_least_norm(const double *B, uint32_t stride, const dmb_partition *partition, const double *lu,
+                              const uint32_t *pivot, double *work, double *f)
+{
+    const size_t n = partition->rows, redundant = n - partition->rank;
+    const uint32_t *order = partition->row_order;
+    for (size_t s = 0; s < redundant; s++) left_null_vector(B, stride, partition, lu, pivot, s, work + n * s);
+    for (size_t s = 0; s < redundant; s++) {
+        double *v = work + n * s, along = 0.0;
+        longest_first(n, redundant, s, work);
+        orthonormalise(n, redundant, s, work);
+        for (size_t k = 0; k < n; k++) along += v[k] * f[order[k]];
+        for (size_t k = 0; k < n; k++) f[order[k]] -= along * v[k];
+    }
+}

@@ -1,0 +1,268 @@
+/* Contact sites, made once by the compile step. */
+#ifndef DMB_FORCE_CONTACT_LAW_H
+#define DMB_FORCE_CONTACT_LAW_H
+
+#include <stdint.h>
+
+#include "drillmbd/model.h"
+#include "force/friction_law.h"
+#include "force/normal_law.h"
+#include "math/mat6.h"
+/* A ring on a FULL node that can meet the wall. */
+typedef struct dmb_site {
+    double offset;    /* [m] along body x from the node */
+    double radius;    /* [m] of the ring */
+    double clearance; /* [m] hole radius less ring radius, >= 0 */
+    double length;    /* [m] of wall it stands for */
+    dmb_id part;      /* string or body */
+    uint32_t pipe;    /* pipe whose far end it is; UINT32_MAX: rig end; 0 for a body */
+    uint32_t node;
+} dmb_site;
+
+/* A ring against the wall of the hole, in a number that is a double or lanes of doubles (math/real.h).
+ *
+ * In body axes, with n, t, b the contact frame (n outward, t along the hole, b = t x n), V the velocity of the ring's
+ * centre and r its radius, three generalised directions carry everything:
+ *     j_n = (n; 0)    j_t = (t; -r b)    j_b = (b; r t)          contact speed v_k = j_k . V
+ *     wrench on the ring = -N j_n + F_t j_t + F_b j_b
+ * so drag and torque share one friction force. The tangent follows by the product rule: change of the forces with
+ * penetration and speeds, swing of n and b around the axis (the pendulum term N/e), turning of the frame as the ring
+ * moves along a bend of the hole, and turning of the body. */
+
+#define DMB_CONTACT_PINNED 1e-9       /* [m] nearer to the axis than this, n has no swing of its own */
+#define DMB_CONTACT_PENETRATION 1e-15 /* [m] the least that a ring without clearance has */
+
+typedef struct dmb_contact_frame {
+    dmb_real n[3], t[3], b[3];     /* [-] body axes */
+    dmb_real turn_t[3], turn_b[3]; /* [m] -r b and r t: what j_t and j_b have under their translations */
+    dmb_real radius, distance;     /* [m] r; e from the axis to the ring's centre */
+    dmb_real V[6];                 /* [m/s, rad/s] */
+    dmb_real speed[3];             /* [m/s] v_n, v_t, v_b */
+} dmb_contact_frame;
+
+/* Forces (-N, F_t, F_b) and their derivatives; those of -N by the speeds but v_n are 0. */
+typedef struct dmb_contact_force {
+    dmb_real F[3];           /* [N] */
+    dmb_real by_depth[3];    /* [N/m] dF_k/d penetration */
+    dmb_real normal_rate;    /* [N s/m] dF_n/dv_n */
+    dmb_real by_speed[2][3]; /* [N s/m] dF_t, dF_b by v_n, v_t, v_b */
+    dmb_real elastic;        /* [N] part of N that the wall stores */
+} dmb_contact_force;
+
+/* ---- Frame and forces ----------------------------------------------------------------------------------------------
+ */
+
+/* R: body to world; normal and tangent of the hole in world axes. radius, distance and V are there already. */
+static inline void dmb_contact_frame_at(const dmb_real R[9], const dmb_real normal[3], const dmb_real tangent[3],
+                                        dmb_contact_frame *f)
+{
+    dmb_mat3_tvec(R, normal, f->n);
+    dmb_mat3_tvec(R, tangent, f->t);
+    dmb_vec3_cross(f->t, f->n, f->b);
+    dmb_vec3_scale(-f->radius, f->b, f->turn_t);
+    dmb_vec3_scale(f->radius, f->t, f->turn_b);
+}
+
+static inline void dmb_contact_speeds(dmb_contact_frame *f)
+{
+    const dmb_real *w = f->V + 3;
+    f->speed[0] = dmb_vec3_dot(f->n, f->V);
+    f->speed[1] = dmb_vec3_dot(f->t, f->V) + f->turn_t[0] * w[0] + f->turn_t[1] * w[1] + f->turn_t[2] * w[2];
+    f->speed[2] = dmb_vec3_dot(f->b, f->V) + f->turn_b[0] * w[0] + f->turn_b[1] * w[1] + f->turn_b[2] * w[2];
+}
+
+/* In statics speeds are 0, but friction may act as at a given slip [m/s, rad/s]. */
+static inline void dmb_contact_static_speeds(const double slip[2], dmb_contact_frame *f)
+{
+    for (int i = 0; i < 6; i++) f->V[i] = dmb_real_of(0.0);
+    f->speed[0] = dmb_real_of(0.0);
+    f->speed[1] = dmb_real_of(slip[0]);
+    f->speed[2] = f->radius * slip[1];
+}
+
+/* length [m] of wall that the ring stands for, approach [m/s] its speed at first touch. Without friction. */
+static inline void dmb_contact_normal_force(const dmb_normal_law *law, const dmb_contact_frame *f, dmb_real length,
+                                            dmb_real penetration, dmb_real approach, dmb_contact_force *out)
+{
+    dmb_normal_response N;
+    dmb_normal_response_at(law, penetration, f->speed[0], approach, &N);
+    out->F[0] = -length * N.force;
+    out->by_depth[0] = -length * N.d_depth;
+    out->normal_rate = -length * N.d_rate;
+    out->elastic = length * N.elastic;
+}
+
+/* From the friction law at N = -F[0]: F its force, by_speed its tangent (2,2), by_normal dF/dN. */
+static inline void dmb_contact_add_friction(const dmb_real F[2], const dmb_real by_speed[4],
+                                            const dmb_real by_normal[2], dmb_contact_force *out)
+{
+    for (int k = 0; k < 2; k++) {
+        out->F[1 + k] = F[k];
+        out->by_depth[1 + k] = by_normal[k] * -out->by_depth[0];
+        out->by_speed[k][0] = by_normal[k] * -out->normal_rate;
+        out->by_speed[k][1] = by_speed[2 * k];
+        out->by_speed[k][2] = by_speed[2 * k + 1];
+    }
+}
+
+static inline void dmb_contact_wrench(const dmb_contact_frame *f, const dmb_contact_force *c, int friction,
+                                      dmb_real wrench[6])
+{
+    for (int i = 0; i < 3; i++) {
+        wrench[i] = c->F[0] * f->n[i];
+        wrench[3 + i] = dmb_real_of(0.0);
+        if (!friction) continue;
+        wrench[i] = wrench[i] + c->F[1] * f->t[i] + c->F[2] * f->b[i];
+        wrench[3 + i] = c->F[1] * f->turn_t[i] + c->F[2] * f->turn_b[i];
+    }
+}
+
+/* ---- Tangent -------------------------------------------------------------------------------------------------------
+ */
+
+/* K = n row_n^T over the translations, 0 under them: where j_n has nothing */
+static inline void dmb_contact_set_normal(const dmb_real n[3], const dmb_real *row, dmb_real K[36])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 6; j++) {
+            K[6 * i + j] = n[i] * row[j];
+            K[18 + 6 * i + j] = dmb_real_of(0.0);
+        }
+}
+
+/* K += (a; turn) row^T */
+static inline void dmb_contact_add_direction(const dmb_real a[3], const dmb_real turn[3], const dmb_real row[6],
+                                             dmb_real K[36])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 6; j++) {
+            K[6 * i + j] += a[i] * row[j];
+            K[18 + 6 * i + j] += turn[i] * row[j];
+        }
+}
+
+/* Change of the forces as the speeds change by dv, along the directions: out += sum j_k dF_k/dv . dv */
+static inline void dmb_contact_add_speed_change(const dmb_contact_frame *f, const dmb_contact_force *c,
+                                                const dmb_real dv[3], int friction, dmb_real out[6])
+{
+    dmb_vec3_axpy(c->normal_rate * dv[0], f->n, out);
+    for (int k = 0; friction && k < 2; k++) {
+        const dmb_real s = c->by_speed[k][0] * dv[0] + c->by_speed[k][1] * dv[1] + c->by_speed[k][2] * dv[2];
+        dmb_vec3_axpy(s, k == 0 ? f->t : f->b, out);
+        dmb_vec3_axpy(s, k == 0 ? f->turn_t : f->turn_b, out + 3);
+    }
+}
+
+/* w = [-N (b;0) + F_t (0; r n) + F_b (-n; 0)] + sum j_k D_kl (dj_l/dpsi . V): change by a swing psi around the axis */
+static inline void dmb_contact_swing(const dmb_contact_frame *f, const dmb_contact_force *c, int friction,
+                                     dmb_real out[6])
+{
+    for (int i = 0; i < 3; i++) {
+        out[i] = c->F[0] * f->b[i];
+        out[3 + i] = dmb_real_of(0.0);
+        if (!friction) continue;
+        out[i] = out[i] - c->F[2] * f->n[i];
+        out[3 + i] = f->radius * c->F[1] * f->n[i];
+    }
+    const dmb_real dv[3] = {dmb_vec3_dot(f->b, f->V), f->radius * dmb_vec3_dot(f->n, f->V + 3),
+                            -dmb_vec3_dot(f->n, f->V)};
+    dmb_contact_add_speed_change(f, c, dv, friction, out);
+}
+
+/* Turning of the body by dtheta turns the frame back: d(j . V) = (j x dtheta) . V = (V x j) . dtheta, translation and
+ * rotation parts added. */
+static inline void dmb_contact_turning(const dmb_contact_frame *f, dmb_real turning[3][3])
+{
+    dmb_real a[3];
+    dmb_vec3_cross(f->V, f->n, turning[0]);
+    dmb_vec3_cross(f->V, f->t, turning[1]);
+    dmb_vec3_cross(f->V + 3, f->turn_t, a);
+    dmb_vec3_add(turning[1], a, turning[1]);
+    dmb_vec3_cross(f->V, f->b, turning[2]);
+    dmb_vec3_cross(f->V + 3, f->turn_b, a);
+    dmb_vec3_add(turning[2], a, turning[2]);
+}
+
+/* sum j_k (dF_k/d penetration n ; sum_l D_kl turning_l)^T */
+static inline void dmb_contact_force_tangent(const dmb_contact_frame *f, const dmb_contact_force *c, int friction,
+                                             dmb_real K[36])
+{
+    dmb_real turning[3][3], row[6];
+    dmb_contact_turning(f, turning);
+    dmb_vec3_scale(c->by_depth[0], f->n, row);
+    dmb_vec3_scale(c->normal_rate, turning[0], row + 3);
+    dmb_contact_set_normal(f->n, row, K);
+    for (int k = 0; friction && k < 2; k++) {
+        dmb_vec3_scale(c->by_depth[1 + k], f->n, row);
+        dmb_vec3_scale(c->by_speed[k][0], turning[0], row + 3);
+        dmb_vec3_axpy(c->by_speed[k][1], turning[1], row + 3);
+        dmb_vec3_axpy(c->by_speed[k][2], turning[2], row + 3);
+        dmb_contact_add_direction(k == 0 ? f->t : f->b, k == 0 ? f->turn_t : f->turn_b, row, K);
+    }
+}
+
+/* d wrench / d pose at the ring, shape (6, 6): that of the forces + swing (b/e ; 0)^T + the wrench turning with the
+ * body. */
+static inline void dmb_contact_pose_tangent(const dmb_contact_frame *f, const dmb_contact_force *c,
+                                            const dmb_real wrench[6], int friction, dmb_real K[36])
+{
+    const dmb_real zero = dmb_real_of(0.0);
+    const dmb_mask pinned = dmb_mask_at_most(f->distance, dmb_real_of(DMB_CONTACT_PINNED));
+    const dmb_real pendulum =
+        dmb_real_select(pinned, zero, 1.0 / dmb_real_select(pinned, dmb_real_of(1.0), f->distance));
+    dmb_real swing[6];
+    dmb_contact_force_tangent(f, c, friction, K);
+    dmb_contact_swing(f, c, friction, swing);
+    for (int i = 0; i < 6; i++) dmb_vec3_axpy(pendulum * swing[i], f->b, K + 6 * i);
+    if (dmb_mask_any(pinned)) { /* on the axis of a pinned pipe: the wall holds alike in every direction */
+        const dmb_real hold = dmb_real_select(pinned, c->by_depth[0], zero);
+        for (int i = 0; i < 3; i++) dmb_vec3_axpy(hold * f->b[i], f->b, K + 6 * i);
+    }
+    dmb_mat6_add_skew(dmb_real_of(1.0), wrench, 0, 1, K);
+    dmb_mat6_add_skew(dmb_real_of(1.0), wrench + 3, 1, 1, K);
+}
+
+/* Moving by dx along the axis takes the closest point on by ds = t . dx/(1 - e n . (bend x t)), and the frame turns by
+ * bend ds: forces turn with it, and speeds change by bend . (j x V). bend [rad/m] is in body axes. */
+static inline void dmb_contact_add_bend(const dmb_contact_frame *f, const dmb_contact_force *c, const dmb_real bend[3],
+                                        const dmb_real wrench[6], int friction, dmb_real K[36])
+{
+    const dmb_real *direction[3] = {f->n, f->t, f->b}, *turn[3] = {NULL, f->turn_t, f->turn_b};
+    dmb_real a[3], column[6], row[3], speed[3];
+    dmb_vec3_cross(bend, wrench, column);
+    dmb_vec3_cross(bend, wrench + 3, column + 3);
+    for (int l = 0; l < 3; l++) {
+        dmb_vec3_cross(direction[l], f->V, a);
+        speed[l] = dmb_vec3_dot(bend, a);
+        if (l == 0) continue;
+        dmb_vec3_cross(turn[l], f->V + 3, a);
+        speed[l] = speed[l] + dmb_vec3_dot(bend, a);
+    }
+    dmb_contact_add_speed_change(f, c, speed, friction, column);
+    dmb_vec3_cross(bend, f->t, a);
+    dmb_vec3_scale(1.0 / (1.0 - f->distance * dmb_vec3_dot(a, f->n)), f->t, row);
+    for (int i = 0; i < 6; i++) dmb_vec3_axpy(column[i], row, K + 6 * i);
+}
+
+/* d wrench / d velocity at the ring: sum j_k D_kl j_l^T, times `factor` */
+static inline void dmb_contact_velocity_tangent(const dmb_contact_frame *f, const dmb_contact_force *c, double factor,
+                                                int friction, dmb_real K[36])
+{
+    dmb_real row[6], a[3], turn[3];
+    dmb_vec3_scale(c->normal_rate, f->n, row);
+    dmb_vec3_zero(row + 3);
+    dmb_vec3_scale(dmb_real_of(factor), f->n, a);
+    dmb_contact_set_normal(a, row, K);
+    for (int k = 0; friction && k < 2; k++) {
+        const dmb_real *D = c->by_speed[k];
+        for (int i = 0; i < 3; i++) {
+            row[i] = D[0] * f->n[i] + D[1] * f->t[i] + D[2] * f->b[i];
+            row[3 + i] = D[1] * f->turn_t[i] + D[2] * f->turn_b[i];
+        }
+        dmb_vec3_scale(dmb_real_of(factor), k == 0 ? f->t : f->b, a);
+        dmb_vec3_scale(dmb_real_of(factor), k == 0 ? f->turn_t : f->turn_b, turn);
+        dmb_contact_add_direction(a, turn, row, K);
+    }
+}
+
+#endif

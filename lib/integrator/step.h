@@ -1,0 +1,35 @@
+/* What dmb_sim_step and dmb_sim_advance share: checks, the report, keeping and bringing back the state. */
+#ifndef DMB_INTEGRATOR_STEP_H
+#define DMB_INTEGRATOR_STEP_H
+
+#include "drillmbd/sim.h"
+#include "integrator/attempt.h"
+
+typedef struct dmb_walk {
+    dmb_step_report report;
+    dmb_counters counters; /* as before the call */
+    uint32_t rejected, iterations; /* [-] of the report, up to the last accepted step */
+    int32_t set_aside;  /* 1: the state before the call is in sim->backup */
+    int32_t was_cut;
+    int32_t limited;
+    int32_t stopped;    /* max_steps used up */
+    int32_t too_coarse; /* a step of step_min was taken above the error tolerance */
+    int32_t arrived;    /* 1: the call's last step is done */
+} dmb_walk;
+
+/* Checks the report. */
+int32_t dmb_walk_begin(dmb_sim *sim, const dmb_step_report *report, dmb_walk *walk);
+/* DMB_ERR_NOT_FINITE or DMB_ERR_VALUE with a message unless value is finite and > bound. */
+int32_t dmb_walk_check(dmb_sim *sim, const char *field, double value, double bound);
+/* DMB_ERR_VALUE with a message unless value is <= bound. */
+int32_t dmb_walk_check_at_most(dmb_sim *sim, const char *field, double value, double bound);
+void dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk);
+/* Accelerations anew where a motion programme has a kink at the time reached. */
+void dmb_walk_corner(dmb_sim *sim);
+/* DMB_ERR_VALUE: the clock cannot tell a step of this length, the value of `field`. */
+int32_t dmb_walk_stuck(dmb_sim *sim, const char *field, double step);
+void dmb_walk_reject(dmb_sim *sim, const dmb_attempt *attempt, dmb_walk *walk);
+/* Writes the report and gives the status of the call; on failure with `restore` the state before the call is back. */
+int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_report *report, const dmb_walk *walk);
+
+#endif

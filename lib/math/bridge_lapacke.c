@@ -1,0 +1,149 @@
+#include "math/bridge_lapacke.h"
+
+#include <float.h>
+#include <lapacke.h>
+#include <math.h>
+_Static_assert(sizeof(lapack_int) == sizeof(int32_t), "LAPACKE with 64-bit integers");
+
+/* dsyevd and dsygvd ask for 1 + 6n + 2n^2 doubles and 3 + 5n integers, and count both in integers of 32 bits, which
+ * 1 + 6n + 2n^2 fits up to n = 32766. */
+_Static_assert(1 + 6 * (int64_t)DMB_EIGEN_MAX + 2 * (int64_t)DMB_EIGEN_MAX * DMB_EIGEN_MAX <= INT32_MAX,
+               "work of dsyevd and dsygvd");
+
+size_t dmb_eigen_work(size_t n)
+{
+    if (n > DMB_EIGEN_MAX) return SIZE_MAX;
+    const uint64_t m = n, count = 1 + 6 * m + 2 * m * m + (3 + 5 * m);
+    return count <= SIZE_MAX / sizeof(double) ? (size_t)count : SIZE_MAX;
+}
+
+/* dgeev needs 4n; its blocked parts take some tens of n. */
+size_t dmb_eigen_general_work(size_t n)
+{
+    return n > DMB_EIGEN_MAX ? SIZE_MAX : 40 * n;
+}
+
+static lapack_int doubles(size_t n)
+{
+    return (lapack_int)(1 + 6 * n + 2 * n * n);
+}
+
+static lapack_int integers(size_t n)
+{
+    return (lapack_int)(3 + 5 * n);
+}
+
+static lapack_int *integer_work(size_t n, double *work)
+{
+    return (lapack_int *)(work + doubles(n));
+}
+
+int32_t dmb_eigen_symmetric(size_t n, double *A, double *values, double *work)
+{
+    const lapack_int m = (lapack_int)n;
+    return LAPACKE_dsyevd_work(LAPACK_COL_MAJOR, 'V', 'L', m, A, m, values, work, doubles(n), integer_work(n, work),
+                               integers(n));
+}
+
+int32_t dmb_eigen_pair(size_t n, double *K, double *M, double *values, double *work)
+{
+    const lapack_int m = (lapack_int)n;
+    return LAPACKE_dsygvd_work(LAPACK_COL_MAJOR, 1, 'V', 'L', m, K, m, M, m, values, work, doubles(n),
+                               integer_work(n, work), integers(n));
+}
+
+int32_t dmb_eigen_general(size_t n, double *A, double *re, double *im, double *V, double *work)
+{
+    const lapack_int m = (lapack_int)n;
+    double none;
+    return LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', 'V', m, A, m, re, im, &none, 1, V, m, work, 40 * m);
+}
+
+_Static_assert(sizeof(lapack_int) == sizeof(int32_t), "LAPACKE with 64-bit integers");
+
+#define DMB_ROW_MIN 1e-300
+enum { PANEL = 32 }; /* columns that dgeqp3 works on at a time, if it likes */
+/* LAPACK counts its work, 34 rows + 32 or 3 min + 2 (rows + columns), in integers of 32 bits. */
+_Static_assert(34 * (int64_t)DMB_RANK_SIDE_MAX + PANEL <= INT32_MAX, "work of dgeqp3");
+
+static size_t least(uint32_t a, uint32_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Matrix, tau and singular values, LAPACK's own: 3n + 1 and more for QR, max(3 min + max, 5 min) for values. */
+static size_t lapack_work(uint32_t rows, uint32_t columns)
+{
+    const size_t qr = 2 * (size_t)rows + ((size_t)rows + 1) * PANEL;
+    const size_t values = 3 * least(rows, columns) + 2 * ((size_t)rows + columns);
+    return qr > values ? qr : values;
+}
+
+size_t dmb_rank_work(uint32_t rows, uint32_t columns)
+{
+    if (rows > DMB_RANK_SIDE_MAX || columns > DMB_RANK_SIDE_MAX) return SIZE_MAX;
+    const size_t rest = 2 * least(rows, columns) + lapack_work(rows, columns);
+    if (columns != 0 && rows > (SIZE_MAX / sizeof(double) - rest) / columns) return SIZE_MAX;
+    return (size_t)rows * columns + rest;
+}
+
+/* Unit length without overflow or underflow of squares; zeros for a row that has no length or is not finite. */
+static void scale_row(const double *b, uint32_t columns, const double *weight, double *row)
+{
+    double most = 0.0, sum = 0.0;
+    int finite = 1;
+    for (uint32_t j = 0; j < columns; j++) {
+        row[j] = b[j] * weight[j];
+        finite = finite && fabs(row[j]) <= DBL_MAX;
+        most = fmax(most, fabs(row[j]));
+    }
+    const int usable = finite && most >= DMB_ROW_MIN;
+    for (uint32_t j = 0; j < columns; j++) {
+        row[j] = usable ? row[j] / most : 0.0;
+        sum += row[j] * row[j];
+    }
+    for (uint32_t j = 0; j < columns && usable; j++) row[j] /= sqrt(sum);
+}
+
+/* R, of `n` rows, in the upper part of the matrix whose columns are `height` apart. */
+static double diagonal(const double *a, uint32_t height, uint32_t k)
+{
+    return fabs(a[(size_t)k * height + k]);
+}
+
+/* Singular values of R into s; 0 if LAPACK finds none. */
+static int singular_values(double *a, uint32_t rows, uint32_t columns, double *s, double *work, lapack_int work_size)
+{
+    const lapack_int n = (lapack_int)least(rows, columns);
+    if (n > DMB_RANK_SINGULAR_MAX) return 0;
+    for (uint32_t j = 0; j < rows; j++)
+        for (uint32_t i = j + 1; i < (uint32_t)n; i++) a[(size_t)j * columns + i] = 0.0;
+    return LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'N', 'N', n, (lapack_int)rows, a, (lapack_int)columns, s, NULL, 1,
+                               NULL, 1, work, work_size) == 0;
+}
+
+void dmb_rank_of_rows(const double *B, uint32_t rows, uint32_t columns, const double *weight, double tolerance,
+                      double *work, int32_t *order, dmb_rank *out)
+{
+    const size_t n = least(rows, columns);
+    const lapack_int work_size = (lapack_int)lapack_work(rows, columns);
+    double *a = work, *tau = a + (size_t)rows * columns, *s = tau + n, *rest = s + n;
+    out->rank = 0;
+    out->exact = 1;
+    out->largest = out->smallest = 1.0;
+    for (uint32_t i = 0; i < rows; i++) order[i] = n > 0 ? 0 : (int32_t)i; /* 0: LAPACK may move it */
+    if (n == 0) return;
+    for (uint32_t i = 0; i < rows; i++) scale_row(B + (size_t)i * columns, columns, weight, a + (size_t)i * columns);
+    /* Rows by rows is, column by column, the transpose: its columns are the equations. */
+    (void)LAPACKE_dgeqp3_work(LAPACK_COL_MAJOR, (lapack_int)columns, (lapack_int)rows, a, (lapack_int)columns, order,
+                              tau, rest, work_size);
+    for (uint32_t i = 0; i < rows; i++) order[i]--;
+    while (out->rank < n && diagonal(a, columns, out->rank) > tolerance) out->rank++;
+    if (out->rank == 0) return;
+    out->largest = diagonal(a, columns, 0);
+    out->smallest = diagonal(a, columns, out->rank - 1);
+    out->exact = singular_values(a, rows, columns, s, rest, work_size);
+    if (!out->exact) return;
+    out->largest = s[0];
+    out->smallest = s[out->rank - 1];
+}

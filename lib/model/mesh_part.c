@@ -1,0 +1,339 @@
+/* Types of elements, their kernels, and batches of neighbours with one kernel. */
+#include "model/field_check.h"
+#include "model/limits.h"
+#include "model/mesh.h"
+#include "model/section.h"
+/* Equal elements are mostly near each other: a run of pipes has four types at most. */
+enum { RECENT_TYPES = 8, NUMBERS = sizeof(dmb_element_type) / sizeof(double) };
+
+/* A type holds nothing but numbers. */
+static bool same_type(const dmb_element_type *a, const dmb_element_type *b)
+{
+    return dmb_same_numbers((const double *)(const void *)a, (const double *)(const void *)b, NUMBERS);
+}
+
+/* Index of an equal type among the latest, or of a new one. */
+static int32_t share_type(dmb_mesh *mesh, const dmb_element_type *type, uint32_t *index)
+{
+    const size_t count = mesh->types.count;
+    for (size_t i = count; i > 0 && i + RECENT_TYPES > count; --i) {
+        if (!same_type(DMB_VECTOR_AT(const dmb_element_type, &mesh->types, i - 1), type)) continue;
+        *index = (uint32_t)(i - 1);
+        return DMB_OK;
+    }
+    *index = (uint32_t)count;
+    return dmb_vector_append(&mesh->types, &mesh->model->allocator, type, 1);
+}
+
+static bool alike(const dmb_mesh_element *a, const dmb_mesh_element *b)
+{
+    return a->run == b->run && dmb_same_numbers(a->arm, b->arm, 2);
+}
+
+static int32_t find_type(dmb_mesh *mesh, dmb_mesh_element *element, const dmb_mesh_element *before)
+{
+    const dmb_pipe_def *def = &dmb_mesh_run_at(mesh, element->run)->def;
+    dmb_element_type type;
+    if (before != NULL && alike(element, before)) {
+        element->type = before->type;
+        return DMB_OK;
+    }
+    const double damping_time = mesh->features & DMB_FEATURE_DAMPING ? def->damping_time : 0.0;
+    dmb_element_type_of(def, element->arm, damping_time, &type);
+    type.weight_mass = dmb_buoyancy_factor(def, mesh->model->environment.fluid_density) * type.mass_per_metre * type.length;
+    return share_type(mesh, &type, &element->type);
+}
+
+static int32_t kernel_of(const dmb_mesh *mesh, const dmb_mesh_element *element)
+{
+    const bool a = dmb_mesh_node_at(mesh, element->node)->size == DMB_NODE_FULL;
+    const bool b = dmb_mesh_node_at(mesh, element->node + 1)->size == DMB_NODE_FULL;
+    if (a && b) return DMB_KERNEL_BEAM;
+    return a || b ? DMB_KERNEL_MIXED : DMB_KERNEL_PATH;
+}
+
+/* A batch ends where the kernel changes or the chain ends. */
+static int32_t add_to_batch(dmb_mesh *mesh, uint32_t e)
+{
+    const dmb_mesh_element *element = dmb_mesh_element_at(mesh, e);
+    if (e > 0 && element[-1].kernel == element->kernel && element[-1].node + 1 == element->node) {
+        ++DMB_VECTOR_AT(dmb_batch, &mesh->batches, mesh->batches.count - 1)->count;
+        return DMB_OK;
+    }
+    const dmb_batch batch = {e, 1, element->kernel, 0};
+    return dmb_vector_append(&mesh->batches, &mesh->model->allocator, &batch, 1);
+}
+
+int32_t dmb_mesh_types(dmb_mesh *mesh)
+{
+    int32_t status = DMB_OK;
+    for (uint32_t e = 0; e < mesh->elements.count && status >= 0; ++e) {
+        dmb_mesh_element *element = dmb_mesh_element_at(mesh, e);
+        element->kernel = kernel_of(mesh, element);
+        status = find_type(mesh, element, e > 0 ? element - 1 : NULL);
+        if (status >= 0) status = add_to_batch(mesh, e);
+    }
+    return status;
+}
+
+/* Nodes and elements of the strings. A string is walked from its rig end in pieces: a stretch of rigid pipes, which is
+ * one body with one node, or a run of elastic pipes, where every element brings one more node. */
+
+typedef struct string_walk {
+    dmb_mesh *mesh;
+    dmb_string_map *map;
+    uint32_t string;
+    uint32_t place, end; /* in run_order */
+    uint32_t node;       /* last node so far; UINT32_MAX: none yet */
+    double at;           /* [m] from the rig end */
+    double arm;          /* [m] from the last node to here along its x axis */
+} string_walk;
+
+static const dmb_pipe_run *run_at(const string_walk *walk, uint32_t place)
+{
+    return dmb_mesh_run_at(walk->mesh, *DMB_VECTOR_AT(uint32_t, &walk->mesh->run_order, place));
+}
+
+/* Room was reserved for all of them by the counting step. */
+static uint32_t push_node(string_walk *walk, uint8_t size, double at)
+{
+    const dmb_mesh_node node = {
+        .at = at, .string = walk->string, .rigid_mass = UINT32_MAX, .size = size, .free = DMB_FREE_ALL};
+    (void)dmb_vector_append(&walk->mesh->nodes, &walk->mesh->model->allocator, &node, 1);
+    return (uint32_t)walk->mesh->nodes.count - 1;
+}
+
+static void push_element(string_walk *walk, uint32_t run, double far_arm)
+{
+    const dmb_mesh_element element = {.arm = {walk->arm, far_arm}, .node = walk->node, .run = run};
+    (void)dmb_vector_append(&walk->mesh->elements, &walk->mesh->model->allocator, &element, 1);
+    walk->arm = 0.0;
+}
+
+static void push_pipe(string_walk *walk, const dmb_pipe_run *run, double start, uint32_t node, uint32_t element)
+{
+    const bool rigid = element == UINT32_MAX;
+    const dmb_pipe_map pipe = {.start = start,
+                               .length = run->def.length,
+                               .joint = run->def.joint_length,
+                               .node = node,
+                               .element = element,
+                               .elements = rigid ? 0 : run->def.elements,
+                               .kind = dmb_mesh_kind(walk->mesh, run)};
+    (void)dmb_vector_append(&walk->mesh->pipes, &walk->mesh->model->allocator, &pipe, 1);
+    if (run->def.joint_length > 0.0) ++walk->mesh->tool_joints;
+}
+
+/* ---- Elastic pipes ----------------------------------------------------------------------------------------------- */
+
+/* One pipe beginning at `near`: equal elements, and the tool joint as the far arm of the last one. */
+static void mesh_pipe(string_walk *walk, uint32_t run_index, double near, uint8_t size)
+{
+    const dmb_pipe_def *def = &dmb_mesh_run_at(walk->mesh, run_index)->def;
+    const double length = (def->length - def->joint_length) / def->elements;
+    for (uint32_t e = 1; e < def->elements; ++e) {
+        push_element(walk, run_index, 0.0);
+        walk->node = push_node(walk, size, near + e * length);
+    }
+    push_element(walk, run_index, def->joint_length);
+    walk->node = push_node(walk, size, near + def->length);
+}
+
+/* A node stays a PATH node while all its neighbours are axial-torsional. */
+static void mesh_elastic_run(string_walk *walk, uint32_t run_index)
+{
+    const dmb_pipe_run *run = dmb_mesh_run_at(walk->mesh, run_index);
+    const bool path = dmb_mesh_kind(walk->mesh, run) == DMB_PIPE_AXIAL_TORSIONAL;
+    const uint8_t size = path ? DMB_NODE_PATH : DMB_NODE_FULL;
+    if (walk->node == UINT32_MAX) {
+        walk->node = push_node(walk, size, 0.0);
+        walk->map->start_node = walk->node;
+    } else if (!path) {
+        dmb_mesh_node_at(walk->mesh, walk->node)->size = DMB_NODE_FULL;
+    }
+    for (uint32_t i = 0; i < run->count; ++i) {
+        push_pipe(walk, run, 0.0, walk->node, (uint32_t)walk->mesh->elements.count);
+        mesh_pipe(walk, run_index, walk->at + i * run->def.length, size);
+    }
+    walk->at += run->count * run->def.length;
+}
+
+/* ---- Rigid pipes ------------------------------------------------------------------------------------------------- */
+
+/* True if the guide or a drive at the rig end acts on components that differ along the body's axis. */
+static bool start_is_pinned(const string_walk *walk)
+{
+    const dmb_model *model = walk->mesh->model;
+    if (!dmb_mask_is_axial(dmb_mesh_string_def(walk->mesh, walk->string)->start_free)) return true;
+    for (uint32_t i = 0; i < model->drives.count; ++i) {
+        const dmb_drive_def *drive = DMB_LIST_AT(const dmb_drive_def, model->drives, i);
+        const bool on_body = dmb_model_part_index(model, drive->part, DMB_PART_BODY) != UINT32_MAX;
+        if (on_body || dmb_mesh_string_of(walk->mesh, drive->part) != walk->string) continue;
+        if (drive->component != DMB_X && drive->component != DMB_RX) return true;
+    }
+    return false;
+}
+
+static bool end_is_pinned(const string_walk *walk)
+{
+    return !dmb_mask_is_axial(dmb_mesh_string_def(walk->mesh, walk->string)->end_free);
+}
+
+/* Where the node of a stretch of rigid pipes goes. A guide acts at the node, so a body with a pinned end has it there;
+ * otherwise it is the end that gives the neighbouring elements no arms, or the near end. */
+static int32_t choose_near_end(const string_walk *walk, uint32_t next, bool *near)
+{
+    const bool first = walk->node == UINT32_MAX, last = next == walk->end;
+    const bool hold_start = first && start_is_pinned(walk), hold_end = last && end_is_pinned(walk);
+    *near = hold_start || (last && !hold_end);
+    if (!hold_start || !hold_end) return DMB_OK;
+    dmb_message_set(&walk->mesh->model->message,
+                    "string %u: start_free (or a drive) and end_free hold both ends of one rigid body at points, must "
+                    "be one of them",
+                    walk->string);
+    return DMB_ERR_UNSUPPORTED;
+}
+
+/* The node, at the near or the far end of the stretch; one that is there already moves. */
+static void place_rigid_node(string_walk *walk, double length, bool near)
+{
+    const double ahead = near ? 0.0 : length;
+    if (walk->node == UINT32_MAX) {
+        walk->node = push_node(walk, DMB_NODE_FULL, ahead);
+        walk->map->start_node = walk->node;
+        walk->map->start_arm = 0.0 - ahead;
+    } else {
+        dmb_mesh_node *node = dmb_mesh_node_at(walk->mesh, walk->node);
+        node->size = DMB_NODE_FULL;
+        node->at = walk->at + ahead;
+        dmb_mesh_element_at(walk->mesh, (uint32_t)walk->mesh->elements.count - 1)->arm[1] += ahead;
+    }
+    dmb_mesh_node_at(walk->mesh, walk->node)->rigid = 1;
+    walk->arm = length - ahead;
+}
+
+/* Runs [place, next) are rigid and make one body. */
+static int32_t mesh_rigid_stretch(string_walk *walk, uint32_t next)
+{
+    double length = 0.0, start;
+    bool near;
+    int32_t status = choose_near_end(walk, next, &near);
+    if (status < 0) return status;
+    for (uint32_t i = walk->place; i < next; ++i) length += run_at(walk, i)->count * run_at(walk, i)->def.length;
+    place_rigid_node(walk, length, near);
+    start = walk->arm - length;
+    for (uint32_t i = walk->place; i < next; ++i) {
+        const dmb_pipe_run *run = run_at(walk, i);
+        for (uint32_t k = 0; k < run->count; ++k) {
+            push_pipe(walk, run, start + k * run->def.length, walk->node, UINT32_MAX);
+        }
+        start += run->count * run->def.length;
+    }
+    walk->at += length;
+    return DMB_OK;
+}
+
+/* ---- Strings ----------------------------------------------------------------------------------------------------- */
+
+static bool is_rigid(const string_walk *walk, uint32_t place)
+{
+    return dmb_mesh_kind(walk->mesh, run_at(walk, place)) == DMB_PIPE_RIGID;
+}
+
+static int32_t mesh_pieces(string_walk *walk)
+{
+    while (walk->place < walk->end) {
+        uint32_t next = walk->place;
+        while (next < walk->end && is_rigid(walk, next)) ++next;
+        if (next > walk->place) {
+            const int32_t status = mesh_rigid_stretch(walk, next);
+            if (status < 0) return status;
+        } else {
+            mesh_elastic_run(walk, *DMB_VECTOR_AT(uint32_t, &walk->mesh->run_order, next));
+            ++next;
+        }
+        walk->place = next;
+    }
+    return DMB_OK;
+}
+
+static int32_t mesh_string(dmb_mesh *mesh, uint32_t string)
+{
+    const dmb_string_def *def = dmb_mesh_string_def(mesh, string);
+    dmb_string_map *map = dmb_mesh_string_at(mesh, string);
+    string_walk walk = {.mesh = mesh, .map = map, .string = string, .node = UINT32_MAX};
+    int32_t status;
+    walk.place = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string);
+    walk.end = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string + 1u);
+    map->first_pipe = (uint32_t)mesh->pipes.count;
+    map->first_node = (uint32_t)mesh->nodes.count;
+    status = mesh_pieces(&walk);
+    if (status < 0) return status;
+    map->pipe_count = (uint32_t)mesh->pipes.count - map->first_pipe;
+    map->node_count = (uint32_t)mesh->nodes.count - map->first_node;
+    map->end_node = walk.node;
+    map->end_arm = walk.arm;
+    map->length = walk.at;
+    dmb_mesh_node_at(mesh, map->start_node)->free &= (uint8_t)def->start_free;
+    dmb_mesh_node_at(mesh, map->end_node)->free &= (uint8_t)def->end_free;
+    return DMB_OK;
+}
+
+int32_t dmb_mesh_strings(dmb_mesh *mesh)
+{
+    const uint32_t count = mesh->model->strings.count;
+    int32_t status = dmb_vector_append(&mesh->strings, &mesh->model->allocator, NULL, count);
+    for (uint32_t s = 0; s < count && status >= 0; ++s) status = mesh_string(mesh, s);
+    return status;
+}
+
+/* Nodes of free bodies, and the nodes that bodies and bits are fixed to. */
+
+static uint32_t push_free_body(dmb_mesh *mesh, uint32_t body, const dmb_body_def *def)
+{
+    const dmb_mesh_node node = {.string = UINT32_MAX,
+                                .body = body,
+                                .rigid_mass = UINT32_MAX,
+                                .size = DMB_NODE_FULL,
+                                .free = (uint8_t)def->free_mask,
+                                .rigid = 1};
+    (void)dmb_vector_append(&mesh->nodes, &mesh->model->allocator, &node, 1); /* room was reserved */
+    return (uint32_t)mesh->nodes.count - 1;
+}
+
+static dmb_body_map map_of(dmb_mesh *mesh, uint32_t body, const dmb_body_def *def)
+{
+    dmb_body_map map = {0, UINT32_MAX, 0.0};
+    if (def->attach == DMB_ATTACH_NONE) {
+        map.node = push_free_body(mesh, body, def);
+        return map;
+    }
+    const dmb_string_map *string = dmb_mesh_string_at(mesh, dmb_mesh_string_of(mesh, def->string));
+    const bool at_start = def->attach == DMB_ATTACH_START;
+    map.node = at_start ? string->start_node : string->end_node;
+    map.arm = at_start ? string->start_arm : string->end_arm;
+    return map;
+}
+
+/* A bit's reference point is the string's end; its centre is half its length beyond. */
+static dmb_body_map bit_map_of(const dmb_mesh *mesh, const dmb_bit_def *def)
+{
+    const dmb_string_map *string = dmb_mesh_string_at(mesh, dmb_mesh_string_of(mesh, def->string));
+    const dmb_body_map map = {string->end_node, UINT32_MAX, string->end_arm};
+    return map;
+}
+
+int32_t dmb_mesh_bodies(dmb_mesh *mesh)
+{
+    const dmb_model *model = mesh->model;
+    int32_t status = DMB_OK;
+    for (uint32_t i = 0; i < model->bodies.count && status >= 0; ++i) {
+        const dmb_body_map map = map_of(mesh, i, DMB_LIST_AT(const dmb_body_def, model->bodies, i));
+        status = dmb_vector_append(&mesh->bodies, &model->allocator, &map, 1);
+    }
+    for (uint32_t i = 0; i < model->bits.count && status >= 0; ++i) {
+        const dmb_body_map map = bit_map_of(mesh, DMB_LIST_AT(const dmb_bit_def, model->bits, i));
+        status = dmb_vector_append(&mesh->bodies, &model->allocator, &map, 1);
+    }
+    return status;
+}

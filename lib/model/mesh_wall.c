@@ -1,0 +1,180 @@
+/* The axis of the hole. */
+#include "model/field_check.h"
+#include "model/mesh.h"
+#include "model/section.h"
+static int32_t refuse_station(dmb_message *message, const dmb_wall_def *wall, uint32_t station)
+{
+    const double *row = wall->survey + 3 * (size_t)station;
+    dmb_message_set(
+        message,
+        "wall: station %u at measured depth %g m, inclination %g and azimuth %g rad, must turn by <= %g rad "
+        "from the station before",
+        station, row[0], row[1], row[2], DMB_HOLE_DOGLEG_MAX);
+    return DMB_ERR_GEOMETRY;
+}
+
+int32_t dmb_mesh_hole(dmb_mesh *mesh)
+{
+    const dmb_wall_def *wall = &mesh->model->wall;
+    const double radius = 0.5 * wall->diameter;
+    if (mesh->model->wall_count == 0) return DMB_OK;
+    mesh->has_hole = 1;
+    if (wall->survey_count == 0) return dmb_hole_setup_straight(&mesh->hole, wall->origin, wall->direction, radius);
+    const int32_t status = dmb_vector_append(&mesh->stations, &mesh->model->allocator, NULL, wall->survey_count);
+    if (status < 0) return status;
+    const int64_t bad = dmb_hole_setup_survey(&mesh->hole, wall->survey_count, wall->survey, wall->origin, radius,
+                                              mesh->stations.items);
+    return bad < 0 ? DMB_OK : refuse_station(&mesh->model->message, wall, (uint32_t)bad);
+}
+
+/* Places that can meet the wall. Along a string they stand between the stretches from node to node (for rigid pipes:
+ * from pipe end to pipe end), each for half of the two stretches it divides, so that refining the mesh does not change
+ * the contact per metre. */
+
+/* The place between the last stretch and the next one. */
+typedef struct site_walk {
+    dmb_mesh *mesh;
+    dmb_id part;
+    uint32_t node;
+    uint32_t pipe;   /* whose far end it is */
+    double offset;   /* [m] from the node */
+    double diameter; /* [m] largest of what meets here */
+    double length;   /* [m] half of the stretches on both sides, as far as they are known */
+} site_walk;
+
+/* A place is free to move sideways if its node is, or if its node tilts and it stands away from it. */
+static bool moves_sideways(const dmb_mesh_node *node, double offset)
+{
+    if ((node->free & DMB_FREE_SIDEWAYS) != 0) return true;
+    return (node->free & DMB_FREE_TILTING) != 0 && fabs(offset) > 0.0;
+}
+
+static double clearance_of(const dmb_mesh *mesh, double radius)
+{
+    return fmax(0.0, mesh->hole.radius - radius);
+}
+
+static int32_t push_site(dmb_mesh *mesh, const dmb_site *site)
+{
+    dmb_site added = *site;
+    added.clearance = clearance_of(mesh, site->radius);
+    return dmb_vector_append(&mesh->sites, &mesh->model->allocator, &added, 1);
+}
+
+static int32_t push_path_site(const site_walk *walk)
+{
+    const dmb_path_site site = {.radius = 0.5 * walk->diameter,
+                                .length = walk->length,
+                                .part = walk->part,
+                                .pipe = walk->pipe,
+                                .node = walk->node};
+    if ((walk->mesh->features & DMB_FEATURE_FRICTION) == 0) return DMB_OK;
+    return dmb_vector_append(&walk->mesh->path_sites, &walk->mesh->model->allocator, &site, 1);
+}
+
+/* Ends the present place. */
+static int32_t finish_place(const site_walk *walk)
+{
+    const dmb_mesh_node *node = dmb_mesh_node_at(walk->mesh, walk->node);
+    const dmb_site site = {.offset = walk->offset,
+                           .radius = 0.5 * walk->diameter,
+                           .length = walk->length,
+                           .part = walk->part,
+                           .pipe = walk->pipe,
+                           .node = walk->node};
+    if (node->size == DMB_NODE_PATH) return push_path_site(walk);
+    return moves_sideways(node, walk->offset) ? push_site(walk->mesh, &site) : DMB_OK;
+}
+
+/* Goes on over a stretch of the given length and diameter; the next place begins at its far end. */
+static int32_t pass_stretch(site_walk *walk, double length, double diameter, uint32_t node, double offset,
+                            uint32_t pipe)
+{
+    int32_t status;
+    walk->length += 0.5 * length;
+    walk->diameter = fmax(walk->diameter, diameter);
+    status = finish_place(walk);
+    walk->node = node;
+    walk->offset = offset;
+    walk->pipe = pipe;
+    walk->diameter = diameter;
+    walk->length = 0.5 * length;
+    return status;
+}
+
+/* The far node of a pipe may stand behind rigid pipes, and its end before it. */
+static int32_t pass_elastic_pipe(site_walk *walk, const dmb_pipe_map *pipe, const dmb_pipe_def *def, uint32_t number)
+{
+    const double length = dmb_pipe_body_length(def) / def->elements;
+    const dmb_mesh_element *last = dmb_mesh_element_at(walk->mesh, pipe->element + pipe->elements - 1);
+    int32_t status = DMB_OK;
+    for (uint32_t e = 0; e + 1 < pipe->elements && status >= 0; ++e) {
+        status = pass_stretch(walk, length, def->outer_diameter, pipe->node + e + 1, 0.0, number);
+    }
+    if (status < 0) return status;
+    return pass_stretch(walk, length + pipe->joint, def->outer_diameter, last->node + 1, pipe->joint - last->arm[1],
+                        number);
+}
+
+static int32_t pass_string(dmb_mesh *mesh, uint32_t string)
+{
+    const dmb_string_map *map = dmb_mesh_string_at(mesh, string);
+    dmb_pipe_walk pipes = dmb_pipe_walk_of(mesh, string);
+    site_walk walk = {.mesh = mesh,
+                      .part = dmb_model_id(mesh->model, DMB_PART_STRING, string),
+                      .node = map->start_node,
+                      .pipe = UINT32_MAX,
+                      .offset = map->start_arm};
+    int32_t status = DMB_OK;
+    while (status >= 0 && dmb_pipe_walk_next(&pipes)) {
+        const dmb_pipe_map *pipe = dmb_mesh_pipe_at(mesh, map->first_pipe + pipes.number);
+        const dmb_pipe_def *def = &pipes.run->def;
+        if (pipe->elements > 0) {
+            status = pass_elastic_pipe(&walk, pipe, def, pipes.number);
+        } else {
+            status = pass_stretch(&walk, pipe->length, def->outer_diameter, pipe->node, pipe->start + pipe->length,
+                                  pipes.number);
+        }
+        walk.diameter = fmax(walk.diameter, dmb_joint_diameter(def));
+    }
+    return status < 0 ? status : finish_place(&walk);
+}
+
+/* ---- Bodies and bits --------------------------------------------------------------------------------------------- */
+
+static int32_t add_ring(dmb_mesh *mesh, uint32_t map_index, double diameter, double offset, double length, dmb_id part)
+{
+    dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, map_index);
+    const dmb_mesh_node *node = dmb_mesh_node_at(mesh, map->node);
+    const dmb_site site = {
+        .offset = map->arm + offset, .radius = 0.5 * diameter, .length = length, .part = part, .node = map->node};
+    if (!(diameter > 0.0) || node->size == DMB_NODE_PATH || !moves_sideways(node, site.offset)) return DMB_OK;
+    map->site = (uint32_t)mesh->sites.count;
+    return push_site(mesh, &site);
+}
+
+static int32_t add_rings(dmb_mesh *mesh)
+{
+    const dmb_model *model = mesh->model;
+    int32_t status = DMB_OK;
+    for (uint32_t i = 0; i < model->bodies.count && status >= 0; ++i) {
+        const dmb_body_def *def = DMB_LIST_AT(const dmb_body_def, model->bodies, i);
+        status =
+            add_ring(mesh, i, def->contact_diameter, 0.0, def->contact_length, dmb_model_id(model, DMB_PART_BODY, i));
+    }
+    for (uint32_t i = 0; i < model->bits.count && status >= 0; ++i) {
+        const dmb_bit_def *def = DMB_LIST_AT(const dmb_bit_def, model->bits, i);
+        status = add_ring(mesh, model->bodies.count + i, def->diameter, 0.5 * def->length, def->length,
+                          dmb_model_id(model, DMB_PART_BIT, i));
+    }
+    return status;
+}
+
+int32_t dmb_mesh_sites(dmb_mesh *mesh)
+{
+    int32_t status = DMB_OK;
+    if ((mesh->features & DMB_FEATURE_CONTACT) == 0) return DMB_OK;
+    for (uint32_t s = 0; s < mesh->strings.count && status >= 0; ++s) status = pass_string(mesh, s);
+    if (status >= 0) status = add_rings(mesh);
+    return status;
+}

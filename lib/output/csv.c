@@ -1,0 +1,132 @@
+/* The recorder's table as comma-separated values: one header line, '.' as decimal mark whatever the locale, and digits
+ * enough to read every number back. */
+#include <math.h>
+#include <stddef.h>
+
+#include "analysis/response/response.h"
+#include "base/handle.h"
+#include "model/model.h"
+#include "output/recorder.h"
+#include "output/text_file.h"
+#include "query/channel.h"
+static void put_numbered(dmb_text_file *file, const char *kind, uint32_t number)
+{
+    dmb_text_put(file, " ");
+    dmb_text_put(file, kind);
+    dmb_text_put(file, " ");
+    dmb_text_put_count(file, number);
+}
+
+/* "string 0 pipe 99 at 1", "body 2": no commas */
+static void put_place(dmb_text_file *file, const dmb_place *place)
+{
+    static const char *const kinds[] = {"part", "programme", "wall", "string", "body", "bit", "drive", "load"};
+    const uint32_t kind = place->part.index >> 24, number = place->part.index & 0xFFFFFFu;
+    put_numbered(file, kind < sizeof kinds / sizeof kinds[0] ? kinds[kind] : kinds[0], number);
+    if (kind != DMB_PART_STRING) return;
+    put_numbered(file, "pipe", place->pipe);
+    dmb_text_put(file, " at ");
+    dmb_text_put_short(file, place->fraction);
+}
+
+static void put_header(dmb_text_file *file, const dmb_recorder *r)
+{
+    dmb_text_put(file, "time [s]");
+    for (uint32_t i = 0; i < r->channel_count; ++i) {
+        const dmb_channel *channel = &r->channels[i];
+        const dmb_channel_name *name = dmb_channel_name_of(channel->quantity);
+        dmb_text_put(file, ",");
+        dmb_text_put(file, name != NULL ? name->name : "unknown");
+        if (channel->quantity != DMB_CHANNEL_ENERGY_ERROR) put_place(file, &channel->place);
+        dmb_text_put(file, " [");
+        dmb_text_put(file, name != NULL ? name->unit : "-");
+        dmb_text_put(file, "]");
+    }
+    dmb_text_put(file, "\n");
+}
+
+static void put_rows(dmb_text_file *file, const dmb_recorder *r)
+{
+    const double *value = r->table;
+    for (uint64_t row = 0; row < r->row_count; ++row) {
+        for (uint32_t i = 0; i <= r->channel_count; ++i) {
+            if (i > 0) dmb_text_put(file, ",");
+            dmb_text_put_number(file, *value++);
+        }
+        dmb_text_put(file, "\n");
+    }
+}
+
+int32_t dmb_recorder_write_csv(const dmb_recorder *recorder, const char *path)
+{
+    dmb_recorder r;
+    dmb_text_file file;
+    int32_t status = dmb_recorder_take_struct(&r, recorder);
+    if (status < 0) return status;
+    if (path == NULL) return DMB_ERR_NULL;
+    status = dmb_text_open(&file, path);
+    if (status < 0) return status;
+    put_header(&file, &r);
+    put_rows(&file, &r);
+    return dmb_text_close(&file);
+}
+
+/* A frequency response as comma-separated values: frequency, then amplitude and phase of each transfer function and of
+ * each combined output. */
+
+static void put_name(dmb_text_file *file, const char *what, const char *unit, uint32_t input, uint32_t output)
+{
+    dmb_text_put(file, what);
+    dmb_text_put(file, " of output ");
+    dmb_text_put_count(file, output);
+    dmb_text_put(file, input == DMB_COMBINED ? " for all inputs" : " for input ");
+    if (input != DMB_COMBINED) dmb_text_put_count(file, input);
+    dmb_text_put(file, unit);
+}
+
+static void put_response_header(dmb_text_file *file, const dmb_response *response)
+{
+    dmb_text_put(file, "frequency [Hz]");
+    for (uint32_t i = 0; i <= response->inputs; i++)
+        for (uint32_t k = 0; k < response->outputs; k++) {
+            const uint32_t input = i < response->inputs ? i : DMB_COMBINED;
+            dmb_text_put(file, ",");
+            put_name(file, "amplitude", "", input, k);
+            dmb_text_put(file, ",");
+            put_name(file, "phase", " [rad]", input, k);
+        }
+    dmb_text_put(file, "\n");
+}
+
+static void put_value(dmb_text_file *file, const double value[2])
+{
+    dmb_text_put(file, ",");
+    dmb_text_put_number(file, hypot(value[0], value[1]));
+    dmb_text_put(file, ",");
+    dmb_text_put_number(file, atan2(value[1], value[0]));
+}
+
+static void put_row(dmb_text_file *file, const dmb_response *response, uint32_t point)
+{
+    dmb_text_put_number(file, response->frequency[point]);
+    for (uint32_t i = 0; i < response->inputs; i++)
+        for (uint32_t k = 0; k < response->outputs; k++)
+            put_value(file, dmb_response_value(response, point, i) + 2 * (size_t)k);
+    for (uint32_t k = 0; k < response->outputs; k++) {
+        double value[2];
+        dmb_response_combined(response, point, k, value);
+        put_value(file, value);
+    }
+    dmb_text_put(file, "\n");
+}
+
+int32_t dmb_response_write_csv(const dmb_response *response, const char *path)
+{
+    dmb_text_file file;
+    if (response == NULL || path == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(response, DMB_HANDLE_RESPONSE)) return DMB_ERR_HANDLE;
+    if (dmb_text_open(&file, path) < 0) return DMB_ERR_IO;
+    put_response_header(&file, response);
+    for (uint32_t point = 0; point < response->points; point++) put_row(&file, response, point);
+    return dmb_text_close(&file);
+}

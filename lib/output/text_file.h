@@ -1,0 +1,36 @@
+/* Writing text to a file, numbers alike in every locale. A failure is kept until the file is closed. What is written goes
+ * to a file beside the one asked for, which takes its place when all of it is there: a write that fails leaves the old
+ * file, and no other. Devices and pipes are written to directly. */
+#ifndef DMB_OUTPUT_TEXT_FILE_H
+#define DMB_OUTPUT_TEXT_FILE_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+enum { DMB_PATH_MAX = 4096 };
+
+typedef struct dmb_text_file {
+    FILE *stream;
+    int failed;
+    int beside;                    /* 1: `part` is written and takes the place of `path`; 0: it is written itself */
+    int looking;                   /* 1: numbers are looked at only, output/vtk */
+    int strange;                   /* 1: one of them was not finite */
+    int base64;                    /* 1: numbers go out as words in base 64 */
+    uint32_t waiting, waiting_count; /* bytes of a group of three */
+    char path[DMB_PATH_MAX], part[DMB_PATH_MAX + 16];
+} dmb_text_file;
+
+/* Opens for writing; DMB_OK or DMB_ERR_IO. Every opened file must be closed. */
+int32_t dmb_text_open(dmb_text_file *file, const char *path);
+void dmb_text_put(dmb_text_file *file, const char *text);
+void dmb_text_put_number(dmb_text_file *file, double value); /* 17 digits: reads back the same */
+void dmb_text_put_short(dmb_text_file *file, double value);  /* 6 digits */
+void dmb_text_put_count(dmb_text_file *file, uint64_t value);
+/* 64-bit words in base 64, least byte first, between begin and end (RFC 4648). */
+void dmb_text_begin_base64(dmb_text_file *file);
+void dmb_text_put_word(dmb_text_file *file, uint64_t word);
+void dmb_text_end_base64(dmb_text_file *file);
+/* DMB_OK if everything has reached the file, else DMB_ERR_IO. */
+int32_t dmb_text_close(dmb_text_file *file);
+
+#endif

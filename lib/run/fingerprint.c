@@ -1,0 +1,265 @@
+#include "run/fingerprint.h"
+
+
+/* Members one by one: padding and pointers stay out. */
+#define DMB_NUMBERS(hash, array) dmb_fnv_numbers((hash), (array), sizeof(array) / sizeof(double))
+
+static uint64_t add_counts(uint64_t h, const dmb_scene *s)
+{
+    const uint32_t counts[] = {
+        s->node_count,      s->row_count,   s->element_count,  s->type_count,     s->rigid_mass_count,       s->site_count,
+        s->path_site_count, s->drive_count, s->load_count,     s->bit_count,      s->programme_count,  s->string_count,
+        s->pipe_count,      s->body_count,  s->history_count,  s->free_count,     s->prescribed_count, s->chain_count,
+        s->batch_count,     s->joint_count, s->coupling_count, s->callback_count, s->constraint_count};
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; ++i) h = dmb_fnv_word(h, counts[i]);
+    h = dmb_fnv_word(h, (uint32_t)s->features);
+    h = DMB_NUMBERS(h, s->gravity);
+    h = dmb_fnv_number(h, s->mass);
+    return dmb_fnv_number(h, s->length);
+}
+
+static uint64_t add_nodes(uint64_t h, const dmb_scene *s)
+{
+    const size_t n = s->node_count;
+    h = dmb_fnv_numbers(h, s->reference_position, 3 * n);
+    h = dmb_fnv_numbers(h, s->reference_quaternion, 4 * n);
+    h = dmb_fnv_numbers(h, s->weight_mass, n);
+    h = dmb_fnv_numbers(h, s->weight_moment, 3 * n);
+    h = dmb_fnv_numbers(h, s->node_damping, 5 * n);
+    h = dmb_fnv_block(h, s->solved_row, s->row_count);
+    return dmb_fnv_block(h, s->layout.size, n);
+}
+
+static uint64_t add_type(uint64_t h, const dmb_element_type *t)
+{
+    h = dmb_fnv_number(h, t->length);
+    h = DMB_NUMBERS(h, t->stiffness);
+    h = DMB_NUMBERS(h, t->rest);
+    h = DMB_NUMBERS(h, t->arm);
+    h = dmb_fnv_number(h, t->damping_time);
+    h = DMB_NUMBERS(h, t->mass.axial);
+    h = DMB_NUMBERS(h, t->mass.torsion);
+    h = DMB_NUMBERS(h, t->mass.bending[0]);
+    return DMB_NUMBERS(h, t->mass.bending[1]);
+}
+
+static uint64_t add_elements(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->type_count; ++i) h = add_type(h, &s->types[i]);
+    for (uint32_t i = 0; i < s->element_count; ++i) h = dmb_fnv_word(h, s->element_type[i]);
+    for (uint32_t i = 0; i < s->rigid_mass_count; ++i) {
+        const dmb_rigid_mass *rigid_mass = &s->rigid_masses[i];
+        h = dmb_fnv_word(h, rigid_mass->node);
+        h = dmb_fnv_number(h, rigid_mass->mass);
+        h = DMB_NUMBERS(h, rigid_mass->moment);
+        h = DMB_NUMBERS(h, rigid_mass->inertia);
+    }
+    return h;
+}
+
+static uint64_t add_laws(uint64_t h, const dmb_normal_law *n, const dmb_friction_law *f)
+{
+    const double numbers[] = {
+        n->stiffness,      n->exponent,          n->damping,        n->impact_depth,   n->mu,
+        n->approach_floor, f->mu_static,         f->mu_dynamic,     f->stribeck_speed, f->smoothing_speed,
+        f->full_speed,     f->bristle_stiffness, f->bristle_damping};
+    h = dmb_fnv_word(h, (uint32_t)n->kind);
+    h = dmb_fnv_word(h, (uint32_t)f->kind);
+    return DMB_NUMBERS(h, numbers);
+}
+
+static uint64_t add_wall(uint64_t h, const dmb_scene *s)
+{
+    if (!s->has_hole) return dmb_fnv_word(h, 0);
+    h = add_laws(h, &s->normal_law, &s->friction_law);
+    h = DMB_NUMBERS(h, s->hole.origin);
+    h = DMB_NUMBERS(h, s->hole.direction);
+    h = dmb_fnv_number(h, s->hole.radius);
+    for (uint32_t i = 0; i < s->hole.stations; ++i) {
+        h = dmb_fnv_number(h, s->hole.station[i].depth);
+        h = DMB_NUMBERS(h, s->hole.station[i].tangent);
+    }
+    for (uint32_t i = 0; i < s->site_count; ++i) {
+        h = dmb_fnv_number(h, s->sites[i].clearance);
+        h = dmb_fnv_number(h, s->sites[i].length);
+        h = dmb_fnv_number(h, s->sites[i].offset);
+        h = dmb_fnv_number(h, s->sites[i].radius);
+    }
+    for (uint32_t i = 0; i < s->path_site_count; ++i) {
+        h = dmb_fnv_number(h, s->path_sites[i].length);
+        h = dmb_fnv_number(h, s->path_sites[i].radius);
+    }
+    return h;
+}
+
+static uint64_t add_term(uint64_t h, const dmb_term *t)
+{
+    const double numbers[] = {t->x0, t->x1, t->h0, t->h1, t->omega, t->phase};
+    const size_t table = t->kind == DMB_TERM_TABLE ? t->table_count : 0;
+    h = dmb_fnv_word(h, (uint32_t)t->kind);
+    h = DMB_NUMBERS(h, numbers);
+    h = dmb_fnv_numbers(h, t->table_time, table);
+    return dmb_fnv_numbers(h, t->table_value, table);
+}
+
+static uint64_t add_programmes(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->programme_count; ++i) {
+        const dmb_programme *programme = &s->programmes[i];
+        h = dmb_fnv_word(h, programme->count);
+        for (uint32_t k = 0; k < programme->count; ++k) h = add_term(h, &programme->terms[k]);
+    }
+    return h;
+}
+
+static uint64_t add_drives(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->drive_count; ++i) {
+        const dmb_scene_drive *drive = &s->drives[i];
+        const double numbers[] = {drive->gain, drive->integral_gain, drive->limit_low, drive->limit_high};
+        h = dmb_fnv_word(h, drive->row);
+        h = dmb_fnv_word(h, drive->joint);
+        h = dmb_fnv_word(h, (uint32_t)drive->component);
+        h = dmb_fnv_word(h, (uint32_t)drive->kind);
+        h = dmb_fnv_word(h, drive->programme);
+        h = dmb_fnv_word(h, drive->excitation);
+        h = DMB_NUMBERS(h, numbers);
+    }
+    return h;
+}
+
+static uint64_t add_loads(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->load_count; ++i) {
+        const dmb_scene_load *load = &s->loads[i];
+        h = dmb_fnv_word(h, load->node);
+        h = dmb_fnv_word(h, (uint32_t)load->frame);
+        h = dmb_fnv_word(h, load->programme);
+        h = dmb_fnv_number(h, load->arm);
+        h = DMB_NUMBERS(h, load->force);
+        h = DMB_NUMBERS(h, load->moment);
+    }
+    return h;
+}
+
+static uint64_t add_bits(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->bit_count; ++i) {
+        const dmb_scene_bit *bit = &s->bits[i];
+        const dmb_bit_rock_law *law = &bit->law;
+        const double numbers[] = {law->radius,           law->intrinsic_energy, law->cutting_ratio,
+                                  law->contact_strength, law->wear_length,      law->contact_friction,
+                                  law->intrusion_depth,  bit->bottom,           bit->arm};
+        h = dmb_fnv_word(h, (uint32_t)law->kind);
+        h = dmb_fnv_word(h, law->blades);
+        h = dmb_fnv_word(h, bit->load);
+        h = dmb_fnv_word(h, bit->history_capacity);
+        h = DMB_NUMBERS(h, numbers);
+    }
+    return h;
+}
+
+static uint64_t add_frame(uint64_t h, const dmb_scene_frame *frame)
+{
+    h = dmb_fnv_word(h, frame->node);
+    h = DMB_NUMBERS(h, frame->x);
+    return DMB_NUMBERS(h, frame->M);
+}
+
+/* Members of dmb_joint_law are all numbers. */
+static uint64_t add_joint_laws(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->law_count; ++i) {
+        const dmb_joint_law *law = &s->laws[i];
+        const double numbers[] = {law->stiffness, law->damping,        law->rest,
+                                  law->friction,  law->friction_speed, law->stop_low,
+                                  law->stop_high, law->stop_stiffness, law->stop_damping};
+        h = DMB_NUMBERS(h, numbers);
+    }
+    return h;
+}
+
+static uint64_t add_joints(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->joint_count; ++i) {
+        const dmb_scene_joint *joint = &s->joints[i];
+        h = add_frame(h, &joint->a);
+        h = add_frame(h, &joint->b);
+        h = DMB_NUMBERS(h, joint->span);
+        h = dmb_fnv_number(h, joint->length);
+        h = DMB_NUMBERS(h, joint->initial_position);
+        h = DMB_NUMBERS(h, joint->initial_speed);
+        h = dmb_fnv_word(h, (uint32_t)joint->kind);
+        h = dmb_fnv_word(h, (uint32_t)joint->state);
+        h = dmb_fnv_word(h, (uint32_t)joint->initial_mask);
+        h = dmb_fnv_word(h, joint->law);
+    }
+    return add_joint_laws(h, s);
+}
+
+static uint64_t add_couplings(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->coupling_count; ++i) {
+        const dmb_scene_coupling *coupling = &s->couplings[i];
+        h = dmb_fnv_number(h, coupling->ratio);
+        for (int k = 0; k < 2; ++k) {
+            h = dmb_fnv_word(h, coupling->joint[k]);
+            h = dmb_fnv_word(h, (uint32_t)coupling->component[k]);
+        }
+    }
+    return h;
+}
+
+/* What the caller's functions are cannot be told from their addresses. */
+static uint64_t add_callbacks(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->callback_count; ++i) {
+        const dmb_scene_callback *callback = &s->callbacks[i];
+        h = dmb_fnv_word(h, callback->rows);
+        h = dmb_fnv_word(h, callback->count);
+        h = dmb_fnv_word(h, (uint32_t)callback->kind);
+        h = dmb_fnv_word(h, (uint32_t)callback->provides);
+        for (uint32_t k = 0; k < callback->count; ++k) h = add_frame(h, &callback->place[k]);
+    }
+    return h;
+}
+
+/* Constraints and clusters follow from what they are of; their order is checked all the same. */
+static uint64_t add_constraints(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->constraint_count; ++i) {
+        const dmb_constraint *constraint = &s->constraints[i];
+        h = dmb_fnv_word(h, (uint32_t)constraint->kind);
+        h = dmb_fnv_word(h, constraint->index);
+        h = dmb_fnv_word(h, constraint->cluster);
+    }
+    return h;
+}
+
+uint64_t dmb_scene_fingerprint(const dmb_scene *scene)
+{
+    uint64_t h = add_counts(DMB_FNV_START, scene);
+    h = add_nodes(h, scene);
+    h = add_elements(h, scene);
+    h = add_wall(h, scene);
+    h = add_programmes(h, scene);
+    h = add_drives(h, scene);
+    h = add_loads(h, scene);
+    h = add_bits(h, scene);
+    h = add_joints(h, scene);
+    h = add_couplings(h, scene);
+    h = add_callbacks(h, scene);
+    return add_constraints(h, scene);
+}
+
+uint64_t dmb_options_fingerprint(const dmb_sim_options *options)
+{
+    const double numbers[] = {options->spectral_radius,    options->newton_tolerance, options->tolerance_translation,
+                              options->tolerance_rotation, options->step_min,         options->step_max};
+    uint64_t h = dmb_fnv_word(DMB_FNV_START, options->max_iterations);
+    h = dmb_fnv_word(h, options->max_cuts);
+    h = dmb_fnv_word(h, (uint32_t)options->bounded_work);
+    h = dmb_fnv_word(h, (uint32_t)options->energy_ledger);
+    h = dmb_fnv_word(h, (uint32_t)options->constraint_method);
+    return DMB_NUMBERS(h, numbers);
+}

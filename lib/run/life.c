@@ -1,0 +1,271 @@
+/* Making and unmaking a sim. */
+#include <math.h>
+
+#include "base/handle.h"
+#include "base/memory.h"
+#include "base/message.h"
+#include "base/sized_struct.h"
+#include "constraint/joint.h"
+#include "model/create_message.h"
+#include "sim/access.h"
+#include "sim/layout.h"
+#include "sim/options.h"
+#include "system/start.h"
+DMB_DECLARE_STRUCT(dmb_sim_options)
+
+/* What a create is told, checked. There is no sim yet to hold a message: a refusal is told to the log, and to the model for
+ * the calling thread. */
+typedef struct creation {
+    dmb_sim_options options;
+    dmb_allocator allocator;
+    size_t bytes;
+    dmb_message message;
+} creation;
+
+static void tell(const dmb_sim_options *options, int32_t status, const dmb_message *message)
+{
+    const dmb_log log = {options->log, options->log_context};
+    if (status == DMB_OK) return;
+    dmb_log_text(&log, status < 0 ? DMB_LOG_ERROR : DMB_LOG_WARNING,
+                 message->text[0] != '\0' ? message->text : dmb_status_text(status));
+}
+
+/* Ends a call that failed, whose model is one. */
+static int32_t fail(const dmb_model *model, const dmb_sim_options *options, int32_t status, const dmb_message *message)
+{
+    dmb_create_message_set(model, message->text[0] != '\0' ? message->text : dmb_status_text(status));
+    tell(options, status, message);
+    return status;
+}
+
+/* The caller's log, even where the rest of the options is refused; none where the struct itself cannot be read. */
+static void tell_refusal(const dmb_sim_options *given, int32_t status, const dmb_message *message)
+{
+    dmb_sim_options read;
+    if (given == NULL || dmb_sim_options_read(&read, given) < 0) return;
+    tell(&read, status, message);
+}
+
+static int32_t check_model(const dmb_model *model, dmb_message *message)
+{
+    if (model == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
+    if (model->scene != NULL) return DMB_OK;
+    dmb_message_set(message, "model: not compiled, call dmb_model_compile first");
+    return DMB_ERR_ORDER;
+}
+
+static int32_t take_allocator(creation *c, const dmb_model *model)
+{
+    const dmb_allocator *given = c->options.allocator;
+    int32_t status;
+    if (given == NULL) given = &model->allocator;
+    status = dmb_allocator_copy(&c->allocator, given);
+    if (status < 0) dmb_message_set(&c->message, "sim options: allocator has a wrong struct_size or lacks a function");
+    return status;
+}
+
+static int32_t take_size(creation *c, const dmb_model *model)
+{
+    c->bytes = dmb_sim_bytes(model->scene);
+    if (c->bytes != SIZE_MAX) return DMB_OK;
+    dmb_message_set(&c->message, "sim: its size overflows");
+    return DMB_ERR_TOO_LARGE;
+}
+
+static int32_t prepare(creation *c, const dmb_model *model, const dmb_sim_options *options)
+{
+    int32_t status;
+    dmb_message_clear(&c->message);
+    status = check_model(model, &c->message);
+    if (status == DMB_OK) status = dmb_sim_options_take(&c->options, options, &c->message);
+    if (status == DMB_OK) status = take_allocator(c, model);
+    if (status == DMB_OK) status = take_size(c, model);
+    if (status >= 0) return status;
+    if (dmb_handle_is(model, DMB_HANDLE_MODEL))
+        dmb_create_message_set(model, c->message.text[0] != '\0' ? c->message.text : dmb_status_text(status));
+    tell_refusal(options, status, &c->message);
+    return status;
+}
+
+int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *options, size_t *size)
+{
+    creation c;
+    int32_t status;
+    if (size == NULL) return DMB_ERR_NULL;
+    status = prepare(&c, model, options);
+    if (status == DMB_OK) *size = c.bytes;
+    return status;
+}
+
+/* Gives everything back. The stamp goes first: the block may be the caller's and outlive the sim. */
+static void give_back(dmb_sim *sim)
+{
+    const dmb_allocator allocator = sim->allocator;
+    const int32_t owns_memory = sim->owns_memory;
+    dmb_model *model = sim->model;
+    void *block = sim->block;
+    const size_t size = sim->block_size;
+    sim->magic = DMB_HANDLE_DEAD;
+    if (owns_memory) dmb_release(&allocator, block, size);
+    dmb_model_release(model);
+}
+
+/* The drives follow their programmes until dmb_sim_set_drive says otherwise. */
+static void release_drives(dmb_sim *sim)
+{
+    for (uint32_t i = 0; i < sim->scene->drive_count; ++i) sim->drive_input[i] = (double)NAN;
+}
+
+/* Makes the sim in a block and sets it to time 0. The hold on the model, taken before, becomes the sim's. */
+static int32_t begin(const creation *c, dmb_model *model, void *block, size_t size, int32_t owns_memory, dmb_sim **out)
+{
+    dmb_sim *sim = dmb_sim_carve(model->scene, block, size);
+    int32_t status;
+    if (sim == NULL) { /* not reached: the size was checked */
+        dmb_model_release(model);
+        return DMB_ERR_TOO_LARGE;
+    }
+    sim->owns_memory = owns_memory;
+    sim->model = model;
+    sim->options = c->options;
+    sim->allocator = c->allocator;
+    sim->options.allocator = NULL; /* the caller's struct may be gone; the copy is the one to use */
+    release_drives(sim);
+    status = dmb_system_start(sim);
+    if (status < 0) {
+        (void)fail(model, &sim->options, status, &sim->message);
+        give_back(sim);
+        return status;
+    }
+    dmb_create_message_clear(model);
+    tell(&sim->options, status, &sim->message);
+    sim->magic = DMB_HANDLE_SIM; /* no handle before: callbacks and log may know the block */
+    *out = sim;
+    return status;
+}
+
+int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options, dmb_sim **sim)
+{
+    creation c;
+    void *block;
+    int32_t status;
+    if (sim == NULL) return DMB_ERR_NULL;
+    *sim = NULL;
+    status = prepare(&c, model, options);
+    if (status < 0) return status;
+    dmb_model_hold(model); /* the allocator and the log may destroy the caller's handle */
+    block = dmb_allocate(&c.allocator, c.bytes);
+    if (block == NULL) {
+        dmb_message_set(&c.message, "sim: no memory for %zu bytes", c.bytes);
+        status = fail(model, &c.options, DMB_ERR_NO_MEMORY, &c.message);
+        dmb_model_release(model);
+        return status;
+    }
+    return begin(&c, model, block, c.bytes, 1, sim);
+}
+
+int32_t dmb_sim_create_in(dmb_model *model, const dmb_sim_options *options, void *block, size_t size, dmb_sim **sim)
+{
+    creation c;
+    int32_t status;
+    if (sim == NULL) return DMB_ERR_NULL;
+    *sim = NULL;
+    if (block == NULL) return DMB_ERR_NULL;
+    status = prepare(&c, model, options);
+    if (status < 0) return status;
+    if (size < c.bytes) {
+        dmb_message_set(&c.message, "sim: size of the block = %zu, must be >= %zu", size, c.bytes);
+        return fail(model, &c.options, DMB_ERR_VALUE, &c.message);
+    }
+    dmb_model_hold(model);
+    return begin(&c, model, block, size, 0, sim);
+}
+
+void dmb_sim_destroy(dmb_sim **sim)
+{
+    if (sim == NULL) return;
+    if (dmb_handle_is(*sim, DMB_HANDLE_SIM)) {
+        if ((*sim)->busy != DMB_BUSY_NOT) {
+            dmb_sim_refuse_re_entry(*sim);
+            return;
+        }
+        give_back(*sim);
+    }
+    *sim = NULL;
+}
+
+const char *dmb_sim_message(const dmb_sim *sim)
+{
+    if (sim == NULL) return dmb_status_text(DMB_ERR_NULL);
+    return dmb_handle_is(sim, DMB_HANDLE_SIM) ? sim->message.text : dmb_status_text(DMB_ERR_HANDLE);
+}
+
+double dmb_sim_time(const dmb_sim *sim)
+{
+    return dmb_handle_is(sim, DMB_HANDLE_SIM) ? sim->clock->time : (double)NAN;
+}
+
+/* Counts of a compiled model. They stand here because one of them is the size of a sim. */
+
+DMB_DECLARE_STRUCT(dmb_model_info)
+
+static int32_t is_open(const dmb_scene *scene, uint32_t joint)
+{
+    return scene->joints[joint].state == DMB_JOINT_OPEN;
+}
+
+static uint32_t joint_rows(const dmb_scene_joint *joint)
+{
+    if (joint->state == DMB_JOINT_OPEN) return 0;
+    return joint->state == DMB_JOINT_LOCKED ? DMB_CONSTRAINT_ROWS : dmb_joint_row_count(joint->kind);
+}
+
+/* Equations at time 0: those of open joints, and on their coordinates, do not count. */
+static uint32_t active_rows(const dmb_scene *scene)
+{
+    uint32_t rows = 0;
+    for (uint32_t i = 0; i < scene->joint_count; ++i) rows += joint_rows(&scene->joints[i]);
+    for (uint32_t i = 0; i < scene->coupling_count; ++i) {
+        const uint32_t *joint = scene->couplings[i].joint;
+        if (!is_open(scene, joint[0]) && !is_open(scene, joint[1])) ++rows;
+    }
+    for (uint32_t i = 0; i < scene->drive_count; ++i) {
+        const dmb_scene_drive *drive = &scene->drives[i];
+        if (drive->constraint != UINT32_MAX && !is_open(scene, drive->joint)) ++rows;
+    }
+    for (uint32_t i = 0; i < scene->callback_count; ++i) rows += scene->callbacks[i].rows;
+    return rows;
+}
+
+static void fill_info(const dmb_scene *scene, dmb_model_info *info)
+{
+    info->strings = scene->string_count;
+    info->pipes = scene->pipe_count;
+    info->rigid_bodies = scene->rigid_count;
+    info->nodes = scene->node_count;
+    info->elements = scene->element_count;
+    info->contact_sites = scene->site_count + scene->path_site_count;
+    info->degrees_of_freedom = scene->free_count;
+    info->prescribed = scene->prescribed_count;
+    info->structural_joints = scene->structural_joint_count;
+    info->model_bytes = scene->bytes + scene->pattern.block_size;
+    if (scene->dense != NULL) info->model_bytes += scene->dense->bytes + scene->dense->pattern.block_size;
+    info->sim_bytes = dmb_sim_bytes(scene);
+    info->mass = scene->mass;
+    info->length = scene->length;
+    info->joints = scene->joint_count;
+    info->constraint_rows = active_rows(scene);
+    info->clusters = scene->cluster_count;
+    info->reduced_nodes = scene->reduced_count;
+}
+
+int32_t dmb_model_get_info(const dmb_model *model, dmb_model_info *info)
+{
+    dmb_model_info answer = dmb_model_info_default();
+    if (model == NULL || info == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
+    if (model->scene == NULL) return DMB_ERR_ORDER;
+    fill_info(model->scene, &answer);
+    return dmb_model_info_write(info, &answer);
+}

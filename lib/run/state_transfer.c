@@ -1,0 +1,223 @@
+/* Going on in a sim of another model: the string opens at the rig, pipes come in between or go, and it closes again. */
+#include "run/state_transfer.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "sim/access.h"
+#include "sim/layout.h"
+#include "system/assemble/bit.h"
+#include "system/constrain/assembly.h"
+#include "system/constrain/cluster.h"
+#include "system/assemble/energy.h"
+#include "system/constrain/joint_state.h"
+#include "sim/node.h"
+#include "system/solve/solve.h"
+#include "system/start.h"
+
+/* [m, -] violation of a joint at the carried poses that is no longer rounding; as for dmb_sim_set_joint. */
+#define DMB_CARRIED_MISFIT 1e-6
+
+/* Arrays of equal length in both sims. */
+#define DMB_COPY(field, count) memcpy(sim->field, from->field, (size_t)(count) * sizeof *sim->field)
+
+/* ---- Memory ------------------------------------------------------------------------------------------------------ */
+
+static void transfer_drives(dmb_sim *sim, const dmb_sim *from)
+{
+    const uint32_t d = sim->scene->drive_count;
+    DMB_COPY(now.drive_position, d);
+    DMB_COPY(now.drive_integral, d);
+    DMB_COPY(now.drive_target, d);
+    DMB_COPY(now.drive_force, d);
+    DMB_COPY(now.drive_speed, d);
+    DMB_COPY(now.drive_rate, d);
+    DMB_COPY(drive_input, d);
+    DMB_COPY(drive_offset, d);
+    DMB_COPY(now.load_factor, sim->scene->load_count);
+}
+
+static void transfer_counters(dmb_sim *sim, const dmb_sim *from)
+{
+    DMB_COPY(counters, 1);
+    DMB_COPY(clock, 1);
+    memset(sim->clock->power, 0, sizeof sim->clock->power);
+    memset(sim->counters->projection, 0, sizeof sim->counters->projection); /* of this call; see keep_projection */
+    memset(sim->site_return, 0, sim->scene->site_count * sizeof(double));
+}
+
+/* Constraints are sorted by cluster, and clusters may be numbered otherwise. */
+static void transfer_rows(dmb_sim *sim, uint32_t to, const dmb_sim *from, uint32_t old)
+{
+    const dmb_constraint *a = sim->scene->constraints + to, *b = from->scene->constraints + old;
+    memcpy(sim->now.multiplier + a->row, from->now.multiplier + b->row, a->rows * sizeof(double));
+    memcpy(sim->constraint_offset + a->row, from->constraint_offset + b->row, a->rows * sizeof(double));
+}
+
+static void transfer_joints(dmb_sim *sim, const dmb_sim *from)
+{
+    const dmb_scene *a = sim->scene, *b = from->scene;
+    DMB_COPY(now.joint_turn, 2 * (size_t)a->joint_count);
+    DMB_COPY(now.joint_depth, a->joint_count);
+    DMB_COPY(now.joint_segment, a->joint_count);
+    DMB_COPY(joint_state, a->joint_count);
+    DMB_COPY(joint_lock, 12 * (size_t)a->joint_count);
+    for (uint32_t i = 0; i < a->joint_count; i++)
+        transfer_rows(sim, a->joints[i].constraint, from, b->joints[i].constraint);
+    for (uint32_t i = 0; i < a->coupling_count; i++)
+        transfer_rows(sim, a->couplings[i].constraint, from, b->couplings[i].constraint);
+    for (uint32_t i = 0; i < a->callback_count; i++)
+        transfer_rows(sim, a->callbacks[i].constraint, from, b->callbacks[i].constraint);
+    for (uint32_t i = 0; i < a->drive_count; i++)
+        if (a->drives[i].constraint != UINT32_MAX)
+            transfer_rows(sim, a->drives[i].constraint, from, b->drives[i].constraint);
+}
+
+/* ---- Bits -------------------------------------------------------------------------------------------------------- */
+
+/* The rock stays where it is: advances count from the described pose, and the angle of the cut surface goes with the
+ * turn of the bit. */
+static void transfer_bit(dmb_sim *sim, uint32_t k, const dmb_sim *from)
+{
+    const dmb_scene_bit *bit = sim->scene->bits + k, *was = from->scene->bits + k;
+    const double moved = sim->trial.bit_advance[k] - from->now.bit_advance[k];
+    sim->now.bit_advance[k] = sim->trial.bit_advance[k];
+    sim->now.bit_segment[k] = sim->trial.bit_segment[k];
+    sim->now.bit_load[k] = from->now.bit_load[k];
+    sim->now.bit_bottom[k] = from->now.bit_bottom[k] + moved;
+    sim->history_head[k] = from->history_head[k];
+    sim->history_head[k].offset -= sim->now.turn[bit->node] - from->now.turn[was->node];
+    memcpy(sim->history_angle + bit->history_first, from->history_angle + was->history_first,
+           bit->history_capacity * sizeof(double));
+    memcpy(sim->history_surface + bit->history_first, from->history_surface + was->history_first,
+           bit->history_capacity * sizeof(double));
+    for (uint32_t i = 0; i < sim->history_head[k].count && bit->history_capacity; i++)
+        sim->history_surface[bit->history_first + i] += moved;
+}
+
+/* Where a bit is on the axis, the gathering of its forces tells. */
+static void transfer_bits(dmb_sim *sim, const dmb_sim *from, dmb_evaluation *evaluation)
+{
+    const dmb_scene *scene = sim->scene;
+    memcpy(sim->now.bit_segment, from->now.bit_segment, scene->bit_count * sizeof *sim->now.bit_segment);
+    memcpy(sim->trial.bit_segment, from->now.bit_segment, scene->bit_count * sizeof *sim->now.bit_segment);
+    dmb_gather_bits(evaluation);
+    for (uint32_t k = 0; k < scene->bit_count; k++) transfer_bit(sim, k, from);
+}
+
+/* ---- Whole ------------------------------------------------------------------------------------------------------- */
+
+static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
+{
+    memset(evaluation, 0, sizeof *evaluation); /* no forces of inertia, friction or rock: poses are all that is asked */
+    evaluation->sim = sim;
+    evaluation->time = sim->clock->time;
+    evaluation->load_factor = evaluation->mass_factor = evaluation->pseudo_factor = 1.0;
+    memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
+    dmb_configuration_copy(sim, &sim->now, &sim->trial);
+}
+
+/* Joints that hold must fit the poses as they are carried; the partition is chosen anew by the restart. */
+static int32_t check_joints(dmb_sim *sim, dmb_evaluation *evaluation)
+{
+    uint32_t row;
+    if (sim->scene->cluster_count == 0) return DMB_OK;
+    sim->reduced_mode->row = UINT32_MAX;
+    const int32_t status = dmb_clusters_gather(evaluation);
+    if (status == DMB_ERR_CALLBACK)
+        dmb_message_set(&sim->message, "carry over: the callback of a constraint failed at time %g", evaluation->time);
+    if (status < 0) return status;
+    const double violation = dmb_clusters_violation(sim, 0, &row);
+    for (uint32_t j = 0; j < sim->scene->joint_count && violation <= DMB_CARRIED_MISFIT; j++)
+        if (dmb_joint_refuse_flip(sim, j) < 0) return DMB_ERR_GEOMETRY;
+    if (violation <= DMB_CARRIED_MISFIT) return DMB_OK;
+    sim->reduced_mode->row = row;
+    sim->reduced_mode->violation = violation;
+    dmb_clusters_explain(sim, "its parts are apart where they are carried to, so it must be open");
+    return DMB_ERR_GEOMETRY;
+}
+
+/* [J] summed as dmb_query_energy does. */
+static double stored(const dmb_sim *sim)
+{
+    const double strain = dmb_strain_energy(sim->scene, &sim->now) + dmb_joint_energy(sim, &sim->now);
+    return dmb_kinetic_energy(sim->scene, &sim->now) + strain + dmb_gravity_energy(sim->scene, &sim->now) +
+           dmb_contact_energy(sim->scene, &sim->now);
+}
+
+/* What was gained since the start stays what it was: the start takes up what pipes brought in or took along. */
+static void transfer_ledger(dmb_sim *sim, const dmb_sim *from)
+{
+    if (!sim->options.energy_ledger || !from->options.energy_ledger) return; /* what there is begins now */
+    const double gained = stored(from) - from->ledger->start;
+    DMB_COPY(ledger, 1);
+    DMB_COPY(drive_work, sim->scene->drive_count);
+    sim->ledger->start = stored(sim) - gained;
+}
+
+static int32_t go_on(dmb_sim *sim, const dmb_sim *from)
+{
+    dmb_evaluation evaluation;
+    transfer_counters(sim, from);
+    transfer_drives(sim, from);
+    int32_t status = dmb_state_transfer_nodes(sim, from);
+    if (status < 0) return status;
+    dmb_state_transfer_sites(sim, from, DMB_CARRY_ALL);
+    if (sim->scene->cluster_count) transfer_joints(sim, from);
+    set_up(sim, &evaluation);
+    if (sim->scene->bit_count) transfer_bits(sim, from, &evaluation);
+    status = check_joints(sim, &evaluation);
+    if (status >= 0) status = dmb_system_restart(sim);
+    if (status < 0) return status;
+    dmb_state_transfer_sites(sim, from, DMB_CARRY_BRISTLES);
+    transfer_ledger(sim, from);
+    return status;
+}
+
+/* The largest of all calls stays in the statistics; what this one did is told. */
+static int32_t keep_projection(dmb_sim *sim, const dmb_sim *from)
+{
+    double *most = sim->counters->projection;
+    const double here[2] = {most[0], most[1]};
+    for (int i = 0; i < 2; i++) most[i] = fmax(here[i], from->counters->projection[i]);
+    if (here[0] <= 1e-12 && here[1] <= 1e-12) return DMB_OK;
+    dmb_message_set(&sim->message, "carry over: speeds projected onto the allowed motion, by %g m/s and %g rad/s",
+                    here[0], here[1]);
+    return DMB_NOTE_PROJECTED;
+}
+
+static int32_t transfer_state(dmb_sim *sim, const dmb_sim *from)
+{
+    int32_t status = dmb_state_transfer_check(sim, from);
+    if (status < 0) return status;
+    dmb_state_back_up(sim);
+    status = go_on(sim, from);
+    if (status < 0) {
+        dmb_state_restore(sim);
+        return status;
+    }
+    dmb_forget_factors(sim);
+    return keep_projection(sim, from);
+}
+
+/* Callbacks of the model of `sim` may not change `from` either. */
+static int32_t with_both(dmb_sim *sim, dmb_sim *from)
+{
+    if (sim == from) {
+        dmb_message_set(&sim->message, "carry over: sim and from are one, must be two");
+        return DMB_ERR_VALUE;
+    }
+    int32_t status = dmb_sim_check(from);
+    if (status < 0) return status;
+    const int32_t busy = from->busy; /* not free where this is called from a callback of its own */
+    from->busy = DMB_BUSY_READABLE;
+    status = transfer_state(sim, from);
+    from->busy = busy;
+    return status;
+}
+
+int32_t dmb_sim_transfer_state(dmb_sim *sim, const dmb_sim *from)
+{
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_CHANGING);
+    return status < 0 ? status : dmb_sim_leave(sim, with_both(sim, (dmb_sim *)from));
+}

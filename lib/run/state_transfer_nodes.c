@@ -1,0 +1,367 @@
+/* Nodes carried over. The world pose of a matched node stays; what is stored is measured from the described pose, which
+ * is another one. From node to node the described distance is known exactly, so shifts are summed along the string from
+ * its far end: strains keep their digits however far from the origin the string is. */
+#include <math.h>
+#include <string.h>
+
+#include "element/beam.h"
+#include "math/mat6.h"
+#include "math/se3.h"
+#include "run/state_transfer.h"
+#include "sim/node.h"
+/* [m, rad] by which the line of axial-torsional pipes may be described differently. */
+#define DMB_SAME_LINE 1e-6
+
+static int is_path(const dmb_scene *scene, uint32_t node)
+{
+    return scene->layout.size[node] == DMB_NODE_PATH;
+}
+
+/* [m] along body x from the node to where what is fixed to it ends, towards the far end. */
+static double arm_ahead(const dmb_scene *scene, uint32_t node, uint32_t string)
+{
+    const uint32_t element = scene->node_element[node];
+    if (element == UINT32_MAX) return scene->strings[string].end_arm;
+    return scene->types[scene->element_type[element]].arm[0];
+}
+
+double dmb_state_transfer_arm(const dmb_scene *scene, uint32_t node, const dmb_scene *from, uint32_t old, uint32_t string)
+{
+    return arm_ahead(from, old, string) - arm_ahead(scene, node, string);
+}
+
+/* Rotation about the node's own axis against its described pose, on the turn nearest to `near`. */
+static double turn_of(const dmb_scene *scene, uint32_t node, const double q[4], double near)
+{
+    double between[4];
+    dmb_quat_between(scene->reference_quaternion + 4 * (size_t)node, q, between);
+    return dmb_quat_twist(between, near);
+}
+
+/* ---- Matched nodes ----------------------------------------------------------------------------------------------- */
+
+/* On the way from the far end to the rig end of a string. */
+typedef struct walk {
+    double shift[3];  /* [m] new less old displacement of the last node, world */
+    double offset[3]; /* [m] new less old place of the last node, world: along its arm */
+    double along;     /* [m] the same shift along the axis of PATH nodes */
+    int32_t on_path;  /* 1: the last node was a PATH node */
+    int32_t started;
+} walk;
+
+/* shift_a - shift_b = span - span_old + offset_a - offset_b, from x_b - x_a = span + u_b - u_a in both scenes */
+static void shift_to(const dmb_scene *scene, uint32_t node, const dmb_scene *from, uint32_t old, const double offset[3],
+                     walk *w)
+{
+    const double *to = scene->reference_position + 3 * (size_t)node, *was = from->reference_position + 3 * (size_t)old;
+    const double *span = NULL, *span_old = NULL;
+    if (w->started) {
+        span = scene->element_span + 3 * (size_t)scene->node_element[node];
+        span_old = from->element_span + 3 * (size_t)from->node_element[old];
+    }
+    for (int i = 0; i < 3; i++) {
+        if (w->started)
+            w->shift[i] += (span[i] - span_old[i]) + (offset[i] - w->offset[i]);
+        else
+            w->shift[i] = (was[i] - to[i]) + offset[i];
+        w->offset[i] = offset[i];
+    }
+    w->started = 1;
+}
+
+static void transfer_full(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint32_t old, double arm,
+                       const double shift[3])
+{
+    const double *q = from->now.quaternion + 4 * (size_t)old;
+    double *v = sim->now.velocity + sim->scene->layout.row[node];
+    const int same = memcmp(sim->scene->reference_quaternion + 4 * (size_t)node,
+                            from->scene->reference_quaternion + 4 * (size_t)old, 4 * sizeof(double)) == 0;
+    dmb_vec3_add(from->now.displacement + 3 * (size_t)old, shift, sim->now.displacement + 3 * (size_t)node);
+    dmb_quat_copy(q, sim->now.quaternion + 4 * (size_t)node);
+    sim->now.turn[node] = same ? from->now.turn[old] : turn_of(sim->scene, node, q, from->now.turn[old]);
+    dmb_vec6_copy(from->now.velocity + from->scene->layout.row[old], v);
+    dmb_arm_velocity(arm, v);
+}
+
+/* [m] what must be added to the advance of a PATH node to stay where it is; without a hole, along its line. */
+static double path_shift(const dmb_scene *scene, uint32_t node, const dmb_scene *from, uint32_t old)
+{
+    const double ex[3] = {1.0, 0.0, 0.0};
+    double line[3], between[3];
+    if (scene->has_hole) return from->reference_depth[old] - scene->reference_depth[node];
+    dmb_quat_rotate(scene->reference_quaternion + 4 * (size_t)node, ex, line);
+    dmb_vec3_sub(from->reference_position + 3 * (size_t)old, scene->reference_position + 3 * (size_t)node, between);
+    return dmb_vec3_dot(line, between);
+}
+
+static void transfer_path(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint32_t old, double along)
+{
+    const dmb_scene *scene = sim->scene;
+    const double *q = from->scene->reference_quaternion + 4 * (size_t)old;
+    const int bent = scene->has_hole && !dmb_hole_is_straight(&scene->hole); /* there the frame goes with the depth */
+    double *u = sim->now.displacement + 3 * (size_t)node;
+    const double turn = from->now.turn[old];
+    dmb_vec3_set(from->now.displacement[3 * (size_t)old] + along, 0.0, 0.0, u);
+    dmb_quat_copy(scene->reference_quaternion + 4 * (size_t)node, sim->now.quaternion + 4 * (size_t)node);
+    sim->now.turn[node] = bent ? turn : turn + turn_of(scene, node, q, 0.0);
+    memcpy(sim->now.velocity + scene->layout.row[node], from->now.velocity + from->scene->layout.row[old],
+           DMB_NODE_PATH * sizeof(double));
+}
+
+/* The walk goes on from where the node really is now; an error where its line is not the old one. */
+static int32_t follow_path(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint32_t old, const double R_old[9],
+                           const double u_old[3], uint32_t string, walk *w)
+{
+    const double *to = sim->scene->reference_position + 3 * (size_t)node;
+    const double *was = from->scene->reference_position + 3 * (size_t)old;
+    double R[9], u[3], off = 0.0;
+    dmb_node_pose(sim->scene, &sim->now, node, R, u);
+    for (int i = 0; i < 3; i++) {
+        w->shift[i] = u[i] - u_old[i];
+        w->offset[i] = 0.0;
+        off = fmax(off, fabs((to[i] - was[i]) + w->shift[i]));
+        for (int k = 0; k < 3; k++) off = fmax(off, fabs(R[3 * i + k] - R_old[3 * i + k]));
+    }
+    if (off <= DMB_SAME_LINE) return DMB_OK;
+    dmb_message_set(&sim->message,
+                    "carry over: string %u: its axial-torsional pipes are described off the line they "
+                    "are on, by %g m or rad",
+                    string, off);
+    return DMB_ERR_VALUE;
+}
+
+static int32_t transfer_node(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint32_t old, uint32_t string, walk *w)
+{
+    const double arm = dmb_state_transfer_arm(sim->scene, node, from->scene, old, string);
+    double R[9], u[3], offset[3];
+    dmb_node_pose(from->scene, &from->now, old, R, u);
+    dmb_vec3_set(arm * R[0], arm * R[3], arm * R[6], offset);
+    if (!is_path(sim->scene, node)) {
+        shift_to(sim->scene, node, from->scene, old, offset, w);
+        transfer_full(sim, node, from, old, arm, w->shift);
+        w->on_path = 0;
+        return DMB_OK;
+    }
+    if (!w->on_path) w->along = path_shift(sim->scene, node, from->scene, old);
+    transfer_path(sim, node, from, old, w->along);
+    w->on_path = w->started = 1;
+    return follow_path(sim, node, from, old, R, u, string, w);
+}
+
+/* ---- Added nodes ------------------------------------------------------------------------------------------------- */
+
+/* Node b seen from node a of an unstressed element: arm, exp d0, arm. */
+static void rest_pose(const dmb_element_type *type, double q[4], double x[3])
+{
+    const double ahead[3] = {type->arm[1], 0.0, 0.0};
+    double moved[3];
+    dmb_se3_exp_to_quat(type->rest, q, x);
+    dmb_quat_rotate(q, ahead, moved);
+    dmb_vec3_add(x, moved, x);
+    x[0] += type->arm[0];
+}
+
+/* Node a before node b as one rigid body with it: x_a = x_b - R_a x, V_a = Ad V_b. */
+static void add_full(dmb_sim *sim, uint32_t a, const dmb_element_type *type, const double span[3])
+{
+    const double *qb = sim->now.quaternion + 4 * ((size_t)a + 1), *ub = sim->now.displacement + 3 * ((size_t)a + 1);
+    double *qa = sim->now.quaternion + 4 * (size_t)a, *ua = sim->now.displacement + 3 * (size_t)a;
+    double q[4], x[3], back[4], R[9], far[3];
+    rest_pose(type, q, x);
+    dmb_quat_conj(q, back);
+    dmb_quat_mul(qb, back, qa);
+    dmb_quat_normalize(qa);
+    dmb_quat_rotate(qa, x, far);
+    for (int i = 0; i < 3; i++) ua[i] = ub[i] + (span[i] - far[i]);
+    sim->now.turn[a] = turn_of(sim->scene, a, qa, sim->now.turn[a + 1]);
+    dmb_quat_to_matrix(q, R);
+    dmb_adjoint_apply(R, x, sim->now.velocity + sim->scene->layout.row[a + 1],
+                      sim->now.velocity + sim->scene->layout.row[a]);
+}
+
+static void add_path(dmb_sim *sim, uint32_t a, const dmb_element_type *type)
+{
+    const double *ub = sim->now.displacement + 3 * ((size_t)a + 1);
+    dmb_vec3_set(ub[0] + (type->length - type->rest[0]), 0.0, 0.0, sim->now.displacement + 3 * (size_t)a);
+    dmb_quat_copy(sim->scene->reference_quaternion + 4 * (size_t)a, sim->now.quaternion + 4 * (size_t)a);
+    sim->now.turn[a] = sim->now.turn[a + 1] - type->rest[3];
+    memcpy(sim->now.velocity + sim->scene->layout.row[a], sim->now.velocity + sim->scene->layout.row[a + 1],
+           DMB_NODE_PATH * sizeof(double));
+}
+
+static void add_node(dmb_sim *sim, uint32_t a)
+{
+    const dmb_scene *scene = sim->scene;
+    const uint32_t element = scene->node_element[a];
+    const dmb_element_type *type = scene->types + scene->element_type[element];
+    if (is_path(scene, a))
+        add_path(sim, a, type);
+    else
+        add_full(sim, a, type, scene->element_span + 3 * (size_t)element);
+}
+
+/* ---- All --------------------------------------------------------------------------------------------------------- */
+
+static int32_t transfer_string(dmb_sim *sim, const dmb_sim *from, uint32_t string)
+{
+    const dmb_common_string common = dmb_common_string_of(sim->scene, from->scene, string);
+    walk w = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0, 0, 0};
+    int32_t status = DMB_OK;
+    for (uint32_t i = common.nodes; i-- > 0 && status >= 0;)
+        status = transfer_node(sim, common.to + i, from, common.from + i, string, &w);
+    for (uint32_t a = common.to; a-- > sim->scene->strings[string].first_node && status >= 0;) add_node(sim, a);
+    return status;
+}
+
+static void transfer_body(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint32_t old)
+{
+    double shift[3];
+    dmb_vec3_sub(from->scene->reference_position + 3 * (size_t)old, sim->scene->reference_position + 3 * (size_t)node,
+                 shift);
+    transfer_full(sim, node, from, old, 0.0, shift);
+}
+
+int32_t dmb_state_transfer_nodes(dmb_sim *sim, const dmb_sim *from)
+{
+    const dmb_body_def *def = sim->model->bodies.items;
+    int32_t status = DMB_OK;
+    for (uint32_t s = 0; s < sim->scene->string_count && status >= 0; s++) status = transfer_string(sim, from, s);
+    for (uint32_t b = 0; b < sim->model->bodies.count; b++)
+        if (def[b].attach == DMB_ATTACH_NONE)
+            transfer_body(sim, sim->scene->bodies[b].node, from, from->scene->bodies[b].node);
+    return status;
+}
+
+/* What the places at the wall remember, carried over from place to place. A place of the old scene may be missing in
+ * the new one and the other way round: a guided rig end does not meet the wall. */
+
+/* [m] within which two places on one node are the same. */
+#define DMB_SAME_PLACE 1e-9
+
+#define DMB_COPY_SITE(field, width)                                                       \
+    memcpy(sim->now.field + (width) * (size_t)s, from->now.field + (width) * (size_t)old, \
+           (width) * sizeof *sim->now.field)
+
+static int32_t bristles_go_on(const dmb_sim *sim, const dmb_sim *from)
+{
+    return dmb_scene_has_bristles(sim->scene) && dmb_scene_has_bristles(from->scene);
+}
+
+static void transfer_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
+{
+    if (bristles_go_on(sim, from)) {
+        DMB_COPY_SITE(site_bristle, 2);
+        DMB_COPY_SITE(site_sticks, 1);
+    }
+    if (what == DMB_CARRY_BRISTLES) return;
+    DMB_COPY_SITE(site_normal, 3);
+    DMB_COPY_SITE(site_depth, 1);
+    DMB_COPY_SITE(site_segment, 1);
+    DMB_COPY_SITE(site_penetration, 1);
+    DMB_COPY_SITE(site_approach, 1);
+    DMB_COPY_SITE(site_slip, 2);
+}
+
+static void transfer_path_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_t old, int32_t what)
+{
+    if (bristles_go_on(sim, from)) {
+        DMB_COPY_SITE(path_bristle, 2);
+        DMB_COPY_SITE(path_sticks, 1);
+    }
+    if (what == DMB_CARRY_ALL) DMB_COPY_SITE(path_slip, 2);
+}
+
+/* As at time 0: open, and where it is described; the restart finds it from there. */
+static void begin_site(dmb_sim *sim, uint32_t s)
+{
+    const dmb_site *site = sim->scene->sites + s;
+    const double down[3] = {0.0, 0.0, -1.0};
+    memcpy(sim->now.site_normal + 3 * (size_t)s, down, sizeof down);
+    sim->now.site_depth[s] = sim->scene->reference_depth[site->node] + site->offset;
+    sim->now.site_segment[s] = 0;
+    sim->now.site_penetration[s] = sim->now.site_approach[s] = 0.0;
+    memset(sim->now.site_slip + 2 * (size_t)s, 0, 2 * sizeof(double));
+    if (!dmb_scene_has_bristles(sim->scene)) return;
+    memset(sim->now.site_bristle + 2 * (size_t)s, 0, 2 * sizeof(double));
+    sim->now.site_sticks[s] = 0;
+}
+
+static void begin_path_site(dmb_sim *sim, uint32_t s)
+{
+    memset(sim->now.path_slip + 2 * (size_t)s, 0, 2 * sizeof(double));
+    if (!dmb_scene_has_bristles(sim->scene)) return;
+    memset(sim->now.path_bristle + 2 * (size_t)s, 0, 2 * sizeof(double));
+    sim->now.path_sticks[s] = 0;
+}
+
+/* ---- Which place was it? ----------------------------------------------------------------------------------------- */
+
+/* The node of `from` a node comes from, UINT32_MAX for none; and the way between them along body x. O(strings). */
+static uint32_t old_node(const dmb_scene *scene, const dmb_scene *from, uint32_t node, double *arm)
+{
+    *arm = 0.0;
+    for (uint32_t s = 0; s < scene->string_count; s++) {
+        const dmb_string_map *map = scene->strings + s;
+        if (node < map->first_node || node - map->first_node >= map->node_count) continue;
+        const dmb_common_string common = dmb_common_string_of(scene, from, s);
+        if (node < common.to) return UINT32_MAX;
+        const uint32_t old = common.from + (node - common.to);
+        *arm = dmb_state_transfer_arm(scene, node, from, old, s);
+        return old;
+    }
+    return from->node_count - (scene->node_count - node); /* free bodies come after the strings, in their order */
+}
+
+/* Places stand along the strings in both scenes, so one pass over both will do. */
+static void transfer_string_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
+{
+    const dmb_scene *scene = sim->scene, *was = from->scene;
+    uint32_t k = 0;
+    for (uint32_t s = 0; s < scene->site_count; s++) {
+        const dmb_site *site = scene->sites + s;
+        double arm;
+        if (what == DMB_CARRY_ALL) begin_site(sim, s);
+        if (dmb_model_part_index(sim->model, site->part, DMB_PART_STRING) == UINT32_MAX) continue;
+        const uint32_t old = old_node(scene, was, site->node, &arm);
+        const double offset = site->offset + arm;
+        if (old == UINT32_MAX) continue;
+        while (k < was->site_count && (was->sites[k].node < old ||
+                                       (was->sites[k].node == old && was->sites[k].offset < offset - DMB_SAME_PLACE)))
+            k++;
+        if (k < was->site_count && was->sites[k].node == old && was->sites[k].offset <= offset + DMB_SAME_PLACE &&
+            dmb_model_part_index(from->model, was->sites[k].part, DMB_PART_STRING) != UINT32_MAX)
+            transfer_site(sim, s, from, k, what);
+    }
+}
+
+/* A rig head moves on to another place; its ring begins there anew. */
+static void transfer_body_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
+{
+    for (uint32_t b = 0; b < sim->scene->body_count; b++) {
+        const dmb_body_map *body = sim->scene->bodies + b, *was = from->scene->bodies + b;
+        double arm;
+        if (body->site == UINT32_MAX || was->site == UINT32_MAX) continue;
+        if (old_node(sim->scene, from->scene, body->node, &arm) != was->node) continue;
+        if (fabs(body->arm + arm - was->arm) <= DMB_SAME_PLACE) transfer_site(sim, body->site, from, was->site, what);
+    }
+}
+
+static void transfer_path_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
+{
+    uint32_t k = 0;
+    for (uint32_t s = 0; s < sim->scene->path_site_count; s++) {
+        double arm;
+        const uint32_t old = old_node(sim->scene, from->scene, sim->scene->path_sites[s].node, &arm);
+        if (what == DMB_CARRY_ALL) begin_path_site(sim, s);
+        while (old != UINT32_MAX && k < from->scene->path_site_count && from->scene->path_sites[k].node < old) k++;
+        if (k < from->scene->path_site_count && from->scene->path_sites[k].node == old)
+            transfer_path_site(sim, s, from, k, what);
+    }
+}
+
+void dmb_state_transfer_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
+{
+    transfer_string_sites(sim, from, what);
+    transfer_body_sites(sim, from, what);
+    transfer_path_sites(sim, from, what);
+}

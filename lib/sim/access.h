@@ -1,0 +1,49 @@
+/* Is it a live sim? The first check of every public function that takes one. */
+#ifndef DMB_SIM_ACCESS_H
+#define DMB_SIM_ACCESS_H
+
+#include "base/handle.h"
+#include "base/sized_struct.h"
+#include "sim/sim.h"
+/* DMB_OK, DMB_ERR_NULL, DMB_ERR_HANDLE, or DMB_ERR_ORDER from within a call that is changing its state. */
+static inline int32_t dmb_sim_check(const dmb_sim *sim)
+{
+    if (sim == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
+    return sim->busy == DMB_BUSY_CHANGING ? DMB_ERR_ORDER : DMB_OK;
+}
+
+/* What every query begins with: a live sim, and somewhere to put the answer. */
+
+/* DMB_OK, DMB_ERR_NULL or DMB_ERR_HANDLE. */
+static inline int32_t dmb_ask(const dmb_sim *sim, const void *answer)
+{
+    const int32_t status = dmb_sim_check(sim);
+    if (status < 0) return status;
+    return answer != NULL ? DMB_OK : DMB_ERR_NULL;
+}
+
+/* Begins a call that changes the sim or runs functions of the caller's: the message is clear and the sim busy until
+ * dmb_sim_leave. Errors: DMB_ERR_NULL, _HANDLE; DMB_ERR_ORDER with a message where it is busy already. sim/access */
+int32_t dmb_sim_enter(dmb_sim *sim, int32_t busy);
+/* The same for a call that asks only and leaves the message; a sim is never made const, and `busy` is all it writes. */
+int32_t dmb_sim_occupy(const dmb_sim *sim);
+/* Gives the status back. */
+int32_t dmb_sim_leave(dmb_sim *sim, int32_t status);
+/* Between these two the sim is handed to a public call that is part of the one under way, from .. to of it. */
+void dmb_sim_hand_on(dmb_sim *sim, double from, double to);
+void dmb_sim_take_back(dmb_sim *sim);
+/* Does nothing but leave the message of a call that is refused. */
+void dmb_sim_refuse_re_entry(dmb_sim *sim);
+/* A call begins; so much of it is done; the caller is told. DMB_ERR_CANCELLED where it is to end, then and at all later
+ * ones. dmb_progress_end: that status in the place of one that came of it. sim/access */
+void dmb_progress_begin(dmb_sim *sim);
+void dmb_progress_at(const dmb_sim *sim, double fraction);
+int32_t dmb_progress_tell(const dmb_sim *sim);
+int32_t dmb_progress_end(const dmb_sim *sim, int32_t status);
+static inline int32_t dmb_progress_pulse(const dmb_sim *sim)
+{
+    return sim->progress->function == NULL ? DMB_OK : dmb_progress_tell(sim);
+}
+
+#endif

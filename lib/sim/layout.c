@@ -1,0 +1,251 @@
+#include "sim/layout.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "sim/state_check.h"
+/* The letters of sim/sim.h. 64 bits: nine times a 32-bit count cannot overflow. */
+typedef struct field_counts {
+    uint64_t n, r, s, p, sb, pb, e, d, k, load, history, diagonal, link, backup;
+    uint64_t f, j, c, cluster, column, raw, jacobian, tangent, dense, square, full, block, value, pivots, kd, kl, kn;
+    uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block;
+} field_counts;
+
+/* The letters as names, for the count expressions of the lists; not every list uses all of them. */
+#define DMB_COUNT_NAMES(of)                                                                                     \
+    const uint64_t n = (of)->n, r = (of)->r, s = (of)->s, p = (of)->p, e = (of)->e, d = (of)->d, k = (of)->k;   \
+    const uint64_t load = (of)->load, history = (of)->history, diagonal = (of)->diagonal, link = (of)->link;    \
+    const uint64_t backup = (of)->backup, j = (of)->j, c = (of)->c, cluster = (of)->cluster;                    \
+    const uint64_t column = (of)->column, raw = (of)->raw, jacobian = (of)->jacobian, tangent = (of)->tangent;  \
+    const uint64_t dense = (of)->dense, square = (of)->square, full = (of)->full, block = (of)->block;          \
+    const uint64_t value = (of)->value, pivots = (of)->pivots;                                                  \
+    const uint64_t kd = (of)->kd, kl = (of)->kl, kn = (of)->kn, sb = (of)->sb, pb = (of)->pb;                   \
+    const uint64_t sparse_values = (of)->sparse_values, sparse_rows = (of)->sparse_rows;                        \
+    const uint64_t sparse_raw = (of)->sparse_raw, sparse_c = (of)->sparse_c;                                    \
+    const uint64_t sparse_block = (of)->sparse_block;                                                           \
+    (void)sparse_values, (void)sparse_rows, (void)sparse_raw, (void)sparse_c, (void)sparse_block;               \
+    const uint64_t f = (of)->f;                                                                                 \
+    (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,   \
+        (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,     \
+        (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd, \
+        (void)kl, (void)kn, (void)sb, (void)pb, (void)f
+
+/* [byte] of the state that is set aside in `backup`. A snapshot holds the kept factors too. */
+#define DMB_ADD_BYTES(type, name, count, check) +(count) * sizeof(type)
+static uint64_t state_bytes(const field_counts *counts)
+{
+    DMB_COUNT_NAMES(counts);
+    return 0 DMB_CONFIGURATION_LIST(DMB_ADD_BYTES) DMB_MEMORY_LIST(DMB_ADD_BYTES);
+}
+
+/* All 0 without joints. */
+static void count_constraints(const dmb_scene *scene, field_counts *c)
+{
+    const uint64_t any = scene->cluster_count > 0;
+    c->j = scene->joint_count;
+    c->c = scene->constraint_row_count;
+    c->cluster = scene->cluster_count;
+    c->column = scene->cluster_column_count;
+    c->raw = any ? scene->row_count : 0;
+    c->jacobian = scene->jacobian_count;
+    c->tangent = scene->tangent_count;
+    c->dense = scene->dense_count;
+    c->square = scene->square_count;
+    c->full = scene->full_count;
+    c->block = scene->block_count;
+    c->kd = any ? 0 : c->diagonal;
+    c->kl = any ? 0 : c->link;
+    c->kn = any || scene->site_count == 0 ? 0 : scene->node_count;
+    c->value = any ? scene->pattern.values : 0;
+    c->pivots = any ? scene->pattern.rows : 0;
+    const uint64_t sparse = scene->sparse_count > 0;
+    c->sparse_values = sparse ? scene->pattern.values : 0;
+    c->sparse_rows = sparse ? scene->pattern.rows : 0;
+    c->sparse_raw = sparse ? scene->row_count : 0;
+    c->sparse_c = sparse ? scene->constraint_row_count : 0;
+    c->sparse_block = sparse ? scene->block_count : 0;
+}
+
+static field_counts counts_of(const dmb_scene *scene)
+{
+    const uint32_t n = scene->node_count;
+    field_counts c;
+    c.n = n;
+    c.r = scene->row_count;
+    c.s = scene->site_count;
+    c.f = scene->free_rigid_count;
+    c.p = scene->path_site_count;
+    c.sb = dmb_scene_has_bristles(scene) ? c.s : 0;
+    c.pb = dmb_scene_has_bristles(scene) ? c.p : 0;
+    c.e = scene->element_count;
+    c.d = scene->drive_count;
+    c.k = scene->bit_count;
+    c.load = scene->load_count;
+    c.history = scene->history_count;
+    c.diagonal = n > 0 ? scene->layout.diag[n] : 0;
+    c.link = n > 0 ? scene->layout.link[n - 1] : 0;
+    count_constraints(scene, &c);
+    c.backup = 0;
+    c.backup = state_bytes(&c);
+    return c;
+}
+
+static void *take(dmb_arena *arena, uint64_t count, size_t item_size)
+{
+    if (count > SIZE_MAX) arena->overflow = true;
+    return dmb_arena_take(arena, (size_t)count, item_size, DMB_ALIGNMENT);
+}
+
+#define DMB_TAKE_WORK(type, name, count) to->name = (type *)take(arena, (count), sizeof(type));
+#define DMB_TAKE(type, name, count, check) DMB_TAKE_WORK(type, name, count)
+
+static void take_configuration(dmb_arena *arena, const field_counts *counts, dmb_configuration *to)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_CONFIGURATION_LIST(DMB_TAKE)
+}
+
+static void take_memory(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_MEMORY_LIST(DMB_TAKE)
+}
+
+static void take_kept(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_KEPT_LIST(DMB_TAKE)
+}
+
+static void take_work(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_WORK_LIST(DMB_TAKE_WORK)
+}
+
+/* The struct itself comes first, so that the sim's address is the first cache line of the block. While counting there
+ * is no sim, and the places go nowhere. */
+static dmb_sim *lay_out(dmb_arena *arena, const dmb_scene *scene)
+{
+    const field_counts counts = counts_of(scene);
+    dmb_sim nowhere;
+    dmb_sim *sim = take(arena, 1, sizeof *sim);
+    dmb_sim *to = sim != NULL ? sim : &nowhere;
+    take_configuration(arena, &counts, &to->now);
+    take_memory(arena, &counts, to);
+    take_kept(arena, &counts, to);
+    take_configuration(arena, &counts, &to->trial);
+    take_work(arena, &counts, to);
+    return arena->overflow ? NULL : sim;
+}
+
+size_t dmb_sim_bytes(const dmb_scene *scene)
+{
+    dmb_arena arena;
+    dmb_arena_count(&arena);
+    (void)lay_out(&arena, scene);
+    return dmb_arena_block_size(&arena);
+}
+
+dmb_sim *dmb_sim_carve(const dmb_scene *scene, void *block, size_t size)
+{
+    dmb_arena arena;
+    dmb_sim *sim;
+    if (block == NULL || size < dmb_sim_bytes(scene)) return NULL;
+    dmb_arena_place(&arena, block, size);
+    sim = lay_out(&arena, scene);
+    if (sim == NULL) return NULL;
+    sim->scene = scene;
+    sim->progress = &sim->own_progress;
+    sim->block = block;
+    sim->block_size = size;
+    return sim;
+}
+
+/* ---- The table of fields ----------------------------------------------------------------------------------------- */
+
+typedef struct field_table {
+    dmb_field *fields;
+    size_t count;
+    int32_t group;
+    int32_t reserved;
+} field_table;
+
+static void put_field(field_table *table, const char *name, void *data, uint64_t count, size_t item_size, int32_t check)
+{
+    dmb_field *field;
+    if (table->count == DMB_FIELD_MAX) return;
+    field = &table->fields[table->count++];
+    field->name = name;
+    field->data = data;
+    field->bytes = (size_t)count * item_size;
+    field->group = table->group;
+    field->check = check;
+}
+
+#define DMB_PUT(type, name, count, check) \
+    put_field(table, #name, from->name, (count), sizeof(type), DMB_CHECK_##check);
+#define DMB_PUT_WORK(type, name, count) put_field(table, #name, from->name, (count), sizeof(type), -1);
+
+static void put_configuration(field_table *table, const field_counts *counts, const dmb_configuration *from)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_CONFIGURATION_LIST(DMB_PUT)
+}
+
+static void put_memory(field_table *table, const field_counts *counts, const dmb_sim *from)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_MEMORY_LIST(DMB_PUT)
+}
+
+static void put_kept(field_table *table, const field_counts *counts, const dmb_sim *from)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_KEPT_LIST(DMB_PUT)
+}
+
+static void put_work(field_table *table, const field_counts *counts, const dmb_sim *from)
+{
+    DMB_COUNT_NAMES(counts);
+    DMB_WORK_LIST(DMB_PUT_WORK)
+}
+
+size_t dmb_sim_fields(const dmb_sim *sim, int32_t first_group, int32_t last_group, dmb_field fields[DMB_FIELD_MAX])
+{
+    const field_counts counts = counts_of(sim->scene);
+    field_table table = {fields, 0, 0, 0};
+    for (table.group = first_group; table.group <= last_group; ++table.group) {
+        if (table.group == DMB_GROUP_NOW) put_configuration(&table, &counts, &sim->now);
+        if (table.group == DMB_GROUP_MEMORY) put_memory(&table, &counts, sim);
+        if (table.group == DMB_GROUP_KEPT) put_kept(&table, &counts, sim);
+        if (table.group == DMB_GROUP_TRIAL) put_configuration(&table, &counts, &sim->trial);
+        if (table.group == DMB_GROUP_WORK) put_work(&table, &counts, sim);
+    }
+    return table.count;
+}
+
+#define DMB_COPY_FIELD(type, name, count, check) memcpy(to->name, from->name, (size_t)(count) * sizeof(type));
+
+void dmb_configuration_copy(const dmb_sim *sim, const dmb_configuration *from, dmb_configuration *to)
+{
+    const field_counts counts = counts_of(sim->scene);
+    DMB_COUNT_NAMES(&counts);
+    DMB_CONFIGURATION_LIST(DMB_COPY_FIELD)
+}
+
+void dmb_state_back_up(dmb_sim *sim)
+{
+    dmb_field fields[DMB_FIELD_MAX];
+    const size_t count = dmb_sim_fields(sim, DMB_GROUP_NOW, DMB_GROUP_MEMORY, fields);
+    uint8_t *to = sim->backup;
+    for (size_t i = 0; i < count; to += fields[i].bytes, i++) memcpy(to, fields[i].data, fields[i].bytes);
+}
+
+void dmb_state_restore(dmb_sim *sim)
+{
+    dmb_field fields[DMB_FIELD_MAX];
+    const size_t count = dmb_sim_fields(sim, DMB_GROUP_NOW, DMB_GROUP_MEMORY, fields);
+    const uint8_t *from = sim->backup;
+    for (size_t i = 0; i < count; from += fields[i].bytes, i++) memcpy(fields[i].data, from, fields[i].bytes);
+}

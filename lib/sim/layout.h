@@ -1,0 +1,47 @@
+/* Where the fields of a sim stand in its block. Everything comes from the lists of sim/sim.h: the size, the carving, and
+ * the table of fields that snapshot, hash and tests walk. */
+#ifndef DMB_SIM_LAYOUT_H
+#define DMB_SIM_LAYOUT_H
+
+#include "sim/sim.h"
+
+/* [byte] of a block of any alignment that holds a sim of the scene; SIZE_MAX if it does not fit into a size_t. O(1). */
+size_t dmb_sim_bytes(const dmb_scene *scene);
+
+/* A zeroed sim in the block, its arrays pointing into the block, each on a cache line; only scene, block and block_size
+ * are set besides. NULL where the block is NULL or smaller than dmb_sim_bytes. */
+dmb_sim *dmb_sim_carve(const dmb_scene *scene, void *block, size_t size);
+
+/* Groups of fields. The first three make up the state: saved, restored and hashed. */
+enum { DMB_GROUP_NOW = 0, DMB_GROUP_MEMORY = 1, DMB_GROUP_KEPT = 2, DMB_GROUP_TRIAL = 3,
+       DMB_GROUP_WORK = 4, DMB_GROUP_COUNT = 5 };
+
+typedef struct dmb_field {
+    const char *name;
+    void *data;
+    size_t bytes; /* without padding */
+    int32_t group;
+    int32_t check; /* DMB_CHECK_... of sim/state_check.h; -1 of work */
+} dmb_field;
+
+#define DMB_ONE_MORE(type, name, count, check) +1
+#define DMB_ONE_WORK_MORE(type, name, count) +1
+enum {
+    DMB_FIELD_MAX = 0 DMB_CONFIGURATION_LIST(DMB_ONE_MORE) DMB_CONFIGURATION_LIST(DMB_ONE_MORE)
+        DMB_MEMORY_LIST(DMB_ONE_MORE) DMB_KEPT_LIST(DMB_ONE_MORE) DMB_WORK_LIST(DMB_ONE_WORK_MORE)
+};
+#undef DMB_ONE_MORE
+#undef DMB_ONE_WORK_MORE
+
+/* The fields of the groups first .. last in the order of their lists. Returns how many. The data may be written only
+ * where the sim may. */
+size_t dmb_sim_fields(const dmb_sim *sim, int32_t first_group, int32_t last_group, dmb_field fields[DMB_FIELD_MAX]);
+
+/* to <- from, the whole configuration, both of the sim. sim/layout */
+void dmb_configuration_copy(const dmb_sim *sim, const dmb_configuration *from, dmb_configuration *to);
+/* The state set aside while a call takes several steps, and back, so that a failing call changes nothing.
+ * sim/layout */
+void dmb_state_back_up(dmb_sim *sim);
+void dmb_state_restore(dmb_sim *sim);
+
+#endif

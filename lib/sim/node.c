@@ -1,0 +1,147 @@
+#include "sim/node.h"
+
+#include "element/lump.h"
+#include "math/mat6.h"
+#include "math/so3.h"
+double dmb_path_depth(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node)
+{
+    return scene->reference_depth[node] + configuration->displacement[3 * node];
+}
+
+/* Turned by `turn` about the axis of the hole where it now is; without a hole the line through its pose at time 0. */
+static void path_pose(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, double rotation[9],
+                      double displacement[3])
+{
+    const double advance = configuration->displacement[3 * node];
+    const double spin[3] = {configuration->turn[node], 0.0, 0.0};
+    double frame[9], twist[9];
+    dmb_so3_exp(spin, NULL, twist);
+    dmb_quat_to_matrix(scene->reference_quaternion + 4 * node, frame);
+    if (scene->has_hole && !dmb_hole_is_straight(&scene->hole)) {
+        double point[3], tangent[3], curvature[3], start[3];
+        dmb_hole_frame(&scene->hole, scene->reference_depth[node], start, tangent, curvature);
+        dmb_hole_frame(&scene->hole, dmb_path_depth(scene, configuration, node), point, tangent, curvature);
+        dmb_hole_frame_rotation(&scene->hole, dmb_path_depth(scene, configuration, node), frame);
+        dmb_vec3_sub(point, start, displacement);
+    } else {
+        const double along[3] = {advance, 0.0, 0.0};
+        dmb_mat3_vec(frame, along, displacement);
+    }
+    dmb_mat3_mul(frame, twist, rotation);
+}
+
+void dmb_node_pose(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, double rotation[9],
+                   double displacement[3])
+{
+    if (scene->layout.size[node] == DMB_NODE_PATH) {
+        path_pose(scene, configuration, node, rotation, displacement);
+        return;
+    }
+    dmb_quat_to_matrix(configuration->quaternion + 4 * node, rotation);
+    dmb_vec3_copy(configuration->displacement + 3 * node, displacement);
+}
+
+void dmb_path_columns(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
+                      const double rotation[9], double columns[12])
+{
+    for (int i = 0; i < 12; i++) columns[i] = 0.0;
+    columns[0] = columns[9] = 1.0;
+    if (scene->has_hole && !dmb_hole_is_straight(&scene->hole)) {
+        double point[3], tangent[3], curvature[3], turning[3];
+        dmb_hole_frame(&scene->hole, dmb_path_depth(scene, configuration, node), point, tangent, curvature);
+        dmb_hole_turning(tangent, curvature, turning);
+        dmb_mat3_tvec(rotation, turning, columns + 3);
+    }
+}
+
+void dmb_node_vector(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, const double *rows,
+                     double vector[6])
+{
+    const double *row = rows + scene->layout.row[node];
+    if (scene->layout.size[node] == DMB_NODE_FULL) {
+        dmb_vec6_copy(row, vector);
+        return;
+    }
+    double rotation[9], displacement[3], columns[12];
+    dmb_node_pose(scene, configuration, node, rotation, displacement);
+    dmb_path_columns(scene, configuration, node, rotation, columns);
+    for (int i = 0; i < 6; i++) vector[i] = columns[i] * row[0] + columns[6 + i] * row[1];
+}
+
+uint32_t dmb_count_full_nodes(const dmb_scene *scene, uint32_t node)
+{
+    uint32_t end = node;
+    if (scene->row_count == DMB_NODE_FULL * scene->node_count) return scene->node_count - node;
+    while (end < scene->node_count && scene->layout.size[end] == DMB_NODE_FULL) end++;
+    return end - node;
+}
+
+uint32_t dmb_element_between(const dmb_scene *scene, uint32_t node, uint32_t side)
+{
+    if (side == 1) return scene->node_element[node];
+    return node > 0 ? scene->node_element[node - 1] : UINT32_MAX;
+}
+
+static uint32_t pipe_at(const dmb_scene *scene, const dmb_string_map *string, uint32_t node)
+{
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < string->pipe_count; i++)
+        if (scene->pipes[string->first_pipe + i].node <= node) found = i;
+    return found;
+}
+
+dmb_owner dmb_owner_of_node(const dmb_scene *scene, uint32_t node)
+{
+    dmb_owner owner = {"string", 0, 0};
+    for (uint32_t i = 0; i < scene->string_count; i++) {
+        const dmb_string_map *string = scene->strings + i;
+        if (node < string->first_node || node >= string->first_node + string->node_count) continue;
+        owner.index = i;
+        owner.pipe = pipe_at(scene, string, node);
+        return owner;
+    }
+    owner.kind = "body";
+    for (uint32_t i = 0; i < scene->body_count; i++)
+        if (scene->bodies[i].node == node) owner.index = i;
+    return owner;
+}
+
+dmb_owner dmb_owner_of_element(const dmb_scene *scene, uint32_t element)
+{
+    return dmb_owner_of_node(scene, scene->element_node[element]);
+}
+
+uint32_t dmb_node_of_row(const dmb_scene *scene, uint32_t row)
+{
+    uint32_t low = 0, high = scene->node_count;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (scene->layout.row[middle] <= row)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+uint32_t dmb_constraint_of_part(const dmb_sim *sim, dmb_id part)
+{
+    const dmb_scene *scene = sim->scene;
+    const uint32_t joint = dmb_model_part_index(sim->model, part, DMB_PART_JOINT);
+    const uint32_t coupling = dmb_model_part_index(sim->model, part, DMB_PART_COUPLING);
+    const uint32_t drive = dmb_model_part_index(sim->model, part, DMB_PART_DRIVE);
+    const uint32_t callback = dmb_model_part_index(sim->model, part, DMB_PART_CONSTRAINT);
+    if (joint < scene->joint_count) return scene->joints[joint].constraint;
+    if (coupling < scene->coupling_count) return scene->couplings[coupling].constraint;
+    if (drive < scene->drive_count) return scene->drives[drive].constraint;
+    return callback < scene->callback_count ? scene->callbacks[callback].constraint : UINT32_MAX;
+}
+
+/* ad(v)^T M v */
+void dmb_unbalance_of(const dmb_scene *scene, uint32_t i, double wrench[6])
+{
+    const double spin[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0};
+    double p[6];
+    dmb_rigid_mass_times(scene->rigid_masses + i, spin, p);
+    dmb_ad_transpose(spin, p, wrench);
+}

@@ -1,0 +1,50 @@
+/* Pose and speed of a node whatever its kind: a PATH node's pose follows from its place on the hole's axis. */
+#ifndef DMB_SIM_NODE_H
+#define DMB_SIM_NODE_H
+
+#include "model/scene.h"
+#include "sim/sim.h"
+/* Rotation (body to world, row-major) and displacement [m] (world, from reference_position) of a node. */
+void dmb_node_pose(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, double rotation[9],
+                   double displacement[3]);
+/* Body-frame 6-vector from an array over rows (velocity or acceleration): PATH rows become components x and rx, on a
+ * curved hole with the turning of the axis. */
+void dmb_node_vector(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, const double *rows,
+                     double vector[6]);
+/* Columns of the body-frame motion of a PATH node per unit of its two rows, shape (2, 6); rotation is its present one. */
+void dmb_path_columns(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
+                      const double rotation[9], double columns[12]);
+/* [m] measured depth of a PATH node. */
+double dmb_path_depth(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node);
+
+/* How many FULL nodes follow one another from this one on; 0: it is a PATH node. */
+uint32_t dmb_count_full_nodes(const dmb_scene *scene, uint32_t node);
+static inline uint32_t dmb_full_nodes_at(const dmb_scene *scene, uint32_t node)
+{
+    return scene->layout.size[node] == DMB_NODE_FULL ? dmb_count_full_nodes(scene, node) : 0;
+}
+/* Element before (side 0) or after (side 1) a node; UINT32_MAX at the ends of its chain. */
+uint32_t dmb_element_between(const dmb_scene *scene, uint32_t node, uint32_t side);
+
+/* What belongs to what: nodes and elements to described parts (for messages), rows to nodes, constraints to parts. */
+
+typedef struct dmb_owner {
+    const char *kind; /* "string" or "body" */
+    uint32_t index;
+    uint32_t pipe;    /* 0 for a body */
+} dmb_owner;
+
+dmb_owner dmb_owner_of_node(const dmb_scene *scene, uint32_t node);
+dmb_owner dmb_owner_of_element(const dmb_scene *scene, uint32_t element);
+/* Node that a row belongs to. O(log nodes) */
+uint32_t dmb_node_of_row(const dmb_scene *scene, uint32_t row);
+/* Constraint of a joint, coupling, drive or callback; UINT32_MAX where the part has none. */
+uint32_t dmb_constraint_of_part(const dmb_sim *sim, dmb_id part);
+
+/* Unbalance of the rigid masses on the nodes. */
+
+/* Body-frame wrench [N s2, N m s2] of rigid_mass number i on its FULL node for unit spin about the node's axis, per square of
+ * the spin: the centrifugal force of an eccentric centre of mass and the couple of its products of inertia. */
+void dmb_unbalance_of(const dmb_scene *scene, uint32_t i, double wrench[6]);
+
+#endif

@@ -1,0 +1,281 @@
+#include "system/assemble/bit.h"
+
+#include <string.h>
+
+#include "element/beam.h"
+#include "system/assemble/evaluation.h"
+#include "sim/node.h"
+
+/* Motion of a bit along and about the axis of the hole. */
+typedef struct bit_motion {
+    double advance, speed, angle, spin;
+    double along[6], about[6]; /* body-frame directions of both at the node: speed = along . v, spin = about . v */
+    double axis[3];            /* the axis in the body frame */
+} bit_motion;
+
+/* Axis of the hole where the bit is, world frame; the line of its first pose without a hole. Advance [m] since time 0.
+ */
+static double locate(const dmb_scene *scene, const dmb_configuration *c, const dmb_scene_bit *bit, const double R[9],
+                     uint32_t *segment, double tangent[3])
+{
+    const uint32_t node = bit->node;
+    double start[9], arm[3], moved[3], x[3], point[3], s = scene->reference_depth[node];
+    dmb_quat_to_matrix(scene->reference_quaternion + 4 * node, start);
+    dmb_vec3_set(start[0], start[3], start[6], tangent);
+    dmb_vec3_set(R[0], R[3], R[6], arm);
+    if (!scene->has_hole || dmb_hole_is_straight(&scene->hole)) {
+        if (scene->has_hole) dmb_hole_frame(&scene->hole, s, point, tangent, NULL);
+        dmb_vec3_copy(c->displacement + 3 * node, moved);
+        dmb_vec3_axpy(bit->arm, arm, moved);
+        return dmb_vec3_dot(tangent, moved) -
+               bit->arm * (tangent[0] * start[0] + tangent[1] * start[3] + tangent[2] * start[6]);
+    }
+    dmb_vec3_add(scene->reference_position + 3 * node, c->displacement + 3 * node, x);
+    dmb_vec3_axpy(bit->arm, arm, x);
+    dmb_hole_project(&scene->hole, x, &s, segment, point, tangent);
+    return s - scene->reference_depth[node] - bit->arm;
+}
+
+static void motion_of(const dmb_scene *scene, const dmb_configuration *c, const double R[9], uint32_t k,
+                      uint32_t *segment, bit_motion *m)
+{
+    const dmb_scene_bit *bit = scene->bits + k;
+    double v[6], tangent[3];
+    memset(m, 0, sizeof *m);
+    dmb_node_vector(scene, c, bit->node, c->velocity, v);
+    m->about[3] = 1.0;
+    m->spin = v[3];
+    m->angle = c->turn[bit->node];
+    if (scene->layout.size[bit->node] == DMB_NODE_PATH) {
+        m->advance = c->displacement[3 * bit->node];
+        m->along[0] = m->axis[0] = 1.0;
+        m->speed = v[0];
+        return;
+    }
+    m->advance = locate(scene, c, bit, R, segment, tangent);
+    dmb_mat3_tvec(R, tangent, m->axis);
+    dmb_vec3_copy(m->axis, m->along);
+    dmb_arm_wrench(bit->arm, m->along);
+    m->speed = dmb_vec6_dot(m->along, v);
+}
+
+dmb_bit_history dmb_bit_history_of(const dmb_sim *sim, uint32_t k)
+{
+    const dmb_scene_bit *bit = sim->scene->bits + k;
+    dmb_bit_history h;
+    memset(&h, 0, sizeof h);
+    h.angle = sim->history_angle + bit->history_first;
+    h.surface = sim->history_surface + bit->history_first;
+    h.capacity = bit->history_capacity;
+    h.head = sim->history_head[k].head;
+    h.count = sim->history_head[k].count;
+    h.offset = sim->history_head[k].offset;
+    h.spacing = 2.0 * DMB_PI / bit->law.blades;
+    h.angle_step = h.capacity > 8 ? h.spacing / (h.capacity - 8) : h.spacing;
+    return h;
+}
+
+static void keep_history(dmb_sim *sim, uint32_t k, const dmb_bit_history *h)
+{
+    sim->history_head[k].head = h->head;
+    sim->history_head[k].count = h->count;
+    sim->history_head[k].offset = h->offset;
+}
+
+static void rock(const dmb_sim *sim, uint32_t k, double bottom, const bit_motion *m, dmb_bit_rock_result *out)
+{
+    const dmb_scene_bit *bit = sim->scene->bits + k;
+    const dmb_bit_history history = dmb_bit_history_of(sim, k);
+    memset(out, 0, sizeof *out);
+    if (bit->law.kind == DMB_ROCK_NONE) return;
+    dmb_bit_rock_force(&bit->law, bit->history_capacity ? &history : NULL, bottom, m->advance, m->speed, m->angle,
+                       m->spin, out);
+}
+
+int dmb_bit_on_bottom(const dmb_sim *sim, uint32_t k)
+{
+    if (sim->clock->time == 0.0) return sim->scene->bits[k].bottom <= 0.0;
+    return sim->now.bit_advance[k] >= sim->now.bit_bottom[k];
+}
+
+/* [m] a blade cuts at a steady speed and spin; 0: none does. */
+static double steady_cut(const dmb_scene_bit *bit, double speed, double spin)
+{
+    return speed > 0.0 && spin > 0.0 ? 2.0 * DMB_PI * speed / (spin * bit->law.blades) : 0.0;
+}
+
+/* Steady drilling depends on speeds alone: the rock lies a steady cut ahead wherever the bit is. */
+static void rock_in_steady_drilling(const dmb_sim *sim, uint32_t k, const bit_motion *m, dmb_bit_rock_result *out)
+{
+    const dmb_scene_bit *bit = sim->scene->bits + k;
+    memset(out, 0, sizeof *out);
+    if (bit->law.kind == DMB_ROCK_NONE) return;
+    const double cut = steady_cut(bit, m->speed, m->spin), spacing = 2.0 * DMB_PI / bit->law.blades;
+    double angle[2] = {m->angle - 2.0 * spacing, m->angle - 0.5 * spacing};
+    double surface[2] = {m->advance - 2.0 * cut, m->advance - 0.5 * cut};
+    dmb_bit_history h;
+    memset(&h, 0, sizeof h);
+    h.angle = angle;
+    h.surface = surface;
+    h.capacity = h.count = 2;
+    h.head = 1;
+    h.spacing = spacing;
+    h.angle_step = 0.1 * spacing;
+    dmb_bit_rock_force(&bit->law, bit->history_capacity ? &h : NULL, m->advance - bit->law.intrusion_depth, m->advance,
+                       m->speed, m->angle, m->spin, out);
+    out->dW_dU = out->dW_dPhi = out->dT_dU = out->dT_dPhi = 0.0;
+}
+
+/* K -= -(along dW + about dT) x (dU along + dPhi about), C likewise with V and Omega; and the load turns with the body.
+ */
+static void add_tangent(dmb_evaluation *evaluation, uint32_t k, const bit_motion *m, const dmb_bit_rock_result *r,
+                        const double force[6])
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene_bit *bit = sim->scene->bits + k;
+    double K[36], C[36], skew[9], w[6];
+    dmb_mat6_zero(K);
+    dmb_mat6_zero(C);
+    dmb_mat6_add_outer(r->dW_dU, m->along, m->along, K);
+    dmb_mat6_add_outer(r->dW_dPhi, m->along, m->about, K);
+    dmb_mat6_add_outer(r->dT_dU, m->about, m->along, K);
+    dmb_mat6_add_outer(r->dT_dPhi, m->about, m->about, K);
+    dmb_mat6_add_outer(evaluation->velocity_factor * r->dW_dV, m->along, m->along, C);
+    dmb_mat6_add_outer(evaluation->velocity_factor * r->dW_dOmega, m->along, m->about, C);
+    dmb_mat6_add_outer(evaluation->velocity_factor * r->dT_dV, m->about, m->along, C);
+    dmb_mat6_add_outer(evaluation->velocity_factor * r->dT_dOmega, m->about, m->about, C);
+    if (sim->scene->layout.size[bit->node] == DMB_NODE_PATH) {
+        double *Kp = dmb_stiffness_of(sim, bit->node), *Cp = dmb_inertia_of(sim, bit->node);
+        for (int i = 0; i < 2; i++)
+            for (int j = 0; j < 2; j++) {
+                Kp[2 * i + j] += K[18 * i + 3 * j];
+                Cp[2 * i + j] += C[18 * i + 3 * j];
+            }
+        return;
+    }
+    dmb_skew(force, skew); /* force = axial part in body axes: d(R^T f) = (R^T f)~ dtheta, also at the arm */
+    dmb_mat6_add_block(-1.0, skew, 0, 1, K);
+    for (int j = 0; j < 3; j++) {
+        dmb_vec6_copy((const double[6]){skew[j], skew[3 + j], skew[6 + j], 0.0, 0.0, 0.0}, w);
+        dmb_arm_wrench(bit->arm, w);
+        K[24 + 3 + j] -= w[4];
+        K[30 + 3 + j] -= w[5];
+    }
+    dmb_mat6_axpy(1.0, K, dmb_stiffness_of(sim, bit->node));
+    if (evaluation->dynamic) dmb_mat6_axpy(1.0, C, dmb_inertia_of(sim, bit->node));
+}
+
+static void gather_bit(dmb_evaluation *evaluation, uint32_t k)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const uint32_t node = scene->bits[k].node;
+    const double load = evaluation->load_factor * sim->trial.bit_load[k];
+    dmb_bit_rock_result r;
+    bit_motion m;
+    double R[9], unused[3], wrench[6];
+    if (scene->layout.size[node] == DMB_NODE_FULL) /* the turn follows the increment until the step is accepted */
+        sim->trial.turn[node] = sim->now.turn[node] + sim->increment[scene->layout.row[node] + 3];
+    sim->trial.bit_segment[k] = sim->now.bit_segment[k];
+    dmb_node_pose(scene, &sim->trial, node, R, unused);
+    motion_of(scene, &sim->trial, R, k, &sim->trial.bit_segment[k], &m);
+    memset(&r, 0, sizeof r);
+    const int drills = evaluation->steady && k < DMB_STEADY_BITS && evaluation->drilling >> k & 1;
+    if (drills)
+        rock_in_steady_drilling(sim, k, &m, &r);
+    else if (evaluation->dynamic && !evaluation->steady)
+        rock(sim, k, sim->now.bit_bottom[k], &m, &r);
+    sim->trial.bit_advance[k] = m.advance;
+    const double axial = -(load + r.weight_on_bit);
+    for (int i = 0; i < 6; i++) wrench[i] = axial * m.along[i] - r.torque_on_bit * m.about[i];
+    dmb_apply_wrench(sim, node, wrench);
+    evaluation->power[DMB_POWER_LOADS] -= load * m.speed;
+    evaluation->power[DMB_POWER_ROCK] -= r.weight_on_bit * m.speed + r.torque_on_bit * m.spin;
+    if (!evaluation->tangent) return;
+    dmb_vec3_scale(axial, m.axis, wrench);
+    add_tangent(evaluation, k, &m, &r, wrench);
+}
+
+void dmb_gather_bits(dmb_evaluation *evaluation)
+{
+    for (uint32_t k = 0; k < evaluation->sim->scene->bit_count; k++) gather_bit(evaluation, k);
+}
+
+static void motion_now(const dmb_sim *sim, uint32_t k, bit_motion *m)
+{
+    double R[9], displacement[3];
+    uint32_t segment = sim->now.bit_segment[k];
+    dmb_node_pose(sim->scene, &sim->now, sim->scene->bits[k].node, R, displacement);
+    motion_of(sim->scene, &sim->now, R, k, &segment, m);
+}
+
+void dmb_bit_force_of(const dmb_sim *sim, uint32_t k, dmb_bit_rock_result *out, double *load)
+{
+    bit_motion m;
+    motion_now(sim, k, &m);
+    rock(sim, k, sim->now.bit_bottom[k], &m, out);
+    *load = sim->now.bit_load[k];
+}
+
+void dmb_bit_slope_of(const dmb_sim *sim, uint32_t k, dmb_bit_slope *out)
+{
+    bit_motion m;
+    dmb_bit_rock_result r;
+    motion_now(sim, k, &m);
+    rock(sim, k, sim->now.bit_bottom[k], &m, &r);
+    const dmb_bit_slope slope = {.weight = {r.dW_dU, r.dW_dPhi, r.dW_dV, r.dW_dOmega},
+                                 .torque = {r.dT_dU, r.dT_dPhi, r.dT_dV, r.dT_dOmega}};
+    *out = slope;
+    dmb_vec6_copy(m.along, out->along);
+    dmb_vec6_copy(m.about, out->about);
+}
+
+void dmb_bit_start(dmb_sim *sim, uint32_t k)
+{
+    const dmb_scene_bit *bit = sim->scene->bits + k;
+    dmb_bit_history h = dmb_bit_history_of(sim, k);
+    sim->now.bit_bottom[k] = sim->trial.bit_bottom[k] = sim->now.bit_advance[k] + bit->bottom;
+    if (!bit->history_capacity) return;
+    (void)dmb_bit_history_init(&h, &bit->law, h.angle, h.surface, h.capacity, sim->now.turn[bit->node],
+                               sim->now.bit_bottom[k]);
+    keep_history(sim, k, &h);
+}
+
+/* The surface falls behind the bit by a cut a blade spacing, and is sampled as a run would. */
+static void lay_helix(dmb_sim *sim, uint32_t k, double cut, double angle, double advance)
+{
+    const dmb_scene_bit *bit = sim->scene->bits + k;
+    dmb_bit_history h = dmb_bit_history_of(sim, k);
+    const double reach = h.spacing + 2.0 * h.angle_step;
+    const uint32_t samples = (uint32_t)floor(reach / (1.000001 * h.angle_step));
+    const double slope = cut / h.spacing;
+    (void)dmb_bit_history_init(&h, &bit->law, h.angle, h.surface, h.capacity, angle - reach, advance - slope * reach);
+    for (uint32_t i = 1; i <= samples; i++) {
+        const double behind = reach * (double)(samples - i) / samples;
+        dmb_bit_history_record(&h, angle - behind, advance - slope * behind);
+    }
+    keep_history(sim, k, &h);
+}
+
+void dmb_bit_start_steady(dmb_sim *sim, uint32_t k)
+{
+    const dmb_scene_bit *bit = sim->scene->bits + k;
+    bit_motion m;
+    motion_now(sim, k, &m);
+    sim->now.bit_advance[k] = sim->trial.bit_advance[k] = m.advance;
+    if (bit->law.kind == DMB_ROCK_NONE) return;
+    const double cut = steady_cut(bit, m.speed, m.spin);
+    sim->now.bit_bottom[k] = sim->trial.bit_bottom[k] = m.advance - bit->law.intrusion_depth;
+    if (bit->history_capacity) lay_helix(sim, k, cut, m.angle, m.advance);
+}
+
+void dmb_bit_accept(dmb_sim *sim, uint32_t k)
+{
+    const dmb_scene_bit *bit = sim->scene->bits + k;
+    const double advance = sim->trial.bit_advance[k];
+    sim->trial.bit_bottom[k] = dmb_bit_rock_bottom(&bit->law, sim->now.bit_bottom[k], advance);
+    if (bit->law.kind == DMB_ROCK_NONE || !bit->history_capacity) return;
+    dmb_bit_history h = dmb_bit_history_of(sim, k);
+    dmb_bit_history_record(&h, sim->trial.turn[bit->node], advance);
+    keep_history(sim, k, &h);
+}

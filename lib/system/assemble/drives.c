@@ -1,0 +1,171 @@
+/* Drives: prescribed motion, loads on a component, and speed control.
+ * Control: force = clamp(kp e + ki z), e = v* - v, z' = e by the trapezoidal rule, held while the limits act. */
+#include "system/assemble/drives.h"
+
+/* Target now: the caller's value, or the programme and its excitation. */
+static int32_t target_of(const dmb_sim *sim, uint32_t i, double time, double *value, double *rate)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_scene_drive *drive = scene->drives + i;
+    double extra = 0.0, extra_rate = 0.0;
+    *rate = 0.0;
+    *value = sim->drive_input[i];
+    if (!isnan(*value)) return DMB_OK;
+    int32_t status = dmb_programme_value(scene->programmes + drive->programme, time, value, rate);
+    if (status >= 0 && drive->excitation != UINT32_MAX)
+        status = dmb_programme_value(scene->programmes + drive->excitation, time, &extra, &extra_rate);
+    *value += extra;
+    *rate += extra_rate;
+    return status;
+}
+
+static int32_t travel_of(const dmb_sim *sim, const dmb_scene_drive *drive, double t0, double t1, double *travel)
+{
+    double extra = 0.0;
+    int32_t status = dmb_programme_integral(sim->scene->programmes + drive->programme, t0, t1, travel);
+    if (status >= 0 && drive->excitation != UINT32_MAX)
+        status = dmb_programme_integral(sim->scene->programmes + drive->excitation, t0, t1, &extra);
+    *travel += extra;
+    return status;
+}
+
+/* Slope of the target with which a step ends at the corner of a programme; the programme itself tells the one to come. */
+static int32_t rate_before(const dmb_sim *sim, uint32_t i, double time, double *rate)
+{
+    const dmb_scene_drive *drive = sim->scene->drives + i;
+    double extra = 0.0;
+    int32_t status = dmb_programme_rate_before(sim->scene->programmes + drive->programme, time, rate);
+    if (status >= 0 && drive->excitation != UINT32_MAX)
+        status = dmb_programme_rate_before(sim->scene->programmes + drive->excitation, time, &extra);
+    *rate += extra;
+    return status;
+}
+
+/* Slope of the target from the present time on: beyond the corner reached, also where that is an ulp later. */
+static int32_t rate_to_come(const dmb_sim *sim, uint32_t i, double *rate)
+{
+    double value;
+    return target_of(sim, i, fmax(sim->clock->time, sim->clock->corner), &value, rate);
+}
+
+static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene_drive *drive = sim->scene->drives + i;
+    double rate, travel;
+    int32_t status = target_of(sim, i, evaluation->time, &sim->trial.drive_target[i], &rate);
+    if (status < 0 || drive->kind != DMB_DRIVE_MOTION) return status;
+    if (!(evaluation->step > 0.0))
+        status = rate_to_come(sim, i, &rate);
+    else if (evaluation->corner > 0.0)
+        status = rate_before(sim, i, fmin(evaluation->time, evaluation->corner), &rate);
+    if (status >= 0) status = travel_of(sim, drive, sim->clock->time, evaluation->time, &travel);
+    if (status < 0) return status;
+    if (drive->joint != UINT32_MAX) { /* its constraint moves the coordinate */
+        sim->trial.drive_position[i] = sim->now.drive_position[i] + travel;
+        sim->trial.drive_rate[i] = rate;
+        return DMB_OK;
+    }
+    sim->increment[drive->row] = travel;
+    sim->trial.velocity[drive->row] = sim->trial.drive_target[i];
+    sim->trial.acceleration[drive->row] = rate;
+    sim->trial.pseudo_acceleration[drive->row] = rate;
+    return DMB_OK;
+}
+
+int32_t dmb_system_rate_jumps(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->drive_count; i++) {
+        double value, rate;
+        if (scene->drives[i].kind != DMB_DRIVE_MOTION) continue;
+        if (target_of(sim, i, fmax(sim->clock->time, sim->clock->corner), &value, &rate) < 0) continue;
+        const int on_joint = scene->drives[i].joint != UINT32_MAX;
+        const double last = on_joint ? sim->now.drive_rate[i] : sim->now.acceleration[scene->drives[i].row];
+        if (fabs(rate - last) > 1e-6 * (fabs(rate) + fabs(last) + fabs(value)))
+            return 1; /* more than differencing noise */
+    }
+    return 0;
+}
+
+static int32_t factor_of(const dmb_scene *scene, uint32_t programme, double time, double *factor)
+{
+    *factor = 1.0;
+    if (programme == UINT32_MAX) return DMB_OK;
+    return dmb_programme_value(scene->programmes + programme, time, factor, NULL);
+}
+
+int32_t dmb_system_prescribe(dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    int32_t status = DMB_OK;
+    for (uint32_t i = 0; i < scene->drive_count && status >= 0; i++) status = prescribe_drive(evaluation, i);
+    for (uint32_t i = 0; i < scene->load_count && status >= 0; i++)
+        status = factor_of(scene, scene->loads[i].programme, evaluation->time, &sim->trial.load_factor[i]);
+    for (uint32_t i = 0; i < scene->bit_count && status >= 0; i++) {
+        sim->trial.bit_load[i] = 0.0;
+        if (scene->bits[i].load != UINT32_MAX)
+            status = factor_of(scene, scene->bits[i].load, evaluation->time, &sim->trial.bit_load[i]);
+    }
+    return status;
+}
+
+double dmb_drive_speed(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t drive)
+{
+    const uint32_t row = scene->drives[drive].row;
+    return row == UINT32_MAX ? configuration->drive_speed[drive] : configuration->velocity[row];
+}
+
+/* Force of a controlled drive and its slope by the speed; the integral of the error goes into the trial. */
+static double control_force(const dmb_evaluation *evaluation, uint32_t i, double speed, double *slope)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene_drive *drive = sim->scene->drives + i;
+    const double h = evaluation->step;
+    const double error = sim->trial.drive_target[i] - speed;
+    const double before = sim->now.drive_target[i] - dmb_drive_speed(sim->scene, &sim->now, i);
+    const double integral = sim->now.drive_integral[i] + 0.5 * h * (before + error);
+    const double force = drive->gain * error + drive->integral_gain * integral;
+    *slope = -(drive->gain + 0.5 * h * drive->integral_gain);
+    sim->trial.drive_integral[i] = integral;
+    if (force >= drive->limit_low && force <= drive->limit_high) return force;
+    sim->trial.drive_integral[i] = sim->now.drive_integral[i];
+    *slope = 0.0;
+    return force > drive->limit_high ? drive->limit_high : drive->limit_low;
+}
+
+double dmb_drive_force(dmb_evaluation *evaluation, uint32_t drive, double speed, double *slope)
+{
+    dmb_sim *sim = evaluation->sim;
+    double force = sim->trial.drive_target[drive];
+    *slope = 0.0;
+    if (sim->scene->drives[drive].kind == DMB_DRIVE_CONTROL) force = control_force(evaluation, drive, speed, slope);
+    sim->trial.drive_force[drive] = force;
+    return force;
+}
+
+static void gather_drive(dmb_evaluation *evaluation, uint32_t i)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene_drive *drive = sim->scene->drives + i;
+    double slope;
+    const double force =
+        dmb_drive_force(evaluation, i, evaluation->dynamic ? sim->trial.velocity[drive->row] : 0.0, &slope);
+    sim->correction[drive->row] -= force;
+    sim->scale_row[drive->row] += fabs(force);
+    evaluation->power[DMB_POWER_DRIVES] += force * sim->trial.velocity[drive->row];
+    if (!evaluation->tangent || !evaluation->dynamic || slope == 0.0) return;
+    const uint32_t size = sim->scene->layout.size[drive->node];
+    const uint32_t c = drive->row - sim->scene->layout.row[drive->node];
+    dmb_inertia_of(sim, drive->node)[(size + 1) * c] -= evaluation->velocity_factor * slope;
+}
+
+/* Those on joints act with them. */
+void dmb_gather_drives(dmb_evaluation *evaluation)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    for (uint32_t i = 0; i < scene->drive_count; i++)
+        if (scene->drives[i].kind != DMB_DRIVE_MOTION && scene->drives[i].joint == UINT32_MAX)
+            gather_drive(evaluation, i);
+}

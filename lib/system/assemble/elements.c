@@ -1,0 +1,287 @@
+#include "system/assemble/elements.h"
+
+#include <string.h>
+
+#include "element/beam_element.h"
+#include "kernel/kernels.h"
+#include "system/assemble/evaluation.h"
+#include "sim/node.h"
+
+/* Vector from node a to node b; returns the largest magnitude that entered it. */
+static double span_of(const dmb_scene *scene, uint32_t e, const double *ua, const double *ub, double span[3])
+{
+    double reach = 0.0;
+    for (int i = 0; i < 3; i++) {
+        span[i] = scene->element_span[3 * e + (uint32_t)i] + (ub[i] - ua[i]);
+        reach = fmax(reach, fabs(ua[i]) + fabs(ub[i]) + fabs(span[i]));
+    }
+    return reach;
+}
+
+/* Where the kernels find and leave what belongs to a batch: its nodes, rows and blocks follow one another. */
+static dmb_beam_run run_of(const dmb_sim *sim, const dmb_batch *batch)
+{
+    const dmb_scene *scene = sim->scene;
+    const uint32_t e = batch->first, a = scene->element_node[e], row = scene->layout.row[a];
+    const uint32_t diag = scene->layout.diag[a], link = scene->layout.link[a];
+    const dmb_beam_run run = {
+        .count = batch->count,
+        .types = scene->types,
+        .type = scene->element_type + e,
+        .span = scene->element_span + 3 * e,
+        .displacement = sim->trial.displacement + 3 * a,
+        .quaternion = sim->trial.quaternion + 4 * a,
+        .velocity = sim->trial.velocity + row,
+        .acceleration = sim->trial.acceleration + row,
+        .increment = sim->increment + row,
+        .damped = scene->damped,
+        .arms = scene->arms,
+        .residual = sim->correction + row,
+        .scale = sim->scale_row + row,
+        .strain = sim->element_strain + 6 * e,
+        .stress = sim->element_stress + 6 * e,
+        .stiffness_diagonal = sim->stiffness_diagonal + diag,
+        .inertia_diagonal = sim->inertia_diagonal + diag,
+        .upper = sim->stiffness_upper + link,
+        .lower = sim->stiffness_lower + link,
+    };
+    return run;
+}
+
+static int32_t gather_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
+{
+    dmb_beam_run run = run_of(evaluation->sim, batch);
+    run.mass_factor = evaluation->mass_factor;
+    run.velocity_factor = evaluation->velocity_factor;
+    run.dynamic = evaluation->dynamic;
+    run.tangent = evaluation->tangent;
+    run.extrapolated = evaluation->extrapolated;
+    run.inertia_only = evaluation->inertia_only;
+    run.ledger = evaluation->sim->options.energy_ledger;
+    run.rounding = evaluation->rounding;
+    run.potential = evaluation->power[DMB_POWER_POTENTIAL];
+    run.damping = evaluation->power[DMB_POWER_DAMPING];
+    run.inertia = evaluation->power[DMB_POWER_INERTIA];
+    if (evaluation->sim->scene->kernels->beams(&run) < 0) {
+        evaluation->element = batch->first + run.failed;
+        return DMB_ERR_ROTATION;
+    }
+    evaluation->rounding = run.rounding;
+    evaluation->power[DMB_POWER_POTENTIAL] = run.potential;
+    evaluation->power[DMB_POWER_DAMPING] = run.damping;
+    evaluation->power[DMB_POWER_INERTIA] = run.inertia;
+    return DMB_OK;
+}
+
+/* ---- Axial-torsional bars on the hole's axis: PATH nodes --------------------------------------------------------- */
+
+static void bar_forces(dmb_evaluation *evaluation, const dmb_batch *batch)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const uint32_t e = batch->first, a = scene->element_node[e], row = scene->layout.row[a];
+    dmb_bar_run run = {
+        .count = batch->count,
+        .dynamic = evaluation->dynamic,
+        .types = scene->types,
+        .type = scene->element_type + e,
+        .displacement = sim->trial.displacement + 3 * a,
+        .turn = sim->trial.turn + a,
+        .velocity = sim->trial.velocity + row,
+        .acceleration = sim->trial.acceleration + row,
+        .per_length = 1.0 / scene->length_scale,
+        .residual = sim->correction + row,
+        .scale = sim->scale_row + row,
+        .rounding = evaluation->rounding,
+        .potential = evaluation->power[DMB_POWER_POTENTIAL],
+        .damping = evaluation->power[DMB_POWER_DAMPING],
+        .inertia = evaluation->power[DMB_POWER_INERTIA],
+    };
+    scene->kernels->bars(&run);
+    evaluation->rounding = run.rounding;
+    evaluation->power[DMB_POWER_POTENTIAL] = run.potential;
+    evaluation->power[DMB_POWER_DAMPING] = run.damping;
+    evaluation->power[DMB_POWER_INERTIA] = run.inertia;
+}
+
+/* Tangent of one coordinate, 0 stretch or 1 twist, between the nodes a and a + 1. */
+static void bar_tangent(const dmb_evaluation *evaluation, const dmb_element_type *type, uint32_t a, uint32_t c)
+{
+    dmb_sim *sim = evaluation->sim;
+    const uint32_t link = sim->scene->layout.link[a] + 3 * c;
+    const double *mass = c == 0 ? type->mass.axial : type->mass.torsion;
+    const double elastic = evaluation->inertia_only ? 0.0 : type->stiffness[3 * c];
+    const double damped =
+        evaluation->dynamic ? evaluation->velocity_factor * type->damping_time * type->stiffness[3 * c] : 0.0;
+    const double heavy = evaluation->dynamic ? evaluation->mass_factor : 0.0;
+    const double between = heavy * mass[1] - (elastic + damped);
+    dmb_stiffness_of(sim, a)[3 * c] += elastic;
+    dmb_stiffness_of(sim, a + 1)[3 * c] += elastic;
+    sim->stiffness_upper[link] += between;
+    sim->stiffness_lower[link] += between;
+    if (!evaluation->dynamic) return;
+    dmb_inertia_of(sim, a)[3 * c] += heavy * mass[0] + damped;
+    dmb_inertia_of(sim, a + 1)[3 * c] += heavy * mass[0] + damped;
+}
+
+static void gather_bars(dmb_evaluation *evaluation, const dmb_batch *batch)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    bar_forces(evaluation, batch);
+    if (!evaluation->tangent) return;
+    for (uint32_t e = batch->first; e < batch->first + batch->count; e++)
+        for (uint32_t c = 0; c < 2; c++)
+            bar_tangent(evaluation, scene->types + scene->element_type[e], scene->element_node[e], c);
+}
+
+/* ---- A beam with one FULL and one PATH node: the PATH side is seen through its two columns ---------------------- */
+
+typedef struct mixed_side {
+    double q[4], R[9], u[3], v[6], a[6];
+    double z[6];  /* increment of the step; 0 on the PATH side, whose two columns are pose parameters already */
+    double J[36]; /* (6, rows) row-major with `rows` columns used */
+    uint32_t rows;
+} mixed_side;
+
+static void mixed_side_of(const dmb_evaluation *evaluation, uint32_t node, mixed_side *side)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    side->rows = scene->layout.size[node];
+    dmb_node_pose(scene, &sim->trial, node, side->R, side->u);
+    dmb_node_vector(scene, &sim->trial, node, sim->trial.velocity, side->v);
+    dmb_node_vector(scene, &sim->trial, node, sim->trial.acceleration, side->a);
+    memset(side->J, 0, sizeof side->J);
+    memset(side->z, 0, sizeof side->z);
+    if (side->rows == DMB_NODE_FULL) {
+        memcpy(side->q, sim->trial.quaternion + 4 * node, sizeof side->q);
+        dmb_vec6_copy(sim->increment + scene->layout.row[node], side->z);
+        for (int i = 0; i < 36; i += 7) side->J[i] = 1.0;
+        return;
+    }
+    double columns[12];
+    dmb_quat_from_matrix(side->R, side->q);
+    dmb_path_columns(scene, &sim->trial, node, side->R, columns);
+    for (uint32_t i = 0; i < 6; i++) {
+        side->J[2 * i] = columns[i];
+        side->J[2 * i + 1] = columns[6 + i];
+    }
+}
+
+/* out += J_left^T K J_right */
+static void add_projected(const double K[36], const mixed_side *left, const mixed_side *right, double *out)
+{
+    for (uint32_t r = 0; r < left->rows; r++)
+        for (uint32_t c = 0; c < right->rows; c++) {
+            double sum = 0.0;
+            for (uint32_t i = 0; i < 6; i++)
+                for (uint32_t j = 0; j < 6; j++)
+                    sum += left->J[left->rows * i + r] * K[6 * i + j] * right->J[right->rows * j + c];
+            out[right->rows * r + c] += sum;
+        }
+}
+
+static void add_projected_force(dmb_sim *sim, uint32_t node, const mixed_side *side, const double f[6],
+                                const double scale[6])
+{
+    const uint32_t row = sim->scene->layout.row[node];
+    for (uint32_t r = 0; r < side->rows; r++)
+        for (uint32_t i = 0; i < 6; i++) {
+            sim->correction[row + r] += side->J[side->rows * i + r] * f[i];
+            sim->scale_row[row + r] += fabs(side->J[side->rows * i + r]) * scale[i];
+        }
+}
+
+static void mixed_input(const dmb_scene *scene, uint32_t e, const mixed_side *A, const mixed_side *B,
+                        dmb_beam_input *in)
+{
+    dmb_quat_copy(A->q, in->qa);
+    dmb_quat_copy(B->q, in->qb);
+    dmb_mat3_copy(A->R, in->Ra);
+    in->reach = span_of(scene, e, A->u, B->u, in->span);
+    dmb_vec6_copy(A->v, in->va);
+    dmb_vec6_copy(B->v, in->vb);
+    dmb_vec6_copy(A->a, in->aa);
+    dmb_vec6_copy(B->a, in->ab);
+    dmb_vec6_copy(A->z, in->za);
+    dmb_vec6_copy(B->z, in->zb);
+}
+
+static int32_t gather_mixed(dmb_evaluation *evaluation, uint32_t e)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const uint32_t a = scene->element_node[e], b = a + 1, link = scene->layout.link[a];
+    mixed_side A, B;
+    const dmb_element_type *type = scene->types + scene->element_type[e];
+    const dmb_beam_task task = {evaluation->mass_factor,
+                                evaluation->velocity_factor,
+                                evaluation->dynamic,
+                                evaluation->tangent,
+                                evaluation->extrapolated,
+                                evaluation->dynamic && (sim->options.energy_ledger || scene->damped),
+                                scene->damped,
+                                evaluation->inertia_only,
+                                scene->arms};
+    dmb_beam_constants constants;
+    dmb_beam_input in;
+    dmb_beam_output out;
+    mixed_side_of(evaluation, a, &A);
+    mixed_side_of(evaluation, b, &B);
+    mixed_input(scene, e, &A, &B, &in);
+    dmb_beam_load_constants(type, 0, &constants);
+    if (task.extrapolated) dmb_vec6_copy(sim->element_stress + 6 * e, out.stress);
+    if (dmb_beam_element(&task, &constants, &in, &out) < 0) {
+        evaluation->element = e;
+        return DMB_ERR_ROTATION;
+    }
+    dmb_vec6_copy(out.strain, sim->element_strain + 6 * e);
+    if (!task.extrapolated) dmb_vec6_copy(out.stress, sim->element_stress + 6 * e);
+    evaluation->rounding += out.rounding;
+    evaluation->power[DMB_POWER_POTENTIAL] -= out.potential;
+    evaluation->power[DMB_POWER_DAMPING] -= out.damping;
+    evaluation->power[DMB_POWER_INERTIA] -= out.inertia;
+    add_projected_force(sim, a, &A, out.fa, out.scale_a);
+    add_projected_force(sim, b, &B, out.fb, out.scale_b);
+    if (!evaluation->tangent) return DMB_OK;
+    add_projected(out.K.aa, &A, &A, dmb_stiffness_of(sim, a));
+    add_projected(out.K.bb, &B, &B, dmb_stiffness_of(sim, b));
+    add_projected(out.K.ab, &A, &B, sim->stiffness_upper + link);
+    add_projected(out.K.ba, &B, &A, sim->stiffness_lower + link);
+    if (!evaluation->dynamic) return DMB_OK;
+    add_projected(out.C.aa, &A, &A, dmb_inertia_of(sim, a));
+    add_projected(out.C.bb, &B, &B, dmb_inertia_of(sim, b));
+    return DMB_OK;
+}
+
+static int32_t gather_batch(dmb_evaluation *evaluation, const dmb_batch *batch)
+{
+    int32_t status = DMB_OK;
+    if (batch->kernel == DMB_KERNEL_BEAM) return gather_beams(evaluation, batch);
+    if (batch->kernel == DMB_KERNEL_PATH) {
+        gather_bars(evaluation, batch);
+        return DMB_OK;
+    }
+    for (uint32_t e = batch->first; e < batch->first + batch->count && status >= 0; e++)
+        status = gather_mixed(evaluation, e);
+    return status;
+}
+
+void dmb_gather_elements(dmb_evaluation *evaluation)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    for (uint32_t i = 0; i < scene->batch_count && evaluation->status >= 0; i++)
+        evaluation->status = gather_batch(evaluation, scene->batches + i);
+}
+
+/* s <- s + (K/L) P z over the correction z of both nodes, at the strain of the last evaluation. */
+void dmb_system_extrapolate_stress(dmb_sim *sim, const double *correction)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->batch_count; i++) {
+        if (scene->batches[i].kernel != DMB_KERNEL_BEAM) continue;
+        dmb_beam_run run = run_of(sim, scene->batches + i);
+        run.velocity = correction + scene->layout.row[scene->element_node[scene->batches[i].first]];
+        scene->kernels->extrapolate(&run);
+    }
+}

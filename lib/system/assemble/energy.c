@@ -1,0 +1,252 @@
+#include "system/assemble/energy.h"
+
+#include <string.h>
+
+#include "element/beam.h"
+#include "element/lump.h"
+#include "sim/node.h"
+
+static const dmb_element_type *type_of(const dmb_scene *scene, uint32_t e)
+{
+    return scene->types + scene->element_type[e];
+}
+
+static int is_path(const dmb_scene *scene, uint32_t node)
+{
+    return scene->layout.size[node] == DMB_NODE_PATH;
+}
+
+/* Velocities of an element's two ends. */
+static void end_velocities(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, double va[6], double vb[6])
+{
+    const uint32_t a = scene->element_node[e];
+    dmb_node_vector(scene, c, a, c->velocity, va);
+    dmb_node_vector(scene, c, a + 1, c->velocity, vb);
+    dmb_arm_velocity(type_of(scene, e)->arm[0], va);
+    dmb_arm_velocity(-type_of(scene, e)->arm[1], vb);
+}
+
+/* Momenta p = M v of an element's ends; on the hole's axis the bar sees its two rows alone. */
+static void end_momenta(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, double va[6], double vb[6],
+                        double pa[6], double pb[6])
+{
+    const uint32_t a = scene->element_node[e];
+    if (is_path(scene, a) && is_path(scene, a + 1)) {
+        const double *v = c->velocity;
+        const uint32_t ra = scene->layout.row[a], rb = scene->layout.row[a + 1];
+        memset(va, 0, 6 * sizeof(double));
+        memset(vb, 0, 6 * sizeof(double));
+        va[0] = v[ra], va[3] = v[ra + 1], vb[0] = v[rb], vb[3] = v[rb + 1];
+    } else {
+        end_velocities(scene, c, e, va, vb);
+    }
+    dmb_beam_mass_times(&type_of(scene, e)->mass, va, vb, pa, pb);
+}
+
+double dmb_element_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element)
+{
+    double va[6], vb[6], pa[6], pb[6];
+    end_momenta(scene, configuration, element, va, vb, pa, pb);
+    return 0.5 * (dmb_vec6_dot(va, pa) + dmb_vec6_dot(vb, pb));
+}
+
+void dmb_element_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                               double parts[3])
+{
+    double va[6], vb[6], pa[6], pb[6];
+    end_momenta(scene, configuration, element, va, vb, pa, pb);
+    parts[0] = 0.5 * (va[0] * pa[0] + vb[0] * pb[0]);
+    parts[1] = 0.5 * (va[3] * pa[3] + vb[3] * pb[3]);
+    parts[2] = 0.5 * (dmb_vec6_dot(va, pa) + dmb_vec6_dot(vb, pb)) - parts[0] - parts[1];
+}
+
+double dmb_rigid_mass_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t rigid_mass)
+{
+    const dmb_rigid_mass *l = scene->rigid_masses + rigid_mass;
+    const double *v = configuration->velocity + scene->layout.row[l->node];
+    double p[6];
+    if (is_path(scene, l->node)) return 0.5 * (l->mass * v[0] * v[0] + l->inertia[0] * v[1] * v[1]);
+    dmb_rigid_mass_times(l, v, p);
+    return 0.5 * dmb_vec6_dot(v, p);
+}
+
+/* What couples the three in an eccentric mass counts as lateral. */
+void dmb_rigid_mass_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t rigid_mass,
+                            double parts[3])
+{
+    const dmb_rigid_mass *l = scene->rigid_masses + rigid_mass;
+    const double *v = configuration->velocity + scene->layout.row[l->node];
+    const double spin = v[is_path(scene, l->node) ? 1 : 3];
+    parts[0] = 0.5 * l->mass * v[0] * v[0];
+    parts[1] = 0.5 * l->inertia[0] * spin * spin;
+    parts[2] = dmb_rigid_mass_kinetic_energy(scene, configuration, rigid_mass) - parts[0] - parts[1];
+}
+
+double dmb_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration)
+{
+    double sum = 0.0;
+    for (uint32_t e = 0; e < scene->element_count; e++) sum += dmb_element_kinetic_energy(scene, configuration, e);
+    for (uint32_t i = 0; i < scene->rigid_mass_count; i++) sum += dmb_rigid_mass_kinetic_energy(scene, configuration, i);
+    return sum;
+}
+
+/* Pose of a node as quaternion, rotation and displacement. */
+static void pose_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t node, double q[4], double R[9],
+                    double u[3])
+{
+    dmb_node_pose(scene, c, node, R, u);
+    if (is_path(scene, node))
+        dmb_quat_from_matrix(R, q);
+    else
+        memcpy(q, c->quaternion + 4 * node, 4 * sizeof(double));
+}
+
+static void shape_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, dmb_beam_shape *shape)
+{
+    const uint32_t a = scene->element_node[e];
+    double qa[4], qb[4], Ra[9], Rb[9], ua[3], ub[3], span[3];
+    pose_of(scene, c, a, qa, Ra, ua);
+    pose_of(scene, c, a + 1, qb, Rb, ub);
+    for (uint32_t i = 0; i < 3; i++) span[i] = scene->element_span[3 * e + i] + (ub[i] - ua[i]);
+    (void)dmb_beam_deform(type_of(scene, e), qa, Ra, qb, span, shape);
+}
+
+void dmb_element_strain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, double e[6])
+{
+    const uint32_t a = scene->element_node[element];
+    if (is_path(scene, a) && is_path(scene, a + 1)) {
+        const dmb_element_type *type = type_of(scene, element);
+        const double *u = configuration->displacement + 3 * (size_t)a, *turn = configuration->turn + a;
+        memset(e, 0, 6 * sizeof(double));
+        e[0] = (u[3] - u[0]) + (type->length - type->rest[0]);
+        e[3] = (turn[1] - turn[0]) - type->rest[3];
+        return;
+    }
+    dmb_beam_shape shape;
+    shape_of(scene, configuration, element, &shape);
+    dmb_beam_strain_of(type_of(scene, element), &shape, e);
+}
+
+void dmb_element_strain_rate(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                             double rate[6])
+{
+    const uint32_t a = scene->element_node[element];
+    if (is_path(scene, a) && is_path(scene, a + 1)) {
+        const double *va = configuration->velocity + scene->layout.row[a],
+                     *vb = configuration->velocity + scene->layout.row[a + 1];
+        memset(rate, 0, 6 * sizeof(double));
+        rate[0] = vb[0] - va[0];
+        rate[3] = vb[1] - va[1];
+        return;
+    }
+    dmb_beam_shape shape;
+    double va[6], vb[6];
+    shape_of(scene, configuration, element, &shape);
+    end_velocities(scene, configuration, element, va, vb);
+    dmb_beam_strain_rate(&shape, va, vb, rate);
+}
+
+/* e^T K e / (2 L) */
+double dmb_strain_energy(const dmb_scene *scene, const dmb_configuration *configuration)
+{
+    double sum = 0.0, x[6];
+    for (uint32_t e = 0; e < scene->element_count; e++) {
+        const dmb_element_type *type = type_of(scene, e);
+        dmb_element_strain(scene, configuration, e, x);
+        for (int i = 0; i < 6; i++) sum += 0.5 * type->stiffness[i] * x[i] * x[i];
+    }
+    return sum;
+}
+
+/* -m g.u - g.((R - R0) b) */
+double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *configuration)
+{
+    double sum = 0.0;
+    if (!(scene->features & DMB_FEATURE_GRAVITY)) return 0.0;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        double R[9], u[3], R0[9], now[3], start[3];
+        dmb_node_pose(scene, configuration, i, R, u);
+        sum -= scene->weight_mass[i] * dmb_vec3_dot(scene->gravity, u);
+        if (is_path(scene, i)) continue;
+        dmb_quat_to_matrix(scene->reference_quaternion + 4 * i, R0);
+        dmb_mat3_vec(R, scene->weight_moment + 3 * i, now);
+        dmb_mat3_vec(R0, scene->weight_moment + 3 * i, start);
+        dmb_vec3_sub(now, start, now);
+        sum -= dmb_vec3_dot(scene->gravity, now);
+    }
+    return sum;
+}
+
+double dmb_contact_energy(const dmb_scene *scene, const dmb_configuration *configuration)
+{
+    double sum = 0.0;
+    for (uint32_t s = 0; s < scene->site_count; s++)
+        sum += scene->sites[s].length * dmb_normal_energy(&scene->normal_law, configuration->site_penetration[s]);
+    return sum;
+}
+
+void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                               double force[12])
+{
+    const dmb_element_type *type = type_of(scene, element);
+    const uint32_t a = scene->element_node[element], ra = scene->layout.row[a], rb = scene->layout.row[a + 1];
+    double va[6], vb[6], stress[6], rate[6];
+    memset(force, 0, 12 * sizeof(double));
+    if (is_path(scene, a) && is_path(scene, a + 1)) {
+        double e[6];
+        dmb_element_strain(scene, configuration, element, e);
+        for (uint32_t c = 0; c < 2; c++) {
+            const double speed = configuration->velocity[rb + c] - configuration->velocity[ra + c];
+            const uint32_t i = 3 * c;
+            force[i] = type->stiffness[i] * (e[i] + type->damping_time * speed);
+            force[6 + i] = force[i];
+        }
+        return;
+    }
+    dmb_beam_shape shape;
+    shape_of(scene, configuration, element, &shape);
+    end_velocities(scene, configuration, element, va, vb);
+    dmb_beam_strain_rate(&shape, va, vb, rate);
+    dmb_beam_stress(type, &shape, stress);
+    for (int i = 0; i < 6; i++) stress[i] += type->damping_time * type->stiffness[i] * rate[i];
+    dmb_beam_add_force(&shape, stress, force, force + 6);
+    for (int i = 0; i < 6; i++) force[i] = -force[i]; /* at A the far side is the element itself */
+}
+
+/* Half the weight and the moment +- w L^2/12 that belong to one end (side 1: A, -1: B), in its frame. */
+static void end_weight(const dmb_scene *scene, const dmb_element_type *type, const double R[9], double side,
+                       double w[6])
+{
+    double g[3];
+    dmb_mat3_tvec(R, scene->gravity, g);
+    dmb_vec3_scale(0.5 * type->weight_mass, g, w);
+    const double moment[3] = {side * type->weight_mass * type->length / 12.0, 0.0, 0.0};
+    dmb_vec3_cross(moment, g, w + 3);
+}
+
+void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                           double load[12])
+{
+    const dmb_element_type *type = type_of(scene, element);
+    const uint32_t a = scene->element_node[element];
+    double va[6], vb[6], aa[6], ab[6], pa[6], pb[6], fa[6], fb[6], ga[6], gb[6], wa[6], wb[6], R[9], u[3];
+    dmb_element_section_force(scene, configuration, element, load);
+    if (is_path(scene, a) && is_path(scene, a + 1)) return;
+    end_velocities(scene, configuration, element, va, vb);
+    dmb_node_vector(scene, configuration, a, configuration->acceleration, aa);
+    dmb_node_vector(scene, configuration, a + 1, configuration->acceleration, ab);
+    dmb_arm_velocity(type->arm[0], aa);
+    dmb_arm_velocity(-type->arm[1], ab);
+    dmb_beam_mass_times(&type->mass, va, vb, pa, pb);
+    dmb_beam_mass_times(&type->mass, aa, ab, fa, fb);
+    dmb_ad_transpose(va, pa, ga);
+    dmb_ad_transpose(vb, pb, gb);
+    dmb_node_pose(scene, configuration, a, R, u);
+    end_weight(scene, type, R, 1.0, wa);
+    dmb_node_pose(scene, configuration, a + 1, R, u);
+    end_weight(scene, type, R, -1.0, wb);
+    for (int i = 0; i < 6; i++) {
+        load[i] -= fa[i] - ga[i] - wa[i];
+        load[6 + i] += fb[i] - gb[i] - wb[i];
+    }
+}

@@ -1,0 +1,34 @@
+/* Energies of a configuration, exactly those whose derivatives the residual holds. */
+#ifndef DMB_SYSTEM_ASSEMBLE_ENERGY_H
+#define DMB_SYSTEM_ASSEMBLE_ENERGY_H
+
+#include "sim/sim.h"
+
+double dmb_element_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element);
+double dmb_rigid_mass_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t rigid_mass);
+double dmb_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration);
+double dmb_strain_energy(const dmb_scene *scene, const dmb_configuration *configuration);
+/* Potential of the weights less that of the pose at time 0 as described. */
+double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *configuration);
+/* Stored in the wall's normal stiffness. What bristles store counts as spent by friction until it comes back. */
+double dmb_contact_energy(const dmb_scene *scene, const dmb_configuration *configuration);
+/* Strain of an element times its length, e of element/beam_math.h, shape (6). */
+void dmb_element_strain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, double e[6]);
+/* Change of that by a small motion of the nodes, given as `velocity` of the configuration, shape (6). */
+void dmb_element_strain_rate(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                             double rate[6]);
+/* Parts of the kinetic energies that are motion along the axis, about it, and across it, shape (3). */
+void dmb_element_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                               double parts[3]);
+void dmb_rigid_mass_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t rigid_mass,
+                            double parts[3]);
+/* Section forces at the element's two flexible ends in the frame of that end, as force on the near side from the far
+ * side: (axial, shear, shear, torque, moment, moment); material damping included, shape (2, 6). */
+void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                               double force[12]);
+/* The same with the element's own weight and inertia, which its nodes carry in rigid_masses: the loads of the very sections at
+ * its ends. Bars on the hole's axis: as above. Shape (2, 6). */
+void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                           double load[12]);
+
+#endif

@@ -1,0 +1,208 @@
+#include "system/assemble/evaluation.h"
+
+#include <string.h>
+
+#include "kernel/kernels.h"
+#include "math/se3.h"
+#include "sim/node.h"
+#include "system/assemble/bit.h"
+#include "system/assemble/drives.h"
+#include "system/assemble/elements.h"
+#include "system/assemble/free_rigid.h"
+#include "system/assemble/joint_forces.h"
+#include "system/assemble/nodes.h"
+#include "system/assemble/wall_contact.h"
+#include "system/constrain/joint_state.h"
+static void clear(const dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const dmb_block_layout *layout = &scene->layout;
+    const uint32_t n = scene->node_count;
+    const size_t diagonal = layout->diag[n] * sizeof(double);
+    const size_t link = layout->link[n - 1] * sizeof(double);
+    memset(sim->correction, 0, scene->row_count * sizeof(double));
+    memset(sim->scale_row, 0, scene->row_count * sizeof(double));
+    if (!evaluation->tangent) return;
+    memset(sim->stiffness_diagonal, 0, diagonal);
+    memset(sim->inertia_diagonal, 0, diagonal);
+    if (scene->beams_only) return; /* beams write their links */
+    memset(sim->stiffness_lower, 0, link);
+    memset(sim->stiffness_upper, 0, link);
+}
+
+/* Along the axis and about it, from node `first` on as long as there are PATH nodes; what else a pose has stays.
+ * Returns how many they are. */
+static uint32_t move_path_nodes(dmb_sim *sim, uint32_t first)
+{
+    const dmb_scene *scene = sim->scene;
+    const double *z = sim->increment + scene->layout.row[first];
+    uint32_t i = first;
+    for (; i < scene->node_count && scene->layout.size[i] == DMB_NODE_PATH; i++, z += DMB_NODE_PATH) {
+        sim->trial.displacement[3 * i] = sim->now.displacement[3 * i] + z[0];
+        sim->trial.turn[i] = sim->now.turn[i] + z[1];
+    }
+    return i - first;
+}
+
+void dmb_system_move(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0, count; i < scene->node_count; i += count) {
+        const double *z = sim->increment + scene->layout.row[i];
+        count = dmb_full_nodes_at(scene, i);
+        if (count > 0) {
+            const dmb_node_run run = {count,
+                                      0,
+                                      z,
+                                      sim->now.displacement + 3 * i,
+                                      sim->now.quaternion + 4 * i,
+                                      sim->trial.displacement + 3 * i,
+                                      sim->trial.quaternion + 4 * i};
+            scene->kernels->advance(&run);
+            continue;
+        }
+        count = move_path_nodes(sim, i);
+    }
+}
+
+static int32_t finite_status(const dmb_sim *sim)
+{
+    double sums[8] = {0.0}; /* side by side */
+    const double *r = sim->correction;
+    const uint32_t rows = sim->scene->row_count, even = rows - rows % 8;
+    for (uint32_t i = 0; i < even; i += 8)
+        for (uint32_t k = 0; k < 8; k++) sums[k] += fabs(r[i + k]);
+    for (uint32_t i = even; i < rows; i++) sums[0] += fabs(r[i]);
+    for (uint32_t k = 1; k < 8; k++) sums[0] += sums[k];
+    return isfinite(sums[0]) ? DMB_OK : DMB_ERR_NOT_FINITE;
+}
+
+int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    evaluation->status = DMB_OK;
+    evaluation->rounding = 0.0;
+    memset(evaluation->power, 0, sizeof evaluation->power);
+    clear(evaluation);
+    for (int i = 0; i < 2; i++)
+        evaluation->sim->trial.friction_slip[i] = evaluation->slipping ? evaluation->slip[i] : 0.0;
+    dmb_gather_elements(evaluation);
+    if (evaluation->status < 0) return evaluation->status;
+    dmb_gather_nodes(evaluation);
+    if (scene->site_count) dmb_gather_contacts(evaluation);
+    if (scene->path_site_count) dmb_gather_path_friction(evaluation);
+    if (scene->load_count) dmb_gather_loads(evaluation);
+    if (scene->drive_count) dmb_gather_drives(evaluation);
+    if (scene->bit_count) dmb_gather_bits(evaluation);
+    if (scene->cluster_count) evaluation->status = dmb_gather_joints(evaluation);
+    if (evaluation->status >= 0) evaluation->status = finite_status(evaluation->sim);
+    return evaluation->status;
+}
+
+/* Iteration matrix of a Newton step in the pose parameters z of the increment h Dq:
+ *     [K T6(h Dq) + mass_factor M + velocity_factor C] z = -residual
+ * K is with respect to body-frame pose changes, which are T6(h Dq) z. The elements have done so to the blocks of their
+ * links; what is left are the blocks of the nodes, to which all forces add. */
+
+/* next: the first free rigid body that may be on the node */
+static void tangent_columns(dmb_sim *sim, uint32_t node, uint32_t *next)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_block_layout *layout = &scene->layout;
+    dmb_se3_tangent T;
+    if (layout->size[node] != DMB_NODE_FULL) return;
+    if (*next < scene->free_rigid_count && scene->free_rigids[*next].node == node) { /* done */
+        ++*next;
+        return;
+    }
+    dmb_se3_tangent_at(sim->increment + layout->row[node], NULL, &T);
+    dmb_se3_times_tangent(dmb_stiffness_of(sim, node), DMB_NODE_FULL, &T);
+}
+
+static void add(const double *restrict from, double *restrict to, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) to[i] += from[i];
+}
+
+/* Row and column of an unknown that is not solved for: identity. */
+static void hold_row(dmb_sim *sim, uint32_t node, uint32_t c)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_block_layout *layout = &scene->layout;
+    const uint32_t size = layout->size[node];
+    double *D = dmb_stiffness_of(sim, node);
+    for (uint32_t i = 0; i < size; i++) D[size * c + i] = D[size * i + c] = 0.0;
+    D[(size + 1) * c] = 1.0;
+    if (node > 0 && scene->node_element[node - 1] != UINT32_MAX) {
+        const uint32_t before = layout->size[node - 1];
+        for (uint32_t i = 0; i < before; i++) {
+            sim->stiffness_lower[layout->link[node - 1] + before * c + i] = 0.0;
+            sim->stiffness_upper[layout->link[node - 1] + size * i + c] = 0.0;
+        }
+    }
+    if (scene->node_element[node] != UINT32_MAX) {
+        const uint32_t after = layout->size[node + 1];
+        for (uint32_t i = 0; i < after; i++) {
+            sim->stiffness_upper[layout->link[node] + after * c + i] = 0.0;
+            sim->stiffness_lower[layout->link[node] + size * i + c] = 0.0;
+        }
+    }
+}
+
+void dmb_system_iteration_matrix(const dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const dmb_block_layout *layout = &scene->layout;
+    const uint32_t n = scene->node_count;
+    if (evaluation->dynamic) {
+        const int stepping = evaluation->velocity_factor > 0.0;
+        uint32_t next = stepping ? 0 : scene->free_rigid_count;
+        if (stepping && scene->free_rigid_count) dmb_free_rigids_matrix(evaluation);
+        for (uint32_t i = 0; i < n; i++) tangent_columns(sim, i, &next);
+        add(sim->inertia_diagonal, sim->stiffness_diagonal, layout->diag[n]);
+    }
+    for (uint32_t i = 0; i < scene->held_count; i++) hold_row(sim, scene->held_node[i], scene->held_component[i]);
+}
+
+/* Rotation about the node's own x axis since time 0, on the turn the increment of the step leads to. */
+static void unwrap_turns(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0, count; i < scene->node_count; i += count) {
+        count = dmb_full_nodes_at(scene, i);
+        if (count > 0) {
+            const dmb_turn_run run = {.count = count,
+                                      .reference = scene->reference_quaternion + 4 * i,
+                                      .quaternion = sim->trial.quaternion + 4 * i,
+                                      .increment = sim->increment + scene->layout.row[i],
+                                      .start = sim->now.turn + i,
+                                      .turn = sim->trial.turn + i};
+            scene->kernels->turns(&run);
+        } else {
+            count = 1;
+        }
+    }
+}
+
+void dmb_system_accept(dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    unwrap_turns(sim);
+    memcpy(sim->residual_row, sim->correction, scene->row_count * sizeof(double));
+    for (uint32_t i = 0; i < scene->drive_count; i++) {
+        const dmb_scene_drive *drive = scene->drives + i;
+        if (drive->joint != UINT32_MAX) continue; /* done with the joint */
+        sim->trial.drive_position[i] = sim->now.drive_position[i] + sim->increment[drive->row];
+        if (drive->kind == DMB_DRIVE_MOTION) sim->trial.drive_force[i] = sim->correction[drive->row];
+    }
+    if (scene->cluster_count) dmb_joints_accept(evaluation);
+    for (uint32_t k = 0; k < scene->bit_count; k++) {
+        if (evaluation->dynamic)
+            dmb_bit_accept(sim, k);
+        else
+            sim->trial.bit_bottom[k] = sim->now.bit_bottom[k]; /* moving to equilibrium cuts nothing */
+    }
+}

@@ -1,0 +1,77 @@
+/* The equations of a scene: residual and tangent of the trial configuration.
+ *
+ *     residual = M v' - v^^T M v + g_internal - f_external = 0       (each node in its body frame)
+ *
+ * dmb_system_evaluate gathers all terms in a fixed order; it is the one place that knows them all. */
+#ifndef DMB_SYSTEM_ASSEMBLE_EVALUATION_H
+#define DMB_SYSTEM_ASSEMBLE_EVALUATION_H
+
+#include <math.h>
+
+#include "sim/sim.h"
+
+enum { DMB_STEADY_BITS = 32 };
+
+typedef struct dmb_evaluation {
+    dmb_sim *sim;             /* trial is read; work arrays are written */
+    double time;              /* [s] of the trial */
+    double step;              /* [s] from now to trial; 0 in statics */
+    double corner;            /* [s] of a programme, at which the step ends; 0: none */
+    double inside;            /* [s] of a programme, which the step is not divided at; 0: none */
+    double mass_factor;       /* [1/s2] d v'/d pose parameters */
+    double velocity_factor;   /* [1/s] d v/d pose parameters */
+    double pseudo_factor;     /* [-] d a/d v' of generalized-alpha, (1 - af)/(1 - am) */
+    double load_factor;       /* [-] on gravity, loads and bit load (static load steps) */
+    int32_t dynamic;          /* 0: no inertia, damping, nor rates: statics */
+    int32_t tangent;          /* 1: fill stiffness_ and inertia_ blocks too */
+    int32_t inertia_only;     /* 1: tangents by motion alone, links of elements without their stiffness */
+    int32_t steady;           /* 1: bristles are deflected and rock is cut as after sliding and drilling on for long */
+    uint32_t drilling;        /* steady: bit k of it is 1 where bit number k cuts, of the first DMB_STEADY_BITS bits */
+    int32_t extrapolated;     /* 1: geometric stiffness with element_stress as it stands, 0: with the true stress */
+    int32_t slipping;         /* statics: friction acts as at the speed slip[] */
+    double slip[2];           /* [m/s, rad/s] along the hole, of rotation */
+    double rounding;          /* [N2] sum of squares of what rounding of the poses makes of the forces (elements, joints, wall) */
+    double power[8];          /* [W] of each class of force on the bodies, DMB_POWER_... */
+    int32_t status;           /* of this evaluation */
+    uint32_t element;         /* where status says DMB_ERR_ROTATION */
+} dmb_evaluation;
+
+/* Residual into sim->correction, sums of magnitudes into sim->scale_row; returns evaluation->status: DMB_OK,
+ * DMB_ERR_ROTATION, DMB_ERR_NOT_FINITE. */
+int32_t dmb_system_evaluate(dmb_evaluation *evaluation);
+/* Pose of the trial: that of now moved by `increment`. */
+void dmb_system_move(dmb_sim *sim);
+/* Iteration matrix K T6(increment) + inertia into the stiffness_ blocks, identity in rows that are not solved. */
+void dmb_system_iteration_matrix(const dmb_evaluation *evaluation);
+/* What a finished step leaves: drive positions and forces, bit bottom and history, unwrapped turns. Trial -> trial and
+ * memory; called just before the swap. */
+void dmb_system_accept(dmb_evaluation *evaluation);
+
+/* Blocks of node i, and of the link i, i+1. */
+static inline double *dmb_stiffness_of(const dmb_sim *sim, uint32_t node)
+{
+    return sim->stiffness_diagonal + sim->scene->layout.diag[node];
+}
+static inline double *dmb_inertia_of(const dmb_sim *sim, uint32_t node)
+{
+    return sim->inertia_diagonal + sim->scene->layout.diag[node];
+}
+
+/* Subtracts a 6-vector of external force from the residual of a node, and counts its magnitude. */
+static inline void dmb_apply_wrench(dmb_sim *sim, uint32_t node, const double wrench[6])
+{
+    const uint32_t row = sim->scene->layout.row[node];
+    if (sim->scene->layout.size[node] == DMB_NODE_PATH) {
+        sim->correction[row] -= wrench[0];
+        sim->correction[row + 1] -= wrench[3];
+        sim->scale_row[row] += fabs(wrench[0]);
+        sim->scale_row[row + 1] += fabs(wrench[3]);
+        return;
+    }
+    for (int i = 0; i < 6; i++) {
+        sim->correction[row + (uint32_t)i] -= wrench[i];
+        sim->scale_row[row + (uint32_t)i] += fabs(wrench[i]);
+    }
+}
+
+#endif

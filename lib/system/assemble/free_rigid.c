@@ -1,0 +1,238 @@
+#include "system/assemble/free_rigid.h"
+
+#include <string.h>
+
+#include "element/lump.h"
+#include "math/so3.h"
+
+/* ---- Between the node and the centre of mass -------------------------------------------------------------------- */
+
+/* (u; w) to (u + w x c; w) */
+static void to_centre(const double c[3], const double v[6], double out[6])
+{
+    double x[3];
+    dmb_vec3_cross(v + 3, c, x);
+    dmb_vec3_add(v, x, out);
+    dmb_vec3_copy(v + 3, out + 3);
+}
+
+static void from_centre(const double c[3], const double v[6], double out[6])
+{
+    double x[3];
+    dmb_vec3_cross(v + 3, c, x);
+    dmb_vec3_sub(v, x, out);
+    dmb_vec3_copy(v + 3, out + 3);
+}
+
+void dmb_free_rigid_added(const dmb_scene *scene, uint32_t rigid, double acceleration[6])
+{
+    to_centre(scene->free_rigids[rigid].centre, acceleration, acceleration);
+}
+
+/* At the start both axes are the same, E = I. */
+void dmb_free_rigid_start(const dmb_sim *sim, uint32_t rigid, double start[18])
+{
+    const dmb_free_rigid *body = sim->scene->free_rigids + rigid;
+    const uint32_t row = sim->scene->layout.row[body->node];
+    double turning[3];
+    to_centre(body->centre, sim->now.velocity + row, start);
+    to_centre(body->centre, sim->now.acceleration + row, start + 6);
+    to_centre(body->centre, sim->now.pseudo_acceleration + row, start + 12);
+    dmb_vec3_cross(start + 3, start, turning);
+    dmb_vec3_add(start + 6, turning, start + 6);
+    dmb_vec3_add(start + 12, turning, start + 12);
+}
+
+/* ---- A step ------------------------------------------------------------------------------------------------------ */
+
+void dmb_free_rigids_predict(dmb_sim *sim, const dmb_predict_run *run)
+{
+    for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) {
+        double start[18], *motion = dmb_free_rigid_motion(sim, i);
+        dmb_predict_run rows = *run;
+        dmb_free_rigid_start(sim, i, start);
+        rows.count = 6;
+        rows.now_velocity = start;
+        rows.now_acceleration = start + 6;
+        rows.now_pseudo_acceleration = start + 12;
+        rows.velocity = motion;
+        rows.acceleration = motion + 6;
+        rows.pseudo_acceleration = motion + 12;
+        rows.increment = sim->increment + sim->scene->layout.row[sim->scene->free_rigids[i].node];
+        sim->scene->kernels->predict(&rows);
+    }
+}
+
+/* Increments are corrected with all rows. */
+void dmb_free_rigids_correct(dmb_sim *sim, const dmb_correct_run *run)
+{
+    for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) {
+        const double *z = run->correction + sim->scene->layout.row[sim->scene->free_rigids[i].node];
+        double *motion = dmb_free_rigid_motion(sim, i);
+        for (uint32_t k = 0; k < 6; k++) {
+            motion[k] += run->to_velocity * z[k];
+            motion[6 + k] += run->to_acceleration * z[k];
+            motion[12 + k] += run->to_pseudo_acceleration * z[k];
+        }
+    }
+}
+
+/* Body-frame accelerations (u'; w') at the node from those of the centre in the axes of the start. */
+static void accelerations_of(const dmb_free_rigid *body, const double E[9], const double centre_velocity[6],
+                             const double from[6], double to[6])
+{
+    double a[6], turning[3];
+    dmb_mat3_tvec(E, from, a);
+    dmb_vec3_cross(centre_velocity + 3, centre_velocity, turning);
+    dmb_vec3_sub(a, turning, a);
+    dmb_vec3_copy(from + 3, a + 3);
+    from_centre(body->centre, a, to);
+}
+
+static void place(dmb_sim *sim, uint32_t rigid)
+{
+    const dmb_free_rigid *body = sim->scene->free_rigids + rigid;
+    const uint32_t row = sim->scene->layout.row[body->node];
+    const double *z = sim->increment + row, *motion = dmb_free_rigid_motion(sim, rigid);
+    double E[9], R0[9], x[3], arm[3], v[6];
+    dmb_so3_exp(z + 3, NULL, E);
+    dmb_quat_to_matrix(sim->now.quaternion + 4 * (size_t)body->node, R0);
+    dmb_mat3_vec(E, body->centre, arm);
+    dmb_vec3_sub(body->centre, arm, arm);
+    dmb_vec3_add(z, arm, x);
+    dmb_mat3_vec(R0, x, x);
+    dmb_vec3_add(sim->now.displacement + 3 * (size_t)body->node, x, sim->trial.displacement + 3 * (size_t)body->node);
+    dmb_mat3_tvec(E, motion, v);
+    dmb_vec3_copy(motion + 3, v + 3);
+    from_centre(body->centre, v, sim->trial.velocity + row);
+    accelerations_of(body, E, v, motion + 6, sim->trial.acceleration + row);
+    accelerations_of(body, E, v, motion + 12, sim->trial.pseudo_acceleration + row);
+}
+
+/* Orientations have been moved with all nodes: they take the rotation of an increment by itself. */
+void dmb_free_rigids_place(dmb_sim *sim)
+{
+    for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) place(sim, i);
+}
+
+/* ---- Tangent ----------------------------------------------------------------------------------------------------- */
+
+/* What the derivatives of one body are made of: at the end of the step, body axes there. */
+typedef struct rigid_end {
+    double Et[9], T[9];    /* E^T; right tangent of theta */
+    double velocity[6];    /* of the centre */
+    double acceleration[3]; /* E^T W' */
+    const double *centre;
+} rigid_end;
+
+static void end_of(const dmb_sim *sim, uint32_t rigid, rigid_end *end)
+{
+    const dmb_free_rigid *body = sim->scene->free_rigids + rigid;
+    const double *z = sim->increment + sim->scene->layout.row[body->node], *motion = dmb_free_rigid_motion(sim, rigid);
+    double E[9];
+    dmb_so3_exp(z + 3, NULL, E);
+    dmb_so3_tangent(z + 3, NULL, end->T);
+    dmb_mat3_transpose(E, end->Et);
+    dmb_mat3_vec(end->Et, motion, end->velocity);
+    dmb_vec3_copy(motion + 3, end->velocity + 3);
+    dmb_mat3_vec(end->Et, motion + 6, end->acceleration);
+    end->centre = body->centre;
+}
+
+/* A += s a~ B */
+static void add_cross(double s, const double a[3], const double B[9], double A[9])
+{
+    double skew[9], product[9];
+    dmb_skew(a, skew);
+    dmb_mat3_mul(skew, B, product);
+    dmb_mat3_axpy(s, product, A);
+}
+
+/* By (z, theta): pose [E^T, c~ T; 0, T] */
+static void pose_derivative(const rigid_end *end, double J[36])
+{
+    double block[9];
+    dmb_mat6_zero(J);
+    dmb_mat6_set_block(end->Et, 0, 0, J);
+    dmb_mat3_zero(block);
+    add_cross(1.0, end->centre, end->T, block);
+    dmb_mat6_set_block(block, 0, 1, J);
+    dmb_mat6_set_block(end->T, 1, 1, J);
+}
+
+/* velocity [s E^T, U~ T + s c~; 0, s], U the velocity of the centre, s = velocity_factor */
+static void velocity_derivative(const rigid_end *end, double s, double J[36])
+{
+    double block[9];
+    dmb_mat6_zero(J);
+    dmb_mat6_add_block(s, end->Et, 0, 0, J);
+    dmb_mat3_zero(block);
+    add_cross(1.0, end->velocity, end->T, block);
+    dmb_mat6_set_block(block, 0, 1, J);
+    dmb_mat6_add_skew(s, end->centre, 0, 1, J);
+    for (int i = 21; i < 36; i += 7) J[i] = s;
+}
+
+/* acceleration [m E^T - s w~ E^T, A~ T + s U~ - w~ U~ T + m c~; 0, m], A = E^T W', m = mass_factor */
+static void acceleration_derivative(const rigid_end *end, double m, double s, double J[36])
+{
+    const double *U = end->velocity, *w = end->velocity + 3;
+    double block[9], UT[9];
+    dmb_mat3_zero(block);
+    dmb_mat3_axpy(m, end->Et, block);
+    add_cross(-s, w, end->Et, block);
+    dmb_mat6_zero(J);
+    dmb_mat6_set_block(block, 0, 0, J);
+    dmb_mat3_zero(UT);
+    add_cross(1.0, U, end->T, UT);
+    dmb_mat3_zero(block);
+    add_cross(1.0, end->acceleration, end->T, block);
+    add_cross(-1.0, w, UT, block);
+    dmb_mat6_set_block(block, 0, 1, J);
+    dmb_mat6_add_skew(s, U, 0, 1, J);
+    dmb_mat6_add_skew(m, end->centre, 0, 1, J);
+    for (int i = 21; i < 36; i += 7) J[i] = m;
+}
+
+/* The mass matrix M. */
+static void mass_of(const dmb_rigid_mass *rigid_mass, double M[36])
+{
+    const double rest[6] = {0.0};
+    dmb_rigid_mass_constants c;
+    dmb_rigid_mass_load(rigid_mass, 0, &c);
+    dmb_mat6_zero(M);
+    dmb_rigid_mass_add_tangent(&c, rest, rest, 1.0, 0.0, M);
+}
+
+static void add_product(const double A[36], const double B[36], double sum[36])
+{
+    double product[36];
+    dmb_mat6_mul(A, B, product);
+    dmb_mat6_axpy(1.0, product, sum);
+}
+
+/* D = K J_pose + C J_velocity + M J_acceleration, the inertia block being mass_factor M + velocity_factor C. */
+void dmb_free_rigids_matrix(const dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const double m = evaluation->mass_factor, s = evaluation->velocity_factor;
+    for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) {
+        const dmb_free_rigid *body = sim->scene->free_rigids + i;
+        double *stiffness = dmb_stiffness_of(sim, body->node), *inertia = dmb_inertia_of(sim, body->node);
+        double D[36], M[36], J[36];
+        rigid_end end;
+        end_of(sim, i, &end);
+        mass_of(sim->scene->rigid_masses + body->rigid_mass, M);
+        dmb_mat6_zero(D);
+        pose_derivative(&end, J);
+        add_product(stiffness, J, D);
+        acceleration_derivative(&end, m, s, J);
+        add_product(M, J, D);
+        velocity_derivative(&end, s, J);
+        dmb_mat6_axpy(-m, M, inertia);
+        for (int k = 0; k < 36; k++) inertia[k] /= s;
+        add_product(inertia, J, D);
+        dmb_mat6_copy(D, stiffness);
+        dmb_mat6_zero(inertia);
+    }
+}

@@ -1,0 +1,185 @@
+#include "system/assemble/nodes.h"
+
+#include <string.h>
+
+#include "element/beam.h"
+#include "kernel/kernels.h"
+#include "math/mat6.h"
+#include "sim/node.h"
+#include "system/assemble/evaluation.h"
+/* ---- FULL nodes, by the kernels ---------------------------------------------------------------------------------- */
+
+/* Where the kernels find and leave what belongs to `count` FULL nodes from `node` on; `rigid_mass` is the first that may be
+ * on them. */
+static dmb_node_force_run run_of(const dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const uint32_t row = scene->layout.row[node], diag = scene->layout.diag[node];
+    const int32_t damped = evaluation->dynamic && scene->features & DMB_FEATURE_DAMPING;
+    const dmb_node_force_run run = {
+        .count = count,
+        .first = node,
+        .rigid_masses = scene->rigid_masses + rigid_mass,
+        .rigid_mass_count = evaluation->dynamic ? scene->rigid_mass_count - rigid_mass : 0,
+        .dynamic = evaluation->dynamic,
+        .tangent = evaluation->tangent,
+        .mass_factor = evaluation->mass_factor,
+        .velocity_factor = evaluation->velocity_factor,
+        .load_factor = evaluation->load_factor,
+        .gravity = scene->features & DMB_FEATURE_GRAVITY ? scene->gravity : NULL,
+        .weight_mass = scene->weight_mass + node,
+        .weight_moment = scene->weight_moment + 3 * node,
+        .damping = damped ? scene->node_damping + 5 * node : NULL,
+        .quaternion = sim->trial.quaternion + 4 * node,
+        .velocity = sim->trial.velocity + row,
+        .acceleration = sim->trial.acceleration + row,
+        .residual = sim->correction + row,
+        .scale = sim->scale_row + row,
+        .stiffness = sim->stiffness_diagonal + diag,
+        .inertia = sim->inertia_diagonal + diag,
+    };
+    return run;
+}
+
+static void gather_full(dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
+{
+    dmb_node_force_run run = run_of(evaluation, node, count, rigid_mass);
+    if (!run.gravity && !run.damping && !run.rigid_mass_count) return;
+    run.inertia_power = evaluation->power[DMB_POWER_INERTIA];
+    run.potential = evaluation->power[DMB_POWER_POTENTIAL];
+    run.damping_power = evaluation->power[DMB_POWER_DAMPING];
+    evaluation->sim->scene->kernels->node_forces(&run);
+    evaluation->power[DMB_POWER_INERTIA] = run.inertia_power;
+    evaluation->power[DMB_POWER_POTENTIAL] = run.potential;
+    evaluation->power[DMB_POWER_DAMPING] = run.damping_power;
+}
+
+/* ---- PATH nodes: along the axis and about it -----------------------------------------------------------------------
+ */
+
+/* Only mass and the inertia about the axis are felt. */
+static void gather_path_rigid_mass(dmb_evaluation *evaluation, const dmb_rigid_mass *rigid_mass)
+{
+    dmb_sim *sim = evaluation->sim;
+    const uint32_t row = sim->scene->layout.row[rigid_mass->node];
+    const double *v = sim->trial.velocity + row, *a = sim->trial.acceleration + row;
+    const double f[6] = {-rigid_mass->mass * a[0], 0.0, 0.0, -rigid_mass->inertia[0] * a[1], 0.0, 0.0};
+    evaluation->power[DMB_POWER_INERTIA] += v[0] * f[0] + v[1] * f[3];
+    dmb_apply_wrench(sim, rigid_mass->node, f);
+    if (!evaluation->tangent) return;
+    dmb_inertia_of(sim, rigid_mass->node)[0] += evaluation->mass_factor * rigid_mass->mass;
+    dmb_inertia_of(sim, rigid_mass->node)[3] += evaluation->mass_factor * rigid_mass->inertia[0];
+}
+
+static void gather_path_weight(dmb_evaluation *evaluation, uint32_t node)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    double f[6] = {0.0}, v[6], R[9], unused[3];
+    dmb_node_pose(scene, &sim->trial, node, R, unused);
+    dmb_mat3_tvec(R, scene->gravity, f);
+    dmb_vec3_scale(evaluation->load_factor * scene->weight_mass[node], f, f);
+    dmb_apply_wrench(sim, node, f);
+    if (!evaluation->dynamic) return;
+    dmb_node_vector(scene, &sim->trial, node, sim->trial.velocity, v);
+    evaluation->power[DMB_POWER_POTENTIAL] += dmb_vec6_dot(f, v);
+}
+
+static void gather_path_damping(dmb_evaluation *evaluation, uint32_t node)
+{
+    dmb_sim *sim = evaluation->sim;
+    const double *c = sim->scene->node_damping + 5 * node;
+    const double *v = sim->trial.velocity + sim->scene->layout.row[node];
+    const double f[6] = {-c[0] * v[0], 0.0, 0.0, -c[1] * v[1], 0.0, 0.0};
+    dmb_apply_wrench(sim, node, f);
+    evaluation->power[DMB_POWER_DAMPING] += f[0] * v[0] + f[3] * v[1];
+    if (!evaluation->tangent) return;
+    dmb_inertia_of(sim, node)[0] += evaluation->velocity_factor * c[0];
+    dmb_inertia_of(sim, node)[3] += evaluation->velocity_factor * c[1];
+}
+
+static void gather_path(dmb_evaluation *evaluation, uint32_t node, const dmb_rigid_mass *rigid_mass)
+{
+    const int32_t features = evaluation->sim->scene->features;
+    if (rigid_mass && evaluation->dynamic) gather_path_rigid_mass(evaluation, rigid_mass);
+    if (features & DMB_FEATURE_GRAVITY) gather_path_weight(evaluation, node);
+    if (features & DMB_FEATURE_DAMPING && evaluation->dynamic) gather_path_damping(evaluation, node);
+}
+
+/* Node by node in their order, and so are the rigid_masses on them. */
+void dmb_gather_nodes(dmb_evaluation *evaluation)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    if (!(scene->features & (DMB_FEATURE_GRAVITY | DMB_FEATURE_DAMPING)) && scene->rigid_mass_count == 0) return;
+    for (uint32_t i = 0, rigid_mass = 0, count; i < scene->node_count; i += count) {
+        count = dmb_full_nodes_at(scene, i);
+        while (rigid_mass < scene->rigid_mass_count && scene->rigid_masses[rigid_mass].node < i) rigid_mass++;
+        if (count > 0) {
+            gather_full(evaluation, i, count, rigid_mass);
+        } else {
+            const int has = rigid_mass < scene->rigid_mass_count && scene->rigid_masses[rigid_mass].node == i;
+            gather_path(evaluation, i, has ? scene->rigid_masses + rigid_mass : NULL);
+            count = 1;
+        }
+    }
+}
+
+/* Described loads: dead (world or hole frame) and follower (body frame), each times its programme. */
+
+static void frame_of_load(const dmb_sim *sim, const dmb_scene_load *load, double R[9])
+{
+    const dmb_scene *scene = sim->scene;
+    if (load->frame == DMB_FRAME_HOLE && scene->has_hole) {
+        double x[3], point[3], tangent[3], s = scene->reference_depth[load->node];
+        uint32_t segment = 0;
+        dmb_vec3_add(scene->reference_position + 3 * load->node, sim->trial.displacement + 3 * load->node, x);
+        dmb_hole_project(&scene->hole, x, &s, &segment, point, tangent);
+        dmb_hole_frame_rotation(&scene->hole, s, R);
+    } else if (load->frame == DMB_FRAME_HOLE) {
+        dmb_quat_to_matrix(scene->reference_quaternion + 4 * load->node, R);
+    } else {
+        dmb_mat3_identity(R);
+    }
+}
+
+/* Body-frame wrench at the place of the load. */
+static void wrench_of(const dmb_sim *sim, const dmb_scene_load *load, double factor, double w[6])
+{
+    double R[9], body[9], f[3], unused[3];
+    dmb_vec3_scale(factor, load->force, w);
+    dmb_vec3_scale(factor, load->moment, w + 3);
+    if (load->frame == DMB_FRAME_BODY) return;
+    frame_of_load(sim, load, R);
+    dmb_node_pose(sim->scene, &sim->trial, load->node, body, unused);
+    for (int k = 0; k < 6; k += 3) {
+        dmb_mat3_vec(R, w + k, f);
+        dmb_mat3_tvec(body, f, w + k);
+    }
+}
+
+static void gather_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor)
+{
+    dmb_sim *sim = evaluation->sim;
+    double w[6], v[6], K[36];
+    wrench_of(sim, load, evaluation->load_factor * factor, w);
+    if (evaluation->tangent && load->frame != DMB_FRAME_BODY && sim->scene->layout.size[load->node] == DMB_NODE_FULL) {
+        dmb_mat6_zero(K); /* d(R^T f) = (R^T f)~ dtheta */
+        dmb_mat6_add_skew(1.0, w, 0, 1, K);
+        dmb_mat6_add_skew(1.0, w + 3, 1, 1, K);
+        dmb_beam_block_to_nodes(load->arm, 0.0, K);
+        dmb_mat6_axpy(-1.0, K, dmb_stiffness_of(sim, load->node));
+    }
+    dmb_arm_wrench(load->arm, w);
+    dmb_apply_wrench(sim, load->node, w);
+    if (!evaluation->dynamic) return;
+    dmb_node_vector(sim->scene, &sim->trial, load->node, sim->trial.velocity, v);
+    evaluation->power[DMB_POWER_LOADS] += dmb_vec6_dot(w, v);
+}
+
+void dmb_gather_loads(dmb_evaluation *evaluation)
+{
+    const dmb_sim *sim = evaluation->sim;
+    for (uint32_t i = 0; i < sim->scene->load_count; i++)
+        gather_load(evaluation, sim->scene->loads + i, sim->trial.load_factor[i]);
+}

@@ -1,0 +1,385 @@
+#include "system/assemble/wall_contact.h"
+
+#include <string.h>
+
+#include "element/beam.h"
+#include "force/contact_law.h"
+#include "kernel/kernels.h"
+#include "math/so3.h"
+#include "math/vec3.h"
+#include "sim/node.h"
+#include "system/assemble/energy.h"
+#include "system/assemble/evaluation.h"
+void dmb_contact_slope_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t site, dmb_contact_slope *out)
+{
+    const int full = site < scene->site_count;
+    double friction[2];
+    dmb_site_force f;
+    memset(out, 0, sizeof *out);
+    if (full)
+        dmb_site_force_of(scene, c, site, &f);
+    else
+        dmb_path_site_force_of(scene, c, site - scene->site_count, &f);
+    if (!f.closed) return;
+    if (full) {
+        const double length = scene->sites[site].length;
+        double force;
+        dmb_normal_force(&scene->normal_law, fmax(f.penetration, DMB_CONTACT_PENETRATION), f.rate,
+                         c->site_approach[site], &force, &out->normal_by_depth, &out->normal_by_rate);
+        out->normal_by_depth *= length;
+        out->normal_by_rate *= length;
+    }
+    if (scene->friction_law.kind == DMB_FRICTION_NONE) return;
+    dmb_friction_smooth(&scene->friction_law, f.normal_force, f.slip, friction, out->friction_by_slip,
+                        out->friction_by_normal);
+}
+
+uint32_t dmb_contact_node(const dmb_scene *scene, uint32_t site)
+{
+    return site < scene->site_count ? scene->sites[site].node : scene->path_sites[site - scene->site_count].node;
+}
+
+/* ---- Friction of a ring that slips ------------------------------------------------------------------------------- */
+
+/* Closest point of the hole's axis to a ring, and the frame there. */
+static void frame_of(const dmb_evaluation *evaluation, uint32_t s, dmb_contact_frame *f)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const dmb_site *site = scene->sites + s;
+    double R[9], x[3], at[3], tangent[3], depth = sim->trial.site_depth[s];
+    uint32_t segment = sim->trial.site_segment[s];
+    dmb_quat_to_matrix(sim->trial.quaternion + 4 * (size_t)site->node, R);
+    dmb_vec3_add(scene->reference_position + 3 * (size_t)site->node, sim->trial.displacement + 3 * (size_t)site->node,
+                 x);
+    for (int i = 0; i < 3; i++) x[i] += R[3 * i] * site->offset;
+    dmb_hole_project(&scene->hole, x, &depth, &segment, at, tangent);
+    f->radius = site->radius;
+    dmb_contact_frame_at(R, sim->trial.site_normal + 3 * (size_t)s, tangent, f);
+}
+
+/* Forces along and around for a unit of normal force; 0: it does not slip. */
+static int friction_by_normal(const dmb_evaluation *evaluation, uint32_t s, double radius, double by_normal[2])
+{
+    const dmb_sim *sim = evaluation->sim;
+    dmb_friction_law law = sim->scene->friction_law;
+    double v[2] = {evaluation->slip[0], radius * evaluation->slip[1]}, force[2], by_speed[4];
+    if (evaluation->dynamic) memcpy(v, sim->trial.site_slip + 2 * (size_t)s, sizeof v);
+    if (law.kind == DMB_FRICTION_NONE || (v[0] == 0.0 && v[1] == 0.0)) return 0;
+    if (evaluation->steady && dmb_scene_has_bristles(sim->scene)) law = dmb_sliding_law(&law);
+    dmb_friction_smooth(&law, 1.0, v, force, by_speed, by_normal);
+    return 1;
+}
+
+int dmb_contact_friction_by_normal(const dmb_evaluation *evaluation, uint32_t site, double n[3], double f[6])
+{
+    const dmb_site *ring = evaluation->sim->scene->sites + site;
+    double by_normal[2];
+    dmb_contact_frame frame;
+    if (!(evaluation->sim->trial.site_penetration[site] > 0.0)) return 0;
+    if (!friction_by_normal(evaluation, site, ring->radius, by_normal)) return 0;
+    frame_of(evaluation, site, &frame);
+    for (int i = 0; i < 3; i++) {
+        n[i] = frame.n[i];
+        f[i] = -(by_normal[0] * frame.t[i] + by_normal[1] * frame.b[i]);
+        f[3 + i] = -(by_normal[0] * frame.turn_t[i] + by_normal[1] * frame.turn_b[i]);
+    }
+    f[4] -= ring->offset * f[2]; /* its moment about the node */
+    f[5] += ring->offset * f[1];
+    return 1;
+}
+
+/* Rings of FULL nodes against the wall: force/contact_law by the kernels, and what the trial keeps of the sites. */
+
+static dmb_site_fields fields_of(const dmb_configuration *configuration)
+{
+    const dmb_site_fields fields = {
+        .normal = configuration->site_normal,
+        .depth = configuration->site_depth,
+        .penetration = configuration->site_penetration,
+        .approach = configuration->site_approach,
+        .slip = configuration->site_slip,
+        .bristle = configuration->site_bristle,
+        .segment = configuration->site_segment,
+        .sticks = configuration->site_sticks,
+    };
+    return fields;
+}
+
+/* Where the kernels find and leave what belongs to the sites. */
+static dmb_wall_run run_of(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_wall_run run = {
+        .count = scene->site_count,
+        .sites = scene->sites,
+        .hole = &scene->hole,
+        .normal_law = &scene->normal_law,
+        .bristles = dmb_scene_has_bristles(scene),
+        .row = scene->layout.row,
+        .diagonal = scene->layout.diag,
+        .reference = scene->reference_position,
+        .displacement = sim->trial.displacement,
+        .quaternion = sim->trial.quaternion,
+        .velocity = sim->trial.velocity,
+        .now_quaternion = sim->now.quaternion,
+        .now_velocity = sim->now.velocity,
+        .now = fields_of(&sim->now),
+        .site_return = sim->site_return,
+        .trial = fields_of(&sim->trial),
+        .residual = sim->correction,
+        .scale = sim->scale_row,
+        .stiffness = sim->stiffness_diagonal,
+        .inertia = sim->inertia_diagonal,
+    };
+    return run;
+}
+
+dmb_friction_law dmb_sliding_law(const dmb_friction_law *law)
+{
+    dmb_friction_law sliding = *law;
+    sliding.kind = DMB_FRICTION_STRIBECK;
+    sliding.smoothing_speed = 0.0;
+    return sliding;
+}
+
+void dmb_gather_contacts(dmb_evaluation *evaluation)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    dmb_wall_run run = run_of(evaluation->sim);
+    if (scene->friction_law.kind != DMB_FRICTION_NONE && (evaluation->dynamic || evaluation->slipping))
+        run.friction_law = &scene->friction_law;
+    dmb_friction_law sliding;
+    if (evaluation->steady && run.friction_law != NULL && run.bristles) {
+        sliding = dmb_sliding_law(run.friction_law);
+        run.friction_law = &sliding;
+        run.bristles = 0;
+    }
+    run.slip[0] = evaluation->slip[0];
+    run.slip[1] = evaluation->slip[1];
+    run.step = evaluation->step;
+    run.velocity_factor = evaluation->velocity_factor;
+    run.dynamic = evaluation->dynamic;
+    run.tangent = evaluation->tangent;
+    run.rounding = evaluation->rounding;
+    run.potential = evaluation->power[DMB_POWER_POTENTIAL];
+    run.impact = evaluation->power[DMB_POWER_IMPACT];
+    run.friction = evaluation->power[DMB_POWER_FRICTION];
+    scene->kernels->walls(&run);
+    evaluation->rounding = run.rounding;
+    evaluation->power[DMB_POWER_POTENTIAL] = run.potential;
+    evaluation->power[DMB_POWER_IMPACT] = run.impact;
+    evaluation->power[DMB_POWER_FRICTION] = run.friction;
+}
+
+/* ---- Questions about a finished configuration -------------------------------------------------------------------- */
+
+void dmb_finished_friction(const dmb_friction_law *law, const double *bristle, int32_t sticks, dmb_site_force *out)
+{
+    const double N = out->normal_force, *slip = out->slip;
+    double z[2], dv[4], dN[2];
+    int32_t unused;
+    out->friction[0] = out->friction[1] = 0.0;
+    out->sticks = sticks;
+    if (law->kind == DMB_FRICTION_NONE) return;
+    if (law->kind == DMB_FRICTION_BRISTLE)
+        dmb_friction_bristle(law, N, slip, bristle, slip, sticks, 0.0, z, out->friction, dv, dN, &unused);
+    else
+        dmb_friction_smooth(law, N, slip, out->friction, dv, dN);
+}
+
+void dmb_assumed_friction(const dmb_friction_law *law, const dmb_configuration *configuration, double radius,
+                          dmb_site_force *out)
+{
+    const double v[2] = {configuration->friction_slip[0], radius * configuration->friction_slip[1]};
+    double dv[4], dN[2];
+    if ((v[0] == 0.0 && v[1] == 0.0) || !out->closed) return;
+    dmb_friction_smooth(law, out->normal_force, v, out->friction, dv, dN);
+    out->sticks = 0;
+}
+
+/* Closest point of the axis, the direction from it and the speeds there. */
+static void site_frame_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t s, dmb_site_force *out,
+                     dmb_contact_frame *f)
+{
+    const dmb_site *site = scene->sites + s;
+    double R[9], x[3], point[3], depth = c->site_depth[s];
+    uint32_t segment = c->site_segment[s];
+    dmb_quat_to_matrix(c->quaternion + 4 * site->node, R);
+    dmb_vec3_add(scene->reference_position + 3 * site->node, c->displacement + 3 * site->node, x);
+    for (int i = 0; i < 3; i++) x[i] += R[3 * i] * site->offset;
+    dmb_hole_project(&scene->hole, x, &depth, &segment, point, out->tangent);
+    dmb_radial(x, point, out->tangent, c->site_normal + 3 * s, &f->distance, out->normal);
+    f->radius = site->radius;
+    dmb_vec6_copy(c->velocity + scene->layout.row[site->node], f->V);
+    dmb_arm_velocity(site->offset, f->V);
+    dmb_contact_frame_at(R, out->normal, out->tangent, f);
+    dmb_contact_speeds(f);
+}
+
+void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t s, dmb_site_force *out)
+{
+    const dmb_site *site = scene->sites + s;
+    dmb_contact_frame f;
+    double depth, dot;
+    memset(out, 0, sizeof *out);
+    site_frame_of(scene, configuration, s, out, &f);
+    out->penetration = f.distance - site->clearance;
+    out->rate = f.speed[0];
+    out->slip[0] = f.speed[1];
+    out->slip[1] = f.speed[2];
+    if (!(out->penetration > 0.0 || site->clearance == 0.0)) return;
+    const double *assumed = configuration->friction_slip;
+    const double rate = assumed[0] != 0.0 || assumed[1] != 0.0 ? 0.0 : out->rate; /* statics know none */
+    dmb_normal_force(&scene->normal_law, fmax(out->penetration, DMB_CONTACT_PENETRATION), rate,
+                     configuration->site_approach[s], &out->normal_force, &depth, &dot);
+    out->normal_force *= site->length;
+    out->closed = 1;
+    const int32_t bristles = dmb_scene_has_bristles(scene);
+    dmb_finished_friction(&scene->friction_law, bristles ? configuration->site_bristle + 2 * s : NULL,
+                          bristles ? configuration->site_sticks[s] : 0, out);
+}
+
+/* PATH nodes lie on the wall (Johancsik, Friesen, Dawson 1984): the side force is what weight and tension in a curved
+ * hole leave across the axis,   N = | w_across + T kappa n | l,   and friction acts along and around the axis. */
+
+/* [m] stretch of an element beyond rest at the trial; a mixed one has left it. */
+static double stretch_of(const dmb_sim *sim, uint32_t element)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_element_type *type = scene->types + scene->element_type[element];
+    const uint32_t a = scene->element_node[element];
+    const double *u = sim->trial.displacement + 3 * a;
+    if (scene->layout.size[a] != DMB_NODE_PATH || scene->layout.size[a + 1] != DMB_NODE_PATH)
+        return dmb_beam_stretch(type, sim->element_strain + 6 * (size_t)element);
+    return (u[3] - u[0]) + (type->length - type->rest[0]);
+}
+
+/* Mean tension of the elements on both sides of a node [N]. */
+static double tension_at(const dmb_sim *sim, uint32_t node)
+{
+    const dmb_scene *scene = sim->scene;
+    double sum = 0.0;
+    uint32_t count = 0;
+    for (uint32_t e = 0; e < 2; e++) {
+        const uint32_t element = dmb_element_between(scene, node, e);
+        if (element == UINT32_MAX) continue;
+        sum += scene->types[scene->element_type[element]].stiffness[0] * stretch_of(sim, element);
+        count++;
+    }
+    return count ? sum / count : 0.0;
+}
+
+/* Side force [N], its outward unit direction (world) and its derivative by tension [-]. */
+static double side_force(const dmb_scene *scene, const dmb_configuration *c, const dmb_path_site *site, double tension,
+                         double load_factor, double direction[3], double tangent[3], double *by_tension)
+{
+    double point[3], curvature[3], u[3];
+    dmb_hole_frame(&scene->hole, dmb_path_depth(scene, c, site->node), point, tangent, curvature);
+    dmb_vec3_scale(load_factor * scene->weight_mass[site->node], scene->gravity, u);
+    dmb_vec3_axpy(-dmb_vec3_dot(u, tangent), tangent, u);
+    dmb_vec3_axpy(tension * site->length, curvature, u);
+    const double N = dmb_vec3_norm(u);
+    dmb_vec3_scale(N > 0.0 ? 1.0 / N : 0.0, u, direction);
+    *by_tension = site->length * dmb_vec3_dot(direction, curvature);
+    return N;
+}
+
+/* Tension of an element grows with the advance of its far node: adds dF/dT dT/ds to the rows of the node. */
+static void add_tension_tangent(dmb_sim *sim, uint32_t node, const double dF_dT[2])
+{
+    const dmb_scene *scene = sim->scene;
+    const uint32_t before = dmb_element_between(scene, node, 0), after = dmb_element_between(scene, node, 1);
+    const double share = before != UINT32_MAX && after != UINT32_MAX ? 0.5 : 1.0;
+    const dmb_block_layout *layout = &scene->layout;
+    for (uint32_t k = 0; k < 2; k++) {
+        const double d = -share * dF_dT[k]; /* of the residual */
+        if (before != UINT32_MAX && layout->size[node - 1] == DMB_NODE_PATH) {
+            const double stiffness = scene->types[scene->element_type[before]].stiffness[0];
+            dmb_stiffness_of(sim, node)[2 * k] += d * stiffness;
+            sim->stiffness_lower[layout->link[node - 1] + 2 * k] -= d * stiffness;
+        }
+        if (after != UINT32_MAX && layout->size[node + 1] == DMB_NODE_PATH) {
+            const double stiffness = scene->types[scene->element_type[after]].stiffness[0];
+            dmb_stiffness_of(sim, node)[2 * k] -= d * stiffness;
+            sim->stiffness_upper[layout->link[node] + 2 * k] += d * stiffness;
+        }
+    }
+}
+
+static void friction(const dmb_evaluation *evaluation, uint32_t p, double N, const double v[2], double F[2],
+                     double dv[4], double dN[2])
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_friction_law *law = &sim->scene->friction_law;
+    if (law->kind == DMB_FRICTION_BRISTLE && evaluation->steady) {
+        const dmb_friction_law sliding = dmb_sliding_law(law);
+        dmb_friction_smooth(&sliding, N, v, F, dv, dN);
+    } else if (law->kind == DMB_FRICTION_BRISTLE && evaluation->dynamic) {
+        dmb_friction_bristle(law, N, v, sim->now.path_bristle + 2 * p, sim->now.path_slip + 2 * p,
+                             sim->now.path_sticks[p], evaluation->step, sim->trial.path_bristle + 2 * p, F, dv, dN,
+                             &sim->trial.path_sticks[p]);
+    } else {
+        dmb_friction_smooth(law, N, v, F, dv, dN);
+    }
+}
+
+static void gather_path_site(dmb_evaluation *evaluation, uint32_t p)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const dmb_path_site *site = scene->path_sites + p;
+    const double *row = sim->trial.velocity + scene->layout.row[site->node];
+    const double spin = evaluation->dynamic ? row[1] : evaluation->slip[1];
+    const double v[2] = {evaluation->dynamic ? row[0] : evaluation->slip[0], site->radius * spin};
+    double direction[3], tangent[3], by_tension, F[2], dv[4], dN[2];
+    const double tension = tension_at(sim, site->node);
+    const double N =
+        side_force(scene, &sim->trial, site, tension, evaluation->load_factor, direction, tangent, &by_tension);
+    sim->path_normal[p] = N;
+    memcpy(sim->trial.path_slip + 2 * p, v, sizeof v);
+    if (!evaluation->dynamic && !evaluation->slipping) return;
+    friction(evaluation, p, N, v, F, dv, dN);
+    const double wrench[6] = {F[0], 0.0, 0.0, site->radius * F[1], 0.0, 0.0};
+    dmb_apply_wrench(sim, site->node, wrench);
+    evaluation->power[DMB_POWER_FRICTION] += evaluation->dynamic ? F[0] * v[0] + F[1] * v[1] : 0.0;
+    if (!evaluation->tangent) return;
+    const double dF_dT[2] = {dN[0] * by_tension, site->radius * dN[1] * by_tension};
+    if (by_tension != 0.0 && !evaluation->inertia_only) add_tension_tangent(sim, site->node, dF_dT);
+    if (!evaluation->dynamic) return;
+    double *C = dmb_inertia_of(sim, site->node);
+    const double s = evaluation->velocity_factor, r = site->radius;
+    C[0] -= s * dv[0];
+    C[1] -= s * r * dv[1];
+    C[2] -= s * r * dv[2];
+    C[3] -= s * r * r * dv[3];
+}
+
+void dmb_gather_path_friction(dmb_evaluation *evaluation)
+{
+    for (uint32_t p = 0; p < evaluation->sim->scene->path_site_count; p++) gather_path_site(evaluation, p);
+}
+
+void dmb_path_site_force_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t p,
+                            dmb_site_force *out)
+{
+    const dmb_path_site *site = scene->path_sites + p;
+    double by_tension, tension = 0.0;
+    uint32_t count = 0;
+    memset(out, 0, sizeof *out);
+    for (uint32_t e = 0; e < 2; e++) {
+        double force[12];
+        const uint32_t element = dmb_element_between(scene, site->node, e);
+        if (element == UINT32_MAX) continue;
+        dmb_element_section_force(scene, configuration, element, force);
+        tension += force[0];
+        count++;
+    }
+    if (count) tension /= count;
+    out->normal_force = side_force(scene, configuration, site, tension, 1.0, out->normal, out->tangent, &by_tension);
+    out->closed = out->normal_force > 0.0;
+    memcpy(out->slip, configuration->path_slip + 2 * p, sizeof out->slip);
+    const int32_t bristles = dmb_scene_has_bristles(scene);
+    dmb_finished_friction(&scene->friction_law, bristles ? configuration->path_bristle + 2 * p : NULL,
+                          bristles ? configuration->path_sticks[p] : 0, out);
+}

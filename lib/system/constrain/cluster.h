@@ -1,0 +1,67 @@
+/* Clusters of constraint rows: their partition into dependent and independent coordinates, and the projection of a trial
+ * onto its constraints.
+ *
+ * A trial satisfies its constraints at all three levels before its residual is formed (settle): poses, speeds and
+ * accelerations move by the least change, in the metric of cluster_weight, that makes C = 0, B v + rate = 0 and
+ * B v' + convective = 0. This does not depend on the partition, so the partition may change between any two steps. What
+ * is left to solve is R^T residual = 0 in the independent coordinates, R = [G; I] (constraint/partition.h). */
+#ifndef DMB_SYSTEM_CONSTRAIN_CLUSTER_H
+#define DMB_SYSTEM_CONSTRAIN_CLUSTER_H
+
+#include "constraint/partition.h"
+#include "system/assemble/evaluation.h"
+enum { DMB_SETTLE_POSE = 1, DMB_SETTLE_SPEED = 2, DMB_SETTLE_ACCELERATION = 4, DMB_SETTLE_ALL = 7 };
+
+/* Units of the columns and the first partition, from the rows at the trial. Once a sim, when its memory is new. */
+void dmb_clusters_prepare(dmb_sim *sim);
+/* Rows and matrices at the trial. DMB_OK, DMB_ERR_CALLBACK, DMB_ERR_NOT_FINITE. */
+int32_t dmb_clusters_gather(dmb_evaluation *evaluation);
+/* One step of Gauss-Newton towards C = 0 with a partition of its own, at most DMB_APPROACH long. DMB_NOTE_STOPPED: it no
+ * longer moves. Errors as dmb_clusters_settle. */
+int32_t dmb_clusters_approach(dmb_evaluation *evaluation);
+/* Chooses the partition of every cluster from the matrices at hand. */
+void dmb_clusters_choose(dmb_sim *sim);
+/* Chooses anew where the conditioning has fallen or rows are dropped; counts the changes. */
+void dmb_clusters_watch(dmb_sim *sim);
+/* The same, and factors what was chosen: for searches that move far. */
+int32_t dmb_clusters_refresh(dmb_evaluation *evaluation);
+
+/* Projects the trial, levels being a sum of DMB_SETTLE_..., and leaves rows and factored matrices there. Speeds and
+ * accelerations start from raw_ fields if from_raw, else from what the trial has. DMB_OK, DMB_ERR_CALLBACK, _NOT_FINITE,
+ * DMB_ERR_SINGULAR (reduced_mode->row tells which row), DMB_ERR_NO_CONVERGENCE (likewise). */
+int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t from_raw);
+
+/* Multipliers that balance the residual in the dependent rows, into trial.multiplier; and B^T multiplier into the
+ * residual. With reduced_mode->multipliers the multipliers are taken as they are. */
+void dmb_clusters_balance(dmb_evaluation *evaluation);
+/* Multipliers of the trial: those of least norm where rows are redundant. Once a state, not in iterations. */
+void dmb_clusters_least_norm(dmb_sim *sim);
+
+/* Largest violation of an equation of position at the rows at hand, *row telling which; dropped: of dropped rows only. */
+double dmb_clusters_violation(const dmb_sim *sim, int32_t dropped, uint32_t *row);
+
+/* The partition of cluster k, its storage in the sim. */
+dmb_partition dmb_cluster_partition(const dmb_sim *sim, uint32_t k);
+/* Message for a row that could not be satisfied: `what` follows its owner's name. */
+void dmb_clusters_explain(dmb_sim *sim, const char *what);
+
+/* What the files cluster_*.c share. */
+
+/* B of a cluster at the rows at hand, shape (rows, columns). */
+static inline double *dmb_cluster_matrix(const dmb_sim *sim, const dmb_cluster *cluster)
+{
+    return sim->cluster_matrix + cluster->dense;
+}
+
+/* Rows of a cluster that count at present. */
+uint32_t dmb_cluster_active_rows(const dmb_sim *sim, const dmb_cluster *cluster);
+/* cluster_place: where each column stands in the order of the choice. */
+void dmb_cluster_note_places(dmb_sim *sim, uint32_t k);
+/* DMB_ERR_SINGULAR, with the row and its violation for the message. */
+int32_t dmb_cluster_singular(dmb_sim *sim, uint32_t row, double violation);
+/* Factors the dependent part of every matrix, and tells its quality. DMB_OK, DMB_ERR_SINGULAR. */
+int32_t dmb_clusters_factor(dmb_sim *sim);
+/* Largest violation of the pivot rows; *row stays where there is none. */
+double dmb_clusters_pivot_violation(const dmb_sim *sim, uint32_t *row);
+
+#endif

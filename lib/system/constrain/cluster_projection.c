@@ -1,0 +1,195 @@
+/* Projection of a trial onto its constraints, at all three levels. */
+#include <string.h>
+
+#include "math/se3.h"
+#include "system/constrain/cluster.h"
+#include "system/constrain/constraint_rows.h"
+#include "system/constrain/sparse_cluster.h"
+
+/* Projections onto the constraints end at this violation times the size of the scene, or when they no longer help. */
+#define DMB_SETTLED 2e-15
+#define DMB_SETTLE_MAX 30
+/* A projection that ends above this part of the size has failed. */
+#define DMB_UNSETTLED 2e-10
+/* Longest step of putting a scene together, in lengths of its parts. */
+#define DMB_APPROACH 0.3
+
+static int32_t factor_gram(dmb_sim *sim)
+{
+    for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
+        const dmb_cluster *cluster = sim->scene->clusters + k;
+        const dmb_partition partition = dmb_cluster_partition(sim, k);
+        if (cluster->sparse) continue;
+        if (dmb_partition_gram(dmb_cluster_matrix(sim, cluster), cluster->columns,
+                               sim->cluster_metric + cluster->column, &partition,
+                               sim->cluster_gram + cluster->square) < 0)
+            return dmb_cluster_singular(sim, cluster->row, 0.0);
+    }
+    return sim->scene->sparse_count ? dmb_sparse_factor(sim, 0) : DMB_OK;
+}
+
+/* Shortest change of the rows of a cluster with B x = d, d by constraint row, into cluster_move. That of sparse clusters
+ * has been found before. */
+static const double *shortest(dmb_sim *sim, uint32_t k, const double *d)
+{
+    const dmb_cluster *cluster = sim->scene->clusters + k;
+    if (cluster->sparse) {
+        dmb_sparse_take(sim, k, sim->cluster_move);
+        return sim->cluster_move;
+    }
+    const dmb_partition partition = dmb_cluster_partition(sim, k);
+    for (uint32_t i = 0; i < partition.rank; i++) sim->cluster_rows[i] = d[cluster->row + partition.row_order[i]];
+    dmb_partition_project(dmb_cluster_matrix(sim, cluster), cluster->columns, sim->cluster_metric + cluster->column,
+                          &partition, sim->cluster_gram + cluster->square, sim->cluster_rows, sim->cluster_move);
+    return sim->cluster_move;
+}
+
+static void move_node(dmb_sim *sim, uint32_t node, const double *x)
+{
+    if (sim->scene->layout.size[node] == DMB_NODE_FULL) {
+        dmb_se3_advance(sim->trial.quaternion + 4 * (size_t)node, sim->trial.displacement + 3 * (size_t)node, x);
+        return;
+    }
+    sim->trial.displacement[3 * (size_t)node] += x[0];
+    sim->trial.turn[node] += x[1];
+}
+
+/* [m] size that rounding of positions goes with: how far nodes are from where they are measured from. */
+static double scene_size(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    double far = 0.0;
+    for (uint32_t i = 0; i < scene->constraint_node_count; i++) {
+        const double *u = sim->trial.displacement + 3 * (size_t)scene->cluster_nodes[i];
+        far = fmax(far, fmax(fabs(u[0]), fmax(fabs(u[1]), fabs(u[2]))));
+    }
+    return sim->reduced_mode->size + far;
+}
+
+/* Moves the poses by the shortest change that makes C = 0, but none by more than `most` [m]. Returns the largest. */
+static double move_poses(dmb_sim *sim, double most)
+{
+    const dmb_scene *scene = sim->scene;
+    double largest = 0.0;
+    if (scene->sparse_count) dmb_sparse_project(sim, sim->constraint_value);
+    for (uint32_t k = 0; k < scene->cluster_count; k++) {
+        const dmb_cluster *cluster = scene->clusters + k;
+        const double *x = shortest(sim, k, sim->constraint_value);
+        double here = 0.0;
+        const double *weight = sim->cluster_weight + cluster->column;
+        for (uint32_t i = 0; i < cluster->columns; i++)
+            if (weight[i] > 0.0) here = fmax(here, fabs(x[i]) / weight[i]);
+        const double factor = here > most ? -most / here : -1.0;
+        largest = fmax(largest, here);
+        for (uint32_t i = 0; i < cluster->columns; i++) sim->cluster_move[i] = factor * x[i];
+        for (uint32_t i = cluster->node; i < cluster->node + cluster->node_count; i++)
+            move_node(sim, scene->cluster_nodes[i], sim->cluster_move + scene->node_place[scene->cluster_nodes[i]]);
+    }
+    return largest;
+}
+
+int32_t dmb_clusters_approach(dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    int32_t status = dmb_clusters_gather(evaluation);
+    if (status < 0) return status;
+    dmb_clusters_choose(sim);
+    status = factor_gram(sim);
+    if (status < 0) return status;
+    return move_poses(sim, DMB_APPROACH * sim->reduced_mode->length) <= DMB_SETTLED * scene_size(sim) ? DMB_NOTE_STOPPED
+                                                                                                     : DMB_OK;
+}
+
+/* Newton on C = 0 until rounding. */
+static int32_t settle_poses(dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const double size = scene_size(sim);
+    double last = (double)INFINITY;
+    uint32_t row = 0;
+    for (uint32_t k = 0;; k++) {
+        int32_t status = dmb_clusters_gather(evaluation);
+        if (status < 0) return status;
+        const double violation = dmb_clusters_pivot_violation(sim, &row);
+        const int done = violation <= DMB_SETTLED * size || (violation < DMB_UNSETTLED * size && violation > 0.5 * last);
+        if (done || k == DMB_SETTLE_MAX || !isfinite(violation)) {
+            if (violation < DMB_UNSETTLED * size) return factor_gram(sim);
+            (void)dmb_cluster_singular(sim, row, fabs(sim->constraint_value[row]));
+            return DMB_ERR_NO_CONVERGENCE;
+        }
+        status = factor_gram(sim);
+        if (status < 0) return status;
+        last = violation;
+        (void)move_poses(sim, (double)INFINITY);
+    }
+}
+
+/* v so that B v + rate = 0; `level` rows of what B v must cancel. */
+static void settle_rows(dmb_sim *sim, const double *level, double *v, double *also, double factor)
+{
+    const dmb_scene *scene = sim->scene;
+    double *d = sim->cluster_scratch;
+    if (scene->sparse_count) {
+        dmb_sparse_deficit(sim, level, v, d);
+        dmb_sparse_project(sim, d);
+    }
+    for (uint32_t k = 0; k < scene->cluster_count; k++) {
+        const dmb_cluster *cluster = scene->clusters + k;
+        const uint32_t *row_of = scene->cluster_columns + cluster->column;
+        const double *B = dmb_cluster_matrix(sim, cluster);
+        for (uint32_t r = 0; r < (cluster->sparse ? 0 : cluster->rows); r++) {
+            double sum = level[cluster->row + r];
+            for (uint32_t c = 0; c < cluster->columns; c++) sum += B[(size_t)r * cluster->columns + c] * v[row_of[c]];
+            d[cluster->row + r] = -sum;
+        }
+        const double *x = shortest(sim, k, d);
+        for (uint32_t c = 0; c < cluster->columns; c++) {
+            v[row_of[c]] += x[c];
+            if (also != NULL) also[row_of[c]] += factor * x[c];
+        }
+    }
+}
+
+static void take_raw(dmb_sim *sim)
+{
+    const size_t bytes = sim->scene->row_count * sizeof(double);
+    memcpy(sim->trial.velocity, sim->raw_velocity, bytes);
+    memcpy(sim->trial.acceleration, sim->raw_acceleration, bytes);
+    memcpy(sim->trial.pseudo_acceleration, sim->raw_pseudo_acceleration, bytes);
+}
+
+static void leave_weak(dmb_sim *sim)
+{
+    for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
+        const dmb_cluster *cluster = sim->scene->clusters + k;
+        const dmb_partition partition = dmb_cluster_partition(sim, k);
+        if (cluster->sparse) continue;
+        dmb_partition_leave_weak(dmb_cluster_matrix(sim, cluster), cluster->columns,
+                                 sim->cluster_metric + cluster->column, &partition,
+                                 sim->cluster_gram + cluster->square);
+    }
+    if (sim->scene->sparse_count && sim->reduced_mode->weak) (void)dmb_sparse_factor(sim, 1);
+}
+
+int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t from_raw)
+{
+    dmb_sim *sim = evaluation->sim;
+    int32_t status = DMB_OK;
+    if (from_raw) take_raw(sim);
+    if (from_raw && !evaluation->extrapolated) /* the first iteration of a step, which may solve for them */
+        memcpy(sim->trial.multiplier, sim->now.multiplier, sim->scene->constraint_row_count * sizeof(double));
+    if (levels & DMB_SETTLE_POSE)
+        status = settle_poses(evaluation);
+    else
+        status = dmb_clusters_gather(evaluation);
+    if (status >= 0 && !(levels & DMB_SETTLE_POSE)) status = factor_gram(sim);
+    if (status >= 0 && from_raw) leave_weak(sim);
+    if (status >= 0 && levels & DMB_SETTLE_SPEED) {
+        settle_rows(sim, sim->constraint_rate, sim->trial.velocity, NULL, 0.0);
+        status = dmb_constraint_rows(evaluation);
+    }
+    if (status >= 0 && levels & DMB_SETTLE_ACCELERATION) /* the recursion of a goes with that of v' */
+        settle_rows(sim, sim->constraint_convective, sim->trial.acceleration, sim->trial.pseudo_acceleration,
+                    evaluation->pseudo_factor);
+    return status < 0 ? status : dmb_clusters_factor(sim);
+}

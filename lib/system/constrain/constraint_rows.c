@@ -1,0 +1,354 @@
+#include "system/constrain/constraint_rows.h"
+
+#include <string.h>
+
+#include "math/mat6.h"
+#include "sim/node.h"
+#include "system/constrain/constraint_callback.h"
+
+#define DMB_TURN 6.283185307179586477
+/* [rad] in a step: gradients at one end of it tell the turn well enough. */
+#define DMB_SMALL_TURN 1.0
+
+static double *jacobian_row(const dmb_sim *sim, const dmb_constraint *constraint, uint32_t k)
+{
+    return sim->constraint_jacobian + constraint->jacobian + (size_t)k * constraint->columns;
+}
+
+static void idle(dmb_sim *sim, const dmb_constraint *constraint)
+{
+    memset(sim->constraint_type + constraint->row, DMB_ROW_IDLE, constraint->rows);
+    memset(sim->constraint_value + constraint->row, 0, constraint->rows * sizeof(double));
+    memset(sim->constraint_rate + constraint->row, 0, constraint->rows * sizeof(double));
+    memset(sim->constraint_convective + constraint->row, 0, constraint->rows * sizeof(double));
+    memset(jacobian_row(sim, constraint, 0), 0, (size_t)constraint->rows * constraint->columns * sizeof(double));
+}
+
+/* ---- Joints ------------------------------------------------------------------------------------------------------ */
+
+void dmb_joint_rows_now(const dmb_sim *sim, uint32_t j, const dmb_relative *relative, dmb_joint_rows *rows)
+{
+    const dmb_scene_joint *joint = sim->scene->joints + j;
+    const double *lock = sim->joint_lock + 12 * j;
+    rows->count = 0;
+    rows->holonomic = 0;
+    if (sim->joint_state[j] == DMB_JOINT_OPEN) return;
+    if (sim->joint_state[j] == DMB_JOINT_LOCKED)
+        dmb_joint_locked_at(lock, lock + 9, relative->R, relative->p, relative->V, rows);
+    else
+        dmb_joint_rows_at(joint->kind, joint->length, relative->R, relative->p, relative->V, rows);
+}
+
+/* B v' + (JV V + J convective) = 0 */
+static double convective_of(const double J[6], const double JV[6], const dmb_relative *relative)
+{
+    return dmb_vec6_dot(JV, relative->V) + dmb_vec6_dot(J, relative->convective);
+}
+
+/* Frame a rides along the hole with s' = t . v: n' . v = -s'^2 (n . dt/ds) more. */
+static double bend_convective(const dmb_hole_bend *bend, const dmb_relative *relative, const double normal[3])
+{
+    double v[3];
+    dmb_mat3_vec(bend->M, relative->V, v);
+    const double rate = dmb_vec3_dot(bend->tangent, v);
+    return -rate * rate * dmb_vec3_dot(normal, bend->curvature);
+}
+
+static void joint_row(dmb_sim *sim, const dmb_constraint *constraint, uint32_t k, uint8_t type, double value,
+                      const dmb_relative *relative, const double J[6], const double JV[6])
+{
+    const uint32_t row = constraint->row + k;
+    sim->constraint_type[row] = type;
+    sim->constraint_value[row] = value;
+    sim->constraint_convective[row] = convective_of(J, JV, relative);
+    dmb_add_joint_row(sim->scene, constraint, constraint->index, relative, 1.0, J, jacobian_row(sim, constraint, k));
+}
+
+/* While a scene is put together, coordinates that were given for time 0 are equations too. */
+static void initial_rows(dmb_evaluation *evaluation, const dmb_constraint *constraint, const dmb_relative *relative,
+                         uint32_t k)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene_joint *joint = sim->scene->joints + constraint->index;
+    dmb_joint_coordinates c;
+    if (joint->initial_mask == 0) return;
+    dmb_joint_coordinates_at(relative->R, relative->p, relative->V, joint->initial_position + 3, &c);
+    for (uint32_t i = 0; i < 6 && k < constraint->rows; i++) {
+        if ((joint->initial_mask >> i & 1) == 0) continue;
+        joint_row(sim, constraint, k, DMB_ROW_POSITION, c.value[i] - joint->initial_position[i], relative, c.J[i],
+                  c.JV[i]);
+        sim->constraint_rate[constraint->row + k++] = -joint->initial_speed[i];
+    }
+}
+
+static void joint_rows(dmb_evaluation *evaluation, const dmb_constraint *constraint)
+{
+    dmb_sim *sim = evaluation->sim;
+    const uint32_t j = constraint->index;
+    const int on_hole = sim->scene->joints[j].kind == DMB_JOINT_POINT_ON_HOLE;
+    dmb_relative relative;
+    dmb_hole_bend bend;
+    dmb_joint_rows rows;
+    sim->trial.joint_depth[j] = sim->now.joint_depth[j]; /* what a trial before found does not count */
+    sim->trial.joint_segment[j] = sim->now.joint_segment[j];
+    dmb_joint_motion(sim->scene, &sim->trial, j, &relative, on_hole ? &bend : NULL);
+    dmb_joint_rows_now(sim, j, &relative, &rows);
+    for (uint32_t k = 0; k < rows.count; k++) {
+        const uint8_t type = rows.holonomic >> k & 1 ? DMB_ROW_POSITION : DMB_ROW_SPEED;
+        joint_row(sim, constraint, k, type, rows.value[k], &relative, rows.J[k], rows.JV[k]);
+        if (on_hole && sim->joint_state[j] == DMB_JOINT_ACTIVE)
+            sim->constraint_convective[constraint->row + k] += bend_convective(&bend, &relative, bend.normal[k]);
+    }
+    if (sim->reduced_mode->assembling) initial_rows(evaluation, constraint, &relative, rows.count);
+}
+
+/* ---- Coordinates ------------------------------------------------------------------------------------------------- */
+
+/* What the increments of the step move frame b by, seen from a, with the maps of one of its ends. */
+static void moved_by(const dmb_sim *sim, const dmb_configuration *c, uint32_t j, const dmb_relative *relative,
+                     double moved[6])
+{
+    const dmb_scene_joint *joint = sim->scene->joints + j;
+    double z[6], a[6] = {0.0};
+    dmb_node_vector(sim->scene, c, joint->b.node, sim->increment, z);
+    dmb_mat6_vec(relative->to_b, z, moved);
+    if (joint->a.node == UINT32_MAX) return;
+    dmb_node_vector(sim->scene, c, joint->a.node, sim->increment, z);
+    dmb_mat6_vec(relative->to_a, z, a);
+    for (int i = 0; i < 6; i++) moved[i] += a[i];
+}
+
+/* [rad] by which RX and RY turn in the step, by the gradients of its end; for large turns by those of its start too. */
+static void turning_of(const dmb_sim *sim, uint32_t j, const dmb_relative *relative, const dmb_joint_coordinates *c,
+                       double turning[2])
+{
+    const double *last = sim->now.joint_turn + 2 * (size_t)j;
+    dmb_relative start;
+    dmb_joint_coordinates first;
+    double moved[6];
+    moved_by(sim, &sim->trial, j, relative, moved);
+    for (int i = 0; i < 2; i++) turning[i] = dmb_vec6_dot(c->J[3 + i], moved);
+    if (fabs(turning[0]) <= DMB_SMALL_TURN && fabs(turning[1]) <= DMB_SMALL_TURN) return;
+    dmb_joint_motion_of(sim->scene, &sim->now, j, &start, NULL);
+    dmb_joint_coordinates_at(start.R, start.p, start.V, last, &first);
+    moved_by(sim, &sim->now, j, &start, moved);
+    for (int i = 0; i < 2; i++) turning[i] = 0.5 * (turning[i] + dmb_vec6_dot(first.J[3 + i], moved));
+}
+
+/* A coordinate that a motion drive moves stands near where the drive is. */
+static void expect_driven(const dmb_sim *sim, uint32_t j, double expected[2])
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_scene_joint *joint = scene->joints + j;
+    if (sim->joint_state[j] == DMB_JOINT_OPEN) return;
+    for (uint32_t i = joint->first_drive; i < joint->first_drive + joint->drive_count; i++) {
+        const uint32_t d = scene->joint_drives[i];
+        const int32_t component = scene->drives[d].component;
+        if (scene->drives[d].kind == DMB_DRIVE_MOTION && (component == DMB_RX || component == DMB_RY))
+            expected[component - DMB_RX] = sim->drive_offset[d] + sim->trial.drive_position[d];
+    }
+}
+
+void dmb_joint_coordinates_in(const dmb_evaluation *evaluation, uint32_t j, const dmb_relative *relative,
+                              dmb_joint_coordinates *coordinates)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const double *last = sim->now.joint_turn + 2 * (size_t)j;
+    double expected[2];
+    if (!evaluation->dynamic || evaluation->steady) last = sim->trial.joint_turn + 2 * (size_t)j; /* statics follow it move by move */
+    dmb_joint_coordinates_at(relative->R, relative->p, relative->V, last, coordinates);
+    if (!(evaluation->step > 0.0)) return;
+    turning_of(sim, j, relative, coordinates, expected);
+    for (int i = 0; i < 2; i++) expected[i] += last[i];
+    expect_driven(sim, j, expected);
+    for (int i = 0; i < 2; i++)
+        coordinates->value[3 + i] += DMB_TURN * round((expected[i] - coordinates->value[3 + i]) / DMB_TURN);
+}
+
+/* Row 0 of the constraint += factor times a coordinate of joint j. */
+static void add_coordinate(dmb_evaluation *evaluation, const dmb_constraint *constraint, uint32_t j, int32_t component,
+                           double factor)
+{
+    dmb_sim *sim = evaluation->sim;
+    dmb_relative relative;
+    dmb_joint_coordinates c;
+    dmb_joint_motion(sim->scene, &sim->trial, j, &relative, NULL);
+    dmb_joint_coordinates_in(evaluation, j, &relative, &c);
+    sim->constraint_type[constraint->row] = DMB_ROW_POSITION;
+    sim->constraint_value[constraint->row] += factor * c.value[component];
+    sim->constraint_convective[constraint->row] += factor * convective_of(c.J[component], c.JV[component], &relative);
+    dmb_add_joint_row(sim->scene, constraint, j, &relative, factor, c.J[component], jacobian_row(sim, constraint, 0));
+}
+
+static int is_open(const dmb_sim *sim, uint32_t j)
+{
+    return sim->joint_state[j] == DMB_JOINT_OPEN;
+}
+
+static void coupling_row(dmb_evaluation *evaluation, const dmb_constraint *constraint)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene_coupling *coupling = sim->scene->couplings + constraint->index;
+    if (sim->reduced_mode->assembling || is_open(sim, coupling->joint[0]) || is_open(sim, coupling->joint[1])) return;
+    add_coordinate(evaluation, constraint, coupling->joint[0], coupling->component[0], 1.0);
+    add_coordinate(evaluation, constraint, coupling->joint[1], coupling->component[1], -coupling->ratio);
+    sim->constraint_value[constraint->row] -= sim->constraint_offset[constraint->row];
+}
+
+static void drive_row(dmb_evaluation *evaluation, const dmb_constraint *constraint)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene_drive *drive = sim->scene->drives + constraint->index;
+    if (sim->reduced_mode->assembling || is_open(sim, drive->joint)) return;
+    add_coordinate(evaluation, constraint, drive->joint, drive->component, 1.0);
+    sim->constraint_value[constraint->row] -=
+        sim->drive_offset[constraint->index] + sim->trial.drive_position[constraint->index];
+    sim->constraint_rate[constraint->row] = -sim->trial.drive_target[constraint->index];
+    sim->constraint_convective[constraint->row] -= sim->trial.drive_rate[constraint->index];
+}
+
+/* ---- All --------------------------------------------------------------------------------------------------------- */
+
+int32_t dmb_constraint_rows(dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    int32_t status = DMB_OK;
+    double sum = 0.0;
+    for (uint32_t i = 0; i < scene->constraint_count && status >= 0; i++) {
+        const dmb_constraint *constraint = scene->constraints + i;
+        idle(sim, constraint);
+        if (constraint->kind == DMB_OF_JOINT) joint_rows(evaluation, constraint);
+        if (constraint->kind == DMB_OF_COUPLING) coupling_row(evaluation, constraint);
+        if (constraint->kind == DMB_OF_DRIVE) drive_row(evaluation, constraint);
+        if (constraint->kind == DMB_OF_CALLBACK) status = dmb_callback_rows(evaluation, constraint->index);
+    }
+    for (uint32_t r = 0; r < scene->constraint_row_count; r++)
+        sum += fabs(sim->constraint_value[r]) + fabs(sim->constraint_convective[r]);
+    return status < 0 ? status : isfinite(sum) ? DMB_OK : DMB_ERR_NOT_FINITE;
+}
+
+/* ---- Curvature of the rows --------------------------------------------------------------------------------------- */
+
+/* Columns of a node that a 6-column block reaches: itself, or x and rx. */
+static void add_block(const dmb_scene *scene, const dmb_constraint *constraint, const double K[144], int i, int k,
+                      const uint32_t node[2], double *out)
+{
+    static const uint32_t path[2] = {0, 3};
+    const uint32_t rows = scene->layout.size[node[i]], columns = scene->layout.size[node[k]];
+    const uint32_t first = dmb_constraint_column(constraint, node[i]), at = dmb_constraint_column(constraint, node[k]);
+    for (uint32_t r = 0; r < rows; r++)
+        for (uint32_t s = 0; s < columns; s++) {
+            const uint32_t from = rows == DMB_NODE_PATH ? path[r] : r, to = columns == DMB_NODE_PATH ? path[s] : s;
+            out[(size_t)(first + r) * constraint->columns + at + s] +=
+                K[12 * (6 * (uint32_t)i + from) + 6 * (uint32_t)k + to];
+        }
+}
+
+void dmb_add_joint_tangent(const dmb_scene *scene, const dmb_constraint *constraint, uint32_t j,
+                           const dmb_relative *relative, const double w[6], const double W[36], double *K)
+{
+    const uint32_t node[2] = {scene->joints[j].a.node, scene->joints[j].b.node};
+    double both[144];
+    dmb_relative_tangent(relative, w, W, both);
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2; k++)
+            if (node[i] != UINT32_MAX && node[k] != UINT32_MAX) add_block(scene, constraint, both, i, k, node, K);
+}
+
+static void wrench_of(uint32_t count, double J[][6], const double *f, double w[6])
+{
+    for (int i = 0; i < 6; i++) w[i] = 0.0;
+    for (uint32_t k = 0; k < count; k++)
+        for (int i = 0; i < 6; i++) w[i] += f[k] * J[k][i];
+}
+
+/* n_k turns with the depth of the point: M^T (turning x n_k) (M^T t)^T */
+static void add_bend(const dmb_hole_bend *bend, const double *f, double W[36])
+{
+    double t[3];
+    dmb_mat3_tvec(bend->M, bend->tangent, t);
+    for (int k = 0; k < 2; k++) {
+        double n[3];
+        dmb_vec3_cross(bend->turning, bend->normal[k], n);
+        dmb_mat3_tvec(bend->M, n, n);
+        for (int r = 0; r < 3; r++)
+            for (int s = 0; s < 3; s++) W[6 * r + s] += f[k] * n[r] * t[s];
+    }
+}
+
+static void joint_curvature(const dmb_sim *sim, const dmb_constraint *constraint, const double *f, double *K)
+{
+    const uint32_t j = constraint->index;
+    const dmb_scene_joint *joint = sim->scene->joints + j;
+    const double *lock = sim->joint_lock + 12 * j;
+    const int on_hole = joint->kind == DMB_JOINT_POINT_ON_HOLE && sim->joint_state[j] == DMB_JOINT_ACTIVE;
+    dmb_relative relative;
+    dmb_hole_bend bend;
+    dmb_joint_rows rows;
+    double w[6], W[36];
+    dmb_joint_motion_of(sim->scene, &sim->trial, j, &relative, on_hole ? &bend : NULL);
+    dmb_joint_rows_now(sim, j, &relative, &rows);
+    if (rows.count == 0) return;
+    wrench_of(rows.count, rows.J, f, w);
+    if (sim->joint_state[j] == DMB_JOINT_LOCKED)
+        dmb_joint_locked_tangent(lock, lock + 9, relative.R, relative.p, f, W);
+    else
+        dmb_joint_rows_tangent(joint->kind, joint->length, relative.R, relative.p, f, W);
+    if (on_hole) add_bend(&bend, f, W);
+    dmb_add_joint_tangent(sim->scene, constraint, j, &relative, w, W, K);
+}
+
+static void coordinate_curvature(const dmb_sim *sim, const dmb_constraint *constraint, uint32_t j, int32_t component,
+                                 double factor, double *K)
+{
+    dmb_relative relative;
+    dmb_joint_coordinates c;
+    double f[6] = {0.0}, w[6], W[36];
+    f[component] = factor;
+    dmb_joint_motion_of(sim->scene, &sim->trial, j, &relative, NULL);
+    dmb_joint_coordinates_at(relative.R, relative.p, relative.V, sim->now.joint_turn + 2 * j, &c);
+    wrench_of(6, c.J, f, w);
+    dmb_joint_coordinates_tangent(relative.R, relative.p, f, W);
+    dmb_add_joint_tangent(sim->scene, constraint, j, &relative, w, W, K);
+}
+
+int32_t dmb_constraint_curvature(dmb_evaluation *evaluation, uint32_t constraint, double *K)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    const dmb_constraint *c = scene->constraints + constraint;
+    const double *f = sim->trial.multiplier + c->row;
+    if (c->kind == DMB_OF_JOINT) joint_curvature(sim, c, f, K);
+    if (c->kind == DMB_OF_CALLBACK) return dmb_callback_curvature(evaluation, c->index, K);
+    if (c->kind == DMB_OF_DRIVE)
+        coordinate_curvature(sim, c, scene->drives[c->index].joint, scene->drives[c->index].component, f[0], K);
+    if (c->kind != DMB_OF_COUPLING) return DMB_OK;
+    const dmb_scene_coupling *coupling = scene->couplings + c->index;
+    coordinate_curvature(sim, c, coupling->joint[0], coupling->component[0], f[0], K);
+    coordinate_curvature(sim, c, coupling->joint[1], coupling->component[1], -coupling->ratio * f[0], K);
+    return DMB_OK;
+}
+
+/* ---- Names ------------------------------------------------------------------------------------------------------- */
+
+void dmb_constraint_text(const dmb_scene *scene, uint32_t constraint, dmb_message *text)
+{
+    static const char *const kinds[] = {"joint", "coupling", "drive", "constraint"};
+    const dmb_constraint *c = scene->constraints + constraint;
+    const char *name = "";
+    if (c->kind == DMB_OF_JOINT) name = scene->joints[c->index].name;
+    if (c->kind == DMB_OF_COUPLING) name = scene->couplings[c->index].name;
+    if (c->kind == DMB_OF_CALLBACK) name = scene->callbacks[c->index].name;
+    if (name[0] != '\0')
+        dmb_message_set(text, "%s %u (%s)", kinds[c->kind], c->index, name);
+    else
+        dmb_message_set(text, "%s %u", kinds[c->kind], c->index);
+}
+
+uint32_t dmb_constraint_of_row(const dmb_scene *scene, uint32_t row)
+{
+    uint32_t found = 0;
+    while (found + 1 < scene->constraint_count && scene->constraints[found + 1].row <= row) found++;
+    return found;
+}

@@ -1,0 +1,105 @@
+#include "system/constrain/joint_edge.h"
+
+#include <math.h>
+
+#include "constraint/joint.h"
+#include "math/elementary.h"
+#include "math/so3.h"
+#include "system/constrain/constraint_rows.h"
+#include "system/constrain/joint_state.h"
+
+/* [rad] what the angle must stay away from a right angle; [-] sine of a rim's angle with its plane. */
+#define DMB_RIGHT_ANGLE_EDGE 0.01
+#define DMB_RIM_EDGE 1e-3
+/* [rad] A rotation in one step up to which a chord tells what its arc came by. */
+#define DMB_SHORT_TURN 1.0
+
+static int coupled(const dmb_scene *scene, uint32_t j)
+{
+    for (uint32_t i = 0; i < scene->coupling_count; i++)
+        for (int k = 0; k < 2; k++)
+            if (scene->couplings[i].joint[k] == j && scene->couplings[i].component[k] >= DMB_RX) return 1;
+    return 0;
+}
+
+/* Whether something acts on an angle of the joint, or its kind is built on them. */
+static int needs_angles(const dmb_scene *scene, uint32_t j)
+{
+    const dmb_scene_joint *joint = scene->joints + j;
+    if ((dmb_joint_free_mask(joint->kind) >> DMB_RZ & 1) == 0) return 0; /* RZ stays 0 */
+    if (joint->kind == DMB_ROWS_UNIVERSAL || (joint->law != UINT32_MAX && joint->law_mask >> DMB_RX)) return 1;
+    for (uint32_t i = joint->first_drive; i < joint->first_drive + joint->drive_count; i++)
+        if (scene->drives[scene->joint_drives[i]].component >= DMB_RX) return 1;
+    return coupled(scene, j);
+}
+
+/* Distance from 0 of the chord from a to b. */
+static double chord_distance(const double a[2], const double b[2])
+{
+    const double d[2] = {b[0] - a[0], b[1] - a[1]}, square = d[0] * d[0] + d[1] * d[1];
+    double t = square > 0.0 ? -(a[0] * d[0] + a[1] * d[1]) / square : 0.0;
+    t = fmin(fmax(t, 0.0), 1.0);
+    const double x = a[0] + t * d[0], y = a[1] + t * d[1];
+    return sqrt(x * x + y * y);
+}
+
+/* s of the trial; the smallest on the way from now to it, as far as a step tells. */
+static double smallest_cosine(const dmb_sim *sim, uint32_t j, const double R[9], int moving)
+{
+    const double here[2] = {R[4], R[5]};
+    const double s = sqrt(here[0] * here[0] + here[1] * here[1]);
+    dmb_relative before;
+    double turned[9];
+    if (!moving) return s;
+    dmb_joint_motion_of(sim->scene, &sim->now, j, &before, NULL);
+    dmb_mat3_mul_nt(R, before.R, turned);
+    if (turned[0] + turned[4] + turned[8] < 1.0 + 2.0 * dmb_cos(DMB_SHORT_TURN)) return s;
+    const double from[2] = {before.R[4], before.R[5]};
+    return fmin(s, chord_distance(from, here));
+}
+
+static int32_t refuse_angle(dmb_sim *sim, uint32_t j, double s, double time)
+{
+    static const char *const universal = "an axis of its cross lies along a shaft: turn its frames so that it works "
+                                         "about 0, or use a spherical joint";
+    static const char *const other = "its angles RX and RY are not defined there: turn its frames (axis_a, normal_a, "
+                                     "axis_b, normal_b), or put nothing on its angles";
+    dmb_message owner;
+    dmb_constraint_text(sim->scene, sim->scene->joints[j].constraint, &owner);
+    const double angle = dmb_atan2(sqrt(fmax(1.0 - s * s, 0.0)), s);
+    dmb_message_set(&sim->message, "%s: |RZ| = %g rad at time %g, must be < %g; %s", owner.text, angle, time,
+                    0.5 * DMB_PI - DMB_RIGHT_ANGLE_EDGE,
+                    sim->scene->joints[j].kind == DMB_ROWS_UNIVERSAL ? universal : other);
+    return DMB_ERR_GEOMETRY;
+}
+
+static int32_t refuse_flat(dmb_sim *sim, uint32_t j, double sine, double time)
+{
+    dmb_message owner;
+    dmb_constraint_text(sim->scene, sim->scene->joints[j].constraint, &owner);
+    dmb_message_set(&sim->message,
+                    "%s: its rim lies flat, sine of its angle with the plane = %g at time %g, must be > %g; "
+                    "open the joint before the rim falls over",
+                    owner.text, sine, time, DMB_RIM_EDGE);
+    return DMB_ERR_GEOMETRY;
+}
+
+static int32_t check_joint(dmb_sim *sim, uint32_t j, int moving, double time)
+{
+    const dmb_scene_joint *joint = sim->scene->joints + j;
+    const int rolls = joint->kind == DMB_ROWS_ROLLING, angles = needs_angles(sim->scene, j);
+    dmb_relative relative;
+    if (sim->joint_state[j] != DMB_JOINT_ACTIVE || !(rolls || angles)) return DMB_OK;
+    dmb_joint_motion_of(sim->scene, &sim->trial, j, &relative, NULL);
+    const double sine = sqrt(relative.R[1] * relative.R[1] + relative.R[2] * relative.R[2]); /* of the x axes of a and b */
+    if (rolls && !(sine > DMB_RIM_EDGE)) return refuse_flat(sim, j, sine, time);
+    const double s = angles ? smallest_cosine(sim, j, relative.R, moving) : 1.0;
+    return s > dmb_sin(DMB_RIGHT_ANGLE_EDGE) ? DMB_OK : refuse_angle(sim, j, s, time);
+}
+
+int32_t dmb_joints_refuse_edges(dmb_sim *sim, int moving, double time)
+{
+    int32_t status = DMB_OK;
+    for (uint32_t j = 0; j < sim->scene->joint_count && status >= 0; j++) status = check_joint(sim, j, moving, time);
+    return status;
+}

@@ -1,0 +1,131 @@
+#include "system/constrain/joint_motion.h"
+
+#include "math/mat6.h"
+#include "sim/node.h"
+
+/* World rotation of a frame and its origin less its node's place at time 0 (of the ground: less the world's origin). */
+static void frame_pose(const dmb_scene *scene, const dmb_configuration *c, const dmb_scene_frame *frame, double R[9],
+                       double x[3])
+{
+    double node[9], u[3];
+    if (frame->node == UINT32_MAX) {
+        dmb_mat3_copy(frame->M, R);
+        dmb_vec3_copy(frame->x, x);
+        return;
+    }
+    dmb_node_pose(scene, c, frame->node, node, u);
+    dmb_mat3_mul(node, frame->M, R);
+    dmb_mat3_vec(node, frame->x, x);
+    dmb_vec3_add(x, u, x);
+}
+
+/* The hole's own frame where it is closest to x (world); of a joint that is held, at its depth. */
+static void hole_frame(const dmb_scene *scene, const double x[3], double *depth, uint32_t *segment, double R[9],
+                       double point[3], dmb_hole_bend *bend)
+{
+    double tangent[3], unused[3], curvature[3];
+    if (*segment & DMB_SEGMENT_HELD)
+        dmb_hole_frame(&scene->hole, *depth, point, tangent, curvature);
+    else
+        dmb_hole_project(&scene->hole, x, depth, segment, point, tangent);
+    dmb_hole_frame_rotation(&scene->hole, *depth, R);
+    if (bend == NULL) return;
+    dmb_hole_frame(&scene->hole, *depth, unused, tangent, curvature);
+    dmb_hole_turning(tangent, curvature, bend->turning);
+    dmb_vec3_copy(curvature, bend->curvature);
+    for (int i = 0; i < 3; i++) {
+        bend->tangent[i] = R[3 * i];
+        bend->normal[0][i] = R[3 * i + 1];
+        bend->normal[1][i] = R[3 * i + 2];
+    }
+}
+
+static void motion(const dmb_scene *scene, const dmb_configuration *c, uint32_t j, double *depth, uint32_t *segment,
+                   dmb_relative *relative, dmb_hole_bend *bend)
+{
+    const dmb_scene_joint *joint = scene->joints + j;
+    const int ground = joint->a.node == UINT32_MAX;
+    double Ra[9], Rb[9], xa[3], xb[3], va[6], vb[6], d[3];
+    frame_pose(scene, c, &joint->b, Rb, xb);
+    dmb_vec3_add(joint->span, xb, xb);
+    if (joint->kind == DMB_JOINT_POINT_ON_HOLE)
+        hole_frame(scene, xb, depth, segment, Ra, xa, bend);
+    else
+        frame_pose(scene, c, &joint->a, Ra, xa);
+    if (bend != NULL) dmb_mat3_copy(Rb, bend->M);
+    dmb_vec3_sub(xb, xa, d);
+    dmb_relative_place(Ra, Rb, d, relative);
+    dmb_relative_maps(ground ? NULL : joint->a.x, ground ? NULL : joint->a.M, joint->b.x, joint->b.M, relative);
+    dmb_node_vector(scene, c, joint->b.node, c->velocity, vb);
+    if (!ground) dmb_node_vector(scene, c, joint->a.node, c->velocity, va);
+    dmb_relative_motion(ground ? NULL : va, vb, relative);
+}
+
+void dmb_joint_motion(const dmb_scene *scene, dmb_configuration *configuration, uint32_t j, dmb_relative *relative,
+                      dmb_hole_bend *bend)
+{
+    motion(scene, configuration, j, configuration->joint_depth + j, configuration->joint_segment + j, relative, bend);
+}
+
+void dmb_joint_motion_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t j,
+                         dmb_relative *relative, dmb_hole_bend *bend)
+{
+    double depth = configuration->joint_depth[j];
+    uint32_t segment = configuration->joint_segment[j];
+    motion(scene, configuration, j, &depth, &segment, relative, bend);
+}
+
+uint32_t dmb_constraint_column(const dmb_constraint *constraint, uint32_t node)
+{
+    uint32_t i = 0;
+    while (i + 1 < constraint->node_count && constraint->node[i] != node) i++;
+    return constraint->column[i];
+}
+
+void dmb_add_node_columns(const dmb_scene *scene, uint32_t node, const double vector[6], double *columns)
+{
+    if (scene->layout.size[node] == DMB_NODE_PATH) { /* on a straight axis only: see the compile step */
+        columns[0] += vector[0];
+        columns[1] += vector[3];
+        return;
+    }
+    for (int i = 0; i < 6; i++) columns[i] += vector[i];
+}
+
+/* A row that only moves a node across its axis leaves nothing but rounding along and about it: parts of the row, or
+ * arms that are none. Scaled to unit length in the choice of the partition that would be an equation like any other, so
+ * it has to be 0. */
+#define DMB_ROW_ROUNDING 1e-14
+#define DMB_ARM_ROUNDING 1e-12 /* in length scales */
+
+static void clear_rounding(const dmb_scene *scene, double part[6])
+{
+    const double along = dmb_vec3_norm(part), about = dmb_vec3_norm(part + 3);
+    if (fabs(part[0]) < DMB_ROW_ROUNDING * along) part[0] = 0.0;
+    if (fabs(part[3]) < DMB_ROW_ROUNDING * about + DMB_ARM_ROUNDING * scene->length_scale * along) part[3] = 0.0;
+}
+
+static void row_times(const double J[6], const double map[36], double factor, double out[6])
+{
+    dmb_mat6_row(J, 1, map, out);
+    for (int i = 0; i < 6; i++) out[i] *= factor;
+}
+
+static void add_part(const dmb_scene *scene, const dmb_constraint *constraint, uint32_t node, double part[6],
+                     double *row)
+{
+    if (scene->layout.size[node] == DMB_NODE_PATH) clear_rounding(scene, part);
+    dmb_add_node_columns(scene, node, part, row + dmb_constraint_column(constraint, node));
+}
+
+void dmb_add_joint_row(const dmb_scene *scene, const dmb_constraint *constraint, uint32_t j,
+                       const dmb_relative *relative, double factor, const double J[6], double *row)
+{
+    const dmb_scene_joint *joint = scene->joints + j;
+    double part[6];
+    row_times(J, relative->to_b, factor, part);
+    add_part(scene, constraint, joint->b.node, part, row);
+    if (joint->a.node == UINT32_MAX) return;
+    row_times(J, relative->to_a, factor, part);
+    add_part(scene, constraint, joint->a.node, part, row);
+}

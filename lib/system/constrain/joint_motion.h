@@ -1,0 +1,35 @@
+/* Frame b of a joint seen from frame a in a configuration, and how rows and wrenches there reach the rows of its nodes. */
+#ifndef DMB_SYSTEM_CONSTRAIN_JOINT_MOTION_H
+#define DMB_SYSTEM_CONSTRAIN_JOINT_MOTION_H
+
+#include "constraint/joint.h"
+#include "constraint/relative.h"
+#include "sim/sim.h"
+
+/* Added to joint_segment while a DMB_JOINT_POINT_ON_HOLE is locked: frame a stands at joint_depth and does not ride. */
+#define DMB_SEGMENT_HELD 0x80000000u
+
+/* What the axis of the hole adds to a point on it: turning of the frame per metre, curvature, tangent, in frame a. */
+typedef struct dmb_hole_bend {
+    double turning[3], curvature[3], tangent[3]; /* [rad/m], [1/m], [-] world axes */
+    double normal[2][3];                         /* [-] y and z axes of the frame, world */
+    double M[9];                                 /* [-] axes of frame b in the world */
+} dmb_hole_bend;
+
+/* Pose, maps and motion of joint j. In a configuration that may be written, joint_depth and joint_segment follow; bend
+ * (only of DMB_JOINT_POINT_ON_HOLE) may be NULL. */
+void dmb_joint_motion(const dmb_scene *scene, dmb_configuration *configuration, uint32_t j, dmb_relative *relative,
+                      dmb_hole_bend *bend);
+/* The same without a trace in the configuration. */
+void dmb_joint_motion_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t j,
+                         dmb_relative *relative, dmb_hole_bend *bend);
+
+/* First column of a node in a constraint; the node must be one of its nodes. */
+uint32_t dmb_constraint_column(const dmb_constraint *constraint, uint32_t node);
+/* columns += the part of a 6-vector of a node that its rows feel. */
+void dmb_add_node_columns(const dmb_scene *scene, uint32_t node, const double vector[6], double *columns);
+/* row (shape (columns)) += factor J [to_a, to_b] of joint j. */
+void dmb_add_joint_row(const dmb_scene *scene, const dmb_constraint *constraint, uint32_t j,
+                       const dmb_relative *relative, double factor, const double J[6], double *row);
+
+#endif

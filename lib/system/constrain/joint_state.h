@@ -1,0 +1,20 @@
+/* What joints remember from step to step, how a scene with joints is put together, and how joints change in a run. */
+#ifndef DMB_SYSTEM_CONSTRAIN_JOINT_STATE_H
+#define DMB_SYSTEM_CONSTRAIN_JOINT_STATE_H
+
+#include "system/assemble/evaluation.h"
+
+/* Turns of the coordinates of the trial; in statics after every move. */
+void dmb_joints_follow(dmb_evaluation *evaluation);
+/* After the last evaluation of a state: multipliers of least norm where rows are redundant (iterations need only some
+ * that balance: B^T f is the same), forces of the motion drives of joints, power of the callers' constraints. */
+void dmb_joint_reactions(dmb_evaluation *evaluation);
+/* End of an accepted step: turns of the coordinates, multipliers of least norm, partition where it has become poor. */
+void dmb_joints_accept(dmb_evaluation *evaluation);
+/* Joint j is locked from now on, or no longer: where it holds frame b, in the pose of now. */
+void dmb_joint_hold(dmb_sim *sim, uint32_t j);
+void dmb_joint_release(dmb_sim *sim, uint32_t j);
+/* [J] in springs and stops of the joints. */
+double dmb_joint_energy(const dmb_sim *sim, const dmb_configuration *configuration);
+
+#endif

@@ -1,0 +1,26 @@
+/* The linear system of chains that joints connect. Its blocks are the clusters and the other nodes of those chains; a
+ * cluster's block is reduced to its independent coordinates,
+ *
+ *     R^T S R y = -R^T residual,   z = R y,   R = [G; I]                                     (DMB_METHOD_INDEPENDENT)
+ *     [S B^T; B 0] [z; df] = -[residual; 0] over all its coordinates and its pivot rows      (DMB_METHOD_MULTIPLIERS)
+ *
+ * with S the iteration matrix of the nodes (blocks of the block-tridiagonal storage) and of the joints. */
+#ifndef DMB_SYSTEM_SOLVE_REDUCED_SYSTEM_H
+#define DMB_SYSTEM_SOLVE_REDUCED_SYSTEM_H
+
+#include "system/assemble/evaluation.h"
+
+/* Assembles the reduced system from the iteration matrix. */
+void dmb_reduced_assemble(dmb_sim *sim);
+/* Assembles, and factors. Node of a singular block, or -1. weakest may be NULL; its block is a
+ * node too. */
+int64_t dmb_reduced_factor(dmb_sim *sim, dmb_block_weakest *weakest);
+/* Residual in, correction out, in the rows of linked chains of `correction`; multipliers of the trial move too where they
+ * are solved for. */
+void dmb_reduced_solve(dmb_sim *sim);
+/* Row of R of column c of cluster k: G's, or NULL where it is a single 1 at *one. After assembling independent coordinates. */
+const double *dmb_reduced_null_space_row(const dmb_sim *sim, uint32_t k, uint32_t c, uint32_t *one);
+/* z = R y: reduced_solution into the rows of linked chains of `correction`. */
+void dmb_reduced_expand(dmb_sim *sim);
+
+#endif

@@ -1,0 +1,229 @@
+#include "system/solve/solve.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "kernel/kernels.h"
+#include "sim/node.h"
+#include "system/solve/reduced_system.h"
+/* Rounding of a pose reaches a stiff element's force multiplied by EA/L: this many units of it count as zero. */
+#define DMB_ROUNDING_UNITS 4.0
+
+typedef struct norms {
+    double rest, all; /* squares of residual and of the terms that balance, [N2] */
+} norms;
+
+/* Closes the sums of nodes of one size: translations weigh 1, rotations `arm`. */
+static void add_components(uint32_t size, double arm, const double *rest, const double *all, norms *n)
+{
+    for (uint32_t c = 0; c < DMB_SQUARES; c++) {
+        const double weight = 2 * (c % size) < size ? 1.0 : arm;
+        n->rest += weight * rest[c];
+        n->all += weight * all[c];
+    }
+}
+
+/* Nodes from `first` on that have as many rows as it. */
+static uint32_t nodes_alike(const dmb_scene *scene, uint32_t first, uint32_t end)
+{
+    uint32_t i = first + 1;
+    while (i < end && scene->layout.size[i] == scene->layout.size[first]) i++;
+    return i - first;
+}
+
+static norms norms_of(const dmb_sim *sim, const dmb_chain *chain)
+{
+    const dmb_scene *scene = sim->scene;
+    const double arm = 1.0 / (chain->length * chain->length);
+    const uint32_t end = chain->first + chain->count;
+    norms n = {0.0, 0.0};
+    for (uint32_t i = chain->first, count; i < end; i += count) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        double rest[DMB_SQUARES], all[DMB_SQUARES];
+        count = nodes_alike(scene, i, end);
+        scene->kernels->squares(count * size, sim->correction + row, sim->scale_row + row, scene->solved_row + row,
+                                rest, all);
+        add_components(size, arm, rest, all, &n);
+    }
+    return n;
+}
+
+/* Rounding of poses counts where there are elements, joints or, alone and at rest, a wall; overflow never converges:
+ * anything is small beside infinity.
+ */
+static int32_t judge(const dmb_evaluation *evaluation, const dmb_chain *chain, double tolerance, norms n)
+{
+    const double floor = DMB_ROUNDING_UNITS * DBL_EPSILON;
+    if (!(n.all <= DBL_MAX)) return 0;
+    if (n.rest <= tolerance * tolerance * n.all) return DMB_CONVERGED;
+    const int stiff =
+        chain->count > 1 || chain->linked || (!evaluation->dynamic && evaluation->sim->scene->element_count == 0);
+    return stiff && n.rest <= floor * floor * evaluation->rounding ? DMB_AT_ROUNDING : 0;
+}
+
+dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double tolerance)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    dmb_residual_norm norm = {0.0, 0.0, DMB_CONVERGED, 0};
+    for (uint32_t c = 0; c < scene->chain_count; c++) {
+        const norms n = norms_of(evaluation->sim, scene->chains + c);
+        const int32_t verdict = judge(evaluation, scene->chains + c, tolerance, n);
+        if (verdict == 0) norm.converged = 0;
+        if (verdict == DMB_AT_ROUNDING && norm.converged) norm.converged = DMB_AT_ROUNDING;
+        norm.relative = fmax(norm.relative, !(n.all <= DBL_MAX) ? (double)INFINITY
+                                            : n.all > 0.0       ? sqrt(n.rest / n.all)
+                                                                : 0.0);
+        norm.balance += n.all;
+    }
+    norm.balance = sqrt(norm.balance);
+    return norm;
+}
+
+static dmb_block_matrix matrix_of(const dmb_sim *sim)
+{
+    const dmb_block_matrix matrix = {sim->stiffness_diagonal, sim->stiffness_lower, sim->stiffness_upper, sim->pivot};
+    return matrix;
+}
+
+int64_t dmb_factor_matrix(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    *sim->factors = DMB_FACTORS_FRESH;
+    dmb_block_matrix matrix = matrix_of(sim);
+    for (uint32_t c = 0; c < scene->chain_count; c++) {
+        if (scene->chains[c].linked) continue;
+        const int64_t bad =
+            scene->kernels->factor(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count);
+        if (bad >= 0) return bad;
+    }
+    return scene->cluster_count ? dmb_reduced_factor(sim, NULL) : -1;
+}
+
+int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest)
+{
+    const dmb_scene *scene = sim->scene;
+    *sim->factors = DMB_FACTORS_LU;
+    dmb_block_matrix matrix = matrix_of(sim);
+    dmb_block_weakest chain_weakest;
+    weakest->ratio = (double)INFINITY;
+    for (uint32_t c = 0; c < scene->chain_count; c++) {
+        const dmb_chain *chain = scene->chains + c;
+        if (chain->linked) continue;
+        const int64_t bad =
+            dmb_block_factor_watched(&scene->layout, &matrix, chain->first, chain->count, &chain_weakest);
+        if (chain_weakest.ratio < weakest->ratio) *weakest = chain_weakest;
+        if (bad >= 0) return bad;
+    }
+    if (scene->cluster_count == 0) return -1;
+    const int64_t bad = dmb_reduced_factor(sim, &chain_weakest);
+    if (chain_weakest.ratio < weakest->ratio) *weakest = chain_weakest;
+    return bad;
+}
+
+/* The iteration matrix with the stiffness taken away. */
+int32_t dmb_factor_mass(dmb_evaluation *evaluation)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_block_layout *layout = &sim->scene->layout;
+    const uint32_t n = sim->scene->node_count;
+    evaluation->inertia_only = 1;
+    const int32_t status = dmb_system_evaluate(evaluation);
+    evaluation->inertia_only = 0;
+    if (status < 0) return status;
+    memset(sim->stiffness_diagonal, 0, layout->diag[n] * sizeof(double));
+    memset(sim->constraint_tangent, 0, sim->scene->tangent_count * sizeof(double));
+    dmb_system_iteration_matrix(evaluation);
+    dmb_block_weakest unused;
+    const int64_t bad = dmb_factor_stiffness(sim, &unused); /* LU: this is solved once, nobody looks at it again */
+    evaluation->element = (uint32_t)bad;
+    return bad >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
+}
+
+void dmb_solve_correction(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_block_matrix matrix = matrix_of(sim);
+    for (uint32_t i = 0; i < scene->row_count; i++)
+        sim->correction[i] = scene->solved_row[i] ? -sim->correction[i] : 0.0;
+    if (*sim->factors == DMB_FACTORS_KEPT) {
+        dmb_solve_reused(sim);
+        return;
+    }
+    for (uint32_t c = 0; c < scene->chain_count; c++) {
+        const dmb_chain *chain = scene->chains + c;
+        if (chain->linked) continue;
+        if (*sim->factors == DMB_FACTORS_LU)
+            dmb_block_solve(&scene->layout, &matrix, chain->first, chain->count, sim->correction);
+        else
+            scene->kernels->solve(&scene->layout, &matrix, chain->first, chain->count, sim->correction);
+    }
+    if (scene->cluster_count) dmb_reduced_solve(sim);
+}
+
+static void swap_blocks(double **a, double **b)
+{
+    double *const other = *a;
+    *a = *b;
+    *b = other;
+}
+
+void dmb_keep_factors(dmb_sim *sim)
+{
+    swap_blocks(&sim->stiffness_diagonal, &sim->kept_diagonal);
+    swap_blocks(&sim->stiffness_lower, &sim->kept_lower);
+    swap_blocks(&sim->stiffness_upper, &sim->kept_upper);
+    if (sim->scene->site_count)
+        memcpy(sim->kept_quaternion, sim->trial.quaternion, 4 * sim->scene->node_count * sizeof(double));
+}
+
+void dmb_forget_factors(dmb_sim *sim)
+{
+    const dmb_block_layout *layout = &sim->scene->layout;
+    const uint32_t n = sim->scene->node_count;
+    memset(sim->kept, 0, sizeof *sim->kept);
+    if (sim->scene->cluster_count) return; /* no room for any */
+    memset(sim->kept_diagonal, 0, layout->diag[n] * sizeof(double));
+    memset(sim->kept_lower, 0, layout->link[n - 1] * sizeof(double));
+    memset(sim->kept_upper, 0, layout->link[n - 1] * sizeof(double));
+    if (sim->scene->site_count) memset(sim->kept_quaternion, 0, 4 * n * sizeof(double));
+}
+
+/* Rows of FULL nodes from one set of their frames to another, by the twist between the two. */
+static void twist_rows(dmb_sim *sim, const double *from, const double *to)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0, count; i < scene->node_count; i += count) {
+        count = dmb_full_nodes_at(scene, i);
+        const dmb_twist_run run = {count, 0, from + 4 * i, to + 4 * i, sim->correction + scene->layout.row[i]};
+        if (count > 0)
+            scene->kernels->twist(&run);
+        else
+            count = 1;
+    }
+}
+
+static void clear_held(dmb_sim *sim)
+{
+    for (uint32_t i = 0; i < sim->scene->row_count; i++)
+        if (!sim->scene->solved_row[i]) sim->correction[i] = 0.0;
+}
+
+static void solve_chains(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_block_matrix factors = {sim->kept_diagonal, sim->kept_lower, sim->kept_upper, NULL};
+    for (uint32_t c = 0; c < scene->chain_count; c++) {
+        const dmb_chain *chain = scene->chains + c;
+        scene->kernels->solve(&scene->layout, &factors, chain->first, chain->count, sim->correction);
+    }
+}
+
+void dmb_solve_reused(dmb_sim *sim)
+{
+    const int twisted = sim->scene->site_count > 0;
+    if (twisted) twist_rows(sim, sim->trial.quaternion, sim->kept_quaternion);
+    solve_chains(sim);
+    if (!twisted) return;
+    twist_rows(sim, sim->kept_quaternion, sim->trial.quaternion);
+    clear_held(sim);
+}

@@ -1,0 +1,45 @@
+/* Linear algebra of a Newton iteration, shared by steps and statics. */
+#ifndef DMB_SYSTEM_SOLVE_SOLVE_H
+#define DMB_SYSTEM_SOLVE_SOLVE_H
+
+#include "sim/sim.h"
+#include "system/assemble/evaluation.h"
+/* DMB_AT_ROUNDING: above the tolerance, but rounding of the poses alone makes a residual as large. Next to very stiff
+ * elements small loads are below that, so it ends an iteration and does not stand for one. */
+enum { DMB_CONVERGED = 1, DMB_AT_ROUNDING = 2 };
+
+typedef struct dmb_residual_norm {
+    double relative;   /* [-] norm of the residual over that of the terms that balance in it, of the worst chain */
+    double balance;    /* [N] norm of those terms, all chains */
+    int32_t converged; /* how it compares with the tolerance; 0: neither of the above */
+    int32_t reserved;
+} dmb_residual_norm;
+
+/* Moments count over the length of their chain; unknown rows only; chain by chain, so that a light body is not judged by
+ * a heavy string. */
+dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double tolerance);
+/* Factors the iteration matrix in place. Index of a singular block, or -1. */
+int64_t dmb_factor_matrix(dmb_sim *sim);
+/* The same for statics, telling the weakest pivot: what nothing holds shows as one of rounding size. */
+int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest);
+/* Evaluates with the factors the evaluation has, 1 for mass and 0 for velocity, and factors the mass matrix alone; the
+ * residual is in `correction`. Errors as dmb_system_evaluate, DMB_ERR_SINGULAR with the node in evaluation->element. */
+int32_t dmb_factor_mass(dmb_evaluation *evaluation);
+/* Residual in, Newton correction out, both in `correction`, by the factors that sim->factors tells. */
+void dmb_solve_correction(dmb_sim *sim);
+
+/* Factors of an iteration matrix that serve in later steps (when: integrator/newton).
+ *
+ * The wall stays where it is while pipes turn in it, and pipes are round: the iteration matrix of a pipe that has turned
+ * about its axis is the old one in the old frame. So with a wall, kept factors are taken in the frames in which they
+ * were made. (Where only one of two directions across is held this mixes it with the other: an approximate inverse
+ * may.) */
+
+/* The factors of this step at hand, by inverses, become the kept ones, in the frames of the trial. */
+void dmb_keep_factors(dmb_sim *sim);
+/* Nothing is left of kept factors: the state does not go on from the steps that made them. */
+void dmb_forget_factors(dmb_sim *sim);
+/* Right-hand side in, solution by the kept factors out, both in `correction`; no joints. */
+void dmb_solve_reused(dmb_sim *sim);
+
+#endif
