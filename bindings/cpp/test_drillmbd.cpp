@@ -198,7 +198,7 @@ void joints()
     EXPECT(model.info().constraint_rows == 13);
     drillmbd::sim sim(model);
     for (int i = 0; i < 20; ++i) sim.step(1e-3);
-    EXPECT(sim.joint(hinge).rows == 5);
+    EXPECT(sim.joint(hinge).constraint_rows == 5);
     EXPECT(sim.joint(hinge).speed[DMB_RX] > 0.0);
     EXPECT(std::fabs(sim.joint(hinge).speed[DMB_RX] - sim.joint(elbow).speed[DMB_RX]) < 1e-9);
     EXPECT(sim.joint(elbow, DMB_FRAME_BODY).frame == DMB_FRAME_BODY);

@@ -30,7 +30,7 @@ typedef struct dmb_modes_options {
     double contact_gap;        /* [m] of DMB_CONTACT_CLOSED, >= 0; default 0 */
     double equilibrium_tolerance; /* [-] residual over the forces that balance in it, > 0; above it the state is refused;
                                   default 1e-6 */
-    int32_t axes;              /* DMB_MODES_AXES_TURNING (default), _STILL */
+    int32_t axes;              /* DMB_MODES_AXES_TURNING (default), _AT_REST */
     int32_t reserved;
     double spin;               /* [rad/s] strings turn at this speed in the state, about their own x axis; 0 (default): as
                                   they do. A static state with slip_rotation of this speed is in balance with friction

@@ -5,6 +5,7 @@
 
 #include "base/checked_size.h"
 #include "base/sized_struct.h"
+
 static void *default_allocate(void *context, size_t size, size_t alignment)
 {
     size_t rounded;

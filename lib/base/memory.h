@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "drillmbd/base.h"
+
 enum { DMB_ALIGNMENT = 64 }; /* [byte] a cache line, and enough for any vector load */
 
 /* Copies the caller's allocator, or the default one where given is NULL. Errors: DMB_ERR_STRUCT_SIZE; DMB_ERR_NULL if

@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "drillmbd/base.h"
+
 typedef struct dmb_message {
     char text[256];
 } dmb_message;

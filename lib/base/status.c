@@ -1,4 +1,5 @@
 #include "drillmbd/base.h"
+
 const char *dmb_status_name(int32_t status)
 {
     switch (status) {

@@ -5,6 +5,7 @@
 #include "math/elementary.h"
 #include "math/mat6.h"
 #include "math/so3.h"
+
 #define DMB_FLAT 1e-12 /* [-] sine of an angle below which the direction of the rest is rounding error */
 
 /* Dot-product rows, in their order, and free coordinates. */

@@ -18,6 +18,7 @@
 #define DMB_CONSTRAINT_JOINT_H
 
 #include <stdint.h>
+
 /* Kinds are numbered as DMB_JOINT_... in model.h. */
 enum {
     DMB_ROWS_FIXED = 0, DMB_ROWS_REVOLUTE = 1, DMB_ROWS_PRISMATIC = 2, DMB_ROWS_CYLINDRICAL = 3, DMB_ROWS_UNIVERSAL = 4,

@@ -3,6 +3,7 @@
 #include "constraint/partition.h"
 
 #include "constraint/partition_rows.h"
+
 /* Largest |x_j|. */
 static double row_largest(size_t n, const double *x)
 {

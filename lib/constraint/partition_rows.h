@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "constraint/partition.h"
+
 #define DMB_PARTITION_ROW_MIN 1e-300 /* shorter rows count as zero */
 #define DMB_CLEARLY (1.0 + 1e-6)     /* a later candidate for pivot must be larger by this factor */
 #define DMB_PLACES 96                /* listed of a row at a time */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "constraint/partition_rows.h"
+
 #define DMB_GRAM_PIVOT_MIN 1e-16  /* part of its diagonal that a pivot of B W^2 B^T must exceed */
 #define DMB_ALL_PLACES UINT32_MAX /* in place of their number: those behind the diagonal, not listed */
 

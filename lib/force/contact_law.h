@@ -8,6 +8,7 @@
 #include "force/friction_law.h"
 #include "force/normal_law.h"
 #include "math/mat6.h"
+
 /* A ring on a FULL node that can meet the wall. */
 typedef struct dmb_site {
     double offset;    /* [m] along body x from the node */

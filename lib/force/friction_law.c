@@ -1,6 +1,5 @@
 #include "force/friction_law.h"
 
-
 void dmb_friction_smooth(const dmb_friction_law *law, double N, const double v[2], double F[2], double dF_dv[4],
                          double dF_dN[2])
 {

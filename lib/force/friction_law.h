@@ -9,6 +9,7 @@
 
 #include "drillmbd/model.h"
 #include "math/real.h"
+
 typedef struct dmb_friction_law {
     int32_t kind; /* DMB_FRICTION_... */
     int32_t reserved;

@@ -7,6 +7,7 @@
 
 #include "drillmbd/model.h"
 #include "math/vec3.h"
+
 #define DMB_HOLE_DOGLEG_MAX 2.5 /* [rad] largest change of direction between two stations */
 
 /* A station and the arc that leads from it to the next one. */

@@ -8,6 +8,7 @@
 
 #include "drillmbd/model.h"
 #include "math/elementary.h"
+
 typedef struct dmb_normal_law {
     int32_t kind; /* DMB_NORMAL_... */
     int32_t reserved;

@@ -14,6 +14,7 @@
 #include "system/constrain/joint_state.h"
 #include "system/ledger.h"
 #include "system/release.h"
+
 /* Misfit of an equation taken for redundant at which it is one no more, in lengths of the parts. */
 #define DMB_DROPPED_MISFIT 1e-7
 

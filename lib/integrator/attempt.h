@@ -5,6 +5,7 @@
 #include "integrator/corner.h"
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
+
 typedef struct dmb_attempt {
     dmb_evaluation evaluation; /* the last one */
     dmb_step_end end;

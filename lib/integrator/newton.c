@@ -9,6 +9,7 @@
 #include "system/constrain/cluster.h"
 #include "system/release.h"
 #include "system/solve/solve.h"
+
 /* Newton gives up when the residual has grown this much over its start. */
 #define DMB_NEWTON_GROWTH 1e6
 

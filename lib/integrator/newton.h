@@ -4,6 +4,7 @@
 
 #include "integrator/attempt.h"
 #include "integrator/step_motion.h"
+
 /* Course of one Newton iteration. */
 typedef struct dmb_newton_course {
     double first, last; /* relative residual at the start, and before the last correction */

@@ -12,6 +12,7 @@
 #include "sim/layout.h"
 #include "system/assemble/drives.h"
 #include "system/start.h"
+
 DMB_DECLARE_STRUCT(dmb_step_report)
 
 int32_t dmb_walk_begin(dmb_sim *sim, const dmb_step_report *report, dmb_walk *walk)

@@ -5,6 +5,7 @@
 #define DMB_INTEGRATOR_STEP_MOTION_H
 
 #include "sim/sim.h"
+
 typedef struct dmb_generalized_alpha {
     double am, af, gamma, beta;
     double error; /* local error of the pose is error h^2 (a1 - a0) */

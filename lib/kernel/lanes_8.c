@@ -5,6 +5,7 @@
 #include "kernel/lanes.h"
 #else
 #include "kernel/kernels.h"
+
 extern const dmb_kernels dmb_kernels_8;
 const dmb_kernels dmb_kernels_8 = {.lanes = 0};
 #endif

@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
 /* The kernels must be folded for constant sizes even where the compiler finds them long. */
 #if defined(__GNUC__)
 #define DMB_BLOCK_KERNEL static inline __attribute__((always_inline))

@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+
 /* Most rows: LAPACK counts its work in integers of 32 bits. */
 enum { DMB_EIGEN_MAX = 32766 };
 

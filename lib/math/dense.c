@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "math/block_kernel.h"
+
 /* Columns of a panel: 32 rows of 600 columns take 150 kB, within a second-level cache. */
 #define DMB_PANEL 32
 

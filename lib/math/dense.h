@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+
 static inline double dmb_dot(size_t n, const double *a, const double *b)
 {
     double part[8] = {0.0}, sum = 0.0;

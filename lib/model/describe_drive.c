@@ -9,6 +9,7 @@
 #include "model/field_check.h"
 #include "model/limits.h"
 #include "model/model.h"
+
 enum { TERMS_MAX = 64, TABLE_MAX = 1 << 20 };
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */

@@ -6,6 +6,7 @@
 #include "model/frame_axes.h"
 #include "model/limits.h"
 #include "model/model.h"
+
 /* ---- Joints ------------------------------------------------------------------------------------------------------ */
 
 static bool same_place(const dmb_place *a, const dmb_place *b)

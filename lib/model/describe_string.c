@@ -5,6 +5,7 @@
 #include "model/limits.h"
 #include "model/model.h"
 #include "model/section.h"
+
 static int32_t check_string(dmb_model *model, const dmb_string_def *def)
 {
     dmb_check check = dmb_check_of(&model->message, "string", model->strings.count);

@@ -8,6 +8,7 @@
 #include "model/field_check.h"
 #include "model/limits.h"
 #include "model/model.h"
+
 enum { STATIONS_MIN = 2, STATIONS_MAX = 1 << 16 };
 
 static const double pi = 3.14159265358979323846;

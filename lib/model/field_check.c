@@ -1,6 +1,7 @@
 #include "model/field_check.h"
 
 #include <string.h>
+
 static bool within(double value, double low, double high)
 {
     return value >= low && value <= high;

@@ -8,6 +8,7 @@
 #include "base/value_check.h"
 #include "drillmbd/model.h"
 #include "model/model.h"
+
 /* Zero, or low <= value <= high. */
 void dmb_check_zero_or_within(dmb_check *check, const char *field, double value, double low, double high);
 /* low <= value <= high for each of count values; the message names the component. */

@@ -6,6 +6,7 @@
 #include "model/field_check.h"
 #include "model/limits.h"
 #include "model/mesh_mass.h"
+
 void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *options)
 {
     const dmb_mesh empty = {

@@ -7,6 +7,7 @@
 #include "math/so3.h"
 #include "model/field_check.h"
 #include "model/frame_axes.h"
+
 #define DMB_WITHIN 1e-9 /* [-] of a pipe: what the caller's fraction may be off */
 
 /* The tool joint, counted back from the far end so that fraction 1 falls on it without round-off; then the ends of the

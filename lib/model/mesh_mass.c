@@ -5,6 +5,7 @@
 #include "math/elementary.h"
 #include "model/mesh.h"
 #include "model/section.h"
+
 /* J_node = J_centre + m (|c|^2 I - c c^T), parallel axes */
 void dmb_rigid_mass_add(dmb_rigid_mass *rigid_mass, double mass, const double c[3], const double inertia[6])
 {

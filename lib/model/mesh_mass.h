@@ -6,6 +6,7 @@
 
 #include "drillmbd/model.h"
 #include "element/element_type.h"
+
 /* Adds a body of that mass [kg], centre [m] from the node and inertia [kg m2] xx, yy, zz, xy, xz, yz at its centre. */
 void dmb_rigid_mass_add(dmb_rigid_mass *rigid_mass, double mass, const double centre[3], const double inertia[6]);
 

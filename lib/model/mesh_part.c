@@ -3,6 +3,7 @@
 #include "model/limits.h"
 #include "model/mesh.h"
 #include "model/section.h"
+
 /* Equal elements are mostly near each other: a run of pipes has four types at most. */
 enum { RECENT_TYPES = 8, NUMBERS = sizeof(dmb_element_type) / sizeof(double) };
 

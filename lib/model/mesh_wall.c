@@ -2,6 +2,7 @@
 #include "model/field_check.h"
 #include "model/mesh.h"
 #include "model/section.h"
+
 static int32_t refuse_station(dmb_message *message, const dmb_wall_def *wall, uint32_t station)
 {
     const double *row = wall->survey + 3 * (size_t)station;

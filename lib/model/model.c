@@ -11,6 +11,7 @@
 #include "model/describe_wall.h"
 #include "model/limits.h"
 #include "model/scene_dense.h"
+
 /* Stamps are never reused within a process (but after 2^32 models), so that an id of another model is recognised. */
 static uint32_t next_stamp(void)
 {

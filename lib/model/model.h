@@ -9,6 +9,7 @@
 #include "force/programme.h"
 #include "model/refused.h"
 #include "model/scene.h"
+
 /* Kinds in the upper 8 bits of dmb_id.index. */
 enum {
     DMB_PART_PROGRAMME = 1, DMB_PART_WALL = 2, DMB_PART_STRING = 3, DMB_PART_BODY = 4, DMB_PART_BIT = 5,

@@ -5,6 +5,7 @@
 #include "base/checked_size.h"
 #include "base/memory.h"
 #include "base/vector.h"
+
 /* ---- Nodes of clusters ------------------------------------------------------------------------------------------- */
 
 static void place_nodes(dmb_scene *scene, uint32_t c)

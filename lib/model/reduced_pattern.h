@@ -3,6 +3,7 @@
 #define DMB_MODEL_REDUCED_PATTERN_H
 
 #include "model/scene.h"
+
 /* After everything else of the scene is filled: columns and places of the clusters' nodes, linked chains, blocks,
  * pattern and links. Does nothing without clusters. Errors: DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE, with no pattern
  * left. */

@@ -4,6 +4,7 @@
 
 #include "math/gauss.h"
 #include "math/so3.h"
+
 static double given_or(double given, double otherwise)
 {
     return given > 0.0 ? given : otherwise;

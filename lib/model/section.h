@@ -4,6 +4,7 @@
 
 #include "drillmbd/model.h"
 #include "element/element_type.h"
+
 typedef struct dmb_pipe_section {
     double stiffness[6]; /* [N, N, N, N m2, N m2, N m2] EA, GA_y, GA_z, GJ, EI_y, EI_z */
     double mass;         /* [kg/m] */

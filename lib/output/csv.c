@@ -9,6 +9,7 @@
 #include "output/recorder.h"
 #include "output/text_file.h"
 #include "query/channel.h"
+
 static void put_numbered(dmb_text_file *file, const char *kind, uint32_t number)
 {
     dmb_text_put(file, " ");

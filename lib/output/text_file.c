@@ -1,6 +1,7 @@
 #if defined(__unix__) || defined(__APPLE__)
 #define _XOPEN_SOURCE 700 /* realpath, stat, fchmod */
 #include <sys/stat.h>
+
 #define DMB_POSIX 1
 #else
 #define DMB_POSIX 0

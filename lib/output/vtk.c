@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <string.h>
+
 void dmb_vtk_open_tag(dmb_text_file *file, const char *tag)
 {
     dmb_text_put(file, "<");

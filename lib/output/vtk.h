@@ -4,6 +4,7 @@
 
 #include "output/text_file.h"
 #include "sim/sim.h"
+
 typedef struct dmb_vtk_counts {
     uint64_t points, lines, polygons;
 } dmb_vtk_counts;

@@ -11,6 +11,7 @@
 #include "output/vtk.h"
 #include "query/place.h"
 #include "sim/access.h"
+
 /* ---- Values of a point ------------------------------------------------------------------------------------------- */
 
 static void put_position(dmb_text_file *file, const void *context, const dmb_vtk_station *at)

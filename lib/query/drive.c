@@ -1,6 +1,7 @@
 #include "sim/access.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/drives.h"
+
 DMB_DECLARE_STRUCT(dmb_drive_state)
 
 int32_t dmb_query_drive(const dmb_sim *sim, dmb_id drive, dmb_drive_state *state)

@@ -11,6 +11,7 @@
 #include "sim/layout.h"
 #include "system/assemble/energy.h"
 #include "system/constrain/joint_state.h"
+
 DMB_DECLARE_STRUCT(dmb_energy)
 
 static void energies_now(const dmb_sim *sim, dmb_energy *e)

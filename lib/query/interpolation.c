@@ -3,6 +3,7 @@
 #include "element/beam.h"
 #include "math/se3.h"
 #include "sim/node.h"
+
 /* One bending plane. P = 12 EI/(GA L^2), q = 1/(1+P): N3 - x = (3x^2 - 2x^3 - x) q, G3 = 6 (x - x^2) q/L */
 static void plane(double x, double bending_stiffness, double shear_stiffness, double length, double *move, double *turn)
 {

@@ -12,6 +12,7 @@
 
 #include "element/element_type.h"
 #include "query/place.h"
+
 typedef struct dmb_section_shape {
     double x;       /* [-] fraction of the flexible length */
     double move[2]; /* [-] sideways displacement per unit of d_y, d_z: N3 - x */

@@ -9,6 +9,7 @@
 #include "query/place.h"
 #include "sim/access.h"
 #include "sim/node.h"
+
 void dmb_describe_pipe(const dmb_sim *sim, uint32_t string, uint32_t pipe, dmb_described_pipe *out)
 {
     const dmb_scene *scene = sim->scene;

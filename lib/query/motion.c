@@ -2,6 +2,7 @@
 #include "math/vec3.h"
 #include "query/interpolation.h"
 #include "sim/access.h"
+
 DMB_DECLARE_STRUCT(dmb_pose)
 
 int32_t dmb_query_pose(const dmb_sim *sim, dmb_place place, dmb_pose *pose)

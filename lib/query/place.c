@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "system/assemble/wall_contact.h"
+
 const dmb_pipe_map *dmb_pipe_of(const dmb_sim *sim, dmb_id string, uint32_t pipe, int32_t *status)
 {
     const uint32_t index = dmb_model_part_index(sim->model, string, DMB_PART_STRING);

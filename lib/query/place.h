@@ -4,6 +4,7 @@
 
 #include "model/model.h"
 #include "sim/sim.h"
+
 #define DMB_SPOT_RIGID UINT32_MAX
 
 typedef struct dmb_material_point {

@@ -7,6 +7,7 @@
 #include "sim/access.h"
 #include "sim/node.h"
 #include "system/constrain/constraint_rows.h"
+
 DMB_DECLARE_STRUCT(dmb_joint_state)
 
 /* V' of frame b relative to frame a. */

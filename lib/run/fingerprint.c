@@ -1,6 +1,5 @@
 #include "run/fingerprint.h"
 
-
 /* Members one by one: padding and pointers stay out. */
 #define DMB_NUMBERS(hash, array) dmb_fnv_numbers((hash), (array), sizeof(array) / sizeof(double))
 

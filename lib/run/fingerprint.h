@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "sim/sim.h"
+
 #define DMB_FNV_START UINT64_C(0xcbf29ce484222325)
 #define DMB_FNV_PRIME UINT64_C(0x100000001b3)
 

@@ -6,6 +6,7 @@
 #include "system/constrain/joint_state.h"
 #include "system/joint_switch.h"
 #include "system/start.h"
+
 static int32_t refuse(dmb_sim *sim, int32_t status, const char *why)
 {
     dmb_message_set(&sim->message, "%s", why);

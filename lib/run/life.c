@@ -11,6 +11,7 @@
 #include "sim/layout.h"
 #include "sim/options.h"
 #include "system/start.h"
+
 DMB_DECLARE_STRUCT(dmb_sim_options)
 
 /* What a create is told, checked. There is no sim yet to hold a message: a refusal is told to the log, and to the model for

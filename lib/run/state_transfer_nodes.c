@@ -9,6 +9,7 @@
 #include "math/se3.h"
 #include "run/state_transfer.h"
 #include "sim/node.h"
+
 /* [m, rad] by which the line of axial-torsional pipes may be described differently. */
 #define DMB_SAME_LINE 1e-6
 

@@ -6,6 +6,7 @@
 #include "base/handle.h"
 #include "drillmbd/sim.h"
 #include "sim/sim.h"
+
 void dmb_sim_refuse_re_entry(dmb_sim *sim)
 {
     dmb_message_set(&sim->message, "sim: in a call of its own at time %g, whose callback, allocator or log function may "

@@ -5,6 +5,7 @@
 #include "base/handle.h"
 #include "base/sized_struct.h"
 #include "sim/sim.h"
+
 /* DMB_OK, DMB_ERR_NULL, DMB_ERR_HANDLE, or DMB_ERR_ORDER from within a call that is changing its state. */
 static inline int32_t dmb_sim_check(const dmb_sim *sim)
 {

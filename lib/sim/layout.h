@@ -5,6 +5,21 @@
 
 #include "sim/sim.h"
 
+/* Conditions on a saved field: the last word of its line in sim/sim.h. */
+enum {
+    DMB_CHECK_NUMBERS = 0,        /* finite doubles; all others are not of doubles alone, but for INPUTS */
+    DMB_CHECK_INPUTS = 1,         /* doubles within what dmb_sim_set_drive takes, or NaN */
+    DMB_CHECK_FLAGS = 2,          /* 0 or 1 */
+    DMB_CHECK_SEGMENTS = 3,       /* below the number of stations of the hole; 0 where it is straight */
+    DMB_CHECK_JOINT_SEGMENTS = 4, /* the same, with the mark of joints that are held on the axis */
+    DMB_CHECK_JOINT_STATES = 5,   /* DMB_JOINT_... */
+    DMB_CHECK_RANKS = 6,          /* at most the rows and columns of the cluster */
+    DMB_CHECK_ROW_ORDER = 7,      /* each row of a cluster once */
+    DMB_CHECK_COLUMN_ORDER = 8,   /* each column of a cluster once */
+    DMB_CHECK_HISTORY_HEADS = 9,  /* within the samples of the bit */
+    DMB_CHECK_CLOCK = 10, DMB_CHECK_LEDGER = 11, DMB_CHECK_COUNTERS = 12, DMB_CHECK_KEPT = 13 /* finite numbers in them */
+};
+
 /* [byte] of a block of any alignment that holds a sim of the scene; SIZE_MAX if it does not fit into a size_t. O(1). */
 size_t dmb_sim_bytes(const dmb_scene *scene);
 
@@ -21,7 +36,7 @@ typedef struct dmb_field {
     void *data;
     size_t bytes; /* without padding */
     int32_t group;
-    int32_t check; /* DMB_CHECK_... of sim/state_check.h; -1 of work */
+    int32_t check; /* DMB_CHECK_... of run/snapshot_check.h; -1 of work */
 } dmb_field;
 
 #define DMB_ONE_MORE(type, name, count, check) +1

@@ -3,6 +3,7 @@
 #include "element/lump.h"
 #include "math/mat6.h"
 #include "math/so3.h"
+
 double dmb_path_depth(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node)
 {
     return scene->reference_depth[node] + configuration->displacement[3 * node];

@@ -4,6 +4,7 @@
 
 #include "model/scene.h"
 #include "sim/sim.h"
+
 /* Rotation (body to world, row-major) and displacement [m] (world, from reference_position) of a node. */
 void dmb_node_pose(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, double rotation[9],
                    double displacement[3]);

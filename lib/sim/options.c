@@ -5,6 +5,7 @@
 #include "base/sized_struct.h"
 #include "base/value_check.h"
 #include "drillmbd/modes.h"
+
 DMB_DECLARE_STRUCT(dmb_sim_options)
 
 static void check_iteration(dmb_check *check, const dmb_sim_options *o)

@@ -1,6 +1,6 @@
 /* The map of a sim: every field, who computes it from what, its shape and unit. The X-macro lists below drive the
  * memory layout, snapshot, restore and hash, and the test of the layout; there is no other list of fields. Each saved
- * field names the check that its bytes in a snapshot must pass (sim/state_check.h): a snapshot may be forged, and no
+ * field names the check that its bytes in a snapshot must pass (run/snapshot_check.h): a snapshot may be forged, and no
  * step may read or write out of bounds by what it says.
  * n = scene->node_count, r = row_count, s = site_count, p = path_site_count, e = element_count, d = drive_count,
  * sb, pb = s, p with the bristle law of friction, else 0; k = bit_count, load = load_count, history = history_count, diagonal and link = lengths of block storage;

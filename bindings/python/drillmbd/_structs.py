@@ -928,7 +928,7 @@ class ModesOptions(Sized):
         "friction": ("", "1 (default): the slope of the friction law on the wall acts; 0: friction is a dead load"),
         "contact_gap": ("m", "of CONTACT_CLOSED, >= 0; default 0"),
         "equilibrium_tolerance": ("-", "residual over the forces that balance in it, > 0; above it the state is refused; default 1e-6"),
-        "axes": ("", "MODES_AXES_TURNING (default), _STILL"),
+        "axes": ("", "MODES_AXES_TURNING (default), _AT_REST"),
         "spin": ("rad/s", "strings turn at this speed in the state, about their own x axis; 0 (default): as they do. A static state with slip_rotation of this speed is in balance with friction but for the tilt of the pipes in the hole, some 1e-5"),
     }
 

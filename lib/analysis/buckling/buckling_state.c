@@ -14,6 +14,7 @@
 #include "system/constrain/joint_state.h"
 #include "system/solve/reduced_system.h"
 #include "system/solve/solve.h"
+
 /* ---- Turning of a node ---------------------------------------------------------------------------------------------
  */
 

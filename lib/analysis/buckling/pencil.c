@@ -7,6 +7,7 @@
 #include "math/dense.h"
 #include "math/krylov.h"
 #include "sim/access.h"
+
 static size_t reduced_values(const dmb_scene *scene)
 {
     return scene->cluster_count ? scene->pattern.values : 0;

@@ -5,6 +5,7 @@
 
 #include "math/se3.h"
 #include "sim/node.h"
+
 /* Central differences of the pose: (h/L)^2 of non-linearity and eps L/h of rounding are both near 1e-10. */
 #define DMB_FUNCTIONAL_STEP 1e-5
 

@@ -5,6 +5,7 @@
 
 #include "drillmbd/response.h"
 #include "sim/sim.h"
+
 /* Four neighbouring nodes: the two of an element and one on either side. */
 enum { DMB_FUNCTIONAL_ROWS = 24 };
 

@@ -12,6 +12,7 @@
 #include "system/constrain/cluster.h"
 #include "system/copy.h"
 #include "system/solve/solve.h"
+
 static void spin_node(dmb_sim *work, uint32_t node, double spin)
 {
     const uint32_t row = work->scene->layout.row[node] + (work->scene->layout.size[node] == DMB_NODE_PATH ? 1 : 3);

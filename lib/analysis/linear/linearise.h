@@ -31,6 +31,7 @@
 
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
+
 enum {
     DMB_LINEAR_CONTACT_AS_IS = 0,  /* rings that touch the wall press on it, others do not */
     DMB_LINEAR_CONTACT_OPEN = 1,   /* there is no wall; what it presses with in the state is a dead load */

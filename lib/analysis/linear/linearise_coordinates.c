@@ -5,6 +5,7 @@
 #include "analysis/linear/linearise.h"
 #include "base/memory.h"
 #include "system/constrain/cluster.h"
+
 static void clear_row(double *block, uint32_t columns, uint32_t row)
 {
     memset(block + (size_t)columns * row, 0, columns * sizeof(double));

@@ -7,6 +7,7 @@
 #include "math/block_inertia.h"
 #include "math/dense.h"
 #include "system/solve/solve.h"
+
 static void add_joint_products(const dmb_scene *scene, const double *joints, const double *x, double *y)
 {
     for (uint32_t i = 0; i < scene->constraint_count; i++) {

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "sim/access.h"
+
 DMB_DECLARE_STRUCT(dmb_check_report)
 
 /* ---- Counts ------------------------------------------------------------------------------------------------------ */

@@ -9,6 +9,7 @@
 #include "math/bridge_lapacke.h"
 #include "math/dense.h"
 #include "sim/access.h"
+
 /* `rows`: of the eigenproblem. */
 static int32_t refuse_size(const dmb_mode_search *search, size_t rows)
 {

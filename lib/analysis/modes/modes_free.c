@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "math/dense.h"
 #include "system/assemble/energy.h"
+
 /* Rounding of d^H K d in units of its terms: their number is in the hundreds of thousands at most. */
 #define DMB_SHARPEN_UNITS 64.0
 

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "math/dense.h"
 #include "sim/access.h"
+
 /* A mode that a search has found leaves this part of the forces that balance in it, and so many times the rounding of
  * their terms. */
 #define DMB_MODE_CONVERGED 1e-10

@@ -17,6 +17,7 @@
 #include "math/dense.h"
 #include "math/krylov.h"
 #include "sim/access.h"
+
 /* Residual of a converged value of the operator: its error is the square of this where symmetric. */
 #define DMB_MODES_SYMMETRIC_TOLERANCE 1e-9
 #define DMB_MODES_GENERAL_TOLERANCE 1e-11

@@ -16,6 +16,7 @@
 #include "sim/access.h"
 #include "sim/node.h"
 #include "system/copy.h"
+
 dmb_response *dmb_response_new(const dmb_allocator *allocator, uint32_t inputs, uint32_t outputs)
 {
     dmb_response *response = dmb_allocate(allocator, sizeof *response);

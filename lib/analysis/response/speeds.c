@@ -13,6 +13,7 @@
 #include "sim/access.h"
 #include "sim/sim.h"
 #include "system/copy.h"
+
 /* Last point at or below the speed, but for the last of all. */
 static uint32_t place_of(const dmb_speeds_curve *curve, double speed)
 {

@@ -12,6 +12,7 @@
 #include "math/so3.h"
 #include "sim/access.h"
 #include "sim/sim.h"
+
 static void part_along(const double axes[9], int32_t frame, const double world[3], double out[3])
 {
     if (frame == DMB_FRAME_BODY)

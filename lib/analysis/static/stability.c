@@ -11,6 +11,7 @@
 #include "system/solve/reduced_sparse.h"
 #include "system/solve/reduced_system.h"
 #include "system/solve/solve.h"
+
 /* ---- Symmetric part ---------------------------------------------------------------------------------------------- */
 
 /* U and L^T of shape (n, m) become their mean, and L its transpose. */

@@ -4,6 +4,7 @@
 
 #include "analysis/static/static.h"
 #include "sim/sim.h"
+
 /* Asymmetry, as of dmb_asymmetry_of, above which a stiffness counts as unsymmetric. Rounding leaves 1e-12. */
 #define DMB_UNSYMMETRIC 1e-9
 

@@ -17,6 +17,7 @@
 #include "system/constrain/joint_state.h"
 #include "system/solve/solve.h"
 #include "system/start.h"
+
 DMB_DECLARE_STRUCT(dmb_static_options)
 
 int32_t dmb_static_options_take(dmb_sim *sim, const dmb_static_options *given, dmb_static_options *out)

@@ -6,6 +6,7 @@
 #include "drillmbd/analysis.h"
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
+
 typedef struct dmb_static_search {
     dmb_sim *sim;
     const dmb_static_options *options;

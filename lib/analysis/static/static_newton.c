@@ -8,6 +8,7 @@
 #include "system/constrain/cluster.h"
 #include "system/constrain/joint_state.h"
 #include "system/solve/solve.h"
+
 static int32_t choose_anew(dmb_static_search *search)
 {
     const int32_t status = dmb_clusters_gather(&search->evaluation);

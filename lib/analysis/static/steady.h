@@ -23,6 +23,7 @@
 
 #include "analysis/linear/linearise.h"
 #include "system/assemble/evaluation.h"
+
 typedef struct dmb_steady {
     int32_t kind; /* DMB_STEADY_AT_REST, _SLIDING, _RIGID */
     int32_t reserved;

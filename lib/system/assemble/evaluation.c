@@ -13,6 +13,7 @@
 #include "system/assemble/nodes.h"
 #include "system/assemble/wall_contact.h"
 #include "system/constrain/joint_state.h"
+
 static void clear(const dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;

@@ -7,6 +7,7 @@
 #include "math/mat6.h"
 #include "sim/node.h"
 #include "system/assemble/evaluation.h"
+
 /* ---- FULL nodes, by the kernels ---------------------------------------------------------------------------------- */
 
 /* Where the kernels find and leave what belongs to `count` FULL nodes from `node` on; `rigid_mass` is the first that may be

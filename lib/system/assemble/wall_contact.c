@@ -10,6 +10,7 @@
 #include "sim/node.h"
 #include "system/assemble/energy.h"
 #include "system/assemble/evaluation.h"
+
 void dmb_contact_slope_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t site, dmb_contact_slope *out)
 {
     const int full = site < scene->site_count;

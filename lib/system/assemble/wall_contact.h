@@ -4,6 +4,7 @@
 
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
+
 typedef struct dmb_contact_slope {
     double normal_by_depth;       /* [N/m] 0 of an open site, and of PATH sites, whose force is that of their tension */
     double normal_by_rate;        /* [N s/m] */

@@ -6,6 +6,7 @@
 #include "math/vec3.h"
 #include "system/constrain/constraint_rows.h"
 #include "system/constrain/sparse_cluster.h"
+
 dmb_partition dmb_cluster_partition(const dmb_sim *sim, uint32_t k)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;

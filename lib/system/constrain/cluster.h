@@ -10,6 +10,7 @@
 
 #include "constraint/partition.h"
 #include "system/assemble/evaluation.h"
+
 enum { DMB_SETTLE_POSE = 1, DMB_SETTLE_SPEED = 2, DMB_SETTLE_ACCELERATION = 4, DMB_SETTLE_ALL = 7 };
 
 /* Units of the columns and the first partition, from the rows at the trial. Once a sim, when its memory is new. */

@@ -4,6 +4,7 @@
 
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
+
 /* DMB_AT_ROUNDING: above the tolerance, but rounding of the poses alone makes a residual as large. Next to very stiff
  * elements small loads are below that, so it ends an iteration and does not stand for one. */
 enum { DMB_CONVERGED = 1, DMB_AT_ROUNDING = 2 };

@@ -1,4 +1,4 @@
-#include "sim/state_check.h"
+#include "run/snapshot_check.h"
 
 #include <math.h>
 #include <string.h>
