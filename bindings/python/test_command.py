@@ -5,6 +5,7 @@ import io
 import json
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -195,7 +196,7 @@ class CommandTest(unittest.TestCase):
 
     def test_help(self):
         self.assertIn("examples:", self.ask("--help"))
-        for command in ("check", "static", "run", "modes", "response", "speeds", "buckle", "save", "schema"):
+        for command in ("check", "static", "run", "modes", "response", "speeds", "buckle", "report", "save", "schema"):
             self.assertIn("usage: drillmbd", self.ask(command, "--help"))
         self.assertRegex(self.ask("--version"), r"drillmbd \d+\.\d+\.\d+")
 
@@ -217,6 +218,38 @@ class CommandTest(unittest.TestCase):
     def test_folder_that_cannot_be_written(self):
         for target in ("/dev/null/out", self.scene, "/proc/out"):
             self.ask("static", self.scene, "--output", target, status=3)
+
+    def test_report(self):
+        try:
+            import plotly.offline  # noqa: F401
+        except ImportError:
+            self.skipTest("not there: plotly")
+        self.scene = self.write("rig.toml", SCENE + '[limits]\npush = "1 N"\ntorque = "5 kN m"\n')
+        out, summary = self.answer("report")
+        self.assertIn("EXCEEDED", out)
+        self.assertIn("0.02", str(summary["run"]["time_s"]))
+        page = (self.output / "report.html").read_text(encoding="utf-8")
+        self.assertLess(len(page), 10_000_000)
+        self.assertNotRegex(page.split('id="plotly"')[0], r"https?://|src=|<link")
+        for part in ("Speeds to keep away from", "Push to feed it in", "What was assumed", "model check", summary["hash"]):
+            self.assertIn(part, page)
+        self.assertIn("--output", self.ask("report", self.scene, status=2))
+        self.browse(self.output / "report.html", page.count('class="figure"'))
+
+    def browse(self, path, figures):
+        """What a browser makes of the page: all figures drawn, nothing on its console."""
+        browser = shutil.which("chromium")
+        if browser is None:
+            self.skipTest("not there: chromium; the page was not looked at")
+        done = subprocess.run([browser, "--headless=new", "--no-sandbox", "--disable-dev-shm-usage",
+                               "--enable-logging=stderr", "--enable-unsafe-swiftshader",
+                               "--virtual-time-budget=30000", "--dump-dom", f"file://{path}"],
+                              capture_output=True, text=True, timeout=300,
+                              env={**os.environ, "HOME": str(self.folder)})
+        self.assertIn(f'data-drawn="{figures}"', done.stdout)
+        self.assertIn('<pre id="problems" data-count="0"></pre>', done.stdout)
+        self.assertEqual(done.stdout.count("figure js-plotly-plot"), figures)
+        self.assertNotRegex(done.stderr, r"CONSOLE.*(Error|error)")
 
     def test_as_a_program(self):
         done = subprocess.run([*COMMAND, "static", self.scene], capture_output=True, text=True, env=ENVIRONMENT)

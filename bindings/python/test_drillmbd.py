@@ -345,7 +345,7 @@ class ResponseTest(unittest.TestCase):
         shake = model.add_programme(mbd.Term(kind=mbd.TERM_HARMONIC, h1=3.0, omega=2.0 * math.pi * 5.0))
         model.add_drive(kind=mbd.DRIVE_LOAD, part=body, component=mbd.X, programme=shake)
         model.compile()
-        (amplitudes,), report = model.sim().sine(5.0, [mbd.Output(kind=mbd.OUTPUT_ACCELERATION, place=body)],
+        (amplitudes,), report = model.sim().stepped_sine(5.0, [mbd.Output(kind=mbd.OUTPUT_ACCELERATION, place=body)],
                                                  harmonics=2)
         self.assertEqual((report.status, report.settled, report.windows), (mbd.OK, 1, 3))
         self.assertAlmostEqual(amplitudes[0], 0.0)

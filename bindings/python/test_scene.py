@@ -141,6 +141,9 @@ end = "20 ms"
 step = "1 ms"
 [output]
 interval = "2 ms"
+[limits]
+torque = "2 kN m"
+yield_stress = "400 MPa"
 [[channel]]
 name = "swing"
 quantity = "position-z"

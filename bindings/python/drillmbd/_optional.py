@@ -11,7 +11,7 @@ except ImportError:
     numpy = None
 
 DEBIAN = {"numpy": "python3-numpy", "pandas": "python3-pandas", "matplotlib.pyplot": "python3-matplotlib",
-          "pint": "python3-pint", "tqdm": "python3-tqdm"}
+          "pint": "python3-pint", "plotly.offline": "python3-plotly", "tqdm": "python3-tqdm"}
 
 
 def need(name: str) -> Any:

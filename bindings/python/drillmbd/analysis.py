@@ -106,7 +106,8 @@ class Analyses:
         return Response(handle)
 
     @mirrors("dmb_analysis_stepped_sine")
-    def sine(self, frequency: float, outputs: Sequence[Output], options: Any = None, **fields: Any) -> tuple[Any, Any]:
+    def stepped_sine(self, frequency: float, outputs: Sequence[Output], options: Any = None,
+                     **fields: Any) -> tuple[Any, Any]:
         """Runs on until the Fourier amplitudes at frequency [Hz] have settled. Returns a list for each Output, mean and
         then the complex harmonics, and the report, whose status may be NOTE_STOPPED."""
         options = struct(STRUCTS["dmb_stepped_sine_options"], options, fields)
@@ -117,6 +118,8 @@ class Analyses:
                                                            values, byref(report)))
         found = [complex(values[2 * i], values[2 * i + 1]) for i in range(width * len(outputs))]
         return [[found[i * width].real] + found[i * width + 1:(i + 1) * width] for i in range(len(outputs))], report
+
+    sine = stepped_sine  # its name in 0.1.0
 
     @mirrors("dmb_analysis_modes")
     def modes(self, options: ModesOptions | None = None, **fields: Any) -> Modes:

@@ -18,13 +18,14 @@ EXAMPLES = """examples:
   drillmbd response rig.toml --output out     what shakes how much, by [response]
   drillmbd speeds rig.toml                    rotary speeds to keep away from, by [speeds]
   drillmbd buckle rig.toml                    critical factors, by [buckling]
+  drillmbd report rig.toml --output out       one page for crew and engineer: out/report.html
   drillmbd save rig.toml copy.toml            the scene in SI units, comments left out
   drillmbd schema > scene.schema.json         for editors that check TOML
 
 exit status: 0 done; 1 the library refused or failed; 2 wrong command line or scene file; 3 a file could not be read or
 written; 130 stopped by Ctrl-C, what was done is written.
 
-Not there yet: torque-drag, stuck, report, sweep, probability, fmu."""
+Not there yet: torque-drag, stuck, sweep, probability, fmu."""
 
 
 def parser() -> argparse.ArgumentParser:
@@ -37,7 +38,8 @@ def parser() -> argparse.ArgumentParser:
                        ("static", "finds the static state"), ("run", "runs the scene in time"),
                        ("modes", "finds natural frequencies about the static state"),
                        ("response", "finds the response to what shakes about the static state"),
-                       ("speeds", "finds rotary speeds to keep away from"), ("buckle", "finds what it buckles at")):
+                       ("speeds", "finds rotary speeds to keep away from"), ("buckle", "finds what it buckles at"),
+                       ("report", "makes one HTML page about it all; needs plotly")):
         command = commands.add_parser(name, help=text, description=text)
         command.add_argument("scene", help="a scene file (TOML)")
         command.add_argument("--output", "-o", metavar="FOLDER", help="where tables, pictures and summary.json are written")

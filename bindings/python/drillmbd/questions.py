@@ -387,6 +387,12 @@ def buckle(scene: Scene, output: Output, options: Any) -> int:
     return output.finish()
 
 
+def report(scene: Scene, output: Output, options: Any) -> int:
+    """One page about it all."""
+    from .report import report as answer
+    return answer(scene, output, options)
+
+
 QUESTIONS: dict[str, Callable[[Scene, Output, Any], int]] = {
-    "check": check, "static": static, "run": run, "modes": modes, "response": response, "speeds": speeds,
+    "report": report, "check": check, "static": static, "run": run, "modes": modes, "response": response, "speeds": speeds,
     "buckle": buckle}

@@ -25,6 +25,7 @@ class Scene:
     sim: dict[str, Any] = field(default_factory=dict)      #: fields of SimOptions
     run: dict[str, Any] = field(default_factory=dict)      #: end [s], step [s], static
     output: dict[str, Any] = field(default_factory=dict)   #: interval [s], vtk_interval [s]
+    limits: dict[str, float] = field(default_factory=dict)  #: torque [N m], push [N], pull [N], yield_stress [Pa]
     channels: list[tuple[str, Place | None, int]] = field(default_factory=list)  #: name, place, quantity
     analyses: dict[str, dict[str, Any]] = field(default_factory=dict)  #: fields of their options, by name
 
@@ -65,5 +66,5 @@ class Scene:
             channels = [(name, place and (place.part.index, place.pipe, place.fraction), quantity)
                         for name, place, quantity in scene.channels]
             analyses = map_ids(scene.analyses, lambda part: (part.index, bool(part)))
-            return scene.title, scene.sim, scene.run, scene.output, channels, scene.pipes, analyses
+            return scene.title, scene.sim, scene.run, scene.output, channels, scene.pipes, analyses, scene.limits
         return asked(self) == asked(other) and self.model.same_scene(other.model)

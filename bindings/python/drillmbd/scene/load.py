@@ -26,6 +26,11 @@ RUN = {"end": Field("end", "quantity", "s", about="where the run ends"),
 OUTPUT = {"interval": Field("interval", "quantity", "s", about="between rows of the table"),
           "vtk_interval": Field("vtk_interval", "quantity", "s", about="between files for ParaView; left out: none")}
 
+LIMITS = {"torque": Field("torque", "quantity", "N m", about="of the rig"),
+          "push": Field("push", "quantity", "N", about="of the rig"),
+          "pull": Field("pull", "quantity", "N", about="of the rig"),
+          "yield_stress": Field("yield_stress", "quantity", "Pa", about="allowed in the pipes")}
+
 
 def load(path: Any) -> Scene:
     """The scene of a TOML file. Raises SceneError with everything that is wrong, OSError where it cannot be read."""
@@ -72,7 +77,7 @@ class Loader:
     # ---- Shape of the file ------------------------------------------------------------------------------------------
     def scene(self) -> Scene | None:
         """The whole."""
-        known = ["title", "run", "output", "channel", "programme", *SINGLE, *PARTS, *ANALYSES, "compile", "sim"]
+        known = ["title", "run", "output", "limits", "channel", "programme", *SINGLE, *PARTS, *ANALYSES, "compile", "sim"]
         for key in self.content:
             if key not in known:
                 self.problems.unknown((key,), known)
@@ -438,6 +443,10 @@ class Loader:
         scene.sim = self.read(("sim",), self._table(("sim",)), fields_of(DEFINITIONS["sim"]))
         scene.run = self.read(("run",), self._table(("run",)), RUN)
         scene.output = self.read(("output",), self._table(("output",)), OUTPUT)
+        scene.limits = self.read(("limits",), self._table(("limits",)), LIMITS)
+        for key, value in scene.limits.items():
+            if not value > 0.0:
+                self.problems.add(("limits", key), self._written(("limits", key)), "must be > 0")
         for key, table in (("end", scene.run), ("step", scene.run), ("interval", scene.output),
                            ("vtk_interval", scene.output)):
             if key in table and not table[key] > 0.0:

@@ -13,7 +13,7 @@ from ..model import Model
 from . import fields, units
 from .content import ANALYSES, PARTS, Scene
 from .fields import DEFINITIONS, fields_of
-from .load import OUTPUT, RUN
+from .load import LIMITS, OUTPUT, RUN
 from .terms import PerRevolution
 
 
@@ -201,7 +201,8 @@ class Writer:
         if self.scene is None:
             return
         for name, values, known in (("sim", self.scene.sim, fields_of(DEFINITIONS["sim"])),
-                                    ("run", self.scene.run, RUN), ("output", self.scene.output, OUTPUT)):
+                                    ("run", self.scene.run, RUN), ("output", self.scene.output, OUTPUT),
+                                    ("limits", self.scene.limits, LIMITS)):
             if values:
                 self._head(f"[{name}]")
                 for key, value in values.items():

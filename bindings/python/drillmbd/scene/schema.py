@@ -7,7 +7,7 @@ from typing import Any
 from .. import enums
 from .content import ANALYSES, PARTS
 from .fields import DEFINITIONS, Field, fields_of, words_of
-from .load import OUTPUT, RUN
+from .load import LIMITS, OUTPUT, RUN
 
 _NAME = {"type": "string", "minLength": 1}
 _PLACE: dict[str, Any] = {"oneOf": [_NAME, {
@@ -63,7 +63,7 @@ def schema() -> dict[str, Any]:
                         survey_file={"type": "string", "description": "CSV: depth [m], inclination [deg], azimuth [deg]"}),
         "programme": _many(_object({}, ("term",), name=_NAME, unit=_NAME, term=_many(_term()))),
         "compile": _object(fields_of(DEFINITIONS["compile"])), "sim": _object(fields_of(DEFINITIONS["sim"])),
-        "run": _object(RUN), "output": _object(OUTPUT),
+        "run": _object(RUN), "output": _object(OUTPUT), "limits": _object(LIMITS),
         "channel": _many(_object({"quantity": Field("quantity", "enum", enum=enums.Quantity),
                                   "place": Field("place", "place")}, ("quantity",), name=_NAME))}
     for kind in PARTS:
