@@ -87,9 +87,10 @@ DMB_SIZED_STRUCT(dmb_mode_shape)
  * product), damped or unsymmetric ones block Arnoldi, both on the inverse of K (rigid-body motions apart, or shifted),
  * linear in the number of elements; ALL, and many: LAPACK (dsygvd, dgeev), cubic. A BAND of many modes is divided:
  * undamped by the counts of eigenvalues below its pieces, which must all be found, in time that grows with the modes; of
- * damped ones up to some 250 are found at once, more by shifts all over the half plane of their roots, which takes minutes.
- * A mode that does not satisfy its
- * equations to rounding, after some inverse iteration, is refused with its residual and the bound (_NO_CONVERGENCE).
+ * damped ones likewise where their roots stand along the imaginary axis (K symmetric, no joints, less than some half of the
+ * critical damping at band[1]); elsewhere up to 256 modes below band[1] are found at once, more are refused (_TOO_LARGE).
+ * A mode that does not satisfy its equations to rounding, after some inverse iteration, or cannot be told from a rigid-body
+ * motion, is refused with its residual and the bound (_NO_CONVERGENCE).
  * *modes is NULL on error: DMB_ERR_VALUE (option; more modes than coordinates; a band without modes; a state out of
  * balance: by how much and where), _NO_CONVERGENCE, _SINGULAR, _CALLBACK, _NOT_FINITE, _ROTATION, _NO_MEMORY, _TOO_LARGE. */
 DMB_API int32_t dmb_analysis_modes(dmb_sim *sim, const dmb_modes_options *options, dmb_modes **modes);

@@ -131,6 +131,8 @@ int64_t dmb_linear_factor(dmb_linear *linear, double k, double c, double m, dmb_
 uint32_t dmb_linear_count_below(dmb_linear *linear, double square);
 /* The same with joints too; -1 where a block is singular there. */
 int64_t dmb_linear_count(dmb_linear *linear, double square);
+/* Negative eigenvalues of the symmetric part of k K + c C + m M, without joints only. The factors are gone then. */
+uint32_t dmb_linear_negative(dmb_linear *linear, double k, double c, double m);
 /* x <- R (R^T A R)^-1 R^T x by rows, A as factored last. */
 void dmb_linear_solve(dmb_linear *linear, double *x);
 

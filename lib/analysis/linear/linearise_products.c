@@ -194,15 +194,20 @@ int64_t dmb_linear_factor(dmb_linear *linear, double k, double c, double m, dmb_
     return dmb_factor_stiffness(linear->work, weakest != NULL ? weakest : &unused);
 }
 
-uint32_t dmb_linear_count_below(dmb_linear *linear, double square)
+uint32_t dmb_linear_negative(dmb_linear *linear, double k, double c, double m)
 {
     const dmb_scene *scene = &linear->scene;
-    const dmb_linear_matrix A = combine(linear, 1.0, 0.0, -square);
+    const dmb_linear_matrix A = combine(linear, k, c, m);
     uint32_t count = 0;
-    for (uint32_t c = 0; c < scene->chain_count; c++)
-        count += dmb_block_negative(&scene->layout, A.diagonal, A.lower, A.upper, NULL, scene->chains[c].first,
-                                    scene->chains[c].count);
+    for (uint32_t i = 0; i < scene->chain_count; i++)
+        count += dmb_block_negative(&scene->layout, A.diagonal, A.lower, A.upper, NULL, scene->chains[i].first,
+                                    scene->chains[i].count);
     return count;
+}
+
+uint32_t dmb_linear_count_below(dmb_linear *linear, double square)
+{
+    return dmb_linear_negative(linear, 1.0, 0.0, -square);
 }
 
 int64_t dmb_linear_count(dmb_linear *linear, double square)

@@ -105,9 +105,11 @@ int32_t dmb_modes_shifted(dmb_mode_search *search, double *growth, double omega,
 /* Value that the operator of a shift has at the root re + i im. */
 double dmb_shifted_value(double growth, double omega, double re, double im);
 /* All modes of low to high [Hz] and some at its edges, piece by piece: of symmetric problems, and of general ones.
- * DMB_ERR_NO_CONVERGENCE, _SINGULAR, _NO_MEMORY. */
+ * DMB_ERR_NO_CONVERGENCE, _SINGULAR, _TOO_LARGE, _NO_MEMORY. */
 int32_t dmb_modes_band_of_squares(dmb_mode_search *search, double low, double high);
 int32_t dmb_modes_band_of_roots(dmb_mode_search *search, double low, double high);
+/* Where its roots stand in a strip along the imaginary axis, which is quick to cover: 1. */
+int dmb_modes_find_strip(dmb_mode_search *search, double high, double strip[2]);
 
 /* Finds all rigid-body motions. DMB_ERR_NO_MEMORY. */
 int32_t dmb_modes_find_rigid(dmb_mode_search *search);

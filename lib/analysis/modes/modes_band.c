@@ -4,7 +4,11 @@
  *     symmetric:  the eigenvalues s^2 stand on a line, and the signs of the factors of K - s^2 M count them: a piece is
  *                 cut until a search finds as many as there are (Grimes, Lewis, Simon 1994)
  *     general:    the roots s stand in the half plane of im >= 0; a rectangle of it that a search from its middle does
- *                 not reach to its corners is cut in two */
+ *                 not reach to its corners is cut in two.
+ *     A root s = a + i b, |s| = r, of a shape x with x^H M x = 1, x^H C x = c + i g and K symmetric, x^H K x = k, has
+ *         a (1 + k/r^2) + c = 0        (real part of its equation over s)
+ *     so that with K and d (M + K/high^2) -+ C positive definite no root of r <= high has -+a > d: then these stand in
+ *     a strip along the imaginary axis, which counts of w^2 divide before it is searched */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -17,6 +21,9 @@
 enum { DMB_PIECE = 24, DMB_MARGIN = 6, DMB_PIECES = 128, DMB_CUTS = 60 };
 /* A piece of eigenvalues is not made narrower than this part of them. */
 #define DMB_NARROW 1e-4
+/* Half a strip of roots, as a part of the band's upper edge. */
+#define DMB_STRIP_WIDEST 0.5
+#define DMB_STRIP_LEAST 1e-5
 /* Reach that is taken for granted. */
 #define DMB_SURE 0.98
 
@@ -156,6 +163,7 @@ typedef struct reach {
 typedef struct covering {
     dmb_mode_search *search;
     double low, high; /* [1/s] of |s| */
+    int strip;        /* 1: all roots are along the imaginary axis, and counts of w^2 tell about where */
     reach *reaches;
     uint32_t count, room;
 } covering;
@@ -271,6 +279,15 @@ static void cut(const rectangle *r, rectangle out[2])
     }
 }
 
+/* A piece of the strip with more roots than a search from its middle is sure to tell. */
+static int is_crowded(const covering *c, const rectangle *r)
+{
+    dmb_linear *linear = c->search->linear;
+    if (!c->strip || r->im[1] - r->im[0] <= r->re[1] - r->re[0]) return 0;
+    const uint32_t below = dmb_linear_count_below(linear, r->im[0] * r->im[0]);
+    return dmb_linear_count_below(linear, r->im[1] * r->im[1]) > below + DMB_PIECE / 2;
+}
+
 static int32_t cover(covering *c, rectangle all)
 {
     rectangle waiting[DMB_PIECES];
@@ -279,7 +296,7 @@ static int32_t cover(covering *c, rectangle all)
     while (count > 0) {
         const rectangle r = waiting[--count];
         if (is_outside(c, &r) || is_empty(c, &r)) continue;
-        const int32_t status = search_rectangle(c, &r);
+        const int32_t status = is_crowded(c, &r) ? 0 : search_rectangle(c, &r);
         if (status < 0) return status;
         if (status > 0) continue;
         if (r.cuts == DMB_CUTS || count + 2 > DMB_PIECES) return DMB_ERR_NO_CONVERGENCE;
@@ -289,11 +306,33 @@ static int32_t cover(covering *c, rectangle all)
     return DMB_OK;
 }
 
+/* Whether no root of |s| <= high has a sign * real part beyond d. */
+static int is_beside(dmb_mode_search *search, double high, double sign, double d)
+{
+    return dmb_linear_negative(search->linear, d / (high * high), sign, d) == 0;
+}
+
+int dmb_modes_find_strip(dmb_mode_search *search, double high, double strip[2])
+{
+    const double edge = DMB_TWO_PI * high;
+    if (search->linear->scene.cluster_count > 0 || search->modes->info.asymmetry > DMB_MODES_ASYMMETRY) return 0;
+    if (dmb_linear_negative(search->linear, 1.0, 0.0, DMB_RIGID_NOISE * search->noise) > 0) return 0;
+    for (int side = 0; side < 2; side++) {
+        double d = DMB_STRIP_WIDEST * edge;
+        const double sign = side ? 1.0 : -1.0;
+        if (!is_beside(search, edge, sign, d)) return 0;
+        while (d > DMB_STRIP_LEAST * edge && is_beside(search, edge, sign, 0.7 * d)) d *= 0.7;
+        strip[side] = sign * d;
+    }
+    return 1;
+}
+
 int32_t dmb_modes_band_of_roots(dmb_mode_search *search, double low, double high)
 {
     covering c = {.search = search, .low = DMB_TWO_PI * low, .high = DMB_TWO_PI * high};
     const double edge = (1.0 + 1e-9) * c.high;
-    const rectangle all = {{-edge, edge}, {0.0, edge}, 0};
+    rectangle all = {{-edge, edge}, {0.0, edge}, 0};
+    c.strip = dmb_modes_find_strip(search, high, all.re);
     search->modes->count = 0;
     const int32_t status = cover(&c, all);
     if (c.reaches != NULL) dmb_release(&search->linear->allocator, c.reaches, c.room * sizeof(reach));

@@ -3,7 +3,8 @@
  * Parts are runs of nodes that elements connect. A part of nodes that move freely has six candidates, translations
  * along the axes of the world and rotations about them through its middle, d = Ad(H^-1) xi at each node; one on the
  * axis of a hole has two. A string that is bent may turn about its own axis, section by section: what is round and
- * was straight has no stiffness against that, which is therefore one more candidate. With B the candidates of all parts, the motions sought are B q with
+ * was straight has no stiffness against that, which is therefore one more candidate.
+ * With B the candidates of all parts, the motions sought are B q with
  *
  *     (1 - R E) B q = 0     joints and guides let it happen (E takes the coordinates out of d),
  *     R^T K B q = 0         nothing that acts in the state turns it back.

@@ -10,7 +10,7 @@
 enum { DMB_DENSE_COORDINATES = 60, DMB_DENSE_SHARE = 3 };
 enum { DMB_SCALE_MODES = 12 };
 /* A band of more modes is divided. Damped roots stand in a plane, where many pieces make one search. */
-enum { DMB_BAND_AT_ONCE = 64, DMB_ROOTS_AT_ONCE = 256 };
+enum { DMB_BAND_AT_ONCE = 64, DMB_ROOTS_AT_ONCE = 256, DMB_ROOTS_BY_STRIP = 32 };
 /* The last of the modes wanted is left out of the count, with those equal to it; a count that does not fit is tried
  * again. */
 #define DMB_COUNT_MARGIN 1e-6
@@ -126,6 +126,27 @@ static int covers_band(const dmb_mode_search *search, double low, double high)
     return farthest > fmax(fabs(edge * edge - search->shift), fabs(other * other - search->shift));
 }
 
+/* Many roots, by the undamped modes below the upper edge: those that stand in a strip are searched for piece by piece,
+ * others refused where they are too many. 1: found; 0: they are few. */
+static int32_t find_many_roots(dmb_mode_search *search, double low, double high)
+{
+    const double edge = DMB_TWO_PI * high;
+    double strip[2];
+    const int64_t below = dmb_linear_count(search->linear, edge * edge);
+    if (below > DMB_ROOTS_BY_STRIP && dmb_modes_find_strip(search, high, strip)) {
+        const int32_t status = dmb_modes_band_of_roots(search, low, high);
+        return status < 0 ? status : 1;
+    }
+    if (below > DMB_ROOTS_AT_ONCE) {
+        dmb_message_set(search->message,
+                        "modes: some %u damped modes lie below band[1] = %g Hz, and friction, joints or strong damping "
+                        "let them stand anywhere: must be <= %d; lower it, or take undamped modes",
+                        (uint32_t)below, high, (int)DMB_ROOTS_AT_ONCE);
+        return DMB_ERR_TOO_LARGE;
+    }
+    return 0;
+}
+
 /* In a band above 0 the shift stands in its middle, unless the problem is general: a real shift stays at 0. */
 static int32_t find_band(dmb_mode_search *search)
 {
@@ -133,6 +154,12 @@ static int32_t find_band(dmb_mode_search *search)
     if (low > 0.0 && !search->general) {
         search->shift = 0.5 * DMB_TWO_PI * DMB_TWO_PI * (low * low + high * high);
         search->pinned = 0;
+    }
+    if (search->general && !is_dense(search, 16)) {
+        const int32_t status = find_many_roots(search, low, high);
+        if (status != 0) return status < 0 ? status : DMB_OK;
+        const int32_t again = choose_shift(search); /* the counts have taken the factors */
+        if (again < 0) return again;
     }
     const uint32_t most = search->general ? DMB_ROOTS_AT_ONCE : DMB_BAND_AT_ONCE;
     for (uint32_t wanted = 16; wanted <= most; wanted *= 2) {
