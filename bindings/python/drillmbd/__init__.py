@@ -36,6 +36,18 @@ from .profile import Profile
 from .recorder import Recorder
 from .sim import Progress, Sim
 
+_OLD_NAMES = {"ContactSum": "ContactTotal", "SineOptions": "SteppedSineOptions", "SineReport": "SteppedSineReport",
+              "MODES_TURNING": "MODES_AXES_TURNING", "MODES_STILL": "MODES_AXES_AT_REST"}
+
+
+def __getattr__(name: str) -> object:
+    if name in _OLD_NAMES:
+        import warnings
+        warnings.warn(f"drillmbd.{name} is {_OLD_NAMES[name]} now", DeprecationWarning, stacklevel=2)
+        return globals()[_OLD_NAMES[name]]
+    raise AttributeError(f"module 'drillmbd' has no attribute '{name}'")
+
+
 __all__ = ["STRUCTS", "VERSION", "__version__", "Buckling", "Error", "Model", "Modes", "Profile", "Progress", "Recorder",
            "Response", "Sim", "output", "station", "status_name", "status_text"]
 __all__ += [name for name, value in vars(_structs).items() if name.endswith("_FN") or value in STRUCTS.values()]

@@ -114,12 +114,12 @@ class Analyses:
         report: Any = STRUCTS["dmb_stepped_sine_report"]()
         asked, width = (Output * len(outputs))(*outputs), 1 + options.harmonics
         values = (c_double * (2 * width * len(outputs)))()
-        report.status = self._check(self._long(_lib.dmb_analysis_stepped_sine, frequency, byref(options), asked, len(outputs),
-                                                           values, byref(report)))
+        report.status = self._check(self._long(_lib.dmb_analysis_stepped_sine, frequency, byref(options), asked,
+                                               len(outputs), values, byref(report)))
         found = [complex(values[2 * i], values[2 * i + 1]) for i in range(width * len(outputs))]
         return [[found[i * width].real] + found[i * width + 1:(i + 1) * width] for i in range(len(outputs))], report
 
-    sine = stepped_sine  # its name in 0.1.0
+    sine = stepped_sine  # its name before
 
     @mirrors("dmb_analysis_modes")
     def modes(self, options: ModesOptions | None = None, **fields: Any) -> Modes:

@@ -194,6 +194,8 @@ class Sim(analysis.Analyses):
         """Goes on where `other` stands, a sim of another model: pipes may have come or gone at the rig end."""
         return self._check(_lib.dmb_sim_transfer_state(self._handle, other._handle))
 
+    carry_over = transfer_state  # its name before
+
     @mirrors("dmb_sim_snapshot")
     def snapshot(self) -> bytes:
         """All that changes, as bytes; a copy."""
@@ -254,6 +256,8 @@ class Sim(analysis.Analyses):
     def contact_total(self) -> Any:
         """Sums over all contact sites: closed ones, normal force [N], friction [N], deepest penetration [m]."""
         return self._ask(_lib.dmb_query_contact_total, STRUCTS["dmb_contact_total"]())
+
+    contact_sum = contact_total  # its name before
 
     def kinetic_energy(self, part: Id, pipe: int = 0) -> float:
         """[J] of one pipe of a string, or of a body"""

@@ -13,6 +13,7 @@ from .._structs import Id, Place, Term
 from ..errors import Error
 from ..model import Model
 from . import fields, survey, units
+from .asked import Asked
 from .content import ANALYSES, PARTS, SINGLE, Scene
 from .fields import DEFINITIONS, Field, ValueProblem, fields_of
 from .lines import Path, find_lines
@@ -20,17 +21,6 @@ from .problems import Problem, Problems, SceneError, meant
 from .terms import PerRevolution
 
 MOST_BYTES = 50_000_000
-RUN = {"end": Field("end", "quantity", "s", about="where the run ends"),
-       "step": Field("step", "quantity", "s", about="length of a step; left out: chosen by the library"),
-       "static": Field("static", "integer", about="true: starts from the static state of [static]")}
-OUTPUT = {"interval": Field("interval", "quantity", "s", about="between rows of the table"),
-          "vtk_interval": Field("vtk_interval", "quantity", "s", about="between files for ParaView; left out: none")}
-
-LIMITS = {"torque": Field("torque", "quantity", "N m", about="of the rig"),
-          "push": Field("push", "quantity", "N", about="of the rig"),
-          "pull": Field("pull", "quantity", "N", about="of the rig"),
-          "yield_stress": Field("yield_stress", "quantity", "Pa", about="allowed in the pipes")}
-
 
 def load(path: Any) -> Scene:
     """The scene of a TOML file. Raises SceneError with everything that is wrong, OSError where it cannot be read."""
@@ -89,13 +79,13 @@ class Loader:
         self._describe()
         scene = Scene(title=str(title), model=self.model, names={n: i for n, i in self.names.items() if i is not None},
                       pipes=self.pipes, programme_units=self.units)
-        self._settings(scene)
-        compiled = self.read(("compile",), self._table(("compile",)), fields_of(DEFINITIONS["compile"]))
+        Asked(self).settings(scene)
+        compiled = self.read(("compile",), self.table(("compile",)), fields_of(DEFINITIONS["compile"]))
         if not self.problems.found:
             self._compile(compiled)
         return None if self.problems.found else scene
 
-    def _table(self, path: Path) -> dict[str, Any]:
+    def table(self, path: Path) -> dict[str, Any]:
         value: Any = self.content
         for part in path:
             value = value.get(part, {}) if isinstance(value, dict) else {}
@@ -104,7 +94,7 @@ class Loader:
             return {}
         return value
 
-    def _tables(self, holder: dict[str, Any], path: Path, key: str) -> list[tuple[Path, dict[str, Any]]]:
+    def tables(self, holder: dict[str, Any], path: Path, key: str) -> list[tuple[Path, dict[str, Any]]]:
         """An array of tables below a table; one table counts as an array of one."""
         value = holder.get(key, [])
         value = [value] if isinstance(value, dict) else value
@@ -122,7 +112,7 @@ class Loader:
 
     def parts(self, kind: str) -> list[tuple[Path, dict[str, Any]]]:
         """All tables of a kind of part."""
-        return self._tables(self.content, (), kind)
+        return self.tables(self.content, (), kind)
 
     # ---- Names ------------------------------------------------------------------------------------------------------
     def _collect_names(self) -> None:
@@ -141,7 +131,7 @@ class Loader:
         if self.kinds.get(name) == kind:
             self.names[name] = made
 
-    def _name(self, kind: str, number: int, table: dict[str, Any]) -> str:
+    def name(self, kind: str, number: int, table: dict[str, Any]) -> str:
         name = table.get("name", f"{kind}-{number}")
         return name if isinstance(name, str) and name else f"{kind}-{number}"
 
@@ -149,7 +139,7 @@ class Loader:
         """A programme has the unit of what it is used for."""
         uses: list[tuple[Path, Any, str]] = []
         for path, table in self.parts("drive"):
-            uses += [(path + (key,), table.get(key), self._drive_unit(table)) for key in ("programme", "excitation")]
+            uses += [(path + (key,), table.get(key), self.drive_unit(table)) for key in ("programme", "excitation")]
         uses += [(path + ("load",), table.get("load"), "N") for path, table in self.parts("bit")]
         uses += [(path + ("programme",), table.get("programme"), "-") for path, table in self.parts("load")]
         for path, name, unit in uses:
@@ -158,12 +148,12 @@ class Loader:
                     self.problems.add(path, name, f"is used in {self.units[name]} elsewhere and in {unit} here; "
                                                   "make two programmes")
 
-    def _drive_unit(self, table: dict[str, Any]) -> str:
+    def drive_unit(self, table: dict[str, Any]) -> str:
         """The unit of the programme of a drive."""
         known = fields_of(DEFINITIONS["drive"])
-        return fields.drive_unit(*(self._word(known[key], table.get(key), 0) for key in ("kind", "component")))
+        return fields.drive_unit(*(self.word(known[key], table.get(key), 0) for key in ("kind", "component")))
 
-    def _word(self, field: Field, value: Any, default: int) -> int:
+    def word(self, field: Field, value: Any, default: int) -> int:
         try:
             return default if value is None else int(fields.read(field, value))
         except ValueProblem:
@@ -248,7 +238,7 @@ class Loader:
                 name = field.group(0) if field else ""
                 known = fields_of(struct).get(name)
                 unit = f" (in {known.unit})" if known and known.unit not in ("", "-") else ""
-                written = self._written(path + (name,))
+                written = self.written(path + (name,))
                 text = f"must {error.bound}{unit}" if error.bound and name in values else error.message
                 self.problems.add(path + (name,) if name in values else path, written if name in values else None, text)
                 if values.pop(name, None) is None:
@@ -257,7 +247,7 @@ class Loader:
                 self.problems.add(path, None, str(error))
                 return None
 
-    def _written(self, path: Path) -> Any:
+    def written(self, path: Path) -> Any:
         value: Any = self.content
         for part in path:
             try:
@@ -268,20 +258,20 @@ class Loader:
 
     def _describe(self) -> None:
         if "environment" in self.content:
-            values = self.read(("environment",), self._table(("environment",)), fields_of(DEFINITIONS["environment"]))
+            values = self.read(("environment",), self.table(("environment",)), fields_of(DEFINITIONS["environment"]))
             self._add(("environment",), self.model.set_environment, DEFINITIONS["environment"], values)
         if "hole" in self.content:
             self._hole()
         for number, (path, table) in enumerate(self.parts("programme")):
-            self._programme(path, self._name("programme", number, table), table)
+            self._programme(path, self.name("programme", number, table), table)
         for number, (path, table) in enumerate(self.parts("string")):
-            self._string(path, self._name("string", number, table), table)
+            self._string(path, self.name("string", number, table), table)
         for kind in PARTS[1:]:
             for number, (path, table) in enumerate(self.parts(kind)):
-                self._part(kind, path, self._name(kind, number, table), table)
+                self._part(kind, path, self.name(kind, number, table), table)
 
     def _hole(self) -> None:
-        path, table = ("hole",), self._table(("hole",))
+        path, table = ("hole",), self.table(("hole",))
         exponent = table.get("exponent", 1.0)
         power = float(exponent) if isinstance(exponent, (int, float)) and 0 < exponent < 10 else 1.0
         special = {"stiffness": f"N/m^{power + 1.0:g}"}
@@ -305,7 +295,7 @@ class Loader:
                                           "give its unit")
             return
         self.units[name] = unit
-        terms = self._tables(table, path, "term")
+        terms = self.tables(table, path, "term")
         if not terms:
             self.problems.add(path, None, "must have at least one term")
         plain = [one for one in (self._term(where, term, unit) for where, term in terms) if one is not None]
@@ -382,7 +372,7 @@ class Loader:
         string = self._add(path, self.model.add_string, DEFINITIONS["string"], values)
         self.pipes[name] = 0
         self._put(name, "string", string)
-        sections = self._tables(table, path, "pipes")
+        sections = self.tables(table, path, "pipes")
         if not sections:
             self.problems.add(path, None, "must have pipes: [[string.pipes]]")
         for where, section in sections:
@@ -403,7 +393,7 @@ class Loader:
         known = {key: field for key, field in fields_of(struct).items() if key != "name"}
         table = dict(table)
         self._inline_programmes(kind, path, table)
-        component = self._word(fields_of(DEFINITIONS["drive"])["component"], table.get("component"), 0)
+        component = self.word(fields_of(DEFINITIONS["drive"])["component"], table.get("component"), 0)
         special = {key: fields.by_component(known[key].unit, component)
                    for key in ("gain", "integral_gain", "limit_low", "limit_high") if kind == "drive"}
         values = self.read(path, table, known, ("name",), special.get)
@@ -423,7 +413,7 @@ class Loader:
     def _inline_programmes(self, kind: str, path: Path, table: dict[str, Any]) -> None:
         """programme = "120 rpm" stands for a programme of that constant."""
         keys = {"drive": ("programme", "excitation"), "bit": ("load",), "load": ("programme",)}.get(kind, ())
-        unit = {"bit": "N", "load": "-"}.get(kind) or self._drive_unit(table)
+        unit = {"bit": "N", "load": "-"}.get(kind) or self.drive_unit(table)
         for key in keys:
             value = table.get(key)
             if key in table and (not isinstance(value, str) or (value not in self.kinds and re.match(r"\s*[-+.\d]", value))):
@@ -438,97 +428,7 @@ class Loader:
                 self.names[name] = self._add_programme(path + (key,), self.terms[name])
                 table[key] = name
 
-    # ---- What is asked ----------------------------------------------------------------------------------------------
-    def _settings(self, scene: Scene) -> None:
-        scene.sim = self.read(("sim",), self._table(("sim",)), fields_of(DEFINITIONS["sim"]))
-        scene.run = self.read(("run",), self._table(("run",)), RUN)
-        scene.output = self.read(("output",), self._table(("output",)), OUTPUT)
-        scene.limits = self.read(("limits",), self._table(("limits",)), LIMITS)
-        for key, value in scene.limits.items():
-            if not value > 0.0:
-                self.problems.add(("limits", key), self._written(("limits", key)), "must be > 0")
-        for key, table in (("end", scene.run), ("step", scene.run), ("interval", scene.output),
-                           ("vtk_interval", scene.output)):
-            if key in table and not table[key] > 0.0:
-                section = "run" if table is scene.run else "output"
-                self.problems.add((section, key), self._written((section, key)), "must be > 0 s")
-        for number, (path, table) in enumerate(self.parts("channel")):
-            self._channel(scene, path, number, table)
-        for kind in ANALYSES:
-            if kind in self.content:
-                scene.analyses[kind] = self._analysis(kind)
-
-    def _channel(self, scene: Scene, path: Path, number: int, table: dict[str, Any]) -> None:
-        known = {"quantity": Field("quantity", "enum", enum=enums.Quantity), "place": Field("place", "place")}
-        values = self.read(path, table, known, ("name",))
-        name = table.get("name", f"channel-{number}")
-        if not isinstance(name, str):
-            self.problems.add(path + ("name",), name, "must be a text")
-        if "quantity" not in table:
-            self.problems.add(path, None, "must have a quantity")
-        if "quantity" in values and ("place" in values or "place" not in table):
-            scene.channels.append((str(name), values.get("place"), values["quantity"]))
-
-    def _analysis(self, kind: str) -> dict[str, Any]:
-        table = self._table((kind,))
-        extra = {"response": ("input", "output"), "speeds": ("order", "output")}.get(kind, ())
-        unit = self._factor_unit(table) if kind == "buckling" else None
-        values = self.read((kind,), table, fields_of(DEFINITIONS[kind]), extra,
-                           lambda name: unit if name in ("factor_max", "step") else None)
-        if kind == "response":
-            values["input"] = [self._input(path, one) for path, one in self._tables(table, (kind,), "input")]
-        if kind == "speeds":
-            order = {"order": fields_of(DEFINITIONS["order"])["order"]}
-            values["order"] = [{**self._input(path, one, ("order",)),
-                                "order": self.read(path, {k: v for k, v in one.items() if k == "order"}, order
-                                                   ).get("order", 1.0)}
-                               for path, one in self._tables(table, (kind,), "order")]
-        if extra:
-            values["output"] = [self._output(path, one, kind == "speeds")
-                                for path, one in self._tables(table, (kind,), "output")]
-            for key in extra:
-                if not values[key]:
-                    self.problems.add((kind,), None, f"must have at least one [[{kind}.{key}]]")
-        return values
-
-    def _factor_unit(self, table: dict[str, Any]) -> str:
-        """The factor of a drive of a motion is a length or an angle; else it is a number."""
-        name = table.get("part")
-        for number, (_, drive) in enumerate(self.parts("drive")):
-            if self._name("drive", number, drive) == name:
-                kind = self._word(fields_of(DEFINITIONS["drive"])["kind"], drive.get("kind"), 0)
-                component = self._word(fields_of(DEFINITIONS["drive"])["component"], drive.get("component"), 0)
-                return fields.by_component("m, rad" if kind == enums.DRIVE_MOTION else "N, N m", component)
-        return "-"
-
-    def _input(self, path: Path, table: dict[str, Any], extra: tuple[str, ...] = ()) -> dict[str, Any]:
-        known = fields_of(DEFINITIONS["input"])
-        eccentric = int(enums.INPUT_ECCENTRICITY) if extra else int(enums.INPUT_FORCE)
-        kind = self._word(known["kind"], table.get("kind"), eccentric)
-        component = self._word(known["component"], table.get("component"), 0)
-        unit = fields.input_unit(kind, component)
-        if kind == enums.INPUT_DRIVE:
-            place = table.get("place")
-            name = place.get("part") if isinstance(place, dict) else place
-            unit = next((self._drive_unit(drive) for number, (_, drive) in enumerate(self.parts("drive"))
-                         if self._name("drive", number, drive) == name), unit)
-        return self.read(path, table, known, extra, lambda key: unit if key == "amplitude" else None)
-
-    def _output(self, path: Path, table: dict[str, Any], limited: bool) -> dict[str, Any]:
-        known = fields_of(DEFINITIONS["output"])
-        values = self.read(path, table, known, ("name", "limit") if limited else ("name",))
-        unit = fields.output_unit(values.get("kind", 0), values.get("component", 0))
-        values["name"] = str(table.get("name", f"output-{path[-1]}"))
-        if limited:
-            try:
-                values["limit"] = units.parse(table.get("limit"), unit)
-                if not values["limit"] > 0.0:
-                    raise units.UnitError("must be > 0")
-            except units.UnitError as error:
-                self.problems.add(path + ("limit",), table.get("limit"), str(error))
-        values["unit"] = unit
-        return values
-
+    # ---- The end -------------------------------------------------------------------------------------------------------
     def _compile(self, values: dict[str, Any]) -> None:
         try:
             self.model.compile(**values)

@@ -11,9 +11,9 @@ from .. import enums
 from .._structs import Id, Place
 from ..model import Model
 from . import fields, units
+from .asked import LIMITS, OUTPUT, RUN
 from .content import ANALYSES, PARTS, Scene
 from .fields import DEFINITIONS, fields_of
-from .load import LIMITS, OUTPUT, RUN
 from .terms import PerRevolution
 
 

@@ -5,9 +5,9 @@ import json
 from typing import Any
 
 from .. import enums
+from .asked import LIMITS, OUTPUT, RUN
 from .content import ANALYSES, PARTS
 from .fields import DEFINITIONS, Field, fields_of, words_of
-from .load import LIMITS, OUTPUT, RUN
 
 _NAME = {"type": "string", "minLength": 1}
 _PLACE: dict[str, Any] = {"oneOf": [_NAME, {

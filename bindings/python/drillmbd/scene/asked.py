@@ -1,0 +1,121 @@
+"""What a scene file asks: options of the run, its channels, the analyses."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from .. import enums
+from . import fields, units
+from .content import ANALYSES, Scene
+from .fields import DEFINITIONS, Field, fields_of
+from .lines import Path
+
+if TYPE_CHECKING:
+    from .load import Loader
+
+RUN = {"end": Field("end", "quantity", "s", about="where the run ends"),
+       "step": Field("step", "quantity", "s", about="length of a step; left out: chosen by the library"),
+       "static": Field("static", "integer", about="true: starts from the static state of [static]")}
+OUTPUT = {"interval": Field("interval", "quantity", "s", about="between rows of the table"),
+          "vtk_interval": Field("vtk_interval", "quantity", "s", about="between files for ParaView; left out: none")}
+
+LIMITS = {"torque": Field("torque", "quantity", "N m", about="of the rig"),
+          "push": Field("push", "quantity", "N", about="of the rig"),
+          "pull": Field("pull", "quantity", "N", about="of the rig"),
+          "yield_stress": Field("yield_stress", "quantity", "Pa", about="allowed in the pipes")}
+
+
+class Asked:
+    """Reads what is asked into the scene, with the names and tables of a loader."""
+
+    def __init__(self, loader: Loader) -> None:
+        self.loader = loader
+
+    def settings(self, scene: Scene) -> None:
+        scene.sim = self.loader.read(("sim",), self.loader.table(("sim",)), fields_of(DEFINITIONS["sim"]))
+        scene.run = self.loader.read(("run",), self.loader.table(("run",)), RUN)
+        scene.output = self.loader.read(("output",), self.loader.table(("output",)), OUTPUT)
+        scene.limits = self.loader.read(("limits",), self.loader.table(("limits",)), LIMITS)
+        for key, value in scene.limits.items():
+            if not value > 0.0:
+                self.loader.problems.add(("limits", key), self.loader.written(("limits", key)), "must be > 0")
+        for key, table in (("end", scene.run), ("step", scene.run), ("interval", scene.output),
+                           ("vtk_interval", scene.output)):
+            if key in table and not table[key] > 0.0:
+                section = "run" if table is scene.run else "output"
+                self.loader.problems.add((section, key), self.loader.written((section, key)), "must be > 0 s")
+        for number, (path, table) in enumerate(self.loader.parts("channel")):
+            self._channel(scene, path, number, table)
+        for kind in ANALYSES:
+            if kind in self.loader.content:
+                scene.analyses[kind] = self._analysis(kind)
+
+    def _channel(self, scene: Scene, path: Path, number: int, table: dict[str, Any]) -> None:
+        known = {"quantity": Field("quantity", "enum", enum=enums.Quantity), "place": Field("place", "place")}
+        values = self.loader.read(path, table, known, ("name",))
+        name = table.get("name", f"channel-{number}")
+        if not isinstance(name, str):
+            self.loader.problems.add(path + ("name",), name, "must be a text")
+        if "quantity" not in table:
+            self.loader.problems.add(path, None, "must have a quantity")
+        if "quantity" in values and ("place" in values or "place" not in table):
+            scene.channels.append((str(name), values.get("place"), values["quantity"]))
+
+    def _analysis(self, kind: str) -> dict[str, Any]:
+        table = self.loader.table((kind,))
+        extra = {"response": ("input", "output"), "speeds": ("order", "output")}.get(kind, ())
+        unit = self._factor_unit(table) if kind == "buckling" else None
+        values = self.loader.read((kind,), table, fields_of(DEFINITIONS[kind]), extra,
+                           lambda name: unit if name in ("factor_max", "step") else None)
+        if kind == "response":
+            values["input"] = [self._input(path, one) for path, one in self.loader.tables(table, (kind,), "input")]
+        if kind == "speeds":
+            order = {"order": fields_of(DEFINITIONS["order"])["order"]}
+            values["order"] = [{**self._input(path, one, ("order",)),
+                                "order": self.loader.read(path, {k: v for k, v in one.items() if k == "order"}, order
+                                                   ).get("order", 1.0)}
+                               for path, one in self.loader.tables(table, (kind,), "order")]
+        if extra:
+            values["output"] = [self._output(path, one, kind == "speeds")
+                                for path, one in self.loader.tables(table, (kind,), "output")]
+            for key in extra:
+                if not values[key]:
+                    self.loader.problems.add((kind,), None, f"must have at least one [[{kind}.{key}]]")
+        return values
+
+    def _factor_unit(self, table: dict[str, Any]) -> str:
+        """The factor of a drive of a motion is a length or an angle; else it is a number."""
+        name = table.get("part")
+        for number, (_, drive) in enumerate(self.loader.parts("drive")):
+            if self.loader.name("drive", number, drive) == name:
+                kind = self.loader.word(fields_of(DEFINITIONS["drive"])["kind"], drive.get("kind"), 0)
+                component = self.loader.word(fields_of(DEFINITIONS["drive"])["component"], drive.get("component"), 0)
+                return fields.by_component("m, rad" if kind == enums.DRIVE_MOTION else "N, N m", component)
+        return "-"
+
+    def _input(self, path: Path, table: dict[str, Any], extra: tuple[str, ...] = ()) -> dict[str, Any]:
+        known = fields_of(DEFINITIONS["input"])
+        eccentric = int(enums.INPUT_ECCENTRICITY) if extra else int(enums.INPUT_FORCE)
+        kind = self.loader.word(known["kind"], table.get("kind"), eccentric)
+        component = self.loader.word(known["component"], table.get("component"), 0)
+        unit = fields.input_unit(kind, component)
+        if kind == enums.INPUT_DRIVE:
+            place = table.get("place")
+            name = place.get("part") if isinstance(place, dict) else place
+            unit = next((self.loader.drive_unit(drive) for number, (_, drive) in enumerate(self.loader.parts("drive"))
+                         if self.loader.name("drive", number, drive) == name), unit)
+        return self.loader.read(path, table, known, extra, lambda key: unit if key == "amplitude" else None)
+
+    def _output(self, path: Path, table: dict[str, Any], limited: bool) -> dict[str, Any]:
+        known = fields_of(DEFINITIONS["output"])
+        values = self.loader.read(path, table, known, ("name", "limit") if limited else ("name",))
+        unit = fields.output_unit(values.get("kind", 0), values.get("component", 0))
+        values["name"] = str(table.get("name", f"output-{path[-1]}"))
+        if limited:
+            try:
+                values["limit"] = units.parse(table.get("limit"), unit)
+                if not values["limit"] > 0.0:
+                    raise units.UnitError("must be > 0")
+            except units.UnitError as error:
+                self.loader.problems.add(path + ("limit",), table.get("limit"), str(error))
+        values["unit"] = unit
+        return values
