@@ -374,9 +374,10 @@ struct sine_response {
 
 // What sim::speeds finds.
 struct speed_bands {
-    std::int32_t status; // DMB_OK, or DMB_NOTE_FULL: there are more bands than there was room for
+    std::int32_t status; // DMB_OK; DMB_NOTE_FULL: there are more bands than there was room for; DMB_NOTE_INCOMPLETE
     std::vector<dmb_speed_band> bands;
     std::vector<double> severity; // at the speeds of the grid
+    dmb_speeds_report report;     // orders that excite nothing, no damping, bands cut at an end of the range
 };
 #endif
 
@@ -544,9 +545,11 @@ public:
                        const std::vector<double> &limits, const dmb_speeds_options *options = nullptr,
                        std::uint32_t room = 64)
     {
-        const dmb_speeds_options used = options != nullptr ? *options : dmb_speeds_options_default();
+        dmb_speeds_options used = options != nullptr ? *options : dmb_speeds_options_default();
         if (limits.size() != outputs.size()) throw error(DMB_ERR_VALUE, "limits: one for each output");
         speed_bands answer;
+        answer.report = dmb_speeds_report_default();
+        used.report = &answer.report;
         answer.bands.assign(room, dmb_speed_band_default());
         answer.severity.resize(std::min<std::size_t>(used.points, 100000)); // more are refused
         answer.status = done(dmb_analysis_speeds(

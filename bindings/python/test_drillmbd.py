@@ -358,6 +358,8 @@ class ResponseTest(unittest.TestCase):
         output = mbd.Output(place=self.body)
         bands, severity = self.sim.speeds([order], [output], [4e-4], speed_low=5.0, speed_high=20.0, points=7)
         self.assertEqual(len(bands), 1)
+        self.assertEqual((bands.status, bands.report.cut, bands[0].cut), (mbd.NOTE_INCOMPLETE, 3, 3))
+        self.assertEqual((bands.report.silent_orders, bands.report.undamped), (0, 0))
         self.assertEqual((bands[0].low, bands[0].high, bands[0].order), (5.0, 20.0, 0))
         for value in severity:
             self.assertAlmostEqual(value, 1.25)

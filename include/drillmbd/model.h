@@ -218,6 +218,7 @@ typedef struct dmb_body_def {
     int32_t reserved;
     double contact_diameter; /* [m] of the ring at the reference point that meets the wall; 0: none (default) */
     double contact_length;   /* [m] length of wall it stands for, > 0; default 1 */
+    char name[24];         /* for messages, ends with 0; default "" */
 } dmb_body_def;
 DMB_SIZED_STRUCT(dmb_body_def)
 DMB_API int32_t dmb_model_add_body(dmb_model *model, const dmb_body_def *def, dmb_id *body);
@@ -378,6 +379,7 @@ typedef struct dmb_drive_def {
     double integral_gain; /* [N/m, N m] ki of CONTROL, >= 0; default 0 */
     double limit_low;     /* [N, N m] default -1e30 */
     double limit_high;    /* [N, N m] > limit_low; default 1e30 */
+    char name[24];         /* for messages, ends with 0; default "" */
 } dmb_drive_def;
 DMB_SIZED_STRUCT(dmb_drive_def)
 DMB_API int32_t dmb_model_add_drive(dmb_model *model, const dmb_drive_def *def, dmb_id *drive);
@@ -390,6 +392,7 @@ typedef struct dmb_load_def {
     double force[3];     /* [N] in `frame`, shape (3) */
     double moment[3];    /* [N m] in `frame`, shape (3) */
     dmb_id programme;    /* [-] factor over time; {0, 0}: 1 */
+    char name[24];         /* for messages, ends with 0; default "" */
 } dmb_load_def;
 DMB_SIZED_STRUCT(dmb_load_def)
 DMB_API int32_t dmb_model_add_load(dmb_model *model, const dmb_load_def *def, dmb_id *load);
@@ -410,6 +413,7 @@ typedef struct dmb_compile_options {
 DMB_SIZED_STRUCT(dmb_compile_options)
 /* Checks the scene as a whole, meshes and numbers it, chooses kernels, and freezes the model: no more parts can be
  * added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was.
+ * Warns (log, dmb_model_message, dmb_analysis_check) of rings of bodies and bits that a guide keeps off the wall.
  * Errors: that of a part that was refused (dmb_model_clear_refused); DMB_ERR_ORDER (already compiled), _ID (the first string is meant and there is none), _VALUE, _GEOMETRY,
  * _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(number of elements). */
 DMB_API int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options);

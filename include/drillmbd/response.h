@@ -164,6 +164,16 @@ typedef struct dmb_order {
 } dmb_order;
 DMB_SIZED_STRUCT(dmb_order)
 
+typedef struct dmb_speeds_report {
+    uint32_t struct_size;
+    uint32_t bands;               /* [-] that were found, those without room included */
+    uint32_t silent_orders;       /* [-] orders whose input moves no output at any speed */
+    int32_t undamped;             /* 1: nothing damps, so that heights at resonances mean nothing */
+    int32_t cut;                  /* 1: a band goes on below speed_low, 2: above speed_high, 3: both, 0: none */
+    int32_t reserved;
+} dmb_speeds_report;
+DMB_SIZED_STRUCT(dmb_speeds_report)
+
 typedef struct dmb_speeds_options {
     uint32_t struct_size;
     uint32_t points;              /* [-] of the grid of speeds, 2 .. 1e5; default 200 */
@@ -177,6 +187,8 @@ typedef struct dmb_speeds_options {
     int32_t friction;             /* and sliding has next to no slope */
     int32_t reserved;
     double contact_gap, structural_damping, equilibrium_tolerance;
+    dmb_speeds_report *report;    /* written where the call succeeds; NULL (default): none */
+    const void *unused;           /* NULL */
 } dmb_speeds_options;
 DMB_SIZED_STRUCT(dmb_speeds_options)
 
@@ -189,6 +201,8 @@ typedef struct dmb_speed_band {
     double speed;        /* [rad/s] the worst in it */
     double severity;     /* [-] there */
     double frequency;    /* [Hz] of that order there */
+    int32_t cut;         /* 1: goes on below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole */
+    int32_t reserved1;
 } dmb_speed_band;
 DMB_SIZED_STRUCT(dmb_speed_band)
 
@@ -197,6 +211,8 @@ DMB_SIZED_STRUCT(dmb_speed_band)
  * all orders add up. limits: [unit of the output] > 0, shape (output_count). bands: *band_count on entry is room, the size
  * of each what the first says; on return the number of bands, by rising speed, DMB_NOTE_FULL where more were found than
  * there was room. severity, shape (points), may be NULL: largest within half a step of the grid around each speed.
+ * DMB_NOTE_INCOMPLETE (dmb_sim_message and the report tell): an order excites nothing, nothing damps, or a band is cut at an
+ * end of the range.
  * Call it for a sim of each depth or state. Errors: as dmb_analysis_response, with nothing written. Cost: that of
  * order_count responses. */
 DMB_API int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,

@@ -275,9 +275,8 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
     switch (attempt->status) {
     case DMB_ERR_ROTATION:
         owner = dmb_owner_of_element(sim->scene, attempt->evaluation.element);
-        dmb_message_set(&sim->message,
-                        "%s %u, pipe %u: relative rotation in one element above 2.5 rad at time %g, step %g",
-                        owner.kind, owner.index, owner.pipe, attempt->evaluation.time, attempt->end.step);
+        dmb_message_set(&sim->message, "%s: relative rotation in one element above 2.5 rad at time %g, step %g",
+                        owner.text.text, attempt->evaluation.time, attempt->end.step);
         break;
     case DMB_ERR_SINGULAR:
         if (attempt->block == UINT32_MAX) {
@@ -285,8 +284,8 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
             break;
         }
         owner = dmb_owner_of_node(sim->scene, attempt->block);
-        dmb_message_set(&sim->message, "%s %u, pipe %u: iteration matrix singular at time %g, step %g", owner.kind,
-                        owner.index, owner.pipe, attempt->evaluation.time, attempt->end.step);
+        dmb_message_set(&sim->message, "%s: iteration matrix singular at time %g, step %g", owner.text.text,
+                        attempt->evaluation.time, attempt->end.step);
         break;
     case DMB_ERR_GEOMETRY: /* said where it was found */ break;
     case DMB_ERR_CALLBACK:

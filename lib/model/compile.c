@@ -2,6 +2,7 @@
 #include "base/value_check.h"
 #include "base/message.h"
 #include "model/definition_defaults.h"
+#include "model/held_ring.h"
 #include "model/limits.h"
 #include "model/mesh.h"
 
@@ -29,6 +30,20 @@ static int32_t make_scene(dmb_mesh *mesh, dmb_scene **scene)
     for (size_t i = 0; i < sizeof steps / sizeof steps[0] && status >= 0; ++i) status = steps[i](mesh);
     if (status >= 0) status = dmb_mesh_freeze(mesh, scene);
     return status;
+}
+
+/* Each warning to the log, the first into the message too. */
+static void warn(dmb_model *model, const dmb_scene *scene)
+{
+    const dmb_log log = {model->log, model->log_context};
+    const dmb_message counts = model->message;
+    dmb_message text;
+    int first = 1;
+    for (uint32_t i = dmb_held_ring(scene, 0, &text); i != UINT32_MAX; i = dmb_held_ring(scene, i + 1, &text)) {
+        dmb_log_text(&log, DMB_LOG_WARNING, text.text);
+        if (first) dmb_message_set(&model->message, "warning: %s; %s", text.text, counts.text);
+        first = 0;
+    }
 }
 
 static void tell(dmb_model *model, const dmb_scene *scene)
@@ -62,6 +77,7 @@ int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options)
     }
     if (status < 0) return dmb_describe_close(model, "compile", status);
     tell(model, scene);
+    warn(model, scene);
     model->scene = scene;
     return dmb_describe_close(model, "compile", DMB_OK);
 }

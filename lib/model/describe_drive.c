@@ -178,10 +178,12 @@ int32_t dmb_model_add_programme(dmb_model *model, const dmb_term *terms, uint32_
 /* A body that is not fixed to a string. */
 static void check_driven_body(dmb_check *check, const dmb_model *model, uint32_t body)
 {
-    if (check->status < 0 || DMB_LIST_AT(const dmb_body_def, model->bodies, body)->attach == DMB_ATTACH_NONE) return;
+    const dmb_body_def *def = DMB_LIST_AT(const dmb_body_def, model->bodies, body);
+    dmb_message name;
+    if (check->status < 0 || def->attach == DMB_ATTACH_NONE) return;
     check->status = DMB_ERR_UNSUPPORTED;
-    dmb_message_set(check->message, "%s %u: part = body %u, must be a body of its own: drive the string it is fixed to",
-                    check->part, check->index, body);
+    dmb_message_set(check->message, "%s: part = %s, must be a body of its own: drive the string it is fixed to",
+                    check->part, dmb_part_text(&name, "body", body, def->name, sizeof def->name));
 }
 
 /* A coordinate that the joint does not hold, as far as its kind goes. */
@@ -209,7 +211,10 @@ static void check_driven_part(dmb_check *check, const dmb_model *model, const dm
 
 static int32_t check_drive(dmb_model *model, const dmb_drive_def *def)
 {
-    dmb_check check = dmb_check_of(&model->message, "drive", model->drives.count);
+    dmb_message part;
+    dmb_check check = dmb_check_of(
+        &model->message, dmb_part_text(&part, "drive", model->drives.count, def->name, sizeof def->name), DMB_NO_INDEX);
+    dmb_check_name(&check, "name", def->name, sizeof def->name);
     dmb_check_choice(&check, "kind", def->kind, DMB_DRIVE_MOTION, DMB_DRIVE_CONTROL);
     dmb_check_choice(&check, "component", def->component, DMB_X, DMB_RZ);
     check_driven_part(&check, model, def);
@@ -247,7 +252,10 @@ static void check_place(dmb_check *check, const dmb_model *model, const dmb_plac
 
 static int32_t check_load(dmb_model *model, const dmb_load_def *def)
 {
-    dmb_check check = dmb_check_of(&model->message, "load", model->loads.count);
+    dmb_message part;
+    dmb_check check = dmb_check_of(
+        &model->message, dmb_part_text(&part, "load", model->loads.count, def->name, sizeof def->name), DMB_NO_INDEX);
+    dmb_check_name(&check, "name", def->name, sizeof def->name);
     dmb_check_choice(&check, "frame", def->frame, DMB_FRAME_WORLD, DMB_FRAME_HOLE);
     check_place(&check, model, &def->place);
     dmb_check_each_within(&check, "force", def->force, 3, -DMB_FORCE_MAX, DMB_FORCE_MAX);

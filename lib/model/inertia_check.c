@@ -55,30 +55,33 @@ static void principal_moments(const double J[6], double moment[3])
     }
 }
 
+static const char *part_text(const dmb_check *check, dmb_message *text)
+{
+    if (check->index == DMB_NO_INDEX) return check->part;
+    return dmb_part_text(text, check->part, check->index, "", 1);
+}
+
 static void check_moments(dmb_check *check, const char *field, const double moment[3])
 {
     if (moment[0] <= moment[1] + moment[2] + rounding * moment[0]) return;
     check->status = DMB_ERR_VALUE;
     dmb_message part;
-    if (check->index == DMB_NO_INDEX)
-        dmb_message_set(&part, "%s", check->part);
-    else
-        dmb_message_set(&part, "%s %u", check->part, check->index);
     dmb_message_set(
         check->message,
         "%s: %s gives the principal moments %g, %g, %g kg m2; no body has a moment above the sum of the two "
         "others: lower the first or raise the others, defaults and those of free axes too",
-        part.text, field, moment[0], moment[1], moment[2]);
+        part_text(check, &part), field, moment[0], moment[1], moment[2]);
 }
 
 void dmb_check_inertia_matrix(dmb_check *check, const char *field, const double J[6])
 {
     double moment[3];
+    dmb_message part;
     if (check->status < 0) return;
     if (!is_positive_definite(J)) {
         check->status = DMB_ERR_VALUE;
-        dmb_message_set(check->message, "%s %u: %s = (%g, %g, %g, %g, %g, %g) kg m2, must be positive definite",
-                        check->part, check->index, field, J[0], J[1], J[2], J[3], J[4], J[5]);
+        dmb_message_set(check->message, "%s: %s = (%g, %g, %g, %g, %g, %g) kg m2, must be positive definite",
+                        part_text(check, &part), field, J[0], J[1], J[2], J[3], J[4], J[5]);
         return;
     }
     principal_moments(J, moment);

@@ -1,4 +1,6 @@
 /* Drives, loads and bits, from the parts they are described on to nodes. */
+#include <string.h>
+
 #include "model/field_check.h"
 #include "model/mesh_joint.h"
 
@@ -28,7 +30,9 @@ static bool is_free(const dmb_mesh_node *node, int32_t component)
 /* A MOTION drive takes the component for itself: its bit in the mask of those that are taken. */
 static int32_t take_component(dmb_mesh *mesh, uint32_t drive, const dmb_drive_def *def, uint8_t *taken)
 {
-    dmb_check check = dmb_check_of(&mesh->model->message, "drive", drive);
+    dmb_message part;
+    dmb_check check =
+        dmb_check_of(&mesh->model->message, dmb_part_text(&part, "drive", drive, def->name, sizeof def->name), DMB_NO_INDEX);
     const uint8_t bit = (uint8_t)(1 << def->component);
     if (def->kind != DMB_DRIVE_MOTION) return DMB_OK;
     if ((*taken & bit) != 0) {
@@ -40,7 +44,9 @@ static int32_t take_component(dmb_mesh *mesh, uint32_t drive, const dmb_drive_de
 
 static int32_t prescribe(dmb_mesh *mesh, uint32_t drive, const dmb_drive_def *def, dmb_mesh_node *node)
 {
-    dmb_check check = dmb_check_of(&mesh->model->message, "drive", drive);
+    dmb_message part;
+    dmb_check check =
+        dmb_check_of(&mesh->model->message, dmb_part_text(&part, "drive", drive, def->name, sizeof def->name), DMB_NO_INDEX);
     if (!is_free(node, def->component)) {
         dmb_check_fail(&check, DMB_ERR_VALUE, "component", def->component, "free where the drive acts");
         return check.status;
@@ -53,7 +59,7 @@ static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
     const dmb_drive_def *def = DMB_LIST_AT(const dmb_drive_def, mesh->model->drives, i);
     const bool excited = (mesh->features & DMB_FEATURE_EXCITATION) != 0;
     const uint32_t joint = dmb_model_part_index(mesh->model, def->part, DMB_PART_JOINT);
-    const dmb_scene_drive drive = {.gain = def->gain,
+    dmb_scene_drive drive = {.gain = def->gain,
                                    .integral_gain = def->integral_gain,
                                    .limit_low = def->limit_low,
                                    .limit_high = def->limit_high,
@@ -65,6 +71,7 @@ static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
                                    .excitation = excited ? programme_of(mesh, def->excitation) : UINT32_MAX,
                                    .joint = joint,
                                    .constraint = UINT32_MAX};
+    memcpy(drive.name, def->name, sizeof drive.name);
     const int32_t status = joint != UINT32_MAX
                                ? take_component(mesh, i, def, DMB_VECTOR_AT(uint8_t, &mesh->driven, joint))
                                : prescribe(mesh, i, def, dmb_mesh_node_at(mesh, drive.node));
@@ -83,6 +90,7 @@ static int32_t add_load(dmb_mesh *mesh, uint32_t i)
         load.force[k] = def->force[k];
         load.moment[k] = def->moment[k];
     }
+    memcpy(load.name, def->name, sizeof load.name);
     (void)dmb_mesh_place_of(mesh, &def->place, &place); /* the end of a pipe, or a body */
     load.node = place.node;
     load.arm = place.arm;

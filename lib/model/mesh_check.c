@@ -16,10 +16,12 @@ static int32_t check_something_there(const dmb_model *model, dmb_message *messag
 
 /* The id that names nothing stands for the first string, which must exist by now. */
 static int32_t check_string_there(const dmb_model *model, dmb_message *message, const char *part, uint32_t index,
-                                  dmb_id id)
+                                  const char *name, dmb_id id)
 {
+    dmb_message text;
     if (!dmb_id_is_none(id) || model->strings.count > 0) return DMB_OK;
-    dmb_message_set(message, "%s %u: belongs to the model's first string, and there is none", part, index);
+    dmb_message_set(message, "%s: belongs to the model's first string, and there is none; name a part, or add pipes",
+                    dmb_part_text(&text, part, index, name, 24));
     return DMB_ERR_ID;
 }
 
@@ -29,14 +31,15 @@ static int32_t check_belonging(const dmb_model *model, dmb_message *message)
     for (uint32_t i = 0; i < model->bodies.count && status >= 0; ++i) {
         const dmb_body_def *body = DMB_LIST_AT(const dmb_body_def, model->bodies, i);
         if (body->attach == DMB_ATTACH_NONE) continue;
-        status = check_string_there(model, message, "body", i, body->string);
+        status = check_string_there(model, message, "body", i, body->name, body->string);
     }
     for (uint32_t i = 0; i < model->bits.count && status >= 0; ++i) {
-        status = check_string_there(model, message, "bit", i, DMB_LIST_AT(const dmb_bit_def, model->bits, i)->string);
+        status =
+            check_string_there(model, message, "bit", i, "", DMB_LIST_AT(const dmb_bit_def, model->bits, i)->string);
     }
     for (uint32_t i = 0; i < model->drives.count && status >= 0; ++i) {
         const dmb_drive_def *drive = DMB_LIST_AT(const dmb_drive_def, model->drives, i);
-        status = check_string_there(model, message, "drive", i, drive->part);
+        status = check_string_there(model, message, "drive", i, drive->name, drive->part);
     }
     return status;
 }
@@ -169,7 +172,9 @@ static int32_t check_load(const dmb_mesh *mesh, dmb_message *message, uint32_t i
 {
     const dmb_load_def *load = DMB_LIST_AT(const dmb_load_def, mesh->model->loads, i);
     const uint32_t string = dmb_model_part_index(mesh->model, load->place.part, DMB_PART_STRING);
-    dmb_check check = dmb_check_of(message, "load", i);
+    dmb_message part;
+    dmb_check check =
+        dmb_check_of(message, dmb_part_text(&part, "load", i, load->name, sizeof load->name), DMB_NO_INDEX);
     if (load->frame == DMB_FRAME_HOLE && !mesh->has_hole) {
         dmb_check_fail(&check, DMB_ERR_GEOMETRY, "frame", load->frame, "0 or 1: there is no hole");
     }

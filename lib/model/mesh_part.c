@@ -1,4 +1,6 @@
 /* Types of elements, their kernels, and batches of neighbours with one kernel. */
+#include <string.h>
+
 #include "model/field_check.h"
 #include "model/limits.h"
 #include "model/mesh.h"
@@ -304,7 +306,8 @@ static uint32_t push_free_body(dmb_mesh *mesh, uint32_t body, const dmb_body_def
 
 static dmb_body_map map_of(dmb_mesh *mesh, uint32_t body, const dmb_body_def *def)
 {
-    dmb_body_map map = {0, UINT32_MAX, 0.0};
+    dmb_body_map map = {0, UINT32_MAX, 0.0, 0, 0, ""};
+    memcpy(map.name, def->name, sizeof map.name);
     if (def->attach == DMB_ATTACH_NONE) {
         map.node = push_free_body(mesh, body, def);
         return map;
@@ -320,7 +323,7 @@ static dmb_body_map map_of(dmb_mesh *mesh, uint32_t body, const dmb_body_def *de
 static dmb_body_map bit_map_of(const dmb_mesh *mesh, const dmb_bit_def *def)
 {
     const dmb_string_map *string = dmb_mesh_string_at(mesh, dmb_mesh_string_of(mesh, def->string));
-    const dmb_body_map map = {string->end_node, UINT32_MAX, string->end_arm};
+    const dmb_body_map map = {string->end_node, UINT32_MAX, string->end_arm, 0, 0, ""};
     return map;
 }
 

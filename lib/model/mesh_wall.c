@@ -149,7 +149,9 @@ static int32_t add_ring(dmb_mesh *mesh, uint32_t map_index, double diameter, dou
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, map->node);
     const dmb_site site = {
         .offset = map->arm + offset, .radius = 0.5 * diameter, .length = length, .part = part, .node = map->node};
-    if (!(diameter > 0.0) || node->size == DMB_NODE_PATH || !moves_sideways(node, site.offset)) return DMB_OK;
+    if (!(diameter > 0.0) || node->size == DMB_NODE_PATH) return DMB_OK;
+    map->held_ring = !moves_sideways(node, site.offset);
+    if (map->held_ring) return DMB_OK;
     map->site = (uint32_t)mesh->sites.count;
     return push_site(mesh, &site);
 }

@@ -34,6 +34,7 @@ static const wide_field wide_fields[] = {
     FIELD("pipes", dmb_pipe_def, curvature),
     FIELD("pipes", dmb_pipe_def, section_stiffness),
     FIELD("pipes", dmb_pipe_def, section_inertia),
+    NAME("body", dmb_body_def),
     FIELD("body", dmb_body_def, centre),
     FIELD("body", dmb_body_def, inertia),
     FIELD("body", dmb_body_def, position),
@@ -61,6 +62,8 @@ static const wide_field wide_fields[] = {
     FIELD("coupling", dmb_coupling_def, joint),
     NAME("constraint", dmb_constraint_def),
     FIELD("constraint", dmb_constraint_def, place),
+    NAME("drive", dmb_drive_def),
+    NAME("load", dmb_load_def),
     FIELD("load", dmb_load_def, place),
     FIELD("load", dmb_load_def, force),
     FIELD("load", dmb_load_def, moment),
@@ -89,17 +92,26 @@ static bool is_same_kind(const dmb_refusal *refusal, const dmb_described *given)
     return strcmp(refusal->part, given->part) == 0;
 }
 
-/* Two definitions of one size, field by field. */
+static const wide_field *name_of(const char *part)
+{
+    for (size_t i = 0; i < sizeof wide_fields / sizeof wide_fields[0]; ++i)
+        if (wide_fields[i].is_name && strcmp(wide_fields[i].part, part) == 0) return &wide_fields[i];
+    return NULL;
+}
+
+/* Two definitions of one size: by their names, or field by field where one has none. */
 static bool is_same_part(const dmb_refusal *refusal, const dmb_described *given)
 {
     const unsigned char *a = refusal->definition, *b = given->definition;
     uint32_t differ = refusal->count != given->count;
     size_t offset = 0;
+    const wide_field *name = name_of(given->part);
+    if (name != NULL && a[name->begin] != '\0' && b[name->begin] != '\0')
+        return memcmp(a + name->begin, b + name->begin, name->end - name->begin) == 0;
     while (offset < given->size) {
         const wide_field field = field_at(given->part, offset);
         const size_t end = field.end < given->size ? field.end : given->size;
         const bool equal = memcmp(a + offset, b + offset, end - offset) == 0;
-        if (field.is_name && a[offset] != '\0' && b[offset] != '\0') return equal;
         differ += !equal;
         offset = end;
     }

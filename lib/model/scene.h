@@ -49,6 +49,7 @@ typedef struct dmb_scene_drive {
     uint32_t excitation; /* UINT32_MAX: none, or left out */
     uint32_t joint;      /* whose coordinate `component` it drives; UINT32_MAX: none */
     uint32_t constraint; /* of a MOTION drive on a joint; UINT32_MAX: none */
+    char name[24];
 } dmb_scene_drive;
 
 typedef struct dmb_scene_load {
@@ -58,6 +59,7 @@ typedef struct dmb_scene_load {
     int32_t frame;
     uint32_t programme;  /* UINT32_MAX: factor 1 */
     uint32_t reserved;
+    char name[24];
 } dmb_scene_load;
 
 typedef struct dmb_scene_bit {
@@ -93,6 +95,9 @@ typedef struct dmb_body_map {
     uint32_t node;
     uint32_t site; /* its contact site; UINT32_MAX: none */
     double arm;    /* [m] along body x from the node to its reference point */
+    uint32_t held_ring; /* 1: it would have a contact site if its node moved sideways */
+    uint32_t reserved;
+    char name[24];
 } dmb_body_map;
 
 typedef struct dmb_chain {

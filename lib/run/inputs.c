@@ -3,6 +3,7 @@
 
 #include "model/limits.h"
 #include "sim/access.h"
+#include "sim/node.h"
 #include "system/constrain/joint_state.h"
 #include "system/joint_switch.h"
 #include "system/start.h"
@@ -27,17 +28,21 @@ static int32_t jump_to(dmb_sim *sim, uint32_t index, double value)
 static int32_t set_drive(dmb_sim *sim, dmb_id drive, double value)
 {
     const uint32_t index = dmb_model_part_index(sim->model, drive, DMB_PART_DRIVE);
+    dmb_message name;
     if (index >= sim->scene->drive_count) return refuse(sim, DMB_ERR_ID, "drive: the id names no drive of this model");
     if (sim->scene->drives[index].kind == DMB_DRIVE_MOTION) {
-        dmb_message_set(&sim->message, "drive %u: its kind is DMB_DRIVE_MOTION, whose speed may not jump", index);
+        dmb_message_set(&sim->message, "%s: its kind is DMB_DRIVE_MOTION, whose speed may not jump",
+                        dmb_drive_text(sim->scene, index, &name));
         return DMB_ERR_UNSUPPORTED;
     }
     if (isinf(value)) {
-        dmb_message_field(&sim->message, "drive", index, "value", value, "finite, or NaN for the programme");
+        dmb_message_field(&sim->message, dmb_drive_text(sim->scene, index, &name), DMB_NO_INDEX, "value", value,
+                          "finite, or NaN for the programme");
         return DMB_ERR_NOT_FINITE;
     }
     if (fabs(value) > DMB_FORCE_MAX) { /* as what is described: beyond it work and power overflow */
-        dmb_message_field(&sim->message, "drive", index, "value", value, "from -1e30 to 1e30, or NaN for the programme");
+        dmb_message_field(&sim->message, dmb_drive_text(sim->scene, index, &name), DMB_NO_INDEX, "value", value,
+                          "from -1e30 to 1e30, or NaN for the programme");
         return DMB_ERR_VALUE;
     }
     return jump_to(sim, index, isnan(value) ? (double)NAN : value); /* one NaN, so that equal states hash alike */

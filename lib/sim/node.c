@@ -3,6 +3,7 @@
 #include "element/lump.h"
 #include "math/mat6.h"
 #include "math/so3.h"
+#include "model/held_ring.h"
 
 double dmb_path_depth(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node)
 {
@@ -91,19 +92,30 @@ static uint32_t pipe_at(const dmb_scene *scene, const dmb_string_map *string, ui
     return found;
 }
 
+static void set_text(dmb_owner *owner, const char *name, size_t size)
+{
+    if (owner->kind[0] == 's')
+        dmb_message_set(&owner->text, "string %u, pipe %u", owner->index, owner->pipe);
+    else
+        dmb_part_text(&owner->text, owner->kind, owner->index, name, size);
+}
+
 dmb_owner dmb_owner_of_node(const dmb_scene *scene, uint32_t node)
 {
-    dmb_owner owner = {"string", 0, 0};
+    dmb_owner owner = {"string", 0, 0, {""}};
     for (uint32_t i = 0; i < scene->string_count; i++) {
         const dmb_string_map *string = scene->strings + i;
         if (node < string->first_node || node >= string->first_node + string->node_count) continue;
         owner.index = i;
         owner.pipe = pipe_at(scene, string, node);
+        set_text(&owner, NULL, 0);
         return owner;
     }
     owner.kind = "body";
     for (uint32_t i = 0; i < scene->body_count; i++)
         if (scene->bodies[i].node == node) owner.index = i;
+    set_text(&owner, scene->body_count > 0 ? scene->bodies[owner.index].name : NULL,
+             scene->body_count > 0 ? sizeof scene->bodies[0].name : 0);
     return owner;
 }
 
@@ -136,6 +148,21 @@ uint32_t dmb_constraint_of_part(const dmb_sim *sim, dmb_id part)
     if (coupling < scene->coupling_count) return scene->couplings[coupling].constraint;
     if (drive < scene->drive_count) return scene->drives[drive].constraint;
     return callback < scene->callback_count ? scene->callbacks[callback].constraint : UINT32_MAX;
+}
+
+uint32_t dmb_owner_of_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text)
+{
+    return dmb_held_ring(scene, from, text);
+}
+
+const char *dmb_drive_text(const dmb_scene *scene, uint32_t drive, dmb_message *text)
+{
+    return dmb_part_text(text, "drive", drive, scene->drives[drive].name, sizeof scene->drives[drive].name);
+}
+
+const char *dmb_load_text(const dmb_scene *scene, uint32_t load, dmb_message *text)
+{
+    return dmb_part_text(text, "load", load, scene->loads[load].name, sizeof scene->loads[load].name);
 }
 
 /* ad(v)^T M v */

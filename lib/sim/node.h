@@ -33,10 +33,16 @@ typedef struct dmb_owner {
     const char *kind; /* "string" or "body" */
     uint32_t index;
     uint32_t pipe;    /* 0 for a body */
+    dmb_message text; /* "string 0, pipe 3", "body 2 (turbine)" */
 } dmb_owner;
 
 dmb_owner dmb_owner_of_node(const dmb_scene *scene, uint32_t node);
 dmb_owner dmb_owner_of_element(const dmb_scene *scene, uint32_t element);
+/* The next body or bit whose ring never touches the wall, and what to say of it (model/held_ring). */
+uint32_t dmb_owner_of_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text);
+/* "drive 1 (pump)", "load 0". Returns text->text. */
+const char *dmb_drive_text(const dmb_scene *scene, uint32_t drive, dmb_message *text);
+const char *dmb_load_text(const dmb_scene *scene, uint32_t load, dmb_message *text);
 /* Node that a row belongs to. O(log nodes) */
 uint32_t dmb_node_of_row(const dmb_scene *scene, uint32_t row);
 /* Constraint of a joint, coupling, drive or callback; UINT32_MAX where the part has none. */

@@ -75,7 +75,7 @@ static int32_t solve_accelerations(dmb_sim *sim, dmb_evaluation *evaluation)
     const int32_t status = dmb_factor_mass(evaluation);
     if (status == DMB_ERR_SINGULAR) {
         const dmb_owner owner = dmb_owner_of_node(sim->scene, evaluation->element);
-        dmb_message_set(&sim->message, "%s %u, pipe %u: mass matrix singular", owner.kind, owner.index, owner.pipe);
+        dmb_message_set(&sim->message, "%s: mass matrix singular", owner.text.text);
     }
     if (status < 0) return status;
     dmb_solve_correction(sim);
@@ -91,13 +91,12 @@ static void explain(dmb_sim *sim, const dmb_evaluation *evaluation, int32_t stat
 {
     if (status == DMB_ERR_ROTATION) {
         const dmb_owner owner = dmb_owner_of_element(sim->scene, evaluation->element);
-        dmb_message_set(&sim->message, "%s %u, pipe %u: relative rotation in one element above 2.5 rad", owner.kind,
-                        owner.index, owner.pipe);
+        dmb_message_set(&sim->message, "%s: relative rotation in one element above 2.5 rad", owner.text.text);
     } else if (status == DMB_ERR_CALLBACK && sim->reduced_mode->row != UINT32_MAX) {
         dmb_message owner;
         dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, sim->reduced_mode->row), &owner);
-        dmb_message_set(&sim->message, "%s: its callback failed or gave a value beyond +-1e30 at time %g",
-                        owner.text, evaluation->time);
+        dmb_message_set(&sim->message, "%s: its callback failed or gave a value beyond +-1e30 at time %g", owner.text,
+                        evaluation->time);
     } else if (status == DMB_ERR_CALLBACK) {
         dmb_message_set(&sim->message, "programme: the callback failed or gave a value beyond +-1e30 at time %g",
                         evaluation->time);

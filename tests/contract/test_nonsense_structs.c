@@ -95,7 +95,8 @@ static int32_t add_drive(dmb_model *model, void *p)
     dmb_id programme;
     assert_int_equal(dmb_model_add_pipes(model, &pipe, 1, NULL), DMB_OK);
     assert_int_equal(dmb_model_add_programme(model, &term, 1, &programme), DMB_OK);
-    if (drive->struct_size >= sizeof *drive) drive->programme = programme;
+    if (drive->struct_size >= 72) /* has it */
+        drive->programme = programme;
     return dmb_model_add_drive(model, drive, NULL);
 }
 
@@ -105,7 +106,8 @@ static int32_t add_load(dmb_model *model, void *p)
     const dmb_pipe_def pipe = dmb_pipe_def_default();
     dmb_id string;
     assert_int_equal(dmb_model_add_pipes(model, &pipe, 1, &string), DMB_OK);
-    if (load->struct_size >= sizeof *load) load->place = dmb_station(string, 0, 1.0);
+    if (load->struct_size >= 88) /* has it */
+        load->place = dmb_station(string, 0, 1.0);
     return dmb_model_add_load(model, load, NULL);
 }
 
@@ -260,8 +262,8 @@ static int32_t call_recorder(void *p)
 
 static const entry entries[] = {
     ENTRY(allocator, 0), ENTRY(model_options, 0), ENTRY(environment_def, 0), ENTRY(term, 0), ENTRY(wall_def, 0),
-    ENTRY(string_def, 0), ENTRY(pipe_def, 0), ENTRY(body_def, 0), ENTRY(bit_def, 0), ENTRY(drive_def, 0),
-    ENTRY(load_def, 0), ENTRY(compile_options, 0), GROWN(sim_options, 96, 0), GROWN(static_options, 40, 0),
+    ENTRY(string_def, 0), ENTRY(pipe_def, 0), GROWN(body_def, 216, 0), ENTRY(bit_def, 0), GROWN(drive_def, 72, 0),
+    GROWN(load_def, 88, 0), ENTRY(compile_options, 0), GROWN(sim_options, 96, 0), GROWN(static_options, 40, 0),
     GROWN(model_info, 72, 1), ENTRY(step_report, 1), GROWN(static_report, 40, 1), ENTRY(buckling_options, 0), ENTRY(path_options, 0), ENTRY(path_report, 1), ENTRY(pose, 1),
     ENTRY(motion, 1), ENTRY(section, 1), ENTRY(contact, 1), ENTRY(contact_total, 1), ENTRY(energy, 1), ENTRY(momentum, 1),
     ENTRY(drive_state, 1), ENTRY(bit_state, 1), GROWN(statistics, 72, 1), ENTRY(recorder, 0),

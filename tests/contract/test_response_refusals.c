@@ -377,11 +377,14 @@ static void speeds_that_are_refused(void **state)
     REFUSED(DMB_ERR_STRUCT_SIZE, order.struct_size = 9, "order 0: struct_size");
     REFUSED(DMB_ERR_VALUE, order.input.kind = -1, "input 0: kind");
     REFUSED(DMB_ERR_VALUE, limit = 0.0, "limits");
+    dmb_speeds_report report = dmb_speeds_report_default();
+    report.struct_size = 4;
+    REFUSED(DMB_ERR_STRUCT_SIZE, options.report = &report, "report's struct_size");
 #undef REFUSED
     options = good;
     limit = 1.0;
     const size_t before = s.memory.calls;
-    assert_int_equal(ask_speeds(&s, &options, &order, limit, &band), DMB_OK);
+    assert_int_equal(ask_speeds(&s, &options, &order, limit, &band), DMB_NOTE_INCOMPLETE); /* no eccentric masses */
     const size_t calls = s.memory.calls - before;
     for (size_t k = 1; k <= calls; k++) {
         s.memory.refused = s.memory.calls + k;

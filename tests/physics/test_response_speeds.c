@@ -1,4 +1,7 @@
 /* Speeds to avoid: bands of a Jeffcott rotor that is shaken at two orders of its speed against its closed form. */
+#include <stdio.h>
+#include <string.h>
+
 #include "harmonic.h"
 
 /* k 1e6 N/m, m 50 kg, damping ratio 0.02; 5e-3 kg m at the speed W, 60 N at 2 W; 1 mm allowed. */
@@ -136,11 +139,120 @@ static void margins_and_room(void **state)
     rig_close(&s);
 }
 
+/* ---- What an answer lacks ---------------------------------------------------------------------------------------- */
+
+enum { UNDAMPED = 1, SILENT = 2, HELD_OUTPUT = 4 };
+
+/* A disc on a spring, natural speed 141 rad/s: with or without its damper, its force, an output that can move. */
+static int32_t ask(int flags, double eta, double low, double high, dmb_speeds_report *report, dmb_speed_band *band,
+                   char *message, size_t size)
+{
+    rig s;
+    dmb_body_def disc = dmb_body_def_default();
+    dmb_joint_def shaft = dmb_joint_def_default();
+    dmb_speeds_options options = dmb_speeds_options_default();
+    dmb_order order = dmb_order_default();
+    const double limit = 1e-3;
+    uint32_t count = 1;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    disc.mass = 50.0;
+    disc.free_mask = 1 << DMB_Y;
+    shaft.kind = DMB_JOINT_FREE;
+    shaft.place_b = dmb_station(add_body(&s, &disc), 0, 0.0);
+    shaft.stiffness[1] = 1e6;
+    shaft.damping[1] = flags & UNDAMPED ? 0.0 : 100.0;
+    must_model(&s, dmb_model_add_joint(s.model, &shaft, NULL));
+    (void)rig_start(&s, NULL);
+    const dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, shaft.place_b, flags & HELD_OUTPUT ? DMB_Z : DMB_Y);
+    order.input = force_at(shaft.place_b, DMB_Y);
+    order.input.amplitude = flags & SILENT ? 0.0 : 200.0;
+    options.points = 61;
+    options.speed_low = low;
+    options.speed_high = high;
+    options.structural_damping = eta;
+    options.report = report;
+    *report = dmb_speeds_report_default();
+    *band = dmb_speed_band_default();
+    const int32_t status = dmb_analysis_speeds(s.sim, &options, &order, 1, &output, &limit, 1, band, &count, NULL);
+    must(&s, status);
+    (void)snprintf(message, size, "%s", dmb_sim_message(s.sim));
+    rig_close(&s);
+    return status;
+}
+
+static void answers_that_lack_something(void **state)
+{
+    static const struct {
+        int flags;
+        double eta, low, high;
+        int32_t status, undamped, cut;
+        uint32_t silent, bands;
+        const char *text;
+    } cases[] = {
+        {0, 0.0, 30.0, 300.0, DMB_OK, 0, 0, 0, 1, ""},
+        {UNDAMPED, 0.0, 30.0, 300.0, DMB_NOTE_INCOMPLETE, 1, 0, 0, 1, "nothing damps"},
+        {UNDAMPED, 0.02, 30.0, 300.0, DMB_OK, 0, 0, 0, 1, ""},
+        {SILENT, 0.0, 30.0, 300.0, DMB_NOTE_INCOMPLETE, 0, 0, 1, 0, "order 0 (1) moves no output"},
+        {HELD_OUTPUT, 0.0, 30.0, 300.0, DMB_NOTE_INCOMPLETE, 0, 0, 1, 0, "order 0 (1) moves no output"},
+        {0, 0.0, 140.0, 300.0, DMB_NOTE_INCOMPLETE, 0, 1, 0, 1, "beyond speed_low of 140 .. 300"},
+        {0, 0.0, 30.0, 141.0, DMB_NOTE_INCOMPLETE, 0, 2, 0, 1, "beyond speed_high of 30 .. 141"},
+        {0, 0.0, 140.0, 142.0, DMB_NOTE_INCOMPLETE, 0, 3, 0, 1, "beyond both"},
+        {UNDAMPED | SILENT, 0.0, 30.0, 300.0, DMB_NOTE_INCOMPLETE, 1, 0, 1, 0, "nothing damps"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        dmb_speeds_report report;
+        dmb_speed_band band;
+        char message[256];
+        const int32_t status =
+            ask(cases[i].flags, cases[i].eta, cases[i].low, cases[i].high, &report, &band, message, sizeof message);
+        if (status != cases[i].status || report.undamped != cases[i].undamped || report.cut != cases[i].cut ||
+            report.silent_orders != cases[i].silent || report.bands != cases[i].bands || band.cut != cases[i].cut ||
+            strstr(message, cases[i].text) == NULL)
+            fail_msg("case %zu: status %d, undamped %d, cut %d, %u silent, %u bands, band cut %d: %s", i, status,
+                     report.undamped, report.cut, report.silent_orders, report.bands, band.cut, message);
+    }
+}
+
+/* Gyroscopic terms of a string that turns are no damping. */
+static void gyroscopic_terms_do_not_damp(void **state)
+{
+    (void)state;
+    for (int damped = 0; damped < 2; damped++) {
+        rig s;
+        dmb_string_def string = dmb_string_def_default();
+        dmb_pipe_def pipe = dmb_pipe_def_default();
+        dmb_speeds_options options = dmb_speeds_options_default();
+        dmb_speeds_report report = dmb_speeds_report_default();
+        dmb_order order = dmb_order_default();
+        dmb_speed_band band = dmb_speed_band_default();
+        const double limit = 1.0;
+        uint32_t count = 1;
+        rig_open(&s, 0.0, 0.0, 0.0);
+        string.follows_hole = 0;
+        string.start_free = DMB_FREE_RX;
+        string.velocity[3] = 20.0;
+        pipe.string = add_string(&s, &string);
+        pipe.damping_time = damped ? 1e-4 : 0.0;
+        const dmb_id id = add_pipes(&s, &pipe, 4);
+        (void)rig_start(&s, NULL);
+        const dmb_output output = output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(id, 3, 1.0), DMB_Y);
+        order.input = force_at(dmb_station(id, 3, 1.0), DMB_Y);
+        options.report = &report;
+        options.points = 5;
+        must(&s, dmb_analysis_speeds(s.sim, &options, &order, 1, &output, &limit, 1, &band, &count, NULL));
+        assert_int_equal(report.undamped, !damped);
+        rig_close(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bands_of_a_rotor),
         cmocka_unit_test(margins_and_room),
+        cmocka_unit_test(answers_that_lack_something),
+        cmocka_unit_test(gyroscopic_terms_do_not_damp),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

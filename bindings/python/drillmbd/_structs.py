@@ -1133,48 +1133,27 @@ class SteppedSineReport(Sized):
     }
 
 
-class SpeedsOptions(Sized):
-    c_name, about = "dmb_speeds_options", ""
+class SpeedsReport(Sized):
+    c_name, about = "dmb_speeds_report", ""
     struct_size: int
-    points: int
-    speed_low: float
-    speed_high: float
-    threshold: float
-    margin: float
-    refinement: int
-    contact: int
-    friction: int
+    bands: int
+    silent_orders: int
+    undamped: int
+    cut: int
     reserved: int
-    contact_gap: float
-    structural_damping: float
-    equilibrium_tolerance: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
-        ("points", c_uint32),
-        ("speed_low", c_double),
-        ("speed_high", c_double),
-        ("threshold", c_double),
-        ("margin", c_double),
-        ("refinement", c_uint32),
-        ("contact", c_int32),
-        ("friction", c_int32),
+        ("bands", c_uint32),
+        ("silent_orders", c_uint32),
+        ("undamped", c_int32),
+        ("cut", c_int32),
         ("reserved", c_int32),
-        ("contact_gap", c_double),
-        ("structural_damping", c_double),
-        ("equilibrium_tolerance", c_double),
     ]
     field_docs = {
-        "points": ("-", "of the grid of speeds, 2 .. 1e5; default 200"),
-        "speed_low": ("rad/s", "> 0; default 1"),
-        "speed_high": ("rad/s", "> speed_low; default 30"),
-        "threshold": ("-", "severity above which a speed is to be avoided, > 0; default 1"),
-        "margin": ("-", "by which bands are wider on both sides, part of the speed, 0 .. 0.5; default 0.03"),
-        "refinement": ("-", "as of a response, for each order; default 12"),
-        "contact": ("", "these as of a response, but for friction, default 0: a string that turns slides,"),
-        "friction": ("", "and sliding has next to no slope"),
-        "contact_gap": ("", ""),
-        "structural_damping": ("", ""),
-        "equilibrium_tolerance": ("", ""),
+        "bands": ("-", "that were found, those without room included"),
+        "silent_orders": ("-", "orders whose input moves no output at any speed"),
+        "undamped": ("", "1: nothing damps, so that heights at resonances mean nothing"),
+        "cut": ("", "1: a band goes on below speed_low, 2: above speed_high, 3: both, 0: none"),
     }
 
 
@@ -1189,6 +1168,8 @@ class SpeedBand(Sized):
     speed: float
     severity: float
     frequency: float
+    cut: int
+    reserved1: int
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("order", c_uint32),
@@ -1199,6 +1180,8 @@ class SpeedBand(Sized):
         ("speed", c_double),
         ("severity", c_double),
         ("frequency", c_double),
+        ("cut", c_int32),
+        ("reserved1", c_int32),
     ]
     field_docs = {
         "order": ("-", "number of the order that counts most at the worst speed"),
@@ -1208,6 +1191,8 @@ class SpeedBand(Sized):
         "speed": ("rad/s", "the worst in it"),
         "severity": ("-", "there"),
         "frequency": ("Hz", "of that order there"),
+        "cut": ("", "1: goes on below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole"),
+        "reserved1": ("", ""),
     }
 
 
@@ -1412,6 +1397,7 @@ class BodyDef(Sized):
     reserved: int
     contact_diameter: float
     contact_length: float
+    name: bytes
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("attach", c_int32),
@@ -1426,6 +1412,7 @@ class BodyDef(Sized):
         ("reserved", c_int32),
         ("contact_diameter", c_double),
         ("contact_length", c_double),
+        ("name", c_char * 24),
     ]
     field_docs = {
         "attach": ("", "ATTACH_START (rig head) or _END: fixed to that end of `string`, no unknowns of its own, reference point and axes those of the end; ATTACH_NONE: a body of its own (default)"),
@@ -1439,6 +1426,7 @@ class BodyDef(Sized):
         "free_mask": ("-", "free components of a free body at its reference point; default FREE_ALL"),
         "contact_diameter": ("m", "of the ring at the reference point that meets the wall; 0: none (default)"),
         "contact_length": ("m", "length of wall it stands for, > 0; default 1"),
+        "name": ("", "for messages, ends with 0; default \"\""),
     }
 
 
@@ -1540,6 +1528,7 @@ class DriveDef(Sized):
     integral_gain: float
     limit_low: float
     limit_high: float
+    name: bytes
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -1552,6 +1541,7 @@ class DriveDef(Sized):
         ("integral_gain", c_double),
         ("limit_low", c_double),
         ("limit_high", c_double),
+        ("name", c_char * 24),
     ]
     field_docs = {
         "kind": ("", "DRIVE_..., default DRIVE_MOTION"),
@@ -1563,6 +1553,7 @@ class DriveDef(Sized):
         "integral_gain": ("N/m, N m", "ki of CONTROL, >= 0; default 0"),
         "limit_low": ("N, N m", "default -1e30"),
         "limit_high": ("N, N m", "> limit_low; default 1e30"),
+        "name": ("", "for messages, ends with 0; default \"\""),
     }
 
 
@@ -1708,6 +1699,57 @@ class BucklingOptions(Sized):
     }
 
 
+class SpeedsOptions(Sized):
+    c_name, about = "dmb_speeds_options", ""
+    struct_size: int
+    points: int
+    speed_low: float
+    speed_high: float
+    threshold: float
+    margin: float
+    refinement: int
+    contact: int
+    friction: int
+    reserved: int
+    contact_gap: float
+    structural_damping: float
+    equilibrium_tolerance: float
+    report: Any
+    unused: Any
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("points", c_uint32),
+        ("speed_low", c_double),
+        ("speed_high", c_double),
+        ("threshold", c_double),
+        ("margin", c_double),
+        ("refinement", c_uint32),
+        ("contact", c_int32),
+        ("friction", c_int32),
+        ("reserved", c_int32),
+        ("contact_gap", c_double),
+        ("structural_damping", c_double),
+        ("equilibrium_tolerance", c_double),
+        ("report", POINTER(SpeedsReport)),
+        ("unused", c_void_p),
+    ]
+    field_docs = {
+        "points": ("-", "of the grid of speeds, 2 .. 1e5; default 200"),
+        "speed_low": ("rad/s", "> 0; default 1"),
+        "speed_high": ("rad/s", "> speed_low; default 30"),
+        "threshold": ("-", "severity above which a speed is to be avoided, > 0; default 1"),
+        "margin": ("-", "by which bands are wider on both sides, part of the speed, 0 .. 0.5; default 0.03"),
+        "refinement": ("-", "as of a response, for each order; default 12"),
+        "contact": ("", "these as of a response, but for friction, default 0: a string that turns slides,"),
+        "friction": ("", "and sliding has next to no slope"),
+        "contact_gap": ("", ""),
+        "structural_damping": ("", ""),
+        "equilibrium_tolerance": ("", ""),
+        "report": ("", "written where the call succeeds; NULL (default): none"),
+        "unused": ("", "NULL"),
+    }
+
+
 PATH_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(PathPoint))
 
 
@@ -1842,6 +1884,7 @@ class LoadDef(Sized):
     force: 'Array[c_double]'
     moment: 'Array[c_double]'
     programme: Id
+    name: bytes
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("frame", c_int32),
@@ -1849,6 +1892,7 @@ class LoadDef(Sized):
         ("force", c_double * 3),
         ("moment", c_double * 3),
         ("programme", Id),
+        ("name", c_char * 24),
     ]
     field_docs = {
         "frame": ("", "FRAME_WORLD: dead load (default); FRAME_BODY: follower"),
@@ -1856,6 +1900,7 @@ class LoadDef(Sized):
         "force": ("N", "in `frame`, shape (3)"),
         "moment": ("N m", "in `frame`, shape (3)"),
         "programme": ("-", "factor over time; {0, 0}: 1"),
+        "name": ("", "for messages, ends with 0; default \"\""),
     }
 
 
@@ -2084,5 +2129,6 @@ STRUCTS["dmb_response_options"] = ResponseOptions
 STRUCTS["dmb_stepped_sine_options"] = SteppedSineOptions
 STRUCTS["dmb_stepped_sine_report"] = SteppedSineReport
 STRUCTS["dmb_order"] = Order
+STRUCTS["dmb_speeds_report"] = SpeedsReport
 STRUCTS["dmb_speeds_options"] = SpeedsOptions
 STRUCTS["dmb_speed_band"] = SpeedBand

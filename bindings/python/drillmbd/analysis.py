@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable, Iterator, Sequence
-from ctypes import byref, c_double, c_size_t, c_uint32, c_void_p
-from typing import TYPE_CHECKING, Any
+from ctypes import byref, c_double, c_size_t, c_uint32, c_void_p, pointer
+from typing import TYPE_CHECKING, Any, List
 
 from ._keep import Keep, as_id, as_place, mirrors, path_of, struct
 from ._library import lib as _lib
@@ -13,12 +13,21 @@ from ._progress import Teller
 from ._record import numbers
 from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckReport, Id, Input, Mode, ModeShape, ModesInfo,
                        ModesOptions, Order, Output, PathOptions, PathPoint, PathReport, Place, ResponseOptions, SpeedBand,
-                       SpeedsOptions, StaticOptions, StaticReport)
+                       SpeedsOptions, SpeedsReport, StaticOptions, StaticReport)
 from .enums import COMBINED, FRAME_WORLD, OUTPUT_DISPLACEMENT, Component
 from .errors import check
 
 if TYPE_CHECKING:
     from .sim import Sim
+
+
+class SpeedBands(List[SpeedBand]):
+    """Bands of rotary speed to avoid, with the status of the call and its SpeedsReport."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.status = 0
+        self.report = SpeedsReport()
 
 
 class Analyses:
@@ -130,17 +139,22 @@ class Analyses:
 
     @mirrors("dmb_analysis_speeds")
     def speeds(self, orders: Sequence[Order], outputs: Sequence[Output], limits: Sequence[float], room: int = 64,
-               options: SpeedsOptions | None = None, **fields: Any) -> tuple[list[SpeedBand], list[float]]:
+               options: SpeedsOptions | None = None, **fields: Any) -> tuple[SpeedBands, list[float]]:
         """Bands of rotary speed [rad/s] to avoid, at most `room` of them, and the severity at the speeds of the grid: each
-        Order shakes, and limits are the amplitudes allowed of the Outputs."""
+        Order shakes, and limits are the amplitudes allowed of the Outputs. `status` and `report` of the bands tell where the
+        answer lacks excitation, damping or range (NOTE_INCOMPLETE)."""
         options = struct(SpeedsOptions, options, fields)
         allowed = (c_double * len(outputs))(*numbers(limits, len(outputs)))
         shakes, asked = (Order * len(orders))(*orders), (Output * len(outputs))(*outputs)
         bands, count = (SpeedBand * room)(*[SpeedBand() for _ in range(room)]), c_uint32(room)
         severity = (c_double * options.points)()
-        self._check(self._long(_lib.dmb_analysis_speeds, byref(options), shakes, len(orders), asked, allowed,
+        found = SpeedBands()
+        options.report = pointer(found.report)
+        found.status = self._check(self._long(_lib.dmb_analysis_speeds, byref(options), shakes, len(orders), asked, allowed,
                                              len(outputs), bands, byref(count), severity))
-        return list(bands)[:count.value], list(severity)
+        options.report = None
+        found.extend(list(bands)[:count.value])
+        return found, list(severity)
 
 
 # ---- Frequency response ----------------------------------------------------------------------------------------------

@@ -19,6 +19,7 @@ class Status(IntEnum):
     NOTE_NOT_STEADY = 8  #: done; drives move but no steady state was found: only what they move has a speed
     NOTE_EXTRAPOLATED = 9  #: done; some of the answers are extrapolations that were not confirmed
     NOTE_CANCELLED = 10  #: done up to where the caller's progress function ended it
+    NOTE_INCOMPLETE = 11  #: done; the scene or the range leaves something out, the message tells what
     ERR_NULL = -1  #: a required pointer is NULL
     ERR_HANDLE = -2  #: not a live object of this kind
     ERR_STRUCT_SIZE = -3  #: struct_size is not a size this library knows
@@ -49,6 +50,7 @@ NOTE_UNSTABLE = Status.NOTE_UNSTABLE
 NOTE_NOT_STEADY = Status.NOTE_NOT_STEADY
 NOTE_EXTRAPOLATED = Status.NOTE_EXTRAPOLATED
 NOTE_CANCELLED = Status.NOTE_CANCELLED
+NOTE_INCOMPLETE = Status.NOTE_INCOMPLETE
 ERR_NULL = Status.ERR_NULL
 ERR_HANDLE = Status.ERR_HANDLE
 ERR_STRUCT_SIZE = Status.ERR_STRUCT_SIZE

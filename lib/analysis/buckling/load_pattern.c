@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "drillmbd/analysis.h"
+#include "sim/node.h"
 
 size_t dmb_load_pattern_size(const dmb_scene *scene)
 {
@@ -13,13 +14,14 @@ static int32_t take_drive(dmb_sim *sim, const char *who, dmb_load_pattern *patte
 {
     const dmb_scene_drive *drive = sim->scene->drives + pattern->drive;
     if (drive->kind == DMB_DRIVE_CONTROL) {
-        dmb_message_set(&sim->message, "%s: drive %u is a speed controller, whose force is not given", who,
-                        pattern->drive);
+        dmb_message_set(&sim->message, "%s: %s is a speed controller, whose force is not given", who,
+                        dmb_drive_text(sim->scene, pattern->drive, &(dmb_message){""}));
         return DMB_ERR_VALUE;
     }
     if (drive->kind != DMB_DRIVE_MOTION) return DMB_OK;
     if (drive->joint != UINT32_MAX) {
-        dmb_message_set(&sim->message, "%s: drive %u moves a joint, use one of a string or body", who, pattern->drive);
+        dmb_message_set(&sim->message, "%s: %s moves a joint, use one of a string or body", who,
+                        dmb_drive_text(sim->scene, pattern->drive, &(dmb_message){""}));
         return DMB_ERR_UNSUPPORTED;
     }
     pattern->row = drive->row;

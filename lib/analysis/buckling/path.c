@@ -71,11 +71,10 @@ static void explain(dmb_path *path, int32_t status)
         (void)dmb_stiffness_explain(path->sim, "path", path->search.block);
     } else if (status == DMB_ERR_ROTATION) {
         const dmb_owner owner = dmb_owner_of_element(path->work->scene, path->turned);
-        dmb_message_set(
-            &path->sim->message,
-            "path: ends at factor = %g, %s %u, pipe %u: relative rotation in one element above 2.5 rad; use "
-            "more elements",
-            path->last.factor, owner.kind, owner.index, owner.pipe);
+        dmb_message_set(&path->sim->message,
+                        "path: ends at factor = %g, %s: relative rotation in one element above 2.5 rad; use "
+                        "more elements",
+                        path->last.factor, owner.text.text);
     } else {
         dmb_message_set(&path->sim->message, "path: lost at factor = %g after %u points, relative residual = %g",
                         path->last.factor, path->report.points, path->search.residual);
@@ -221,7 +220,8 @@ static int32_t follow(dmb_path *path)
     while (status == DMB_OK) {
         int32_t event = DMB_EVENT_NONE;
         if (path->report.points >= o->max_points) return DMB_NOTE_STOPPED;
-        dmb_progress_at(path->sim, fmax((double)path->report.points / o->max_points, path->last.factor / o->factor_end));
+        dmb_progress_at(path->sim,
+                        fmax((double)path->report.points / o->max_points, path->last.factor / o->factor_end));
         status = dmb_path_find_next(path, &arc, &event);
         if (status < 0) return status;
         if (creeps(arc, &longest, &crept)) return lost(path);

@@ -122,6 +122,9 @@ void dmb_linear_restrict_terms(const dmb_linear *linear, const double *f, double
 void dmb_linear_dense(const dmb_linear *linear, const dmb_linear_matrix *A, double *work, double *out);
 /* [-] |x.Ky - y.Kx| for x, y of random signs over the roots of the stiffness: of rounding size where K is symmetric. */
 double dmb_linear_asymmetry(const dmb_linear *linear, double *work);
+/* 1 if something is elastic and no motion meets a damping force, or one that drives it; work: shape (3 rows +
+ * coordinates). */
+int32_t dmb_linear_is_undamped(const dmb_linear *linear, double *work);
 
 /* Factors k K + c C + m M in `work`: block-tridiagonal, block-sparse where joints connect. Node of a singular block, or
  * -1; weakest may be NULL. */

@@ -165,6 +165,24 @@ double dmb_linear_asymmetry(const dmb_linear *linear, double *work)
     return most / sqrt(1.0 + linear->coordinates);
 }
 
+/* d.C d of motions of random signs: 0 where C is skew, as gyroscopic terms are, or nothing. */
+int32_t dmb_linear_is_undamped(const dmb_linear *linear, double *work)
+{
+    const size_t rows = linear->rows;
+    double *x = work, *product = x + rows, *terms = product + rows, *z = terms + rows, motion = 0.0;
+    uint64_t seed = 1;
+    for (int k = 0; k < 4; k++) {
+        double size = 0.0;
+        draw(linear, &seed, z, x);
+        dmb_linear_multiply(linear, &linear->damping, x, product);
+        dmb_linear_terms(linear, &linear->damping, x, terms);
+        for (size_t i = 0; i < rows; i++) size += fabs(x[i]) * terms[i];
+        motion += dmb_dot(rows, x, x);
+        if (fabs(dmb_dot(rows, x, product)) > 1e-12 * size) return 0;
+    }
+    return motion > 0.0;
+}
+
 /* Factors of combinations of the matrices, and solutions with them. */
 
 /* k K + c C + m M in the blocks of `work`, ones where rows are held. */

@@ -78,7 +78,6 @@ int32_t dmb_stiffness_balanced(dmb_sim *sim, const char *who, const dmb_evaluati
 int32_t dmb_stiffness_explain(dmb_sim *sim, const char *who, uint32_t node)
 {
     const dmb_owner owner = dmb_owner_of_node(sim->scene, node);
-    dmb_message_set(&sim->message, "%s: %s %u, pipe %u: nothing holds it, the stiffness is singular", who, owner.kind,
-                    owner.index, owner.pipe);
+    dmb_message_set(&sim->message, "%s: %s: nothing holds it, the stiffness is singular", who, owner.text.text);
     return DMB_ERR_SINGULAR;
 }

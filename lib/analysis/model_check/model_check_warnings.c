@@ -38,11 +38,7 @@ static const char *more(uint32_t count, dmb_message *text)
 
 static const char *node_name(const dmb_scene *scene, uint32_t node, dmb_message *text)
 {
-    const dmb_owner owner = dmb_owner_of_node(scene, node);
-    if (owner.kind[0] == 's')
-        dmb_message_set(text, "string %u, pipe %u", owner.index, owner.pipe);
-    else
-        dmb_message_set(text, "%s %u", owner.kind, owner.index);
+    *text = dmb_owner_of_node(scene, node).text;
     return text->text;
 }
 
@@ -144,9 +140,9 @@ static void idle_drives(const sink *to)
 {
     for (uint32_t i = 0; i < to->scene->drive_count; i++) {
         const uint32_t j = to->scene->drives[i].joint;
-        dmb_message text, name;
+        dmb_message text, name, drive;
         if (j == UINT32_MAX || to->sim->joint_state[j] == DMB_JOINT_ACTIVE) continue;
-        dmb_message_set(&text, "drive %u: %s is %s", i, joint_name(to->scene, j, &name),
+        dmb_message_set(&text, "%s: %s is %s", dmb_drive_text(to->scene, i, &drive), joint_name(to->scene, j, &name),
                         to->sim->joint_state[j] == DMB_JOINT_OPEN ? "open, the drive does nothing" : "locked");
         say(to, &text);
     }
@@ -289,6 +285,14 @@ static void no_contact(const sink *to)
     }
 }
 
+static void held_rings(const sink *to)
+{
+    dmb_message text;
+    for (uint32_t i = dmb_owner_of_held_ring(to->scene, 0, &text); i != UINT32_MAX;
+         i = dmb_owner_of_held_ring(to->scene, i + 1, &text))
+        say(to, &text);
+}
+
 void dmb_model_check_warnings(const dmb_model_check *check, dmb_check_line_fn line, void *context)
 {
     const sink to = {check, check->sim, check->sim->scene, line, context};
@@ -305,4 +309,5 @@ void dmb_model_check_warnings(const dmb_model_check *check, dmb_check_line_fn li
     outside_lengthwise(&to, 0);
     outside_lengthwise(&to, 1);
     no_contact(&to);
+    held_rings(&to);
 }

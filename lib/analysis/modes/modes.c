@@ -66,11 +66,9 @@ static int32_t check_balance(const dmb_mode_search *search)
     const double allowed = search->options->equilibrium_tolerance;
     if (linear->unbalance <= allowed || (linear->balanced && allowed >= DMB_LINEAR_BALANCED)) return DMB_OK;
     const dmb_owner owner = dmb_owner_of_node(&linear->scene, linear->largest_node);
-    dmb_message_set(
-        search->message,
-        "modes: the state is no equilibrium: residual = %g of the forces, must be <= %g; up to %g N at %s %u, "
-        "pipe %u",
-        linear->unbalance, allowed, linear->largest_force, owner.kind, owner.index, owner.pipe);
+    dmb_message_set(search->message,
+                    "modes: the state is no equilibrium: residual = %g of the forces, must be <= %g; up to %g N at %s",
+                    linear->unbalance, allowed, linear->largest_force, owner.text.text);
     return DMB_ERR_VALUE;
 }
 

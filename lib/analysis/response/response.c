@@ -173,10 +173,9 @@ static int32_t check_balance(const response_work *w)
     if (linear->balanced || linear->unbalance <= w->options.equilibrium_tolerance) return DMB_OK;
     const dmb_owner owner = dmb_owner_of_node(&linear->scene, linear->largest_node);
     dmb_message_set(&w->sim->message,
-                    "state: not an equilibrium, %g of the forces that balance is left (up to %g N at %s %u, pipe %u), "
+                    "state: not an equilibrium, %g of the forces that balance is left (up to %g N at %s), "
                     "must be <= %g",
-                    linear->unbalance, linear->largest_force, owner.kind, owner.index, owner.pipe,
-                    w->options.equilibrium_tolerance);
+                    linear->unbalance, linear->largest_force, owner.text.text, w->options.equilibrium_tolerance);
     return DMB_ERR_VALUE;
 }
 
@@ -248,9 +247,9 @@ static int32_t nothing_holds(const response_work *w, double frequency, uint32_t 
 {
     const dmb_owner owner = dmb_owner_of_node(&w->linear->scene, node);
     dmb_message_set(&w->sim->message,
-                    "frequency %g Hz: %s %u, pipe %u: nothing holds it there, the dynamic stiffness is "
+                    "frequency %g Hz: %s: nothing holds it there, the dynamic stiffness is "
                     "singular",
-                    frequency, owner.kind, owner.index, owner.pipe);
+                    frequency, owner.text.text);
     return DMB_ERR_SINGULAR;
 }
 
@@ -306,6 +305,8 @@ static int32_t run(response_work *w, const dmb_input *inputs, const dmb_output *
 {
     int32_t status = take_memory(w);
     if (status >= 0) status = linearise(w);
+    if (status >= 0)
+        response->undamped = !(w->options.structural_damping > 0.0) && dmb_linear_is_undamped(w->linear, w->x.re);
     if (status >= 0) status = take_inputs(w, inputs, response);
     if (status >= 0) status = take_outputs(w, outputs);
     if (status >= 0) status = solve_grid(w, response);

@@ -7,6 +7,8 @@
 struct dmb_response {
     uint32_t magic;
     uint32_t points, inputs, outputs;
+    int32_t undamped;          /* 1: no structural damping, and no motion meets a damping force */
+    int32_t reserved;
     dmb_allocator allocator;
     double *amplitude, *phase; /* shape (inputs) */
     double *frequency;         /* [Hz] shape (points) */

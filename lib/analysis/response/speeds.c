@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "analysis/response/response.h"
 #include "analysis/response/response_options.h"
 #include "base/handle.h"
 #include "base/memory.h"
@@ -52,6 +53,8 @@ double dmb_speeds_sum(const dmb_speeds_curve *curves, uint32_t count, double spe
     return sum;
 }
 
+enum { DMB_CUT_LOW = 1, DMB_CUT_HIGH = 2 }; /* of dmb_speed_band.cut */
+
 /* ---- Bands ------------------------------------------------------------------------------------------------------- */
 
 typedef struct search {
@@ -88,10 +91,12 @@ static void end_band(search *s, double speed)
     dmb_speed_band *before = s->count > 0 && s->count <= s->room ? s->bands + s->count - 1 : NULL;
     if (before != NULL && before->high >= s->open.low) {
         const double low = before->low;
+        const int32_t cut = before->cut | s->open.cut;
         if (s->open.severity > before->severity) {
             *before = s->open;
             before->low = low;
         }
+        before->cut = cut;
         before->high = fmax(before->high, s->open.high);
         return;
     }
@@ -106,21 +111,29 @@ static double crossing(const search *s, double a, double at_a, double b, double 
 }
 
 uint32_t dmb_speeds_bands(const dmb_speeds_curve *curves, uint32_t count, const dmb_speeds_options *options,
-                          const double *speeds, uint32_t points, dmb_speed_band *bands, uint32_t room)
+                          const double *speeds, uint32_t points, dmb_speed_band *bands, uint32_t room, int32_t *cut)
 {
     search s = {.curves = curves, .options = options, .bands = bands, .room = room};
     double last = 0.0;
+    *cut = 0;
     for (uint32_t i = 0; i < points; i++) {
         uint32_t order = 0, output = 0;
         const double severity = dmb_speeds_sum(curves, count, speeds[i], &order, &output);
         const int32_t above = severity > options->threshold;
-        if (above && !s.is_open)
+        if (above && !s.is_open) {
             begin_band(&s, i == 0 ? speeds[0] : crossing(&s, speeds[i - 1], last, speeds[i], severity));
+            s.open.cut = i == 0 ? DMB_CUT_LOW : 0;
+            *cut |= s.open.cut;
+        }
         if (above) visit(&s, speeds[i], severity, order, output);
         if (!above && s.is_open) end_band(&s, crossing(&s, speeds[i - 1], last, speeds[i], severity));
         last = severity;
     }
-    if (s.is_open) end_band(&s, speeds[points - 1]);
+    if (s.is_open) {
+        s.open.cut |= DMB_CUT_HIGH;
+        *cut |= DMB_CUT_HIGH;
+        end_band(&s, speeds[points - 1]);
+    }
     return s.count;
 }
 
@@ -147,6 +160,8 @@ DMB_DEFINE_INIT(dmb_speeds_options, 80,
 
 DMB_DEFINE_INIT(dmb_speed_band, 56, {.severity = 0.0})
 
+DMB_DEFINE_INIT(dmb_speeds_report, 24, {.bands = 0})
+
 enum { POINTS_MAX = 100000, ORDERS_MAX = 256, BANDS_MAX = 100000 };
 
 typedef struct speeds_run {
@@ -159,6 +174,7 @@ typedef struct speeds_run {
     dmb_speeds_curve *curves;                   /* shape (order_count) */
     double *speeds;                             /* of all curves, ascending, shape (points) */
     dmb_speed_band *found;                      /* shape (room) */
+    dmb_speeds_report report;
     uint32_t room, count;
 } speeds_run;
 
@@ -178,7 +194,10 @@ static int32_t take_options(dmb_sim *sim, const dmb_speeds_options *given, dmb_s
     dmb_check_within(&check, "speed_high", out->speed_high, 1e-6, 1e6);
     dmb_check_within(&check, "threshold", out->threshold, 1e-9, 1e9);
     dmb_check_within(&check, "margin", out->margin, 0.0, 0.5);
-    return check.status;
+    dmb_speeds_report unused;
+    if (check.status < 0 || out->report == NULL || dmb_speeds_report_read(&unused, out->report) >= 0) return check.status;
+    dmb_message_set(&sim->message, "speeds options: report's struct_size is not one this library knows");
+    return DMB_ERR_STRUCT_SIZE;
 }
 
 /* Order number i of the caller's array, whose items are as far apart as the first one says. */
@@ -277,6 +296,7 @@ static int32_t follow_order(speeds_run *r, uint32_t k)
     status = dmb_analysis_response(r->sim, &options, &order.input, 1, r->outputs, r->output_count, &response);
     dmb_sim_take_back(r->sim);
     if (status < 0) return status;
+    if (response->undamped) r->report.undamped = 1;
     (void)dmb_response_dimensions(response, shape);
     r->curves[k].order = order.order;
     status = make_curve(r, r->curves + k, shape[0]);
@@ -344,8 +364,52 @@ static int32_t run(speeds_run *r)
     for (uint32_t k = 0; k < r->order_count && status >= 0; k++) status = follow_order(r, k);
     if (status >= 0) status = gather_speeds(r);
     if (status < 0) return status;
-    r->count = dmb_speeds_bands(r->curves, r->order_count, &r->options, r->speeds, r->points, r->found, r->room);
+    r->count =
+        dmb_speeds_bands(r->curves, r->order_count, &r->options, r->speeds, r->points, r->found, r->room, &r->report.cut);
     return DMB_OK;
+}
+
+/* ---- What limits the answer -------------------------------------------------------------------------------------- */
+
+static int is_silent(const dmb_speeds_curve *curve)
+{
+    for (uint32_t i = 0; i < curve->count; i++)
+        if (curve->severity[i] > 0.0) return 0;
+    return 1;
+}
+
+/* An order without an answer at any speed has nothing that shakes, or outputs that stand still. */
+static uint32_t count_silent(speeds_run *r)
+{
+    uint32_t first = 0;
+    for (uint32_t k = r->order_count; k-- > 0;) {
+        if (!is_silent(r->curves + k)) continue;
+        r->report.silent_orders++;
+        first = k;
+    }
+    return first;
+}
+
+static int32_t judge(speeds_run *r)
+{
+    static const char *const ends[] = {"", "speed_low", "speed_high", "both speed_low and speed_high"};
+    const uint32_t silent = count_silent(r);
+    dmb_message order, damping, cut;
+    dmb_message_clear(&order);
+    dmb_message_clear(&damping);
+    dmb_message_clear(&cut);
+    r->report.bands = r->count;
+    if (r->report.silent_orders == 0 && !r->report.undamped && r->report.cut == 0) return DMB_OK;
+    if (r->report.silent_orders > 0)
+        dmb_message_set(&order, " order %u (%g) moves no output: look at its amplitude and place;", silent,
+                        r->curves[silent].order);
+    if (r->report.undamped)
+        dmb_message_set(&damping, " nothing damps, heights at resonances mean nothing: give damping;");
+    if (r->report.cut != 0)
+        dmb_message_set(&cut, " bands go on beyond %s of %g .. %g rad/s: widen the range;", ends[r->report.cut],
+                        r->options.speed_low, r->options.speed_high);
+    dmb_message_set(&r->sim->message, "speeds:%s%s%s", order.text, damping.text, cut.text);
+    return DMB_NOTE_INCOMPLETE;
 }
 
 static void release(speeds_run *r)
@@ -362,7 +426,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_speeds_options *options, const dm
                        const dmb_output *outputs, const double *limits, uint32_t output_count, dmb_speed_band *bands,
                        uint32_t *band_count, double *severity)
 {
-    speeds_run r = {.sim = sim, .orders = orders, .outputs = outputs, .limits = limits};
+    speeds_run r = {.report = dmb_speeds_report_default(), .sim = sim, .orders = orders, .outputs = outputs, .limits = limits};
     dmb_speed_band unused;
     if (dmb_speed_band_read(&unused, bands) < 0) return DMB_ERR_STRUCT_SIZE;
     r.order_count = order_count;
@@ -378,6 +442,8 @@ static int32_t analyse(dmb_sim *sim, const dmb_speeds_options *options, const dm
         write_bands(&r, bands);
         if (severity != NULL) write_severity(&r, severity);
         *band_count = r.count < r.room ? r.count : r.room;
+        status = judge(&r);
+        if (r.options.report != NULL) (void)dmb_speeds_report_write(r.options.report, &r.report);
         if (r.count > r.room) status = DMB_NOTE_FULL;
     }
     release(&r);

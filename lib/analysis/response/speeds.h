@@ -6,20 +6,21 @@
 
 /* Of one order; straight between its points. */
 typedef struct dmb_speeds_curve {
-    double order;      /* [-] */
+    double order; /* [-] */
     uint32_t count;
-    uint32_t taken;    /* points that have been merged with those of other curves */
-    double *speed;     /* [rad/s] ascending, shape (count) */
-    double *severity;  /* shape (count) */
-    uint32_t *output;  /* which is worst, shape (count) */
+    uint32_t taken;   /* points that have been merged with those of other curves */
+    double *speed;    /* [rad/s] ascending, shape (count) */
+    double *severity; /* shape (count) */
+    uint32_t *output; /* which is worst, shape (count) */
 } dmb_speeds_curve;
 
 /* Sum of the curves at a speed; *order: which of them is largest there, *output: its worst output. */
 double dmb_speeds_sum(const dmb_speeds_curve *curves, uint32_t count, double speed, uint32_t *order, uint32_t *output);
 
 /* The bands above the threshold, widened by the margin and joined where they meet. speeds: points of all curves,
- * ascending. bands: room of them; returns how many there are, more than room if they do not fit. */
+ * ascending. bands: room of them; returns how many there are, more than room if they do not fit. *cut: 1 if a band goes
+ * on below the first speed, 2 above the last one, 3 both, 0 neither. */
 uint32_t dmb_speeds_bands(const dmb_speeds_curve *curves, uint32_t count, const dmb_speeds_options *options,
-                          const double *speeds, uint32_t points, dmb_speed_band *bands, uint32_t room);
+                          const double *speeds, uint32_t points, dmb_speed_band *bands, uint32_t room, int32_t *cut);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "analysis/linear/stiffness.h"
 #include "analysis/static/stability.h"
+#include "analysis/static/static_pull.h"
 #include "base/handle.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
@@ -266,10 +267,11 @@ static int32_t settle(dmb_static_search *search)
     return DMB_OK;
 }
 
-static int is_held_along(const dmb_scene *scene, const dmb_string_map *string)
+static int is_held(const dmb_scene *scene, const dmb_string_map *string, uint32_t component)
 {
     for (uint32_t i = 0; i < scene->held_count; i++)
-        if (scene->held_component[i] == 0 && scene->held_node[i] - string->first_node < string->node_count) return 1;
+        if (scene->held_component[i] == component && scene->held_node[i] - string->first_node < string->node_count)
+            return 1;
     for (uint32_t k = 0; k < scene->bit_count; k++)
         if (scene->bits[k].law.kind != DMB_ROCK_NONE && scene->bits[k].node - string->first_node < string->node_count)
             return 1;
@@ -283,7 +285,7 @@ static void name_free_string(dmb_sim *sim, int32_t status)
     if (status != DMB_ERR_NO_CONVERGENCE && status != DMB_ERR_ROTATION) return;
     for (uint32_t i = 0; i < scene->string_count; i++) {
         const dmb_message said = sim->message;
-        if (is_held_along(scene, scene->strings + i)) continue;
+        if (is_held(scene, scene->strings + i, DMB_X)) continue;
         dmb_message_set(&sim->message,
                         "static: string %u: nothing holds it along its axis, give it a drive, a guide or a "
                         "joint; %s",
@@ -292,26 +294,86 @@ static void name_free_string(dmb_sim *sim, int32_t status)
     }
 }
 
+/* In which direction the part of a node may go. */
+static const char *way_out(const dmb_scene *scene, uint32_t node)
+{
+    for (uint32_t i = 0; i < scene->string_count; i++) {
+        const dmb_string_map *string = scene->strings + i;
+        if (node - string->first_node >= string->node_count) continue;
+        const int along = is_held(scene, string, DMB_X), about = is_held(scene, string, DMB_RX);
+        if (!along && !about) return "it may slide along and spin about its axis";
+        if (!along) return "it may slide along its axis";
+        return about ? "it may move" : "it may spin about its axis";
+    }
+    return "it may move";
+}
+
+/* At rest a controller gives the force it has come to: it holds no position, and at its limit not even more. */
+static const char *controller(const dmb_sim *sim, int limited_only, dmb_message *text)
+{
+    dmb_message name;
+    for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
+        const dmb_scene_drive *drive = sim->scene->drives + i;
+        const double force = sim->trial.drive_force[i];
+        const int high = force >= drive->limit_high, low = force <= drive->limit_low;
+        if (drive->kind != DMB_DRIVE_CONTROL || (limited_only && !high && !low)) continue;
+        dmb_drive_text(sim->scene, i, &name);
+        if (high || low)
+            dmb_message_set(text, "; %s is at its limit_%s = %g: widen it, or lower the load", name.text,
+                            high ? "high" : "low", force);
+        else
+            dmb_message_set(text, "; %s is a controller: at rest it gives %g and holds nothing, a motion drive would",
+                            name.text, force);
+        return text->text;
+    }
+    return NULL;
+}
+
+/* A pulled string lies on the inside of a bend. Elements that are long beside the length over which it bends open and
+ * close a stiff wall in turn. */
+#define DMB_SHORT_ELEMENT 4.0 /* [-] lengths sqrt(EI/T) */
+
+static const char *remedy(dmb_static_search *search, dmb_message *text)
+{
+    dmb_static_pull pull;
+    const char *drive = controller(search->sim, 1, text);
+    if (drive != NULL) return drive;
+    if (dmb_static_find_pull(search, &pull) && pull.element > DMB_SHORT_ELEMENT * pull.bending) {
+        dmb_message_set(text,
+                        "; string %u is pulled by T = %g N round a bend: with sqrt(EI/T) = %g m take elements of %g m, "
+                        "not %g m, or a softer wall",
+                        pull.string, pull.tension, pull.bending, DMB_SHORT_ELEMENT * pull.bending, pull.element);
+        return text->text;
+    }
+    return search->sim->scene->site_count > 0
+               ? "; shorter elements, a softer wall, more load_steps or a run in time with damping may get there"
+               : "; more load_steps, shorter elements or a run in time with damping may get there";
+}
+
 static void explain(dmb_static_search *search, int32_t status)
 {
     dmb_sim *sim = search->sim;
     dmb_owner owner;
+    dmb_message text;
     if (sim->scene->cluster_count && sim->reduced_mode->row != UINT32_MAX) {
         dmb_clusters_explain(sim, "its equations cannot be satisfied");
     } else if (status == DMB_ERR_SINGULAR) {
         owner = dmb_owner_of_node(sim->scene, search->block);
-        dmb_message_set(&sim->message, "static: %s %u, pipe %u: nothing holds it, the stiffness is singular",
-                        owner.kind, owner.index, owner.pipe);
+        const char *drive = controller(sim, 0, &text);
+        dmb_message_set(&sim->message,
+                        "static: %s: nothing holds it, the stiffness is singular: %s; give it a guide, drive, joint or "
+                        "spring%s",
+                        owner.text.text, way_out(sim->scene, search->block), drive != NULL ? drive : "");
     } else if (status == DMB_ERR_ROTATION) {
         owner = dmb_owner_of_element(sim->scene, search->evaluation.element);
-        dmb_message_set(&sim->message, "static: %s %u, pipe %u: relative rotation in one element above 2.5 rad",
-                        owner.kind, owner.index, owner.pipe);
+        dmb_message_set(&sim->message, "static: %s: relative rotation in one element above 2.5 rad: take more elements",
+                        owner.text.text);
     } else if (status == DMB_ERR_CALLBACK) {
         dmb_message_set(&sim->message, "static: the callback of a programme or constraint failed at time %g",
                         search->evaluation.time);
     } else {
-        dmb_message_set(&sim->message, "static: %u iterations, relative residual = %g, must be <= %g",
-                        search->iterations, search->residual, search->options->tolerance);
+        dmb_message_set(&sim->message, "static: %u iterations, relative residual = %g, must be <= %g%s",
+                        search->iterations, search->residual, search->options->tolerance, remedy(search, &text));
     }
 }
 

@@ -49,6 +49,13 @@ int32_t dmb_static_growing_steps(dmb_static_search *search);
 int32_t dmb_static_settle(dmb_static_search *search);
 /* Displaces the trial to the low side of the hole, where there is gravity and a wall. */
 void dmb_static_lay_on_wall(dmb_sim *sim);
+/* The largest pull in a string whose hole bends. */
+typedef struct dmb_static_pull {
+    double tension; /* [N] */
+    double bending; /* [m] sqrt(EI/T): over this length it bends where it meets the wall */
+    double element; /* [m] its length */
+    uint32_t string;
+} dmb_static_pull;
 /* The trial and its increments set aside as `now`, whose accepted state is in the backup, and back. */
 void dmb_static_keep(dmb_sim *sim);
 void dmb_static_return(dmb_sim *sim);

@@ -64,9 +64,9 @@ static int32_t add_twist(dmb_sim *sim, uint32_t i, double twist[6])
         if (sim->scene->joints[drive->joint].a.node != UINT32_MAX)
             return REFUSE(
                 sim,
-                "drive %u: it moves two parts against each other, so that the whole does not turn as one body; "
+                "%s: it moves two parts against each other, so that the whole does not turn as one body; "
                 "take DMB_STEADY_AT_REST",
-                i);
+                dmb_drive_text(sim->scene, i, &(dmb_message){""}));
         twist_of_joint(sim, drive, dmb_steady_target(sim, i), part);
     }
     for (int k = 0; k < 6; k++) twist[k] += part[k];
@@ -140,9 +140,9 @@ static int32_t check_steady_forces(dmb_sim *sim, const dmb_steady *steady)
         dmb_mat3_vec(R, load->moment, f + 3);
         if (turns(axis, f) || turns(axis, f + 3))
             return REFUSE(sim,
-                          "load %u: it does not turn with the whole and is not along its axis, so that no state is "
+                          "%s: it does not turn with the whole and is not along its axis, so that no state is "
                           "steady; take DMB_FRAME_BODY for it, or DMB_STEADY_AT_REST",
-                          i);
+                          dmb_load_text(sim->scene, i, &(dmb_message){""}));
     }
     return DMB_OK;
 }
@@ -201,11 +201,10 @@ static int32_t check_guides(dmb_evaluation *evaluation, dmb_steady *steady)
         if (fabs(speed - held) * (c < 3 ? 1.0 : scene->length_scale) <= DMB_STEADY_SAME * size_of(scene, steady->twist))
             continue;
         const dmb_owner owner = dmb_owner_of_node(scene, node);
-        return REFUSE(
-            sim,
-            "%s %u, pipe %u: its guide or drive holds body-frame component %u at a speed of %g, must be %g for "
-            "the whole to turn as one body; take DMB_STEADY_AT_REST",
-            owner.kind, owner.index, owner.pipe, c, held, speed);
+        return REFUSE(sim,
+                      "%s: its guide or drive holds body-frame component %u at a speed of %g, must be %g for "
+                      "the whole to turn as one body; take DMB_STEADY_AT_REST",
+                      owner.text.text, c, held, speed);
     }
     return status;
 }

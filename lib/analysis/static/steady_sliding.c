@@ -21,11 +21,10 @@ static int32_t check_round(dmb_sim *sim, const dmb_steady *steady)
                           fabs(rigid_mass->inertia[1] - rigid_mass->inertia[2]) <= DMB_STEADY_SAME * rigid_mass->inertia[1];
         const dmb_owner owner = dmb_owner_of_node(scene, rigid_mass->node);
         if (!round)
-            return REFUSE(
-                sim,
-                "%s %u, pipe %u: its mass is not round about its axis, so that turning about an axis at rest is "
-                "not steady; leave the eccentricity out, or take DMB_STEADY_RIGID or _AT_REST",
-                owner.kind, owner.index, owner.pipe);
+            return REFUSE(sim,
+                          "%s: its mass is not round about its axis, so that turning about an axis at rest is "
+                          "not steady; leave the eccentricity out, or take DMB_STEADY_RIGID or _AT_REST",
+                          owner.text.text);
     }
     for (uint32_t e = 0; e < scene->element_count; e++) {
         const uint32_t s = steady->string[scene->element_node[e]];
@@ -33,9 +32,9 @@ static int32_t check_round(dmb_sim *sim, const dmb_steady *steady)
         if (s == UINT32_MAX || steady->speed[2 * s + 1] == 0.0 || (rest[4] == 0.0 && rest[5] == 0.0)) continue;
         const dmb_owner owner = dmb_owner_of_element(scene, e);
         return REFUSE(sim,
-                      "%s %u, pipe %u: it is bent when unloaded, so that turning about an axis at rest is not steady; "
+                      "%s: it is bent when unloaded, so that turning about an axis at rest is not steady; "
                       "take DMB_STEADY_AT_REST",
-                      owner.kind, owner.index, owner.pipe);
+                      owner.text.text);
     }
     return DMB_OK;
 }
@@ -55,17 +54,17 @@ static int32_t check_turning_loads(dmb_sim *sim, const dmb_steady *steady)
         if (s == UINT32_MAX || steady->speed[2 * s + 1] == 0.0 || load->frame != DMB_FRAME_BODY) continue;
         if (across(load->force) || across(load->moment))
             return REFUSE(sim,
-                          "load %u: it turns with its string, across the axis; take DMB_STEADY_AT_REST, or another "
+                          "%s: it turns with its string, across the axis; take DMB_STEADY_AT_REST, or another "
                           "frame for it",
-                          i);
+                          dmb_load_text(sim->scene, i, &(dmb_message){""}));
     }
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         const dmb_scene_drive *drive = scene->drives + i;
         if (drive->kind == DMB_DRIVE_MOTION || drive->node == UINT32_MAX || drive->component % 3 == 0) continue;
         const uint32_t s = steady->string[drive->node];
         if (s != UINT32_MAX && steady->speed[2 * s + 1] != 0.0)
-            return REFUSE(sim, "drive %u: its force turns with its string, across the axis; take DMB_STEADY_AT_REST",
-                          i);
+            return REFUSE(sim, "%s: its force turns with its string, across the axis; take DMB_STEADY_AT_REST",
+                          dmb_drive_text(sim->scene, i, &(dmb_message){""}));
     }
     return DMB_OK;
 }
@@ -80,9 +79,9 @@ static int32_t take_speed(dmb_sim *sim, dmb_steady *steady, uint32_t i, uint32_t
     if (s == UINT32_MAX || drive->component % 3 != 0)
         return speed == 0.0 ? DMB_OK
                             : REFUSE(sim,
-                                     "drive %u: it does not move a string along or about its axis, so that strings do "
+                                     "%s: it does not move a string along or about its axis, so that strings do "
                                      "not slide at rest; take DMB_STEADY_RIGID or _AT_REST",
-                                     i);
+                                     dmb_drive_text(sim->scene, i, &(dmb_message){""}));
     const uint32_t k = 2 * s + (uint32_t)drive->component / 3;
     if (taken[k] != UINT32_MAX && fabs(steady->speed[k] - speed) > DMB_STEADY_SAME * fabs(speed))
         return REFUSE(

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "math/vec3.h"
+#include "sim/node.h"
 #include "system/constrain/constraint_rows.h"
 #include "system/constrain/sparse_cluster.h"
 
@@ -368,13 +369,14 @@ enum { DMB_NAMED_DRIVES = 4 };
 static void name_drives(const dmb_scene *scene, uint32_t constraint, dmb_message *text)
 {
     const dmb_cluster *cluster = scene->clusters + scene->constraints[constraint].cluster;
-    dmb_message before;
+    dmb_message before, name;
     uint32_t count = 0;
     dmb_message_clear(text);
     for (uint32_t i = cluster->constraint; i < cluster->constraint + cluster->constraint_count; i++) {
         if (scene->constraints[i].kind != DMB_OF_DRIVE || i == constraint || count == DMB_NAMED_DRIVES) continue;
         before = *text;
-        dmb_message_set(text, "%s%s drive %u", before.text, count++ ? "," : ";", scene->constraints[i].index);
+        dmb_message_set(text, "%s%s %s", before.text, count++ ? "," : ";",
+                        dmb_drive_text(scene, scene->constraints[i].index, &name));
     }
     if (count == 0) return;
     before = *text;

@@ -155,7 +155,8 @@ void dmb_joint_coordinates_in(const dmb_evaluation *evaluation, uint32_t j, cons
     const dmb_sim *sim = evaluation->sim;
     const double *last = sim->now.joint_turn + 2 * (size_t)j;
     double expected[2];
-    if (!evaluation->dynamic || evaluation->steady) last = sim->trial.joint_turn + 2 * (size_t)j; /* statics follow it move by move */
+    if (!evaluation->dynamic || evaluation->steady)
+        last = sim->trial.joint_turn + 2 * (size_t)j; /* statics follow it move by move */
     dmb_joint_coordinates_at(relative->R, relative->p, relative->V, last, coordinates);
     if (!(evaluation->step > 0.0)) return;
     turning_of(sim, j, relative, coordinates, expected);
@@ -339,6 +340,7 @@ void dmb_constraint_text(const dmb_scene *scene, uint32_t constraint, dmb_messag
     const char *name = "";
     if (c->kind == DMB_OF_JOINT) name = scene->joints[c->index].name;
     if (c->kind == DMB_OF_COUPLING) name = scene->couplings[c->index].name;
+    if (c->kind == DMB_OF_DRIVE) name = scene->drives[c->index].name;
     if (c->kind == DMB_OF_CALLBACK) name = scene->callbacks[c->index].name;
     if (name[0] != '\0')
         dmb_message_set(text, "%s %u (%s)", kinds[c->kind], c->index, name);

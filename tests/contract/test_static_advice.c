@@ -1,0 +1,105 @@
+/* What failed statics tell to do against what follows where it is done: elements for a pulled, very flexible string on
+ * a stiff wall; the limit of a controlled drive; which way a string may go. */
+#include "sim_test.h"
+
+static void expect(const dmb_sim *sim, const char *text)
+{
+    if (strstr(dmb_sim_message(sim), text) == NULL) fail_msg("\"%s\" without \"%s\"", dmb_sim_message(sim), text);
+}
+
+/* EI 1e3 N m2, 50 um of clearance, wall 1e9 N/m2, 20 kN round a bend of R 300 m, 100 m long. */
+static dmb_sim *pulled(uint32_t pipes, uint32_t elements, dmb_model **model)
+{
+    static double survey[12][3];
+    dmb_wall_def wall = dmb_wall_def_default();
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_load_def pull = dmb_load_def_default();
+    dmb_sim *sim;
+    for (int i = 0; i < 12; i++) {
+        survey[i][0] = 10.0 * i;
+        survey[i][1] = 1.5707963267948966;
+        survey[i][2] = 10.0 * i / 300.0;
+    }
+    must(dmb_model_create(NULL, model));
+    wall.survey = &survey[0][0];
+    wall.survey_count = 12;
+    wall.diameter = pipe.outer_diameter + 1e-4;
+    wall.stiffness = 1e9;
+    must(dmb_model_add_wall(*model, &wall, NULL));
+    string.start_free = DMB_FREE_NONE;
+    must(dmb_model_add_string(*model, &string, &pipe.string));
+    pipe.length = 100.0 / pipes;
+    pipe.elements = elements;
+    pipe.section_stiffness[4] = pipe.section_stiffness[5] = 1e3;
+    must(dmb_model_add_pipes(*model, &pipe, pipes, NULL));
+    pull.frame = DMB_FRAME_BODY;
+    pull.place = dmb_station(pipe.string, pipes - 1, 1.0);
+    pull.force[0] = 2e4;
+    must(dmb_model_add_load(*model, &pull, NULL));
+    must(dmb_model_compile(*model, NULL));
+    assert_true(dmb_sim_create(*model, NULL, &sim) >= 0);
+    return sim;
+}
+
+static void elements_for_a_pulled_string(void **state)
+{
+    dmb_model *model;
+    dmb_sim *sim = pulled(10, 1, &model);
+    dmb_static_report report = dmb_static_report_default();
+    (void)state;
+    const uint64_t before = hash_of(sim);
+    assert_int_equal(dmb_analysis_static(sim, NULL, NULL), DMB_ERR_NO_CONVERGENCE);
+    expect(sim, "string 0 is pulled by T = 20000 N round a bend");
+    expect(sim, "sqrt(EI/T) = 0.223607 m take elements of 0.894427 m, not 10 m");
+    assert_int_equal(hash_of(sim), before);
+    dmb_sim_destroy(&sim);
+    dmb_model_destroy(&model);
+    sim = pulled(30, 4, &model);
+    must(dmb_analysis_static(sim, NULL, &report));
+    assert_true(report.iterations <= 50);
+    dmb_sim_destroy(&sim);
+    dmb_model_destroy(&model);
+}
+
+/* 20 N of weight and a controller that asks for 100 N/(m/s) of 0.1 m/s, with limits of 50 N and 5 N. */
+static void limit_of_a_drive(void **state)
+{
+    (void)state;
+    for (int weak = 0; weak < 2; weak++) {
+        dmb_model *model;
+        dmb_sim *sim;
+        dmb_body_def body = dmb_body_def_default();
+        dmb_drive_def drive = dmb_drive_def_default();
+        dmb_term term = dmb_term_default();
+        must(dmb_model_create(NULL, &model));
+        body.mass = 2.0;
+        body.free_mask = 1 << DMB_Z;
+        must(dmb_model_add_body(model, &body, &drive.part));
+        term.h0 = 0.1;
+        must(dmb_model_add_programme(model, &term, 1, &drive.programme));
+        strcpy(drive.name, "winch");
+        drive.kind = DMB_DRIVE_CONTROL;
+        drive.component = DMB_Z;
+        drive.gain = 100.0;
+        drive.integral_gain = 1e4;
+        drive.limit_high = weak ? 5.0 : 50.0;
+        drive.limit_low = -drive.limit_high;
+        must(dmb_model_add_drive(model, &drive, NULL));
+        must(dmb_model_compile(model, NULL));
+        assert_true(dmb_sim_create(model, NULL, &sim) >= 0);
+        const int32_t status = dmb_analysis_static(sim, NULL, NULL);
+        assert_true(status < 0);
+        expect(sim, weak ? "drive 0 (winch) is at its limit_high = 5: widen it"
+                         : "drive 0 (winch) is a controller: at rest it gives 10 and holds nothing");
+        dmb_sim_destroy(&sim);
+        dmb_model_destroy(&model);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(elements_for_a_pulled_string),
+                                       cmocka_unit_test(limit_of_a_drive)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
