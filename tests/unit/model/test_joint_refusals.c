@@ -168,19 +168,19 @@ static dmb_model *chain_of_bodies(uint32_t count)
     return model;
 }
 
-/* Dense up to a dozen bodies; beyond 1200 coordinates there is no dense scene for analyses. */
+/* Dense below six bodies; beyond 1200 coordinates there is no dense scene for analyses. */
 static void kinds_of_clusters(void **state)
 {
-    static const uint32_t bodies[] = {2, 11, 12, 200, 201, 1000};
+    static const uint32_t bodies[] = {2, 5, 6, 200, 201, 1000};
     (void)state;
     for (int i = 0; i < 6; ++i) {
         dmb_model *model = chain_of_bodies(bodies[i]);
         const dmb_scene *scene = compiled(model);
         assert_int_equal(scene->clusters[0].columns, 6 * bodies[i]);
-        assert_int_equal(scene->clusters[0].sparse, bodies[i] >= 12);
-        assert_int_equal(scene->sparse_count, bodies[i] >= 12);
-        assert_int_equal(scene->dense != NULL, bodies[i] >= 12 && bodies[i] <= 200);
-        assert_int_equal(scene->dense_count > 0, bodies[i] < 12);
+        assert_int_equal(scene->clusters[0].sparse, bodies[i] >= 6);
+        assert_int_equal(scene->sparse_count, bodies[i] >= 6);
+        assert_int_equal(scene->dense != NULL, bodies[i] >= 6 && bodies[i] <= 200);
+        assert_int_equal(scene->dense_count > 0, bodies[i] < 6);
         dmb_model_destroy(&model);
     }
 }
