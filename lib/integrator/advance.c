@@ -10,12 +10,12 @@
 #include "sim/access.h"
 
 /* What control wants next after an error of `error` tolerances. Without clusters the factors of a step of the same length
- * may serve (kept_factors), so lengths within a tenth are held; with them every step makes its own. */
+ * may serve (kept_factors), so a length is held while the ratio lies in 0.9 .. 1.2; with them every step makes its own. */
 static double next_step(const dmb_sim *sim, double h, double error)
 {
     double ratio = error > 0.0 ? 0.9 * dmb_pow(error, -1.0 / 3.0) : 2.0;
     ratio = fmin(fmax(ratio, 0.2), 2.0);
-    if (sim->scene->cluster_count == 0 && ratio > 0.9 && ratio < 1.0 / 0.9) ratio = 1.0;
+    if (sim->scene->cluster_count == 0 && ratio > 0.9 && ratio < 1.2) ratio = 1.0;
     return fmin(fmax(ratio * h, sim->options.step_min), sim->options.step_max);
 }
 

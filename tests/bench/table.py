@@ -151,6 +151,27 @@ def joints(data):
         markdown(["exponents over the joints", "describe", "compile", "create", "step"], growths)
 
 
+def clusters(data):
+    lines = [[row["elements"], row["kind"].replace("_", ", "), row["rows"], row["redundant"], number(row["us_compile"]),
+              number(row["us_create"]), number(row["us_per_step"]), percent(row["spread"]),
+              number(row["us_per_step_per_body"]), number(row["U_per_step"]), number(row["to_plain"]),
+              number(row["iterations"]), number(row["error"], 2), row["bytes_per_body"]] for row in data["K"]]
+    growths = [[kind.replace("_", ", "), f"{slope:.3f} +- {off:.3f}"]
+               for kind in ("chain", "tree", "loops", "loops_redundant")
+               for slope, off in [exponent([row for row in chosen(data["K"], kind=kind) if float(row["elements"]) >= 10],
+                                           "elements", "us_per_step")]]
+    return markdown(["bodies", "as", "rows", "redundant", "compile us", "create us", "step us", "spread", "a body", "U",
+                     "to loops without", "iterations", "error", "bytes a body"], lines) + "\n\n" + \
+        markdown(["from 10 bodies on", "exponent of a step over the bodies"], growths)
+
+
+def loaded(data):
+    lines = [[row["load"].replace("_", " "), row["elements_per_pipe"], number(row["error"], 2), number(row["error_2"], 2),
+              number(row["us_per_step"]), number(row["U_per_step"]), percent(row["spread"]), number(row["iterations"])]
+             for row in data["N"]]
+    return markdown(["load", "elements a pipe", "deflection", "frequencies", "us a step", "U", "spread", "iterations"], lines)
+
+
 def loop(data):
     times, answers = [], []
     for row in data["D"]:
@@ -333,7 +354,8 @@ def print_goals(data):
 
 # Name: function, scenes it needs.
 TABLES = {"goals": (goals, "CBRD"), "elements": (elements, "CBR"), "others": (others, "CB"),
-          "growth": (growth, "CBR"), "pipes": (pipes, "CR"), "joints": (joints, "J"), "loop": (loop, "D"),
+          "growth": (growth, "CBR"), "pipes": (pipes, "CR"), "joints": (joints, "J"), "clusters": (clusters, "K"),
+          "loaded": (loaded, "N"), "loop": (loop, "D"),
           "features": (features, "F"), "work": (work, "W"), "settled": (settled, "M"), "modes": (modes, "A"),
           "response": (response, "H"), "buckling": (buckling, "E")}
 
