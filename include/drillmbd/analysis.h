@@ -113,7 +113,8 @@ DMB_SIZED_STRUCT(dmb_buckling_options)
 /* What ended the way along the equilibria. */
 enum {
     DMB_BUCKLING_EXTRAPOLATED = 0, /* there was none: follow = 0, or nothing buckles about the present state */
-    DMB_BUCKLING_BIFURCATION = 1,  /* an eigenvalue of the stiffness passes 0 and the equilibria go on, unstable */
+    DMB_BUCKLING_BIFURCATION = 1,  /* an eigenvalue of the stiffness passes 0, or a complex pair of an unsymmetric one
+                                      becomes real and negative, and the equilibria go on, unstable */
     DMB_BUCKLING_LIMIT = 2,        /* the factor is at a maximum of the path, or a contact that opens turns it back */
     DMB_BUCKLING_STABLE = 3        /* none: they stay stable up to `reached` */
 };

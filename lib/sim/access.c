@@ -82,6 +82,7 @@ void dmb_progress_begin(dmb_sim *sim)
 void dmb_progress_at(const dmb_sim *sim, double fraction)
 {
     dmb_progress *progress = sim->progress;
+    if (progress->function == NULL) return;
     const double part = fmin(fmax(fraction, 0.0), 1.0);
     progress->done = fmax(progress->done, progress->from + (progress->to - progress->from) * part);
 }

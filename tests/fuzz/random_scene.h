@@ -60,7 +60,12 @@ static inline void draw_spoil(byte_source *s, double *fields, size_t count)
 
 /* ---- The scene --------------------------------------------------------------------------------------------------- */
 
-enum { DRAW_PROGRAMMES = 4, DRAW_STRINGS = 2, DRAW_BODIES = 2, DRAW_DRIVES = 4, DRAW_PIPES = 24 };
+#if defined(DMB_FUZZER)
+enum { DRAW_PIPES = 3 }; /* tiny, so that many are tried */
+#else
+enum { DRAW_PIPES = 24 };
+#endif
+enum { DRAW_PROGRAMMES = 4, DRAW_STRINGS = 2, DRAW_BODIES = 2, DRAW_DRIVES = 4 };
 
 typedef struct random_scene {
     byte_source source;

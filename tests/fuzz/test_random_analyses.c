@@ -2,13 +2,18 @@
  * and switching of joints: nothing crashes, every status is a known one, an analysis that leaves the sim alone leaves its
  * hash, and a call that fails does too (a stepped sine, which runs on, excepted).
  *
- * As a test it runs a fixed number of seeded inputs; arguments are the first seed and how many. */
+ * As a test it runs a fixed number of seeded inputs; arguments are the first seed and how many. As a fuzz target
+ * (fuzz/run) it takes its bytes from libFuzzer. */
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "random_scene.h"
 
+#if defined(DMB_FUZZER)
+enum { JOINTS = 4, ACTIONS_MAX = 4 };
+#else
 enum { INPUTS = 20, BYTES = 1200, JOINTS = 4, ACTIONS_MAX = 8 };
+#endif
 
 typedef struct scene {
     random_scene parts; /* first: callbacks of programmes look at it */
@@ -309,21 +314,34 @@ static const struct {
 
 /* ---- One input ------------------------------------------------------------------------------------------------------- */
 
+/* Counts down to the end of the call. */
+static int32_t count_down(void *context, double fraction)
+{
+    uint32_t *left = context;
+    MUST(fraction >= 0.0 && fraction <= 1.0);
+    return *left > 0 && --*left == 0;
+}
+
 static void run_sim(dmb_sim *sim, scene *c)
 {
     for (uint32_t i = 0; i < ACTIONS_MAX; i++) {
         const uint32_t k = draw_below(&c->parts.source, sizeof actions / sizeof actions[0]);
+        uint32_t left = draw_chance(&c->parts.source, 40) ? 1 + draw_below(&c->parts.source, 100) : 0;
         present_action = actions[k].name;
+        MUST(dmb_sim_set_progress(sim, left > 0 ? count_down : NULL, &left) == DMB_OK);
         actions[k].act(sim, c);
+        MUST(dmb_sim_set_progress(sim, NULL, NULL) == DMB_OK);
         c->parts.callback_status = draw_chance(&c->parts.source, 10);
     }
 }
 
-static void run_input(const uint8_t *data, size_t size)
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     scene *c = calloc(1, sizeof *c);
     dmb_sim *sim = NULL;
-    if (c == NULL) return;
+    if (c == NULL) return 0;
     present_action = "description";
     draw_scene(&c->parts, data, size);
     MUST(c->parts.model != NULL);
@@ -339,8 +357,10 @@ static void run_input(const uint8_t *data, size_t size)
     dmb_sim_destroy(&sim);
     dmb_model_destroy(&c->parts.model);
     free(c);
+    return 0;
 }
 
+#if !defined(DMB_FUZZER)
 /* splitmix64 */
 static uint64_t next_random(uint64_t *state)
 {
@@ -358,8 +378,9 @@ int main(int argc, char **argv)
         uint8_t data[BYTES];
         uint64_t state = present_seed = first + i;
         for (size_t k = 0; k < BYTES; k++) data[k] = (uint8_t)(next_random(&state) >> 32);
-        run_input(data, BYTES);
+        (void)LLVMFuzzerTestOneInput(data, BYTES);
     }
     printf("%llu calls done, %llu refused or failed\n", tally[0], tally[1]);
     return 0;
 }
+#endif

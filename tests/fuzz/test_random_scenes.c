@@ -1,9 +1,8 @@
 /* Random scenes through the public interface: whatever is described and asked, nothing crashes, every status is a known
  * one, the answers after an accepted step are finite, and a call that fails leaves the hash.
  *
- * As a test it runs a fixed number of seeded inputs; a number as argument runs that one alone. With libFuzzer:
- *     clang -g -O1 -fsanitize=fuzzer,address,undefined -DDMB_FUZZER -DDMB_STATIC -Iinclude -Ilib \
- *         tests/fuzz/test_random_scenes.c $(find lib -name '*.c') -lm -o random_scenes && ./random_scenes */
+ * As a test it runs a fixed number of seeded inputs; a number as argument runs that one alone. As a fuzz target
+ * (fuzz/run) it takes its bytes from libFuzzer. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +10,11 @@
 
 #include "random_scene.h"
 
+#if defined(DMB_FUZZER)
+enum { ACTIONS_MAX = 8, STEPS_MAX = 3 };
+#else
 enum { ACTIONS_MAX = 24, STEPS_MAX = 12 };
+#endif
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -1,6 +1,8 @@
 /* The factor of linear buckling against the sign change of det K on the path of equilibria, against the static states
- * below and above it, and against the load at which a run in time leaves. Straight lines without weight, pushed along:
- * sections do not turn on the way there. */
+ * below and above it, and against the load at which a run in time leaves. Straight lines pushed along: sections do not
+ * bend on the way there. A third has no weight, a third stands on or hangs from its rig end by a weight that does not grow
+ * with the push, a third is twisted by a moment with a fixed axis, which makes the stiffness unsymmetric: such a line may
+ * flutter before it diverges, so that its runs in time are left out. */
 #include "relations.h"
 
 enum { TOPIC_BUCKLING = TOPIC_OF_RELATION + 40 };
@@ -15,15 +17,39 @@ static double column_load(const scene *s)
            (s->span * s->span);
 }
 
+/* What acts beside the push. */
+typedef struct extras {
+    double weight; /* [N] of the line, towards its rig end */
+    double torque; /* [N m] over a newton of the push */
+} extras;
+
+static extras extras_of(const scene *s)
+{
+    stream n = stream_of(s->seed, s->number, TOPIC_BUCKLING + 2);
+    extras e = {0.0, 0.0};
+    const uint32_t kind = draw_count(&n, 0, 2);
+    if (kind == 1) e.weight = draw_number(&n, -1.0, 1.0) * column_load(s);
+    if (kind == 2) e.torque = draw_number(&n, 0.02, 0.3) * s->span;
+    return e;
+}
+
+/* [kg] of the pipes */
+static double line_mass(const scene *s)
+{
+    const dmb_pipe_def *const p = &s->string[0].pipe[0];
+    return s->span * p->density * 0.25 * PI * (pow(p->outer_diameter, 2) - pow(p->inner_diameter, 2));
+}
+
 static void push_along(scene *s, double push)
 {
+    const extras e = extras_of(s);
     double R[9];
     rotation_of_vector(s->string[0].def.rotation, R);
     s->load[0].def.frame = DMB_FRAME_WORLD;
     for (int i = 0; i < 3; ++i) {
-        s->environment.gravity[i] = 0.0;
+        s->environment.gravity[i] = -e.weight / line_mass(s) * R[3 * i];
         s->load[0].def.force[i] = -push * R[3 * i];
-        s->load[0].def.moment[i] = 0.0;
+        s->load[0].def.moment[i] = e.torque * push * R[3 * i];
     }
 }
 
@@ -42,7 +68,7 @@ static double shortening(const scene *s, double push)
 
 typedef struct signs {
     double stable, unstable; /* [-] largest factor with no negative eigenvalue, smallest with one */
-    int32_t at;              /* negative eigenvalues at the bifurcation */
+    int32_t at, beyond;      /* negative eigenvalues at the bifurcation, and at the first unstable point */
 } signs;
 
 static int32_t look(void *context, const dmb_sim *at, const dmb_path_point *point)
@@ -52,13 +78,16 @@ static int32_t look(void *context, const dmb_sim *at, const dmb_path_point *poin
     if (point->kind == DMB_PATH_BIFURCATION) s->at = point->negative;
     if (point->kind != DMB_PATH_REGULAR) return 0; /* there the sign is told for what is beyond */
     if (point->negative == 0 && point->factor > s->stable) s->stable = point->factor;
-    if (point->negative > 0 && point->factor < s->unstable) s->unstable = point->factor;
+    if (point->negative > 0 && point->factor < s->unstable) {
+        s->unstable = point->factor;
+        s->beyond = point->negative;
+    }
     return 0;
 }
 
 static void hold_path(trial *t, built *b, double factor, double tolerance)
 {
-    signs s = {0.0, 1e300, 0};
+    signs s = {0.0, 1e300, 0, 0};
     dmb_path_options options = dmb_path_options_default();
     dmb_path_report report = dmb_path_report_default();
     options.factor_end = 1.2 * factor;
@@ -70,13 +99,16 @@ static void hold_path(trial *t, built *b, double factor, double tolerance)
         broken(t, dmb_sim_message(b->sim), status, 0.0);
         return;
     }
-    if (report.bifurcations == 0) broken(t, "no bifurcation on the path", report.factor, factor);
-    hold(t, "factor beside the bifurcation of the path", fabs(report.first_bifurcation / factor - 1.0), tolerance);
+    /* a complex pair of an unsymmetric stiffness that becomes real and negative passes no 0 */
+    const int pair = extras_of(&t->s).torque != 0.0 && report.bifurcations == 0 && s.beyond == 2;
+    if (report.bifurcations == 0 && !pair) broken(t, "no bifurcation on the path", report.factor, factor);
+    if (!pair)
+        hold(t, "factor beside the bifurcation of the path", fabs(report.first_bifurcation / factor - 1.0), tolerance);
     hold(t, "last stable point of the path over the factor", s.stable / factor - 1.0, tolerance);
     hold(t, "factor over the first unstable point of the path", 1.0 - s.unstable / factor, tolerance);
     if (s.unstable == 1e300) broken(t, "no unstable point beyond the bifurcation", report.factor, factor);
     if (report.limits > 0) broken(t, "limit points of a straight path", report.limits, 0.0);
-    if (s.at < 1) broken(t, "negative eigenvalues at the bifurcation", s.at, 1.0);
+    if (s.at < 1 && !pair) broken(t, "negative eigenvalues at the bifurcation", s.at, 1.0);
 }
 
 /* ---- In time ---------------------------------------------------------------------------------------------------- */
@@ -176,12 +208,13 @@ static void check_buckled(trial *t)
         left_out(t, "a start above the critical load");
     else if (dmb_buckling_factor(found, 0, &factor) < 0)
         left_out(t, "no critical factor");
-    const double critical = (1.0 + factor) * push, tolerance = 1e-6 + 20.0 * shortening(&t->s, critical);
+    const double critical = (1.0 + factor) * push, weight = fabs(extras_of(&t->s).weight);
+    const double tolerance = 1e-6 + 20.0 * shortening(&t->s, critical + weight);
     if (t->verdict == VERDICT_HELD && tolerance > 0.02) left_out(t, "a line that shortens much");
     if (t->verdict == VERDICT_HELD) hold_path(t, &b, factor, tolerance * (1.0 + 1.0 / factor));
     dmb_buckling_destroy(&found);
     scene_close(&b);
-    if (t->verdict == VERDICT_HELD) hold_runs_apart(t, critical);
+    if (t->verdict == VERDICT_HELD && extras_of(&t->s).torque == 0.0) hold_runs_apart(t, critical);
 }
 
 const relation relation_buckled = {

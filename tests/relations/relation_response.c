@@ -369,7 +369,7 @@ static int32_t sine_at(const scene *s, const material_point *at, double frequenc
     dmb_sim_options options = scene_options(s);
     dmb_stepped_sine_options sine = dmb_stepped_sine_options_default();
     dmb_stepped_sine_report report = dmb_stepped_sine_report_default();
-    options.newton_tolerance = 1e-10;
+    options.newton_tolerance = 1e-12; /* of forces that are far larger than their changes */
     sine.steps_per_period = steps;
     sine.harmonics = 1;
     sine.tolerance = 1e-5;

@@ -437,7 +437,7 @@ SCALE_PART = Scale.PART
 class BucklingEnd(IntEnum):
     """Values DMB_BUCKLING_... of the headers."""
     EXTRAPOLATED = 0  #: there was none: follow = 0, or nothing buckles about the present state
-    BIFURCATION = 1  #: an eigenvalue of the stiffness passes 0 and the equilibria go on, unstable
+    BIFURCATION = 1  #: an eigenvalue of the stiffness passes 0, or a complex pair of an unsymmetric one becomes real and negative, and the equilibria go on, unstable
     LIMIT = 2  #: the factor is at a maximum of the path, or a contact that opens turns it back
     STABLE = 3  #: none: they stay stable up to `reached`
 

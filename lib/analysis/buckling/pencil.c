@@ -310,15 +310,18 @@ static int32_t go_on(void *context)
 #define DMB_GENERAL_TOLERANCE 1e-9
 #define DMB_GENERAL_MORE 10
 #define DMB_GENERAL_MOST 120
+/* A value this small beside the largest is rounding of 0: no factor. */
+#define DMB_GENERAL_NOISE 1e-9
 
 static uint32_t take(const dmb_krylov *values, size_t length, uint32_t wanted, double most, double *factors,
                      double *vectors)
 {
+    const double noise = values->count ? DMB_GENERAL_NOISE * hypot(values->re[0], values->im[0]) : 0.0;
     uint32_t found = 0;
     for (uint32_t i = 0; i < values->count && found < wanted; i++) {
         const size_t n = length;
         const int pair = values->im[i] != 0.0;
-        if (values->re[i] * most < 1.0 || fabs(values->im[i]) > DMB_REAL_PAIR * values->re[i]) continue;
+        if (values->re[i] <= noise || values->re[i] * most < 1.0 || fabs(values->im[i]) > DMB_REAL_PAIR * values->re[i]) continue;
         for (int part = 0; part <= pair && found < wanted; part++, found++) {
             factors[found] = 1.0 / values->re[i];
             memcpy(vectors + n * found, (part ? values->y : values->x) + n * i, n * sizeof(double));
