@@ -87,7 +87,7 @@ DMB_SIZED_STRUCT(dmb_mode_shape)
  * product), damped or unsymmetric ones block Arnoldi, both on the inverse of K (rigid-body motions apart, or shifted),
  * linear in the number of elements; ALL, and many: LAPACK (dsygvd, dgeev), cubic. A BAND of many modes is divided:
  * undamped by the counts of eigenvalues below its pieces, which must all be found, in time that grows with the modes; of
- * damped ones likewise where their roots stand along the imaginary axis (K symmetric, no joints, less than some half of the
+ * damped ones likewise where their roots stand along the imaginary axis (K symmetric, no joints, less than a quarter of the
  * critical damping at band[1]); elsewhere up to 256 modes below band[1] are found at once, more are refused (_TOO_LARGE).
  * A mode that does not satisfy its equations to rounding, after some inverse iteration, or cannot be told from a rigid-body
  * motion, is refused with its residual and the bound (_NO_CONVERGENCE).

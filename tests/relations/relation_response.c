@@ -232,9 +232,6 @@ static void check_masses(trial *t)
         return;
     }
     hold_rigid_motions(t, found);
-    { dmb_modes_info mi = dmb_modes_info_default(); (void)dmb_modes_get_info(found, &mi);
-      printf("DBG rigid %u count %u coords %u unbalance %g asym %g residual %g\n", mi.rigid, mi.count, mi.coordinates, mi.residual_of_state, mi.asymmetry, mi.residual);
-    dmb_mode mm = dmb_mode_default(); for (uint32_t i = 0; dmb_modes_get(found, i, &mm) >= 0; ++i) printf("DBG %u f %g s %g %g\n", i, mm.frequency, mm.eigenvalue[0], mm.eigenvalue[1]); }
     (void)dmb_model_get_info(b.model, &info);
     rotation_of_vector(t->s.string[0].def.rotation, R);
     dmb_mode mode = dmb_mode_default();
