@@ -252,9 +252,9 @@ typedef struct dmb_check_report {
     uint32_t coordinates;       /* [-] velocity components of all nodes: 6 or (axial-torsional) 2 each */
     uint32_t held;              /* [-] of them held by guides: start_free, end_free, free_mask */
     uint32_t prescribed;        /* [-] of them moved by motion drives of strings and bodies */
-    uint32_t constraint_rows;              /* [-] equations that act now: of joints, couplings, constraints, joint motion drives */
+    uint32_t constraint_rows;   /* [-] equations that act now: of joints, couplings, constraints, joint motion drives */
     uint32_t rank;              /* [-] of their matrix in the coordinates that are neither held nor prescribed */
-    uint32_t degrees_of_freedom;          /* [-] true degrees of freedom: coordinates - held - prescribed - rank */
+    uint32_t degrees_of_freedom; /* [-] true degrees of freedom: coordinates - held - prescribed - rank */
     uint32_t redundant;         /* [-] equations that others imply: rows - rank */
     uint32_t tridiagonal_nodes; /* [-] nodes whose chains the block-tridiagonal solver takes */
     uint32_t sparse_nodes;      /* [-] nodes of chains that equations connect: the sparse solver's */
@@ -264,7 +264,7 @@ typedef struct dmb_check_report {
     uint32_t largest_cluster;   /* [-] coordinates of the largest */
     uint32_t warnings;          /* [-] lines of warning in the text */
     int64_t gruebler;           /* [-] coordinates - held - prescribed - rows; < degrees_of_freedom if equations are redundant */
-    double largest_violation;      /* [m, -] largest violation of an equation of position */
+    double largest_violation;   /* [m, -] largest violation of an equation of position */
     double condition;           /* [-] smallest over largest singular value of a cluster's equations, redundant ones
                                    apart, at unit length, rotations at the mean element length; of the worst cluster;
                                    an estimate above 300 equations; 1 without any */

@@ -426,7 +426,7 @@ typedef struct dmb_model_info {
     uint32_t nodes;            /* [-] */
     uint32_t elements;         /* [-] flexible and axial-torsional */
     uint32_t contact_sites;    /* [-] */
-    uint32_t degrees_of_freedom;         /* [-] free velocity components, prescribed ones not counted */
+    uint32_t degrees_of_freedom; /* [-] free velocity components, prescribed ones not counted */
     uint32_t prescribed;       /* [-] components moved by drives */
     uint32_t structural_joints; /* [-] fixed joints that cost no unknowns */
     uint64_t model_bytes;      /* [byte] held by the compiled scene */

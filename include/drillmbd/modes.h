@@ -47,7 +47,7 @@ typedef struct dmb_modes_info {
     uint32_t coordinates;      /* [-] independent coordinates of the linear system */
     int32_t dense;             /* 1: by LAPACK on all coordinates; 0: by Krylov subspaces on sparse factors */
     uint32_t solves;           /* [-] with those factors */
-    double residual_of_state;         /* [-] relative residual of the state without its body-frame accelerations */
+    double residual_of_state;   /* [-] relative residual of the state without its body-frame accelerations */
     double asymmetry;          /* [-] of K; above 1e-9 it is treated as unsymmetric (friction, follower loads) */
     double residual;           /* [-] largest |(s^2 M + s C + K) d| over the norms of the terms that balance in it */
 } dmb_modes_info;

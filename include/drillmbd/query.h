@@ -176,15 +176,15 @@ typedef struct dmb_statistics {
     uint64_t steps;             /* [-] accepted */
     uint64_t rejected;          /* [-] */
     uint64_t iterations;        /* [-] in accepted and rejected steps */
-    uint64_t limited_steps;           /* [-] steps accepted above the tolerance in bounded-work mode */
+    uint64_t limited_steps;     /* [-] steps accepted above the tolerance in bounded-work mode */
     uint64_t bytes;             /* [byte] of the sim */
-    double largest_residual;      /* [-] relative, of an accepted step */
+    double largest_residual;    /* [-] relative, of an accepted step */
     double projection[2];       /* [m/s, rad/s] largest correction of initial velocities, shape (2) */
     double assembly[2];         /* [m, rad] largest correction of the described pose when joints were closed, shape (2) */
     uint64_t switches;          /* [-] times the independent coordinates of a cluster were chosen anew */
     uint32_t dependent;         /* [-] coordinates that constraints determine now */
     uint32_t redundant;         /* [-] equations that are dropped now */
-    double violation;              /* [m, -] largest violation of an equation of position of a joint now; couplings, drives
+    double violation;           /* [m, -] largest violation of an equation of position of a joint now; couplings, drives
                                    and the caller's constraints do not count */
 } dmb_statistics;
 DMB_SIZED_STRUCT(dmb_statistics)
@@ -223,7 +223,7 @@ typedef struct dmb_recorder {
     const dmb_channel *channels;    /* shape (channel_count); the caller's, kept alive by it */
     double *table;                  /* shape (capacity, 1 + channel_count); the caller's */
     uint64_t capacity;              /* [-] rows of table */
-    uint64_t row_count;                  /* [-] rows written; start with 0 */
+    uint64_t row_count;         /* [-] rows written; start with 0 */
     double interval;                /* [s] between samples, 0: every call */
 } dmb_recorder;
 DMB_SIZED_STRUCT(dmb_recorder)

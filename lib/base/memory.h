@@ -1,4 +1,5 @@
-/* Memory from the allocator the caller gave. Every block is aligned to DMB_ALIGNMENT and zeroed. */
+/* Memory: the caller's allocator, whose blocks are aligned to DMB_ALIGNMENT and zeroed, and arenas, many arrays in one
+ * block of it. */
 #ifndef DMB_BASE_MEMORY_H
 #define DMB_BASE_MEMORY_H
 

@@ -7,7 +7,8 @@
 /* Mass of an axisymmetric beam, constant in the body frame: sideways consistent (Timoshenko cubic shapes, THEORY 3), along
  * and around half way to a lumped one (model/section.c).
  * bending[plane]: plane 0 is (u_y, theta_z), plane 1 is (u_z, -theta_y); six numbers each:
- *   [0] u_A u_A = u_B u_B   [1] u_A t_A = -u_B t_B   [2] u_A u_B   [3] u_A t_B = -u_B t_A   [4] t_A t_A = t_B t_B   [5] t_A t_B */
+ *   [0] u_A u_A = u_B u_B   [1] u_A t_A = -u_B t_B   [2] u_A u_B   [3] u_A t_B = -u_B t_A   [4] t_A t_A = t_B t_B   [5] t_A
+ * t_B */
 typedef struct dmb_beam_mass {
     double axial[2];    /* [kg] AA = BB, AB */
     double torsion[2];  /* [kg m2] AA = BB, AB */
@@ -31,7 +32,8 @@ typedef struct dmb_element_type {
 } dmb_element_type;
 
 /* Rigid mass fixed to a node: tool joint, bit, rig head, rigid pipes, free body, eccentric part of pipes. Symmetric spatial
- * inertia at the node's reference point, body frame: [m I, -b~; b~, J]. `mass` is 0 where only an eccentric part was added. */
+ * inertia at the node's reference point, body frame: [m I, -b~; b~, J]. `mass` is 0 where only an eccentric part was added.
+ */
 typedef struct dmb_rigid_mass {
     double mass;      /* [kg] */
     double moment[3]; /* [kg m] b = mass times centre */

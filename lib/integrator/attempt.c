@@ -16,7 +16,7 @@
 #include "system/release.h"
 
 /* Misfit of an equation taken for redundant at which it is one no more, in lengths of the parts. */
-#define DMB_DROPPED_MISFIT 1e-7
+#define DMB_DROPPED_VIOLATION 1e-7
 
 static double tolerance_of(const dmb_sim *sim, uint32_t size, uint32_t k)
 {
@@ -161,7 +161,7 @@ static int32_t check_dropped(dmb_sim *sim)
 {
     uint32_t row;
     const double violation = dmb_clusters_violation(sim, 1, &row);
-    if (!(violation > DMB_DROPPED_MISFIT * sim->reduced_mode->length)) return DMB_OK;
+    if (!(violation > DMB_DROPPED_VIOLATION * sim->reduced_mode->length)) return DMB_OK;
     sim->reduced_mode->row = row;
     sim->reduced_mode->violation = fabs(sim->constraint_value[row]);
     return DMB_ERR_SINGULAR;

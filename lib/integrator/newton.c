@@ -62,7 +62,7 @@ static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt)
 /* What is asked for is reached: kept factors only aimed lower. */
 static int32_t is_met(const dmb_sim *sim, const dmb_attempt *attempt)
 {
-    return attempt->factored == DMB_FACTORS_KEPT &&
+    return attempt->factored == DMB_FACTORS_REUSED &&
            dmb_residual_norm_of(&attempt->evaluation, sim->options.newton_tolerance).converged != 0;
 }
 
@@ -130,10 +130,10 @@ int32_t dmb_newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *at
 
 /* Steps count as equally long that differ by this part: by the rounding of times, and what no rate of convergence
  * feels. */
-#define DMB_KEPT_STEP 1e-6
+#define DMB_REUSE_STEP 1e-6
 /* Steps that begin with a residual above this part of their forces are those in which bodies meet: a correction by
  * kept factors would lead astray. */
-#define DMB_KEPT_START 0.1
+#define DMB_REUSE_START 0.1
 /* Longest pause in steps between tries of kept factors. */
 #define DMB_PAUSE_MAX 31
 /* New factors cost about as much as this many corrections with old ones. */
@@ -142,57 +142,57 @@ int32_t dmb_newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *at
 void dmb_factor_reuse_begin(dmb_sim *sim, dmb_attempt *attempt)
 {
     const double step = attempt->end.step;
-    const int usable = attempt->whole && !attempt->astray && fabs(sim->kept->step - step) <= DMB_KEPT_STEP * step &&
-                       sim->kept->pause == 0;
-    attempt->factored = usable ? DMB_FACTORS_KEPT : DMB_FACTORS_NONE;
+    const int usable = attempt->whole && !attempt->astray && fabs(sim->reuse->step - step) <= DMB_REUSE_STEP * step &&
+                       sim->reuse->pause == 0;
+    attempt->factored = usable ? DMB_FACTORS_REUSED : DMB_FACTORS_NONE;
     attempt->tried |= usable;
     *sim->factors = attempt->factored;
 }
 
 int32_t dmb_factor_reuse_still_pay(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course)
 {
-    if (attempt->factored != DMB_FACTORS_KEPT || dmb_contact_changes(sim)) return 0;
+    if (attempt->factored != DMB_FACTORS_REUSED || dmb_contact_changes(sim)) return 0;
     return course->corrections == 0 || (course->corrections < 3 && attempt->residual < 0.25 * course->last);
 }
 
 int32_t dmb_factor_reuse_will_do(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course)
 {
     if (attempt->factored == DMB_FACTORS_NONE) return 0;
-    if (attempt->factored == DMB_FACTORS_KEPT && dmb_contact_changes(sim)) return 0;
-    if (attempt->factored == DMB_FACTORS_KEPT && course->corrections == 0) return attempt->residual <= DMB_KEPT_START;
+    if (attempt->factored == DMB_FACTORS_REUSED && dmb_contact_changes(sim)) return 0;
+    if (attempt->factored == DMB_FACTORS_REUSED && course->corrections == 0) return attempt->residual <= DMB_REUSE_START;
     const double rate = attempt->residual / course->last;
     return rate * rate * attempt->residual <= dmb_factor_reuse_aim(sim, attempt);
 }
 
 /* Kept factors have done for a whole step. */
-static void count_success(dmb_factor_reuse *kept, uint32_t corrections)
+static void count_success(dmb_factor_reuse *reuse, uint32_t corrections)
 {
-    if (kept->corrections == 0 || corrections < kept->corrections) kept->corrections = corrections;
-    kept->excess += corrections - kept->corrections;
-    kept->penalty = 0;
-    if (kept->excess >= DMB_EXCESS_MAX) kept->step = 0.0;
+    if (reuse->corrections == 0 || corrections < reuse->corrections) reuse->corrections = corrections;
+    reuse->excess += corrections - reuse->corrections;
+    reuse->back_off = 0;
+    if (reuse->excess >= DMB_EXCESS_MAX) reuse->step = 0.0;
 }
 
 /* Fresh factors were needed, after kept ones had been tried or without a try. */
-static void count_pause(dmb_factor_reuse *kept, int32_t tried)
+static void count_pause(dmb_factor_reuse *reuse, int32_t tried)
 {
     if (tried) {
-        kept->penalty = 2 * kept->penalty + 1 < DMB_PAUSE_MAX ? 2 * kept->penalty + 1 : DMB_PAUSE_MAX;
-        kept->pause = kept->penalty - 1;
-    } else if (kept->pause > 0) {
-        kept->pause--;
+        reuse->back_off = 2 * reuse->back_off + 1 < DMB_PAUSE_MAX ? 2 * reuse->back_off + 1 : DMB_PAUSE_MAX;
+        reuse->pause = reuse->back_off - 1;
+    } else if (reuse->pause > 0) {
+        reuse->pause--;
     }
 }
 
 void dmb_factor_reuse_end(dmb_sim *sim, const dmb_attempt *attempt)
 {
     if (!attempt->whole) return;
-    if (attempt->factored == DMB_FACTORS_KEPT) {
-        count_success(sim->kept, attempt->iterations);
+    if (attempt->factored == DMB_FACTORS_REUSED) {
+        count_success(sim->reuse, attempt->iterations);
     } else if (attempt->factored == DMB_FACTORS_FRESH) {
-        count_pause(sim->kept, attempt->tried);
+        count_pause(sim->reuse, attempt->tried);
         dmb_keep_factors(sim);
-        sim->kept->step = attempt->end.step;
-        sim->kept->corrections = sim->kept->excess = 0;
+        sim->reuse->step = attempt->end.step;
+        sim->reuse->corrections = sim->reuse->excess = 0;
     }
 }

@@ -1,4 +1,5 @@
-/* The Newton iteration of a step: from the predicted trial to one that satisfies the equations of motion. */
+/* The Newton iteration of a step, from the predicted trial to one that satisfies the equations of motion, and the factors
+ * that it is done with. */
 #ifndef DMB_INTEGRATOR_NEWTON_H
 #define DMB_INTEGRATOR_NEWTON_H
 
@@ -20,7 +21,7 @@ int32_t dmb_newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *at
  * Kept ones converge linearly; they are tried as long as that costs less than making new ones. */
 
 /* Kept factors converge linearly and end just below their tolerance, where fresh ones end far below: they aim lower. */
-#define DMB_KEPT_TOLERANCE 0.2
+#define DMB_REUSE_TOLERANCE 0.2
 
 /* Start of an iteration: with the kept factors where there are any for this step, else with none. */
 void dmb_factor_reuse_begin(dmb_sim *sim, dmb_attempt *attempt);
@@ -28,7 +29,7 @@ void dmb_factor_reuse_begin(dmb_sim *sim, dmb_attempt *attempt);
 static inline double dmb_factor_reuse_aim(const dmb_sim *sim, const dmb_attempt *attempt)
 {
     const double own = sim->options.newton_tolerance;
-    return attempt->factored == DMB_FACTORS_KEPT ? DMB_KEPT_TOLERANCE * own : own;
+    return attempt->factored == DMB_FACTORS_REUSED ? DMB_REUSE_TOLERANCE * own : own;
 }
 
 /* The rounding of stiff elements hides what kept factors leave in soft directions: they go on while it pays. */

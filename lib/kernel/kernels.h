@@ -63,7 +63,7 @@ typedef struct dmb_node_run {
 typedef struct dmb_node_force_run {
     uint32_t count;              /* nodes */
     uint32_t first;              /* number of the first one, by which rigid_masses name theirs */
-    const dmb_rigid_mass *rigid_masses;       /* in the order of their nodes, none before the run; those behind it are left */
+    const dmb_rigid_mass *rigid_masses; /* in the order of their nodes, none before the run; those behind it are left */
     uint32_t rigid_mass_count;         /* 0 in statics */
     int32_t dynamic, tangent;    /* as in dmb_evaluation, as are: */
     int32_t reserved;

@@ -2,7 +2,7 @@
 #ifndef DMB_KERNEL_LANES_NODE_H
 #define DMB_KERNEL_LANES_NODE_H
 
-#include "element/rigid_mass.h"
+#include "element/rigid_mass_math.h"
 #include "force/weight_and_damping.h"
 #include "kernel/kernels.h"
 #include "kernel/lane_group.h"
@@ -31,7 +31,8 @@ static inline int has_rigid_masses(const dmb_node_force_run *run, const lane_gro
 }
 
 /* Constants of the rigid_masses on a group of nodes, from `next` on; 0 where there is none. */
-static inline void load_rigid_masses(const dmb_node_force_run *run, const lane_group *g, uint32_t next, dmb_rigid_mass_constants *c)
+static inline void load_rigid_masses(const dmb_node_force_run *run, const lane_group *g, uint32_t next,
+                                     dmb_rigid_mass_constants *c)
 {
     static const dmb_rigid_mass none;
     for (int l = 0; l < DMB_REAL_LANES; l++) {
@@ -109,7 +110,8 @@ static void node_forces(dmb_node_force_run *run)
     for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
         node_group g;
         g.place = group_at(first, run->count);
-        const int rigid_masses = has_rigid_masses(run, &g.place, &next), inertia = run->tangent && (rigid_masses || run->damping);
+        const int rigid_masses = has_rigid_masses(run, &g.place, &next),
+                  inertia = run->tangent && (rigid_masses || run->damping);
         load(run->residual, 6, 6, &g.place, 0, g.residual);
         load(run->scale, 6, 6, &g.place, 0, g.scale);
         if (run->dynamic) load(run->velocity, 6, 6, &g.place, 0, g.v);

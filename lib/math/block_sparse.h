@@ -31,7 +31,8 @@ static inline double *dmb_block_sparse_diagonal(const dmb_block_pattern *pattern
     return matrix->values + pattern->diagonal[pattern->position[i]];
 }
 
-/* y = A x, not factored; x and y apart, rows as in dmb_block_sparse_solve. Entries of y outside the blocks are left alone. */
+/* y = A x, not factored; x and y apart, rows as in dmb_block_sparse_solve. Entries of y outside the blocks are left alone.
+ */
 void dmb_block_sparse_multiply(const dmb_block_pattern *pattern, const dmb_block_sparse *matrix, const uint32_t *row,
                                const double *x, double *y);
 

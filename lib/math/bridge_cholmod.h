@@ -1,4 +1,4 @@
-/* Fill-reducing order of elimination of a graph, by the symbolic analysis of CHOLMOD (order_cholmod.c): approximate
+/* Fill-reducing order of elimination of a graph, by the symbolic analysis of CHOLMOD: approximate
  * minimum degree (AMD), then a postorder of the elimination tree, which keeps chains together in memory.
  *
  * Meant for the compile step only: CHOLMOD takes its memory from malloc, not from the caller's allocator, and gives all

@@ -1,5 +1,5 @@
-/* Dense eigenproblems by LAPACK (eigen_lapacke.c), for analyses: no step calls this. Matrices are column by column
- * without gaps; all work is the caller's. Each returns 0, or what LAPACK says of a failure. */
+/* All calls of LAPACK, for analyses: no step calls this. Dense eigenproblems, and the rank of a set of equations. Matrices
+ * are column by column without gaps; all work is the caller's. Each returns 0, or what LAPACK says of a failure. */
 #ifndef DMB_MATH_BRIDGE_LAPACKE_H
 #define DMB_MATH_BRIDGE_LAPACKE_H
 
@@ -24,7 +24,7 @@ int32_t dmb_eigen_pair(size_t n, double *K, double *M, double *values, double *w
 int32_t dmb_eigen_general(size_t n, double *A, double *re, double *im, double *V, double *work);
 
 /* Rank of a set of equations, by QR with column pivoting of the transposed matrix (LAPACK dgeqp3), and the singular
- * values at its two ends (dgesvd); rank_lapacke.c. For analyses only: no step calls this. No allocation: LAPACK works
+ * values at its two ends (dgesvd). For analyses only: no step calls this. No allocation: LAPACK works
  * in the caller's memory. */
 
 /* Above so many equations or coordinates singular values are estimated by the diagonal of R. */

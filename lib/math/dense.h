@@ -1,4 +1,4 @@
-/* Scalar product of long vectors, in eight sums side by side. */
+/* Dense matrices: scalar product of long vectors in eight sums side by side, LU factors, and products for analyses. */
 #ifndef DMB_MATH_DENSE_H
 #define DMB_MATH_DENSE_H
 

@@ -1,4 +1,4 @@
-/* Joints and couplings of their coordinates. */
+/* Joints, couplings of their coordinates, and the caller's constraints. */
 #include "constraint/joint.h"
 #include "math/vec3.h"
 #include "model/definition_defaults.h"

@@ -1,4 +1,4 @@
-/* Adding rigid masses to the spatial inertia of a node. */
+/* Rigid masses of nodes: bodies added to a spatial inertia, and pipes whose centre of mass is off their axis. */
 #ifndef DMB_MODEL_MESH_MASS_H
 #define DMB_MODEL_MESH_MASS_H
 

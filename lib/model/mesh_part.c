@@ -1,4 +1,4 @@
-/* Types of elements, their kernels, and batches of neighbours with one kernel. */
+/* Strings and bodies as nodes and elements: types of elements, their kernels, batches of neighbours with one kernel. */
 #include <string.h>
 
 #include "model/field_check.h"

@@ -1,4 +1,4 @@
-/* The axis of the hole. */
+/* The axis of the hole, and contact sites along it. */
 #include "model/field_check.h"
 #include "model/mesh.h"
 #include "model/section.h"

@@ -40,13 +40,13 @@ static void number_clusters(dmb_scene *scene)
     }
 }
 
-/* The other nodes of linked chains have one each. */
+/* The other nodes of jointed chains have one each. */
 static void number_blocks(dmb_scene *scene)
 {
     for (uint32_t c = 0; c < scene->chain_count; ++c) {
         dmb_chain *chain = &scene->chains[c];
-        chain->linked = has_cluster(scene, chain);
-        if (!chain->linked) continue;
+        chain->jointed = has_cluster(scene, chain);
+        if (!chain->jointed) continue;
         scene->reduced_count += chain->count;
         for (uint32_t i = chain->first; i < chain->first + chain->count; ++i) {
             if (scene->node_block[i] == UINT32_MAX) scene->node_block[i] = scene->block_count++;

@@ -104,7 +104,7 @@ typedef struct dmb_chain {
     double length;         /* [m] makes its moments comparable with forces: mean element; of a body alone its radius of
                               inertia or its longest arm to a joint */
     uint32_t first, count; /* nodes */
-    int32_t linked;        /* 1: joints connect it, so it is solved with the blocks of the pattern */
+    int32_t jointed;        /* 1: joints connect it, so it is solved with the blocks of the pattern */
     int32_t reserved;
 } dmb_chain;
 
@@ -182,7 +182,7 @@ typedef struct dmb_constraint {
     uint32_t block;       /* of the pattern that its multipliers belong to; of a sparse cluster only */
 } dmb_constraint;
 
-/* Nodes that constraints connect directly, and those constraints: one partition, one block of the linked system. */
+/* Nodes that constraints connect directly, and those constraints: one partition, one block of the reduced system. */
 typedef struct dmb_cluster {
     uint32_t constraint, constraint_count; /* range of constraints */
     uint32_t node, node_count;   /* range of cluster_nodes */
@@ -220,7 +220,7 @@ typedef struct dmb_scene {
     uint32_t constraint_row_count;  /* room of all constraints */
     uint32_t constraint_node_count; /* length of cluster_nodes */
     uint32_t cluster_column_count;  /* length of cluster_columns */
-    uint32_t reduced_count;          /* nodes of linked chains */
+    uint32_t reduced_count;          /* nodes of jointed chains */
     uint32_t sparse_count;          /* sparse clusters */
     uint32_t block_count;           /* blocks of the pattern */
     uint32_t jacobian_count, tangent_count; /* lengths of constraint_jacobian and constraint_tangent */
@@ -240,7 +240,7 @@ typedef struct dmb_scene {
     uint32_t *held_node;          /* rows with solved_row 0: node and row within its block, shape (held_count) */
     uint32_t *held_component;
     double *weight_mass;          /* [kg] that gravity acts on, buoyancy taken off, shape (node) */
-    double *weight_moment;        /* [kg m] b of the weight, body frame: torque b x R^T g, shape (node, 3); rigid_masses and the
+    double *weight_moment; /* [kg m] b of the weight, body frame: torque b x R^T g, shape (node, 3); rigid_masses and the
                                      +- rho A L^2/12 of the cubic shape (sum of both sides) included */
     double *node_damping;         /* [N s/m, N m s; N s/m, N s, N m s] external damping: axial, torsional; lateral times the
                                      integrals of 1, x, x^2 over the pipe it stands for, shape (node, 5) */
@@ -288,7 +288,7 @@ typedef struct dmb_scene {
     uint32_t *node_cluster;       /* UINT32_MAX: none, shape (node) */
     size_t *link_offset;          /* storage in the pattern of link i, i+1 (upper, lower); SIZE_MAX where none or inside
                                      one block, shape (node, 2) */
-    dmb_block_pattern pattern;    /* blocks: dense clusters, then the other nodes of linked chains */
+    dmb_block_pattern pattern;    /* blocks: dense clusters, then the other nodes of jointed chains */
     const struct dmb_scene *dense; /* the same with dense clusters only, for analyses that need independent coordinates;
                                       NULL where no cluster is sparse, and where one is too large */
 

@@ -1,4 +1,5 @@
-/* The frame of a VTK XML poly-data file with one piece, numbers as text (VTK file formats, "PolyData"). */
+/* VTK XML poly-data files of one piece, numbers as text (VTK file formats, "PolyData"), and the strings of a scene in them.
+ */
 #ifndef DMB_OUTPUT_VTK_H
 #define DMB_OUTPUT_VTK_H
 

@@ -1,4 +1,4 @@
-/* The strings as poly-lines with point data, for ParaView. */
+/* Pictures for ParaView: strings as poly-lines with point data, the wall of the hole, frames of a mode. */
 #include <math.h>
 #include <stddef.h>
 

@@ -1,3 +1,4 @@
+/* Drives and bits at the accepted state. */
 #include "sim/access.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/drives.h"

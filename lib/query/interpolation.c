@@ -64,7 +64,8 @@ void dmb_material_point_shape(const dmb_scene *scene, const dmb_material_point *
 {
     const uint32_t a = scene->element_node[material_point->element];
     const int path = scene->layout.size[a] == DMB_NODE_PATH && scene->layout.size[a + 1] == DMB_NODE_PATH;
-    dmb_section_shape_at(&scene->types[scene->element_type[material_point->element]], material_point->fraction, !path, shape);
+    dmb_section_shape_at(&scene->types[scene->element_type[material_point->element]], material_point->fraction, !path,
+                         shape);
 }
 
 /* Section seen from node a: rotation Q and place r [m]. */
@@ -99,8 +100,8 @@ static void place_from_node(const dmb_scene *scene, uint32_t node, const dmb_end
     dmb_vec3_add(pose->displacement, now->displacement, pose->displacement);
 }
 
-static void fixed_pose(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_material_point *material_point,
-                       dmb_material_point_pose *pose)
+static void fixed_pose(const dmb_scene *scene, const dmb_configuration *configuration,
+                       const dmb_material_point *material_point, dmb_material_point_pose *pose)
 {
     const double arm[3] = {material_point->arm, 0.0, 0.0};
     dmb_end_pose now, start;
@@ -110,8 +111,8 @@ static void fixed_pose(const dmb_scene *scene, const dmb_configuration *configur
     place_from_node(scene, material_point->node, &now, arm, start.rotation, arm, pose);
 }
 
-static void section_pose(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_material_point *material_point,
-                         dmb_material_point_pose *pose)
+static void section_pose(const dmb_scene *scene, const dmb_configuration *configuration,
+                         const dmb_material_point *material_point, dmb_material_point_pose *pose)
 {
     const uint32_t a = scene->element_node[material_point->element], b = a + 1;
     dmb_end_pose now_a, now_b, start_a, start_b;
@@ -126,8 +127,8 @@ static void section_pose(const dmb_scene *scene, const dmb_configuration *config
     place_from_node(scene, a, &now_a, r, start_a.rotation, r_start, pose);
 }
 
-void dmb_material_point_pose_of(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_material_point *material_point,
-                      dmb_material_point_pose *pose)
+void dmb_material_point_pose_of(const dmb_scene *scene, const dmb_configuration *configuration,
+                                const dmb_material_point *material_point, dmb_material_point_pose *pose)
 {
     if (material_point->fixed)
         fixed_pose(scene, configuration, material_point, pose);
@@ -174,8 +175,8 @@ static void follow(const double h[6], const double rate[6], const double second[
 }
 
 /* d' = T6^-1(d) V_B - T6^-1(-d) V_A and its derivative, X(d, V_B) d' and X(-d, V_A) d' from the operators */
-static void strain_rates(const double d[6], const dmb_material_point_motion *a, const dmb_material_point_motion *b, double rate[6],
-                         double second[6])
+static void strain_rates(const double d[6], const dmb_material_point_motion *a, const dmb_material_point_motion *b,
+                         double rate[6], double second[6])
 {
     dmb_se3_inverse_tangent T;
     double back[6], X[36], Xa[36], left[6], turned[6];
@@ -195,8 +196,8 @@ static void strain_rates(const double d[6], const dmb_material_point_motion *a, 
     for (int i = 0; i < 6; i++) second[i] += turned[i] - left[i];
 }
 
-static void section_motion(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_material_point *material_point,
-                           dmb_material_point_motion *motion)
+static void section_motion(const dmb_scene *scene, const dmb_configuration *configuration,
+                           const dmb_material_point *material_point, dmb_material_point_motion *motion)
 {
     const dmb_element_type *type = &scene->types[scene->element_type[material_point->element]];
     const uint32_t a = scene->element_node[material_point->element], b = a + 1;
@@ -223,8 +224,8 @@ static void section_motion(const dmb_scene *scene, const dmb_configuration *conf
     follow(c[0], c[1], c[2], motion);
 }
 
-void dmb_material_point_motion_of(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_material_point *material_point,
-                        dmb_material_point_motion *motion)
+void dmb_material_point_motion_of(const dmb_scene *scene, const dmb_configuration *configuration,
+                                  const dmb_material_point *material_point, dmb_material_point_motion *motion)
 {
     if (material_point->fixed)
         node_motion(scene, configuration, material_point->node, material_point->arm, motion);
@@ -254,8 +255,8 @@ static uint32_t segment_at(const dmb_hole *hole, double depth)
 }
 
 /* A PATH node knows its depth exactly; elsewhere the axis is searched from where the node is about. */
-double dmb_material_point_depth(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_material_point *material_point,
-                      const double x[3])
+double dmb_material_point_depth(const dmb_scene *scene, const dmb_configuration *configuration,
+                                const dmb_material_point *material_point, const double x[3])
 {
     double depth, point[3], tangent[3];
     uint32_t segment = 0;

@@ -52,8 +52,8 @@ typedef struct dmb_material_point_pose {
     double displacement[3]; /* [m] world, position less that at time 0 as described */
 } dmb_material_point_pose;
 
-void dmb_material_point_pose_of(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_material_point *point,
-                      dmb_material_point_pose *pose);
+void dmb_material_point_pose_of(const dmb_scene *scene, const dmb_configuration *configuration,
+                                const dmb_material_point *point, dmb_material_point_pose *pose);
 
 /* Velocity [m/s, rad/s] and its rate [m/s2, rad/s2] in the axes of the section: the exact time derivatives of the pose
  * above. */
@@ -62,14 +62,14 @@ typedef struct dmb_material_point_motion {
     double acceleration[6];
 } dmb_material_point_motion;
 
-void dmb_material_point_motion_of(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_material_point *point,
-                        dmb_material_point_motion *motion);
+void dmb_material_point_motion_of(const dmb_scene *scene, const dmb_configuration *configuration,
+                                  const dmb_material_point *point, dmb_material_point_motion *motion);
 
 /* [rad] turn about the pipe's axis since time 0, linear between nodes */
 double dmb_material_point_turn(const dmb_configuration *configuration, const dmb_material_point *point);
 
 /* [m] measured depth of the closest point of the hole's axis to x; 0 without a hole. O(log stations). */
-double dmb_material_point_depth(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_material_point *point,
-                      const double x[3]);
+double dmb_material_point_depth(const dmb_scene *scene, const dmb_configuration *configuration,
+                                const dmb_material_point *point, const double x[3]);
 
 #endif

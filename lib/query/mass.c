@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "element/beam.h"
-#include "element/lump.h"
+#include "element/rigid_mass.h"
 #include "model/mesh_mass.h"
 #include "model/section.h"
 #include "query/place.h"
@@ -186,7 +186,8 @@ static void add_element(const dmb_scene *scene, const dmb_configuration *c, uint
     add_mass(&B, half, far_moment, sum);
 }
 
-static void add_rigid_mass(const dmb_scene *scene, const dmb_configuration *c, const dmb_rigid_mass *rigid_mass, dmb_momentum *sum)
+static void add_rigid_mass(const dmb_scene *scene, const dmb_configuration *c, const dmb_rigid_mass *rigid_mass,
+                           dmb_momentum *sum)
 {
     carrier at;
     double p[6];

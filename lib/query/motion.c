@@ -1,3 +1,4 @@
+/* Pose, unwrapped rotation and motion of a place. */
 #include "math/mat6.h"
 #include "math/vec3.h"
 #include "query/interpolation.h"

@@ -83,7 +83,7 @@ static int32_t place_on_string(const dmb_sim *sim, dmb_place place, dmb_material
 int32_t dmb_material_point_of(const dmb_sim *sim, dmb_place place, dmb_material_point *point)
 {
     const uint32_t body = dmb_body_index(sim, place.part);
-    dmb_material_point found = {0, DMB_SPOT_RIGID, 0.0, 0.0, 0.0, 0, 0};
+    dmb_material_point found = {0, DMB_POINT_RIGID, 0.0, 0.0, 0.0, 0, 0};
     if (body != UINT32_MAX) {
         if (!isfinite(place.fraction)) return DMB_ERR_NOT_FINITE;
         if (place.pipe != 0 || place.fraction != 0.0) return DMB_ERR_VALUE;

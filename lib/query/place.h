@@ -1,15 +1,15 @@
-/* Where a place of the user is in the mesh: rigid with a node, or inside an element. */
+/* Places of the user in the mesh: rigid with a node or inside an element; pipes, bodies and contact sites by number. */
 #ifndef DMB_QUERY_PLACE_H
 #define DMB_QUERY_PLACE_H
 
 #include "model/model.h"
 #include "sim/sim.h"
 
-#define DMB_SPOT_RIGID UINT32_MAX
+#define DMB_POINT_RIGID UINT32_MAX
 
 typedef struct dmb_material_point {
     uint32_t node;    /* the node it is rigid with; near node of the element otherwise */
-    uint32_t element; /* element of a flexible or axial-torsional pipe; DMB_SPOT_RIGID on rigid pipes and bodies */
+    uint32_t element; /* element of a flexible or axial-torsional pipe; DMB_POINT_RIGID on rigid pipes and bodies */
     double arm;       /* [m] along body x from the node, where `fixed` */
     double fraction;  /* [-] along the element's flexible length, 0 .. 1 */
     double beyond;    /* [m] behind the element's far end, inside the tool joint; 0 elsewhere */

@@ -1,4 +1,4 @@
-/* FNV-1a, 64 bits (Fowler, Noll, Vo): not against forgery, but against mistakes. */
+/* Fingerprints of scenes and states by FNV-1a with 64 bits (Fowler, Noll, Vo), which finds mistakes, not forgery. */
 #ifndef DMB_RUN_FINGERPRINT_H
 #define DMB_RUN_FINGERPRINT_H
 

@@ -1,4 +1,4 @@
-/* The caller's hand on a drive: a constant in the place of its programme. */
+/* Inputs that the caller sets between steps: a constant in the place of a drive's programme, the state of a joint. */
 #include <math.h>
 
 #include "model/limits.h"

@@ -1,4 +1,4 @@
-/* Making and unmaking a sim. */
+/* Creating and destroying a sim, its time, and what a compiled model tells of itself. */
 #include <math.h>
 
 #include "base/handle.h"

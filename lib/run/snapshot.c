@@ -22,7 +22,7 @@ typedef struct snapshot_header {
 
 static size_t saved_fields(const dmb_sim *sim, dmb_field fields[DMB_FIELD_MAX])
 {
-    return dmb_sim_fields(sim, DMB_GROUP_NOW, DMB_GROUP_KEPT, fields);
+    return dmb_sim_fields(sim, DMB_GROUP_NOW, DMB_GROUP_FACTORS, fields);
 }
 
 static size_t snapshot_bytes(const dmb_sim *sim)

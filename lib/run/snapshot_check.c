@@ -13,7 +13,7 @@
                    #name ": its check does not fit its type");
 DMB_CONFIGURATION_LIST(DMB_NAMES_BOUND)
 DMB_MEMORY_LIST(DMB_NAMES_BOUND)
-DMB_KEPT_LIST(DMB_NAMES_BOUND)
+DMB_FACTOR_LIST(DMB_NAMES_BOUND)
 
 /* One field in a snapshot, at any alignment. */
 typedef struct probe {
@@ -172,7 +172,7 @@ static int32_t check_field(const probe *p)
     case DMB_CHECK_CLOCK: return check_clock(p);
     case DMB_CHECK_LEDGER: return check_numbers(p, 0, sizeof(dmb_ledger) / sizeof(double)); /* all members are */
     case DMB_CHECK_COUNTERS: return check_counters(p);
-    case DMB_CHECK_KEPT: return check_kept(p);
+    case DMB_CHECK_REUSE: return check_kept(p);
     default: return refuse(p, 0, p->field->check, "a field with a check"); /* not reached */
     }
 }

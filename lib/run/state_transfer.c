@@ -16,7 +16,7 @@
 #include "system/start.h"
 
 /* [m, -] violation of a joint at the carried poses that is no longer rounding; as for dmb_sim_set_joint. */
-#define DMB_CARRIED_MISFIT 1e-6
+#define DMB_TRANSFER_VIOLATION 1e-6
 
 /* Arrays of equal length in both sims. */
 #define DMB_COPY(field, count) memcpy(sim->field, from->field, (size_t)(count) * sizeof *sim->field)
@@ -125,12 +125,12 @@ static int32_t check_joints(dmb_sim *sim, dmb_evaluation *evaluation)
     sim->reduced_mode->row = UINT32_MAX;
     const int32_t status = dmb_clusters_gather(evaluation);
     if (status == DMB_ERR_CALLBACK)
-        dmb_message_set(&sim->message, "carry over: the callback of a constraint failed at time %g", evaluation->time);
+        dmb_message_set(&sim->message, "state transfer: the callback of a constraint failed at time %g", evaluation->time);
     if (status < 0) return status;
     const double violation = dmb_clusters_violation(sim, 0, &row);
-    for (uint32_t j = 0; j < sim->scene->joint_count && violation <= DMB_CARRIED_MISFIT; j++)
+    for (uint32_t j = 0; j < sim->scene->joint_count && violation <= DMB_TRANSFER_VIOLATION; j++)
         if (dmb_joint_refuse_flip(sim, j) < 0) return DMB_ERR_GEOMETRY;
-    if (violation <= DMB_CARRIED_MISFIT) return DMB_OK;
+    if (violation <= DMB_TRANSFER_VIOLATION) return DMB_OK;
     sim->reduced_mode->row = row;
     sim->reduced_mode->violation = violation;
     dmb_clusters_explain(sim, "its parts are apart where they are carried to, so it must be open");
@@ -162,14 +162,14 @@ static int32_t go_on(dmb_sim *sim, const dmb_sim *from)
     transfer_drives(sim, from);
     int32_t status = dmb_state_transfer_nodes(sim, from);
     if (status < 0) return status;
-    dmb_state_transfer_sites(sim, from, DMB_CARRY_ALL);
+    dmb_state_transfer_sites(sim, from, DMB_TRANSFER_ALL);
     if (sim->scene->cluster_count) transfer_joints(sim, from);
     set_up(sim, &evaluation);
     if (sim->scene->bit_count) transfer_bits(sim, from, &evaluation);
     status = check_joints(sim, &evaluation);
     if (status >= 0) status = dmb_system_restart(sim);
     if (status < 0) return status;
-    dmb_state_transfer_sites(sim, from, DMB_CARRY_BRISTLES);
+    dmb_state_transfer_sites(sim, from, DMB_TRANSFER_BRISTLES);
     transfer_ledger(sim, from);
     return status;
 }
@@ -181,7 +181,7 @@ static int32_t keep_projection(dmb_sim *sim, const dmb_sim *from)
     const double here[2] = {most[0], most[1]};
     for (int i = 0; i < 2; i++) most[i] = fmax(here[i], from->counters->projection[i]);
     if (here[0] <= 1e-12 && here[1] <= 1e-12) return DMB_OK;
-    dmb_message_set(&sim->message, "carry over: speeds projected onto the allowed motion, by %g m/s and %g rad/s",
+    dmb_message_set(&sim->message, "state transfer: speeds projected onto the allowed motion, by %g m/s and %g rad/s",
                     here[0], here[1]);
     return DMB_NOTE_PROJECTED;
 }
@@ -204,7 +204,7 @@ static int32_t transfer_state(dmb_sim *sim, const dmb_sim *from)
 static int32_t with_both(dmb_sim *sim, dmb_sim *from)
 {
     if (sim == from) {
-        dmb_message_set(&sim->message, "carry over: sim and from are one, must be two");
+        dmb_message_set(&sim->message, "state transfer: sim and from are one, must be two");
         return DMB_ERR_VALUE;
     }
     int32_t status = dmb_sim_check(from);

@@ -21,7 +21,7 @@ int32_t dmb_state_transfer_check(dmb_sim *sim, const dmb_sim *from);
 /* Poses, turns and speeds of all nodes of now. DMB_ERR_VALUE with a message where axial-torsional pipes would have to
  * leave their line. run/state_transfer_nodes */
 int32_t dmb_state_transfer_nodes(dmb_sim *sim, const dmb_sim *from);
-enum { DMB_CARRY_ALL = 0, DMB_CARRY_BRISTLES = 1 };
+enum { DMB_TRANSFER_ALL = 0, DMB_TRANSFER_BRISTLES = 1 };
 /* What the wall contacts remember; or only the bristles, once contacts that have no past have been evaluated: where no
  * time passes, a bristle that slips at its limit cannot be told from one that holds there. run/state_transfer_nodes */
 void dmb_state_transfer_sites(dmb_sim *sim, const dmb_sim *from, int32_t what);

@@ -17,7 +17,7 @@ dmb_common_string dmb_common_string_of(const dmb_scene *scene, const dmb_scene *
 
 static int32_t other(dmb_sim *sim, const char *part, uint32_t index, const char *what)
 {
-    dmb_message_set(&sim->message, "carry over: %s %u: %s, must be as in the sim it goes on from", part, index, what);
+    dmb_message_set(&sim->message, "state transfer: %s %u: %s, must be as in the sim it goes on from", part, index, what);
     return DMB_ERR_VALUE;
 }
 
@@ -41,7 +41,7 @@ static int32_t check_counts(dmb_sim *sim, const dmb_sim *from)
                   {"constraints", a->callback_count, b->callback_count}};
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
         if (counts[i].to == counts[i].from) continue;
-        dmb_message_set(&sim->message, "carry over: %s = %u, must be %u as in the sim it goes on from", counts[i].what,
+        dmb_message_set(&sim->message, "state transfer: %s = %u, must be %u as in the sim it goes on from", counts[i].what,
                         counts[i].to, counts[i].from);
         return DMB_ERR_VALUE;
     }
@@ -52,7 +52,7 @@ static int32_t check_counts(dmb_sim *sim, const dmb_sim *from)
 static int32_t check_features(dmb_sim *sim, const dmb_sim *from)
 {
     if (sim->scene->features == from->scene->features) return DMB_OK;
-    dmb_message_set(&sim->message, "carry over: features = %d in all, must be %d as in the sim it goes on from",
+    dmb_message_set(&sim->message, "state transfer: features = %d in all, must be %d as in the sim it goes on from",
                     (int)sim->scene->features, (int)from->scene->features);
     return DMB_ERR_VALUE;
 }
@@ -166,7 +166,7 @@ static dmb_pipe_def material_of(const dmb_sim *sim, uint32_t string, uint32_t pi
 static int32_t other_pipe(dmb_sim *sim, uint32_t string, uint32_t to, uint32_t old, const char *what)
 {
     dmb_message_set(&sim->message,
-                    "carry over: string %u, pipe %u: %s, must be as of pipe %u of the sim it goes on from", string, to,
+                    "state transfer: string %u, pipe %u: %s, must be as of pipe %u of the sim it goes on from", string, to,
                     what, old);
     return DMB_ERR_VALUE;
 }
@@ -221,7 +221,7 @@ static int32_t check_nodes(dmb_sim *sim, const dmb_scene *from, uint32_t string,
         same = same && size[i] == size[common->to];
     if (same) return DMB_OK;
     dmb_message_set(&sim->message,
-                    "carry over: string %u: axial-torsional pipes at the rig end are added to and taken "
+                    "state transfer: string %u: axial-torsional pipes at the rig end are added to and taken "
                     "from such pipes only",
                     string);
     return DMB_ERR_VALUE;

@@ -1,4 +1,4 @@
-/* Nodes carried over. The world pose of a matched node stays; what is stored is measured from the described pose, which
+/* Nodes transferred. The world pose of a matched node stays; what is stored is measured from the described pose, which
  * is another one. From node to node the described distance is known exactly, so shifts are summed along the string from
  * its far end: strains keep their digits however far from the origin the string is. */
 #include <math.h>
@@ -125,7 +125,7 @@ static int32_t follow_path(dmb_sim *sim, uint32_t node, const dmb_sim *from, uin
     }
     if (off <= DMB_SAME_LINE) return DMB_OK;
     dmb_message_set(&sim->message,
-                    "carry over: string %u: its axial-torsional pipes are described off the line they "
+                    "state transfer: string %u: its axial-torsional pipes are described off the line they "
                     "are on, by %g m or rad",
                     string, off);
     return DMB_ERR_VALUE;
@@ -233,7 +233,7 @@ int32_t dmb_state_transfer_nodes(dmb_sim *sim, const dmb_sim *from)
     return status;
 }
 
-/* What the places at the wall remember, carried over from place to place. A place of the old scene may be missing in
+/* Memory of the places at the wall, transferred from place to place. A place of the old scene may be missing in
  * the new one and the other way round: a guided rig end does not meet the wall. */
 
 /* [m] within which two places on one node are the same. */
@@ -254,7 +254,7 @@ static void transfer_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_
         DMB_COPY_SITE(site_bristle, 2);
         DMB_COPY_SITE(site_sticks, 1);
     }
-    if (what == DMB_CARRY_BRISTLES) return;
+    if (what == DMB_TRANSFER_BRISTLES) return;
     DMB_COPY_SITE(site_normal, 3);
     DMB_COPY_SITE(site_depth, 1);
     DMB_COPY_SITE(site_segment, 1);
@@ -269,7 +269,7 @@ static void transfer_path_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, ui
         DMB_COPY_SITE(path_bristle, 2);
         DMB_COPY_SITE(path_sticks, 1);
     }
-    if (what == DMB_CARRY_ALL) DMB_COPY_SITE(path_slip, 2);
+    if (what == DMB_TRANSFER_ALL) DMB_COPY_SITE(path_slip, 2);
 }
 
 /* As at time 0: open, and where it is described; the restart finds it from there. */
@@ -321,7 +321,7 @@ static void transfer_string_sites(dmb_sim *sim, const dmb_sim *from, int32_t wha
     for (uint32_t s = 0; s < scene->site_count; s++) {
         const dmb_site *site = scene->sites + s;
         double arm;
-        if (what == DMB_CARRY_ALL) begin_site(sim, s);
+        if (what == DMB_TRANSFER_ALL) begin_site(sim, s);
         if (dmb_model_part_index(sim->model, site->part, DMB_PART_STRING) == UINT32_MAX) continue;
         const uint32_t old = old_node(scene, was, site->node, &arm);
         const double offset = site->offset + arm;
@@ -353,7 +353,7 @@ static void transfer_path_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
     for (uint32_t s = 0; s < sim->scene->path_site_count; s++) {
         double arm;
         const uint32_t old = old_node(sim->scene, from->scene, sim->scene->path_sites[s].node, &arm);
-        if (what == DMB_CARRY_ALL) begin_path_site(sim, s);
+        if (what == DMB_TRANSFER_ALL) begin_path_site(sim, s);
         while (old != UINT32_MAX && k < from->scene->path_site_count && from->scene->path_sites[k].node < old) k++;
         if (k < from->scene->path_site_count && from->scene->path_sites[k].node == old)
             transfer_path_site(sim, s, from, k, what);

@@ -1,4 +1,4 @@
-/* Is it a live sim? The first check of every public function that takes one. */
+/* Beginning and end of calls that take a sim: a live handle, one call at a time, progress and cancellation. */
 #ifndef DMB_SIM_ACCESS_H
 #define DMB_SIM_ACCESS_H
 

@@ -114,7 +114,7 @@ static void take_memory(dmb_arena *arena, const field_counts *counts, dmb_sim *t
 static void take_kept(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
 {
     DMB_COUNT_NAMES(counts);
-    DMB_KEPT_LIST(DMB_TAKE)
+    DMB_FACTOR_LIST(DMB_TAKE)
 }
 
 static void take_work(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
@@ -202,7 +202,7 @@ static void put_memory(field_table *table, const field_counts *counts, const dmb
 static void put_kept(field_table *table, const field_counts *counts, const dmb_sim *from)
 {
     DMB_COUNT_NAMES(counts);
-    DMB_KEPT_LIST(DMB_PUT)
+    DMB_FACTOR_LIST(DMB_PUT)
 }
 
 static void put_work(field_table *table, const field_counts *counts, const dmb_sim *from)
@@ -218,7 +218,7 @@ size_t dmb_sim_fields(const dmb_sim *sim, int32_t first_group, int32_t last_grou
     for (table.group = first_group; table.group <= last_group; ++table.group) {
         if (table.group == DMB_GROUP_NOW) put_configuration(&table, &counts, &sim->now);
         if (table.group == DMB_GROUP_MEMORY) put_memory(&table, &counts, sim);
-        if (table.group == DMB_GROUP_KEPT) put_kept(&table, &counts, sim);
+        if (table.group == DMB_GROUP_FACTORS) put_kept(&table, &counts, sim);
         if (table.group == DMB_GROUP_TRIAL) put_configuration(&table, &counts, &sim->trial);
         if (table.group == DMB_GROUP_WORK) put_work(&table, &counts, sim);
     }

@@ -17,7 +17,7 @@ enum {
     DMB_CHECK_ROW_ORDER = 7,      /* each row of a cluster once */
     DMB_CHECK_COLUMN_ORDER = 8,   /* each column of a cluster once */
     DMB_CHECK_HISTORY_HEADS = 9,  /* within the samples of the bit */
-    DMB_CHECK_CLOCK = 10, DMB_CHECK_LEDGER = 11, DMB_CHECK_COUNTERS = 12, DMB_CHECK_KEPT = 13 /* finite numbers in them */
+    DMB_CHECK_CLOCK = 10, DMB_CHECK_LEDGER = 11, DMB_CHECK_COUNTERS = 12, DMB_CHECK_REUSE = 13 /* finite numbers in them */
 };
 
 /* [byte] of a block of any alignment that holds a sim of the scene; SIZE_MAX if it does not fit into a size_t. O(1). */
@@ -28,7 +28,7 @@ size_t dmb_sim_bytes(const dmb_scene *scene);
 dmb_sim *dmb_sim_carve(const dmb_scene *scene, void *block, size_t size);
 
 /* Groups of fields. The first three make up the state: saved, restored and hashed. */
-enum { DMB_GROUP_NOW = 0, DMB_GROUP_MEMORY = 1, DMB_GROUP_KEPT = 2, DMB_GROUP_TRIAL = 3,
+enum { DMB_GROUP_NOW = 0, DMB_GROUP_MEMORY = 1, DMB_GROUP_FACTORS = 2, DMB_GROUP_TRIAL = 3,
        DMB_GROUP_WORK = 4, DMB_GROUP_COUNT = 5 };
 
 typedef struct dmb_field {
@@ -43,7 +43,7 @@ typedef struct dmb_field {
 #define DMB_ONE_WORK_MORE(type, name, count) +1
 enum {
     DMB_FIELD_MAX = 0 DMB_CONFIGURATION_LIST(DMB_ONE_MORE) DMB_CONFIGURATION_LIST(DMB_ONE_MORE)
-        DMB_MEMORY_LIST(DMB_ONE_MORE) DMB_KEPT_LIST(DMB_ONE_MORE) DMB_WORK_LIST(DMB_ONE_WORK_MORE)
+        DMB_MEMORY_LIST(DMB_ONE_MORE) DMB_FACTOR_LIST(DMB_ONE_MORE) DMB_WORK_LIST(DMB_ONE_WORK_MORE)
 };
 #undef DMB_ONE_MORE
 #undef DMB_ONE_WORK_MORE

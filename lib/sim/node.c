@@ -1,6 +1,6 @@
 #include "sim/node.h"
 
-#include "element/lump.h"
+#include "element/rigid_mass.h"
 #include "math/mat6.h"
 #include "math/so3.h"
 #include "model/held_ring.h"

@@ -1,4 +1,5 @@
-/* Pose and speed of a node whatever its kind: a PATH node's pose follows from its place on the hole's axis. */
+/* Nodes whatever their kind: pose and speed (of a PATH node from its place on the hole's axis), and the described part that
+ * a node, an element, a row or a constraint belongs to. */
 #ifndef DMB_SIM_NODE_H
 #define DMB_SIM_NODE_H
 
@@ -50,8 +51,8 @@ uint32_t dmb_constraint_of_part(const dmb_sim *sim, dmb_id part);
 
 /* Unbalance of the rigid masses on the nodes. */
 
-/* Body-frame wrench [N s2, N m s2] of rigid_mass number i on its FULL node for unit spin about the node's axis, per square of
- * the spin: the centrifugal force of an eccentric centre of mass and the couple of its products of inertia. */
+/* Body-frame wrench [N s2, N m s2] of rigid_mass number i on its FULL node for unit spin about the node's axis, per square
+ * of the spin: the centrifugal force of an eccentric centre of mass and the couple of its products of inertia. */
 void dmb_unbalance_of(const dmb_scene *scene, uint32_t i, double wrench[6]);
 
 #endif

@@ -3,10 +3,10 @@
  * field names the check that its bytes in a snapshot must pass (run/snapshot_check.h): a snapshot may be forged, and no
  * step may read or write out of bounds by what it says.
  * n = scene->node_count, r = row_count, s = site_count, p = path_site_count, e = element_count, d = drive_count,
- * sb, pb = s, p with the bristle law of friction, else 0; k = bit_count, load = load_count, history = history_count, diagonal and link = lengths of block storage;
- * j = joint_count, c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene
- * with joints only: raw = row_count, dense, square, full = storage of the clusters, block, value, pivots = of the
- * linked system. */
+ * sb, pb = s, p with the bristle law of friction, else 0; k = bit_count, load = load_count, history = history_count,
+ * diagonal and link = lengths of block storage; j = joint_count, c = constraint_row_count,
+ * cluster = cluster_count, column = cluster_column_count, and for a scene with joints only: raw = row_count, dense, square,
+ * full = storage of the clusters, block, value, pivots = of the reduced system. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
@@ -24,7 +24,7 @@
     X(double, velocity, r, NUMBERS)               /* [m/s, rad/s] body frame; PATH: along and about the axis */       \
     X(double, acceleration, r, NUMBERS)           /* [m/s2, rad/s2] time derivative of velocity */                    \
     X(double, pseudo_acceleration, r, NUMBERS)    /* [m/s2, rad/s2] the a of generalized-alpha */                     \
-    /* system/assemble/wall_contact, from pose and velocity: */                                                                \
+    /* system/assemble/wall_contact, from pose and velocity: */                                                       \
     X(double, site_normal, 3 * s, NUMBERS)        /* [-] world, last normal that was defined */                       \
     X(double, site_depth, s, NUMBERS)             /* [m] measured depth of the closest axis point */                  \
     X(uint32_t, site_segment, s, SEGMENTS)        /* [-] segment of the hole's axis it was found in */                \
@@ -34,11 +34,11 @@
     X(double, site_bristle, 2 * sb, NUMBERS)      /* [m] bristle deflection, same directions */                       \
     X(int32_t, site_sticks, sb, FLAGS)            /* [-] 1 while the bristle law holds it */                          \
     X(double, friction_slip, 2, NUMBERS) /* [m/s, rad/s] speeds along the hole and of turning that friction on the wall \
-                                           acts as at in a static state, system/assemble/evaluation; 0: at those of the nodes */ \
+                                           acts as at in a static state, system/assemble/evaluation; 0: of the nodes */ \
     X(double, path_slip, 2 * p, NUMBERS)          /* [m/s] likewise of PATH nodes */                                  \
     X(double, path_bristle, 2 * pb, NUMBERS)      /* [m] */                                                           \
     X(int32_t, path_sticks, pb, FLAGS)            /* [-] */                                                           \
-    /* system/assemble/drives, from programmes and velocity: */                                                                \
+    /* system/assemble/drives, from programmes and velocity: */                                                       \
     X(double, drive_position, d, NUMBERS)         /* [m, rad] of the component since time 0 */                        \
     X(double, drive_integral, d, NUMBERS)         /* [m, rad] integral of the speed error, CONTROL */                 \
     X(double, drive_target, d, NUMBERS)           /* [unit of the programme] */                                       \
@@ -47,15 +47,15 @@
     X(double, drive_rate, d, NUMBERS)             /* [m/s2, rad/s2] prescribed on a joint's coordinate */             \
     X(double, load_factor, load, NUMBERS)         /* [-] programme of each load */                                    \
     X(double, bit_load, k, NUMBERS)               /* [N] bottom-hole load of each bit */                              \
-    /* system/assemble/bit: */                                                                                                 \
+    /* system/assemble/bit: */                                                                                        \
     X(double, bit_bottom, k, NUMBERS)             /* [m] advance at which rock begins */                              \
     X(double, bit_advance, k, NUMBERS)            /* [m] along the hole since time 0 */                               \
     X(uint32_t, bit_segment, k, SEGMENTS)         /* [-] */                                                           \
-    /* system/constrain/constraint_rows, from pose: */                                                                          \
+    /* system/constrain/constraint_rows, from pose: */                                                                \
     X(double, joint_turn, 2 * j, NUMBERS)         /* [rad] coordinates RX and RY, revolutions counted */              \
     X(double, joint_depth, j, NUMBERS)            /* [m] measured depth of the point of a joint on the hole's axis */ \
     X(uint32_t, joint_segment, j, JOINT_SEGMENTS) /* [-] segment of the axis it was found in */                       \
-    /* system/constrain/cluster, from the residual: */                                                                          \
+    /* system/constrain/cluster, from the residual: */                                                                \
     X(double, multiplier, c, NUMBERS)             /* [N, N m] residual + B^T multiplier = 0 */
 
 /* ---- Memory: kept once, written on acceptance only. Saved, restored and hashed like `now`. */
@@ -66,14 +66,14 @@
     X(double, residual_row, r, NUMBERS)           /* [N, N m] residual of the accepted state: reactions in held rows */ \
     X(double, drive_work, d, NUMBERS)             /* [J] */                                                           \
     X(double, drive_input, d, INPUTS) /* [unit of the programme] value set by the caller; NaN: the programme */       \
-    X(double, history_angle, history, NUMBERS)    /* [rad] samples of the cut surface, system/assemble/bit */                  \
+    X(double, history_angle, history, NUMBERS)    /* [rad] samples of the cut surface, system/assemble/bit */         \
     X(double, history_surface, history, NUMBERS)  /* [m] */                                                           \
     X(dmb_history_head, history_head, k, HISTORY_HEADS)                                                               \
     X(int32_t, joint_state, j, JOINT_STATES)      /* DMB_JOINT_..., system/joint_switch */                            \
     X(double, joint_lock, 12 * j, NUMBERS)        /* [-, m] R and p of frame b in frame a where the joint was locked */ \
     X(double, constraint_offset, c, NUMBERS)      /* [m, rad] what a coupling keeps */                                \
     X(double, drive_offset, d, NUMBERS)           /* [m, rad] coordinate of a driven joint at time 0 */               \
-    X(uint32_t, partition_rank, cluster, RANKS)   /* [-] dependent columns, system/constrain/cluster */                         \
+    X(uint32_t, partition_rank, cluster, RANKS)   /* [-] dependent columns, system/constrain/cluster */               \
     X(uint32_t, partition_row, c, ROW_ORDER)      /* [-] rows of a cluster, pivot rows first */                       \
     X(uint32_t, partition_column, column, COLUMN_ORDER) /* [-] columns of a cluster, dependent ones first */          \
     X(double, partition_quality, cluster, NUMBERS) /* [-] of the choice when it was made */
@@ -82,82 +82,82 @@
  * only; saved, restored and hashed, so that a restored sim iterates alike, but not set aside in `backup`: a step that a
  * failing call may take back leaves them alone. Empty in a scene with joints: kd, kl = diagonal, link, else 0; kn = n
  * where there are contact sites too, else 0. */
-#define DMB_KEPT_LIST(X)                                                                                              \
+#define DMB_FACTOR_LIST(X)                                                                                            \
     X(double, kept_diagonal, kd, NUMBERS)                                                                             \
     X(double, kept_lower, kl, NUMBERS)                                                                                \
     X(double, kept_upper, kl, NUMBERS)                                                                                \
-    X(double, kept_quaternion, 4 * kn, NUMBERS)   /* of the nodes where they were made, system/solve/solve */               \
-    X(dmb_factor_reuse, kept, 1, KEPT)
+    X(double, kept_quaternion, 4 * kn, NUMBERS)   /* of the nodes where they were made, system/solve/solve */         \
+    X(dmb_factor_reuse, reuse, 1, REUSE)
 
 /* ---- Work: rewritten in every step, never saved. X(type, name, count) */
 #define DMB_WORK_LIST(X)                                                                                              \
-    X(double, increment, r)             /* [m, rad] h Dq of this step, integrator */                                   \
-    X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */         \
-    X(double, correction, r)            /* [m, rad] right-hand side, then Newton correction */                         \
-    X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                      \
-    X(double, element_strain, 6 * e)    /* [m, rad] d of the trial */                                                  \
-    X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */        \
-    X(double, site_return, s)           /* [m/s] a ring that opens in the step left the wall; else 0, system/release */\
-    X(double, path_normal, p)           /* [N] */                                                                      \
+    X(double, increment, r)             /* [m, rad] h Dq of this step, integrator */                                  \
+    X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */ \
+    X(double, correction, r)            /* [m, rad] right-hand side, then Newton correction */                        \
+    X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                     \
+    X(double, element_strain, 6 * e)    /* [m, rad] d of the trial */                                                 \
+    X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */       \
+    X(double, site_return, s)           /* [m/s] a ring that opens in the step left the wall; else 0, system/release */ \
+    X(double, path_normal, p)           /* [N] */                                                                     \
     X(double, stiffness_diagonal, diagonal) /* by body-frame pose increments; then the iteration matrix */            \
-    X(double, stiffness_lower, link)    /* in statics the same, in a step at once the iteration matrix */              \
-    X(double, stiffness_upper, link)                                                                                   \
-    X(double, inertia_diagonal, diagonal) /* mass, gyroscopic and damping parts, scaled to pose parameters */          \
-    X(uint8_t, pivot, r)                /* LU factors only */                                                          \
-    X(int32_t, factors, 1)              /* DMB_FACTORS_...: what corrections are solved with */                        \
-    /* constraints, system/constrain/constraint_rows: */                                                                        \
-    X(double, raw_velocity, raw)        /* of the trial before it is projected onto the constraints, integrator */     \
-    X(double, raw_acceleration, raw)                                                                                   \
-    X(double, raw_pseudo_acceleration, raw)                                                                            \
-    X(uint8_t, constraint_type, c)      /* DMB_ROW_... */                                                              \
-    X(double, constraint_value, c)      /* [m, -] violation; 0 of a row of speeds */                                      \
-    X(double, constraint_rate, c)       /* [m/s, ...] B v + rate = 0 */                                                \
-    X(double, constraint_convective, c) /* [m/s2, ...] B v' + convective = 0 */                                        \
-    X(double, constraint_jacobian, jacobian)                                                                           \
-    X(double, constraint_tangent, tangent) /* of joint forces and of B^T multiplier, by pose parameters */             \
-    /* clusters, system/constrain/cluster: */                                                                                   \
-    X(double, cluster_weight, column)   /* [-, 1/m] unit of each column; 0: held */                                    \
-    X(double, cluster_metric, column)   /* [-, 1/m] the same for projections */                                        \
-    X(uint32_t, cluster_place, column)  /* [-] place of each column in partition_column */                             \
-    X(double, cluster_matrix, dense)    /* B of each cluster */                                                        \
-    X(double, cluster_lu, square)                                                                                      \
-    X(double, cluster_gram, square)                                                                                    \
-    X(uint32_t, cluster_pivot, c)                                                                                      \
-    X(double, cluster_null, dense)      /* G of the factored matrix */                                                 \
-    X(double, cluster_quality, cluster)                                                                                \
-    X(double, cluster_scratch, dense + c + column)                                                                     \
-    X(double, cluster_rows, c)                                                                                         \
-    X(double, cluster_move, column)     /* a projection, a vector in the columns of a cluster */                       \
-    X(double, cluster_full, full)       /* iteration matrix of a cluster before its reduction */                       \
-    X(double, cluster_half, full)                                                                                      \
-    /* linked system, system/solve/reduced_system: */                                                                               \
-    X(double, reduced_value, value)                                                                                     \
-    X(uint32_t, reduced_pivot, pivots)                                                                                  \
-    X(uint32_t, reduced_size, block)                                                                                    \
-    X(uint32_t, reduced_row, block)                                                                                     \
-    X(double, reduced_solution, pivots)                                                                                 \
-    X(double, reduced_half, 6 * (column + c)) /* product of a link with the null space of a block */                    \
-    /* sparse clusters, system/constrain/sparse_cluster: */                                                                             \
+    X(double, stiffness_lower, link)    /* in statics the same, in a step at once the iteration matrix */             \
+    X(double, stiffness_upper, link)                                                                                  \
+    X(double, inertia_diagonal, diagonal) /* mass, gyroscopic and damping parts, scaled to pose parameters */         \
+    X(uint8_t, pivot, r)                /* LU factors only */                                                         \
+    X(int32_t, factors, 1)              /* DMB_FACTORS_...: what corrections are solved with */                       \
+    /* constraints, system/constrain/constraint_rows: */                                                              \
+    X(double, raw_velocity, raw)        /* of the trial before it is projected onto the constraints, integrator */    \
+    X(double, raw_acceleration, raw)                                                                                  \
+    X(double, raw_pseudo_acceleration, raw)                                                                           \
+    X(uint8_t, constraint_type, c)      /* DMB_ROW_... */                                                             \
+    X(double, constraint_value, c)      /* [m, -] violation; 0 of a row of speeds */                                  \
+    X(double, constraint_rate, c)       /* [m/s, ...] B v + rate = 0 */                                               \
+    X(double, constraint_convective, c) /* [m/s2, ...] B v' + convective = 0 */                                       \
+    X(double, constraint_jacobian, jacobian)                                                                          \
+    X(double, constraint_tangent, tangent) /* of joint forces and of B^T multiplier, by pose parameters */            \
+    /* clusters, system/constrain/cluster: */                                                                         \
+    X(double, cluster_weight, column)   /* [-, 1/m] unit of each column; 0: held */                                   \
+    X(double, cluster_metric, column)   /* [-, 1/m] the same for projections */                                       \
+    X(uint32_t, cluster_place, column)  /* [-] place of each column in partition_column */                            \
+    X(double, cluster_matrix, dense)    /* B of each cluster */                                                       \
+    X(double, cluster_lu, square)                                                                                     \
+    X(double, cluster_gram, square)                                                                                   \
+    X(uint32_t, cluster_pivot, c)                                                                                     \
+    X(double, cluster_null, dense)      /* G of the factored matrix */                                                \
+    X(double, cluster_quality, cluster)                                                                               \
+    X(double, cluster_scratch, dense + c + column)                                                                    \
+    X(double, cluster_rows, c)                                                                                        \
+    X(double, cluster_move, column)     /* a projection, a vector in the columns of a cluster */                      \
+    X(double, cluster_full, full)       /* iteration matrix of a cluster before its reduction */                      \
+    X(double, cluster_half, full)                                                                                     \
+    /* reduced system, system/solve/reduced_system: */                                                                \
+    X(double, reduced_value, value)                                                                                   \
+    X(uint32_t, reduced_pivot, pivots)                                                                                \
+    X(uint32_t, reduced_size, block)                                                                                  \
+    X(uint32_t, reduced_row, block)                                                                                   \
+    X(double, reduced_solution, pivots)                                                                               \
+    X(double, reduced_half, 6 * (column + c)) /* product of a link with the null space of a block */                  \
+    /* sparse clusters, system/constrain/sparse_cluster: */                                                           \
     X(double, sparse_value, sparse_values)                                                                            \
     X(double, sparse_length, sparse_rows) /* square of the length of a row of B, then its pivot over that */          \
     X(double, sparse_vector, sparse_rows)                                                                             \
     X(double, raw_residual, sparse_raw) /* before the forces of constraint */                                         \
-    X(double, sparse_scale, sparse_c)   /* [N/m, ...] factor of each row in the linked system */                      \
+    X(double, sparse_scale, sparse_c)   /* [N/m, ...] factor of each row in the reduced system */                     \
     X(uint32_t, sparse_slot, sparse_c)  /* place of each row in its block; UINT32_MAX: not chosen */                  \
     X(uint32_t, sparse_size, sparse_block) /* rows of each block, nodes and multipliers */                            \
     X(uint32_t, sparse_plus, sparse_block) /* of them those of the node */                                            \
     X(uint32_t, sparse_row, sparse_block)                                                                             \
-    X(dmb_reduced_mode, reduced_mode, 1)                                                                                 \
+    X(dmb_reduced_mode, reduced_mode, 1)                                                                              \
     X(uint8_t, backup, backup)          /* the state before a call that takes more than one step, sim/layout */
 
 /* What corrections are solved with: nothing is factored, inverses of this step, those kept from an earlier one (both
  * math/block_inverse), LU factors (math/block_tridiagonal: statics). */
-enum { DMB_FACTORS_NONE = 0, DMB_FACTORS_FRESH = 1, DMB_FACTORS_KEPT = 2, DMB_FACTORS_LU = 3 };
+enum { DMB_FACTORS_NONE = 0, DMB_FACTORS_FRESH = 1, DMB_FACTORS_REUSED = 2, DMB_FACTORS_LU = 3 };
 
 /* Kinds of constraint rows. */
 enum { DMB_ROW_IDLE = 0, DMB_ROW_POSITION = 1, DMB_ROW_SPEED = 2 };
 
-/* How the linked system is worked on at present. */
+/* How the reduced system is worked on at present. */
 typedef struct dmb_reduced_mode {
     int32_t multipliers; /* 1: solve for all coordinates and multipliers, DMB_METHOD_MULTIPLIERS */
     int32_t assembling;  /* 1: initial coordinates of joints are rows too, couplings and joint drives are not */
@@ -205,7 +205,7 @@ typedef struct dmb_counters {
 typedef struct dmb_factor_reuse {
     double step;      /* [s] length of the step they were made for; 0: there are none */
     uint32_t pause;   /* steps to come that do not try them */
-    uint32_t penalty; /* pause after the next failure */
+    uint32_t back_off; /* pause after the next failure */
     uint32_t corrections; /* fewest that a step with them has taken; 0: none yet */
     uint32_t excess;  /* corrections beyond that, in all */
 } dmb_factor_reuse;
@@ -247,7 +247,7 @@ struct dmb_sim {
     dmb_progress own_progress;
     dmb_configuration now, trial;
     DMB_MEMORY_LIST(DMB_FIELD)
-    DMB_KEPT_LIST(DMB_FIELD)
+    DMB_FACTOR_LIST(DMB_FIELD)
     DMB_WORK_LIST(DMB_WORK_FIELD)
 };
 #undef DMB_FIELD

@@ -1,3 +1,4 @@
+/* A copy of a sim for analyses to work on; the sim stays as it is. */
 #ifndef DMB_SYSTEM_COPY_H
 #define DMB_SYSTEM_COPY_H
 

@@ -15,7 +15,7 @@
 #include "system/start.h"
 
 /* [m, -] violation with which a joint may still close. */
-#define DMB_CLOSING_MISFIT 1e-6
+#define DMB_CLOSING_VIOLATION 1e-6
 
 static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
 {
@@ -51,7 +51,7 @@ static int32_t check_rows(dmb_sim *sim, const dmb_constraint *c)
 {
     for (uint32_t r = c->row; r < c->row + c->rows; r++) {
         const double violation = fabs(sim->constraint_value[r]);
-        if (violation <= DMB_CLOSING_MISFIT) continue;
+        if (violation <= DMB_CLOSING_VIOLATION) continue;
         sim->reduced_mode->row = r;
         sim->reduced_mode->violation = violation;
         dmb_clusters_explain(sim, "its parts are apart, so it cannot close");

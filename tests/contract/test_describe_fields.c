@@ -766,19 +766,20 @@ static void surveys(void **state)
     static const struct {
         double survey[6];
         int32_t status;
-    } cases[] = {{{0, 1.5, 0, 10, 1.4, 0}, DMB_OK},
-                 {{0, 1.5, 0, 0, 1.4, 0}, DMB_ERR_VALUE},
-                 {{10, 1.5, 0, 0, 1.4, 0}, DMB_ERR_VALUE},
-                 {{0, 1.5, 0, 5e-324, 1.4, 0}, DMB_ERR_VALUE},
-                 {{0, 1.5, 0, (double)NAN, 1.4, 0}, DMB_ERR_NOT_FINITE},
-                 {{0, (double)INFINITY, 0, 10, 1.4, 0}, DMB_ERR_NOT_FINITE},
-                 {{0, 1.5, 0, 10, 1.4, DBL_MAX}, DMB_ERR_VALUE},
-                 {{0, 0, -6.2831853071796, 10, 3.1415926535898, 6.2831853071796}, DMB_OK}, /* the bounds, as text gives them */
-                 {{0, 90, 0, 10, 91, 0}, DMB_ERR_VALUE}, /* degrees */
-                 {{0, -0.01, 0, 10, 0, 0}, DMB_ERR_VALUE},
-                 {{0, 1.5, 0, 10, 3.15, 0}, DMB_ERR_VALUE},
-                 {{0, 1.5, 0, 10, 1.5, 45}, DMB_ERR_VALUE},
-                 {{0, 1.5, -6.3, 10, 1.5, 0}, DMB_ERR_VALUE}};
+    } cases[] = {
+        {{0, 1.5, 0, 10, 1.4, 0}, DMB_OK},
+        {{0, 1.5, 0, 0, 1.4, 0}, DMB_ERR_VALUE},
+        {{10, 1.5, 0, 0, 1.4, 0}, DMB_ERR_VALUE},
+        {{0, 1.5, 0, 5e-324, 1.4, 0}, DMB_ERR_VALUE},
+        {{0, 1.5, 0, (double)NAN, 1.4, 0}, DMB_ERR_NOT_FINITE},
+        {{0, (double)INFINITY, 0, 10, 1.4, 0}, DMB_ERR_NOT_FINITE},
+        {{0, 1.5, 0, 10, 1.4, DBL_MAX}, DMB_ERR_VALUE},
+        {{0, 0, -6.2831853071796, 10, 3.1415926535898, 6.2831853071796}, DMB_OK}, /* the bounds, as text gives them */
+        {{0, 90, 0, 10, 91, 0}, DMB_ERR_VALUE},                                   /* degrees */
+        {{0, -0.01, 0, 10, 0, 0}, DMB_ERR_VALUE},
+        {{0, 1.5, 0, 10, 3.15, 0}, DMB_ERR_VALUE},
+        {{0, 1.5, 0, 10, 1.5, 45}, DMB_ERR_VALUE},
+        {{0, 1.5, -6.3, 10, 1.5, 0}, DMB_ERR_VALUE}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         scene_under_test s = begin(0);

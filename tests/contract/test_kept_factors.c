@@ -37,7 +37,7 @@ static void snapshots_hold_them(void **state)
     open_string(&a, NULL);
     open_string(&b, NULL);
     run(&a, 20);
-    assert_true(a.sim->kept->step > 0.0);
+    assert_true(a.sim->reuse->step > 0.0);
     must(&a, dmb_sim_snapshot_size(a.sim, &size));
     assert_true(size <= sizeof block);
     must(&a, dmb_sim_snapshot(a.sim, block, size));
@@ -75,7 +75,7 @@ static void failing_calls_leave_them(void **state)
     add_drive(&s, &turn);
     rig_start(&s, NULL);
     run(&s, 20);
-    assert_true(s.sim->kept->step > 0.0);
+    assert_true(s.sim->reuse->step > 0.0);
     const uint64_t before = rig_hash(&s);
     refused = 1;
     assert_true(dmb_sim_step(s.sim, 1e-4, NULL) < 0);
@@ -93,9 +93,9 @@ static void statics_forget_them(void **state)
     (void)state;
     open_string(&s, NULL);
     run(&s, 20);
-    assert_true(s.sim->kept->step > 0.0);
+    assert_true(s.sim->reuse->step > 0.0);
     find_equilibrium(&s, NULL);
-    assert_true(s.sim->kept->step == 0.0);
+    assert_true(s.sim->reuse->step == 0.0);
     for (uint32_t i = 0; i < s.sim->scene->layout.diag[s.sim->scene->node_count]; i++)
         assert_true(s.sim->kept_diagonal[i] == 0.0);
     run(&s, 20);
@@ -121,7 +121,7 @@ static void short_of_iterations(void **state)
         options.bounded_work = 1;
         open_string(&s, &options);
         run(&s, 20);
-        assert_true(s.sim->kept->step == 0.0);
+        assert_true(s.sim->reuse->step == 0.0);
         rig_close(&s);
     }
 }
@@ -133,11 +133,11 @@ static void lengths_of_steps(void **state)
     (void)state;
     open_string(&s, NULL);
     run(&s, 20);
-    const double length = s.sim->kept->step;
+    const double length = s.sim->reuse->step;
     must(&s, dmb_sim_step(s.sim, 1e-4 * (1.0 + 1e-12), NULL));
-    assert_true(s.sim->kept->step == length);
+    assert_true(s.sim->reuse->step == length);
     must(&s, dmb_sim_step(s.sim, 1.1e-4, NULL));
-    check_close("length of the kept factors", s.sim->kept->step, 1.1e-4, 1e-12);
+    check_close("length of the kept factors", s.sim->reuse->step, 1.1e-4, 1e-12);
     rig_close(&s);
 }
 

@@ -158,7 +158,8 @@ static void meddle(agent *a)
     dmb_sim_destroy(&handle);
     assert_ptr_equal(handle, a->sim);
     assert_true(isfinite(dmb_sim_time(a->sim)));
-    assert_int_equal(dmb_query_rotation(a->sim, dmb_station(s->string, 1, 1.0), &angle), a->may_ask ? DMB_OK : DMB_ERR_ORDER);
+    assert_int_equal(dmb_query_rotation(a->sim, dmb_station(s->string, 1, 1.0), &angle),
+                     a->may_ask ? DMB_OK : DMB_ERR_ORDER);
     a->deep = 0;
 }
 

@@ -19,8 +19,8 @@ typedef struct work {
 } work;
 
 enum { NOTHING, COMPILE, CREATE, STEP, ADVANCE, SET_DRIVE, SET_JOINT, SNAPSHOT, STATIC, CALLS };
-static const char *const names[CALLS] = {"nothing", "compile", "create", "step", "advance", "set_drive", "set_joint", "snapshot",
-                                         "static"};
+static const char *const names[CALLS] = {"nothing",   "compile",   "create",   "step",  "advance",
+                                         "set_drive", "set_joint", "snapshot", "static"};
 
 static void snapshot_and_back(dmb_sim *sim)
 {

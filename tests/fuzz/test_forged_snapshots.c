@@ -77,7 +77,7 @@ static void change_word(unsigned char *at, uint64_t *random)
 static size_t place_of(const dmb_sim *sim, const snapshot *s, uint64_t *random)
 {
     dmb_field fields[DMB_FIELD_MAX];
-    const size_t count = dmb_sim_fields(sim, DMB_GROUP_NOW, DMB_GROUP_KEPT, fields);
+    const size_t count = dmb_sim_fields(sim, DMB_GROUP_NOW, DMB_GROUP_FACTORS, fields);
     size_t wanted = next_random(random) % count, at = HEADER;
     if (next_random(random) % 4 == 0) return HEADER + next_random(random) % ((s->size - HEADER) / 4) * 4;
     while (fields[wanted].bytes == 0) wanted = (wanted + 1) % count;
@@ -248,7 +248,7 @@ static void every_field_is_checked(void **state)
         whole_run(sim, 10, 5e-4);
         const uint64_t hash = whole_hash(sim);
         snapshot sound = take(sim);
-        const size_t count = dmb_sim_fields(sim, DMB_GROUP_NOW, DMB_GROUP_KEPT, fields);
+        const size_t count = dmb_sim_fields(sim, DMB_GROUP_NOW, DMB_GROUP_FACTORS, fields);
         size_t at = HEADER;
         for (size_t i = 0; i < count; at += fields[i++].bytes) {
             const int32_t check = fields[i].check;
@@ -269,7 +269,7 @@ static void forge_word(dmb_sim *sim, const char *name, size_t word, uint32_t val
 {
     dmb_field fields[DMB_FIELD_MAX];
     snapshot s = take(sim);
-    const size_t count = dmb_sim_fields(sim, DMB_GROUP_NOW, DMB_GROUP_KEPT, fields);
+    const size_t count = dmb_sim_fields(sim, DMB_GROUP_NOW, DMB_GROUP_FACTORS, fields);
     size_t at = HEADER, i = 0;
     while (i < count && strcmp(fields[i].name, name) != 0) at += fields[i++].bytes;
     assert_true(i < count && fields[i].bytes > 4 * word);

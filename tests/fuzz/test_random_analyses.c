@@ -238,7 +238,8 @@ static void act_sine(dmb_sim *sim, scene *c)
     options.steps_per_period = 16;
     options.periods = options.harmonics = 1;
     options.windows = 3;
-    must_be_known(dmb_analysis_stepped_sine(sim, draw_size(&c->parts.source, 10.0, 1e4), &options, &output, 1, amplitudes, NULL));
+    must_be_known(
+        dmb_analysis_stepped_sine(sim, draw_size(&c->parts.source, 10.0, 1e4), &options, &output, 1, amplitudes, NULL));
 }
 
 static void act_buckling(dmb_sim *sim, scene *c)

@@ -34,7 +34,8 @@ static void spin_of(const rig *s, double spin[3])
 
 static double relative_change(const double before[3], const double after[3])
 {
-    return largest_difference(3, before, after) / sqrt(before[0] * before[0] + before[1] * before[1] + before[2] * before[2]);
+    return largest_difference(3, before, after) /
+           sqrt(before[0] * before[0] + before[1] * before[1] + before[2] * before[2]);
 }
 
 /* ---- Rigid parts -------------------------------------------------------------------------------------------------- */

@@ -169,7 +169,8 @@ static void pipe_kind_of_compile(void **state)
         rig_close(&scene);
         rig_close(&plain);
     }
-    print_message("degrees_of_freedom: flexible %u, axial-torsional %u, rigid %u\n", degrees_of_freedom[0], degrees_of_freedom[1], degrees_of_freedom[2]);
+    print_message("degrees_of_freedom: flexible %u, axial-torsional %u, rigid %u\n", degrees_of_freedom[0],
+                  degrees_of_freedom[1], degrees_of_freedom[2]);
     assert_true(degrees_of_freedom[0] > degrees_of_freedom[1] && degrees_of_freedom[1] > degrees_of_freedom[2]);
 }
 

@@ -84,7 +84,7 @@ void dmb_frames_turn_chains(dmb_sim *sim)
     double T[2][36], room[36];
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         const uint32_t first = scene->chains[c].first, end = first + scene->chains[c].count;
-        if (scene->chains[c].linked) continue;
+        if (scene->chains[c].jointed) continue;
         turn_of_node(sim, first, T[first % 2]);
         for (uint32_t i = first; i < end; i++) {
             const double *X = T[i % 2], *Y = T[(i + 1) % 2];
@@ -279,7 +279,7 @@ static int take_matrix(dmb_buckling *buckling, const dmb_evaluation *evaluation,
     if (work->scene->cluster_count == 0) return 1;
     dmb_reduced_assemble(work);
     if (!dmb_frames_turn_reduced(work, &buckling->frames)) return 0;
-    add_to(work->scene->pattern.values, factor, work->reduced_value, A->linked);
+    add_to(work->scene->pattern.values, factor, work->reduced_value, A->jointed);
     return 1;
 }
 
@@ -287,7 +287,7 @@ static int take_matrix(dmb_buckling *buckling, const dmb_evaluation *evaluation,
 static void make_symmetric(const dmb_sim *work, dmb_pencil_matrix *A)
 {
     dmb_make_blocks_symmetric(&work->scene->layout, A->diagonal, A->lower, A->upper);
-    if (work->scene->cluster_count) dmb_make_reduced_symmetric(work, A->linked);
+    if (work->scene->cluster_count) dmb_make_reduced_symmetric(work, A->jointed);
 }
 
 static int32_t differences(dmb_buckling *buckling, dmb_static_search *search, double step)
@@ -359,7 +359,7 @@ static void clear(dmb_buckling *buckling)
         memset(both[k]->diagonal, 0, scene->layout.diag[scene->layout.n] * sizeof(double));
         memset(both[k]->lower, 0, link);
         memset(both[k]->upper, 0, link);
-        if (scene->cluster_count) memset(both[k]->linked, 0, scene->pattern.values * sizeof(double));
+        if (scene->cluster_count) memset(both[k]->jointed, 0, scene->pattern.values * sizeof(double));
     }
 }
 

@@ -24,7 +24,7 @@ static void lay_out_matrix(dmb_arena *arena, const dmb_scene *scene, dmb_pencil_
     A->diagonal = DMB_ARENA_DOUBLES(arena, layout->diag[layout->n]);
     A->lower = DMB_ARENA_DOUBLES(arena, layout->link[layout->n - 1]);
     A->upper = DMB_ARENA_DOUBLES(arena, layout->link[layout->n - 1]);
-    A->linked = DMB_ARENA_DOUBLES(arena, reduced_values(scene));
+    A->jointed = DMB_ARENA_DOUBLES(arena, reduced_values(scene));
 }
 
 uint32_t dmb_pencil_unknowns(const dmb_scene *scene)
@@ -60,12 +60,12 @@ static void shift(dmb_pencil *pencil, double factor)
     combine(layout->diag[layout->n], pencil->K.diagonal, factor, pencil->G.diagonal, pencil->work.diagonal);
     combine(link, pencil->K.lower, factor, pencil->G.lower, pencil->work.lower);
     combine(link, pencil->K.upper, factor, pencil->G.upper, pencil->work.upper);
-    combine(reduced_values(pencil->scene), pencil->K.linked, factor, pencil->G.linked, pencil->work.linked);
+    combine(reduced_values(pencil->scene), pencil->K.jointed, factor, pencil->G.jointed, pencil->work.jointed);
 }
 
 static dmb_block_sparse sparse_of(const dmb_pencil *pencil, const dmb_pencil_matrix *A)
 {
-    const dmb_block_sparse matrix = {A->linked, pencil->reduced_pivot, pencil->sim->reduced_size};
+    const dmb_block_sparse matrix = {A->jointed, pencil->reduced_pivot, pencil->sim->reduced_size};
     return matrix;
 }
 
@@ -75,7 +75,7 @@ static int count_shifted(dmb_pencil *pencil, uint32_t *negative)
     const dmb_scene *scene = pencil->scene;
     *negative = 0;
     for (uint32_t c = 0; c < scene->chain_count; c++)
-        if (!scene->chains[c].linked)
+        if (!scene->chains[c].jointed)
             *negative += dmb_block_negative(&scene->layout, pencil->work.diagonal, pencil->work.lower,
                                             pencil->work.upper, NULL, scene->chains[c].first, scene->chains[c].count);
     if (scene->cluster_count == 0) return 1;
@@ -99,7 +99,7 @@ static double largest(size_t n, const double *values, double most)
 static double size_of(const dmb_pencil *pencil, const dmb_pencil_matrix *A)
 {
     const dmb_block_layout *layout = &pencil->scene->layout;
-    return largest(reduced_values(pencil->scene), A->linked, largest(layout->diag[layout->n], A->diagonal, 0.0));
+    return largest(reduced_values(pencil->scene), A->jointed, largest(layout->diag[layout->n], A->diagonal, 0.0));
 }
 
 static double aside_of(const dmb_pencil *pencil, double factor)
@@ -177,7 +177,7 @@ void dmb_pencil_multiply(const dmb_pencil *pencil, const dmb_pencil_matrix *A, c
     const dmb_block_matrix matrix = {A->diagonal, A->lower, A->upper, pencil->pivot};
     memset(y, 0, pencil->unknowns * sizeof(double));
     for (uint32_t c = 0; c < scene->chain_count; c++)
-        if (!scene->chains[c].linked)
+        if (!scene->chains[c].jointed)
             dmb_block_multiply(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count, x, y);
     if (scene->cluster_count == 0) return;
     const dmb_block_sparse linked = sparse_of(pencil, A);
@@ -191,7 +191,7 @@ int dmb_pencil_shift_and_factor(dmb_pencil *pencil, double factor)
     dmb_block_matrix matrix = {pencil->work.diagonal, pencil->work.lower, pencil->work.upper, pencil->pivot};
     shift(pencil, factor);
     for (uint32_t c = 0; c < scene->chain_count; c++)
-        if (!scene->chains[c].linked &&
+        if (!scene->chains[c].jointed &&
             dmb_block_factor(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count) >= 0)
             return 0;
     if (scene->cluster_count == 0) return 1;
@@ -204,7 +204,7 @@ void dmb_pencil_solve(const dmb_pencil *pencil, double *x)
     const dmb_scene *scene = pencil->scene;
     const dmb_block_matrix matrix = {pencil->work.diagonal, pencil->work.lower, pencil->work.upper, pencil->pivot};
     for (uint32_t c = 0; c < scene->chain_count; c++)
-        if (!scene->chains[c].linked)
+        if (!scene->chains[c].jointed)
             dmb_block_solve(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count, x);
     if (scene->cluster_count == 0) return;
     const dmb_block_sparse linked = sparse_of(pencil, &pencil->work);

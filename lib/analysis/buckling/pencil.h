@@ -2,7 +2,7 @@
  * positive definite: its critical factors > 0, counted by Sylvester's law of inertia, found by bisection, and their
  * vectors by inverse iteration (Parlett, The symmetric eigenvalue problem, 3.3 and 4.2).
  *
- * A vector has the rows of the scene, 0 in those of linked chains, and then the reduced coordinates of these. */
+ * A vector has the rows of the scene, 0 in those of jointed chains, and then the reduced coordinates of these. */
 #ifndef DMB_ANALYSIS_BUCKLING_PENCIL_H
 #define DMB_ANALYSIS_BUCKLING_PENCIL_H
 
@@ -11,12 +11,13 @@
 
 typedef struct dmb_pencil_matrix {
     double *diagonal, *lower, *upper; /* storage of the scene's layout */
-    double *linked;                   /* values of the scene's pattern, reduced as in system/solve/reduced_system.h; none without joints */
+    double *jointed; /* values of the scene's pattern, reduced as in system/solve/reduced_system.h; none without joints */
 } dmb_pencil_matrix;
 
 typedef struct dmb_pencil {
     const dmb_scene *scene;
-    const dmb_sim *sim; /* its reduced_size, reduced_row and progress; the caller's to set, NULL without joints and progress */
+    const dmb_sim
+        *sim; /* its reduced_size, reduced_row and progress; the caller's to set, NULL without joints and progress */
     dmb_pencil_matrix K, G, work;
     uint32_t unknowns;      /* length of a vector */
     uint32_t reserved;

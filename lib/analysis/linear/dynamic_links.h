@@ -18,7 +18,7 @@ void dmb_dynamic_links_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_l
 void dmb_dynamic_links_number(const dmb_linear *linear, dmb_links_size size, dmb_dynamic_links *out);
 /* From the blocks of A. A node that nothing holds, or -1. */
 int64_t dmb_dynamic_links_factor(dmb_dynamic_stiffness *stiffness);
-/* Rows of linked chains of x: forces in, displacements out. */
+/* Rows of jointed chains of x: forces in, displacements out. */
 void dmb_dynamic_links_solve(dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
 
 #endif

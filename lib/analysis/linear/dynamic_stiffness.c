@@ -112,7 +112,7 @@ int64_t dmb_dynamic_stiffness_factor_at(dmb_dynamic_stiffness *s, double growth,
     assemble(s);
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         const dmb_chain *chain = scene->chains + c;
-        if (chain->linked) continue;
+        if (chain->jointed) continue;
         int64_t bad = dmb_complex_block_factor(&scene->layout, &s->factors, chain->first, chain->count);
         if (bad < 0) bad = loose_node(s, chain);
         if (bad >= 0) return bad;
@@ -146,7 +146,7 @@ void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *s, int32_t moves, dmb_co
     for (uint32_t r = 0; r < scene->row_count; r++)
         if (!scene->solved_row[r]) x.re[r] = x.im[r] = 0.0;
     for (uint32_t c = 0; c < scene->chain_count; c++)
-        if (!scene->chains[c].linked)
+        if (!scene->chains[c].jointed)
             dmb_complex_block_solve(&scene->layout, &s->factors, scene->chains[c].first, scene->chains[c].count, x);
     if (scene->cluster_count > 0) dmb_dynamic_links_solve(s, x);
     if (moves) add_told(s, x);

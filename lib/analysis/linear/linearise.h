@@ -16,8 +16,8 @@
  *
  * so that gyroscopic and centrifugal terms of a steadily spinning string are in C and K, whose entries are constant
  * there: it is a relative equilibrium. Elsewhere in a run the coefficients are those of the moment.
- * In axes that do not take part in the spin w about a node's x axis, d is turned back by it, d <- exp(w^ t) d: with g = v - w
- * velocities of the perturbed motion are v + d' + g^ d, accelerations a + d'' + g^ d' - w^ (d' + g^ d) + a^ d, and
+ * In axes that do not take part in the spin w about a node's x axis, d is turned back by it, d <- exp(w^ t) d: with g = v -
+ * w velocities of the perturbed motion are v + d' + g^ d, accelerations a + d'' + g^ d' - w^ (d' + g^ d) + a^ d, and
  *
  *     C = C_v - M w^ + M g^,     K = K_H + (C_v - M w^) g^ + M a^,
  *

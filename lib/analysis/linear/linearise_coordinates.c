@@ -1,4 +1,4 @@
-/* Rows that guides and motion drives hold. */
+/* Rows that guides and motion drives hold, and the independent coordinates where joints are. */
 #include <math.h>
 #include <string.h>
 

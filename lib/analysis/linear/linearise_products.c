@@ -1,4 +1,4 @@
-/* Products with the matrices of a linear system. */
+/* Products and factors of the matrices of a linear system. */
 #include <math.h>
 #include <string.h>
 

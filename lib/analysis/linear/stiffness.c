@@ -37,7 +37,7 @@ uint32_t dmb_stiffness_negative_of_chains(dmb_sim *sim)
     uint32_t negative = 0;
     raise_rounding(sim);
     for (uint32_t c = 0; c < scene->chain_count; c++)
-        if (!scene->chains[c].linked)
+        if (!scene->chains[c].jointed)
             negative +=
                 dmb_block_negative(&scene->layout, sim->stiffness_diagonal, sim->stiffness_lower, sim->stiffness_upper,
                                    sim->scale_row, scene->chains[c].first, scene->chains[c].count);

@@ -8,7 +8,7 @@
 #include "sim/node.h"
 
 #define DMB_POOR_CONDITION 1e-4 /* smallest over largest singular value of the equations */
-#define DMB_LARGE_MISFIT 1e-8   /* [m, -] that an equation of position may be off */
+#define DMB_LARGE_VIOLATION 1e-8   /* [m, -] that an equation of position may be off */
 #define DMB_SMALL_MASS 1e-9     /* of the largest one */
 #define DMB_NEARLY_SQUARE 0.05  /* [rad] this near to where coordinates or equations lose their meaning */
 #define DMB_SUNK 0.01           /* of the hole's radius: deeper than a part that lies on the wall */
@@ -86,7 +86,7 @@ static void violation(const sink *to)
 {
     const dmb_cluster_rank *rank = &to->check->rank;
     dmb_message text, row;
-    if (!(rank->violation > DMB_LARGE_MISFIT)) return;
+    if (!(rank->violation > DMB_LARGE_VIOLATION)) return;
     dmb_constraint_row_text(to->sim, rank->violation_row, &row);
     dmb_message_set(&text, "violation: %s is off by %g", row.text, rank->violation);
     say(to, &text);

@@ -1,4 +1,4 @@
-/* What the strain energy of a mode tells of its eigenvalue. */
+/* Modes without rigid-body motions: strain energy as a test of an eigenvalue, and motions that are held or left out. */
 #include <float.h>
 #include <math.h>
 #include <string.h>

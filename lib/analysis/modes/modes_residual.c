@@ -1,4 +1,4 @@
-/* How well the modes satisfy their equations. */
+/* How well modes satisfy their equations, and how they are improved. */
 #include <complex.h>
 #include <float.h>
 #include <math.h>

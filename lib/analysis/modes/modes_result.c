@@ -1,4 +1,4 @@
-/* A mode that was found: normalised, and whether it is a rigid-body motion once more. */
+/* A mode that was found: normalised, told from rigid-body motions, put in its place, stored. */
 #include <math.h>
 #include <string.h>
 

@@ -288,8 +288,9 @@ static int32_t analyse(dmb_sim *sim, double frequency, const dmb_stepped_sine_op
     return status;
 }
 
-int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const dmb_stepped_sine_options *options, const dmb_output *outputs,
-                          uint32_t output_count, double *amplitudes, dmb_stepped_sine_report *report)
+int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const dmb_stepped_sine_options *options,
+                                  const dmb_output *outputs, uint32_t output_count, double *amplitudes,
+                                  dmb_stepped_sine_report *report)
 {
     if (sim == NULL || outputs == NULL || amplitudes == NULL) return DMB_ERR_NULL;
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);

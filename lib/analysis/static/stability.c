@@ -107,20 +107,20 @@ double dmb_asymmetry_of(const dmb_sim *sim, double rounding)
     const double arm = fmax(1.0, scene->length_scale), unit = rounding * arm * arm;
     double worst = scene->cluster_count ? asymmetry_of_reduced(sim, unit) : 0.0;
     for (uint32_t c = 0; c < scene->chain_count; c++)
-        if (!scene->chains[c].linked) worst = fmax(worst, asymmetry_of_chain(sim, scene->chains + c, unit));
+        if (!scene->chains[c].jointed) worst = fmax(worst, asymmetry_of_chain(sim, scene->chains + c, unit));
     return worst;
 }
 
 /* ---- Iteration matrix raised by rho D ------------------------------------------------------------------------------
  */
 
-static void raise_diagonal(dmb_sim *sim, double rho, int linked)
+static void raise_diagonal(dmb_sim *sim, double rho, int jointed)
 {
     const dmb_scene *scene = sim->scene;
     const double turning = scene->length_scale * scene->length_scale;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
-        if (scene->chains[scene->node_chain[i]].linked != linked) continue;
+        if (scene->chains[scene->node_chain[i]].jointed != jointed) continue;
         for (uint32_t c = 0; c < size; c++)
             if (scene->solved_row[row + c])
                 dmb_stiffness_of(sim, i)[(size_t)(size + 1) * c] += rho * (2 * c < size ? 1.0 : turning);
@@ -146,7 +146,7 @@ static int32_t negative_of_symmetric_part(dmb_static_search *state, double rho, 
     if (friction_turned && dmb_stability_turn_friction(&state->evaluation) <= 0) return -1;
     raise_diagonal(sim, rho, 0);
     for (uint32_t c = 0; c < scene->chain_count; c++)
-        if (!scene->chains[c].linked)
+        if (!scene->chains[c].jointed)
             negative += dmb_block_negative(&scene->layout, sim->stiffness_diagonal, sim->stiffness_lower,
                                            sim->stiffness_upper, NULL, scene->chains[c].first, scene->chains[c].count);
     if (scene->cluster_count == 0) return (int32_t)negative;
@@ -246,7 +246,7 @@ static int determinant_is_negative(const dmb_sim *sim)
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint32_t n = scene->layout.size[i];
         int exchanged = 0;
-        if (scene->chains[scene->node_chain[i]].linked) continue;
+        if (scene->chains[scene->node_chain[i]].jointed) continue;
         for (uint32_t k = 0; k < n; k++) exchanged ^= sim->pivot[scene->layout.row[i] + k] != k;
         odd ^= is_negative(n, sim->stiffness_diagonal + scene->layout.diag[i], exchanged);
     }
@@ -381,8 +381,8 @@ int32_t dmb_stability_judge(dmb_static_search *state, int thorough, dmb_block_we
     if (*bad >= 0) return DMB_OK;
     if (out->stiffness == DMB_STIFFNESS_UNSYMMETRIC) return judge_unsymmetric(state, thorough, out);
     if (scene->cluster_count == 0) return DMB_OK;
-    const uint32_t linked = negative_of_reduced(sim);
-    out->negative = (int32_t)(chains + linked);
-    if (linked > 0 && thorough) *bad = judge_reduced_again(sim, chains, out);
+    const uint32_t jointed = negative_of_reduced(sim);
+    out->negative = (int32_t)(chains + jointed);
+    if (jointed > 0 && thorough) *bad = judge_reduced_again(sim, chains, out);
     return DMB_OK;
 }

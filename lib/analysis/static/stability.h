@@ -1,4 +1,5 @@
-/* How far an iteration matrix of statics is from a symmetric one, and its symmetric part. */
+/* Whether a static state is stable; how far an iteration matrix of statics is from a symmetric one, and its symmetric part.
+ */
 #ifndef DMB_ANALYSIS_STATIC_STABILITY_H
 #define DMB_ANALYSIS_STATIC_STABILITY_H
 
@@ -21,12 +22,11 @@ void dmb_make_reduced_symmetric(const dmb_sim *sim, double *values);
  * real negative eigenvalues of K x = mu D x, D the weights 1 of displacements and length_scale^2 of rotations. By each of
  * these the state diverges, and none can come or go but through det K = 0, whatever D. They are looked for among the
  * eigenvalues nearest 0, unless a positive definite symmetric part, with or without what friction adds to it
- * (analysis/static/stability_friction.h), says that there is none: by Krylov subspaces on x -> K^-1 D x, as many vectors as some
- * hundreds of millions of products allow, until
- *     the symmetric part H leaves none further out: mu >= -rho where H + rho D is positive definite, x.Hx = mu x.Dx; or
- *     so many have been seen, and the sign of det K agrees with their number.
- * The sign alone would not do: what is round diverges in two directions at once. Flutter is not looked for: it depends on
- * mass and damping (modes). */
+ * (analysis/static/stability_friction.h), says that there is none: by Krylov subspaces on x -> K^-1 D x, as many vectors as
+ * some hundreds of millions of products allow, until the symmetric part H leaves none further out: mu >= -rho where H + rho
+ * D is positive definite, x.Hx = mu x.Dx; or so many have been seen, and the sign of det K agrees with their number. The
+ * sign alone would not do: what is round diverges in two directions at once. Flutter is not looked for: it depends on mass
+ * and damping (modes). */
 
 typedef struct dmb_stability {
     int32_t stiffness;  /* DMB_STIFFNESS_... */

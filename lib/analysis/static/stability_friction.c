@@ -100,7 +100,7 @@ int32_t dmb_stability_turn_friction(const dmb_evaluation *evaluation)
     gather_rings(evaluation, &field);
     const int done = field.most > 0.0 && field.most < DMB_FRICTION_MOST;
     for (uint32_t c = 0; c < scene->chain_count && done; c++)
-        if (!scene->chains[c].linked) turn_chain(sim, scene->chains + c, field.E);
+        if (!scene->chains[c].jointed) turn_chain(sim, scene->chains + c, field.E);
     dmb_release(&sim->allocator, field.E, bytes);
     return done;
 }

@@ -275,7 +275,7 @@ static int is_held(const dmb_scene *scene, const dmb_string_map *string, uint32_
     for (uint32_t k = 0; k < scene->bit_count; k++)
         if (scene->bits[k].law.kind != DMB_ROCK_NONE && scene->bits[k].node - string->first_node < string->node_count)
             return 1;
-    return scene->chains[scene->node_chain[string->first_node]].linked; /* joints may hold it */
+    return scene->chains[scene->node_chain[string->first_node]].jointed; /* joints may hold it */
 }
 
 /* What moves along for ever is seen as poses that do not converge, or bend too far on the way: the string is named. */

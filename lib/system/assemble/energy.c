@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "element/beam.h"
-#include "element/lump.h"
+#include "element/rigid_mass.h"
 #include "sim/node.h"
 
 static const dmb_element_type *type_of(const dmb_scene *scene, uint32_t e)

@@ -26,8 +26,8 @@ void dmb_rigid_mass_kinetic_parts(const dmb_scene *scene, const dmb_configuratio
  * side: (axial, shear, shear, torque, moment, moment); material damping included, shape (2, 6). */
 void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                                double force[12]);
-/* The same with the element's own weight and inertia, which its nodes carry in rigid_masses: the loads of the very sections at
- * its ends. Bars on the hole's axis: as above. Shape (2, 6). */
+/* The same with the element's own weight and inertia, which its nodes carry in rigid_masses: the loads of the very sections
+ * at its ends. Bars on the hole's axis: as above. Shape (2, 6). */
 void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                            double load[12]);
 

@@ -30,7 +30,7 @@ typedef struct dmb_evaluation {
     int32_t extrapolated;     /* 1: geometric stiffness with element_stress as it stands, 0: with the true stress */
     int32_t slipping;         /* statics: friction acts as at the speed slip[] */
     double slip[2];           /* [m/s, rad/s] along the hole, of rotation */
-    double rounding;          /* [N2] sum of squares of what rounding of the poses makes of the forces (elements, joints, wall) */
+    double rounding; /* [N2] sum of squares of what rounding of the poses makes of the forces (elements, joints, wall) */
     double power[8];          /* [W] of each class of force on the bodies, DMB_POWER_... */
     int32_t status;           /* of this evaluation */
     uint32_t element;         /* where status says DMB_ERR_ROTATION */

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "element/lump.h"
+#include "element/rigid_mass.h"
 #include "math/so3.h"
 
 /* ---- Between the node and the centre of mass -------------------------------------------------------------------- */

@@ -1,4 +1,5 @@
-/* How the force of a contact site changes with its motion, in a finished configuration. */
+/* Contact sites at the wall of the hole: their forces in the residual, and how a force changes with the motion of its site.
+ */
 #ifndef DMB_SYSTEM_ASSEMBLE_WALL_CONTACT_H
 #define DMB_SYSTEM_ASSEMBLE_WALL_CONTACT_H
 

@@ -11,7 +11,7 @@
 
 enum { DMB_ASSEMBLY_MAX = 200 };
 /* [m, -] what may be left of an equation that is not needed, or at the end. */
-#define DMB_ASSEMBLY_MISFIT 1e-8
+#define DMB_ASSEMBLY_VIOLATION 1e-8
 
 static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
 {
@@ -65,7 +65,7 @@ static int32_t close_positions(dmb_evaluation *evaluation)
                         owner.text, sim->clock->time);
         return status;
     }
-    if (violation <= DMB_ASSEMBLY_MISFIT * sim->reduced_mode->length && status >= 0) return DMB_OK;
+    if (violation <= DMB_ASSEMBLY_VIOLATION * sim->reduced_mode->length && status >= 0) return DMB_OK;
     if (row == UINT32_MAX) row = 0;
     return refuse(sim, row, fabs(sim->constraint_value[row]), "its parts cannot be brought together");
 }
@@ -112,7 +112,7 @@ int32_t dmb_assembled_speeds(dmb_evaluation *evaluation)
                     sum += part;
                     size += fabs(part); /* rounding goes with it, whatever the unit of the row */
                 }
-            if (fabs(sum) > DMB_ASSEMBLY_MISFIT * size) return refuse(sim, c->row + k, sum, "its speed cannot be had");
+            if (fabs(sum) > DMB_ASSEMBLY_VIOLATION * size) return refuse(sim, c->row + k, sum, "its speed cannot be had");
         }
     }
     return DMB_OK;

@@ -206,7 +206,7 @@ static void set_lengths(dmb_sim *sim)
     double span = 0.0;
     mode->length = 0.0;
     for (uint32_t c = 0; c < scene->chain_count; c++)
-        if (scene->chains[c].linked) mode->length = fmax(mode->length, scene->chains[c].length);
+        if (scene->chains[c].jointed) mode->length = fmax(mode->length, scene->chains[c].length);
     for (uint32_t j = 0; j < scene->joint_count; j++) span = fmax(span, dmb_vec3_norm(scene->joints[j].span));
     mode->size = mode->length + span;
 }

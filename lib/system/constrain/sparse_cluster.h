@@ -6,8 +6,8 @@
  *     [BW   0   ] [-f ] = [ d ]        W: metric of the columns
  *
  * with a = 0 the least move with B W x = d; with d = 0 the multipliers for which the rest of a is least. The corrections
- * of Newton come from [S B^T; B 0] (system/solve/reduced_sparse). All of it is linear in the number of bodies of chains and trees;
- * a loop costs what its width in the order of elimination asks. */
+ * of Newton come from [S B^T; B 0] (system/solve/reduced_sparse). All of it is linear in the number of bodies of chains and
+ * trees; a loop costs what its width in the order of elimination asks. */
 #ifndef DMB_SYSTEM_CONSTRAIN_SPARSE_CLUSTER_H
 #define DMB_SYSTEM_CONSTRAIN_SPARSE_CLUSTER_H
 
@@ -15,8 +15,8 @@
 #include "system/assemble/evaluation.h"
 
 /* A row of which elimination leaves less than this square of the sine to those before it is redundant. The rows that close
- * a ring of n bodies have 13/n^3, and leave up to 1e-16 n^3 of rounding to redundant ones behind them: measured up to n = 800,
- * where the least is 2.6e-8. */
+ * a ring of n bodies have 13/n^3, and leave up to 1e-16 n^3 of rounding to redundant ones behind them: measured up to n =
+ * 800, where the least is 2.6e-8. */
 #define DMB_SPARSE_RANK 1e-9
 
 static inline int32_t dmb_is_sparse(const dmb_scene *scene, uint32_t constraint)

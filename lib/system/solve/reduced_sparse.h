@@ -1,4 +1,4 @@
-/* Sparse clusters in the linked system: the blocks of their nodes hold the multipliers of the rows that are chosen,
+/* Sparse clusters in the reduced system: the blocks of their nodes hold the multipliers of the rows that are chosen,
  *
  *     [S  B^T D] [ z      ]     [residual]
  *     [D B   0 ] [ D^-1 df] = - [0       ]

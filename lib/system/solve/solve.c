@@ -58,7 +58,7 @@ static int32_t judge(const dmb_evaluation *evaluation, const dmb_chain *chain, d
     if (!(n.all <= DBL_MAX)) return 0;
     if (n.rest <= tolerance * tolerance * n.all) return DMB_CONVERGED;
     const int stiff =
-        chain->count > 1 || chain->linked || (!evaluation->dynamic && evaluation->sim->scene->element_count == 0);
+        chain->count > 1 || chain->jointed || (!evaluation->dynamic && evaluation->sim->scene->element_count == 0);
     return stiff && n.rest <= floor * floor * evaluation->rounding ? DMB_AT_ROUNDING : 0;
 }
 
@@ -92,7 +92,7 @@ int64_t dmb_factor_matrix(dmb_sim *sim)
     *sim->factors = DMB_FACTORS_FRESH;
     dmb_block_matrix matrix = matrix_of(sim);
     for (uint32_t c = 0; c < scene->chain_count; c++) {
-        if (scene->chains[c].linked) continue;
+        if (scene->chains[c].jointed) continue;
         const int64_t bad =
             scene->kernels->factor(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count);
         if (bad >= 0) return bad;
@@ -109,7 +109,7 @@ int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest)
     weakest->ratio = (double)INFINITY;
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         const dmb_chain *chain = scene->chains + c;
-        if (chain->linked) continue;
+        if (chain->jointed) continue;
         const int64_t bad =
             dmb_block_factor_watched(&scene->layout, &matrix, chain->first, chain->count, &chain_weakest);
         if (chain_weakest.ratio < weakest->ratio) *weakest = chain_weakest;
@@ -146,13 +146,13 @@ void dmb_solve_correction(dmb_sim *sim)
     const dmb_block_matrix matrix = matrix_of(sim);
     for (uint32_t i = 0; i < scene->row_count; i++)
         sim->correction[i] = scene->solved_row[i] ? -sim->correction[i] : 0.0;
-    if (*sim->factors == DMB_FACTORS_KEPT) {
+    if (*sim->factors == DMB_FACTORS_REUSED) {
         dmb_solve_reused(sim);
         return;
     }
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         const dmb_chain *chain = scene->chains + c;
-        if (chain->linked) continue;
+        if (chain->jointed) continue;
         if (*sim->factors == DMB_FACTORS_LU)
             dmb_block_solve(&scene->layout, &matrix, chain->first, chain->count, sim->correction);
         else
@@ -181,7 +181,7 @@ void dmb_forget_factors(dmb_sim *sim)
 {
     const dmb_block_layout *layout = &sim->scene->layout;
     const uint32_t n = sim->scene->node_count;
-    memset(sim->kept, 0, sizeof *sim->kept);
+    memset(sim->reuse, 0, sizeof *sim->reuse);
     if (sim->scene->cluster_count) return; /* no room for any */
     memset(sim->kept_diagonal, 0, layout->diag[n] * sizeof(double));
     memset(sim->kept_lower, 0, layout->link[n - 1] * sizeof(double));

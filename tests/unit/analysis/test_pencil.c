@@ -36,9 +36,9 @@ static void open_pair(pair *p, const dmb_allocator *allocator, double coupling, 
     p->pencil.scene = &p->scene;
     p->pencil.sim = &p->sim;
     p->sim.progress = &p->sim.own_progress;
-    p->pencil.K.linked = p->K;
-    p->pencil.G.linked = p->G;
-    p->pencil.work.linked = p->work;
+    p->pencil.K.jointed = p->K;
+    p->pencil.G.jointed = p->G;
+    p->pencil.work.jointed = p->work;
     p->pencil.reduced_pivot = p->pivot;
     set(&p->scene.pattern, p->K, 0.0, coupling);
     set(&p->scene.pattern, p->G, by_factor, 0.0);

@@ -342,8 +342,8 @@ static double slip(const pose *at, double r, const double V[6], double rows_time
     return largest(3, rows_times_V);
 }
 
-/* An upright disc, its axis along y of a, its z axis up: spin w_x takes it along -y of b, along t. Spinning on the material_point
- * about the normal does not slip either; sliding along and across does, and is told apart. */
+/* An upright disc, its axis along y of a, its z axis up: spin w_x takes it along -y of b, along t. Spinning on the
+ * material_point about the normal does not slip either; sliding along and across does, and is told apart. */
 static void upright_disc(void **state)
 {
     const double r = 0.4;

@@ -5,7 +5,7 @@
 #include "check.h"
 
 #include "element/beam.h"
-#include "element/lump.h"
+#include "element/rigid_mass.h"
 #include "model/section.h"
 
 /* A short stubby pipe whose stiffnesses are of one size, so that no term hides behind another. */

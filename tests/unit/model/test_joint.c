@@ -277,7 +277,7 @@ static void two_bodies(void **state)
     assert_int_equal(scene->block_count, 1);
     assert_int_equal(scene->pattern.n, 1);
     assert_int_equal(scene->pattern.rows, 18);
-    assert_true(scene->chains[0].linked && !scene->chains[1].linked && scene->chains[2].linked);
+    assert_true(scene->chains[0].jointed && !scene->chains[1].jointed && scene->chains[2].jointed);
     assert_int_equal(scene->dense_count, 72);
     assert_int_equal(scene->square_count, 36);
     assert_int_equal(scene->full_count, 144);
@@ -414,7 +414,7 @@ static void within_a_string(void **state)
     assert_int_equal(scene->block_count, 4);
     assert_true(scene->link_offset[2] == SIZE_MAX);
     assert_true(scene->link_offset[0] != SIZE_MAX && scene->link_offset[4] != SIZE_MAX);
-    assert_int_equal(scene->chains[1].linked, 0);
+    assert_int_equal(scene->chains[1].jointed, 0);
     expect_consistent(scene);
     expect_links(scene);
     dmb_model_destroy(&model);
@@ -494,7 +494,7 @@ static void plain_string(void **state)
     assert_null(scene->node_block);
     assert_null(scene->link_offset);
     assert_null(scene->pattern.block);
-    assert_int_equal(scene->chains[0].linked, 0);
+    assert_int_equal(scene->chains[0].jointed, 0);
     assert_int_equal(scene->drives[0].joint, UINT32_MAX);
     assert_int_equal(scene->drives[0].constraint, UINT32_MAX);
     assert_int_equal(scene->drives[0].row, 0);

@@ -92,7 +92,8 @@ static void every_part_is_weighed(void **state)
         assert_near(mass, expected, 1e-14);
         assert_near(moment, expected_moment, 1e-13);
         assert_near(rigid_mass_mass(scene) + element_mass(scene), expected, 1e-14);
-        for (uint32_t i = 1; i < scene->rigid_mass_count; ++i) assert_true(scene->rigid_masses[i - 1].node < scene->rigid_masses[i].node);
+        for (uint32_t i = 1; i < scene->rigid_mass_count; ++i)
+            assert_true(scene->rigid_masses[i - 1].node < scene->rigid_masses[i].node);
         dmb_model_destroy(&model);
     }
 }

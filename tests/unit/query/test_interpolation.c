@@ -146,7 +146,8 @@ static void velocity_is_the_derivative_of_pose(void **state)
     moving(&before), advance(&before, -t);
     moving(&after), advance(&after, t);
     for (int i = 0; i < STATIONS; i++) {
-        const dmb_material_point_pose p0 = one_element_pose(&before, stations[i]), p1 = one_element_pose(&after, stations[i]);
+        const dmb_material_point_pose p0 = one_element_pose(&before, stations[i]),
+                                      p1 = one_element_pose(&after, stations[i]);
         const dmb_material_point_pose p = one_element_pose(&now, stations[i]);
         const dmb_material_point_motion m = one_element_motion(&now, stations[i]);
         double dx[3], Q[9], O[3];

@@ -86,7 +86,7 @@ static void they_hold_at_any_angle(void **state)
         turn_to(sim, angles[k], 20.0);
         factor(sim);
         solve(sim, DMB_FACTORS_FRESH, residual, fresh);
-        solve(sim, DMB_FACTORS_KEPT, residual, kept);
+        solve(sim, DMB_FACTORS_REUSED, residual, kept);
         tell("angle [rad]", angles[k]);
         check_below("kept against fresh factors, of the correction", difference(ROWS, kept, fresh), 1e-9);
         tell("the same without the turn", difference(ROWS, first, fresh));

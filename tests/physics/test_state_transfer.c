@@ -144,7 +144,7 @@ static choice with_pipes(choice c, uint32_t pipes)
 static int32_t go_over(scene *to, const scene *from)
 {
     const int32_t status = dmb_sim_transfer_state(to->r.sim, from->r.sim);
-    if (status < 0) fail_msg("carry over: %s: %s", dmb_status_name(status), dmb_sim_message(to->r.sim));
+    if (status < 0) fail_msg("state transfer: %s: %s", dmb_status_name(status), dmb_sim_message(to->r.sim));
     return status;
 }
 
