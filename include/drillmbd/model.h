@@ -53,8 +53,8 @@ typedef struct dmb_environment_def {
     uint32_t struct_size;
     uint32_t reserved;
     double gravity[3];         /* [m/s2] world frame, default (0, 0, -9.81), shape (3) */
-    double fluid_density;      /* [kg/m3] mud or air inside and outside the pipes, for the buoyancy of pipes and tool joints (bits and
-                                  bodies get none); default 0 */
+    double fluid_density;      /* [kg/m3] mud or air inside and outside the pipes, for the buoyancy of pipes and tool
+                                  joints (bits and bodies get none); default 0 */
     double lateral_damping;    /* [N s/m2] external damping force per metre of pipe and m/s of sideways speed; default 0 */
     double axial_damping;      /* [N s/m2] the same along the pipe; default 0 */
     double torsional_damping;  /* [N s] external moment per metre of pipe and rad/s of spin; default 0 */
@@ -414,8 +414,8 @@ DMB_SIZED_STRUCT(dmb_compile_options)
 /* Checks the scene as a whole, meshes and numbers it, chooses kernels, and freezes the model: no more parts can be
  * added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was.
  * Warns (log, dmb_model_message, dmb_analysis_check) of rings of bodies and bits that a guide keeps off the wall.
- * Errors: that of a part that was refused (dmb_model_clear_refused); DMB_ERR_ORDER (already compiled), _ID (the first string is meant and there is none), _VALUE, _GEOMETRY,
- * _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(number of elements). */
+ * Errors: that of a part that was refused (dmb_model_clear_refused); DMB_ERR_ORDER (already compiled), _ID (the first
+ * string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(number of elements). */
 DMB_API int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options);
 
 typedef struct dmb_model_info {

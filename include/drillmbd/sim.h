@@ -52,8 +52,8 @@ DMB_SIZED_STRUCT(dmb_sim_options)
 /* Bytes of the block that dmb_sim_create_in needs. O(1). Errors: DMB_ERR_ORDER (model not compiled), DMB_ERR_VALUE. */
 DMB_API int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *options, size_t *size);
 /* Makes a sim at time 0 in the described pose and speed. options may be NULL. DMB_NOTE_PROJECTED when initial
- * velocities did not fit the allowed motion; dmb_sim_message tells by how much. Errors (dmb_model_message says why): _ORDER, _VALUE, _NO_MEMORY,
- * _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The sim holds the model until it
+ * velocities did not fit the allowed motion; dmb_sim_message tells by how much. Errors (dmb_model_message says why):
+ * _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The sim holds the model until it
  * is destroyed. O(number of elements). */
 DMB_API int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options, dmb_sim **sim);
 /* The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used. */
@@ -71,8 +71,8 @@ DMB_API double dmb_sim_time(const dmb_sim *sim);
 typedef int32_t (*dmb_progress_fn)(void *context, double fraction);
 /* From now on dmb_sim_step, _advance and all analyses of this sim call `function` at bounded intervals, in the thread of the
  * call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK's is one
- * interval. Nonzero ends the call: DMB_ERR_CANCELLED with all that a failing call leaves alone as before (dmb_analysis_stepped_sine:
- * the sim is in its last accepted state), but for dmb_sim_advance, which ends with DMB_NOTE_CANCELLED in its last accepted
+ * interval. Nonzero ends the call: DMB_ERR_CANCELLED with all that a failing call leaves alone as before
+ * (dmb_analysis_stepped_sine: the sim is in its last accepted state), but for dmb_sim_advance, which ends with DMB_NOTE_CANCELLED in its last accepted
  * state; the same call may be made again. To end a call from another thread or a signal handler, let the function look at a
  * flag that these set. It may not change the sim (above) nor jump out. NULL: nobody is told, as after create, and nothing
  * is paid. Neither saved in snapshots nor hashed. Errors: DMB_ERR_NULL, _HANDLE; _ORDER within a call on the sim. */
@@ -102,7 +102,8 @@ DMB_API int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *rep
  * state is then the last accepted one, whose time dmb_sim_time tells. */
 DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report);
 /* From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For
- * DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; accelerations are made to fit the jump. DMB_ERR_UNSUPPORTED for DMB_DRIVE_MOTION, whose speed may not jump. */
+ * DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; accelerations are made to fit the jump. DMB_ERR_UNSUPPORTED
+ * for DMB_DRIVE_MOTION, whose speed may not jump. */
 DMB_API int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value);
 
 /* From now on the joint is DMB_JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the

@@ -1073,7 +1073,7 @@ class ResponseOptions(Sized):
 
 
 class SteppedSineOptions(Sized):
-    c_name, about = "dmb_stepped_sine_options", "Stepped sine ------------------------------------------------------------------------------------------------ Response in time to what the scene's own programmes do at one frequency, where the linear one does not hold: contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC programme, a drive's speed), carry the state over (dmb_sim_transfer_state) to go up or down from one to the next. Calls on different sims share nothing: hand them to as many threads as there are cores, the answers are the same to the bit."
+    c_name, about = "dmb_stepped_sine_options", "Stepped sine ------------------------------------------------------------------------------------------------ Response in time to what the scene's own programmes do at one frequency, where the linear one does not hold: contacts that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC programme, a drive's speed), transfer the state (dmb_sim_transfer_state) to go up or down from one to the next. Calls on different sims share nothing: hand them to as many threads as there are cores, the answers are the same to the bit."
     struct_size: int
     steps_per_period: int
     periods: int
