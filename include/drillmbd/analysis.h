@@ -13,7 +13,8 @@ extern "C" {
  *   2. statics, paths, buckling, responses, stepped sine, speeds to avoid: the same bits likewise; they call no BLAS;
  *   3. modes, and `condition` of a model check: LAPACK's digits. They differ by rounding with the host's BLAS and the number
  *      of its threads: eigenvalues by some 1e-12 of themselves, shapes by as much over the distance to the next frequency;
- *      counts, ranks and rigid-body modes do not. One thread of BLAS (OPENBLAS_NUM_THREADS=1) gives the same bits here too. */
+ *      counts, ranks and rigid-body modes do not. One thread of BLAS (OPENBLAS_NUM_THREADS=1) gives the same bits here
+ * too. */
 
 /* Steady states of a scene whose motion drives (DMB_DRIVE_MOTION) move at the present time, in which a run goes on without
  * a transient. Programmes that change count with their speed at that time. */
@@ -87,8 +88,8 @@ DMB_SIZED_STRUCT(dmb_static_report)
 DMB_API int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report);
 
 /* ---- Buckling ----------------------------------------------------------------------------------------------------
- * What grows with the factor of a buckling analysis or of a path, on top of the loads of the present time; factor 0 is
- * the present state. */
+ * The loads that grow with the factor of a buckling analysis or of a path, on top of the loads of the present time; factor
+ * 0 is the present state. */
 enum {
     DMB_SCALE_ALL = 0,   /* gravity, all loads, bit loads, forces of load drives: 1 + factor times the present ones */
     DMB_SCALE_LOADS = 1, /* the same without gravity */
@@ -110,7 +111,7 @@ typedef struct dmb_buckling_options {
     double slip_rotation;    /* [rad/s] */
 } dmb_buckling_options;
 DMB_SIZED_STRUCT(dmb_buckling_options)
-/* What ended the way along the equilibria. */
+/* Reason for the end of the way along the equilibria. */
 enum {
     DMB_BUCKLING_EXTRAPOLATED = 0, /* there was none: follow = 0, or nothing buckles about the present state */
     DMB_BUCKLING_BIFURCATION = 1,  /* an eigenvalue of the stiffness passes 0, or a complex pair of an unsymmetric one
@@ -140,15 +141,17 @@ typedef struct dmb_buckling dmb_buckling;
  * singular. K is the tangent stiffness with its contacts as they are, closed ones holding and swinging with F/e around the
  * axis; dK is its change along the response of the state to the pattern of loads, both in the frames of the state; with
  * joints both are those of the independent coordinates. A symmetric K is counted by the signs of the pivots (Sylvester), so
- * that no factor is missed, and factors are found by bisection; of an unsymmetric one they are the real eigenvalues by Krylov
- * subspaces, and what may flutter before is not looked for.
+ * that no factor is missed, and factors are found by bisection; of an unsymmetric one they are the real eigenvalues by
+ * Krylov subspaces, and what may flutter before is not looked for.
  * That is an extrapolation, good where sections turn and contacts shift little on the way. So the equilibria are followed
  * (dmb_analysis_path) to the factor, linearised again, and so on until an eigenvalue of their stiffness passes 0: the lowest
- * factor is where the path loses its stability, at a bifurcation or limit point, and shape and further factors are linearised
- * just before. dmb_buckling_get_info tells. The sim is not changed.
+ * factor is where the path loses its stability, at a bifurcation or limit point, and shape and further factors are
+ * linearised just before. dmb_buckling_get_info tells. The sim is not changed.
  * DMB_NOTE_STOPPED where fewer than `count` lie below factor_max or can be told (beyond a limit point none can; message says
- * how far the equilibria stay stable where there is none). DMB_NOTE_EXTRAPOLATED where some of the factors are not confirmed.
- * Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no equilibrium or not stable; message says by how much), _SINGULAR (message
+ * how far the equilibria stay stable where there is none). DMB_NOTE_EXTRAPOLATED where some of the factors are not
+ * confirmed.
+ * Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no equilibrium or not stable; message says by how much), _SINGULAR
+ * (message
  * says which part is free), _NO_CONVERGENCE (the equilibria could not be followed; message says how far), _UNSUPPORTED (a
  * motion drive of a joint; a state that slides or turns by its drives: take DMB_STEADY_AT_REST, and the slip here, for
  * it), _NO_MEMORY, _CALLBACK, _CANCELLED; *buckling is NULL then. Some 40 counts a factor and 10 to 100 iterations on
@@ -229,12 +232,12 @@ DMB_SIZED_STRUCT(dmb_path_report)
  * options and report may be NULL; where the path was lost the report tells how far it came. DMB_NOTE_STOPPED after
  * max_points or by the callback. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no equilibrium), _SINGULAR (message
  * says which part is free, or that the factor moves nothing), _NO_CONVERGENCE (message says where the path was lost),
- * _ROTATION (above 2.5 rad in an element, likewise), _UNSUPPORTED (as of buckling), _NO_MEMORY, _CALLBACK, _CANCELLED. O(number
- * of elements) an iteration; memory: the sim's once more. */
+ * _ROTATION (above 2.5 rad in an element, likewise), _UNSUPPORTED (as of buckling), _NO_MEMORY, _CALLBACK, _CANCELLED.
+ * O(number of elements) an iteration; memory: the sim's once more. */
 DMB_API int32_t dmb_analysis_path(dmb_sim *sim, const dmb_path_options *options, dmb_path_report *report);
 
 /* ---- Model check -------------------------------------------------------------------------------------------------
- * What a scene consists of, how many degrees of freedom it has, and what looks wrong with it. */
+ * The parts of a scene, its degrees of freedom, and warnings. */
 typedef struct dmb_check_report {
     uint32_t struct_size;
     uint32_t rigid_parts;       /* [-] bodies and bits (fixed to a string or not), rigid pipes, rigid tool joints */
@@ -283,7 +286,7 @@ DMB_API int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report)
 DMB_API int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t size, size_t *needed);
 
 /* ---- Linear analyses ---------------------------------------------------------------------------------------------
- * What the wall is to small motion about a state (modes.h, response.h). */
+ * The wall in small motion about a state (modes.h, response.h). */
 enum {
     DMB_CONTACT_AS_IS = 0, /* rings that touch the wall press on it, others do not */
     DMB_CONTACT_OPEN = 1,  /* there is no wall; what it presses with in the state stays as a dead load */

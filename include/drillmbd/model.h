@@ -29,7 +29,7 @@ DMB_API int32_t dmb_model_create(const dmb_model_options *options, dmb_model **m
  * do, copies of the handle are refused (DMB_ERR_HANDLE) and destroying through them does nothing. Nor does it within a
  * call that describes or compiles the model (by its allocator or log), where such calls give DMB_ERR_ORDER. NULL-safe. */
 DMB_API void dmb_model_destroy(dmb_model **model);
-/* What the last failing or noteworthy call on this model said: "part, field, value, bound". Never NULL; lives until the
+/* Message of the last failing or noteworthy call on this model: "part, field, value, bound". Never NULL; lives until the
  * next call on the model. A compiled model shared between threads keeps the message of its compilation; after a
  * dmb_sim_create that failed, the thread that called it reads the reason here, until its next create of the model. */
 DMB_API const char *dmb_model_message(const dmb_model *model);

@@ -30,7 +30,7 @@ typedef struct dmb_sim_options {
     void *log_context;
     double spectral_radius;       /* [-] of generalized-alpha at infinite frequency, 0 .. 1; default 0.8 */
     double newton_tolerance;      /* [-] residual over the norm of the forces that balance in it, 1e-14 .. 1e-1; default
-                                     1e-8. What rounding of the poses makes of a stiff pipe's force counts as zero; a
+                                     1e-8. The force that rounding of the poses makes in a stiff pipe counts as zero; a
                                      step solved with factors of an earlier one aims at a fifth of it */
     double tolerance_translation; /* [m] local error of dmb_sim_advance a step, > 0; default 1e-6 */
     double tolerance_rotation;    /* [rad] the same for rotation, > 0; default 1e-5 */
@@ -53,15 +53,15 @@ DMB_SIZED_STRUCT(dmb_sim_options)
 DMB_API int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *options, size_t *size);
 /* Makes a sim at time 0 in the described pose and speed. options may be NULL. DMB_NOTE_PROJECTED when initial
  * velocities did not fit the allowed motion; dmb_sim_message tells by how much. Errors (dmb_model_message says why):
- * _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The sim holds the model until it
- * is destroyed. O(number of elements). */
+ * _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The sim
+ * holds the model until it is destroyed. O(number of elements). */
 DMB_API int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options, dmb_sim **sim);
 /* The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used. */
 DMB_API int32_t dmb_sim_create_in(dmb_model *model, const dmb_sim_options *options, void *block, size_t size,
                                   dmb_sim **sim);
 /* Gives the memory back and sets *sim to NULL; does nothing within a call on this sim. NULL-safe. */
 DMB_API void dmb_sim_destroy(dmb_sim **sim);
-/* What the last failing or noteworthy call on this sim said. Never NULL; lives until the next call on the sim. */
+/* Message of the last failing or noteworthy call on this sim. Never NULL; lives until the next call on the sim. */
 DMB_API const char *dmb_sim_message(const dmb_sim *sim);
 /* [s] time of the last accepted state; NaN for NULL. */
 DMB_API double dmb_sim_time(const dmb_sim *sim);
@@ -72,7 +72,8 @@ typedef int32_t (*dmb_progress_fn)(void *context, double fraction);
 /* From now on dmb_sim_step, _advance and all analyses of this sim call `function` at bounded intervals, in the thread of the
  * call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK's is one
  * interval. Nonzero ends the call: DMB_ERR_CANCELLED with all that a failing call leaves alone as before
- * (dmb_analysis_stepped_sine: the sim is in its last accepted state), but for dmb_sim_advance, which ends with DMB_NOTE_CANCELLED in its last accepted
+ * (dmb_analysis_stepped_sine: the sim is in its last accepted state), but for dmb_sim_advance, which ends with
+ * DMB_NOTE_CANCELLED in its last accepted
  * state; the same call may be made again. To end a call from another thread or a signal handler, let the function look at a
  * flag that these set. It may not change the sim (above) nor jump out. NULL: nobody is told, as after create, and nothing
  * is paid. Neither saved in snapshots nor hashed. Errors: DMB_ERR_NULL, _HANDLE; _ORDER within a call on the sim. */
@@ -98,8 +99,8 @@ DMB_SIZED_STRUCT(dmb_step_report)
  * Chung, Hulbert 1993; Bruls, Cardona, Arnold 2012. */
 DMB_API int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report);
 /* Advances to `time` [s] with steps chosen to hold the local error tolerances, bounded_work or not. DMB_NOTE_TOLERANCE where
- * a step of step_min was too long for them, DMB_NOTE_STOPPED after max_steps, DMB_NOTE_CANCELLED. Errors as dmb_sim_step; the
- * state is then the last accepted one, whose time dmb_sim_time tells. */
+ * a step of step_min was too long for them, DMB_NOTE_STOPPED after max_steps, DMB_NOTE_CANCELLED. Errors as dmb_sim_step;
+ * the state is then the last accepted one, whose time dmb_sim_time tells. */
 DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report);
 /* From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For
  * DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; accelerations are made to fit the jump. DMB_ERR_UNSUPPORTED

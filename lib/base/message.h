@@ -1,4 +1,4 @@
-/* What the last failing call says: "pipe 3: outer_diameter = nan, must be finite and > inner_diameter". A message is a
+/* Message of the last failing call: "pipe 3: outer_diameter = nan, must be finite and > inner_diameter". A message is a
  * fixed buffer, so that saying why never allocates. Text that does not fit is cut. */
 #ifndef DMB_BASE_MESSAGE_H
 #define DMB_BASE_MESSAGE_H
@@ -33,8 +33,8 @@ void dmb_message_field(dmb_message *message, const char *part, uint32_t index, c
 void dmb_message_component(dmb_message *message, const char *part, uint32_t index, const char *field,
                            uint32_t component, double value, const char *bound);
 
-/* What messages call a part that may have a name: "joint 3 (crank)", or "joint 3" without one. name: size bytes, may
- * lack its 0, and counts as none then. Returns text->text. */
+/* Name of a part in messages, where it may have one of its own: "joint 3 (crank)", or "joint 3" without one. name: size
+ * bytes, may lack its 0, and counts as none then. Returns text->text. */
 const char *dmb_part_text(dmb_message *text, const char *part, uint32_t index, const char *name, size_t size);
 
 /* Empties the message. */

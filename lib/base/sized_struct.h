@@ -25,7 +25,7 @@ enum { DMB_STRUCT_MAX_EXTRA = 1024 };
 /* Writes size bytes: struct_size, then defaults (known bytes long), then zeros. Errors: DMB_ERR_NULL, _STRUCT_SIZE. */
 int32_t dmb_struct_init(void *out, uint32_t size, const void *defaults, size_t known, size_t oldest);
 
-/* Reads a caller's struct into dst, prefilled with defaults and known bytes long. What src does not have keeps its
+/* Reads a caller's struct into dst, prefilled with defaults and known bytes long. Fields that src does not have keep their
  * default; what src has beyond known must be zero. struct_size of dst stays. Errors: DMB_ERR_NULL; DMB_ERR_STRUCT_SIZE,
  * with dst unchanged. */
 int32_t dmb_struct_read(void *dst, size_t known, size_t oldest, const void *src);

@@ -68,12 +68,12 @@ void dmb_joint_coordinates_at(const double R[9], const double p[3], const double
 /* W: derivative of sum_k f_k J_k^T along xi, k = 0 .. 5. */
 void dmb_joint_coordinates_tangent(const double R[9], const double p[3], const double f[6], double W[36]);
 
-/* What people call joints and their equations, for reports. */
+/* Names of joints and their equations, for reports. */
 
 /* "revolute" and the like; "joint" for a kind that is none. */
 const char *dmb_joint_kind_name(int32_t kind);
-/* What row `row` of a kind holds, seen from frame a: "position y", "rotation about z". A locked joint has the rows of
- * DMB_ROWS_FIXED. "row" where the kind has no such row. */
+/* Name of the component that row `row` of a kind holds, seen from frame a: "position y", "rotation about z". A locked
+ * joint has the rows of DMB_ROWS_FIXED. "row" where the kind has no such row. */
 const char *dmb_joint_row_name(int32_t kind, uint32_t row);
 
 #endif

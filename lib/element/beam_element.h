@@ -5,7 +5,7 @@
 
 #include "element/beam_math.h"
 
-/* What is wanted of elements, the same for all lanes. */
+/* Quantities wanted of elements, the same for all lanes. */
 typedef struct dmb_beam_task {
     double mass_factor, velocity_factor; /* d v'/d pose parameters, d v/d pose parameters */
     int32_t dynamic;      /* 0: no inertia, damping, nor rates */

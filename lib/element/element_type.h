@@ -15,7 +15,7 @@ typedef struct dmb_beam_mass {
     double bending[2][6];
 } dmb_beam_mass;
 
-/* What equal elements share. */
+/* Constants that equal elements share. */
 typedef struct dmb_element_type {
     double length;        /* [m] between its two ends, rigid arms not counted */
     double stiffness[6];  /* [N/m, N m/rad] K/L, shear stiffness corrected: 1/GA* = 1/GA + L^2/(12 EI) */

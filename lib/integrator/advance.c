@@ -9,7 +9,8 @@
 #include "math/elementary.h"
 #include "sim/access.h"
 
-/* What control wants next after an error of `error` tolerances. Without clusters the factors of a step of the same length
+/* Step length that the control chooses after an error of `error` tolerances. Without clusters the factors of a step of the
+ * same length
  * may serve (kept_factors), so a length is held while the ratio lies in 0.9 .. 1.2; with them every step makes its own. */
 static double next_step(const dmb_sim *sim, double h, double error)
 {

@@ -267,7 +267,7 @@ uint32_t dmb_element_turned_too_far(const dmb_sim *sim)
     return UINT32_MAX;
 }
 
-/* What a failed attempt says: which part, at what time. */
+/* Message of a failed attempt: which part, at what time. */
 
 void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
 {

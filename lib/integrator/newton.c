@@ -59,7 +59,7 @@ static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt)
     return DMB_ERR_SINGULAR;
 }
 
-/* What is asked for is reached: kept factors only aimed lower. */
+/* The tolerance asked for is reached: reused factors only aimed lower. */
 static int32_t is_met(const dmb_sim *sim, const dmb_attempt *attempt)
 {
     return attempt->factored == DMB_FACTORS_REUSED &&
@@ -75,7 +75,7 @@ static int32_t evaluate(dmb_sim *sim, dmb_attempt *attempt)
     return status < 0 ? status : dmb_system_evaluate(evaluation);
 }
 
-/* What the residual says; 1: a correction is due, 0 or DMB_NOTE_WORK_LIMITED: done, < 0: given up. */
+/* Verdict of the residual. 1: a correction is due, 0 or DMB_NOTE_WORK_LIMITED: done, < 0: given up. */
 static int32_t judge(const dmb_sim *sim, dmb_attempt *attempt, dmb_newton_course *course)
 {
     const dmb_residual_norm norm = dmb_residual_norm_of(&attempt->evaluation, dmb_factor_reuse_aim(sim, attempt));

@@ -1,4 +1,4 @@
-/* What dmb_sim_step and dmb_sim_advance share: checks, the report, keeping and bringing back the state. */
+/* Parts that dmb_sim_step and dmb_sim_advance share: checks, the report, keeping and bringing back the state. */
 #ifndef DMB_INTEGRATOR_STEP_H
 #define DMB_INTEGRATOR_STEP_H
 

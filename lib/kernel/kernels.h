@@ -78,7 +78,7 @@ typedef struct dmb_node_force_run {
     double inertia_power, potential, damping_power; /* added to: [W] */
 } dmb_node_force_run;
 
-/* What a configuration keeps of its contact sites: the fields site_... of sim/sim.h. */
+/* Fields of the contact sites in a configuration: the fields site_... of sim/sim.h. */
 typedef struct dmb_site_fields {
     double *normal, *depth, *penetration, *approach, *slip, *bristle;
     uint32_t *segment;

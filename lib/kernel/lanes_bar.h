@@ -78,7 +78,7 @@ static inline dmb_real load_place(const dmb_bar_run *run, const lane_group *g, s
     return x;
 }
 
-/* What goes to the far nodes of the last bars of a group: it is added with the forces on these as near nodes, for
+/* Forces on the far nodes of the last bars of a group: they are added with the forces on these as near nodes, for
  * memory that is written and read at once in other places keeps the processor waiting. */
 typedef struct bar_ends {
     double residual[2], scale[2];

@@ -13,7 +13,7 @@
 
 #define DMB_NONE UINT32_MAX
 
-/* What the making of a pattern needs for its own time. */
+/* Work memory for making a pattern. */
 typedef struct analysis {
     uint32_t n;
     size_t ends;                           /* length of the lists of neighbours, repetitions included */

@@ -18,7 +18,7 @@
 
 #define DMB_BLOCK_CAPACITY_MAX 65536u
 
-/* What is returned for two blocks that have no place in the matrix. */
+/* Value returned for two blocks that have no place in the matrix. */
 #define DMB_BLOCK_NO_OFFSET SIZE_MAX
 #define DMB_BLOCK_NO_ENTRY UINT32_MAX
 

@@ -168,7 +168,7 @@ static void clear_block(dmb_complex_array A, size_t numbers)
     memset(A.im, 0, numbers * sizeof(double));
 }
 
-/* What the sizes at run time use of the room. */
+/* Part of the room that the sizes at run time use. */
 void dmb_complex_sparse_clear(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix)
 {
     for (uint32_t k = 0; k < pattern->n; k++) {

@@ -103,7 +103,7 @@ static double *copy_numbers(const double *from, uint32_t count, double *to)
     return to + count;
 }
 
-/* What a term does not use is forgotten, so that no pointer of the caller is kept but the callback's context. */
+/* Fields that a term does not use are cleared, so that no pointer of the caller is kept but the callback's context. */
 static void forget_unused(dmb_term *term)
 {
     if (term->kind != DMB_TERM_TABLE) {

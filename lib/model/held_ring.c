@@ -15,7 +15,7 @@ static bool is_on_axis(const dmb_scene *scene, const dmb_body_map *body, const d
            fabs(x[2]) <= same_point;
 }
 
-/* What holds the ring: "its guide", a joint by name, or NULL. */
+/* Name of the guide or joint that holds the ring: "its guide", a joint by name, or NULL. */
 static const char *holder(const dmb_scene *scene, const dmb_body_map *body, dmb_message *text)
 {
     if (body->held_ring) return "the guide (free_mask; start_free or end_free of its string)";

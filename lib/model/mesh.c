@@ -140,7 +140,7 @@ int32_t dmb_mesh_count(dmb_mesh *mesh)
     return status;
 }
 
-/* What a scene has, out of what was asked for: a feature that was not described is left out too. */
+/* Features of a scene, out of those asked for: one that was not described is left out too. */
 
 static bool has_gravity(const dmb_model *model)
 {

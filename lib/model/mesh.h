@@ -15,7 +15,8 @@
  *   constraints     joints ... drives          constraints, clusters, cluster_nodes; back-references
  *                                              in joints, couplings, drives, callbacks
  *
- * What needs the numbers of rows is made by freeze: rows of drives, columns of clusters, the blocks of jointed chains. */
+ * Fields that need the numbers of rows are made by freeze: rows of drives, columns of clusters, the blocks of jointed
+ * chains. */
 #ifndef DMB_MODEL_MESH_H
 #define DMB_MODEL_MESH_H
 

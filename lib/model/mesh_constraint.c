@@ -241,7 +241,7 @@ static bool number_rows(const dmb_mesh *mesh)
     return true;
 }
 
-/* What a cluster is called: its first constraint. */
+/* Name of a cluster: its first constraint. */
 static const char *name_of(const dmb_mesh *mesh, const dmb_cluster *cluster, dmb_message *text)
 {
     const dmb_constraint *first = constraint_at(mesh, cluster->constraint);

@@ -122,7 +122,7 @@ static int32_t add_offset(dmb_mesh *mesh, uint32_t node, double mass, double x, 
 
 /* ---- Pipes ------------------------------------------------------------------------------------------------------- */
 
-/* What the pipes of a run have in common. */
+/* Properties that the pipes of a run have in common. */
 typedef struct run_mass {
     const dmb_pipe_def *def;
     dmb_pipe_section section;

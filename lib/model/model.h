@@ -1,4 +1,4 @@
-/* What the user described, as it was described; dmb_model_compile turns it into a dmb_scene. */
+/* The user's description, as it was given; dmb_model_compile turns it into a dmb_scene. */
 #ifndef DMB_MODEL_MODEL_H
 #define DMB_MODEL_MODEL_H
 
@@ -73,7 +73,7 @@ uint32_t dmb_model_part_index(const dmb_model *model, dmb_id id, uint32_t kind);
 void dmb_model_hold(dmb_model *model);
 void dmb_model_release(dmb_model *model);
 
-/* What every dmb_model_add_ function does alike: refuse wrong objects, read the caller's struct, append, give out an
+/* The part that all dmb_model_add_ functions share: refuse wrong objects, read the caller's struct, append, give out an
  * id, tell the log. */
 
 /* DMB_OK for a model that may still be described and a definition that is there; the model is busy then until

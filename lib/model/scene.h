@@ -161,7 +161,7 @@ typedef struct dmb_scene_callback {
     char name[24];
 } dmb_scene_callback;
 
-/* What a constraint belongs to. */
+/* Kind of part that a constraint belongs to. */
 enum { DMB_OF_JOINT = 0, DMB_OF_COUPLING = 1, DMB_OF_DRIVE = 2, DMB_OF_CALLBACK = 3 };
 enum { DMB_CONSTRAINT_NODES = 4, DMB_CONSTRAINT_COLUMNS = 24, DMB_CONSTRAINT_ROWS = 6 };
 

@@ -1,4 +1,4 @@
-/* Writing text to a file, numbers alike in every locale. A failure is kept until the file is closed. What is written goes
+/* Writing text to a file, numbers alike in every locale. A failure is kept until the file is closed. Text goes
  * to a file beside the one asked for, which takes its place when all of it is there: a write that fails leaves the old
  * file, and no other. Devices and pipes are written to directly. */
 #ifndef DMB_OUTPUT_TEXT_FILE_H

@@ -1,5 +1,5 @@
 /* The energy ledger. The powers in it are those of forces on the bodies; the forces of inertia and potential do the
- * negative of what the energies gain, exactly in continuous time. What is missing in discrete time, the time
+ * negative of what the energies gain, exactly in continuous time. The part that is missing in discrete time, the time
  * integration has taken out (scheme). */
 #include <float.h>
 #include <math.h>

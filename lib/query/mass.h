@@ -23,7 +23,7 @@ void dmb_describe_pipe(const dmb_sim *sim, uint32_t string, uint32_t pipe, dmb_d
 void dmb_rigid_pipe_share(const dmb_described_pipe *pipe, dmb_rigid_mass *share);
 /* A pipe's tool joint; mass 0 where there is none. */
 void dmb_joint_share(const dmb_scene *scene, const dmb_described_pipe *pipe, dmb_rigid_mass *share);
-/* What eccentricity adds on the near (end 0) or far (end 1) node of an element: a first moment, no mass. */
+/* Part that eccentricity adds on the near (end 0) or far (end 1) node of an element: a first moment, no mass. */
 void dmb_eccentric_share(const dmb_scene *scene, const dmb_described_pipe *pipe, uint32_t element, uint32_t end,
                          dmb_rigid_mass *share);
 /* A body or bit, by its number in scene->bodies. */

@@ -1,4 +1,4 @@
-/* What modes look like: a mode's shape is a motion of the nodes, so that a sim that seems to move like it answers the
+/* Shapes of modes: a mode's shape is a motion of the nodes, so that a sim that seems to move like it answers the
  * questions of any motion. */
 #include <string.h>
 

@@ -106,7 +106,7 @@ int32_t dmb_query_multipliers(const dmb_sim *sim, dmb_id part, double multiplier
     return DMB_OK;
 }
 
-/* What holds a guided end: the residual that is left in the rows that are not solved for. */
+/* Reaction at a guided end: the residual that is left in the rows that are not solved for. */
 
 /* The rows of the node as components of a wrench; free ones carry none. */
 static void held_wrench(const dmb_sim *sim, uint32_t node, double wrench[6])

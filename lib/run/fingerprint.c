@@ -209,7 +209,7 @@ static uint64_t add_couplings(uint64_t h, const dmb_scene *s)
     return h;
 }
 
-/* What the caller's functions are cannot be told from their addresses. */
+/* The content of the caller's functions cannot be told from their addresses. */
 static uint64_t add_callbacks(uint64_t h, const dmb_scene *s)
 {
     for (uint32_t i = 0; i < s->callback_count; ++i) {

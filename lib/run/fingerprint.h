@@ -51,8 +51,8 @@ static inline uint64_t dmb_fnv_numbers(uint64_t hash, const double *values, size
     return hash;
 }
 
-/* What a snapshot must fit: the numbers of the compiled scene and of the options, without addresses and stamps, so that
- * the same description compiled in another process has the same fingerprint. */
+/* Fingerprint that a snapshot must fit: the numbers of the compiled scene and of the options, without addresses and
+ * stamps, so that the same description compiled in another process has the same fingerprint. */
 
 /* O(number of nodes and elements). Callbacks of programmes count as equal. */
 uint64_t dmb_scene_fingerprint(const dmb_scene *scene);

@@ -14,7 +14,7 @@
 
 DMB_DECLARE_STRUCT(dmb_sim_options)
 
-/* What a create is told, checked. There is no sim yet to hold a message: a refusal is told to the log, and to the model for
+/* Arguments of a create, checked. There is no sim yet to hold a message: a refusal is told to the log, and to the model for
  * the calling thread. */
 typedef struct creation {
     dmb_sim_options options;

@@ -145,7 +145,7 @@ static double stored(const dmb_sim *sim)
            dmb_contact_energy(sim->scene, &sim->now);
 }
 
-/* What was gained since the start stays what it was: the start takes up what pipes brought in or took along. */
+/* Energy gained since the start stays as it was: the start takes up what pipes brought in or took along. */
 static void transfer_ledger(dmb_sim *sim, const dmb_sim *from)
 {
     if (!sim->options.energy_ledger || !from->options.energy_ledger) return; /* what there is begins now */

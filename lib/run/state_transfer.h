@@ -5,7 +5,7 @@
 
 #include "sim/sim.h"
 
-/* What a string of one scene and the same of another have in common. */
+/* Pipes and nodes that a string of one scene and the same string of another have in common. */
 typedef struct dmb_common_string {
     uint32_t pipes;    /* matched */
     uint32_t nodes;    /* matched */
@@ -22,7 +22,7 @@ int32_t dmb_state_transfer_check(dmb_sim *sim, const dmb_sim *from);
  * leave their line. run/state_transfer_nodes */
 int32_t dmb_state_transfer_nodes(dmb_sim *sim, const dmb_sim *from);
 enum { DMB_TRANSFER_ALL = 0, DMB_TRANSFER_BRISTLES = 1 };
-/* What the wall contacts remember; or only the bristles, once contacts that have no past have been evaluated: where no
+/* Memory of the wall contacts; or only of the bristles, once contacts that have no past have been evaluated: where no
  * time passes, a bristle that slips at its limit cannot be told from one that holds there. run/state_transfer_nodes */
 void dmb_state_transfer_sites(dmb_sim *sim, const dmb_sim *from, int32_t what);
 

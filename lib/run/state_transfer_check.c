@@ -148,7 +148,7 @@ static int32_t check_wall(dmb_sim *sim, const dmb_sim *from)
 
 /* ---- Pipes ------------------------------------------------------------------------------------------------------- */
 
-/* What a pipe is made of: its description without where it belongs and how its random part is drawn. */
+/* Content of a pipe: its description without where it belongs and how its random part is drawn. */
 static dmb_pipe_def material_of(const dmb_sim *sim, uint32_t string, uint32_t pipe)
 {
     const dmb_pipe_run *run = dmb_pipe_run_of(sim->model, string, pipe);

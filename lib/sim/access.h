@@ -14,7 +14,7 @@ static inline int32_t dmb_sim_check(const dmb_sim *sim)
     return sim->busy == DMB_BUSY_CHANGING ? DMB_ERR_ORDER : DMB_OK;
 }
 
-/* What every query begins with: a live sim, and somewhere to put the answer. */
+/* First check of every query: a live sim, and somewhere to put the answer. */
 
 /* DMB_OK, DMB_ERR_NULL or DMB_ERR_HANDLE. */
 static inline int32_t dmb_ask(const dmb_sim *sim, const void *answer)

@@ -28,7 +28,7 @@ static inline uint32_t dmb_full_nodes_at(const dmb_scene *scene, uint32_t node)
 /* Element before (side 0) or after (side 1) a node; UINT32_MAX at the ends of its chain. */
 uint32_t dmb_element_between(const dmb_scene *scene, uint32_t node, uint32_t side);
 
-/* What belongs to what: nodes and elements to described parts (for messages), rows to nodes, constraints to parts. */
+/* Owners: described parts of nodes and elements (for messages), nodes of rows, constraints of parts. */
 
 typedef struct dmb_owner {
     const char *kind; /* "string" or "body" */

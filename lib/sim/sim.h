@@ -150,7 +150,7 @@
     X(dmb_reduced_mode, reduced_mode, 1)                                                                              \
     X(uint8_t, backup, backup)          /* the state before a call that takes more than one step, sim/layout */
 
-/* What corrections are solved with: nothing is factored, inverses of this step, those kept from an earlier one (both
+/* Factors that corrections are solved with: none, inverses of this step, those kept from an earlier one (both
  * math/block_inverse), LU factors (math/block_tridiagonal: statics). */
 enum { DMB_FACTORS_NONE = 0, DMB_FACTORS_FRESH = 1, DMB_FACTORS_REUSED = 2, DMB_FACTORS_LU = 3 };
 

@@ -138,7 +138,7 @@ static void take_motion(dmb_sim *sim, double stored)
     sim->ledger->work[DMB_POWER_POTENTIAL] += let_go;
 }
 
-/* What holds and drives the joints now, as the new accelerations have it. */
+/* Forces that hold and drive the joints now, as the new accelerations have it. */
 static void take_forces(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

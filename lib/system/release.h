@@ -13,8 +13,8 @@ int32_t dmb_contact_changes(const dmb_sim *sim);
 int32_t dmb_contact_opens(const dmb_sim *sim);
 /* No ring opens any more; after the step. */
 void dmb_release_end(dmb_sim *sim);
-/* What the history is rid of: accelerations M^-1 f [m/s2, rad/s2] by the forces f that those rings have in now, times the
- * part of the step after the opening, into sim->correction; and that part, in the rows of their nodes, into
+/* Part that is taken out of the history: accelerations M^-1 f [m/s2, rad/s2] by the forces f that those rings have in now,
+ * times the part of the step after the opening, into sim->correction; and that part, in the rows of their nodes, into
  * sim->scale_row, 0 elsewhere. Fills site_return. The other work arrays are overwritten. Errors as dmb_factor_mass. */
 int32_t dmb_released_acceleration(const dmb_evaluation *evaluation);
 

@@ -191,7 +191,7 @@ FUNCTION_DOCS = {
     "dmb_model_get_info":
         "Counts of a compiled model. Errors: ERR_ORDER before compile.",
     "dmb_model_message":
-        "What the last failing or noteworthy call on this model said: \"part, field, value, bound\". Never NULL; lives until the next call on the model. A compiled model shared between threads keeps the message of its compilation; after a dmb_sim_create that failed, the thread that called it reads the reason here, until its next create of the model.",
+        "Message of the last failing or noteworthy call on this model: \"part, field, value, bound\". Never NULL; lives until the next call on the model. A compiled model shared between threads keeps the message of its compilation; after a dmb_sim_create that failed, the thread that called it reads the reason here, until its next create of the model.",
     "dmb_modes_destroy":
         "Gives the memory back and sets *modes to NULL. NULL-safe.",
     "dmb_modes_get":
@@ -245,7 +245,7 @@ FUNCTION_DOCS = {
     "dmb_sim_memory_size":
         "Bytes of the block that dmb_sim_create_in needs. O(1). Errors: ERR_ORDER (model not compiled), ERR_VALUE.",
     "dmb_sim_message":
-        "What the last failing or noteworthy call on this sim said. Never NULL; lives until the next call on the sim.",
+        "Message of the last failing or noteworthy call on this sim. Never NULL; lives until the next call on the sim.",
     "dmb_sim_set_drive":
         "From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For DRIVE_LOAD and DRIVE_CONTROL; accelerations are made to fit the jump. ERR_UNSUPPORTED for DRIVE_MOTION, whose speed may not jump.",
     "dmb_sim_set_joint":

@@ -795,7 +795,7 @@ class PathReport(Sized):
 
 
 class CheckReport(Sized):
-    c_name, about = "dmb_check_report", "Model check ------------------------------------------------------------------------------------------------- What a scene consists of, how many degrees of freedom it has, and what looks wrong with it."
+    c_name, about = "dmb_check_report", "Model check ------------------------------------------------------------------------------------------------- The parts of a scene, its degrees of freedom, and warnings."
     struct_size: int
     rigid_parts: int
     flexible_parts: int
@@ -1601,7 +1601,7 @@ class SimOptions(Sized):
         "log": ("", "NULL: silent"),
         "log_context": ("", ""),
         "spectral_radius": ("-", "of generalized-alpha at infinite frequency, 0 .. 1; default 0.8"),
-        "newton_tolerance": ("-", "residual over the norm of the forces that balance in it, 1e-14 .. 1e-1; default 1e-8. What rounding of the poses makes of a stiff pipe's force counts as zero; a step solved with factors of an earlier one aims at a fifth of it"),
+        "newton_tolerance": ("-", "residual over the norm of the forces that balance in it, 1e-14 .. 1e-1; default 1e-8. The force that rounding of the poses makes in a stiff pipe counts as zero; a step solved with factors of an earlier one aims at a fifth of it"),
         "tolerance_translation": ("m", "local error of dmb_sim_advance a step, > 0; default 1e-6"),
         "tolerance_rotation": ("rad", "the same for rotation, > 0; default 1e-5"),
         "step_min": ("s", "of dmb_sim_advance and of divided steps, > 0; default 1e-9"),

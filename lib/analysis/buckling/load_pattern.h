@@ -1,4 +1,4 @@
-/* What grows with the factor of a path or a buckling analysis, on top of the present loads. */
+/* Loads that grow with the factor of a path or a buckling analysis, on top of the present loads. */
 #ifndef DMB_ANALYSIS_BUCKLING_LOAD_PATTERN_H
 #define DMB_ANALYSIS_BUCKLING_LOAD_PATTERN_H
 

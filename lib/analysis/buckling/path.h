@@ -60,7 +60,7 @@ int32_t dmb_path_tangent(dmb_path *path, const double *towards);
 /* next becomes last, and a state at rest that can be asked. */
 void dmb_path_accept(dmb_path *path);
 
-/* What lies between last and next, when next has been found at `arc`. */
+/* Event between last and next, when next has been found at `arc`. */
 enum {
     DMB_EVENT_NONE = 0,
     DMB_EVENT_LIMIT = 1,

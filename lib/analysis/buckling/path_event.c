@@ -1,4 +1,4 @@
-/* What happens between two points of a path, and the way onto a branch. */
+/* Events between two points of a path, and the way onto a branch. */
 #include <string.h>
 
 #include "analysis/buckling/path.h"
@@ -85,13 +85,13 @@ static double softness(dmb_path *path)
 
 /* ---- Locating ---------------------------------------------------------------------------------------------------- */
 
-/* What is sought between the last point and `arc`: counted 1 where the softest shape is not the one that changes sign,
+/* Event sought between the last point and `arc`: counted 1 where the softest shape is not the one that changes sign,
  * or two do, and the count has to do, which finds the first. */
 typedef struct quest {
     int32_t event, counted;
 } quest;
 
-/* What vanishes at the event, at `arc` from the last point. */
+/* Quantity that vanishes at the event, at `arc` from the last point. */
 static int32_t probe(dmb_path *path, const quest *q, double arc, double *value)
 {
     int32_t status = dmb_path_correct(path, path->last.tangent, path->last.rate, arc);

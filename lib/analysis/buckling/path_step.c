@@ -62,7 +62,7 @@ static int32_t factor(dmb_path *path, int judged, dmb_block_weakest *weakest, in
     return status;
 }
 
-/* What a unit of the factor moves, from the stiffness evaluated just now; path->move: the residual's correction. */
+/* Motion by a unit of the factor, from the stiffness evaluated just now; path->move: the residual's correction. */
 static int32_t solve_both(dmb_path *path, int judged)
 {
     dmb_sim *work = path->work;

@@ -45,7 +45,7 @@ double dmb_pencil_vector(dmb_pencil *pencil, double factor, const double *other,
 int32_t dmb_pencil_general(dmb_pencil *pencil, uint32_t wanted, double most, const dmb_allocator *allocator,
                            double *factors, double *vectors, uint32_t *found);
 
-/* What these are made of. y = A x; factors of K + factor G into `work`, 0 where they are singular; x <- (K + factor G)^-1 x;
+/* Operations on these. y = A x; factors of K + factor G into `work`, 0 where they are singular; x <- (K + factor G)^-1 x;
  * any vector, the same for the same seed > 0. */
 void dmb_pencil_multiply(const dmb_pencil *pencil, const dmb_pencil_matrix *A, const double *x, double *y);
 int dmb_pencil_shift_and_factor(dmb_pencil *pencil, double factor);

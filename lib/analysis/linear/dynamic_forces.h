@@ -3,7 +3,7 @@
  *
  *     A x + B^T multiplier = f
  *
- * in the dependent rows of each cluster of joints. What is left in rows that are held is what their guides exert. */
+ * in the dependent rows of each cluster of joints. The residual in rows that are held is the force of their guides. */
 #ifndef DMB_ANALYSIS_LINEAR_DYNAMIC_FORCES_H
 #define DMB_ANALYSIS_LINEAR_DYNAMIC_FORCES_H
 

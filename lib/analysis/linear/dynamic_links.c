@@ -178,7 +178,7 @@ static void add_nodes(const dmb_dynamic_stiffness *s)
     }
 }
 
-/* What joint c adds between two of its nodes, in one cluster both. */
+/* Terms of joint c between two of its nodes, in one cluster both. */
 static void add_joint(const dmb_dynamic_stiffness *s, const dmb_constraint *c, uint32_t a, uint32_t b)
 {
     const dmb_scene *scene = &s->linear->scene;

@@ -40,7 +40,7 @@ void dmb_functional_add(double factor, const dmb_functional *from, dmb_functiona
 /* Its rate: what was by pose is by speed. */
 void dmb_functional_add_rate(double factor, const dmb_functional *from, dmb_functional *to);
 
-/* What the queries answer now, for outputs of a response. */
+/* Answers of the queries now, for outputs of a response. */
 
 /* The value of an output of any kind but DMB_OUTPUT_DISPLACEMENT, which depends on where it is counted from. *status:
  * errors of the query. */

@@ -61,7 +61,7 @@ static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *optio
     return status < 0 ? status : dmb_linear_take_damping(linear);
 }
 
-/* What is left over may be rounding of poses, which the stiffness tells. */
+/* The residual may be rounding of poses, which the stiffness tells. */
 static int32_t judge_rounding(dmb_linear *linear)
 {
     linear->work->reduced_mode->multipliers = 1;
@@ -227,7 +227,7 @@ static void steady_accelerations(dmb_linear *linear, int sliding)
     }
 }
 
-/* What forces leave over with those accelerations is out of balance. */
+/* The residual with those accelerations is out of balance. */
 static int32_t balance_of(dmb_linear *linear, int sliding, dmb_residual_norm *norm)
 {
     dmb_sim *work = linear->work;

@@ -22,7 +22,7 @@
  *     C = C_v - M w^ + M g^,     K = K_H + (C_v - M w^) g^ + M a^,
  *
  * constant for what is round, even where a turning string lies on the wall.
- * What is integrated along with the motion, bristles that stick and the integral part of speed controllers, is stiffness
+ * Whatever is integrated along with the motion, bristles that stick and the integral part of speed controllers, is stiffness
  * here (the part that v^ d has in it, left out, is none for drives along and about the axis). The memory of a regenerative
  * rock law is not: its past is taken as given. A nonholonomic equation holds d as it holds d'. Friction has the derivative
  * of its law; one that is smooth at rest is a damper there. */
@@ -139,18 +139,18 @@ uint32_t dmb_linear_negative(dmb_linear *linear, double k, double c, double m);
 /* x <- R (R^T A R)^-1 R^T x by rows, A as factored last. */
 void dmb_linear_solve(dmb_linear *linear, double *x);
 
-/* What the pieces of dmb_linear_make are to each other. */
+/* Functions shared by the files of dmb_linear_make. */
 
 /* Memory for the matrices about the state of a sim, and a copy of it to work on; NULL without memory. */
 dmb_linear *dmb_linear_allocate(const dmb_sim *sim);
 
 /* An evaluation of the state with its accelerations. */
 dmb_evaluation dmb_linear_evaluation(dmb_sim *work);
-/* What forces leave over where body-frame velocities stay as they are. */
+/* Residual of the forces where body-frame velocities stay as they are. */
 int32_t dmb_linear_take_balance(dmb_linear *linear);
 /* Of a state that is balanced. */
 void dmb_linear_take_steady_accelerations(dmb_linear *linear);
-/* What is left is balanced where it is no more than rounding of the poses; K is there. */
+/* The residual counts as balanced where it is no more than rounding of the poses; K is there. */
 void dmb_linear_judge_rounding(dmb_linear *linear);
 
 static inline void dmb_linear_add_array(double factor, const double *from, size_t count, double *to)

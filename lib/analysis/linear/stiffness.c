@@ -8,7 +8,7 @@
 /* Part of the largest stiffness, rotations over the length scale, that counts as 0. */
 #define DMB_STIFFNESS_ROUNDING 1e-14
 
-/* What is added to the diagonal so that eigenvalues of rounding size are positive. */
+/* Shift of the diagonal with which eigenvalues of rounding size are positive. */
 static void raise_rounding(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

@@ -1,4 +1,4 @@
-/* What the model check finds, before it is answered as a struct or as text. */
+/* Findings of the model check, before they are answered as a struct or as text. */
 #ifndef DMB_ANALYSIS_MODEL_CHECK_MODEL_CHECK_H
 #define DMB_ANALYSIS_MODEL_CHECK_MODEL_CHECK_H
 

@@ -1,4 +1,4 @@
-/* What looks wrong with a scene, a line for each kind of thing: the first or worst case by name, and how many more. */
+/* Warnings about a scene, a line for each kind: the first or worst case by name, and how many more. */
 #include <float.h>
 #include <math.h>
 

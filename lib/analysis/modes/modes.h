@@ -29,7 +29,7 @@ struct dmb_modes {
     uint8_t *rigid;  /* shape (capacity) */
 };
 
-/* What is searched, and where it goes. */
+/* The search and its result. */
 typedef struct dmb_mode_search {
     dmb_linear *linear;
     const dmb_modes_options *options;
@@ -48,7 +48,7 @@ typedef struct dmb_mode_search {
     int32_t apart; /* 1: they are uncoupled from all else, r^T K = 0, C r = 0, r^T C = 0, and taken out of the search */
 } dmb_mode_search;
 
-/* What a mode leaves of its equations, over the norms of the forces that balance in them, and what it may leave. */
+/* Residual of a mode, over the norms of the forces that balance in them, and what it may leave. */
 typedef struct dmb_mode_defect {
     double value, bound;
 } dmb_mode_defect;

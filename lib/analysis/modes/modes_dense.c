@@ -100,7 +100,7 @@ static void move_motion(const dmb_mode_search *search, dmb_dense *d, size_t i)
         for (size_t j = 0; j < n; j++) d->X[n * k + j] += sigma * g[j] * g[k] - g[j] * u[k] - u[j] * g[k];
 }
 
-/* What vector k is made of the motions, by its square. */
+/* Share of the motions in vector k, by its square. */
 static double made_of_motions(const dmb_dense *d, size_t k)
 {
     double sum = 0.0;

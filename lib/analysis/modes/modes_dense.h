@@ -1,4 +1,4 @@
-/* What the dense ways to all modes share. */
+/* Parts that the dense ways to all modes share. */
 #ifndef DMB_ANALYSIS_MODES_MODES_DENSE_H
 #define DMB_ANALYSIS_MODES_MODES_DENSE_H
 

@@ -184,7 +184,7 @@ static int32_t put_held_rows(conditions *c, uint32_t candidate)
     return status;
 }
 
-/* What is left of the forces in the state does not count as holding: it turns with a motion. */
+/* Residual forces of the state do not count as holding: it turns with a motion. */
 static void add_unbalanced(const conditions *c)
 {
     const dmb_block_layout *layout = &c->linear->scene.layout;

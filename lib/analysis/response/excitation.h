@@ -1,4 +1,4 @@
-/* What shakes a scene in a frequency response: the rows of force of a unit of an input, and how they go with frequency. */
+/* Excitation of a scene in a frequency response: the rows of force of a unit of an input, and how they go with frequency. */
 #ifndef DMB_ANALYSIS_RESPONSE_EXCITATION_H
 #define DMB_ANALYSIS_RESPONSE_EXCITATION_H
 

@@ -1,4 +1,4 @@
-/* What dmb_analysis_response gives back. */
+/* Result of dmb_analysis_response. */
 #ifndef DMB_ANALYSIS_RESPONSE_RESPONSE_H
 #define DMB_ANALYSIS_RESPONSE_RESPONSE_H
 

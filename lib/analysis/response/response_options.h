@@ -1,4 +1,4 @@
-/* What a caller asks of a frequency response, checked. */
+/* Options of a frequency response, checked. */
 #ifndef DMB_ANALYSIS_RESPONSE_RESPONSE_OPTIONS_H
 #define DMB_ANALYSIS_RESPONSE_RESPONSE_OPTIONS_H
 

@@ -69,7 +69,7 @@ static int32_t of_section(const request *r)
 
 /* ---- Contact ----------------------------------------------------------------------------------------------------- */
 
-/* What of a contact is asked. */
+/* Quantity of a contact that is asked for. */
 enum { ASK_GAP = 0, ASK_APPROACH = 1, ASK_SLIP = 2, ASK_NORMAL = 4 };
 typedef struct contact_question {
     uint32_t site;
@@ -428,7 +428,7 @@ static dmb_complex_number of_functional(const dmb_dynamic_stiffness *s, const dm
     return sum;
 }
 
-/* What is left in a row that is held: (A x - f)_r + (B^T multiplier)_r. */
+/* Reaction in a row that is held: (A x - f)_r + (B^T multiplier)_r. */
 static dmb_complex_number of_held_row(const dmb_dynamic_stiffness *s, const dmb_response_output *output, uint32_t held,
                                       dmb_complex_array x, dmb_complex_array f)
 {

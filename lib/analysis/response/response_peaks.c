@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-/* What is smaller than this part of a function's largest magnitude is rounding and has no peaks. */
+/* Values below this part of a function's largest magnitude are rounding and have no peaks. */
 #define DMB_PEAK_FLOOR 1e-10
 /* Intervals shorter than this part of their frequency are not divided. */
 #define DMB_PEAK_WIDTH 1e-12

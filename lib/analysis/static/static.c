@@ -119,7 +119,7 @@ static int32_t end_growing_steps(dmb_static_search *search, int32_t status)
 }
 
 /* Newton in the load steps asked for, or at once where they are the library's choice, then in steps that grow, then the
- * relaxation. What nothing holds in its starting pose may yet fall onto the wall, so the relaxation comes at once;
+ * relaxation. A part that nothing holds in its starting pose may yet fall onto the wall, so the relaxation comes at once;
  * where that fails too, the part is free. */
 static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
 {
@@ -278,7 +278,7 @@ static int is_held(const dmb_scene *scene, const dmb_string_map *string, uint32_
     return scene->chains[scene->node_chain[string->first_node]].jointed; /* joints may hold it */
 }
 
-/* What moves along for ever is seen as poses that do not converge, or bend too far on the way: the string is named. */
+/* A string that moves along for ever shows as poses that do not converge, or bend too far on the way: it is named. */
 static void name_free_string(dmb_sim *sim, int32_t status)
 {
     const dmb_scene *scene = sim->scene;

@@ -104,7 +104,7 @@ static int32_t evaluate(dmb_static_search *search)
     return status < 0 ? status : judge(search);
 }
 
-/* What the factors tell of a part that nothing holds. */
+/* Message on a part that nothing holds, by the factors. */
 static int32_t look_at_factors(dmb_static_search *search, int64_t bad, const dmb_block_weakest *weakest)
 {
     if (search->iterations == 0 && weakest->ratio < DMB_LOOSE_PIVOT) {
@@ -272,7 +272,7 @@ static double reach(const dmb_static_search *search, double limit)
 #define DMB_OVERSHOT 0.8
 #define DMB_OVERSHOT_FAR 2.0
 
-/* What the rate of the next correction is of the last one's: the residual's share where that tells more (switched
+/* Ratio of the next correction to the last one: the residual's share where that tells more (switched
  * evolution relaxation), which it does not while parts still travel. */
 static double change_of_rate(double work_ratio, double residual_ratio)
 {

@@ -62,7 +62,7 @@ int32_t dmb_steady_refuse_moving(dmb_sim *sim, dmb_sim *work, const char *who);
 /* Bristles of the accepted state deflected as after sliding on for long. */
 void dmb_steady_deflect_bristles(dmb_sim *sim);
 
-/* What the pieces of steady states are to each other. */
+/* Functions shared by the files of steady states. */
 
 /* [-] Directions and speeds that differ by no more than this are one. */
 #define DMB_STEADY_SAME 1e-9

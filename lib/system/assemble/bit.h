@@ -9,7 +9,7 @@ typedef struct dmb_bit_rock_result dmb_bit_rock_result;
 
 /* Rock law's answer and the bottom-hole load [N] of a bit in the accepted state. */
 void dmb_bit_force_of(const dmb_sim *sim, uint32_t bit, dmb_bit_rock_result *out, double *load);
-/* What a bit moves by along and about the axis of the hole, in the body frame of its node, and slopes of weight and torque
+/* Motion of a bit along and about the axis of the hole, in the body frame of its node, and slopes of weight and torque
  * by advance, angle, speed and spin. */
 typedef struct dmb_bit_slope {
     double along[6], about[6];

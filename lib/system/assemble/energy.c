@@ -70,7 +70,7 @@ double dmb_rigid_mass_kinetic_energy(const dmb_scene *scene, const dmb_configura
     return 0.5 * dmb_vec6_dot(v, p);
 }
 
-/* What couples the three in an eccentric mass counts as lateral. */
+/* Coupling of the three in an eccentric mass counts as lateral. */
 void dmb_rigid_mass_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t rigid_mass,
                             double parts[3])
 {

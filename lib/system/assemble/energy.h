@@ -10,7 +10,7 @@ double dmb_kinetic_energy(const dmb_scene *scene, const dmb_configuration *confi
 double dmb_strain_energy(const dmb_scene *scene, const dmb_configuration *configuration);
 /* Potential of the weights less that of the pose at time 0 as described. */
 double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *configuration);
-/* Stored in the wall's normal stiffness. What bristles store counts as spent by friction until it comes back. */
+/* Stored in the wall's normal stiffness. Energy stored in bristles counts as spent by friction until it comes back. */
 double dmb_contact_energy(const dmb_scene *scene, const dmb_configuration *configuration);
 /* Strain of an element times its length, e of element/beam_math.h, shape (6). */
 void dmb_element_strain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element, double e[6]);

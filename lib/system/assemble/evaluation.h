@@ -43,7 +43,7 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation);
 void dmb_system_move(dmb_sim *sim);
 /* Iteration matrix K T6(increment) + inertia into the stiffness_ blocks, identity in rows that are not solved. */
 void dmb_system_iteration_matrix(const dmb_evaluation *evaluation);
-/* What a finished step leaves: drive positions and forces, bit bottom and history, unwrapped turns. Trial -> trial and
+/* Results of a finished step: drive positions and forces, bit bottom and history, unwrapped turns. Trial -> trial and
  * memory; called just before the swap. */
 void dmb_system_accept(dmb_evaluation *evaluation);
 

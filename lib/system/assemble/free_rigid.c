@@ -117,7 +117,7 @@ void dmb_free_rigids_place(dmb_sim *sim)
 
 /* ---- Tangent ----------------------------------------------------------------------------------------------------- */
 
-/* What the derivatives of one body are made of: at the end of the step, body axes there. */
+/* Quantities of one body that its derivatives are made of, at the end of the step, in body axes there. */
 typedef struct rigid_end {
     double Et[9], T[9];    /* E^T; right tangent of theta */
     double velocity[6];    /* of the centre */

@@ -25,7 +25,7 @@ void dmb_free_rigids_matrix(const dmb_evaluation *evaluation);
  * (3, 6) each; and an acceleration that is added to those, shape (6). */
 void dmb_free_rigid_start(const dmb_sim *sim, uint32_t rigid, double start[18]);
 void dmb_free_rigid_added(const dmb_scene *scene, uint32_t rigid, double acceleration[6]);
-/* What is iterated on: velocity, acceleration, pseudo-acceleration, shape (3, 6). */
+/* Unknowns of the iteration: velocity, acceleration, pseudo-acceleration, shape (3, 6). */
 static inline double *dmb_free_rigid_motion(const dmb_sim *sim, uint32_t rigid)
 {
     return sim->rigid_motion + 18 * (size_t)rigid;

@@ -1,4 +1,4 @@
-/* What joints do to the residual: springs, dampers, stops, friction and drives along their coordinates, and the forces
+/* Terms of joints in the residual: springs, dampers, stops, friction and drives along their coordinates, and the forces
  * of constraint; and the tangent of all that. A generalised force f on a coordinate with gradient J is the wrench J^T
  * f. */
 #ifndef DMB_SYSTEM_ASSEMBLE_JOINT_FORCES_H

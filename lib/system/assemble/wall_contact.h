@@ -46,7 +46,7 @@ void dmb_path_site_force_of(const dmb_scene *scene, const dmb_configuration *con
 /* Friction of a finished state under the normal force and at the slip in `out`: bristles as they are (NULL where the law
  * has none), smooth laws by speed. */
 void dmb_finished_friction(const dmb_friction_law *law, const double *bristle, int32_t sticks, dmb_site_force *out);
-/* What the law of bristles is in steady sliding, F = -mu N v/|v|, without a memory. */
+/* The law of bristles in steady sliding, F = -mu N v/|v|, without a memory. */
 dmb_friction_law dmb_sliding_law(const dmb_friction_law *law);
 /* Friction of a site of this radius in a static state that assumed a slip, in place of that of the speeds: by the smooth
  * law under the normal force in `out`, as its equilibrium took it. Nothing where none was assumed. */

@@ -265,7 +265,7 @@ static void clear_dependent(dmb_sim *sim, uint32_t k)
         sim->correction[sim->scene->cluster_columns[cluster->column + order[i]]] = 0.0;
 }
 
-/* What does the same with the least forces: no change where no row is dropped. */
+/* Multipliers of least norm that do the same: no change where no row is dropped. */
 static void least_norm(dmb_sim *sim, uint32_t k)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -360,7 +360,7 @@ double dmb_clusters_violation(const dmb_sim *sim, int32_t dropped, uint32_t *row
     return most;
 }
 
-/* What a message says of a row that could not be satisfied. */
+/* Text of a message on a row that could not be satisfied. */
 
 /* Drives that a message names. */
 enum { DMB_NAMED_DRIVES = 4 };

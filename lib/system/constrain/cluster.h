@@ -46,7 +46,7 @@ dmb_partition dmb_cluster_partition(const dmb_sim *sim, uint32_t k);
 /* Message for a row that could not be satisfied: `what` follows its owner's name. */
 void dmb_clusters_explain(dmb_sim *sim, const char *what);
 
-/* What the files cluster_*.c share. */
+/* Functions that the files cluster_*.c share. */
 
 /* B of a cluster at the rows at hand, shape (rows, columns). */
 static inline double *dmb_cluster_matrix(const dmb_sim *sim, const dmb_cluster *cluster)

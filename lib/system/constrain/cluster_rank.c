@@ -8,7 +8,7 @@
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
 
-/* What the rows are evaluated in, and LAPACK's memory. */
+/* Configuration that the rows are evaluated in, and LAPACK's memory. */
 typedef struct scratch {
     dmb_sim sim;        /* that of the question, its arrays being read, but for those below */
     uint8_t *redundant; /* of the answer */

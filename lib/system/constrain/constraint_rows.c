@@ -104,7 +104,7 @@ static void joint_rows(dmb_evaluation *evaluation, const dmb_constraint *constra
 
 /* ---- Coordinates ------------------------------------------------------------------------------------------------- */
 
-/* What the increments of the step move frame b by, seen from a, with the maps of one of its ends. */
+/* Motion of frame b by the increments of the step, seen from a, with the maps of one of its ends. */
 static void moved_by(const dmb_sim *sim, const dmb_configuration *c, uint32_t j, const dmb_relative *relative,
                      double moved[6])
 {

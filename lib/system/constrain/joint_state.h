@@ -1,4 +1,4 @@
-/* What joints remember from step to step, how a scene with joints is put together, and how joints change in a run. */
+/* Memory of joints from step to step. */
 #ifndef DMB_SYSTEM_CONSTRAIN_JOINT_STATE_H
 #define DMB_SYSTEM_CONSTRAIN_JOINT_STATE_H
 

@@ -36,7 +36,7 @@ int32_t dmb_sparse_refresh(dmb_sim *sim);
 
 /* Least move with B x = d of the chosen rows; d by constraint row. */
 void dmb_sparse_project(dmb_sim *sim, const double *d);
-/* What dmb_sparse_project found for cluster k, in its columns. */
+/* Result of dmb_sparse_project for cluster k, in its columns. */
 void dmb_sparse_take(const dmb_sim *sim, uint32_t k, double *x);
 /* d = -(level + B v) in the rows of sparse clusters. */
 void dmb_sparse_deficit(const dmb_sim *sim, const double *level, const double *v, double *d);

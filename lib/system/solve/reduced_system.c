@@ -108,7 +108,7 @@ static void put_nodes(const dmb_sim *sim, const dmb_cluster *cluster, double *D)
     }
 }
 
-/* What joints add between their nodes; not in rows that are not solved. */
+/* Terms of joints between their nodes, but for rows that are not solved. */
 static void put_constraints(const dmb_sim *sim, const dmb_cluster *cluster, double *D)
 {
     const dmb_scene *scene = sim->scene;
