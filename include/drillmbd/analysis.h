@@ -13,8 +13,7 @@ extern "C" {
  *   2. statics, paths, buckling, responses, stepped sine, speeds to avoid: the same bits likewise; they call no BLAS;
  *   3. modes, and `condition` of a model check: LAPACK's digits. They differ by rounding with the host's BLAS and the number
  *      of its threads: eigenvalues by some 1e-12 of themselves, shapes by as much over the distance to the next frequency;
- *      counts, ranks and rigid-body modes do not. One thread of BLAS (OPENBLAS_NUM_THREADS=1) gives the same bits here
- * too. */
+ *      counts, ranks and rigid-body modes do not. One thread of BLAS (OPENBLAS_NUM_THREADS=1) gives the same bits. */
 
 /* Steady states of a scene whose motion drives (DMB_DRIVE_MOTION) move at the present time, in which a run goes on without
  * a transient. Programmes that change count with their speed at that time. */
@@ -151,11 +150,10 @@ typedef struct dmb_buckling dmb_buckling;
  * how far the equilibria stay stable where there is none). DMB_NOTE_EXTRAPOLATED where some of the factors are not
  * confirmed.
  * Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no equilibrium or not stable; message says by how much), _SINGULAR
- * (message
- * says which part is free), _NO_CONVERGENCE (the equilibria could not be followed; message says how far), _UNSUPPORTED (a
- * motion drive of a joint; a state that slides or turns by its drives: take DMB_STEADY_AT_REST, and the slip here, for
- * it), _NO_MEMORY, _CALLBACK, _CANCELLED; *buckling is NULL then. Some 40 counts a factor and 10 to 100 iterations on
- * the way, each O(number of elements); memory: the sim's twice more and 3 matrices, from its allocator. */
+ * (message says which part is free), _NO_CONVERGENCE (the equilibria could not be followed; message says how far),
+ * _UNSUPPORTED (a motion drive of a joint; a state that slides or turns by its drives: take DMB_STEADY_AT_REST, and the
+ * slip here, for it), _NO_MEMORY, _CALLBACK, _CANCELLED; *buckling is NULL then. Some 40 counts a factor and 10 to 100
+ * iterations on the way, each O(number of elements); memory: the sim's twice more and 3 matrices, from its allocator. */
 DMB_API int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling);
 DMB_API int32_t dmb_buckling_get_info(const dmb_buckling *buckling, dmb_buckling_info *info);
 /* Gives the memory back and sets *buckling to NULL. NULL-safe. */

@@ -73,10 +73,10 @@ typedef int32_t (*dmb_progress_fn)(void *context, double fraction);
  * call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK's is one
  * interval. Nonzero ends the call: DMB_ERR_CANCELLED with all that a failing call leaves alone as before
  * (dmb_analysis_stepped_sine: the sim is in its last accepted state), but for dmb_sim_advance, which ends with
- * DMB_NOTE_CANCELLED in its last accepted
- * state; the same call may be made again. To end a call from another thread or a signal handler, let the function look at a
- * flag that these set. It may not change the sim (above) nor jump out. NULL: nobody is told, as after create, and nothing
- * is paid. Neither saved in snapshots nor hashed. Errors: DMB_ERR_NULL, _HANDLE; _ORDER within a call on the sim. */
+ * DMB_NOTE_CANCELLED in its last accepted state; the same call may be made again. To end a call from another thread or a
+ * signal handler, let the function look at a flag that these set. It may not change the sim (above) nor jump out. NULL:
+ * nobody is told, as after create, and nothing is paid. Neither saved in snapshots nor hashed. Errors: DMB_ERR_NULL,
+ * _HANDLE; _ORDER within a call on the sim. */
 DMB_API int32_t dmb_sim_set_progress(dmb_sim *sim, dmb_progress_fn function, void *context);
 
 typedef struct dmb_step_report {
