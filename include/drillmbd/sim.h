@@ -2,11 +2,12 @@
  * A sim belongs to one thread at a time; many sims may share one model. After create nothing allocates, locks or does
  * input or output. A call that fails leaves the last accepted state whole.
  *
- * Functions of the caller's (programmes, constraints, progress, allocator, log) may not change the sim they are called for:
- * from within them dmb_sim_destroy does nothing, and calls that change the sim or analyse it give DMB_ERR_ORDER. In a step,
- * and in analyses that leave the sim alone, queries, snapshot and hash tell of the last accepted state; in calls that change
- * it at once (dmb_analysis_static, dmb_sim_set_drive, _set_joint, _transfer_state) they give DMB_ERR_ORDER too. They return,
- * by no longjmp or exception: the sim would stay busy for ever. */
+ * Callbacks (programmes, constraints, progress, allocator, log) must not change the sim that calls them: from within them
+ * dmb_sim_destroy does nothing, and calls that change the sim or analyse it return DMB_ERR_ORDER. During a step, and during
+ * analyses that leave the sim alone, queries, snapshot and hash answer from the last accepted state; during calls that
+ * overwrite the state (dmb_analysis_static, dmb_sim_set_drive, _set_joint, _transfer_state) they return DMB_ERR_ORDER too.
+ * Callbacks must return normally: after a longjmp or an exception the sim would stay busy for ever.
+ * In lists of errors _X stands for DMB_ERR_X. */
 #ifndef DRILLMBD_SIM_H
 #define DRILLMBD_SIM_H
 
@@ -20,7 +21,7 @@ typedef struct dmb_sim dmb_sim;
 
 enum {
     DMB_METHOD_INDEPENDENT = 0, /* the step solves for independent coordinates, found by partition */
-    DMB_METHOD_MULTIPLIERS = 1  /* for comparison: for all coordinates and the multipliers; steps only, not statics */
+    DMB_METHOD_MULTIPLIERS = 1  /* it solves for all coordinates and the multipliers, for comparison; not in statics */
 };
 typedef struct dmb_sim_options {
     uint32_t struct_size;
@@ -32,15 +33,15 @@ typedef struct dmb_sim_options {
     double newton_tolerance;      /* [-] residual over the norm of the forces that balance in it, 1e-14 .. 1e-1; default
                                      1e-8. The force that rounding of the poses makes in a stiff pipe counts as zero; a
                                      step solved with factors of an earlier one aims at a fifth of it */
-    double tolerance_translation; /* [m] local error of dmb_sim_advance a step, > 0; default 1e-6 */
+    double tolerance_translation; /* [m] local error allowed in a step of dmb_sim_advance, > 0; default 1e-6 */
     double tolerance_rotation;    /* [rad] the same for rotation, > 0; default 1e-5 */
-    double step_min;              /* [s] of dmb_sim_advance and of divided steps, > 0; default 1e-9 */
+    double step_min;              /* [s] shortest step of dmb_sim_advance and part of a divided step, > 0; default 1e-9 */
     double step_max;              /* [s] of dmb_sim_advance, > step_min; default 0.1 */
     uint32_t max_cuts;            /* [-] times a step that does not converge is halved, 0 .. 30; default 12 */
     int32_t bounded_work;         /* 1: dmb_sim_step does one step of at most max_iterations and accepts a finite result
                                      with DMB_NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not
                                      divided at corners; for control loops; default 0 */
-    int32_t energy_ledger;        /* 1 (default): keep the energy ledger; 0: not there in the step */
+    int32_t energy_ledger;        /* 1 (default): keep the energy ledger; 0: it is not computed */
     uint32_t max_steps;           /* [-] accepted steps in one dmb_sim_advance, which then ends with DMB_NOTE_STOPPED;
                                      0 (default): no bound */
     int32_t constraint_method;    /* DMB_METHOD_..., how joints enter the linear algebra of a step; default

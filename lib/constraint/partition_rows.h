@@ -172,7 +172,7 @@ static inline size_t find_runs(size_t n, const double *b, uint64_t blocks, run *
     return count;
 }
 
-/* Sum of a_j b_j weight_j^2, in four parts as in partition_row.h. */
+/* Sum of a_j b_j weight_j^2, in four parts as above. */
 static inline double weighted_dot(size_t n, const double *a, const double *b, const double *weight)
 {
     double sum[4] = {0.0, 0.0, 0.0, 0.0};

@@ -1,4 +1,4 @@
-/* Reading and writing of the structs of model.h; their T_init stand in defaults.c. */
+/* Reading and writing of the structs of model.h; their T_init stand in definition_defaults.c. */
 #ifndef DMB_MODEL_DEFINITION_DEFAULTS_H
 #define DMB_MODEL_DEFINITION_DEFAULTS_H
 

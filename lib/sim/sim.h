@@ -78,7 +78,7 @@
     X(uint32_t, partition_column, column, COLUMN_ORDER) /* [-] columns of a cluster, dependent ones first */          \
     X(double, partition_quality, cluster, NUMBERS) /* [-] of the choice when it was made */
 
-/* ---- Kept: factors of an iteration matrix that later steps may do with (integrator/attempt). Written on acceptance
+/* ---- Kept: factors of an iteration matrix that later steps may do with (integrator/newton). Written on acceptance
  * only; saved, restored and hashed, so that a restored sim iterates alike, but not set aside in `backup`: a step that a
  * failing call may take back leaves them alone. Empty in a scene with joints: kd, kl = diagonal, link, else 0; kn = n
  * where there are contact sites too, else 0. */

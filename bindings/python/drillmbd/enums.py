@@ -333,7 +333,7 @@ FEATURE_ALL = Feature.ALL
 class ConstraintMethod(IntEnum):
     """Values DMB_METHOD_... of the headers."""
     INDEPENDENT = 0  #: the step solves for independent coordinates, found by partition
-    MULTIPLIERS = 1  #: for comparison: for all coordinates and the multipliers; steps only, not statics
+    MULTIPLIERS = 1  #: it solves for all coordinates and the multipliers, for comparison; not in statics
 
 
 METHOD_INDEPENDENT = ConstraintMethod.INDEPENDENT

@@ -191,7 +191,7 @@ int dmb_frames_turn_reduced(dmb_sim *sim, const dmb_frames *frames)
  *     K = dr/dx,   x' = -K^-1 dr/dfactor,   G = d/dfactor K(x + factor x', factor)
  * G by a central difference of the exact tangent, so that what the state does before it buckles is in it. With joints K
  * is that of the independent coordinates, R^T K R with the forces of constraint in it, and so is its difference: R and
- * those forces change along the response too. All in the frames of the present state (frames.h). */
+ * those forces change along the response too. All in the frames of the present state. */
 
 /* The pattern moves the state by this part of an element for the difference. */
 #define DMB_DIFFERENCE_MOVE 1e-6
