@@ -325,8 +325,9 @@ static void places_that_are_none(void **state)
     for (int writer = 0; writer < WRITERS; writer++) {
         (void)snprintf(path, sizeof path, "%s/below", s.path);
         assert_int_equal(write_to(writer, &s, path), DMB_ERR_IO);
-        assert_int_equal(write_to(writer, &s, "/proc/none"), DMB_ERR_IO);
-        assert_int_equal(write_to(writer, &s, "/sys/none"), DMB_ERR_IO);
+        /* in a bare root these are empty folders like others, unless the kernel's file systems are mounted there */
+        if (access("/proc/self", F_OK) == 0) assert_int_equal(write_to(writer, &s, "/proc/none"), DMB_ERR_IO);
+        if (access("/sys/kernel", F_OK) == 0) assert_int_equal(write_to(writer, &s, "/sys/none"), DMB_ERR_IO);
         assert_int_equal(write_to(writer, &s, "/proc/self/fd/none"), DMB_ERR_IO);
         (void)snprintf(path, sizeof path, "%s/nowhere/", s.folder);
         assert_int_equal(write_to(writer, &s, path), DMB_ERR_IO);
