@@ -4,7 +4,7 @@
 
 #include "model/model.h"
 
-/* Frees a programme's copy of terms and tables, or the wall's copy of the survey. */
+/* Frees a programme's copy of terms and tables. */
 void dmb_programme_release(dmb_programme *programme, const dmb_allocator *allocator);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "model/model.h"
 
+/* Frees the wall's copy of the survey. */
 void dmb_wall_release(dmb_wall_def *wall, const dmb_allocator *allocator);
 
 #endif

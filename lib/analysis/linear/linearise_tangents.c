@@ -6,7 +6,7 @@
 #include "math/mat6.h"
 #include "math/so3.h"
 
-/* [s] What is integrated over a step is told from the rest by two steps this short and twice as long: a power of two,
+/* [s] Terms integrated over a step are told from the rest by two steps this short and twice as long: a power of two,
  * over which nothing slips far. */
 #define DMB_LINEAR_STEP 0x1p-24
 

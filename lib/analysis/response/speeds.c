@@ -369,7 +369,7 @@ static int32_t run(speeds_run *r)
     return DMB_OK;
 }
 
-/* ---- What limits the answer -------------------------------------------------------------------------------------- */
+/* ---- Limits of the answer ----------------------------------------------------------------------------------------- */
 
 static int is_silent(const dmb_speeds_curve *curve)
 {

@@ -4,7 +4,6 @@
 
 #include "analysis/linear/stiffness.h"
 #include "analysis/static/stability.h"
-#include "analysis/static/static_pull.h"
 #include "base/handle.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"

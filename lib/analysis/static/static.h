@@ -76,4 +76,7 @@ int32_t dmb_static_relaxation(dmb_static_search *search);
 /* Defaults overlaid with what is given (may be NULL); on refusal a message naming the field. */
 int32_t dmb_static_options_take(dmb_sim *sim, const dmb_static_options *given, dmb_static_options *out);
 
+/* The pull along strings by the forces of the starting pose, from which the search begins anew. 1 if there is one. */
+int32_t dmb_static_find_pull(dmb_static_search *search, dmb_static_pull *most);
+
 #endif

@@ -1,5 +1,4 @@
-#include "analysis/static/static_pull.h"
-
+/* The pull along strings in statics that do not converge: the advice on refinement needs it. */
 #include "analysis/static/static.h"
 #include "math/vec3.h"
 #include "sim/layout.h"
