@@ -46,9 +46,10 @@ int main(void)
     for (int k = 0; k <= 1000 && status >= 0; ++k) {
         if (k % 125 == 0) {
             dmb_query_drive(sim, id, &drive), dmb_query_joint(sim, pins[1], &knee);
-            printf("crank %3.0f deg: coupler %9.5f deg, force at the knee %9.3f N, torque %9.4f N m, violation %.1e m\n",
-                   57.29577951308232 * drive.position, 57.29577951308232 * (drive.position + knee.position[DMB_RX]),
-                   hypot(knee.reaction[1], knee.reaction[2]), drive.force, knee.violation);
+            printf(
+                "crank %3.0f deg: coupler %9.5f deg, force at the knee %9.3f N, torque %9.4f N m, violation %.1e m\n",
+                57.29577951308232 * drive.position, 57.29577951308232 * (drive.position + knee.position[DMB_RX]),
+                hypot(knee.reaction[1], knee.reaction[2]), drive.force, knee.violation);
         }
         status = dmb_sim_step(sim, 1e-3, NULL);
     }

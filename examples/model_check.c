@@ -1,6 +1,6 @@
-/* How many degrees_of_freedom has my model, and what holds what? The rig of the reference study as one would draw it: head,
- * 100 flexible pipes, bit, 101 fixed joints between them, a cylindrical guide at the head and two drives in it. The same
- * string described in one piece has the same degrees_of_freedom and none of these equations. */
+/* How many degrees_of_freedom has my model, and what holds what? The rig of the reference study as one would draw it:
+ * head, 100 flexible pipes, bit, 101 fixed joints between them, a cylindrical guide at the head and two drives in it.
+ * The same string described in one piece has the same degrees_of_freedom and none of these equations. */
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 

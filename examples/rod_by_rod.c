@@ -1,9 +1,9 @@
 /* How does a hole grow rod by rod?
  *
  * A rig holds only so much feed: it drills one rod's length, stops, lets go of the string, puts a rod in between and
- * drills on. Every number of rods is a model of its own, described by one function; dmb_sim_transfer_state takes the state
- * from one to the next: shape and speed of the string, cut rock, contacts, drives, time and energy ledger. At the end
- * the string is pulled out by two rods, which are taken off. */
+ * drills on. Every number of rods is a model of its own, described by one function; dmb_sim_transfer_state takes the
+ * state from one to the next: shape and speed of the string, cut rock, contacts, drives, time and energy ledger. At the
+ * end the string is pulled out by two rods, which are taken off. */
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 

@@ -109,9 +109,10 @@ static void run(turning *t)
     if (t->status >= 0) t->status = find_linear(t);
     if (t->status >= 0) t->status = dmb_sim_advance(t->sim, 1.0, NULL);
     if (t->status >= 0)
-        t->status = dmb_analysis_stepped_sine(t->sim, t->frequency, &options, t->outputs, OUTPUTS, &t->amplitudes[0][0][0],
-                                              &t->report);
-    if (t->status < 0) fprintf(stderr, "%g Hz: %s%s\n", t->frequency, dmb_model_message(t->model), dmb_sim_message(t->sim));
+        t->status = dmb_analysis_stepped_sine(t->sim, t->frequency, &options, t->outputs, OUTPUTS,
+                                              &t->amplitudes[0][0][0], &t->report);
+    if (t->status < 0)
+        fprintf(stderr, "%g Hz: %s%s\n", t->frequency, dmb_model_message(t->model), dmb_sim_message(t->sim));
     dmb_sim_destroy(&t->sim);
     dmb_model_destroy(&t->model);
 }

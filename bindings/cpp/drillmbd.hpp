@@ -19,8 +19,8 @@
 
 #include <drillmbd/drillmbd.h>
 
-#include <cstddef>
 #include <complex>
+#include <cstddef>
 #include <cstdint>
 
 #if defined(__cpp_exceptions) || defined(__EXCEPTIONS) || defined(_CPPUNWIND)
@@ -438,10 +438,7 @@ public:
     {
         return dmb_sim_advance(handle_, to, report);
     }
-    std::int32_t try_set_drive(dmb_id drive, double value) noexcept
-    {
-        return dmb_sim_set_drive(handle_, drive, value);
-    }
+    std::int32_t try_set_drive(dmb_id drive, double value) noexcept { return dmb_sim_set_drive(handle_, drive, value); }
     std::int32_t try_set_joint(dmb_id joint, std::int32_t state) noexcept
     {
         return dmb_sim_set_joint(handle_, joint, state);
@@ -474,9 +471,11 @@ public:
         begun(of, dmb_sim_create_in(of.get(), &options, block, size, &handle_));
     }
 
-    // Does call(), which makes calls of this sim; told(fraction) is told of them and ends one by true: it throws an error
-    // of DMB_ERR_CANCELLED, or advance returns DMB_NOTE_CANCELLED. What told throws ends it too and comes out of here.
-    template <typename Told, typename Call> void with_progress(Told told, Call call)
+    // Does call(), which makes calls of this sim; told(fraction) is told of them and ends one by true: it throws an
+    // error of DMB_ERR_CANCELLED, or advance returns DMB_NOTE_CANCELLED. An exception of told ends it too and comes out
+    // of here.
+    template <typename Told, typename Call>
+    void with_progress(Told told, Call call)
     {
         teller<Told> heard(*this, told);
         try {
@@ -534,8 +533,8 @@ public:
         sine_response answer;
         answer.report = dmb_stepped_sine_report_default();
         answer.status = done(dmb_analysis_stepped_sine(handle_, frequency, &used, outputs.data(),
-                                               static_cast<std::uint32_t>(outputs.size()),
-                                               reinterpret_cast<double *>(numbers.data()), &answer.report));
+                                                       static_cast<std::uint32_t>(outputs.size()),
+                                                       reinterpret_cast<double *>(numbers.data()), &answer.report));
         for (std::size_t i = 0; i < numbers.size(); i += width)
             answer.amplitudes.emplace_back(numbers.data() + i, numbers.data() + i + width);
         return answer;
@@ -641,7 +640,8 @@ public:
 
 private:
     // A function object as a C function, while it lives; what it throws must not unwind through C.
-    template <typename Told> struct teller {
+    template <typename Told>
+    struct teller {
         teller(sim &of, Told &function) : told(function), owner(of)
         {
             owner.done(dmb_sim_set_progress(owner.handle_, &teller::call, this));

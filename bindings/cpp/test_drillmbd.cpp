@@ -12,12 +12,12 @@ namespace {
 
 int failures = 0;
 
-#define EXPECT(condition)                                                            \
-    do {                                                                             \
-        if (!(condition)) {                                                          \
-            std::cerr << "line " << __LINE__ << ": not so: " << #condition << '\n';  \
-            ++failures;                                                              \
-        }                                                                            \
+#define EXPECT(condition)                                                                                              \
+    do {                                                                                                               \
+        if (!(condition)) {                                                                                            \
+            std::cerr << "line " << __LINE__ << ": not so: " << #condition << '\n';                                    \
+            ++failures;                                                                                                \
+        }                                                                                                              \
     } while (0)
 
 // The status with which a call throws; 0 if it does not.
@@ -234,11 +234,11 @@ void nothing_is_left_behind()
     }
     EXPECT(count.live == 0);
     EXPECT(thrown_by([&] {
-        drillmbd::model model(options);
-        describe(model);
-        drillmbd::sim sim(model);
-        sim.step(-1.0);
-    }) == DMB_ERR_VALUE);
+               drillmbd::model model(options);
+               describe(model);
+               drillmbd::sim sim(model);
+               sim.step(-1.0);
+           }) == DMB_ERR_VALUE);
     EXPECT(count.live == 0);
 }
 
@@ -273,7 +273,8 @@ void modes_of_a_string()
     const dmb_mode_shape tip = modes.shape(2, dmb_station(string, 3, 1.0));
     EXPECT(std::abs(tip.re[1]) + std::abs(tip.re[2]) > 0.1 && tip.im[1] == 0.0);
     const drillmbd::modes::energies all = modes.part(2, string), first = modes.part(2, string, 0);
-    EXPECT(std::abs(all.kinetic / modes[2].kinetic - 1.0) < 1e-9 && std::abs(all.strain / modes[2].strain - 1.0) < 1e-9);
+    EXPECT(std::abs(all.kinetic / modes[2].kinetic - 1.0) < 1e-9 &&
+           std::abs(all.strain / modes[2].strain - 1.0) < 1e-9);
     EXPECT(first.strain > 0.0 && first.strain < all.strain);
     modes.write_vtk(2, 0.1, 0.0, 2, "mode.vtp");
     EXPECT(std::remove("mode.vtp") == 0);
@@ -438,9 +439,8 @@ void calls_are_told_and_ended()
     std::int32_t status = DMB_OK;
     sim.with_progress([&](double fraction) { return ++told, fraction > 0.5; }, [&] { status = sim.advance(1.0); });
     EXPECT(status == DMB_NOTE_CANCELLED && told > 1 && sim.time() > 0.5 && sim.time() < 1.0);
-    EXPECT(thrown_by([&] {
-               sim.with_progress([](double) { return true; }, [&] { sim.static_start(); });
-           }) == DMB_ERR_CANCELLED);
+    EXPECT(thrown_by([&] { sim.with_progress([](double) { return true; }, [&] { sim.static_start(); }); }) ==
+           DMB_ERR_CANCELLED);
     for (int kind = 0; kind < 2; kind++) {
         std::string text;
         try {

@@ -1,5 +1,5 @@
-/* Prints the hashes of the reference rig at rest and after 50 steps, for test_scene.py: examples/scenes/reference_rig.toml is
- * the same scene. */
+/* Prints the hashes of the reference rig at rest and after 50 steps, for test_scene.py:
+ * examples/scenes/reference_rig.toml is the same scene. */
 #include "scene.h"
 
 #include <inttypes.h>

@@ -50,8 +50,8 @@ static void write_variant(FILE *file, const rig_options *options, const rig_resu
     const dmb_statistics *statistics = &result->statistics;
     fprintf(file, "    {\"name\": \"%s\", \"system\": \"%s\", \"couple\": \"%s\", \"table\": \"%s.csv\",\n",
             result->name, rig_system_name(&result->variant), rig_couple_name(&result->variant), result->name);
-    fprintf(file, "     \"pipes\": [%u, %u, %u], \"degrees_of_freedom\": %u, \"weight\": %.9g,\n", pipe[0] + 1, pipe[1] + 1,
-            pipe[2] + 1, result->info.degrees_of_freedom, result->weight);
+    fprintf(file, "     \"pipes\": [%u, %u, %u], \"degrees_of_freedom\": %u, \"weight\": %.9g,\n", pipe[0] + 1,
+            pipe[1] + 1, pipe[2] + 1, result->info.degrees_of_freedom, result->weight);
     fprintf(file, "     \"steps\": %.0f, \"iterations\": %.0f, \"rejected\": %.0f, \"seconds\": %.6g, \"bytes\": %.0f",
             (double)statistics->steps, (double)statistics->iterations, (double)statistics->rejected, result->seconds,
             (double)result->info.model_bytes + (double)statistics->bytes);

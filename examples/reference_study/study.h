@@ -135,10 +135,10 @@ typedef struct study_point {
     double bending[STUDY_MODES]; /* [Hz] without a wall; every order twice, in two planes */
     double on_wall[STUDY_MODES]; /* [Hz] swinging on the wall */
     double axial, torsional;     /* [Hz] lowest */
-    double sag, touch;     /* [m] of the deepest place below the hole's axis; to where it lies down, from the head */
-    double thrust, torque; /* [N, N m] of the head, sliding into the hole and turning, load on the bit included */
-    double push;           /* [N] of the head, sliding without turning */
-    double buckling;       /* [N] at the bit, on top of its load, at which the string at rest buckles */
+    double sag, touch;      /* [m] of the deepest place below the hole's axis; to where it lies down, from the head */
+    double thrust, torque;  /* [N, N m] of the head, sliding into the hole and turning, load on the bit included */
+    double push;            /* [N] of the head, sliding without turning */
+    double buckling;        /* [N] at the bit, on top of its load, at which the string at rest buckles */
     double peak, amplitude; /* [Hz, m] the largest of the last pipe to all causes together */
     double crossover;       /* [Hz] first */
 } study_point;
@@ -153,7 +153,7 @@ int study_sets_write(const char *folder, const study_set sets[STUDY_SETS]);
 
 /* ---- The drilling cycle in time (cycles.c) ----------------------------------------------------------------------- */
 #define STUDY_BIT 0.090 /* [m] diameter of that bit */
-#define STUDY_JUMP 1.0 /* [m/s2] above this a change of speed between samples is a jump: a tenth of gravity */
+#define STUDY_JUMP 1.0  /* [m/s2] above this a change of speed between samples is a jump: a tenth of gravity */
 enum {
     STUDY_RIGID = 0, /* with friction and vibration, as FULL */
     STUDY_CONTACT = 1,

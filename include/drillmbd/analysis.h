@@ -11,31 +11,32 @@ extern "C" {
 /* Same bits, by level. Same build, same machine and same calls give
  *   1. steps, and all that is read off a state: the same bits, whatever else runs, in any number of threads;
  *   2. statics, paths, buckling, responses, stepped sine, speeds to avoid: the same bits likewise; they call no BLAS;
- *   3. modes, and `condition` of a model check: LAPACK's digits. They differ by rounding with the host's BLAS and the number
- *      of its threads: eigenvalues by some 1e-12 of themselves, shapes by as much over the distance to the next frequency;
- *      counts, ranks and rigid-body modes do not. One thread of BLAS (OPENBLAS_NUM_THREADS=1) gives the same bits. */
+ *   3. modes, and `condition` of a model check: LAPACK's digits. They differ by rounding with the host's BLAS and the
+ *      number of its threads: eigenvalues by some 1e-12 of themselves, shapes by as much over the distance to the next
+ *      frequency; counts, ranks and rigid-body modes do not. One thread of BLAS (OPENBLAS_NUM_THREADS=1) gives the same
+ *      bits. */
 
-/* Steady states of a scene whose motion drives (DMB_DRIVE_MOTION) move at the present time, in which a run goes on without
- * a transient. Programmes that change count with their speed at that time. */
+/* Steady states of a scene whose motion drives (DMB_DRIVE_MOTION) move at the present time, in which a run goes on
+ * without a transient. Programmes that change count with their speed at that time. */
 enum {
-    DMB_STEADY_AUTO = 0,    /* AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and
-                               about their axis, RIGID else, or where masses are eccentric; AT_REST with DMB_NOTE_NOT_STEADY
-                               (message says why) where neither is steady */
+    DMB_STEADY_AUTO = 0, /* AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and
+                            about their axis, RIGID else, or where masses are eccentric; AT_REST with
+                            DMB_NOTE_NOT_STEADY (message says why) where neither is steady */
     DMB_STEADY_AT_REST = 1, /* all is at rest; only what motion drives move takes their speed */
-    DMB_STEADY_SLIDING = 2, /* axes at rest, strings slide along the hole and turn about their own axis as their drives say */
+    DMB_STEADY_SLIDING = 2, /* axes at rest; strings slide along the hole and turn about their axis as drives say */
     DMB_STEADY_RIGID = 3    /* all turns about one fixed axis like a rigid body, under centrifugal forces */
 };
 typedef struct dmb_static_options {
     uint32_t struct_size;
-    uint32_t max_iterations;   /* [-] of one load step, 1 .. 10000; default 60 */
-    double tolerance;          /* [-] residual over the norm of the forces that balance in it; default 1e-10 */
-    double slip_axial;         /* [m/s] friction acts as if the string slid along the hole at this speed; default 0 */
-    double slip_rotation;      /* [rad/s] and turned at this speed; both 0: no friction in the static state */
-    uint32_t load_steps;       /* [-] equal steps from no load to full load, at most 10000, before the library chooses
-                                  them by itself; default 0: the whole load at once */
-    int32_t lay_on_wall;       /* 1 (default): start from the string lying on the low side of its hole; 0: from the
-                                  present pose */
-    int32_t steady;            /* DMB_STEADY_..., default DMB_STEADY_AUTO */
+    uint32_t max_iterations; /* [-] of one load step, 1 .. 10000; default 60 */
+    double tolerance;        /* [-] residual over the norm of the forces that balance in it; default 1e-10 */
+    double slip_axial;       /* [m/s] friction acts as if the string slid along the hole at this speed; default 0 */
+    double slip_rotation;    /* [rad/s] and turned at this speed; both 0: no friction in the static state */
+    uint32_t load_steps;     /* [-] equal steps from no load to full load, at most 10000, before the library chooses
+                                them by itself; default 0: the whole load at once */
+    int32_t lay_on_wall;     /* 1 (default): start from the string lying on the low side of its hole; 0: from the
+                                present pose */
+    int32_t steady;          /* DMB_STEADY_..., default DMB_STEADY_AUTO */
     int32_t reserved;
 } dmb_static_options;
 DMB_SIZED_STRUCT(dmb_static_options)
@@ -43,52 +44,52 @@ DMB_SIZED_STRUCT(dmb_static_options)
 /* Kinds of stiffness that the stability of a static state is judged by. */
 enum {
     DMB_STIFFNESS_SYMMETRIC = 0,  /* forces have a potential: the state is stable where no eigenvalue is negative */
-    DMB_STIFFNESS_UNSYMMETRIC = 1 /* friction that slips, moments with a fixed axis, followers: the state diverges by each
-                                     real negative eigenvalue; by complex ones it may flutter, which depends on mass and
-                                     damping and is a question for dmb_analysis_modes with DMB_MODES_DAMPED */
+    DMB_STIFFNESS_UNSYMMETRIC = 1 /* friction that slips, moments with a fixed axis, followers: the state diverges by
+                                     each real negative eigenvalue; by complex ones it may flutter, which depends on
+                                     mass and damping and is a question for dmb_analysis_modes with DMB_MODES_DAMPED */
 };
 enum { DMB_STATIC_NEWTON = 0, DMB_STATIC_RELAXATION = 1 };
 typedef struct dmb_static_report {
     uint32_t struct_size;
-    uint32_t iterations;       /* [-] in all */
-    uint32_t load_steps;       /* [-] carried out */
-    int32_t method;            /* DMB_STATIC_...: the last resort that was needed */
-    double residual;           /* [-] relative, at the end */
-    double largest_force;      /* [N, N m over the element length] largest component of the residual at the end */
-    double lateral_move;       /* [m] largest displacement from the starting pose */
-    uint32_t cuts;             /* [-] load steps that did not converge and were halved */
-    uint32_t line_searches;    /* [-] corrections that were shortened by a line search */
-    int32_t negative;          /* [-] eigenvalues of the stiffness by which the equilibrium is unstable, those that are 0 but
-                                  for rounding apart. SYMMETRIC: negative ones, exactly. UNSYMMETRIC: real negative ones
-                                  among those nearest 0, 36 or all, as many as the sign of the determinant agrees with;
-                                  -1: not counted, which bounded work did not allow. Of a state that moves (`steady`): of the
-                                  stiffness in its moving axes, centrifugal forces included; gyroscopic ones may hold it
-                                  all the same, or damping not (dmb_analysis_modes) */
-    int32_t stiffness;         /* DMB_STIFFNESS_...: the kind that was judged */
-    int32_t steady;            /* DMB_STEADY_AT_REST, _SLIDING or _RIGID: what the state is */
+    uint32_t iterations;    /* [-] in all */
+    uint32_t load_steps;    /* [-] carried out */
+    int32_t method;         /* DMB_STATIC_...: the last resort that was needed */
+    double residual;        /* [-] relative, at the end */
+    double largest_force;   /* [N, N m over the element length] largest component of the residual at the end */
+    double lateral_move;    /* [m] largest displacement from the starting pose */
+    uint32_t cuts;          /* [-] load steps that did not converge and were halved */
+    uint32_t line_searches; /* [-] corrections that were shortened by a line search */
+    int32_t negative;  /* [-] eigenvalues of the stiffness by which the equilibrium is unstable, those that are 0 but
+                          for rounding apart. SYMMETRIC: negative ones, exactly. UNSYMMETRIC: real negative ones
+                          among those nearest 0, 36 or all, as many as the sign of the determinant agrees with;
+                          -1: not counted, which bounded work did not allow. Of a state that moves (`steady`): of the
+                          stiffness in its moving axes, centrifugal forces included; gyroscopic ones may hold it
+                          all the same, or damping not (dmb_analysis_modes) */
+    int32_t stiffness; /* DMB_STIFFNESS_...: the kind that was judged */
+    int32_t steady;    /* DMB_STEADY_AT_REST, _SLIDING or _RIGID: what the state is */
     int32_t steady_reserved;
 } dmb_static_report;
 DMB_SIZED_STRUCT(dmb_static_report)
 
 /* Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, by
- * Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017); where that fails in load steps (gravity,
- * loads and bit load from 0, drives as they are) that are halved when they fail and doubled when they do not, with a
- * line search in the shortest; and by pseudo-transient continuation where that fails too. At rest the rock law does not
- * act (at time 0 its bottom is laid ahead of the bit as described); a speed controller acts as at speed 0.
- * Where motion drives move, the state is a steady one (`steady`): speeds of all nodes are those of the sliding or the rigid
- * motion, friction acts by the slip that there is, damping and drag act, controllers act by that speed, and a bit that
- * stands on rock cuts (at time 0: where none is described ahead of it). SLIDING asks that what turns is round (no eccentric
- * mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, guides, joints to the ground and a
- * hole agree with the axis; else DMB_ERR_UNSUPPORTED says what does not. Both take memory, one matrix and some vectors, from
- * the sim's allocator. The energy ledger starts anew. options and report may be NULL.
+ * Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017); where that fails in load steps
+ * (gravity, loads and bit load from 0, drives as they are) that are halved when they fail and doubled when they do not,
+ * with a line search in the shortest; and by pseudo-transient continuation where that fails too. At rest the rock law
+ * does not act (at time 0 its bottom is laid ahead of the bit as described); a speed controller acts as at speed 0.
+ * Where motion drives move, the state is a steady one (`steady`): speeds of all nodes are those of the sliding or the
+ * rigid motion, friction acts by the slip that there is, damping and drag act, controllers act by that speed, and a bit
+ * that stands on rock cuts (at time 0: where none is described ahead of it). SLIDING asks that what turns is round (no
+ * eccentric mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, guides, joints to the
+ * ground and a hole agree with the axis; else DMB_ERR_UNSUPPORTED says what does not. Both take memory, one matrix and
+ * some vectors, from the sim's allocator. The energy ledger starts anew. options and report may be NULL.
  * DMB_NOTE_UNSTABLE where the equilibrium at rest is one that the string would leave (report->negative > 0). Errors:
  * DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the state is then
  * that before the call. O(number of elements) an iteration. */
 DMB_API int32_t dmb_analysis_static(dmb_sim *sim, const dmb_static_options *options, dmb_static_report *report);
 
 /* ---- Buckling ----------------------------------------------------------------------------------------------------
- * The loads that grow with the factor of a buckling analysis or of a path, on top of the loads of the present time; factor
- * 0 is the present state. */
+ * The loads that grow with the factor of a buckling analysis or of a path, on top of the loads of the present time;
+ * factor 0 is the present state. */
 enum {
     DMB_SCALE_ALL = 0,   /* gravity, all loads, bit loads, forces of load drives: 1 + factor times the present ones */
     DMB_SCALE_LOADS = 1, /* the same without gravity */
@@ -97,17 +98,17 @@ enum {
 };
 typedef struct dmb_buckling_options {
     uint32_t struct_size;
-    uint32_t count;          /* [-] of critical factors wanted, 1 .. 10000; default 1 */
-    int32_t scale;           /* DMB_SCALE_..., default DMB_SCALE_LOADS */
-    int32_t follow;          /* 1 (default): along the equilibria to the lowest factor; 0: extrapolated from the present
-                                state alone */
-    dmb_id part;             /* load or drive of DMB_SCALE_PART */
-    double factor_max;       /* [unit of the factor] not looked beyond, > 0; default 1e12 */
-    double tolerance;        /* [-] relative, of the factors, 1e-15 .. 0.1; default 1e-10 */
-    double step;             /* [unit of the factor] difference that the change of the stiffness is taken over; 0
-                                (default): what moves the string by a millionth of an element */
-    double slip_axial;       /* [m/s] friction as in dmb_static_options; the stiffness is unsymmetric then */
-    double slip_rotation;    /* [rad/s] */
+    uint32_t count;       /* [-] of critical factors wanted, 1 .. 10000; default 1 */
+    int32_t scale;        /* DMB_SCALE_..., default DMB_SCALE_LOADS */
+    int32_t follow;       /* 1 (default): along the equilibria to the lowest factor; 0: extrapolated from the present
+                             state alone */
+    dmb_id part;          /* load or drive of DMB_SCALE_PART */
+    double factor_max;    /* [unit of the factor] not looked beyond, > 0; default 1e12 */
+    double tolerance;     /* [-] relative, of the factors, 1e-15 .. 0.1; default 1e-10 */
+    double step;          /* [unit of the factor] difference that the change of the stiffness is taken over; 0
+                             (default): what moves the string by a millionth of an element */
+    double slip_axial;    /* [m/s] friction as in dmb_static_options; the stiffness is unsymmetric then */
+    double slip_rotation; /* [rad/s] */
 } dmb_buckling_options;
 DMB_SIZED_STRUCT(dmb_buckling_options)
 /* Reason for the end of the way along the equilibria. */
@@ -120,40 +121,39 @@ enum {
 };
 typedef struct dmb_buckling_info {
     uint32_t struct_size;
-    uint32_t count;          /* [-] factors */
-    uint32_t confirmed;      /* [-] of them, the lowest: the first stood up on the path of equilibria, others are the same or
-                                have not changed from one linearisation to the other; the rest are extrapolations */
+    uint32_t count;     /* [-] factors */
+    uint32_t confirmed; /* [-] of them, the lowest: the first stood up on the path of equilibria, others are the same or
+                           have not changed from one linearisation to the other; the rest are extrapolations */
     uint32_t linearisations; /* [-] of states on the way, the present one included */
     uint32_t points;         /* [-] equilibria found on the way */
-    int32_t stiffness;       /* DMB_STIFFNESS_... of the state linearised last. UNSYMMETRIC: factors are those of divergence,
-                                det K = 0; what flutters may do so before (dmb_analysis_modes) */
-    int32_t end;             /* DMB_BUCKLING_... */
+    int32_t stiffness; /* DMB_STIFFNESS_... of the state linearised last. UNSYMMETRIC: factors are those of divergence,
+                          det K = 0; what flutters may do so before (dmb_analysis_modes) */
+    int32_t end;       /* DMB_BUCKLING_... */
     int32_t reserved;
-    double estimate;         /* [unit of the factor] the lowest factor, from the present state alone; infinite: none */
-    double linearised_at;    /* [unit of the factor] state that the shapes and further factors were linearised about */
-    double reached;          /* [unit of the factor] last stable equilibrium on the way */
+    double estimate;      /* [unit of the factor] the lowest factor, from the present state alone; infinite: none */
+    double linearised_at; /* [unit of the factor] state that the shapes and further factors were linearised about */
+    double reached;       /* [unit of the factor] last stable equilibrium on the way */
 } dmb_buckling_info;
 DMB_SIZED_STRUCT(dmb_buckling_info)
 /* Critical factors and shapes; destroyed by the caller, one thread at a time. */
 typedef struct dmb_buckling dmb_buckling;
-/* Buckling from the present static state on (dmb_analysis_static first): the lowest factors > 0 at which K + factor dK is
- * singular. K is the tangent stiffness with its contacts as they are, closed ones holding and swinging with F/e around the
- * axis; dK is its change along the response of the state to the pattern of loads, both in the frames of the state; with
- * joints both are those of the independent coordinates. A symmetric K is counted by the signs of the pivots (Sylvester), so
- * that no factor is missed, and factors are found by bisection; of an unsymmetric one they are the real eigenvalues by
- * Krylov subspaces, and what may flutter before is not looked for.
- * That is an extrapolation, good where sections turn and contacts shift little on the way. So the equilibria are followed
- * (dmb_analysis_path) to the factor, linearised again, and so on until an eigenvalue of their stiffness passes 0: the lowest
- * factor is where the path loses its stability, at a bifurcation or limit point, and shape and further factors are
- * linearised just before. dmb_buckling_get_info tells. The sim is not changed.
- * DMB_NOTE_STOPPED where fewer than `count` lie below factor_max or can be told (beyond a limit point none can; message says
- * how far the equilibria stay stable where there is none). DMB_NOTE_EXTRAPOLATED where some of the factors are not
- * confirmed.
- * Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no equilibrium or not stable; message says by how much), _SINGULAR
- * (message says which part is free), _NO_CONVERGENCE (the equilibria could not be followed; message says how far),
- * _UNSUPPORTED (a motion drive of a joint; a state that slides or turns by its drives: take DMB_STEADY_AT_REST, and the
- * slip here, for it), _NO_MEMORY, _CALLBACK, _CANCELLED; *buckling is NULL then. Some 40 counts a factor and 10 to 100
- * iterations on the way, each O(number of elements); memory: the sim's twice more and 3 matrices, from its allocator. */
+/* Buckling from the present static state on (dmb_analysis_static first): the lowest factors > 0 at which K + factor dK
+ * is singular. K is the tangent stiffness with its contacts as they are, closed ones holding and swinging with F/e
+ * around the axis; dK is its change along the response of the state to the pattern of loads, both in the frames of the
+ * state; with joints both are those of the independent coordinates. A symmetric K is counted by the signs of the pivots
+ * (Sylvester), so that no factor is missed, and factors are found by bisection; of an unsymmetric one they are the real
+ * eigenvalues by Krylov subspaces, and what may flutter before is not looked for. That is an extrapolation, good where
+ * sections turn and contacts shift little on the way. So the equilibria are followed (dmb_analysis_path) to the factor,
+ * linearised again, and so on until an eigenvalue of their stiffness passes 0: the lowest factor is where the path
+ * loses its stability, at a bifurcation or limit point, and shape and further factors are linearised just before.
+ * dmb_buckling_get_info tells. The sim is not changed. DMB_NOTE_STOPPED where fewer than `count` lie below factor_max
+ * or can be told (beyond a limit point none can; message says how far the equilibria stay stable where there is none).
+ * DMB_NOTE_EXTRAPOLATED where some of the factors are not confirmed. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is
+ * no equilibrium or not stable; message says by how much), _SINGULAR (message says which part is free), _NO_CONVERGENCE
+ * (the equilibria could not be followed; message says how far), _UNSUPPORTED (a motion drive of a joint; a state that
+ * slides or turns by its drives: take DMB_STEADY_AT_REST, and the slip here, for it), _NO_MEMORY, _CALLBACK,
+ * _CANCELLED; *buckling is NULL then. Some 40 counts a factor and 10 to 100 iterations on the way, each O(number of
+ * elements); memory: the sim's twice more and 3 matrices, from its allocator. */
 DMB_API int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling);
 DMB_API int32_t dmb_buckling_get_info(const dmb_buckling *buckling, dmb_buckling_info *info);
 /* Gives the memory back and sets *buckling to NULL. NULL-safe. */
@@ -162,8 +162,8 @@ DMB_API void dmb_buckling_destroy(dmb_buckling **buckling);
 DMB_API uint32_t dmb_buckling_count(const dmb_buckling *buckling);
 /* [unit of the factor] The critical factor number `mode`, rising from 0 on. DMB_ERR_NULL, _HANDLE, _VALUE. */
 DMB_API int32_t dmb_buckling_factor(const dmb_buckling *buckling, uint32_t mode, double *factor);
-/* [m, rad] displacement and rotation of a section in the buckling shape, world frame, the largest displacement of a node
- * being 1 m in its own axes; shape (6). Errors as above and those of dmb_query_motion. */
+/* [m, rad] displacement and rotation of a section in the buckling shape, world frame, the largest displacement of a
+ * node being 1 m in its own axes; shape (6). Errors as above and those of dmb_query_motion. */
 DMB_API int32_t dmb_buckling_shape(const dmb_buckling *buckling, uint32_t mode, dmb_place place, double shape[6]);
 
 /* ---- Paths of equilibrium ----------------------------------------------------------------------------------------
@@ -176,15 +176,15 @@ enum {
 };
 typedef struct dmb_path_point {
     uint32_t struct_size;
-    uint32_t number;      /* [-] 0: the state the path begins in */
-    int32_t kind;         /* DMB_PATH_... */
-    int32_t negative;     /* [-] as in dmb_static_report, of the 12 nearest 0 where UNSYMMETRIC; 0: stable */
-    uint32_t iterations;  /* [-] of this point */
-    int32_t stiffness;    /* DMB_STIFFNESS_... */
-    double factor;        /* [unit of the factor] */
-    double rate;          /* [unit of the factor/m] of the factor along the path, < 0 where it falls */
-    double arc;           /* [m] length of the path so far, root of the mean square of what the nodes move */
-    double displacement;  /* [m] of the watched place and component since time 0; 0: none is watched */
+    uint32_t number;     /* [-] 0: the state the path begins in */
+    int32_t kind;        /* DMB_PATH_... */
+    int32_t negative;    /* [-] as in dmb_static_report, of the 12 nearest 0 where UNSYMMETRIC; 0: stable */
+    uint32_t iterations; /* [-] of this point */
+    int32_t stiffness;   /* DMB_STIFFNESS_... */
+    double factor;       /* [unit of the factor] */
+    double rate;         /* [unit of the factor/m] of the factor along the path, < 0 where it falls */
+    double arc;          /* [m] length of the path so far, root of the mean square of what the nodes move */
+    double displacement; /* [m] of the watched place and component since time 0; 0: none is watched */
 } dmb_path_point;
 DMB_SIZED_STRUCT(dmb_path_point)
 /* Called at each point with a sim that stands there at rest: every query answers, snapshots may be taken and, after the
@@ -192,22 +192,22 @@ DMB_SIZED_STRUCT(dmb_path_point)
 typedef int32_t (*dmb_path_fn)(void *context, const dmb_sim *at, const dmb_path_point *point);
 typedef struct dmb_path_options {
     uint32_t struct_size;
-    uint32_t max_points;      /* [-] 1 .. 1000000; default 200 */
-    uint32_t max_iterations;  /* [-] of one point, 2 .. 1000; default 15 */
-    int32_t scale;            /* DMB_SCALE_..., default DMB_SCALE_LOADS */
-    dmb_id part;              /* load or drive of DMB_SCALE_PART */
-    dmb_place place;          /* what is watched; part {0, 0} (default): nothing */
-    int32_t component;        /* of its displacement in the world, DMB_X (default) .. DMB_Z */
-    int32_t branch;           /* 1 or -1: leaves the path at the first bifurcation, to that side; 0 (default): stays */
-    double factor_end;        /* [unit of the factor] ends there; the path begins towards it; not 0; default 1 */
-    double displacement_end;  /* [m] ends there; default 1e30: nowhere */
-    double first_step;        /* [unit of the factor] > 0; 0 (default): a tenth of factor_end */
-    double step_max;          /* [m] longest arc from point to point, > 0; default 1e30 */
-    double branch_size;       /* [m] arc of the first step on a branch; 0 (default): that of the step before */
-    double tolerance;         /* [-] of the residual, as in dmb_static_options; default 1e-10 */
-    double slip_axial;        /* [m/s] friction as in dmb_static_options */
-    double slip_rotation;     /* [rad/s] */
-    dmb_path_fn callback;     /* may be NULL */
+    uint32_t max_points;     /* [-] 1 .. 1000000; default 200 */
+    uint32_t max_iterations; /* [-] of one point, 2 .. 1000; default 15 */
+    int32_t scale;           /* DMB_SCALE_..., default DMB_SCALE_LOADS */
+    dmb_id part;             /* load or drive of DMB_SCALE_PART */
+    dmb_place place;         /* what is watched; part {0, 0} (default): nothing */
+    int32_t component;       /* of its displacement in the world, DMB_X (default) .. DMB_Z */
+    int32_t branch;          /* 1 or -1: leaves the path at the first bifurcation, to that side; 0 (default): stays */
+    double factor_end;       /* [unit of the factor] ends there; the path begins towards it; not 0; default 1 */
+    double displacement_end; /* [m] ends there; default 1e30: nowhere */
+    double first_step;       /* [unit of the factor] > 0; 0 (default): a tenth of factor_end */
+    double step_max;         /* [m] longest arc from point to point, > 0; default 1e30 */
+    double branch_size;      /* [m] arc of the first step on a branch; 0 (default): that of the step before */
+    double tolerance;        /* [-] of the residual, as in dmb_static_options; default 1e-10 */
+    double slip_axial;       /* [m/s] friction as in dmb_static_options */
+    double slip_rotation;    /* [rad/s] */
+    dmb_path_fn callback;    /* may be NULL */
     void *callback_context;
 } dmb_path_options;
 DMB_SIZED_STRUCT(dmb_path_options)
@@ -256,19 +256,19 @@ typedef struct dmb_check_report {
     uint32_t constraint_rows;   /* [-] equations that act now: of joints, couplings, constraints, joint motion drives */
     uint32_t rank;              /* [-] of their matrix in the coordinates that are neither held nor prescribed */
     uint32_t degrees_of_freedom; /* [-] true degrees of freedom: coordinates - held - prescribed - rank */
-    uint32_t redundant;         /* [-] equations that others imply: rows - rank */
-    uint32_t tridiagonal_nodes; /* [-] nodes whose chains the block-tridiagonal solver takes */
-    uint32_t sparse_nodes;      /* [-] nodes of chains that equations connect: the sparse solver's */
-    uint32_t blocks;            /* [-] of the sparse solver: clusters and the other nodes of those chains */
-    uint32_t fill;              /* [-] couplings of blocks that its elimination adds, in CHOLMOD's order */
-    uint32_t clusters;          /* [-] groups of nodes that equations connect directly */
-    uint32_t largest_cluster;   /* [-] coordinates of the largest */
-    uint32_t warnings;          /* [-] lines of warning in the text */
-    int64_t gruebler;           /* [-] coordinates - held - prescribed - rows; < degrees_of_freedom if equations are redundant */
-    double largest_violation;   /* [m, -] largest violation of an equation of position */
-    double condition;           /* [-] smallest over largest singular value of a cluster's equations, redundant ones
-                                   apart, at unit length, rotations at the mean element length; of the worst cluster;
-                                   an estimate above 300 equations; 1 without any */
+    uint32_t redundant;          /* [-] equations that others imply: rows - rank */
+    uint32_t tridiagonal_nodes;  /* [-] nodes whose chains the block-tridiagonal solver takes */
+    uint32_t sparse_nodes;       /* [-] nodes of chains that equations connect: the sparse solver's */
+    uint32_t blocks;             /* [-] of the sparse solver: clusters and the other nodes of those chains */
+    uint32_t fill;               /* [-] couplings of blocks that its elimination adds, in CHOLMOD's order */
+    uint32_t clusters;           /* [-] groups of nodes that equations connect directly */
+    uint32_t largest_cluster;    /* [-] coordinates of the largest */
+    uint32_t warnings;           /* [-] lines of warning in the text */
+    int64_t gruebler; /* [-] coordinates - held - prescribed - rows; < degrees_of_freedom if equations are redundant */
+    double largest_violation; /* [m, -] largest violation of an equation of position */
+    double condition;         /* [-] smallest over largest singular value of a cluster's equations, redundant ones
+                                 apart, at unit length, rotations at the mean element length; of the worst cluster;
+                                 an estimate above 300 equations; 1 without any */
 } dmb_check_report;
 DMB_SIZED_STRUCT(dmb_check_report)
 

@@ -29,6 +29,7 @@ DMB_API uint32_t dmb_version(void);
 /* ---- Status ------------------------------------------------------------------------------------------------------
  * Every function that can fail returns an int32_t: 0 done, > 0 done with something to know, < 0 refused or failed with
  * nothing changed. dmb_model_message and dmb_sim_message tell the part, the field, the value and the bound. */
+/* clang-format off */
 #define DMB_STATUS_LIST(X)                                                                                            \
     X(DMB_OK, 0, "done")                                                                                              \
     X(DMB_NOTE_STEP_CUT, 1, "done; the step was divided to converge")                                                 \
@@ -59,12 +60,14 @@ DMB_API uint32_t dmb_version(void);
     X(DMB_ERR_GEOMETRY, -15, "parts do not fit together")                                                             \
     X(DMB_ERR_UNSUPPORTED, -16, "a combination that this version does not offer")                                     \
     X(DMB_ERR_CANCELLED, -17, "the caller's progress function ended the call")
+/* clang-format on */
 
 #define DMB_STATUS_ENUM_ENTRY(name, value, text) name = (value),
 enum { DMB_STATUS_LIST(DMB_STATUS_ENUM_ENTRY) DMB_STATUS_END_ = -1000 };
 #undef DMB_STATUS_ENUM_ENTRY
 
-/* Name ("DMB_ERR_VALUE") and text of a status; for an unknown one "DMB_UNKNOWN" and its text. Never NULL. Thread-safe. */
+/* Name ("DMB_ERR_VALUE") and text of a status; for an unknown one "DMB_UNKNOWN" and its text. Never NULL.
+ * Thread-safe. */
 DMB_API const char *dmb_status_name(int32_t status);
 DMB_API const char *dmb_status_text(int32_t status);
 
@@ -96,25 +99,25 @@ static inline dmb_place dmb_station(dmb_id part, uint32_t pipe, double fraction)
 
 /* ---- Structs that cross the border ------------------------------------------------------------------------------
  * Each begins with struct_size and is filled by its T_init, which writes no more than the size it is told: a caller
- * compiled against an older header still works. T_default() returns a filled struct by value.
- * T_init returns DMB_OK, DMB_ERR_NULL, or DMB_ERR_STRUCT_SIZE (size below that of the first release, not a multiple of 8,
- * or more than 1024 bytes above the size this library knows). A longer struct than the library's is accepted where what
- * it does not know is zero. Pure and thread-safe. */
-#define DMB_SIZED_STRUCT(T)                                                                                           \
-    DMB_API int32_t T##_init(T *out, uint32_t size);                                                                  \
-    static inline T T##_default(void)                                                                                 \
-    {                                                                                                                 \
-        T out;                                                                                                        \
-        (void)T##_init(&out, (uint32_t)sizeof(T));                                                                    \
-        return out;                                                                                                   \
+ * compiled against an older header still works. T_default() returns a filled struct by value. T_init returns DMB_OK,
+ * DMB_ERR_NULL, or DMB_ERR_STRUCT_SIZE (size below that of the first release, not a multiple of 8, or more than 1024
+ * bytes above the size this library knows). A longer struct than the library's is accepted where what it does not know
+ * is zero. Pure and thread-safe. */
+#define DMB_SIZED_STRUCT(T)                          \
+    DMB_API int32_t T##_init(T *out, uint32_t size); \
+    static inline T T##_default(void)                \
+    {                                                \
+        T out;                                       \
+        (void)T##_init(&out, (uint32_t)sizeof(T));   \
+        return out;                                  \
     }
 
 /* ---- Memory and log ---------------------------------------------------------------------------------------------- */
 typedef struct dmb_allocator {
     uint32_t struct_size;
     uint32_t reserved;
-    void *context;                                                     /* handed to both functions */
-    void *(*allocate)(void *context, size_t size, size_t alignment);   /* [byte]; NULL on failure */
+    void *context;                                                              /* handed to both functions */
+    void *(*allocate)(void *context, size_t size, size_t alignment);            /* [byte]; NULL on failure */
     void (*release)(void *context, void *block, size_t size, size_t alignment); /* what allocate gave, same sizes */
 } dmb_allocator;
 DMB_SIZED_STRUCT(dmb_allocator) /* malloc and free of the C library */

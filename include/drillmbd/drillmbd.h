@@ -2,12 +2,12 @@
 #ifndef DRILLMBD_DRILLMBD_H
 #define DRILLMBD_DRILLMBD_H
 
+#include "analysis.h"
 #include "base.h"
 #include "model.h"
-#include "sim.h"
-#include "query.h"
-#include "analysis.h"
 #include "modes.h"
+#include "query.h"
 #include "response.h"
+#include "sim.h"
 
 #endif

@@ -25,39 +25,42 @@ DMB_SIZED_STRUCT(dmb_model_options)
 
 /* Creates an empty model. options may be NULL. Errors: DMB_ERR_NULL, _STRUCT_SIZE, _NO_MEMORY; *model is NULL then. */
 DMB_API int32_t dmb_model_create(const dmb_model_options *options, dmb_model **model);
-/* Gives up the caller's hold and sets *model to NULL; sims made from the model keep it alive. The hold is one: while they
- * do, copies of the handle are refused (DMB_ERR_HANDLE) and destroying through them does nothing. Nor does it within a
- * call that describes or compiles the model (by its allocator or log), where such calls give DMB_ERR_ORDER. NULL-safe. */
+/* Gives up the caller's hold and sets *model to NULL; sims made from the model keep it alive. The hold is one: while
+ * they do, copies of the handle are refused (DMB_ERR_HANDLE) and destroying through them does nothing. Nor does it
+ * within a call that describes or compiles the model (by its allocator or log), where such calls give DMB_ERR_ORDER.
+ * NULL-safe. */
 DMB_API void dmb_model_destroy(dmb_model **model);
-/* Message of the last failing or noteworthy call on this model: "part, field, value, bound". Never NULL; lives until the
- * next call on the model. A compiled model shared between threads keeps the message of its compilation; after a
+/* Message of the last failing or noteworthy call on this model: "part, field, value, bound". Never NULL; lives until
+ * the next call on the model. A compiled model shared between threads keeps the message of its compilation; after a
  * dmb_sim_create that failed, the thread that called it reads the reason here, until its next create of the model. */
 DMB_API const char *dmb_model_message(const dmb_model *model);
-/* Parts that were refused are remembered: dmb_model_compile fails with the status and message of the first, unless it was
- * added after all: a later one of its kind with the same name, or with at most one other field where one of them has none
- * (environment, wall: any). This forgets them all. */
+/* Parts that were refused are remembered: dmb_model_compile fails with the status and message of the first, unless it
+ * was added after all: a later one of its kind with the same name, or with at most one other field where one of them
+ * has none (environment, wall: any). This forgets them all. */
 DMB_API int32_t dmb_model_clear_refused(dmb_model *model);
 
 /* ---- Components of motion ----------------------------------------------------------------------------------------
  * Components of body-frame velocity, also bits of a mask. A set of free components must be closed under motion: none,
  * all six, one alone, AXIAL+SPIN (cylindrical pair), three rotations (spherical), three translations, or two
  * translations with the rotation about their normal (planar). Others need a joint and are refused. */
+/* clang-format off */
 enum {
     DMB_X = 0, DMB_Y = 1, DMB_Z = 2, DMB_RX = 3, DMB_RY = 4, DMB_RZ = 5,
     DMB_FREE_NONE = 0, DMB_FREE_X = 1, DMB_FREE_RX = 8, DMB_FREE_RZ = 32, DMB_FREE_CYLINDRICAL = 9,
     DMB_FREE_SPHERICAL = 56, DMB_FREE_ALL = 63
 };
+/* clang-format on */
 
 /* ---- Surroundings ------------------------------------------------------------------------------------------------ */
 typedef struct dmb_environment_def {
     uint32_t struct_size;
     uint32_t reserved;
-    double gravity[3];         /* [m/s2] world frame, default (0, 0, -9.81), shape (3) */
-    double fluid_density;      /* [kg/m3] mud or air inside and outside the pipes, for the buoyancy of pipes and tool
-                                  joints (bits and bodies get none); default 0 */
-    double lateral_damping;    /* [N s/m2] external damping force per metre of pipe and m/s of sideways speed; default 0 */
-    double axial_damping;      /* [N s/m2] the same along the pipe; default 0 */
-    double torsional_damping;  /* [N s] external moment per metre of pipe and rad/s of spin; default 0 */
+    double gravity[3];      /* [m/s2] world frame, default (0, 0, -9.81), shape (3) */
+    double fluid_density;   /* [kg/m3] mud or air inside and outside the pipes, for the buoyancy of pipes and tool
+                               joints (bits and bodies get none); default 0 */
+    double lateral_damping; /* [N s/m2] external damping force per metre of pipe and m/s of sideways speed; default 0 */
+    double axial_damping;   /* [N s/m2] the same along the pipe; default 0 */
+    double torsional_damping; /* [N s] external moment per metre of pipe and rad/s of spin; default 0 */
 } dmb_environment_def;
 DMB_SIZED_STRUCT(dmb_environment_def)
 DMB_API int32_t dmb_model_set_environment(dmb_model *model, const dmb_environment_def *def);
@@ -94,7 +97,8 @@ typedef struct dmb_term {
 } dmb_term;
 DMB_SIZED_STRUCT(dmb_term)
 /* Adds a programme of term_count terms (1 .. 64), each with the same struct_size. */
-DMB_API int32_t dmb_model_add_programme(dmb_model *model, const dmb_term *terms, uint32_t term_count, dmb_id *programme);
+DMB_API int32_t dmb_model_add_programme(dmb_model *model, const dmb_term *terms, uint32_t term_count,
+                                        dmb_id *programme);
 
 /* ---- Hole wall --------------------------------------------------------------------------------------------------- */
 enum {
@@ -116,28 +120,28 @@ enum {
 
 typedef struct dmb_wall_def {
     uint32_t struct_size;
-    uint32_t survey_count;     /* [-] 0 (straight hole along `direction`), or 2 .. 2^16 */
-    const double *survey;      /* [m, rad, rad] measured depth, inclination from the downward vertical (0 .. pi), azimuth
-                                  from +x towards +y (-2 pi .. 2 pi); depths strictly increasing; minimum curvature
-                                  between; shape (survey_count, 3); copied */
-    double origin[3];          /* [m] start of the axis, world frame; default 0, shape (3) */
-    double direction[3];       /* [-] of a straight hole, any length, world frame; default (1, 0, 0), shape (3) */
-    double diameter;           /* [m] of the hole, > 0; default 0.094 */
-    int32_t normal_law;        /* DMB_NORMAL_..., default DMB_NORMAL_HUNT_CROSSLEY */
-    int32_t friction_law;      /* DMB_FRICTION_..., default DMB_FRICTION_STRIBECK */
-    double stiffness;          /* [N/m^(n+1)] K per metre of pipe, > 0; default 1e7 */
-    double exponent;           /* [-] n, 1 .. 3; default 1 */
-    double restitution;        /* [-] e, 0 .. 1 (> 0 for FLORES and EXACT); default 0.4 */
-    double damping;            /* [N s/m2] c per metre of pipe, of KELVIN_VOIGT and IMPACT; default 0 */
-    double impact_depth;       /* [m] full damping from here on, of IMPACT; default 1e-4 */
-    double approach_speed;     /* [m/s] floor of v0, > 0; default 0.01 */
-    double mu_static;          /* [-] >= mu_dynamic; default 0.35 */
-    double mu_dynamic;         /* [-] >= 0; default 0.30 */
-    double stribeck_speed;     /* [m/s] > 0; default 1e-2 */
-    double smoothing_speed;    /* [m/s] > 0; default 1e-3 */
-    double full_speed;         /* [m/s] of AMBROSIO, > smoothing_speed; default 1e-2 */
-    double bristle_stiffness;  /* [1/m] tangential stiffness over normal force, > 0; default 1e4 */
-    double bristle_damping;    /* [s/m] tangential damping over normal force, >= 0; default 0 */
+    uint32_t survey_count;    /* [-] 0 (straight hole along `direction`), or 2 .. 2^16 */
+    const double *survey;     /* [m, rad, rad] measured depth, inclination from the downward vertical (0 .. pi), azimuth
+                                 from +x towards +y (-2 pi .. 2 pi); depths strictly increasing; minimum curvature
+                                 between; shape (survey_count, 3); copied */
+    double origin[3];         /* [m] start of the axis, world frame; default 0, shape (3) */
+    double direction[3];      /* [-] of a straight hole, any length, world frame; default (1, 0, 0), shape (3) */
+    double diameter;          /* [m] of the hole, > 0; default 0.094 */
+    int32_t normal_law;       /* DMB_NORMAL_..., default DMB_NORMAL_HUNT_CROSSLEY */
+    int32_t friction_law;     /* DMB_FRICTION_..., default DMB_FRICTION_STRIBECK */
+    double stiffness;         /* [N/m^(n+1)] K per metre of pipe, > 0; default 1e7 */
+    double exponent;          /* [-] n, 1 .. 3; default 1 */
+    double restitution;       /* [-] e, 0 .. 1 (> 0 for FLORES and EXACT); default 0.4 */
+    double damping;           /* [N s/m2] c per metre of pipe, of KELVIN_VOIGT and IMPACT; default 0 */
+    double impact_depth;      /* [m] full damping from here on, of IMPACT; default 1e-4 */
+    double approach_speed;    /* [m/s] floor of v0, > 0; default 0.01 */
+    double mu_static;         /* [-] >= mu_dynamic; default 0.35 */
+    double mu_dynamic;        /* [-] >= 0; default 0.30 */
+    double stribeck_speed;    /* [m/s] > 0; default 1e-2 */
+    double smoothing_speed;   /* [m/s] > 0; default 1e-3 */
+    double full_speed;        /* [m/s] of AMBROSIO, > smoothing_speed; default 1e-2 */
+    double bristle_stiffness; /* [1/m] tangential stiffness over normal force, > 0; default 1e4 */
+    double bristle_damping;   /* [s/m] tangential damping over normal force, >= 0; default 0 */
 } dmb_wall_def;
 DMB_SIZED_STRUCT(dmb_wall_def)
 /* Adds the hole. One hole a model; wall may be NULL. */
@@ -146,51 +150,51 @@ DMB_API int32_t dmb_model_add_wall(dmb_model *model, const dmb_wall_def *def, dm
 /* ---- Strings and pipes ------------------------------------------------------------------------------------------- */
 typedef struct dmb_string_def {
     uint32_t struct_size;
-    int32_t follows_hole;  /* 1: starts on the hole's axis at start_depth; 0: straight from `position`. default 1 */
-    double start_depth;    /* [m] measured depth of the rig end; default 0 */
-    double offset[2];      /* [m] sideways shift from the hole's axis along its y and z axes; default 0, shape (2) */
-    double position[3];    /* [m] rig end, world frame, where follows_hole is 0 or there is no hole; shape (3) */
-    double rotation[3];    /* [rad] rotation vector of the rig end's frame, as above; shape (3) */
-    double velocity[6];    /* [m/s, rad/s] of the string as one rigid body, rig end, body frame, at time 0; shape (6) */
-    int32_t start_free;    /* [-] mask of free components at the rig end; default DMB_FREE_CYLINDRICAL */
-    int32_t end_free;      /* [-] the same at the far end; default DMB_FREE_ALL */
+    int32_t follows_hole; /* 1: starts on the hole's axis at start_depth; 0: straight from `position`. default 1 */
+    double start_depth;   /* [m] measured depth of the rig end; default 0 */
+    double offset[2];     /* [m] sideways shift from the hole's axis along its y and z axes; default 0, shape (2) */
+    double position[3];   /* [m] rig end, world frame, where follows_hole is 0 or there is no hole; shape (3) */
+    double rotation[3];   /* [rad] rotation vector of the rig end's frame, as above; shape (3) */
+    double velocity[6];   /* [m/s, rad/s] of the string as one rigid body, rig end, body frame, at time 0; shape (6) */
+    int32_t start_free;   /* [-] mask of free components at the rig end; default DMB_FREE_CYLINDRICAL */
+    int32_t end_free;     /* [-] the same at the far end; default DMB_FREE_ALL */
 } dmb_string_def;
 DMB_SIZED_STRUCT(dmb_string_def)
 /* Adds a string without pipes. The first dmb_model_add_pipes without a string makes one by default. */
 DMB_API int32_t dmb_model_add_string(dmb_model *model, const dmb_string_def *def, dmb_id *string);
 
 enum {
-    DMB_PIPE_FLEXIBLE = 0, /* SE(3) beam elements: bending, shear, stretch, torsion */
+    DMB_PIPE_FLEXIBLE = 0,        /* SE(3) beam elements: bending, shear, stretch, torsion */
     DMB_PIPE_AXIAL_TORSIONAL = 1, /* stretch and torsion on the hole's axis, 2 coordinates a node */
-    DMB_PIPE_RIGID = 2     /* neighbouring rigid pipes are one rigid body */
+    DMB_PIPE_RIGID = 2            /* neighbouring rigid pipes are one rigid body */
 };
 typedef struct dmb_pipe_def {
     uint32_t struct_size;
-    int32_t kind;              /* DMB_PIPE_..., default DMB_PIPE_FLEXIBLE */
-    dmb_id string;             /* where to append; {0, 0}: the model's first string, made if there is none */
-    uint32_t elements;         /* [-] elements in a pipe, 1 .. 1024; default 1 */
-    uint32_t seed;             /* [-] of the random eccentricity; default 1 */
-    double length;             /* [m] of one pipe with its joint, > 0; default 1 */
-    double outer_diameter;     /* [m] > inner_diameter; default 0.073 */
-    double inner_diameter;     /* [m] >= 0; default 0.061 */
-    double young_modulus;      /* [Pa] > 0; default 2.1e11 */
-    double poisson_ratio;      /* [-] -1 < nu < 0.5; default 0.3 */
-    double density;            /* [kg/m3] > 0; default 7850 */
-    double shear_factor;       /* [-] kappa in GA = kappa G A, > 0; default 0.5 (thin tube) */
-    double damping_time;       /* [s] tau of stress-proportional damping s = K (d + tau d')/L; default 0 */
-    double joint_length;       /* [m] of the rigid tool joint at the far end of each pipe; 0: none; < length; default 0 */
+    int32_t kind;          /* DMB_PIPE_..., default DMB_PIPE_FLEXIBLE */
+    dmb_id string;         /* where to append; {0, 0}: the model's first string, made if there is none */
+    uint32_t elements;     /* [-] elements in a pipe, 1 .. 1024; default 1 */
+    uint32_t seed;         /* [-] of the random eccentricity; default 1 */
+    double length;         /* [m] of one pipe with its joint, > 0; default 1 */
+    double outer_diameter; /* [m] > inner_diameter; default 0.073 */
+    double inner_diameter; /* [m] >= 0; default 0.061 */
+    double young_modulus;  /* [Pa] > 0; default 2.1e11 */
+    double poisson_ratio;  /* [-] -1 < nu < 0.5; default 0.3 */
+    double density;        /* [kg/m3] > 0; default 7850 */
+    double shear_factor;   /* [-] kappa in GA = kappa G A, > 0; default 0.5 (thin tube) */
+    double damping_time;   /* [s] tau of stress-proportional damping s = K (d + tau d')/L; default 0 */
+    double joint_length;   /* [m] of the rigid tool joint at the far end of each pipe; 0: none; < length; default 0 */
     double joint_outer_diameter; /* [m] default 0: as the pipe */
     double joint_inner_diameter; /* [m] default 0: as the pipe */
-    double joint_mass;         /* [kg] 0: from the diameters, length and density */
-    double joint_inertia[2];   /* [kg m2] about its axis and across, at its centre, the first <= twice the
-                                  second; 0: from the geometry; shape (2) */
-    double eccentricity;       /* [m] distance of the pipe's centre of mass from its axis, >= 0; default 0 */
-    double eccentricity_angle; /* [rad] from y towards z of the section frame; default 0 */
-    double eccentricity_spread; /* [m] uniform random addition -spread .. spread (cut at 0) pipe by pipe; default 0 */
-    double angle_spread;       /* [rad] uniform random addition -spread .. spread pipe by pipe; default 0 */
-    double curvature[3];       /* [rad/m] unstressed twist and curvature about x, y, z; default 0, shape (3) */
+    double joint_mass;           /* [kg] 0: from the diameters, length and density */
+    double joint_inertia[2];     /* [kg m2] about its axis and across, at its centre, the first <= twice the
+                                    second; 0: from the geometry; shape (2) */
+    double eccentricity;         /* [m] distance of the pipe's centre of mass from its axis, >= 0; default 0 */
+    double eccentricity_angle;   /* [rad] from y towards z of the section frame; default 0 */
+    double eccentricity_spread;  /* [m] uniform random addition -spread .. spread (cut at 0) pipe by pipe; default 0 */
+    double angle_spread;         /* [rad] uniform random addition -spread .. spread pipe by pipe; default 0 */
+    double curvature[3];         /* [rad/m] unstressed twist and curvature about x, y, z; default 0, shape (3) */
     double section_stiffness[6]; /* [N, N, N, N m2, N m2, N m2] EA, GA_y, GA_z, GJ, EI_y, EI_z; 0: from the diameters */
-    double section_mass;       /* [kg/m] 0: from the diameters */
+    double section_mass;         /* [kg/m] 0: from the diameters */
     double section_inertia[2]; /* [kg m] rotary inertia per metre about x and across; 0: from the diameters; of a rigid
                                   pipe as a body about its axis <= twice across; shape (2) */
 } dmb_pipe_def;
@@ -203,64 +207,64 @@ DMB_API int32_t dmb_model_add_pipes(dmb_model *model, const dmb_pipe_def *def, u
 enum { DMB_ATTACH_NONE = 0, DMB_ATTACH_START = 1, DMB_ATTACH_END = 2 };
 typedef struct dmb_body_def {
     uint32_t struct_size;
-    int32_t attach;         /* DMB_ATTACH_START (rig head) or _END: fixed to that end of `string`, no unknowns of its own,
-                               reference point and axes those of the end; DMB_ATTACH_NONE: a body of its own (default) */
-    dmb_id string;          /* {0, 0}: the model's first string */
-    double mass;            /* [kg] > 0; default 1 */
-    double centre[3];       /* [m] centre of mass from the reference point, body frame; default 0, shape (3) */
-    double inertia[6];      /* [kg m2] xx, yy, zz, xy, xz, yz elements of the inertia matrix at the centre of mass, body
-                               axes, positive definite, no principal moment above the sum of the other two by more
-                               than 1e-6 of itself; default 1e-3 on the diagonal, shape (6) */
-    double position[3];     /* [m] reference point of a free body, world frame; default 0, shape (3) */
-    double rotation[3];     /* [rad] rotation vector of a free body; default 0, shape (3) */
-    double velocity[6];     /* [m/s, rad/s] of a free body at time 0, body frame; default 0, shape (6) */
-    int32_t free_mask;      /* [-] free components of a free body at its reference point; default DMB_FREE_ALL */
+    int32_t attach;     /* DMB_ATTACH_START (rig head) or _END: fixed to that end of `string`, no unknowns of its own,
+                           reference point and axes those of the end; DMB_ATTACH_NONE: a body of its own (default) */
+    dmb_id string;      /* {0, 0}: the model's first string */
+    double mass;        /* [kg] > 0; default 1 */
+    double centre[3];   /* [m] centre of mass from the reference point, body frame; default 0, shape (3) */
+    double inertia[6];  /* [kg m2] xx, yy, zz, xy, xz, yz elements of the inertia matrix at the centre of mass, body
+                           axes, positive definite, no principal moment above the sum of the other two by more
+                           than 1e-6 of itself; default 1e-3 on the diagonal, shape (6) */
+    double position[3]; /* [m] reference point of a free body, world frame; default 0, shape (3) */
+    double rotation[3]; /* [rad] rotation vector of a free body; default 0, shape (3) */
+    double velocity[6]; /* [m/s, rad/s] of a free body at time 0, body frame; default 0, shape (6) */
+    int32_t free_mask;  /* [-] free components of a free body at its reference point; default DMB_FREE_ALL */
     int32_t reserved;
     double contact_diameter; /* [m] of the ring at the reference point that meets the wall; 0: none (default) */
     double contact_length;   /* [m] length of wall it stands for, > 0; default 1 */
-    char name[24];         /* for messages, ends with 0; default "" */
+    char name[24];           /* for messages, ends with 0; default "" */
 } dmb_body_def;
 DMB_SIZED_STRUCT(dmb_body_def)
 DMB_API int32_t dmb_model_add_body(dmb_model *model, const dmb_body_def *def, dmb_id *body);
 
 enum {
     DMB_ROCK_NONE = 0,
-    DMB_ROCK_RATE = 1,         /* Detournay, Defourny 1992: depth of cut 2 pi V/Omega */
-    DMB_ROCK_REGENERATIVE = 2  /* Richard, Germay, Detournay 2007: depth of cut over the surface the last blade left */
+    DMB_ROCK_RATE = 1,        /* Detournay, Defourny 1992: depth of cut 2 pi V/Omega */
+    DMB_ROCK_REGENERATIVE = 2 /* Richard, Germay, Detournay 2007: depth of cut over the surface the last blade left */
 };
 typedef struct dmb_bit_def {
     uint32_t struct_size;
-    int32_t rock_law;       /* DMB_ROCK_..., default DMB_ROCK_NONE */
-    dmb_id string;          /* the bit is fixed to the far end of it; {0, 0}: the model's first string */
-    dmb_id load;            /* [N] programme of the bottom-hole load along the hole's axis, > 0 against the feed; {0, 0}: none */
-    double mass;            /* [kg] > 0; default 5 */
-    double inertia[2];      /* [kg m2] about the axis and across, at the centre, the first <= twice the second;
-                               0 (default): of a solid cylinder */
-    double diameter;        /* [m] gauge that meets the wall, <= hole; 0: no contact; default 0.092 */
-    double length;          /* [m] > 0, centre at half of it beyond the string's end; default 0.1 */
-    double radius;          /* [m] a of the rock law, > 0; default 0.047 */
+    int32_t rock_law; /* DMB_ROCK_..., default DMB_ROCK_NONE */
+    dmb_id string;    /* the bit is fixed to the far end of it; {0, 0}: the model's first string */
+    dmb_id load; /* [N] programme of the bottom-hole load along the hole's axis, > 0 against the feed; {0, 0}: none */
+    double mass; /* [kg] > 0; default 5 */
+    double inertia[2];       /* [kg m2] about the axis and across, at the centre, the first <= twice the second;
+                                0 (default): of a solid cylinder */
+    double diameter;         /* [m] gauge that meets the wall, <= hole; 0: no contact; default 0.092 */
+    double length;           /* [m] > 0, centre at half of it beyond the string's end; default 0.1 */
+    double radius;           /* [m] a of the rock law, > 0; default 0.047 */
     double intrinsic_energy; /* [Pa] eps, > 0; default 1e7 */
-    double cutting_ratio;   /* [-] zeta, > 0; default 0.6 */
+    double cutting_ratio;    /* [-] zeta, > 0; default 0.6 */
     double contact_strength; /* [Pa] sigma, >= 0; default 1e7 */
-    double wear_length;     /* [m] l, >= 0; default 1e-3 */
+    double wear_length;      /* [m] l, >= 0; default 1e-3 */
     double contact_friction; /* [-] the product mu gamma, >= 0; default 0.5 */
-    double intrusion_depth; /* [m] over which the wear-flat force is taken up, > 0; default 1e-4 */
-    double bottom;          /* [m] distance of the hole bottom ahead of the bit at time 0, >= 0; default 0 */
-    uint32_t blades;        /* [-] 1 .. 64; default 4 */
-    uint32_t history;       /* [-] samples of the cut surface kept for the regenerative law, 64 .. 2^20; default 1024 */
+    double intrusion_depth;  /* [m] over which the wear-flat force is taken up, > 0; default 1e-4 */
+    double bottom;           /* [m] distance of the hole bottom ahead of the bit at time 0, >= 0; default 0 */
+    uint32_t blades;         /* [-] 1 .. 64; default 4 */
+    uint32_t history; /* [-] samples of the cut surface kept for the regenerative law, 64 .. 2^20; default 1024 */
 } dmb_bit_def;
 DMB_SIZED_STRUCT(dmb_bit_def)
 DMB_API int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_id *bit);
 
-/* ---- Joints ------------------------------------------------------------------------------------------------------
- * A joint holds frame b on one part against frame a on another. Its coordinates are frame b seen from frame a: X, Y, Z
+/* ---- Joints ------------------------------------------------------------------------------------------------------ A
+ * joint holds frame b on one part against frame a on another. Its coordinates are frame b seen from frame a: X, Y, Z
  * the origin of b in a [m]; RX, RY, RZ the angles of the rotation Ry(RY) Rz(RZ) Rx(RX) from a to b [rad], RX and RY
  * counted over full turns. The x axis of the frames is the joint's axis. Parts need not fit as described,
  * dmb_sim_create brings them together; but axes that a joint keeps parallel (x; fixed, prismatic: y too) should be less
  * than a right angle apart: where they end up pointing against each other it is refused, DMB_ERR_GEOMETRY. So is, at
  * creation, in statics and in a run, |RZ| within 0.01 rad of a right angle, where RX and RY are not defined: of a
- * universal joint, and of others with springs, dampers, stops, friction, drives or couplings on an angle; and a rim that
- * rolls and lies flat (sine of its angle with the plane 1e-3). Locked and open joints may stand there. */
+ * universal joint, and of others with springs, dampers, stops, friction, drives or couplings on an angle; and a rim
+ * that rolls and lies flat (sine of its angle with the plane 1e-3). Locked and open joints may stand there. */
 enum {
     DMB_JOINT_FIXED = 0,
     DMB_JOINT_REVOLUTE = 1,      /* RX free */
@@ -284,39 +288,39 @@ enum {
 };
 typedef struct dmb_joint_def {
     uint32_t struct_size;
-    int32_t kind;             /* DMB_JOINT_..., default DMB_JOINT_FIXED */
-    char name[24];            /* for messages, ends with 0; default "" */
-    dmb_place place_a;        /* node of a string (pipe end, element end), a body or a bit; part {0, 0}: the ground */
-    dmb_place place_b;        /* likewise, not the ground */
-    double origin_a[3];       /* [m] of frame a, in the frame of place a (ground: world); default 0, shape (3) */
-    double axis_a[3];         /* [-] its x axis, any length > 0; default (1, 0, 0), shape (3) */
-    double normal_a[3];       /* [-] its y axis, made perpendicular to x; 0 (default): y of the place's frame, or z if x
-                                 is along that; shape (3) */
-    double origin_b[3];       /* [m] of frame b, in the frame of place b, shape (3) */
-    double axis_b[3];         /* [-] shape (3) */
-    double normal_b[3];       /* [-] shape (3) */
-    int32_t match;            /* 1: frame b is where frame a is at time 0 as described, and origin_b, axis_b, normal_b
-                                 count for nothing; 0 (default): frame b as given */
-    int32_t state;            /* DMB_JOINT_... at time 0; default DMB_JOINT_ACTIVE */
-    double length;            /* [m] of DISTANCE, radius of ROLLING; > 0; default 1 */
-    double stiffness[6];      /* [N/m, N m/rad] of springs along the coordinates, >= 0; default 0, shape (6) */
-    double damping[6];        /* [N s/m, N m s] >= 0; not there without DMB_FEATURE_DAMPING; default 0, shape (6) */
-    double rest[6];           /* [m, rad] where the springs are unstressed; default 0, shape (6) */
-    double friction[6];       /* [N, N m] friction that does not depend on the reaction, >= 0; not there without
-                                 DMB_FEATURE_FRICTION; default 0, shape (6) */
-    double friction_speed;    /* [m/s, rad/s] over which friction is smoothed, f s/sqrt(s^2 + friction_speed^2), > 0;
-                                 default 1e-3 */
-    double stop_low[6];       /* [m, rad] default -1e30, shape (6) */
-    double stop_high[6];      /* [m, rad] > stop_low; default 1e30, shape (6) */
-    double stop_stiffness;    /* [N/m, N m/rad] of the stops, > 0; default 1e6 */
-    double stop_damping;      /* [N s/m, N m s] while in the stop, never pulling, >= 0; default 0 */
-    int32_t initial_mask;     /* [-] coordinates that are given below, bits 1 << DMB_X ...; they must be free, and no
-                                 more than 6 with the joint's equations: 5 of KNIFE_EDGE and DISTANCE, 3 of ROLLING,
-                                 none of a joint described locked; of one described open they count all the same;
-                                 default 0 */
+    int32_t kind;          /* DMB_JOINT_..., default DMB_JOINT_FIXED */
+    char name[24];         /* for messages, ends with 0; default "" */
+    dmb_place place_a;     /* node of a string (pipe end, element end), a body or a bit; part {0, 0}: the ground */
+    dmb_place place_b;     /* likewise, not the ground */
+    double origin_a[3];    /* [m] of frame a, in the frame of place a (ground: world); default 0, shape (3) */
+    double axis_a[3];      /* [-] its x axis, any length > 0; default (1, 0, 0), shape (3) */
+    double normal_a[3];    /* [-] its y axis, made perpendicular to x; 0 (default): y of the place's frame, or z if x
+                              is along that; shape (3) */
+    double origin_b[3];    /* [m] of frame b, in the frame of place b, shape (3) */
+    double axis_b[3];      /* [-] shape (3) */
+    double normal_b[3];    /* [-] shape (3) */
+    int32_t match;         /* 1: frame b is where frame a is at time 0 as described, and origin_b, axis_b, normal_b
+                              count for nothing; 0 (default): frame b as given */
+    int32_t state;         /* DMB_JOINT_... at time 0; default DMB_JOINT_ACTIVE */
+    double length;         /* [m] of DISTANCE, radius of ROLLING; > 0; default 1 */
+    double stiffness[6];   /* [N/m, N m/rad] of springs along the coordinates, >= 0; default 0, shape (6) */
+    double damping[6];     /* [N s/m, N m s] >= 0; not there without DMB_FEATURE_DAMPING; default 0, shape (6) */
+    double rest[6];        /* [m, rad] where the springs are unstressed; default 0, shape (6) */
+    double friction[6];    /* [N, N m] friction that does not depend on the reaction, >= 0; not there without
+                              DMB_FEATURE_FRICTION; default 0, shape (6) */
+    double friction_speed; /* [m/s, rad/s] over which friction is smoothed, f s/sqrt(s^2 + friction_speed^2), > 0;
+                              default 1e-3 */
+    double stop_low[6];    /* [m, rad] default -1e30, shape (6) */
+    double stop_high[6];   /* [m, rad] > stop_low; default 1e30, shape (6) */
+    double stop_stiffness; /* [N/m, N m/rad] of the stops, > 0; default 1e6 */
+    double stop_damping;   /* [N s/m, N m s] while in the stop, never pulling, >= 0; default 0 */
+    int32_t initial_mask;  /* [-] coordinates that are given below, bits 1 << DMB_X ...; they must be free, and no
+                              more than 6 with the joint's equations: 5 of KNIFE_EDGE and DISTANCE, 3 of ROLLING,
+                              none of a joint described locked; of one described open they count all the same;
+                              default 0 */
     int32_t reserved;
     double initial_position[6]; /* [m, rad] at time 0, shape (6) */
-    double initial_speed[6];  /* [m/s, rad/s] at time 0, shape (6) */
+    double initial_speed[6];    /* [m/s, rad/s] at time 0, shape (6) */
 } dmb_joint_def;
 DMB_SIZED_STRUCT(dmb_joint_def)
 /* Adds a joint. Errors: DMB_ERR_ID; DMB_ERR_VALUE for a part joined to itself, an axis of zero length, two grounds. */
@@ -327,10 +331,10 @@ DMB_API int32_t dmb_model_add_joint(dmb_model *model, const dmb_joint_def *def, 
 typedef struct dmb_coupling_def {
     uint32_t struct_size;
     int32_t reserved;
-    char name[24];         /* for messages, ends with 0; default "" */
-    dmb_id joint[2];       /* may be the same */
-    int32_t component[2];  /* DMB_X .. DMB_RZ, free in its joint; default DMB_RX */
-    double ratio;          /* [-, m/rad, rad/m] not 0; default 1 */
+    char name[24];        /* for messages, ends with 0; default "" */
+    dmb_id joint[2];      /* may be the same */
+    int32_t component[2]; /* DMB_X .. DMB_RZ, free in its joint; default DMB_RX */
+    double ratio;         /* [-, m/rad, rad/m] not 0; default 1 */
 } dmb_coupling_def;
 DMB_SIZED_STRUCT(dmb_coupling_def)
 DMB_API int32_t dmb_model_add_coupling(dmb_model *model, const dmb_coupling_def *def, dmb_id *coupling);
@@ -347,13 +351,13 @@ typedef int32_t (*dmb_constraint_fn)(void *context, double time, uint32_t count,
                                      double *value /* (rows) */, double *jacobian /* (rows, 6 count), row-major */);
 typedef struct dmb_constraint_def {
     uint32_t struct_size;
-    int32_t kind;          /* DMB_CONSTRAINT_..., default DMB_CONSTRAINT_HOLONOMIC */
-    char name[24];         /* for messages, ends with 0; default "" */
-    uint32_t rows;         /* [-] 1 .. 6; default 1 */
-    uint32_t count;        /* [-] of places, 1 .. 4; default 1 */
-    dmb_place place[4];    /* as of a joint, not the ground, shape (count) */
-    int32_t provides;      /* DMB_PROVIDES_JACOBIAN or 0 (default): built by differences. Nonholonomic must provide it.
-                              What is provided is compared with differences when a sim is made: DMB_ERR_CALLBACK */
+    int32_t kind;       /* DMB_CONSTRAINT_..., default DMB_CONSTRAINT_HOLONOMIC */
+    char name[24];      /* for messages, ends with 0; default "" */
+    uint32_t rows;      /* [-] 1 .. 6; default 1 */
+    uint32_t count;     /* [-] of places, 1 .. 4; default 1 */
+    dmb_place place[4]; /* as of a joint, not the ground, shape (count) */
+    int32_t provides;   /* DMB_PROVIDES_JACOBIAN or 0 (default): built by differences. Nonholonomic must provide it.
+                           What is provided is compared with differences when a sim is made: DMB_ERR_CALLBACK */
     int32_t reserved;
     dmb_constraint_fn callback; /* required */
     void *callback_context;
@@ -369,9 +373,9 @@ enum {
 };
 typedef struct dmb_drive_def {
     uint32_t struct_size;
-    int32_t kind;         /* DMB_DRIVE_..., default DMB_DRIVE_MOTION */
-    dmb_id part;          /* a string (its rig end), a body of its own, or a joint; {0, 0}: the model's first string */
-    int32_t component;    /* DMB_X (feed, default) .. DMB_RZ; must be free there; of a joint: its coordinate */
+    int32_t kind;      /* DMB_DRIVE_..., default DMB_DRIVE_MOTION */
+    dmb_id part;       /* a string (its rig end), a body of its own, or a joint; {0, 0}: the model's first string */
+    int32_t component; /* DMB_X (feed, default) .. DMB_RZ; must be free there; of a joint: its coordinate */
     int32_t reserved;
     dmb_id programme;     /* required */
     dmb_id excitation;    /* programme added to the first (vibration); {0, 0}: none */
@@ -379,7 +383,7 @@ typedef struct dmb_drive_def {
     double integral_gain; /* [N/m, N m] ki of CONTROL, >= 0; default 0 */
     double limit_low;     /* [N, N m] default -1e30 */
     double limit_high;    /* [N, N m] > limit_low; default 1e30 */
-    char name[24];         /* for messages, ends with 0; default "" */
+    char name[24];        /* for messages, ends with 0; default "" */
 } dmb_drive_def;
 DMB_SIZED_STRUCT(dmb_drive_def)
 DMB_API int32_t dmb_model_add_drive(dmb_model *model, const dmb_drive_def *def, dmb_id *drive);
@@ -387,27 +391,32 @@ DMB_API int32_t dmb_model_add_drive(dmb_model *model, const dmb_drive_def *def, 
 enum { DMB_FRAME_WORLD = 0, DMB_FRAME_BODY = 1, DMB_FRAME_HOLE = 2 };
 typedef struct dmb_load_def {
     uint32_t struct_size;
-    int32_t frame;       /* DMB_FRAME_WORLD: dead load (default); DMB_FRAME_BODY: follower */
-    dmb_place place;     /* pipe end of a string (fraction 0 or 1), or a body */
-    double force[3];     /* [N] in `frame`, shape (3) */
-    double moment[3];    /* [N m] in `frame`, shape (3) */
-    dmb_id programme;    /* [-] factor over time; {0, 0}: 1 */
-    char name[24];         /* for messages, ends with 0; default "" */
+    int32_t frame;    /* DMB_FRAME_WORLD: dead load (default); DMB_FRAME_BODY: follower */
+    dmb_place place;  /* pipe end of a string (fraction 0 or 1), or a body */
+    double force[3];  /* [N] in `frame`, shape (3) */
+    double moment[3]; /* [N m] in `frame`, shape (3) */
+    dmb_id programme; /* [-] factor over time; {0, 0}: 1 */
+    char name[24];    /* for messages, ends with 0; default "" */
 } dmb_load_def;
 DMB_SIZED_STRUCT(dmb_load_def)
 DMB_API int32_t dmb_model_add_load(dmb_model *model, const dmb_load_def *def, dmb_id *load);
 
 /* ---- Compile ----------------------------------------------------------------------------------------------------- */
 enum {
-    DMB_FEATURE_GRAVITY = 1, DMB_FEATURE_CONTACT = 2, DMB_FEATURE_FRICTION = 4,
-    DMB_FEATURE_ECCENTRICITY = 8, DMB_FEATURE_EXCITATION = 16, DMB_FEATURE_ROCK = 32, DMB_FEATURE_DAMPING = 64,
+    DMB_FEATURE_GRAVITY = 1,
+    DMB_FEATURE_CONTACT = 2,
+    DMB_FEATURE_FRICTION = 4,
+    DMB_FEATURE_ECCENTRICITY = 8,
+    DMB_FEATURE_EXCITATION = 16,
+    DMB_FEATURE_ROCK = 32,
+    DMB_FEATURE_DAMPING = 64,
     DMB_FEATURE_VIBRATION = 24, /* eccentricity and drive excitation */
     DMB_FEATURE_ALL = 127
 };
 typedef struct dmb_compile_options {
     uint32_t struct_size;
-    int32_t features;   /* mask of DMB_FEATURE_...; what is left out is not there in the step; default DMB_FEATURE_ALL */
-    int32_t pipe_kind;  /* DMB_PIPE_... for every pipe, or -1 (default): as described */
+    int32_t features;  /* mask of DMB_FEATURE_...; what is left out is not there in the step; default DMB_FEATURE_ALL */
+    int32_t pipe_kind; /* DMB_PIPE_... for every pipe, or -1 (default): as described */
     int32_t reserved;
 } dmb_compile_options;
 DMB_SIZED_STRUCT(dmb_compile_options)
@@ -415,28 +424,29 @@ DMB_SIZED_STRUCT(dmb_compile_options)
  * added, any number of threads may make sims of it. options may be NULL. A failed compile leaves the model as it was.
  * Warns (log, dmb_model_message, dmb_analysis_check) of rings of bodies and bits that a guide keeps off the wall.
  * Errors: that of a part that was refused (dmb_model_clear_refused); DMB_ERR_ORDER (already compiled), _ID (the first
- * string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(number of elements). */
+ * string is meant and there is none), _VALUE, _GEOMETRY, _UNSUPPORTED, _TOO_LARGE, _NO_MEMORY. O(number of
+ * elements). */
 DMB_API int32_t dmb_model_compile(dmb_model *model, const dmb_compile_options *options);
 
 typedef struct dmb_model_info {
     uint32_t struct_size;
-    uint32_t strings;          /* [-] */
-    uint32_t pipes;            /* [-] */
-    uint32_t rigid_bodies;     /* [-] merged ones count once */
-    uint32_t nodes;            /* [-] */
-    uint32_t elements;         /* [-] flexible and axial-torsional */
-    uint32_t contact_sites;    /* [-] */
+    uint32_t strings;            /* [-] */
+    uint32_t pipes;              /* [-] */
+    uint32_t rigid_bodies;       /* [-] merged ones count once */
+    uint32_t nodes;              /* [-] */
+    uint32_t elements;           /* [-] flexible and axial-torsional */
+    uint32_t contact_sites;      /* [-] */
     uint32_t degrees_of_freedom; /* [-] free velocity components, prescribed ones not counted */
-    uint32_t prescribed;       /* [-] components moved by drives */
-    uint32_t structural_joints; /* [-] fixed joints that cost no unknowns */
-    uint64_t model_bytes;      /* [byte] held by the compiled scene */
-    uint64_t sim_bytes;        /* [byte] of one sim with default options */
-    double mass;               /* [kg] */
-    double length;             /* [m] of all strings */
-    uint32_t joints;           /* [-] described joints */
-    uint32_t constraint_rows;  /* [-] equations of joints, couplings, callbacks and joint drives, active at time 0 */
-    uint32_t clusters;         /* [-] groups of parts that joints connect directly */
-    uint32_t reduced_nodes;     /* [-] nodes solved by the sparse solver; the others by the block-tridiagonal one */
+    uint32_t prescribed;         /* [-] components moved by drives */
+    uint32_t structural_joints;  /* [-] fixed joints that cost no unknowns */
+    uint64_t model_bytes;        /* [byte] held by the compiled scene */
+    uint64_t sim_bytes;          /* [byte] of one sim with default options */
+    double mass;                 /* [kg] */
+    double length;               /* [m] of all strings */
+    uint32_t joints;             /* [-] described joints */
+    uint32_t constraint_rows;    /* [-] equations of joints, couplings, callbacks and joint drives, active at time 0 */
+    uint32_t clusters;           /* [-] groups of parts that joints connect directly */
+    uint32_t reduced_nodes;      /* [-] nodes solved by the sparse solver; the others by the block-tridiagonal one */
 } dmb_model_info;
 DMB_SIZED_STRUCT(dmb_model_info)
 /* Counts of a compiled model. Errors: DMB_ERR_ORDER before compile. */

@@ -11,68 +11,71 @@ extern "C" {
 /* ---- What shakes -------------------------------------------------------------------------------------------------
  * A quantity q is the real part of (re + i im) e^(i w t), w = 2 pi frequency. */
 enum {
-    DMB_INPUT_DRIVE = 0,     /* programme of the drive place.part [its unit]: speed of MOTION, force of LOAD, target speed
-                                of CONTROL */
-    DMB_INPUT_LOAD = 1,      /* [-] factor of the load place.part */
-    DMB_INPUT_BIT_LOAD = 2,  /* [N] bottom-hole load of the bit place.part */
-    DMB_INPUT_FORCE = 3,     /* [N, N m] `component` of a force or moment at `place`, in `frame` */
-    DMB_INPUT_UNBALANCE = 4, /* [kg m] mass times its distance from the axis at `place`: force times w^2. component
-                                DMB_RX: turning from y to z of `frame`; DMB_X .. DMB_Z: to and fro along that axis */
+    DMB_INPUT_DRIVE = 0, /* programme of the drive place.part [its unit]: speed of MOTION, force of LOAD, target speed
+                            of CONTROL */
+    DMB_INPUT_LOAD = 1,  /* [-] factor of the load place.part */
+    DMB_INPUT_BIT_LOAD = 2,     /* [N] bottom-hole load of the bit place.part */
+    DMB_INPUT_FORCE = 3,        /* [N, N m] `component` of a force or moment at `place`, in `frame` */
+    DMB_INPUT_UNBALANCE = 4,    /* [kg m] mass times its distance from the axis at `place`: force times w^2. component
+                                   DMB_RX: turning from y to z of `frame`; DMB_X .. DMB_Z: to and fro along that axis */
     DMB_INPUT_ECCENTRICITY = 5, /* [-] the scene's own eccentric masses (those of axial-torsional pipes, which are held
                                 across the hole, do nothing: DMB_ERR_UNSUPPORTED where all are), each times this
                                 factor, turning with the frequency about the axes of their pipes, from y to z, as they
                                 lie in the state at t = 0 */
-    DMB_INPUT_FRICTION = 6   /* [-] coefficient: every ring that touches the wall is rubbed by it times its normal force
-                                in the state, along the hole (component DMB_X) or around it (DMB_RX) */
+    DMB_INPUT_FRICTION = 6 /* [-] coefficient: every ring that touches the wall is rubbed by it times its normal force
+                              in the state, along the hole (component DMB_X) or around it (DMB_RX) */
 };
 typedef struct dmb_input {
     uint32_t struct_size;
-    int32_t kind;       /* DMB_INPUT_..., default DMB_INPUT_FORCE */
-    dmb_place place;    /* as the kind says */
-    int32_t component;  /* DMB_X .. DMB_RZ, default DMB_X */
-    int32_t frame;      /* DMB_FRAME_WORLD (default) or DMB_FRAME_BODY: axes of the place in the state */
-    double amplitude;   /* [unit of the kind] in the combined response; default 1 */
-    double phase;       /* [rad] in the combined response; default 0 */
+    int32_t kind;      /* DMB_INPUT_..., default DMB_INPUT_FORCE */
+    dmb_place place;   /* as the kind says */
+    int32_t component; /* DMB_X .. DMB_RZ, default DMB_X */
+    int32_t frame;     /* DMB_FRAME_WORLD (default) or DMB_FRAME_BODY: axes of the place in the state */
+    double amplitude;  /* [unit of the kind] in the combined response; default 1 */
+    double phase;      /* [rad] in the combined response; default 0 */
 } dmb_input;
 DMB_SIZED_STRUCT(dmb_input)
 
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
 enum {
-    DMB_OUTPUT_DISPLACEMENT = 0, /* [m, rad] of `place`, components along the axes of `frame` */
-    DMB_OUTPUT_VELOCITY = 1,     /* [m/s, rad/s] its rate */
-    DMB_OUTPUT_ACCELERATION = 2, /* [m/s2, rad/s2] the rate of that */
-    DMB_OUTPUT_SECTION_FORCE = 3, /* [N, N m] as dmb_query_section, section frame */
+    DMB_OUTPUT_DISPLACEMENT = 0,   /* [m, rad] of `place`, components along the axes of `frame` */
+    DMB_OUTPUT_VELOCITY = 1,       /* [m/s, rad/s] its rate */
+    DMB_OUTPUT_ACCELERATION = 2,   /* [m/s2, rad/s2] the rate of that */
+    DMB_OUTPUT_SECTION_FORCE = 3,  /* [N, N m] as dmb_query_section, section frame */
     DMB_OUTPUT_SECTION_STRAIN = 4, /* [-, rad/m] likewise */
-    DMB_OUTPUT_CONTACT = 5,      /* [N] at contact site number place.pipe: component DMB_X, DMB_Y friction, 0 and 1 of
-                                    dmb_contact (not of bristles in a response: DMB_ERR_UNSUPPORTED); DMB_Z normal force */
-    DMB_OUTPUT_DRIVE = 6,        /* [N, N m] force of the drive place.part, as dmb_query_drive; no component */
-    DMB_OUTPUT_REACTION = 7,     /* [N, N m] on the part place.part, as dmb_query_reaction */
-    DMB_OUTPUT_JOINT_POSITION = 8, DMB_OUTPUT_JOINT_SPEED = 9, DMB_OUTPUT_JOINT_ACCELERATION = 10, /* coordinates of the */
-    DMB_OUTPUT_JOINT_REACTION = 11, DMB_OUTPUT_JOINT_ACTION = 12, /* joint place.part, its forces: as dmb_query_joint */
-    DMB_OUTPUT_MULTIPLIER = 13,  /* number `component` of place.part, as dmb_query_multipliers */
-    DMB_OUTPUT_BIT = 14          /* [N, N m] DMB_X weight, DMB_RX torque on the bit place.part by the rock law */
+    DMB_OUTPUT_CONTACT = 5,  /* [N] at contact site number place.pipe: DMB_X, DMB_Y friction, 0 and 1 of dmb_contact
+                                (bristles in a response: DMB_ERR_UNSUPPORTED); DMB_Z normal force */
+    DMB_OUTPUT_DRIVE = 6,    /* [N, N m] force of the drive place.part, as dmb_query_drive; no component */
+    DMB_OUTPUT_REACTION = 7, /* [N, N m] on the part place.part, as dmb_query_reaction */
+    DMB_OUTPUT_JOINT_POSITION = 8,
+    DMB_OUTPUT_JOINT_SPEED = 9,
+    DMB_OUTPUT_JOINT_ACCELERATION = 10, /* coordinates of the */
+    DMB_OUTPUT_JOINT_REACTION = 11,
+    DMB_OUTPUT_JOINT_ACTION = 12, /* joint place.part, its forces: as dmb_query_joint */
+    DMB_OUTPUT_MULTIPLIER = 13,   /* number `component` of place.part, as dmb_query_multipliers */
+    DMB_OUTPUT_BIT = 14           /* [N, N m] DMB_X weight, DMB_RX torque on the bit place.part by the rock law */
     /* no outputs: energies and works, of second order; sums over contacts, bodies or states, which add up of these */
 };
 typedef struct dmb_output {
     uint32_t struct_size;
-    int32_t kind;       /* DMB_OUTPUT_..., default DMB_OUTPUT_DISPLACEMENT */
+    int32_t kind; /* DMB_OUTPUT_..., default DMB_OUTPUT_DISPLACEMENT */
     dmb_place place;
-    int32_t component;  /* DMB_X .. DMB_RZ, default DMB_X */
-    int32_t frame;      /* DMB_FRAME_WORLD (default) or DMB_FRAME_BODY */
+    int32_t component; /* DMB_X .. DMB_RZ, default DMB_X */
+    int32_t frame;     /* DMB_FRAME_WORLD (default) or DMB_FRAME_BODY */
 } dmb_output;
 DMB_SIZED_STRUCT(dmb_output)
 
 /* ---- Frequency response ------------------------------------------------------------------------------------------ */
 typedef struct dmb_response_options {
     uint32_t struct_size;
-    uint32_t points;              /* [-] of the grid, 2 .. 1e6; 1 where both ends are one frequency; default 1000 */
-    double frequency_low;         /* [Hz] >= 0; > 0 of a logarithmic grid; default 1 */
-    double frequency_high;        /* [Hz] >= frequency_low; default 100 */
-    const double *frequencies;    /* [Hz] ascending, shape (points): these instead of a grid; NULL (default): the grid */
-    int32_t logarithmic;          /* 1: equal ratios between frequencies; 0 (default): equal differences */
-    uint32_t refinement;          /* [-] times the intervals on both sides of each peak of a transfer function are halved,
-                                     0 .. 40; default 0. A peak that falls between two points unseen is not found */
-    double structural_damping;    /* [-] eta: stiffness (1 + i eta) K, >= 0; default 0 */
+    uint32_t points;           /* [-] of the grid, 2 .. 1e6; 1 where both ends are one frequency; default 1000 */
+    double frequency_low;      /* [Hz] >= 0; > 0 of a logarithmic grid; default 1 */
+    double frequency_high;     /* [Hz] >= frequency_low; default 100 */
+    const double *frequencies; /* [Hz] ascending, shape (points): these instead of a grid; NULL (default): the grid */
+    int32_t logarithmic;       /* 1: equal ratios between frequencies; 0 (default): equal differences */
+    uint32_t refinement;       /* [-] times the intervals on both sides of each peak of a transfer function are halved,
+                                  0 .. 40; default 0. A peak that falls between two points unseen is not found */
+    double structural_damping; /* [-] eta: stiffness (1 + i eta) K, >= 0; default 0 */
     double equilibrium_tolerance; /* [-] residual over the forces that balance in it; default 1e-6 */
     int32_t contact;              /* DMB_CONTACT_..., default DMB_CONTACT_AS_IS */
     int32_t friction;             /* 1 (default): the slope of the friction law damps or drives; 0: left out */
@@ -83,15 +86,15 @@ DMB_SIZED_STRUCT(dmb_response_options)
 typedef struct dmb_response dmb_response;
 /* Transfer functions from every input to every output about the accepted state of a sim, which must be an equilibrium,
  * at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency, directly, in complex blocks.
- * Of a state that spins, frames of `place` are its section's, which turn with it, and so are all frequencies.
- * inputs, outputs: shapes (input_count), (output_count), 1 .. 1024 each, every struct of the size that the first says.
- * options may be NULL. The state is not changed; sim takes the message. *response is NULL on error: DMB_ERR_VALUE
- * (option, component, band; a state out of balance: by how much and where), _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR
- * (frequency and part that nothing holds there: at 0 a part that is free), _UNSUPPORTED, _NO_MEMORY, _CALLBACK, _ROTATION.
- * A motion drive at frequency 0 has no displacement: _SINGULAR too.
- * Memory: the sim's allocator, until dmb_response_destroy; the sim need not outlive the response.
- * Cost: O(points (elements + joints + inputs)), some 0.1 ms a point of 100 elements; of joints that share bodies the cube
- * of the coordinates of those. One thread; several responses of one sim may not be computed at a time. */
+ * Of a state that spins, frames of `place` are its section's, which turn with it, and so are all frequencies. inputs,
+ * outputs: shapes (input_count), (output_count), 1 .. 1024 each, every struct of the size that the first says. options
+ * may be NULL. The state is not changed; sim takes the message. *response is NULL on error: DMB_ERR_VALUE (option,
+ * component, band; a state out of balance: by how much and where), _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR (frequency
+ * and part that nothing holds there: at 0 a part that is free), _UNSUPPORTED, _NO_MEMORY, _CALLBACK, _ROTATION. A
+ * motion drive at frequency 0 has no displacement: _SINGULAR too. Memory: the sim's allocator, until
+ * dmb_response_destroy; the sim need not outlive the response. Cost: O(points (elements + joints + inputs)), some 0.1
+ * ms a point of 100 elements; of joints that share bodies the cube of the coordinates of those. One thread; several
+ * responses of one sim may not be computed at a time. */
 DMB_API int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options, const dmb_input *inputs,
                                       uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
                                       dmb_response **response);
@@ -105,15 +108,16 @@ DMB_API int32_t dmb_response_frequencies(const dmb_response *response, double *f
  * output for all inputs together with their amplitudes and phases. DMB_ERR_NULL, _HANDLE, _VALUE (no such number). */
 #define DMB_COMBINED UINT32_MAX
 DMB_API int32_t dmb_response_transfer(const dmb_response *response, uint32_t input, uint32_t output, double *values);
-/* CSV: frequency, then amplitude and phase [rad] of each transfer function and of the combined outputs; header line, '.'
- * as decimal mark. DMB_ERR_IO on failure. */
+/* CSV: frequency, then amplitude and phase [rad] of each transfer function and of the combined outputs; header line,
+ * '.' as decimal mark. DMB_ERR_IO on failure. */
 DMB_API int32_t dmb_response_write_csv(const dmb_response *response, const char *path);
 
 /* ---- Stepped sine ------------------------------------------------------------------------------------------------
  * Response in time to what the scene's own programmes do at one frequency, where the linear one does not hold: contacts
  * that open, friction that sticks, large motion. One call is one frequency; describe a scene for each (a HARMONIC
- * programme, a drive's speed), transfer the state (dmb_sim_transfer_state) to go up or down from one to the next. Calls on
- * different sims share nothing: hand them to as many threads as there are cores, the answers are the same to the bit. */
+ * programme, a drive's speed), transfer the state (dmb_sim_transfer_state) to go up or down from one to the next. Calls
+ * on different sims share nothing: hand them to as many threads as there are cores, the answers are the same to the
+ * bit. */
 typedef struct dmb_stepped_sine_options {
     uint32_t struct_size;
     uint32_t steps_per_period; /* [-] 16 .. 1e6; default 100. The scheme's frequency error is (2 pi/this)^2/12 or so */
@@ -122,21 +126,21 @@ typedef struct dmb_stepped_sine_options {
     uint32_t windows;          /* [-] at most, 3 .. 1e6; default 500 */
     uint32_t harmonics;        /* [-] 1 .. 16, at most an eighth of steps_per_period; default 3 */
     uint32_t reserved;
-    double tolerance;          /* [-] settled: what is still to come, by how the last windows differed, is below this part
-                                  of the largest harmonic of each output; default 1e-3 */
-    double floor;              /* [unit of the output] changes of a harmonic below it count as none, > 0; default 1e-12 */
+    double tolerance; /* [-] settled: what is still to come, by how the last windows differed, is below this part
+                         of the largest harmonic of each output; default 1e-3 */
+    double floor;     /* [unit of the output] changes of a harmonic below it count as none, > 0; default 1e-12 */
 } dmb_stepped_sine_options;
 DMB_SIZED_STRUCT(dmb_stepped_sine_options)
 
 typedef struct dmb_stepped_sine_report {
     uint32_t struct_size;
-    int32_t settled;     /* 1 if it was */
-    uint32_t windows;    /* [-] run */
-    uint32_t rejected;   /* [-] steps tried and not accepted */
-    uint64_t steps;      /* [-] accepted */
-    double change;       /* [-] between the last two windows, of the largest harmonic, worst output */
-    double remaining;    /* [-] estimated still to come */
-    double time;         /* [s] reached */
+    int32_t settled;   /* 1 if it was */
+    uint32_t windows;  /* [-] run */
+    uint32_t rejected; /* [-] steps tried and not accepted */
+    uint64_t steps;    /* [-] accepted */
+    double change;     /* [-] between the last two windows, of the largest harmonic, worst output */
+    double remaining;  /* [-] estimated still to come */
+    double time;       /* [s] reached */
 } dmb_stepped_sine_report;
 DMB_SIZED_STRUCT(dmb_stepped_sine_report)
 
@@ -144,77 +148,76 @@ DMB_SIZED_STRUCT(dmb_stepped_sine_report)
  * (output_count, 1 + harmonics, 2): mean and 0, then for k = 1, 2, ... the k-th harmonic: its part of the output is the
  * real part of (re + i im) e^(2 pi i k frequency t), t the sim's time. Displacements are those since time 0 in the axes
  * of the world or (DMB_FRAME_BODY) those the place has at the call, less their drift over the window; component DMB_RX
- * is the rotation of dmb_query_rotation, DMB_RY and DMB_RZ are of the rotation vector from the pose at the call, below pi.
- * Other outputs: as the queries answer. options and report may be NULL. DMB_NOTE_STOPPED: not settled in `windows`; the
- * amplitudes are those of the last. Errors: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID, _UNSUPPORTED,
- * _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last accepted state. amplitudes
- * and report are left alone on error. Cost: steps. */
+ * is the rotation of dmb_query_rotation, DMB_RY and DMB_RZ are of the rotation vector from the pose at the call, below
+ * pi. Other outputs: as the queries answer. options and report may be NULL. DMB_NOTE_STOPPED: not settled in `windows`;
+ * the amplitudes are those of the last. Errors: DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID,
+ * _UNSUPPORTED, _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last accepted
+ * state. amplitudes and report are left alone on error. Cost: steps. */
 DMB_API int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const dmb_stepped_sine_options *options,
-                                  const dmb_output *outputs, uint32_t output_count, double *amplitudes,
-                                  dmb_stepped_sine_report *report);
+                                          const dmb_output *outputs, uint32_t output_count, double *amplitudes,
+                                          dmb_stepped_sine_report *report);
 
-/* ---- Safe speeds -------------------------------------------------------------------------------------------------
- * A string that turns at W [rad/s] is shaken at orders of its speed: at W by eccentric masses, at 2 W by misalignment, at
+/* ---- Safe speeds ------------------------------------------------------------------------------------------------- A
+ * string that turns at W [rad/s] is shaken at orders of its speed: at W by eccentric masses, at 2 W by misalignment, at
  * 3 W by a tricone bit, at the number of blades times W by the cut. */
 typedef struct dmb_order {
     uint32_t struct_size;
     uint32_t reserved;
-    double order;       /* [-] frequency over rotary speed, > 0; default 1 */
-    dmb_input input;    /* what acts, with its amplitude; default: the scene's eccentric masses, as they are */
+    double order;    /* [-] frequency over rotary speed, > 0; default 1 */
+    dmb_input input; /* what acts, with its amplitude; default: the scene's eccentric masses, as they are */
 } dmb_order;
 DMB_SIZED_STRUCT(dmb_order)
 
 typedef struct dmb_speeds_report {
     uint32_t struct_size;
-    uint32_t bands;               /* [-] that were found, those without room included */
-    uint32_t silent_orders;       /* [-] orders whose input moves no output at any speed */
-    int32_t undamped;             /* 1: nothing damps, so that heights at resonances mean nothing */
-    int32_t cut;                  /* 1: a band goes on below speed_low, 2: above speed_high, 3: both, 0: none */
+    uint32_t bands;         /* [-] that were found, those without room included */
+    uint32_t silent_orders; /* [-] orders whose input moves no output at any speed */
+    int32_t undamped;       /* 1: nothing damps, so that heights at resonances mean nothing */
+    int32_t cut;            /* 1: a band goes on below speed_low, 2: above speed_high, 3: both, 0: none */
     int32_t reserved;
 } dmb_speeds_report;
 DMB_SIZED_STRUCT(dmb_speeds_report)
 
 typedef struct dmb_speeds_options {
     uint32_t struct_size;
-    uint32_t points;              /* [-] of the grid of speeds, 2 .. 1e5; default 200 */
-    double speed_low;             /* [rad/s] > 0; default 1 */
-    double speed_high;            /* [rad/s] > speed_low; default 30 */
-    double threshold;             /* [-] severity above which a speed is to be avoided, > 0; default 1 */
-    double margin;                /* [-] by which bands are wider on both sides, part of the speed, 0 .. 0.5; default
-                                     0.03 */
-    uint32_t refinement;          /* [-] as of a response, for each order; default 12 */
-    int32_t contact;              /* these as of a response, but for friction, default 0: a string that turns slides, */
-    int32_t friction;             /* and sliding has next to no slope */
+    uint32_t points;     /* [-] of the grid of speeds, 2 .. 1e5; default 200 */
+    double speed_low;    /* [rad/s] > 0; default 1 */
+    double speed_high;   /* [rad/s] > speed_low; default 30 */
+    double threshold;    /* [-] severity above which a speed is to be avoided, > 0; default 1 */
+    double margin;       /* [-] by which bands are wider on both sides, part of the speed, 0 .. 0.5; default
+                            0.03 */
+    uint32_t refinement; /* [-] as of a response, for each order; default 12 */
+    int32_t contact;     /* these as of a response, but for friction, default 0: a string that turns slides, */
+    int32_t friction;    /* and sliding has next to no slope */
     int32_t reserved;
     double contact_gap, structural_damping, equilibrium_tolerance;
-    dmb_speeds_report *report;    /* written where the call succeeds; NULL (default): none */
-    const void *unused;           /* NULL */
+    dmb_speeds_report *report; /* written where the call succeeds; NULL (default): none */
+    const void *unused;        /* NULL */
 } dmb_speeds_options;
 DMB_SIZED_STRUCT(dmb_speeds_options)
 
 typedef struct dmb_speed_band {
     uint32_t struct_size;
-    uint32_t order;      /* [-] number of the order that counts most at the worst speed */
-    uint32_t output;     /* [-] number of its output that is worst */
+    uint32_t order;  /* [-] number of the order that counts most at the worst speed */
+    uint32_t output; /* [-] number of its output that is worst */
     uint32_t reserved;
-    double low, high;    /* [rad/s] of the band, margin included */
-    double speed;        /* [rad/s] the worst in it */
-    double severity;     /* [-] there */
-    double frequency;    /* [Hz] of that order there */
-    int32_t cut;         /* 1: goes on below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole */
+    double low, high; /* [rad/s] of the band, margin included */
+    double speed;     /* [rad/s] the worst in it */
+    double severity;  /* [-] there */
+    double frequency; /* [Hz] of that order there */
+    int32_t cut;      /* 1: goes on below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole */
     int32_t reserved1;
 } dmb_speed_band;
 DMB_SIZED_STRUCT(dmb_speed_band)
 
 /* Bands of rotary speed to avoid about the accepted state of a sim. Severity of a speed: the sum over the orders of the
  * largest amplitude of an output over its limit, by the linear response at order times speed; 1 is the limit even where
- * all orders add up. limits: [unit of the output] > 0, shape (output_count). bands: *band_count on entry is room, the size
- * of each what the first says; on return the number of bands, by rising speed, DMB_NOTE_FULL where more were found than
- * there was room. severity, shape (points), may be NULL: largest within half a step of the grid around each speed.
- * DMB_NOTE_INCOMPLETE (dmb_sim_message and the report tell): an order excites nothing, nothing damps, or a band is cut at an
- * end of the range.
- * Call it for a sim of each depth or state. Errors: as dmb_analysis_response, with nothing written. Cost: that of
- * order_count responses. */
+ * all orders add up. limits: [unit of the output] > 0, shape (output_count). bands: *band_count on entry is room, the
+ * size of each what the first says; on return the number of bands, by rising speed, DMB_NOTE_FULL where more were found
+ * than there was room. severity, shape (points), may be NULL: largest within half a step of the grid around each speed.
+ * DMB_NOTE_INCOMPLETE (dmb_sim_message and the report tell): an order excites nothing, nothing damps, or a band is cut
+ * at an end of the range. Call it for a sim of each depth or state. Errors: as dmb_analysis_response, with nothing
+ * written. Cost: that of order_count responses. */
 DMB_API int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
                                     uint32_t order_count, const dmb_output *outputs, const double *limits,
                                     uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count,

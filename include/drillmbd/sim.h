@@ -2,11 +2,11 @@
  * A sim belongs to one thread at a time; many sims may share one model. After create nothing allocates, locks or does
  * input or output. A call that fails leaves the last accepted state whole.
  *
- * Callbacks (programmes, constraints, progress, allocator, log) must not change the sim that calls them: from within them
- * dmb_sim_destroy does nothing, and calls that change the sim or analyse it return DMB_ERR_ORDER. During a step, and during
- * analyses that leave the sim alone, queries, snapshot and hash answer from the last accepted state; during calls that
- * overwrite the state (dmb_analysis_static, dmb_sim_set_drive, _set_joint, _transfer_state) they return DMB_ERR_ORDER too.
- * Callbacks must return normally: after a longjmp or an exception the sim would stay busy for ever.
+ * Callbacks (programmes, constraints, progress, allocator, log) must not change the sim that calls them: from within
+ * them dmb_sim_destroy does nothing, and calls that change the sim or analyse it return DMB_ERR_ORDER. During a step,
+ * and during analyses that leave the sim alone, queries, snapshot and hash answer from the last accepted state; during
+ * calls that overwrite the state (dmb_analysis_static, dmb_sim_set_drive, _set_joint, _transfer_state) they return
+ * DMB_ERR_ORDER too. Callbacks must return normally: after a longjmp or an exception the sim would stay busy for ever.
  * In lists of errors _X stands for DMB_ERR_X. */
 #ifndef DRILLMBD_SIM_H
 #define DRILLMBD_SIM_H
@@ -25,9 +25,9 @@ enum {
 };
 typedef struct dmb_sim_options {
     uint32_t struct_size;
-    uint32_t max_iterations;      /* [-] Newton iterations of one step, 1 .. 1000; default 12 */
+    uint32_t max_iterations;        /* [-] Newton iterations of one step, 1 .. 1000; default 12 */
     const dmb_allocator *allocator; /* copied; NULL: the model's */
-    dmb_log_fn log;               /* NULL: silent */
+    dmb_log_fn log;                 /* NULL: silent */
     void *log_context;
     double spectral_radius;       /* [-] of generalized-alpha at infinite frequency, 0 .. 1; default 0.8 */
     double newton_tolerance;      /* [-] residual over the norm of the forces that balance in it, 1e-14 .. 1e-1; default
@@ -35,17 +35,17 @@ typedef struct dmb_sim_options {
                                      step solved with factors of an earlier one aims at a fifth of it */
     double tolerance_translation; /* [m] local error allowed in a step of dmb_sim_advance, > 0; default 1e-6 */
     double tolerance_rotation;    /* [rad] the same for rotation, > 0; default 1e-5 */
-    double step_min;              /* [s] shortest step of dmb_sim_advance and part of a divided step, > 0; default 1e-9 */
-    double step_max;              /* [s] of dmb_sim_advance, > step_min; default 0.1 */
-    uint32_t max_cuts;            /* [-] times a step that does not converge is halved, 0 .. 30; default 12 */
-    int32_t bounded_work;         /* 1: dmb_sim_step does one step of at most max_iterations and accepts a finite result
-                                     with DMB_NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not
-                                     divided at corners; for control loops; default 0 */
-    int32_t energy_ledger;        /* 1 (default): keep the energy ledger; 0: it is not computed */
-    uint32_t max_steps;           /* [-] accepted steps in one dmb_sim_advance, which then ends with DMB_NOTE_STOPPED;
-                                     0 (default): no bound */
-    int32_t constraint_method;    /* DMB_METHOD_..., how joints enter the linear algebra of a step; default
-                                     DMB_METHOD_INDEPENDENT */
+    double step_min;           /* [s] shortest step of dmb_sim_advance and part of a divided step, > 0; default 1e-9 */
+    double step_max;           /* [s] of dmb_sim_advance, > step_min; default 0.1 */
+    uint32_t max_cuts;         /* [-] times a step that does not converge is halved, 0 .. 30; default 12 */
+    int32_t bounded_work;      /* 1: dmb_sim_step does one step of at most max_iterations and accepts a finite result
+                                  with DMB_NOTE_WORK_LIMITED unless it grows a millionfold; such a step is not
+                                  divided at corners; for control loops; default 0 */
+    int32_t energy_ledger;     /* 1 (default): keep the energy ledger; 0: it is not computed */
+    uint32_t max_steps;        /* [-] accepted steps in one dmb_sim_advance, which then ends with DMB_NOTE_STOPPED;
+                                  0 (default): no bound */
+    int32_t constraint_method; /* DMB_METHOD_..., how joints enter the linear algebra of a step; default
+                                  DMB_METHOD_INDEPENDENT */
     int32_t reserved;
 } dmb_sim_options;
 DMB_SIZED_STRUCT(dmb_sim_options)
@@ -54,8 +54,8 @@ DMB_SIZED_STRUCT(dmb_sim_options)
 DMB_API int32_t dmb_sim_memory_size(const dmb_model *model, const dmb_sim_options *options, size_t *size);
 /* Makes a sim at time 0 in the described pose and speed. options may be NULL. DMB_NOTE_PROJECTED when initial
  * velocities did not fit the allowed motion; dmb_sim_message tells by how much. Errors (dmb_model_message says why):
- * _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The sim
- * holds the model until it is destroyed. O(number of elements). */
+ * _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The
+ * sim holds the model until it is destroyed. O(number of elements). */
 DMB_API int32_t dmb_sim_create(dmb_model *model, const dmb_sim_options *options, dmb_sim **sim);
 /* The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used. */
 DMB_API int32_t dmb_sim_create_in(dmb_model *model, const dmb_sim_options *options, void *block, size_t size,
@@ -70,38 +70,38 @@ DMB_API double dmb_sim_time(const dmb_sim *sim);
 /* [-] fraction, 0 .. 1, of the call that is done: never falls within a call, and is a guess where the work cannot be
  * foreseen. Returns 0, or nonzero to end the call. */
 typedef int32_t (*dmb_progress_fn)(void *context, double fraction);
-/* From now on dmb_sim_step, _advance and all analyses of this sim call `function` at bounded intervals, in the thread of the
- * call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK's is one
- * interval. Nonzero ends the call: DMB_ERR_CANCELLED with all that a failing call leaves alone as before
+/* From now on dmb_sim_step, _advance and all analyses of this sim call `function` at bounded intervals, in the thread
+ * of the call: at each Newton iteration, vector of a Krylov subspace, frequency, mode; an eigenproblem of LAPACK's is
+ * one interval. Nonzero ends the call: DMB_ERR_CANCELLED with all that a failing call leaves alone as before
  * (dmb_analysis_stepped_sine: the sim is in its last accepted state), but for dmb_sim_advance, which ends with
- * DMB_NOTE_CANCELLED in its last accepted state; the same call may be made again. To end a call from another thread or a
- * signal handler, let the function look at a flag that these set. It may not change the sim (above) nor jump out. NULL:
- * nobody is told, as after create, and nothing is paid. Neither saved in snapshots nor hashed. Errors: DMB_ERR_NULL,
- * _HANDLE; _ORDER within a call on the sim. */
+ * DMB_NOTE_CANCELLED in its last accepted state; the same call may be made again. To end a call from another thread or
+ * a signal handler, let the function look at a flag that these set. It may not change the sim (above) nor jump out.
+ * NULL: nobody is told, as after create, and nothing is paid. Neither saved in snapshots nor hashed. Errors:
+ * DMB_ERR_NULL, _HANDLE; _ORDER within a call on the sim. */
 DMB_API int32_t dmb_sim_set_progress(dmb_sim *sim, dmb_progress_fn function, void *context);
 
 typedef struct dmb_step_report {
     uint32_t struct_size;
-    uint32_t steps;        /* [-] accepted integration steps in this call */
-    uint32_t iterations;   /* [-] Newton iterations, rejected steps included */
-    uint32_t rejected;     /* [-] steps tried and not accepted */
+    uint32_t steps;           /* [-] accepted integration steps in this call */
+    uint32_t iterations;      /* [-] Newton iterations, rejected steps included */
+    uint32_t rejected;        /* [-] steps tried and not accepted */
     uint32_t most_iterations; /* [-] of an accepted step */
     uint32_t reserved;
-    double time;           /* [s] reached */
-    double residual;       /* [-] largest relative residual of an accepted step */
-    double last_step;      /* [s] length of the last accepted step */
+    double time;      /* [s] reached */
+    double residual;  /* [-] largest relative residual of an accepted step */
+    double last_step; /* [s] length of the last accepted step */
 } dmb_step_report;
 DMB_SIZED_STRUCT(dmb_step_report)
 
-/* Advances by `duration` [s], > 0 and <= 1e18, in one step of generalized-alpha, divided at programme corners, and halved
- * where Newton does not converge (DMB_NOTE_STEP_CUT). report may be NULL. Errors: DMB_ERR_VALUE, _NO_CONVERGENCE, _SINGULAR,
- * _ROTATION, _GEOMETRY (a joint where its angles are not defined: model.h), _CALLBACK, _NOT_FINITE, _CANCELLED; the state is
- * then that before the call. O(number of elements) an iteration.
- * Chung, Hulbert 1993; Bruls, Cardona, Arnold 2012. */
+/* Advances by `duration` [s], > 0 and <= 1e18, in one step of generalized-alpha, divided at programme corners, and
+ * halved where Newton does not converge (DMB_NOTE_STEP_CUT). report may be NULL. Errors: DMB_ERR_VALUE,
+ * _NO_CONVERGENCE, _SINGULAR, _ROTATION, _GEOMETRY (a joint where its angles are not defined: model.h), _CALLBACK,
+ * _NOT_FINITE, _CANCELLED; the state is then that before the call. O(number of elements) an iteration. Chung, Hulbert
+ * 1993; Bruls, Cardona, Arnold 2012. */
 DMB_API int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report);
-/* Advances to `time` [s] with steps chosen to hold the local error tolerances, bounded_work or not. DMB_NOTE_TOLERANCE where
- * a step of step_min was too long for them, DMB_NOTE_STOPPED after max_steps, DMB_NOTE_CANCELLED. Errors as dmb_sim_step;
- * the state is then the last accepted one, whose time dmb_sim_time tells. */
+/* Advances to `time` [s] with steps chosen to hold the local error tolerances, bounded_work or not. DMB_NOTE_TOLERANCE
+ * where a step of step_min was too long for them, DMB_NOTE_STOPPED after max_steps, DMB_NOTE_CANCELLED. Errors as
+ * dmb_sim_step; the state is then the last accepted one, whose time dmb_sim_time tells. */
 DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report);
 /* From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For
  * DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; accelerations are made to fit the jump. DMB_ERR_UNSUPPORTED
@@ -135,9 +135,10 @@ DMB_API int32_t dmb_sim_set_joint(dmb_sim *sim, dmb_id joint, int32_t state);
 DMB_API int32_t dmb_sim_transfer_state(dmb_sim *sim, const dmb_sim *from);
 
 /* Snapshot of all that changes: bytes, save into and restore from the caller's memory. A snapshot fits every sim of the
- * same compiled model with the same options. Bytes that are no state of it, forged ones too, are refused (DMB_ERR_VALUE,
- * the message tells field, value and bound); what is taken cannot lead a step out of bounds. Restored sims go on bit for
- * bit: a snapshot holds the factors kept from step to step too (about 0.9 kB an element; none with joints). */
+ * same compiled model with the same options. Bytes that are no state of it, forged ones too, are refused
+ * (DMB_ERR_VALUE, the message tells field, value and bound); what is taken cannot lead a step out of bounds. Restored
+ * sims go on bit for bit: a snapshot holds the factors kept from step to step too (about 0.9 kB an element; none with
+ * joints). */
 DMB_API int32_t dmb_sim_snapshot_size(const dmb_sim *sim, size_t *size);
 DMB_API int32_t dmb_sim_snapshot(const dmb_sim *sim, void *block, size_t size);
 DMB_API int32_t dmb_sim_restore(dmb_sim *sim, const void *block, size_t size);

@@ -7,18 +7,18 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define DMB_DEFINE_CHECKED(suffix, type, maximum)                                                                     \
-    static inline bool dmb_checked_add_##suffix(type a, type b, type *out)                                            \
-    {                                                                                                                 \
-        if (b > (maximum) - a) return false;                                                                          \
-        *out = a + b;                                                                                                 \
-        return true;                                                                                                  \
-    }                                                                                                                 \
-    static inline bool dmb_checked_mul_##suffix(type a, type b, type *out)                                            \
-    {                                                                                                                 \
-        if (a != 0 && b > (maximum) / a) return false;                                                                \
-        *out = a * b;                                                                                                 \
-        return true;                                                                                                  \
+#define DMB_DEFINE_CHECKED(suffix, type, maximum)                          \
+    static inline bool dmb_checked_add_##suffix(type a, type b, type *out) \
+    {                                                                      \
+        if (b > (maximum)-a) return false;                                 \
+        *out = a + b;                                                      \
+        return true;                                                       \
+    }                                                                      \
+    static inline bool dmb_checked_mul_##suffix(type a, type b, type *out) \
+    {                                                                      \
+        if (a != 0 && b > (maximum) / a) return false;                     \
+        *out = a * b;                                                      \
+        return true;                                                       \
     }
 
 DMB_DEFINE_CHECKED(size, size_t, SIZE_MAX)

@@ -9,8 +9,8 @@
 
 #include "drillmbd/base.h"
 
-/* Sizes of structs with pointers go with the target. The first releases were for 64 bits, where sizes are multiples of 8;
- * elsewhere the library and its callers are built together, and the first release is this one. */
+/* Sizes of structs with pointers go with the target. The first releases were for 64 bits, where sizes are multiples of
+ * 8; elsewhere the library and its callers are built together, and the first release is this one. */
 #if UINTPTR_MAX > UINT32_MAX
 enum { DMB_STRUCT_UNIT = 8 };
 #define DMB_FIRST_SIZE(T, bytes) (bytes)
@@ -25,9 +25,9 @@ enum { DMB_STRUCT_MAX_EXTRA = 1024 };
 /* Writes size bytes: struct_size, then defaults (known bytes long), then zeros. Errors: DMB_ERR_NULL, _STRUCT_SIZE. */
 int32_t dmb_struct_init(void *out, uint32_t size, const void *defaults, size_t known, size_t oldest);
 
-/* Reads a caller's struct into dst, prefilled with defaults and known bytes long. Fields that src does not have keep their
- * default; what src has beyond known must be zero. struct_size of dst stays. Errors: DMB_ERR_NULL; DMB_ERR_STRUCT_SIZE,
- * with dst unchanged. */
+/* Reads a caller's struct into dst, prefilled with defaults and known bytes long. Fields that src does not have keep
+ * their default; what src has beyond known must be zero. struct_size of dst stays. Errors: DMB_ERR_NULL;
+ * DMB_ERR_STRUCT_SIZE, with dst unchanged. */
 int32_t dmb_struct_read(void *dst, size_t known, size_t oldest, const void *src);
 
 /* Writes an answer of known bytes into a caller's struct: no more than its struct_size, which stays, and nothing beyond
@@ -43,33 +43,33 @@ int32_t dmb_struct_check_size(uint32_t size, size_t known, size_t oldest);
  *     int32_t T_write(void *dst, const T *src) an answer written into the caller's struct
  * oldest_size is sizeof(T) in the first release that had it, with pointers of 64 bits. Example:
  *     DMB_DEFINE_INIT(dmb_term, 96, {.kind = DMB_TERM_CONSTANT, .x1 = 1.0})  */
-#define DMB_DEFINE_INIT(T, oldest_size, ...)                                                                          \
-    static const T T##_defaults = __VA_ARGS__;                                                                        \
-    _Static_assert(offsetof(T, struct_size) == 0, #T " does not begin with struct_size");                             \
-    _Static_assert(sizeof(T) % DMB_STRUCT_UNIT == 0 && (oldest_size) % 8 == 0, #T " is not a multiple of its unit");  \
-    _Static_assert(DMB_FIRST_SIZE(T, oldest_size) <= sizeof(T), #T " is shorter than in its first release");          \
-    DMB_DECLARE_STRUCT(T)                                                                                             \
-    int32_t T##_init(T *out, uint32_t size)                                                                           \
-    {                                                                                                                 \
-        return dmb_struct_init(out, size, &T##_defaults, sizeof(T), DMB_FIRST_SIZE(T, oldest_size));                  \
-    }                                                                                                                 \
-    int32_t T##_read(T *out, const void *src)                                                                         \
-    {                                                                                                                 \
-        T filled = T##_defaults;                                                                                      \
-        int32_t status = dmb_struct_read(&filled, sizeof(T), DMB_FIRST_SIZE(T, oldest_size), src);                    \
-        if (status < 0) return status;                                                                                \
-        filled.struct_size = (uint32_t)sizeof(T);                                                                     \
-        *out = filled;                                                                                                \
-        return DMB_OK;                                                                                                \
-    }                                                                                                                 \
-    int32_t T##_write(void *dst, const T *src)                                                                        \
-    {                                                                                                                 \
-        return dmb_struct_write(dst, sizeof(T), DMB_FIRST_SIZE(T, oldest_size), src);                                 \
+#define DMB_DEFINE_INIT(T, oldest_size, ...)                                                                         \
+    static const T T##_defaults = __VA_ARGS__;                                                                       \
+    _Static_assert(offsetof(T, struct_size) == 0, #T " does not begin with struct_size");                            \
+    _Static_assert(sizeof(T) % DMB_STRUCT_UNIT == 0 && (oldest_size) % 8 == 0, #T " is not a multiple of its unit"); \
+    _Static_assert(DMB_FIRST_SIZE(T, oldest_size) <= sizeof(T), #T " is shorter than in its first release");         \
+    DMB_DECLARE_STRUCT(T)                                                                                            \
+    int32_t T##_init(T *out, uint32_t size)                                                                          \
+    {                                                                                                                \
+        return dmb_struct_init(out, size, &T##_defaults, sizeof(T), DMB_FIRST_SIZE(T, oldest_size));                 \
+    }                                                                                                                \
+    int32_t T##_read(T *out, const void *src)                                                                        \
+    {                                                                                                                \
+        T filled = T##_defaults;                                                                                     \
+        int32_t status = dmb_struct_read(&filled, sizeof(T), DMB_FIRST_SIZE(T, oldest_size), src);                   \
+        if (status < 0) return status;                                                                               \
+        filled.struct_size = (uint32_t)sizeof(T);                                                                    \
+        *out = filled;                                                                                               \
+        return DMB_OK;                                                                                               \
+    }                                                                                                                \
+    int32_t T##_write(void *dst, const T *src)                                                                       \
+    {                                                                                                                \
+        return dmb_struct_write(dst, sizeof(T), DMB_FIRST_SIZE(T, oldest_size), src);                                \
     }
 
 /* Declares T_read and T_write, for use in a file other than that of DMB_DEFINE_INIT. */
-#define DMB_DECLARE_STRUCT(T)                                                                                         \
-    int32_t T##_read(T *out, const void *src);                                                                        \
+#define DMB_DECLARE_STRUCT(T)                  \
+    int32_t T##_read(T *out, const void *src); \
     int32_t T##_write(void *dst, const T *src);
 
 #endif

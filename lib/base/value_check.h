@@ -43,9 +43,9 @@ void dmb_check_fail(dmb_check *check, int32_t status, const char *field, double 
 
 /* One number. */
 void dmb_check_finite(dmb_check *check, const char *field, double value);
-void dmb_check_above(dmb_check *check, const char *field, double value, double bound);          /* value > bound */
-void dmb_check_at_least(dmb_check *check, const char *field, double value, double bound);       /* value >= bound */
-void dmb_check_within(dmb_check *check, const char *field, double value, double low, double high); /* low..high */
+void dmb_check_above(dmb_check *check, const char *field, double value, double bound);              /* value > bound */
+void dmb_check_at_least(dmb_check *check, const char *field, double value, double bound);           /* value >= bound */
+void dmb_check_within(dmb_check *check, const char *field, double value, double low, double high);  /* low..high */
 void dmb_check_between(dmb_check *check, const char *field, double value, double low, double high); /* low < . < high */
 
 /* One number against another field. A bound that is not finite fails the value too. */

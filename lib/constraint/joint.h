@@ -21,18 +21,29 @@
 
 /* Kinds are numbered as DMB_JOINT_... in model.h. */
 enum {
-    DMB_ROWS_FIXED = 0, DMB_ROWS_REVOLUTE = 1, DMB_ROWS_PRISMATIC = 2, DMB_ROWS_CYLINDRICAL = 3, DMB_ROWS_UNIVERSAL = 4,
-    DMB_ROWS_SPHERICAL = 5, DMB_ROWS_PLANAR = 6, DMB_ROWS_POINT_ON_LINE = 7, DMB_ROWS_POINT_ON_HOLE = 8,
-    DMB_ROWS_DISTANCE = 9, DMB_ROWS_FREE = 10, DMB_ROWS_KNIFE_EDGE = 11, DMB_ROWS_ROLLING = 12, DMB_ROWS_KINDS = 13,
+    DMB_ROWS_FIXED = 0,
+    DMB_ROWS_REVOLUTE = 1,
+    DMB_ROWS_PRISMATIC = 2,
+    DMB_ROWS_CYLINDRICAL = 3,
+    DMB_ROWS_UNIVERSAL = 4,
+    DMB_ROWS_SPHERICAL = 5,
+    DMB_ROWS_PLANAR = 6,
+    DMB_ROWS_POINT_ON_LINE = 7,
+    DMB_ROWS_POINT_ON_HOLE = 8,
+    DMB_ROWS_DISTANCE = 9,
+    DMB_ROWS_FREE = 10,
+    DMB_ROWS_KNIFE_EDGE = 11,
+    DMB_ROWS_ROLLING = 12,
+    DMB_ROWS_KINDS = 13,
     DMB_ROWS_MAX = 6
 };
 
 typedef struct dmb_joint_rows {
     uint32_t count;
-    uint32_t holonomic;          /* bit k: row k is an equation of position; else of speed only (value 0) */
-    double value[DMB_ROWS_MAX];  /* [m, -] what must be 0 */
-    double J[DMB_ROWS_MAX][6];   /* value' = J V (nonholonomic: J V = 0 is the equation) */
-    double JV[DMB_ROWS_MAX][6];  /* derivative of J along the motion V */
+    uint32_t holonomic;         /* bit k: row k is an equation of position; else of speed only (value 0) */
+    double value[DMB_ROWS_MAX]; /* [m, -] what must be 0 */
+    double J[DMB_ROWS_MAX][6];  /* value' = J V (nonholonomic: J V = 0 is the equation) */
+    double JV[DMB_ROWS_MAX][6]; /* derivative of J along the motion V */
 } dmb_joint_rows;
 
 /* Number of rows of a kind. POINT_ON_HOLE has those of POINT_ON_LINE: frame a is then the hole's at the point. */
@@ -52,8 +63,8 @@ void dmb_joint_locked_at(const double R0[9], const double p0[3], const double R[
 void dmb_joint_locked_tangent(const double R0[9], const double p0[3], const double R[9], const double p[3],
                               const double f[6], double W[36]);
 
-/* [rad] Angle between x axes, or else y axes, that the kind keeps parallel and that point against each other in R, where
- * its dot-product rows are satisfied too; 0 where none do. Of a locked joint: that of FIXED for R R0^T. */
+/* [rad] Angle between x axes, or else y axes, that the kind keeps parallel and that point against each other in R,
+ * where its dot-product rows are satisfied too; 0 where none do. Of a locked joint: that of FIXED for R R0^T. */
 double dmb_joint_flip(int32_t kind, const double R[9]);
 
 /* The six coordinates; near[0], near[1]: RX and RY are given on the turn next to these. J and JV as of rows. At RZ =

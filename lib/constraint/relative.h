@@ -9,11 +9,11 @@
 #define DMB_CONSTRAINT_RELATIVE_H
 
 typedef struct dmb_relative {
-    double R[9];     /* [-] axes of b as columns, in a, row-major */
-    double p[3];     /* [m] origin of b, in a */
-    double to_a[36]; /* V by v_a; 0 for the ground */
-    double to_b[36]; /* V by v_b */
-    double V[6];     /* [m/s, rad/s] */
+    double R[9];          /* [-] axes of b as columns, in a, row-major */
+    double p[3];          /* [m] origin of b, in a */
+    double to_a[36];      /* V by v_a; 0 for the ground */
+    double to_b[36];      /* V by v_b */
+    double V[6];          /* [m/s, rad/s] */
     double convective[6]; /* [m/s2, rad/s2] V' = to_b v_b' + to_a v_a' + convective */
 } dmb_relative;
 

@@ -14,7 +14,6 @@ void dmb_beam_stress(const dmb_element_type *type, const dmb_beam_shape *shape, 
 /* e_x [m] from d alone. */
 double dmb_beam_stretch(const dmb_element_type *type, const double d[6]);
 /* Momentum p = M v of both ends [kg m/s, kg m2/s]; the same product gives M times accelerations. */
-void dmb_beam_mass_times(const dmb_beam_mass *mass, const double va[6], const double vb[6], double pa[6],
-                         double pb[6]);
+void dmb_beam_mass_times(const dmb_beam_mass *mass, const double va[6], const double vb[6], double pa[6], double pb[6]);
 
 #endif

@@ -8,8 +8,8 @@
 /* Quantities wanted of elements, the same for all lanes. */
 typedef struct dmb_beam_task {
     double mass_factor, velocity_factor; /* d v'/d pose parameters, d v/d pose parameters */
-    int32_t dynamic;      /* 0: no inertia, damping, nor rates */
-    int32_t tangent;      /* 1: blocks too */
+    int32_t dynamic;                     /* 0: no inertia, damping, nor rates */
+    int32_t tangent;                     /* 1: blocks too */
     int32_t extrapolated; /* 1: geometric stiffness with the stress given, 0: with the true one, which is given back */
     int32_t rates;        /* 1: strain rates are needed, for the energy ledger or for damping */
     int32_t damped;       /* 1: damping_time is not 0 everywhere */
@@ -18,24 +18,24 @@ typedef struct dmb_beam_task {
 } dmb_beam_task;
 
 typedef struct dmb_beam_input {
-    dmb_real qa[4], qb[4];         /* orientations of the nodes */
-    dmb_real Ra[9];                /* the first one's rotation matrix */
-    dmb_real span[3];              /* [m] from node A to node B, world */
-    dmb_real reach;                /* [m] size of the numbers that the span is the difference of */
-    dmb_real va[6], vb[6];         /* velocities of the nodes, body frame */
-    dmb_real aa[6], ab[6];         /* their rates */
-    dmb_real za[6], zb[6];         /* [m, rad] increments of pose h Dq over the step */
+    dmb_real qa[4], qb[4]; /* orientations of the nodes */
+    dmb_real Ra[9];        /* the first one's rotation matrix */
+    dmb_real span[3];      /* [m] from node A to node B, world */
+    dmb_real reach;        /* [m] size of the numbers that the span is the difference of */
+    dmb_real va[6], vb[6]; /* velocities of the nodes, body frame */
+    dmb_real aa[6], ab[6]; /* their rates */
+    dmb_real za[6], zb[6]; /* [m, rad] increments of pose h Dq over the step */
 } dmb_beam_input;
 
 typedef struct dmb_beam_output {
-    dmb_real strain[6];            /* d */
-    dmb_real stress[6];            /* in: if extrapolated; out: if not; for the geometric stiffness */
-    dmb_real fa[6], fb[6];         /* forces on the residual side, at the nodes */
-    dmb_real scale_a[6], scale_b[6]; /* sums of magnitudes of their terms */
-    dmb_real rounding;             /* [N2] */
+    dmb_real strain[6];                   /* d */
+    dmb_real stress[6];                   /* in: if extrapolated; out: if not; for the geometric stiffness */
+    dmb_real fa[6], fb[6];                /* forces on the residual side, at the nodes */
+    dmb_real scale_a[6], scale_b[6];      /* sums of magnitudes of their terms */
+    dmb_real rounding;                    /* [N2] */
     dmb_real potential, damping, inertia; /* [W] */
-    dmb_beam_blocks K, C;          /* stiffness by pose; inertia and damping by motion. When dynamic, K.ab and K.ba are
-                                      blocks of the iteration matrix already: K T6(h Dq) + C */
+    dmb_beam_blocks K, C; /* stiffness by pose; inertia and damping by motion. When dynamic, K.ab and K.ba are
+                             blocks of the iteration matrix already: K T6(h Dq) + C */
 } dmb_beam_output;
 
 static inline void dmb_beam_add_magnitudes(const dmb_real force[6], dmb_real scale[6])
@@ -107,9 +107,9 @@ static inline void dmb_beam_link(const dmb_real z[6], const dmb_real C[36], int 
     dmb_mat6_add(K, C, K);
 }
 
-static inline void dmb_beam_tangent(const dmb_beam_task *task, const dmb_beam_constants *c,
-                                    const dmb_beam_shape *shape, const dmb_real va[6], const dmb_real vb[6],
-                                    const dmb_real pa[6], const dmb_real pb[6], dmb_beam_output *out)
+static inline void dmb_beam_tangent(const dmb_beam_task *task, const dmb_beam_constants *c, const dmb_beam_shape *shape,
+                                    const dmb_real va[6], const dmb_real vb[6], const dmb_real pa[6],
+                                    const dmb_real pb[6], dmb_beam_output *out)
 {
     const dmb_real factor = dmb_real_of(task->velocity_factor);
     if (task->dynamic && task->damped)
@@ -118,8 +118,7 @@ static inline void dmb_beam_tangent(const dmb_beam_task *task, const dmb_beam_co
         dmb_beam_stiffness_blocks(c, shape, out->stress, &out->K);
     if (task->inertia_only) dmb_beam_clear_blocks(&out->K);
     if (task->dynamic) {
-        dmb_beam_add_inertia_blocks(c, va, vb, pa, pb, dmb_real_of(task->mass_factor), factor, !task->damped,
-                                    &out->C);
+        dmb_beam_add_inertia_blocks(c, va, vb, pa, pb, dmb_real_of(task->mass_factor), factor, !task->damped, &out->C);
     }
     if (!task->arms) return;
     dmb_beam_blocks_to_nodes(c->arm, &out->K);

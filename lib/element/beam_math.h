@@ -4,9 +4,9 @@
  * Bruls 2014). Blind to rigid motion and to the number of revolutions.
  *
  * The corrected shear GA* stands for bending inside the element too, and this must not shorten it. Let x = d - d0. The
- * sideways x_y turns the chord by g = x_y/L against the end sections; the Timoshenko cubic that belongs to it (THEORY 3,
- * P = 12 EI/(GA L^2), s = 1/(1 + P) = 1 - (GA*)/GA) has the slope w' = s g (6 (r - r^2) + P) and the section rotation
- * t = 6 s g (r - r^2), r = 0 .. 1. Its axial strain is u' + t w' - t^2/2, on the average over r
+ * sideways x_y turns the chord by g = x_y/L against the end sections; the Timoshenko cubic that belongs to it (THEORY
+ * 3, P = 12 EI/(GA L^2), s = 1/(1 + P) = 1 - (GA*)/GA) has the slope w' = s g (6 (r - r^2) + P) and the section
+ * rotation t = 6 s g (r - r^2), r = 0 .. 1. Its axial strain is u' + t w' - t^2/2, on the average over r
  *     x_x/L + c g^2,   c = s^2 (6/5 + P) - (3/5) s^2 = s (1 - 0.4 s),   in each plane.
  * Without it a pulled element has the transverse tangent GA* - N, with it GA* + N/5 (slender), which is the cubic's.
  *
@@ -29,10 +29,10 @@
 
 /* The constants of element_type.h that a step needs, as numbers of this file's kind. */
 typedef struct dmb_beam_constants {
-    dmb_real stiffness[6], rest[6]; /* [N/m, N m/rad], [m, rad] */
-    dmb_real coupling[2], bend[2];  /* [1/m] b, [-] h, of the planes y and z */
-    dmb_real arm[2];                /* [m] */
-    dmb_real damping_time;          /* [s] */
+    dmb_real stiffness[6], rest[6];               /* [N/m, N m/rad], [m, rad] */
+    dmb_real coupling[2], bend[2];                /* [1/m] b, [-] h, of the planes y and z */
+    dmb_real arm[2];                              /* [m] */
+    dmb_real damping_time;                        /* [s] */
     dmb_real axial[2], torsion[2], bending[2][6]; /* [kg], [kg m2], mixed: dmb_beam_mass */
 } dmb_beam_constants;
 
@@ -44,9 +44,9 @@ typedef struct dmb_beam_map {
 
 /* Relative pose of the two ends and the operators that go with it. */
 typedef struct dmb_beam_shape {
-    dmb_real d[6];                    /* [m, rad] log(H_A^-1 H_B) */
-    dmb_so3_inverse_coefficients k;   /* of d's rotation */
-    dmb_se3_inverse_tangent T;        /* T6(d)^-1; its reverse is T6(-d)^-1 */
+    dmb_real d[6];                  /* [m, rad] log(H_A^-1 H_B) */
+    dmb_so3_inverse_coefficients k; /* of d's rotation */
+    dmb_se3_inverse_tangent T;      /* T6(d)^-1; its reverse is T6(-d)^-1 */
     dmb_beam_map E;
 } dmb_beam_shape;
 
@@ -167,7 +167,7 @@ static inline void dmb_arm_wrench(dmb_real arm, dmb_real f[6])
 
 /* d' = P V [m/s, rad/s] from the velocities of the element's ends, P = [-T6(-d)^-1, T6(d)^-1]. */
 static inline void dmb_beam_shape_rate(const dmb_beam_shape *shape, const dmb_real velocity_a[6],
-                                        const dmb_real velocity_b[6], dmb_real rate[6])
+                                       const dmb_real velocity_b[6], dmb_real rate[6])
 {
     dmb_real a[6];
     dmb_se3_tangent_apply_reverse(&shape->T, velocity_a, a);
@@ -254,8 +254,8 @@ static inline void dmb_beam_material_at(const dmb_real k[6], const dmb_beam_map 
 }
 
 /* D += H, of S_x b/2 x^2 and q p with q = h_z S_z O_y - h_y S_y O_z */
-static inline void dmb_beam_add_curved_strain(const dmb_beam_constants *c, const dmb_real d[6], const dmb_real stress[6],
-                                              dmb_beam_material *D)
+static inline void dmb_beam_add_curved_strain(const dmb_beam_constants *c, const dmb_real d[6],
+                                              const dmb_real stress[6], dmb_beam_material *D)
 {
     const dmb_real y = d[1] - c->rest[1], z = d[2] - c->rest[2];
     const dmb_real Y = c->bend[0] * stress[1], Z = c->bend[1] * stress[2], q = Z * d[4] - Y * d[5];
@@ -303,8 +303,8 @@ static inline void dmb_beam_material_stiffness(const dmb_beam_material *D, const
 }
 
 /* [-R, T]^T [-back, ahead] */
-static inline void dmb_beam_rows_stiffness(const dmb_se3_tangent *T, const dmb_se3_tangent *R, const dmb_se3_rows *ahead,
-                                           const dmb_se3_rows *back, dmb_beam_blocks *out)
+static inline void dmb_beam_rows_stiffness(const dmb_se3_tangent *T, const dmb_se3_tangent *R,
+                                           const dmb_se3_rows *ahead, const dmb_se3_rows *back, dmb_beam_blocks *out)
 {
     dmb_se3_tangent_times_rows(R, back, out->aa);
     dmb_se3_tangent_times_rows(R, ahead, out->ab);
@@ -359,7 +359,8 @@ static inline void dmb_beam_add_viscous_rows(const dmb_beam_constants *c, const 
         U[0] = YS[0] + E->slope[0] * YS[3] + E->slope[1] * YS[6] + f * (rate->slope[0] * S[3] + rate->slope[1] * S[6]);
         V[0] = YB[0] + E->slope[0] * YB[3] + E->slope[1] * YB[6] + f * (rate->slope[0] * B[3] + rate->slope[1] * B[6]);
         for (int i = 0; i < 2; i++) {
-            const dmb_real *m = E->move + 2 * i, *t = E->turn + 2 * i, *dm = rate->move + 2 * i, *dt = rate->turn + 2 * i;
+            const dmb_real *m = E->move + 2 * i, *t = E->turn + 2 * i, *dm = rate->move + 2 * i,
+                           *dt = rate->turn + 2 * i;
             U[1 + i] = m[0] * YS[3] + m[1] * YS[6] + f * (dm[0] * S[3] + dm[1] * S[6]);
             V[1 + i] = m[0] * YB[3] + m[1] * YB[6] + t[0] * YS[3] + t[1] * YS[6] +
                        f * (dm[0] * B[3] + dm[1] * B[6] + dt[0] * S[3] + dt[1] * S[6]);
@@ -382,8 +383,8 @@ static inline void dmb_beam_add_viscous_rows(const dmb_beam_constants *c, const 
 }
 
 /* The same with damping, which takes part in the stiffness too: S gains tau (K/L) E d' with d' = P V. Its derivative by
- * V is tau P^T E^T (K/L) E P, written to `damping` times `factor`; by the pose it is tau P^T E^T (K/L) (E X + E') P with
- * X = d(d')/dd = X(d, V_B) + X(-d, V_A), both of THEORY 3's operators. */
+ * V is tau P^T E^T (K/L) E P, written to `damping` times `factor`; by the pose it is tau P^T E^T (K/L) (E X + E') P
+ * with X = d(d')/dd = X(d, V_B) + X(-d, V_A), both of THEORY 3's operators. */
 static inline void dmb_beam_damped_blocks(const dmb_beam_constants *c, const dmb_beam_shape *shape,
                                           const dmb_real stress[6], const dmb_real velocity_a[6],
                                           const dmb_real velocity_b[6], dmb_real factor, dmb_beam_blocks *stiffness,
@@ -474,7 +475,8 @@ static inline void dmb_beam_block_ab(const dmb_beam_constants *m, double side, d
 
 /* out += L M_block, or = where it is fresh; M_block has entries (0,0) (3,3), (1,1) (1,5) (5,1) (5,5), (2,2) (2,4) (4,2)
  * (4,4) */
-static inline void dmb_beam_add_times_block(const dmb_real L[36], const dmb_beam_mass_block *m, int fresh, dmb_real out[36])
+static inline void dmb_beam_add_times_block(const dmb_real L[36], const dmb_beam_mass_block *m, int fresh,
+                                            dmb_real out[36])
 {
     for (int i = 0; i < 36; i += 6) {
         const dmb_real row[6] = {L[i] * m->axial,

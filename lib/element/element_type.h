@@ -4,39 +4,40 @@
 
 #include <stdint.h>
 
-/* Mass of an axisymmetric beam, constant in the body frame: sideways consistent (Timoshenko cubic shapes, THEORY 3), along
- * and around half way to a lumped one (model/section.c).
- * bending[plane]: plane 0 is (u_y, theta_z), plane 1 is (u_z, -theta_y); six numbers each:
- *   [0] u_A u_A = u_B u_B   [1] u_A t_A = -u_B t_B   [2] u_A u_B   [3] u_A t_B = -u_B t_A   [4] t_A t_A = t_B t_B   [5] t_A
+/* Mass of an axisymmetric beam, constant in the body frame: sideways consistent (Timoshenko cubic shapes, THEORY 3),
+ * along and around half way to a lumped one (model/section.c). bending[plane]: plane 0 is (u_y, theta_z), plane 1 is
+ * (u_z, -theta_y); six numbers each:
+ *   [0] u_A u_A = u_B u_B   [1] u_A t_A = -u_B t_B   [2] u_A u_B   [3] u_A t_B = -u_B t_A   [4] t_A t_A = t_B t_B   [5]
+ *   t_A
  * t_B */
 typedef struct dmb_beam_mass {
-    double axial[2];    /* [kg] AA = BB, AB */
-    double torsion[2];  /* [kg m2] AA = BB, AB */
+    double axial[2];   /* [kg] AA = BB, AB */
+    double torsion[2]; /* [kg m2] AA = BB, AB */
     double bending[2][6];
 } dmb_beam_mass;
 
 /* Constants that equal elements share. */
 typedef struct dmb_element_type {
-    double length;        /* [m] between its two ends, rigid arms not counted */
-    double stiffness[6];  /* [N/m, N m/rad] K/L, shear stiffness corrected: 1/GA* = 1/GA + L^2/(12 EI) */
-    double coupling[2];   /* [1/m] 2 c/L of the planes y and z: what sideways strain adds to the axial one (beam_math.h) */
-    double bend[2];       /* [-] s/60: how curvature softens sideways strain (beam_math.h) */
+    double length;              /* [m] between its two ends, rigid arms not counted */
+    double stiffness[6];        /* [N/m, N m/rad] K/L, shear stiffness corrected: 1/GA* = 1/GA + L^2/(12 EI) */
+    double coupling[2];         /* [1/m] 2 c/L of the planes y and z: axial strain by sideways strain (beam_math.h) */
+    double bend[2];             /* [-] s/60: how curvature softens sideways strain (beam_math.h) */
     double strain_stiffness[6]; /* [N, N m2] K itself, uncorrected shear (for queries) */
-    double damping_time;  /* [s] tau; 0 when damping is left out */
-    double rest[6];       /* [m, rad] d0 = L (1, 0, 0, curvature) */
-    double arm[2];        /* [m] along x from node a to the element's end A, and from its end B to node b */
+    double damping_time;        /* [s] tau; 0 when damping is left out */
+    double rest[6];             /* [m, rad] d0 = L (1, 0, 0, curvature) */
+    double arm[2];              /* [m] along x from node a to the element's end A, and from its end B to node b */
     dmb_beam_mass mass;
     double mass_per_metre; /* [kg/m] */
     double weight_mass;    /* [kg] of the element that gravity acts on, buoyancy taken off */
-    double diameter;      /* [m] outer, for pictures */
+    double diameter;       /* [m] outer, for pictures */
 } dmb_element_type;
 
-/* Rigid mass fixed to a node: tool joint, bit, rig head, rigid pipes, free body, eccentric part of pipes. Symmetric spatial
- * inertia at the node's reference point, body frame: [m I, -b~; b~, J]. `mass` is 0 where only an eccentric part was added.
- */
+/* Rigid mass fixed to a node: tool joint, bit, rig head, rigid pipes, free body, eccentric part of pipes. Symmetric
+ * spatial inertia at the node's reference point, body frame: [m I, -b~; b~, J]. `mass` is 0 where only an eccentric
+ * part was added. */
 typedef struct dmb_rigid_mass {
-    double mass;      /* [kg] */
-    double moment[3]; /* [kg m] b = mass times centre */
+    double mass;       /* [kg] */
+    double moment[3];  /* [kg m] b = mass times centre */
     double inertia[6]; /* [kg m2] xx, yy, zz, xy, xz, yz elements of J at the reference point */
     uint32_t node;
     uint32_t reserved;

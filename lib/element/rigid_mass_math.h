@@ -27,7 +27,8 @@ static inline void dmb_rigid_mass_inertia_times(const dmb_real J[6], const dmb_r
 }
 
 /* p = (m u - b x w; b x u + J w) [kg m/s, kg m2/s]; the same product gives M times accelerations. */
-static inline void dmb_rigid_mass_momentum(const dmb_rigid_mass_constants *rigid_mass, const dmb_real v[6], dmb_real p[6])
+static inline void dmb_rigid_mass_momentum(const dmb_rigid_mass_constants *rigid_mass, const dmb_real v[6],
+                                           dmb_real p[6])
 {
     dmb_real c[3], j[3];
     dmb_vec3_cross(v + 3, rigid_mass->moment, c);

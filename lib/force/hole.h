@@ -59,7 +59,8 @@ void dmb_hole_frame_rotation(const dmb_hole *hole, double s, double R[9]);
 void dmb_hole_turning(const double t[3], const double curvature[3], double w[3]);
 
 /* [rad/m] Turning of the tangent per metre of depth without any about itself, world axes: curvature times the binormal,
- * which is one vector all along an arc; 0 where the axis is straight. depth and segment as dmb_hole_project gives them. */
+ * which is one vector all along an arc; 0 where the axis is straight. depth and segment as dmb_hole_project gives
+ * them. */
 void dmb_hole_arc_bend(const dmb_hole *hole, double depth, uint32_t segment, double bend[3]);
 
 /* Closest point of the axis to x: its measured depth *s, point and unit tangent. *segment is the arc tried first, in

@@ -14,10 +14,10 @@ typedef struct dmb_joint_law {
 } dmb_joint_law;
 
 typedef struct dmb_joint_force {
-    double force;      /* [N, N m] on the coordinate, > 0 towards larger values: sum of the next five */
+    double force;                    /* [N, N m] on the coordinate, > 0 towards larger values: sum of the next five */
     double spring, damper, friction; /* [N, N m] shares */
     double stop, stop_damper;        /* [N, N m] elastic share of the stop, and what its damper adds or takes back */
-    double by_position, by_speed; /* derivatives of force */
+    double by_position, by_speed;    /* derivatives of force */
 } dmb_joint_force;
 
 /* 1 if the law can ever give a force. */

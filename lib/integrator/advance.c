@@ -9,9 +9,9 @@
 #include "math/elementary.h"
 #include "sim/access.h"
 
-/* Step length that the control chooses after an error of `error` tolerances. Without clusters the factors of a step of the
- * same length
- * may serve (kept_factors), so a length is held while the ratio lies in 0.9 .. 1.2; with them every step makes its own. */
+/* Step length that the control chooses after an error of `error` tolerances. Without clusters the factors of a step of
+ * the same length may serve (kept_factors), so a length is held while the ratio lies in 0.9 .. 1.2; with them every
+ * step makes its own. */
 static double next_step(const dmb_sim *sim, double h, double error)
 {
     double ratio = error > 0.0 ? 0.9 * dmb_pow(error, -1.0 / 3.0) : 2.0;

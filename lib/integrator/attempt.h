@@ -9,14 +9,14 @@
 typedef struct dmb_attempt {
     dmb_evaluation evaluation; /* the last one */
     dmb_step_end end;
-    double residual;           /* [-] relative, at the end */
+    double residual; /* [-] relative, at the end */
     uint32_t iterations;
-    int32_t status;            /* DMB_OK, DMB_NOTE_WORK_LIMITED, or why the step failed */
-    uint32_t block;            /* block found singular, with DMB_ERR_SINGULAR */
-    int32_t whole;             /* 1: the step stands by itself, so it may use and leave kept factors */
-    int32_t factored;          /* DMB_FACTORS_...: what the last iteration was done with */
-    int32_t tried;             /* 1: kept factors were tried */
-    int32_t astray;            /* 1: they led to nothing, and the step began again with factors of its own */
+    int32_t status;   /* DMB_OK, DMB_NOTE_WORK_LIMITED, or why the step failed */
+    uint32_t block;   /* block found singular, with DMB_ERR_SINGULAR */
+    int32_t whole;    /* 1: the step stands by itself, so it may use and leave kept factors */
+    int32_t factored; /* DMB_FACTORS_...: what the last iteration was done with */
+    int32_t tried;    /* 1: kept factors were tried */
+    int32_t astray;   /* 1: they led to nothing, and the step began again with factors of its own */
     int32_t reserved;
 } dmb_attempt;
 
@@ -38,9 +38,9 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt);
 
 /* Elements that may have lost a revolution within one step. */
 
-/* Element whose ends turned against each other by more than 2 (pi - 2.5) rad in the step from now to trial; UINT32_MAX if
- * there is none. Less than that cannot lead from below 2.5 rad past pi to below 2.5 rad, where the logarithm would be a
- * revolution short. O(number of elements). */
+/* Element whose ends turned against each other by more than 2 (pi - 2.5) rad in the step from now to trial; UINT32_MAX
+ * if there is none. Less than that cannot lead from below 2.5 rad past pi to below 2.5 rad, where the logarithm would
+ * be a revolution short. O(number of elements). */
 uint32_t dmb_element_turned_too_far(const dmb_sim *sim);
 
 #endif

@@ -1,7 +1,7 @@
-/* Time is kept as a double and its rounding, so that n steps of h end at the double next to n h: 1000 s of 1 ms at
- * 1000 s, and sums that reach a corner reach that corner. A step that no corner cuts has the length that was asked for, to
- * the last bit, and not the difference of two rounded times: lengths that differ by an ulp of the time excite what a change
- * of step excites. */
+/* Time is kept as a double and its rounding, so that n steps of h end at the double next to n h: 1000 s of 1 ms at 1000
+ * s, and sums that reach a corner reach that corner. A step that no corner cuts has the length that was asked for, to
+ * the last bit, and not the difference of two rounded times: lengths that differ by an ulp of the time excite what a
+ * change of step excites. */
 #include "integrator/corner.h"
 
 #include <float.h>

@@ -159,7 +159,8 @@ int32_t dmb_factor_reuse_will_do(const dmb_sim *sim, const dmb_attempt *attempt,
 {
     if (attempt->factored == DMB_FACTORS_NONE) return 0;
     if (attempt->factored == DMB_FACTORS_REUSED && dmb_contact_changes(sim)) return 0;
-    if (attempt->factored == DMB_FACTORS_REUSED && course->corrections == 0) return attempt->residual <= DMB_REUSE_START;
+    if (attempt->factored == DMB_FACTORS_REUSED && course->corrections == 0)
+        return attempt->residual <= DMB_REUSE_START;
     const double rate = attempt->residual / course->last;
     return rate * rate * attempt->residual <= dmb_factor_reuse_aim(sim, attempt);
 }

@@ -79,7 +79,8 @@ void dmb_walk_reject(dmb_sim *sim, const dmb_attempt *attempt, dmb_walk *walk)
 int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_report *report, const dmb_walk *walk)
 {
     dmb_step_report out = walk->report;
-    if (status == DMB_ERR_CANCELLED) { /* tried again by the call that goes on from here, whose bits are then the same */
+    if (status ==
+        DMB_ERR_CANCELLED) { /* tried again by the call that goes on from here, whose bits are then the same */
         out.rejected = walk->rejected;
         out.iterations = walk->iterations;
     }

@@ -7,9 +7,9 @@
 
 typedef struct dmb_walk {
     dmb_step_report report;
-    dmb_counters counters; /* as before the call */
+    dmb_counters counters;         /* as before the call */
     uint32_t rejected, iterations; /* [-] of the report, up to the last accepted step */
-    int32_t set_aside;  /* 1: the state before the call is in sim->backup */
+    int32_t set_aside;             /* 1: the state before the call is in sim->backup */
     int32_t was_cut;
     int32_t limited;
     int32_t stopped;    /* max_steps used up */

@@ -6,46 +6,46 @@
 #include <stdint.h>
 
 #include "element/element_type.h"
+#include "force/contact_law.h"
 #include "force/friction_law.h"
 #include "force/hole.h"
 #include "force/normal_law.h"
-#include "force/contact_law.h"
 #include "math/block_tridiagonal.h"
 
 /* A run of beams: element i lies between the nodes i and i + 1 of the run, all of them FULL. Pointers are to the run's
  * first element, node, row or block. */
 typedef struct dmb_beam_run {
-    uint32_t count;              /* elements */
-    uint32_t failed;             /* out: the first element that turned too far */
+    uint32_t count;  /* elements */
+    uint32_t failed; /* out: the first element that turned too far */
     const dmb_element_type *types;
-    const uint32_t *type;        /* of each element */
-    const double *span;          /* [m] at time 0, shape (count, 3) */
-    const double *displacement;  /* [m] shape (count + 1, 3) */
-    const double *quaternion;    /* shape (count + 1, 4) */
+    const uint32_t *type;                  /* of each element */
+    const double *span;                    /* [m] at time 0, shape (count, 3) */
+    const double *displacement;            /* [m] shape (count + 1, 3) */
+    const double *quaternion;              /* shape (count + 1, 4) */
     const double *velocity, *acceleration; /* shape (count + 1, 6) */
-    const double *increment;     /* [m, rad] h Dq, shape (count + 1, 6) */
+    const double *increment;               /* [m, rad] h Dq, shape (count + 1, 6) */
     double mass_factor, velocity_factor;   /* as in dmb_evaluation, as are: */
     int32_t dynamic, tangent, extrapolated, inertia_only, ledger, reserved;
-    int32_t damped, arms;        /* 1: some element of the scene has a damping time, rigid arms */
-    double *residual, *scale;    /* added to, shape (count + 1, 6) */
-    double *strain, *stress;     /* shape (count, 6) */
+    int32_t damped, arms;                          /* 1: some element of the scene has a damping time, rigid arms */
+    double *residual, *scale;                      /* added to, shape (count + 1, 6) */
+    double *strain, *stress;                       /* shape (count, 6) */
     double *stiffness_diagonal, *inertia_diagonal; /* added to, shape (count + 1, 36) */
-    double *upper, *lower;       /* stiffness, or when dynamic the iteration matrix; written, shape (count, 36) */
-    double rounding, potential, damping, inertia;  /* added to: [N2], [W] */
+    double *upper, *lower; /* stiffness, or when dynamic the iteration matrix; written, shape (count, 36) */
+    double rounding, potential, damping, inertia; /* added to: [N2], [W] */
 } dmb_beam_run;
 
 /* A run of axial-torsional bars: bar i lies between the nodes i and i + 1 of the run, all of them PATH. Pointers are to
  * the run's first bar, node or row. */
 typedef struct dmb_bar_run {
-    uint32_t count;              /* bars */
-    int32_t dynamic;             /* as in dmb_evaluation */
+    uint32_t count;  /* bars */
+    int32_t dynamic; /* as in dmb_evaluation */
     const dmb_element_type *types;
-    const uint32_t *type;        /* of each bar */
-    const double *displacement;  /* [m] shape (count + 1, 3), of which the first is along the axis */
-    const double *turn;          /* [rad] shape (count + 1) */
-    const double *velocity, *acceleration; /* shape (count + 1, 2) */
-    double per_length;           /* [1/m] makes angles comparable with displacements */
-    double *residual, *scale;    /* added to, shape (count + 1, 2) */
+    const uint32_t *type;                         /* of each bar */
+    const double *displacement;                   /* [m] shape (count + 1, 3), of which the first is along the axis */
+    const double *turn;                           /* [rad] shape (count + 1) */
+    const double *velocity, *acceleration;        /* shape (count + 1, 2) */
+    double per_length;                            /* [1/m] makes angles comparable with displacements */
+    double *residual, *scale;                     /* added to, shape (count + 1, 2) */
     double rounding, potential, damping, inertia; /* added to: [N2], [W] */
 } dmb_bar_run;
 
@@ -53,7 +53,7 @@ typedef struct dmb_bar_run {
 typedef struct dmb_node_run {
     uint32_t count;
     uint32_t reserved;
-    const double *increment;     /* [m, rad] body frame, shape (count, 6) */
+    const double *increment; /* [m, rad] body frame, shape (count, 6) */
     const double *start_displacement, *start_quaternion;
     double *displacement, *quaternion; /* start moved by the increment */
 } dmb_node_run;
@@ -61,20 +61,20 @@ typedef struct dmb_node_run {
 /* Rigid masses, weight and external damping on a run of FULL nodes. Pointers are to the run's first node, row or
  * block. */
 typedef struct dmb_node_force_run {
-    uint32_t count;              /* nodes */
-    uint32_t first;              /* number of the first one, by which rigid_masses name theirs */
+    uint32_t count;                     /* nodes */
+    uint32_t first;                     /* number of the first one, by which rigid_masses name theirs */
     const dmb_rigid_mass *rigid_masses; /* in the order of their nodes, none before the run; those behind it are left */
-    uint32_t rigid_mass_count;         /* 0 in statics */
-    int32_t dynamic, tangent;    /* as in dmb_evaluation, as are: */
+    uint32_t rigid_mass_count;          /* 0 in statics */
+    int32_t dynamic, tangent;           /* as in dmb_evaluation, as are: */
     int32_t reserved;
     double mass_factor, velocity_factor, load_factor;
-    const double *gravity;       /* [m/s2] (3); NULL: none acts */
+    const double *gravity;                     /* [m/s2] (3); NULL: none acts */
     const double *weight_mass, *weight_moment; /* [kg], [kg m] shapes (count), (count, 3) */
-    const double *damping;       /* node_damping of model/scene.h, shape (count, 5); NULL: none acts */
-    const double *quaternion;    /* shape (count, 4) */
-    const double *velocity, *acceleration; /* shape (count, 6) */
-    double *residual, *scale;    /* added to, shape (count, 6) */
-    double *stiffness, *inertia; /* added to, shape (count, 36) */
+    const double *damping;                     /* node_damping of model/scene.h, shape (count, 5); NULL: none acts */
+    const double *quaternion;                  /* shape (count, 4) */
+    const double *velocity, *acceleration;     /* shape (count, 6) */
+    double *residual, *scale;                  /* added to, shape (count, 6) */
+    double *stiffness, *inertia;               /* added to, shape (count, 36) */
     double inertia_power, potential, damping_power; /* added to: [W] */
 } dmb_node_force_run;
 
@@ -87,24 +87,24 @@ typedef struct dmb_site_fields {
 
 /* Contact sites against the wall. Pointers are to the scene's first site, node, row or block. */
 typedef struct dmb_wall_run {
-    uint32_t count;              /* sites */
-    int32_t bristles;            /* 1: the law of friction keeps bristles; else their fields are empty */
+    uint32_t count;   /* sites */
+    int32_t bristles; /* 1: the law of friction keeps bristles; else their fields are empty */
     const dmb_site *sites;
     const dmb_hole *hole;
     const dmb_normal_law *normal_law;
-    const dmb_friction_law *friction_law; /* NULL: no friction acts */
-    const uint32_t *row, *diagonal;       /* first row of each node, start of its diagonal block */
-    const double *reference;     /* [m] positions of the nodes at displacement 0 */
+    const dmb_friction_law *friction_law;               /* NULL: no friction acts */
+    const uint32_t *row, *diagonal;                     /* first row of each node, start of its diagonal block */
+    const double *reference;                            /* [m] positions of the nodes at displacement 0 */
     const double *displacement, *quaternion, *velocity; /* of the trial */
-    const double *now_quaternion, *now_velocity;      /* of the last accepted instant, and: */
-    dmb_site_fields now;         /* read */
-    const double *site_return;   /* [m/s] a ring that opens in the step left the wall; else 0 */
-    dmb_site_fields trial;       /* written */
-    double slip[2];              /* [m/s, rad/s] in statics */
-    double step, velocity_factor;        /* as in dmb_evaluation, as are: */
+    const double *now_quaternion, *now_velocity;        /* of the last accepted instant, and: */
+    dmb_site_fields now;                                /* read */
+    const double *site_return;                          /* [m/s] a ring that opens in the step left the wall; else 0 */
+    dmb_site_fields trial;                              /* written */
+    double slip[2];                                     /* [m/s, rad/s] in statics */
+    double step, velocity_factor;                       /* as in dmb_evaluation, as are: */
     int32_t dynamic, tangent;
-    double *residual, *scale;    /* added to */
-    double *stiffness, *inertia; /* diagonal blocks, added to */
+    double *residual, *scale;                     /* added to */
+    double *stiffness, *inertia;                  /* diagonal blocks, added to */
     double rounding, potential, impact, friction; /* added to: [N2], [W] */
 } dmb_wall_run;
 
@@ -126,12 +126,12 @@ typedef struct dmb_twist_run {
     double *rows;            /* two vectors a node, shape (count, 6) */
 } dmb_twist_run;
 
-/* Rows at the start of a step (integrator/step_motion): with a0 = v0' + ratio (a - v0') of the accepted state,
- * a1 = a_from_dv v0' + a_from_a0 a0, v1 = v0 + v_from_a0 a0 + v_from_a1 a1, h Dq = h v0 + z_from_a0 a0 + z_from_a1 a1. */
+/* Rows at the start of a step (integrator/step_motion): with a0 = v0' + ratio (a - v0') of the accepted state, a1 =
+ * a_from_dv v0' + a_from_a0 a0, v1 = v0 + v_from_a0 a0 + v_from_a1 a1, h Dq = h v0 + z_from_a0 a0 + z_from_a1 a1. */
 typedef struct dmb_predict_run {
     uint32_t count;
     uint32_t reserved;
-    double step, ratio; /* [s], [-] */
+    double step, ratio;                                                      /* [s], [-] */
     double a_from_dv, a_from_a0, v_from_a0, v_from_a1, z_from_a0, z_from_a1; /* [-], [s], [s2] */
     const double *now_velocity, *now_acceleration, *now_pseudo_acceleration;
     double *velocity, *acceleration, *pseudo_acceleration, *increment; /* written */

@@ -98,15 +98,9 @@ static uint32_t failed_of(const dmb_beam_run *run, const lane_group *g, const dm
 
 static int32_t beams(dmb_beam_run *run)
 {
-    const dmb_beam_task task = {run->mass_factor,
-                                run->velocity_factor,
-                                run->dynamic,
-                                run->tangent,
-                                run->extrapolated,
-                                run->dynamic && (run->ledger || run->damped),
-                                run->damped,
-                                run->inertia_only,
-                                run->arms};
+    const dmb_beam_task task = {run->mass_factor, run->velocity_factor, run->dynamic,
+                                run->tangent,     run->extrapolated,    run->dynamic && (run->ledger || run->damped),
+                                run->damped,      run->inertia_only,    run->arms};
     lane_types types;
     for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
         const lane_group g = group_at(first, run->count);

@@ -2,9 +2,9 @@
  *
  *     lower_{i-1} x_{i-1} + diagonal_i x_i + upper_i x_{i+1} = b_i
  *
- * made for the dynamic stiffness K + i w C - w^2 M of a drill string at one frequency. Real and imaginary parts stand in
- * arrays of their own, so that the kernels run along rows of doubles. Block elimination with row pivoting inside each
- * diagonal block, cost linear in the number of blocks, no allocation, always the same order of operations. */
+ * made for the dynamic stiffness K + i w C - w^2 M of a drill string at one frequency. Real and imaginary parts stand
+ * in arrays of their own, so that the kernels run along rows of doubles. Block elimination with row pivoting inside
+ * each diagonal block, cost linear in the number of blocks, no allocation, always the same order of operations. */
 #ifndef DMB_MATH_BLOCK_COMPLEX_H
 #define DMB_MATH_BLOCK_COMPLEX_H
 

@@ -12,9 +12,9 @@
 uint32_t dmb_block_negative(const dmb_block_layout *layout, const double *diagonal, const double *lower,
                             const double *upper, const double *raise, uint32_t first, uint32_t count);
 
-/* Of a symmetric block-sparse matrix, from its factors: what the elimination has left of each block when its turn came has
- * as many in all as the matrix (Haynsworth 1968). room: the square of the largest block, of those that have more than 6
- * rows. */
+/* Of a symmetric block-sparse matrix, from its factors: what the elimination has left of each block when its turn came
+ * has as many in all as the matrix (Haynsworth 1968). room: the square of the largest block, of those that have more
+ * than 6 rows. */
 uint32_t dmb_block_sparse_negative(const dmb_block_pattern *pattern, const dmb_block_sparse *factored, double *room);
 
 #endif

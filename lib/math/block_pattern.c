@@ -7,8 +7,8 @@
 
 #include <string.h>
 
-#include "base/memory.h"
 #include "base/checked_size.h"
+#include "base/memory.h"
 #include "math/bridge_cholmod.h"
 
 #define DMB_NONE UINT32_MAX

@@ -1,5 +1,6 @@
-/* Operations that block eliminations share, on rows and columns of blocks, in kernels of block_kernel.h. Inner loops run
- * along rows or columns, so they vectorise without any change in the order of a sum: every width gives the same bits. */
+/* Operations that block eliminations share, on rows and columns of blocks, in kernels of block_kernel.h. Inner loops
+ * run along rows or columns, so they vectorise without any change in the order of a sum: every width gives the same
+ * bits. */
 #ifndef DMB_MATH_BLOCK_ROWS_H
 #define DMB_MATH_BLOCK_ROWS_H
 

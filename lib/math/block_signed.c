@@ -34,7 +34,8 @@ void dmb_block_signed_clear(const dmb_block_pattern *pattern, const dmb_block_si
     }
 }
 
-/* ---- One block ---------------------------------------------------------------------------------------------------- */
+/* ---- One block
+ * ---------------------------------------------------------------------------------------------------- */
 
 /* A block in the making. */
 typedef struct front {
@@ -150,12 +151,18 @@ static void update_later(const front *f)
 static front front_at(const dmb_block_pattern *pattern, const dmb_block_signed *matrix, uint32_t k)
 {
     const uint32_t block = pattern->order[k];
-    const front f = {pattern, matrix, k, matrix->size[block], matrix->plus[block], matrix->values + pattern->diagonal[k],
+    const front f = {pattern,
+                     matrix,
+                     k,
+                     matrix->size[block],
+                     matrix->plus[block],
+                     matrix->values + pattern->diagonal[k],
                      matrix->length + matrix->row[block]};
     return f;
 }
 
-/* ---- All ---------------------------------------------------------------------------------------------------------- */
+/* ---- All
+ * ---------------------------------------------------------------------------------------------------------- */
 
 int64_t dmb_block_signed_factor(const dmb_block_pattern *pattern, const dmb_block_signed *matrix, double weak)
 {

@@ -4,8 +4,8 @@
  *
  * such as [I B^T; B 0]: quasi-definite matrices have them in every order of elimination, without exchanges between
  * blocks (Vanderbei, SIAM J. Optim. 5, 1995). In each block the rows with positive pivots come first. Pattern and order
- * are those of block_pattern.h; of the values only the diagonal blocks (upper triangles) and the blocks `upper` are used.
- * No allocation, always the same order of operations.
+ * are those of block_pattern.h; of the values only the diagonal blocks (upper triangles) and the blocks `upper` are
+ * used. No allocation, always the same order of operations.
  *
  * A negative pivot is judged against the length of its row, the square that stands in `length`: what elimination leaves
  * of it is the square of the sine of the angle between the row of B and those before it. */
@@ -30,7 +30,8 @@ void dmb_block_signed_clear(const dmb_block_pattern *pattern, const dmb_block_si
  * length, or not finite). */
 int64_t dmb_block_signed_factor(const dmb_block_pattern *pattern, const dmb_block_signed *matrix, double weak);
 /* The same for a choice of rows: in each block the longest remainder first, rows below `weak` left out, also such of no
- * length. The values are of no use afterwards; `length` has the pivots, 0 of rows left out, in the order of the rows. */
+ * length. The values are of no use afterwards; `length` has the pivots, 0 of rows left out, in the order of the
+ * rows. */
 void dmb_block_signed_choose(const dmb_block_pattern *pattern, const dmb_block_signed *matrix, double weak);
 /* x <- A^-1 x by factors. Entries of other blocks are left alone. */
 void dmb_block_signed_solve(const dmb_block_pattern *pattern, const dmb_block_signed *matrix, double *x);

@@ -12,8 +12,8 @@
 #ifndef DMB_MATH_BLOCK_SPARSE_H
 #define DMB_MATH_BLOCK_SPARSE_H
 
-#include "math/block_pattern.h"
 #include "math/block_kernel.h"
+#include "math/block_pattern.h"
 
 /* A matrix. All arrays belong to the caller; each thread has its own values and pivot. Factoring overwrites diagonal
  * blocks by their LU factors with reciprocal pivots, A_kj by A_kk^-1 A_kj where k is eliminated before j, and A_jk by
@@ -31,8 +31,8 @@ static inline double *dmb_block_sparse_diagonal(const dmb_block_pattern *pattern
     return matrix->values + pattern->diagonal[pattern->position[i]];
 }
 
-/* y = A x, not factored; x and y apart, rows as in dmb_block_sparse_solve. Entries of y outside the blocks are left alone.
- */
+/* y = A x, not factored; x and y apart, rows as in dmb_block_sparse_solve. Entries of y outside the blocks are left
+ * alone. */
 void dmb_block_sparse_multiply(const dmb_block_pattern *pattern, const dmb_block_sparse *matrix, const uint32_t *row,
                                const double *x, double *y);
 

@@ -1,5 +1,6 @@
-/* All calls of LAPACK, for analyses: no step calls this. Dense eigenproblems, and the rank of a set of equations. Matrices
- * are column by column without gaps; all work is the caller's. Each returns 0, or what LAPACK says of a failure. */
+/* All calls of LAPACK, for analyses: no step calls this. Dense eigenproblems, and the rank of a set of equations.
+ * Matrices are column by column without gaps; all work is the caller's. Each returns 0, or what LAPACK says of a
+ * failure. */
 #ifndef DMB_MATH_BRIDGE_LAPACKE_H
 #define DMB_MATH_BRIDGE_LAPACKE_H
 
@@ -19,8 +20,8 @@ int32_t dmb_eigen_symmetric(size_t n, double *A, double *values, double *work);
 /* K x = value M x, both symmetric, M positive definite (dsygvd): values ascending; K becomes the vectors, X^T M X = I;
  * M is overwritten. > n: M is not positive definite. */
 int32_t dmb_eigen_pair(size_t n, double *K, double *M, double *values, double *work);
-/* A x = (re + i im) x (dgeev); A is overwritten. Conjugate pairs stand together, im > 0 first, and x of that is column k
- * of V plus i times column k + 1. */
+/* A x = (re + i im) x (dgeev); A is overwritten. Conjugate pairs stand together, im > 0 first, and x of that is column
+ * k of V plus i times column k + 1. */
 int32_t dmb_eigen_general(size_t n, double *A, double *re, double *im, double *V, double *work);
 
 /* Rank of a set of equations, by QR with column pivoting of the transposed matrix (LAPACK dgeqp3), and the singular

@@ -5,7 +5,8 @@
 
 #include "math/real.h"
 
-/* ---- Sums of two doubles: a number as high + low, |low| at most half a unit of high (Dekker 1971, Knuth) ------------ */
+/* ---- Sums of two doubles: a number as high + low, |low| at most half a unit of high (Dekker 1971, Knuth)
+ * ------------ */
 
 typedef struct pair {
     double high, low;
@@ -46,7 +47,8 @@ static pair pair_product(pair a, pair b)
     return two_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
 }
 
-/* ---- Reduction of an angle: x = quarter pi/2 + rest, |rest| <= pi/4 -------------------------------------------------- */
+/* ---- Reduction of an angle: x = quarter pi/2 + rest, |rest| <= pi/4
+ * -------------------------------------------------- */
 
 #define DMB_REDUCE_NEAR 1.6e6 /* [rad] up to which a quarter has 20 bits */
 
@@ -62,10 +64,11 @@ static pair reduce_near(double x, uint32_t *quarter)
 
 /* Bits of 2/pi after its point. */
 static const uint32_t two_over_pi[40] = {
-    0xA2F9836E, 0x4E441529, 0xFC2757D1, 0xF534DDC0, 0xDB629599, 0x3C439041, 0xFE5163AB, 0xDEBBC561, 0xB7246E3A, 0x424DD2E0,
-    0x06492EEA, 0x09D1921C, 0xFE1DEB1C, 0xB129A73E, 0xE88235F5, 0x2EBB4484, 0xE99C7026, 0xB45F7E41, 0x3991D639, 0x835339F4,
-    0x9C845F8B, 0xBDF9283B, 0x1FF897FF, 0xDE05980F, 0xEF2F118B, 0x5A0A6D1F, 0x6D367ECF, 0x27CB09B7, 0x4F463F66, 0x9E5FEA2D,
-    0x7527BAC7, 0xEBE5F17B, 0x3D0739F7, 0x8A5292EA, 0x6BFB5FB1, 0x1F8D5D08, 0x56033046, 0xFC7B6BAB, 0xF0CFBC20, 0x9AF4361D};
+    0xA2F9836E, 0x4E441529, 0xFC2757D1, 0xF534DDC0, 0xDB629599, 0x3C439041, 0xFE5163AB, 0xDEBBC561,
+    0xB7246E3A, 0x424DD2E0, 0x06492EEA, 0x09D1921C, 0xFE1DEB1C, 0xB129A73E, 0xE88235F5, 0x2EBB4484,
+    0xE99C7026, 0xB45F7E41, 0x3991D639, 0x835339F4, 0x9C845F8B, 0xBDF9283B, 0x1FF897FF, 0xDE05980F,
+    0xEF2F118B, 0x5A0A6D1F, 0x6D367ECF, 0x27CB09B7, 0x4F463F66, 0x9E5FEA2D, 0x7527BAC7, 0xEBE5F17B,
+    0x3D0739F7, 0x8A5292EA, 0x6BFB5FB1, 0x1F8D5D08, 0x56033046, 0xFC7B6BAB, 0xF0CFBC20, 0x9AF4361D};
 
 enum { WINDOW = 7, PRODUCT = WINDOW + 2 }; /* words of 2/pi that count, and of their product with 53 bits */
 
@@ -109,7 +112,8 @@ static pair fraction_of(const uint32_t product[PRODUCT], int point, int negative
     return sum;
 }
 
-/* x = significand 2^exponent: words of 2/pi whose part of x 2/pi is a multiple of 4 are left out (Payne, Hanek 1983). */
+/* x = significand 2^exponent: words of 2/pi whose part of x 2/pi is a multiple of 4 are left out (Payne, Hanek
+ * 1983). */
 static pair reduce_far(double x, uint32_t *quarter)
 {
     static const pair half_pi = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
@@ -134,13 +138,20 @@ static pair reduce(double x, uint32_t *quarter)
     return fabs(x) <= DMB_REDUCE_NEAR ? reduce_near(x, quarter) : reduce_far(x, quarter);
 }
 
-/* ---- Sine and cosine ------------------------------------------------------------------------------------------------ */
+/* ---- Sine and cosine
+ * ------------------------------------------------------------------------------------------------ */
 
 /* x - x^3/3! + ... - x^19/19! of |x| <= pi/4 */
 static double sine_near(pair x)
 {
-    static const double series[9] = {-1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362880.0, -1.0 / 39916800.0,
-                                     1.0 / 6227020800.0, -1.0 / 1307674368000.0, 1.0 / 355687428096000.0,
+    static const double series[9] = {-1.0 / 6.0,
+                                     1.0 / 120.0,
+                                     -1.0 / 5040.0,
+                                     1.0 / 362880.0,
+                                     -1.0 / 39916800.0,
+                                     1.0 / 6227020800.0,
+                                     -1.0 / 1307674368000.0,
+                                     1.0 / 355687428096000.0,
                                      -1.0 / 121645100408832000.0};
     const double z = x.high * x.high;
     double sum = series[8];
@@ -151,8 +162,9 @@ static double sine_near(pair x)
 /* 1 - x^2/2! + ... - x^18/18! */
 static double cosine_near(pair x)
 {
-    static const double series[8] = {1.0 / 24.0, -1.0 / 720.0, 1.0 / 40320.0, -1.0 / 3628800.0, 1.0 / 479001600.0,
-                                     -1.0 / 87178291200.0, 1.0 / 20922789888000.0, -1.0 / 6402373705728000.0};
+    static const double series[8] = {
+        1.0 / 24.0,        -1.0 / 720.0,         1.0 / 40320.0,          -1.0 / 3628800.0,
+        1.0 / 479001600.0, -1.0 / 87178291200.0, 1.0 / 20922789888000.0, -1.0 / 6402373705728000.0};
     const double z = x.high * x.high, half = 0.5 * z, most = 1.0 - half;
     double sum = series[7];
     for (int i = 6; i >= 0; i--) sum = sum * z + series[i];
@@ -191,7 +203,8 @@ double dmb_cos(double x)
     return in_quarter(rest, quarter + 1);
 }
 
-/* ---- Power ---------------------------------------------------------------------------------------------------------- */
+/* ---- Power
+ * ---------------------------------------------------------------------------------------------------------- */
 
 /* log x as a pair, to 2^-64 or so of itself: x = 2^e m, m from sqrt(1/2) to sqrt 2, s = (m - 1)/(m + 1),
  * log m = 2 s (1 + s^2/3 + s^4/5 + ... + s^28/29) */

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "math/dense.h"
 #include "math/bridge_lapacke.h"
+#include "math/dense.h"
 
 /* A vector shorter than this part of what it was before is rounding: the space is closed. */
 #define DMB_KRYLOV_CLOSED 1e-13

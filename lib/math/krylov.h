@@ -12,15 +12,15 @@
 
 typedef struct dmb_operator {
     void *context;
-    size_t length;    /* of vectors */
-    size_t dimension; /* of the space they span */
+    size_t length;     /* of vectors */
+    size_t dimension;  /* of the space they span */
     int32_t symmetric; /* 1: x . G A y = y . G A x */
-    int32_t partly;   /* 1: where fewer than wanted have converged in the end, those are the answer */
-    void (*metric)(void *context, const double *x, double *y);                   /* y = G x */
-    void (*apply)(void *context, const double *x, const double *Gx, double *y);  /* y = A x */
-    void (*draw)(void *context, uint64_t *seed, double *x);                      /* any vector of the space */
+    int32_t partly;    /* 1: where fewer than wanted have converged in the end, those are the answer */
+    void (*metric)(void *context, const double *x, double *y);                  /* y = G x */
+    void (*apply)(void *context, const double *x, const double *Gx, double *y); /* y = A x */
+    void (*draw)(void *context, uint64_t *seed, double *x);                     /* any vector of the space */
     int32_t (*go_on)(void *context); /* may be NULL: asked before each vector, < 0 ends the search */
-    size_t most; /* vectors in its basis, 0: as dmb_krylov_largest says */
+    size_t most;                     /* vectors in its basis, 0: as dmb_krylov_largest says */
 } dmb_operator;
 
 typedef struct dmb_krylov {
@@ -33,9 +33,10 @@ typedef struct dmb_krylov {
     size_t block_size;
 } dmb_krylov;
 
-/* At least `wanted` values, or all there are; converged when the residual is below tolerance times the value.
- * `start`: vectors to begin with, 1 or more. Memory: some `wanted` vectors. DMB_ERR_NO_CONVERGENCE after some four times
- * `wanted` applications, eight times where it is not symmetric, or after `most`, DMB_ERR_NO_MEMORY; *out is empty then. */
+/* At least `wanted` values, or all there are; converged when the residual is below tolerance times the value. `start`:
+ * vectors to begin with, 1 or more. Memory: some `wanted` vectors. DMB_ERR_NO_CONVERGENCE after some four times
+ * `wanted` applications, eight times where it is not symmetric, or after `most`, DMB_ERR_NO_MEMORY; *out is empty
+ * then. */
 int32_t dmb_krylov_largest(const dmb_operator *A, uint32_t wanted, uint32_t start, double tolerance,
                            const dmb_allocator *allocator, dmb_krylov *out);
 /* An empty one may be released too. */

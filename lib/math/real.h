@@ -1,6 +1,6 @@
 /* The number that vec3, mat6, so3, se3 and element/beam_math are written in: a double; or, in a file that defines
- * DMB_LANES before it includes them, that many doubles side by side, a vector of the compiler. Each lane goes through the
- * very operations, in the same order, that a double alone goes through, so all of them give the same bits. Where a
+ * DMB_LANES before it includes them, that many doubles side by side, a vector of the compiler. Each lane goes through
+ * the very operations, in the same order, that a double alone goes through, so all of them give the same bits. Where a
  * double would branch, lanes take the frequent branch together and the few others are put right one by one. */
 #ifndef DMB_MATH_REAL_H
 #define DMB_MATH_REAL_H
@@ -209,8 +209,8 @@ static inline dmb_real dmb_real_atan2(dmb_real y, dmb_real x)
 #define DMB_LN2_LOW -0x1.8432a1b0e2634p-43
 #define DMB_LOG2_E 0x1.71547652b82fep+0
 
-/* e^(x + tail) of -708 <= x <= 709, |tail| tiny beside x: e^x = 2^k e^r, k the integer nearest to x/ln 2, |r| <= 0.35, with
- * e^r = 1 + r + r^2 (1/2! + r/3! + ... + r^11/13!). No call, so that it goes side by side. */
+/* e^(x + tail) of -708 <= x <= 709, |tail| tiny beside x: e^x = 2^k e^r, k the integer nearest to x/ln 2, |r| <= 0.35,
+ * with e^r = 1 + r + r^2 (1/2! + r/3! + ... + r^11/13!). No call, so that it goes side by side. */
 static inline dmb_real dmb_real_exp_near(dmb_real x, dmb_real tail)
 {
     static const double series[12] = {1.0 / 2.0,       1.0 / 6.0,        1.0 / 24.0,        1.0 / 120.0,

@@ -196,7 +196,8 @@ typedef struct dmb_se3_rows {
     dmb_real U[9], V[9], X[9], W[9];
 } dmb_se3_rows;
 
-/* C = T^T Z for a T6 = [S, B; 0, S]: [S^T U, S^T V; B^T U + S^T X, B^T V + S^T W]. Of X only the last two rows are not 0. */
+/* C = T^T Z for a T6 = [S, B; 0, S]: [S^T U, S^T V; B^T U + S^T X, B^T V + S^T W]. Of X only the last two rows are not
+ * 0. */
 static inline void dmb_se3_tangent_times_rows(const dmb_se3_tangent *T, const dmb_se3_rows *Z, dmb_real *restrict C)
 {
     dmb_real block[9];

@@ -1,6 +1,6 @@
 /* From what was described to the scene that a step works on. */
-#include "base/value_check.h"
 #include "base/message.h"
+#include "base/value_check.h"
 #include "model/definition_defaults.h"
 #include "model/held_ring.h"
 #include "model/limits.h"
@@ -55,9 +55,9 @@ static void tell(dmb_model *model, const dmb_scene *scene)
         dmb_message_set(&joints, "%u joints, %u constraints in %u clusters, ", scene->joint_count,
                         scene->constraint_count, scene->cluster_count);
     }
-    dmb_message_set(&model->message, "compiled: %u nodes, %u elements, %u contact sites, %s%u degrees_of_freedom, %zu bytes",
-                    scene->node_count, scene->element_count, scene->site_count, joints.text, scene->free_count,
-                    scene->bytes);
+    dmb_message_set(
+        &model->message, "compiled: %u nodes, %u elements, %u contact sites, %s%u degrees_of_freedom, %zu bytes",
+        scene->node_count, scene->element_count, scene->site_count, joints.text, scene->free_count, scene->bytes);
     dmb_log_text(&log, DMB_LOG_INFO, model->message.text);
 }
 

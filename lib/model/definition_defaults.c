@@ -1,6 +1,7 @@
 /* Defaults of the structs of model.h, as documented there. The number is the struct's size in its first release. */
 #include "model/definition_defaults.h"
 
+/* clang-format off */
 DMB_DEFINE_INIT(dmb_model_options, 32, {.log = NULL})
 
 DMB_DEFINE_INIT(dmb_environment_def, 64, {.gravity = {0.0, 0.0, -9.81}})
@@ -96,3 +97,4 @@ DMB_DEFINE_INIT(dmb_load_def, 88, {.frame = DMB_FRAME_WORLD})
 DMB_DEFINE_INIT(dmb_compile_options, 16, {.features = DMB_FEATURE_ALL, .pipe_kind = -1})
 
 DMB_DEFINE_INIT(dmb_model_info, 72, {.strings = 0})
+/* clang-format on */

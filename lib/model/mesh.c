@@ -42,11 +42,12 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
 
 void dmb_mesh_release(dmb_mesh *mesh)
 {
-    dmb_vector *const all[] = {
-        &mesh->stations,    &mesh->run_order, &mesh->run_start,     &mesh->nodes,      &mesh->elements, &mesh->types,
-        &mesh->batches,     &mesh->rigid_masses,     &mesh->sites,         &mesh->path_sites, &mesh->drives,   &mesh->loads,
-        &mesh->bits,        &mesh->joints,    &mesh->couplings,     &mesh->callbacks,  &mesh->laws,     &mesh->driven,
-        &mesh->constraints, &mesh->clusters,  &mesh->cluster_nodes, &mesh->strings,    &mesh->pipes,    &mesh->bodies};
+    dmb_vector *const all[] = {&mesh->stations,      &mesh->run_order,  &mesh->run_start,   &mesh->nodes,
+                               &mesh->elements,      &mesh->types,      &mesh->batches,     &mesh->rigid_masses,
+                               &mesh->sites,         &mesh->path_sites, &mesh->drives,      &mesh->loads,
+                               &mesh->bits,          &mesh->joints,     &mesh->couplings,   &mesh->callbacks,
+                               &mesh->laws,          &mesh->driven,     &mesh->constraints, &mesh->clusters,
+                               &mesh->cluster_nodes, &mesh->strings,    &mesh->pipes,       &mesh->bodies};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) dmb_vector_release(all[i], &mesh->model->allocator);
 }
 

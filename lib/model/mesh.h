@@ -35,55 +35,55 @@ typedef struct dmb_mesh_node {
     double damped[3];        /* [m, m2, m3] integrals of 1, x, x^2 over the pipe whose external damping it carries */
     uint32_t string;         /* UINT32_MAX: free body `body` */
     uint32_t body;
-    uint32_t rigid_mass;           /* in rigid_masses; UINT32_MAX: none */
-    uint8_t size;            /* DMB_NODE_FULL or DMB_NODE_PATH */
-    uint8_t free;            /* mask of free components; of a PATH node X and RX count */
-    uint8_t prescribed;      /* mask of components moved by MOTION drives */
-    uint8_t rigid;           /* 1: carries a rigid body */
+    uint32_t rigid_mass; /* in rigid_masses; UINT32_MAX: none */
+    uint8_t size;        /* DMB_NODE_FULL or DMB_NODE_PATH */
+    uint8_t free;        /* mask of free components; of a PATH node X and RX count */
+    uint8_t prescribed;  /* mask of components moved by MOTION drives */
+    uint8_t rigid;       /* 1: carries a rigid body */
 } dmb_mesh_node;
 
 typedef struct dmb_mesh_element {
-    double span[3];   /* [m] from node a to node b, world */
-    double arm[2];    /* [m] */
-    uint32_t node;    /* a; b is the next one */
-    uint32_t run;     /* in the model's runs */
+    double span[3]; /* [m] from node a to node b, world */
+    double arm[2];  /* [m] */
+    uint32_t node;  /* a; b is the next one */
+    uint32_t run;   /* in the model's runs */
     uint32_t type;
     int32_t kernel;
 } dmb_mesh_element;
 
 typedef struct dmb_mesh {
-    dmb_model *model;     /* written to: its message only */
+    dmb_model *model; /* written to: its message only */
     dmb_compile_options options;
     int32_t features;
     int32_t has_hole;
-    dmb_hole hole;        /* its stations stand in `stations` */
-    dmb_vector stations;  /* dmb_hole_station */
-    dmb_vector run_order; /* uint32_t: runs sorted by string, in each by pipe */
-    dmb_vector run_start; /* uint32_t: where in run_order each string begins, one more at the end */
-    dmb_vector nodes;     /* dmb_mesh_node */
-    dmb_vector elements;  /* dmb_mesh_element */
-    dmb_vector types;     /* dmb_element_type */
-    dmb_vector batches;   /* dmb_batch */
-    dmb_vector rigid_masses;     /* dmb_rigid_mass */
-    dmb_vector sites;     /* dmb_site */
-    dmb_vector path_sites; /* dmb_path_site */
-    dmb_vector drives;    /* dmb_scene_drive; row is filled by freeze */
-    dmb_vector loads;     /* dmb_scene_load */
-    dmb_vector bits;      /* dmb_scene_bit */
-    dmb_vector joints;    /* dmb_scene_joint */
-    dmb_vector couplings; /* dmb_scene_coupling */
-    dmb_vector callbacks; /* dmb_scene_callback */
-    dmb_vector laws;      /* dmb_joint_law */
-    dmb_vector driven;    /* uint8_t: mask of the coordinates of each joint that MOTION drives move */
-    dmb_vector constraints; /* dmb_constraint, sorted by cluster */
-    dmb_vector clusters;  /* dmb_cluster */
+    dmb_hole hole;            /* its stations stand in `stations` */
+    dmb_vector stations;      /* dmb_hole_station */
+    dmb_vector run_order;     /* uint32_t: runs sorted by string, in each by pipe */
+    dmb_vector run_start;     /* uint32_t: where in run_order each string begins, one more at the end */
+    dmb_vector nodes;         /* dmb_mesh_node */
+    dmb_vector elements;      /* dmb_mesh_element */
+    dmb_vector types;         /* dmb_element_type */
+    dmb_vector batches;       /* dmb_batch */
+    dmb_vector rigid_masses;  /* dmb_rigid_mass */
+    dmb_vector sites;         /* dmb_site */
+    dmb_vector path_sites;    /* dmb_path_site */
+    dmb_vector drives;        /* dmb_scene_drive; row is filled by freeze */
+    dmb_vector loads;         /* dmb_scene_load */
+    dmb_vector bits;          /* dmb_scene_bit */
+    dmb_vector joints;        /* dmb_scene_joint */
+    dmb_vector couplings;     /* dmb_scene_coupling */
+    dmb_vector callbacks;     /* dmb_scene_callback */
+    dmb_vector laws;          /* dmb_joint_law */
+    dmb_vector driven;        /* uint8_t: mask of the coordinates of each joint that MOTION drives move */
+    dmb_vector constraints;   /* dmb_constraint, sorted by cluster */
+    dmb_vector clusters;      /* dmb_cluster */
     dmb_vector cluster_nodes; /* uint32_t */
-    dmb_vector strings;   /* dmb_string_map */
-    dmb_vector pipes;     /* dmb_pipe_map */
-    dmb_vector bodies;    /* dmb_body_map: bodies, then bits */
-    uint32_t tool_joints; /* pipes that have one */
+    dmb_vector strings;       /* dmb_string_map */
+    dmb_vector pipes;         /* dmb_pipe_map */
+    dmb_vector bodies;        /* dmb_body_map: bodies, then bits */
+    uint32_t tool_joints;     /* pipes that have one */
     uint32_t history_count;
-    double mass;          /* [kg] */
+    double mass; /* [kg] */
 } dmb_mesh;
 
 static inline dmb_mesh_node *dmb_mesh_node_at(const dmb_mesh *mesh, uint32_t i)

@@ -31,8 +31,8 @@ static bool is_free(const dmb_mesh_node *node, int32_t component)
 static int32_t take_component(dmb_mesh *mesh, uint32_t drive, const dmb_drive_def *def, uint8_t *taken)
 {
     dmb_message part;
-    dmb_check check =
-        dmb_check_of(&mesh->model->message, dmb_part_text(&part, "drive", drive, def->name, sizeof def->name), DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(&mesh->model->message,
+                                   dmb_part_text(&part, "drive", drive, def->name, sizeof def->name), DMB_NO_INDEX);
     const uint8_t bit = (uint8_t)(1 << def->component);
     if (def->kind != DMB_DRIVE_MOTION) return DMB_OK;
     if ((*taken & bit) != 0) {
@@ -45,8 +45,8 @@ static int32_t take_component(dmb_mesh *mesh, uint32_t drive, const dmb_drive_de
 static int32_t prescribe(dmb_mesh *mesh, uint32_t drive, const dmb_drive_def *def, dmb_mesh_node *node)
 {
     dmb_message part;
-    dmb_check check =
-        dmb_check_of(&mesh->model->message, dmb_part_text(&part, "drive", drive, def->name, sizeof def->name), DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(&mesh->model->message,
+                                   dmb_part_text(&part, "drive", drive, def->name, sizeof def->name), DMB_NO_INDEX);
     if (!is_free(node, def->component)) {
         dmb_check_fail(&check, DMB_ERR_VALUE, "component", def->component, "free where the drive acts");
         return check.status;
@@ -60,17 +60,17 @@ static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
     const bool excited = (mesh->features & DMB_FEATURE_EXCITATION) != 0;
     const uint32_t joint = dmb_model_part_index(mesh->model, def->part, DMB_PART_JOINT);
     dmb_scene_drive drive = {.gain = def->gain,
-                                   .integral_gain = def->integral_gain,
-                                   .limit_low = def->limit_low,
-                                   .limit_high = def->limit_high,
-                                   .node = driven_node(mesh, def->part),
-                                   .row = UINT32_MAX,
-                                   .kind = def->kind,
-                                   .component = def->component,
-                                   .programme = programme_of(mesh, def->programme),
-                                   .excitation = excited ? programme_of(mesh, def->excitation) : UINT32_MAX,
-                                   .joint = joint,
-                                   .constraint = UINT32_MAX};
+                             .integral_gain = def->integral_gain,
+                             .limit_low = def->limit_low,
+                             .limit_high = def->limit_high,
+                             .node = driven_node(mesh, def->part),
+                             .row = UINT32_MAX,
+                             .kind = def->kind,
+                             .component = def->component,
+                             .programme = programme_of(mesh, def->programme),
+                             .excitation = excited ? programme_of(mesh, def->excitation) : UINT32_MAX,
+                             .joint = joint,
+                             .constraint = UINT32_MAX};
     memcpy(drive.name, def->name, sizeof drive.name);
     const int32_t status = joint != UINT32_MAX
                                ? take_component(mesh, i, def, DMB_VECTOR_AT(uint8_t, &mesh->driven, joint))

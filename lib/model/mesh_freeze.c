@@ -2,9 +2,9 @@
  */
 #include "base/memory.h"
 #include "math/vec3.h"
-#include "model/scene_fill.h"
-#include "model/scene_dense.h"
 #include "model/reduced_pattern.h"
+#include "model/scene_dense.h"
+#include "model/scene_fill.h"
 
 /* ---- Counts ------------------------------------------------------------------------------------------------------ */
 
@@ -59,8 +59,8 @@ static int is_free_rigid(const dmb_mesh *mesh, uint32_t i)
 {
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
     const int alone = node->string == UINT32_MAX || dmb_mesh_string_at(mesh, node->string)->node_count == 1;
-    return alone && node->size == DMB_NODE_FULL && node->rigid_mass != UINT32_MAX && dmb_free_rows(node) == DMB_FREE_ALL &&
-           dmb_prescribed_rows(node) == 0;
+    return alone && node->size == DMB_NODE_FULL && node->rigid_mass != UINT32_MAX &&
+           dmb_free_rows(node) == DMB_FREE_ALL && dmb_prescribed_rows(node) == 0;
 }
 
 static uint32_t count_free_rigids(const dmb_mesh *mesh)
@@ -221,7 +221,8 @@ int32_t dmb_mesh_freeze(const dmb_mesh *mesh, dmb_scene **out)
     dmb_arena_place(&arena, block, counts.bytes);
     dmb_scene *scene = lay_out(&arena, &counts, &w, stations);
     int32_t status = arena.overflow ? DMB_ERR_TOO_LARGE : dmb_scene_fill(mesh, scene, &w);
-    if (status >= 0 && !dmb_scene_place_storage(scene->cluster_count, scene->clusters, scene)) status = DMB_ERR_TOO_LARGE;
+    if (status >= 0 && !dmb_scene_place_storage(scene->cluster_count, scene->clusters, scene))
+        status = DMB_ERR_TOO_LARGE;
     if (status >= 0) status = dmb_scene_link(scene, allocator);
     if (status >= 0) status = dmb_scene_make_dense(scene, allocator);
     if (status < 0) {

@@ -43,7 +43,8 @@ static int32_t find_type(dmb_mesh *mesh, dmb_mesh_element *element, const dmb_me
     }
     const double damping_time = mesh->features & DMB_FEATURE_DAMPING ? def->damping_time : 0.0;
     dmb_element_type_of(def, element->arm, damping_time, &type);
-    type.weight_mass = dmb_buoyancy_factor(def, mesh->model->environment.fluid_density) * type.mass_per_metre * type.length;
+    type.weight_mass =
+        dmb_buoyancy_factor(def, mesh->model->environment.fluid_density) * type.mass_per_metre * type.length;
     return share_type(mesh, &type, &element->type);
 }
 

@@ -12,8 +12,16 @@
 
 /* Kinds in the upper 8 bits of dmb_id.index. */
 enum {
-    DMB_PART_PROGRAMME = 1, DMB_PART_WALL = 2, DMB_PART_STRING = 3, DMB_PART_BODY = 4, DMB_PART_BIT = 5,
-    DMB_PART_DRIVE = 6, DMB_PART_LOAD = 7, DMB_PART_JOINT = 8, DMB_PART_COUPLING = 9, DMB_PART_CONSTRAINT = 10
+    DMB_PART_PROGRAMME = 1,
+    DMB_PART_WALL = 2,
+    DMB_PART_STRING = 3,
+    DMB_PART_BODY = 4,
+    DMB_PART_BIT = 5,
+    DMB_PART_DRIVE = 6,
+    DMB_PART_LOAD = 7,
+    DMB_PART_JOINT = 8,
+    DMB_PART_COUPLING = 9,
+    DMB_PART_CONSTRAINT = 10
 };
 
 /* A string and how far it has been built. */
@@ -40,10 +48,10 @@ typedef struct dmb_list {
 
 struct dmb_model {
     uint32_t magic;
-    uint32_t stamp;        /* generation of the ids it gives out, never 0 */
-    atomic_uint holders;   /* the caller and every live sim */
-    atomic_uint owned;     /* 1 until the caller destroys it: a copied handle gives nothing up a second time */
-    uint32_t busy;         /* 1 while a call describes or compiles it */
+    uint32_t stamp;      /* generation of the ids it gives out, never 0 */
+    atomic_uint holders; /* the caller and every live sim */
+    atomic_uint owned;   /* 1 until the caller destroys it: a copied handle gives nothing up a second time */
+    uint32_t busy;       /* 1 while a call describes or compiles it */
     dmb_allocator allocator;
     dmb_log_fn log;
     void *log_context;
@@ -77,12 +85,13 @@ void dmb_model_release(dmb_model *model);
  * id, tell the log. */
 
 /* DMB_OK for a model that may still be described and a definition that is there; the model is busy then until
- * dmb_describe_close. Errors: DMB_ERR_NULL, _HANDLE; _ORDER for a busy model, and for a compiled one, whose message stays
- * because other threads may be reading it. */
+ * dmb_describe_close. Errors: DMB_ERR_NULL, _HANDLE; _ORDER for a busy model, and for a compiled one, whose message
+ * stays because other threads may be reading it. */
 int32_t dmb_describe_open(dmb_model *model, const char *part, const void *def);
 /* Ends a call: a refusal without a message gets one, `part` before the text of the status, and the log is told. */
 int32_t dmb_describe_close(dmb_model *model, const char *part, int32_t status);
-/* Ends a call that adds a part: the same, and a refusal is remembered, or forgotten where the part was added after all. */
+/* Ends a call that adds a part: the same, and a refusal is remembered, or forgotten where the part was added after
+ * all. */
 int32_t dmb_describe_part(dmb_model *model, const dmb_described *part, int32_t status);
 /* Of a kind with one definition a part; the size is that of the whole struct. */
 static inline int32_t dmb_describe_end(dmb_model *model, const char *part, const void *definition, size_t size,

@@ -160,7 +160,8 @@ static int32_t make_pattern(dmb_scene *scene, const dmb_allocator *allocator)
         status = dmb_block_pattern_make(allocator, scene->block_count, capacity.items, (uint32_t)edges.count,
                                         edges.items, &scene->pattern);
     for (uint32_t b = 0; b < scene->block_count && status >= 0 && scene->sparse_count; ++b) {
-        const size_t rows = *DMB_VECTOR_AT(uint32_t, &capacity, b); /* for signs of eigenvalues: analysis/linear/stiffness */
+        const size_t rows =
+            *DMB_VECTOR_AT(uint32_t, &capacity, b); /* for signs of eigenvalues: analysis/linear/stiffness */
         if (rows * rows > scene->full_count) scene->full_count = rows * rows;
     }
     dmb_vector_release(&capacity, allocator);
@@ -221,8 +222,8 @@ static int moves_freely(const dmb_scene *scene, uint32_t node)
     return 1;
 }
 
-/* Whether the ground has a part in it: beside a single node, in equations that need not stay the same when all their nodes
- * move as one, and by a node that it holds. */
+/* Whether the ground has a part in it: beside a single node, in equations that need not stay the same when all their
+ * nodes move as one, and by a node that it holds. */
 static int on_ground(const dmb_scene *scene, const dmb_constraint *c)
 {
     if (c->node_count < 2 || !is_joint(c)) return 1;
@@ -275,7 +276,8 @@ static int is_bridge_kind(const dmb_scene *scene, uint32_t c)
            moves_freely(scene, scene->constraints[c].node[0]);
 }
 
-/* v is done with: what it reaches is reached from the vertex before it; nothing else is, so what led here is a bridge. */
+/* v is done with: what it reaches is reached from the vertex before it; nothing else is, so what led here is a
+ * bridge. */
 static void leave(graph *g, uint32_t before, uint32_t v, uint32_t *beyond)
 {
     if (g->low[v] < g->low[before]) g->low[before] = g->low[v];

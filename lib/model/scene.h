@@ -1,9 +1,10 @@
-/* The compiled scene: what a step needs and nothing else. Written once by dmb_model_compile (all of it in one arena), then
- * read by any number of threads.
+/* The compiled scene: what a step needs and nothing else. Written once by dmb_model_compile (all of it in one arena),
+ * then read by any number of threads.
  *
- * Nodes are numbered along the strings, rig end first, then the free bodies, so that every string and every free body is a
- * chain of neighbouring blocks. A FULL node has a pose in SE(3) and 6 rows (body-frame velocity); a PATH node slides and
- * turns on the axis of the hole and has 2 rows (along the axis, about it). Element e joins nodes a and a+1. */
+ * Nodes are numbered along the strings, rig end first, then the free bodies, so that every string and every free body
+ * is a chain of neighbouring blocks. A FULL node has a pose in SE(3) and 6 rows (body-frame velocity); a PATH node
+ * slides and turns on the axis of the hole and has 2 rows (along the axis, about it). Element e joins nodes a and
+ * a+1. */
 #ifndef DMB_MODEL_SCENE_H
 #define DMB_MODEL_SCENE_H
 
@@ -13,27 +14,27 @@
 #include "drillmbd/model.h"
 #include "element/element_type.h"
 #include "force/bit_rock.h"
+#include "force/contact_law.h"
 #include "force/friction_law.h"
 #include "force/hole.h"
 #include "force/joint_law.h"
 #include "force/normal_law.h"
 #include "force/programme.h"
-#include "force/contact_law.h"
 #include "math/block_sparse.h"
 #include "math/block_tridiagonal.h"
 
 enum { DMB_NODE_PATH = 2, DMB_NODE_FULL = 6 };
 /* Kernels of an element. */
 enum {
-    DMB_KERNEL_BEAM = 0,  /* two FULL nodes */
-    DMB_KERNEL_PATH = 1,  /* two PATH nodes: stretch and torsion only */
-    DMB_KERNEL_MIXED = 2  /* a beam with one FULL and one PATH node */
+    DMB_KERNEL_BEAM = 0, /* two FULL nodes */
+    DMB_KERNEL_PATH = 1, /* two PATH nodes: stretch and torsion only */
+    DMB_KERNEL_MIXED = 2 /* a beam with one FULL and one PATH node */
 };
 
 /* A PATH node rubbing on the wall (Johancsik): normal force from its weight and from tension in curved holes. */
 typedef struct dmb_path_site {
-    double radius;  /* [m] */
-    double length;  /* [m] it stands for */
+    double radius; /* [m] */
+    double length; /* [m] it stands for */
     dmb_id part;
     uint32_t pipe;
     uint32_t node;
@@ -41,10 +42,10 @@ typedef struct dmb_path_site {
 
 typedef struct dmb_scene_drive {
     double gain, integral_gain, limit_low, limit_high;
-    uint32_t node;       /* UINT32_MAX: it drives a joint */
-    uint32_t row;        /* global row of the component; UINT32_MAX: none */
-    int32_t kind;        /* DMB_DRIVE_... */
-    int32_t component;   /* body-frame component 0 .. 5 */
+    uint32_t node;     /* UINT32_MAX: it drives a joint */
+    uint32_t row;      /* global row of the component; UINT32_MAX: none */
+    int32_t kind;      /* DMB_DRIVE_... */
+    int32_t component; /* body-frame component 0 .. 5 */
     uint32_t programme;
     uint32_t excitation; /* UINT32_MAX: none, or left out */
     uint32_t joint;      /* whose coordinate `component` it drives; UINT32_MAX: none */
@@ -54,10 +55,10 @@ typedef struct dmb_scene_drive {
 
 typedef struct dmb_scene_load {
     double force[3], moment[3];
-    double arm;          /* [m] along body x from the node */
+    double arm; /* [m] along body x from the node */
     uint32_t node;
     int32_t frame;
-    uint32_t programme;  /* UINT32_MAX: factor 1 */
+    uint32_t programme; /* UINT32_MAX: factor 1 */
     uint32_t reserved;
     char name[24];
 } dmb_scene_load;
@@ -66,35 +67,35 @@ typedef struct dmb_scene_bit {
     dmb_bit_rock_law law; /* kind DMB_ROCK_NONE when left out */
     double bottom;        /* [m] stand-off at time 0 */
     uint32_t node;
-    uint32_t load;        /* programme of the bottom-hole load; UINT32_MAX: none */
-    uint32_t history_first; /* start of its samples in the history arrays */
+    uint32_t load;             /* programme of the bottom-hole load; UINT32_MAX: none */
+    uint32_t history_first;    /* start of its samples in the history arrays */
     uint32_t history_capacity; /* 0 unless regenerative */
-    double arm;           /* [m] along body x from the node to the bit (rigid pipes merged behind it); usually 0 */
+    double arm;                /* [m] along body x from the node to the bit (rigid pipes merged behind it); usually 0 */
 } dmb_scene_bit;
 
 /* Where a described pipe is in the mesh. */
 typedef struct dmb_pipe_map {
-    double start;     /* [m] rigid pipe: its near end along body x from `node`; else 0 */
-    double length;    /* [m] */
-    double joint;     /* [m] rigid tool joint at its far end (already inside length) */
-    uint32_t node;    /* rigid: the node of its body; else node of its near end */
-    uint32_t element; /* first element; UINT32_MAX: rigid */
+    double start;      /* [m] rigid pipe: its near end along body x from `node`; else 0 */
+    double length;     /* [m] */
+    double joint;      /* [m] rigid tool joint at its far end (already inside length) */
+    uint32_t node;     /* rigid: the node of its body; else node of its near end */
+    uint32_t element;  /* first element; UINT32_MAX: rigid */
     uint32_t elements; /* 0: rigid */
-    int32_t kind;     /* DMB_PIPE_... after compile options */
+    int32_t kind;      /* DMB_PIPE_... after compile options */
 } dmb_pipe_map;
 
 typedef struct dmb_string_map {
-    uint32_t first_pipe, pipe_count;     /* in pipes[] */
-    uint32_t first_node, node_count;     /* its chain */
-    uint32_t start_node, end_node;       /* nodes that carry its two ends (equal for one rigid string) */
-    double start_arm, end_arm;           /* [m] along body x from those nodes to the ends */
-    double length;                       /* [m] */
+    uint32_t first_pipe, pipe_count; /* in pipes[] */
+    uint32_t first_node, node_count; /* its chain */
+    uint32_t start_node, end_node;   /* nodes that carry its two ends (equal for one rigid string) */
+    double start_arm, end_arm;       /* [m] along body x from those nodes to the ends */
+    double length;                   /* [m] */
 } dmb_string_map;
 
 typedef struct dmb_body_map {
     uint32_t node;
-    uint32_t site; /* its contact site; UINT32_MAX: none */
-    double arm;    /* [m] along body x from the node to its reference point */
+    uint32_t site;      /* its contact site; UINT32_MAX: none */
+    double arm;         /* [m] along body x from the node to its reference point */
     uint32_t held_ring; /* 1: it would have a contact site if its node moved sideways */
     uint32_t reserved;
     char name[24];
@@ -104,13 +105,13 @@ typedef struct dmb_chain {
     double length;         /* [m] makes its moments comparable with forces: mean element; of a body alone its radius of
                               inertia or its longest arm to a joint */
     uint32_t first, count; /* nodes */
-    int32_t jointed;        /* 1: joints connect it, so it is solved with the blocks of the pattern */
+    int32_t jointed;       /* 1: joints connect it, so it is solved with the blocks of the pattern */
     int32_t reserved;
 } dmb_chain;
 
 /* A node that carries nothing but a rigid mass and moves freely: its centre of mass is what is integrated. */
 typedef struct dmb_free_rigid {
-    double centre[3];      /* [m] of mass, from the node, body frame */
+    double centre[3]; /* [m] of mass, from the node, body frame */
     uint32_t node, rigid_mass;
 } dmb_free_rigid;
 
@@ -126,11 +127,11 @@ typedef struct dmb_scene_frame {
 
 typedef struct dmb_scene_joint {
     dmb_scene_frame a, b;
-    double span[3];       /* [m] origin of node b less origin of node a (or of the world) at time 0, world, exact */
-    double length;        /* [m] of DISTANCE, radius of ROLLING */
+    double span[3]; /* [m] origin of node b less origin of node a (or of the world) at time 0, world, exact */
+    double length;  /* [m] of DISTANCE, radius of ROLLING */
     double initial_position[6], initial_speed[6];
-    int32_t kind;         /* DMB_JOINT_... */
-    int32_t state;        /* at time 0 */
+    int32_t kind;  /* DMB_JOINT_... */
+    int32_t state; /* at time 0 */
     int32_t initial_mask;
     int32_t law_mask;     /* coordinates that have a law */
     uint32_t law;         /* first of its six laws in `laws`; UINT32_MAX: none acts */
@@ -154,7 +155,7 @@ typedef struct dmb_scene_callback {
     dmb_constraint_fn callback;
     void *context;
     uint32_t rows, count;
-    int32_t kind;             /* DMB_CONSTRAINT_... */
+    int32_t kind; /* DMB_CONSTRAINT_... */
     int32_t provides;
     uint32_t constraint;
     uint32_t reserved;
@@ -165,34 +166,34 @@ typedef struct dmb_scene_callback {
 enum { DMB_OF_JOINT = 0, DMB_OF_COUPLING = 1, DMB_OF_DRIVE = 2, DMB_OF_CALLBACK = 3 };
 enum { DMB_CONSTRAINT_NODES = 4, DMB_CONSTRAINT_COLUMNS = 24, DMB_CONSTRAINT_ROWS = 6 };
 
-/* Rows of one joint (room for six, so that it can be locked), coupling, joint drive or callback. Its columns are all rows
- * of its nodes, held ones too. */
+/* Rows of one joint (room for six, so that it can be locked), coupling, joint drive or callback. Its columns are all
+ * rows of its nodes, held ones too. */
 typedef struct dmb_constraint {
-    int32_t kind;         /* DMB_OF_... */
-    uint32_t index;       /* which joint, coupling, drive, callback */
-    uint32_t row;         /* first of its constraint rows */
-    uint32_t rows;        /* room */
+    int32_t kind;   /* DMB_OF_... */
+    uint32_t index; /* which joint, coupling, drive, callback */
+    uint32_t row;   /* first of its constraint rows */
+    uint32_t rows;  /* room */
     uint32_t node_count;
     uint32_t node[DMB_CONSTRAINT_NODES];   /* distinct */
     uint32_t column[DMB_CONSTRAINT_NODES]; /* first column of each node in this constraint */
     uint32_t columns;
-    uint32_t jacobian;    /* start of its (rows x columns) in constraint_jacobian */
-    uint32_t tangent;     /* start of its (columns x columns) in constraint_tangent */
+    uint32_t jacobian; /* start of its (rows x columns) in constraint_jacobian */
+    uint32_t tangent;  /* start of its (columns x columns) in constraint_tangent */
     uint32_t cluster;
-    uint32_t block;       /* of the pattern that its multipliers belong to; of a sparse cluster only */
+    uint32_t block; /* of the pattern that its multipliers belong to; of a sparse cluster only */
 } dmb_constraint;
 
 /* Nodes that constraints connect directly, and those constraints: one partition, one block of the reduced system. */
 typedef struct dmb_cluster {
     uint32_t constraint, constraint_count; /* range of constraints */
-    uint32_t node, node_count;   /* range of cluster_nodes */
-    uint32_t row, rows;          /* range of constraint rows, room included */
-    uint32_t column, columns;    /* range of cluster_columns */
-    uint32_t block;              /* in the pattern; none of a sparse cluster */
-    int32_t sparse;              /* 1: each of its nodes has a block, with multipliers; there is no dense storage */
-    size_t dense;                /* start in work of (rows x columns) */
-    size_t square;               /* start in work of (rows x rows) */
-    size_t full;                 /* start in work of (columns x columns) */
+    uint32_t node, node_count;             /* range of cluster_nodes */
+    uint32_t row, rows;                    /* range of constraint rows, room included */
+    uint32_t column, columns;              /* range of cluster_columns */
+    uint32_t block;                        /* in the pattern; none of a sparse cluster */
+    int32_t sparse; /* 1: each of its nodes has a block, with multipliers; there is no dense storage */
+    size_t dense;   /* start in work of (rows x columns) */
+    size_t square;  /* start in work of (rows x rows) */
+    size_t full;    /* start in work of (columns x columns) */
 } dmb_cluster;
 
 /* Neighbouring elements with one kernel. */
@@ -203,34 +204,34 @@ typedef struct dmb_batch {
 } dmb_batch;
 
 typedef struct dmb_scene {
-    size_t bytes;              /* of the arena, this struct included */
-    int32_t features;          /* DMB_FEATURE_... that the scene really has: asked for and described */
-    int32_t damped, arms;      /* 1: some element has a damping time, stands off its nodes by rigid arms */
-    int32_t beams_only;        /* 1: every element has two FULL nodes */
+    size_t bytes;                      /* of the arena, this struct included */
+    int32_t features;                  /* DMB_FEATURE_... that the scene really has: asked for and described */
+    int32_t damped, arms;              /* 1: some element has a damping time, stands off its nodes by rigid arms */
+    int32_t beams_only;                /* 1: every element has two FULL nodes */
     const struct dmb_kernels *kernels; /* of a step, as wide as the processor takes */
     uint32_t node_count, row_count, element_count, type_count, batch_count, chain_count, rigid_mass_count;
     uint32_t site_count, path_site_count, drive_count, load_count, bit_count, programme_count;
     uint32_t string_count, pipe_count, body_count;
-    uint32_t history_count;    /* bit samples in all */
+    uint32_t history_count; /* bit samples in all */
     uint32_t free_count, prescribed_count, held_count;
-    uint32_t velocity_count;   /* row_count, or 0 where everything is described at rest */
+    uint32_t velocity_count; /* row_count, or 0 where everything is described at rest */
     uint32_t rigid_count, structural_joint_count;
     uint32_t free_rigid_count;
     uint32_t joint_count, coupling_count, callback_count, constraint_count, cluster_count, law_count;
-    uint32_t constraint_row_count;  /* room of all constraints */
-    uint32_t constraint_node_count; /* length of cluster_nodes */
-    uint32_t cluster_column_count;  /* length of cluster_columns */
-    uint32_t reduced_count;          /* nodes of jointed chains */
-    uint32_t sparse_count;          /* sparse clusters */
-    uint32_t block_count;           /* blocks of the pattern */
-    uint32_t jacobian_count, tangent_count; /* lengths of constraint_jacobian and constraint_tangent */
+    uint32_t constraint_row_count;                /* room of all constraints */
+    uint32_t constraint_node_count;               /* length of cluster_nodes */
+    uint32_t cluster_column_count;                /* length of cluster_columns */
+    uint32_t reduced_count;                       /* nodes of jointed chains */
+    uint32_t sparse_count;                        /* sparse clusters */
+    uint32_t block_count;                         /* blocks of the pattern */
+    uint32_t jacobian_count, tangent_count;       /* lengths of constraint_jacobian and constraint_tangent */
     size_t dense_count, square_count, full_count; /* lengths of the clusters' dense storage */
-    double gravity[3];         /* [m/s2]; 0 when left out */
-    double mass, length;       /* [kg], [m] in all */
-    double length_scale;       /* [m] mean element length, or 1: makes moments comparable with forces */
+    double gravity[3];                            /* [m/s2]; 0 when left out */
+    double mass, length;                          /* [kg], [m] in all */
+    double length_scale; /* [m] mean element length, or 1: makes moments comparable with forces */
 
     /* nodes */
-    dmb_block_layout layout;   /* block sizes 6 or 2, rows, storage of blocks and links */
+    dmb_block_layout layout;      /* block sizes 6 or 2, rows, storage of blocks and links */
     double *reference_position;   /* [m] world, where displacement is 0, shape (node, 3); of a PATH node on the axis */
     double *reference_quaternion; /* [-] at time 0, scalar first, shape (node, 4) */
     double *reference_depth;      /* [m] measured depth at time 0, shape (node); 0 without a hole */
@@ -239,26 +240,26 @@ typedef struct dmb_scene {
     uint8_t *solved_row;          /* 1 where a row is an unknown: free and not moved by a MOTION drive, shape (row) */
     uint32_t *held_node;          /* rows with solved_row 0: node and row within its block, shape (held_count) */
     uint32_t *held_component;
-    double *weight_mass;          /* [kg] that gravity acts on, buoyancy taken off, shape (node) */
-    double *weight_moment; /* [kg m] b of the weight, body frame: torque b x R^T g, shape (node, 3); rigid_masses and the
-                                     +- rho A L^2/12 of the cubic shape (sum of both sides) included */
-    double *node_damping;         /* [N s/m, N m s; N s/m, N s, N m s] external damping: axial, torsional; lateral times the
-                                     integrals of 1, x, x^2 over the pipe it stands for, shape (node, 5) */
+    double *weight_mass;   /* [kg] that gravity acts on, buoyancy taken off, shape (node) */
+    double *weight_moment; /* [kg m] b of the weight, body frame: torque b x R^T g, shape (node, 3), with rigid_masses
+                              and the +- rho A L^2/12 of the cubic shape (sum of both sides) */
+    double *node_damping;  /* [N s/m, N m s; N s/m, N s, N m s] external damping: axial, torsional; lateral times the
+                              integrals of 1, x, x^2 over the pipe it stands for, shape (node, 5) */
 
     /* elements */
-    dmb_element_type *types;      /* shape (type_count) */
-    uint32_t *element_type;       /* shape (element) */
-    uint32_t *element_node;       /* node a; b is a + 1, shape (element) */
-    uint32_t *node_element;       /* element from node i to i + 1; UINT32_MAX at the end of a chain, shape (node) */
-    double *element_span;         /* [m] from node a to node b at time 0, world frame, exact, shape (element, 3) */
+    dmb_element_type *types; /* shape (type_count) */
+    uint32_t *element_type;  /* shape (element) */
+    uint32_t *element_node;  /* node a; b is a + 1, shape (element) */
+    uint32_t *node_element;  /* element from node i to i + 1; UINT32_MAX at the end of a chain, shape (node) */
+    double *element_span;    /* [m] from node a to node b at time 0, world frame, exact, shape (element, 3) */
     dmb_batch *batches;
     dmb_chain *chains;
     uint32_t *node_chain;         /* chain of each node, shape (node) */
-    dmb_rigid_mass *rigid_masses;              /* at most one a node, by node */
+    dmb_rigid_mass *rigid_masses; /* at most one a node, by node */
     dmb_free_rigid *free_rigids;  /* by node, none in scenes with joints; shape (free_rigid_count) */
 
     /* wall */
-    dmb_hole hole;                /* valid if has_hole */
+    dmb_hole hole; /* valid if has_hole */
     int32_t has_hole;
     int32_t reserved;
     dmb_normal_law normal_law;
@@ -270,32 +271,32 @@ typedef struct dmb_scene {
     dmb_scene_drive *drives;
     dmb_scene_load *loads;
     dmb_scene_bit *bits;
-    dmb_programme *programmes;    /* the model's own */
+    dmb_programme *programmes; /* the model's own */
 
     /* joints and constraints; all empty without joints */
     dmb_scene_joint *joints;
-    uint32_t *joint_drives;       /* drives on joints, by joint */
+    uint32_t *joint_drives; /* drives on joints, by joint */
     dmb_scene_coupling *couplings;
     dmb_scene_callback *callbacks;
-    dmb_joint_law *laws;          /* shape (law_count): six for each joint that has any */
-    dmb_constraint *constraints;  /* sorted by cluster */
+    dmb_joint_law *laws;         /* shape (law_count): six for each joint that has any */
+    dmb_constraint *constraints; /* sorted by cluster */
     dmb_cluster *clusters;
-    uint32_t *cluster_nodes;      /* nodes, cluster by cluster, ascending in each */
-    uint32_t *cluster_columns;    /* global row of each column of each cluster, node by node */
-    uint32_t *node_block;         /* block of the pattern that holds the node; UINT32_MAX: its chain is not linked;
-                                     shape (node) if there are clusters */
-    uint32_t *node_place;         /* first column of the node in its cluster; 0 of a node without one, shape (node) */
-    uint32_t *node_cluster;       /* UINT32_MAX: none, shape (node) */
-    size_t *link_offset;          /* storage in the pattern of link i, i+1 (upper, lower); SIZE_MAX where none or inside
-                                     one block, shape (node, 2) */
-    dmb_block_pattern pattern;    /* blocks: dense clusters, then the other nodes of jointed chains */
+    uint32_t *cluster_nodes;   /* nodes, cluster by cluster, ascending in each */
+    uint32_t *cluster_columns; /* global row of each column of each cluster, node by node */
+    uint32_t *node_block;      /* block of the pattern that holds the node; UINT32_MAX: its chain is not linked;
+                                  shape (node) if there are clusters */
+    uint32_t *node_place;      /* first column of the node in its cluster; 0 of a node without one, shape (node) */
+    uint32_t *node_cluster;    /* UINT32_MAX: none, shape (node) */
+    size_t *link_offset;       /* storage in the pattern of link i, i+1 (upper, lower); SIZE_MAX where none or inside
+                                  one block, shape (node, 2) */
+    dmb_block_pattern pattern; /* blocks: dense clusters, then the other nodes of jointed chains */
     const struct dmb_scene *dense; /* the same with dense clusters only, for analyses that need independent coordinates;
                                       NULL where no cluster is sparse, and where one is too large */
 
     /* maps from parts to the mesh */
     dmb_string_map *strings;
     dmb_pipe_map *pipes;
-    dmb_body_map *bodies;         /* described bodies, then bits */
+    dmb_body_map *bodies; /* described bodies, then bits */
 } dmb_scene;
 
 /* The scene in which copies for analyses are made (system/copy). */

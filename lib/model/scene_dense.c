@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "base/memory.h"
 #include "base/checked_size.h"
+#include "base/memory.h"
 #include "model/limits.h"
 #include "model/reduced_pattern.h"
 

@@ -5,8 +5,8 @@
 
 #include "model/scene.h"
 
-/* Places the storage of clusters one after the other, none for sparse ones, and counts it in the scene. False where a size
- * overflows. */
+/* Places the storage of clusters one after the other, none for sparse ones, and counts it in the scene. False where a
+ * size overflows. */
 int32_t dmb_scene_place_storage(uint32_t count, dmb_cluster *clusters, dmb_scene *scene);
 /* After dmb_scene_link: scene->dense, NULL without sparse clusters and where one is too large. DMB_OK,
  * DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE. */

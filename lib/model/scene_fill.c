@@ -115,7 +115,8 @@ static void fill_free_rigids(dmb_scene *scene)
         const dmb_rigid_mass *rigid_mass = scene->rigid_masses + i;
         const uint32_t row = scene->layout.row[rigid_mass->node];
         int is_free = scene->layout.size[rigid_mass->node] == DMB_NODE_FULL && is_alone(scene, rigid_mass->node);
-        for (uint32_t k = 0; k < scene->layout.size[rigid_mass->node]; ++k) is_free = is_free && scene->solved_row[row + k];
+        for (uint32_t k = 0; k < scene->layout.size[rigid_mass->node]; ++k)
+            is_free = is_free && scene->solved_row[row + k];
         if (!is_free) continue;
         dmb_vec3_scale(1.0 / rigid_mass->mass, rigid_mass->moment, next->centre);
         next->node = rigid_mass->node;

@@ -137,9 +137,9 @@ static void bending_mass(double mass, double rotary, double P, double L, double 
 
 /* Along and around: (1 - s/2) consistent (1/3, 1/6) + s/2 lumped (1/2, 0) mass, 5/12 and 1/12 at s = 1. Straight shapes
  * are too stiff by EA h^2/12 times the integral of u''^2; the lumped part is too heavy by s rho A h^2/12 times that of
- * u'^2. Waves longer than a pipe have EA u'' = -w^2 rho A u in the element, and EA u'^2 = w^2 (rho A + mass of the joints
- * per length) u^2 on average: the two cancel where s is the element's share in what moves with the pipe, and frequencies
- * are of fourth order (without joints: Goudreau 1970; blending of quadratures, Ainsworth, Wajid 2010). */
+ * u'^2. Waves longer than a pipe have EA u'' = -w^2 rho A u in the element, and EA u'^2 = w^2 (rho A + mass of the
+ * joints per length) u^2 on average: the two cancel where s is the element's share in what moves with the pipe, and
+ * frequencies are of fourth order (without joints: Goudreau 1970; blending of quadratures, Ainsworth, Wajid 2010). */
 static void straight_mass(double total, double share, double out[2])
 {
     out[0] = total * (4.0 + share) / 12.0;

@@ -12,10 +12,10 @@ enum { DMB_PATH_MAX = 4096 };
 typedef struct dmb_text_file {
     FILE *stream;
     int failed;
-    int beside;                    /* 1: `part` is written and takes the place of `path`; 0: it is written itself */
-    int looking;                   /* 1: numbers are looked at only, output/vtk */
-    int strange;                   /* 1: one of them was not finite */
-    int base64;                    /* 1: numbers go out as words in base 64 */
+    int beside;                      /* 1: `part` is written and takes the place of `path`; 0: it is written itself */
+    int looking;                     /* 1: numbers are looked at only, output/vtk */
+    int strange;                     /* 1: one of them was not finite */
+    int base64;                      /* 1: numbers go out as words in base 64 */
     uint32_t waiting, waiting_count; /* bytes of a group of three */
     char path[DMB_PATH_MAX], part[DMB_PATH_MAX + 16];
 } dmb_text_file;

@@ -1,5 +1,5 @@
-/* VTK XML poly-data files of one piece, numbers as text (VTK file formats, "PolyData"), and the strings of a scene in them.
- */
+/* VTK XML poly-data files of one piece, numbers as text (VTK file formats, "PolyData"), and the strings of a scene in
+ * them. */
 #ifndef DMB_OUTPUT_VTK_H
 #define DMB_OUTPUT_VTK_H
 
@@ -21,8 +21,8 @@ void dmb_vtk_close_tag(dmb_text_file *file, const char *tag);
 void dmb_vtk_begin_numbers(dmb_text_file *file, const char *name, uint32_t components);
 void dmb_vtk_begin_indices(dmb_text_file *file, const char *name);
 void dmb_vtk_end_array(dmb_text_file *file);
-/* Numbers that may not be finite: readers stop at "nan" in text, so that such an array goes out in base 64, with the number
- * of its bytes first. look: what is put until dmb_vtk_begin_looked is only looked at. */
+/* Numbers that may not be finite: readers stop at "nan" in text, so that such an array goes out in base 64, with the
+ * number of its bytes first. look: what is put until dmb_vtk_begin_looked is only looked at. */
 void dmb_vtk_look(dmb_text_file *file);
 void dmb_vtk_begin_looked(dmb_text_file *file, const char *name, uint32_t components, uint64_t tuples);
 void dmb_vtk_end_looked(dmb_text_file *file);
@@ -51,8 +51,8 @@ typedef struct dmb_vtk_picture {
     const char *data;            /* "PointData ..." with the fields to be shown first */
     const dmb_vtk_array *arrays; /* shape (array_count) */
     size_t array_count;
-    dmb_vtk_array points;        /* positions, three components */
-    uint32_t per_element;        /* points an element, 1 .. 64 */
+    dmb_vtk_array points; /* positions, three components */
+    uint32_t per_element; /* points an element, 1 .. 64 */
     uint32_t reserved;
 } dmb_vtk_picture;
 

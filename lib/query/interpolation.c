@@ -60,7 +60,8 @@ void dmb_relative_pose(const dmb_scene *scene, uint32_t element, const dmb_end_p
 }
 
 /* Bars on the hole's axis do not bend by themselves: no bending shape. */
-void dmb_material_point_shape(const dmb_scene *scene, const dmb_material_point *material_point, dmb_section_shape *shape)
+void dmb_material_point_shape(const dmb_scene *scene, const dmb_material_point *material_point,
+                              dmb_section_shape *shape)
 {
     const uint32_t a = scene->element_node[material_point->element];
     const int path = scene->layout.size[a] == DMB_NODE_PATH && scene->layout.size[a + 1] == DMB_NODE_PATH;
@@ -146,7 +147,8 @@ static void node_motion(const dmb_scene *scene, const dmb_configuration *configu
 }
 
 /* W = T6(h) h', W' = T6(h) (h'' - X(h, W) h') with X = d/dh (T6^-1(h) W): velocity of exp h and its rate */
-static void motion_of_exp(const double h[6], const double rate[6], const double second[6], dmb_material_point_motion *out)
+static void motion_of_exp(const double h[6], const double rate[6], const double second[6],
+                          dmb_material_point_motion *out)
 {
     dmb_se3_tangent T;
     double X[36], y[6];
@@ -261,7 +263,8 @@ double dmb_material_point_depth(const dmb_scene *scene, const dmb_configuration 
     double depth, point[3], tangent[3];
     uint32_t segment = 0;
     if (!scene->has_hole) return 0.0;
-    if (material_point->fixed && material_point->arm == 0.0 && scene->layout.size[material_point->node] == DMB_NODE_PATH)
+    if (material_point->fixed && material_point->arm == 0.0 &&
+        scene->layout.size[material_point->node] == DMB_NODE_PATH)
         return dmb_path_depth(scene, configuration, material_point->node);
     if (!dmb_hole_is_straight(&scene->hole))
         segment = segment_at(&scene->hole, scene->reference_depth[material_point->node] + material_point->arm +

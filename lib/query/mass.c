@@ -67,7 +67,8 @@ void dmb_eccentric_share(const dmb_scene *scene, const dmb_described_pipe *pipe,
 {
     const dmb_element_type *type = &scene->types[scene->element_type[element]];
     begin(share, scene->element_node[element] + end);
-    dmb_rigid_mass_shift(share, 0.5 * type->mass_per_metre * type->length, end ? -type->arm[1] : type->arm[0], pipe->offset);
+    dmb_rigid_mass_shift(share, 0.5 * type->mass_per_metre * type->length, end ? -type->arm[1] : type->arm[0],
+                         pipe->offset);
 }
 
 /* A bit's reference point is the string's end; its centre is half its length beyond. */

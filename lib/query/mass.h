@@ -1,5 +1,5 @@
-/* Shares of the rigid mass on a node. A node's rigid_mass is the sum of all that is fixed to it; these are its parts, each
- * from the description, as the compile step added them. */
+/* Shares of the rigid mass on a node. A node's rigid_mass is the sum of all that is fixed to it; these are its parts,
+ * each from the description, as the compile step added them. */
 #ifndef DMB_QUERY_MASS_H
 #define DMB_QUERY_MASS_H
 

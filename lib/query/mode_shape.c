@@ -4,8 +4,8 @@
 
 #include "analysis/modes/modes.h"
 #include "element/beam.h"
-#include "sim/access.h"
 #include "query/interpolation.h"
+#include "sim/access.h"
 #include "system/assemble/energy.h"
 
 DMB_DECLARE_STRUCT(dmb_modes_info)

@@ -1,16 +1,16 @@
 /* Section forces and strains of a pipe. */
 #include "math/se3.h"
-#include "sim/access.h"
 #include "query/interpolation.h"
 #include "query/place.h"
+#include "sim/access.h"
 #include "system/assemble/energy.h"
 
 DMB_DECLARE_STRUCT(dmb_section)
 
-/* From the element's helix to the section itself, which lies off it by exp(c) (query/interpolation.h): what it carries is
- * the same load in its own axes about its own centre. Under an axial force both tell. */
-static void to_the_section(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_material_point *point,
-                           double force[6])
+/* From the element's helix to the section itself, which lies off it by exp(c) (query/interpolation.h): what it carries
+ * is the same load in its own axes about its own centre. Under an axial force both tell. */
+static void to_the_section(const dmb_scene *scene, const dmb_configuration *configuration,
+                           const dmb_material_point *point, double force[6])
 {
     dmb_section_shape shape;
     double e[6], c[6], R[9], x[3], moment[3];
@@ -24,12 +24,13 @@ static void to_the_section(const dmb_scene *scene, const dmb_configuration *conf
     dmb_mat3_tvec(R, moment, force + 3);
 }
 
-/* Between the ends forces go straight, and bending moments by the parabola that belongs to them, dm/dx = -e_x x n; exact
- * under uniform weight. A tool joint hands on the load at its near end, its own mass left out. */
-static void section_force(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_material_point *point,
-                          double force[6])
+/* Between the ends forces go straight, and bending moments by the parabola that belongs to them, dm/dx = -e_x x n;
+ * exact under uniform weight. A tool joint hands on the load at its near end, its own mass left out. */
+static void section_force(const dmb_scene *scene, const dmb_configuration *configuration,
+                          const dmb_material_point *point, double force[6])
 {
-    const double x = point->fraction, bow = 0.5 * x * (1.0 - x) * scene->types[scene->element_type[point->element]].length;
+    const double x = point->fraction,
+                 bow = 0.5 * x * (1.0 - x) * scene->types[scene->element_type[point->element]].length;
     double ends[12];
     dmb_element_end_loads(scene, configuration, point->element, ends);
     for (int i = 0; i < 6; i++) force[i] = ends[i] + x * (ends[6 + i] - ends[i]);
@@ -42,8 +43,8 @@ static void section_force(const dmb_scene *scene, const dmb_configuration *confi
 
 /* Mean strain e/L. Its sideways part is mostly bending of the element, which the corrected stiffness GA* accounts for;
  * shear proper is the share (GA* : GA) of it. */
-static void section_strain(const dmb_scene *scene, const dmb_configuration *configuration, const dmb_material_point *point,
-                           double strain[6])
+static void section_strain(const dmb_scene *scene, const dmb_configuration *configuration,
+                           const dmb_material_point *point, double strain[6])
 {
     const dmb_element_type *type = &scene->types[scene->element_type[point->element]];
     dmb_element_strain(scene, configuration, point->element, strain);

@@ -6,7 +6,7 @@
 static uint64_t add_counts(uint64_t h, const dmb_scene *s)
 {
     const uint32_t counts[] = {
-        s->node_count,      s->row_count,   s->element_count,  s->type_count,     s->rigid_mass_count,       s->site_count,
+        s->node_count,      s->row_count,   s->element_count,  s->type_count,     s->rigid_mass_count, s->site_count,
         s->path_site_count, s->drive_count, s->load_count,     s->bit_count,      s->programme_count,  s->string_count,
         s->pipe_count,      s->body_count,  s->history_count,  s->free_count,     s->prescribed_count, s->chain_count,
         s->batch_count,     s->joint_count, s->coupling_count, s->callback_count, s->constraint_count};

@@ -14,8 +14,8 @@
 
 DMB_DECLARE_STRUCT(dmb_sim_options)
 
-/* Arguments of a create, checked. There is no sim yet to hold a message: a refusal is told to the log, and to the model for
- * the calling thread. */
+/* Arguments of a create, checked. There is no sim yet to hold a message: a refusal is told to the log, and to the model
+ * for the calling thread. */
 typedef struct creation {
     dmb_sim_options options;
     dmb_allocator allocator;

@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "run/fingerprint.h"
+#include "run/snapshot_check.h"
 #include "sim/access.h"
 #include "sim/layout.h"
-#include "run/snapshot_check.h"
 
 /* "DMDBSNP1" read as a number: a snapshot of another byte order does not fit. */
 #define DMB_SNAPSHOT_MAGIC UINT64_C(0x31504E5342444D44)

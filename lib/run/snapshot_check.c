@@ -7,9 +7,10 @@
 #include "system/constrain/joint_motion.h"
 
 /* A field of integers or of a struct has a bound of its own: a line of sim/sim.h that names none does not compile. */
-#define DMB_DOUBLES(type) _Generic(*(type *)0, double: 1, default: 0)
-#define DMB_NAMES_BOUND(type, name, count, check)                                                       \
-    _Static_assert(DMB_DOUBLES(type) == (DMB_CHECK_##check == DMB_CHECK_NUMBERS || DMB_CHECK_##check == DMB_CHECK_INPUTS), \
+#define DMB_DOUBLES(type) _Generic(*(type *)0, double : 1, default : 0)
+#define DMB_NAMES_BOUND(type, name, count, check)                                                         \
+    _Static_assert(DMB_DOUBLES(type) ==                                                                   \
+                       (DMB_CHECK_##check == DMB_CHECK_NUMBERS || DMB_CHECK_##check == DMB_CHECK_INPUTS), \
                    #name ": its check does not fit its type");
 DMB_CONFIGURATION_LIST(DMB_NAMES_BOUND)
 DMB_MEMORY_LIST(DMB_NAMES_BOUND)
@@ -24,9 +25,10 @@ typedef struct probe {
 
 static int32_t refuse(const probe *p, size_t item, double value, const char *bound)
 {
-    dmb_message_set(&p->sim->message,
-                    "snapshot: %s, number %zu = %g, must be %s; these are no state of this model, take another snapshot",
-                    p->field->name, item, value, bound);
+    dmb_message_set(
+        &p->sim->message,
+        "snapshot: %s, number %zu = %g, must be %s; these are no state of this model, take another snapshot",
+        p->field->name, item, value, bound);
     return DMB_ERR_VALUE;
 }
 
@@ -83,8 +85,8 @@ static int32_t check_ranks(const probe *p)
     return DMB_OK;
 }
 
-/* A permutation of 0 .. count - 1, `first` being where it begins; cluster_scratch, which has more than a byte for each, is
- * where those seen are marked. */
+/* A permutation of 0 .. count - 1, `first` being where it begins; cluster_scratch, which has more than a byte for each,
+ * is where those seen are marked. */
 static int32_t check_order(const probe *p, uint32_t first, uint32_t count)
 {
     uint8_t *seen = (uint8_t *)(void *)p->sim->cluster_scratch;

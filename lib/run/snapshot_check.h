@@ -1,5 +1,5 @@
-/* Is this a state of the scene? A snapshot is somebody's bytes, and its checksum can be made to fit: every index, count and
- * enumeration in it is held against the scene, and every number must be finite, before anything is restored. */
+/* Is this a state of the scene? A snapshot is somebody's bytes, and its checksum can be made to fit: every index, count
+ * and enumeration in it is held against the scene, and every number must be finite, before anything is restored. */
 #ifndef DMB_RUN_SNAPSHOT_CHECK_H
 #define DMB_RUN_SNAPSHOT_CHECK_H
 

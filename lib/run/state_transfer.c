@@ -6,12 +6,12 @@
 
 #include "sim/access.h"
 #include "sim/layout.h"
+#include "sim/node.h"
 #include "system/assemble/bit.h"
+#include "system/assemble/energy.h"
 #include "system/constrain/assembly.h"
 #include "system/constrain/cluster.h"
-#include "system/assemble/energy.h"
 #include "system/constrain/joint_state.h"
-#include "sim/node.h"
 #include "system/solve/solve.h"
 #include "system/start.h"
 
@@ -125,7 +125,8 @@ static int32_t check_joints(dmb_sim *sim, dmb_evaluation *evaluation)
     sim->reduced_mode->row = UINT32_MAX;
     const int32_t status = dmb_clusters_gather(evaluation);
     if (status == DMB_ERR_CALLBACK)
-        dmb_message_set(&sim->message, "state transfer: the callback of a constraint failed at time %g", evaluation->time);
+        dmb_message_set(&sim->message, "state transfer: the callback of a constraint failed at time %g",
+                        evaluation->time);
     if (status < 0) return status;
     const double violation = dmb_clusters_violation(sim, 0, &row);
     for (uint32_t j = 0; j < sim->scene->joint_count && violation <= DMB_TRANSFER_VIOLATION; j++)

@@ -1,5 +1,5 @@
-/* Parts of dmb_sim_transfer_state. Strings are numbered from their rig ends, where pipes come and go, so pipes and nodes of
- * two scenes are matched by counting from the far end. */
+/* Parts of dmb_sim_transfer_state. Strings are numbered from their rig ends, where pipes come and go, so pipes and
+ * nodes of two scenes are matched by counting from the far end. */
 #ifndef DMB_RUN_STATE_TRANSFER_H
 #define DMB_RUN_STATE_TRANSFER_H
 
@@ -15,7 +15,8 @@ typedef struct dmb_common_string {
 /* The scenes must have passed dmb_state_transfer_check, or at least its part on pipes. O(1). */
 dmb_common_string dmb_common_string_of(const dmb_scene *scene, const dmb_scene *from, uint32_t string);
 
-/* Is sim the same as from but for pipes at the rig ends? DMB_ERR_VALUE with a message where not. run/state_transfer_check */
+/* Is sim the same as from but for pipes at the rig ends? DMB_ERR_VALUE with a message where not.
+ * run/state_transfer_check */
 int32_t dmb_state_transfer_check(dmb_sim *sim, const dmb_sim *from);
 
 /* Poses, turns and speeds of all nodes of now. DMB_ERR_VALUE with a message where axial-torsional pipes would have to
@@ -28,6 +29,7 @@ void dmb_state_transfer_sites(dmb_sim *sim, const dmb_sim *from, int32_t what);
 
 /* [m] from the node's place in `from` to that in the scene, along body x: rigid pipes that are added or taken off move
  * the node of the body they are part of. Both nodes of string `string`, matched. */
-double dmb_state_transfer_arm(const dmb_scene *scene, uint32_t node, const dmb_scene *from, uint32_t old, uint32_t string);
+double dmb_state_transfer_arm(const dmb_scene *scene, uint32_t node, const dmb_scene *from, uint32_t old,
+                              uint32_t string);
 
 #endif

@@ -17,7 +17,8 @@ dmb_common_string dmb_common_string_of(const dmb_scene *scene, const dmb_scene *
 
 static int32_t other(dmb_sim *sim, const char *part, uint32_t index, const char *what)
 {
-    dmb_message_set(&sim->message, "state transfer: %s %u: %s, must be as in the sim it goes on from", part, index, what);
+    dmb_message_set(&sim->message, "state transfer: %s %u: %s, must be as in the sim it goes on from", part, index,
+                    what);
     return DMB_ERR_VALUE;
 }
 
@@ -41,8 +42,8 @@ static int32_t check_counts(dmb_sim *sim, const dmb_sim *from)
                   {"constraints", a->callback_count, b->callback_count}};
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
         if (counts[i].to == counts[i].from) continue;
-        dmb_message_set(&sim->message, "state transfer: %s = %u, must be %u as in the sim it goes on from", counts[i].what,
-                        counts[i].to, counts[i].from);
+        dmb_message_set(&sim->message, "state transfer: %s = %u, must be %u as in the sim it goes on from",
+                        counts[i].what, counts[i].to, counts[i].from);
         return DMB_ERR_VALUE;
     }
     return DMB_OK;
@@ -166,8 +167,8 @@ static dmb_pipe_def material_of(const dmb_sim *sim, uint32_t string, uint32_t pi
 static int32_t other_pipe(dmb_sim *sim, uint32_t string, uint32_t to, uint32_t old, const char *what)
 {
     dmb_message_set(&sim->message,
-                    "state transfer: string %u, pipe %u: %s, must be as of pipe %u of the sim it goes on from", string, to,
-                    what, old);
+                    "state transfer: string %u, pipe %u: %s, must be as of pipe %u of the sim it goes on from", string,
+                    to, what, old);
     return DMB_ERR_VALUE;
 }
 

@@ -26,7 +26,8 @@ static double arm_ahead(const dmb_scene *scene, uint32_t node, uint32_t string)
     return scene->types[scene->element_type[element]].arm[0];
 }
 
-double dmb_state_transfer_arm(const dmb_scene *scene, uint32_t node, const dmb_scene *from, uint32_t old, uint32_t string)
+double dmb_state_transfer_arm(const dmb_scene *scene, uint32_t node, const dmb_scene *from, uint32_t old,
+                              uint32_t string)
 {
     return arm_ahead(from, old, string) - arm_ahead(scene, node, string);
 }
@@ -71,7 +72,7 @@ static void shift_to(const dmb_scene *scene, uint32_t node, const dmb_scene *fro
 }
 
 static void transfer_full(dmb_sim *sim, uint32_t node, const dmb_sim *from, uint32_t old, double arm,
-                       const double shift[3])
+                          const double shift[3])
 {
     const double *q = from->now.quaternion + 4 * (size_t)old;
     double *v = sim->now.velocity + sim->scene->layout.row[node];

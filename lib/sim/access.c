@@ -9,8 +9,10 @@
 
 void dmb_sim_refuse_re_entry(dmb_sim *sim)
 {
-    dmb_message_set(&sim->message, "sim: in a call of its own at time %g, whose callback, allocator or log function may "
-                                   "not change it; do so when that call has returned", sim->clock->time);
+    dmb_message_set(&sim->message,
+                    "sim: in a call of its own at time %g, whose callback, allocator or log function may "
+                    "not change it; do so when that call has returned",
+                    sim->clock->time);
 }
 
 static int32_t take(dmb_sim *sim, int32_t busy)
@@ -47,8 +49,9 @@ int32_t dmb_sim_leave(dmb_sim *sim, int32_t status)
 {
     sim->busy = DMB_BUSY_NOT;
     if (status >= 0 || !sim->progress->cancelled) return status;
-    dmb_message_set(&sim->message, "sim: the caller's progress function ended the call at time %g, %.0f %% of it done; make "
-                                   "it again for its answer",
+    dmb_message_set(&sim->message,
+                    "sim: the caller's progress function ended the call at time %g, %.0f %% of it done; make "
+                    "it again for its answer",
                     sim->clock->time, 100.0 * sim->progress->done);
     return DMB_ERR_CANCELLED;
 }

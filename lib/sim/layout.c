@@ -183,8 +183,7 @@ static void put_field(field_table *table, const char *name, void *data, uint64_t
     field->check = check;
 }
 
-#define DMB_PUT(type, name, count, check) \
-    put_field(table, #name, from->name, (count), sizeof(type), DMB_CHECK_##check);
+#define DMB_PUT(type, name, count, check) put_field(table, #name, from->name, (count), sizeof(type), DMB_CHECK_##check);
 #define DMB_PUT_WORK(type, name, count) put_field(table, #name, from->name, (count), sizeof(type), -1);
 
 static void put_configuration(field_table *table, const field_counts *counts, const dmb_configuration *from)

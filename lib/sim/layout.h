@@ -1,5 +1,5 @@
-/* Where the fields of a sim stand in its block. Everything comes from the lists of sim/sim.h: the size, the carving, and
- * the table of fields that snapshot, hash and tests walk. */
+/* Where the fields of a sim stand in its block. Everything comes from the lists of sim/sim.h: the size, the carving,
+ * and the table of fields that snapshot, hash and tests walk. */
 #ifndef DMB_SIM_LAYOUT_H
 #define DMB_SIM_LAYOUT_H
 
@@ -17,7 +17,10 @@ enum {
     DMB_CHECK_ROW_ORDER = 7,      /* each row of a cluster once */
     DMB_CHECK_COLUMN_ORDER = 8,   /* each column of a cluster once */
     DMB_CHECK_HISTORY_HEADS = 9,  /* within the samples of the bit */
-    DMB_CHECK_CLOCK = 10, DMB_CHECK_LEDGER = 11, DMB_CHECK_COUNTERS = 12, DMB_CHECK_REUSE = 13 /* finite numbers in them */
+    DMB_CHECK_CLOCK = 10,
+    DMB_CHECK_LEDGER = 11,
+    DMB_CHECK_COUNTERS = 12,
+    DMB_CHECK_REUSE = 13 /* finite numbers in them */
 };
 
 /* [byte] of a block of any alignment that holds a sim of the scene; SIZE_MAX if it does not fit into a size_t. O(1). */
@@ -28,8 +31,14 @@ size_t dmb_sim_bytes(const dmb_scene *scene);
 dmb_sim *dmb_sim_carve(const dmb_scene *scene, void *block, size_t size);
 
 /* Groups of fields. The first three make up the state: saved, restored and hashed. */
-enum { DMB_GROUP_NOW = 0, DMB_GROUP_MEMORY = 1, DMB_GROUP_FACTORS = 2, DMB_GROUP_TRIAL = 3,
-       DMB_GROUP_WORK = 4, DMB_GROUP_COUNT = 5 };
+enum {
+    DMB_GROUP_NOW = 0,
+    DMB_GROUP_MEMORY = 1,
+    DMB_GROUP_FACTORS = 2,
+    DMB_GROUP_TRIAL = 3,
+    DMB_GROUP_WORK = 4,
+    DMB_GROUP_COUNT = 5
+};
 
 typedef struct dmb_field {
     const char *name;

@@ -1,5 +1,5 @@
-/* Nodes whatever their kind: pose and speed (of a PATH node from its place on the hole's axis), and the described part that
- * a node, an element, a row or a constraint belongs to. */
+/* Nodes whatever their kind: pose and speed (of a PATH node from its place on the hole's axis), and the described part
+ * that a node, an element, a row or a constraint belongs to. */
 #ifndef DMB_SIM_NODE_H
 #define DMB_SIM_NODE_H
 
@@ -13,7 +13,8 @@ void dmb_node_pose(const dmb_scene *scene, const dmb_configuration *configuratio
  * curved hole with the turning of the axis. */
 void dmb_node_vector(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, const double *rows,
                      double vector[6]);
-/* Columns of the body-frame motion of a PATH node per unit of its two rows, shape (2, 6); rotation is its present one. */
+/* Columns of the body-frame motion of a PATH node per unit of its two rows, shape (2, 6); rotation is its present
+ * one. */
 void dmb_path_columns(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
                       const double rotation[9], double columns[12]);
 /* [m] measured depth of a PATH node. */
@@ -51,8 +52,9 @@ uint32_t dmb_constraint_of_part(const dmb_sim *sim, dmb_id part);
 
 /* Unbalance of the rigid masses on the nodes. */
 
-/* Body-frame wrench [N s2, N m s2] of rigid_mass number i on its FULL node for unit spin about the node's axis, per square
- * of the spin: the centrifugal force of an eccentric centre of mass and the couple of its products of inertia. */
+/* Body-frame wrench [N s2, N m s2] of rigid_mass number i on its FULL node for unit spin about the node's axis, per
+ * square of the spin: the centrifugal force of an eccentric centre of mass and the couple of its products of
+ * inertia. */
 void dmb_unbalance_of(const dmb_scene *scene, uint32_t i, double wrench[6]);
 
 #endif

@@ -49,6 +49,7 @@ int32_t dmb_sim_options_take(dmb_sim_options *out, const dmb_sim_options *given,
 /* Defaults of the structs of sim.h, query.h and analysis.h, as documented there. The number is the struct's size in its
  * first release. */
 
+/* clang-format off */
 DMB_DEFINE_INIT(dmb_sim_options, 96, {
     .max_iterations = 12,
     .spectral_radius = 0.8,
@@ -135,3 +136,4 @@ DMB_DEFINE_INIT(dmb_modes_info, 48, {.count = 0})
 DMB_DEFINE_INIT(dmb_mode, 128, {.rigid = 0})
 
 DMB_DEFINE_INIT(dmb_mode_shape, 104, {.frame = DMB_FRAME_WORLD})
+/* clang-format on */

@@ -1,12 +1,11 @@
 /* The map of a sim: every field, who computes it from what, its shape and unit. The X-macro lists below drive the
  * memory layout, snapshot, restore and hash, and the test of the layout; there is no other list of fields. Each saved
  * field names the check that its bytes in a snapshot must pass (run/snapshot_check.h): a snapshot may be forged, and no
- * step may read or write out of bounds by what it says.
- * n = scene->node_count, r = row_count, s = site_count, p = path_site_count, e = element_count, d = drive_count,
- * sb, pb = s, p with the bristle law of friction, else 0; k = bit_count, load = load_count, history = history_count,
- * diagonal and link = lengths of block storage; j = joint_count, c = constraint_row_count,
- * cluster = cluster_count, column = cluster_column_count, and for a scene with joints only: raw = row_count, dense, square,
- * full = storage of the clusters, block, value, pivots = of the reduced system. */
+ * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
+ * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; k =
+ * bit_count, load = load_count, history = history_count, diagonal and link = lengths of block storage; j = joint_count,
+ * c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene with joints only:
+ * raw = row_count, dense, square, full = storage of the clusters, block, value, pivots = of the reduced system. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
@@ -16,6 +15,7 @@
 
 /* ---- Configuration: kept twice, as `now` (accepted) and `trial`; a step writes trial and swaps on acceptance.
  * X(type, name, count, check) */
+/* clang-format off */
 #define DMB_CONFIGURATION_LIST(X)                                                                                     \
     /* integrator/attempt, from the increments of pose: */                                                            \
     X(double, displacement, 3 * n, NUMBERS) /* [m] FULL: world, from reference_position; PATH: [0] along axis, rest 0 */ \
@@ -57,8 +57,10 @@
     X(uint32_t, joint_segment, j, JOINT_SEGMENTS) /* [-] segment of the axis it was found in */                       \
     /* system/constrain/cluster, from the residual: */                                                                \
     X(double, multiplier, c, NUMBERS)             /* [N, N m] residual + B^T multiplier = 0 */
+/* clang-format on */
 
 /* ---- Memory: kept once, written on acceptance only. Saved, restored and hashed like `now`. */
+/* clang-format off */
 #define DMB_MEMORY_LIST(X)                                                                                            \
     X(dmb_clock, clock, 1, CLOCK)                 /* times and step lengths, integrator */                            \
     X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/ledger */                                \
@@ -77,19 +79,23 @@
     X(uint32_t, partition_row, c, ROW_ORDER)      /* [-] rows of a cluster, pivot rows first */                       \
     X(uint32_t, partition_column, column, COLUMN_ORDER) /* [-] columns of a cluster, dependent ones first */          \
     X(double, partition_quality, cluster, NUMBERS) /* [-] of the choice when it was made */
+/* clang-format on */
 
 /* ---- Kept: factors of an iteration matrix that later steps may do with (integrator/newton). Written on acceptance
  * only; saved, restored and hashed, so that a restored sim iterates alike, but not set aside in `backup`: a step that a
  * failing call may take back leaves them alone. Empty in a scene with joints: kd, kl = diagonal, link, else 0; kn = n
  * where there are contact sites too, else 0. */
+/* clang-format off */
 #define DMB_FACTOR_LIST(X)                                                                                            \
     X(double, kept_diagonal, kd, NUMBERS)                                                                             \
     X(double, kept_lower, kl, NUMBERS)                                                                                \
     X(double, kept_upper, kl, NUMBERS)                                                                                \
     X(double, kept_quaternion, 4 * kn, NUMBERS)   /* of the nodes where they were made, system/solve/solve */         \
     X(dmb_factor_reuse, reuse, 1, REUSE)
+/* clang-format on */
 
 /* ---- Work: rewritten in every step, never saved. X(type, name, count) */
+/* clang-format off */
 #define DMB_WORK_LIST(X)                                                                                              \
     X(double, increment, r)             /* [m, rad] h Dq of this step, integrator */                                  \
     X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */ \
@@ -149,6 +155,7 @@
     X(uint32_t, sparse_row, sparse_block)                                                                             \
     X(dmb_reduced_mode, reduced_mode, 1)                                                                              \
     X(uint8_t, backup, backup)          /* the state before a call that takes more than one step, sim/layout */
+/* clang-format on */
 
 /* Factors that corrections are solved with: none, inverses of this step, those kept from an earlier one (both
  * math/block_inverse), LU factors (math/block_tridiagonal: statics). */
@@ -165,31 +172,37 @@ typedef struct dmb_reduced_mode {
     int32_t metric;      /* 1: sparse_value has factors of the rows at hand, for projections */
     int32_t weak;        /* 1: with rows that those before nearly hold */
     int32_t reserved;
-    double violation;       /* its violation */
-    double length;       /* [m] longest length of the chains that joints connect: what moves are long or short by */
-    double size;         /* [m] of the numbers that positions are the difference of, at the start */
+    double violation; /* its violation */
+    double length;    /* [m] longest length of the chains that joints connect: what moves are long or short by */
+    double size;      /* [m] of the numbers that positions are the difference of, at the start */
 } dmb_reduced_mode;
 
 typedef struct dmb_clock {
-    double time;        /* [s] */
-    double rest;        /* [s] rounding of time, for the next sum: time + rest is that of all steps (Kahan 1965) */
-    double corner;      /* [s] corners of programmes up to here lie behind, even one that is an ulp later than time */
-    double step;        /* [s] length of the last accepted step; 0 before the first */
-    double next_step;   /* [s] proposal of the step control; 0: none yet */
-    double power[8];    /* [W] of the accepted state, DMB_POWER_... */
+    double time;      /* [s] */
+    double rest;      /* [s] rounding of time, for the next sum: time + rest is that of all steps (Kahan 1965) */
+    double corner;    /* [s] corners of programmes up to here lie behind, even one that is an ulp later than time */
+    double step;      /* [s] length of the last accepted step; 0 before the first */
+    double next_step; /* [s] proposal of the step control; 0: none yet */
+    double power[8];  /* [W] of the accepted state, DMB_POWER_... */
 } dmb_clock;
 
 /* Terms of power: ledger and clock.power share the numbering. The first three are rates of energies. */
 enum {
-    DMB_POWER_INERTIA = 0, DMB_POWER_POTENTIAL = 1, /* strain, gravity, wall stiffness */
-    DMB_POWER_LOADS = 2, DMB_POWER_DRIVES = 3, DMB_POWER_FRICTION = 4, DMB_POWER_IMPACT = 5, DMB_POWER_DAMPING = 6,
-    DMB_POWER_ROCK = 7, DMB_POWER_COUNT = 8
+    DMB_POWER_INERTIA = 0,
+    DMB_POWER_POTENTIAL = 1, /* strain, gravity, wall stiffness */
+    DMB_POWER_LOADS = 2,
+    DMB_POWER_DRIVES = 3,
+    DMB_POWER_FRICTION = 4,
+    DMB_POWER_IMPACT = 5,
+    DMB_POWER_DAMPING = 6,
+    DMB_POWER_ROCK = 7,
+    DMB_POWER_COUNT = 8
 };
 
 typedef struct dmb_ledger {
-    double work[8];      /* [J] integral of each power, trapezoidal */
-    double input;        /* [J] integral of |drives| + |loads| */
-    double start;        /* [J] kinetic + potential energy at the start */
+    double work[8];       /* [J] integral of each power, trapezoidal */
+    double input;         /* [J] integral of |drives| + |loads| */
+    double start;         /* [J] kinetic + potential energy at the start */
     double gravity_start; /* [J] gravity potential of the pose at time 0 as described */
 } dmb_ledger;
 
@@ -203,11 +216,11 @@ typedef struct dmb_counters {
 } dmb_counters;
 
 typedef struct dmb_factor_reuse {
-    double step;      /* [s] length of the step they were made for; 0: there are none */
-    uint32_t pause;   /* steps to come that do not try them */
-    uint32_t back_off; /* pause after the next failure */
+    double step;          /* [s] length of the step they were made for; 0: there are none */
+    uint32_t pause;       /* steps to come that do not try them */
+    uint32_t back_off;    /* pause after the next failure */
     uint32_t corrections; /* fewest that a step with them has taken; 0: none yet */
-    uint32_t excess;  /* corrections beyond that, in all */
+    uint32_t excess;      /* corrections beyond that, in all */
 } dmb_factor_reuse;
 
 typedef struct dmb_history_head {
@@ -233,8 +246,8 @@ typedef struct dmb_progress {
 
 struct dmb_sim {
     uint32_t magic;
-    int32_t owns_memory;           /* 1: block came from `allocator` */
-    int32_t busy;                  /* DMB_BUSY_...: a call on it is under way; neither saved nor hashed */
+    int32_t owns_memory; /* 1: block came from `allocator` */
+    int32_t busy;        /* DMB_BUSY_...: a call on it is under way; neither saved nor hashed */
     int32_t reserved;
     dmb_model *model;
     const dmb_scene *scene;
@@ -243,7 +256,7 @@ struct dmb_sim {
     void *block;
     size_t block_size;
     dmb_message message;
-    dmb_progress *progress;        /* own_progress; in a copy for an analysis that of the sim */
+    dmb_progress *progress; /* own_progress; in a copy for an analysis that of the sim */
     dmb_progress own_progress;
     dmb_configuration now, trial;
     DMB_MEMORY_LIST(DMB_FIELD)
@@ -253,8 +266,9 @@ struct dmb_sim {
 #undef DMB_FIELD
 #undef DMB_WORK_FIELD
 
-/* A call that runs functions of the caller's (programmes, constraints, allocator, path) makes its sim busy, so that these
- * cannot pull it from under the call. READABLE: the accepted state is whole, it may be asked; CHANGING: it may not. */
+/* A call that runs functions of the caller's (programmes, constraints, allocator, path) makes its sim busy, so that
+ * these cannot pull it from under the call. READABLE: the accepted state is whole, it may be asked; CHANGING: it may
+ * not. */
 enum { DMB_BUSY_NOT = 0, DMB_BUSY_READABLE = 1, DMB_BUSY_CHANGING = 2 };
 
 /* 1: the call fails by the caller's will or function, nothing else is tried. */

@@ -1,6 +1,6 @@
 /* Energy ledger: work of each class of force by the trapezoidal rule over accepted steps. At every accepted instant the
- * powers of all forces sum to zero (residual times velocity), so what is missing between their integrals and the energies
- * is what the time integration took out; nothing is set by closing the balance. */
+ * powers of all forces sum to zero (residual times velocity), so what is missing between their integrals and the
+ * energies is what the time integration took out; nothing is set by closing the balance. */
 #ifndef DMB_SYSTEM_LEDGER_H
 #define DMB_SYSTEM_LEDGER_H
 

@@ -4,8 +4,8 @@
 
 #include "element/beam.h"
 #include "math/so3.h"
-#include "system/solve/solve.h"
 #include "system/assemble/wall_contact.h"
+#include "system/solve/solve.h"
 
 static int opens(const dmb_sim *sim, uint32_t s)
 {

@@ -1,7 +1,7 @@
-/* Contacts that open within a step. Their force is gone at once, while generalized-alpha would carry about half of it into
- * the step from the accelerations it keeps: a wall that is stiff for the step would throw back faster than it was met.
- * The step is therefore taken from accelerations without that force (THEORY 4: after a jump, a fresh consistent one).
- * Where the contact is resolved its last force before opening is O(h), so second order is kept. */
+/* Contacts that open within a step. Their force is gone at once, while generalized-alpha would carry about half of it
+ * into the step from the accelerations it keeps: a wall that is stiff for the step would throw back faster than it was
+ * met. The step is therefore taken from accelerations without that force (THEORY 4: after a jump, a fresh consistent
+ * one). Where the contact is resolved its last force before opening is O(h), so second order is kept. */
 #ifndef DMB_SYSTEM_RELEASE_H
 #define DMB_SYSTEM_RELEASE_H
 
@@ -13,9 +13,10 @@ int32_t dmb_contact_changes(const dmb_sim *sim);
 int32_t dmb_contact_opens(const dmb_sim *sim);
 /* No ring opens any more; after the step. */
 void dmb_release_end(dmb_sim *sim);
-/* Part that is taken out of the history: accelerations M^-1 f [m/s2, rad/s2] by the forces f that those rings have in now,
- * times the part of the step after the opening, into sim->correction; and that part, in the rows of their nodes, into
- * sim->scale_row, 0 elsewhere. Fills site_return. The other work arrays are overwritten. Errors as dmb_factor_mass. */
+/* Part that is taken out of the history: accelerations M^-1 f [m/s2, rad/s2] by the forces f that those rings have in
+ * now, times the part of the step after the opening, into sim->correction; and that part, in the rows of their nodes,
+ * into sim->scale_row, 0 elsewhere. Fills site_return. The other work arrays are overwritten. Errors as
+ * dmb_factor_mass. */
 int32_t dmb_released_acceleration(const dmb_evaluation *evaluation);
 
 #endif

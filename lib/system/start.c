@@ -4,6 +4,7 @@
 
 #include "math/so3.h"
 #include "sim/layout.h"
+#include "sim/node.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/assembly.h"
@@ -12,7 +13,6 @@
 #include "system/constrain/joint_edge.h"
 #include "system/constrain/joint_state.h"
 #include "system/ledger.h"
-#include "sim/node.h"
 #include "system/solve/solve.h"
 
 static void described_pose(dmb_sim *sim)

@@ -6,11 +6,19 @@
 #include <string.h>
 
 #include "drillmbd/drillmbd.h"
-#include "math/bridge_lapacke.h"
 #include "math/bridge_cholmod.h"
+#include "math/bridge_lapacke.h"
 
-size_t dmb_eigen_work(size_t n) { (void)n; return 1; }
-size_t dmb_eigen_general_work(size_t n) { (void)n; return 1; }
+size_t dmb_eigen_work(size_t n)
+{
+    (void)n;
+    return 1;
+}
+size_t dmb_eigen_general_work(size_t n)
+{
+    (void)n;
+    return 1;
+}
 int32_t dmb_eigen_symmetric(size_t n, double *A, double *values, double *work)
 {
     (void)n, (void)A, (void)values, (void)work;
@@ -32,7 +40,11 @@ int32_t dmb_fill_reducing_order(uint32_t n, const int32_t *start, const int32_t 
     for (uint32_t i = 0; i < n; i++) order[i] = i;
     return DMB_OK;
 }
-size_t dmb_rank_work(uint32_t rows, uint32_t columns) { (void)rows, (void)columns; return 1; }
+size_t dmb_rank_work(uint32_t rows, uint32_t columns)
+{
+    (void)rows, (void)columns;
+    return 1;
+}
 void dmb_rank_of_rows(const double *B, uint32_t rows, uint32_t columns, const double *weight, double tolerance,
                       double *work, int32_t *order, dmb_rank *out)
 {

@@ -32,8 +32,8 @@ static int32_t scene_ask(const scene *s, const dmb_sim *sim, double values[2])
     return status;
 }
 
-/* Speed of the free end of a rod driven at the other with the speed w(t): every wave that arrives doubles, and comes back
- * turned over from the driven end, 2 w(t - T) - 2 w(t - 3T) + ..., T = L sqrt(rho/G) (d'Alembert). */
+/* Speed of the free end of a rod driven at the other with the speed w(t): every wave that arrives doubles, and comes
+ * back turned over from the driven end, 2 w(t - T) - 2 w(t - 3T) + ..., T = L sqrt(rho/G) (d'Alembert). */
 static double exact_tip_speed(double length, double time)
 {
     const double shear = BENCH_YOUNG / (2.0 * (1.0 + BENCH_POISSON)), passage = length * sqrt(BENCH_DENSITY / shear);

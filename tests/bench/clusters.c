@@ -1,8 +1,8 @@
 /* What bodies that joints connect directly cost. usage: clusters CSV K
  *
- * Scene K, bars of 1 m and 1 kg on revolute joints under gravity, in steps of 1 ms: a chain that swings, a tree of which
- * each bar carries two, and four-bars side by side, with their redundant equations (five each joint) and without (the
- * last joint of each loop a point on a line). The error is the largest violation of a joint. */
+ * Scene K, bars of 1 m and 1 kg on revolute joints under gravity, in steps of 1 ms: a chain that swings, a tree of
+ * which each bar carries two, and four-bars side by side, with their redundant equations (five each joint) and without
+ * (the last joint of each loop a point on a line). The error is the largest violation of a joint. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <drillmbd/drillmbd.h>
@@ -172,15 +172,8 @@ static int32_t measure(machine *m, cost *c)
 /* plain: [U] of loops with redundant equations the cost of those without; else NaN. */
 static void report(const machine *m, const cost *c, double plain)
 {
-    const head h = {"K",
-                    m->count,
-                    CLUSTERS_STEP,
-                    c->step,
-                    c->unit,
-                    CLUSTERS_STEP / c->step,
-                    c->iterations,
-                    c->violation,
-                    "violation_of_joints"};
+    const head h = {"K",           m->count,     CLUSTERS_STEP,        c->step, c->unit, CLUSTERS_STEP / c->step,
+                    c->iterations, c->violation, "violation_of_joints"};
     result_row r;
     row_begin(&r, &h);
     row_number(&r, "spread", c->spread, 3);

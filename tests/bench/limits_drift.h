@@ -121,15 +121,15 @@ static const drifter drifters[] = {
  */
 
 typedef struct drifted {
-    double first;   /* [J] kinetic and stored, at the start */
-    double scale;   /* [J] of motion, or put in, or given by gravity */
-    double energy;  /* [-] largest change of kinetic and stored energy over the scale, where nothing is put in */
-    double last;    /* [-] change at the end */
-    double balance; /* [-] of the ledger at the end */
-    double ortho;   /* [-] largest element of R^T R - 1 */
-    double violation;  /* [m] of joints; of strings held at the rig end, of its place across */
-    double crept;   /* [m] of the far end along the hole in the second half */
-    double half;    /* [m] where it was after the first half */
+    double first;     /* [J] kinetic and stored, at the start */
+    double scale;     /* [J] of motion, or put in, or given by gravity */
+    double energy;    /* [-] largest change of kinetic and stored energy over the scale, where nothing is put in */
+    double last;      /* [-] change at the end */
+    double balance;   /* [-] of the ledger at the end */
+    double ortho;     /* [-] largest element of R^T R - 1 */
+    double violation; /* [m] of joints; of strings held at the rig end, of its place across */
+    double crept;     /* [m] of the far end along the hole in the second half */
+    double half;      /* [m] where it was after the first half */
 } drifted;
 
 static double off_orthonormal(const double R[9])
@@ -212,7 +212,8 @@ static void print_drift(const drifter *of, const limit_scene *s, const drifted *
 static int drift(FILE *csv, FILE *table, const char *only)
 {
     int failed = 0;
-    fputs("drift,dt,radius,status,steps,iterations,worst,rejected,energy,energy_end,balance,orthonormal,violation,crept\n",
+    fputs("drift,dt,radius,status,steps,iterations,worst,rejected,energy,energy_end,balance,orthonormal,violation,"
+          "crept\n",
           csv);
     fputs(
         "\n| scene | dt s | r | iterations, worst | rejected | energy, most | at the end | balance | off orthonormal | "

@@ -14,7 +14,14 @@
 
 #define LOADED_STEP 1e-3 /* [s] */
 
-enum { LOADED_REPEATS = 5, LOADED_STEPS = 200, LOADED_PIPES = 10, LOADED_FINE = 16, LOADED_MODES = 6, LOADED_CASES = 6 };
+enum {
+    LOADED_REPEATS = 5,
+    LOADED_STEPS = 200,
+    LOADED_PIPES = 10,
+    LOADED_FINE = 16,
+    LOADED_MODES = 6,
+    LOADED_CASES = 6
+};
 
 typedef struct loaded {
     const char *name;
@@ -23,8 +30,9 @@ typedef struct loaded {
 
 /* pi^2 EI/(4 L^2) is 112 N. */
 static const loaded cases[LOADED_CASES] = {
-    {"none", 0.0, 0.0, 1.0},          {"pull_60_kN", 60e3, 0.0, 1e3},         {"pull_180_kN", 180e3, 0.0, 3e3},
-    {"push_0.8_of_Euler", -90.0, 0.0, 1.0}, {"twist_1_kNm", 0.0, 1e3, 1.0}, {"pull_60_kN_twist_1_kNm", 60e3, 1e3, 1e3}};
+    {"none", 0.0, 0.0, 1.0},          {"pull_60_kN", 60e3, 0.0, 1e3},
+    {"pull_180_kN", 180e3, 0.0, 3e3}, {"push_0.8_of_Euler", -90.0, 0.0, 1.0},
+    {"twist_1_kNm", 0.0, 1e3, 1.0},   {"pull_60_kN_twist_1_kNm", 60e3, 1e3, 1e3}};
 
 typedef struct answer {
     double tip[2], frequencies[LOADED_MODES]; /* [m, Hz] */
@@ -139,15 +147,9 @@ static void report(const loaded *l, uint32_t per_pipe, const answer *a, const an
     double worst = l->torque == 0.0 ? 0.0 : (double)NAN;
     for (int i = 0; i < LOADED_MODES && l->torque == 0.0; ++i)
         worst = fmax(worst, fabs(a->frequencies[i] / fine->frequencies[i] - 1.0));
-    const head h = {"N",
-                    LOADED_PIPES * per_pipe,
-                    LOADED_STEP,
-                    a->step,
-                    a->unit,
-                    LOADED_STEP / a->step,
-                    a->iterations,
-                    off,
-                    "tip_deflection_vs_16_a_pipe"};
+    const head h = {
+        "N", LOADED_PIPES * per_pipe,      LOADED_STEP, a->step, a->unit, LOADED_STEP / a->step, a->iterations,
+        off, "tip_deflection_vs_16_a_pipe"};
     result_row r;
     row_begin(&r, &h);
     row_number(&r, "spread", a->spread, 3);

@@ -17,7 +17,7 @@ typedef struct outcome {
     double iterations; /* [-] a step, those of rejected steps included */
     double rejected;   /* [-] */
     double values[2];  /* at the horizon */
-    double balance;    /* [-] what the energy ledger leaves open at the end, over what drives, loads and gravity put in */
+    double balance; /* [-] what the energy ledger leaves open at the end, over what drives, loads and gravity put in */
 } outcome;
 
 /* What the ledger leaves open over the energy that went in. Scene B falls on its wall: what gravity gave counts too. */
@@ -80,8 +80,8 @@ static outcome measure(const scene *s, const method *how, yardstick *y)
 }
 
 /* The part of a row that every outcome has. */
-static inline void begin_outcome(result_row *r, const char *name, double elements, const method *how, const outcome *out,
-                                 double error, const char *error_kind)
+static inline void begin_outcome(result_row *r, const char *name, double elements, const method *how,
+                                 const outcome *out, double error, const char *error_kind)
 {
     const head h = {name,
                     elements,

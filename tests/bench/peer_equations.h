@@ -2,10 +2,10 @@
  *
  *     u' = R v         q' = q o omega/2         residual(u, q, v, v') = 0
  *
- * The residual and its tangents are the library's own (system/assemble/evaluation.h), so that what differs is the integrator
- * alone. Unknowns of a node: displacement u (3, world), quaternion q (4), body-frame velocity (v, omega) (6). Nodes
- * that drives and guides hold altogether move as the library prescribes; their unknowns stand still. Nodes held in part
- * are refused.
+ * The residual and its tangents are the library's own (system/assemble/evaluation.h), so that what differs is the
+ * integrator alone. Unknowns of a node: displacement u (3, world), quaternion q (4), body-frame velocity (v, omega)
+ * (6). Nodes that drives and guides hold altogether move as the library prescribes; their unknowns stand still. Nodes
+ * held in part are refused.
  *
  * The linear system of an implicit step,
  *     J = dF/dy + rate dF/dy',      rate = d y'/d y of the integrator's formula,
@@ -41,11 +41,11 @@ typedef struct equations {
     dmb_sim *sim; /* its `now` stays at the start; its trial is worked on */
     const dmb_scene *scene;
     dmb_evaluation evaluation;
-    double rate;           /* [1/s] of the factors */
-    double *factored_pose; /* y of the factors */
-    double *turning;       /* W: body-frame pose change by velocity change, shape (node, 6, 6) */
-    double *shift;         /* pose change that the kinematic rows alone ask for, shape (row) */
-    double *force;         /* shape (row) */
+    double rate;                      /* [1/s] of the factors */
+    double *factored_pose;            /* y of the factors */
+    double *turning;                  /* W: body-frame pose change by velocity change, shape (node, 6, 6) */
+    double *shift;                    /* pose change that the kinematic rows alone ask for, shape (row) */
+    double *force;                    /* shape (row) */
     double *diagonal, *lower, *upper; /* stiffness at the factors, shape (node, 6, 6) each */
     /* of the explicit form only: */
     double *mass_memory;

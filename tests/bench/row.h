@@ -1,5 +1,6 @@
 /* One result, the only place that prints one: a line
- *     scene=B elements=100 dt=1e-3 us_per_step=.. U_per_step=.. rtf=.. iterations=.. error=.. error_kind=.. name=value ...
+ *     scene=B elements=100 dt=1e-3 us_per_step=.. U_per_step=.. rtf=.. iterations=.. error=.. error_kind=.. name=value
+ *     ...
  * and the same as a row of a table of comma-separated values. Every line begins with these nine; what a program has to
  * say beyond them follows. "-" and an empty cell: not there. */
 #ifndef BENCH_ROW_H
@@ -101,7 +102,8 @@ static inline void row_put(const result_row *r, result_table *t)
 }
 
 /* A line for a result that is not there. */
-static inline void row_failed(const char *which, double elements, const char *what, const char *status, const char *message)
+static inline void row_failed(const char *which, double elements, const char *what, const char *status,
+                              const char *message)
 {
     printf("scene=%s elements=%.9g %s failed=%s\n", which, elements, what, status);
     fflush(stdout);

@@ -39,11 +39,12 @@ typedef struct scene {
     double offset;            /* [m] of C, B, T: sideways from the hole's axis, as a whole */
     dmb_model *model;
     dmb_id string, turn;
-    double bytes; /* [byte] of model and sim with default options, an element */
+    double bytes;        /* [byte] of model and sim with default options, an element */
     rig_options options; /* of R; its programmes read them */
 } scene;
 
-/* ---- C and B ------------------------------------------------------------------------------------------------------- */
+/* ---- C and B
+ * ------------------------------------------------------------------------------------------------------- */
 
 static int32_t cosine_speed(void *context, double time, double out[3])
 {
@@ -121,7 +122,8 @@ static int32_t bench_make_tube(scene *s)
     return status < 0 ? status : dmb_model_compile(s->model, &compile);
 }
 
-/* ---- R ------------------------------------------------------------------------------------------------------------- */
+/* ---- R
+ * ------------------------------------------------------------------------------------------------------------- */
 
 static int32_t bench_make_rig(scene *s)
 {
@@ -141,7 +143,8 @@ static int32_t bench_make_rig(scene *s)
     return status;
 }
 
-/* ---- All ----------------------------------------------------------------------------------------------------------- */
+/* ---- All
+ * ----------------------------------------------------------------------------------------------------------- */
 
 static int32_t scene_open(scene *s)
 {

@@ -12,12 +12,17 @@
 #include <string.h>
 #include <time.h>
 
-enum { YARDSTICK_N = 606, YARDSTICK_BAND = 11, YARDSTICK_ROWS = YARDSTICK_BAND + 1, YARDSTICK_REPEATS = 31,
-       YARDSTICK_MEASURES = 4096 };
+enum {
+    YARDSTICK_N = 606,
+    YARDSTICK_BAND = 11,
+    YARDSTICK_ROWS = YARDSTICK_BAND + 1,
+    YARDSTICK_REPEATS = 31,
+    YARDSTICK_MEASURES = 4096
+};
 
 typedef int (*factorise_fn)(int layout, char triangle, int n, int band, double *matrix, int rows);
-typedef int (*solve_fn)(int layout, char triangle, int n, int band, int count, const double *matrix, int rows, double *x,
-                        int x_rows);
+typedef int (*solve_fn)(int layout, char triangle, int n, int band, int count, const double *matrix, int rows,
+                        double *x, int x_rows);
 
 typedef struct yardstick {
     factorise_fn factorise;

@@ -1,6 +1,6 @@
-/* malloc and its kin counted, in a program that includes this once: in an allocator for model and sim, and in functions of
- * its own put in the place of the C library's. A sanitizer does the same with its own, so there the second count is left
- * out; a checker that replaces malloc at run time is noticed. */
+/* malloc and its kin counted, in a program that includes this once: in an allocator for model and sim, and in functions
+ * of its own put in the place of the C library's. A sanitizer does the same with its own, so there the second count is
+ * left out; a checker that replaces malloc at run time is noticed. */
 #ifndef DMB_TESTS_COUNTED_MALLOC_H
 #define DMB_TESTS_COUNTED_MALLOC_H
 

@@ -1,7 +1,7 @@
-/* A run behind a fence: a child process gives up all system calls but read, write and exit (seccomp, strict mode: the kernel
- * kills at any other). Left out under a sanitizer or a checker, whose own calls would be the ones that are caught: these are
- * known at build time, or by an empty child that does not come through. The program defines `outcome`, a struct of
- * numbers, and `outcome all_deeds(void)` before it includes this, and _GNU_SOURCE at its top. */
+/* A run behind a fence: a child process gives up all system calls but read, write and exit (seccomp, strict mode: the
+ * kernel kills at any other). Left out under a sanitizer or a checker, whose own calls would be the ones that are
+ * caught: these are known at build time, or by an empty child that does not come through. The program defines
+ * `outcome`, a struct of numbers, and `outcome all_deeds(void)` before it includes this, and _GNU_SOURCE at its top. */
 #ifndef DMB_TESTS_FENCE_H
 #define DMB_TESTS_FENCE_H
 

@@ -102,8 +102,8 @@ static int one_call(run *r, size_t i)
 {
     const size_t before = r->budget.calls;
     int32_t status = call(r, i);
-    const int short_of_memory = r->budget.calls >= r->budget.first && before < r->budget.last &&
-                                r->budget.calls > before;
+    const int short_of_memory =
+        r->budget.calls >= r->budget.first && before < r->budget.last && r->budget.calls > before;
     if (status != DMB_ERR_NO_MEMORY) {
         assert_true(status >= 0);
         assert_false(short_of_memory);

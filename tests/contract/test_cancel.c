@@ -2,7 +2,8 @@
  * disturbed: the status says so, nothing is changed or leaked, and made again it gives the same bits. */
 #include "sim_test.h"
 
-/* ---- Memory that is counted ------------------------------------------------------------------------------------------- */
+/* ---- Memory that is counted
+ * ------------------------------------------------------------------------------------------- */
 
 typedef struct ledger {
     long blocks;
@@ -21,7 +22,8 @@ static void give(void *context, void *block, size_t size, size_t alignment)
     free(block);
 }
 
-/* ---- Scenes --------------------------------------------------------------------------------------------------------- */
+/* ---- Scenes
+ * --------------------------------------------------------------------------------------------------------- */
 
 enum { HANGING, IN_HOLE, DRIVEN, JOINTED, SCENES };
 
@@ -112,7 +114,8 @@ static void open_scene(scene *s, int kind)
     s->allocator.release = give;
 }
 
-/* ---- Calls ---------------------------------------------------------------------------------------------------------- */
+/* ---- Calls
+ * ---------------------------------------------------------------------------------------------------------- */
 
 typedef struct answer {
     int32_t status;
@@ -276,8 +279,27 @@ static void call_check(dmb_sim *sim, answer *a)
     say(a, (double)strlen(text));
 }
 
-enum { STEP, ADVANCE, STATIC, STATIC_SLIPPING, STATIC_STEADY, PATH, BUCKLING, BUCKLING_SLIPPING, MODES, MODES_DAMPED,
-       MODES_BAND, MODES_BAND_DAMPED, MODES_ALL, MODES_ALL_DAMPED, RESPONSE, SINE, SPEEDS, CHECK, CALLS };
+enum {
+    STEP,
+    ADVANCE,
+    STATIC,
+    STATIC_SLIPPING,
+    STATIC_STEADY,
+    PATH,
+    BUCKLING,
+    BUCKLING_SLIPPING,
+    MODES,
+    MODES_DAMPED,
+    MODES_BAND,
+    MODES_BAND_DAMPED,
+    MODES_ALL,
+    MODES_ALL_DAMPED,
+    RESPONSE,
+    SINE,
+    SPEEDS,
+    CHECK,
+    CALLS
+};
 
 static answer make_call(int call, dmb_sim *sim, const scene *s)
 {
@@ -319,7 +341,8 @@ static dmb_sim *sim_for(scene *s, int call)
     return sim;
 }
 
-/* ---- The function --------------------------------------------------------------------------------------------------- */
+/* ---- The function
+ * --------------------------------------------------------------------------------------------------- */
 
 typedef struct teller {
     dmb_sim *sim;
@@ -384,8 +407,8 @@ static void cancel_at(scene *s, int call, uint32_t k, const answer *wanted, uint
     dmb_sim_destroy(&before);
 }
 
-/* Tellings of a long call at which it is ended, its first and last ones among them; all of a short one. The first argument
- * of the program, 1000000: each. */
+/* Tellings of a long call at which it is ended, its first and last ones among them; all of a short one. The first
+ * argument of the program, 1000000: each. */
 static uint32_t cancels = 5;
 
 static uint32_t check_call(scene *s, int call)
@@ -423,16 +446,17 @@ static void check_scene(int kind, const int *calls, int count)
 
 static void hanging(void **state)
 {
-    static const int calls[] = {STEP, ADVANCE, STATIC, PATH, BUCKLING, MODES, MODES_DAMPED, MODES_BAND, MODES_BAND_DAMPED,
-                                MODES_ALL, MODES_ALL_DAMPED, RESPONSE, SINE, SPEEDS, CHECK};
+    static const int calls[] = {
+        STEP,      ADVANCE,          STATIC,   PATH, BUCKLING, MODES, MODES_DAMPED, MODES_BAND, MODES_BAND_DAMPED,
+        MODES_ALL, MODES_ALL_DAMPED, RESPONSE, SINE, SPEEDS,   CHECK};
     (void)state;
     check_scene(HANGING, calls, sizeof calls / sizeof *calls);
 }
 
 static void in_a_hole(void **state)
 {
-    static const int calls[] = {STEP, ADVANCE, STATIC, STATIC_SLIPPING, PATH, BUCKLING, BUCKLING_SLIPPING, MODES, RESPONSE,
-                                SINE};
+    static const int calls[] = {STEP,     ADVANCE,           STATIC, STATIC_SLIPPING, PATH,
+                                BUCKLING, BUCKLING_SLIPPING, MODES,  RESPONSE,        SINE};
     (void)state;
     check_scene(IN_HOLE, calls, sizeof calls / sizeof *calls);
 }
@@ -446,7 +470,8 @@ static void with_drives(void **state)
 
 static void with_joints(void **state)
 {
-    static const int calls[] = {STEP, ADVANCE, STATIC, PATH, BUCKLING, MODES, MODES_ALL_DAMPED, RESPONSE, SPEEDS, CHECK};
+    static const int calls[] = {STEP,  ADVANCE,          STATIC,   PATH,   BUCKLING,
+                                MODES, MODES_ALL_DAMPED, RESPONSE, SPEEDS, CHECK};
     (void)state;
     check_scene(JOINTED, calls, sizeof calls / sizeof *calls);
 }
@@ -462,7 +487,8 @@ static void handles(void **state)
 int main(int argc, char **argv)
 {
     if (argc > 1) cancels = (uint32_t)strtoul(argv[1], NULL, 10);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(hanging), cmocka_unit_test(in_a_hole), cmocka_unit_test(with_drives),
-                                       cmocka_unit_test(with_joints), cmocka_unit_test(handles)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(hanging), cmocka_unit_test(in_a_hole),
+                                       cmocka_unit_test(with_drives), cmocka_unit_test(with_joints),
+                                       cmocka_unit_test(handles)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

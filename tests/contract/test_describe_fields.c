@@ -295,35 +295,24 @@ static int32_t add_load(dmb_model *model, const any_def *def)
     return dmb_model_add_load(model, &def->load, NULL);
 }
 
-#define PLACE_FIELDS(T, place)                                                                              \
-    F(T, place.part.index, COUNT, 1), F(T, place.part.generation, COUNT, 1), F(T, place.pipe, COUNT, 1),    \
+#define PLACE_FIELDS(T, place)                                                                           \
+    F(T, place.part.index, COUNT, 1), F(T, place.part.generation, COUNT, 1), F(T, place.pipe, COUNT, 1), \
         F(T, place.reserved, COUNT, 1), F(T, place.fraction, REAL, 1)
 
-static const field joint_fields[] = {F(dmb_joint_def, kind, WHOLE, 1),
-                                     PLACE_FIELDS(dmb_joint_def, place_a),
-                                     PLACE_FIELDS(dmb_joint_def, place_b),
-                                     F(dmb_joint_def, origin_a, REAL, 3),
-                                     F(dmb_joint_def, axis_a, REAL, 3),
-                                     F(dmb_joint_def, normal_a, REAL, 3),
-                                     F(dmb_joint_def, origin_b, REAL, 3),
-                                     F(dmb_joint_def, axis_b, REAL, 3),
-                                     F(dmb_joint_def, normal_b, REAL, 3),
-                                     F(dmb_joint_def, match, WHOLE, 1),
-                                     F(dmb_joint_def, state, WHOLE, 1),
-                                     F(dmb_joint_def, length, REAL, 1),
-                                     F(dmb_joint_def, stiffness, REAL, 6),
-                                     F(dmb_joint_def, damping, REAL, 6),
-                                     F(dmb_joint_def, rest, REAL, 6),
-                                     F(dmb_joint_def, friction, REAL, 6),
-                                     F(dmb_joint_def, friction_speed, REAL, 1),
-                                     F(dmb_joint_def, stop_low, REAL, 6),
-                                     F(dmb_joint_def, stop_high, REAL, 6),
-                                     F(dmb_joint_def, stop_stiffness, REAL, 1),
-                                     F(dmb_joint_def, stop_damping, REAL, 1),
-                                     F(dmb_joint_def, initial_mask, WHOLE, 1),
-                                     F(dmb_joint_def, reserved, WHOLE, 1),
-                                     F(dmb_joint_def, initial_position, REAL, 6),
-                                     F(dmb_joint_def, initial_speed, REAL, 6)};
+static const field joint_fields[] = {
+    F(dmb_joint_def, kind, WHOLE, 1),          PLACE_FIELDS(dmb_joint_def, place_a),
+    PLACE_FIELDS(dmb_joint_def, place_b),      F(dmb_joint_def, origin_a, REAL, 3),
+    F(dmb_joint_def, axis_a, REAL, 3),         F(dmb_joint_def, normal_a, REAL, 3),
+    F(dmb_joint_def, origin_b, REAL, 3),       F(dmb_joint_def, axis_b, REAL, 3),
+    F(dmb_joint_def, normal_b, REAL, 3),       F(dmb_joint_def, match, WHOLE, 1),
+    F(dmb_joint_def, state, WHOLE, 1),         F(dmb_joint_def, length, REAL, 1),
+    F(dmb_joint_def, stiffness, REAL, 6),      F(dmb_joint_def, damping, REAL, 6),
+    F(dmb_joint_def, rest, REAL, 6),           F(dmb_joint_def, friction, REAL, 6),
+    F(dmb_joint_def, friction_speed, REAL, 1), F(dmb_joint_def, stop_low, REAL, 6),
+    F(dmb_joint_def, stop_high, REAL, 6),      F(dmb_joint_def, stop_stiffness, REAL, 1),
+    F(dmb_joint_def, stop_damping, REAL, 1),   F(dmb_joint_def, initial_mask, WHOLE, 1),
+    F(dmb_joint_def, reserved, WHOLE, 1),      F(dmb_joint_def, initial_position, REAL, 6),
+    F(dmb_joint_def, initial_speed, REAL, 6)};
 static void fill_joint(const scene_under_test *s, any_def *def)
 {
     def->joint = dmb_joint_def_default();
@@ -346,11 +335,13 @@ static int32_t add_joint(dmb_model *model, const any_def *def)
     return dmb_model_add_joint(model, &def->joint, NULL);
 }
 
-static const field coupling_fields[] = {
-    F(dmb_coupling_def, reserved, WHOLE, 1),         F(dmb_coupling_def, joint[0].index, COUNT, 1),
-    F(dmb_coupling_def, joint[0].generation, COUNT, 1), F(dmb_coupling_def, joint[1].index, COUNT, 1),
-    F(dmb_coupling_def, joint[1].generation, COUNT, 1), F(dmb_coupling_def, component, WHOLE, 2),
-    F(dmb_coupling_def, ratio, REAL, 1)};
+static const field coupling_fields[] = {F(dmb_coupling_def, reserved, WHOLE, 1),
+                                        F(dmb_coupling_def, joint[0].index, COUNT, 1),
+                                        F(dmb_coupling_def, joint[0].generation, COUNT, 1),
+                                        F(dmb_coupling_def, joint[1].index, COUNT, 1),
+                                        F(dmb_coupling_def, joint[1].generation, COUNT, 1),
+                                        F(dmb_coupling_def, component, WHOLE, 2),
+                                        F(dmb_coupling_def, ratio, REAL, 1)};
 static void fill_coupling(const scene_under_test *s, any_def *def)
 {
     any_def joint;
@@ -373,13 +364,11 @@ static int32_t any_constraint(void *context, double time, uint32_t count, const 
     (void)context, (void)time, (void)count, (void)poses, (void)value, (void)jacobian;
     return 0;
 }
-static const field constraint_fields[] = {F(dmb_constraint_def, kind, WHOLE, 1),
-                                          F(dmb_constraint_def, rows, COUNT, 1),
-                                          F(dmb_constraint_def, count, COUNT, 1),
-                                          PLACE_FIELDS(dmb_constraint_def, place[0]),
-                                          PLACE_FIELDS(dmb_constraint_def, place[1]),
-                                          F(dmb_constraint_def, provides, WHOLE, 1),
-                                          F(dmb_constraint_def, reserved, WHOLE, 1)};
+static const field constraint_fields[] = {
+    F(dmb_constraint_def, kind, WHOLE, 1),      F(dmb_constraint_def, rows, COUNT, 1),
+    F(dmb_constraint_def, count, COUNT, 1),     PLACE_FIELDS(dmb_constraint_def, place[0]),
+    PLACE_FIELDS(dmb_constraint_def, place[1]), F(dmb_constraint_def, provides, WHOLE, 1),
+    F(dmb_constraint_def, reserved, WHOLE, 1)};
 static void fill_constraint(const scene_under_test *s, any_def *def)
 {
     def->constraint = dmb_constraint_def_default();

@@ -1,6 +1,6 @@
-/* The writers of files: every call of the system that they make fails once, and the space runs out at every few bytes; the
- * status is DMB_ERR_IO, the old file is as it was, and nothing else is left in the folder. What is not a number is written
- * so that ParaView reads it. The table of a response reads back as dmb_response_transfer answers. */
+/* The writers of files: every call of the system that they make fails once, and the space runs out at every few bytes;
+ * the status is DMB_ERR_IO, the old file is as it was, and nothing else is left in the folder. What is not a number is
+ * written so that ParaView reads it. The table of a response reads back as dmb_response_transfer answers. */
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <dlfcn.h>
@@ -9,10 +9,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "sim_test.h"
 #include "sim/sim.h"
+#include "sim_test.h"
 
-/* ---- Calls that fail: these stand before those of the C library ------------------------------------------------------ */
+/* ---- Calls that fail: these stand before those of the C library
+ * ------------------------------------------------------ */
 
 static int fails_at = -1, made; /* number of the call that fails; calls so far */
 
@@ -51,7 +52,8 @@ int fclose(FILE *file)
     return refused ? EOF : status;
 }
 
-/* ---- A scene and its four writers ------------------------------------------------------------------------------------ */
+/* ---- A scene and its four writers
+ * ------------------------------------------------------------------------------------ */
 
 typedef struct scene {
     rig r;
@@ -111,7 +113,8 @@ static void open_scene(scene *s)
     options.contact = DMB_CONTACT_OPEN;
     options.equilibrium_tolerance = 1.0;
     if (dmb_analysis_modes(s->sim, &options, &s->modes) < 0) fail_msg("%s", dmb_sim_message(s->sim));
-    (void)snprintf(s->folder, sizeof s->folder, "%.40s/dmb_XXXXXX", getenv("TMPDIR") != NULL ? getenv("TMPDIR") : "/tmp");
+    (void)snprintf(s->folder, sizeof s->folder, "%.40s/dmb_XXXXXX",
+                   getenv("TMPDIR") != NULL ? getenv("TMPDIR") : "/tmp");
     assert_non_null(mkdtemp(s->folder));
     (void)snprintf(s->path, sizeof s->path, "%s/file", s->folder);
 }
@@ -139,7 +142,8 @@ static int32_t write_to(int writer, scene *s, const char *path)
     }
 }
 
-/* ---- The folder ------------------------------------------------------------------------------------------------------ */
+/* ---- The folder
+ * ------------------------------------------------------------------------------------------------------ */
 
 static const char old[] = "what was there before\n";
 
@@ -165,7 +169,8 @@ static int files_in(const char *folder)
     DIR *dir = opendir(folder);
     int count = 0;
     assert_non_null(dir);
-    for (const struct dirent *entry = readdir(dir); entry != NULL; entry = readdir(dir)) count += entry->d_name[0] != '.';
+    for (const struct dirent *entry = readdir(dir); entry != NULL; entry = readdir(dir))
+        count += entry->d_name[0] != '.';
     (void)closedir(dir);
     return count;
 }
@@ -179,7 +184,8 @@ static void check_untouched(scene *s, int with_old)
     assert_int_equal(files_in(s->folder), with_old);
 }
 
-/* ---- Tests ----------------------------------------------------------------------------------------------------------- */
+/* ---- Tests
+ * ----------------------------------------------------------------------------------------------------------- */
 
 static void every_call_fails_once(void **state)
 {
@@ -277,7 +283,8 @@ static void places_of_all_kinds(void **state)
     close_scene(&s);
 }
 
-/* ---- Places where nothing can be written ----------------------------------------------------------------------------- */
+/* ---- Places where nothing can be written
+ * ----------------------------------------------------------------------------- */
 
 /* Runs with the rights of nobody where it has those of root, whom a read-only folder does not stop. */
 static int give_up_rights(void)
@@ -290,7 +297,8 @@ static void take_rights_back(int given_up)
     if (given_up) assert_int_equal(seteuid(0), 0);
 }
 
-/* In a folder in which no file may be made, a writable file that is there stays whole too: its place cannot be taken. */
+/* In a folder in which no file may be made, a writable file that is there stays whole too: its place cannot be
+ * taken. */
 static void read_only_folders(void **state)
 {
     (void)state;
@@ -314,7 +322,8 @@ static void read_only_folders(void **state)
     close_scene(&s);
 }
 
-/* Below what is a file, in folders of the kernel's, where a folder has its name, behind a link to nowhere or to itself. */
+/* Below what is a file, in folders of the kernel's, where a folder has its name, behind a link to nowhere or to
+ * itself. */
 static void places_that_are_none(void **state)
 {
     (void)state;
@@ -366,7 +375,8 @@ static void long_names(void **state)
     close_scene(&s);
 }
 
-/* ---- What is not a number -------------------------------------------------------------------------------------------- */
+/* ---- What is not a number
+ * -------------------------------------------------------------------------------------------- */
 
 static uint32_t digit_of(char c)
 {
@@ -381,7 +391,8 @@ static size_t decode(const char *from, unsigned char *to)
     for (; digit_of(from[0]) < 64; from += 4) {
         uint32_t bytes = 0;
         for (int i = 0; i < 4; i++) bytes = bytes << 6 | (digit_of(from[i]) & 63) * (digit_of(from[i]) < 64);
-        for (int i = 0; i < 3 && (i == 0 || from[i + 1] != '='); i++) to[count++] = (unsigned char)(bytes >> (16 - 8 * i));
+        for (int i = 0; i < 3 && (i == 0 || from[i + 1] != '='); i++)
+            to[count++] = (unsigned char)(bytes >> (16 - 8 * i));
     }
     return count;
 }
@@ -413,7 +424,8 @@ static void what_is_no_number(void **state)
         dmb_motion motion = dmb_motion_default();
         must(dmb_query_motion(s.sim, dmb_station(s.r.string, i < 3 ? (uint32_t)i : 2, i < 3 ? 0.0 : 1.0), &motion));
         for (int k = 0; k < 3; k++)
-            assert_true(isnan(motion.velocity[k]) ? isnan(velocity[3 * i + k]) : motion.velocity[k] == velocity[3 * i + k]);
+            assert_true(isnan(motion.velocity[k]) ? isnan(velocity[3 * i + k])
+                                                  : motion.velocity[k] == velocity[3 * i + k]);
     }
     assert_non_null(strstr(text, "Name=\"displacement\" NumberOfComponents=\"3\" format=\"ascii\""));
     s.table[4] = (double)NAN;
@@ -423,7 +435,8 @@ static void what_is_no_number(void **state)
     close_scene(&s);
 }
 
-/* ---- The table of a response ----------------------------------------------------------------------------------------- */
+/* ---- The table of a response
+ * ----------------------------------------------------------------------------------------- */
 
 static void response_reads_back(void **state)
 {
@@ -470,8 +483,7 @@ int main(void)
         cmocka_unit_test(every_call_fails_once), cmocka_unit_test(space_runs_out),
         cmocka_unit_test(places_of_all_kinds),   cmocka_unit_test(read_only_folders),
         cmocka_unit_test(places_that_are_none),  cmocka_unit_test(long_names),
-        cmocka_unit_test(what_is_no_number),
-        cmocka_unit_test(response_reads_back),
+        cmocka_unit_test(what_is_no_number),     cmocka_unit_test(response_reads_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

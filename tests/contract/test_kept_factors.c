@@ -1,5 +1,5 @@
-/* Factors kept from step to step: they are part of the state that a snapshot saves and a hash tells, a failing call leaves
- * them alone, and what does not go on from the steps that made them forgets them. */
+/* Factors kept from step to step: they are part of the state that a snapshot saves and a hash tells, a failing call
+ * leaves them alone, and what does not go on from the steps that made them forgets them. */
 #include "rig.h"
 
 #include "sim/sim.h"
@@ -143,8 +143,9 @@ static void lengths_of_steps(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(snapshots_hold_them), cmocka_unit_test(failing_calls_leave_them),
-        cmocka_unit_test(statics_forget_them), cmocka_unit_test(short_of_iterations), cmocka_unit_test(lengths_of_steps)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(snapshots_hold_them),
+                                       cmocka_unit_test(failing_calls_leave_them),
+                                       cmocka_unit_test(statics_forget_them), cmocka_unit_test(short_of_iterations),
+                                       cmocka_unit_test(lengths_of_steps)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -159,23 +159,41 @@ static int32_t write_vtk_strings(dmb_sim *sim, int missing)
 static const struct {
     const char *name;
     sim_call call;
-} sim_calls[] = {
-    {"step", sim_step}, {"advance", sim_advance}, {"set_drive", sim_set_drive}, {"set_joint", sim_set_joint},
-    {"transfer_state", sim_transfer_state}, {"static", sim_static},
-    {"snapshot_size", sim_snapshot_size}, {"snapshot", sim_snapshot}, {"restore", sim_restore}, {"hash", sim_hash},
-    {"pose", query_pose}, {"motion", query_motion}, {"rotation", query_rotation}, {"section", query_section},
-    {"contact", query_contact}, {"contact_total", query_contact_total}, {"kinetic_energy", query_kinetic_energy},
-    {"energy", query_energy}, {"momentum", query_momentum}, {"drive", query_drive}, {"reaction", query_reaction},
-    {"joint", query_joint}, {"multipliers", query_multipliers}, {"multiplier count", query_multiplier_count},
-    {"bit", query_bit}, {"statistics", query_statistics}, {"recorder_take", recorder_take},
-    {"write_vtk_strings", write_vtk_strings}};
+} sim_calls[] = {{"step", sim_step},
+                 {"advance", sim_advance},
+                 {"set_drive", sim_set_drive},
+                 {"set_joint", sim_set_joint},
+                 {"transfer_state", sim_transfer_state},
+                 {"static", sim_static},
+                 {"snapshot_size", sim_snapshot_size},
+                 {"snapshot", sim_snapshot},
+                 {"restore", sim_restore},
+                 {"hash", sim_hash},
+                 {"pose", query_pose},
+                 {"motion", query_motion},
+                 {"rotation", query_rotation},
+                 {"section", query_section},
+                 {"contact", query_contact},
+                 {"contact_total", query_contact_total},
+                 {"kinetic_energy", query_kinetic_energy},
+                 {"energy", query_energy},
+                 {"momentum", query_momentum},
+                 {"drive", query_drive},
+                 {"reaction", query_reaction},
+                 {"joint", query_joint},
+                 {"multipliers", query_multipliers},
+                 {"multiplier count", query_multiplier_count},
+                 {"bit", query_bit},
+                 {"statistics", query_statistics},
+                 {"recorder_take", recorder_take},
+                 {"write_vtk_strings", write_vtk_strings}};
 enum { SIM_CALLS = sizeof sim_calls / sizeof sim_calls[0] };
 
-#define ADD(name, type)                                                                      \
-    static int32_t add_##name(dmb_model *model, int missing)                                 \
-    {                                                                                        \
-        const dmb_##type def = dmb_##type##_default();                                       \
-        return dmb_model_add_##name(model, GIVEN(&def), NULL);                               \
+#define ADD(name, type)                                        \
+    static int32_t add_##name(dmb_model *model, int missing)   \
+    {                                                          \
+        const dmb_##type def = dmb_##type##_default();         \
+        return dmb_model_add_##name(model, GIVEN(&def), NULL); \
     }
 ADD(wall, wall_def)
 ADD(string, string_def)
@@ -240,14 +258,24 @@ static const struct {
     const char *name;
     model_call call;
     int describes; /* refused with DMB_ERR_ORDER once the model is compiled */
-} model_calls[] = {
-    {"set_environment", set_environment, 1}, {"add_programme", add_programme, 1}, {"add_wall", add_wall, 1},
-    {"add_string", add_string, 1}, {"add_pipes", add_pipes, 1}, {"add_body", add_body, 1}, {"add_bit", add_bit, 1},
-    {"add_drive", add_drive, 1}, {"add_load", add_load, 1}, {"add_joint", add_joint, 1},
-    {"add_coupling", add_coupling, 1}, {"add_constraint", add_constraint, 1}, {"compile", compile, 1},
-    {"get_info", get_info, 0},
-    {"memory_size", memory_size, 0}, {"create", create_sim, 0}, {"create_in", create_sim_in, 0},
-    {"write_vtk_hole", write_vtk_hole, 0}};
+} model_calls[] = {{"set_environment", set_environment, 1},
+                   {"add_programme", add_programme, 1},
+                   {"add_wall", add_wall, 1},
+                   {"add_string", add_string, 1},
+                   {"add_pipes", add_pipes, 1},
+                   {"add_body", add_body, 1},
+                   {"add_bit", add_bit, 1},
+                   {"add_drive", add_drive, 1},
+                   {"add_load", add_load, 1},
+                   {"add_joint", add_joint, 1},
+                   {"add_coupling", add_coupling, 1},
+                   {"add_constraint", add_constraint, 1},
+                   {"compile", compile, 1},
+                   {"get_info", get_info, 0},
+                   {"memory_size", memory_size, 0},
+                   {"create", create_sim, 0},
+                   {"create_in", create_sim_in, 0},
+                   {"write_vtk_hole", write_vtk_hole, 0}};
 enum { MODEL_CALLS = sizeof model_calls / sizeof model_calls[0] };
 
 /* ---- Fixture ----------------------------------------------------------------------------------------------------- */
@@ -437,8 +465,8 @@ static void every_status_has_a_name(void **state)
 {
     static const int32_t unknown[] = {100, 1000, -100, -999, -1000, INT32_MAX, INT32_MIN};
     (void)state;
-#define CHECK_NAME(name, value, text)                      \
-    assert_string_equal(dmb_status_name(value), #name);    \
+#define CHECK_NAME(name, value, text)                   \
+    assert_string_equal(dmb_status_name(value), #name); \
     assert_string_equal(dmb_status_text(value), text);
     DMB_STATUS_LIST(CHECK_NAME)
 #undef CHECK_NAME
@@ -453,10 +481,17 @@ static void every_status_has_a_name(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(null_is_refused), TEST(other_kind_is_refused), TEST(any_memory_is_refused),
-        TEST(destroyed_sim_is_refused), TEST(missing_pointer_is_refused), TEST(missing_pointer_is_refused_by_models),
-        TEST(compiled_model_is_frozen), TEST(model_that_is_not_compiled_makes_no_sim),
-        TEST(destroying_nothing_does_nothing), TEST(create_needs_somewhere_to_put_it), TEST(every_status_has_a_name),
+        TEST(null_is_refused),
+        TEST(other_kind_is_refused),
+        TEST(any_memory_is_refused),
+        TEST(destroyed_sim_is_refused),
+        TEST(missing_pointer_is_refused),
+        TEST(missing_pointer_is_refused_by_models),
+        TEST(compiled_model_is_frozen),
+        TEST(model_that_is_not_compiled_makes_no_sim),
+        TEST(destroying_nothing_does_nothing),
+        TEST(create_needs_somewhere_to_put_it),
+        TEST(every_status_has_a_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,32 +23,34 @@ typedef union any_struct {
 
 typedef struct entry {
     const char *name;
-    size_t size;                                  /* [byte] in this header */
-    size_t oldest;                                /* [byte] in the first header that had it */
+    size_t size;   /* [byte] in this header */
+    size_t oldest; /* [byte] in the first header that had it */
     int32_t (*init)(any_struct *out, uint32_t size);
-    int32_t (*call)(void *given);                 /* all else in order */
-    int output;                                   /* the struct is an answer and nothing else */
+    int32_t (*call)(void *given); /* all else in order */
+    int output;                   /* the struct is an answer and nothing else */
 } entry;
 
-#define INIT(T)                                                              \
-    static int32_t init_##T(any_struct *out, uint32_t size)                  \
-    {                                                                        \
-        return dmb_##T##_init((dmb_##T *)(void *)out, size);                 \
+#define INIT(T)                                              \
+    static int32_t init_##T(any_struct *out, uint32_t size)  \
+    {                                                        \
+        return dmb_##T##_init((dmb_##T *)(void *)out, size); \
     }
-#define CALL(name, expression)             \
-    static int32_t call_##name(void *p)    \
-    {                                      \
-        return expression;                 \
+#define CALL(name, expression)          \
+    static int32_t call_##name(void *p) \
+    {                                   \
+        return expression;              \
     }
 
+/* clang-format off */
 INIT(model_options) INIT(environment_def) INIT(term) INIT(wall_def) INIT(string_def) INIT(pipe_def) INIT(body_def)
 INIT(bit_def) INIT(drive_def) INIT(load_def) INIT(compile_options) INIT(model_info) INIT(sim_options)
 INIT(step_report) INIT(static_options) INIT(static_report) INIT(buckling_options) INIT(path_options) INIT(path_report)
 INIT(pose) INIT(motion) INIT(section) INIT(contact)
 INIT(contact_total) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state) INIT(statistics) INIT(recorder)
 INIT(allocator) INIT(joint_state) INIT(joint_def) INIT(coupling_def) INIT(constraint_def)
+    /* clang-format on */
 
-static int32_t call_model_options(void *p)
+    static int32_t call_model_options(void *p)
 {
     dmb_model *model = scene.model;
     const int32_t status = dmb_model_create(p, &model);
@@ -257,17 +259,51 @@ static int32_t call_recorder(void *p)
     return status;
 }
 
-#define ENTRY(T, output) {#T, sizeof(dmb_##T), sizeof(dmb_##T), init_##T, call_##T, output}
-#define GROWN(T, oldest, output) {#T, sizeof(dmb_##T), oldest, init_##T, call_##T, output}
+#define ENTRY(T, output)                                                 \
+    {                                                                    \
+#T, sizeof(dmb_##T), sizeof(dmb_##T), init_##T, call_##T, output \
+    }
+#define GROWN(T, oldest, output)                                \
+    {                                                           \
+#T, sizeof(dmb_##T), oldest, init_##T, call_##T, output \
+    }
 
 static const entry entries[] = {
-    ENTRY(allocator, 0), ENTRY(model_options, 0), ENTRY(environment_def, 0), ENTRY(term, 0), ENTRY(wall_def, 0),
-    ENTRY(string_def, 0), ENTRY(pipe_def, 0), GROWN(body_def, 216, 0), ENTRY(bit_def, 0), GROWN(drive_def, 72, 0),
-    GROWN(load_def, 88, 0), ENTRY(compile_options, 0), GROWN(sim_options, 96, 0), GROWN(static_options, 40, 0),
-    GROWN(model_info, 72, 1), ENTRY(step_report, 1), GROWN(static_report, 40, 1), ENTRY(buckling_options, 0), ENTRY(path_options, 0), ENTRY(path_report, 1), ENTRY(pose, 1),
-    ENTRY(motion, 1), ENTRY(section, 1), ENTRY(contact, 1), ENTRY(contact_total, 1), ENTRY(energy, 1), ENTRY(momentum, 1),
-    ENTRY(drive_state, 1), ENTRY(bit_state, 1), GROWN(statistics, 72, 1), ENTRY(recorder, 0),
-    ENTRY(joint_state, 1), ENTRY(joint_def, 0), ENTRY(coupling_def, 0), ENTRY(constraint_def, 0),
+    ENTRY(allocator, 0),
+    ENTRY(model_options, 0),
+    ENTRY(environment_def, 0),
+    ENTRY(term, 0),
+    ENTRY(wall_def, 0),
+    ENTRY(string_def, 0),
+    ENTRY(pipe_def, 0),
+    GROWN(body_def, 216, 0),
+    ENTRY(bit_def, 0),
+    GROWN(drive_def, 72, 0),
+    GROWN(load_def, 88, 0),
+    ENTRY(compile_options, 0),
+    GROWN(sim_options, 96, 0),
+    GROWN(static_options, 40, 0),
+    GROWN(model_info, 72, 1),
+    ENTRY(step_report, 1),
+    GROWN(static_report, 40, 1),
+    ENTRY(buckling_options, 0),
+    ENTRY(path_options, 0),
+    ENTRY(path_report, 1),
+    ENTRY(pose, 1),
+    ENTRY(motion, 1),
+    ENTRY(section, 1),
+    ENTRY(contact, 1),
+    ENTRY(contact_total, 1),
+    ENTRY(energy, 1),
+    ENTRY(momentum, 1),
+    ENTRY(drive_state, 1),
+    ENTRY(bit_state, 1),
+    GROWN(statistics, 72, 1),
+    ENTRY(recorder, 0),
+    ENTRY(joint_state, 1),
+    ENTRY(joint_def, 0),
+    ENTRY(coupling_def, 0),
+    ENTRY(constraint_def, 0),
     {"advance's report", sizeof(dmb_step_report), sizeof(dmb_step_report), init_step_report, call_advance_report, 1},
 };
 enum { ENTRIES = sizeof entries / sizeof entries[0] };
@@ -341,8 +377,9 @@ static void wrong_size_is_refused(void **state)
     for (size_t i = 0; i < ENTRIES; i++) {
         const uint32_t known = (uint32_t)entries[i].size;
         const uint32_t oldest = (uint32_t)entries[i].oldest;
-        const uint32_t wrong[] = {0, 1, 4, 8, oldest - 8, known - 1, known + 1, known + 4, known + 1032, 0x7FFFFFF8u,
-                                  0xFFFFFFF8u, UINT32_MAX};
+        const uint32_t wrong[] = {
+            0,           1,           4,         8, oldest - 8, known - 1, known + 1, known + 4, known + 1032,
+            0x7FFFFFF8u, 0xFFFFFFF8u, UINT32_MAX};
         for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
             any_struct s = filled(&entries[i]);
             if (wrong[k] == known) continue;
@@ -462,10 +499,16 @@ static void terms_of_different_size_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(size_as_in_this_header_is_taken), TEST(wrong_size_is_refused), TEST(zeros_are_refused),
-        TEST(memory_of_ones_is_refused), TEST(longer_struct_is_taken), TEST(older_struct_is_taken),
+        TEST(size_as_in_this_header_is_taken),
+        TEST(wrong_size_is_refused),
+        TEST(zeros_are_refused),
+        TEST(memory_of_ones_is_refused),
+        TEST(longer_struct_is_taken),
+        TEST(older_struct_is_taken),
         TEST(longer_struct_with_content_is_refused),
-        TEST(init_refuses_wrong_sizes), TEST(init_stays_within_its_size), TEST(terms_of_different_size_are_refused),
+        TEST(init_refuses_wrong_sizes),
+        TEST(init_stays_within_its_size),
+        TEST(terms_of_different_size_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -45,7 +45,7 @@ enum { STRING, BODY, BIT, DRIVE, PROGRAMME, WALL, JOINT, COUPLING, CONSTRAINT, K
 
 static dmb_id id_of(const whole_parts *parts, int kind)
 {
-    const dmb_id ids[KINDS] = {parts->string, parts->body, parts->bit, parts->feed,  parts->step,
+    const dmb_id ids[KINDS] = {parts->string, parts->body, parts->bit,  parts->feed, parts->step,
                                parts->wall,   parts->axle, parts->gear, parts->watch};
     return ids[kind];
 }
@@ -143,17 +143,17 @@ static int32_t record_normal_force(dmb_id id)
 
 /*                                            string body bit drive programme wall joint coupling constraint */
 static const question questions[] = {
-    {"pose", ask_pose,                           {1, 1, 1, 0, 0, 0}},
-    {"motion", ask_motion,                       {1, 1, 1, 0, 0, 0}},
-    {"rotation", ask_rotation,                   {1, 1, 1, 0, 0, 0}},
-    {"kinetic_energy", ask_kinetic_energy,       {1, 1, 1, 0, 0, 0}},
-    {"drive", ask_drive,                         {0, 0, 0, 1, 0, 0}},
-    {"bit", ask_bit,                             {0, 0, 1, 0, 0, 0}},
-    {"joint", ask_joint,                         {0, 0, 0, 0, 0, 0, 1}},
-    {"multipliers", ask_multipliers,             {0, 0, 0, 0, 0, 0, 1, 1, 1}}, /* of motion drives on joints too */
-    {"record position", record_position,         {1, 1, 1, 0, 0, 0}},
-    {"record drive", record_drive,               {0, 0, 0, 1, 0, 0}},
-    {"record bit", record_bit,                   {0, 0, 1, 0, 0, 0}},
+    {"pose", ask_pose, {1, 1, 1, 0, 0, 0}},
+    {"motion", ask_motion, {1, 1, 1, 0, 0, 0}},
+    {"rotation", ask_rotation, {1, 1, 1, 0, 0, 0}},
+    {"kinetic_energy", ask_kinetic_energy, {1, 1, 1, 0, 0, 0}},
+    {"drive", ask_drive, {0, 0, 0, 1, 0, 0}},
+    {"bit", ask_bit, {0, 0, 1, 0, 0, 0}},
+    {"joint", ask_joint, {0, 0, 0, 0, 0, 0, 1}},
+    {"multipliers", ask_multipliers, {0, 0, 0, 0, 0, 0, 1, 1, 1}}, /* of motion drives on joints too */
+    {"record position", record_position, {1, 1, 1, 0, 0, 0}},
+    {"record drive", record_drive, {0, 0, 0, 1, 0, 0}},
+    {"record bit", record_bit, {0, 0, 1, 0, 0, 0}},
     {"record normal force", record_normal_force, {1, 1, 1, 0, 0, 0}},
 };
 enum { QUESTIONS = sizeof questions / sizeof questions[0] };
@@ -617,12 +617,12 @@ static void recorders_that_are_none_are_refused(void **state)
     (void)state;
     whole_answers_init(&a, &scene.parts);
     good = a.recorder;
-#define BAD(field, value, wanted)                                              \
-    do {                                                                       \
-        a.recorder = good;                                                     \
-        a.recorder.field = (value);                                            \
-        refused(#field, dmb_recorder_take(&a.recorder, scene.sim), wanted);    \
-        assert_true(dmb_recorder_write_csv(&a.recorder, "/dev/null") < 0);     \
+#define BAD(field, value, wanted)                                           \
+    do {                                                                    \
+        a.recorder = good;                                                  \
+        a.recorder.field = (value);                                         \
+        refused(#field, dmb_recorder_take(&a.recorder, scene.sim), wanted); \
+        assert_true(dmb_recorder_write_csv(&a.recorder, "/dev/null") < 0);  \
     } while (0)
     BAD(channel_count, 0, DMB_ERR_VALUE);
     BAD(channel_count, 4097, DMB_ERR_VALUE);
@@ -678,17 +678,29 @@ static void writers_refuse_nonsense(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(wrong_kind_of_id_is_refused), TEST(sections_and_reactions_refuse_other_ids),
-        TEST(id_of_another_model_is_refused), TEST(made_up_ids_are_refused), TEST(definitions_refuse_strange_ids),
-        TEST(places_off_the_string_are_refused), TEST(other_numbers_of_questions_are_checked),
-        TEST(durations_that_lead_nowhere_are_refused), TEST(endless_duration_ends),
-        TEST(times_that_are_not_ahead_are_refused), TEST(drives_are_set_to_numbers), TEST(joints_are_set_to_states),
+        TEST(wrong_kind_of_id_is_refused),
+        TEST(sections_and_reactions_refuse_other_ids),
+        TEST(id_of_another_model_is_refused),
+        TEST(made_up_ids_are_refused),
+        TEST(definitions_refuse_strange_ids),
+        TEST(places_off_the_string_are_refused),
+        TEST(other_numbers_of_questions_are_checked),
+        TEST(durations_that_lead_nowhere_are_refused),
+        TEST(endless_duration_ends),
+        TEST(times_that_are_not_ahead_are_refused),
+        TEST(drives_are_set_to_numbers),
+        TEST(joints_are_set_to_states),
         TEST(motion_drive_on_a_joint_has_a_multiplier),
-        TEST(huge_drive_does_no_harm), TEST(option_numbers_out_of_bounds_are_refused),
-        TEST(option_counts_out_of_bounds_are_refused), TEST(options_at_their_bounds_are_taken),
-        TEST(allocator_needs_both_functions), TEST(static_options_out_of_bounds_are_refused),
-        TEST(compile_options_out_of_bounds_are_refused), TEST(recorders_that_are_none_are_refused),
-        TEST(full_recorder_says_so), TEST(writers_refuse_nonsense),
+        TEST(huge_drive_does_no_harm),
+        TEST(option_numbers_out_of_bounds_are_refused),
+        TEST(option_counts_out_of_bounds_are_refused),
+        TEST(options_at_their_bounds_are_taken),
+        TEST(allocator_needs_both_functions),
+        TEST(static_options_out_of_bounds_are_refused),
+        TEST(compile_options_out_of_bounds_are_refused),
+        TEST(recorders_that_are_none_are_refused),
+        TEST(full_recorder_says_so),
+        TEST(writers_refuse_nonsense),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
-/* The same bits on processors with and without fused multiply-add and wide vectors: runs itself once as it is and once with
- * glibc told that the processor has none (its sine, exponential and power then round in their other way), and compares the
- * hashes of scenes that take every law and function a step has. */
+/* The same bits on processors with and without fused multiply-add and wide vectors: runs itself once as it is and once
+ * with glibc told that the processor has none (its sine, exponential and power then round in their other way), and
+ * compares the hashes of scenes that take every law and function a step has. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +10,8 @@
 
 static const char *program;
 
-/* ---- Scenes --------------------------------------------------------------------------------------------------------- */
+/* ---- Scenes
+ * --------------------------------------------------------------------------------------------------------- */
 
 static uint64_t parts_of_all_kinds(void)
 {
@@ -36,7 +37,8 @@ static uint64_t joints_of_all_kinds(void)
     return hash;
 }
 
-/* A wall whose force goes with a power of depth, Stribeck's curve, an oscillating feed, eccentric pipes, error control. */
+/* A wall whose force goes with a power of depth, Stribeck's curve, an oscillating feed, eccentric pipes, error
+ * control. */
 static uint64_t string_on_the_wall(int32_t pipe_kind, int32_t normal_law)
 {
     dmb_model *model = NULL;
@@ -73,7 +75,8 @@ static uint64_t string_on_the_wall(int32_t pipe_kind, int32_t normal_law)
     return hash;
 }
 
-/* ---- The two runs --------------------------------------------------------------------------------------------------- */
+/* ---- The two runs
+ * --------------------------------------------------------------------------------------------------- */
 
 enum { HASHES = 6 };
 

@@ -1,17 +1,17 @@
-/* Functions of the caller's (programme, constraint, allocator, path, log) that meddle with the object they are called for:
- * every call is refused with DMB_ERR_ORDER, destroying does nothing, and the call under way ends with the status and the
- * hash that it has undisturbed. */
+/* Functions of the caller's (programme, constraint, allocator, path, log) that meddle with the object they are called
+ * for: every call is refused with DMB_ERR_ORDER, destroying does nothing, and the call under way ends with the status
+ * and the hash that it has undisturbed. */
 #include "sim_test.h"
 
 typedef struct agent {
-    dmb_sim *sim;          /* to meddle with; NULL: it keeps still */
-    dmb_sim *other;        /* of another model of the same parts */
+    dmb_sim *sim;   /* to meddle with; NULL: it keeps still */
+    dmb_sim *other; /* of another model of the same parts */
     dmb_id drive;
     void *snapshot;
     size_t snapshot_size;
-    int active, may_ask;   /* may_ask: queries are answered */
-    int deep;              /* it is meddling already */
-    int after;             /* a result is destroyed: the call is over */
+    int active, may_ask; /* may_ask: queries are answered */
+    int deep;            /* it is meddling already */
+    int after;           /* a result is destroyed: the call is over */
     int calls;
 } agent;
 
@@ -21,7 +21,8 @@ static int32_t path_point(void *context, const dmb_sim *at, const dmb_path_point
     return 0;
 }
 
-/* ---- Every call that changes a sim or runs functions of the caller's ------------------------------------------------ */
+/* ---- Every call that changes a sim or runs functions of the caller's
+ * ------------------------------------------------ */
 
 static dmb_input tip_load(dmb_place place)
 {
@@ -38,8 +39,23 @@ typedef struct scene {
     dmb_allocator allocator;
 } scene;
 
-enum { STEP, ADVANCE, SET_DRIVE, STATIC, PATH, MODES, BUCKLING, RESPONSE, SINE, SPEEDS, CHECK, CHECK_TEXT, RESTORE,
-       CARRY_OVER, CALLS };
+enum {
+    STEP,
+    ADVANCE,
+    SET_DRIVE,
+    STATIC,
+    PATH,
+    MODES,
+    BUCKLING,
+    RESPONSE,
+    SINE,
+    SPEEDS,
+    CHECK,
+    CHECK_TEXT,
+    RESTORE,
+    CARRY_OVER,
+    CALLS
+};
 
 static int32_t call_response(dmb_sim *sim, scene *s)
 {
@@ -140,7 +156,8 @@ static int32_t make_call(int call, dmb_sim *sim, scene *s)
     }
 }
 
-/* ---- The agent ------------------------------------------------------------------------------------------------------ */
+/* ---- The agent
+ * ------------------------------------------------------------------------------------------------------ */
 
 static void meddle(agent *a)
 {
@@ -266,8 +283,8 @@ static void check_call(scene *s, int call)
     const int32_t status = make_call(call, sim, s);
     s->agent.active = 0;
     if (status != wanted || hash_of(sim) != hash_of(quiet)) {
-        fail_msg("call %d: %d, undisturbed %d %s, same hash: %d", call, (int)status, (int)wanted, dmb_sim_message(quiet),
-                 hash_of(sim) == hash_of(quiet));
+        fail_msg("call %d: %d, undisturbed %d %s, same hash: %d", call, (int)status, (int)wanted,
+                 dmb_sim_message(quiet), hash_of(sim) == hash_of(quiet));
     }
     free(s->agent.snapshot);
     dmb_sim_destroy(&sim);
@@ -375,7 +392,8 @@ static void points_of_a_path(void **state)
     dmb_model_destroy(&s.model);
 }
 
-/* ---- A model while it is described and compiled --------------------------------------------------------------------- */
+/* ---- A model while it is described and compiled
+ * --------------------------------------------------------------------- */
 
 typedef struct describer {
     dmb_model *model;
@@ -447,7 +465,8 @@ static void models_are_kept_too(void **state)
     assert_null(model);
 }
 
-/* ---- Copied handles of a model -------------------------------------------------------------------------------------- */
+/* ---- Copied handles of a model
+ * -------------------------------------------------------------------------------------- */
 
 /* The caller's hold is one, however many copies of the handle there are: sims keep theirs. */
 static void copied_handles_destroy_once(void **state)
@@ -503,9 +522,12 @@ static void models_destroyed_on_the_way(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(callbacks_are_kept_out),      cmocka_unit_test(source_of_a_transfer),
-        cmocka_unit_test(points_of_a_path),            cmocka_unit_test(models_are_kept_too),
-        cmocka_unit_test(copied_handles_destroy_once), cmocka_unit_test(models_destroyed_on_the_way),
+        cmocka_unit_test(callbacks_are_kept_out),
+        cmocka_unit_test(source_of_a_transfer),
+        cmocka_unit_test(points_of_a_path),
+        cmocka_unit_test(models_are_kept_too),
+        cmocka_unit_test(copied_handles_destroy_once),
+        cmocka_unit_test(models_destroyed_on_the_way),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -306,11 +306,19 @@ static void small_block_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(run_taken_up_again_is_the_same), TEST(another_sim_takes_over), TEST(run_handed_around_is_the_same),
-        TEST(advance_goes_on_the_same), TEST(set_drive_is_saved), TEST(equal_model_fits),
-        TEST(snapshot_is_a_function_of_the_state), TEST(truncated_snapshot_is_refused),
-        TEST(damaged_snapshot_is_refused), TEST(snapshot_of_zeros_is_refused), TEST(other_model_is_refused),
-        TEST(other_options_are_refused), TEST(small_block_is_refused),
+        TEST(run_taken_up_again_is_the_same),
+        TEST(another_sim_takes_over),
+        TEST(run_handed_around_is_the_same),
+        TEST(advance_goes_on_the_same),
+        TEST(set_drive_is_saved),
+        TEST(equal_model_fits),
+        TEST(snapshot_is_a_function_of_the_state),
+        TEST(truncated_snapshot_is_refused),
+        TEST(damaged_snapshot_is_refused),
+        TEST(snapshot_of_zeros_is_refused),
+        TEST(other_model_is_refused),
+        TEST(other_options_are_refused),
+        TEST(small_block_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* The stack that calls need, held against what README states: each runs on a stack of its own that was painted before, and
- * what has lost its paint is counted. */
+/* The stack that calls need, held against what README states: each runs on a stack of its own that was painted before,
+ * and what has lost its paint is counted. */
 #define _GNU_SOURCE
 #include <pthread.h>
 #include <stdio.h>
@@ -50,7 +50,8 @@ static void *run(void *context)
     return NULL;
 }
 
-/* [byte] that lost their paint, what a thread needs by itself included (thread-local memory of libraries stands there) */
+/* [byte] that lost their paint, what a thread needs by itself included (thread-local memory of libraries stands
+ * there) */
 static size_t stack_of(work *w, unsigned char *stack)
 {
     pthread_attr_t attributes;

@@ -1,5 +1,5 @@
-/* Statics of strings that nothing holds along or about their axis, of every kind of pipe, lying and hanging: refused, the
- * part named, the state as it was; what a guide, a drive or no force at all leaves at rest is found. */
+/* Statics of strings that nothing holds along or about their axis, of every kind of pipe, lying and hanging: refused,
+ * the part named, the state as it was; what a guide, a drive or no force at all leaves at rest is found. */
 #include "sim_test.h"
 
 enum { LYING_IN_HOLE, HANGING, PLACES };
@@ -42,7 +42,8 @@ static void check(int32_t kind, int place, int load, int32_t start_free)
             fail_msg("kind %d, place %d, load %d, free %d: %s", kind, place, load, start_free, dmb_sim_message(sim));
     } else {
         if (status >= 0) fail_msg("kind %d, place %d, load %d, free %d: at rest", kind, place, load, start_free);
-        if (strstr(dmb_sim_message(sim), "string 0") == NULL || strstr(dmb_sim_message(sim), "nothing holds it") == NULL)
+        if (strstr(dmb_sim_message(sim), "string 0") == NULL ||
+            strstr(dmb_sim_message(sim), "nothing holds it") == NULL)
             fail_msg("kind %d, place %d, load %d, free %d: %s", kind, place, load, start_free, dmb_sim_message(sim));
         assert_int_equal(hash_of(sim), before);
     }

@@ -1,5 +1,5 @@
-/* What in a scene does not let a state be steady, drives, guides, joints and springs, each refused by name; and what judges
- * stiffness at rest, buckling and paths, held against states that move: refused, and answered at rest. */
+/* What in a scene does not let a state be steady, drives, guides, joints and springs, each refused by name; and what
+ * judges stiffness at rest, buckling and paths, held against states that move: refused, and answered at rest. */
 #include <string.h>
 
 #include "rig.h"
@@ -36,7 +36,8 @@ static dmb_id string_of(rig *s, int32_t start_free, int32_t end_free, int32_t ki
     return pipe.string;
 }
 
-/* ---- Drives and guides ---------------------------------------------------------------------------------------------- */
+/* ---- Drives and guides
+ * ---------------------------------------------------------------------------------------------- */
 
 static void drives_that_disagree(void **state)
 {
@@ -92,7 +93,8 @@ static void pipes_that_only_slide(void **state)
     refused(&s, DMB_STEADY_RIGID, "axial-torsional");
 }
 
-/* ---- Joints --------------------------------------------------------------------------------------------------------- */
+/* ---- Joints
+ * --------------------------------------------------------------------------------------------------------- */
 
 static dmb_id body_at(rig *s, double x, int32_t free_mask)
 {
@@ -142,7 +144,8 @@ static void springs_to_the_ground(void **state)
     refused(&s, DMB_STEADY_RIGID, "a law about the ground");
 }
 
-/* A string that a hinge to the ground, with a spring about its axis, holds at its far end: the drive winds the spring up. */
+/* A string that a hinge to the ground, with a spring about its axis, holds at its far end: the drive winds the spring
+ * up. */
 static void springs_that_change(void **state)
 {
     (void)state;
@@ -172,7 +175,8 @@ static void joints_that_do_not_let_it(void **state)
     refused(&s, DMB_STEADY_SLIDING, "joints do not allow");
 }
 
-/* ---- What judges a stiffness at rest --------------------------------------------------------------------------------- */
+/* ---- What judges a stiffness at rest
+ * --------------------------------------------------------------------------------- */
 
 enum { SLIDES, TURNS, SWINGS, MOTIONS };
 
@@ -253,10 +257,10 @@ static void stiffness_of_what_moves(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(drives_that_disagree),     cmocka_unit_test(forces_that_turn),
-        cmocka_unit_test(guides_that_hold),         cmocka_unit_test(pipes_that_only_slide),
-        cmocka_unit_test(joints_that_are_driven),   cmocka_unit_test(springs_to_the_ground),
-        cmocka_unit_test(springs_that_change),      cmocka_unit_test(joints_that_do_not_let_it),
+        cmocka_unit_test(drives_that_disagree),    cmocka_unit_test(forces_that_turn),
+        cmocka_unit_test(guides_that_hold),        cmocka_unit_test(pipes_that_only_slide),
+        cmocka_unit_test(joints_that_are_driven),  cmocka_unit_test(springs_to_the_ground),
+        cmocka_unit_test(springs_that_change),     cmocka_unit_test(joints_that_do_not_let_it),
         cmocka_unit_test(stiffness_of_what_moves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,14 +3,28 @@
 #include "whole_scene.h"
 
 /* What the function does, from `from` on. */
-enum { WELL, REFUSES, REFUSES_WITH_MINUS_ONE, GIVES_NAN, GIVES_INFINITY, GIVES_MINUS_INFINITY, GIVES_TOO_MUCH,
-       GIVES_FAR_TOO_MUCH, WRITES_NOTHING, NO_RATE, NAN_RATE, NO_INTEGRAL, INFINITE_INTEGRAL, MISDEEDS };
+enum {
+    WELL,
+    REFUSES,
+    REFUSES_WITH_MINUS_ONE,
+    GIVES_NAN,
+    GIVES_INFINITY,
+    GIVES_MINUS_INFINITY,
+    GIVES_TOO_MUCH,
+    GIVES_FAR_TOO_MUCH,
+    WRITES_NOTHING,
+    NO_RATE,
+    NAN_RATE,
+    NO_INTEGRAL,
+    INFINITE_INTEGRAL,
+    MISDEEDS
+};
 
 typedef struct source {
     int misdeed;
-    double from;          /* [s] */
+    double from; /* [s] */
     uint32_t calls;
-    double first, last;   /* [s] times it was asked for */
+    double first, last; /* [s] times it was asked for */
 } source;
 
 /* 1 + sin(t)/2 */

@@ -142,12 +142,9 @@ static void drive_let_go_does_not_matter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(same_scene_twice_is_the_same),
-        cmocka_unit_test(block_does_not_matter),
-        cmocka_unit_test(small_block_is_refused),
-        cmocka_unit_test(other_sims_do_not_matter),
-        cmocka_unit_test(questions_do_not_matter),
-        cmocka_unit_test(floating_point_flags_do_not_matter),
+        cmocka_unit_test(same_scene_twice_is_the_same), cmocka_unit_test(block_does_not_matter),
+        cmocka_unit_test(small_block_is_refused),       cmocka_unit_test(other_sims_do_not_matter),
+        cmocka_unit_test(questions_do_not_matter),      cmocka_unit_test(floating_point_flags_do_not_matter),
         cmocka_unit_test(drive_let_go_does_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -140,8 +140,11 @@ static void time_is_reached_exactly(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(first_step_may_be_a_sliver), TEST(sliver_on_the_way_does_no_harm),
-        TEST(slivers_between_all_steps_do_no_harm), TEST(next_time_is_reached), TEST(time_is_reached_exactly),
+        TEST(first_step_may_be_a_sliver),
+        TEST(sliver_on_the_way_does_no_harm),
+        TEST(slivers_between_all_steps_do_no_harm),
+        TEST(next_time_is_reached),
+        TEST(time_is_reached_exactly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

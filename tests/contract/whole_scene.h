@@ -137,9 +137,11 @@ static inline int32_t whole_set_environment(dmb_model *model, whole_parts *parts
 /* Straight along +x for 10 m, then gently upwards and sideways. */
 static inline int32_t whole_add_wall(dmb_model *model, whole_parts *parts)
 {
-    static const double survey[5][3] = {
-        {0.0, 1.5707963267948966, 0.0}, {10.0, 1.5707963267948966, 0.0}, {20.0, 1.60, 0.01}, {30.0, 1.63, 0.02},
-        {60.0, 1.65, 0.02}};
+    static const double survey[5][3] = {{0.0, 1.5707963267948966, 0.0},
+                                        {10.0, 1.5707963267948966, 0.0},
+                                        {20.0, 1.60, 0.01},
+                                        {30.0, 1.63, 0.02},
+                                        {60.0, 1.65, 0.02}};
     dmb_wall_def wall = dmb_wall_def_default();
     wall.survey = survey[0];
     wall.survey_count = 5;
@@ -425,12 +427,13 @@ typedef int32_t (*whole_call)(dmb_model *model, whole_parts *parts);
 
 /* Every call of the description, compile last. */
 static const whole_call whole_calls[] = {
-    whole_set_environment, whole_add_constant, whole_add_step, whole_add_step5, whole_add_harmonic, whole_add_table,
-    whole_add_smooth, whole_add_plain, whole_add_wall, whole_add_string, whole_add_path_pipes,
-    whole_add_flexible_pipes, whole_add_rigid_pipes, whole_add_last_pipe, whole_add_second, whole_add_second_pipes,
-    whole_add_head, whole_add_body, whole_add_bit, whole_add_feed, whole_add_turning, whole_add_pushing,
-    whole_add_spinning, whole_add_dead_load, whole_add_follower, whole_add_arm, whole_add_wheel, whole_add_hinge,
-    whole_add_axle, whole_add_spring, whole_add_gear, whole_add_watch, whole_add_winding, whole_compile};
+    whole_set_environment,  whole_add_constant,       whole_add_step,        whole_add_step5,     whole_add_harmonic,
+    whole_add_table,        whole_add_smooth,         whole_add_plain,       whole_add_wall,      whole_add_string,
+    whole_add_path_pipes,   whole_add_flexible_pipes, whole_add_rigid_pipes, whole_add_last_pipe, whole_add_second,
+    whole_add_second_pipes, whole_add_head,           whole_add_body,        whole_add_bit,       whole_add_feed,
+    whole_add_turning,      whole_add_pushing,        whole_add_spinning,    whole_add_dead_load, whole_add_follower,
+    whole_add_arm,          whole_add_wheel,          whole_add_hinge,       whole_add_axle,      whole_add_spring,
+    whole_add_gear,         whole_add_watch,          whole_add_winding,     whole_compile};
 enum { WHOLE_CALLS = sizeof whole_calls / sizeof whole_calls[0] };
 
 static inline void whole_must(const dmb_model *model, int32_t status)
@@ -529,10 +532,10 @@ static inline int32_t whole_ask(const dmb_sim *sim, const whole_parts *parts, wh
 {
     const dmb_place middle = dmb_station(parts->string, 3, 0.3);
     int32_t worst = 0;
-#define WHOLE_ASK(call)                                  \
-    do {                                                 \
-        const int32_t status_ = (call);                  \
-        if (status_ < worst) worst = status_;            \
+#define WHOLE_ASK(call)                       \
+    do {                                      \
+        const int32_t status_ = (call);       \
+        if (status_ < worst) worst = status_; \
     } while (0)
     for (uint32_t i = 0; i < WHOLE_PIPES; i++)
         WHOLE_ASK(dmb_query_pose(sim, dmb_station(parts->string, i, 0.7), &a->pose[i]));

@@ -1,9 +1,9 @@
-/* Snapshots changed as the bytes of the input say, their checksum made to fit or not: a restore refuses them and changes
- * nothing, or takes them, and then steps, queries and analyses end with a known status. One that was changed and whose
- * checksum does not fit is never taken.
+/* Snapshots changed as the bytes of the input say, their checksum made to fit or not: a restore refuses them and
+ * changes nothing, or takes them, and then steps, queries and analyses end with a known status. One that was changed
+ * and whose checksum does not fit is never taken.
  *
- * Input: [0] scene in bits 0 and 1, bit 2: the checksum is made to fit, bit 3: the end is cut by the next two bytes. Then
- * changes: three bytes of a place, one of a length less 1 (bits 0 to 2), so many bytes. */
+ * Input: [0] scene in bits 0 and 1, bit 2: the checksum is made to fit, bit 3: the end is cut by the next two bytes.
+ * Then changes: three bytes of a place, one of a length less 1 (bits 0 to 2), so many bytes. */
 #include <stdlib.h>
 
 #include "../contract/joint_scene.h"
@@ -21,15 +21,16 @@ typedef struct scene {
 
 static scene scenes[SCENES];
 
-#define MUST(condition)                                                                  \
-    do {                                                                                 \
-        if (!(condition)) {                                                              \
-            fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition);              \
-            abort();                                                                     \
-        }                                                                                \
+#define MUST(condition)                                                     \
+    do {                                                                    \
+        if (!(condition)) {                                                 \
+            fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition); \
+            abort();                                                        \
+        }                                                                   \
     } while (0)
 
-/* ---- Scenes, made once ---------------------------------------------------------------------------------------------- */
+/* ---- Scenes, made once
+ * ---------------------------------------------------------------------------------------------- */
 
 static dmb_model *model_of(int which)
 {
@@ -72,7 +73,8 @@ static void close_scenes(void)
     }
 }
 
-/* ---- What is done with a sim that took one --------------------------------------------------------------------------- */
+/* ---- What is done with a sim that took one
+ * --------------------------------------------------------------------------- */
 
 static void known(int32_t status)
 {
@@ -94,7 +96,8 @@ static void use(dmb_sim *sim)
     known(dmb_analysis_static(sim, &statics, NULL));
 }
 
-/* ---- One input ------------------------------------------------------------------------------------------------------- */
+/* ---- One input
+ * ------------------------------------------------------------------------------------------------------- */
 
 static size_t change(unsigned char *block, size_t size, const uint8_t *data, size_t left)
 {

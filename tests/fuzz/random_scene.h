@@ -47,8 +47,8 @@ static inline double draw_size(byte_source *s, double low, double high)
 
 static inline double draw_nonsense(byte_source *s)
 {
-    static const double values[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, -1.0, 0.0, -0.0,
-                                    1e300, -1e300, 4.9e-324, 1e-300, 1e30, 1e9};
+    static const double values[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, -1.0,   0.0,  -0.0,
+                                    1e300,       -1e300,           4.9e-324,          1e-300, 1e30, 1e9};
     return values[draw_below(s, sizeof values / sizeof values[0])];
 }
 
@@ -203,8 +203,16 @@ static inline void draw_pipes(random_scene *scene, uint32_t string)
 
 static inline void draw_strings(random_scene *scene)
 {
-    static const int32_t masks[] = {DMB_FREE_CYLINDRICAL, DMB_FREE_ALL, DMB_FREE_NONE, DMB_FREE_X, DMB_FREE_RX,
-                                    DMB_FREE_SPHERICAL, DMB_FREE_RZ, 7, 35, 3};
+    static const int32_t masks[] = {DMB_FREE_CYLINDRICAL,
+                                    DMB_FREE_ALL,
+                                    DMB_FREE_NONE,
+                                    DMB_FREE_X,
+                                    DMB_FREE_RX,
+                                    DMB_FREE_SPHERICAL,
+                                    DMB_FREE_RZ,
+                                    7,
+                                    35,
+                                    3};
     byte_source *s = &scene->source;
     const uint32_t count = draw_chance(s, 250) ? 1 + draw_below(s, DRAW_STRINGS) : 0;
     for (uint32_t i = 0; i < count; i++) {

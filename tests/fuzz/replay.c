@@ -1,5 +1,5 @@
-/* The stored inputs of a fuzz target, all files of the folders that are named: none crashes, and the target's own checks
- * hold. */
+/* The stored inputs of a fuzz target, all files of the folders that are named: none crashes, and the target's own
+ * checks hold. */
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <stdint.h>

@@ -1,16 +1,16 @@
-/* Snapshots with a byte, a word or a number of their content changed and the checksum made to fit: a restore refuses them
- * and changes nothing, or takes them, and then steps, analyses and queries end with a known status. What they may not do,
- * read or write out of bounds, the address sanitizer tells (.ci/run). Scenes: every kind of part with pipes of all kinds,
- * bristles, a curved hole and a bit with its history, with and without joints; joints of all kinds.
+/* Snapshots with a byte, a word or a number of their content changed and the checksum made to fit: a restore refuses
+ * them and changes nothing, or takes them, and then steps, analyses and queries end with a known status. What they may
+ * not do, read or write out of bounds, the address sanitizer tells (.ci/run). Scenes: every kind of part with pipes of
+ * all kinds, bristles, a curved hole and a bit with its history, with and without joints; joints of all kinds.
  *
  * As a test it runs a fixed number of seeded changes; arguments are the first seed and how many of each scene. */
 #include <stdlib.h>
 
 #include "../contract/joint_scene.h"
 #include "../contract/whole_scene.h"
-#include "sim/layout.h"
-#include "run/snapshot_check.h"
 #include "run/fingerprint.h"
+#include "run/snapshot_check.h"
+#include "sim/layout.h"
 
 enum { CHANGES = 80, HEADER = 48, CONTENT_AT = 40 }; /* bytes of the header; where its checksum stands */
 
@@ -47,12 +47,27 @@ static void fit_checksum(snapshot *s)
     memcpy(s->bytes + CONTENT_AT, &content, sizeof content);
 }
 
-/* ---- Changes -------------------------------------------------------------------------------------------------------- */
+/* ---- Changes
+ * -------------------------------------------------------------------------------------------------------- */
 
 static void change_number(unsigned char *at, uint64_t *random)
 {
-    static const double values[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 0.0, -0.0, 1.0, -1.0, 1e300, -1e300,
-                                    4.9e-324, 1e30, -1e9, 1e9, 1e17, 1e-300, 6.283};
+    static const double values[] = {(double)NAN,
+                                    (double)INFINITY,
+                                    -(double)INFINITY,
+                                    0.0,
+                                    -0.0,
+                                    1.0,
+                                    -1.0,
+                                    1e300,
+                                    -1e300,
+                                    4.9e-324,
+                                    1e30,
+                                    -1e9,
+                                    1e9,
+                                    1e17,
+                                    1e-300,
+                                    6.283};
     double value = values[next_random(random) % (sizeof values / sizeof values[0])];
     if (next_random(random) % 4 == 0) {
         memcpy(&value, at, sizeof value);
@@ -63,8 +78,8 @@ static void change_number(unsigned char *at, uint64_t *random)
 
 static void change_word(unsigned char *at, uint64_t *random)
 {
-    static const uint32_t values[] = {0, 1, 2, 3, 7, 63, 64, 127, 128, 1000, 65536, 0x7fffffff, 0x80000000u, 0x80000001u,
-                                      0xfffffffeu, 0xffffffffu};
+    static const uint32_t values[] = {0,   1,    2,     3,          7,           63,          64,          127,
+                                      128, 1000, 65536, 0x7fffffff, 0x80000000u, 0x80000001u, 0xfffffffeu, 0xffffffffu};
     uint32_t value = values[next_random(random) % (sizeof values / sizeof values[0])];
     if (next_random(random) % 3 == 0) {
         memcpy(&value, at, sizeof value);
@@ -98,7 +113,8 @@ static void change(const dmb_sim *sim, snapshot *s, uint64_t *random)
     fit_checksum(s);
 }
 
-/* ---- What is done with a sim that took one --------------------------------------------------------------------------- */
+/* ---- What is done with a sim that took one
+ * --------------------------------------------------------------------------- */
 
 static void must_be_known(int32_t status)
 {
@@ -169,7 +185,8 @@ static void forge_many(dmb_model *model, dmb_id string, uint32_t steps)
     dmb_sim_destroy(&victim);
 }
 
-/* ---- Scenes --------------------------------------------------------------------------------------------------------- */
+/* ---- Scenes
+ * --------------------------------------------------------------------------------------------------------- */
 
 /* Without joints: factors are kept from step to step, and saved. */
 static void parts_of_all_kinds(void **state)
@@ -202,7 +219,8 @@ static void joints_of_all_kinds(void **state)
     dmb_model_destroy(&scene.s.model);
 }
 
-/* ---- Each field by itself ------------------------------------------------------------------------------------------- */
+/* ---- Each field by itself
+ * ------------------------------------------------------------------------------------------- */
 
 /* Every word of every field that is no plain number, set to what no scene has: refused. */
 static void check_field(dmb_sim *sim, const snapshot *sound, const dmb_field *field, size_t at)
@@ -230,7 +248,8 @@ static void no_number(dmb_sim *sim, const snapshot *sound, const dmb_field *fiel
         memcpy(s.bytes, sound->bytes, s.size);
         memcpy(s.bytes + at + 8 * i, &bad[field->check == DMB_CHECK_INPUTS ? 1 + i % 2 : i % 3], 8);
         fit_checksum(&s);
-        if (dmb_sim_restore(sim, s.bytes, s.size) != DMB_ERR_VALUE) fail_msg("%s, number %zu was taken", field->name, i);
+        if (dmb_sim_restore(sim, s.bytes, s.size) != DMB_ERR_VALUE)
+            fail_msg("%s, number %zu was taken", field->name, i);
     }
     free(s.bytes);
 }
@@ -302,8 +321,10 @@ static void findings(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(findings),           cmocka_unit_test(every_field_is_checked),
-        cmocka_unit_test(parts_of_all_kinds), cmocka_unit_test(parts_with_joints),
+        cmocka_unit_test(findings),
+        cmocka_unit_test(every_field_is_checked),
+        cmocka_unit_test(parts_of_all_kinds),
+        cmocka_unit_test(parts_with_joints),
         cmocka_unit_test(joints_of_all_kinds),
     };
     if (argc > 1) first_seed = strtoull(argv[1], NULL, 10);

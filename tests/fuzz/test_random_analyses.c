@@ -1,6 +1,6 @@
-/* Random scenes with joints, couplings and constraints of the caller's, small ones, through every analysis, state transfer
- * and switching of joints: nothing crashes, every status is a known one, an analysis that leaves the sim alone leaves its
- * hash, and a call that fails does too (a stepped sine, which runs on, excepted).
+/* Random scenes with joints, couplings and constraints of the caller's, small ones, through every analysis, state
+ * transfer and switching of joints: nothing crashes, every status is a known one, an analysis that leaves the sim alone
+ * leaves its hash, and a call that fails does too (a stepped sine, which runs on, excepted).
  *
  * As a test it runs a fixed number of seeded inputs; arguments are the first seed and how many. As a fuzz target
  * (fuzz/run) it takes its bytes from libFuzzer. */
@@ -25,12 +25,12 @@ static unsigned long long present_seed;
 static const char *present_action = "";
 static unsigned long long tally[2]; /* analyses done, refused or failed */
 
-#define MUST(condition)                                                                                       \
-    do {                                                                                                      \
-        if (!(condition)) {                                                                                   \
+#define MUST(condition)                                                                                          \
+    do {                                                                                                         \
+        if (!(condition)) {                                                                                      \
             fprintf(stderr, "seed %llu, %s: line %d: %s\n", present_seed, present_action, __LINE__, #condition); \
-            abort();                                                                                          \
-        }                                                                                                     \
+            abort();                                                                                             \
+        }                                                                                                        \
     } while (0)
 
 static uint64_t hash_of(const dmb_sim *sim)
@@ -46,7 +46,8 @@ static void must_be_known(int32_t status)
     tally[status < 0]++;
 }
 
-/* ---- Joints and constraints ------------------------------------------------------------------------------------------ */
+/* ---- Joints and constraints
+ * ------------------------------------------------------------------------------------------ */
 
 static dmb_place draw_place(scene *c)
 {
@@ -116,7 +117,8 @@ static void draw_links(scene *c)
     }
 }
 
-/* ---- Actions --------------------------------------------------------------------------------------------------------- */
+/* ---- Actions
+ * --------------------------------------------------------------------------------------------------------- */
 
 static void act_step(dmb_sim *sim, scene *c)
 {
@@ -313,7 +315,8 @@ static const struct {
     {"path", act_path},         {"transfer", act_transfer}, {"check", act_check},
 };
 
-/* ---- One input ------------------------------------------------------------------------------------------------------- */
+/* ---- One input
+ * ------------------------------------------------------------------------------------------------------- */
 
 /* Counts down to the end of the call. */
 static int32_t count_down(void *context, double fraction)

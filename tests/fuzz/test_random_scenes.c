@@ -23,12 +23,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 static unsigned long long present_seed; /* of the input that is being run, for the message */
 static const char *present_action = "";
 
-#define MUST(condition)                                                                                       \
-    do {                                                                                                      \
-        if (!(condition)) {                                                                                   \
+#define MUST(condition)                                                                                          \
+    do {                                                                                                         \
+        if (!(condition)) {                                                                                      \
             fprintf(stderr, "seed %llu, %s: line %d: %s\n", present_seed, present_action, __LINE__, #condition); \
-            abort();                                                                                          \
-        }                                                                                                     \
+            abort();                                                                                             \
+        }                                                                                                        \
     } while (0)
 
 static struct {
@@ -226,8 +226,9 @@ static const struct {
     const char *name;
     void (*act)(dmb_sim *sim, random_scene *scene);
 } actions[] = {
-    {"step", act_step}, {"step", act_step}, {"step", act_step}, {"advance", act_advance}, {"nonsense", act_nonsense},
-    {"snapshot", act_snapshot}, {"set_drive", act_set_drive}, {"static", act_static}, {"callback", act_callback},
+    {"step", act_step},           {"step", act_step},         {"step", act_step},
+    {"advance", act_advance},     {"nonsense", act_nonsense}, {"snapshot", act_snapshot},
+    {"set_drive", act_set_drive}, {"static", act_static},     {"callback", act_callback},
 };
 
 static void run_sim(dmb_sim *sim, random_scene *scene)

@@ -14,8 +14,8 @@
 #include "drillmbd/drillmbd.h"
 
 /* -ffp-contract=off leaves compilers no choice: gcc 12 and clang 14 give the same bits from -O0 to -O3. Sine,
- * exponential and the like are the library's own (contract/test_processors). gcc 12 with -mfma fuses alternating sums of
- * products all the same (unless -fno-tree-slp-vectorize), which moves the figures by 1e-11 of their scale. */
+ * exponential and the like are the library's own (contract/test_processors). gcc 12 with -mfma fuses alternating sums
+ * of products all the same (unless -fno-tree-slp-vectorize), which moves the figures by 1e-11 of their scale. */
 #if defined(__x86_64__)
 #define ARCHITECTURE "x86_64"
 #elif defined(__aarch64__)
@@ -87,8 +87,8 @@ static dmb_id add_harmonic(void)
 
 static void add_hole(void)
 {
-    static const double survey[3][3] = {{0.0, 1.5707963267948966, 0.0}, {6.0, 1.5707963267948966, 0.0},
-                                        {40.0, 1.62, 0.03}};
+    static const double survey[3][3] = {
+        {0.0, 1.5707963267948966, 0.0}, {6.0, 1.5707963267948966, 0.0}, {40.0, 1.62, 0.03}};
     dmb_wall_def wall = dmb_wall_def_default();
     wall.survey = survey[0];
     wall.survey_count = 3;
@@ -236,8 +236,10 @@ static int tear_down(void **state)
 
 /* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
-enum { STORED_FIGURES = sizeof golden_figures / sizeof golden_figures[0],
-       STORED_HASHES = sizeof golden_hashes / sizeof golden_hashes[0] };
+enum {
+    STORED_FIGURES = sizeof golden_figures / sizeof golden_figures[0],
+    STORED_HASHES = sizeof golden_hashes / sizeof golden_hashes[0]
+};
 
 static void figures_are_as_stored(void **state)
 {

@@ -5,7 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-namespace {
+namespace
+{
 
 void check(int32_t status, const dmb_model *model)
 {

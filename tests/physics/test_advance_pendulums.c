@@ -80,8 +80,8 @@ static void compare(const swing *w, double tolerance)
         rig_close(&p.s);
         rig_close(&q.s);
     }
-    print_message("    %.1f rad, tolerance %.0e: %.0f steps, %.0f rejected, error %.3g m, of equal steps %.3g m\n", w->angle,
-                  tolerance, steps / ENDS, rejected / ENDS, sqrt(controlled / ENDS), sqrt(equal / ENDS));
+    print_message("    %.1f rad, tolerance %.0e: %.0f steps, %.0f rejected, error %.3g m, of equal steps %.3g m\n",
+                  w->angle, tolerance, steps / ENDS, rejected / ENDS, sqrt(controlled / ENDS), sqrt(equal / ENDS));
     check_below("error over that of as many equal steps", sqrt(controlled / equal), w->ratio);
     check_below("rejected steps over steps", rejected / steps, w->rejected);
 }

@@ -32,8 +32,8 @@ static stiffness slim_values(void)
 
 /* ---- Cantilever -------------------------------------------------------------------------------------------------- */
 
-/* A beam of 3 m, clamped, under the dead axial force N and the side force V at its tip, without shear and stretch, which
- * the closed form leaves out: EI t'' = N t - V, w(L) = V/N (L - tanh(k L)/k), k^2 = N/EI. */
+/* A beam of 3 m, clamped, under the dead axial force N and the side force V at its tip, without shear and stretch,
+ * which the closed form leaves out: EI t'' = N t - V, w(L) = V/N (L - tanh(k L)/k), k^2 = N/EI. */
 static double flexibility(double N, double EI, double L)
 {
     const double k = sqrt(fabs(N) / EI);
@@ -135,8 +135,8 @@ static double unrest(const pulled *p)
 static void pulled_strings_stay_at_rest(void **state)
 {
     (void)state;
-    const pulled scene[] = {{60e3, 0.0, 0},    {60e3, 0.0, 1},  {100e3, 0.0, 0},    {180e3, 0.0, 0},
-                            {180e3, 0.0, 1},   {60e3, 500.0, 0}, {100e3, 1e3, 0},   {180e3, -1e3, 1}};
+    const pulled scene[] = {{60e3, 0.0, 0},  {60e3, 0.0, 1},   {100e3, 0.0, 0}, {180e3, 0.0, 0},
+                            {180e3, 0.0, 1}, {60e3, 500.0, 0}, {100e3, 1e3, 0}, {180e3, -1e3, 1}};
     for (size_t i = 0; i < sizeof scene / sizeof *scene; i++) {
         char what[96];
         (void)snprintf(what, sizeof what, "%g kN, %g N m%s: kinetic energy after 1 s [J]", 1e-3 * scene[i].pull,

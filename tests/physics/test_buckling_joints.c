@@ -4,7 +4,12 @@
 
 #define EI 2e5 /* [N m2] of all columns; stiff in stretch and shear, which the closed forms leave out */
 
-enum { PINNED = 0, CLAMPED = 1, CLAMPED_ROLLER = 1, FREE_TO_MOVE = 7 }; /* ends of columns; degrees_of_freedom of strings */
+enum {
+    PINNED = 0,
+    CLAMPED = 1,
+    CLAMPED_ROLLER = 1,
+    FREE_TO_MOVE = 7
+}; /* ends of columns; degrees_of_freedom of strings */
 
 static dmb_id add_push(rig *s, dmb_place place)
 {
@@ -296,9 +301,9 @@ static dmb_id open_truss(rig *s, double present)
     return more;
 }
 
-/* Towards a limit point the stiffness falls with the root of what is left of the load, so that the factor extrapolated from
- * one state tells twice of it: the nearer, the more exactly, and only if the turning of the joints' own equations is in it.
- * Followed along the equilibria it tells the limit itself. */
+/* Towards a limit point the stiffness falls with the root of what is left of the load, so that the factor extrapolated
+ * from one state tells twice of it: the nearer, the more exactly, and only if the turning of the joints' own equations
+ * is in it. Followed along the equilibria it tells the limit itself. */
 static void truss_near_its_limit(void **state)
 {
     (void)state;

@@ -270,8 +270,8 @@ static void check_controller(const char *what, int32_t kind, int32_t component, 
     rig s;
     rig_open(&s, 0.0, 0.0, 0.0);
     drive.kind = DMB_DRIVE_CONTROL;
-    drive.part =
-        joint_on(&s, kind, 0.0, rigid_mass(&s, 0.0, component == DMB_X ? m : 1.0, component == DMB_X ? 1.0 : m), along_x);
+    drive.part = joint_on(&s, kind, 0.0,
+                          rigid_mass(&s, 0.0, component == DMB_X ? m : 1.0, component == DMB_X ? 1.0 : m), along_x);
     drive.component = component;
     drive.programme = add_constant(&s, target);
     drive.gain = kp;

@@ -77,7 +77,8 @@ static void light_body_beside_a_loaded_string(void **state)
     add_load(&s, &push);
     rig_start(&s, NULL);
     take_steps(&s, 1e-3, 200);
-    check_relative("travel of the body", pose_at(&s, dmb_station(light, 0, 0.0)).position[1], 0.5 * 2.0 * 0.2 * 0.2, 1e-9);
+    check_relative("travel of the body", pose_at(&s, dmb_station(light, 0, 0.0)).position[1], 0.5 * 2.0 * 0.2 * 0.2,
+                   1e-9);
     rig_close(&s);
 }
 

@@ -101,7 +101,8 @@ static void string_at_rest_on_the_rock(void **state)
         check_below("acceleration of the bit at rest",
                     motion_at(&s, dmb_station(string, 99, 1.0), DMB_FRAME_WORLD).acceleration[2], 1e-6);
         take_steps(&s, 1e-3, 20);
-        check_below("speed after 20 ms", motion_at(&s, dmb_station(string, 99, 1.0), DMB_FRAME_WORLD).velocity[2], 1e-6);
+        check_below("speed after 20 ms", motion_at(&s, dmb_station(string, 99, 1.0), DMB_FRAME_WORLD).velocity[2],
+                    1e-6);
         rig_close(&s);
     }
 }

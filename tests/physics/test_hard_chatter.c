@@ -121,8 +121,8 @@ static void unresolved_steps(void **state)
     }
 }
 
-/* With the default tolerance of 1 um, seven times w/K. The 8 iterations of the case are not met: up to 12 where contacts
- * open, as above. */
+/* With the default tolerance of 1 um, seven times w/K. The 8 iterations of the case are not met: up to 12 where
+ * contacts open, as above. */
 static void controlled_steps(void **state)
 {
     chatter c;
@@ -130,7 +130,8 @@ static void controlled_steps(void **state)
     build(&c, DMB_NORMAL_HUNT_CROSSLEY, NULL);
     const double start = scene_total_energy(&c.scene);
     const dmb_step_report report = scene_advance(&c.scene, 1.0);
-    print_message("controlled: %u steps, %u rejected, worst %u\n", report.steps, report.rejected, report.most_iterations);
+    print_message("controlled: %u steps, %u rejected, worst %u\n", report.steps, report.rejected,
+                  report.most_iterations);
     check_settled(&c, 1e-2);
     CHECK_BELOW(report.rejected, 19);
     CHECK_BELOW(report.most_iterations, 12);

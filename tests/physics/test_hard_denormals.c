@@ -87,8 +87,7 @@ static dmb_id build_denormal(rig *scene)
     return build_bar(scene, 1e-306);
 }
 
-static void run(dmb_id (*build)(rig *), int steps, double h, int flush, double values[VALUES],
-                dmb_statistics *work)
+static void run(dmb_id (*build)(rig *), int steps, double h, int flush, double values[VALUES], dmb_statistics *work)
 {
     rig scene;
     flush_denormals(flush);

@@ -261,7 +261,7 @@ static void narrow_hole(void **state)
             const int32_t status = dmb_sim_step(scene.sim, 1e-2, NULL);
             if (status < 0) break;
             deepest = fmax(deepest, -scene_contact(&scene, 0).gap);
-            CHECK_BELOW(-scene_contact(&scene, 0).gap, 0.02);                   /* of the step's 100 mm */
+            CHECK_BELOW(-scene_contact(&scene, 0).gap, 0.02);                /* of the step's 100 mm */
             CHECK_BELOW(energy_of(&scene).kinetic, 1.01 * kinetic_of(10.0)); /* and 1 % for the height */
         }
         rig_close(&scene);

@@ -21,8 +21,7 @@ static void hold_start(rig *scene)
     add_string(scene, &string);
 }
 
-static void add_tip_load(rig *scene, dmb_id string, uint32_t pipe, const double force[3],
-                         const double moment[3])
+static void add_tip_load(rig *scene, dmb_id string, uint32_t pipe, const double force[3], const double moment[3])
 {
     dmb_load_def load = dmb_load_def_default();
     load.place = dmb_station(string, pipe, 1.0);

@@ -81,10 +81,10 @@ static void reference_of_the_four_bars(void **state)
 }
 
 typedef struct outcome {
-    double off[4]; /* [m] tip at the times of the table */
-    double branch; /* [rad] largest difference between the angles of the cranks */
+    double off[4];    /* [m] tip at the times of the table */
+    double branch;    /* [rad] largest difference between the angles of the cranks */
     double violation; /* [m] */
-    uint32_t cuts; /* steps that were divided */
+    uint32_t cuts;    /* steps that were divided */
     uint32_t reserved;
     dmb_statistics statistics;
 } outcome;

@@ -116,7 +116,8 @@ static uint32_t redundant_rows(const fourbar *m, int print)
     uint32_t sum = 0;
     for (int i = 0; i < 4; i++) {
         const dmb_joint_state joint = joint_at(&m->s, m->joints[i]);
-        if (print) print_message("    joint %c: %u of %u rows redundant\n", 'A' + i, joint.redundant, joint.constraint_rows);
+        if (print)
+            print_message("    joint %c: %u of %u rows redundant\n", 'A' + i, joint.redundant, joint.constraint_rows);
         sum += joint.redundant;
     }
     return sum;

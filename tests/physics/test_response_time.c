@@ -40,7 +40,8 @@ static double complex rotor_amplitude(double r, dmb_stepped_sine_report *report)
     options.tolerance = 1e-4;
     const dmb_output outputs[2] = {output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Y),
                                    output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(body, 0, 0.0), DMB_Z)};
-    const int32_t status = dmb_analysis_stepped_sine(s.sim, frequency, &options, outputs, 2, &amplitudes[0][0][0], report);
+    const int32_t status =
+        dmb_analysis_stepped_sine(s.sim, frequency, &options, outputs, 2, &amplitudes[0][0][0], report);
     must(&s, status);
     assert_int_equal(status, DMB_OK);
     rig_close(&s);
@@ -281,7 +282,8 @@ static void eccentric_string_that_turns(void **state)
         options.steps_per_period = 400;
         options.tolerance = 1e-4;
         transfer(&still, NULL, &own, &there, &frequency, 1, &linear);
-        must(&turning, dmb_analysis_stepped_sine(turning.sim, frequency, &options, &here, 1, &amplitudes[0][0][0], NULL));
+        must(&turning,
+             dmb_analysis_stepped_sine(turning.sim, frequency, &options, &here, 1, &amplitudes[0][0][0], NULL));
         check_below("eccentric string that turns: whirl of its end",
                     cabs(number(amplitudes[0][1]) - linear) / cabs(linear), 1e-3);
         rig_close(&still);

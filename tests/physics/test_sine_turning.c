@@ -1,7 +1,7 @@
-/* Stepped sine about a state that turns as a rigid body, a blade whose speed is shaken, held against the linear response
- * about that state at second order in the step; drive torque, axial force by the change of the centrifugal force and
- * bending at the root, lag and axial motion being coupled by Coriolis forces. Displacements in axes that do not turn do not
- * settle, and are told so. */
+/* Stepped sine about a state that turns as a rigid body, a blade whose speed is shaken, held against the linear
+ * response about that state at second order in the step; drive torque, axial force by the change of the centrifugal
+ * force and bending at the root, lag and axial motion being coupled by Coriolis forces. Displacements in axes that do
+ * not turn do not settle, and are told so. */
 #include <string.h>
 
 #include "rig.h"
@@ -98,7 +98,8 @@ static void step_sine(int32_t component, double mean, double frequency, uint32_t
     options.steps_per_period = steps;
     options.harmonics = 1;
     options.tolerance = 1e-6;
-    must(&b.rig, dmb_analysis_stepped_sine(b.rig.sim, frequency, &options, outputs, OUTPUTS, &amplitudes[0][0][0], &report));
+    must(&b.rig,
+         dmb_analysis_stepped_sine(b.rig.sim, frequency, &options, outputs, OUTPUTS, &amplitudes[0][0][0], &report));
     assert_int_equal(report.settled, 1);
     for (int k = 0; k < OUTPUTS; k++) /* a sine is the real part of -i e^(i w t) */
         out[k] = (amplitudes[k][1][0] + amplitudes[k][1][1] * (number)_Complex_I) * (number)_Complex_I / shake;
@@ -165,7 +166,8 @@ static void displacement_that_turns(void **state)
     output.component = DMB_Y;
     options.harmonics = 1;
     options.windows = 20;
-    assert_int_equal(dmb_analysis_stepped_sine(b.rig.sim, 1.3, &options, &output, 1, &amplitudes[0][0], &report), DMB_NOTE_STOPPED);
+    assert_int_equal(dmb_analysis_stepped_sine(b.rig.sim, 1.3, &options, &output, 1, &amplitudes[0][0], &report),
+                     DMB_NOTE_STOPPED);
     assert_int_equal(report.settled, 0);
     rig_close(&b.rig);
 }

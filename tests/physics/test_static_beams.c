@@ -90,8 +90,8 @@ static void elastica(const double row[4], uint32_t elements, double error[3])
     rig_close(&s);
 }
 
-/* 2e-5 with 8 elements and 1e-6 with 16 are wanted; at a = 10 the tip comes out to 4.6e-6 and 2.9e-7, the slope there to
- * 5.6e-6 and 3.5e-7 rad. */
+/* 2e-5 with 8 elements and 1e-6 with 16 are wanted; at a = 10 the tip comes out to 4.6e-6 and 2.9e-7, the slope there
+ * to 5.6e-6 and 3.5e-7 rad. */
 static void elastica_of_mattiasson(void **state)
 {
     (void)state;
@@ -113,7 +113,8 @@ static void elastica_is_of_fourth_order(void **state)
     double coarse[3], fine[3];
     elastica(mattiasson[3], 8, coarse);
     elastica(mattiasson[3], 16, fine);
-    check_order("elastica a 10, 8 and 16 elements: place", hypot(coarse[0], coarse[1]), hypot(fine[0], fine[1]), 4.0, 0.2);
+    check_order("elastica a 10, 8 and 16 elements: place", hypot(coarse[0], coarse[1]), hypot(fine[0], fine[1]), 4.0,
+                0.2);
     check_order("elastica a 10, 8 and 16 elements: slope", coarse[2], fine[2], 4.0, 0.2);
 }
 

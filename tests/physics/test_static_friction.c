@@ -141,8 +141,7 @@ static void check_sum_query(const scene *s, const totals *sum)
 {
     const dmb_contact_total told = contacts_of(&s->rig);
     assert_int_equal(told.closed, sum->closed);
-    for (int k = 0; k < 2; k++)
-        check_close("sum of friction", told.friction[k], sum->friction[k], 1e-9 * sum->normal);
+    for (int k = 0; k < 2; k++) check_close("sum of friction", told.friction[k], sum->friction[k], 1e-9 * sum->normal);
 }
 
 /* Of the whole: the guide's reaction and the drive's force, in the axes of the rig end, with all others. */
@@ -230,7 +229,11 @@ static void every_law_and_direction(void **state)
         for (uint32_t l = 0; l < 4; l++)
             for (uint32_t i = 0; i < 4; i++) {
                 const double *hole = holes[(i + l) % 4];
-                const scene_choice choice = {laws[l], kinds[k], hole[0], hole[1], {slips[i][0], slips[i][1]},
+                const scene_choice choice = {laws[l],
+                                             kinds[k],
+                                             hole[0],
+                                             hole[1],
+                                             {slips[i][0], slips[i][1]},
                                              {-3000.0, 0.0, 0.0, -20.0, 0.0, 0.0}};
                 check_scene(&choice);
             }

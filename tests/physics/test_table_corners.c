@@ -1,5 +1,5 @@
-/* Corners of speed tables against closed forms: the work of a motion drive is the kinetic energy it makes, however steps
- * fall on the corners and however short the ramps are; time is the number of steps times their length. */
+/* Corners of speed tables against closed forms: the work of a motion drive is the kinetic energy it makes, however
+ * steps fall on the corners and however short the ramps are; time is the number of steps times their length. */
 #include <float.h>
 #include <stdio.h>
 
@@ -19,7 +19,11 @@ static const table tables[] = {
     {"ramp of 1e-5 s", 4, {0.0, 1.0, 1.00001, 2.0}, {0.0, 0.0, 5.0, 5.0}, 2.0},
     {"ramp of 1e-9 s", 4, {0.0, 0.305, 0.305000001, 2.0}, {1.0, 1.0, 5.0, 5.0}, 1.0},
     {"ramp of 2e-12 s", 4, {0.0, 0.3, 0.300000000002, 2.0}, {0.0, 0.0, -5.0, -5.0}, 1.0},
-    {"ramps off the steps", 6, {0.0, 0.123456, 0.123999, 0.5004, 0.5007, 0.50071}, {3.0, 3.0, 8.0, 8.0, -2.0, 4.0}, 1.0},
+    {"ramps off the steps",
+     6,
+     {0.0, 0.123456, 0.123999, 0.5004, 0.5007, 0.50071},
+     {3.0, 3.0, 8.0, 8.0, -2.0, 4.0},
+     1.0},
     {"two corners in a sliver", 4, {0.0, 0.4999999999, 0.5000000001, 0.6}, {0.0, 0.0, 7.0, 7.0}, 1.0},
     {"corner just before a step", 4, {0.0, 0.4999999999, 0.7, 0.8}, {0.0, 0.0, 7.0, 7.0}, 1.0},
     {"corner just after a step", 4, {0.0, 0.5000000001, 0.7, 0.8}, {0.0, 0.0, 7.0, 7.0}, 1.0},
@@ -67,7 +71,8 @@ static void run(const rig *s, int how, double h, double end)
         for (int i = 1; i <= 37; i++) must(s, dmb_sim_advance(s->sim, end * i / 37.0, NULL));
 }
 
-/* ---- Rigid parts: the work is exactly the kinetic energy ---------------------------------------------------------- */
+/* ---- Rigid parts: the work is exactly the kinetic energy
+ * ---------------------------------------------------------- */
 
 /* The drive on a body of mass 2 kg and inertia INERTIA, along or about x, itself or by a joint. */
 static dmb_id add_driven_body(rig *s, int32_t component, int on_joint, dmb_id programme)
@@ -96,8 +101,8 @@ static void check_work(const table *t, int32_t component, int on_joint, int how,
     const double v0 = table_at(t, 0.0), v1 = table_at(t, t->end), want = 0.5 * inertia * (v1 * v1 - v0 * v0);
     const dmb_energy energy = energy_of(&s);
     const double most = 0.5 * inertia * 900.0;
-    (void)snprintf(what, sizeof what, "%s, component %d%s, %s h %g: work", t->name, component, on_joint ? " of a joint" : "",
-                   how == STEPS ? "steps" : "advance", h);
+    (void)snprintf(what, sizeof what, "%s, component %d%s, %s h %g: work", t->name, component,
+                   on_joint ? " of a joint" : "", how == STEPS ? "steps" : "advance", h);
     check_close(what, drive_of(&s, drive).work, want, 1e-9 * most);
     check_close("    in the ledger", energy.drives, want, 1e-9 * most);
     check_close("    balance", energy.balance, 0.0, 1e-9 * most);
@@ -134,7 +139,8 @@ static void knots_at_sums_of_steps(void **state)
     check_work(&t, DMB_RX, 0, ADVANCE, 0.0);
 }
 
-/* ---- Strings: work = energy + what the scheme took, which falls with the square of the step ----------------------- */
+/* ---- Strings: work = energy + what the scheme took, which falls with the square of the step
+ * ----------------------- */
 
 /* Four pipes driven at the rig end, torsion soft enough that the steps see their waves. */
 static double missing(const table *t, int32_t component, double h)
@@ -152,7 +158,8 @@ static double missing(const table *t, int32_t component, double h)
     (void)rig_start(&s, &options);
     run(&s, h > 0.0 ? STEPS : ADVANCE, h, t->end);
     const dmb_energy e = energy_of(&s);
-    check_close("    work less energy, dissipation and scheme", e.balance - e.scheme - e.unexplained, 0.0, 1e-9 * e.input);
+    check_close("    work less energy, dissipation and scheme", e.balance - e.scheme - e.unexplained, 0.0,
+                1e-9 * e.input);
     const double part = e.balance / e.input;
     rig_close(&s);
     return part;
@@ -177,7 +184,8 @@ static void work_on_strings_is_energy_and_dissipation(void **state)
         }
 }
 
-/* ---- Steps that are not divided ----------------------------------------------------------------------------------- */
+/* ---- Steps that are not divided
+ * ----------------------------------------------------------------------------------- */
 
 /* Bounded work: a corner inside a step divides the work, not the step. */
 static void bounded_steps_divide_the_work(void **state)
@@ -201,7 +209,8 @@ static void bounded_steps_divide_the_work(void **state)
     check_close("work of bounded steps, h 1e-3", error[1], 0.0, 5e-6);
 }
 
-/* ---- Time --------------------------------------------------------------------------------------------------------- */
+/* ---- Time
+ * --------------------------------------------------------------------------------------------------------- */
 
 static void time_does_not_drift(void **state)
 {

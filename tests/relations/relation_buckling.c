@@ -1,8 +1,8 @@
 /* The factor of linear buckling against the sign change of det K on the path of equilibria, against the static states
  * below and above it, and against the load at which a run in time leaves. Straight lines pushed along: sections do not
- * bend on the way there. A third has no weight, a third stands on or hangs from its rig end by a weight that does not grow
- * with the push, a third is twisted by a moment with a fixed axis, which makes the stiffness unsymmetric: such a line may
- * flutter before it diverges, so that its runs in time are left out. */
+ * bend on the way there. A third has no weight, a third stands on or hangs from its rig end by a weight that does not
+ * grow with the push, a third is twisted by a moment with a fixed axis, which makes the stiffness unsymmetric: such a
+ * line may flutter before it diverges, so that its runs in time are left out. */
 #include "relations.h"
 
 enum { TOPIC_BUCKLING = TOPIC_OF_RELATION + 40 };

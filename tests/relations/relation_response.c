@@ -262,8 +262,8 @@ static double pulse_at(double now, double time)
     return e * e * e * (10.0 - 15.0 * e + 6.0 * e * e);
 }
 
-/* q'' + w2 q = f phi of each mode, exact for a force that is straight between fine samples. The material_points are x, y, z of
- * one place. */
+/* q'' + w2 q = f phi of each mode, exact for a force that is straight between fine samples. The material_points are x,
+ * y, z of one place. */
 static void superpose(const modal *m, const double force[3], double step, double time, double out[SAMPLES][3])
 {
     memset(out, 0, SAMPLES * sizeof *out);

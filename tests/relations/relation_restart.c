@@ -1,6 +1,6 @@
 /* A run that goes on from a snapshot of its middle against the run straight through: the same bits. A run handed over
- * to another sim and back (dmb_sim_transfer_state) against one that stays: the same to rounding, and the state of any run
- * handed over. */
+ * to another sim and back (dmb_sim_transfer_state) against one that stays: the same to rounding, and the state of any
+ * run handed over. */
 #include "relations.h"
 
 enum { STEPS = 60, BYTES = 4000000 };

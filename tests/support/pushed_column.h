@@ -1,5 +1,5 @@
-/* Ten pipes without gravity or wall, clamped at the rig end or free there, pushed at the far end: what linear buckling and
- * paths of equilibrium are asked about. */
+/* Ten pipes without gravity or wall, clamped at the rig end or free there, pushed at the far end: what linear buckling
+ * and paths of equilibrium are asked about. */
 #ifndef DMB_TESTS_PUSHED_COLUMN_H
 #define DMB_TESTS_PUSHED_COLUMN_H
 
@@ -12,9 +12,9 @@ typedef struct pushed_column {
 } pushed_column;
 
 typedef struct column_choice {
-    int32_t start_free;            /* DMB_FREE_... */
-    double push, aside;            /* [N] against the axis, and along y */
-    double gravity;                /* [m/s2] along -z */
+    int32_t start_free;             /* DMB_FREE_... */
+    double push, aside;             /* [N] against the axis, and along y */
+    double gravity;                 /* [m/s2] along -z */
     const dmb_allocator *allocator; /* of the sim; NULL: the default one */
 } column_choice;
 

@@ -326,7 +326,7 @@ class Motion(Sized):
     field_docs = {
         "frame": ("", "in: FRAME_WORLD (default) or FRAME_BODY"),
         "velocity": ("m/s, rad/s", "of the section's centre, in `frame`, shape (6)"),
-        "acceleration": ("m/s2, rad/s2", "likewise, shape (6); in the body frame the rate of the body-frame velocity"),
+        "acceleration": ("m/s2, rad/s2", "likewise, shape (6); in the body frame the rate of velocity there"),
     }
 
 
@@ -344,7 +344,7 @@ class Section(Sized):
     ]
     field_docs = {
         "force": ("N, N m", "on the near side from the far side: axial (tension > 0), shear y, z; torque, bending moment y, z; section frame; the pipe's own weight and inertia included between its nodes, where wall forces act (axial-torsional pipes: mean of the element); shape (6)"),
-        "strain": ("-, -, -, rad/m, rad/m, rad/m", "mean of the element: stretch, shear; twist, curvature; shape (6)"),
+        "strain": ("-, -, -, rad/m, rad/m, rad/m", "mean of element: stretch, shear; twist, curvature; shape (6)"),
     }
 
 

@@ -392,7 +392,7 @@ class Steady(IntEnum):
     """Values DMB_STEADY_... of the headers."""
     AUTO = 0  #: AT_REST where nothing moves or a slip is assumed, SLIDING where strings are moved along and about their axis, RIGID else, or where masses are eccentric; AT_REST with NOTE_NOT_STEADY (message says why) where neither is steady
     AT_REST = 1  #: all is at rest; only what motion drives move takes their speed
-    SLIDING = 2  #: axes at rest, strings slide along the hole and turn about their own axis as their drives say
+    SLIDING = 2  #: axes at rest; strings slide along the hole and turn about their axis as drives say
     RIGID = 3  #: all turns about one fixed axis like a rigid body, under centrifugal forces
 
 
@@ -533,7 +533,7 @@ class OutputKind(IntEnum):
     ACCELERATION = 2  #: [m/s2, rad/s2] the rate of that
     SECTION_FORCE = 3  #: [N, N m] as dmb_query_section, section frame
     SECTION_STRAIN = 4  #: [-, rad/m] likewise
-    CONTACT = 5  #: [N] at contact site number place.pipe: component X, Y friction, 0 and 1 of dmb_contact (not of bristles in a response: ERR_UNSUPPORTED); Z normal force
+    CONTACT = 5  #: [N] at contact site number place.pipe: X, Y friction, 0 and 1 of dmb_contact (bristles in a response: ERR_UNSUPPORTED); Z normal force
     DRIVE = 6  #: [N, N m] force of the drive place.part, as dmb_query_drive; no component
     REACTION = 7  #: [N, N m] on the part place.part, as dmb_query_reaction
     JOINT_POSITION = 8

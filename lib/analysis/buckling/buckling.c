@@ -2,10 +2,10 @@
 
 #include <string.h>
 
-#include "base/memory.h"
-#include "base/value_check.h"
 #include "base/handle.h"
+#include "base/memory.h"
 #include "base/sized_struct.h"
+#include "base/value_check.h"
 #include "sim/access.h"
 #include "system/copy.h"
 

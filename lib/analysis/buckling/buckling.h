@@ -9,18 +9,18 @@
 
 struct dmb_buckling {
     uint32_t magic;
-    uint32_t count;          /* factors found */
+    uint32_t count; /* factors found */
     dmb_allocator allocator;
-    dmb_sim *work;           /* a copy of the sim in the state that is linearised, for shapes as its velocities */
-    double at;               /* [unit of the factor] where on the path of equilibria that state is */
+    dmb_sim *work; /* a copy of the sim in the state that is linearised, for shapes as its velocities */
+    double at;     /* [unit of the factor] where on the path of equilibria that state is */
     dmb_buckling_info info;
     void *block;
     size_t block_size;
-    double *factor;          /* (count) */
-    double *first;           /* (count) the factors that the present state alone told; infinite: not told */
-    double *vector;          /* (count, unknowns of the pencil) */
-    double *shape;           /* (count, rows) body-frame displacements of the nodes; without joints it is the vector */
-    double *response;        /* (rows) of the state to the pattern */
+    double *factor;   /* (count) */
+    double *first;    /* (count) the factors that the present state alone told; infinite: not told */
+    double *vector;   /* (count, unknowns of the pencil) */
+    double *shape;    /* (count, rows) body-frame displacements of the nodes; without joints it is the vector */
+    double *response; /* (rows) of the state to the pattern */
     dmb_load_pattern pattern;
     dmb_pencil pencil;
     dmb_frames frames;
@@ -28,13 +28,13 @@ struct dmb_buckling {
 
 /* Body-frame displacements of the nodes, shape (rows), that a vector of the pencil stands for. */
 void dmb_buckling_expand(dmb_buckling *buckling, const double *vector, double *shape);
-/* K and G of the state in `work`, at the factor `at`. Errors, with a message in sim: DMB_ERR_ORDER (no stable equilibrium),
- * _SINGULAR. */
+/* K and G of the state in `work`, at the factor `at`. Errors, with a message in sim: DMB_ERR_ORDER (no stable
+ * equilibrium), _SINGULAR. */
 int32_t dmb_buckling_linearise(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options);
 /* Factors and shapes of K and G, rising; DMB_NOTE_STOPPED where there are fewer than asked for. */
 int32_t dmb_buckling_find(dmb_buckling *buckling, const dmb_buckling_options *options, dmb_message *message);
-/* Along the equilibria from the present state to the first factor at which they lose their stability, and the factors once
- * more from there. Status as of dmb_analysis_buckling. */
+/* Along the equilibria from the present state to the first factor at which they lose their stability, and the factors
+ * once more from there. Status as of dmb_analysis_buckling. */
 int32_t dmb_buckling_follow(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options);
 
 #endif

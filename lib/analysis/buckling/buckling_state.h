@@ -1,6 +1,6 @@
 /* Stiffness of a state nearby in the frames of the present one. Body frames turn with the response of the state to its
- * loads: two matrices may only be subtracted in frames that do not, or the difference holds q' (W K - K W), W the turning,
- * which is as large as the stiffest entries: 12 EI/L^3 of short elements twisted by torque.
+ * loads: two matrices may only be subtracted in frames that do not, or the difference holds q' (W K - K W), W the
+ * turning, which is as large as the stiffest entries: 12 EI/L^3 of short elements twisted by torque.
  *
  *     d_now = T d_trial,  T = blkdiag(Q, Q),  Q = R_now^T R_trial,      K_now = T K_trial T^T
  *

@@ -3,10 +3,10 @@
 #include <string.h>
 
 #include "analysis/linear/stiffness.h"
-#include "base/memory.h"
-#include "base/value_check.h"
 #include "base/handle.h"
+#include "base/memory.h"
 #include "base/sized_struct.h"
+#include "base/value_check.h"
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "sim/node.h"

@@ -1,5 +1,5 @@
-/* A path of equilibrium while it is followed. The copy `work` of the sim holds the last point in `now` and the one that is
- * sought in `trial`. */
+/* A path of equilibrium while it is followed. The copy `work` of the sim holds the last point in `now` and the one that
+ * is sought in `trial`. */
 #ifndef DMB_ANALYSIS_BUCKLING_PATH_H
 #define DMB_ANALYSIS_BUCKLING_PATH_H
 
@@ -8,13 +8,13 @@
 
 /* A point: where the factor is, and the unit tangent of the path. */
 typedef struct dmb_path_place {
-    double factor;    /* [unit of the factor] */
-    double rate;      /* [unit of the factor/m] along the tangent */
-    double arc;       /* [m] from the start */
-    double watched;   /* [m] */
+    double factor;     /* [unit of the factor] */
+    double rate;       /* [unit of the factor/m] along the tangent */
+    double arc;        /* [m] from the start */
+    double watched;    /* [m] */
     int32_t negative;  /* eigenvalues of the stiffness, as in dmb_path_point */
     int32_t stiffness; /* DMB_STIFFNESS_... */
-    double *tangent;  /* (rows) [m, rad] body-frame displacements a metre of arc */
+    double *tangent;   /* (rows) [m, rad] body-frame displacements a metre of arc */
 } dmb_path_place;
 
 typedef struct dmb_path {
@@ -25,24 +25,24 @@ typedef struct dmb_path {
     dmb_static_search search;
     dmb_load_pattern pattern;
     dmb_path_place last, next;
-    double *loaded;        /* (rows) what a unit of the factor moves */
-    double *move;          /* (rows) */
-    double *mode;          /* (rows) softest shape of the stiffness factored last, unit length */
-    double side;           /* rate of the last point but at limit points, where it is that beyond */
-    double softest;        /* [N/m] eigenvalue of that shape */
-    double rounding;       /* [N/m] of eigenvalues of the stiffness judged last */
-    double weakest;        /* [-] pivot of the stiffness factored last, against its block */
-    uint32_t iterations;   /* of the point sought */
-    uint32_t turned;       /* element that a step has twisted or bent too far; UINT32_MAX: none */
-    double turned_at;      /* [unit of the factor] where that step began */
-    int32_t begun;         /* 1: from a state in equilibrium, so that the report tells something */
+    double *loaded;      /* (rows) what a unit of the factor moves */
+    double *move;        /* (rows) */
+    double *mode;        /* (rows) softest shape of the stiffness factored last, unit length */
+    double side;         /* rate of the last point but at limit points, where it is that beyond */
+    double softest;      /* [N/m] eigenvalue of that shape */
+    double rounding;     /* [N/m] of eigenvalues of the stiffness judged last */
+    double weakest;      /* [-] pivot of the stiffness factored last, against its block */
+    uint32_t iterations; /* of the point sought */
+    uint32_t turned;     /* element that a step has twisted or bent too far; UINT32_MAX: none */
+    double turned_at;    /* [unit of the factor] where that step began */
+    int32_t begun;       /* 1: from a state in equilibrium, so that the report tells something */
     dmb_path_report report;
     void *block;
     size_t block_size;
 } dmb_path;
 
-/* Memory, and the first point, from zeros but for sim, options and pattern. Errors: as dmb_analysis_path; dmb_path_close
- * gives the memory back in any case. */
+/* Memory, and the first point, from zeros but for sim, options and pattern. Errors: as dmb_analysis_path;
+ * dmb_path_close gives the memory back in any case. */
 int32_t dmb_path_open(dmb_path *path);
 void dmb_path_close(dmb_path *path);
 /* The next point, at an event or at *arc; a step that fails is halved. *event tells. */
@@ -74,7 +74,8 @@ int32_t dmb_path_end(const dmb_path *path, int32_t but);
 /* Moves next to the event, by regula falsi on the arc; mode is then the softest shape there. A bifurcation may turn out
  * to be a corner: a limit point, or nothing. */
 int32_t dmb_path_locate(dmb_path *path, int32_t *event, double arc);
-/* From a bifurcation, which is last, to the first point of the branch along the mode, halving *arc until it is found. */
+/* From a bifurcation, which is last, to the first point of the branch along the mode, halving *arc until it is
+ * found. */
 int32_t dmb_path_leave(dmb_path *path, double *arc);
 
 #endif

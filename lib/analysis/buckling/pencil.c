@@ -321,7 +321,8 @@ static uint32_t take(const dmb_krylov *values, size_t length, uint32_t wanted, d
     for (uint32_t i = 0; i < values->count && found < wanted; i++) {
         const size_t n = length;
         const int pair = values->im[i] != 0.0;
-        if (values->re[i] <= noise || values->re[i] * most < 1.0 || fabs(values->im[i]) > DMB_REAL_PAIR * values->re[i]) continue;
+        if (values->re[i] <= noise || values->re[i] * most < 1.0 || fabs(values->im[i]) > DMB_REAL_PAIR * values->re[i])
+            continue;
         for (int part = 0; part <= pair && found < wanted; part++, found++) {
             factors[found] = 1.0 / values->re[i];
             memcpy(vectors + n * found, (part ? values->y : values->x) + n * i, n * sizeof(double));

@@ -6,7 +6,8 @@
  *
  * assembled in complex blocks, factored and solved: block-tridiagonal along a chain, block-sparse in the independent
  * coordinates where joints connect chains (analysis/linear/dynamic_links). Rows that guides hold do not move. Rows that
- * drives move do so as told: of displacements p that hold all equations of joints, d = p + R z, R^T A R z = -R^T A p. */
+ * drives move do so as told: of displacements p that hold all equations of joints, d = p + R z, R^T A R z = -R^T A
+ * p. */
 #ifndef DMB_ANALYSIS_LINEAR_DYNAMIC_STIFFNESS_H
 #define DMB_ANALYSIS_LINEAR_DYNAMIC_STIFFNESS_H
 
@@ -20,24 +21,24 @@ typedef struct dmb_complex_number {
 
 /* The system R^T A R of chains that joints connect, in the blocks of the scene's pattern. */
 typedef struct dmb_dynamic_links {
-    uint32_t count;             /* of its coordinates; 0 too where joints leave none */
-    uint32_t *size, *row;       /* of each block: coordinates, and the first of them, shape (blocks of the scene) */
-    uint32_t *place;            /* of coordinate i of the linear system among them; UINT32_MAX: none */
+    uint32_t count;       /* of its coordinates; 0 too where joints leave none */
+    uint32_t *size, *row; /* of each block: coordinates, and the first of them, shape (blocks of the scene) */
+    uint32_t *place;      /* of coordinate i of the linear system among them; UINT32_MAX: none */
     dmb_complex_sparse matrix;
-    dmb_complex_array solution; /* shape (count) */
-    dmb_complex_array half;     /* A_ij R_j, shape (6, the widest block) */
+    dmb_complex_array solution;   /* shape (count) */
+    dmb_complex_array half;       /* A_ij R_j, shape (6, the widest block) */
     dmb_complex_array multiplier; /* of one cluster, shape (the most rows of a cluster) */
-    double *rest;               /* forces that constraints balance, shape (2, the most rows of a cluster) */
-    double *stiffness, *mass;   /* what a pivot is held against: diagonals of R^T |K| R and R^T |M| R, shape (count) */
+    double *rest;                 /* forces that constraints balance, shape (2, the most rows of a cluster) */
+    double *stiffness, *mass; /* what a pivot is held against: diagonals of R^T |K| R and R^T |M| R, shape (count) */
 } dmb_dynamic_links;
 
 typedef struct dmb_dynamic_stiffness {
     const dmb_linear *linear;
-    double structural_damping;  /* [-] eta */
-    double omega;               /* [rad/s] of the present factors */
-    double growth;              /* [1/s] likewise; 0 of a response */
+    double structural_damping;        /* [-] eta */
+    double omega;                     /* [rad/s] of the present factors */
+    double growth;                    /* [1/s] likewise; 0 of a response */
     dmb_complex_block_matrix factors; /* of chains without joints; the blocks of A of the others */
-    dmb_complex_array told;     /* p, shape (rows) */
+    dmb_complex_array told;           /* p, shape (rows) */
     dmb_dynamic_links links;
     void *block;
     size_t block_size;

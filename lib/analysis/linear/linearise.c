@@ -51,7 +51,7 @@ static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *optio
     dmb_sim *work = linear->work;
     dmb_evaluation evaluation = dmb_linear_evaluation(work);
     double *before = work->trial.pseudo_acceleration; /* which no force depends on */
-    work->reduced_mode->multipliers = 1;               /* they are given */
+    work->reduced_mode->multipliers = 1;              /* they are given */
     int32_t status = dmb_system_evaluate(&evaluation);
     memcpy(before, work->correction, linear->rows * sizeof(double));
     dmb_linear_freeze(linear, options);

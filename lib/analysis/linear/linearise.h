@@ -15,17 +15,17 @@
  *     C = C_v + M v^,     K = K_H + C_v v^ + M a^
  *
  * so that gyroscopic and centrifugal terms of a steadily spinning string are in C and K, whose entries are constant
- * there: it is a relative equilibrium. Elsewhere in a run the coefficients are those of the moment.
- * In axes that do not take part in the spin w about a node's x axis, d is turned back by it, d <- exp(w^ t) d: with g = v -
- * w velocities of the perturbed motion are v + d' + g^ d, accelerations a + d'' + g^ d' - w^ (d' + g^ d) + a^ d, and
+ * there: it is a relative equilibrium. Elsewhere in a run the coefficients are those of the moment. In axes that do not
+ * take part in the spin w about a node's x axis, d is turned back by it, d <- exp(w^ t) d: with g = v - w velocities of
+ * the perturbed motion are v + d' + g^ d, accelerations a + d'' + g^ d' - w^ (d' + g^ d) + a^ d, and
  *
  *     C = C_v - M w^ + M g^,     K = K_H + (C_v - M w^) g^ + M a^,
  *
- * constant for what is round, even where a turning string lies on the wall.
- * Whatever is integrated along with the motion, bristles that stick and the integral part of speed controllers, is stiffness
- * here (the part that v^ d has in it, left out, is none for drives along and about the axis). The memory of a regenerative
- * rock law is not: its past is taken as given. A nonholonomic equation holds d as it holds d'. Friction has the derivative
- * of its law; one that is smooth at rest is a damper there. */
+ * constant for what is round, even where a turning string lies on the wall. Whatever is integrated along with the
+ * motion, bristles that stick and the integral part of speed controllers, is stiffness here (the part that v^ d has in
+ * it, left out, is none for drives along and about the axis). The memory of a regenerative rock law is not: its past is
+ * taken as given. A nonholonomic equation holds d as it holds d'. Friction has the derivative of its law; one that is
+ * smooth at rest is a damper there. */
 #ifndef DMB_ANALYSIS_LINEAR_LINEARISE_H
 #define DMB_ANALYSIS_LINEAR_LINEARISE_H
 
@@ -33,9 +33,9 @@
 #include "system/assemble/evaluation.h"
 
 enum {
-    DMB_LINEAR_CONTACT_AS_IS = 0,  /* rings that touch the wall press on it, others do not */
-    DMB_LINEAR_CONTACT_OPEN = 1,   /* there is no wall; what it presses with in the state is a dead load */
-    DMB_LINEAR_CONTACT_CLOSED = 2  /* rings up to `gap` from the wall are held across it too */
+    DMB_LINEAR_CONTACT_AS_IS = 0, /* rings that touch the wall press on it, others do not */
+    DMB_LINEAR_CONTACT_OPEN = 1,  /* there is no wall; what it presses with in the state is a dead load */
+    DMB_LINEAR_CONTACT_CLOSED = 2 /* rings up to `gap` from the wall are held across it too */
 };
 
 typedef struct dmb_linear_options {
@@ -44,7 +44,7 @@ typedef struct dmb_linear_options {
     double gap;          /* [m] of DMB_LINEAR_CONTACT_CLOSED */
     int32_t still;       /* 1: d in axes that do not spin about the node's x axis */
     int32_t reserved;
-    double spin;         /* [rad/s] of the nodes of strings in the state, 0: as they do */
+    double spin; /* [rad/s] of the nodes of strings in the state, 0: as they do */
 } dmb_linear_options;
 
 /* A residual below this part of the forces that balance in it is equilibrium. */
@@ -57,35 +57,36 @@ typedef struct dmb_linear_matrix {
 } dmb_linear_matrix;
 
 typedef struct dmb_linear {
-    dmb_scene scene;           /* that of the sim, contact as asked for */
-    dmb_sim *work;             /* a copy of the sim in the state, its factors those of dmb_linear_factor */
+    dmb_scene scene; /* that of the sim, contact as asked for */
+    dmb_sim *work;   /* a copy of the sim in the state, its factors those of dmb_linear_factor */
     dmb_allocator allocator;
     dmb_linear_matrix mass, damping, stiffness;
-    double *unbalanced;        /* [N, N m] residual of the state without its accelerations, shape (rows) */
-    double unbalance;          /* [-] the same relative, as of dmb_residual_norm_of; 0: a (relative) equilibrium */
-    double largest_force;      /* [N, N m over the element length] largest entry of it that a node feels */
-    uint32_t largest_node;     /* where */
-    int32_t balanced;          /* 1: what is left is rounding, or below DMB_LINEAR_BALANCED */
-    int32_t slides;            /* 1: axes at rest balance it better than body-frame velocities that stay as they are */
-    uint32_t rows;             /* of the scene */
-    double *stiffness_size;    /* [N/m, N m] |K_ii| with the joints' parts, shape (rows) */
-    uint32_t coordinates;      /* length of z */
-    uint32_t *row_of;          /* row that coordinate i is the displacement of, ascending, shape (coordinates) */
-    uint32_t *start, *column;  /* R by rows: entries start[row] .. start[row + 1] - 1 */
+    double *unbalanced;       /* [N, N m] residual of the state without its accelerations, shape (rows) */
+    double unbalance;         /* [-] the same relative, as of dmb_residual_norm_of; 0: a (relative) equilibrium */
+    double largest_force;     /* [N, N m over the element length] largest entry of it that a node feels */
+    uint32_t largest_node;    /* where */
+    int32_t balanced;         /* 1: what is left is rounding, or below DMB_LINEAR_BALANCED */
+    int32_t slides;           /* 1: axes at rest balance it better than body-frame velocities that stay as they are */
+    uint32_t rows;            /* of the scene */
+    double *stiffness_size;   /* [N/m, N m] |K_ii| with the joints' parts, shape (rows) */
+    uint32_t coordinates;     /* length of z */
+    uint32_t *row_of;         /* row that coordinate i is the displacement of, ascending, shape (coordinates) */
+    uint32_t *start, *column; /* R by rows: entries start[row] .. start[row + 1] - 1 */
     double *value;
-    double *spin, *rest;       /* velocities of the state: what the axes of d leave out, and the others, shape (rows) */
-    double *held_columns;      /* columns of M, C_v and K_H of the rows that are held, in the rows of the node before, the
-                                  node and the node after, six each: what a drive that moves them exerts on the others;
-                                  shape (scene.held_count, 3, 18) */
-    double *held_rows;         /* their rows of M, C and K by what is not held, likewise: what the others exert on them */
-    double *whole_joints;      /* the joints' parts of M, C and K, rows and columns that are held included, shape
-                                  (3, scene.tangent_count) */
+    double *spin, *rest;  /* velocities of the state: what the axes of d leave out, and the others, shape (rows) */
+    double *held_columns; /* columns of M, C_v and K_H of the rows that are held, in the rows of the node before, the
+                             node and the node after, six each: what a drive that moves them exerts on the others;
+                             shape (scene.held_count, 3, 18) */
+    double *held_rows;    /* their rows of M, C and K by what is not held, likewise: what the others exert on them */
+    double *whole_joints; /* the joints' parts of M, C and K, rows and columns that are held included, shape
+                             (3, scene.tangent_count) */
     void *block;
     size_t block_size;
 } dmb_linear;
 
-/* Linearises; the sim is untouched. Memory from the sim's allocator; dmb_linear_release gives it back, *linear is NULL on
- * error. Callbacks of constraints are called. Errors: DMB_ERR_NO_MEMORY, _CALLBACK, _NOT_FINITE, _ROTATION, _SINGULAR. */
+/* Linearises; the sim is untouched. Memory from the sim's allocator; dmb_linear_release gives it back, *linear is NULL
+ * on error. Callbacks of constraints are called. Errors: DMB_ERR_NO_MEMORY, _CALLBACK, _NOT_FINITE, _ROTATION,
+ * _SINGULAR. */
 int32_t dmb_linear_make(const dmb_sim *sim, const dmb_linear_options *options, dmb_linear **linear);
 void dmb_linear_release(dmb_linear **linear);
 
@@ -129,8 +130,8 @@ int32_t dmb_linear_is_undamped(const dmb_linear *linear, double *work);
 /* Factors k K + c C + m M in `work`: block-tridiagonal, block-sparse where joints connect. Node of a singular block, or
  * -1; weakest may be NULL. */
 int64_t dmb_linear_factor(dmb_linear *linear, double k, double c, double m, dmb_block_weakest *weakest);
-/* Eigenvalues of K d = square M d below `square`, by the signs of the factors of K - square M (Sylvester); without joints
- * only. The factors of dmb_linear_factor are gone then. */
+/* Eigenvalues of K d = square M d below `square`, by the signs of the factors of K - square M (Sylvester); without
+ * joints only. The factors of dmb_linear_factor are gone then. */
 uint32_t dmb_linear_count_below(dmb_linear *linear, double square);
 /* The same with joints too; -1 where a block is singular there. */
 int64_t dmb_linear_count(dmb_linear *linear, double square);

@@ -1,8 +1,8 @@
 #include "analysis/linear/stiffness.h"
 
 #include "math/block_inertia.h"
-#include "system/solve/reduced_sparse.h"
 #include "sim/node.h"
+#include "system/solve/reduced_sparse.h"
 #include "system/solve/solve.h"
 
 /* Part of the largest stiffness, rotations over the length scale, that counts as 0. */

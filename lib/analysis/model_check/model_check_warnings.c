@@ -4,15 +4,15 @@
 
 #include "analysis/model_check/model_check.h"
 #include "math/vec3.h"
-#include "system/constrain/constraint_rows.h"
 #include "sim/node.h"
+#include "system/constrain/constraint_rows.h"
 
-#define DMB_POOR_CONDITION 1e-4 /* smallest over largest singular value of the equations */
-#define DMB_LARGE_VIOLATION 1e-8   /* [m, -] that an equation of position may be off */
-#define DMB_SMALL_MASS 1e-9     /* of the largest one */
-#define DMB_NEARLY_SQUARE 0.05  /* [rad] this near to where coordinates or equations lose their meaning */
-#define DMB_SUNK 0.01           /* of the hole's radius: deeper than a part that lies on the wall */
-#define DMB_DEPTH_ROUNDING 1e-6 /* [m] */
+#define DMB_POOR_CONDITION 1e-4  /* smallest over largest singular value of the equations */
+#define DMB_LARGE_VIOLATION 1e-8 /* [m, -] that an equation of position may be off */
+#define DMB_SMALL_MASS 1e-9      /* of the largest one */
+#define DMB_NEARLY_SQUARE 0.05   /* [rad] this near to where coordinates or equations lose their meaning */
+#define DMB_SUNK 0.01            /* of the hole's radius: deeper than a part that lies on the wall */
+#define DMB_DEPTH_ROUNDING 1e-6  /* [m] */
 
 /* Where the lines go. */
 typedef struct sink {

@@ -5,10 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/memory.h"
-#include "base/value_check.h"
 #include "base/handle.h"
+#include "base/memory.h"
 #include "base/sized_struct.h"
+#include "base/value_check.h"
 #include "sim/access.h"
 #include "sim/node.h"
 #include "system/copy.h"

@@ -286,7 +286,7 @@ int32_t dmb_modes_open(const dmb_sim *sim, dmb_modes **modes)
     m->rows = sim->scene->row_count;
     m->state = dmb_state_copy(sim);
     if (m->state != NULL) {
-        m->state->magic = DMB_HANDLE_SIM; /* queries look through it */
+        m->state->magic = DMB_HANDLE_SIM;             /* queries look through it */
         m->state->progress = &m->state->own_progress; /* it may outlive the sim */
         dmb_model_hold(m->state->model);
     }

@@ -8,10 +8,10 @@
 
 #include "analysis/linear/functional.h"
 #include "math/vec3.h"
-#include "system/constrain/cluster.h"
-#include "system/assemble/evaluation.h"
 #include "sim/node.h"
+#include "system/assemble/evaluation.h"
 #include "system/assemble/wall_contact.h"
+#include "system/constrain/cluster.h"
 
 /* Differences of the residual with a factor this large lose nothing to the forces of the state. */
 #define DMB_EXCITATION_FACTOR 1e6

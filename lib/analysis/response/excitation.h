@@ -1,4 +1,5 @@
-/* Excitation of a scene in a frequency response: the rows of force of a unit of an input, and how they go with frequency. */
+/* Excitation of a scene in a frequency response: the rows of force of a unit of an input, and how they go with
+ * frequency. */
 #ifndef DMB_ANALYSIS_RESPONSE_EXCITATION_H
 #define DMB_ANALYSIS_RESPONSE_EXCITATION_H
 
@@ -9,16 +10,16 @@ enum {
     DMB_EXCITE_FORCE = 0,   /* f(w) = rows */
     DMB_EXCITE_INERTIA = 1, /* f(w) = w^2 rows */
     DMB_EXCITE_CONTROL = 2, /* f(w) = (gain + integral_gain/(i w)) rows */
-    DMB_EXCITE_MOTION = 3   /* rows are displacements that move the coordinate of a drive by one and hold all equations of
-                               joints; its speed is the input: they are rows/(i w) */
+    DMB_EXCITE_MOTION = 3 /* rows are displacements that move the coordinate of a drive by one and hold all equations of
+                             joints; its speed is the input: they are rows/(i w) */
 };
 
 typedef struct dmb_excitation {
-    int32_t law;        /* DMB_EXCITE_... */
-    uint32_t drive;     /* that is the input; UINT32_MAX: none is */
+    int32_t law;    /* DMB_EXCITE_... */
+    uint32_t drive; /* that is the input; UINT32_MAX: none is */
     double gain, integral_gain;
-    double *re, *im;    /* forces on all rows, those that guides hold included, or displacements, shape (row_count); the
-                           caller's memory, zeros to begin with */
+    double *re, *im; /* forces on all rows, those that guides hold included, or displacements, shape (row_count); the
+                        caller's memory, zeros to begin with */
 } dmb_excitation;
 
 /* Fills the excitation of input number `index`, already checked to be one of its kind. copy: a sim of the state; its

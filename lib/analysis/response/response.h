@@ -7,7 +7,7 @@
 struct dmb_response {
     uint32_t magic;
     uint32_t points, inputs, outputs;
-    int32_t undamped;          /* 1: no structural damping, and no motion meets a damping force */
+    int32_t undamped; /* 1: no structural damping, and no motion meets a damping force */
     int32_t reserved;
     dmb_allocator allocator;
     double *amplitude, *phase; /* shape (inputs) */
@@ -15,7 +15,7 @@ struct dmb_response {
     double *value;             /* real and imaginary parts, shape (points, inputs, outputs, 2) */
     void *block;               /* amplitude, phase */
     size_t block_size;
-    void *table;               /* frequency, value */
+    void *table; /* frequency, value */
     size_t table_size;
 };
 

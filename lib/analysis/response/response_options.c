@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/value_check.h"
 #include "base/sized_struct.h"
+#include "base/value_check.h"
 
 DMB_DEFINE_INIT(dmb_input, 56, {.kind = DMB_INPUT_FORCE, .amplitude = 1.0})
 
@@ -81,7 +81,7 @@ int32_t dmb_response_options_take(const dmb_response_options *given, dmb_message
 }
 
 int32_t dmb_stepped_sine_options_take(const dmb_stepped_sine_options *given, double frequency, dmb_message *message,
-                              dmb_stepped_sine_options *out)
+                                      dmb_stepped_sine_options *out)
 {
     dmb_check check = dmb_check_of(message, "sine options", DMB_NO_INDEX);
     *out = dmb_stepped_sine_options_default();

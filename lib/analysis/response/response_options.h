@@ -2,8 +2,8 @@
 #ifndef DMB_ANALYSIS_RESPONSE_RESPONSE_OPTIONS_H
 #define DMB_ANALYSIS_RESPONSE_RESPONSE_OPTIONS_H
 
-#include "drillmbd/response.h"
 #include "base/message.h"
+#include "drillmbd/response.h"
 
 enum { DMB_RESPONSE_INPUTS_MAX = 1024, DMB_STEPPED_SINE_HARMONICS_MAX = 16 };
 
@@ -15,7 +15,7 @@ int32_t dmb_input_take(const dmb_input *inputs, uint32_t i, dmb_message *message
 int32_t dmb_output_take(const dmb_output *outputs, uint32_t i, dmb_message *message, dmb_output *out);
 /* Likewise of a stepped sine, at a frequency that is checked too. */
 int32_t dmb_stepped_sine_options_take(const dmb_stepped_sine_options *given, double frequency, dmb_message *message,
-                              dmb_stepped_sine_options *out);
+                                      dmb_stepped_sine_options *out);
 /* Frequency number i [Hz] of the grid. */
 double dmb_response_grid(const dmb_response_options *options, uint32_t i);
 

@@ -9,12 +9,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/linear/functional.h"
 #include "analysis/linear/dynamic_forces.h"
+#include "analysis/linear/functional.h"
+#include "sim/node.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/wall_contact.h"
 #include "system/constrain/joint_motion.h"
-#include "sim/node.h"
 
 typedef struct request {
     dmb_linear *linear;

@@ -4,22 +4,22 @@
 #define DMB_ANALYSIS_RESPONSE_RESPONSE_OUTPUT_H
 
 #include "analysis/linear/dynamic_stiffness.h"
-#include "analysis/response/excitation.h"
 #include "analysis/linear/functional.h"
+#include "analysis/response/excitation.h"
 
 typedef struct dmb_response_output {
     dmb_functional functional;
-    int32_t rate;                /* times (i w)^rate */
-    int32_t elastic;             /* 1: the part by pose is of the stiffness and has its structural damping */
-    uint32_t cluster;            /* whose forces of constraint count; UINT32_MAX: none do */
-    uint32_t multiplier;         /* first of them in the rows of the cluster */
+    int32_t rate;        /* times (i w)^rate */
+    int32_t elastic;     /* 1: the part by pose is of the stiffness and has its structural damping */
+    uint32_t cluster;    /* whose forces of constraint count; UINT32_MAX: none do */
+    uint32_t multiplier; /* first of them in the rows of the cluster */
     uint32_t multiplier_count;
-    uint32_t guide_count;        /* rows that are held and whose forces count */
+    uint32_t guide_count; /* rows that are held and whose forces count */
     double multiplier_weight[6];
-    uint32_t guide[6];           /* which of held_node, held_component */
+    uint32_t guide[6]; /* which of held_node, held_component */
     double guide_weight[6];
-    uint32_t drive;              /* that acts by itself where it is the input; UINT32_MAX: none */
-    double direct, integral;     /* what it adds there: direct + integral/(i w) */
+    uint32_t drive;          /* that acts by itself where it is the input; UINT32_MAX: none */
+    double direct, integral; /* what it adds there: direct + integral/(i w) */
 } dmb_response_output;
 
 /* Output number `index`, already checked to be one of its kind. options: of the response. message: why not. Errors:

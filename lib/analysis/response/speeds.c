@@ -195,7 +195,8 @@ static int32_t take_options(dmb_sim *sim, const dmb_speeds_options *given, dmb_s
     dmb_check_within(&check, "threshold", out->threshold, 1e-9, 1e9);
     dmb_check_within(&check, "margin", out->margin, 0.0, 0.5);
     dmb_speeds_report unused;
-    if (check.status < 0 || out->report == NULL || dmb_speeds_report_read(&unused, out->report) >= 0) return check.status;
+    if (check.status < 0 || out->report == NULL || dmb_speeds_report_read(&unused, out->report) >= 0)
+        return check.status;
     dmb_message_set(&sim->message, "speeds options: report's struct_size is not one this library knows");
     return DMB_ERR_STRUCT_SIZE;
 }
@@ -364,12 +365,13 @@ static int32_t run(speeds_run *r)
     for (uint32_t k = 0; k < r->order_count && status >= 0; k++) status = follow_order(r, k);
     if (status >= 0) status = gather_speeds(r);
     if (status < 0) return status;
-    r->count =
-        dmb_speeds_bands(r->curves, r->order_count, &r->options, r->speeds, r->points, r->found, r->room, &r->report.cut);
+    r->count = dmb_speeds_bands(r->curves, r->order_count, &r->options, r->speeds, r->points, r->found, r->room,
+                                &r->report.cut);
     return DMB_OK;
 }
 
-/* ---- Limits of the answer ----------------------------------------------------------------------------------------- */
+/* ---- Limits of the answer
+ * ----------------------------------------------------------------------------------------- */
 
 static int is_silent(const dmb_speeds_curve *curve)
 {
@@ -426,7 +428,8 @@ static int32_t analyse(dmb_sim *sim, const dmb_speeds_options *options, const dm
                        const dmb_output *outputs, const double *limits, uint32_t output_count, dmb_speed_band *bands,
                        uint32_t *band_count, double *severity)
 {
-    speeds_run r = {.report = dmb_speeds_report_default(), .sim = sim, .orders = orders, .outputs = outputs, .limits = limits};
+    speeds_run r = {
+        .report = dmb_speeds_report_default(), .sim = sim, .orders = orders, .outputs = outputs, .limits = limits};
     dmb_speed_band unused;
     if (dmb_speed_band_read(&unused, bands) < 0) return DMB_ERR_STRUCT_SIZE;
     r.order_count = order_count;

@@ -87,12 +87,12 @@ typedef struct sine_run {
     double omega;
     uint32_t outputs, width; /* width: numbers of one output, 2 (1 + harmonics) */
     dmb_stepped_sine_output *output;
-    double *first;                                 /* value at the start of the window, shape (outputs) */
-    double *sum;                                   /* shape (outputs, width) */
-    double *last;                                  /* amplitudes of the window before, same shape */
+    double *first;                                         /* value at the start of the window, shape (outputs) */
+    double *sum;                                           /* shape (outputs, width) */
+    double *last;                                          /* amplitudes of the window before, same shape */
     double ramp[2 * (DMB_STEPPED_SINE_HARMONICS_MAX + 1)]; /* sum of (t_j - t_m) e^(-i k w t_j) */
-    double begin, step;                            /* [s] of the window and of a step */
-    double change[2];                              /* the window before, this one */
+    double begin, step;                                    /* [s] of the window and of a step */
+    double change[2];                                      /* the window before, this one */
     dmb_stepped_sine_report report;
     void *block;
     size_t block_size;
@@ -262,8 +262,9 @@ static int32_t run(sine_run *r, const dmb_output *outputs)
     return status;
 }
 
-static int32_t analyse(dmb_sim *sim, double frequency, const dmb_stepped_sine_options *options, const dmb_output *outputs,
-                       uint32_t output_count, double *amplitudes, dmb_stepped_sine_report *report)
+static int32_t analyse(dmb_sim *sim, double frequency, const dmb_stepped_sine_options *options,
+                       const dmb_output *outputs, uint32_t output_count, double *amplitudes,
+                       dmb_stepped_sine_report *report)
 {
     sine_run r;
     memset(&r, 0, sizeof r);

@@ -1,7 +1,7 @@
 /* Whether rings that slip leave a state without divergence, without an eigenvalue being sought.
  *
- * A ring with the stiffness k of the wall behind it adds k (n + f) n^T to K: n its normal, f friction for a unit of normal
- * force. The symmetric part of this alone has a negative eigenvalue, however little friction there is. With
+ * A ring with the stiffness k of the wall behind it adds k (n + f) n^T to K: n its normal, f friction for a unit of
+ * normal force. The symmetric part of this alone has a negative eigenvalue, however little friction there is. With
  *
  *     W = I - f n^T,      W (n + f) n^T = n n^T,
  *
@@ -17,8 +17,8 @@
 
 #include "system/assemble/evaluation.h"
 
-/* Multiplies the rows of chains without joints in the iteration matrix, which is not factored, by W. 1: done; 0: no ring
- * slips, or |f| is too large, and the matrix is left as it is; DMB_ERR_NO_MEMORY. */
+/* Multiplies the rows of chains without joints in the iteration matrix, which is not factored, by W. 1: done; 0: no
+ * ring slips, or |f| is too large, and the matrix is left as it is; DMB_ERR_NO_MEMORY. */
 int32_t dmb_stability_turn_friction(const dmb_evaluation *evaluation);
 
 #endif

@@ -38,9 +38,11 @@ int32_t dmb_static_options_take(dmb_sim *sim, const dmb_static_options *given, d
     dmb_check_count(&check, "load_steps", out->load_steps, 0, 10000);
     dmb_check_choice(&check, "lay_on_wall", out->lay_on_wall, 0, 1);
     dmb_check_choice(&check, "steady", out->steady, DMB_STEADY_AUTO, DMB_STEADY_RIGID);
-    if (check.status >= 0 && out->steady >= DMB_STEADY_SLIDING && (out->slip_axial != 0.0 || out->slip_rotation != 0.0)) {
-        dmb_message_set(&sim->message, "static options: a slip is assumed of a state at rest, and steady asks for a moving "
-                                       "one; set slip_axial and slip_rotation to 0");
+    if (check.status >= 0 && out->steady >= DMB_STEADY_SLIDING &&
+        (out->slip_axial != 0.0 || out->slip_rotation != 0.0)) {
+        dmb_message_set(&sim->message,
+                        "static options: a slip is assumed of a state at rest, and steady asks for a moving "
+                        "one; set slip_axial and slip_rotation to 0");
         return DMB_ERR_VALUE;
     }
     return check.status;
@@ -118,8 +120,8 @@ static int32_t end_growing_steps(dmb_static_search *search, int32_t status)
 }
 
 /* Newton in the load steps asked for, or at once where they are the library's choice, then in steps that grow, then the
- * relaxation. A part that nothing holds in its starting pose may yet fall onto the wall, so the relaxation comes at once;
- * where that fails too, the part is free. */
+ * relaxation. A part that nothing holds in its starting pose may yet fall onto the wall, so the relaxation comes at
+ * once; where that fails too, the part is free. */
 static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
 {
     const uint32_t steps = search->options->load_steps > 0 ? search->options->load_steps : 1;

@@ -16,9 +16,9 @@ typedef struct dmb_static_search {
     uint32_t load_steps; /* of the last try */
     uint32_t cuts;       /* load steps that were cut */
     uint32_t line_searches;
-    int32_t searching;   /* 1: corrections that overshoot are shortened */
-    uint32_t block;      /* block found singular */
-    int32_t loose;       /* 1: nothing seems to hold loose_block in the starting pose */
+    int32_t searching; /* 1: corrections that overshoot are shortened */
+    uint32_t block;    /* block found singular */
+    int32_t loose;     /* 1: nothing seems to hold loose_block in the starting pose */
     uint32_t loose_block;
     double residual;     /* [-] relative, last */
     double moved;        /* [-] largest correction before it, in length scales */

@@ -7,13 +7,13 @@
 #include "math/mat6.h"
 #include "math/so3.h"
 #include "sim/layout.h"
+#include "sim/node.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/drives.h"
+#include "system/assemble/wall_contact.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
 #include "system/constrain/joint_motion.h"
-#include "sim/node.h"
-#include "system/assemble/wall_contact.h"
 
 /* ---- Velocities and accelerations -------------------------------------------------------------------------------- */
 

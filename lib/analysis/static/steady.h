@@ -32,7 +32,7 @@ typedef struct dmb_steady {
     uint32_t *string;          /* of each node; UINT32_MAX: of a body, shape (node_count) */
     double *frame_velocity;    /* g, shape (rows) */
     double *before;            /* velocities before joints, shape (rows) */
-    double violation;             /* [-] what joints change of the given speeds, over the largest */
+    double violation;          /* [-] what joints change of the given speeds, over the largest */
     double *increment;         /* the sum of moves, while poses are taken as they are, shape (rows) */
     dmb_linear_matrix damping; /* dr/dV */
     dmb_allocator allocator;
@@ -55,9 +55,9 @@ int32_t dmb_steady_move(dmb_steady *steady, dmb_evaluation *evaluation, double f
 int32_t dmb_steady_evaluate(dmb_steady *steady, dmb_evaluation *evaluation);
 /* DMB_ERR_UNSUPPORTED with a message where a spring of a joint changes its length in the motion of the trial. */
 int32_t dmb_steady_check_springs(const dmb_evaluation *evaluation);
-/* DMB_ERR_UNSUPPORTED with a message of `who` in `sim` where `work`, a copy of it, is in the steady motion of its drives:
- * what judges a stiffness at rest does not judge that one. The trial of `work` is room. Else DMB_OK, or _CALLBACK,
- * _NO_MEMORY. */
+/* DMB_ERR_UNSUPPORTED with a message of `who` in `sim` where `work`, a copy of it, is in the steady motion of its
+ * drives: what judges a stiffness at rest does not judge that one. The trial of `work` is room. Else DMB_OK, or
+ * _CALLBACK, _NO_MEMORY. */
 int32_t dmb_steady_refuse_moving(dmb_sim *sim, dmb_sim *work, const char *who);
 /* Bristles of the accepted state deflected as after sliding on for long. */
 void dmb_steady_deflect_bristles(dmb_sim *sim);

@@ -7,9 +7,9 @@
 #include "math/mat6.h"
 #include "math/so3.h"
 #include "sim/layout.h"
+#include "sim/node.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/joint_motion.h"
-#include "sim/node.h"
 
 static int moves(const dmb_sim *sim, uint32_t drive)
 {
@@ -62,11 +62,10 @@ static int32_t add_twist(dmb_sim *sim, uint32_t i, double twist[6])
         twist_of_part(sim, drive, dmb_steady_target(sim, i), part);
     } else {
         if (sim->scene->joints[drive->joint].a.node != UINT32_MAX)
-            return REFUSE(
-                sim,
-                "%s: it moves two parts against each other, so that the whole does not turn as one body; "
-                "take DMB_STEADY_AT_REST",
-                dmb_drive_text(sim->scene, i, &(dmb_message){""}));
+            return REFUSE(sim,
+                          "%s: it moves two parts against each other, so that the whole does not turn as one body; "
+                          "take DMB_STEADY_AT_REST",
+                          dmb_drive_text(sim->scene, i, &(dmb_message){""}));
         twist_of_joint(sim, drive, dmb_steady_target(sim, i), part);
     }
     for (int k = 0; k < 6; k++) twist[k] += part[k];

@@ -17,8 +17,9 @@ static int32_t check_round(dmb_sim *sim, const dmb_steady *steady)
         if (s == UINT32_MAX || steady->speed[2 * s + 1] == 0.0 || scene->layout.size[rigid_mass->node] != DMB_NODE_FULL)
             continue;
         dmb_unbalance_of(scene, i, g);
-        const int round = g[1] == 0.0 && g[2] == 0.0 && g[4] == 0.0 && g[5] == 0.0 &&
-                          fabs(rigid_mass->inertia[1] - rigid_mass->inertia[2]) <= DMB_STEADY_SAME * rigid_mass->inertia[1];
+        const int round =
+            g[1] == 0.0 && g[2] == 0.0 && g[4] == 0.0 && g[5] == 0.0 &&
+            fabs(rigid_mass->inertia[1] - rigid_mass->inertia[2]) <= DMB_STEADY_SAME * rigid_mass->inertia[1];
         const dmb_owner owner = dmb_owner_of_node(scene, rigid_mass->node);
         if (!round)
             return REFUSE(sim,

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "element/beam.h"
-#include "system/assemble/evaluation.h"
 #include "sim/node.h"
+#include "system/assemble/evaluation.h"
 
 /* Motion of a bit along and about the axis of the hole. */
 typedef struct bit_motion {

@@ -29,7 +29,8 @@ static int32_t travel_of(const dmb_sim *sim, const dmb_scene_drive *drive, doubl
     return status;
 }
 
-/* Slope of the target with which a step ends at the corner of a programme; the programme itself tells the one to come. */
+/* Slope of the target with which a step ends at the corner of a programme; the programme itself tells the one to
+ * come. */
 static int32_t rate_before(const dmb_sim *sim, uint32_t i, double time, double *rate)
 {
     const dmb_scene_drive *drive = sim->scene->drives + i;

@@ -9,8 +9,8 @@ double dmb_drive_force(dmb_evaluation *evaluation, uint32_t drive, double speed,
 /* [m/s, rad/s] of the driven component or coordinate in a configuration. */
 double dmb_drive_speed(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t drive);
 
-/* Targets of all drives at evaluation->time, loads' factors, and the motion of prescribed rows over the step: increment,
- * velocity and acceleration of the trial. Once a step, before the first evaluation. DMB_ERR_CALLBACK. */
+/* Targets of all drives at evaluation->time, loads' factors, and the motion of prescribed rows over the step:
+ * increment, velocity and acceleration of the trial. Once a step, before the first evaluation. DMB_ERR_CALLBACK. */
 int32_t dmb_system_prescribe(dmb_evaluation *evaluation);
 /* 1 if after the corner reached the programme of a motion drive goes on with another slope than the step before ended
  * with. */

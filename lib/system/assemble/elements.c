@@ -4,8 +4,8 @@
 
 #include "element/beam_element.h"
 #include "kernel/kernels.h"
-#include "system/assemble/evaluation.h"
 #include "sim/node.h"
+#include "system/assemble/evaluation.h"
 
 /* Vector from node a to node b; returns the largest magnitude that entered it. */
 static double span_of(const dmb_scene *scene, uint32_t e, const double *ua, const double *ub, double span[3])

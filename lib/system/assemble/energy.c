@@ -60,7 +60,8 @@ void dmb_element_kinetic_parts(const dmb_scene *scene, const dmb_configuration *
     parts[2] = 0.5 * (dmb_vec6_dot(va, pa) + dmb_vec6_dot(vb, pb)) - parts[0] - parts[1];
 }
 
-double dmb_rigid_mass_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t rigid_mass)
+double dmb_rigid_mass_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration,
+                                     uint32_t rigid_mass)
 {
     const dmb_rigid_mass *l = scene->rigid_masses + rigid_mass;
     const double *v = configuration->velocity + scene->layout.row[l->node];
@@ -72,7 +73,7 @@ double dmb_rigid_mass_kinetic_energy(const dmb_scene *scene, const dmb_configura
 
 /* Coupling of the three in an eccentric mass counts as lateral. */
 void dmb_rigid_mass_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t rigid_mass,
-                            double parts[3])
+                                  double parts[3])
 {
     const dmb_rigid_mass *l = scene->rigid_masses + rigid_mass;
     const double *v = configuration->velocity + scene->layout.row[l->node];
@@ -86,7 +87,8 @@ double dmb_kinetic_energy(const dmb_scene *scene, const dmb_configuration *confi
 {
     double sum = 0.0;
     for (uint32_t e = 0; e < scene->element_count; e++) sum += dmb_element_kinetic_energy(scene, configuration, e);
-    for (uint32_t i = 0; i < scene->rigid_mass_count; i++) sum += dmb_rigid_mass_kinetic_energy(scene, configuration, i);
+    for (uint32_t i = 0; i < scene->rigid_mass_count; i++)
+        sum += dmb_rigid_mass_kinetic_energy(scene, configuration, i);
     return sum;
 }
 

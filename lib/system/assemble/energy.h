@@ -5,7 +5,8 @@
 #include "sim/sim.h"
 
 double dmb_element_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element);
-double dmb_rigid_mass_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t rigid_mass);
+double dmb_rigid_mass_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration,
+                                     uint32_t rigid_mass);
 double dmb_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration);
 double dmb_strain_energy(const dmb_scene *scene, const dmb_configuration *configuration);
 /* Potential of the weights less that of the pose at time 0 as described. */
@@ -21,13 +22,13 @@ void dmb_element_strain_rate(const dmb_scene *scene, const dmb_configuration *co
 void dmb_element_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                                double parts[3]);
 void dmb_rigid_mass_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t rigid_mass,
-                            double parts[3]);
+                                  double parts[3]);
 /* Section forces at the element's two flexible ends in the frame of that end, as force on the near side from the far
  * side: (axial, shear, shear, torque, moment, moment); material damping included, shape (2, 6). */
 void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                                double force[12]);
-/* The same with the element's own weight and inertia, which its nodes carry in rigid_masses: the loads of the very sections
- * at its ends. Bars on the hole's axis: as above. Shape (2, 6). */
+/* The same with the element's own weight and inertia, which its nodes carry in rigid_masses: the loads of the very
+ * sections at its ends. Bars on the hole's axis: as above. Shape (2, 6). */
 void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                            double load[12]);
 

@@ -13,27 +13,27 @@
 enum { DMB_STEADY_BITS = 32 };
 
 typedef struct dmb_evaluation {
-    dmb_sim *sim;             /* trial is read; work arrays are written */
-    double time;              /* [s] of the trial */
-    double step;              /* [s] from now to trial; 0 in statics */
-    double corner;            /* [s] of a programme, at which the step ends; 0: none */
-    double inside;            /* [s] of a programme, which the step is not divided at; 0: none */
-    double mass_factor;       /* [1/s2] d v'/d pose parameters */
-    double velocity_factor;   /* [1/s] d v/d pose parameters */
-    double pseudo_factor;     /* [-] d a/d v' of generalized-alpha, (1 - af)/(1 - am) */
-    double load_factor;       /* [-] on gravity, loads and bit load (static load steps) */
-    int32_t dynamic;          /* 0: no inertia, damping, nor rates: statics */
-    int32_t tangent;          /* 1: fill stiffness_ and inertia_ blocks too */
-    int32_t inertia_only;     /* 1: tangents by motion alone, links of elements without their stiffness */
-    int32_t steady;           /* 1: bristles are deflected and rock is cut as after sliding and drilling on for long */
-    uint32_t drilling;        /* steady: bit k of it is 1 where bit number k cuts, of the first DMB_STEADY_BITS bits */
-    int32_t extrapolated;     /* 1: geometric stiffness with element_stress as it stands, 0: with the true stress */
-    int32_t slipping;         /* statics: friction acts as at the speed slip[] */
-    double slip[2];           /* [m/s, rad/s] along the hole, of rotation */
-    double rounding; /* [N2] sum of squares of what rounding of the poses makes of the forces (elements, joints, wall) */
-    double power[8];          /* [W] of each class of force on the bodies, DMB_POWER_... */
-    int32_t status;           /* of this evaluation */
-    uint32_t element;         /* where status says DMB_ERR_ROTATION */
+    dmb_sim *sim;           /* trial is read; work arrays are written */
+    double time;            /* [s] of the trial */
+    double step;            /* [s] from now to trial; 0 in statics */
+    double corner;          /* [s] of a programme, at which the step ends; 0: none */
+    double inside;          /* [s] of a programme, which the step is not divided at; 0: none */
+    double mass_factor;     /* [1/s2] d v'/d pose parameters */
+    double velocity_factor; /* [1/s] d v/d pose parameters */
+    double pseudo_factor;   /* [-] d a/d v' of generalized-alpha, (1 - af)/(1 - am) */
+    double load_factor;     /* [-] on gravity, loads and bit load (static load steps) */
+    int32_t dynamic;        /* 0: no inertia, damping, nor rates: statics */
+    int32_t tangent;        /* 1: fill stiffness_ and inertia_ blocks too */
+    int32_t inertia_only;   /* 1: tangents by motion alone, links of elements without their stiffness */
+    int32_t steady;         /* 1: bristles are deflected and rock is cut as after sliding and drilling on for long */
+    uint32_t drilling;      /* steady: bit k of it is 1 where bit number k cuts, of the first DMB_STEADY_BITS bits */
+    int32_t extrapolated;   /* 1: geometric stiffness with element_stress as it stands, 0: with the true stress */
+    int32_t slipping;       /* statics: friction acts as at the speed slip[] */
+    double slip[2];         /* [m/s, rad/s] along the hole, of rotation */
+    double rounding;  /* [N2] sum of squares of the rounding of forces by that of poses (elements, joints, wall) */
+    double power[8];  /* [W] of each class of force on the bodies, DMB_POWER_... */
+    int32_t status;   /* of this evaluation */
+    uint32_t element; /* where status says DMB_ERR_ROTATION */
 } dmb_evaluation;
 
 /* Residual into sim->correction, sums of magnitudes into sim->scale_row; returns evaluation->status: DMB_OK,

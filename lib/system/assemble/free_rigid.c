@@ -119,8 +119,8 @@ void dmb_free_rigids_place(dmb_sim *sim)
 
 /* Quantities of one body that its derivatives are made of, at the end of the step, in body axes there. */
 typedef struct rigid_end {
-    double Et[9], T[9];    /* E^T; right tangent of theta */
-    double velocity[6];    /* of the centre */
+    double Et[9], T[9];     /* E^T; right tangent of theta */
+    double velocity[6];     /* of the centre */
     double acceleration[3]; /* E^T W' */
     const double *centre;
 } rigid_end;

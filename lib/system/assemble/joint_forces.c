@@ -4,9 +4,9 @@
 
 #include "math/mat6.h"
 #include "math/se3.h"
+#include "system/assemble/drives.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
-#include "system/assemble/drives.h"
 
 /* Forces on the six coordinates, what they change by, and where they act. */
 typedef struct coordinate_forces {

@@ -201,7 +201,7 @@ void dmb_assumed_friction(const dmb_friction_law *law, const dmb_configuration *
 
 /* Closest point of the axis, the direction from it and the speeds there. */
 static void site_frame_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t s, dmb_site_force *out,
-                     dmb_contact_frame *f)
+                          dmb_contact_frame *f)
 {
     const dmb_site *site = scene->sites + s;
     double R[9], x[3], point[3], depth = c->site_depth[s];

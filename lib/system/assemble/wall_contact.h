@@ -1,5 +1,5 @@
-/* Contact sites at the wall of the hole: their forces in the residual, and how a force changes with the motion of its site.
- */
+/* Contact sites at the wall of the hole: their forces in the residual, and how a force changes with the motion of its
+ * site. */
 #ifndef DMB_SYSTEM_ASSEMBLE_WALL_CONTACT_H
 #define DMB_SYSTEM_ASSEMBLE_WALL_CONTACT_H
 
@@ -16,9 +16,9 @@ typedef struct dmb_contact_slope {
 /* site: counted as dmb_query_contact does. Friction without memory only: of bristles what they are once they slide. */
 void dmb_contact_slope_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t site,
                           dmb_contact_slope *out);
-/* Of a ring of a FULL node in the trial just evaluated: normal n and, for a unit of normal force, what friction adds to the
- * side of the forces that balance the wall, f = -(F_t j_t + F_b j_b) with its moment about the node, both in body axes.
- * 0: it does not touch or not slip. */
+/* Of a ring of a FULL node in the trial just evaluated: normal n and, for a unit of normal force, what friction adds to
+ * the side of the forces that balance the wall, f = -(F_t j_t + F_b j_b) with its moment about the node, both in body
+ * axes. 0: it does not touch or not slip. */
 int dmb_contact_friction_by_normal(const dmb_evaluation *evaluation, uint32_t site, double n[3], double f[6]);
 /* Node of a site. */
 uint32_t dmb_contact_node(const dmb_scene *scene, uint32_t site);
@@ -27,29 +27,30 @@ uint32_t dmb_contact_node(const dmb_scene *scene, uint32_t site);
  * (n outward from the axis, t along the axis, b = t x n). */
 
 typedef struct dmb_site_force {
-    double normal[3];     /* [-] world */
-    double tangent[3];    /* [-] world, along the axis */
-    double penetration;   /* [m] */
-    double rate;          /* [m/s] of penetration */
-    double normal_force;  /* [N] >= 0 */
-    double friction[2];   /* [N] on the ring along t and b */
-    double slip[2];       /* [m/s] along t and b */
+    double normal[3];    /* [-] world */
+    double tangent[3];   /* [-] world, along the axis */
+    double penetration;  /* [m] */
+    double rate;         /* [m/s] of penetration */
+    double normal_force; /* [N] >= 0 */
+    double friction[2];  /* [N] on the ring along t and b */
+    double slip[2];      /* [m/s] along t and b */
     int32_t closed, sticks;
 } dmb_site_force;
 
 /* Force of one site in a finished configuration (bristles as they are). */
-void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t site, dmb_site_force *out);
+void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t site,
+                       dmb_site_force *out);
 /* The same for a PATH site; normal_force by Johancsik. */
 void dmb_path_site_force_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t path_site,
                             dmb_site_force *out);
 
-/* Friction of a finished state under the normal force and at the slip in `out`: bristles as they are (NULL where the law
- * has none), smooth laws by speed. */
+/* Friction of a finished state under the normal force and at the slip in `out`: bristles as they are (NULL where the
+ * law has none), smooth laws by speed. */
 void dmb_finished_friction(const dmb_friction_law *law, const double *bristle, int32_t sticks, dmb_site_force *out);
 /* The law of bristles in steady sliding, F = -mu N v/|v|, without a memory. */
 dmb_friction_law dmb_sliding_law(const dmb_friction_law *law);
-/* Friction of a site of this radius in a static state that assumed a slip, in place of that of the speeds: by the smooth
- * law under the normal force in `out`, as its equilibrium took it. Nothing where none was assumed. */
+/* Friction of a site of this radius in a static state that assumed a slip, in place of that of the speeds: by the
+ * smooth law under the normal force in `out`, as its equilibrium took it. Nothing where none was assumed. */
 void dmb_assumed_friction(const dmb_friction_law *law, const dmb_configuration *configuration, double radius,
                           dmb_site_force *out);
 

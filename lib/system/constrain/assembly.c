@@ -61,8 +61,8 @@ static int32_t close_positions(dmb_evaluation *evaluation)
     if (status == DMB_ERR_CALLBACK) {
         dmb_message owner;
         dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, sim->reduced_mode->row), &owner);
-        dmb_message_set(&sim->message, "%s: the callback failed or gave a value beyond +-1e30 at time %g",
-                        owner.text, sim->clock->time);
+        dmb_message_set(&sim->message, "%s: the callback failed or gave a value beyond +-1e30 at time %g", owner.text,
+                        sim->clock->time);
         return status;
     }
     if (violation <= DMB_ASSEMBLY_VIOLATION * sim->reduced_mode->length && status >= 0) return DMB_OK;
@@ -112,7 +112,8 @@ int32_t dmb_assembled_speeds(dmb_evaluation *evaluation)
                     sum += part;
                     size += fabs(part); /* rounding goes with it, whatever the unit of the row */
                 }
-            if (fabs(sum) > DMB_ASSEMBLY_VIOLATION * size) return refuse(sim, c->row + k, sum, "its speed cannot be had");
+            if (fabs(sum) > DMB_ASSEMBLY_VIOLATION * size)
+                return refuse(sim, c->row + k, sum, "its speed cannot be had");
         }
     }
     return DMB_OK;

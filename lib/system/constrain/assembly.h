@@ -5,8 +5,8 @@
 #include "system/constrain/joint_state.h"
 
 /* Closes the joints from the described poses of now: poses move until every equation holds and joints stand where their
- * initial coordinates say, speeds likewise. Fills counters->assembly. Errors with a message: DMB_ERR_GEOMETRY (the joint
- * that does not fit, and by how much), DMB_ERR_CALLBACK. system/constrain/assembly */
+ * initial coordinates say, speeds likewise. Fills counters->assembly. Errors with a message: DMB_ERR_GEOMETRY (the
+ * joint that does not fit, and by how much), DMB_ERR_CALLBACK. system/constrain/assembly */
 int32_t dmb_assemble(dmb_sim *sim);
 /* Refuses a joint whose frames, in the trial, point against each other where it keeps them parallel: its equations hold
  * there too. DMB_ERR_GEOMETRY with a message. */

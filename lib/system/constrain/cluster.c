@@ -298,7 +298,8 @@ void dmb_clusters_least_norm(dmb_sim *sim)
 
 /* How far a trial is from satisfying its equations of position, in metres. */
 
-/* [m] least move that satisfies a row of a cluster alone: its violation over the length of its row in weighted columns. */
+/* [m] least move that satisfies a row of a cluster alone: its violation over the length of its row in weighted
+ * columns. */
 static double way_of(const dmb_sim *sim, uint32_t k, uint32_t row)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;

@@ -1,5 +1,5 @@
-/* Clusters of constraint rows: their partition into dependent and independent coordinates, and the projection of a trial
- * onto its constraints.
+/* Clusters of constraint rows: their partition into dependent and independent coordinates, and the projection of a
+ * trial onto its constraints.
  *
  * A trial satisfies its constraints at all three levels before its residual is formed (settle): poses, speeds and
  * accelerations move by the least change, in the metric of cluster_weight, that makes C = 0, B v + rate = 0 and
@@ -17,8 +17,8 @@ enum { DMB_SETTLE_POSE = 1, DMB_SETTLE_SPEED = 2, DMB_SETTLE_ACCELERATION = 4, D
 void dmb_clusters_prepare(dmb_sim *sim);
 /* Rows and matrices at the trial. DMB_OK, DMB_ERR_CALLBACK, DMB_ERR_NOT_FINITE. */
 int32_t dmb_clusters_gather(dmb_evaluation *evaluation);
-/* One step of Gauss-Newton towards C = 0 with a partition of its own, at most DMB_APPROACH long. DMB_NOTE_STOPPED: it no
- * longer moves. Errors as dmb_clusters_settle. */
+/* One step of Gauss-Newton towards C = 0 with a partition of its own, at most DMB_APPROACH long. DMB_NOTE_STOPPED: it
+ * no longer moves. Errors as dmb_clusters_settle. */
 int32_t dmb_clusters_approach(dmb_evaluation *evaluation);
 /* Chooses the partition of every cluster from the matrices at hand. */
 void dmb_clusters_choose(dmb_sim *sim);
@@ -28,8 +28,8 @@ void dmb_clusters_watch(dmb_sim *sim);
 int32_t dmb_clusters_refresh(dmb_evaluation *evaluation);
 
 /* Projects the trial, levels being a sum of DMB_SETTLE_..., and leaves rows and factored matrices there. Speeds and
- * accelerations start from raw_ fields if from_raw, else from what the trial has. DMB_OK, DMB_ERR_CALLBACK, _NOT_FINITE,
- * DMB_ERR_SINGULAR (reduced_mode->row tells which row), DMB_ERR_NO_CONVERGENCE (likewise). */
+ * accelerations start from raw_ fields if from_raw, else from what the trial has. DMB_OK, DMB_ERR_CALLBACK,
+ * _NOT_FINITE, DMB_ERR_SINGULAR (reduced_mode->row tells which row), DMB_ERR_NO_CONVERGENCE (likewise). */
 int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t from_raw);
 
 /* Multipliers that balance the residual in the dependent rows, into trial.multiplier; and B^T multiplier into the
@@ -38,7 +38,8 @@ void dmb_clusters_balance(dmb_evaluation *evaluation);
 /* Multipliers of the trial: those of least norm where rows are redundant. Once a state, not in iterations. */
 void dmb_clusters_least_norm(dmb_sim *sim);
 
-/* Largest violation of an equation of position at the rows at hand, *row telling which; dropped: of dropped rows only. */
+/* Largest violation of an equation of position at the rows at hand, *row telling which; dropped: of dropped rows
+ * only. */
 double dmb_clusters_violation(const dmb_sim *sim, int32_t dropped, uint32_t *row);
 
 /* The partition of cluster k, its storage in the sim. */

@@ -28,8 +28,8 @@ static int32_t factor_gram(dmb_sim *sim)
     return sim->scene->sparse_count ? dmb_sparse_factor(sim, 0) : DMB_OK;
 }
 
-/* Shortest change of the rows of a cluster with B x = d, d by constraint row, into cluster_move. That of sparse clusters
- * has been found before. */
+/* Shortest change of the rows of a cluster with B x = d, d by constraint row, into cluster_move. That of sparse
+ * clusters has been found before. */
 static const double *shortest(dmb_sim *sim, uint32_t k, const double *d)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
@@ -97,7 +97,7 @@ int32_t dmb_clusters_approach(dmb_evaluation *evaluation)
     status = factor_gram(sim);
     if (status < 0) return status;
     return move_poses(sim, DMB_APPROACH * sim->reduced_mode->length) <= DMB_SETTLED * scene_size(sim) ? DMB_NOTE_STOPPED
-                                                                                                     : DMB_OK;
+                                                                                                      : DMB_OK;
 }
 
 /* Newton on C = 0 until rounding. */
@@ -111,7 +111,8 @@ static int32_t settle_poses(dmb_evaluation *evaluation)
         int32_t status = dmb_clusters_gather(evaluation);
         if (status < 0) return status;
         const double violation = dmb_clusters_pivot_violation(sim, &row);
-        const int done = violation <= DMB_SETTLED * size || (violation < DMB_UNSETTLED * size && violation > 0.5 * last);
+        const int done =
+            violation <= DMB_SETTLED * size || (violation < DMB_UNSETTLED * size && violation > 0.5 * last);
         if (done || k == DMB_SETTLE_MAX || !isfinite(violation)) {
             if (violation < DMB_UNSETTLED * size) return factor_gram(sim);
             (void)dmb_cluster_singular(sim, row, fabs(sim->constraint_value[row]));

@@ -7,17 +7,17 @@
 #include "sim/sim.h"
 
 typedef struct dmb_cluster_rank {
-    uint32_t rows;        /* that act */
-    uint32_t rank;        /* by LAPACK, sum of the clusters */
-    uint32_t differing;   /* clusters of which the partition has another rank */
-    uint32_t poorest;     /* cluster of the condition below */
-    double condition;     /* smallest over largest singular value, worst cluster; 1 without equations */
-    double violation;        /* [m, -] largest of an equation of position */
-    uint32_t violation_row;  /* where; UINT32_MAX: none */
+    uint32_t rows;          /* that act */
+    uint32_t rank;          /* by LAPACK, sum of the clusters */
+    uint32_t differing;     /* clusters of which the partition has another rank */
+    uint32_t poorest;       /* cluster of the condition below */
+    double condition;       /* smallest over largest singular value, worst cluster; 1 without equations */
+    double violation;       /* [m, -] largest of an equation of position */
+    uint32_t violation_row; /* where; UINT32_MAX: none */
     uint32_t reserved;
-    uint8_t *redundant;   /* 1 of rows that are redundant: those the partition drops, or LAPACK's where the two differ;
-                             shape (constraint_row_count) */
-    void *block;          /* the memory of it */
+    uint8_t *redundant; /* 1 of rows that are redundant: those the partition drops, or LAPACK's where the two differ;
+                           shape (constraint_row_count) */
+    void *block;        /* the memory of it */
     size_t block_size;
 } dmb_cluster_rank;
 

@@ -1,9 +1,10 @@
-/* The caller's constraints. Derivatives that the callback does not give are built by central differences of fourth order:
+/* The caller's constraints. Derivatives that the callback does not give are built by central differences of fourth
+ * order:
  *     J by places:  along each body-frame component;      rate: along time at fixed poses
  *     convective:   along the motion q exp(s v), t + s: of A v + b its first derivative, of C its second; where J is
  *                   given (J v)' + d(J v)/dt + d2C/dt2 instead, which rounding of large coordinates does not spoil
- * Steps are long: at 2 km from the origin rounding of a place is 2e-13 m, and Newton's iteration sees what it becomes.
- */
+ * Steps are long: at 2 km from the origin rounding of a place is 2e-13 m, and Newton's iteration sees what it
+ * becomes. */
 #ifndef DMB_SYSTEM_CONSTRAIN_CONSTRAINT_CALLBACK_H
 #define DMB_SYSTEM_CONSTRAIN_CONSTRAINT_CALLBACK_H
 

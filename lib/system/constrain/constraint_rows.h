@@ -11,13 +11,15 @@
 
 /* All rows, from trial pose and trial velocity. DMB_OK, DMB_ERR_CALLBACK, DMB_ERR_NOT_FINITE. */
 int32_t dmb_constraint_rows(dmb_evaluation *evaluation);
-/* Derivative of B^T multiplier by body-frame displacements of a constraint's nodes, added to K, shape (columns, columns). */
+/* Derivative of B^T multiplier by body-frame displacements of a constraint's nodes, added to K, shape (columns,
+ * columns). */
 int32_t dmb_constraint_curvature(dmb_evaluation *evaluation, uint32_t constraint, double *K);
 
 /* Coordinates of joint j in the trial, RX and RY on the turn that the step leads to. */
 void dmb_joint_coordinates_in(const dmb_evaluation *evaluation, uint32_t j, const dmb_relative *relative,
                               dmb_joint_coordinates *coordinates);
-/* Adds to K, shape (columns, columns) of the constraint: tangent of a wrench w on frame b of joint j that changes by W. */
+/* Adds to K, shape (columns, columns) of the constraint: tangent of a wrench w on frame b of joint j that changes by
+ * W. */
 void dmb_add_joint_tangent(const dmb_scene *scene, const dmb_constraint *constraint, uint32_t j,
                            const dmb_relative *relative, const double w[6], const double W[36], double *K);
 /* Rows of its kind or of its lock that joint j holds now. */

@@ -91,7 +91,8 @@ static int32_t check_joint(dmb_sim *sim, uint32_t j, int moving, double time)
     dmb_relative relative;
     if (sim->joint_state[j] != DMB_JOINT_ACTIVE || !(rolls || angles)) return DMB_OK;
     dmb_joint_motion_of(sim->scene, &sim->trial, j, &relative, NULL);
-    const double sine = sqrt(relative.R[1] * relative.R[1] + relative.R[2] * relative.R[2]); /* of the x axes of a and b */
+    const double sine =
+        sqrt(relative.R[1] * relative.R[1] + relative.R[2] * relative.R[2]); /* of the x axes of a and b */
     if (rolls && !(sine > DMB_RIM_EDGE)) return refuse_flat(sim, j, sine, time);
     const double s = angles ? smallest_cosine(sim, j, relative.R, moving) : 1.0;
     return s > dmb_sin(DMB_RIGHT_ANGLE_EDGE) ? DMB_OK : refuse_angle(sim, j, s, time);

@@ -1,4 +1,5 @@
-/* Frame b of a joint seen from frame a in a configuration, and how rows and wrenches there reach the rows of its nodes. */
+/* Frame b of a joint seen from frame a in a configuration, and how rows and wrenches there reach the rows of its
+ * nodes. */
 #ifndef DMB_SYSTEM_CONSTRAIN_JOINT_MOTION_H
 #define DMB_SYSTEM_CONSTRAIN_JOINT_MOTION_H
 

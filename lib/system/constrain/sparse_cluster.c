@@ -288,7 +288,8 @@ static void begin_multipliers(dmb_sim *sim)
     for (uint32_t i = 0; i < scene->constraint_count; i++) {
         const dmb_constraint *c = scene->constraints + i;
         for (uint32_t r = c->row; r < c->row + c->rows && dmb_is_sparse(scene, i); r++)
-            if (sim->sparse_slot[r] == DMB_NO_SLOT || !isfinite(sim->trial.multiplier[r])) sim->trial.multiplier[r] = 0.0;
+            if (sim->sparse_slot[r] == DMB_NO_SLOT || !isfinite(sim->trial.multiplier[r]))
+                sim->trial.multiplier[r] = 0.0;
     }
 }
 
@@ -346,7 +347,8 @@ double dmb_sparse_violation(const dmb_sim *sim, int32_t dropped, uint32_t *row)
     double most = 0.0;
     for (uint32_t k = 0; k < scene->cluster_count; k++) {
         const dmb_cluster *cluster = scene->clusters + k;
-        for (uint32_t i = cluster->constraint; i < cluster->constraint + cluster->constraint_count && cluster->sparse; i++) {
+        for (uint32_t i = cluster->constraint; i < cluster->constraint + cluster->constraint_count && cluster->sparse;
+             i++) {
             const dmb_constraint *c = scene->constraints + i;
             for (uint32_t r = 0; r < c->rows; r++) {
                 const double value = fabs(sim->constraint_value[c->row + r]);

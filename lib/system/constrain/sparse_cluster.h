@@ -1,22 +1,22 @@
 /* Sparse clusters: large ones, of which there are no dense matrices. Instead of dependent and independent coordinates
- * there is a choice of rows alone, and every question is a system over the nodes and the multipliers of those rows, in the
- * blocks of the scene's pattern,
+ * there is a choice of rows alone, and every question is a system over the nodes and the multipliers of those rows, in
+ * the blocks of the scene's pattern,
  *
  *     [I  (BW)^T] [ x ]   [ a ]
  *     [BW   0   ] [-f ] = [ d ]        W: metric of the columns
  *
- * with a = 0 the least move with B W x = d; with d = 0 the multipliers for which the rest of a is least. The corrections
- * of Newton come from [S B^T; B 0] (system/solve/reduced_sparse). All of it is linear in the number of bodies of chains and
- * trees; a loop costs what its width in the order of elimination asks. */
+ * with a = 0 the least move with B W x = d; with d = 0 the multipliers for which the rest of a is least. The
+ * corrections of Newton come from [S B^T; B 0] (system/solve/reduced_sparse). All of it is linear in the number of
+ * bodies of chains and trees; a loop costs what its width in the order of elimination asks. */
 #ifndef DMB_SYSTEM_CONSTRAIN_SPARSE_CLUSTER_H
 #define DMB_SYSTEM_CONSTRAIN_SPARSE_CLUSTER_H
 
 #include "math/block_signed.h"
 #include "system/assemble/evaluation.h"
 
-/* A row of which elimination leaves less than this square of the sine to those before it is redundant. The rows that close
- * a ring of n bodies have 13/n^3, and leave up to 1e-16 n^3 of rounding to redundant ones behind them: measured up to n =
- * 800, where the least is 2.6e-8. */
+/* A row of which elimination leaves less than this square of the sine to those before it is redundant. The rows that
+ * close a ring of n bodies have 13/n^3, and leave up to 1e-16 n^3 of rounding to redundant ones behind them: measured
+ * up to n = 800, where the least is 2.6e-8. */
 #define DMB_SPARSE_RANK 1e-9
 
 static inline int32_t dmb_is_sparse(const dmb_scene *scene, uint32_t constraint)
@@ -28,8 +28,8 @@ static inline int32_t dmb_is_sparse(const dmb_scene *scene, uint32_t constraint)
 void dmb_sparse_choose(dmb_sim *sim);
 /* Sizes of blocks and places of the rows that are chosen: the choice may have come back with an older state. */
 void dmb_sparse_note(dmb_sim *sim);
-/* Factors of the rows at hand in the metric of projections. leave_weak: without rows that those before nearly hold. DMB_OK,
- * or DMB_ERR_SINGULAR with the row for the message. */
+/* Factors of the rows at hand in the metric of projections. leave_weak: without rows that those before nearly hold.
+ * DMB_OK, or DMB_ERR_SINGULAR with the row for the message. */
 int32_t dmb_sparse_factor(dmb_sim *sim, int leave_weak);
 /* The same where the factors are not those of the rows at hand. */
 int32_t dmb_sparse_refresh(dmb_sim *sim);

@@ -1,10 +1,10 @@
-/* Multipliers of least norm are B y: those that no combination of rows that does nothing can shorten. With A = B W of all
- * rows that act, redundant ones included, and g = A^T f,
+/* Multipliers of least norm are B y: those that no combination of rows that does nothing can shorten. With A = B W of
+ * all rows that act, redundant ones included, and g = A^T f,
  *
  *     (A^T A + e I) y = g,   f := f + A y,   g := g - A^T A y,   over again
  *
- * from f = 0 (proximal points; Rockafellar 1976): each pass leaves e/(s^2 + e) of the part of g along a singular value s,
- * and no pass leaves the range of A. A^T A couples nodes as the joints do, so this is as sparse as the rest. */
+ * from f = 0 (proximal points; Rockafellar 1976): each pass leaves e/(s^2 + e) of the part of g along a singular value
+ * s, and no pass leaves the range of A. A^T A couples nodes as the joints do, so this is as sparse as the rest. */
 #include <string.h>
 
 #include "system/constrain/sparse_cluster.h"

@@ -11,8 +11,9 @@
 
 /* Unknowns of the blocks of sparse clusters into reduced_size. */
 void dmb_reduced_sparse_sizes(dmb_sim *sim);
-/* Tangents of joints and rows of constraints into the blocks; those of the nodes are there. hold: B^T D B is added to S,
- * which changes nothing where B z = 0, and holds what only the constraints hold: a body at rest has no S of its own. */
+/* Tangents of joints and rows of constraints into the blocks; those of the nodes are there. hold: B^T D B is added to
+ * S, which changes nothing where B z = 0, and holds what only the constraints hold: a body at rest has no S of its
+ * own. */
 void dmb_reduced_sparse_put(dmb_sim *sim, int hold);
 /* The solution moves the multipliers of the trial. */
 void dmb_reduced_sparse_move(dmb_sim *sim);

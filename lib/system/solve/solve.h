@@ -16,8 +16,8 @@ typedef struct dmb_residual_norm {
     int32_t reserved;
 } dmb_residual_norm;
 
-/* Moments count over the length of their chain; unknown rows only; chain by chain, so that a light body is not judged by
- * a heavy string. */
+/* Moments count over the length of their chain; unknown rows only; chain by chain, so that a light body is not judged
+ * by a heavy string. */
 dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double tolerance);
 /* Factors the iteration matrix in place. Index of a singular block, or -1. */
 int64_t dmb_factor_matrix(dmb_sim *sim);
@@ -31,9 +31,9 @@ void dmb_solve_correction(dmb_sim *sim);
 
 /* Factors of an iteration matrix that serve in later steps (when: integrator/newton).
  *
- * The wall stays where it is while pipes turn in it, and pipes are round: the iteration matrix of a pipe that has turned
- * about its axis is the old one in the old frame. So with a wall, kept factors are taken in the frames in which they
- * were made. (Where only one of two directions across is held this mixes it with the other: an approximate inverse
+ * The wall stays where it is while pipes turn in it, and pipes are round: the iteration matrix of a pipe that has
+ * turned about its axis is the old one in the old frame. So with a wall, kept factors are taken in the frames in which
+ * they were made. (Where only one of two directions across is held this mixes it with the other: an approximate inverse
  * may.) */
 
 /* The factors of this step at hand, by inverses, become the kept ones, in the frames of the trial. */

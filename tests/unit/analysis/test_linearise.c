@@ -7,8 +7,8 @@
 
 #include "analysis/linear/linearise.h"
 #include "math/se3.h"
-#include "system/constrain/cluster.h"
 #include "system/assemble/evaluation.h"
+#include "system/constrain/cluster.h"
 #include "system/start.h"
 
 enum { ROWS_MAX = 120 };

@@ -1,6 +1,6 @@
-/* The tangent of the equations of a steady state, K = dr/dH + (dr/dV) ad(g), against six-point central differences of their
- * residual along random displacements: of strings that turn as a whole, exact; of strings that slide and turn, without the
- * change of V' and of the axis of a hole that bends, 2e-6 of the largest entry here. */
+/* The tangent of the equations of a steady state, K = dr/dH + (dr/dV) ad(g), against six-point central differences of
+ * their residual along random displacements: of strings that turn as a whole, exact; of strings that slide and turn,
+ * without the change of V' and of the axis of a hole that bends, 2e-6 of the largest entry here. */
 #include <string.h>
 
 #include "rig.h"

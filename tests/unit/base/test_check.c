@@ -17,12 +17,12 @@ static dmb_check fresh(void)
 }
 
 /* One check on a fresh verdict gives this status and, where it fails, this message. */
-#define EXPECT(expected_status, expected_text, call)                                                                  \
-    do {                                                                                                              \
-        dmb_check check = fresh();                                                                                    \
-        call;                                                                                                         \
-        assert_int_equal(check.status, expected_status);                                                              \
-        assert_string_equal(message.text, expected_text);                                                             \
+#define EXPECT(expected_status, expected_text, call)      \
+    do {                                                  \
+        dmb_check check = fresh();                        \
+        call;                                             \
+        assert_int_equal(check.status, expected_status);  \
+        assert_string_equal(message.text, expected_text); \
     } while (0)
 
 static const double not_a_number = (double)NAN, infinite = (double)INFINITY;
@@ -160,14 +160,10 @@ static void no_message(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(finite_values),
-        cmocka_unit_test(one_bound),
-        cmocka_unit_test(ranges),
-        cmocka_unit_test(other_fields),
-        cmocka_unit_test(arrays),
-        cmocka_unit_test(whole_numbers),
-        cmocka_unit_test(pointers),
-        cmocka_unit_test(the_first_failure_stays),
+        cmocka_unit_test(finite_values), cmocka_unit_test(one_bound),
+        cmocka_unit_test(ranges),        cmocka_unit_test(other_fields),
+        cmocka_unit_test(arrays),        cmocka_unit_test(whole_numbers),
+        cmocka_unit_test(pointers),      cmocka_unit_test(the_first_failure_stays),
         cmocka_unit_test(no_message),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

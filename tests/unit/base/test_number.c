@@ -31,9 +31,41 @@ static uint64_t next_bits(uint64_t *seed)
 
 static void special_values(void **state)
 {
-    const double values[] = {0.0, -0.0, 1.0, -1.0, 0.1, 0.073, 0.094, 2.1e11, 9.5, 10.5, 0.5, 1.5, 2.5, 99999.5, 999999.5,
-                             9999995.0, 1e5, 1e6, 1e15, 1e16, 1e17, 1e-4, 1e-5, 123456.5, 5e-324, DBL_MIN, DBL_MAX,
-                             DBL_EPSILON, 1e22, 1e23, 9007199254740993.0, 0.30000000000000004, 100.0, 1e100, 1e-100};
+    const double values[] = {0.0,
+                             -0.0,
+                             1.0,
+                             -1.0,
+                             0.1,
+                             0.073,
+                             0.094,
+                             2.1e11,
+                             9.5,
+                             10.5,
+                             0.5,
+                             1.5,
+                             2.5,
+                             99999.5,
+                             999999.5,
+                             9999995.0,
+                             1e5,
+                             1e6,
+                             1e15,
+                             1e16,
+                             1e17,
+                             1e-4,
+                             1e-5,
+                             123456.5,
+                             5e-324,
+                             DBL_MIN,
+                             DBL_MAX,
+                             DBL_EPSILON,
+                             1e22,
+                             1e23,
+                             9007199254740993.0,
+                             0.30000000000000004,
+                             100.0,
+                             1e100,
+                             1e-100};
     char text[DMB_NUMBER_SIZE];
     (void)state;
     for (size_t i = 0; i < sizeof values / sizeof values[0]; ++i) {

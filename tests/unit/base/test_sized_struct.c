@@ -56,8 +56,15 @@ static void init_of_every_release(void **state)
 static void init_refuses(void **state)
 {
     present now, before;
-    const uint32_t sizes[] = {0, 4, 8, sizeof(first) - 8, sizeof(present) - 4, sizeof(present) + 1, UINT32_MAX,
-                              UINT32_MAX - 7, sizeof(present) + DMB_STRUCT_MAX_EXTRA + 8};
+    const uint32_t sizes[] = {0,
+                              4,
+                              8,
+                              sizeof(first) - 8,
+                              sizeof(present) - 4,
+                              sizeof(present) + 1,
+                              UINT32_MAX,
+                              UINT32_MAX - 7,
+                              sizeof(present) + DMB_STRUCT_MAX_EXTRA + 8};
     (void)state;
     memset(&now, 0x5A, sizeof now);
     before = now;
@@ -146,12 +153,9 @@ static void write_refuses(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(init_of_every_release),
-        cmocka_unit_test(init_refuses),
-        cmocka_unit_test(read_of_every_release),
-        cmocka_unit_test(read_refuses),
-        cmocka_unit_test(write_of_every_release),
-        cmocka_unit_test(write_refuses),
+        cmocka_unit_test(init_of_every_release),  cmocka_unit_test(init_refuses),
+        cmocka_unit_test(read_of_every_release),  cmocka_unit_test(read_refuses),
+        cmocka_unit_test(write_of_every_release), cmocka_unit_test(write_refuses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,9 +11,9 @@
 static void names_and_texts(void **state)
 {
     (void)state;
-#define EXPECT(name, value, text)                                                                                     \
-    assert_int_equal(name, value);                                                                                    \
-    assert_string_equal(dmb_status_name(value), #name);                                                               \
+#define EXPECT(name, value, text)                       \
+    assert_int_equal(name, value);                      \
+    assert_string_equal(dmb_status_name(value), #name); \
     assert_string_equal(dmb_status_text(value), text);
     DMB_STATUS_LIST(EXPECT)
 #undef EXPECT

@@ -1,9 +1,9 @@
-/* Symmetry of the tangent of the flexible element, with all its terms of axial load and curvature: increments of poses do
- * not commute, so second derivatives of an energy differ by what it does along their bracket,
+/* Symmetry of the tangent of the flexible element, with all its terms of axial load and curvature: increments of poses
+ * do not commute, so second derivatives of an energy differ by what it does along their bracket,
  *     K_ij - K_ji = f . [e_j, e_i],   [(u, w), (p, r)] = (w x p + u x r, w x r),
  * f the forces on the nodes (left-invariant fields; Marsden, Ratiu, Introduction to Mechanics and Symmetry, 9). Held
- * against it: any shape; stress 0, where K is symmetric; and a conservative load in equilibrium, where K with the load's
- * own part is. */
+ * against it: any shape; stress 0, where K is symmetric; and a conservative load in equilibrium, where K with the
+ * load's own part is. */
 #include <lapacke.h>
 #include <string.h>
 
@@ -140,7 +140,8 @@ static void settle(const dmb_element_type *type, const double F[3], pose *b, dou
 /* Force 0: the state of no stress. */
 static void conservative_loads_keep_symmetry(void **state)
 {
-    static const double F[][3] = {{0.0, 0.0, 0.0}, {5.0, 0.0, 0.0}, {20.0, 1.0, -2.0}, {-0.5, 0.1, 0.0}, {0.3, 2.0, 1.0}};
+    static const double F[][3] = {
+        {0.0, 0.0, 0.0}, {5.0, 0.0, 0.0}, {20.0, 1.0, -2.0}, {-0.5, 0.1, 0.0}, {0.3, 2.0, 1.0}};
     dmb_element_type type;
     (void)state;
     soft_type(&type);

@@ -1,5 +1,5 @@
-/* Signed factors of quasi-definite block-sparse matrices against dense elimination: solutions, left-out rows, and choices of
- * rows with redundant ones among them. */
+/* Signed factors of quasi-definite block-sparse matrices against dense elimination: solutions, left-out rows, and
+ * choices of rows with redundant ones among them. */
 #include "check.h"
 
 #include <math.h>
@@ -10,7 +10,8 @@
 
 enum { BLOCKS = 7, NODE = 3, ROWS = 2, MOST = BLOCKS * (NODE + ROWS) };
 
-/* [I B^T; B 0] of a tree of blocks with a loop; each block but the first has ROWS rows of B, on itself and its parent. */
+/* [I B^T; B 0] of a tree of blocks with a loop; each block but the first has ROWS rows of B, on itself and its
+ * parent. */
 typedef struct system_of {
     dmb_allocator allocator;
     dmb_block_pattern pattern;

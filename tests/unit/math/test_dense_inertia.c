@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "check.h"
-#include "math/dense_inertia.h"
 #include "math/dense.h"
+#include "math/dense_inertia.h"
 
 #define MOST 20
 

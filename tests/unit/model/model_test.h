@@ -18,21 +18,21 @@
 #define assert_ok(call) assert_int_equal((call), DMB_OK)
 
 /* |a - b| <= tolerance * scale */
-#define assert_near(a, b, tolerance)                                                                                   \
-    do {                                                                                                               \
-        const double a_ = (a), b_ = (b);                                                                               \
-        if (!(fabs(a_ - b_) <= (tolerance) * fmax(1e-300, fmax(fabs(a_), fabs(b_))))) {                                \
-            print_error("%s = %.17g, expected %.17g\n", #a, a_, b_);                                                   \
-            fail();                                                                                                    \
-        }                                                                                                              \
+#define assert_near(a, b, tolerance)                                                  \
+    do {                                                                              \
+        const double a_ = (a), b_ = (b);                                              \
+        if (!(fabs(a_ - b_) <= (tolerance)*fmax(1e-300, fmax(fabs(a_), fabs(b_))))) { \
+            print_error("%s = %.17g, expected %.17g\n", #a, a_, b_);                  \
+            fail();                                                                   \
+        }                                                                             \
     } while (0)
-#define assert_close(a, b, tolerance)                                                                                  \
-    do {                                                                                                               \
-        const double a_ = (a), b_ = (b);                                                                               \
-        if (!(fabs(a_ - b_) <= (tolerance))) {                                                                         \
-            print_error("%s = %.17g, expected %.17g +- %g\n", #a, a_, b_, (double)(tolerance));                        \
-            fail();                                                                                                    \
-        }                                                                                                              \
+#define assert_close(a, b, tolerance)                                                           \
+    do {                                                                                        \
+        const double a_ = (a), b_ = (b);                                                        \
+        if (!(fabs(a_ - b_) <= (tolerance))) {                                                  \
+            print_error("%s = %.17g, expected %.17g +- %g\n", #a, a_, b_, (double)(tolerance)); \
+            fail();                                                                             \
+        }                                                                                       \
     } while (0)
 
 /* Reference string S1 of THEORY section 7. */

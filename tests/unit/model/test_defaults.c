@@ -26,7 +26,7 @@
     X(dmb_motion)          \
     X(dmb_section)         \
     X(dmb_contact)         \
-    X(dmb_contact_total)     \
+    X(dmb_contact_total)   \
     X(dmb_energy)          \
     X(dmb_momentum)        \
     X(dmb_drive_state)     \

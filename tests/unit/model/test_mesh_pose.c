@@ -335,12 +335,12 @@ static void depth_of_what_does_not_follow(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(straight_string_has_exact_spans),  TEST(velocity_is_that_of_a_rigid_body),
-        TEST(velocity_of_a_rigid_start),        TEST(curved_string_is_at_rest),
-        TEST(curved_string_with_joints),        TEST(curved_string_behind_rigid_pipes),
-        TEST(string_follows_a_curved_hole),
-        TEST(planar_hole_keeps_the_hole_frame), TEST(offset_is_along_the_hole_frame),
-        TEST(path_nodes_in_a_curved_hole),      TEST(depth_of_what_does_not_follow),
+        TEST(straight_string_has_exact_spans), TEST(velocity_is_that_of_a_rigid_body),
+        TEST(velocity_of_a_rigid_start),       TEST(curved_string_is_at_rest),
+        TEST(curved_string_with_joints),       TEST(curved_string_behind_rigid_pipes),
+        TEST(string_follows_a_curved_hole),    TEST(planar_hole_keeps_the_hole_frame),
+        TEST(offset_is_along_the_hole_frame),  TEST(path_nodes_in_a_curved_hole),
+        TEST(depth_of_what_does_not_follow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -172,7 +172,7 @@ static void acceleration_is_the_derivative_of_velocity(void **state)
     for (int i = 0; i < STATIONS; i++) {
         const dmb_material_point_motion m = one_element_motion(&now, stations[i]);
         const dmb_material_point_motion m0 = one_element_motion(&before, stations[i]),
-                              m1 = one_element_motion(&after, stations[i]);
+                                        m1 = one_element_motion(&after, stations[i]);
         for (int k = 0; k < 6; k++) CHECK_CLOSE(m.acceleration[k], (m1.velocity[k] - m0.velocity[k]) / (2.0 * t), 1e-6);
     }
 }

@@ -1,5 +1,5 @@
-/* Section loads of a cantilever under its own weight, one element a pipe: shear w (L - x) and moment w (L - x)^2/2 at any
- * place, not only the mean of each element. */
+/* Section loads of a cantilever under its own weight, one element a pipe: shear w (L - x) and moment w (L - x)^2/2 at
+ * any place, not only the mean of each element. */
 
 #include "rig.h"
 

@@ -51,12 +51,14 @@ static inline void stir(rig *s, uint64_t seed)
         sim->now.site_penetration[i] = 1e-3; /* so the approach speed is not taken anew */
         sim->now.site_approach[i] = 0.4;
         if (bristles) sim->now.site_sticks[i] = (int32_t)(i % 2);
-        for (uint32_t k = 0; k < 2 * bristles; k++) sim->now.site_bristle[2 * i + k] = draw_between(&seed, -0.003, 0.003);
+        for (uint32_t k = 0; k < 2 * bristles; k++)
+            sim->now.site_bristle[2 * i + k] = draw_between(&seed, -0.003, 0.003);
         for (uint32_t k = 0; k < 2; k++) sim->now.site_slip[2 * i + k] = draw_between(&seed, -0.3, 0.3);
     }
     for (uint32_t i = 0; i < sim->scene->path_site_count; i++) {
         if (bristles) sim->now.path_sticks[i] = (int32_t)(i % 2);
-        for (uint32_t k = 0; k < 2 * bristles; k++) sim->now.path_bristle[2 * i + k] = draw_between(&seed, -0.003, 0.003);
+        for (uint32_t k = 0; k < 2 * bristles; k++)
+            sim->now.path_bristle[2 * i + k] = draw_between(&seed, -0.003, 0.003);
     }
     for (uint32_t k = 0; k < sim->scene->bit_count; k++) sim->now.bit_bottom[k] = -0.3; /* well into the rock */
     dmb_configuration_copy(sim, &sim->now, &sim->trial);

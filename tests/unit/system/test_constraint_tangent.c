@@ -10,9 +10,9 @@
 #include "math/se3.h"
 #include "sim/layout.h"
 #include "sim/sim.h"
+#include "system/assemble/evaluation.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
-#include "system/assemble/evaluation.h"
 #include "system/constrain/joint_state.h"
 
 enum { ROWS_MAX = 400, KINDS = DMB_JOINT_ROLLING + 1, EQUATIONS_MAX = 300 };

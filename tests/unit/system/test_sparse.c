@@ -1,5 +1,5 @@
-/* Large clusters, solved over nodes and multipliers in sparse blocks, against the same scenes with dense partitions: motion,
- * reactions, redundant equations, statics, modes; and what each of them must keep by itself. */
+/* Large clusters, solved over nodes and multipliers in sparse blocks, against the same scenes with dense partitions:
+ * motion, reactions, redundant equations, statics, modes; and what each of them must keep by itself. */
 #include <string.h>
 
 #include "mechanism.h"
@@ -40,7 +40,8 @@ static void chain(machine *m, int32_t kind)
 {
     for (uint32_t i = 0; i < 16; i++) {
         const uint32_t b = add_machine_bar(m, i, 0.1 * (i & 1), i + 1.0, 0.1 * (1 - (i & 1)));
-        connect(m, kind, i ? on(m, b - 1, 0.5 * hypot(1.0, 0.1)) : pin_ground(0.0, 0.0), on(m, b, -0.5 * hypot(1.0, 0.1)));
+        connect(m, kind, i ? on(m, b - 1, 0.5 * hypot(1.0, 0.1)) : pin_ground(0.0, 0.0),
+                on(m, b, -0.5 * hypot(1.0, 0.1)));
     }
 }
 
@@ -139,7 +140,8 @@ static void ladder(machine *m)
     }
 }
 
-/* A chain with a gear between two hinges, a driven hinge, a slider, and an end that only turns and slides in the plane. */
+/* A chain with a gear between two hinges, a driven hinge, a slider, and an end that only turns and slides in the
+ * plane. */
 static void mixture(machine *m)
 {
     dmb_coupling_def gear = dmb_coupling_def_default();
@@ -232,7 +234,8 @@ static void compare(const char *name, scene_fn *describe, double tolerance)
     const dmb_statistics one = statistics_of(&dense.s), other = statistics_of(&sparse.s);
     const double apart = motion_difference(&dense.s, &other_way.s, dense.bars, other_way.bars, dense.bar_count);
     check_below("    dense, by multipliers", apart, tolerance);
-    check_below("    motion", motion_difference(&dense.s, &sparse.s, dense.bars, sparse.bars, dense.bar_count), tolerance);
+    check_below("    motion", motion_difference(&dense.s, &sparse.s, dense.bars, sparse.bars, dense.bar_count),
+                tolerance);
     check_below("    by multipliers", motion_difference(&dense.s, &given.s, dense.bars, given.bars, dense.bar_count),
                 tolerance);
     check_below("    reactions", reaction_difference(&dense, &sparse), 100.0 * tolerance);
@@ -277,7 +280,8 @@ static void standing(machine *m)
 {
     for (uint32_t i = 0; i < 13; i++) {
         (void)add_machine_bar(m, 0.0, i, 0.0, i + 1.0);
-        dmb_joint_def def = hinge_of("", DMB_JOINT_REVOLUTE, i ? on(m, i - 1, 0.5) : pin_ground(0.0, 0.0), on(m, i, -0.5));
+        dmb_joint_def def =
+            hinge_of("", DMB_JOINT_REVOLUTE, i ? on(m, i - 1, 0.5) : pin_ground(0.0, 0.0), on(m, i, -0.5));
         def.rest[DMB_RX] = i ? 0.0 : 0.5 * PI;
         def.stiffness[DMB_RX] = 400.0;
         m->joints[m->joint_count++] = add_joint(&m->s, &def);
@@ -303,7 +307,8 @@ static void compare_at_rest(const char *name, scene_fn *describe)
         frequency[i] = mode.frequency;
         dmb_modes_destroy(&modes);
     }
-    check_below("    pose", motion_difference(&both[0].s, &both[1].s, both[0].bars, both[1].bars, both[0].bar_count), 1e-8);
+    check_below("    pose", motion_difference(&both[0].s, &both[1].s, both[0].bars, both[1].bars, both[0].bar_count),
+                1e-8);
     check_below("    reactions", reaction_difference(&both[0], &both[1]), 1e-9);
     check_below("    second frequency", fabs(frequency[1] - frequency[0]), 1e-8);
     print_message("    negative eigenvalues %d\n", (int)report[0].negative);
@@ -394,7 +399,8 @@ static void longer_than_dense_matrices(void **state)
     for (int i = 0; i < 260; i++) {
         const bar def = {{i, 0.0}, {i + 1.0, 0.0}, 1.0};
         const dmb_id here = add_bar(&s, &def);
-        (void)add_hinge(&s, "link", DMB_JOINT_REVOLUTE, i ? pin_on(last, 0.5) : pin_ground(0.0, 0.0), pin_on(here, -0.5));
+        (void)add_hinge(&s, "link", DMB_JOINT_REVOLUTE, i ? pin_on(last, 0.5) : pin_ground(0.0, 0.0),
+                        pin_on(here, -0.5));
         last = here;
     }
     (void)mechanism_start(&s, NULL);
@@ -404,7 +410,8 @@ static void longer_than_dense_matrices(void **state)
     check_below("    violation of 260 links", statistics.violation, 1e-12);
     assert_int_equal(dmb_analysis_modes(s.sim, NULL, &modes), DMB_ERR_TOO_LARGE);
     print_message("    %s\n", dmb_sim_message(s.sim));
-    assert_non_null(strstr(dmb_sim_message(s.sim), "modes: cluster of joint 0 (link): coordinates = 1560, must be <= 1200"));
+    assert_non_null(
+        strstr(dmb_sim_message(s.sim), "modes: cluster of joint 0 (link): coordinates = 1560, must be <= 1200"));
     rig_close(&s);
 }
 
