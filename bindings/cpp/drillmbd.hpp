@@ -288,8 +288,8 @@ public:
         check(dmb_modes_shape(handle_, index, place, &answer));
         return answer;
     }
-    // [J] in a pipe of a string, in a whole string (pipe UINT32_MAX), or (pipe 0) in a body or bit.
-    energies part(std::uint32_t index, dmb_id part, std::uint32_t pipe = UINT32_MAX) const
+    // [J] in a pipe of a string, in a whole string (pipe DMB_NONE), or (pipe 0) in a body or bit.
+    energies part(std::uint32_t index, dmb_id part, std::uint32_t pipe = DMB_NONE) const
     {
         energies answer{};
         check(dmb_modes_part(handle_, index, part, pipe, &answer.kinetic, &answer.strain));

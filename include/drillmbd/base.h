@@ -79,6 +79,9 @@ typedef struct dmb_id {
     uint32_t generation; /* [-] stamp of the model that gave it out; 0 only in the id that names nothing */
 } dmb_id;
 
+/* Where the number of a part, pipe or place is asked for: none of them. */
+#define DMB_NONE UINT32_MAX
+
 /* A place on a part: a station of a string, or the reference point of a body. Made by dmb_station. */
 typedef struct dmb_place {
     dmb_id part;       /* a string, a body or a bit */

@@ -103,7 +103,7 @@ DMB_API int32_t dmb_modes_get(const dmb_modes *modes, uint32_t index, dmb_mode *
 /* Shape at a place, between nodes by the element's own shape functions. O(1). */
 DMB_API int32_t dmb_modes_shape(const dmb_modes *modes, uint32_t index, dmb_place place, dmb_mode_shape *shape);
 /* [J] kinetic and strain energy of the mode, as in dmb_mode, in a pipe of a string with half of what is fixed to its
- * two ends, in a whole string (pipe = UINT32_MAX), or in a body or bit (pipe 0). O(elements of it). */
+ * two ends, in a whole string (pipe = DMB_NONE), or in a body or bit (pipe 0). O(elements of it). */
 DMB_API int32_t dmb_modes_part(const dmb_modes *modes, uint32_t index, dmb_id part, uint32_t pipe, double *kinetic,
                                double *strain);
 /* A frame of its animation for ParaView: the strings displaced by scale Re(shape e^(i phase)), as dmb_write_vtk_strings

@@ -52,7 +52,7 @@ typedef struct dmb_contact {
     int32_t sticks; /* 1 when the bristle law holds it */
     uint32_t site;  /* [-] number of the site, 0 .. info.contact_sites - 1 */
     dmb_id part;    /* string or body the site belongs to */
-    uint32_t pipe;  /* [-] pipe whose far end it is; UINT32_MAX for the rig end of the string */
+    uint32_t pipe;  /* [-] pipe whose far end it is; DMB_NONE for the rig end of the string */
     uint32_t reserved;
     double length;       /* [m] of pipe it stands for */
     double gap;          /* [m] to the wall, < 0 when penetrating */

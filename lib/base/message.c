@@ -87,12 +87,12 @@ void dmb_message_component(dmb_message *message, const char *part, uint32_t inde
                            uint32_t component, double value, const char *bound)
 {
     dmb_message name, place;
-    if (index == DMB_NO_INDEX) {
+    if (index == DMB_NONE) {
         dmb_message_set(&name, "%s", part);
     } else {
         dmb_message_set(&name, "%s %u", part, index);
     }
-    if (component == DMB_NO_INDEX) {
+    if (component == DMB_NONE) {
         dmb_message_set(&place, "%s", field);
     } else {
         dmb_message_set(&place, "%s[%u]", field, component);
@@ -103,7 +103,7 @@ void dmb_message_component(dmb_message *message, const char *part, uint32_t inde
 void dmb_message_field(dmb_message *message, const char *part, uint32_t index, const char *field, double value,
                        const char *bound)
 {
-    dmb_message_component(message, part, index, field, DMB_NO_INDEX, value, bound);
+    dmb_message_component(message, part, index, field, DMB_NONE, value, bound);
 }
 
 const char *dmb_part_text(dmb_message *text, const char *part, uint32_t index, const char *name, size_t size)

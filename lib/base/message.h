@@ -12,9 +12,6 @@ typedef struct dmb_message {
     char text[256];
 } dmb_message;
 
-/* The index of a part that has none: "wall: diameter = ...". Also "no component" below. */
-#define DMB_NO_INDEX UINT32_MAX
-
 #if defined(__GNUC__)
 #define DMB_PRINTF_LIKE __attribute__((format(printf, 2, 3)))
 #else
@@ -25,7 +22,7 @@ typedef struct dmb_message {
  * others in six digits. message may be NULL: nothing happens. A NULL string is written as "?". */
 void dmb_message_set(dmb_message *message, const char *format, ...) DMB_PRINTF_LIKE;
 
-/* "<part> <index>: <field> = <value>, must be <bound>" */
+/* "<part> <index>: <field> = <value>, must be <bound>". index DMB_NONE: "wall: diameter = ..."; so for components. */
 void dmb_message_field(dmb_message *message, const char *part, uint32_t index, const char *field, double value,
                        const char *bound);
 

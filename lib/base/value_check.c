@@ -10,7 +10,7 @@ static void fail_component(dmb_check *check, int32_t status, const char *field, 
 
 void dmb_check_fail(dmb_check *check, int32_t status, const char *field, double value, const char *bound)
 {
-    fail_component(check, status, field, DMB_NO_INDEX, value, bound);
+    fail_component(check, status, field, DMB_NONE, value, bound);
 }
 
 /* The verdict on one number; `holds` is what was asked of a finite value. */
@@ -38,22 +38,22 @@ static void judge_range(dmb_check *check, const char *field, double value, bool 
     dmb_message text;
     if (check->status < 0 || (holds && dmb_is_finite(value))) return;
     dmb_message_set(&text, "finite, %s %g and %s %g", format_low, low, format_high, high);
-    judge(check, field, DMB_NO_INDEX, value, holds, text.text);
+    judge(check, field, DMB_NONE, value, holds, text.text);
 }
 
 void dmb_check_finite(dmb_check *check, const char *field, double value)
 {
-    judge(check, field, DMB_NO_INDEX, value, true, "finite");
+    judge(check, field, DMB_NONE, value, true, "finite");
 }
 
 void dmb_check_above(dmb_check *check, const char *field, double value, double bound)
 {
-    judge_bound(check, field, DMB_NO_INDEX, value, value > bound, ">", bound);
+    judge_bound(check, field, DMB_NONE, value, value > bound, ">", bound);
 }
 
 void dmb_check_at_least(dmb_check *check, const char *field, double value, double bound)
 {
-    judge_bound(check, field, DMB_NO_INDEX, value, value >= bound, ">=", bound);
+    judge_bound(check, field, DMB_NONE, value, value >= bound, ">=", bound);
 }
 
 void dmb_check_within(dmb_check *check, const char *field, double value, double low, double high)
@@ -72,7 +72,7 @@ static void judge_field(dmb_check *check, const char *field, double value, bool 
     dmb_message text;
     if (check->status < 0 || (holds && dmb_is_finite(value) && dmb_is_finite(bound))) return;
     dmb_message_set(&text, "finite and %s %s (%g)", relation, other, bound);
-    judge(check, field, DMB_NO_INDEX, value, holds && dmb_is_finite(bound), text.text);
+    judge(check, field, DMB_NONE, value, holds && dmb_is_finite(bound), text.text);
 }
 
 void dmb_check_above_field(dmb_check *check, const char *field, double value, const char *other, double bound)
@@ -131,7 +131,7 @@ void dmb_check_pointer(dmb_check *check, const char *field, const void *pointer)
 {
     if (pointer != NULL || check->status < 0) return;
     check->status = DMB_ERR_NULL;
-    if (check->index == DMB_NO_INDEX) {
+    if (check->index == DMB_NONE) {
         dmb_message_set(check->message, "%s: %s is NULL", check->part, field);
     } else {
         dmb_message_set(check->message, "%s %u: %s is NULL", check->part, check->index, field);

@@ -24,7 +24,7 @@ static inline bool dmb_is_finite(double value)
 typedef struct dmb_check {
     dmb_message *message; /* may be NULL */
     const char *part;     /* "pipe", "wall", ... */
-    uint32_t index;       /* number of the part, or DMB_NO_INDEX */
+    uint32_t index;       /* number of the part, or DMB_NONE */
     int32_t status;       /* DMB_OK, or the first failure */
 } dmb_check;
 

@@ -10,7 +10,7 @@
 
 /* Dot-product rows, in their order, and free coordinates. */
 enum { P_X = 1, P_Y = 2, P_Z = 4, R_YX = 8, R_ZX = 16, R_YZ = 32, P = P_X | P_Y | P_Z };
-enum { X = 1, Y = 2, Z = 4, RX = 8, RY = 16, RZ = 32, ALL = 63 };
+enum { X = 1, Y = 2, Z = 4, RX = 8, RY = 16, RZ = 32, ALL = 63 }; /* 1 << DMB_X .. 1 << DMB_RZ */
 
 typedef struct row_kind {
     uint32_t count; /* of all rows */
@@ -209,7 +209,7 @@ void dmb_joint_locked_tangent(const double R0[9], const double p0[3], const doub
 /* The angle, modulo a turn, next to `near` */
 static double on_turn_of(double near, double angle)
 {
-    return angle + 2.0 * DMB_PI * round((near - angle) / (2.0 * DMB_PI));
+    return angle + DMB_TWO_PI * round((near - angle) / DMB_TWO_PI);
 }
 
 /* With n = R^T e_y leaning on x of b, s = cos RZ, the gradients of the angles by w are, R being orthogonal,

@@ -19,7 +19,7 @@
 
 #include <stdint.h>
 
-/* Kinds are numbered as DMB_JOINT_... in model.h. */
+/* Kinds are numbered as DMB_JOINT_... in model.h (model/mesh_joint.c asserts it). */
 enum {
     DMB_ROWS_FIXED = 0,
     DMB_ROWS_REVOLUTE = 1,

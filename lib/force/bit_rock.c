@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 
-static const double two_pi = 6.28318530717958647693;
+#include "math/real.h"
 
 enum { CAPACITY_MIN = 16, SPARE_SAMPLES = 8 };
 #define DMB_LEDGE_STEPS 4.0 /* [-] angle_steps over which the step in the rock behind the blade is smoothed */
@@ -57,7 +57,7 @@ int32_t dmb_bit_history_init(dmb_bit_history *history, const dmb_bit_rock_law *l
     history->head = 0;
     history->count = 1;
     history->reserved = 0;
-    history->spacing = two_pi / (double)law->blades;
+    history->spacing = DMB_TWO_PI / (double)law->blades;
     history->angle_step = history->spacing / (double)(capacity - SPARE_SAMPLES);
     history->offset = 0.0;
     angle[0] = phi;
@@ -173,11 +173,11 @@ static void rate_law(const dmb_bit_rock_law *law, double intrusion, double V, do
     double grip_slope, inverse_slope;
     const double grip = ramp(intrusion / law->intrusion_depth, &grip_slope);
     const double inverse = inverse_spin(omega, &inverse_slope);
-    const double advance = V <= 0.0 ? 0.0 : two_pi * V;
+    const double advance = V <= 0.0 ? 0.0 : DMB_TWO_PI * V;
     const struct jet g = {grip, {grip_slope / law->intrusion_depth, 0.0, 0.0, 0.0}};
-    const struct jet d = {
-        grip * advance * inverse,
-        {g.d[0] * advance * inverse, V <= 0.0 ? 0.0 : grip * two_pi * inverse, 0.0, grip * advance * inverse_slope}};
+    const struct jet d = {grip * advance * inverse,
+                          {g.d[0] * advance * inverse, V <= 0.0 ? 0.0 : grip * DMB_TWO_PI * inverse, 0.0,
+                           grip * advance * inverse_slope}};
 
     assemble(law, &d, &g, omega, out);
 }

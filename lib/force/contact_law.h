@@ -16,7 +16,7 @@ typedef struct dmb_site {
     double clearance; /* [m] hole radius less ring radius, >= 0 */
     double length;    /* [m] of wall it stands for */
     dmb_id part;      /* string or body */
-    uint32_t pipe;    /* pipe whose far end it is; UINT32_MAX: rig end; 0 for a body */
+    uint32_t pipe;    /* pipe whose far end it is; DMB_NONE: rig end; 0 for a body */
     uint32_t node;
 } dmb_site;
 

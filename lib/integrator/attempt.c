@@ -187,8 +187,8 @@ int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, d
     memset(attempt, 0, sizeof *attempt);
     attempt->end = *end;
     attempt->whole = whole && sim->scene->cluster_count == 0 && !sim->options.bounded_work;
-    attempt->block = UINT32_MAX;
-    sim->reduced_mode->row = UINT32_MAX;
+    attempt->block = DMB_NONE;
+    sim->reduced_mode->row = DMB_NONE;
     sim->reduced_mode->multipliers = sim->options.constraint_method == DMB_METHOD_MULTIPLIERS;
     status = run(sim, &c, attempt);
     if (attempt->tried && status < 0 && !dmb_is_final(status)) { /* once more, with factors of its own */
@@ -205,7 +205,7 @@ int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, d
     sim->reduced_mode->multipliers = 0;
     if (status >= 0) {
         attempt->evaluation.element = dmb_element_turned_too_far(sim);
-        if (attempt->evaluation.element != UINT32_MAX) status = DMB_ERR_ROTATION;
+        if (attempt->evaluation.element != DMB_NONE) status = DMB_ERR_ROTATION;
     }
     attempt->status = status == DMB_NOTE_WORK_LIMITED ? status : status < 0 ? status : DMB_OK;
     return attempt->status;
@@ -264,7 +264,7 @@ uint32_t dmb_element_turned_too_far(const dmb_sim *sim)
         if (2.0 * squares <= DMB_TURNING_MAX * DMB_TURNING_MAX) continue;           /* nearly always */
         if (!(turned_apart(sim, a) <= DMB_TURNING_MAX)) return e;
     }
-    return UINT32_MAX;
+    return DMB_NONE;
 }
 
 /* Message of a failed attempt: which part, at what time. */
@@ -279,7 +279,7 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
                         owner.text.text, attempt->evaluation.time, attempt->end.step);
         break;
     case DMB_ERR_SINGULAR:
-        if (attempt->block == UINT32_MAX) {
+        if (attempt->block == DMB_NONE) {
             dmb_clusters_explain(sim, "its equations are singular");
             break;
         }
@@ -289,7 +289,7 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
         break;
     case DMB_ERR_GEOMETRY: /* said where it was found */ break;
     case DMB_ERR_CALLBACK:
-        if (sim->reduced_mode->row != UINT32_MAX) {
+        if (sim->reduced_mode->row != DMB_NONE) {
             dmb_message name;
             dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, sim->reduced_mode->row), &name);
             dmb_message_set(&sim->message, "%s: its callback failed or gave a value beyond +-1e30 at time %g",
@@ -301,7 +301,7 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
                         attempt->evaluation.time);
         break;
     default:
-        if (sim->reduced_mode->row != UINT32_MAX) {
+        if (sim->reduced_mode->row != DMB_NONE) {
             dmb_clusters_explain(sim, "its equations cannot be satisfied");
             break;
         }

@@ -13,7 +13,7 @@
 /* [s] Smallest corner later than t of a programme; INFINITY if none. */
 static double corner_of(const dmb_scene *scene, uint32_t programme, double t)
 {
-    return programme == UINT32_MAX ? (double)INFINITY : dmb_programme_next_corner(scene->programmes + programme, t);
+    return programme == DMB_NONE ? (double)INFINITY : dmb_programme_next_corner(scene->programmes + programme, t);
 }
 
 /* [s] Smallest corner later than t of any programme in use; INFINITY if none. */

@@ -26,14 +26,14 @@ int32_t dmb_walk_begin(dmb_sim *sim, const dmb_step_report *report, dmb_walk *wa
 
 int32_t dmb_walk_check(dmb_sim *sim, const char *field, double value, double bound)
 {
-    dmb_check check = dmb_check_of(&sim->message, "step", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(&sim->message, "step", DMB_NONE);
     dmb_check_above(&check, field, value, bound);
     return check.status;
 }
 
 int32_t dmb_walk_check_at_most(dmb_sim *sim, const char *field, double value, double bound)
 {
-    dmb_check check = dmb_check_of(&sim->message, "step", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(&sim->message, "step", DMB_NONE);
     dmb_check_within(&check, field, value, 0.0, bound);
     return check.status;
 }

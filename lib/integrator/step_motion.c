@@ -35,7 +35,7 @@ void dmb_step_motion_keep_prescribed(dmb_sim *sim)
     const dmb_step_motion to = dmb_step_motion_of(sim);
     for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
         const uint32_t row = sim->scene->drives[i].row;
-        if (sim->scene->drives[i].kind != DMB_DRIVE_MOTION || row == UINT32_MAX) continue;
+        if (sim->scene->drives[i].kind != DMB_DRIVE_MOTION || row == DMB_NONE) continue;
         to.velocity[row] = sim->trial.velocity[row];
         to.acceleration[row] = sim->trial.acceleration[row];
         to.pseudo_acceleration[row] = sim->trial.pseudo_acceleration[row];

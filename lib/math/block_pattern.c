@@ -11,8 +11,6 @@
 #include "base/memory.h"
 #include "math/bridge_cholmod.h"
 
-#define DMB_NONE UINT32_MAX
-
 /* Work memory for making a pattern. */
 typedef struct analysis {
     uint32_t n;
@@ -260,7 +258,7 @@ uint32_t dmb_block_pattern_entry(const dmb_block_pattern *pattern, uint32_t low,
         else
             end = middle;
     }
-    return DMB_BLOCK_NO_ENTRY;
+    return DMB_NONE;
 }
 
 size_t dmb_block_pattern_offset(const dmb_block_pattern *pattern, uint32_t i, uint32_t j)
@@ -268,6 +266,6 @@ size_t dmb_block_pattern_offset(const dmb_block_pattern *pattern, uint32_t i, ui
     const uint32_t p = pattern->position[i], q = pattern->position[j];
     if (p == q) return pattern->diagonal[p];
     const uint32_t e = dmb_block_pattern_entry(pattern, p < q ? p : q, p < q ? q : p);
-    if (e == DMB_BLOCK_NO_ENTRY) return DMB_BLOCK_NO_OFFSET;
+    if (e == DMB_NONE) return DMB_BLOCK_NO_OFFSET;
     return p < q ? pattern->upper[e] : pattern->lower[e];
 }

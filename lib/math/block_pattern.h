@@ -20,7 +20,6 @@
 
 /* Value returned for two blocks that have no place in the matrix. */
 #define DMB_BLOCK_NO_OFFSET SIZE_MAX
-#define DMB_BLOCK_NO_ENTRY UINT32_MAX
 
 /* Two coupled blocks. */
 typedef struct dmb_block_edge {
@@ -64,7 +63,7 @@ void dmb_block_pattern_release(dmb_block_pattern *pattern, const dmb_allocator *
  * neither coupled nor fill. Time: the logarithm of the number of entries of i or j. */
 size_t dmb_block_pattern_offset(const dmb_block_pattern *pattern, uint32_t i, uint32_t j);
 
-/* The entry of two positions, low < high; DMB_BLOCK_NO_ENTRY if they make none. Logarithmic time. */
+/* The entry of two positions, low < high; DMB_NONE if they make none. Logarithmic time. */
 uint32_t dmb_block_pattern_entry(const dmb_block_pattern *pattern, uint32_t low, uint32_t high);
 
 #endif

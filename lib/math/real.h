@@ -14,6 +14,7 @@
 #endif
 
 #define DMB_PI 3.14159265358979323846
+#define DMB_TWO_PI 6.283185307179586477
 #define DMB_ROUNDING 0x1.8p52 /* added and taken off again, it rounds a number below 2^51 to an integer */
 
 #ifndef DMB_LANES

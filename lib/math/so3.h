@@ -309,8 +309,8 @@ static inline dmb_real dmb_quat_twist(const dmb_real q[4], dmb_real predicted)
 {
     const double whole = 6755399441055744.0; /* 1.5 2^52: adding and taking it off rounds to an integer */
     const dmb_real angle = 2.0 * dmb_real_atan2(q[1], q[0]);
-    const dmb_real turns = ((predicted - angle) / (2.0 * DMB_PI) + whole) - whole;
-    const dmb_real twist = angle + 2.0 * DMB_PI * turns;
+    const dmb_real turns = ((predicted - angle) / DMB_TWO_PI + whole) - whole;
+    const dmb_real twist = angle + DMB_TWO_PI * turns;
     return dmb_real_select(dmb_mask_at_most(q[0] * q[0] + q[1] * q[1], dmb_real_of(0.0)), predicted, twist);
 }
 

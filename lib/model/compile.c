@@ -8,7 +8,7 @@
 
 static int32_t take_options(dmb_model *model, const dmb_compile_options *given, dmb_compile_options *read)
 {
-    dmb_check check = dmb_check_of(&model->message, "compile options", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(&model->message, "compile options", DMB_NONE);
     *read = dmb_compile_options_default();
     if (given != NULL) {
         const int32_t status = dmb_compile_options_read(read, given);
@@ -39,7 +39,7 @@ static void warn(dmb_model *model, const dmb_scene *scene)
     const dmb_message counts = model->message;
     dmb_message text;
     int first = 1;
-    for (uint32_t i = dmb_held_ring(scene, 0, &text); i != UINT32_MAX; i = dmb_held_ring(scene, i + 1, &text)) {
+    for (uint32_t i = dmb_held_ring(scene, 0, &text); i != DMB_NONE; i = dmb_held_ring(scene, i + 1, &text)) {
         dmb_log_text(&log, DMB_LOG_WARNING, text.text);
         if (first) dmb_message_set(&model->message, "warning: %s; %s", text.text, counts.text);
         first = 0;

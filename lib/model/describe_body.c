@@ -29,7 +29,7 @@ static int32_t check_body(dmb_model *model, const dmb_body_def *def)
 {
     dmb_message part;
     dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "body", model->bodies.count, def->name, sizeof def->name), DMB_NO_INDEX);
+        &model->message, dmb_part_text(&part, "body", model->bodies.count, def->name, sizeof def->name), DMB_NONE);
     dmb_check_name(&check, "name", def->name, sizeof def->name);
     dmb_check_choice(&check, "attach", def->attach, DMB_ATTACH_NONE, DMB_ATTACH_END);
     dmb_check_id_or_none(&check, model, "string", def->string, DMB_PART_STRING, "string");

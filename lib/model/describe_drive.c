@@ -200,9 +200,9 @@ static void check_driven_part(dmb_check *check, const dmb_model *model, const dm
 {
     const uint32_t body = dmb_model_part_index(model, def->part, DMB_PART_BODY);
     const uint32_t joint = dmb_model_part_index(model, def->part, DMB_PART_JOINT);
-    if (body != UINT32_MAX) {
+    if (body != DMB_NONE) {
         check_driven_body(check, model, body);
-    } else if (joint != UINT32_MAX) {
+    } else if (joint != DMB_NONE) {
         check_driven_joint(check, model, joint, def->component);
     } else {
         dmb_check_id_or_none(check, model, "part", def->part, DMB_PART_STRING, "string, a body or a joint");
@@ -213,7 +213,7 @@ static int32_t check_drive(dmb_model *model, const dmb_drive_def *def)
 {
     dmb_message part;
     dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "drive", model->drives.count, def->name, sizeof def->name), DMB_NO_INDEX);
+        &model->message, dmb_part_text(&part, "drive", model->drives.count, def->name, sizeof def->name), DMB_NONE);
     dmb_check_name(&check, "name", def->name, sizeof def->name);
     dmb_check_choice(&check, "kind", def->kind, DMB_DRIVE_MOTION, DMB_DRIVE_CONTROL);
     dmb_check_choice(&check, "component", def->component, DMB_X, DMB_RZ);
@@ -254,7 +254,7 @@ static int32_t check_load(dmb_model *model, const dmb_load_def *def)
 {
     dmb_message part;
     dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "load", model->loads.count, def->name, sizeof def->name), DMB_NO_INDEX);
+        &model->message, dmb_part_text(&part, "load", model->loads.count, def->name, sizeof def->name), DMB_NONE);
     dmb_check_name(&check, "name", def->name, sizeof def->name);
     dmb_check_choice(&check, "frame", def->frame, DMB_FRAME_WORLD, DMB_FRAME_HOLE);
     check_place(&check, model, &def->place);

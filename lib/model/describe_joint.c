@@ -136,7 +136,7 @@ static int32_t check_joint(dmb_model *model, const dmb_joint_def *def)
     const bool sized = def->kind == DMB_JOINT_DISTANCE || def->kind == DMB_JOINT_ROLLING;
     dmb_message part;
     dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "joint", model->joints.count, def->name, sizeof def->name), DMB_NO_INDEX);
+        &model->message, dmb_part_text(&part, "joint", model->joints.count, def->name, sizeof def->name), DMB_NONE);
     dmb_check_name(&check, "name", def->name, sizeof def->name);
     dmb_check_choice(&check, "kind", def->kind, DMB_JOINT_FIXED, DMB_JOINT_ROLLING);
     check_places(&check, model, def);
@@ -180,9 +180,9 @@ static void check_coordinate(dmb_check *check, const dmb_model *model, const dmb
 static int32_t check_coupling(dmb_model *model, const dmb_coupling_def *def)
 {
     dmb_message part;
-    dmb_check check = dmb_check_of(
-        &model->message, dmb_part_text(&part, "coupling", model->couplings.count, def->name, sizeof def->name),
-        DMB_NO_INDEX);
+    dmb_check check =
+        dmb_check_of(&model->message,
+                     dmb_part_text(&part, "coupling", model->couplings.count, def->name, sizeof def->name), DMB_NONE);
     dmb_check_name(&check, "name", def->name, sizeof def->name);
     check_coordinate(&check, model, def, 0);
     check_coordinate(&check, model, def, 1);
@@ -231,7 +231,7 @@ static int32_t check_constraint(dmb_model *model, const dmb_constraint_def *def)
     dmb_message part, field;
     dmb_check check = dmb_check_of(
         &model->message, dmb_part_text(&part, "constraint", model->constraints.count, def->name, sizeof def->name),
-        DMB_NO_INDEX);
+        DMB_NONE);
     dmb_check_name(&check, "name", def->name, sizeof def->name);
     dmb_check_count(&check, "rows", def->rows, 1, ROWS_MAX);
     dmb_check_count(&check, "count", def->count, 1, PLACES_MAX);

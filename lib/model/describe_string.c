@@ -163,7 +163,7 @@ int32_t dmb_model_add_pipes(dmb_model *model, const dmb_pipe_def *def, uint32_t 
     if (status < 0) return status;
     status = dmb_pipe_def_read(&read, def);
     if (status >= 0) {
-        dmb_check check = dmb_check_of(&model->message, "pipes", DMB_NO_INDEX);
+        dmb_check check = dmb_check_of(&model->message, "pipes", DMB_NONE);
         index = string_of(&check, model, read.string);
         status = check.status;
     }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "math/real.h"
 #include "model/definition_defaults.h"
 #include "model/field_check.h"
 #include "model/limits.h"
@@ -11,7 +12,6 @@
 
 enum { STATIONS_MIN = 2, STATIONS_MAX = 1 << 16 };
 
-static const double pi = 3.14159265358979323846;
 static const double rounding = 1e-9; /* [rad] a survey's last digits may lie beyond the bounds */
 
 /* Beyond its bounds an angle has no meaning of its own; a survey in degrees is the likely cause. */
@@ -33,8 +33,8 @@ static void check_survey(dmb_check *check, dmb_message *message, const dmb_wall_
         const double *row = def->survey + 3 * (size_t)i;
         station = dmb_check_of(message, "wall, station", i);
         dmb_check_within(&station, "measured depth", row[0], -DMB_POSITION_MAX, DMB_POSITION_MAX);
-        check_angle(&station, i, "inclination", row[1], 0.0, pi);
-        check_angle(&station, i, "azimuth", row[2], -2.0 * pi, 2.0 * pi);
+        check_angle(&station, i, "inclination", row[1], 0.0, DMB_PI);
+        check_angle(&station, i, "azimuth", row[2], -DMB_TWO_PI, DMB_TWO_PI);
         /* closer than that, the curvature between two stations has no meaning */
         if (i > 0) dmb_check_at_least(&station, "measured depth", row[0], row[-3] + DMB_LENGTH_MIN);
         check->status = station.status;
@@ -86,7 +86,7 @@ static void check_friction_law(dmb_check *check, const dmb_wall_def *def)
 
 static int32_t check_wall(dmb_model *model, const dmb_wall_def *def)
 {
-    dmb_check check = dmb_check_of(&model->message, "wall", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(&model->message, "wall", DMB_NONE);
     dmb_check_each_within(&check, "origin", def->origin, 3, -DMB_POSITION_MAX, DMB_POSITION_MAX);
     check_direction(&check, def);
     dmb_check_within(&check, "diameter", def->diameter, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
@@ -148,7 +148,7 @@ int32_t dmb_model_add_wall(dmb_model *model, const dmb_wall_def *def, dmb_id *wa
 
 static int32_t check_environment(dmb_model *model, const dmb_environment_def *def)
 {
-    dmb_check check = dmb_check_of(&model->message, "environment", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(&model->message, "environment", DMB_NONE);
     dmb_check_each_within(&check, "gravity", def->gravity, 3, -DMB_ACCELERATION_MAX, DMB_ACCELERATION_MAX);
     dmb_check_within(&check, "fluid_density", def->fluid_density, 0.0, DMB_DENSITY_MAX);
     dmb_check_within(&check, "lateral_damping", def->lateral_damping, 0.0, DMB_DAMPING_MAX);

@@ -52,9 +52,9 @@ void dmb_check_name(dmb_check *check, const char *field, const char *name, size_
 void dmb_check_id(dmb_check *check, const dmb_model *model, const char *field, dmb_id id, uint32_t kind,
                   const char *what)
 {
-    if (check->status < 0 || dmb_model_part_index(model, id, kind) != UINT32_MAX) return;
+    if (check->status < 0 || dmb_model_part_index(model, id, kind) != DMB_NONE) return;
     check->status = DMB_ERR_ID;
-    if (check->index == DMB_NO_INDEX) {
+    if (check->index == DMB_NONE) {
         dmb_message_set(check->message, "%s: %s = {%u, %u}, must name a %s of this model", check->part, field, id.index,
                         id.generation, what);
     } else {
@@ -71,8 +71,8 @@ void dmb_check_id_or_none(dmb_check *check, const dmb_model *model, const char *
 
 void dmb_check_place(dmb_check *check, const dmb_model *model, const char *field, const dmb_place *place)
 {
-    const bool on_body = dmb_model_part_index(model, place->part, DMB_PART_BODY) != UINT32_MAX ||
-                         dmb_model_part_index(model, place->part, DMB_PART_BIT) != UINT32_MAX;
+    const bool on_body = dmb_model_part_index(model, place->part, DMB_PART_BODY) != DMB_NONE ||
+                         dmb_model_part_index(model, place->part, DMB_PART_BIT) != DMB_NONE;
     dmb_message part, pipe, fraction;
     dmb_message_set(&part, "%s.part", field);
     dmb_message_set(&pipe, "%s.pipe", field);

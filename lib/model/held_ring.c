@@ -10,7 +10,7 @@ static bool is_on_axis(const dmb_scene *scene, const dmb_body_map *body, const d
 {
     const double *x = joint->b.x;
     if (joint->kind != DMB_JOINT_POINT_ON_HOLE || joint->state == DMB_JOINT_OPEN) return false;
-    if (body->site == UINT32_MAX || joint->b.node != body->node) return false;
+    if (body->site == DMB_NONE || joint->b.node != body->node) return false;
     return fabs(x[0] - scene->sites[body->site].offset) <= same_point && fabs(x[1]) <= same_point &&
            fabs(x[2]) <= same_point;
 }
@@ -40,5 +40,5 @@ uint32_t dmb_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text)
                         part.text, by, i < bodies ? "contact_diameter" : "diameter");
         return i;
     }
-    return UINT32_MAX;
+    return DMB_NONE;
 }

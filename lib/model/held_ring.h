@@ -6,7 +6,7 @@
 #include "model/scene.h"
 
 /* Index from `from` on of a body or bit (among bodies, bits behind them) whose ring is held, and what to say of it;
- * UINT32_MAX: none. */
+ * DMB_NONE: none. */
 uint32_t dmb_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text);
 
 #endif

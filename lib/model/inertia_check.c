@@ -57,7 +57,7 @@ static void principal_moments(const double J[6], double moment[3])
 
 static const char *part_text(const dmb_check *check, dmb_message *text)
 {
-    if (check->index == DMB_NO_INDEX) return check->part;
+    if (check->index == DMB_NONE) return check->part;
     return dmb_part_text(text, check->part, check->index, "", 1);
 }
 

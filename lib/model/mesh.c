@@ -78,7 +78,7 @@ uint32_t dmb_mesh_string_of(const dmb_mesh *mesh, dmb_id id)
 
 dmb_pipe_walk dmb_pipe_walk_of(const dmb_mesh *mesh, uint32_t string)
 {
-    dmb_pipe_walk walk = {.mesh = mesh, .string = string, .number = UINT32_MAX};
+    dmb_pipe_walk walk = {.mesh = mesh, .string = string, .number = DMB_NONE};
     walk.place = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string);
     walk.end = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string + 1u);
     return walk;

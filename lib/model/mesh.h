@@ -33,9 +33,9 @@ typedef struct dmb_mesh_node {
     double weight_mass;      /* [kg] */
     double weight_moment[3]; /* [kg m] */
     double damped[3];        /* [m, m2, m3] integrals of 1, x, x^2 over the pipe whose external damping it carries */
-    uint32_t string;         /* UINT32_MAX: free body `body` */
+    uint32_t string;         /* DMB_NONE: free body `body` */
     uint32_t body;
-    uint32_t rigid_mass; /* in rigid_masses; UINT32_MAX: none */
+    uint32_t rigid_mass; /* in rigid_masses; DMB_NONE: none */
     uint8_t size;        /* DMB_NODE_FULL or DMB_NODE_PATH */
     uint8_t free;        /* mask of free components; of a PATH node X and RX count */
     uint8_t prescribed;  /* mask of components moved by MOTION drives */

@@ -6,17 +6,17 @@
 
 static uint32_t programme_of(const dmb_mesh *mesh, dmb_id id)
 {
-    return dmb_model_part_index(mesh->model, id, DMB_PART_PROGRAMME); /* UINT32_MAX for none */
+    return dmb_model_part_index(mesh->model, id, DMB_PART_PROGRAMME); /* DMB_NONE for none */
 }
 
 /* ---- Drives ------------------------------------------------------------------------------------------------------ */
 
-/* UINT32_MAX for a joint. */
+/* DMB_NONE for a joint. */
 static uint32_t driven_node(const dmb_mesh *mesh, dmb_id part)
 {
-    if (dmb_model_part_index(mesh->model, part, DMB_PART_JOINT) != UINT32_MAX) return UINT32_MAX;
+    if (dmb_model_part_index(mesh->model, part, DMB_PART_JOINT) != DMB_NONE) return DMB_NONE;
     const uint32_t body = dmb_model_part_index(mesh->model, part, DMB_PART_BODY);
-    if (body != UINT32_MAX) return DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, body)->node;
+    if (body != DMB_NONE) return DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, body)->node;
     return dmb_mesh_string_at(mesh, dmb_mesh_string_of(mesh, part))->start_node;
 }
 
@@ -32,7 +32,7 @@ static int32_t take_component(dmb_mesh *mesh, uint32_t drive, const dmb_drive_de
 {
     dmb_message part;
     dmb_check check = dmb_check_of(&mesh->model->message,
-                                   dmb_part_text(&part, "drive", drive, def->name, sizeof def->name), DMB_NO_INDEX);
+                                   dmb_part_text(&part, "drive", drive, def->name, sizeof def->name), DMB_NONE);
     const uint8_t bit = (uint8_t)(1 << def->component);
     if (def->kind != DMB_DRIVE_MOTION) return DMB_OK;
     if ((*taken & bit) != 0) {
@@ -46,7 +46,7 @@ static int32_t prescribe(dmb_mesh *mesh, uint32_t drive, const dmb_drive_def *de
 {
     dmb_message part;
     dmb_check check = dmb_check_of(&mesh->model->message,
-                                   dmb_part_text(&part, "drive", drive, def->name, sizeof def->name), DMB_NO_INDEX);
+                                   dmb_part_text(&part, "drive", drive, def->name, sizeof def->name), DMB_NONE);
     if (!is_free(node, def->component)) {
         dmb_check_fail(&check, DMB_ERR_VALUE, "component", def->component, "free where the drive acts");
         return check.status;
@@ -64,15 +64,15 @@ static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
                              .limit_low = def->limit_low,
                              .limit_high = def->limit_high,
                              .node = driven_node(mesh, def->part),
-                             .row = UINT32_MAX,
+                             .row = DMB_NONE,
                              .kind = def->kind,
                              .component = def->component,
                              .programme = programme_of(mesh, def->programme),
-                             .excitation = excited ? programme_of(mesh, def->excitation) : UINT32_MAX,
+                             .excitation = excited ? programme_of(mesh, def->excitation) : DMB_NONE,
                              .joint = joint,
-                             .constraint = UINT32_MAX};
+                             .constraint = DMB_NONE};
     memcpy(drive.name, def->name, sizeof drive.name);
-    const int32_t status = joint != UINT32_MAX
+    const int32_t status = joint != DMB_NONE
                                ? take_component(mesh, i, def, DMB_VECTOR_AT(uint8_t, &mesh->driven, joint))
                                : prescribe(mesh, i, def, dmb_mesh_node_at(mesh, drive.node));
     if (status < 0) return status;

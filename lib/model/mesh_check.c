@@ -173,12 +173,11 @@ static int32_t check_load(const dmb_mesh *mesh, dmb_message *message, uint32_t i
     const dmb_load_def *load = DMB_LIST_AT(const dmb_load_def, mesh->model->loads, i);
     const uint32_t string = dmb_model_part_index(mesh->model, load->place.part, DMB_PART_STRING);
     dmb_message part;
-    dmb_check check =
-        dmb_check_of(message, dmb_part_text(&part, "load", i, load->name, sizeof load->name), DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(message, dmb_part_text(&part, "load", i, load->name, sizeof load->name), DMB_NONE);
     if (load->frame == DMB_FRAME_HOLE && !mesh->has_hole) {
         dmb_check_fail(&check, DMB_ERR_GEOMETRY, "frame", load->frame, "0 or 1: there is no hole");
     }
-    if (string != UINT32_MAX) {
+    if (string != DMB_NONE) {
         dmb_check_count(&check, "place.pipe", load->place.pipe, 0, pipes_of_string(mesh, string) - 1);
     }
     return check.status;

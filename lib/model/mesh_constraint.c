@@ -35,7 +35,7 @@ static dmb_cluster *cluster_at(const dmb_mesh *mesh, uint32_t i)
 /* The ground has no columns, and each node has them once. */
 static void touch(const dmb_mesh *mesh, uint32_t node, dmb_constraint *constraint)
 {
-    if (node == UINT32_MAX) return;
+    if (node == DMB_NONE) return;
     for (uint32_t i = 0; i < constraint->node_count; ++i) {
         if (constraint->node[i] == node) return;
     }
@@ -75,7 +75,7 @@ static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_scene_drive *drive = drive_at(mesh, i);
     dmb_constraint constraint = {.kind = DMB_OF_DRIVE, .index = i, .rows = 1};
-    if (drive->joint == UINT32_MAX || drive->kind != DMB_DRIVE_MOTION) return DMB_OK;
+    if (drive->joint == DMB_NONE || drive->kind != DMB_DRIVE_MOTION) return DMB_OK;
     touch_joint(mesh, drive->joint, &constraint);
     return push(mesh, &constraint);
 }
@@ -100,7 +100,7 @@ static int32_t add_all(dmb_mesh *mesh)
 
 /* ---- Clusters ---------------------------------------------------------------------------------------------------- */
 
-/* Union and find, the smallest node of each set being its root; UINT32_MAX: in no constraint. */
+/* Union and find, the smallest node of each set being its root; DMB_NONE: in no constraint. */
 static uint32_t root_of(uint32_t *parent, uint32_t i)
 {
     while (parent[i] != i) {
@@ -113,19 +113,19 @@ static uint32_t root_of(uint32_t *parent, uint32_t i)
 static void join(uint32_t *parent, const dmb_constraint *constraint)
 {
     for (uint32_t k = 0; k < constraint->node_count; ++k) {
-        if (parent[constraint->node[k]] == UINT32_MAX) parent[constraint->node[k]] = constraint->node[k];
+        if (parent[constraint->node[k]] == DMB_NONE) parent[constraint->node[k]] = constraint->node[k];
         const uint32_t a = root_of(parent, constraint->node[0]), b = root_of(parent, constraint->node[k]);
         parent[a < b ? b : a] = a < b ? a : b;
     }
 }
 
-/* cluster[i] := number of the cluster of node i, by their smallest nodes; UINT32_MAX: none. Counts nodes and columns.
+/* cluster[i] := number of the cluster of node i, by their smallest nodes; DMB_NONE: none. Counts nodes and columns.
  */
 static int32_t number_clusters(dmb_mesh *mesh, uint32_t *parent, uint32_t *cluster)
 {
     for (uint32_t i = 0; i < mesh->nodes.count; ++i) {
-        cluster[i] = UINT32_MAX;
-        if (parent[i] == UINT32_MAX) continue;
+        cluster[i] = DMB_NONE;
+        if (parent[i] == DMB_NONE) continue;
         const uint32_t root = root_of(parent, i);
         if (root == i) {
             const int32_t status = dmb_vector_append(&mesh->clusters, &mesh->model->allocator, NULL, 1);
@@ -154,7 +154,7 @@ static int32_t list_nodes(dmb_mesh *mesh, const uint32_t *cluster)
     const int32_t status = dmb_vector_append(&mesh->cluster_nodes, &mesh->model->allocator, NULL, first);
     if (status < 0) return status;
     for (uint32_t i = 0; i < mesh->nodes.count; ++i) {
-        if (cluster[i] == UINT32_MAX) continue;
+        if (cluster[i] == DMB_NONE) continue;
         dmb_cluster *of = cluster_at(mesh, cluster[i]);
         *DMB_VECTOR_AT(uint32_t, &mesh->cluster_nodes, of->node + of->node_count++) = i;
     }
@@ -169,7 +169,7 @@ static int32_t make_clusters(dmb_mesh *mesh)
     int32_t status = dmb_vector_append(&both, allocator, NULL, 2 * n);
     if (status >= 0) {
         uint32_t *parent = both.items, *cluster = parent + n;
-        for (size_t i = 0; i < n; ++i) parent[i] = UINT32_MAX;
+        for (size_t i = 0; i < n; ++i) parent[i] = DMB_NONE;
         for (uint32_t i = 0; i < mesh->constraints.count; ++i) join(parent, constraint_at(mesh, i));
         status = number_clusters(mesh, parent, cluster);
         if (status >= 0) status = list_nodes(mesh, cluster);
@@ -253,7 +253,7 @@ static const char *name_of(const dmb_mesh *mesh, const dmb_cluster *cluster, dmb
 static int32_t check_size(const dmb_mesh *mesh, const dmb_cluster *cluster)
 {
     dmb_message part;
-    dmb_check check = dmb_check_of(&mesh->model->message, name_of(mesh, cluster, &part), DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(&mesh->model->message, name_of(mesh, cluster, &part), DMB_NONE);
     dmb_message bound;
     if (cluster->columns > DMB_CLUSTER_COLUMNS_MAX) {
         dmb_message_set(&bound, "<= %d", DMB_CLUSTER_COLUMNS_MAX);

@@ -58,8 +58,8 @@ static uint32_t structural_joints(const dmb_mesh *mesh)
 static int is_free_rigid(const dmb_mesh *mesh, uint32_t i)
 {
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
-    const int alone = node->string == UINT32_MAX || dmb_mesh_string_at(mesh, node->string)->node_count == 1;
-    return alone && node->size == DMB_NODE_FULL && node->rigid_mass != UINT32_MAX &&
+    const int alone = node->string == DMB_NONE || dmb_mesh_string_at(mesh, node->string)->node_count == 1;
+    return alone && node->size == DMB_NODE_FULL && node->rigid_mass != DMB_NONE &&
            dmb_free_rows(node) == DMB_FREE_ALL && dmb_prescribed_rows(node) == 0;
 }
 

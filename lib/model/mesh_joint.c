@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "constraint/joint.h"
 #include "math/mat6.h"
 #include "math/so3.h"
 #include "model/field_check.h"
@@ -49,12 +50,30 @@ bool dmb_mesh_place_of(const dmb_mesh *mesh, const dmb_place *place, dmb_mesh_pl
     const uint32_t string = dmb_model_part_index(model, place->part, DMB_PART_STRING);
     const uint32_t bit = dmb_model_part_index(model, place->part, DMB_PART_BIT);
     const uint32_t body =
-        bit != UINT32_MAX ? model->bodies.count + bit : dmb_model_part_index(model, place->part, DMB_PART_BODY);
-    if (string != UINT32_MAX) return place_on_string(mesh, string, place, found);
+        bit != DMB_NONE ? model->bodies.count + bit : dmb_model_part_index(model, place->part, DMB_PART_BODY);
+    if (string != DMB_NONE) return place_on_string(mesh, string, place, found);
     found->node = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, body)->node;
     found->arm = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, body)->arm;
     return true;
 }
+
+/* The kinds of a description go on unchanged as the kinds of its equations. */
+#define DMB_SAME_KIND(name) _Static_assert((int)DMB_ROWS_##name == (int)DMB_JOINT_##name, "kinds of joints: " #name)
+DMB_SAME_KIND(FIXED);
+DMB_SAME_KIND(REVOLUTE);
+DMB_SAME_KIND(PRISMATIC);
+DMB_SAME_KIND(CYLINDRICAL);
+DMB_SAME_KIND(UNIVERSAL);
+DMB_SAME_KIND(SPHERICAL);
+DMB_SAME_KIND(PLANAR);
+DMB_SAME_KIND(POINT_ON_LINE);
+DMB_SAME_KIND(POINT_ON_HOLE);
+DMB_SAME_KIND(DISTANCE);
+DMB_SAME_KIND(FREE);
+DMB_SAME_KIND(KNIFE_EDGE);
+DMB_SAME_KIND(ROLLING);
+_Static_assert((int)DMB_ROWS_KINDS == (int)DMB_JOINT_ROLLING + 1, "kinds of joints");
+_Static_assert((int)DMB_CONSTRAINT_ROWS == (int)DMB_ROWS_MAX, "rows of a joint");
 
 /* Joints, couplings and the caller's constraints, from the parts they are described on to frames on nodes. */
 
@@ -64,14 +83,14 @@ enum { SPAN_ELEMENTS_MAX = 1024 }; /* elements whose spans are summed; over more
 
 static dmb_check check_of(dmb_mesh *mesh, dmb_message *part, const char *kind, uint32_t index, const char name[24])
 {
-    return dmb_check_of(&mesh->model->message, dmb_part_text(part, kind, index, name, 24), DMB_NO_INDEX);
+    return dmb_check_of(&mesh->model->message, dmb_part_text(part, kind, index, name, 24), DMB_NONE);
 }
 
 static void check_pipe(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place)
 {
     const uint32_t string = dmb_model_part_index(mesh->model, place->part, DMB_PART_STRING);
     dmb_message name;
-    if (string == UINT32_MAX) return;
+    if (string == DMB_NONE) return;
     dmb_message_set(&name, "%s.pipe", field);
     dmb_check_count(check, name.text, place->pipe, 0, dmb_mesh_string_at(mesh, string)->pipe_count - 1);
 }
@@ -107,7 +126,7 @@ static bool find_place(dmb_check *check, const dmb_mesh *mesh, const char *field
 
 static dmb_scene_frame ground_frame(void)
 {
-    dmb_scene_frame frame = {.node = UINT32_MAX};
+    dmb_scene_frame frame = {.node = DMB_NONE};
     dmb_mat3_identity(frame.M);
     return frame;
 }
@@ -129,7 +148,7 @@ static void set_frame(const double origin[3], const double axis[3], const double
 
 static bool on_one_string(const dmb_mesh_node *a, const dmb_mesh_node *b)
 {
-    return a->string == b->string && a->string != UINT32_MAX;
+    return a->string == b->string && a->string != DMB_NONE;
 }
 
 /* Sum of the spans of the elements from node `from` to node `to` of one string. Strings come first, and each has one
@@ -146,7 +165,7 @@ static void sum_spans(const dmb_mesh *mesh, uint32_t from, uint32_t to, double s
 static void span_between(const dmb_mesh *mesh, uint32_t a, uint32_t b, double span[3])
 {
     const dmb_mesh_node *to = dmb_mesh_node_at(mesh, b);
-    if (a == UINT32_MAX) {
+    if (a == DMB_NONE) {
         dmb_vec3_copy(to->position, span);
         return;
     }
@@ -164,7 +183,7 @@ static void match_frame(const dmb_mesh *mesh, dmb_scene_joint *joint)
 {
     double Ra[9], Rb[9], Ma[9], x[3];
     dmb_mat3_identity(Ra);
-    if (joint->a.node != UINT32_MAX) dmb_quat_to_matrix(dmb_mesh_node_at(mesh, joint->a.node)->quaternion, Ra);
+    if (joint->a.node != DMB_NONE) dmb_quat_to_matrix(dmb_mesh_node_at(mesh, joint->a.node)->quaternion, Ra);
     dmb_quat_to_matrix(dmb_mesh_node_at(mesh, joint->b.node)->quaternion, Rb);
     dmb_mat3_mul(Ra, joint->a.M, Ma);
     dmb_mat3_mul_tn(Rb, Ma, joint->b.M);
@@ -196,7 +215,7 @@ static dmb_joint_law law_of(const dmb_mesh *mesh, const dmb_joint_def *def, int 
 static int32_t add_laws(dmb_mesh *mesh, const dmb_joint_def *def, dmb_scene_joint *joint)
 {
     dmb_joint_law laws[6];
-    joint->law = UINT32_MAX;
+    joint->law = DMB_NONE;
     for (int k = 0; k < 6; ++k) {
         laws[k] = law_of(mesh, def, k);
         if (dmb_joint_law_acts(&laws[k])) joint->law_mask |= 1 << k;

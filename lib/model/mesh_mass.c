@@ -71,7 +71,7 @@ void dmb_pipe_offset(const dmb_pipe_def *def, uint32_t pipe, double e[2])
 static dmb_rigid_mass *rigid_mass_of(dmb_mesh *mesh, uint32_t node)
 {
     dmb_mesh_node *n = dmb_mesh_node_at(mesh, node);
-    if (n->rigid_mass == UINT32_MAX) {
+    if (n->rigid_mass == DMB_NONE) {
         const dmb_rigid_mass rigid_mass = {.node = node};
         if (dmb_vector_append(&mesh->rigid_masses, &mesh->model->allocator, &rigid_mass, 1) < 0) return NULL;
         n->rigid_mass = (uint32_t)mesh->rigid_masses.count - 1;

@@ -88,7 +88,7 @@ typedef struct string_walk {
     dmb_string_map *map;
     uint32_t string;
     uint32_t place, end; /* in run_order */
-    uint32_t node;       /* last node so far; UINT32_MAX: none yet */
+    uint32_t node;       /* last node so far; DMB_NONE: none yet */
     double at;           /* [m] from the rig end */
     double arm;          /* [m] from the last node to here along its x axis */
 } string_walk;
@@ -102,7 +102,7 @@ static const dmb_pipe_run *run_at(const string_walk *walk, uint32_t place)
 static uint32_t push_node(string_walk *walk, uint8_t size, double at)
 {
     const dmb_mesh_node node = {
-        .at = at, .string = walk->string, .rigid_mass = UINT32_MAX, .size = size, .free = DMB_FREE_ALL};
+        .at = at, .string = walk->string, .rigid_mass = DMB_NONE, .size = size, .free = DMB_FREE_ALL};
     (void)dmb_vector_append(&walk->mesh->nodes, &walk->mesh->model->allocator, &node, 1);
     return (uint32_t)walk->mesh->nodes.count - 1;
 }
@@ -116,7 +116,7 @@ static void push_element(string_walk *walk, uint32_t run, double far_arm)
 
 static void push_pipe(string_walk *walk, const dmb_pipe_run *run, double start, uint32_t node, uint32_t element)
 {
-    const bool rigid = element == UINT32_MAX;
+    const bool rigid = element == DMB_NONE;
     const dmb_pipe_map pipe = {.start = start,
                                .length = run->def.length,
                                .joint = run->def.joint_length,
@@ -149,7 +149,7 @@ static void mesh_elastic_run(string_walk *walk, uint32_t run_index)
     const dmb_pipe_run *run = dmb_mesh_run_at(walk->mesh, run_index);
     const bool path = dmb_mesh_kind(walk->mesh, run) == DMB_PIPE_AXIAL_TORSIONAL;
     const uint8_t size = path ? DMB_NODE_PATH : DMB_NODE_FULL;
-    if (walk->node == UINT32_MAX) {
+    if (walk->node == DMB_NONE) {
         walk->node = push_node(walk, size, 0.0);
         walk->map->start_node = walk->node;
     } else if (!path) {
@@ -171,7 +171,7 @@ static bool start_is_pinned(const string_walk *walk)
     if (!dmb_mask_is_axial(dmb_mesh_string_def(walk->mesh, walk->string)->start_free)) return true;
     for (uint32_t i = 0; i < model->drives.count; ++i) {
         const dmb_drive_def *drive = DMB_LIST_AT(const dmb_drive_def, model->drives, i);
-        const bool on_body = dmb_model_part_index(model, drive->part, DMB_PART_BODY) != UINT32_MAX;
+        const bool on_body = dmb_model_part_index(model, drive->part, DMB_PART_BODY) != DMB_NONE;
         if (on_body || dmb_mesh_string_of(walk->mesh, drive->part) != walk->string) continue;
         if (drive->component != DMB_X && drive->component != DMB_RX) return true;
     }
@@ -187,7 +187,7 @@ static bool end_is_pinned(const string_walk *walk)
  * otherwise it is the end that gives the neighbouring elements no arms, or the near end. */
 static int32_t choose_near_end(const string_walk *walk, uint32_t next, bool *near)
 {
-    const bool first = walk->node == UINT32_MAX, last = next == walk->end;
+    const bool first = walk->node == DMB_NONE, last = next == walk->end;
     const bool hold_start = first && start_is_pinned(walk), hold_end = last && end_is_pinned(walk);
     *near = hold_start || (last && !hold_end);
     if (!hold_start || !hold_end) return DMB_OK;
@@ -202,7 +202,7 @@ static int32_t choose_near_end(const string_walk *walk, uint32_t next, bool *nea
 static void place_rigid_node(string_walk *walk, double length, bool near)
 {
     const double ahead = near ? 0.0 : length;
-    if (walk->node == UINT32_MAX) {
+    if (walk->node == DMB_NONE) {
         walk->node = push_node(walk, DMB_NODE_FULL, ahead);
         walk->map->start_node = walk->node;
         walk->map->start_arm = 0.0 - ahead;
@@ -229,7 +229,7 @@ static int32_t mesh_rigid_stretch(string_walk *walk, uint32_t next)
     for (uint32_t i = walk->place; i < next; ++i) {
         const dmb_pipe_run *run = run_at(walk, i);
         for (uint32_t k = 0; k < run->count; ++k) {
-            push_pipe(walk, run, start + k * run->def.length, walk->node, UINT32_MAX);
+            push_pipe(walk, run, start + k * run->def.length, walk->node, DMB_NONE);
         }
         start += run->count * run->def.length;
     }
@@ -265,7 +265,7 @@ static int32_t mesh_string(dmb_mesh *mesh, uint32_t string)
 {
     const dmb_string_def *def = dmb_mesh_string_def(mesh, string);
     dmb_string_map *map = dmb_mesh_string_at(mesh, string);
-    string_walk walk = {.mesh = mesh, .map = map, .string = string, .node = UINT32_MAX};
+    string_walk walk = {.mesh = mesh, .map = map, .string = string, .node = DMB_NONE};
     int32_t status;
     walk.place = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string);
     walk.end = *DMB_VECTOR_AT(uint32_t, &mesh->run_start, string + 1u);
@@ -295,9 +295,9 @@ int32_t dmb_mesh_strings(dmb_mesh *mesh)
 
 static uint32_t push_free_body(dmb_mesh *mesh, uint32_t body, const dmb_body_def *def)
 {
-    const dmb_mesh_node node = {.string = UINT32_MAX,
+    const dmb_mesh_node node = {.string = DMB_NONE,
                                 .body = body,
-                                .rigid_mass = UINT32_MAX,
+                                .rigid_mass = DMB_NONE,
                                 .size = DMB_NODE_FULL,
                                 .free = (uint8_t)def->free_mask,
                                 .rigid = 1};
@@ -307,7 +307,7 @@ static uint32_t push_free_body(dmb_mesh *mesh, uint32_t body, const dmb_body_def
 
 static dmb_body_map map_of(dmb_mesh *mesh, uint32_t body, const dmb_body_def *def)
 {
-    dmb_body_map map = {0, UINT32_MAX, 0.0, 0, 0, ""};
+    dmb_body_map map = {0, DMB_NONE, 0.0, 0, 0, ""};
     memcpy(map.name, def->name, sizeof map.name);
     if (def->attach == DMB_ATTACH_NONE) {
         map.node = push_free_body(mesh, body, def);
@@ -324,7 +324,7 @@ static dmb_body_map map_of(dmb_mesh *mesh, uint32_t body, const dmb_body_def *de
 static dmb_body_map bit_map_of(const dmb_mesh *mesh, const dmb_bit_def *def)
 {
     const dmb_string_map *string = dmb_mesh_string_at(mesh, dmb_mesh_string_of(mesh, def->string));
-    const dmb_body_map map = {string->end_node, UINT32_MAX, string->end_arm, 0, 0, ""};
+    const dmb_body_map map = {string->end_node, DMB_NONE, string->end_arm, 0, 0, ""};
     return map;
 }
 

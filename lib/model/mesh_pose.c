@@ -189,7 +189,7 @@ int32_t dmb_mesh_poses(dmb_mesh *mesh)
     }
     for (uint32_t i = 0; i < mesh->nodes.count; ++i) {
         dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
-        if (node->string == UINT32_MAX) place_free_body(mesh, node);
+        if (node->string == DMB_NONE) place_free_body(mesh, node);
     }
     return DMB_OK;
 }

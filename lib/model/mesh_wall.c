@@ -124,7 +124,7 @@ static int32_t pass_string(dmb_mesh *mesh, uint32_t string)
     site_walk walk = {.mesh = mesh,
                       .part = dmb_model_id(mesh->model, DMB_PART_STRING, string),
                       .node = map->start_node,
-                      .pipe = UINT32_MAX,
+                      .pipe = DMB_NONE,
                       .offset = map->start_arm};
     int32_t status = DMB_OK;
     while (status >= 0 && dmb_pipe_walk_next(&pipes)) {

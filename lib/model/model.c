@@ -153,8 +153,8 @@ static uint32_t count_of(const dmb_model *model, uint32_t kind)
 uint32_t dmb_model_part_index(const dmb_model *model, dmb_id id, uint32_t kind)
 {
     const uint32_t index = id.index & (uint32_t)DMB_PARTS_MAX;
-    if (id.generation != model->stamp || id.index >> KIND_SHIFT != kind) return UINT32_MAX;
-    return index < count_of(model, kind) ? index : UINT32_MAX;
+    if (id.generation != model->stamp || id.index >> KIND_SHIFT != kind) return DMB_NONE;
+    return index < count_of(model, kind) ? index : DMB_NONE;
 }
 
 /* ---- What all descriptions share --------------------------------------------------------------------------------- */

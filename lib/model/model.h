@@ -75,7 +75,7 @@ struct dmb_model {
     uint32_t reserved;
 };
 
-/* The parts of an id, or UINT32_MAX when it does not name a part of that kind of this model. */
+/* The parts of an id, or DMB_NONE when it does not name a part of that kind of this model. */
 uint32_t dmb_model_part_index(const dmb_model *model, dmb_id id, uint32_t kind);
 /* A sim takes hold of a compiled model, and lets go. */
 void dmb_model_hold(dmb_model *model);

@@ -24,7 +24,7 @@ static void place_nodes(dmb_scene *scene, uint32_t c)
 static int32_t has_cluster(const dmb_scene *scene, const dmb_chain *chain)
 {
     for (uint32_t i = 0; i < chain->count; ++i) {
-        if (scene->node_cluster[chain->first + i] != UINT32_MAX) return 1;
+        if (scene->node_cluster[chain->first + i] != DMB_NONE) return 1;
     }
     return 0;
 }
@@ -35,7 +35,7 @@ static void number_clusters(dmb_scene *scene)
     scene->block_count = scene->sparse_count = scene->reduced_count = 0;
     for (uint32_t c = 0; c < scene->cluster_count; ++c) {
         dmb_cluster *cluster = &scene->clusters[c];
-        cluster->block = cluster->sparse ? UINT32_MAX : scene->block_count++;
+        cluster->block = cluster->sparse ? DMB_NONE : scene->block_count++;
         scene->sparse_count += cluster->sparse != 0;
     }
 }
@@ -49,7 +49,7 @@ static void number_blocks(dmb_scene *scene)
         if (!chain->jointed) continue;
         scene->reduced_count += chain->count;
         for (uint32_t i = chain->first; i < chain->first + chain->count; ++i) {
-            if (scene->node_block[i] == UINT32_MAX) scene->node_block[i] = scene->block_count++;
+            if (scene->node_block[i] == DMB_NONE) scene->node_block[i] = scene->block_count++;
         }
     }
 }
@@ -59,7 +59,7 @@ static void number_blocks(dmb_scene *scene)
 /* True if an element leads from node i to a node of another block. */
 static int leads_on(const dmb_scene *scene, uint32_t i)
 {
-    if (scene->node_block[i] == UINT32_MAX || scene->node_element[i] == UINT32_MAX) return 0;
+    if (scene->node_block[i] == DMB_NONE || scene->node_element[i] == DMB_NONE) return 0;
     return scene->node_block[i] != scene->node_block[i + 1];
 }
 
@@ -100,7 +100,7 @@ static void fill_capacity(const dmb_scene *scene, uint32_t *capacity)
     }
     for (uint32_t i = 0; i < scene->node_count; ++i) {
         const uint32_t k = scene->node_cluster[i];
-        if (scene->node_block[i] == UINT32_MAX || (k != UINT32_MAX && !scene->clusters[k].sparse)) continue;
+        if (scene->node_block[i] == DMB_NONE || (k != DMB_NONE && !scene->clusters[k].sparse)) continue;
         capacity[scene->node_block[i]] = scene->layout.size[i];
     }
 }
@@ -126,7 +126,7 @@ static void place_multipliers(const dmb_scene *scene, const dmb_block_pattern *p
         if (!is_sparse(scene, c)) continue;
         const uint32_t joint = c->kind == DMB_OF_DRIVE ? scene->joints[scene->drives[c->index].joint].constraint : i;
         const uint32_t node = beyond[joint];
-        c->block = node != UINT32_MAX ? scene->node_block[node] : last_block(scene, pattern, c);
+        c->block = node != DMB_NONE ? scene->node_block[node] : last_block(scene, pattern, c);
         capacity[c->block] += c->rows;
     }
 }
@@ -183,7 +183,7 @@ static void find_links(dmb_scene *scene)
 int32_t dmb_scene_link(dmb_scene *scene, const dmb_allocator *allocator)
 {
     if (scene->cluster_count == 0) return DMB_OK;
-    for (uint32_t i = 0; i < scene->node_count; ++i) scene->node_cluster[i] = scene->node_block[i] = UINT32_MAX;
+    for (uint32_t i = 0; i < scene->node_count; ++i) scene->node_cluster[i] = scene->node_block[i] = DMB_NONE;
     number_clusters(scene);
     for (uint32_t c = 0; c < scene->cluster_count; ++c) place_nodes(scene, c);
     number_blocks(scene);
@@ -255,7 +255,7 @@ static void list_bridge_edges(graph *g)
     memcpy(g->next, g->start, ((size_t)scene->node_count + 1) * sizeof(uint32_t));
 }
 
-/* A vertex next to v by constraint c that was not met yet, or UINT32_MAX; those met lower what v reaches. */
+/* A vertex next to v by constraint c that was not met yet, or DMB_NONE; those met lower what v reaches. */
 static uint32_t step_on(graph *g, uint32_t v, uint32_t c)
 {
     uint32_t vertex[DMB_CONSTRAINT_NODES + 1];
@@ -265,7 +265,7 @@ static uint32_t step_on(graph *g, uint32_t v, uint32_t c)
         if (g->number[vertex[k]] == 0) return vertex[k];
         if (c != g->by[v] && g->number[vertex[k]] < g->low[v]) g->low[v] = g->number[vertex[k]];
     }
-    return UINT32_MAX;
+    return DMB_NONE;
 }
 
 /* A joint between two vertices. */
@@ -287,7 +287,7 @@ static void leave(graph *g, uint32_t before, uint32_t v, uint32_t *beyond)
 static void walk(graph *g, uint32_t root, uint32_t *count, uint32_t *beyond)
 {
     uint32_t depth = 0, v = root;
-    g->by[root] = UINT32_MAX;
+    g->by[root] = DMB_NONE;
     g->number[root] = g->low[root] = ++*count;
     g->path[0] = root;
     for (;;) {
@@ -298,7 +298,7 @@ static void walk(graph *g, uint32_t root, uint32_t *count, uint32_t *beyond)
             continue;
         }
         const uint32_t c = g->edge[g->next[v]], other = step_on(g, v, c);
-        if (other == UINT32_MAX) {
+        if (other == DMB_NONE) {
             g->next[v]++;
             continue;
         }
@@ -316,7 +316,7 @@ int32_t dmb_scene_bridges(const dmb_scene *scene, const dmb_allocator *allocator
     if (room == NULL) return DMB_ERR_NO_MEMORY;
     memset(room, 0, bytes);
     graph g = {scene, room, room + LISTS * n, room + n, room + 2 * n, room + 3 * n, room + 4 * n, room + 5 * n};
-    for (uint32_t i = 0; i < scene->constraint_count; i++) beyond[i] = UINT32_MAX;
+    for (uint32_t i = 0; i < scene->constraint_count; i++) beyond[i] = DMB_NONE;
     list_bridge_edges(&g);
     walk(&g, ground_of(scene), &count, beyond);
     for (uint32_t v = 0; v < scene->node_count; v++)

@@ -42,14 +42,14 @@ typedef struct dmb_path_site {
 
 typedef struct dmb_scene_drive {
     double gain, integral_gain, limit_low, limit_high;
-    uint32_t node;     /* UINT32_MAX: it drives a joint */
-    uint32_t row;      /* global row of the component; UINT32_MAX: none */
+    uint32_t node;     /* DMB_NONE: it drives a joint */
+    uint32_t row;      /* global row of the component; DMB_NONE: none */
     int32_t kind;      /* DMB_DRIVE_... */
     int32_t component; /* body-frame component 0 .. 5 */
     uint32_t programme;
-    uint32_t excitation; /* UINT32_MAX: none, or left out */
-    uint32_t joint;      /* whose coordinate `component` it drives; UINT32_MAX: none */
-    uint32_t constraint; /* of a MOTION drive on a joint; UINT32_MAX: none */
+    uint32_t excitation; /* DMB_NONE: none, or left out */
+    uint32_t joint;      /* whose coordinate `component` it drives; DMB_NONE: none */
+    uint32_t constraint; /* of a MOTION drive on a joint; DMB_NONE: none */
     char name[24];
 } dmb_scene_drive;
 
@@ -58,7 +58,7 @@ typedef struct dmb_scene_load {
     double arm; /* [m] along body x from the node */
     uint32_t node;
     int32_t frame;
-    uint32_t programme; /* UINT32_MAX: factor 1 */
+    uint32_t programme; /* DMB_NONE: factor 1 */
     uint32_t reserved;
     char name[24];
 } dmb_scene_load;
@@ -67,7 +67,7 @@ typedef struct dmb_scene_bit {
     dmb_bit_rock_law law; /* kind DMB_ROCK_NONE when left out */
     double bottom;        /* [m] stand-off at time 0 */
     uint32_t node;
-    uint32_t load;             /* programme of the bottom-hole load; UINT32_MAX: none */
+    uint32_t load;             /* programme of the bottom-hole load; DMB_NONE: none */
     uint32_t history_first;    /* start of its samples in the history arrays */
     uint32_t history_capacity; /* 0 unless regenerative */
     double arm;                /* [m] along body x from the node to the bit (rigid pipes merged behind it); usually 0 */
@@ -79,7 +79,7 @@ typedef struct dmb_pipe_map {
     double length;     /* [m] */
     double joint;      /* [m] rigid tool joint at its far end (already inside length) */
     uint32_t node;     /* rigid: the node of its body; else node of its near end */
-    uint32_t element;  /* first element; UINT32_MAX: rigid */
+    uint32_t element;  /* first element; DMB_NONE: rigid */
     uint32_t elements; /* 0: rigid */
     int32_t kind;      /* DMB_PIPE_... after compile options */
 } dmb_pipe_map;
@@ -94,7 +94,7 @@ typedef struct dmb_string_map {
 
 typedef struct dmb_body_map {
     uint32_t node;
-    uint32_t site;      /* its contact site; UINT32_MAX: none */
+    uint32_t site;      /* its contact site; DMB_NONE: none */
     double arm;         /* [m] along body x from the node to its reference point */
     uint32_t held_ring; /* 1: it would have a contact site if its node moved sideways */
     uint32_t reserved;
@@ -121,7 +121,7 @@ typedef struct dmb_free_rigid {
 typedef struct dmb_scene_frame {
     double x[3];   /* [m] origin: in the node's frame; of the ground: world */
     double M[9];   /* [-] axes as columns, row-major */
-    uint32_t node; /* UINT32_MAX: the ground */
+    uint32_t node; /* DMB_NONE: the ground */
     uint32_t reserved;
 } dmb_scene_frame;
 
@@ -134,7 +134,7 @@ typedef struct dmb_scene_joint {
     int32_t state; /* at time 0 */
     int32_t initial_mask;
     int32_t law_mask;     /* coordinates that have a law */
-    uint32_t law;         /* first of its six laws in `laws`; UINT32_MAX: none acts */
+    uint32_t law;         /* first of its six laws in `laws`; DMB_NONE: none acts */
     uint32_t constraint;  /* its constraint (even if it has no rows now) */
     uint32_t first_drive; /* its drives in joint_drives */
     uint32_t drive_count;
@@ -250,7 +250,7 @@ typedef struct dmb_scene {
     dmb_element_type *types; /* shape (type_count) */
     uint32_t *element_type;  /* shape (element) */
     uint32_t *element_node;  /* node a; b is a + 1, shape (element) */
-    uint32_t *node_element;  /* element from node i to i + 1; UINT32_MAX at the end of a chain, shape (node) */
+    uint32_t *node_element;  /* element from node i to i + 1; DMB_NONE at the end of a chain, shape (node) */
     double *element_span;    /* [m] from node a to node b at time 0, world frame, exact, shape (element, 3) */
     dmb_batch *batches;
     dmb_chain *chains;
@@ -283,10 +283,10 @@ typedef struct dmb_scene {
     dmb_cluster *clusters;
     uint32_t *cluster_nodes;   /* nodes, cluster by cluster, ascending in each */
     uint32_t *cluster_columns; /* global row of each column of each cluster, node by node */
-    uint32_t *node_block;      /* block of the pattern that holds the node; UINT32_MAX: its chain is not linked;
+    uint32_t *node_block;      /* block of the pattern that holds the node; DMB_NONE: its chain is not linked;
                                   shape (node) if there are clusters */
     uint32_t *node_place;      /* first column of the node in its cluster; 0 of a node without one, shape (node) */
-    uint32_t *node_cluster;    /* UINT32_MAX: none, shape (node) */
+    uint32_t *node_cluster;    /* DMB_NONE: none, shape (node) */
     size_t *link_offset;       /* storage in the pattern of link i, i+1 (upper, lower); SIZE_MAX where none or inside
                                   one block, shape (node, 2) */
     dmb_block_pattern pattern; /* blocks: dense clusters, then the other nodes of jointed chains */

@@ -76,7 +76,7 @@ static void fill_velocity(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i)
 {
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
     double *row = scene->initial_velocity + scene->layout.row[i], v[6];
-    if (node->string == UINT32_MAX) {
+    if (node->string == DMB_NONE) {
         dmb_vec6_copy(DMB_LIST_AT(const dmb_body_def, mesh->model->bodies, node->body)->velocity, row);
         return;
     }
@@ -95,7 +95,7 @@ static void fill_rigid_masses(const dmb_mesh *mesh, dmb_scene *scene)
     dmb_rigid_mass *next = scene->rigid_masses;
     for (uint32_t i = 0; i < scene->node_count; ++i) {
         const uint32_t rigid_mass = dmb_mesh_node_at(mesh, i)->rigid_mass;
-        if (rigid_mass != UINT32_MAX) *next++ = *DMB_VECTOR_AT(dmb_rigid_mass, &mesh->rigid_masses, rigid_mass);
+        if (rigid_mass != DMB_NONE) *next++ = *DMB_VECTOR_AT(dmb_rigid_mass, &mesh->rigid_masses, rigid_mass);
     }
 }
 
@@ -131,8 +131,7 @@ static void fill_chains(const dmb_mesh *mesh, dmb_scene *scene)
     for (uint32_t i = 0; i < scene->node_count; i += scene->chains[chain++].count) {
         const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);
         scene->chains[chain].first = i;
-        scene->chains[chain].count =
-            node->string == UINT32_MAX ? 1 : dmb_mesh_string_at(mesh, node->string)->node_count;
+        scene->chains[chain].count = node->string == DMB_NONE ? 1 : dmb_mesh_string_at(mesh, node->string)->node_count;
     }
 }
 
@@ -143,7 +142,7 @@ static void fill_nodes(const dmb_mesh *mesh, dmb_scene *scene)
         fill_pose(mesh, scene, i);
         fill_rows(mesh, scene, i, &held);
         if (scene->velocity_count) fill_velocity(mesh, scene, i);
-        scene->node_element[i] = UINT32_MAX;
+        scene->node_element[i] = DMB_NONE;
     }
     fill_chains(mesh, scene);
     fill_rigid_masses(mesh, scene);
@@ -187,7 +186,7 @@ static void fill_drives(const dmb_mesh *mesh, dmb_scene *scene)
     copy_items(&mesh->drives, scene->drives);
     for (uint32_t i = 0; i < scene->drive_count; ++i) {
         dmb_scene_drive *drive = scene->drives + i;
-        if (drive->node == UINT32_MAX) continue; /* it drives a joint */
+        if (drive->node == DMB_NONE) continue; /* it drives a joint */
         const bool path = scene->layout.size[drive->node] == DMB_NODE_PATH;
         const uint32_t component = (uint32_t)drive->component;
         drive->row = scene->layout.row[drive->node] + (path ? component / (uint32_t)DMB_RX : component);
@@ -199,12 +198,12 @@ static void fill_joint_drives(dmb_scene *scene)
 {
     uint32_t first = 0;
     for (uint32_t i = 0; i < scene->drive_count; ++i)
-        if (scene->drives[i].joint != UINT32_MAX) scene->joints[scene->drives[i].joint].drive_count++;
+        if (scene->drives[i].joint != DMB_NONE) scene->joints[scene->drives[i].joint].drive_count++;
     for (uint32_t j = 0; j < scene->joint_count; first += scene->joints[j++].drive_count)
         scene->joints[j].first_drive = first;
     for (uint32_t j = 0; j < scene->joint_count; ++j) scene->joints[j].drive_count = 0;
     for (uint32_t i = 0; i < scene->drive_count; ++i) {
-        if (scene->drives[i].joint == UINT32_MAX) continue;
+        if (scene->drives[i].joint == DMB_NONE) continue;
         dmb_scene_joint *joint = scene->joints + scene->drives[i].joint;
         scene->joint_drives[joint->first_drive + joint->drive_count++] = i;
     }
@@ -277,7 +276,7 @@ static double mean_element(const dmb_scene *scene, const dmb_chain *chain)
 
 static void lengthen(dmb_scene *scene, const uint32_t *chain_of, const dmb_scene_frame *frame)
 {
-    if (frame->node == UINT32_MAX) return;
+    if (frame->node == DMB_NONE) return;
     dmb_chain *chain = scene->chains + chain_of[frame->node];
     if (chain->count == 1) chain->length = fmax(chain->length, dmb_vec3_norm(frame->x));
 }

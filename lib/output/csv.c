@@ -21,7 +21,19 @@ static void put_numbered(dmb_text_file *file, const char *kind, uint32_t number)
 /* "string 0 pipe 99 at 1", "body 2": no commas */
 static void put_place(dmb_text_file *file, const dmb_place *place)
 {
-    static const char *const kinds[] = {"part", "programme", "wall", "string", "body", "bit", "drive", "load"};
+    static const char *const kinds[] = {
+        "part",
+        [DMB_PART_PROGRAMME] = "programme",
+        [DMB_PART_WALL] = "wall",
+        [DMB_PART_STRING] = "string",
+        [DMB_PART_BODY] = "body",
+        [DMB_PART_BIT] = "bit",
+        [DMB_PART_DRIVE] = "drive",
+        [DMB_PART_LOAD] = "load",
+        [DMB_PART_JOINT] = "joint",
+        [DMB_PART_COUPLING] = "coupling",
+        [DMB_PART_CONSTRAINT] = "constraint",
+    };
     const uint32_t kind = place->part.index >> 24, number = place->part.index & 0xFFFFFFu;
     put_numbered(file, kind < sizeof kinds / sizeof kinds[0] ? kinds[kind] : kinds[0], number);
     if (kind != DMB_PART_STRING) return;

@@ -152,7 +152,7 @@ static void transfer_direction(const dmb_hole *hole, double depth, const double 
 static void put_ring(dmb_text_file *file, const tube *t, const double x[3], const double y[3], const double z[3])
 {
     for (uint32_t k = 0; k < t->around; k++) {
-        const double angle = 2.0 * DMB_PI * k / t->around;
+        const double angle = DMB_TWO_PI * k / t->around;
         double point[3];
         dmb_vec3_copy(x, point);
         dmb_vec3_axpy(t->hole->radius * cos(angle), y, point);

@@ -105,7 +105,7 @@ static double end_bodies(const dmb_sim *sim, uint32_t string, int32_t attach)
         const dmb_id id = is_bit ? bit[i - model->bodies.count].string : body[i].string;
         const uint32_t named = dmb_model_part_index(model, id, DMB_PART_STRING);
         const int32_t end = is_bit ? DMB_ATTACH_END : body[i].attach;
-        if (end == attach && (named == UINT32_MAX ? 0 : named) == string) sum += body_energy(sim, i);
+        if (end == attach && (named == DMB_NONE ? 0 : named) == string) sum += body_energy(sim, i);
     }
     return sum;
 }
@@ -142,7 +142,7 @@ int32_t dmb_query_kinetic_energy(const dmb_sim *sim, dmb_id part, uint32_t pipe,
     uint32_t body;
     if (status < 0) return status;
     body = dmb_body_index(sim, part);
-    if (body == UINT32_MAX) return pipe_energy(sim, part, pipe, energy);
+    if (body == DMB_NONE) return pipe_energy(sim, part, pipe, energy);
     if (pipe != 0) return DMB_ERR_VALUE;
     *energy = body_energy(sim, body);
     return DMB_OK;

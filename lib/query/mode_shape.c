@@ -4,6 +4,7 @@
 
 #include "analysis/modes/modes.h"
 #include "element/beam.h"
+#include "math/real.h"
 #include "query/interpolation.h"
 #include "sim/access.h"
 #include "system/assemble/energy.h"
@@ -11,8 +12,6 @@
 DMB_DECLARE_STRUCT(dmb_modes_info)
 DMB_DECLARE_STRUCT(dmb_mode)
 DMB_DECLARE_STRUCT(dmb_mode_shape)
-
-#define DMB_TWO_PI 6.283185307179586477
 
 static int32_t check_modes(const dmb_modes *modes, const void *answer)
 {
@@ -147,12 +146,12 @@ static int32_t add_part(const dmb_sim *view, dmb_id part, uint32_t pipe, part_en
 {
     const uint32_t string = dmb_model_part_index(view->model, part, DMB_PART_STRING);
     double kinetic;
-    if (string == UINT32_MAX) {
+    if (string == DMB_NONE) {
         const int32_t status = dmb_query_kinetic_energy(view, part, pipe, &kinetic);
         if (status >= 0) sum->kinetic += kinetic;
         return status;
     }
-    if (pipe != UINT32_MAX) return add_pipe(view, part, pipe, sum);
+    if (pipe != DMB_NONE) return add_pipe(view, part, pipe, sum);
     int32_t status = DMB_OK;
     for (uint32_t i = 0; i < view->scene->strings[string].pipe_count && status >= 0; i++)
         status = add_pipe(view, part, i, sum);

@@ -22,11 +22,11 @@ const dmb_pipe_map *dmb_pipe_of(const dmb_sim *sim, dmb_id string, uint32_t pipe
 uint32_t dmb_body_index(const dmb_sim *sim, dmb_id id)
 {
     uint32_t index = dmb_model_part_index(sim->model, id, DMB_PART_BODY);
-    if (index == UINT32_MAX) {
+    if (index == DMB_NONE) {
         index = dmb_model_part_index(sim->model, id, DMB_PART_BIT);
-        if (index != UINT32_MAX) index += sim->model->bodies.count;
+        if (index != DMB_NONE) index += sim->model->bodies.count;
     }
-    return index < sim->scene->body_count ? index : UINT32_MAX;
+    return index < sim->scene->body_count ? index : DMB_NONE;
 }
 
 static void fix(dmb_material_point *point, uint32_t node, double arm)
@@ -83,8 +83,8 @@ static int32_t place_on_string(const dmb_sim *sim, dmb_place place, dmb_material
 int32_t dmb_material_point_of(const dmb_sim *sim, dmb_place place, dmb_material_point *point)
 {
     const uint32_t body = dmb_body_index(sim, place.part);
-    dmb_material_point found = {0, DMB_POINT_RIGID, 0.0, 0.0, 0.0, 0, 0};
-    if (body != UINT32_MAX) {
+    dmb_material_point found = {0, DMB_NONE, 0.0, 0.0, 0.0, 0, 0};
+    if (body != DMB_NONE) {
         if (!isfinite(place.fraction)) return DMB_ERR_NOT_FINITE;
         if (place.pipe != 0 || place.fraction != 0.0) return DMB_ERR_VALUE;
         fix(&found, sim->scene->bodies[body].node, sim->scene->bodies[body].arm);
@@ -148,14 +148,14 @@ static uint32_t search(const dmb_scene *scene, uint32_t first, uint32_t end, dmb
         if (owner.node != node || owner.part.index != string.index) break;
         if (owner.pipe == pipe) return i;
     }
-    return DMB_NO_SITE;
+    return DMB_NONE;
 }
 
 static uint32_t site_on_string(const dmb_scene *scene, dmb_id string, uint32_t pipe, uint32_t node)
 {
     const uint32_t full = scene->site_count;
     const uint32_t found = search(scene, 0, full, string, pipe, node);
-    return found != DMB_NO_SITE ? found : search(scene, full, full + scene->path_site_count, string, pipe, node);
+    return found != DMB_NONE ? found : search(scene, full, full + scene->path_site_count, string, pipe, node);
 }
 
 /* Node at the far end of a pipe's first `elements` elements. */
@@ -170,7 +170,7 @@ uint32_t dmb_site_after(const dmb_sim *sim, dmb_id string, uint32_t pipe, uint32
     const dmb_string_map *map = &scene->strings[dmb_model_part_index(sim->model, string, DMB_PART_STRING)];
     const dmb_pipe_map *pipes = &scene->pipes[map->first_pipe];
     if (elements > 0) return site_on_string(scene, string, pipe, node_after(scene, &pipes[pipe], elements));
-    if (pipe == 0) return site_on_string(scene, string, UINT32_MAX, map->start_node);
+    if (pipe == 0) return site_on_string(scene, string, DMB_NONE, map->start_node);
     return site_on_string(scene, string, pipe - 1, node_after(scene, &pipes[pipe - 1], pipes[pipe - 1].elements));
 }
 
@@ -179,7 +179,7 @@ uint32_t dmb_site_of(const dmb_sim *sim, dmb_id part, uint32_t pipe)
     const uint32_t body = dmb_body_index(sim, part);
     const dmb_string_map *map;
     const dmb_pipe_map *pipe_map;
-    if (body != UINT32_MAX) return sim->scene->bodies[body].site;
+    if (body != DMB_NONE) return sim->scene->bodies[body].site;
     map = &sim->scene->strings[dmb_model_part_index(sim->model, part, DMB_PART_STRING)];
     pipe_map = &sim->scene->pipes[map->first_pipe + pipe];
     return site_on_string(sim->scene, part, pipe, node_after(sim->scene, pipe_map, pipe_map->elements));
@@ -189,7 +189,7 @@ double dmb_site_normal_force(const dmb_sim *sim, uint32_t site)
 {
     const uint32_t full = sim->scene->site_count;
     dmb_site_force force;
-    if (site == DMB_NO_SITE) return 0.0;
+    if (site == DMB_NONE) return 0.0;
     if (site < full)
         dmb_site_force_of(sim->scene, &sim->now, site, &force);
     else
@@ -200,7 +200,7 @@ double dmb_site_normal_force(const dmb_sim *sim, uint32_t site)
 int32_t dmb_normal_force_at(const dmb_sim *sim, dmb_id part, uint32_t pipe, double *force)
 {
     int32_t status = DMB_OK;
-    if (dmb_body_index(sim, part) == UINT32_MAX)
+    if (dmb_body_index(sim, part) == DMB_NONE)
         (void)dmb_pipe_of(sim, part, pipe, &status);
     else if (pipe != 0)
         status = DMB_ERR_VALUE;

@@ -18,7 +18,7 @@ static void relative_acceleration(const dmb_sim *sim, uint32_t j, const dmb_rela
     dmb_vec6_copy(relative->convective, out);
     dmb_node_vector(sim->scene, &sim->now, joint->b.node, sim->now.acceleration, a);
     for (int i = 0; i < 6; i++) out[i] += dmb_vec6_dot(relative->to_b + 6 * i, a);
-    if (joint->a.node == UINT32_MAX) return;
+    if (joint->a.node == DMB_NONE) return;
     dmb_node_vector(sim->scene, &sim->now, joint->a.node, sim->now.acceleration, a);
     for (int i = 0; i < 6; i++) out[i] += dmb_vec6_dot(relative->to_a + 6 * i, a);
 }
@@ -40,7 +40,7 @@ static void actions(const dmb_sim *sim, uint32_t j, dmb_joint_state *answer)
     const dmb_scene_joint *joint = sim->scene->joints + j;
     for (uint32_t i = 0; i < 6; i++) {
         dmb_joint_force law;
-        if (joint->law == UINT32_MAX || (joint->law_mask >> i & 1) == 0) continue;
+        if (joint->law == DMB_NONE || (joint->law_mask >> i & 1) == 0) continue;
         if (sim->joint_state[j] == DMB_JOINT_OPEN) continue;
         dmb_joint_force_at(sim->scene->laws + joint->law + i, answer->position[i], answer->speed[i], &law);
         answer->action[i] = law.force;
@@ -100,7 +100,7 @@ int32_t dmb_query_multipliers(const dmb_sim *sim, dmb_id part, double multiplier
     if (status < 0) return status;
     if (count == NULL) return DMB_ERR_NULL;
     const uint32_t i = dmb_constraint_of_part(sim, part);
-    if (i == UINT32_MAX) return DMB_ERR_ID;
+    if (i == DMB_NONE) return DMB_ERR_ID;
     *count = dmb_constraint_active(sim, i);
     for (uint32_t k = 0; k < *count; k++) multipliers[k] = sim->now.multiplier[sim->scene->constraints[i].row + k];
     return DMB_OK;
@@ -132,7 +132,7 @@ int32_t dmb_query_reaction(const dmb_sim *sim, dmb_id part, double reaction[6])
     if (string < sim->scene->string_count) {
         node = sim->scene->strings[string].start_node;
         arm = sim->scene->strings[string].start_arm;
-    } else if (body != UINT32_MAX) {
+    } else if (body != DMB_NONE) {
         node = sim->scene->bodies[body].node;
         arm = sim->scene->bodies[body].arm;
     } else {

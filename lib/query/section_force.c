@@ -59,7 +59,7 @@ int32_t dmb_query_section(const dmb_sim *sim, dmb_place place, dmb_section *sect
     dmb_section answer = {0};
     if (status == DMB_OK) status = dmb_material_point_of(sim, place, &point);
     if (status < 0) return status;
-    if (point.element == DMB_POINT_RIGID) return DMB_ERR_UNSUPPORTED;
+    if (point.element == DMB_NONE) return DMB_ERR_UNSUPPORTED;
     section_force(sim->scene, &sim->now, &point, answer.force);
     section_strain(sim->scene, &sim->now, &point, answer.strain);
     return dmb_section_write(section, &answer);

@@ -36,12 +36,12 @@ static int32_t set_drive(dmb_sim *sim, dmb_id drive, double value)
         return DMB_ERR_UNSUPPORTED;
     }
     if (isinf(value)) {
-        dmb_message_field(&sim->message, dmb_drive_text(sim->scene, index, &name), DMB_NO_INDEX, "value", value,
+        dmb_message_field(&sim->message, dmb_drive_text(sim->scene, index, &name), DMB_NONE, "value", value,
                           "finite, or NaN for the programme");
         return DMB_ERR_NOT_FINITE;
     }
     if (fabs(value) > DMB_FORCE_MAX) { /* as what is described: beyond it work and power overflow */
-        dmb_message_field(&sim->message, dmb_drive_text(sim->scene, index, &name), DMB_NO_INDEX, "value", value,
+        dmb_message_field(&sim->message, dmb_drive_text(sim->scene, index, &name), DMB_NONE, "value", value,
                           "from -1e30 to 1e30, or NaN for the programme");
         return DMB_ERR_VALUE;
     }

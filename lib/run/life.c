@@ -233,7 +233,7 @@ static uint32_t active_rows(const dmb_scene *scene)
     }
     for (uint32_t i = 0; i < scene->drive_count; ++i) {
         const dmb_scene_drive *drive = &scene->drives[i];
-        if (drive->constraint != UINT32_MAX && !is_open(scene, drive->joint)) ++rows;
+        if (drive->constraint != DMB_NONE && !is_open(scene, drive->joint)) ++rows;
     }
     for (uint32_t i = 0; i < scene->callback_count; ++i) rows += scene->callbacks[i].rows;
     return rows;

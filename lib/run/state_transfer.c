@@ -69,7 +69,7 @@ static void transfer_joints(dmb_sim *sim, const dmb_sim *from)
     for (uint32_t i = 0; i < a->callback_count; i++)
         transfer_rows(sim, a->callbacks[i].constraint, from, b->callbacks[i].constraint);
     for (uint32_t i = 0; i < a->drive_count; i++)
-        if (a->drives[i].constraint != UINT32_MAX)
+        if (a->drives[i].constraint != DMB_NONE)
             transfer_rows(sim, a->drives[i].constraint, from, b->drives[i].constraint);
 }
 
@@ -122,7 +122,7 @@ static int32_t check_joints(dmb_sim *sim, dmb_evaluation *evaluation)
 {
     uint32_t row;
     if (sim->scene->cluster_count == 0) return DMB_OK;
-    sim->reduced_mode->row = UINT32_MAX;
+    sim->reduced_mode->row = DMB_NONE;
     const int32_t status = dmb_clusters_gather(evaluation);
     if (status == DMB_ERR_CALLBACK)
         dmb_message_set(&sim->message, "state transfer: the callback of a constraint failed at time %g",

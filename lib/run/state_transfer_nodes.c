@@ -22,7 +22,7 @@ static int is_path(const dmb_scene *scene, uint32_t node)
 static double arm_ahead(const dmb_scene *scene, uint32_t node, uint32_t string)
 {
     const uint32_t element = scene->node_element[node];
-    if (element == UINT32_MAX) return scene->strings[string].end_arm;
+    if (element == DMB_NONE) return scene->strings[string].end_arm;
     return scene->types[scene->element_type[element]].arm[0];
 }
 
@@ -298,7 +298,7 @@ static void begin_path_site(dmb_sim *sim, uint32_t s)
 
 /* ---- Which place was it? ----------------------------------------------------------------------------------------- */
 
-/* The node of `from` a node comes from, UINT32_MAX for none; and the way between them along body x. O(strings). */
+/* The node of `from` a node comes from, DMB_NONE for none; and the way between them along body x. O(strings). */
 static uint32_t old_node(const dmb_scene *scene, const dmb_scene *from, uint32_t node, double *arm)
 {
     *arm = 0.0;
@@ -306,7 +306,7 @@ static uint32_t old_node(const dmb_scene *scene, const dmb_scene *from, uint32_t
         const dmb_string_map *map = scene->strings + s;
         if (node < map->first_node || node - map->first_node >= map->node_count) continue;
         const dmb_common_string common = dmb_common_string_of(scene, from, s);
-        if (node < common.to) return UINT32_MAX;
+        if (node < common.to) return DMB_NONE;
         const uint32_t old = common.from + (node - common.to);
         *arm = dmb_state_transfer_arm(scene, node, from, old, s);
         return old;
@@ -323,15 +323,15 @@ static void transfer_string_sites(dmb_sim *sim, const dmb_sim *from, int32_t wha
         const dmb_site *site = scene->sites + s;
         double arm;
         if (what == DMB_TRANSFER_ALL) begin_site(sim, s);
-        if (dmb_model_part_index(sim->model, site->part, DMB_PART_STRING) == UINT32_MAX) continue;
+        if (dmb_model_part_index(sim->model, site->part, DMB_PART_STRING) == DMB_NONE) continue;
         const uint32_t old = old_node(scene, was, site->node, &arm);
         const double offset = site->offset + arm;
-        if (old == UINT32_MAX) continue;
+        if (old == DMB_NONE) continue;
         while (k < was->site_count && (was->sites[k].node < old ||
                                        (was->sites[k].node == old && was->sites[k].offset < offset - DMB_SAME_PLACE)))
             k++;
         if (k < was->site_count && was->sites[k].node == old && was->sites[k].offset <= offset + DMB_SAME_PLACE &&
-            dmb_model_part_index(from->model, was->sites[k].part, DMB_PART_STRING) != UINT32_MAX)
+            dmb_model_part_index(from->model, was->sites[k].part, DMB_PART_STRING) != DMB_NONE)
             transfer_site(sim, s, from, k, what);
     }
 }
@@ -342,7 +342,7 @@ static void transfer_body_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
     for (uint32_t b = 0; b < sim->scene->body_count; b++) {
         const dmb_body_map *body = sim->scene->bodies + b, *was = from->scene->bodies + b;
         double arm;
-        if (body->site == UINT32_MAX || was->site == UINT32_MAX) continue;
+        if (body->site == DMB_NONE || was->site == DMB_NONE) continue;
         if (old_node(sim->scene, from->scene, body->node, &arm) != was->node) continue;
         if (fabs(body->arm + arm - was->arm) <= DMB_SAME_PLACE) transfer_site(sim, body->site, from, was->site, what);
     }
@@ -355,7 +355,7 @@ static void transfer_path_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
         double arm;
         const uint32_t old = old_node(sim->scene, from->scene, sim->scene->path_sites[s].node, &arm);
         if (what == DMB_TRANSFER_ALL) begin_path_site(sim, s);
-        while (old != UINT32_MAX && k < from->scene->path_site_count && from->scene->path_sites[k].node < old) k++;
+        while (old != DMB_NONE && k < from->scene->path_site_count && from->scene->path_sites[k].node < old) k++;
         if (k < from->scene->path_site_count && from->scene->path_sites[k].node == old)
             transfer_path_site(sim, s, from, k, what);
     }

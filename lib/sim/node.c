@@ -81,7 +81,7 @@ uint32_t dmb_count_full_nodes(const dmb_scene *scene, uint32_t node)
 uint32_t dmb_element_between(const dmb_scene *scene, uint32_t node, uint32_t side)
 {
     if (side == 1) return scene->node_element[node];
-    return node > 0 ? scene->node_element[node - 1] : UINT32_MAX;
+    return node > 0 ? scene->node_element[node - 1] : DMB_NONE;
 }
 
 static uint32_t pipe_at(const dmb_scene *scene, const dmb_string_map *string, uint32_t node)
@@ -147,7 +147,7 @@ uint32_t dmb_constraint_of_part(const dmb_sim *sim, dmb_id part)
     if (joint < scene->joint_count) return scene->joints[joint].constraint;
     if (coupling < scene->coupling_count) return scene->couplings[coupling].constraint;
     if (drive < scene->drive_count) return scene->drives[drive].constraint;
-    return callback < scene->callback_count ? scene->callbacks[callback].constraint : UINT32_MAX;
+    return callback < scene->callback_count ? scene->callbacks[callback].constraint : DMB_NONE;
 }
 
 uint32_t dmb_owner_of_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text)

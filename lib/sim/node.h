@@ -26,7 +26,7 @@ static inline uint32_t dmb_full_nodes_at(const dmb_scene *scene, uint32_t node)
 {
     return scene->layout.size[node] == DMB_NODE_FULL ? dmb_count_full_nodes(scene, node) : 0;
 }
-/* Element before (side 0) or after (side 1) a node; UINT32_MAX at the ends of its chain. */
+/* Element before (side 0) or after (side 1) a node; DMB_NONE at the ends of its chain. */
 uint32_t dmb_element_between(const dmb_scene *scene, uint32_t node, uint32_t side);
 
 /* Owners: described parts of nodes and elements (for messages), nodes of rows, constraints of parts. */
@@ -47,7 +47,7 @@ const char *dmb_drive_text(const dmb_scene *scene, uint32_t drive, dmb_message *
 const char *dmb_load_text(const dmb_scene *scene, uint32_t load, dmb_message *text);
 /* Node that a row belongs to. O(log nodes) */
 uint32_t dmb_node_of_row(const dmb_scene *scene, uint32_t row);
-/* Constraint of a joint, coupling, drive or callback; UINT32_MAX where the part has none. */
+/* Constraint of a joint, coupling, drive or callback; DMB_NONE where the part has none. */
 uint32_t dmb_constraint_of_part(const dmb_sim *sim, dmb_id part);
 
 /* Unbalance of the rigid masses on the nodes. */

@@ -29,7 +29,7 @@ static void check_step_control(dmb_check *check, const dmb_sim_options *o)
 
 int32_t dmb_sim_options_take(dmb_sim_options *out, const dmb_sim_options *given, dmb_message *message)
 {
-    dmb_check check = dmb_check_of(message, "sim options", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(message, "sim options", DMB_NONE);
     dmb_sim_options read = dmb_sim_options_default();
     if (given != NULL) {
         const int32_t status = dmb_sim_options_read(&read, given);

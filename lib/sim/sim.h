@@ -149,7 +149,7 @@
     X(double, sparse_vector, sparse_rows)                                                                             \
     X(double, raw_residual, sparse_raw) /* before the forces of constraint */                                         \
     X(double, sparse_scale, sparse_c)   /* [N/m, ...] factor of each row in the reduced system */                     \
-    X(uint32_t, sparse_slot, sparse_c)  /* place of each row in its block; UINT32_MAX: not chosen */                  \
+    X(uint32_t, sparse_slot, sparse_c)  /* place of each row in its block; DMB_NONE: not chosen */                  \
     X(uint32_t, sparse_size, sparse_block) /* rows of each block, nodes and multipliers */                            \
     X(uint32_t, sparse_plus, sparse_block) /* of them those of the node */                                            \
     X(uint32_t, sparse_row, sparse_block)                                                                             \
@@ -168,7 +168,7 @@ enum { DMB_ROW_IDLE = 0, DMB_ROW_POSITION = 1, DMB_ROW_SPEED = 2 };
 typedef struct dmb_reduced_mode {
     int32_t multipliers; /* 1: solve for all coordinates and multipliers, DMB_METHOD_MULTIPLIERS */
     int32_t assembling;  /* 1: initial coordinates of joints are rows too, couplings and joint drives are not */
-    uint32_t row;        /* constraint row that could not be satisfied, for messages; UINT32_MAX: none */
+    uint32_t row;        /* constraint row that could not be satisfied, for messages; DMB_NONE: none */
     int32_t metric;      /* 1: sparse_value has factors of the rows at hand, for projections */
     int32_t weak;        /* 1: with rows that those before nearly hold */
     int32_t reserved;

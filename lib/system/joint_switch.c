@@ -176,7 +176,7 @@ int32_t dmb_joint_switch(dmb_sim *sim, uint32_t joint, int32_t state)
     dmb_message name;
     if (sim->joint_state[joint] == state) return DMB_OK;
     dmb_state_back_up(sim);
-    sim->reduced_mode->row = UINT32_MAX;
+    sim->reduced_mode->row = DMB_NONE;
     const int32_t status = change(sim, joint, state, jump);
     if (status < 0) {
         dmb_state_restore(sim);

@@ -65,7 +65,7 @@ static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
     evaluation->pseudo_factor = 1.0;
     evaluation->dynamic = 1;
     evaluation->tangent = 1;
-    sim->reduced_mode->row = UINT32_MAX;
+    sim->reduced_mode->row = DMB_NONE;
     memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
 }
 
@@ -92,7 +92,7 @@ static void explain(dmb_sim *sim, const dmb_evaluation *evaluation, int32_t stat
     if (status == DMB_ERR_ROTATION) {
         const dmb_owner owner = dmb_owner_of_element(sim->scene, evaluation->element);
         dmb_message_set(&sim->message, "%s: relative rotation in one element above 2.5 rad", owner.text.text);
-    } else if (status == DMB_ERR_CALLBACK && sim->reduced_mode->row != UINT32_MAX) {
+    } else if (status == DMB_ERR_CALLBACK && sim->reduced_mode->row != DMB_NONE) {
         dmb_message owner;
         dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, sim->reduced_mode->row), &owner);
         dmb_message_set(&sim->message, "%s: its callback failed or gave a value beyond +-1e30 at time %g", owner.text,
@@ -133,7 +133,7 @@ static int32_t make_consistent(dmb_sim *sim, dmb_evaluation *evaluation)
     if (sim->scene->cluster_count) dmb_joint_reactions(evaluation);
     memcpy(sim->residual_row, sim->correction, sim->scene->row_count * sizeof(double));
     for (uint32_t i = 0; i < sim->scene->drive_count; i++)
-        if (sim->scene->drives[i].kind == DMB_DRIVE_MOTION && sim->scene->drives[i].joint == UINT32_MAX)
+        if (sim->scene->drives[i].kind == DMB_DRIVE_MOTION && sim->scene->drives[i].joint == DMB_NONE)
             sim->trial.drive_force[i] = sim->correction[sim->scene->drives[i].row];
     return DMB_OK;
 }

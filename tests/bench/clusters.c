@@ -55,7 +55,7 @@ static int32_t add_hinge(const machine *m, int32_t kind, uint32_t a, double alon
     const dmb_id ground = {0, 0};
     dmb_joint_def joint = dmb_joint_def_default();
     joint.kind = kind;
-    joint.place_a = dmb_station(a == UINT32_MAX ? ground : m->bars[a], 0, 0.0);
+    joint.place_a = dmb_station(a == DMB_NONE ? ground : m->bars[a], 0, 0.0);
     joint.place_b = dmb_station(m->bars[b], 0, 0.0);
     joint.origin_a[0] = along_a;
     joint.origin_b[0] = along_b;
@@ -70,7 +70,7 @@ static int32_t describe_chain(machine *m)
     int32_t status = DMB_OK;
     for (uint32_t i = 0; status >= 0 && i < m->size; ++i) {
         status = add_bar(m, i, 0.0, 0.0);
-        if (status >= 0) status = add_hinge(m, DMB_JOINT_REVOLUTE, i ? i - 1 : UINT32_MAX, i ? 0.5 : 0.0, i, -0.5);
+        if (status >= 0) status = add_hinge(m, DMB_JOINT_REVOLUTE, i ? i - 1 : DMB_NONE, i ? 0.5 : 0.0, i, -0.5);
     }
     return status;
 }
@@ -86,7 +86,7 @@ static int32_t describe_tree(machine *m)
         x[i] = x0 + cos(angle);
         z[i] = z0 + sin(angle);
         status = add_bar(m, x0, z0, angle);
-        if (status >= 0) status = add_hinge(m, DMB_JOINT_REVOLUTE, i ? on : UINT32_MAX, i ? 0.5 : 0.0, i, -0.5);
+        if (status >= 0) status = add_hinge(m, DMB_JOINT_REVOLUTE, i ? on : DMB_NONE, i ? 0.5 : 0.0, i, -0.5);
     }
     return status;
 }
@@ -100,7 +100,7 @@ static int32_t describe_loops(machine *m)
     for (double x = 0.0; status >= 0 && x <= n; x += 1.0) status = add_bar(m, x, 0.0, angle);
     for (double x = 0.0; status >= 0 && x < n; x += 1.0) status = add_bar(m, x + cos(angle), sin(angle), 0.0);
     for (uint32_t i = 0; status >= 0 && i <= m->size; ++i)
-        status = add_hinge(m, DMB_JOINT_REVOLUTE, UINT32_MAX, i, i, -0.5);
+        status = add_hinge(m, DMB_JOINT_REVOLUTE, DMB_NONE, i, i, -0.5);
     for (uint32_t i = 0; status >= 0 && i < m->size; ++i) {
         status = add_hinge(m, DMB_JOINT_REVOLUTE, i, 0.5, m->size + 1 + i, -0.5);
         if (status >= 0) status = add_hinge(m, last, m->size + 1 + i, 0.5, i + 1, 0.5);

@@ -291,7 +291,7 @@ static void check_sites(const rig_pair *p)
         const dmb_contact far = contact_at(&p->parts, 2 * i + 1), near = contact_at(&p->parts, 2 * i + 2);
         assert_int_equal(whole.pipe, i);
         assert_int_equal(far.pipe, 0);
-        assert_int_equal(near.pipe, UINT32_MAX);
+        assert_int_equal(near.pipe, DMB_NONE);
         length = fmax(length, fabs(far.length + near.length - whole.length));
         normal = fmax(normal, fabs(far.normal_force + near.normal_force - whole.normal_force));
         gap = fmax(gap, fmax(fabs(far.gap - whole.gap), fabs(near.gap - whole.gap)));

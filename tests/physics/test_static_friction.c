@@ -93,7 +93,7 @@ static void tangent_at(const scene *s, dmb_place place, double t[3])
 static void add_contact_force(const scene *s, const dmb_contact *c, double f[3])
 {
     double t[3];
-    const int start = c->pipe == UINT32_MAX;
+    const int start = c->pipe == DMB_NONE;
     tangent_at(s, dmb_station(s->string, start ? 0 : c->pipe, start ? 0.0 : 1.0), t);
     const double b[3] = {t[1] * c->normal[2] - t[2] * c->normal[1], t[2] * c->normal[0] - t[0] * c->normal[2],
                          t[0] * c->normal[1] - t[1] * c->normal[0]};

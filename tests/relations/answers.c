@@ -115,7 +115,7 @@ static uint32_t slot_of(const taker *t, const dmb_contact *c)
 {
     for (uint32_t k = 0; k < t->s->strings; ++k)
         if (t->b->string[k].index == c->part.index)
-            return k * SLOTS_STRING + (c->pipe == UINT32_MAX ? 0 : (t->view.halved ? c->pipe / 2 : c->pipe) + 1);
+            return k * SLOTS_STRING + (c->pipe == DMB_NONE ? 0 : (t->view.halved ? c->pipe / 2 : c->pipe) + 1);
     for (uint32_t i = 0; i < t->s->bodies; ++i)
         if (t->b->body[i].index == c->part.index) return SCENE_STRINGS * SLOTS_STRING + i;
     return SLOTS - 1;

@@ -197,7 +197,7 @@ FUNCTION_DOCS = {
     "dmb_modes_get":
         "Mode number index. O(number of elements). Errors of this and what follows: ERR_NULL, _HANDLE, _STRUCT_SIZE, _ID, _VALUE (index, place, frame), _NOT_FINITE.",
     "dmb_modes_part":
-        "[J] kinetic and strain energy of the mode, as in dmb_mode, in a pipe of a string with half of what is fixed to its two ends, in a whole string (pipe = UINT32_MAX), or in a body or bit (pipe 0). O(elements of it).",
+        "[J] kinetic and strain energy of the mode, as in dmb_mode, in a pipe of a string with half of what is fixed to its two ends, in a whole string (pipe = NONE), or in a body or bit (pipe 0). O(elements of it).",
     "dmb_modes_shape":
         "Shape at a place, between nodes by the element's own shape functions. O(1).",
     "dmb_query_contact":

@@ -1651,7 +1651,7 @@ class Contact(Sized):
         "sticks": ("", "1 when the bristle law holds it"),
         "site": ("-", "number of the site, 0 .. info.contact_sites - 1"),
         "part": ("", "string or body the site belongs to"),
-        "pipe": ("-", "pipe whose far end it is; UINT32_MAX for the rig end of the string"),
+        "pipe": ("-", "pipe whose far end it is; NONE for the rig end of the string"),
         "length": ("m", "of pipe it stands for"),
         "gap": ("m", "to the wall, < 0 when penetrating"),
         "normal": ("-", "outward, from the axis to the wall, world frame, shape (3)"),

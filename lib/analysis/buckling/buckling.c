@@ -14,7 +14,7 @@ DMB_DECLARE_STRUCT(dmb_buckling_info)
 
 static int32_t take_options(dmb_sim *sim, const dmb_buckling_options *given, dmb_buckling_options *out)
 {
-    dmb_check check = dmb_check_of(&sim->message, "buckling options", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(&sim->message, "buckling options", DMB_NONE);
     (void)dmb_buckling_options_init(out, (uint32_t)sizeof *out);
     if (given != NULL && dmb_buckling_options_read(out, given) < 0) {
         dmb_message_set(&sim->message, "buckling options: struct_size is not one this library knows");

@@ -221,7 +221,7 @@ static int32_t respond(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *
     memcpy(work->correction, buckling->response, work->scene->row_count * sizeof(double));
     dmb_solve_correction(work);
     memcpy(buckling->response, work->correction, work->scene->row_count * sizeof(double));
-    if (buckling->pattern.row != UINT32_MAX) buckling->response[buckling->pattern.row] = 1.0;
+    if (buckling->pattern.row != DMB_NONE) buckling->response[buckling->pattern.row] = 1.0;
     return DMB_OK;
 }
 
@@ -369,7 +369,7 @@ static int32_t begin(dmb_buckling *buckling, dmb_static_search *search)
     dmb_sim *work = buckling->work;
     memset(work->increment, 0, work->scene->row_count * sizeof(double));
     dmb_configuration_copy(work, &work->now, &work->trial);
-    work->reduced_mode->row = UINT32_MAX;
+    work->reduced_mode->row = DMB_NONE;
     const int32_t status = dmb_system_prescribe(&search->evaluation);
     return status >= 0 && work->scene->cluster_count ? dmb_static_settle(search) : status;
 }

@@ -19,7 +19,7 @@ static int32_t take_drive(dmb_sim *sim, const char *who, dmb_load_pattern *patte
         return DMB_ERR_VALUE;
     }
     if (drive->kind != DMB_DRIVE_MOTION) return DMB_OK;
-    if (drive->joint != UINT32_MAX) {
+    if (drive->joint != DMB_NONE) {
         dmb_message_set(&sim->message, "%s: %s moves a joint, use one of a string or body", who,
                         dmb_drive_text(sim->scene, pattern->drive, &(dmb_message){""}));
         return DMB_ERR_UNSUPPORTED;
@@ -32,10 +32,10 @@ int32_t dmb_load_pattern_take(dmb_sim *sim, const char *who, int32_t scale, dmb_
 {
     const dmb_scene *scene = sim->scene;
     pattern->scale = scale;
-    pattern->load = pattern->drive = pattern->row = UINT32_MAX;
+    pattern->load = pattern->drive = pattern->row = DMB_NONE;
     pattern->base = NULL;
     if (scale < DMB_SCALE_ALL || scale > DMB_SCALE_PART) {
-        dmb_message_field(&sim->message, who, DMB_NO_INDEX, "scale", scale, "a DMB_SCALE_");
+        dmb_message_field(&sim->message, who, DMB_NONE, "scale", scale, "a DMB_SCALE_");
         return DMB_ERR_VALUE;
     }
     if (scale != DMB_SCALE_PART) return DMB_OK;
@@ -87,10 +87,10 @@ static void moved_column(const dmb_sim *sim, uint32_t row, double *out)
     const uint32_t c = row - layout->row[node], size = layout->size[node];
     memset(out, 0, scene->row_count * sizeof(double));
     for (uint32_t i = 0; i < size; i++) out[layout->row[node] + i] = dmb_stiffness_of(sim, node)[size * i + c];
-    if (node > 0 && scene->node_element[node - 1] != UINT32_MAX)
+    if (node > 0 && scene->node_element[node - 1] != DMB_NONE)
         for (uint32_t i = 0; i < layout->size[node - 1]; i++)
             out[layout->row[node - 1] + i] = sim->stiffness_upper[layout->link[node - 1] + size * i + c];
-    if (scene->node_element[node] != UINT32_MAX)
+    if (scene->node_element[node] != DMB_NONE)
         for (uint32_t i = 0; i < layout->size[node + 1]; i++)
             out[layout->row[node + 1] + i] = sim->stiffness_lower[layout->link[node] + size * i + c];
 }
@@ -102,7 +102,7 @@ int32_t dmb_load_pattern_derivative(const dmb_load_pattern *pattern, dmb_evaluat
     dmb_sim *sim = evaluation->sim;
     const uint32_t rows = sim->scene->row_count;
     const int32_t tangent = evaluation->tangent;
-    if (pattern->row != UINT32_MAX) {
+    if (pattern->row != DMB_NONE) {
         moved_column(sim, pattern->row, derivative);
         return DMB_OK;
     }

@@ -6,9 +6,9 @@
 
 typedef struct dmb_load_pattern {
     int32_t scale;  /* DMB_SCALE_... */
-    uint32_t load;  /* the one load; UINT32_MAX: none */
-    uint32_t drive; /* the one drive; UINT32_MAX: none */
-    uint32_t row;   /* global row that a motion drive moves; UINT32_MAX: none */
+    uint32_t load;  /* the one load; DMB_NONE: none */
+    uint32_t drive; /* the one drive; DMB_NONE: none */
+    uint32_t row;   /* global row that a motion drive moves; DMB_NONE: none */
     double *base;   /* present factors of loads, bit loads and targets of drives, shape (dmb_load_pattern_size) */
 } dmb_load_pattern;
 

@@ -18,7 +18,7 @@ DMB_DECLARE_STRUCT(dmb_path_report)
 
 static int32_t take_options(dmb_sim *sim, const dmb_path_options *given, dmb_path_options *out)
 {
-    dmb_check check = dmb_check_of(&sim->message, "path options", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(&sim->message, "path options", DMB_NONE);
     (void)dmb_path_options_init(out, (uint32_t)sizeof *out);
     if (given != NULL && dmb_path_options_read(out, given) < 0) {
         dmb_message_set(&sim->message, "path options: struct_size is not one this library knows");
@@ -92,7 +92,7 @@ static int32_t begin(dmb_path *path)
     memset(work->now.acceleration, 0, scene->row_count * sizeof(double));
     memset(work->now.pseudo_acceleration, 0, scene->row_count * sizeof(double));
     dmb_configuration_copy(work, &work->now, &work->trial);
-    work->reduced_mode->row = UINT32_MAX;
+    work->reduced_mode->row = DMB_NONE;
     status = dmb_system_prescribe(&path->search.evaluation);
     if (status >= 0 && scene->cluster_count) status = dmb_static_settle(&path->search);
     if (status < 0) return status;
@@ -109,7 +109,7 @@ static int32_t begin(dmb_path *path)
     path->side = path->next.rate;
     dmb_path_accept(path);
     path->begun = 1;
-    path->turned = UINT32_MAX;
+    path->turned = DMB_NONE;
     return DMB_OK;
 }
 
@@ -156,7 +156,7 @@ static int32_t locate(dmb_path *path, int32_t *event, double arc)
 static int32_t lost(const dmb_path *path)
 {
     const int near = fabs(path->last.factor - path->turned_at) <= DMB_TURNED_NEAR * fabs(path->last.factor);
-    return path->turned != UINT32_MAX && near ? DMB_ERR_ROTATION : DMB_ERR_NO_CONVERGENCE;
+    return path->turned != DMB_NONE && near ? DMB_ERR_ROTATION : DMB_ERR_NO_CONVERGENCE;
 }
 
 int32_t dmb_path_find_next(dmb_path *path, double *arc, int32_t *event)

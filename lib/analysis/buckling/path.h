@@ -33,7 +33,7 @@ typedef struct dmb_path {
     double rounding;     /* [N/m] of eigenvalues of the stiffness judged last */
     double weakest;      /* [-] pivot of the stiffness factored last, against its block */
     uint32_t iterations; /* of the point sought */
-    uint32_t turned;     /* element that a step has twisted or bent too far; UINT32_MAX: none */
+    uint32_t turned;     /* element that a step has twisted or bent too far; DMB_NONE: none */
     double turned_at;    /* [unit of the factor] where that step began */
     int32_t begun;       /* 1: from a state in equilibrium, so that the report tells something */
     dmb_path_report report;

@@ -79,7 +79,7 @@ static int32_t solve_both(dmb_path *path, int judged)
     if (bad >= 0) return DMB_ERR_SINGULAR;
     solve(path, path->move);
     solve(path, path->loaded);
-    if (path->pattern.row != UINT32_MAX) path->loaded[path->pattern.row] = 1.0;
+    if (path->pattern.row != DMB_NONE) path->loaded[path->pattern.row] = 1.0;
     return DMB_OK;
 }
 

@@ -232,7 +232,7 @@ static void normalise(uint32_t rows, double *x)
 
 static int is_reduced(const dmb_scene *scene, uint32_t node)
 {
-    return scene->cluster_count > 0 && scene->node_block[node] != UINT32_MAX;
+    return scene->cluster_count > 0 && scene->node_block[node] != DMB_NONE;
 }
 
 /* Any vector with a part in the one sought; the same in every run. */

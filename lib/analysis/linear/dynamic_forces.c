@@ -124,12 +124,12 @@ void dmb_dynamic_subtract(const dmb_dynamic_stiffness *s, dmb_complex_array p, d
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-/* Index of a row among those that are held, or UINT32_MAX. */
+/* Index of a row among those that are held, or DMB_NONE. */
 static uint32_t held_of(const dmb_scene *scene, uint32_t node, uint32_t c)
 {
     for (uint32_t i = 0; i < scene->held_count; i++)
         if (scene->held_node[i] == node && scene->held_component[i] == c) return i;
-    return UINT32_MAX;
+    return DMB_NONE;
 }
 
 /* The row times what is solved, and what is told, of the node and the nodes next to it. */
@@ -138,13 +138,13 @@ static dmb_complex_number chain_row(const dmb_dynamic_stiffness *s, uint32_t nod
     const dmb_scene *scene = &s->linear->scene;
     const dmb_block_layout *layout = &scene->layout;
     const uint32_t first = node > 0 ? node - 1 : node, last = node + 1 < layout->n ? node + 1 : node;
-    const uint32_t held = scene->solved_row[layout->row[node] + c] ? UINT32_MAX : held_of(scene, node, c);
+    const uint32_t held = scene->solved_row[layout->row[node] + c] ? DMB_NONE : held_of(scene, node, c);
     dmb_complex_number sum = {0.0, 0.0};
     for (uint32_t j = first; j <= last; j++)
         for (uint32_t q = 0; q < layout->size[j]; q++) {
             if (!scene->solved_row[layout->row[j] + q]) continue;
-            add(held == UINT32_MAX ? entry_of_nodes(s, node, c, j, q)
-                                   : entry_of_held(s, s->linear->held_rows, held, j, q),
+            add(held == DMB_NONE ? entry_of_nodes(s, node, c, j, q)
+                                 : entry_of_held(s, s->linear->held_rows, held, j, q),
                 x, layout->row[j] + q, &sum);
         }
     for (uint32_t h = 0; h < scene->held_count; h++)
@@ -167,7 +167,7 @@ dmb_complex_number dmb_dynamic_row(const dmb_dynamic_stiffness *s, uint32_t node
 {
     const dmb_scene *scene = &s->linear->scene;
     dmb_complex_number sum = chain_row(s, node, c, x);
-    if (scene->cluster_count == 0 || scene->node_cluster[node] == UINT32_MAX) return sum;
+    if (scene->cluster_count == 0 || scene->node_cluster[node] == DMB_NONE) return sum;
     const dmb_cluster *cluster = scene->clusters + scene->node_cluster[node];
     for (uint32_t i = cluster->constraint; i < cluster->constraint + cluster->constraint_count; i++)
         for (uint32_t a = 0; a < scene->constraints[i].node_count; a++)

@@ -7,7 +7,7 @@
 
 static int is_reduced(const dmb_scene *scene, uint32_t node)
 {
-    return scene->cluster_count > 0 && scene->node_block[node] != UINT32_MAX;
+    return scene->cluster_count > 0 && scene->node_block[node] != DMB_NONE;
 }
 
 /* ---- Coordinates ------------------------------------------------------------------------------------------------- */
@@ -58,14 +58,14 @@ static void number(const dmb_linear *linear, dmb_dynamic_links *links)
     uint32_t row = 0;
     for (uint32_t i = 0; i < linear->coordinates; i++) {
         const uint32_t node = dmb_node_of_row(scene, linear->row_of[i]);
-        links->place[i] = is_reduced(scene, node) ? links->size[scene->node_block[node]]++ : UINT32_MAX;
+        links->place[i] = is_reduced(scene, node) ? links->size[scene->node_block[node]]++ : DMB_NONE;
     }
     for (uint32_t b = 0; b < scene->block_count; b++) {
         links->row[b] = row;
         row += links->size[b];
     }
     for (uint32_t i = 0; i < linear->coordinates; i++)
-        if (links->place[i] != UINT32_MAX)
+        if (links->place[i] != DMB_NONE)
             links->place[i] += links->row[scene->node_block[dmb_node_of_row(scene, linear->row_of[i])]];
 }
 
@@ -170,7 +170,7 @@ static void add_nodes(const dmb_dynamic_stiffness *s)
     for (uint32_t i = 0; i < layout->n; i++) {
         if (!is_reduced(scene, i)) continue;
         add_block(s, i, i, part(s->factors.diagonal, layout->diag[i]), layout->size[i], diagonal_of(scene, i));
-        if (scene->node_element[i] == UINT32_MAX) continue;
+        if (scene->node_element[i] == DMB_NONE) continue;
         const size_t *link = scene->link_offset + 2 * (size_t)i, inside = diagonal_of(scene, i);
         const int one = scene->node_block[i] == scene->node_block[i + 1];
         add_block(s, i, i + 1, part(s->factors.upper, layout->link[i]), layout->size[i + 1], one ? inside : link[0]);

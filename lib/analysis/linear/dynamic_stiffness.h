@@ -13,6 +13,7 @@
 
 #include "analysis/linear/linearise.h"
 #include "math/block_complex.h"
+#include "math/block_kernel.h"
 #include "math/complex_sparse.h"
 
 typedef struct dmb_complex_number {
@@ -23,7 +24,7 @@ typedef struct dmb_complex_number {
 typedef struct dmb_dynamic_links {
     uint32_t count;       /* of its coordinates; 0 too where joints leave none */
     uint32_t *size, *row; /* of each block: coordinates, and the first of them, shape (blocks of the scene) */
-    uint32_t *place;      /* of coordinate i of the linear system among them; UINT32_MAX: none */
+    uint32_t *place;      /* of coordinate i of the linear system among them; DMB_NONE: none */
     dmb_complex_sparse matrix;
     dmb_complex_array solution;   /* shape (count) */
     dmb_complex_array half;       /* A_ij R_j, shape (6, the widest block) */
@@ -56,11 +57,7 @@ int64_t dmb_dynamic_stiffness_factor_at(dmb_dynamic_stiffness *stiffness, double
  * moves 1: on entry displacements p. */
 void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *stiffness, int32_t moves, dmb_complex_array x);
 
-/* A pivot this small against the stiffness and inertia of its own row is rounding: nothing holds the node at this
- * frequency. A cantilever of 10000 elements still leaves 1e-13. */
-#define DMB_LOOSE_PIVOT 1e-14
-
-/* 1 if the reciprocal of a pivot is that large. */
+/* 1 if the reciprocal of a pivot is so large that nothing but rounding holds its row at this frequency. */
 static inline int32_t dmb_dynamic_is_loose(const dmb_dynamic_stiffness *s, double re, double im, double stiffness,
                                            double mass)
 {

@@ -77,7 +77,7 @@ int32_t dmb_functional_of_motion(dmb_sim *copy, dmb_place place, int32_t frame, 
 
 void dmb_functional_take_node(const dmb_scene *scene, uint32_t node, dmb_functional *out)
 {
-    if (node == UINT32_MAX) return;
+    if (node == DMB_NONE) return;
     for (uint32_t i = 0; i < out->count; i++)
         if (out->row[i] == scene->layout.row[node]) return;
     for (uint32_t c = 0; c < scene->layout.size[node]; c++) out->row[out->count++] = scene->layout.row[node] + c;

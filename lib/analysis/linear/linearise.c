@@ -36,7 +36,7 @@ static int32_t settle(dmb_sim *work)
 {
     dmb_evaluation evaluation = dmb_linear_evaluation(work);
     memset(work->increment, 0, work->scene->row_count * sizeof(double));
-    work->reduced_mode->row = UINT32_MAX;
+    work->reduced_mode->row = DMB_NONE;
     return work->scene->cluster_count ? dmb_clusters_settle(&evaluation, 0, 0) : DMB_OK;
 }
 
@@ -57,7 +57,7 @@ static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *optio
     dmb_linear_freeze(linear, options);
     if (status >= 0) status = dmb_linear_take_stiffness_and_mass(linear);
     if (status >= 0) dmb_linear_add_dead_loads(linear, before);
-    if (status >= 0 && options->contact == DMB_LINEAR_CONTACT_CLOSED) dmb_linear_close_contacts(linear, options->gap);
+    if (status >= 0 && options->contact == DMB_CONTACT_CLOSED) dmb_linear_close_contacts(linear, options->gap);
     return status < 0 ? status : dmb_linear_take_damping(linear);
 }
 

@@ -29,19 +29,14 @@
 #ifndef DMB_ANALYSIS_LINEAR_LINEARISE_H
 #define DMB_ANALYSIS_LINEAR_LINEARISE_H
 
+#include "drillmbd/analysis.h"
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
 
-enum {
-    DMB_LINEAR_CONTACT_AS_IS = 0, /* rings that touch the wall press on it, others do not */
-    DMB_LINEAR_CONTACT_OPEN = 1,  /* there is no wall; what it presses with in the state is a dead load */
-    DMB_LINEAR_CONTACT_CLOSED = 2 /* rings up to `gap` from the wall are held across it too */
-};
-
 typedef struct dmb_linear_options {
-    int32_t contact;     /* DMB_LINEAR_CONTACT_... */
+    int32_t contact;     /* DMB_CONTACT_... of analysis.h */
     int32_t no_friction; /* 1: friction on the wall does not change: it is a dead load */
-    double gap;          /* [m] of DMB_LINEAR_CONTACT_CLOSED */
+    double gap;          /* [m] of DMB_CONTACT_CLOSED */
     int32_t still;       /* 1: d in axes that do not spin about the node's x axis */
     int32_t reserved;
     double spin; /* [rad/s] of the nodes of strings in the state, 0: as they do */
@@ -104,7 +99,7 @@ static inline double dmb_linear_weight(const dmb_linear *linear, uint32_t node, 
 }
 /* [N/m] per weight, what a stiffness is measured by that is less: such a one may be rounding of others. */
 double dmb_linear_stiffness_at_least(const dmb_linear *linear);
-/* [N/m] that DMB_LINEAR_CONTACT_CLOSED has put behind ring number `site`, which does not touch; 0: nothing. */
+/* [N/m] that DMB_CONTACT_CLOSED has put behind ring number `site`, which does not touch; 0: nothing. */
 double dmb_linear_wall_stiffness(const dmb_linear *linear, uint32_t site, double gap);
 
 /* A = 0. */

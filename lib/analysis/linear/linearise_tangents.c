@@ -106,7 +106,7 @@ int32_t dmb_linear_take_damping(dmb_linear *linear)
 
 void dmb_linear_freeze(dmb_linear *linear, const dmb_linear_options *options)
 {
-    if (options->contact == DMB_LINEAR_CONTACT_OPEN) linear->scene.site_count = linear->scene.path_site_count = 0;
+    if (options->contact == DMB_CONTACT_OPEN) linear->scene.site_count = linear->scene.path_site_count = 0;
     if (options->no_friction) linear->scene.friction_law.kind = DMB_FRICTION_NONE;
     linear->work->scene = &linear->scene;
 }

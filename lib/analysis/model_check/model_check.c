@@ -174,9 +174,9 @@ static void pass_joints(const groups *g)
     for (uint32_t j = 0; j < scene->joint_count; j++) {
         const dmb_scene_joint *joint = scene->joints + j;
         if (g->sim->joint_state[j] == DMB_JOINT_OPEN) continue;
-        if (joint->kind == DMB_JOINT_FREE && g->sim->joint_state[j] == DMB_JOINT_ACTIVE && joint->law == UINT32_MAX)
+        if (joint->kind == DMB_JOINT_FREE && g->sim->joint_state[j] == DMB_JOINT_ACTIVE && joint->law == DMB_NONE)
             continue;
-        if (joint->a.node == UINT32_MAX)
+        if (joint->a.node == DMB_NONE)
             hold(g, joint->b.node);
         else
             join(g, joint->a.node, joint->b.node);
@@ -199,7 +199,7 @@ static void pass_nodes(const groups *g)
     for (uint32_t i = 0; i < scene->node_count; i++)
         if (scene->layout.size[i] == DMB_NODE_PATH) hold(g, i);
     for (uint32_t i = 0; i < scene->drive_count; i++)
-        if (scene->drives[i].node != UINT32_MAX) hold(g, scene->drives[i].node);
+        if (scene->drives[i].node != DMB_NONE) hold(g, scene->drives[i].node);
     for (uint32_t i = 0; i < scene->site_count; i++) hold(g, scene->sites[i].node);
     for (uint32_t i = 0; i < scene->bit_count; i++)
         if (scene->bits[i].law.kind != DMB_ROCK_NONE) hold(g, scene->bits[i].node);

@@ -141,7 +141,7 @@ static void idle_drives(const sink *to)
     for (uint32_t i = 0; i < to->scene->drive_count; i++) {
         const uint32_t j = to->scene->drives[i].joint;
         dmb_message text, name, drive;
-        if (j == UINT32_MAX || to->sim->joint_state[j] == DMB_JOINT_ACTIVE) continue;
+        if (j == DMB_NONE || to->sim->joint_state[j] == DMB_JOINT_ACTIVE) continue;
         dmb_message_set(&text, "%s: %s is %s", dmb_drive_text(to->scene, i, &drive), joint_name(to->scene, j, &name),
                         to->sim->joint_state[j] == DMB_JOINT_OPEN ? "open, the drive does nothing" : "locked");
         say(to, &text);
@@ -172,7 +172,7 @@ static void mass_of(const dmb_scene *scene, uint32_t node, const dmb_rigid_mass 
     }
     for (uint32_t side = 0; side < 2; side++) {
         const uint32_t e = dmb_element_between(scene, node, side);
-        if (e == UINT32_MAX) continue;
+        if (e == DMB_NONE) continue;
         const dmb_beam_mass *mass = &scene->types[scene->element_type[e]].mass;
         out[0] += mass->axial[0] + mass->axial[1];
         inertia[0] += mass->torsion[0] + mass->torsion[1];
@@ -288,7 +288,7 @@ static void no_contact(const sink *to)
 static void held_rings(const sink *to)
 {
     dmb_message text;
-    for (uint32_t i = dmb_owner_of_held_ring(to->scene, 0, &text); i != UINT32_MAX;
+    for (uint32_t i = dmb_owner_of_held_ring(to->scene, 0, &text); i != DMB_NONE;
          i = dmb_owner_of_held_ring(to->scene, i + 1, &text))
         say(to, &text);
 }

@@ -36,7 +36,7 @@ static void measure(dmb_mode_search *search)
 
 static int32_t take_options(const dmb_modes_options *given, dmb_modes_options *out, dmb_message *message)
 {
-    dmb_check check = dmb_check_of(message, "modes options", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(message, "modes options", DMB_NONE);
     (void)dmb_modes_options_init(out, (uint32_t)sizeof *out);
     if (given != NULL) {
         const int32_t status = dmb_modes_options_read(out, given);

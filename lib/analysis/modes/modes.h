@@ -13,8 +13,6 @@
 #define DMB_NOISE DBL_EPSILON
 /* An eigenvalue of up to so much noise may be 0. */
 #define DMB_RIGID_NOISE 1e3
-/* K is singular where a pivot is this part of its block. */
-#define DMB_MODES_LOOSE 1e-14
 
 struct dmb_modes {
     uint32_t magic;

@@ -15,8 +15,8 @@
 
 #include "analysis/modes/modes.h"
 #include "base/memory.h"
+#include "math/real.h"
 
-#define DMB_TWO_PI 6.283185307179586477
 /* Modes of a piece; pieces that wait; how often a piece may be cut. */
 enum { DMB_PIECE = 24, DMB_MARGIN = 6, DMB_PIECES = 128, DMB_CUTS = 60 };
 /* A piece of eigenvalues is not made narrower than this part of them. */

@@ -139,7 +139,7 @@ static int64_t factor_pinned(dmb_mode_search *search, double *W)
     dmb_block_weakest weakest;
     const int64_t bad = dmb_linear_factor(search->linear, 1.0, 0.0, 0.0, &weakest);
     for (size_t i = m; i-- > 0;) *pins[i].entry = pins[i].before;
-    return bad >= 0 || weakest.ratio < DMB_MODES_LOOSE ? 0 : -1;
+    return bad >= 0 || weakest.ratio < DMB_LOOSE_PIVOT ? 0 : -1;
 }
 
 int32_t dmb_modes_pin(dmb_mode_search *search)

@@ -8,6 +8,7 @@
 #include "analysis/modes/modes.h"
 #include "base/memory.h"
 #include "math/dense.h"
+#include "math/real.h"
 #include "sim/access.h"
 
 /* A mode that a search has found leaves this part of the forces that balance in it, and so many times the rounding of
@@ -178,7 +179,7 @@ int32_t dmb_modes_check(dmb_mode_search *search)
 {
     const dmb_modes *modes = search->modes;
     for (uint32_t k = 0; k < modes->count; k++) {
-        const double frequency = dmb_modes_size(modes, k) / 6.283185307179586;
+        const double frequency = dmb_modes_size(modes, k) / DMB_TWO_PI;
         if (modes->rigid[k]) continue;
         const dmb_mode_defect defect = dmb_modes_defect(search, k);
         if (!(defect.value <= defect.bound)) {

@@ -6,6 +6,7 @@
 #include "base/handle.h"
 #include "base/memory.h"
 #include "math/dense.h"
+#include "math/real.h"
 #include "system/copy.h"
 
 /* x + i y times the phase that makes its real part largest, over the root of d^H M d. */
@@ -165,8 +166,6 @@ int32_t dmb_modes_add_square(dmb_mode_search *search, double square, const doubl
 }
 
 /* The order of modes, and which of them are kept. */
-
-#define DMB_TWO_PI 6.283185307179586477
 
 double dmb_modes_size(const dmb_modes *modes, uint32_t i)
 {

@@ -99,7 +99,7 @@ static int begins_part(const dmb_scene *scene, uint32_t node)
 {
     if (node == 0 || scene->node_chain[node] != scene->node_chain[node - 1]) return 1;
     return scene->layout.size[node] != scene->layout.size[node - 1] ||
-           dmb_element_between(scene, node - 1, 1) == UINT32_MAX;
+           dmb_element_between(scene, node - 1, 1) == DMB_NONE;
 }
 
 static void find_parts(conditions *c)

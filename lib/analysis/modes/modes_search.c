@@ -3,8 +3,7 @@
 #include <math.h>
 
 #include "analysis/modes/modes.h"
-
-#define DMB_TWO_PI 6.283185307179586477
+#include "math/real.h"
 
 /* Up to so many coordinates, or where a third of all modes is asked for, the dense way is the faster one. */
 enum { DMB_DENSE_COORDINATES = 60, DMB_DENSE_SHARE = 3 };
@@ -64,7 +63,7 @@ static int32_t choose_shift(dmb_mode_search *search)
     } else {
         dmb_block_weakest weakest = {(double)INFINITY, 0, 0};
         const int64_t bad = dmb_linear_factor(search->linear, 1.0, 0.0, 0.0, &weakest);
-        if (bad < 0 && !(weakest.ratio < DMB_MODES_LOOSE) && search->rigid_count == 0) return DMB_OK;
+        if (bad < 0 && !(weakest.ratio < DMB_LOOSE_PIVOT) && search->rigid_count == 0) return DMB_OK;
     }
     if (is_dense(search, search->options->count)) return DMB_OK;
     status = find_scale(search, &square);

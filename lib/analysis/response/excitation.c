@@ -98,12 +98,12 @@ static int32_t moved_joint(const request *r, const dmb_scene_drive *drive)
     const dmb_cluster *cluster = r->copy->scene->clusters + constraint->cluster;
     const dmb_partition partition = dmb_cluster_partition(r->copy, constraint->cluster);
     double *x = r->out->im; /* long enough for the while: as many as the cluster has rows */
-    uint32_t place = UINT32_MAX;
+    uint32_t place = DMB_NONE;
     for (uint32_t k = 0; k < partition.rank; k++) {
         x[k] = 0.0;
         if (partition.row_order[k] == constraint->row - cluster->row) place = k;
     }
-    if (place == UINT32_MAX) return refuse(r, DMB_ERR_VALUE, "other equations hold the joint that the drive moves");
+    if (place == DMB_NONE) return refuse(r, DMB_ERR_VALUE, "other equations hold the joint that the drive moves");
     x[place] = 1.0;
     move_dependent(r, constraint->cluster, x);
     return DMB_OK;
@@ -131,7 +131,7 @@ static int32_t moved_node(const request *r, const dmb_scene_drive *drive)
 {
     const dmb_scene *scene = r->copy->scene;
     r->out->re[drive->row] = 1.0;
-    if (scene->cluster_count == 0 || scene->node_cluster[drive->node] == UINT32_MAX) return DMB_OK;
+    if (scene->cluster_count == 0 || scene->node_cluster[drive->node] == DMB_NONE) return DMB_OK;
     const uint32_t k = scene->node_cluster[drive->node];
     const dmb_cluster *cluster = scene->clusters + k;
     const dmb_partition partition = dmb_cluster_partition(r->copy, k);
@@ -147,7 +147,7 @@ static int32_t moved_node(const request *r, const dmb_scene_drive *drive)
 static int32_t moved(const request *r, const dmb_scene_drive *drive)
 {
     r->out->law = DMB_EXCITE_MOTION;
-    return drive->joint == UINT32_MAX ? moved_node(r, drive) : moved_joint(r, drive);
+    return drive->joint == DMB_NONE ? moved_node(r, drive) : moved_joint(r, drive);
 }
 
 /* A force on a row grows by kp + ki/(i w) for a unit of the target. */
@@ -156,7 +156,7 @@ static int32_t controlled(const request *r, uint32_t i, const dmb_scene_drive *d
     r->out->law = DMB_EXCITE_CONTROL;
     r->out->gain = drive->gain;
     r->out->integral_gain = drive->integral_gain;
-    if (drive->joint != UINT32_MAX) return controlled_joint(r, i, drive);
+    if (drive->joint != DMB_NONE) return controlled_joint(r, i, drive);
     r->out->re[drive->row] = 1.0;
     return DMB_OK;
 }
@@ -168,7 +168,7 @@ static int32_t drive(const request *r)
     const dmb_scene_drive *drive = r->copy->scene->drives + i;
     const double force = r->copy->now.drive_force[i];
     r->out->drive = i;
-    if (drive->joint != UINT32_MAX && r->copy->joint_state[drive->joint] == DMB_JOINT_OPEN)
+    if (drive->joint != DMB_NONE && r->copy->joint_state[drive->joint] == DMB_JOINT_OPEN)
         return refuse(r, DMB_ERR_VALUE, "the joint of the drive is open");
     if (drive->kind == DMB_DRIVE_CONTROL && (force <= drive->limit_low || force >= drive->limit_high))
         return refuse(r, DMB_ERR_VALUE, "the drive is at its limit and answers to nothing");
@@ -310,6 +310,6 @@ int32_t dmb_excitation_of(dmb_sim *copy, const dmb_input *input, uint32_t index,
                           dmb_excitation *out)
 {
     const request r = {copy, input, index, message, out};
-    out->drive = UINT32_MAX;
+    out->drive = DMB_NONE;
     return make(&r);
 }

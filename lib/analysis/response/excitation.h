@@ -16,7 +16,7 @@ enum {
 
 typedef struct dmb_excitation {
     int32_t law;    /* DMB_EXCITE_... */
-    uint32_t drive; /* that is the input; UINT32_MAX: none is */
+    uint32_t drive; /* that is the input; DMB_NONE: none is */
     double gain, integral_gain;
     double *re, *im; /* forces on all rows, those that guides hold included, or displacements, shape (row_count); the
                         caller's memory, zeros to begin with */

@@ -255,7 +255,7 @@ static int32_t nothing_holds(const response_work *w, double frequency, uint32_t 
 
 static int32_t solve_point(response_work *w, dmb_response *response, uint32_t point)
 {
-    const double frequency = response->frequency[point], omega = 2.0 * DMB_PI * frequency;
+    const double frequency = response->frequency[point], omega = DMB_TWO_PI * frequency;
     const int32_t told = dmb_progress_pulse(w->sim);
     if (told < 0) return told;
     const int64_t bad = dmb_dynamic_stiffness_factor(&w->stiffness, omega);
@@ -326,7 +326,7 @@ static void release(response_work *w)
 
 static int32_t check_counts(dmb_sim *sim, uint32_t inputs, uint32_t outputs)
 {
-    dmb_check check = dmb_check_of(&sim->message, "response", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(&sim->message, "response", DMB_NONE);
     dmb_check_count(&check, "input_count", inputs, 1, DMB_RESPONSE_INPUTS_MAX);
     dmb_check_count(&check, "output_count", outputs, 1, DMB_RESPONSE_INPUTS_MAX);
     return check.status;

@@ -60,7 +60,7 @@ static void check_list(dmb_check *check, const dmb_response_options *o)
 
 int32_t dmb_response_options_take(const dmb_response_options *given, dmb_message *message, dmb_response_options *out)
 {
-    dmb_check check = dmb_check_of(message, "response options", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(message, "response options", DMB_NONE);
     *out = dmb_response_options_default();
     if (given != NULL && dmb_response_options_read(out, given) < 0) {
         dmb_message_set(message, "response options: struct_size is not one this library knows");
@@ -83,7 +83,7 @@ int32_t dmb_response_options_take(const dmb_response_options *given, dmb_message
 int32_t dmb_stepped_sine_options_take(const dmb_stepped_sine_options *given, double frequency, dmb_message *message,
                                       dmb_stepped_sine_options *out)
 {
-    dmb_check check = dmb_check_of(message, "sine options", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(message, "sine options", DMB_NONE);
     *out = dmb_stepped_sine_options_default();
     if (given != NULL && dmb_stepped_sine_options_read(out, given) < 0) {
         dmb_message_set(message, "sine options: struct_size is not one this library knows");

@@ -265,8 +265,7 @@ static void law_of_joint(const request *r, uint32_t j)
     dmb_joint_force force;
     coordinate(r, j, c, &position);
     (void)take_joint_nodes(r, j, &r->out->functional);
-    if (joint->law == UINT32_MAX || (joint->law_mask >> c & 1) == 0 || r->copy->joint_state[j] == DMB_JOINT_OPEN)
-        return;
+    if (joint->law == DMB_NONE || (joint->law_mask >> c & 1) == 0 || r->copy->joint_state[j] == DMB_JOINT_OPEN) return;
     (void)dmb_query_joint(r->copy, r->output->place.part, &state);
     dmb_joint_force_at(r->copy->scene->laws + joint->law + c, state.position[c], state.speed[c], &force);
     dmb_functional_add(force.by_position, &position, &r->out->functional);
@@ -313,7 +312,7 @@ static int32_t of_joint(const request *r)
 /* A drive of an open joint. */
 static int without_effect(const request *r, const dmb_scene_drive *drive)
 {
-    return drive->joint != UINT32_MAX && r->copy->joint_state[drive->joint] == DMB_JOINT_OPEN;
+    return drive->joint != DMB_NONE && r->copy->joint_state[drive->joint] == DMB_JOINT_OPEN;
 }
 
 /* kp (v* - v) + ki integral(v* - v), none at its limits. */
@@ -324,7 +323,7 @@ static void control(const request *r, uint32_t i, const dmb_scene_drive *drive)
     memset(&position, 0, sizeof position);
     if (force <= drive->limit_low || force >= drive->limit_high) return;
     if (without_effect(r, drive)) return;
-    if (drive->joint != UINT32_MAX) {
+    if (drive->joint != DMB_NONE) {
         coordinate(r, drive->joint, drive->component, &position);
     } else {
         dmb_functional_take_node(r->copy->scene, drive->node, &position);
@@ -348,7 +347,7 @@ static int32_t of_drive(const request *r)
     r->out->direct = drive->kind == DMB_DRIVE_LOAD && !without_effect(r, drive);
     if (drive->kind == DMB_DRIVE_CONTROL) control(r, i, drive);
     if (drive->kind != DMB_DRIVE_MOTION) return DMB_OK;
-    if (drive->joint != UINT32_MAX) {
+    if (drive->joint != DMB_NONE) {
         take_multiplier(r, drive->constraint, 0, -1.0);
         return DMB_OK;
     }
@@ -401,7 +400,7 @@ int32_t dmb_response_output_of(dmb_linear *linear, const dmb_response_options *o
 {
     const request r = {linear, linear->work, options, output, out, index, message};
     memset(out, 0, sizeof *out);
-    out->cluster = out->drive = UINT32_MAX;
+    out->cluster = out->drive = DMB_NONE;
     return make(&r);
 }
 
@@ -437,7 +436,7 @@ static dmb_complex_number of_held_row(const dmb_dynamic_stiffness *s, const dmb_
     dmb_complex_number sum = dmb_dynamic_row(s, node, c, x);
     sum.re -= f.re[row];
     sum.im -= f.im[row];
-    if (output->cluster == UINT32_MAX) return sum;
+    if (output->cluster == DMB_NONE) return sum;
     const dmb_cluster *cluster = scene->clusters + output->cluster;
     const double *B = s->linear->work->cluster_matrix + cluster->dense + scene->node_place[node] + c;
     for (uint32_t k = 0; k < cluster->rows; k++) {
@@ -451,7 +450,7 @@ dmb_complex_number dmb_response_output_value(const dmb_dynamic_stiffness *s, con
                                              const dmb_excitation *input, dmb_complex_array x, dmb_complex_array f)
 {
     dmb_complex_number value = of_functional(s, output, x);
-    if (output->cluster != UINT32_MAX) dmb_dynamic_multipliers(s, output->cluster, x, f, s->links.multiplier);
+    if (output->cluster != DMB_NONE) dmb_dynamic_multipliers(s, output->cluster, x, f, s->links.multiplier);
     for (uint32_t k = 0; k < output->multiplier_count; k++) {
         value.re += output->multiplier_weight[k] * s->links.multiplier.re[output->multiplier + k];
         value.im += output->multiplier_weight[k] * s->links.multiplier.im[output->multiplier + k];
@@ -461,7 +460,7 @@ dmb_complex_number dmb_response_output_value(const dmb_dynamic_stiffness *s, con
         value.re += output->guide_weight[k] * left.re;
         value.im += output->guide_weight[k] * left.im;
     }
-    if (output->drive == UINT32_MAX || output->drive != input->drive) return value;
+    if (output->drive == DMB_NONE || output->drive != input->drive) return value;
     value.re += output->direct;
     value.im -= output->integral != 0.0 ? output->integral / s->omega : 0.0;
     return value;

@@ -11,14 +11,14 @@ typedef struct dmb_response_output {
     dmb_functional functional;
     int32_t rate;        /* times (i w)^rate */
     int32_t elastic;     /* 1: the part by pose is of the stiffness and has its structural damping */
-    uint32_t cluster;    /* whose forces of constraint count; UINT32_MAX: none do */
+    uint32_t cluster;    /* whose forces of constraint count; DMB_NONE: none do */
     uint32_t multiplier; /* first of them in the rows of the cluster */
     uint32_t multiplier_count;
     uint32_t guide_count; /* rows that are held and whose forces count */
     double multiplier_weight[6];
     uint32_t guide[6]; /* which of held_node, held_component */
     double guide_weight[6];
-    uint32_t drive;          /* that acts by itself where it is the input; UINT32_MAX: none */
+    uint32_t drive;          /* that acts by itself where it is the input; DMB_NONE: none */
     double direct, integral; /* what it adds there: direct + integral/(i w) */
 } dmb_response_output;
 

@@ -80,7 +80,7 @@ static void visit(search *s, double speed, double severity, uint32_t order, uint
     s->open.speed = speed;
     s->open.order = order;
     s->open.output = output;
-    s->open.frequency = s->curves[order].order * speed / (2.0 * DMB_PI);
+    s->open.frequency = s->curves[order].order * speed / DMB_TWO_PI;
 }
 
 /* A band that reaches into the one before goes on in it. */
@@ -182,7 +182,7 @@ typedef struct speeds_run {
 
 static int32_t take_options(dmb_sim *sim, const dmb_speeds_options *given, dmb_speeds_options *out)
 {
-    dmb_check check = dmb_check_of(&sim->message, "speeds options", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(&sim->message, "speeds options", DMB_NONE);
     *out = dmb_speeds_options_default();
     if (given != NULL && dmb_speeds_options_read(out, given) < 0) {
         dmb_message_set(&sim->message, "speeds options: struct_size is not one this library knows");
@@ -220,7 +220,7 @@ static int32_t take_order(const speeds_run *r, uint32_t i, dmb_order *out)
 
 static int32_t check_counts(const speeds_run *r)
 {
-    dmb_check check = dmb_check_of(&r->sim->message, "speeds", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(&r->sim->message, "speeds", DMB_NONE);
     dmb_check_count(&check, "order_count", r->order_count, 1, ORDERS_MAX);
     dmb_check_count(&check, "output_count", r->output_count, 1, DMB_RESPONSE_INPUTS_MAX);
     dmb_check_count(&check, "band_count", r->room, 1, BANDS_MAX);
@@ -256,7 +256,7 @@ static int32_t read_curve(const speeds_run *r, const dmb_response *response, con
     double *values = dmb_allocate(&r->sim->allocator, bytes);
     if (values == NULL) return DMB_ERR_NO_MEMORY;
     (void)dmb_response_frequencies(response, curve->speed);
-    for (uint32_t i = 0; i < curve->count; i++) curve->speed[i] *= 2.0 * DMB_PI / order->order;
+    for (uint32_t i = 0; i < curve->count; i++) curve->speed[i] *= DMB_TWO_PI / order->order;
     for (uint32_t k = 0; k < r->output_count; k++) {
         (void)dmb_response_transfer(response, DMB_COMBINED, k, values);
         for (uint32_t i = 0; i < curve->count; i++) {
@@ -274,8 +274,8 @@ static dmb_response_options response_options(const speeds_run *r, double order)
 {
     dmb_response_options options = dmb_response_options_default();
     options.points = r->options.points;
-    options.frequency_low = order * r->options.speed_low / (2.0 * DMB_PI);
-    options.frequency_high = order * r->options.speed_high / (2.0 * DMB_PI);
+    options.frequency_low = order * r->options.speed_low / DMB_TWO_PI;
+    options.frequency_high = order * r->options.speed_high / DMB_TWO_PI;
     options.refinement = r->options.refinement;
     options.structural_damping = r->options.structural_damping;
     options.equilibrium_tolerance = r->options.equilibrium_tolerance;

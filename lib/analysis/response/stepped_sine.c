@@ -273,12 +273,12 @@ static int32_t analyse(dmb_sim *sim, double frequency, const dmb_stepped_sine_op
     if (report != NULL && dmb_stepped_sine_report_read(&r.report, report) < 0) return DMB_ERR_STRUCT_SIZE;
     r.report = dmb_stepped_sine_report_default();
     int32_t status = dmb_stepped_sine_options_take(options, frequency, &sim->message, &r.options);
-    dmb_check check = dmb_check_of(&sim->message, "sine", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(&sim->message, "sine", DMB_NONE);
     if (status >= 0) dmb_check_count(&check, "output_count", output_count, 1, DMB_RESPONSE_INPUTS_MAX);
     if (status < 0 || check.status < 0) return status < 0 ? status : check.status;
     r.outputs = output_count;
     r.width = 2 * (1 + r.options.harmonics);
-    r.omega = 2.0 * DMB_PI * frequency;
+    r.omega = DMB_TWO_PI * frequency;
     r.step = 1.0 / (frequency * r.options.steps_per_period);
     status = run(&r, outputs);
     if (status >= 0) {

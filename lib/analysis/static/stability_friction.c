@@ -35,7 +35,7 @@ static void add_ring(const dmb_evaluation *evaluation, uint32_t s, friction_fiel
 static void fill_chain(const dmb_chain *chain, friction_field *field)
 {
     const uint32_t end = chain->first + chain->count;
-    uint32_t before = UINT32_MAX;
+    uint32_t before = DMB_NONE;
     for (uint32_t i = chain->first; i < end; i++) {
         if (field->rings[i] == 0) continue;
         const double *here = field->E + ENTRIES * (size_t)i,

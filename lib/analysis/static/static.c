@@ -22,7 +22,7 @@ DMB_DECLARE_STRUCT(dmb_static_options)
 
 int32_t dmb_static_options_take(dmb_sim *sim, const dmb_static_options *given, dmb_static_options *out)
 {
-    dmb_check check = dmb_check_of(&sim->message, "static options", DMB_NO_INDEX);
+    dmb_check check = dmb_check_of(&sim->message, "static options", DMB_NONE);
     (void)dmb_static_options_init(out, (uint32_t)sizeof *out);
     if (given != NULL) {
         const int32_t status = dmb_static_options_read(out, given);
@@ -84,7 +84,7 @@ int32_t dmb_static_begin(dmb_static_search *search)
     int32_t status = dmb_system_prescribe(&search->evaluation);
     if (status >= 0 && search->options->lay_on_wall) dmb_static_lay_on_wall(sim);
     if (status < 0 || sim->scene->cluster_count == 0) return status;
-    sim->reduced_mode->row = UINT32_MAX;
+    sim->reduced_mode->row = DMB_NONE;
     return dmb_static_settle(search);
 }
 
@@ -206,7 +206,7 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         const uint32_t row = scene->drives[i].row;
         if (scene->drives[i].kind == DMB_DRIVE_MOTION)
-            sim->now.drive_force[i] = row != UINT32_MAX ? sim->correction[row] : sim->trial.drive_force[i];
+            sim->now.drive_force[i] = row != DMB_NONE ? sim->correction[row] : sim->trial.drive_force[i];
     }
     return DMB_OK;
 }
@@ -356,7 +356,7 @@ static void explain(dmb_static_search *search, int32_t status)
     dmb_sim *sim = search->sim;
     dmb_owner owner;
     dmb_message text;
-    if (sim->scene->cluster_count && sim->reduced_mode->row != UINT32_MAX) {
+    if (sim->scene->cluster_count && sim->reduced_mode->row != DMB_NONE) {
         dmb_clusters_explain(sim, "its equations cannot be satisfied");
     } else if (status == DMB_ERR_SINGULAR) {
         owner = dmb_owner_of_node(sim->scene, search->block);

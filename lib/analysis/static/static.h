@@ -26,9 +26,6 @@ typedef struct dmb_static_search {
     double caution;      /* [-] the relaxation's corrections are this much shorter */
 } dmb_static_search;
 
-/* A pivot this small against its block is rounding: 100 m of unsupported pipe still leave 1e-9. */
-#define DMB_LOOSE_PIVOT 1e-15
-
 /* At the sim's present time, without friction; options may be NULL where nothing iterates. */
 void dmb_static_set_up(dmb_static_search *search, dmb_sim *sim, const dmb_static_options *options);
 /* Friction acts as at these speeds, both 0: not at all. */

@@ -26,7 +26,7 @@ int32_t dmb_static_settle(dmb_static_search *search)
         if (status >= 0) status = dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
     }
     if (status < 0) return status;
-    search->sim->reduced_mode->row = UINT32_MAX;
+    search->sim->reduced_mode->row = DMB_NONE;
     dmb_joints_follow(&search->evaluation);
     return dmb_clusters_refresh(&search->evaluation);
 }

@@ -12,7 +12,7 @@ static int is_free_along(const dmb_scene *scene, uint32_t node)
 static void take(const dmb_scene *scene, uint32_t string, uint32_t node, double tension, dmb_static_pull *most)
 {
     const uint32_t e = dmb_element_between(scene, node, 1);
-    if (!(tension > most->tension) || e == UINT32_MAX) return;
+    if (!(tension > most->tension) || e == DMB_NONE) return;
     const dmb_element_type *type = &scene->types[scene->element_type[e]];
     most->tension = tension;
     most->string = string;
@@ -45,7 +45,7 @@ int32_t dmb_static_find_pull(dmb_static_search *search, dmb_static_pull *most)
 {
     dmb_sim *sim = search->sim;
     const dmb_scene *scene = sim->scene;
-    *most = (dmb_static_pull){0.0, 0.0, 0.0, UINT32_MAX};
+    *most = (dmb_static_pull){0.0, 0.0, 0.0, DMB_NONE};
     if (scene->site_count == 0 || scene->cluster_count > 0 || dmb_hole_is_straight(&scene->hole)) return 0;
     dmb_state_restore(sim);
     search->evaluation.load_factor = 1.0;
@@ -54,5 +54,5 @@ int32_t dmb_static_find_pull(dmb_static_search *search, dmb_static_pull *most)
     if (dmb_static_begin(search) < 0 || dmb_static_evaluate(search) < 0) return 0;
     for (uint32_t s = 0; s < scene->string_count; s++)
         if (scene->layout.size[scene->strings[s].first_node] == DMB_NODE_FULL) look_along(sim, s, most);
-    return most->string != UINT32_MAX;
+    return most->string != DMB_NONE;
 }

@@ -69,7 +69,7 @@ static void slide_strings(dmb_steady *steady, dmb_sim *sim)
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint32_t s = steady->string[i], row = scene->layout.row[i];
-        if (s == UINT32_MAX) continue;
+        if (s == DMB_NONE) continue;
         const double v = steady->speed[2 * s], spin = steady->speed[2 * s + 1];
         if (scene->layout.size[i] == DMB_NODE_FULL) {
             slide_node(steady, sim, i, v, spin);
@@ -85,7 +85,7 @@ static void slide_strings(dmb_steady *steady, dmb_sim *sim)
     }
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         const dmb_scene_drive *drive = scene->drives + i;
-        if (drive->kind != DMB_DRIVE_MOTION || drive->row == UINT32_MAX) continue;
+        if (drive->kind != DMB_DRIVE_MOTION || drive->row == DMB_NONE) continue;
         sim->trial.velocity[drive->row] = sim->trial.drive_target[i];
         if (drive->component == 0) steady->frame_velocity[drive->row] = sim->trial.drive_target[i];
     }
@@ -99,7 +99,7 @@ static double change_of(const dmb_steady *steady, const dmb_sim *sim, const doub
     for (uint32_t i = 0; i < scene->node_count; i++)
         for (uint32_t r = scene->layout.row[i]; r < scene->layout.row[i] + scene->layout.size[i]; r++) {
             most = fmax(most, fabs(before[r]));
-            if (all || steady->string[i] != UINT32_MAX) change = fmax(change, fabs(sim->trial.velocity[r] - before[r]));
+            if (all || steady->string[i] != DMB_NONE) change = fmax(change, fabs(sim->trial.velocity[r] - before[r]));
         }
     return most > 0.0 ? change / most : 0.0;
 }
@@ -149,7 +149,7 @@ static void rest_bodies(const dmb_steady *steady, dmb_sim *sim)
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->node_count; i++)
         for (uint32_t r = scene->layout.row[i]; r < scene->layout.row[i] + scene->layout.size[i]; r++)
-            if (steady->string[i] == UINT32_MAX) sim->trial.velocity[r] = sim->trial.acceleration[r] = 0.0;
+            if (steady->string[i] == DMB_NONE) sim->trial.velocity[r] = sim->trial.acceleration[r] = 0.0;
 }
 
 int32_t dmb_steady_check_joints(dmb_steady *steady, dmb_evaluation *evaluation)
@@ -158,7 +158,7 @@ int32_t dmb_steady_check_joints(dmb_steady *steady, dmb_evaluation *evaluation)
     if (sim->scene->cluster_count == 0) return DMB_OK;
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
     memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
-    sim->reduced_mode->row = UINT32_MAX;
+    sim->reduced_mode->row = DMB_NONE;
     int32_t status = dmb_system_prescribe(evaluation);
     rest_bodies(steady, sim);
     if (status >= 0) status = dmb_steady_move(steady, evaluation, 1.0);
@@ -187,7 +187,7 @@ int32_t dmb_steady_check_springs(const dmb_evaluation *evaluation)
         const dmb_scene_joint *joint = scene->joints + j;
         dmb_relative relative;
         dmb_joint_coordinates c;
-        if (joint->law == UINT32_MAX || sim->joint_state[j] == DMB_JOINT_OPEN) continue;
+        if (joint->law == DMB_NONE || sim->joint_state[j] == DMB_JOINT_OPEN) continue;
         dmb_joint_motion_of(scene, &sim->trial, j, &relative, NULL);
         dmb_joint_coordinates_in(evaluation, j, &relative, &c);
         for (int i = 0; i < 6; i++) {

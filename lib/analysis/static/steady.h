@@ -29,7 +29,7 @@ typedef struct dmb_steady {
     int32_t reserved;
     double twist[6];           /* [m/s, rad/s] RIGID: X; world axes, velocity of the world's origin */
     double *speed;             /* [m/s, rad/s] SLIDING: v and Omega of each string, shape (string_count, 2) */
-    uint32_t *string;          /* of each node; UINT32_MAX: of a body, shape (node_count) */
+    uint32_t *string;          /* of each node; DMB_NONE: of a body, shape (node_count) */
     double *frame_velocity;    /* g, shape (rows) */
     double *before;            /* velocities before joints, shape (rows) */
     double violation;          /* [-] what joints change of the given speeds, over the largest */

@@ -58,10 +58,10 @@ static int32_t add_twist(dmb_sim *sim, uint32_t i, double twist[6])
 {
     const dmb_scene_drive *drive = sim->scene->drives + i;
     double part[6];
-    if (drive->joint == UINT32_MAX) {
+    if (drive->joint == DMB_NONE) {
         twist_of_part(sim, drive, dmb_steady_target(sim, i), part);
     } else {
-        if (sim->scene->joints[drive->joint].a.node != UINT32_MAX)
+        if (sim->scene->joints[drive->joint].a.node != DMB_NONE)
             return REFUSE(sim,
                           "%s: it moves two parts against each other, so that the whole does not turn as one body; "
                           "take DMB_STEADY_AT_REST",
@@ -74,7 +74,7 @@ static int32_t add_twist(dmb_sim *sim, uint32_t i, double twist[6])
 
 static uint64_t group_of(const dmb_scene_drive *drive)
 {
-    return drive->joint == UINT32_MAX ? drive->node : (uint64_t)1 << 32 | drive->joint;
+    return drive->joint == DMB_NONE ? drive->node : (uint64_t)1 << 32 | drive->joint;
 }
 
 /* [m/s] of a twist where the scene is, turning at the arm of the scene. */
@@ -87,7 +87,7 @@ static double size_of(const dmb_scene *scene, const double twist[6])
 static int32_t take_twist(dmb_sim *sim, dmb_steady *steady)
 {
     const dmb_scene *scene = sim->scene;
-    uint32_t first = UINT32_MAX;
+    uint32_t first = DMB_NONE;
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         double twist[6] = {0.0}, off[6];
         int32_t status = DMB_OK;
@@ -96,7 +96,7 @@ static int32_t take_twist(dmb_sim *sim, dmb_steady *steady)
             if (moves(sim, k) && group_of(scene->drives + k) == group_of(scene->drives + i))
                 status = add_twist(sim, k, twist);
         if (status < 0) return status;
-        if (first == UINT32_MAX) {
+        if (first == DMB_NONE) {
             first = i;
             dmb_vec6_copy(twist, steady->twist);
         }
@@ -171,7 +171,7 @@ static int32_t check_ground(dmb_sim *sim, const dmb_steady *steady)
     const dmb_scene *scene = sim->scene;
     for (uint32_t j = 0; j < scene->joint_count; j++) {
         const dmb_scene_joint *joint = scene->joints + j;
-        if (joint->a.node != UINT32_MAX || joint->law == UINT32_MAX || sim->joint_state[j] == DMB_JOINT_OPEN) continue;
+        if (joint->a.node != DMB_NONE || joint->law == DMB_NONE || sim->joint_state[j] == DMB_JOINT_OPEN) continue;
         if (size_of(scene, steady->twist) == 0.0) continue;
         for (int i = 0; i < 6; i++) {
             if ((joint->law_mask >> i & 1) == 0) continue;
@@ -222,7 +222,7 @@ static int32_t choose_rigid(dmb_sim *sim, dmb_steady *steady)
 
 static void find_strings(const dmb_scene *scene, uint32_t *string)
 {
-    for (uint32_t i = 0; i < scene->node_count; i++) string[i] = UINT32_MAX;
+    for (uint32_t i = 0; i < scene->node_count; i++) string[i] = DMB_NONE;
     for (uint32_t s = 0; s < scene->string_count; s++)
         for (uint32_t i = 0; i < scene->strings[s].node_count; i++) string[scene->strings[s].first_node + i] = s;
 }

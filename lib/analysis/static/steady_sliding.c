@@ -14,7 +14,7 @@ static int32_t check_round(dmb_sim *sim, const dmb_steady *steady)
         const dmb_rigid_mass *rigid_mass = scene->rigid_masses + i;
         const uint32_t s = steady->string[rigid_mass->node];
         double g[6];
-        if (s == UINT32_MAX || steady->speed[2 * s + 1] == 0.0 || scene->layout.size[rigid_mass->node] != DMB_NODE_FULL)
+        if (s == DMB_NONE || steady->speed[2 * s + 1] == 0.0 || scene->layout.size[rigid_mass->node] != DMB_NODE_FULL)
             continue;
         dmb_unbalance_of(scene, i, g);
         const int round =
@@ -30,7 +30,7 @@ static int32_t check_round(dmb_sim *sim, const dmb_steady *steady)
     for (uint32_t e = 0; e < scene->element_count; e++) {
         const uint32_t s = steady->string[scene->element_node[e]];
         const double *rest = scene->types[scene->element_type[e]].rest;
-        if (s == UINT32_MAX || steady->speed[2 * s + 1] == 0.0 || (rest[4] == 0.0 && rest[5] == 0.0)) continue;
+        if (s == DMB_NONE || steady->speed[2 * s + 1] == 0.0 || (rest[4] == 0.0 && rest[5] == 0.0)) continue;
         const dmb_owner owner = dmb_owner_of_element(scene, e);
         return REFUSE(sim,
                       "%s: it is bent when unloaded, so that turning about an axis at rest is not steady; "
@@ -52,7 +52,7 @@ static int32_t check_turning_loads(dmb_sim *sim, const dmb_steady *steady)
     for (uint32_t i = 0; i < scene->load_count; i++) {
         const dmb_scene_load *load = scene->loads + i;
         const uint32_t s = steady->string[load->node];
-        if (s == UINT32_MAX || steady->speed[2 * s + 1] == 0.0 || load->frame != DMB_FRAME_BODY) continue;
+        if (s == DMB_NONE || steady->speed[2 * s + 1] == 0.0 || load->frame != DMB_FRAME_BODY) continue;
         if (across(load->force) || across(load->moment))
             return REFUSE(sim,
                           "%s: it turns with its string, across the axis; take DMB_STEADY_AT_REST, or another "
@@ -61,30 +61,30 @@ static int32_t check_turning_loads(dmb_sim *sim, const dmb_steady *steady)
     }
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         const dmb_scene_drive *drive = scene->drives + i;
-        if (drive->kind == DMB_DRIVE_MOTION || drive->node == UINT32_MAX || drive->component % 3 == 0) continue;
+        if (drive->kind == DMB_DRIVE_MOTION || drive->node == DMB_NONE || drive->component % 3 == 0) continue;
         const uint32_t s = steady->string[drive->node];
-        if (s != UINT32_MAX && steady->speed[2 * s + 1] != 0.0)
+        if (s != DMB_NONE && steady->speed[2 * s + 1] != 0.0)
             return REFUSE(sim, "%s: its force turns with its string, across the axis; take DMB_STEADY_AT_REST",
                           dmb_drive_text(sim->scene, i, &(dmb_message){""}));
     }
     return DMB_OK;
 }
 
-/* Speeds of the strings; `taken`: drive that gave each, UINT32_MAX none yet. */
+/* Speeds of the strings; `taken`: drive that gave each, DMB_NONE none yet. */
 static int32_t take_speed(dmb_sim *sim, dmb_steady *steady, uint32_t i, uint32_t *taken)
 {
     const dmb_scene_drive *drive = sim->scene->drives + i;
     if (drive->kind != DMB_DRIVE_MOTION) return DMB_OK;
-    const uint32_t s = drive->node == UINT32_MAX ? UINT32_MAX : steady->string[drive->node];
+    const uint32_t s = drive->node == DMB_NONE ? DMB_NONE : steady->string[drive->node];
     const double speed = dmb_steady_target(sim, i);
-    if (s == UINT32_MAX || drive->component % 3 != 0)
+    if (s == DMB_NONE || drive->component % 3 != 0)
         return speed == 0.0 ? DMB_OK
                             : REFUSE(sim,
                                      "%s: it does not move a string along or about its axis, so that strings do "
                                      "not slide at rest; take DMB_STEADY_RIGID or _AT_REST",
                                      dmb_drive_text(sim->scene, i, &(dmb_message){""}));
     const uint32_t k = 2 * s + (uint32_t)drive->component / 3;
-    if (taken[k] != UINT32_MAX && fabs(steady->speed[k] - speed) > DMB_STEADY_SAME * fabs(speed))
+    if (taken[k] != DMB_NONE && fabs(steady->speed[k] - speed) > DMB_STEADY_SAME * fabs(speed))
         return REFUSE(
             sim,
             "drives %u and %u: they move string %u at %g and at %g, which is not steady; give them one speed, "
@@ -109,7 +109,7 @@ static int32_t check_ends(dmb_sim *sim, const dmb_steady *steady)
     for (uint32_t i = 0; i < scene->held_count; i++) {
         const uint32_t node = scene->held_node[i], s = steady->string[node], c = scene->held_component[i];
         const uint32_t half = scene->layout.size[node] / 2;
-        if (s == UINT32_MAX || c % half != 0 || is_driven(scene, scene->layout.row[node] + c)) continue;
+        if (s == DMB_NONE || c % half != 0 || is_driven(scene, scene->layout.row[node] + c)) continue;
         const double speed = steady->speed[2 * s + c / half];
         if (speed == 0.0) continue;
         return REFUSE(
@@ -129,7 +129,7 @@ int32_t dmb_steady_choose_sliding(dmb_sim *sim, dmb_steady *steady)
     if (taken == NULL) return DMB_ERR_NO_MEMORY;
     steady->kind = DMB_STEADY_SLIDING;
     memset(steady->speed, 0, 2 * (size_t)scene->string_count * sizeof(double));
-    for (uint32_t i = 0; i < 2 * scene->string_count; i++) taken[i] = UINT32_MAX;
+    for (uint32_t i = 0; i < 2 * scene->string_count; i++) taken[i] = DMB_NONE;
     for (uint32_t i = 0; i < scene->drive_count && status >= 0; i++) status = take_speed(sim, steady, i, taken);
     dmb_release(&sim->allocator, taken, 2 * (size_t)scene->string_count * sizeof *taken);
     if (status >= 0) status = check_ends(sim, steady);

@@ -70,7 +70,7 @@ dmb_bit_history dmb_bit_history_of(const dmb_sim *sim, uint32_t k)
     h.head = sim->history_head[k].head;
     h.count = sim->history_head[k].count;
     h.offset = sim->history_head[k].offset;
-    h.spacing = 2.0 * DMB_PI / bit->law.blades;
+    h.spacing = DMB_TWO_PI / bit->law.blades;
     h.angle_step = h.capacity > 8 ? h.spacing / (h.capacity - 8) : h.spacing;
     return h;
 }
@@ -101,7 +101,7 @@ int dmb_bit_on_bottom(const dmb_sim *sim, uint32_t k)
 /* [m] a blade cuts at a steady speed and spin; 0: none does. */
 static double steady_cut(const dmb_scene_bit *bit, double speed, double spin)
 {
-    return speed > 0.0 && spin > 0.0 ? 2.0 * DMB_PI * speed / (spin * bit->law.blades) : 0.0;
+    return speed > 0.0 && spin > 0.0 ? DMB_TWO_PI * speed / (spin * bit->law.blades) : 0.0;
 }
 
 /* Steady drilling depends on speeds alone: the rock lies a steady cut ahead wherever the bit is. */
@@ -110,7 +110,7 @@ static void rock_in_steady_drilling(const dmb_sim *sim, uint32_t k, const bit_mo
     const dmb_scene_bit *bit = sim->scene->bits + k;
     memset(out, 0, sizeof *out);
     if (bit->law.kind == DMB_ROCK_NONE) return;
-    const double cut = steady_cut(bit, m->speed, m->spin), spacing = 2.0 * DMB_PI / bit->law.blades;
+    const double cut = steady_cut(bit, m->speed, m->spin), spacing = DMB_TWO_PI / bit->law.blades;
     double angle[2] = {m->angle - 2.0 * spacing, m->angle - 0.5 * spacing};
     double surface[2] = {m->advance - 2.0 * cut, m->advance - 0.5 * cut};
     dmb_bit_history h;

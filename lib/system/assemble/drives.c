@@ -12,7 +12,7 @@ static int32_t target_of(const dmb_sim *sim, uint32_t i, double time, double *va
     *value = sim->drive_input[i];
     if (!isnan(*value)) return DMB_OK;
     int32_t status = dmb_programme_value(scene->programmes + drive->programme, time, value, rate);
-    if (status >= 0 && drive->excitation != UINT32_MAX)
+    if (status >= 0 && drive->excitation != DMB_NONE)
         status = dmb_programme_value(scene->programmes + drive->excitation, time, &extra, &extra_rate);
     *value += extra;
     *rate += extra_rate;
@@ -23,7 +23,7 @@ static int32_t travel_of(const dmb_sim *sim, const dmb_scene_drive *drive, doubl
 {
     double extra = 0.0;
     int32_t status = dmb_programme_integral(sim->scene->programmes + drive->programme, t0, t1, travel);
-    if (status >= 0 && drive->excitation != UINT32_MAX)
+    if (status >= 0 && drive->excitation != DMB_NONE)
         status = dmb_programme_integral(sim->scene->programmes + drive->excitation, t0, t1, &extra);
     *travel += extra;
     return status;
@@ -36,7 +36,7 @@ static int32_t rate_before(const dmb_sim *sim, uint32_t i, double time, double *
     const dmb_scene_drive *drive = sim->scene->drives + i;
     double extra = 0.0;
     int32_t status = dmb_programme_rate_before(sim->scene->programmes + drive->programme, time, rate);
-    if (status >= 0 && drive->excitation != UINT32_MAX)
+    if (status >= 0 && drive->excitation != DMB_NONE)
         status = dmb_programme_rate_before(sim->scene->programmes + drive->excitation, time, &extra);
     *rate += extra;
     return status;
@@ -62,7 +62,7 @@ static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
         status = rate_before(sim, i, fmin(evaluation->time, evaluation->corner), &rate);
     if (status >= 0) status = travel_of(sim, drive, sim->clock->time, evaluation->time, &travel);
     if (status < 0) return status;
-    if (drive->joint != UINT32_MAX) { /* its constraint moves the coordinate */
+    if (drive->joint != DMB_NONE) { /* its constraint moves the coordinate */
         sim->trial.drive_position[i] = sim->now.drive_position[i] + travel;
         sim->trial.drive_rate[i] = rate;
         return DMB_OK;
@@ -81,7 +81,7 @@ int32_t dmb_system_rate_jumps(const dmb_sim *sim)
         double value, rate;
         if (scene->drives[i].kind != DMB_DRIVE_MOTION) continue;
         if (target_of(sim, i, fmax(sim->clock->time, sim->clock->corner), &value, &rate) < 0) continue;
-        const int on_joint = scene->drives[i].joint != UINT32_MAX;
+        const int on_joint = scene->drives[i].joint != DMB_NONE;
         const double last = on_joint ? sim->now.drive_rate[i] : sim->now.acceleration[scene->drives[i].row];
         if (fabs(rate - last) > 1e-6 * (fabs(rate) + fabs(last) + fabs(value)))
             return 1; /* more than differencing noise */
@@ -92,7 +92,7 @@ int32_t dmb_system_rate_jumps(const dmb_sim *sim)
 static int32_t factor_of(const dmb_scene *scene, uint32_t programme, double time, double *factor)
 {
     *factor = 1.0;
-    if (programme == UINT32_MAX) return DMB_OK;
+    if (programme == DMB_NONE) return DMB_OK;
     return dmb_programme_value(scene->programmes + programme, time, factor, NULL);
 }
 
@@ -106,7 +106,7 @@ int32_t dmb_system_prescribe(dmb_evaluation *evaluation)
         status = factor_of(scene, scene->loads[i].programme, evaluation->time, &sim->trial.load_factor[i]);
     for (uint32_t i = 0; i < scene->bit_count && status >= 0; i++) {
         sim->trial.bit_load[i] = 0.0;
-        if (scene->bits[i].load != UINT32_MAX)
+        if (scene->bits[i].load != DMB_NONE)
             status = factor_of(scene, scene->bits[i].load, evaluation->time, &sim->trial.bit_load[i]);
     }
     return status;
@@ -115,7 +115,7 @@ int32_t dmb_system_prescribe(dmb_evaluation *evaluation)
 double dmb_drive_speed(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t drive)
 {
     const uint32_t row = scene->drives[drive].row;
-    return row == UINT32_MAX ? configuration->drive_speed[drive] : configuration->velocity[row];
+    return row == DMB_NONE ? configuration->drive_speed[drive] : configuration->velocity[row];
 }
 
 /* Force of a controlled drive and its slope by the speed; the integral of the error goes into the trial. */
@@ -167,6 +167,6 @@ void dmb_gather_drives(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     for (uint32_t i = 0; i < scene->drive_count; i++)
-        if (scene->drives[i].kind != DMB_DRIVE_MOTION && scene->drives[i].joint == UINT32_MAX)
+        if (scene->drives[i].kind != DMB_DRIVE_MOTION && scene->drives[i].joint == DMB_NONE)
             gather_drive(evaluation, i);
 }

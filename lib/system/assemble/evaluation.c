@@ -135,14 +135,14 @@ static void hold_row(dmb_sim *sim, uint32_t node, uint32_t c)
     double *D = dmb_stiffness_of(sim, node);
     for (uint32_t i = 0; i < size; i++) D[size * c + i] = D[size * i + c] = 0.0;
     D[(size + 1) * c] = 1.0;
-    if (node > 0 && scene->node_element[node - 1] != UINT32_MAX) {
+    if (node > 0 && scene->node_element[node - 1] != DMB_NONE) {
         const uint32_t before = layout->size[node - 1];
         for (uint32_t i = 0; i < before; i++) {
             sim->stiffness_lower[layout->link[node - 1] + before * c + i] = 0.0;
             sim->stiffness_upper[layout->link[node - 1] + size * i + c] = 0.0;
         }
     }
-    if (scene->node_element[node] != UINT32_MAX) {
+    if (scene->node_element[node] != DMB_NONE) {
         const uint32_t after = layout->size[node + 1];
         for (uint32_t i = 0; i < after; i++) {
             sim->stiffness_upper[layout->link[node] + after * c + i] = 0.0;
@@ -195,7 +195,7 @@ void dmb_system_accept(dmb_evaluation *evaluation)
     memcpy(sim->residual_row, sim->correction, scene->row_count * sizeof(double));
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         const dmb_scene_drive *drive = scene->drives + i;
-        if (drive->joint != UINT32_MAX) continue; /* done with the joint */
+        if (drive->joint != DMB_NONE) continue; /* done with the joint */
         sim->trial.drive_position[i] = sim->now.drive_position[i] + sim->increment[drive->row];
         if (drive->kind == DMB_DRIVE_MOTION) sim->trial.drive_force[i] = sim->correction[drive->row];
     }

@@ -18,7 +18,7 @@ typedef struct coordinate_forces {
 
 static int has_forces(const dmb_sim *sim, const dmb_scene_joint *joint, uint32_t j)
 {
-    return (joint->law != UINT32_MAX || joint->drive_count > 0) && sim->joint_state[j] != DMB_JOINT_OPEN;
+    return (joint->law != DMB_NONE || joint->drive_count > 0) && sim->joint_state[j] != DMB_JOINT_OPEN;
 }
 
 static void begin(const dmb_evaluation *evaluation, uint32_t j, coordinate_forces *f)
@@ -32,8 +32,8 @@ static void begin(const dmb_evaluation *evaluation, uint32_t j, coordinate_force
 static double largest_place(const dmb_sim *sim, const dmb_scene_frame *frame)
 {
     const double *u = sim->trial.displacement;
-    return frame->node == UINT32_MAX ? dmb_vec3_norm(frame->x)
-                                     : dmb_vec3_norm(frame->x) + dmb_vec3_norm(u + 3 * (size_t)frame->node);
+    return frame->node == DMB_NONE ? dmb_vec3_norm(frame->x)
+                                   : dmb_vec3_norm(frame->x) + dmb_vec3_norm(u + 3 * (size_t)frame->node);
 }
 
 /* [N] what the force on coordinate i changes by where the numbers that the coordinate is the difference of do so by
@@ -56,7 +56,7 @@ static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, c
 {
     for (int i = 0; i < 6; i++) {
         dmb_joint_force law;
-        if (joint->law == UINT32_MAX || (joint->law_mask >> i & 1) == 0) continue;
+        if (joint->law == DMB_NONE || (joint->law_mask >> i & 1) == 0) continue;
         dmb_joint_force_at(evaluation->sim->scene->laws + joint->law + i, f->c.value[i], f->speed[i], &law);
         f->force[i] += law.force;
         f->by_position[i] += law.by_position;
@@ -113,7 +113,7 @@ static void apply(dmb_evaluation *evaluation, const dmb_scene_joint *joint, cons
         for (int k = 0; k < 6; k++) w[k] += f->force[i] * f->c.J[i][k];
     dmb_relative_pull_back(&f->relative, w, wa, wb);
     dmb_apply_wrench(evaluation->sim, joint->b.node, wb);
-    if (joint->a.node != UINT32_MAX) dmb_apply_wrench(evaluation->sim, joint->a.node, wa);
+    if (joint->a.node != DMB_NONE) dmb_apply_wrench(evaluation->sim, joint->a.node, wa);
 }
 
 /* -d(J^T f)/dq: W of the gradients and J^T f' J. */

@@ -264,7 +264,7 @@ static double tension_at(const dmb_sim *sim, uint32_t node)
     uint32_t count = 0;
     for (uint32_t e = 0; e < 2; e++) {
         const uint32_t element = dmb_element_between(scene, node, e);
-        if (element == UINT32_MAX) continue;
+        if (element == DMB_NONE) continue;
         sum += scene->types[scene->element_type[element]].stiffness[0] * stretch_of(sim, element);
         count++;
     }
@@ -291,16 +291,16 @@ static void add_tension_tangent(dmb_sim *sim, uint32_t node, const double dF_dT[
 {
     const dmb_scene *scene = sim->scene;
     const uint32_t before = dmb_element_between(scene, node, 0), after = dmb_element_between(scene, node, 1);
-    const double share = before != UINT32_MAX && after != UINT32_MAX ? 0.5 : 1.0;
+    const double share = before != DMB_NONE && after != DMB_NONE ? 0.5 : 1.0;
     const dmb_block_layout *layout = &scene->layout;
     for (uint32_t k = 0; k < 2; k++) {
         const double d = -share * dF_dT[k]; /* of the residual */
-        if (before != UINT32_MAX && layout->size[node - 1] == DMB_NODE_PATH) {
+        if (before != DMB_NONE && layout->size[node - 1] == DMB_NODE_PATH) {
             const double stiffness = scene->types[scene->element_type[before]].stiffness[0];
             dmb_stiffness_of(sim, node)[2 * k] += d * stiffness;
             sim->stiffness_lower[layout->link[node - 1] + 2 * k] -= d * stiffness;
         }
-        if (after != UINT32_MAX && layout->size[node + 1] == DMB_NODE_PATH) {
+        if (after != DMB_NONE && layout->size[node + 1] == DMB_NODE_PATH) {
             const double stiffness = scene->types[scene->element_type[after]].stiffness[0];
             dmb_stiffness_of(sim, node)[2 * k] -= d * stiffness;
             sim->stiffness_upper[layout->link[node] + 2 * k] += d * stiffness;
@@ -371,7 +371,7 @@ void dmb_path_site_force_of(const dmb_scene *scene, const dmb_configuration *con
     for (uint32_t e = 0; e < 2; e++) {
         double force[12];
         const uint32_t element = dmb_element_between(scene, site->node, e);
-        if (element == UINT32_MAX) continue;
+        if (element == DMB_NONE) continue;
         dmb_element_section_force(scene, configuration, element, force);
         tension += force[0];
         count++;

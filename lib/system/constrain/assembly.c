@@ -50,7 +50,7 @@ static int32_t refuse(dmb_sim *sim, uint32_t row, double violation, const char *
 static int32_t close_positions(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
-    uint32_t row = UINT32_MAX;
+    uint32_t row = DMB_NONE;
     double violation = 0.0;
     int32_t status = DMB_OK;
     for (uint32_t k = 0; k < DMB_ASSEMBLY_MAX && status >= 0; k++) {
@@ -66,7 +66,7 @@ static int32_t close_positions(dmb_evaluation *evaluation)
         return status;
     }
     if (violation <= DMB_ASSEMBLY_VIOLATION * sim->reduced_mode->length && status >= 0) return DMB_OK;
-    if (row == UINT32_MAX) row = 0;
+    if (row == DMB_NONE) row = 0;
     return refuse(sim, row, fabs(sim->constraint_value[row]), "its parts cannot be brought together");
 }
 

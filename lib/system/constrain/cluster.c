@@ -103,7 +103,7 @@ static void set_weights(dmb_sim *sim)
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint32_t k = scene->node_cluster[i], size = scene->layout.size[i];
-        if (k == UINT32_MAX) continue;
+        if (k == DMB_NONE) continue;
         double *weight = sim->cluster_weight + scene->clusters[k].column + scene->node_place[i];
         double *metric = sim->cluster_metric + scene->clusters[k].column + scene->node_place[i];
         const dmb_chain *chain = scene->chains + scene->node_chain[i];
@@ -216,7 +216,7 @@ void dmb_clusters_prepare(dmb_sim *sim)
     if (sim->scene->cluster_count == 0) return;
     set_weights(sim);
     set_lengths(sim);
-    sim->reduced_mode->row = UINT32_MAX;
+    sim->reduced_mode->row = DMB_NONE;
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) { /* no dependent column until one is chosen */
         const dmb_cluster *cluster = sim->scene->clusters + k;
         for (uint32_t i = 0; i < cluster->rows; i++) sim->partition_row[cluster->row + i] = i;
@@ -342,10 +342,10 @@ double dmb_clusters_pivot_violation(const dmb_sim *sim, uint32_t *row)
 double dmb_clusters_violation(const dmb_sim *sim, int32_t dropped, uint32_t *row)
 {
     double most = 0.0;
-    *row = UINT32_MAX;
+    *row = DMB_NONE;
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++)
         for (int32_t which = dropped; which <= 1; which++) {
-            uint32_t found = UINT32_MAX;
+            uint32_t found = DMB_NONE;
             if (sim->scene->clusters[k].sparse) continue;
             const double here = violation_of(sim, k, which, &found);
             if (!(here > most)) continue;
@@ -353,7 +353,7 @@ double dmb_clusters_violation(const dmb_sim *sim, int32_t dropped, uint32_t *row
             *row = found;
         }
     for (int32_t which = dropped; which <= 1 && sim->scene->sparse_count; which++) {
-        uint32_t found = UINT32_MAX;
+        uint32_t found = DMB_NONE;
         const double here = dmb_sparse_violation(sim, which, &found);
         if (here > most) *row = found;
         most = fmax(most, here);
@@ -388,7 +388,7 @@ void dmb_clusters_explain(dmb_sim *sim, const char *what)
 {
     dmb_message owner, drives;
     const uint32_t row = sim->reduced_mode->row;
-    if (row == UINT32_MAX) return;
+    if (row == DMB_NONE) return;
     const uint32_t constraint = dmb_constraint_of_row(sim->scene, row);
     dmb_constraint_text(sim->scene, constraint, &owner);
     name_drives(sim->scene, constraint, &drives);

@@ -166,7 +166,7 @@ int32_t dmb_cluster_rank_make(const dmb_sim *sim, dmb_cluster_rank *rank)
     scratch s;
     memset(rank, 0, sizeof *rank);
     rank->condition = 1.0;
-    rank->violation_row = UINT32_MAX;
+    rank->violation_row = DMB_NONE;
     if (sim->scene->cluster_count == 0) return DMB_OK;
     int32_t status = open_scratch(sim, &s, rank);
     if (status >= 0) status = evaluate_rows(&s);

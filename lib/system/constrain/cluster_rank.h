@@ -13,7 +13,7 @@ typedef struct dmb_cluster_rank {
     uint32_t poorest;       /* cluster of the condition below */
     double condition;       /* smallest over largest singular value, worst cluster; 1 without equations */
     double violation;       /* [m, -] largest of an equation of position */
-    uint32_t violation_row; /* where; UINT32_MAX: none */
+    uint32_t violation_row; /* where; DMB_NONE: none */
     uint32_t reserved;
     uint8_t *redundant; /* 1 of rows that are redundant: those the partition drops, or LAPACK's where the two differ;
                            shape (constraint_row_count) */

@@ -6,7 +6,6 @@
 #include "sim/node.h"
 #include "system/constrain/constraint_callback.h"
 
-#define DMB_TURN 6.283185307179586477
 /* [rad] in a step: gradients at one end of it tell the turn well enough. */
 #define DMB_SMALL_TURN 1.0
 
@@ -112,7 +111,7 @@ static void moved_by(const dmb_sim *sim, const dmb_configuration *c, uint32_t j,
     double z[6], a[6] = {0.0};
     dmb_node_vector(sim->scene, c, joint->b.node, sim->increment, z);
     dmb_mat6_vec(relative->to_b, z, moved);
-    if (joint->a.node == UINT32_MAX) return;
+    if (joint->a.node == DMB_NONE) return;
     dmb_node_vector(sim->scene, c, joint->a.node, sim->increment, z);
     dmb_mat6_vec(relative->to_a, z, a);
     for (int i = 0; i < 6; i++) moved[i] += a[i];
@@ -163,7 +162,7 @@ void dmb_joint_coordinates_in(const dmb_evaluation *evaluation, uint32_t j, cons
     for (int i = 0; i < 2; i++) expected[i] += last[i];
     expect_driven(sim, j, expected);
     for (int i = 0; i < 2; i++)
-        coordinates->value[3 + i] += DMB_TURN * round((expected[i] - coordinates->value[3 + i]) / DMB_TURN);
+        coordinates->value[3 + i] += DMB_TWO_PI * round((expected[i] - coordinates->value[3 + i]) / DMB_TWO_PI);
 }
 
 /* Row 0 of the constraint += factor times a coordinate of joint j. */
@@ -254,7 +253,7 @@ void dmb_add_joint_tangent(const dmb_scene *scene, const dmb_constraint *constra
     dmb_relative_tangent(relative, w, W, both);
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < 2; k++)
-            if (node[i] != UINT32_MAX && node[k] != UINT32_MAX) add_block(scene, constraint, both, i, k, node, K);
+            if (node[i] != DMB_NONE && node[k] != DMB_NONE) add_block(scene, constraint, both, i, k, node, K);
 }
 
 static void wrench_of(uint32_t count, double J[][6], const double *f, double w[6])

@@ -27,7 +27,7 @@ static int needs_angles(const dmb_scene *scene, uint32_t j)
 {
     const dmb_scene_joint *joint = scene->joints + j;
     if ((dmb_joint_free_mask(joint->kind) >> DMB_RZ & 1) == 0) return 0; /* RZ stays 0 */
-    if (joint->kind == DMB_ROWS_UNIVERSAL || (joint->law != UINT32_MAX && joint->law_mask >> DMB_RX)) return 1;
+    if (joint->kind == DMB_ROWS_UNIVERSAL || (joint->law != DMB_NONE && joint->law_mask >> DMB_RX)) return 1;
     for (uint32_t i = joint->first_drive; i < joint->first_drive + joint->drive_count; i++)
         if (scene->drives[scene->joint_drives[i]].component >= DMB_RX) return 1;
     return coupled(scene, j);

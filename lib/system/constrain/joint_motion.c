@@ -8,7 +8,7 @@ static void frame_pose(const dmb_scene *scene, const dmb_configuration *c, const
                        double x[3])
 {
     double node[9], u[3];
-    if (frame->node == UINT32_MAX) {
+    if (frame->node == DMB_NONE) {
         dmb_mat3_copy(frame->M, R);
         dmb_vec3_copy(frame->x, x);
         return;
@@ -44,7 +44,7 @@ static void motion(const dmb_scene *scene, const dmb_configuration *c, uint32_t 
                    dmb_relative *relative, dmb_hole_bend *bend)
 {
     const dmb_scene_joint *joint = scene->joints + j;
-    const int ground = joint->a.node == UINT32_MAX;
+    const int ground = joint->a.node == DMB_NONE;
     double Ra[9], Rb[9], xa[3], xb[3], va[6], vb[6], d[3];
     frame_pose(scene, c, &joint->b, Rb, xb);
     dmb_vec3_add(joint->span, xb, xb);
@@ -125,7 +125,7 @@ void dmb_add_joint_row(const dmb_scene *scene, const dmb_constraint *constraint,
     double part[6];
     row_times(J, relative->to_b, factor, part);
     add_part(scene, constraint, joint->b.node, part, row);
-    if (joint->a.node == UINT32_MAX) return;
+    if (joint->a.node == DMB_NONE) return;
     row_times(J, relative->to_a, factor, part);
     add_part(scene, constraint, joint->a.node, part, row);
 }

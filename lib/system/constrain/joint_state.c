@@ -36,7 +36,7 @@ void dmb_joints_accept(dmb_evaluation *evaluation)
     dmb_joints_follow(evaluation);
     for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
         const dmb_scene_drive *drive = sim->scene->drives + i;
-        if (drive->joint == UINT32_MAX || drive->kind != DMB_DRIVE_MOTION) continue;
+        if (drive->joint == DMB_NONE || drive->kind != DMB_DRIVE_MOTION) continue;
         if (sim->joint_state[drive->joint] != DMB_JOINT_OPEN) sim->trial.drive_speed[i] = sim->trial.drive_target[i];
     }
     dmb_joint_reactions(evaluation);
@@ -66,7 +66,7 @@ double dmb_joint_energy(const dmb_sim *sim, const dmb_configuration *configurati
         const dmb_scene_joint *joint = scene->joints + j;
         dmb_relative relative;
         dmb_joint_coordinates c;
-        if (joint->law == UINT32_MAX || sim->joint_state[j] == DMB_JOINT_OPEN) continue;
+        if (joint->law == DMB_NONE || sim->joint_state[j] == DMB_JOINT_OPEN) continue;
         dmb_joint_motion_of(scene, configuration, j, &relative, NULL);
         dmb_joint_coordinates_at(relative.R, relative.p, relative.V, configuration->joint_turn + 2 * j, &c);
         for (uint32_t i = 0; i < 6; i++)

@@ -5,8 +5,6 @@
 #include "constraint/partition.h"
 #include "system/constrain/cluster.h"
 
-#define DMB_NO_SLOT UINT32_MAX
-
 dmb_block_signed dmb_sparse_matrix(const dmb_sim *sim)
 {
     const dmb_block_signed matrix = {sim->sparse_value, sim->sparse_size,   sim->sparse_plus,
@@ -52,7 +50,7 @@ static void place_rows(dmb_sim *sim)
     for (uint32_t i = 0; i < scene->constraint_count; i++) {
         const dmb_constraint *c = scene->constraints + i;
         for (uint32_t r = c->row; r < c->row + c->rows && dmb_is_sparse(scene, i); r++)
-            if (sim->sparse_slot[r] != DMB_NO_SLOT) sim->sparse_slot[r] = sim->sparse_size[c->block]++;
+            if (sim->sparse_slot[r] != DMB_NONE) sim->sparse_slot[r] = sim->sparse_size[c->block]++;
     }
     (void)dmb_sparse_number(sim);
 }
@@ -64,7 +62,7 @@ void dmb_sparse_note(dmb_sim *sim)
         const dmb_cluster *cluster = scene->clusters + k;
         const uint32_t *order = sim->partition_row + cluster->row;
         for (uint32_t i = 0; i < cluster->rows; i++)
-            sim->sparse_slot[cluster->row + order[i]] = i < sim->partition_rank[k] ? 0 : DMB_NO_SLOT;
+            sim->sparse_slot[cluster->row + order[i]] = i < sim->partition_rank[k] ? 0 : DMB_NONE;
     }
     place_rows(sim);
 }
@@ -117,7 +115,7 @@ static void put_matrix(dmb_sim *sim, const double *weight)
     for (uint32_t i = 0; i < scene->constraint_count; i++) {
         const dmb_constraint *c = scene->constraints + i;
         for (uint32_t k = 0; k < c->rows && dmb_is_sparse(scene, i); k++)
-            if (sim->sparse_slot[c->row + k] != DMB_NO_SLOT) put_row(sim, c, k, weight);
+            if (sim->sparse_slot[c->row + k] != DMB_NONE) put_row(sim, c, k, weight);
     }
 }
 
@@ -135,7 +133,7 @@ static double order_rows(dmb_sim *sim, uint32_t k)
             const dmb_constraint *c = scene->constraints + i;
             for (uint32_t r = c->row; r < c->row + c->rows; r++) {
                 const uint32_t slot = sim->sparse_slot[r];
-                const double ratio = slot == DMB_NO_SLOT ? 0.0 : sim->sparse_length[sim->sparse_row[c->block] + slot];
+                const double ratio = slot == DMB_NONE ? 0.0 : sim->sparse_length[sim->sparse_row[c->block] + slot];
                 if ((ratio > 0.0) != chosen) continue;
                 order[count++] = r - cluster->row;
                 if (chosen) least = fmin(least, ratio);
@@ -152,7 +150,7 @@ void dmb_sparse_choose(dmb_sim *sim)
     const dmb_block_signed matrix = dmb_sparse_matrix(sim);
     if (scene->sparse_count == 0) return;
     for (uint32_t r = 0; r < scene->constraint_row_count; r++)
-        sim->sparse_slot[r] = sim->constraint_type[r] != DMB_ROW_IDLE ? 0 : DMB_NO_SLOT;
+        sim->sparse_slot[r] = sim->constraint_type[r] != DMB_ROW_IDLE ? 0 : DMB_NONE;
     place_rows(sim);
     put_matrix(sim, sim->cluster_weight);
     dmb_block_signed_choose(&scene->pattern, &matrix, DMB_SPARSE_RANK);
@@ -173,7 +171,7 @@ static int note_quality(dmb_sim *sim)
     for (uint32_t i = 0; i < scene->constraint_count; i++) {
         const dmb_constraint *c = scene->constraints + i;
         for (uint32_t r = c->row; r < c->row + c->rows && dmb_is_sparse(scene, i); r++) {
-            if (sim->sparse_slot[r] == DMB_NO_SLOT) continue;
+            if (sim->sparse_slot[r] == DMB_NONE) continue;
             const double ratio = sim->sparse_length[sim->sparse_row[c->block] + sim->sparse_slot[r]];
             weak = weak || ratio < DMB_WEAK_PIVOT;
             sim->cluster_quality[c->cluster] = fmin(sim->cluster_quality[c->cluster], sqrt(fmax(ratio, 0.0)));
@@ -217,7 +215,7 @@ static void put_rows(dmb_sim *sim, const double *d)
     for (uint32_t i = 0; i < scene->constraint_count; i++) {
         const dmb_constraint *c = scene->constraints + i;
         for (uint32_t r = c->row; r < c->row + c->rows && dmb_is_sparse(scene, i); r++)
-            if (sim->sparse_slot[r] != DMB_NO_SLOT)
+            if (sim->sparse_slot[r] != DMB_NONE)
                 sim->sparse_vector[sim->sparse_row[c->block] + sim->sparse_slot[r]] = d[r];
     }
 }
@@ -288,8 +286,7 @@ static void begin_multipliers(dmb_sim *sim)
     for (uint32_t i = 0; i < scene->constraint_count; i++) {
         const dmb_constraint *c = scene->constraints + i;
         for (uint32_t r = c->row; r < c->row + c->rows && dmb_is_sparse(scene, i); r++)
-            if (sim->sparse_slot[r] == DMB_NO_SLOT || !isfinite(sim->trial.multiplier[r]))
-                sim->trial.multiplier[r] = 0.0;
+            if (sim->sparse_slot[r] == DMB_NONE || !isfinite(sim->trial.multiplier[r])) sim->trial.multiplier[r] = 0.0;
     }
 }
 
@@ -316,7 +313,7 @@ static void take_multipliers(dmb_sim *sim)
     for (uint32_t i = 0; i < scene->constraint_count; i++) {
         const dmb_constraint *c = scene->constraints + i;
         for (uint32_t r = c->row; r < c->row + c->rows && dmb_is_sparse(scene, i); r++)
-            if (sim->sparse_slot[r] != DMB_NO_SLOT)
+            if (sim->sparse_slot[r] != DMB_NONE)
                 sim->trial.multiplier[r] -= sim->sparse_vector[sim->sparse_row[c->block] + sim->sparse_slot[r]];
     }
 }
@@ -352,7 +349,7 @@ double dmb_sparse_violation(const dmb_sim *sim, int32_t dropped, uint32_t *row)
             const dmb_constraint *c = scene->constraints + i;
             for (uint32_t r = 0; r < c->rows; r++) {
                 const double value = fabs(sim->constraint_value[c->row + r]);
-                if (value == 0.0 || (sim->sparse_slot[c->row + r] == DMB_NO_SLOT) != dropped) continue;
+                if (value == 0.0 || (sim->sparse_slot[c->row + r] == DMB_NONE) != dropped) continue;
                 const double length = dmb_sparse_length(sim, c, r, sim->cluster_weight);
                 const double violation = length > 0.0 ? value / sqrt(length) : value;
                 if (!(violation > most)) continue;

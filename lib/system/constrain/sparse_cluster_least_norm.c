@@ -20,7 +20,7 @@ static int has_redundant(const dmb_sim *sim)
     for (uint32_t i = 0; i < scene->constraint_count; i++) {
         const dmb_constraint *c = scene->constraints + i;
         for (uint32_t r = c->row; r < c->row + c->rows && dmb_is_sparse(scene, i); r++)
-            if (sim->constraint_type[r] != DMB_ROW_IDLE && sim->sparse_slot[r] == UINT32_MAX) return 1;
+            if (sim->constraint_type[r] != DMB_ROW_IDLE && sim->sparse_slot[r] == DMB_NONE) return 1;
     }
     return 0;
 }

@@ -125,7 +125,7 @@ void dmb_reduced_sparse_put(dmb_sim *sim, int hold)
         const double stiffness = stiffness_beside(sim, c, largest);
         put_tangent(sim, c);
         for (uint32_t k = 0; k < c->rows; k++) {
-            if (sim->sparse_slot[c->row + k] == UINT32_MAX) continue;
+            if (sim->sparse_slot[c->row + k] == DMB_NONE) continue;
             const double *b = dmb_sparse_row(sim, c, k), square = dmb_sparse_length(sim, c, k, sim->cluster_weight);
             sim->sparse_scale[c->row + k] = stiffness / sqrt(square);
             put_row(sim, c, b, sim->sparse_scale[c->row + k], sim->sparse_slot[c->row + k]);
@@ -140,7 +140,7 @@ void dmb_reduced_sparse_move(dmb_sim *sim)
     for (uint32_t i = 0; i < scene->constraint_count; i++) {
         const dmb_constraint *c = scene->constraints + i;
         for (uint32_t r = c->row; r < c->row + c->rows && dmb_is_sparse(scene, i); r++)
-            if (sim->sparse_slot[r] != UINT32_MAX)
+            if (sim->sparse_slot[r] != DMB_NONE)
                 sim->trial.multiplier[r] +=
                     sim->sparse_scale[r] * sim->reduced_solution[sim->reduced_row[c->block] + sim->sparse_slot[r]];
     }

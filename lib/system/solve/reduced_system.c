@@ -12,11 +12,11 @@ static int is_full(const dmb_sim *sim)
     return sim->reduced_mode->multipliers;
 }
 
-/* The dense cluster of a node, or UINT32_MAX: a block of its own. */
+/* The dense cluster of a node, or DMB_NONE: a block of its own. */
 static uint32_t cluster_of(const dmb_scene *scene, uint32_t node)
 {
     const uint32_t k = scene->node_cluster[node];
-    return k != UINT32_MAX && scene->clusters[k].sparse ? UINT32_MAX : k;
+    return k != DMB_NONE && scene->clusters[k].sparse ? DMB_NONE : k;
 }
 
 /* Unknowns of a cluster's block. */
@@ -26,38 +26,38 @@ static uint32_t cluster_size(const dmb_sim *sim, uint32_t k)
     return is_full(sim) ? columns + rank : columns - rank;
 }
 
-/* Row of R that column c of cluster k has: G's, or a single 1. *one: place of the 1, or UINT32_MAX. */
+/* Row of R that column c of cluster k has: G's, or a single 1. *one: place of the 1, or DMB_NONE. */
 static const double *row_of_null_space(const dmb_sim *sim, uint32_t k, uint32_t c, uint32_t *one)
 {
     const dmb_cluster *cluster = sim->scene->clusters + k;
     const uint32_t rank = sim->partition_rank[k], place = sim->cluster_place[cluster->column + c];
-    *one = UINT32_MAX;
+    *one = DMB_NONE;
     if (is_full(sim))
         *one = c;
     else if (place >= rank)
         *one = place - rank;
-    return sim->cluster_null + cluster->dense + (size_t)(*one == UINT32_MAX ? place : 0) * (cluster->columns - rank);
+    return sim->cluster_null + cluster->dense + (size_t)(*one == DMB_NONE ? place : 0) * (cluster->columns - rank);
 }
 
 const double *dmb_reduced_null_space_row(const dmb_sim *sim, uint32_t k, uint32_t c, uint32_t *one)
 {
     const double *row = row_of_null_space(sim, k, c, one);
-    return *one == UINT32_MAX ? row : NULL;
+    return *one == DMB_NONE ? row : NULL;
 }
 
 /* out (rows x size of node's block) += X (rows x size of node) R_node */
 static void times_null_space(const dmb_sim *sim, uint32_t node, const double *X, uint32_t rows, double *out)
 {
     const uint32_t k = cluster_of(sim->scene, node), size = sim->scene->layout.size[node];
-    const uint32_t width = k == UINT32_MAX ? size : cluster_size(sim, k);
+    const uint32_t width = k == DMB_NONE ? size : cluster_size(sim, k);
     for (uint32_t c = 0; c < size; c++) {
         uint32_t one = c;
         const double *G = NULL;
-        if (k != UINT32_MAX) G = row_of_null_space(sim, k, sim->scene->node_place[node] + c, &one);
+        if (k != DMB_NONE) G = row_of_null_space(sim, k, sim->scene->node_place[node] + c, &one);
         for (uint32_t r = 0; r < rows; r++) {
             const double x = X[(size_t)r * size + c];
             double *to = out + (size_t)r * width;
-            if (one != UINT32_MAX) {
+            if (one != DMB_NONE) {
                 to[one] += x;
                 continue;
             }
@@ -70,13 +70,13 @@ static void times_null_space(const dmb_sim *sim, uint32_t node, const double *X,
 static void null_space_times(const dmb_sim *sim, uint32_t node, const double *X, uint32_t columns, double *out)
 {
     const uint32_t k = cluster_of(sim->scene, node), size = sim->scene->layout.size[node];
-    const uint32_t height = k == UINT32_MAX ? size : cluster_size(sim, k);
+    const uint32_t height = k == DMB_NONE ? size : cluster_size(sim, k);
     for (uint32_t c = 0; c < size; c++) {
         const double *x = X + (size_t)c * columns, *G = NULL;
         uint32_t one = c;
-        if (k != UINT32_MAX) G = row_of_null_space(sim, k, sim->scene->node_place[node] + c, &one);
-        for (uint32_t m = one != UINT32_MAX ? one : 0; m < (one != UINT32_MAX ? one + 1 : height); m++) {
-            const double factor = one != UINT32_MAX ? 1.0 : G[m];
+        if (k != DMB_NONE) G = row_of_null_space(sim, k, sim->scene->node_place[node] + c, &one);
+        for (uint32_t m = one != DMB_NONE ? one : 0; m < (one != DMB_NONE ? one + 1 : height); m++) {
+            const double factor = one != DMB_NONE ? 1.0 : G[m];
             double *to = out + (size_t)m * columns;
             for (uint32_t i = 0; i < columns; i++) to[i] += factor * x[i];
         }
@@ -101,7 +101,7 @@ static void put_nodes(const dmb_sim *sim, const dmb_cluster *cluster, double *D)
         const uint32_t node = scene->cluster_nodes[i], size = layout->size[node];
         const size_t at = scene->node_place[node];
         put(dmb_stiffness_of(sim, node), size, size, D + (n + 1) * at, n);
-        if (scene->node_element[node] == UINT32_MAX || scene->node_block[node + 1] != scene->node_block[node]) continue;
+        if (scene->node_element[node] == DMB_NONE || scene->node_block[node + 1] != scene->node_block[node]) continue;
         const size_t next = scene->node_place[node + 1];
         put(sim->stiffness_upper + layout->link[node], size, layout->size[node + 1], D + n * at + next, n);
         put(sim->stiffness_lower + layout->link[node], layout->size[node + 1], size, D + n * next + at, n);
@@ -166,16 +166,16 @@ static void reduce_cluster(dmb_sim *sim, uint32_t k, const double *D, double *A)
         for (uint32_t r = 0; r < n; r++) {
             const double x = D[(size_t)r * n + c];
             if (x == 0.0) continue;
-            for (uint32_t m = one != UINT32_MAX ? one : 0; m < (one != UINT32_MAX ? one + 1 : width); m++)
-                half[(size_t)r * width + m] += one != UINT32_MAX ? x : x * G[m];
+            for (uint32_t m = one != DMB_NONE ? one : 0; m < (one != DMB_NONE ? one + 1 : width); m++)
+                half[(size_t)r * width + m] += one != DMB_NONE ? x : x * G[m];
         }
     }
     for (uint32_t r = 0; r < n; r++) {
         uint32_t one;
         const double *G = row_of_null_space(sim, k, r, &one);
-        for (uint32_t m = one != UINT32_MAX ? one : 0; m < (one != UINT32_MAX ? one + 1 : width); m++)
+        for (uint32_t m = one != DMB_NONE ? one : 0; m < (one != DMB_NONE ? one + 1 : width); m++)
             for (uint32_t s = 0; s < width; s++)
-                A[(size_t)m * width + s] += (one != UINT32_MAX ? 1.0 : G[m]) * half[(size_t)r * width + s];
+                A[(size_t)m * width + s] += (one != DMB_NONE ? 1.0 : G[m]) * half[(size_t)r * width + s];
     }
 }
 
@@ -208,7 +208,7 @@ static void set_sizes(dmb_sim *sim)
     const dmb_scene *scene = sim->scene;
     uint32_t row = 0;
     for (uint32_t i = 0; i < scene->node_count; i++)
-        if (scene->node_block[i] != UINT32_MAX && cluster_of(scene, i) == UINT32_MAX)
+        if (scene->node_block[i] != DMB_NONE && cluster_of(scene, i) == DMB_NONE)
             sim->reduced_size[scene->node_block[i]] = scene->layout.size[i];
     for (uint32_t k = 0; k < scene->cluster_count; k++)
         if (!scene->clusters[k].sparse) sim->reduced_size[scene->clusters[k].block] = cluster_size(sim, k);
@@ -241,17 +241,17 @@ static void assemble_link(dmb_sim *sim, uint32_t i, uint32_t j, const double *S,
     const dmb_scene *scene = sim->scene;
     const uint32_t size = scene->layout.size[i], width = sim->reduced_size[scene->node_block[j]];
     const uint32_t ki = cluster_of(scene, i), kj = cluster_of(scene, j);
-    if (ki == UINT32_MAX && kj == UINT32_MAX) {
+    if (ki == DMB_NONE && kj == DMB_NONE) {
         put(S, size, scene->layout.size[j], sim->reduced_value + offset, width);
         return;
     }
-    if (kj == UINT32_MAX && width == scene->layout.size[j]) {
+    if (kj == DMB_NONE && width == scene->layout.size[j]) {
         null_space_times(sim, i, S, width, sim->reduced_value + offset);
         return;
     }
     double *half = sim->reduced_half;
     memset(half, 0, (size_t)size * width * sizeof(double));
-    if (kj == UINT32_MAX)
+    if (kj == DMB_NONE)
         put(S, size, scene->layout.size[j], half, width);
     else
         times_null_space(sim, j, S, size, half);
@@ -273,7 +273,7 @@ static void assemble_nodes(dmb_sim *sim, const dmb_block_sparse *matrix)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->node_count; i++) {
-        if (scene->node_block[i] == UINT32_MAX || cluster_of(scene, i) != UINT32_MAX) continue;
+        if (scene->node_block[i] == DMB_NONE || cluster_of(scene, i) != DMB_NONE) continue;
         const uint32_t size = scene->layout.size[i];
         put(dmb_stiffness_of(sim, i), size, size,
             dmb_block_sparse_diagonal(&scene->pattern, matrix, scene->node_block[i]),
@@ -338,9 +338,9 @@ static void scatter_node(dmb_sim *sim, uint32_t node)
     for (uint32_t c = 0; c < size; c++) {
         uint32_t one = c;
         const double *G = NULL;
-        if (k != UINT32_MAX) G = row_of_null_space(sim, k, scene->node_place[node] + c, &one);
-        z[c] = one != UINT32_MAX ? y[one] : 0.0;
-        for (uint32_t m = 0; one == UINT32_MAX && m < cluster_size(sim, k); m++) z[c] += G[m] * y[m];
+        if (k != DMB_NONE) G = row_of_null_space(sim, k, scene->node_place[node] + c, &one);
+        z[c] = one != DMB_NONE ? y[one] : 0.0;
+        for (uint32_t m = 0; one == DMB_NONE && m < cluster_size(sim, k); m++) z[c] += G[m] * y[m];
     }
 }
 
@@ -359,7 +359,7 @@ static void move_multipliers(dmb_sim *sim)
 void dmb_reduced_expand(dmb_sim *sim)
 {
     for (uint32_t i = 0; i < sim->scene->node_count; i++)
-        if (sim->scene->node_block[i] != UINT32_MAX) scatter_node(sim, i);
+        if (sim->scene->node_block[i] != DMB_NONE) scatter_node(sim, i);
 }
 
 void dmb_reduced_solve(dmb_sim *sim)
@@ -368,7 +368,7 @@ void dmb_reduced_solve(dmb_sim *sim)
     const dmb_block_sparse matrix = matrix_of(sim);
     memset(sim->reduced_solution, 0, scene->pattern.rows * sizeof(double));
     for (uint32_t i = 0; i < scene->node_count; i++)
-        if (scene->node_block[i] != UINT32_MAX) gather_node(sim, i);
+        if (scene->node_block[i] != DMB_NONE) gather_node(sim, i);
     dmb_block_sparse_solve(&scene->pattern, &matrix, sim->reduced_row, sim->reduced_solution);
     dmb_reduced_expand(sim);
     if (is_full(sim)) move_multipliers(sim);

@@ -13,7 +13,7 @@
 
 enum { ROWS_MAX = 120 };
 
-static const dmb_linear_options as_it_is = {.contact = DMB_LINEAR_CONTACT_AS_IS};
+static const dmb_linear_options as_it_is = {.contact = DMB_CONTACT_AS_IS};
 
 static dmb_linear *linearise(const dmb_sim *sim, const dmb_linear_options *options)
 {
@@ -387,8 +387,8 @@ static void contacts_are_frozen(void **state)
 {
     (void)state;
     rig s;
-    const dmb_linear_options open = {.contact = DMB_LINEAR_CONTACT_OPEN};
-    const dmb_linear_options closed = {.contact = DMB_LINEAR_CONTACT_CLOSED, .gap = 0.2};
+    const dmb_linear_options open = {.contact = DMB_CONTACT_OPEN};
+    const dmb_linear_options closed = {.contact = DMB_CONTACT_CLOSED, .gap = 0.2};
     open_lying_body(&s, DMB_FRICTION_NONE); /* 0.1 mm less than the sink away from the wall: just touching */
     dmb_linear *linear = linearise(s.sim, &closed);
     check_relative("held across from the gap", linear->stiffness.diagonal[14], 1e7, 1e-9);

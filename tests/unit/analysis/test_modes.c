@@ -56,7 +56,7 @@ static uint32_t count_below(const dmb_linear *linear, double square)
 
 static dmb_linear *linearise(const dmb_sim *sim)
 {
-    const dmb_linear_options as_it_is = {.contact = DMB_LINEAR_CONTACT_AS_IS};
+    const dmb_linear_options as_it_is = {.contact = DMB_CONTACT_AS_IS};
     dmb_linear *linear = NULL;
     assert_int_equal(dmb_linear_make(sim, &as_it_is, &linear), DMB_OK);
     return linear;

@@ -16,7 +16,7 @@ typedef struct judged {
 /* What dmb_analysis_modes judges its result with. */
 static void open_judged(judged *j, const rig *s, const dmb_modes_options *options, dmb_modes *modes)
 {
-    const dmb_linear_options as_it_is = {.contact = DMB_LINEAR_CONTACT_AS_IS};
+    const dmb_linear_options as_it_is = {.contact = DMB_CONTACT_AS_IS};
     double most = 0.0;
     memset(j, 0, sizeof *j);
     assert_int_equal(dmb_linear_make(s->sim, &as_it_is, &j->search.linear), DMB_OK);

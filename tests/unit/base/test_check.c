@@ -122,7 +122,7 @@ static void whole_numbers(void **state)
 
 static void pointers(void **state)
 {
-    dmb_check whole = dmb_check_of(&message, "wall", DMB_NO_INDEX);
+    dmb_check whole = dmb_check_of(&message, "wall", DMB_NONE);
     (void)state;
     EXPECT(DMB_OK, "", dmb_check_pointer(&check, "table", &message));
     EXPECT(DMB_ERR_NULL, "pipe 3: table is NULL", dmb_check_pointer(&check, "table", NULL));

@@ -59,7 +59,7 @@ static void fields(void **state)
     (void)state;
     dmb_message_field(&m, "pipe", 3, "outer_diameter", (double)NAN, "finite and > inner_diameter");
     assert_string_equal(m.text, "pipe 3: outer_diameter = nan, must be finite and > inner_diameter");
-    dmb_message_field(&m, "wall", DMB_NO_INDEX, "diameter", -0.094, "> 0");
+    dmb_message_field(&m, "wall", DMB_NONE, "diameter", -0.094, "> 0");
     assert_string_equal(m.text, "wall: diameter = -0.094, must be > 0");
     dmb_message_component(&m, "string", 0, "velocity", 5, (double)INFINITY, "finite");
     assert_string_equal(m.text, "string 0: velocity[5] = inf, must be finite");

@@ -101,7 +101,7 @@ static int32_t run_part(uint32_t lanes, const beam_case *c, const beam_input *in
 {
     dmb_beam_run run = {
         .count = count,
-        .failed = UINT32_MAX,
+        .failed = DMB_NONE,
         .types = in->types,
         .type = in->type + first,
         .span = in->span + 3 * first,
@@ -156,7 +156,7 @@ static uint32_t compare_lengths(uint32_t lanes, const beam_case *c, const beam_i
         run_alone(c, in, count, &alone);
         clear(in, c, &out);
         assert_int_equal(run_part(lanes, c, in, &out, 0, count, &failed), 0);
-        assert_int_equal(failed, UINT32_MAX);
+        assert_int_equal(failed, DMB_NONE);
         assert_memory_equal(&out, &alone, sizeof out);
     }
     return ELEMENTS;
@@ -194,7 +194,7 @@ static uint32_t expect_failure(uint32_t lanes, const beam_case *c, const beam_in
         const int within = first < count;
         clear(in, c, &out);
         assert_int_equal(run_part(lanes, c, in, &out, 0, count, &failed), within ? -1 : 0);
-        assert_int_equal(failed, within ? first : UINT32_MAX);
+        assert_int_equal(failed, within ? first : DMB_NONE);
     }
     return runs;
 }

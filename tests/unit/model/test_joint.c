@@ -92,7 +92,7 @@ static void axes(void **state)
     assert_int_equal(made->a.node, 0);
     assert_int_equal(made->b.node, 1);
     for (int k = 0; k < 3; ++k) assert_near(made->span[k], k + 1.0, 0.0);
-    assert_int_equal(made->law, UINT32_MAX);
+    assert_int_equal(made->law, DMB_NONE);
     assert_int_equal(made->law_mask, 0);
     assert_int_equal(model->scene->law_count, 0);
     dmb_model_destroy(&model);
@@ -102,7 +102,7 @@ static void axes(void **state)
 static void expect_matched(const dmb_scene *scene, const dmb_scene_joint *joint, double tolerance)
 {
     double Ra[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, Rb[9], Ma[9], Mb[9], xa[3], xb[3];
-    if (joint->a.node != UINT32_MAX) dmb_quat_to_matrix(scene->reference_quaternion + 4 * joint->a.node, Ra);
+    if (joint->a.node != DMB_NONE) dmb_quat_to_matrix(scene->reference_quaternion + 4 * joint->a.node, Ra);
     dmb_quat_to_matrix(scene->reference_quaternion + 4 * joint->b.node, Rb);
     dmb_mat3_mul(Ra, joint->a.M, Ma);
     dmb_mat3_mul(Rb, joint->b.M, Mb);
@@ -129,7 +129,7 @@ static void match(void **state)
     const dmb_scene *scene = compiled(model);
     expect_matched(scene, &scene->joints[0], 1e-14);
     expect_matched(scene, &scene->joints[1], 1e-14);
-    assert_int_equal(scene->joints[1].a.node, UINT32_MAX);
+    assert_int_equal(scene->joints[1].a.node, DMB_NONE);
     assert_near(scene->joints[1].span[1], -2.0, 0.0);
     dmb_model_destroy(&model);
 }
@@ -237,7 +237,7 @@ static void point_on_hole(void **state)
     expect_matrix(made->a.M, identity, 0.0);
     assert_near(made->span[0], 3.0, 0.0);
     assert_near(made->b.x[1], 0.1, 0.0);
-    assert_int_equal(made->a.node, UINT32_MAX);
+    assert_int_equal(made->a.node, DMB_NONE);
     dmb_model_destroy(&model);
 }
 
@@ -271,8 +271,8 @@ static void two_bodies(void **state)
     assert_int_equal(scene->cluster_nodes[1], 2);
     assert_memory_equal(scene->cluster_columns, columns, sizeof columns);
     assert_int_equal(scene->node_place[2], 6);
-    assert_int_equal(scene->node_block[1], UINT32_MAX);
-    assert_int_equal(scene->node_cluster[1], UINT32_MAX);
+    assert_int_equal(scene->node_block[1], DMB_NONE);
+    assert_int_equal(scene->node_cluster[1], DMB_NONE);
     assert_int_equal(scene->reduced_count, 2);
     assert_int_equal(scene->block_count, 1);
     assert_int_equal(scene->pattern.n, 1);
@@ -332,7 +332,7 @@ static void expect_links(const dmb_scene *scene)
 {
     for (uint32_t i = 0; i < scene->node_count; ++i) {
         const size_t *link = scene->link_offset + 2 * i;
-        const int leads = scene->node_element[i] != UINT32_MAX && scene->node_block[i] != UINT32_MAX &&
+        const int leads = scene->node_element[i] != DMB_NONE && scene->node_block[i] != DMB_NONE &&
                           scene->node_block[i] != scene->node_block[i + 1];
         if (!leads) {
             assert_true(link[0] == SIZE_MAX && link[1] == SIZE_MAX);
@@ -467,9 +467,9 @@ static void all_kinds(void **state)
     assert_int_equal(scene->constraints[2].node[0], 3);
     assert_int_equal(scene->drives[0].constraint, 3);
     assert_int_equal(scene->drives[0].joint, 0);
-    assert_int_equal(scene->drives[0].node, UINT32_MAX);
-    assert_int_equal(scene->drives[0].row, UINT32_MAX);
-    assert_int_equal(scene->drives[1].constraint, UINT32_MAX);
+    assert_int_equal(scene->drives[0].node, DMB_NONE);
+    assert_int_equal(scene->drives[0].row, DMB_NONE);
+    assert_int_equal(scene->drives[1].constraint, DMB_NONE);
     assert_int_equal(scene->drives[1].joint, 0);
     assert_int_equal(scene->callbacks[0].constraint, 4);
     assert_int_equal(scene->constraints[4].node_count, 1); /* two places on one node */
@@ -495,8 +495,8 @@ static void plain_string(void **state)
     assert_null(scene->link_offset);
     assert_null(scene->pattern.block);
     assert_int_equal(scene->chains[0].jointed, 0);
-    assert_int_equal(scene->drives[0].joint, UINT32_MAX);
-    assert_int_equal(scene->drives[0].constraint, UINT32_MAX);
+    assert_int_equal(scene->drives[0].joint, DMB_NONE);
+    assert_int_equal(scene->drives[0].constraint, DMB_NONE);
     assert_int_equal(scene->drives[0].row, 0);
     assert_null(strstr(dmb_model_message(model), "joint"));
     dmb_model_destroy(&model);

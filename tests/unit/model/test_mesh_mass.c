@@ -351,7 +351,7 @@ static void what_is_left_out_is_not_there(void **state)
     assert_int_equal(scene->friction_law.kind, DMB_FRICTION_NONE);
     assert_near(scene->types[0].damping_time, 0.0, 0.0);
     assert_near(scene->node_damping[1], 0.0, 0.0);
-    assert_int_equal(scene->drives[0].excitation, UINT32_MAX);
+    assert_int_equal(scene->drives[0].excitation, DMB_NONE);
     assert_int_equal(scene->bits[0].law.kind, DMB_ROCK_NONE);
     assert_int_equal(scene->history_count, 0);
     assert_int_equal(scene->rigid_mass_count, 1); /* the bit */

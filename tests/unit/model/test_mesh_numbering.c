@@ -72,9 +72,9 @@ static void every_node_leads_to_the_next(void **state)
         assert_int_equal(scene->node_element[scene->element_node[e]], e);
         assert_int_equal(scene->element_type[e], 0);
     }
-    assert_int_equal(scene->node_element[6], UINT32_MAX);
-    assert_int_equal(scene->node_element[10], UINT32_MAX);
-    assert_int_equal(scene->node_element[11], UINT32_MAX);
+    assert_int_equal(scene->node_element[6], DMB_NONE);
+    assert_int_equal(scene->node_element[10], DMB_NONE);
+    assert_int_equal(scene->node_element[11], DMB_NONE);
     assert_int_equal(scene->strings[1].first_pipe, 2);
     assert_int_equal(scene->strings[1].first_node, 7);
     assert_int_equal(scene->pipes[1].element, 3);
@@ -389,7 +389,7 @@ static void loads_find_pipe_ends(void **state)
         assert_int_equal(scene->loads[i].node, ends[i].node);
         assert_close(scene->loads[i].arm, ends[i].arm, 0.0);
         assert_near(scene->loads[i].force[0], (double)i, 0.0);
-        assert_int_equal(scene->loads[i].programme, UINT32_MAX);
+        assert_int_equal(scene->loads[i].programme, DMB_NONE);
     }
     assert_int_equal(scene->loads[10].node, 5);
     assert_near(scene->loads[10].arm, 1.5, 0.0);
@@ -488,7 +488,7 @@ static void bit_laws_and_history(void **state)
     assert_int_equal(scene->bits[0].load, 0);
     assert_int_equal(scene->bits[1].history_capacity, 0);
     assert_int_equal(scene->bits[1].law.kind, DMB_ROCK_RATE);
-    assert_int_equal(scene->bits[1].load, UINT32_MAX);
+    assert_int_equal(scene->bits[1].load, DMB_NONE);
     assert_int_equal(scene->bits[2].history_first, 100);
     assert_int_equal(scene->bits[2].history_capacity, 300);
     assert_int_equal(scene->bits[2].node, 5);

@@ -139,7 +139,7 @@ static void largest_diameter_touches(void **state)
     assert_near(scene->sites[2].radius, 0.0425, 1e-15);
     assert_near(scene->sites[3].radius, 0.04, 1e-15);
     assert_near(scene->sites[4].radius, 0.04, 1e-15);
-    assert_int_equal(scene->sites[0].pipe, UINT32_MAX);
+    assert_int_equal(scene->sites[0].pipe, DMB_NONE);
     assert_int_equal(scene->sites[1].pipe, 0);
     assert_int_equal(scene->sites[2].pipe, 0);
     assert_int_equal(scene->sites[3].pipe, 1);
@@ -167,7 +167,7 @@ static void rings_of_bodies_and_bits_come_last(void **state)
     assert_ok(dmb_model_add_body(model, &body, &body_id));
     scene = compiled(model);
     assert_int_equal(scene->site_count, 4);
-    assert_int_equal(scene->bodies[0].site, UINT32_MAX);
+    assert_int_equal(scene->bodies[0].site, DMB_NONE);
     assert_int_equal(scene->bodies[1].site, 2);
     assert_int_equal(scene->bodies[2].site, 3);
     assert_int_equal(scene->sites[2].part.index, body_id.index);
@@ -207,7 +207,7 @@ static void path_nodes_rub(void **state)
             assert_near(scene->path_sites[0].length, 0.75, 0.0);
             assert_near(scene->path_sites[1].length, 1.5, 0.0);
             assert_int_equal(scene->path_sites[2].node, 2);
-            assert_int_equal(scene->path_sites[0].pipe, UINT32_MAX);
+            assert_int_equal(scene->path_sites[0].pipe, DMB_NONE);
             assert_int_equal(scene->path_sites[2].pipe, 1);
             assert_near(scene->path_sites[2].radius, 0.0365, 0.0);
         }

@@ -90,11 +90,11 @@ static void ids_name_parts_of_their_model(void **state)
     assert_int_equal(second.index, (uint32_t)DMB_PART_STRING << 24 | 1);
     assert_true(first.generation != 0);
     assert_int_equal(dmb_model_part_index(a, second, DMB_PART_STRING), 1);
-    assert_int_equal(dmb_model_part_index(a, second, DMB_PART_BODY), UINT32_MAX);
-    assert_int_equal(dmb_model_part_index(b, first, DMB_PART_STRING), UINT32_MAX);
-    assert_int_equal(dmb_model_part_index(a, none, DMB_PART_STRING), UINT32_MAX);
+    assert_int_equal(dmb_model_part_index(a, second, DMB_PART_BODY), DMB_NONE);
+    assert_int_equal(dmb_model_part_index(b, first, DMB_PART_STRING), DMB_NONE);
+    assert_int_equal(dmb_model_part_index(a, none, DMB_PART_STRING), DMB_NONE);
     second.index += 1;
-    assert_int_equal(dmb_model_part_index(a, second, DMB_PART_STRING), UINT32_MAX);
+    assert_int_equal(dmb_model_part_index(a, second, DMB_PART_STRING), DMB_NONE);
     pipe.string = first;
     assert_int_equal(dmb_model_add_pipes(b, &pipe, 1, NULL), DMB_ERR_ID);
     assert_non_null(strstr(dmb_model_message(b), "string"));

@@ -577,12 +577,12 @@ static void add_blocks(const dmb_sim *sim, double A[][ROWS_MAX])
                 const size_t at = l->diag[i] + (size_t)l->size[i] * r + c;
                 column[l->row[i] + r] += sim->stiffness_diagonal[at] + sim->inertia_diagonal[at];
             }
-            if (sim->scene->node_element[i] != UINT32_MAX)
+            if (sim->scene->node_element[i] != DMB_NONE)
                 for (uint32_t r = 0; r < l->size[i + 1]; r++) {
                     const size_t at = l->link[i] + (size_t)l->size[i] * r + c;
                     column[l->row[i + 1] + r] += sim->stiffness_lower[at];
                 }
-            if (i > 0 && sim->scene->node_element[i - 1] != UINT32_MAX)
+            if (i > 0 && sim->scene->node_element[i - 1] != DMB_NONE)
                 for (uint32_t r = 0; r < l->size[i - 1]; r++) {
                     const size_t at = l->link[i - 1] + (size_t)l->size[i] * r + c;
                     column[l->row[i - 1] + r] += sim->stiffness_upper[at];

@@ -69,8 +69,8 @@ static double entry(const dmb_sim *sim, uint32_t a, uint32_t r, uint32_t b, uint
     const dmb_block_layout *l = &sim->scene->layout;
     const uint32_t *between = sim->scene->node_element;
     if (a == b) return sim->stiffness_diagonal[l->diag[a] + l->size[a] * r + c];
-    if (a + 1 == b && between[a] != UINT32_MAX) return sim->stiffness_upper[l->link[a] + l->size[b] * r + c];
-    if (b + 1 == a && between[b] != UINT32_MAX) return sim->stiffness_lower[l->link[b] + l->size[b] * r + c];
+    if (a + 1 == b && between[a] != DMB_NONE) return sim->stiffness_upper[l->link[a] + l->size[b] * r + c];
+    if (b + 1 == a && between[b] != DMB_NONE) return sim->stiffness_lower[l->link[b] + l->size[b] * r + c];
     return 0.0;
 }
 

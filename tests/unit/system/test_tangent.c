@@ -75,10 +75,10 @@ static void column_of_blocks(const dmb_sim *sim, uint32_t node, uint32_t c, doub
     for (uint32_t i = 0; i < size; i++)
         out[l->row[node] + i] =
             sim->stiffness_diagonal[l->diag[node] + size * i + c] + sim->inertia_diagonal[l->diag[node] + size * i + c];
-    if (node > 0 && sim->scene->node_element[node - 1] != UINT32_MAX)
+    if (node > 0 && sim->scene->node_element[node - 1] != DMB_NONE)
         for (uint32_t i = 0; i < l->size[node - 1]; i++)
             out[l->row[node - 1] + i] = sim->stiffness_upper[l->link[node - 1] + size * i + c];
-    if (sim->scene->node_element[node] != UINT32_MAX)
+    if (sim->scene->node_element[node] != DMB_NONE)
         for (uint32_t i = 0; i < l->size[node + 1]; i++)
             out[l->row[node + 1] + i] = sim->stiffness_lower[l->link[node] + size * i + c];
 }
