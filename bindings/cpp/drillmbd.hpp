@@ -148,6 +148,12 @@ public:
         check(dmb_model_get_info(handle_, &answer)); // leaves no message
         return answer;
     }
+    dmb_hole_point hole(double depth) const
+    {
+        dmb_hole_point answer = dmb_hole_point_default();
+        check(dmb_query_hole(handle_, depth, &answer));
+        return answer;
+    }
     std::size_t sim_memory_size(const dmb_sim_options *options = nullptr) const
     {
         std::size_t size = 0;
@@ -589,6 +595,21 @@ public:
         return ask(dmb_query_motion, answer, place);
     }
     dmb_section section(const dmb_place &place) const { return ask(dmb_query_section, dmb_section_default(), place); }
+    // Quantities DMB_PROFILE_... at distances [m] along a string ({}: its first), station by station in one vector.
+    std::vector<double> profile(const std::vector<std::int32_t> &quantities, const std::vector<double> &distance,
+                                dmb_id string = dmb_id{}) const
+    {
+        std::vector<double> values(quantities.size() * distance.size());
+        dmb_profile request = dmb_profile_default();
+        request.string = string;
+        request.station_count = static_cast<std::uint32_t>(distance.size());
+        request.distance = distance.data();
+        request.quantity_count = static_cast<std::uint32_t>(quantities.size());
+        request.quantities = quantities.data();
+        request.values = values.data();
+        check(dmb_query_profile(handle_, &request));
+        return values;
+    }
     double rotation(const dmb_place &place) const { return ask(dmb_query_rotation, 0.0, place); }
     dmb_contact contact(std::uint32_t site) const { return ask(dmb_query_contact, dmb_contact_default(), site); }
     dmb_contact_total contact_total() const { return ask(dmb_query_contact_total, dmb_contact_total_default()); }

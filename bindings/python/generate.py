@@ -23,10 +23,11 @@ ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "TERM_C
               "PATH_REGULAR": "PathKind", "CONTACT_AS_IS": "ContactState", "MODES_UNDAMPED": "ModesKind",
               "MODES_LOWEST": "ModesSelect",
               "MODES_AXES_TURNING": "ModesAxes", "MODES_AXES_TURNING": "ModesAxes",
+              "PROFILE_DISTANCE": "ProfileQuantity", "HOLE_ABOVE": "HoleBeyond",
               "STATIC_NEWTON": "StaticMethod", "METHOD_INDEPENDENT": "ConstraintMethod",
               "BUCKLING_EXTRAPOLATED": "BucklingEnd", "SCALE_ALL": "Scale"}
 FLAGS = ("FREE", "FEATURE", "PROVIDES")  # prefixes of bits of masks
-STRUCT_NAMES = {"dmb_recorder": "RecorderStruct"}
+STRUCT_NAMES = {"dmb_recorder": "RecorderStruct", "dmb_profile": "ProfileStruct"}
 MIXINS = {"Id": "IdPart", "Term": "TermPart", "WallDef": "WallPart", "ConstraintDef": "ConstraintPart"}
 NUMBERS = {"int32_t": "c_int32", "uint32_t": "c_uint32", "int64_t": "c_int64", "uint64_t": "c_uint64",
            "double": "c_double", "size_t": "c_size_t", "char": "c_char"}

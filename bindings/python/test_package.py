@@ -302,6 +302,12 @@ class ArraysTest(unittest.TestCase):
         self.assertAlmostEqual(found.contact_force.sum(), self.sim.contact_total().normal_force)
         with self.assertRaises(ValueError):
             self.sim.profile(self.string, 10, 0)
+        self.assertEqual(found["deviation"][7], found[mbd.PROFILE_DEVIATION][7])
+        self.assertEqual(found.force[6, 0], self.sim.section(mbd.station(self.string, 3, 0.0)).force[0])
+        with self.assertRaises(KeyError):
+            found["deviations"]
+        self.assertAlmostEqual(self.model.hole(5.0).diameter, 0.094)
+        self.assertEqual(self.model.hole(5.0).dogleg_severity, 0.0)
 
     @there("numpy")
     def test_shapes(self):

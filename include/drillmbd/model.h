@@ -197,6 +197,7 @@ typedef struct dmb_pipe_def {
     double section_mass;         /* [kg/m] 0: from the diameters */
     double section_inertia[2]; /* [kg m] rotary inertia per metre about x and across; 0: from the diameters; of a rigid
                                   pipe as a body about its axis <= twice across; shape (2) */
+    double yield_strength;     /* [Pa] for the share of yield of a profile; 0 (default): not known */
 } dmb_pipe_def;
 DMB_SIZED_STRUCT(dmb_pipe_def)
 /* Appends count (1 .. 2^20) equal pipes at the far end of a string; *string (may be NULL) names the string.
@@ -256,8 +257,8 @@ typedef struct dmb_bit_def {
 DMB_SIZED_STRUCT(dmb_bit_def)
 DMB_API int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_id *bit);
 
-/* ---- Joints ------------------------------------------------------------------------------------------------------ A
- * joint holds frame b on one part against frame a on another. Its coordinates are frame b seen from frame a: X, Y, Z
+/* ---- Joints ------------------------------------------------------------------------------------------------------
+ * A joint holds frame b on one part against frame a on another. Its coordinates are frame b seen from frame a: X, Y, Z
  * the origin of b in a [m]; RX, RY, RZ the angles of the rotation Ry(RY) Rz(RZ) Rx(RX) from a to b [rad], RX and RY
  * counted over full turns. The x axis of the frames is the joint's axis. Parts need not fit as described,
  * dmb_sim_create brings them together; but axes that a joint keeps parallel (x; fixed, prismatic: y too) should be less

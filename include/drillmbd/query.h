@@ -191,6 +191,98 @@ DMB_SIZED_STRUCT(dmb_statistics)
 /* O(number of joints, couplings and constraints). */
 DMB_API int32_t dmb_query_statistics(const dmb_sim *sim, dmb_statistics *statistics);
 
+/* ---- The hole at a depth ----------------------------------------------------------------------------------------- */
+enum { DMB_HOLE_ABOVE = -1, DMB_HOLE_SURVEYED = 0, DMB_HOLE_BELOW = 1 };
+typedef struct dmb_hole_point {
+    uint32_t struct_size;
+    int32_t beyond;         /* DMB_HOLE_ABOVE the first station or _BELOW the last one, where the axis goes straight on;
+                               a hole without survey is DMB_HOLE_SURVEYED everywhere */
+    double position[3];     /* [m] of the axis, world frame, shape (3) */
+    double tangent[3];      /* [-] unit, towards greater depth, world frame, shape (3) */
+    double normal[3];       /* [-] unit, towards the centre of curvature, world frame; 0 where straight; shape (3) */
+    double curvature;       /* [rad/m] >= 0 */
+    double dogleg_severity; /* [deg/30m] the same in the drillers' unit */
+    double inclination;     /* [rad] from the downward vertical, 0 .. pi */
+    double azimuth;         /* [rad] from +x towards +y, -pi .. pi; 0 where the hole is vertical */
+    double diameter;        /* [m] */
+} dmb_hole_point;
+DMB_SIZED_STRUCT(dmb_hole_point)
+/* The axis at a measured depth [m], by minimum curvature (Taylor, Mason 1972) between stations. A compiled model;
+ * DMB_ERR_ORDER before, DMB_ERR_UNSUPPORTED without a hole. O(log stations). */
+DMB_API int32_t dmb_query_hole(const dmb_model *model, double depth, dmb_hole_point *point);
+
+/* ---- Profiles: a string's state over its length ------------------------------------------------------------------
+ * Forces are of the section, tension > 0. Section forces of the library are effective ones: true axial force less that
+ * of a fluid at rest, N_e = N + p_o A_o - p_i A_i (p the pressure of `fluid_density` under the start of the hole, or
+ * the rig end without a hole, >= 0): it is N_e that bends, buckles and yields. Shares are load over limit: 1 is the
+ * limit, 1 - share the margin. */
+enum {
+    DMB_PROFILE_DISTANCE = 0,            /* [m] along the string from its rig end */
+    DMB_PROFILE_DEPTH = 1,               /* [m] measured depth; 0 without a hole */
+    DMB_PROFILE_X = 2,                   /* [m] position, world frame */
+    DMB_PROFILE_Y = 3,                   /* [m] likewise */
+    DMB_PROFILE_Z = 4,                   /* [m] likewise */
+    DMB_PROFILE_DEVIATION = 5,           /* [m] distance from the hole's axis */
+    DMB_PROFILE_DEVIATION_SIDE = 6,      /* [m] its horizontal part, along z_world x tangent: left looking ahead */
+    DMB_PROFILE_DEVIATION_UP = 7,        /* [m] its other part: towards the high side */
+    DMB_PROFILE_AXIAL_FORCE = 8,         /* [N] true axial force N */
+    DMB_PROFILE_EFFECTIVE_FORCE = 9,     /* [N] effective axial force N_e, as dmb_query_section */
+    DMB_PROFILE_TORQUE = 10,             /* [N m] */
+    DMB_PROFILE_BENDING_MOMENT = 11,     /* [N m] magnitude; of axial-torsional pipes EI times the hole's curvature */
+    DMB_PROFILE_SHEAR_FORCE = 12,        /* [N] magnitude */
+    DMB_PROFILE_CURVATURE = 13,          /* [rad/m] of bending, magnitude, less the unstressed one; 0 in tool joints */
+    DMB_PROFILE_NORMAL_FORCE = 14,       /* [N/m] of the wall on the string, >= 0; that of the nearest contact site */
+    DMB_PROFILE_FRICTION_AXIAL = 15,     /* [N/m] of the wall on the string along its axis, likewise */
+    DMB_PROFILE_FRICTION_AROUND = 16,    /* [N/m] likewise along axis x outward normal */
+    DMB_PROFILE_VON_MISES = 17,          /* [Pa] largest at the outer surface, by the diameters: N_e/A and M r/I
+                                            together, T r/J (pressure at rest leaves shape and yield alone) */
+    DMB_PROFILE_YIELD_SHARE = 18,        /* [-] of `yield_strength`; NaN where the pipe has none */
+    DMB_PROFILE_SINUSOIDAL_SHARE = 19,   /* [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without
+                                            a hole */
+    DMB_PROFILE_HELICAL_SHARE = 20,      /* [-] likewise of helical buckling */
+    DMB_PROFILE_VELOCITY_AXIAL = 21,     /* [m/s] along the pipe's axis */
+    DMB_PROFILE_VELOCITY_LATERAL = 22,   /* [m/s] across, magnitude */
+    DMB_PROFILE_SPIN = 23,               /* [rad/s] about the pipe's axis */
+    DMB_PROFILE_ACCELERATION_AXIAL = 24, /* [m/s2] of the section's centre, along the pipe's axis */
+    DMB_PROFILE_ACCELERATION_LATERAL = 25, /* [m/s2] across, magnitude */
+    DMB_PROFILE_ROTATION = 26,             /* [rad] about the pipe's axis since time 0, unwrapped */
+    DMB_PROFILE_DISPLACEMENT_X = 27,       /* [m] since time 0 as described, world frame */
+    DMB_PROFILE_DISPLACEMENT_Y = 28,       /* [m] likewise */
+    DMB_PROFILE_DISPLACEMENT_Z = 29,       /* [m] likewise */
+    DMB_PROFILE_SHEAR_Y = 30,              /* [N] section frame, as dmb_query_section */
+    DMB_PROFILE_SHEAR_Z = 31,              /* [N] likewise */
+    DMB_PROFILE_MOMENT_Y = 32,             /* [N m] bending about y, likewise */
+    DMB_PROFILE_MOMENT_Z = 33,             /* [N m] likewise */
+    DMB_PROFILE_GAP = 34,                  /* [m] of the nearest contact site to the wall, < 0 when penetrating; NaN
+                                              without one */
+    DMB_PROFILE_COUNT = 35
+};
+typedef struct dmb_profile {
+    uint32_t struct_size;
+    uint32_t station_count;    /* [-] 1 .. 2^24 */
+    dmb_id string;             /* {0, 0}: the model's first string */
+    const double *distance;    /* [m] of the stations along the string, 0 .. its length, any order, shape
+                                  (station_count); NULL: spread evenly from the rig end to the far end */
+    const int32_t *quantities; /* DMB_PROFILE_..., shape (quantity_count) */
+    uint32_t quantity_count;   /* [-] 1 .. DMB_PROFILE_COUNT, repetitions allowed */
+    uint32_t reserved;
+    double *values;           /* the caller's; value of quantity q at station i is values[i * station_stride + q *
+                                 quantity_stride] */
+    uint64_t station_stride;  /* [-] in doubles; both 0 (default): quantity_count and 1 */
+    uint64_t quantity_stride; /* [-] */
+} dmb_profile;
+DMB_SIZED_STRUCT(dmb_profile)
+/* Fills profile->values. Section forces, stresses and shares are NaN on rigid pipes. Buckling loads are those of a long
+ * pipe that lies on the wall without friction: sinusoidal sqrt(4 EI w_c/r) with the contact force per metre that the
+ * unbuckled pipe would have, w_c = |w_across + N_e dt/ds| (Dawson, Paslay 1984; He, Kyllingstad 1995), helical sqrt(2)
+ * times that (Chen, Lin, Cheatham 1990), but at least 2.55 and 5.55 times (EI w_along^2)^(1/3) of a vertical hole (Wu,
+ * Juvkam-Wold 1995); r the clearance of the nearest contact site, w the weight per metre with buoyancy and tool joints.
+ * Errors: DMB_ERR_VALUE (quantity, station off the string, strides that overlap), DMB_ERR_NOT_FINITE, DMB_ERR_ID;
+ * nothing is written then. O(station_count). */
+DMB_API int32_t dmb_query_profile(const dmb_sim *sim, const dmb_profile *profile);
+/* Name of a quantity ("axial_force") and its unit in *unit (may be NULL); NULL for a number that is none. */
+DMB_API const char *dmb_profile_name(int32_t quantity, const char **unit);
+
 /* ---- Recorder ----------------------------------------------------------------------------------------------------
  * Chosen channels at a chosen rate into the caller's memory: a table of rows (time, channels...). Take a sample after
  * every step; one is kept when its time has come. */

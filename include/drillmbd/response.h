@@ -157,9 +157,9 @@ DMB_API int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const 
                                           const dmb_output *outputs, uint32_t output_count, double *amplitudes,
                                           dmb_stepped_sine_report *report);
 
-/* ---- Safe speeds ------------------------------------------------------------------------------------------------- A
- * string that turns at W [rad/s] is shaken at orders of its speed: at W by eccentric masses, at 2 W by misalignment, at
- * 3 W by a tricone bit, at the number of blades times W by the cut. */
+/* ---- Safe speeds -------------------------------------------------------------------------------------------------
+ * A string that turns at W [rad/s] is shaken at orders of its speed: at W by eccentric masses, at 2 W by misalignment,
+ * at 3 W by a tricone bit, at the number of blades times W by the cut. */
 typedef struct dmb_order {
     uint32_t struct_size;
     uint32_t reserved;

@@ -52,6 +52,7 @@ static void check_material(dmb_check *check, const dmb_pipe_def *def)
     dmb_check_within(check, "density", def->density, DMB_DENSITY_MIN, DMB_DENSITY_MAX);
     dmb_check_within(check, "shear_factor", def->shear_factor, DMB_NUMBER_MIN, DMB_NUMBER_MAX);
     dmb_check_within(check, "damping_time", def->damping_time, 0.0, DMB_TIME_MAX);
+    dmb_check_each_zero_or_within(check, "yield_strength", &def->yield_strength, 1, DMB_MODULUS_MIN, DMB_MODULUS_MAX);
 }
 
 static void check_section(dmb_check *check, const dmb_pipe_def *def)

@@ -11,20 +11,20 @@ static double given_or(double given, double otherwise)
 }
 
 /* Differences of powers as products: no digits are lost for thin walls. */
-static double ring_area(double outer, double inner)
+double dmb_ring_area(double outer, double inner)
 {
     return 0.25 * DMB_PI * (outer - inner) * (outer + inner);
 }
 
-static double ring_second_moment(double outer, double inner)
+double dmb_ring_second_moment(double outer, double inner)
 {
-    return ring_area(outer, inner) * (outer * outer + inner * inner) / 16.0;
+    return dmb_ring_area(outer, inner) * (outer * outer + inner * inner) / 16.0;
 }
 
 void dmb_section_of(const dmb_pipe_def *def, dmb_pipe_section *section)
 {
-    const double A = ring_area(def->outer_diameter, def->inner_diameter);
-    const double I = ring_second_moment(def->outer_diameter, def->inner_diameter);
+    const double A = dmb_ring_area(def->outer_diameter, def->inner_diameter);
+    const double I = dmb_ring_second_moment(def->outer_diameter, def->inner_diameter);
     const double E = def->young_modulus, G = E / (2.0 * (1.0 + def->poisson_ratio));
     const double GA = def->shear_factor * G * A;
     const double tube[6] = {E * A, GA, GA, G * 2.0 * I, E * I, E * I};
@@ -62,7 +62,7 @@ void dmb_joint_of(const dmb_pipe_def *def, dmb_rigid_part *part)
     const double inner = given_or(def->joint_inner_diameter, def->inner_diameter);
     part->mass = part->inertia[0] = part->inertia[1] = 0.0;
     if (!(length > 0.0)) return;
-    part->mass = given_or(def->joint_mass, def->density * ring_area(outer, inner) * length);
+    part->mass = given_or(def->joint_mass, def->density * dmb_ring_area(outer, inner) * length);
     const double about = part->mass * (outer * outer + inner * inner) / 8.0;
     part->inertia[0] = given_or(def->joint_inertia[0], about);
     part->inertia[1] = given_or(def->joint_inertia[1], 0.5 * about + part->mass * length * length / 12.0);

@@ -17,6 +17,10 @@ typedef struct dmb_rigid_part {
     double inertia[2]; /* [kg m2] about the axis and across, at the centre */
 } dmb_rigid_part;
 
+/* [m2], [m4] of a ring with these diameters [m]. */
+double dmb_ring_area(double outer, double inner);
+double dmb_ring_second_moment(double outer, double inner);
+
 /* Tube: A = pi (D^2 - d^2)/4, I = pi (D^4 - d^4)/64, J = 2 I, G = E/(2 (1 + nu)), GA = kappa G A; what the definition
  * gives itself goes first. */
 void dmb_section_of(const dmb_pipe_def *def, dmb_pipe_section *section);

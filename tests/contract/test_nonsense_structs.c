@@ -48,6 +48,7 @@ INIT(step_report) INIT(static_options) INIT(static_report) INIT(buckling_options
 INIT(pose) INIT(motion) INIT(section) INIT(contact)
 INIT(contact_total) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state) INIT(statistics) INIT(recorder)
 INIT(allocator) INIT(joint_state) INIT(joint_def) INIT(coupling_def) INIT(constraint_def)
+INIT(hole_point) INIT(profile)
     /* clang-format on */
 
     static int32_t call_model_options(void *p)
@@ -218,6 +219,7 @@ CALL(advance_report, dmb_sim_advance(scene.sim, dmb_sim_time(scene.sim) + 1e-6, 
 CALL(pose, dmb_query_pose(scene.sim, middle(), p))
 CALL(motion, dmb_query_motion(scene.sim, middle(), p))
 CALL(section, dmb_query_section(scene.sim, middle(), p))
+CALL(hole_point, dmb_query_hole(scene.model, 1.0, p))
 CALL(contact, dmb_query_contact(scene.sim, 0, p))
 CALL(contact_total, dmb_query_contact_total(scene.sim, p))
 CALL(energy, dmb_query_energy(scene.sim, p))
@@ -243,6 +245,20 @@ CALL(buckling_options, order_is_fine(dmb_analysis_buckling(scene.sim, p, &no_buc
 CALL(path_options, order_is_fine(dmb_analysis_path(scene.sim, p, NULL)))
 CALL(path_report, order_is_fine(dmb_analysis_path(scene.sim, NULL, p)))
 CALL(static_report, singular_is_fine(dmb_analysis_static(scene.sim, NULL, p)))
+
+static int32_t call_profile(void *p)
+{
+    static const int32_t depth = DMB_PROFILE_DEPTH;
+    dmb_profile *profile = p;
+    double values[2];
+    if (profile->struct_size >= sizeof *profile) {
+        profile->quantities = &depth;
+        profile->quantity_count = 1;
+        profile->station_count = 2;
+        profile->values = values;
+    }
+    return dmb_query_profile(scene.sim, profile);
+}
 
 static int32_t call_recorder(void *p)
 {
@@ -275,7 +291,7 @@ static const entry entries[] = {
     ENTRY(term, 0),
     ENTRY(wall_def, 0),
     ENTRY(string_def, 0),
-    ENTRY(pipe_def, 0),
+    GROWN(pipe_def, 264, 0),
     GROWN(body_def, 216, 0),
     ENTRY(bit_def, 0),
     GROWN(drive_def, 72, 0),
@@ -292,6 +308,8 @@ static const entry entries[] = {
     ENTRY(pose, 1),
     ENTRY(motion, 1),
     ENTRY(section, 1),
+    ENTRY(hole_point, 1),
+    ENTRY(profile, 0),
     ENTRY(contact, 1),
     ENTRY(contact_total, 1),
     ENTRY(energy, 1),

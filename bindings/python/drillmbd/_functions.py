@@ -39,6 +39,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_drive_state_init": (c_int32, POINTER(DriveState), c_uint32,),
     "dmb_energy_init": (c_int32, POINTER(Energy), c_uint32,),
     "dmb_environment_def_init": (c_int32, POINTER(EnvironmentDef), c_uint32,),
+    "dmb_hole_point_init": (c_int32, POINTER(HolePoint), c_uint32,),
     "dmb_input_init": (c_int32, POINTER(Input), c_uint32,),
     "dmb_joint_def_init": (c_int32, POINTER(JointDef), c_uint32,),
     "dmb_joint_state_init": (c_int32, POINTER(JointState), c_uint32,),
@@ -81,17 +82,21 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_path_report_init": (c_int32, POINTER(PathReport), c_uint32,),
     "dmb_pipe_def_init": (c_int32, POINTER(PipeDef), c_uint32,),
     "dmb_pose_init": (c_int32, POINTER(Pose), c_uint32,),
+    "dmb_profile_init": (c_int32, POINTER(ProfileStruct), c_uint32,),
+    "dmb_profile_name": (c_char_p, c_int32, POINTER(c_char_p),),
     "dmb_query_bit": (c_int32, c_void_p, Id, POINTER(BitState),),
     "dmb_query_contact": (c_int32, c_void_p, c_uint32, POINTER(Contact),),
     "dmb_query_contact_total": (c_int32, c_void_p, POINTER(ContactTotal),),
     "dmb_query_drive": (c_int32, c_void_p, Id, POINTER(DriveState),),
     "dmb_query_energy": (c_int32, c_void_p, POINTER(Energy),),
+    "dmb_query_hole": (c_int32, c_void_p, c_double, POINTER(HolePoint),),
     "dmb_query_joint": (c_int32, c_void_p, Id, POINTER(JointState),),
     "dmb_query_kinetic_energy": (c_int32, c_void_p, Id, c_uint32, POINTER(c_double),),
     "dmb_query_momentum": (c_int32, c_void_p, POINTER(Momentum),),
     "dmb_query_motion": (c_int32, c_void_p, Place, POINTER(Motion),),
     "dmb_query_multipliers": (c_int32, c_void_p, Id, POINTER(c_double), POINTER(c_uint32),),
     "dmb_query_pose": (c_int32, c_void_p, Place, POINTER(Pose),),
+    "dmb_query_profile": (c_int32, c_void_p, POINTER(ProfileStruct),),
     "dmb_query_reaction": (c_int32, c_void_p, Id, POINTER(c_double),),
     "dmb_query_rotation": (c_int32, c_void_p, Place, POINTER(c_double),),
     "dmb_query_section": (c_int32, c_void_p, Place, POINTER(Section),),
@@ -200,18 +205,24 @@ FUNCTION_DOCS = {
         "[J] kinetic and strain energy of the mode, as in dmb_mode, in a pipe of a string with half of what is fixed to its two ends, in a whole string (pipe = NONE), or in a body or bit (pipe 0). O(elements of it).",
     "dmb_modes_shape":
         "Shape at a place, between nodes by the element's own shape functions. O(1).",
+    "dmb_profile_name":
+        "Name of a quantity (\"axial_force\") and its unit in *unit (may be NULL); NULL for a number that is none.",
     "dmb_query_contact":
         "Contact of one site, sites counted along the strings and then the bodies.",
     "dmb_query_contact_total":
         "O(number of sites).",
     "dmb_query_energy":
         "Energy ledger since the start; ERR_UNSUPPORTED where the options left it out. O(number of nodes).",
+    "dmb_query_hole":
+        "The axis at a measured depth [m], by minimum curvature (Taylor, Mason 1972) between stations. A compiled model; ERR_ORDER before, ERR_UNSUPPORTED without a hole. O(log stations).",
     "dmb_query_kinetic_energy":
         "[J] kinetic energy of one pipe of a string with half of what is fixed to its two ends, or of a body.",
     "dmb_query_momentum":
         "O(number of nodes).",
     "dmb_query_multipliers":
         "Multipliers of a joint, coupling, constraint or joint drive: count of its rows (at most 6), in the units of a force per unit of its value. *count on return is the number of rows.",
+    "dmb_query_profile":
+        "Fills profile->values. Section forces, stresses and shares are NaN on rigid pipes. Buckling loads are those of a long pipe that lies on the wall without friction: sinusoidal sqrt(4 EI w_c/r) with the contact force per metre that the unbuckled pipe would have, w_c = |w_across + N_e dt/ds| (Dawson, Paslay 1984; He, Kyllingstad 1995), helical sqrt(2) times that (Chen, Lin, Cheatham 1990), but at least 2.55 and 5.55 times (EI w_along^2)^(1/3) of a vertical hole (Wu, Juvkam-Wold 1995); r the clearance of the nearest contact site, w the weight per metre with buoyancy and tool joints. Errors: ERR_VALUE (quantity, station off the string, strides that overlap), ERR_NOT_FINITE, ERR_ID; nothing is written then. O(station_count).",
     "dmb_query_reaction":
         "[N, N m] force and moment of the guide and the motion drives on the rig end of a string or on a guided body, body frame, shape (6); 0 in components that are free.",
     "dmb_query_rotation":

@@ -603,6 +603,43 @@ class Statistics(Sized):
     }
 
 
+class HolePoint(Sized):
+    c_name, about = "dmb_hole_point", ""
+    struct_size: int
+    beyond: int
+    position: 'Array[c_double]'
+    tangent: 'Array[c_double]'
+    normal: 'Array[c_double]'
+    curvature: float
+    dogleg_severity: float
+    inclination: float
+    azimuth: float
+    diameter: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("beyond", c_int32),
+        ("position", c_double * 3),
+        ("tangent", c_double * 3),
+        ("normal", c_double * 3),
+        ("curvature", c_double),
+        ("dogleg_severity", c_double),
+        ("inclination", c_double),
+        ("azimuth", c_double),
+        ("diameter", c_double),
+    ]
+    field_docs = {
+        "beyond": ("", "HOLE_ABOVE the first station or _BELOW the last one, where the axis goes straight on; a hole without survey is HOLE_SURVEYED everywhere"),
+        "position": ("m", "of the axis, world frame, shape (3)"),
+        "tangent": ("-", "unit, towards greater depth, world frame, shape (3)"),
+        "normal": ("-", "unit, towards the centre of curvature, world frame; 0 where straight; shape (3)"),
+        "curvature": ("rad/m", ">= 0"),
+        "dogleg_severity": ("deg/30m", "the same in the drillers' unit"),
+        "inclination": ("rad", "from the downward vertical, 0 .. pi"),
+        "azimuth": ("rad", "from +x towards +y, -pi .. pi; 0 where the hole is vertical"),
+        "diameter": ("m", ""),
+    }
+
+
 class StaticOptions(Sized):
     c_name, about = "dmb_static_options", ""
     struct_size: int
@@ -1325,6 +1362,7 @@ class PipeDef(Sized):
     section_stiffness: 'Array[c_double]'
     section_mass: float
     section_inertia: 'Array[c_double]'
+    yield_strength: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -1352,6 +1390,7 @@ class PipeDef(Sized):
         ("section_stiffness", c_double * 6),
         ("section_mass", c_double),
         ("section_inertia", c_double * 2),
+        ("yield_strength", c_double),
     ]
     field_docs = {
         "kind": ("", "PIPE_..., default PIPE_FLEXIBLE"),
@@ -1379,6 +1418,7 @@ class PipeDef(Sized):
         "section_stiffness": ("N, N, N, N m2, N m2, N m2", "EA, GA_y, GA_z, GJ, EI_y, EI_z; 0: from the diameters"),
         "section_mass": ("kg/m", "0: from the diameters"),
         "section_inertia": ("kg m", "rotary inertia per metre about x and across; 0: from the diameters; of a rigid pipe as a body about its axis <= twice across; shape (2)"),
+        "yield_strength": ("Pa", "for the share of yield of a profile; 0 (default): not known"),
     }
 
 
@@ -1659,6 +1699,42 @@ class Contact(Sized):
         "approach": ("m/s", "normal speed towards the wall"),
         "friction": ("N", "on the pipe: along its axis, along axis x normal; after a static start that assumed a slip (dmb_static_options) what its equilibrium took, until the next step; shape (2)"),
         "slip": ("m/s", "of the contact point on the wall, same directions, shape (2)"),
+    }
+
+
+class ProfileStruct(Sized):
+    c_name, about = "dmb_profile", ""
+    struct_size: int
+    station_count: int
+    string: Id
+    distance: Any
+    quantities: Any
+    quantity_count: int
+    reserved: int
+    values: Any
+    station_stride: int
+    quantity_stride: int
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("station_count", c_uint32),
+        ("string", Id),
+        ("distance", POINTER(c_double)),
+        ("quantities", POINTER(c_int32)),
+        ("quantity_count", c_uint32),
+        ("reserved", c_uint32),
+        ("values", POINTER(c_double)),
+        ("station_stride", c_uint64),
+        ("quantity_stride", c_uint64),
+    ]
+    field_docs = {
+        "station_count": ("-", "1 .. 2^24"),
+        "string": ("", "{0, 0}: the model's first string"),
+        "distance": ("m", "of the stations along the string, 0 .. its length, any order, shape (station_count); NULL: spread evenly from the rig end to the far end"),
+        "quantities": ("", "PROFILE_..., shape (quantity_count)"),
+        "quantity_count": ("-", "1 .. PROFILE_COUNT, repetitions allowed"),
+        "values": ("", "the caller's; value of quantity q at station i is values[i * station_stride + q * quantity_stride]"),
+        "station_stride": ("-", "in doubles; both 0 (default): quantity_count and 1"),
+        "quantity_stride": ("-", ""),
     }
 
 
@@ -2109,6 +2185,8 @@ STRUCTS["dmb_drive_state"] = DriveState
 STRUCTS["dmb_joint_state"] = JointState
 STRUCTS["dmb_bit_state"] = BitState
 STRUCTS["dmb_statistics"] = Statistics
+STRUCTS["dmb_hole_point"] = HolePoint
+STRUCTS["dmb_profile"] = ProfileStruct
 STRUCTS["dmb_channel"] = Channel
 STRUCTS["dmb_recorder"] = RecorderStruct
 STRUCTS["dmb_static_options"] = StaticOptions

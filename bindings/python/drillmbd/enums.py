@@ -340,6 +340,96 @@ METHOD_INDEPENDENT = ConstraintMethod.INDEPENDENT
 METHOD_MULTIPLIERS = ConstraintMethod.MULTIPLIERS
 
 
+class HoleBeyond(IntEnum):
+    """Values DMB_HOLE_... of the headers."""
+    ABOVE = -1
+    SURVEYED = 0
+    BELOW = 1
+
+
+HOLE_ABOVE = HoleBeyond.ABOVE
+HOLE_SURVEYED = HoleBeyond.SURVEYED
+HOLE_BELOW = HoleBeyond.BELOW
+
+
+class ProfileQuantity(IntEnum):
+    """Values DMB_PROFILE_... of the headers."""
+    DISTANCE = 0  #: [m] along the string from its rig end
+    DEPTH = 1  #: [m] measured depth; 0 without a hole
+    X = 2  #: [m] position, world frame
+    Y = 3  #: [m] likewise
+    Z = 4  #: [m] likewise
+    DEVIATION = 5  #: [m] distance from the hole's axis
+    DEVIATION_SIDE = 6  #: [m] its horizontal part, along z_world x tangent: left looking ahead
+    DEVIATION_UP = 7  #: [m] its other part: towards the high side
+    AXIAL_FORCE = 8  #: [N] true axial force N
+    EFFECTIVE_FORCE = 9  #: [N] effective axial force N_e, as dmb_query_section
+    TORQUE = 10  #: [N m]
+    BENDING_MOMENT = 11  #: [N m] magnitude; of axial-torsional pipes EI times the hole's curvature
+    SHEAR_FORCE = 12  #: [N] magnitude
+    CURVATURE = 13  #: [rad/m] of bending, magnitude, less the unstressed one; 0 in tool joints
+    NORMAL_FORCE = 14  #: [N/m] of the wall on the string, >= 0; that of the nearest contact site
+    FRICTION_AXIAL = 15  #: [N/m] of the wall on the string along its axis, likewise
+    FRICTION_AROUND = 16  #: [N/m] likewise along axis x outward normal
+    VON_MISES = 17  #: [Pa] largest at the outer surface, by the diameters: N_e/A and M r/I together, T r/J (pressure at rest leaves shape and yield alone)
+    YIELD_SHARE = 18  #: [-] of `yield_strength`; NaN where the pipe has none
+    SINUSOIDAL_SHARE = 19  #: [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without a hole
+    HELICAL_SHARE = 20  #: [-] likewise of helical buckling
+    VELOCITY_AXIAL = 21  #: [m/s] along the pipe's axis
+    VELOCITY_LATERAL = 22  #: [m/s] across, magnitude
+    SPIN = 23  #: [rad/s] about the pipe's axis
+    ACCELERATION_AXIAL = 24  #: [m/s2] of the section's centre, along the pipe's axis
+    ACCELERATION_LATERAL = 25  #: [m/s2] across, magnitude
+    ROTATION = 26  #: [rad] about the pipe's axis since time 0, unwrapped
+    DISPLACEMENT_X = 27  #: [m] since time 0 as described, world frame
+    DISPLACEMENT_Y = 28  #: [m] likewise
+    DISPLACEMENT_Z = 29  #: [m] likewise
+    SHEAR_Y = 30  #: [N] section frame, as dmb_query_section
+    SHEAR_Z = 31  #: [N] likewise
+    MOMENT_Y = 32  #: [N m] bending about y, likewise
+    MOMENT_Z = 33  #: [N m] likewise
+    GAP = 34  #: [m] of the nearest contact site to the wall, < 0 when penetrating; NaN without one
+    COUNT = 35
+
+
+PROFILE_DISTANCE = ProfileQuantity.DISTANCE
+PROFILE_DEPTH = ProfileQuantity.DEPTH
+PROFILE_X = ProfileQuantity.X
+PROFILE_Y = ProfileQuantity.Y
+PROFILE_Z = ProfileQuantity.Z
+PROFILE_DEVIATION = ProfileQuantity.DEVIATION
+PROFILE_DEVIATION_SIDE = ProfileQuantity.DEVIATION_SIDE
+PROFILE_DEVIATION_UP = ProfileQuantity.DEVIATION_UP
+PROFILE_AXIAL_FORCE = ProfileQuantity.AXIAL_FORCE
+PROFILE_EFFECTIVE_FORCE = ProfileQuantity.EFFECTIVE_FORCE
+PROFILE_TORQUE = ProfileQuantity.TORQUE
+PROFILE_BENDING_MOMENT = ProfileQuantity.BENDING_MOMENT
+PROFILE_SHEAR_FORCE = ProfileQuantity.SHEAR_FORCE
+PROFILE_CURVATURE = ProfileQuantity.CURVATURE
+PROFILE_NORMAL_FORCE = ProfileQuantity.NORMAL_FORCE
+PROFILE_FRICTION_AXIAL = ProfileQuantity.FRICTION_AXIAL
+PROFILE_FRICTION_AROUND = ProfileQuantity.FRICTION_AROUND
+PROFILE_VON_MISES = ProfileQuantity.VON_MISES
+PROFILE_YIELD_SHARE = ProfileQuantity.YIELD_SHARE
+PROFILE_SINUSOIDAL_SHARE = ProfileQuantity.SINUSOIDAL_SHARE
+PROFILE_HELICAL_SHARE = ProfileQuantity.HELICAL_SHARE
+PROFILE_VELOCITY_AXIAL = ProfileQuantity.VELOCITY_AXIAL
+PROFILE_VELOCITY_LATERAL = ProfileQuantity.VELOCITY_LATERAL
+PROFILE_SPIN = ProfileQuantity.SPIN
+PROFILE_ACCELERATION_AXIAL = ProfileQuantity.ACCELERATION_AXIAL
+PROFILE_ACCELERATION_LATERAL = ProfileQuantity.ACCELERATION_LATERAL
+PROFILE_ROTATION = ProfileQuantity.ROTATION
+PROFILE_DISPLACEMENT_X = ProfileQuantity.DISPLACEMENT_X
+PROFILE_DISPLACEMENT_Y = ProfileQuantity.DISPLACEMENT_Y
+PROFILE_DISPLACEMENT_Z = ProfileQuantity.DISPLACEMENT_Z
+PROFILE_SHEAR_Y = ProfileQuantity.SHEAR_Y
+PROFILE_SHEAR_Z = ProfileQuantity.SHEAR_Z
+PROFILE_MOMENT_Y = ProfileQuantity.MOMENT_Y
+PROFILE_MOMENT_Z = ProfileQuantity.MOMENT_Z
+PROFILE_GAP = ProfileQuantity.GAP
+PROFILE_COUNT = ProfileQuantity.COUNT
+
+
 class Quantity(IntEnum):
     """Values DMB_CHANNEL_... of the headers."""
     DISPLACEMENT_X = 0
@@ -585,6 +675,8 @@ ENUMS = (
     Frame,
     Feature,
     ConstraintMethod,
+    HoleBeyond,
+    ProfileQuantity,
     Quantity,
     Steady,
     Stiffness,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ._keep import Keep, as_id, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._record import Record
-from ._structs import (BitDef, BodyDef, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef, Id, JointDef,
+from ._structs import (BitDef, BodyDef, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef, HolePoint, Id, JointDef,
                        LoadDef, ModelInfo, ModelOptions, PipeDef, Place, SimOptions, StringDef, Term, WallDef)
 
 if TYPE_CHECKING:
@@ -185,6 +185,13 @@ class Model:
         info = ModelInfo()
         info.status = self._check(_lib.dmb_model_get_info(self._handle, byref(info)))
         return info
+
+    @mirrors("dmb_query_hole")
+    def hole(self, depth: float) -> HolePoint:
+        """The hole's axis at a measured depth [m]."""
+        point: HolePoint = HolePoint.blank()
+        self._check(_lib.dmb_query_hole(self._handle, depth, byref(point)))
+        return point
 
     @mirrors("dmb_sim_memory_size")
     def sim_memory_size(self, options: SimOptions | None = None, **fields: Any) -> int:

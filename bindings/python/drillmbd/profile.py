@@ -1,88 +1,126 @@
 """A string from end to end as arrays."""
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from collections.abc import Iterable
+from ctypes import POINTER, byref, c_char_p, c_double, c_int32, cast
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ._keep import station
+from ._library import lib
 from ._optional import need
-from ._structs import Id
-from .enums import ERR_UNSUPPORTED
-from .errors import Error
+from ._structs import Id, ProfileStruct
+from .enums import PROFILE_COUNT, ProfileQuantity
+from .errors import Error, check
 
 if TYPE_CHECKING:
     from .sim import Sim
 
-_NAN6 = (float("nan"),) * 6
+QUANTITIES = [quantity for quantity in ProfileQuantity if quantity < PROFILE_COUNT]
+
+
+def unit_of(quantity: int) -> str:
+    """Unit of a quantity of a profile, as "N m"."""
+    unit = c_char_p()
+    lib.dmb_profile_name(quantity, byref(unit))
+    return (unit.value or b"").decode()
 
 
 @dataclass
 class Profile:
-    """Values along a string, numpy arrays: n stations from the rig end on."""
-    along: Any         #: [m] arc length from the rig end, shape (n)
-    depth: Any         #: [m] measured depth in the hole, 0 without a hole, shape (n)
-    position: Any      #: [m] world frame, shape (n, 3)
-    displacement: Any  #: [m] since time 0 as described, world frame, shape (n, 3)
-    rotation: Any      #: [rad] about the pipe's own axis since time 0, shape (n)
-    force: Any         #: [N, N m] axial (tension > 0), shear y, z, torque, bending moment y, z; NaN on rigid pipes, (n, 6)
+    """Values along a string, numpy arrays: n stations from the rig end on. profile["von_mises"] or
+    profile[PROFILE_VON_MISES] is one quantity, shape (n); the names are those of PROFILE_... in small letters."""
+    values: dict[str, Any]  #: every quantity by its name, each shape (n)
     contact_depth: Any  #: [m] measured depth of the contact sites of this string, shape (m)
     contact_force: Any  #: [N] normal force there on the wall, shape (m)
     contact_gap: Any   #: [m] there to the wall, < 0 when penetrating, shape (m)
 
+    def __getitem__(self, quantity: str | int) -> Any:
+        if isinstance(quantity, int):
+            quantity = ProfileQuantity(quantity).name.lower()
+        if quantity not in self.values:
+            raise KeyError(f"{quantity!r} is no quantity of a profile; there are {', '.join(self.values)}")
+        return self.values[quantity]
+
+    def _columns(self, *names: str) -> Any:
+        return need("numpy").stack([self.values[name] for name in names], axis=1)
+
+    @property
+    def along(self) -> Any:
+        """[m] distance from the rig end, shape (n)"""
+        return self.values["distance"]
+
+    @property
+    def depth(self) -> Any:
+        """[m] measured depth in the hole, 0 without a hole, shape (n)"""
+        return self.values["depth"]
+
+    @property
+    def position(self) -> Any:
+        """[m] world frame, shape (n, 3)"""
+        return self._columns("x", "y", "z")
+
+    @property
+    def displacement(self) -> Any:
+        """[m] since time 0 as described, world frame, shape (n, 3)"""
+        return self._columns("displacement_x", "displacement_y", "displacement_z")
+
+    @property
+    def rotation(self) -> Any:
+        """[rad] about the pipe's own axis since time 0, shape (n)"""
+        return self.values["rotation"]
+
+    @property
+    def force(self) -> Any:
+        """[N, N m] axial (effective, tension > 0), shear y, z, torque, bending moment y, z; NaN on rigid pipes, (n, 6)"""
+        return self._columns("effective_force", "shear_y", "shear_z", "torque", "moment_y", "moment_z")
+
     @property
     def axial_force(self) -> Any:
-        """[N] tension > 0, shape (n)"""
-        return self.force[:, 0]
+        """[N] effective axial force, tension > 0, shape (n); ["axial_force"] is the true one, mud pressure counted"""
+        return self.values["effective_force"]
 
     @property
     def torque(self) -> Any:
         """[N m], shape (n)"""
-        return self.force[:, 3]
+        return self.values["torque"]
 
     @property
     def bending_moment(self) -> Any:
         """[N m] magnitude, shape (n)"""
-        return (self.force[:, 4] ** 2 + self.force[:, 5] ** 2) ** 0.5
+        return self.values["bending_moment"]
 
     def frame(self) -> Any:
         """The stations as a pandas frame with units in the names of its columns; contact sites are not in it."""
-        columns = {"along [m]": self.along, "depth [m]": self.depth}
-        for i, axis in enumerate("xyz"):
-            columns[f"position {axis} [m]"] = self.position[:, i]
-            columns[f"displacement {axis} [m]"] = self.displacement[:, i]
-        columns.update({"rotation [rad]": self.rotation, "axial force [N]": self.axial_force,
-                        "shear y [N]": self.force[:, 1], "shear z [N]": self.force[:, 2], "torque [N m]": self.torque,
-                        "bending moment [N m]": self.bending_moment})
-        return need("pandas").DataFrame(columns)
+        return need("pandas").DataFrame({f"{one.name.lower().replace('_', ' ')} [{unit_of(one)}]":
+                                         self.values[one.name.lower()] for one in QUANTITIES})
 
 
-def _section(sim: Sim, place: Any) -> Any:
-    try:
-        return list(sim.section(place).force)
-    except Error as error:
-        if error.status != ERR_UNSUPPORTED:
-            raise
-        return _NAN6  # a rigid pipe
+def values_of(sim: Sim, string: Id, quantities: Iterable[int], distance: Any = None, count: int = 0) -> Any:
+    """Quantities PROFILE_... at distances [m] from the rig end, or at `count` stations spread evenly; numpy array of
+    shape (stations, quantities)."""
+    numpy = need("numpy")
+    wanted = numpy.array(list(quantities), dtype=numpy.int32)
+    places = None if distance is None else numpy.ascontiguousarray(distance, dtype=float).reshape(-1)
+    values = numpy.empty((count if places is None else len(places), len(wanted)))
+    request = ProfileStruct(string=string, station_count=len(values), quantity_count=len(wanted),
+                            quantities=cast(wanted.ctypes.data, POINTER(c_int32)),
+                            values=cast(values.ctypes.data, POINTER(c_double)))
+    if places is not None:
+        request.distance = cast(places.ctypes.data, POINTER(c_double))
+    check(lib.dmb_query_profile(sim._handle, byref(request)))
+    return values
 
 
 def profile(sim: Sim, string: Id, pipes: int, per_pipe: int = 2) -> Profile:
-    """The profile of a string of `pipes` pipes at `per_pipe` stations of each and at its rig end."""
+    """The profile of a string of `pipes` pipes at its rig end and `per_pipe` stations a pipe, spread evenly."""
     numpy = need("numpy")
     if per_pipe < 1:
         raise ValueError(f"per_pipe = {per_pipe}, must be >= 1")
-    places = [station(string, 0, 0.0)] + [station(string, pipe, (i + 1) / per_pipe)
-                                          for pipe in range(pipes) for i in range(per_pipe)]
-    poses = [sim.pose(place) for place in places]
-    position = numpy.array([list(pose.position) for pose in poses])
-    steps = numpy.linalg.norm(numpy.diff(position, axis=0), axis=1)
+    table = values_of(sim, string, QUANTITIES, count=pipes * per_pipe + 1)
     contacts = _contacts(sim, string)
-    return Profile(along=numpy.concatenate([[0.0], numpy.cumsum(steps)]), depth=numpy.array([pose.depth for pose in poses]),
-                   position=position, displacement=numpy.array([list(pose.displacement) for pose in poses]),
-                   rotation=numpy.array([sim.rotation(place) for place in places]),
-                   force=numpy.array([_section(sim, place) for place in places]),
-                   contact_depth=numpy.array([one[0] for one in contacts]),
-                   contact_force=numpy.array([one[1] for one in contacts]),
-                   contact_gap=numpy.array([one[2] for one in contacts]))
+    return Profile({one.name.lower(): table[:, i] for i, one in enumerate(QUANTITIES)},
+                   *(numpy.array([one[i] for one in contacts]) for i in range(3)))
 
 
 def _contacts(sim: Sim, string: Id) -> list[tuple[float, float, float]]:
@@ -99,6 +137,3 @@ def _contacts(sim: Sim, string: Id) -> list[tuple[float, float, float]]:
             end = contact.pipe == 0xFFFFFFFF
             pose = sim.pose(station(string, 0 if end else contact.pipe, 0.0 if end else 1.0))
             found.append((pose.depth, contact.normal_force, contact.gap))
-
-
-FIELDS = [field.name for field in fields(Profile)]

@@ -1,0 +1,417 @@
+/* A string's state over its length, quantity by quantity: what dmb_query_pose, _motion, _section and _contact tell of
+ * one place, and loads over limits by the pipe's definition. */
+#include <math.h>
+
+#include "model/section.h"
+#include "query/interpolation.h"
+#include "query/pipe_strength.h"
+#include "query/place.h"
+#include "sim/access.h"
+
+DMB_DEFINE_INIT(dmb_profile, 64, {.station_count = 1})
+
+enum { STATIONS_MAX = 1 << 24 };
+
+/* Groups of quantities that are computed together, and only where one of them is asked for. */
+enum { OF_STATION = 0, OF_POSE = 1, OF_SECTION = 2, OF_CONTACT = 4, OF_LIMITS = 8, OF_MOTION = 16 };
+
+static const struct quantity {
+    const char *name, *unit;
+    int32_t groups;
+} quantities_of[DMB_PROFILE_COUNT] = {
+    [DMB_PROFILE_DISTANCE] = {"distance", "m", OF_STATION},
+    [DMB_PROFILE_DEPTH] = {"depth", "m", OF_POSE},
+    [DMB_PROFILE_X] = {"x", "m", OF_POSE},
+    [DMB_PROFILE_Y] = {"y", "m", OF_POSE},
+    [DMB_PROFILE_Z] = {"z", "m", OF_POSE},
+    [DMB_PROFILE_DEVIATION] = {"deviation", "m", OF_POSE},
+    [DMB_PROFILE_DEVIATION_SIDE] = {"deviation_side", "m", OF_POSE},
+    [DMB_PROFILE_DEVIATION_UP] = {"deviation_up", "m", OF_POSE},
+    [DMB_PROFILE_AXIAL_FORCE] = {"axial_force", "N", OF_POSE | OF_SECTION},
+    [DMB_PROFILE_EFFECTIVE_FORCE] = {"effective_force", "N", OF_SECTION},
+    [DMB_PROFILE_TORQUE] = {"torque", "N m", OF_SECTION},
+    [DMB_PROFILE_BENDING_MOMENT] = {"bending_moment", "N m", OF_POSE | OF_SECTION},
+    [DMB_PROFILE_SHEAR_FORCE] = {"shear_force", "N", OF_SECTION},
+    [DMB_PROFILE_CURVATURE] = {"curvature", "rad/m", OF_POSE | OF_SECTION},
+    [DMB_PROFILE_NORMAL_FORCE] = {"normal_force", "N/m", OF_CONTACT},
+    [DMB_PROFILE_FRICTION_AXIAL] = {"friction_axial", "N/m", OF_CONTACT},
+    [DMB_PROFILE_FRICTION_AROUND] = {"friction_around", "N/m", OF_CONTACT},
+    [DMB_PROFILE_VON_MISES] = {"von_mises", "Pa", OF_POSE | OF_SECTION | OF_LIMITS},
+    [DMB_PROFILE_YIELD_SHARE] = {"yield_share", "-", OF_POSE | OF_SECTION | OF_LIMITS},
+    [DMB_PROFILE_SINUSOIDAL_SHARE] = {"sinusoidal_share", "-", OF_POSE | OF_SECTION | OF_LIMITS},
+    [DMB_PROFILE_HELICAL_SHARE] = {"helical_share", "-", OF_POSE | OF_SECTION | OF_LIMITS},
+    [DMB_PROFILE_VELOCITY_AXIAL] = {"velocity_axial", "m/s", OF_MOTION},
+    [DMB_PROFILE_VELOCITY_LATERAL] = {"velocity_lateral", "m/s", OF_MOTION},
+    [DMB_PROFILE_SPIN] = {"spin", "rad/s", OF_MOTION},
+    [DMB_PROFILE_ACCELERATION_AXIAL] = {"acceleration_axial", "m/s2", OF_MOTION},
+    [DMB_PROFILE_ACCELERATION_LATERAL] = {"acceleration_lateral", "m/s2", OF_MOTION},
+    [DMB_PROFILE_ROTATION] = {"rotation", "rad", OF_POSE},
+    [DMB_PROFILE_DISPLACEMENT_X] = {"displacement_x", "m", OF_POSE},
+    [DMB_PROFILE_DISPLACEMENT_Y] = {"displacement_y", "m", OF_POSE},
+    [DMB_PROFILE_DISPLACEMENT_Z] = {"displacement_z", "m", OF_POSE},
+    [DMB_PROFILE_SHEAR_Y] = {"shear_y", "N", OF_SECTION},
+    [DMB_PROFILE_SHEAR_Z] = {"shear_z", "N", OF_SECTION},
+    [DMB_PROFILE_MOMENT_Y] = {"moment_y", "N m", OF_SECTION},
+    [DMB_PROFILE_MOMENT_Z] = {"moment_z", "N m", OF_SECTION},
+    [DMB_PROFILE_GAP] = {"gap", "m", OF_CONTACT},
+};
+
+static int is_quantity(int32_t quantity)
+{
+    return quantity >= 0 && quantity < DMB_PROFILE_COUNT;
+}
+
+const char *dmb_profile_name(int32_t quantity, const char **unit)
+{
+    if (unit != NULL) *unit = is_quantity(quantity) ? quantities_of[quantity].unit : NULL;
+    return is_quantity(quantity) ? quantities_of[quantity].name : NULL;
+}
+
+/* ---- Stations ---------------------------------------------------------------------------------------------------- */
+
+/* A run of equal pipes of the string, and where it begins. */
+typedef struct station_walk {
+    const dmb_sim *sim;
+    const dmb_pipe_run *runs;
+    uint32_t run_count, string; /* index */
+    uint32_t run;               /* in runs, of this string */
+    double start;               /* [m] of the run, from the rig end */
+} station_walk;
+
+static void to_run_from(station_walk *walk, uint32_t first)
+{
+    for (walk->run = first; walk->run < walk->run_count && walk->runs[walk->run].string != walk->string;) walk->run++;
+}
+
+static void rewind_walk(station_walk *walk)
+{
+    walk->start = 0.0;
+    to_run_from(walk, 0);
+}
+
+/* Next run of the string; 0 where this is the last one. */
+static int to_next_run(station_walk *walk)
+{
+    const uint32_t here = walk->run;
+    const dmb_pipe_run *run = &walk->runs[here];
+    to_run_from(walk, here + 1);
+    if (walk->run < walk->run_count) {
+        walk->start += run->count * run->def.length;
+        return 1;
+    }
+    walk->run = here;
+    return 0;
+}
+
+/* Pipe and fraction at a distance within the string. */
+static dmb_place place_at(station_walk *walk, dmb_id string, double distance)
+{
+    const dmb_pipe_run *run;
+    dmb_place place = {.part = string};
+    double along;
+    if (distance < walk->start) rewind_walk(walk);
+    run = &walk->runs[walk->run];
+    while (distance - walk->start > run->count * run->def.length && to_next_run(walk)) run = &walk->runs[walk->run];
+    along = (distance - walk->start) / run->def.length;
+    place.pipe = along < run->count ? (uint32_t)along : run->count - 1;
+    place.fraction = fmin(along - place.pipe, 1.0);
+    place.pipe += run->first;
+    return place;
+}
+
+static double distance_of(const dmb_profile *profile, uint32_t station, double length)
+{
+    if (profile->distance != NULL) return profile->distance[station];
+    return profile->station_count > 1 ? length * station / (profile->station_count - 1) : 0.0;
+}
+
+/* ---- Values of a station ----------------------------------------------------------------------------------------- */
+
+/* All that a profile can tell of one station, by DMB_PROFILE_. */
+typedef struct station {
+    const dmb_sim *sim;
+    const dmb_pipe_run *run;
+    dmb_place place;
+    dmb_material_point point;
+    double tangent[3], bend[3]; /* of the hole's axis; 0 without a hole */
+    double values[DMB_PROFILE_COUNT];
+} station;
+
+static void pose_values(station *at)
+{
+    const dmb_scene *scene = at->sim->scene;
+    dmb_material_point_pose pose;
+    double axis[3], R[9], off[3], *v = at->values;
+    dmb_material_point_pose_of(scene, &at->sim->now, &at->point, &pose);
+    dmb_vec3_copy(pose.position, v + DMB_PROFILE_X);
+    dmb_vec3_copy(pose.displacement, v + DMB_PROFILE_DISPLACEMENT_X);
+    v[DMB_PROFILE_ROTATION] = dmb_material_point_turn(&at->sim->now, &at->point);
+    v[DMB_PROFILE_DEPTH] = dmb_material_point_depth(scene, &at->sim->now, &at->point, pose.position);
+    if (!scene->has_hole) return;
+    dmb_hole_frame(&scene->hole, v[DMB_PROFILE_DEPTH], axis, at->tangent, at->bend);
+    dmb_hole_frame_rotation(&scene->hole, v[DMB_PROFILE_DEPTH], R);
+    dmb_vec3_sub(pose.position, axis, off);
+    dmb_mat3_tvec(R, off, off);
+    v[DMB_PROFILE_DEVIATION_SIDE] = off[1];
+    v[DMB_PROFILE_DEVIATION_UP] = off[2];
+    v[DMB_PROFILE_DEVIATION] = hypot(off[1], off[2]);
+}
+
+static int in_tool_joint(const station *at)
+{
+    return at->point.beyond > 0.0;
+}
+
+static double outer_diameter(const station *at)
+{
+    const dmb_pipe_def *def = &at->run->def;
+    return in_tool_joint(at) && def->joint_outer_diameter > 0.0 ? def->joint_outer_diameter : def->outer_diameter;
+}
+
+static double inner_diameter(const station *at)
+{
+    const dmb_pipe_def *def = &at->run->def;
+    return in_tool_joint(at) && def->joint_inner_diameter > 0.0 ? def->joint_inner_diameter : def->inner_diameter;
+}
+
+/* [Pa] of the fluid at rest: it stands up to the start of the hole, or to the rig end as described without a hole. */
+static double pressure(const station *at)
+{
+    const dmb_scene *scene = at->sim->scene;
+    const double density = at->sim->model->environment.fluid_density;
+    const uint32_t string = dmb_model_part_index(at->sim->model, at->place.part, DMB_PART_STRING);
+    double top[3], below[3];
+    if (scene->has_hole)
+        dmb_hole_frame(&scene->hole, dmb_hole_is_straight(&scene->hole) ? 0.0 : scene->hole.station[0].depth, top, NULL,
+                       NULL);
+    else
+        dmb_vec3_copy(scene->reference_position + 3 * (size_t)scene->strings[string].start_node, top);
+    dmb_vec3_sub(at->values + DMB_PROFILE_X, top, below);
+    return fmax(0.0, density * dmb_vec3_dot(scene->gravity, below));
+}
+
+static const dmb_pipe_map *pipe_of(const station *at)
+{
+    const dmb_scene *scene = at->sim->scene;
+    return &scene->pipes[scene->strings[at->run->string].first_pipe + at->place.pipe];
+}
+
+/* Bending by its moment: the strain of an element is its mean. Axial-torsional pipes have none of their own; they take
+ * the curvature of the hole that they lie in. */
+static void bending_values(station *at, const double force[6])
+{
+    double *v = at->values;
+    dmb_pipe_section section;
+    dmb_section_of(&at->run->def, &section);
+    v[DMB_PROFILE_BENDING_MOMENT] = hypot(force[4], force[5]);
+    v[DMB_PROFILE_CURVATURE] = hypot(force[4] / section.stiffness[4], force[5] / section.stiffness[5]);
+    if (in_tool_joint(at)) v[DMB_PROFILE_CURVATURE] = 0.0;
+    if (pipe_of(at)->kind == DMB_PIPE_AXIAL_TORSIONAL) {
+        v[DMB_PROFILE_CURVATURE] = dmb_vec3_norm(at->bend);
+        v[DMB_PROFILE_BENDING_MOMENT] = fmax(section.stiffness[4], section.stiffness[5]) * v[DMB_PROFILE_CURVATURE];
+    }
+}
+
+static int32_t section_values(station *at)
+{
+    dmb_section section = dmb_section_default();
+    const int32_t status = dmb_query_section(at->sim, at->place, &section);
+    double *v = at->values;
+    if (status < 0) return status;
+    v[DMB_PROFILE_EFFECTIVE_FORCE] = section.force[0];
+    v[DMB_PROFILE_AXIAL_FORCE] =
+        section.force[0] - pressure(at) * dmb_ring_area(outer_diameter(at), inner_diameter(at));
+    v[DMB_PROFILE_TORQUE] = section.force[3];
+    v[DMB_PROFILE_SHEAR_FORCE] = hypot(section.force[1], section.force[2]);
+    v[DMB_PROFILE_SHEAR_Y] = section.force[1];
+    v[DMB_PROFILE_SHEAR_Z] = section.force[2];
+    v[DMB_PROFILE_MOMENT_Y] = section.force[4];
+    v[DMB_PROFILE_MOMENT_Z] = section.force[5];
+    bending_values(at, section.force);
+    return DMB_OK;
+}
+
+/* [N/m] Buoyant weight of the pipe with its tool joint. */
+static double weight_per_metre(const station *at)
+{
+    const dmb_pipe_def *def = &at->run->def;
+    dmb_rigid_part body, joint;
+    dmb_rigid_pipe_of(def, &body);
+    dmb_joint_of(def, &joint);
+    return dmb_buoyancy_factor(def, at->sim->model->environment.fluid_density) * (body.mass + joint.mass) / def->length;
+}
+
+/* 1: beyond the middle of the stretch between the element's nodes, rigid arms included. */
+static int beyond_middle(const station *at)
+{
+    const dmb_scene *scene = at->sim->scene;
+    const dmb_element_type *type = &scene->types[scene->element_type[at->point.element]];
+    const double along = type->arm[0] + at->point.fraction * type->length + at->point.beyond;
+    return along >= 0.5 * (type->arm[0] + type->length + type->arm[1]);
+}
+
+/* The site that stands for the length of string that the station is on: the nearest one. */
+static uint32_t nearest_site(const station *at)
+{
+    uint32_t element;
+    if (at->point.element == DMB_NONE) {
+        return at->place.fraction < 0.5 ? dmb_site_after(at->sim, at->place.part, at->place.pipe, 0)
+                                        : dmb_site_of(at->sim, at->place.part, at->place.pipe);
+    }
+    element = at->point.element - pipe_of(at)->element;
+    return dmb_site_after(at->sim, at->place.part, at->place.pipe, beyond_middle(at) ? element + 1 : element);
+}
+
+static double clearance_at(const station *at)
+{
+    const dmb_scene *scene = at->sim->scene;
+    const uint32_t site = nearest_site(at);
+    double radius = 0.5 * outer_diameter(at);
+    if (site != DMB_NONE)
+        radius =
+            site < scene->site_count ? scene->sites[site].radius : scene->path_sites[site - scene->site_count].radius;
+    return fmax(0.0, scene->hole.radius - radius);
+}
+
+static void limit_values(station *at)
+{
+    const dmb_scene *scene = at->sim->scene;
+    const dmb_pipe_def *def = &at->run->def;
+    double *v = at->values;
+    dmb_pipe_section section;
+    v[DMB_PROFILE_VON_MISES] =
+        dmb_tube_von_mises(outer_diameter(at), inner_diameter(at), v[DMB_PROFILE_EFFECTIVE_FORCE],
+                           v[DMB_PROFILE_TORQUE], v[DMB_PROFILE_BENDING_MOMENT]);
+    if (def->yield_strength > 0.0) v[DMB_PROFILE_YIELD_SHARE] = v[DMB_PROFILE_VON_MISES] / def->yield_strength;
+    if (!scene->has_hole) return;
+    dmb_section_of(def, &section);
+    dmb_confined_pipe pipe = {.EI = fmin(section.stiffness[4], section.stiffness[5]), .clearance = clearance_at(at)};
+    dmb_vec3_scale(weight_per_metre(at), scene->gravity, pipe.weight);
+    dmb_vec3_copy(at->tangent, pipe.tangent);
+    dmb_vec3_copy(at->bend, pipe.bend);
+    v[DMB_PROFILE_SINUSOIDAL_SHARE] = dmb_sinusoidal_share(&pipe, v[DMB_PROFILE_EFFECTIVE_FORCE]);
+    v[DMB_PROFILE_HELICAL_SHARE] = dmb_helical_share(&pipe, v[DMB_PROFILE_EFFECTIVE_FORCE]);
+}
+
+static int32_t contact_values(station *at)
+{
+    const uint32_t site = nearest_site(at);
+    dmb_contact contact = dmb_contact_default();
+    const int32_t status = site == DMB_NONE ? DMB_OK : dmb_query_contact(at->sim, site, &contact);
+    const double per_metre = contact.length > 0.0 ? 1.0 / contact.length : 0.0;
+    if (site != DMB_NONE) at->values[DMB_PROFILE_GAP] = contact.gap;
+    at->values[DMB_PROFILE_NORMAL_FORCE] = contact.normal_force * per_metre;
+    at->values[DMB_PROFILE_FRICTION_AXIAL] = contact.friction[0] * per_metre;
+    at->values[DMB_PROFILE_FRICTION_AROUND] = contact.friction[1] * per_metre;
+    return status;
+}
+
+/* Acceleration of the centre in body axes: rate of the body-frame velocity and w x v. */
+static void motion_values(station *at)
+{
+    dmb_material_point_motion motion;
+    double a[3], *v = at->values;
+    dmb_material_point_motion_of(at->sim->scene, &at->sim->now, &at->point, &motion);
+    dmb_vec3_cross(motion.velocity + 3, motion.velocity, a);
+    dmb_vec3_add(a, motion.acceleration, a);
+    v[DMB_PROFILE_VELOCITY_AXIAL] = motion.velocity[0];
+    v[DMB_PROFILE_VELOCITY_LATERAL] = hypot(motion.velocity[1], motion.velocity[2]);
+    v[DMB_PROFILE_SPIN] = motion.velocity[3];
+    v[DMB_PROFILE_ACCELERATION_AXIAL] = a[0];
+    v[DMB_PROFILE_ACCELERATION_LATERAL] = hypot(a[1], a[2]);
+}
+
+static int32_t fill(station *at, int32_t groups)
+{
+    int32_t status = DMB_OK;
+    if ((groups & OF_POSE) != 0) pose_values(at);
+    if ((groups & OF_MOTION) != 0) motion_values(at);
+    if ((groups & OF_CONTACT) != 0) status = contact_values(at);
+    if ((groups & OF_SECTION) == 0 || at->point.element == DMB_NONE) return status;
+    if (status >= 0) status = section_values(at);
+    if (status >= 0 && (groups & OF_LIMITS) != 0) limit_values(at);
+    return status;
+}
+
+/* ---- The call ---------------------------------------------------------------------------------------------------- */
+
+static int32_t check_quantities(const dmb_profile *profile, int32_t *groups)
+{
+    *groups = 0;
+    if (profile->quantities == NULL || profile->values == NULL) return DMB_ERR_NULL;
+    if (profile->quantity_count < 1 || profile->quantity_count > DMB_PROFILE_COUNT) return DMB_ERR_VALUE;
+    for (uint32_t i = 0; i < profile->quantity_count; i++) {
+        if (!is_quantity(profile->quantities[i])) return DMB_ERR_VALUE;
+        *groups |= quantities_of[profile->quantities[i]].groups;
+    }
+    return DMB_OK;
+}
+
+/* Two values never share a place: one stride passes over all that the other one reaches. */
+static int32_t check_strides(dmb_profile *profile)
+{
+    const uint64_t most = SIZE_MAX / sizeof(double) / STATIONS_MAX;
+    if (profile->station_stride == 0 && profile->quantity_stride == 0) {
+        profile->station_stride = profile->quantity_count;
+        profile->quantity_stride = 1;
+    }
+    if (profile->station_stride > most || profile->quantity_stride > most) return DMB_ERR_VALUE;
+    if (profile->quantity_stride > 0 && profile->station_stride >= profile->quantity_count * profile->quantity_stride)
+        return DMB_OK;
+    return profile->station_stride > 0 && profile->quantity_stride >= profile->station_count * profile->station_stride
+               ? DMB_OK
+               : DMB_ERR_VALUE;
+}
+
+static int32_t check_distances(const dmb_profile *profile, double length)
+{
+    if (profile->station_count < 1 || profile->station_count > STATIONS_MAX) return DMB_ERR_VALUE;
+    for (uint32_t i = 0; profile->distance != NULL && i < profile->station_count; i++) {
+        if (!isfinite(profile->distance[i])) return DMB_ERR_NOT_FINITE;
+        if (!(profile->distance[i] >= 0.0 && profile->distance[i] <= length)) return DMB_ERR_VALUE;
+    }
+    return DMB_OK;
+}
+
+static int32_t find_string(const dmb_sim *sim, dmb_id *string, uint32_t *index)
+{
+    if (string->index == 0 && string->generation == 0) *string = dmb_model_id(sim->model, DMB_PART_STRING, 0);
+    *index = dmb_model_part_index(sim->model, *string, DMB_PART_STRING);
+    return *index < sim->scene->string_count ? DMB_OK : DMB_ERR_ID;
+}
+
+static int32_t fill_station(station_walk *walk, const dmb_profile *profile, uint32_t i, int32_t groups)
+{
+    const double length = walk->sim->scene->strings[walk->string].length;
+    const double distance = distance_of(profile, i, length);
+    station at = {.sim = walk->sim};
+    int32_t status;
+    at.place = place_at(walk, profile->string, distance);
+    at.run = &walk->runs[walk->run];
+    for (int k = 0; k < DMB_PROFILE_COUNT; k++) at.values[k] = NAN;
+    at.values[DMB_PROFILE_DISTANCE] = distance;
+    status = dmb_material_point_of(walk->sim, at.place, &at.point);
+    if (status >= 0) status = fill(&at, groups);
+    for (uint32_t q = 0; q < profile->quantity_count && status >= 0; q++)
+        profile->values[i * profile->station_stride + q * profile->quantity_stride] = at.values[profile->quantities[q]];
+    return status;
+}
+
+int32_t dmb_query_profile(const dmb_sim *sim, const dmb_profile *given)
+{
+    int32_t status = dmb_ask(sim, given), groups;
+    dmb_profile profile;
+    station_walk walk = {.sim = sim};
+    if (status == DMB_OK) status = dmb_profile_read(&profile, given);
+    if (status == DMB_OK) status = find_string(sim, &profile.string, &walk.string);
+    if (status == DMB_OK) status = check_quantities(&profile, &groups);
+    if (status == DMB_OK) status = check_distances(&profile, sim->scene->strings[walk.string].length);
+    if (status == DMB_OK) status = check_strides(&profile);
+    if (status < 0) return status;
+    walk.runs = sim->model->runs.items;
+    walk.run_count = sim->model->runs.count;
+    rewind_walk(&walk);
+    for (uint32_t i = 0; i < profile.station_count && status >= 0; i++)
+        status = fill_station(&walk, &profile, i, groups);
+    return status;
+}
