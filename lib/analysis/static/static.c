@@ -407,6 +407,8 @@ static int32_t judge_stability(dmb_static_search *search, dmb_static_report *out
 static int32_t find(dmb_static_search *search, dmb_static_report *out)
 {
     dmb_sim *sim = search->sim;
+    search->winding = sim->scene->site_count > 0;
+    search->rolling = search->winding && (search->steady != NULL || search->evaluation.slip[1] != 0.0);
     int32_t status = refuse_loose(search, search_equilibrium(search, &out->method));
     if (status < 0) {
         explain(search, status);

@@ -17,6 +17,8 @@ typedef struct dmb_static_search {
     uint32_t cuts;       /* load steps that were cut */
     uint32_t line_searches;
     int32_t searching; /* 1: corrections that overshoot are shortened */
+    int32_t winding;   /* 1: pipes spin about their axes of before, in a hole */
+    int32_t rolling;   /* 1: rings that touch go round the wall, where pipes turn and so climb it */
     uint32_t block;    /* block found singular */
     int32_t loose;     /* 1: nothing seems to hold loose_block in the starting pose */
     uint32_t loose_block;
@@ -56,12 +58,19 @@ typedef struct dmb_static_pull {
 /* The trial and its increments set aside as `now`, whose accepted state is in the backup, and back. */
 void dmb_static_keep(dmb_sim *sim);
 void dmb_static_return(dmb_sim *sim);
-/* Shortens the last move, by `direction` (row_count), which ended where the residual was just evaluated; `before` is
- * direction . residual at its start. Leaves the residual and tangent of where it ends. */
+/* Shortens the last move, by `direction` (row_count), which ended where the residual was just
+ * evaluated; `before` is direction . residual at its start. Leaves the residual and tangent of where it ends. */
 int32_t dmb_static_line_search(dmb_static_search *search, const double *direction, double before);
-/* The trial displaced by body-frame increments: as it comes, and closed at its joints. */
+/* The trial displaced by body-frame increments: as it comes, and as the search moves it (winding, rolling), closed
+ * at its joints. */
 void dmb_static_displace(dmb_sim *sim, const double *correction, double factor);
 int32_t dmb_static_move(dmb_static_search *search, const double *correction, double factor);
+/* Back to where such a move came from, joints as they come. */
+void dmb_static_move_back(dmb_static_search *search, const double *correction, double factor);
+/* Work of the residual in sim->correction along the move by `direction`, after this part of it. */
+double dmb_static_work(const dmb_static_search *search, const double *direction, double part);
+/* The tangent of the residual in axes of the nodes becomes that in axes which do not spin with them. */
+void dmb_static_fix_axes(dmb_sim *sim);
 /* Newton with the extrapolated element stress at the search's load factor. DMB_OK, or why it failed. */
 int32_t dmb_static_newton(dmb_static_search *search);
 /* Pseudo-transient continuation: (K + D/tau^2) z = -residual with growing tau and limited corrections (Kelley, Keyes

@@ -2,58 +2,9 @@
 
 #include "analysis/linear/stiffness.h"
 #include "analysis/static/static.h"
-#include "math/se3.h"
 #include "math/vec3.h"
 #include "system/assemble/elements.h"
-#include "system/constrain/cluster.h"
-#include "system/constrain/joint_state.h"
 #include "system/solve/solve.h"
-
-static int32_t choose_anew(dmb_static_search *search)
-{
-    const int32_t status = dmb_clusters_gather(&search->evaluation);
-    if (status >= 0) dmb_clusters_choose(search->sim);
-    return status;
-}
-
-/* Joints closed, and the partition chosen anew where it has become poor. A long way may have made it useless at once.
- */
-int32_t dmb_static_settle(dmb_static_search *search)
-{
-    int32_t status = dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
-    if (status == DMB_ERR_SINGULAR) {
-        status = choose_anew(search);
-        if (status >= 0) status = dmb_clusters_settle(&search->evaluation, DMB_SETTLE_POSE, 0);
-    }
-    if (status < 0) return status;
-    search->sim->reduced_mode->row = DMB_NONE;
-    dmb_joints_follow(&search->evaluation);
-    return dmb_clusters_refresh(&search->evaluation);
-}
-
-/* The sum in `increment` follows the turns. */
-void dmb_static_displace(dmb_sim *sim, const double *correction, double factor)
-{
-    const dmb_scene *scene = sim->scene;
-    for (uint32_t i = 0; i < scene->row_count; i++) sim->increment[i] += factor * correction[i];
-    for (uint32_t i = 0; i < scene->node_count; i++) {
-        const uint32_t size = scene->layout.size[i];
-        double z[6] = {0.0};
-        for (uint32_t c = 0; c < size; c++) z[c] = factor * correction[scene->layout.row[i] + c];
-        if (size == DMB_NODE_FULL) {
-            dmb_se3_advance(sim->trial.quaternion + 4 * i, sim->trial.displacement + 3 * i, z);
-        } else {
-            sim->trial.displacement[3 * i] += z[0];
-            sim->trial.turn[i] += z[1];
-        }
-    }
-}
-
-int32_t dmb_static_move(dmb_static_search *search, const double *correction, double factor)
-{
-    dmb_static_displace(search->sim, correction, factor);
-    return search->sim->scene->cluster_count ? dmb_static_settle(search) : DMB_OK;
-}
 
 static void scale_correction(dmb_sim *sim, double factor)
 {
@@ -117,6 +68,7 @@ static int32_t look_at_factors(dmb_static_search *search, int64_t bad, const dmb
 
 static int32_t solve(dmb_static_search *search)
 {
+    if (search->winding) dmb_static_fix_axes(search->sim);
     dmb_system_iteration_matrix(&search->evaluation);
     dmb_block_weakest weakest;
     const int64_t bad = dmb_factor_stiffness(search->sim, &weakest);
@@ -281,15 +233,6 @@ static double change_of_rate(double work_ratio, double residual_ratio)
     return work_ratio < DMB_DOWNHILL ? fmin(fmax(residual_ratio, 0.1), 0.3) : 1.0;
 }
 
-/* Work of the residual in `correction` along a direction. */
-static double work_along(const dmb_sim *sim, const double *direction)
-{
-    double work = 0.0;
-    for (uint32_t i = 0; i < sim->scene->row_count; i++)
-        work += sim->scene->solved_row[i] ? direction[i] * sim->correction[i] : 0.0;
-    return work;
-}
-
 int32_t dmb_static_relaxation(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
@@ -302,7 +245,8 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
         int32_t status = evaluate(search);
         if (status <= 0) return status;
         if (k >= 20 * search->options->max_iterations) return DMB_ERR_NO_CONVERGENCE;
-        if (k > 0) rate *= change_of_rate(work_along(sim, direction) / fabs(work), search->residual / last);
+        if (k > 0)
+            rate *= change_of_rate(dmb_static_work(search, direction, 1.0) / fabs(work), search->residual / last);
         last = search->residual;
         memcpy(direction, sim->correction, bytes);
         status = solve_downhill(search, &rate);
@@ -311,7 +255,7 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
         search->moved = largest_move(sim) / sim->scene->length_scale;
         const double part = reach(search, limit);
         if (part > 1.0) scale_correction(sim, 1.0 / part);
-        work = work_along(sim, direction);
+        work = dmb_static_work(search, direction, 0.0);
         memcpy(direction, sim->correction, bytes);
         dmb_system_extrapolate_stress(sim, direction);
         search->evaluation.extrapolated = 1;

@@ -78,32 +78,24 @@ int32_t dmb_static_growing_steps(dmb_static_search *search)
 #define DMB_SHORTEST_MOVE 0.1
 #define DMB_SEARCHES 4
 
-static double work_of(const dmb_sim *sim, const double *direction)
-{
-    double sum = 0.0;
-    for (uint32_t i = 0; i < sim->scene->row_count; i++)
-        if (sim->scene->solved_row[i]) sum += direction[i] * sim->correction[i];
-    return sum;
-}
-
-/* Regula falsi on the work g(s) of the residual along the move (Crisfield 1991, 9.2): body-frame moves along one
- * direction commute, so that going back from s = 1 to s is the move s - 1. */
+/* Regula falsi on the work g(s) of the residual along the move (Crisfield 1991, 9.2). */
 int32_t dmb_static_line_search(dmb_static_search *search, const double *direction, double before)
 {
-    double low = 0.0, high = 1.0, at_low = before, at_high = work_of(search->sim, direction), s = 1.0;
+    double low = 0.0, high = 1.0, at_low = before, at_high = dmb_static_work(search, direction, 1.0), s = 1.0;
     if (!(before < 0.0) || !(fabs(at_high) > DMB_WORK_LEFT * fabs(before))) return DMB_OK;
     search->line_searches++;
     for (int k = 0; k < DMB_SEARCHES; k++) {
         const double guess = at_high > 0.0 ? low + (high - low) * at_low / (at_low - at_high) : 0.5 * s;
         const double next = fmax(guess, DMB_SHORTEST_MOVE);
         if (next >= s && at_high <= 0.0) return DMB_OK;
-        int32_t status = dmb_static_move(search, direction, next - s);
+        dmb_static_move_back(search, direction, s);
+        int32_t status = dmb_static_move(search, direction, next);
         if (status < 0) return status;
         s = next;
         search->evaluation.extrapolated = 0;
         status = dmb_static_evaluate(search);
         if (status < 0) return status;
-        const double work = work_of(search->sim, direction);
+        const double work = dmb_static_work(search, direction, s);
         if (fabs(work) <= DMB_WORK_LEFT * fabs(before) || s <= DMB_SHORTEST_MOVE) return DMB_OK;
         if (work > 0.0) {
             high = s;
