@@ -158,6 +158,7 @@ size_t dmb_number_from_double(char *text, double value, int digits)
     if (digits > DMB_NUMBER_EXACT) digits = DMB_NUMBER_EXACT;
 
     decimal_from_double(&d, fabs(value));
+    all[0] = '0';
     count = decimal_digits(&d, all);
     exponent = d.exponent + count - 1; /* of the first digit */
     if (count > digits) {

@@ -186,7 +186,7 @@ double dmb_partition_factor(const double *B, uint32_t stride, const double *weig
     for (uint32_t k = 0; k < n; k++) {
         double *row = lu + n * k;
         pivot[k] = pivot_of_column(p->rank, k, lu);
-        if (pivot[k] != k) row_swap(n, row, lu + n * pivot[k]);
+        if (pivot[k] != k) dmb_block_swap(n, row, lu + n * pivot[k]);
         const double size = fabs(row[k]) * weight[p->column_order[k]], reciprocal = 1.0 / row[k];
         const double length = row_length(p->columns, B + (size_t)p->row_order[origin(pivot, k)] * stride, weight);
         if (!(size > 0.0 && size <= DBL_MAX && fabs(reciprocal / length) <= DBL_MAX)) return 0.0;
@@ -204,7 +204,7 @@ void dmb_partition_solve(const dmb_partition *partition, const double *lu, const
 {
     const size_t n = partition->rank;
     for (size_t k = 0; k < n; k++)
-        if (pivot[k] != k) row_swap(1, x + k, x + pivot[k]);
+        if (pivot[k] != k) dmb_block_swap(1, x + k, x + pivot[k]);
     for (size_t k = 0; k < n; k++) x[k] = (x[k] - dot(k, lu + n * k, x)) * lu[n * k + k];
     for (size_t k = n; k-- > 0;) x[k] -= dot(n - k - 1, lu + n * k + k + 1, x + k + 1);
 }
@@ -219,7 +219,7 @@ void dmb_partition_solve_transposed(const dmb_partition *partition, const double
         row_subtract(k, x[k], lu + n * k, x);
     }
     for (size_t k = n; k-- > 0;)
-        if (pivot[k] != k) row_swap(1, x + k, x + pivot[k]);
+        if (pivot[k] != k) dmb_block_swap(1, x + k, x + pivot[k]);
 }
 
 /* dmb_partition_solve of all columns of -C_i at once, a row of G at a time. */
@@ -233,7 +233,7 @@ void dmb_partition_null_space(const double *B, uint32_t stride, const dmb_partit
         for (size_t j = 0; j < m; j++) G[m * k + j] = -b[independent[j]];
     }
     for (size_t k = 0; k < n; k++)
-        if (pivot[k] != k) row_swap(m, G + m * k, G + m * pivot[k]);
+        if (pivot[k] != k) dmb_block_swap(m, G + m * k, G + m * pivot[k]);
     for (size_t k = 0; k < n; k++) {
         for (size_t j = 0; j < k; j++)
             if (lu[n * k + j] != 0.0) row_subtract(m, lu[n * k + j], G + m * j, G + m * k);

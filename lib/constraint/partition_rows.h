@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "constraint/partition.h"
+#include "math/block_kernel.h"
 
 #define DMB_PARTITION_ROW_MIN 1e-300 /* shorter rows count as zero */
 #define DMB_CLEARLY (1.0 + 1e-6)     /* a later candidate for pivot must be larger by this factor */
@@ -24,15 +25,6 @@ static inline void row_subtract(size_t n, double f, const double *restrict x, do
 static inline void row_multiply(size_t n, double f, double *x)
 {
     for (size_t j = 0; j < n; j++) x[j] *= f;
-}
-
-static inline void row_swap(size_t n, double *restrict x, double *restrict y)
-{
-    for (size_t j = 0; j < n; j++) {
-        const double t = x[j];
-        x[j] = y[j];
-        y[j] = t;
-    }
 }
 
 static inline double dot(size_t n, const double *x, const double *y)

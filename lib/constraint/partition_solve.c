@@ -217,7 +217,7 @@ static void longest_first(size_t n, size_t redundant, size_t s, double *N)
         most = square;
         at = t;
     }
-    if (at != s) row_swap(n, N + n * s, N + n * at);
+    if (at != s) dmb_block_swap(n, N + n * s, N + n * at);
 }
 
 /* Row s of N at unit length, once more orthogonal to the rows before it ("twice is enough": Giraud, Langou, Rozloznik,

@@ -51,15 +51,6 @@ DMB_BLOCK_KERNEL void row_subtract(int n, double fr, double fi, const double *re
     for (int j = 0; j < n; j++) yi[j] -= fr * xi[j] + fi * xr[j];
 }
 
-DMB_BLOCK_KERNEL void row_swap(int n, double *restrict x, double *restrict y)
-{
-    for (int j = 0; j < n; j++) {
-        const double t = x[j];
-        x[j] = y[j];
-        y[j] = t;
-    }
-}
-
 DMB_BLOCK_KERNEL void gather(int n, int m, dmb_complex_array D, dmb_complex_array U, work_row *restrict a)
 {
     for (int i = 0; i < n; i++) {
@@ -78,10 +69,10 @@ DMB_BLOCK_KERNEL int pivot_of_column(int n, int k, const work_row *a)
 
 DMB_BLOCK_KERNEL void exchange(int n, int m, int k, int p, work_row *restrict a, dmb_complex_array D)
 {
-    row_swap(n + m, a[k].re, a[p].re);
-    row_swap(n + m, a[k].im, a[p].im);
-    row_swap(n, D.re + n * k, D.re + n * p);
-    row_swap(n, D.im + n * k, D.im + n * p);
+    dmb_block_swap((size_t)n + (size_t)m, a[k].re, a[p].re);
+    dmb_block_swap((size_t)n + (size_t)m, a[k].im, a[p].im);
+    dmb_block_swap((size_t)n, D.re + n * k, D.re + n * p);
+    dmb_block_swap((size_t)n, D.im + n * k, D.im + n * p);
 }
 
 /* Gaussian elimination of the work rows. D receives the multipliers below its diagonal and the reciprocal pivots on it.

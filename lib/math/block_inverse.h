@@ -26,7 +26,7 @@ DMB_BLOCK_KERNEL int eliminate(int n, work_row *restrict a, double *restrict rec
     for (int k = 0; k < n; k++) {
         const int p = pivot_of_column(n, k, a);
         if (!dmb_block_pivot_holds(a[p][k])) return k;
-        if (p != k) row_swap(2 * n, a[k], a[p]);
+        if (p != k) dmb_block_swap(2 * (size_t)n, a[k], a[p]);
         reciprocal[k] = 1.0 / a[k][k];
         for (int i = k + 1; i < n; i++) row_subtract(2 * n, a[i][k] * reciprocal[k], a[k], a[i]);
     }
@@ -121,7 +121,7 @@ DMB_BLOCK_KERNEL void solve_down(int n, int m, const double *restrict X, const d
 DMB_BLOCK_KERNEL void solve_even(int n, uint32_t count, const double *restrict X, const double *restrict G,
                                  const double *restrict W, double *restrict b)
 {
-    const size_t block = (size_t)(n * n);
+    const size_t block = (size_t)n * (size_t)n;
     double x[DMB_BLOCK_SIZE_MAX], next[DMB_BLOCK_SIZE_MAX] = {0.0};
     for (int i = 0; i < n; i++) x[i] = b[i];
     for (uint32_t k = 0; k < count; k++) {

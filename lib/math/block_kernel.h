@@ -50,6 +50,25 @@ static inline bool dmb_block_pivot_holds(double pivot)
     return fabs(pivot) >= DMB_BLOCK_PIVOT_MIN && fabs(pivot) <= DBL_MAX;
 }
 
+/* The largest entry of column k, among rows k .. n-1 of A (n x n): the row that becomes row k. */
+DMB_BLOCK_KERNEL size_t dmb_block_pivot_row(size_t n, size_t k, const double *A)
+{
+    size_t p = k;
+    for (size_t i = k + 1; i < n; i++)
+        if (fabs(A[n * i + k]) > fabs(A[n * p + k])) p = i;
+    return p;
+}
+
+/* Two rows of n numbers change places. */
+DMB_BLOCK_KERNEL void dmb_block_swap(size_t n, double *restrict x, double *restrict y)
+{
+    for (size_t j = 0; j < n; j++) {
+        const double t = x[j];
+        x[j] = y[j];
+        y[j] = t;
+    }
+}
+
 /* The largest magnitude in a block of n rows and columns. */
 static inline double dmb_block_largest(size_t n, const double *D)
 {

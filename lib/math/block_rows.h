@@ -18,15 +18,6 @@ DMB_BLOCK_KERNEL void row_subtract(int n, double f, const double *restrict x, do
     for (int j = 0; j < n; j++) y[j] -= f * x[j];
 }
 
-DMB_BLOCK_KERNEL void row_swap(int n, double *restrict x, double *restrict y)
-{
-    for (int j = 0; j < n; j++) {
-        const double t = x[j];
-        x[j] = y[j];
-        y[j] = t;
-    }
-}
-
 DMB_BLOCK_KERNEL int pivot_of_column(int n, int k, work_row *a)
 {
     int p = k;

@@ -23,23 +23,6 @@ static inline void row_subtract(double f, const double *restrict x, double *rest
     for (int j = 0; j < SIX; j++) y[j] -= f * x[j];
 }
 
-static inline void row_swap(double *x, double *y)
-{
-    for (int j = 0; j < SIX; j++) {
-        const double t = x[j];
-        x[j] = y[j];
-        y[j] = t;
-    }
-}
-
-static inline int pivot_of_column(int k, const double *A)
-{
-    int p = k;
-    for (int i = k + 1; i < SIX; i++)
-        if (fabs(A[SIX * i + k]) > fabs(A[SIX * p + k])) p = i;
-    return p;
-}
-
 /* As dmb_dense_factor. The rows are worked on in a copy and subtracted in full length, a fixed one; the columns already
  * done then hold nothing of use there. */
 static int64_t factor_six(double *restrict D, uint32_t *restrict pivot)
@@ -47,12 +30,12 @@ static int64_t factor_six(double *restrict D, uint32_t *restrict pivot)
     double A[SIX * SIX];
     memcpy(A, D, sizeof A);
     for (int k = 0; k < SIX; k++) {
-        const int p = pivot_of_column(k, A);
+        const int p = (int)dmb_block_pivot_row(SIX, (size_t)k, A);
         if (!dmb_block_pivot_holds(A[SIX * p + k])) return k;
         pivot[k] = (uint32_t)p;
         if (p != k) {
-            row_swap(A + SIX * k, A + SIX * p);
-            row_swap(D + SIX * k, D + SIX * p);
+            dmb_block_swap(SIX, A + SIX * k, A + SIX * p);
+            dmb_block_swap(SIX, D + SIX * k, D + SIX * p);
         }
         const double r = 1.0 / A[SIX * k + k];
         D[SIX * k + k] = r;
@@ -71,7 +54,7 @@ static int64_t factor_six(double *restrict D, uint32_t *restrict pivot)
 static void solve_six(const double *restrict D, const uint32_t *restrict pivot, double *restrict W)
 {
     for (int k = 0; k < SIX; k++)
-        if (pivot[k] != (uint32_t)k) row_swap(W + SIX * k, W + SIX * pivot[k]);
+        if (pivot[k] != (uint32_t)k) dmb_block_swap(SIX, W + SIX * k, W + SIX * pivot[k]);
     for (int i = 1; i < SIX; i++) {
         double y[SIX];
         memcpy(y, W + SIX * i, sizeof y);

@@ -50,8 +50,8 @@ DMB_BLOCK_KERNEL int eliminate(int n, int m, work_row *restrict a, double *restr
         if (!dmb_block_pivot_holds(a[p][k])) return k;
         pivot[k] = (uint8_t)p;
         if (p != k) {
-            row_swap(n + m, a[k], a[p]);
-            row_swap(n, D + n * k, D + n * p);
+            dmb_block_swap((size_t)n + (size_t)m, a[k], a[p]);
+            dmb_block_swap((size_t)n, D + n * k, D + n * p);
         }
         const double r = 1.0 / a[k][k];
         D[n * k + k] = r;

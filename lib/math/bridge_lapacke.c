@@ -3,7 +3,8 @@
 #include <float.h>
 #include <lapacke.h>
 #include <math.h>
-_Static_assert(sizeof(lapack_int) == sizeof(int32_t), "LAPACKE with 64-bit integers");
+
+_Static_assert(sizeof(lapack_int) == 4, "LAPACKE with 64-bit integers");
 
 /* dsyevd and dsygvd ask for 1 + 6n + 2n^2 doubles and 3 + 5n integers, and count both in integers of 32 bits, which
  * 1 + 6n + 2n^2 fits up to n = 32766. */
@@ -59,10 +60,8 @@ int32_t dmb_eigen_general(size_t n, double *A, double *re, double *im, double *V
     return LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', 'V', m, A, m, re, im, &none, 1, V, m, work, 40 * m);
 }
 
-_Static_assert(sizeof(lapack_int) == sizeof(int32_t), "LAPACKE with 64-bit integers");
-
 #define DMB_ROW_MIN 1e-300
-enum { PANEL = 32 }; /* columns that dgeqp3 works on at a time, if it likes */
+enum { PANEL = 32 }; /* columns that dgeqp3 works on at a time, or fewer */
 /* LAPACK counts its work, 34 rows + 32 or 3 min + 2 (rows + columns), in integers of 32 bits. */
 _Static_assert(34 * (int64_t)DMB_RANK_SIDE_MAX + PANEL <= INT32_MAX, "work of dgeqp3");
 

@@ -37,15 +37,6 @@ DMB_BLOCK_KERNEL void row_scale(size_t n, double fr, double fi, double *restrict
     }
 }
 
-DMB_BLOCK_KERNEL void row_swap(size_t n, double *x, double *y)
-{
-    for (size_t j = 0; j < n; j++) {
-        const double t = x[j];
-        x[j] = y[j];
-        y[j] = t;
-    }
-}
-
 /* ---- Blocks ------------------------------------------------------------------------------------------------------ */
 
 static size_t pivot_of_column(size_t n, size_t k, dmb_complex_array D)
@@ -82,8 +73,8 @@ static int64_t factor_block(size_t n, dmb_complex_array D, uint32_t *pivot)
         if (!dmb_block_pivot_holds(fabs(D.re[n * p + k]) + fabs(D.im[n * p + k]))) return (int64_t)k;
         pivot[k] = (uint32_t)p;
         if (p != k) {
-            row_swap(n, D.re + n * k, D.re + n * p);
-            row_swap(n, D.im + n * k, D.im + n * p);
+            dmb_block_swap(n, D.re + n * k, D.re + n * p);
+            dmb_block_swap(n, D.im + n * k, D.im + n * p);
         }
         invert(D.re + at, D.im + at);
         for (size_t i = k + 1; i < n; i++) {
@@ -101,8 +92,8 @@ DMB_BLOCK_KERNEL void solve_sized(size_t n, size_t m, dmb_complex_array D, const
 {
     for (size_t k = 0; k < n; k++) {
         if (pivot[k] == k) continue;
-        row_swap(m, W.re + m * k, W.re + m * pivot[k]);
-        row_swap(m, W.im + m * k, W.im + m * pivot[k]);
+        dmb_block_swap(m, W.re + m * k, W.re + m * pivot[k]);
+        dmb_block_swap(m, W.im + m * k, W.im + m * pivot[k]);
     }
     for (size_t i = 1; i < n; i++)
         for (size_t j = 0; j < i; j++)

@@ -53,32 +53,15 @@ void dmb_dense_subtract_product(uint32_t p, uint32_t q, uint32_t r, const double
         subtract_product(p, smaller(DMB_PANEL, q - c), r, F + c, q, X + r * c, r, Y, r);
 }
 
-static void swap_rows(size_t n, double *x, double *y)
-{
-    for (size_t j = 0; j < n; j++) {
-        const double t = x[j];
-        x[j] = y[j];
-        y[j] = t;
-    }
-}
-
-static size_t pivot_of_column(size_t n, size_t k, const double *A)
-{
-    size_t p = k;
-    for (size_t i = k + 1; i < n; i++)
-        if (fabs(A[n * i + k]) > fabs(A[n * p + k])) p = i;
-    return p;
-}
-
 /* Columns [begin, end) of rows [begin, n). Rows are exchanged in full length. Returns the column without a pivot, or
  * -1. */
 static int64_t factor_panel(size_t n, size_t begin, size_t end, double *A, uint32_t *pivot)
 {
     for (size_t k = begin; k < end; k++) {
-        const size_t p = pivot_of_column(n, k, A);
+        const size_t p = dmb_block_pivot_row(n, k, A);
         if (!dmb_block_pivot_holds(A[n * p + k])) return (int64_t)k;
         pivot[k] = (uint32_t)p;
-        if (p != k) swap_rows(n, A + n * k, A + n * p);
+        if (p != k) dmb_block_swap(n, A + n * k, A + n * p);
         const double r = 1.0 / A[n * k + k];
         A[n * k + k] = r;
         for (size_t i = k + 1; i < n; i++) {
@@ -132,7 +115,7 @@ static void substitute_up(size_t n, size_t m, const double *A, double *B)
 void dmb_dense_solve(uint32_t n, uint32_t m, const double *A, const uint32_t *pivot, double *B)
 {
     for (size_t k = 0; k < n; k++)
-        if (pivot[k] != k) swap_rows(m, B + m * k, B + (size_t)m * pivot[k]);
+        if (pivot[k] != k) dmb_block_swap(m, B + m * k, B + (size_t)m * pivot[k]);
     substitute_down(n, m, A, B);
     substitute_up(n, m, A, B);
 }

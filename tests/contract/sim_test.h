@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "drillmbd/drillmbd.h"
+#include "hash.h"
 
 typedef struct rig {
     dmb_model *model;
@@ -101,13 +102,6 @@ static inline void rig_run(dmb_sim *sim, int steps)
         const int32_t status = dmb_sim_step(sim, 1e-3, NULL);
         if (status < 0) fail_msg("step %d: %d %s", i, (int)status, dmb_sim_message(sim));
     }
-}
-
-static inline uint64_t hash_of(const dmb_sim *sim)
-{
-    uint64_t hash = 0;
-    must(dmb_sim_hash(sim, &hash));
-    return hash;
 }
 
 /* Collects what a log is told. */

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "drillmbd/drillmbd.h"
+#include "hash.h"
 
 typedef struct scene {
     dmb_model *model;
@@ -48,13 +49,6 @@ static void end(scene *s)
 {
     dmb_sim_destroy(&s->sim);
     dmb_model_destroy(&s->model);
-}
-
-static uint64_t hash_of(const dmb_sim *sim)
-{
-    uint64_t hash = 0;
-    assert_int_equal(dmb_sim_hash(sim, &hash), DMB_OK);
-    return hash;
 }
 
 static void steps_are_bounded(void **state)

@@ -4,6 +4,7 @@
  * both are left out where another tool stands in the way. */
 #define _GNU_SOURCE /* syscall */
 #include "counted_malloc.h"
+#include "hash.h"
 #include "joint_scene.h"
 #include "sanitized.h"
 
@@ -25,13 +26,6 @@ static void open_scene(const dmb_model_options *options, int32_t method)
 static void close_scene(void)
 {
     rig_close(&scene.s);
-}
-
-static uint64_t hash_of(const dmb_sim *sim)
-{
-    uint64_t hash = 0;
-    assert_int_equal(dmb_sim_hash(sim, &hash), DMB_OK);
-    return hash;
 }
 
 static void run_sim(dmb_sim *sim, uint32_t n)

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "hash.h"
 #include "scarce.h"
 
 typedef struct scene {

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "hash.h"
 #include "random_scene.h"
 
 #if defined(DMB_FUZZER)
@@ -32,13 +33,6 @@ static unsigned long long tally[2]; /* analyses done, refused or failed */
             abort();                                                                                             \
         }                                                                                                        \
     } while (0)
-
-static uint64_t hash_of(const dmb_sim *sim)
-{
-    uint64_t hash = 0;
-    MUST(dmb_sim_hash(sim, &hash) == DMB_OK);
-    return hash;
-}
 
 static void must_be_known(int32_t status)
 {

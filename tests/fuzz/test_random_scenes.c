@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "hash.h"
 #include "random_scene.h"
 
 #if defined(DMB_FUZZER)
@@ -38,13 +39,6 @@ static struct {
 static void must_be_known(int32_t status)
 {
     MUST(strcmp(dmb_status_name(status), "DMB_UNKNOWN") != 0);
-}
-
-static uint64_t hash_of(const dmb_sim *sim)
-{
-    uint64_t hash = 0;
-    MUST(dmb_sim_hash(sim, &hash) == DMB_OK);
-    return hash;
 }
 
 static void must_be_finite(const double *values, size_t count)

@@ -2,6 +2,7 @@
  * along, and the ledger goes on. */
 #include <string.h>
 
+#include "hash.h"
 #include "rig.h"
 
 /* ---- Scenes ------------------------------------------------------------------------------------------------------ */
@@ -146,13 +147,6 @@ static int32_t go_over(scene *to, const scene *from)
     const int32_t status = dmb_sim_transfer_state(to->r.sim, from->r.sim);
     if (status < 0) fail_msg("state transfer: %s: %s", dmb_status_name(status), dmb_sim_message(to->r.sim));
     return status;
-}
-
-static uint64_t hash_of(const scene *s)
-{
-    uint64_t hash = 0;
-    must(&s->r, dmb_sim_hash(s->r.sim, &hash));
-    return hash;
 }
 
 /* ---- Comparisons ------------------------------------------------------------------------------------------------- */
@@ -497,7 +491,7 @@ static void snapshots_go_on(void **state)
     b = rig_of(&c), d = rig_of(&c);
     (void)go_over(&b, &a);
     (void)go_over(&d, &a);
-    assert_true(hash_of(&b) == hash_of(&d));
+    assert_true(hash_of(b.r.sim) == hash_of(d.r.sim));
     must(&b.r, dmb_sim_snapshot_size(b.r.sim, &size));
     void *block = test_malloc(size);
     must(&b.r, dmb_sim_snapshot(b.r.sim, block, size));
@@ -505,7 +499,7 @@ static void snapshots_go_on(void **state)
     run_to(&d, 0.25);
     must(&d.r, dmb_sim_restore(d.r.sim, block, size));
     run_to(&d, 0.3);
-    assert_true(hash_of(&b) == hash_of(&d));
+    assert_true(hash_of(b.r.sim) == hash_of(d.r.sim));
     test_free(block);
     rig_close(&a.r), rig_close(&b.r), rig_close(&d.r);
 }
@@ -656,10 +650,10 @@ static void head_lets_go_and_grips(void **state)
     (void)state;
     scene a = head_of(3, 0.5), b = head_of(4, 0.5);
     take_steps(&a.r, 1e-3, 50);
-    const uint64_t before = hash_of(&b);
+    const uint64_t before = hash_of(b.r.sim);
     assert_int_equal(dmb_sim_transfer_state(b.r.sim, a.r.sim), DMB_ERR_GEOMETRY); /* still closed */
     print_message("%s\n", dmb_sim_message(b.r.sim));
-    assert_true(hash_of(&b) == before);
+    assert_true(hash_of(b.r.sim) == before);
     must(&a.r, dmb_sim_set_joint(a.r.sim, a.joint, DMB_JOINT_OPEN));
     take_steps(&a.r, 1e-3, 10);
     (void)go_over(&b, &a);
@@ -744,7 +738,7 @@ static void joints_stay_closed(void **state)
     run_to(&b, 0.5);
     must(&other.r, dmb_sim_restore(other.r.sim, block, size));
     run_to(&other, 0.5);
-    assert_true(hash_of(&b) == hash_of(&other));
+    assert_true(hash_of(b.r.sim) == hash_of(other.r.sim));
     y = joint_of(&b);
     check_close("driven on", y.position[3], drive_of(&b, b.motor).position, 1e-10);
     check_below("error", energy_of(&b.r).error, 1e-2);
@@ -760,11 +754,11 @@ static void joints_stay_closed(void **state)
 
 static void check_refused(scene *to, const scene *from, const char *word)
 {
-    const uint64_t before = hash_of(to);
+    const uint64_t before = hash_of(to->r.sim);
     assert_int_equal(dmb_sim_transfer_state(to->r.sim, from->r.sim), DMB_ERR_VALUE);
     print_message("%s\n", dmb_sim_message(to->r.sim));
     if (strstr(dmb_sim_message(to->r.sim), word) == NULL) fail_msg("\"%s\" is not in it", word);
-    assert_true(hash_of(to) == before);
+    assert_true(hash_of(to->r.sim) == before);
     rig_close(&to->r);
 }
 
@@ -816,13 +810,13 @@ static void wrong_handles(void **state)
     const choice c = drilling;
     scene s = rig_of(&c);
     uint64_t junk[64] = {0};
-    const uint64_t before = hash_of(&s);
+    const uint64_t before = hash_of(s.r.sim);
     assert_int_equal(dmb_sim_transfer_state(NULL, s.r.sim), DMB_ERR_NULL);
     assert_int_equal(dmb_sim_transfer_state(s.r.sim, NULL), DMB_ERR_NULL);
     assert_int_equal(dmb_sim_transfer_state((dmb_sim *)(void *)junk, s.r.sim), DMB_ERR_HANDLE);
     assert_int_equal(dmb_sim_transfer_state(s.r.sim, (dmb_sim *)(void *)junk), DMB_ERR_HANDLE);
     assert_int_equal(dmb_sim_transfer_state(s.r.sim, s.r.sim), DMB_ERR_VALUE);
-    assert_true(hash_of(&s) == before);
+    assert_true(hash_of(s.r.sim) == before);
     rig_close(&s.r);
 }
 

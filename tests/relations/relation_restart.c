@@ -1,6 +1,7 @@
 /* A run that goes on from a snapshot of its middle against the run straight through: the same bits. A run handed over
  * to another sim and back (dmb_sim_transfer_state) against one that stays: the same to rounding, and the state of any
  * run handed over. */
+#include "hash.h"
 #include "relations.h"
 
 enum { STEPS = 60, BYTES = 4000000 };
@@ -8,13 +9,6 @@ enum { STEPS = 60, BYTES = 4000000 };
 /* ---- Snapshots -------------------------------------------------------------------------------------------------- */
 
 static unsigned char block[BYTES];
-
-static uint64_t hash_of(const built *b)
-{
-    uint64_t hash = 0;
-    (void)dmb_sim_hash(b->sim, &hash);
-    return hash;
-}
 
 /* Fixed steps, then some that the error control chooses. */
 static int32_t go_on(built *b, double step)
@@ -34,14 +28,14 @@ static int32_t straight_and_restored(const scene *s, const dmb_sim_options *opti
     if (status >= 0 && size > BYTES) status = DMB_ERR_TOO_LARGE;
     if (status >= 0) status = dmb_sim_snapshot(a->sim, block, size);
     if (status >= 0) status = go_on(a, s->step);
-    hash[0] = hash_of(a);
+    hash[0] = hash_of(a->sim);
     if (status >= 0) status = dmb_sim_create(a->model, options, again);
     if (status >= 0) status = dmb_sim_restore(*again, block, size);
     if (status < 0) return status;
     dmb_sim *const first = a->sim;
     a->sim = *again;
     status = go_on(a, s->step);
-    hash[1] = hash_of(a);
+    hash[1] = hash_of(a->sim);
     a->sim = first;
     return status;
 }

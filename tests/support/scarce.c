@@ -28,10 +28,3 @@ dmb_allocator scarce_allocator(scarce *memory)
     allocator.release = give;
     return allocator;
 }
-
-uint64_t hash_of(const dmb_sim *sim)
-{
-    uint64_t hash = 0;
-    assert_int_equal(dmb_sim_hash(sim, &hash), DMB_OK);
-    return hash;
-}

@@ -12,7 +12,4 @@ typedef struct scarce {
 
 dmb_allocator scarce_allocator(scarce *memory);
 
-/* The hash of a sim's state. */
-uint64_t hash_of(const dmb_sim *sim);
-
 #endif

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "math/block_inertia.h"
 #include "math/dense.h"
+#include "math/inertia.h"
 #include "math/krylov.h"
 #include "sim/access.h"
 

@@ -4,8 +4,8 @@
 
 #include "analysis/linear/linearise.h"
 #include "analysis/linear/stiffness.h"
-#include "math/block_inertia.h"
 #include "math/dense.h"
+#include "math/inertia.h"
 #include "system/solve/solve.h"
 
 static void add_joint_products(const dmb_scene *scene, const double *joints, const double *x, double *y)

@@ -1,6 +1,6 @@
 #include "analysis/linear/stiffness.h"
 
-#include "math/block_inertia.h"
+#include "math/inertia.h"
 #include "sim/node.h"
 #include "system/solve/reduced_sparse.h"
 #include "system/solve/solve.h"

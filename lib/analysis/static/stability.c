@@ -5,7 +5,7 @@
 
 #include "analysis/linear/stiffness.h"
 #include "analysis/static/stability_friction.h"
-#include "math/block_inertia.h"
+#include "math/inertia.h"
 #include "math/krylov.h"
 #include "sim/access.h"
 #include "system/solve/reduced_sparse.h"

@@ -4,7 +4,7 @@
 #include "modal.h"
 
 #include "analysis/modes/modes.h"
-#include "math/block_inertia.h"
+#include "math/inertia.h"
 
 enum { ROWS_MAX = 1300 };
 

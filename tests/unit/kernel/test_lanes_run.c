@@ -11,7 +11,7 @@ static void use_lanes(rig *s, uint32_t lanes)
     ((dmb_scene *)(uintptr_t)s->sim->scene)->kernels = dmb_kernels_of(lanes);
 }
 
-static uint64_t hash_of(rig *s)
+static uint64_t close_with_hash(rig *s)
 {
     uint64_t hash = 0;
     assert_int_equal(dmb_sim_hash(s->sim, &hash), DMB_OK);
@@ -26,7 +26,7 @@ static uint64_t hash_of_rig(const full_rig_choice *choice, uint32_t lanes)
     full_rig_open(&s, choice);
     use_lanes(&s, lanes);
     for (int i = 0; i < 60; i++) must(&s, dmb_sim_step(s.sim, 2e-4, NULL));
-    return hash_of(&s);
+    return close_with_hash(&s);
 }
 
 /* A string held at the rig, with tool joints, falling; lanes wider than it, too. */
@@ -41,7 +41,7 @@ static uint64_t hash_of_string(uint32_t pipes, uint32_t elements, uint32_t lanes
     rig_start(&s, NULL);
     use_lanes(&s, lanes);
     for (int i = 0; i < 60; i++) must(&s, dmb_sim_step(s.sim, 1e-3, NULL));
-    return hash_of(&s);
+    return close_with_hash(&s);
 }
 
 /* Axial-torsional pipes of two types hanging from the rig, turned, damped; behind them flexible ones, or none. */
@@ -68,7 +68,7 @@ static uint64_t hash_of_bars(uint32_t pipes, uint32_t flexible, uint32_t lanes)
     rig_start(&s, NULL);
     use_lanes(&s, lanes);
     for (int i = 0; i < 60; i++) must(&s, dmb_sim_step(s.sim, 1e-3, NULL));
-    return hash_of(&s);
+    return close_with_hash(&s);
 }
 
 static void every_width_gives_the_same_bits(void **state)

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "math/block_inertia.h"
+#include "math/inertia.h"
 
 #define BLOCKS 9
 #define MAX_ROWS (6 * BLOCKS)

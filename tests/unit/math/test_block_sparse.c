@@ -7,8 +7,8 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "math/block_inertia.h"
 #include "math/block_sparse.h"
+#include "math/inertia.h"
 
 #define EDGES_MAX 4000
 

@@ -3,7 +3,7 @@
 
 #include "check.h"
 #include "math/dense.h"
-#include "math/dense_inertia.h"
+#include "math/inertia.h"
 
 #define MOST 20
 
