@@ -61,7 +61,8 @@ typedef struct dmb_static_report {
     uint32_t line_searches; /* [-] corrections that were shortened by a line search */
     int32_t negative;  /* [-] eigenvalues of the stiffness by which the equilibrium is unstable, those that are 0 but
                           for rounding apart. SYMMETRIC: negative ones, exactly. UNSYMMETRIC: real negative ones
-                          among those nearest 0, 36 or all, as many as the sign of the determinant agrees with;
+                          among those nearest 0, 36 or all, as many as the sign of the determinant agrees with (two
+                          at once may have come of a complex pair, without the determinant having passed 0);
                           -1: not counted, which bounded work did not allow. Of a state that moves (`steady`): of the
                           stiffness in its moving axes, centrifugal forces included; gyroscopic ones may hold it
                           all the same, or damping not (dmb_analysis_modes) */
@@ -114,10 +115,17 @@ DMB_SIZED_STRUCT(dmb_buckling_options)
 /* Reason for the end of the way along the equilibria. */
 enum {
     DMB_BUCKLING_EXTRAPOLATED = 0, /* there was none: follow = 0, or nothing buckles about the present state */
-    DMB_BUCKLING_BIFURCATION = 1,  /* an eigenvalue of the stiffness passes 0, or a complex pair of an unsymmetric one
-                                      becomes real and negative, and the equilibria go on, unstable */
+    DMB_BUCKLING_BIFURCATION = 1,  /* an eigenvalue of the stiffness passes 0, and the equilibria go on, unstable */
     DMB_BUCKLING_LIMIT = 2,        /* the factor is at a maximum of the path, or a contact that opens turns it back */
-    DMB_BUCKLING_STABLE = 3        /* none: they stay stable up to `reached` */
+    DMB_BUCKLING_STABLE = 3        /* none: det K keeps its sign up to `reached` */
+};
+/* Flutter: motion that grows about equilibria before det K = 0, which an unsymmetric stiffness allows. Damped modes are
+ * found at the points of the way, a twentieth of the lowest factor apart at most. */
+enum {
+    DMB_FLUTTER_NOT_JUDGED = 0, /* K is symmetric all the way, which allows none; friction is assumed to slip; the way
+                                   is not followed and no mode grows in the present state; no modes found (message) */
+    DMB_FLUTTER_NONE = 1,       /* none of all modes (up to 60 coordinates), or of the 24 lowest (more), grows */
+    DMB_FLUTTER_FOUND = 2       /* one grows from flutter_factor on */
 };
 typedef struct dmb_buckling_info {
     uint32_t struct_size;
@@ -127,12 +135,15 @@ typedef struct dmb_buckling_info {
     uint32_t linearisations; /* [-] of states on the way, the present one included */
     uint32_t points;         /* [-] equilibria found on the way */
     int32_t stiffness; /* DMB_STIFFNESS_... of the state linearised last. UNSYMMETRIC: factors are those of divergence,
-                          det K = 0; what flutters may do so before (dmb_analysis_modes) */
+                          det K = 0; what flutters does so before (`flutter`) */
     int32_t end;       /* DMB_BUCKLING_... */
-    int32_t reserved;
-    double estimate;      /* [unit of the factor] the lowest factor, from the present state alone; infinite: none */
-    double linearised_at; /* [unit of the factor] state that the shapes and further factors were linearised about */
-    double reached;       /* [unit of the factor] last stable equilibrium on the way */
+    int32_t flutter;   /* DMB_FLUTTER_... */
+    double estimate;   /* [unit of the factor] the lowest factor, from the present state alone; infinite: none */
+    double linearised_at;  /* [unit of the factor] state that the shapes and further factors were linearised about */
+    double reached;        /* [unit of the factor] last equilibrium on the way before the end */
+    double flutter_factor; /* [unit of the factor] of FOUND: a mode grows from there on; 0: in the present state */
+    double
+        flutter_root[2]; /* [1/s] its root there, real and imaginary part, the latter 0 without swinging, shape (2) */
 } dmb_buckling_info;
 DMB_SIZED_STRUCT(dmb_buckling_info)
 /* Critical factors and shapes; destroyed by the caller, one thread at a time. */
@@ -142,18 +153,24 @@ typedef struct dmb_buckling dmb_buckling;
  * around the axis; dK is its change along the response of the state to the pattern of loads, both in the frames of the
  * state; with joints both are those of the independent coordinates. A symmetric K is counted by the signs of the pivots
  * (Sylvester), so that no factor is missed, and factors are found by bisection; of an unsymmetric one they are the real
- * eigenvalues by Krylov subspaces, and what may flutter before is not looked for. That is an extrapolation, good where
- * sections turn and contacts shift little on the way. So the equilibria are followed (dmb_analysis_path) to the factor,
- * linearised again, and so on until an eigenvalue of their stiffness passes 0: the lowest factor is where the path
- * loses its stability, at a bifurcation or limit point, and shape and further factors are linearised just before.
- * dmb_buckling_get_info tells. The sim is not changed. DMB_NOTE_STOPPED where fewer than `count` lie below factor_max
- * or can be told (beyond a limit point none can; message says how far the equilibria stay stable where there is none).
- * DMB_NOTE_EXTRAPOLATED where some of the factors are not confirmed. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is
- * no equilibrium or not stable; message says by how much), _SINGULAR (message says which part is free), _NO_CONVERGENCE
- * (the equilibria could not be followed; message says how far), _UNSUPPORTED (a motion drive of a joint; a state that
- * slides or turns by its drives: take DMB_STEADY_AT_REST, and the slip here, for it), _NO_MEMORY, _CALLBACK,
- * _CANCELLED; *buckling is NULL then. Some 40 counts a factor and 10 to 100 iterations on the way, each O(number of
- * elements); memory: the sim's twice more and 3 matrices, from its allocator. */
+ * eigenvalues by Krylov subspaces: loads at which it diverges. It may flutter before, by a mode that grows while det K
+ * keeps its sign; so the damped modes are looked at on the way (`flutter`). That two eigenvalues of K become real and
+ * negative together is no event: at which load they do depends on the weights that they are measured by.
+ * A linearisation is an extrapolation, good where sections turn and contacts shift little on the way. So the equilibria
+ * are followed (dmb_analysis_path) to the factor, linearised again, and so on until an eigenvalue of their stiffness
+ * passes 0: the lowest factor is where the path loses its stability, at a bifurcation or limit point, and shape and
+ * further factors are linearised just before. dmb_buckling_get_info tells. The sim is not changed. DMB_NOTE_STOPPED
+ * where fewer than `count` lie below factor_max or can be told (beyond a limit point none can; message says how far the
+ * equilibria stay stable where there is none). DMB_NOTE_EXTRAPOLATED where some of the factors are not confirmed.
+ * Before these notes: DMB_NOTE_FLUTTER where a damped mode grows before the lowest factor; also where there is no such
+ * factor, up to a factor_max below 1e12 or to where the equilibria could be followed. DMB_NOTE_INCOMPLETE where that
+ * could not be judged though K is unsymmetric. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no equilibrium or not
+ * stable; message says by how much), _SINGULAR (message says which part is free), _NO_CONVERGENCE (the equilibria could
+ * not be followed; message says how far), _UNSUPPORTED (a motion drive of a joint; a state that slides or turns by its
+ * drives: take DMB_STEADY_AT_REST, and the slip here, for it), _NO_MEMORY, _CALLBACK, _CANCELLED; *buckling is NULL
+ * then. Some 40 counts a factor and 10 to 100 iterations on the way, each O(number of elements); memory: the sim's
+ * twice more and 3 matrices, from its allocator.
+ */
 DMB_API int32_t dmb_analysis_buckling(dmb_sim *sim, const dmb_buckling_options *options, dmb_buckling **buckling);
 DMB_API int32_t dmb_buckling_get_info(const dmb_buckling *buckling, dmb_buckling_info *info);
 /* Gives the memory back and sets *buckling to NULL. NULL-safe. */
@@ -226,12 +243,14 @@ typedef struct dmb_path_report {
 DMB_SIZED_STRUCT(dmb_path_report)
 /* Follows the path from the present static state on by arc length: a step along the tangent, then Newton in the plane
  * across it (Riks 1979) with the factor bordering the stiffness (Crisfield 1981), the step as long as Newton likes it.
- * Limit points, bifurcations and the ends are located to 1e-8 of the step by regula falsi. The sim is not changed.
- * options and report may be NULL; where the path was lost the report tells how far it came. DMB_NOTE_STOPPED after
- * max_points or by the callback. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no equilibrium), _SINGULAR (message
- * says which part is free, or that the factor moves nothing), _NO_CONVERGENCE (message says where the path was lost),
- * _ROTATION (above 2.5 rad in an element, likewise), _UNSUPPORTED (as of buckling), _NO_MEMORY, _CALLBACK, _CANCELLED.
- * O(number of elements) an iteration; memory: the sim's once more. */
+ * Limit points, bifurcations and the ends are located to 1e-8 of the step by regula falsi. Where K is unsymmetric a
+ * step is a twentieth of factor_end at most: an eigenvalue that leaves and one that comes back closer together may be
+ * passed by. Two that a complex pair becomes change `negative` and are no bifurcation: det K keeps its sign. The sim is
+ * not changed. options and report may be NULL; where the path was lost the report tells how far it came.
+ * DMB_NOTE_STOPPED after max_points or by the callback. Errors: DMB_ERR_VALUE, _ID, _ORDER (the state is no
+ * equilibrium), _SINGULAR (message says which part is free, or that the factor moves nothing), _NO_CONVERGENCE (message
+ * says where the path was lost), _ROTATION (above 2.5 rad in an element, likewise), _UNSUPPORTED (as of buckling),
+ * _NO_MEMORY, _CALLBACK, _CANCELLED. O(number of elements) an iteration; memory: the sim's once more. */
 DMB_API int32_t dmb_analysis_path(dmb_sim *sim, const dmb_path_options *options, dmb_path_report *report);
 
 /* ---- Model check -------------------------------------------------------------------------------------------------

@@ -67,30 +67,35 @@ static double shortening(const scene *s, double push)
 /* ---- The path --------------------------------------------------------------------------------------------------- */
 
 typedef struct signs {
-    double stable, unstable; /* [-] largest factor with no negative eigenvalue, smallest with one */
-    int32_t at, beyond;      /* negative eigenvalues at the bifurcation, and at the first unstable point */
+    double stable, unstable; /* [-] largest factor with an even number of negative eigenvalues, smallest with another */
+    int32_t before;          /* negative eigenvalues there */
+    int32_t changed;         /* their number at the bifurcation less that */
+    int32_t symmetric;       /* 1: K is, and any negative eigenvalue is a loss of stability */
+    int32_t to_event;        /* 1: the path ends at its first event */
 } signs;
 
+/* A complex pair of an unsymmetric K that becomes real and negative adds 2 to the count and passes no 0: only the
+ * bifurcation tells then. */
 static int32_t look(void *context, const dmb_sim *at, const dmb_path_point *point)
 {
     signs *const s = context;
     (void)at;
-    if (point->kind == DMB_PATH_BIFURCATION) s->at = point->negative;
-    if (point->kind != DMB_PATH_REGULAR) return 0; /* there the sign is told for what is beyond */
-    if (point->negative == 0 && point->factor > s->stable) s->stable = point->factor;
-    if (point->negative > 0 && point->factor < s->unstable) {
-        s->unstable = point->factor;
-        s->beyond = point->negative;
-    }
+    if (point->kind == DMB_PATH_BIFURCATION) s->changed = point->negative - s->before;
+    if (point->kind != DMB_PATH_REGULAR) return s->to_event; /* there the sign is told for what is beyond */
+    const int beyond = s->symmetric ? point->negative > 0 : s->changed != 0;
+    if (!beyond && point->factor > s->stable) s->stable = point->factor;
+    if (!beyond) s->before = point->negative;
+    if (beyond && point->factor < s->unstable) s->unstable = point->factor;
     return 0;
 }
 
-static void hold_path(trial *t, built *b, double factor, double tolerance)
+/* next: the factor after it; an unsymmetric K may be stable again beyond, and the path ends before. */
+static void hold_path(trial *t, built *b, double factor, double next, double tolerance)
 {
-    signs s = {0.0, 1e300, 0, 0};
+    signs s = {0.0, 1e300, 0, 0, extras_of(&t->s).torque == 0.0, 0};
     dmb_path_options options = dmb_path_options_default();
     dmb_path_report report = dmb_path_report_default();
-    options.factor_end = 1.2 * factor;
+    options.factor_end = s.symmetric ? 1.2 * factor : fmin(1.2 * factor, 0.5 * (factor + next));
     options.first_step = 0.07 * factor;
     options.callback = look;
     options.callback_context = &s;
@@ -99,16 +104,13 @@ static void hold_path(trial *t, built *b, double factor, double tolerance)
         broken(t, dmb_sim_message(b->sim), status, 0.0);
         return;
     }
-    /* a complex pair of an unsymmetric stiffness that becomes real and negative passes no 0 */
-    const int pair = extras_of(&t->s).torque != 0.0 && report.bifurcations == 0 && s.beyond == 2;
-    if (report.bifurcations == 0 && !pair) broken(t, "no bifurcation on the path", report.factor, factor);
-    if (!pair)
-        hold(t, "factor beside the bifurcation of the path", fabs(report.first_bifurcation / factor - 1.0), tolerance);
+    if (report.bifurcations == 0) broken(t, "no bifurcation on the path", report.factor, factor);
+    hold(t, "factor beside the bifurcation of the path", fabs(report.first_bifurcation / factor - 1.0), tolerance);
     hold(t, "last stable point of the path over the factor", s.stable / factor - 1.0, tolerance);
     hold(t, "factor over the first unstable point of the path", 1.0 - s.unstable / factor, tolerance);
     if (s.unstable == 1e300) broken(t, "no unstable point beyond the bifurcation", report.factor, factor);
     if (report.limits > 0) broken(t, "limit points of a straight path", report.limits, 0.0);
-    if (s.at < 1 && !pair) broken(t, "negative eigenvalues at the bifurcation", s.at, 1.0);
+    if (s.changed == 0) broken(t, "negative eigenvalues at the bifurcation", s.changed, 1.0);
 }
 
 /* ---- In time ---------------------------------------------------------------------------------------------------- */
@@ -188,17 +190,173 @@ static void hold_runs_apart(trial *t, double critical)
     hold(t, "distance below beside that above the critical load", 15.0 * stayed / left, 1.0);
 }
 
-/* ---- All -------------------------------------------------------------------------------------------------------- */
+/* ---- Flutter ---------------------------------------------------------------------------------------------------- */
 
-static void check_buckled(trial *t)
+/* Largest real part of all damped modes under `push`, its root to `root`; 0 where they cannot be had. */
+static int growth_under(trial *t, double push, double root[2])
+{
+    static scene s;
+    built b;
+    dmb_modes *found = NULL;
+    dmb_mode mode = dmb_mode_default();
+    dmb_modes_options options = dmb_modes_options_default();
+    options.kind = DMB_MODES_DAMPED;
+    options.select = DMB_MODES_ALL;
+    s = t->s;
+    push_along(&s, push);
+    int32_t status = scene_open(&s, 0, NULL, &b);
+    if (status >= 0) status = dmb_analysis_static(b.sim, NULL, NULL);
+    if (status >= 0) status = dmb_analysis_modes(b.sim, &options, &found);
+    root[0] = -1e300;
+    for (uint32_t i = 0; status >= 0 && dmb_modes_get(found, i, &mode) >= 0; ++i)
+        if (mode.eigenvalue[0] > root[0]) memcpy(root, mode.eigenvalue, sizeof mode.eigenvalue);
+    dmb_modes_destroy(&found);
+    scene_close(&b);
+    return status >= 0;
+}
+
+/* Far enough beyond the load of flutter a run leaves as its fastest mode grows: e^6 in the time of e^6. */
+static void hold_leaving(trial *t, double push)
+{
+    static scene s;
+    built b;
+    double root[2], first = 0.0, force[3];
+    scene_view view = view_identity();
+    if (!growth_under(t, push, root) || !(root[0] > 0.0)) return;
+    const double step = fmin(0.05 / hypot(root[0], root[1]), 0.02 / root[0]), time = 6.0 / root[0];
+    if (time / step > 6000.0) return;
+    s = t->s;
+    push_along(&s, push);
+    stream n = stream_of(s.seed, s.number, TOPIC_BUCKLING + 3);
+    draw_direction(&n, force);
+    for (int i = 0; i < 3; ++i) force[i] *= 1e-9 * push;
+    scene_kick(&s, force, 5.0 * step);
+    view.motion_only = 1;
+    int32_t status = scene_open(&s, 0, NULL, &b);
+    if (status >= 0) status = dmb_analysis_static(b.sim, NULL, NULL);
+    if (status >= 0) answers_take(&s, &s, &view, &b, &rest);
+    const uint32_t steps = (uint32_t)(time / step);
+    double most = 0.0;
+    for (uint32_t i = 0; i < 3 * steps && status >= 0; ++i) {
+        status = run_steps(&b, step, 1, NULL);
+        if (status >= 0 && i < steps) first = fmax(first, largest_distance(&s, &b));
+        if (status >= 0 && i >= 2 * steps) most = fmax(most, largest_distance(&s, &b));
+    }
+    scene_close(&b);
+    /* between the ends of the first and the third stretch e^12, of which 8 digits stand over rounding */
+    if (status >= 0 && first > 1e-13 * s.span)
+        hold(t, "growth of a run beyond flutter", fabs(log(most / first) / 12.0 - 1.0), 0.25);
+}
+
+static void hold_flutter(trial *t, const dmb_buckling_info *info, double push, double factor)
+{
+    double below[2], above[2];
+    if (info->stiffness != DMB_STIFFNESS_UNSYMMETRIC) broken(t, "stiffness under a fixed moment", info->stiffness, 1);
+    if (info->flutter == DMB_FLUTTER_NOT_JUDGED) {
+        if (t->verdict == VERDICT_HELD) left_out(t, "modes that cannot be found sharply");
+        return;
+    }
+    if (info->flutter == DMB_FLUTTER_NONE) {
+        if (growth_under(t, (1.0 + 0.97 * factor) * push, below) && below[0] > 1e-6 * hypot(below[0], below[1]))
+            broken(t, "a mode grows below the factor, and no flutter was told", below[0], below[1]);
+        return;
+    }
+    t->telling = 1;
+    const double load = 1.0 + info->flutter_factor;
+    if (info->flutter_factor > factor) broken(t, "flutter beyond the factor", info->flutter_factor, factor);
+    if (info->flutter_factor > 0.0 && growth_under(t, 0.998 * load * push, below) && below[0] > 0.0)
+        broken(t, "a mode grows below flutter", below[0], below[1]);
+    if (growth_under(t, (info->flutter_factor > 0.0 ? 1.002 : 1.0) * load * push, above) && !(above[0] > 0.0))
+        broken(t, "no mode grows above flutter", above[0], above[1]);
+    hold_leaving(t, 1.1 * load * push);
+}
+
+/* ---- In a hole -------------------------------------------------------------------------------------------------- */
+
+/* A string that lies in a straight hole by its weight, pushed at its far end along the axis by a part of what would
+ * make it snake there, 2 sqrt(EI w/r) (Dawson, Paslay 1984), or of Euler's load where that is more. */
+static void push_in_hole(scene *s, double part)
+{
+    const dmb_pipe_def *const p = &s->string[0].pipe[0];
+    const double EI = p->young_modulus * PI / 64.0 * (pow(p->outer_diameter, 4) - pow(p->inner_diameter, 4));
+    const double w = 9.81 * line_mass(s) / s->span * fabs(s->wall.direction[0]);
+    const double r = 0.5 * (s->wall.diameter - p->outer_diameter);
+    const double push = part * fmax(2.0 * sqrt(EI * w / r), 8.0 * column_load(s));
+    load_data *const l = &s->load[0];
+    s->loads = 1;
+    s->bit_load.terms = 0;
+    l->def = dmb_load_def_default();
+    l->def.frame = DMB_FRAME_WORLD;
+    for (int i = 0; i < 3; ++i) l->def.force[i] = -push * s->wall.direction[i];
+    l->place.kind = PART_STRING;
+    l->place.index = s->strings - 1;
+    l->place.pipe = s->string[s->strings - 1].pipes - 1;
+    l->place.fraction = 1.0;
+}
+
+/* The path passes unstable stretches of a twentieth of the factor by where single contacts open and close (README). */
+#define PASSED_BY 0.05
+
+static void hold_path_in_hole(trial *t, built *b, double factor)
+{
+    signs s = {0.0, 1e300, 0, 0, 1, 1};
+    dmb_path_options options = dmb_path_options_default();
+    dmb_path_report report = dmb_path_report_default();
+    options.factor_end = 1.02 * factor;
+    options.first_step = 0.02 * factor;
+    options.max_points = 400;
+    options.callback = look;
+    options.callback_context = &s;
+    const int32_t status = dmb_analysis_path(b->sim, &options, &report);
+    const double event = fmin(report.first_limit, report.first_bifurcation); /* fmin leaves NaN out */
+    if (isnan(event) && status < 0) {
+        left_out(t, "a path in a hole that is lost before its event");
+        return;
+    }
+    if (isnan(event)) broken(t, "no event on the path in a hole", report.factor, factor);
+    hold(t, "factor beside the event of the path in a hole", fabs(event / factor - 1.0), PASSED_BY);
+    if (s.unstable < 1e300)
+        hold(t, "factor over the first unstable point in a hole", 1.0 - s.unstable / factor, PASSED_BY);
+    t->telling = 1;
+}
+
+/* What was just kicked stays near: it swings no further late than early. */
+static void hold_staying(trial *t, double factor)
+{
+    static scene s;
+    built b;
+    dmb_static_report report = dmb_static_report_default();
+    scene_view view = view_identity();
+    const double axis[3] = {-t->s.wall.direction[2], 0.3, t->s.wall.direction[0]};
+    double early = 0.0, late = 0.0, force[3];
+    s = t->s;
+    for (int i = 0; i < 3; ++i) {
+        force[i] = 1e-7 * (1.0 + 0.9 * factor) * fabs(s.load[0].def.force[0]) * axis[i];
+        s.load[0].def.force[i] *= 1.0 + 0.9 * factor;
+    }
+    scene_kick(&s, force, 5.0 * s.step);
+    view.motion_only = 1;
+    int32_t status = scene_open(&s, 0, NULL, &b);
+    if (status >= 0) status = dmb_analysis_static(b.sim, NULL, &report);
+    if (status >= 0) answers_take(&s, &s, &view, &b, &rest);
+    for (int i = 0; i < 1200 && status >= 0 && report.negative == 0; ++i) {
+        status = run_steps(&b, s.step, 1, NULL);
+        double *const most = i < 600 ? &early : &late;
+        if (status >= 0) *most = fmax(*most, largest_distance(&s, &b));
+    }
+    scene_close(&b);
+    if (status < 0 || report.negative != 0) return;
+    hold(t, "late beside early distance below the factor in a hole", late / (early + 1e-9 * s.span), 10.0);
+}
+
+static void check_snaked(trial *t)
 {
     stream n = stream_of(t->s.seed, t->s.number, TOPIC_BUCKLING);
     built b;
     dmb_buckling *found = NULL;
     dmb_static_report report = dmb_static_report_default();
-    double factor = 0.0, push = column_load(&t->s) * draw_number(&n, 0.02, 0.5);
-    push_along(&t->s, push);
-    t->s.radius = 1.0; /* no growth is damped away */
+    double factor = 0.0;
+    push_in_hole(&t->s, draw_number(&n, 0.02, 0.3));
     int32_t status = scene_open(&t->s, 0, NULL, &b);
     if (status >= 0) status = dmb_analysis_static(b.sim, NULL, &report);
     if (status >= 0 && report.negative == 0) status = dmb_analysis_buckling(b.sim, NULL, &found);
@@ -208,20 +366,80 @@ static void check_buckled(trial *t)
         left_out(t, "a start above the critical load");
     else if (dmb_buckling_factor(found, 0, &factor) < 0)
         left_out(t, "no critical factor");
-    const double critical = (1.0 + factor) * push, weight = fabs(extras_of(&t->s).weight);
-    const double tolerance = 1e-6 + 20.0 * shortening(&t->s, critical + weight);
-    if (t->verdict == VERDICT_HELD && tolerance > 0.02) left_out(t, "a line that shortens much");
-    if (t->verdict == VERDICT_HELD) hold_path(t, &b, factor, tolerance * (1.0 + 1.0 / factor));
+    if (t->verdict == VERDICT_HELD) hold_path_in_hole(t, &b, factor);
     dmb_buckling_destroy(&found);
     scene_close(&b);
-    if (t->verdict == VERDICT_HELD && extras_of(&t->s).torque == 0.0) hold_runs_apart(t, critical);
+    if (t->verdict == VERDICT_HELD) hold_staying(t, factor);
+}
+
+/* ---- All -------------------------------------------------------------------------------------------------------- */
+
+/* What the analysis says of the line under its present push. */
+typedef struct told {
+    double factor, next; /* infinite: none */
+    dmb_buckling_info info;
+} told;
+
+static void ask(trial *t, built *b, told *out)
+{
+    dmb_buckling *found = NULL;
+    dmb_static_report report = dmb_static_report_default();
+    dmb_buckling_options options = dmb_buckling_options_default();
+    options.count = 2;
+    out->factor = out->next = (double)INFINITY;
+    out->info = dmb_buckling_info_default();
+    int32_t status = scene_open(&t->s, 0, NULL, b);
+    if (status >= 0) status = dmb_analysis_static(b->sim, NULL, &report);
+    if (status >= 0 && report.negative == 0) status = dmb_analysis_buckling(b->sim, &options, &found);
+    if (status < 0) refused(t, status, b->sim ? dmb_sim_message(b->sim) : b->message);
+    if (report.negative != 0) left_out(t, "a start above the critical load");
+    (void)dmb_buckling_factor(found, 0, &out->factor);
+    (void)dmb_buckling_factor(found, 1, &out->next);
+    if (found != NULL) (void)dmb_buckling_get_info(found, &out->info);
+    dmb_buckling_destroy(&found);
+}
+
+static void check_buckled(trial *t)
+{
+    stream n = stream_of(t->s.seed, t->s.number, TOPIC_BUCKLING);
+    built b;
+    told said;
+    const double push = column_load(&t->s) * draw_number(&n, 0.02, 0.5);
+    push_along(&t->s, push);
+    t->s.radius = 1.0; /* no growth is damped away */
+    ask(t, &b, &said);
+    const int flutters = said.info.flutter == DMB_FLUTTER_FOUND, factor = isfinite(said.factor);
+    const double most = factor ? said.factor : flutters ? said.info.flutter_factor : 0.0;
+    const double critical = (1.0 + most) * push, weight = fabs(extras_of(&t->s).weight);
+    const double tolerance = 1e-6 + 20.0 * shortening(&t->s, critical + weight);
+    if (!factor && !flutters) left_out(t, "no critical factor");
+    if (tolerance > 0.02) left_out(t, "a line that shortens much");
+    if (t->verdict == VERDICT_HELD && factor)
+        hold_path(t, &b, said.factor, said.next, tolerance * (1.0 + 1.0 / said.factor));
+    scene_close(&b);
+    if (t->verdict != VERDICT_HELD) return;
+    if (extras_of(&t->s).torque == 0.0)
+        hold_runs_apart(t, critical);
+    else
+        hold_flutter(t, &said.info, push, said.factor);
 }
 
 const relation relation_buckled = {
     "buckled",
-    "the buckling factor against det K on the path and runs below and above",
+    "the factors of buckling and flutter against the path, modes, and runs below and above",
     {FAMILY_LINE, WISH_STILL | WISH_ELASTIC | WISH_NO_CONTROL | WISH_ROUND | WISH_FLEXIBLE | WISH_CONSERVATIVE, 3},
     12,
     0.4,
     check_buckled,
+    0.0};
+const relation relation_snaked = {
+    "snaked",
+    "the buckling factor of a string that lies in a hole against the path and a run below",
+    {FAMILY_HOLE,
+     WISH_STILL | WISH_ELASTIC | WISH_NO_CONTROL | WISH_ROUND | WISH_FLEXIBLE | WISH_CONSERVATIVE | WISH_HARD |
+         WISH_NO_BIT,
+     4},
+    8,
+    0.3,
+    check_snaked,
     0.0};

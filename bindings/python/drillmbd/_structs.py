@@ -712,7 +712,7 @@ class StaticReport(Sized):
         "lateral_move": ("m", "largest displacement from the starting pose"),
         "cuts": ("-", "load steps that did not converge and were halved"),
         "line_searches": ("-", "corrections that were shortened by a line search"),
-        "negative": ("-", "eigenvalues of the stiffness by which the equilibrium is unstable, those that are 0 but for rounding apart. SYMMETRIC: negative ones, exactly. UNSYMMETRIC: real negative ones among those nearest 0, 36 or all, as many as the sign of the determinant agrees with; -1: not counted, which bounded work did not allow. Of a state that moves (`steady`): of the stiffness in its moving axes, centrifugal forces included; gyroscopic ones may hold it all the same, or damping not (dmb_analysis_modes)"),
+        "negative": ("-", "eigenvalues of the stiffness by which the equilibrium is unstable, those that are 0 but for rounding apart. SYMMETRIC: negative ones, exactly. UNSYMMETRIC: real negative ones among those nearest 0, 36 or all, as many as the sign of the determinant agrees with (two at once may have come of a complex pair, without the determinant having passed 0); -1: not counted, which bounded work did not allow. Of a state that moves (`steady`): of the stiffness in its moving axes, centrifugal forces included; gyroscopic ones may hold it all the same, or damping not (dmb_analysis_modes)"),
         "stiffness": ("", "STIFFNESS_...: the kind that was judged"),
         "steady": ("", "STEADY_AT_REST, _SLIDING or _RIGID: what the state is"),
     }
@@ -727,10 +727,12 @@ class BucklingInfo(Sized):
     points: int
     stiffness: int
     end: int
-    reserved: int
+    flutter: int
     estimate: float
     linearised_at: float
     reached: float
+    flutter_factor: float
+    flutter_root: 'Array[c_double]'
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("count", c_uint32),
@@ -739,21 +741,26 @@ class BucklingInfo(Sized):
         ("points", c_uint32),
         ("stiffness", c_int32),
         ("end", c_int32),
-        ("reserved", c_int32),
+        ("flutter", c_int32),
         ("estimate", c_double),
         ("linearised_at", c_double),
         ("reached", c_double),
+        ("flutter_factor", c_double),
+        ("flutter_root", c_double * 2),
     ]
     field_docs = {
         "count": ("-", "factors"),
         "confirmed": ("-", "of them, the lowest: the first stood up on the path of equilibria, others are the same or have not changed from one linearisation to the other; the rest are extrapolations"),
         "linearisations": ("-", "of states on the way, the present one included"),
         "points": ("-", "equilibria found on the way"),
-        "stiffness": ("", "STIFFNESS_... of the state linearised last. UNSYMMETRIC: factors are those of divergence, det K = 0; what flutters may do so before (dmb_analysis_modes)"),
+        "stiffness": ("", "STIFFNESS_... of the state linearised last. UNSYMMETRIC: factors are those of divergence, det K = 0; what flutters does so before (`flutter`)"),
         "end": ("", "BUCKLING_..."),
+        "flutter": ("", "FLUTTER_..."),
         "estimate": ("unit of the factor", "the lowest factor, from the present state alone; infinite: none"),
         "linearised_at": ("unit of the factor", "state that the shapes and further factors were linearised about"),
-        "reached": ("unit of the factor", "last stable equilibrium on the way"),
+        "reached": ("unit of the factor", "last equilibrium on the way before the end"),
+        "flutter_factor": ("unit of the factor", "of FOUND: a mode grows from there on; 0: in the present state"),
+        "flutter_root": ("1/s", "its root there, real and imaginary part, the latter 0 without swinging, shape (2)"),
     }
 
 

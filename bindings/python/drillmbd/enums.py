@@ -20,6 +20,7 @@ class Status(IntEnum):
     NOTE_EXTRAPOLATED = 9  #: done; some of the answers are extrapolations that were not confirmed
     NOTE_CANCELLED = 10  #: done up to where the caller's progress function ended it
     NOTE_INCOMPLETE = 11  #: done; the scene or the range leaves something out, the message tells what
+    NOTE_FLUTTER = 12  #: done; a mode grows before the stiffness is singular, the message tells from where on
     ERR_NULL = -1  #: a required pointer is NULL
     ERR_HANDLE = -2  #: not a live object of this kind
     ERR_STRUCT_SIZE = -3  #: struct_size is not a size this library knows
@@ -51,6 +52,7 @@ NOTE_NOT_STEADY = Status.NOTE_NOT_STEADY
 NOTE_EXTRAPOLATED = Status.NOTE_EXTRAPOLATED
 NOTE_CANCELLED = Status.NOTE_CANCELLED
 NOTE_INCOMPLETE = Status.NOTE_INCOMPLETE
+NOTE_FLUTTER = Status.NOTE_FLUTTER
 ERR_NULL = Status.ERR_NULL
 ERR_HANDLE = Status.ERR_HANDLE
 ERR_STRUCT_SIZE = Status.ERR_STRUCT_SIZE
@@ -527,15 +529,27 @@ SCALE_PART = Scale.PART
 class BucklingEnd(IntEnum):
     """Values DMB_BUCKLING_... of the headers."""
     EXTRAPOLATED = 0  #: there was none: follow = 0, or nothing buckles about the present state
-    BIFURCATION = 1  #: an eigenvalue of the stiffness passes 0, or a complex pair of an unsymmetric one becomes real and negative, and the equilibria go on, unstable
+    BIFURCATION = 1  #: an eigenvalue of the stiffness passes 0, and the equilibria go on, unstable
     LIMIT = 2  #: the factor is at a maximum of the path, or a contact that opens turns it back
-    STABLE = 3  #: none: they stay stable up to `reached`
+    STABLE = 3  #: none: det K keeps its sign up to `reached`
 
 
 BUCKLING_EXTRAPOLATED = BucklingEnd.EXTRAPOLATED
 BUCKLING_BIFURCATION = BucklingEnd.BIFURCATION
 BUCKLING_LIMIT = BucklingEnd.LIMIT
 BUCKLING_STABLE = BucklingEnd.STABLE
+
+
+class Flutter(IntEnum):
+    """Values DMB_FLUTTER_... of the headers."""
+    NOT_JUDGED = 0  #: K is symmetric all the way, which allows none; friction is assumed to slip; the way is not followed and no mode grows in the present state; no modes found (message)
+    NONE = 1  #: none of all modes (up to 60 coordinates), or of the 24 lowest (more), grows
+    FOUND = 2  #: one grows from flutter_factor on
+
+
+FLUTTER_NOT_JUDGED = Flutter.NOT_JUDGED
+FLUTTER_NONE = Flutter.NONE
+FLUTTER_FOUND = Flutter.FOUND
 
 
 class PathKind(IntEnum):
@@ -683,6 +697,7 @@ ENUMS = (
     StaticMethod,
     Scale,
     BucklingEnd,
+    Flutter,
     PathKind,
     ContactState,
     ModesKind,

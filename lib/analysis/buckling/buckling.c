@@ -1,4 +1,5 @@
 #include "analysis/buckling/buckling.h"
+#include "analysis/buckling/flutter.h"
 
 #include <string.h>
 
@@ -181,10 +182,39 @@ static int moves(const dmb_buckling *buckling)
     return 0;
 }
 
-static void confirm_all(dmb_buckling *buckling)
+/* Loads that grow in the present pose, which may not be where they lead. */
+static int32_t judge_pose(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options, double to,
+                          int32_t status)
 {
+    dmb_flutter flutter;
+    memset(&flutter, 0, sizeof flutter);
+    flutter.pattern = &buckling->pattern;
+    flutter.info = &buckling->info;
+    flutter.off = options->slip_axial != 0.0 || options->slip_rotation != 0.0;
+    const int32_t judged = flutter.off ? DMB_OK : dmb_flutter_of_pose(&flutter, buckling->work, to);
+    dmb_flutter_conclude(&flutter);
+    dmb_flutter_close(&flutter);
+    return judged < 0 ? judged : dmb_buckling_tell_flutter(buckling, sim, &flutter.message, status);
+}
+
+/* What the way would tell stays open where it is not followed; the answer has a note already. */
+static int32_t judge_present(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options, int32_t status)
+{
+    const dmb_message before = sim->message;
+    const int32_t judged = judge_pose(buckling, sim, options, 0.0, status);
+    if (judged < 0 || buckling->info.flutter == DMB_FLUTTER_FOUND) return judged;
+    buckling->info.flutter = DMB_FLUTTER_NOT_JUDGED;
+    sim->message = before;
+    return status;
+}
+
+static int32_t confirm_all(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options)
+{
+    const int32_t status = buckling->count < options->count ? DMB_NOTE_STOPPED : DMB_OK;
     buckling->info.confirmed = buckling->count;
     buckling->info.end = DMB_BUCKLING_BIFURCATION;
+    if (buckling->info.stiffness != DMB_STIFFNESS_UNSYMMETRIC) return status;
+    return judge_pose(buckling, sim, options, buckling->count > 0 ? buckling->factor[0] : 0.0, status);
 }
 
 /* About the present state, and then along the equilibria. */
@@ -197,10 +227,14 @@ static int32_t run(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_opti
     for (uint32_t k = 0; k < options->count; k++)
         buckling->first[k] = k < buckling->count ? buckling->factor[k] : (double)INFINITY;
     buckling->info.estimate = buckling->first[0];
+    const int unsymmetric = buckling->info.stiffness == DMB_STIFFNESS_UNSYMMETRIC;
+    const int bounded = unsymmetric && options->factor_max < DMB_FACTOR_MAX;
     if (!moves(buckling))
-        confirm_all(buckling);
-    else if (options->follow && buckling->count > 0)
+        status = confirm_all(buckling, sim, options);
+    else if (options->follow && (buckling->count > 0 || bounded))
         status = dmb_buckling_follow(buckling, sim, options);
+    else if (unsymmetric)
+        status = judge_present(buckling, sim, options, status);
     buckling->info.count = buckling->count;
     return status == DMB_OK && buckling->info.confirmed < buckling->count ? DMB_NOTE_EXTRAPOLATED : status;
 }

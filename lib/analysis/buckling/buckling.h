@@ -7,6 +7,9 @@
 #include "analysis/buckling/pencil.h"
 #include "analysis/static/static.h"
 
+/* options.factor_max as it is by default: far beyond all loads. */
+#define DMB_FACTOR_MAX 1e12
+
 struct dmb_buckling {
     uint32_t magic;
     uint32_t count; /* factors found */
@@ -33,6 +36,9 @@ void dmb_buckling_expand(dmb_buckling *buckling, const double *vector, double *s
 int32_t dmb_buckling_linearise(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options);
 /* Factors and shapes of K and G, rising; DMB_NOTE_STOPPED where there are fewer than asked for. */
 int32_t dmb_buckling_find(dmb_buckling *buckling, const dmb_buckling_options *options, dmb_message *message);
+/* Status of the whole, with a message in sim, where a mode grows on the way (DMB_NOTE_FLUTTER) or that was not judged
+ * (DMB_NOTE_INCOMPLETE); else `status`. `why`: of modes that could not be found. */
+int32_t dmb_buckling_tell_flutter(const dmb_buckling *buckling, dmb_sim *sim, const dmb_message *why, int32_t status);
 /* Along the equilibria from the present state to the first factor at which they lose their stability, and the factors
  * once more from there. Status as of dmb_analysis_buckling. */
 int32_t dmb_buckling_follow(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options);

@@ -2,11 +2,13 @@
  * extrapolation: forces turn, contacts shift and open, sections turn on the way. So the path of equilibria is followed
  * (by arc length, so that it may end at a limit point) as far as the factor, linearised again there where nothing has
  * happened, and so on until an eigenvalue of its stiffness passes 0. A last linearisation just before it gives the
- * shape, the further factors and, where K is smooth, more digits. */
+ * shape, the further factors and, where K is smooth, more digits. Where K is unsymmetric two negative eigenvalues that
+ * come of a complex pair are passed by, and growing motion is looked for on the way (flutter.h). */
 #include <math.h>
 #include <string.h>
 
 #include "analysis/buckling/buckling.h"
+#include "analysis/buckling/flutter.h"
 #include "analysis/buckling/path.h"
 #include "sim/access.h"
 #include "system/copy.h"
@@ -24,6 +26,8 @@
 #define DMB_FOLLOW_PAST 1.05
 #define DMB_FOLLOW_GROWTH 0.05
 #define DMB_FOLLOW_MOVES 0.3
+/* Longest step where growing motion is looked for, over the factor. */
+#define DMB_FOLLOW_FLUTTER 0.05
 
 typedef struct follower {
     dmb_buckling *buckling;
@@ -31,6 +35,7 @@ typedef struct follower {
     const dmb_buckling_options *options;
     dmb_path_options path_options;
     dmb_path path;
+    dmb_flutter flutter;
     double estimate; /* [unit of the factor] where stability is expected to end, by the last linearisation */
     double target;   /* [unit of the factor] where it is linearised again */
     double arc;
@@ -75,11 +80,15 @@ static int32_t say_lost(follower *f, int32_t status)
 
 static int32_t say_stable(follower *f)
 {
-    dmb_message_set(
-        &f->sim->message,
-        "buckling: the equilibria are stable up to factor = %g, beyond the critical factor %g that the present "
-        "state tells; follow = 0 gives that one",
-        f->path.last.factor, f->buckling->first[0]);
+    if (isfinite(f->buckling->first[0]))
+        dmb_message_set(
+            &f->sim->message,
+            "buckling: the equilibria are stable up to factor = %g, beyond the critical factor %g that the present "
+            "state tells; follow = 0 gives that one",
+            f->path.last.factor, f->buckling->first[0]);
+    else
+        dmb_message_set(&f->sim->message, "buckling: no eigenvalue of the stiffness passes 0 up to factor = %g",
+                        f->path.last.factor);
     f->buckling->count = 0;
     f->buckling->info.end = DMB_BUCKLING_STABLE;
     return DMB_NOTE_STOPPED;
@@ -101,7 +110,7 @@ static int32_t linearise_before(follower *f, double arc)
         if (step_back[k] > 0.0) {
             status = dmb_path_correct(path, path->last.tangent, path->last.rate, step_back[k] * arc);
             if (status >= 0) status = dmb_path_tangent(path, path->last.tangent);
-            if (status >= 0 && path->next.negative != 0) status = DMB_ERR_ORDER;
+            if (status >= 0 && path->next.negative != path->last.negative) status = DMB_ERR_ORDER;
             if (status >= 0) dmb_path_accept(path);
         }
         if (status >= 0) status = linearise_here(f);
@@ -154,12 +163,20 @@ static void choose_target(follower *f, int careful)
     f->target = factor + (careful ? fmax(DMB_FOLLOW_PAST * distance, DMB_FOLLOW_GROWTH * factor) : part * distance);
 }
 
+static void limit_arc(follower *f)
+{
+    const dmb_path_place *last = &f->path.last;
+    if (last->stiffness == DMB_STIFFNESS_UNSYMMETRIC && dmb_flutter_goes_on(&f->flutter))
+        f->arc = fmin(f->arc, DMB_FOLLOW_FLUTTER * f->estimate / fabs(last->rate));
+}
+
 /* Steps grow as the path's own do, but not past the target. */
 static void choose_arc(follower *f)
 {
     const dmb_path_place *last = &f->path.last;
     const double growth = fmin(fmax(sqrt(5.0 / (f->path.iterations + 1.0)), 0.5), 2.0);
     f->arc = fmin(f->arc * growth, (f->target - last->factor) / fabs(last->rate));
+    limit_arc(f);
 }
 
 #define DMB_FOLLOW_THERE 0.999
@@ -170,8 +187,9 @@ static int32_t look_ahead(follower *f)
     const double before = f->estimate, distance = before - f->buckling->at;
     const int32_t status = linearise_here(f);
     if (status < 0) return status;
-    if (f->buckling->count == 0 || f->buckling->info.linearisations >= DMB_FOLLOW_LINEARISATIONS) return say_stable(f);
-    f->estimate = f->buckling->factor[0];
+    const int none = f->buckling->count == 0, bounded = f->options->factor_max < DMB_FACTOR_MAX;
+    if ((none && !bounded) || f->buckling->info.linearisations >= DMB_FOLLOW_LINEARISATIONS) return say_stable(f);
+    f->estimate = none ? f->options->factor_max : f->buckling->factor[0];
     choose_target(f, fabs(f->estimate - before) > DMB_FOLLOW_MOVES * distance);
     return 1;
 }
@@ -193,6 +211,32 @@ static int32_t find_next(follower *f, int32_t *event)
     }
 }
 
+/* Just before an event: at it a root of the motion is 0. */
+#define DMB_FOLLOW_BEFORE 0.98
+
+/* Growing motion on the way to the next point, which is found again after it. */
+static int32_t look_for_flutter(follower *f, int32_t event)
+{
+    dmb_path *path = &f->path;
+    const double arc = path->next.arc - path->last.arc;
+    const int singular = event == DMB_EVENT_BIFURCATION || event == DMB_EVENT_LIMIT;
+    if (path->next.stiffness != DMB_STIFFNESS_UNSYMMETRIC || !dmb_flutter_goes_on(&f->flutter)) return DMB_OK;
+    const dmb_path_place next = path->next;
+    int32_t status = dmb_flutter_look(&f->flutter, path, singular ? DMB_FOLLOW_BEFORE * arc : arc);
+    path->next = next;
+    if (status < 0 || singular) return status;
+    status = dmb_path_correct(path, path->last.tangent, path->last.rate, arc);
+    return status < 0 ? status : dmb_path_tangent(path, path->last.tangent);
+}
+
+/* 1: the path ends here. An unsymmetric stiffness may have negative eigenvalues in pairs without det K having passed 0:
+ * only events count. */
+static int ends(const dmb_path *path, int32_t event)
+{
+    if (event == DMB_EVENT_LIMIT || event == DMB_EVENT_BIFURCATION) return 1;
+    return path->next.negative > 0 && path->next.stiffness != DMB_STIFFNESS_UNSYMMETRIC;
+}
+
 /* 1: to be gone on from; else the status of the whole. */
 static int32_t step(follower *f)
 {
@@ -202,8 +246,9 @@ static int32_t step(follower *f)
     int32_t status = find_next(f, &event);
     if (status < 0) return say_lost(f, status);
     f->buckling->info.points++;
-    if (event == DMB_EVENT_LIMIT || event == DMB_EVENT_BIFURCATION || path->next.negative > 0)
-        return end_at_event(f, event);
+    status = look_for_flutter(f, event);
+    if (status < 0) return say_lost(f, status);
+    if (ends(path, event)) return end_at_event(f, event);
     if (path->next.negative < 0) return say_lost(f, DMB_ERR_NO_CONVERGENCE);
     dmb_path_accept(path);
     if (event == DMB_EVENT_FACTOR) return say_stable(f);
@@ -214,14 +259,37 @@ static int32_t walk(follower *f)
 {
     int32_t status = open_path(f);
     if (status < 0) return status;
+    status = dmb_flutter_begin(&f->flutter, &f->path);
+    if (status < 0) return status;
     choose_target(f, 0);
     f->arc = DMB_FOLLOW_FIRST * f->target / fabs(f->path.last.rate);
+    limit_arc(f);
     for (int k = 0; k < DMB_FOLLOW_POINTS; k++) {
         status = step(f);
         if (status != 1) return status;
         choose_arc(f);
     }
     return say_lost(f, DMB_ERR_NO_CONVERGENCE);
+}
+
+int32_t dmb_buckling_tell_flutter(const dmb_buckling *buckling, dmb_sim *sim, const dmb_message *why, int32_t status)
+{
+    const dmb_buckling_info *info = &buckling->info;
+    if (info->stiffness != DMB_STIFFNESS_UNSYMMETRIC || info->flutter == DMB_FLUTTER_NONE) return status;
+    if (info->flutter == DMB_FLUTTER_FOUND) {
+        dmb_message_set(
+            &sim->message,
+            "buckling: flutter from factor = %g on, before det K = 0: a damped mode grows there, its root is "
+            "%g + %g i 1/s; more damping may hold it, dmb_analysis_modes with DMB_MODES_DAMPED tells",
+            info->flutter_factor, info->flutter_root[0], info->flutter_root[1]);
+        return DMB_NOTE_FLUTTER;
+    }
+    if (status != DMB_OK) return status;
+    dmb_message_set(&sim->message,
+                    "buckling: the factors are those of divergence, det K = 0; whether an unsymmetric stiffness lets a "
+                    "mode grow before was not judged: %s",
+                    why->text[0] != '\0' ? why->text : "friction is assumed to slip; use a run in time");
+    return DMB_NOTE_INCOMPLETE;
 }
 
 int32_t dmb_buckling_follow(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options)
@@ -231,9 +299,18 @@ int32_t dmb_buckling_follow(dmb_buckling *buckling, dmb_sim *sim, const dmb_buck
     f.buckling = buckling;
     f.sim = sim;
     f.options = options;
-    f.estimate = buckling->factor[0];
-    const int32_t status = walk(&f);
+    f.estimate = buckling->count > 0 ? buckling->factor[0] : options->factor_max;
+    f.flutter.pattern = &f.path.pattern;
+    f.flutter.info = &buckling->info;
+    int32_t status = walk(&f);
     buckling->info.reached = f.path.last.factor;
+    dmb_flutter_conclude(&f.flutter);
+    if (status == DMB_ERR_NO_CONVERGENCE && buckling->info.flutter == DMB_FLUTTER_FOUND) {
+        buckling->count = 0;
+        buckling->info.end = DMB_BUCKLING_STABLE;
+        status = DMB_NOTE_STOPPED;
+    }
     dmb_path_close(&f.path);
-    return status;
+    dmb_flutter_close(&f.flutter);
+    return status < 0 ? status : dmb_buckling_tell_flutter(buckling, sim, &f.flutter.message, status);
 }

@@ -217,7 +217,9 @@ static int32_t respond(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *
     if (bad >= 0 || weakest.ratio < DMB_LOOSE_PIVOT)
         return dmb_stiffness_explain(sim, "buckling", bad >= 0 ? (uint32_t)bad : weakest.block);
     buckling->info.stiffness = found.stiffness;
-    if (found.negative != 0) return unstable(sim, found.negative);
+    /* on the way pairs of negative ones may come of a complex pair, without det K passing 0 */
+    const int on_the_way = buckling->info.linearisations > 0 && found.stiffness == DMB_STIFFNESS_UNSYMMETRIC;
+    if (found.negative != 0 && !on_the_way) return unstable(sim, found.negative);
     memcpy(work->correction, buckling->response, work->scene->row_count * sizeof(double));
     dmb_solve_correction(work);
     memcpy(buckling->response, work->correction, work->scene->row_count * sizeof(double));

@@ -150,6 +150,16 @@ static int32_t locate(dmb_path *path, int32_t *event, double arc)
     return dmb_path_locate(path, event, path->next.arc - path->last.arc);
 }
 
+/* The event, and before an end one that the longer step has passed over: there an eigenvalue has come back. */
+static int32_t locate_first(dmb_path *path, int32_t *event, double arc)
+{
+    const int32_t status = locate(path, event, arc);
+    const int ends = *event == DMB_EVENT_FACTOR || *event == DMB_EVENT_DISPLACEMENT;
+    if (status < 0 || !ends || path->next.negative == path->last.negative) return status;
+    *event = DMB_EVENT_BIFURCATION;
+    return dmb_path_locate(path, event, path->next.arc - path->last.arc);
+}
+
 /* Where steps went too far lately, that is why. */
 #define DMB_TURNED_NEAR 1e-3
 
@@ -168,7 +178,7 @@ int32_t dmb_path_find_next(dmb_path *path, double *arc, int32_t *event)
         if (status >= 0) {
             *event = dmb_path_event(path);
             if (*event == DMB_EVENT_NONE) return DMB_OK;
-            status = locate(path, event, *arc);
+            status = locate_first(path, event, *arc);
         }
         if (status >= 0 || dmb_is_final(status)) return status;
         if (status == DMB_ERR_ROTATION) {
@@ -209,6 +219,16 @@ static int creeps(double arc, double *longest, uint32_t *points)
     return *points > DMB_CREEPS;
 }
 
+/* Eigenvalues of an unsymmetric stiffness pass 0 both ways, and in a step in which one leaves and one comes back
+ * nothing would be seen: a step is no longer than this part of the way to factor_end. */
+#define DMB_UNSYMMETRIC_STEP 0.05
+
+static double shorten(const dmb_path *path, double arc)
+{
+    if (path->last.stiffness != DMB_STIFFNESS_UNSYMMETRIC) return arc;
+    return fmin(arc, DMB_UNSYMMETRIC_STEP * fabs(path->options->factor_end / path->last.rate));
+}
+
 static int32_t follow(dmb_path *path)
 {
     const dmb_path_options *o = path->options;
@@ -222,6 +242,7 @@ static int32_t follow(dmb_path *path)
         if (path->report.points >= o->max_points) return DMB_NOTE_STOPPED;
         dmb_progress_at(path->sim,
                         fmax((double)path->report.points / o->max_points, path->last.factor / o->factor_end));
+        arc = shorten(path, arc);
         status = dmb_path_find_next(path, &arc, &event);
         if (status < 0) return status;
         if (creeps(arc, &longest, &crept)) return lost(path);

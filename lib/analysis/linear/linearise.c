@@ -32,24 +32,25 @@ static void spin_strings(dmb_sim *work, double spin)
 }
 
 /* The partition of the state, its rows and factors; and the forces of constraint, which the tangents take as given. */
-static int32_t settle(dmb_sim *work)
+static int32_t settle(const dmb_linear *linear)
 {
-    dmb_evaluation evaluation = dmb_linear_evaluation(work);
+    dmb_sim *work = linear->work;
+    dmb_evaluation evaluation = dmb_linear_evaluation(linear);
     memset(work->increment, 0, work->scene->row_count * sizeof(double));
     work->reduced_mode->row = DMB_NONE;
     return work->scene->cluster_count ? dmb_clusters_settle(&evaluation, 0, 0) : DMB_OK;
 }
 
-static int32_t take_multipliers(dmb_sim *work)
+static int32_t take_multipliers(const dmb_linear *linear)
 {
-    dmb_evaluation evaluation = dmb_linear_evaluation(work);
-    return work->scene->cluster_count ? dmb_system_evaluate(&evaluation) : DMB_OK;
+    dmb_evaluation evaluation = dmb_linear_evaluation(linear);
+    return linear->work->scene->cluster_count ? dmb_system_evaluate(&evaluation) : DMB_OK;
 }
 
 static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *options)
 {
     dmb_sim *work = linear->work;
-    dmb_evaluation evaluation = dmb_linear_evaluation(work);
+    dmb_evaluation evaluation = dmb_linear_evaluation(linear);
     double *before = work->trial.pseudo_acceleration; /* which no force depends on */
     work->reduced_mode->multipliers = 1;              /* they are given */
     int32_t status = dmb_system_evaluate(&evaluation);
@@ -75,12 +76,13 @@ static int32_t linearise(dmb_linear *linear, const dmb_linear_options *options)
 {
     dmb_sim *work = linear->work;
     if (options->spin != 0.0) spin_strings(work, options->spin);
-    int32_t status = settle(work);
+    linear->load_factor = 1.0 + options->load_growth;
+    int32_t status = settle(linear);
     if (status >= 0) status = dmb_linear_take_balance(linear);
-    if (status >= 0 && !linear->balanced) status = take_multipliers(work);
+    if (status >= 0 && !linear->balanced) status = take_multipliers(linear);
     if (status >= 0 && !linear->balanced) status = judge_rounding(linear);
     if (status >= 0) dmb_linear_take_steady_accelerations(linear);
-    if (status >= 0) status = take_multipliers(work);
+    if (status >= 0) status = take_multipliers(linear);
     if (status >= 0) status = take_matrices(linear, options);
     work->reduced_mode->multipliers = 0;
     if (status < 0) return status;
@@ -179,14 +181,14 @@ void dmb_linear_release(dmb_linear **linear)
 /* Units of rounding of a pose that count. */
 #define DMB_LINEAR_ROUNDING (16.0 * DBL_EPSILON)
 
-dmb_evaluation dmb_linear_evaluation(dmb_sim *work)
+dmb_evaluation dmb_linear_evaluation(const dmb_linear *linear)
 {
     dmb_evaluation evaluation;
     memset(&evaluation, 0, sizeof evaluation);
-    evaluation.sim = work;
-    evaluation.time = work->clock->time;
+    evaluation.sim = linear->work;
+    evaluation.time = linear->work->clock->time;
     evaluation.pseudo_factor = 1.0;
-    evaluation.load_factor = 1.0;
+    evaluation.load_factor = linear->load_factor;
     evaluation.dynamic = 1;
     return evaluation;
 }
@@ -231,7 +233,7 @@ static void steady_accelerations(dmb_linear *linear, int sliding)
 static int32_t balance_of(dmb_linear *linear, int sliding, dmb_residual_norm *norm)
 {
     dmb_sim *work = linear->work;
-    dmb_evaluation evaluation = dmb_linear_evaluation(work);
+    dmb_evaluation evaluation = dmb_linear_evaluation(linear);
     steady_accelerations(linear, sliding);
     const int32_t status = dmb_system_evaluate(&evaluation);
     memcpy(work->trial.acceleration, work->now.acceleration, linear->rows * sizeof(double));

@@ -39,7 +39,8 @@ typedef struct dmb_linear_options {
     double gap;          /* [m] of DMB_CONTACT_CLOSED */
     int32_t still;       /* 1: d in axes that do not spin about the node's x axis */
     int32_t reserved;
-    double spin; /* [rad/s] of the nodes of strings in the state, 0: as they do */
+    double spin;        /* [rad/s] of the nodes of strings in the state, 0: as they do */
+    double load_growth; /* [-] gravity, loads and bit loads act 1 + load_growth times */
 } dmb_linear_options;
 
 /* A residual below this part of the forces that balance in it is equilibrium. */
@@ -68,6 +69,7 @@ typedef struct dmb_linear {
     uint32_t *row_of;         /* row that coordinate i is the displacement of, ascending, shape (coordinates) */
     uint32_t *start, *column; /* R by rows: entries start[row] .. start[row + 1] - 1 */
     double *value;
+    double load_factor;   /* [-] of gravity, loads and bit loads */
     double *spin, *rest;  /* velocities of the state: what the axes of d leave out, and the others, shape (rows) */
     double *held_columns; /* columns of M, C_v and K_H of the rows that are held, in the rows of the node before, the
                              node and the node after, six each: what a drive that moves them exerts on the others;
@@ -141,7 +143,7 @@ void dmb_linear_solve(dmb_linear *linear, double *x);
 dmb_linear *dmb_linear_allocate(const dmb_sim *sim);
 
 /* An evaluation of the state with its accelerations. */
-dmb_evaluation dmb_linear_evaluation(dmb_sim *work);
+dmb_evaluation dmb_linear_evaluation(const dmb_linear *linear);
 /* Residual of the forces where body-frame velocities stay as they are. */
 int32_t dmb_linear_take_balance(dmb_linear *linear);
 /* Of a state that is balanced. */

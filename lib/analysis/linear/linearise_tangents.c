@@ -38,7 +38,7 @@ dmb_linear_matrix dmb_linear_stiffness_of(const dmb_sim *work)
 static int32_t evaluate_tangent(dmb_linear *linear, double mass_factor, double velocity_factor, double step,
                                 int32_t inertia_only)
 {
-    dmb_evaluation evaluation = dmb_linear_evaluation(linear->work);
+    dmb_evaluation evaluation = dmb_linear_evaluation(linear);
     memset(linear->work->increment, 0, linear->rows * sizeof(double));
     evaluation.tangent = 1;
     evaluation.inertia_only = inertia_only;

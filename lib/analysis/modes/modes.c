@@ -120,13 +120,15 @@ static int32_t search_modes(dmb_mode_search *search)
     return status < 0 ? status : finish(search);
 }
 
-static int32_t analyse(const dmb_sim *sim, const dmb_modes_options *options, dmb_message *message, dmb_modes *modes)
+static int32_t analyse(const dmb_sim *sim, const dmb_modes_options *options, double load_growth, dmb_message *message,
+                       dmb_modes *modes)
 {
     const dmb_linear_options how = {.contact = options->contact,
                                     .no_friction = !options->friction,
                                     .gap = options->contact_gap,
                                     .still = options->axes == DMB_MODES_AXES_AT_REST,
-                                    .spin = options->spin};
+                                    .spin = options->spin,
+                                    .load_growth = load_growth};
     const size_t bytes = 10 * (size_t)modes->rows * sizeof(double); /* of work, and the masses of coordinates */
     dmb_mode_search search;
     memset(&search, 0, sizeof search);
@@ -154,7 +156,39 @@ int32_t dmb_analysis_modes(dmb_sim *sim, const dmb_modes_options *options, dmb_m
     status = take_options(options, &taken, &sim->message);
     if (status >= 0) status = dmb_state_copy_check(sim, "modes");
     if (status >= 0) status = dmb_modes_open(sim, modes);
-    if (status >= 0) status = dmb_progress_end(sim, analyse(sim, &taken, &sim->message, *modes));
+    if (status >= 0) status = dmb_progress_end(sim, analyse(sim, &taken, 0.0, &sim->message, *modes));
     if (status < 0) dmb_modes_destroy(modes);
     return dmb_sim_leave(sim, status);
+}
+
+/* Up to so many coordinates all modes are looked at, which the dense way finds together; of more the lowest ones. */
+enum { DMB_GROWTH_ALL = 60, DMB_GROWTH_LOWEST = 24 };
+
+static uint32_t coordinates_of(const dmb_sim *state)
+{
+    const dmb_scene *scene = state->scene;
+    uint32_t count = 0, rank = 0;
+    for (uint32_t i = 0; i < scene->row_count; i++) count += scene->solved_row[i] != 0;
+    for (uint32_t k = 0; k < scene->cluster_count; k++) rank += state->partition_rank[k];
+    return count > rank ? count - rank : 0;
+}
+
+int32_t dmb_modes_growth(const dmb_sim *state, double load_growth, dmb_message *message, double root[2])
+{
+    const uint32_t n = coordinates_of(state);
+    dmb_modes *modes = NULL;
+    dmb_modes_options options;
+    (void)dmb_modes_options_init(&options, (uint32_t)sizeof options);
+    options.kind = DMB_MODES_DAMPED;
+    options.select = n <= DMB_GROWTH_ALL ? DMB_MODES_ALL : DMB_MODES_LOWEST;
+    options.count = DMB_GROWTH_LOWEST;
+    int32_t status = dmb_modes_open(state, &modes);
+    if (status >= 0) status = analyse(state, &options, load_growth, message, modes);
+    root[0] = -(double)INFINITY;
+    root[1] = 0.0;
+    for (uint32_t i = 0; status >= 0 && i < modes->count; i++)
+        if (!modes->rigid[i] && modes->s[2 * (size_t)i] > root[0])
+            memcpy(root, modes->s + 2 * (size_t)i, sizeof(double[2]));
+    dmb_modes_destroy(&modes);
+    return status;
 }

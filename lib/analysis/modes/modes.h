@@ -51,6 +51,12 @@ typedef struct dmb_mode_defect {
     double value, bound;
 } dmb_mode_defect;
 
+/* [1/s] The damped mode that grows fastest about the state of a sim whose gravity, loads and bit loads act 1 +
+ * load_growth times: real part and imaginary part >= 0 of its root, shape (2); of all modes of up to 60 coordinates, of
+ * the 24 lowest of more. Rigid-body motions apart. -INFINITY where there is no mode. Memory, errors and messages as
+ * dmb_analysis_modes. */
+int32_t dmb_modes_growth(const dmb_sim *state, double load_growth, dmb_message *message, double root[2]);
+
 /* A result without modes about the state of a sim; dmb_modes_destroy gives it back. DMB_ERR_NO_MEMORY. */
 int32_t dmb_modes_open(const dmb_sim *sim, dmb_modes **modes);
 /* Room for `capacity` modes, what was there being kept. DMB_ERR_NO_MEMORY. */
