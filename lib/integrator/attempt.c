@@ -118,17 +118,30 @@ static void refit(const dmb_generalized_alpha *c, double h, double z, double v, 
 /* A free rigid body in the step once more: as below, at its centre of mass. */
 static void refit_rigid(dmb_sim *sim, const dmb_generalized_alpha *c, double h, uint32_t rigid)
 {
-    const uint32_t row = sim->scene->layout.row[sim->scene->free_rigids[rigid].node];
+    const uint32_t node = sim->scene->free_rigids[rigid].node, row = sim->scene->layout.row[node];
     const double ratio = dmb_step_motion_ratio(sim, h);
     double start[18], gone[6], *motion = dmb_free_rigid_motion(sim, rigid);
     const dmb_step_motion to = {motion, motion + 6, motion + 12};
     dmb_free_rigid_start(sim, rigid, start);
-    for (uint32_t k = 0; k < 6; k++) gone[k] = sim->correction[row + k];
+    for (uint32_t k = 0; k < 6; k++) gone[k] = sim->released_acceleration[row + k];
     dmb_free_rigid_added(sim->scene, rigid, gone);
     for (uint32_t k = 0; k < 6; k++) {
         const double dv = start[6 + k] - gone[k];
-        const double a0 = dv + (1.0 - sim->scale_row[row + k]) * ratio * (start[12 + k] - start[6 + k]);
+        const double a0 = dv + (1.0 - sim->released_part[node]) * ratio * (start[12 + k] - start[6 + k]);
         refit(c, h, sim->increment[row + k], start[k], dv, a0, &to, k);
+    }
+}
+
+static void refit_node(dmb_sim *sim, const dmb_generalized_alpha *c, double h, uint32_t node)
+{
+    const uint32_t first = sim->scene->layout.row[node], end = sim->scene->layout.row[node + 1];
+    const double ratio = dmb_step_motion_ratio(sim, h), kept = 1.0 - sim->released_part[node];
+    const dmb_step_motion to = dmb_step_motion_of(sim);
+    for (uint32_t i = first; i < end; i++) {
+        if (!sim->scene->solved_row[i]) continue;
+        const double dv = sim->now.acceleration[i] - sim->released_acceleration[i];
+        const double a0 = dv + kept * (dmb_step_motion_carried(sim, ratio, i) - sim->now.acceleration[i]);
+        refit(c, h, sim->increment[i], sim->now.velocity[i], dv, a0, &to, i);
     }
 }
 
@@ -136,17 +149,10 @@ static void refit_rigid(dmb_sim *sim, const dmb_generalized_alpha *c, double h, 
  * a0 less M^-1 of their forces, and no a0 - v0' at their nodes from there on, which would ring in free flight. */
 static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
 {
-    const double h = attempt->end.step, ratio = dmb_step_motion_ratio(sim, h);
-    const dmb_step_motion to = dmb_step_motion_of(sim);
-    int32_t status = dmb_released_acceleration(&attempt->evaluation);
+    const double h = attempt->end.step;
+    int32_t status = dmb_released_acceleration(&attempt->evaluation, sim->released_acceleration, sim->released_part);
     if (status < 0) return status;
-    for (uint32_t i = 0; i < sim->scene->row_count; i++) {
-        if (!sim->scene->solved_row[i]) continue;
-        const double dv = sim->now.acceleration[i] - sim->correction[i];
-        const double a0 =
-            dv + (1.0 - sim->scale_row[i]) * (dmb_step_motion_carried(sim, ratio, i) - sim->now.acceleration[i]);
-        refit(c, h, sim->increment[i], sim->now.velocity[i], dv, a0, &to, i);
-    }
+    for (uint32_t i = 0; i < sim->scene->node_count; i++) refit_node(sim, c, h, i);
     for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) refit_rigid(sim, c, h, i);
     dmb_free_rigids_place(sim);
     set_up(sim, c, &attempt->end, &attempt->evaluation);

@@ -72,19 +72,18 @@ static int32_t check_fit(dmb_evaluation *evaluation, uint32_t j, int32_t was)
     return status < 0 ? status : dmb_joints_refuse_edges(sim, 0, evaluation->time);
 }
 
-/* correction := what M does to the acceleration of the trial, in the independent rows: a difference of residuals. */
-static int32_t mass_times(dmb_evaluation *evaluation, const double *acceleration)
+/* -M a in the independent rows: a difference of residuals. */
+static int32_t minus_mass_times(dmb_evaluation *evaluation, const double *a, double *product)
 {
     dmb_sim *sim = evaluation->sim;
     const uint32_t n = sim->scene->row_count;
-    double *rest = sim->raw_acceleration;
     evaluation->tangent = 0;
     memset(sim->trial.acceleration, 0, n * sizeof(double));
     int32_t status = dmb_system_evaluate(evaluation);
-    memcpy(rest, sim->correction, n * sizeof(double));
-    memcpy(sim->trial.acceleration, acceleration, n * sizeof(double));
+    memcpy(product, sim->residual, n * sizeof(double));
+    memcpy(sim->trial.acceleration, a, n * sizeof(double));
     if (status >= 0) status = dmb_system_evaluate(evaluation);
-    for (uint32_t i = 0; i < n; i++) sim->correction[i] = rest[i] - sim->correction[i];
+    for (uint32_t i = 0; i < n; i++) product[i] -= sim->residual[i];
     return status;
 }
 
@@ -93,13 +92,13 @@ static int32_t least_energy(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     const uint32_t n = sim->scene->row_count;
-    double *change = sim->raw_velocity;
+    double *change = sim->switch_change, *momentum = sim->switch_momentum;
     for (uint32_t i = 0; i < n; i++) change[i] = sim->now.velocity[i] - sim->trial.velocity[i];
     int32_t status = dmb_factor_mass(evaluation);
-    if (status >= 0) status = mass_times(evaluation, change);
+    if (status >= 0) status = minus_mass_times(evaluation, change, momentum);
     if (status < 0) return status;
-    dmb_solve_correction(sim);
-    for (uint32_t i = 0; i < n; i++) sim->trial.velocity[i] += sim->correction[i];
+    dmb_solve_for(sim, momentum, change);
+    for (uint32_t i = 0; i < n; i++) sim->trial.velocity[i] += change[i];
     return DMB_OK;
 }
 

@@ -43,7 +43,7 @@ static double open_part(const dmb_sim *sim, uint32_t s)
 }
 
 /* -N n + F_t t + F_b b, b = t x n, at r n from the ring's centre; as a body-frame wrench at the node. */
-static void subtract_force(dmb_sim *sim, uint32_t s)
+static void subtract_force(dmb_sim *sim, uint32_t s, double part, double *rows)
 {
     const dmb_site *site = sim->scene->sites + s;
     const uint32_t row = sim->scene->layout.row[site->node];
@@ -61,24 +61,25 @@ static void subtract_force(dmb_sim *sim, uint32_t s)
     dmb_mat3_tvec(R, force, wrench);
     dmb_mat3_tvec(R, moment, wrench + 3);
     dmb_arm_wrench(site->offset, wrench);
-    const double part = open_part(sim, s);
-    for (uint32_t i = 0; i < 6; i++) {
-        sim->correction[row + i] -= part * wrench[i];
-        sim->scale_row[row + i] = fmax(sim->scale_row[row + i], part);
-    }
+    for (uint32_t i = 0; i < 6; i++) rows[row + i] -= part * wrench[i];
 }
 
-/* correction := M^-1 of the forces that open, with the mass matrix factored. */
-static void released_forces(dmb_sim *sim)
+/* M^-1 of the forces that open, with the mass matrix factored. */
+static void release(dmb_sim *sim, double *acceleration, double *part)
 {
-    memset(sim->correction, 0, sim->scene->row_count * sizeof(double));
-    memset(sim->scale_row, 0, sim->scene->row_count * sizeof(double));
-    for (uint32_t s = 0; s < sim->scene->site_count; s++)
-        if (opens(sim, s)) subtract_force(sim, s);
-    dmb_solve_correction(sim);
+    memset(acceleration, 0, sim->scene->row_count * sizeof(double));
+    memset(part, 0, sim->scene->node_count * sizeof(double));
+    for (uint32_t s = 0; s < sim->scene->site_count; s++) {
+        double *of_node = part + sim->scene->sites[s].node;
+        if (!opens(sim, s)) continue;
+        const double open = open_part(sim, s);
+        *of_node = fmax(*of_node, open);
+        subtract_force(sim, s, open, acceleration);
+    }
+    dmb_solve_for(sim, acceleration, acceleration);
 }
 
-int32_t dmb_released_acceleration(const dmb_evaluation *evaluation)
+int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acceleration, double *part)
 {
     dmb_sim *sim = evaluation->sim;
     dmb_evaluation mass = *evaluation;
@@ -88,7 +89,7 @@ int32_t dmb_released_acceleration(const dmb_evaluation *evaluation)
     mass.velocity_factor = 0.0;
     mass.tangent = 1;
     const int32_t status = dmb_factor_mass(&mass);
-    if (status >= 0) released_forces(sim);
+    if (status >= 0) release(sim, acceleration, part);
     sim->reduced_mode->multipliers = multipliers;
     return status < 0 ? status : DMB_OK;
 }

@@ -14,9 +14,9 @@ int32_t dmb_contact_opens(const dmb_sim *sim);
 /* No ring opens any more; after the step. */
 void dmb_release_end(dmb_sim *sim);
 /* Part that is taken out of the history: accelerations M^-1 f [m/s2, rad/s2] by the forces f that those rings have in
- * now, times the part of the step after the opening, into sim->correction; and that part, in the rows of their nodes,
- * into sim->scale_row, 0 elsewhere. Fills site_return. The other work arrays are overwritten. Errors as
+ * now, times the part of the step after the opening, shape (row); and that part of each node [-], 0 of those where no
+ * ring opens, shape (node). Fills site_return. Residual, iteration matrix and factors are overwritten. Errors as
  * dmb_factor_mass. */
-int32_t dmb_released_acceleration(const dmb_evaluation *evaluation);
+int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acceleration, double *part);
 
 #endif

@@ -131,10 +131,10 @@ static int32_t make_consistent(dmb_sim *sim, dmb_evaluation *evaluation)
     if (status >= 0) status = solve_accelerations(sim, evaluation);
     if (status < 0) return status;
     if (sim->scene->cluster_count) dmb_joint_reactions(evaluation);
-    memcpy(sim->residual_row, sim->correction, sim->scene->row_count * sizeof(double));
+    memcpy(sim->residual_row, sim->residual, sim->scene->row_count * sizeof(double));
     for (uint32_t i = 0; i < sim->scene->drive_count; i++)
         if (sim->scene->drives[i].kind == DMB_DRIVE_MOTION && sim->scene->drives[i].joint == DMB_NONE)
-            sim->trial.drive_force[i] = sim->correction[sim->scene->drives[i].row];
+            sim->trial.drive_force[i] = sim->residual[sim->scene->drives[i].row];
     return DMB_OK;
 }
 

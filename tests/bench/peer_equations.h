@@ -187,7 +187,7 @@ static int32_t equations_residual(equations *e, double time, const double *y, co
         if (is_held(e->scene, i)) continue;
         kinematics(y, k);
         for (int j = 0; j < 7; j++) F[j] -= k[j];
-        dmb_vec6_copy(e->sim->correction + e->scene->layout.row[i], F + PEER_V);
+        dmb_vec6_copy(e->sim->residual + e->scene->layout.row[i], F + PEER_V);
     }
     return status;
 }
@@ -411,7 +411,7 @@ static int32_t equations_rates(equations *e, double time, const double *y, doubl
     if (status < 0) return status;
     for (uint32_t i = 0; i < nodes; i++)
         for (uint32_t k = 0; k < 6; k++)
-            e->force[layout->row[i] + k] = is_held(e->scene, i) ? 0.0 : -e->sim->correction[layout->row[i] + k];
+            e->force[layout->row[i] + k] = is_held(e->scene, i) ? 0.0 : -e->sim->residual[layout->row[i] + k];
     dmb_block_solve(layout, &e->mass_factors, 0, nodes, e->force);
     for (uint32_t i = 0; i < nodes; i++, y += PEER_NODE, f += PEER_NODE) {
         memset(f, 0, PEER_NODE * sizeof(double));

@@ -220,9 +220,7 @@ static int32_t respond(dmb_buckling *buckling, dmb_sim *sim, dmb_static_search *
     /* on the way pairs of negative ones may come of a complex pair, without det K passing 0 */
     const int on_the_way = buckling->info.linearisations > 0 && found.stiffness == DMB_STIFFNESS_UNSYMMETRIC;
     if (found.negative != 0 && !on_the_way) return unstable(sim, found.negative);
-    memcpy(work->correction, buckling->response, work->scene->row_count * sizeof(double));
-    dmb_solve_correction(work);
-    memcpy(buckling->response, work->correction, work->scene->row_count * sizeof(double));
+    dmb_solve_for(work, buckling->response, buckling->response);
     if (buckling->pattern.row != DMB_NONE) buckling->response[buckling->pattern.row] = 1.0;
     return DMB_OK;
 }
@@ -333,10 +331,9 @@ void dmb_buckling_expand(dmb_buckling *buckling, const double *vector, double *s
     dmb_sim *work = buckling->work;
     const uint32_t rows = work->scene->row_count;
     if (work->scene->cluster_count == 0) return; /* the same */
-    memcpy(work->correction, vector, rows * sizeof(double));
+    memcpy(shape, vector, rows * sizeof(double));
     memcpy(work->reduced_solution, vector + rows, work->scene->pattern.rows * sizeof(double));
-    dmb_reduced_expand(work);
-    memcpy(shape, work->correction, rows * sizeof(double));
+    dmb_reduced_expand(work, shape);
 }
 
 static int32_t stable(dmb_buckling *buckling, dmb_sim *sim)

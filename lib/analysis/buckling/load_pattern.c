@@ -106,7 +106,7 @@ int32_t dmb_load_pattern_derivative(const dmb_load_pattern *pattern, dmb_evaluat
         moved_column(sim, pattern->row, derivative);
         return DMB_OK;
     }
-    memcpy(derivative, sim->correction, rows * sizeof(double));
+    memcpy(derivative, sim->residual, rows * sizeof(double));
     evaluation->tangent = 0;
     dmb_load_pattern_set(pattern, evaluation, factor + 1.0);
     const int32_t status = dmb_system_evaluate(evaluation);
@@ -114,8 +114,8 @@ int32_t dmb_load_pattern_derivative(const dmb_load_pattern *pattern, dmb_evaluat
     evaluation->tangent = tangent;
     for (uint32_t i = 0; i < rows; i++) {
         const double before = derivative[i];
-        derivative[i] = sim->correction[i] - before;
-        sim->correction[i] = before;
+        derivative[i] = sim->residual[i] - before;
+        sim->residual[i] = before;
     }
     return status;
 }

@@ -22,7 +22,7 @@ void dmb_load_pattern_begin(const dmb_load_pattern *pattern, const dmb_sim *sim)
 /* Loads of the trial for a factor; what a motion drive moves is a matter of the pose. */
 void dmb_load_pattern_set(const dmb_load_pattern *pattern, dmb_evaluation *evaluation, double factor);
 /* d residual/d factor into `derivative` (rows), after an evaluation with tangent and before the iteration matrix is
- * made of it. `correction` is the residual before and after. Errors as dmb_system_evaluate. */
+ * made of it. `residual` is the same before and after. Errors as dmb_system_evaluate. */
 int32_t dmb_load_pattern_derivative(const dmb_load_pattern *pattern, dmb_evaluation *evaluation, double factor,
                                     double *derivative);
 

@@ -75,7 +75,7 @@ static double softness(dmb_path *path)
     begin_mode(path);
     for (int k = 0; k < DMB_MODE_ITERATIONS; k++) {
         weigh(path, path->mode, x);
-        dmb_solve_correction(path->work);
+        dmb_solve_for(path->work, x, x);
         const double along = dmb_path_dot(path, path->mode, x);
         grown = normalise(path, x) * (along > 0.0 ? -1.0 : 1.0);
         memcpy(path->mode, x, rows * sizeof(double));

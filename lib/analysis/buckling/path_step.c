@@ -39,11 +39,7 @@ int32_t dmb_path_evaluate(dmb_path *path, int32_t tangent)
 /* x <- -K^-1 x by the factors at hand; a motion drive moves its own row by 1 a unit of the factor. */
 static void solve(dmb_path *path, double *x)
 {
-    dmb_sim *work = path->work;
-    const size_t bytes = work->scene->row_count * sizeof(double);
-    memcpy(work->correction, x, bytes);
-    dmb_solve_correction(work);
-    memcpy(x, work->correction, bytes);
+    dmb_solve_for(path->work, x, x);
 }
 
 /* Factors of the stiffness; `judged`: its stability too, for the next point. */
@@ -71,7 +67,7 @@ static int32_t solve_both(dmb_path *path, int judged)
     int32_t status =
         dmb_load_pattern_derivative(&path->pattern, &path->search.evaluation, path->next.factor, path->loaded);
     if (status < 0) return status;
-    memcpy(path->move, work->correction, work->scene->row_count * sizeof(double));
+    memcpy(path->move, work->residual, work->scene->row_count * sizeof(double));
     status = factor(path, judged, &weakest, &bad);
     if (status < 0) return status;
     path->weakest = weakest.ratio;

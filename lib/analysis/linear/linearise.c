@@ -54,7 +54,7 @@ static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *optio
     double *before = work->trial.pseudo_acceleration; /* which no force depends on */
     work->reduced_mode->multipliers = 1;              /* they are given */
     int32_t status = dmb_system_evaluate(&evaluation);
-    memcpy(before, work->correction, linear->rows * sizeof(double));
+    memcpy(before, work->residual, linear->rows * sizeof(double));
     dmb_linear_freeze(linear, options);
     if (status >= 0) status = dmb_linear_take_stiffness_and_mass(linear);
     if (status >= 0) dmb_linear_add_dead_loads(linear, before);
@@ -257,7 +257,7 @@ int32_t dmb_linear_take_balance(dmb_linear *linear)
     if (status < 0) return status;
     linear->unbalance = best.relative;
     linear->balanced = best.converged != 0;
-    memcpy(linear->unbalanced, linear->work->correction, linear->rows * sizeof(double));
+    memcpy(linear->unbalanced, linear->work->residual, linear->rows * sizeof(double));
     find_largest(linear);
     return DMB_OK;
 }

@@ -238,8 +238,6 @@ int64_t dmb_linear_count(dmb_linear *linear, double square)
 
 void dmb_linear_solve(dmb_linear *linear, double *x)
 {
-    double *correction = linear->work->correction; /* solves for its negative */
-    for (uint32_t r = 0; r < linear->rows; r++) correction[r] = -x[r];
-    dmb_solve_correction(linear->work);
-    memcpy(x, correction, linear->rows * sizeof(double));
+    for (uint32_t r = 0; r < linear->rows; r++) x[r] = -x[r]; /* the solver takes a residual */
+    dmb_solve_for(linear->work, x, x);
 }

@@ -119,8 +119,7 @@ void dmb_linear_add_dead_loads(dmb_linear *linear, const double *before)
     for (uint32_t i = 0; i < layout->n; i++) {
         double w[6];
         if (layout->size[i] != DMB_NODE_FULL) continue;
-        for (uint32_t k = 0; k < 6; k++)
-            w[k] = linear->work->correction[layout->row[i] + k] - before[layout->row[i] + k];
+        for (uint32_t k = 0; k < 6; k++) w[k] = linear->work->residual[layout->row[i] + k] - before[layout->row[i] + k];
         dmb_mat6_add_skew(-1.0, w, 0, 1, linear->stiffness.diagonal + layout->diag[i]);
         dmb_mat6_add_skew(-1.0, w + 3, 1, 1, linear->stiffness.diagonal + layout->diag[i]);
     }

@@ -55,10 +55,10 @@ static int32_t difference(const request *r, double *factor, double change, doubl
     copy->reduced_mode->multipliers = 1;
     *factor = kept + change;
     int32_t status = residual(copy, step);
-    for (uint32_t i = 0; i < copy->scene->row_count; i++) r->out->re[i] = -copy->correction[i];
+    for (uint32_t i = 0; i < copy->scene->row_count; i++) r->out->re[i] = -copy->residual[i];
     *factor = kept;
     if (status >= 0) status = residual(copy, step);
-    for (uint32_t i = 0; i < copy->scene->row_count; i++) r->out->re[i] = (r->out->re[i] + copy->correction[i]) / scale;
+    for (uint32_t i = 0; i < copy->scene->row_count; i++) r->out->re[i] = (r->out->re[i] + copy->residual[i]) / scale;
     copy->reduced_mode->multipliers = multipliers;
     return status;
 }

@@ -177,11 +177,9 @@ static void metric(void *context, const double *x, double *y)
 static void apply(void *context, const double *x, const double *Dx, double *y)
 {
     dmb_sim *sim = context;
-    const uint32_t rows = sim->scene->row_count;
     (void)x;
-    for (uint32_t i = 0; i < rows; i++) sim->correction[i] = -Dx[i];
-    dmb_solve_correction(sim);
-    memcpy(y, sim->correction, rows * sizeof(double));
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) y[i] = -Dx[i];
+    dmb_solve_for(sim, y, y);
 }
 
 /* A displacement that random forces give, so that it is one that guides and joints allow. */
@@ -191,10 +189,9 @@ static void draw(void *context, uint64_t *seed, double *x)
     const uint32_t rows = sim->scene->row_count;
     for (uint32_t i = 0; i < rows; i++) {
         *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-        sim->correction[i] = (double)(*seed >> 11) * 0x1p-52 - 1.0;
+        x[i] = (double)(*seed >> 11) * 0x1p-52 - 1.0;
     }
-    dmb_solve_correction(sim);
-    memcpy(x, sim->correction, rows * sizeof(double));
+    dmb_solve_for(sim, x, x);
 }
 
 static int32_t go_on(void *context)

@@ -38,8 +38,7 @@ typedef struct dmb_stability {
 /* After an evaluation with the true tangent: forms the iteration matrix, judges it and leaves it factored as
  * dmb_factor_stiffness, whose result *bad is; not judged where that is >= 0. `thorough` 1: of a state that was asked
  * for, looked at once more where rounding may decide; 0: of one on a path, where what counts is that the same is
- * counted at each point. `correction` is left alone where K is symmetric, and else the residual. Errors:
- * DMB_ERR_NO_MEMORY, and as dmb_system_evaluate. */
+ * counted at each point. The residual is left as it was. Errors: DMB_ERR_NO_MEMORY, and as dmb_system_evaluate. */
 int32_t dmb_stability_judge(dmb_static_search *state, int thorough, dmb_block_weakest *weakest, int64_t *bad,
                             dmb_stability *out);
 

@@ -186,7 +186,7 @@ static double largest_residual(const dmb_sim *sim)
 {
     double most = 0.0;
     for (uint32_t i = 0; i < sim->scene->row_count; i++)
-        if (sim->scene->solved_row[i]) most = fmax(most, fabs(sim->correction[i]));
+        if (sim->scene->solved_row[i]) most = fmax(most, fabs(sim->residual[i]));
     return most;
 }
 
@@ -200,13 +200,13 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     const int32_t status = dmb_static_evaluate(search);
     if (status < 0) return status;
     if (scene->cluster_count) dmb_joint_reactions(&search->evaluation);
-    memcpy(sim->residual_row, sim->correction, scene->row_count * sizeof(double));
+    memcpy(sim->residual_row, sim->residual, scene->row_count * sizeof(double));
     memcpy(sim->now.friction_slip, sim->trial.friction_slip, 2 * sizeof(double));
     memcpy(sim->now.multiplier, sim->trial.multiplier, scene->constraint_row_count * sizeof(double));
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         const uint32_t row = scene->drives[i].row;
         if (scene->drives[i].kind == DMB_DRIVE_MOTION)
-            sim->now.drive_force[i] = row != DMB_NONE ? sim->correction[row] : sim->trial.drive_force[i];
+            sim->now.drive_force[i] = row != DMB_NONE ? sim->residual[row] : sim->trial.drive_force[i];
     }
     return DMB_OK;
 }

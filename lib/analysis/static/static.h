@@ -67,7 +67,7 @@ void dmb_static_displace(dmb_sim *sim, const double *correction, double factor);
 int32_t dmb_static_move(dmb_static_search *search, const double *correction, double factor);
 /* Back to where such a move came from, joints as they come. */
 void dmb_static_move_back(dmb_static_search *search, const double *correction, double factor);
-/* Work of the residual in sim->correction along the move by `direction`, after this part of it. */
+/* Work of the residual along the move by `direction`, after this part of it. */
 double dmb_static_work(const dmb_static_search *search, const double *direction, double part);
 /* The tangent of the residual in axes of the nodes becomes that in axes which do not spin with them. */
 void dmb_static_fix_axes(dmb_sim *sim);

@@ -188,7 +188,7 @@ double dmb_static_work(const dmb_static_search *search, const double *direction,
                 z[k] = y;
             }
         }
-        for (uint32_t k = 0; k < size; k++) sum += scene->solved_row[row + k] ? z[k] * sim->correction[row + k] : 0.0;
+        for (uint32_t k = 0; k < size; k++) sum += scene->solved_row[row + k] ? z[k] * sim->residual[row + k] : 0.0;
     }
     return sum;
 }
@@ -203,7 +203,7 @@ void dmb_static_fix_axes(dmb_sim *sim)
     for (uint32_t i = 0; i < scene->node_count; i++) {
         if (scene->layout.size[i] != DMB_NODE_FULL) continue;
         const uint8_t *solved = scene->solved_row + scene->layout.row[i];
-        const double *r = sim->correction + scene->layout.row[i];
+        const double *r = sim->residual + scene->layout.row[i];
         double *K = dmb_stiffness_of(sim, i);
         for (int c = 1; c < 6; c += 3) {
             if (!solved[c] || !solved[c + 1]) continue;

@@ -1,5 +1,3 @@
-#include <string.h>
-
 #include "analysis/linear/stiffness.h"
 #include "analysis/static/static.h"
 #include "math/vec3.h"
@@ -86,28 +84,20 @@ static double damping(uint32_t iteration)
     return iteration % 4 == 3 ? 1.0 : 0.5;
 }
 
-/* The correction takes the place of the residual; the line search looks at the work of both. No force depends on
- * pseudo accelerations, which are room for it. */
 static int32_t correct(dmb_static_search *search, uint32_t iteration)
 {
     dmb_sim *sim = search->sim;
-    const uint32_t rows = sim->scene->row_count;
-    double *direction = sim->trial.pseudo_acceleration, work = 0.0;
-    memcpy(direction, sim->correction, rows * sizeof(double));
     int32_t status = solve(search);
     if (status < 0) return status;
     search->moved_before = search->moved;
     search->moved = iteration + 1 < DMB_MOVES_ENOUGH ? largest_move(sim) / sim->scene->length_scale : 0.0;
     scale_correction(sim, damping(iteration));
-    for (uint32_t i = 0; i < rows; i++) {
-        work += sim->scene->solved_row[i] ? direction[i] * sim->correction[i] : 0.0;
-        direction[i] = sim->correction[i];
-    }
+    const double work = dmb_static_work(search, sim->correction, 0.0);
     dmb_system_extrapolate_stress(sim, sim->correction);
     search->evaluation.extrapolated = 1;
-    status = dmb_static_move(search, direction, 1.0);
+    status = dmb_static_move(search, sim->correction, 1.0);
     if (status >= 0) status = dmb_static_evaluate(search);
-    if (status >= 0 && search->searching) status = dmb_static_line_search(search, direction, work);
+    if (status >= 0 && search->searching) status = dmb_static_line_search(search, sim->correction, work);
     return status;
 }
 
@@ -236,9 +226,8 @@ static double change_of_rate(double work_ratio, double residual_ratio)
 int32_t dmb_static_relaxation(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
-    const size_t bytes = sim->scene->row_count * sizeof(double);
     const double limit = longest_move(sim->scene);
-    double *direction = sim->trial.pseudo_acceleration, rate = 1e4, last = 1.0, work = 0.0; /* room for it */
+    double rate = 1e4, last = 1.0, work = 0.0;
     search->evaluation.extrapolated = 0;
     search->moved = search->moved_before = (double)INFINITY;
     for (uint32_t k = 0;; k++) {
@@ -246,20 +235,18 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
         if (status <= 0) return status;
         if (k >= 20 * search->options->max_iterations) return DMB_ERR_NO_CONVERGENCE;
         if (k > 0)
-            rate *= change_of_rate(dmb_static_work(search, direction, 1.0) / fabs(work), search->residual / last);
+            rate *= change_of_rate(dmb_static_work(search, sim->correction, 1.0) / fabs(work), search->residual / last);
         last = search->residual;
-        memcpy(direction, sim->correction, bytes);
         status = solve_downhill(search, &rate);
         if (status < 0) return status;
         search->moved_before = search->moved;
         search->moved = largest_move(sim) / sim->scene->length_scale;
         const double part = reach(search, limit);
         if (part > 1.0) scale_correction(sim, 1.0 / part);
-        work = dmb_static_work(search, direction, 0.0);
-        memcpy(direction, sim->correction, bytes);
-        dmb_system_extrapolate_stress(sim, direction);
+        work = dmb_static_work(search, sim->correction, 0.0);
+        dmb_system_extrapolate_stress(sim, sim->correction);
         search->evaluation.extrapolated = 1;
-        status = dmb_static_move(search, direction, 1.0);
+        status = dmb_static_move(search, sim->correction, 1.0);
         if (status < 0) return status;
     }
 }

@@ -30,13 +30,13 @@ static void look_along(const dmb_sim *sim, uint32_t s, dmb_static_pull *most)
     if (first == last || is_free_along(scene, first) == is_free_along(scene, last)) return;
     if (is_free_along(scene, last)) {
         for (uint32_t i = last; i > first; i--) {
-            sum -= sim->correction[scene->layout.row[i]];
+            sum -= sim->residual[scene->layout.row[i]];
             take(scene, s, i - 1, sum, most);
         }
         return;
     }
     for (uint32_t i = first; i < last; i++) {
-        sum += sim->correction[scene->layout.row[i]];
+        sum += sim->residual[scene->layout.row[i]];
         take(scene, s, i, sum, most);
     }
 }

@@ -153,7 +153,7 @@ static void gather_drive(dmb_evaluation *evaluation, uint32_t i)
     double slope;
     const double force =
         dmb_drive_force(evaluation, i, evaluation->dynamic ? sim->trial.velocity[drive->row] : 0.0, &slope);
-    sim->correction[drive->row] -= force;
+    sim->residual[drive->row] -= force;
     sim->scale_row[drive->row] += fabs(force);
     evaluation->power[DMB_POWER_DRIVES] += force * sim->trial.velocity[drive->row];
     if (!evaluation->tangent || !evaluation->dynamic || slope == 0.0) return;

@@ -36,7 +36,7 @@ static dmb_beam_run run_of(const dmb_sim *sim, const dmb_batch *batch)
         .increment = sim->increment + row,
         .damped = scene->damped,
         .arms = scene->arms,
-        .residual = sim->correction + row,
+        .residual = sim->residual + row,
         .scale = sim->scale_row + row,
         .strain = sim->element_strain + 6 * e,
         .stress = sim->element_stress + 6 * e,
@@ -90,7 +90,7 @@ static void bar_forces(dmb_evaluation *evaluation, const dmb_batch *batch)
         .velocity = sim->trial.velocity + row,
         .acceleration = sim->trial.acceleration + row,
         .per_length = 1.0 / scene->length_scale,
-        .residual = sim->correction + row,
+        .residual = sim->residual + row,
         .scale = sim->scale_row + row,
         .rounding = evaluation->rounding,
         .potential = evaluation->power[DMB_POWER_POTENTIAL],
@@ -187,7 +187,7 @@ static void add_projected_force(dmb_sim *sim, uint32_t node, const mixed_side *s
     const uint32_t row = sim->scene->layout.row[node];
     for (uint32_t r = 0; r < side->rows; r++)
         for (uint32_t i = 0; i < 6; i++) {
-            sim->correction[row + r] += side->J[side->rows * i + r] * f[i];
+            sim->residual[row + r] += side->J[side->rows * i + r] * f[i];
             sim->scale_row[row + r] += fabs(side->J[side->rows * i + r]) * scale[i];
         }
 }

@@ -22,7 +22,7 @@ static void clear(const dmb_evaluation *evaluation)
     const uint32_t n = scene->node_count;
     const size_t diagonal = layout->diag[n] * sizeof(double);
     const size_t link = layout->link[n - 1] * sizeof(double);
-    memset(sim->correction, 0, scene->row_count * sizeof(double));
+    memset(sim->residual, 0, scene->row_count * sizeof(double));
     memset(sim->scale_row, 0, scene->row_count * sizeof(double));
     if (!evaluation->tangent) return;
     memset(sim->stiffness_diagonal, 0, diagonal);
@@ -70,7 +70,7 @@ void dmb_system_move(dmb_sim *sim)
 static int32_t finite_status(const dmb_sim *sim)
 {
     double sums[8] = {0.0}; /* side by side */
-    const double *r = sim->correction;
+    const double *r = sim->residual;
     const uint32_t rows = sim->scene->row_count, even = rows - rows % 8;
     for (uint32_t i = 0; i < even; i += 8)
         for (uint32_t k = 0; k < 8; k++) sums[k] += fabs(r[i + k]);
@@ -192,12 +192,12 @@ void dmb_system_accept(dmb_evaluation *evaluation)
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
     unwrap_turns(sim);
-    memcpy(sim->residual_row, sim->correction, scene->row_count * sizeof(double));
+    memcpy(sim->residual_row, sim->residual, scene->row_count * sizeof(double));
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         const dmb_scene_drive *drive = scene->drives + i;
         if (drive->joint != DMB_NONE) continue; /* done with the joint */
         sim->trial.drive_position[i] = sim->now.drive_position[i] + sim->increment[drive->row];
-        if (drive->kind == DMB_DRIVE_MOTION) sim->trial.drive_force[i] = sim->correction[drive->row];
+        if (drive->kind == DMB_DRIVE_MOTION) sim->trial.drive_force[i] = sim->residual[drive->row];
     }
     if (scene->cluster_count) dmb_joints_accept(evaluation);
     for (uint32_t k = 0; k < scene->bit_count; k++) {

@@ -36,7 +36,7 @@ typedef struct dmb_evaluation {
     uint32_t element; /* where status says DMB_ERR_ROTATION */
 } dmb_evaluation;
 
-/* Residual into sim->correction, sums of magnitudes into sim->scale_row; returns evaluation->status: DMB_OK,
+/* Residual into sim->residual, sums of magnitudes into sim->scale_row; returns evaluation->status: DMB_OK,
  * DMB_ERR_ROTATION, DMB_ERR_NOT_FINITE. */
 int32_t dmb_system_evaluate(dmb_evaluation *evaluation);
 /* Pose of the trial: that of now moved by `increment`. */
@@ -62,14 +62,14 @@ static inline void dmb_apply_wrench(dmb_sim *sim, uint32_t node, const double wr
 {
     const uint32_t row = sim->scene->layout.row[node];
     if (sim->scene->layout.size[node] == DMB_NODE_PATH) {
-        sim->correction[row] -= wrench[0];
-        sim->correction[row + 1] -= wrench[3];
+        sim->residual[row] -= wrench[0];
+        sim->residual[row + 1] -= wrench[3];
         sim->scale_row[row] += fabs(wrench[0]);
         sim->scale_row[row + 1] += fabs(wrench[3]);
         return;
     }
     for (int i = 0; i < 6; i++) {
-        sim->correction[row + (uint32_t)i] -= wrench[i];
+        sim->residual[row + (uint32_t)i] -= wrench[i];
         sim->scale_row[row + (uint32_t)i] += fabs(wrench[i]);
     }
 }

@@ -35,7 +35,7 @@ static dmb_node_force_run run_of(const dmb_evaluation *evaluation, uint32_t node
         .quaternion = sim->trial.quaternion + 4 * node,
         .velocity = sim->trial.velocity + row,
         .acceleration = sim->trial.acceleration + row,
-        .residual = sim->correction + row,
+        .residual = sim->residual + row,
         .scale = sim->scale_row + row,
         .stiffness = sim->stiffness_diagonal + diag,
         .inertia = sim->inertia_diagonal + diag,

@@ -128,7 +128,7 @@ static dmb_wall_run run_of(const dmb_sim *sim)
         .now = fields_of(&sim->now),
         .site_return = sim->site_return,
         .trial = fields_of(&sim->trial),
-        .residual = sim->correction,
+        .residual = sim->residual,
         .scale = sim->scale_row,
         .stiffness = sim->stiffness_diagonal,
         .inertia = sim->inertia_diagonal,

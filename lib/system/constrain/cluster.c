@@ -235,7 +235,7 @@ static void solve_multipliers(dmb_sim *sim, uint32_t k)
     const dmb_partition partition = dmb_cluster_partition(sim, k);
     const uint32_t *row_of = sim->scene->cluster_columns + cluster->column;
     double *f = sim->cluster_rows;
-    for (uint32_t i = 0; i < partition.rank; i++) f[i] = -sim->correction[row_of[partition.column_order[i]]];
+    for (uint32_t i = 0; i < partition.rank; i++) f[i] = -sim->residual[row_of[partition.column_order[i]]];
     dmb_partition_solve_transposed(&partition, sim->cluster_lu + cluster->square, sim->cluster_pivot + cluster->row, f);
     for (uint32_t r = 0; r < cluster->rows; r++) sim->trial.multiplier[cluster->row + r] = 0.0;
     for (uint32_t i = 0; i < partition.rank; i++) sim->trial.multiplier[cluster->row + partition.row_order[i]] = f[i];
@@ -250,7 +250,7 @@ static void add_multipliers(dmb_sim *sim, uint32_t k)
         const double f = sim->trial.multiplier[cluster->row + r];
         for (uint32_t c = 0; c < cluster->columns && f != 0.0; c++) {
             const double force = f * B[(size_t)r * cluster->columns + c];
-            sim->correction[row_of[c]] += force;
+            sim->residual[row_of[c]] += force;
             sim->scale_row[row_of[c]] += fabs(force);
         }
     }
@@ -262,7 +262,7 @@ static void clear_dependent(dmb_sim *sim, uint32_t k)
     const dmb_cluster *cluster = sim->scene->clusters + k;
     const uint32_t *order = sim->partition_column + cluster->column;
     for (uint32_t i = 0; i < sim->partition_rank[k]; i++)
-        sim->correction[sim->scene->cluster_columns[cluster->column + order[i]]] = 0.0;
+        sim->residual[sim->scene->cluster_columns[cluster->column + order[i]]] = 0.0;
 }
 
 /* Multipliers of least norm that do the same: no change where no row is dropped. */

@@ -327,13 +327,13 @@ void dmb_sparse_balance(dmb_sim *sim, int given)
     if (scene->sparse_count == 0) return;
     if (!given && dmb_sparse_refresh(sim) >= 0) {
         begin_multipliers(sim);
-        memcpy(sim->raw_residual, sim->correction, scene->row_count * sizeof(double));
+        memcpy(sim->raw_residual, sim->residual, scene->row_count * sizeof(double));
         add_all_forces(sim, sim->raw_residual, NULL);
         put_residual(sim);
         dmb_block_signed_solve(&scene->pattern, &matrix, sim->sparse_vector);
         take_multipliers(sim);
     }
-    add_all_forces(sim, sim->correction, sim->scale_row);
+    add_all_forces(sim, sim->residual, sim->scale_row);
 }
 
 /* ---- Misfit ------------------------------------------------------------------------------------------------------ */

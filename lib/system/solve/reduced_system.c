@@ -322,19 +322,19 @@ int64_t dmb_reduced_factor(dmb_sim *sim, dmb_block_weakest *weakest)
 /* ---- Solution ---------------------------------------------------------------------------------------------------- */
 
 /* R^T of what the rows hold, into the block's part of the solution. */
-static void gather_node(const dmb_sim *sim, uint32_t node)
+static void gather_node(const dmb_sim *sim, uint32_t node, const double *rows)
 {
     const dmb_scene *scene = sim->scene;
     double *to = sim->reduced_solution + sim->reduced_row[scene->node_block[node]];
-    null_space_times(sim, node, sim->correction + scene->layout.row[node], 1, to);
+    null_space_times(sim, node, rows + scene->layout.row[node], 1, to);
 }
 
-static void scatter_node(dmb_sim *sim, uint32_t node)
+static void scatter_node(const dmb_sim *sim, uint32_t node, double *rows)
 {
     const dmb_scene *scene = sim->scene;
     const uint32_t k = cluster_of(scene, node), size = scene->layout.size[node];
     const double *y = sim->reduced_solution + sim->reduced_row[scene->node_block[node]];
-    double *z = sim->correction + scene->layout.row[node];
+    double *z = rows + scene->layout.row[node];
     for (uint32_t c = 0; c < size; c++) {
         uint32_t one = c;
         const double *G = NULL;
@@ -356,21 +356,21 @@ static void move_multipliers(dmb_sim *sim)
     }
 }
 
-void dmb_reduced_expand(dmb_sim *sim)
+void dmb_reduced_expand(const dmb_sim *sim, double *z)
 {
     for (uint32_t i = 0; i < sim->scene->node_count; i++)
-        if (sim->scene->node_block[i] != DMB_NONE) scatter_node(sim, i);
+        if (sim->scene->node_block[i] != DMB_NONE) scatter_node(sim, i, z);
 }
 
-void dmb_reduced_solve(dmb_sim *sim)
+void dmb_reduced_solve(dmb_sim *sim, double *z)
 {
     const dmb_scene *scene = sim->scene;
     const dmb_block_sparse matrix = matrix_of(sim);
     memset(sim->reduced_solution, 0, scene->pattern.rows * sizeof(double));
     for (uint32_t i = 0; i < scene->node_count; i++)
-        if (scene->node_block[i] != DMB_NONE) gather_node(sim, i);
+        if (scene->node_block[i] != DMB_NONE) gather_node(sim, i, z);
     dmb_block_sparse_solve(&scene->pattern, &matrix, sim->reduced_row, sim->reduced_solution);
-    dmb_reduced_expand(sim);
+    dmb_reduced_expand(sim, z);
     if (is_full(sim)) move_multipliers(sim);
     if (scene->sparse_count) dmb_reduced_sparse_move(sim);
 }

@@ -15,13 +15,13 @@ void dmb_reduced_assemble(dmb_sim *sim);
 /* Assembles, and factors. Node of a singular block, or -1. weakest may be NULL; its block is a
  * node too. */
 int64_t dmb_reduced_factor(dmb_sim *sim, dmb_block_weakest *weakest);
-/* Residual in, correction out, in the rows of jointed chains of `correction`; multipliers of the trial move too where
- * they are solved for. */
-void dmb_reduced_solve(dmb_sim *sim);
+/* z: right-hand side in, solution out, in the rows of jointed chains; multipliers of the trial move too where they are
+ * solved for. */
+void dmb_reduced_solve(dmb_sim *sim, double *z);
 /* Row of R of column c of cluster k: G's, or NULL where it is a single 1 at *one. After assembling independent
  * coordinates. */
 const double *dmb_reduced_null_space_row(const dmb_sim *sim, uint32_t k, uint32_t c, uint32_t *one);
-/* z = R y: reduced_solution into the rows of jointed chains of `correction`. */
-void dmb_reduced_expand(dmb_sim *sim);
+/* z = R y: reduced_solution into the rows of jointed chains. */
+void dmb_reduced_expand(const dmb_sim *sim, double *z);
 
 #endif

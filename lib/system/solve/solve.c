@@ -42,8 +42,8 @@ static norms norms_of(const dmb_sim *sim, const dmb_chain *chain)
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
         double rest[DMB_SQUARES], all[DMB_SQUARES];
         count = nodes_alike(scene, i, end);
-        scene->kernels->squares(count * size, sim->correction + row, sim->scale_row + row, scene->solved_row + row,
-                                rest, all);
+        scene->kernels->squares(count * size, sim->residual + row, sim->scale_row + row, scene->solved_row + row, rest,
+                                all);
         add_components(size, arm, rest, all, &n);
     }
     return n;
@@ -140,25 +140,29 @@ int32_t dmb_factor_mass(dmb_evaluation *evaluation)
     return bad >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
 }
 
-void dmb_solve_correction(dmb_sim *sim)
+void dmb_solve_for(dmb_sim *sim, const double *residual, double *z)
 {
     const dmb_scene *scene = sim->scene;
     const dmb_block_matrix matrix = matrix_of(sim);
-    for (uint32_t i = 0; i < scene->row_count; i++)
-        sim->correction[i] = scene->solved_row[i] ? -sim->correction[i] : 0.0;
+    for (uint32_t i = 0; i < scene->row_count; i++) z[i] = scene->solved_row[i] ? -residual[i] : 0.0;
     if (*sim->factors == DMB_FACTORS_REUSED) {
-        dmb_solve_reused(sim);
+        dmb_solve_reused(sim, z);
         return;
     }
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         const dmb_chain *chain = scene->chains + c;
         if (chain->jointed) continue;
         if (*sim->factors == DMB_FACTORS_LU)
-            dmb_block_solve(&scene->layout, &matrix, chain->first, chain->count, sim->correction);
+            dmb_block_solve(&scene->layout, &matrix, chain->first, chain->count, z);
         else
-            scene->kernels->solve(&scene->layout, &matrix, chain->first, chain->count, sim->correction);
+            scene->kernels->solve(&scene->layout, &matrix, chain->first, chain->count, z);
     }
-    if (scene->cluster_count) dmb_reduced_solve(sim);
+    if (scene->cluster_count) dmb_reduced_solve(sim, z);
+}
+
+void dmb_solve_correction(dmb_sim *sim)
+{
+    dmb_solve_for(sim, sim->residual, sim->correction);
 }
 
 static void swap_blocks(double **a, double **b)
@@ -190,12 +194,12 @@ void dmb_forget_factors(dmb_sim *sim)
 }
 
 /* Rows of FULL nodes from one set of their frames to another, by the twist between the two. */
-static void twist_rows(dmb_sim *sim, const double *from, const double *to)
+static void twist_rows(const dmb_sim *sim, const double *from, const double *to, double *rows)
 {
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0, count; i < scene->node_count; i += count) {
         count = dmb_full_nodes_at(scene, i);
-        const dmb_twist_run run = {count, 0, from + 4 * i, to + 4 * i, sim->correction + scene->layout.row[i]};
+        const dmb_twist_run run = {count, 0, from + 4 * i, to + 4 * i, rows + scene->layout.row[i]};
         if (count > 0)
             scene->kernels->twist(&run);
         else
@@ -203,28 +207,28 @@ static void twist_rows(dmb_sim *sim, const double *from, const double *to)
     }
 }
 
-static void clear_held(dmb_sim *sim)
+static void clear_held(const dmb_sim *sim, double *z)
 {
     for (uint32_t i = 0; i < sim->scene->row_count; i++)
-        if (!sim->scene->solved_row[i]) sim->correction[i] = 0.0;
+        if (!sim->scene->solved_row[i]) z[i] = 0.0;
 }
 
-static void solve_chains(dmb_sim *sim)
+static void solve_chains(const dmb_sim *sim, double *z)
 {
     const dmb_scene *scene = sim->scene;
     const dmb_block_matrix factors = {sim->kept_diagonal, sim->kept_lower, sim->kept_upper, NULL};
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         const dmb_chain *chain = scene->chains + c;
-        scene->kernels->solve(&scene->layout, &factors, chain->first, chain->count, sim->correction);
+        scene->kernels->solve(&scene->layout, &factors, chain->first, chain->count, z);
     }
 }
 
-void dmb_solve_reused(dmb_sim *sim)
+void dmb_solve_reused(const dmb_sim *sim, double *z)
 {
     const int twisted = sim->scene->site_count > 0;
-    if (twisted) twist_rows(sim, sim->trial.quaternion, sim->kept_quaternion);
-    solve_chains(sim);
+    if (twisted) twist_rows(sim, sim->trial.quaternion, sim->kept_quaternion, z);
+    solve_chains(sim, z);
     if (!twisted) return;
-    twist_rows(sim, sim->kept_quaternion, sim->trial.quaternion);
-    clear_held(sim);
+    twist_rows(sim, sim->kept_quaternion, sim->trial.quaternion, z);
+    clear_held(sim, z);
 }

@@ -24,9 +24,12 @@ int64_t dmb_factor_matrix(dmb_sim *sim);
 /* The same for statics, telling the weakest pivot: what nothing holds shows as one of rounding size. */
 int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest);
 /* Evaluates with the factors the evaluation has, 1 for mass and 0 for velocity, and factors the mass matrix alone; the
- * residual is in `correction`. Errors as dmb_system_evaluate, DMB_ERR_SINGULAR with the node in evaluation->element. */
+ * residual is in `residual`. Errors as dmb_system_evaluate, DMB_ERR_SINGULAR with the node in evaluation->element. */
 int32_t dmb_factor_mass(dmb_evaluation *evaluation);
-/* Residual in, Newton correction out, both in `correction`, by the factors that sim->factors tells. */
+/* z with S z = -residual in the rows that are solved, 0 in others, by the factors that sim->factors tells; `z` may be
+ * `residual` itself. Multipliers of the trial move too where they are solved for. */
+void dmb_solve_for(dmb_sim *sim, const double *residual, double *z);
+/* The same from sim->residual into sim->correction. */
 void dmb_solve_correction(dmb_sim *sim);
 
 /* Factors of an iteration matrix that serve in later steps (when: integrator/newton).
@@ -40,7 +43,7 @@ void dmb_solve_correction(dmb_sim *sim);
 void dmb_keep_factors(dmb_sim *sim);
 /* Nothing is left of kept factors: the state does not go on from the steps that made them. */
 void dmb_forget_factors(dmb_sim *sim);
-/* Right-hand side in, solution by the kept factors out, both in `correction`; no joints. */
-void dmb_solve_reused(dmb_sim *sim);
+/* z: right-hand side in, solution by the kept factors out; no joints. */
+void dmb_solve_reused(const dmb_sim *sim, double *z);
 
 #endif

@@ -109,8 +109,8 @@ static void residual_at(dmb_linear *linear, const dmb_sim *sim, const perturbati
     assert_int_equal(dmb_system_evaluate(&evaluation), DMB_OK);
     work->reduced_mode->multipliers = 0;
     for (uint32_t i = 0; i < rows; i++)
-        if (!linear->scene.solved_row[i]) work->correction[i] = 0.0;
-    dmb_linear_restrict(linear, work->correction, g);
+        if (!linear->scene.solved_row[i]) work->residual[i] = 0.0;
+    dmb_linear_restrict(linear, work->residual, g);
 }
 
 static void add_restricted(const dmb_linear *linear, const dmb_linear_matrix *A, const double *x, double *g)

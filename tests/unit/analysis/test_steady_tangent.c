@@ -79,7 +79,7 @@ static void residual_at(dmb_static_search *search, const double *direction, doub
     dmb_static_displace(sim, direction, x);
     search->evaluation.tangent = 0;
     assert_int_equal(dmb_static_evaluate(search), DMB_OK);
-    memcpy(out, sim->correction, sim->scene->row_count * sizeof(double));
+    memcpy(out, sim->residual, sim->scene->row_count * sizeof(double));
     dmb_static_displace(sim, direction, -x);
 }
 

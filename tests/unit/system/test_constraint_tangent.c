@@ -559,7 +559,7 @@ static void column_by_differences(dmb_sim *sim, int by_velocity, uint32_t node, 
         dmb_evaluation e = evaluation_of(sim, by_velocity);
         move_row(sim, by_velocity, node, c, step * difference6_place[k]);
         evaluate(sim, &e);
-        memcpy(f[k], sim->correction, sim->scene->row_count * sizeof(double));
+        memcpy(f[k], sim->residual, sim->scene->row_count * sizeof(double));
     }
     for (uint32_t i = 0; i < sim->scene->row_count; i++) {
         const double v[6] = {f[0][i], f[1][i], f[2][i], f[3][i], f[4][i], f[5][i]};

@@ -94,7 +94,7 @@ static double worst_entry(dmb_sim *sim, const double *base)
         for (int p = 0; p < 6; p++) {
             move_to(sim, base, column, step * difference6_place[p]);
             evaluate(sim, 0, &e);
-            memcpy(f[p], sim->correction, rows * sizeof(double));
+            memcpy(f[p], sim->residual, rows * sizeof(double));
         }
         for (uint32_t i = 0; i < rows; i++) {
             const double v[6] = {f[0][i], f[1][i], f[2][i], f[3][i], f[4][i], f[5][i]};

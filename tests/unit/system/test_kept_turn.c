@@ -55,9 +55,7 @@ static void factor(dmb_sim *sim)
 static void solve(dmb_sim *sim, int32_t factors, const double *residual, double *z)
 {
     *sim->factors = factors;
-    memcpy(sim->correction, residual, ROWS * sizeof(double));
-    dmb_solve_correction(sim);
-    memcpy(z, sim->correction, ROWS * sizeof(double));
+    dmb_solve_for(sim, residual, z);
 }
 
 static double difference(size_t n, const double *a, const double *b)

@@ -58,7 +58,7 @@ static void column_by_differences(dmb_sim *sim, int32_t dynamic, int kind, uint3
         dmb_evaluation e = evaluation_of(sim, dynamic);
         move_row(sim, kind, node, c, step * difference6_place[p]);
         assert_int_equal(dmb_system_evaluate(&e), DMB_OK);
-        memcpy(f[p], sim->correction, rows * sizeof(double));
+        memcpy(f[p], sim->residual, rows * sizeof(double));
     }
     for (uint32_t i = 0; i < rows; i++) {
         const double v[6] = {f[0][i], f[1][i], f[2][i], f[3][i], f[4][i], f[5][i]};
@@ -215,7 +215,7 @@ static void check_gradient(const char *what, int32_t curved)
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
     dmb_evaluation e = evaluation_of(sim, 0);
     assert_int_equal(dmb_system_evaluate(&e), DMB_OK);
-    memcpy(residual, sim->correction, sim->scene->row_count * sizeof(double));
+    memcpy(residual, sim->residual, sim->scene->row_count * sizeof(double));
     for (uint32_t i = 0; i < sim->scene->node_count; i++)
         for (uint32_t c = 0; c < sim->scene->layout.size[i]; c++) {
             double E[6];
