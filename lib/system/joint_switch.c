@@ -130,7 +130,7 @@ static void take_motion(dmb_sim *sim, double stored)
     memcpy(sim->now.quaternion, sim->trial.quaternion, 4 * (size_t)sim->scene->node_count * sizeof(double));
     memcpy(sim->now.turn, sim->trial.turn, sim->scene->node_count * sizeof(double));
     memcpy(sim->now.velocity, sim->trial.velocity, sim->scene->row_count * sizeof(double));
-    memcpy(sim->now.drive_speed, sim->trial.drive_speed, sim->scene->drive_count * sizeof(double));
+    dmb_drives_take_motion(sim);
     const double lost = before - dmb_kinetic_energy(sim->scene, &sim->now), let_go = stored - potential(sim);
     sim->ledger->work[DMB_POWER_IMPACT] -= lost + let_go;
     sim->ledger->work[DMB_POWER_INERTIA] += lost;
@@ -142,9 +142,7 @@ static void take_forces(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     memcpy(sim->now.multiplier, sim->trial.multiplier, scene->constraint_row_count * sizeof(double));
-    memcpy(sim->now.drive_position, sim->trial.drive_position, scene->drive_count * sizeof(double));
-    memcpy(sim->now.drive_speed, sim->trial.drive_speed, scene->drive_count * sizeof(double));
-    memcpy(sim->now.drive_rate, sim->trial.drive_rate, scene->drive_count * sizeof(double));
+    dmb_drives_take_motion(sim);
 }
 
 static int32_t change(dmb_sim *sim, uint32_t j, int32_t state, double jump[2])

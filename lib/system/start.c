@@ -132,9 +132,7 @@ static int32_t make_consistent(dmb_sim *sim, dmb_evaluation *evaluation)
     if (status < 0) return status;
     if (sim->scene->cluster_count) dmb_joint_reactions(evaluation);
     memcpy(sim->residual_row, sim->residual, sim->scene->row_count * sizeof(double));
-    for (uint32_t i = 0; i < sim->scene->drive_count; i++)
-        if (sim->scene->drives[i].kind == DMB_DRIVE_MOTION && sim->scene->drives[i].joint == DMB_NONE)
-            sim->trial.drive_force[i] = sim->residual[sim->scene->drives[i].row];
+    dmb_drives_take_reactions(sim, &sim->trial);
     return DMB_OK;
 }
 
@@ -152,7 +150,7 @@ int32_t dmb_system_restart(dmb_sim *sim)
     int32_t status = present(sim, &evaluation);
     if (status >= 0 && sim->scene->joint_count) status = dmb_joints_refuse_edges(sim, 0, evaluation.time);
     if (status >= 0) {
-        memcpy(sim->now.drive_target, sim->trial.drive_target, sim->scene->drive_count * sizeof(double));
+        dmb_drives_take_targets(sim);
         project_speeds(sim);
         status = choose_partition(sim, &evaluation);
     }
@@ -184,10 +182,7 @@ int32_t dmb_system_jump(dmb_sim *sim)
     memcpy(sim->now.acceleration, sim->trial.acceleration, scene->row_count * sizeof(double));
     memcpy(sim->now.pseudo_acceleration, sim->trial.acceleration, scene->row_count * sizeof(double));
     memcpy(sim->now.friction_slip, sim->trial.friction_slip, 2 * sizeof(double));
-    memcpy(sim->now.drive_target, sim->trial.drive_target, scene->drive_count * sizeof(double));
-    memcpy(sim->now.drive_force, sim->trial.drive_force, scene->drive_count * sizeof(double));
-    memcpy(sim->now.drive_speed, sim->trial.drive_speed, scene->drive_count * sizeof(double));
-    memcpy(sim->now.drive_rate, sim->trial.drive_rate, scene->drive_count * sizeof(double));
+    dmb_drives_take_forces(sim);
     memcpy(sim->now.multiplier, sim->trial.multiplier, scene->constraint_row_count * sizeof(double));
     if (sim->options.energy_ledger) dmb_ledger_jump(sim, &evaluation);
     return DMB_OK;

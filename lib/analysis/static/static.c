@@ -203,11 +203,7 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     memcpy(sim->residual_row, sim->residual, scene->row_count * sizeof(double));
     memcpy(sim->now.friction_slip, sim->trial.friction_slip, 2 * sizeof(double));
     memcpy(sim->now.multiplier, sim->trial.multiplier, scene->constraint_row_count * sizeof(double));
-    for (uint32_t i = 0; i < scene->drive_count; i++) {
-        const uint32_t row = scene->drives[i].row;
-        if (scene->drives[i].kind == DMB_DRIVE_MOTION)
-            sim->now.drive_force[i] = row != DMB_NONE ? sim->residual[row] : sim->trial.drive_force[i];
-    }
+    dmb_drives_take_reactions(sim, &sim->now);
     return DMB_OK;
 }
 

@@ -170,3 +170,63 @@ void dmb_gather_drives(dmb_evaluation *evaluation)
         if (scene->drives[i].kind != DMB_DRIVE_MOTION && scene->drives[i].joint == DMB_NONE)
             gather_drive(evaluation, i);
 }
+
+/* ---- Results ----------------------------------------------------------------------------------------------------- */
+
+void dmb_drive_on_joint(dmb_sim *sim, uint32_t drive, double value, double speed, int open)
+{
+    sim->trial.drive_speed[drive] = speed;
+    if (open) {
+        sim->trial.drive_force[drive] = 0.0;
+        sim->trial.drive_integral[drive] = sim->now.drive_integral[drive];
+    }
+    if (open || sim->scene->drives[drive].kind != DMB_DRIVE_MOTION)
+        sim->trial.drive_position[drive] = value - sim->drive_offset[drive];
+}
+
+void dmb_drives_accept(dmb_sim *sim)
+{
+    for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
+        const dmb_scene_drive *drive = sim->scene->drives + i;
+        if (drive->joint == UINT32_MAX)
+            sim->trial.drive_position[i] = sim->now.drive_position[i] + sim->increment[drive->row];
+        else if (drive->kind == DMB_DRIVE_MOTION && sim->joint_state[drive->joint] != DMB_JOINT_OPEN)
+            sim->trial.drive_speed[i] = sim->trial.drive_target[i];
+    }
+}
+
+void dmb_drives_take_reactions(dmb_sim *sim, dmb_configuration *to)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->drive_count; i++) {
+        const dmb_scene_drive *drive = scene->drives + i;
+        if (drive->kind != DMB_DRIVE_MOTION) continue;
+        to->drive_force[i] = drive->joint == UINT32_MAX
+                                 ? sim->residual[drive->row]
+                                 : -sim->trial.multiplier[scene->constraints[drive->constraint].row];
+    }
+}
+
+void dmb_drives_take_targets(dmb_sim *sim)
+{
+    memcpy(sim->now.drive_target, sim->trial.drive_target, sim->scene->drive_count * sizeof(double));
+}
+
+static void take_joints(dmb_sim *sim)
+{
+    memcpy(sim->now.drive_speed, sim->trial.drive_speed, sim->scene->drive_count * sizeof(double));
+    memcpy(sim->now.drive_rate, sim->trial.drive_rate, sim->scene->drive_count * sizeof(double));
+}
+
+void dmb_drives_take_motion(dmb_sim *sim)
+{
+    memcpy(sim->now.drive_position, sim->trial.drive_position, sim->scene->drive_count * sizeof(double));
+    take_joints(sim);
+}
+
+void dmb_drives_take_forces(dmb_sim *sim)
+{
+    dmb_drives_take_targets(sim);
+    memcpy(sim->now.drive_force, sim->trial.drive_force, sim->scene->drive_count * sizeof(double));
+    take_joints(sim);
+}

@@ -17,4 +17,19 @@ int32_t dmb_system_prescribe(dmb_evaluation *evaluation);
 int32_t dmb_system_rate_jumps(const dmb_sim *sim);
 void dmb_gather_drives(dmb_evaluation *evaluation);
 
+/* All fields of drives are written here and by the calls below; what they mean: sim/sim.h. */
+
+/* Drive of a joint whose coordinate has this value and speed in the trial; `open`: the joint is, the drive does
+ * nothing and follows the coordinate. */
+void dmb_drive_on_joint(dmb_sim *sim, uint32_t drive, double value, double speed, int open);
+/* Positions and speeds at the end of an accepted step. */
+void dmb_drives_accept(dmb_sim *sim);
+/* Forces of the motion drives, from the multipliers of the trial and, of those that hold a row, from the residual, into
+ * a configuration. */
+void dmb_drives_take_reactions(dmb_sim *sim, dmb_configuration *to);
+/* Of trial, into now: targets; motion of joints' coordinates; targets, forces, and speeds and rates of joints. */
+void dmb_drives_take_targets(dmb_sim *sim);
+void dmb_drives_take_motion(dmb_sim *sim);
+void dmb_drives_take_forces(dmb_sim *sim);
+
 #endif

@@ -193,13 +193,9 @@ void dmb_system_accept(dmb_evaluation *evaluation)
     const dmb_scene *scene = sim->scene;
     unwrap_turns(sim);
     memcpy(sim->residual_row, sim->residual, scene->row_count * sizeof(double));
-    for (uint32_t i = 0; i < scene->drive_count; i++) {
-        const dmb_scene_drive *drive = scene->drives + i;
-        if (drive->joint != DMB_NONE) continue; /* done with the joint */
-        sim->trial.drive_position[i] = sim->now.drive_position[i] + sim->increment[drive->row];
-        if (drive->kind == DMB_DRIVE_MOTION) sim->trial.drive_force[i] = sim->residual[drive->row];
-    }
+    dmb_drives_accept(sim);
     if (scene->cluster_count) dmb_joints_accept(evaluation);
+    dmb_drives_take_reactions(sim, &sim->trial);
     for (uint32_t k = 0; k < scene->bit_count; k++) {
         if (evaluation->dynamic)
             dmb_bit_accept(sim, k);

@@ -78,13 +78,12 @@ static void add_drives(dmb_evaluation *evaluation, uint32_t j, coordinate_forces
         const uint32_t d = sim->scene->joint_drives[i];
         const dmb_scene_drive *drive = sim->scene->drives + d;
         double slope;
-        sim->trial.drive_speed[d] = f->speed[drive->component];
+        dmb_drive_on_joint(sim, d, f->c.value[drive->component], f->speed[drive->component], 0);
         if (drive->kind == DMB_DRIVE_MOTION) continue;
         const double force = dmb_drive_force(evaluation, d, f->speed[drive->component], &slope);
         f->force[drive->component] += force;
         f->by_speed[drive->component] += evaluation->dynamic ? slope : 0.0;
         evaluation->power[DMB_POWER_DRIVES] += force * f->speed[drive->component];
-        sim->trial.drive_position[d] = f->c.value[drive->component] - sim->drive_offset[d];
     }
 }
 
@@ -99,10 +98,7 @@ static void rest_drives(dmb_evaluation *evaluation, uint32_t j)
     for (uint32_t i = joint->first_drive; i < joint->first_drive + joint->drive_count; i++) {
         const uint32_t d = sim->scene->joint_drives[i];
         const dmb_scene_drive *drive = sim->scene->drives + d;
-        sim->trial.drive_force[d] = 0.0;
-        sim->trial.drive_integral[d] = sim->now.drive_integral[d];
-        sim->trial.drive_speed[d] = f.speed[drive->component];
-        sim->trial.drive_position[d] = f.c.value[drive->component] - sim->drive_offset[d];
+        dmb_drive_on_joint(sim, d, f.c.value[drive->component], f.speed[drive->component], 1);
     }
 }
 

@@ -24,7 +24,6 @@ void dmb_joint_reactions(dmb_evaluation *evaluation)
     dmb_clusters_least_norm(sim);
     for (uint32_t i = 0; i < sim->scene->constraint_count; i++) {
         const dmb_constraint *c = sim->scene->constraints + i;
-        if (c->kind == DMB_OF_DRIVE) sim->trial.drive_force[c->index] = -sim->trial.multiplier[c->row];
         for (uint32_t k = 0; k < c->rows && c->kind == DMB_OF_CALLBACK; k++)
             evaluation->power[DMB_POWER_LOADS] += sim->trial.multiplier[c->row + k] * sim->constraint_rate[c->row + k];
     }
@@ -34,11 +33,6 @@ void dmb_joints_accept(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     dmb_joints_follow(evaluation);
-    for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
-        const dmb_scene_drive *drive = sim->scene->drives + i;
-        if (drive->joint == DMB_NONE || drive->kind != DMB_DRIVE_MOTION) continue;
-        if (sim->joint_state[drive->joint] != DMB_JOINT_OPEN) sim->trial.drive_speed[i] = sim->trial.drive_target[i];
-    }
     dmb_joint_reactions(evaluation);
     dmb_clusters_watch(sim);
 }

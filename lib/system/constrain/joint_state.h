@@ -7,7 +7,7 @@
 /* Turns of the coordinates of the trial; in statics after every move. */
 void dmb_joints_follow(dmb_evaluation *evaluation);
 /* After the last evaluation of a state: multipliers of least norm where rows are redundant (iterations need only some
- * that balance: B^T f is the same), forces of the motion drives of joints, power of the callers' constraints. */
+ * that balance: B^T f is the same), power of the callers' constraints. */
 void dmb_joint_reactions(dmb_evaluation *evaluation);
 /* End of an accepted step: turns of the coordinates, multipliers of least norm, partition where it has become poor. */
 void dmb_joints_accept(dmb_evaluation *evaluation);
