@@ -11,6 +11,7 @@
 #include "system/constrain/constraint_rows.h"
 #include "system/constrain/joint_edge.h"
 #include "system/constrain/joint_state.h"
+#include "system/ledger.h"
 #include "system/solve/solve.h"
 #include "system/start.h"
 
@@ -25,15 +26,6 @@ static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
     evaluation->load_factor = evaluation->mass_factor = evaluation->pseudo_factor = 1.0;
     evaluation->dynamic = evaluation->tangent = 1;
     memset(sim->increment, 0, sim->scene->row_count * sizeof(double));
-}
-
-static void take_state(dmb_sim *sim, uint32_t j, int32_t state)
-{
-    sim->joint_state[j] = state;
-    if (state == DMB_JOINT_LOCKED)
-        dmb_joint_hold(sim, j);
-    else
-        dmb_joint_release(sim, j);
 }
 
 /* Whether a constraint holds anew when joint j changes: the joint's own, and those of its coordinates if it was open.
@@ -132,16 +124,13 @@ static void take_motion(dmb_sim *sim, double stored)
     memcpy(sim->now.velocity, sim->trial.velocity, sim->scene->row_count * sizeof(double));
     dmb_drives_take_motion(sim);
     const double lost = before - dmb_kinetic_energy(sim->scene, &sim->now), let_go = stored - potential(sim);
-    sim->ledger->work[DMB_POWER_IMPACT] -= lost + let_go;
-    sim->ledger->work[DMB_POWER_INERTIA] += lost;
-    sim->ledger->work[DMB_POWER_POTENTIAL] += let_go;
+    dmb_ledger_take_impact(sim, lost, let_go);
 }
 
 /* Forces that hold and drive the joints now, as the new accelerations have it. */
 static void take_forces(dmb_sim *sim)
 {
-    const dmb_scene *scene = sim->scene;
-    memcpy(sim->now.multiplier, sim->trial.multiplier, scene->constraint_row_count * sizeof(double));
+    dmb_clusters_take_multipliers(sim);
     dmb_drives_take_motion(sim);
 }
 
@@ -151,7 +140,7 @@ static int32_t change(dmb_sim *sim, uint32_t j, int32_t state, double jump[2])
     const int32_t was = sim->joint_state[j];
     dmb_evaluation evaluation;
     set_up(sim, &evaluation);
-    take_state(sim, j, state);
+    dmb_joint_take_state(sim, j, state);
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
     int32_t status = dmb_system_prescribe(&evaluation);
     if (status >= 0) status = check_fit(&evaluation, j, was);

@@ -59,3 +59,10 @@ void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation)
     }
     memcpy(last, power, sizeof power);
 }
+
+void dmb_ledger_take_impact(dmb_sim *sim, double kinetic, double stored)
+{
+    sim->ledger->work[DMB_POWER_IMPACT] -= kinetic + stored;
+    sim->ledger->work[DMB_POWER_INERTIA] += kinetic;
+    sim->ledger->work[DMB_POWER_POTENTIAL] += stored;
+}

@@ -11,6 +11,8 @@ void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation);
 /* The powers of the evaluation hold from now on; nothing is added. */
 void dmb_ledger_jump(dmb_sim *sim, const dmb_evaluation *evaluation);
 /* Adds the step from now to trial; before the swap. */
+/* What bodies lose in an impact between two steps [J]: kinetic energy, and stored energy that is let go. */
+void dmb_ledger_take_impact(dmb_sim *sim, double kinetic, double stored);
 void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation);
 
 #endif

@@ -7,6 +7,7 @@
 #include "sim/node.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/drives.h"
+#include "system/assemble/wall_contact.h"
 #include "system/constrain/assembly.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
@@ -23,11 +24,7 @@ static void described_pose(dmb_sim *sim)
         memcpy(sim->now.velocity, scene->initial_velocity, scene->velocity_count * sizeof(double));
     else
         memset(sim->now.velocity, 0, scene->row_count * sizeof(double));
-    for (uint32_t s = 0; s < scene->site_count; s++) {
-        const double down[3] = {0.0, 0.0, -1.0}; /* until there is a normal */
-        dmb_vec3_copy(down, sim->now.site_normal + 3 * s);
-        sim->now.site_depth[s] = scene->reference_depth[scene->sites[s].node] + scene->sites[s].offset;
-    }
+    dmb_contacts_start(sim);
 }
 
 /* Rows that are held move as their drive says, or not at all; the largest correction is kept. */
@@ -181,9 +178,9 @@ int32_t dmb_system_jump(dmb_sim *sim)
     const dmb_scene *scene = sim->scene;
     memcpy(sim->now.acceleration, sim->trial.acceleration, scene->row_count * sizeof(double));
     memcpy(sim->now.pseudo_acceleration, sim->trial.acceleration, scene->row_count * sizeof(double));
-    memcpy(sim->now.friction_slip, sim->trial.friction_slip, 2 * sizeof(double));
+    dmb_contacts_take_slip(sim);
     dmb_drives_take_forces(sim);
-    memcpy(sim->now.multiplier, sim->trial.multiplier, scene->constraint_row_count * sizeof(double));
+    dmb_clusters_take_multipliers(sim);
     if (sim->options.energy_ledger) dmb_ledger_jump(sim, &evaluation);
     return DMB_OK;
 }

@@ -13,6 +13,7 @@
 #include "sim/node.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/drives.h"
+#include "system/assemble/wall_contact.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/joint_state.h"
 #include "system/solve/solve.h"
@@ -201,8 +202,8 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     if (status < 0) return status;
     if (scene->cluster_count) dmb_joint_reactions(&search->evaluation);
     memcpy(sim->residual_row, sim->residual, scene->row_count * sizeof(double));
-    memcpy(sim->now.friction_slip, sim->trial.friction_slip, 2 * sizeof(double));
-    memcpy(sim->now.multiplier, sim->trial.multiplier, scene->constraint_row_count * sizeof(double));
+    dmb_contacts_take_slip(sim);
+    dmb_clusters_take_multipliers(sim);
     dmb_drives_take_reactions(sim, &sim->now);
     return DMB_OK;
 }
@@ -223,13 +224,9 @@ static int32_t take_motion(dmb_static_search *search)
         search->evaluation.tangent = tangent;
         if (status >= 0) status = dmb_steady_check_springs(&search->evaluation);
     }
-    if (dmb_scene_has_bristles(scene)) {
-        memset(sim->trial.site_bristle, 0, 2 * scene->site_count * sizeof(double));
-        memset(sim->trial.path_bristle, 0, 2 * scene->path_site_count * sizeof(double));
-    }
-    memset(sim->trial.site_approach, 0, scene->site_count * sizeof(double));
+    dmb_contacts_forget(sim);
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
-    if (search->steady != NULL) dmb_steady_deflect_bristles(sim);
+    if (search->steady != NULL) dmb_contacts_slide(sim);
     return status;
 }
 

@@ -261,31 +261,3 @@ int32_t dmb_steady_evaluate(dmb_steady *steady, dmb_evaluation *evaluation)
     *evaluation = at;
     return status;
 }
-
-/* ---- The state --------------------------------------------------------------------------------------------------- */
-
-/* So far beyond the limit that rounding does not make a bristle stick. */
-#define DMB_STEADY_BEYOND (1.0 + 1e-9)
-
-/* z = mu(|v|)/sigma0 v/|v|: where bristles are while their ring slides on. */
-static void deflect(const dmb_friction_law *law, const double v[2], double z[2], int32_t *sticks)
-{
-    const dmb_friction_law sliding = dmb_sliding_law(law);
-    double F[2], dv[4], dN[2];
-    dmb_friction_smooth(&sliding, 1.0, v, F, dv, dN);
-    for (int i = 0; i < 2; i++) z[i] = -DMB_STEADY_BEYOND * F[i] / law->bristle_stiffness;
-    *sticks = 0;
-}
-
-void dmb_steady_deflect_bristles(dmb_sim *sim)
-{
-    const dmb_scene *scene = sim->scene;
-    if (!dmb_scene_has_bristles(scene)) return;
-    for (uint32_t s = 0; s < scene->site_count; s++)
-        if (sim->now.site_penetration[s] > 0.0 || scene->sites[s].clearance == 0.0)
-            deflect(&scene->friction_law, sim->now.site_slip + 2 * (size_t)s, sim->now.site_bristle + 2 * (size_t)s,
-                    sim->now.site_sticks + s);
-    for (uint32_t p = 0; p < scene->path_site_count; p++)
-        deflect(&scene->friction_law, sim->now.path_slip + 2 * (size_t)p, sim->now.path_bristle + 2 * (size_t)p,
-                sim->now.path_sticks + p);
-}

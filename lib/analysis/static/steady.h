@@ -59,8 +59,6 @@ int32_t dmb_steady_check_springs(const dmb_evaluation *evaluation);
  * drives: what judges a stiffness at rest does not judge that one. The trial of `work` is room. Else DMB_OK, or
  * _CALLBACK, _NO_MEMORY. */
 int32_t dmb_steady_refuse_moving(dmb_sim *sim, dmb_sim *work, const char *who);
-/* Bristles of the accepted state deflected as after sliding on for long. */
-void dmb_steady_deflect_bristles(dmb_sim *sim);
 
 /* Functions shared by the files of steady states. */
 

@@ -269,10 +269,15 @@ void dmb_bit_start_steady(dmb_sim *sim, uint32_t k)
     if (bit->history_capacity) lay_helix(sim, k, cut, m.angle, m.advance);
 }
 
-void dmb_bit_accept(dmb_sim *sim, uint32_t k)
+void dmb_bit_accept(const dmb_evaluation *evaluation, uint32_t k)
 {
+    dmb_sim *sim = evaluation->sim;
     const dmb_scene_bit *bit = sim->scene->bits + k;
     const double advance = sim->trial.bit_advance[k];
+    if (!evaluation->dynamic) { /* moving to equilibrium cuts nothing */
+        sim->trial.bit_bottom[k] = sim->now.bit_bottom[k];
+        return;
+    }
     sim->trial.bit_bottom[k] = dmb_bit_rock_bottom(&bit->law, sim->now.bit_bottom[k], advance);
     if (bit->law.kind == DMB_ROCK_NONE || !bit->history_capacity) return;
     dmb_bit_history h = dmb_bit_history_of(sim, k);

@@ -26,7 +26,7 @@ int dmb_bit_on_bottom(const dmb_sim *sim, uint32_t bit);
 /* Rock as after drilling on for long at the speed and spin of the accepted state. */
 void dmb_bit_start_steady(dmb_sim *sim, uint32_t bit);
 /* Stores what a finished step cut. */
-void dmb_bit_accept(dmb_sim *sim, uint32_t bit);
+void dmb_bit_accept(const dmb_evaluation *evaluation, uint32_t bit);
 
 void dmb_gather_bits(dmb_evaluation *evaluation);
 

@@ -86,8 +86,7 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
     evaluation->rounding = 0.0;
     memset(evaluation->power, 0, sizeof evaluation->power);
     clear(evaluation);
-    for (int i = 0; i < 2; i++)
-        evaluation->sim->trial.friction_slip[i] = evaluation->slipping ? evaluation->slip[i] : 0.0;
+    dmb_contacts_assume_slip(evaluation);
     dmb_gather_elements(evaluation);
     if (evaluation->status < 0) return evaluation->status;
     dmb_gather_nodes(evaluation);
@@ -196,10 +195,5 @@ void dmb_system_accept(dmb_evaluation *evaluation)
     dmb_drives_accept(sim);
     if (scene->cluster_count) dmb_joints_accept(evaluation);
     dmb_drives_take_reactions(sim, &sim->trial);
-    for (uint32_t k = 0; k < scene->bit_count; k++) {
-        if (evaluation->dynamic)
-            dmb_bit_accept(sim, k);
-        else
-            sim->trial.bit_bottom[k] = sim->now.bit_bottom[k]; /* moving to equilibrium cuts nothing */
-    }
+    for (uint32_t k = 0; k < scene->bit_count; k++) dmb_bit_accept(evaluation, k);
 }

@@ -384,3 +384,62 @@ void dmb_path_site_force_of(const dmb_scene *scene, const dmb_configuration *con
     dmb_finished_friction(&scene->friction_law, bristles ? configuration->path_bristle + 2 * p : NULL,
                           bristles ? configuration->path_sticks[p] : 0, out);
 }
+
+/* ---- What a configuration remembers of its contacts -------------------------------------------------------------- */
+
+void dmb_contacts_start(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t s = 0; s < scene->site_count; s++) {
+        const double down[3] = {0.0, 0.0, -1.0}; /* until there is a normal */
+        dmb_vec3_copy(down, sim->now.site_normal + 3 * s);
+        sim->now.site_depth[s] = scene->reference_depth[scene->sites[s].node] + scene->sites[s].offset;
+    }
+}
+
+void dmb_contacts_assume_slip(const dmb_evaluation *evaluation)
+{
+    for (int i = 0; i < 2; i++)
+        evaluation->sim->trial.friction_slip[i] = evaluation->slipping ? evaluation->slip[i] : 0.0;
+}
+
+void dmb_contacts_take_slip(dmb_sim *sim)
+{
+    memcpy(sim->now.friction_slip, sim->trial.friction_slip, 2 * sizeof(double));
+}
+
+void dmb_contacts_forget(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    if (dmb_scene_has_bristles(scene)) {
+        memset(sim->trial.site_bristle, 0, 2 * scene->site_count * sizeof(double));
+        memset(sim->trial.path_bristle, 0, 2 * scene->path_site_count * sizeof(double));
+    }
+    memset(sim->trial.site_approach, 0, scene->site_count * sizeof(double));
+}
+
+/* So far beyond the limit that rounding does not make a bristle stick. */
+#define DMB_SLIDING_BEYOND (1.0 + 1e-9)
+
+/* z = mu(|v|)/sigma0 v/|v|: where bristles are while their ring slides on. */
+static void deflect(const dmb_friction_law *law, const double v[2], double z[2], int32_t *sticks)
+{
+    const dmb_friction_law sliding = dmb_sliding_law(law);
+    double F[2], dv[4], dN[2];
+    dmb_friction_smooth(&sliding, 1.0, v, F, dv, dN);
+    for (int i = 0; i < 2; i++) z[i] = -DMB_SLIDING_BEYOND * F[i] / law->bristle_stiffness;
+    *sticks = 0;
+}
+
+void dmb_contacts_slide(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    if (!dmb_scene_has_bristles(scene)) return;
+    for (uint32_t s = 0; s < scene->site_count; s++)
+        if (sim->now.site_penetration[s] > 0.0 || scene->sites[s].clearance == 0.0)
+            deflect(&scene->friction_law, sim->now.site_slip + 2 * (size_t)s, sim->now.site_bristle + 2 * (size_t)s,
+                    sim->now.site_sticks + s);
+    for (uint32_t p = 0; p < scene->path_site_count; p++)
+        deflect(&scene->friction_law, sim->now.path_slip + 2 * (size_t)p, sim->now.path_bristle + 2 * (size_t)p,
+                sim->now.path_sticks + p);
+}

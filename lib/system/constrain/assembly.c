@@ -25,9 +25,9 @@ static void set_up(dmb_sim *sim, dmb_evaluation *evaluation)
 static void described_states(dmb_sim *sim)
 {
     for (uint32_t j = 0; j < sim->scene->joint_count; j++) {
-        sim->joint_state[j] = sim->scene->joints[j].state;
-        dmb_joint_hold(sim, j);
-        if (sim->joint_state[j] != DMB_JOINT_LOCKED) dmb_joint_release(sim, j);
+        const int32_t state = sim->scene->joints[j].state;
+        if (state != DMB_JOINT_LOCKED) dmb_joint_hold(sim, j); /* until it is locked */
+        dmb_joint_take_state(sim, j, state);
     }
 }
 
@@ -163,8 +163,7 @@ static void keep_coordinates(dmb_sim *sim)
         dmb_joint_coordinates c;
         dmb_joint_motion(scene, &sim->trial, j, &relative, NULL);
         dmb_joint_coordinates_at(relative.R, relative.p, relative.V, joint->initial_position + 3, &c);
-        sim->trial.joint_turn[2 * j] = c.value[3];
-        sim->trial.joint_turn[2 * j + 1] = c.value[4];
+        dmb_joint_take_turns(sim, j, &c);
         for (uint32_t i = joint->first_drive; i < joint->first_drive + joint->drive_count; i++)
             sim->drive_offset[scene->joint_drives[i]] = c.value[scene->drives[scene->joint_drives[i]].component];
     }
@@ -174,7 +173,6 @@ static void keep_coordinates(dmb_sim *sim)
             coordinate_of(sim, coupling->joint[0], coupling->component[0]) -
             coupling->ratio * coordinate_of(sim, coupling->joint[1], coupling->component[1]);
     }
-    memcpy(sim->now.joint_turn, sim->trial.joint_turn, 2 * scene->joint_count * sizeof(double));
 }
 
 int32_t dmb_assemble(dmb_sim *sim)

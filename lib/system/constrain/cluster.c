@@ -296,6 +296,11 @@ void dmb_clusters_least_norm(dmb_sim *sim)
     dmb_sparse_least_norm(sim);
 }
 
+void dmb_clusters_take_multipliers(dmb_sim *sim)
+{
+    memcpy(sim->now.multiplier, sim->trial.multiplier, sim->scene->constraint_row_count * sizeof(double));
+}
+
 /* How far a trial is from satisfying its equations of position, in metres. */
 
 /* [m] least move that satisfies a row of a cluster alone: its violation over the length of its row in weighted

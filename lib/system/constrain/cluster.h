@@ -37,6 +37,8 @@ int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t 
 void dmb_clusters_balance(dmb_evaluation *evaluation);
 /* Multipliers of the trial: those of least norm where rows are redundant. Once a state, not in iterations. */
 void dmb_clusters_least_norm(dmb_sim *sim);
+/* Multipliers of trial into now. */
+void dmb_clusters_take_multipliers(dmb_sim *sim);
 
 /* Largest violation of an equation of position at the rows at hand, *row telling which; dropped: of dropped rows
  * only. */

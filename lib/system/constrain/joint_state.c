@@ -4,6 +4,12 @@
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
 
+void dmb_joint_take_turns(dmb_sim *sim, uint32_t j, const dmb_joint_coordinates *c)
+{
+    sim->trial.joint_turn[2 * j] = c->value[3];
+    sim->trial.joint_turn[2 * j + 1] = c->value[4];
+}
+
 void dmb_joints_follow(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -12,8 +18,7 @@ void dmb_joints_follow(dmb_evaluation *evaluation)
         dmb_joint_coordinates c;
         dmb_joint_motion_of(sim->scene, &sim->trial, j, &relative, NULL);
         dmb_joint_coordinates_in(evaluation, j, &relative, &c);
-        sim->trial.joint_turn[2 * j] = c.value[3];
-        sim->trial.joint_turn[2 * j + 1] = c.value[4];
+        dmb_joint_take_turns(sim, j, &c);
     }
 }
 
@@ -37,7 +42,7 @@ void dmb_joints_accept(dmb_evaluation *evaluation)
     dmb_clusters_watch(sim);
 }
 
-void dmb_joint_release(dmb_sim *sim, uint32_t j)
+static void let_go(dmb_sim *sim, uint32_t j)
 {
     sim->now.joint_segment[j] &= ~DMB_SEGMENT_HELD;
 }
@@ -45,11 +50,20 @@ void dmb_joint_release(dmb_sim *sim, uint32_t j)
 void dmb_joint_hold(dmb_sim *sim, uint32_t j)
 {
     dmb_relative relative;
-    dmb_joint_release(sim, j);
+    let_go(sim, j);
     dmb_joint_motion(sim->scene, &sim->now, j, &relative, NULL);
     dmb_mat3_copy(relative.R, sim->joint_lock + 12 * j);
     dmb_vec3_copy(relative.p, sim->joint_lock + 12 * j + 9);
     if (sim->scene->joints[j].kind == DMB_JOINT_POINT_ON_HOLE) sim->now.joint_segment[j] |= DMB_SEGMENT_HELD;
+}
+
+void dmb_joint_take_state(dmb_sim *sim, uint32_t j, int32_t state)
+{
+    sim->joint_state[j] = state;
+    if (state == DMB_JOINT_LOCKED)
+        dmb_joint_hold(sim, j);
+    else
+        let_go(sim, j);
 }
 
 double dmb_joint_energy(const dmb_sim *sim, const dmb_configuration *configuration)
