@@ -165,7 +165,6 @@ static void assemble(const dmb_bit_rock_law *law, const struct jet *depth, const
     }
     out->dT_dOmega += flat_torque * grip->value * sign_slope;
     out->depth_of_cut = depth->value;
-    out->engagement = grip->value;
 }
 
 static void rate_law(const dmb_bit_rock_law *law, double intrusion, double V, double omega, dmb_bit_rock_result *out)

@@ -44,7 +44,6 @@ typedef struct dmb_bit_rock_result {
     double weight_on_bit;                    /* [N] force on the bit against its advance, >= 0 */
     double torque_on_bit;                    /* [N m] torque on the bit against positive spin */
     double depth_of_cut;                     /* [m] per revolution, all blades; as it enters the forces */
-    double engagement;                       /* [-] g of the wear flat, 0 .. 1 */
     double dW_dU, dW_dV, dW_dPhi, dW_dOmega; /* [N/m, N s/m, N/rad, N s/rad] */
     double dT_dU, dT_dV, dT_dPhi, dT_dOmega; /* [N, N s, N m/rad, N m s/rad] */
     int32_t on_bottom;                       /* [-] 1 while the bit touches rock */

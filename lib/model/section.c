@@ -193,5 +193,4 @@ void dmb_element_type_of(const dmb_pipe_def *def, const double arm[2], double da
     shares_of(def, &section, share);
     dmb_beam_mass_of(&section, L, share, &type->mass);
     type->mass_per_metre = section.mass;
-    type->diameter = def->outer_diameter;
 }

@@ -113,11 +113,11 @@ static void held_wrench(const dmb_sim *sim, uint32_t node, double wrench[6])
 {
     static const uint32_t path_component[2] = {DMB_X, DMB_RX};
     const dmb_scene *scene = sim->scene;
-    const uint32_t size = scene->layout.size[node], row = scene->layout.row[node];
     for (uint32_t i = 0; i < 6; i++) wrench[i] = 0.0;
-    for (uint32_t i = 0; i < size; i++) {
-        const uint32_t component = size == DMB_NODE_PATH ? path_component[i] : i;
-        if (!scene->solved_row[row + i]) wrench[component] = sim->residual_row[row + i];
+    for (uint32_t i = 0; i < scene->held_count; i++) {
+        const uint32_t c = scene->held_component[i];
+        if (scene->held_node[i] != node) continue;
+        wrench[scene->layout.size[node] == DMB_NODE_PATH ? path_component[c] : c] = sim->held_reaction[i];
     }
 }
 

@@ -4,9 +4,10 @@
  * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
  * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; ns, rs
  * = n, r where there are contact sites, else 0; k =
- * bit_count, load = load_count, history = history_count, diagonal and link = lengths of block storage; j = joint_count,
- * c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene with joints only:
- * raw = row_count, dense, square, full = storage of the clusters, block, value, pivots = of the reduced system. */
+ * bit_count, load = load_count, held = held_count, history = history_count, diagonal and link = lengths of block
+ * storage; j = joint_count, c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a
+ * scene with joints only: raw = row_count, dense, square, full = storage of the clusters, block, value, pivots = of the
+ * reduced system. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
@@ -66,7 +67,7 @@
     X(dmb_clock, clock, 1, CLOCK)                 /* times and step lengths, integrator */                            \
     X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/ledger */                                \
     X(dmb_counters, counters, 1, COUNTERS)        /* [-] statistics, integrator */                                    \
-    X(double, residual_row, r, NUMBERS)           /* [N, N m] residual of the accepted state: reactions in held rows */ \
+    X(double, held_reaction, held, NUMBERS)       /* [N, N m] residual of the accepted state in the rows that are held */ \
     X(double, drive_work, d, NUMBERS)             /* [J] */                                                           \
     X(double, drive_input, d, INPUTS) /* [unit of the programme] value set by the caller; NaN: the programme */       \
     X(double, history_angle, history, NUMBERS)    /* [rad] samples of the cut surface, system/assemble/bit */         \
@@ -108,7 +109,6 @@
     X(double, site_return, s)           /* [m/s] a ring that opens in the step left the wall; else 0, system/release */ \
     X(double, released_acceleration, rs) /* [m/s2, rad/s2] by contacts that open in the step, system/release */       \
     X(double, released_part, ns)        /* [-] of the step after the opening, of the node, system/release */          \
-    X(double, path_normal, p)           /* [N] */                                                                     \
     X(double, stiffness_diagonal, diagonal) /* by body-frame pose increments; then the iteration matrix */            \
     X(double, stiffness_lower, link)    /* in statics the same, in a step at once the iteration matrix */             \
     X(double, stiffness_upper, link)                                                                                  \
@@ -206,10 +206,9 @@ enum {
 };
 
 typedef struct dmb_ledger {
-    double work[8];       /* [J] integral of each power, trapezoidal */
-    double input;         /* [J] integral of |drives| + |loads| */
-    double start;         /* [J] kinetic + potential energy at the start */
-    double gravity_start; /* [J] gravity potential of the pose at time 0 as described */
+    double work[8]; /* [J] integral of each power, trapezoidal */
+    double input;   /* [J] integral of |drives| + |loads| */
+    double start;   /* [J] kinetic + potential energy at the start */
 } dmb_ledger;
 
 typedef struct dmb_counters {

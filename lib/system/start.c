@@ -128,8 +128,7 @@ static int32_t make_consistent(dmb_sim *sim, dmb_evaluation *evaluation)
     if (status >= 0) status = solve_accelerations(sim, evaluation);
     if (status < 0) return status;
     if (sim->scene->cluster_count) dmb_joint_reactions(evaluation);
-    memcpy(sim->residual_row, sim->residual, sim->scene->row_count * sizeof(double));
-    dmb_drives_take_reactions(sim, &sim->trial);
+    dmb_system_take_reactions(sim, &sim->trial);
     return DMB_OK;
 }
 

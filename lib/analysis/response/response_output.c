@@ -196,7 +196,7 @@ static int32_t of_guide(const request *r)
     const double base = dmb_answer_of(r->copy, r->output, &status);
     if (status < 0) return refuse(r, status, "place.part names no string or body of this model");
     for (uint32_t i = 0; i < scene->held_count && r->out->guide_count < 6; i++) {
-        double *left = r->copy->residual_row + row_of_held(scene, i), kept = *left;
+        double *left = r->copy->held_reaction + i, kept = *left;
         const double scale = fmax(fabs(base), 1.0);
         *left += scale;
         const double weight = (dmb_answer_of(r->copy, r->output, &status) - base) / scale;

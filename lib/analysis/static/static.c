@@ -201,10 +201,9 @@ static int32_t keep_static_reactions(dmb_static_search *search)
     const int32_t status = dmb_static_evaluate(search);
     if (status < 0) return status;
     if (scene->cluster_count) dmb_joint_reactions(&search->evaluation);
-    memcpy(sim->residual_row, sim->residual, scene->row_count * sizeof(double));
     dmb_contacts_take_slip(sim);
     dmb_clusters_take_multipliers(sim);
-    dmb_drives_take_reactions(sim, &sim->now);
+    dmb_system_take_reactions(sim, &sim->now);
     return DMB_OK;
 }
 

@@ -188,7 +188,7 @@ void dmb_drives_accept(dmb_sim *sim)
 {
     for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
         const dmb_scene_drive *drive = sim->scene->drives + i;
-        if (drive->joint == UINT32_MAX)
+        if (drive->joint == DMB_NONE)
             sim->trial.drive_position[i] = sim->now.drive_position[i] + sim->increment[drive->row];
         else if (drive->kind == DMB_DRIVE_MOTION && sim->joint_state[drive->joint] != DMB_JOINT_OPEN)
             sim->trial.drive_speed[i] = sim->trial.drive_target[i];
@@ -201,7 +201,7 @@ void dmb_drives_take_reactions(dmb_sim *sim, dmb_configuration *to)
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         const dmb_scene_drive *drive = scene->drives + i;
         if (drive->kind != DMB_DRIVE_MOTION) continue;
-        to->drive_force[i] = drive->joint == UINT32_MAX
+        to->drive_force[i] = drive->joint == DMB_NONE
                                  ? sim->residual[drive->row]
                                  : -sim->trial.multiplier[scene->constraints[drive->constraint].row];
     }

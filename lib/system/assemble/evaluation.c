@@ -186,14 +186,21 @@ static void unwrap_turns(dmb_sim *sim)
     }
 }
 
+void dmb_system_take_reactions(dmb_sim *sim, dmb_configuration *to)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->held_count; i++)
+        sim->held_reaction[i] = sim->residual[scene->layout.row[scene->held_node[i]] + scene->held_component[i]];
+    dmb_drives_take_reactions(sim, to);
+}
+
 void dmb_system_accept(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
     unwrap_turns(sim);
-    memcpy(sim->residual_row, sim->residual, scene->row_count * sizeof(double));
     dmb_drives_accept(sim);
     if (scene->cluster_count) dmb_joints_accept(evaluation);
-    dmb_drives_take_reactions(sim, &sim->trial);
+    dmb_system_take_reactions(sim, &sim->trial);
     for (uint32_t k = 0; k < scene->bit_count; k++) dmb_bit_accept(evaluation, k);
 }

@@ -47,6 +47,10 @@ void dmb_system_iteration_matrix(const dmb_evaluation *evaluation);
  * memory; called just before the swap. */
 void dmb_system_accept(dmb_evaluation *evaluation);
 
+/* Reactions of what is held, from the residual and the multipliers of the trial: memory, and forces of motion drives
+ * into a configuration. */
+void dmb_system_take_reactions(dmb_sim *sim, dmb_configuration *to);
+
 /* Blocks of node i, and of the link i, i+1. */
 static inline double *dmb_stiffness_of(const dmb_sim *sim, uint32_t node)
 {

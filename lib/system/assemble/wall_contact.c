@@ -337,7 +337,6 @@ static void gather_path_site(dmb_evaluation *evaluation, uint32_t p)
     const double tension = tension_at(sim, site->node);
     const double N =
         side_force(scene, &sim->trial, site, tension, evaluation->load_factor, direction, tangent, &by_tension);
-    sim->path_normal[p] = N;
     memcpy(sim->trial.path_slip + 2 * p, v, sizeof v);
     if (!evaluation->dynamic && !evaluation->slipping) return;
     friction(evaluation, p, N, v, F, dv, dN);
