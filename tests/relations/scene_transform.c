@@ -178,7 +178,7 @@ static void transform_surroundings(const scene_view *v, scene *s)
         survey_tangent(s->survey[i], t);
         matrix_apply(v->matrix, t, t);
         s->survey[i][0] *= L;
-        s->survey[i][1] = acos(fmax(-1.0, fmin(1.0, -t[2])));
+        s->survey[i][1] = atan2(hypot(t[0], t[1]), -t[2]) /* sharp near the vertical, too */;
         s->survey[i][2] = atan2(t[1], t[0]);
     }
 }

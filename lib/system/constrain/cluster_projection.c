@@ -44,6 +44,32 @@ static const double *shortest(dmb_sim *sim, uint32_t k, const double *d)
     return sim->cluster_move;
 }
 
+/* In a step speeds and accelerations follow the pose by Newmark's formulas, so they and the increment z follow its
+ * projection too: exp(z + dz) = exp(z) exp(x), dz = T(z)^-1 x. A part of z across the constraints would stay there, as
+ * large as the way that Newton has come by, and be felt in the motion: it would depend on the choice of coordinates. */
+static void move_motion(const dmb_evaluation *step, uint32_t node, const double *x)
+{
+    dmb_sim *sim = step->sim;
+    const uint32_t size = sim->scene->layout.size[node], row = sim->scene->layout.row[node];
+    const double factor[3] = {step->velocity_factor, step->mass_factor, step->mass_factor * step->pseudo_factor};
+    double *const raw[3] = {sim->raw_velocity, sim->raw_acceleration, sim->raw_pseudo_acceleration};
+    double *const trial[3] = {sim->trial.velocity, sim->trial.acceleration, sim->trial.pseudo_acceleration};
+    double dz[6] = {x[0], x[1]};
+    if (size == DMB_NODE_FULL) {
+        dmb_se3_inverse_tangent T;
+        dmb_se3_inverse_tangent_at(sim->increment + row, NULL, &T);
+        dmb_se3_tangent_apply(&T, x, dz);
+    }
+    for (uint32_t i = 0; i < size; i++) {
+        if (!sim->scene->solved_row[row + i]) continue;
+        sim->increment[row + i] += dz[i];
+        for (int k = 0; k < 3; k++) {
+            raw[k][row + i] += factor[k] * dz[i];
+            trial[k][row + i] += factor[k] * dz[i];
+        }
+    }
+}
+
 static void move_node(dmb_sim *sim, uint32_t node, const double *x)
 {
     if (sim->scene->layout.size[node] == DMB_NODE_FULL) {
@@ -52,6 +78,12 @@ static void move_node(dmb_sim *sim, uint32_t node, const double *x)
     }
     sim->trial.displacement[3 * (size_t)node] += x[0];
     sim->trial.turn[node] += x[1];
+}
+
+static void move_by(dmb_sim *sim, const dmb_evaluation *step, uint32_t node, const double *x)
+{
+    move_node(sim, node, x);
+    if (step != NULL) move_motion(step, node, x);
 }
 
 /* [m] size that rounding of positions goes with: how far nodes are from where they are measured from. */
@@ -66,8 +98,9 @@ static double scene_size(const dmb_sim *sim)
     return sim->reduced_mode->size + far;
 }
 
-/* Moves the poses by the shortest change that makes C = 0, but none by more than `most` [m]. Returns the largest. */
-static double move_poses(dmb_sim *sim, double most)
+/* Moves the poses by the shortest change that makes C = 0, but none by more than `most` [m], and with them the motion
+ * of a step, NULL: none. Returns the largest. */
+static double move_poses(dmb_sim *sim, double most, const dmb_evaluation *step)
 {
     const dmb_scene *scene = sim->scene;
     double largest = 0.0;
@@ -83,7 +116,7 @@ static double move_poses(dmb_sim *sim, double most)
         largest = fmax(largest, here);
         for (uint32_t i = 0; i < cluster->columns; i++) sim->cluster_move[i] = factor * x[i];
         for (uint32_t i = cluster->node; i < cluster->node + cluster->node_count; i++)
-            move_node(sim, scene->cluster_nodes[i], sim->cluster_move + scene->node_place[scene->cluster_nodes[i]]);
+            move_by(sim, step, scene->cluster_nodes[i], sim->cluster_move + scene->node_place[scene->cluster_nodes[i]]);
     }
     return largest;
 }
@@ -96,12 +129,13 @@ int32_t dmb_clusters_approach(dmb_evaluation *evaluation)
     dmb_clusters_choose(sim);
     status = factor_gram(sim);
     if (status < 0) return status;
-    return move_poses(sim, DMB_APPROACH * sim->reduced_mode->length) <= DMB_SETTLED * scene_size(sim) ? DMB_NOTE_STOPPED
-                                                                                                      : DMB_OK;
+    return move_poses(sim, DMB_APPROACH * sim->reduced_mode->length, NULL) <= DMB_SETTLED * scene_size(sim)
+               ? DMB_NOTE_STOPPED
+               : DMB_OK;
 }
 
-/* Newton on C = 0 until rounding. */
-static int32_t settle_poses(dmb_evaluation *evaluation)
+/* Newton on C = 0 until rounding; `motion` 1: of a step. */
+static int32_t settle_poses(dmb_evaluation *evaluation, int32_t motion)
 {
     dmb_sim *sim = evaluation->sim;
     const double size = scene_size(sim);
@@ -121,7 +155,7 @@ static int32_t settle_poses(dmb_evaluation *evaluation)
         status = factor_gram(sim);
         if (status < 0) return status;
         last = violation;
-        (void)move_poses(sim, (double)INFINITY);
+        (void)move_poses(sim, (double)INFINITY, motion ? evaluation : NULL);
     }
 }
 
@@ -180,7 +214,7 @@ int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t 
     if (from_raw && !evaluation->extrapolated) /* the first iteration of a step, which may solve for them */
         memcpy(sim->trial.multiplier, sim->now.multiplier, sim->scene->constraint_row_count * sizeof(double));
     if (levels & DMB_SETTLE_POSE)
-        status = settle_poses(evaluation);
+        status = settle_poses(evaluation, from_raw);
     else
         status = dmb_clusters_gather(evaluation);
     if (status >= 0 && !(levels & DMB_SETTLE_POSE)) status = factor_gram(sim);
