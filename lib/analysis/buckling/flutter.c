@@ -91,7 +91,10 @@ static int32_t close_in(dmb_flutter *flutter, dmb_path *path, double arc)
     for (int k = 0; k < DMB_FLUTTER_TRIES && high - low > DMB_FLUTTER_LOCATED * arc; k++) {
         const double middle = 0.5 * (low + high);
         const int32_t status = probe(flutter, path, middle);
-        if (status < 0) return status;
+        if (status < 0) { /* the point that was judged may lie on another path */
+            flutter->info->flutter = DMB_FLUTTER_NOT_JUDGED;
+            return status;
+        }
         if (flutter->growth > 0.0)
             high = middle;
         else

@@ -311,7 +311,7 @@ static int32_t go_on(void *context)
 #define DMB_GENERAL_MORE 10
 #define DMB_GENERAL_MOST 120
 /* A value this small beside the largest is rounding of 0: no factor. */
-#define DMB_GENERAL_NOISE 1e-9
+#define DMB_GENERAL_NOISE 1e-7
 
 static uint32_t take(const dmb_krylov *values, size_t length, uint32_t wanted, double most, double *factors,
                      double *vectors)
