@@ -103,6 +103,7 @@ static void set_up(dmb_sim *sim, const dmb_generalized_alpha *c, const dmb_step_
     evaluation->load_factor = 1.0;
     evaluation->dynamic = 1;
     evaluation->tangent = 1;
+    evaluation->given = sim->options.constraint_method == DMB_METHOD_MULTIPLIERS;
 }
 
 /* Row i of a motion whose increment over h is z, from speed v, acceleration dv and pseudo-acceleration a0. */
@@ -195,7 +196,6 @@ int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, d
     attempt->whole = whole && sim->scene->cluster_count == 0 && !sim->options.bounded_work;
     attempt->block = DMB_NONE;
     sim->reduced_mode->row = DMB_NONE;
-    sim->reduced_mode->multipliers = sim->options.constraint_method == DMB_METHOD_MULTIPLIERS;
     status = run(sim, &c, attempt);
     if (attempt->tried && status < 0 && !dmb_is_final(status)) { /* once more, with factors of its own */
         attempt->astray = 1;
@@ -208,7 +208,6 @@ int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, d
         if (refused < 0) status = refused;
     }
     *sim->factors = DMB_FACTORS_NONE;
-    sim->reduced_mode->multipliers = 0;
     if (status >= 0) {
         attempt->evaluation.element = dmb_element_turned_too_far(sim);
         if (attempt->evaluation.element != DMB_NONE) status = DMB_ERR_ROTATION;

@@ -52,7 +52,7 @@ static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt)
         if (status < 0) return status;
     }
     dmb_system_iteration_matrix(&attempt->evaluation);
-    const int64_t bad = dmb_factor_matrix(sim);
+    const int64_t bad = dmb_factor_matrix(sim, sim->options.constraint_method);
     attempt->factored = DMB_FACTORS_FRESH;
     if (bad < 0) return DMB_OK;
     attempt->block = (uint32_t)bad;

@@ -170,14 +170,12 @@ enum { DMB_FACTORS_NONE = 0, DMB_FACTORS_FRESH = 1, DMB_FACTORS_REUSED = 2, DMB_
 /* Kinds of constraint rows. */
 enum { DMB_ROW_IDLE = 0, DMB_ROW_POSITION = 1, DMB_ROW_SPEED = 2 };
 
-/* How the reduced system is worked on at present. */
+/* What is known of the equations of joints and of the reduced system at present. */
 typedef struct dmb_reduced_mode {
-    int32_t multipliers; /* 1: solve for all coordinates and multipliers, DMB_METHOD_MULTIPLIERS */
-    int32_t assembling;  /* 1: initial coordinates of joints are rows too, couplings and joint drives are not */
-    uint32_t row;        /* constraint row that could not be satisfied, for messages; DMB_NONE: none */
-    int32_t metric;      /* 1: sparse_value has factors of the rows at hand, for projections */
-    int32_t weak;        /* 1: with rows that those before nearly hold */
-    int32_t reserved;
+    int32_t bordered; /* 1: the reduced system made last is over all coordinates and multipliers, else reduced */
+    uint32_t row;     /* constraint row that could not be satisfied, for messages; DMB_NONE: none */
+    int32_t metric;   /* 1: sparse_value has factors of the rows at hand, for projections */
+    int32_t weak;     /* 1: with rows that those before nearly hold */
     double violation; /* its violation */
     double length;    /* [m] longest length of the chains that joints connect: what moves are long or short by */
     double size;      /* [m] of the numbers that positions are the difference of, at the start */

@@ -83,13 +83,11 @@ int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acce
 {
     dmb_sim *sim = evaluation->sim;
     dmb_evaluation mass = *evaluation;
-    const int32_t multipliers = sim->reduced_mode->multipliers;
-    sim->reduced_mode->multipliers = 0;
     mass.mass_factor = 1.0;
     mass.velocity_factor = 0.0;
     mass.tangent = 1;
+    mass.given = 0;
     const int32_t status = dmb_factor_mass(&mass);
     if (status >= 0) release(sim, acceleration, part);
-    sim->reduced_mode->multipliers = multipliers;
     return status < 0 ? status : DMB_OK;
 }

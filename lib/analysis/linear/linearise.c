@@ -52,7 +52,7 @@ static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *optio
     dmb_sim *work = linear->work;
     dmb_evaluation evaluation = dmb_linear_evaluation(linear);
     double *before = work->trial.pseudo_acceleration; /* which no force depends on */
-    work->reduced_mode->multipliers = 1;              /* they are given */
+    evaluation.given = 1;
     int32_t status = dmb_system_evaluate(&evaluation);
     memcpy(before, work->residual, linear->rows * sizeof(double));
     dmb_linear_freeze(linear, options);
@@ -65,9 +65,7 @@ static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *optio
 /* The residual may be rounding of poses, which the stiffness tells. */
 static int32_t judge_rounding(dmb_linear *linear)
 {
-    linear->work->reduced_mode->multipliers = 1;
     const int32_t status = dmb_linear_take_stiffness_and_mass(linear);
-    linear->work->reduced_mode->multipliers = 0;
     dmb_linear_judge_rounding(linear);
     return status;
 }
@@ -84,7 +82,6 @@ static int32_t linearise(dmb_linear *linear, const dmb_linear_options *options)
     if (status >= 0) dmb_linear_take_steady_accelerations(linear);
     if (status >= 0) status = take_multipliers(linear);
     if (status >= 0) status = take_matrices(linear, options);
-    work->reduced_mode->multipliers = 0;
     if (status < 0) return status;
     dmb_linear_judge_rounding(linear);
     dmb_linear_turn_frames(linear, options->still);

@@ -34,13 +34,13 @@ dmb_linear_matrix dmb_linear_stiffness_of(const dmb_sim *work)
     return A;
 }
 
-/* At increments of 0 the links hold stiffness plus inertia, or inertia alone. */
+/* At increments of 0 the links hold stiffness plus inertia, or inertia alone; forces of constraint are given. */
 static int32_t evaluate_tangent(dmb_linear *linear, double mass_factor, double velocity_factor, double step,
                                 int32_t inertia_only)
 {
     dmb_evaluation evaluation = dmb_linear_evaluation(linear);
     memset(linear->work->increment, 0, linear->rows * sizeof(double));
-    evaluation.tangent = 1;
+    evaluation.tangent = evaluation.given = 1;
     evaluation.inertia_only = inertia_only;
     evaluation.mass_factor = mass_factor;
     evaluation.velocity_factor = velocity_factor;

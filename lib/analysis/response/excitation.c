@@ -41,7 +41,7 @@ static int32_t residual(dmb_sim *copy, double step)
     evaluation.step = step;
     evaluation.pseudo_factor = 1.0;
     evaluation.load_factor = 1.0;
-    evaluation.dynamic = 1;
+    evaluation.dynamic = evaluation.given = 1;
     return dmb_system_evaluate(&evaluation);
 }
 
@@ -51,15 +51,12 @@ static int32_t difference(const request *r, double *factor, double change, doubl
 {
     dmb_sim *copy = r->copy;
     const double kept = *factor;
-    const int32_t multipliers = copy->reduced_mode->multipliers;
-    copy->reduced_mode->multipliers = 1;
     *factor = kept + change;
     int32_t status = residual(copy, step);
     for (uint32_t i = 0; i < copy->scene->row_count; i++) r->out->re[i] = -copy->residual[i];
     *factor = kept;
     if (status >= 0) status = residual(copy, step);
     for (uint32_t i = 0; i < copy->scene->row_count; i++) r->out->re[i] = (r->out->re[i] + copy->residual[i]) / scale;
-    copy->reduced_mode->multipliers = multipliers;
     return status;
 }
 

@@ -355,10 +355,10 @@ static int32_t judge_unsymmetric(dmb_static_search *state, int thorough, dmb_sta
 static int64_t judge_reduced_again(dmb_sim *sim, uint32_t chains, dmb_stability *out)
 {
     raise_diagonal(sim, out->rounding, 1);
-    int64_t bad = dmb_reduced_factor(sim, NULL);
+    int64_t bad = dmb_reduced_factor(sim, DMB_METHOD_INDEPENDENT, NULL);
     if (bad < 0) out->negative = (int32_t)(chains + negative_of_reduced(sim));
     raise_diagonal(sim, -out->rounding, 1);
-    if (bad < 0) bad = dmb_reduced_factor(sim, NULL);
+    if (bad < 0) bad = dmb_reduced_factor(sim, DMB_METHOD_INDEPENDENT, NULL);
     return bad;
 }
 

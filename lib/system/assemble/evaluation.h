@@ -28,6 +28,8 @@ typedef struct dmb_evaluation {
     int32_t steady;         /* 1: bristles are deflected and rock is cut as after sliding and drilling on for long */
     uint32_t drilling;      /* steady: bit k of it is 1 where bit number k cuts, of the first DMB_STEADY_BITS bits */
     int32_t extrapolated;   /* 1: geometric stiffness with element_stress as it stands, 0: with the true stress */
+    int32_t given;          /* 1: multipliers of the trial are taken as they are, else they balance the residual */
+    int32_t assembling;     /* 1: initial coordinates of joints are rows too, couplings and joint drives are not */
     int32_t slipping;       /* statics: friction acts as at the speed slip[] */
     double slip[2];         /* [m/s, rad/s] along the hole, of rotation */
     double rounding;  /* [N2] sum of squares of the rounding of forces by that of poses (elements, joints, wall) */

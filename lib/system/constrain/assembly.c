@@ -184,12 +184,11 @@ int32_t dmb_assemble(dmb_sim *sim)
     dmb_clusters_prepare(sim);
     described_states(sim);
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
-    sim->reduced_mode->assembling = 1;
+    evaluation.assembling = 1;
     status = close_positions(&evaluation);
     if (status >= 0) status = dmb_clusters_settle(&evaluation, DMB_SETTLE_POSE | DMB_SETTLE_SPEED, 0);
     if (status >= 0) status = refuse_flips(sim);
     if (status >= 0) status = dmb_assembled_speeds(&evaluation);
-    sim->reduced_mode->assembling = 0;
     if (status < 0) return status;
     measure(sim);
     dmb_note_projection(sim);

@@ -279,7 +279,7 @@ static void least_norm(dmb_sim *sim, uint32_t k)
 void dmb_clusters_balance(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
-    const int given = sim->reduced_mode->multipliers;
+    const int given = evaluation->given;
     for (uint32_t k = 0; k < sim->scene->cluster_count; k++) {
         if (sim->scene->clusters[k].sparse) continue;
         if (!given) solve_multipliers(sim, k);

@@ -33,7 +33,7 @@ int32_t dmb_clusters_refresh(dmb_evaluation *evaluation);
 int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t from_raw);
 
 /* Multipliers that balance the residual in the dependent rows, into trial.multiplier; and B^T multiplier into the
- * residual. With reduced_mode->multipliers the multipliers are taken as they are. */
+ * residual. Those of the trial are taken as they are where evaluation->given says so. */
 void dmb_clusters_balance(dmb_evaluation *evaluation);
 /* Multipliers of the trial: those of least norm where rows are redundant. Once a state, not in iterations. */
 void dmb_clusters_least_norm(dmb_sim *sim);

@@ -98,7 +98,7 @@ static void joint_rows(dmb_evaluation *evaluation, const dmb_constraint *constra
         if (on_hole && sim->joint_state[j] == DMB_JOINT_ACTIVE)
             sim->constraint_convective[constraint->row + k] += bend_convective(&bend, &relative, bend.normal[k]);
     }
-    if (sim->reduced_mode->assembling) initial_rows(evaluation, constraint, &relative, rows.count);
+    if (evaluation->assembling) initial_rows(evaluation, constraint, &relative, rows.count);
 }
 
 /* ---- Coordinates ------------------------------------------------------------------------------------------------- */
@@ -189,7 +189,7 @@ static void coupling_row(dmb_evaluation *evaluation, const dmb_constraint *const
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_coupling *coupling = sim->scene->couplings + constraint->index;
-    if (sim->reduced_mode->assembling || is_open(sim, coupling->joint[0]) || is_open(sim, coupling->joint[1])) return;
+    if (evaluation->assembling || is_open(sim, coupling->joint[0]) || is_open(sim, coupling->joint[1])) return;
     add_coordinate(evaluation, constraint, coupling->joint[0], coupling->component[0], 1.0);
     add_coordinate(evaluation, constraint, coupling->joint[1], coupling->component[1], -coupling->ratio);
     sim->constraint_value[constraint->row] -= sim->constraint_offset[constraint->row];
@@ -199,7 +199,7 @@ static void drive_row(dmb_evaluation *evaluation, const dmb_constraint *constrai
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_drive *drive = sim->scene->drives + constraint->index;
-    if (sim->reduced_mode->assembling || is_open(sim, drive->joint)) return;
+    if (evaluation->assembling || is_open(sim, drive->joint)) return;
     add_coordinate(evaluation, constraint, drive->joint, drive->component, 1.0);
     sim->constraint_value[constraint->row] -=
         sim->drive_offset[constraint->index] + sim->trial.drive_position[constraint->index];

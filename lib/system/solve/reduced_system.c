@@ -9,7 +9,7 @@
 
 static int is_full(const dmb_sim *sim)
 {
-    return sim->reduced_mode->multipliers;
+    return sim->reduced_mode->bordered;
 }
 
 /* The dense cluster of a node, or DMB_NONE: a block of its own. */
@@ -289,10 +289,11 @@ static uint32_t node_of_block(const dmb_scene *scene, uint32_t block)
 }
 
 /* hold: of statics, see reduced_sparse.h */
-static void assemble(dmb_sim *sim, int hold)
+static void assemble(dmb_sim *sim, int32_t method, int hold)
 {
     const dmb_scene *scene = sim->scene;
     dmb_block_sparse matrix = matrix_of(sim);
+    sim->reduced_mode->bordered = method == DMB_METHOD_MULTIPLIERS;
     set_sizes(sim);
     dmb_block_sparse_clear(&scene->pattern, &matrix);
     for (uint32_t k = 0; k < scene->cluster_count && !is_full(sim); k++)
@@ -305,14 +306,14 @@ static void assemble(dmb_sim *sim, int hold)
 
 void dmb_reduced_assemble(dmb_sim *sim)
 {
-    assemble(sim, 0);
+    assemble(sim, DMB_METHOD_INDEPENDENT, 0);
 }
 
-int64_t dmb_reduced_factor(dmb_sim *sim, dmb_block_weakest *weakest)
+int64_t dmb_reduced_factor(dmb_sim *sim, int32_t method, dmb_block_weakest *weakest)
 {
     const dmb_scene *scene = sim->scene;
     dmb_block_sparse matrix = matrix_of(sim);
-    assemble(sim, weakest != NULL);
+    assemble(sim, method, weakest != NULL);
     const int64_t bad = weakest != NULL ? dmb_block_sparse_factor_watched(&scene->pattern, &matrix, weakest)
                                         : dmb_block_sparse_factor(&scene->pattern, &matrix);
     if (weakest != NULL) weakest->block = node_of_block(scene, weakest->block);

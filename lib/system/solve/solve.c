@@ -86,7 +86,7 @@ static dmb_block_matrix matrix_of(const dmb_sim *sim)
     return matrix;
 }
 
-int64_t dmb_factor_matrix(dmb_sim *sim)
+int64_t dmb_factor_matrix(dmb_sim *sim, int32_t method)
 {
     const dmb_scene *scene = sim->scene;
     *sim->factors = DMB_FACTORS_FRESH;
@@ -97,7 +97,7 @@ int64_t dmb_factor_matrix(dmb_sim *sim)
             scene->kernels->factor(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count);
         if (bad >= 0) return bad;
     }
-    return scene->cluster_count ? dmb_reduced_factor(sim, NULL) : -1;
+    return scene->cluster_count ? dmb_reduced_factor(sim, method, NULL) : -1;
 }
 
 int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest)
@@ -116,7 +116,7 @@ int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest)
         if (bad >= 0) return bad;
     }
     if (scene->cluster_count == 0) return -1;
-    const int64_t bad = dmb_reduced_factor(sim, &chain_weakest);
+    const int64_t bad = dmb_reduced_factor(sim, DMB_METHOD_INDEPENDENT, &chain_weakest);
     if (chain_weakest.ratio < weakest->ratio) *weakest = chain_weakest;
     return bad;
 }

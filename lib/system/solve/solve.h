@@ -19,9 +19,10 @@ typedef struct dmb_residual_norm {
 /* Moments count over the length of their chain; unknown rows only; chain by chain, so that a light body is not judged
  * by a heavy string. */
 dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double tolerance);
-/* Factors the iteration matrix in place. Index of a singular block, or -1. */
-int64_t dmb_factor_matrix(dmb_sim *sim);
-/* The same for statics, telling the weakest pivot: what nothing holds shows as one of rounding size. */
+/* Factors the iteration matrix in place, that of joints by DMB_METHOD_.... Index of a singular block, or -1. */
+int64_t dmb_factor_matrix(dmb_sim *sim, int32_t method);
+/* The same for statics, by independent coordinates, telling the weakest pivot: what nothing holds shows as one of
+ * rounding size. */
 int64_t dmb_factor_stiffness(dmb_sim *sim, dmb_block_weakest *weakest);
 /* Evaluates with the factors the evaluation has, 1 for mass and 0 for velocity, and factors the mass matrix alone; the
  * residual is in `residual`. Errors as dmb_system_evaluate, DMB_ERR_SINGULAR with the node in evaluation->element. */

@@ -104,10 +104,9 @@ static void residual_at(dmb_linear *linear, const dmb_sim *sim, const perturbati
     }
     move_integrals(work, sim, p->d, e);
     for (uint32_t i = 0; i < rows; i++) work->increment[i] = e * p->d[i]; /* turns of bits follow it */
-    work->reduced_mode->multipliers = 1;
+    evaluation.given = 1;
     if (work->scene->cluster_count) assert_int_equal(dmb_clusters_gather(&evaluation), DMB_OK);
     assert_int_equal(dmb_system_evaluate(&evaluation), DMB_OK);
-    work->reduced_mode->multipliers = 0;
     for (uint32_t i = 0; i < rows; i++)
         if (!linear->scene.solved_row[i]) work->residual[i] = 0.0;
     dmb_linear_restrict(linear, work->residual, g);

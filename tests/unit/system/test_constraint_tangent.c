@@ -314,7 +314,6 @@ static void stir(rig *s, uint64_t seed, int32_t locked)
     }
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
     memset(sim->increment, 0, scene->row_count * sizeof(double));
-    sim->reduced_mode->multipliers = 1; /* multipliers are taken as they are */
 }
 
 static dmb_evaluation evaluation_of(dmb_sim *sim, int32_t dynamic)
@@ -325,6 +324,7 @@ static dmb_evaluation evaluation_of(dmb_sim *sim, int32_t dynamic)
     e.time = 0.3;
     e.load_factor = 1.0;
     e.dynamic = dynamic;
+    e.given = 1;
     return e;
 }
 
