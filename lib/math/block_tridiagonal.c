@@ -2,6 +2,8 @@
  * Van Loan, Matrix Computations, 4.5.1). */
 #include "math/block_tridiagonal.h"
 
+#include <string.h>
+
 #include "math/block_rows.h"
 
 int32_t dmb_block_count(uint32_t n, const uint8_t *size, dmb_block_totals *totals)
@@ -100,7 +102,7 @@ DMB_BLOCK_KERNEL void to_columns(int rows, int columns, double *A)
 {
     double turned[DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX];
     turn_round(rows, columns, A, turned);
-    for (int i = 0; i < rows * columns; i++) A[i] = turned[i];
+    memcpy(A, turned, (size_t)rows * (size_t)columns * sizeof *A);
 }
 
 /* One block of the factorisation. Returns the column without a pivot, or -1. */

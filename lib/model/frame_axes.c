@@ -38,7 +38,7 @@ static bool across(const double x[3], const double direction[3], double y[3])
 bool dmb_frame_axes(const double axis[3], const double normal[3], double M[9])
 {
     const double ey[3] = {0.0, 1.0, 0.0}, ez[3] = {0.0, 0.0, 1.0};
-    double x[3], y[3], z[3];
+    double x[3], y[3] = {0.0}, z[3];
     if (!unit_along(axis, x)) return false;
     if (largest_of(normal) > 0.0) {
         if (!across(x, normal, y)) return false;

@@ -53,11 +53,11 @@ dmb_sim *dmb_state_copy(const dmb_sim *sim)
 int32_t dmb_state_copy_check(dmb_sim *sim, const char *who)
 {
     const dmb_scene *scene = sim->scene;
-    const dmb_cluster *largest = NULL;
+    const dmb_cluster *largest = scene->clusters;
     dmb_message name;
     if (scene->sparse_count == 0 || scene->dense != NULL) return DMB_OK;
-    for (uint32_t k = 0; k < scene->cluster_count; k++)
-        if (largest == NULL || scene->clusters[k].rows + scene->clusters[k].columns > largest->rows + largest->columns)
+    for (uint32_t k = 1; k < scene->cluster_count; k++)
+        if (scene->clusters[k].rows + scene->clusters[k].columns > largest->rows + largest->columns)
             largest = scene->clusters + k;
     dmb_constraint_text(scene, largest->constraint, &name);
     dmb_message_set(&sim->message,

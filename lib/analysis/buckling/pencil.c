@@ -78,7 +78,7 @@ static int count_shifted(dmb_pencil *pencil, uint32_t *negative)
         if (!scene->chains[c].jointed)
             *negative += dmb_block_negative(&scene->layout, pencil->work.diagonal, pencil->work.lower,
                                             pencil->work.upper, NULL, scene->chains[c].first, scene->chains[c].count);
-    if (scene->cluster_count == 0) return 1;
+    if (scene->cluster_count == 0 || pencil->sim == NULL) return 1; /* where joints are, there is a sim */
     dmb_block_sparse matrix = sparse_of(pencil, &pencil->work);
     if (dmb_block_sparse_factor(&scene->pattern, &matrix) >= 0) return 0;
     *negative += dmb_block_sparse_negative(&scene->pattern, &matrix, pencil->room);

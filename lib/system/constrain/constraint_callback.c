@@ -265,7 +265,7 @@ int32_t dmb_callback_curvature(dmb_evaluation *evaluation, uint32_t callback, do
         for (uint32_t p = 0; p < own->count; p++)
             to_node(sim->scene, constraint, own->place + p, by_place[i] + 6 * p, half[i]);
     for (uint32_t c = 0; c < constraint->columns; c++) {
-        double column[COLUMNS], full[COLUMNS] = {0.0};
+        double column[COLUMNS] = {0.0}, full[COLUMNS] = {0.0};
         for (uint32_t i = 0; i < columns; i++) column[i] = half[i][c];
         for (uint32_t p = 0; p < own->count; p++) to_node(sim->scene, constraint, own->place + p, column + 6 * p, full);
         for (uint32_t r = 0; r < constraint->columns; r++) K[(size_t)r * constraint->columns + c] += full[r];
