@@ -1,6 +1,7 @@
 /* Friction laws: two components of tangential force at the contact point (axial, circumferential).
  * N is the normal force [N >= 0, or N/m; the result has its unit], v the sliding velocity of the pipe's contact point
- * over the wall [m/s]. All derivatives are exact; the falling Stribeck branch is kept in them. Pure functions. */
+ * over the wall [m/s]. All derivatives are exact; the falling Stribeck branch is kept in them. Pure functions, of a
+ * number that is a double or lanes of doubles (math/real.h). Where dF_dv is NULL, it is not wanted. */
 #ifndef DMB_FORCE_FRICTION_LAW_H
 #define DMB_FORCE_FRICTION_LAW_H
 
@@ -28,8 +29,8 @@ typedef struct dmb_friction_law {
  *   mu_d + (mu_s - mu_d) exp(-s/v_s). BRISTLE gives the STRIBECK result: what the law is once it slides.
  *   AMBROSIO: mu_d N opposite to v times 0 up to v0, (|v| - v0)/(v1 - v0) up to v1, 1 beyond.
  * Zero where v = 0; a law smoothed like this creeps under load, BRISTLE does not. */
-void dmb_friction_smooth(const dmb_friction_law *law, double N, const double v[2], double F[2], double dF_dv[4],
-                         double dF_dN[2]);
+static inline void dmb_friction_smooth(const dmb_friction_law *law, dmb_real N, const dmb_real v[2], dmb_real F[2],
+                                       dmb_real *dF_dv, dmb_real dF_dN[2]);
 
 /* Friction with memory: elastic bristles of deflection z [m] that truly stick. One step of length h [s] (>= 0) from
  * deflection z_old and sliding velocity v_old, ends at v:
@@ -40,17 +41,14 @@ void dmb_friction_smooth(const dmb_friction_law *law, double N, const double v[2
  * So it breaks away at mu_static however fast it is loaded or vibrates in sticking, and slides on the Stribeck curve
  * from the step after. (With the curve in sticking too, as in LuGre, the bristles' own speed lowers the limit.)
  * The damping counts in sticking and fades out at the limit: |F| <= mu N always, F = -mu N v/|v| in steady sliding.
- * Both projections are continuous in v. *sticks is 1 where neither acts; the caller hands it back as `stuck` of the
+ * Both projections are continuous in v. Returns 1 where neither acts; the caller hands it back as `stuck` of the
  * next step, never between iterations of one step. The tangent has kinks at the circles and, with mu_s > mu_d, at v = 0
  * while sliding (the derivative of |v| there counts as 0). h = 0 keeps z_old, cut back to the limit.
  * The caller keeps z, v and sticks of accepted steps, and starts a contact, or one regained, at z = 0 and stuck = 0.
- * F, dF_dv, dF_dN as above. */
-void dmb_friction_bristle(const dmb_friction_law *law, double N, const double v[2], const double z_old[2],
-                          const double v_old[2], int32_t stuck, double h, double z[2], double F[2], double dF_dv[4],
-                          double dF_dN[2], int32_t *sticks);
-
-/* The friction laws of friction_law.h in a number that is a double or lanes of doubles (math/real.h). Where dF_dv is
- * NULL, it is not wanted. */
+ * F, dF_dv, dF_dN as above. z_old and v_old may be z and v. */
+static inline dmb_mask dmb_friction_bristle(const dmb_friction_law *law, dmb_real N, const dmb_real v[2],
+                                            const dmb_real z_old[2], const dmb_real v_old[2], dmb_mask stuck, double h,
+                                            dmb_real z[2], dmb_real F[2], dmb_real *dF_dv, dmb_real dF_dN[2]);
 
 #define DMB_STRIBECK_END 100.0 /* [-] from this many v_s on, exp(-s/v_s) (1e-44) counts as 0 */
 
@@ -113,9 +111,8 @@ static inline void dmb_friction_smoothed(const dmb_friction_law *law, dmb_real s
     *g = dmb_real_select(rests, zero, (slope - *f) / (divisor * divisor));
 }
 
-/* As dmb_friction_smooth. */
-static inline void dmb_friction_smooth_at(const dmb_friction_law *law, dmb_real N, const dmb_real v[2], dmb_real F[2],
-                                          dmb_real *dF_dv, dmb_real dF_dN[2])
+static inline void dmb_friction_smooth(const dmb_friction_law *law, dmb_real N, const dmb_real v[2], dmb_real F[2],
+                                       dmb_real *dF_dv, dmb_real dF_dN[2])
 {
     const dmb_real speed = dmb_friction_norm(v[0], v[1]);
     dmb_real f = dmb_real_of(0.0), g = dmb_real_of(0.0);
@@ -164,11 +161,9 @@ static inline dmb_real dmb_bristle_limit(const dmb_friction_law *law, const dmb_
     return dmb_real_select(stuck, dmb_real_of(law->mu_static), mu);
 }
 
-/* As dmb_friction_bristle; returns where it sticks. z_old and v_old may be z and v. */
-static inline dmb_mask dmb_friction_bristle_at(const dmb_friction_law *law, dmb_real N, const dmb_real v[2],
-                                               const dmb_real z_old[2], const dmb_real v_old[2], dmb_mask stuck,
-                                               double h, dmb_real z[2], dmb_real F[2], dmb_real *dF_dv,
-                                               dmb_real dF_dN[2])
+static inline dmb_mask dmb_friction_bristle(const dmb_friction_law *law, dmb_real N, const dmb_real v[2],
+                                            const dmb_real z_old[2], const dmb_real v_old[2], dmb_mask stuck, double h,
+                                            dmb_real z[2], dmb_real F[2], dmb_real *dF_dv, dmb_real dF_dN[2])
 {
     const double sigma0 = law->bristle_stiffness, sigma1 = law->bristle_damping;
     const dmb_real zero = dmb_real_of(0.0), half = dmb_real_of(0.5 * h);

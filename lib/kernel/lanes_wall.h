@@ -155,8 +155,8 @@ static inline void bristles(const dmb_wall_run *run, const wall_group *g, dmb_re
     for (int l = 0; l < DMB_REAL_LANES; l++)
         dmb_real_set_lane(&stuck, l, run->now.sticks[g->site.place[l]] ? 1.0 : 0.0);
     const dmb_mask sticks =
-        dmb_friction_bristle_at(run->friction_law, N, v, z_old, v_old, dmb_mask_less(dmb_real_of(0.0), stuck),
-                                run->step, z, F, by_speed, by_normal);
+        dmb_friction_bristle(run->friction_law, N, v, z_old, v_old, dmb_mask_less(dmb_real_of(0.0), stuck), run->step,
+                             z, F, by_speed, by_normal);
     store(z, 2, &g->site, run->trial.bristle);
     for (uint32_t l = 0; l < g->site.used; l++) run->trial.sticks[g->site.place[l]] = dmb_mask_bits(sticks) >> l & 1;
 }
@@ -168,8 +168,8 @@ static inline void add_friction(const dmb_wall_run *run, const wall_group *g, dm
     if (run->friction_law->kind == DMB_FRICTION_BRISTLE && run->dynamic)
         bristles(run, g, -c->F[0], F, by_speed, by_normal);
     else
-        dmb_friction_smooth_at(run->friction_law, -c->F[0], g->frame.speed + 1, F,
-                               run->tangent && run->dynamic ? by_speed : NULL, by_normal);
+        dmb_friction_smooth(run->friction_law, -c->F[0], g->frame.speed + 1, F,
+                            run->tangent && run->dynamic ? by_speed : NULL, by_normal);
     dmb_contact_add_friction(F, by_speed, by_normal, c);
 }
 

@@ -9,7 +9,7 @@
 
 #include "base/checked_size.h"
 #include "base/memory.h"
-#include "math/bridge_cholmod.h"
+#include "math/bridge.h"
 
 /* Work memory for making a pattern. */
 typedef struct analysis {

@@ -1,4 +1,4 @@
-#include "math/bridge_cholmod.h"
+#include "math/bridge.h"
 
 #include <cholmod.h>
 

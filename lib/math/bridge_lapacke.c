@@ -1,4 +1,4 @@
-#include "math/bridge_lapacke.h"
+#include "math/bridge.h"
 
 #include <float.h>
 #include <lapacke.h>

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "math/bridge_lapacke.h"
+#include "math/bridge.h"
 #include "math/dense.h"
 
 /* A vector shorter than this part of what it was before is rounding: the space is closed. */

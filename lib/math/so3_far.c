@@ -1,5 +1,4 @@
 /* Rotations away from zero. */
-#include "math/so3_far.h"
 
 #include "math/elementary.h"
 #include "math/so3.h"

@@ -1,10 +1,10 @@
 /* From what was described to the scene that a step works on. */
 #include "base/message.h"
 #include "base/value_check.h"
-#include "model/definition_defaults.h"
-#include "model/held_ring.h"
+#include "model/describe.h"
 #include "model/limits.h"
 #include "model/mesh.h"
+#include "model/scene.h"
 
 static int32_t take_options(dmb_model *model, const dmb_compile_options *given, dmb_compile_options *read)
 {

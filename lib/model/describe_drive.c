@@ -1,11 +1,10 @@
-#include "model/describe_drive.h"
 
 #include <string.h>
 
 #include "base/checked_size.h"
 #include "base/memory.h"
 #include "constraint/joint.h"
-#include "model/definition_defaults.h"
+#include "model/describe.h"
 #include "model/field_check.h"
 #include "model/limits.h"
 #include "model/model.h"

@@ -1,7 +1,7 @@
 /* Joints, couplings of their coordinates, and the caller's constraints. */
 #include "constraint/joint.h"
 #include "math/vec3.h"
-#include "model/definition_defaults.h"
+#include "model/describe.h"
 #include "model/field_check.h"
 #include "model/frame_axes.h"
 #include "model/limits.h"

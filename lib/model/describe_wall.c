@@ -1,11 +1,10 @@
-#include "model/describe_wall.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "math/real.h"
-#include "model/definition_defaults.h"
+#include "model/describe.h"
 #include "model/field_check.h"
 #include "model/limits.h"
 #include "model/model.h"

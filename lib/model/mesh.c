@@ -5,7 +5,6 @@
 #include "base/checked_size.h"
 #include "model/field_check.h"
 #include "model/limits.h"
-#include "model/mesh_mass.h"
 
 void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *options)
 {

@@ -23,6 +23,8 @@
 #include <stdbool.h>
 
 #include "base/vector.h"
+#include "drillmbd/model.h"
+#include "element/element_type.h"
 #include "model/model.h"
 
 typedef struct dmb_mesh_node {
@@ -155,5 +157,60 @@ int32_t dmb_mesh_constraints(dmb_mesh *mesh);
 int32_t dmb_mesh_features(const dmb_mesh *mesh);
 /* Moves everything into one block of the model's allocator. Errors: DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE. */
 int32_t dmb_mesh_freeze(const dmb_mesh *mesh, dmb_scene **scene);
+
+/* Places of parts that move rigidly with a node. */
+
+typedef struct dmb_mesh_place {
+    uint32_t node;
+    double arm; /* [m] along body x from the node */
+} dmb_mesh_place;
+
+/* A body, a bit, any place of a rigid pipe, and of an elastic one its ends, its tool joint and the ends of its elements
+ * (within 1e-9 of the pipe). False elsewhere. The pipe has to be there. */
+bool dmb_mesh_place_of(const dmb_mesh *mesh, const dmb_place *place, dmb_mesh_place *found);
+
+/* Rigid masses of nodes: bodies added to a spatial inertia, and pipes whose centre of mass is off their axis. */
+
+/* Adds a body of that mass [kg], centre [m] from the node and inertia [kg m2] xx, yy, zz, xy, xz, yz at its centre. */
+void dmb_rigid_mass_add(dmb_rigid_mass *rigid_mass, double mass, const double centre[3], const double inertia[6]);
+
+/* Moves a mass [kg] that is already counted at (x, 0, 0) [m] to (x, e_y, e_z): the node gains a first moment and
+ * inertia, but no mass. */
+void dmb_rigid_mass_shift(dmb_rigid_mass *rigid_mass, double mass, double x, const double e[2]);
+
+/* Eccentric pipes: where the centre of mass of each pipe of a run is. */
+
+bool dmb_pipe_is_eccentric(const dmb_pipe_def *def);
+
+/* Offset (e_y, e_z) [m] of the centre of mass of a pipe from its axis, section frame. `pipe` is its number along the
+ * string: the random parts depend on it and on the seed only, so they are the same whatever the order of description.
+ */
+void dmb_pipe_offset(const dmb_pipe_def *def, uint32_t pipe, double e[2]);
+
+/* Filling the arrays of a scene from a finished mesh. */
+
+/* The layout's arrays and the hole's stations, which the scene sees as read-only. */
+typedef struct dmb_scene_storage {
+    uint8_t *size;
+    uint32_t *row, *diag, *link;
+    dmb_hole_station *stations;
+} dmb_scene_storage;
+
+/* Free rows, and rows that MOTION drives move, as bits of the node's own rows. */
+static inline uint8_t dmb_free_rows(const dmb_mesh_node *node)
+{
+    if (node->size == DMB_NODE_FULL) return node->free;
+    return (uint8_t)((node->free >> DMB_X & 1) | (node->free >> DMB_RX & 1) << 1);
+}
+
+static inline uint8_t dmb_prescribed_rows(const dmb_mesh_node *node)
+{
+    if (node->size == DMB_NODE_FULL) return node->prescribed;
+    return (uint8_t)((node->prescribed >> DMB_X & 1) | (node->prescribed >> DMB_RX & 1) << 1);
+}
+
+/* All arrays of a scene whose counts are set and whose arrays have their places. DMB_ERR_TOO_LARGE if the blocks cannot
+ * be counted in 32 bits. */
+int32_t dmb_scene_fill(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage *storage);
 
 #endif

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "model/field_check.h"
-#include "model/mesh_joint.h"
+#include "model/mesh.h"
 
 static uint32_t programme_of(const dmb_mesh *mesh, dmb_id id)
 {

@@ -2,9 +2,8 @@
  */
 #include "base/memory.h"
 #include "math/vec3.h"
-#include "model/reduced_pattern.h"
-#include "model/scene_dense.h"
-#include "model/scene_fill.h"
+#include "model/mesh.h"
+#include "model/scene.h"
 
 /* ---- Counts ------------------------------------------------------------------------------------------------------ */
 

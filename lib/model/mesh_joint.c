@@ -1,4 +1,4 @@
-#include "model/mesh_joint.h"
+#include "model/mesh.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,3 @@
-#include "model/mesh_mass.h"
 
 #include <math.h>
 

@@ -5,12 +5,9 @@
 #include "base/memory.h"
 #include "base/message.h"
 #include "base/vector.h"
-#include "model/create_message.h"
-#include "model/definition_defaults.h"
-#include "model/describe_drive.h"
-#include "model/describe_wall.h"
+#include "model/describe.h"
 #include "model/limits.h"
-#include "model/scene_dense.h"
+#include "model/scene.h"
 
 /* Stamps are never reused within a process (but after 2^32 models), so that an id of another model is recognised. */
 static uint32_t next_stamp(void)
@@ -242,4 +239,29 @@ void dmb_list_release(dmb_list *list, const dmb_allocator *allocator, size_t ite
     dmb_vector_release(&vector, allocator);
     list->items = NULL;
     list->count = list->capacity = 0;
+}
+
+typedef struct create_failure {
+    uint32_t stamp; /* of the model; 0: no failure. No two models of a process have the same */
+    dmb_message message;
+} create_failure;
+
+/* The only memory of the library outside its objects beside the stamp: a slot in the model would be written by one
+ * thread while another one reads it. */
+static _Thread_local create_failure last_failure;
+
+void dmb_create_message_set(const dmb_model *model, const char *text)
+{
+    last_failure.stamp = model->stamp;
+    dmb_message_set(&last_failure.message, "%s", text);
+}
+
+void dmb_create_message_clear(const dmb_model *model)
+{
+    if (last_failure.stamp == model->stamp) last_failure.stamp = 0;
+}
+
+const char *dmb_create_message(const dmb_model *model)
+{
+    return last_failure.stamp == model->stamp ? last_failure.message.text : NULL;
 }

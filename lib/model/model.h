@@ -111,4 +111,13 @@ dmb_id dmb_model_id(const dmb_model *model, uint32_t kind, uint32_t index);
 int32_t dmb_describe_append(dmb_model *model, dmb_list *list, const void *item, size_t item_size, uint32_t kind,
                             dmb_id *id);
 
+/* Why the last dmb_sim_create of a model failed. Threads share a compiled model, which never changes then, so each
+ * thread has the reason of its own last failure. */
+
+/* In the calling thread, until the next create or description of the model there. */
+void dmb_create_message_set(const dmb_model *model, const char *text);
+void dmb_create_message_clear(const dmb_model *model);
+/* NULL: none of this model in this thread. */
+const char *dmb_create_message(const dmb_model *model);
+
 #endif

@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/message.h"
 #include "drillmbd/model.h"
 #include "element/element_type.h"
 #include "force/bit_rock.h"
@@ -310,5 +311,38 @@ static inline int32_t dmb_scene_has_bristles(const dmb_scene *scene)
 {
     return scene->friction_law.kind == DMB_FRICTION_BRISTLE;
 }
+
+/* The scene with dense matrices for all clusters. Modes, responses and buckling are made in independent coordinates, of
+ * which there is a dense matrix R; steps and statics of large clusters do without it. */
+
+/* Places the storage of clusters one after the other, none for sparse ones, and counts it in the scene. False where a
+ * size overflows. */
+int32_t dmb_scene_place_storage(uint32_t count, dmb_cluster *clusters, dmb_scene *scene);
+/* After dmb_scene_link: scene->dense, NULL without sparse clusters and where one is too large. DMB_OK,
+ * DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE. */
+int32_t dmb_scene_make_dense(dmb_scene *scene, const dmb_allocator *allocator);
+/* NULL is fine. */
+void dmb_scene_release_dense(const dmb_scene *dense, const dmb_allocator *allocator);
+
+/* Blocks of the chains that joints connect. */
+
+/* After everything else of the scene is filled: columns and places of the clusters' nodes, jointed chains, blocks,
+ * pattern and links. Does nothing without clusters. Errors: DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE, with no pattern
+ * left. */
+int32_t dmb_scene_link(dmb_scene *scene, const dmb_allocator *allocator);
+
+/* Joints that are bridges: without one of them the parts beyond it hang together with nothing else, neither by joints
+ * nor by the ground. */
+
+/* beyond (shape (constraint_count)): of a bridge the node on the side that the ground is not on, else DMB_NONE. The
+ * equations of couplings and callbacks connect all their nodes and the ground; those of joint drives go with their
+ * joint. Tarjan, A note on finding the bridges of a graph, 1974. Linear. DMB_OK, DMB_ERR_NO_MEMORY. */
+int32_t dmb_scene_bridges(const dmb_scene *scene, const dmb_allocator *allocator, uint32_t *beyond);
+
+/* Rings that were described to meet the wall and cannot: a guide holds them sideways. */
+
+/* Index from `from` on of a body or bit (among bodies, bits behind them) whose ring is held, and what to say of it;
+ * DMB_NONE: none. */
+uint32_t dmb_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text);
 
 #endif

@@ -1,11 +1,10 @@
-#include "model/scene_dense.h"
+#include "model/scene.h"
 
 #include <string.h>
 
 #include "base/checked_size.h"
 #include "base/memory.h"
 #include "model/limits.h"
-#include "model/reduced_pattern.h"
 
 int32_t dmb_scene_place_storage(uint32_t count, dmb_cluster *clusters, dmb_scene *scene)
 {

@@ -4,7 +4,7 @@
 
 #include "element/beam.h"
 #include "element/rigid_mass.h"
-#include "model/mesh_mass.h"
+#include "model/mesh.h"
 #include "model/section.h"
 #include "query/place.h"
 #include "sim/access.h"

@@ -6,7 +6,7 @@
 #include "base/message.h"
 #include "base/sized_struct.h"
 #include "constraint/joint.h"
-#include "model/create_message.h"
+#include "model/model.h"
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "sim/options.h"

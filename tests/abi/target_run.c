@@ -6,8 +6,7 @@
 #include <string.h>
 
 #include "drillmbd/drillmbd.h"
-#include "math/bridge_cholmod.h"
-#include "math/bridge_lapacke.h"
+#include "math/bridge.h"
 
 size_t dmb_eigen_work(size_t n)
 {

@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/linear/dynamic_forces.h"
-#include "analysis/linear/dynamic_links.h"
 #include "base/memory.h"
 
 /* ---- Memory ------------------------------------------------------------------------------------------------------ */

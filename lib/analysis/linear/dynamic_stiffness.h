@@ -5,13 +5,14 @@
  * or of motions that grow too, d ~ e^(p t), p = growth + i w: A(p) = (1 + i eta) K + p C + p^2 M,
  *
  * assembled in complex blocks, factored and solved: block-tridiagonal along a chain, block-sparse in the independent
- * coordinates where joints connect chains (analysis/linear/dynamic_links). Rows that guides hold do not move. Rows that
+ * coordinates where joints connect chains (dynamic_stiffness_links.c). Rows that guides hold do not move. Rows that
  * drives move do so as told: of displacements p that hold all equations of joints, d = p + R z, R^T A R z = -R^T A
  * p. */
 #ifndef DMB_ANALYSIS_LINEAR_DYNAMIC_STIFFNESS_H
 #define DMB_ANALYSIS_LINEAR_DYNAMIC_STIFFNESS_H
 
 #include "analysis/linear/linearise.h"
+#include "base/memory.h"
 #include "math/block_complex.h"
 #include "math/block_kernel.h"
 #include "math/complex_sparse.h"
@@ -77,5 +78,40 @@ static inline dmb_complex_number dmb_dynamic_entry(const dmb_dynamic_stiffness *
     a.im += 2.0 * g * w * mass;
     return a;
 }
+
+/* The part of a dynamic stiffness where joints connect chains: R^T A R in complex blocks, one of each cluster of joints
+ * and one of each other node, factored in the order of the scene's pattern. Its cost grows with the number of blocks,
+ * and with the cube of the coordinates of one cluster. */
+
+/* Sizes to begin with: `count`, the widest block, the most rows of constraint of a cluster. */
+typedef struct dmb_links_size {
+    uint32_t count, widest, rows;
+} dmb_links_size;
+
+dmb_links_size dmb_dynamic_links_size(const dmb_linear *linear);
+void dmb_dynamic_links_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_links_size size, dmb_dynamic_links *out);
+/* Numbers the coordinates; `size` as laid out with. */
+void dmb_dynamic_links_number(const dmb_linear *linear, dmb_links_size size, dmb_dynamic_links *out);
+/* From the blocks of A. A node that nothing holds, or -1. */
+int64_t dmb_dynamic_links_factor(dmb_dynamic_stiffness *stiffness);
+/* Rows of jointed chains of x: forces in, displacements out. */
+void dmb_dynamic_links_solve(dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
+
+/* Forces that a motion at one frequency takes: products with the dynamic stiffness A as the scene has it, rows that are
+ * held included, and the forces of constraint that balance them,
+ *
+ *     A x + B^T multiplier = f
+ *
+ * in the dependent rows of each cluster of joints. The residual in rows that are held is the force of their guides. */
+
+/* y -= A p in the rows that are solved. */
+void dmb_dynamic_subtract(const dmb_dynamic_stiffness *stiffness, dmb_complex_array p, dmb_complex_array y);
+/* Row of component c of a node of A x. */
+dmb_complex_number dmb_dynamic_row(const dmb_dynamic_stiffness *stiffness, uint32_t node, uint32_t c,
+                                   dmb_complex_array x);
+/* Multipliers of the rows of cluster k, of least norm where some are redundant, shape (rows of the cluster). x, f:
+ * shape (rows). */
+void dmb_dynamic_multipliers(const dmb_dynamic_stiffness *stiffness, uint32_t k, dmb_complex_array x,
+                             dmb_complex_array f, dmb_complex_array multipliers);
 
 #endif

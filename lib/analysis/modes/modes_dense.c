@@ -1,12 +1,12 @@
 /* All modes of R^T M R z'' + R^T C R z' + R^T K R z = 0 by LAPACK: K X = M X diag(square) for the symmetric part of K,
  * and where damping or an unsymmetric K couples these modes, their own equations (modes_coupled). */
-#include "analysis/modes/modes_dense.h"
+#include "analysis/modes/modes.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "math/bridge_lapacke.h"
+#include "math/bridge.h"
 #include "math/dense.h"
 #include "sim/access.h"
 

@@ -13,7 +13,7 @@
 #include "analysis/linear/dynamic_stiffness.h"
 #include "analysis/modes/modes.h"
 #include "base/memory.h"
-#include "math/bridge_lapacke.h"
+#include "math/bridge.h"
 #include "math/dense.h"
 #include "math/krylov.h"
 #include "sim/access.h"

@@ -4,10 +4,6 @@
 #include <string.h>
 
 #include "analysis/linear/dynamic_stiffness.h"
-#include "analysis/response/excitation.h"
-#include "analysis/response/response_options.h"
-#include "analysis/response/response_output.h"
-#include "analysis/response/response_peaks.h"
 #include "base/handle.h"
 #include "base/memory.h"
 #include "base/value_check.h"

@@ -2,7 +2,11 @@
 #ifndef DMB_ANALYSIS_RESPONSE_RESPONSE_H
 #define DMB_ANALYSIS_RESPONSE_RESPONSE_H
 
+#include "analysis/linear/dynamic_stiffness.h"
+#include "analysis/linear/functional.h"
+#include "base/message.h"
 #include "drillmbd/response.h"
+#include "sim/sim.h"
 
 struct dmb_response {
     uint32_t magic;
@@ -33,5 +37,80 @@ static inline double *dmb_response_value(const dmb_response *response, size_t po
 {
     return response->value + 2 * response->outputs * (response->inputs * point + input);
 }
+
+/* Options of a frequency response, checked. */
+
+enum { DMB_RESPONSE_INPUTS_MAX = 1024, DMB_STEPPED_SINE_HARMONICS_MAX = 16 };
+
+/* Defaults overlaid with what is given (may be NULL); on refusal a message naming the field. */
+int32_t dmb_response_options_take(const dmb_response_options *given, dmb_message *message, dmb_response_options *out);
+/* Struct number i of the caller's array, whose items are as far apart as the first one says; its fields checked as far
+ * as that needs no scene. */
+int32_t dmb_input_take(const dmb_input *inputs, uint32_t i, dmb_message *message, dmb_input *out);
+int32_t dmb_output_take(const dmb_output *outputs, uint32_t i, dmb_message *message, dmb_output *out);
+/* Likewise of a stepped sine, at a frequency that is checked too. */
+int32_t dmb_stepped_sine_options_take(const dmb_stepped_sine_options *given, double frequency, dmb_message *message,
+                                      dmb_stepped_sine_options *out);
+/* Frequency number i [Hz] of the grid. */
+double dmb_response_grid(const dmb_response_options *options, uint32_t i);
+
+/* More points where transfer functions have peaks. */
+
+/* Puts a point into the middle of every interval beside a peak of the magnitude of a transfer function. *fresh, shape
+ * (points), 1 where the point is new and only its frequency is written; the caller gives it back with dmb_release, NULL
+ * where there is nothing new. DMB_OK or DMB_ERR_NO_MEMORY. */
+int32_t dmb_response_split_peaks(dmb_response *response, uint8_t **fresh);
+
+/* Excitation of a scene in a frequency response: the rows of force of a unit of an input, and how they go with
+ * frequency. */
+
+enum {
+    DMB_EXCITE_FORCE = 0,   /* f(w) = rows */
+    DMB_EXCITE_INERTIA = 1, /* f(w) = w^2 rows */
+    DMB_EXCITE_CONTROL = 2, /* f(w) = (gain + integral_gain/(i w)) rows */
+    DMB_EXCITE_MOTION = 3 /* rows are displacements that move the coordinate of a drive by one and hold all equations of
+                             joints; its speed is the input: they are rows/(i w) */
+};
+
+typedef struct dmb_excitation {
+    int32_t law;    /* DMB_EXCITE_... */
+    uint32_t drive; /* that is the input; DMB_NONE: none is */
+    double gain, integral_gain;
+    double *re, *im; /* forces on all rows, those that guides hold included, or displacements, shape (row_count); the
+                        caller's memory, zeros to begin with */
+} dmb_excitation;
+
+/* Fills the excitation of input number `index`, already checked to be one of its kind. copy: a sim of the state; its
+ * trial and work are written. message: why not. Errors: DMB_ERR_ID, _VALUE, _NOT_FINITE, _UNSUPPORTED; those of
+ * dmb_system_evaluate. */
+int32_t dmb_excitation_of(dmb_sim *copy, const dmb_input *input, uint32_t index, dmb_message *message,
+                          dmb_excitation *out);
+
+/* An output of a frequency response: what a query would answer, as a linear function of the motion and of the forces it
+ * takes. */
+
+typedef struct dmb_response_output {
+    dmb_functional functional;
+    int32_t rate;        /* times (i w)^rate */
+    int32_t elastic;     /* 1: the part by pose is of the stiffness and has its structural damping */
+    uint32_t cluster;    /* whose forces of constraint count; DMB_NONE: none do */
+    uint32_t multiplier; /* first of them in the rows of the cluster */
+    uint32_t multiplier_count;
+    uint32_t guide_count; /* rows that are held and whose forces count */
+    double multiplier_weight[6];
+    uint32_t guide[6]; /* which of held_node, held_component */
+    double guide_weight[6];
+    uint32_t drive;          /* that acts by itself where it is the input; DMB_NONE: none */
+    double direct, integral; /* what it adds there: direct + integral/(i w) */
+} dmb_response_output;
+
+/* Output number `index`, already checked to be one of its kind. options: of the response. message: why not. Errors:
+ * those of the queries, DMB_ERR_UNSUPPORTED. */
+int32_t dmb_response_output_of(dmb_linear *linear, const dmb_response_options *options, const dmb_output *output,
+                               uint32_t index, dmb_message *message, dmb_response_output *out);
+
+/* The output for displacements x that forces f of the input (0 where displacements are told) lead to, shapes (rows). */
+dmb_complex_number dmb_response_output_value(const dmb_dynamic_stiffness *stiffness, const dmb_response_output *output,
+                                             const dmb_excitation *input, dmb_complex_array x, dmb_complex_array f);
 
 #endif

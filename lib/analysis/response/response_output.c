@@ -4,12 +4,12 @@
  *
  * Forces of guides are the rows of A x - f that are not solved, those of constraints what balances the dependent rows.
  */
-#include "analysis/response/response_output.h"
+#include "analysis/response/response.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "analysis/linear/dynamic_forces.h"
+#include "analysis/linear/dynamic_stiffness.h"
 #include "analysis/linear/functional.h"
 #include "sim/node.h"
 #include "system/assemble/bit.h"

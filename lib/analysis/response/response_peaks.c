@@ -1,4 +1,4 @@
-#include "analysis/response/response_peaks.h"
+#include "analysis/response/response.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "analysis/response/response.h"
-#include "analysis/response/response_options.h"
 #include "base/handle.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "analysis/linear/functional.h"
-#include "analysis/response/response_options.h"
+#include "analysis/response/response.h"
 #include "base/handle.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"

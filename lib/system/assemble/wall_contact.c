@@ -179,12 +179,11 @@ void dmb_finished_friction(const dmb_friction_law *law, const double *bristle, i
 {
     const double N = out->normal_force, *slip = out->slip;
     double z[2], dv[4], dN[2];
-    int32_t unused;
     out->friction[0] = out->friction[1] = 0.0;
     out->sticks = sticks;
     if (law->kind == DMB_FRICTION_NONE) return;
     if (law->kind == DMB_FRICTION_BRISTLE)
-        dmb_friction_bristle(law, N, slip, bristle, slip, sticks, 0.0, z, out->friction, dv, dN, &unused);
+        (void)dmb_friction_bristle(law, N, slip, bristle, slip, sticks != 0, 0.0, z, out->friction, dv, dN);
     else
         dmb_friction_smooth(law, N, slip, out->friction, dv, dN);
 }
@@ -317,9 +316,9 @@ static void friction(const dmb_evaluation *evaluation, uint32_t p, double N, con
         const dmb_friction_law sliding = dmb_sliding_law(law);
         dmb_friction_smooth(&sliding, N, v, F, dv, dN);
     } else if (law->kind == DMB_FRICTION_BRISTLE && evaluation->dynamic) {
-        dmb_friction_bristle(law, N, v, sim->now.path_bristle + 2 * p, sim->now.path_slip + 2 * p,
-                             sim->now.path_sticks[p], evaluation->step, sim->trial.path_bristle + 2 * p, F, dv, dN,
-                             &sim->trial.path_sticks[p]);
+        sim->trial.path_sticks[p] =
+            dmb_friction_bristle(law, N, v, sim->now.path_bristle + 2 * p, sim->now.path_slip + 2 * p,
+                                 sim->now.path_sticks[p], evaluation->step, sim->trial.path_bristle + 2 * p, F, dv, dN);
     } else {
         dmb_friction_smooth(law, N, v, F, dv, dN);
     }

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "math/bridge_lapacke.h"
+#include "math/bridge.h"
 #include "sim/access.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "check.h"
-#include "math/bridge_lapacke.h"
+#include "math/bridge.h"
 
 /* dsyevd: 1 + 6n + 2n^2 doubles and 3 + 5n integers, which stand in doubles here. */
 static void work_fits_32_bits(void **state)

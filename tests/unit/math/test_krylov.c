@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
-#include "math/bridge_lapacke.h"
+#include "math/bridge.h"
 #include "math/krylov.h"
 
 enum { N = 200 };

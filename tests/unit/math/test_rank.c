@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "constraint/partition.h"
-#include "math/bridge_lapacke.h"
+#include "math/bridge.h"
 
 enum { MAX = 40 };
 

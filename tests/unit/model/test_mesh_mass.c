@@ -1,6 +1,6 @@
 #include "model_test.h"
 
-#include "model/mesh_mass.h"
+#include "model/mesh.h"
 
 /* Total weight and its first moment about the rig end: sum over nodes of m x + b_x. */
 static void weights(const dmb_scene *scene, double *mass, double *moment)

@@ -1,11 +1,13 @@
 /* All calls of LAPACK, for analyses: no step calls this. Dense eigenproblems, and the rank of a set of equations.
  * Matrices are column by column without gaps; all work is the caller's. Each returns 0, or what LAPACK says of a
  * failure. */
-#ifndef DMB_MATH_BRIDGE_LAPACKE_H
-#define DMB_MATH_BRIDGE_LAPACKE_H
+#ifndef DMB_MATH_BRIDGE_H
+#define DMB_MATH_BRIDGE_H
 
 #include <stddef.h>
 #include <stdint.h>
+
+#include "drillmbd/base.h"
 
 /* Most rows: LAPACK counts its work in integers of 32 bits. */
 enum { DMB_EIGEN_MAX = 32766 };
@@ -49,5 +51,18 @@ size_t dmb_rank_work(uint32_t rows, uint32_t columns);
  * order: shape (rows): the first `rank` rows are independent, the rest redundant, in the order of pivoting. */
 void dmb_rank_of_rows(const double *B, uint32_t rows, uint32_t columns, const double *weight, double tolerance,
                       double *work, int32_t *order, dmb_rank *out);
+
+/* Fill-reducing order of elimination of a graph, by the symbolic analysis of CHOLMOD: approximate
+ * minimum degree (AMD), then a postorder of the elimination tree, which keeps chains together in memory.
+ *
+ * Meant for the compile step only: CHOLMOD takes its memory from malloc, not from the caller's allocator, and gives all
+ * of it back before the call returns. It is told to print nothing and to use AMD alone: its other candidate, METIS,
+ * calls srand and catches signals, both of which belong to the host, and draws from rand, which another thread may be
+ * using as well. */
+
+/* The neighbours of node i are neighbour[start[i]] .. neighbour[start[i+1] - 1], without i itself and without
+ * repetition; every edge is listed at both its ends. order (n) receives the node to be eliminated first, second, and so
+ * on. Same graph, same order. n < 2^31. DMB_OK, or DMB_ERR_NO_MEMORY with order undefined. */
+int32_t dmb_fill_reducing_order(uint32_t n, const int32_t *start, const int32_t *neighbour, uint32_t *order);
 
 #endif

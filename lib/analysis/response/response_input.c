@@ -1,7 +1,7 @@
 /* Rows of force of each kind of input. A force at a place is the transpose of the motion there (virtual work), so that
  * receptances are reciprocal to rounding; what the scene describes acts by the difference its factor makes to the
  * residual, which is linear in it. */
-#include "analysis/response/excitation.h"
+#include "analysis/response/response.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "model/reduced_pattern.h"
+#include "model/scene.h"
 
 #include <string.h>
 

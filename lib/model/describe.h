@@ -1,9 +1,11 @@
-/* Reading and writing of the structs of model.h; their T_init stand in definition_defaults.c. */
-#ifndef DMB_MODEL_DEFINITION_DEFAULTS_H
-#define DMB_MODEL_DEFINITION_DEFAULTS_H
+/* The calls that add parts to a model share: reading and writing of the structs of drillmbd/model.h, whose T_init stand
+ * in describe_defaults.c, and the release of what the model has copied. */
+#ifndef DMB_MODEL_DESCRIBE_H
+#define DMB_MODEL_DESCRIBE_H
 
 #include "base/sized_struct.h"
 #include "drillmbd/model.h"
+#include "model/model.h"
 
 DMB_DECLARE_STRUCT(dmb_model_options)
 DMB_DECLARE_STRUCT(dmb_environment_def)
@@ -20,5 +22,11 @@ DMB_DECLARE_STRUCT(dmb_drive_def)
 DMB_DECLARE_STRUCT(dmb_load_def)
 DMB_DECLARE_STRUCT(dmb_compile_options)
 DMB_DECLARE_STRUCT(dmb_model_info)
+
+/* Frees a programme's copy of terms and tables. */
+void dmb_programme_release(dmb_programme *programme, const dmb_allocator *allocator);
+
+/* Frees the wall's copy of the survey. */
+void dmb_wall_release(dmb_wall_def *wall, const dmb_allocator *allocator);
 
 #endif

@@ -1,4 +1,4 @@
-#include "model/scene_fill.h"
+#include "model/mesh.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "analysis/linear/dynamic_links.h"
+#include "analysis/linear/dynamic_stiffness.h"
 
 #include <math.h>
 #include <string.h>

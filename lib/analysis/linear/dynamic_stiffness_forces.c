@@ -1,4 +1,4 @@
-#include "analysis/linear/dynamic_forces.h"
+#include "analysis/linear/dynamic_stiffness.h"
 
 #include <string.h>
 

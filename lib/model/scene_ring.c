@@ -1,4 +1,4 @@
-#include "model/held_ring.h"
+#include "model/scene.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,5 +1,5 @@
 /* Defaults of the structs of model.h, as documented there. The number is the struct's size in its first release. */
-#include "model/definition_defaults.h"
+#include "model/describe.h"
 
 /* clang-format off */
 DMB_DEFINE_INIT(dmb_model_options, 32, {.log = NULL})
