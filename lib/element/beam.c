@@ -1,5 +1,7 @@
 #include "element/beam.h"
 
+#include "element/beam_inertia.h"
+
 static dmb_beam_constants constants_of(const dmb_element_type *type)
 {
     dmb_beam_constants c;

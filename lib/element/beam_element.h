@@ -3,6 +3,7 @@
 #ifndef DMB_ELEMENT_BEAM_ELEMENT_H
 #define DMB_ELEMENT_BEAM_ELEMENT_H
 
+#include "element/beam_inertia.h"
 #include "element/beam_math.h"
 
 /* Quantities wanted of elements, the same for all lanes. */

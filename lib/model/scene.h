@@ -306,6 +306,12 @@ static inline const dmb_scene *dmb_dense_scene(const dmb_scene *scene)
     return scene->dense != NULL ? scene->dense : scene;
 }
 
+/* Global row of number i of what is held. */
+static inline uint32_t dmb_held_row(const dmb_scene *scene, uint32_t i)
+{
+    return scene->layout.row[scene->held_node[i]] + scene->held_component[i];
+}
+
 /* True if places of contact keep bristles from step to step. */
 static inline int32_t dmb_scene_has_bristles(const dmb_scene *scene)
 {

@@ -61,11 +61,6 @@ static int is_next_to(const dmb_scene *scene, uint32_t i, uint32_t node)
     return held <= node + 1 && node <= held + 1;
 }
 
-static uint32_t row_of_held(const dmb_scene *scene, uint32_t i)
-{
-    return scene->layout.row[scene->held_node[i]] + scene->held_component[i];
-}
-
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
 /* y -= A_.c p_c in the rows of the node and the nodes next to it. */
@@ -87,7 +82,7 @@ static void subtract_held_column(const dmb_dynamic_stiffness *s, uint32_t h, dmb
     const uint32_t first = node > 0 ? node - 1 : node, last = node + 1 < layout->n ? node + 1 : node;
     for (uint32_t i = first; i <= last; i++)
         for (uint32_t r = 0; r < layout->size[i]; r++)
-            subtract(entry_of_held(s, s->linear->held_columns, h, i, r), p, row_of_held(scene, h), y,
+            subtract(entry_of_held(s, s->linear->held_columns, h, i, r), p, dmb_held_row(scene, h), y,
                      layout->row[i] + r);
 }
 
@@ -114,7 +109,7 @@ void dmb_dynamic_subtract(const dmb_dynamic_stiffness *s, dmb_complex_array p, d
             if (scene->solved_row[row] && moves(p, row)) subtract_column(s, i, c, p, y);
         }
     for (uint32_t h = 0; h < scene->held_count; h++)
-        if (moves(p, row_of_held(scene, h))) subtract_held_column(s, h, p, y);
+        if (moves(p, dmb_held_row(scene, h))) subtract_held_column(s, h, p, y);
     for (uint32_t i = 0; i < scene->constraint_count; i++) {
         const dmb_constraint *c = scene->constraints + i;
         for (uint32_t a = 0; a < c->node_count; a++)
@@ -148,8 +143,8 @@ static dmb_complex_number chain_row(const dmb_dynamic_stiffness *s, uint32_t nod
                 x, layout->row[j] + q, &sum);
         }
     for (uint32_t h = 0; h < scene->held_count; h++)
-        if (is_next_to(scene, h, node) && moves(x, row_of_held(scene, h)))
-            add(entry_of_held(s, s->linear->held_columns, h, node, c), x, row_of_held(scene, h), &sum);
+        if (is_next_to(scene, h, node) && moves(x, dmb_held_row(scene, h)))
+            add(entry_of_held(s, s->linear->held_columns, h, node, c), x, dmb_held_row(scene, h), &sum);
     return sum;
 }
 

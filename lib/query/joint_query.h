@@ -1,6 +1,6 @@
 /* Counts of the rows of a constraint at the accepted state. */
-#ifndef DMB_QUERY_REACTION_H
-#define DMB_QUERY_REACTION_H
+#ifndef DMB_QUERY_JOINT_QUERY_H
+#define DMB_QUERY_JOINT_QUERY_H
 
 #include "sim/sim.h"
 

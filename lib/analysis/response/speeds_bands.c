@@ -1,0 +1,131 @@
+/* Severity over speed, straight between the points of the curves, and the bands in which their sum is above a
+ * threshold. */
+#include "analysis/response/speeds.h"
+
+#include <math.h>
+
+#include "math/real.h"
+
+/* Last point at or below the speed, but for the last of all. */
+static uint32_t place_of(const dmb_speeds_curve *curve, double speed)
+{
+    uint32_t low = 0, high = curve->count - 1;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (curve->speed[middle] <= speed)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static double value_at(const dmb_speeds_curve *curve, double speed, uint32_t *output)
+{
+    const uint32_t i = place_of(curve, speed);
+    const double width = curve->speed[i + 1] - curve->speed[i];
+    const double x = fmin(fmax((speed - curve->speed[i]) / width, 0.0), 1.0);
+    *output = curve->output[x < 0.5 ? i : i + 1];
+    return (1.0 - x) * curve->severity[i] + x * curve->severity[i + 1];
+}
+
+double dmb_speeds_sum(const dmb_speeds_curve *curves, uint32_t count, double speed, uint32_t *order, uint32_t *output)
+{
+    double sum = 0.0, most = -1.0;
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t worst;
+        const double value = value_at(curves + k, speed, &worst);
+        sum += value;
+        if (!(value > most)) continue;
+        most = value;
+        *order = k;
+        *output = worst;
+    }
+    return sum;
+}
+
+enum { DMB_CUT_LOW = 1, DMB_CUT_HIGH = 2 }; /* of dmb_speed_band.cut */
+
+/* ---- Bands ------------------------------------------------------------------------------------------------------- */
+
+typedef struct search {
+    const dmb_speeds_curve *curves;
+    const dmb_speeds_options *options;
+    dmb_speed_band *bands;
+    dmb_speed_band open; /* the one that is being followed */
+    uint32_t count, room;
+    int32_t is_open;
+} search;
+
+static void begin_band(search *s, double speed)
+{
+    s->open = dmb_speed_band_default();
+    s->open.low = fmax(speed * (1.0 - s->options->margin), s->options->speed_low);
+    s->is_open = 1;
+}
+
+static void visit(search *s, double speed, double severity, uint32_t order, uint32_t output)
+{
+    if (!(severity > s->open.severity)) return;
+    s->open.severity = severity;
+    s->open.speed = speed;
+    s->open.order = order;
+    s->open.output = output;
+    s->open.frequency = s->curves[order].order * speed / DMB_TWO_PI;
+}
+
+/* A band that reaches into the one before goes on in it. */
+static void end_band(search *s, double speed)
+{
+    s->open.high = fmin(speed * (1.0 + s->options->margin), s->options->speed_high);
+    s->is_open = 0;
+    dmb_speed_band *before = s->count > 0 && s->count <= s->room ? s->bands + s->count - 1 : NULL;
+    if (before != NULL && before->high >= s->open.low) {
+        const double low = before->low;
+        const int32_t cut = before->cut | s->open.cut;
+        if (s->open.severity > before->severity) {
+            *before = s->open;
+            before->low = low;
+        }
+        before->cut = cut;
+        before->high = fmax(before->high, s->open.high);
+        return;
+    }
+    if (s->count < s->room) s->bands[s->count] = s->open;
+    s->count++;
+}
+
+/* Where the straight line between two speeds meets the threshold. */
+static double crossing(const search *s, double a, double at_a, double b, double at_b)
+{
+    return a + (b - a) * (s->options->threshold - at_a) / (at_b - at_a);
+}
+
+uint32_t dmb_speeds_bands(const dmb_speeds_curve *curves, uint32_t count, const dmb_speeds_options *options,
+                          const double *speeds, uint32_t points, dmb_speed_band *bands, uint32_t room, int32_t *cut)
+{
+    search s = {.curves = curves, .options = options, .bands = bands, .room = room};
+    double last = 0.0;
+    *cut = 0;
+    for (uint32_t i = 0; i < points; i++) {
+        uint32_t order = 0, output = 0;
+        const double severity = dmb_speeds_sum(curves, count, speeds[i], &order, &output);
+        const int32_t above = severity > options->threshold;
+        if (above && !s.is_open) {
+            begin_band(&s, i == 0 ? speeds[0] : crossing(&s, speeds[i - 1], last, speeds[i], severity));
+            s.open.cut = i == 0 ? DMB_CUT_LOW : 0;
+            *cut |= s.open.cut;
+        }
+        if (above) visit(&s, speeds[i], severity, order, output);
+        if (!above && s.is_open) end_band(&s, crossing(&s, speeds[i - 1], last, speeds[i], severity));
+        last = severity;
+    }
+    if (s.is_open) {
+        s.open.cut |= DMB_CUT_HIGH;
+        *cut |= DMB_CUT_HIGH;
+        end_band(&s, speeds[points - 1]);
+    }
+    return s.count;
+}
+
+/* Safe speeds: the frequency response at each order of the rotary speed, held against limits. */

@@ -1,0 +1,153 @@
+/* Joint coordinates, what a joint holds, and what it carries. */
+#include "query/joint_query.h"
+
+#include "element/beam.h"
+#include "math/mat6.h"
+#include "query/place.h"
+#include "sim/access.h"
+#include "sim/node.h"
+#include "system/constrain/constraint_rows.h"
+
+DMB_DECLARE_STRUCT(dmb_joint_state)
+
+/* V' of frame b relative to frame a. */
+static void relative_acceleration(const dmb_sim *sim, uint32_t j, const dmb_relative *relative, double out[6])
+{
+    const dmb_scene_joint *joint = sim->scene->joints + j;
+    double a[6];
+    dmb_vec6_copy(relative->convective, out);
+    dmb_node_vector(sim->scene, &sim->now, joint->b.node, sim->now.acceleration, a);
+    for (int i = 0; i < 6; i++) out[i] += dmb_vec6_dot(relative->to_b + 6 * i, a);
+    if (joint->a.node == DMB_NONE) return;
+    dmb_node_vector(sim->scene, &sim->now, joint->a.node, sim->now.acceleration, a);
+    for (int i = 0; i < 6; i++) out[i] += dmb_vec6_dot(relative->to_a + 6 * i, a);
+}
+
+static void coordinates(const dmb_sim *sim, uint32_t j, const dmb_relative *relative, const dmb_joint_coordinates *c,
+                        dmb_joint_state *answer)
+{
+    double acceleration[6];
+    relative_acceleration(sim, j, relative, acceleration);
+    for (int i = 0; i < 6; i++) {
+        answer->position[i] = c->value[i];
+        answer->speed[i] = dmb_vec6_dot(c->J[i], relative->V);
+        answer->acceleration[i] = dmb_vec6_dot(c->JV[i], relative->V) + dmb_vec6_dot(c->J[i], acceleration);
+    }
+}
+
+static void actions(const dmb_sim *sim, uint32_t j, dmb_joint_state *answer)
+{
+    const dmb_scene_joint *joint = sim->scene->joints + j;
+    for (uint32_t i = 0; i < 6; i++) {
+        dmb_joint_force law;
+        if (joint->law == DMB_NONE || (joint->law_mask >> i & 1) == 0) continue;
+        if (sim->joint_state[j] == DMB_JOINT_OPEN) continue;
+        dmb_joint_force_at(sim->scene->laws + joint->law + i, answer->position[i], answer->speed[i], &law);
+        answer->action[i] = law.force;
+    }
+}
+
+/* -J^T f, in frame b or turned into the world. */
+static void reaction(const dmb_sim *sim, uint32_t j, const dmb_joint_rows *rows, const double world[9],
+                     dmb_joint_state *answer)
+{
+    const double *f = sim->now.multiplier + sim->scene->constraints[sim->scene->joints[j].constraint].row;
+    for (uint32_t k = 0; k < rows->count; k++)
+        for (int i = 0; i < 6; i++) answer->reaction[i] -= f[k] * rows->J[k][i];
+    if (answer->frame == DMB_FRAME_BODY) return;
+    dmb_mat3_vec(world, answer->reaction, answer->reaction);
+    dmb_mat3_vec(world, answer->reaction + 3, answer->reaction + 3);
+}
+
+static void frame_b(const dmb_sim *sim, uint32_t j, double world[9])
+{
+    double R[9], u[3];
+    dmb_node_pose(sim->scene, &sim->now, sim->scene->joints[j].b.node, R, u);
+    dmb_mat3_mul(R, sim->scene->joints[j].b.M, world);
+}
+
+int32_t dmb_query_joint(const dmb_sim *sim, dmb_id joint, dmb_joint_state *state)
+{
+    int32_t status = dmb_ask(sim, state);
+    dmb_joint_state asked, answer = {0};
+    dmb_relative relative;
+    dmb_joint_coordinates c;
+    dmb_joint_rows rows;
+    double world[9];
+    if (status == DMB_OK) status = dmb_joint_state_read(&asked, state);
+    if (status < 0) return status;
+    if (asked.frame != DMB_FRAME_WORLD && asked.frame != DMB_FRAME_BODY) return DMB_ERR_VALUE;
+    const uint32_t j = dmb_model_part_index(sim->model, joint, DMB_PART_JOINT);
+    if (j >= sim->scene->joint_count) return DMB_ERR_ID;
+    answer.frame = asked.frame;
+    answer.state = sim->joint_state[j];
+    dmb_joint_motion_of(sim->scene, &sim->now, j, &relative, NULL);
+    dmb_joint_coordinates_at(relative.R, relative.p, relative.V, sim->now.joint_turn + 2 * j, &c);
+    dmb_joint_rows_now(sim, j, &relative, &rows);
+    coordinates(sim, j, &relative, &c, &answer);
+    actions(sim, j, &answer);
+    frame_b(sim, j, world);
+    reaction(sim, j, &rows, world, &answer);
+    answer.constraint_rows = rows.count;
+    answer.redundant = dmb_constraint_redundant(sim, sim->scene->joints[j].constraint);
+    answer.violation = dmb_joint_violation(sim, j);
+    return dmb_joint_state_write(state, &answer);
+}
+
+int32_t dmb_query_multipliers(const dmb_sim *sim, dmb_id part, double multipliers[6], uint32_t *count)
+{
+    const int32_t status = dmb_ask(sim, multipliers);
+    if (status < 0) return status;
+    if (count == NULL) return DMB_ERR_NULL;
+    const uint32_t i = dmb_constraint_of_part(sim, part);
+    if (i == DMB_NONE) return DMB_ERR_ID;
+    *count = dmb_constraint_active(sim, i);
+    for (uint32_t k = 0; k < *count; k++) multipliers[k] = sim->now.multiplier[sim->scene->constraints[i].row + k];
+    return DMB_OK;
+}
+
+static uint32_t joint_rows(const dmb_sim *sim, uint32_t j)
+{
+    if (sim->joint_state[j] == DMB_JOINT_OPEN) return 0;
+    if (sim->joint_state[j] == DMB_JOINT_LOCKED) return DMB_ROWS_MAX;
+    return dmb_joint_row_count(sim->scene->joints[j].kind);
+}
+
+uint32_t dmb_constraint_active(const dmb_sim *sim, uint32_t constraint)
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_constraint *c = scene->constraints + constraint;
+    const dmb_scene_coupling *coupling = scene->couplings + c->index;
+    switch (c->kind) {
+    case DMB_OF_JOINT: return joint_rows(sim, c->index);
+    case DMB_OF_COUPLING:
+        return sim->joint_state[coupling->joint[0]] != DMB_JOINT_OPEN &&
+               sim->joint_state[coupling->joint[1]] != DMB_JOINT_OPEN;
+    case DMB_OF_DRIVE: return sim->joint_state[scene->drives[c->index].joint] != DMB_JOINT_OPEN;
+    default: return scene->callbacks[c->index].rows;
+    }
+}
+
+uint32_t dmb_constraint_redundant(const dmb_sim *sim, uint32_t constraint)
+{
+    const dmb_constraint *c = sim->scene->constraints + constraint;
+    const dmb_cluster *cluster = sim->scene->clusters + c->cluster;
+    const uint32_t *order = sim->partition_row + cluster->row, first = c->row - cluster->row;
+    const uint32_t active = dmb_constraint_active(sim, constraint);
+    uint32_t count = 0;
+    for (uint32_t i = sim->partition_rank[c->cluster]; i < cluster->rows; i++)
+        count += order[i] >= first && order[i] < first + active;
+    return count;
+}
+
+double dmb_joint_violation(const dmb_sim *sim, uint32_t j)
+{
+    dmb_relative relative;
+    dmb_joint_rows rows;
+    double most = 0.0;
+    dmb_joint_motion_of(sim->scene, &sim->now, j, &relative, NULL);
+    dmb_joint_rows_now(sim, j, &relative, &rows);
+    for (uint32_t k = 0; k < rows.count; k++)
+        if (rows.holonomic >> k & 1) most = fmax(most, fabs(rows.value[k]));
+    return most;
+}
