@@ -2,7 +2,7 @@
  * symmetry and definiteness, what the wall and friction do to it, and its prediction against a run in time. */
 #include <string.h>
 
-#include "../system/stirred_rig.h"
+#include "../../system/stirred_rig.h"
 #include "mechanism.h"
 
 #include "analysis/linear/linearise.h"
