@@ -563,6 +563,16 @@ public:
         answer.bands.resize(room);
         return answer;
     }
+    // Rows of every depth and operation, operation by operation within each depth.
+    std::vector<dmb_torque_drag_row> torque_drag(const std::vector<dmb_operation> &operations,
+                                                 const dmb_torque_drag_options *options = nullptr)
+    {
+        const std::size_t depths = options != nullptr && options->depths != nullptr ? options->depth_count : 1;
+        std::vector<dmb_torque_drag_row> rows(depths * operations.size(), dmb_torque_drag_row_default());
+        done(dmb_analysis_torque_drag(handle_, options, operations.data(),
+                                      static_cast<std::uint32_t>(operations.size()), rows.data()));
+        return rows;
+    }
     drillmbd::modes modes(const dmb_modes_options *options = nullptr)
     {
         dmb_modes *found = nullptr;

@@ -23,6 +23,7 @@ ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "TERM_C
               "PATH_REGULAR": "PathKind", "CONTACT_AS_IS": "ContactState", "MODES_UNDAMPED": "ModesKind",
               "MODES_LOWEST": "ModesSelect",
               "MODES_AXES_TURNING": "ModesAxes", "MODES_AXES_TURNING": "ModesAxes",
+              "OPERATION_PICK_UP": "OperationKind", "MEASURED_HOOK_LOAD": "Measured",
               "PROFILE_DISTANCE": "ProfileQuantity", "HOLE_ABOVE": "HoleBeyond",
               "STATIC_NEWTON": "StaticMethod", "METHOD_INDEPENDENT": "ConstraintMethod",
               "BUCKLING_EXTRAPOLATED": "BucklingEnd", "SCALE_ALL": "Scale"}

@@ -309,6 +309,23 @@ class ArraysTest(unittest.TestCase):
         self.assertAlmostEqual(self.model.hole(5.0).diameter, 0.094)
         self.assertEqual(self.model.hole(5.0).dogleg_severity, 0.0)
 
+    def test_torque_drag(self):
+        found = self.sim.torque_drag([mbd.OPERATION_PICK_UP, mbd.usual_operation(mbd.OPERATION_DRILL, weight_on_bit=1e3)],
+                                     [5.0, 10.0], friction=0.25)
+        self.assertEqual([len(row) for row in found.rows], [2, 2])
+        self.assertEqual([mbd.operation_name(kind) for kind in range(6)],
+                         ["pick-up", "slack-off", "rotate", "drill", "slide", "back-ream"])
+        self.assertAlmostEqual(found.column("hook_load")[1], 2.0 * found.column("hook_load")[0])
+        self.assertAlmostEqual(self.sim.friction_factor(mbd.OPERATION_PICK_UP, hook_load=found.column("hook_load")[1]), 0.25)
+        along = self.sim.torque_drag_profile(mbd.OPERATION_PICK_UP, 11, friction=0.25)
+        self.assertAlmostEqual(along["axial_force"][0], found.column("hook_load")[1])
+        self.assertAlmostEqual(along["depth"][5], 5.0)
+        with self.assertRaises(mbd.Error) as raised:
+            self.sim.torque_drag(depths=[11.0])
+        self.assertIn("depth", str(raised.exception))
+        with self.assertRaises(ValueError):
+            self.sim.friction_factor(mbd.OPERATION_PICK_UP)
+
     @there("numpy")
     def test_shapes(self):
         modes = self.sim.modes(count=6, contact=mbd.CONTACT_OPEN)

@@ -34,8 +34,7 @@ void dmb_block_signed_clear(const dmb_block_pattern *pattern, const dmb_block_si
     }
 }
 
-/* ---- One block
- * ---------------------------------------------------------------------------------------------------- */
+/* ---- One block --------------------------------------------------------------------------------------------------- */
 
 /* A block in the making. */
 typedef struct front {
@@ -161,8 +160,7 @@ static front front_at(const dmb_block_pattern *pattern, const dmb_block_signed *
     return f;
 }
 
-/* ---- All
- * ---------------------------------------------------------------------------------------------------------- */
+/* ---- All --------------------------------------------------------------------------------------------------------- */
 
 int64_t dmb_block_signed_factor(const dmb_block_pattern *pattern, const dmb_block_signed *matrix, double weak)
 {

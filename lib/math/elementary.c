@@ -5,8 +5,7 @@
 
 #include "math/real.h"
 
-/* ---- Sums of two doubles: a number as high + low, |low| at most half a unit of high (Dekker 1971, Knuth)
- * ------------ */
+/* ---- Sums of two doubles: a number as high + low, |low| at most half a unit of high (Dekker 1971, Knuth) --------- */
 
 typedef struct pair {
     double high, low;
@@ -47,8 +46,7 @@ static pair pair_product(pair a, pair b)
     return two_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
 }
 
-/* ---- Reduction of an angle: x = quarter pi/2 + rest, |rest| <= pi/4
- * -------------------------------------------------- */
+/* ---- Reduction of an angle: x = quarter pi/2 + rest, |rest| <= pi/4 ---------------------------------------------- */
 
 #define DMB_REDUCE_NEAR 1.6e6 /* [rad] up to which a quarter has 20 bits */
 
@@ -138,8 +136,7 @@ static pair reduce(double x, uint32_t *quarter)
     return fabs(x) <= DMB_REDUCE_NEAR ? reduce_near(x, quarter) : reduce_far(x, quarter);
 }
 
-/* ---- Sine and cosine
- * ------------------------------------------------------------------------------------------------ */
+/* ---- Sine and cosine --------------------------------------------------------------------------------------------- */
 
 /* x - x^3/3! + ... - x^19/19! of |x| <= pi/4 */
 static double sine_near(pair x)
@@ -203,8 +200,7 @@ double dmb_cos(double x)
     return in_quarter(rest, quarter + 1);
 }
 
-/* ---- Power
- * ---------------------------------------------------------------------------------------------------------- */
+/* ---- Power ------------------------------------------------------------------------------------------------------- */
 
 /* log x as a pair, to 2^-64 or so of itself: x = 2^e m, m from sqrt(1/2) to sqrt 2, s = (m - 1)/(m + 1),
  * log m = 2 s (1 + s^2/3 + s^4/5 + ... + s^28/29) */

@@ -16,8 +16,7 @@
 #include "base/number.h"
 #include "drillmbd/base.h"
 
-/* ---- Open and close
- * ------------------------------------------------------------------------------------------------- */
+/* ---- Open and close ---------------------------------------------------------------------------------------------- */
 
 enum { TRIES = 100 }; /* names of files beside that may be taken, by runs that were killed or are under way */
 
@@ -81,8 +80,7 @@ int32_t dmb_text_close(dmb_text_file *file)
     return failed ? DMB_ERR_IO : DMB_OK;
 }
 
-/* ---- Text
- * ----------------------------------------------------------------------------------------------------------- */
+/* ---- Text -------------------------------------------------------------------------------------------------------- */
 
 static void put_bytes(dmb_text_file *file, const char *text, size_t length)
 {
@@ -116,8 +114,7 @@ void dmb_text_put_count(dmb_text_file *file, uint64_t value)
     put_bytes(file, text, dmb_number_from_u64(text, value));
 }
 
-/* ---- Base 64
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Base 64 ----------------------------------------------------------------------------------------------------- */
 
 /* `count` of three bytes as four digits, '=' for what is missing */
 static void put_group(dmb_text_file *file, uint32_t bytes, uint32_t count)

@@ -2,8 +2,7 @@
  * disturbed: the status says so, nothing is changed or leaked, and made again it gives the same bits. */
 #include "sim_test.h"
 
-/* ---- Memory that is counted
- * ------------------------------------------------------------------------------------------- */
+/* ---- Memory that is counted -------------------------------------------------------------------------------------- */
 
 typedef struct ledger {
     long blocks;
@@ -22,8 +21,7 @@ static void give(void *context, void *block, size_t size, size_t alignment)
     free(block);
 }
 
-/* ---- Scenes
- * --------------------------------------------------------------------------------------------------------- */
+/* ---- Scenes ------------------------------------------------------------------------------------------------------ */
 
 enum { HANGING, IN_HOLE, DRIVEN, JOINTED, SCENES };
 
@@ -114,8 +112,7 @@ static void open_scene(scene *s, int kind)
     s->allocator.release = give;
 }
 
-/* ---- Calls
- * ---------------------------------------------------------------------------------------------------------- */
+/* ---- Calls ------------------------------------------------------------------------------------------------------- */
 
 typedef struct answer {
     int32_t status;
@@ -341,8 +338,7 @@ static dmb_sim *sim_for(scene *s, int call)
     return sim;
 }
 
-/* ---- The function
- * --------------------------------------------------------------------------------------------------- */
+/* ---- The function ------------------------------------------------------------------------------------------------ */
 
 typedef struct teller {
     dmb_sim *sim;

@@ -12,8 +12,7 @@
 #include "sim/sim.h"
 #include "sim_test.h"
 
-/* ---- Calls that fail: these stand before those of the C library
- * ------------------------------------------------------ */
+/* ---- Calls that fail: these stand before those of the C library -------------------------------------------------- */
 
 static int fails_at = -1, made; /* number of the call that fails; calls so far */
 
@@ -52,8 +51,7 @@ int fclose(FILE *file)
     return refused ? EOF : status;
 }
 
-/* ---- A scene and its four writers
- * ------------------------------------------------------------------------------------ */
+/* ---- A scene and its four writers -------------------------------------------------------------------------------- */
 
 typedef struct scene {
     rig r;
@@ -142,8 +140,7 @@ static int32_t write_to(int writer, scene *s, const char *path)
     }
 }
 
-/* ---- The folder
- * ------------------------------------------------------------------------------------------------------ */
+/* ---- The folder -------------------------------------------------------------------------------------------------- */
 
 static const char old[] = "what was there before\n";
 
@@ -184,8 +181,7 @@ static void check_untouched(scene *s, int with_old)
     assert_int_equal(files_in(s->folder), with_old);
 }
 
-/* ---- Tests
- * ----------------------------------------------------------------------------------------------------------- */
+/* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 static void every_call_fails_once(void **state)
 {
@@ -283,8 +279,7 @@ static void places_of_all_kinds(void **state)
     close_scene(&s);
 }
 
-/* ---- Places where nothing can be written
- * ----------------------------------------------------------------------------- */
+/* ---- Places where nothing can be written ------------------------------------------------------------------------- */
 
 /* Runs with the rights of nobody where it has those of root, whom a read-only folder does not stop. */
 static int give_up_rights(void)
@@ -375,8 +370,7 @@ static void long_names(void **state)
     close_scene(&s);
 }
 
-/* ---- What is not a number
- * -------------------------------------------------------------------------------------------- */
+/* ---- What is not a number ---------------------------------------------------------------------------------------- */
 
 static uint32_t digit_of(char c)
 {
@@ -435,8 +429,7 @@ static void what_is_no_number(void **state)
     close_scene(&s);
 }
 
-/* ---- The table of a response
- * ----------------------------------------------------------------------------------------- */
+/* ---- The table of a response ------------------------------------------------------------------------------------- */
 
 static void response_reads_back(void **state)
 {

@@ -48,7 +48,7 @@ INIT(step_report) INIT(static_options) INIT(static_report) INIT(buckling_options
 INIT(pose) INIT(motion) INIT(section) INIT(contact)
 INIT(contact_total) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state) INIT(statistics) INIT(recorder)
 INIT(allocator) INIT(joint_state) INIT(joint_def) INIT(coupling_def) INIT(constraint_def)
-INIT(hole_point) INIT(profile)
+INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row)
     /* clang-format on */
 
     static int32_t call_model_options(void *p)
@@ -260,6 +260,25 @@ static int32_t call_profile(void *p)
     return dmb_query_profile(scene.sim, profile);
 }
 
+static int32_t call_operation(void *p)
+{
+    dmb_torque_drag_row row = dmb_torque_drag_row_default();
+    return dmb_analysis_torque_drag(scene.sim, NULL, p, 1, &row);
+}
+
+static int32_t call_torque_drag_options(void *p)
+{
+    const dmb_operation still = dmb_operation_default();
+    dmb_torque_drag_row row = dmb_torque_drag_row_default();
+    return dmb_analysis_torque_drag(scene.sim, p, &still, 1, &row);
+}
+
+static int32_t call_torque_drag_row(void *p)
+{
+    const dmb_operation still = dmb_operation_default();
+    return dmb_analysis_torque_drag(scene.sim, NULL, &still, 1, p);
+}
+
 static int32_t call_recorder(void *p)
 {
     dmb_recorder *recorder = p;
@@ -310,6 +329,9 @@ static const entry entries[] = {
     ENTRY(section, 1),
     ENTRY(hole_point, 1),
     ENTRY(profile, 0),
+    ENTRY(operation, 0),
+    ENTRY(torque_drag_options, 0),
+    ENTRY(torque_drag_row, 1),
     ENTRY(contact, 1),
     ENTRY(contact_total, 1),
     ENTRY(energy, 1),

@@ -21,8 +21,7 @@ static int32_t path_point(void *context, const dmb_sim *at, const dmb_path_point
     return 0;
 }
 
-/* ---- Every call that changes a sim or runs functions of the caller's
- * ------------------------------------------------ */
+/* ---- Every call that changes a sim or runs functions of the caller's --------------------------------------------- */
 
 static dmb_input tip_load(dmb_place place)
 {
@@ -156,8 +155,7 @@ static int32_t make_call(int call, dmb_sim *sim, scene *s)
     }
 }
 
-/* ---- The agent
- * ------------------------------------------------------------------------------------------------------ */
+/* ---- The agent --------------------------------------------------------------------------------------------------- */
 
 static void meddle(agent *a)
 {
@@ -392,8 +390,7 @@ static void points_of_a_path(void **state)
     dmb_model_destroy(&s.model);
 }
 
-/* ---- A model while it is described and compiled
- * --------------------------------------------------------------------- */
+/* ---- A model while it is described and compiled ------------------------------------------------------------------ */
 
 typedef struct describer {
     dmb_model *model;
@@ -465,8 +462,7 @@ static void models_are_kept_too(void **state)
     assert_null(model);
 }
 
-/* ---- Copied handles of a model
- * -------------------------------------------------------------------------------------- */
+/* ---- Copied handles of a model ----------------------------------------------------------------------------------- */
 
 /* The caller's hold is one, however many copies of the handle there are: sims keep theirs. */
 static void copied_handles_destroy_once(void **state)

@@ -36,8 +36,7 @@ static dmb_id string_of(rig *s, int32_t start_free, int32_t end_free, int32_t ki
     return pipe.string;
 }
 
-/* ---- Drives and guides
- * ---------------------------------------------------------------------------------------------- */
+/* ---- Drives and guides ------------------------------------------------------------------------------------------- */
 
 static void drives_that_disagree(void **state)
 {
@@ -93,8 +92,7 @@ static void pipes_that_only_slide(void **state)
     refused(&s, DMB_STEADY_RIGID, "axial-torsional");
 }
 
-/* ---- Joints
- * --------------------------------------------------------------------------------------------------------- */
+/* ---- Joints ------------------------------------------------------------------------------------------------------ */
 
 static dmb_id body_at(rig *s, double x, int32_t free_mask)
 {
@@ -175,8 +173,7 @@ static void joints_that_do_not_let_it(void **state)
     refused(&s, DMB_STEADY_SLIDING, "joints do not allow");
 }
 
-/* ---- What judges a stiffness at rest
- * --------------------------------------------------------------------------------- */
+/* ---- What judges a stiffness at rest ----------------------------------------------------------------------------- */
 
 enum { SLIDES, TURNS, SWINGS, MOTIONS };
 

@@ -29,8 +29,7 @@ static scene scenes[SCENES];
         }                                                                   \
     } while (0)
 
-/* ---- Scenes, made once
- * ---------------------------------------------------------------------------------------------- */
+/* ---- Scenes, made once ------------------------------------------------------------------------------------------- */
 
 static dmb_model *model_of(int which)
 {
@@ -73,8 +72,7 @@ static void close_scenes(void)
     }
 }
 
-/* ---- What is done with a sim that took one
- * --------------------------------------------------------------------------- */
+/* ---- What is done with a sim that took one ----------------------------------------------------------------------- */
 
 static void known(int32_t status)
 {
@@ -96,8 +94,7 @@ static void use(dmb_sim *sim)
     known(dmb_analysis_static(sim, &statics, NULL));
 }
 
-/* ---- One input
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- One input --------------------------------------------------------------------------------------------------- */
 
 static size_t change(unsigned char *block, size_t size, const uint8_t *data, size_t left)
 {

@@ -47,8 +47,7 @@ static void fit_checksum(snapshot *s)
     memcpy(s->bytes + CONTENT_AT, &content, sizeof content);
 }
 
-/* ---- Changes
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Changes ----------------------------------------------------------------------------------------------------- */
 
 static void change_number(unsigned char *at, uint64_t *random)
 {
@@ -113,8 +112,7 @@ static void change(const dmb_sim *sim, snapshot *s, uint64_t *random)
     fit_checksum(s);
 }
 
-/* ---- What is done with a sim that took one
- * --------------------------------------------------------------------------- */
+/* ---- What is done with a sim that took one ----------------------------------------------------------------------- */
 
 static void must_be_known(int32_t status)
 {
@@ -185,8 +183,7 @@ static void forge_many(dmb_model *model, dmb_id string, uint32_t steps)
     dmb_sim_destroy(&victim);
 }
 
-/* ---- Scenes
- * --------------------------------------------------------------------------------------------------------- */
+/* ---- Scenes ------------------------------------------------------------------------------------------------------ */
 
 /* Without joints: factors are kept from step to step, and saved. */
 static void parts_of_all_kinds(void **state)
@@ -219,8 +216,7 @@ static void joints_of_all_kinds(void **state)
     dmb_model_destroy(&scene.s.model);
 }
 
-/* ---- Each field by itself
- * ------------------------------------------------------------------------------------------- */
+/* ---- Each field by itself ---------------------------------------------------------------------------------------- */
 
 /* Every word of every field that is no plain number, set to what no scene has: refused. */
 static void check_field(dmb_sim *sim, const snapshot *sound, const dmb_field *field, size_t at)

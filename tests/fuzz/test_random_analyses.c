@@ -40,8 +40,7 @@ static void must_be_known(int32_t status)
     tally[status < 0]++;
 }
 
-/* ---- Joints and constraints
- * ------------------------------------------------------------------------------------------ */
+/* ---- Joints and constraints -------------------------------------------------------------------------------------- */
 
 static dmb_place draw_place(scene *c)
 {
@@ -111,8 +110,7 @@ static void draw_links(scene *c)
     }
 }
 
-/* ---- Actions
- * --------------------------------------------------------------------------------------------------------- */
+/* ---- Actions ----------------------------------------------------------------------------------------------------- */
 
 static void act_step(dmb_sim *sim, scene *c)
 {
@@ -309,8 +307,7 @@ static const struct {
     {"path", act_path},         {"transfer", act_transfer}, {"check", act_check},
 };
 
-/* ---- One input
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- One input --------------------------------------------------------------------------------------------------- */
 
 /* Counts down to the end of the call. */
 static int32_t count_down(void *context, double fraction)

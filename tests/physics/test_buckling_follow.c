@@ -159,8 +159,7 @@ static void pinned_shaft_under_torque(void **state)
     check_order("  32 and 64", error[0], error[1], 2.0, 0.05);
 }
 
-/* ---- On the low side under push and torque
- * ---------------------------------------------------------------------------- */
+/* ---- On the low side under push and torque ----------------------------------------------------------------------- */
 
 /* 20 pipes of 1.5 m, 73/55 mm, in 94 mm, pushed by `push` and twisted by a hundredth of it. */
 static void open_lying(scene *c, uint32_t elements, double push)
@@ -246,8 +245,7 @@ static void string_under_push_and_torque(void **state)
     assert_true(above > 20.0 * below);
 }
 
-/* ---- Holes that bend
- * -------------------------------------------------------------------------------------------------- */
+/* ---- Holes that bend --------------------------------------------------------------------------------------------- */
 
 static double in_bent_hole(double stiffness, double azimuth, double inclination, dmb_buckling_info *info, double *event)
 {

@@ -38,8 +38,7 @@ static double relative_change(const double before[3], const double after[3])
            sqrt(before[0] * before[0] + before[1] * before[1] + before[2] * before[2]);
 }
 
-/* ---- Rigid parts
- * -------------------------------------------------------------------------------------------------- */
+/* ---- Rigid parts ------------------------------------------------------------------------------------------------- */
 
 /* A body whose reference point lies `centre` from its centre of mass, tumbling at 20 rad/s. */
 static void build_body(rig *s, const double centre[3], const double g[3])
@@ -126,8 +125,7 @@ static void angular_momentum_is_of_second_order(void **state)
     check_order("angular momentum of a rigid body", error[0], error[1], 2.0, 0.05);
 }
 
-/* ---- Flexible strings, bodies that joints connect
- * ------------------------------------------------------------------- */
+/* ---- Flexible strings, bodies that joints connect ---------------------------------------------------------------- */
 
 static void build_flexible(rig *s)
 {

@@ -677,8 +677,7 @@ static void centralisers_hold_a_string_off_the_wall(void **state)
     rig_close(&s);
 }
 
-/* ---- What is carried, also by more than it takes
- * --------------------------------------------------------------------- */
+/* ---- What is carried, also by more than it takes ----------------------------------------------------------------- */
 
 enum { LEGS = 4 };
 

@@ -71,8 +71,7 @@ static void run(const rig *s, int how, double h, double end)
         for (int i = 1; i <= 37; i++) must(s, dmb_sim_advance(s->sim, end * i / 37.0, NULL));
 }
 
-/* ---- Rigid parts: the work is exactly the kinetic energy
- * ---------------------------------------------------------- */
+/* ---- Rigid parts: the work is exactly the kinetic energy --------------------------------------------------------- */
 
 /* The drive on a body of mass 2 kg and inertia INERTIA, along or about x, itself or by a joint. */
 static dmb_id add_driven_body(rig *s, int32_t component, int on_joint, dmb_id programme)
@@ -139,8 +138,7 @@ static void knots_at_sums_of_steps(void **state)
     check_work(&t, DMB_RX, 0, ADVANCE, 0.0);
 }
 
-/* ---- Strings: work = energy + what the scheme took, which falls with the square of the step
- * ----------------------- */
+/* ---- Strings: work = energy + what the scheme took, which falls with the square of the step ---------------------- */
 
 /* Four pipes driven at the rig end, torsion soft enough that the steps see their waves. */
 static double missing(const table *t, int32_t component, double h)
@@ -184,8 +182,7 @@ static void work_on_strings_is_energy_and_dissipation(void **state)
         }
 }
 
-/* ---- Steps that are not divided
- * ----------------------------------------------------------------------------------- */
+/* ---- Steps that are not divided ---------------------------------------------------------------------------------- */
 
 /* Bounded work: a corner inside a step divides the work, not the step. */
 static void bounded_steps_divide_the_work(void **state)
@@ -209,8 +206,7 @@ static void bounded_steps_divide_the_work(void **state)
     check_close("work of bounded steps, h 1e-3", error[1], 0.0, 5e-6);
 }
 
-/* ---- Time
- * --------------------------------------------------------------------------------------------------------- */
+/* ---- Time -------------------------------------------------------------------------------------------------------- */
 
 static void time_does_not_drift(void **state)
 {

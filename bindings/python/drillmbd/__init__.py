@@ -27,7 +27,7 @@ from ._optional import numpy
 from ._record import Sized as _Sized
 from ._structs import *  # noqa: F401,F403
 from ._structs import STRUCTS
-from .analysis import Buckling, Modes, Response, output
+from .analysis import Buckling, Modes, Response, TorqueDrag, operation_name, output, usual_operation
 from .enums import *  # noqa: F401,F403
 from .enums import ENUMS, VERSION, __version__
 from .errors import Error, status_name, status_text
@@ -49,7 +49,7 @@ def __getattr__(name: str) -> object:
 
 
 __all__ = ["STRUCTS", "VERSION", "__version__", "Buckling", "Error", "Model", "Modes", "Profile", "Progress", "Recorder",
-           "Response", "Sim", "output", "station", "status_name", "status_text"]
+           "Response", "Sim", "TorqueDrag", "operation_name", "output", "station", "status_name", "status_text", "usual_operation"]
 __all__ += [name for name, value in vars(_structs).items() if name.endswith("_FN") or value in STRUCTS.values()]
 __all__ += [name for name, value in vars(enums).items() if name.isupper() and isinstance(value, int)]
 __all__ += [cls.__name__ for cls in ENUMS]

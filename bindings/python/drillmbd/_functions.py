@@ -13,12 +13,15 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_analysis_buckling": (c_int32, c_void_p, POINTER(BucklingOptions), POINTER(c_void_p),),
     "dmb_analysis_check": (c_int32, c_void_p, POINTER(CheckReport),),
     "dmb_analysis_check_text": (c_int32, c_void_p, c_char_p, c_size_t, POINTER(c_size_t),),
+    "dmb_analysis_friction_factor": (c_int32, c_void_p, POINTER(TorqueDragOptions), POINTER(Operation), c_int32, c_double, POINTER(c_double),),
     "dmb_analysis_modes": (c_int32, c_void_p, POINTER(ModesOptions), POINTER(c_void_p),),
     "dmb_analysis_path": (c_int32, c_void_p, POINTER(PathOptions), POINTER(PathReport),),
     "dmb_analysis_response": (c_int32, c_void_p, POINTER(ResponseOptions), POINTER(Input), c_uint32, POINTER(Output), c_uint32, POINTER(c_void_p),),
     "dmb_analysis_speeds": (c_int32, c_void_p, POINTER(SpeedsOptions), POINTER(Order), c_uint32, POINTER(Output), POINTER(c_double), c_uint32, POINTER(SpeedBand), POINTER(c_uint32), POINTER(c_double),),
     "dmb_analysis_static": (c_int32, c_void_p, POINTER(StaticOptions), POINTER(StaticReport),),
     "dmb_analysis_stepped_sine": (c_int32, c_void_p, c_double, POINTER(SteppedSineOptions), POINTER(Output), c_uint32, POINTER(c_double), POINTER(SteppedSineReport),),
+    "dmb_analysis_torque_drag": (c_int32, c_void_p, POINTER(TorqueDragOptions), POINTER(Operation), c_uint32, POINTER(TorqueDragRow),),
+    "dmb_analysis_torque_drag_profile": (c_int32, c_void_p, POINTER(TorqueDragOptions), POINTER(Operation), c_uint32, POINTER(c_double), POINTER(c_double), POINTER(c_double), POINTER(c_double),),
     "dmb_bit_def_init": (c_int32, POINTER(BitDef), c_uint32,),
     "dmb_bit_state_init": (c_int32, POINTER(BitState), c_uint32,),
     "dmb_body_def_init": (c_int32, POINTER(BodyDef), c_uint32,),
@@ -75,6 +78,9 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_modes_shape": (c_int32, c_void_p, c_uint32, Place, POINTER(ModeShape),),
     "dmb_momentum_init": (c_int32, POINTER(Momentum), c_uint32,),
     "dmb_motion_init": (c_int32, POINTER(Motion), c_uint32,),
+    "dmb_operation_init": (c_int32, POINTER(Operation), c_uint32,),
+    "dmb_operation_name": (c_char_p, c_int32,),
+    "dmb_operation_usual": (c_int32, c_int32, POINTER(Operation),),
     "dmb_order_init": (c_int32, POINTER(Order), c_uint32,),
     "dmb_output_init": (c_int32, POINTER(Output), c_uint32,),
     "dmb_path_options_init": (c_int32, POINTER(PathOptions), c_uint32,),
@@ -141,6 +147,8 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_stepped_sine_report_init": (c_int32, POINTER(SteppedSineReport), c_uint32,),
     "dmb_string_def_init": (c_int32, POINTER(StringDef), c_uint32,),
     "dmb_term_init": (c_int32, POINTER(Term), c_uint32,),
+    "dmb_torque_drag_options_init": (c_int32, POINTER(TorqueDragOptions), c_uint32,),
+    "dmb_torque_drag_row_init": (c_int32, POINTER(TorqueDragRow), c_uint32,),
     "dmb_version": (c_uint32,),
     "dmb_wall_def_init": (c_int32, POINTER(WallDef), c_uint32,),
     "dmb_write_vtk_hole": (c_int32, c_void_p, c_double, c_double, c_double, c_uint32, c_char_p,),
@@ -155,6 +163,8 @@ FUNCTION_DOCS = {
         "Counts the last accepted state of a sim. The rank is LAPACK's, by QR with column pivoting; it is held against that of the partition the sim steps with (a warning if they differ). Changes nothing; calls the callbacks of constraints. Memory for the time of the call comes from the allocator of the sim's options. Cost: elements, and the cube of the coordinates of each cluster. Errors: ERR_NULL, _HANDLE, _STRUCT_SIZE, _NO_MEMORY, _CALLBACK, _NOT_FINITE.",
     "dmb_analysis_check_text":
         "The same as a sheet of text, lines ending with '/n', '.' as decimal mark: counts, solvers, redundant equations by name (directions are those of frame a of the joint), warnings. Writes at most `size` bytes, always 0-terminated; *needed (may be NULL) is what the whole text takes, its 0 included. text may be NULL where size is 0. NOTE_FULL if the text is cut. Errors as dmb_analysis_check, with text and *needed left alone.",
+    "dmb_analysis_friction_factor":
+        "The friction coefficient, 0 .. 10, that explains a hook load [N] or torque [N m] measured at the rig in one operation at the first of the depths. ERR_VALUE where none does: the message tells the range. About 60 times the work of a row.",
     "dmb_analysis_modes":
         "Modes about the accepted state of a sim, which should be an equilibrium, at rest or spinning steadily. The state is not changed; sim takes the message, and need not outlive the result. options may be NULL. Memory: the sim's allocator, until dmb_modes_destroy. LOWEST: smallest |s|. Few modes: block Lanczos (full reorthogonalisation in the M-inner product), damped or unsymmetric ones block Arnoldi, both on the inverse of K (rigid-body motions apart, or shifted), linear in the number of elements; ALL, and many: LAPACK (dsygvd, dgeev), cubic. A BAND of many modes is divided: undamped by the counts of eigenvalues below its pieces, which must all be found, in time that grows with the modes; of damped ones likewise where their roots stand along the imaginary axis (K symmetric, no joints, less than a quarter of the critical damping at band[1]); elsewhere up to 256 modes below band[1] are found at once, more are refused (_TOO_LARGE). A mode that does not satisfy its equations to rounding, after some inverse iteration, or cannot be told from a rigid-body motion, is refused with its residual and the bound (_NO_CONVERGENCE). *modes is NULL on error: ERR_VALUE (option; more modes than coordinates; a band without modes; a state out of balance: by how much and where), _NO_CONVERGENCE, _SINGULAR, _CALLBACK, _NOT_FINITE, _ROTATION, _NO_MEMORY, _TOO_LARGE.",
     "dmb_analysis_path":
@@ -167,6 +177,10 @@ FUNCTION_DOCS = {
         "Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, by Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017); where that fails in load steps (gravity, loads and bit load from 0, drives as they are) that are halved when they fail and doubled when they do not, with a line search in the shortest; and by pseudo-transient continuation where that fails too. At rest the rock law does not act (at time 0 its bottom is laid ahead of the bit as described); a speed controller acts as at speed 0. Where motion drives move, the state is a steady one (`steady`): speeds of all nodes are those of the sliding or the rigid motion, friction acts by the slip that there is, damping and drag act, controllers act by that speed, and a bit that stands on rock cuts (at time 0: where none is described ahead of it). SLIDING asks that what turns is round (no eccentric mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, guides, joints to the ground and a hole agree with the axis; else ERR_UNSUPPORTED says what does not. Both take memory, one matrix and some vectors, from the sim's allocator. The energy ledger starts anew. options and report may be NULL. NOTE_UNSTABLE where the equilibrium at rest is one that the string would leave (report->negative > 0). Errors: ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the state is then that before the call. O(number of elements) an iteration.",
     "dmb_analysis_stepped_sine":
         "Runs the sim on in fixed steps until the Fourier amplitudes of successive windows agree. amplitudes, shape (output_count, 1 + harmonics, 2): mean and 0, then for k = 1, 2, ... the k-th harmonic: its part of the output is the real part of (re + i im) e^(2 pi i k frequency t), t the sim's time. Displacements are those since time 0 in the axes of the world or (FRAME_BODY) those the place has at the call, less their drift over the window; component RX is the rotation of dmb_query_rotation, RY and RZ are of the rotation vector from the pose at the call, below pi. Other outputs: as the queries answer. options and report may be NULL. NOTE_STOPPED: not settled in `windows`; the amplitudes are those of the last. Errors: ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID, _UNSUPPORTED, _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last accepted state. amplitudes and report are left alone on error. Cost: steps.",
+    "dmb_analysis_torque_drag":
+        "One row for each depth and operation, shape (depth_count, operation_count), the size of each what the first says. The string hangs together with its described pipes counted from the far end: at a depth less than where it is described the first pipes are not there yet. Bodies and bits at the far end weigh as described. Ends and places beyond the survey lie on the straight continuation. The sim is asked for its model only and does not change. Errors: ERR_UNSUPPORTED without a hole or for a string that does not follow it, ERR_VALUE, _NOT_FINITE, _ID, _CANCELLED; rows are not written then. O(depths x operations x (pipes' runs + stations + length / 2 m)).",
+    "dmb_analysis_torque_drag_profile":
+        "Along the string in one operation at the first of the depths: at station_count (2 .. 2^20) places spread evenly from the rig end to the far end. Arrays of shape (station_count), each may be NULL: measured depth [m], effective axial force [N], torque [N m], wall force per metre [N/m]. Errors as above; ERR_NO_CONVERGENCE where the string locks up.",
     "dmb_buckling_count":
         "Factors found; 0 for NULL.",
     "dmb_buckling_destroy":
@@ -205,6 +219,10 @@ FUNCTION_DOCS = {
         "[J] kinetic and strain energy of the mode, as in dmb_mode, in a pipe of a string with half of what is fixed to its two ends, in a whole string (pipe = NONE), or in a body or bit (pipe 0). O(elements of it).",
     "dmb_modes_shape":
         "Shape at a place, between nodes by the element's own shape functions. O(1).",
+    "dmb_operation_name":
+        "\"pick-up\", \"slack-off\", ...; NULL for a number that is none.",
+    "dmb_operation_usual":
+        "Usual speeds of an operation OPERATION_...: 0.1 m/s up or down, 1 rev/s, fed by 0.005 m/s while drilling; loads on the bit 0, to be filled in. Errors: ERR_NULL, _STRUCT_SIZE, _VALUE.",
     "dmb_profile_name":
         "Name of a quantity (\"axial_force\") and its unit in *unit (may be NULL); NULL for a number that is none.",
     "dmb_query_contact":

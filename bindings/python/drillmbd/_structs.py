@@ -935,6 +935,88 @@ class CheckReport(Sized):
     }
 
 
+class Operation(Sized):
+    c_name, about = "dmb_operation", ""
+    struct_size: int
+    reserved: int
+    axial_speed: float
+    rotary_speed: float
+    weight_on_bit: float
+    torque_on_bit: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("axial_speed", c_double),
+        ("rotary_speed", c_double),
+        ("weight_on_bit", c_double),
+        ("torque_on_bit", c_double),
+    ]
+    field_docs = {
+        "axial_speed": ("m/s", "along the hole, > 0 into it; default 0"),
+        "rotary_speed": ("rad/s", "friction acts along the sum of both speeds at the pipe's surface; default 0"),
+        "weight_on_bit": ("N", "against the string's end, along the hole; default 0"),
+        "torque_on_bit": ("N m", ">= 0, against the rotation; default 0"),
+    }
+
+
+class TorqueDragRow(Sized):
+    c_name, about = "dmb_torque_drag_row", ""
+    struct_size: int
+    locked: int
+    depth: float
+    hook_load: float
+    torque: float
+    transfer: float
+    lowest_force: float
+    lowest_at: float
+    sinusoidal_share: float
+    helical_share: float
+    buckled_at: float
+    helix_length: float
+    yield_share: float
+    yield_at: float
+    stretch: float
+    wind_up: float
+    wall_force: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("locked", c_int32),
+        ("depth", c_double),
+        ("hook_load", c_double),
+        ("torque", c_double),
+        ("transfer", c_double),
+        ("lowest_force", c_double),
+        ("lowest_at", c_double),
+        ("sinusoidal_share", c_double),
+        ("helical_share", c_double),
+        ("buckled_at", c_double),
+        ("helix_length", c_double),
+        ("yield_share", c_double),
+        ("yield_at", c_double),
+        ("stretch", c_double),
+        ("wind_up", c_double),
+        ("wall_force", c_double),
+    ]
+    field_docs = {
+        "locked": ("", "1: compression grows beyond 1 % of EA on the way up: no push at the rig does this; hook load, torque and what is looked for along the string are NaN"),
+        "depth": ("m", "measured depth of the far end"),
+        "hook_load": ("N", "effective axial force at the rig end, > 0: the rig pulls, < 0: it pushes"),
+        "torque": ("N m", "at the rig end, against friction and bit"),
+        "transfer": ("-", "share of a little more push at the rig that arrives at the bit; 1 without friction"),
+        "lowest_force": ("N", "least effective axial force; most compressed where < 0"),
+        "lowest_at": ("m", "measured depth where"),
+        "sinusoidal_share": ("-", "largest share of the load of sinusoidal buckling, as of a profile"),
+        "helical_share": ("-", "likewise of helical buckling"),
+        "buckled_at": ("m", "measured depth where that is"),
+        "helix_length": ("m", "of string above the load of helical buckling"),
+        "yield_share": ("-", "largest von Mises stress over yield_strength, bending to the hole's curvature included; NaN where a pipe has no yield_strength"),
+        "yield_at": ("m", "measured depth where"),
+        "stretch": ("m", "by the effective force, > 0 longer"),
+        "wind_up": ("rad", "of the rig end against the bit"),
+        "wall_force": ("N", "sum over the string"),
+    }
+
+
 class ModesOptions(Sized):
     c_name, about = "dmb_modes_options", ""
     struct_size: int
@@ -1782,6 +1864,33 @@ class BucklingOptions(Sized):
     }
 
 
+class TorqueDragOptions(Sized):
+    c_name, about = "dmb_torque_drag_options", ""
+    struct_size: int
+    post_buckling: int
+    string: Id
+    friction: float
+    depths: Any
+    depth_count: int
+    reserved: int
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("post_buckling", c_int32),
+        ("string", Id),
+        ("friction", c_double),
+        ("depths", POINTER(c_double)),
+        ("depth_count", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    field_docs = {
+        "post_buckling": ("", "1 (default): a helix presses r F^2/(4 EI) per metre more on the wall (Mitchell 1986) where the compression F is above the load of helical buckling; 0: not"),
+        "string": ("", "{0, 0}: the model's first string"),
+        "friction": ("-", "coefficient of all the hole, 0 .. 10; -1 (default): the wall's mu_dynamic"),
+        "depths": ("m", "measured depths of the string's far end, shape (depth_count), beyond its start_depth by at most its length; NULL: one, where it ends as described"),
+        "depth_count": ("-", "1 .. 2^20; default 1"),
+    }
+
+
 class SpeedsOptions(Sized):
     c_name, about = "dmb_speeds_options", ""
     struct_size: int
@@ -2204,6 +2313,9 @@ STRUCTS["dmb_path_point"] = PathPoint
 STRUCTS["dmb_path_options"] = PathOptions
 STRUCTS["dmb_path_report"] = PathReport
 STRUCTS["dmb_check_report"] = CheckReport
+STRUCTS["dmb_operation"] = Operation
+STRUCTS["dmb_torque_drag_options"] = TorqueDragOptions
+STRUCTS["dmb_torque_drag_row"] = TorqueDragRow
 STRUCTS["dmb_modes_options"] = ModesOptions
 STRUCTS["dmb_modes_info"] = ModesInfo
 STRUCTS["dmb_mode"] = Mode

@@ -1,4 +1,5 @@
-"""Analyses of a scene about a state: statics, buckling, paths, model check, modes, responses, speeds to avoid."""
+"""Analyses of a scene about a state: statics, buckling, paths, model check, modes, responses, speeds to avoid,
+torque and drag."""
 from __future__ import annotations
 
 import ctypes
@@ -12,9 +13,10 @@ from ._optional import need, numpy
 from ._progress import Teller
 from ._record import numbers
 from ._structs import (PATH_FN, STRUCTS, BucklingInfo, BucklingOptions, CheckReport, Id, Input, Mode, ModeShape, ModesInfo,
-                       ModesOptions, Order, Output, PathOptions, PathPoint, PathReport, Place, ResponseOptions, SpeedBand,
-                       SpeedsOptions, SpeedsReport, StaticOptions, StaticReport)
-from .enums import COMBINED, FRAME_WORLD, OUTPUT_DISPLACEMENT, Component
+                       ModesOptions, Operation, Order, Output, PathOptions, PathPoint, PathReport, Place, ResponseOptions, SpeedBand,
+                       SpeedsOptions, SpeedsReport, StaticOptions, StaticReport, TorqueDragOptions, TorqueDragRow)
+from .enums import (COMBINED, FRAME_WORLD, MEASURED_HOOK_LOAD, MEASURED_TORQUE, OPERATION_COUNT, OUTPUT_DISPLACEMENT,
+                    Component, OperationKind)
 from .errors import check
 
 if TYPE_CHECKING:
@@ -155,6 +157,86 @@ class Analyses:
         options.report = None
         found.extend(list(bands)[:count.value])
         return found, list(severity)
+
+    @mirrors("dmb_analysis_torque_drag")
+    def torque_drag(self, operations: Any = None, depths: Sequence[float] | None = None,
+                    options: TorqueDragOptions | None = None, **fields: Any) -> TorqueDrag:
+        """What the rig must pull, push and turn, by depth [m] and operation: Operation structs, or OPERATION_... for usual
+        ones; all of these where none are given. depths: of the far end; one, as described, where none are given."""
+        options = struct(TorqueDragOptions, options, fields)
+        asked = [usual_operation(one) if isinstance(one, int) else one
+                 for one in (OPERATIONS if operations is None else operations)]
+        if depths is not None:
+            options.depth_count = len(depths)
+            options.depths = (c_double * len(depths))(*depths)
+        count = max(1, options.depth_count) * len(asked)
+        rows = (TorqueDragRow * count)(*[TorqueDragRow.blank() for _ in range(count)])
+        status = self._check(self._long(_lib.dmb_analysis_torque_drag, byref(options), (Operation * len(asked))(*asked),
+                                        len(asked), rows))
+        options.depths = None
+        return TorqueDrag(asked, [list(rows[i:i + len(asked)]) for i in range(0, count, len(asked))], status)
+
+    @mirrors("dmb_analysis_torque_drag_profile")
+    def torque_drag_profile(self, operation: Operation | int, stations: int = 101,
+                            options: TorqueDragOptions | None = None, **fields: Any) -> dict[str, list[float]]:
+        """One operation along the string, at stations spread evenly from the rig end: depth [m], effective axial force [N],
+        torque [N m], wall force per metre [N/m], as lists by name."""
+        options = struct(TorqueDragOptions, options, fields)
+        given = usual_operation(operation) if isinstance(operation, int) else operation
+        values = [(c_double * stations)() for _ in range(4)]
+        self._check(_lib.dmb_analysis_torque_drag_profile(self._handle, byref(options), byref(given), stations, *values))
+        return dict(zip(("depth", "axial_force", "torque", "wall_force"), (list(one) for one in values)))
+
+    @mirrors("dmb_analysis_friction_factor")
+    def friction_factor(self, operation: Operation | int, hook_load: float | None = None, torque: float | None = None,
+                        options: TorqueDragOptions | None = None, **fields: Any) -> float:
+        """The friction coefficient [-] that explains a hook load [N] or a torque [N m] measured at the rig."""
+        if (hook_load is None) == (torque is None):
+            raise ValueError("give hook_load or torque, one of them")
+        options = struct(TorqueDragOptions, options, fields)
+        given = usual_operation(operation) if isinstance(operation, int) else operation
+        found = c_double()
+        measured = MEASURED_HOOK_LOAD if torque is None else MEASURED_TORQUE
+        self._check(_lib.dmb_analysis_friction_factor(self._handle, byref(options), byref(given), measured,
+                                                      hook_load if torque is None else torque, byref(found)))
+        return found.value
+
+
+# ---- Torque and drag -------------------------------------------------------------------------------------------------
+OPERATIONS = [kind for kind in OperationKind if kind < OPERATION_COUNT]
+
+
+def usual_operation(kind: int, **fields: Any) -> Operation:
+    """The Operation OPERATION_... at usual speeds, with further fields such as weight_on_bit [N]."""
+    operation = Operation()
+    check(_lib.dmb_operation_usual(kind, byref(operation)))
+    for name, value in fields.items():
+        setattr(operation, name, value)
+    return operation
+
+
+def operation_name(kind: int) -> str:
+    """ "pick-up", "slack-off", ..."""
+    return (_lib.dmb_operation_name(kind) or b"").decode()
+
+
+class TorqueDrag:
+    """rows[i][k] is the TorqueDragRow of depth i and operation k."""
+
+    def __init__(self, operations: list[Operation], rows: list[list[TorqueDragRow]], status: int) -> None:
+        self.operations, self.rows, self.status = operations, rows, status
+
+    def column(self, field: str, operation: int = 0) -> list[float]:
+        """A field of the rows of one operation, depth by depth."""
+        return [getattr(row[operation], field) for row in self.rows]
+
+    def frame(self) -> Any:
+        """All rows as a pandas frame with units in the names of its columns."""
+        names = [name for name in TorqueDragRow.field_docs if name not in ("struct_size", "reserved")]
+        heads = [f"{name.replace('_', ' ')} [{TorqueDragRow.field_docs[name][0] or '-'}]" for name in names]
+        return need("pandas").DataFrame(
+            [[k, *(getattr(row, name) for name in names)] for rows in self.rows for k, row in enumerate(rows)],
+            columns=["operation", *heads])
 
 
 # ---- Frequency response ----------------------------------------------------------------------------------------------

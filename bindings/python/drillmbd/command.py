@@ -16,6 +16,7 @@ EXAMPLES = """examples:
   drillmbd static rig.toml --output out       where does the string lie, what bears it?
   drillmbd modes rig.toml                     natural frequencies
   drillmbd response rig.toml --output out     what shakes how much, by [response]
+  drillmbd torque-drag rig.toml --weight-on-bit "15 kN" -o out   hook load and torque by depth and operation
   drillmbd speeds rig.toml                    rotary speeds to keep away from, by [speeds]
   drillmbd buckle rig.toml                    critical factors, by [buckling]
   drillmbd report rig.toml --output out       one page for crew and engineer: out/report.html
@@ -39,6 +40,7 @@ def parser() -> argparse.ArgumentParser:
                        ("modes", "finds natural frequencies about the static state"),
                        ("response", "finds the response to what shakes about the static state"),
                        ("speeds", "finds rotary speeds to keep away from"), ("buckle", "finds what it buckles at"),
+                       ("torque-drag", "finds what the rig must pull, push and turn at each depth, as a soft string"),
                        ("report", "makes one HTML page about it all; needs plotly")):
         command = commands.add_parser(name, help=text, description=text)
         command.add_argument("scene", help="a scene file (TOML)")
@@ -47,6 +49,12 @@ def parser() -> argparse.ArgumentParser:
         if name == "run":
             command.add_argument("--until", metavar="TIME", help='ends there, as "5 s", instead of [run] end')
             command.add_argument("--step", metavar="TIME", help='length of a step, as "1 ms", instead of [run] step')
+        if name == "torque-drag":
+            command.add_argument("--depths", type=int, metavar="N", default=20, help="number of depths up to the described "
+                                 "one (default %(default)s)")
+            command.add_argument("--weight-on-bit", metavar="FORCE", default="0 N", help='while drilling and sliding, as "20 kN"')
+            command.add_argument("--torque-on-bit", metavar="TORQUE", default="0 N m", help='while drilling, as "500 N m"')
+            command.add_argument("--friction", type=float, metavar="MU", help="coefficient, instead of that of the wall")
         if name == "modes":
             command.add_argument("--count", type=int, metavar="N", help="number of modes, instead of [modes] count")
     save = commands.add_parser("save", help="writes the scene back, in SI units")

@@ -578,6 +578,36 @@ CONTACT_OPEN = ContactState.OPEN
 CONTACT_CLOSED = ContactState.CLOSED
 
 
+class OperationKind(IntEnum):
+    """Values DMB_OPERATION_... of the headers."""
+    PICK_UP = 0  #: pulled without turning
+    SLACK_OFF = 1  #: lowered or pushed without turning
+    ROTATE = 2  #: turned off bottom
+    DRILL = 3  #: turned and fed, with load and torque on the bit
+    SLIDE = 4  #: fed without turning the string, with load and the motor's torque on the bit
+    BACK_REAM = 5  #: turned and pulled
+    COUNT = 6
+
+
+OPERATION_PICK_UP = OperationKind.PICK_UP
+OPERATION_SLACK_OFF = OperationKind.SLACK_OFF
+OPERATION_ROTATE = OperationKind.ROTATE
+OPERATION_DRILL = OperationKind.DRILL
+OPERATION_SLIDE = OperationKind.SLIDE
+OPERATION_BACK_REAM = OperationKind.BACK_REAM
+OPERATION_COUNT = OperationKind.COUNT
+
+
+class Measured(IntEnum):
+    """Values DMB_MEASURED_... of the headers."""
+    HOOK_LOAD = 0
+    TORQUE = 1
+
+
+MEASURED_HOOK_LOAD = Measured.HOOK_LOAD
+MEASURED_TORQUE = Measured.TORQUE
+
+
 class ModesKind(IntEnum):
     """Values DMB_MODES_... of the headers."""
     UNDAMPED = 0  #: M d'' + K d = 0
@@ -700,6 +730,8 @@ ENUMS = (
     Flutter,
     PathKind,
     ContactState,
+    OperationKind,
+    Measured,
     ModesKind,
     ModesSelect,
     ModesAxes,

@@ -10,6 +10,7 @@ from ._optional import need
 
 if TYPE_CHECKING:
     from .analysis import Modes, Response
+    from .analysis import TorqueDrag
     from .profile import Profile
     from .recorder import Recorder
 
@@ -135,6 +136,22 @@ def shapes(found: Modes, places: Sequence[Any], along: Any, count: int = 6, titl
         axes.set(ylabel=f"{found[index].frequency:.3g} Hz\n[-]")
     _legend(grid[0][0])
     grid[-1][0].set_xlabel("along the string [m]")
+    figure.suptitle(title)
+    return figure
+
+
+def torque_drag(found: TorqueDrag, names: Sequence[str], title: str = "") -> Any:
+    """Hook load and torque at the rig over the depth of the far end, depth downward, a line for each operation."""
+    figure, ((load, torque),) = _axes(1, 2, (11, 6), sharey=True)
+    for number, name in enumerate(names):
+        depth = found.column("depth", number)
+        load.plot([value / 1e3 for value in found.column("hook_load", number)], depth, label=name, **_style(number))
+        torque.plot([value / 1e3 for value in found.column("torque", number)], depth, label=name, **_style(number))
+    load.axvline(0.0, color="#999999", linewidth=0.8)
+    load.set(xlabel="hook load [kN]\n(> 0: the rig pulls)", ylabel="measured depth of the bit [m]")
+    torque.set_xlabel("torque at the rig [kN m]")
+    load.invert_yaxis()
+    _legend(torque)
     figure.suptitle(title)
     return figure
 

@@ -153,8 +153,7 @@ static int32_t end_at_event(follower *f, int32_t event)
     return b->count < f->options->count ? DMB_NOTE_STOPPED : DMB_OK;
 }
 
-/* ---- The way
- * --------------------------------------------------------------------------------------------------------- */
+/* ---- The way ----------------------------------------------------------------------------------------------------- */
 
 static void choose_target(follower *f, int careful)
 {

@@ -246,8 +246,7 @@ static int32_t run(speeds_run *r)
     return DMB_OK;
 }
 
-/* ---- Limits of the answer
- * ----------------------------------------------------------------------------------------- */
+/* ---- Limits of the answer ---------------------------------------------------------------------------------------- */
 
 static int is_silent(const dmb_speeds_curve *curve)
 {

@@ -16,8 +16,7 @@ typedef struct scratch {
     int32_t *order;
 } scratch;
 
-/* ---- A sim whose rows may be written
- * --------------------------------------------------------------------------------- */
+/* ---- A sim whose rows may be written ----------------------------------------------------------------------------- */
 
 static uint32_t longest_cluster(const dmb_scene *scene)
 {
@@ -85,8 +84,7 @@ static int32_t evaluate_rows(scratch *s)
     return dmb_clusters_gather(&evaluation);
 }
 
-/* ---- Rank
- * ------------------------------------------------------------------------------------------------------------ */
+/* ---- Rank -------------------------------------------------------------------------------------------------------- */
 
 /* Moves the rows that act to the front of the cluster's matrix. Returns how many. */
 static uint32_t pack_rows(scratch *s, const dmb_cluster *cluster)
@@ -191,8 +189,7 @@ void dmb_cluster_rank_release(const dmb_sim *sim, dmb_cluster_rank *rank)
     rank->redundant = NULL;
 }
 
-/* ---- Names
- * ----------------------------------------------------------------------------------------------------------- */
+/* ---- Names ------------------------------------------------------------------------------------------------------- */
 
 void dmb_constraint_row_text(const dmb_sim *sim, uint32_t row, dmb_message *text)
 {

@@ -1,0 +1,57 @@
+/* The soft string in steady motion, integrated from its far end up to the rig (Johancsik, Friesen, Dawson 1984;
+ * Sheppard, Wick, Burgess 1987), in three dimensions. At measured depth s, t the tangent of the hole's axis, w the
+ * buoyant weight per metre, N the effective axial force, v = (v_a, v_c) the speed of the pipe's surface along and
+ * around: c = |w - (w.t) t + N dt/ds|                  wall force per metre -dN/ds = w.t - mu c v_a/|v| force along
+ *     -dT/ds = mu c R |v_c|/|v|                    torque, R the radius that touches
+ * A helix presses r N^2/(4 EI) more on the wall where -N is above its load (Mitchell 1986), r the clearance. */
+#ifndef DMB_ANALYSIS_TORQUE_DRAG_SOFT_STRING_H
+#define DMB_ANALYSIS_TORQUE_DRAG_SOFT_STRING_H
+
+#include "drillmbd/drilling.h"
+#include "model/model.h"
+#include "model/scene.h"
+#include "query/pipe_strength.h"
+
+typedef struct dmb_soft_string {
+    const dmb_model *model;
+    const dmb_hole *hole;
+    double gravity[3]; /* [m/s2] */
+    uint32_t string;   /* index */
+    int32_t post_buckling;
+    double start;    /* [m] measured depth of the rig end */
+    double length;   /* [m] of all pipes */
+    double friction; /* [-] */
+    double end_mass; /* [kg] of bodies and bits at the far end */
+} dmb_soft_string;
+
+/* Integrated from the far end on. */
+enum {
+    DMB_SOFT_FORCE,
+    DMB_SOFT_TORQUE,
+    DMB_SOFT_GROWTH,
+    DMB_SOFT_STRETCH,
+    DMB_SOFT_WIND_UP,
+    DMB_SOFT_WALL,
+    DMB_SOFT_COUNT
+};
+
+/* A place on the way. */
+typedef struct dmb_soft_place {
+    const dmb_pipe_def *pipe;
+    double depth;                 /* [m] measured */
+    double step;                  /* [m] since the place before */
+    double state[DMB_SOFT_COUNT]; /* [N, N m, -, m, rad, N] force, torque, dN/dN of the far end, integrals */
+    double wall;                  /* [N/m] c */
+    double curvature;             /* [rad/m] of the hole */
+    double sinusoidal, helical;   /* [-] shares of buckling loads */
+} dmb_soft_place;
+
+typedef void (*dmb_soft_visit)(void *context, const dmb_soft_place *place);
+
+/* From the far end at measured depth `depth`, above start, to the rig end; tells each place, the far end first. Steps
+ * end at pipes of another kind, at stations of the survey, and at multiples of `spacing` [m] from the rig end (0:
+ * none). 0: the compression went beyond 1 % of EA on the way, and the rest was not told. */
+int dmb_soft_string_march(const dmb_soft_string *soft, const dmb_operation *operation, double depth, double spacing,
+                          dmb_soft_visit visit, void *context);
+
+#endif

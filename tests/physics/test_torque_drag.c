@@ -1,0 +1,411 @@
+/* Torque and drag of the soft string against closed forms (inclined, building, capstan, torque, lock-up), against the
+ * axial-torsional statics of the library in a hole that turns in three dimensions, and against the stiff string. */
+#include <string.h>
+
+#include "check.h"
+#include "drillmbd/drillmbd.h"
+
+static void must(int32_t status, const char *message)
+{
+    if (status < 0) fail_msg("%d: %s", (int)status, message);
+}
+
+typedef struct scene {
+    dmb_model *model;
+    dmb_sim *sim;
+    dmb_wall_def wall;
+    dmb_environment_def environment;
+    dmb_string_def string;
+    dmb_pipe_def pipe;
+    uint32_t pipes;
+} scene;
+
+static scene describe(uint32_t pipes, const double *survey, uint32_t stations)
+{
+    scene s = {.wall = dmb_wall_def_default(),
+               .environment = dmb_environment_def_default(),
+               .string = dmb_string_def_default(),
+               .pipe = dmb_pipe_def_default(),
+               .pipes = pipes};
+    s.wall.survey = survey;
+    s.wall.survey_count = stations;
+    s.wall.friction_law = DMB_FRICTION_COULOMB;
+    s.wall.smoothing_speed = 1e-9;
+    s.wall.mu_dynamic = 0.3;
+    s.string.start_free = DMB_FREE_NONE;
+    return s;
+}
+
+static void compile(scene *s)
+{
+    must(dmb_model_create(NULL, &s->model), "create");
+    must(dmb_model_set_environment(s->model, &s->environment), dmb_model_message(s->model));
+    must(dmb_model_add_wall(s->model, &s->wall, NULL), dmb_model_message(s->model));
+    must(dmb_model_add_string(s->model, &s->string, &s->pipe.string), dmb_model_message(s->model));
+    must(dmb_model_add_pipes(s->model, &s->pipe, s->pipes, NULL), dmb_model_message(s->model));
+    must(dmb_model_compile(s->model, NULL), dmb_model_message(s->model));
+    must(dmb_sim_create(s->model, NULL, &s->sim), dmb_model_message(s->model));
+}
+
+static void destroy(scene *s)
+{
+    dmb_sim_destroy(&s->sim);
+    dmb_model_destroy(&s->model);
+}
+
+static dmb_operation usual(int32_t kind)
+{
+    dmb_operation operation = dmb_operation_default();
+    must(dmb_operation_usual(kind, &operation), dmb_operation_name(kind));
+    return operation;
+}
+
+static dmb_torque_drag_row row_with(const scene *s, const dmb_torque_drag_options *options,
+                                    const dmb_operation *operation)
+{
+    dmb_torque_drag_row row = dmb_torque_drag_row_default();
+    must(dmb_analysis_torque_drag(s->sim, options, operation, 1, &row), dmb_sim_message(s->sim));
+    return row;
+}
+
+static dmb_torque_drag_row row_of(const scene *s, int32_t kind)
+{
+    const dmb_operation operation = usual(kind);
+    return row_with(s, NULL, &operation);
+}
+
+/* [N/m] */
+static double weight(const scene *s)
+{
+    return 9.81 * 0.25 * PI * (pow(s->pipe.outer_diameter, 2) - pow(s->pipe.inner_diameter, 2)) *
+           (s->pipe.density - s->environment.fluid_density);
+}
+
+static double EI(const scene *s)
+{
+    return s->pipe.young_modulus * PI / 64.0 * (pow(s->pipe.outer_diameter, 4) - pow(s->pipe.inner_diameter, 4));
+}
+
+/* A straight hole inclined by i: hook load w L (cos i +- mu sin i), torque mu w L sin i R. */
+static void inclined(void **state)
+{
+    const double i = 1.1, L = 300.0;
+    scene s = describe(300, NULL, 0);
+    (void)state;
+    s.wall.direction[0] = sin(i);
+    s.wall.direction[2] = -cos(i);
+    s.environment.fluid_density = 1100.0;
+    compile(&s);
+    const double W = weight(&s) * L;
+    check_relative("pick-up", row_of(&s, DMB_OPERATION_PICK_UP).hook_load, W * (cos(i) + 0.3 * sin(i)), 1e-12);
+    check_relative("slack-off", row_of(&s, DMB_OPERATION_SLACK_OFF).hook_load, W * (cos(i) - 0.3 * sin(i)), 1e-12);
+    check_relative("rotate", row_of(&s, DMB_OPERATION_ROTATE).hook_load, W * cos(i), 1e-12);
+    check_relative("torque", row_of(&s, DMB_OPERATION_ROTATE).torque, 0.3 * W * sin(i) * 0.0365, 1e-12);
+    check_relative("wall", row_of(&s, DMB_OPERATION_ROTATE).wall_force, W * sin(i), 1e-12);
+    const dmb_operation ream = usual(DMB_OPERATION_BACK_REAM);
+    const double v_c = ream.rotary_speed * 0.0365, v = hypot(v_c, 0.1);
+    check_relative("back-ream", row_of(&s, DMB_OPERATION_BACK_REAM).hook_load, W * (cos(i) + 0.3 * sin(i) * 0.1 / v),
+                   1e-12);
+    check_relative("its torque", row_of(&s, DMB_OPERATION_BACK_REAM).torque, 0.3 * W * sin(i) * 0.0365 * v_c / v,
+                   1e-12);
+    check_relative("stretch", row_of(&s, DMB_OPERATION_ROTATE).stretch,
+                   W * cos(i) * L / 2.0 / (2.1e11 * PI / 4.0 * (0.073 * 0.073 - 0.061 * 0.061)), 1e-12);
+    destroy(&s);
+}
+
+/* Pulled through a hole that builds on an arc of radius R, N/R > w sin i all along:
+ *     dN/di = -mu N - w R cos i + mu w R sin i,   N = A exp(-mu i) + a sin i + b cos i,
+ * a = w R (mu^2 - 1)/(1 + mu^2), b = -2 mu w R/(1 + mu^2); `load` hangs at the far end. */
+static void pulled_through_an_arc(void **state)
+{
+    static const double survey[6] = {0.0, 0.2, 0.3, 200.0, 1.5, 0.3};
+    const double mu = 0.3, R = 200.0 / 1.3, load = 60000.0;
+    scene s = describe(200, survey, 2);
+    dmb_operation up = usual(DMB_OPERATION_PICK_UP);
+    (void)state;
+    compile(&s);
+    up.weight_on_bit = -load;
+    const double a = weight(&s) * R * (mu * mu - 1.0) / (1.0 + mu * mu),
+                 b = -2.0 * mu * weight(&s) * R / (1.0 + mu * mu);
+    const double A = (load - a * sin(1.5) - b * cos(1.5)) * exp(mu * 1.5);
+    const dmb_torque_drag_row row = row_with(&s, NULL, &up);
+    check_relative("hook load", row.hook_load, A * exp(-mu * 0.2) + a * sin(0.2) + b * cos(0.2), 1e-9);
+    check_relative("transfer", row.transfer, exp(-mu * 1.3), 1e-9);
+    destroy(&s);
+}
+
+/* Without weight: exp(mu angle) along a hole that turns in space, and torque mu R N angle while turning. */
+static void capstan(void **state)
+{
+    static const double survey[15] = {0.0, 0.3, 0.0, 50.0, 0.8, 0.6, 90.0, 1.2, 0.1, 140.0, 1.0, 1.0, 150.0, 1.4, 1.0};
+    scene s = describe(150, survey, 5);
+    dmb_operation up = usual(DMB_OPERATION_PICK_UP), turn = usual(DMB_OPERATION_ROTATE);
+    double angle = 0.0;
+    (void)state;
+    s.environment.gravity[2] = 0.0;
+    compile(&s);
+    for (int k = 0; k < 4; k++) {
+        const double *p = survey + 3 * k, *q = p + 3;
+        angle += acos(cos(p[1]) * cos(q[1]) + sin(p[1]) * sin(q[1]) * cos(q[2] - p[2]));
+    }
+    up.weight_on_bit = turn.weight_on_bit = -5000.0;
+    check_relative("pull", row_with(&s, NULL, &up).hook_load, 5000.0 * exp(0.3 * angle), 1e-9);
+    check_relative("torque", row_with(&s, NULL, &turn).torque, 0.3 * 0.0365 * 5000.0 * angle, 1e-9);
+    destroy(&s);
+}
+
+/* Against the library's own axial-torsional statics with the same slip, in a hole that builds and turns: the soft
+ * string in another discretisation, of second order in the length of its elements. */
+static void against_statics(void **state)
+{
+    static const double survey[12] = {0.0, 0.9, 0.0, 80.0, 1.2, 0.5, 160.0, 1.5, 0.4, 240.0, 1.7, 1.2};
+    (void)state;
+    for (int kind = 0; kind < DMB_OPERATION_COUNT; kind++) {
+        const dmb_operation operation = usual(kind);
+        const dmb_operation *op = &operation;
+        double reaction[6];
+        dmb_static_options options = dmb_static_options_default();
+        scene s = describe(240, survey, 4);
+        s.pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
+        compile(&s);
+        options.slip_axial = op->axial_speed;
+        options.slip_rotation = op->rotary_speed;
+        must(dmb_analysis_static(s.sim, &options, NULL), dmb_sim_message(s.sim));
+        must(dmb_query_reaction(s.sim, s.pipe.string, reaction), "reaction");
+        const dmb_torque_drag_row row = row_with(&s, NULL, op);
+        tell(dmb_operation_name(kind), row.hook_load);
+        check_close("hook load", row.hook_load, -reaction[DMB_X], 2e-4 * weight(&s) * 240.0);
+        check_close("torque", row.torque, fabs(reaction[DMB_RX]), 2e-4 * 0.0365 * 0.3 * weight(&s) * 240.0);
+        destroy(&s);
+    }
+}
+
+/* Stiff string of the same scene: bending hardly matters in the wide arc, and does in the narrow
+ * one, where the guide at the rig end and stiff ends carry a part of what the soft string lays on the wall. */
+static double stiff_over_soft(double turn)
+{
+    const double survey[6] = {0.0, 1.2, 0.0, 100.0, 1.2 + turn, 0.0};
+    const dmb_operation up = usual(DMB_OPERATION_PICK_UP);
+    dmb_static_options options = dmb_static_options_default();
+    scene s = describe(100, survey, 2);
+    double reaction[6];
+    s.string.offset[1] = -0.0105;
+    s.pipe.elements = 2;
+    compile(&s);
+    options.slip_axial = up.axial_speed;
+    must(dmb_analysis_static(s.sim, &options, NULL), dmb_sim_message(s.sim));
+    must(dmb_query_reaction(s.sim, s.pipe.string, reaction), "reaction");
+    const double ratio = -reaction[DMB_X] / row_with(&s, NULL, &up).hook_load;
+    destroy(&s);
+    return ratio;
+}
+
+static void against_the_stiff_string(void **state)
+{
+    (void)state;
+    const double wide = stiff_over_soft(0.1), narrow = stiff_over_soft(1.2);
+    tell("stiff over soft, 1 mrad/m", wide);
+    tell("stiff over soft, 12 mrad/m", narrow);
+    check_below("wide: no difference", fabs(wide - 1.0), 0.01);
+    assert_true(fabs(narrow - 1.0) > 5.0 * fabs(wide - 1.0));
+}
+
+/* A horizontal string pushed beyond its helical load: dF/dx = mu (w + F^2/k), k = 4 EI/r, so that
+ * F = c tan(atan(F0/c) + mu x c/k), c = sqrt(w k); it locks up where the tangent has its pole. */
+static void lock_up(void **state)
+{
+    const double F0 = 200000.0, mu = 0.3;
+    scene s = describe(1000, NULL, 0);
+    dmb_operation push = usual(DMB_OPERATION_SLIDE);
+    dmb_torque_drag_options options = dmb_torque_drag_options_default();
+    (void)state;
+    compile(&s);
+    push.weight_on_bit = F0;
+    const double k = 4.0 * EI(&s) / 0.0105, c = sqrt(weight(&s) * k);
+    const double pole = (0.5 * PI - atan(F0 / c)) * k / (mu * c);
+    tell("lock-up length [m]", pole);
+    for (int i = 1; i < 10; i++) {
+        const double x = 0.1 * i * pole;
+        options.depths = &x;
+        const dmb_torque_drag_row row = row_with(&s, &options, &push);
+        const double F = c * tan(atan(F0 / c) + mu * x * c / k), grow = (1.0 + F * F / c / c) / (1.0 + F0 * F0 / c / c);
+        if (F > 0.009 * 2.1e11 * PI / 4.0 * (0.073 * 0.073 - 0.061 * 0.061)) break;
+        check_relative("thrust", -row.hook_load, F, 1e-5);
+        check_relative("transfer", row.transfer, 1.0 / grow, 1e-5);
+        check_relative("helix", row.helix_length, x, 1e-12);
+        assert_int_equal(row.locked, 0);
+    }
+    options.depths = NULL;
+    assert_true(pole < 1000.0);
+    {
+        const dmb_torque_drag_row row = row_with(&s, &options, &push);
+        double force[2];
+        assert_int_equal(row.locked, 1);
+        assert_true(isnan(row.hook_load) && isnan(row.wall_force) && row.transfer == 0.0);
+        assert_int_equal(dmb_analysis_torque_drag_profile(s.sim, NULL, &push, 2, NULL, force, NULL, NULL),
+                         DMB_ERR_NO_CONVERGENCE);
+    }
+    options.post_buckling = 0;
+    check_relative("without a helix", -row_with(&s, &options, &push).hook_load, F0 + mu * weight(&s) * 1000.0, 1e-12);
+    destroy(&s);
+}
+
+static const double well[15] = {0.0, 0.1, 0.0, 100.0, 0.1, 0.0, 250.0, 1.3, 0.3, 300.0, 1.5, 0.3, 400.0, 1.5, 0.2};
+
+/* transfer against a difference of two runs; the profile ends where the row says; weights at the end count. */
+static void consistent(void **state)
+{
+    scene s = describe(400, well, 5);
+    double force[41], torque[41], depth[41], wall[41];
+    (void)state;
+    compile(&s);
+    for (int kind = 0; kind < DMB_OPERATION_COUNT; kind++) {
+        dmb_operation operation = usual(kind), more;
+        operation.weight_on_bit = 3000.0;
+        operation.torque_on_bit = 200.0;
+        more = operation;
+        more.weight_on_bit += 1.0;
+        const dmb_torque_drag_row row = row_with(&s, NULL, &operation), next = row_with(&s, NULL, &more);
+        check_close("transfer", row.transfer, 1.0 / (row.hook_load - next.hook_load), 1e-4);
+        must(dmb_analysis_torque_drag_profile(s.sim, NULL, &operation, 41, depth, force, torque, wall), "profile");
+        for (int i = 0; i < 41; i++) {
+            check_close("stations", depth[i], 10.0 * i, 1e-9);
+            assert_true(row.lowest_force <= force[i] + 1e-4 * weight(&s) * 400.0);
+        }
+        check_close("rig end", force[0], row.hook_load, 1e-5 * fabs(row.hook_load));
+        check_close("bit", force[40], -3000.0, 1e-9);
+        check_close("torque at the bit", torque[40], 200.0, 1e-9);
+        check_close("torque", torque[0], row.torque, 1e-5 * row.torque);
+        tell("wall at the rig", wall[0]);
+    }
+    destroy(&s);
+}
+
+static void friction_is_found_again(void **state)
+{
+    scene s = describe(400, well, 5);
+    dmb_torque_drag_options options = dmb_torque_drag_options_default();
+    (void)state;
+    compile(&s);
+    for (int kind = 0; kind < DMB_OPERATION_COUNT; kind++) {
+        const dmb_operation operation = usual(kind);
+        const int pushed = operation.axial_speed > 0.0 && operation.rotary_speed == 0.0;
+        double found = -1.0;
+        options.friction = 0.237;
+        const dmb_torque_drag_row row = row_with(&s, &options, &operation);
+        if (operation.axial_speed != 0.0) {
+            must(dmb_analysis_friction_factor(s.sim, NULL, &operation, DMB_MEASURED_HOOK_LOAD, row.hook_load, &found),
+                 dmb_sim_message(s.sim));
+            check_close("by the hook load", found, 0.237, 1e-9);
+        }
+        if (operation.rotary_speed > 0.0) {
+            must(dmb_analysis_friction_factor(s.sim, NULL, &operation, DMB_MEASURED_TORQUE, row.torque, &found),
+                 dmb_sim_message(s.sim));
+            check_close("by the torque", found, 0.237, 1e-9);
+        }
+        found = 7.0;
+        assert_int_equal(dmb_analysis_friction_factor(s.sim, NULL, &operation, DMB_MEASURED_HOOK_LOAD, -1e9, &found),
+                         pushed ? DMB_OK : DMB_ERR_VALUE);
+        if (!pushed) assert_true(found == 7.0);
+    }
+    destroy(&s);
+}
+
+/* Shallower than described: the pipes at the rig end are not there yet, those at the far end are. */
+static void shallow(void **state)
+{
+    scene s = describe(100, NULL, 0);
+    dmb_torque_drag_options options = dmb_torque_drag_options_default();
+    const dmb_operation still = dmb_operation_default();
+    dmb_pipe_def collar;
+    const double depths[3] = {5.0, 40.0, 120.0};
+    dmb_torque_drag_row rows[3] = {dmb_torque_drag_row_default()};
+    (void)state;
+    s.wall.direction[0] = 0.0;
+    s.wall.direction[2] = -1.0;
+    must(dmb_model_create(NULL, &s.model), "create");
+    must(dmb_model_add_wall(s.model, &s.wall, NULL), "wall");
+    must(dmb_model_add_pipes(s.model, &s.pipe, s.pipes, NULL), "pipes");
+    collar = s.pipe;
+    collar.outer_diameter = 0.09;
+    must(dmb_model_add_pipes(s.model, &collar, 20, NULL), "collars");
+    dmb_bit_def bit = dmb_bit_def_default();
+    must(dmb_model_add_bit(s.model, &bit, NULL), "bit");
+    must(dmb_model_compile(s.model, NULL), dmb_model_message(s.model));
+    must(dmb_sim_create(s.model, NULL, &s.sim), "sim");
+    options.depths = depths;
+    options.depth_count = 3;
+    must(dmb_analysis_torque_drag(s.sim, &options, &still, 1, rows), dmb_sim_message(s.sim));
+    const double w = weight(&s), wc = 9.81 * 7850.0 * PI / 4.0 * (0.09 * 0.09 - 0.061 * 0.061), bit_weight = 5.0 * 9.81;
+    check_relative("collars alone", rows[0].hook_load, 5.0 * wc + bit_weight, 1e-12);
+    check_relative("and pipes", rows[1].hook_load, 20.0 * wc + 20.0 * w + bit_weight, 1e-12);
+    check_relative("all", rows[2].hook_load, 20.0 * wc + 100.0 * w + bit_weight, 1e-12);
+    assert_int_equal(rows[2].struct_size, sizeof rows[0]);
+    destroy(&s);
+}
+
+static void refused(void **state)
+{
+    scene s = describe(10, NULL, 0);
+    dmb_operation good = usual(DMB_OPERATION_PICK_UP), bad;
+    dmb_torque_drag_options options = dmb_torque_drag_options_default();
+    dmb_torque_drag_row row = dmb_torque_drag_row_default();
+    double depth, found = 7.0;
+    (void)state;
+    compile(&s);
+    row.hook_load = -7.0;
+    options.depths = &depth;
+    for (int k = 0; k < 5; k++) {
+        depth = (const double[5]){0.0, -1.0, 10.1, (double)NAN, (double)INFINITY}[k];
+        assert_int_equal(dmb_analysis_torque_drag(s.sim, &options, &good, 1, &row),
+                         k < 3 ? DMB_ERR_VALUE : DMB_ERR_NOT_FINITE);
+        assert_non_null(strstr(dmb_sim_message(s.sim), "depth"));
+    }
+    depth = 5.0;
+#define REFUSED(target, field, value, status)                                               \
+    do {                                                                                    \
+        dmb_torque_drag_options kept = options;                                             \
+        bad = good;                                                                         \
+        target.field = value;                                                               \
+        assert_int_equal(dmb_analysis_torque_drag(s.sim, &options, &bad, 1, &row), status); \
+        assert_true(dmb_sim_message(s.sim)[0] != 0 && row.hook_load == -7.0);               \
+        options = kept;                                                                     \
+    } while (0)
+    REFUSED(options, friction, -0.5, DMB_ERR_VALUE);
+    REFUSED(options, friction, 11.0, DMB_ERR_VALUE);
+    REFUSED(options, friction, NAN, DMB_ERR_NOT_FINITE);
+    REFUSED(options, post_buckling, 2, DMB_ERR_VALUE);
+    REFUSED(options, depth_count, 0, DMB_ERR_VALUE);
+    REFUSED(options, string.generation, 99, DMB_ERR_ID);
+    REFUSED(bad, axial_speed, NAN, DMB_ERR_NOT_FINITE);
+    REFUSED(bad, rotary_speed, INFINITY, DMB_ERR_NOT_FINITE);
+    REFUSED(bad, weight_on_bit, NAN, DMB_ERR_NOT_FINITE);
+    REFUSED(bad, torque_on_bit, -1.0, DMB_ERR_VALUE);
+    REFUSED(bad, struct_size, 7, DMB_ERR_STRUCT_SIZE);
+    row.struct_size = 8;
+    REFUSED(bad, reserved, 0, DMB_ERR_STRUCT_SIZE);
+    row.struct_size = sizeof row;
+    assert_int_equal(dmb_analysis_torque_drag(s.sim, NULL, &good, 0, &row), DMB_ERR_VALUE);
+    assert_int_equal(dmb_analysis_torque_drag(s.sim, NULL, NULL, 1, &row), DMB_ERR_NULL);
+    assert_int_equal(dmb_analysis_torque_drag(NULL, NULL, &good, 1, &row), DMB_ERR_NULL);
+    assert_int_equal(dmb_analysis_torque_drag_profile(s.sim, NULL, &good, 1, NULL, NULL, NULL, NULL), DMB_ERR_VALUE);
+    assert_int_equal(dmb_analysis_friction_factor(s.sim, NULL, &good, 2, 0.0, &found), DMB_ERR_VALUE);
+    assert_int_equal(dmb_analysis_friction_factor(s.sim, NULL, &good, 0, NAN, &found), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_operation_usual(DMB_OPERATION_COUNT, &good), DMB_ERR_VALUE);
+    assert_int_equal(dmb_operation_usual(0, NULL), DMB_ERR_NULL);
+    assert_null(dmb_operation_name(-1));
+    assert_true(found == 7.0);
+    destroy(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(inclined),   cmocka_unit_test(pulled_through_an_arc),
+        cmocka_unit_test(capstan),    cmocka_unit_test(against_statics),
+        cmocka_unit_test(lock_up),    cmocka_unit_test(against_the_stiff_string),
+        cmocka_unit_test(consistent), cmocka_unit_test(friction_is_found_again),
+        cmocka_unit_test(shallow),    cmocka_unit_test(refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
