@@ -15,6 +15,7 @@
 #include "system/assemble/drives.h"
 #include "system/assemble/wall_contact.h"
 #include "system/constrain/cluster.h"
+#include "system/constrain/joint_edge.h"
 #include "system/constrain/joint_state.h"
 #include "system/solve/solve.h"
 #include "system/start.h"
@@ -104,7 +105,8 @@ static int32_t relax(dmb_static_search *search, uint32_t steps, int singular)
     for (search->caution = 1.0; may_try_again(status) && search->caution < DMB_CAUTION_MAX; search->caution *= 3.0) {
         status = dmb_static_equal_steps(search, dmb_static_relaxation, steps);
         const int in_hole = search->sim->scene->site_count > 0;
-        if (status != DMB_ERR_ROTATION && (singular || search->loose || in_hole)) break;
+        const int too_far = status == DMB_ERR_ROTATION || status == DMB_ERR_GEOMETRY;
+        if (!too_far && (singular || search->loose || in_hole)) break;
     }
     return status;
 }
@@ -348,7 +350,9 @@ static void explain(dmb_static_search *search, int32_t status)
     dmb_sim *sim = search->sim;
     dmb_owner owner;
     dmb_message text;
-    if (sim->scene->cluster_count && sim->reduced_mode->row != DMB_NONE) {
+    if (status == DMB_ERR_GEOMETRY) {
+        (void)dmb_joints_refuse_folds(sim); /* the trial still stands there */
+    } else if (sim->scene->cluster_count && sim->reduced_mode->row != DMB_NONE) {
         dmb_clusters_explain(sim, "its equations cannot be satisfied");
     } else if (status == DMB_ERR_SINGULAR) {
         owner = dmb_owner_of_node(sim->scene, search->block);

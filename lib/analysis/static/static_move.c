@@ -5,6 +5,7 @@
 #include "math/vec3.h"
 #include "sim/node.h"
 #include "system/constrain/cluster.h"
+#include "system/constrain/joint_edge.h"
 #include "system/constrain/joint_state.h"
 
 /* ---- Joints ------------------------------------------------------------------------------------------------------ */
@@ -27,6 +28,8 @@ int32_t dmb_static_settle(dmb_static_search *search)
     }
     if (status < 0) return status;
     search->sim->reduced_mode->row = DMB_NONE;
+    status = dmb_joints_refuse_folds(search->sim);
+    if (status < 0) return status;
     dmb_joints_follow(&search->evaluation);
     return dmb_clusters_refresh(&search->evaluation);
 }

@@ -98,6 +98,32 @@ static int32_t check_joint(dmb_sim *sim, uint32_t j, int moving, double time)
     return s > dmb_sin(DMB_RIGHT_ANGLE_EDGE) ? DMB_OK : refuse_angle(sim, j, s, time);
 }
 
+/* With RX = 0 of a universal joint n = (cos RZ, 0): its sign is the side. */
+static int is_folded(const dmb_sim *sim, uint32_t j)
+{
+    dmb_relative before, here;
+    if (sim->joint_state[j] != DMB_JOINT_ACTIVE || sim->scene->joints[j].kind != DMB_ROWS_UNIVERSAL) return 0;
+    dmb_joint_motion_of(sim->scene, &sim->now, j, &before, NULL);
+    dmb_joint_motion_of(sim->scene, &sim->trial, j, &here, NULL);
+    return before.R[4] * here.R[4] + before.R[5] * here.R[5] < 0.0;
+}
+
+int32_t dmb_joints_refuse_folds(dmb_sim *sim)
+{
+    dmb_message owner;
+    for (uint32_t j = 0; j < sim->scene->joint_count; j++) {
+        if (!is_folded(sim, j)) continue;
+        dmb_constraint_text(sim->scene, sim->scene->joints[j].constraint, &owner);
+        dmb_message_set(
+            &sim->message,
+            "static: %s: on the way to equilibrium |RZ| passes %g rad, where an axis of its cross lies along a "
+            "shaft: use a spherical joint, stiffer springs or a stop, or start nearer to the equilibrium",
+            owner.text, 0.5 * DMB_PI);
+        return DMB_ERR_GEOMETRY;
+    }
+    return DMB_OK;
+}
+
 int32_t dmb_joints_refuse_edges(dmb_sim *sim, int moving, double time)
 {
     int32_t status = DMB_OK;
