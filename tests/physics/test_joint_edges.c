@@ -185,6 +185,47 @@ static void a_rim_that_lies_flat(void **state)
     rig_close(&a.s);
 }
 
+/* A moment M about z of b against a spring k on RZ rests at M/k: 1 rad, or 2 rad, which the joint can only come to over
+ * its right angle. */
+static int32_t rest_under(int32_t kind, double moment, double *angle, char message[256])
+{
+    arm a = describe_arm(0.0, 0.0, 0.0);
+    dmb_joint_def def = arm_joint(&a, kind);
+    dmb_load_def load = dmb_load_def_default();
+    dmb_joint_state state = dmb_joint_state_default();
+    def.stiffness[DMB_RY] = def.stiffness[DMB_RZ] = 10.0;
+    if (kind == DMB_JOINT_SPHERICAL) def.stiffness[DMB_RX] = 10.0;
+    load.place = dmb_station(a.bar, 0, 0.0);
+    load.frame = DMB_FRAME_BODY;
+    load.moment[2] = moment;
+    (void)add_load(&a.s, &load);
+    a = open_arm(&a, &def);
+    const uint64_t before = hash_of(a.s.sim);
+    const int32_t status = dmb_analysis_static(a.s.sim, NULL, NULL);
+    if (status < 0) assert_true(hash_of(a.s.sim) == before);
+    (void)snprintf(message, 256, "%s", dmb_sim_message(a.s.sim));
+    assert_int_equal(dmb_query_joint(a.s.sim, a.joint, &state), DMB_OK);
+    *angle = state.position[DMB_RZ];
+    rig_close(&a.s);
+    return status;
+}
+
+static void statics_do_not_fold_it(void **state)
+{
+    (void)state;
+    const int32_t kinds[2] = {DMB_JOINT_UNIVERSAL, DMB_JOINT_SPHERICAL};
+    for (int i = 0; i < 2; i++) {
+        double angle;
+        char message[256];
+        assert_int_equal(rest_under(kinds[i], 10.0, &angle, message), DMB_OK);
+        check_close("RZ = M/k [rad]", angle, 1.0, 1e-8);
+        const int32_t status = rest_under(kinds[i], 20.0, &angle, message);
+        print_message("    %s\n", message);
+        assert_int_equal(status, i == 0 ? DMB_ERR_GEOMETRY : DMB_ERR_NO_CONVERGENCE);
+        assert_non_null(strstr(message, i == 0 ? "joint 0 (cross): on the way" : "joint 0 (cross) came to |RZ| = 1.5"));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -192,6 +233,7 @@ int main(void)
         cmocka_unit_test(the_other_axis_turns_on),
         cmocka_unit_test(create_refuses_it),
         cmocka_unit_test(statics_refuse_it),
+        cmocka_unit_test(statics_do_not_fold_it),
         cmocka_unit_test(balls_only_with_something_on_their_angles),
         cmocka_unit_test(a_locked_joint_may_stand_there),
         cmocka_unit_test(a_rim_that_lies_flat),

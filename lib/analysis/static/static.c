@@ -15,6 +15,7 @@
 #include "system/assemble/drives.h"
 #include "system/assemble/wall_contact.h"
 #include "system/constrain/cluster.h"
+#include "system/constrain/constraint_rows.h"
 #include "system/constrain/joint_edge.h"
 #include "system/constrain/joint_state.h"
 #include "system/solve/solve.h"
@@ -328,11 +329,30 @@ static const char *controller(const dmb_sim *sim, int limited_only, dmb_message 
  * close a stiff wall in turn. */
 #define DMB_SHORT_ELEMENT 4.0 /* [-] lengths sqrt(EI/T) */
 
+/* Springs, drives and couplings of angles that are not defined at a right angle of RZ jump there, and what rests near
+ * it has no equilibrium to converge to. */
+#define DMB_NEAR_EDGE 0.9 /* of 1 - cos RZ: 84 degrees */
+
+static const char *edge_of_joint(const dmb_static_search *search, dmb_message *text)
+{
+    dmb_message name;
+    const dmb_scene *scene = search->sim->scene;
+    if (!(search->edge > DMB_NEAR_EDGE)) return NULL;
+    dmb_constraint_text(scene, scene->joints[search->edge_joint].constraint, &name);
+    dmb_message_set(
+        text,
+        "; %s came to |RZ| = %g rad: at a right angle its RX and RY jump, and their springs: turn its frames, "
+        "or use stiffer springs",
+        name.text, acos(1.0 - search->edge));
+    return text->text;
+}
+
 static const char *remedy(dmb_static_search *search, dmb_message *text)
 {
     dmb_static_pull pull;
-    const char *drive = controller(search->sim, 1, text);
-    if (drive != NULL) return drive;
+    const char *drive = controller(search->sim, 1, text), *edge = edge_of_joint(search, text);
+    if (drive != NULL) return controller(search->sim, 1, text);
+    if (edge != NULL) return edge;
     if (dmb_static_find_pull(search, &pull) && pull.element > DMB_SHORT_ELEMENT * pull.bending) {
         dmb_message_set(text,
                         "; string %u is pulled by T = %g N round a bend: with sqrt(EI/T) = %g m take elements of %g m, "

@@ -26,6 +26,8 @@ typedef struct dmb_static_search {
     double moved;        /* [-] largest correction before it, in length scales */
     double moved_before; /* [-] the one before that */
     double caution;      /* [-] the relaxation's corrections are this much shorter */
+    double edge;         /* [-] 1 - cos RZ, largest on the way of joints whose RX and RY are needed; 0: of none */
+    uint32_t edge_joint; /* which one it was */
 } dmb_static_search;
 
 /* At the sim's present time, without friction; options may be NULL where nothing iterates. */

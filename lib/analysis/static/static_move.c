@@ -17,6 +17,15 @@ static int32_t choose_anew(dmb_static_search *search)
     return status;
 }
 
+static void note_edge(dmb_static_search *search)
+{
+    uint32_t joint;
+    const double edge = 1.0 - dmb_joints_nearest_edge(search->sim, &joint);
+    if (!(edge > search->edge)) return;
+    search->edge = edge;
+    search->edge_joint = joint;
+}
+
 /* Joints closed, and the partition chosen anew where it has become poor. A long way may have made it useless at once.
  */
 int32_t dmb_static_settle(dmb_static_search *search)
@@ -30,6 +39,7 @@ int32_t dmb_static_settle(dmb_static_search *search)
     search->sim->reduced_mode->row = DMB_NONE;
     status = dmb_joints_refuse_folds(search->sim);
     if (status < 0) return status;
+    note_edge(search);
     dmb_joints_follow(&search->evaluation);
     return dmb_clusters_refresh(&search->evaluation);
 }

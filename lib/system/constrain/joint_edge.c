@@ -124,6 +124,22 @@ int32_t dmb_joints_refuse_folds(dmb_sim *sim)
     return DMB_OK;
 }
 
+double dmb_joints_nearest_edge(const dmb_sim *sim, uint32_t *joint)
+{
+    double nearest = 1.0;
+    *joint = DMB_NONE;
+    for (uint32_t j = 0; j < sim->scene->joint_count; j++) {
+        dmb_relative here;
+        if (sim->joint_state[j] != DMB_JOINT_ACTIVE || !needs_angles(sim->scene, j)) continue;
+        dmb_joint_motion_of(sim->scene, &sim->trial, j, &here, NULL);
+        const double s = smallest_cosine(sim, j, here.R, 0);
+        if (!(s < nearest)) continue;
+        nearest = s;
+        *joint = j;
+    }
+    return nearest;
+}
+
 int32_t dmb_joints_refuse_edges(dmb_sim *sim, int moving, double time)
 {
     int32_t status = DMB_OK;
