@@ -22,15 +22,22 @@ static int coupled(const dmb_scene *scene, uint32_t j)
     return 0;
 }
 
-/* Whether something acts on an angle of the joint, or its kind is built on them. */
-static int needs_angles(const dmb_scene *scene, uint32_t j)
+/* Whether something acts on an angle of the joint. */
+static int acts_on_angles(const dmb_scene *scene, uint32_t j)
 {
     const dmb_scene_joint *joint = scene->joints + j;
-    if ((dmb_joint_free_mask(joint->kind) >> DMB_RZ & 1) == 0) return 0; /* RZ stays 0 */
-    if (joint->kind == DMB_ROWS_UNIVERSAL || (joint->law != DMB_NONE && joint->law_mask >> DMB_RX)) return 1;
+    if (joint->law != DMB_NONE && joint->law_mask >> DMB_RX) return 1;
     for (uint32_t i = joint->first_drive; i < joint->first_drive + joint->drive_count; i++)
         if (scene->drives[scene->joint_drives[i]].component >= DMB_RX) return 1;
     return coupled(scene, j);
+}
+
+/* The same, or its kind is built on them. */
+static int needs_angles(const dmb_scene *scene, uint32_t j)
+{
+    const int32_t kind = scene->joints[j].kind;
+    if ((dmb_joint_free_mask(kind) >> DMB_RZ & 1) == 0) return 0; /* RZ stays 0 */
+    return kind == DMB_ROWS_UNIVERSAL || acts_on_angles(scene, j);
 }
 
 /* Distance from 0 of the chord from a to b. */
@@ -98,11 +105,13 @@ static int32_t check_joint(dmb_sim *sim, uint32_t j, int moving, double time)
     return s > dmb_sin(DMB_RIGHT_ANGLE_EDGE) ? DMB_OK : refuse_angle(sim, j, s, time);
 }
 
-/* With RX = 0 of a universal joint n = (cos RZ, 0): its sign is the side. */
+/* With RX = 0 of a universal joint n = (cos RZ, 0): its sign is the side. One that swings freely comes to the same
+ * place round its other axis. */
 static int is_folded(const dmb_sim *sim, uint32_t j)
 {
     dmb_relative before, here;
     if (sim->joint_state[j] != DMB_JOINT_ACTIVE || sim->scene->joints[j].kind != DMB_ROWS_UNIVERSAL) return 0;
+    if (!acts_on_angles(sim->scene, j)) return 0;
     dmb_joint_motion_of(sim->scene, &sim->now, j, &before, NULL);
     dmb_joint_motion_of(sim->scene, &sim->trial, j, &here, NULL);
     return before.R[4] * here.R[4] + before.R[5] * here.R[5] < 0.0;

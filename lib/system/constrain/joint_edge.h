@@ -13,8 +13,9 @@
  * with springs, drives or couplings on its angles, at a right angle of RZ; a rim that lies flat. moving: the way from
  * now counts too. DMB_ERR_GEOMETRY with a message. system/constrain/joint_edge */
 int32_t dmb_joints_refuse_edges(dmb_sim *sim, int moving, double time);
-/* Refuses active universal joints whose trial stands beyond the right angle that `now` is before: on the way of a
- * search for equilibrium, however long, they would have passed it. DMB_ERR_GEOMETRY with a message. */
+/* Refuses active universal joints with something on their angles whose trial stands beyond the right angle that `now`
+ * is before: on the way of a search for equilibrium, however long, they would have passed it. DMB_ERR_GEOMETRY with a
+ * message. */
 int32_t dmb_joints_refuse_folds(dmb_sim *sim);
 /* [-] smallest cos RZ of the joints of the trial whose RX and RY are needed, and which one it is; 1, DMB_NONE: of none.
  */
