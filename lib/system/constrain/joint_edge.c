@@ -140,6 +140,7 @@ double dmb_joints_nearest_edge(const dmb_sim *sim, uint32_t *joint)
     for (uint32_t j = 0; j < sim->scene->joint_count; j++) {
         dmb_relative here;
         if (sim->joint_state[j] != DMB_JOINT_ACTIVE || !needs_angles(sim->scene, j)) continue;
+        if (!acts_on_angles(sim->scene, j)) continue;
         dmb_joint_motion_of(sim->scene, &sim->trial, j, &here, NULL);
         const double s = smallest_cosine(sim, j, here.R, 0);
         if (!(s < nearest)) continue;

@@ -17,7 +17,8 @@ int32_t dmb_joints_refuse_edges(dmb_sim *sim, int moving, double time);
  * is before: on the way of a search for equilibrium, however long, they would have passed it. DMB_ERR_GEOMETRY with a
  * message. */
 int32_t dmb_joints_refuse_folds(dmb_sim *sim);
-/* [-] smallest cos RZ of the joints of the trial whose RX and RY are needed, and which one it is; 1, DMB_NONE: of none.
+/* [-] smallest cos RZ of the joints of the trial with something on their angles, and which one it is; 1, DMB_NONE: of
+ * none.
  */
 double dmb_joints_nearest_edge(const dmb_sim *sim, uint32_t *joint);
 
