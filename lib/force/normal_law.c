@@ -94,17 +94,13 @@ static double restitution_factor(int32_t kind, double e)
     }
 }
 
-void dmb_normal_law_setup(dmb_normal_law *law, int32_t kind, double stiffness, double exponent, double restitution,
-                          double damping, double impact_depth, double approach_floor)
+dmb_normal_law dmb_normal_law_of(dmb_normal_law law, double restitution)
 {
-    law->kind = kind < DMB_NORMAL_KELVIN_VOIGT || kind > DMB_NORMAL_IMPACT ? DMB_NORMAL_NONE : kind;
-    law->reserved = 0;
-    law->stiffness = stiffness;
-    law->exponent = exponent;
-    law->damping = damping;
-    law->impact_depth = impact_depth;
-    law->mu = restitution_factor(kind, restitution);
-    law->approach_floor = fmax(approach_floor, DMB_SPEED_FLOOR);
+    law.mu = restitution_factor(law.kind, restitution);
+    if (law.kind < DMB_NORMAL_KELVIN_VOIGT || law.kind > DMB_NORMAL_IMPACT) law.kind = DMB_NORMAL_NONE;
+    law.reserved = 0;
+    law.approach_floor = fmax(law.approach_floor, DMB_SPEED_FLOOR);
+    return law;
 }
 
 void dmb_normal_force(const dmb_normal_law *law, double depth, double rate, double approach_speed, double *force,

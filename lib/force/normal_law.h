@@ -20,10 +20,9 @@ typedef struct dmb_normal_law {
     double approach_floor; /* [m/s] smallest v0 */
 } dmb_normal_law;
 
-/* Fills the law. restitution e in 0 .. 1 fixes mu; for FLORES and EXACT, whose mu grows like 1/e, e below 1e-6 counts
+/* The law with mu from the restitution e in 0 .. 1; for FLORES and EXACT, whose mu grows like 1/e, e below 1e-6 counts
  * as 1e-6. An unknown kind becomes DMB_NORMAL_NONE. Other values are taken as they are (the model has checked them). */
-void dmb_normal_law_setup(dmb_normal_law *law, int32_t kind, double stiffness, double exponent, double restitution,
-                          double damping, double impact_depth, double approach_floor);
+dmb_normal_law dmb_normal_law_of(dmb_normal_law law, double restitution);
 
 /* [-] Damping factor mu that makes K d^n (1 + mu d'/v0) give back the restitution e, for any n and v0:
  * mu (1 + e) = ln((1 + mu)/(1 - mu e)). To 1e-15 relative. e >= 1 gives 0; e below 1e-6 (or NaN) counts as 1e-6. */

@@ -244,8 +244,13 @@ static void fill_laws(const dmb_model *model, dmb_scene *scene)
                                   .full_speed = w->full_speed,
                                   .bristle_stiffness = w->bristle_stiffness,
                                   .bristle_damping = w->bristle_damping};
-    dmb_normal_law_setup(&scene->normal_law, contact ? w->normal_law : DMB_NORMAL_NONE, w->stiffness, w->exponent,
-                         w->restitution, w->damping, w->impact_depth, w->approach_speed);
+    scene->normal_law = dmb_normal_law_of((dmb_normal_law){.kind = contact ? w->normal_law : DMB_NORMAL_NONE,
+                                                           .stiffness = w->stiffness,
+                                                           .exponent = w->exponent,
+                                                           .damping = w->damping,
+                                                           .impact_depth = w->impact_depth,
+                                                           .approach_floor = w->approach_speed},
+                                          w->restitution);
     scene->friction_law = law;
 }
 

@@ -241,8 +241,8 @@ static int32_t run(speeds_run *r)
     for (uint32_t k = 0; k < r->order_count && status >= 0; k++) status = follow_order(r, k);
     if (status >= 0) status = gather_speeds(r);
     if (status < 0) return status;
-    r->count = dmb_speeds_bands(r->curves, r->order_count, &r->options, r->speeds, r->points, r->found, r->room,
-                                &r->report.cut);
+    const dmb_speeds_curves all = {r->curves, r->order_count, r->points, r->speeds};
+    r->count = dmb_speeds_bands(&all, &r->options, r->found, r->room, &r->report.cut);
     return DMB_OK;
 }
 

@@ -17,10 +17,17 @@ typedef struct dmb_speeds_curve {
 /* Sum of the curves at a speed; *order: which of them is largest there, *output: its worst output. */
 double dmb_speeds_sum(const dmb_speeds_curve *curves, uint32_t count, double speed, uint32_t *order, uint32_t *output);
 
-/* The bands above the threshold, widened by the margin and joined where they meet. speeds: points of all curves,
- * ascending. bands: room of them; returns how many there are, more than room if they do not fit. *cut: 1 if a band goes
- * on below the first speed, 2 above the last one, 3 both, 0 neither. */
-uint32_t dmb_speeds_bands(const dmb_speeds_curve *curves, uint32_t count, const dmb_speeds_options *options,
-                          const double *speeds, uint32_t points, dmb_speed_band *bands, uint32_t room, int32_t *cut);
+/* The curves of all orders. */
+typedef struct dmb_speeds_curves {
+    const dmb_speeds_curve *curve; /* shape (count) */
+    uint32_t count, points;
+    const double *speed; /* [rad/s] points of all curves, ascending, shape (points) */
+} dmb_speeds_curves;
+
+/* The bands above the threshold, widened by the margin and joined where they meet. bands: room of them; returns how
+ * many there are, more than room if they do not fit. *cut: 1 if a band goes on below the first speed, 2 above the last
+ * one, 3 both, 0 neither. */
+uint32_t dmb_speeds_bands(const dmb_speeds_curves *all, const dmb_speeds_options *options, dmb_speed_band *bands,
+                          uint32_t room, int32_t *cut);
 
 #endif

@@ -101,15 +101,17 @@ static double crossing(const search *s, double a, double at_a, double b, double 
     return a + (b - a) * (s->options->threshold - at_a) / (at_b - at_a);
 }
 
-uint32_t dmb_speeds_bands(const dmb_speeds_curve *curves, uint32_t count, const dmb_speeds_options *options,
-                          const double *speeds, uint32_t points, dmb_speed_band *bands, uint32_t room, int32_t *cut)
+uint32_t dmb_speeds_bands(const dmb_speeds_curves *all, const dmb_speeds_options *options, dmb_speed_band *bands,
+                          uint32_t room, int32_t *cut)
 {
-    search s = {.curves = curves, .options = options, .bands = bands, .room = room};
+    search s = {.curves = all->curve, .options = options, .bands = bands, .room = room};
+    const double *speeds = all->speed;
+    const uint32_t points = all->points;
     double last = 0.0;
     *cut = 0;
     for (uint32_t i = 0; i < points; i++) {
         uint32_t order = 0, output = 0;
-        const double severity = dmb_speeds_sum(curves, count, speeds[i], &order, &output);
+        const double severity = dmb_speeds_sum(all->curve, all->count, speeds[i], &order, &output);
         const int32_t above = severity > options->threshold;
         if (above && !s.is_open) {
             begin_band(&s, i == 0 ? speeds[0] : crossing(&s, speeds[i - 1], last, speeds[i], severity));

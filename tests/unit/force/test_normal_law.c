@@ -81,7 +81,13 @@ static dmb_normal_law law_of(int32_t kind, double stiffness, double exponent, do
 {
     dmb_normal_law law;
 
-    dmb_normal_law_setup(&law, kind, stiffness, exponent, restitution, 0.0, 1e-4, 1e-6);
+    law = dmb_normal_law_of((dmb_normal_law){.kind = kind,
+                                             .stiffness = stiffness,
+                                             .exponent = exponent,
+                                             .damping = 0.0,
+                                             .impact_depth = 1e-4,
+                                             .approach_floor = 1e-6},
+                            restitution);
     return law;
 }
 
@@ -181,7 +187,13 @@ static void impact_function(void **state)
     dmb_normal_law law;
     (void)state;
 
-    dmb_normal_law_setup(&law, DMB_NORMAL_IMPACT, 1e8, 1.5, 0.0, 1e4, 1e-4, 0.01);
+    law = dmb_normal_law_of((dmb_normal_law){.kind = DMB_NORMAL_IMPACT,
+                                             .stiffness = 1e8,
+                                             .exponent = 1.5,
+                                             .damping = 1e4,
+                                             .impact_depth = 1e-4,
+                                             .approach_floor = 0.01},
+                            0.0);
     const struct contact c = integrate(&law, 1.0, 0.0, 1.0, 1e-8);
     CHECK_RELATIVE(c.out, 0.016359349, 1e-4);
     CHECK_RELATIVE(c.deepest, 1.44118e-4, 1e-4);
@@ -198,7 +210,13 @@ static void kelvin_voigt(void **state)
     dmb_normal_law law;
     (void)state;
 
-    dmb_normal_law_setup(&law, DMB_NORMAL_KELVIN_VOIGT, omega * omega, 1.0, 0.0, 2 * zeta * omega, 1e-4, 0.01);
+    law = dmb_normal_law_of((dmb_normal_law){.kind = DMB_NORMAL_KELVIN_VOIGT,
+                                             .stiffness = omega * omega,
+                                             .exponent = 1.0,
+                                             .damping = 2 * zeta * omega,
+                                             .impact_depth = 1e-4,
+                                             .approach_floor = 0.01},
+                            0.0);
     const struct contact c = integrate(&law, 1.0, 0.0, 1.0, 1e-7);
     const double angle = atan2(2 * zeta * sqrt(1 - zeta * zeta), 2 * zeta * zeta - 1);
     CHECK_CLOSE(c.out, exp(-zeta / sqrt(1 - zeta * zeta) * angle), 1e-5);
@@ -232,7 +250,13 @@ static void derivatives(void **state)
     for (int i = 0; i < 6000; ++i) {
         dmb_normal_law law;
         const double exponents[4] = {1.0, 1.5, 2.0, 2.7};
-        dmb_normal_law_setup(&law, i % 6, 1e7, exponents[i / 6 % 4], draw(&seed, 0.1, 1), 2e3, 1e-4, 0.01);
+        law = dmb_normal_law_of((dmb_normal_law){.kind = i % 6,
+                                                 .stiffness = 1e7,
+                                                 .exponent = exponents[i / 6 % 4],
+                                                 .damping = 2e3,
+                                                 .impact_depth = 1e-4,
+                                                 .approach_floor = 0.01},
+                                draw(&seed, 0.1, 1));
         const double d = draw(&seed, 2e-6, 2.5e-4), rate = draw(&seed, -0.5, 0.5), v0 = draw(&seed, 0, 1);
         double force, d_depth, d_rate;
         dmb_normal_force(&law, d, rate, v0, &force, &d_depth, &d_rate);
@@ -269,7 +293,13 @@ static void no_contact_and_nonsense(void **state)
     for (int32_t kind = DMB_NORMAL_NONE; kind <= DMB_NORMAL_IMPACT + 1; ++kind) {
         dmb_normal_law law;
         double force, d_depth, d_rate;
-        dmb_normal_law_setup(&law, kind, 1e7, 1.5, 0.5, 1e3, 1e-4, 0.0);
+        law = dmb_normal_law_of((dmb_normal_law){.kind = kind,
+                                                 .stiffness = 1e7,
+                                                 .exponent = 1.5,
+                                                 .damping = 1e3,
+                                                 .impact_depth = 1e-4,
+                                                 .approach_floor = 0.0},
+                                0.5);
         for (int i = 0; i < 2; ++i) {
             dmb_normal_force(&law, i == 0 ? 0.0 : -1e-3, 5.0, 1.0, &force, &d_depth, &d_rate);
             assert_true(force == 0.0 && d_depth == 0.0 && d_rate == 0.0);
@@ -280,7 +310,13 @@ static void no_contact_and_nonsense(void **state)
         assert_true(isfinite(force) && isfinite(d_depth) && isfinite(d_rate));
         dmb_normal_force(&law, (double)NAN, 0.0, 1.0, &force, &d_depth, &d_rate);
         assert_true(law.kind == DMB_NORMAL_NONE ? force == 0.0 : isnan(force));
-        dmb_normal_law_setup(&law, kind, 1e7, 1.5, 0.0, 1e3, 0.0, 0.01); /* e = 0, impact depth 0 */
+        law = dmb_normal_law_of((dmb_normal_law){.kind = kind,
+                                                 .stiffness = 1e7,
+                                                 .exponent = 1.5,
+                                                 .damping = 1e3,
+                                                 .impact_depth = 0.0,
+                                                 .approach_floor = 0.01},
+                                0.0); /* e = 0, impact depth 0 */
         dmb_normal_force(&law, 1e-5, 0.1, 0.0, &force, &d_depth, &d_rate);
         assert_true(isfinite(force) && isfinite(d_depth) && isfinite(d_rate));
     }

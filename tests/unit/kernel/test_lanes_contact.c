@@ -101,7 +101,13 @@ static void draw_sites(uint64_t *seed, int arms, wall_input *in)
 static void setup_laws(const wall_case *c, wall_input *in)
 {
     const dmb_friction_law friction = {c->friction_law, 0, 0.4, 0.25, 0.1, 0.01, 0.6, 1e4, 0.5};
-    dmb_normal_law_setup(&in->normal_law, c->normal_law, 1e7, c->exponent, 0.6, 2e4, 4e-3, 1e-3);
+    in->normal_law = dmb_normal_law_of((dmb_normal_law){.kind = c->normal_law,
+                                                        .stiffness = 1e7,
+                                                        .exponent = c->exponent,
+                                                        .damping = 2e4,
+                                                        .impact_depth = 4e-3,
+                                                        .approach_floor = 1e-3},
+                                       0.6);
     in->friction_law = friction;
 }
 
