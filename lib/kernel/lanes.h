@@ -123,6 +123,7 @@ static int32_t beams(dmb_beam_run *run)
     return 0;
 }
 
+/* s = (K/L) (e + de/dd P z): the stress after the correction z, linearised. */
 static void extrapolate(const dmb_beam_run *run)
 {
     lane_types types;
@@ -149,6 +150,7 @@ static void extrapolate(const dmb_beam_run *run)
 
 /* ---- Nodes ------------------------------------------------------------------------------------------------------- */
 
+/* H1 = H0 exp(z) */
 static void advance(const dmb_node_run *run)
 {
     for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
@@ -179,6 +181,7 @@ static void turns(const dmb_turn_run *run)
     }
 }
 
+/* Both vectors of a row, turned about x by the angle between the two frames. */
 static void twist(const dmb_twist_run *run)
 {
     for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {

@@ -6,7 +6,9 @@
 
 #include "kernel/kernels.h"
 
-/* Nothing overlaps, so that these vectorise. */
+/* Generalized-alpha from an acceleration that stays (THEORY 4): a0 carried over from the last step, which may have had
+ * another length (ratio), a1 from a0 and v', then v1 = v + h ((1 - gamma) a0 + gamma a1) and the increment
+ * z = h v + h^2 ((1/2 - beta) a0 + beta a1). Nothing overlaps, so that the loops vectorise. */
 static void predict(const dmb_predict_run *run)
 {
     const double h = run->step, ratio = run->ratio, a_a0 = run->a_from_a0, a_dv = run->a_from_dv;
@@ -24,6 +26,7 @@ static void predict(const dmb_predict_run *run)
     }
 }
 
+/* z, v, v' and a follow a correction of the increment by constant factors. */
 static void correct(const dmb_correct_run *run)
 {
     const double to_v = run->to_velocity, to_dv = run->to_acceleration, to_a = run->to_pseudo_acceleration;
@@ -54,6 +57,7 @@ static inline void add_squares(uint32_t count, const double *restrict residual, 
     }
 }
 
+/* Sums of r^2 and of the scales' squares of the solved rows, in DMB_SQUARES sums side by side, whatever the width. */
 static void squares(uint32_t count, const double *residual, const double *scale, const uint8_t *solved,
                     double rest[DMB_SQUARES], double all[DMB_SQUARES])
 {

@@ -66,6 +66,7 @@ static inline void project_survey(const dmb_wall_run *run, wall_group *g, dmb_re
     dmb_mat3_tvec(g->R, g->bend, g->bend);
 }
 
+/* A straight hole: depth = (x - origin) . direction. */
 static inline void project_line(const dmb_wall_run *run, wall_group *g, dmb_real point[3])
 {
     dmb_real depth;

@@ -3,6 +3,8 @@
 #include "math/elementary.h"
 #include "math/so3.h"
 
+/* a = sin t/t, b = (1 - cos t)/t^2 by the half angle, and the others by a and b, t = sqrt x: beyond pi nothing cancels.
+ */
 static void dmb_so3_coefficients_closed(double x, dmb_so3_coefficients *k)
 {
     const double t = sqrt(x), s = dmb_sin(0.5 * t);
@@ -74,6 +76,7 @@ void dmb_so3_far_inverse_coefficients(double x, double out[3])
     out[0] = k.c, out[1] = k.e, out[2] = k.e2;
 }
 
+/* O = f v: the angle is 2 atan2(|v|, q0). */
 double dmb_quat_far_log_factor(double q0, double n)
 {
     return n > 0.0 ? 2.0 * dmb_atan2(sqrt(n), q0) / sqrt(n) : 2.0;

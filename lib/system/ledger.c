@@ -20,6 +20,7 @@ static void powers(const dmb_sim *sim, const dmb_evaluation *evaluation, double 
             power[DMB_POWER_DRIVES] += drive_power(sim, evaluation->step > 0.0 ? &sim->trial : &sim->now, i);
 }
 
+/* Energies at the start; from there on kinetic + stored = start + sum of works, but for the error of the scheme. */
 void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation)
 {
     memset(sim->ledger, 0, sizeof *sim->ledger);
@@ -45,6 +46,8 @@ static void shares_of(const dmb_evaluation *evaluation, double *first, double *s
     *second = evaluation->step - *first;
 }
 
+/* Work of each kind by the trapezoidal rule over the step, h (P0 + P1)/2, which is of the order of the scheme. `input`
+ * sums magnitudes: what an error of the balance is measured by. */
 void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation)
 {
     double power[8], *last = sim->clock->power, first, second;
@@ -60,6 +63,7 @@ void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation)
     memcpy(last, power, sizeof power);
 }
 
+/* Where energy changes at once (a joint closes): kinetic and stored energy that are lost are work of the impact. */
 void dmb_ledger_take_impact(dmb_sim *sim, double kinetic, double stored)
 {
     sim->ledger->work[DMB_POWER_IMPACT] -= kinetic + stored;

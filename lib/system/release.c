@@ -79,6 +79,8 @@ static void release(dmb_sim *sim, double *acceleration, double *part)
     dmb_solve_for(sim, acceleration, acceleration);
 }
 
+/* a = M^-1 sum of part times the force of each ring that opens in the step: what the history of generalized-alpha would
+ * carry on as if the contact still pressed (THEORY 4). */
 int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acceleration, double *part)
 {
     dmb_sim *sim = evaluation->sim;

@@ -36,6 +36,8 @@ static double locate(const dmb_scene *scene, const dmb_configuration *c, const d
     return s - scene->reference_depth[node] - bit->arm;
 }
 
+/* Advance U and speed V = along . v of the bit's reference point, angle and speed about the axis of the hole; `along`
+ * takes the arm to the node with it. */
 static void motion_of(const dmb_scene *scene, const dmb_configuration *c, const double R[9], uint32_t k,
                       uint32_t *segment, bit_motion *m)
 {
@@ -165,6 +167,8 @@ static void add_tangent(dmb_evaluation *evaluation, uint32_t k, const bit_motion
     if (evaluation->dynamic) dmb_mat6_axpy(1.0, C, dmb_inertia_of(sim, bit->node));
 }
 
+/* Force -(load + W) along the axis and moment -T about it, with W and T of the rock law at (U, Phi, V, Omega)
+ * (THEORY 5). */
 static void gather_bit(dmb_evaluation *evaluation, uint32_t k)
 {
     dmb_sim *sim = evaluation->sim;

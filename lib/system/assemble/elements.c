@@ -48,6 +48,7 @@ static dmb_beam_run run_of(const dmb_sim *sim, const dmb_batch *batch)
     return run;
 }
 
+/* Forces and tangents of the SE(3) elements of a batch in lanes (element/beam_element.h); powers are summed on. */
 static int32_t gather_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
     dmb_beam_run run = run_of(evaluation->sim, batch);
@@ -75,6 +76,8 @@ static int32_t gather_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
 
 /* ---- Axial-torsional bars on the hole's axis: PATH nodes --------------------------------------------------------- */
 
+/* Per bar K/L (e + tau e') and M v' along and about the axis, e = u_b - u_a + (L - L0), by lanes (kernel/lanes_bar.h).
+ */
 static void bar_forces(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
     const dmb_sim *sim = evaluation->sim;
@@ -207,6 +210,7 @@ static void mixed_input(const dmb_scene *scene, uint32_t e, const mixed_side *A,
     dmb_vec6_copy(B->z, in->zb);
 }
 
+/* As a beam between two poses; forces and tangents come to the PATH side as J^T f and J^T K J, J its two columns. */
 static int32_t gather_mixed(dmb_evaluation *evaluation, uint32_t e)
 {
     dmb_sim *sim = evaluation->sim;

@@ -43,6 +43,7 @@ static void end_momenta(const dmb_scene *scene, const dmb_configuration *c, uint
     dmb_beam_mass_times(&type_of(scene, e)->mass, va, vb, pa, pb);
 }
 
+/* (v_A . p_A + v_B . p_B)/2 with p = M v, M constant in the body frames of the ends (THEORY 3). */
 double dmb_element_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element)
 {
     double va[6], vb[6], pa[6], pb[6];
@@ -60,6 +61,7 @@ void dmb_element_kinetic_parts(const dmb_scene *scene, const dmb_configuration *
     parts[2] = 0.5 * (dmb_vec6_dot(va, pa) + dmb_vec6_dot(vb, pb)) - parts[0] - parts[1];
 }
 
+/* v . M v/2; on the axis of the hole (m s'^2 + J w^2)/2 with the two speeds of a PATH node. */
 double dmb_rigid_mass_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration,
                                      uint32_t rigid_mass)
 {
@@ -103,6 +105,8 @@ static void pose_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t
         memcpy(q, c->quaternion + 4 * node, 4 * sizeof(double));
 }
 
+/* Relative pose of an element's ends, d = log(H_A^-1 H_B), from displacements, which keep the digits that positions
+ * far from the origin lose. */
 static void shape_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, dmb_beam_shape *shape)
 {
     const uint32_t a = scene->element_node[e];
@@ -179,6 +183,7 @@ double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *confi
     return sum;
 }
 
+/* Sum over the rings of length times the integral of K d^n (THEORY 5); damping stores nothing. */
 double dmb_contact_energy(const dmb_scene *scene, const dmb_configuration *configuration)
 {
     double sum = 0.0;
@@ -187,6 +192,8 @@ double dmb_contact_energy(const dmb_scene *scene, const dmb_configuration *confi
     return sum;
 }
 
+/* Of a beam g = P^T (s + tau K/L e') at both ends, which is what the element adds to the residual of its nodes; of a
+ * bar K/L (e + tau e') along and about the axis. */
 void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                                double force[12])
 {
@@ -226,6 +233,8 @@ static void end_weight(const dmb_scene *scene, const dmb_element_type *type, con
     dmb_vec3_cross(moment, g, w + 3);
 }
 
+/* Equilibrium of an end with its share of the element: section force -+ (M a - ad_v^T p - weight), minus at A, plus at
+ * B. */
 void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                            double load[12])
 {

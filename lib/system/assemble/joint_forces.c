@@ -52,6 +52,7 @@ static int rounding_counts(const dmb_evaluation *evaluation)
     return !evaluation->dynamic || evaluation->extrapolated || evaluation->step == 0.0;
 }
 
+/* Springs, dampers, stops and friction of each coordinate c: f(c, c'), its two derivatives and the powers f c'. */
 static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, coordinate_forces *f)
 {
     for (int i = 0; i < 6; i++) {
@@ -70,6 +71,7 @@ static void add_laws(dmb_evaluation *evaluation, const dmb_scene_joint *joint, c
     }
 }
 
+/* Drives in load or speed control push on their coordinate; motion drives are equations (system/constrain). */
 static void add_drives(dmb_evaluation *evaluation, uint32_t j, coordinate_forces *f)
 {
     dmb_sim *sim = evaluation->sim;

@@ -4,6 +4,7 @@
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
 
+/* Unwrapped angles RX and RY, from which the next step counts its turns. */
 void dmb_joint_take_turns(dmb_sim *sim, uint32_t j, const dmb_joint_coordinates *c)
 {
     sim->trial.joint_turn[2 * j] = c->value[3];
@@ -47,6 +48,7 @@ static void let_go(dmb_sim *sim, uint32_t j)
     sim->now.joint_segment[j] &= ~DMB_SEGMENT_HELD;
 }
 
+/* A locked joint stays at R0, p0: those it has now (constraint/joint.h). */
 void dmb_joint_hold(dmb_sim *sim, uint32_t j)
 {
     dmb_relative relative;
@@ -66,6 +68,7 @@ void dmb_joint_take_state(dmb_sim *sim, uint32_t j, int32_t state)
         let_go(sim, j);
 }
 
+/* Springs and stops: the integral of each law over its coordinate. */
 double dmb_joint_energy(const dmb_sim *sim, const dmb_configuration *configuration)
 {
     const dmb_scene *scene = sim->scene;
