@@ -2,7 +2,7 @@
 #ifndef DMB_KERNEL_LANES_NODE_H
 #define DMB_KERNEL_LANES_NODE_H
 
-#include "element/rigid_mass_math.h"
+#include "element/rigid_mass.h"
 #include "force/weight_and_damping.h"
 #include "kernel/kernels.h"
 #include "kernel/lane_group.h"
