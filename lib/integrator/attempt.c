@@ -15,7 +15,7 @@
 #include "system/ledger.h"
 #include "system/release.h"
 
-/* Misfit of an equation taken for redundant at which it is one no more, in lengths of the parts. */
+/* Violation of an equation taken for redundant at which it is one no more, in lengths of the parts. */
 #define DMB_DROPPED_VIOLATION 1e-7
 
 static double tolerance_of(const dmb_sim *sim, uint32_t size, uint32_t k)

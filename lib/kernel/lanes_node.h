@@ -22,8 +22,8 @@ static inline void node_apply(const dmb_real force[6], node_group *g)
     }
 }
 
-/* Lumps stand in the order of their nodes; *next becomes the first that is not before the group. Returns 1 if it is on
- * one of the group's nodes. */
+/* Rigid masses stand in the order of their nodes; *next becomes the first that is not before the group. Returns 1 if it
+ * is on one of the group's nodes. */
 static inline int has_rigid_masses(const dmb_node_force_run *run, const lane_group *g, uint32_t *next)
 {
     while (*next < run->rigid_mass_count && run->rigid_masses[*next].node < run->first + g->place[0]) (*next)++;

@@ -89,7 +89,7 @@ static void fill_velocity(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i)
     row[1] = v[DMB_RX];
 }
 
-/* Lumps were made string by string; here they go by node. */
+/* Rigid masses were made string by string; here they go by node. */
 static void fill_rigid_masses(const dmb_mesh *mesh, dmb_scene *scene)
 {
     dmb_rigid_mass *next = scene->rigid_masses;

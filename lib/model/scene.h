@@ -284,7 +284,7 @@ typedef struct dmb_scene {
     dmb_cluster *clusters;
     uint32_t *cluster_nodes;   /* nodes, cluster by cluster, ascending in each */
     uint32_t *cluster_columns; /* global row of each column of each cluster, node by node */
-    uint32_t *node_block;      /* block of the pattern that holds the node; DMB_NONE: its chain is not linked;
+    uint32_t *node_block;      /* block of the pattern that holds the node; DMB_NONE: its chain is not jointed;
                                   shape (node) if there are clusters */
     uint32_t *node_place;      /* first column of the node in its cluster; 0 of a node without one, shape (node) */
     uint32_t *node_cluster;    /* DMB_NONE: none, shape (node) */

@@ -129,7 +129,7 @@ static void lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_linear *to)
     to->spin = DMB_ARENA_DOUBLES(arena, rows);
     to->rest = DMB_ARENA_DOUBLES(arena, rows);
     to->stiffness_size = DMB_ARENA_DOUBLES(arena, rows);
-    to->unbalanced = DMB_ARENA_DOUBLES(arena, rows);
+    to->residual = DMB_ARENA_DOUBLES(arena, rows);
     to->row_of = DMB_ARENA_ARRAY(arena, uint32_t, rows);
     to->start = DMB_ARENA_ARRAY(arena, uint32_t, rows + 1);
     to->column = DMB_ARENA_ARRAY(arena, uint32_t, entries_of(scene));
@@ -198,7 +198,7 @@ static void find_largest(dmb_linear *linear)
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
         const double arm = 1.0 / scene->chains[scene->node_chain[i]].length;
         for (uint32_t c = 0; c < size; c++) {
-            const double force = fabs(linear->unbalanced[row + c]) * (2 * c < size ? 1.0 : arm);
+            const double force = fabs(linear->residual[row + c]) * (2 * c < size ? 1.0 : arm);
             if (!scene->solved_row[row + c] || !(force > linear->largest_force)) continue;
             linear->largest_force = force;
             linear->largest_node = i;
@@ -252,9 +252,9 @@ int32_t dmb_linear_take_balance(dmb_linear *linear)
         best = sliding;
     }
     if (status < 0) return status;
-    linear->unbalance = best.relative;
+    linear->relative_residual = best.relative;
     linear->balanced = best.converged != 0;
-    memcpy(linear->unbalanced, linear->work->residual, linear->rows * sizeof(double));
+    memcpy(linear->residual, linear->work->residual, linear->rows * sizeof(double));
     find_largest(linear);
     return DMB_OK;
 }
@@ -284,7 +284,7 @@ void dmb_linear_judge_rounding(dmb_linear *linear)
         for (uint32_t c = 0; c < size; c++) {
             const double own = linear->stiffness_size[row + c], angle = 2 * c < size ? 0.0 : own;
             const double rounding = DMB_LINEAR_ROUNDING * (dmb_vec3_norm(place) * sqrt(own * most) + angle);
-            if (scene->solved_row[row + c] && !(fabs(linear->unbalanced[row + c]) <= rounding)) return;
+            if (scene->solved_row[row + c] && !(fabs(linear->residual[row + c]) <= rounding)) return;
         }
     }
     linear->balanced = 1;

@@ -57,8 +57,8 @@ typedef struct dmb_linear {
     dmb_sim *work;   /* a copy of the sim in the state, its factors those of dmb_linear_factor */
     dmb_allocator allocator;
     dmb_linear_matrix mass, damping, stiffness;
-    double *unbalanced;       /* [N, N m] residual of the state without its accelerations, shape (rows) */
-    double unbalance;         /* [-] the same relative, as of dmb_residual_norm_of; 0: a (relative) equilibrium */
+    double *residual;         /* [N, N m] residual of the state without its accelerations, shape (rows) */
+    double relative_residual; /* [-] the same relative, as of dmb_residual_norm_of; 0: a (relative) equilibrium */
     double largest_force;     /* [N, N m over the element length] largest entry of it that a node feels */
     uint32_t largest_node;    /* where */
     int32_t balanced;         /* 1: what is left is rounding, or below DMB_LINEAR_BALANCED */

@@ -26,7 +26,7 @@ static void measure(dmb_mode_search *search)
             if (m > 0.0) most = fmax(most, linear->stiffness_size[layout->row[i] + c] / m);
         }
     search->noise = DMB_NOISE * most;
-    search->modes->info.residual_of_state = linear->unbalance;
+    search->modes->info.residual_of_state = linear->relative_residual;
     search->modes->info.coordinates = linear->coordinates;
     search->modes->info.asymmetry = dmb_linear_asymmetry(linear, search->work);
     if (search->options->kind == DMB_MODES_UNDAMPED) dmb_linear_clear(search->linear, &search->linear->damping);
@@ -64,11 +64,11 @@ static int32_t check_balance(const dmb_mode_search *search)
 {
     const dmb_linear *linear = search->linear;
     const double allowed = search->options->equilibrium_tolerance;
-    if (linear->unbalance <= allowed || (linear->balanced && allowed >= DMB_LINEAR_BALANCED)) return DMB_OK;
+    if (linear->relative_residual <= allowed || (linear->balanced && allowed >= DMB_LINEAR_BALANCED)) return DMB_OK;
     const dmb_owner owner = dmb_owner_of_node(&linear->scene, linear->largest_node);
     dmb_message_set(search->message,
                     "modes: the state is no equilibrium: residual = %g of the forces, must be <= %g; up to %g N at %s",
-                    linear->unbalance, allowed, linear->largest_force, owner.text.text);
+                    linear->relative_residual, allowed, linear->largest_force, owner.text.text);
     return DMB_ERR_VALUE;
 }
 

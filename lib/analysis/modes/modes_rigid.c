@@ -28,7 +28,7 @@
 #define DMB_RIGID_ROUNDING 1e-12
 #define DMB_RIGID_AWAY (16.0 * DBL_EPSILON)
 /* Forces that the state leaves over turn with a motion. */
-#define DMB_RIGID_UNBALANCED 8.0
+#define DMB_RIGID_RESIDUAL 8.0
 /* [rad] A string turns about its own axis otherwise than as a rigid body where it is bent by so much. */
 #define DMB_RIGID_BENT 1e-6
 /* The conditions are dense in the candidates: 200 parts. */
@@ -192,10 +192,10 @@ static void add_unbalanced(const conditions *c)
         const uint32_t size = layout->size[i], row = layout->row[i];
         double force = 0.0, motion = 0.0;
         for (uint32_t k = 0; k < size; k++) {
-            force += fabs(c->linear->unbalanced[row + k]);
+            force += fabs(c->linear->residual[row + k]);
             motion += fabs(c->d[row + k]);
         }
-        for (uint32_t k = 0; k < size; k++) c->terms_d[row + k] += DMB_RIGID_UNBALANCED / c->tolerance * force * motion;
+        for (uint32_t k = 0; k < size; k++) c->terms_d[row + k] += DMB_RIGID_RESIDUAL / c->tolerance * force * motion;
     }
 }
 

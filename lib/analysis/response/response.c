@@ -166,12 +166,13 @@ static int32_t take_memory(response_work *w)
 static int32_t check_balance(const response_work *w)
 {
     const dmb_linear *linear = w->linear;
-    if (linear->balanced || linear->unbalance <= w->options.equilibrium_tolerance) return DMB_OK;
+    if (linear->balanced || linear->relative_residual <= w->options.equilibrium_tolerance) return DMB_OK;
     const dmb_owner owner = dmb_owner_of_node(&linear->scene, linear->largest_node);
     dmb_message_set(&w->sim->message,
                     "state: not an equilibrium, %g of the forces that balance is left (up to %g N at %s), "
                     "must be <= %g",
-                    linear->unbalance, linear->largest_force, owner.text.text, w->options.equilibrium_tolerance);
+                    linear->relative_residual, linear->largest_force, owner.text.text,
+                    w->options.equilibrium_tolerance);
     return DMB_ERR_VALUE;
 }
 

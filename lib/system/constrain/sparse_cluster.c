@@ -336,7 +336,8 @@ void dmb_sparse_balance(dmb_sim *sim, int given)
     add_all_forces(sim, sim->residual, sim->scale_row);
 }
 
-/* ---- Misfit ------------------------------------------------------------------------------------------------------ */
+/* ---- Violation ------------------------------------------------------------------------------------------------------
+ */
 
 double dmb_sparse_violation(const dmb_sim *sim, int32_t dropped, uint32_t *row)
 {

@@ -280,13 +280,13 @@ static void stiffness_at_rest_is_symmetric(void **state)
     rig s;
     open_lying_string(&s, DMB_FRICTION_NONE);
     dmb_linear *linear = linearise(s.sim, &as_it_is);
-    tell("unbalance of the string as described", linear->unbalance);
+    tell("residual of the string as described", linear->relative_residual);
     tell("its largest force [N]", linear->largest_force);
     assert_int_equal(linear->balanced, 0);
     dmb_linear_release(&linear);
     (void)find_equilibrium(&s, NULL);
     linear = linearise(s.sim, &as_it_is);
-    tell("unbalance of the string at rest", linear->unbalance);
+    tell("residual of the string at rest", linear->relative_residual);
     assert_int_equal(linear->balanced, 1);
     check_below("asymmetry of K at rest on the wall", dmb_linear_asymmetry(linear, work), 1e-11);
     dmb_linear_release(&linear);
