@@ -116,7 +116,7 @@ static void turn_of(const sine_run *r, double time, double *turn)
 
 static void add_sample(sine_run *r, double time)
 {
-    double turn[2 * (DMB_STEPPED_SINE_HARMONICS_MAX + 1)];
+    double turn[2 * (DMB_STEPPED_SINE_HARMONICS_MAX + 1)] = {0.0};
     const double middle = r->begin + 0.5 * r->step * steps_of(r);
     turn_of(r, time, turn);
     for (uint32_t i = 0; i < r->width; i++) r->ramp[i] += (time - middle) * turn[i];
