@@ -124,7 +124,7 @@ static void refit_rigid(dmb_sim *sim, const dmb_generalized_alpha *c, double h, 
     double start[18], gone[6], *motion = dmb_free_rigid_motion(sim, rigid);
     const dmb_step_motion to = {motion, motion + 6, motion + 12};
     dmb_free_rigid_start(sim, rigid, start);
-    for (uint32_t k = 0; k < 6; k++) gone[k] = sim->released_acceleration[row + k];
+    for (uint32_t k = 0; k < 6; k++) gone[k] = sim->correction[row + k];
     dmb_free_rigid_added(sim->scene, rigid, gone);
     for (uint32_t k = 0; k < 6; k++) {
         const double dv = start[6 + k] - gone[k];
@@ -140,7 +140,7 @@ static void refit_node(dmb_sim *sim, const dmb_generalized_alpha *c, double h, u
     const dmb_step_motion to = dmb_step_motion_of(sim);
     for (uint32_t i = first; i < end; i++) {
         if (!sim->scene->solved_row[i]) continue;
-        const double dv = sim->now.acceleration[i] - sim->released_acceleration[i];
+        const double dv = sim->now.acceleration[i] - sim->correction[i];
         const double a0 = dv + kept * (dmb_step_motion_carried(sim, ratio, i) - sim->now.acceleration[i]);
         refit(c, h, sim->increment[i], sim->now.velocity[i], dv, a0, &to, i);
     }
@@ -151,7 +151,7 @@ static void refit_node(dmb_sim *sim, const dmb_generalized_alpha *c, double h, u
 static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
 {
     const double h = attempt->end.step;
-    int32_t status = dmb_released_acceleration(&attempt->evaluation, sim->released_acceleration, sim->released_part);
+    int32_t status = dmb_released_acceleration(&attempt->evaluation, sim->correction, sim->released_part);
     if (status < 0) return status;
     for (uint32_t i = 0; i < sim->scene->node_count; i++) refit_node(sim, c, h, i);
     for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) refit_rigid(sim, c, h, i);

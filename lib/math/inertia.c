@@ -131,27 +131,26 @@ static void shift(front *f)
     f->n = f->rows = size;
 }
 
-static void append(front *f, size_t m, const double *D, const double *raise, const double *U, const double *L)
+static void append(front *f, size_t m, const double *D, const double raise[2], const double *U, const double *L)
 {
     const size_t n = f->n;
     for (size_t i = 0; i < m; i++)
         for (size_t j = 0; j < m; j++) row(f, n + i)[n + j] = 0.5 * (D[m * i + j] + D[m * j + i]);
-    for (size_t i = 0; i < m && raise != NULL; i++) row(f, n + i)[n + i] += raise[i];
+    for (size_t i = 0; i < m && raise != NULL; i++) row(f, n + i)[n + i] += raise[2 * i < m ? 0 : 1];
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < m; j++) row(f, i)[n + j] = row(f, n + j)[i] = 0.5 * (U[m * i + j] + L[n * j + i]);
     f->rows = n + m;
 }
 
 uint32_t dmb_block_negative(const dmb_block_layout *layout, const double *diagonal, const double *lower,
-                            const double *upper, const double *raise, uint32_t first, uint32_t count)
+                            const double *upper, const double raise[2], uint32_t first, uint32_t count)
 {
     double a[4 * DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX];
     front f = {.a = a, .stride = 2 * DMB_BLOCK_SIZE_MAX};
     uint32_t negative = 0;
     for (uint32_t i = first; i < first + count; i++) {
         const uint32_t link = i > first ? layout->link[i - 1] : 0;
-        append(&f, layout->size[i], diagonal + layout->diag[i], raise != NULL ? raise + layout->row[i] : NULL,
-               upper + link, lower + link);
+        append(&f, layout->size[i], diagonal + layout->diag[i], raise, upper + link, lower + link);
         if (i > first) negative += eliminate(&f);
         shift(&f);
     }

@@ -14,10 +14,11 @@ uint32_t dmb_dense_negative(uint32_t n, double *A);
 void dmb_dense_from_factors(uint32_t n, const double *LU, const uint32_t *pivot, double *A);
 
 /* Of the symmetric part of blocks [first, first + count) of a chain, none of them factored; the matrix is left alone.
- * raise (all rows of the layout), if not NULL, is added to its diagonal. A pivot of 0 counts as positive. Linear in the
+ * raise, if not NULL, is added to the diagonal: [0] in the first half of the rows of each block, [1] in the rest (to
+ * displacements, to rotations). A pivot of 0 counts as positive. Linear in the
  * number of blocks. */
 uint32_t dmb_block_negative(const dmb_block_layout *layout, const double *diagonal, const double *lower,
-                            const double *upper, const double *raise, uint32_t first, uint32_t count);
+                            const double *upper, const double raise[2], uint32_t first, uint32_t count);
 
 /* Of a symmetric block-sparse matrix, from its factors: what the elimination has left of each block when its turn came
  * has as many in all as the matrix (Haynsworth 1968). room: the square of the largest block, of those that have more

@@ -2,8 +2,8 @@
  * memory layout, snapshot, restore and hash, and the test of the layout; there is no other list of fields. Each saved
  * field names the check that its bytes in a snapshot must pass (run/snapshot_check.h): a snapshot may be forged, and no
  * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
- * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; ns, rs
- * = n, r where there are contact sites, else 0; k =
+ * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; ns = n
+ * where there are contact sites, else 0; k =
  * bit_count, load = load_count, held = held_count, history = history_count, diagonal and link = lengths of block
  * storage; j = joint_count, c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a
  * scene with joints only: raw = row_count, dense, square, full = storage of the clusters, block, value, pivots = of the
@@ -100,14 +100,15 @@
 /* clang-format off */
 #define DMB_WORK_LIST(X)                                                                                              \
     X(double, increment, r)             /* [m, rad] h Dq of this step, integrator */                                  \
+    X(double, load_step_increment, r)   /* [m, rad] that of the load step reached, analysis/static/static_steps */   \
     X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */ \
     X(double, residual, r)              /* [N, N m] of the trial, system/assemble/evaluation */                       \
-    X(double, correction, r)            /* [m, rad] solution of the linear system, system/solve/solve */              \
+    X(double, correction, r)            /* [m, rad] solution of the linear system: Newton's, or [m/s2, rad/s2] with the   \
+                                           mass matrix for accelerations, system/solve/solve */                          \
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                     \
     X(double, element_strain, 6 * e)    /* [m, rad] d of the trial */                                                 \
     X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */       \
     X(double, site_return, s)           /* [m/s] a ring that opens in the step left the wall; else 0, system/release */ \
-    X(double, released_acceleration, rs) /* [m/s2, rad/s2] by contacts that open in the step, system/release */       \
     X(double, released_part, ns)        /* [-] of the step after the opening, of the node, system/release */          \
     X(double, stiffness_diagonal, diagonal) /* by body-frame pose increments; then the iteration matrix */            \
     X(double, stiffness_lower, link)    /* in statics the same, in a step at once the iteration matrix */             \

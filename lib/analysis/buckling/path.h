@@ -27,6 +27,7 @@ typedef struct dmb_path {
     dmb_path_place last, next;
     double *loaded;      /* (rows) what a unit of the factor moves */
     double *move;        /* (rows) */
+    double *iterate;     /* (rows) of the inverse iteration for it: */
     double *mode;        /* (rows) softest shape of the stiffness factored last, unit length */
     double side;         /* rate of the last point but at limit points, where it is that beyond */
     double softest;      /* [N/m] eigenvalue of that shape */

@@ -71,7 +71,7 @@ static void begin_mode(const dmb_path *path)
 static double softness(dmb_path *path)
 {
     const uint32_t rows = path->work->scene->row_count;
-    double *x = path->work->correction, grown = 1.0;
+    double *x = path->iterate, grown = 1.0;
     begin_mode(path);
     for (int k = 0; k < DMB_MODE_ITERATIONS; k++) {
         weigh(path, path->mode, x);

@@ -34,8 +34,16 @@ static void exchange_motion(dmb_sim *copy)
     exchange(&copy->now.acceleration, &copy->trial.acceleration);
 }
 
-/* The answer for each row moving alone at unit speed. */
-static int32_t all_rows(dmb_sim *copy, dmb_place place, int32_t frame, int32_t component, double *all)
+/* Rows between are taken with 0. */
+static void take_value(uint32_t row, double value, dmb_functional *out)
+{
+    do out->row[out->count] = out->count > 0 ? out->row[out->count - 1] + 1 : row;
+    while (out->row[out->count++] < row);
+    out->pose[out->count - 1] = value;
+}
+
+/* The answer for each row moving alone at unit speed, from the first to the last of those that it depends on. */
+static int32_t all_rows(dmb_sim *copy, dmb_place place, int32_t frame, int32_t component, dmb_functional *out)
 {
     const uint32_t rows = copy->scene->row_count;
     int32_t status = DMB_OK;
@@ -44,33 +52,20 @@ static int32_t all_rows(dmb_sim *copy, dmb_place place, int32_t frame, int32_t c
     memset(copy->now.acceleration, 0, rows * sizeof(double));
     for (uint32_t r = 0; r < rows && status >= 0; r++) {
         copy->now.velocity[r] = 1.0;
-        status = motion_component(copy, place, frame, component, all + r);
+        double value = 0.0;
+        status = motion_component(copy, place, frame, component, &value);
         copy->now.velocity[r] = 0.0;
+        if (value != 0.0 && status >= 0) take_value(r, value, out);
     }
     exchange_motion(copy);
     return status;
 }
 
-static void narrow(const double *all, uint32_t rows, dmb_functional *out)
-{
-    uint32_t first = 0, end = rows;
-    while (first < rows && all[first] == 0.0) first++;
-    while (end > first && all[end - 1] == 0.0) end--;
-    memset(out, 0, sizeof *out);
-    out->count = end - first;
-    for (uint32_t i = 0; i < out->count; i++) {
-        out->row[i] = first + i;
-        out->pose[i] = all[first + i];
-    }
-}
-
 /* A velocity is linear in the velocities of the rows, and a small displacement in theirs by the same numbers. */
 int32_t dmb_functional_of_motion(dmb_sim *copy, dmb_place place, int32_t frame, int32_t component, dmb_functional *out)
 {
-    double *all = copy->correction;
-    const int32_t status = all_rows(copy, place, frame, component, all);
-    if (status >= 0) narrow(all, copy->scene->row_count, out);
-    return status;
+    memset(out, 0, sizeof *out);
+    return all_rows(copy, place, frame, component, out);
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */

@@ -19,7 +19,7 @@ typedef struct dmb_functional {
 } dmb_functional;
 
 /* Displacement or rotation of a place in the axes that it has (DMB_FRAME_BODY) or of the world; by duality also the
- * rows of a unit force or moment there. copy: a sim of the state; its trial and `residual` are written.
+ * rows of a unit force or moment there. copy: a sim of the state; its trial is written.
  * Errors: those of dmb_query_motion. O(rows). */
 int32_t dmb_functional_of_motion(dmb_sim *copy, dmb_place place, int32_t frame, int32_t component, dmb_functional *out);
 

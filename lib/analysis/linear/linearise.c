@@ -51,13 +51,12 @@ static int32_t take_matrices(dmb_linear *linear, const dmb_linear_options *optio
 {
     dmb_sim *work = linear->work;
     dmb_evaluation evaluation = dmb_linear_evaluation(linear);
-    double *before = work->trial.pseudo_acceleration; /* which no force depends on */
     evaluation.given = 1;
     int32_t status = dmb_system_evaluate(&evaluation);
-    memcpy(before, work->residual, linear->rows * sizeof(double));
+    memcpy(linear->with_contacts, work->residual, linear->rows * sizeof(double));
     dmb_linear_freeze(linear, options);
     if (status >= 0) status = dmb_linear_take_stiffness_and_mass(linear);
-    if (status >= 0) dmb_linear_add_dead_loads(linear, before);
+    if (status >= 0) dmb_linear_add_dead_loads(linear, linear->with_contacts);
     if (status >= 0 && options->contact == DMB_CONTACT_CLOSED) dmb_linear_close_contacts(linear, options->gap);
     return status < 0 ? status : dmb_linear_take_damping(linear);
 }
@@ -129,6 +128,7 @@ static void lay_out(dmb_arena *arena, const dmb_scene *scene, dmb_linear *to)
     to->spin = DMB_ARENA_DOUBLES(arena, rows);
     to->rest = DMB_ARENA_DOUBLES(arena, rows);
     to->stiffness_size = DMB_ARENA_DOUBLES(arena, rows);
+    to->with_contacts = DMB_ARENA_DOUBLES(arena, rows);
     to->residual = DMB_ARENA_DOUBLES(arena, rows);
     to->row_of = DMB_ARENA_ARRAY(arena, uint32_t, rows);
     to->start = DMB_ARENA_ARRAY(arena, uint32_t, rows + 1);

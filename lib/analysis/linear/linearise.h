@@ -57,6 +57,7 @@ typedef struct dmb_linear {
     dmb_sim *work;   /* a copy of the sim in the state, its factors those of dmb_linear_factor */
     dmb_allocator allocator;
     dmb_linear_matrix mass, damping, stiffness;
+    double *with_contacts;    /* [N, N m] residual of the state before contacts are left out, shape (rows) */
     double *residual;         /* [N, N m] residual of the state without its accelerations, shape (rows) */
     double relative_residual; /* [-] the same relative, as of dmb_residual_norm_of; 0: a (relative) equilibrium */
     double largest_force;     /* [N, N m over the element length] largest entry of it that a node feels */

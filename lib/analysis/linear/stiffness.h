@@ -6,14 +6,11 @@
 
 /* Factors the iteration matrix in the stiffness_ blocks (held rows identity) as dmb_factor_stiffness, and counts its
  * negative eigenvalues in the independent coordinates, of its symmetric part where friction makes it unsymmetric. What
- * is 0 but for rounding does not count in chains without joints: a buckled column may turn about its load. Uses
- * scale_row. */
+ * is 0 but for rounding does not count in chains without joints: a buckled column may turn about its load. */
 int64_t dmb_stiffness_factor(dmb_sim *sim, dmb_block_weakest *weakest, int32_t *negative);
-/* Of the chains that no joint connects, from the iteration matrix as it is formed; raised by rounding. Uses
- * scale_row. */
-uint32_t dmb_stiffness_negative_of_chains(dmb_sim *sim);
-/* [N/m] below which an eigenvalue of the matrix whose signs were counted last counts as 0; scale_row still tells. */
-double dmb_stiffness_rounding(const dmb_sim *sim);
+/* Of the chains that no joint connects, from the iteration matrix as it is formed; raised by rounding: *rounding [N/m]
+ * of displacements, below which an eigenvalue counts as 0. */
+uint32_t dmb_stiffness_negative_of_chains(const dmb_sim *sim, double *rounding);
 /* DMB_ERR_ORDER, with a message of `who` in sim, unless the residual just evaluated is that of an equilibrium. */
 int32_t dmb_stiffness_balanced(dmb_sim *sim, const char *who, const dmb_evaluation *evaluation);
 /* Tells which part nothing holds. DMB_ERR_SINGULAR. */

@@ -127,14 +127,6 @@ static void raise_diagonal(dmb_sim *sim, double rho, int jointed)
     }
 }
 
-static uint32_t negative_of_reduced(dmb_sim *sim)
-{
-    const dmb_block_sparse matrix = {sim->reduced_value, sim->reduced_pivot, sim->reduced_size};
-    const uint32_t negative = dmb_block_sparse_negative(&sim->scene->pattern, &matrix, sim->cluster_full);
-    const uint32_t held = dmb_reduced_sparse_rows(sim); /* of equations that stand in the system: one each */
-    return negative > held ? negative - held : 0;
-}
-
 /* Negative eigenvalues of H + rho D; the blocks are used up. -1: a block is singular before its turn. */
 static int32_t negative_of_symmetric_part(dmb_static_search *state, double rho, int friction_turned)
 {
@@ -155,7 +147,7 @@ static int32_t negative_of_symmetric_part(dmb_static_search *state, double rho, 
     dmb_make_reduced_symmetric(sim, sim->reduced_value);
     dmb_block_sparse matrix = {sim->reduced_value, sim->reduced_pivot, sim->reduced_size};
     if (dmb_block_sparse_factor(&scene->pattern, &matrix) >= 0) return -1;
-    return (int32_t)(negative + negative_of_reduced(sim));
+    return (int32_t)(negative + dmb_reduced_negative(sim));
 }
 
 /* ---- Real eigenvalues nearest 0 ------------------------------------------------------------------------------------
@@ -356,7 +348,7 @@ static int64_t judge_reduced_again(dmb_sim *sim, uint32_t chains, dmb_stability 
 {
     raise_diagonal(sim, out->rounding, 1);
     int64_t bad = dmb_reduced_factor(sim, DMB_METHOD_INDEPENDENT, NULL);
-    if (bad < 0) out->negative = (int32_t)(chains + negative_of_reduced(sim));
+    if (bad < 0) out->negative = (int32_t)(chains + dmb_reduced_negative(sim));
     raise_diagonal(sim, -out->rounding, 1);
     if (bad < 0) bad = dmb_reduced_factor(sim, DMB_METHOD_INDEPENDENT, NULL);
     return bad;
@@ -368,8 +360,7 @@ int32_t dmb_stability_judge(dmb_static_search *state, int thorough, dmb_block_we
     dmb_sim *sim = state->sim;
     const dmb_scene *scene = sim->scene;
     dmb_system_iteration_matrix(&state->evaluation);
-    const uint32_t chains = dmb_stiffness_negative_of_chains(sim);
-    out->rounding = dmb_stiffness_rounding(sim);
+    const uint32_t chains = dmb_stiffness_negative_of_chains(sim, &out->rounding);
     if (scene->cluster_count) dmb_reduced_assemble(sim);
     out->asymmetry = dmb_asymmetry_of(sim, out->rounding);
     out->stiffness = out->asymmetry > DMB_UNSYMMETRIC ? DMB_STIFFNESS_UNSYMMETRIC : DMB_STIFFNESS_SYMMETRIC;
@@ -378,7 +369,7 @@ int32_t dmb_stability_judge(dmb_static_search *state, int thorough, dmb_block_we
     if (*bad >= 0) return DMB_OK;
     if (out->stiffness == DMB_STIFFNESS_UNSYMMETRIC) return judge_unsymmetric(state, thorough, out);
     if (scene->cluster_count == 0) return DMB_OK;
-    const uint32_t jointed = negative_of_reduced(sim);
+    const uint32_t jointed = dmb_reduced_negative(sim);
     out->negative = (int32_t)(chains + jointed);
     if (jointed > 0 && thorough) *bad = judge_reduced_again(sim, chains, out);
     return DMB_OK;

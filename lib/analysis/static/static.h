@@ -43,7 +43,7 @@ typedef int32_t (*dmb_static_method)(dmb_static_search *search);
 /* Trial at the starting pose, drives and loads at their present values. */
 int32_t dmb_static_begin(dmb_static_search *search);
 /* From the start to the whole load in equal steps, or in steps that are halved and doubled, with the line search. The
- * latter uses `now` and dmb_static_keep. */
+ * latter keeps the step reached as `now`, whose accepted state has to be in the backup. */
 int32_t dmb_static_equal_steps(dmb_static_search *search, dmb_static_method method, uint32_t steps);
 int32_t dmb_static_growing_steps(dmb_static_search *search);
 /* Poses of the trial onto the joints, with a partition that suits the place. */
@@ -57,9 +57,6 @@ typedef struct dmb_static_pull {
     double element; /* [m] its length */
     uint32_t string;
 } dmb_static_pull;
-/* The trial and its increments set aside as `now`, whose accepted state is in the backup, and back. */
-void dmb_static_keep(dmb_sim *sim);
-void dmb_static_return(dmb_sim *sim);
 /* Shortens the last move, by `direction` (row_count), which ended where the residual was just
  * evaluated; `before` is direction . residual at its start. Leaves the residual and tangent of where it ends. */
 int32_t dmb_static_line_search(dmb_static_search *search, const double *direction, double before);

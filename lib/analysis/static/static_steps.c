@@ -13,16 +13,17 @@
 #define DMB_SHORTEST_FIRST_STEP (1.0 / 16.0)
 #define DMB_EASY_ITERATIONS 12
 
-void dmb_static_keep(dmb_sim *sim)
+/* The trial and its increments are set aside as the step reached, and back. */
+static void keep(dmb_sim *sim)
 {
     dmb_configuration_copy(sim, &sim->trial, &sim->now);
-    memcpy(sim->now.velocity, sim->increment, sim->scene->row_count * sizeof(double)); /* at rest: room for them */
+    memcpy(sim->load_step_increment, sim->increment, sim->scene->row_count * sizeof(double));
 }
 
-void dmb_static_return(dmb_sim *sim)
+static void go_back(dmb_sim *sim)
 {
     dmb_configuration_copy(sim, &sim->now, &sim->trial);
-    memcpy(sim->increment, sim->now.velocity, sim->scene->row_count * sizeof(double));
+    memcpy(sim->increment, sim->load_step_increment, sim->scene->row_count * sizeof(double));
 }
 
 int32_t dmb_static_equal_steps(dmb_static_search *search, dmb_static_method method, uint32_t steps)
@@ -51,12 +52,12 @@ static int32_t step(dmb_static_search *search, double *reached, double *length)
         *reached = target;
         search->load_steps++;
         if (search->iterations - before <= DMB_EASY_ITERATIONS) *length *= 2.0;
-        if (target < 1.0) dmb_static_keep(search->sim);
+        if (target < 1.0) keep(search->sim);
         return DMB_OK;
     }
     *length *= 0.5;
     search->cuts++;
-    dmb_static_return(search->sim);
+    go_back(search->sim);
     return dmb_is_final(status) || *length < shortest ? status : DMB_OK;
 }
 
@@ -65,7 +66,7 @@ int32_t dmb_static_growing_steps(dmb_static_search *search)
     double reached = 0.0, length = 0.25;
     int32_t status = dmb_static_begin(search);
     search->load_steps = 0;
-    if (status >= 0) dmb_static_keep(search->sim);
+    if (status >= 0) keep(search->sim);
     while (status >= 0 && reached < 1.0) status = step(search, &reached, &length);
     search->searching = 0;
     return status;

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "math/inertia.h"
 #include "system/constrain/cluster.h"
 #include "system/solve/reduced_sparse.h"
 
@@ -318,6 +319,16 @@ int64_t dmb_reduced_factor(dmb_sim *sim, int32_t method, dmb_block_weakest *weak
                                         : dmb_block_sparse_factor(&scene->pattern, &matrix);
     if (weakest != NULL) weakest->block = node_of_block(scene, weakest->block);
     return bad < 0 ? -1 : (int64_t)node_of_block(scene, (uint32_t)bad);
+}
+
+/* The room is that of the largest cluster, whose reduction is done with; equations that stand in the system have one
+ * negative eigenvalue each. */
+uint32_t dmb_reduced_negative(dmb_sim *sim)
+{
+    const dmb_block_sparse factored = matrix_of(sim);
+    const uint32_t negative = dmb_block_sparse_negative(&sim->scene->pattern, &factored, sim->cluster_full);
+    const uint32_t held = dmb_reduced_sparse_rows(sim);
+    return negative > held ? negative - held : 0;
 }
 
 /* ---- Solution ---------------------------------------------------------------------------------------------------- */

@@ -18,6 +18,8 @@ int64_t dmb_reduced_factor(dmb_sim *sim, int32_t method, dmb_block_weakest *weak
 /* z: right-hand side in, solution out, in the rows of jointed chains; multipliers of the trial move too where they are
  * solved for. */
 void dmb_reduced_solve(dmb_sim *sim, double *z);
+/* Negative eigenvalues of the system made and factored last, in independent coordinates. */
+uint32_t dmb_reduced_negative(dmb_sim *sim);
 /* Row of R of column c of cluster k: G's, or NULL where it is a single 1 at *one. After assembling independent
  * coordinates. */
 const double *dmb_reduced_null_space_row(const dmb_sim *sim, uint32_t k, uint32_t c, uint32_t *one);
