@@ -126,8 +126,9 @@ double dmb_linear_stiffness_at_least(const dmb_linear *linear)
     return DMB_STIFFNESS_SMALL * most;
 }
 
-/* +-1 by a linear congruential generator, over the root of the stiffness; 0 where there is none. */
-static void draw_signs(const dmb_linear *linear, uint64_t *seed, double *x)
+/* +-(1/2 .. 3/2) by a linear congruential generator, over the root of the stiffness; 0 where there is none. Of signs alone
+ * x_i y_j - x_j y_i is 0 every second time, and with it all that two coordinates that are not symmetric would show. */
+static void draw_numbers(const dmb_linear *linear, uint64_t *seed, double *x)
 {
     const dmb_block_layout *layout = &linear->scene.layout;
     const double least = dmb_linear_stiffness_at_least(linear);
@@ -136,14 +137,15 @@ static void draw_signs(const dmb_linear *linear, uint64_t *seed, double *x)
             const uint32_t row = layout->row[i] + c;
             const double size = fmax(linear->stiffness_size[row], least * dmb_linear_weight(linear, i, c));
             *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-            x[row] = size > 0.0 ? ((*seed >> 40 & 1) != 0 ? 1.0 : -1.0) / sqrt(size) : 0.0;
+            const double number = 0.5 + (double)(*seed >> 41) * 0x1p-23;
+            x[row] = size > 0.0 ? ((*seed >> 40 & 1) != 0 ? number : -number) / sqrt(size) : 0.0;
         }
 }
 
-/* Signs on the coordinates, carried on to the rows that joints make dependent. */
+/* Numbers on the coordinates, carried on to the rows that joints make dependent. */
 static void draw(const dmb_linear *linear, uint64_t *seed, double *z, double *x)
 {
-    draw_signs(linear, seed, x);
+    draw_numbers(linear, seed, x);
     for (uint32_t i = 0; i < linear->coordinates; i++) z[i] = x[linear->row_of[i]];
     dmb_linear_expand(linear, z, x);
 }
@@ -165,7 +167,7 @@ double dmb_linear_asymmetry(const dmb_linear *linear, double *work)
     return most / sqrt(1.0 + linear->coordinates);
 }
 
-/* d.C d of motions of random signs: 0 where C is skew, as gyroscopic terms are, or nothing. */
+/* d.C d of random motions: 0 where C is skew, as gyroscopic terms are, or nothing. */
 int32_t dmb_linear_is_undamped(const dmb_linear *linear, double *work)
 {
     const size_t rows = linear->rows;

@@ -524,6 +524,61 @@ static void a_run_follows_the_linear_system(void **state)
                 largest_difference(MOTION_ROWS, d[0], predicted) / largest(MOTION_ROWS, predicted), 2e-5);
 }
 
+/* ---- Asymmetry --------------------------------------------------------------------------------------------------- */
+
+/* Two strings in a row on a universal joint, with so many elements: a torque through it, whose axis turns with neither,
+ * is not symmetric between two coordinates alone. */
+static double asymmetry_under(uint32_t first, uint32_t second, double torque)
+{
+    rig s;
+    double work[4 * 400];
+    dmb_linear *linear = NULL;
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = beam_pipe(1.0, first, 2e8, 8e7, 1.5e5, 2e5);
+    dmb_load_def load = dmb_load_def_default();
+    dmb_joint_def joint = dmb_joint_def_default();
+    rig_open(&s, 0.0, 0.0, 0.0);
+    string.follows_hole = 0;
+    string.start_free = DMB_FREE_NONE;
+    const dmb_id one = pipe.string = add_string(&s, &string);
+    (void)add_pipes(&s, &pipe, 1);
+    string.start_free = DMB_FREE_ALL;
+    string.position[0] = 1.0;
+    const dmb_id two = pipe.string = add_string(&s, &string);
+    pipe.elements = second;
+    (void)add_pipes(&s, &pipe, 1);
+    joint.kind = DMB_JOINT_UNIVERSAL;
+    joint.place_a = dmb_station(one, 0, 1.0);
+    joint.place_b = dmb_station(two, 0, 0.0);
+    joint.stiffness[DMB_RY] = joint.stiffness[DMB_RZ] = 6e3;
+    (void)add_joint(&s, &joint);
+    load.place = dmb_station(two, 0, 1.0);
+    load.moment[0] = torque;
+    (void)add_load(&s, &load);
+    (void)rig_start(&s, NULL);
+    must(&s, dmb_analysis_static(s.sim, NULL, NULL));
+    assert_int_equal(dmb_linear_make(s.sim, &as_it_is, &linear), DMB_OK);
+    assert_true(4 * (size_t)linear->rows <= sizeof work / sizeof work[0]);
+    const double asymmetry = dmb_linear_asymmetry(linear, work);
+    dmb_linear_release(&linear);
+    rig_close(&s);
+    return asymmetry;
+}
+
+/* However the coordinates lie, it is seen. */
+static void asymmetry_of_two_coordinates_is_seen(void **state)
+{
+    (void)state;
+    double least = 1.0, most = 0.0;
+    for (uint32_t first = 1; first <= 8; first++)
+        for (uint32_t second = 1; second <= 8; second++) {
+            least = fmin(least, asymmetry_under(first, second, 1e3));
+            most = fmax(most, asymmetry_under(first, second, 0.0));
+        }
+    check_below("least under 1 kN m, inverse", 1.0 / least, 1e6);
+    check_below("most without torque", most, 1e-11);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -536,6 +591,7 @@ int main(void)
         cmocka_unit_test(smooth_friction_is_a_damper),
         cmocka_unit_test(contacts_are_frozen),
         cmocka_unit_test(a_run_follows_the_linear_system),
+        cmocka_unit_test(asymmetry_of_two_coordinates_is_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
