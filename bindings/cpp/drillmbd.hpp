@@ -311,6 +311,50 @@ private:
     dmb_modes *handle_;
 };
 
+// Fatigue of places during a run.
+class fatigue {
+public:
+    explicit fatigue(dmb_fatigue *handle = nullptr) noexcept : handle_(handle) {}
+    fatigue(fatigue &&other) noexcept : handle_(other.release()) {}
+    fatigue &operator=(fatigue &&other) noexcept
+    {
+        if (this != &other) reset(other.release());
+        return *this;
+    }
+    fatigue(const fatigue &) = delete;
+    fatigue &operator=(const fatigue &) = delete;
+    ~fatigue() { dmb_fatigue_destroy(&handle_); }
+
+    dmb_fatigue *get() const noexcept { return handle_; }
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+    // The handle, now the caller's to destroy.
+    dmb_fatigue *release() noexcept
+    {
+        dmb_fatigue *given = handle_;
+        handle_ = nullptr;
+        return given;
+    }
+    // Takes over a handle, or nothing.
+    void reset(dmb_fatigue *handle = nullptr) noexcept
+    {
+        dmb_fatigue_destroy(&handle_);
+        handle_ = handle;
+    }
+
+#if defined(DRILLMBD_EXCEPTIONS)
+    void take(const dmb_sim *sim) { check(dmb_fatigue_take(handle_, sim)); }
+    dmb_fatigue_result result(std::uint32_t place = 0) const
+    {
+        dmb_fatigue_result answer = dmb_fatigue_result_default();
+        check(dmb_fatigue_get(handle_, place, &answer));
+        return answer;
+    }
+#endif
+
+private:
+    dmb_fatigue *handle_;
+};
+
 // What sim::response finds.
 class response {
 public:
@@ -572,6 +616,12 @@ public:
         done(dmb_analysis_torque_drag(handle_, options, operations.data(),
                                       static_cast<std::uint32_t>(operations.size()), rows.data()));
         return rows;
+    }
+    drillmbd::fatigue fatigue(const dmb_fatigue_options &options, const std::vector<dmb_place> &places)
+    {
+        dmb_fatigue *made = nullptr;
+        done(dmb_fatigue_create(handle_, &options, places.data(), static_cast<std::uint32_t>(places.size()), &made));
+        return drillmbd::fatigue(made);
     }
     drillmbd::modes modes(const dmb_modes_options *options = nullptr)
     {

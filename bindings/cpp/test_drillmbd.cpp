@@ -108,6 +108,12 @@ void scene_from_end_to_end()
     EXPECT(std::fabs(sim.motion(tip).velocity[0] - 0.05) < 0.01);
     EXPECT(sim.motion(tip, DMB_FRAME_BODY).frame == DMB_FRAME_BODY);
     EXPECT(sim.rotation(tip) > 0.0);
+    dmb_fatigue_options curve = dmb_fatigue_options_default();
+    curve.curve_stress = 1e8;
+    curve.slope = 3.0;
+    drillmbd::fatigue fatigue = sim.fatigue(curve, {dmb_station(made.string, 2, 0.5)});
+    fatigue.take(sim.get());
+    EXPECT(fatigue.result().samples == 1);
     EXPECT(std::isfinite(sim.torque_drag({dmb_operation_default()}).at(0).hook_load));
     EXPECT(std::isfinite(sim.profile({DMB_PROFILE_TORQUE}, {0.5, 1.5}).at(1)));
     EXPECT(std::isfinite(sim.section(dmb_station(made.string, 2, 0.5)).force[0]));

@@ -309,6 +309,16 @@ class ArraysTest(unittest.TestCase):
         self.assertAlmostEqual(self.model.hole(5.0).diameter, 0.094)
         self.assertEqual(self.model.hole(5.0).dogleg_severity, 0.0)
 
+    def test_fatigue(self):
+        counted = self.sim.fatigue([self.places[4]], curve_stress=1e8, slope=4.0, classes=64)
+        counted.take()
+        self.assertEqual(counted.result().samples, 1)
+        self.assertEqual(counted.result().damage, 0.0)
+        self.assertEqual(len(counted.histogram()[0]), 64)
+        with self.assertRaises(mbd.Error) as raised:
+            self.sim.fatigue([self.places[4]])
+        self.assertIn("curve_stress", str(raised.exception))
+
     def test_torque_drag(self):
         found = self.sim.torque_drag([mbd.OPERATION_PICK_UP, mbd.usual_operation(mbd.OPERATION_DRILL, weight_on_bit=1e3)],
                                      [5.0, 10.0], friction=0.25)

@@ -1,7 +1,7 @@
 /* libdrillmbd - torque and drag: what a string needs at the rig to be moved steadily in its hole, at any depth. The
  * soft string of Johancsik, Friesen, Dawson 1984 in three dimensions: weight, wall and axial force in balance, no
  * bending stiffness, full friction against the motion. For the stiff string ask dmb_analysis_static with slip_axial and
- * slip_rotation, and hold the two against each other. */
+ * slip_rotation, and hold the two against each other. Fatigue of places during a run. */
 #ifndef DRILLMBD_DRILLING_H
 #define DRILLMBD_DRILLING_H
 
@@ -96,6 +96,58 @@ enum { DMB_MEASURED_HOOK_LOAD = 0, DMB_MEASURED_TORQUE = 1 };
 DMB_API int32_t dmb_analysis_friction_factor(dmb_sim *sim, const dmb_torque_drag_options *options,
                                              const dmb_operation *operation, int32_t measured, double value,
                                              double *friction);
+
+/* ---- Fatigue -----------------------------------------------------------------------------------------------------
+ * Axial stress at points of the outer surface, N_e/A + M r/I by the diameters, which turn with the pipe; counted by the
+ * rainflow method in memory that does not grow, and summed to a damage (Palmgren 1924; Miner 1945) by the S-N curve
+ * N = curve_cycles (S/curve_stress)^-slope of the stress amplitude S, half a cycle's range. Turning points are taken to
+ * the nearest of `classes` levels. */
+typedef struct dmb_fatigue dmb_fatigue;
+typedef struct dmb_fatigue_options {
+    uint32_t struct_size;
+    uint32_t classes; /* [-] levels of stress, 8 .. 65536; default 1024 */
+    uint32_t points;  /* [-] points around a section, 2 .. 360, the first on its y axis; default 8 */
+    uint32_t reserved;
+    double stress_range;     /* [Pa] levels spread over -stress_range .. stress_range, > 0; default 1e9 */
+    double concentration;    /* [-] factor on the stress, >= 1; default 1 */
+    double curve_stress;     /* [Pa] amplitude that is borne for curve_cycles, > 0; the user's, no default */
+    double curve_cycles;     /* [-] > 0; default 1e6 */
+    double slope;            /* [-] 1 .. 50; the user's, no default */
+    double endurance;        /* [Pa] amplitudes up to this do no damage, >= 0; default 0 */
+    double tensile_strength; /* [Pa] of Goodman's rule, S/(1 - mean/tensile_strength) for a mean above 0; 0 (default):
+                                the mean does not count */
+} dmb_fatigue_options;
+DMB_SIZED_STRUCT(dmb_fatigue_options)
+
+typedef struct dmb_fatigue_result {
+    uint32_t struct_size;
+    uint32_t point;       /* [-] the point of the section with the largest damage, or else the largest range */
+    uint64_t samples;     /* [-] */
+    uint64_t clipped;     /* [-] of them beyond stress_range, at any point: their cycles count too little */
+    double damage;        /* [-] 1: the S-N curve is reached; cycles that are not closed count half */
+    double cycles;        /* [-] at that point, halves included */
+    double largest_range; /* [Pa] of them */
+    double lowest;        /* [Pa] stress at that point, concentration included */
+    double highest;       /* [Pa] likewise */
+    double time;          /* [s] between the first and the last sample */
+    double life;          /* [s] time until damage 1 at this rate; infinite without damage */
+} dmb_fatigue_result;
+DMB_SIZED_STRUCT(dmb_fatigue_result)
+
+/* Places on flexible or axial-torsional pipes, place_count 1 .. 65536; memory from the model's allocator, about 8 bytes
+ * a class and point. Errors: DMB_ERR_VALUE (dmb_sim_message tells), _NOT_FINITE, _ID, _UNSUPPORTED (rigid pipes),
+ * _NO_MEMORY; *fatigue is NULL then. */
+DMB_API int32_t dmb_fatigue_create(dmb_sim *sim, const dmb_fatigue_options *options, const dmb_place *places,
+                                   uint32_t place_count, dmb_fatigue **fatigue);
+/* Takes a sample; call it after each step. The sim may be another one of the same model. Allocates nothing. O(places x
+ * points). */
+DMB_API int32_t dmb_fatigue_take(dmb_fatigue *fatigue, const dmb_sim *sim);
+DMB_API int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_fatigue_result *result);
+/* Cycles by range at the point that the result names: cycles[i] of a range of i times 2 stress_range/classes [Pa],
+ * shape (classes). */
+DMB_API int32_t dmb_fatigue_histogram(const dmb_fatigue *fatigue, uint32_t place, double *cycles);
+/* Sets *fatigue to NULL. NULL-safe. */
+DMB_API void dmb_fatigue_destroy(dmb_fatigue **fatigue);
 
 #ifdef __cplusplus
 }

@@ -48,7 +48,8 @@ INIT(step_report) INIT(static_options) INIT(static_report) INIT(buckling_options
 INIT(pose) INIT(motion) INIT(section) INIT(contact)
 INIT(contact_total) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state) INIT(statistics) INIT(recorder)
 INIT(allocator) INIT(joint_state) INIT(joint_def) INIT(coupling_def) INIT(constraint_def)
-INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row)
+INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row) INIT(fatigue_options)
+INIT(fatigue_result)
     /* clang-format on */
 
     static int32_t call_model_options(void *p)
@@ -279,6 +280,37 @@ static int32_t call_torque_drag_row(void *p)
     return dmb_analysis_torque_drag(scene.sim, NULL, &still, 1, p);
 }
 
+static int32_t fatigue_of(const dmb_fatigue_options *options, dmb_fatigue **fatigue)
+{
+    const dmb_place place = middle();
+    return dmb_fatigue_create(scene.sim, options, &place, 1, fatigue);
+}
+
+static int32_t call_fatigue_options(void *p)
+{
+    dmb_fatigue_options *options = p;
+    dmb_fatigue *fatigue = NULL;
+    if (options->struct_size >= sizeof *options) {
+        options->curve_stress = 1e8;
+        options->slope = 3.0;
+    }
+    const int32_t status = fatigue_of(options, &fatigue);
+    dmb_fatigue_destroy(&fatigue);
+    return status;
+}
+
+static int32_t call_fatigue_result(void *p)
+{
+    dmb_fatigue_options options = dmb_fatigue_options_default();
+    dmb_fatigue *fatigue = NULL;
+    options.curve_stress = 1e8;
+    options.slope = 3.0;
+    assert_int_equal(fatigue_of(&options, &fatigue), DMB_OK);
+    const int32_t status = dmb_fatigue_get(fatigue, 0, p);
+    dmb_fatigue_destroy(&fatigue);
+    return status;
+}
+
 static int32_t call_recorder(void *p)
 {
     dmb_recorder *recorder = p;
@@ -332,6 +364,8 @@ static const entry entries[] = {
     ENTRY(operation, 0),
     ENTRY(torque_drag_options, 0),
     ENTRY(torque_drag_row, 1),
+    ENTRY(fatigue_options, 0),
+    ENTRY(fatigue_result, 1),
     ENTRY(contact, 1),
     ENTRY(contact_total, 1),
     ENTRY(energy, 1),

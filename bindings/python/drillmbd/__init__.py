@@ -31,6 +31,7 @@ from .analysis import Buckling, Modes, Response, TorqueDrag, operation_name, out
 from .enums import *  # noqa: F401,F403
 from .enums import ENUMS, VERSION, __version__
 from .errors import Error, status_name, status_text
+from .fatigue import Fatigue
 from .model import Model
 from .profile import Profile
 from .recorder import Recorder
@@ -48,7 +49,7 @@ def __getattr__(name: str) -> object:
     raise AttributeError(f"module 'drillmbd' has no attribute '{name}'")
 
 
-__all__ = ["STRUCTS", "VERSION", "__version__", "Buckling", "Error", "Model", "Modes", "Profile", "Progress", "Recorder",
+__all__ = ["STRUCTS", "VERSION", "__version__", "Buckling", "Error", "Fatigue", "Model", "Modes", "Profile", "Progress", "Recorder",
            "Response", "Sim", "TorqueDrag", "operation_name", "output", "station", "status_name", "status_text", "usual_operation"]
 __all__ += [name for name, value in vars(_structs).items() if name.endswith("_FN") or value in STRUCTS.values()]
 __all__ += [name for name, value in vars(enums).items() if name.isupper() and isinstance(value, int)]

@@ -42,6 +42,13 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_drive_state_init": (c_int32, POINTER(DriveState), c_uint32,),
     "dmb_energy_init": (c_int32, POINTER(Energy), c_uint32,),
     "dmb_environment_def_init": (c_int32, POINTER(EnvironmentDef), c_uint32,),
+    "dmb_fatigue_create": (c_int32, c_void_p, POINTER(FatigueOptions), POINTER(Place), c_uint32, POINTER(c_void_p),),
+    "dmb_fatigue_destroy": (None, POINTER(c_void_p),),
+    "dmb_fatigue_get": (c_int32, c_void_p, c_uint32, POINTER(FatigueResult),),
+    "dmb_fatigue_histogram": (c_int32, c_void_p, c_uint32, POINTER(c_double),),
+    "dmb_fatigue_options_init": (c_int32, POINTER(FatigueOptions), c_uint32,),
+    "dmb_fatigue_result_init": (c_int32, POINTER(FatigueResult), c_uint32,),
+    "dmb_fatigue_take": (c_int32, c_void_p, c_void_p,),
     "dmb_hole_point_init": (c_int32, POINTER(HolePoint), c_uint32,),
     "dmb_input_init": (c_int32, POINTER(Input), c_uint32,),
     "dmb_joint_def_init": (c_int32, POINTER(JointDef), c_uint32,),
@@ -189,6 +196,14 @@ FUNCTION_DOCS = {
         "[unit of the factor] The critical factor number `mode`, rising from 0 on. ERR_NULL, _HANDLE, _VALUE.",
     "dmb_buckling_shape":
         "[m, rad] displacement and rotation of a section in the buckling shape, world frame, the largest displacement of a node being 1 m in its own axes; shape (6). Errors as above and those of dmb_query_motion.",
+    "dmb_fatigue_create":
+        "Places on flexible or axial-torsional pipes, place_count 1 .. 65536; memory from the model's allocator, about 8 bytes a class and point. Errors: ERR_VALUE (dmb_sim_message tells), _NOT_FINITE, _ID, _UNSUPPORTED (rigid pipes), _NO_MEMORY; *fatigue is NULL then.",
+    "dmb_fatigue_destroy":
+        "Sets *fatigue to NULL. NULL-safe.",
+    "dmb_fatigue_histogram":
+        "Cycles by range at the point that the result names: cycles[i] of a range of i times 2 stress_range/classes [Pa], shape (classes).",
+    "dmb_fatigue_take":
+        "Takes a sample; call it after each step. The sim may be another one of the same model. Allocates nothing. O(places x points).",
     "dmb_model_add_joint":
         "Adds a joint. Errors: ERR_ID; ERR_VALUE for a part joined to itself, an axis of zero length, two grounds.",
     "dmb_model_add_pipes":

@@ -1017,6 +1017,85 @@ class TorqueDragRow(Sized):
     }
 
 
+class FatigueOptions(Sized):
+    c_name, about = "dmb_fatigue_options", ""
+    struct_size: int
+    classes: int
+    points: int
+    reserved: int
+    stress_range: float
+    concentration: float
+    curve_stress: float
+    curve_cycles: float
+    slope: float
+    endurance: float
+    tensile_strength: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("classes", c_uint32),
+        ("points", c_uint32),
+        ("reserved", c_uint32),
+        ("stress_range", c_double),
+        ("concentration", c_double),
+        ("curve_stress", c_double),
+        ("curve_cycles", c_double),
+        ("slope", c_double),
+        ("endurance", c_double),
+        ("tensile_strength", c_double),
+    ]
+    field_docs = {
+        "classes": ("-", "levels of stress, 8 .. 65536; default 1024"),
+        "points": ("-", "points around a section, 2 .. 360, the first on its y axis; default 8"),
+        "stress_range": ("Pa", "levels spread over -stress_range .. stress_range, > 0; default 1e9"),
+        "concentration": ("-", "factor on the stress, >= 1; default 1"),
+        "curve_stress": ("Pa", "amplitude that is borne for curve_cycles, > 0; the user's, no default"),
+        "curve_cycles": ("-", "> 0; default 1e6"),
+        "slope": ("-", "1 .. 50; the user's, no default"),
+        "endurance": ("Pa", "amplitudes up to this do no damage, >= 0; default 0"),
+        "tensile_strength": ("Pa", "of Goodman's rule, S/(1 - mean/tensile_strength) for a mean above 0; 0 (default): the mean does not count"),
+    }
+
+
+class FatigueResult(Sized):
+    c_name, about = "dmb_fatigue_result", ""
+    struct_size: int
+    point: int
+    samples: int
+    clipped: int
+    damage: float
+    cycles: float
+    largest_range: float
+    lowest: float
+    highest: float
+    time: float
+    life: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("point", c_uint32),
+        ("samples", c_uint64),
+        ("clipped", c_uint64),
+        ("damage", c_double),
+        ("cycles", c_double),
+        ("largest_range", c_double),
+        ("lowest", c_double),
+        ("highest", c_double),
+        ("time", c_double),
+        ("life", c_double),
+    ]
+    field_docs = {
+        "point": ("-", "the point of the section with the largest damage, or else the largest range"),
+        "samples": ("-", ""),
+        "clipped": ("-", "of them beyond stress_range, at any point: their cycles count too little"),
+        "damage": ("-", "1: the S-N curve is reached; cycles that are not closed count half"),
+        "cycles": ("-", "at that point, halves included"),
+        "largest_range": ("Pa", "of them"),
+        "lowest": ("Pa", "stress at that point, concentration included"),
+        "highest": ("Pa", "likewise"),
+        "time": ("s", "between the first and the last sample"),
+        "life": ("s", "time until damage 1 at this rate; infinite without damage"),
+    }
+
+
 class ModesOptions(Sized):
     c_name, about = "dmb_modes_options", ""
     struct_size: int
@@ -2316,6 +2395,8 @@ STRUCTS["dmb_check_report"] = CheckReport
 STRUCTS["dmb_operation"] = Operation
 STRUCTS["dmb_torque_drag_options"] = TorqueDragOptions
 STRUCTS["dmb_torque_drag_row"] = TorqueDragRow
+STRUCTS["dmb_fatigue_options"] = FatigueOptions
+STRUCTS["dmb_fatigue_result"] = FatigueResult
 STRUCTS["dmb_modes_options"] = ModesOptions
 STRUCTS["dmb_modes_info"] = ModesInfo
 STRUCTS["dmb_mode"] = Mode

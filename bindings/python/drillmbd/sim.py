@@ -13,7 +13,7 @@ from . import analysis
 from ._keep import Keep, as_place, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._progress import Teller
-from ._structs import (STRUCTS, BitState, Contact, DriveState, Energy, Id, JointState, Momentum, Motion, Place, Pose,
+from ._structs import (STRUCTS, BitState, Contact, DriveState, Energy, FatigueOptions, Id, JointState, Momentum, Motion, Place, Pose,
                        Section, SimOptions, Statistics, StepReport)
 from .enums import FRAME_WORLD, NOTE_CANCELLED, NOTE_STOPPED, OK
 from .errors import check
@@ -21,6 +21,7 @@ from .recorder import Recorder
 
 if TYPE_CHECKING:
     from .model import Model
+    from .fatigue import Fatigue
     from .profile import Profile
 
 _step, _advance, _set_status = _lib.dmb_sim_step, _lib.dmb_sim_advance, object.__setattr__
@@ -316,6 +317,12 @@ class Sim(analysis.Analyses):
         pipes and at its rig end."""
         from .profile import profile
         return profile(self, string, pipes, per_pipe)
+
+    @mirrors("dmb_fatigue_create")
+    def fatigue(self, places: Sequence[Any], options: FatigueOptions | None = None, **fields: Any) -> Fatigue:
+        """A Fatigue of places on flexible pipes; curve_stress [Pa] and slope of the S-N curve must be given."""
+        from .fatigue import Fatigue
+        return Fatigue(self, places, struct(FatigueOptions, options, fields))
 
     @mirrors("dmb_write_vtk_strings")
     def write_vtk(self, path: Any, per_element: int = 8) -> None:

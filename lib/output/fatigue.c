@@ -1,0 +1,359 @@
+/* Fatigue of places during a run: stress around the section, counted by rainflow, summed by an S-N curve. */
+#include <math.h>
+#include <string.h>
+
+#include "base/handle.h"
+#include "base/memory.h"
+#include "base/value_check.h"
+#include "drillmbd/drilling.h"
+#include "drillmbd/query.h"
+#include "math/real.h"
+#include "model/section.h"
+#include "output/rainflow.h"
+#include "query/place.h"
+#include "sim/access.h"
+
+DMB_DEFINE_INIT(dmb_fatigue_options, 72,
+                {
+                    .classes = 1024,
+                    .points = 8,
+                    .stress_range = 1e9,
+                    .concentration = 1.0,
+                    .curve_cycles = 1e6,
+                })
+DMB_DEFINE_INIT(dmb_fatigue_result, 80, {.damage = 0.0})
+
+enum { PLACES_MAX = 65536, CLASSES_MIN = 8, CLASSES_MAX = 65536, POINTS_MAX = 360 };
+#define STRESS_MAX 1e15 /* [Pa] */
+
+/* A point of a section. */
+typedef struct counter {
+    dmb_rainflow flow;
+    double *cycles; /* by range, shape (classes) */
+    double damage, count;
+    double lowest, highest; /* [Pa] */
+    uint32_t largest;       /* [-] range, in levels */
+    uint32_t reserved;
+} counter;
+
+typedef struct section {
+    dmb_place place;
+    double area;    /* [m2] */
+    double modulus; /* [m3] I/r */
+    uint64_t clipped;
+} section;
+
+struct dmb_fatigue {
+    uint32_t magic;
+    uint32_t place_count;
+    size_t bytes; /* of this block, all else in it */
+    dmb_allocator allocator;
+    dmb_fatigue_options options;
+    section *sections;     /* shape (place_count) */
+    counter *counters;     /* shape (place_count, points) */
+    double *cosine, *sine; /* of the points, shape (points) */
+    uint64_t samples;
+    double first, last; /* [s] */
+};
+
+/* ---- Creation ---------------------------------------------------------------------------------------------------- */
+
+static int32_t check_options(dmb_sim *sim, const dmb_fatigue_options *options, uint32_t place_count)
+{
+    dmb_check check = dmb_check_of(&sim->message, "fatigue", DMB_NONE);
+    dmb_check_count(&check, "place_count", place_count, 1, PLACES_MAX);
+    dmb_check_count(&check, "classes", options->classes, CLASSES_MIN, CLASSES_MAX);
+    dmb_check_count(&check, "points", options->points, 2, POINTS_MAX);
+    dmb_check_within(&check, "stress_range", options->stress_range, 1.0, STRESS_MAX);
+    dmb_check_within(&check, "concentration", options->concentration, 1.0, 100.0);
+    dmb_check_within(&check, "curve_stress", options->curve_stress, 1.0, STRESS_MAX);
+    dmb_check_within(&check, "curve_cycles", options->curve_cycles, 1.0, 1e30);
+    dmb_check_within(&check, "slope", options->slope, 1.0, 50.0);
+    dmb_check_within(&check, "endurance", options->endurance, 0.0, STRESS_MAX);
+    dmb_check_within(&check, "tensile_strength", options->tensile_strength, 0.0, STRESS_MAX);
+    return check.status;
+}
+
+static int32_t check_places(dmb_sim *sim, const dmb_place *places, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        dmb_section unused = dmb_section_default();
+        const int32_t status = dmb_query_section(sim, places[i], &unused);
+        if (status == DMB_OK) continue;
+        dmb_message_set(&sim->message, "fatigue: place %u, pipe %u, fraction %g: %s; name a place on a flexible pipe",
+                        i, places[i].pipe, places[i].fraction, dmb_status_text(status));
+        return status;
+    }
+    return DMB_OK;
+}
+
+/* [byte] of all arrays behind the struct; 0: too many. */
+static size_t bytes_of(const dmb_fatigue_options *options, uint32_t places)
+{
+    const double counters = (double)places * options->points;
+    const double bytes = (double)sizeof(dmb_fatigue) + places * (double)sizeof(section) +
+                         counters * ((double)sizeof(counter) + options->classes * (double)sizeof(double) +
+                                     (options->classes + 4.0) * (double)sizeof(uint32_t)) +
+                         2.0 * options->points * (double)sizeof(double);
+    return bytes < (double)(SIZE_MAX / 4) ? (size_t)bytes : 0;
+}
+
+static void take_section(const dmb_sim *sim, dmb_place place, section *out)
+{
+    const uint32_t string = dmb_model_part_index(sim->model, place.part, DMB_PART_STRING);
+    const dmb_pipe_def *def = &dmb_pipe_run_of(sim->model, string, place.pipe)->def;
+    dmb_material_point point;
+    double outer = def->outer_diameter, inner = def->inner_diameter;
+    (void)dmb_material_point_of(sim, place, &point);
+    if (point.beyond > 0.0) {
+        if (def->joint_outer_diameter > 0.0) outer = def->joint_outer_diameter;
+        if (def->joint_inner_diameter > 0.0) inner = def->joint_inner_diameter;
+    }
+    out->place = place;
+    out->area = dmb_ring_area(outer, inner);
+    out->modulus = dmb_ring_second_moment(outer, inner) / (0.5 * outer);
+}
+
+/* Structs first, then doubles, then whole numbers, so that each stands at a multiple of its size. */
+static void lay_out(dmb_fatigue *fatigue, const dmb_sim *sim, const dmb_place *places)
+{
+    const uint32_t points = fatigue->options.points, classes = fatigue->options.classes;
+    const size_t counters = (size_t)fatigue->place_count * points;
+    uint32_t *turns;
+    double *numbers;
+    fatigue->sections = (section *)(void *)(fatigue + 1);
+    fatigue->counters = (counter *)(void *)(fatigue->sections + fatigue->place_count);
+    fatigue->cosine = (double *)(void *)(fatigue->counters + counters);
+    fatigue->sine = fatigue->cosine + points;
+    numbers = fatigue->sine + points;
+    turns = (uint32_t *)(void *)(numbers + counters * classes);
+    for (uint32_t i = 0; i < fatigue->place_count; i++) take_section(sim, places[i], &fatigue->sections[i]);
+    for (uint32_t k = 0; k < points; k++) {
+        fatigue->cosine[k] = cos(DMB_TWO_PI * k / points);
+        fatigue->sine[k] = sin(DMB_TWO_PI * k / points);
+    }
+    for (size_t i = 0; i < counters; i++) {
+        fatigue->counters[i].cycles = numbers + i * classes;
+        fatigue->counters[i].flow.turns = turns + i * (classes + 4);
+        fatigue->counters[i].lowest = INFINITY;
+        fatigue->counters[i].highest = -(double)INFINITY;
+    }
+}
+
+static int32_t create(dmb_sim *sim, const dmb_fatigue_options *given, const dmb_place *places, uint32_t place_count,
+                      dmb_fatigue **out)
+{
+    dmb_fatigue_options options;
+    dmb_fatigue *made;
+    if (dmb_fatigue_options_read(&options, given) < 0) {
+        dmb_message_set(&sim->message, "fatigue: struct_size of the options is not one this library knows");
+        return DMB_ERR_STRUCT_SIZE;
+    }
+    int32_t status = check_options(sim, &options, place_count);
+    if (status >= 0) status = check_places(sim, places, place_count);
+    if (status < 0) return status;
+    const size_t bytes = bytes_of(&options, place_count);
+    made = bytes > 0 ? dmb_allocate(&sim->allocator, bytes) : NULL;
+    if (made == NULL) {
+        dmb_message_set(&sim->message, "fatigue: no memory for %u places of %u points and %u classes; ask for fewer",
+                        place_count, options.points, options.classes);
+        return DMB_ERR_NO_MEMORY;
+    }
+    memset(made, 0, bytes);
+    made->magic = DMB_HANDLE_FATIGUE;
+    made->bytes = bytes;
+    made->allocator = sim->allocator;
+    made->options = options;
+    made->place_count = place_count;
+    lay_out(made, sim, places);
+    *out = made;
+    return DMB_OK;
+}
+
+int32_t dmb_fatigue_create(dmb_sim *sim, const dmb_fatigue_options *options, const dmb_place *places,
+                           uint32_t place_count, dmb_fatigue **fatigue)
+{
+    if (fatigue == NULL) return DMB_ERR_NULL;
+    *fatigue = NULL;
+    if (sim == NULL || options == NULL || places == NULL) return DMB_ERR_NULL;
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    return status < 0 ? status : dmb_sim_leave(sim, create(sim, options, places, place_count, fatigue));
+}
+
+void dmb_fatigue_destroy(dmb_fatigue **fatigue)
+{
+    dmb_fatigue *found;
+    if (fatigue == NULL) return;
+    found = *fatigue;
+    *fatigue = NULL;
+    if (!dmb_handle_is(found, DMB_HANDLE_FATIGUE)) return;
+    const dmb_allocator allocator = found->allocator;
+    found->magic = DMB_HANDLE_DEAD;
+    dmb_release(&allocator, found, found->bytes);
+}
+
+/* ---- Damage ------------------------------------------------------------------------------------------------------ */
+
+/* [Pa] of a level, its middle. */
+static double stress_of(const dmb_fatigue_options *options, double level)
+{
+    return options->stress_range * (2.0 * (level + 0.5) / options->classes - 1.0);
+}
+
+static double damage_of(const dmb_fatigue_options *options, uint32_t low, uint32_t high)
+{
+    const double mean = 0.5 * (stress_of(options, low) + stress_of(options, high));
+    double amplitude = 0.5 * (stress_of(options, high) - stress_of(options, low));
+    if (options->tensile_strength > 0.0 && mean > 0.0)
+        amplitude =
+            mean < options->tensile_strength ? amplitude / (1.0 - mean / options->tensile_strength) : (double)INFINITY;
+    if (!(amplitude > options->endurance)) return 0.0;
+    return pow(amplitude / options->curve_stress, options->slope) / options->curve_cycles;
+}
+
+typedef struct counting {
+    const dmb_fatigue_options *options;
+    counter *to;
+} counting;
+
+static void count_cycle(void *context, uint32_t low, uint32_t high, double weight)
+{
+    counting *c = context;
+    c->to->cycles[high - low] += weight;
+    c->to->count += weight;
+    c->to->damage += weight * damage_of(c->options, low, high);
+    if (high - low > c->to->largest) c->to->largest = high - low;
+}
+
+/* ---- Samples ----------------------------------------------------------------------------------------------------- */
+
+static int take_stress(dmb_fatigue *fatigue, counter *to, double stress)
+{
+    const double classes = fatigue->options.classes;
+    const double level = floor((stress / fatigue->options.stress_range + 1.0) * 0.5 * classes);
+    counting c = {&fatigue->options, to};
+    to->lowest = fmin(to->lowest, stress);
+    to->highest = fmax(to->highest, stress);
+    dmb_rainflow_add(&to->flow, (uint32_t)fmin(fmax(level, 0.0), classes - 1.0), count_cycle, &c);
+    return !(fabs(stress) <= fatigue->options.stress_range);
+}
+
+/* Stress of bending at the angle a from y to z: N/A + (M_y sin a - M_z cos a) r/I. */
+static void take_section_stress(dmb_fatigue *fatigue, uint32_t place, const dmb_section *loads)
+{
+    section *at = &fatigue->sections[place];
+    int clipped = 0;
+    for (uint32_t k = 0; k < fatigue->options.points; k++) {
+        const double bending = loads->force[4] * fatigue->sine[k] - loads->force[5] * fatigue->cosine[k];
+        const double stress = fatigue->options.concentration * (loads->force[0] / at->area + bending / at->modulus);
+        clipped |= take_stress(fatigue, &fatigue->counters[(size_t)place * fatigue->options.points + k], stress);
+    }
+    at->clipped += (uint64_t)clipped;
+}
+
+/* All places are asked before the first is counted, so that a sim without one of them changes nothing. */
+static int32_t ask_all(const dmb_fatigue *fatigue, const dmb_sim *sim)
+{
+    int32_t status = DMB_OK;
+    for (uint32_t i = 0; i < fatigue->place_count && status >= 0; i++) {
+        dmb_section loads = dmb_section_default();
+        status = dmb_query_section(sim, fatigue->sections[i].place, &loads);
+        for (int k = 0; k < 6 && status >= 0; k++)
+            if (!isfinite(loads.force[k])) status = DMB_ERR_NOT_FINITE;
+    }
+    return status;
+}
+
+int32_t dmb_fatigue_take(dmb_fatigue *fatigue, const dmb_sim *sim)
+{
+    int32_t status = dmb_sim_check(sim);
+    if (status < 0) return status;
+    if (fatigue == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(fatigue, DMB_HANDLE_FATIGUE)) return DMB_ERR_HANDLE;
+    status = ask_all(fatigue, sim);
+    if (status < 0) return status;
+    for (uint32_t i = 0; i < fatigue->place_count; i++) {
+        dmb_section loads = dmb_section_default();
+        (void)dmb_query_section(sim, fatigue->sections[i].place, &loads);
+        take_section_stress(fatigue, i, &loads);
+    }
+    if (fatigue->samples++ == 0) fatigue->first = dmb_sim_time(sim);
+    fatigue->last = dmb_sim_time(sim);
+    return DMB_OK;
+}
+
+/* ---- Answers ----------------------------------------------------------------------------------------------------- */
+
+static void add_damage(void *context, uint32_t low, uint32_t high, double weight)
+{
+    counting *c = context;
+    c->to->count += weight;
+    c->to->damage += weight * damage_of(c->options, low, high);
+    if (high - low > c->to->largest) c->to->largest = high - low;
+}
+
+/* A counter with what it has not counted yet; its histogram is not touched. */
+static counter whole(const dmb_fatigue *fatigue, uint32_t place, uint32_t point)
+{
+    counter found = fatigue->counters[(size_t)place * fatigue->options.points + point];
+    counting c = {&fatigue->options, &found};
+    dmb_rainflow_rest(&found.flow, add_damage, &c);
+    return found;
+}
+
+static uint32_t worst_point(const dmb_fatigue *fatigue, uint32_t place)
+{
+    uint32_t worst = 0;
+    counter most = whole(fatigue, place, 0);
+    for (uint32_t k = 1; k < fatigue->options.points; k++) {
+        const counter other = whole(fatigue, place, k);
+        if (other.damage > most.damage || (!(other.damage < most.damage) && other.largest > most.largest)) {
+            most = other;
+            worst = k;
+        }
+    }
+    return worst;
+}
+
+static int32_t check_ask(const dmb_fatigue *fatigue, uint32_t place, const void *answer)
+{
+    if (fatigue == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(fatigue, DMB_HANDLE_FATIGUE)) return DMB_ERR_HANDLE;
+    if (answer == NULL) return DMB_ERR_NULL;
+    return place < fatigue->place_count ? DMB_OK : DMB_ERR_VALUE;
+}
+
+int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_fatigue_result *result)
+{
+    const int32_t status = check_ask(fatigue, place, result);
+    dmb_fatigue_result answer = {0};
+    if (status < 0) return status;
+    answer.point = worst_point(fatigue, place);
+    const counter found = whole(fatigue, place, answer.point);
+    answer.samples = fatigue->samples;
+    answer.clipped = fatigue->sections[place].clipped;
+    answer.damage = found.damage;
+    answer.cycles = found.count;
+    answer.largest_range = 2.0 * fatigue->options.stress_range * found.largest / fatigue->options.classes;
+    answer.lowest = fatigue->samples > 0 ? found.lowest : 0.0;
+    answer.highest = fatigue->samples > 0 ? found.highest : 0.0;
+    answer.time = fatigue->last - fatigue->first;
+    answer.life = found.damage > 0.0 ? answer.time / found.damage : (double)INFINITY;
+    return dmb_fatigue_result_write(result, &answer);
+}
+
+static void add_to_histogram(void *context, uint32_t low, uint32_t high, double weight)
+{
+    ((double *)context)[high - low] += weight;
+}
+
+int32_t dmb_fatigue_histogram(const dmb_fatigue *fatigue, uint32_t place, double *cycles)
+{
+    const int32_t status = check_ask(fatigue, place, cycles);
+    const counter *at;
+    if (status < 0) return status;
+    at = &fatigue->counters[(size_t)place * fatigue->options.points + worst_point(fatigue, place)];
+    memcpy(cycles, at->cycles, fatigue->options.classes * sizeof(double));
+    dmb_rainflow_rest(&at->flow, add_to_histogram, cycles);
+    return DMB_OK;
+}

@@ -1,0 +1,191 @@
+/* Fatigue of a pipe that turns while its weight bends it: each point of its surface goes through M r/I once a turn, so
+ * that n turns do the damage n/N(S). And what refuses. */
+#include <string.h>
+
+#include "check.h"
+#include "drillmbd/drillmbd.h"
+
+static void must(int32_t status, const char *message)
+{
+    if (status < 0) fail_msg("%d: %s", (int)status, message);
+}
+
+typedef struct scene {
+    dmb_model *model;
+    dmb_sim *sim;
+    dmb_place root;
+} scene;
+
+/* Two pipes of 1 m stand out horizontally, turned at 1 revolution in 0.25 s, pulled by `pull` [N]. */
+static scene turning(double pull)
+{
+    scene s = {NULL, NULL, {{0, 0}, 0, 0, 0.0}};
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    dmb_load_def load = dmb_load_def_default();
+    dmb_term speed = dmb_term_default();
+    string.start_free = DMB_FREE_RX;
+    pipe.damping_time = 1e-3;
+    pipe.elements = 4;
+    speed.h0 = 8.0 * PI;
+    drive.component = DMB_RX;
+    load.force[0] = pull;
+    must(dmb_model_create(NULL, &s.model), "create");
+    must(dmb_model_add_string(s.model, &string, &pipe.string), dmb_model_message(s.model));
+    must(dmb_model_add_pipes(s.model, &pipe, 2, NULL), dmb_model_message(s.model));
+    must(dmb_model_add_programme(s.model, &speed, 1, &drive.programme), dmb_model_message(s.model));
+    must(dmb_model_add_drive(s.model, &drive, NULL), dmb_model_message(s.model));
+    load.place = dmb_station(pipe.string, 1, 1.0);
+    must(dmb_model_add_load(s.model, &load, NULL), dmb_model_message(s.model));
+    must(dmb_model_compile(s.model, NULL), dmb_model_message(s.model));
+    must(dmb_sim_create(s.model, NULL, &s.sim), dmb_model_message(s.model));
+    must(dmb_analysis_static(s.sim, NULL, NULL), dmb_sim_message(s.sim));
+    s.root = dmb_station(pipe.string, 0, 0.0);
+    return s;
+}
+
+static void destroy(scene *s)
+{
+    dmb_sim_destroy(&s->sim);
+    dmb_model_destroy(&s->model);
+}
+
+static dmb_fatigue_options curve(void)
+{
+    dmb_fatigue_options options = dmb_fatigue_options_default();
+    options.classes = 8192;
+    options.stress_range = 5e7;
+    options.curve_stress = 1e8;
+    options.slope = 4.0;
+    return options;
+}
+
+/* [Pa] */
+static double bending_stress(void)
+{
+    const double A = PI / 4.0 * (0.073 * 0.073 - 0.061 * 0.061), I = PI / 64.0 * (pow(0.073, 4) - pow(0.061, 4));
+    return 0.5 * 7850.0 * 9.81 * A * 2.0 * 2.0 * 0.0365 / I;
+}
+
+static dmb_fatigue_result after_turns(scene *s, const dmb_fatigue_options *options, int turns, double *histogram)
+{
+    dmb_fatigue *fatigue = NULL;
+    dmb_fatigue_result result = dmb_fatigue_result_default();
+    must(dmb_fatigue_create(s->sim, options, &s->root, 1, &fatigue), dmb_sim_message(s->sim));
+    must(dmb_fatigue_take(fatigue, s->sim), "take");
+    for (int i = 0; i < 100 * turns; i++) {
+        must(dmb_sim_step(s->sim, 2.5e-3, NULL), dmb_sim_message(s->sim));
+        must(dmb_fatigue_take(fatigue, s->sim), "take");
+    }
+    must(dmb_fatigue_get(fatigue, 0, &result), "get");
+    if (histogram != NULL) must(dmb_fatigue_histogram(fatigue, 0, histogram), "histogram");
+    dmb_fatigue_destroy(&fatigue);
+    assert_null(fatigue);
+    dmb_fatigue_destroy(&fatigue);
+    return result;
+}
+
+static void damage_of_turns(void **state)
+{
+    static double histogram[8192];
+    const double S = bending_stress();
+    dmb_fatigue_options options = curve();
+    double counted = 0.0;
+    scene s = turning(0.0);
+    (void)state;
+    const dmb_fatigue_result result = after_turns(&s, &options, 12, histogram);
+    check_close("cycles", result.cycles, 12.0, 0.75);
+    check_relative("largest range", result.largest_range, 2.0 * S, 2e-3);
+    check_relative("highest", result.highest, S, 2e-3);
+    check_relative("lowest", result.lowest, -S, 2e-3);
+    check_relative("damage", result.damage, 12.0 * pow(S / 1e8, 4.0) / 1e6, 0.03);
+    check_relative("life", result.life, 3.0 / result.damage, 1e-9);
+    for (int i = 0; i < 8192; i++) counted += histogram[i];
+    check_close("histogram", counted, result.cycles, 1e-9);
+    assert_int_equal(result.samples, 1201);
+    assert_int_equal(result.clipped, 0);
+    destroy(&s);
+}
+
+/* A stress concentration k does k^slope times the damage; a mean stress that of Goodman; nothing below endurance. */
+static void factors(void **state)
+{
+    scene s = turning(3000.0);
+    dmb_fatigue_options options = curve();
+    (void)state;
+    const double plain = after_turns(&s, &options, 4, NULL).damage;
+    options.concentration = 1.5;
+    check_relative("concentration", after_turns(&s, &options, 4, NULL).damage / plain, pow(1.5, 4.0), 0.02);
+    options.concentration = 1.0;
+    options.tensile_strength = 2e7;
+    const double mean = 3000.0 / (PI / 4.0 * (0.073 * 0.073 - 0.061 * 0.061));
+    check_relative("Goodman", after_turns(&s, &options, 4, NULL).damage / plain, pow(1.0 - mean / 2e7, -4.0), 0.03);
+    options.endurance = 1e9;
+    assert_true(after_turns(&s, &options, 4, NULL).damage == 0.0);
+    options.stress_range = 1e6;
+    assert_true(after_turns(&s, &options, 1, NULL).clipped > 0);
+    destroy(&s);
+}
+
+static void refused(void **state)
+{
+    scene s = turning(0.0), other = turning(0.0);
+    const dmb_fatigue_options good = curve();
+    dmb_fatigue_options bad;
+    dmb_fatigue_result result = dmb_fatigue_result_default();
+    dmb_fatigue *fatigue = NULL;
+    dmb_place place = s.root;
+    double histogram[8];
+    (void)state;
+#define REFUSED(field, value, status)                                               \
+    bad = good, bad.field = value;                                                  \
+    fatigue = (dmb_fatigue *)&s;                                                    \
+    assert_int_equal(dmb_fatigue_create(s.sim, &bad, &place, 1, &fatigue), status); \
+    assert_null(fatigue);                                                           \
+    assert_true(dmb_sim_message(s.sim)[0] != 0)
+    REFUSED(classes, 7, DMB_ERR_VALUE);
+    REFUSED(classes, UINT32_MAX, DMB_ERR_VALUE);
+    REFUSED(points, 1, DMB_ERR_VALUE);
+    REFUSED(stress_range, 0.0, DMB_ERR_VALUE);
+    REFUSED(stress_range, NAN, DMB_ERR_NOT_FINITE);
+    REFUSED(concentration, 0.9, DMB_ERR_VALUE);
+    REFUSED(curve_stress, 0.0, DMB_ERR_VALUE);
+    REFUSED(curve_cycles, -1.0, DMB_ERR_VALUE);
+    REFUSED(slope, 0.0, DMB_ERR_VALUE);
+    REFUSED(slope, INFINITY, DMB_ERR_NOT_FINITE);
+    REFUSED(endurance, -1.0, DMB_ERR_VALUE);
+    REFUSED(tensile_strength, -1.0, DMB_ERR_VALUE);
+    REFUSED(struct_size, 12, DMB_ERR_STRUCT_SIZE);
+    place.pipe = 2;
+    REFUSED(points, 8, DMB_ERR_VALUE);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "place 0"));
+    place = s.root;
+    assert_int_equal(dmb_fatigue_create(s.sim, &good, &place, 0, &fatigue), DMB_ERR_VALUE);
+    assert_int_equal(dmb_fatigue_create(s.sim, &good, NULL, 1, &fatigue), DMB_ERR_NULL);
+    assert_int_equal(dmb_fatigue_create(s.sim, NULL, &place, 1, &fatigue), DMB_ERR_NULL);
+    assert_int_equal(dmb_fatigue_create(s.sim, &good, &place, 1, NULL), DMB_ERR_NULL);
+    must(dmb_fatigue_create(s.sim, &good, &place, 1, &fatigue), dmb_sim_message(s.sim));
+    must(dmb_fatigue_get(fatigue, 0, &result), "before the first sample");
+    assert_true(result.damage == 0.0 && isinf(result.life) && result.highest == 0.0);
+    assert_int_equal(dmb_fatigue_take(fatigue, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_fatigue_take(NULL, s.sim), DMB_ERR_NULL);
+    assert_int_equal(dmb_fatigue_take((dmb_fatigue *)s.sim, s.sim), DMB_ERR_HANDLE);
+    assert_int_equal(dmb_fatigue_take(fatigue, other.sim), DMB_ERR_ID); /* has no such part */
+    assert_int_equal(dmb_fatigue_get(fatigue, 1, &result), DMB_ERR_VALUE);
+    assert_int_equal(dmb_fatigue_get(fatigue, 0, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_fatigue_histogram(fatigue, 1, histogram), DMB_ERR_VALUE);
+    must(dmb_fatigue_get(fatigue, 0, &result), "get");
+    assert_int_equal(result.samples, 0);
+    dmb_fatigue_destroy(&fatigue);
+    dmb_fatigue_destroy(NULL);
+    destroy(&s);
+    destroy(&other);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(damage_of_turns), cmocka_unit_test(factors),
+                                       cmocka_unit_test(refused)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
