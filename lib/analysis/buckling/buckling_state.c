@@ -1,4 +1,3 @@
-#include "analysis/buckling/buckling_state.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,4 @@
-#include "analysis/response/stepped_sine.h"
-
+/* Stepped sine: the response by a run in time. */
 #include <math.h>
 #include <string.h>
 
@@ -9,9 +8,17 @@
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
+#include "drillmbd/response.h"
 #include "math/so3.h"
 #include "sim/access.h"
 #include "sim/sim.h"
+
+/* ---- Outputs, asked at one instant ------------------------------------------------------------------------------- */
+
+typedef struct sine_output {
+    dmb_output output;
+    double start[9]; /* [-] axes of the place at the call, columns, world */
+} sine_output;
 
 static void part_along(const double axes[9], int32_t frame, const double world[3], double out[3])
 {
@@ -31,7 +38,7 @@ static void rotation_since(const double start[9], const double now[9], double ou
     dmb_mat3_vec(start, own, out);
 }
 
-static double displacement(const dmb_sim *sim, const dmb_stepped_sine_output *o, int32_t *status)
+static double displacement(const dmb_sim *sim, const sine_output *o, int32_t *status)
 {
     const int32_t c = o->output.component;
     dmb_pose pose = dmb_pose_default();
@@ -50,13 +57,14 @@ static double displacement(const dmb_sim *sim, const dmb_stepped_sine_output *o,
     return out[c % 3];
 }
 
-static double value_of(const dmb_sim *sim, const dmb_stepped_sine_output *o, int32_t *status)
+static double value_of(const dmb_sim *sim, const sine_output *o, int32_t *status)
 {
     return o->output.kind == DMB_OUTPUT_DISPLACEMENT ? displacement(sim, o, status)
                                                      : dmb_answer_of(sim, &o->output, status);
 }
 
-int32_t dmb_stepped_sine_output_begin(const dmb_sim *sim, dmb_stepped_sine_output *output)
+/* Takes the pose of the call. Errors: those of the queries. */
+static int32_t begin_output(const dmb_sim *sim, sine_output *output)
 {
     dmb_pose pose = dmb_pose_default();
     int32_t status = DMB_OK;
@@ -66,7 +74,8 @@ int32_t dmb_stepped_sine_output_begin(const dmb_sim *sim, dmb_stepped_sine_outpu
     return status;
 }
 
-double dmb_stepped_sine_sample(const dmb_sim *sim, const dmb_stepped_sine_output *output)
+/* Value now, of an output that has begun. */
+static double sample_of(const dmb_sim *sim, const sine_output *output)
 {
     int32_t status;
     return value_of(sim, output, &status);
@@ -86,7 +95,7 @@ typedef struct sine_run {
     dmb_stepped_sine_options options;
     double omega;
     uint32_t outputs, width; /* width: numbers of one output, 2 (1 + harmonics) */
-    dmb_stepped_sine_output *output;
+    sine_output *output;
     double *first;                                         /* value at the start of the window, shape (outputs) */
     double *sum;                                           /* shape (outputs, width) */
     double *last;                                          /* amplitudes of the window before, same shape */
@@ -121,7 +130,7 @@ static void add_sample(sine_run *r, double time)
     turn_of(r, time, turn);
     for (uint32_t i = 0; i < r->width; i++) r->ramp[i] += (time - middle) * turn[i];
     for (uint32_t o = 0; o < r->outputs; o++) {
-        const double x = dmb_stepped_sine_sample(r->sim, r->output + o);
+        const double x = sample_of(r->sim, r->output + o);
         if (time == r->begin) r->first[o] = x;
         for (uint32_t i = 0; i < r->width; i++) r->sum[(size_t)r->width * o + i] += x * turn[i];
     }
@@ -137,7 +146,7 @@ static void begin_window(sine_run *r)
 static double drift_of(const sine_run *r, uint32_t o)
 {
     if (r->output[o].output.kind != DMB_OUTPUT_DISPLACEMENT) return 0.0;
-    return (dmb_stepped_sine_sample(r->sim, r->output + o) - r->first[o]) / (r->step * steps_of(r));
+    return (sample_of(r->sim, r->output + o) - r->first[o]) / (r->step * steps_of(r));
 }
 
 /* Sums become amplitudes. */
@@ -224,7 +233,7 @@ static int32_t settle(sine_run *r)
 static int32_t take_memory(sine_run *r)
 {
     const size_t numbers = (size_t)r->outputs * (1 + 2 * (size_t)r->width);
-    r->block_size = r->outputs * sizeof(dmb_stepped_sine_output) + numbers * sizeof(double);
+    r->block_size = r->outputs * sizeof(sine_output) + numbers * sizeof(double);
     r->block = dmb_allocate(&r->sim->allocator, r->block_size);
     if (r->block == NULL) {
         dmb_message_set(&r->sim->message, "sine: no memory for %zu bytes", r->block_size);
@@ -243,7 +252,7 @@ static int32_t take_outputs(sine_run *r, const dmb_output *outputs)
         dmb_output *output = &r->output[i].output;
         int32_t status = dmb_output_take(outputs, i, &r->sim->message, output);
         if (status < 0) return status;
-        status = dmb_stepped_sine_output_begin(r->sim, r->output + i);
+        status = begin_output(r->sim, r->output + i);
         if (status < 0) {
             dmb_message_set(&r->sim->message, "output %u: place, pipe %u at %g: %s", i, output->place.pipe,
                             output->place.fraction, dmb_status_text(status));

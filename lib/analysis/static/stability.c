@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "analysis/linear/stiffness.h"
-#include "analysis/static/stability_friction.h"
 #include "math/inertia.h"
 #include "math/krylov.h"
 #include "sim/access.h"

@@ -1,4 +1,4 @@
-#include "analysis/static/stability_friction.h"
+#include "analysis/static/stability.h"
 
 #include <math.h>
 #include <string.h>
