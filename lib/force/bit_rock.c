@@ -46,22 +46,25 @@ static double inverse_spin(double omega, double *slope)
 
 /* ---- History ----------------------------------------------------------------------------------------------------- */
 
-int32_t dmb_bit_history_init(dmb_bit_history *history, const dmb_bit_rock_law *law, double *angle, double *surface,
-                             uint32_t capacity, double phi, double bottom)
+void dmb_bit_history_pace(dmb_bit_history *history, uint32_t blades)
 {
-    if (angle == NULL || surface == NULL) return DMB_ERR_NULL;
-    if (capacity < CAPACITY_MIN || law->blades == 0) return DMB_ERR_VALUE;
-    history->angle = angle;
-    history->surface = surface;
-    history->capacity = capacity;
+    const uint32_t capacity = history->capacity;
+    history->spacing = DMB_TWO_PI / (double)blades;
+    history->angle_step =
+        capacity > SPARE_SAMPLES ? history->spacing / (double)(capacity - SPARE_SAMPLES) : history->spacing;
+}
+
+int32_t dmb_bit_history_init(dmb_bit_history *history, const dmb_bit_rock_law *law, double phi, double bottom)
+{
+    if (history->angle == NULL || history->surface == NULL) return DMB_ERR_NULL;
+    if (history->capacity < CAPACITY_MIN || law->blades == 0) return DMB_ERR_VALUE;
+    dmb_bit_history_pace(history, law->blades);
     history->head = 0;
     history->count = 1;
     history->reserved = 0;
-    history->spacing = DMB_TWO_PI / (double)law->blades;
-    history->angle_step = history->spacing / (double)(capacity - SPARE_SAMPLES);
     history->offset = 0.0;
-    angle[0] = phi;
-    surface[0] = bottom;
+    history->angle[0] = phi;
+    history->surface[0] = bottom;
     return DMB_OK;
 }
 

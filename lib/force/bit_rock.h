@@ -66,10 +66,11 @@ double dmb_bit_rock_bottom(const dmb_bit_rock_law *law, double bottom, double U)
 void dmb_bit_rock_force(const dmb_bit_rock_law *law, const dmb_bit_history *history, double bottom, double U, double V,
                         double Phi, double Omega, dmb_bit_rock_result *out);
 
-/* Starts a history over flat rock at advance `bottom` [m], with the bit at angle phi. Uses blades of the law.
- * Errors: DMB_ERR_NULL, DMB_ERR_VALUE (capacity below 16, no blades). */
-int32_t dmb_bit_history_init(dmb_bit_history *history, const dmb_bit_rock_law *law, double *angle, double *surface,
-                             uint32_t capacity, double phi, double bottom);
+/* spacing and angle_step, by the capacity. */
+void dmb_bit_history_pace(dmb_bit_history *history, uint32_t blades);
+/* Starts a history, whose memory (angle, surface, capacity) is there, over flat rock at advance `bottom` [m], with the
+ * bit at angle phi. Uses blades of the law. Errors: DMB_ERR_NULL, DMB_ERR_VALUE (capacity below 16, no blades). */
+int32_t dmb_bit_history_init(dmb_bit_history *history, const dmb_bit_rock_law *law, double phi, double bottom);
 
 /* After an accepted step: stores max(U, surface before) where Phi has gone forward by at least angle_step since the
  * newest sample. Angles passed in reverse are not stored. The blades are alike, so the rock repeats every 2 pi/n: once

@@ -72,8 +72,7 @@ dmb_bit_history dmb_bit_history_of(const dmb_sim *sim, uint32_t k)
     h.head = sim->history_head[k].head;
     h.count = sim->history_head[k].count;
     h.offset = sim->history_head[k].offset;
-    h.spacing = DMB_TWO_PI / bit->law.blades;
-    h.angle_step = h.capacity > 8 ? h.spacing / (h.capacity - 8) : h.spacing;
+    dmb_bit_history_pace(&h, bit->law.blades);
     return h;
 }
 
@@ -240,8 +239,7 @@ void dmb_bit_start(dmb_sim *sim, uint32_t k)
     dmb_bit_history h = dmb_bit_history_of(sim, k);
     sim->now.bit_bottom[k] = sim->trial.bit_bottom[k] = sim->now.bit_advance[k] + bit->bottom;
     if (!bit->history_capacity) return;
-    (void)dmb_bit_history_init(&h, &bit->law, h.angle, h.surface, h.capacity, sim->now.turn[bit->node],
-                               sim->now.bit_bottom[k]);
+    (void)dmb_bit_history_init(&h, &bit->law, sim->now.turn[bit->node], sim->now.bit_bottom[k]);
     keep_history(sim, k, &h);
 }
 
@@ -253,7 +251,7 @@ static void lay_helix(dmb_sim *sim, uint32_t k, double cut, double angle, double
     const double reach = h.spacing + 2.0 * h.angle_step;
     const uint32_t samples = (uint32_t)floor(reach / (1.000001 * h.angle_step));
     const double slope = cut / h.spacing;
-    (void)dmb_bit_history_init(&h, &bit->law, h.angle, h.surface, h.capacity, angle - reach, advance - slope * reach);
+    (void)dmb_bit_history_init(&h, &bit->law, angle - reach, advance - slope * reach);
     for (uint32_t i = 1; i <= samples; i++) {
         const double behind = reach * (double)(samples - i) / samples;
         dmb_bit_history_record(&h, angle - behind, advance - slope * behind);

@@ -179,10 +179,13 @@ static void nonsense(void **state)
     law.kind = DMB_ROCK_REGENERATIVE; /* without history: the rate law */
     dmb_bit_rock_force(&law, NULL, 0.0, 1.0, 0.02, 0.0, OMEGA_200_RPM, &r);
     CHECK_RELATIVE(r.weight_on_bit, 2162.0, 1e-14);
-    assert_int_equal(dmb_bit_history_init(&history, &law, NULL, surface, 16, 0, 0), DMB_ERR_NULL);
-    assert_int_equal(dmb_bit_history_init(&history, &law, angle, surface, 15, 0, 0), DMB_ERR_VALUE);
+    history = (dmb_bit_history){.angle = NULL, .surface = surface, .capacity = 16};
+    assert_int_equal(dmb_bit_history_init(&history, &law, 0, 0), DMB_ERR_NULL);
+    history = (dmb_bit_history){.angle = angle, .surface = surface, .capacity = 15};
+    assert_int_equal(dmb_bit_history_init(&history, &law, 0, 0), DMB_ERR_VALUE);
     law.blades = 0;
-    assert_int_equal(dmb_bit_history_init(&history, &law, angle, surface, 16, 0, 0), DMB_ERR_VALUE);
+    history.capacity = 16;
+    assert_int_equal(dmb_bit_history_init(&history, &law, 0, 0), DMB_ERR_VALUE);
 }
 
 /* ---- regenerative law ---- */
@@ -197,9 +200,8 @@ struct ring {
 static void start(struct ring *ring, const dmb_bit_rock_law *law, uint32_t capacity, double phi, double bottom)
 {
     for (int i = 0; i < CAPACITY_MAX + 2 * GUARD; ++i) ring->angle[i] = ring->surface[i] = (double)NAN;
-    assert_int_equal(
-        dmb_bit_history_init(&ring->history, law, ring->angle + GUARD, ring->surface + GUARD, capacity, phi, bottom),
-        DMB_OK);
+    ring->history = (dmb_bit_history){ring->angle + GUARD, ring->surface + GUARD, .capacity = capacity};
+    assert_int_equal(dmb_bit_history_init(&ring->history, law, phi, bottom), DMB_OK);
 }
 
 static void check_guards(const struct ring *ring)
