@@ -13,6 +13,7 @@ import pathlib
 import sys
 
 import matplotlib
+import matplotlib.ticker
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -106,19 +107,26 @@ def running_mean(time, values, width):
 
 # ---- Drawing --------------------------------------------------------------------------------------------------------
 
+def letter_of(number):
+    return "abcdefghijklmnopqrstuvwxyz"[number % 26]
+
+
 def shade_stages(axes, run, named):
-    """Bands behind the drawing: the stages. Names stand above the topmost one."""
+    """Bands behind the drawing: the stages. Their letters stand above the topmost one, what they mean below them all
+    (stage_key)."""
     for i, stage in enumerate(run.stages):
         end = min(stage["to"], run.end)
         if i % 2 == 0:
             axes.axvspan(stage["from"], end, color="#eef1f5", zorder=0, linewidth=0)
-        if not named:
-            continue
-        wide = end - stage["from"] > 0.15 * run.end
-        axes.annotate(stage["name"], (0.5 * (stage["from"] + end), 1.0), xycoords=("data", "axes fraction"),
-                      xytext=(0, 4), textcoords="offset points", ha="center" if wide else "left", va="bottom",
-                      rotation=0 if wide else 50, fontsize=9, color=GREY)
+        if named:
+            axes.annotate(letter_of(i), (0.5 * (stage["from"] + end), 1.0), xycoords=("data", "axes fraction"),
+                          xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=10, color=GREY)
     axes.set_xlim(0.0, run.end)
+
+
+def stage_key(figure, run):
+    names = ",  ".join(f"{letter_of(i)}: {stage['name']}" for i, stage in enumerate(run.stages))
+    figure.supxlabel(f"stages  {names}", x=0.01, ha="left", fontsize=10, color=GREY)
 
 
 def draw(axes, variant, values, begin, end, color, label=None, width=0.9, **more):
@@ -144,6 +152,7 @@ def finish(run, figure, axes, name):
     axes[0][1].set_title("closer look", fontsize=10, color=GREY)
     axes[-1][0].set_xlabel("time [s]")
     axes[-1][1].set_xlabel("time [s]")
+    stage_key(figure, run)
     figure.align_ylabels(axes[:, 0])
     figure.savefig(run.folder / name)
     plt.close(figure)
@@ -258,54 +267,66 @@ def displacements_up(run):
              for number, color in zip(numbers, (BLUE, ORANGE, GREEN))])
 
 
+def strips(figure, cell, run, title, unit, lines, first):
+    """One strip for each (variant, values, color, label), one below the other to one scale, so that none hides
+    another."""
+    grid = cell.subgridspec(len(lines), 1, hspace=0.0)
+    axes = []
+    for row, (variant, values, color, label) in enumerate(lines):
+        place = figure.add_subplot(grid[row], sharex=axes[0] if axes else None)
+        draw(place, variant, values, 0.0, run.end, color)
+        shade_stages(place, run, first and row == 0)
+        place.annotate(label, (1.0, 0.5), xycoords="axes fraction", xytext=(5, 0), textcoords="offset points",
+                       ha="left", va="center", fontsize=10, color=color)
+        place.tick_params(labelbottom=row + 1 == len(lines), labelsize=9)
+        place.yaxis.set_major_locator(matplotlib.ticker.MaxNLocator(4 if len(lines) < 3 else 3, prune="both"))
+        axes.append(place)
+    same_span(axes)
+    axes[0].set_title(title, loc="left", pad=20 if first else 5, fontweight="bold")
+    axes[len(axes) // 2].set_ylabel(f"[{unit}]")
+    return axes
+
+
 def overview(run):
     """What the head does and feels, and the pictures above in small."""
     variant = run.main()
     numbers = variant.summary["pipes"]
-    figure, axes = plt.subplots(4, 2, figsize=(15, 13.5), sharex=True)
+    figure = plt.figure(figsize=(15, 17))
     figure.suptitle(f"Gas drainage rig: {run.summary['pipes']} pipes of {run.summary['pipe_length']:g} m, "
                     f"step {1e3 * run.summary['step']:g} ms", fontsize=15, x=0.01, ha="left")
+    grid = figure.add_gridspec(4, 2)
+    cases = [(run.variants[name], color, text.replace(" + ", "\n+ "))
+             for name, text, color in CASES if name in run.variants]
 
-    def panel(place, title, unit, lines):
-        for case, values, color, label in lines:
-            draw(place, case, values, 0.0, run.end, color, label)
-        place.set_title(title, loc="left", pad=46 if place in axes[0] else 6, fontweight="bold")
-        place.set_ylabel(f"[{unit}]")
-        if len(lines) > 1:
-            legend = place.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2, handlelength=1.2)
-            for handle in legend.get_lines():
-                handle.set_linewidth(2.5)
-        shade_stages(place, run, place in axes[0])
+    def of_cases(column):
+        return [(case, case.column(column), color, text) for case, color, text in cases]
 
-    def three(quantity, factor):
+    def of_pipes(quantity, factor):
         return [(variant, factor * variant.pipe(quantity, number), color, f"pipe {number}")
-                for number, color in reversed(list(zip(numbers, (BLUE, ORANGE, GREEN))))]
+                for number, color in zip(numbers, (BLUE, ORANGE, GREEN))]
 
-    panel(axes[0][0], "Rotation torque of the head", "N m",
-          [(case, case.column("drive_force drive 1"), color, text.replace(" + ", "\n+ "))
-           for name, text, color in CASES if name in run.variants for case in [run.variants[name]]])
-    panel(axes[0][1], "Feed force of the head", "kN",
-          [(variant, 1e-3 * variant.column("drive_force drive 0"), BLUE, "")])
-    panel(axes[1][0], "Bit, Z displacement", "mm",
-          [(run.variants[name], 1e3 * run.variants[name].bit("displacement_z"), color, text)
-           for name, text, color in (("rigid-vibration", "rigid", RED), ("flexible-vibration", "flexible", BLUE))
-           if name in run.variants] or [(variant, 1e3 * variant.bit("displacement_z"), BLUE, "")])
-    panel(axes[1][1], f"Kinetic energy of pipe {numbers[2]}", "J",
-          [(case, case.column("kinetic_energy"), color, text.replace(" + ", "\n+ "))
-           for name, text, color in CASES if name in run.variants for case in [run.variants[name]]] or
-          [(variant, variant.column("kinetic_energy"), BLUE, "")])
-    panel(axes[2][0], "Z displacement", "mm", three("displacement_z", 1e3))
-    panel(axes[2][1], "Z speed", "mm/s", three("velocity_z", 1e3))
-    panel(axes[3][0], f"Pipe {numbers[0]}, displacement", "mm",
-          [(variant, 1e3 * variant.pipe(f"displacement_{axis}", numbers[0]), color, axis.upper())
-           for axis, color in (("y", ORANGE), ("z", GREEN))])
-    panel(axes[3][1], f"Pipe {numbers[0]}, speed", "mm/s",
-          [(variant, 1e3 * variant.pipe(f"velocity_{axis}", numbers[0]), color, axis.upper())
-           for axis, color in (("y", ORANGE), ("z", GREEN), ("x", BLUE))])
-    for place in axes[3]:
-        place.set_xlabel("time [s]")
-    for side in axes.T:
-        figure.align_ylabels(side)
+    def of_axes(quantity, axes):
+        return [(variant, 1e3 * variant.pipe(f"{quantity}_{axis}", numbers[0]), color, axis.upper())
+                for axis, color in axes]
+
+    bit = [(run.variants[name], 1e3 * run.variants[name].bit("displacement_z"), color, text)
+           for name, text, color in (("rigid-vibration", "rigid\nstring", RED),
+                                     ("flexible-vibration", "flexible\nstring", BLUE)) if name in run.variants]
+    cells = [
+        [("Rotation torque of the head", "N m", of_cases("drive_force drive 1")),
+         ("Feed force of the head", "kN", [(variant, 1e-3 * variant.column("drive_force drive 0"), BLUE, "")])],
+        [("Bit, Z displacement", "mm", bit or [(variant, 1e3 * variant.bit("displacement_z"), BLUE, "")]),
+         (f"Kinetic energy of pipe {numbers[2]}", "J",
+          of_cases("kinetic_energy") or [(variant, variant.column("kinetic_energy"), BLUE, "")])],
+        [("Z displacement", "mm", of_pipes("displacement_z", 1e3)), ("Z speed", "mm/s", of_pipes("velocity_z", 1e3))],
+        [(f"Pipe {numbers[0]}, displacement", "mm", of_axes("displacement", (("y", ORANGE), ("z", GREEN)))),
+         (f"Pipe {numbers[0]}, speed", "mm/s", of_axes("velocity", (("x", BLUE), ("y", ORANGE), ("z", GREEN))))]]
+    for row, pair in enumerate(cells):
+        for column, (title, unit, lines) in enumerate(pair):
+            axes = strips(figure, grid[row, column], run, title, unit, lines, row == 0)
+            if row + 1 == len(cells):
+                axes[-1].set_xlabel("time [s]")
+    stage_key(figure, run)
     figure.savefig(run.folder / "overview.png")
     plt.close(figure)
     print("  overview.png")
