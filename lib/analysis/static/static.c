@@ -123,13 +123,36 @@ static int32_t end_growing_steps(dmb_static_search *search, int32_t status)
     return status < 0 ? status : dmb_static_evaluate(search);
 }
 
-/* Newton in the load steps asked for, or at once where they are the library's choice, then in steps that grow, then the
- * relaxation. A part that nothing holds in its starting pose may yet fall onto the wall, so the relaxation comes at
- * once; where that fails too, the part is free. */
+/* 1: a string is pulled round a bend by elements too long for Newton from the low side of the hole; < 0: the caller
+ * ends it. */
+static int32_t is_pulled_coarsely(dmb_static_search *search)
+{
+    dmb_static_pull pull;
+    if (!search->options->lay_on_wall || search->options->load_steps > 0) return 0;
+    const int32_t found = dmb_static_find_pull(search, &pull);
+    return found > 0 ? pull.element > DMB_SHORT_ELEMENT * pull.bending : found;
+}
+
+/* Newton in the load steps asked for, or at once where they are the library's choice, and from where the pull in a bend
+ * lays strings: before it where elements are long for that, else after it. */
+static int32_t search_by_newton(dmb_static_search *search)
+{
+    const uint32_t steps = search->options->load_steps > 0 ? search->options->load_steps : 1;
+    const int32_t coarse = is_pulled_coarsely(search);
+    int32_t status = coarse > 0 ? dmb_static_from_pull(search) : coarse < 0 ? coarse : DMB_ERR_NO_CONVERGENCE;
+    if (may_try_again(status)) status = dmb_static_equal_steps(search, dmb_static_newton, steps);
+    if (!may_try_again(status) || status == DMB_ERR_SINGULAR || coarse > 0 || !search->options->lay_on_wall)
+        return status;
+    const int32_t pulled = dmb_static_from_pull(search);
+    return pulled >= 0 || dmb_is_final(pulled) ? pulled : status;
+}
+
+/* Newton, then in steps that grow, then the relaxation. A part that nothing holds in its starting pose may yet fall
+ * onto the wall, so the relaxation comes at once; where that fails too, the part is free. */
 static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
 {
     const uint32_t steps = search->options->load_steps > 0 ? search->options->load_steps : 1;
-    int32_t status = dmb_static_equal_steps(search, dmb_static_newton, steps);
+    int32_t status = search_by_newton(search);
     *method = DMB_STATIC_NEWTON;
     if (may_try_again(status) && status != DMB_ERR_SINGULAR)
         status = end_growing_steps(search, dmb_static_growing_steps(search));
@@ -325,10 +348,6 @@ static const char *controller(const dmb_sim *sim, int limited_only, dmb_message 
     return NULL;
 }
 
-/* A pulled string lies on the inside of a bend. Elements that are long beside the length over which it bends open and
- * close a stiff wall in turn. */
-#define DMB_SHORT_ELEMENT 4.0 /* [-] lengths sqrt(EI/T) */
-
 /* Springs, drives and couplings of angles that are not defined at a right angle of RZ jump there, and what rests near
  * it has no equilibrium to converge to. */
 #define DMB_NEAR_EDGE 0.9 /* of 1 - cos RZ: 84 degrees */
@@ -353,7 +372,7 @@ static const char *remedy(dmb_static_search *search, dmb_message *text)
     const char *drive = controller(search->sim, 1, text), *edge = edge_of_joint(search, text);
     if (drive != NULL) return controller(search->sim, 1, text);
     if (edge != NULL) return edge;
-    if (dmb_static_find_pull(search, &pull) && pull.element > DMB_SHORT_ELEMENT * pull.bending) {
+    if (dmb_static_find_pull(search, &pull) > 0 && pull.element > DMB_SHORT_ELEMENT * pull.bending) {
         dmb_message_set(text,
                         "; string %u is pulled by T = %g N round a bend: with sqrt(EI/T) = %g m take elements of %g m, "
                         "not %g m, or a softer wall",

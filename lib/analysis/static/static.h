@@ -57,6 +57,23 @@ typedef struct dmb_static_pull {
     double element; /* [m] its length */
     uint32_t string;
 } dmb_static_pull;
+/* Elements that are long beside the length over which a pulled string bends open and close a stiff wall in turn. */
+#define DMB_SHORT_ELEMENT 4.0 /* [-] lengths sqrt(EI/T) */
+/* By the forces of the starting pose, from which the search begins anew. 1 if there is one, < 0: the caller ends it. */
+int32_t dmb_static_find_pull(dmb_static_search *search, dmb_static_pull *most);
+/* The equilibrium from where a soft string lies under its pull, on a soft wall, then on harder ones. DMB_OK, or why it
+ * failed. */
+int32_t dmb_static_from_pull(dmb_static_search *search);
+/* Tension of the element after each node [N], shape (node), by the residual of the starting pose; 0: it is not known,
+ * since the string is free at both ends or at none. */
+int dmb_static_tensions(const dmb_static_search *search, uint32_t string, double *tension);
+int dmb_static_is_free_along(const dmb_scene *scene, uint32_t node);
+/* From the starting pose, after its evaluation. */
+void dmb_static_lay_by_pull(dmb_static_search *search);
+/* [-] How much softer the wall must be for the pull to press a ring into it by `part` of its clearance, 1 ..
+ * DMB_SOFTEST. */
+#define DMB_SOFTEST 1e6
+double dmb_static_softness(const dmb_static_search *search, const dmb_static_pull *pull, double part);
 /* Shortens the last move, by `direction` (row_count), which ended where the residual was just
  * evaluated; `before` is direction . residual at its start. Leaves the residual and tangent of where it ends. */
 int32_t dmb_static_line_search(dmb_static_search *search, const double *direction, double before);
@@ -80,8 +97,5 @@ int32_t dmb_static_relaxation(dmb_static_search *search);
 
 /* Defaults overlaid with what is given (may be NULL); on refusal a message naming the field. */
 int32_t dmb_static_options_take(dmb_sim *sim, const dmb_static_options *given, dmb_static_options *out);
-
-/* The pull along strings by the forces of the starting pose, from which the search begins anew. 1 if there is one. */
-int32_t dmb_static_find_pull(dmb_static_search *search, dmb_static_pull *most);
 
 #endif

@@ -31,6 +31,7 @@ typedef struct dmb_evaluation {
     int32_t given;          /* 1: multipliers of the trial are taken as they are, else they balance the residual */
     int32_t assembling;     /* 1: initial coordinates of joints are rows too, couplings and joint drives are not */
     int32_t slipping;       /* statics: friction acts as at the speed slip[] */
+    double wall_softness;   /* statics: rings press as on a wall this much softer; 0: as it is */
     double slip[2];         /* [m/s, rad/s] along the hole, of rotation */
     double rounding;  /* [N2] sum of squares of the rounding of forces by that of poses (elements, joints, wall) */
     double power[8];  /* [W] of each class of force on the bodies, DMB_POWER_... */

@@ -150,6 +150,12 @@ void dmb_gather_contacts(dmb_evaluation *evaluation)
     dmb_wall_run run = run_of(evaluation->sim);
     if (scene->friction_law.kind != DMB_FRICTION_NONE && (evaluation->dynamic || evaluation->slipping))
         run.friction_law = &scene->friction_law;
+    dmb_normal_law soft;
+    if (evaluation->wall_softness > 0.0) {
+        soft = scene->normal_law;
+        soft.stiffness /= evaluation->wall_softness;
+        run.normal_law = &soft;
+    }
     dmb_friction_law sliding;
     if (evaluation->steady && run.friction_law != NULL && run.bristles) {
         sliding = dmb_sliding_law(run.friction_law);
