@@ -19,9 +19,11 @@
  * X(type, name, count, check) */
 /* clang-format off */
 #define DMB_CONFIGURATION_LIST(X)                                                                                     \
-    /* integrator/attempt, from the increments of pose: */                                                            \
-    X(double, displacement, 3 * n, NUMBERS) /* [m] FULL: world, from reference_position; PATH: [0] along axis, rest 0 */ \
-    X(double, quaternion, 4 * n, NUMBERS)         /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */ \
+    /* poses by system/assemble/evaluation, speeds by integrator/step_motion and integrator/attempt, both from the    \
+       increments; of free rigid bodies system/assemble/free_rigid; prescribed by system/assemble/drives; on joints   \
+       by system/constrain/cluster_projection; at the start and at jumps by system/start, system/joint_switch: */     \
+    X(double, displacement, 3 * n, NUMBERS) /* [m] FULL: world, from reference_position; PATH: [0] along axis */ \
+    X(double, quaternion, 4 * n, NUMBERS)         /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */\
     X(double, turn, n, NUMBERS) /* [rad] about the node's own x axis since time 0, revolutions counted */             \
     X(double, velocity, r, NUMBERS)               /* [m/s, rad/s] body frame; PATH: along and about the axis */       \
     X(double, acceleration, r, NUMBERS)           /* [m/s2, rad/s2] time derivative of velocity */                    \
@@ -35,8 +37,8 @@
     X(double, site_slip, 2 * s, NUMBERS)          /* [m/s] along the axis and around it */                            \
     X(double, site_bristle, 2 * sb, NUMBERS)      /* [m] bristle deflection, same directions */                       \
     X(int32_t, site_sticks, sb, FLAGS)            /* [-] 1 while the bristle law holds it */                          \
-    X(double, friction_slip, 2, NUMBERS) /* [m/s, rad/s] speeds along the hole and of turning that friction on the wall \
-                                           acts as at in a static state, system/assemble/evaluation; 0: of the nodes */ \
+    X(double, friction_slip, 2, NUMBERS) /* [m/s, rad/s] speeds along the hole and of turning that friction on the wall\
+                                            acts as at in a static state; 0: those of the nodes */                    \
     X(double, path_slip, 2 * p, NUMBERS)          /* [m/s] likewise of PATH nodes */                                  \
     X(double, path_bristle, 2 * pb, NUMBERS)      /* [m] */                                                           \
     X(int32_t, path_sticks, pb, FLAGS)            /* [-] */                                                           \
@@ -53,31 +55,38 @@
     X(double, bit_bottom, k, NUMBERS)             /* [m] advance at which rock begins */                              \
     X(double, bit_advance, k, NUMBERS)            /* [m] along the hole since time 0 */                               \
     X(uint32_t, bit_segment, k, SEGMENTS)         /* [-] */                                                           \
-    /* system/constrain/constraint_rows, from pose: */                                                                \
-    X(double, joint_turn, 2 * j, NUMBERS)         /* [rad] coordinates RX and RY, revolutions counted */              \
+    /* system/constrain/joint_motion, from pose: */                                                                   \
+    X(double, joint_turn, 2 * j, NUMBERS) /* [rad] RX and RY, revolutions counted: system/constrain/joint_state */    \
     X(double, joint_depth, j, NUMBERS)            /* [m] measured depth of the point of a joint on the hole's axis */ \
     X(uint32_t, joint_segment, j, JOINT_SEGMENTS) /* [-] segment of the axis it was found in */                       \
-    /* system/constrain/cluster, from the residual: */                                                                \
+    /* system/constrain/cluster, of sparse ones system/constrain/sparse_cluster, from the residual: */                \
     X(double, multiplier, c, NUMBERS)             /* [N, N m] residual + B^T multiplier = 0 */
 /* clang-format on */
 
 /* ---- Memory: kept once, written on acceptance only. Saved, restored and hashed like `now`. */
 /* clang-format off */
 #define DMB_MEMORY_LIST(X)                                                                                            \
-    X(dmb_clock, clock, 1, CLOCK)                 /* times and step lengths, integrator */                            \
+    X(dmb_clock, clock, 1, CLOCK) /* times and step lengths: integrator/attempt, integrator/advance, system/start;    \
+                                     powers: system/ledger */                                                         \
     X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/ledger */                                \
-    X(dmb_counters, counters, 1, COUNTERS)        /* [-] statistics, integrator */                                    \
-    X(double, held_reaction, held, NUMBERS)       /* [N, N m] residual of the accepted state in the rows that are held */ \
-    X(double, drive_work, d, NUMBERS)             /* [J] */                                                           \
-    X(double, drive_input, d, INPUTS) /* [unit of the programme] value set by the caller; NaN: the programme */       \
+    X(dmb_counters, counters, 1, COUNTERS) /* [-] statistics: integrator/attempt, integrator/step, system/start,      \
+                                              system/constrain/assembly, system/constrain/cluster */                  \
+    X(double, held_reaction, held, NUMBERS) /* [N, N m] residual of the accepted state in rows that are held:         \
+                                               system/assemble/evaluation */                                          \
+    X(double, drive_work, d, NUMBERS) /* [J] system/ledger */                                                         \
+    X(double, drive_input, d, INPUTS) /* [unit of the programme] value set by the caller; NaN: the programme:         \
+                                         run/inputs, run/life */                                                      \
     X(double, history_angle, history, NUMBERS)    /* [rad] samples of the cut surface, system/assemble/bit */         \
-    X(double, history_surface, history, NUMBERS)  /* [m] */                                                           \
-    X(dmb_history_head, history_head, k, HISTORY_HEADS)                                                               \
-    X(int32_t, joint_state, j, JOINT_STATES)      /* DMB_JOINT_..., system/joint_switch */                            \
-    X(double, joint_lock, 12 * j, NUMBERS)        /* [-, m] R and p of frame b in frame a where the joint was locked */ \
-    X(double, constraint_offset, c, NUMBERS)      /* [m, rad] what a coupling keeps */                                \
-    X(double, drive_offset, d, NUMBERS)           /* [m, rad] coordinate of a driven joint at time 0 */               \
-    X(uint32_t, partition_rank, cluster, RANKS)   /* [-] dependent columns, system/constrain/cluster */               \
+    X(double, history_surface, history, NUMBERS) /* [m] system/assemble/bit */                                        \
+    X(dmb_history_head, history_head, k, HISTORY_HEADS) /* system/assemble/bit */                                     \
+    X(int32_t, joint_state, j, JOINT_STATES) /* DMB_JOINT_..., system/constrain/joint_state */                        \
+    X(double, joint_lock, 12 * j, NUMBERS) /* [-, m] R and p of frame b in frame a where the joint was locked:        \
+                                              system/constrain/joint_state */                                         \
+    X(double, constraint_offset, c, NUMBERS) /* [m, rad] what a coupling keeps: system/constrain/assembly */          \
+    X(double, drive_offset, d, NUMBERS) /* [m, rad] coordinate of a driven joint at time 0:                           \
+                                           system/constrain/assembly */                                               \
+    /* system/constrain/cluster, of sparse ones system/constrain/sparse_cluster: */                                   \
+    X(uint32_t, partition_rank, cluster, RANKS) /* [-] dependent columns */                                           \
     X(uint32_t, partition_row, c, ROW_ORDER)      /* [-] rows of a cluster, pivot rows first */                       \
     X(uint32_t, partition_column, column, COLUMN_ORDER) /* [-] columns of a cluster, dependent ones first */          \
     X(double, partition_quality, cluster, NUMBERS) /* [-] of the choice when it was made */
@@ -89,46 +98,55 @@
  * where there are contact sites too, else 0. */
 /* clang-format off */
 #define DMB_FACTOR_LIST(X)                                                                                            \
+    /* system/solve/solve: */                                                                                         \
     X(double, kept_diagonal, kd, NUMBERS)                                                                             \
     X(double, kept_lower, kl, NUMBERS)                                                                                \
     X(double, kept_upper, kl, NUMBERS)                                                                                \
-    X(double, kept_quaternion, 4 * kn, NUMBERS)   /* of the nodes where they were made, system/solve/solve */         \
-    X(dmb_factor_reuse, reuse, 1, REUSE)
+    X(double, kept_quaternion, 4 * kn, NUMBERS) /* of the nodes where they were made */                               \
+    X(dmb_factor_reuse, reuse, 1, REUSE) /* integrator/newton; cleared by system/solve/solve */
 /* clang-format on */
 
 /* ---- Work: rewritten in every step, never saved. X(type, name, count) */
 /* clang-format off */
 #define DMB_WORK_LIST(X)                                                                                              \
-    X(double, increment, r)             /* [m, rad] h Dq of this step, integrator */                                  \
+    X(double, increment, r) /* [m, rad] h Dq of the step: integrator/step_motion; onto joints                         \
+                               system/constrain/cluster_projection, prescribed system/assemble/drives; of statics     \
+                               analysis/static/static_move */                                                         \
     X(double, load_step_increment, r)   /* [m, rad] that of the load step reached, analysis/static/static_steps */   \
-    X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */ \
-    X(double, residual, r)              /* [N, N m] of the trial, system/assemble/evaluation */                       \
-    X(double, correction, r)            /* [m, rad] solution of the linear system: Newton's, or [m/s2, rad/s2] with the   \
-                                           mass matrix for accelerations, system/solve/solve */                          \
+    X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */\
+    /* residual and iteration matrix by the files of system/assemble/, forces of constraint system/constrain/cluster, \
+       system/constrain/sparse_cluster; factors in their place by system/solve/solve: */                          \
+    X(double, residual, r)              /* [N, N m] of the trial */                                                   \
+    X(double, correction, r) /* [m, rad] solution of the linear system: of Newton, or with the mass matrix            \
+                                [m/s2, rad/s2] of accelerations: system/solve/solve; shortened by                     \
+                                analysis/static/static_newton */                                                      \
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                     \
-    X(double, element_strain, 6 * e)    /* [m, rad] d of the trial */                                                 \
+    X(double, element_strain, 6 * e) /* [m, rad] d of the trial */                                                    \
     X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */       \
-    X(double, site_return, s)           /* [m/s] a ring that opens in the step left the wall; else 0, system/release */ \
+    X(double, site_return, s)           /* [m/s] a ring that opens in the step left the wall; else 0, system/release */\
     X(double, released_part, ns)        /* [-] of the step after the opening, of the node, system/release */          \
     X(double, stiffness_diagonal, diagonal) /* by body-frame pose increments; then the iteration matrix */            \
     X(double, stiffness_lower, link)    /* in statics the same, in a step at once the iteration matrix */             \
     X(double, stiffness_upper, link)                                                                                  \
     X(double, inertia_diagonal, diagonal) /* mass, gyroscopic and damping parts, scaled to pose parameters */         \
     X(uint8_t, pivot, r)                /* LU factors only */                                                         \
-    X(int32_t, factors, 1)              /* DMB_FACTORS_...: what corrections are solved with */                       \
-    /* constraints, system/constrain/constraint_rows: */                                                              \
-    X(double, raw_velocity, raw)        /* of the trial before it is projected onto the constraints, integrator */    \
+    X(int32_t, factors, 1)              /* DMB_FACTORS_...: those at hand: system/solve/solve, integrator/newton,     \
+                                           integrator/attempt */                                                      \
+    /* integrator/step_motion, system/constrain/cluster_projection: */                                                \
+    X(double, raw_velocity, raw) /* of the trial before it is projected onto the constraints */                       \
     X(double, raw_acceleration, raw)                                                                                  \
     X(double, raw_pseudo_acceleration, raw)                                                                           \
     X(double, switch_change, raw)       /* [m/s, rad/s] of speeds where a joint switches, system/joint_switch */      \
-    X(double, switch_momentum, raw)     /* [N s, N m s] -M times the change, system/joint_switch */                     \
+    X(double, switch_momentum, raw)     /* [N s, N m s] -M times the change, system/joint_switch */                   \
+    /* constraints, by system/constrain/constraint_rows and system/constrain/constraint_callback: */                  \
     X(uint8_t, constraint_type, c)      /* DMB_ROW_... */                                                             \
     X(double, constraint_value, c)      /* [m, -] violation; 0 of a row of speeds */                                  \
     X(double, constraint_rate, c)       /* [m/s, ...] B v + rate = 0 */                                               \
     X(double, constraint_convective, c) /* [m/s2, ...] B v' + convective = 0 */                                       \
     X(double, constraint_jacobian, jacobian)                                                                          \
-    X(double, constraint_tangent, tangent) /* of joint forces and of B^T multiplier, by pose parameters */            \
-    /* clusters, system/constrain/cluster: */                                                                         \
+    X(double, constraint_tangent, tangent) /* of joint forces and of B^T multiplier, by pose parameters:              \
+                                              system/assemble/joint_forces; without stiffness: system/solve/solve */  \
+    /* clusters, by system/constrain/cluster and system/constrain/sparse_cluster: */                                  \
     X(double, cluster_weight, column)   /* [-, 1/m] unit of each column; 0: held */                                   \
     X(double, cluster_metric, column)   /* [-, 1/m] the same for projections */                                       \
     X(uint32_t, cluster_place, column)  /* [-] place of each column in partition_column */                            \
@@ -136,31 +154,32 @@
     X(double, cluster_lu, square)                                                                                     \
     X(double, cluster_gram, square)                                                                                   \
     X(uint32_t, cluster_pivot, c)                                                                                     \
-    X(double, cluster_null, dense)      /* G of the factored matrix */                                                \
+    X(double, cluster_null, dense) /* G of the factored matrix: system/solve/reduced_system */                        \
     X(double, cluster_quality, cluster)                                                                               \
     X(double, cluster_scratch, dense + c + column)                                                                    \
     X(double, cluster_rows, c)                                                                                        \
     X(double, cluster_move, column)     /* a projection, a vector in the columns of a cluster */                      \
-    X(double, cluster_full, full)       /* iteration matrix of a cluster before its reduction */                      \
-    X(double, cluster_half, full)                                                                                     \
-    /* reduced system, system/solve/reduced_system: */                                                                \
+    X(double, cluster_full, full) /* iteration matrix before its reduction: system/solve/reduced_system */            \
+    X(double, cluster_half, full) /* system/solve/reduced_system */                                                   \
+    /* reduced system, by system/solve/reduced_system and system/solve/reduced_sparse: */                             \
     X(double, reduced_value, value)                                                                                   \
     X(uint32_t, reduced_pivot, pivots)                                                                                \
     X(uint32_t, reduced_size, block)                                                                                  \
     X(uint32_t, reduced_row, block)                                                                                   \
     X(double, reduced_solution, pivots)                                                                               \
     X(double, reduced_half, 6 * (column + c)) /* product of a link with the null space of a block */                  \
-    /* sparse clusters, system/constrain/sparse_cluster: */                                                           \
+    /* sparse clusters, by system/constrain/sparse_cluster: */                                                        \
     X(double, sparse_value, sparse_values)                                                                            \
     X(double, sparse_length, sparse_rows) /* square of the length of a row of B, then its pivot over that */          \
     X(double, sparse_vector, sparse_rows)                                                                             \
     X(double, raw_residual, sparse_raw) /* before the forces of constraint */                                         \
-    X(double, sparse_scale, sparse_c)   /* [N/m, ...] factor of each row in the reduced system */                     \
+    X(double, sparse_scale, sparse_c)   /* [N/m, ...] factor of each row: system/solve/reduced_sparse */              \
     X(uint32_t, sparse_slot, sparse_c)  /* place of each row in its block; DMB_NONE: not chosen */                  \
     X(uint32_t, sparse_size, sparse_block) /* rows of each block, nodes and multipliers */                            \
     X(uint32_t, sparse_plus, sparse_block) /* of them those of the node */                                            \
     X(uint32_t, sparse_row, sparse_block)                                                                             \
-    X(dmb_reduced_mode, reduced_mode, 1)                                                                              \
+    X(dmb_reduced_mode, reduced_mode, 1) /* rows and violations by who finds them: system/, integrator/, analysis/,   \
+                                            run/ */                                                                   \
     X(uint8_t, backup, backup)          /* the state before a call that takes more than one step, sim/layout */
 /* clang-format on */
 

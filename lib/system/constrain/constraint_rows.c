@@ -88,8 +88,7 @@ static void joint_rows(dmb_evaluation *evaluation, const dmb_constraint *constra
     dmb_relative relative;
     dmb_hole_bend bend;
     dmb_joint_rows rows;
-    sim->trial.joint_depth[j] = sim->now.joint_depth[j]; /* what a trial before found does not count */
-    sim->trial.joint_segment[j] = sim->now.joint_segment[j];
+    dmb_joint_place_begin(sim, j);
     dmb_joint_motion(sim->scene, &sim->trial, j, &relative, on_hole ? &bend : NULL);
     dmb_joint_rows_now(sim, j, &relative, &rows);
     for (uint32_t k = 0; k < rows.count; k++) {

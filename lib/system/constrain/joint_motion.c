@@ -67,6 +67,18 @@ void dmb_joint_motion(const dmb_scene *scene, dmb_configuration *configuration, 
     motion(scene, configuration, j, configuration->joint_depth + j, configuration->joint_segment + j, relative, bend);
 }
 
+void dmb_joint_place_begin(dmb_sim *sim, uint32_t j)
+{
+    sim->trial.joint_depth[j] = sim->now.joint_depth[j];
+    sim->trial.joint_segment[j] = sim->now.joint_segment[j];
+}
+
+void dmb_joint_place_hold(dmb_sim *sim, uint32_t j, int held)
+{
+    sim->now.joint_segment[j] &= ~DMB_SEGMENT_HELD;
+    if (held) sim->now.joint_segment[j] |= DMB_SEGMENT_HELD;
+}
+
 void dmb_joint_motion_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t j,
                          dmb_relative *relative, dmb_hole_bend *bend)
 {

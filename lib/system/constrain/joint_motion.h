@@ -21,7 +21,11 @@ typedef struct dmb_hole_bend {
  * (only of DMB_JOINT_POINT_ON_HOLE) may be NULL. */
 void dmb_joint_motion(const dmb_scene *scene, dmb_configuration *configuration, uint32_t j, dmb_relative *relative,
                       dmb_hole_bend *bend);
-/* The same without a trace in the configuration. */
+/* The place of joint j on the hole's axis in trial is that of now: what a trial before found does not count. */
+void dmb_joint_place_begin(dmb_sim *sim, uint32_t j);
+/* Joint j is held where it stands on the hole's axis in now, or rides along again. */
+void dmb_joint_place_hold(dmb_sim *sim, uint32_t j, int held);
+/* The same motion without a trace in the configuration. */
 void dmb_joint_motion_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t j,
                          dmb_relative *relative, dmb_hole_bend *bend);
 

@@ -43,20 +43,15 @@ void dmb_joints_accept(dmb_evaluation *evaluation)
     dmb_clusters_watch(sim);
 }
 
-static void let_go(dmb_sim *sim, uint32_t j)
-{
-    sim->now.joint_segment[j] &= ~DMB_SEGMENT_HELD;
-}
-
 /* A locked joint stays at R0, p0: those it has now (constraint/joint.h). */
 void dmb_joint_hold(dmb_sim *sim, uint32_t j)
 {
     dmb_relative relative;
-    let_go(sim, j);
+    dmb_joint_place_hold(sim, j, 0);
     dmb_joint_motion(sim->scene, &sim->now, j, &relative, NULL);
     dmb_mat3_copy(relative.R, sim->joint_lock + 12 * j);
     dmb_vec3_copy(relative.p, sim->joint_lock + 12 * j + 9);
-    if (sim->scene->joints[j].kind == DMB_JOINT_POINT_ON_HOLE) sim->now.joint_segment[j] |= DMB_SEGMENT_HELD;
+    dmb_joint_place_hold(sim, j, sim->scene->joints[j].kind == DMB_JOINT_POINT_ON_HOLE);
 }
 
 void dmb_joint_take_state(dmb_sim *sim, uint32_t j, int32_t state)
@@ -65,7 +60,7 @@ void dmb_joint_take_state(dmb_sim *sim, uint32_t j, int32_t state)
     if (state == DMB_JOINT_LOCKED)
         dmb_joint_hold(sim, j);
     else
-        let_go(sim, j);
+        dmb_joint_place_hold(sim, j, 0);
 }
 
 /* Springs and stops: the integral of each law over its coordinate. */

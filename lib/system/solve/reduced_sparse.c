@@ -1,5 +1,6 @@
 #include "system/solve/reduced_sparse.h"
 
+#include "system/constrain/cluster.h"
 #include "system/constrain/sparse_cluster.h"
 
 void dmb_reduced_sparse_sizes(dmb_sim *sim)
@@ -141,7 +142,8 @@ void dmb_reduced_sparse_move(dmb_sim *sim)
         const dmb_constraint *c = scene->constraints + i;
         for (uint32_t r = c->row; r < c->row + c->rows && dmb_is_sparse(scene, i); r++)
             if (sim->sparse_slot[r] != DMB_NONE)
-                sim->trial.multiplier[r] +=
-                    sim->sparse_scale[r] * sim->reduced_solution[sim->reduced_row[c->block] + sim->sparse_slot[r]];
+                dmb_cluster_move_multiplier(
+                    sim, r,
+                    sim->sparse_scale[r] * sim->reduced_solution[sim->reduced_row[c->block] + sim->sparse_slot[r]]);
     }
 }

@@ -364,7 +364,7 @@ static void move_multipliers(dmb_sim *sim)
         if (cluster->sparse) continue;
         const double *change = sim->reduced_solution + sim->reduced_row[cluster->block] + cluster->columns;
         for (uint32_t i = 0; i < sim->partition_rank[k]; i++)
-            sim->trial.multiplier[cluster->row + sim->partition_row[cluster->row + i]] += change[i];
+            dmb_cluster_move_multiplier(sim, cluster->row + sim->partition_row[cluster->row + i], change[i]);
     }
 }
 
