@@ -58,6 +58,42 @@ static void elements_for_a_pulled_string(void **state)
     dmb_model_destroy(&model);
 }
 
+/* A turning string of 200 m that its own weight presses into a wall of 1e10 N/m2 by nanometres, 5 mm of clearance. */
+static void wall_that_is_stiff(void **state)
+{
+    dmb_model *model;
+    dmb_sim *sim;
+    dmb_static_options options = dmb_static_options_default();
+    dmb_wall_def wall = dmb_wall_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    (void)state;
+    for (int soft = 0; soft < 2; soft++) {
+        must(dmb_model_create(NULL, &model));
+        wall.diameter = pipe.outer_diameter + 0.01;
+        wall.stiffness = soft ? 1e4 : 1e10;
+        must(dmb_model_add_wall(model, &wall, NULL));
+        dmb_string_def string = dmb_string_def_default();
+        string.start_free = DMB_FREE_NONE;
+        must(dmb_model_add_string(model, &string, &pipe.string));
+        pipe.length = 2.0;
+        pipe.elements = 1;
+        must(dmb_model_add_pipes(model, &pipe, 100, NULL));
+        must(dmb_model_compile(model, NULL));
+        assert_true(dmb_sim_create(model, NULL, &sim) >= 0);
+        options.slip_rotation = 10.0;
+        options.max_iterations = 1;
+        assert_int_equal(dmb_analysis_static(sim, &options, NULL), DMB_ERR_NO_CONVERGENCE);
+        if (soft) {
+            expect(sim, "more load_steps");
+        } else {
+            expect(sim, "the wall is stiff: the weight presses it in by");
+            expect(sim, "the clearance is 0.005 m: elements of 0.5 m, not 2 m, or a stiffness of");
+        }
+        dmb_sim_destroy(&sim);
+        dmb_model_destroy(&model);
+    }
+}
+
 /* 20 N of weight and a controller that asks for 100 N/(m/s) of 0.1 m/s, with limits of 50 N and 5 N. */
 static void limit_of_a_drive(void **state)
 {
@@ -96,6 +132,6 @@ static void limit_of_a_drive(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(elements_for_a_pulled_string),
-                                       cmocka_unit_test(limit_of_a_drive)};
+                                       cmocka_unit_test(wall_that_is_stiff), cmocka_unit_test(limit_of_a_drive)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

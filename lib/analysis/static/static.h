@@ -74,6 +74,17 @@ void dmb_static_lay_by_pull(dmb_static_search *search);
  * DMB_SOFTEST. */
 #define DMB_SOFTEST 1e6
 double dmb_static_softness(const dmb_static_search *search, const dmb_static_pull *pull, double part);
+/* A wall that the weight presses a ring into by less than this part of its clearance opens and closes contacts in turn.
+ */
+#define DMB_STIFF_WALL 1e-2
+typedef struct dmb_static_stiff_wall {
+    double depth;     /* [m] under the weight of a ring */
+    double clearance; /* [m] of that ring */
+    double element;   /* [m] length of the element before it */
+    double softer;    /* [N/m^(n+1)] stiffness with which the depth is a tenth of the clearance */
+} dmb_static_stiff_wall;
+/* The ring for which the wall is stiffest; 1 if there is one. */
+int dmb_static_find_stiff_wall(const dmb_scene *scene, dmb_static_stiff_wall *out);
 /* Shortens the last move, by `direction` (row_count), which ended where the residual was just
  * evaluated; `before` is direction . residual at its start. Leaves the residual and tangent of where it ends. */
 int32_t dmb_static_line_search(dmb_static_search *search, const double *direction, double before);

@@ -126,3 +126,23 @@ double dmb_static_softness(const dmb_static_search *search, const dmb_static_pul
     }
     return fmin(most, DMB_SOFTEST);
 }
+
+/* ---- Walls that are stiff for their clearance -------------------------------------------------------------------- */
+
+int dmb_static_find_stiff_wall(const dmb_scene *scene, dmb_static_stiff_wall *out)
+{
+    double least = DMB_STIFF_WALL;
+    for (uint32_t s = 0; s < scene->site_count; s++) {
+        const dmb_site *site = scene->sites + s;
+        const uint32_t e = dmb_element_between(scene, site->node, 0);
+        const double force = scene->weight_mass[site->node] * dmb_vec3_norm(scene->gravity);
+        if (!lies(scene, s) || e == DMB_NONE || !(force > 0.0)) continue;
+        const double depth = sink(scene, site, force);
+        if (!(depth < least * site->clearance)) continue;
+        least = depth / site->clearance;
+        *out = (dmb_static_stiff_wall){.depth = depth, .clearance = site->clearance};
+        out->element = scene->types[scene->element_type[e]].length;
+        out->softer = scene->normal_law.stiffness * pow(10.0 * least, scene->normal_law.exponent);
+    }
+    return least < DMB_STIFF_WALL;
+}
