@@ -72,6 +72,7 @@ typedef struct signs {
     int32_t changed;         /* their number at the bifurcation less that */
     int32_t symmetric;       /* 1: K is, and any negative eigenvalue is a loss of stability */
     int32_t to_event;        /* 1: the path ends at its first event */
+    double rate;             /* largest of the factor along the path [1/m] */
 } signs;
 
 /* A complex pair of an unsymmetric K that becomes real and negative adds 2 to the count and passes no 0: only the
@@ -80,6 +81,7 @@ static int32_t look(void *context, const dmb_sim *at, const dmb_path_point *poin
 {
     signs *const s = context;
     (void)at;
+    s->rate = fmax(s->rate, point->rate);
     if (point->kind == DMB_PATH_BIFURCATION) s->changed = point->negative - s->before;
     if (point->kind != DMB_PATH_REGULAR) return s->to_event; /* there the sign is told for what is beyond */
     const int beyond = s->symmetric ? point->negative > 0 : s->changed != 0;
@@ -92,7 +94,7 @@ static int32_t look(void *context, const dmb_sim *at, const dmb_path_point *poin
 /* next: the factor after it; an unsymmetric K may be stable again beyond, and the path ends before. */
 static void hold_path(trial *t, built *b, double factor, double next, double tolerance)
 {
-    signs s = {0.0, 1e300, 0, 0, extras_of(&t->s).torque == 0.0, 0};
+    signs s = {0.0, 1e300, 0, 0, extras_of(&t->s).torque == 0.0, 0, 0.0};
     dmb_path_options options = dmb_path_options_default();
     dmb_path_report report = dmb_path_report_default();
     options.factor_end = s.symmetric ? 1.2 * factor : fmin(1.2 * factor, 0.5 * (factor + next));
@@ -299,7 +301,7 @@ static void push_in_hole(scene *s, double part)
 
 static void hold_path_in_hole(trial *t, built *b, double factor)
 {
-    signs s = {0.0, 1e300, 0, 0, 1, 1};
+    signs s = {0.0, 1e300, 0, 0, 1, 1, 0.0};
     dmb_path_options options = dmb_path_options_default();
     dmb_path_report report = dmb_path_report_default();
     options.factor_end = 1.02 * factor;
@@ -307,7 +309,12 @@ static void hold_path_in_hole(trial *t, built *b, double factor)
     options.max_points = 400;
     options.callback = look;
     options.callback_context = &s;
-    const int32_t status = dmb_analysis_path(b->sim, &options, &report);
+    int32_t status = dmb_analysis_path(b->sim, &options, &report);
+    if (status >= 0 && isnan(fmin(report.first_limit, report.first_bifurcation))) { /* passed by: in shorter steps */
+        options.step_max = 2e-4 * factor / s.rate;
+        options.max_points = 6000;
+        status = dmb_analysis_path(b->sim, &options, &report);
+    }
     const double event = fmin(report.first_limit, report.first_bifurcation); /* fmin leaves NaN out */
     if (isnan(event) && status < 0) {
         left_out(t, "a path in a hole that is lost before its event");
