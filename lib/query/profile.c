@@ -399,7 +399,7 @@ static int32_t fill_station(station_walk *walk, const dmb_profile *profile, uint
 
 int32_t dmb_query_profile(const dmb_sim *sim, const dmb_profile *given)
 {
-    int32_t status = dmb_ask(sim, given), groups;
+    int32_t status = dmb_ask(sim, given), groups = 0;
     dmb_profile profile;
     station_walk walk = {.sim = sim};
     if (status == DMB_OK) status = dmb_profile_read(&profile, given);
