@@ -140,11 +140,18 @@ int32_t dmb_factor_mass(dmb_evaluation *evaluation)
     return bad >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
 }
 
+static void clear_held(const dmb_scene *scene, double *z)
+{
+    for (uint32_t i = 0; i < scene->held_count; i++)
+        z[scene->layout.row[scene->held_node[i]] + scene->held_component[i]] = 0.0;
+}
+
 void dmb_solve_for(dmb_sim *sim, const double *residual, double *z)
 {
     const dmb_scene *scene = sim->scene;
     const dmb_block_matrix matrix = matrix_of(sim);
-    for (uint32_t i = 0; i < scene->row_count; i++) z[i] = scene->solved_row[i] ? -residual[i] : 0.0;
+    for (uint32_t i = 0; i < scene->row_count; i++) z[i] = -residual[i];
+    clear_held(scene, z);
     if (*sim->factors == DMB_FACTORS_REUSED) {
         dmb_solve_reused(sim, z);
         return;
@@ -207,12 +214,6 @@ static void twist_rows(const dmb_sim *sim, const double *from, const double *to,
     }
 }
 
-static void clear_held(const dmb_sim *sim, double *z)
-{
-    for (uint32_t i = 0; i < sim->scene->row_count; i++)
-        if (!sim->scene->solved_row[i]) z[i] = 0.0;
-}
-
 static void solve_chains(const dmb_sim *sim, double *z)
 {
     const dmb_scene *scene = sim->scene;
@@ -230,5 +231,5 @@ void dmb_solve_reused(const dmb_sim *sim, double *z)
     solve_chains(sim, z);
     if (!twisted) return;
     twist_rows(sim, sim->kept_quaternion, sim->trial.quaternion, z);
-    clear_held(sim, z);
+    clear_held(sim->scene, z);
 }
