@@ -135,7 +135,7 @@ static void lay_out(dmb_fatigue *fatigue, const dmb_sim *sim, const dmb_place *p
     for (size_t i = 0; i < counters; i++) {
         fatigue->counters[i].cycles = numbers + i * classes;
         fatigue->counters[i].flow.turns = turns + i * (classes + 4);
-        fatigue->counters[i].lowest = INFINITY;
+        fatigue->counters[i].lowest = (double)INFINITY;
         fatigue->counters[i].highest = -(double)INFINITY;
     }
 }

@@ -388,7 +388,7 @@ static int32_t fill_station(station_walk *walk, const dmb_profile *profile, uint
     int32_t status;
     at.place = place_at(walk, profile->string, distance);
     at.run = &walk->runs[walk->run];
-    for (int k = 0; k < DMB_PROFILE_COUNT; k++) at.values[k] = NAN;
+    for (int k = 0; k < DMB_PROFILE_COUNT; k++) at.values[k] = (double)NAN;
     at.values[DMB_PROFILE_DISTANCE] = distance;
     status = dmb_material_point_of(walk->sim, at.place, &at.point);
     if (status >= 0) status = fill(&at, groups);

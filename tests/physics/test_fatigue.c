@@ -148,12 +148,12 @@ static void refused(void **state)
     REFUSED(classes, UINT32_MAX, DMB_ERR_VALUE);
     REFUSED(points, 1, DMB_ERR_VALUE);
     REFUSED(stress_range, 0.0, DMB_ERR_VALUE);
-    REFUSED(stress_range, NAN, DMB_ERR_NOT_FINITE);
+    REFUSED(stress_range, (double)NAN, DMB_ERR_NOT_FINITE);
     REFUSED(concentration, 0.9, DMB_ERR_VALUE);
     REFUSED(curve_stress, 0.0, DMB_ERR_VALUE);
     REFUSED(curve_cycles, -1.0, DMB_ERR_VALUE);
     REFUSED(slope, 0.0, DMB_ERR_VALUE);
-    REFUSED(slope, INFINITY, DMB_ERR_NOT_FINITE);
+    REFUSED(slope, (double)INFINITY, DMB_ERR_NOT_FINITE);
     REFUSED(endurance, -1.0, DMB_ERR_VALUE);
     REFUSED(tensile_strength, -1.0, DMB_ERR_VALUE);
     REFUSED(struct_size, 12, DMB_ERR_STRUCT_SIZE);

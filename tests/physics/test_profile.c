@@ -55,7 +55,7 @@ static void destroy(scene *s)
 static double at(const scene *s, int32_t quantity, double distance)
 {
     dmb_profile profile = dmb_profile_default();
-    double value = NAN;
+    double value = (double)NAN;
     profile.distance = &distance;
     profile.quantities = &quantity;
     profile.quantity_count = 1;
@@ -352,7 +352,7 @@ static void refused(void **state)
     }
     assert_int_equal(dmb_query_profile(s.sim, NULL), DMB_ERR_NULL);
     assert_int_equal(dmb_query_profile(NULL, &good), DMB_ERR_NULL);
-    assert_int_equal(dmb_query_hole(s.model, NAN, &point), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_query_hole(s.model, (double)NAN, &point), DMB_ERR_NOT_FINITE);
     assert_int_equal(dmb_query_hole(s.model, 1e300, &point), DMB_ERR_VALUE);
     assert_int_equal(dmb_query_hole(s.model, 0.0, NULL), DMB_ERR_NULL);
     assert_int_equal(dmb_query_hole(NULL, 0.0, &point), DMB_ERR_NULL);

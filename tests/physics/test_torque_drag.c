@@ -373,13 +373,13 @@ static void refused(void **state)
     } while (0)
     REFUSED(options, friction, -0.5, DMB_ERR_VALUE);
     REFUSED(options, friction, 11.0, DMB_ERR_VALUE);
-    REFUSED(options, friction, NAN, DMB_ERR_NOT_FINITE);
+    REFUSED(options, friction, (double)NAN, DMB_ERR_NOT_FINITE);
     REFUSED(options, post_buckling, 2, DMB_ERR_VALUE);
     REFUSED(options, depth_count, 0, DMB_ERR_VALUE);
     REFUSED(options, string.generation, 99, DMB_ERR_ID);
-    REFUSED(bad, axial_speed, NAN, DMB_ERR_NOT_FINITE);
-    REFUSED(bad, rotary_speed, INFINITY, DMB_ERR_NOT_FINITE);
-    REFUSED(bad, weight_on_bit, NAN, DMB_ERR_NOT_FINITE);
+    REFUSED(bad, axial_speed, (double)NAN, DMB_ERR_NOT_FINITE);
+    REFUSED(bad, rotary_speed, (double)INFINITY, DMB_ERR_NOT_FINITE);
+    REFUSED(bad, weight_on_bit, (double)NAN, DMB_ERR_NOT_FINITE);
     REFUSED(bad, torque_on_bit, -1.0, DMB_ERR_VALUE);
     REFUSED(bad, struct_size, 7, DMB_ERR_STRUCT_SIZE);
     row.struct_size = 8;
@@ -390,7 +390,7 @@ static void refused(void **state)
     assert_int_equal(dmb_analysis_torque_drag(NULL, NULL, &good, 1, &row), DMB_ERR_NULL);
     assert_int_equal(dmb_analysis_torque_drag_profile(s.sim, NULL, &good, 1, NULL, NULL, NULL, NULL), DMB_ERR_VALUE);
     assert_int_equal(dmb_analysis_friction_factor(s.sim, NULL, &good, 2, 0.0, &found), DMB_ERR_VALUE);
-    assert_int_equal(dmb_analysis_friction_factor(s.sim, NULL, &good, 0, NAN, &found), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_analysis_friction_factor(s.sim, NULL, &good, 0, (double)NAN, &found), DMB_ERR_NOT_FINITE);
     assert_int_equal(dmb_operation_usual(DMB_OPERATION_COUNT, &good), DMB_ERR_VALUE);
     assert_int_equal(dmb_operation_usual(0, NULL), DMB_ERR_NULL);
     assert_null(dmb_operation_name(-1));

@@ -195,7 +195,8 @@ static void lock(dmb_torque_drag_row *row)
 {
     const double depth = row->depth;
     double *values = &row->depth;
-    for (size_t i = 0; i < (sizeof *row - offsetof(dmb_torque_drag_row, depth)) / sizeof(double); i++) values[i] = NAN;
+    for (size_t i = 0; i < (sizeof *row - offsetof(dmb_torque_drag_row, depth)) / sizeof(double); i++)
+        values[i] = (double)NAN;
     row->depth = depth;
     row->transfer = 0.0;
     row->locked = 1;
@@ -205,7 +206,7 @@ static dmb_torque_drag_row row_of(const dmb_soft_string *soft, const dmb_operati
 {
     dmb_torque_drag_row row = dmb_torque_drag_row_default();
     row.depth = depth;
-    row.lowest_force = INFINITY;
+    row.lowest_force = (double)INFINITY;
     row.buckled_at = row.yield_at = depth;
     if (!dmb_soft_string_march(soft, operation, depth, 0.0, visit_row, &row)) lock(&row);
     return row;
@@ -343,7 +344,7 @@ static double misses_by(fitting *f, double friction)
     dmb_torque_drag_row row;
     f->r->soft.friction = friction;
     row = row_of(&f->r->soft, &f->operation, depth_of(f->r, 0));
-    if (row.locked) return f->measured == DMB_MEASURED_HOOK_LOAD ? -INFINITY : INFINITY;
+    if (row.locked) return f->measured == DMB_MEASURED_HOOK_LOAD ? -(double)INFINITY : (double)INFINITY;
     return (f->measured == DMB_MEASURED_HOOK_LOAD ? row.hook_load : row.torque) - f->value;
 }
 
