@@ -10,13 +10,10 @@
 #include "math/vec3.h"
 #include "sim/access.h"
 #include "sim/layout.h"
-#include "sim/node.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/drives.h"
 #include "system/assemble/wall_contact.h"
 #include "system/constrain/cluster.h"
-#include "system/constrain/constraint_rows.h"
-#include "system/constrain/joint_edge.h"
 #include "system/constrain/joint_state.h"
 #include "system/solve/solve.h"
 #include "system/start.h"
@@ -286,146 +283,6 @@ static int32_t settle(dmb_static_search *search)
     return DMB_OK;
 }
 
-static int is_held(const dmb_scene *scene, const dmb_string_map *string, uint32_t component)
-{
-    for (uint32_t i = 0; i < scene->held_count; i++)
-        if (scene->held_component[i] == component && scene->held_node[i] - string->first_node < string->node_count)
-            return 1;
-    for (uint32_t k = 0; k < scene->bit_count; k++)
-        if (scene->bits[k].law.kind != DMB_ROCK_NONE && scene->bits[k].node - string->first_node < string->node_count)
-            return 1;
-    return scene->chains[scene->node_chain[string->first_node]].jointed; /* joints may hold it */
-}
-
-/* A string that moves along for ever shows as poses that do not converge, or bend too far on the way: it is named. */
-static void name_free_string(dmb_sim *sim, int32_t status)
-{
-    const dmb_scene *scene = sim->scene;
-    if (status != DMB_ERR_NO_CONVERGENCE && status != DMB_ERR_ROTATION) return;
-    for (uint32_t i = 0; i < scene->string_count; i++) {
-        const dmb_message said = sim->message;
-        if (is_held(scene, scene->strings + i, DMB_X)) continue;
-        dmb_message_set(&sim->message,
-                        "static: string %u: nothing holds it along its axis, give it a drive, a guide or a "
-                        "joint; %s",
-                        i, said.text);
-        return;
-    }
-}
-
-/* In which direction the part of a node may go. */
-static const char *way_out(const dmb_scene *scene, uint32_t node)
-{
-    for (uint32_t i = 0; i < scene->string_count; i++) {
-        const dmb_string_map *string = scene->strings + i;
-        if (node - string->first_node >= string->node_count) continue;
-        const int along = is_held(scene, string, DMB_X), about = is_held(scene, string, DMB_RX);
-        if (!along && !about) return "it may slide along and spin about its axis";
-        if (!along) return "it may slide along its axis";
-        return about ? "it may move" : "it may spin about its axis";
-    }
-    return "it may move";
-}
-
-/* At rest a controller gives the force it has come to: it holds no position, and at its limit not even more. */
-static const char *controller(const dmb_sim *sim, int limited_only, dmb_message *text)
-{
-    dmb_message name;
-    for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
-        const dmb_scene_drive *drive = sim->scene->drives + i;
-        const double force = sim->trial.drive_force[i];
-        const int high = force >= drive->limit_high, low = force <= drive->limit_low;
-        if (drive->kind != DMB_DRIVE_CONTROL || (limited_only && !high && !low)) continue;
-        dmb_drive_text(sim->scene, i, &name);
-        if (high || low)
-            dmb_message_set(text, "; %s is at its limit_%s = %g: widen it, or lower the load", name.text,
-                            high ? "high" : "low", force);
-        else
-            dmb_message_set(text, "; %s is a controller: at rest it gives %g and holds nothing, a motion drive would",
-                            name.text, force);
-        return text->text;
-    }
-    return NULL;
-}
-
-/* Springs, drives and couplings of angles that are not defined at a right angle of RZ jump there, and what rests near
- * it has no equilibrium to converge to. */
-#define DMB_NEAR_EDGE 0.9 /* of 1 - cos RZ: 84 degrees */
-
-static const char *edge_of_joint(const dmb_static_search *search, dmb_message *text)
-{
-    dmb_message name;
-    const dmb_scene *scene = search->sim->scene;
-    if (!(search->edge > DMB_NEAR_EDGE)) return NULL;
-    dmb_constraint_text(scene, scene->joints[search->edge_joint].constraint, &name);
-    dmb_message_set(
-        text,
-        "; %s came to |RZ| = %g rad: at a right angle its RX and RY jump, and their springs: turn its frames, "
-        "or use stiffer springs",
-        name.text, acos(1.0 - search->edge));
-    return text->text;
-}
-
-static const char *remedy(dmb_static_search *search, dmb_message *text)
-{
-    dmb_static_pull pull;
-    dmb_static_stiff_wall wall;
-    const char *drive = controller(search->sim, 1, text), *edge = edge_of_joint(search, text);
-    if (drive != NULL) return controller(search->sim, 1, text);
-    if (edge != NULL) return edge;
-    if (dmb_static_find_pull(search, &pull) > 0 && pull.element > DMB_SHORT_ELEMENT * pull.bending) {
-        dmb_message_set(text,
-                        "; string %u is pulled by T = %g N round a bend: with sqrt(EI/T) = %g m take elements of %g m, "
-                        "not %g m, or a softer wall",
-                        pull.string, pull.tension, pull.bending, DMB_SHORT_ELEMENT * pull.bending, pull.element);
-        return text->text;
-    }
-    if (dmb_static_find_stiff_wall(search->sim->scene, &wall)) {
-        /* of 18 random strings refused so, 15 were found with a quarter of the length, 15 on a wall softer by 1000 */
-        dmb_message_set(
-            text,
-            "; the wall is stiff: the weight presses it in by %g m, the clearance is %g m: elements of %g m, not "
-            "%g m, or a stiffness of %g, not %g, may get there",
-            wall.depth, wall.clearance, 0.25 * wall.element, wall.element, wall.softer,
-            search->sim->scene->normal_law.stiffness);
-        return text->text;
-    }
-    return search->sim->scene->site_count > 0
-               ? "; shorter elements, a softer wall, more load_steps or a run in time with damping may get there"
-               : "; more load_steps, shorter elements or a run in time with damping may get there";
-}
-
-static void explain(dmb_static_search *search, int32_t status)
-{
-    dmb_sim *sim = search->sim;
-    dmb_owner owner;
-    dmb_message text;
-    if (status == DMB_ERR_GEOMETRY) {
-        (void)dmb_joints_refuse_folds(sim); /* the trial still stands there */
-    } else if (sim->scene->cluster_count && sim->reduced_mode->row != DMB_NONE) {
-        dmb_clusters_explain(sim, "its equations cannot be satisfied");
-    } else if (status == DMB_ERR_SINGULAR) {
-        owner = dmb_owner_of_node(sim->scene, search->block);
-        const char *drive = controller(sim, 0, &text);
-        dmb_message_set(&sim->message,
-                        "static: %s: nothing holds it, the stiffness is singular: %s; give it a guide, drive, joint or "
-                        "spring%s",
-                        owner.text.text, way_out(sim->scene, search->block), drive != NULL ? drive : "");
-    } else if (status == DMB_ERR_ROTATION) {
-        owner = dmb_owner_of_element(sim->scene, search->evaluation.element);
-        const char *drive = controller(sim, 1, &text);
-        dmb_message_set(&sim->message,
-                        "static: %s: relative rotation in one element above 2.5 rad: take more elements%s",
-                        owner.text.text, drive != NULL ? drive : "");
-    } else if (status == DMB_ERR_CALLBACK) {
-        dmb_message_set(&sim->message, "static: the callback of a programme or constraint failed at time %g",
-                        search->evaluation.time);
-    } else {
-        dmb_message_set(&sim->message, "static: %u iterations, relative residual = %g, must be <= %g%s",
-                        search->iterations, search->residual, search->options->tolerance, remedy(search, &text));
-    }
-}
-
 static void tell(const dmb_static_search *search, dmb_static_report *out)
 {
     out->iterations = search->iterations;
@@ -459,8 +316,7 @@ static int32_t find(dmb_static_search *search, dmb_static_report *out)
     search->rolling = search->winding && (search->steady != NULL || search->evaluation.slip[1] != 0.0);
     int32_t status = refuse_loose(search, search_equilibrium(search, &out->method));
     if (status < 0) {
-        explain(search, status);
-        name_free_string(sim, status);
+        dmb_static_explain(search, status);
         dmb_state_restore(sim); /* the partition of joints may have changed on the way */
         return status;
     }

@@ -104,6 +104,9 @@ int32_t dmb_static_newton(dmb_static_search *search);
  * 1998); slower and surer. */
 int32_t dmb_static_relaxation(dmb_static_search *search);
 
+/* Puts the message of a search that failed: the part, the figure and its bound, and what may help. */
+void dmb_static_explain(dmb_static_search *search, int32_t status);
+
 /* Options of the static start, checked. */
 
 /* Defaults overlaid with what is given (may be NULL); on refusal a message naming the field. */
