@@ -233,14 +233,14 @@ static inline void dmb_beam_add_force(const dmb_beam_shape *shape, const dmb_rea
 
 /* A 6x6 matrix by the coordinates of d: [u, g; g^T, w], where g and w couple (y, z) and (O_y, O_z) alone. */
 typedef struct dmb_beam_material {
-    dmb_real u[9], g[4], twist, w[4];
+    dmb_real u[9], g[4], torsion, w[4];
 } dmb_beam_material;
 
 /* E^T diag(k) E */
 static inline void dmb_beam_material_at(const dmb_real k[6], const dmb_beam_map *E, dmb_beam_material *D)
 {
     D->u[0] = k[0];
-    D->twist = k[3];
+    D->torsion = k[3];
     for (int i = 0; i < 2; i++) {
         D->u[1 + i] = D->u[3 * (1 + i)] = k[0] * E->slope[i];
         for (int j = 0; j < 2; j++) {
@@ -276,7 +276,7 @@ static inline void dmb_beam_material_rows(const dmb_beam_material *D, const dmb_
 {
     dmb_mat3_mul(D->u, T->S, Z->U);
     dmb_mat3_mul(D->u, T->B, Z->V);
-    dmb_vec3_scale(D->twist, T->S, Z->W);
+    dmb_vec3_scale(D->torsion, T->S, Z->W);
     dmb_vec3_zero(Z->X);
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 3; j++) {

@@ -172,32 +172,32 @@ static inline void dmb_contact_swing(const dmb_contact_frame *f, const dmb_conta
 
 /* Turning of the body by dtheta turns the frame back: d(j . V) = (j x dtheta) . V = (V x j) . dtheta, translation and
  * rotation parts added. */
-static inline void dmb_contact_turning(const dmb_contact_frame *f, dmb_real turning[3][3])
+static inline void dmb_contact_rotation_rates(const dmb_contact_frame *f, dmb_real by_rotation[3][3])
 {
     dmb_real a[3];
-    dmb_vec3_cross(f->V, f->n, turning[0]);
-    dmb_vec3_cross(f->V, f->t, turning[1]);
+    dmb_vec3_cross(f->V, f->n, by_rotation[0]);
+    dmb_vec3_cross(f->V, f->t, by_rotation[1]);
     dmb_vec3_cross(f->V + 3, f->turn_t, a);
-    dmb_vec3_add(turning[1], a, turning[1]);
-    dmb_vec3_cross(f->V, f->b, turning[2]);
+    dmb_vec3_add(by_rotation[1], a, by_rotation[1]);
+    dmb_vec3_cross(f->V, f->b, by_rotation[2]);
     dmb_vec3_cross(f->V + 3, f->turn_b, a);
-    dmb_vec3_add(turning[2], a, turning[2]);
+    dmb_vec3_add(by_rotation[2], a, by_rotation[2]);
 }
 
 /* sum j_k (dF_k/d penetration n ; sum_l D_kl turning_l)^T */
 static inline void dmb_contact_force_tangent(const dmb_contact_frame *f, const dmb_contact_force *c, int friction,
                                              dmb_real K[36])
 {
-    dmb_real turning[3][3], row[6];
-    dmb_contact_turning(f, turning);
+    dmb_real by_rotation[3][3], row[6];
+    dmb_contact_rotation_rates(f, by_rotation);
     dmb_vec3_scale(c->by_depth[0], f->n, row);
-    dmb_vec3_scale(c->normal_rate, turning[0], row + 3);
+    dmb_vec3_scale(c->normal_rate, by_rotation[0], row + 3);
     dmb_contact_set_normal(f->n, row, K);
     for (int k = 0; friction && k < 2; k++) {
         dmb_vec3_scale(c->by_depth[1 + k], f->n, row);
-        dmb_vec3_scale(c->by_speed[k][0], turning[0], row + 3);
-        dmb_vec3_axpy(c->by_speed[k][1], turning[1], row + 3);
-        dmb_vec3_axpy(c->by_speed[k][2], turning[2], row + 3);
+        dmb_vec3_scale(c->by_speed[k][0], by_rotation[0], row + 3);
+        dmb_vec3_axpy(c->by_speed[k][1], by_rotation[1], row + 3);
+        dmb_vec3_axpy(c->by_speed[k][2], by_rotation[2], row + 3);
         dmb_contact_add_direction(k == 0 ? f->t : f->b, k == 0 ? f->turn_t : f->turn_b, row, K);
     }
 }

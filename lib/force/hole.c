@@ -292,7 +292,7 @@ void dmb_hole_arc_bend(const dmb_hole *hole, double depth, uint32_t segment, dou
 }
 
 /* About t: t . w = z . y' with y = e_z x t over its length. */
-void dmb_hole_turning(const double t[3], const double curvature[3], double w[3])
+void dmb_hole_frame_rate(const double t[3], const double curvature[3], double w[3])
 {
     const double across = t[0] * t[0] + t[1] * t[1];
     dmb_vec3_cross(t, curvature, w);

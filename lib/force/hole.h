@@ -56,7 +56,7 @@ void dmb_hole_frame_rotation(const dmb_hole *hole, double s, double R[9]);
 
 /* Turning of that frame per metre of depth [rad/m], world axes, from unit tangent t and curvature vector dt/ds:
  * t x dt/ds, and about t what keeps its y axis horizontal. */
-void dmb_hole_turning(const double t[3], const double curvature[3], double w[3]);
+void dmb_hole_frame_rate(const double t[3], const double curvature[3], double w[3]);
 
 /* [rad/m] Turning of the tangent per metre of depth without any about itself, world axes: curvature times the binormal,
  * which is one vector all along an arc; 0 where the axis is straight. depth and segment as dmb_hole_project gives

@@ -5,16 +5,17 @@
 #include "math/mat6.h"
 
 /* Body-frame weight m R^T g [N] and its moment b x R^T g [N m]; both turn with the body: d(R^T g) = (R^T g)~ dtheta, so
- * the residual's rotation columns lose force~ under the translations and `turning` = b~ (R^T g)~ under the rotations.
+ * the residual's rotation columns lose force~ under the translations and `by_rotation` = b~ (R^T g)~ under the
+ * rotations.
  */
 static inline void dmb_weight_at(const double gravity[3], const dmb_real R[9], dmb_real mass, const dmb_real moment[3],
-                                 dmb_real force[6], dmb_real turning[9])
+                                 dmb_real force[6], dmb_real by_rotation[9])
 {
     dmb_real g[3];
     for (int i = 0; i < 3; i++) g[i] = R[i] * gravity[0] + R[3 + i] * gravity[1] + R[6 + i] * gravity[2];
     dmb_vec3_scale(mass, g, force);
     dmb_vec3_cross(moment, g, force + 3);
-    dmb_skew_product(moment, g, turning);
+    dmb_skew_product(moment, g, by_rotation);
 }
 
 /* Lateral damping of pipe along x: a slice at x moves sideways with v_y + x w_z and v_z - x w_y. c = axial, torsional,

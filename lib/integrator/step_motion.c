@@ -8,7 +8,7 @@ void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
 {
     const double whole = 1.0 - c->am;
     const dmb_step_motion to = dmb_step_motion_of(sim);
-    const dmb_predict_run run = {
+    const dmb_predict_job job = {
         .count = sim->scene->row_count,
         .step = h,
         .ratio = dmb_step_motion_ratio(sim, h),
@@ -26,8 +26,8 @@ void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
         .pseudo_acceleration = to.pseudo_acceleration,
         .increment = sim->increment,
     };
-    sim->scene->kernels->predict(&run);
-    if (sim->scene->free_rigid_count) dmb_free_rigids_predict(sim, &run);
+    sim->scene->kernels->predict(&job);
+    if (sim->scene->free_rigid_count) dmb_free_rigids_predict(sim, &job);
 }
 
 void dmb_step_motion_keep_prescribed(dmb_sim *sim)
@@ -46,7 +46,7 @@ void dmb_step_motion_correct(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
 {
     const double to_a = 1.0 / (h * h * c->beta);
     const dmb_step_motion to = dmb_step_motion_of(sim);
-    const dmb_correct_run run = {
+    const dmb_correct_job job = {
         .count = sim->scene->row_count,
         .to_velocity = c->gamma / (h * c->beta),
         .to_acceleration = to_a * (1.0 - c->am) / (1.0 - c->af),
@@ -57,8 +57,8 @@ void dmb_step_motion_correct(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
         .pseudo_acceleration = to.pseudo_acceleration,
         .increment = sim->increment,
     };
-    sim->scene->kernels->correct(&run);
-    if (sim->scene->free_rigid_count) dmb_free_rigids_correct(sim, &run);
+    sim->scene->kernels->correct(&job);
+    if (sim->scene->free_rigid_count) dmb_free_rigids_correct(sim, &job);
     dmb_step_motion_place(sim);
 }
 

@@ -14,7 +14,7 @@
 
 /* A run of beams: element i lies between the nodes i and i + 1 of the run, all of them FULL. Pointers are to the run's
  * first element, node, row or block. */
-typedef struct dmb_beam_run {
+typedef struct dmb_beam_job {
     uint32_t count;  /* elements */
     uint32_t failed; /* out: the first element that turned too far */
     const dmb_element_type *types;
@@ -32,11 +32,11 @@ typedef struct dmb_beam_run {
     double *stiffness_diagonal, *inertia_diagonal; /* added to, shape (count + 1, 36) */
     double *upper, *lower; /* stiffness, or when dynamic the iteration matrix; written, shape (count, 36) */
     double rounding, potential, damping, inertia; /* added to: [N2], [W] */
-} dmb_beam_run;
+} dmb_beam_job;
 
 /* A run of axial-torsional bars: bar i lies between the nodes i and i + 1 of the run, all of them PATH. Pointers are to
  * the run's first bar, node or row. */
-typedef struct dmb_bar_run {
+typedef struct dmb_bar_job {
     uint32_t count;  /* bars */
     int32_t dynamic; /* as in dmb_evaluation */
     const dmb_element_type *types;
@@ -47,20 +47,20 @@ typedef struct dmb_bar_run {
     double per_length;                            /* [1/m] makes angles comparable with displacements */
     double *residual, *scale;                     /* added to, shape (count + 1, 2) */
     double rounding, potential, damping, inertia; /* added to: [N2], [W] */
-} dmb_bar_run;
+} dmb_bar_job;
 
 /* A run of FULL nodes. */
-typedef struct dmb_node_run {
+typedef struct dmb_node_job {
     uint32_t count;
     uint32_t reserved;
     const double *increment; /* [m, rad] body frame, shape (count, 6) */
     const double *start_displacement, *start_quaternion;
     double *displacement, *quaternion; /* start moved by the increment */
-} dmb_node_run;
+} dmb_node_job;
 
 /* Rigid masses, weight and external damping on a run of FULL nodes. Pointers are to the run's first node, row or
  * block. */
-typedef struct dmb_node_force_run {
+typedef struct dmb_node_force_job {
     uint32_t count;                     /* nodes */
     uint32_t first;                     /* number of the first one, by which rigid_masses name theirs */
     const dmb_rigid_mass *rigid_masses; /* in the order of their nodes, none before the run; those behind it are left */
@@ -76,7 +76,7 @@ typedef struct dmb_node_force_run {
     double *residual, *scale;                  /* added to, shape (count, 6) */
     double *stiffness, *inertia;               /* added to, shape (count, 36) */
     double inertia_power, potential, damping_power; /* added to: [W] */
-} dmb_node_force_run;
+} dmb_node_force_job;
 
 /* Fields of the contact sites in a configuration: the fields site_... of sim/sim.h. */
 typedef struct dmb_site_fields {
@@ -86,7 +86,7 @@ typedef struct dmb_site_fields {
 } dmb_site_fields;
 
 /* Contact sites against the wall. Pointers are to the scene's first site, node, row or block. */
-typedef struct dmb_wall_run {
+typedef struct dmb_wall_job {
     uint32_t count;   /* sites */
     int32_t bristles; /* 1: the law of friction keeps bristles; else their fields are empty */
     const dmb_site *sites;
@@ -106,45 +106,45 @@ typedef struct dmb_wall_run {
     double *residual, *scale;                     /* added to */
     double *stiffness, *inertia;                  /* diagonal blocks, added to */
     double rounding, potential, impact, friction; /* added to: [N2], [W] */
-} dmb_wall_run;
+} dmb_wall_job;
 
 /* Turns of FULL nodes about their own x axes. */
-typedef struct dmb_turn_run {
+typedef struct dmb_turn_job {
     uint32_t count;
     uint32_t reserved;
     const double *reference, *quaternion; /* orientation at time 0 and now, shape (count, 4) */
     const double *increment;              /* [m, rad] of the step, shape (count, 6) */
     const double *start;                  /* [rad] turn at its start, shape (count) */
     double *turn;                         /* [rad] revolutions counted */
-} dmb_turn_run;
+} dmb_turn_job;
 
 /* Vectors of FULL nodes, given in one frame of each and wanted in another that is twisted about the node's x axis. */
-typedef struct dmb_twist_run {
+typedef struct dmb_twist_job {
     uint32_t count;
     uint32_t reserved;
     const double *from, *to; /* quaternions of the two frames, shape (count, 4); only their twist counts */
     double *rows;            /* two vectors a node, shape (count, 6) */
-} dmb_twist_run;
+} dmb_twist_job;
 
 /* Rows at the start of a step (integrator/step_motion): with a0 = v0' + ratio (a - v0') of the accepted state, a1 =
  * a_from_dv v0' + a_from_a0 a0, v1 = v0 + v_from_a0 a0 + v_from_a1 a1, h Dq = h v0 + z_from_a0 a0 + z_from_a1 a1. */
-typedef struct dmb_predict_run {
+typedef struct dmb_predict_job {
     uint32_t count;
     uint32_t reserved;
     double step, ratio;                                                      /* [s], [-] */
     double a_from_dv, a_from_a0, v_from_a0, v_from_a1, z_from_a0, z_from_a1; /* [-], [s], [s2] */
     const double *now_velocity, *now_acceleration, *now_pseudo_acceleration;
     double *velocity, *acceleration, *pseudo_acceleration, *increment; /* written */
-} dmb_predict_run;
+} dmb_predict_job;
 
 /* Rows moved by a correction of h Dq. */
-typedef struct dmb_correct_run {
+typedef struct dmb_correct_job {
     uint32_t count;
     uint32_t reserved;
     double to_velocity, to_acceleration, to_pseudo_acceleration; /* [1/s], [1/s2] */
     const double *correction;
     double *velocity, *acceleration, *pseudo_acceleration, *increment; /* added to */
-} dmb_correct_run;
+} dmb_correct_job;
 
 /* Sums of squares that are made side by side: of four FULL nodes, of twelve PATH nodes. */
 #define DMB_SQUARES 24
@@ -152,17 +152,17 @@ typedef struct dmb_correct_run {
 typedef struct dmb_kernels {
     uint32_t lanes;
     uint32_t reserved;
-    /* Forces and, if asked for, tangent blocks. Returns 0, or -1 with run->failed. */
-    int32_t (*beams)(dmb_beam_run *run);
+    /* Forces and, if asked for, tangent blocks. Returns 0, or -1 with job->failed. */
+    int32_t (*beams)(dmb_beam_job *job);
     /* Forces. */
-    void (*bars)(dmb_bar_run *run);
-    /* stress <- K (d - d0) + (K/L) P z over the correction z of the nodes (run->velocity), at run->strain. */
-    void (*extrapolate)(const dmb_beam_run *run);
-    void (*advance)(const dmb_node_run *run);
-    void (*turns)(const dmb_turn_run *run);
-    void (*twist)(const dmb_twist_run *run);
-    void (*predict)(const dmb_predict_run *run);
-    void (*correct)(const dmb_correct_run *run);
+    void (*bars)(dmb_bar_job *job);
+    /* stress <- K (d - d0) + (K/L) P z over the correction z of the nodes (job->velocity), at job->strain. */
+    void (*extrapolate)(const dmb_beam_job *job);
+    void (*advance)(const dmb_node_job *job);
+    void (*turns)(const dmb_turn_job *job);
+    void (*twist)(const dmb_twist_job *job);
+    void (*predict)(const dmb_predict_job *job);
+    void (*correct)(const dmb_correct_job *job);
     /* rest[i % 24] = sum residual[i]^2, all[i % 24] = sum scale[i]^2 over the rows with solved[i] = 1 */
     void (*squares)(uint32_t count, const double *residual, const double *scale, const uint8_t *solved,
                     double rest[DMB_SQUARES], double all[DMB_SQUARES]);
@@ -171,9 +171,9 @@ typedef struct dmb_kernels {
     void (*solve)(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,
                   double *rhs);
     /* Forces and, if asked for, tangent blocks. */
-    void (*node_forces)(dmb_node_force_run *run);
+    void (*node_forces)(dmb_node_force_job *job);
     /* Forces of the rings that touch and, if asked for, tangent blocks; what the trial keeps of all sites. */
-    void (*walls)(dmb_wall_run *run);
+    void (*walls)(dmb_wall_job *job);
 } dmb_kernels;
 
 /* The kernels of 1, 2, 4 or 8 lanes; NULL where the build or the processor has none of that width. */

@@ -17,23 +17,23 @@ typedef struct lane_types {
     dmb_beam_constants constants;
 } lane_types;
 
-static void load_types(const dmb_beam_run *run, const lane_group *g, int first, lane_types *types)
+static void load_types(const dmb_beam_job *job, const lane_group *g, int first, lane_types *types)
 {
     for (int l = 0; l < DMB_REAL_LANES; l++) {
-        const uint32_t type = run->type[g->place[l]];
+        const uint32_t type = job->type[g->place[l]];
         if (!first && types->type[l] == type) continue;
         types->type[l] = type;
-        dmb_beam_load_constants(run->types + type, l, &types->constants);
+        dmb_beam_load_constants(job->types + type, l, &types->constants);
     }
 }
 
 /* Vector from node A to node B, and the largest magnitude that enters it. */
-static inline void load_span(const dmb_beam_run *run, const lane_group *g, dmb_beam_input *in)
+static inline void load_span(const dmb_beam_job *job, const lane_group *g, dmb_beam_input *in)
 {
     dmb_real ua[3], ub[3];
-    load(run->displacement, 3, 3, g, 0, ua);
-    load(run->displacement, 3, 3, g, 1, ub);
-    load(run->span, 3, 3, g, 0, in->span);
+    load(job->displacement, 3, 3, g, 0, ua);
+    load(job->displacement, 3, 3, g, 1, ub);
+    load(job->span, 3, 3, g, 0, in->span);
     in->reach = dmb_real_of(0.0);
     for (int i = 0; i < 3; i++) {
         in->span[i] = in->span[i] + (ub[i] - ua[i]);
@@ -41,38 +41,38 @@ static inline void load_span(const dmb_beam_run *run, const lane_group *g, dmb_b
     }
 }
 
-static inline void load_input(const dmb_beam_run *run, const lane_group *g, dmb_beam_input *in)
+static inline void load_input(const dmb_beam_job *job, const lane_group *g, dmb_beam_input *in)
 {
-    load(run->quaternion, 4, 4, g, 0, in->qa);
-    load(run->quaternion, 4, 4, g, 1, in->qb);
+    load(job->quaternion, 4, 4, g, 0, in->qa);
+    load(job->quaternion, 4, 4, g, 1, in->qb);
     dmb_quat_to_matrix(in->qa, in->Ra);
-    load_span(run, g, in);
-    if (!run->dynamic) return;
-    load(run->velocity, 6, 6, g, 0, in->va);
-    load(run->velocity, 6, 6, g, 1, in->vb);
-    load(run->acceleration, 6, 6, g, 0, in->aa);
-    load(run->acceleration, 6, 6, g, 1, in->ab);
-    if (!run->tangent) return;
-    load(run->increment, 6, 6, g, 0, in->za);
-    load(run->increment, 6, 6, g, 1, in->zb);
+    load_span(job, g, in);
+    if (!job->dynamic) return;
+    load(job->velocity, 6, 6, g, 0, in->va);
+    load(job->velocity, 6, 6, g, 1, in->vb);
+    load(job->acceleration, 6, 6, g, 0, in->aa);
+    load(job->acceleration, 6, 6, g, 1, in->ab);
+    if (!job->tangent) return;
+    load(job->increment, 6, 6, g, 0, in->za);
+    load(job->increment, 6, 6, g, 1, in->zb);
 }
 
-static inline void store_forces(dmb_beam_run *run, const lane_group *g, const dmb_beam_output *out)
+static inline void store_forces(dmb_beam_job *job, const lane_group *g, const dmb_beam_output *out)
 {
     for (uint32_t l = 0; l < g->used; l++) {
         const int lane = (int)l;
-        double *residual = run->residual + 6 * g->place[l], *scale = run->scale + 6 * g->place[l];
+        double *residual = job->residual + 6 * g->place[l], *scale = job->scale + 6 * g->place[l];
         add_lane(out->fa, lane, 6, residual);
         add_lane(out->fb, lane, 6, residual + 6);
         add_lane(out->scale_a, lane, 6, scale);
         add_lane(out->scale_b, lane, 6, scale + 6);
-        run->rounding += dmb_real_lane(&out->rounding, lane);
-        run->potential -= dmb_real_lane(&out->potential, lane);
-        run->damping -= dmb_real_lane(&out->damping, lane);
-        run->inertia -= dmb_real_lane(&out->inertia, lane);
+        job->rounding += dmb_real_lane(&out->rounding, lane);
+        job->potential -= dmb_real_lane(&out->potential, lane);
+        job->damping -= dmb_real_lane(&out->damping, lane);
+        job->inertia -= dmb_real_lane(&out->inertia, lane);
     }
-    store(out->strain, 6, g, run->strain);
-    if (!run->extrapolated) store(out->stress, 6, g, run->stress);
+    store(out->strain, 6, g, job->strain);
+    if (!job->extrapolated) store(out->stress, 6, g, job->stress);
 }
 
 static inline void add_diagonal(const lane_group *g, const dmb_beam_blocks *blocks, double *diagonal)
@@ -84,11 +84,11 @@ static inline void add_diagonal(const lane_group *g, const dmb_beam_blocks *bloc
 }
 
 /* The first lane that turned too far, found one by one. */
-static uint32_t failed_of(const dmb_beam_run *run, const lane_group *g, const dmb_beam_constants *c,
+static uint32_t failed_of(const dmb_beam_job *job, const lane_group *g, const dmb_beam_constants *c,
                           const dmb_beam_input *in)
 {
     dmb_beam_shape shape;
-    dmb_beam_shape_at(c, run->arms, in->qa, in->Ra, in->qb, in->span, &shape);
+    dmb_beam_shape_at(c, job->arms, in->qa, in->Ra, in->qb, in->span, &shape);
     const dmb_real angle2 = dmb_vec3_norm_squared(shape.d + 3);
     for (uint32_t l = 0; l + 1 < g->used; l++)
         if (!(dmb_real_lane(&angle2, (int)l) < DMB_BEAM_ROTATION_MAX * DMB_BEAM_ROTATION_MAX))
@@ -96,103 +96,103 @@ static uint32_t failed_of(const dmb_beam_run *run, const lane_group *g, const dm
     return (uint32_t)g->place[g->used - 1];
 }
 
-static int32_t beams(dmb_beam_run *run)
+static int32_t beams(dmb_beam_job *job)
 {
-    const dmb_beam_task task = {run->mass_factor, run->velocity_factor, run->dynamic,
-                                run->tangent,     run->extrapolated,    run->dynamic && (run->ledger || run->damped),
-                                run->damped,      run->inertia_only,    run->arms};
+    const dmb_beam_task task = {job->mass_factor, job->velocity_factor, job->dynamic,
+                                job->tangent,     job->extrapolated,    job->dynamic && (job->ledger || job->damped),
+                                job->damped,      job->inertia_only,    job->arms};
     lane_types types;
-    for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
-        const lane_group g = group_at(first, run->count);
+    for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, job->count);
         dmb_beam_input in;
         dmb_beam_output out;
-        load_types(run, &g, first == 0, &types);
-        load_input(run, &g, &in);
-        if (run->extrapolated) load(run->stress, 6, 6, &g, 0, out.stress);
+        load_types(job, &g, first == 0, &types);
+        load_input(job, &g, &in);
+        if (job->extrapolated) load(job->stress, 6, 6, &g, 0, out.stress);
         if (dmb_beam_element(&task, &types.constants, &in, &out) < 0) {
-            run->failed = failed_of(run, &g, &types.constants, &in);
+            job->failed = failed_of(job, &g, &types.constants, &in);
             return -1;
         }
-        store_forces(run, &g, &out);
-        if (!run->tangent) continue;
-        if (!run->inertia_only) add_diagonal(&g, &out.K, run->stiffness_diagonal);
-        if (run->dynamic) add_diagonal(&g, &out.C, run->inertia_diagonal);
-        store(out.K.ab, 36, &g, run->upper);
-        store(out.K.ba, 36, &g, run->lower);
+        store_forces(job, &g, &out);
+        if (!job->tangent) continue;
+        if (!job->inertia_only) add_diagonal(&g, &out.K, job->stiffness_diagonal);
+        if (job->dynamic) add_diagonal(&g, &out.C, job->inertia_diagonal);
+        store(out.K.ab, 36, &g, job->upper);
+        store(out.K.ba, 36, &g, job->lower);
     }
     return 0;
 }
 
 /* s = (K/L) (e + de/dd P z): the stress after the correction z, linearised. */
-static void extrapolate(const dmb_beam_run *run)
+static void extrapolate(const dmb_beam_job *job)
 {
     lane_types types;
-    for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
-        const lane_group g = group_at(first, run->count);
+    for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, job->count);
         dmb_beam_shape shape;
         dmb_real za[6], zb[6], dd[6], stress[6];
-        load_types(run, &g, first == 0, &types);
-        load(run->strain, 6, 6, &g, 0, shape.d);
-        load(run->velocity, 6, 6, &g, 0, za);
-        load(run->velocity, 6, 6, &g, 1, zb);
+        load_types(job, &g, first == 0, &types);
+        load(job->strain, 6, 6, &g, 0, shape.d);
+        load(job->velocity, 6, 6, &g, 0, za);
+        load(job->velocity, 6, 6, &g, 1, zb);
         dmb_so3_inverse_coefficients_at(dmb_vec3_norm_squared(shape.d + 3), &shape.k);
         dmb_beam_operators_at(&types.constants, &shape);
-        if (run->arms) {
+        if (job->arms) {
             dmb_arm_velocity(types.constants.arm[0], za);
             dmb_arm_velocity(-types.constants.arm[1], zb);
         }
         dmb_beam_strain_rate(&shape, za, zb, dd);
         dmb_beam_elastic_stress(&types.constants, &shape, stress);
         for (int i = 0; i < 6; i++) stress[i] = stress[i] + types.constants.stiffness[i] * dd[i];
-        store(stress, 6, &g, run->stress);
+        store(stress, 6, &g, job->stress);
     }
 }
 
 /* ---- Nodes ------------------------------------------------------------------------------------------------------- */
 
 /* H1 = H0 exp(z) */
-static void advance(const dmb_node_run *run)
+static void advance(const dmb_node_job *job)
 {
-    for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
-        const lane_group g = group_at(first, run->count);
+    for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, job->count);
         dmb_real q[4], u[3], z[6];
-        load(run->start_quaternion, 4, 4, &g, 0, q);
-        load(run->start_displacement, 3, 3, &g, 0, u);
-        load(run->increment, 6, 6, &g, 0, z);
+        load(job->start_quaternion, 4, 4, &g, 0, q);
+        load(job->start_displacement, 3, 3, &g, 0, u);
+        load(job->increment, 6, 6, &g, 0, z);
         dmb_se3_advance(q, u, z);
-        store(q, 4, &g, run->quaternion);
-        store(u, 3, &g, run->displacement);
+        store(q, 4, &g, job->quaternion);
+        store(u, 3, &g, job->displacement);
     }
 }
 
 /* On the turn that the increment of the step leads to. */
-static void turns(const dmb_turn_run *run)
+static void turns(const dmb_turn_job *job)
 {
-    for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
-        const lane_group g = group_at(first, run->count);
+    for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, job->count);
         dmb_real from[4], to[4], q[4], start, z[6];
-        load(run->reference, 4, 4, &g, 0, from);
-        load(run->quaternion, 4, 4, &g, 0, to);
-        load(run->increment, 6, 6, &g, 0, z);
-        load(run->start, 1, 1, &g, 0, &start);
+        load(job->reference, 4, 4, &g, 0, from);
+        load(job->quaternion, 4, 4, &g, 0, to);
+        load(job->increment, 6, 6, &g, 0, z);
+        load(job->start, 1, 1, &g, 0, &start);
         dmb_quat_between(from, to, q);
         const dmb_real turn = dmb_quat_twist(q, start + z[3]);
-        store(&turn, 1, &g, run->turn);
+        store(&turn, 1, &g, job->turn);
     }
 }
 
 /* Both vectors of a row, turned about x by the angle between the two frames. */
-static void twist(const dmb_twist_run *run)
+static void twist(const dmb_twist_job *job)
 {
-    for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
-        const lane_group g = group_at(first, run->count);
+    for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, job->count);
         dmb_real from[4], to[4], q[4], x[6];
-        load(run->from, 4, 4, &g, 0, from);
-        load(run->to, 4, 4, &g, 0, to);
-        load(run->rows, 6, 6, &g, 0, x);
+        load(job->from, 4, 4, &g, 0, from);
+        load(job->to, 4, 4, &g, 0, to);
+        load(job->rows, 6, 6, &g, 0, x);
         dmb_quat_between(to, from, q);
         dmb_quat_twist_pair(q, x);
-        store(x, 6, &g, run->rows);
+        store(x, 6, &g, job->rows);
     }
 }
 

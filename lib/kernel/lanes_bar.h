@@ -37,43 +37,43 @@ typedef struct bar_constants {
     dmb_real mass[2];             /* [kg, kg m2] AA = BB, AB */
 } bar_constants;
 
-static inline void load_bar(const dmb_bar_run *run, const dmb_element_type *type, int twist, int l, bar_constants *c)
+static inline void load_bar(const dmb_bar_job *job, const dmb_element_type *type, int torsion, int l, bar_constants *c)
 {
-    const double stiffness = type->stiffness[twist ? 3 : 0], *mass = twist ? type->mass.torsion : type->mass.axial;
+    const double stiffness = type->stiffness[torsion ? 3 : 0], *mass = torsion ? type->mass.torsion : type->mass.axial;
     dmb_real_set_lane(&c->stiffness, l, stiffness);
     dmb_real_set_lane(&c->damping, l, type->damping_time * stiffness);
-    dmb_real_set_lane(&c->rest, l, twist ? -type->rest[3] : type->length - type->rest[0]);
-    dmb_real_set_lane(&c->per_length, l, twist ? run->per_length : 1.0);
+    dmb_real_set_lane(&c->rest, l, torsion ? -type->rest[3] : type->length - type->rest[0]);
+    dmb_real_set_lane(&c->per_length, l, torsion ? job->per_length : 1.0);
     dmb_real_set_lane(c->mass, l, mass[0]);
     dmb_real_set_lane(c->mass + 1, l, mass[1]);
 }
 
 /* True if they are those of whole bars of one type, and the group has these too. */
-static inline int are_same_bars(const dmb_bar_run *run, const lane_group *g, const bar_constants *c)
+static inline int are_same_bars(const dmb_bar_job *job, const lane_group *g, const bar_constants *c)
 {
     uint32_t other = g->used < DMB_REAL_LANES || DMB_REAL_LANES == 1 ? 1 : 0;
-    for (int l = 0; l < DMB_REAL_LANES; l += 2) other |= c->key[l] ^ (1 + 2 * run->type[g->place[l] / 2]);
+    for (int l = 0; l < DMB_REAL_LANES; l += 2) other |= c->key[l] ^ (1 + 2 * job->type[g->place[l] / 2]);
     return other == 0;
 }
 
-static inline void load_bars(const dmb_bar_run *run, const lane_group *g, bar_constants *c)
+static inline void load_bars(const dmb_bar_job *job, const lane_group *g, bar_constants *c)
 {
-    if (are_same_bars(run, g, c)) return;
+    if (are_same_bars(job, g, c)) return;
     for (int l = 0; l < DMB_REAL_LANES; l++) {
-        const uint32_t type = run->type[g->place[l] / 2], twist = g->place[l] & 1, key = 1 + 2 * type + twist;
+        const uint32_t type = job->type[g->place[l] / 2], torsion = g->place[l] & 1, key = 1 + 2 * type + torsion;
         if (c->key[l] == key) continue;
         c->key[l] = key;
-        load_bar(run, run->types + type, (int)twist, l, c);
+        load_bar(job, job->types + type, (int)torsion, l, c);
     }
 }
 
 /* Way along the axis and turn about it of the node that is `after` nodes behind the one of each row. */
-static inline dmb_real load_place(const dmb_bar_run *run, const lane_group *g, size_t after)
+static inline dmb_real load_place(const dmb_bar_job *job, const lane_group *g, size_t after)
 {
     dmb_real x = dmb_real_of(0.0);
     for (int l = 0; l < DMB_REAL_LANES; l++) {
         const size_t node = g->place[l] / 2 + after;
-        dmb_real_set_lane(&x, l, g->place[l] & 1 ? run->turn[node] : run->displacement[3 * node]);
+        dmb_real_set_lane(&x, l, g->place[l] & 1 ? job->turn[node] : job->displacement[3 * node]);
     }
     return x;
 }
@@ -105,20 +105,20 @@ typedef struct bar_forces {
 } bar_forces;
 
 /* The length is left out of differences, which keeps their digits. */
-static inline dmb_real elastic_force(const dmb_bar_run *run, const lane_group *g, const bar_constants *c,
+static inline dmb_real elastic_force(const dmb_bar_job *job, const lane_group *g, const bar_constants *c,
                                      lane_sum *rounding)
 {
-    const dmb_real xa = load_place(run, g, 0), xb = load_place(run, g, 1);
+    const dmb_real xa = load_place(job, g, 0), xb = load_place(job, g, 1);
     const dmb_real size = c->stiffness * (c->per_length * (dmb_real_abs(xa) + dmb_real_abs(xb)));
     sum_add(size * size, g, rounding);
     return c->stiffness * ((xb - xa) + c->rest);
 }
 
-static inline void motion_forces(const dmb_bar_run *run, const lane_group *g, const bar_constants *c,
+static inline void motion_forces(const dmb_bar_job *job, const lane_group *g, const bar_constants *c,
                                  lane_sum powers[3], bar_forces *f)
 {
-    const dmb_real va = load_line(run->velocity, g), vb = load_line(run->velocity + 2, g);
-    const dmb_real aa = load_line(run->acceleration, g), ab = load_line(run->acceleration + 2, g);
+    const dmb_real va = load_line(job->velocity, g), vb = load_line(job->velocity + 2, g);
+    const dmb_real aa = load_line(job->acceleration, g), ab = load_line(job->acceleration + 2, g);
     const dmb_real rate = vb - va;
     f->viscous = c->damping * rate;
     f->mass_a = c->mass[0] * aa + c->mass[1] * ab;
@@ -128,15 +128,15 @@ static inline void motion_forces(const dmb_bar_run *run, const lane_group *g, co
     sum_add(va * f->mass_a + vb * f->mass_b, g, powers + 2);
 }
 
-static inline void add_bar_forces(const dmb_bar_run *run, const lane_group *g, const bar_forces *f, bar_ends *ends)
+static inline void add_bar_forces(const dmb_bar_job *job, const lane_group *g, const bar_forces *f, bar_ends *ends)
 {
     const dmb_real force = f->elastic + f->viscous, size = dmb_real_abs(force);
-    add_line(f->mass_a - force, two_rows_on(f->mass_b + force, g, ends->residual), g, run->residual);
+    add_line(f->mass_a - force, two_rows_on(f->mass_b + force, g, ends->residual), g, job->residual);
     add_line(size + dmb_real_abs(f->mass_a), two_rows_on(size + dmb_real_abs(f->mass_b), g, ends->scale), g,
-             run->scale);
+             job->scale);
 }
 
-static void bars(dmb_bar_run *run)
+static void bars(dmb_bar_job *job)
 {
     const dmb_real zero = dmb_real_of(0.0);
     lane_sum rounding, powers[3];
@@ -145,22 +145,22 @@ static void bars(dmb_bar_run *run)
     memset(&constants, 0, sizeof constants);
     memset(&rounding, 0, sizeof rounding);
     memset(powers, 0, sizeof powers);
-    for (uint32_t first = 0; first < 2 * run->count; first += DMB_REAL_LANES) {
-        const lane_group g = group_at(first, 2 * run->count);
+    for (uint32_t first = 0; first < 2 * job->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, 2 * job->count);
         bar_forces f = {zero, zero, zero, zero};
-        load_bars(run, &g, &constants);
-        f.elastic = elastic_force(run, &g, &constants, &rounding);
-        if (run->dynamic) motion_forces(run, &g, &constants, powers, &f);
-        add_bar_forces(run, &g, &f, &ends);
+        load_bars(job, &g, &constants);
+        f.elastic = elastic_force(job, &g, &constants, &rounding);
+        if (job->dynamic) motion_forces(job, &g, &constants, powers, &f);
+        add_bar_forces(job, &g, &f, &ends);
     }
     for (size_t i = 0; i < 2; i++) {
-        run->residual[2 * (size_t)run->count + i] += ends.residual[i];
-        run->scale[2 * (size_t)run->count + i] += ends.scale[i];
+        job->residual[2 * (size_t)job->count + i] += ends.residual[i];
+        job->scale[2 * (size_t)job->count + i] += ends.scale[i];
     }
-    run->rounding += sum_total(&rounding);
-    run->potential -= sum_total(powers);
-    run->damping -= sum_total(powers + 1);
-    run->inertia -= sum_total(powers + 2);
+    job->rounding += sum_total(&rounding);
+    job->potential -= sum_total(powers);
+    job->damping -= sum_total(powers + 1);
+    job->inertia -= sum_total(powers + 2);
 }
 
 #endif

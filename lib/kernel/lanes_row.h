@@ -9,15 +9,15 @@
 /* Generalized-alpha from an acceleration that stays (THEORY 4): a0 carried over from the last step, which may have had
  * another length (ratio), a1 from a0 and v', then v1 = v + h ((1 - gamma) a0 + gamma a1) and the increment
  * z = h v + h^2 ((1/2 - beta) a0 + beta a1). Nothing overlaps, so that the loops vectorise. */
-static void predict(const dmb_predict_run *run)
+static void predict(const dmb_predict_job *job)
 {
-    const double h = run->step, ratio = run->ratio, a_a0 = run->a_from_a0, a_dv = run->a_from_dv;
-    const double v_a0 = run->v_from_a0, v_a1 = run->v_from_a1, z_a0 = run->z_from_a0, z_a1 = run->z_from_a1;
-    const double *restrict now_v = run->now_velocity, *restrict now_dv = run->now_acceleration,
-                           *restrict now_a = run->now_pseudo_acceleration;
-    double *restrict v = run->velocity, *restrict dv = run->acceleration, *restrict a = run->pseudo_acceleration,
-                     *restrict z = run->increment;
-    for (uint32_t i = 0; i < run->count; i++) {
+    const double h = job->step, ratio = job->ratio, a_a0 = job->a_from_a0, a_dv = job->a_from_dv;
+    const double v_a0 = job->v_from_a0, v_a1 = job->v_from_a1, z_a0 = job->z_from_a0, z_a1 = job->z_from_a1;
+    const double *restrict now_v = job->now_velocity, *restrict now_dv = job->now_acceleration,
+                           *restrict now_a = job->now_pseudo_acceleration;
+    double *restrict v = job->velocity, *restrict dv = job->acceleration, *restrict a = job->pseudo_acceleration,
+                     *restrict z = job->increment;
+    for (uint32_t i = 0; i < job->count; i++) {
         const double a0 = now_dv[i] + ratio * (now_a[i] - now_dv[i]), a1 = a_dv * now_dv[i] + a_a0 * a0;
         dv[i] = now_dv[i];
         a[i] = a1;
@@ -27,13 +27,13 @@ static void predict(const dmb_predict_run *run)
 }
 
 /* z, v, v' and a follow a correction of the increment by constant factors. */
-static void correct(const dmb_correct_run *run)
+static void correct(const dmb_correct_job *job)
 {
-    const double to_v = run->to_velocity, to_dv = run->to_acceleration, to_a = run->to_pseudo_acceleration;
-    const double *restrict z = run->correction;
-    double *restrict v = run->velocity, *restrict dv = run->acceleration, *restrict a = run->pseudo_acceleration,
-                     *restrict increment = run->increment;
-    for (uint32_t i = 0; i < run->count; i++) {
+    const double to_v = job->to_velocity, to_dv = job->to_acceleration, to_a = job->to_pseudo_acceleration;
+    const double *restrict z = job->correction;
+    double *restrict v = job->velocity, *restrict dv = job->acceleration, *restrict a = job->pseudo_acceleration,
+                     *restrict increment = job->increment;
+    for (uint32_t i = 0; i < job->count; i++) {
         increment[i] += z[i];
         v[i] += to_v * z[i];
         dv[i] += to_dv * z[i];

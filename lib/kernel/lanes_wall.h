@@ -20,12 +20,12 @@ typedef struct wall_group {
     dmb_contact_frame frame;
 } wall_group;
 
-static inline void load_sites(const dmb_wall_run *run, wall_group *g)
+static inline void load_sites(const dmb_wall_job *job, wall_group *g)
 {
     for (int l = 0; l < DMB_REAL_LANES; l++) {
-        const dmb_site *site = run->sites + g->site.place[l];
+        const dmb_site *site = job->sites + g->site.place[l];
         g->node.place[l] = site->node;
-        g->row.place[l] = run->row[site->node];
+        g->row.place[l] = job->row[site->node];
         dmb_real_set_lane(&g->offset, l, site->offset);
         dmb_real_set_lane(&g->clearance, l, site->clearance);
         dmb_real_set_lane(&g->length, l, site->length);
@@ -34,29 +34,29 @@ static inline void load_sites(const dmb_wall_run *run, wall_group *g)
     g->node.used = g->row.used = g->site.used;
 }
 
-static inline void load_motion(const dmb_wall_run *run, wall_group *g)
+static inline void load_motion(const dmb_wall_job *job, wall_group *g)
 {
     dmb_real q[4], u[3];
-    load(run->quaternion, 4, 4, &g->node, 0, q);
+    load(job->quaternion, 4, 4, &g->node, 0, q);
     dmb_quat_to_matrix(q, g->R);
-    load(run->reference, 3, 3, &g->node, 0, g->x);
-    load(run->displacement, 3, 3, &g->node, 0, u);
+    load(job->reference, 3, 3, &g->node, 0, g->x);
+    load(job->displacement, 3, 3, &g->node, 0, u);
     for (int i = 0; i < 3; i++) g->x[i] = g->x[i] + u[i] + g->R[3 * i] * g->offset;
-    if (!run->dynamic) return;
-    load(run->velocity, 1, 6, &g->row, 0, g->frame.V);
+    if (!job->dynamic) return;
+    load(job->velocity, 1, 6, &g->row, 0, g->frame.V);
     dmb_arm_velocity(g->offset, g->frame.V);
 }
 
 /* Closest points of a surveyed axis, found one by one. */
-static inline void project_survey(const dmb_wall_run *run, wall_group *g, dmb_real point[3])
+static inline void project_survey(const dmb_wall_job *job, wall_group *g, dmb_real point[3])
 {
     for (int l = 0; l < DMB_REAL_LANES; l++) {
         const size_t s = g->site.place[l];
         const double x[3] = {dmb_real_lane(g->x, l), dmb_real_lane(g->x + 1, l), dmb_real_lane(g->x + 2, l)};
         double at[3], tangent[3], bend[3];
-        run->trial.segment[s] = run->now.segment[s];
-        dmb_hole_project(run->hole, x, &run->trial.depth[s], &run->trial.segment[s], at, tangent);
-        dmb_hole_arc_bend(run->hole, run->trial.depth[s], run->trial.segment[s], bend);
+        job->trial.segment[s] = job->now.segment[s];
+        dmb_hole_project(job->hole, x, &job->trial.depth[s], &job->trial.segment[s], at, tangent);
+        dmb_hole_arc_bend(job->hole, job->trial.depth[s], job->trial.segment[s], bend);
         for (int i = 0; i < 3; i++) {
             dmb_real_set_lane(point + i, l, at[i]);
             dmb_real_set_lane(g->tangent + i, l, tangent[i]);
@@ -67,33 +67,33 @@ static inline void project_survey(const dmb_wall_run *run, wall_group *g, dmb_re
 }
 
 /* A straight hole: depth = (x - origin) . direction. */
-static inline void project_line(const dmb_wall_run *run, wall_group *g, dmb_real point[3])
+static inline void project_line(const dmb_wall_job *job, wall_group *g, dmb_real point[3])
 {
     dmb_real depth;
-    dmb_line_project(run->hole->origin, run->hole->direction, g->x, &depth, point);
-    for (int i = 0; i < 3; i++) g->tangent[i] = dmb_real_of(run->hole->direction[i]);
-    store_line(depth, &g->site, run->trial.depth);
-    for (uint32_t l = 0; l < g->site.used; l++) run->trial.segment[g->site.place[l]] = 0;
+    dmb_line_project(job->hole->origin, job->hole->direction, g->x, &depth, point);
+    for (int i = 0; i < 3; i++) g->tangent[i] = dmb_real_of(job->hole->direction[i]);
+    store_line(depth, &g->site, job->trial.depth);
+    for (uint32_t l = 0; l < g->site.used; l++) job->trial.segment[g->site.place[l]] = 0;
 }
 
-static inline void locate(const dmb_wall_run *run, wall_group *g)
+static inline void locate(const dmb_wall_job *job, wall_group *g)
 {
     dmb_real point[3], last[3];
-    if (dmb_hole_is_straight(run->hole))
-        project_line(run, g, point);
+    if (dmb_hole_is_straight(job->hole))
+        project_line(job, g, point);
     else
-        project_survey(run, g, point);
-    load(run->now.normal, 3, 3, &g->site, 0, last);
+        project_survey(job, g, point);
+    load(job->now.normal, 3, 3, &g->site, 0, last);
     dmb_radial_at(g->x, point, g->tangent, last, &g->frame.distance, g->normal);
-    store(g->normal, 3, &g->site, run->trial.normal);
+    store(g->normal, 3, &g->site, job->trial.normal);
 }
 
 /* Speed of the rings at the last accepted instant towards where they are now: they may have crossed the axis since. */
-static inline dmb_real speed_before(const dmb_wall_run *run, const wall_group *g)
+static inline dmb_real speed_before(const dmb_wall_job *job, const wall_group *g)
 {
     dmb_real q[4], R[9], V[6];
-    load(run->now_velocity, 1, 6, &g->row, 0, V);
-    load(run->now_quaternion, 4, 4, &g->node, 0, q);
+    load(job->now_velocity, 1, 6, &g->row, 0, V);
+    load(job->now_quaternion, 4, 4, &g->node, 0, q);
     dmb_arm_velocity(g->offset, V);
     dmb_quat_to_matrix(q, R);
     dmb_mat3_vec(R, V, V);
@@ -102,100 +102,100 @@ static inline dmb_real speed_before(const dmb_wall_run *run, const wall_group *g
 
 /* Speed v0 of the restitution laws: that at the last accepted instant before touching. While open the field follows
  * the present normal speed. A ring that opens and falls back within one step comes as fast as it left. */
-static inline void approach_speed(const dmb_wall_run *run, wall_group *g)
+static inline void approach_speed(const dmb_wall_job *job, wall_group *g)
 {
     const dmb_real zero = dmb_real_of(0.0);
-    const dmb_real back = load_line(run->site_return, &g->site);
-    const dmb_real penetration = load_line(run->now.penetration, &g->site);
-    const dmb_real approach = load_line(run->now.approach, &g->site);
+    const dmb_real back = load_line(job->site_return, &g->site);
+    const dmb_real penetration = load_line(job->now.penetration, &g->site);
+    const dmb_real approach = load_line(job->now.approach, &g->site);
     const dmb_mask touches = dmb_mask_less(zero, g->penetration), returns = dmb_mask_less(zero, back);
     const dmb_mask touched = dmb_mask_less(zero, penetration);
     dmb_real closed = approach;
     if (dmb_mask_any(touches & dmb_mask_not(touched | returns)))
-        closed = dmb_real_select(touched, approach, speed_before(run, g));
+        closed = dmb_real_select(touched, approach, speed_before(job, g));
     closed = dmb_real_select(returns, back, closed);
     g->approach = dmb_real_select(touches, closed, dmb_real_select(touched, approach, g->frame.speed[0]));
 }
 
 /* Where the rings are and how they move; what the trial keeps of it. */
-static inline void place_rings(const dmb_wall_run *run, wall_group *g)
+static inline void place_rings(const dmb_wall_job *job, wall_group *g)
 {
-    load_sites(run, g);
-    load_motion(run, g);
-    locate(run, g);
+    load_sites(job, g);
+    load_motion(job, g);
+    locate(job, g);
     dmb_contact_frame_at(g->R, g->normal, g->tangent, &g->frame);
-    if (run->dynamic)
+    if (job->dynamic)
         dmb_contact_speeds(&g->frame);
     else
-        dmb_contact_static_speeds(run->slip, &g->frame);
+        dmb_contact_static_speeds(job->slip, &g->frame);
     g->penetration = g->frame.distance - g->clearance;
-    approach_speed(run, g);
-    store_line(g->penetration, &g->site, run->trial.penetration);
-    store_line(g->approach, &g->site, run->trial.approach);
-    store(g->frame.speed + 1, 2, &g->site, run->trial.slip);
+    approach_speed(job, g);
+    store_line(g->penetration, &g->site, job->trial.penetration);
+    store_line(g->approach, &g->site, job->trial.approach);
+    store(g->frame.speed + 1, 2, &g->site, job->trial.slip);
 }
 
 /* Rings that touch keep what the friction law gave them. */
-static inline void forget_bristles(const dmb_wall_run *run, const wall_group *g, uint32_t touching)
+static inline void forget_bristles(const dmb_wall_job *job, const wall_group *g, uint32_t touching)
 {
     for (uint32_t l = 0; l < g->site.used; l++) {
         const size_t s = g->site.place[l];
         if (touching >> l & 1) continue;
-        run->trial.bristle[2 * s] = run->trial.bristle[2 * s + 1] = 0.0;
-        run->trial.sticks[s] = 0;
+        job->trial.bristle[2 * s] = job->trial.bristle[2 * s + 1] = 0.0;
+        job->trial.sticks[s] = 0;
     }
 }
 
-static inline void bristles(const dmb_wall_run *run, const wall_group *g, dmb_real N, dmb_real F[2],
+static inline void bristles(const dmb_wall_job *job, const wall_group *g, dmb_real N, dmb_real F[2],
                             dmb_real by_speed[4], dmb_real by_normal[2])
 {
     const dmb_real *v = g->frame.speed + 1;
     dmb_real z_old[2], v_old[2], z[2], stuck = dmb_real_of(0.0);
-    load(run->now.bristle, 2, 2, &g->site, 0, z_old);
-    load(run->now.slip, 2, 2, &g->site, 0, v_old);
+    load(job->now.bristle, 2, 2, &g->site, 0, z_old);
+    load(job->now.slip, 2, 2, &g->site, 0, v_old);
     for (int l = 0; l < DMB_REAL_LANES; l++)
-        dmb_real_set_lane(&stuck, l, run->now.sticks[g->site.place[l]] ? 1.0 : 0.0);
+        dmb_real_set_lane(&stuck, l, job->now.sticks[g->site.place[l]] ? 1.0 : 0.0);
     const dmb_mask sticks =
-        dmb_friction_bristle(run->friction_law, N, v, z_old, v_old, dmb_mask_less(dmb_real_of(0.0), stuck), run->step,
+        dmb_friction_bristle(job->friction_law, N, v, z_old, v_old, dmb_mask_less(dmb_real_of(0.0), stuck), job->step,
                              z, F, by_speed, by_normal);
-    store(z, 2, &g->site, run->trial.bristle);
-    for (uint32_t l = 0; l < g->site.used; l++) run->trial.sticks[g->site.place[l]] = dmb_mask_bits(sticks) >> l & 1;
+    store(z, 2, &g->site, job->trial.bristle);
+    for (uint32_t l = 0; l < g->site.used; l++) job->trial.sticks[g->site.place[l]] = dmb_mask_bits(sticks) >> l & 1;
 }
 
-static inline void add_friction(const dmb_wall_run *run, const wall_group *g, dmb_contact_force *c)
+static inline void add_friction(const dmb_wall_job *job, const wall_group *g, dmb_contact_force *c)
 {
     const dmb_real zero = dmb_real_of(0.0);
     dmb_real F[2], by_speed[4] = {zero, zero, zero, zero}, by_normal[2];
-    if (run->friction_law->kind == DMB_FRICTION_BRISTLE && run->dynamic)
-        bristles(run, g, -c->F[0], F, by_speed, by_normal);
+    if (job->friction_law->kind == DMB_FRICTION_BRISTLE && job->dynamic)
+        bristles(job, g, -c->F[0], F, by_speed, by_normal);
     else
-        dmb_friction_smooth(run->friction_law, -c->F[0], g->frame.speed + 1, F,
-                            run->tangent && run->dynamic ? by_speed : NULL, by_normal);
+        dmb_friction_smooth(job->friction_law, -c->F[0], g->frame.speed + 1, F,
+                            job->tangent && job->dynamic ? by_speed : NULL, by_normal);
     dmb_contact_add_friction(F, by_speed, by_normal, c);
 }
 
 /* Takes -K, moved from the rings to their nodes, into the diagonal blocks of the nodes. */
-static inline void subtract_blocks(const dmb_wall_run *run, const wall_group *g, uint32_t touching, int arms,
+static inline void subtract_blocks(const dmb_wall_job *job, const wall_group *g, uint32_t touching, int arms,
                                    dmb_real K[36], double *blocks)
 {
     double *to[DMB_REAL_LANES];
     if (arms) dmb_beam_block_to_nodes(g->offset, g->offset, K);
     for (int i = 0; i < 36; i++) K[i] = -K[i];
-    for (int l = 0; l < DMB_REAL_LANES; l++) to[l] = blocks + run->diagonal[g->node.place[l]];
+    for (int l = 0; l < DMB_REAL_LANES; l++) to[l] = blocks + job->diagonal[g->node.place[l]];
     add_lanes(K, 36, touching, to);
 }
 
-static inline void add_tangent(const dmb_wall_run *run, const wall_group *g, uint32_t touching, int arms,
+static inline void add_tangent(const dmb_wall_job *job, const wall_group *g, uint32_t touching, int arms,
                                const dmb_contact_force *c, const dmb_real wrench[6])
 {
-    const int friction = run->friction_law != NULL;
+    const int friction = job->friction_law != NULL;
     dmb_real K[36];
     dmb_contact_pose_tangent(&g->frame, c, wrench, friction, K);
-    if (!dmb_hole_is_straight(run->hole)) dmb_contact_add_bend(&g->frame, c, g->bend, wrench, friction, K);
-    subtract_blocks(run, g, touching, arms, K, run->stiffness);
-    if (!run->dynamic) return;
-    dmb_contact_velocity_tangent(&g->frame, c, run->velocity_factor, friction, K);
-    subtract_blocks(run, g, touching, arms, K, run->inertia);
+    if (!dmb_hole_is_straight(job->hole)) dmb_contact_add_bend(&g->frame, c, g->bend, wrench, friction, K);
+    subtract_blocks(job, g, touching, arms, K, job->stiffness);
+    if (!job->dynamic) return;
+    dmb_contact_velocity_tangent(&g->frame, c, job->velocity_factor, friction, K);
+    subtract_blocks(job, g, touching, arms, K, job->inertia);
 }
 
 /* Rounding of the distance across the hole: its coordinates are x, in a hole along x next to nothing across it, in
@@ -208,7 +208,7 @@ static inline dmb_real rounding_of(const wall_group *g, dmb_real stiffness)
     return force * force;
 }
 
-static inline void add_forces(dmb_wall_run *run, const wall_group *g, uint32_t touching, const dmb_contact_force *c,
+static inline void add_forces(dmb_wall_job *job, const wall_group *g, uint32_t touching, const dmb_contact_force *c,
                               const dmb_real wrench[6])
 {
     const dmb_real *v = g->frame.speed;
@@ -221,49 +221,49 @@ static inline void add_forces(dmb_wall_run *run, const wall_group *g, uint32_t t
         magnitude[i] = dmb_real_abs(wrench[i]);
     }
     for (int l = 0; l < DMB_REAL_LANES; l++) {
-        residual[l] = run->residual + g->row.place[l];
-        scale[l] = run->scale + g->row.place[l];
+        residual[l] = job->residual + g->row.place[l];
+        scale[l] = job->scale + g->row.place[l];
     }
     add_lanes(force, 6, touching, residual);
     add_lanes(magnitude, 6, touching, scale);
     for (int l = 0; l < DMB_REAL_LANES; l++) {
         if (!(touching >> l & 1)) continue;
-        run->rounding += dmb_real_lane(&rounding, l);
-        if (!run->dynamic) continue;
-        run->potential -= dmb_real_lane(&potential, l);
-        run->impact += dmb_real_lane(&impact, l);
-        run->friction += dmb_real_lane(&friction, l);
+        job->rounding += dmb_real_lane(&rounding, l);
+        if (!job->dynamic) continue;
+        job->potential -= dmb_real_lane(&potential, l);
+        job->impact += dmb_real_lane(&impact, l);
+        job->friction += dmb_real_lane(&friction, l);
     }
 }
 
-static inline void press(dmb_wall_run *run, const wall_group *g, uint32_t touching)
+static inline void press(dmb_wall_job *job, const wall_group *g, uint32_t touching)
 {
-    const int friction = run->friction_law != NULL;
+    const int friction = job->friction_law != NULL;
     const int arms =
         dmb_mask_any(dmb_mask_less(g->offset, dmb_real_of(0.0)) | dmb_mask_less(dmb_real_of(0.0), g->offset));
     dmb_contact_force c;
     dmb_real wrench[6];
     c.F[1] = c.F[2] = dmb_real_of(0.0);
-    dmb_contact_normal_force(run->normal_law, &g->frame, g->length,
+    dmb_contact_normal_force(job->normal_law, &g->frame, g->length,
                              dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->approach, &c);
-    if (friction) add_friction(run, g, &c);
+    if (friction) add_friction(job, g, &c);
     dmb_contact_wrench(&g->frame, &c, friction, wrench);
-    if (run->tangent) add_tangent(run, g, touching, arms, &c, wrench);
+    if (job->tangent) add_tangent(job, g, touching, arms, &c, wrench);
     dmb_arm_wrench(g->offset, wrench);
-    add_forces(run, g, touching, &c, wrench);
+    add_forces(job, g, touching, &c, wrench);
 }
 
-static void walls(dmb_wall_run *run)
+static void walls(dmb_wall_job *job)
 {
-    for (uint32_t first = 0; first < run->count; first += DMB_REAL_LANES) {
+    for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
         wall_group g;
-        g.site = group_at(first, run->count);
-        place_rings(run, &g);
+        g.site = group_at(first, job->count);
+        place_rings(job, &g);
         const dmb_real zero = dmb_real_of(0.0);
         const dmb_mask touches = dmb_mask_less(zero, g.penetration) | dmb_mask_at_most(g.clearance, zero);
         const uint32_t touching = dmb_mask_bits(touches) & lanes_used(&g.site);
-        if (touching) press(run, &g, touching);
-        if (run->bristles) forget_bristles(run, &g, touching);
+        if (touching) press(job, &g, touching);
+        if (job->bristles) forget_bristles(job, &g, touching);
     }
 }
 

@@ -16,8 +16,8 @@ static void path_pose(const dmb_scene *scene, const dmb_configuration *configura
 {
     const double advance = configuration->displacement[3 * node];
     const double spin[3] = {configuration->turn[node], 0.0, 0.0};
-    double frame[9], twist[9];
-    dmb_so3_exp(spin, NULL, twist);
+    double frame[9], torsion[9];
+    dmb_so3_exp(spin, NULL, torsion);
     dmb_quat_to_matrix(scene->reference_quaternion + 4 * node, frame);
     if (scene->has_hole && !dmb_hole_is_straight(&scene->hole)) {
         double point[3], tangent[3], curvature[3], start[3];
@@ -29,7 +29,7 @@ static void path_pose(const dmb_scene *scene, const dmb_configuration *configura
         const double along[3] = {advance, 0.0, 0.0};
         dmb_mat3_vec(frame, along, displacement);
     }
-    dmb_mat3_mul(frame, twist, rotation);
+    dmb_mat3_mul(frame, torsion, rotation);
 }
 
 void dmb_node_pose(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, double rotation[9],
@@ -49,10 +49,10 @@ void dmb_path_columns(const dmb_scene *scene, const dmb_configuration *configura
     for (int i = 0; i < 12; i++) columns[i] = 0.0;
     columns[0] = columns[9] = 1.0;
     if (scene->has_hole && !dmb_hole_is_straight(&scene->hole)) {
-        double point[3], tangent[3], curvature[3], turning[3];
+        double point[3], tangent[3], curvature[3], frame_rate[3];
         dmb_hole_frame(&scene->hole, dmb_path_depth(scene, configuration, node), point, tangent, curvature);
-        dmb_hole_turning(tangent, curvature, turning);
-        dmb_mat3_tvec(rotation, turning, columns + 3);
+        dmb_hole_frame_rate(tangent, curvature, frame_rate);
+        dmb_mat3_tvec(rotation, frame_rate, columns + 3);
     }
 }
 

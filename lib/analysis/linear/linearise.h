@@ -119,7 +119,8 @@ void dmb_linear_restrict(const dmb_linear *linear, const double *f, double *g);
 void dmb_linear_restrict_terms(const dmb_linear *linear, const double *f, double *g);
 /* R^T A R, shape (coordinates, coordinates), column by column; work: shape (2 rows + coordinates). */
 void dmb_linear_dense(const dmb_linear *linear, const dmb_linear_matrix *A, double *work, double *out);
-/* [-] |x.Ky - y.Kx| for x, y of random numbers over the roots of the stiffness: of rounding size where K is symmetric. */
+/* [-] |x.Ky - y.Kx| for x, y of random numbers over the roots of the stiffness: of rounding size where K is symmetric.
+ */
 double dmb_linear_asymmetry(const dmb_linear *linear, double *work);
 /* 1 if something is elastic and no motion meets a damping force, or one that drives it; work: shape (3 rows +
  * coordinates). */

@@ -126,8 +126,9 @@ double dmb_linear_stiffness_at_least(const dmb_linear *linear)
     return DMB_STIFFNESS_SMALL * most;
 }
 
-/* +-(1/2 .. 3/2) by a linear congruential generator, over the root of the stiffness; 0 where there is none. Of signs alone
- * x_i y_j - x_j y_i is 0 every second time, and with it all that two coordinates that are not symmetric would show. */
+/* +-(1/2 .. 3/2) by a linear congruential generator, over the root of the stiffness; 0 where there is none. Of signs
+ * alone x_i y_j - x_j y_i is 0 every second time, and with it all that two coordinates that are not symmetric would
+ * show. */
 static void draw_numbers(const dmb_linear *linear, uint64_t *seed, double *x)
 {
     const dmb_block_layout *layout = &linear->scene.layout;

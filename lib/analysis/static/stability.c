@@ -116,13 +116,13 @@ double dmb_asymmetry_of(const dmb_sim *sim, double rounding)
 static void raise_diagonal(dmb_sim *sim, double rho, int jointed)
 {
     const dmb_scene *scene = sim->scene;
-    const double turning = scene->length_scale * scene->length_scale;
+    const double rotation_weight = scene->length_scale * scene->length_scale;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
         if (scene->chains[scene->node_chain[i]].jointed != jointed) continue;
         for (uint32_t c = 0; c < size; c++)
             if (scene->solved_row[row + c])
-                dmb_stiffness_of(sim, i)[(size_t)(size + 1) * c] += rho * (2 * c < size ? 1.0 : turning);
+                dmb_stiffness_of(sim, i)[(size_t)(size + 1) * c] += rho * (2 * c < size ? 1.0 : rotation_weight);
     }
 }
 
@@ -157,10 +157,10 @@ static void metric(void *context, const double *x, double *y)
 {
     const dmb_sim *sim = context;
     const dmb_scene *scene = sim->scene;
-    const double turning = scene->length_scale * scene->length_scale;
+    const double rotation_weight = scene->length_scale * scene->length_scale;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
-        for (uint32_t c = 0; c < size; c++) y[row + c] = (2 * c < size ? 1.0 : turning) * x[row + c];
+        for (uint32_t c = 0; c < size; c++) y[row + c] = (2 * c < size ? 1.0 : rotation_weight) * x[row + c];
     }
 }
 

@@ -19,12 +19,12 @@ static double span_of(const dmb_scene *scene, uint32_t e, const double *ua, cons
 }
 
 /* Where the kernels find and leave what belongs to a batch: its nodes, rows and blocks follow one another. */
-static dmb_beam_run run_of(const dmb_sim *sim, const dmb_batch *batch)
+static dmb_beam_job run_of(const dmb_sim *sim, const dmb_batch *batch)
 {
     const dmb_scene *scene = sim->scene;
     const uint32_t e = batch->first, a = scene->element_node[e], row = scene->layout.row[a];
     const uint32_t diag = scene->layout.diag[a], link = scene->layout.link[a];
-    const dmb_beam_run run = {
+    const dmb_beam_job job = {
         .count = batch->count,
         .types = scene->types,
         .type = scene->element_type + e,
@@ -45,32 +45,32 @@ static dmb_beam_run run_of(const dmb_sim *sim, const dmb_batch *batch)
         .upper = sim->stiffness_upper + link,
         .lower = sim->stiffness_lower + link,
     };
-    return run;
+    return job;
 }
 
 /* Forces and tangents of the SE(3) elements of a batch in lanes (element/beam_element.h); powers are summed on. */
 static int32_t gather_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
-    dmb_beam_run run = run_of(evaluation->sim, batch);
-    run.mass_factor = evaluation->mass_factor;
-    run.velocity_factor = evaluation->velocity_factor;
-    run.dynamic = evaluation->dynamic;
-    run.tangent = evaluation->tangent;
-    run.extrapolated = evaluation->extrapolated;
-    run.inertia_only = evaluation->inertia_only;
-    run.ledger = evaluation->sim->options.energy_ledger;
-    run.rounding = evaluation->rounding;
-    run.potential = evaluation->power[DMB_POWER_POTENTIAL];
-    run.damping = evaluation->power[DMB_POWER_DAMPING];
-    run.inertia = evaluation->power[DMB_POWER_INERTIA];
-    if (evaluation->sim->scene->kernels->beams(&run) < 0) {
-        evaluation->element = batch->first + run.failed;
+    dmb_beam_job job = run_of(evaluation->sim, batch);
+    job.mass_factor = evaluation->mass_factor;
+    job.velocity_factor = evaluation->velocity_factor;
+    job.dynamic = evaluation->dynamic;
+    job.tangent = evaluation->tangent;
+    job.extrapolated = evaluation->extrapolated;
+    job.inertia_only = evaluation->inertia_only;
+    job.ledger = evaluation->sim->options.energy_ledger;
+    job.rounding = evaluation->rounding;
+    job.potential = evaluation->power[DMB_POWER_POTENTIAL];
+    job.damping = evaluation->power[DMB_POWER_DAMPING];
+    job.inertia = evaluation->power[DMB_POWER_INERTIA];
+    if (evaluation->sim->scene->kernels->beams(&job) < 0) {
+        evaluation->element = batch->first + job.failed;
         return DMB_ERR_ROTATION;
     }
-    evaluation->rounding = run.rounding;
-    evaluation->power[DMB_POWER_POTENTIAL] = run.potential;
-    evaluation->power[DMB_POWER_DAMPING] = run.damping;
-    evaluation->power[DMB_POWER_INERTIA] = run.inertia;
+    evaluation->rounding = job.rounding;
+    evaluation->power[DMB_POWER_POTENTIAL] = job.potential;
+    evaluation->power[DMB_POWER_DAMPING] = job.damping;
+    evaluation->power[DMB_POWER_INERTIA] = job.inertia;
     return DMB_OK;
 }
 
@@ -83,7 +83,7 @@ static void bar_forces(dmb_evaluation *evaluation, const dmb_batch *batch)
     const dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
     const uint32_t e = batch->first, a = scene->element_node[e], row = scene->layout.row[a];
-    dmb_bar_run run = {
+    dmb_bar_job job = {
         .count = batch->count,
         .dynamic = evaluation->dynamic,
         .types = scene->types,
@@ -100,11 +100,11 @@ static void bar_forces(dmb_evaluation *evaluation, const dmb_batch *batch)
         .damping = evaluation->power[DMB_POWER_DAMPING],
         .inertia = evaluation->power[DMB_POWER_INERTIA],
     };
-    scene->kernels->bars(&run);
-    evaluation->rounding = run.rounding;
-    evaluation->power[DMB_POWER_POTENTIAL] = run.potential;
-    evaluation->power[DMB_POWER_DAMPING] = run.damping;
-    evaluation->power[DMB_POWER_INERTIA] = run.inertia;
+    scene->kernels->bars(&job);
+    evaluation->rounding = job.rounding;
+    evaluation->power[DMB_POWER_POTENTIAL] = job.potential;
+    evaluation->power[DMB_POWER_DAMPING] = job.damping;
+    evaluation->power[DMB_POWER_INERTIA] = job.inertia;
 }
 
 /* Tangent of one coordinate, 0 stretch or 1 twist, between the nodes a and a + 1. */
@@ -284,8 +284,8 @@ void dmb_system_extrapolate_stress(dmb_sim *sim, const double *correction)
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->batch_count; i++) {
         if (scene->batches[i].kernel != DMB_KERNEL_BEAM) continue;
-        dmb_beam_run run = run_of(sim, scene->batches + i);
-        run.velocity = correction + scene->layout.row[scene->element_node[scene->batches[i].first]];
-        scene->kernels->extrapolate(&run);
+        dmb_beam_job job = run_of(sim, scene->batches + i);
+        job.velocity = correction + scene->layout.row[scene->element_node[scene->batches[i].first]];
+        scene->kernels->extrapolate(&job);
     }
 }

@@ -53,14 +53,14 @@ void dmb_system_move(dmb_sim *sim)
         const double *z = sim->increment + scene->layout.row[i];
         count = dmb_full_nodes_at(scene, i);
         if (count > 0) {
-            const dmb_node_run run = {count,
+            const dmb_node_job job = {count,
                                       0,
                                       z,
                                       sim->now.displacement + 3 * i,
                                       sim->now.quaternion + 4 * i,
                                       sim->trial.displacement + 3 * i,
                                       sim->trial.quaternion + 4 * i};
-            scene->kernels->advance(&run);
+            scene->kernels->advance(&job);
             continue;
         }
         count = move_path_nodes(sim, i);
@@ -173,13 +173,13 @@ static void unwrap_turns(dmb_sim *sim)
     for (uint32_t i = 0, count; i < scene->node_count; i += count) {
         count = dmb_full_nodes_at(scene, i);
         if (count > 0) {
-            const dmb_turn_run run = {.count = count,
+            const dmb_turn_job job = {.count = count,
                                       .reference = scene->reference_quaternion + 4 * i,
                                       .quaternion = sim->trial.quaternion + 4 * i,
                                       .increment = sim->increment + scene->layout.row[i],
                                       .start = sim->now.turn + i,
                                       .turn = sim->trial.turn + i};
-            scene->kernels->turns(&run);
+            scene->kernels->turns(&job);
         } else {
             count = 1;
         }

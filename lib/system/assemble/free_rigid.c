@@ -34,22 +34,22 @@ void dmb_free_rigid_start(const dmb_sim *sim, uint32_t rigid, double start[18])
 {
     const dmb_free_rigid *body = sim->scene->free_rigids + rigid;
     const uint32_t row = sim->scene->layout.row[body->node];
-    double turning[3];
+    double centripetal[3];
     to_centre(body->centre, sim->now.velocity + row, start);
     to_centre(body->centre, sim->now.acceleration + row, start + 6);
     to_centre(body->centre, sim->now.pseudo_acceleration + row, start + 12);
-    dmb_vec3_cross(start + 3, start, turning);
-    dmb_vec3_add(start + 6, turning, start + 6);
-    dmb_vec3_add(start + 12, turning, start + 12);
+    dmb_vec3_cross(start + 3, start, centripetal);
+    dmb_vec3_add(start + 6, centripetal, start + 6);
+    dmb_vec3_add(start + 12, centripetal, start + 12);
 }
 
 /* ---- A step ------------------------------------------------------------------------------------------------------ */
 
-void dmb_free_rigids_predict(dmb_sim *sim, const dmb_predict_run *run)
+void dmb_free_rigids_predict(dmb_sim *sim, const dmb_predict_job *job)
 {
     for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) {
         double start[18], *motion = dmb_free_rigid_motion(sim, i);
-        dmb_predict_run rows = *run;
+        dmb_predict_job rows = *job;
         dmb_free_rigid_start(sim, i, start);
         rows.count = 6;
         rows.now_velocity = start;
@@ -64,15 +64,15 @@ void dmb_free_rigids_predict(dmb_sim *sim, const dmb_predict_run *run)
 }
 
 /* Increments are corrected with all rows. */
-void dmb_free_rigids_correct(dmb_sim *sim, const dmb_correct_run *run)
+void dmb_free_rigids_correct(dmb_sim *sim, const dmb_correct_job *job)
 {
     for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) {
-        const double *z = run->correction + sim->scene->layout.row[sim->scene->free_rigids[i].node];
+        const double *z = job->correction + sim->scene->layout.row[sim->scene->free_rigids[i].node];
         double *motion = dmb_free_rigid_motion(sim, i);
         for (uint32_t k = 0; k < 6; k++) {
-            motion[k] += run->to_velocity * z[k];
-            motion[6 + k] += run->to_acceleration * z[k];
-            motion[12 + k] += run->to_pseudo_acceleration * z[k];
+            motion[k] += job->to_velocity * z[k];
+            motion[6 + k] += job->to_acceleration * z[k];
+            motion[12 + k] += job->to_pseudo_acceleration * z[k];
         }
     }
 }
@@ -81,10 +81,10 @@ void dmb_free_rigids_correct(dmb_sim *sim, const dmb_correct_run *run)
 static void accelerations_of(const dmb_free_rigid *body, const double E[9], const double centre_velocity[6],
                              const double from[6], double to[6])
 {
-    double a[6], turning[3];
+    double a[6], centripetal[3];
     dmb_mat3_tvec(E, from, a);
-    dmb_vec3_cross(centre_velocity + 3, centre_velocity, turning);
-    dmb_vec3_sub(a, turning, a);
+    dmb_vec3_cross(centre_velocity + 3, centre_velocity, centripetal);
+    dmb_vec3_sub(a, centripetal, a);
     dmb_vec3_copy(from + 3, a + 3);
     from_centre(body->centre, a, to);
 }

@@ -15,9 +15,9 @@
 #include "system/assemble/evaluation.h"
 
 /* Their rows of the prediction; the coefficients are those of the run. */
-void dmb_free_rigids_predict(dmb_sim *sim, const dmb_predict_run *run);
+void dmb_free_rigids_predict(dmb_sim *sim, const dmb_predict_job *job);
 /* Their rows of a correction. */
-void dmb_free_rigids_correct(dmb_sim *sim, const dmb_correct_run *run);
+void dmb_free_rigids_correct(dmb_sim *sim, const dmb_correct_job *job);
 /* Pose, speeds and accelerations of the trial from what was predicted and corrected. */
 void dmb_free_rigids_place(dmb_sim *sim);
 /* Their blocks of the iteration matrix. */

@@ -12,13 +12,13 @@
 
 /* Where the kernels find and leave what belongs to `count` FULL nodes from `node` on; `rigid_mass` is the first that
  * may be on them. */
-static dmb_node_force_run run_of(const dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
+static dmb_node_force_job run_of(const dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
 {
     const dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
     const uint32_t row = scene->layout.row[node], diag = scene->layout.diag[node];
     const int32_t damped = evaluation->dynamic && scene->features & DMB_FEATURE_DAMPING;
-    const dmb_node_force_run run = {
+    const dmb_node_force_job job = {
         .count = count,
         .first = node,
         .rigid_masses = scene->rigid_masses + rigid_mass,
@@ -40,20 +40,20 @@ static dmb_node_force_run run_of(const dmb_evaluation *evaluation, uint32_t node
         .stiffness = sim->stiffness_diagonal + diag,
         .inertia = sim->inertia_diagonal + diag,
     };
-    return run;
+    return job;
 }
 
 static void gather_full(dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
 {
-    dmb_node_force_run run = run_of(evaluation, node, count, rigid_mass);
-    if (!run.gravity && !run.damping && !run.rigid_mass_count) return;
-    run.inertia_power = evaluation->power[DMB_POWER_INERTIA];
-    run.potential = evaluation->power[DMB_POWER_POTENTIAL];
-    run.damping_power = evaluation->power[DMB_POWER_DAMPING];
-    evaluation->sim->scene->kernels->node_forces(&run);
-    evaluation->power[DMB_POWER_INERTIA] = run.inertia_power;
-    evaluation->power[DMB_POWER_POTENTIAL] = run.potential;
-    evaluation->power[DMB_POWER_DAMPING] = run.damping_power;
+    dmb_node_force_job job = run_of(evaluation, node, count, rigid_mass);
+    if (!job.gravity && !job.damping && !job.rigid_mass_count) return;
+    job.inertia_power = evaluation->power[DMB_POWER_INERTIA];
+    job.potential = evaluation->power[DMB_POWER_POTENTIAL];
+    job.damping_power = evaluation->power[DMB_POWER_DAMPING];
+    evaluation->sim->scene->kernels->node_forces(&job);
+    evaluation->power[DMB_POWER_INERTIA] = job.inertia_power;
+    evaluation->power[DMB_POWER_POTENTIAL] = job.potential;
+    evaluation->power[DMB_POWER_DAMPING] = job.damping_power;
 }
 
 /* ---- PATH nodes: along the axis and about it -----------------------------------------------------------------------

@@ -108,10 +108,10 @@ static dmb_site_fields fields_of(const dmb_configuration *configuration)
 }
 
 /* Where the kernels find and leave what belongs to the sites. */
-static dmb_wall_run run_of(const dmb_sim *sim)
+static dmb_wall_job run_of(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    const dmb_wall_run run = {
+    const dmb_wall_job job = {
         .count = scene->site_count,
         .sites = scene->sites,
         .hole = &scene->hole,
@@ -133,7 +133,7 @@ static dmb_wall_run run_of(const dmb_sim *sim)
         .stiffness = sim->stiffness_diagonal,
         .inertia = sim->inertia_diagonal,
     };
-    return run;
+    return job;
 }
 
 dmb_friction_law dmb_sliding_law(const dmb_friction_law *law)
@@ -147,36 +147,36 @@ dmb_friction_law dmb_sliding_law(const dmb_friction_law *law)
 void dmb_gather_contacts(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
-    dmb_wall_run run = run_of(evaluation->sim);
+    dmb_wall_job job = run_of(evaluation->sim);
     if (scene->friction_law.kind != DMB_FRICTION_NONE && (evaluation->dynamic || evaluation->slipping))
-        run.friction_law = &scene->friction_law;
+        job.friction_law = &scene->friction_law;
     dmb_normal_law soft;
     if (evaluation->wall_softness > 0.0) {
         soft = scene->normal_law;
         soft.stiffness /= evaluation->wall_softness;
-        run.normal_law = &soft;
+        job.normal_law = &soft;
     }
     dmb_friction_law sliding;
-    if (evaluation->steady && run.friction_law != NULL && run.bristles) {
-        sliding = dmb_sliding_law(run.friction_law);
-        run.friction_law = &sliding;
-        run.bristles = 0;
+    if (evaluation->steady && job.friction_law != NULL && job.bristles) {
+        sliding = dmb_sliding_law(job.friction_law);
+        job.friction_law = &sliding;
+        job.bristles = 0;
     }
-    run.slip[0] = evaluation->slip[0];
-    run.slip[1] = evaluation->slip[1];
-    run.step = evaluation->step;
-    run.velocity_factor = evaluation->velocity_factor;
-    run.dynamic = evaluation->dynamic;
-    run.tangent = evaluation->tangent;
-    run.rounding = evaluation->rounding;
-    run.potential = evaluation->power[DMB_POWER_POTENTIAL];
-    run.impact = evaluation->power[DMB_POWER_IMPACT];
-    run.friction = evaluation->power[DMB_POWER_FRICTION];
-    scene->kernels->walls(&run);
-    evaluation->rounding = run.rounding;
-    evaluation->power[DMB_POWER_POTENTIAL] = run.potential;
-    evaluation->power[DMB_POWER_IMPACT] = run.impact;
-    evaluation->power[DMB_POWER_FRICTION] = run.friction;
+    job.slip[0] = evaluation->slip[0];
+    job.slip[1] = evaluation->slip[1];
+    job.step = evaluation->step;
+    job.velocity_factor = evaluation->velocity_factor;
+    job.dynamic = evaluation->dynamic;
+    job.tangent = evaluation->tangent;
+    job.rounding = evaluation->rounding;
+    job.potential = evaluation->power[DMB_POWER_POTENTIAL];
+    job.impact = evaluation->power[DMB_POWER_IMPACT];
+    job.friction = evaluation->power[DMB_POWER_FRICTION];
+    scene->kernels->walls(&job);
+    evaluation->rounding = job.rounding;
+    evaluation->power[DMB_POWER_POTENTIAL] = job.potential;
+    evaluation->power[DMB_POWER_IMPACT] = job.impact;
+    evaluation->power[DMB_POWER_FRICTION] = job.friction;
 }
 
 /* ---- Questions about a finished configuration -------------------------------------------------------------------- */

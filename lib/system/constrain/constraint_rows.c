@@ -117,20 +117,20 @@ static void moved_by(const dmb_sim *sim, const dmb_configuration *c, uint32_t j,
 }
 
 /* [rad] by which RX and RY turn in the step, by the gradients of its end; for large turns by those of its start too. */
-static void turning_of(const dmb_sim *sim, uint32_t j, const dmb_relative *relative, const dmb_joint_coordinates *c,
-                       double turning[2])
+static void angle_increments(const dmb_sim *sim, uint32_t j, const dmb_relative *relative,
+                             const dmb_joint_coordinates *c, double increment[2])
 {
     const double *last = sim->now.joint_turn + 2 * (size_t)j;
     dmb_relative start;
     dmb_joint_coordinates first;
     double moved[6];
     moved_by(sim, &sim->trial, j, relative, moved);
-    for (int i = 0; i < 2; i++) turning[i] = dmb_vec6_dot(c->J[3 + i], moved);
-    if (fabs(turning[0]) <= DMB_SMALL_TURN && fabs(turning[1]) <= DMB_SMALL_TURN) return;
+    for (int i = 0; i < 2; i++) increment[i] = dmb_vec6_dot(c->J[3 + i], moved);
+    if (fabs(increment[0]) <= DMB_SMALL_TURN && fabs(increment[1]) <= DMB_SMALL_TURN) return;
     dmb_joint_motion_of(sim->scene, &sim->now, j, &start, NULL);
     dmb_joint_coordinates_at(start.R, start.p, start.V, last, &first);
     moved_by(sim, &sim->now, j, &start, moved);
-    for (int i = 0; i < 2; i++) turning[i] = 0.5 * (turning[i] + dmb_vec6_dot(first.J[3 + i], moved));
+    for (int i = 0; i < 2; i++) increment[i] = 0.5 * (increment[i] + dmb_vec6_dot(first.J[3 + i], moved));
 }
 
 /* A coordinate that a motion drive moves stands near where the drive is. */
@@ -157,7 +157,7 @@ void dmb_joint_coordinates_in(const dmb_evaluation *evaluation, uint32_t j, cons
         last = sim->trial.joint_turn + 2 * (size_t)j; /* statics follow it move by move */
     dmb_joint_coordinates_at(relative->R, relative->p, relative->V, last, coordinates);
     if (!(evaluation->step > 0.0)) return;
-    turning_of(sim, j, relative, coordinates, expected);
+    angle_increments(sim, j, relative, coordinates, expected);
     for (int i = 0; i < 2; i++) expected[i] += last[i];
     expect_driven(sim, j, expected);
     for (int i = 0; i < 2; i++)
@@ -262,14 +262,14 @@ static void wrench_of(uint32_t count, double J[][6], const double *f, double w[6
         for (int i = 0; i < 6; i++) w[i] += f[k] * J[k][i];
 }
 
-/* n_k turns with the depth of the point: M^T (turning x n_k) (M^T t)^T */
+/* n_k turns with the depth of the point: M^T (frame_rate x n_k) (M^T t)^T */
 static void add_bend(const dmb_hole_bend *bend, const double *f, double W[36])
 {
     double t[3];
     dmb_mat3_tvec(bend->M, bend->tangent, t);
     for (int k = 0; k < 2; k++) {
         double n[3];
-        dmb_vec3_cross(bend->turning, bend->normal[k], n);
+        dmb_vec3_cross(bend->frame_rate, bend->normal[k], n);
         dmb_mat3_tvec(bend->M, n, n);
         for (int r = 0; r < 3; r++)
             for (int s = 0; s < 3; s++) W[6 * r + s] += f[k] * n[r] * t[s];

@@ -31,7 +31,7 @@ static void hole_frame(const dmb_scene *scene, const double x[3], double *depth,
     dmb_hole_frame_rotation(&scene->hole, *depth, R);
     if (bend == NULL) return;
     dmb_hole_frame(&scene->hole, *depth, unused, tangent, curvature);
-    dmb_hole_turning(tangent, curvature, bend->turning);
+    dmb_hole_frame_rate(tangent, curvature, bend->frame_rate);
     dmb_vec3_copy(curvature, bend->curvature);
     for (int i = 0; i < 3; i++) {
         bend->tangent[i] = R[3 * i];

@@ -10,11 +10,12 @@
 /* Added to joint_segment while a DMB_JOINT_POINT_ON_HOLE is locked: frame a stands at joint_depth and does not ride. */
 #define DMB_SEGMENT_HELD 0x80000000u
 
-/* Motion of the axis of the hole at a point on it: turning of the frame per metre, curvature, tangent, in frame a. */
+/* Motion of the axis of the hole at a point on it: frame_rate: turning of the hole frame per metre, curvature, tangent,
+ * in frame a. */
 typedef struct dmb_hole_bend {
-    double turning[3], curvature[3], tangent[3]; /* [rad/m], [1/m], [-] world axes */
-    double normal[2][3];                         /* [-] y and z axes of the frame, world */
-    double M[9];                                 /* [-] axes of frame b in the world */
+    double frame_rate[3], curvature[3], tangent[3]; /* [rad/m], [1/m], [-] world axes */
+    double normal[2][3];                            /* [-] y and z axes of the frame, world */
+    double M[9];                                    /* [-] axes of frame b in the world */
 } dmb_hole_bend;
 
 /* Pose, maps and motion of joint j. In a configuration that may be written, joint_depth and joint_segment follow; bend

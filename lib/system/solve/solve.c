@@ -206,9 +206,9 @@ static void twist_rows(const dmb_sim *sim, const double *from, const double *to,
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0, count; i < scene->node_count; i += count) {
         count = dmb_full_nodes_at(scene, i);
-        const dmb_twist_run run = {count, 0, from + 4 * i, to + 4 * i, rows + scene->layout.row[i]};
+        const dmb_twist_job job = {count, 0, from + 4 * i, to + 4 * i, rows + scene->layout.row[i]};
         if (count > 0)
-            scene->kernels->twist(&run);
+            scene->kernels->twist(&job);
         else
             count = 1;
     }

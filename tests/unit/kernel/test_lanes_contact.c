@@ -135,9 +135,9 @@ static void draw_input(uint64_t *seed, const wall_case *c, wall_input *in)
 /* ---- Runs -------------------------------------------------------------------------------------------------------- */
 
 /* Sites first .. first + count - 1, from and to the places where they stand. */
-static dmb_wall_run run_of(const wall_case *c, wall_input *in, wall_output *out, uint32_t first, uint32_t count)
+static dmb_wall_job run_of(const wall_case *c, wall_input *in, wall_output *out, uint32_t first, uint32_t count)
 {
-    const dmb_wall_run run = {
+    const dmb_wall_job job = {
         .count = count,
         .sites = in->sites + first,
         .bristles = c->friction_law == DMB_FRICTION_BRISTLE,
@@ -171,7 +171,7 @@ static dmb_wall_run run_of(const wall_case *c, wall_input *in, wall_output *out,
         .impact = out->sums[2],
         .friction = out->sums[3],
     };
-    return run;
+    return job;
 }
 
 /* -0 at the nodes whose rings do not touch: adding 0 would show. */
@@ -185,12 +185,12 @@ static void clear(wall_output *out)
 static void run_part(const dmb_kernels *kernels, const wall_case *c, wall_input *in, wall_output *out, uint32_t first,
                      uint32_t count)
 {
-    dmb_wall_run run = run_of(c, in, out, first, count);
-    kernels->walls(&run);
-    out->sums[0] = run.rounding;
-    out->sums[1] = run.potential;
-    out->sums[2] = run.impact;
-    out->sums[3] = run.friction;
+    dmb_wall_job job = run_of(c, in, out, first, count);
+    kernels->walls(&job);
+    out->sums[0] = job.rounding;
+    out->sums[1] = job.potential;
+    out->sums[2] = job.impact;
+    out->sums[3] = job.friction;
 }
 
 static void no_trace_of_open_rings(const wall_case *c, const wall_output *out)
