@@ -184,6 +184,13 @@ class CommandTest(unittest.TestCase):
         self.assertAlmostEqual(summary["buckling"]["factors"][0] / (3.141592653589793 ** 2 * 1e5 / 100.0), 1.0, 3)
         self.assertEqual(summary["buckling"]["end"], "bifurcation")
 
+    def test_torque_drag(self):
+        out, summary = self.answer("torque-drag", "--weight-on-bit", "1 kN", "--torque-on-bit", "50 N m", "--depths", "5")
+        rows = next(iter(summary["torque_drag"].values()))
+        self.assertEqual(sorted(rows), ["back-ream", "drill", "pick-up", "rotate", "slack-off", "slide"])
+        self.assertAlmostEqual(rows["slack-off"]["hook_load_N"] - rows["slide"]["hook_load_N"], 1000.0)
+        self.assertIn("arrives", out)
+
     def test_without_a_folder_nothing_is_written(self):
         self.ask("static", self.scene)
         self.assertEqual(self.ask("run", self.scene, "--quiet"), "")
@@ -196,7 +203,7 @@ class CommandTest(unittest.TestCase):
 
     def test_help(self):
         self.assertIn("examples:", self.ask("--help"))
-        for command in ("check", "static", "run", "modes", "response", "speeds", "buckle", "report", "save", "schema"):
+        for command in ("check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag", "report", "save", "schema"):
             self.assertIn("usage: drillmbd", self.ask(command, "--help"))
         self.assertRegex(self.ask("--version"), r"drillmbd \d+\.\d+\.\d+")
 

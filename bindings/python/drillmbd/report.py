@@ -12,15 +12,16 @@ from typing import Any
 
 from . import __version__, _structs, enums
 from ._optional import need
+from .analysis import OPERATIONS, operation_name
 from .errors import Error
 from .plots import COLOURS
-from .profile import Profile
+from .profile import Profile, values_of
 from .questions import RPM, Output, _finite
 from .scene import Scene
 from .sim import Sim
 
-FRAMES, POINTS = 60, 300
-DASHES = ("solid", "dash", "dot", "dashdot")
+FRAMES, POINTS, DEPTHS = 60, 300, 40
+DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 
 
 # ---- What is asked ---------------------------------------------------------------------------------------------------
@@ -41,6 +42,7 @@ class Study:
     def ask(self) -> None:
         """All questions in the order of the page."""
         self._operations()
+        self._torque_drag()
         self._speeds()
         self._buckling()
         self._run()
@@ -75,8 +77,8 @@ class Study:
                                          ("Pull to draw it out", "pulled out", "N", "pull"),
                                          ("Torque to turn it", "turned", "N m", "torque")):
             self._card(title, self._at_rig(name), unit, limit)
-        all_stresses = [equivalent_stress(self.scene, found, self.pipes) for found in self.operations.values()]
-        stresses = [one for one in all_stresses if one is not None]
+        stresses = [highest for found in self.operations.values() for highest in [_largest(found["von_mises"])]
+                    if highest is not None]
         stress = max(stresses) if stresses else None
         self._card("Highest stress in these", stress, "Pa", "yield_stress")
         self.output.summary["operations"] = {name: {"axial_force_at_rig_N": found.axial_force[0],
@@ -86,6 +88,37 @@ class Study:
         self.figures.append(("Axial force by operation", "At rest with friction as if it moved that way, without rock on "
                              "the bit. Tension is positive.", self._along("axial_force", 1e-3, "axial force [kN]", "push")))
         self.figures.append(("Torque by operation", "", self._along("torque", 1.0, "torque [N m]", "torque")))
+
+    def _torque_drag(self) -> None:
+        """What the rig must pull, push and turn while the hole is drilled, by depth: the soft string."""
+        with self.scene.new_sim() as sim:
+            try:
+                last = sim.torque_drag([enums.OPERATION_ROTATE], string=self.part).rows[0][0].depth
+                first = last - float(values_of(sim, self.part, [enums.PROFILE_DISTANCE], count=2)[1, 0])
+                depths = [first + (last - first) * (i + 1) / DEPTHS for i in range(DEPTHS)]
+                found = sim.torque_drag(depths=depths, string=self.part)
+            except Error as error:
+                self.output.note_text(f"torque and drag: no answer. {error.message}")
+                return
+        names = [operation_name(kind) for kind in OPERATIONS]
+        for title, field, factor, label, limits in (
+                ("Hook load by depth of the bit", "hook_load", 1e-3, "hook load [kN], > 0: the rig pulls", ("pull", "push")),
+                ("Torque by depth of the bit", "torque", 1.0, "torque at the rig [N m]", ("torque",))):
+            data = [line([factor * value for value in found.column(field, number)], depths, name, number)
+                    for number, name in enumerate(names)]
+            shapes = self._limit_lines({limit: -factor if limit == "push" else factor for limit in limits}, data)
+            self.figures.append((title, "Soft string, steady motion, no load on the bit; dashed: the rig's limits.", {
+                "data": data, "layout": {"xaxis": {"title": {"text": label}}, "shapes": shapes, "yaxis": {
+                    "title": {"text": "measured depth of the bit [m]"}, "autorange": "reversed"}}}))
+        self.output.summary["torque_drag"] = {name: {"hook_load_N": _finite(row.hook_load), "torque_N_m": _finite(row.torque)}
+                                              for name, row in zip(names, found.rows[-1])}
+
+    def _limit_lines(self, limits: dict[str, float], data: list[dict[str, Any]]) -> list[dict[str, Any]]:
+        """Upright lines at limits of the rig, each times its factor; those far off would hide the curves."""
+        largest = max([abs(one) for curve in data for one in curve["x"]], default=0.0)
+        values = [factor * self.limits[limit] for limit, factor in limits.items() if limit in self.limits]
+        return [{"type": "line", "x0": value, "x1": value, "yref": "paper", "y0": 0, "y1": 1,
+                 "line": {"color": "#D55E00", "dash": "dash"}} for value in values if abs(value) < 2.0 * largest]
 
     def _at_rig(self, name: str) -> float | None:
         """Push, pull or torque that an operation takes at the rig; None where there is no answer."""
@@ -111,12 +144,7 @@ class Study:
         data = [line(factor * values, self._depth(found), operation, number)
                 for number, (operation, found) in enumerate(self.operations.items())
                 for values in [getattr(found, name) if limit == "push" else abs(found.torque)]]
-        shapes = []
-        value = factor * self.limits.get(limit, 0.0) * (-1.0 if limit == "push" else 1.0)
-        largest = max([abs(one) for curve in data for one in curve["x"]], default=0.0)
-        if value and abs(value) < 2.0 * largest:  # a limit far off would hide the curves
-            shapes = [{"type": "line", "x0": value, "x1": value, "yref": "paper", "y0": 0, "y1": 1,
-                       "line": {"color": "#D55E00", "dash": "dash"}}]
+        shapes = self._limit_lines({limit: -factor if limit == "push" else factor}, data)
         return {"data": data, "layout": {"xaxis": {"title": {"text": label}}, "shapes": shapes, "yaxis": {
             "title": {"text": "measured depth [m]"}, "autorange": "reversed"}}}
 
@@ -196,27 +224,9 @@ class Study:
         return found.position[keep], found.displacement[keep]
 
 
-def equivalent_stress(scene: Scene, found: Profile, pipes: int) -> float | None:
-    """[Pa] the largest of sqrt((|F|/A + M r/I)^2 + 3 (T r/J)^2) (von Mises) over the stations, r the outer radius; threads,
-    joints and pressure are left out. None where a section is given by its stiffness, so that its shape is not known."""
-    from .model import _DEFINITIONS
-    numpy = need("numpy")
-    part, worst, first = next(iter(scene.names[name] for name in scene.pipes)), 0.0, 0
-    per_pipe = (len(found.along) - 1) // pipes
-    for name, arguments in scene.model.calls:
-        if name != "add_pipes" or arguments[1].get("string") != part:
-            continue
-        pipe = _DEFINITIONS["add_pipes"](**arguments[1])
-        if any(pipe.section_stiffness):
-            return None
-        outer, inner = pipe.outer_diameter, pipe.inner_diameter
-        area, inertia = math.pi / 4 * (outer ** 2 - inner ** 2), math.pi / 64 * (outer ** 4 - inner ** 4)
-        some = slice(first * per_pipe, (first + arguments[0]) * per_pipe + 1)
-        normal = numpy.abs(found.axial_force[some]) / area + found.bending_moment[some] * outer / 2 / inertia
-        shear = found.torque[some] * outer / 2 / (2 * inertia)
-        worst = max(worst, float(numpy.nanmax(numpy.sqrt(normal ** 2 + 3 * shear ** 2), initial=0.0)))
-        first += arguments[0]
-    return worst
+def _largest(values: Any) -> float | None:
+    known = [float(one) for one in values if not math.isnan(one)]
+    return max(known) if known else None
 
 
 # ---- Figures ---------------------------------------------------------------------------------------------------------
