@@ -1,6 +1,7 @@
 """Tests of the command: every question of a scene with its files, what is refused with its exit status, Ctrl-C, help."""
 import contextlib
 import csv
+import importlib.util
 import io
 import json
 import os
@@ -200,6 +201,16 @@ class CommandTest(unittest.TestCase):
         self.ask("save", self.scene, self.folder / "copy.toml")
         self.assertEqual(self.ask("save", self.folder / "copy.toml", "-"), (self.folder / "copy.toml").read_text())
         self.assertEqual(json.loads(self.ask("schema"))["type"], "object")
+
+    @unittest.skipUnless(importlib.util.find_spec("argcomplete"), "not there: argcomplete")
+    def test_completion(self):
+        """As bash asks: the line typed so far in COMP_LINE, words on file descriptor 8."""
+        line = "drillmbd torque-drag --de"
+        code = "import os; os.dup2(os.open('words', os.O_CREAT | os.O_WRONLY), 8); from drillmbd.command import main; main()"
+        subprocess.run([sys.executable, "-c", code], cwd=self.folder, check=True, env={
+            **os.environ, "PYTHONPATH": str(pathlib.Path(__file__).parent), "_ARGCOMPLETE": "1", "COMP_LINE": line,
+            "COMP_POINT": str(len(line)), "_ARGCOMPLETE_COMP_WORDBREAKS": " ", "COMP_TYPE": "9"})
+        self.assertIn("--depths", pathlib.Path(self.folder, "words").read_text())
 
     def test_help(self):
         self.assertIn("examples:", self.ask("--help"))

@@ -26,7 +26,9 @@ EXAMPLES = """examples:
 exit status: 0 done; 1 the library refused or failed; 2 wrong command line or scene file; 3 a file could not be read or
 written; 130 stopped by Ctrl-C, what was done is written.
 
-Not there yet: torque-drag, stuck, sweep, probability, fmu."""
+completion in the shell, by python3-argcomplete: eval "$(register-python-argcomplete drillmbd)"
+
+Not there yet: stuck, sweep, probability, fmu."""
 
 
 def parser() -> argparse.ArgumentParser:
@@ -64,9 +66,20 @@ def parser() -> argparse.ArgumentParser:
     return found
 
 
+def _complete(asked: argparse.ArgumentParser) -> None:
+    """Answers a shell that asks how the line may go on, and ends."""
+    try:
+        import argcomplete
+    except ImportError:
+        return
+    argcomplete.autocomplete(asked)
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns the exit status."""
-    options = parser().parse_args(arguments)
+    asked = parser()
+    _complete(asked)
+    options = asked.parse_args(arguments)
     try:
         return _guarded(lambda: _ask(options))
     except BrokenPipeError:
