@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 import sys
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -69,7 +70,7 @@ def parser() -> argparse.ArgumentParser:
 def _complete(asked: argparse.ArgumentParser) -> None:
     """Answers a shell that asks how the line may go on, and ends."""
     try:
-        import argcomplete
+        argcomplete: Any = importlib.import_module("argcomplete")
     except ImportError:
         return
     argcomplete.autocomplete(asked)
