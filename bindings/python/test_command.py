@@ -192,6 +192,23 @@ class CommandTest(unittest.TestCase):
         self.assertAlmostEqual(rows["slack-off"]["hook_load_N"] - rows["slide"]["hook_load_N"], 1000.0)
         self.assertIn("arrives", out)
 
+    def test_sweep(self):
+        self.ask("sweep", self.scene, "torque-drag", "--vary", "hole.mu_dynamic=0.1:0.3:3", "--vary", "hole.diameter=94 mm,5 mm",
+                 "-o", self.output, "--", "--depths", "2")
+        with open(self.output / "sweep.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["status"] for row in rows], ["ok", "failed"] * 3)
+        self.assertIn("diameter", rows[1]["message"])
+        column = next(name for name in rows[0] if name.endswith("pick-up.hook_load_N"))
+        pulls = [float(row[column]) for row in rows[::2]]
+        self.assertAlmostEqual(pulls[2] - pulls[1], pulls[1] - pulls[0])
+        self.assertGreater(pulls[1], pulls[0])
+        self.assertTrue((self.output / "00001" / "summary.json").exists())
+        for wrong in ("diameter", "hole.diameter=", "[0]=1", "hole.diameter=1 mm:2 m:3", "hole.diameter=1:2:1"):
+            self.assertIn("--vary", self.ask("sweep", self.scene, "check", "--vary", wrong, status=2))
+        self.ask("sweep", self.scene, "check", "--vary", "nothing[3].there=1,2", "-o", self.folder / "none", status=1)
+        self.assertIn("no such table", (self.folder / "none" / "sweep.csv").read_text())
+
     def test_without_a_folder_nothing_is_written(self):
         self.ask("static", self.scene)
         self.assertEqual(self.ask("run", self.scene, "--quiet"), "")

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import math
 import sys
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -21,6 +22,7 @@ EXAMPLES = """examples:
   drillmbd speeds rig.toml                    rotary speeds to keep away from, by [speeds]
   drillmbd buckle rig.toml                    critical factors, by [buckling]
   drillmbd report rig.toml --output out       one page for crew and engineer: out/report.html
+  drillmbd sweep rig.toml static --vary hole.diameter="90 mm,94 mm,98 mm" -o out
   drillmbd save rig.toml copy.toml            the scene in SI units, comments left out
   drillmbd schema > scene.schema.json         for editors that check TOML
 
@@ -29,7 +31,14 @@ written; 130 stopped by Ctrl-C, what was done is written.
 
 completion in the shell, by python3-argcomplete: eval "$(register-python-argcomplete drillmbd)"
 
-Not there yet: stuck, sweep, probability, fmu."""
+Not there yet: stuck, probability, fmu."""
+
+
+SWEEP = """example:
+  drillmbd sweep rig.toml torque-drag --vary hole.mu_dynamic=0.1:0.4:7 --vary "string[0].pipes[0].outer_diameter=63.5 mm,73 mm" \
+      -o out -- --weight-on-bit "10 kN"
+
+What follows -- are options of the question. Cases that fail are rows too, with their message."""
 
 
 def parser() -> argparse.ArgumentParser:
@@ -60,6 +69,14 @@ def parser() -> argparse.ArgumentParser:
             command.add_argument("--friction", type=float, metavar="MU", help="coefficient, instead of that of the wall")
         if name == "modes":
             command.add_argument("--count", type=int, metavar="N", help="number of modes, instead of [modes] count")
+    sweep = commands.add_parser("sweep", help="asks a question for all combinations of some values", epilog=SWEEP,
+                                formatter_class=argparse.RawDescriptionHelpFormatter)
+    sweep.add_argument("scene", help="a scene file (TOML)")
+    sweep.add_argument("question", choices=["check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag"])
+    sweep.add_argument("--vary", action="append", required=True, metavar="KEY=VALUES", help="KEY=V1,V2,... or "
+                       "KEY=LOW:HIGH:COUNT; once for each key")
+    sweep.add_argument("--output", "-o", metavar="FOLDER", help="sweep.csv, and a folder for each case")
+    sweep.add_argument("--quiet", "-q", action="store_true")
     save = commands.add_parser("save", help="writes the scene back, in SI units")
     save.add_argument("scene")
     save.add_argument("target", help="the new file; - for the terminal")
@@ -80,7 +97,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns the exit status."""
     asked = parser()
     _complete(asked)
-    options = asked.parse_args(arguments)
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    cut = words.index("--") if words[:1] == ["sweep"] and "--" in words else len(words)
+    options = asked.parse_args(words[:cut])
+    options.more = words[cut + 1:]  # options of the question that a sweep asks
     try:
         return _guarded(lambda: _ask(options))
     except BrokenPipeError:
@@ -118,6 +138,21 @@ class Usage(ValueError):
     """A command line or a scene that does not fit the question."""
 
 
+def _sweep(options: Any) -> int:
+    from . import scene
+    from .sweep import MOST_CASES, sweep, varied
+    try:
+        vary = [varied(text) for text in options.vary]
+    except ValueError as error:
+        raise Usage(f"--vary {error}") from None
+    cases = math.prod(len(values) for _, values in vary)
+    if cases > MOST_CASES:
+        raise Usage(f"--vary asks for {cases} cases, must be <= {MOST_CASES}")
+    asked = parser().parse_args([options.question, options.scene, *options.more])
+    return sweep(options.question, vary, lambda changes: scene.load(options.scene, changes), options.scene, asked,
+                 options.output, options.quiet)
+
+
 def _ask(options: Any) -> int:
     from . import scene
     from .questions import QUESTIONS, Output
@@ -133,6 +168,8 @@ def _ask(options: Any) -> int:
             with open(options.target, "w", encoding="utf-8") as file:
                 file.write(saved)
         return 0
+    if options.command == "sweep":
+        return _sweep(options)
     needed = {"response": "response", "speeds": "speeds", "buckle": "buckling"}.get(options.command)
     loaded = scene.load(options.scene)
     if needed and needed not in loaded.analyses:

@@ -454,5 +454,5 @@ def report(scene: Scene, output: Output, options: Any) -> int:
 
 
 QUESTIONS: dict[str, Callable[[Scene, Output, Any], int]] = {
-    "report": report, "check": check, "static": static, "run": run, "modes": modes, "response": response, "speeds": speeds, "torque-drag": torque_drag,
-    "buckle": buckle}
+    "report": report, "check": check, "static": static, "run": run, "modes": modes, "response": response, "speeds": speeds,
+    "torque-drag": torque_drag, "buckle": buckle}

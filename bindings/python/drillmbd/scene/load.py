@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 import pathlib
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from .. import enums
@@ -14,6 +14,7 @@ from ..errors import Error
 from ..model import Model
 from . import fields, survey, units
 from .asked import Asked
+from .changes import apply
 from .content import ANALYSES, PARTS, SINGLE, Scene
 from .fields import DEFINITIONS, Field, ValueProblem, fields_of
 from .lines import Path, find_lines
@@ -22,8 +23,10 @@ from .terms import PerRevolution
 
 MOST_BYTES = 50_000_000
 
-def load(path: Any) -> Scene:
-    """The scene of a TOML file. Raises SceneError with everything that is wrong, OSError where it cannot be read."""
+
+def load(path: Any, changes: Mapping[str, Any] | None = None) -> Scene:
+    """The scene of a TOML file; changes: values by their keys, "hole.diameter", in place of what is written. Raises
+    SceneError with everything that is wrong, OSError where it cannot be read."""
     path = pathlib.Path(path)
     if path.stat().st_size > MOST_BYTES:
         raise SceneError(str(path), [Problem(1, "the file", None, f"must be below {MOST_BYTES} bytes")])
@@ -33,10 +36,10 @@ def load(path: Any) -> Scene:
     except UnicodeDecodeError as error:
         line = data[:error.start].count(b"\n") + 1
         raise SceneError(str(path), [Problem(line, "the file", None, "must be text in UTF-8")]) from error
-    return loads(text, str(path), path.parent)
+    return loads(text, str(path), path.parent, changes)
 
 
-def loads(text: str, name: str = "scene", folder: Any = ".") -> Scene:
+def loads(text: str, name: str = "scene", folder: Any = ".", changes: Mapping[str, Any] | None = None) -> Scene:
     """The scene of a TOML text; files that it names are looked for in `folder`."""
     import tomllib
     try:
@@ -45,7 +48,9 @@ def loads(text: str, name: str = "scene", folder: Any = ".") -> Scene:
         match = re.search(r"line (\d+)", str(error))
         line = int(match.group(1)) if match else text.count("\n") + 1
         raise SceneError(name, [Problem(line, "the file", None, f"is no TOML: {error}")]) from error
-    loader = Loader(content, Problems(find_lines(text)), pathlib.Path(folder))
+    problems = Problems(find_lines(text))
+    apply(content, changes or {}, problems)
+    loader = Loader(content, problems, pathlib.Path(folder))
     scene = loader.scene()
     if loader.problems.found:
         raise SceneError(name, loader.problems.found)
