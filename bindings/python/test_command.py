@@ -192,6 +192,22 @@ class CommandTest(unittest.TestCase):
         self.assertAlmostEqual(rows["slack-off"]["hook_load_N"] - rows["slide"]["hook_load_N"], 1000.0)
         self.assertIn("arrives", out)
 
+    def test_stuck(self):
+        out, summary = self.answer("stuck", "--pull", "20 kN", "--push", "10 kN", "--torque", "500 N m", "--friction", "0")
+        self.assertAlmostEqual(summary["stuck"]["pull"]["at_bit_N"], 20e3, 3)
+        self.assertAlmostEqual(summary["stuck"]["push"]["at_bit_N"], 10e3, 3)
+        self.assertAlmostEqual(summary["stuck"]["torque"]["at_bit_N_m"], 500.0)
+        out, summary = self.answer("stuck", "--pull", "20 kN", "--push", "10 kN", "--torque", "500 N m", "--overpull", "10 kN",
+                                   "--stretch", "0.1 mm")
+        area = 3.141592653589793 / 4 * (0.073 ** 2 - 0.061 ** 2)
+        rubbed = 0.3 * 8 * 9.81 * 7850 * area
+        self.assertAlmostEqual(summary["stuck"]["pull"]["at_bit_N"], 20e3 - rubbed, 3)
+        self.assertAlmostEqual(summary["stuck"]["push"]["at_bit_N"], 10e3 - rubbed, 3)
+        self.assertIn("free down to", out)
+        self.assertAlmostEqual(summary["stuck"]["free_length_m"], 0.1e-3 * 2.1e11 * area / 10e3)
+        for words in (["--pull", "3 m"], ["--overpull", "1 kN"], ["--overpull", "-1 kN", "--stretch", "1 mm"]):
+            self.ask("stuck", self.scene, *words, status=2)
+
     def test_sweep(self):
         self.ask("sweep", self.scene, "torque-drag", "--vary", "hole.mu_dynamic=0.1:0.3:3", "--vary", "hole.diameter=94 mm,5 mm",
                  "-o", self.output, "--", "--depths", "2")

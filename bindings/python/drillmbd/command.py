@@ -22,6 +22,7 @@ EXAMPLES = """examples:
   drillmbd speeds rig.toml                    rotary speeds to keep away from, by [speeds]
   drillmbd buckle rig.toml                    critical factors, by [buckling]
   drillmbd report rig.toml --output out       one page for crew and engineer: out/report.html
+  drillmbd stuck rig.toml --overpull "20 kN" --stretch "45 mm"   what arrives at a stuck bit; how far is it free?
   drillmbd sweep rig.toml static --vary hole.diameter="90 mm,94 mm,98 mm" -o out
   drillmbd save rig.toml copy.toml            the scene in SI units, comments left out
   drillmbd schema > scene.schema.json         for editors that check TOML
@@ -31,9 +32,11 @@ written; 130 stopped by Ctrl-C, what was done is written.
 
 completion in the shell, by python3-argcomplete: eval "$(register-python-argcomplete drillmbd)"
 
-Not there yet: stuck, probability, fmu."""
+Not there yet: probability, fmu."""
 
 
+STUCK = {"pull": "of the rig, instead of [limits] pull", "push": "likewise", "torque": "likewise",
+         "overpull": "pulled beyond the weight to see how far it is free", "stretch": "by which the rig end came up then"}
 SWEEP = """example:
   drillmbd sweep rig.toml torque-drag --vary hole.mu_dynamic=0.1:0.4:7 --vary "string[0].pipes[0].outer_diameter=63.5 mm,73 mm" \
       -o out -- --weight-on-bit "10 kN"
@@ -53,6 +56,7 @@ def parser() -> argparse.ArgumentParser:
                        ("response", "finds the response to what shakes about the static state"),
                        ("speeds", "finds rotary speeds to keep away from"), ("buckle", "finds what it buckles at"),
                        ("torque-drag", "finds what the rig must pull, push and turn at each depth, as a soft string"),
+                       ("stuck", "finds what pull, push and torque arrive at a stuck bit, and the free point by stretch"),
                        ("report", "makes one HTML page about it all; needs plotly")):
         command = commands.add_parser(name, help=text, description=text)
         command.add_argument("scene", help="a scene file (TOML)")
@@ -61,6 +65,10 @@ def parser() -> argparse.ArgumentParser:
         if name == "run":
             command.add_argument("--until", metavar="TIME", help='ends there, as "5 s", instead of [run] end')
             command.add_argument("--step", metavar="TIME", help='length of a step, as "1 ms", instead of [run] step')
+        if name == "stuck":
+            for word, unit in (("pull", "kN"), ("push", "kN"), ("torque", "N m"), ("overpull", "kN"), ("stretch", "mm")):
+                command.add_argument(f"--{word}", metavar=word.upper(), help=STUCK[word] + f', as "20 {unit}"')
+            command.add_argument("--friction", type=float, metavar="MU", help="coefficient, instead of that of the wall")
         if name == "torque-drag":
             command.add_argument("--depths", type=int, metavar="N", default=20, help="number of depths up to the described "
                                  "one (default %(default)s)")
@@ -72,7 +80,7 @@ def parser() -> argparse.ArgumentParser:
     sweep = commands.add_parser("sweep", help="asks a question for all combinations of some values", epilog=SWEEP,
                                 formatter_class=argparse.RawDescriptionHelpFormatter)
     sweep.add_argument("scene", help="a scene file (TOML)")
-    sweep.add_argument("question", choices=["check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag"])
+    sweep.add_argument("question", choices=["check", "static", "run", "modes", "response", "speeds", "buckle", "torque-drag", "stuck"])
     sweep.add_argument("--vary", action="append", required=True, metavar="KEY=VALUES", help="KEY=V1,V2,... or "
                        "KEY=LOW:HIGH:COUNT; once for each key")
     sweep.add_argument("--output", "-o", metavar="FOLDER", help="sweep.csv, and a folder for each case")

@@ -366,7 +366,8 @@ def speeds(scene: Scene, output: Output, options: Any) -> int:
     return output.finish()
 
 
-def _quantity(text: str, unit: str, option: str) -> float:
+def quantity(text: str, unit: str, option: str) -> float:
+    """An option of the command line as a number in its unit."""
     from .command import Usage
     try:
         return float(parse(text, unit))
@@ -377,8 +378,8 @@ def _quantity(text: str, unit: str, option: str) -> float:
 def torque_drag(scene: Scene, output: Output, options: Any) -> int:
     """What the rig must pull, push and turn, by depth and operation."""
     from .command import Usage
-    weight = _quantity(options.weight_on_bit, "N", "--weight-on-bit")
-    torque = _quantity(options.torque_on_bit, "N*m", "--torque-on-bit")
+    weight = quantity(options.weight_on_bit, "N", "--weight-on-bit")
+    torque = quantity(options.torque_on_bit, "N*m", "--torque-on-bit")
     if options.depths < 1:
         raise Usage(f"--depths {options.depths}, must be >= 1")
     more = {} if options.friction is None else {"friction": options.friction}
@@ -453,6 +454,12 @@ def report(scene: Scene, output: Output, options: Any) -> int:
     return answer(scene, output, options)
 
 
+def stuck(scene: Scene, output: Output, options: Any) -> int:
+    """What arrives at a stuck far end."""
+    from .stuck import stuck as answer
+    return answer(scene, output, options)
+
+
 QUESTIONS: dict[str, Callable[[Scene, Output, Any], int]] = {
     "report": report, "check": check, "static": static, "run": run, "modes": modes, "response": response, "speeds": speeds,
-    "torque-drag": torque_drag, "buckle": buckle}
+    "torque-drag": torque_drag, "buckle": buckle, "stuck": stuck}

@@ -1,0 +1,105 @@
+"""A string whose far end is stuck: what of the rig's pull, push and torque arrives there, and how deep it is free."""
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from . import enums
+from ._structs import TorqueDragRow
+from .analysis import usual_operation
+from .model import _DEFINITIONS
+from .questions import Output, quantity
+from .scene import Scene
+from .sim import Sim
+
+
+def _solve(of: Callable[[float], float], low: float, high: float) -> float:
+    """Where a rising function is 0, by halves."""
+    for _ in range(80):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if of(middle) < 0.0 else (low, middle)
+    return 0.5 * (low + high)
+
+
+def _row(sim: Sim, string: Any, kind: int, weight: float, **more: Any) -> TorqueDragRow:
+    return sim.torque_drag([usual_operation(kind, weight_on_bit=weight)], string=string, **more).rows[0][0]
+
+
+def pull_at_bit(sim: Sim, string: Any, hook_load: float, **more: Any) -> tuple[float, TorqueDragRow]:
+    """[N] effective tension at the far end when the rig pulls with hook_load [N], friction against it; and the row."""
+    free = _row(sim, string, enums.OPERATION_PICK_UP, 0.0, **more).hook_load
+    span = abs(hook_load) + abs(free) + 1.0
+    force = _solve(lambda pull: _row(sim, string, enums.OPERATION_PICK_UP, -pull, **more).hook_load - hook_load, -span, span)
+    return force, _row(sim, string, enums.OPERATION_PICK_UP, -force, **more)
+
+
+def push_at_bit(sim: Sim, string: Any, thrust: float, **more: Any) -> tuple[float, TorqueDragRow]:
+    """[N] compression at the far end when the rig pushes with thrust [N]; less than thrust where it locks up."""
+    def too_much(push: float) -> float:
+        row = _row(sim, string, enums.OPERATION_SLACK_OFF, push, **more)
+        return math.inf if row.locked else -row.hook_load - thrust
+    free = abs(_row(sim, string, enums.OPERATION_PICK_UP, 0.0, **more).hook_load)
+    force = _solve(too_much, -thrust - free - 1.0, thrust + free + 1.0)
+    return force, _row(sim, string, enums.OPERATION_SLACK_OFF, force - 1e-9 * (abs(force) + 1.0), **more)
+
+
+def free_length(scene: Scene, string: Any, pull: float, stretch: float) -> float | None:
+    """[m] from the rig end that lengthens by stretch [m] under pull [N] more (Hooke, pipe by pipe, friction left out);
+    None where the whole string lengthens by less: it is free."""
+    length = 0.0
+    for name, arguments in scene.model.calls:
+        if name != "add_pipes" or arguments[1].get("string") != string:
+            continue
+        pipe = _DEFINITIONS["add_pipes"](**arguments[1])
+        area = math.pi / 4.0 * (pipe.outer_diameter ** 2 - pipe.inner_diameter ** 2)
+        stiffness = pipe.section_stiffness[0] or pipe.young_modulus * area
+        run = arguments[0] * pipe.length
+        soft = (pipe.length - pipe.joint_length) / pipe.length  # tool joints are rigid
+        part = pull * soft * run / stiffness
+        if part >= stretch:
+            return float(length + run * stretch / part)
+        stretch -= part
+        length += run
+    return None
+
+
+def stuck(scene: Scene, output: Output, options: Any) -> int:
+    """What arrives at a stuck far end, and how far the string is free by its stretch."""
+    from .command import Usage
+    limits = {name: quantity(text, unit, f"--{name}") if text is not None else scene.limits.get(name)
+              for name, text, unit in (("pull", options.pull, "N"), ("push", options.push, "N"),
+                                       ("torque", options.torque, "N*m"))}
+    if (options.overpull is None) != (options.stretch is None):
+        raise Usage("--overpull and --stretch belong together")
+    more: dict[str, Any] = {} if options.friction is None else {"friction": options.friction}
+    string = scene.names[next(iter(scene.pipes))]
+    told: dict[str, Any] = {}
+    with scene.new_sim() as sim:
+        for name, ask in (("pull", pull_at_bit), ("push", push_at_bit)):
+            limit = limits[name]
+            if limit is None:
+                output.say(f"{name}: no limit in the scene; give --{name}")
+                continue
+            force, row = ask(sim, string, limit, **more)
+            told[name] = {"at_rig_N": limit, "at_bit_N": force, "helical_share": row.helical_share,
+                          "yield_share": None if math.isnan(row.yield_share) else row.yield_share}
+            output.say(f"{name} of {limit / 1e3:.4g} kN at the rig: {force / 1e3:.4g} kN at the far end, "
+                       f"{row.helical_share:.2g} of helical buckling")
+        torque = limits["torque"]
+        if torque is None:
+            output.say("torque: no limit in the scene; give --torque")
+        else:
+            lost = _row(sim, string, enums.OPERATION_ROTATE, 0.0, **more).torque
+            told["torque"] = {"at_rig_N_m": torque, "at_bit_N_m": max(0.0, torque - lost)}
+            output.say(f"torque of {torque:.4g} N m at the rig: {max(0.0, torque - lost):.4g} N m at the far end")
+    if options.stretch is not None:
+        pull, by = quantity(options.overpull, "N", "--overpull"), quantity(options.stretch, "m", "--stretch")
+        if not pull > 0.0 or not by > 0.0:
+            raise Usage("--overpull and --stretch must be > 0")
+        length = free_length(scene, string, pull, by)
+        told["free_length_m"] = length
+        output.say("free as far as the string goes: it would lengthen by less" if length is None
+                   else f"free down to {length:.4g} m from the rig end, friction left out")
+    output.summary["stuck"] = told
+    return output.finish()
