@@ -205,7 +205,8 @@ class CommandTest(unittest.TestCase):
         self.assertAlmostEqual(summary["stuck"]["push"]["at_bit_N"], 10e3 - rubbed, 3)
         self.assertIn("free down to", out)
         self.assertAlmostEqual(summary["stuck"]["free_length_m"], 0.1e-3 * 2.1e11 * area / 10e3)
-        for words in (["--pull", "3 m"], ["--overpull", "1 kN"], ["--overpull", "-1 kN", "--stretch", "1 mm"]):
+        self.assertIn("nothing arrives", self.ask("stuck", self.scene, "--push", "1 N", "--friction", "0.5"))
+        for words in (["--pull", "3 m"], ["--friction", "-1"], ["--friction", "nan"], ["--overpull", "1 kN"], ["--overpull", "-1 kN", "--stretch", "1 mm"]):
             self.ask("stuck", self.scene, *words, status=2)
 
     def test_sweep(self):

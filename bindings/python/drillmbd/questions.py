@@ -375,6 +375,16 @@ def quantity(text: str, unit: str, option: str) -> float:
         raise Usage(f"{option} {text!r}: {error}") from None
 
 
+def friction_option(options: Any) -> dict[str, float]:
+    """--friction of the command line as an option of torque and drag; none: that of the wall."""
+    from .command import Usage
+    if options.friction is None:
+        return {}
+    if not options.friction >= 0.0:
+        raise Usage(f"--friction {options.friction:g}, must be >= 0")
+    return {"friction": options.friction}
+
+
 def torque_drag(scene: Scene, output: Output, options: Any) -> int:
     """What the rig must pull, push and turn, by depth and operation."""
     from .command import Usage
@@ -382,7 +392,7 @@ def torque_drag(scene: Scene, output: Output, options: Any) -> int:
     torque = quantity(options.torque_on_bit, "N*m", "--torque-on-bit")
     if options.depths < 1:
         raise Usage(f"--depths {options.depths}, must be >= 1")
-    more = {} if options.friction is None else {"friction": options.friction}
+    more = friction_option(options)
     operations = [usual_operation(kind) for kind in OPERATIONS]
     for kind in (enums.OPERATION_DRILL, enums.OPERATION_SLIDE):
         operations[kind].weight_on_bit = weight

@@ -9,7 +9,7 @@ from . import enums
 from ._structs import TorqueDragRow
 from .analysis import usual_operation
 from .model import _DEFINITIONS
-from .questions import Output, quantity
+from .questions import Output, friction_option, quantity
 from .scene import Scene
 from .sim import Sim
 
@@ -72,7 +72,7 @@ def stuck(scene: Scene, output: Output, options: Any) -> int:
                                        ("torque", options.torque, "N*m"))}
     if (options.overpull is None) != (options.stretch is None):
         raise Usage("--overpull and --stretch belong together")
-    more: dict[str, Any] = {} if options.friction is None else {"friction": options.friction}
+    more: dict[str, Any] = friction_option(options)
     string = scene.names[next(iter(scene.pipes))]
     told: dict[str, Any] = {}
     with scene.new_sim() as sim:
@@ -82,6 +82,10 @@ def stuck(scene: Scene, output: Output, options: Any) -> int:
                 output.say(f"{name}: no limit in the scene; give --{name}")
                 continue
             force, row = ask(sim, string, limit, **more)
+            if not force > 0.0:
+                told[name] = {"at_rig_N": limit, "at_bit_N": 0.0}
+                output.say(f"{name} of {limit / 1e3:.4g} kN at the rig: nothing arrives, weight and friction take it all")
+                continue
             told[name] = {"at_rig_N": limit, "at_bit_N": force, "helical_share": row.helical_share,
                           "yield_share": None if math.isnan(row.yield_share) else row.yield_share}
             output.say(f"{name} of {limit / 1e3:.4g} kN at the rig: {force / 1e3:.4g} kN at the far end, "
