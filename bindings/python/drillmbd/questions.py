@@ -375,7 +375,7 @@ def quantity(text: str, unit: str, option: str) -> float:
         raise Usage(f"{option} {text!r}: {error}") from None
 
 
-def friction_option(options: Any) -> dict[str, float]:
+def friction_option(options: Any) -> dict[str, Any]:
     """--friction of the command line as an option of torque and drag; none: that of the wall."""
     from .command import Usage
     if options.friction is None:
