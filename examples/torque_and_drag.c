@@ -1,5 +1,6 @@
-/* What must the rig pull, push and turn at each depth of a planned hole, and what does a measured hook load say of the
- * friction? A gas-drainage hole starts 10 degrees below the horizontal and is steered up to 5 degrees above it. */
+/* Torque and drag of a planned hole: the pull, push and torque that the rig needs at each depth, and the friction that
+ * a measured hook load tells. A gas-drainage hole starts 10 degrees below the horizontal and is steered up to 5 degrees
+ * above it. */
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 

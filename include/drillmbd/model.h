@@ -358,7 +358,8 @@ typedef struct dmb_constraint_def {
     uint32_t count;     /* [-] of places, 1 .. 4; default 1 */
     dmb_place place[4]; /* as of a joint, not the ground, shape (count) */
     int32_t provides;   /* DMB_PROVIDES_JACOBIAN or 0 (default): built by differences. Nonholonomic must provide it.
-                           What is provided is compared with differences when a sim is made: DMB_ERR_CALLBACK */
+                           A Jacobian of its own is compared with differences when a sim is made:
+                           DMB_ERR_CALLBACK */
     int32_t reserved;
     dmb_constraint_fn callback; /* required */
     void *callback_context;

@@ -44,6 +44,12 @@ double dmb_joint_diameter(const dmb_pipe_def *def)
     return def->joint_length > 0.0 ? given_or(def->joint_outer_diameter, def->outer_diameter) : 0.0;
 }
 
+void dmb_pipe_diameters(const dmb_pipe_def *def, int in_tool_joint, double diameters[2])
+{
+    diameters[0] = in_tool_joint ? given_or(def->joint_outer_diameter, def->outer_diameter) : def->outer_diameter;
+    diameters[1] = in_tool_joint ? given_or(def->joint_inner_diameter, def->inner_diameter) : def->inner_diameter;
+}
+
 /* Across: slices of the section's own inertia along the length, m L^2/12 for their distance from the centre. */
 void dmb_rigid_pipe_of(const dmb_pipe_def *def, dmb_rigid_part *part)
 {

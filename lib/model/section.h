@@ -30,6 +30,9 @@ double dmb_pipe_body_length(const dmb_pipe_def *def);
 /* [m] outer diameter of the tool joint, 0 where there is none. */
 double dmb_joint_diameter(const dmb_pipe_def *def);
 
+/* [m] outer and inner diameter of the pipe's body, or of its tool joint. */
+void dmb_pipe_diameters(const dmb_pipe_def *def, int in_tool_joint, double diameters[2]);
+
 /* The pipe without its joint as a rigid body, and the tool joint (mass 0 where there is none). */
 void dmb_rigid_pipe_of(const dmb_pipe_def *def, dmb_rigid_part *part);
 void dmb_joint_of(const dmb_pipe_def *def, dmb_rigid_part *part);

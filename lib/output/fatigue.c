@@ -103,15 +103,12 @@ static void take_section(const dmb_sim *sim, dmb_place place, section *out)
     const uint32_t string = dmb_model_part_index(sim->model, place.part, DMB_PART_STRING);
     const dmb_pipe_def *def = &dmb_pipe_run_of(sim->model, string, place.pipe)->def;
     dmb_material_point point;
-    double outer = def->outer_diameter, inner = def->inner_diameter;
+    double diameters[2];
     (void)dmb_material_point_of(sim, place, &point);
-    if (point.beyond > 0.0) {
-        if (def->joint_outer_diameter > 0.0) outer = def->joint_outer_diameter;
-        if (def->joint_inner_diameter > 0.0) inner = def->joint_inner_diameter;
-    }
+    dmb_pipe_diameters(def, point.beyond > 0.0, diameters);
     out->place = place;
-    out->area = dmb_ring_area(outer, inner);
-    out->modulus = dmb_ring_second_moment(outer, inner) / (0.5 * outer);
+    out->area = dmb_ring_area(diameters[0], diameters[1]);
+    out->modulus = dmb_ring_second_moment(diameters[0], diameters[1]) / (0.5 * diameters[0]);
 }
 
 /* Structs first, then doubles, then whole numbers, so that each stands at a multiple of its size. */

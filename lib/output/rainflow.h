@@ -15,7 +15,7 @@ typedef struct dmb_rainflow {
 typedef void (*dmb_rainflow_fn)(void *context, uint32_t low, uint32_t high, double weight);
 
 void dmb_rainflow_add(dmb_rainflow *flow, uint32_t level, dmb_rainflow_fn count, void *context);
-/* What is left, as half cycles; it stays. */
+/* Tells the turning points not counted yet, as half cycles; they stay. */
 void dmb_rainflow_rest(const dmb_rainflow *flow, dmb_rainflow_fn count, void *context);
 
 #endif

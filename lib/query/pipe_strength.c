@@ -16,21 +16,23 @@ double dmb_tube_von_mises(double outer_diameter, double inner_diameter, double a
     return sqrt(normal * normal + 3.0 * shear * shear);
 }
 
-/* [N/m] Weight across and along the hole, and the contact force per metre that balances the former. */
-static double contact_per_metre(const dmb_confined_pipe *pipe, double axial_force)
+double dmb_confined_wall_force(const dmb_confined_pipe *pipe, double axial_force, double *by_force)
 {
-    double across[3];
+    double across[3], force;
     dmb_vec3_copy(pipe->weight, across);
     dmb_vec3_axpy(-dmb_vec3_dot(pipe->weight, pipe->tangent), pipe->tangent, across);
     dmb_vec3_axpy(axial_force, pipe->bend, across);
-    return dmb_vec3_norm(across);
+    force = dmb_vec3_norm(across);
+    if (by_force != NULL)
+        *by_force = force > 0.0 ? dmb_vec3_dot(across, pipe->bend) / force : dmb_vec3_norm(pipe->bend);
+    return force;
 }
 
 /* `on_wall` of EI w_c/r under the root, `upright` times the length scale of a heavy vertical column. */
 static double share(const dmb_confined_pipe *pipe, double axial_force, double on_wall, double upright)
 {
     const double along = dmb_vec3_dot(pipe->weight, pipe->tangent);
-    const double held = sqrt(on_wall * pipe->EI * contact_per_metre(pipe, axial_force) / pipe->clearance);
+    const double held = sqrt(on_wall * pipe->EI * dmb_confined_wall_force(pipe, axial_force, NULL) / pipe->clearance);
     const double limit = fmax(held, upright * cbrt(pipe->EI * along * along));
     return axial_force < 0.0 ? -axial_force / limit : 0.0;
 }

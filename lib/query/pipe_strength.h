@@ -20,6 +20,10 @@ typedef struct dmb_confined_pipe {
     double bend[3];    /* [1/m] dt/ds of the hole's axis, world frame */
 } dmb_confined_pipe;
 
+/* [N/m] Wall force w_c per metre of the pipe without its bending stiffness, |w_across + N_e dt/ds|; and dw_c/dN_e [1/m]
+ * in *by_force (may be NULL). */
+double dmb_confined_wall_force(const dmb_confined_pipe *pipe, double axial_force, double *by_force);
+
 /* [-] Compression -N_e over the load of sinusoidal buckling, sqrt(4 EI w_c/r) where w_c = |w_across + N_e dt/ds| is the
  * contact force per metre before buckling (Dawson, Paslay 1984; He, Kyllingstad 1995), but at least 2.55 (EI
  * w_along^2)^(1/3) (Wu, Juvkam-Wold 1995). 0 in tension, infinite where nothing holds the pipe straight. */

@@ -133,6 +133,7 @@ typedef struct station {
     const dmb_pipe_run *run;
     dmb_place place;
     dmb_material_point point;
+    double diameters[2];        /* [m] outer and inner, of the tool joint where the station is in one */
     double tangent[3], bend[3]; /* of the hole's axis; 0 without a hole */
     double values[DMB_PROFILE_COUNT];
 } station;
@@ -160,18 +161,6 @@ static void pose_values(station *at)
 static int in_tool_joint(const station *at)
 {
     return at->point.beyond > 0.0;
-}
-
-static double outer_diameter(const station *at)
-{
-    const dmb_pipe_def *def = &at->run->def;
-    return in_tool_joint(at) && def->joint_outer_diameter > 0.0 ? def->joint_outer_diameter : def->outer_diameter;
-}
-
-static double inner_diameter(const station *at)
-{
-    const dmb_pipe_def *def = &at->run->def;
-    return in_tool_joint(at) && def->joint_inner_diameter > 0.0 ? def->joint_inner_diameter : def->inner_diameter;
 }
 
 /* [Pa] of the fluid at rest: it stands up to the start of the hole, or to the rig end as described without a hole. */
@@ -219,8 +208,7 @@ static int32_t section_values(station *at)
     double *v = at->values;
     if (status < 0) return status;
     v[DMB_PROFILE_EFFECTIVE_FORCE] = section.force[0];
-    v[DMB_PROFILE_AXIAL_FORCE] =
-        section.force[0] - pressure(at) * dmb_ring_area(outer_diameter(at), inner_diameter(at));
+    v[DMB_PROFILE_AXIAL_FORCE] = section.force[0] - pressure(at) * dmb_ring_area(at->diameters[0], at->diameters[1]);
     v[DMB_PROFILE_TORQUE] = section.force[3];
     v[DMB_PROFILE_SHEAR_FORCE] = hypot(section.force[1], section.force[2]);
     v[DMB_PROFILE_SHEAR_Y] = section.force[1];
@@ -266,7 +254,7 @@ static double clearance_at(const station *at)
 {
     const dmb_scene *scene = at->sim->scene;
     const uint32_t site = nearest_site(at);
-    double radius = 0.5 * outer_diameter(at);
+    double radius = 0.5 * at->diameters[0];
     if (site != DMB_NONE)
         radius =
             site < scene->site_count ? scene->sites[site].radius : scene->path_sites[site - scene->site_count].radius;
@@ -279,9 +267,8 @@ static void limit_values(station *at)
     const dmb_pipe_def *def = &at->run->def;
     double *v = at->values;
     dmb_pipe_section section;
-    v[DMB_PROFILE_VON_MISES] =
-        dmb_tube_von_mises(outer_diameter(at), inner_diameter(at), v[DMB_PROFILE_EFFECTIVE_FORCE],
-                           v[DMB_PROFILE_TORQUE], v[DMB_PROFILE_BENDING_MOMENT]);
+    v[DMB_PROFILE_VON_MISES] = dmb_tube_von_mises(at->diameters[0], at->diameters[1], v[DMB_PROFILE_EFFECTIVE_FORCE],
+                                                  v[DMB_PROFILE_TORQUE], v[DMB_PROFILE_BENDING_MOMENT]);
     if (def->yield_strength > 0.0) v[DMB_PROFILE_YIELD_SHARE] = v[DMB_PROFILE_VON_MISES] / def->yield_strength;
     if (!scene->has_hole) return;
     dmb_section_of(def, &section);
@@ -391,7 +378,9 @@ static int32_t fill_station(station_walk *walk, const dmb_profile *profile, uint
     for (int k = 0; k < DMB_PROFILE_COUNT; k++) at.values[k] = (double)NAN;
     at.values[DMB_PROFILE_DISTANCE] = distance;
     status = dmb_material_point_of(walk->sim, at.place, &at.point);
-    if (status >= 0) status = fill(&at, groups);
+    if (status < 0) return status;
+    dmb_pipe_diameters(&at.run->def, in_tool_joint(&at), at.diameters);
+    status = fill(&at, groups);
     for (uint32_t q = 0; q < profile->quantity_count && status >= 0; q++)
         profile->values[i * profile->station_stride + q * profile->quantity_stride] = at.values[profile->quantities[q]];
     return status;

@@ -2141,7 +2141,7 @@ class ConstraintDef(ConstraintPart, Sized):
         "rows": ("-", "1 .. 6; default 1"),
         "count": ("-", "of places, 1 .. 4; default 1"),
         "place": ("", "as of a joint, not the ground, shape (count)"),
-        "provides": ("", "PROVIDES_JACOBIAN or 0 (default): built by differences. Nonholonomic must provide it. What is provided is compared with differences when a sim is made: ERR_CALLBACK"),
+        "provides": ("", "PROVIDES_JACOBIAN or 0 (default): built by differences. Nonholonomic must provide it. A Jacobian of its own is compared with differences when a sim is made: ERR_CALLBACK"),
         "callback": ("", "required"),
         "callback_context": ("", ""),
     }

@@ -197,7 +197,7 @@ static int32_t judge_pose(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckli
     return judged < 0 ? judged : dmb_buckling_tell_flutter(buckling, sim, &flutter.message, status);
 }
 
-/* What the way would tell stays open where it is not followed; the answer has a note already. */
+/* Flutter on the way stays open where the way is not followed; the answer has a note already. */
 static int32_t judge_present(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options, int32_t status)
 {
     const dmb_message before = sim->message;

@@ -1,4 +1,4 @@
-/* What a search that failed says: the part, the figure and its bound, and what may help. */
+/* Messages of searches that failed: the part, the figure and its bound, and what may help. */
 #include <math.h>
 
 #include "analysis/static/static.h"
@@ -103,7 +103,6 @@ static const char *remedy(dmb_static_search *search, dmb_message *text)
         return text->text;
     }
     if (dmb_static_find_stiff_wall(search->sim->scene, &wall)) {
-        /* of 18 random strings refused so, 15 were found with a quarter of the length, 15 on a wall softer by 1000 */
         dmb_message_set(
             text,
             "; the wall is stiff: the weight presses it in by %g m, the clearance is %g m: elements of %g m, not "

@@ -50,12 +50,7 @@ static void confined_at(const march *m, double depth, dmb_confined_pipe *pipe)
 /* [N/m] Wall force and its derivative by N. */
 static double wall_force(const march *m, const dmb_confined_pipe *pipe, double N, double *by_force)
 {
-    double q[3], wall;
-    dmb_vec3_copy(pipe->weight, q);
-    dmb_vec3_axpy(-dmb_vec3_dot(q, pipe->tangent), pipe->tangent, q);
-    dmb_vec3_axpy(N, pipe->bend, q);
-    wall = dmb_vec3_norm(q);
-    *by_force = wall > 0.0 ? dmb_vec3_dot(q, pipe->bend) / wall : dmb_vec3_norm(pipe->bend);
+    double wall = dmb_confined_wall_force(pipe, N, by_force);
     if (m->soft->post_buckling && N < 0.0 && dmb_helical_share(pipe, N) > 1.0) {
         wall += pipe->clearance * N * N / (4.0 * pipe->EI);
         *by_force += pipe->clearance * N / (2.0 * pipe->EI);
@@ -151,7 +146,7 @@ static int tell(march *m, dmb_soft_visit visit, void *context)
     return 1;
 }
 
-/* What the bit, and what weighs at the far end, does to the string. */
+/* At the far end: load and torque of the bit, and the weight of what is fixed there. */
 static void begin(march *m, double depth)
 {
     double x[3], t[3];

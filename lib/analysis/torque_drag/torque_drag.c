@@ -338,7 +338,7 @@ typedef struct fitting {
     double value;
 } fitting;
 
-/* What is measured with this coefficient, less the value; a string that locks up is pushed without end. */
+/* The measured quantity by this coefficient, less its value; a string that locks up is pushed without end. */
 static double misses_by(fitting *f, double friction)
 {
     dmb_torque_drag_row row;
