@@ -31,7 +31,8 @@ def _step(holder: Any, part: Any, path: Path, problems: Problems) -> Any:
 
 
 def apply(content: dict[str, Any], changes: Mapping[str, Any], problems: Problems) -> None:
-    """Puts the values where the keys say; tables that are not there yet are made, items of arrays are not."""
+    """Puts the values where the keys say; tables that are not there yet are made, items of arrays are not. None
+    takes a key out."""
     for key, value in changes.items():
         path = path_of_key(key)
         holder: Any = content
@@ -41,7 +42,9 @@ def apply(content: dict[str, Any], changes: Mapping[str, Any], problems: Problem
                 break
         if isinstance(holder, list) and len(holder) == 1:
             holder = holder[0]
-        if isinstance(holder, dict):
+        if isinstance(holder, dict) and value is None:
+            holder.pop(path[-1], None)
+        elif isinstance(holder, dict):
             holder[path[-1]] = value
         elif holder is not None:
             problems.add(path, None, f"{dotted(path[:-1])} holds no keys; name one of its items by [0], [1] ...")

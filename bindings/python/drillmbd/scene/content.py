@@ -8,6 +8,8 @@ from .._structs import Id, Input, Order, Output, Place
 from ..enums import INPUT_ECCENTRICITY
 from ..model import Model, map_ids
 from ..sim import Sim
+from .failure import Failure
+from .variability import Variability
 
 PARTS = ("string", "body", "bit", "joint", "coupling", "drive", "load")  # in the order in which they are described
 SINGLE = ("environment", "hole")
@@ -28,6 +30,8 @@ class Scene:
     limits: dict[str, float] = field(default_factory=dict)  #: torque [N m], push [N], pull [N], yield_stress [Pa]
     channels: list[tuple[str, Place | None, int]] = field(default_factory=list)  #: name, place, quantity
     analyses: dict[str, dict[str, Any]] = field(default_factory=dict)  #: fields of their options, by name
+    variability: Variability | None = None  #: what varies
+    failures: list[Failure] = field(default_factory=list)  #: what counts as a failure
 
     def new_sim(self) -> Sim:
         """A sim with the options of the scene."""
@@ -66,5 +70,7 @@ class Scene:
             channels = [(name, place and (place.part.index, place.pipe, place.fraction), quantity)
                         for name, place, quantity in scene.channels]
             analyses = map_ids(scene.analyses, lambda part: (part.index, bool(part)))
-            return scene.title, scene.sim, scene.run, scene.output, channels, scene.pipes, analyses, scene.limits
+            failures = map_ids([vars(one) for one in scene.failures], lambda part: (part.index, bool(part)))
+            return (scene.title, scene.sim, scene.run, scene.output, channels, scene.pipes, analyses, scene.limits,
+                    scene.variability, failures)
         return asked(self) == asked(other) and self.model.same_scene(other.model)

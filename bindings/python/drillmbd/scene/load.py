@@ -12,7 +12,7 @@ from .._keep import station
 from .._structs import Id, Place, Term
 from ..errors import Error
 from ..model import Model
-from . import fields, survey, units
+from . import failure, fields, survey, units, variability
 from .asked import Asked
 from .changes import apply
 from .content import ANALYSES, PARTS, SINGLE, Scene
@@ -72,7 +72,8 @@ class Loader:
     # ---- Shape of the file ------------------------------------------------------------------------------------------
     def scene(self) -> Scene | None:
         """The whole."""
-        known = ["title", "run", "output", "limits", "channel", "programme", *SINGLE, *PARTS, *ANALYSES, "compile", "sim"]
+        known = ["title", "run", "output", "limits", "channel", "programme", *SINGLE, *PARTS, *ANALYSES, "compile", "sim", "variability",
+                 "failure"]
         for key in self.content:
             if key not in known:
                 self.problems.unknown((key,), known)
@@ -85,6 +86,8 @@ class Loader:
         scene = Scene(title=str(title), model=self.model, names={n: i for n, i in self.names.items() if i is not None},
                       pipes=self.pipes, programme_units=self.units)
         Asked(self).settings(scene)
+        scene.variability = variability.Reader(self).variability()
+        scene.failures = failure.Reader(self, scene.limits).failures()
         compiled = self.read(("compile",), self.table(("compile",)), fields_of(DEFINITIONS["compile"]))
         if not self.problems.found:
             self._compile(compiled)

@@ -10,7 +10,7 @@ from typing import Any
 from .. import enums
 from .._structs import Id, Place
 from ..model import Model
-from . import fields, units
+from . import failure, fields, units, variability
 from .asked import LIMITS, OUTPUT, RUN
 from .content import ANALYSES, PARTS, Scene
 from .fields import DEFINITIONS, fields_of
@@ -215,6 +215,18 @@ class Writer:
         for name in ANALYSES:
             if name in self.scene.analyses:
                 self._analysis(name, self.scene.analyses[name])
+        self._chance(self.scene)
+
+    def _chance(self, scene: Scene) -> None:
+        """What varies and what counts as a failure."""
+        for head, table in variability.tables_of(scene.variability) if scene.variability else ():
+            self._head(head)
+            for key, value in table.items():
+                self._key(key, value)
+        for one in scene.failures:
+            self._head("[[failure]]")
+            for key, value in failure.table_of(one).items():
+                self._key(key, value)
 
     def _analysis(self, name: str, values: dict[str, Any]) -> None:
         assert self.scene is not None

@@ -5,6 +5,7 @@ import json
 from typing import Any
 
 from .. import enums
+from . import failure, variability
 from .asked import LIMITS, OUTPUT, RUN
 from .content import ANALYSES, PARTS
 from .fields import DEFINITIONS, Field, fields_of, words_of
@@ -71,6 +72,9 @@ def schema() -> dict[str, Any]:
         properties[kind] = _many(_object(fields_of(DEFINITIONS[kind]), **more))
     for kind in ANALYSES:
         properties[kind] = _object(fields_of(DEFINITIONS[kind]), **_asked(kind))
+    number = {"type": ["number", "string"]}
+    properties["variability"] = variability.schema(_many, _object, number, _NAME)
+    properties["failure"] = failure.schema(_many, _object, number, _NAME)
     return {"$schema": "http://json-schema.org/draft-07/schema#", "title": "A scene of libdrillmbd", "type": "object",
             "additionalProperties": False, "properties": properties}
 

@@ -1,0 +1,203 @@
+"""A sample of a scene: standard normal numbers z to values of all that varies, and to changes of the scene file."""
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+from .._optional import need
+from ..enums import TERM_CONSTANT, TERM_HARMONIC, TERM_STEP, TERM_STEP5, TERM_TABLE
+from ..scene import Scene
+from ..scene.terms import _term as known_term
+from ..scene.units import text
+from ..scene.variability import RandomField, RandomProcess, normal_correlation
+from .fields import Expansion, Markov, expansion
+from .marginals import Translation
+
+
+class CannotDraw(ValueError):
+    """Something that varies and does not fit the scene."""
+
+
+def value_of_terms(terms: list[dict[str, Any]], time: float) -> float:
+    """A programme at a time, by its described terms."""
+    numpy, total = need("numpy"), 0.0
+    for term in terms:
+        kind = TERM_TABLE if term.get("table") else term.get("kind", TERM_CONSTANT)
+        if term.get("function") is not None:
+            total += term["function"](time)[0]
+        elif kind == TERM_TABLE:
+            times, values = zip(*term["table"])
+            total += float(numpy.interp(time, times, values))
+        elif kind == TERM_STEP5:
+            d = min(max((time - term.get("x0", 0.0)) / (term.get("x1", 1.0) - term.get("x0", 0.0)), 0.0), 1.0)
+            total += term.get("h0", 0.0) + (term.get("h1", 0.0) - term.get("h0", 0.0)) * d ** 3 * (10.0 - 15.0 * d + 6.0 * d * d)
+        elif kind in (TERM_CONSTANT, TERM_STEP, TERM_HARMONIC):
+            total += known_term(time, term)[1]
+        else:
+            raise CannotDraw(f"a term of kind {kind} cannot be multiplied; use how = \"added\"")
+    return total
+
+
+class Draw:
+    """The parts of z are those of the scattered parameters, then of each field, then of each process, in the order of the
+    scene file."""
+
+    def __init__(self, scene: Scene) -> None:
+        if scene.variability is None:
+            raise CannotDraw("the scene has no [variability]")
+        self.scene, self.varies = scene, scene.variability
+        self.translations = {one.name: Translation(one.marginal)
+                             for one in self.varies.parts}
+        numpy = need("numpy")
+        self.mix = numpy.linalg.cholesky(normal_correlation(self.varies)) if self.varies.scatters else numpy.zeros((0, 0))
+        self.fields: list[tuple[RandomField, Expansion]] = [(one, self._field(one)) for one in self.varies.fields]
+        self.processes: list[tuple[RandomProcess, Expansion | Markov, Any]] = [
+            (one, *self._process(one)) for one in self.varies.processes]
+        self._refuse_both()
+        self.sizes = [len(self.varies.scatters), *(made.modes for _, made in self.fields), *(made.modes for _, made, _ in self.processes)]
+        self.dimension = sum(self.sizes)
+
+    def _refuse_both(self) -> None:
+        """A programme that a process makes anew forgets what scatters in it."""
+        for one in self.varies.processes:
+            key = f"programme[{self._programme_number(one)}]"
+            if any(name == key or name.startswith(key + ".") for scatter in self.varies.scatters for name in scatter.keys) \
+                    or sum(other.programme == one.programme for other in self.varies.processes) > 1:
+                raise CannotDraw(f"{one.name}: the programme {one.programme} varies by something else too; make two programmes of it")
+
+    # ---- Where fields and processes live ------------------------------------------------------------------------------
+    def _field(self, one: RandomField) -> Expansion:
+        if one.key.startswith("hole.survey"):
+            points = tuple(float(row[0]) for row in self._stations())
+        else:
+            points, at = (), 0.0
+            for length, count in self._pipes(one):
+                points += tuple(at + (i + 0.5) * length for i in range(count))
+                at += length * count
+        from ..scene.variability import MOST_POINTS
+        if len(points) > MOST_POINTS:
+            raise CannotDraw(f"{one.name}: the field has {len(points)} points, must be <= {MOST_POINTS}")
+        return expansion(one.kernel, one.length, points, one.modes)
+
+    def _stations(self) -> Any:
+        return next(arguments[0].get("stations") for name, arguments in self.scene.model.calls if name == "add_wall")
+
+    def _sections(self, key: str) -> list[tuple[int, dict[str, Any]]]:
+        """Number and fields of the pipes of the string that a key names."""
+        match = re.match(r"string\[(\d+)\]", key)
+        number = int(match.group(1)) if match else 0
+        strings = [made for made, (name, _) in zip(self.scene.model.ids, self._parts()) if name == "add_string"]
+        return [(arguments[0], arguments[1]) for made, (name, arguments) in zip(self.scene.model.ids, self._parts())
+                if name == "add_pipes" and made == strings[number]]
+
+    def _parts(self) -> list[tuple[str, tuple[Any, ...]]]:
+        return [one for one in self.scene.model.calls if one[0] not in ("set_environment", "compile")]
+
+    def _pipes(self, one: RandomField) -> list[tuple[float, int]]:
+        return [(fields.get("length", 1.0), count) for count, fields in self._sections(one.key)]
+
+    def _process(self, one: RandomProcess) -> tuple[Expansion | Markov, Any]:
+        numpy = need("numpy")
+        end = self.scene.run.get("end", 0.0)
+        if not end > 0.0:
+            raise CannotDraw(f"{one.name}: a process in time needs [run] end")
+        count = int(math.floor(end / one.spacing)) + 2
+        times = numpy.arange(count) * one.spacing
+        if one.kernel == "exponential":
+            return Markov(one.length, one.spacing, count), times
+        return expansion(one.kernel, one.length, tuple(times)), times
+
+    # ---- One sample -------------------------------------------------------------------------------------------------
+    def values(self, z: Any) -> dict[str, Any]:
+        """Of each thing that varies by its name: a number, or an array along string, hole or time."""
+        numpy = need("numpy")
+        z = numpy.asarray(z, dtype=float)
+        if z.shape != (self.dimension,):
+            raise ValueError(f"z has the shape {z.shape}, must be ({self.dimension},)")
+        parts = numpy.split(z, numpy.cumsum(self.sizes)[:-1])
+        correlated = self.mix @ parts[0]
+        found: dict[str, Any] = {one.name: float(self.translations[one.name](correlated[i]))
+                                 for i, one in enumerate(self.varies.scatters)}
+        made = [(one.name, how) for one, how in self.fields] + [(one.name, how) for one, how, _ in self.processes]
+        found.update({name: self.translations[name](how(part)) for (name, how), part in zip(made, parts[1:])})
+        return found
+
+    def changes(self, values: dict[str, Any]) -> dict[str, Any]:
+        """What scene.load takes."""
+        found: dict[str, Any] = {}
+        for one in self.varies.scatters:
+            for key, base, unit in zip(one.keys, one.base or (1.0,) * len(one.keys), one.units):
+                found[key] = text(values[one.name] * base, unit)
+        self._field_changes(values, found)
+        for process, _, times in self.processes:
+            found.update(self._programme(process, times, values[process.name]))
+        return found
+
+    def _field_changes(self, values: dict[str, Any], found: dict[str, Any]) -> None:
+        survey = [one for one, _ in self.fields if one.key.startswith("hole.survey")]
+        if survey:
+            rows = [list(row) for row in self._stations()]
+            for one in survey:
+                column = 1 if one.key.endswith("inclination") else 2
+                for row, error in zip(rows, values[one.name]):
+                    row[column] = row[column] * error if one.relative else row[column] + error
+                    row[1] = min(max(row[1], 0.0), math.pi) if column == 1 else row[1]
+            found["hole.survey_file"] = None
+            found["hole.survey"] = [[text(float(number), unit) for number, unit in zip(row, ("m", "rad", "rad"))] for row in rows]
+        for key in dict.fromkeys(one.key.split(".")[0] for one, _ in self.fields if one.key.startswith("string")):
+            found[f"{key}.pipes"] = self._pipe_tables(key, values, found)
+
+    def _pipe_tables(self, string: str, values: dict[str, Any], found: dict[str, Any]) -> list[dict[str, Any]]:
+        """One table for each pipe, with its own values and those that scatter for all."""
+        from ..scene import fields as known
+        struct = known.fields_of(known.DEFINITIONS["pipes"])
+        tables, at = [], 0
+        for section, (count, fields) in enumerate(self._sections(string)):
+            own = {key: known.write(struct[key], value) for key, value in fields.items() if key in struct and key != "string"}
+            for key in [key for key in found if re.fullmatch(re.escape(string) + rf"\.pipes(\[{section}\])?\.\w+", key)]:
+                own[key.rsplit(".", 1)[1]] = found[key]
+            for pipe in range(count):
+                one = dict(own, count=1, **({"seed": int(fields.get("seed", 1)) + pipe}))
+                for varied, _ in self.fields:
+                    if varied.key.startswith(string + "."):
+                        name = varied.key.rsplit(".", 1)[1]
+                        value = float(values[varied.name][at + pipe])
+                        one[name] = text(value * fields.get(name, getattr(known.DEFINITIONS["pipes"](), name))
+                                         if varied.relative else value, struct[name].unit or "-")
+                tables.append(one)
+            at += count
+        for key in [key for key in found if key.startswith(string + ".pipes")]:
+            del found[key]  # they stand in the tables now
+        return tables
+
+    def _programme_number(self, one: RandomProcess) -> int:
+        made = [made for made, (name, _) in zip(self.scene.model.ids, self._parts()) if name == "add_programme"]
+        return made.index(self.scene.names[one.programme])
+
+    def _programme(self, one: RandomProcess, times: Any, factors: Any) -> dict[str, Any]:
+        number = self._programme_number(one)
+        terms = [arguments for name, arguments in self._parts() if name == "add_programme"][number]
+        unit = self.scene.programme_units[one.programme]
+        if one.how == "added":
+            rows = [[text(float(t), "s"), text(float(v), unit)] for t, v in zip(times, factors)]
+            return {f"programme[{number}].term": [*self._written(list(terms), unit), {"table": rows}]}
+        rows = [[text(float(t), "s"), text(value_of_terms(list(terms), float(t)) * float(v), unit)] for t, v in zip(times, factors)]
+        return {f"programme[{number}].term": [{"table": rows}]}
+
+    def _written(self, terms: list[dict[str, Any]], unit: str) -> list[dict[str, Any]]:
+        from ..scene import fields as known
+        struct = known.fields_of(known.DEFINITIONS["term"])
+        found = []
+        for term in terms:
+            if term.get("function") is not None:
+                raise CannotDraw("a programme per revolution cannot be added to")
+            one = {key: known.write(struct[key], value, unit if key in ("h0", "h1") else None)
+                   for key, value in term.items() if key in struct}
+            if term.get("table"):
+                one["table"] = [[text(float(t), "s"), text(float(v), unit)] for t, v in term["table"]]
+            found.append(one)
+        return found
+
+
+__all__ = ["CannotDraw", "Draw", "value_of_terms"]

@@ -1,0 +1,198 @@
+"""Limit states: what a run shows of each failure, and its margin. A limit state asks for signals (series in time, looked at
+in regular intervals) and makes one number of them, the demand; the margin is limit - demand (demand - limit where
+little is bad), below 0 in a failure."""
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from .. import enums, station
+from .._keep import as_place
+from .._optional import need
+from ..profile import values_of
+from ..scene.failure import Failure
+from ..sim import Sim
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+
+#: Signals are named (part, quantity, what of it): of a part by CHANNEL_... "", of a string by PROFILE_... "max" or "min" over it.
+STATIONS = 200  #: of a profile, at most; one a pipe where there are fewer
+
+
+# ---- From signals to a demand ------------------------------------------------------------------------------------------
+def longest(times: Any, state: Any) -> float:
+    """[s] of the longest stretch in which the state is true: from the first to the last look at it, so that a state seen
+    once lasts 0."""
+    best = begin = 0.0
+    before = False
+    for time, now in zip(times, state):
+        if now and not before:
+            begin = float(time)
+        if now:
+            best = max(best, float(time) - begin)
+        before = bool(now)
+    return best
+
+
+def mean_in_time(times: Any, values: Any) -> float:
+    """By the trapezoidal rule."""
+    numpy = need("numpy")
+    if len(times) < 2:
+        return float(values[0])
+    return float(numpy.trapz(values, times) / (times[-1] - times[0]))
+
+
+def _rig_torque(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
+    return float(abs(s["torque"]).max())
+
+
+def _bit_stuck(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
+    return longest(times, (abs(s["spin"]) <= values["speed"]) & (abs(s["turning"]) > values["speed"]))
+
+
+def _lock_up(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
+    push = mean_in_time(times, s["push"])
+    return mean_in_time(times, s["weight"]) / push if push > 0.0 else math.inf
+
+
+def _stick_slip(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
+    mean = mean_in_time(times, abs(s["spin"]))
+    return float(s["spin"].max() - s["spin"].min()) / (2.0 * mean) if mean > 0.0 else 0.0
+
+
+def _connection(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
+    """Torque that tightens a right-hand thread (TORQUE_SIGN)."""
+    return max(0.0, float(s["most"].max()) if values["sign"] > 0.0 else float(-s["least"].min()))
+
+
+def _back_off(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
+    return max(0.0, float(-s["least"].min()) if values["sign"] > 0.0 else float(s["most"].max()))
+
+
+def _largest(times: Any, s: dict[str, Any], values: dict[str, float]) -> float:
+    known = s["value"][~need("numpy").isnan(s["value"])]
+    return float(known.max()) * values.get("factor", 1.0) if len(known) else math.nan
+
+
+def _profile(quantity: int) -> dict[str, tuple[str, int, str]]:
+    return {"value": ("string", int(quantity), "max")}
+
+
+@dataclass(frozen=True)
+class How:
+    """How the demand of a kind is found."""
+    demand: Callable[[Any, dict[str, Any], dict[str, float]], float]
+    signals: dict[str, tuple[str, int, str]]  #: part, quantity, what of it
+    fails_below: bool = False
+
+
+C, P = enums.Quantity, enums.ProfileQuantity
+HOW: dict[str, How] = {
+    "bit-stuck": How(_bit_stuck, {"spin": ("bit", C.SPIN, ""), "turning": ("head", C.DRIVE_SPEED, "")}),
+    "rig-torque": How(_rig_torque, {"torque": ("head", C.DRIVE_FORCE, "")}),
+    "rig-push": How(_largest, {"value": ("feed", C.DRIVE_FORCE, "")}),
+    "rig-pull": How(lambda t, s, v: float(-s["value"].min()), {"value": ("feed", C.DRIVE_FORCE, "")}),
+    "lock-up": How(_lock_up, {"push": ("feed", C.DRIVE_FORCE, ""), "weight": ("bit", C.BIT_WEIGHT, "")}, True),
+    "helical-buckling": How(_largest, _profile(P.HELICAL_SHARE)),
+    "stress": How(_largest, _profile(P.VON_MISES)),
+    "connection-torque": How(_connection, {"most": ("string", P.TORQUE, "max"), "least": ("string", P.TORQUE, "min")}),
+    "back-off": How(_back_off, {"most": ("string", P.TORQUE, "max"), "least": ("string", P.TORQUE, "min")}),
+    "fatigue": How(_largest, {"value": ("string", -1, "damage")}),
+    "lateral-acceleration": How(_largest, _profile(P.ACCELERATION_LATERAL)),
+    "bit-off-bottom": How(lambda t, s, v: longest(t, s["weight"] <= v["load"]), {"weight": ("bit", C.BIT_WEIGHT, "")}),
+    "wall-pressure": How(_largest, _profile(P.NORMAL_FORCE)),
+    "stick-slip": How(_stick_slip, {"spin": ("bit", C.SPIN, "")})}
+
+
+def margin(failure: Failure, times: Any, signals: dict[str, Any]) -> tuple[float, float]:
+    """Margin and demand of a failure, by its signals in time. NaN is refused: it is no margin."""
+    numpy = need("numpy")
+    how, values = HOW[failure.kind], dict(failure.values)
+    keep = (times >= values.get("from", -math.inf)) & (times <= values.get("to", math.inf))
+    if not keep.any():
+        raise ValueError(f"{failure.name}: no look at the run within from .. to; it was looked at {times[0]:g} .. {times[-1]:g} s")
+    values.update(factor={"stress": 1.0 / values.get("strength", 1.0), "wall-pressure": 1.0 / values.get("width", 1.0)}.get(failure.kind, 1.0))
+    values.setdefault("sign", TORQUE_SIGN)
+    demand = how.demand(times[keep], {name: numpy.asarray(one)[keep] for name, one in signals.items()}, values)
+    if math.isnan(demand):
+        raise ValueError(f"{failure.name}: the demand is not a number; the scene lacks what {failure.kind} is about")
+    return (demand - failure.limit if how.fails_below else failure.limit - demand), demand
+
+
+#: Sign of the section torque where a rig turns a string towards +x against a resistance, clockwise looking into the hole,
+#: which tightens right-hand threads: the far part holds back, so the moment that it exerts on the near one is < 0.
+TORQUE_SIGN = -1.0
+
+
+# ---- Signals of a run ----------------------------------------------------------------------------------------------------
+class Watch:
+    """Takes the signals that some failures need, at each look."""
+
+    def __init__(self, scene: Scene, sim: Sim, failures: list[Failure], looks: int) -> None:
+        self.scene, self.sim, self.failures = scene, sim, [one for one in failures if one.kind != "own"]
+        asked = {(one.names[part], quantity, what) for one in self.failures for part, quantity, what in HOW[one.kind].signals.values()}
+        self.channels = sorted(one for one in asked if one[2] == "")
+        self.profiles = sorted(one for one in asked if one[2] in ("max", "min"))
+        self.counters = {one.name: self._fatigue(one) for one in self.failures if one.kind == "fatigue"}
+        places = [(as_place(scene.names[name]), quantity) for name, quantity, _ in self.channels]
+        self.recorder = sim.recorder(places, looks + 2) if places else None
+        self.times: list[float] = []
+        self.rows: list[list[float]] = []
+
+    def _fatigue(self, one: Failure) -> Any:
+        name = one.names["string"]
+        pipes = self.scene.pipes[name]
+        count = min(pipes, STATIONS)
+        places = [station(self.scene.names[name], round((i + 0.5) * pipes / count - 0.5), 0.5) for i in range(count)]
+        values: dict[str, Any] = {key: one.values[key] for key in ("curve_stress", "curve_cycles", "slope", "endurance", "concentration")}
+        values["stress_range"] = 2.0 * self.scene.limits.get("yield_stress", 5e8)
+        return self.sim.fatigue(places, **values), count
+
+    def look(self) -> None:
+        """One more."""
+        self.times.append(self.sim.time)
+        if self.recorder is not None:
+            self.recorder.take()
+        for counter, _ in self.counters.values():
+            counter.take()
+        self.rows.append(self._extremes())
+
+    def _extremes(self) -> list[float]:
+        numpy = need("numpy")
+        row = [math.nan] * len(self.profiles)
+        for name in dict.fromkeys(one[0] for one in self.profiles):
+            mine = [(i, one) for i, one in enumerate(self.profiles) if one[0] == name]
+            quantities = list(dict.fromkeys(one[1] for _, one in mine))
+            table = values_of(self.sim, self.scene.names[name], quantities, count=min(self.scene.pipes[name], STATIONS) + 1)
+            for i, (_, quantity, what) in mine:
+                column = table[:, quantities.index(quantity)]
+                if not numpy.isnan(column).all():
+                    row[i] = float(numpy.nanmax(column) if what == "max" else numpy.nanmin(column))
+        return row
+
+    def signals(self, failure: Failure) -> dict[str, Any]:
+        """The series of one failure."""
+        numpy, found = need("numpy"), {}
+        table = None if self.recorder is None else numpy.array(self.recorder.table)
+        rows = numpy.array(self.rows)
+        for signal, (part, quantity, what) in HOW[failure.kind].signals.items():
+            key = (failure.names[part], int(quantity), what)
+            if what == "damage":
+                counter, count = self.counters[failure.name]
+                worst = max(counter.result(i).damage for i in range(count))
+                found[signal] = numpy.full(len(self.times), worst)
+            elif what == "":
+                assert table is not None
+                found[signal] = table[:, 1 + [(a, int(b), c) for a, b, c in self.channels].index(key)]
+            else:
+                found[signal] = rows[:, [(a, int(b), c) for a, b, c in self.profiles].index(key)]
+        return found
+
+    def margins(self) -> dict[str, tuple[float, float]]:
+        """Margin and demand of each failure, by its name."""
+        times = need("numpy").array(self.times)
+        return {one.name: margin(one, times, self.signals(one)) for one in self.failures}
+

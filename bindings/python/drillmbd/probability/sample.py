@@ -1,0 +1,188 @@
+"""One sample of a scene, from its standard normal numbers to the margins of its failures. Pickles, for workers."""
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import inspect
+import math
+import pathlib
+import time as clock
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from .._optional import need
+from ..errors import Error
+from ..scene import CannotSave, Scene, SceneError, loads
+from .draw import CannotDraw, Draw
+from .limits import Watch
+
+DONE, FAILED = 1, 2  #: of a sample: it has margins; it has a message instead
+
+
+@dataclass
+class Result:
+    """What became of a sample."""
+    number: int
+    status: int                    #: DONE or FAILED
+    margins: list[float]           #: of each failure; NaN where it FAILED
+    demands: list[float]
+    inputs: list[float]            #: scattered parameters (SI or factors); of fields and processes their means
+    seconds: float                 #: by the clock
+    message: str = ""
+
+
+@dataclass(frozen=True)
+class Own:
+    """A function of Python as a limit state, by its file and name: function(look) -> margin, where look is an OwnLook.
+    From a file, so that workers on other machines have it."""
+    file: str
+    name: str
+
+    def load(self) -> Callable[[OwnLook], float]:
+        """The function."""
+        spec = importlib.util.spec_from_file_location("drillmbd_own_" + hashlib.sha256(self.file.encode()).hexdigest()[:12], self.file)
+        if spec is None or spec.loader is None:
+            raise ImportError(f"{self.file} is no file of Python")
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        found = getattr(module, self.name, None)
+        if not callable(found):
+            raise ImportError(f"{self.file} has no function {self.name}")
+        return found  # type: ignore[no-any-return]
+
+    @property
+    def source(self) -> str:
+        """Its text, by which a study knows whether it is the same."""
+        return f"{pathlib.Path(self.file).read_text(encoding='utf-8')}\n:{self.name}"
+
+
+@dataclass
+class OwnLook:
+    """What a limit state of one's own may look at, after the run."""
+    scene: Scene
+    sim: Any                       #: at the end of the run
+    values: dict[str, Any]         #: of all that varies in this sample
+    times: Any                     #: [s] of the looks
+    channels: dict[str, Any]       #: the scene's [[channel]] by name, as arrays in time
+
+
+def source_of(own: Any) -> str:
+    """The text of an Own or of a function."""
+    return own.source if isinstance(own, Own) else inspect.getsource(own)
+
+
+@dataclass
+class SceneSample:
+    """evaluate(number, z) -> Result, of a scene given as text."""
+    text: str
+    name: str = "scene"
+    folder: str = "."
+    own: Mapping[str, Any] = field(default_factory=dict)  #: functions or Own by the failure's name
+    changes: Mapping[str, Any] = field(default_factory=dict)  #: of the scene, in all samples
+
+    def __post_init__(self) -> None:
+        self._draw: Draw | None = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_draw": None}
+
+    @property
+    def draw(self) -> Draw:
+        """Made once in each process."""
+        if self._draw is None:
+            scene = loads(self.text, self.name, self.folder, self.changes)
+            self._draw = Draw(scene)
+            if not scene.failures:
+                raise CannotDraw(f"{self.name} has no [[failure]]: nothing can fail")
+            missing = [one.name for one in scene.failures if one.kind == "own" and one.name not in self.own]
+            if missing:
+                raise CannotDraw(f"failure {missing[0]} is of the kind own: give its function (command: --own {missing[0]}=FILE.py:NAME)")
+        return self._draw
+
+    @property
+    def dimension(self) -> int:
+        """Number of standard normal numbers of a sample."""
+        return self.draw.dimension
+
+    @property
+    def names(self) -> list[str]:
+        """Of the failures."""
+        return [one.name for one in self.draw.scene.failures]
+
+    @property
+    def inputs(self) -> list[str]:
+        """Of what varies."""
+        return self.draw.varies.names
+
+    def describe(self) -> dict[str, str]:
+        """What the results depend on, for the study file."""
+        from ..scene import saves
+        scene = self.draw.scene
+        known = {"scene": saves(scene)}
+        return {**known, **{f"function {name}": source_of(function) for name, function in sorted(self.own.items())}}
+
+    def __call__(self, number: int, z: Any) -> Result:
+        """A sample that the library refuses, or that does not converge, is FAILED with its message; never an exception."""
+        numpy, started, count = need("numpy"), clock.perf_counter(), len(self.names)
+        values = self.draw.values(z)
+        inputs = [float(numpy.mean(values[name])) for name in self.inputs]
+        try:
+            found = self._margins(values)
+            margins, demands, status, message = [a for a, _ in found], [b for _, b in found], DONE, ""
+        except (Error, SceneError, CannotSave, ArithmeticError, ValueError) as error:
+            margins, demands, status, message = [math.nan] * count, [math.nan] * count, FAILED, f"{type(error).__name__}: {error}"
+        return Result(number, status, margins, demands, inputs, clock.perf_counter() - started, message)
+
+    def _margins(self, values: dict[str, Any]) -> list[tuple[float, float]]:
+        scene = loads(self.text, self.name, self.folder, {**self.changes, **self.draw.changes(values)})
+        varies = self.draw.varies
+        end = scene.run.get("end", 0.0)
+        look = varies.settings.get("look") or scene.output.get("interval") or scene.run.get("step") or end
+        with scene.new_sim() as sim:
+            watch = Watch(scene, sim, scene.failures, int(end / look) + 2)
+            recorder = sim.recorder([(place, quantity, name) for name, place, quantity in scene.channels], int(end / look) + 4) \
+                if self.own and scene.channels else None
+            if varies.question == "static" or scene.run.get("static"):
+                sim.static(**scene.fields_of("static"))
+            self._run(scene, sim, end if varies.question == "run" else 0.0, look, watch, recorder)
+            found = watch.margins()
+            for one in scene.failures:
+                if one.kind == "own":
+                    found[one.name] = self._own(one.name, one.limit, scene, sim, values, watch, recorder)
+        return [found[one.name] for one in scene.failures]
+
+    @staticmethod
+    def _run(scene: Scene, sim: Any, end: float, look: float, watch: Watch, recorder: Any) -> None:
+        """Looks at the beginning, after each `look` [s] (a whole number of steps) and at the end."""
+        def take() -> None:
+            watch.look()
+            if recorder is not None:
+                recorder.take()
+        take()
+        step = scene.run.get("step")
+        if step:
+            count, each = max(0, round(end / step)), max(1, round(look / step))
+            for number in range(1, count + 1):
+                sim.step(step)
+                if number % each == 0 or number == count:
+                    take()
+            return
+        count = math.ceil(end / look - 1e-9) if end > 0.0 else 0
+        for number in range(1, count + 1):
+            sim.run(min(number * look, end))
+            take()
+
+    def _own(self, name: str, limit: float, scene: Scene, sim: Any, values: dict[str, Any], watch: Watch,
+             recorder: Any) -> tuple[float, float]:
+        numpy, given = need("numpy"), self.own[name]
+        function = given.load() if isinstance(given, Own) else given
+        table = numpy.array(recorder.table) if recorder is not None else numpy.zeros((len(watch.times), 1))
+        channels = {channel: table[:, 1 + i] for i, (channel, _, _) in enumerate(scene.channels)} if recorder is not None else {}
+        try:
+            found = float(function(OwnLook(scene, sim, values, numpy.array(watch.times), channels)))
+        except Exception as error:  # anything may be wrong with it; the sample is told as failed
+            raise ValueError(f"{name}: {type(error).__name__}: {error}") from error
+        if math.isnan(found):
+            raise ValueError(f"{name}: the margin is not a number")
+        return found - limit, found

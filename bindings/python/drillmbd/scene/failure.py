@@ -1,0 +1,176 @@
+"""[[failure]] of a scene file: what counts as a failure, each a kind with its limit. The margins are found by
+drillmbd.probability.limits."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from .. import enums
+from .._structs import Id
+from . import units
+from .fields import Field
+from .lines import Path
+from .problems import meant
+
+if TYPE_CHECKING:
+    from .load import Loader
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What a kind of failure needs."""
+    unit: str                          #: of the limit
+    about: str
+    default: float | str | None = None  #: of the limit; a text names a key of [limits]
+    needs: str = ""                    #: "bit", "head" (drive of rotation), "feed", "string"
+    more: dict[str, tuple[str, float | None]] | None = None  #: further keys: unit and default
+
+
+KINDS: dict[str, Kind] = {
+    "bit-stuck": Kind("s", "longest time that the bit does not turn while the rig does", None, "bit,head", {"speed": ("rad/s", 0.1)}),
+    "rig-torque": Kind("N m", "largest torque of the rotation drive", "torque", "head"),
+    "rig-push": Kind("N", "largest push of the feed drive", "push", "feed"),
+    "rig-pull": Kind("N", "largest pull of the feed drive", "pull", "feed"),
+    "lock-up": Kind("-", "share of the push at the rig that arrives as load of the bit, means over the time; fails below", 0.1,
+                    "bit,feed"),
+    "helical-buckling": Kind("-", "largest share of the load of helical buckling", 1.0, "string"),
+    "stress": Kind("-", "largest equivalent stress over the strength", 1.0, "string", {"strength": ("Pa", None)}),
+    "connection-torque": Kind("N m", "largest torque that tightens right-hand threads, as turning towards +x does", None, "string"),
+    "back-off": Kind("N m", "largest torque that loosens right-hand threads", None, "string"),
+    "fatigue": Kind("-", "damage of a pass (Miner's sum)", 1.0, "string",
+                    {"curve_stress": ("Pa", None), "curve_cycles": ("-", 1e6), "slope": ("-", None), "endurance": ("Pa", 0.0),
+                     "concentration": ("-", 1.0)}),
+    "lateral-acceleration": Kind("m/s2", "largest acceleration across the axis", None, "string"),
+    "bit-off-bottom": Kind("s", "longest time that the bit's weight is no more than `load`", None, "bit", {"load": ("N", 0.0)}),
+    "wall-pressure": Kind("Pa", "largest wall force per length over the `width` that bears it", None, "string", {"width": ("m", None)}),
+    "stick-slip": Kind("-", "(largest - smallest spin of the bit)/(2 mean of its magnitude)", 1.0, "bit"),
+    "own": Kind("-", "a function of Python that is given to the study by the failure's name", 0.0)}
+
+
+#: Kinds that one state at rest says nothing about.
+NEED_RUN = ("bit-stuck", "fatigue", "lateral-acceleration", "bit-off-bottom", "stick-slip")
+
+
+@dataclass
+class Failure:
+    """A limit state."""
+    name: str
+    kind: str
+    limit: float                #: in the kind's unit
+    values: dict[str, float]    #: further keys of the kind, and from, to [s]
+    parts: dict[str, Id]        #: bit, head, feed, string
+    names: dict[str, str]       #: of these parts
+
+
+class Reader:
+    """Reads the tables with the problems of a loader."""
+
+    def __init__(self, loader: Loader, limits: dict[str, float]) -> None:
+        self.loader, self.problems, self.limits = loader, loader.problems, limits
+        self.names: set[str] = set()
+
+    def failures(self) -> list[Failure]:
+        """All of the scene."""
+        found = [self._failure(path, number, table) for number, (path, table) in enumerate(self.loader.parts("failure"))]
+        return [one for one in found if one is not None]
+
+    def _failure(self, path: Path, number: int, table: dict[str, Any]) -> Failure | None:
+        word = table.get("kind")
+        if not isinstance(word, str) or word not in KINDS:
+            self.problems.add(path + ("kind",) if "kind" in table else path, word,
+                              "must be one of the kinds" + meant(str(word), KINDS) if "kind" in table else
+                              f"must have a kind; possible are {', '.join(KINDS)}")
+            return None
+        name = table.get("name", word)
+        if not isinstance(name, str) or not name:
+            self.problems.add(path + ("name",), name, "must be a text that is not empty")
+        elif name in self.names:
+            self.problems.add(path + ("name",), name, "names a failure already; give each a name of its own")
+        self.names.add(str(name))
+        if word in NEED_RUN and self.loader.table(("variability",)).get("question") == "static":
+            self.problems.add(path + ("kind",), word, 'needs a run in time: [variability] question = "run"')
+        kind = KINDS[word]
+        keys = {"limit": Field("limit", "quantity", kind.unit), "from": Field("from", "quantity", "s"), "to": Field("to", "quantity", "s"),
+                **{key: Field(key, "quantity", unit) for key, (unit, _) in (kind.more or {}).items()}}
+        needs = [one for one in kind.needs.split(",") if one]
+        values = self.loader.read(path, table, keys, ("name", "kind", *needs))
+        self._defaults(path, table, kind, word, values)
+        parts, names = self._parts(path, table, needs)
+        if "limit" not in values or len(parts) < len(needs):
+            return None
+        return Failure(str(name), word, values.pop("limit"), values, parts, names)
+
+    def _defaults(self, path: Path, table: dict[str, Any], kind: Kind, word: str, values: dict[str, float]) -> None:
+        for key, (unit, default) in (kind.more or {}).items():
+            if key == "strength" and default is None:
+                default = self.limits.get("yield_stress")
+            if key not in table and default is not None:
+                values[key] = default
+            elif key not in table:
+                self.problems.add(path, None, f"{word} must have a {key} [{unit}]")
+            elif key in values and values[key] < 0.0:
+                self.problems.add(path + (key,), table[key], "must be >= 0")
+        for key in ("strength", "width", "curve_stress", "curve_cycles", "slope"):
+            if values.get(key) == 0.0:
+                self.problems.add(path + (key,), table.get(key), "must be > 0")
+        limit = self.limits.get(kind.default) if isinstance(kind.default, str) else kind.default
+        if "limit" not in table and limit is not None:
+            values["limit"] = limit
+        elif "limit" not in table:
+            also = f", or [limits] {kind.default}" if isinstance(kind.default, str) else ""
+            self.problems.add(path, None, f"{word} must have a limit [{kind.unit}]{also}")
+        elif "limit" in values and word != "own" and not values["limit"] > 0.0:
+            self.problems.add(path + ("limit",), table["limit"], "must be > 0")
+        if "from" in values and "to" in values and not values["to"] > values["from"]:
+            self.problems.add(path + ("to",), table["to"], "must be > from")
+
+    def _parts(self, path: Path, table: dict[str, Any], needs: list[str]) -> tuple[dict[str, Id], dict[str, str]]:
+        """The parts that a kind is about: as written, or the only one that fits."""
+        parts, names = dict[str, Id](), dict[str, str]()
+        for need in needs:
+            if need in table:
+                name = table[need]
+                known = self._fitting(need)
+                if not isinstance(name, str) or name not in known:
+                    self.problems.add(path + (need,), name, f"must name {_called(need)}" + meant(str(name), known))
+                    continue
+            else:
+                known = self._fitting(need)
+                if not known or (len(known) > 1 and need != "string"):
+                    self.problems.add(path, None, f"must name {_called(need)}: {need} = ..." + meant("", known))
+                    continue
+                name = known[0]
+            made = self.loader.names.get(name)
+            if made is not None:
+                parts[need], names[need] = made, name
+        return parts, names
+
+    def _fitting(self, need: str) -> list[str]:
+        if need in ("bit", "string"):
+            return [self.loader.name(need, number, table) for number, (_, table) in enumerate(self.loader.parts(need))]
+        wanted = int(enums.Component.RX if need == "head" else enums.Component.X)
+        from .fields import DEFINITIONS, fields_of
+        component = fields_of(DEFINITIONS["drive"])["component"]
+        return [self.loader.name("drive", number, table) for number, (_, table) in enumerate(self.loader.parts("drive"))
+                if self.loader.word(component, table.get("component"), 0) == wanted]
+
+
+def _called(need: str) -> str:
+    return {"bit": "a bit", "string": "a string", "head": "a drive of rotation (rx)", "feed": "a drive along the string (x)"}[need]
+
+
+def table_of(one: Failure) -> dict[str, Any]:
+    """The keys of a failure as they are written."""
+    kind = KINDS[one.kind]
+    known = {"from": "s", "to": "s", **{key: unit for key, (unit, _) in (kind.more or {}).items()}}
+    return {"name": one.name, "kind": one.kind, "limit": units.text(one.limit, kind.unit), **one.names,
+            **{key: units.text(value, known[key]) for key, value in one.values.items()}}
+
+
+def schema(many: Any, table: Any, quantity: Any, name: Any) -> dict[str, Any]:
+    """The part of the JSON schema, by functions of scene.schema."""
+    keys = {key for kind in KINDS.values() for key in kind.more or {}} | {"limit", "from", "to"}
+    parts = {one for kind in KINDS.values() for one in kind.needs.split(",") if one}
+    about = "; ".join(f"{word} [{kind.unit}]: {kind.about}" for word, kind in KINDS.items())
+    return many(table({}, ("kind",), name=name, kind={"enum": list(KINDS), "description": about},  # type: ignore[no-any-return]
+                      **{key: quantity for key in sorted(keys)}, **{key: name for key in sorted(parts)}))
