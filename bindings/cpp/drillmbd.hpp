@@ -355,6 +355,51 @@ private:
     dmb_fatigue *handle_;
 };
 
+// A window over channels.
+class window {
+public:
+    explicit window(dmb_window *handle = nullptr) noexcept : handle_(handle) {}
+    window(window &&other) noexcept : handle_(other.release()) {}
+    window &operator=(window &&other) noexcept
+    {
+        if (this != &other) reset(other.release());
+        return *this;
+    }
+    window(const window &) = delete;
+    window &operator=(const window &) = delete;
+    ~window() { dmb_window_destroy(&handle_); }
+
+    dmb_window *get() const noexcept { return handle_; }
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+    // The handle, now the caller's to destroy.
+    dmb_window *release() noexcept
+    {
+        dmb_window *given = handle_;
+        handle_ = nullptr;
+        return given;
+    }
+    // Takes over a handle, or nothing.
+    void reset(dmb_window *handle = nullptr) noexcept
+    {
+        dmb_window_destroy(&handle_);
+        handle_ = handle;
+    }
+
+#if defined(DRILLMBD_EXCEPTIONS)
+    void take(const dmb_sim *sim) { check(dmb_window_take(handle_, sim)); }
+    void reset_samples() { check(dmb_window_reset(handle_)); }
+    dmb_window_result result(std::uint32_t channel = 0) const
+    {
+        dmb_window_result answer = dmb_window_result_default();
+        check(dmb_window_get(handle_, channel, &answer));
+        return answer;
+    }
+#endif
+
+private:
+    dmb_window *handle_;
+};
+
 // What sim::response finds.
 class response {
 public:
@@ -623,6 +668,12 @@ public:
         done(dmb_fatigue_create(handle_, &options, places.data(), static_cast<std::uint32_t>(places.size()), &made));
         return drillmbd::fatigue(made);
     }
+    drillmbd::window window(const std::vector<dmb_channel> &channels, const dmb_window_options *options = nullptr)
+    {
+        dmb_window *made = nullptr;
+        done(dmb_window_create(handle_, options, channels.data(), static_cast<std::uint32_t>(channels.size()), &made));
+        return drillmbd::window(made);
+    }
     drillmbd::modes modes(const dmb_modes_options *options = nullptr)
     {
         dmb_modes *found = nullptr;
@@ -712,6 +763,18 @@ public:
         check(dmb_analysis_check_text(handle_, &text[0], needed, nullptr));
         text.resize(needed - 1);
         return text;
+    }
+    // A channel DMB_CHANNEL_... at a place; {}: the first string, or none.
+    double channel(std::int32_t quantity, const dmb_place &place = dmb_place{}) const
+    {
+        const dmb_channel asked = {place, quantity, 0};
+        double value = 0.0;
+        check(dmb_query_channel(handle_, &asked, &value));
+        return value;
+    }
+    std::int32_t record(dmb_profile_recorder &recorder) const
+    {
+        return check(dmb_profile_recorder_take(&recorder, handle_));
     }
     std::int32_t record(dmb_recorder &recorder) const { return check(dmb_recorder_take(&recorder, handle_)); }
     void write_vtk(std::uint32_t per_element, const char *path) const

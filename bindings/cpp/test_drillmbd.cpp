@@ -114,6 +114,10 @@ void scene_from_end_to_end()
     drillmbd::fatigue fatigue = sim.fatigue(curve, {dmb_station(made.string, 2, 0.5)});
     fatigue.take(sim.get());
     EXPECT(fatigue.result().samples == 1);
+    drillmbd::window window = sim.window({dmb_channel{dmb_place{}, DMB_CHANNEL_BIT_SPEED, 0}});
+    window.take(sim.get());
+    EXPECT(window.result().mean == sim.channel(DMB_CHANNEL_BIT_SPEED));
+    EXPECT(thrown_by([&] { sim.channel(DMB_CHANNEL_JOINT_STATE); }) == DMB_ERR_ID);
     EXPECT(std::isfinite(sim.torque_drag({dmb_operation_default()}).at(0).hook_load));
     EXPECT(std::isfinite(sim.profile({DMB_PROFILE_TORQUE}, {0.5, 1.5}).at(1)));
     EXPECT(std::isfinite(sim.section(dmb_station(made.string, 2, 0.5)).force[0]));

@@ -19,7 +19,7 @@ ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "TERM_C
               "ROCK_NONE": "RockLaw", "JOINT_FIXED": "JointKind", "JOINT_ACTIVE": "JointMode",
               "CONSTRAINT_HOLONOMIC": "ConstraintKind", "PROVIDES_RATE": "ProgrammeProvides",
               "PROVIDES_JACOBIAN": "ConstraintProvides", "DRIVE_MOTION": "DriveKind",
-              "CHANNEL_DISPLACEMENT_X": "Quantity", "INPUT_DRIVE": "InputKind", "OUTPUT_DISPLACEMENT": "OutputKind",
+              "CHANNEL_DISPLACEMENT_X": "Quantity", "CHANNEL_HOOK_LOAD": "Reading", "INPUT_DRIVE": "InputKind", "OUTPUT_DISPLACEMENT": "OutputKind",
               "PATH_REGULAR": "PathKind", "CONTACT_AS_IS": "ContactState", "MODES_UNDAMPED": "ModesKind",
               "MODES_LOWEST": "ModesSelect",
               "MODES_AXES_TURNING": "ModesAxes", "MODES_AXES_TURNING": "ModesAxes",
@@ -28,7 +28,8 @@ ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "TERM_C
               "STATIC_NEWTON": "StaticMethod", "METHOD_INDEPENDENT": "ConstraintMethod",
               "BUCKLING_EXTRAPOLATED": "BucklingEnd", "SCALE_ALL": "Scale"}
 FLAGS = ("FREE", "FEATURE", "PROVIDES")  # prefixes of bits of masks
-STRUCT_NAMES = {"dmb_recorder": "RecorderStruct", "dmb_profile": "ProfileStruct"}
+STRUCT_NAMES = {"dmb_recorder": "RecorderStruct", "dmb_profile": "ProfileStruct",
+                "dmb_profile_recorder": "ProfileRecorderStruct"}
 MIXINS = {"Id": "IdPart", "Term": "TermPart", "WallDef": "WallPart", "ConstraintDef": "ConstraintPart"}
 NUMBERS = {"int32_t": "c_int32", "uint32_t": "c_uint32", "int64_t": "c_int64", "uint64_t": "c_uint64",
            "double": "c_double", "size_t": "c_size_t", "char": "c_char"}

@@ -309,6 +309,31 @@ class ArraysTest(unittest.TestCase):
         self.assertAlmostEqual(self.model.hole(5.0).diameter, 0.094)
         self.assertEqual(self.model.hole(5.0).dogleg_severity, 0.0)
 
+    def test_channels(self):
+        names = mbd.channel_names()
+        self.assertIn("hook_load", names)
+        self.assertEqual(mbd.channel_unit(mbd.channel_quantity("bit_speed")), "rad/s")
+        self.assertEqual(self.sim.channel("axial_force", self.places[4]), self.sim.section(self.places[4]).force[0])
+        self.assertEqual(self.sim.channel("hook_load"), self.sim.section(mbd.station(self.string, 0, 0.0)).force[0])
+        with self.assertRaises(mbd.Error) as raised:
+            self.sim.channel("joint_action_x", self.string)
+        self.assertIn("must be a joint", str(raised.exception))
+        with self.assertRaises(ValueError):
+            mbd.channel_quantity("hookload")
+        window = self.sim.window([(None, "bit_speed")], length=1.0, levels=[0.1])
+        recorder = self.sim.recorder([(0, "stick_slip_index"), (None, "stretch")], 4, window=window)
+        rows = self.sim.profile_recorder([mbd.PROFILE_DISTANCE, mbd.PROFILE_TORQUE], 5, 3)
+        window.take()
+        recorder.take()
+        rows.take()
+        self.assertEqual(window.result().samples, 1)
+        self.assertEqual(recorder.columns[1:], ["stick_slip_index [-]", "stretch [m]"])
+        self.assertEqual(rows.columns, ["distance [m]", "torque [N m]"])
+        if mbd.numpy is not None:
+            self.assertEqual(rows.values.shape, (1, 5, 2))
+            self.assertAlmostEqual(rows.values[0, -1, 0], 10.0)
+        window.reset()
+
     def test_fatigue(self):
         counted = self.sim.fatigue([self.places[4]], curve_stress=1e8, slope=4.0, classes=64)
         counted.take()

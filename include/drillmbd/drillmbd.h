@@ -7,6 +7,7 @@
 #include "drilling.h"
 #include "model.h"
 #include "modes.h"
+#include "output.h"
 #include "query.h"
 #include "response.h"
 #include "sim.h"

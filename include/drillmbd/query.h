@@ -307,7 +307,7 @@ enum {
     DMB_CHANNEL_DRIVE_SPEED = 17,    /* [m/s, rad/s] place.part is a drive */
     DMB_CHANNEL_BIT_WEIGHT = 18,     /* [N] place.part is a bit, bottom-hole load included */
     DMB_CHANNEL_ENERGY_ERROR = 19,   /* [-] of the ledger; place is ignored */
-    DMB_CHANNEL_COUNT = 20
+    DMB_CHANNEL_COUNT = 20           /* of these; output.h goes on from number 100 */
 };
 typedef struct dmb_channel {
     dmb_place place;
@@ -315,6 +315,7 @@ typedef struct dmb_channel {
     int32_t reserved; /* 0 */
 } dmb_channel;
 
+typedef struct dmb_window dmb_window; /* output.h */
 typedef struct dmb_recorder {
     uint32_t struct_size;
     uint32_t channel_count;      /* [-] 1 .. 4096 */
@@ -323,6 +324,7 @@ typedef struct dmb_recorder {
     uint64_t capacity;           /* [-] rows of table */
     uint64_t row_count;          /* [-] rows written; start with 0 */
     double interval;             /* [s] between samples, 0: every call */
+    const dmb_window *window;    /* of the channels of a window (output.h), fed by the caller before; default NULL */
 } dmb_recorder;
 DMB_SIZED_STRUCT(dmb_recorder)
 /* Writes a row if its time has come. DMB_NOTE_FULL when the table has no room. O(channels). */

@@ -53,7 +53,10 @@ enum {
     DMB_OUTPUT_JOINT_REACTION = 11,
     DMB_OUTPUT_JOINT_ACTION = 12, /* joint place.part, its forces: as dmb_query_joint */
     DMB_OUTPUT_MULTIPLIER = 13,   /* number `component` of place.part, as dmb_query_multipliers */
-    DMB_OUTPUT_BIT = 14           /* [N, N m] DMB_X weight, DMB_RX torque on the bit place.part by the rock law */
+    DMB_OUTPUT_BIT = 14,          /* [N, N m] DMB_X weight, DMB_RX torque on the bit place.part by the rock law */
+    DMB_OUTPUT_CHANNEL = 15 /* the channel DMB_CHANNEL_... that `component` says, at `place`. In a stepped sine each
+                               but those of a window; in a linear analysis those that change in proportion to a small
+                               motion: not magnitudes, sums over the string, energies (DMB_ERR_UNSUPPORTED) */
     /* no outputs: energies and works, of second order; sums over contacts, bodies or states, which add up of these */
 };
 typedef struct dmb_output {

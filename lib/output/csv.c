@@ -19,7 +19,7 @@ static void put_numbered(dmb_text_file *file, const char *kind, uint32_t number)
 }
 
 /* "string 0 pipe 99 at 1", "body 2": no commas */
-static void put_place(dmb_text_file *file, const dmb_place *place)
+static void put_part(dmb_text_file *file, const dmb_place *place, int32_t part_alone)
 {
     static const char *const kinds[] = {
         "part",
@@ -36,10 +36,22 @@ static void put_place(dmb_text_file *file, const dmb_place *place)
     };
     const uint32_t kind = place->part.index >> 24, number = place->part.index & 0xFFFFFFu;
     put_numbered(file, kind < sizeof kinds / sizeof kinds[0] ? kinds[kind] : kinds[0], number);
-    if (kind != DMB_PART_STRING) return;
+    if (kind != DMB_PART_STRING || part_alone) return;
     put_numbered(file, "pipe", place->pipe);
     dmb_text_put(file, " at ");
     dmb_text_put_short(file, place->fraction);
+}
+
+/* Of an unknown quantity all that its place says. */
+static void put_place(dmb_text_file *file, const dmb_channel_entry *entry, const dmb_place *place)
+{
+    const int32_t kind = entry != NULL ? entry->place : DMB_AT_PLACE;
+    const int named = place->part.index != 0;
+    if (kind == DMB_AT_SCENE || (kind == DMB_AT_STRING && !named)) return;
+    if (kind == DMB_AT_SITE || kind == DMB_AT_WINDOW)
+        put_numbered(file, kind == DMB_AT_SITE ? "site" : "watch", place->pipe);
+    else
+        put_part(file, place, kind == DMB_AT_STRING);
 }
 
 static void put_header(dmb_text_file *file, const dmb_recorder *r)
@@ -47,10 +59,10 @@ static void put_header(dmb_text_file *file, const dmb_recorder *r)
     dmb_text_put(file, "time [s]");
     for (uint32_t i = 0; i < r->channel_count; ++i) {
         const dmb_channel *channel = &r->channels[i];
-        const dmb_channel_name *name = dmb_channel_name_of(channel->quantity);
+        const dmb_channel_entry *name = dmb_channel_name_of(channel->quantity);
         dmb_text_put(file, ",");
         dmb_text_put(file, name != NULL ? name->name : "unknown");
-        if (channel->quantity != DMB_CHANNEL_ENERGY_ERROR) put_place(file, &channel->place);
+        put_place(file, name, &channel->place);
         dmb_text_put(file, " [");
         dmb_text_put(file, name != NULL ? name->unit : "-");
         dmb_text_put(file, "]");

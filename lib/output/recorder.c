@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/sized_struct.h"
+#include "output/window.h"
 #include "query/channel.h"
 #include "sim/access.h"
 
@@ -13,9 +14,9 @@ enum { DMB_CHANNELS_MAX = 4096 };
 /* A sample that falls short of its time by this part of an interval has reached it: sums of steps round. */
 #define DMB_SAMPLE_SLACK 1e-6
 
-static int table_fits(const dmb_recorder *r)
+int dmb_table_fits(uint64_t row_count, uint64_t capacity, uint64_t width)
 {
-    return r->row_count <= r->capacity && r->capacity <= SIZE_MAX / sizeof(double) / (1u + r->channel_count);
+    return row_count <= capacity && capacity <= SIZE_MAX / sizeof(double) / width;
 }
 
 int32_t dmb_recorder_take_struct(dmb_recorder *out, const dmb_recorder *given)
@@ -27,7 +28,8 @@ int32_t dmb_recorder_take_struct(dmb_recorder *out, const dmb_recorder *given)
     if (out->channel_count < 1 || out->channel_count > DMB_CHANNELS_MAX) return DMB_ERR_VALUE;
     if (out->channels == NULL || (out->table == NULL && out->capacity > 0)) return DMB_ERR_NULL;
     if (!isfinite(out->interval)) return DMB_ERR_NOT_FINITE;
-    if (out->interval < 0.0 || !table_fits(out)) return DMB_ERR_VALUE;
+    if (out->interval < 0.0 || !dmb_table_fits(out->row_count, out->capacity, 1u + out->channel_count))
+        return DMB_ERR_VALUE;
     return DMB_OK;
 }
 
@@ -36,15 +38,23 @@ static double *row_of(const dmb_recorder *r, uint64_t row)
     return r->table + (size_t)row * (1u + r->channel_count);
 }
 
-/* Samples belong to whole multiples of the interval since the first one, so that they do not drift with the steps. */
+int dmb_sample_is_due(double interval, double first, double last, double time)
+{
+    if (!(interval > 0.0)) return 1;
+    return floor((time - first) / interval + DMB_SAMPLE_SLACK) > floor((last - first) / interval + DMB_SAMPLE_SLACK);
+}
+
 static int is_due(const dmb_recorder *r, double time)
 {
-    double first, last;
-    if (r->row_count == 0 || !(r->interval > 0.0)) return 1;
-    first = row_of(r, 0)[0];
-    last = row_of(r, r->row_count - 1)[0];
-    return floor((time - first) / r->interval + DMB_SAMPLE_SLACK) >
-           floor((last - first) / r->interval + DMB_SAMPLE_SLACK);
+    return r->row_count == 0 || dmb_sample_is_due(r->interval, row_of(r, 0)[0], row_of(r, r->row_count - 1)[0], time);
+}
+
+static int32_t value_of(const dmb_recorder *r, const dmb_sim *sim, const dmb_channel *channel, double *value)
+{
+    const dmb_channel_entry *entry = dmb_channel_name_of(channel->quantity);
+    if (entry != NULL && entry->place == DMB_AT_WINDOW && r->window != NULL)
+        return dmb_window_value(r->window, channel, value);
+    return dmb_channel_value(sim, channel, value);
 }
 
 /* The row counts only once it is whole. */
@@ -60,7 +70,7 @@ int32_t dmb_recorder_take(dmb_recorder *recorder, const dmb_sim *sim)
     row = row_of(&r, r.row_count);
     row[0] = dmb_sim_time(sim);
     for (uint32_t i = 0; i < r.channel_count; ++i) {
-        status = dmb_channel_value(sim, &r.channels[i], &row[1 + i]);
+        status = value_of(&r, sim, &r.channels[i], &row[1 + i]);
         if (status < 0) return status;
     }
     recorder->row_count = r.row_count + 1;

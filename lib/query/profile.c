@@ -1,5 +1,7 @@
 /* A string's state over its length, quantity by quantity: what dmb_query_pose, _motion, _section and _contact tell of
  * one place, and loads over limits by the pipe's definition. */
+#include "query/profile.h"
+
 #include <math.h>
 
 #include "model/section.h"
@@ -367,6 +369,17 @@ static int32_t find_string(const dmb_sim *sim, dmb_id *string, uint32_t *index)
     return *index < sim->scene->string_count ? DMB_OK : DMB_ERR_ID;
 }
 
+/* sim, place and run are set. */
+static int32_t take_station(station *at, double distance, int32_t groups)
+{
+    const int32_t status = dmb_material_point_of(at->sim, at->place, &at->point);
+    if (status < 0) return status;
+    for (int k = 0; k < DMB_PROFILE_COUNT; k++) at->values[k] = (double)NAN;
+    at->values[DMB_PROFILE_DISTANCE] = distance;
+    dmb_pipe_diameters(&at->run->def, in_tool_joint(at), at->diameters);
+    return fill(at, groups);
+}
+
 static int32_t fill_station(station_walk *walk, const dmb_profile *profile, uint32_t i, int32_t groups)
 {
     const double length = walk->sim->scene->strings[walk->string].length;
@@ -375,12 +388,7 @@ static int32_t fill_station(station_walk *walk, const dmb_profile *profile, uint
     int32_t status;
     at.place = place_at(walk, profile->string, distance);
     at.run = &walk->runs[walk->run];
-    for (int k = 0; k < DMB_PROFILE_COUNT; k++) at.values[k] = (double)NAN;
-    at.values[DMB_PROFILE_DISTANCE] = distance;
-    status = dmb_material_point_of(walk->sim, at.place, &at.point);
-    if (status < 0) return status;
-    dmb_pipe_diameters(&at.run->def, in_tool_joint(&at), at.diameters);
-    status = fill(&at, groups);
+    status = take_station(&at, distance, groups);
     for (uint32_t q = 0; q < profile->quantity_count && status >= 0; q++)
         profile->values[i * profile->station_stride + q * profile->quantity_stride] = at.values[profile->quantities[q]];
     return status;
@@ -402,5 +410,22 @@ int32_t dmb_query_profile(const dmb_sim *sim, const dmb_profile *given)
     rewind_walk(&walk);
     for (uint32_t i = 0; i < profile.station_count && status >= 0; i++)
         status = fill_station(&walk, &profile, i, groups);
+    return status;
+}
+
+int32_t dmb_profile_value(const dmb_sim *sim, dmb_place place, int32_t quantity, double *value)
+{
+    station_walk walk = {.sim = sim, .runs = sim->model->runs.items, .run_count = sim->model->runs.count};
+    station at = {.sim = sim, .place = place};
+    if (!is_quantity(quantity)) return DMB_ERR_VALUE;
+    walk.string = dmb_model_part_index(sim->model, place.part, DMB_PART_STRING);
+    if (walk.string >= sim->scene->string_count) return DMB_ERR_ID;
+    at.run = dmb_pipe_run_of(sim->model, walk.string, place.pipe);
+    if (at.run == NULL) return DMB_ERR_VALUE;
+    rewind_walk(&walk);
+    while (&walk.runs[walk.run] != at.run && to_next_run(&walk)) continue;
+    const double distance = walk.start + (place.pipe - at.run->first + place.fraction) * at.run->def.length;
+    const int32_t status = take_station(&at, distance, quantities_of[quantity].groups);
+    if (status >= 0) *value = at.values[quantity];
     return status;
 }

@@ -49,7 +49,7 @@ INIT(pose) INIT(motion) INIT(section) INIT(contact)
 INIT(contact_total) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state) INIT(statistics) INIT(recorder)
 INIT(allocator) INIT(joint_state) INIT(joint_def) INIT(coupling_def) INIT(constraint_def)
 INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row) INIT(fatigue_options)
-INIT(fatigue_result)
+INIT(fatigue_result) INIT(window_options) INIT(window_result) INIT(profile_recorder)
     /* clang-format on */
 
     static int32_t call_model_options(void *p)
@@ -311,10 +311,46 @@ static int32_t call_fatigue_result(void *p)
     return status;
 }
 
+static int32_t call_window_options(void *p)
+{
+    dmb_window *window = NULL;
+    const int32_t status = dmb_window_create(scene.sim, p, &scene.channel, 1, &window);
+    dmb_window_destroy(&window);
+    return status;
+}
+
+static int32_t call_window_result(void *p)
+{
+    dmb_window *window = NULL;
+    assert_int_equal(dmb_window_create(scene.sim, NULL, &scene.channel, 1, &window), DMB_OK);
+    const int32_t status = dmb_window_get(window, 0, p);
+    dmb_window_destroy(&window);
+    return status;
+}
+
+static int32_t call_profile_recorder(void *p)
+{
+    static const int32_t quantity = DMB_PROFILE_X;
+    static dmb_profile profile;
+    dmb_profile_recorder *recorder = p;
+    profile = dmb_profile_default();
+    profile.quantities = &quantity;
+    profile.quantity_count = 1;
+    if (recorder->struct_size >= sizeof *recorder) {
+        recorder->profile = &profile;
+        recorder->table = scene.table;
+        recorder->capacity = 4;
+        recorder->row_count = 0;
+    }
+    const int32_t status = dmb_profile_recorder_write_csv(recorder, "/dev/null");
+    assert_int_equal(dmb_profile_recorder_take(recorder, scene.sim), status);
+    return status;
+}
+
 static int32_t call_recorder(void *p)
 {
     dmb_recorder *recorder = p;
-    if (recorder->struct_size >= sizeof *recorder) {
+    if (recorder->struct_size >= offsetof(dmb_recorder, window)) {
         recorder->channels = &scene.channel;
         recorder->channel_count = 1;
         recorder->table = scene.table;
@@ -373,7 +409,10 @@ static const entry entries[] = {
     ENTRY(drive_state, 1),
     ENTRY(bit_state, 1),
     GROWN(statistics, 72, 1),
-    ENTRY(recorder, 0),
+    GROWN(recorder, 48, 0),
+    ENTRY(window_options, 0),
+    ENTRY(window_result, 1),
+    ENTRY(profile_recorder, 0),
     ENTRY(joint_state, 1),
     ENTRY(joint_def, 0),
     ENTRY(coupling_def, 0),

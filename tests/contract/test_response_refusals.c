@@ -244,7 +244,7 @@ static void fields_out_of_bounds(void **state)
     REFUSED(DMB_ERR_ID, s.input.kind = DMB_INPUT_DRIVE, "input 0: place.part names no drive");
     REFUSED(DMB_ERR_ID, s.input.kind = DMB_INPUT_BIT_LOAD, "input 0: place.part names no bit");
     REFUSED(DMB_ERR_STRUCT_SIZE, s.input.struct_size = 4, "input 0: struct_size");
-    REFUSED(DMB_ERR_VALUE, s.output.kind = 15, "output 0: kind");
+    REFUSED(DMB_ERR_VALUE, s.output.kind = 16, "output 0: kind");
     REFUSED(DMB_ERR_VALUE, s.output.component = -1, "output 0: component");
     REFUSED(DMB_ERR_VALUE, s.output.frame = -1, "output 0: frame");
     REFUSED(DMB_ERR_VALUE, s.output.place.fraction = 1.5, "output 0: place");

@@ -20,7 +20,7 @@ that fails raises Error; a status above 0 is in the `status` of the answer. Ever
 The library is the file that the environment variable DRILLMBD_LIBRARY names, otherwise the one beside this package,
 otherwise the one the system finds.
 """
-from . import _structs, analysis, enums, errors, model, profile, recorder, sim
+from . import _structs, analysis, channels, enums, errors, model, profile, recorder, sim
 from ._keep import station
 from ._library import lib as _lib
 from ._optional import numpy
@@ -28,14 +28,16 @@ from ._record import Sized as _Sized
 from ._structs import *  # noqa: F401,F403
 from ._structs import STRUCTS
 from .analysis import Buckling, Modes, Response, TorqueDrag, operation_name, output, usual_operation
+from .channels import channel_name, channel_names, channel_quantity, channel_unit
 from .enums import *  # noqa: F401,F403
 from .enums import ENUMS, VERSION, __version__
 from .errors import Error, status_name, status_text
 from .fatigue import Fatigue
 from .model import Model
 from .profile import Profile
-from .recorder import Recorder
+from .recorder import ProfileRecorder, Recorder
 from .sim import Progress, Sim
+from .window import Window
 
 _OLD_NAMES = {"ContactSum": "ContactTotal", "SineOptions": "SteppedSineOptions", "SineReport": "SteppedSineReport",
               "MODES_TURNING": "MODES_AXES_TURNING", "MODES_STILL": "MODES_AXES_AT_REST"}
@@ -49,8 +51,9 @@ def __getattr__(name: str) -> object:
     raise AttributeError(f"module 'drillmbd' has no attribute '{name}'")
 
 
-__all__ = ["STRUCTS", "VERSION", "__version__", "Buckling", "Error", "Fatigue", "Model", "Modes", "Profile", "Progress", "Recorder",
-           "Response", "Sim", "TorqueDrag", "operation_name", "output", "station", "status_name", "status_text", "usual_operation"]
+__all__ = ["STRUCTS", "VERSION", "__version__", "Buckling", "Error", "Fatigue", "Model", "Modes", "Profile",
+           "ProfileRecorder", "Progress", "Recorder", "Response", "Sim", "TorqueDrag", "Window", "channel_name",
+           "channel_names", "channel_quantity", "channel_unit", "operation_name", "output", "station", "status_name", "status_text", "usual_operation"]
 __all__ += [name for name, value in vars(_structs).items() if name.endswith("_FN") or value in STRUCTS.values()]
 __all__ += [name for name, value in vars(enums).items() if name.isupper() and isinstance(value, int)]
 __all__ += [cls.__name__ for cls in ENUMS]

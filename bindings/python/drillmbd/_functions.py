@@ -32,6 +32,10 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_buckling_info_init": (c_int32, POINTER(BucklingInfo), c_uint32,),
     "dmb_buckling_options_init": (c_int32, POINTER(BucklingOptions), c_uint32,),
     "dmb_buckling_shape": (c_int32, c_void_p, c_uint32, Place, POINTER(c_double),),
+    "dmb_channel_check": (c_int32, c_void_p, POINTER(Channel), c_uint32,),
+    "dmb_channel_name": (c_char_p, c_int32, POINTER(c_char_p),),
+    "dmb_channel_next": (c_int32, c_int32,),
+    "dmb_channel_quantity": (c_int32, c_char_p, POINTER(c_int32),),
     "dmb_check_report_init": (c_int32, POINTER(CheckReport), c_uint32,),
     "dmb_compile_options_init": (c_int32, POINTER(CompileOptions), c_uint32,),
     "dmb_constraint_def_init": (c_int32, POINTER(ConstraintDef), c_uint32,),
@@ -97,7 +101,11 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_pose_init": (c_int32, POINTER(Pose), c_uint32,),
     "dmb_profile_init": (c_int32, POINTER(ProfileStruct), c_uint32,),
     "dmb_profile_name": (c_char_p, c_int32, POINTER(c_char_p),),
+    "dmb_profile_recorder_init": (c_int32, POINTER(ProfileRecorderStruct), c_uint32,),
+    "dmb_profile_recorder_take": (c_int32, POINTER(ProfileRecorderStruct), c_void_p,),
+    "dmb_profile_recorder_write_csv": (c_int32, POINTER(ProfileRecorderStruct), c_char_p,),
     "dmb_query_bit": (c_int32, c_void_p, Id, POINTER(BitState),),
+    "dmb_query_channel": (c_int32, c_void_p, POINTER(Channel), POINTER(c_double),),
     "dmb_query_contact": (c_int32, c_void_p, c_uint32, POINTER(Contact),),
     "dmb_query_contact_total": (c_int32, c_void_p, POINTER(ContactTotal),),
     "dmb_query_drive": (c_int32, c_void_p, Id, POINTER(DriveState),),
@@ -158,6 +166,13 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_torque_drag_row_init": (c_int32, POINTER(TorqueDragRow), c_uint32,),
     "dmb_version": (c_uint32,),
     "dmb_wall_def_init": (c_int32, POINTER(WallDef), c_uint32,),
+    "dmb_window_create": (c_int32, c_void_p, POINTER(WindowOptions), POINTER(Channel), c_uint32, POINTER(c_void_p),),
+    "dmb_window_destroy": (None, POINTER(c_void_p),),
+    "dmb_window_get": (c_int32, c_void_p, c_uint32, POINTER(WindowResult),),
+    "dmb_window_options_init": (c_int32, POINTER(WindowOptions), c_uint32,),
+    "dmb_window_reset": (c_int32, c_void_p,),
+    "dmb_window_result_init": (c_int32, POINTER(WindowResult), c_uint32,),
+    "dmb_window_take": (c_int32, c_void_p, c_void_p,),
     "dmb_write_vtk_hole": (c_int32, c_void_p, c_double, c_double, c_double, c_uint32, c_char_p,),
     "dmb_write_vtk_mode": (c_int32, c_void_p, c_uint32, c_double, c_double, c_uint32, c_char_p,),
     "dmb_write_vtk_strings": (c_int32, c_void_p, c_uint32, c_char_p,),
@@ -196,6 +211,14 @@ FUNCTION_DOCS = {
         "[unit of the factor] The critical factor number `mode`, rising from 0 on. ERR_NULL, _HANDLE, _VALUE.",
     "dmb_buckling_shape":
         "[m, rad] displacement and rotation of a section in the buckling shape, world frame, the largest displacement of a node being 1 m in its own axes; shape (6). Errors as above and those of dmb_query_motion.",
+    "dmb_channel_check":
+        "Whether each channel can be asked of this sim; dmb_sim_message names the first that cannot, and what its place should be. Errors: as dmb_query_channel.",
+    "dmb_channel_name":
+        "\"bit_speed\", and its unit in *unit (may be NULL); NULL for a number that is none. Names do not change.",
+    "dmb_channel_next":
+        "All numbers that have a name, ascending: the one after `quantity`, -1 before the first; -1 after the last.",
+    "dmb_channel_quantity":
+        "The number of a name; ERR_VALUE where it is none.",
     "dmb_fatigue_create":
         "Places on flexible or axial-torsional pipes, place_count 1 .. 65536; memory from the model's allocator, about 8 bytes a class and point. Errors: ERR_VALUE (dmb_sim_message tells), _NOT_FINITE, _ID, _UNSUPPORTED (rigid pipes), _NO_MEMORY; *fatigue is NULL then.",
     "dmb_fatigue_destroy":
@@ -240,6 +263,12 @@ FUNCTION_DOCS = {
         "Usual speeds of an operation OPERATION_...: 0.1 m/s up or down, 1 rev/s, fed by 0.005 m/s while drilling; loads on the bit 0, to be filled in. Errors: ERR_NULL, _STRUCT_SIZE, _VALUE.",
     "dmb_profile_name":
         "Name of a quantity (\"axial_force\") and its unit in *unit (may be NULL); NULL for a number that is none.",
+    "dmb_profile_recorder_take":
+        "Writes a row if its time has come. NOTE_FULL when the table has no room; errors of dmb_query_profile.",
+    "dmb_profile_recorder_write_csv":
+        "CSV, a line for each row and station: time [s], station, then the quantities with their units. ERR_IO.",
+    "dmb_query_channel":
+        "[unit of the channel] The present value. Errors: those of the query behind it, ERR_VALUE for an unknown quantity or a multiplier that is not there, ERR_UNSUPPORTED for a string without what is asked for (a bit, a rock law, a flexible first pipe) and for channels of a window.",
     "dmb_query_contact":
         "Contact of one site, sites counted along the strings and then the bodies.",
     "dmb_query_contact_total":
@@ -308,6 +337,16 @@ FUNCTION_DOCS = {
         "Name (\"ERR_VALUE\") and text of a status; for an unknown one \"UNKNOWN\" and its text. Never NULL. Thread-safe.",
     "dmb_version":
         "Version of the linked library, 10000 major + 100 minor + patch. Cannot fail.",
+    "dmb_window_create":
+        "channels, shape (channel_count), 1 .. 4096, are copied. Memory from the model's allocator: 48 bytes a channel and slot. options may be NULL. Errors: those of dmb_channel_check, ERR_VALUE, _NOT_FINITE, _NO_MEMORY; *window is NULL then.",
+    "dmb_window_destroy":
+        "Sets *window to NULL. NULL-safe.",
+    "dmb_window_get":
+        "O(slots). ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE (no such channel).",
+    "dmb_window_reset":
+        "Forgets all samples.",
+    "dmb_window_take":
+        "Takes a sample; call it after each step. A second one at the same time counts for nothing; ERR_ORDER for an earlier time: dmb_window_reset. The sim may be another one of the same model. Allocates nothing. O(channels).",
     "dmb_write_vtk_hole":
         "The hole as a tube of `around` facets (3 .. 360) with a ring each `spacing` [m] from depth0 to depth1 [m].",
     "dmb_write_vtk_mode":

@@ -1234,6 +1234,61 @@ class ModeShape(Sized):
     }
 
 
+class WindowOptions(Sized):
+    c_name, about = "dmb_window_options", "A window over channels -------------------------------------------------------------------------------------- Least, greatest and mean of channels over the last so many seconds of a run, in memory that does not grow: time is divided into slots, and the oldest slot is let go as a whole. Means are by time, with straight lines between samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows."
+    struct_size: int
+    slots: int
+    length: float
+    levels: Any
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("slots", c_uint32),
+        ("length", c_double),
+        ("levels", POINTER(c_double)),
+    ]
+    field_docs = {
+        "slots": ("-", "2 .. 65536; what is seen is between (slots - 1)/slots and all of `length`; default 100"),
+        "length": ("s", ">= 0; 0 (default): all since the first sample"),
+        "levels": ("unit of the channel", "of low_share, shape (channel_count), >= 0; NULL (default): 0"),
+    }
+
+
+class WindowResult(Sized):
+    c_name, about = "dmb_window_result", ""
+    struct_size: int
+    reserved: int
+    samples: int
+    time: float
+    minimum: float
+    maximum: float
+    mean: float
+    rms: float
+    index: float
+    low_share: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("samples", c_uint64),
+        ("time", c_double),
+        ("minimum", c_double),
+        ("maximum", c_double),
+        ("mean", c_double),
+        ("rms", c_double),
+        ("index", c_double),
+        ("low_share", c_double),
+    ]
+    field_docs = {
+        "samples": ("-", "in the window"),
+        "time": ("s", "that it spans; 0 with one sample: means are the sample then"),
+        "minimum": ("unit of the channel", "of the samples; NaN, as all that follow, without one"),
+        "maximum": ("", ""),
+        "mean": ("", ""),
+        "rms": ("", "root of the mean square, 0 included in the mean"),
+        "index": ("-", "(maximum - minimum)/(2 |mean|): of the bit speed the stick-slip index, 1 where the bit comes to rest; 0 where nothing varies, infinite about a mean of 0"),
+        "low_share": ("-", "of the time with |value| at or below its level, by the sample at the end of each interval"),
+    }
+
+
 class ResponseOptions(Sized):
     c_name, about = "dmb_response_options", "Frequency response"
     struct_size: int
@@ -2252,6 +2307,33 @@ class PathOptions(Sized):
     }
 
 
+class ProfileRecorderStruct(Sized):
+    c_name, about = "dmb_profile_recorder", "Profiles over time ------------------------------------------------------------------------------------------ Rows of whole profiles, at a coarser rate, in the caller's memory."
+    struct_size: int
+    reserved: int
+    profile: Any
+    table: Any
+    capacity: int
+    row_count: int
+    interval: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("profile", POINTER(ProfileStruct)),
+        ("table", POINTER(c_double)),
+        ("capacity", c_uint64),
+        ("row_count", c_uint64),
+        ("interval", c_double),
+    ]
+    field_docs = {
+        "profile": ("", "what each row holds; its `values` and strides count for nothing. The caller's, kept alive by it and not changed once there is a row"),
+        "table": ("", "the caller's: time [s], then quantity q at station i at 1 + i quantity_count + q; shape (capacity, 1 + station_count quantity_count)"),
+        "capacity": ("-", "rows of table"),
+        "row_count": ("-", "rows written; start with 0"),
+        "interval": ("s", "between rows, 0: every call"),
+    }
+
+
 class Input(Sized):
     c_name, about = "dmb_input", ""
     struct_size: int
@@ -2303,7 +2385,7 @@ class Output(Sized):
 
 
 class RecorderStruct(Sized):
-    c_name, about = "dmb_recorder", ""
+    c_name, about = "dmb_recorder", "output.h"
     struct_size: int
     channel_count: int
     channels: Any
@@ -2311,6 +2393,7 @@ class RecorderStruct(Sized):
     capacity: int
     row_count: int
     interval: float
+    window: Any
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("channel_count", c_uint32),
@@ -2319,6 +2402,7 @@ class RecorderStruct(Sized):
         ("capacity", c_uint64),
         ("row_count", c_uint64),
         ("interval", c_double),
+        ("window", c_void_p),
     ]
     field_docs = {
         "channel_count": ("-", "1 .. 4096"),
@@ -2327,6 +2411,7 @@ class RecorderStruct(Sized):
         "capacity": ("-", "rows of table"),
         "row_count": ("-", "rows written; start with 0"),
         "interval": ("s", "between samples, 0: every call"),
+        "window": ("", "of the channels of a window (output.h), fed by the caller before; default NULL"),
     }
 
 
@@ -2401,6 +2486,9 @@ STRUCTS["dmb_modes_options"] = ModesOptions
 STRUCTS["dmb_modes_info"] = ModesInfo
 STRUCTS["dmb_mode"] = Mode
 STRUCTS["dmb_mode_shape"] = ModeShape
+STRUCTS["dmb_window_options"] = WindowOptions
+STRUCTS["dmb_window_result"] = WindowResult
+STRUCTS["dmb_profile_recorder"] = ProfileRecorderStruct
 STRUCTS["dmb_input"] = Input
 STRUCTS["dmb_output"] = Output
 STRUCTS["dmb_response_options"] = ResponseOptions

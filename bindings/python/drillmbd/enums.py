@@ -454,7 +454,7 @@ class Quantity(IntEnum):
     DRIVE_SPEED = 17  #: [m/s, rad/s] place.part is a drive
     BIT_WEIGHT = 18  #: [N] place.part is a bit, bottom-hole load included
     ENERGY_ERROR = 19  #: [-] of the ledger; place is ignored
-    COUNT = 20
+    COUNT = 20  #: of these; output.h goes on from number 100
 
 
 CHANNEL_DISPLACEMENT_X = Quantity.DISPLACEMENT_X
@@ -640,6 +640,206 @@ MODES_AXES_TURNING = ModesAxes.AXES_TURNING
 MODES_AXES_AT_REST = ModesAxes.AXES_AT_REST
 
 
+class Reading(IntEnum):
+    """Values DMB_CHANNEL_... of the headers."""
+    HOOK_LOAD = 100  #: [N] effective axial force of the section at the rig end, as dmb_query_section: > 0 the rig pulls, < 0 it thrusts
+    ROTATION_TORQUE = 101  #: [N m] that the rig puts into that section, > 0 along the string's x axis
+    WEIGHT_ON_BIT = 102  #: [N] of all bits on the string: rock law and bottom-hole load
+    TORQUE_ON_BIT = 103  #: [N m] of all bits on the string: rock law, against the rotation
+    RATE_OF_PENETRATION = 104  #: [m/s] of the string's first bit along the hole, > 0 into it; with a rock law 0 while it is off bottom. The rate of dmb_bit_state.advance
+    BIT_SPEED = 105  #: [rad/s] about its axis, of the string's far end
+    BIT_DEPTH = 106  #: [m] measured depth of the string's far end; 0 without a hole
+    ROTARY_SPEED = 107  #: [rad/s] about its axis, of the string's rig end
+    FEED_SPEED = 108  #: [m/s] along its axis, of the string's rig end, > 0 into the hole
+    STRETCH = 109  #: [m] elastic, > 0 longer: sum of the axial strain over the flexible lengths
+    WIND_UP = 110  #: [rad] elastic, of the rig end against the far end: less the sum of the twist
+    OFF_BOTTOM = 111  #: [-] 1: no bit of the string with a rock law is on the bottom, else 0; its mean over a window is the off-bottom share
+    RIG_FORCE = 112  #: [N] that guide and drives pull the rig end with: hook load and what the end itself takes, inertia, weight, friction; 0 where a joint holds it
+    RIG_TORQUE = 113  #: [N m] likewise, > 0 along the string's x axis
+    BIT_ADVANCE = 120  #: [m]
+    BIT_BOTTOM = 121  #: [m]
+    BIT_DEPTH_OF_CUT = 122  #: [m]
+    BIT_ROCK_WEIGHT = 123  #: [N] of the rock law alone
+    BIT_TORQUE = 124  #: [N m]
+    BIT_LOAD = 125  #: [N]
+    BIT_ON_BOTTOM = 126  #: [-] 1 or 0
+    DRIVE_TARGET = 130  #: [unit of the programme]
+    DRIVE_POSITION = 131  #: [m, rad]
+    DRIVE_POWER = 132  #: [W]
+    DRIVE_WORK = 133  #: [J]
+    SITE_GAP = 140  #: [m]
+    SITE_NORMAL_FORCE = 141  #: [N]
+    SITE_APPROACH = 142  #: [m/s]
+    SITE_FRICTION_AXIAL = 143  #: [N]
+    SITE_FRICTION_AROUND = 144  #: [N]
+    SITE_SLIP_AXIAL = 145  #: [m/s]
+    SITE_SLIP_AROUND = 146  #: [m/s]
+    SITE_CLOSED = 147  #: [-] 1 or 0
+    SITE_STICKS = 148  #: [-] 1 or 0
+    CONTACTS_CLOSED = 150  #: [-]
+    CONTACTS_NORMAL_FORCE = 151  #: [N]
+    CONTACTS_FRICTION_AXIAL = 152  #: [N]
+    CONTACTS_FRICTION_AROUND = 153  #: [N]
+    CONTACTS_DEEPEST = 154  #: [m]
+    ENERGY_KINETIC = 160  #: [J] dmb_query_energy, O(nodes)
+    ENERGY_STRAIN = 161
+    ENERGY_GRAVITY = 162
+    ENERGY_CONTACT = 163
+    ENERGY_DRIVES = 164
+    ENERGY_LOADS = 165
+    ENERGY_FRICTION = 166
+    ENERGY_IMPACT = 167
+    ENERGY_DAMPING = 168
+    ENERGY_ROCK = 169
+    ENERGY_SCHEME = 170
+    ENERGY_INPUT = 171
+    ENERGY_BALANCE = 172
+    ENERGY_UNEXPLAINED = 173
+    MOMENTUM_X = 180  #: [kg m/s] world, 180 .. 182: dmb_query_momentum, O(nodes)
+    MOMENTUM_Y = 181
+    MOMENTUM_Z = 182
+    ANGULAR_MOMENTUM_X = 183  #: [kg m2/s] world, 183 .. 185
+    ANGULAR_MOMENTUM_Y = 184
+    ANGULAR_MOMENTUM_Z = 185
+    MASS = 186  #: [kg]
+    CENTRE_X = 187  #: [m] of mass, world, 187 .. 189
+    CENTRE_Y = 188
+    CENTRE_Z = 189
+    STEPS = 200  #: [-] dmb_query_statistics, O(joints)
+    REJECTED = 201
+    ITERATIONS = 202
+    LIMITED_STEPS = 203
+    MOST_ITERATIONS = 204
+    LARGEST_RESIDUAL = 205
+    SWITCHES = 206
+    DEPENDENT = 207
+    REDUNDANT = 208
+    VIOLATION = 209  #: [m, -] of all joints
+    JOINT_POSITION = 300  #: [m, rad]
+    JOINT_SPEED = 310  #: [m/s, rad/s]
+    JOINT_ACCELERATION = 320  #: [m/s2, rad/s2]
+    JOINT_REACTION = 330  #: [N, N m] world
+    JOINT_REACTION_BODY = 340  #: [N, N m] frame b
+    JOINT_ACTION = 350  #: [N, N m]
+    JOINT_VIOLATION = 360  #: [m, -]
+    JOINT_STATE = 361  #: [-] JOINT_...
+    JOINT_ROWS = 362  #: [-]
+    MULTIPLIER = 370  #: [N, ...] number 0 .. 5 of a joint, coupling, constraint or joint drive; six
+    REACTION = 380  #: [N, N m] of a string or body: dmb_query_reaction; six
+    SECTION_FORCE = 400  #: [N, N m] dmb_query_section
+    SECTION_STRAIN = 410  #: [-, rad/m]
+    WORLD_VELOCITY = 420  #: [m/s, rad/s] dmb_query_motion
+    WORLD_ACCELERATION = 430  #: [m/s2, rad/s2]
+    BODY_VELOCITY = 440  #: [m/s, rad/s]
+    BODY_ACCELERATION = 450  #: [m/s2, rad/s2]
+    PROFILE = 1000  #: + PROFILE_...: at a place of a string; as dmb_query_profile, NaN included
+    WINDOW_MINIMUM = 2000
+    WINDOW_MAXIMUM = 2001
+    WINDOW_MEAN = 2002
+    WINDOW_RMS = 2003
+    STICK_SLIP_INDEX = 2004
+    WINDOW_LOW_SHARE = 2005
+
+
+CHANNEL_HOOK_LOAD = Reading.HOOK_LOAD
+CHANNEL_ROTATION_TORQUE = Reading.ROTATION_TORQUE
+CHANNEL_WEIGHT_ON_BIT = Reading.WEIGHT_ON_BIT
+CHANNEL_TORQUE_ON_BIT = Reading.TORQUE_ON_BIT
+CHANNEL_RATE_OF_PENETRATION = Reading.RATE_OF_PENETRATION
+CHANNEL_BIT_SPEED = Reading.BIT_SPEED
+CHANNEL_BIT_DEPTH = Reading.BIT_DEPTH
+CHANNEL_ROTARY_SPEED = Reading.ROTARY_SPEED
+CHANNEL_FEED_SPEED = Reading.FEED_SPEED
+CHANNEL_STRETCH = Reading.STRETCH
+CHANNEL_WIND_UP = Reading.WIND_UP
+CHANNEL_OFF_BOTTOM = Reading.OFF_BOTTOM
+CHANNEL_RIG_FORCE = Reading.RIG_FORCE
+CHANNEL_RIG_TORQUE = Reading.RIG_TORQUE
+CHANNEL_BIT_ADVANCE = Reading.BIT_ADVANCE
+CHANNEL_BIT_BOTTOM = Reading.BIT_BOTTOM
+CHANNEL_BIT_DEPTH_OF_CUT = Reading.BIT_DEPTH_OF_CUT
+CHANNEL_BIT_ROCK_WEIGHT = Reading.BIT_ROCK_WEIGHT
+CHANNEL_BIT_TORQUE = Reading.BIT_TORQUE
+CHANNEL_BIT_LOAD = Reading.BIT_LOAD
+CHANNEL_BIT_ON_BOTTOM = Reading.BIT_ON_BOTTOM
+CHANNEL_DRIVE_TARGET = Reading.DRIVE_TARGET
+CHANNEL_DRIVE_POSITION = Reading.DRIVE_POSITION
+CHANNEL_DRIVE_POWER = Reading.DRIVE_POWER
+CHANNEL_DRIVE_WORK = Reading.DRIVE_WORK
+CHANNEL_SITE_GAP = Reading.SITE_GAP
+CHANNEL_SITE_NORMAL_FORCE = Reading.SITE_NORMAL_FORCE
+CHANNEL_SITE_APPROACH = Reading.SITE_APPROACH
+CHANNEL_SITE_FRICTION_AXIAL = Reading.SITE_FRICTION_AXIAL
+CHANNEL_SITE_FRICTION_AROUND = Reading.SITE_FRICTION_AROUND
+CHANNEL_SITE_SLIP_AXIAL = Reading.SITE_SLIP_AXIAL
+CHANNEL_SITE_SLIP_AROUND = Reading.SITE_SLIP_AROUND
+CHANNEL_SITE_CLOSED = Reading.SITE_CLOSED
+CHANNEL_SITE_STICKS = Reading.SITE_STICKS
+CHANNEL_CONTACTS_CLOSED = Reading.CONTACTS_CLOSED
+CHANNEL_CONTACTS_NORMAL_FORCE = Reading.CONTACTS_NORMAL_FORCE
+CHANNEL_CONTACTS_FRICTION_AXIAL = Reading.CONTACTS_FRICTION_AXIAL
+CHANNEL_CONTACTS_FRICTION_AROUND = Reading.CONTACTS_FRICTION_AROUND
+CHANNEL_CONTACTS_DEEPEST = Reading.CONTACTS_DEEPEST
+CHANNEL_ENERGY_KINETIC = Reading.ENERGY_KINETIC
+CHANNEL_ENERGY_STRAIN = Reading.ENERGY_STRAIN
+CHANNEL_ENERGY_GRAVITY = Reading.ENERGY_GRAVITY
+CHANNEL_ENERGY_CONTACT = Reading.ENERGY_CONTACT
+CHANNEL_ENERGY_DRIVES = Reading.ENERGY_DRIVES
+CHANNEL_ENERGY_LOADS = Reading.ENERGY_LOADS
+CHANNEL_ENERGY_FRICTION = Reading.ENERGY_FRICTION
+CHANNEL_ENERGY_IMPACT = Reading.ENERGY_IMPACT
+CHANNEL_ENERGY_DAMPING = Reading.ENERGY_DAMPING
+CHANNEL_ENERGY_ROCK = Reading.ENERGY_ROCK
+CHANNEL_ENERGY_SCHEME = Reading.ENERGY_SCHEME
+CHANNEL_ENERGY_INPUT = Reading.ENERGY_INPUT
+CHANNEL_ENERGY_BALANCE = Reading.ENERGY_BALANCE
+CHANNEL_ENERGY_UNEXPLAINED = Reading.ENERGY_UNEXPLAINED
+CHANNEL_MOMENTUM_X = Reading.MOMENTUM_X
+CHANNEL_MOMENTUM_Y = Reading.MOMENTUM_Y
+CHANNEL_MOMENTUM_Z = Reading.MOMENTUM_Z
+CHANNEL_ANGULAR_MOMENTUM_X = Reading.ANGULAR_MOMENTUM_X
+CHANNEL_ANGULAR_MOMENTUM_Y = Reading.ANGULAR_MOMENTUM_Y
+CHANNEL_ANGULAR_MOMENTUM_Z = Reading.ANGULAR_MOMENTUM_Z
+CHANNEL_MASS = Reading.MASS
+CHANNEL_CENTRE_X = Reading.CENTRE_X
+CHANNEL_CENTRE_Y = Reading.CENTRE_Y
+CHANNEL_CENTRE_Z = Reading.CENTRE_Z
+CHANNEL_STEPS = Reading.STEPS
+CHANNEL_REJECTED = Reading.REJECTED
+CHANNEL_ITERATIONS = Reading.ITERATIONS
+CHANNEL_LIMITED_STEPS = Reading.LIMITED_STEPS
+CHANNEL_MOST_ITERATIONS = Reading.MOST_ITERATIONS
+CHANNEL_LARGEST_RESIDUAL = Reading.LARGEST_RESIDUAL
+CHANNEL_SWITCHES = Reading.SWITCHES
+CHANNEL_DEPENDENT = Reading.DEPENDENT
+CHANNEL_REDUNDANT = Reading.REDUNDANT
+CHANNEL_VIOLATION = Reading.VIOLATION
+CHANNEL_JOINT_POSITION = Reading.JOINT_POSITION
+CHANNEL_JOINT_SPEED = Reading.JOINT_SPEED
+CHANNEL_JOINT_ACCELERATION = Reading.JOINT_ACCELERATION
+CHANNEL_JOINT_REACTION = Reading.JOINT_REACTION
+CHANNEL_JOINT_REACTION_BODY = Reading.JOINT_REACTION_BODY
+CHANNEL_JOINT_ACTION = Reading.JOINT_ACTION
+CHANNEL_JOINT_VIOLATION = Reading.JOINT_VIOLATION
+CHANNEL_JOINT_STATE = Reading.JOINT_STATE
+CHANNEL_JOINT_ROWS = Reading.JOINT_ROWS
+CHANNEL_MULTIPLIER = Reading.MULTIPLIER
+CHANNEL_REACTION = Reading.REACTION
+CHANNEL_SECTION_FORCE = Reading.SECTION_FORCE
+CHANNEL_SECTION_STRAIN = Reading.SECTION_STRAIN
+CHANNEL_WORLD_VELOCITY = Reading.WORLD_VELOCITY
+CHANNEL_WORLD_ACCELERATION = Reading.WORLD_ACCELERATION
+CHANNEL_BODY_VELOCITY = Reading.BODY_VELOCITY
+CHANNEL_BODY_ACCELERATION = Reading.BODY_ACCELERATION
+CHANNEL_PROFILE = Reading.PROFILE
+CHANNEL_WINDOW_MINIMUM = Reading.WINDOW_MINIMUM
+CHANNEL_WINDOW_MAXIMUM = Reading.WINDOW_MAXIMUM
+CHANNEL_WINDOW_MEAN = Reading.WINDOW_MEAN
+CHANNEL_WINDOW_RMS = Reading.WINDOW_RMS
+CHANNEL_STICK_SLIP_INDEX = Reading.STICK_SLIP_INDEX
+CHANNEL_WINDOW_LOW_SHARE = Reading.WINDOW_LOW_SHARE
+
+
 class InputKind(IntEnum):
     """Values DMB_INPUT_... of the headers."""
     DRIVE = 0  #: programme of the drive place.part [its unit]: speed of MOTION, force of LOAD, target speed of CONTROL
@@ -677,6 +877,7 @@ class OutputKind(IntEnum):
     JOINT_ACTION = 12  #: joint place.part, its forces: as dmb_query_joint
     MULTIPLIER = 13  #: number `component` of place.part, as dmb_query_multipliers
     BIT = 14  #: [N, N m] X weight, RX torque on the bit place.part by the rock law
+    CHANNEL = 15  #: the channel CHANNEL_... that `component` says, at `place`. In a stepped sine each but those of a window; in a linear analysis those that change in proportion to a small motion: not magnitudes, sums over the string, energies (ERR_UNSUPPORTED)
 
 
 OUTPUT_DISPLACEMENT = OutputKind.DISPLACEMENT
@@ -694,6 +895,7 @@ OUTPUT_JOINT_REACTION = OutputKind.JOINT_REACTION
 OUTPUT_JOINT_ACTION = OutputKind.JOINT_ACTION
 OUTPUT_MULTIPLIER = OutputKind.MULTIPLIER
 OUTPUT_BIT = OutputKind.BIT
+OUTPUT_CHANNEL = OutputKind.CHANNEL
 
 
 NONE = 0xFFFFFFFF
@@ -735,6 +937,7 @@ ENUMS = (
     ModesKind,
     ModesSelect,
     ModesAxes,
+    Reading,
     InputKind,
     OutputKind,
 )

@@ -6,27 +6,30 @@ from collections.abc import Sequence
 from ctypes import POINTER, byref, c_double
 from typing import TYPE_CHECKING, Any
 
-from ._keep import as_place, mirrors, path_of
+from ._keep import as_id, as_place, mirrors, path_of, station
 from ._library import lib as _lib
 from ._optional import need, numpy
-from ._structs import Channel, RecorderStruct
-from .enums import Quantity
+from ._structs import Channel, Id, ProfileRecorderStruct, ProfileStruct, RecorderStruct
+from .channels import channel_name, channel_quantity, channel_unit
+from .enums import CHANNEL_PROFILE
 from .errors import check
+
+from .profile import unit_of
 
 if TYPE_CHECKING:
     from .sim import Sim
-
-UNITS = {"DISPLACEMENT": "m", "VELOCITY": "m/s", "POSITION": "m", "ROTATION": "rad", "SPIN": "rad/s", "AXIAL_FORCE": "N",
-         "TORQUE": "N m", "BENDING_MOMENT": "N m", "KINETIC_ENERGY": "J", "NORMAL_FORCE": "N", "DRIVE_FORCE": "N or N m",
-         "DRIVE_SPEED": "m/s or rad/s", "BIT_WEIGHT": "N", "ENERGY_ERROR": "-"}
-
+    from .window import Window
 
 class Recorder:
-    """A table of rows (time, channels...). channels are pairs (place, CHANNEL_...), or triples with a name for the
-    column; a part stands for its reference point, None for a channel without a place. Call take() after every step."""
+    """A table of rows (time, channels...). channels are pairs (place, "bit_speed") or (place, CHANNEL_...), or triples
+    with a name for the column; a part stands for its reference point, None for a channel without a place. Of a window
+    place is the number of the watched channel. Call take() after every step."""
 
-    def __init__(self, sim: Sim, channels: Sequence[Any], capacity: int, interval: float = 0.0) -> None:
-        self._sim = sim
+    def __init__(self, sim: Sim, channels: Sequence[Any], capacity: int, interval: float = 0.0,
+                 window: Window | None = None) -> None:
+        self._sim, self._window = sim, window
+        channels = [(station(Id(), place) if isinstance(place, int) else place, channel_quantity(quantity), *name)
+                    for place, quantity, *name in channels]
         self._names = [self._name(*channel) for channel in channels]
         self._channels = (Channel * len(channels))(*[Channel(as_place(place), quantity, 0)
                                                      for place, quantity, *_ in channels])
@@ -40,16 +43,17 @@ class Recorder:
         self._struct = RecorderStruct(channel_count=len(channels), capacity=capacity, interval=interval)
         self._struct.channels = ctypes.cast(self._channels, POINTER(Channel))
         self._struct.table = table
+        self._struct.window = None if window is None else window._handle
 
     @staticmethod
     def _name(place: Any, quantity: int, name: str | None = None) -> str:
         if name is not None:
             return name
-        known = Quantity(quantity).name
-        unit = next((unit for start, unit in UNITS.items() if known.startswith(start)), "")
         at = as_place(place)
         where = f" part {at.part.index & 0xFFFFFF} pipe {at.pipe} at {at.fraction:g}" if at.part else ""
-        return f"{known.lower()}{where} [{unit}]"
+        if not at.part and at.pipe:
+            where = f" {at.pipe}"
+        return f"{channel_name(quantity)}{where} [{channel_unit(quantity)}]"
 
     @mirrors("dmb_recorder_take")
     def take(self) -> int:
@@ -81,3 +85,54 @@ class Recorder:
     def write_csv(self, path: Any) -> None:
         """Writes the table as CSV."""
         check(_lib.dmb_recorder_write_csv(byref(self._struct), path_of(path)))
+
+
+class ProfileRecorder:
+    """Rows of whole profiles over time: quantities PROFILE_... at `stations` spread evenly over a string, or at
+    distances [m]. Call take() after every step."""
+
+    def __init__(self, sim: Sim, quantities: Sequence[int], stations: int | Sequence[float], capacity: int,
+                 interval: float = 0.0, string: Id | None = None) -> None:
+        self._sim, self._quantities = sim, [int(quantity) for quantity in quantities]
+        count = stations if isinstance(stations, int) else len(stations)
+        self._shape = (count, len(self._quantities))
+        self._width = 1 + count * len(self._quantities)
+        self._asked = (ctypes.c_int32 * len(self._quantities))(*self._quantities)
+        self._profile = ProfileStruct(station_count=count, quantity_count=len(self._quantities), string=as_id(string))
+        self._profile.quantities = ctypes.cast(self._asked, POINTER(ctypes.c_int32))
+        if not isinstance(stations, int):
+            self._distance = (c_double * count)(*stations)
+            self._profile.distance = ctypes.cast(self._distance, POINTER(c_double))
+        self._memory = (c_double * (capacity * self._width))()
+        self._struct = ProfileRecorderStruct(capacity=capacity, interval=interval)
+        self._struct.profile = ctypes.pointer(self._profile)
+        self._struct.table = ctypes.cast(self._memory, POINTER(c_double))
+
+    @mirrors("dmb_profile_recorder_take")
+    def take(self) -> int:
+        """Writes a row if its time has come; returns the status, NOTE_FULL when there is no room."""
+        return self._sim._check(_lib.dmb_profile_recorder_take(byref(self._struct), self._sim._handle))
+
+    def __len__(self) -> int:
+        return int(self._struct.row_count)
+
+    @property
+    def columns(self) -> list[str]:
+        """Names of the quantities with their units."""
+        return [f"{channel_name(CHANNEL_PROFILE + quantity)[len('profile_'):]} [{unit_of(quantity)}]" for quantity in self._quantities]
+
+    @property
+    def time(self) -> Any:
+        """[s] of the rows, a numpy array"""
+        return need("numpy").array(self._memory[:len(self) * self._width:self._width])
+
+    @property
+    def values(self) -> Any:
+        """A numpy array of shape (rows, stations, quantities)"""
+        rows = need("numpy").array(self._memory[:len(self) * self._width]).reshape(len(self), self._width)
+        return rows[:, 1:].reshape(len(self), *self._shape)
+
+    @mirrors("dmb_profile_recorder_write_csv")
+    def write_csv(self, path: Any) -> None:
+        """Writes a line for each row and station."""
+        check(_lib.dmb_profile_recorder_write_csv(byref(self._struct), path_of(path)))

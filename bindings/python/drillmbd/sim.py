@@ -13,16 +13,18 @@ from . import analysis
 from ._keep import Keep, as_place, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._progress import Teller
-from ._structs import (STRUCTS, BitState, Contact, DriveState, Energy, FatigueOptions, Id, JointState, Momentum, Motion, Place, Pose,
-                       Section, SimOptions, Statistics, StepReport)
+from ._structs import (STRUCTS, BitState, Channel, Contact, DriveState, Energy, FatigueOptions, Id, JointState, Momentum,
+                       Motion, Place, Pose, Section, SimOptions, Statistics, StepReport, WindowOptions)
+from .channels import channel_quantity
 from .enums import FRAME_WORLD, NOTE_CANCELLED, NOTE_STOPPED, OK
 from .errors import check
-from .recorder import Recorder
+from .recorder import ProfileRecorder, Recorder
 
 if TYPE_CHECKING:
     from .model import Model
     from .fatigue import Fatigue
     from .profile import Profile
+    from .window import Window
 
 _step, _advance, _set_status = _lib.dmb_sim_step, _lib.dmb_sim_advance, object.__setattr__
 
@@ -308,9 +310,30 @@ class Sim(analysis.Analyses):
         return answer
 
     # ---- Tables and files -------------------------------------------------------------------------------------------
-    def recorder(self, channels: Sequence[Any], capacity: int, interval: float = 0.0) -> Recorder:
-        """A Recorder of `capacity` rows, one each `interval` [s] or (0) for each take()."""
-        return Recorder(self, channels, capacity, interval)
+    def recorder(self, channels: Sequence[Any], capacity: int, interval: float = 0.0,
+                 window: Window | None = None) -> Recorder:
+        """A Recorder of `capacity` rows, one each `interval` [s] or (0) for each take(); window for channels of one."""
+        return Recorder(self, channels, capacity, interval, window)
+
+    @mirrors("dmb_query_channel")
+    def channel(self, quantity: str | int, place: Any = None) -> float:
+        """The value of a channel by its name or number at a place, or of a part; None: the first string, or none."""
+        asked, value = Channel(as_place(place), channel_quantity(quantity), 0), c_double()
+        self._check(_lib.dmb_channel_check(self._handle, byref(asked), 1))
+        check(_lib.dmb_query_channel(self._handle, byref(asked), byref(value)))
+        return value.value
+
+    @mirrors("dmb_window_create")
+    def window(self, channels: Sequence[Any], length: float = 0.0, slots: int = 100,
+               levels: Sequence[float] | None = None) -> Window:
+        """A Window over the last `length` [s] (0: all) of channels, pairs (place, "bit_speed")."""
+        from .window import Window
+        return Window(self, channels, WindowOptions(length=length, slots=slots), levels)
+
+    def profile_recorder(self, quantities: Sequence[int], stations: int | Sequence[float], capacity: int,
+                         interval: float = 0.0, string: Id | None = None) -> ProfileRecorder:
+        """A ProfileRecorder of `capacity` rows of quantities PROFILE_... at stations of a string."""
+        return ProfileRecorder(self, quantities, stations, capacity, interval, string)
 
     def profile(self, string: Id, pipes: int, per_pipe: int = 2) -> Profile:
         """The string from end to end as arrays: poses, forces and contact at `per_pipe` stations of each of its `pipes`

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "math/se3.h"
+#include "query/channel.h"
 #include "sim/node.h"
 
 /* Central differences of the pose: (h/L)^2 of non-linearity and eps L/h of rounding are both near 1e-10. */
@@ -252,6 +253,14 @@ static double of_bit(const dmb_sim *sim, const dmb_output *o, int32_t *status)
     return o->component == DMB_X ? state.weight : state.torque;
 }
 
+static double of_channel(const dmb_sim *sim, const dmb_output *o, int32_t *status)
+{
+    const dmb_channel channel = {o->place, o->component, 0};
+    double value = 0.0;
+    *status = dmb_channel_value(sim, &channel, &value);
+    return value;
+}
+
 double dmb_answer_of(const dmb_sim *sim, const dmb_output *output, int32_t *status)
 {
     switch (output->kind) {
@@ -264,6 +273,7 @@ double dmb_answer_of(const dmb_sim *sim, const dmb_output *output, int32_t *stat
     case DMB_OUTPUT_REACTION: return of_guide(sim, output, status);
     case DMB_OUTPUT_MULTIPLIER: return of_multiplier(sim, output, status);
     case DMB_OUTPUT_BIT: return of_bit(sim, output, status);
+    case DMB_OUTPUT_CHANNEL: return of_channel(sim, output, status);
     default: return of_joint(sim, output, status);
     }
 }

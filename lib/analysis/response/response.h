@@ -75,6 +75,7 @@ enum {
 typedef struct dmb_excitation {
     int32_t law;    /* DMB_EXCITE_... */
     uint32_t drive; /* that is the input; DMB_NONE: none is */
+    uint32_t bit;   /* likewise whose bottom-hole load is */
     double gain, integral_gain;
     double *re, *im; /* forces on all rows, those that guides hold included, or displacements, shape (row_count); the
                         caller's memory, zeros to begin with */
@@ -102,12 +103,18 @@ typedef struct dmb_response_output {
     double guide_weight[6];
     uint32_t drive;          /* that acts by itself where it is the input; DMB_NONE: none */
     double direct, integral; /* what it adds there: direct + integral/(i w) */
+    uint32_t bit;            /* likewise whose bottom-hole load adds itself where it is the input; DMB_NONE: none */
 } dmb_response_output;
 
 /* Output number `index`, already checked to be one of its kind. options: of the response. message: why not. Errors:
  * those of the queries, DMB_ERR_UNSUPPORTED. */
 int32_t dmb_response_output_of(dmb_linear *linear, const dmb_response_options *options, const dmb_output *output,
                                uint32_t index, dmb_message *message, dmb_response_output *out);
+
+/* A channel as an output of another kind, or of kind DMB_OUTPUT_CHANNEL still where it is a smooth answer about its
+ * place; and the bit whose load it has in it (DMB_NONE). On refusal `why`. Errors: DMB_ERR_UNSUPPORTED, _ID. */
+int32_t dmb_output_of_channel(const dmb_sim *sim, const dmb_output *channel, dmb_output *out, uint32_t *bit,
+                              const char **why);
 
 /* The output for displacements x that forces f of the input (0 where displacements are told) lead to, shapes (rows). */
 dmb_complex_number dmb_response_output_value(const dmb_dynamic_stiffness *stiffness, const dmb_response_output *output,

@@ -184,6 +184,7 @@ static int32_t bit_load(const request *r)
 {
     const uint32_t i = dmb_model_part_index(r->copy->model, r->input->place.part, DMB_PART_BIT);
     if (i >= r->copy->scene->bit_count) return refuse(r, DMB_ERR_ID, "place.part names no bit of this model");
+    r->out->bit = i;
     return derivative(r, r->copy->trial.bit_load + i);
 }
 
@@ -307,6 +308,6 @@ int32_t dmb_excitation_of(dmb_sim *copy, const dmb_input *input, uint32_t index,
                           dmb_excitation *out)
 {
     const request r = {copy, input, index, message, out};
-    out->drive = DMB_NONE;
+    out->drive = out->bit = DMB_NONE;
     return make(&r);
 }

@@ -5,6 +5,7 @@
 
 #include "base/sized_struct.h"
 #include "base/value_check.h"
+#include "drillmbd/output.h"
 
 DMB_DEFINE_INIT(dmb_input, 56, {.kind = DMB_INPUT_FORCE, .amplitude = 1.0})
 
@@ -149,8 +150,11 @@ int32_t dmb_output_take(const dmb_output *outputs, uint32_t i, dmb_message *mess
         dmb_message_set(message, "output %u: struct_size is not one this library knows, or not that of the first", i);
         return DMB_ERR_STRUCT_SIZE;
     }
-    dmb_check_choice(&check, "kind", out->kind, DMB_OUTPUT_DISPLACEMENT, DMB_OUTPUT_BIT);
-    dmb_check_choice(&check, "component", out->component, DMB_X, out->kind == DMB_OUTPUT_CONTACT ? DMB_Z : DMB_RZ);
+    dmb_check_choice(&check, "kind", out->kind, DMB_OUTPUT_DISPLACEMENT, DMB_OUTPUT_CHANNEL);
+    if (out->kind != DMB_OUTPUT_CHANNEL)
+        dmb_check_choice(&check, "component", out->component, DMB_X, out->kind == DMB_OUTPUT_CONTACT ? DMB_Z : DMB_RZ);
+    else if (check.status == DMB_OK && dmb_channel_name(out->component, NULL) == NULL)
+        dmb_check_fail(&check, DMB_ERR_VALUE, "component", out->component, "a channel that dmb_channel_name knows");
     if (out->kind == DMB_OUTPUT_BIT && check.status == DMB_OK && out->component != DMB_X && out->component != DMB_RX)
         dmb_check_fail(&check, DMB_ERR_VALUE, "component", out->component,
                        "DMB_X (weight on the bit) or DMB_RX (torque)");

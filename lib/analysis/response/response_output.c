@@ -11,6 +11,7 @@
 
 #include "analysis/linear/dynamic_stiffness.h"
 #include "analysis/linear/functional.h"
+#include "drillmbd/output.h"
 #include "sim/node.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/wall_contact.h"
@@ -62,7 +63,7 @@ static int32_t of_section(const request *r)
     (void)dmb_answer_of(r->copy, r->output, &status);
     if (status >= 0) status = dmb_functional_around(r->copy, r->output->place, &r->out->functional);
     if (status < 0) return refuse_place(r, status);
-    r->out->elastic = r->output->kind == DMB_OUTPUT_SECTION_FORCE;
+    r->out->elastic = r->output->kind != DMB_OUTPUT_SECTION_STRAIN;
     dmb_functional_of_answer(r->copy, answer, r->output, &r->out->functional);
     return DMB_OK;
 }
@@ -380,7 +381,8 @@ static int32_t make(const request *r)
     case DMB_OUTPUT_VELOCITY:
     case DMB_OUTPUT_ACCELERATION: return of_motion(r);
     case DMB_OUTPUT_SECTION_FORCE:
-    case DMB_OUTPUT_SECTION_STRAIN: return of_section(r);
+    case DMB_OUTPUT_SECTION_STRAIN:
+    case DMB_OUTPUT_CHANNEL: return of_section(r); /* loads of the section at the rig end */
     case DMB_OUTPUT_CONTACT: return of_contact(r);
     case DMB_OUTPUT_DRIVE: return of_drive(r);
     case DMB_OUTPUT_REACTION: return of_guide(r);
@@ -390,11 +392,26 @@ static int32_t make(const request *r)
     }
 }
 
+static int32_t of_channel(const request *r)
+{
+    const char *why = "";
+    dmb_output meant;
+    request part = *r;
+    const int32_t status = dmb_output_of_channel(r->copy, r->output, &meant, &r->out->bit, &why);
+    if (status < 0) {
+        const char *name = dmb_channel_name(r->output->component, NULL);
+        dmb_message_set(r->message, "output %u: channel %s: %s", r->index, name != NULL ? name : "unknown", why);
+        return status;
+    }
+    part.output = &meant;
+    return make(&part);
+}
+
 int32_t dmb_response_output_of(dmb_linear *linear, const dmb_response_options *options, const dmb_output *output,
                                uint32_t index, dmb_message *message, dmb_response_output *out)
 {
     const request r = {linear, linear->work, options, output, out, index, message};
     memset(out, 0, sizeof *out);
-    out->cluster = out->drive = DMB_NONE;
-    return make(&r);
+    out->cluster = out->drive = out->bit = DMB_NONE;
+    return output->kind == DMB_OUTPUT_CHANNEL ? of_channel(&r) : make(&r);
 }

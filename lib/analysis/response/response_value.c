@@ -56,6 +56,7 @@ dmb_complex_number dmb_response_output_value(const dmb_dynamic_stiffness *s, con
         value.re += output->guide_weight[k] * left.re;
         value.im += output->guide_weight[k] * left.im;
     }
+    if (output->bit != DMB_NONE && output->bit == input->bit) value.re += 1.0;
     if (output->drive == DMB_NONE || output->drive != input->drive) return value;
     value.re += output->direct;
     value.im -= output->integral != 0.0 ? output->integral / s->omega : 0.0;

@@ -220,6 +220,13 @@ void dmb_bit_force_of(const dmb_sim *sim, uint32_t k, dmb_bit_rock_result *out, 
     *load = sim->now.bit_load[k];
 }
 
+double dmb_bit_speed_of(const dmb_sim *sim, uint32_t k)
+{
+    bit_motion m;
+    motion_now(sim, k, &m);
+    return m.speed;
+}
+
 void dmb_bit_slope_of(const dmb_sim *sim, uint32_t k, dmb_bit_slope *out)
 {
     bit_motion m;

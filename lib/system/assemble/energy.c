@@ -261,3 +261,19 @@ void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *conf
         load[6 + i] += fb[i] - gb[i] - wb[i];
     }
 }
+
+/* The same of a bar, axial force and torque at its end A: N - (M a)_A + half its weight along the axis. */
+void dmb_bar_start_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                         double load[2])
+{
+    const dmb_element_type *type = type_of(scene, element);
+    const uint32_t a = scene->element_node[element];
+    const double *at_a = configuration->acceleration + scene->layout.row[a];
+    const double *at_b = configuration->acceleration + scene->layout.row[a + 1];
+    double force[12], R[9], u[3], weight[6];
+    dmb_element_section_force(scene, configuration, element, force);
+    dmb_node_pose(scene, configuration, a, R, u);
+    end_weight(scene, type, R, 1.0, weight);
+    load[0] = force[0] - type->mass.axial[0] * at_a[0] - type->mass.axial[1] * at_b[0] + weight[0];
+    load[1] = force[3] - type->mass.torsion[0] * at_a[1] - type->mass.torsion[1] * at_b[1];
+}

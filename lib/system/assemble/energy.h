@@ -31,5 +31,9 @@ void dmb_element_section_force(const dmb_scene *scene, const dmb_configuration *
  * sections at its ends. Bars on the hole's axis: as above. Shape (2, 6). */
 void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                            double load[12]);
+/* Axial force and torque of the section at the near end of a bar on the hole's axis, its own weight and inertia in
+ * them, shape (2). */
+void dmb_bar_start_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
+                         double load[2]);
 
 #endif

@@ -4,6 +4,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .. import enums
+from ..channels import Named
 from . import fields, units
 from .content import ANALYSES, Scene
 from .fields import DEFINITIONS, Field, fields_of
@@ -50,7 +51,7 @@ class Asked:
                 scene.analyses[kind] = self._analysis(kind)
 
     def _channel(self, scene: Scene, path: Path, number: int, table: dict[str, Any]) -> None:
-        known = {"quantity": Field("quantity", "enum", enum=enums.Quantity), "place": Field("place", "place")}
+        known = {"quantity": Field("quantity", "enum", enum=Named), "place": Field("place", "place")}
         values = self.loader.read(path, table, known, ("name",))
         name = table.get("name", f"channel-{number}")
         if not isinstance(name, str):
@@ -106,8 +107,12 @@ class Asked:
         return self.loader.read(path, table, known, extra, lambda key: unit if key == "amplitude" else None)
 
     def _output(self, path: Path, table: dict[str, Any], limited: bool) -> dict[str, Any]:
-        known = fields_of(DEFINITIONS["output"])
+        known = {**fields_of(DEFINITIONS["output"]), "quantity": Field("quantity", "enum", enum=Named)}
         values = self.loader.read(path, table, known, ("name", "limit") if limited else ("name",))
+        if values.get("kind") == enums.OUTPUT_CHANNEL and "quantity" not in values:
+            self.loader.problems.add(path + ("kind",), table.get("kind"), "must be left out; give the channel's quantity")
+        if "quantity" in values:
+            values["kind"], values["component"] = enums.OUTPUT_CHANNEL, values.pop("quantity")
         unit = fields.output_unit(values.get("kind", 0), values.get("component", 0))
         values["name"] = str(table.get("name", f"output-{path[-1]}"))
         if limited:

@@ -11,6 +11,7 @@ from typing import Any
 
 from .. import _structs, enums
 from .._structs import Id, Place
+from ..channels import channel_unit
 from . import units
 from .problems import meant
 
@@ -187,6 +188,8 @@ def drive_unit(kind: int, component: int) -> str:
 
 def output_unit(kind: int, component: int) -> str:
     """The unit of an output of a response."""
+    if kind == enums.OUTPUT_CHANNEL:
+        return channel_unit(component)
     about: dict[int, str] = {enums.OUTPUT_DISPLACEMENT: "m, rad", enums.OUTPUT_VELOCITY: "m/s, rad/s",
              enums.OUTPUT_ACCELERATION: "m/s2, rad/s2", enums.OUTPUT_SECTION_FORCE: "N, N m",
              enums.OUTPUT_SECTION_STRAIN: "-, rad/m", enums.OUTPUT_CONTACT: "N", enums.OUTPUT_REACTION: "N, N m",

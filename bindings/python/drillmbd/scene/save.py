@@ -9,6 +9,7 @@ from typing import Any
 
 from .. import enums
 from .._structs import Id, Place
+from ..channels import Named
 from ..model import Model
 from . import failure, fields, units, variability
 from .asked import LIMITS, OUTPUT, RUN
@@ -209,7 +210,7 @@ class Writer:
                     self._key(key, self._plain(known[key], value, None))
         for channel, place, quantity in self.scene.channels:
             self._head("[[channel]]", channel)
-            self._key("quantity", fields.word_of(enums.Quantity(quantity)))
+            self._key("quantity", fields.word_of(Named(quantity)))
             if place is not None:
                 self._key("place", self._place(place))
         for name in ANALYSES:
@@ -242,6 +243,9 @@ class Writer:
                 self._input({key: value for key, value in one.items() if key != "order"})
         for one in values.get("output", []):
             self._head(f"[[{name}.output]]", one["name"])
+            if one.get("kind") == enums.OUTPUT_CHANNEL:
+                self._key("quantity", fields.word_of(Named(one["component"])))
+                one = {key: value for key, value in one.items() if key not in ("kind", "component")}
             self._table("output", one)
             if "limit" in one:
                 self._key("limit", units.text(one["limit"], one["unit"]))

@@ -5,6 +5,7 @@ import json
 from typing import Any
 
 from .. import enums
+from ..channels import Named
 from . import failure, variability
 from .asked import LIMITS, OUTPUT, RUN
 from .content import ANALYSES, PARTS
@@ -65,7 +66,7 @@ def schema() -> dict[str, Any]:
         "programme": _many(_object({}, ("term",), name=_NAME, unit=_NAME, term=_many(_term()))),
         "compile": _object(fields_of(DEFINITIONS["compile"])), "sim": _object(fields_of(DEFINITIONS["sim"])),
         "run": _object(RUN), "output": _object(OUTPUT), "limits": _object(LIMITS),
-        "channel": _many(_object({"quantity": Field("quantity", "enum", enum=enums.Quantity),
+        "channel": _many(_object({"quantity": Field("quantity", "enum", enum=Named),
                                   "place": Field("place", "place")}, ("quantity",), name=_NAME))}
     for kind in PARTS:
         more: dict[str, Any] = {"name": _NAME, **({"pipes": _many(pipes)} if kind == "string" else {})}
@@ -80,7 +81,7 @@ def schema() -> dict[str, Any]:
 
 
 def _asked(kind: str) -> dict[str, Any]:
-    output = fields_of(DEFINITIONS["output"])
+    output = {**fields_of(DEFINITIONS["output"]), "quantity": Field("quantity", "enum", enum=Named)}
     if kind == "response":
         return {"input": _many(_object(fields_of(DEFINITIONS["input"]))), "output": _many(_object(output, name=_NAME))}
     if kind == "speeds":

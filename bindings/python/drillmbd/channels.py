@@ -1,0 +1,57 @@
+"""Channels by their names: numbers that a recorder, a window or a response is asked for."""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from ctypes import byref, c_char_p, c_int32
+from enum import IntEnum
+from typing import Any
+
+from ._library import lib as _lib
+from .enums import CHANNEL_WINDOW_MINIMUM
+from .errors import check
+
+
+def channel_numbers() -> Iterator[int]:
+    """The numbers of all channels, ascending."""
+    number = _lib.dmb_channel_next(-1)
+    while number >= 0:
+        yield int(number)
+        number = _lib.dmb_channel_next(number)
+
+
+def channel_name(quantity: int) -> str:
+    """Name of a channel, as "bit_speed"."""
+    found = _lib.dmb_channel_name(int(quantity), None)
+    if found is None:
+        raise ValueError(f"{quantity} is the number of no channel")
+    return str(found.decode())
+
+
+def channel_unit(quantity: int) -> str:
+    """Unit of a channel, as "rad/s"."""
+    unit = c_char_p()
+    if _lib.dmb_channel_name(int(quantity), byref(unit)) is None:
+        raise ValueError(f"{quantity} is the number of no channel")
+    return (unit.value or b"").decode()
+
+
+def channel_quantity(name: str | int) -> int:
+    """The number of a channel by its name, as "bit_speed"; a number stays what it is."""
+    if not isinstance(name, str):
+        return int(name)
+    number = c_int32()
+    try:
+        check(_lib.dmb_channel_quantity(name.encode(), byref(number)))
+    except Exception:
+        raise ValueError(f"{name!r} is no channel; drillmbd.channel_names() lists them") from None
+    return number.value
+
+
+def channel_names() -> list[str]:
+    """The names of all channels."""
+    return [channel_name(number) for number in channel_numbers()]
+
+
+#: All channels but those of windows, as an enumeration: what a scene file may ask for.
+Named: Any = IntEnum("Named", {channel_name(number).upper(): number for number in channel_numbers()  # type: ignore[misc]
+                               if number < CHANNEL_WINDOW_MINIMUM})

@@ -1,0 +1,218 @@
+/* libdrillmbd - what is read off a running sim: named channels beyond those of query.h, among them what a driller
+ * reads; a moving window over channels; profiles at a coarser rate. */
+#ifndef DRILLMBD_OUTPUT_H
+#define DRILLMBD_OUTPUT_H
+
+#include "query.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Channels ----------------------------------------------------------------------------------------------------
+ * Numbers of dmb_channel.quantity that go on from those of query.h. Where six follow each other, the number is the one
+ * given plus DMB_X .. DMB_RZ. Each is the answer of the query it is named after. Numbers 500 .. 999 and from 3000 on
+ * are kept free. A stretch of numbers may grow at its end. */
+enum {
+    /* What a driller reads; place.part a string, {0, 0}: the model's first. O(pipes) of stretch and wind-up. */
+    DMB_CHANNEL_HOOK_LOAD = 100,       /* [N] effective axial force of the section at the rig end, as
+                                          dmb_query_section: > 0 the rig pulls, < 0 it thrusts */
+    DMB_CHANNEL_ROTATION_TORQUE = 101, /* [N m] that the rig puts into that section, > 0 along the string's x axis */
+    DMB_CHANNEL_WEIGHT_ON_BIT = 102,   /* [N] of all bits on the string: rock law and bottom-hole load */
+    DMB_CHANNEL_TORQUE_ON_BIT = 103,   /* [N m] of all bits on the string: rock law, against the rotation */
+    DMB_CHANNEL_RATE_OF_PENETRATION = 104, /* [m/s] of the string's first bit along the hole, > 0 into it; with a rock
+                                              law 0 while it is off bottom. The rate of dmb_bit_state.advance */
+    DMB_CHANNEL_BIT_SPEED = 105,           /* [rad/s] about its axis, of the string's far end */
+    DMB_CHANNEL_BIT_DEPTH = 106,           /* [m] measured depth of the string's far end; 0 without a hole */
+    DMB_CHANNEL_ROTARY_SPEED = 107,        /* [rad/s] about its axis, of the string's rig end */
+    DMB_CHANNEL_FEED_SPEED = 108,          /* [m/s] along its axis, of the string's rig end, > 0 into the hole */
+    DMB_CHANNEL_STRETCH = 109,    /* [m] elastic, > 0 longer: sum of the axial strain over the flexible lengths */
+    DMB_CHANNEL_WIND_UP = 110,    /* [rad] elastic, of the rig end against the far end: less the sum of the twist */
+    DMB_CHANNEL_OFF_BOTTOM = 111, /* [-] 1: no bit of the string with a rock law is on the bottom, else 0; its mean over
+                                     a window is the off-bottom share */
+    DMB_CHANNEL_RIG_FORCE = 112,  /* [N] that guide and drives pull the rig end with: hook load and what the end itself
+                                     takes, inertia, weight, friction; 0 where a joint holds it */
+    DMB_CHANNEL_RIG_TORQUE = 113, /* [N m] likewise, > 0 along the string's x axis */
+
+    /* place.part a bit: dmb_query_bit */
+    DMB_CHANNEL_BIT_ADVANCE = 120,      /* [m] */
+    DMB_CHANNEL_BIT_BOTTOM = 121,       /* [m] */
+    DMB_CHANNEL_BIT_DEPTH_OF_CUT = 122, /* [m] */
+    DMB_CHANNEL_BIT_ROCK_WEIGHT = 123,  /* [N] of the rock law alone */
+    DMB_CHANNEL_BIT_TORQUE = 124,       /* [N m] */
+    DMB_CHANNEL_BIT_LOAD = 125,         /* [N] */
+    DMB_CHANNEL_BIT_ON_BOTTOM = 126,    /* [-] 1 or 0 */
+
+    /* place.part a drive: dmb_query_drive */
+    DMB_CHANNEL_DRIVE_TARGET = 130,   /* [unit of the programme] */
+    DMB_CHANNEL_DRIVE_POSITION = 131, /* [m, rad] */
+    DMB_CHANNEL_DRIVE_POWER = 132,    /* [W] */
+    DMB_CHANNEL_DRIVE_WORK = 133,     /* [J] */
+
+    /* place.pipe the number of a contact site: dmb_query_contact */
+    DMB_CHANNEL_SITE_GAP = 140,             /* [m] */
+    DMB_CHANNEL_SITE_NORMAL_FORCE = 141,    /* [N] */
+    DMB_CHANNEL_SITE_APPROACH = 142,        /* [m/s] */
+    DMB_CHANNEL_SITE_FRICTION_AXIAL = 143,  /* [N] */
+    DMB_CHANNEL_SITE_FRICTION_AROUND = 144, /* [N] */
+    DMB_CHANNEL_SITE_SLIP_AXIAL = 145,      /* [m/s] */
+    DMB_CHANNEL_SITE_SLIP_AROUND = 146,     /* [m/s] */
+    DMB_CHANNEL_SITE_CLOSED = 147,          /* [-] 1 or 0 */
+    DMB_CHANNEL_SITE_STICKS = 148,          /* [-] 1 or 0 */
+    /* place is ignored from here to the statistics; dmb_query_contact_total, O(sites) */
+    DMB_CHANNEL_CONTACTS_CLOSED = 150,          /* [-] */
+    DMB_CHANNEL_CONTACTS_NORMAL_FORCE = 151,    /* [N] */
+    DMB_CHANNEL_CONTACTS_FRICTION_AXIAL = 152,  /* [N] */
+    DMB_CHANNEL_CONTACTS_FRICTION_AROUND = 153, /* [N] */
+    DMB_CHANNEL_CONTACTS_DEEPEST = 154,         /* [m] */
+
+    DMB_CHANNEL_ENERGY_KINETIC = 160, /* [J] dmb_query_energy, O(nodes) */
+    DMB_CHANNEL_ENERGY_STRAIN = 161,
+    DMB_CHANNEL_ENERGY_GRAVITY = 162,
+    DMB_CHANNEL_ENERGY_CONTACT = 163,
+    DMB_CHANNEL_ENERGY_DRIVES = 164,
+    DMB_CHANNEL_ENERGY_LOADS = 165,
+    DMB_CHANNEL_ENERGY_FRICTION = 166,
+    DMB_CHANNEL_ENERGY_IMPACT = 167,
+    DMB_CHANNEL_ENERGY_DAMPING = 168,
+    DMB_CHANNEL_ENERGY_ROCK = 169,
+    DMB_CHANNEL_ENERGY_SCHEME = 170,
+    DMB_CHANNEL_ENERGY_INPUT = 171,
+    DMB_CHANNEL_ENERGY_BALANCE = 172,
+    DMB_CHANNEL_ENERGY_UNEXPLAINED = 173,
+
+    DMB_CHANNEL_MOMENTUM_X = 180, /* [kg m/s] world, 180 .. 182: dmb_query_momentum, O(nodes) */
+    DMB_CHANNEL_MOMENTUM_Y = 181,
+    DMB_CHANNEL_MOMENTUM_Z = 182,
+    DMB_CHANNEL_ANGULAR_MOMENTUM_X = 183, /* [kg m2/s] world, 183 .. 185 */
+    DMB_CHANNEL_ANGULAR_MOMENTUM_Y = 184,
+    DMB_CHANNEL_ANGULAR_MOMENTUM_Z = 185,
+    DMB_CHANNEL_MASS = 186,     /* [kg] */
+    DMB_CHANNEL_CENTRE_X = 187, /* [m] of mass, world, 187 .. 189 */
+    DMB_CHANNEL_CENTRE_Y = 188,
+    DMB_CHANNEL_CENTRE_Z = 189,
+
+    DMB_CHANNEL_STEPS = 200, /* [-] dmb_query_statistics, O(joints) */
+    DMB_CHANNEL_REJECTED = 201,
+    DMB_CHANNEL_ITERATIONS = 202,
+    DMB_CHANNEL_LIMITED_STEPS = 203,
+    DMB_CHANNEL_MOST_ITERATIONS = 204,
+    DMB_CHANNEL_LARGEST_RESIDUAL = 205,
+    DMB_CHANNEL_SWITCHES = 206,
+    DMB_CHANNEL_DEPENDENT = 207,
+    DMB_CHANNEL_REDUNDANT = 208,
+    DMB_CHANNEL_VIOLATION = 209, /* [m, -] of all joints */
+
+    /* place.part a joint: dmb_query_joint; six each but for the last three */
+    DMB_CHANNEL_JOINT_POSITION = 300,      /* [m, rad] */
+    DMB_CHANNEL_JOINT_SPEED = 310,         /* [m/s, rad/s] */
+    DMB_CHANNEL_JOINT_ACCELERATION = 320,  /* [m/s2, rad/s2] */
+    DMB_CHANNEL_JOINT_REACTION = 330,      /* [N, N m] world */
+    DMB_CHANNEL_JOINT_REACTION_BODY = 340, /* [N, N m] frame b */
+    DMB_CHANNEL_JOINT_ACTION = 350,        /* [N, N m] */
+    DMB_CHANNEL_JOINT_VIOLATION = 360,     /* [m, -] */
+    DMB_CHANNEL_JOINT_STATE = 361,         /* [-] DMB_JOINT_... */
+    DMB_CHANNEL_JOINT_ROWS = 362,          /* [-] */
+    DMB_CHANNEL_MULTIPLIER = 370, /* [N, ...] number 0 .. 5 of a joint, coupling, constraint or joint drive; six */
+    DMB_CHANNEL_REACTION = 380,   /* [N, N m] of a string or body: dmb_query_reaction; six */
+
+    /* any place; six each */
+    DMB_CHANNEL_SECTION_FORCE = 400,      /* [N, N m] dmb_query_section */
+    DMB_CHANNEL_SECTION_STRAIN = 410,     /* [-, rad/m] */
+    DMB_CHANNEL_WORLD_VELOCITY = 420,     /* [m/s, rad/s] dmb_query_motion */
+    DMB_CHANNEL_WORLD_ACCELERATION = 430, /* [m/s2, rad/s2] */
+    DMB_CHANNEL_BODY_VELOCITY = 440,      /* [m/s, rad/s] */
+    DMB_CHANNEL_BODY_ACCELERATION = 450,  /* [m/s2, rad/s2] */
+
+    DMB_CHANNEL_PROFILE = 1000, /* + DMB_PROFILE_...: at a place of a string; as dmb_query_profile, NaN included */
+
+    /* of a window, place.pipe the number of the watched channel; in recorders with a window only */
+    DMB_CHANNEL_WINDOW_MINIMUM = 2000,
+    DMB_CHANNEL_WINDOW_MAXIMUM = 2001,
+    DMB_CHANNEL_WINDOW_MEAN = 2002,
+    DMB_CHANNEL_WINDOW_RMS = 2003,
+    DMB_CHANNEL_STICK_SLIP_INDEX = 2004,
+    DMB_CHANNEL_WINDOW_LOW_SHARE = 2005
+};
+
+/* [unit of the channel] The present value. Errors: those of the query behind it, DMB_ERR_VALUE for an unknown quantity
+ * or a multiplier that is not there, DMB_ERR_UNSUPPORTED for a string without what is asked for (a bit, a rock law, a
+ * flexible first pipe) and for channels of a window. */
+DMB_API int32_t dmb_query_channel(const dmb_sim *sim, const dmb_channel *channel, double *value);
+/* "bit_speed", and its unit in *unit (may be NULL); NULL for a number that is none. Names do not change. */
+DMB_API const char *dmb_channel_name(int32_t quantity, const char **unit);
+/* The number of a name; DMB_ERR_VALUE where it is none. */
+DMB_API int32_t dmb_channel_quantity(const char *name, int32_t *quantity);
+/* All numbers that have a name, ascending: the one after `quantity`, -1 before the first; -1 after the last. */
+DMB_API int32_t dmb_channel_next(int32_t quantity);
+/* Whether each channel can be asked of this sim; dmb_sim_message names the first that cannot, and what its place should
+ * be. Errors: as dmb_query_channel. */
+DMB_API int32_t dmb_channel_check(dmb_sim *sim, const dmb_channel *channels, uint32_t channel_count);
+
+/* ---- A window over channels --------------------------------------------------------------------------------------
+ * Least, greatest and mean of channels over the last so many seconds of a run, in memory that does not grow: time is
+ * divided into slots, and the oldest slot is let go as a whole. Means are by time, with straight lines between
+ * samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows. */
+typedef struct dmb_window_options {
+    uint32_t struct_size;
+    uint32_t slots;       /* [-] 2 .. 65536; what is seen is between (slots - 1)/slots and all of `length`; default
+                             100 */
+    double length;        /* [s] >= 0; 0 (default): all since the first sample */
+    const double *levels; /* [unit of the channel] of low_share, shape (channel_count), >= 0; NULL (default): 0 */
+} dmb_window_options;
+DMB_SIZED_STRUCT(dmb_window_options)
+
+typedef struct dmb_window_result {
+    uint32_t struct_size;
+    uint32_t reserved;
+    uint64_t samples; /* [-] in the window */
+    double time;      /* [s] that it spans; 0 with one sample: means are the sample then */
+    double minimum;   /* [unit of the channel] of the samples; NaN, as all that follow, without one */
+    double maximum;
+    double mean;
+    double rms;   /* root of the mean square, 0 included in the mean */
+    double index; /* [-] (maximum - minimum)/(2 |mean|): of the bit speed the stick-slip index, 1 where the bit
+                     comes to rest; 0 where nothing varies, infinite about a mean of 0 */
+    double
+        low_share; /* [-] of the time with |value| at or below its level, by the sample at the end of each interval */
+} dmb_window_result;
+DMB_SIZED_STRUCT(dmb_window_result)
+
+/* channels, shape (channel_count), 1 .. 4096, are copied. Memory from the model's allocator: 48 bytes a channel and
+ * slot. options may be NULL. Errors: those of dmb_channel_check, DMB_ERR_VALUE, _NOT_FINITE, _NO_MEMORY; *window is
+ * NULL then. */
+DMB_API int32_t dmb_window_create(dmb_sim *sim, const dmb_window_options *options, const dmb_channel *channels,
+                                  uint32_t channel_count, dmb_window **window);
+/* Takes a sample; call it after each step. A second one at the same time counts for nothing; DMB_ERR_ORDER for an
+ * earlier time: dmb_window_reset. The sim may be another one of the same model. Allocates nothing. O(channels). */
+DMB_API int32_t dmb_window_take(dmb_window *window, const dmb_sim *sim);
+/* O(slots). DMB_ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE (no such channel). */
+DMB_API int32_t dmb_window_get(const dmb_window *window, uint32_t channel, dmb_window_result *result);
+/* Forgets all samples. */
+DMB_API int32_t dmb_window_reset(dmb_window *window);
+/* Sets *window to NULL. NULL-safe. */
+DMB_API void dmb_window_destroy(dmb_window **window);
+
+/* ---- Profiles over time ------------------------------------------------------------------------------------------
+ * Rows of whole profiles, at a coarser rate, in the caller's memory. */
+typedef struct dmb_profile_recorder {
+    uint32_t struct_size;
+    uint32_t reserved;
+    const dmb_profile *profile; /* what each row holds; its `values` and strides count for nothing. The caller's, kept
+                                   alive by it and not changed once there is a row */
+    double *table;      /* the caller's: time [s], then quantity q at station i at 1 + i quantity_count + q; shape
+                           (capacity, 1 + station_count quantity_count) */
+    uint64_t capacity;  /* [-] rows of table */
+    uint64_t row_count; /* [-] rows written; start with 0 */
+    double interval;    /* [s] between rows, 0: every call */
+} dmb_profile_recorder;
+DMB_SIZED_STRUCT(dmb_profile_recorder)
+/* Writes a row if its time has come. DMB_NOTE_FULL when the table has no room; errors of dmb_query_profile. */
+DMB_API int32_t dmb_profile_recorder_take(dmb_profile_recorder *recorder, const dmb_sim *sim);
+/* CSV, a line for each row and station: time [s], station, then the quantities with their units. DMB_ERR_IO. */
+DMB_API int32_t dmb_profile_recorder_write_csv(const dmb_profile_recorder *recorder, const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,231 @@
+/* Channels as outputs of linear analyses: each is what an output of another kind says. */
+#include "analysis/response/response.h"
+
+#include <math.h>
+
+#include "query/channel.h"
+
+typedef struct meaning {
+    const dmb_sim *sim;
+    dmb_output *out;
+    uint32_t *bit;
+    const char **why;
+} meaning;
+
+static int32_t means(const meaning *m, int32_t kind, int32_t component, int32_t frame)
+{
+    m->out->kind = kind;
+    m->out->component = component;
+    m->out->frame = frame;
+    return DMB_OK;
+}
+
+static int32_t refuse(const meaning *m, int32_t status, const char *why)
+{
+    *m->why = why;
+    return status;
+}
+
+static int32_t not_linear(const meaning *m)
+{
+    return refuse(m, DMB_ERR_UNSUPPORTED,
+                  "a magnitude, a sum or a count has no linear answer to a small motion; ask for components at places, "
+                  "or run a stepped sine");
+}
+
+static int32_t at_string(const meaning *m, const dmb_output *channel, int at_far_end)
+{
+    const dmb_channel asked = {channel->place, channel->component, 0};
+    dmb_id string;
+    uint32_t index;
+    if (dmb_channel_string(m->sim, &asked, &string, &index) < 0)
+        return refuse(m, DMB_ERR_ID, "place.part names no string of this model, nor {0, 0} for the first");
+    const uint32_t last = m->sim->scene->strings[index].pipe_count - 1;
+    m->out->place = at_far_end ? dmb_station(string, last, 1.0) : dmb_station(string, 0, 0.0);
+    return DMB_OK;
+}
+
+/* The one bit on the string: the answer is that of a single bit. */
+static int32_t at_bit(const meaning *m, const dmb_output *channel)
+{
+    const dmb_channel asked = {channel->place, channel->component, 0};
+    const dmb_scene *scene = m->sim->scene;
+    uint32_t index, count = 0;
+    dmb_id string;
+    if (dmb_channel_string(m->sim, &asked, &string, &index) < 0)
+        return refuse(m, DMB_ERR_ID, "place.part names no string of this model, nor {0, 0} for the first");
+    for (uint32_t k = 0; k < scene->bit_count; k++) {
+        if (scene->bits[k].node - scene->strings[index].first_node >= scene->strings[index].node_count) continue;
+        m->out->place.part = dmb_model_id(m->sim->model, DMB_PART_BIT, k);
+        *m->bit = k;
+        count++;
+    }
+    return count == 1 ? DMB_OK
+                      : refuse(m, DMB_ERR_UNSUPPORTED, "the string must have one bit; name it by a bit channel");
+}
+
+static int32_t of_driller(const meaning *m, const dmb_output *channel)
+{
+    const int32_t q = channel->component, far = q == DMB_CHANNEL_BIT_SPEED;
+    const int32_t on_bit = q == DMB_CHANNEL_WEIGHT_ON_BIT || q == DMB_CHANNEL_TORQUE_ON_BIT;
+    const int32_t status = on_bit ? at_bit(m, channel) : at_string(m, channel, far);
+    if (status < 0) return status;
+    if (q != DMB_CHANNEL_WEIGHT_ON_BIT) *m->bit = DMB_NONE;
+    switch (q) {
+    case DMB_CHANNEL_HOOK_LOAD:
+    case DMB_CHANNEL_ROTATION_TORQUE: return DMB_OK; /* itself: a smooth answer about the rig end */
+    case DMB_CHANNEL_WEIGHT_ON_BIT: return means(m, DMB_OUTPUT_BIT, DMB_X, DMB_FRAME_BODY);
+    case DMB_CHANNEL_TORQUE_ON_BIT: return means(m, DMB_OUTPUT_BIT, DMB_RX, DMB_FRAME_BODY);
+    case DMB_CHANNEL_BIT_SPEED:
+    case DMB_CHANNEL_ROTARY_SPEED: return means(m, DMB_OUTPUT_VELOCITY, DMB_RX, DMB_FRAME_BODY);
+    case DMB_CHANNEL_FEED_SPEED: return means(m, DMB_OUTPUT_VELOCITY, DMB_X, DMB_FRAME_BODY);
+    default: return not_linear(m);
+    }
+}
+
+static int32_t of_bit(const meaning *m, int32_t q)
+{
+    if (q == DMB_CHANNEL_BIT_TORQUE) return means(m, DMB_OUTPUT_BIT, DMB_RX, DMB_FRAME_BODY);
+    if (q == DMB_CHANNEL_BIT_ROCK_WEIGHT) return means(m, DMB_OUTPUT_BIT, DMB_X, DMB_FRAME_BODY);
+    if (q != DMB_CHANNEL_BIT_WEIGHT) return not_linear(m);
+    const uint32_t k = dmb_model_part_index(m->sim->model, m->out->place.part, DMB_PART_BIT);
+    if (k >= m->sim->scene->bit_count) return refuse(m, DMB_ERR_ID, "place.part names no bit of this model");
+    *m->bit = k;
+    return means(m, DMB_OUTPUT_BIT, DMB_X, DMB_FRAME_BODY);
+}
+
+/* The speed of a drive is that of the coordinate of its joint, or of its row of the node. */
+static int32_t of_drive(const meaning *m, int32_t q)
+{
+    const uint32_t i = dmb_model_part_index(m->sim->model, m->out->place.part, DMB_PART_DRIVE);
+    if (i >= m->sim->scene->drive_count) return refuse(m, DMB_ERR_ID, "place.part names no drive of this model");
+    const dmb_scene_drive *drive = m->sim->scene->drives + i;
+    const int32_t is_speed = q == DMB_CHANNEL_DRIVE_SPEED, is_position = q == DMB_CHANNEL_DRIVE_POSITION;
+    if (q == DMB_CHANNEL_DRIVE_FORCE) return means(m, DMB_OUTPUT_DRIVE, DMB_X, DMB_FRAME_BODY);
+    if (!is_speed && !is_position) return not_linear(m);
+    if (drive->joint == DMB_NONE)
+        return refuse(m, DMB_ERR_UNSUPPORTED, "ask for body_velocity or displacement at the rig end instead");
+    m->out->place.part = dmb_model_id(m->sim->model, DMB_PART_JOINT, drive->joint);
+    return means(m, is_speed ? DMB_OUTPUT_JOINT_SPEED : DMB_OUTPUT_JOINT_POSITION, drive->component, DMB_FRAME_WORLD);
+}
+
+static int32_t of_site(const meaning *m, int32_t q)
+{
+    if (q == DMB_CHANNEL_SITE_NORMAL_FORCE) return means(m, DMB_OUTPUT_CONTACT, DMB_Z, DMB_FRAME_WORLD);
+    if (q == DMB_CHANNEL_SITE_FRICTION_AXIAL) return means(m, DMB_OUTPUT_CONTACT, DMB_X, DMB_FRAME_WORLD);
+    if (q == DMB_CHANNEL_SITE_FRICTION_AROUND) return means(m, DMB_OUTPUT_CONTACT, DMB_Y, DMB_FRAME_WORLD);
+    return not_linear(m);
+}
+
+static int32_t of_joint(const meaning *m, int32_t q)
+{
+    const int32_t c = q % 10;
+    switch (q - c) {
+    case DMB_CHANNEL_JOINT_POSITION: return means(m, DMB_OUTPUT_JOINT_POSITION, c, DMB_FRAME_WORLD);
+    case DMB_CHANNEL_JOINT_SPEED: return means(m, DMB_OUTPUT_JOINT_SPEED, c, DMB_FRAME_WORLD);
+    case DMB_CHANNEL_JOINT_ACCELERATION: return means(m, DMB_OUTPUT_JOINT_ACCELERATION, c, DMB_FRAME_WORLD);
+    case DMB_CHANNEL_JOINT_REACTION: return means(m, DMB_OUTPUT_JOINT_REACTION, c, DMB_FRAME_WORLD);
+    case DMB_CHANNEL_JOINT_REACTION_BODY: return means(m, DMB_OUTPUT_JOINT_REACTION, c, DMB_FRAME_BODY);
+    case DMB_CHANNEL_JOINT_ACTION: return means(m, DMB_OUTPUT_JOINT_ACTION, c, DMB_FRAME_WORLD);
+    default: return not_linear(m);
+    }
+}
+
+static int32_t of_section(const meaning *m, int32_t q)
+{
+    const int32_t c = q % 10;
+    if (q == DMB_CHANNEL_AXIAL_FORCE) return means(m, DMB_OUTPUT_SECTION_FORCE, DMB_X, DMB_FRAME_BODY);
+    if (q == DMB_CHANNEL_TORQUE) return means(m, DMB_OUTPUT_SECTION_FORCE, DMB_RX, DMB_FRAME_BODY);
+    if (q - c == DMB_CHANNEL_SECTION_FORCE) return means(m, DMB_OUTPUT_SECTION_FORCE, c, DMB_FRAME_BODY);
+    if (q - c == DMB_CHANNEL_SECTION_STRAIN) return means(m, DMB_OUTPUT_SECTION_STRAIN, c, DMB_FRAME_BODY);
+    return not_linear(m);
+}
+
+/* Speeds below this are rest [m/s, rad/s]. */
+#define DMB_OUTPUT_AT_REST 1e-9
+
+static int32_t moves(const meaning *m, int from)
+{
+    dmb_motion motion = dmb_motion_default();
+    double most = 0.0;
+    (void)dmb_query_motion(m->sim, m->out->place, &motion);
+    for (int i = from; i < 6; i++) most = fmax(most, fabs(motion.velocity[i]));
+    return most > DMB_OUTPUT_AT_REST;
+}
+
+/* About a state that turns, axes of the world turn in those of the linear system, and what a query tells of them is no
+ * constant multiple of the motion; neither is a body-frame speed across a motion of the state, to which the turning of
+ * the body adds, d' + v^ d. Components along and about the axis of motion are. */
+static int32_t is_steady(const meaning *m, int32_t q)
+{
+    const int32_t c = q % 10;
+    if (q == DMB_CHANNEL_ROTATION || q == DMB_CHANNEL_SPIN) return 1;
+    if (q < DMB_CHANNEL_BODY_VELOCITY) return !moves(m, 3);
+    return c == DMB_X || c == DMB_RX || !moves(m, 0);
+}
+
+static int32_t of_place(const meaning *m, int32_t q)
+{
+    const int32_t c = q % 10, world = DMB_FRAME_WORLD, body = DMB_FRAME_BODY;
+    if (!is_steady(m, q))
+        return refuse(m, DMB_ERR_UNSUPPORTED,
+                      "the place moves in the state and its axes with it; ask for DMB_OUTPUT_VELOCITY and the like, in "
+                      "the axes of the linear system");
+    if (q == DMB_CHANNEL_ROTATION) return means(m, DMB_OUTPUT_DISPLACEMENT, DMB_RX, body);
+    if (q == DMB_CHANNEL_SPIN) return means(m, DMB_OUTPUT_VELOCITY, DMB_RX, body);
+    if (q <= DMB_CHANNEL_DISPLACEMENT_Z) return means(m, DMB_OUTPUT_DISPLACEMENT, q, world);
+    if (q <= DMB_CHANNEL_VELOCITY_Z) return means(m, DMB_OUTPUT_VELOCITY, q - DMB_CHANNEL_VELOCITY_X, world);
+    if (q <= DMB_CHANNEL_POSITION_Z) return means(m, DMB_OUTPUT_DISPLACEMENT, q - DMB_CHANNEL_POSITION_X, world);
+    if (q - c == DMB_CHANNEL_WORLD_VELOCITY) return means(m, DMB_OUTPUT_VELOCITY, c, world);
+    if (q - c == DMB_CHANNEL_WORLD_ACCELERATION) return means(m, DMB_OUTPUT_ACCELERATION, c, world);
+    if (q - c == DMB_CHANNEL_BODY_VELOCITY) return means(m, DMB_OUTPUT_VELOCITY, c, body);
+    return means(m, DMB_OUTPUT_ACCELERATION, c, body);
+}
+
+/* Of a profile what has components. */
+static int32_t of_profile(const meaning *m, int32_t quantity)
+{
+    if (quantity >= DMB_PROFILE_X && quantity <= DMB_PROFILE_Z)
+        return of_place(m, DMB_CHANNEL_POSITION_X + quantity - DMB_PROFILE_X);
+    if (quantity >= DMB_PROFILE_DISPLACEMENT_X && quantity <= DMB_PROFILE_DISPLACEMENT_Z)
+        return of_place(m, quantity - DMB_PROFILE_DISPLACEMENT_X);
+    const int32_t force = DMB_OUTPUT_SECTION_FORCE, body = DMB_FRAME_BODY;
+    switch (quantity) {
+    case DMB_PROFILE_EFFECTIVE_FORCE: return means(m, force, DMB_X, body);
+    case DMB_PROFILE_TORQUE: return means(m, force, DMB_RX, body);
+    case DMB_PROFILE_SHEAR_Y: return means(m, force, DMB_Y, body);
+    case DMB_PROFILE_SHEAR_Z: return means(m, force, DMB_Z, body);
+    case DMB_PROFILE_MOMENT_Y: return means(m, force, DMB_RY, body);
+    case DMB_PROFILE_MOMENT_Z: return means(m, force, DMB_RZ, body);
+    case DMB_PROFILE_VELOCITY_AXIAL: return means(m, DMB_OUTPUT_VELOCITY, DMB_X, body);
+    case DMB_PROFILE_SPIN: return means(m, DMB_OUTPUT_VELOCITY, DMB_RX, body);
+    case DMB_PROFILE_ACCELERATION_AXIAL: return means(m, DMB_OUTPUT_ACCELERATION, DMB_X, body);
+    case DMB_PROFILE_ROTATION: return means(m, DMB_OUTPUT_DISPLACEMENT, DMB_RX, body);
+    default: return not_linear(m);
+    }
+}
+
+int32_t dmb_output_of_channel(const dmb_sim *sim, const dmb_output *channel, dmb_output *out, uint32_t *bit,
+                              const char **why)
+{
+    const meaning m = {sim, out, bit, why};
+    const int32_t q = channel->component;
+    const dmb_channel_entry *entry = dmb_channel_name_of(q);
+    *out = *channel;
+    *bit = DMB_NONE;
+    switch (entry != NULL ? entry->place : DMB_AT_WINDOW) {
+    case DMB_AT_PLACE: return of_place(&m, q);
+    case DMB_AT_SECTION: return of_section(&m, q);
+    case DMB_AT_PIPE: return of_profile(&m, q - DMB_CHANNEL_PROFILE);
+    case DMB_AT_PART:
+        return q >= DMB_CHANNEL_REACTION ? means(&m, DMB_OUTPUT_REACTION, q - DMB_CHANNEL_REACTION, DMB_FRAME_BODY)
+                                         : not_linear(&m);
+    case DMB_AT_STRING: return of_driller(&m, channel);
+    case DMB_AT_BIT: return of_bit(&m, q);
+    case DMB_AT_DRIVE: return of_drive(&m, q);
+    case DMB_AT_JOINT: return of_joint(&m, q);
+    case DMB_AT_CONSTRAINT: return means(&m, DMB_OUTPUT_MULTIPLIER, q - DMB_CHANNEL_MULTIPLIER, DMB_FRAME_WORLD);
+    case DMB_AT_SITE: return of_site(&m, q);
+    default: return not_linear(&m);
+    }
+}

@@ -1,0 +1,278 @@
+/* Least, greatest and mean of channels over a moving window. Time since the first sample is divided into slots of
+ * length/slots; a slot that the window has left is written anew, so memory does not grow. Between samples a channel is
+ * a straight line: over an interval h from a to b the integral is h (a + b)/2, and of its square h (a a + a b + b b)/3.
+ * An interval belongs to the slot that its end is in. */
+#include "output/window.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/handle.h"
+#include "base/memory.h"
+#include "base/value_check.h"
+#include "query/channel.h"
+#include "sim/access.h"
+
+DMB_DEFINE_INIT(dmb_window_options, 24, {.slots = 100})
+DMB_DEFINE_INIT(dmb_window_result, 72, {.samples = 0})
+
+enum { CHANNELS_MAX = 4096, SLOTS_MIN = 2, SLOTS_MAX = 65536 };
+/* More slots since the first sample than this are not counted in whole numbers. */
+#define SLOT_NUMBER_MAX 9e15
+
+/* One channel in one slot. */
+typedef struct slot_sum {
+    double minimum, maximum;
+    double integral, square; /* [unit s], [unit2 s] */
+    double low;              /* [s] */
+    double unused;
+} slot_sum;
+
+typedef struct slot {
+    double number; /* since the first sample; -1: empty */
+    uint64_t samples;
+    double time; /* [s] */
+} slot;
+
+typedef struct watched {
+    dmb_channel channel;
+    double level;
+    double last; /* value of the last sample */
+    double next; /* of the one that is being taken */
+} watched;
+
+struct dmb_window {
+    uint32_t magic;
+    uint32_t channel_count;
+    size_t bytes; /* of this block, all else in it */
+    dmb_allocator allocator;
+    uint32_t slot_count; /* 1 without a length */
+    int32_t taken;       /* 1: there is a sample */
+    double length;       /* [s] */
+    double first, last;  /* [s] times of samples */
+    watched *channels;   /* shape (channel_count) */
+    slot *slots;         /* shape (slot_count) */
+    slot_sum *sums;      /* shape (slot_count, channel_count) */
+};
+
+/* ---- Creation ---------------------------------------------------------------------------------------------------- */
+
+static int32_t check_options(dmb_sim *sim, const dmb_window_options *options, uint32_t channel_count)
+{
+    dmb_check check = dmb_check_of(&sim->message, "window", DMB_NONE);
+    dmb_check_count(&check, "channel_count", channel_count, 1, CHANNELS_MAX);
+    dmb_check_count(&check, "slots", options->slots, SLOTS_MIN, SLOTS_MAX);
+    dmb_check_within(&check, "length", options->length, 0.0, 1e15);
+    for (uint32_t i = 0; options->levels != NULL && i < channel_count && check.status >= 0; i++)
+        dmb_check_at_least(&check, "levels", options->levels[i], 0.0);
+    return check.status;
+}
+
+/* Structs first, each a multiple of 8 bytes. */
+static void lay_out(dmb_window *w, const dmb_window_options *options, const dmb_channel *channels)
+{
+    w->channels = (watched *)(void *)(w + 1);
+    w->slots = (slot *)(void *)(w->channels + w->channel_count);
+    w->sums = (slot_sum *)(void *)(w->slots + w->slot_count);
+    for (uint32_t i = 0; i < w->channel_count; i++) {
+        w->channels[i].channel = channels[i];
+        w->channels[i].level = options->levels != NULL ? options->levels[i] : 0.0;
+    }
+    for (uint32_t k = 0; k < w->slot_count; k++) w->slots[k].number = -1.0;
+}
+
+static size_t bytes_of(uint32_t channels, uint32_t slots)
+{
+    return sizeof(dmb_window) + channels * sizeof(watched) + slots * sizeof(slot) +
+           (size_t)slots * channels * sizeof(slot_sum);
+}
+
+static int32_t make(dmb_sim *sim, const dmb_window_options *options, const dmb_channel *channels,
+                    uint32_t channel_count, dmb_window **out)
+{
+    const uint32_t slots = options->length > 0.0 ? options->slots : 1;
+    const size_t bytes = bytes_of(channel_count, slots);
+    dmb_window *made = dmb_allocate(&sim->allocator, bytes);
+    if (made == NULL) {
+        dmb_message_set(&sim->message, "window: no memory for %u channels and %u slots; ask for fewer", channel_count,
+                        slots);
+        return DMB_ERR_NO_MEMORY;
+    }
+    made->magic = DMB_HANDLE_WINDOW;
+    made->bytes = bytes;
+    made->allocator = sim->allocator;
+    made->channel_count = channel_count;
+    made->slot_count = slots;
+    made->length = options->length;
+    lay_out(made, options, channels);
+    *out = made;
+    return DMB_OK;
+}
+
+int32_t dmb_window_create(dmb_sim *sim, const dmb_window_options *given, const dmb_channel *channels,
+                          uint32_t channel_count, dmb_window **window)
+{
+    dmb_window_options options = dmb_window_options_defaults;
+    if (window == NULL) return DMB_ERR_NULL;
+    *window = NULL;
+    if (sim == NULL || channels == NULL) return DMB_ERR_NULL;
+    int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    if (status < 0) return status;
+    if (given != NULL) status = dmb_window_options_read(&options, given);
+    if (status < 0) dmb_message_set(&sim->message, "window: struct_size of the options is not one this library knows");
+    if (status >= 0) status = check_options(sim, &options, channel_count);
+    status = dmb_sim_leave(sim, status);
+    if (status >= 0) status = dmb_channel_check(sim, channels, channel_count);
+    if (status < 0) return status;
+    status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    return status < 0 ? status : dmb_sim_leave(sim, make(sim, &options, channels, channel_count, window));
+}
+
+void dmb_window_destroy(dmb_window **window)
+{
+    dmb_window *found;
+    if (window == NULL) return;
+    found = *window;
+    *window = NULL;
+    if (!dmb_handle_is(found, DMB_HANDLE_WINDOW)) return;
+    const dmb_allocator allocator = found->allocator;
+    found->magic = DMB_HANDLE_DEAD;
+    dmb_release(&allocator, found, found->bytes);
+}
+
+int32_t dmb_window_reset(dmb_window *window)
+{
+    if (window == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(window, DMB_HANDLE_WINDOW)) return DMB_ERR_HANDLE;
+    window->taken = 0;
+    for (uint32_t k = 0; k < window->slot_count; k++) window->slots[k].number = -1.0;
+    return DMB_OK;
+}
+
+/* ---- Samples ----------------------------------------------------------------------------------------------------- */
+
+/* Number of the slot that a time is in. */
+static double slot_number(const dmb_window *w, double time)
+{
+    if (!(w->length > 0.0)) return 0.0;
+    return fmin(floor((time - w->first) * w->slot_count / w->length), SLOT_NUMBER_MAX);
+}
+
+static slot *open_slot(dmb_window *w, double number)
+{
+    const uint32_t place = (uint32_t)fmod(number, w->slot_count);
+    slot *at = w->slots + place;
+    if (at->number == number) return at;
+    memset(w->sums + (size_t)place * w->channel_count, 0, w->channel_count * sizeof(slot_sum));
+    at->number = number;
+    at->samples = 0;
+    at->time = 0.0;
+    return at;
+}
+
+static void add_sample(watched *c, double step, int is_first, slot_sum *sum)
+{
+    const double a = c->last, b = c->next;
+    sum->minimum = is_first ? b : fmin(sum->minimum, b);
+    sum->maximum = is_first ? b : fmax(sum->maximum, b);
+    sum->integral += 0.5 * step * (a + b);
+    sum->square += step * (a * a + a * b + b * b) / 3.0;
+    if (fabs(b) <= c->level) sum->low += step;
+}
+
+/* All channels are asked before the first is counted, so that a sim without one of them changes nothing. */
+static int32_t ask_all(dmb_window *w, const dmb_sim *sim)
+{
+    for (uint32_t i = 0; i < w->channel_count; i++) {
+        const int32_t status = dmb_channel_value(sim, &w->channels[i].channel, &w->channels[i].next);
+        if (status < 0) return status;
+        if (!isfinite(w->channels[i].next)) return DMB_ERR_NOT_FINITE;
+    }
+    return DMB_OK;
+}
+
+int32_t dmb_window_take(dmb_window *window, const dmb_sim *sim)
+{
+    int32_t status = dmb_sim_check(sim);
+    if (status < 0) return status;
+    if (window == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(window, DMB_HANDLE_WINDOW)) return DMB_ERR_HANDLE;
+    const double time = dmb_sim_time(sim);
+    if (window->taken && time < window->last) return DMB_ERR_ORDER;
+    if (window->taken && !(time > window->last)) return DMB_OK;
+    status = ask_all(window, sim);
+    if (status < 0) return status;
+    if (!window->taken) window->first = window->last = time;
+    const double step = time - window->last;
+    slot *at = open_slot(window, slot_number(window, time));
+    slot_sum *sums = window->sums + (size_t)(at - window->slots) * window->channel_count;
+    for (uint32_t i = 0; i < window->channel_count; i++) {
+        watched *c = window->channels + i;
+        if (!window->taken) c->last = c->next;
+        add_sample(c, step, at->samples == 0, sums + i);
+        c->last = c->next;
+    }
+    at->samples++;
+    at->time += step;
+    window->last = time;
+    window->taken = 1;
+    return DMB_OK;
+}
+
+/* ---- Answers ----------------------------------------------------------------------------------------------------- */
+
+static void set_means(const slot_sum *total, double last, dmb_window_result *r)
+{
+    const double range = r->maximum - r->minimum;
+    r->mean = r->time > 0.0 ? total->integral / r->time : last;
+    r->rms = r->time > 0.0 ? sqrt(total->square / r->time) : fabs(last);
+    r->index = range > 0.0 ? range / (2.0 * fabs(r->mean)) : 0.0;
+    r->low_share = r->time > 0.0 ? total->low / r->time : 0.0;
+}
+
+static dmb_window_result result_of(const dmb_window *w, uint32_t channel)
+{
+    const double nan = (double)NAN, now = slot_number(w, w->last);
+    dmb_window_result r = {.minimum = nan, .maximum = nan, .mean = nan, .rms = nan, .index = nan, .low_share = nan};
+    slot_sum total = {0};
+    for (uint32_t k = 0; k < w->slot_count; k++) {
+        const slot *at = w->slots + k;
+        const slot_sum *sum = w->sums + (size_t)k * w->channel_count + channel;
+        if (at->number < 0.0 || at->number <= now - w->slot_count) continue;
+        r.minimum = r.samples == 0 ? sum->minimum : fmin(r.minimum, sum->minimum);
+        r.maximum = r.samples == 0 ? sum->maximum : fmax(r.maximum, sum->maximum);
+        r.samples += at->samples;
+        r.time += at->time;
+        total.integral += sum->integral;
+        total.square += sum->square;
+        total.low += sum->low;
+    }
+    if (r.samples > 0) set_means(&total, w->channels[channel].last, &r);
+    return r;
+}
+
+static int32_t check_ask(const dmb_window *window, uint32_t channel)
+{
+    if (window == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(window, DMB_HANDLE_WINDOW)) return DMB_ERR_HANDLE;
+    return channel < window->channel_count ? DMB_OK : DMB_ERR_VALUE;
+}
+
+int32_t dmb_window_get(const dmb_window *window, uint32_t channel, dmb_window_result *result)
+{
+    const int32_t status = check_ask(window, channel);
+    if (result == NULL) return DMB_ERR_NULL;
+    if (status < 0) return status;
+    const dmb_window_result answer = result_of(window, channel);
+    return dmb_window_result_write(result, &answer);
+}
+
+int32_t dmb_window_value(const dmb_window *window, const dmb_channel *channel, double *value)
+{
+    const int32_t status = check_ask(window, channel->place.pipe);
+    if (status < 0) return status;
+    const dmb_window_result r = result_of(window, channel->place.pipe);
+    const double values[] = {r.minimum, r.maximum, r.mean, r.rms, r.index, r.low_share};
+    *value = values[channel->quantity - DMB_CHANNEL_WINDOW_MINIMUM];
+    return DMB_OK;
+}

@@ -1,0 +1,420 @@
+/* Every channel against the query that it mirrors, in a string that drills on a wall with a jointed body behind it;
+ * names and numbers; recorders of windows and profiles; refusals. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "rig.h"
+
+typedef struct scene {
+    rig s;
+    dmb_id string, bit, feed, torque, body, joint;
+} scene;
+
+/* Eight pipes of S1 that drill, and a pendulum with a spring on a joint. */
+static scene make(void)
+{
+    const dmb_term ramp = {.struct_size = sizeof ramp, .kind = DMB_TERM_STEP, .x1 = 0.02, .h1 = 0.1};
+    dmb_wall_def wall = s1_hole();
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_bit_def bit = dmb_bit_def_default();
+    dmb_string_def string = dmb_string_def_default();
+    dmb_body_def body = dmb_body_def_default();
+    scene r;
+    rig_open(&r.s, 0.0, 0.0, -9.81);
+    add_wall(&r.s, &wall);
+    string.start_free = DMB_FREE_CYLINDRICAL;
+    add_string(&r.s, &string);
+    pipe.yield_strength = 7e8;
+    r.string = add_pipes(&r.s, &pipe, 8);
+    bit.load = add_constant(&r.s, 250.0);
+    bit.bottom = 1e-3;
+    bit.rock_law = DMB_ROCK_RATE;
+    must_model(&r.s, dmb_model_add_bit(r.s.model, &bit, &r.bit));
+    r.feed = add_simple_drive(&r.s, DMB_DRIVE_MOTION, r.string, DMB_X, add_programme(&r.s, &ramp, 1));
+    r.torque = add_simple_drive(&r.s, DMB_DRIVE_LOAD, r.string, DMB_RX, add_constant(&r.s, 400.0));
+    body.mass = 3.0;
+    for (int i = 0; i < 3; i++) body.inertia[i] = 0.1;
+    body.position[1] = 5.0;
+    r.body = add_body(&r.s, &body);
+    dmb_joint_def joint =
+        joint_between(DMB_JOINT_CYLINDRICAL, dmb_station((dmb_id){0, 0}, 0, 0.0), dmb_station(r.body, 0, 0.0));
+    joint.origin_a[1] = joint.origin_b[1] = 0.0;
+    joint.origin_a[1] = 5.0;
+    joint.origin_b[2] = 0.4;
+    joint.origin_a[2] = 0.4;
+    joint.stiffness[DMB_X] = 100.0;
+    joint.rest[DMB_X] = 0.1;
+    joint.damping[DMB_RX] = 0.2;
+    r.joint = add_joint(&r.s, &joint);
+    rig_start(&r.s, NULL);
+    take_steps(&r.s, 1e-3, 60);
+    return r;
+}
+
+static void destroy(scene *r)
+{
+    rig_close(&r->s);
+}
+
+/* ---- What each should be ----------------------------------------------------------------------------------------- */
+
+static dmb_place place_for(const scene *r, int32_t q)
+{
+    const dmb_place along = dmb_station(r->string, 2, 0.25), none = dmb_station((dmb_id){0, 0}, 0, 0.0);
+    if (q == DMB_CHANNEL_BIT_WEIGHT || (q >= 120 && q < 130)) return dmb_station(r->bit, 0, 0.0);
+    if (q == DMB_CHANNEL_DRIVE_FORCE || q == DMB_CHANNEL_DRIVE_SPEED) return dmb_station(r->feed, 0, 0.0);
+    if (q >= 130 && q < 140) return dmb_station(r->torque, 0, 0.0);
+    if (q >= 140 && q < 150) return dmb_station((dmb_id){0, 0}, 5, 0.0);
+    if (q >= 300 && q < 380) return dmb_station(r->joint, 0, 0.0);
+    if (q >= 380 && q < 390) return dmb_station(r->string, 0, 0.0);
+    return q >= 100 && q < 300 ? none : along;
+}
+
+static double of_place(const scene *r, int32_t q)
+{
+    const dmb_place place = place_for(r, q);
+    const dmb_motion world = motion_at(&r->s, place, DMB_FRAME_WORLD), body = motion_at(&r->s, place, DMB_FRAME_BODY);
+    const dmb_pose pose = pose_at(&r->s, place);
+    dmb_section section = dmb_section_default();
+    double kinetic;
+    must(&r->s, dmb_query_section(r->s.sim, place, &section));
+    must(&r->s, dmb_query_kinetic_energy(r->s.sim, place.part, place.pipe, &kinetic));
+    if (q < 3) return pose.displacement[q];
+    if (q < 6) return world.velocity[q - 3];
+    if (q < 9) return pose.position[q - 6];
+    if (q == DMB_CHANNEL_ROTATION) return rotation_at(&r->s, place);
+    if (q == DMB_CHANNEL_SPIN) return body.velocity[3];
+    if (q == DMB_CHANNEL_AXIAL_FORCE) return section.force[0];
+    if (q == DMB_CHANNEL_TORQUE) return section.force[3];
+    if (q == DMB_CHANNEL_BENDING_MOMENT) return hypot(section.force[4], section.force[5]);
+    if (q == DMB_CHANNEL_KINETIC_ENERGY) return kinetic;
+    if (q >= 450) return body.acceleration[q - 450];
+    if (q >= 440) return body.velocity[q - 440];
+    if (q >= 430) return world.acceleration[q - 430];
+    if (q >= 420) return world.velocity[q - 420];
+    return q >= 410 ? section.strain[q - 410] : section.force[q - 400];
+}
+
+static double of_contact(const scene *r, int32_t q)
+{
+    dmb_contact c = dmb_contact_default();
+    dmb_contact_total t = contacts_of(&r->s);
+    for (uint32_t i = 0; q == DMB_CHANNEL_NORMAL_FORCE; i++) {
+        must(&r->s, dmb_query_contact(r->s.sim, i, &c));
+        if (c.part.index == r->string.index && c.pipe == 2) return c.normal_force;
+    }
+    must(&r->s, dmb_query_contact(r->s.sim, 5, &c));
+    const double site[9] = {c.gap,     c.normal_force, c.approach, c.friction[0], c.friction[1],
+                            c.slip[0], c.slip[1],      c.closed,   c.sticks};
+    const double total[5] = {t.closed, t.normal_force, t.friction[0], t.friction[1], t.deepest};
+    return q < 150 ? site[q - 140] : total[q - 150];
+}
+
+static double of_whole(const scene *r, int32_t q)
+{
+    const dmb_energy e = energy_of(&r->s);
+    const dmb_momentum m = momentum_of(&r->s);
+    const dmb_statistics s = statistics_of(&r->s);
+    const double energies[14] = {e.kinetic, e.strain,  e.gravity, e.contact, e.drives, e.loads,   e.friction,
+                                 e.impact,  e.damping, e.rock,    e.scheme,  e.input,  e.balance, e.unexplained};
+    const double momenta[10] = {m.linear[0],  m.linear[1], m.linear[2], m.angular[0], m.angular[1],
+                                m.angular[2], m.mass,      m.centre[0], m.centre[1],  m.centre[2]};
+    const double statistics[10] = {(double)s.steps,   (double)s.rejected, (double)s.iterations, (double)s.limited_steps,
+                                   s.most_iterations, s.largest_residual, (double)s.switches,   s.dependent,
+                                   s.redundant,       s.violation};
+    if (q == DMB_CHANNEL_ENERGY_ERROR) return e.error;
+    if (q < 180) return energies[q - 160];
+    return q < 200 ? momenta[q - 180] : statistics[q - 200];
+}
+
+static double of_joint(const scene *r, int32_t q)
+{
+    dmb_joint_state world = dmb_joint_state_default(), body = dmb_joint_state_default();
+    double multipliers[6], reaction[6];
+    uint32_t count;
+    body.frame = DMB_FRAME_BODY;
+    must(&r->s, dmb_query_joint(r->s.sim, r->joint, &world));
+    must(&r->s, dmb_query_joint(r->s.sim, r->joint, &body));
+    must(&r->s, dmb_query_multipliers(r->s.sim, r->joint, multipliers, &count));
+    must(&r->s, dmb_query_reaction(r->s.sim, r->string, reaction));
+    if (q < 310) return world.position[q - 300];
+    if (q < 320) return world.speed[q - 310];
+    if (q < 330) return world.acceleration[q - 320];
+    if (q < 340) return world.reaction[q - 330];
+    if (q < 350) return body.reaction[q - 340];
+    if (q < 360) return world.action[q - 350];
+    if (q == 360) return world.violation;
+    if (q == 361) return world.state;
+    if (q == 362) return world.constraint_rows;
+    return q < 380 ? multipliers[q - 370] : reaction[q - 380];
+}
+
+static double of_part(const scene *r, int32_t q)
+{
+    dmb_bit_state b = dmb_bit_state_default();
+    dmb_drive_state f = dmb_drive_state_default(), t = dmb_drive_state_default();
+    must(&r->s, dmb_query_bit(r->s.sim, r->bit, &b));
+    must(&r->s, dmb_query_drive(r->s.sim, r->feed, &f));
+    must(&r->s, dmb_query_drive(r->s.sim, r->torque, &t));
+    const double bit[7] = {b.advance, b.bottom, b.depth_of_cut, b.weight, b.torque, b.load, b.on_bottom};
+    const double drive[4] = {t.target, t.position, t.power, t.work};
+    if (q == DMB_CHANNEL_DRIVE_FORCE) return f.force;
+    if (q == DMB_CHANNEL_DRIVE_SPEED) return f.speed;
+    if (q == DMB_CHANNEL_BIT_WEIGHT) return b.weight + b.load;
+    return q < 130 ? bit[q - 120] : drive[q - 130];
+}
+
+static double of_driller(const scene *r, int32_t q)
+{
+    const dmb_place rig_end = dmb_station(r->string, 0, 0.0), far_end = dmb_station(r->string, 7, 1.0);
+    dmb_section section = dmb_section_default();
+    dmb_bit_state b = dmb_bit_state_default();
+    dmb_drive_state f = dmb_drive_state_default(), t = dmb_drive_state_default();
+    double sum = 0.0;
+    must(&r->s, dmb_query_section(r->s.sim, rig_end, &section));
+    must(&r->s, dmb_query_bit(r->s.sim, r->bit, &b));
+    must(&r->s, dmb_query_drive(r->s.sim, r->feed, &f));
+    must(&r->s, dmb_query_drive(r->s.sim, r->torque, &t));
+    const double speed = motion_at(&r->s, dmb_station(r->bit, 0, 0.0), DMB_FRAME_WORLD).velocity[0];
+    for (uint32_t p = 0; p < 8; p++) { /* one element a pipe: its mean strain times its length */
+        dmb_section middle = dmb_section_default();
+        must(&r->s, dmb_query_section(r->s.sim, dmb_station(r->string, p, 0.5), &middle));
+        sum += 1.5 * (q == DMB_CHANNEL_STRETCH ? middle.strain[0] : -middle.strain[3]);
+    }
+    switch (q) {
+    case DMB_CHANNEL_HOOK_LOAD: return section.force[0];
+    case DMB_CHANNEL_ROTATION_TORQUE: return -section.force[3];
+    case DMB_CHANNEL_WEIGHT_ON_BIT: return b.weight + b.load;
+    case DMB_CHANNEL_TORQUE_ON_BIT: return b.torque;
+    case DMB_CHANNEL_RATE_OF_PENETRATION: return b.on_bottom ? speed : 0.0;
+    case DMB_CHANNEL_BIT_SPEED: return motion_at(&r->s, far_end, DMB_FRAME_BODY).velocity[3];
+    case DMB_CHANNEL_BIT_DEPTH: return pose_at(&r->s, far_end).depth;
+    case DMB_CHANNEL_ROTARY_SPEED: return motion_at(&r->s, rig_end, DMB_FRAME_BODY).velocity[3];
+    case DMB_CHANNEL_FEED_SPEED: return motion_at(&r->s, rig_end, DMB_FRAME_BODY).velocity[0];
+    case DMB_CHANNEL_OFF_BOTTOM: return !b.on_bottom;
+    case DMB_CHANNEL_RIG_FORCE: return -f.force;
+    case DMB_CHANNEL_RIG_TORQUE: return t.force;
+    default: return sum;
+    }
+}
+
+static double of_profile(const scene *r, int32_t quantity)
+{
+    const double distance = 2.25 * 1.5;
+    double value;
+    dmb_profile profile = dmb_profile_default();
+    profile.distance = &distance;
+    profile.quantities = &quantity;
+    profile.quantity_count = 1;
+    profile.values = &value;
+    must(&r->s, dmb_query_profile(r->s.sim, &profile));
+    return value;
+}
+
+static double expected(const scene *r, int32_t q)
+{
+    if (q >= 1000) return of_profile(r, q - 1000);
+    if (q >= 400) return of_place(r, q);
+    if (q >= 300) return of_joint(r, q);
+    if (q >= 160 || q == DMB_CHANNEL_ENERGY_ERROR) return of_whole(r, q);
+    if (q >= 140 || q == DMB_CHANNEL_NORMAL_FORCE) return of_contact(r, q);
+    if (q >= 120 || (q >= DMB_CHANNEL_DRIVE_FORCE && q <= DMB_CHANNEL_BIT_WEIGHT)) return of_part(r, q);
+    return q >= 100 ? of_driller(r, q) : of_place(r, q);
+}
+
+static int is_last_row(int32_t q)
+{
+    return q >= DMB_CHANNEL_MULTIPLIER + 4 && q < DMB_CHANNEL_REACTION; /* a cylindrical joint has four */
+}
+
+static void each_is_its_query(void **state)
+{
+    (void)state;
+    scene r = make();
+    int count = 0, nonzero = 0;
+    for (int32_t q = dmb_channel_next(-1); q >= 0 && q < DMB_CHANNEL_WINDOW_MINIMUM; q = dmb_channel_next(q)) {
+        const dmb_channel channel = {place_for(&r, q), q, 0};
+        double got = -1e99;
+        const int32_t status = dmb_query_channel(r.s.sim, &channel, &got);
+        assert_int_equal(status, is_last_row(q) ? DMB_ERR_VALUE : DMB_OK);
+        if (status < 0) continue;
+        const double want = expected(&r, q);
+        const int summed = q == DMB_CHANNEL_STRETCH || q == DMB_CHANNEL_WIND_UP || q == DMB_CHANNEL_RATE_OF_PENETRATION;
+        if (!(fabs(got - want) <= (summed ? 1e-12 * fabs(want) : 0.0)) && !(isnan(got) && isnan(want)))
+            fail_msg("%s: %.17g, wanted %.17g", dmb_channel_name(q, NULL), got, want);
+        count++;
+        nonzero += got != 0.0;
+    }
+    tell("channels", count);
+    tell("    of them not 0", nonzero);
+    assert_int_equal(count, 213);
+    assert_true(nonzero > 150);
+    destroy(&r);
+}
+
+/* ---- Names ------------------------------------------------------------------------------------------------------- */
+
+static void names_are_numbers(void **state)
+{
+    (void)state;
+    const char *unit;
+    int32_t last = -1, back;
+    for (int32_t q = dmb_channel_next(-1); q >= 0; q = dmb_channel_next(q)) {
+        const char *name = dmb_channel_name(q, &unit);
+        assert_true(q > last);
+        assert_non_null(name);
+        assert_true(unit[0] != '\0' && strchr(name, ' ') == NULL);
+        assert_int_equal(dmb_channel_quantity(name, &back), DMB_OK);
+        assert_int_equal(back, q);
+        last = q;
+    }
+    for (int32_t q = 0; q < DMB_PROFILE_COUNT; q++) {
+        const char *wanted, *name = dmb_channel_name(DMB_CHANNEL_PROFILE + q, &unit);
+        char text[64];
+        snprintf(text, sizeof text, "profile_%s", dmb_profile_name(q, &wanted));
+        assert_string_equal(name, text);
+        assert_string_equal(unit, wanted);
+    }
+    assert_string_equal(dmb_channel_name(DMB_CHANNEL_BIT_SPEED, &unit), "bit_speed");
+    assert_string_equal(unit, "rad/s");
+    assert_string_equal(dmb_channel_name(DMB_CHANNEL_JOINT_ACTION + DMB_RY, NULL), "joint_action_ry");
+    assert_null(dmb_channel_name(DMB_CHANNEL_COUNT, &unit));
+    assert_null(unit);
+    assert_null(dmb_channel_name(INT32_MAX, NULL));
+    assert_null(dmb_channel_name(INT32_MIN, NULL));
+    assert_int_equal(dmb_channel_next(INT32_MAX), -1);
+    assert_int_equal(dmb_channel_quantity("hook", &back), DMB_ERR_VALUE);
+    assert_int_equal(dmb_channel_quantity(NULL, &back), DMB_ERR_NULL);
+}
+
+/* ---- Refusals ---------------------------------------------------------------------------------------------------- */
+
+static void refused(scene *r, int32_t status, int32_t quantity, dmb_place place, const char *says)
+{
+    const dmb_channel channel = {place, quantity, 0};
+    double value = 7.0;
+    assert_int_equal(dmb_query_channel(r->s.sim, &channel, &value), status);
+    assert_true(value == 7.0);
+    assert_int_equal(dmb_channel_check(r->s.sim, &channel, 1), status);
+    if (strstr(dmb_sim_message(r->s.sim), says) == NULL) fail_msg("says: %s", dmb_sim_message(r->s.sim));
+}
+
+static void what_is_not_there(void **state)
+{
+    (void)state;
+    scene r = make();
+    const dmb_place body = dmb_station(r.body, 0, 0.0), nothing = dmb_station((dmb_id){0, 0}, 0, 0.0);
+    const dmb_channel fine = {dmb_station(r.string, 0, 0.0), DMB_CHANNEL_HOOK_LOAD, 0};
+    refused(&r, DMB_ERR_VALUE, 99, nothing, "channel 0: quantity = 99, must be one");
+    refused(&r, DMB_ERR_VALUE, -1, nothing, "quantity = -1");
+    refused(&r, DMB_ERR_ID, DMB_CHANNEL_HOOK_LOAD, body, "hook_load");
+    refused(&r, DMB_ERR_ID, DMB_CHANNEL_BIT_ADVANCE, body, "must be a bit");
+    refused(&r, DMB_ERR_ID, DMB_CHANNEL_DRIVE_WORK, body, "must be a drive");
+    refused(&r, DMB_ERR_ID, DMB_CHANNEL_JOINT_ACTION, body, "must be a joint");
+    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_MULTIPLIER + 5, dmb_station(r.joint, 0, 0.0), "with that row");
+    refused(&r, DMB_ERR_UNSUPPORTED, DMB_CHANNEL_SECTION_FORCE, body, "flexible");
+    refused(&r, DMB_ERR_ID, DMB_CHANNEL_PROFILE, body, "pipe of a string");
+    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_PROFILE, dmb_station(r.string, 8, 0.0), "pipe 8");
+    refused(&r, DMB_ERR_NOT_FINITE, DMB_CHANNEL_PROFILE, dmb_station(r.string, 1, (double)NAN), "pipe of a string");
+    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_PROFILE, dmb_station(r.string, 1, -1.0), "pipe of a string");
+    refused(&r, DMB_ERR_VALUE, DMB_CHANNEL_SITE_GAP, dmb_station(nothing.part, 1000, 0.0), "contact site");
+    refused(&r, DMB_ERR_UNSUPPORTED, DMB_CHANNEL_STICK_SLIP_INDEX, nothing, "number of a window");
+    assert_int_equal(dmb_query_channel(r.s.sim, NULL, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_channel_check(r.s.sim, NULL, 1), DMB_ERR_NULL);
+    assert_int_equal(dmb_channel_check(r.s.sim, &fine, 1), DMB_OK);
+    destroy(&r);
+}
+
+/* ---- Windows and profiles in tables ------------------------------------------------------------------------------ */
+
+static char *written(int32_t status, const char *path)
+{
+    static char text[1 << 15];
+    assert_int_equal(status, DMB_OK);
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    remove(path);
+    return text;
+}
+
+static void in_tables(void **state)
+{
+    (void)state;
+    scene r = make();
+    const dmb_channel watched = {dmb_station((dmb_id){0, 0}, 0, 0.0), DMB_CHANNEL_BIT_SPEED, 0};
+    const dmb_channel asked[4] = {{watched.place, DMB_CHANNEL_STICK_SLIP_INDEX, 0},
+                                  {watched.place, DMB_CHANNEL_BIT_SPEED, 0},
+                                  {dmb_station((dmb_id){0, 0}, 3, 0.0), DMB_CHANNEL_SITE_GAP, 0},
+                                  {dmb_station(r.joint, 0, 0.0), DMB_CHANNEL_JOINT_SPEED + DMB_RX, 0}};
+    const int32_t quantities[2] = {DMB_PROFILE_DISTANCE, DMB_PROFILE_TORQUE};
+    double table[5][20], profiles[3][1 + 7 * 2];
+    dmb_window *window = NULL;
+    dmb_window_result result = dmb_window_result_default();
+    dmb_recorder recorder = dmb_recorder_default();
+    dmb_profile profile = dmb_profile_default();
+    dmb_profile_recorder rows = dmb_profile_recorder_default();
+    must(&r.s, dmb_window_create(r.s.sim, NULL, &watched, 1, &window));
+    recorder.channels = asked;
+    recorder.channel_count = 4;
+    recorder.table = &table[0][0];
+    recorder.capacity = 5;
+    assert_int_equal(dmb_recorder_take(&recorder, r.s.sim), DMB_ERR_UNSUPPORTED);
+    recorder.window = window;
+    profile.station_count = 7;
+    profile.quantities = quantities;
+    profile.quantity_count = 2;
+    rows.profile = &profile;
+    rows.table = &profiles[0][0];
+    rows.capacity = 3;
+    rows.interval = 2e-3;
+    for (int i = 0; i < 5; i++) {
+        take_steps(&r.s, 1e-3, 1);
+        assert_int_equal(dmb_window_take(window, r.s.sim), DMB_OK);
+        assert_int_equal(dmb_recorder_take(&recorder, r.s.sim), DMB_OK);
+        assert_int_equal(dmb_profile_recorder_take(&rows, r.s.sim), DMB_OK);
+    }
+    take_steps(&r.s, 1e-3, 1);
+    assert_int_equal(dmb_profile_recorder_take(&rows, r.s.sim), DMB_OK); /* not yet due */
+    take_steps(&r.s, 1e-3, 1);
+    assert_int_equal(dmb_profile_recorder_take(&rows, r.s.sim), DMB_NOTE_FULL);
+    assert_int_equal(rows.row_count, 3);
+    assert_int_equal(dmb_window_get(window, 0, &result), DMB_OK);
+    assert_true(((double *)table)[5 * 4 + 1] == result.index && result.samples == 5);
+    check_close("row of a profile 2 ms later", profiles[1][0] - profiles[0][0], 2e-3, 1e-12);
+    check_close("distance of the last station", profiles[2][1 + 6 * 2], 12.0, 0.0);
+    const char *text = written(dmb_recorder_write_csv(&recorder, "channels_out.csv"), "channels_out.csv");
+    assert_non_null(strstr(text, "time [s],stick_slip_index watch 0 [-],bit_speed [rad/s],site_gap site 3 [m],"
+                                 "joint_speed_rx joint 0 [rad/s]\n"));
+    text = written(dmb_profile_recorder_write_csv(&rows, "profiles_out.csv"), "profiles_out.csv");
+    assert_non_null(strstr(text, "time [s],station,distance [m],torque [N m]\n"));
+    int lines = 0;
+    for (const char *at = text; (at = strchr(at, '\n')) != NULL; at++) lines++;
+    assert_int_equal(lines, 1 + 3 * 7);
+    profile.station_count = 0;
+    assert_int_equal(dmb_profile_recorder_take(&rows, r.s.sim), DMB_ERR_VALUE);
+    profile.station_count = 7;
+    rows.interval = (double)NAN;
+    assert_int_equal(dmb_profile_recorder_take(&rows, r.s.sim), DMB_ERR_NOT_FINITE);
+    rows.interval = -1.0;
+    assert_int_equal(dmb_profile_recorder_take(&rows, r.s.sim), DMB_ERR_VALUE);
+    rows.interval = 0.0;
+    rows.capacity = UINT64_MAX;
+    assert_int_equal(dmb_profile_recorder_take(&rows, r.s.sim), DMB_ERR_VALUE);
+    dmb_window_destroy(&window);
+    assert_int_equal(dmb_window_get(window, 0, &result), DMB_ERR_NULL);
+    destroy(&r);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_is_its_query),
+        cmocka_unit_test(names_are_numbers),
+        cmocka_unit_test(what_is_not_there),
+        cmocka_unit_test(in_tables),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
