@@ -113,6 +113,8 @@
                                system/constrain/cluster_projection, prescribed system/assemble/drives; of statics     \
                                analysis/static/static_move */                                                         \
     X(double, load_step_increment, r)   /* [m, rad] that of the load step reached, analysis/static/static_steps */   \
+    X(double, pull_tension, ns)         /* [N] of the element after each node, analysis/static/static_pull */         \
+    X(double, pull_stretch, ns)         /* [m] of a string up to each node, analysis/static/static_lay */             \
     X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */\
     /* residual and iteration matrix by the files of system/assemble/, forces of constraint system/constrain/cluster, \
        system/constrain/sparse_cluster; factors in their place by system/solve/solve: */                          \
@@ -172,7 +174,9 @@
     X(double, sparse_value, sparse_values)                                                                            \
     X(double, sparse_length, sparse_rows) /* square of the length of a row of B, then its pivot over that */          \
     X(double, sparse_vector, sparse_rows)                                                                             \
-    X(double, raw_residual, sparse_raw) /* before the forces of constraint */                                         \
+    X(double, raw_residual, sparse_raw) /* residual with the forces of the multipliers at hand */                     \
+    X(double, sparse_gradient, sparse_raw) /* by nodes: what multipliers of least norm have still to bear,            \
+                                              system/constrain/sparse_cluster_least_norm */                           \
     X(double, sparse_scale, sparse_c)   /* [N/m, ...] factor of each row: system/solve/reduced_sparse */              \
     X(uint32_t, sparse_slot, sparse_c)  /* place of each row in its block; DMB_NONE: not chosen */                  \
     X(uint32_t, sparse_size, sparse_block) /* rows of each block, nodes and multipliers */                            \

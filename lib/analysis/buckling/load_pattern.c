@@ -95,7 +95,8 @@ static void moved_column(const dmb_sim *sim, uint32_t row, double *out)
             out[layout->row[node + 1] + i] = sim->stiffness_lower[layout->link[node] + size * i + c];
 }
 
-/* Loads enter the residual linearly: its change over a unit of the factor is the derivative. */
+/* Loads enter the residual linearly: its change over a unit of the factor is the derivative. The second evaluation is
+ * that of the factor itself, so that the trial is left as it was found. */
 int32_t dmb_load_pattern_derivative(const dmb_load_pattern *pattern, dmb_evaluation *evaluation, double factor,
                                     double *derivative)
 {
@@ -106,16 +107,13 @@ int32_t dmb_load_pattern_derivative(const dmb_load_pattern *pattern, dmb_evaluat
         moved_column(sim, pattern->row, derivative);
         return DMB_OK;
     }
-    memcpy(derivative, sim->residual, rows * sizeof(double));
     evaluation->tangent = 0;
     dmb_load_pattern_set(pattern, evaluation, factor + 1.0);
-    const int32_t status = dmb_system_evaluate(evaluation);
+    int32_t status = dmb_system_evaluate(evaluation);
+    memcpy(derivative, sim->residual, rows * sizeof(double));
     dmb_load_pattern_set(pattern, evaluation, factor);
+    if (status >= 0) status = dmb_system_evaluate(evaluation);
     evaluation->tangent = tangent;
-    for (uint32_t i = 0; i < rows; i++) {
-        const double before = derivative[i];
-        derivative[i] = sim->residual[i] - before;
-        sim->residual[i] = before;
-    }
+    for (uint32_t i = 0; i < rows; i++) derivative[i] -= sim->residual[i];
     return status;
 }

@@ -64,9 +64,9 @@ int32_t dmb_static_find_pull(dmb_static_search *search, dmb_static_pull *most);
 /* The equilibrium from where a soft string lies under its pull, on a soft wall, then on harder ones. DMB_OK, or why it
  * failed. */
 int32_t dmb_static_from_pull(dmb_static_search *search);
-/* Tension of the element after each node [N], shape (node), by the residual of the starting pose; 0: it is not known,
+/* The sim's pull_tension of a string that meets the wall, by the residual of the starting pose; 0: it is not known,
  * since the string is free at both ends or at none. */
-int dmb_static_tensions(const dmb_static_search *search, uint32_t string, double *tension);
+int dmb_static_tensions(dmb_sim *sim, uint32_t string);
 int dmb_static_is_free_along(const dmb_scene *scene, uint32_t node);
 /* From the starting pose, after its evaluation. */
 void dmb_static_lay_by_pull(dmb_static_search *search);

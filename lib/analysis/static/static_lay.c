@@ -74,34 +74,34 @@ static void lay_pressed(const dmb_static_search *search, const dmb_site *site, d
     dmb_vec3_sub(point, scene->reference_position + 3 * (size_t)node, sim->trial.displacement + 3 * (size_t)node);
 }
 
-/* Stretch from the end that is held: how far each node goes along, shape (node). */
-static void stretch(const dmb_sim *sim, const dmb_string_map *string, const double *tension, double *along)
+/* Stretch from the end that is held: how far each node goes along. */
+static void stretch(dmb_sim *sim, const dmb_string_map *string)
 {
     const dmb_scene *scene = sim->scene;
+    const double *tension = sim->pull_tension;
     const uint32_t first = string->first_node, count = string->node_count;
     const int back = dmb_static_is_free_along(scene, first);
     double sum = 0.0;
-    along[back ? first + count - 1 : first] = 0.0;
+    sim->pull_stretch[back ? first + count - 1 : first] = 0.0;
     for (uint32_t k = 1; k < count; k++) {
         const uint32_t i = back ? first + count - 1 - k : first + k, near = back ? i : i - 1;
         const uint32_t e = dmb_element_between(scene, near, 1);
         if (e != DMB_NONE)
             sum += (back ? -1.0 : 1.0) * tension[near] / scene->types[scene->element_type[e]].stiffness[0];
-        along[i] = sum;
+        sim->pull_stretch[i] = sum;
     }
 }
 
-/* Pseudo accelerations, on which no force depends, are room for tension and stretch. */
 void dmb_static_lay_by_pull(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;
     const dmb_scene *scene = sim->scene;
-    double *tension = sim->trial.pseudo_acceleration, *along = tension + scene->node_count;
+    const double *tension = sim->pull_tension, *along = sim->pull_stretch;
     for (uint32_t i = 0, s = 0; i < scene->string_count; i++) {
         const dmb_string_map *string = scene->strings + i;
         const uint32_t end = string->first_node + string->node_count;
-        const int known = dmb_static_tensions(search, i, tension);
-        if (known) stretch(sim, string, tension, along);
+        const int known = dmb_static_tensions(sim, i);
+        if (known) stretch(sim, string);
         for (; s < scene->site_count && scene->sites[s].node < end; s++) {
             const uint32_t node = scene->sites[s].node;
             if (!known || node < string->first_node || !lies(scene, s)) continue;

@@ -11,9 +11,8 @@ int dmb_static_is_free_along(const dmb_scene *scene, uint32_t node)
 
 /* The tension of an element is the sum of the forces along beyond it, from the end that is free; the residual is their
  * negative. */
-int dmb_static_tensions(const dmb_static_search *search, uint32_t string, double *tension)
+int dmb_static_tensions(dmb_sim *sim, uint32_t string)
 {
-    const dmb_sim *sim = search->sim;
     const dmb_scene *scene = sim->scene;
     const uint32_t first = scene->strings[string].first_node, last = first + scene->strings[string].node_count - 1;
     const int back = dmb_static_is_free_along(scene, last);
@@ -23,7 +22,7 @@ int dmb_static_tensions(const dmb_static_search *search, uint32_t string, double
     for (uint32_t k = first; k < last; k++) {
         const uint32_t i = back ? first + last - k : k;
         sum += (back ? -1.0 : 1.0) * sim->residual[scene->layout.row[i]];
-        tension[back ? i - 1 : i] = sum;
+        sim->pull_tension[back ? i - 1 : i] = sum;
     }
     return 1;
 }
@@ -56,9 +55,8 @@ int32_t dmb_static_find_pull(dmb_static_search *search, dmb_static_pull *most)
     if (status >= 0) status = dmb_static_evaluate(search);
     search->evaluation.tangent = 1;
     if (status < 0) return dmb_is_final(status) ? status : 0;
-    double *tension = sim->trial.pseudo_acceleration; /* room for it */
     for (uint32_t s = 0; s < scene->string_count; s++)
-        if (dmb_static_tensions(search, s, tension)) take(scene, s, tension, most);
+        if (dmb_static_tensions(sim, s)) take(scene, s, sim->pull_tension, most);
     return most->string != DMB_NONE;
 }
 

@@ -91,7 +91,7 @@ static void add_force(dmb_sim *sim, const dmb_constraint *c, uint32_t k, const d
     const dmb_scene *scene = sim->scene;
     const double f = sim->trial.multiplier[c->row + k];
     for (uint32_t n = 0; n < c->node_count && f != 0.0; n++) {
-        double *g = sim->raw_residual + sim->sparse_row[scene->node_block[c->node[n]]];
+        double *g = sim->sparse_gradient + sim->sparse_row[scene->node_block[c->node[n]]];
         for (uint32_t s = 0; s < scene->layout.size[c->node[n]]; s++) g[s] += f * a[c->column[n] + s];
     }
 }
@@ -107,7 +107,7 @@ static void move_multiplier(dmb_sim *sim, const dmb_constraint *c, uint32_t k, c
     }
     sim->trial.multiplier[c->row + k] += change;
     for (uint32_t n = 0; n < c->node_count; n++) {
-        double *g = sim->raw_residual + sim->sparse_row[scene->node_block[c->node[n]]];
+        double *g = sim->sparse_gradient + sim->sparse_row[scene->node_block[c->node[n]]];
         for (uint32_t s = 0; s < scene->layout.size[c->node[n]]; s++) g[s] -= change * a[c->column[n] + s];
     }
 }
@@ -150,13 +150,13 @@ void dmb_sparse_least_norm(dmb_sim *sim)
     const uint32_t n = dmb_sparse_number(sim);
     sim->reduced_mode->metric = 0;
     if (factor(sim)) {
-        memset(sim->raw_residual, 0, n * sizeof(double));
+        memset(sim->sparse_gradient, 0, n * sizeof(double));
         (void)for_rows(sim, add_force);
-        const double all = square_of(n, sim->raw_residual);
+        const double all = square_of(n, sim->sparse_gradient);
         clear_multipliers(sim);
         for (int k = 0; k < DMB_PROXIMAL_PASSES; k++) {
-            if (square_of(n, sim->raw_residual) <= DMB_PROXIMAL_REST * DMB_PROXIMAL_REST * all) break;
-            memcpy(sim->sparse_vector, sim->raw_residual, n * sizeof(double));
+            if (square_of(n, sim->sparse_gradient) <= DMB_PROXIMAL_REST * DMB_PROXIMAL_REST * all) break;
+            memcpy(sim->sparse_vector, sim->sparse_gradient, n * sizeof(double));
             dmb_block_signed_solve(&scene->pattern, &matrix, sim->sparse_vector);
             (void)for_rows(sim, move_multiplier);
         }
