@@ -24,6 +24,7 @@ EXAMPLES = """examples:
   drillmbd report rig.toml --output out       one page for crew and engineer: out/report.html
   drillmbd stuck rig.toml --overpull "20 kN" --stretch "45 mm"   what arrives at a stuck bit; how far is it free?
   drillmbd sweep rig.toml static --vary hole.diameter="90 mm,94 mm,98 mm" -o out
+  drillmbd probability rig.toml -o out --samples 1000 --engine processes   how often does it fail, by [variability], [[failure]]?
   drillmbd save rig.toml copy.toml            the scene in SI units, comments left out
   drillmbd schema > scene.schema.json         for editors that check TOML
 
@@ -32,9 +33,19 @@ written; 130 stopped by Ctrl-C, what was done is written.
 
 completion in the shell, by python3-argcomplete: eval "$(register-python-argcomplete drillmbd)"
 
-Not there yet: probability, fmu."""
+Not there yet: fmu."""
 
 
+PROBABILITY = """examples:
+  drillmbd probability rig.toml -o out --samples 1000                     on all processors
+  drillmbd probability rig.toml -o out --samples 1000                     again: goes on where it was stopped, or adds samples
+  drillmbd probability rig.toml -o out --method subset --failure stress   a rare failure
+  drillmbd probability rig.toml -o out --indices 64                       what matters most: Sobol' indices
+  mpirun -n 9 drillmbd probability rig.toml -o out --engine mpi
+  drillmbd probability rig.toml -o out --engine dask --address tcp://10.0.0.1:8786
+
+All samples are kept in out/study.h5, which can be read while it grows (drillmbd.probability.study.read_rows). It is refused where
+scene, code or settings are others than those it was made with."""
 STUCK = {"pull": "of the rig, instead of [limits] pull", "push": "likewise", "torque": "likewise",
          "overpull": "pulled beyond the weight to see how far it is free", "stretch": "by which the rig end came up then"}
 SWEEP = """example:
@@ -85,11 +96,33 @@ def parser() -> argparse.ArgumentParser:
                        "KEY=LOW:HIGH:COUNT; once for each key")
     sweep.add_argument("--output", "-o", metavar="FOLDER", help="sweep.csv, and a folder for each case")
     sweep.add_argument("--quiet", "-q", action="store_true")
+    _add_probability(commands)
     save = commands.add_parser("save", help="writes the scene back, in SI units")
     save.add_argument("scene")
     save.add_argument("target", help="the new file; - for the terminal")
     commands.add_parser("schema", help="prints the JSON schema of scene files")
     return found
+
+
+def _add_probability(commands: Any) -> None:
+    text = "finds how often the failures of the scene come about where its [variability] varies"
+    asked = commands.add_parser("probability", help=text, description=text, epilog=PROBABILITY,
+                                formatter_class=argparse.RawDescriptionHelpFormatter)
+    asked.add_argument("scene", help="a scene file (TOML) with [variability] and [[failure]]")
+    asked.add_argument("--output", "-o", metavar="FOLDER", help="study.h5, samples.csv, summary.json")
+    asked.add_argument("--quiet", "-q", action="store_true", help="no progress, no summary on the terminal")
+    asked.add_argument("--samples", type=int, metavar="N", help="instead of [variability] samples; of a subset simulation: in a level")
+    asked.add_argument("--method", choices=["monte-carlo", "latin-hypercube", "sobol", "subset"], help="instead of [variability] method")
+    asked.add_argument("--seed", type=int, metavar="N", help="instead of [variability] seed")
+    asked.add_argument("--failure", metavar="NAME", help="which failure subset and indices are about; left out: any, by margin over limit")
+    asked.add_argument("--indices", type=int, metavar="N", help="Sobol' indices of N rows, N (2 + number of what varies) samples")
+    asked.add_argument("--surrogate", action="store_true", help="also by a polynomial that is fitted to the samples")
+    asked.add_argument("--engine", choices=["serial", "threads", "processes", "mpi", "dask"], default="processes",
+                       help="where samples are computed; the numbers are the same (default %(default)s)")
+    asked.add_argument("--workers", type=int, metavar="N", help="left out: as many as processors")
+    asked.add_argument("--address", metavar="HOST:PORT", help="of the scheduler of a Dask cluster; left out: one on this machine")
+    asked.add_argument("--own", action="append", default=[], metavar="NAME=FILE.py:FUNCTION", help="the function of a failure of the "
+                       "kind own: function(look) -> margin; once for each")
 
 
 def _complete(asked: argparse.ArgumentParser) -> None:
@@ -124,7 +157,7 @@ def _guarded(ask: Callable[[], int]) -> int:
         return _tell(2, str(error))
     except (Usage, CannotSave) as error:
         return _tell(2, f"drillmbd: {error}")
-    except Error as error:
+    except (Error, ArithmeticError) as error:
         return _tell(1, f"drillmbd: {error}")
     except BrokenPipeError:
         raise
@@ -178,6 +211,9 @@ def _ask(options: Any) -> int:
         return 0
     if options.command == "sweep":
         return _sweep(options)
+    if options.command == "probability":
+        from .probability.ask import probability
+        return probability(options)
     needed = {"response": "response", "speeds": "speeds", "buckle": "buckling"}.get(options.command)
     loaded = scene.load(options.scene)
     if needed and needed not in loaded.analyses:
