@@ -472,7 +472,7 @@ struct speed_bands {
     std::int32_t status; // DMB_OK; DMB_NOTE_FULL: there are more bands than there was room for; DMB_NOTE_INCOMPLETE
     std::vector<dmb_speed_band> bands;
     std::vector<double> severity; // at the speeds of the grid
-    dmb_speeds_report report;     // orders that excite nothing, no damping, bands cut at an end of the range
+    dmb_speeds_report report;     // orders that excite nothing, no damping, bands truncated at an end of the range
 };
 #endif
 

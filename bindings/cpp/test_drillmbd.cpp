@@ -196,10 +196,10 @@ void joints()
     coupling.joint[0] = elbow;
     coupling.joint[1] = hinge;
     const dmb_id gear = model.add_coupling(coupling);
-    constraint.count = 2;
+    constraint.place_count = 2;
     constraint.place[0] = joint.place_a;
     constraint.place[1] = joint.place_b;
-    constraint.rows = 2;
+    constraint.row_count = 2;
     constraint.callback = in_plane;
     const dmb_id plane = model.add_constraint(constraint);
     joint.place_b.part = dmb_id{0, 0};
@@ -393,7 +393,7 @@ void speeds_of_a_body()
     options.points = 7;
     const drillmbd::speed_bands found = sim.speeds({once}, {move}, {4e-4}, &options);
     EXPECT(found.status == DMB_NOTE_INCOMPLETE && found.bands.size() == 1 && found.severity.size() == 7);
-    EXPECT(found.report.cut == 3 && found.bands[0].cut == 3 && found.report.silent_orders == 0);
+    EXPECT(found.report.truncated == 3 && found.bands[0].truncated == 3 && found.report.silent_orders == 0);
     EXPECT(found.bands[0].low == 1.0 && found.bands[0].high == 30.0);
     EXPECT(std::abs(found.severity[3] - 1.25) < 1e-12);
     EXPECT(sim.speeds({once}, {move}, {6e-4}).bands.empty());

@@ -95,7 +95,7 @@ class InterfaceTest(unittest.TestCase):
         self.assertEqual(mbd.JointDef().stop_stiffness, 1e6)
         self.assertEqual(list(mbd.JointDef().axis_b), [1.0, 0.0, 0.0])
         self.assertEqual(list(mbd.CouplingDef().component), [mbd.RX, mbd.RX])
-        self.assertEqual(mbd.ConstraintDef().rows, 1)
+        self.assertEqual(mbd.ConstraintDef().row_count, 1)
 
     def test_constants_are_equal(self):
         constants = stored_constants()
@@ -360,7 +360,7 @@ class ResponseTest(unittest.TestCase):
         output = mbd.Output(place=self.body)
         bands, severity = self.sim.speeds([order], [output], [4e-4], speed_low=5.0, speed_high=20.0, points=7)
         self.assertEqual(len(bands), 1)
-        self.assertEqual((bands.status, bands.report.cut, bands[0].cut), (mbd.NOTE_INCOMPLETE, 3, 3))
+        self.assertEqual((bands.status, bands.report.truncated, bands[0].truncated), (mbd.NOTE_INCOMPLETE, 3, 3))
         self.assertEqual((bands.report.silent_orders, bands.report.undamped), (0, 0))
         self.assertEqual((bands[0].low, bands[0].high, bands[0].order), (5.0, 20.0, 0))
         for value in severity:

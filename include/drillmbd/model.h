@@ -340,26 +340,27 @@ typedef struct dmb_coupling_def {
 DMB_SIZED_STRUCT(dmb_coupling_def)
 DMB_API int32_t dmb_model_add_coupling(dmb_model *model, const dmb_coupling_def *def, dmb_id *coupling);
 
-/* The caller's constraint on the poses of `count` places. poses[i]: position [m] in the world (3), rotation matrix from
- * the place's frame to the world, row-major (9). DMB_CONSTRAINT_HOLONOMIC: value = C(q, t), jacobian = dC by body-frame
- * displacements (translation; rotation) of the places; DMB_CONSTRAINT_NONHOLONOMIC: A(q, t) v + b(q, t) = 0 with value
- * = b and jacobian = A, v the body-frame velocities. Must write value; jacobian is not NULL and must be written where
- * `provides` says so. Returns 0, or nonzero to stop. Pure: same answer for the same poses and time, from any thread; it
- * is asked at poses and times a little before and after those of the run too, for differences. */
+/* The caller's constraint on the poses of `place_count` places. poses[i]: position [m] in the world (3), rotation
+ * matrix from the place's frame to the world, row-major (9). DMB_CONSTRAINT_HOLONOMIC: value = C(q, t), jacobian = dC
+ * by body-frame displacements (translation; rotation) of the places; DMB_CONSTRAINT_NONHOLONOMIC: A(q, t) v + b(q, t) =
+ * 0 with value = b and jacobian = A, v the body-frame velocities. Must write value; jacobian is not NULL and must be
+ * written where `provides` says so. Returns 0, or nonzero to stop. Pure: same answer for the same poses and time, from
+ * any thread; it is asked at poses and times a little before and after those of the run too, for differences. */
 enum { DMB_CONSTRAINT_HOLONOMIC = 0, DMB_CONSTRAINT_NONHOLONOMIC = 1 };
 enum { DMB_PROVIDES_JACOBIAN = 1 };
-typedef int32_t (*dmb_constraint_fn)(void *context, double time, uint32_t count, const double (*poses)[12],
-                                     double *value /* (rows) */, double *jacobian /* (rows, 6 count), row-major */);
+typedef int32_t (*dmb_constraint_fn)(void *context, double time, uint32_t place_count, const double (*poses)[12],
+                                     double *value /* (row_count) */,
+                                     double *jacobian /* (row_count, 6 place_count), row-major */);
 typedef struct dmb_constraint_def {
     uint32_t struct_size;
-    int32_t kind;       /* DMB_CONSTRAINT_..., default DMB_CONSTRAINT_HOLONOMIC */
-    char name[24];      /* for messages, ends with 0; default "" */
-    uint32_t rows;      /* [-] 1 .. 6; default 1 */
-    uint32_t count;     /* [-] of places, 1 .. 4; default 1 */
-    dmb_place place[4]; /* as of a joint, not the ground, shape (count) */
-    int32_t provides;   /* DMB_PROVIDES_JACOBIAN or 0 (default): built by differences. Nonholonomic must provide it.
-                           A Jacobian of its own is compared with differences when a sim is made:
-                           DMB_ERR_CALLBACK */
+    int32_t kind;         /* DMB_CONSTRAINT_..., default DMB_CONSTRAINT_HOLONOMIC */
+    char name[24];        /* for messages, ends with 0; default "" */
+    uint32_t row_count;   /* [-] equations, 1 .. 6; default 1 */
+    uint32_t place_count; /* [-] 1 .. 4; default 1 */
+    dmb_place place[4];   /* as of a joint, not the ground, shape (place_count) */
+    int32_t provides;     /* DMB_PROVIDES_JACOBIAN or 0 (default): built by differences. Nonholonomic must provide it.
+                             A Jacobian of its own is compared with differences when a sim is made:
+                             DMB_ERR_CALLBACK */
     int32_t reserved;
     dmb_constraint_fn callback; /* required */
     void *callback_context;

@@ -104,7 +104,7 @@ DMB_API int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *
 /* Gives the memory back and sets *response to NULL. NULL-safe. */
 DMB_API void dmb_response_destroy(dmb_response **response);
 /* Numbers of frequencies (those of refinement included), inputs and outputs, shape (3). DMB_ERR_NULL, _HANDLE. */
-DMB_API int32_t dmb_response_dimensions(const dmb_response *response, uint32_t shape[3]);
+DMB_API int32_t dmb_response_dimensions(const dmb_response *response, uint32_t dimensions[3]);
 /* [Hz] ascending, shape (points). DMB_ERR_NULL, _HANDLE. */
 DMB_API int32_t dmb_response_frequencies(const dmb_response *response, double *frequencies);
 /* Output per unit of the input at each frequency, real and imaginary part, shape (points, 2). input DMB_COMBINED: the
@@ -176,7 +176,7 @@ typedef struct dmb_speeds_report {
     uint32_t bands;         /* [-] that were found, those without room included */
     uint32_t silent_orders; /* [-] orders whose input moves no output at any speed */
     int32_t undamped;       /* 1: nothing damps, so that heights at resonances mean nothing */
-    int32_t cut;            /* 1: a band goes on below speed_low, 2: above speed_high, 3: both, 0: none */
+    int32_t truncated;      /* 1: a band goes on below speed_low, 2: above speed_high, 3: both, 0: none */
     int32_t reserved;
 } dmb_speeds_report;
 DMB_SIZED_STRUCT(dmb_speeds_report)
@@ -204,11 +204,11 @@ typedef struct dmb_speed_band {
     uint32_t order;  /* [-] number of the order that counts most at the worst speed */
     uint32_t output; /* [-] number of its output that is worst */
     uint32_t reserved;
-    double low, high; /* [rad/s] of the band, margin included */
-    double speed;     /* [rad/s] the worst in it */
-    double severity;  /* [-] there */
-    double frequency; /* [Hz] of that order there */
-    int32_t cut;      /* 1: goes on below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole */
+    double low, high;  /* [rad/s] of the band, margin included */
+    double speed;      /* [rad/s] the worst in it */
+    double severity;   /* [-] there */
+    double frequency;  /* [Hz] of that order there */
+    int32_t truncated; /* 1: goes on below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole */
     int32_t reserved1;
 } dmb_speed_band;
 DMB_SIZED_STRUCT(dmb_speed_band)
@@ -218,9 +218,9 @@ DMB_SIZED_STRUCT(dmb_speed_band)
  * all orders add up. limits: [unit of the output] > 0, shape (output_count). bands: *band_count on entry is room, the
  * size of each what the first says; on return the number of bands, by rising speed, DMB_NOTE_FULL where more were found
  * than there was room. severity, shape (points), may be NULL: largest within half a step of the grid around each speed.
- * DMB_NOTE_INCOMPLETE (dmb_sim_message and the report tell): an order excites nothing, nothing damps, or a band is cut
- * at an end of the range. Call it for a sim of each depth or state. Errors: as dmb_analysis_response, with nothing
- * written. Cost: that of order_count responses. */
+ * DMB_NOTE_INCOMPLETE (dmb_sim_message and the report tell): an order excites nothing, nothing damps, or a band is
+ * truncated at an end of the range. Call it for a sim of each depth or state. Errors: as dmb_analysis_response, with
+ * nothing written. Cost: that of order_count responses. */
 DMB_API int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders,
                                     uint32_t order_count, const dmb_output *outputs, const double *limits,
                                     uint32_t output_count, dmb_speed_band *bands, uint32_t *band_count,

@@ -83,7 +83,7 @@ DMB_DEFINE_INIT(dmb_joint_def, 656, {
 
 DMB_DEFINE_INIT(dmb_coupling_def, 64, {.component = {DMB_RX, DMB_RX}, .ratio = 1.0})
 
-DMB_DEFINE_INIT(dmb_constraint_def, 160, {.kind = DMB_CONSTRAINT_HOLONOMIC, .rows = 1, .count = 1})
+DMB_DEFINE_INIT(dmb_constraint_def, 160, {.kind = DMB_CONSTRAINT_HOLONOMIC, .row_count = 1, .place_count = 1})
 
 DMB_DEFINE_INIT(dmb_drive_def, 72, {
     .kind = DMB_DRIVE_MOTION,

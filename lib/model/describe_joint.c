@@ -233,9 +233,9 @@ static int32_t check_constraint(dmb_model *model, const dmb_constraint_def *def)
         &model->message, dmb_part_text(&part, "constraint", model->constraints.count, def->name, sizeof def->name),
         DMB_NONE);
     dmb_check_name(&check, "name", def->name, sizeof def->name);
-    dmb_check_count(&check, "rows", def->rows, 1, ROWS_MAX);
-    dmb_check_count(&check, "count", def->count, 1, PLACES_MAX);
-    for (uint32_t i = 0; i < def->count && check.status >= 0; ++i) {
+    dmb_check_count(&check, "row_count", def->row_count, 1, ROWS_MAX);
+    dmb_check_count(&check, "place_count", def->place_count, 1, PLACES_MAX);
+    for (uint32_t i = 0; i < def->place_count && check.status >= 0; ++i) {
         dmb_message_set(&field, "place[%u]", i);
         dmb_check_place(&check, model, field.text, &def->place[i]);
     }

@@ -298,19 +298,19 @@ static int32_t add_callback(dmb_mesh *mesh, uint32_t i)
     const dmb_constraint_def *def = DMB_LIST_AT(const dmb_constraint_def, mesh->model->constraints, i);
     dmb_scene_callback callback = {.callback = def->callback,
                                    .context = def->callback_context,
-                                   .rows = def->rows,
-                                   .count = def->count,
+                                   .rows = def->row_count,
+                                   .count = def->place_count,
                                    .kind = def->kind,
                                    .provides = def->provides};
     dmb_message part, field;
     dmb_check check = check_of(mesh, &part, "constraint", i, def->name);
     dmb_mesh_place place;
-    for (uint32_t k = 0; k < def->count; ++k) {
+    for (uint32_t k = 0; k < def->place_count; ++k) {
         dmb_message_set(&field, "place[%u]", k);
         if (!find_place(&check, mesh, field.text, &def->place[k], &place)) return check.status;
         callback.place[k] = frame_at(&place);
     }
-    for (uint32_t k = def->count; k < DMB_CONSTRAINT_NODES; ++k) callback.place[k] = ground_frame();
+    for (uint32_t k = def->place_count; k < DMB_CONSTRAINT_NODES; ++k) callback.place[k] = ground_frame();
     memcpy(callback.name, def->name, sizeof callback.name);
     return dmb_vector_append(&mesh->callbacks, &mesh->model->allocator, &callback, 1);
 }

@@ -365,14 +365,14 @@ static int32_t any_constraint(void *context, double time, uint32_t count, const 
     return 0;
 }
 static const field constraint_fields[] = {
-    F(dmb_constraint_def, kind, WHOLE, 1),      F(dmb_constraint_def, rows, COUNT, 1),
-    F(dmb_constraint_def, count, COUNT, 1),     PLACE_FIELDS(dmb_constraint_def, place[0]),
-    PLACE_FIELDS(dmb_constraint_def, place[1]), F(dmb_constraint_def, provides, WHOLE, 1),
+    F(dmb_constraint_def, kind, WHOLE, 1),        F(dmb_constraint_def, row_count, COUNT, 1),
+    F(dmb_constraint_def, place_count, COUNT, 1), PLACE_FIELDS(dmb_constraint_def, place[0]),
+    PLACE_FIELDS(dmb_constraint_def, place[1]),   F(dmb_constraint_def, provides, WHOLE, 1),
     F(dmb_constraint_def, reserved, WHOLE, 1)};
 static void fill_constraint(const scene_under_test *s, any_def *def)
 {
     def->constraint = dmb_constraint_def_default();
-    def->constraint.count = 2;
+    def->constraint.place_count = 2;
     def->constraint.place[0] = dmb_station(s->string, 0, 0.0);
     def->constraint.place[1] = dmb_station(s->string, 0, 1.0);
     def->constraint.callback = any_constraint;
@@ -639,9 +639,9 @@ static void what_must_be_refused(void **state)
                  {12, "ratio", 0.0},
                  {12, "component", 1.0},
                  {12, "joint[1].generation", 0.0},
-                 {13, "rows", 0.0},
-                 {13, "rows", 7.0},
-                 {13, "count", 5.0},
+                 {13, "row_count", 0.0},
+                 {13, "row_count", 7.0},
+                 {13, "place_count", 5.0},
                  {13, "kind", 2.0},
                  {13, "provides", 2.0}};
     (void)state;

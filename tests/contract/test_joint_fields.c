@@ -404,8 +404,8 @@ static void constraints(void **state)
     scene_under_test s = begin();
     dmb_constraint_def good = dmb_constraint_def_default(), c;
     (void)state;
-    good.rows = 6;
-    good.count = 4;
+    good.row_count = 6;
+    good.place_count = 4;
     good.callback = callback;
     for (uint32_t i = 0; i < 4; ++i) good.place[i] = dmb_station(s.string, i / 2, i % 2);
     memcpy(good.name, "cam", 4);
@@ -418,10 +418,10 @@ static void constraints(void **state)
     TRY(c.kind = 2, DMB_ERR_VALUE, "kind = 2, must be 0 .. 1");
     TRY(c.kind = -1, DMB_ERR_VALUE, "kind = -1, must be 0 .. 1");
     TRY(c.kind = DMB_CONSTRAINT_NONHOLONOMIC, DMB_ERR_VALUE, "provides = 0, must be 1 for a nonholonomic constraint");
-    TRY(c.rows = 0, DMB_ERR_VALUE, "rows = 0, must be 1 .. 6");
-    TRY(c.rows = 7, DMB_ERR_VALUE, "rows = 7, must be 1 .. 6");
-    TRY(c.count = 0, DMB_ERR_VALUE, "count = 0, must be 1 .. 4");
-    TRY(c.count = UINT32_MAX, DMB_ERR_VALUE, "count = 4294967295, must be 1 .. 4");
+    TRY(c.row_count = 0, DMB_ERR_VALUE, "row_count = 0, must be 1 .. 6");
+    TRY(c.row_count = 7, DMB_ERR_VALUE, "row_count = 7, must be 1 .. 6");
+    TRY(c.place_count = 0, DMB_ERR_VALUE, "place_count = 0, must be 1 .. 4");
+    TRY(c.place_count = UINT32_MAX, DMB_ERR_VALUE, "place_count = 4294967295, must be 1 .. 4");
     TRY(c.provides = 2, DMB_ERR_VALUE, "provides = 2, must be made of the bits of 1");
     TRY(c.provides = -1, DMB_ERR_VALUE, "provides = -1, must be made of the bits of 1");
     TRY(c.callback = NULL, DMB_ERR_NULL, "callback is NULL");
@@ -434,7 +434,7 @@ static void constraints(void **state)
     assert_int_equal(dmb_model_add_constraint(s.model, &good, NULL), DMB_OK);
     good.kind = DMB_CONSTRAINT_NONHOLONOMIC;
     good.provides = DMB_PROVIDES_JACOBIAN;
-    good.count = 1;
+    good.place_count = 1;
     good.place[1].part.index = 12345; /* does not count */
     assert_int_equal(dmb_model_add_constraint(s.model, &good, NULL), DMB_OK);
     finish(&s, 2, 0, 2);

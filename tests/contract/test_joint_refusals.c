@@ -230,7 +230,7 @@ static void open_rows(rig *s, rows *with)
     ball.position[0] = 1.0;
     for (int i = 0; i < 3; i++) ball.rotation[i] = 0.3 * (i + 1);
     (void)snprintf(def.name, sizeof def.name, "three");
-    def.rows = 3;
+    def.row_count = 3;
     def.place[0] = dmb_station(add_body(s, &ball), 0, 0.0);
     def.provides = DMB_PROVIDES_JACOBIAN;
     def.callback = three_rows;

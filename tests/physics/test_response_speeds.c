@@ -206,11 +206,11 @@ static void answers_that_lack_something(void **state)
         char message[256];
         const int32_t status =
             ask(cases[i].flags, cases[i].eta, cases[i].low, cases[i].high, &report, &band, message, sizeof message);
-        if (status != cases[i].status || report.undamped != cases[i].undamped || report.cut != cases[i].cut ||
-            report.silent_orders != cases[i].silent || report.bands != cases[i].bands || band.cut != cases[i].cut ||
-            strstr(message, cases[i].text) == NULL)
+        if (status != cases[i].status || report.undamped != cases[i].undamped || report.truncated != cases[i].cut ||
+            report.silent_orders != cases[i].silent || report.bands != cases[i].bands ||
+            band.truncated != cases[i].cut || strstr(message, cases[i].text) == NULL)
             fail_msg("case %zu: status %d, undamped %d, cut %d, %u silent, %u bands, band cut %d: %s", i, status,
-                     report.undamped, report.cut, report.silent_orders, report.bands, band.cut, message);
+                     report.undamped, report.truncated, report.silent_orders, report.bands, band.truncated, message);
     }
 }
 

@@ -217,9 +217,9 @@ class WallPart:
 
 class ConstraintPart:
     """A constraint on the poses of one to four `places`. `function` takes the time and a sequence of poses, each of
-    twelve numbers (position, rotation matrix by rows), and returns `rows` numbers (or one, if rows is 1); with
-    provides=PROVIDES_JACOBIAN a pair of these and of the rows x 6 places jacobian, flat or row by row."""
-    count: int
+    twelve numbers (position, rotation matrix by rows), and returns `row_count` numbers (or one); with
+    provides=PROVIDES_JACOBIAN a pair of these and of the row_count x 6 places jacobian, flat or row by row."""
+    place_count: int
     place: Any
 
     def __init__(self, places: Any = None, function: Callable[..., Any] | None = None, **fields: Any) -> None:
@@ -228,15 +228,15 @@ class ConstraintPart:
         if places is not None:
             kind = type(self.place[0])
             given = [place if isinstance(place, kind) else kind(place) for place in places]
-            self.count = len(given)
+            self.place_count = len(given)
             self.place = (given + [kind()] * 4)[:4]
 
     def describe(self, every: bool = False) -> dict[str, Any]:
         """The fields as plain Python, `places` and `function` as given."""
         found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
-        for name in ("count", "place"):
+        for name in ("place_count", "place"):
             found.pop(name, None)
-        found["places"] = list(self.place)[:self.count]
+        found["places"] = list(self.place)[:self.place_count]
         if self._function is not None:
             found["function"] = self._function
         return found

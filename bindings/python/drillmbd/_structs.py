@@ -1399,21 +1399,21 @@ class SpeedsReport(Sized):
     bands: int
     silent_orders: int
     undamped: int
-    cut: int
+    truncated: int
     reserved: int
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("bands", c_uint32),
         ("silent_orders", c_uint32),
         ("undamped", c_int32),
-        ("cut", c_int32),
+        ("truncated", c_int32),
         ("reserved", c_int32),
     ]
     field_docs = {
         "bands": ("-", "that were found, those without room included"),
         "silent_orders": ("-", "orders whose input moves no output at any speed"),
         "undamped": ("", "1: nothing damps, so that heights at resonances mean nothing"),
-        "cut": ("", "1: a band goes on below speed_low, 2: above speed_high, 3: both, 0: none"),
+        "truncated": ("", "1: a band goes on below speed_low, 2: above speed_high, 3: both, 0: none"),
     }
 
 
@@ -1428,7 +1428,7 @@ class SpeedBand(Sized):
     speed: float
     severity: float
     frequency: float
-    cut: int
+    truncated: int
     reserved1: int
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
@@ -1440,7 +1440,7 @@ class SpeedBand(Sized):
         ("speed", c_double),
         ("severity", c_double),
         ("frequency", c_double),
-        ("cut", c_int32),
+        ("truncated", c_int32),
         ("reserved1", c_int32),
     ]
     field_docs = {
@@ -1451,7 +1451,7 @@ class SpeedBand(Sized):
         "speed": ("rad/s", "the worst in it"),
         "severity": ("-", "there"),
         "frequency": ("Hz", "of that order there"),
-        "cut": ("", "1: goes on below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole"),
+        "truncated": ("", "1: goes on below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole"),
         "reserved1": ("", ""),
     }
 
@@ -2171,8 +2171,8 @@ class ConstraintDef(ConstraintPart, Sized):
     struct_size: int
     kind: int
     name: bytes
-    rows: int
-    count: int
+    row_count: int
+    place_count: int
     place: 'Array[Place]'
     provides: int
     reserved: int
@@ -2182,8 +2182,8 @@ class ConstraintDef(ConstraintPart, Sized):
         ("struct_size", c_uint32),
         ("kind", c_int32),
         ("name", c_char * 24),
-        ("rows", c_uint32),
-        ("count", c_uint32),
+        ("row_count", c_uint32),
+        ("place_count", c_uint32),
         ("place", Place * 4),
         ("provides", c_int32),
         ("reserved", c_int32),
@@ -2193,9 +2193,9 @@ class ConstraintDef(ConstraintPart, Sized):
     field_docs = {
         "kind": ("", "CONSTRAINT_..., default CONSTRAINT_HOLONOMIC"),
         "name": ("", "for messages, ends with 0; default \"\""),
-        "rows": ("-", "1 .. 6; default 1"),
-        "count": ("-", "of places, 1 .. 4; default 1"),
-        "place": ("", "as of a joint, not the ground, shape (count)"),
+        "row_count": ("-", "equations, 1 .. 6; default 1"),
+        "place_count": ("-", "1 .. 4; default 1"),
+        "place": ("", "as of a joint, not the ground, shape (place_count)"),
         "provides": ("", "PROVIDES_JACOBIAN or 0 (default): built by differences. Nonholonomic must provide it. A Jacobian of its own is compared with differences when a sim is made: ERR_CALLBACK"),
         "callback": ("", "required"),
         "callback_context": ("", ""),

@@ -154,7 +154,7 @@ class Model:
         """Adds a constraint on poses that a Python function says, by a ConstraintDef or its fields; returns its id."""
         definition = struct(ConstraintDef, definition, fields)
         if definition._function is not None:
-            definition.callback = self._keep.constraint(definition._function, definition.rows, definition.provides)
+            definition.callback = self._keep.constraint(definition._function, definition.row_count, definition.provides)
         return self._add("constraint", ConstraintDef, definition, {})
 
     def add_drive(self, definition: DriveDef | None = None, **fields: Any) -> Id:

@@ -68,13 +68,13 @@ static int32_t ask(const dmb_response *response, const void *answer)
     return answer != NULL ? DMB_OK : DMB_ERR_NULL;
 }
 
-int32_t dmb_response_dimensions(const dmb_response *response, uint32_t shape[3])
+int32_t dmb_response_dimensions(const dmb_response *response, uint32_t dimensions[3])
 {
-    const int32_t status = ask(response, shape);
+    const int32_t status = ask(response, dimensions);
     if (status < 0) return status;
-    shape[0] = response->points;
-    shape[1] = response->inputs;
-    shape[2] = response->outputs;
+    dimensions[0] = response->points;
+    dimensions[1] = response->inputs;
+    dimensions[2] = response->outputs;
     return DMB_OK;
 }
 

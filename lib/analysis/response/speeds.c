@@ -242,7 +242,7 @@ static int32_t run(speeds_run *r)
     if (status >= 0) status = gather_speeds(r);
     if (status < 0) return status;
     const dmb_speeds_curves all = {r->curves, r->order_count, r->points, r->speeds};
-    r->count = dmb_speeds_bands(&all, &r->options, r->found, r->room, &r->report.cut);
+    r->count = dmb_speeds_bands(&all, &r->options, r->found, r->room, &r->report.truncated);
     return DMB_OK;
 }
 
@@ -276,14 +276,14 @@ static int32_t judge(speeds_run *r)
     dmb_message_clear(&damping);
     dmb_message_clear(&cut);
     r->report.bands = r->count;
-    if (r->report.silent_orders == 0 && !r->report.undamped && r->report.cut == 0) return DMB_OK;
+    if (r->report.silent_orders == 0 && !r->report.undamped && r->report.truncated == 0) return DMB_OK;
     if (r->report.silent_orders > 0)
         dmb_message_set(&order, " order %u (%g) moves no output: look at its amplitude and place;", silent,
                         r->curves[silent].order);
     if (r->report.undamped)
         dmb_message_set(&damping, " nothing damps, heights at resonances mean nothing: give damping;");
-    if (r->report.cut != 0)
-        dmb_message_set(&cut, " bands go on beyond %s of %g .. %g rad/s: widen the range;", ends[r->report.cut],
+    if (r->report.truncated != 0)
+        dmb_message_set(&cut, " bands go on beyond %s of %g .. %g rad/s: widen the range;", ends[r->report.truncated],
                         r->options.speed_low, r->options.speed_high);
     dmb_message_set(&r->sim->message, "speeds:%s%s%s", order.text, damping.text, cut.text);
     return DMB_NOTE_INCOMPLETE;

@@ -25,9 +25,9 @@ typedef struct dmb_speeds_curves {
 } dmb_speeds_curves;
 
 /* The bands above the threshold, widened by the margin and joined where they meet. bands: room of them; returns how
- * many there are, more than room if they do not fit. *cut: 1 if a band goes on below the first speed, 2 above the last
- * one, 3 both, 0 neither. */
+ * many there are, more than room if they do not fit. *truncated: 1 if a band goes on below the first speed, 2 above the
+ * last one, 3 both, 0 neither. */
 uint32_t dmb_speeds_bands(const dmb_speeds_curves *all, const dmb_speeds_options *options, dmb_speed_band *bands,
-                          uint32_t room, int32_t *cut);
+                          uint32_t room, int32_t *truncated);
 
 #endif

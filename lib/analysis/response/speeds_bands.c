@@ -44,7 +44,7 @@ double dmb_speeds_sum(const dmb_speeds_curve *curves, uint32_t count, double spe
     return sum;
 }
 
-enum { DMB_CUT_LOW = 1, DMB_CUT_HIGH = 2 }; /* of dmb_speed_band.cut */
+enum { DMB_TRUNCATED_LOW = 1, DMB_TRUNCATED_HIGH = 2 }; /* of dmb_speed_band.truncated */
 
 /* ---- Bands ------------------------------------------------------------------------------------------------------- */
 
@@ -82,12 +82,12 @@ static void end_band(search *s, double speed)
     dmb_speed_band *before = s->count > 0 && s->count <= s->room ? s->bands + s->count - 1 : NULL;
     if (before != NULL && before->high >= s->open.low) {
         const double low = before->low;
-        const int32_t cut = before->cut | s->open.cut;
+        const int32_t truncated = before->truncated | s->open.truncated;
         if (s->open.severity > before->severity) {
             *before = s->open;
             before->low = low;
         }
-        before->cut = cut;
+        before->truncated = truncated;
         before->high = fmax(before->high, s->open.high);
         return;
     }
@@ -102,29 +102,29 @@ static double crossing(const search *s, double a, double at_a, double b, double 
 }
 
 uint32_t dmb_speeds_bands(const dmb_speeds_curves *all, const dmb_speeds_options *options, dmb_speed_band *bands,
-                          uint32_t room, int32_t *cut)
+                          uint32_t room, int32_t *truncated)
 {
     search s = {.curves = all->curve, .options = options, .bands = bands, .room = room};
     const double *speeds = all->speed;
     const uint32_t points = all->points;
     double last = 0.0;
-    *cut = 0;
+    *truncated = 0;
     for (uint32_t i = 0; i < points; i++) {
         uint32_t order = 0, output = 0;
         const double severity = dmb_speeds_sum(all->curve, all->count, speeds[i], &order, &output);
         const int32_t above = severity > options->threshold;
         if (above && !s.is_open) {
             begin_band(&s, i == 0 ? speeds[0] : crossing(&s, speeds[i - 1], last, speeds[i], severity));
-            s.open.cut = i == 0 ? DMB_CUT_LOW : 0;
-            *cut |= s.open.cut;
+            s.open.truncated = i == 0 ? DMB_TRUNCATED_LOW : 0;
+            *truncated |= s.open.truncated;
         }
         if (above) visit(&s, speeds[i], severity, order, output);
         if (!above && s.is_open) end_band(&s, crossing(&s, speeds[i - 1], last, speeds[i], severity));
         last = severity;
     }
     if (s.is_open) {
-        s.open.cut |= DMB_CUT_HIGH;
-        *cut |= DMB_CUT_HIGH;
+        s.open.truncated |= DMB_TRUNCATED_HIGH;
+        *truncated |= DMB_TRUNCATED_HIGH;
         end_band(&s, speeds[points - 1]);
     }
     return s.count;

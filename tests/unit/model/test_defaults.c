@@ -184,8 +184,8 @@ static void couplings_and_constraints(void **state)
     assert_int_equal(c.component[1], DMB_RX);
     assert_near(c.ratio, 1.0, 0.0);
     assert_int_equal(f.kind, DMB_CONSTRAINT_HOLONOMIC);
-    assert_int_equal(f.rows, 1);
-    assert_int_equal(f.count, 1);
+    assert_int_equal(f.row_count, 1);
+    assert_int_equal(f.place_count, 1);
     assert_int_equal(f.provides, 0);
     assert_null(f.callback);
 }

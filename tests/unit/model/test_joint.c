@@ -451,9 +451,9 @@ static void all_kinds(void **state)
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
     drive.kind = DMB_DRIVE_LOAD;
     assert_ok(dmb_model_add_drive(model, &drive, NULL));
-    constraint.count = 2;
+    constraint.place_count = 2;
     constraint.place[0] = constraint.place[1] = on(body[2]);
-    constraint.rows = 3;
+    constraint.row_count = 3;
     constraint.callback = nothing;
     assert_ok(dmb_model_add_constraint(model, &constraint, NULL));
     const dmb_scene *scene = compiled(model);

@@ -68,8 +68,8 @@ static dmb_id add_user(rig *s, int32_t kind, uint32_t rows, dmb_constraint_fn ca
     dmb_constraint_def def = dmb_constraint_def_default();
     dmb_id id = {0, 0};
     def.kind = kind;
-    def.rows = rows;
-    def.count = count;
+    def.row_count = rows;
+    def.place_count = count;
     for (uint32_t i = 0; i < count; i++) def.place[i] = dmb_station(body[i], 0, 0.0);
     def.provides = provides;
     def.callback = callback;

@@ -63,7 +63,7 @@ static dmb_joint_def joint_of(int32_t kind, dmb_place a, dmb_place b, const char
 static void add_callback_of_two(rig *s, dmb_id body)
 {
     dmb_constraint_def constraint = dmb_constraint_def_default();
-    constraint.rows = 2;
+    constraint.row_count = 2;
     constraint.place[0] = at(body);
     constraint.callback = on_plane;
     strncpy(constraint.name, "plane", sizeof constraint.name - 1);
