@@ -140,6 +140,7 @@ public:
     dmb_id add_constraint(const dmb_constraint_def &def) { return add(dmb_model_add_constraint, def); }
     dmb_id add_drive(const dmb_drive_def &def) { return add(dmb_model_add_drive, def); }
     dmb_id add_load(const dmb_load_def &def) { return add(dmb_model_add_load, def); }
+    dmb_id add_input(const dmb_input_def &def) { return add(dmb_model_add_input, def); }
     std::int32_t compile(const dmb_compile_options *options = nullptr) { return done(try_compile(options)); }
 
     dmb_model_info info() const
@@ -534,6 +535,19 @@ public:
         return dmb_sim_advance(handle_, to, report);
     }
     std::int32_t try_set_drive(dmb_id drive, double value) noexcept { return dmb_sim_set_drive(handle_, drive, value); }
+    std::int32_t try_set_input(dmb_id input, double value) noexcept { return dmb_sim_set_input(handle_, input, value); }
+    std::int32_t try_set_inputs(const dmb_id *inputs, const double *values, std::uint32_t count) noexcept
+    {
+        return dmb_sim_set_inputs(handle_, inputs, values, count);
+    }
+    std::int32_t try_record_inputs(dmb_input_record *records, std::uint32_t capacity) noexcept
+    {
+        return dmb_sim_record_inputs(handle_, records, capacity);
+    }
+    std::int32_t try_replay_inputs(const dmb_input_record *records, std::uint32_t count, std::uint32_t &next) noexcept
+    {
+        return dmb_sim_replay_inputs(handle_, records, count, &next);
+    }
     std::int32_t try_set_joint(dmb_id joint, std::int32_t state) noexcept
     {
         return dmb_sim_set_joint(handle_, joint, state);
@@ -585,6 +599,15 @@ public:
     std::int32_t step(double duration, dmb_step_report *report = nullptr) { return done(try_step(duration, report)); }
     std::int32_t advance(double to, dmb_step_report *report = nullptr) { return done(try_advance(to, report)); }
     void set_drive(dmb_id which, double value) { done(try_set_drive(which, value)); }
+    // The status may be the note that a bound was taken instead (control.h).
+    std::int32_t set_input(dmb_id which, double value) { return done(try_set_input(which, value)); }
+    dmb_input_state input(dmb_id which) const
+    {
+        dmb_input_state state = dmb_input_state_default();
+        const std::int32_t status = dmb_sim_get_input(handle_, which, &state);
+        if (status < 0) throw error(status, dmb_status_text(status));
+        return state;
+    }
     // The status may be the note that speeds were projected.
     std::int32_t set_joint(dmb_id which, std::int32_t state) { return done(try_set_joint(which, state)); }
     // Goes on where `from` stands, a sim of another model: pipes may have come or gone at the rig end.

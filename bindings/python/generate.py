@@ -20,6 +20,7 @@ ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "TERM_C
               "CONSTRAINT_HOLONOMIC": "ConstraintKind", "PROVIDES_RATE": "ProgrammeProvides",
               "PROVIDES_JACOBIAN": "ConstraintProvides", "DRIVE_MOTION": "DriveKind",
               "CHANNEL_DISPLACEMENT_X": "Quantity", "CHANNEL_HOOK_LOAD": "Reading", "INPUT_DRIVE": "InputKind", "OUTPUT_DISPLACEMENT": "OutputKind",
+              "TARGET_SET_POINT": "InputTarget", "OUTSIDE_REFUSED": "Outside",
               "PATH_REGULAR": "PathKind", "CONTACT_AS_IS": "ContactState", "MODES_UNDAMPED": "ModesKind",
               "MODES_LOWEST": "ModesSelect",
               "MODES_AXES_TURNING": "ModesAxes", "MODES_AXES_TURNING": "ModesAxes",

@@ -5,6 +5,7 @@ import gc
 import math
 import os
 import pathlib
+import pickle
 import re
 import signal
 import tempfile
@@ -248,6 +249,35 @@ class SceneTest(unittest.TestCase):
         self.sim.set_drive(self.rig.turning, None)
         self.sim.step(1e-3)
         self.assertEqual(self.sim.drive(self.rig.turning).target, 10.0)
+
+    def test_inputs(self):
+        model = mbd.Model()
+        string = model.add_pipes(1)
+        drive = model.add_drive(part=string, kind=mbd.DRIVE_CONTROL, component=mbd.RX, gain=5.0, programme=model.add_programme(1.0))
+        model.add_input(name="rotation", part=drive, low=0.0, high=20.0, rate_limit=2.0, outside=mbd.OUTSIDE_CLAMPED)
+        model.add_input(name="gain", part=drive, target=mbd.TARGET_GAIN)
+        model.compile()
+        sim, other = model.sim(), model.sim()
+        self.assertEqual(list(sim.inputs), ["rotation", "gain"])
+        self.assertEqual(sim.inputs.info["rotation"].unit, b"rad/s")
+        self.assertEqual((sim.inputs["rotation"], sim.inputs["gain"]), (1.0, 5.0))
+        log = sim.inputs.record()
+        sim.inputs["rotation"] = 12.0
+        self.assertEqual(sim.inputs.set({"rotation": 50.0, "gain": 6.0}), mbd.NOTE_CLAMPED)
+        for _ in range(20):
+            sim.step(0.01)
+        self.assertAlmostEqual(sim.inputs.state("rotation").present, 1.4)
+        self.assertEqual(sim.inputs["rotation"], 20.0)
+        self.assertEqual([record.value for record in log.take()], [12.0, 20.0, 6.0])
+        self.assertEqual(other.inputs.replay(log.take()), 3)
+        for _ in range(20):
+            other.step(0.01)
+        self.assertEqual(sim.hash(), other.hash())
+        with self.assertRaises(mbd.Error):
+            sim.inputs.set({"gain": -1.0})
+        self.assertRaises(KeyError, sim.inputs.__getitem__, "no such")
+        twin = pickle.loads(pickle.dumps(model))
+        self.assertTrue(twin.same_scene(model))
 
     def test_recorder(self):
         recorder = self.sim.recorder([(self.rig.tip, mbd.CHANNEL_POSITION_X), (self.rig.feed, mbd.CHANNEL_DRIVE_SPEED),

@@ -132,6 +132,25 @@ name = "weight"
 place = {part = "main", pipe = 3, fraction = 1.0}
 force = [0, 0, "-10 N"]
 programme = "half"
+[[input]]
+name = "feed speed"
+target = "set-point"
+part = "feed"
+low = "-1 mm/s"
+high = "20 mm/s"
+rate_limit = "0.1 m/s2"
+slope_limit = "2 m/s^3"
+outside = "clamped"
+[[input]]
+name = "mud"
+target = "fluid-density"
+initial = "1.2 g/cm^3"
+high = "2 g/cm^3"
+[[input]]
+name = "grip"
+target = "limit-high"
+part = "feed"
+initial = "4 kN"
 [compile]
 features = ["gravity", "contact", "friction", "damping"]
 [sim]

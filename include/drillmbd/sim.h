@@ -105,7 +105,7 @@ DMB_API int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *rep
 DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report);
 /* From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For
  * DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; accelerations are made to fit the jump. DMB_ERR_UNSUPPORTED
- * for DMB_DRIVE_MOTION, whose speed may not jump. */
+ * for DMB_DRIVE_MOTION, whose speed may not jump, and where an input moves the set point (control.h). */
 DMB_API int32_t dmb_sim_set_drive(dmb_sim *sim, dmb_id drive, double value);
 
 /* From now on the joint is DMB_JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the

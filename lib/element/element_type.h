@@ -29,6 +29,7 @@ typedef struct dmb_element_type {
     dmb_beam_mass mass;
     double mass_per_metre; /* [kg/m] */
     double weight_mass;    /* [kg] of the element that gravity acts on, buoyancy taken off */
+    double displaced;      /* [m3] that a fluid of density 1 takes off it */
 } dmb_element_type;
 
 /* Rigid mass fixed to a node: tool joint, bit, rig head, rigid pipes, free body, eccentric part of pipes. Symmetric

@@ -244,6 +244,7 @@ static int32_t term_value(const dmb_term *term, double t, double *value, double 
     case DMB_TERM_HARMONIC: harmonic_value(term, t, value, slope); return DMB_OK;
     case DMB_TERM_TABLE: table_value(term, t, value, slope); return DMB_OK;
     case DMB_TERM_CALLBACK: return callback_value(term, t, value, rate);
+    case DMB_TERM_REFERENCE: dmb_reference_value(term->callback_context, t, value, slope); return DMB_OK;
     default:
         *value = term->h0;
         *slope = 0.0;
@@ -260,6 +261,7 @@ static int32_t term_integral(const dmb_term *term, double t0, double t1, double 
     case DMB_TERM_HARMONIC: *integral = harmonic_integral(term, t0, t1); return DMB_OK;
     case DMB_TERM_TABLE: *integral = table_integral(term, t0, t1); return DMB_OK;
     case DMB_TERM_CALLBACK: return callback_integral(term, t0, t1, integral);
+    case DMB_TERM_REFERENCE: *integral = dmb_reference_integral(term->callback_context, t0, t1); return DMB_OK;
     default: *integral = term->h0 * (t1 - t0); return DMB_OK;
     }
 }
@@ -294,7 +296,9 @@ int32_t dmb_programme_rate_before(const dmb_programme *programme, double t, doub
         double value, slope = 0.0;
         const int32_t status = term_value(term, t, &value, &slope);
         if (status != DMB_OK) return status;
-        sum += term->kind == DMB_TERM_TABLE ? table_slope(term, knots_before(term, t)) : slope;
+        if (term->kind == DMB_TERM_TABLE) slope = table_slope(term, knots_before(term, t));
+        if (term->kind == DMB_TERM_REFERENCE) slope = dmb_reference_rate_before(term->callback_context, t);
+        sum += slope;
     }
     if (!isfinite(sum)) return DMB_ERR_NOT_FINITE;
     *rate = sum;
@@ -332,6 +336,8 @@ double dmb_programme_next_corner(const dmb_programme *programme, double t)
         } else if (term->kind == DMB_TERM_TABLE) {
             const uint32_t next = knots_until(term, t);
             if (next < term->table_count) corner = fmin(corner, term->table_time[next]);
+        } else if (term->kind == DMB_TERM_REFERENCE) {
+            corner = fmin(corner, dmb_reference_next_corner(term->callback_context, t));
         }
     }
     return corner;

@@ -7,9 +7,14 @@
 #include <stdint.h>
 
 #include "drillmbd/model.h"
+#include "force/reference.h"
 
 /* [units of a programme, a constraint] Callbacks may give no more, as numbers of a model may not. */
 #define DMB_CALLBACK_MAX 1e30
+
+/* Kind of a term beside those of drillmbd/model.h: its callback_context is a dmb_reference (force/reference.h), that of
+ * an input. No definition can have it. */
+enum { DMB_TERM_REFERENCE = 6 };
 
 typedef struct dmb_programme {
     const dmb_term *terms; /* full-size terms, checked by the model, shape (count) */
@@ -32,7 +37,8 @@ int32_t dmb_programme_rate_before(const dmb_programme *programme, double t, doub
  * 5-point Gauss over parts of at most 0.05 s (at most 1000 parts). Errors as above. */
 int32_t dmb_programme_integral(const dmb_programme *programme, double t0, double t1, double *integral);
 
-/* [s] Smallest corner later than t: x0 and x1 of STEP and STEP5, knots of tables; INFINITY if there is none. */
+/* [s] Smallest corner later than t: x0 and x1 of STEP and STEP5, knots of tables, those of references; INFINITY if
+ * there is none. */
 double dmb_programme_next_corner(const dmb_programme *programme, double t);
 
 #endif

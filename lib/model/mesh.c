@@ -24,6 +24,7 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
         .drives = {.item_size = sizeof(dmb_scene_drive)},
         .loads = {.item_size = sizeof(dmb_scene_load)},
         .bits = {.item_size = sizeof(dmb_scene_bit)},
+        .inputs = {.item_size = sizeof(dmb_scene_input)},
         .joints = {.item_size = sizeof(dmb_scene_joint)},
         .couplings = {.item_size = sizeof(dmb_scene_coupling)},
         .callbacks = {.item_size = sizeof(dmb_scene_callback)},
@@ -41,12 +42,12 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
 
 void dmb_mesh_release(dmb_mesh *mesh)
 {
-    dmb_vector *const all[] = {&mesh->stations,      &mesh->run_order,  &mesh->run_start,   &mesh->nodes,
-                               &mesh->elements,      &mesh->types,      &mesh->batches,     &mesh->rigid_masses,
-                               &mesh->sites,         &mesh->path_sites, &mesh->drives,      &mesh->loads,
-                               &mesh->bits,          &mesh->joints,     &mesh->couplings,   &mesh->callbacks,
-                               &mesh->laws,          &mesh->driven,     &mesh->constraints, &mesh->clusters,
-                               &mesh->cluster_nodes, &mesh->strings,    &mesh->pipes,       &mesh->bodies};
+    dmb_vector *const all[] = {
+        &mesh->stations,      &mesh->run_order, &mesh->run_start,    &mesh->nodes,       &mesh->elements,
+        &mesh->types,         &mesh->batches,   &mesh->rigid_masses, &mesh->sites,       &mesh->path_sites,
+        &mesh->drives,        &mesh->loads,     &mesh->bits,         &mesh->joints,      &mesh->couplings,
+        &mesh->callbacks,     &mesh->laws,      &mesh->driven,       &mesh->constraints, &mesh->clusters,
+        &mesh->cluster_nodes, &mesh->strings,   &mesh->pipes,        &mesh->bodies,      &mesh->inputs};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) dmb_vector_release(all[i], &mesh->model->allocator);
 }
 
@@ -182,6 +183,8 @@ static bool has_damping(const dmb_mesh *mesh)
     const dmb_model *model = mesh->model;
     const dmb_environment_def *e = &model->environment;
     if (e->axial_damping > 0.0 || e->lateral_damping > 0.0 || e->torsional_damping > 0.0) return true;
+    for (uint32_t i = 0; i < model->inputs.count; ++i)
+        if (DMB_LIST_AT(const dmb_input_def, model->inputs, i)->target >= DMB_TARGET_LATERAL_DAMPING) return true;
     for (uint32_t i = 0; i < model->runs.count; ++i) {
         const dmb_pipe_run *run = dmb_mesh_run_at(mesh, i);
         if (run->def.damping_time > 0.0 && dmb_mesh_kind(mesh, run) != DMB_PIPE_RIGID) return true;

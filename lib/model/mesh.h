@@ -34,6 +34,7 @@ typedef struct dmb_mesh_node {
     double depth;            /* [m] measured depth, 0 without a hole */
     double weight_mass;      /* [kg] */
     double weight_moment[3]; /* [kg m] */
+    double displaced[2];     /* [m3, m4] what a fluid of density 1 takes off weight_mass and the x of weight_moment */
     double damped[3];        /* [m, m2, m3] integrals of 1, x, x^2 over the pipe whose external damping it carries */
     uint32_t string;         /* DMB_NONE: free body `body` */
     uint32_t body;
@@ -72,6 +73,7 @@ typedef struct dmb_mesh {
     dmb_vector drives;        /* dmb_scene_drive; row is filled by freeze */
     dmb_vector loads;         /* dmb_scene_load */
     dmb_vector bits;          /* dmb_scene_bit */
+    dmb_vector inputs;        /* dmb_scene_input */
     dmb_vector joints;        /* dmb_scene_joint */
     dmb_vector couplings;     /* dmb_scene_coupling */
     dmb_vector callbacks;     /* dmb_scene_callback */
@@ -152,6 +154,7 @@ int32_t dmb_mesh_sites(dmb_mesh *mesh);
 int32_t dmb_mesh_joints(dmb_mesh *mesh);
 int32_t dmb_mesh_actions(dmb_mesh *mesh);
 int32_t dmb_mesh_constraints(dmb_mesh *mesh);
+int32_t dmb_mesh_inputs(dmb_mesh *mesh);
 
 /* DMB_FEATURE_... that are asked for and described. */
 int32_t dmb_mesh_features(const dmb_mesh *mesh);

@@ -32,10 +32,10 @@ static void fill_pose(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i)
     scene->reference_depth[i] = node->depth;
     scene->weight_mass[i] = node->weight_mass;
     dmb_vec3_copy(node->weight_moment, scene->weight_moment + 3 * (size_t)i);
+    if (scene->has_density_input) memcpy(scene->displaced + 2 * (size_t)i, node->displaced, sizeof node->displaced);
+    if (scene->has_damping_input) memcpy(scene->damped_length + 3 * (size_t)i, node->damped, sizeof node->damped);
     if ((scene->features & DMB_FEATURE_DAMPING) == 0) return;
-    damping[0] = e->axial_damping * node->damped[0];
-    damping[1] = e->torsional_damping * node->damped[0];
-    for (int k = 0; k < 3; k++) damping[2 + k] = e->lateral_damping * node->damped[k];
+    dmb_node_damping_of(node->damped, e->axial_damping, e->torsional_damping, e->lateral_damping, damping);
 }
 
 /* Which rows are free, solved and held; held is the number of held rows so far. */
@@ -215,6 +215,7 @@ static void fill_parts(const dmb_mesh *mesh, dmb_scene *scene)
     copy_items(&mesh->path_sites, scene->path_sites);
     copy_items(&mesh->loads, scene->loads);
     copy_items(&mesh->bits, scene->bits);
+    copy_items(&mesh->inputs, scene->inputs);
     copy_items(&mesh->strings, scene->strings);
     copy_items(&mesh->pipes, scene->pipes);
     copy_items(&mesh->bodies, scene->bodies);

@@ -89,6 +89,16 @@ static void count_constraints(const dmb_mesh *mesh, dmb_scene *scene)
     scene->cluster_column_count = cluster->column + cluster->columns;
 }
 
+static void count_inputs(const dmb_mesh *mesh, dmb_scene *scene)
+{
+    scene->input_count = (uint32_t)mesh->inputs.count;
+    for (uint32_t i = 0; i < scene->input_count; ++i) {
+        const int32_t target = DMB_VECTOR_AT(dmb_scene_input, &mesh->inputs, i)->target;
+        if (target == DMB_TARGET_FLUID_DENSITY) scene->has_density_input = 1;
+        if (target >= DMB_TARGET_LATERAL_DAMPING) scene->has_damping_input = 1;
+    }
+}
+
 static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
 {
     scene->node_count = (uint32_t)mesh->nodes.count;
@@ -113,6 +123,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     count_rows(mesh, scene);
     scene->velocity_count = starts_in_motion(mesh) ? scene->row_count : 0;
     count_constraints(mesh, scene);
+    count_inputs(mesh, scene);
 }
 
 /* ---- Layout of the block ----------------------------------------------------------------------------------------- */
@@ -135,6 +146,8 @@ static void take_nodes(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to,
     to->weight_mass = DMB_ARENA_DOUBLES(arena, n);
     to->weight_moment = DMB_ARENA_DOUBLES(arena, 3 * n);
     to->node_damping = DMB_ARENA_DOUBLES(arena, 5 * n);
+    if (counts->has_density_input) to->displaced = DMB_ARENA_DOUBLES(arena, 2 * n);
+    if (counts->has_damping_input) to->damped_length = DMB_ARENA_DOUBLES(arena, 3 * n);
     to->node_element = DMB_ARENA_ARRAY(arena, uint32_t, n);
     to->chains = DMB_ARENA_ARRAY(arena, dmb_chain, counts->chain_count);
     to->node_chain = DMB_ARENA_ARRAY(arena, uint32_t, n);
@@ -160,6 +173,7 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
     to->drives = DMB_ARENA_ARRAY(arena, dmb_scene_drive, counts->drive_count);
     to->loads = DMB_ARENA_ARRAY(arena, dmb_scene_load, counts->load_count);
     to->bits = DMB_ARENA_ARRAY(arena, dmb_scene_bit, counts->bit_count);
+    if (counts->input_count > 0) to->inputs = DMB_ARENA_ARRAY(arena, dmb_scene_input, counts->input_count);
     to->strings = DMB_ARENA_ARRAY(arena, dmb_string_map, counts->string_count);
     to->pipes = DMB_ARENA_ARRAY(arena, dmb_pipe_map, counts->pipe_count);
     to->bodies = DMB_ARENA_ARRAY(arena, dmb_body_map, counts->body_count);
@@ -206,7 +220,8 @@ int32_t dmb_mesh_freeze(const dmb_mesh *mesh, dmb_scene **out)
 {
     const dmb_allocator *allocator = &mesh->model->allocator;
     const size_t stations = mesh->hole.stations;
-    dmb_scene counts = {.features = mesh->features, .mass = mesh->mass};
+    dmb_scene counts = {
+        .features = mesh->features, .mass = mesh->mass, .fluid_density = mesh->model->environment.fluid_density};
     dmb_arena arena;
     dmb_scene_storage w;
     count_parts(mesh, &counts);

@@ -85,6 +85,14 @@ static void add_weight(dmb_mesh_node *node, double mass, const double centre[3])
     for (int i = 0; i < 3; ++i) node->weight_moment[i] += mass * centre[i];
 }
 
+/* What a fluid of density 1 takes off that mass, by its density; 0: nothing. */
+static void add_displaced(dmb_mesh_node *node, double mass, double x, double density)
+{
+    if (!(density > 0.0)) return;
+    node->displaced[0] += mass / density;
+    node->displaced[1] += mass / density * x;
+}
+
 /* A rigid body with its centre there; `buoyancy` is the share of its weight that is left. */
 static int32_t add_body(dmb_mesh *mesh, uint32_t node, double mass, const double centre[3], const double inertia[6],
                         double buoyancy)
@@ -98,11 +106,13 @@ static int32_t add_body(dmb_mesh *mesh, uint32_t node, double mass, const double
     return DMB_OK;
 }
 
-/* A solid of revolution on the x axis, its centre at x. */
-static int32_t add_part(dmb_mesh *mesh, uint32_t node, const dmb_rigid_part *part, double x, double buoyancy)
+/* A solid of revolution on the x axis, its centre at x; of a pipe, whose definition may be NULL. */
+static int32_t add_part(dmb_mesh *mesh, uint32_t node, const dmb_rigid_part *part, double x, double buoyancy,
+                        const dmb_pipe_def *pipe)
 {
     const double centre[3] = {x, 0.0, 0.0};
     const double inertia[6] = {part->inertia[0], part->inertia[1], part->inertia[1], 0.0, 0.0, 0.0};
+    if (pipe != NULL) add_displaced(dmb_mesh_node_at(mesh, node), part->mass, x, pipe->density);
     return add_body(mesh, node, part->mass, centre, inertia, buoyancy);
 }
 
@@ -147,6 +157,9 @@ static void weigh_element(dmb_mesh *mesh, const dmb_mesh_element *element, const
     const double b[3] = {-element->arm[1] - length / 6.0, 0.0, 0.0};
     add_weight(dmb_mesh_node_at(mesh, element->node), half, a);
     add_weight(dmb_mesh_node_at(mesh, element->node + 1), half, b);
+    const double bare = 0.5 * mass->section.mass * length;
+    add_displaced(dmb_mesh_node_at(mesh, element->node), bare, a[0], mass->def->density);
+    add_displaced(dmb_mesh_node_at(mesh, element->node + 1), bare, b[0], mass->def->density);
     mesh->mass += mass->section.mass * length;
 }
 
@@ -187,7 +200,7 @@ static int32_t add_elastic_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const 
     }
     if (status < 0 || !(pipe->joint > 0.0)) return status;
     damp_node(mesh, last->node + 1, pipe->joint, joint_at, pipe->joint * pipe->joint * pipe->joint / 12.0);
-    status = add_part(mesh, last->node + 1, &mass->joint, joint_at, mass->buoyancy);
+    status = add_part(mesh, last->node + 1, &mass->joint, joint_at, mass->buoyancy, mass->def);
     if (status >= 0 && e != NULL) status = add_offset(mesh, last->node + 1, mass->joint.mass, joint_at, e);
     return status;
 }
@@ -196,8 +209,9 @@ static int32_t add_rigid_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const ru
 {
     const double body = dmb_pipe_body_length(mass->def);
     const double pipe_at = pipe->start + 0.5 * body, joint_at = pipe->start + body + 0.5 * pipe->joint;
-    int32_t status = add_part(mesh, pipe->node, &mass->pipe, pipe_at, mass->buoyancy);
-    if (status >= 0 && pipe->joint > 0.0) status = add_part(mesh, pipe->node, &mass->joint, joint_at, mass->buoyancy);
+    int32_t status = add_part(mesh, pipe->node, &mass->pipe, pipe_at, mass->buoyancy, mass->def);
+    if (status >= 0 && pipe->joint > 0.0)
+        status = add_part(mesh, pipe->node, &mass->joint, joint_at, mass->buoyancy, mass->def);
     if (status >= 0 && e != NULL) status = add_offset(mesh, pipe->node, mass->pipe.mass, pipe_at, e);
     if (status >= 0 && e != NULL) status = add_offset(mesh, pipe->node, mass->joint.mass, joint_at, e);
     damp_node(mesh, pipe->node, pipe->length, pipe->start + 0.5 * pipe->length,
@@ -240,7 +254,7 @@ static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
     const dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, mesh->model->bodies.count + i);
     dmb_rigid_part part;
     dmb_bit_body_of(def, &part);
-    return add_part(mesh, map->node, &part, map->arm + 0.5 * def->length, 1.0);
+    return add_part(mesh, map->node, &part, map->arm + 0.5 * def->length, 1.0, NULL);
 }
 
 int32_t dmb_mesh_masses(dmb_mesh *mesh)

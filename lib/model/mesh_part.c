@@ -45,6 +45,7 @@ static int32_t find_type(dmb_mesh *mesh, dmb_mesh_element *element, const dmb_me
     dmb_element_type_of(def, element->arm, damping_time, &type);
     type.weight_mass =
         dmb_buoyancy_factor(def, mesh->model->environment.fluid_density) * type.mass_per_metre * type.length;
+    type.displaced = type.mass_per_metre * type.length / def->density;
     return share_type(mesh, &type, &element->type);
 }
 

@@ -61,6 +61,7 @@ static void release_parts(dmb_model *model)
     dmb_list_release(&model->joints, allocator, sizeof(dmb_joint_def));
     dmb_list_release(&model->couplings, allocator, sizeof(dmb_coupling_def));
     dmb_list_release(&model->constraints, allocator, sizeof(dmb_constraint_def));
+    dmb_list_release(&model->inputs, allocator, sizeof(dmb_input_def));
     if (model->scene == NULL) return;
     dmb_scene_release_dense(model->scene->dense, allocator);
     dmb_block_pattern_release(&model->scene->pattern, allocator);
@@ -143,6 +144,7 @@ static uint32_t count_of(const dmb_model *model, uint32_t kind)
     case DMB_PART_JOINT: return model->joints.count;
     case DMB_PART_COUPLING: return model->couplings.count;
     case DMB_PART_CONSTRAINT: return model->constraints.count;
+    case DMB_PART_INPUT: return model->inputs.count;
     default: return 0;
     }
 }

@@ -5,6 +5,7 @@
 #include <stdatomic.h>
 
 #include "base/message.h"
+#include "drillmbd/control.h"
 #include "drillmbd/model.h"
 #include "force/programme.h"
 #include "model/refused.h"
@@ -21,7 +22,8 @@ enum {
     DMB_PART_LOAD = 7,
     DMB_PART_JOINT = 8,
     DMB_PART_COUPLING = 9,
-    DMB_PART_CONSTRAINT = 10
+    DMB_PART_CONSTRAINT = 10,
+    DMB_PART_INPUT = 20
 };
 
 /* A string and how far it has been built. */
@@ -69,6 +71,7 @@ struct dmb_model {
     dmb_list joints;       /* dmb_joint_def */
     dmb_list couplings;    /* dmb_coupling_def */
     dmb_list constraints;  /* dmb_constraint_def */
+    dmb_list inputs;       /* dmb_input_def */
     dmb_refusals refused;  /* parts that were refused and not added since */
     dmb_scene *scene;      /* NULL until compiled, then never changed */
     uint32_t sparse_nodes; /* nodes from which on a cluster is sparse: DMB_SPARSE_NODES, but for tests */

@@ -3,6 +3,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "drillmbd/control.h"
 #include "drillmbd/model.h"
 
 /* ---- Fields of definitions --------------------------------------------------------------------------------------- */
@@ -67,6 +68,7 @@ static const wide_field wide_fields[] = {
     FIELD("load", dmb_load_def, place),
     FIELD("load", dmb_load_def, force),
     FIELD("load", dmb_load_def, moment),
+    NAME("input", dmb_input_def),
 };
 
 /* A part of each kind fits; what does not would only be compared in its beginning. */

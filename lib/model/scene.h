@@ -74,6 +74,17 @@ typedef struct dmb_scene_bit {
     double arm;                /* [m] along body x from the node to the bit (rigid pipes merged behind it); usually 0 */
 } dmb_scene_bit;
 
+/* What the caller moves in each sim by itself (sim/own_scene). */
+typedef struct dmb_scene_input {
+    double initial; /* at time 0; NaN: as described */
+    double low, high, rate_limit, slope_limit;
+    int32_t target;  /* DMB_TARGET_... */
+    int32_t outside; /* DMB_OUTSIDE_... */
+    uint32_t index;  /* of the drive, load or bit; DMB_NONE: wall, environment */
+    uint32_t reserved;
+    char name[24];
+} dmb_scene_input;
+
 /* Where a described pipe is in the mesh. */
 typedef struct dmb_pipe_map {
     double start;      /* [m] rigid pipe: its near end along body x from `node`; else 0 */
@@ -229,7 +240,11 @@ typedef struct dmb_scene {
     size_t dense_count, square_count, full_count; /* lengths of the clusters' dense storage */
     double gravity[3];                            /* [m/s2]; 0 when left out */
     double mass, length;                          /* [kg], [m] in all */
-    double length_scale; /* [m] mean element length, or 1: makes moments comparable with forces */
+    double length_scale;  /* [m] mean element length, or 1: makes moments comparable with forces */
+    double fluid_density; /* [kg/m3] */
+    uint32_t input_count;
+    int32_t has_density_input, has_damping_input; /* 1: some input moves it */
+    int32_t unused;
 
     /* nodes */
     dmb_block_layout layout;      /* block sizes 6 or 2, rows, storage of blocks and links */
@@ -246,6 +261,11 @@ typedef struct dmb_scene {
                               and the +- rho A L^2/12 of the cubic shape (sum of both sides) */
     double *node_damping;  /* [N s/m, N m s; N s/m, N s, N m s] external damping: axial, torsional; lateral times the
                               integrals of 1, x, x^2 over the pipe it stands for, shape (node, 5) */
+
+    double *displaced;     /* [m3, kg m per kg/m3 = m4] weight_mass and the x of weight_moment that a fluid of density 1
+                              takes off, shape (node, 2); none without has_density_input */
+    double *damped_length; /* [m, m2, m3] integrals of 1, x, x^2 over the pipe whose damping a node carries, shape
+                              (node, 3); none without has_damping_input */
 
     /* elements */
     dmb_element_type *types; /* shape (type_count) */
@@ -272,7 +292,8 @@ typedef struct dmb_scene {
     dmb_scene_drive *drives;
     dmb_scene_load *loads;
     dmb_scene_bit *bits;
-    dmb_programme *programmes; /* the model's own */
+    dmb_programme *programmes; /* the model's own; of a sim with inputs, theirs behind them */
+    dmb_scene_input *inputs;
 
     /* joints and constraints; all empty without joints */
     dmb_scene_joint *joints;
@@ -304,6 +325,15 @@ typedef struct dmb_scene {
 static inline const dmb_scene *dmb_dense_scene(const dmb_scene *scene)
 {
     return scene->dense != NULL ? scene->dense : scene;
+}
+
+/* External damping of a node by the lengths it carries: scene->node_damping. */
+static inline void dmb_node_damping_of(const double damped[3], double axial, double torsional, double lateral,
+                                       double damping[5])
+{
+    damping[0] = axial * damped[0];
+    damping[1] = torsional * damped[0];
+    for (int k = 0; k < 3; k++) damping[2 + k] = lateral * damped[k];
 }
 
 /* Global row of number i of what is held. */

@@ -169,7 +169,7 @@ static int in_tool_joint(const station *at)
 static double pressure(const station *at)
 {
     const dmb_scene *scene = at->sim->scene;
-    const double density = at->sim->model->environment.fluid_density;
+    const double density = at->sim->scene->fluid_density;
     const uint32_t string = dmb_model_part_index(at->sim->model, at->place.part, DMB_PART_STRING);
     double top[3], below[3];
     if (scene->has_hole)
@@ -228,7 +228,7 @@ static double weight_per_metre(const station *at)
     dmb_rigid_part body, joint;
     dmb_rigid_pipe_of(def, &body);
     dmb_joint_of(def, &joint);
-    return dmb_buoyancy_factor(def, at->sim->model->environment.fluid_density) * (body.mass + joint.mass) / def->length;
+    return dmb_buoyancy_factor(def, at->sim->scene->fluid_density) * (body.mass + joint.mass) / def->length;
 }
 
 /* 1: beyond the middle of the stretch between the element's nodes, rigid arms included. */

@@ -235,6 +235,18 @@ static uint64_t add_constraints(uint64_t h, const dmb_scene *s)
     return h;
 }
 
+static uint64_t add_inputs(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->input_count; ++i) {
+        const dmb_scene_input *input = &s->inputs[i];
+        const double numbers[] = {input->initial, input->low, input->high, input->rate_limit, input->slope_limit};
+        h = dmb_fnv_word(h, (uint32_t)input->target);
+        h = dmb_fnv_word(h, input->index);
+        h = DMB_NUMBERS(h, numbers);
+    }
+    return h;
+}
+
 uint64_t dmb_scene_fingerprint(const dmb_scene *scene)
 {
     uint64_t h = add_counts(DMB_FNV_START, scene);
@@ -248,6 +260,7 @@ uint64_t dmb_scene_fingerprint(const dmb_scene *scene)
     h = add_joints(h, scene);
     h = add_couplings(h, scene);
     h = add_callbacks(h, scene);
+    h = add_inputs(h, scene);
     return add_constraints(h, scene);
 }
 

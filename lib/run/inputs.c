@@ -25,16 +25,33 @@ static int32_t jump_to(dmb_sim *sim, uint32_t index, double value)
     return status;
 }
 
+/* The input whose set point is this drive's: one of them moves it. */
+static int32_t refuse_input(dmb_sim *sim, uint32_t drive)
+{
+    dmb_message name;
+    for (uint32_t i = 0; i < sim->scene->input_count; i++) {
+        const dmb_scene_input *input = sim->scene->inputs + i;
+        if (input->target != DMB_TARGET_SET_POINT || input->index != drive) continue;
+        dmb_message_set(&sim->message, "%s: its set point is input %u (%s), set that by dmb_sim_set_input",
+                        dmb_drive_text(sim->scene, drive, &name), i, input->name);
+        return DMB_ERR_UNSUPPORTED;
+    }
+    return DMB_OK;
+}
+
 static int32_t set_drive(dmb_sim *sim, dmb_id drive, double value)
 {
     const uint32_t index = dmb_model_part_index(sim->model, drive, DMB_PART_DRIVE);
     dmb_message name;
     if (index >= sim->scene->drive_count) return refuse(sim, DMB_ERR_ID, "drive: the id names no drive of this model");
     if (sim->scene->drives[index].kind == DMB_DRIVE_MOTION) {
-        dmb_message_set(&sim->message, "%s: its kind is DMB_DRIVE_MOTION, whose speed may not jump",
-                        dmb_drive_text(sim->scene, index, &name));
+        dmb_message_set(
+            &sim->message,
+            "%s: its kind is DMB_DRIVE_MOTION, whose speed may not jump; describe an input of its set point",
+            dmb_drive_text(sim->scene, index, &name));
         return DMB_ERR_UNSUPPORTED;
     }
+    if (refuse_input(sim, index) < 0) return DMB_ERR_UNSUPPORTED;
     if (isinf(value)) {
         dmb_message_field(&sim->message, dmb_drive_text(sim->scene, index, &name), DMB_NONE, "value", value,
                           "finite, or NaN for the programme");

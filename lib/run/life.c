@@ -10,6 +10,7 @@
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "sim/options.h"
+#include "sim/own_scene.h"
 #include "system/start.h"
 
 DMB_DECLARE_STRUCT(dmb_sim_options)
@@ -133,6 +134,7 @@ static int32_t begin(const creation *c, dmb_model *model, void *block, size_t si
     sim->allocator = c->allocator;
     sim->options.allocator = NULL; /* the caller's struct may be gone; the copy is the one to use */
     release_drives(sim);
+    dmb_own_scene_begin(sim);
     status = dmb_system_start(sim);
     if (status < 0) {
         (void)fail(model, &sim->options, status, &sim->message);

@@ -6,10 +6,11 @@
 #include "run/snapshot_check.h"
 #include "sim/access.h"
 #include "sim/layout.h"
+#include "sim/own_scene.h"
 
 /* "DMDBSNP1" read as a number: a snapshot of another byte order does not fit. */
 #define DMB_SNAPSHOT_MAGIC UINT64_C(0x31504E5342444D44)
-enum { DMB_SNAPSHOT_VERSION = 5 };
+enum { DMB_SNAPSHOT_VERSION = 6 };
 
 typedef struct snapshot_header {
     uint64_t magic;
@@ -40,7 +41,7 @@ static snapshot_header header_of(const dmb_sim *sim)
     header.magic = DMB_SNAPSHOT_MAGIC;
     header.version = DMB_SNAPSHOT_VERSION;
     header.size = snapshot_bytes(sim);
-    header.scene = dmb_scene_fingerprint(sim->scene);
+    header.scene = dmb_scene_fingerprint(sim->model->scene);
     header.options = dmb_options_fingerprint(&sim->options);
     header.content = 0;
     return header;
@@ -120,6 +121,7 @@ static int32_t restore(dmb_sim *sim, const unsigned char *block, size_t size)
         memcpy(fields[i].data, from, fields[i].bytes);
         from += fields[i].bytes;
     }
+    dmb_own_scene_update(sim);
     return DMB_OK;
 }
 

@@ -3,14 +3,17 @@
 #include <math.h>
 #include <string.h>
 
+#include "model/describe_input.h"
 #include "model/limits.h"
+#include "sim/own_scene.h"
 #include "system/constrain/joint_motion.h"
 
 /* A field of integers or of a struct has a bound of its own: a line of sim/sim.h that names none does not compile. */
 #define DMB_DOUBLES(type) _Generic(*(type *)0, double : 1, default : 0)
-#define DMB_NAMES_BOUND(type, name, count, check)                                                         \
-    _Static_assert(DMB_DOUBLES(type) ==                                                                   \
-                       (DMB_CHECK_##check == DMB_CHECK_NUMBERS || DMB_CHECK_##check == DMB_CHECK_INPUTS), \
+#define DMB_NAMES_BOUND(type, name, count, check)                                                          \
+    _Static_assert(DMB_DOUBLES(type) ==                                                                    \
+                       (DMB_CHECK_##check == DMB_CHECK_NUMBERS || DMB_CHECK_##check == DMB_CHECK_INPUTS || \
+                        DMB_CHECK_##check == DMB_CHECK_SET_INPUTS),                                        \
                    #name ": its check does not fit its type");
 DMB_CONFIGURATION_LIST(DMB_NAMES_BOUND)
 DMB_MEMORY_LIST(DMB_NAMES_BOUND)
@@ -60,6 +63,21 @@ static int32_t check_inputs(const probe *p)
     for (size_t i = 0; i < p->field->bytes / sizeof(double); i++) {
         const double value = number_at(p, i);
         if (!isnan(value) && !(fabs(value) <= DMB_FORCE_MAX)) return refuse(p, i, value, "from -1e30 to 1e30, or NaN");
+    }
+    return DMB_OK;
+}
+
+static int32_t check_set_inputs(const probe *p)
+{
+    for (uint32_t i = 0; i < p->sim->scene->input_count; i++) {
+        const dmb_scene_input *input = p->sim->scene->inputs + i;
+        const double value = number_at(p, i);
+        const int described = isnan(input->initial) != 0;
+        if (isnan(value) && described && dmb_input_is_programme(input->target)) continue;
+        /* what is described may lie outside the bounds of what is set */
+        if (value >= input->low && value <= input->high) continue;
+        if (described && value == dmb_described_setting(p->sim, i)) continue;
+        return refuse(p, i, value, "within the bounds of its input");
     }
     return DMB_OK;
 }
@@ -163,6 +181,7 @@ static int32_t check_field(const probe *p)
     switch (p->field->check) {
     case DMB_CHECK_NUMBERS: return check_numbers(p, 0, p->field->bytes / sizeof(double));
     case DMB_CHECK_INPUTS: return check_inputs(p);
+    case DMB_CHECK_SET_INPUTS: return check_set_inputs(p);
     case DMB_CHECK_FLAGS: return check_words(p, 2, 0);
     case DMB_CHECK_SEGMENTS: return check_words(p, segments, 0);
     case DMB_CHECK_JOINT_SEGMENTS: return check_words(p, segments, DMB_SEGMENT_HELD);

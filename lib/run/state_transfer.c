@@ -7,6 +7,7 @@
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "sim/node.h"
+#include "sim/own_scene.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/energy.h"
 #include "system/constrain/assembly.h"
@@ -35,6 +36,9 @@ static void transfer_drives(dmb_sim *sim, const dmb_sim *from)
     DMB_COPY(drive_input, d);
     DMB_COPY(drive_offset, d);
     DMB_COPY(now.load_factor, sim->scene->load_count);
+    DMB_COPY(input_value, sim->scene->input_count);
+    DMB_COPY(input_begin, 3 * (size_t)sim->scene->input_count);
+    dmb_own_scene_update(sim);
 }
 
 static void transfer_counters(dmb_sim *sim, const dmb_sim *from)
@@ -195,6 +199,7 @@ static int32_t transfer_state(dmb_sim *sim, const dmb_sim *from)
     status = go_on(sim, from);
     if (status < 0) {
         dmb_state_restore(sim);
+        dmb_own_scene_update(sim);
         return status;
     }
     dmb_forget_factors(sim);

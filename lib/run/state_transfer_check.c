@@ -1,4 +1,5 @@
 /* Two scenes compared: the same but for pipes at the rig ends of their strings? */
+#include <math.h>
 #include <string.h>
 
 #include "query/place.h"
@@ -35,6 +36,7 @@ static int32_t check_counts(dmb_sim *sim, const dmb_sim *from)
                   {"bits", a->bit_count, b->bit_count},
                   {"drives", a->drive_count, b->drive_count},
                   {"loads", a->load_count, b->load_count},
+                  {"inputs", a->input_count, b->input_count},
                   {"programmes", a->programme_count, b->programme_count},
                   {"walls", a->has_hole != 0, b->has_hole != 0},
                   {"joints", a->joint_count, b->joint_count},
@@ -108,6 +110,20 @@ static int32_t check_loads(dmb_sim *sim, const dmb_sim *from)
     for (uint32_t i = 0; i < sim->scene->load_count; i++) {
         if (to[i].frame != old[i].frame) return other(sim, "load", i, "frame");
         if (part_of(to[i].place.part) != part_of(old[i].place.part)) return other(sim, "load", i, "part");
+    }
+    return DMB_OK;
+}
+
+/* What goes on must be what the other model's input may be. */
+static int32_t check_inputs(dmb_sim *sim, const dmb_sim *from)
+{
+    for (uint32_t i = 0; i < sim->scene->input_count; i++) {
+        const dmb_scene_input *to = sim->scene->inputs + i, *old = from->scene->inputs + i;
+        if (strcmp(to->name, old->name) != 0) return other(sim, "input", i, "name");
+        if (to->target != old->target) return other(sim, "input", i, "target");
+        if (to->index != old->index) return other(sim, "input", i, "part");
+        if (to->low != old->low || to->high != old->high) return other(sim, "input", i, "low or high");
+        if (isnan(to->initial) != isnan(old->initial)) return other(sim, "input", i, "initial (given or not)");
     }
     return DMB_OK;
 }
@@ -201,9 +217,10 @@ static int same_type(const dmb_element_type *a, const dmb_element_type *b)
            same_numbers(a->mass.bending[1], b->mass.bending[1], 6);
 }
 
+/* As described: what inputs of density have made of them goes with these. */
 static int32_t check_elements(dmb_sim *sim, const dmb_scene *from, uint32_t string, const dmb_common_string *common)
 {
-    const dmb_scene *scene = sim->scene;
+    const dmb_scene *scene = sim->model->scene;
     for (uint32_t i = 0; i + 1 < common->nodes; i++) {
         const uint32_t a = scene->node_element[common->to + i], b = from->node_element[common->from + i];
         if (same_type(scene->types + scene->element_type[a], from->types + from->element_type[b])) continue;
@@ -234,7 +251,7 @@ static int32_t check_string(dmb_sim *sim, const dmb_sim *from, uint32_t string)
     int32_t status = DMB_OK;
     for (uint32_t k = 0; k < common.pipes && status >= 0; k++) status = check_pipe(sim, from, string, k);
     if (status >= 0) status = check_nodes(sim, from->scene, string, &common);
-    return status >= 0 ? check_elements(sim, from->scene, string, &common) : status;
+    return status >= 0 ? check_elements(sim, from->model->scene, string, &common) : status;
 }
 
 int32_t dmb_state_transfer_check(dmb_sim *sim, const dmb_sim *from)
@@ -244,6 +261,7 @@ int32_t dmb_state_transfer_check(dmb_sim *sim, const dmb_sim *from)
     if (status >= 0) status = check_bits(sim, from);
     if (status >= 0) status = check_drives(sim, from);
     if (status >= 0) status = check_loads(sim, from);
+    if (status >= 0) status = check_inputs(sim, from);
     if (status >= 0) status = check_links(sim, from);
     if (status >= 0) status = check_wall(sim, from);
     for (uint32_t s = 0; s < sim->scene->string_count && status >= 0; s++) status = check_string(sim, from, s);

@@ -4,10 +4,10 @@
  * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
  * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; ns = n
  * where there are contact sites, else 0; k =
- * bit_count, load = load_count, held = held_count, history = history_count, diagonal and link = lengths of block
- * storage; j = joint_count, c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a
- * scene with joints only: raw = row_count, dense, square, full = storage of the clusters, block, value, pivots = of the
- * reduced system. */
+ * bit_count, load = load_count, held = held_count, input = input_count, history = history_count, diagonal and link =
+ * lengths of block storage; j = joint_count, c = constraint_row_count, cluster = cluster_count, column =
+ * cluster_column_count, and for a scene with joints only: raw = row_count, dense, square, full = storage of the
+ * clusters, block, value, pivots = of the reduced system. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
@@ -76,6 +76,10 @@
     X(double, drive_work, d, NUMBERS) /* [J] system/ledger */                                                         \
     X(double, drive_input, d, INPUTS) /* [unit of the programme] value set by the caller; NaN: the programme:         \
                                          run/inputs, run/life */                                                      \
+    X(double, input_value, input, SET_INPUTS) /* [unit of the target] set by the caller; NaN: the programme:          \
+                                                 run/input_set, sim/own_scene */                                      \
+    X(double, input_begin, 3 * input, NUMBERS) /* [s, unit, unit/s] where the way to the value begins:               \
+                                                 run/input_set, sim/own_scene */                                      \
     X(double, history_angle, history, NUMBERS)    /* [rad] samples of the cut surface, system/assemble/bit */         \
     X(double, history_surface, history, NUMBERS) /* [m] system/assemble/bit */                                        \
     X(dmb_history_head, history_head, k, HISTORY_HEADS) /* system/assemble/bit */                                     \
@@ -184,6 +188,7 @@
     X(uint32_t, sparse_row, sparse_block)                                                                             \
     X(dmb_reduced_mode, reduced_mode, 1) /* rows and violations by who finds them: system/, integrator/, analysis/,   \
                                             run/ */                                                                   \
+    X(double, input_before, 4 * input)  /* value and beginning, while a call sets some: run/input_set */              \
     X(uint8_t, backup, backup)          /* the state before a call that takes more than one step, sim/layout */
 /* clang-format on */
 
@@ -271,6 +276,14 @@ typedef struct dmb_progress {
     int32_t nested;    /* [-] calls that the one under way is part of */
 } dmb_progress;
 
+/* Where what is set is written down; neither saved nor hashed. run/input_set */
+typedef struct dmb_input_log {
+    dmb_input_record *records; /* the caller's; NULL: none */
+    uint32_t capacity, count;
+    uint32_t calls; /* [-] that have set something */
+    uint32_t reserved;
+} dmb_input_log;
+
 struct dmb_sim {
     uint32_t magic;
     int32_t owns_memory; /* 1: block came from `allocator` */
@@ -285,6 +298,8 @@ struct dmb_sim {
     dmb_message message;
     dmb_progress *progress; /* own_progress; in a copy for an analysis that of the sim */
     dmb_progress own_progress;
+    struct dmb_own_scene *own; /* sim/own_scene: the scene of a sim with inputs; NULL: it is the model's */
+    dmb_input_log input_log;
     dmb_configuration now, trial;
     DMB_MEMORY_LIST(DMB_FIELD)
     DMB_FACTOR_LIST(DMB_FIELD)

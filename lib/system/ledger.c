@@ -1,5 +1,6 @@
 #include "system/ledger.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "system/assemble/drives.h"
@@ -69,4 +70,11 @@ void dmb_ledger_take_impact(dmb_sim *sim, double kinetic, double stored)
     sim->ledger->work[DMB_POWER_IMPACT] -= kinetic + stored;
     sim->ledger->work[DMB_POWER_INERTIA] += kinetic;
     sim->ledger->work[DMB_POWER_POTENTIAL] += stored;
+}
+
+void dmb_ledger_take_change(dmb_sim *sim, double stored)
+{
+    sim->ledger->work[DMB_POWER_LOADS] += stored;
+    sim->ledger->work[DMB_POWER_POTENTIAL] -= stored;
+    sim->ledger->input += fabs(stored);
 }

@@ -13,6 +13,8 @@ void dmb_ledger_jump(dmb_sim *sim, const dmb_evaluation *evaluation);
 /* Adds the step from now to trial; before the swap. */
 /* What bodies lose in an impact between two steps [J]: kinetic energy, and stored energy that is let go. */
 void dmb_ledger_take_impact(dmb_sim *sim, double kinetic, double stored);
+/* What the poses store more [J] since the caller has changed what they store it by: work of loads. */
+void dmb_ledger_take_change(dmb_sim *sim, double stored);
 void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation);
 
 #endif

@@ -50,6 +50,7 @@ INIT(contact_total) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state
 INIT(allocator) INIT(joint_state) INIT(joint_def) INIT(coupling_def) INIT(constraint_def)
 INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row) INIT(fatigue_options)
 INIT(fatigue_result) INIT(window_options) INIT(window_result) INIT(profile_recorder)
+INIT(input_def) INIT(input_info) INIT(input_state)
     /* clang-format on */
 
     static int32_t call_model_options(void *p)
@@ -161,6 +162,49 @@ static int32_t add_constraint(dmb_model *model, void *p)
     return dmb_model_add_constraint(model, constraint, NULL);
 }
 
+static dmb_input_def an_input(void)
+{
+    dmb_input_def input = dmb_input_def_default();
+    input.target = DMB_TARGET_FLUID_DENSITY;
+    input.name[0] = 'm';
+    return input;
+}
+
+static int32_t add_input(dmb_model *model, void *p)
+{
+    dmb_input_def *input = p;
+    const dmb_input_def good = an_input();
+    if (input->struct_size >= sizeof *input) {
+        input->target = good.target;
+        input->name[0] = 'm';
+    }
+    return dmb_model_add_input(model, input, NULL);
+}
+
+static int32_t get_info(dmb_model *model, void *p)
+{
+    const dmb_input_def input = an_input();
+    assert_int_equal(dmb_model_add_input(model, &input, NULL), DMB_OK);
+    const int32_t status = dmb_model_get_input(model, 0, p);
+    if (status < 0) assert_int_equal(dmb_model_add_pipes(model, NULL, 1, NULL), DMB_ERR_NULL); /* leaves a message */
+    return status;
+}
+
+static int32_t get_state(dmb_model *model, void *p)
+{
+    const dmb_input_def input = an_input();
+    const dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_sim *sim = NULL;
+    dmb_id id;
+    assert_int_equal(dmb_model_add_input(model, &input, &id), DMB_OK);
+    assert_int_equal(dmb_model_add_pipes(model, &pipe, 1, NULL), DMB_OK);
+    assert_int_equal(dmb_model_compile(model, NULL), DMB_OK);
+    assert_int_equal(dmb_sim_create(model, NULL, &sim), DMB_OK);
+    const int32_t status = dmb_sim_get_input(sim, id, p);
+    dmb_sim_destroy(&sim);
+    return status;
+}
+
 static int32_t add_environment(dmb_model *model, void *p)
 {
     return dmb_model_set_environment(model, p);
@@ -210,6 +254,9 @@ CALL(body_def, with_model(add_body, p))
 CALL(bit_def, with_model(add_bit, p))
 CALL(drive_def, with_model(add_drive, p))
 CALL(load_def, with_model(add_load, p))
+CALL(input_def, with_model(add_input, p))
+CALL(input_info, with_model(get_info, p))
+CALL(input_state, with_model(get_state, p))
 CALL(joint_def, with_model(add_joint, p))
 CALL(coupling_def, with_model(add_coupling, p))
 CALL(constraint_def, with_model(add_constraint, p))
@@ -417,6 +464,9 @@ static const entry entries[] = {
     ENTRY(joint_def, 0),
     ENTRY(coupling_def, 0),
     ENTRY(constraint_def, 0),
+    ENTRY(input_def, 0),
+    ENTRY(input_info, 1),
+    ENTRY(input_state, 1),
     {"advance's report", sizeof(dmb_step_report), sizeof(dmb_step_report), init_step_report, call_advance_report, 1},
 };
 enum { ENTRIES = sizeof entries / sizeof entries[0] };

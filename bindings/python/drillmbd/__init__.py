@@ -33,6 +33,7 @@ from .enums import *  # noqa: F401,F403
 from .enums import ENUMS, VERSION, __version__
 from .errors import Error, status_name, status_text
 from .fatigue import Fatigue
+from .inputs import InputLog, Inputs
 from .model import Model
 from .profile import Profile
 from .recorder import ProfileRecorder, Recorder

@@ -54,7 +54,10 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_fatigue_result_init": (c_int32, POINTER(FatigueResult), c_uint32,),
     "dmb_fatigue_take": (c_int32, c_void_p, c_void_p,),
     "dmb_hole_point_init": (c_int32, POINTER(HolePoint), c_uint32,),
+    "dmb_input_def_init": (c_int32, POINTER(InputDef), c_uint32,),
+    "dmb_input_info_init": (c_int32, POINTER(InputInfo), c_uint32,),
     "dmb_input_init": (c_int32, POINTER(Input), c_uint32,),
+    "dmb_input_state_init": (c_int32, POINTER(InputState), c_uint32,),
     "dmb_joint_def_init": (c_int32, POINTER(JointDef), c_uint32,),
     "dmb_joint_state_init": (c_int32, POINTER(JointState), c_uint32,),
     "dmb_load_def_init": (c_int32, POINTER(LoadDef), c_uint32,),
@@ -65,6 +68,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_add_constraint": (c_int32, c_void_p, POINTER(ConstraintDef), POINTER(Id),),
     "dmb_model_add_coupling": (c_int32, c_void_p, POINTER(CouplingDef), POINTER(Id),),
     "dmb_model_add_drive": (c_int32, c_void_p, POINTER(DriveDef), POINTER(Id),),
+    "dmb_model_add_input": (c_int32, c_void_p, POINTER(InputDef), POINTER(Id),),
     "dmb_model_add_joint": (c_int32, c_void_p, POINTER(JointDef), POINTER(Id),),
     "dmb_model_add_load": (c_int32, c_void_p, POINTER(LoadDef), POINTER(Id),),
     "dmb_model_add_pipes": (c_int32, c_void_p, POINTER(PipeDef), c_uint32, POINTER(Id),),
@@ -75,8 +79,11 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_compile": (c_int32, c_void_p, POINTER(CompileOptions),),
     "dmb_model_create": (c_int32, POINTER(ModelOptions), POINTER(c_void_p),),
     "dmb_model_destroy": (None, POINTER(c_void_p),),
+    "dmb_model_find_input": (c_int32, c_void_p, c_char_p, POINTER(Id),),
     "dmb_model_get_info": (c_int32, c_void_p, POINTER(ModelInfo),),
+    "dmb_model_get_input": (c_int32, c_void_p, c_uint32, POINTER(InputInfo),),
     "dmb_model_info_init": (c_int32, POINTER(ModelInfo), c_uint32,),
+    "dmb_model_input_count": (c_uint32, c_void_p,),
     "dmb_model_message": (c_char_p, c_void_p,),
     "dmb_model_options_init": (c_int32, POINTER(ModelOptions), c_uint32,),
     "dmb_model_set_environment": (c_int32, c_void_p, POINTER(EnvironmentDef),),
@@ -136,12 +143,18 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_sim_create": (c_int32, c_void_p, POINTER(SimOptions), POINTER(c_void_p),),
     "dmb_sim_create_in": (c_int32, c_void_p, POINTER(SimOptions), c_void_p, c_size_t, POINTER(c_void_p),),
     "dmb_sim_destroy": (None, POINTER(c_void_p),),
+    "dmb_sim_get_input": (c_int32, c_void_p, Id, POINTER(InputState),),
     "dmb_sim_hash": (c_int32, c_void_p, POINTER(c_uint64),),
     "dmb_sim_memory_size": (c_int32, c_void_p, POINTER(SimOptions), POINTER(c_size_t),),
     "dmb_sim_message": (c_char_p, c_void_p,),
     "dmb_sim_options_init": (c_int32, POINTER(SimOptions), c_uint32,),
+    "dmb_sim_record_inputs": (c_int32, c_void_p, POINTER(InputRecord), c_uint32,),
+    "dmb_sim_recorded_inputs": (c_uint32, c_void_p,),
+    "dmb_sim_replay_inputs": (c_int32, c_void_p, POINTER(InputRecord), c_uint32, POINTER(c_uint32),),
     "dmb_sim_restore": (c_int32, c_void_p, c_void_p, c_size_t,),
     "dmb_sim_set_drive": (c_int32, c_void_p, Id, c_double,),
+    "dmb_sim_set_input": (c_int32, c_void_p, Id, c_double,),
+    "dmb_sim_set_inputs": (c_int32, c_void_p, POINTER(Id), POINTER(c_double), c_uint32,),
     "dmb_sim_set_joint": (c_int32, c_void_p, Id, c_int32,),
     "dmb_sim_set_progress": (c_int32, c_void_p, PROGRESS_FN, c_void_p,),
     "dmb_sim_snapshot": (c_int32, c_void_p, c_void_p, c_size_t,),
@@ -227,6 +240,8 @@ FUNCTION_DOCS = {
         "Cycles by range at the point that the result names: cycles[i] of a range of i times 2 stress_range/classes [Pa], shape (classes).",
     "dmb_fatigue_take":
         "Takes a sample; call it after each step. The sim may be another one of the same model. Allocates nothing. O(places x points).",
+    "dmb_model_add_input":
+        "Errors: ERR_ID; ERR_VALUE for bounds, limits, a name that another input has, a target that has one already; ERR_UNSUPPORTED where the part has no such target.",
     "dmb_model_add_joint":
         "Adds a joint. Errors: ERR_ID; ERR_VALUE for a part joined to itself, an axis of zero length, two grounds.",
     "dmb_model_add_pipes":
@@ -245,8 +260,14 @@ FUNCTION_DOCS = {
         "Creates an empty model. options may be NULL. Errors: ERR_NULL, _STRUCT_SIZE, _NO_MEMORY; *model is NULL then.",
     "dmb_model_destroy":
         "Gives up the caller's hold and sets *model to NULL; sims made from the model keep it alive. The hold is one: while they do, copies of the handle are refused (ERR_HANDLE) and destroying through them does nothing. Nor does it within a call that describes or compiles the model (by its allocator or log), where such calls give ERR_ORDER. NULL-safe.",
+    "dmb_model_find_input":
+        "The input of that name. ERR_ID where there is none.",
     "dmb_model_get_info":
         "Counts of a compiled model. Errors: ERR_ORDER before compile.",
+    "dmb_model_get_input":
+        "Input number `index` in the order of description. Errors: ERR_NULL, _HANDLE, _STRUCT_SIZE, _ID (no such input).",
+    "dmb_model_input_count":
+        "[-] inputs described so far; 0 for what is no model.",
     "dmb_model_message":
         "Message of the last failing or noteworthy call on this model: \"part, field, value, bound\". Never NULL; lives until the next call on the model. A compiled model shared between threads keeps the message of its compilation; after a dmb_sim_create that failed, the thread that called it reads the reason here, until its next create of the model.",
     "dmb_modes_destroy":
@@ -313,14 +334,26 @@ FUNCTION_DOCS = {
         "The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used.",
     "dmb_sim_destroy":
         "Gives the memory back and sets *sim to NULL; does nothing within a call on this sim. NULL-safe.",
+    "dmb_sim_get_input":
+        "Errors: ERR_NULL, _HANDLE, _STRUCT_SIZE, _ID, _CALLBACK.",
     "dmb_sim_hash":
         "FNV-1a hash of all that changes; equal states give equal hashes on one build.",
     "dmb_sim_memory_size":
         "Bytes of the block that dmb_sim_create_in needs. O(1). Errors: ERR_ORDER (model not compiled), ERR_VALUE.",
     "dmb_sim_message":
         "Message of the last failing or noteworthy call on this sim. Never NULL; lives until the next call on the sim.",
+    "dmb_sim_record_inputs":
+        "From now on what is set is written into `records`, shape (capacity), which the caller keeps alive; from its beginning on. NULL with 0: no more. A call that sets more than there is room for sets it and returns NOTE_FULL. The log is neither saved in snapshots nor hashed. Errors: ERR_NULL, _HANDLE, _ORDER.",
+    "dmb_sim_recorded_inputs":
+        "[-] records written since then; 0 for what is no sim.",
+    "dmb_sim_replay_inputs":
+        "Sets what the log has from record *next on up to the present time, call by call, and moves *next beyond what is set. Called before each step of a run that steps as the recorded one did, it gives the same states, bit for bit. Errors: as dmb_sim_set_inputs, with *next at the call that was refused; ERR_VALUE too for times that decrease.",
     "dmb_sim_set_drive":
-        "From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For DRIVE_LOAD and DRIVE_CONTROL; accelerations are made to fit the jump. ERR_UNSUPPORTED for DRIVE_MOTION, whose speed may not jump.",
+        "From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For DRIVE_LOAD and DRIVE_CONTROL; accelerations are made to fit the jump. ERR_UNSUPPORTED for DRIVE_MOTION, whose speed may not jump, and where an input moves the set point (control.h).",
+    "dmb_sim_set_input":
+        "From now on the input is `value`, or goes there within its limits; accelerations are made to fit what jumps. A change of density changes the energy of weight, which counts as work of loads. NOTE_CLAMPED where the bound was taken instead. Setting what is set already does nothing. Errors, which change nothing: ERR_ID, _NOT_FINITE, _VALUE (bounds; limit_low not below limit_high), _CALLBACK, _SINGULAR. O(number of elements).",
+    "dmb_sim_set_inputs":
+        "Several at once, all or none, arrays of shape (count); of one named twice the last counts.",
     "dmb_sim_set_joint":
         "From now on the joint is JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the impulse of least kinetic energy (NOTE_PROJECTED; dmb_sim_message tells by how much), accelerations are made anew. That energy, and what springs and stops that are let go or taken up store, goes to `impact`. Couplings and drives of an open joint do not act: a drive follows the coordinate and goes on from where it is when the joint closes; a coupling keeps what it kept, so a gear that has slipped meanwhile cannot close. A joint that a motion drive moves cannot be locked. Errors, which change nothing: ERR_ID, _VALUE; _GEOMETRY: the joint's parts or couplings do not fit within 1e-6 m and rad, or its frames point against each other where it keeps them parallel; a drive's speed cannot be had; _SINGULAR, _NO_CONVERGENCE, _CALLBACK, _NOT_FINITE.",
     "dmb_sim_set_progress":

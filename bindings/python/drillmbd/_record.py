@@ -82,7 +82,8 @@ class Record(ctypes.Structure):
             if name == "struct_size" or name.endswith("reserved") or _is_pointer(kind):
                 continue
             value = _plain(getattr(self, name))
-            if every or value != _plain(getattr(default, name)):
+            usual = _plain(getattr(default, name)) if default is not None else None
+            if every or not (value == usual or (value != value and usual != usual)):  # NaN may be the default
                 found[name] = value
         return found
 

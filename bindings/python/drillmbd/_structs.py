@@ -935,6 +935,51 @@ class CheckReport(Sized):
     }
 
 
+class InputState(Sized):
+    c_name, about = "dmb_input_state", ""
+    struct_size: int
+    is_set: int
+    value: float
+    present: float
+    rate: float
+    arrives: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("is_set", c_int32),
+        ("value", c_double),
+        ("present", c_double),
+        ("rate", c_double),
+        ("arrives", c_double),
+    ]
+    field_docs = {
+        "is_set": ("", "0: its programme is in force, since it was not set yet"),
+        "value": ("unit", "what is set; of a programme its value now"),
+        "present": ("unit", "in force now, on the way to `value`"),
+        "rate": ("unit/s", "of it"),
+        "arrives": ("s", "time at which it is or was there; 0 of a programme"),
+    }
+
+
+class InputRecord(Record):
+    c_name, about = "dmb_input_record", "Input log: what was set when, in the caller's memory"
+    time: float
+    value: float
+    input: int
+    call: int
+    _fields_: ClassVar[Any] = [
+        ("time", c_double),
+        ("value", c_double),
+        ("input", c_uint32),
+        ("call", c_uint32),
+    ]
+    field_docs = {
+        "time": ("s", "of the sim when it was set"),
+        "value": ("unit of the input", "as taken, clamped where it was"),
+        "input": ("-", "number of the input in the order of description"),
+        "call": ("-", "number of the call that set it: those of one call are set at once"),
+    }
+
+
 class Operation(Sized):
     c_name, about = "dmb_operation", ""
     struct_size: int
@@ -1998,6 +2043,82 @@ class BucklingOptions(Sized):
     }
 
 
+class InputDef(Sized):
+    c_name, about = "dmb_input_def", ""
+    struct_size: int
+    target: int
+    name: bytes
+    part: Id
+    initial: float
+    low: float
+    high: float
+    rate_limit: float
+    slope_limit: float
+    outside: int
+    reserved: int
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("target", c_int32),
+        ("name", c_char * 24),
+        ("part", Id),
+        ("initial", c_double),
+        ("low", c_double),
+        ("high", c_double),
+        ("rate_limit", c_double),
+        ("slope_limit", c_double),
+        ("outside", c_int32),
+        ("reserved", c_int32),
+    ]
+    field_docs = {
+        "target": ("", "TARGET_..., default TARGET_SET_POINT"),
+        "name": ("", "required, of its own among the inputs, ends with 0"),
+        "part": ("", "drive, load or bit; {0, 0} of wall and environment"),
+        "initial": ("unit of the target", "at time 0, within the bounds; NaN (default): as described, which for a set point, load factor and bit load is its programme, until the input is set"),
+        "low": ("unit of the target", "bounds, low <= high; default -1e30 and 1e30: as far as the target goes"),
+        "high": ("unit of the target", "bounds, low <= high; default -1e30 and 1e30: as far as the target goes"),
+        "rate_limit": ("unit/s", "of a set point, load factor or bit load: the most it changes in a second, > 0; 0 (default): it jumps. Required for the set point of a MOTION drive: largest acceleration"),
+        "slope_limit": ("unit/s2", "the most that rate changes in a second, > 0 (largest jerk); 0 (default): it jumps. The value then gets to what is set in the least time that both limits allow"),
+        "outside": ("", "OUTSIDE_...: a value beyond the bounds is refused (default) or taken for the bound"),
+    }
+
+
+class InputInfo(Sized):
+    c_name, about = "dmb_input_info", ""
+    struct_size: int
+    target: int
+    input: Id
+    part: Id
+    name: bytes
+    unit: bytes
+    low: float
+    high: float
+    rate_limit: float
+    slope_limit: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("target", c_int32),
+        ("input", Id),
+        ("part", Id),
+        ("name", c_char * 24),
+        ("unit", c_char * 16),
+        ("low", c_double),
+        ("high", c_double),
+        ("rate_limit", c_double),
+        ("slope_limit", c_double),
+    ]
+    field_docs = {
+        "target": ("", "TARGET_..."),
+        "input": ("", ""),
+        "part": ("", ""),
+        "name": ("", ""),
+        "unit": ("", "\"rad/s\", \"-\", ... ends with 0"),
+        "low": ("unit", "in force: the narrower of its own bounds and those of the target"),
+        "high": ("unit", "in force: the narrower of its own bounds and those of the target"),
+        "rate_limit": ("unit/s, unit/s2", "0: none"),
+        "slope_limit": ("unit/s, unit/s2", "0: none"),
+    }
+
+
 class TorqueDragOptions(Sized):
     c_name, about = "dmb_torque_drag_options", ""
     struct_size: int
@@ -2477,6 +2598,10 @@ STRUCTS["dmb_path_point"] = PathPoint
 STRUCTS["dmb_path_options"] = PathOptions
 STRUCTS["dmb_path_report"] = PathReport
 STRUCTS["dmb_check_report"] = CheckReport
+STRUCTS["dmb_input_def"] = InputDef
+STRUCTS["dmb_input_info"] = InputInfo
+STRUCTS["dmb_input_state"] = InputState
+STRUCTS["dmb_input_record"] = InputRecord
 STRUCTS["dmb_operation"] = Operation
 STRUCTS["dmb_torque_drag_options"] = TorqueDragOptions
 STRUCTS["dmb_torque_drag_row"] = TorqueDragRow

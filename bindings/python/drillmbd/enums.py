@@ -21,6 +21,7 @@ class Status(IntEnum):
     NOTE_CANCELLED = 10  #: done up to where the caller's progress function ended it
     NOTE_INCOMPLETE = 11  #: done; the scene or the range leaves something out, the message tells what
     NOTE_FLUTTER = 12  #: done; a mode grows before the stiffness is singular, the message tells from where on
+    NOTE_CLAMPED = 13  #: done; a value beyond its bounds was taken for the bound
     ERR_NULL = -1  #: a required pointer is NULL
     ERR_HANDLE = -2  #: not a live object of this kind
     ERR_STRUCT_SIZE = -3  #: struct_size is not a size this library knows
@@ -53,6 +54,7 @@ NOTE_EXTRAPOLATED = Status.NOTE_EXTRAPOLATED
 NOTE_CANCELLED = Status.NOTE_CANCELLED
 NOTE_INCOMPLETE = Status.NOTE_INCOMPLETE
 NOTE_FLUTTER = Status.NOTE_FLUTTER
+NOTE_CLAMPED = Status.NOTE_CLAMPED
 ERR_NULL = Status.ERR_NULL
 ERR_HANDLE = Status.ERR_HANDLE
 ERR_STRUCT_SIZE = Status.ERR_STRUCT_SIZE
@@ -578,6 +580,48 @@ CONTACT_OPEN = ContactState.OPEN
 CONTACT_CLOSED = ContactState.CLOSED
 
 
+class InputTarget(IntEnum):
+    """Values DMB_TARGET_... of the headers."""
+    SET_POINT = 0  #: of a drive: the value in the place of its programme; its excitation goes on
+    GAIN = 1  #: [N s/m, N m s] of a CONTROL drive, >= 0
+    INTEGRAL_GAIN = 2  #: [N/m, N m] of a CONTROL drive, >= 0
+    LIMIT_LOW = 3  #: [N, N m] of a CONTROL drive; below its limit_high
+    LIMIT_HIGH = 4  #: [N, N m] of a CONTROL drive; above its limit_low
+    LOAD_FACTOR = 5  #: [-] of a load, in the place of its programme
+    BIT_LOAD = 6  #: [N] bottom-hole load of a bit, in the place of its programme
+    FRICTION = 7  #: [-] factor >= 0 of both friction coefficients of the wall; 1: as described
+    FLUID_DENSITY = 8  #: [kg/m3] >= 0 of the environment
+    LATERAL_DAMPING = 9  #: [N s/m2] >= 0 of the environment
+    AXIAL_DAMPING = 10  #: [N s/m2] >= 0 of the environment
+    TORSIONAL_DAMPING = 11  #: [N s] >= 0 of the environment
+    COUNT = 12
+
+
+TARGET_SET_POINT = InputTarget.SET_POINT
+TARGET_GAIN = InputTarget.GAIN
+TARGET_INTEGRAL_GAIN = InputTarget.INTEGRAL_GAIN
+TARGET_LIMIT_LOW = InputTarget.LIMIT_LOW
+TARGET_LIMIT_HIGH = InputTarget.LIMIT_HIGH
+TARGET_LOAD_FACTOR = InputTarget.LOAD_FACTOR
+TARGET_BIT_LOAD = InputTarget.BIT_LOAD
+TARGET_FRICTION = InputTarget.FRICTION
+TARGET_FLUID_DENSITY = InputTarget.FLUID_DENSITY
+TARGET_LATERAL_DAMPING = InputTarget.LATERAL_DAMPING
+TARGET_AXIAL_DAMPING = InputTarget.AXIAL_DAMPING
+TARGET_TORSIONAL_DAMPING = InputTarget.TORSIONAL_DAMPING
+TARGET_COUNT = InputTarget.COUNT
+
+
+class Outside(IntEnum):
+    """Values DMB_OUTSIDE_... of the headers."""
+    REFUSED = 0
+    CLAMPED = 1
+
+
+OUTSIDE_REFUSED = Outside.REFUSED
+OUTSIDE_CLAMPED = Outside.CLAMPED
+
+
 class OperationKind(IntEnum):
     """Values DMB_OPERATION_... of the headers."""
     PICK_UP = 0  #: pulled without turning
@@ -932,6 +976,8 @@ ENUMS = (
     Flutter,
     PathKind,
     ContactState,
+    InputTarget,
+    Outside,
     OperationKind,
     Measured,
     ModesKind,

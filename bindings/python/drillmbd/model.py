@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 from ._keep import Keep, as_id, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._record import Record
-from ._structs import (BitDef, BodyDef, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef, HolePoint, Id, JointDef,
-                       LoadDef, ModelInfo, ModelOptions, PipeDef, Place, SimOptions, StringDef, Term, WallDef)
+from ._structs import (BitDef, BodyDef, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef, HolePoint, Id, InputDef,
+                       InputInfo, JointDef, LoadDef, ModelInfo, ModelOptions, PipeDef, Place, SimOptions, StringDef, Term, WallDef)
 
 if TYPE_CHECKING:
     from .sim import Sim
@@ -165,6 +165,11 @@ class Model:
         """Adds a force [N] and moment [N m] at a place, by a LoadDef or its fields; returns its id."""
         return self._add("load", LoadDef, definition, fields)
 
+    @mirrors("dmb_model_add_input")
+    def add_input(self, definition: InputDef | None = None, **fields: Any) -> Id:
+        """Adds an input that sims set by Sim.inputs[name], by an InputDef or its fields; returns its id."""
+        return self._add("input", InputDef, definition, fields)
+
     @mirrors("dmb_model_compile")
     def compile(self, options: CompileOptions | None = None, **fields: Any) -> int:
         """Checks and freezes the scene; returns the status."""
@@ -185,6 +190,15 @@ class Model:
         info = ModelInfo()
         info.status = self._check(_lib.dmb_model_get_info(self._handle, byref(info)))
         return info
+
+    def inputs(self) -> dict[str, InputInfo]:
+        """The inputs by name: unit, bounds and limits of each, in the order of description."""
+        found: dict[str, InputInfo] = {}
+        for index in range(_lib.dmb_model_input_count(self._handle)):
+            info: InputInfo = InputInfo.blank()
+            self._check(_lib.dmb_model_get_input(self._handle, index, byref(info)))
+            found[info.name.decode()] = info
+        return found
 
     @mirrors("dmb_query_hole")
     def hole(self, depth: float) -> HolePoint:
@@ -215,7 +229,7 @@ class Model:
 _DEFINITIONS: dict[str, Any] = {
     "set_environment": EnvironmentDef, "add_wall": WallDef, "add_string": StringDef, "add_pipes": PipeDef,
     "add_body": BodyDef, "add_bit": BitDef, "add_joint": JointDef, "add_coupling": CouplingDef,
-    "add_constraint": ConstraintDef, "add_drive": DriveDef, "add_load": LoadDef, "compile": CompileOptions,
+    "add_constraint": ConstraintDef, "add_drive": DriveDef, "add_load": LoadDef, "add_input": InputDef, "compile": CompileOptions,
     "add_programme": Term}
 
 

@@ -18,6 +18,7 @@ from ._structs import (STRUCTS, BitState, Channel, Contact, DriveState, Energy, 
 from .channels import channel_quantity
 from .enums import FRAME_WORLD, NOTE_CANCELLED, NOTE_STOPPED, OK
 from .errors import check
+from .inputs import InputLog, Inputs
 from .recorder import ProfileRecorder, Recorder
 
 if TYPE_CHECKING:
@@ -80,6 +81,8 @@ class Sim(analysis.Analyses):
                  log: Callable[[int, str], None] | None = None, **fields: Any) -> None:
         self._handle = c_void_p()
         self._keep = Keep()  # its own log
+        self._inputs = model.inputs()
+        self._log: InputLog | None = None
         self._scene = model._keep  # callbacks live as long as the last sim
         self._teller = Teller()
         options = struct(SimOptions, options, fields)
@@ -185,6 +188,11 @@ class Sim(analysis.Analyses):
     def set_drive(self, drive: Id, value: float | None) -> None:
         """The drive's programme is the constant value [its unit] from now on; None: its programme again."""
         self._check(_lib.dmb_sim_set_drive(self._handle, drive, float("nan") if value is None else value))
+
+    @property
+    def inputs(self) -> Inputs:
+        """What the model's inputs are set to, by name: sim.inputs["rotation"] = 12.0; units in sim.inputs.info."""
+        return Inputs(self)
 
     @mirrors("dmb_sim_set_joint")
     def set_joint(self, joint: Id, state: int) -> int:

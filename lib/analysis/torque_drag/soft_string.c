@@ -30,8 +30,7 @@ static void take_pipe(march *m, const dmb_pipe_def *pipe)
     m->EA = section.stiffness[0];
     m->GJ = section.stiffness[3];
     m->EI = fmin(section.stiffness[4], section.stiffness[5]);
-    m->weight =
-        dmb_buoyancy_factor(pipe, soft->model->environment.fluid_density) * (body.mass + joint.mass) / pipe->length;
+    m->weight = dmb_buoyancy_factor(pipe, soft->fluid_density) * (body.mass + joint.mass) / pipe->length;
     m->radius = 0.5 * fmax(pipe->outer_diameter, dmb_joint_diameter(pipe));
     m->clearance = fmax(0.0, soft->hole->radius - m->radius);
 }

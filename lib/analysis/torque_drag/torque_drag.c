@@ -89,6 +89,7 @@ static int32_t find_string(request *r)
         return refuse(r, DMB_ERR_UNSUPPORTED,
                       "the string does not follow the hole; set follows_hole of its definition");
     soft->model = model;
+    soft->fluid_density = r->sim->scene->fluid_density;
     soft->hole = &scene->hole;
     dmb_vec3_copy(scene->gravity, soft->gravity);
     soft->start = plans[soft->string].def.start_depth;
@@ -125,7 +126,7 @@ static int32_t take_options(request *r, const dmb_torque_drag_options *given)
     r->soft.post_buckling = options->post_buckling;
     r->soft.friction = options->friction >= 0.0                                ? options->friction
                        : r->sim->scene->friction_law.kind == DMB_FRICTION_NONE ? 0.0
-                                                                               : r->sim->model->wall.mu_dynamic;
+                                                                               : r->sim->scene->friction_law.mu_dynamic;
     return check_depths(r);
 }
 

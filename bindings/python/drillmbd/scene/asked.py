@@ -94,7 +94,7 @@ class Asked:
         return "-"
 
     def _input(self, path: Path, table: dict[str, Any], extra: tuple[str, ...] = ()) -> dict[str, Any]:
-        known = fields_of(DEFINITIONS["input"])
+        known = fields_of(DEFINITIONS["response input"])
         eccentric = int(enums.INPUT_ECCENTRICITY) if extra else int(enums.INPUT_FORCE)
         kind = self.loader.word(known["kind"], table.get("kind"), eccentric)
         component = self.loader.word(known["component"], table.get("component"), 0)

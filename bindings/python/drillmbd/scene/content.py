@@ -11,7 +11,7 @@ from ..sim import Sim
 from .failure import Failure
 from .variability import Variability
 
-PARTS = ("string", "body", "bit", "joint", "coupling", "drive", "load")  # in the order in which they are described
+PARTS = ("string", "body", "bit", "joint", "coupling", "drive", "load", "input")  # in the order in which they are described
 SINGLE = ("environment", "hole")
 ANALYSES = ("static", "modes", "response", "speeds", "buckling")
 

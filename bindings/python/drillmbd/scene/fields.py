@@ -17,7 +17,8 @@ from .problems import meant
 
 # Fields whose text in the header does not name the enumeration.
 ENUM_OF = {"component": enums.Component, "initial_mask": enums.Free, "start_free": enums.Free, "end_free": enums.Free,
-           "free_mask": enums.Free, "pipe_kind": enums.PipeKind, "contact": enums.ContactState}
+           "free_mask": enums.Free, "pipe_kind": enums.PipeKind, "contact": enums.ContactState, "outside": enums.Outside,
+           "target": enums.InputTarget}
 UNIT_OF = {"contact_gap": "m"}  # where one comment stands for several fields
 LEFT_OUT = {"struct_size", "survey_count", "table_count", "provides", "callback_context", "callback", "log", "allocator",
             "log_context"}
@@ -206,11 +207,27 @@ def input_unit(kind: int, component: int) -> str:
     return known.get(kind, "-")
 
 
+def setting_units(target: int, drive: tuple[int, int] | None) -> dict[str, str]:
+    """The units of the fields of an input; drive: kind and component of the drive that it moves."""
+    kind, component = drive or (0, 0)
+    known: dict[int, str] = {enums.TARGET_SET_POINT: drive_unit(kind, component), enums.TARGET_BIT_LOAD: "N",
+                             enums.TARGET_GAIN: by_component("N s/m, N m s", component),
+                             enums.TARGET_INTEGRAL_GAIN: by_component("N/m, N m", component),
+                             enums.TARGET_LIMIT_LOW: by_component("N, N m", component),
+                             enums.TARGET_LIMIT_HIGH: by_component("N, N m", component),
+                             enums.TARGET_FLUID_DENSITY: "kg/m3", enums.TARGET_LATERAL_DAMPING: "N s/m2",
+                             enums.TARGET_AXIAL_DAMPING: "N s/m2", enums.TARGET_TORSIONAL_DAMPING: "N s"}
+    unit = known.get(target, "-")
+    by_time = {"-": ("1/s", "1/s2"), "m/s": ("m/s2", "m/s3"), "rad/s": ("rad/s2", "rad/s3")}
+    rate, slope = by_time.get(unit, (unit + "/s", unit + "/s2"))
+    return {"initial": unit, "low": unit, "high": unit, "rate_limit": rate, "slope_limit": slope}
+
+
 DEFINITIONS: dict[str, Any] = {
     "environment": _structs.EnvironmentDef, "hole": _structs.WallDef, "string": _structs.StringDef,
     "pipes": _structs.PipeDef, "body": _structs.BodyDef, "bit": _structs.BitDef, "joint": _structs.JointDef,
     "coupling": _structs.CouplingDef, "drive": _structs.DriveDef, "load": _structs.LoadDef, "term": _structs.Term,
     "compile": _structs.CompileOptions, "sim": _structs.SimOptions, "static": _structs.StaticOptions,
     "modes": _structs.ModesOptions, "response": _structs.ResponseOptions, "speeds": _structs.SpeedsOptions,
-    "buckling": _structs.BucklingOptions, "input": _structs.Input, "output": _structs.Output,
+    "buckling": _structs.BucklingOptions, "input": _structs.InputDef, "response input": _structs.Input, "output": _structs.Output,
     "order": _structs.Order}

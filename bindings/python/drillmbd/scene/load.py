@@ -208,7 +208,7 @@ class Loader:
             self.problems.add(path, value, "names no part" + meant(str(value), self.kinds))
         elif not self.problems.found:
             self.problems.add(path, value, f"names a {self.kinds[value]} that is made after this; programmes come first, "
-                                           "then strings, bodies, bits, joints, couplings, drives, loads")
+                                           "then strings, bodies, bits, joints, couplings, drives, loads, inputs")
         return None
 
     def _place(self, path: Path, value: Any) -> Place | None:
@@ -404,8 +404,12 @@ class Loader:
         component = self.word(fields_of(DEFINITIONS["drive"])["component"], table.get("component"), 0)
         special = {key: fields.by_component(known[key].unit, component)
                    for key in ("gain", "integral_gain", "limit_low", "limit_high") if kind == "drive"}
+        if kind == "input":
+            special = self._setting_units(known, table)
         values = self.read(path, table, known, ("name",), special.get)
-        if kind in ("joint", "coupling") and "name" in table:
+        if kind == "input":
+            table["name"] = name
+        if kind in ("joint", "coupling", "input") and "name" in table:
             try:
                 values["name"] = fields.read(fields_of(struct)["name"], name)
             except ValueProblem as error:
@@ -415,8 +419,17 @@ class Loader:
         refused = any(isinstance(value, str) and self.names.get(value, "") is None for value in table.values())
         self._put(name, kind, None)
         if not refused and not (kind == "drive" and "programme" not in values) and not (
-                len(self.problems.found) > before and kind in ("joint", "coupling", "load")):
+                len(self.problems.found) > before and kind in ("joint", "coupling", "load", "input")):
             self._put(name, kind, self._add(path, getattr(self.model, "add_" + kind), struct, values))
+
+    def _setting_units(self, known: dict[str, Field], table: dict[str, Any]) -> dict[str, str]:
+        """Units of an input: those of what it moves."""
+        part, drive = table.get("part"), None
+        for number, (_, one) in enumerate(self.parts("drive")):
+            if self.name("drive", number, one) == part:
+                of_drive = fields_of(DEFINITIONS["drive"])
+                drive = (self.word(of_drive["kind"], one.get("kind"), 0), self.word(of_drive["component"], one.get("component"), 0))
+        return fields.setting_units(self.word(known["target"], table.get("target"), 0), drive)
 
     def _inline_programmes(self, kind: str, path: Path, table: dict[str, Any]) -> None:
         """programme = "120 rpm" stands for a programme of that constant."""

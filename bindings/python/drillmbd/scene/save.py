@@ -135,7 +135,7 @@ class Writer:
         """The fields of a struct that are not at their defaults."""
         known = fields_of(DEFINITIONS[struct])
         for key, value in values.items():
-            if key in known and not (key == "name" and struct in ("joint", "coupling")):
+            if key in known and not (key == "name" and struct in ("joint", "coupling", "input")):
                 self._key(key, self._plain(known[key], value, unit_of(key) if unit_of else None))
 
     def _plain(self, field: Any, value: Any, unit: str | None) -> Any:
@@ -185,6 +185,9 @@ class Writer:
     def _part(self, kind: str, name: str | None, description: dict[str, Any]) -> None:
         self._head(f"[[{kind}]]", name)
         component = description.get("component", 0)
+        if kind == "input":
+            self._table(kind, description, self._setting_units(description).get)
+            return
 
         def unit_of(key: str) -> str | None:
             if kind == "drive" and key in ("gain", "integral_gain", "limit_low", "limit_high"):
@@ -192,6 +195,12 @@ class Writer:
             return None
 
         self._table(kind, description, unit_of)
+
+    def _setting_units(self, description: dict[str, Any]) -> dict[str, str]:
+        part = description.get("part")
+        drive = next((one for made, one in self.parts.get("drive", []) if part and made.index == part.index), None)
+        known = (drive.get("kind", 0), drive.get("component", 0)) if drive is not None else None
+        return fields.setting_units(description.get("target", 0), known)
 
     # ---- What is asked ----------------------------------------------------------------------------------------------
     def _settings(self) -> None:
@@ -265,7 +274,7 @@ class Writer:
             made = {one.index: description for one, description in self.parts.get("drive", [])}
             drive = made.get(values["place"].part.index, {})
             unit = fields.drive_unit(drive.get("kind", 0), drive.get("component", 0))
-        self._table("input", values, lambda key: unit if key == "amplitude" else None)
+        self._table("response input", values, lambda key: unit if key == "amplitude" else None)
 
 
 def clean_name(text: str) -> str:

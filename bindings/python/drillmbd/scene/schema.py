@@ -83,9 +83,9 @@ def schema() -> dict[str, Any]:
 def _asked(kind: str) -> dict[str, Any]:
     output = {**fields_of(DEFINITIONS["output"]), "quantity": Field("quantity", "enum", enum=Named)}
     if kind == "response":
-        return {"input": _many(_object(fields_of(DEFINITIONS["input"]))), "output": _many(_object(output, name=_NAME))}
+        return {"input": _many(_object(fields_of(DEFINITIONS["response input"]))), "output": _many(_object(output, name=_NAME))}
     if kind == "speeds":
-        order = {"order": fields_of(DEFINITIONS["order"])["order"], **fields_of(DEFINITIONS["input"])}
+        order = {"order": fields_of(DEFINITIONS["order"])["order"], **fields_of(DEFINITIONS["response input"])}
         return {"order": _many(_object(order)), "output": _many(_object(output, ("limit",), name=_NAME, limit=_QUANTITY))}
     return {}
 

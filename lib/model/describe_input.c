@@ -1,0 +1,211 @@
+/* Inputs: what the caller moves in each sim, with name, unit and bounds. */
+#include <math.h>
+#include <string.h>
+
+#include "base/handle.h"
+#include "drillmbd/control.h"
+#include "model/describe.h"
+#include "model/describe_input.h"
+#include "model/field_check.h"
+#include "model/limits.h"
+#include "model/model.h"
+
+DMB_DECLARE_STRUCT(dmb_input_info)
+
+/* clang-format off */
+DMB_DEFINE_INIT(dmb_input_def, 88, {.initial = (double)NAN, .low = -1e30, .high = 1e30})
+
+DMB_DEFINE_INIT(dmb_input_info, 96, {.target = 0})
+/* clang-format on */
+
+/* ---- Targets ----------------------------------------------------------------------------------------------------- */
+
+/* Kind of part, and bounds of the value; a kind of 0: wall or environment. */
+typedef struct target_rule {
+    uint32_t part;
+    const char *what;
+    double low, high;
+    const char *unit[2]; /* along, about an axis */
+} target_rule;
+
+static const target_rule targets[DMB_TARGET_COUNT] = {
+    [DMB_TARGET_SET_POINT] = {DMB_PART_DRIVE, "drive", -DMB_FORCE_MAX, DMB_FORCE_MAX, {"m/s", "rad/s"}},
+    [DMB_TARGET_GAIN] = {DMB_PART_DRIVE, "drive", 0.0, DMB_FORCE_MAX, {"N s/m", "N m s"}},
+    [DMB_TARGET_INTEGRAL_GAIN] = {DMB_PART_DRIVE, "drive", 0.0, DMB_FORCE_MAX, {"N/m", "N m"}},
+    [DMB_TARGET_LIMIT_LOW] = {DMB_PART_DRIVE, "drive", -DMB_FORCE_MAX, DMB_FORCE_MAX, {"N", "N m"}},
+    [DMB_TARGET_LIMIT_HIGH] = {DMB_PART_DRIVE, "drive", -DMB_FORCE_MAX, DMB_FORCE_MAX, {"N", "N m"}},
+    [DMB_TARGET_LOAD_FACTOR] = {DMB_PART_LOAD, "load", -DMB_FORCE_MAX, DMB_FORCE_MAX, {"-", "-"}},
+    [DMB_TARGET_BIT_LOAD] = {DMB_PART_BIT, "bit", -DMB_FORCE_MAX, DMB_FORCE_MAX, {"N", "N"}},
+    [DMB_TARGET_FRICTION] = {0, "", 0.0, DMB_NUMBER_MAX, {"-", "-"}},
+    [DMB_TARGET_FLUID_DENSITY] = {0, "", 0.0, DMB_DENSITY_MAX, {"kg/m3", "kg/m3"}},
+    [DMB_TARGET_LATERAL_DAMPING] = {0, "", 0.0, DMB_DAMPING_MAX, {"N s/m2", "N s/m2"}},
+    [DMB_TARGET_AXIAL_DAMPING] = {0, "", 0.0, DMB_DAMPING_MAX, {"N s/m2", "N s/m2"}},
+    [DMB_TARGET_TORSIONAL_DAMPING] = {0, "", 0.0, DMB_DAMPING_MAX, {"N s", "N s"}},
+};
+
+static const dmb_drive_def *drive_of(const dmb_model *model, const dmb_input_def *def)
+{
+    const uint32_t i = dmb_model_part_index(model, def->part, DMB_PART_DRIVE);
+    return i == DMB_NONE ? NULL : DMB_LIST_AT(const dmb_drive_def, model->drives, i);
+}
+
+static const char *unit_of(const dmb_model *model, const dmb_input_def *def)
+{
+    const dmb_drive_def *drive = drive_of(model, def);
+    const int about = drive != NULL && drive->component >= DMB_RX;
+    const int forced = drive != NULL && drive->kind == DMB_DRIVE_LOAD && def->target == DMB_TARGET_SET_POINT;
+    return targets[forced ? DMB_TARGET_LIMIT_LOW : def->target].unit[about];
+}
+
+double dmb_input_low(const dmb_input_def *def)
+{
+    return fmax(def->low, targets[def->target].low);
+}
+
+double dmb_input_high(const dmb_input_def *def)
+{
+    return fmin(def->high, targets[def->target].high);
+}
+
+int dmb_input_is_programme(int32_t target)
+{
+    return target == DMB_TARGET_SET_POINT || target == DMB_TARGET_LOAD_FACTOR || target == DMB_TARGET_BIT_LOAD;
+}
+
+/* ---- Checks ------------------------------------------------------------------------------------------------------ */
+
+static int same_id(dmb_id a, dmb_id b)
+{
+    return a.index == b.index && a.generation == b.generation;
+}
+
+static void check_apart(dmb_check *check, const dmb_model *model, const dmb_input_def *def)
+{
+    for (uint32_t i = 0; i < model->inputs.count && check->status >= 0; i++) {
+        const dmb_input_def *other = DMB_LIST_AT(const dmb_input_def, model->inputs, i);
+        const int same_name = strcmp(other->name, def->name) == 0;
+        if (!same_name && (other->target != def->target || !same_id(other->part, def->part))) continue;
+        check->status = DMB_ERR_VALUE;
+        dmb_message_set(check->message, "%s: its %s is that of input %u (%s); %s", check->part,
+                        same_name ? "name" : "target", i, other->name,
+                        same_name ? "give it a name of its own" : "one input moves it, name that one");
+    }
+}
+
+/* The part has such a target. */
+static void check_target(dmb_check *check, const dmb_model *model, const dmb_input_def *def)
+{
+    const target_rule *t = targets + def->target;
+    const int of_drive = def->target >= DMB_TARGET_GAIN && def->target <= DMB_TARGET_LIMIT_HIGH;
+    if (check->status < 0) return;
+    if (t->part != 0) {
+        dmb_check_id(check, model, "part", def->part, t->part, t->what);
+    } else if (!dmb_id_is_none(def->part)) {
+        check->status = DMB_ERR_ID;
+        dmb_message_set(check->message, "%s: part must be {0, 0}: its target is of the wall or the environment",
+                        check->part);
+    }
+    if (check->status < 0 || !of_drive || drive_of(model, def)->kind == DMB_DRIVE_CONTROL) return;
+    check->status = DMB_ERR_UNSUPPORTED;
+    dmb_message_set(check->message,
+                    "%s: target = %d, a gain or limit, must be of a drive of kind DMB_DRIVE_CONTROL; the others have "
+                    "DMB_TARGET_SET_POINT alone",
+                    check->part, (int)def->target);
+}
+
+static void check_bounds(dmb_check *check, const dmb_input_def *def)
+{
+    const double low = dmb_input_low(def), high = dmb_input_high(def);
+    dmb_check_within(check, "low", def->low, -DMB_FORCE_MAX, DMB_FORCE_MAX);
+    dmb_check_within(check, "high", def->high, -DMB_FORCE_MAX, DMB_FORCE_MAX);
+    dmb_check_at_least_field(check, "high", def->high, "low", def->low);
+    if (check->status >= 0 && low > high)
+        dmb_check_fail(check, DMB_ERR_VALUE, def->low > targets[def->target].high ? "low" : "high",
+                       def->low > targets[def->target].high ? def->low : def->high, "within what its target allows");
+    if (!isnan(def->initial)) dmb_check_within(check, "initial", def->initial, low, high);
+}
+
+static void check_limits(dmb_check *check, const dmb_model *model, const dmb_input_def *def)
+{
+    const dmb_drive_def *drive = drive_of(model, def);
+    dmb_check_zero_or_within(check, "rate_limit", def->rate_limit, DMB_SPEED_MIN, DMB_FORCE_MAX);
+    dmb_check_zero_or_within(check, "slope_limit", def->slope_limit, DMB_SPEED_MIN, DMB_FORCE_MAX);
+    if (check->status < 0) return;
+    if (!dmb_input_is_programme(def->target) && (def->rate_limit > 0.0 || def->slope_limit > 0.0))
+        dmb_check_fail(check, DMB_ERR_UNSUPPORTED, def->rate_limit > 0.0 ? "rate_limit" : "slope_limit",
+                       def->rate_limit > 0.0 ? def->rate_limit : def->slope_limit,
+                       "0: only set points, load factors and bit loads have limits");
+    if (drive != NULL && drive->kind == DMB_DRIVE_MOTION && !(def->rate_limit > 0.0))
+        dmb_check_fail(check, DMB_ERR_VALUE, "rate_limit", def->rate_limit,
+                       "> 0, the largest acceleration of a drive of kind DMB_DRIVE_MOTION, whose speed may not jump");
+}
+
+static int32_t check_input(dmb_model *model, const dmb_input_def *def)
+{
+    dmb_message part;
+    dmb_check check = dmb_check_of(
+        &model->message, dmb_part_text(&part, "input", model->inputs.count, def->name, sizeof def->name), DMB_NONE);
+    dmb_check_name(&check, "name", def->name, sizeof def->name);
+    if (check.status >= 0 && def->name[0] == '\0') {
+        check.status = DMB_ERR_VALUE;
+        dmb_message_set(check.message, "%s: name is empty, must be there: inputs are looked up by it", check.part);
+    }
+    dmb_check_choice(&check, "target", def->target, 0, DMB_TARGET_COUNT - 1);
+    dmb_check_choice(&check, "outside", def->outside, DMB_OUTSIDE_REFUSED, DMB_OUTSIDE_CLAMPED);
+    check_target(&check, model, def);
+    if (check.status < 0) return check.status;
+    check_apart(&check, model, def);
+    check_bounds(&check, def);
+    check_limits(&check, model, def);
+    return check.status;
+}
+
+int32_t dmb_model_add_input(dmb_model *model, const dmb_input_def *def, dmb_id *input)
+{
+    dmb_input_def read = dmb_input_def_default();
+    int32_t status = dmb_describe_open(model, "input", def);
+    if (status < 0) return status;
+    status = dmb_input_def_read(&read, def);
+    if (status >= 0) status = check_input(model, &read);
+    if (status >= 0) status = dmb_describe_append(model, &model->inputs, &read, sizeof read, DMB_PART_INPUT, input);
+    return dmb_describe_end(model, "input", &read, sizeof read, status);
+}
+
+/* ---- Questions --------------------------------------------------------------------------------------------------- */
+
+uint32_t dmb_model_input_count(const dmb_model *model)
+{
+    return dmb_handle_is(model, DMB_HANDLE_MODEL) ? model->inputs.count : 0;
+}
+
+int32_t dmb_model_get_input(const dmb_model *model, uint32_t index, dmb_input_info *info)
+{
+    dmb_input_info answer = dmb_input_info_default();
+    if (model == NULL || info == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
+    if (index >= model->inputs.count) return DMB_ERR_ID;
+    const dmb_input_def *def = DMB_LIST_AT(const dmb_input_def, model->inputs, index);
+    const char *unit = unit_of(model, def);
+    answer.target = def->target;
+    answer.input = dmb_model_id(model, DMB_PART_INPUT, index);
+    answer.part = def->part;
+    memcpy(answer.name, def->name, sizeof answer.name);
+    memcpy(answer.unit, unit, strlen(unit)); /* the rest is 0 */
+    answer.low = dmb_input_low(def);
+    answer.high = dmb_input_high(def);
+    answer.rate_limit = def->rate_limit;
+    answer.slope_limit = def->slope_limit;
+    return dmb_input_info_write(info, &answer);
+}
+
+int32_t dmb_model_find_input(const dmb_model *model, const char *name, dmb_id *input)
+{
+    if (model == NULL || name == NULL || input == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
+    for (uint32_t i = 0; i < model->inputs.count; i++) {
+        if (strcmp(DMB_LIST_AT(const dmb_input_def, model->inputs, i)->name, name) != 0) continue;
+        *input = dmb_model_id(model, DMB_PART_INPUT, i);
+        return DMB_OK;
+    }
+    return DMB_ERR_ID;
+}

@@ -1,0 +1,80 @@
+/* Inputs: from the parts they are described of to those of the scene. */
+#include <math.h>
+#include <string.h>
+
+#include "model/describe_input.h"
+#include "model/field_check.h"
+#include "model/mesh.h"
+
+static uint32_t index_of(const dmb_model *model, dmb_id part)
+{
+    static const uint32_t kinds[] = {DMB_PART_DRIVE, DMB_PART_LOAD, DMB_PART_BIT};
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; ++k) {
+        const uint32_t index = dmb_model_part_index(model, part, kinds[k]);
+        if (index != DMB_NONE) return index;
+    }
+    return DMB_NONE;
+}
+
+/* The order of description is free, so what the target needs of the scene is looked for here. */
+static int32_t check_scene(const dmb_mesh *mesh, const dmb_input_def *def)
+{
+    const dmb_model *model = mesh->model;
+    if (def->target != DMB_TARGET_FRICTION) return DMB_OK;
+    if (model->wall_count > 0 && model->wall.friction_law != DMB_FRICTION_NONE) return DMB_OK;
+    dmb_message_set(&mesh->model->message,
+                    "input (%s): target = DMB_TARGET_FRICTION, but the model has no wall with a "
+                    "friction_law; add one, or leave the input out",
+                    def->name);
+    return DMB_ERR_UNSUPPORTED;
+}
+
+static int32_t add_input(dmb_mesh *mesh, uint32_t i)
+{
+    const dmb_input_def *def = DMB_LIST_AT(const dmb_input_def, mesh->model->inputs, i);
+    dmb_scene_input input = {.initial = def->initial,
+                             .low = dmb_input_low(def),
+                             .high = dmb_input_high(def),
+                             .rate_limit = def->rate_limit,
+                             .slope_limit = def->slope_limit,
+                             .target = def->target,
+                             .outside = def->outside,
+                             .index = index_of(mesh->model, def->part)};
+    const int32_t status = check_scene(mesh, def);
+    memcpy(input.name, def->name, sizeof input.name);
+    return status < 0 ? status : dmb_vector_append(&mesh->inputs, &mesh->model->allocator, &input, 1);
+}
+
+/* Limit of a drive at time 0, by the input of that target or as described. */
+static double first_limit(const dmb_mesh *mesh, uint32_t drive, int32_t target)
+{
+    const dmb_scene_drive *d = DMB_VECTOR_AT(dmb_scene_drive, &mesh->drives, drive);
+    for (uint32_t i = 0; i < mesh->inputs.count; ++i) {
+        const dmb_scene_input *input = DMB_VECTOR_AT(dmb_scene_input, &mesh->inputs, i);
+        if (input->target == target && input->index == drive && !isnan(input->initial)) return input->initial;
+    }
+    return target == DMB_TARGET_LIMIT_LOW ? d->limit_low : d->limit_high;
+}
+
+static int32_t check_limits(const dmb_mesh *mesh, uint32_t i)
+{
+    const dmb_scene_input *input = DMB_VECTOR_AT(dmb_scene_input, &mesh->inputs, i);
+    if (input->target != DMB_TARGET_LIMIT_LOW && input->target != DMB_TARGET_LIMIT_HIGH) return DMB_OK;
+    const double low = first_limit(mesh, input->index, DMB_TARGET_LIMIT_LOW);
+    const double high = first_limit(mesh, input->index, DMB_TARGET_LIMIT_HIGH);
+    if (low < high) return DMB_OK;
+    dmb_message_set(&mesh->model->message,
+                    "input (%s): initial: limit_low = %g of its drive at time 0, must be < "
+                    "limit_high = %g",
+                    input->name, low, high);
+    return DMB_ERR_VALUE;
+}
+
+int32_t dmb_mesh_inputs(dmb_mesh *mesh)
+{
+    const uint32_t count = mesh->model->inputs.count;
+    int32_t status = DMB_OK;
+    for (uint32_t i = 0; i < count && status >= 0; ++i) status = add_input(mesh, i);
+    for (uint32_t i = 0; i < count && status >= 0; ++i) status = check_limits(mesh, i);
+    return status;
+}

@@ -1,0 +1,220 @@
+#include "sim/own_scene.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "model/describe_input.h"
+
+#define DOUBLES(arena, count) DMB_ARENA_DOUBLES(arena, (size_t)(count))
+
+dmb_own_scene *dmb_own_scene_take(dmb_arena *arena, const dmb_scene *scene)
+{
+    dmb_own_scene nowhere, *made = DMB_ARENA_ARRAY(arena, dmb_own_scene, 1), *to = made != NULL ? made : &nowhere;
+    const size_t n = scene->node_count, inputs = scene->input_count;
+    to->drives = DMB_ARENA_ARRAY(arena, dmb_scene_drive, scene->drive_count);
+    to->loads = DMB_ARENA_ARRAY(arena, dmb_scene_load, scene->load_count);
+    to->bits = DMB_ARENA_ARRAY(arena, dmb_scene_bit, scene->bit_count);
+    to->programmes = DMB_ARENA_ARRAY(arena, dmb_programme, scene->programme_count + inputs);
+    to->terms = DMB_ARENA_ARRAY(arena, dmb_term, inputs);
+    to->references = DMB_ARENA_ARRAY(arena, dmb_reference, inputs);
+    if (scene->has_density_input) {
+        to->types = (dmb_element_type *)dmb_arena_take(arena, scene->type_count, sizeof *to->types, DMB_ALIGNMENT);
+        to->weight_mass = DOUBLES(arena, n);
+        to->weight_moment = DOUBLES(arena, 3 * n);
+    }
+    if (scene->has_damping_input) to->node_damping = DOUBLES(arena, 5 * n);
+    return made;
+}
+
+/* ---- As described ------------------------------------------------------------------------------------------------ */
+
+uint32_t dmb_described_programme(const dmb_scene *scene, uint32_t input)
+{
+    const dmb_scene_input *i = scene->inputs + input;
+    switch (i->target) {
+    case DMB_TARGET_SET_POINT: return scene->drives[i->index].programme;
+    case DMB_TARGET_LOAD_FACTOR: return scene->loads[i->index].programme;
+    case DMB_TARGET_BIT_LOAD: return scene->bits[i->index].load;
+    default: return DMB_NONE;
+    }
+}
+
+/* A load without a programme has the factor 1, a bit without one no load. */
+static double without_programme(const dmb_scene_input *input)
+{
+    return input->target == DMB_TARGET_LOAD_FACTOR ? 1.0 : 0.0;
+}
+
+/* Damping per length is known of the sum over a node only, so the description is asked: sim->model. */
+static double described_value(const dmb_scene *scene, const dmb_environment_def *e, uint32_t input)
+{
+    const dmb_scene_input *i = scene->inputs + input;
+    switch (i->target) {
+    case DMB_TARGET_GAIN: return scene->drives[i->index].gain;
+    case DMB_TARGET_INTEGRAL_GAIN: return scene->drives[i->index].integral_gain;
+    case DMB_TARGET_LIMIT_LOW: return scene->drives[i->index].limit_low;
+    case DMB_TARGET_LIMIT_HIGH: return scene->drives[i->index].limit_high;
+    case DMB_TARGET_FRICTION: return 1.0;
+    case DMB_TARGET_FLUID_DENSITY: return e->fluid_density;
+    case DMB_TARGET_LATERAL_DAMPING: return e->lateral_damping;
+    case DMB_TARGET_AXIAL_DAMPING: return e->axial_damping;
+    case DMB_TARGET_TORSIONAL_DAMPING: return e->torsional_damping;
+    default: return dmb_described_programme(scene, input) == DMB_NONE ? without_programme(i) : (double)NAN;
+    }
+}
+
+double dmb_described_setting(const dmb_sim *sim, uint32_t input)
+{
+    return described_value(sim->model->scene, &sim->model->environment, input);
+}
+
+/* ---- As set ------------------------------------------------------------------------------------------------------ */
+
+/* What an input has in the place of a programme. */
+static void set_programme(const dmb_sim *sim, uint32_t input)
+{
+    dmb_own_scene *own = sim->own;
+    const dmb_scene_input *i = own->scene.inputs + input;
+    const double value = sim->input_value[input], *begin = sim->input_begin + 3 * (size_t)input;
+    uint32_t programme = own->scene.programme_count + input;
+    if (isnan(value)) programme = dmb_described_programme(sim->model->scene, input);
+    own->references[input] = (dmb_reference){.time = begin[0],
+                                             .value = begin[1],
+                                             .rate = begin[2],
+                                             .target = value,
+                                             .rate_limit = i->rate_limit,
+                                             .slope_limit = i->slope_limit};
+    if (i->target == DMB_TARGET_SET_POINT) own->drives[i->index].programme = programme;
+    if (i->target == DMB_TARGET_LOAD_FACTOR) own->loads[i->index].programme = programme;
+    if (i->target == DMB_TARGET_BIT_LOAD) own->bits[i->index].load = programme;
+}
+
+static void set_drive(dmb_scene_drive *drive, int32_t target, double value)
+{
+    if (target == DMB_TARGET_GAIN) drive->gain = value;
+    if (target == DMB_TARGET_INTEGRAL_GAIN) drive->integral_gain = value;
+    if (target == DMB_TARGET_LIMIT_LOW) drive->limit_low = value;
+    if (target == DMB_TARGET_LIMIT_HIGH) drive->limit_high = value;
+}
+
+static void set_friction(dmb_scene *own, const dmb_scene *described, double factor)
+{
+    own->friction_law.mu_static = factor * described->friction_law.mu_static;
+    own->friction_law.mu_dynamic = factor * described->friction_law.mu_dynamic;
+}
+
+/* Buoyancy is linear in the density. */
+static void set_density(dmb_own_scene *own, const dmb_scene *described, double density)
+{
+    const double more = density - described->fluid_density;
+    own->scene.fluid_density = density;
+    for (uint32_t i = 0; i < described->type_count; i++)
+        own->types[i].weight_mass = described->types[i].weight_mass - more * described->types[i].displaced;
+    for (uint32_t i = 0; i < described->node_count; i++) {
+        own->weight_mass[i] = described->weight_mass[i] - more * described->displaced[2 * (size_t)i];
+        own->weight_moment[3 * (size_t)i] =
+            described->weight_moment[3 * (size_t)i] - more * described->displaced[2 * (size_t)i + 1];
+    }
+}
+
+/* Lateral, axial and torsional damping that inputs set, or as described. */
+static void set_damping(const dmb_sim *sim)
+{
+    const dmb_scene *scene = &sim->own->scene;
+    const dmb_environment_def *e = &sim->model->environment;
+    double c[3] = {e->lateral_damping, e->axial_damping, e->torsional_damping};
+    for (uint32_t i = 0; i < scene->input_count; i++)
+        if (scene->inputs[i].target >= DMB_TARGET_LATERAL_DAMPING)
+            c[scene->inputs[i].target - DMB_TARGET_LATERAL_DAMPING] = sim->input_value[i];
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        dmb_node_damping_of(scene->damped_length + 3 * (size_t)i, c[1], c[2], c[0],
+                            sim->own->node_damping + 5 * (size_t)i);
+}
+
+static void set_input(const dmb_sim *sim, uint32_t input)
+{
+    dmb_own_scene *own = sim->own;
+    const dmb_scene *described = sim->model->scene;
+    const dmb_scene_input *i = described->inputs + input;
+    const double value = sim->input_value[input];
+    if (dmb_input_is_programme(i->target))
+        set_programme(sim, input);
+    else if (i->target <= DMB_TARGET_LIMIT_HIGH)
+        set_drive(own->drives + i->index, i->target, value);
+    else if (i->target == DMB_TARGET_FRICTION)
+        set_friction(&own->scene, described, value);
+    else if (i->target == DMB_TARGET_FLUID_DENSITY && value != own->scene.fluid_density)
+        set_density(own, described, value);
+}
+
+void dmb_own_scene_update(dmb_sim *sim)
+{
+    if (sim->own == NULL || sim->scene != &sim->own->scene) return;
+    for (uint32_t i = 0; i < sim->own->scene.input_count; i++) set_input(sim, i);
+    if (sim->own->scene.has_damping_input && sim->own->scene.features & DMB_FEATURE_DAMPING) set_damping(sim);
+    sim->own->dense.friction_law = sim->own->scene.friction_law;
+    sim->own->dense.fluid_density = sim->own->scene.fluid_density;
+}
+
+/* ---- A new sim --------------------------------------------------------------------------------------------------- */
+
+static void copy_parts(dmb_own_scene *own, const dmb_scene *scene)
+{
+    const size_t n = scene->node_count;
+    memcpy(own->drives, scene->drives, scene->drive_count * sizeof *own->drives);
+    memcpy(own->loads, scene->loads, scene->load_count * sizeof *own->loads);
+    memcpy(own->bits, scene->bits, scene->bit_count * sizeof *own->bits);
+    if (scene->programme_count > 0)
+        memcpy(own->programmes, scene->programmes, scene->programme_count * sizeof *own->programmes);
+    if (scene->has_density_input) {
+        memcpy(own->types, scene->types, scene->type_count * sizeof *own->types);
+        memcpy(own->weight_mass, scene->weight_mass, n * sizeof(double));
+        memcpy(own->weight_moment, scene->weight_moment, 3 * n * sizeof(double));
+    }
+    if (scene->has_damping_input) memcpy(own->node_damping, scene->node_damping, 5 * n * sizeof(double));
+}
+
+/* The compiled scene with the sim's own parts in the place of its. */
+static void place_parts(dmb_own_scene *own, const dmb_scene *compiled, dmb_scene *to)
+{
+    *to = *compiled;
+    to->drives = own->drives;
+    to->loads = own->loads;
+    to->bits = own->bits;
+    to->programmes = own->programmes;
+    if (compiled->has_density_input) {
+        to->types = own->types;
+        to->weight_mass = own->weight_mass;
+        to->weight_moment = own->weight_moment;
+    }
+    if (compiled->has_damping_input) to->node_damping = own->node_damping;
+}
+
+static void place_inputs(dmb_own_scene *own, const dmb_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->input_count; i++) {
+        own->terms[i].kind = DMB_TERM_REFERENCE;
+        own->terms[i].callback_context = &own->references[i];
+        own->programmes[scene->programme_count + i] = (dmb_programme){&own->terms[i], 1};
+    }
+}
+
+void dmb_own_scene_begin(dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    if (sim->own == NULL) return;
+    copy_parts(sim->own, scene);
+    place_parts(sim->own, scene, &sim->own->scene);
+    place_inputs(sim->own, scene);
+    if (scene->dense != NULL) {
+        place_parts(sim->own, scene->dense, &sim->own->dense);
+        sim->own->scene.dense = &sim->own->dense;
+    }
+    for (uint32_t i = 0; i < scene->input_count; i++) {
+        const double initial = scene->inputs[i].initial;
+        sim->input_value[i] = isnan(initial) ? dmb_described_setting(sim, i) : initial;
+        sim->input_begin[3 * (size_t)i + 1] = isnan(sim->input_value[i]) ? 0.0 : sim->input_value[i];
+    }
+    sim->scene = &sim->own->scene;
+    dmb_own_scene_update(sim);
+}

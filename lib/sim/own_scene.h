@@ -1,0 +1,36 @@
+/* The scene of a sim with inputs: the compiled one, which all sims share, but for what its inputs move. These parts are
+ * the sim's own, in its block, so that a step reads them as it reads any scene. They follow from input_value and
+ * input_begin alone. */
+#ifndef DMB_SIM_OWN_SCENE_H
+#define DMB_SIM_OWN_SCENE_H
+
+#include "base/memory.h"
+#include "sim/sim.h"
+
+typedef struct dmb_own_scene {
+    dmb_scene scene, dense; /* dense: where the compiled one has it */
+    dmb_scene_drive *drives;
+    dmb_scene_load *loads;
+    dmb_scene_bit *bits;
+    dmb_programme *programmes; /* those of the model, then one for each input */
+    dmb_term *terms;           /* of each input, shape (input) */
+    dmb_reference *references; /* shape (input) */
+    dmb_element_type *types;   /* with an input of density only, as are the next two */
+    double *weight_mass;
+    double *weight_moment;
+    double *node_damping; /* with one of damping only */
+} dmb_own_scene;
+
+/* Its place in the block; NULL while counting. */
+dmb_own_scene *dmb_own_scene_take(dmb_arena *arena, const dmb_scene *scene);
+/* A new sim: its inputs as described, and the scene made of them its scene. Nothing without inputs, as below. */
+void dmb_own_scene_begin(dmb_sim *sim);
+/* After input_value or input_begin were written. O(number of nodes) with inputs of density or damping, else O(number
+ * of drives, loads, bits and inputs). */
+void dmb_own_scene_update(dmb_sim *sim);
+/* Value of an input by the description of what it moves; NaN of a programme. */
+double dmb_described_setting(const dmb_sim *sim, uint32_t input);
+/* Programme that an input takes the place of, in a compiled scene; DMB_NONE: none. */
+uint32_t dmb_described_programme(const dmb_scene *scene, uint32_t input);
+
+#endif
