@@ -10,7 +10,7 @@
 #include "system/assemble/free_rigid.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
-#include "system/constrain/joint_edge.h"
+#include "system/constrain/joint_motion.h"
 #include "system/constrain/joint_state.h"
 #include "system/ledger.h"
 #include "system/release.h"

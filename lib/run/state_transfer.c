@@ -10,7 +10,6 @@
 #include "sim/own_scene.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/energy.h"
-#include "system/constrain/assembly.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/joint_state.h"
 #include "system/solve/solve.h"

@@ -70,7 +70,7 @@
                                      powers: system/ledger */                                                         \
     X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/ledger */                                \
     X(dmb_counters, counters, 1, COUNTERS) /* [-] statistics: integrator/attempt, integrator/step, system/start,      \
-                                              system/constrain/assembly, system/constrain/cluster */                  \
+                                              system/constrain/cluster_assembly, system/constrain/cluster */                  \
     X(double, held_reaction, held, NUMBERS) /* [N, N m] residual of the accepted state in rows that are held:         \
                                                system/assemble/evaluation */                                          \
     X(double, drive_work, d, NUMBERS) /* [J] system/ledger */                                                         \
@@ -86,9 +86,9 @@
     X(int32_t, joint_state, j, JOINT_STATES) /* DMB_JOINT_..., system/constrain/joint_state */                        \
     X(double, joint_lock, 12 * j, NUMBERS) /* [-, m] R and p of frame b in frame a where the joint was locked:        \
                                               system/constrain/joint_state */                                         \
-    X(double, constraint_offset, c, NUMBERS) /* [m, rad] what a coupling keeps: system/constrain/assembly */          \
+    X(double, constraint_offset, c, NUMBERS) /* [m, rad] what a coupling keeps: system/constrain/cluster_assembly */          \
     X(double, drive_offset, d, NUMBERS) /* [m, rad] coordinate of a driven joint at time 0:                           \
-                                           system/constrain/assembly */                                               \
+                                           system/constrain/cluster_assembly */                                               \
     /* system/constrain/cluster, of sparse ones system/constrain/sparse_cluster: */                                   \
     X(uint32_t, partition_rank, cluster, RANKS) /* [-] dependent columns */                                           \
     X(uint32_t, partition_row, c, ROW_ORDER)      /* [-] rows of a cluster, pivot rows first */                       \
@@ -117,7 +117,7 @@
                                system/constrain/cluster_projection, prescribed system/assemble/drives; of statics     \
                                analysis/static/static_move */                                                         \
     X(double, load_step_increment, r)   /* [m, rad] that of the load step reached, analysis/static/static_steps */   \
-    X(double, pull_tension, ns)         /* [N] of the element after each node, analysis/static/static_pull */         \
+    X(double, pull_tension, ns)         /* [N] of the element after each node, analysis/static/static_lay */          \
     X(double, pull_stretch, ns)         /* [m] of a string up to each node, analysis/static/static_lay */             \
     X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */\
     /* residual and iteration matrix by the files of system/assemble/, forces of constraint system/constrain/cluster, \
@@ -144,7 +144,7 @@
     X(double, raw_pseudo_acceleration, raw)                                                                           \
     X(double, switch_change, raw)       /* [m/s, rad/s] of speeds where a joint switches, system/joint_switch */      \
     X(double, switch_momentum, raw)     /* [N s, N m s] -M times the change, system/joint_switch */                   \
-    /* constraints, by system/constrain/constraint_rows and system/constrain/constraint_callback: */                  \
+    /* constraints, by system/constrain/constraint_rows and system/constrain/constraint_rows_callback: */                  \
     X(uint8_t, constraint_type, c)      /* DMB_ROW_... */                                                             \
     X(double, constraint_value, c)      /* [m, -] violation; 0 of a row of speeds */                                  \
     X(double, constraint_rate, c)       /* [m/s, ...] B v + rate = 0 */                                               \
@@ -167,7 +167,7 @@
     X(double, cluster_move, column)     /* a projection, a vector in the columns of a cluster */                      \
     X(double, cluster_full, full) /* iteration matrix before its reduction: system/solve/reduced_system */            \
     X(double, cluster_half, full) /* system/solve/reduced_system */                                                   \
-    /* reduced system, by system/solve/reduced_system and system/solve/reduced_sparse: */                             \
+    /* reduced system, by system/solve/reduced_system and system/solve/reduced_system_sparse: */                             \
     X(double, reduced_value, value)                                                                                   \
     X(uint32_t, reduced_pivot, pivots)                                                                                \
     X(uint32_t, reduced_size, block)                                                                                  \
@@ -181,7 +181,7 @@
     X(double, raw_residual, sparse_raw) /* residual with the forces of the multipliers at hand */                     \
     X(double, sparse_gradient, sparse_raw) /* by nodes: what multipliers of least norm have still to bear,            \
                                               system/constrain/sparse_cluster_least_norm */                           \
-    X(double, sparse_scale, sparse_c)   /* [N/m, ...] factor of each row: system/solve/reduced_sparse */              \
+    X(double, sparse_scale, sparse_c)   /* [N/m, ...] factor of each row: system/solve/reduced_system_sparse */              \
     X(uint32_t, sparse_slot, sparse_c)  /* place of each row in its block; DMB_NONE: not chosen */                  \
     X(uint32_t, sparse_size, sparse_block) /* rows of each block, nodes and multipliers */                            \
     X(uint32_t, sparse_plus, sparse_block) /* of them those of the node */                                            \

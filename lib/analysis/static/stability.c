@@ -7,7 +7,6 @@
 #include "math/inertia.h"
 #include "math/krylov.h"
 #include "sim/access.h"
-#include "system/solve/reduced_sparse.h"
 #include "system/solve/reduced_system.h"
 #include "system/solve/solve.h"
 

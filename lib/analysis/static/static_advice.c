@@ -6,7 +6,7 @@
 #include "system/assemble/drives.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
-#include "system/constrain/joint_edge.h"
+#include "system/constrain/joint_motion.h"
 
 static int is_held(const dmb_scene *scene, const dmb_string_map *string, uint32_t component)
 {

@@ -5,7 +5,7 @@
 #include "math/vec3.h"
 #include "sim/node.h"
 #include "system/constrain/cluster.h"
-#include "system/constrain/joint_edge.h"
+#include "system/constrain/joint_motion.h"
 #include "system/constrain/joint_state.h"
 
 /* ---- Joints ------------------------------------------------------------------------------------------------------ */

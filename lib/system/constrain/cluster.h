@@ -8,7 +8,9 @@
 #ifndef DMB_SYSTEM_CONSTRAIN_CLUSTER_H
 #define DMB_SYSTEM_CONSTRAIN_CLUSTER_H
 
+#include "constraint/joint.h"
 #include "constraint/partition.h"
+#include "sim/sim.h"
 #include "system/assemble/evaluation.h"
 
 enum { DMB_SETTLE_POSE = 1, DMB_SETTLE_SPEED = 2, DMB_SETTLE_ACCELERATION = 4, DMB_SETTLE_ALL = 7 };
@@ -69,5 +71,50 @@ int32_t dmb_cluster_singular(dmb_sim *sim, uint32_t row, double violation);
 int32_t dmb_clusters_factor(dmb_sim *sim);
 /* Largest violation of the pivot rows; *row stays where there is none. */
 double dmb_clusters_pivot_violation(const dmb_sim *sim, uint32_t *row);
+
+/* ---- Rank for the model check: cluster_rank.c -------------------------------------------------------------------- */
+
+/* Rank of the equations of a scene at the accepted state, by LAPACK, for the model check. Nothing of the sim is
+ * written: rows and matrices are evaluated in memory of their own. */
+
+typedef struct dmb_cluster_rank {
+    uint32_t rows;          /* that act */
+    uint32_t rank;          /* by LAPACK, sum of the clusters */
+    uint32_t differing;     /* clusters of which the partition has another rank */
+    uint32_t poorest;       /* cluster of the condition below */
+    double condition;       /* smallest over largest singular value, worst cluster; 1 without equations */
+    double violation;       /* [m, -] largest of an equation of position */
+    uint32_t violation_row; /* where; DMB_NONE: none */
+    uint32_t reserved;
+    uint8_t *redundant; /* 1 of rows that are redundant: those the partition drops, or LAPACK's where the two differ;
+                           shape (constraint_row_count) */
+    void *block;        /* the memory of it */
+    size_t block_size;
+} dmb_cluster_rank;
+
+/* Fills *rank; its memory is given back by dmb_cluster_rank_release, on error it holds none. Errors: DMB_ERR_NO_MEMORY,
+ * DMB_ERR_CALLBACK, DMB_ERR_NOT_FINITE. */
+int32_t dmb_cluster_rank_make(const dmb_sim *sim, dmb_cluster_rank *rank);
+/* NULL memory and a struct of zeros are fine. */
+void dmb_cluster_rank_release(const dmb_sim *sim, dmb_cluster_rank *rank);
+
+/* "joint 3 (crank): rotation about y": a constraint row by name. */
+void dmb_constraint_row_text(const dmb_sim *sim, uint32_t row, dmb_message *text);
+
+/* ---- Assembly: cluster_assembly.c -------------------------------------------------------------------------------- */
+
+/* Putting a scene together: Gauss-Newton on all equations of position, shortest moves first (Wehage, Haug 1982). */
+
+/* Closes the joints from the described poses of now: poses move until every equation holds and joints stand where their
+ * initial coordinates say, speeds likewise. Fills counters->assembly. Errors with a message: DMB_ERR_GEOMETRY (the
+ * joint that does not fit, and by how much), DMB_ERR_CALLBACK. system/constrain/cluster_assembly */
+int32_t dmb_assemble(dmb_sim *sim);
+/* Refuses a joint whose frames, in the trial, point against each other where it keeps them parallel: its equations hold
+ * there too. DMB_ERR_GEOMETRY with a message. */
+int32_t dmb_joint_refuse_flip(dmb_sim *sim, uint32_t joint);
+/* Largest changes of the speeds from now to trial into counters->projection. */
+void dmb_note_projection(dmb_sim *sim);
+/* Refuses speeds of the trial that do not satisfy an equation, one that was dropped included: DMB_ERR_GEOMETRY. */
+int32_t dmb_assembled_speeds(dmb_evaluation *evaluation);
 
 #endif

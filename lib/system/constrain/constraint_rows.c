@@ -4,7 +4,6 @@
 
 #include "math/mat6.h"
 #include "sim/node.h"
-#include "system/constrain/constraint_callback.h"
 
 /* [rad] in a step: gradients at one end of it tell the turn well enough. */
 #define DMB_SMALL_TURN 1.0

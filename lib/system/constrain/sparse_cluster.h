@@ -6,8 +6,8 @@
  *     [BW   0   ] [-f ] = [ d ]        W: metric of the columns
  *
  * with a = 0 the least move with B W x = d; with d = 0 the multipliers for which the rest of a is least. The
- * corrections of Newton come from [S B^T; B 0] (system/solve/reduced_sparse). All of it is linear in the number of
- * bodies of chains and trees; a loop costs what its width in the order of elimination asks. */
+ * corrections of Newton come from [S B^T; B 0] (system/solve/reduced_system_sparse). All of it is linear in the number
+ * of bodies of chains and trees; a loop costs what its width in the order of elimination asks. */
 #ifndef DMB_SYSTEM_CONSTRAIN_SPARSE_CLUSTER_H
 #define DMB_SYSTEM_CONSTRAIN_SPARSE_CLUSTER_H
 

@@ -4,7 +4,6 @@
 
 #include "math/inertia.h"
 #include "system/constrain/cluster.h"
-#include "system/solve/reduced_sparse.h"
 
 /* ---- Columns of nodes in their block ----------------------------------------------------------------------------- */
 

@@ -1,4 +1,4 @@
-#include "system/solve/reduced_sparse.h"
+#include "system/solve/reduced_system.h"
 
 #include "system/constrain/cluster.h"
 #include "system/constrain/sparse_cluster.h"

@@ -1,11 +1,10 @@
-#include "system/constrain/constraint_callback.h"
+#include "system/constrain/constraint_rows.h"
 
 #include <string.h>
 
 #include "math/mat6.h"
 #include "math/se3.h"
 #include "sim/node.h"
-#include "system/constrain/constraint_rows.h"
 
 #define DMB_POSE_STEP 2e-4      /* [m, rad] first derivatives by pose */
 #define DMB_TIME_STEP 1e-4      /* [s] first derivatives by time */

@@ -1,4 +1,4 @@
-#include "system/constrain/joint_edge.h"
+#include "system/constrain/joint_motion.h"
 
 #include <math.h>
 

@@ -1,11 +1,9 @@
-#include "system/constrain/assembly.h"
+#include "system/constrain/cluster.h"
 
 #include <string.h>
 
 #include "math/se3.h"
 #include "sim/layout.h"
-#include "system/constrain/cluster.h"
-#include "system/constrain/constraint_callback.h"
 #include "system/constrain/constraint_rows.h"
 #include "system/constrain/joint_state.h"
 
