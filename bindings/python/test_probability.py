@@ -271,6 +271,10 @@ term = [{h0 = "2 rpm"}, {kind = "step", x0 = "10 ms", x1 = "60 ms", h1 = "30 rpm
                      'distribution = "uniform"\nlow = "1 kN"\nhigh = "2 kN"\n'
         with self.assertRaisesRegex(CannotDraw, "varies by something else"):
             Draw(scene.loads(text))
+        text = ALL + '[[variability.scatter]]\nname = "size"\nkey = "string[0].pipes[0].outer_diameter"\n' \
+                     'distribution = "uniform"\nlow = "70 mm"\nhigh = "73 mm"\n'
+        with self.assertRaisesRegex(CannotDraw, "varies by size and by wear"):
+            Draw(scene.loads(text))
 
 
 class LimitTest(unittest.TestCase):

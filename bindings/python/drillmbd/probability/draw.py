@@ -8,9 +8,10 @@ from typing import Any
 from .._optional import need
 from ..enums import TERM_CONSTANT, TERM_HARMONIC, TERM_STEP, TERM_STEP5, TERM_TABLE
 from ..scene import Scene
+from ..scene.fields import DEFINITIONS
 from ..scene.terms import _term as known_term
 from ..scene.units import text
-from ..scene.variability import RandomField, RandomProcess, normal_correlation
+from ..scene.variability import RandomField, RandomProcess, Scatter, normal_correlation
 from .fields import Expansion, Markov, expansion
 from .marginals import Translation
 
@@ -55,6 +56,7 @@ class Draw:
         self.processes: list[tuple[RandomProcess, Expansion | Markov, Any]] = [
             (one, *self._process(one)) for one in self.varies.processes]
         self._refuse_both()
+        self._refuse_twice()
         self.sizes = [len(self.varies.scatters), *(made.modes for _, made in self.fields), *(made.modes for _, made, _ in self.processes)]
         self.dimension = sum(self.sizes)
 
@@ -66,8 +68,27 @@ class Draw:
                     or sum(other.programme == one.programme for other in self.varies.processes) > 1:
                 raise CannotDraw(f"{one.name}: the programme {one.programme} varies by something else too; make two programmes of it")
 
+    def _refuse_twice(self) -> None:
+        """A key that is written by two of them: one would be lost."""
+        known: dict[str, str] = {}
+        written: list[Scatter | RandomField] = [*self.varies.scatters, *self.varies.fields]
+        for one in written:
+            for key in {re.sub(r"\.pipes\[\d+\]\.", ".pipes.", re.sub(r"^hole\[0\]", "hole", key)) for key in one.keys}:
+                other = known.setdefault(key, one.name)
+                if other != one.name and (key.startswith("hole") or isinstance(one, RandomField)):
+                    raise CannotDraw(f"{key} varies by {other} and by {one.name}; only one of them may write it")
+
     # ---- Where fields and processes live ------------------------------------------------------------------------------
+    def _depths(self, one: RandomField) -> Any:
+        """[m] of the sections of a field along the hole, spread evenly from end to end."""
+        count = max(1, round((one.ends[1] - one.ends[0]) / one.spacing))
+        return one.ends[0] + (one.ends[1] - one.ends[0]) * need("numpy").arange(count + 1) / count
+
     def _field(self, one: RandomField) -> Expansion:
+        if one.ends[1]:
+            if "section" not in DEFINITIONS:
+                raise CannotDraw(f"{one.name}: this library has no sections of the hole")
+            return expansion(one.kernel, one.length, tuple(float(depth) for depth in self._depths(one)), one.modes)
         if one.key.startswith("hole.survey"):
             points = tuple(float(row[0]) for row in self._stations())
         else:
@@ -92,7 +113,7 @@ class Draw:
                 if name == "add_pipes" and made == strings[number]]
 
     def _parts(self) -> list[tuple[str, tuple[Any, ...]]]:
-        return [one for one in self.scene.model.calls if one[0] not in ("set_environment", "compile")]
+        return [one for one in self.scene.model.calls if one[0].startswith("add_") and one[0] != "add_hole_sections"]
 
     def _pipes(self, one: RandomField) -> list[tuple[float, int]]:
         return [(fields.get("length", 1.0), count) for count, fields in self._sections(one.key)]
@@ -145,8 +166,26 @@ class Draw:
                     row[1] = min(max(row[1], 0.0), math.pi) if column == 1 else row[1]
             found["hole.survey_file"] = None
             found["hole.survey"] = [[text(float(number), unit) for number, unit in zip(row, ("m", "rad", "rad"))] for row in rows]
+        along = [one for one, _ in self.fields if one.ends[1]]
+        if along:
+            found["hole.section"] = self._hole_sections(along, values)
         for key in dict.fromkeys(one.key.split(".")[0] for one, _ in self.fields if one.key.startswith("string")):
             found[f"{key}.pipes"] = self._pipe_tables(key, values, found)
+
+    def _hole_sections(self, along: list[RandomField], values: dict[str, Any]) -> list[dict[str, Any]]:
+        """Sections at all depths of all fields, lines between them. A parabola rounds each corner (`transition`)."""
+        numpy = need("numpy")
+        depths = sorted({float(depth) for one in along for depth in self._depths(one)})
+        depths = [depth for i, depth in enumerate(depths) if i == 0 or depth - depths[i - 1] > 1e-6 * one_span(along)]
+        room = min((b - a for a, b in zip(depths, depths[1:])), default=0.2)
+        tables: list[dict[str, Any]] = [{"depth": text(depth, "m"), "shape": "line", "transition": text(0.5 * room, "m")} for depth in depths]
+        for one in along:
+            at = numpy.interp(depths, self._depths(one), values[one.name])
+            for key, base, unit in zip(one.keys, one.base or (1.0,) * len(one.keys), one.units):
+                for table, value in zip(tables, at):
+                    table[key[5:]] = text(float(value) * base, unit)
+        tables[-1]["shape"] = "step"
+        return tables
 
     def _pipe_tables(self, string: str, values: dict[str, Any], found: dict[str, Any]) -> list[dict[str, Any]]:
         """One table for each pipe, with its own values and those that scatter for all."""
@@ -198,6 +237,11 @@ class Draw:
                 one["table"] = [[text(float(t), "s"), text(float(v), unit)] for t, v in term["table"]]
             found.append(one)
         return found
+
+
+def one_span(along: list[RandomField]) -> float:
+    """[m] from the first to the last section."""
+    return max(one.ends[1] for one in along) - min(one.ends[0] for one in along)
 
 
 __all__ = ["CannotDraw", "Draw", "value_of_terms"]

@@ -63,8 +63,10 @@ def counted(margins: Any, method: str = "monte-carlo", replicates: int = 1, conf
         each = numpy.where(known, margins <= 0.0, False).reshape(replicates, -1).mean(axis=1)
         most = numpy.where(known, margins <= 0.0, True).reshape(replicates, -1).mean(axis=1)
         if numpy.count_nonzero(each) == replicates:  # each design saw failures; else its scatter tells too little
-            low, high = max(0.0, students(each, confidence)[1]), min(1.0, students(most, confidence)[2])
-            about = f"Student's t of {replicates} independent designs"
+            # Counts are whole: designs may agree and all miss a part f of a sample; each sees it with the probability f.
+            whole = clopper_pearson(0, replicates, confidence)[1] / (samples // replicates)
+            low, high = max(0.0, students(each, confidence)[1] - whole), min(1.0, students(most, confidence)[2] + whole)
+            about = f"Student's t of {replicates} independent designs, and a count's step"
     return Estimate(probability, low, high, confidence, method, samples, failures, lost, about)
 
 

@@ -33,6 +33,7 @@ KERNELS = ("exponential", "gaussian", "matern-3/2", "matern-5/2", "independent")
 METHODS = ("monte-carlo", "latin-hypercube", "sobol", "subset")
 QUESTIONS = ("run", "static")
 PROCESS = ("factor", "added")
+ALONG_HOLE = ("mu_static", "mu_dynamic", "diameter", "stiffness", "restitution", "damping")  #: of a section of the hole
 MOST_POINTS = 4000  #: of a field or a process: the covariance is a full matrix
 
 SETTINGS = {
@@ -65,9 +66,9 @@ class Scatter:
 
 @dataclass(frozen=True)
 class RandomField:
-    """A value that varies along the hole or along the string."""
+    """A value that varies along the hole or along the string; at several keys of the hole where relative."""
     name: str
-    key: str
+    keys: list[str]
     unit: str
     marginal: Marginal
     kernel: str
@@ -75,6 +76,14 @@ class RandomField:
     spacing: float = 0.0  #: [m] between sections of a field along the hole
     modes: int = 0        #: of Karhunen and Loeve that are kept; 0: all
     relative: bool = False
+    ends: tuple[float, float] = (0.0, 0.0)  #: [m] depths between which a field along the hole has its sections; it goes on as at its ends
+    base: tuple[float, ...] = ()  #: what the factors multiply, of each key of the hole
+    units: tuple[str, ...] = ()   #: of each key
+
+    @property
+    def key(self) -> str:
+        """The first."""
+        return self.keys[0]
 
 
 @dataclass(frozen=True)
@@ -321,22 +330,59 @@ class Reader:
 
     def _field(self, path: Path, table: dict[str, Any], name: str) -> RandomField | None:
         known = {"correlation_length": Field("correlation_length", "quantity", "m"), "spacing": Field("spacing", "quantity", "m"),
-                 "modes": Field("modes", "integer")}
-        values = self._common(path, table, known, ("key", "kernel", "relative"))
+                 "modes": Field("modes", "integer"), "from": Field("from", "quantity", "m"), "to": Field("to", "quantity", "m")}
+        values = self._common(path, table, known, ("key", "keys", "kernel", "relative"))
         kernel, length = self._kernel(path, table, "correlation_length", values)
-        for key in ("spacing", "modes"):
+        for key in ("spacing", "modes", "to"):
             if key in values and not values[key] > 0:
                 self.problems.add(path + (key,), table[key], "must be > 0")
-        about, relative = table.get("key"), self._relative(path, table)
-        unit = self._field_unit(path, about)
+        keys, relative = [table["key"]] if "key" in table else table.get("keys", []), self._relative(path, table)
+        if not isinstance(keys, list) or not keys or ("key" in table) == ("keys" in table):
+            self.problems.add(path, None, 'must have a key, as key = "hole.mu_dynamic", or several of the hole, as keys = [...]')
+            return None
+        along_hole = [isinstance(key, str) and key.startswith("hole.") and key[5:] in ALONG_HOLE for key in keys]
+        if any(along_hole) or len(keys) > 1:
+            return self._hole_field(path, table, name, keys, along_hole, (kernel, length, values, relative))
+        unit = self._field_unit(path, keys[0])
+        for key in ("spacing", "from", "to"):
+            if key in table:
+                self.problems.add(path + (key,), table[key], "is for a field along the hole, as hole.mu_dynamic")
         if unit is None:
             return None
         made = self.marginal(path, table, "-" if relative else unit)
-        return None if made is None else RandomField(name, str(about), unit, made, kernel, length, values.get("spacing", 0.0),
-                                    values.get("modes", 0), relative)
+        return None if made is None else RandomField(name, [str(keys[0])], "-" if relative else unit, made, kernel, length, 0.0,
+                                                     values.get("modes", 0), relative)
+
+    def _hole_field(self, path: Path, table: dict[str, Any], name: str, keys: list[Any], along: list[bool],
+                    how: tuple[str, float, dict[str, Any], bool]) -> RandomField | None:
+        """Sections of the hole, with straight lines between them."""
+        kernel, length, values, relative = how
+        if not all(along) or (len(keys) > 1 and not relative) or len(set(keys)) < len(keys):
+            self.problems.add(path + ("keys" if "keys" in table else "key",), keys, "must be different ones of "
+                              + ", ".join(f"hole.{one}" for one in ALONG_HOLE) + "; several need relative = true")
+            return None
+        if self.loader.table(("hole",)).get("section"):
+            self.problems.add(path, None, "the hole has [[hole.section]] already; a field makes sections of its own")
+        if "to" not in values or values.get("from", 0.0) >= values["to"]:
+            self.problems.add(path + ("to",) if "to" in table else path, table.get("to"), "must have a depth `to` that is > from, as "
+                                                                                          'to = "120 m"')
+            return None
+        spacing = values.get("spacing", length / 3.0)
+        count = (values["to"] - values.get("from", 0.0)) / spacing if spacing > 0.0 else math.inf
+        if not 1.0 <= count <= MOST_POINTS:
+            self.problems.add(path + ("spacing",) if "spacing" in table else path, table.get("spacing"),
+                              f"makes {count:.4g} sections from {values.get('from', 0.0):g} m to {values['to']:g} m, must be 1 .. {MOST_POINTS}")
+            return None
+        units_of = [unit_of_key(self.loader, path_of_key(key)) or "-" for key in keys]
+        base = [self._base(key) for key in keys] if relative else []
+        unit = "-" if relative else units_of[0]
+        made = self.marginal(path, table, unit)
+        return None if made is None else RandomField(name, keys, unit, made, kernel, length, spacing, values.get("modes", 0), relative,
+                                                     (values.get("from", 0.0), values["to"]), tuple(one or 0.0 for one in base),
+                                                     tuple(units_of))
 
     def _field_unit(self, path: Path, key: Any) -> str | None:
-        """Of hole.survey.inclination, hole.survey.azimuth, or of a number of pipes: string[0].pipes.eccentricity."""
+        """Of hole.survey.inclination, hole.survey.azimuth (what is added), or of a number of pipes: string[0].pipes.eccentricity."""
         if key in ("hole.survey.inclination", "hole.survey.azimuth"):
             if not {"survey", "survey_file"} & set(self.loader.table(("hole",))):
                 self.problems.add(path + ("key",), key, "needs a survey of the hole")
@@ -346,7 +392,8 @@ class Reader:
         if match and known and known.kind == "quantity" and not known.count and int(match.group(1)) < len(self.loader.parts("string")):
             return known.unit or "-"
         self.problems.add(path + ("key",), key, "must be what varies along the string, as string[0].pipes.eccentricity, or "
-                          "hole.survey.inclination or hole.survey.azimuth (what is added to them)")
+                          "along the hole: " + ", ".join(f"hole.{one}" for one in ALONG_HOLE) + ", hole.survey.inclination, "
+                          "hole.survey.azimuth (what is added to them)")
         return None
 
     def _process(self, path: Path, table: dict[str, Any], name: str) -> RandomProcess | None:
@@ -430,7 +477,8 @@ def tables_of(found: Variability) -> list[tuple[str, dict[str, Any]]]:
         more: dict[str, Any] = {"correlation_length": units.text(one.length, "m")} if one.length else {}
         more.update({"spacing": units.text(one.spacing, "m")} if one.spacing else {})
         more.update({"modes": one.modes} if one.modes else {})
-        tables.append(("[[variability.field]]", {"name": one.name, "key": one.key, "relative": one.relative, "kernel": one.kernel,
+        more.update({"from": units.text(one.ends[0], "m"), "to": units.text(one.ends[1], "m")} if one.ends[1] else {})
+        tables.append(("[[variability.field]]", {"name": one.name, "keys": one.keys, "relative": one.relative, "kernel": one.kernel,
                                                  **more, **_written(one.marginal, "-" if one.relative else one.unit)}))
     for process in found.processes:
         time = {"correlation_time": units.text(process.length, "s")} if process.length else {}
@@ -450,8 +498,8 @@ def schema(many: Any, table: Any, quantity: Any, name: Any) -> dict[str, Any]:
     return table(SETTINGS, (), method=words(METHODS), question=words(QUESTIONS),  # type: ignore[no-any-return]
                  scatter=many(table({}, ("distribution",), key=name, keys={"type": "array", "items": name, "minItems": 1},
                                     relative=relative, **common)),
-                 field=many(table({"modes": Field("modes", "integer")}, ("key", "distribution"), key=name, kernel=words(KERNELS),
-                                  correlation_length=quantity, spacing=quantity, relative=relative, **common)),
+                 field=many(table({"modes": Field("modes", "integer")}, ("distribution",), key=name, keys={"type": "array", "items": name,
+                                  "minItems": 1}, kernel=words(KERNELS), **{"from": quantity, "to": quantity}, correlation_length=quantity, spacing=quantity, relative=relative, **common)),
                  process=many(table({}, ("programme", "distribution"), programme=name, kernel=words(KERNELS), how=words(PROCESS),
                                     correlation_time=quantity, spacing=quantity, **common)),
                  correlation=many(table({}, ("between", "rank"), rank={"type": ["number", "string"]},
