@@ -141,6 +141,7 @@ public:
     dmb_id add_drive(const dmb_drive_def &def) { return add(dmb_model_add_drive, def); }
     dmb_id add_load(const dmb_load_def &def) { return add(dmb_model_add_load, def); }
     dmb_id add_input(const dmb_input_def &def) { return add(dmb_model_add_input, def); }
+    dmb_id add_spring(const dmb_spring_def &def) { return add(dmb_model_add_spring, def); }
     std::int32_t compile(const dmb_compile_options *options = nullptr) { return done(try_compile(options)); }
 
     dmb_model_info info() const
@@ -765,6 +766,21 @@ public:
         dmb_joint_state answer = dmb_joint_state_default();
         answer.frame = frame;
         return ask(dmb_query_joint, answer, which);
+    }
+    dmb_spring_state spring(dmb_id which) const { return ask(dmb_query_spring, dmb_spring_state_default(), which); }
+    // Pose of a point off a place, offset [m] in the axes of the place, shape (3).
+    dmb_pose pose_at(const dmb_place &place, const double *offset) const
+    {
+        dmb_pose answer = dmb_pose_default();
+        check(dmb_query_pose_at(handle_, place, offset, &answer));
+        return answer;
+    }
+    dmb_motion motion_at(const dmb_place &place, const double *offset, std::int32_t frame = DMB_FRAME_WORLD) const
+    {
+        dmb_motion answer = dmb_motion_default();
+        answer.frame = frame;
+        check(dmb_query_motion_at(handle_, place, offset, &answer));
+        return answer;
     }
     // Of a joint, coupling, constraint or joint drive, one for each row.
     std::vector<double> multipliers(dmb_id part) const

@@ -27,11 +27,12 @@ ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "TERM_C
               "OPERATION_PICK_UP": "OperationKind", "MEASURED_HOOK_LOAD": "Measured",
               "PROFILE_DISTANCE": "ProfileQuantity", "HOLE_ABOVE": "HoleBeyond",
               "STATIC_NEWTON": "StaticMethod", "METHOD_INDEPENDENT": "ConstraintMethod",
-              "BUCKLING_EXTRAPOLATED": "BucklingEnd", "SCALE_ALL": "Scale"}
+              "BUCKLING_EXTRAPOLATED": "BucklingEnd", "SPRING_BOTH": "SpringActs", "TABLE_LINES": "TableKind", "SCALE_ALL": "Scale"}
 FLAGS = ("FREE", "FEATURE", "PROVIDES")  # prefixes of bits of masks
 STRUCT_NAMES = {"dmb_recorder": "RecorderStruct", "dmb_profile": "ProfileStruct",
                 "dmb_profile_recorder": "ProfileRecorderStruct"}
-MIXINS = {"Id": "IdPart", "Term": "TermPart", "WallDef": "WallPart", "ConstraintDef": "ConstraintPart"}
+MIXINS = {"Id": "IdPart", "Term": "TermPart", "WallDef": "WallPart", "ConstraintDef": "ConstraintPart",
+          "SpringDef": "SpringPart"}
 NUMBERS = {"int32_t": "c_int32", "uint32_t": "c_uint32", "int64_t": "c_int64", "uint64_t": "c_uint64",
            "double": "c_double", "size_t": "c_size_t", "char": "c_char"}
 PYTHON = {"c_double": "float", "c_char": "bytes"}
@@ -257,7 +258,7 @@ from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int
                     c_void_p)
 from typing import Any, ClassVar
 
-from ._record import ConstraintPart, IdPart, Record, Sized, TermPart, WallPart
+from ._record import ConstraintPart, IdPart, Record, Sized, SpringPart, TermPart, WallPart
 
 '''
 FUNCTIONS_HEAD = MADE.format("The functions of the C interface.") + '''from __future__ import annotations

@@ -151,6 +151,21 @@ name = "grip"
 target = "limit-high"
 part = "feed"
 initial = "4 kN"
+[[spring]]
+name = "rope"
+acts = "tension"
+place_b = {part = "main", pipe = 4, fraction = 0.4}
+offset_a = [0, 0, "2 m"]
+offset_b = [0, "1 cm", 0]
+free_length = "1 m"
+stiffness = "2 kN/m"
+table_kind = "cubic"
+table = [["0 m", "0 N"], ["10 cm", "50 N"], ["20 cm", "200 N"]]
+[[spring]]
+place_a = "swing"
+place_b = "wheel"
+stiffness = "1 N/m"
+damping = "3 N s/m"
 [compile]
 features = ["gravity", "contact", "friction", "damping"]
 [sim]

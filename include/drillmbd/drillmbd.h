@@ -6,6 +6,7 @@
 #include "base.h"
 #include "control.h"
 #include "drilling.h"
+#include "forces.h"
 #include "model.h"
 #include "modes.h"
 #include "output.h"

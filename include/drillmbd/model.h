@@ -395,11 +395,12 @@ enum { DMB_FRAME_WORLD = 0, DMB_FRAME_BODY = 1, DMB_FRAME_HOLE = 2 };
 typedef struct dmb_load_def {
     uint32_t struct_size;
     int32_t frame;    /* DMB_FRAME_WORLD: dead load (default); DMB_FRAME_BODY: follower */
-    dmb_place place;  /* pipe end of a string (fraction 0 or 1), or a body */
+    dmb_place place;  /* any place of a pipe, or a body; between nodes by the element's own interpolation */
     double force[3];  /* [N] in `frame`, shape (3) */
     double moment[3]; /* [N m] in `frame`, shape (3) */
     dmb_id programme; /* [-] factor over time; {0, 0}: 1 */
     char name[24];    /* for messages, ends with 0; default "" */
+    double offset[3]; /* [m] of the point where it acts from the place, in its axes; default 0, shape (3) */
 } dmb_load_def;
 DMB_SIZED_STRUCT(dmb_load_def)
 DMB_API int32_t dmb_model_add_load(dmb_model *model, const dmb_load_def *def, dmb_id *load);

@@ -20,11 +20,15 @@ DMB_DECLARE_STRUCT(dmb_coupling_def)
 DMB_DECLARE_STRUCT(dmb_constraint_def)
 DMB_DECLARE_STRUCT(dmb_drive_def)
 DMB_DECLARE_STRUCT(dmb_load_def)
+DMB_DECLARE_STRUCT(dmb_spring_def)
 DMB_DECLARE_STRUCT(dmb_compile_options)
 DMB_DECLARE_STRUCT(dmb_model_info)
 
 /* Frees a programme's copy of terms and tables. */
 void dmb_programme_release(dmb_programme *programme, const dmb_allocator *allocator);
+
+/* Frees a spring's table. */
+void dmb_spring_release(dmb_spring_plan *spring, const dmb_allocator *allocator);
 
 /* Frees the wall's copy of the survey. */
 void dmb_wall_release(dmb_wall_def *wall, const dmb_allocator *allocator);

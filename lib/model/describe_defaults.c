@@ -1,4 +1,5 @@
-/* Defaults of the structs of model.h, as documented there. The number is the struct's size in its first release. */
+/* Defaults of the structs of model.h and forces.h, as documented there. The number is the struct's size in its first
+ * release. */
 #include "model/describe.h"
 
 /* clang-format off */
@@ -93,6 +94,8 @@ DMB_DEFINE_INIT(dmb_drive_def, 72, {
 })
 
 DMB_DEFINE_INIT(dmb_load_def, 88, {.frame = DMB_FRAME_WORLD})
+
+DMB_DEFINE_INIT(dmb_spring_def, 184, {.acts = DMB_SPRING_BOTH, .free_length = -1.0})
 
 DMB_DEFINE_INIT(dmb_compile_options, 16, {.features = DMB_FEATURE_ALL, .pipe_kind = -1})
 

@@ -240,15 +240,6 @@ int32_t dmb_model_add_drive(dmb_model *model, const dmb_drive_def *def, dmb_id *
 
 /* ---- Loads ------------------------------------------------------------------------------------------------------- */
 
-/* Elements take loads at their ends only. */
-static void check_place(dmb_check *check, const dmb_model *model, const dmb_place *place)
-{
-    dmb_check_place(check, model, "place", place);
-    if (place->fraction > 0.0 && place->fraction < 1.0) {
-        dmb_check_within(check, "place.fraction (0 or 1)", place->fraction, 1.0, 1.0);
-    }
-}
-
 static int32_t check_load(dmb_model *model, const dmb_load_def *def)
 {
     dmb_message part;
@@ -256,7 +247,8 @@ static int32_t check_load(dmb_model *model, const dmb_load_def *def)
         &model->message, dmb_part_text(&part, "load", model->loads.count, def->name, sizeof def->name), DMB_NONE);
     dmb_check_name(&check, "name", def->name, sizeof def->name);
     dmb_check_choice(&check, "frame", def->frame, DMB_FRAME_WORLD, DMB_FRAME_HOLE);
-    check_place(&check, model, &def->place);
+    dmb_check_place(&check, model, "place", &def->place);
+    dmb_check_each_within(&check, "offset", def->offset, 3, -DMB_LENGTH_MAX, DMB_LENGTH_MAX);
     dmb_check_each_within(&check, "force", def->force, 3, -DMB_FORCE_MAX, DMB_FORCE_MAX);
     dmb_check_each_within(&check, "moment", def->moment, 3, -DMB_FORCE_MAX, DMB_FORCE_MAX);
     dmb_check_id_or_none(&check, model, "programme", def->programme, DMB_PART_PROGRAMME, "programme");

@@ -214,7 +214,7 @@ int32_t dmb_model_add_coupling(dmb_model *model, const dmb_coupling_def *def, dm
 
 /* Constraints that the caller's function defines. */
 
-enum { ROWS_MAX = DMB_CONSTRAINT_ROWS, PLACES_MAX = DMB_CONSTRAINT_NODES };
+enum { ROWS_MAX = DMB_CONSTRAINT_ROWS, PLACES_MAX = DMB_CONSTRAINT_PLACES };
 
 static void check_kind(dmb_check *check, const dmb_constraint_def *def)
 {

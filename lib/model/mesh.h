@@ -11,9 +11,10 @@
  *   masses          runs, bodies, bits         rigid_masses, nodes (weight, damped)
  *   sites           pipes, bodies              sites, path_sites
  *   joints          joints, couplings, ...     joints, couplings, callbacks, laws
- *   actions         drives, loads, bits        drives, loads, bits, nodes (prescribed), driven
- *   constraints     joints ... drives          constraints, clusters, cluster_nodes; back-references
- *                                              in joints, couplings, drives, callbacks
+ *   actions         drives, loads, bits        drives, loads, load_points, bits, nodes (prescribed), driven
+ *   forces          springs                    springs, spring_points
+ *   constraints     joints ... springs         constraints, clusters, cluster_nodes; back-references
+ *                                              in joints, couplings, drives, callbacks, springs
  *
  * Fields that need the numbers of rows are made by freeze: rows of drives, columns of clusters, the blocks of jointed
  * chains. */
@@ -22,6 +23,7 @@
 
 #include <stdbool.h>
 
+#include "base/value_check.h"
 #include "base/vector.h"
 #include "drillmbd/model.h"
 #include "element/element_type.h"
@@ -74,6 +76,9 @@ typedef struct dmb_mesh {
     dmb_vector loads;         /* dmb_scene_load */
     dmb_vector bits;          /* dmb_scene_bit */
     dmb_vector inputs;        /* dmb_scene_input */
+    dmb_vector load_points;   /* dmb_scene_point */
+    dmb_vector springs;       /* dmb_scene_spring */
+    dmb_vector spring_points; /* dmb_spring_point */
     dmb_vector joints;        /* dmb_scene_joint */
     dmb_vector couplings;     /* dmb_scene_coupling */
     dmb_vector callbacks;     /* dmb_scene_callback */
@@ -153,6 +158,7 @@ int32_t dmb_mesh_masses(dmb_mesh *mesh);
 int32_t dmb_mesh_sites(dmb_mesh *mesh);
 int32_t dmb_mesh_joints(dmb_mesh *mesh);
 int32_t dmb_mesh_actions(dmb_mesh *mesh);
+int32_t dmb_mesh_forces(dmb_mesh *mesh);
 int32_t dmb_mesh_constraints(dmb_mesh *mesh);
 int32_t dmb_mesh_inputs(dmb_mesh *mesh);
 
@@ -171,6 +177,18 @@ typedef struct dmb_mesh_place {
 /* A body, a bit, any place of a rigid pipe, and of an elastic one its ends, its tool joint and the ends of its elements
  * (within 1e-9 of the pipe). False elsewhere. The pipe has to be there. */
 bool dmb_mesh_place_of(const dmb_mesh *mesh, const dmb_place *place, dmb_mesh_place *found);
+/* From node a (or the world's origin, DMB_NONE) to node b [m]. Along one string it keeps the digits that a difference
+ * of large coordinates loses. */
+void dmb_mesh_span(const dmb_mesh *mesh, uint32_t a, uint32_t b, double span[3]);
+/* Fails the check where the pipe of a place is not there, or its node is one on the axis of a curved hole, which turns
+ * with the axis. */
+void dmb_mesh_check_pipe(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place);
+void dmb_mesh_check_node(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place,
+                         uint32_t node);
+/* The point at any place moved by an offset in its axes; the ground for a place on no part. Fails the check as the two
+ * above. */
+dmb_scene_point dmb_mesh_point(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place,
+                               const double offset[3]);
 
 /* Rigid masses of nodes: bodies added to a spatial inertia, and pipes whose centre of mass is off their axis. */
 

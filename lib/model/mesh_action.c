@@ -1,4 +1,5 @@
 /* Drives, loads and bits, from the parts they are described on to nodes. */
+#include <math.h>
 #include <string.h>
 
 #include "model/field_check.h"
@@ -81,20 +82,41 @@ static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
 
 /* ---- Loads ------------------------------------------------------------------------------------------------------- */
 
+static bool is_shifted(const double offset[3])
+{
+    return fabs(offset[0]) > 0.0 || fabs(offset[1]) > 0.0 || fabs(offset[2]) > 0.0;
+}
+
+/* On the axis of a node it costs the least; elsewhere it acts at a point. */
+static int32_t place_load(dmb_mesh *mesh, uint32_t i, const dmb_load_def *def, dmb_scene_load *load)
+{
+    dmb_message part;
+    dmb_check check =
+        dmb_check_of(&mesh->model->message, dmb_part_text(&part, "load", i, def->name, sizeof def->name), DMB_NONE);
+    dmb_mesh_place place = {0, 0.0};
+    if (!is_shifted(def->offset) && dmb_mesh_place_of(mesh, &def->place, &place)) {
+        load->node = place.node;
+        load->arm = place.arm;
+        return DMB_OK;
+    }
+    const dmb_scene_point point = dmb_mesh_point(&check, mesh, "place", &def->place, def->offset);
+    if (check.status < 0) return check.status;
+    load->node = point.node;
+    load->point = (uint32_t)mesh->load_points.count;
+    return dmb_vector_append(&mesh->load_points, &mesh->model->allocator, &point, 1);
+}
+
 static int32_t add_load(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_load_def *def = DMB_LIST_AT(const dmb_load_def, mesh->model->loads, i);
-    dmb_scene_load load = {.frame = def->frame, .programme = programme_of(mesh, def->programme)};
-    dmb_mesh_place place = {0, 0.0};
+    dmb_scene_load load = {.frame = def->frame, .programme = programme_of(mesh, def->programme), .point = DMB_NONE};
     for (int k = 0; k < 3; ++k) {
         load.force[k] = def->force[k];
         load.moment[k] = def->moment[k];
     }
     memcpy(load.name, def->name, sizeof load.name);
-    (void)dmb_mesh_place_of(mesh, &def->place, &place); /* the end of a pipe, or a body */
-    load.node = place.node;
-    load.arm = place.arm;
-    return dmb_vector_append(&mesh->loads, &mesh->model->allocator, &load, 1);
+    const int32_t status = place_load(mesh, i, def, &load);
+    return status < 0 ? status : dmb_vector_append(&mesh->loads, &mesh->model->allocator, &load, 1);
 }
 
 /* ---- Bits -------------------------------------------------------------------------------------------------------- */

@@ -17,6 +17,10 @@ static dmb_scene_callback *callback_at(const dmb_mesh *mesh, uint32_t i)
 {
     return DMB_VECTOR_AT(dmb_scene_callback, &mesh->callbacks, i);
 }
+static dmb_scene_spring *spring_at(const dmb_mesh *mesh, uint32_t i)
+{
+    return DMB_VECTOR_AT(dmb_scene_spring, &mesh->springs, i);
+}
 static dmb_scene_drive *drive_at(const dmb_mesh *mesh, uint32_t i)
 {
     return DMB_VECTOR_AT(dmb_scene_drive, &mesh->drives, i);
@@ -88,6 +92,31 @@ static int32_t add_callback(dmb_mesh *mesh, uint32_t i)
     return push(mesh, &constraint);
 }
 
+static void touch_point(const dmb_mesh *mesh, const dmb_scene_point *point, dmb_constraint *constraint)
+{
+    touch(mesh, point->node, constraint);
+    if (point->element != DMB_NONE) touch(mesh, point->node + 1, constraint);
+}
+
+/* Room for the tangent of a force within one node, or the two nodes of an element, is there already. */
+static bool is_local(const dmb_mesh *mesh, const dmb_constraint *constraint)
+{
+    if (constraint->node_count < 2) return true;
+    const uint32_t a = constraint->node[0], b = constraint->node[1], first = a < b ? a : b;
+    if (constraint->node_count > 2 || (a < b ? b - a : a - b) != 1) return false;
+    return dmb_mesh_node_at(mesh, a)->string != DMB_NONE &&
+           dmb_mesh_node_at(mesh, first)->string == dmb_mesh_node_at(mesh, first + 1)->string;
+}
+
+/* One row that is always idle. */
+static int32_t add_spring(dmb_mesh *mesh, uint32_t i)
+{
+    dmb_constraint constraint = {.kind = DMB_OF_SPRING, .index = i, .rows = 1};
+    touch_point(mesh, &spring_at(mesh, i)->a, &constraint);
+    touch_point(mesh, &spring_at(mesh, i)->b, &constraint);
+    return is_local(mesh, &constraint) ? DMB_OK : push(mesh, &constraint);
+}
+
 static int32_t add_all(dmb_mesh *mesh)
 {
     int32_t status = DMB_OK;
@@ -95,6 +124,7 @@ static int32_t add_all(dmb_mesh *mesh)
     for (uint32_t i = 0; i < mesh->couplings.count && status >= 0; ++i) status = add_coupling(mesh, i);
     for (uint32_t i = 0; i < mesh->drives.count && status >= 0; ++i) status = add_drive(mesh, i);
     for (uint32_t i = 0; i < mesh->callbacks.count && status >= 0; ++i) status = add_callback(mesh, i);
+    for (uint32_t i = 0; i < mesh->springs.count && status >= 0; ++i) status = add_spring(mesh, i);
     return status;
 }
 
@@ -216,6 +246,7 @@ static void refer_back(const dmb_mesh *mesh, const dmb_constraint *constraint, u
     case DMB_OF_JOINT: joint_at(mesh, constraint->index)->constraint = number; break;
     case DMB_OF_COUPLING: coupling_at(mesh, constraint->index)->constraint = number; break;
     case DMB_OF_DRIVE: drive_at(mesh, constraint->index)->constraint = number; break;
+    case DMB_OF_SPRING: spring_at(mesh, constraint->index)->constraint = number; break;
     default: callback_at(mesh, constraint->index)->constraint = number; break;
     }
 }
@@ -247,6 +278,7 @@ static const char *name_of(const dmb_mesh *mesh, const dmb_cluster *cluster, dmb
     const dmb_constraint *first = constraint_at(mesh, cluster->constraint);
     const uint32_t i = first->index;
     if (first->kind == DMB_OF_JOINT) return dmb_part_text(text, "cluster of joint", i, joint_at(mesh, i)->name, 24);
+    if (first->kind == DMB_OF_SPRING) return dmb_part_text(text, "cluster of spring", i, spring_at(mesh, i)->name, 24);
     return dmb_part_text(text, "cluster of constraint", i, callback_at(mesh, i)->name, 24);
 }
 

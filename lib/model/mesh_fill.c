@@ -216,6 +216,9 @@ static void fill_parts(const dmb_mesh *mesh, dmb_scene *scene)
     copy_items(&mesh->loads, scene->loads);
     copy_items(&mesh->bits, scene->bits);
     copy_items(&mesh->inputs, scene->inputs);
+    copy_items(&mesh->load_points, scene->load_points);
+    copy_items(&mesh->springs, scene->springs);
+    copy_items(&mesh->spring_points, scene->spring_points);
     copy_items(&mesh->strings, scene->strings);
     copy_items(&mesh->pipes, scene->pipes);
     copy_items(&mesh->bodies, scene->bodies);
@@ -287,6 +290,13 @@ static void lengthen(dmb_scene *scene, const uint32_t *chain_of, const dmb_scene
     if (chain->count == 1) chain->length = fmax(chain->length, dmb_vec3_norm(frame->x));
 }
 
+static void lengthen_to(dmb_scene *scene, const uint32_t *chain_of, const dmb_scene_point *point)
+{
+    if (point->node == DMB_NONE) return;
+    dmb_chain *chain = scene->chains + chain_of[point->node];
+    if (chain->count == 1) chain->length = fmax(chain->length, dmb_vec3_norm(point->x));
+}
+
 /* sqrt(trace J/(2 m)) at the reference point, or the longest arm. */
 static void fill_lengths(dmb_scene *scene)
 {
@@ -305,6 +315,10 @@ static void fill_lengths(dmb_scene *scene)
     for (uint32_t j = 0; j < scene->joint_count; ++j) {
         lengthen(scene, chain_of, &scene->joints[j].a);
         lengthen(scene, chain_of, &scene->joints[j].b);
+    }
+    for (uint32_t i = 0; i < scene->spring_count; ++i) {
+        lengthen_to(scene, chain_of, &scene->springs[i].a);
+        lengthen_to(scene, chain_of, &scene->springs[i].b);
     }
     for (uint32_t c = 0; c < scene->chain_count; ++c)
         if (!(scene->chains[c].length > DMB_BODY_LENGTH_MIN)) scene->chains[c].length = 1.0;

@@ -113,6 +113,9 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->drive_count = (uint32_t)mesh->drives.count;
     scene->load_count = (uint32_t)mesh->loads.count;
     scene->bit_count = (uint32_t)mesh->bits.count;
+    scene->load_point_count = (uint32_t)mesh->load_points.count;
+    scene->spring_count = (uint32_t)mesh->springs.count;
+    scene->spring_point_count = (uint32_t)mesh->spring_points.count;
     scene->programme_count = mesh->model->programmes.count;
     scene->string_count = (uint32_t)mesh->strings.count;
     scene->pipe_count = (uint32_t)mesh->pipes.count;
@@ -174,6 +177,9 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
     to->loads = DMB_ARENA_ARRAY(arena, dmb_scene_load, counts->load_count);
     to->bits = DMB_ARENA_ARRAY(arena, dmb_scene_bit, counts->bit_count);
     if (counts->input_count > 0) to->inputs = DMB_ARENA_ARRAY(arena, dmb_scene_input, counts->input_count);
+    to->load_points = DMB_ARENA_ARRAY(arena, dmb_scene_point, counts->load_point_count);
+    to->springs = DMB_ARENA_ARRAY(arena, dmb_scene_spring, counts->spring_count);
+    to->spring_points = DMB_ARENA_ARRAY(arena, dmb_spring_point, counts->spring_point_count);
     to->strings = DMB_ARENA_ARRAY(arena, dmb_string_map, counts->string_count);
     to->pipes = DMB_ARENA_ARRAY(arena, dmb_pipe_map, counts->pipe_count);
     to->bodies = DMB_ARENA_ARRAY(arena, dmb_body_map, counts->body_count);

@@ -86,7 +86,7 @@ static dmb_check check_of(dmb_mesh *mesh, dmb_message *part, const char *kind, u
     return dmb_check_of(&mesh->model->message, dmb_part_text(part, kind, index, name, 24), DMB_NONE);
 }
 
-static void check_pipe(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place)
+void dmb_mesh_check_pipe(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place)
 {
     const uint32_t string = dmb_model_part_index(mesh->model, place->part, DMB_PART_STRING);
     dmb_message name;
@@ -96,7 +96,8 @@ static void check_pipe(dmb_check *check, const dmb_mesh *mesh, const char *field
 }
 
 /* PATH nodes turn with the axis where it is curved, and a joint would feel that: not offered. */
-static void check_node(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place, uint32_t node)
+void dmb_mesh_check_node(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place,
+                         uint32_t node)
 {
     dmb_message name;
     if (dmb_mesh_node_at(mesh, node)->size == DMB_NODE_FULL || !mesh->has_hole || dmb_hole_is_straight(&mesh->hole))
@@ -111,14 +112,14 @@ static bool find_place(dmb_check *check, const dmb_mesh *mesh, const char *field
                        dmb_mesh_place *found)
 {
     dmb_message name;
-    check_pipe(check, mesh, field, place);
+    dmb_mesh_check_pipe(check, mesh, field, place);
     if (check->status < 0) return false;
     if (!dmb_mesh_place_of(mesh, place, found)) {
         dmb_message_set(&name, "%s.fraction", field);
         dmb_check_fail(check, DMB_ERR_VALUE, name.text, place->fraction, "a node: 0, 1 or k/elements");
         return false;
     }
-    check_node(check, mesh, field, place, found->node);
+    dmb_mesh_check_node(check, mesh, field, place, found->node);
     return check->status >= 0;
 }
 
@@ -160,9 +161,7 @@ static void sum_spans(const dmb_mesh *mesh, uint32_t from, uint32_t to, double s
     for (uint32_t i = from; i < to; ++i) dmb_vec3_add(sum, dmb_mesh_element_at(mesh, i - string)->span, sum);
 }
 
-/* From node a (or the world's origin) to node b. Along one string it keeps the digits that a difference of large
- * coordinates loses. */
-static void span_between(const dmb_mesh *mesh, uint32_t a, uint32_t b, double span[3])
+void dmb_mesh_span(const dmb_mesh *mesh, uint32_t a, uint32_t b, double span[3])
 {
     const dmb_mesh_node *to = dmb_mesh_node_at(mesh, b);
     if (a == DMB_NONE) {
@@ -267,7 +266,7 @@ static int32_t add_joint(dmb_mesh *mesh, uint32_t i)
     }
     if (check.status >= 0) place_frames(&check, mesh, def, &joint);
     if (check.status < 0) return check.status;
-    span_between(mesh, joint.a.node, joint.b.node, joint.span);
+    dmb_mesh_span(mesh, joint.a.node, joint.b.node, joint.span);
     if (!on_hole) set_frame(def->origin_a, def->axis_a, def->normal_a, &joint.a);
     if (def->match) {
         match_frame(mesh, &joint);
@@ -310,7 +309,7 @@ static int32_t add_callback(dmb_mesh *mesh, uint32_t i)
         if (!find_place(&check, mesh, field.text, &def->place[k], &place)) return check.status;
         callback.place[k] = frame_at(&place);
     }
-    for (uint32_t k = def->place_count; k < DMB_CONSTRAINT_NODES; ++k) callback.place[k] = ground_frame();
+    for (uint32_t k = def->place_count; k < DMB_CONSTRAINT_PLACES; ++k) callback.place[k] = ground_frame();
     memcpy(callback.name, def->name, sizeof callback.name);
     return dmb_vector_append(&mesh->callbacks, &mesh->model->allocator, &callback, 1);
 }

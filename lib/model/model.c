@@ -62,6 +62,10 @@ static void release_parts(dmb_model *model)
     dmb_list_release(&model->couplings, allocator, sizeof(dmb_coupling_def));
     dmb_list_release(&model->constraints, allocator, sizeof(dmb_constraint_def));
     dmb_list_release(&model->inputs, allocator, sizeof(dmb_input_def));
+    for (uint32_t i = 0; i < model->springs.count; ++i) {
+        dmb_spring_release(DMB_LIST_AT(dmb_spring_plan, model->springs, i), allocator);
+    }
+    dmb_list_release(&model->springs, allocator, sizeof(dmb_spring_plan));
     if (model->scene == NULL) return;
     dmb_scene_release_dense(model->scene->dense, allocator);
     dmb_block_pattern_release(&model->scene->pattern, allocator);
@@ -145,6 +149,7 @@ static uint32_t count_of(const dmb_model *model, uint32_t kind)
     case DMB_PART_COUPLING: return model->couplings.count;
     case DMB_PART_CONSTRAINT: return model->constraints.count;
     case DMB_PART_INPUT: return model->inputs.count;
+    case DMB_PART_SPRING: return model->springs.count;
     default: return 0;
     }
 }

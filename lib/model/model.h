@@ -6,6 +6,7 @@
 
 #include "base/message.h"
 #include "drillmbd/control.h"
+#include "drillmbd/forces.h"
 #include "drillmbd/model.h"
 #include "force/programme.h"
 #include "model/refused.h"
@@ -23,6 +24,7 @@ enum {
     DMB_PART_JOINT = 8,
     DMB_PART_COUPLING = 9,
     DMB_PART_CONSTRAINT = 10,
+    DMB_PART_SPRING = 11,
     DMB_PART_INPUT = 20
 };
 
@@ -41,6 +43,13 @@ typedef struct dmb_pipe_run {
     uint32_t count;
     uint32_t reserved;
 } dmb_pipe_run;
+
+/* A spring and its law; the table is the model's own copy. */
+typedef struct dmb_spring_plan {
+    dmb_spring_def def; /* its pointers count for nothing */
+    dmb_spring_law law;
+    dmb_spring_point *points; /* shape (law.count); NULL without a table */
+} dmb_spring_plan;
 
 /* A list that grows through the model's allocator. */
 typedef struct dmb_list {
@@ -72,6 +81,7 @@ struct dmb_model {
     dmb_list couplings;    /* dmb_coupling_def */
     dmb_list constraints;  /* dmb_constraint_def */
     dmb_list inputs;       /* dmb_input_def */
+    dmb_list springs;      /* dmb_spring_plan */
     dmb_refusals refused;  /* parts that were refused and not added since */
     dmb_scene *scene;      /* NULL until compiled, then never changed */
     uint32_t sparse_nodes; /* nodes from which on a cluster is sparse: DMB_SPARSE_NODES, but for tests */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "drillmbd/control.h"
+#include "drillmbd/forces.h"
 #include "drillmbd/model.h"
 
 /* ---- Fields of definitions --------------------------------------------------------------------------------------- */
@@ -69,6 +70,13 @@ static const wide_field wide_fields[] = {
     FIELD("load", dmb_load_def, force),
     FIELD("load", dmb_load_def, moment),
     NAME("input", dmb_input_def),
+    FIELD("load", dmb_load_def, offset),
+    NAME("spring", dmb_spring_def),
+    FIELD("spring", dmb_spring_def, place_a),
+    FIELD("spring", dmb_spring_def, place_b),
+    FIELD("spring", dmb_spring_def, offset_a),
+    FIELD("spring", dmb_spring_def, offset_b),
+    FIELDS("spring", dmb_spring_def, table_elongation, table_kind),
 };
 
 /* A part of each kind fits; what does not would only be compared in its beginning. */

@@ -21,6 +21,7 @@
 #include "force/joint_law.h"
 #include "force/normal_law.h"
 #include "force/programme.h"
+#include "force/spring_law.h"
 #include "math/block_sparse.h"
 #include "math/block_tridiagonal.h"
 
@@ -60,7 +61,7 @@ typedef struct dmb_scene_load {
     uint32_t node;
     int32_t frame;
     uint32_t programme; /* DMB_NONE: factor 1 */
-    uint32_t reserved;
+    uint32_t point;     /* in load_points, where it acts; DMB_NONE: at the arm from the node */
     char name[24];
 } dmb_scene_load;
 
@@ -127,7 +128,31 @@ typedef struct dmb_free_rigid {
     uint32_t node, rigid_mass;
 } dmb_free_rigid;
 
+/* A material point at any place, or a point of the ground. */
+typedef struct dmb_scene_point {
+    double x[3];      /* [m] ground: world; else in the frame of the node, or of the section inside the element */
+    double fraction;  /* [-] of the element's flexible length */
+    uint32_t node;    /* DMB_NONE: the ground; node a of the element */
+    uint32_t element; /* DMB_NONE: rigid with the node */
+} dmb_scene_point;
+
+/* Nodes that a force acts on: within one node, or the two of an element, its tangent has room in the blocks of the
+ * chain; others have a constraint without equations, which couples them. */
+typedef struct dmb_scene_spring {
+    dmb_scene_point a, b;
+    double span[3];      /* [m] origin of b's node less origin of a's (or of the world), at time 0, world, exact */
+    double free_length;  /* [m] */
+    dmb_spring_law law;  /* `first` counts in spring_points */
+    uint32_t constraint; /* DMB_NONE: within a node or an element */
+    uint32_t reserved;
+    char name[24];
+} dmb_scene_spring;
+
 /* ---- Joints and constraints ---- */
+
+/* Kind of part that a constraint belongs to. */
+enum { DMB_OF_JOINT = 0, DMB_OF_COUPLING = 1, DMB_OF_DRIVE = 2, DMB_OF_CALLBACK = 3, DMB_OF_SPRING = 4 };
+enum { DMB_CONSTRAINT_PLACES = 4, DMB_CONSTRAINT_NODES = 8, DMB_CONSTRAINT_COLUMNS = 48, DMB_CONSTRAINT_ROWS = 6 };
 
 /* A frame fixed to a node's frame, or standing in the world. */
 typedef struct dmb_scene_frame {
@@ -163,7 +188,7 @@ typedef struct dmb_scene_coupling {
 } dmb_scene_coupling;
 
 typedef struct dmb_scene_callback {
-    dmb_scene_frame place[4]; /* frames of its places */
+    dmb_scene_frame place[DMB_CONSTRAINT_PLACES]; /* frames of its places */
     dmb_constraint_fn callback;
     void *context;
     uint32_t rows, count;
@@ -174,15 +199,11 @@ typedef struct dmb_scene_callback {
     char name[24];
 } dmb_scene_callback;
 
-/* Kind of part that a constraint belongs to. */
-enum { DMB_OF_JOINT = 0, DMB_OF_COUPLING = 1, DMB_OF_DRIVE = 2, DMB_OF_CALLBACK = 3 };
-enum { DMB_CONSTRAINT_NODES = 4, DMB_CONSTRAINT_COLUMNS = 24, DMB_CONSTRAINT_ROWS = 6 };
-
-/* Rows of one joint (room for six, so that it can be locked), coupling, joint drive or callback. Its columns are all
- * rows of its nodes, held ones too. */
+/* Rows of one joint (room for six, so that it can be locked), coupling, joint drive or callback; of a spring one that
+ * is always idle. Its columns are all rows of its nodes, held ones too. */
 typedef struct dmb_constraint {
     int32_t kind;   /* DMB_OF_... */
-    uint32_t index; /* which joint, coupling, drive, callback */
+    uint32_t index; /* which joint, coupling, drive, callback, spring */
     uint32_t row;   /* first of its constraint rows */
     uint32_t rows;  /* room */
     uint32_t node_count;
@@ -229,6 +250,7 @@ typedef struct dmb_scene {
     uint32_t velocity_count; /* row_count, or 0 where everything is described at rest */
     uint32_t rigid_count, structural_joint_count;
     uint32_t free_rigid_count;
+    uint32_t spring_count, spring_point_count, load_point_count;
     uint32_t joint_count, coupling_count, callback_count, constraint_count, cluster_count, law_count;
     uint32_t constraint_row_count;                /* room of all constraints */
     uint32_t constraint_node_count;               /* length of cluster_nodes */
@@ -294,6 +316,9 @@ typedef struct dmb_scene {
     dmb_scene_bit *bits;
     dmb_programme *programmes; /* the model's own; of a sim with inputs, theirs behind them */
     dmb_scene_input *inputs;
+    dmb_scene_point *load_points;
+    dmb_scene_spring *springs;
+    dmb_spring_point *spring_points; /* tables, spring by spring */
 
     /* joints and constraints; all empty without joints */
     dmb_scene_joint *joints;

@@ -4,34 +4,6 @@
 #include "math/se3.h"
 #include "sim/node.h"
 
-/* One bending plane. P = 12 EI/(GA L^2), q = 1/(1+P): N3 - x = (3x^2 - 2x^3 - x) q, G3 = 6 (x - x^2) q/L */
-static void plane(double x, double bending_stiffness, double shear_stiffness, double length, double *move, double *turn)
-{
-    const double P = 12.0 * bending_stiffness / (shear_stiffness * length * length), q = 1.0 / (1.0 + P);
-    *move = x * ((3.0 - 2.0 * x) * x - 1.0) * q;
-    *turn = 6.0 * x * (1.0 - x) * q / length;
-}
-
-void dmb_section_shape_at(const dmb_element_type *type, double x, int bending, dmb_section_shape *shape)
-{
-    const double *K = type->strain_stiffness;
-    shape->x = x;
-    shape->move[0] = shape->move[1] = shape->turn[0] = shape->turn[1] = 0.0;
-    if (!bending) return;
-    plane(x, K[5], K[1], type->length, &shape->move[0], &shape->turn[0]);
-    plane(x, K[4], K[2], type->length, &shape->move[1], &shape->turn[1]);
-}
-
-/* A slope dz/dx is a turn -theta_y. */
-void dmb_section_shape_correct(const dmb_section_shape *shape, const double d[6], double out[6])
-{
-    out[0] = out[3] = 0.0;
-    out[1] = shape->move[0] * d[1];
-    out[2] = shape->move[1] * d[2];
-    out[4] = -shape->turn[1] * d[2];
-    out[5] = shape->turn[0] * d[1];
-}
-
 void dmb_end_pose_now(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, dmb_end_pose *pose)
 {
     dmb_node_pose(scene, configuration, node, pose->rotation, pose->displacement);
@@ -46,17 +18,10 @@ void dmb_end_pose_at_start(const dmb_scene *scene, uint32_t node, dmb_end_pose *
 void dmb_relative_pose(const dmb_scene *scene, uint32_t element, const dmb_end_pose *a, const dmb_end_pose *b,
                        double d[6])
 {
-    const dmb_element_type *type = &scene->types[scene->element_type[element]];
-    const double far_arm[3] = {-type->arm[1], 0.0, 0.0};
-    double R[9], x[3], arm[3];
-    dmb_mat3_mul_tn(a->rotation, b->rotation, R);
+    double x[3];
     dmb_vec3_sub(b->displacement, a->displacement, x);
     dmb_vec3_add(x, scene->element_span + 3 * (size_t)element, x);
-    dmb_mat3_tvec(a->rotation, x, x);
-    dmb_mat3_vec(R, far_arm, arm);
-    dmb_vec3_add(x, arm, x);
-    x[0] -= type->arm[0];
-    dmb_se3_log(R, x, NULL, d);
+    dmb_section_ends(&scene->types[scene->element_type[element]], a->rotation, b->rotation, x, d);
 }
 
 /* Bars on the hole's axis do not bend by themselves: no bending shape. */
@@ -73,19 +38,11 @@ void dmb_material_point_shape(const dmb_scene *scene, const dmb_material_point *
 static void section_from_node(const dmb_scene *scene, const dmb_material_point *material_point, const dmb_end_pose *a,
                               const dmb_end_pose *b, double Q[9], double r[3])
 {
-    const dmb_element_type *type = &scene->types[scene->element_type[material_point->element]];
     dmb_section_shape shape;
-    double d[6], h[6], c[6], R1[9], R2[9], x2[3];
+    double d[6];
     dmb_relative_pose(scene, material_point->element, a, b, d);
     dmb_material_point_shape(scene, material_point, &shape);
-    for (int i = 0; i < 6; i++) h[i] = shape.x * d[i];
-    dmb_section_shape_correct(&shape, d, c);
-    dmb_se3_exp(h, NULL, R1, r);
-    dmb_se3_exp(c, NULL, R2, x2);
-    dmb_mat3_mul(R1, R2, Q);
-    dmb_mat3_vec(R1, x2, x2);
-    dmb_vec3_add(r, x2, r);
-    r[0] += type->arm[0];
+    dmb_section_pose(&scene->types[scene->element_type[material_point->element]], &shape, d, Q, r);
 }
 
 /* From a node and a place r seen from it, now and at the start. The displacement never subtracts world positions. */
@@ -135,6 +92,20 @@ void dmb_material_point_pose_of(const dmb_scene *scene, const dmb_configuration 
         fixed_pose(scene, configuration, material_point, pose);
     else
         section_pose(scene, configuration, material_point, pose);
+}
+
+void dmb_material_point_start_axes(const dmb_scene *scene, const dmb_material_point *material_point, double R[9])
+{
+    dmb_end_pose a, b;
+    double Q[9], r[3];
+    dmb_end_pose_at_start(scene, material_point->node, &a);
+    if (material_point->fixed) {
+        dmb_mat3_copy(a.rotation, R);
+        return;
+    }
+    dmb_end_pose_at_start(scene, material_point->node + 1, &b);
+    section_from_node(scene, material_point, &a, &b, Q, r);
+    dmb_mat3_mul(a.rotation, Q, R);
 }
 
 static void node_motion(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node, double arm,

@@ -10,20 +10,8 @@
 #ifndef DMB_QUERY_INTERPOLATION_H
 #define DMB_QUERY_INTERPOLATION_H
 
-#include "element/element_type.h"
+#include "element/section_shape.h"
 #include "query/place.h"
-
-typedef struct dmb_section_shape {
-    double x;       /* [-] fraction of the flexible length */
-    double move[2]; /* [-] sideways displacement per unit of d_y, d_z: N3 - x */
-    double turn[2]; /* [rad/m] turning of the section per unit of d_y, d_z: G3 */
-} dmb_section_shape;
-
-/* The shape at fraction x; bending 0 leaves c out (axial-torsional bars). */
-void dmb_section_shape_at(const dmb_element_type *type, double x, int bending, dmb_section_shape *shape);
-
-/* out = c(x) d. Linear in d: rates map alike. */
-void dmb_section_shape_correct(const dmb_section_shape *shape, const double d[6], double out[6]);
 
 /* The two nodes of an element seen from each other. */
 
@@ -54,6 +42,9 @@ typedef struct dmb_material_point_pose {
 
 void dmb_material_point_pose_of(const dmb_scene *scene, const dmb_configuration *configuration,
                                 const dmb_material_point *point, dmb_material_point_pose *pose);
+
+/* Axes of the point at time 0 as described, body to world. */
+void dmb_material_point_start_axes(const dmb_scene *scene, const dmb_material_point *point, double R[9]);
 
 /* Velocity [m/s, rad/s] and its rate [m/s2, rad/s2] in the axes of the section: the exact time derivatives of the pose
  * above. */

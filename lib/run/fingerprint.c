@@ -127,6 +127,14 @@ static uint64_t add_drives(uint64_t h, const dmb_scene *s)
     return h;
 }
 
+static uint64_t add_point(uint64_t h, const dmb_scene_point *point)
+{
+    h = DMB_NUMBERS(h, point->x);
+    h = dmb_fnv_number(h, point->fraction);
+    h = dmb_fnv_word(h, point->node);
+    return dmb_fnv_word(h, point->element);
+}
+
 static uint64_t add_loads(uint64_t h, const dmb_scene *s)
 {
     for (uint32_t i = 0; i < s->load_count; ++i) {
@@ -137,6 +145,7 @@ static uint64_t add_loads(uint64_t h, const dmb_scene *s)
         h = dmb_fnv_number(h, load->arm);
         h = DMB_NUMBERS(h, load->force);
         h = DMB_NUMBERS(h, load->moment);
+        if (load->point != DMB_NONE) h = add_point(h, &s->load_points[load->point]);
     }
     return h;
 }
@@ -153,6 +162,27 @@ static uint64_t add_bits(uint64_t h, const dmb_scene *s)
         h = dmb_fnv_word(h, law->blades);
         h = dmb_fnv_word(h, bit->load);
         h = dmb_fnv_word(h, bit->history_capacity);
+        h = DMB_NUMBERS(h, numbers);
+    }
+    return h;
+}
+
+static uint64_t add_springs(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->spring_count; ++i) {
+        const dmb_scene_spring *spring = &s->springs[i];
+        const dmb_spring_law *law = &spring->law;
+        const double numbers[] = {spring->free_length, law->stiffness, law->damping, law->preload};
+        h = add_point(h, &spring->a);
+        h = add_point(h, &spring->b);
+        h = DMB_NUMBERS(h, spring->span);
+        h = DMB_NUMBERS(h, numbers);
+        h = dmb_fnv_word(h, (uint32_t)law->acts);
+        h = dmb_fnv_word(h, law->count);
+    }
+    for (uint32_t i = 0; i < s->spring_point_count; ++i) {
+        const dmb_spring_point *point = &s->spring_points[i];
+        const double numbers[] = {point->elongation, point->force, point->slope[0], point->slope[1]};
         h = DMB_NUMBERS(h, numbers);
     }
     return h;
@@ -261,6 +291,7 @@ uint64_t dmb_scene_fingerprint(const dmb_scene *scene)
     h = add_couplings(h, scene);
     h = add_callbacks(h, scene);
     h = add_inputs(h, scene);
+    h = add_springs(h, scene);
     return add_constraints(h, scene);
 }
 

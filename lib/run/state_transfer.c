@@ -10,6 +10,7 @@
 #include "sim/own_scene.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/energy.h"
+#include "system/assemble/springs.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/joint_state.h"
 #include "system/solve/solve.h"
@@ -144,7 +145,8 @@ static int32_t check_joints(dmb_sim *sim, dmb_evaluation *evaluation)
 /* [J] summed as dmb_query_energy does. */
 static double stored(const dmb_sim *sim)
 {
-    const double strain = dmb_strain_energy(sim->scene, &sim->now) + dmb_joint_energy(sim, &sim->now);
+    const double strain = dmb_strain_energy(sim->scene, &sim->now) + dmb_joint_energy(sim, &sim->now) +
+                          dmb_springs_energy(sim->scene, &sim->now);
     return dmb_kinetic_energy(sim->scene, &sim->now) + strain + dmb_gravity_energy(sim->scene, &sim->now) +
            dmb_contact_energy(sim->scene, &sim->now);
 }

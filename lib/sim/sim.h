@@ -150,8 +150,9 @@
     X(double, constraint_rate, c)       /* [m/s, ...] B v + rate = 0 */                                               \
     X(double, constraint_convective, c) /* [m/s2, ...] B v' + convective = 0 */                                       \
     X(double, constraint_jacobian, jacobian)                                                                          \
-    X(double, constraint_tangent, tangent) /* of joint forces and of B^T multiplier, by pose parameters:              \
-                                              system/assemble/joint_forces; without stiffness: system/solve/solve */  \
+    X(double, constraint_tangent, tangent) /* of joint forces, of springs and of B^T multiplier, by pose parameters:  \
+                                              system/assemble/joint_forces, system/assemble/point_motion; cleared by  \
+                                              system/assemble/evaluation; without stiffness: system/solve/solve */    \
     /* clusters, by system/constrain/cluster and system/constrain/sparse_cluster: */                                  \
     X(double, cluster_weight, column)   /* [-, 1/m] unit of each column; 0: held */                                   \
     X(double, cluster_metric, column)   /* [-, 1/m] the same for projections */                                       \

@@ -1,4 +1,5 @@
 #include "system/joint_switch.h"
+#include "system/assemble/springs.h"
 
 #include <string.h>
 
@@ -109,7 +110,8 @@ static void largest_change(const dmb_sim *sim, double most[2])
 static double potential(const dmb_sim *sim)
 {
     return dmb_strain_energy(sim->scene, &sim->now) + dmb_gravity_energy(sim->scene, &sim->now) +
-           dmb_contact_energy(sim->scene, &sim->now) + dmb_joint_energy(sim, &sim->now);
+           dmb_contact_energy(sim->scene, &sim->now) + dmb_joint_energy(sim, &sim->now) +
+           dmb_springs_energy(sim->scene, &sim->now);
 }
 
 /* The energy that goes is impact: kinetic, and that of springs which no longer act; the works of inertia and potential

@@ -39,6 +39,7 @@ typedef union any_def {
     dmb_joint_def joint;
     dmb_coupling_def coupling;
     dmb_constraint_def constraint;
+    dmb_spring_def spring;
 } any_def;
 
 /* A model that every definition fits into, and the ids it needs. */
@@ -284,7 +285,8 @@ static const field load_fields[] = {F(dmb_load_def, frame, WHOLE, 1),
                                     F(dmb_load_def, force, REAL, 3),
                                     F(dmb_load_def, moment, REAL, 3),
                                     F(dmb_load_def, programme.index, COUNT, 1),
-                                    F(dmb_load_def, programme.generation, COUNT, 1)};
+                                    F(dmb_load_def, programme.generation, COUNT, 1),
+                                    F(dmb_load_def, offset, REAL, 3)};
 static void fill_load(const scene_under_test *s, any_def *def)
 {
     def->load = dmb_load_def_default();
@@ -358,6 +360,29 @@ static int32_t add_coupling(dmb_model *model, const any_def *def)
     return dmb_model_add_coupling(model, &def->coupling, NULL);
 }
 
+static const field spring_fields[] = {F(dmb_spring_def, acts, WHOLE, 1),      PLACE_FIELDS(dmb_spring_def, place_a),
+                                      PLACE_FIELDS(dmb_spring_def, place_b),  F(dmb_spring_def, offset_a, REAL, 3),
+                                      F(dmb_spring_def, offset_b, REAL, 3),   F(dmb_spring_def, free_length, REAL, 1),
+                                      F(dmb_spring_def, stiffness, REAL, 1),  F(dmb_spring_def, damping, REAL, 1),
+                                      F(dmb_spring_def, preload, REAL, 1),    F(dmb_spring_def, table_count, COUNT, 1),
+                                      F(dmb_spring_def, table_kind, WHOLE, 1)};
+static void fill_spring(const scene_under_test *s, any_def *def)
+{
+    static const double elongation[65536] = {0.0, 1.0}, force[65536] = {0.0, 2.0}; /* as many as may be asked for */
+    def->spring = dmb_spring_def_default();
+    def->spring.place_a = dmb_station(s->string, 0, 0.3);
+    def->spring.place_b = dmb_station(s->string, 0, 1.0);
+    def->spring.offset_a[1] = 0.5;
+    def->spring.stiffness = 1.0;
+    def->spring.table_elongation = elongation;
+    def->spring.table_force = force;
+    def->spring.table_count = 2;
+}
+static int32_t add_spring(dmb_model *model, const any_def *def)
+{
+    return dmb_model_add_spring(model, &def->spring, NULL);
+}
+
 static int32_t any_constraint(void *context, double time, uint32_t count, const double (*poses)[12], double *value,
                               double *jacobian)
 {
@@ -397,6 +422,7 @@ static const kind_of_def kinds[] = {
     {"joint between", FIELDS(joint_fields), fill_joint_between, add_joint},
     {"coupling", FIELDS(coupling_fields), fill_coupling, add_coupling},
     {"constraint", FIELDS(constraint_fields), fill_constraint, add_constraint},
+    {"spring", FIELDS(spring_fields), fill_spring, add_spring},
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0], WALL = 3 };
 
@@ -418,6 +444,18 @@ static void expect_frame(const dmb_scene_frame *frame)
             assert_true(fabs(product - (i == k ? 1.0 : 0.0)) < 1e-14);
         }
     }
+}
+
+static void expect_finite_springs(const dmb_scene *s)
+{
+    for (size_t i = 0; i < s->spring_count; ++i) {
+        expect_finite(s->springs[i].a.x, 4);
+        expect_finite(s->springs[i].b.x, 4);
+        expect_finite(s->springs[i].span, 4);
+        expect_finite(&s->springs[i].law.stiffness, 5);
+    }
+    expect_finite((const double *)s->spring_points, s->spring_point_count * sizeof *s->spring_points / sizeof(double));
+    for (size_t i = 0; i < s->load_point_count; ++i) expect_finite(s->load_points[i].x, 4);
 }
 
 static void expect_finite_joints(const dmb_scene *s)
@@ -444,6 +482,7 @@ static void expect_finite_scene(const dmb_scene *s)
     expect_finite(s->element_span, 3 * e);
     expect_finite(&s->mass, 3);
     expect_finite_joints(s);
+    expect_finite_springs(s);
     for (size_t i = 0; i < s->type_count; ++i) {
         expect_finite((const double *)&s->types[i], sizeof *s->types / sizeof(double));
         for (int k = 0; k < 6; ++k) assert_true(s->types[i].stiffness[k] > 0.0);
@@ -623,7 +662,13 @@ static void what_must_be_refused(void **state)
                  {8, "component", 6.0},
                  {8, "limit_high", -1e30},
                  {8, "programme.generation", 0.0},
-                 {9, "place.fraction", 0.5},
+                 {9, "place.fraction", 1.5},
+                 {14, "free_length", -2.0},
+                 {14, "stiffness", -1.0},
+                 {14, "damping", -1.0},
+                 {14, "table_count", 1.0},
+                 {14, "table_kind", 2.0},
+                 {14, "acts", 3.0},
                  {9, "frame", 3.0},
                  {10, "kind", 13.0},
                  {10, "place_b.fraction", 1.5},

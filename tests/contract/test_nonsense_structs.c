@@ -50,7 +50,7 @@ INIT(contact_total) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state
 INIT(allocator) INIT(joint_state) INIT(joint_def) INIT(coupling_def) INIT(constraint_def)
 INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row) INIT(fatigue_options)
 INIT(fatigue_result) INIT(window_options) INIT(window_result) INIT(profile_recorder)
-INIT(input_def) INIT(input_info) INIT(input_state)
+INIT(input_def) INIT(input_info) INIT(input_state) INIT(spring_def) INIT(spring_state)
     /* clang-format on */
 
     static int32_t call_model_options(void *p)
@@ -114,6 +114,19 @@ static int32_t add_load(dmb_model *model, void *p)
     if (load->struct_size >= 88) /* has it */
         load->place = dmb_station(string, 0, 1.0);
     return dmb_model_add_load(model, load, NULL);
+}
+
+static int32_t add_spring(dmb_model *model, void *p)
+{
+    dmb_spring_def *spring = p;
+    const dmb_body_def body = dmb_body_def_default();
+    dmb_id id;
+    assert_int_equal(dmb_model_add_body(model, &body, &id), DMB_OK);
+    if (spring->struct_size >= sizeof *spring) {
+        spring->place_b = dmb_station(id, 0, 0.0);
+        spring->offset_b[0] = spring->stiffness = 1.0;
+    }
+    return dmb_model_add_spring(model, spring, NULL);
 }
 
 static int32_t add_joint(dmb_model *model, void *p)
@@ -257,6 +270,7 @@ CALL(load_def, with_model(add_load, p))
 CALL(input_def, with_model(add_input, p))
 CALL(input_info, with_model(get_info, p))
 CALL(input_state, with_model(get_state, p))
+CALL(spring_def, with_model(add_spring, p))
 CALL(joint_def, with_model(add_joint, p))
 CALL(coupling_def, with_model(add_coupling, p))
 CALL(constraint_def, with_model(add_constraint, p))
@@ -273,6 +287,7 @@ CALL(contact_total, dmb_query_contact_total(scene.sim, p))
 CALL(energy, dmb_query_energy(scene.sim, p))
 CALL(momentum, dmb_query_momentum(scene.sim, p))
 CALL(drive_state, dmb_query_drive(scene.sim, scene.parts.turning, p))
+CALL(spring_state, dmb_query_spring(scene.sim, scene.parts.rope, p))
 CALL(joint_state, dmb_query_joint(scene.sim, scene.parts.hinge, p))
 CALL(bit_state, dmb_query_bit(scene.sim, scene.parts.bit, p))
 CALL(statistics, dmb_query_statistics(scene.sim, p))
@@ -467,6 +482,8 @@ static const entry entries[] = {
     ENTRY(input_def, 0),
     ENTRY(input_info, 1),
     ENTRY(input_state, 1),
+    ENTRY(spring_def, 0),
+    ENTRY(spring_state, 1),
     {"advance's report", sizeof(dmb_step_report), sizeof(dmb_step_report), init_step_report, call_advance_report, 1},
 };
 enum { ENTRIES = sizeof entries / sizeof entries[0] };

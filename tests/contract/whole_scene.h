@@ -23,7 +23,7 @@ typedef struct whole_parts {
     dmb_id wall, string, second, head, body, bit;
     dmb_id constant, step, step5, harmonic, table, smooth, plain;
     dmb_id feed, turning, pushing, spinning;
-    dmb_id arm, wheel, hinge, axle, spring, gear, watch, winding;
+    dmb_id arm, wheel, hinge, axle, spring, gear, watch, winding, rope;
     int32_t callback_status; /* what the callbacks return; not 0: they fail */
 } whole_parts;
 
@@ -377,6 +377,42 @@ static inline int32_t whole_add_spring(dmb_model *model, whole_parts *parts)
     return dmb_model_add_joint(model, &joint, &parts->spring);
 }
 
+/* From inside a pipe to a point off the arm. */
+static inline int32_t whole_add_rope(dmb_model *model, whole_parts *parts)
+{
+    static const double elongation[3] = {0.0, 0.1, 0.2}, force[3] = {0.0, 1.0, 3.0};
+    dmb_spring_def rope = dmb_spring_def_default();
+    rope.acts = DMB_SPRING_TENSION;
+    rope.place_a = dmb_station(parts->string, 3, 0.4);
+    rope.place_b = dmb_station(parts->arm, 0, 0.0);
+    rope.offset_b[1] = 0.1;
+    rope.table_elongation = elongation;
+    rope.table_force = force;
+    rope.table_count = 3;
+    rope.table_kind = DMB_TABLE_CUBIC;
+    rope.damping = 1.0;
+    return dmb_model_add_spring(model, &rope, &parts->rope);
+}
+
+/* Within a body, and inside a pipe. */
+static inline int32_t whole_add_guy(dmb_model *model, whole_parts *parts)
+{
+    dmb_spring_def guy = dmb_spring_def_default();
+    guy.place_b = dmb_station(parts->string, 3, 0.6);
+    guy.offset_a[2] = 4.0;
+    guy.stiffness = 2.0;
+    return dmb_model_add_spring(model, &guy, NULL);
+}
+
+static inline int32_t whole_add_point_load(dmb_model *model, whole_parts *parts)
+{
+    dmb_load_def load = dmb_load_def_default();
+    load.place = dmb_station(parts->string, 3, 0.3);
+    load.offset[1] = 0.02;
+    load.force[2] = -3.0;
+    return dmb_model_add_load(model, &load, NULL);
+}
+
 /* The wheel moves along its axle as it turns. */
 static inline int32_t whole_add_gear(dmb_model *model, whole_parts *parts)
 {
@@ -427,13 +463,16 @@ typedef int32_t (*whole_call)(dmb_model *model, whole_parts *parts);
 
 /* Every call of the description, compile last. */
 static const whole_call whole_calls[] = {
-    whole_set_environment,  whole_add_constant,       whole_add_step,        whole_add_step5,     whole_add_harmonic,
-    whole_add_table,        whole_add_smooth,         whole_add_plain,       whole_add_wall,      whole_add_string,
-    whole_add_path_pipes,   whole_add_flexible_pipes, whole_add_rigid_pipes, whole_add_last_pipe, whole_add_second,
-    whole_add_second_pipes, whole_add_head,           whole_add_body,        whole_add_bit,       whole_add_feed,
-    whole_add_turning,      whole_add_pushing,        whole_add_spinning,    whole_add_dead_load, whole_add_follower,
-    whole_add_arm,          whole_add_wheel,          whole_add_hinge,       whole_add_axle,      whole_add_spring,
-    whole_add_gear,         whole_add_watch,          whole_add_winding,     whole_compile};
+    whole_set_environment, whole_add_constant,  whole_add_step,       whole_add_step5,
+    whole_add_harmonic,    whole_add_table,     whole_add_smooth,     whole_add_plain,
+    whole_add_wall,        whole_add_string,    whole_add_path_pipes, whole_add_flexible_pipes,
+    whole_add_rigid_pipes, whole_add_last_pipe, whole_add_second,     whole_add_second_pipes,
+    whole_add_head,        whole_add_body,      whole_add_bit,        whole_add_feed,
+    whole_add_turning,     whole_add_pushing,   whole_add_spinning,   whole_add_dead_load,
+    whole_add_follower,    whole_add_arm,       whole_add_wheel,      whole_add_hinge,
+    whole_add_axle,        whole_add_spring,    whole_add_gear,       whole_add_watch,
+    whole_add_winding,     whole_add_rope,      whole_add_guy,        whole_add_point_load,
+    whole_compile};
 enum { WHOLE_CALLS = sizeof whole_calls / sizeof whole_calls[0] };
 
 static inline void whole_must(const dmb_model *model, int32_t status)

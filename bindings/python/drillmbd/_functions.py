@@ -73,6 +73,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_add_load": (c_int32, c_void_p, POINTER(LoadDef), POINTER(Id),),
     "dmb_model_add_pipes": (c_int32, c_void_p, POINTER(PipeDef), c_uint32, POINTER(Id),),
     "dmb_model_add_programme": (c_int32, c_void_p, POINTER(Term), c_uint32, POINTER(Id),),
+    "dmb_model_add_spring": (c_int32, c_void_p, POINTER(SpringDef), POINTER(Id),),
     "dmb_model_add_string": (c_int32, c_void_p, POINTER(StringDef), POINTER(Id),),
     "dmb_model_add_wall": (c_int32, c_void_p, POINTER(WallDef), POINTER(Id),),
     "dmb_model_clear_refused": (c_int32, c_void_p,),
@@ -122,12 +123,15 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_query_kinetic_energy": (c_int32, c_void_p, Id, c_uint32, POINTER(c_double),),
     "dmb_query_momentum": (c_int32, c_void_p, POINTER(Momentum),),
     "dmb_query_motion": (c_int32, c_void_p, Place, POINTER(Motion),),
+    "dmb_query_motion_at": (c_int32, c_void_p, Place, POINTER(c_double), POINTER(Motion),),
     "dmb_query_multipliers": (c_int32, c_void_p, Id, POINTER(c_double), POINTER(c_uint32),),
     "dmb_query_pose": (c_int32, c_void_p, Place, POINTER(Pose),),
+    "dmb_query_pose_at": (c_int32, c_void_p, Place, POINTER(c_double), POINTER(Pose),),
     "dmb_query_profile": (c_int32, c_void_p, POINTER(ProfileStruct),),
     "dmb_query_reaction": (c_int32, c_void_p, Id, POINTER(c_double),),
     "dmb_query_rotation": (c_int32, c_void_p, Place, POINTER(c_double),),
     "dmb_query_section": (c_int32, c_void_p, Place, POINTER(Section),),
+    "dmb_query_spring": (c_int32, c_void_p, Id, POINTER(SpringState),),
     "dmb_query_statistics": (c_int32, c_void_p, POINTER(Statistics),),
     "dmb_recorder_init": (c_int32, POINTER(RecorderStruct), c_uint32,),
     "dmb_recorder_take": (c_int32, POINTER(RecorderStruct), c_void_p,),
@@ -165,6 +169,8 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_speed_band_init": (c_int32, POINTER(SpeedBand), c_uint32,),
     "dmb_speeds_options_init": (c_int32, POINTER(SpeedsOptions), c_uint32,),
     "dmb_speeds_report_init": (c_int32, POINTER(SpeedsReport), c_uint32,),
+    "dmb_spring_def_init": (c_int32, POINTER(SpringDef), c_uint32,),
+    "dmb_spring_state_init": (c_int32, POINTER(SpringState), c_uint32,),
     "dmb_static_options_init": (c_int32, POINTER(StaticOptions), c_uint32,),
     "dmb_static_report_init": (c_int32, POINTER(StaticReport), c_uint32,),
     "dmb_statistics_init": (c_int32, POINTER(Statistics), c_uint32,),
@@ -248,6 +254,8 @@ FUNCTION_DOCS = {
         "Appends count (1 .. 2^20) equal pipes at the far end of a string; *string (may be NULL) names the string. Pipes are numbered along the whole string, 0 at the rig end.",
     "dmb_model_add_programme":
         "Adds a programme of term_count terms (1 .. 64), each with the same struct_size.",
+    "dmb_model_add_spring":
+        "Adds a spring. Errors: ERR_ID, _VALUE (fields, both ends on the ground or at one point, nothing that acts); dmb_model_compile: ERR_VALUE (a pipe that is not there; points that move as one), ERR_GEOMETRY (points that coincide at time 0 with a force between them), ERR_UNSUPPORTED (axial-torsional pipes in a curved hole). A spring within one rigid body and the ground, or within one element and the ground, costs no coupling of parts; another one connects its parts as a joint does.",
     "dmb_model_add_string":
         "Adds a string without pipes. The first dmb_model_add_pipes without a string makes one by default.",
     "dmb_model_add_wall":
@@ -304,6 +312,8 @@ FUNCTION_DOCS = {
         "O(number of nodes).",
     "dmb_query_multipliers":
         "Multipliers of a joint, coupling, constraint or joint drive: count of its rows (at most 6), in the units of a force per unit of its value. *count on return is the number of rows.",
+    "dmb_query_pose_at":
+        "Pose and motion of a point off a place: offset [m] in the axes of the place, shape (3). Errors as dmb_query_pose; ERR_NULL, _NOT_FINITE of the offset. O(1).",
     "dmb_query_profile":
         "Fills profile->values. Section forces, stresses and shares are NaN on rigid pipes. Buckling loads are those of a long pipe that lies on the wall without friction: sinusoidal sqrt(4 EI w_c/r) with the contact force per metre that the unbuckled pipe would have, w_c = |w_across + N_e dt/ds| (Dawson, Paslay 1984; He, Kyllingstad 1995), helical sqrt(2) times that (Chen, Lin, Cheatham 1990), but at least 2.55 and 5.55 times (EI w_along^2)^(1/3) of a vertical hole (Wu, Juvkam-Wold 1995); r the clearance of the nearest contact site, w the weight per metre with buoyancy and tool joints. Errors: ERR_VALUE (quantity, station off the string, strides that overlap), ERR_NOT_FINITE, ERR_ID; nothing is written then. O(station_count).",
     "dmb_query_reaction":
@@ -312,6 +322,8 @@ FUNCTION_DOCS = {
         "[rad] rotation about the pipe's own axis since time 0, revolutions counted.",
     "dmb_query_section":
         "Section loads of a flexible or axial-torsional pipe; ERR_UNSUPPORTED on rigid ones.",
+    "dmb_query_spring":
+        "State of a spring. Errors: ERR_ID. O(1).",
     "dmb_query_statistics":
         "O(number of joints, couplings and constraints).",
     "dmb_recorder_take":

@@ -216,6 +216,26 @@ class WallPart:
         return found
 
 
+class SpringPart:
+    """A spring and damper between two points. `table` takes pairs (elongation [m], force [N]) or two sequences."""
+
+    def __init__(self, table: Any = None, **fields: Any) -> None:
+        super().__init__(**fields)
+        self._table: list[tuple[float, float]] = []
+        if table is not None:
+            lengths, forces = _columns(table)
+            self.table_count, self._table = len(lengths), list(zip(lengths, forces))
+            self.table_elongation, self.table_force = (c_double * len(lengths))(*lengths), (c_double * len(forces))(*forces)
+
+    def describe(self, every: bool = False) -> dict[str, Any]:
+        """The fields as plain Python, `table` as given."""
+        found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
+        found.pop("table_count", None)
+        if self._table:
+            found["table"] = list(self._table)
+        return found
+
+
 class ConstraintPart:
     """A constraint on the poses of one to four `places`. `function` takes the time and a sequence of poses, each of
     twelve numbers (position, rotation matrix by rows), and returns `row_count` numbers (or one); with

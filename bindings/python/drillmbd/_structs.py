@@ -6,7 +6,7 @@ from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int
                     c_void_p)
 from typing import Any, ClassVar
 
-from ._record import ConstraintPart, IdPart, Record, Sized, TermPart, WallPart
+from ._record import ConstraintPart, IdPart, Record, Sized, SpringPart, TermPart, WallPart
 
 
 class Id(IdPart, Record):
@@ -1138,6 +1138,48 @@ class FatigueResult(Sized):
         "highest": ("Pa", "likewise"),
         "time": ("s", "between the first and the last sample"),
         "life": ("s", "time until damage 1 at this rate; infinite without damage"),
+    }
+
+
+class SpringState(Sized):
+    c_name, about = "dmb_spring_state", ""
+    struct_size: int
+    reserved: int
+    length: float
+    elongation: float
+    speed: float
+    force: float
+    elastic: float
+    damper: float
+    energy: float
+    direction: 'Array[c_double]'
+    point_a: 'Array[c_double]'
+    point_b: 'Array[c_double]'
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("length", c_double),
+        ("elongation", c_double),
+        ("speed", c_double),
+        ("force", c_double),
+        ("elastic", c_double),
+        ("damper", c_double),
+        ("energy", c_double),
+        ("direction", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+    ]
+    field_docs = {
+        "length": ("m", "between its points"),
+        "elongation": ("m", "beyond its free length"),
+        "speed": ("m/s", "the elongation grows at"),
+        "force": ("N", "tension > 0: elastic + damper"),
+        "elastic": ("N", ""),
+        "damper": ("N", ""),
+        "energy": ("J", "stored, from the free length on, of a one-sided spring from where it is slack"),
+        "direction": ("-", "from a to b, world frame, shape (3)"),
+        "point_a": ("m", "world, shape (3)"),
+        "point_b": ("m", "world, shape (3)"),
     }
 
 
@@ -2332,6 +2374,7 @@ class LoadDef(Sized):
     moment: 'Array[c_double]'
     programme: Id
     name: bytes
+    offset: 'Array[c_double]'
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("frame", c_int32),
@@ -2340,14 +2383,16 @@ class LoadDef(Sized):
         ("moment", c_double * 3),
         ("programme", Id),
         ("name", c_char * 24),
+        ("offset", c_double * 3),
     ]
     field_docs = {
         "frame": ("", "FRAME_WORLD: dead load (default); FRAME_BODY: follower"),
-        "place": ("", "pipe end of a string (fraction 0 or 1), or a body"),
+        "place": ("", "any place of a pipe, or a body; between nodes by the element's own interpolation"),
         "force": ("N", "in `frame`, shape (3)"),
         "moment": ("N m", "in `frame`, shape (3)"),
         "programme": ("-", "factor over time; {0, 0}: 1"),
         "name": ("", "for messages, ends with 0; default \"\""),
+        "offset": ("m", "of the point where it acts from the place, in its axes; default 0, shape (3)"),
     }
 
 
@@ -2425,6 +2470,58 @@ class PathOptions(Sized):
         "slip_rotation": ("rad/s", ""),
         "callback": ("", "may be NULL"),
         "callback_context": ("", ""),
+    }
+
+
+class SpringDef(SpringPart, Sized):
+    c_name, about = "dmb_spring_def", "Spring and damper between two points, tension > 0: preload + stiffness e + table(e) + damping e', e the elongation beyond free_length. Two points closer than some 1e-9 m have no direction: the length is sqrt(d^2 + (1e-9 m)^2), so that force, energy and tangent stay those of one potential. Without FEATURE_DAMPING there is no damper."
+    struct_size: int
+    acts: int
+    name: bytes
+    place_a: Place
+    place_b: Place
+    offset_a: 'Array[c_double]'
+    offset_b: 'Array[c_double]'
+    free_length: float
+    stiffness: float
+    damping: float
+    preload: float
+    table_elongation: Any
+    table_force: Any
+    table_count: int
+    table_kind: int
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("acts", c_int32),
+        ("name", c_char * 24),
+        ("place_a", Place),
+        ("place_b", Place),
+        ("offset_a", c_double * 3),
+        ("offset_b", c_double * 3),
+        ("free_length", c_double),
+        ("stiffness", c_double),
+        ("damping", c_double),
+        ("preload", c_double),
+        ("table_elongation", POINTER(c_double)),
+        ("table_force", POINTER(c_double)),
+        ("table_count", c_uint32),
+        ("table_kind", c_int32),
+    ]
+    field_docs = {
+        "acts": ("", "SPRING_...: TENSION (rope) pulls only, COMPRESSION (buffer) pushes only, the damper as long as the sum does; default SPRING_BOTH"),
+        "name": ("", "for messages, ends with 0; default \"\""),
+        "place_a": ("", "part {0, 0} (default): the ground"),
+        "place_b": ("", "likewise; not both the ground"),
+        "offset_a": ("m", "of the point from place a in its axes; ground: world; default 0, shape (3)"),
+        "offset_b": ("m", "shape (3)"),
+        "free_length": ("m", ">= 0; -1 (default): the length at time 0 as described, > 0"),
+        "stiffness": ("N/m", ">= 0; default 0"),
+        "damping": ("N s/m", ">= 0; default 0"),
+        "preload": ("N", "tension at free_length, < 0 pushes; default 0"),
+        "table_elongation": ("m", "strictly increasing, shape (table_count); copied"),
+        "table_force": ("N", "shape (table_count), beyond the ends along the last slopes; copied. Of a one-sided spring it must not fall"),
+        "table_count": ("-", "0 (default): none; 2 .. 2^16"),
+        "table_kind": ("", "TABLE_LINES (default), or TABLE_CUBIC: monotone between points, its slope without jumps"),
     }
 
 
@@ -2607,6 +2704,8 @@ STRUCTS["dmb_torque_drag_options"] = TorqueDragOptions
 STRUCTS["dmb_torque_drag_row"] = TorqueDragRow
 STRUCTS["dmb_fatigue_options"] = FatigueOptions
 STRUCTS["dmb_fatigue_result"] = FatigueResult
+STRUCTS["dmb_spring_def"] = SpringDef
+STRUCTS["dmb_spring_state"] = SpringState
 STRUCTS["dmb_modes_options"] = ModesOptions
 STRUCTS["dmb_modes_info"] = ModesInfo
 STRUCTS["dmb_mode"] = Mode

@@ -652,6 +652,28 @@ MEASURED_HOOK_LOAD = Measured.HOOK_LOAD
 MEASURED_TORQUE = Measured.TORQUE
 
 
+class SpringActs(IntEnum):
+    """Values DMB_SPRING_... of the headers."""
+    BOTH = 0
+    TENSION = 1
+    COMPRESSION = 2
+
+
+SPRING_BOTH = SpringActs.BOTH
+SPRING_TENSION = SpringActs.TENSION
+SPRING_COMPRESSION = SpringActs.COMPRESSION
+
+
+class TableKind(IntEnum):
+    """Values DMB_TABLE_... of the headers."""
+    LINES = 0
+    CUBIC = 1
+
+
+TABLE_LINES = TableKind.LINES
+TABLE_CUBIC = TableKind.CUBIC
+
+
 class ModesKind(IntEnum):
     """Values DMB_MODES_... of the headers."""
     UNDAMPED = 0  #: M d'' + K d = 0
@@ -980,6 +1002,8 @@ ENUMS = (
     Outside,
     OperationKind,
     Measured,
+    SpringActs,
+    TableKind,
     ModesKind,
     ModesSelect,
     ModesAxes,

@@ -9,7 +9,7 @@ from ._keep import Keep, as_id, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._record import Record
 from ._structs import (BitDef, BodyDef, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef, HolePoint, Id, InputDef,
-                       InputInfo, JointDef, LoadDef, ModelInfo, ModelOptions, PipeDef, Place, SimOptions, StringDef, Term, WallDef)
+                       InputInfo, JointDef, LoadDef, ModelInfo, ModelOptions, PipeDef, Place, SimOptions, SpringDef, StringDef, Term, WallDef)
 
 if TYPE_CHECKING:
     from .sim import Sim
@@ -170,6 +170,11 @@ class Model:
         """Adds an input that sims set by Sim.inputs[name], by an InputDef or its fields; returns its id."""
         return self._add("input", InputDef, definition, fields)
 
+    def add_spring(self, definition: SpringDef | None = None, **fields: Any) -> Id:
+        """Adds a spring and damper between two points, by a SpringDef or its fields; `table` takes pairs (elongation [m],
+        force [N]). Returns its id."""
+        return self._add("spring", SpringDef, definition, fields)
+
     @mirrors("dmb_model_compile")
     def compile(self, options: CompileOptions | None = None, **fields: Any) -> int:
         """Checks and freezes the scene; returns the status."""
@@ -229,7 +234,8 @@ class Model:
 _DEFINITIONS: dict[str, Any] = {
     "set_environment": EnvironmentDef, "add_wall": WallDef, "add_string": StringDef, "add_pipes": PipeDef,
     "add_body": BodyDef, "add_bit": BitDef, "add_joint": JointDef, "add_coupling": CouplingDef,
-    "add_constraint": ConstraintDef, "add_drive": DriveDef, "add_load": LoadDef, "add_input": InputDef, "compile": CompileOptions,
+    "add_constraint": ConstraintDef, "add_drive": DriveDef, "add_load": LoadDef, "add_spring": SpringDef,
+    "add_input": InputDef, "compile": CompileOptions,
     "add_programme": Term}
 
 

@@ -14,7 +14,7 @@ from ._keep import Keep, as_place, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._progress import Teller
 from ._structs import (STRUCTS, BitState, Channel, Contact, DriveState, Energy, FatigueOptions, Id, JointState, Momentum,
-                       Motion, Place, Pose, Section, SimOptions, Statistics, StepReport, WindowOptions)
+                       Motion, Place, Pose, Section, SimOptions, SpringState, Statistics, StepReport, WindowOptions)
 from .channels import channel_quantity
 from .enums import FRAME_WORLD, NOTE_CANCELLED, NOTE_STOPPED, OK
 from .errors import check
@@ -249,6 +249,16 @@ class Sim(analysis.Analyses):
         answer: Motion = self._ask(_lib.dmb_query_motion, Motion(frame=frame), place)
         return answer
 
+    def pose_at(self, place: Place, offset: Sequence[float]) -> Pose:
+        """The pose of a point `offset` [m] away from a place, in its axes."""
+        answer: Pose = self._ask(_lib.dmb_query_pose_at, Pose.blank(), place, (c_double * 3)(*offset))
+        return answer
+
+    def motion_at(self, place: Place, offset: Sequence[float], frame: int = FRAME_WORLD) -> Motion:
+        """The motion of a point `offset` [m] away from a place, in its axes."""
+        answer: Motion = self._ask(_lib.dmb_query_motion_at, Motion(frame=frame), place, (c_double * 3)(*offset))
+        return answer
+
     def rotation(self, place: Place) -> float:
         """[rad] about the pipe's own axis since time 0, revolutions counted"""
         return self._ask_number(_lib.dmb_query_rotation, place)
@@ -306,6 +316,11 @@ class Sim(analysis.Analyses):
         values, count = (c_double * 6)(), c_uint32()
         check(_lib.dmb_query_multipliers(self._handle, part, values, byref(count)))
         return list(values)[:count.value]
+
+    def spring(self, spring: Id) -> SpringState:
+        """Length, elongation [m], force [N], its shares and energy [J] of a spring."""
+        answer: SpringState = self._ask(_lib.dmb_query_spring, SpringState.blank(), spring)
+        return answer
 
     def bit(self, bit: Id) -> BitState:
         """Advance [m], depth of cut [m], weight [N] and torque [N m] of a bit."""

@@ -183,6 +183,19 @@ static void pass_joints(const groups *g)
     }
 }
 
+/* A node of a point; DMB_NONE: the ground. */
+static void pass_springs(const groups *g)
+{
+    const dmb_scene *scene = g->sim->scene;
+    for (uint32_t i = 0; i < scene->spring_count; i++) {
+        const uint32_t a = scene->springs[i].a.node, b = scene->springs[i].b.node;
+        if (a == DMB_NONE || b == DMB_NONE)
+            hold(g, a == DMB_NONE ? b : a);
+        else
+            join(g, a, b);
+    }
+}
+
 /* The caller's equations may do anything. */
 static void pass_callbacks(const groups *g)
 {
@@ -224,6 +237,7 @@ int32_t dmb_find_loose_parts(const dmb_sim *sim, dmb_loose_parts *loose)
     begin(&g);
     pass_joints(&g);
     pass_callbacks(&g);
+    pass_springs(&g);
     pass_nodes(&g);
     count_loose(&g, loose);
     dmb_release(&sim->allocator, block, bytes);

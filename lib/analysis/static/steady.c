@@ -10,6 +10,7 @@
 #include "sim/node.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/drives.h"
+#include "system/assemble/springs.h"
 #include "system/assemble/wall_contact.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
@@ -177,6 +178,47 @@ int32_t dmb_steady_check_joints(dmb_steady *steady, dmb_evaluation *evaluation)
 /* [-] Part of the largest speed that a coordinate with a spring may change at. */
 #define DMB_STEADY_SPRING 1e-6
 
+/* World velocity of a point, and of its axes. */
+static void world_motion(const dmb_point_motion *point, double v[3], double w[3])
+{
+    dmb_mat3_vec(point->R, point->V, v);
+    dmb_mat3_vec(point->R, point->V + 3, w);
+}
+
+/* The force of a spring between points is steady where both stand still, or move as one rigid body: it keeps its length
+ * then, and turns with what it pulls. */
+static int32_t check_line(dmb_sim *sim, uint32_t i, double bound)
+{
+    const dmb_scene *scene = sim->scene;
+    dmb_spring_motion m;
+    double va[3], vb[3], wa[3], wb[3], along[3], off[3], turn[3];
+    dmb_spring_motion_of(scene, &sim->trial, i, 1, &m);
+    world_motion(&m.a, va, wa);
+    world_motion(&m.b, vb, wb);
+    if (dmb_vec3_norm(va) <= bound && dmb_vec3_norm(vb) <= bound) return DMB_OK;
+    dmb_vec3_scale(m.length, m.n, along);
+    dmb_vec3_cross(wa, along, off);
+    dmb_vec3_add(off, va, off);
+    dmb_vec3_sub(vb, off, off);
+    dmb_vec3_sub(wb, wa, turn);
+    if (dmb_vec3_norm(off) <= bound && dmb_vec3_norm(turn) * m.length <= bound && m.a.nodes > 0 && m.b.nodes > 0)
+        return DMB_OK;
+    dmb_message_set(
+        &sim->message,
+        "static: spring %u: its points move at %g and %g m/s, must stand still or move as one rigid body in "
+        "a steady state; take DMB_STEADY_AT_REST",
+        i, dmb_vec3_norm(va), dmb_vec3_norm(vb));
+    return DMB_ERR_UNSUPPORTED;
+}
+
+static int32_t check_lines(dmb_sim *sim, double most)
+{
+    int32_t status = DMB_OK;
+    for (uint32_t i = 0; i < sim->scene->spring_count && status >= 0; i++)
+        status = check_line(sim, i, DMB_STEADY_SPRING * most);
+    return status;
+}
+
 int32_t dmb_steady_check_springs(const dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
@@ -202,7 +244,7 @@ int32_t dmb_steady_check_springs(const dmb_evaluation *evaluation)
             return DMB_ERR_UNSUPPORTED;
         }
     }
-    return DMB_OK;
+    return check_lines(sim, most);
 }
 
 /* ---- Residual and tangent ---------------------------------------------------------------------------------------- */

@@ -11,6 +11,7 @@
 #include "system/assemble/free_rigid.h"
 #include "system/assemble/joint_forces.h"
 #include "system/assemble/nodes.h"
+#include "system/assemble/springs.h"
 #include "system/assemble/wall_contact.h"
 #include "system/constrain/joint_state.h"
 
@@ -95,6 +96,9 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
     if (scene->load_count) dmb_gather_loads(evaluation);
     if (scene->drive_count) dmb_gather_drives(evaluation);
     if (scene->bit_count) dmb_gather_bits(evaluation);
+    if (scene->cluster_count && evaluation->tangent)
+        memset(evaluation->sim->constraint_tangent, 0, scene->tangent_count * sizeof(double));
+    if (scene->spring_count) dmb_gather_springs(evaluation);
     if (scene->cluster_count) evaluation->status = dmb_gather_joints(evaluation);
     if (evaluation->status >= 0) evaluation->status = finite_status(evaluation->sim);
     return evaluation->status;

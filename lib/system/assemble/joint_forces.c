@@ -207,8 +207,6 @@ static int32_t gather_curvatures(dmb_evaluation *evaluation)
 
 int32_t dmb_gather_joints(dmb_evaluation *evaluation)
 {
-    dmb_sim *sim = evaluation->sim;
-    if (evaluation->tangent) memset(sim->constraint_tangent, 0, sim->scene->tangent_count * sizeof(double));
     gather_forces(evaluation);
     dmb_clusters_balance(evaluation);
     return evaluation->tangent ? gather_curvatures(evaluation) : DMB_OK;

@@ -6,6 +6,7 @@
 
 #include "system/assemble/evaluation.h"
 
+/* Onto constraint_tangent, which is cleared before. */
 int32_t dmb_gather_joints(dmb_evaluation *evaluation);
 
 #endif

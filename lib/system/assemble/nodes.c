@@ -7,6 +7,7 @@
 #include "math/mat6.h"
 #include "sim/node.h"
 #include "system/assemble/evaluation.h"
+#include "system/assemble/point_load.h"
 
 /* ---- FULL nodes, by the kernels ---------------------------------------------------------------------------------- */
 
@@ -163,6 +164,11 @@ static void gather_load(dmb_evaluation *evaluation, const dmb_scene_load *load, 
 {
     dmb_sim *sim = evaluation->sim;
     double w[6], v[6], K[36];
+    if (load->point != DMB_NONE) {
+        frame_of_load(sim, load, K);
+        dmb_gather_point_load(evaluation, load, evaluation->load_factor * factor, K);
+        return;
+    }
     wrench_of(sim, load, evaluation->load_factor * factor, w);
     if (evaluation->tangent && load->frame != DMB_FRAME_BODY && sim->scene->layout.size[load->node] == DMB_NODE_FULL) {
         dmb_mat6_zero(K); /* d(R^T f) = (R^T f)~ dtheta */

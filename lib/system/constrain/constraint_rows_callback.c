@@ -13,7 +13,7 @@
 #define DMB_BEND_STEP 2e-3      /* [m, rad; s] of second derivatives along the motion */
 #define DMB_JACOBIAN_CHECK 1e-5 /* largest difference of a given Jacobian from differences, over its row's size */
 
-enum { PLACES = DMB_CONSTRAINT_NODES, COLUMNS = 6 * DMB_CONSTRAINT_NODES, ROWS = DMB_CONSTRAINT_ROWS };
+enum { PLACES = DMB_CONSTRAINT_PLACES, COLUMNS = 6 * DMB_CONSTRAINT_PLACES, ROWS = DMB_CONSTRAINT_ROWS };
 
 /* Weights of f at -2h, -h, h, 2h for f' h, and with -30/12 f(0) for f'' h^2. */
 static const double first_weight[4] = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};

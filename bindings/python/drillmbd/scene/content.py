@@ -11,7 +11,9 @@ from ..sim import Sim
 from .failure import Failure
 from .variability import Variability
 
-PARTS = ("string", "body", "bit", "joint", "coupling", "drive", "load", "input")  # in the order in which they are described
+# In the order in which they are described; NAMED: their names go to the library as they are written.
+PARTS = ("string", "body", "bit", "joint", "coupling", "drive", "load", "spring", "input")
+NAMED = ("joint", "coupling", "spring", "input")
 SINGLE = ("environment", "hole")
 ANALYSES = ("static", "modes", "response", "speeds", "buckling")
 

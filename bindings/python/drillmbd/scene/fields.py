@@ -226,7 +226,8 @@ def setting_units(target: int, drive: tuple[int, int] | None) -> dict[str, str]:
 DEFINITIONS: dict[str, Any] = {
     "environment": _structs.EnvironmentDef, "hole": _structs.WallDef, "string": _structs.StringDef,
     "pipes": _structs.PipeDef, "body": _structs.BodyDef, "bit": _structs.BitDef, "joint": _structs.JointDef,
-    "coupling": _structs.CouplingDef, "drive": _structs.DriveDef, "load": _structs.LoadDef, "term": _structs.Term,
+    "coupling": _structs.CouplingDef, "drive": _structs.DriveDef, "load": _structs.LoadDef,
+    "spring": _structs.SpringDef, "term": _structs.Term,
     "compile": _structs.CompileOptions, "sim": _structs.SimOptions, "static": _structs.StaticOptions,
     "modes": _structs.ModesOptions, "response": _structs.ResponseOptions, "speeds": _structs.SpeedsOptions,
     "buckling": _structs.BucklingOptions, "input": _structs.InputDef, "response input": _structs.Input, "output": _structs.Output,

@@ -15,7 +15,7 @@ from ..model import Model
 from . import failure, fields, survey, units, variability
 from .asked import Asked
 from .changes import apply
-from .content import ANALYSES, PARTS, SINGLE, Scene
+from .content import ANALYSES, NAMED, PARTS, SINGLE, Scene
 from .fields import DEFINITIONS, Field, ValueProblem, fields_of
 from .lines import Path, find_lines
 from .problems import Problem, Problems, SceneError, meant
@@ -208,7 +208,7 @@ class Loader:
             self.problems.add(path, value, "names no part" + meant(str(value), self.kinds))
         elif not self.problems.found:
             self.problems.add(path, value, f"names a {self.kinds[value]} that is made after this; programmes come first, "
-                                           "then strings, bodies, bits, joints, couplings, drives, loads, inputs")
+                                           "then strings, bodies, bits, joints, couplings, drives, loads, springs, inputs")
         return None
 
     def _place(self, path: Path, value: Any) -> Place | None:
@@ -339,23 +339,24 @@ class Loader:
         if values.get("kind") == enums.TERM_CALLBACK:
             self.problems.add(path + ("kind",), "callback", "is for programs; a file has tables")
         if "table" in table:
-            values["table"] = self._time_table(path + ("table",), table["table"], unit)
+            values["table"] = self._pairs(path + ("table",), table["table"], "s", unit, "time and value")
             values.pop("kind", None)
         elif values.get("kind") == enums.TERM_TABLE:
             self.problems.add(path, None, 'must have a table, as table = [["0 s", "0 m/s"], ["1 s", "0.1 m/s"]]')
         return values if len(self.problems.found) == before else None
 
-    def _time_table(self, path: Path, rows: Any, unit: str) -> list[tuple[float, float]]:
+    def _pairs(self, path: Path, rows: Any, first: str, second: str, what: str) -> list[tuple[float, float]]:
+        """A table of pairs in those units."""
         found: list[tuple[float, float]] = []
         if not isinstance(rows, list) or not rows:
-            self.problems.add(path, rows, "must be an array of pairs of time and value")
+            self.problems.add(path, rows, f"must be an array of pairs of {what}")
             return found
         for number, row in enumerate(rows):
             if not isinstance(row, list) or len(row) != 2:
-                self.problems.add(path + (number,), row, "must be a pair of time and value")
+                self.problems.add(path + (number,), row, f"must be a pair of {what}")
                 continue
             try:
-                found.append((units.parse(row[0], "s"), units.parse(row[1], unit)))
+                found.append((units.parse(row[0], first), units.parse(row[1], second)))
             except units.UnitError as error:
                 self.problems.add(path + (number,), row, str(error))
         return found
@@ -406,10 +407,12 @@ class Loader:
                    for key in ("gain", "integral_gain", "limit_low", "limit_high") if kind == "drive"}
         if kind == "input":
             special = self._setting_units(known, table)
-        values = self.read(path, table, known, ("name",), special.get)
+        values = self.read(path, table, known, ("name", "table") if kind == "spring" else ("name",), special.get)
+        if kind == "spring" and "table" in table:
+            values["table"] = self._pairs(path + ("table",), table["table"], "m", "N", "elongation and force")
         if kind == "input":
             table["name"] = name
-        if kind in ("joint", "coupling", "input") and "name" in table:
+        if kind in NAMED and "name" in table:
             try:
                 values["name"] = fields.read(fields_of(struct)["name"], name)
             except ValueProblem as error:
@@ -419,7 +422,7 @@ class Loader:
         refused = any(isinstance(value, str) and self.names.get(value, "") is None for value in table.values())
         self._put(name, kind, None)
         if not refused and not (kind == "drive" and "programme" not in values) and not (
-                len(self.problems.found) > before and kind in ("joint", "coupling", "load", "input")):
+                len(self.problems.found) > before and kind in (*NAMED, "load")):
             self._put(name, kind, self._add(path, getattr(self.model, "add_" + kind), struct, values))
 
     def _setting_units(self, known: dict[str, Field], table: dict[str, Any]) -> dict[str, str]:

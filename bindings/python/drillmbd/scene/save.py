@@ -13,7 +13,7 @@ from ..channels import Named
 from ..model import Model
 from . import failure, fields, units, variability
 from .asked import LIMITS, OUTPUT, RUN
-from .content import ANALYSES, PARTS, Scene
+from .content import ANALYSES, NAMED, PARTS, Scene
 from .fields import DEFINITIONS, fields_of
 from .terms import PerRevolution
 
@@ -118,7 +118,7 @@ class Writer:
         for kind in PARTS[1:]:
             for number, (made, description) in enumerate(self.parts.get(kind, [])):
                 name = self.names[made.index]  # one of its own is left out, so that the library has none for messages
-                unnamed = kind in ("joint", "coupling") and "name" not in description and name == f"{kind}-{number}"
+                unnamed = kind in NAMED and "name" not in description and name == f"{kind}-{number}"
                 self._part(kind, None if unnamed else name, description)
         self._settings()
         return "\n".join(self.lines) + "\n"
@@ -135,7 +135,7 @@ class Writer:
         """The fields of a struct that are not at their defaults."""
         known = fields_of(DEFINITIONS[struct])
         for key, value in values.items():
-            if key in known and not (key == "name" and struct in ("joint", "coupling", "input")):
+            if key in known and not (key == "name" and struct in NAMED):
                 self._key(key, self._plain(known[key], value, unit_of(key) if unit_of else None))
 
     def _plain(self, field: Any, value: Any, unit: str | None) -> Any:
@@ -195,6 +195,8 @@ class Writer:
             return None
 
         self._table(kind, description, unit_of)
+        if kind == "spring" and description.get("table"):
+            self._key("table", [[units.text(x, "m"), units.text(f, "N")] for x, f in description["table"]])
 
     def _setting_units(self, description: dict[str, Any]) -> dict[str, str]:
         part = description.get("part")

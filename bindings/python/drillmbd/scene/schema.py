@@ -18,6 +18,9 @@ _PLACE: dict[str, Any] = {"oneOf": [_NAME, {
                    "fraction": {"type": "number", "minimum": 0, "maximum": 1}}}]}
 _QUANTITY: dict[str, Any] = {"oneOf": [{"type": "string", "pattern": r"^\s*[-+]?[\d.]"}, {"type": "number"}]}
 
+_TABLE: dict[str, Any] = {"type": "array", "minItems": 1,
+                          "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": _QUANTITY}}
+
 
 def _field(field: Field) -> dict[str, Any]:
     number: dict[str, Any] = {"type": ["number", "string"]}
@@ -47,8 +50,7 @@ def _many(one: dict[str, Any]) -> dict[str, Any]:
 
 def _term() -> dict[str, Any]:
     known = fields_of(DEFINITIONS["term"])
-    table = {"type": "array", "minItems": 1, "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": _QUANTITY}}
-    made = _object(known, table=table, of=_NAME, share={"type": ["number", "string"]}, order={"type": ["number", "string"]})
+    made = _object(known, table=_TABLE, of=_NAME, share={"type": ["number", "string"]}, order={"type": ["number", "string"]})
     made["properties"]["kind"]["enum"].append("per-revolution")
     made["properties"]["kind"]["enum"].remove("callback")
     return made
@@ -69,7 +71,8 @@ def schema() -> dict[str, Any]:
         "channel": _many(_object({"quantity": Field("quantity", "enum", enum=Named),
                                   "place": Field("place", "place")}, ("quantity",), name=_NAME))}
     for kind in PARTS:
-        more: dict[str, Any] = {"name": _NAME, **({"pipes": _many(pipes)} if kind == "string" else {})}
+        more: dict[str, Any] = {"name": _NAME, **({"pipes": _many(pipes)} if kind == "string" else {}),
+                                **({"table": _TABLE} if kind == "spring" else {})}
         properties[kind] = _many(_object(fields_of(DEFINITIONS[kind]), **more))
     for kind in ANALYSES:
         properties[kind] = _object(fields_of(DEFINITIONS[kind]), **_asked(kind))

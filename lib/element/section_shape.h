@@ -1,0 +1,38 @@
+/* What the shapes of bending add to the helix inside an element: H(x) = exp(x d) exp(c(x) d), see
+ * query/interpolation.h and THEORY 3. */
+#ifndef DMB_ELEMENT_SECTION_SHAPE_H
+#define DMB_ELEMENT_SECTION_SHAPE_H
+
+#include "element/element_type.h"
+
+typedef struct dmb_section_shape {
+    double x;       /* [-] fraction of the flexible length */
+    double move[2]; /* [-] sideways displacement per unit of d_y, d_z: N3 - x */
+    double turn[2]; /* [rad/m] turning of the section per unit of d_y, d_z: G3 */
+} dmb_section_shape;
+
+/* The shape at fraction x; bending 0 leaves c out (axial-torsional bars). */
+void dmb_section_shape_at(const dmb_element_type *type, double x, int bending, dmb_section_shape *shape);
+
+/* out = c(x) d. Linear in d: rates map alike. */
+void dmb_section_shape_correct(const dmb_section_shape *shape, const double d[6], double out[6]);
+
+/* The section seen from the element's nodes, and the twist of the section by theirs, to be used where forces act inside
+ * an element. R_a, R_b: axes of the nodes in the world, span: from node a to node b, world. */
+
+/* d = log(H_A^-1 H_B) of the flexible ends. */
+void dmb_section_ends(const dmb_element_type *type, const double Ra[9], const double Rb[9], const double span[3],
+                      double d[6]);
+/* Rotation Q of the section and its place r [m] in the frame of node a. */
+void dmb_section_pose(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6], double Q[9],
+                      double r[3]);
+/* Exact d' of the ends by the body-frame velocities of the nodes, shape (6, 12). */
+void dmb_section_strain_map(const dmb_element_type *type, const double d[6], double map[72]);
+/* Exact body-frame velocity of the section by those of the nodes, shape (6, 12). */
+void dmb_section_map(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6], double map[72]);
+/* K, shape (12, 12): change of map^T w by body-frame displacements of the nodes, w a wrench that stays the same in the
+ * axes of the section. */
+void dmb_section_map_tangent(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6],
+                             const double w[6], double K[144]);
+
+#endif

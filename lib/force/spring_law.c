@@ -1,0 +1,156 @@
+#include "force/spring_law.h"
+
+#include <math.h>
+
+#include "drillmbd/forces.h"
+
+#define DMB_SLACK_FAR 1e9 /* [m] no elongation lies beyond */
+
+/* ---- Table ------------------------------------------------------------------------------------------------------- */
+
+static double slope_between(const dmb_spring_point *p)
+{
+    return (p[1].force - p[0].force) / (p[1].elongation - p[0].elongation);
+}
+
+/* Fritsch and Butland 1984: weighted harmonic mean of the slopes on both sides, 0 where they differ in sign. */
+static double inner_slope(const dmb_spring_point *p)
+{
+    const double h0 = p[0].elongation - p[-1].elongation, h1 = p[1].elongation - p[0].elongation;
+    const double d0 = slope_between(p - 1), d1 = slope_between(p);
+    if (!(d0 * d1 > 0.0)) return 0.0;
+    const double w0 = 2.0 * h1 + h0, w1 = h1 + 2.0 * h0;
+    return (w0 + w1) / (w0 / d0 + w1 / d1);
+}
+
+static void set_slopes(dmb_spring_point *points, uint32_t count, int cubic)
+{
+    for (uint32_t i = 0; i + 1 < count; i++) points[i].slope[0] = points[i].slope[1] = slope_between(points + i);
+    points[count - 1].slope[0] = points[count - 1].slope[1] = points[count - 2].slope[1];
+    if (!cubic) return;
+    for (uint32_t i = 1; i + 1 < count; i++) points[i - 1].slope[1] = points[i].slope[0] = inner_slope(points + i);
+}
+
+/* Over a piece of length h the cubic of Hermite integrates to h (f0 + f1)/2 + h^2 (s0 - s1)/12. */
+void dmb_spring_table_prepare(dmb_spring_point *points, uint32_t count, int cubic)
+{
+    set_slopes(points, count, cubic);
+    points[0].energy = 0.0;
+    for (uint32_t i = 0; i + 1 < count; i++) {
+        const dmb_spring_point *p = points + i;
+        const double h = p[1].elongation - p[0].elongation;
+        points[i + 1].energy =
+            p->energy + h * (0.5 * (p[0].force + p[1].force) + h * (p->slope[0] - p->slope[1]) / 12.0);
+    }
+}
+
+typedef struct table_value {
+    double force, slope, energy;
+} table_value;
+
+/* Along a straight line from a point. */
+static table_value beyond(const dmb_spring_point *p, double x, double slope)
+{
+    const double h = x - p->elongation;
+    const table_value value = {p->force + slope * h, slope, p->energy + h * (p->force + 0.5 * slope * h)};
+    return value;
+}
+
+/* f0 + h (s0 u + a u^2 + b u^3), a = 3 d - 2 s0 - s1, b = s0 + s1 - 2 d, u = 0 .. 1, d the slope between. */
+static table_value inside(const dmb_spring_point *p, double x)
+{
+    const double h = p[1].elongation - p[0].elongation, u = (x - p->elongation) / h, d = slope_between(p);
+    const double s0 = p->slope[0], a = 3.0 * d - 2.0 * s0 - p->slope[1], b = s0 + p->slope[1] - 2.0 * d;
+    const table_value value = {p->force + h * u * (s0 + u * (a + u * b)), s0 + u * (2.0 * a + 3.0 * u * b),
+                               p->energy + h * u * (p->force + h * u * (s0 / 2.0 + u * (a / 3.0 + u * b / 4.0)))};
+    return value;
+}
+
+static table_value table_at(const dmb_spring_law *law, const dmb_spring_point *points, double x)
+{
+    const table_value none = {0.0, 0.0, 0.0};
+    uint32_t low = 0, high = law->count;
+    if (law->count == 0) return none;
+    if (x <= points[0].elongation) return beyond(points, x, points[0].slope[0]);
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (points[middle].elongation <= x)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low + 1 == law->count ? beyond(points + low, x, points[low].slope[0]) : inside(points + low, x);
+}
+
+/* ---- Law --------------------------------------------------------------------------------------------------------- */
+
+static double elastic_at(const dmb_spring_law *law, const dmb_spring_point *points, double x)
+{
+    return law->preload + law->stiffness * x + table_at(law, points, x).force;
+}
+
+/* Integral of the two-sided elastic force, but for a constant. */
+static double integral_at(const dmb_spring_law *law, const dmb_spring_point *points, double x)
+{
+    return x * (law->preload + 0.5 * law->stiffness * x) + table_at(law, points, x).energy;
+}
+
+/* Where a force that never falls passes through 0; bisection to the last bit. */
+static int find_slack(dmb_spring_law *law, const dmb_spring_point *points)
+{
+    double low = -DMB_SLACK_FAR, high = DMB_SLACK_FAR;
+    if (!(elastic_at(law, points, low) < 0.0) || !(elastic_at(law, points, high) > 0.0)) return 0;
+    for (int i = 0; i < 1200; i++) {
+        const double middle = 0.5 * (low + high), force = elastic_at(law, points, middle);
+        if (middle <= low || middle >= high) break;
+        if (force < 0.0 || (law->acts == DMB_SPRING_TENSION && force == 0.0))
+            low = middle;
+        else
+            high = middle;
+    }
+    law->slack = law->acts == DMB_SPRING_TENSION ? low : high;
+    return 1;
+}
+
+int dmb_spring_law_prepare(dmb_spring_law *law, const dmb_spring_point *points)
+{
+    law->slack = 0.0;
+    if (law->acts != DMB_SPRING_BOTH && !find_slack(law, points)) return 0;
+    law->zero = integral_at(law, points, law->slack);
+    return 1;
+}
+
+static int is_slack(const dmb_spring_law *law, double elongation)
+{
+    if (law->acts == DMB_SPRING_TENSION) return elongation <= law->slack;
+    return law->acts == DMB_SPRING_COMPRESSION && elongation >= law->slack;
+}
+
+/* A one-sided spring whose damper would turn the sum round gives none. */
+static int turns_round(const dmb_spring_law *law, const dmb_spring_force *force)
+{
+    const double sum = force->elastic + force->damper;
+    return law->acts == DMB_SPRING_TENSION ? sum < 0.0 : law->acts == DMB_SPRING_COMPRESSION && sum > 0.0;
+}
+
+void dmb_spring_force_at(const dmb_spring_law *law, const dmb_spring_point *points, double elongation, double speed,
+                         dmb_spring_force *force)
+{
+    const dmb_spring_force none = {0.0, 0.0, 0.0, 0.0};
+    *force = none;
+    if (is_slack(law, elongation)) return;
+    const table_value table = table_at(law, points, elongation);
+    force->elastic = law->preload + law->stiffness * elongation + table.force;
+    force->damper = law->damping * speed;
+    if (turns_round(law, force)) {
+        force->damper = -force->elastic;
+        return;
+    }
+    force->by_elongation = law->stiffness + table.slope;
+    force->by_speed = law->damping;
+}
+
+double dmb_spring_energy_at(const dmb_spring_law *law, const dmb_spring_point *points, double elongation)
+{
+    return is_slack(law, elongation) ? 0.0 : integral_at(law, points, elongation) - law->zero;
+}

@@ -1,0 +1,150 @@
+/* Springs between two points. */
+#include "base/checked_size.h"
+#include "base/memory.h"
+#include "model/describe.h"
+#include "model/field_check.h"
+#include "model/limits.h"
+
+enum { TABLE_MAX = 1 << 16 };
+
+/* ---- Points ------------------------------------------------------------------------------------------------------ */
+
+static void check_point(dmb_check *check, const dmb_model *model, const char *place_field, const dmb_place *place,
+                        const char *offset_field, const double offset[3])
+{
+    const bool ground = dmb_id_is_none(place->part);
+    const double reach = ground ? DMB_POSITION_MAX : DMB_LENGTH_MAX;
+    if (!ground) dmb_check_place(check, model, place_field, place);
+    dmb_check_each_within(check, offset_field, offset, 3, -reach, reach);
+}
+
+static bool is_same_point(const dmb_spring_def *def)
+{
+    const dmb_place *a = &def->place_a, *b = &def->place_b;
+    if (a->part.index != b->part.index || a->part.generation != b->part.generation || a->pipe != b->pipe) return false;
+    if (a->fraction < b->fraction || a->fraction > b->fraction) return false;
+    for (int k = 0; k < 3; ++k)
+        if (def->offset_a[k] < def->offset_b[k] || def->offset_a[k] > def->offset_b[k]) return false;
+    return true;
+}
+
+static void check_points(dmb_check *check, const dmb_model *model, const dmb_spring_def *def)
+{
+    check_point(check, model, "place_a", &def->place_a, "offset_a", def->offset_a);
+    check_point(check, model, "place_b", &def->place_b, "offset_b", def->offset_b);
+    if (check->status < 0) return;
+    if (dmb_id_is_none(def->place_a.part) && dmb_id_is_none(def->place_b.part)) {
+        check->status = DMB_ERR_VALUE;
+        dmb_message_set(check->message, "%s: place_b = the ground as place_a, must be on a part", check->part);
+    } else if (is_same_point(def)) {
+        check->status = DMB_ERR_VALUE;
+        dmb_message_set(check->message, "%s: place_b with offset_b = the point of place_a, must be another one",
+                        check->part);
+    }
+}
+
+/* ---- Characteristic ---------------------------------------------------------------------------------------------- */
+
+static void check_table(dmb_check *check, const dmb_spring_def *def)
+{
+    const double *x = def->table_elongation, *f = def->table_force;
+    dmb_check_count(check, "table_count (0, or 2 and more)", def->table_count, 2, TABLE_MAX);
+    dmb_check_pointer(check, "table_elongation", x);
+    dmb_check_pointer(check, "table_force", f);
+    if (check->status < 0) return;
+    dmb_check_each_within(check, "table_elongation", x, def->table_count, -DMB_POSITION_MAX, DMB_POSITION_MAX);
+    dmb_check_each_within(check, "table_force", f, def->table_count, -DMB_FORCE_MAX, DMB_FORCE_MAX);
+    dmb_check_increasing(check, "table_elongation", x, def->table_count, 1);
+    for (uint32_t i = 1; i < def->table_count && check->status == DMB_OK; ++i) {
+        if (x[i] - x[i - 1] < DMB_DEPTH_MIN)
+            dmb_check_fail(check, DMB_ERR_VALUE, "table_elongation", x[i], "> the one before by 1e-12 m");
+        if (def->acts != DMB_SPRING_BOTH && f[i] < f[i - 1])
+            dmb_check_fail(check, DMB_ERR_VALUE, "table_force", f[i], ">= the one before in a one-sided spring");
+    }
+}
+
+static void check_law(dmb_check *check, const dmb_spring_def *def)
+{
+    dmb_check_choice(check, "acts", def->acts, DMB_SPRING_BOTH, DMB_SPRING_COMPRESSION);
+    dmb_check_choice(check, "table_kind", def->table_kind, DMB_TABLE_LINES, DMB_TABLE_CUBIC);
+    dmb_check_finite(check, "free_length", def->free_length);
+    if (def->free_length < 0.0 ? def->free_length > -1.0 || def->free_length < -1.0 : def->free_length > DMB_LENGTH_MAX)
+        dmb_check_fail(check, DMB_ERR_VALUE, "free_length", def->free_length, "0 .. 1e6, or -1: as described");
+    dmb_check_within(check, "stiffness", def->stiffness, 0.0, DMB_STIFFNESS_MAX);
+    dmb_check_within(check, "damping", def->damping, 0.0, DMB_DAMPING_MAX);
+    dmb_check_within(check, "preload", def->preload, -DMB_FORCE_MAX, DMB_FORCE_MAX);
+    if (def->table_count > 0 && check->status >= 0) check_table(check, def);
+    if (def->stiffness > 0.0 || def->damping > 0.0 || fabs(def->preload) > 0.0 || def->table_count > 0) return;
+    dmb_check_fail(check, DMB_ERR_VALUE, "stiffness", def->stiffness,
+                   "> 0, or damping, preload or a table: nothing acts");
+}
+
+static int32_t check_spring(dmb_model *model, const dmb_spring_def *def)
+{
+    dmb_message part;
+    dmb_check check = dmb_check_of(
+        &model->message, dmb_part_text(&part, "spring", model->springs.count, def->name, sizeof def->name), DMB_NONE);
+    dmb_check_name(&check, "name", def->name, sizeof def->name);
+    check_points(&check, model, def);
+    check_law(&check, def);
+    return check.status;
+}
+
+/* ---- The model's copy -------------------------------------------------------------------------------------------- */
+
+void dmb_spring_release(dmb_spring_plan *spring, const dmb_allocator *allocator)
+{
+    dmb_release(allocator, spring->points, spring->law.count * sizeof *spring->points);
+    spring->points = NULL;
+}
+
+static int32_t copy_table(dmb_model *model, dmb_spring_plan *spring)
+{
+    const dmb_spring_def *def = &spring->def;
+    if (def->table_count == 0) return DMB_OK;
+    spring->points = dmb_allocate(&model->allocator, def->table_count * sizeof *spring->points);
+    if (spring->points == NULL) return DMB_ERR_NO_MEMORY;
+    for (uint32_t i = 0; i < def->table_count; ++i) {
+        spring->points[i].elongation = def->table_elongation[i];
+        spring->points[i].force = def->table_force[i];
+    }
+    dmb_spring_table_prepare(spring->points, def->table_count, def->table_kind == DMB_TABLE_CUBIC);
+    spring->law.count = def->table_count;
+    return DMB_OK;
+}
+
+static int32_t make_law(dmb_model *model, dmb_spring_plan *spring)
+{
+    const dmb_spring_def *def = &spring->def;
+    dmb_message part;
+    spring->law = (dmb_spring_law){
+        .stiffness = def->stiffness, .damping = def->damping, .preload = def->preload, .acts = def->acts};
+    const int32_t status = copy_table(model, spring);
+    if (status < 0 || dmb_spring_law_prepare(&spring->law, spring->points)) return status;
+    dmb_message_set(&model->message,
+                    "%s: acts = %d, must be 0 (both sides) where the elastic force does not pass through 0 within "
+                    "+-1e9 m: give a stiffness, or a table that does",
+                    dmb_part_text(&part, "spring", model->springs.count, def->name, sizeof def->name), (int)def->acts);
+    return DMB_ERR_VALUE;
+}
+
+static int32_t append_spring(dmb_model *model, const dmb_spring_def *def, dmb_id *id)
+{
+    dmb_spring_plan spring = {.def = *def};
+    int32_t status = make_law(model, &spring);
+    spring.def.table_elongation = spring.def.table_force = NULL;
+    if (status >= 0) status = dmb_describe_append(model, &model->springs, &spring, sizeof spring, DMB_PART_SPRING, id);
+    if (status < 0) dmb_spring_release(&spring, &model->allocator);
+    return status;
+}
+
+int32_t dmb_model_add_spring(dmb_model *model, const dmb_spring_def *def, dmb_id *spring)
+{
+    dmb_spring_def read = dmb_spring_def_default();
+    int32_t status = dmb_describe_open(model, "spring", def);
+    if (status < 0) return status;
+    status = dmb_spring_def_read(&read, def);
+    if (status >= 0) status = check_spring(model, &read);
+    if (status >= 0) status = append_spring(model, &read, spring);
+    return dmb_describe_end(model, "spring", &read, sizeof read, status);
+}

@@ -1,0 +1,149 @@
+/* Points of forces at any place, and springs between them, from the parts they are described on to nodes and
+ * elements. */
+#include <math.h>
+#include <string.h>
+
+#include "element/section_shape.h"
+#include "math/so3.h"
+#include "model/field_check.h"
+#include "model/limits.h"
+#include "model/mesh.h"
+
+/* ---- Points ------------------------------------------------------------------------------------------------------ */
+
+/* Inside an element; the pipe is elastic and the place not rigid with a node. */
+static void point_in_element(const dmb_mesh *mesh, const dmb_place *place, dmb_scene_point *point)
+{
+    const uint32_t string = dmb_model_part_index(mesh->model, place->part, DMB_PART_STRING);
+    const dmb_pipe_map *pipe = dmb_mesh_pipe_at(mesh, dmb_mesh_string_at(mesh, string)->first_pipe + place->pipe);
+    const double position = place->fraction * pipe->length * pipe->elements / (pipe->length - pipe->joint);
+    const uint32_t last = pipe->elements - 1, k = position < last ? (uint32_t)position : last;
+    point->element = pipe->element + k;
+    point->fraction = fmin(position - k, 1.0);
+    point->node = dmb_mesh_element_at(mesh, point->element)->node;
+}
+
+dmb_scene_point dmb_mesh_point(dmb_check *check, const dmb_mesh *mesh, const char *field, const dmb_place *place,
+                               const double offset[3])
+{
+    dmb_scene_point point = {{offset[0], offset[1], offset[2]}, 0.0, DMB_NONE, DMB_NONE};
+    dmb_mesh_place rigid = {0, 0.0};
+    if (dmb_id_is_none(place->part)) return point;
+    dmb_mesh_check_pipe(check, mesh, field, place);
+    if (check->status < 0) return point;
+    if (dmb_mesh_place_of(mesh, place, &rigid)) {
+        point.node = rigid.node;
+        point.x[0] += rigid.arm;
+    } else {
+        point_in_element(mesh, place, &point);
+        dmb_mesh_check_node(check, mesh, field, place, point.node + 1);
+    }
+    dmb_mesh_check_node(check, mesh, field, place, point.node);
+    return point;
+}
+
+/* ---- Springs ----------------------------------------------------------------------------------------------------- */
+
+static bool move_as_one(const dmb_scene_spring *spring)
+{
+    return spring->a.element == DMB_NONE && spring->b.element == DMB_NONE && spring->a.node == spring->b.node;
+}
+
+static void check_ends(dmb_check *check, const dmb_scene_spring *spring)
+{
+    if (check->status < 0 || !move_as_one(spring)) return;
+    check->status = DMB_ERR_VALUE;
+    dmb_message_set(check->message, "%s: place_b = one rigid body with place_a, must be on another part", check->part);
+}
+
+static int32_t append_table(dmb_mesh *mesh, const dmb_spring_plan *plan, dmb_scene_spring *spring)
+{
+    spring->law.first = (uint32_t)mesh->spring_points.count;
+    if (spring->law.count > UINT32_MAX - spring->law.first) return DMB_ERR_TOO_LARGE;
+    return dmb_vector_append(&mesh->spring_points, &mesh->model->allocator, plan->points, spring->law.count);
+}
+
+/* Section of the element that the point is in: rotation and place in the frame of node a, at time 0. */
+static void section_of(const dmb_mesh *mesh, const dmb_scene_point *point, const double Ra[9], double Q[9], double r[3])
+{
+    const dmb_mesh_element *element = dmb_mesh_element_at(mesh, point->element);
+    const dmb_element_type *type = DMB_VECTOR_AT(dmb_element_type, &mesh->types, element->type);
+    dmb_section_shape shape;
+    double Rb[9], d[6];
+    dmb_quat_to_matrix(dmb_mesh_node_at(mesh, point->node + 1)->quaternion, Rb);
+    dmb_section_shape_at(type, point->fraction, element->kernel != DMB_KERNEL_PATH, &shape);
+    dmb_section_ends(type, Ra, Rb, element->span, d);
+    dmb_section_pose(type, &shape, d, Q, r);
+}
+
+/* From the origin of the point's node, world axes, at time 0. */
+static void from_node(const dmb_mesh *mesh, const dmb_scene_point *point, double x[3])
+{
+    double R[9], Q[9], r[3];
+    dmb_vec3_copy(point->x, x);
+    if (point->node == DMB_NONE) return;
+    dmb_quat_to_matrix(dmb_mesh_node_at(mesh, point->node)->quaternion, R);
+    if (point->element != DMB_NONE) {
+        section_of(mesh, point, R, Q, r);
+        dmb_mat3_vec(Q, x, x);
+        dmb_vec3_add(r, x, x);
+    }
+    dmb_mat3_vec(R, x, x);
+}
+
+/* [m] between the points at time 0; fills the span. */
+static double length_of(const dmb_mesh *mesh, dmb_scene_spring *spring)
+{
+    double a[3], b[3];
+    if (spring->b.node != DMB_NONE) dmb_mesh_span(mesh, spring->a.node, spring->b.node, spring->span);
+    if (spring->b.node == DMB_NONE) { /* the ground: its points count from the world's origin */
+        dmb_mesh_span(mesh, DMB_NONE, spring->a.node, spring->span);
+        dmb_vec3_scale(-1.0, spring->span, spring->span);
+    }
+    from_node(mesh, &spring->a, a);
+    from_node(mesh, &spring->b, b);
+    dmb_vec3_sub(b, a, b);
+    dmb_vec3_add(b, spring->span, b);
+    return dmb_vec3_norm(b);
+}
+
+/* A force between points in one place has no direction. */
+static void take_length(dmb_check *check, const dmb_spring_plan *plan, double length, dmb_scene_spring *spring)
+{
+    dmb_spring_force force;
+    if (plan->def.free_length < 0.0) spring->free_length = length;
+    if (!(length < DMB_LENGTH_MIN)) return;
+    dmb_spring_force_at(&plan->law, plan->points, length - spring->free_length, 0.0, &force);
+    if (plan->def.free_length >= 0.0 && !(fabs(force.elastic) > DMB_STIFFNESS_MIN)) return;
+    check->status = DMB_ERR_GEOMETRY;
+    dmb_message_set(check->message,
+                    "%s: its points are %g m apart at time 0, must be >= %g m where a force acts between them, which "
+                    "else has no direction: move a point, or give a free_length without force there",
+                    check->part, length, DMB_LENGTH_MIN);
+}
+
+static int32_t add_spring(dmb_mesh *mesh, uint32_t i)
+{
+    const dmb_spring_plan *plan = DMB_LIST_AT(const dmb_spring_plan, mesh->model->springs, i);
+    const dmb_spring_def *def = &plan->def;
+    dmb_message part;
+    dmb_check check =
+        dmb_check_of(&mesh->model->message, dmb_part_text(&part, "spring", i, def->name, sizeof def->name), DMB_NONE);
+    dmb_scene_spring spring = {.law = plan->law, .free_length = def->free_length, .constraint = DMB_NONE};
+    memcpy(spring.name, def->name, sizeof spring.name);
+    spring.a = dmb_mesh_point(&check, mesh, "place_a", &def->place_a, def->offset_a);
+    if (check.status >= 0) spring.b = dmb_mesh_point(&check, mesh, "place_b", &def->place_b, def->offset_b);
+    check_ends(&check, &spring);
+    if (check.status >= 0) take_length(&check, plan, length_of(mesh, &spring), &spring);
+    if (check.status < 0) return check.status;
+    if ((mesh->options.features & DMB_FEATURE_DAMPING) == 0) spring.law.damping = 0.0;
+    const int32_t status = append_table(mesh, plan, &spring);
+    return status < 0 ? status : dmb_vector_append(&mesh->springs, &mesh->model->allocator, &spring, 1);
+}
+
+int32_t dmb_mesh_forces(dmb_mesh *mesh)
+{
+    int32_t status = DMB_OK;
+    for (uint32_t i = 0; i < mesh->model->springs.count && status >= 0; ++i) status = add_spring(mesh, i);
+    return status;
+}

@@ -1,0 +1,206 @@
+#include "system/assemble/springs.h"
+
+#include <string.h>
+
+#include "math/mat6.h"
+#include "math/vec3.h"
+
+#define DMB_SPRING_NEAR 1e-9 /* [m] points closer than some of these have no direction */
+
+static const dmb_spring_point *points_of(const dmb_scene *scene, const dmb_scene_spring *spring)
+{
+    return scene->spring_points + spring->law.first;
+}
+
+/* R_b v_b - R_a v_a */
+static void relative_velocity(const dmb_spring_motion *m, double v[3])
+{
+    double va[3];
+    dmb_mat3_vec(m->b.R, m->b.V, v);
+    dmb_mat3_vec(m->a.R, m->a.V, va);
+    dmb_vec3_sub(v, va, v);
+}
+
+void dmb_spring_motion_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t spring, int rates,
+                          dmb_spring_motion *motion)
+{
+    const dmb_scene_spring *s = scene->springs + spring;
+    double d[3], v[3];
+    dmb_point_motion_of(scene, configuration, &s->a, &motion->a);
+    dmb_point_motion_of(scene, configuration, &s->b, &motion->b);
+    dmb_vec3_sub(motion->b.x, motion->a.x, d);
+    dmb_vec3_add(d, s->span, d);
+    motion->length = sqrt(dmb_vec3_norm_squared(d) + DMB_SPRING_NEAR * DMB_SPRING_NEAR);
+    dmb_vec3_scale(1.0 / motion->length, d, motion->n);
+    relative_velocity(motion, v);
+    motion->rate = rates ? dmb_vec3_dot(motion->n, v) : 0.0;
+    dmb_spring_force_at(&s->law, points_of(scene, s), motion->length - s->free_length, motion->rate, &motion->force);
+}
+
+/* (R^T n; 0): the line in the axes of a point. */
+static void line_at(const dmb_point_motion *point, const double n[3], double w[6])
+{
+    dmb_mat3_tvec(point->R, n, w);
+    dmb_vec3_zero(w + 3);
+}
+
+/* ---- Tangent ----------------------------------------------------------------------------------------------------- */
+
+/* The residual of a spring is t J^T, J the gradient of l by displacements of the nodes, l' = J v:
+ *
+ *     K = J^T (dt/de J + dt/de' dl'/dq) + t dJ^T,   C = dt/de' J^T J,
+ *     J = sum s (R^T n; 0)^T map,  dJ^T = sum s map^T (R^T dn + (R^T n) x theta; 0) + s d(map^T) (R^T n; 0)
+ *
+ * over both points, s = 1 at b and -1 at a, dn = (I - n n^T)/l (R_b z_b - R_a z_a). */
+typedef double wide_row[DMB_CONSTRAINT_COLUMNS];
+
+typedef struct spring_tangent {
+    dmb_force_tangent sum;
+    wide_row gradient, rate; /* J, dl'/dq */
+    wide_row turn[3];        /* dn */
+} spring_tangent;
+
+/* R rows of the point's move, world axis i. */
+static void add_move(const dmb_scene *scene, const dmb_force_tangent *sum, const dmb_point_motion *point, int i,
+                     double sign, double *row)
+{
+    const double *R = point->R + 3 * i, w[6] = {sign * R[0], sign * R[1], sign * R[2], 0.0, 0.0, 0.0};
+    dmb_force_tangent_row(scene, sum, point, w, row);
+}
+
+static void turn_of_line(const dmb_scene *scene, const dmb_spring_motion *m, spring_tangent *t)
+{
+    for (int i = 0; i < 3; i++) {
+        add_move(scene, &t->sum, &m->b, i, 1.0, t->turn[i]);
+        add_move(scene, &t->sum, &m->a, i, -1.0, t->turn[i]);
+    }
+    for (uint32_t c = 0; c < t->sum.columns; c++) {
+        const double x[3] = {t->turn[0][c], t->turn[1][c], t->turn[2][c]}, along = dmb_vec3_dot(m->n, x);
+        for (int i = 0; i < 3; i++) t->turn[i][c] = (x[i] - along * m->n[i]) / m->length;
+    }
+}
+
+/* d(R v) = R (theta x v), and v by the map that changes: n . of both; A as of dmb_point_map_tangent for the line. */
+static void add_rate(const dmb_scene *scene, const dmb_point_motion *point, const double line[6], double sign,
+                     const double A[144], spring_tangent *t)
+{
+    double w[6] = {0.0}, values[12] = {0.0};
+    dmb_vec3_cross(point->V, line, w + 3);
+    dmb_vec3_scale(sign, w + 3, w + 3);
+    dmb_force_tangent_row(scene, &t->sum, point, w, t->rate);
+    for (uint32_t r = 0; r < 12; r++)
+        for (uint32_t c = 0; c < 12; c++) values[c] += sign * point->v[r] * A[12 * r + c];
+    dmb_force_tangent_columns(scene, &t->sum, point, values, t->rate);
+}
+
+/* t s map^T (R^T dn + (R^T n) x theta; 0) */
+static void add_turn(const dmb_scene *scene, const dmb_point_motion *point, const double line[6], double factor,
+                     spring_tangent *t)
+{
+    const uint32_t n = t->sum.columns;
+    for (int i = 0; i < 3; i++) {
+        wide_row move = {0.0}, turn = {0.0};
+        double e[6] = {0.0}, across[6] = {0.0};
+        e[i] = 1.0;
+        dmb_vec3_cross(e, line, across + 3); /* e . (line x theta) = (e x line) . theta */
+        dmb_force_tangent_row(scene, &t->sum, point, e, move);
+        dmb_force_tangent_row(scene, &t->sum, point, across, turn);
+        for (uint32_t c = 0; c < n; c++)
+            for (int k = 0; k < 3; k++) turn[c] += point->R[3 * k + i] * t->turn[k][c];
+        for (uint32_t r = 0; r < n; r++)
+            for (uint32_t c = 0; c < n; c++) t->sum.K[(size_t)r * n + c] += factor * move[r] * turn[c];
+    }
+}
+
+static void add_point(const dmb_evaluation *evaluation, const dmb_spring_motion *m, const dmb_point_motion *point,
+                      double sign, spring_tangent *t)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    const double tension = m->force.elastic + m->force.damper;
+    double line[6], signed_line[6], A[144];
+    line_at(point, m->n, line);
+    for (int i = 0; i < 6; i++) signed_line[i] = sign * line[i];
+    dmb_force_tangent_row(scene, &t->sum, point, signed_line, t->gradient);
+    dmb_point_map_tangent(scene, point, line, A);
+    dmb_force_tangent_block(scene, &t->sum, point, sign * tension, A);
+    add_turn(scene, point, line, sign * tension, t);
+    if (evaluation->dynamic) add_rate(scene, point, line, sign, A, t);
+}
+
+static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_spring *spring, const dmb_spring_motion *m)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    const double by_elongation = m->force.by_elongation, by_speed = evaluation->dynamic ? m->force.by_speed : 0.0;
+    double v[3];
+    spring_tangent t;
+    memset(t.gradient, 0, sizeof t - offsetof(spring_tangent, gradient));
+    dmb_force_tangent_begin(&t.sum);
+    dmb_force_tangent_touch(scene, &m->a, &t.sum);
+    dmb_force_tangent_touch(scene, &m->b, &t.sum);
+    dmb_force_tangent_clear(&t.sum);
+    turn_of_line(scene, m, &t);
+    add_point(evaluation, m, &m->b, 1.0, &t);
+    add_point(evaluation, m, &m->a, -1.0, &t);
+    relative_velocity(m, v);
+    const uint32_t n = t.sum.columns;
+    for (uint32_t c = 0; c < n && evaluation->dynamic; c++)
+        for (int i = 0; i < 3; i++) t.rate[c] += v[i] * t.turn[i][c];
+    for (uint32_t r = 0; r < n; r++)
+        for (uint32_t c = 0; c < n; c++) {
+            t.sum.K[(size_t)r * n + c] += t.gradient[r] * (by_elongation * t.gradient[c] + by_speed * t.rate[c]);
+            t.sum.C[(size_t)r * n + c] = by_speed * t.gradient[r] * t.gradient[c];
+        }
+    dmb_force_tangent_add(evaluation, spring->constraint, &t.sum);
+}
+
+/* ---- Residual ---------------------------------------------------------------------------------------------------- */
+
+static void pull(dmb_sim *sim, const dmb_point_motion *point, const double n[3], double force)
+{
+    double w[6];
+    if (point->nodes == 0) return;
+    line_at(point, n, w);
+    dmb_vec3_scale(force, w, w);
+    dmb_point_apply(sim, point, w);
+}
+
+/* As of a joint's spring (system/assemble/joint_forces): rounding of the numbers that the length is the difference
+ * of. */
+static void count_rounding(dmb_evaluation *evaluation, const dmb_scene_spring *spring, const dmb_spring_motion *m)
+{
+    const double reach = dmb_vec3_norm(spring->span) + dmb_vec3_norm(m->a.x) + dmb_vec3_norm(m->b.x);
+    const double k = m->force.by_elongation * reach;
+    if (!evaluation->dynamic || evaluation->extrapolated || evaluation->step == 0.0) evaluation->rounding += k * k;
+}
+
+static void gather_spring(dmb_evaluation *evaluation, uint32_t i)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene_spring *spring = sim->scene->springs + i;
+    dmb_spring_motion m;
+    dmb_spring_motion_of(sim->scene, &sim->trial, i, evaluation->dynamic, &m);
+    const double tension = m.force.elastic + m.force.damper;
+    pull(sim, &m.b, m.n, -tension);
+    pull(sim, &m.a, m.n, tension);
+    count_rounding(evaluation, spring, &m);
+    evaluation->power[DMB_POWER_POTENTIAL] -= m.force.elastic * m.rate;
+    evaluation->power[DMB_POWER_DAMPING] -= m.force.damper * m.rate;
+    if (evaluation->tangent) add_tangent(evaluation, spring, &m);
+}
+
+void dmb_gather_springs(dmb_evaluation *evaluation)
+{
+    for (uint32_t i = 0; i < evaluation->sim->scene->spring_count; i++) gather_spring(evaluation, i);
+}
+
+double dmb_springs_energy(const dmb_scene *scene, const dmb_configuration *configuration)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < scene->spring_count; i++) {
+        const dmb_scene_spring *s = scene->springs + i;
+        dmb_spring_motion m;
+        dmb_spring_motion_of(scene, configuration, i, 0, &m);
+        sum += dmb_spring_energy_at(&s->law, points_of(scene, s), m.length - s->free_length);
+    }
+    return sum;
+}

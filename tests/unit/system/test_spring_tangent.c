@@ -1,0 +1,342 @@
+/* Iteration matrix of springs and of loads at any place (within nodes, inside elements, across parts) against
+ * differences of the residual by the increments of a step, which move poses and velocities together; and the force of
+ * springs against differences of their energy. */
+#include <string.h>
+
+#include "mechanism.h"
+
+#include "drillmbd/forces.h"
+#include "math/se3.h"
+#include "sim/layout.h"
+#include "sim/sim.h"
+#include "system/assemble/evaluation.h"
+#include "system/assemble/free_rigid.h"
+#include "system/assemble/springs.h"
+
+enum { ROWS_MAX = 120 };
+#define TO_VELOCITY 2.0     /* [1/s] */
+#define TO_ACCELERATION 3.0 /* [1/s2] */
+
+/* ---- Scene ------------------------------------------------------------------------------------------------------- */
+
+typedef struct parts {
+    dmb_id beam, bar, body[2];
+} parts;
+
+static void add_parts(rig *s, parts *p)
+{
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = beam_pipe(1.3, 2, 90.0, 40.0, 30.0, 20.0);
+    string.follows_hole = 0;
+    string.start_free = DMB_FREE_ALL;
+    pipe.joint_length = 0.1;
+    pipe.damping_time = 0.01;
+    pipe.string = p->beam = add_string(s, &string);
+    (void)add_pipes(s, &pipe, 2);
+    string.position[1] = 1.5;
+    string.start_free = DMB_FREE_CYLINDRICAL;
+    pipe.joint_length = 0.0;
+    pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
+    pipe.string = p->bar = add_string(s, &string);
+    (void)add_pipes(s, &pipe, 2);
+    for (int i = 0; i < 2; i++) {
+        dmb_body_def body = dmb_body_def_default();
+        body.position[0] = 0.7 + i;
+        body.position[2] = 1.0;
+        body.rotation[1] = 0.4 - i;
+        body.centre[1] = 0.1;
+        for (int k = 0; k < 3; k++) body.inertia[k] = 0.2 + 0.05 * k;
+        p->body[i] = add_body(s, &body);
+    }
+}
+
+static dmb_place nowhere(void)
+{
+    return dmb_station(ground_id, 0, 0.0);
+}
+
+static const double table_x[4] = {-0.5, 0.1, 0.4, 2.0}, table_f[4] = {-3.0, 1.0, 2.0, 6.0};
+
+static void add_spring(rig *s, int32_t acts, int32_t table, dmb_place a, dmb_place b, uint64_t seed)
+{
+    dmb_spring_def def = dmb_spring_def_default();
+    def.acts = acts;
+    def.place_a = a;
+    def.place_b = b;
+    for (int i = 0; i < 3; i++) {
+        def.offset_a[i] = draw_between(&seed, -0.4, 0.4);
+        def.offset_b[i] = draw_between(&seed, -0.4, 0.4);
+    }
+    def.free_length = acts == DMB_SPRING_COMPRESSION ? 4.0 : 0.3;
+    def.stiffness = draw_between(&seed, 2.0, 6.0);
+    def.damping = draw_between(&seed, 0.2, 0.8);
+    if (table) {
+        def.table_elongation = table_x;
+        def.table_force = table_f;
+        def.table_count = 4;
+        def.table_kind = DMB_TABLE_CUBIC;
+        def.preload = 0.5;
+    }
+    must_model(s, dmb_model_add_spring(s->model, &def, NULL));
+}
+
+/* Pairs that need no coupling of parts, then those that do. */
+static void add_springs(rig *s, const parts *p, int across)
+{
+    const dmb_place inside = dmb_station(p->beam, 0, 0.3), joint = dmb_station(p->beam, 0, 1.0);
+    const dmb_place inner = dmb_station(p->beam, 1, 0.15), body = dmb_station(p->body[0], 0, 0.0);
+    add_spring(s, DMB_SPRING_BOTH, 0, nowhere(), inside, 3);
+    add_spring(s, DMB_SPRING_BOTH, 1, dmb_station(p->beam, 0, 0.1), inside, 4);
+    add_spring(s, DMB_SPRING_TENSION, 1, joint, nowhere(), 5);
+    add_spring(s, DMB_SPRING_COMPRESSION, 0, nowhere(), body, 6);
+    add_spring(s, DMB_SPRING_BOTH, 0, joint, inner, 7);
+    add_spring(s, DMB_SPRING_BOTH, 0, nowhere(), dmb_station(p->bar, 0, 0.8), 8);
+    add_spring(s, DMB_SPRING_BOTH, 0, nowhere(), dmb_station(p->bar, 1, 1.0), 9);
+    if (!across) return;
+    add_spring(s, DMB_SPRING_BOTH, 1, dmb_station(p->body[1], 0, 0.0), inside, 10);
+    add_spring(s, DMB_SPRING_TENSION, 0, dmb_station(p->bar, 0, 0.6), dmb_station(p->beam, 1, 0.7), 11);
+    add_spring(s, DMB_SPRING_BOTH, 0, body, dmb_station(p->body[1], 0, 0.0), 12);
+    add_spring(s, DMB_SPRING_BOTH, 1, dmb_station(p->beam, 0, 0.05), dmb_station(p->beam, 1, 0.97), 13);
+}
+
+static void add_loads(rig *s, const parts *p)
+{
+    const dmb_place places[3] = {dmb_station(p->beam, 0, 0.37), dmb_station(p->beam, 1, 1.0),
+                                 dmb_station(p->body[1], 0, 0.0)};
+    uint64_t seed = 20;
+    for (int i = 0; i < 6; i++) {
+        dmb_load_def load = dmb_load_def_default();
+        load.place = places[i % 3];
+        load.frame = i < 3 ? DMB_FRAME_WORLD : DMB_FRAME_BODY;
+        for (int k = 0; k < 3; k++) {
+            load.force[k] = draw_between(&seed, -3.0, 3.0);
+            load.moment[k] = draw_between(&seed, -1.0, 1.0);
+            load.offset[k] = draw_between(&seed, -0.3, 0.3);
+        }
+        must_model(s, dmb_model_add_load(s->model, &load, NULL));
+    }
+}
+
+static void open_scene(rig *s, int springs, int loads, int across)
+{
+    parts p;
+    rig_open(s, 0.0, 0.0, 0.0);
+    add_parts(s, &p);
+    if (springs) add_springs(s, &p, across);
+    if (loads) add_loads(s, &p);
+    (void)mechanism_start(s, NULL);
+    assert_true(s->sim->scene->row_count <= ROWS_MAX);
+    assert_int_equal(s->sim->scene->cluster_count > 0, across);
+}
+
+static void stir_poses(rig *s, uint64_t seed)
+{
+    dmb_configuration *now = &s->sim->now;
+    const dmb_scene *scene = s->sim->scene;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        double h[6];
+        for (int k = 0; k < 6; k++) h[k] = draw_between(&seed, -0.2, 0.2);
+        if (scene->layout.size[i] == DMB_NODE_FULL) {
+            dmb_se3_advance(now->quaternion + 4 * i, now->displacement + 3 * i, h);
+        } else {
+            now->displacement[3 * i] += h[0];
+            now->turn[i] += h[1];
+        }
+    }
+    for (uint32_t r = 0; r < scene->row_count; r++) now->velocity[r] = draw_between(&seed, -0.5, 0.5);
+}
+
+/* ---- Differences ------------------------------------------------------------------------------------------------- */
+
+/* Free rigid bodies move at their centres of mass in a step; in statics as all others do. */
+static void move_rigids(dmb_sim *sim, uint32_t row, double z)
+{
+    for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) {
+        const uint32_t first = sim->scene->layout.row[sim->scene->free_rigids[i].node];
+        double *motion = dmb_free_rigid_motion(sim, i);
+        dmb_free_rigid_start(sim, i, motion);
+        if (row < first || row >= first + 6) continue;
+        motion[row - first] += TO_VELOCITY * z;
+        motion[6 + row - first] += TO_ACCELERATION * z;
+    }
+    dmb_free_rigids_place(sim);
+}
+
+static void move_to(dmb_sim *sim, int32_t dynamic, const double *base, uint32_t row, double z)
+{
+    const dmb_scene *at = sim->scene;
+    dmb_configuration_copy(sim, &sim->now, &sim->trial);
+    for (uint32_t i = 0; i < at->row_count; i++) {
+        const double change = i == row ? z : 0.0;
+        sim->increment[i] = base[i] + change;
+        sim->trial.velocity[i] += TO_VELOCITY * change;
+        sim->trial.acceleration[i] += TO_ACCELERATION * change;
+    }
+    for (uint32_t i = 0; i < at->node_count; i++) {
+        const double *h = sim->increment + at->layout.row[i];
+        if (at->layout.size[i] == DMB_NODE_FULL) {
+            dmb_se3_advance(sim->trial.quaternion + 4 * i, sim->trial.displacement + 3 * i, h);
+        } else {
+            sim->trial.displacement[3 * i] += h[0];
+            sim->trial.turn[i] += h[1];
+        }
+    }
+    if (dynamic) move_rigids(sim, row, z);
+}
+
+static void evaluate(dmb_sim *sim, int32_t dynamic, int32_t tangent, dmb_evaluation *e)
+{
+    memset(e, 0, sizeof *e);
+    e->sim = sim;
+    e->load_factor = 1.0;
+    e->dynamic = dynamic;
+    e->tangent = tangent;
+    e->step = dynamic ? 0.02 : 0.0;
+    e->velocity_factor = dynamic ? TO_VELOCITY : 0.0;
+    e->mass_factor = dynamic ? TO_ACCELERATION : 0.0;
+    assert_int_equal(dmb_system_evaluate(e), DMB_OK);
+}
+
+static uint32_t node_of(const dmb_sim *sim, uint32_t row)
+{
+    uint32_t node = 0;
+    while (sim->scene->layout.row[node + 1] <= row) node++;
+    return node;
+}
+
+static double block_entry(const dmb_sim *sim, uint32_t i, uint32_t j)
+{
+    const dmb_block_layout *l = &sim->scene->layout;
+    const uint32_t *between = sim->scene->node_element, a = node_of(sim, i), b = node_of(sim, j);
+    const uint32_t r = i - l->row[a], c = j - l->row[b];
+    if (a == b) return sim->stiffness_diagonal[l->diag[a] + l->size[a] * r + c];
+    if (a + 1 == b && between[a] != DMB_NONE) return sim->stiffness_upper[l->link[a] + l->size[b] * r + c];
+    if (b + 1 == a && between[b] != DMB_NONE) return sim->stiffness_lower[l->link[b] + l->size[b] * r + c];
+    return 0.0;
+}
+
+static void add_constraints(const dmb_sim *sim, double got[ROWS_MAX][ROWS_MAX])
+{
+    const dmb_block_layout *l = &sim->scene->layout;
+    for (uint32_t k = 0; k < sim->scene->constraint_count; k++) {
+        const dmb_constraint *c = sim->scene->constraints + k;
+        const double *K = sim->constraint_tangent + c->tangent;
+        for (uint32_t a = 0; a < c->node_count; a++)
+            for (uint32_t b = 0; b < c->node_count; b++)
+                for (uint32_t r = 0; r < l->size[c->node[a]]; r++)
+                    for (uint32_t s = 0; s < l->size[c->node[b]]; s++)
+                        got[l->row[c->node[a]] + r][l->row[c->node[b]] + s] +=
+                            K[(c->column[a] + r) * c->columns + c->column[b] + s];
+    }
+}
+
+static double worst_entry(dmb_sim *sim, const double *base, int32_t dynamic)
+{
+    static double want[ROWS_MAX][ROWS_MAX], got[ROWS_MAX][ROWS_MAX];
+    const uint32_t rows = sim->scene->row_count;
+    const double step = 2e-4;
+    dmb_evaluation e;
+    double worst = 0.0, size = 0.0;
+    memset(got, 0, sizeof got);
+    for (uint32_t column = 0; column < rows; column++) {
+        double f[6][ROWS_MAX];
+        for (int p = 0; p < 6; p++) {
+            move_to(sim, dynamic, base, column, step * difference6_place[p]);
+            evaluate(sim, dynamic, 0, &e);
+            memcpy(f[p], sim->residual, rows * sizeof(double));
+        }
+        for (uint32_t i = 0; i < rows; i++) {
+            const double v[6] = {f[0][i], f[1][i], f[2][i], f[3][i], f[4][i], f[5][i]};
+            want[i][column] = difference6(v, step);
+        }
+    }
+    move_to(sim, dynamic, base, 0, 0.0);
+    evaluate(sim, dynamic, 1, &e);
+    dmb_system_iteration_matrix(&e);
+    for (uint32_t i = 0; i < rows; i++)
+        for (uint32_t j = 0; j < rows; j++) got[i][j] = block_entry(sim, i, j);
+    add_constraints(sim, got);
+    for (uint32_t i = 0; i < rows; i++)
+        for (uint32_t j = 0; j < rows; j++) {
+            if (!sim->scene->solved_row[i] || !sim->scene->solved_row[j]) continue;
+            worst = fmax(worst, fabs(got[i][j] - want[i][j]));
+            size = fmax(size, fabs(want[i][j]));
+        }
+    return worst / size;
+}
+
+/* ---- Tests ------------------------------------------------------------------------------------------------------- */
+
+static double worst_of(int springs, int loads, int across, int32_t dynamic)
+{
+    double base[ROWS_MAX], worst = 0.0;
+    for (uint64_t seed = 1; seed <= 2; seed++) {
+        uint64_t draw = seed + 50;
+        rig s;
+        open_scene(&s, springs, loads, across);
+        stir_poses(&s, seed);
+        for (uint32_t i = 0; i < s.sim->scene->row_count; i++) base[i] = dynamic ? draw_between(&draw, -0.1, 0.1) : 0.0;
+        worst = fmax(worst, worst_entry(s.sim, base, dynamic));
+        rig_close(&s);
+    }
+    return worst;
+}
+
+static void matrix_is_the_derivative(void **state)
+{
+    (void)state;
+    check_below("scene without springs and loads, step", worst_of(0, 0, 0, 1), 1e-9);
+    check_below("loads at points, step", worst_of(0, 1, 0, 1), 1e-9);
+    check_below("springs within nodes and elements, step", worst_of(1, 0, 0, 1), 1e-9);
+    check_below("springs across parts, step", worst_of(1, 1, 1, 1), 1e-9);
+}
+
+static void static_matrix_is_the_derivative(void **state)
+{
+    (void)state;
+    check_below("loads at points, statics", worst_of(0, 1, 0, 0), 1e-9);
+    check_below("springs within nodes and elements, statics", worst_of(1, 0, 0, 0), 1e-9);
+    check_below("springs across parts, statics", worst_of(1, 1, 1, 0), 1e-9);
+}
+
+/* Residual of springs alone by a displacement z of each row: dE/dz. */
+static void forces_come_of_the_energy(void **state)
+{
+    double base[ROWS_MAX] = {0.0}, with[ROWS_MAX], worst = 0.0;
+    dmb_evaluation e;
+    rig s;
+    (void)state;
+    open_scene(&s, 1, 0, 1);
+    stir_poses(&s, 7);
+    dmb_sim *sim = s.sim;
+    const uint32_t rows = sim->scene->row_count;
+    move_to(sim, 0, base, 0, 0.0);
+    evaluate(sim, 0, 0, &e);
+    memcpy(with, sim->residual, rows * sizeof(double));
+    dmb_scene bare = *sim->scene;
+    const dmb_scene *scene = sim->scene;
+    bare.spring_count = 0;
+    sim->scene = &bare;
+    evaluate(sim, 0, 0, &e);
+    sim->scene = scene;
+    for (uint32_t i = 0; i < rows; i++) {
+        double f[6];
+        for (int p = 0; p < 6; p++) {
+            move_to(sim, 0, base, i, 2e-4 * difference6_place[p]);
+            f[p] = dmb_springs_energy(scene, &sim->trial);
+        }
+        worst = fmax(worst, fabs(with[i] - sim->residual[i] - difference6(f, 2e-4)));
+    }
+    check_below("forces of springs against differences of their energy [N, N m]", worst, 1e-9);
+    rig_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(matrix_is_the_derivative),
+        cmocka_unit_test(static_matrix_is_the_derivative),
+        cmocka_unit_test(forces_come_of_the_energy),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
