@@ -18,6 +18,7 @@ from drillmbd.probability.draw import CannotDraw, Draw, value_of_terms
 from drillmbd.probability.fields import Expansion, Markov, kernel
 from drillmbd.probability.marginals import Translation, frozen, nataf, value_correlation
 from drillmbd.probability.sample import DONE, FAILED, Own, SceneSample
+from drillmbd.scene import fields
 from drillmbd.scene.failure import KINDS
 from drillmbd.scene.variability import DISTRIBUTIONS, KERNELS, Marginal
 
@@ -275,6 +276,86 @@ term = [{h0 = "2 rpm"}, {kind = "step", x0 = "10 ms", x1 = "60 ms", h1 = "30 rpm
                      'distribution = "uniform"\nlow = "70 mm"\nhigh = "73 mm"\n'
         with self.assertRaisesRegex(CannotDraw, "varies by size and by wear"):
             Draw(scene.loads(text))
+
+
+HOLE = """[[variability.field]]
+name = "friction"
+keys = ["hole.mu_static", "hole.mu_dynamic"]
+relative = true
+distribution = "lognormal"
+mean = 1
+deviation = "30 %"
+correlation_length = "5 m"
+spacing = "2 m"
+to = "20 m"
+[[variability.field]]
+name = "size"
+key = "hole.diameter"
+distribution = "uniform"
+low = "93 mm"
+high = "100 mm"
+kernel = "matern-5/2"
+correlation_length = "8 m"
+spacing = "3 m"
+from = "1 m"
+to = "19 m"
+"""
+
+
+@unittest.skipIf("section" not in fields.DEFINITIONS, "this library has no sections of the hole")
+class HoleTest(unittest.TestCase):
+    TEXT = RIG.replace("mu_static = 0\nmu_dynamic = 0", "mu_static = 0.35") + HOLE + """[[failure]]
+kind = "rig-torque"
+limit = "2 kN m"
+"""
+
+    def test_file_to_scene_to_file(self):
+        first = scene.loads(self.TEXT)
+        self.assertTrue(first.same_as(scene.loads(scene.saves(first))))
+
+    def test_sections(self):
+        """The hole of a sample has the drawn diameters between the corners of its straight lines."""
+        draw = Draw(scene.loads(self.TEXT))
+        values = draw.values(np.random.default_rng(1).standard_normal(draw.dimension))
+        self.assertEqual([len(values["friction"]), len(values["size"])], [11, 7])
+        made = scene.loads(self.TEXT, changes=draw.changes(values))
+        for depth in (2.5, 5.5, 9.0, 12.5, 18.5, 30.0):
+            known = np.interp(depth, 1.0 + 3.0 * np.arange(7), values["size"])
+            self.assertAlmostEqual(made.model.hole(depth).diameter, known, 12)
+        sections = [one for name, arguments in made.model.calls if name == "add_hole_sections" for one in arguments]
+        at = {one.get("depth", 0.0): one for one in sections}
+        self.assertEqual(at[4.0]["mu_static"], 0.35 * values["friction"][2])
+        self.assertEqual(at[4.0]["mu_dynamic"], 0.30 * values["friction"][2])
+
+    def test_friction_adds_up(self):
+        """Sliding in at the Stribeck speed, the rig pushes more by the sum of each contact force times the friction there,
+        mu_dynamic + (mu_static - mu_dynamic)/e."""
+        text = self.TEXT.replace("count = 10", "count = 16").replace('kind = "rig-torque"\nlimit = "2 kN m"', 'kind = "rig-push"\nlimit = "9 kN"')
+        text = text[:text.index('[[variability.field]]\nname = "size"')] + text[text.index("[[failure]]"):]
+        sample = SceneSample(text, changes={"environment.gravity": [0, 0, "-9.81 m/s2"], "load.moment": [0, 0, 0], "static.lay_on_wall": True,
+                                            "static.slip_axial": "1 cm/s"})
+        z = np.random.default_rng(4).standard_normal(sample.dimension)
+        found = sample(0, z)
+        values = sample.draw.values(z)
+        made = scene.loads(text, changes={**sample.changes, **sample.draw.changes(values)})
+        with made.new_sim() as sim:
+            sim.static(**made.fields_of("static"))
+            profile = sim.profile(made.names["main"], 16)
+            mu = (0.30 + 0.05 / math.e) * np.interp(profile.contact_depth, 2.0 * np.arange(11), values["friction"])
+            known = 2000.0 + float(mu @ profile.contact_force)
+        self.assertLess(abs((found.demands[0] - 2000.0) / (known - 2000.0) - 1.0), 0.005, (found.demands, known))
+        self.assertGreater(np.ptp(mu), 0.05)
+
+    def test_refused(self):
+        for old, new, told in (('to = "20 m"\n', "", "must have a depth `to`"), ('spacing = "3 m"', 'spacing = "1 mm"', "must be 1 .. 4000"),
+                               ('relative = true\n', "", "several need relative = true"),
+                               ('"hole.mu_dynamic"]', '"hole.stribeck_speed"]', "must be different ones of"),
+                               ("[hole]\n", "[hole]\nsection = [{depth = 0}]\n", "a field makes sections of its own")):
+            with self.assertRaisesRegex(scene.SceneError, told):
+                scene.loads(self.TEXT.replace(old, new, 1))
+        with self.assertRaisesRegex(CannotDraw, "hole.diameter varies by"):
+            Draw(scene.loads(self.TEXT + '[[variability.scatter]]\nname = "width"\nkey = "hole.diameter"\ndistribution = "uniform"\n'
+                             'low = "93 mm"\nhigh = "95 mm"\n'))
 
 
 class LimitTest(unittest.TestCase):

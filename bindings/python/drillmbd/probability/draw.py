@@ -145,7 +145,7 @@ class Draw:
         return found
 
     def changes(self, values: dict[str, Any]) -> dict[str, Any]:
-        """What scene.load takes."""
+        """What scene.load takes: the scene of one sample."""
         found: dict[str, Any] = {}
         for one in self.varies.scatters:
             for key, base, unit in zip(one.keys, one.base or (1.0,) * len(one.keys), one.units):
@@ -153,6 +153,7 @@ class Draw:
         self._field_changes(values, found)
         for process, _, times in self.processes:
             found.update(self._programme(process, times, values[process.name]))
+        found["variability"] = None  # nothing varies in the sample itself
         return found
 
     def _field_changes(self, values: dict[str, Any], found: dict[str, Any]) -> None:
