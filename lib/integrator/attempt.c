@@ -175,7 +175,7 @@ static int32_t check_dropped(dmb_sim *sim)
 }
 
 /* From the prediction to the end of the iteration, and over again where contacts open. */
-static int32_t run(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
+static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
 {
     set_up(sim, c, &attempt->end, &attempt->evaluation);
     dmb_step_motion_predict(sim, c, attempt->end.step);
@@ -196,11 +196,11 @@ int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, d
     attempt->whole = whole && sim->scene->cluster_count == 0 && !sim->options.bounded_work;
     attempt->block = DMB_NONE;
     sim->reduced_mode->row = DMB_NONE;
-    status = run(sim, &c, attempt);
+    status = solve_step(sim, &c, attempt);
     if (attempt->tried && status < 0 && !dmb_is_final(status)) { /* once more, with factors of its own */
         attempt->astray = 1;
         attempt->iterations = 0;
-        status = run(sim, &c, attempt);
+        status = solve_step(sim, &c, attempt);
     }
     if (status >= 0 && sim->scene->cluster_count && check_dropped(sim) < 0) status = DMB_ERR_SINGULAR;
     if (status >= 0 && sim->scene->joint_count) {

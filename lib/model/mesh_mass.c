@@ -85,7 +85,7 @@ static void add_weight(dmb_mesh_node *node, double mass, const double centre[3])
     for (int i = 0; i < 3; ++i) node->weight_moment[i] += mass * centre[i];
 }
 
-/* What a fluid of density 1 takes off that mass, by its density; 0: nothing. */
+/* The mass of fluid of density 1 that the body displaces, by its own density; 0: none. */
 static void add_displaced(dmb_mesh_node *node, double mass, double x, double density)
 {
     if (!(density > 0.0)) return;

@@ -99,16 +99,9 @@ static double body_energy(const dmb_sim *sim, uint32_t body)
 static double end_bodies(const dmb_sim *sim, uint32_t string, int32_t attach)
 {
     const dmb_model *model = sim->model;
-    const dmb_body_def *body = model->bodies.items;
-    const dmb_bit_def *bit = model->bits.items;
     double sum = 0.0;
-    for (uint32_t i = 0; i < sim->scene->body_count; i++) {
-        const int is_bit = i >= model->bodies.count;
-        const dmb_id id = is_bit ? bit[i - model->bodies.count].string : body[i].string;
-        const uint32_t named = dmb_model_part_index(model, id, DMB_PART_STRING);
-        const int32_t end = is_bit ? DMB_ATTACH_END : body[i].attach;
-        if (end == attach && (named == DMB_NONE ? 0 : named) == string) sum += body_energy(sim, i);
-    }
+    for (uint32_t i = 0; i < sim->scene->body_count; i++)
+        if (dmb_body_is_at_end(model, i, string, attach)) sum += body_energy(sim, i);
     return sum;
 }
 

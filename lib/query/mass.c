@@ -216,3 +216,13 @@ int32_t dmb_query_momentum(const dmb_sim *sim, dmb_momentum *momentum)
     if (answer.mass > 0.0) dmb_vec3_scale(1.0 / answer.mass, answer.centre, answer.centre);
     return dmb_momentum_write(momentum, &answer);
 }
+
+int dmb_body_is_at_end(const dmb_model *model, uint32_t body, uint32_t string, int32_t attach)
+{
+    const dmb_body_def *bodies = model->bodies.items;
+    const dmb_bit_def *bits = model->bits.items;
+    const int is_bit = body >= model->bodies.count;
+    const dmb_id id = is_bit ? bits[body - model->bodies.count].string : bodies[body].string;
+    const uint32_t named = dmb_model_part_index(model, id, DMB_PART_STRING);
+    return (is_bit ? DMB_ATTACH_END : bodies[body].attach) == attach && (named == DMB_NONE ? 0 : named) == string;
+}

@@ -29,6 +29,10 @@ void dmb_eccentric_share(const dmb_scene *scene, const dmb_described_pipe *pipe,
 /* A body or bit, by its number in scene->bodies. */
 void dmb_body_share(const dmb_sim *sim, uint32_t body, dmb_rigid_mass *share);
 
+/* 1 where a body or bit, by its number in scene->bodies, is fixed to this end of a string, DMB_ATTACH_START or _END; an
+ * id that names nothing is the first string. */
+int dmb_body_is_at_end(const dmb_model *model, uint32_t body, uint32_t string, int32_t attach);
+
 /* [J] of a share on its node in the accepted state. */
 double dmb_share_kinetic_energy(const dmb_sim *sim, const dmb_rigid_mass *share);
 

@@ -200,7 +200,7 @@ enum { DMB_FACTORS_NONE = 0, DMB_FACTORS_FRESH = 1, DMB_FACTORS_REUSED = 2, DMB_
 /* Kinds of constraint rows. */
 enum { DMB_ROW_IDLE = 0, DMB_ROW_POSITION = 1, DMB_ROW_SPEED = 2 };
 
-/* What is known of the equations of joints and of the reduced system at present. */
+/* State of the equations of joints and of the reduced system at present. */
 typedef struct dmb_reduced_mode {
     int32_t bordered; /* 1: the reduced system made last is over all coordinates and multipliers, else reduced */
     uint32_t row;     /* constraint row that could not be satisfied, for messages; DMB_NONE: none */

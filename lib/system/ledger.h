@@ -11,9 +11,9 @@ void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation);
 /* The powers of the evaluation hold from now on; nothing is added. */
 void dmb_ledger_jump(dmb_sim *sim, const dmb_evaluation *evaluation);
 /* Adds the step from now to trial; before the swap. */
-/* What bodies lose in an impact between two steps [J]: kinetic energy, and stored energy that is let go. */
+/* Losses of an impact between two steps [J]: kinetic energy of bodies, and stored energy that is let go. */
 void dmb_ledger_take_impact(dmb_sim *sim, double kinetic, double stored);
-/* What the poses store more [J] since the caller has changed what they store it by: work of loads. */
+/* The caller has changed what stores energy, and the poses store this much more [J]: work of loads. */
 void dmb_ledger_take_change(dmb_sim *sim, double stored);
 void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation);
 

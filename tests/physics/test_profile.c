@@ -1,55 +1,21 @@
 /* Profiles over a string's length against closed forms: a string that hangs in mud, one that is pushed along the low
  * side of its hole, one that lies in a hole that builds; and against the queries of single places. */
-#include "check.h"
-#include "drillmbd/drillmbd.h"
-
-static void must(int32_t status, const char *message)
-{
-    if (status < 0) fail_msg("%d: %s", (int)status, message);
-}
-
-typedef struct scene {
-    dmb_model *model;
-    dmb_sim *sim;
-    dmb_wall_def wall;
-    dmb_environment_def environment;
-    dmb_string_def string;
-    dmb_pipe_def pipe;
-    dmb_load_def load; /* at the far end */
-    uint32_t pipes;
-} scene;
+#include "drill_string.h"
 
 static scene describe(uint32_t pipes)
 {
-    scene s = {.wall = dmb_wall_def_default(),
-               .environment = dmb_environment_def_default(),
-               .string = dmb_string_def_default(),
-               .pipe = dmb_pipe_def_default(),
-               .load = dmb_load_def_default(),
-               .pipes = pipes};
-    s.string.start_free = DMB_FREE_NONE;
+    scene s = string_of(pipes);
     s.load.frame = DMB_FRAME_BODY;
     return s;
 }
 
 static void compile(scene *s, int with_hole)
 {
-    must(dmb_model_create(NULL, &s->model), "create");
-    must(dmb_model_set_environment(s->model, &s->environment), dmb_model_message(s->model));
-    if (with_hole) must(dmb_model_add_wall(s->model, &s->wall, NULL), dmb_model_message(s->model));
-    must(dmb_model_add_string(s->model, &s->string, &s->pipe.string), dmb_model_message(s->model));
-    must(dmb_model_add_pipes(s->model, &s->pipe, s->pipes, NULL), dmb_model_message(s->model));
+    add_string(s, with_hole);
     s->load.place = dmb_station(s->pipe.string, s->pipes - 1, 1.0);
     must(dmb_model_add_load(s->model, &s->load, NULL), dmb_model_message(s->model));
-    must(dmb_model_compile(s->model, NULL), dmb_model_message(s->model));
-    must(dmb_sim_create(s->model, NULL, &s->sim), dmb_model_message(s->model));
+    finish_scene(s);
     must(dmb_analysis_static(s->sim, NULL, NULL), dmb_sim_message(s->sim));
-}
-
-static void destroy(scene *s)
-{
-    dmb_sim_destroy(&s->sim);
-    dmb_model_destroy(&s->model);
 }
 
 static double at(const scene *s, int32_t quantity, double distance)
@@ -62,22 +28,6 @@ static double at(const scene *s, int32_t quantity, double distance)
     profile.values = &value;
     must(dmb_query_profile(s->sim, &profile), dmb_profile_name(quantity, NULL));
     return value;
-}
-
-static double area(const scene *s)
-{
-    return 0.25 * PI * (pow(s->pipe.outer_diameter, 2) - pow(s->pipe.inner_diameter, 2));
-}
-
-static double second_moment(const scene *s)
-{
-    return PI / 64.0 * (pow(s->pipe.outer_diameter, 4) - pow(s->pipe.inner_diameter, 4));
-}
-
-/* [N/m] */
-static double weight(const scene *s)
-{
-    return 9.81 * area(s) * (s->pipe.density - s->environment.fluid_density);
 }
 
 /* A string of length L hangs in mud: N = w_air (L - s) - p(L) A at depth s, whose end is pushed up by the mud's

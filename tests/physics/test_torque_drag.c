@@ -2,55 +2,23 @@
  * axial-torsional statics of the library in a hole that turns in three dimensions, and against the stiff string. */
 #include <string.h>
 
-#include "check.h"
-#include "drillmbd/drillmbd.h"
-
-static void must(int32_t status, const char *message)
-{
-    if (status < 0) fail_msg("%d: %s", (int)status, message);
-}
-
-typedef struct scene {
-    dmb_model *model;
-    dmb_sim *sim;
-    dmb_wall_def wall;
-    dmb_environment_def environment;
-    dmb_string_def string;
-    dmb_pipe_def pipe;
-    uint32_t pipes;
-} scene;
+#include "drill_string.h"
 
 static scene describe(uint32_t pipes, const double *survey, uint32_t stations)
 {
-    scene s = {.wall = dmb_wall_def_default(),
-               .environment = dmb_environment_def_default(),
-               .string = dmb_string_def_default(),
-               .pipe = dmb_pipe_def_default(),
-               .pipes = pipes};
+    scene s = string_of(pipes);
     s.wall.survey = survey;
     s.wall.survey_count = stations;
     s.wall.friction_law = DMB_FRICTION_COULOMB;
     s.wall.smoothing_speed = 1e-9;
     s.wall.mu_dynamic = 0.3;
-    s.string.start_free = DMB_FREE_NONE;
     return s;
 }
 
 static void compile(scene *s)
 {
-    must(dmb_model_create(NULL, &s->model), "create");
-    must(dmb_model_set_environment(s->model, &s->environment), dmb_model_message(s->model));
-    must(dmb_model_add_wall(s->model, &s->wall, NULL), dmb_model_message(s->model));
-    must(dmb_model_add_string(s->model, &s->string, &s->pipe.string), dmb_model_message(s->model));
-    must(dmb_model_add_pipes(s->model, &s->pipe, s->pipes, NULL), dmb_model_message(s->model));
-    must(dmb_model_compile(s->model, NULL), dmb_model_message(s->model));
-    must(dmb_sim_create(s->model, NULL, &s->sim), dmb_model_message(s->model));
-}
-
-static void destroy(scene *s)
-{
-    dmb_sim_destroy(&s->sim);
-    dmb_model_destroy(&s->model);
+    add_string(s, 1);
+    finish_scene(s);
 }
 
 static dmb_operation usual(int32_t kind)
@@ -74,16 +42,9 @@ static dmb_torque_drag_row row_of(const scene *s, int32_t kind)
     return row_with(s, NULL, &operation);
 }
 
-/* [N/m] */
-static double weight(const scene *s)
-{
-    return 9.81 * 0.25 * PI * (pow(s->pipe.outer_diameter, 2) - pow(s->pipe.inner_diameter, 2)) *
-           (s->pipe.density - s->environment.fluid_density);
-}
-
 static double EI(const scene *s)
 {
-    return s->pipe.young_modulus * PI / 64.0 * (pow(s->pipe.outer_diameter, 4) - pow(s->pipe.inner_diameter, 4));
+    return s->pipe.young_modulus * second_moment(s);
 }
 
 /* A straight hole inclined by i: hook load w L (cos i +- mu sin i), torque mu w L sin i R. */

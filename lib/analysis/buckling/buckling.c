@@ -218,7 +218,7 @@ static int32_t confirm_all(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckl
 }
 
 /* About the present state, and then along the equilibria. */
-static int32_t run(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options)
+static int32_t find_factors(dmb_buckling *buckling, dmb_sim *sim, const dmb_buckling_options *options)
 {
     int32_t status = dmb_steady_refuse_moving(sim, buckling->work, "buckling");
     if (status >= 0) status = dmb_buckling_linearise(buckling, sim, options);
@@ -252,7 +252,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_buckling_options *options, dmb_bu
     pattern.base = made->pattern.base;
     made->pattern = pattern;
     (void)dmb_buckling_info_init(&made->info, (uint32_t)sizeof made->info);
-    status = dmb_progress_end(sim, run(made, sim, &taken));
+    status = dmb_progress_end(sim, find_factors(made, sim, &taken));
     made->work->progress = &made->work->own_progress; /* it may outlive the sim */
     if (status < 0)
         dmb_buckling_destroy(&made);

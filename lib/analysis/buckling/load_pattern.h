@@ -14,8 +14,8 @@ typedef struct dmb_load_pattern {
 
 /* Numbers that `base` holds. */
 size_t dmb_load_pattern_size(const dmb_scene *scene);
-/* What `part` is. Errors, with a message that begins with `who`: DMB_ERR_ID, DMB_ERR_VALUE, DMB_ERR_UNSUPPORTED (motion
- * drives of joints). base is the caller's to set. */
+/* Finds what `part` is. Errors, with a message that begins with `who`: DMB_ERR_ID, DMB_ERR_VALUE, DMB_ERR_UNSUPPORTED
+ * (motion drives of joints). base is the caller's to set. */
 int32_t dmb_load_pattern_take(dmb_sim *sim, const char *who, int32_t scale, dmb_id part, dmb_load_pattern *pattern);
 /* Present loads from the trial, as dmb_system_prescribe has left it. */
 void dmb_load_pattern_begin(const dmb_load_pattern *pattern, const dmb_sim *sim);

@@ -294,7 +294,7 @@ void dmb_path_close(dmb_path *path)
     path->block = NULL;
 }
 
-static int32_t run(dmb_path *path)
+static int32_t trace(dmb_path *path)
 {
     int32_t status = dmb_path_open(path);
     if (status >= 0) status = follow(path);
@@ -318,7 +318,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_path_options *options, dmb_path_r
     if (status >= 0) status = check_place(sim, &taken);
     if (status >= 0) status = dmb_state_copy_check(sim, "path");
     if (status >= 0) status = dmb_load_pattern_take(sim, "path options", taken.scale, taken.part, &path.pattern);
-    if (status >= 0) status = run(&path);
+    if (status >= 0) status = trace(&path);
     status = dmb_progress_end(sim, status);
     if (path.begun && report != NULL) (void)dmb_path_report_write(report, &path.report);
     return status;

@@ -46,7 +46,7 @@ double dmb_modes_sharpen(const dmb_mode_search *search, double square, double *x
  * no shift has to compete with the lowest eigenvalues. The rows are those in which the motions r_i differ most,
  * measured by mass, one after the other: (K + pins) x = 0 means x . pins x = 0 as r_i . K = 0, so x is none of them. */
 
-/* What C makes of a motion it leaves alone, over its terms. */
+/* [-] C leaves a motion alone where its product is below this part of its terms. */
 #define DMB_UNDAMPED 1e-11
 
 typedef struct pin {

@@ -383,7 +383,7 @@ static int32_t take(shifted *T, const dmb_krylov *found)
     return status;
 }
 
-static int32_t run(shifted *T, uint32_t wanted, double *least)
+static int32_t find_about(shifted *T, uint32_t wanted, double *least)
 {
     const dmb_linear *linear = T->search->linear;
     dmb_operator operator;
@@ -423,7 +423,7 @@ int32_t dmb_modes_shifted(dmb_mode_search *search, double *growth, double omega,
         bad = dmb_dynamic_stiffness_factor_at(&T.stiffness, T.growth, omega);
     }
     *growth = T.growth;
-    if (status >= 0) status = bad < 0 ? run(&T, wanted, least) : DMB_ERR_SINGULAR;
+    if (status >= 0) status = bad < 0 ? find_about(&T, wanted, least) : DMB_ERR_SINGULAR;
     dmb_dynamic_stiffness_release(&T.stiffness);
     dmb_release(&search->linear->allocator, block, bytes);
     return status;

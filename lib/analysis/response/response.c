@@ -298,7 +298,7 @@ static int32_t refine(response_work *w, dmb_response *response)
     return status >= 0 && points == before ? DMB_NOTE_STOPPED : status;
 }
 
-static int32_t run(response_work *w, const dmb_input *inputs, const dmb_output *outputs, dmb_response *response)
+static int32_t respond(response_work *w, const dmb_input *inputs, const dmb_output *outputs, dmb_response *response)
 {
     int32_t status = take_memory(w);
     if (status >= 0) status = linearise(w);
@@ -342,7 +342,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_response_options *options, const 
     if (status >= 0) status = dmb_state_copy_check(sim, "response");
     if (status < 0) return status;
     dmb_response *made = dmb_response_new(&sim->allocator, input_count, output_count);
-    status = made != NULL ? run(&w, inputs, outputs, made) : DMB_ERR_NO_MEMORY;
+    status = made != NULL ? respond(&w, inputs, outputs, made) : DMB_ERR_NO_MEMORY;
     release(&w);
     if (status == DMB_ERR_NO_MEMORY) dmb_message_set(&sim->message, "response: no memory");
     if (status < 0)

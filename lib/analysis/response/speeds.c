@@ -232,7 +232,7 @@ static void write_severity(const speeds_run *r, double *severity)
     }
 }
 
-static int32_t run(speeds_run *r)
+static int32_t find_bands(speeds_run *r)
 {
     int32_t status = DMB_OK;
     r->curves = dmb_allocate_array(&r->sim->allocator, r->order_count, sizeof *r->curves);
@@ -314,7 +314,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_speeds_options *options, const dm
     if (status >= 0) status = check_counts(&r);
     if (status >= 0) status = dmb_state_copy_check(sim, "speeds");
     if (status < 0) return status;
-    status = run(&r);
+    status = find_bands(&r);
     if (status == DMB_ERR_NO_MEMORY) dmb_message_set(&sim->message, "speeds: no memory");
     if (status >= 0) {
         write_bands(&r, bands);

@@ -262,7 +262,7 @@ static int32_t take_outputs(sine_run *r, const dmb_output *outputs)
     return DMB_OK;
 }
 
-static int32_t run(sine_run *r, const dmb_output *outputs)
+static int32_t shake(sine_run *r, const dmb_output *outputs)
 {
     int32_t status = take_memory(r);
     if (status >= 0) status = take_outputs(r, outputs);
@@ -289,7 +289,7 @@ static int32_t analyse(dmb_sim *sim, double frequency, const dmb_stepped_sine_op
     r.width = 2 * (1 + r.options.harmonics);
     r.omega = DMB_TWO_PI * frequency;
     r.step = 1.0 / (frequency * r.options.steps_per_period);
-    status = run(&r, outputs);
+    status = shake(&r, outputs);
     if (status >= 0) {
         memcpy(amplitudes, r.sum, (size_t)r.outputs * r.width * sizeof(double));
         if (report != NULL) (void)dmb_stepped_sine_report_write(report, &r.report);

@@ -330,7 +330,7 @@ static int32_t find(dmb_static_search *search, dmb_static_report *out)
 }
 
 /* In the steady state that drives and options ask for. */
-static int32_t run(dmb_static_search *search, dmb_static_report *out)
+static int32_t find_state(dmb_static_search *search, dmb_static_report *out)
 {
     dmb_sim *sim = search->sim;
     const dmb_static_options *options = search->options;
@@ -376,7 +376,7 @@ static int32_t analyse(dmb_sim *sim, const dmb_static_options *options, dmb_stat
     if (status < 0) return status;
     dmb_static_set_up(&search, sim, &taken);
     dmb_static_slip(&search, taken.slip_axial, taken.slip_rotation);
-    status = run(&search, &out);
+    status = find_state(&search, &out);
     if (status >= 0 && report != NULL) (void)dmb_static_report_write(report, &out);
     return status == DMB_OK && out.negative > 0 && out.steady == DMB_STEADY_AT_REST ? tell_unstable(sim, &out) : status;
 }

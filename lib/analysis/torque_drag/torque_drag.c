@@ -8,6 +8,7 @@
 #include "base/value_check.h"
 #include "model/limits.h"
 #include "model/section.h"
+#include "query/mass.h"
 #include "sim/access.h"
 
 DMB_DEFINE_INIT(dmb_operation, 40, {.axial_speed = 0.0})
@@ -51,20 +52,15 @@ typedef struct request {
     double described; /* [m] measured depth of the far end as described */
 } request;
 
-/* [kg] of bodies and bits fixed to the far end; an id that names nothing is the first string. */
+/* [kg] of bodies and bits fixed to the far end. */
 static double end_mass(const dmb_model *model, uint32_t string)
 {
     const dmb_body_def *bodies = model->bodies.items;
     const dmb_bit_def *bits = model->bits.items;
     double mass = 0.0;
-    for (uint32_t i = 0; i < model->bodies.count; i++) {
-        const uint32_t on = dmb_model_part_index(model, bodies[i].string, DMB_PART_STRING);
-        if (bodies[i].attach == DMB_ATTACH_END && (on == DMB_NONE ? 0 : on) == string) mass += bodies[i].mass;
-    }
-    for (uint32_t i = 0; i < model->bits.count; i++) {
-        const uint32_t on = dmb_model_part_index(model, bits[i].string, DMB_PART_STRING);
-        if ((on == DMB_NONE ? 0 : on) == string) mass += bits[i].mass;
-    }
+    for (uint32_t i = 0; i < model->bodies.count + model->bits.count; i++)
+        if (dmb_body_is_at_end(model, i, string, DMB_ATTACH_END))
+            mass += i < model->bodies.count ? bodies[i].mass : bits[i - model->bodies.count].mass;
     return mass;
 }
 

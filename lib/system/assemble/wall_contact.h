@@ -54,7 +54,7 @@ dmb_friction_law dmb_sliding_law(const dmb_friction_law *law);
 void dmb_assumed_friction(const dmb_friction_law *law, const dmb_configuration *configuration, double radius,
                           dmb_site_force *out);
 
-/* What configurations remember of contacts: normals and depths of now at the start; the slip that friction of the trial
+/* Memory of contacts in the configurations: normals and depths of now at the start; the slip that friction of the trial
  * acts as at, by the evaluation, and that of the trial into now; no bristle of the trial is deflected and no contact
  * has begun; bristles of now are where they are while their rings slide on as they do. */
 void dmb_contacts_start(dmb_sim *sim);
