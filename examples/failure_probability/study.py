@@ -33,10 +33,10 @@ from drillmbd.probability.study import Study, StudyFile, read_rows  # noqa: E402
 
 MODELS = ("contact only", "friction", "friction and vibration")
 CYCLE = {"feed": ((1, 1.0), (-1, 19.0), (-1, 21.0)), "rotation": ((1, 1.0), (-1, 19.0), (-1, 21.0))}
-FORMS = {"short": {"end": 4.0, "pipes": 30, "deep": 60, "speeds": (100, 200, 300), "feeds": (5, 20), "samples": 24, "rows": 8},
+FORMS = {"short": {"end": 4.0, "pipes": 30, "deep": 60, "speeds": (100, 200, 250, 300), "feeds": (5, 20), "samples": 24, "rows": 32, "at": 250},
          "long": {"end": 40.0, "pipes": 100, "deep": 300, "speeds": (100, 150, 200, 250, 300), "feeds": (5, 10, 20), "samples": 400,
-                  "rows": 64},
-         "tiny": {"end": 0.2, "pipes": 6, "deep": 8, "speeds": (100, 300), "feeds": (10,), "samples": 4, "rows": 8}}
+                  "rows": 128, "at": 250},
+         "tiny": {"end": 0.2, "pipes": 6, "deep": 8, "speeds": (100, 300), "feeds": (10,), "samples": 4, "rows": 8, "at": 300}}
 
 
 def changes(form, model, speed, feed, pipes):
@@ -103,14 +103,16 @@ class Work:
         return f"{found.probability:.3g} ({found.low:.3g} .. {found.high:.3g})"
 
     def indices(self):
-        """Of the smallest share of a margin, at the largest speed and feed, all coupled."""
-        sample = self.sample(MODELS[2], self.form["speeds"][-1], self.form["feeds"][-1])
+        """Of the smallest margin over its limit, all coupled. It is cut off at -1, twice the limit: beyond, a few whirling samples would
+        have all of the variance."""
+        sample = self.sample(MODELS[2], self.form["at"], self.form["feeds"][-1])
         study, file = self.study("indices", sample, {"seed": 1, "rows": self.form["rows"]})
         draw = sample.draw
         groups = dict(zip(sample.inputs, [1] * len(draw.varies.scatters) + draw.sizes[1:]))
         scales = [abs(one.limit) for one in draw.scene.failures]
         with file:
-            found = sobol_indices(study.evaluate(0, scales), groups, self.form["rows"])
+            margins = study.evaluate(0, scales)
+            found = sobol_indices(lambda numbers, z: np.maximum(margins(numbers, z), -1.0), groups, self.form["rows"])
         self.add(list(study.results.values()), file.path)
         return found
 
@@ -200,7 +202,7 @@ def write(work, cases, deep, indices, elapsed):
                 difference, more, less, word = compared(cases[MODELS[a], s, f], cases[MODELS[b], s, f])
                 pairs.append([s, f, ("friction", "vibration")[a], f"{difference:+.3g}", more, less, word])
     shallow = cases[MODELS[2], speed, feed]
-    depth = [[form["pipes"], work.told(shallow)], [form["deep"], work.told(deep)], ["difference", "{:+.3g}, {} more, {} fewer: deeper {} it".format(
+    depth = [[form["pipes"], work.told(shallow)], [form["deep"], work.told(deep)], ["difference", "{:+.3g}; {} more fail, {} fewer: {}".format(
         *compared(shallow, deep))]]
     order = np.argsort(-indices.total)
     matter = [[indices.names[i], f"{indices.first[i]:.2f} ({indices.first_interval[i, 0]:.2f} .. {indices.first_interval[i, 1]:.2f})",
@@ -212,8 +214,8 @@ def write(work, cases, deep, indices, elapsed):
             f"{work.bytes} bytes each in the files, a process takes up to {memory:.0f} MB; this page took {elapsed:.0f} s. "
             f"{work.lost} samples have no margin: in the intervals they count as safe at one end and as failures at the other.")
     page = f"""<!doctype html><html lang="en"><meta charset="utf-8"><title>Failure probability of the reference rig</title>
-<style>body{{font:15px/1.45 sans-serif;max-width:62em;margin:2em auto;padding:0 1em}}table{{border-collapse:collapse;margin:1em 0}}
-td,th{{border-bottom:1px solid #ccc;padding:.2em .7em;text-align:left}}img{{max-width:100%}}</style>
+<style>body{{font:15px/1.45 sans-serif;max-width:76em;margin:2em auto;padding:0 1em}}table{{border-collapse:collapse;margin:1em 0}}
+td,th{{border-bottom:1px solid #ccc;padding:.2em .7em;text-align:left;white-space:nowrap}}img{{max-width:100%}}</style>
 <h1>Failure probability of the reference rig</h1>
 <p>{form['pipes']} pipes, the first {form['end']:g} s of the cycle, {form['samples']} samples a case, intervals of 95 % (Clopper-Pearson). What varies
 and what counts as a failure, with its limit, is in <code>examples/failure_probability/rig.toml</code>: the limits are assumptions
@@ -223,7 +225,8 @@ of this study, and the probabilities are theirs.</p>
 "Raises" and "lowers" where chance would not make it (exact test of the pairs that differ, 5 %).</p>
 {table(["speed [rpm]", "feed [mm/s]", "adding", "difference", "more fail", "fewer fail", "it"], pairs)}
 <h2>Deep against shallow</h2><p>{speed} rpm, {feed} mm/s, friction and vibration.</p>{table(["pipes", "probability"], depth)}
-<h2>What matters most</h2><p>Sobol' indices of the smallest margin over its limit, there; {indices.evaluations} samples, {indices.lost} rows lost.</p>
+<h2>What matters most</h2><p>Sobol' indices of the smallest margin over its limit (cut off at twice the limit) at
+{form['at']} rpm, {feed} mm/s, friction and vibration; {indices.evaluations} samples, {indices.lost} rows lost.</p>
 {table(["what varies", "alone", "with all its interplay"], matter)}
 <h2>What it costs</h2><p>{html.escape(cost)}</p>{table(["samples", "time of one processor", "file"], scale)}</html>
 """

@@ -28,7 +28,7 @@ class Result:
     margins: list[float]           #: of each failure; NaN where it FAILED
     demands: list[float]
     inputs: list[float]            #: scattered parameters (SI or factors); of fields and processes their means
-    seconds: float                 #: by the clock
+    seconds: float                 #: of a processor
     message: str = ""
 
 
@@ -124,7 +124,7 @@ class SceneSample:
 
     def __call__(self, number: int, z: Any) -> Result:
         """A sample that the library refuses, or that does not converge, is FAILED with its message; never an exception."""
-        numpy, started, count = need("numpy"), clock.perf_counter(), len(self.names)
+        numpy, started, count = need("numpy"), clock.thread_time(), len(self.names)
         values = self.draw.values(z)
         inputs = [float(numpy.mean(values[name])) for name in self.inputs]
         try:
@@ -132,7 +132,7 @@ class SceneSample:
             margins, demands, status, message = [a for a, _ in found], [b for _, b in found], DONE, ""
         except (Error, SceneError, CannotSave, ArithmeticError, ValueError) as error:
             margins, demands, status, message = [math.nan] * count, [math.nan] * count, FAILED, f"{type(error).__name__}: {error}"
-        return Result(number, status, margins, demands, inputs, clock.perf_counter() - started, message)
+        return Result(number, status, margins, demands, inputs, clock.thread_time() - started, message)
 
     def _margins(self, values: dict[str, Any]) -> list[tuple[float, float]]:
         scene = loads(self.text, self.name, self.folder, {**self.changes, **self.draw.changes(values)})
