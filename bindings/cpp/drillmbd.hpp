@@ -402,6 +402,76 @@ private:
     dmb_window *handle_;
 };
 
+// The linearised scene as matrices.
+class state_space {
+public:
+    explicit state_space(dmb_state_space *handle = nullptr) noexcept : handle_(handle) {}
+    state_space(state_space &&other) noexcept : handle_(other.release()) {}
+    state_space &operator=(state_space &&other) noexcept
+    {
+        if (this != &other) reset(other.release());
+        return *this;
+    }
+    state_space(const state_space &) = delete;
+    state_space &operator=(const state_space &) = delete;
+    ~state_space() { dmb_state_space_destroy(&handle_); }
+
+    dmb_state_space *get() const noexcept { return handle_; }
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+    // The handle, now the caller's to destroy.
+    dmb_state_space *release() noexcept
+    {
+        dmb_state_space *given = handle_;
+        handle_ = nullptr;
+        return given;
+    }
+    // Takes over a handle, or nothing.
+    void reset(dmb_state_space *handle = nullptr) noexcept
+    {
+        dmb_state_space_destroy(&handle_);
+        handle_ = handle;
+    }
+
+#if defined(DRILLMBD_EXCEPTIONS)
+    struct triplets {
+        std::vector<std::uint32_t> rows, columns;
+        std::vector<double> values;
+    };
+    dmb_state_space_info info() const
+    {
+        dmb_state_space_info answer = dmb_state_space_info_default();
+        check(dmb_state_space_get_info(handle_, &answer));
+        return answer;
+    }
+    // DMB_MATRIX_A .. _D, row by row.
+    std::vector<double> dense(std::int32_t matrix) const
+    {
+        const dmb_state_space_info of = info();
+        const std::size_t rows = matrix < DMB_MATRIX_C ? of.states : of.outputs;
+        const std::size_t columns = matrix % 2 == 0 ? of.states : of.inputs;
+        std::vector<double> answer(rows * columns + 1);
+        check(dmb_state_space_dense(handle_, matrix, answer.data()));
+        answer.pop_back();
+        return answer;
+    }
+    // DMB_MATRIX_MASS .. _COORDINATES.
+    triplets sparse(std::int32_t matrix) const
+    {
+        std::uint64_t count = 0;
+        check(dmb_state_space_sparse(handle_, matrix, nullptr, nullptr, nullptr, &count));
+        triplets answer{std::vector<std::uint32_t>(count), std::vector<std::uint32_t>(count),
+                        std::vector<double>(count)};
+        if (count > 0)
+            check(dmb_state_space_sparse(handle_, matrix, answer.rows.data(), answer.columns.data(),
+                                         answer.values.data(), &count));
+        return answer;
+    }
+#endif
+
+private:
+    dmb_state_space *handle_;
+};
+
 // What sim::response finds.
 class response {
 public:
@@ -697,6 +767,23 @@ public:
         dmb_window *made = nullptr;
         done(dmb_window_create(handle_, options, channels.data(), static_cast<std::uint32_t>(channels.size()), &made));
         return drillmbd::window(made);
+    }
+    drillmbd::state_space state_space(const std::vector<dmb_input> &inputs, const std::vector<dmb_output> &outputs,
+                                      const dmb_state_space_options *options = nullptr)
+    {
+        dmb_state_space *made = nullptr;
+        done(dmb_analysis_state_space(handle_, options, inputs.data(), static_cast<std::uint32_t>(inputs.size()),
+                                      outputs.data(), static_cast<std::uint32_t>(outputs.size()), &made));
+        return drillmbd::state_space(made);
+    }
+    // DMB_ARRAY_VELOCITY .. _RESIDUAL.
+    std::vector<double> array(std::int32_t which)
+    {
+        std::uint64_t count = 0;
+        done(dmb_analysis_array(handle_, which, nullptr, &count));
+        std::vector<double> answer(count);
+        if (count > 0) done(dmb_analysis_array(handle_, which, answer.data(), &count));
+        return answer;
     }
     drillmbd::modes modes(const dmb_modes_options *options = nullptr)
     {

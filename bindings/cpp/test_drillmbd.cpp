@@ -161,6 +161,10 @@ void statics()
     model.compile();
     drillmbd::sim sim(model);
     EXPECT(sim.static_start().residual < 1e-9);
+    drillmbd::state_space space = sim.state_space({}, {});
+    EXPECT(space.dense(DMB_MATRIX_A).size() == static_cast<std::size_t>(space.info().states) * space.info().states);
+    EXPECT(!space.sparse(DMB_MATRIX_STIFFNESS).values.empty());
+    EXPECT(sim.array(DMB_ARRAY_VELOCITY).size() == space.info().rows);
     EXPECT(sim.contact_total().normal_force > 100.0);
 }
 

@@ -334,6 +334,75 @@ class ArraysTest(unittest.TestCase):
             self.assertAlmostEqual(rows.values[0, -1, 0], 10.0)
         window.reset()
 
+    @there("scipy")
+    def test_state_space(self):
+        import numpy
+        import scipy.linalg
+        import scipy.sparse.linalg
+        model = mbd.Model()
+        model.set_environment(gravity=(0.0, 0.0, 0.0))
+        string = model.add_string(start_free=mbd.FREE_CYLINDRICAL)
+        model.add_pipes(8, string=string, damping_time=1e-3)
+        feed = model.add_drive(part=string, kind=mbd.DRIVE_CONTROL, gain=2e4, integral_gain=1e6,
+                               programme=model.add_programme(mbd.Term()))
+        model.add_drive(part=string, component=mbd.RX, programme=model.add_programme(mbd.Term()))
+        model.compile()
+        sim = mbd.Sim(model)
+        inputs = [mbd.Input(kind=mbd.INPUT_DRIVE, place=mbd.station(feed))]
+        outputs = [mbd.Output(kind=mbd.OUTPUT_DISPLACEMENT, place=mbd.station(string, 7, 1.0), component=mbd.X),
+                   mbd.Output(kind=mbd.OUTPUT_CHANNEL, place=mbd.station(string), component=mbd.CHANNEL_HOOK_LOAD)]
+        full = sim.state_space(inputs, outputs)
+        A, B, C, D = full.matrices
+        self.assertEqual(full.info.states, len(A))
+        frequencies = [3.0, 40.0, 111.0]
+        response = sim.response(inputs, outputs, frequencies=frequencies)
+        for k in range(2):
+            want = response.transfer(0, k)
+            for i, f in enumerate(frequencies):
+                got = (C @ numpy.linalg.solve(2j * numpy.pi * f * numpy.eye(len(A)) - A, B) + D)[k, 0]
+                self.assertLess(abs(got - want[i]), 1e-8 * abs(want[i]))
+        # a step of the target, by the matrix exponential and by a run; a ramp of 20 ms, its integral as the state
+        rise, h, n = 0.02, 2e-4, 150
+        x, block = numpy.zeros(len(A)), numpy.zeros((len(A) + 2, len(A) + 2))
+        block[:len(A), :len(A)], block[:len(A), -2:-1], block[-2, -1] = A, B, 1.0
+        step = scipy.linalg.expm(h * block)
+        for i in range(n):
+            u = min(i * h / rise, 1.0), 1.0 / rise if i * h < rise - 1e-9 else 0.0
+            x = (step @ numpy.concatenate([x, u]))[:-2]
+        moving = mbd.Model()
+        moving.set_environment(gravity=(0.0, 0.0, 0.0))
+        other = moving.add_string(start_free=mbd.FREE_CYLINDRICAL)
+        moving.add_pipes(8, string=other, damping_time=1e-3)
+        moving.add_drive(part=other, kind=mbd.DRIVE_CONTROL, gain=2e4, integral_gain=1e6, programme=moving.add_programme(
+            mbd.Term(table=([0.0, rise], [0.0, 1e-4]))))
+        moving.add_drive(part=other, component=mbd.RX, programme=moving.add_programme(mbd.Term()))
+        moving.compile()
+        run = mbd.Sim(moving)
+        for _ in range(n * 4):
+            run.step(h / 4)
+        want = run.channel("position_x", mbd.station(other, 7, 1.0)) - 8.0
+        self.assertLess(abs(1e-4 * (C @ x)[0] - want), 2e-3 * abs(want))
+        # sparse: the lowest frequency of R' K R, R' M R is that of the modes
+        M, K, R = full.M, full.K, full.R
+        self.assertEqual(full.J.shape[0], 0)
+        square = scipy.linalg.eigh((R.T @ K @ R).toarray(), (R.T @ M @ R).toarray(), eigvals_only=True)
+        modes = sim.modes(count=4)
+        found = [mode.frequency for mode in modes]
+        self.assertLess(max(abs(numpy.sqrt(abs(square[:4])) / (2 * numpy.pi) - found)), 1e-6 * max(found))
+        reduced = sim.state_space(inputs, outputs[:1], modes=modes, shift=0.5)
+        self.assertEqual(reduced.info.coordinates, 5)
+        self.assertEqual(reduced.shapes.shape, (5, reduced.info.rows))
+        arrays = run.arrays
+        self.assertEqual(arrays.velocity.shape, (reduced.info.rows,))
+        self.assertAlmostEqual(arrays.position[-1, 0], run.pose(mbd.station(other, 7, 1.0)).position[0], 12)
+        along = arrays.place(mbd.station(other, 7, 1.0), mbd.X)
+        self.assertAlmostEqual(sum(f * arrays.velocity[row] for row, f in along.items()),
+                               run.motion(mbd.station(other, 7, 1.0)).velocity[0], 12)
+        self.assertEqual(arrays.row(0).part.index, other.index)
+        self.assertEqual(arrays.residual.shape, arrays.velocity.shape)
+        with self.assertRaises(mbd.Error):
+            sim.state_space(inputs, outputs, modes=modes, mode_list=[99])
+
     def test_fatigue(self):
         counted = self.sim.fatigue([self.places[4]], curve_stress=1e8, slope=4.0, classes=64)
         counted.take()

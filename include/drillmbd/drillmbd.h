@@ -13,5 +13,6 @@
 #include "query.h"
 #include "response.h"
 #include "sim.h"
+#include "state_space.h"
 
 #endif

@@ -16,6 +16,7 @@
 #define DMB_HANDLE_MODES UINT32_C(0x4D424D4F)
 #define DMB_HANDLE_FATIGUE UINT32_C(0x4D424631)
 #define DMB_HANDLE_WINDOW UINT32_C(0x4D425731)
+#define DMB_HANDLE_STATE_SPACE UINT32_C(0x4D425353)
 
 /* True if object is not NULL and carries the stamp. */
 static inline bool dmb_handle_is(const void *object, uint32_t stamp)

@@ -51,8 +51,8 @@ static int is_due(const dmb_recorder *r, double time)
 
 static int32_t value_of(const dmb_recorder *r, const dmb_sim *sim, const dmb_channel *channel, double *value)
 {
-    const dmb_channel_entry *entry = dmb_channel_name_of(channel->quantity);
-    if (entry != NULL && entry->place == DMB_AT_WINDOW && r->window != NULL)
+    if (r->window != NULL && channel->quantity >= DMB_CHANNEL_WINDOW_MINIMUM &&
+        channel->quantity <= DMB_CHANNEL_WINDOW_LOW_SHARE)
         return dmb_window_value(r->window, channel, value);
     return dmb_channel_value(sim, channel, value);
 }

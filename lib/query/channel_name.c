@@ -233,10 +233,11 @@ static const dmb_channel_entry names[] = {
 
 enum { NAME_COUNT = sizeof names / sizeof names[0] };
 
-/* First entry whose number is not below. */
+/* First entry whose number is not below; the numbers of query.h are their places. */
 static size_t place_of(int32_t quantity)
 {
     size_t low = 0, high = NAME_COUNT;
+    if (quantity >= 0 && quantity < DMB_CHANNEL_COUNT) return (size_t)quantity;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
         if (names[middle].quantity < quantity)

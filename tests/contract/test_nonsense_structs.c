@@ -51,6 +51,7 @@ INIT(allocator) INIT(joint_state) INIT(joint_def) INIT(coupling_def) INIT(constr
 INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row) INIT(fatigue_options)
 INIT(fatigue_result) INIT(window_options) INIT(window_result) INIT(profile_recorder)
 INIT(input_def) INIT(input_info) INIT(input_state) INIT(spring_def) INIT(spring_state)
+INIT(state_space_options) INIT(state_space_info) INIT(row)
     /* clang-format on */
 
     static int32_t call_model_options(void *p)
@@ -409,6 +410,32 @@ static int32_t call_profile_recorder(void *p)
     return status;
 }
 
+static int32_t call_state_space_options(void *p)
+{
+    dmb_state_space_options *options = p;
+    dmb_state_space *space = NULL;
+    if (options->struct_size >= sizeof *options) options->form = DMB_STATE_MATRICES;
+    const int32_t status = dmb_analysis_state_space(scene.sim, p, NULL, 0, NULL, 0, &space);
+    dmb_state_space_destroy(&space);
+    return status;
+}
+
+static int32_t call_state_space_info(void *p)
+{
+    dmb_state_space_options options = dmb_state_space_options_default();
+    dmb_state_space *space = NULL;
+    options.form = DMB_STATE_MATRICES;
+    assert_int_equal(dmb_analysis_state_space(scene.sim, &options, NULL, 0, NULL, 0, &space), DMB_OK);
+    const int32_t status = dmb_state_space_get_info(space, p);
+    dmb_state_space_destroy(&space);
+    return status;
+}
+
+static int32_t call_row(void *p)
+{
+    return dmb_query_row(scene.sim, 0, p);
+}
+
 static int32_t call_recorder(void *p)
 {
     dmb_recorder *recorder = p;
@@ -475,6 +502,9 @@ static const entry entries[] = {
     ENTRY(window_options, 0),
     ENTRY(window_result, 1),
     ENTRY(profile_recorder, 0),
+    ENTRY(state_space_options, 0),
+    ENTRY(state_space_info, 1),
+    ENTRY(row, 1),
     ENTRY(joint_state, 1),
     ENTRY(joint_def, 0),
     ENTRY(coupling_def, 0),

@@ -38,6 +38,7 @@ from .model import Model
 from .profile import Profile
 from .recorder import ProfileRecorder, Recorder
 from .sim import Progress, Sim
+from .state_space import Arrays, StateSpace
 from .window import Window
 
 _OLD_NAMES = {"ContactSum": "ContactTotal", "SineOptions": "SteppedSineOptions", "SineReport": "SteppedSineReport",
@@ -52,8 +53,8 @@ def __getattr__(name: str) -> object:
     raise AttributeError(f"module 'drillmbd' has no attribute '{name}'")
 
 
-__all__ = ["STRUCTS", "VERSION", "__version__", "Buckling", "Error", "Fatigue", "Model", "Modes", "Profile",
-           "ProfileRecorder", "Progress", "Recorder", "Response", "Sim", "TorqueDrag", "Window", "channel_name",
+__all__ = ["STRUCTS", "VERSION", "__version__", "Arrays", "Buckling", "Error", "Fatigue", "Model", "Modes", "Profile",
+           "ProfileRecorder", "Progress", "Recorder", "Response", "Sim", "StateSpace", "TorqueDrag", "Window", "channel_name",
            "channel_names", "channel_quantity", "channel_unit", "operation_name", "output", "station", "status_name", "status_text", "usual_operation"]
 __all__ += [name for name, value in vars(_structs).items() if name.endswith("_FN") or value in STRUCTS.values()]
 __all__ += [name for name, value in vars(enums).items() if name.isupper() and isinstance(value, int)]

@@ -10,14 +10,17 @@ from ._structs import *  # noqa: F403
 # name: (result, arguments...)
 PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_allocator_init": (c_int32, POINTER(Allocator), c_uint32,),
+    "dmb_analysis_array": (c_int32, c_void_p, c_int32, POINTER(c_double), POINTER(c_uint64),),
     "dmb_analysis_buckling": (c_int32, c_void_p, POINTER(BucklingOptions), POINTER(c_void_p),),
     "dmb_analysis_check": (c_int32, c_void_p, POINTER(CheckReport),),
     "dmb_analysis_check_text": (c_int32, c_void_p, c_char_p, c_size_t, POINTER(c_size_t),),
     "dmb_analysis_friction_factor": (c_int32, c_void_p, POINTER(TorqueDragOptions), POINTER(Operation), c_int32, c_double, POINTER(c_double),),
     "dmb_analysis_modes": (c_int32, c_void_p, POINTER(ModesOptions), POINTER(c_void_p),),
     "dmb_analysis_path": (c_int32, c_void_p, POINTER(PathOptions), POINTER(PathReport),),
+    "dmb_analysis_place_rows": (c_int32, c_void_p, Place, c_int32, c_int32, POINTER(c_uint32), POINTER(c_double), POINTER(c_uint32),),
     "dmb_analysis_response": (c_int32, c_void_p, POINTER(ResponseOptions), POINTER(Input), c_uint32, POINTER(Output), c_uint32, POINTER(c_void_p),),
     "dmb_analysis_speeds": (c_int32, c_void_p, POINTER(SpeedsOptions), POINTER(Order), c_uint32, POINTER(Output), POINTER(c_double), c_uint32, POINTER(SpeedBand), POINTER(c_uint32), POINTER(c_double),),
+    "dmb_analysis_state_space": (c_int32, c_void_p, POINTER(StateSpaceOptions), POINTER(Input), c_uint32, POINTER(Output), c_uint32, POINTER(c_void_p),),
     "dmb_analysis_static": (c_int32, c_void_p, POINTER(StaticOptions), POINTER(StaticReport),),
     "dmb_analysis_stepped_sine": (c_int32, c_void_p, c_double, POINTER(SteppedSineOptions), POINTER(Output), c_uint32, POINTER(c_double), POINTER(SteppedSineReport),),
     "dmb_analysis_torque_drag": (c_int32, c_void_p, POINTER(TorqueDragOptions), POINTER(Operation), c_uint32, POINTER(TorqueDragRow),),
@@ -114,6 +117,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_profile_recorder_write_csv": (c_int32, POINTER(ProfileRecorderStruct), c_char_p,),
     "dmb_query_bit": (c_int32, c_void_p, Id, POINTER(BitState),),
     "dmb_query_channel": (c_int32, c_void_p, POINTER(Channel), POINTER(c_double),),
+    "dmb_query_constraint_rows": (c_int32, c_void_p, Id, POINTER(c_uint32), POINTER(c_uint32),),
     "dmb_query_contact": (c_int32, c_void_p, c_uint32, POINTER(Contact),),
     "dmb_query_contact_total": (c_int32, c_void_p, POINTER(ContactTotal),),
     "dmb_query_drive": (c_int32, c_void_p, Id, POINTER(DriveState),),
@@ -130,6 +134,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_query_profile": (c_int32, c_void_p, POINTER(ProfileStruct),),
     "dmb_query_reaction": (c_int32, c_void_p, Id, POINTER(c_double),),
     "dmb_query_rotation": (c_int32, c_void_p, Place, POINTER(c_double),),
+    "dmb_query_row": (c_int32, c_void_p, c_uint32, POINTER(Row),),
     "dmb_query_section": (c_int32, c_void_p, Place, POINTER(Section),),
     "dmb_query_spring": (c_int32, c_void_p, Id, POINTER(SpringState),),
     "dmb_query_statistics": (c_int32, c_void_p, POINTER(Statistics),),
@@ -142,6 +147,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_response_options_init": (c_int32, POINTER(ResponseOptions), c_uint32,),
     "dmb_response_transfer": (c_int32, c_void_p, c_uint32, c_uint32, POINTER(c_double),),
     "dmb_response_write_csv": (c_int32, c_void_p, c_char_p,),
+    "dmb_row_init": (c_int32, POINTER(Row), c_uint32,),
     "dmb_section_init": (c_int32, POINTER(Section), c_uint32,),
     "dmb_sim_advance": (c_int32, c_void_p, c_double, POINTER(StepReport),),
     "dmb_sim_create": (c_int32, c_void_p, POINTER(SimOptions), POINTER(c_void_p),),
@@ -171,6 +177,13 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_speeds_report_init": (c_int32, POINTER(SpeedsReport), c_uint32,),
     "dmb_spring_def_init": (c_int32, POINTER(SpringDef), c_uint32,),
     "dmb_spring_state_init": (c_int32, POINTER(SpringState), c_uint32,),
+    "dmb_state_space_dense": (c_int32, c_void_p, c_int32, POINTER(c_double),),
+    "dmb_state_space_destroy": (None, POINTER(c_void_p),),
+    "dmb_state_space_get_info": (c_int32, c_void_p, POINTER(StateSpaceInfo),),
+    "dmb_state_space_info_init": (c_int32, POINTER(StateSpaceInfo), c_uint32,),
+    "dmb_state_space_options_init": (c_int32, POINTER(StateSpaceOptions), c_uint32,),
+    "dmb_state_space_shapes": (c_int32, c_void_p, POINTER(c_double),),
+    "dmb_state_space_sparse": (c_int32, c_void_p, c_int32, POINTER(c_uint32), POINTER(c_uint32), POINTER(c_double), POINTER(c_uint64),),
     "dmb_static_options_init": (c_int32, POINTER(StaticOptions), c_uint32,),
     "dmb_static_report_init": (c_int32, POINTER(StaticReport), c_uint32,),
     "dmb_statistics_init": (c_int32, POINTER(Statistics), c_uint32,),
@@ -198,6 +211,8 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
 }
 
 FUNCTION_DOCS = {
+    "dmb_analysis_array":
+        "values NULL: *count is the length of the array. Else *count on entry is the room (too little is ERR_VALUE) and on return what was written. The sim takes a message for a failing residual (those of dmb_sim_step).",
     "dmb_analysis_buckling":
         "Buckling from the present static state on (dmb_analysis_static first): the lowest factors > 0 at which K + factor dK is singular. K is the tangent stiffness with its contacts as they are, closed ones holding and swinging with F/e around the axis; dK is its change along the response of the state to the pattern of loads, both in the frames of the state; with joints both are those of the independent coordinates. A symmetric K is counted by the signs of the pivots (Sylvester), so that no factor is missed, and factors are found by bisection; of an unsymmetric one they are the real eigenvalues by Krylov subspaces: loads at which it diverges. It may flutter before, by a mode that grows while det K keeps its sign; so the damped modes are looked at on the way (`flutter`). That two eigenvalues of K become real and negative together is no event: at which load they do depends on the weights that they are measured by. A linearisation is an extrapolation, good where sections turn and contacts shift little on the way. So the equilibria are followed (dmb_analysis_path) to the factor, linearised again, and so on until an eigenvalue of their stiffness passes 0: the lowest factor is where the path loses its stability, at a bifurcation or limit point, and shape and further factors are linearised just before. dmb_buckling_get_info tells. The sim is not changed. NOTE_STOPPED where fewer than `count` lie below factor_max or can be told (beyond a limit point none can; message says how far the equilibria stay stable where there is none). NOTE_EXTRAPOLATED where some of the factors are not confirmed. Before these notes: NOTE_FLUTTER where a damped mode grows before the lowest factor; also where there is no such factor, up to a factor_max below 1e12 or to where the equilibria could be followed. NOTE_INCOMPLETE where that could not be judged though K is unsymmetric. Errors: ERR_VALUE, _ID, _ORDER (the state is no equilibrium or not stable; message says by how much), _SINGULAR (message says which part is free), _NO_CONVERGENCE (the equilibria could not be followed; message says how far), _UNSUPPORTED (a motion drive of a joint; a state that slides or turns by its drives: take STEADY_AT_REST, and the slip here, for it), _NO_MEMORY, _CALLBACK, _CANCELLED; *buckling is NULL then. Some 40 counts a factor and 10 to 100 iterations on the way, each O(number of elements); memory: the sim's twice more and 3 matrices, from its allocator.",
     "dmb_analysis_check":
@@ -210,10 +225,14 @@ FUNCTION_DOCS = {
         "Modes about the accepted state of a sim, which should be an equilibrium, at rest or spinning steadily. The state is not changed; sim takes the message, and need not outlive the result. options may be NULL. Memory: the sim's allocator, until dmb_modes_destroy. LOWEST: smallest |s|. Few modes: block Lanczos (full reorthogonalisation in the M-inner product), damped or unsymmetric ones block Arnoldi, both on the inverse of K (rigid-body motions apart, or shifted), linear in the number of elements; ALL, and many: LAPACK (dsygvd, dgeev), cubic. A BAND of many modes is divided: undamped by the counts of eigenvalues below its pieces, which must all be found, in time that grows with the modes; of damped ones likewise where their roots stand along the imaginary axis (K symmetric, no joints, less than a quarter of the critical damping at band[1]); elsewhere up to 256 modes below band[1] are found at once, more are refused (_TOO_LARGE). A mode that does not satisfy its equations to rounding, after some inverse iteration, or cannot be told from a rigid-body motion, is refused with its residual and the bound (_NO_CONVERGENCE). *modes is NULL on error: ERR_VALUE (option; more modes than coordinates; a band without modes; a state out of balance: by how much and where), _NO_CONVERGENCE, _SINGULAR, _CALLBACK, _NOT_FINITE, _ROTATION, _NO_MEMORY, _TOO_LARGE.",
     "dmb_analysis_path":
         "Follows the path from the present static state on by arc length: a step along the tangent, then Newton in the plane across it (Riks 1979) with the factor bordering the stiffness (Crisfield 1981), the step as long as Newton likes it. Limit points, bifurcations and the ends are located to 1e-8 of the step by regula falsi. Where K is unsymmetric a step is a twentieth of factor_end at most: an eigenvalue that leaves and one that comes back closer together may be passed by. Two that a complex pair becomes change `negative` and are no bifurcation: det K keeps its sign. The sim is not changed. options and report may be NULL; where the path was lost the report tells how far it came. NOTE_STOPPED after max_points or by the callback. Errors: ERR_VALUE, _ID, _ORDER (the state is no equilibrium), _SINGULAR (message says which part is free, or that the factor moves nothing), _NO_CONVERGENCE (message says where the path was lost), _ROTATION (above 2.5 rad in an element, likewise), _UNSUPPORTED (as of buckling), _NO_MEMORY, _CALLBACK, _CANCELLED. O(number of elements) an iteration; memory: the sim's once more.",
+    "dmb_analysis_place_rows":
+        "A small motion of a place as a linear function of those of rows: component X .. RZ in the axes of `frame` (FRAME_WORLD, FRAME_BODY) is sum of values[i] d[rows[i]]; *count <= 24. A force there acts on the rows by the same numbers. The sim takes the message.",
     "dmb_analysis_response":
         "Transfer functions from every input to every output about the accepted state of a sim, which must be an equilibrium, at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency, directly, in complex blocks. Of a state that spins, frames of `place` are its section's, which turn with it, and so are all frequencies. inputs, outputs: shapes (input_count), (output_count), 1 .. 1024 each, every struct of the size that the first says. options may be NULL. The state is not changed; sim takes the message. *response is NULL on error: ERR_VALUE (option, component, band; a state out of balance: by how much and where), _ID, _NOT_FINITE, _STRUCT_SIZE, _SINGULAR (frequency and part that nothing holds there: at 0 a part that is free), _UNSUPPORTED, _NO_MEMORY, _CALLBACK, _ROTATION. A motion drive at frequency 0 has no displacement: _SINGULAR too. Memory: the sim's allocator, until dmb_response_destroy; the sim need not outlive the response. Cost: O(points (elements + joints + inputs)), some 0.1 ms a point of 100 elements; of joints that share bodies the cube of the coordinates of those. One thread; several responses of one sim may not be computed at a time.",
     "dmb_analysis_speeds":
         "Bands of rotary speed to avoid about the accepted state of a sim. Severity of a speed: the sum over the orders of the largest amplitude of an output over its limit, by the linear response at order times speed; 1 is the limit even where all orders add up. limits: [unit of the output] > 0, shape (output_count). bands: *band_count on entry is room, the size of each what the first says; on return the number of bands, by rising speed, NOTE_FULL where more were found than there was room. severity, shape (points), may be NULL: largest within half a step of the grid around each speed. NOTE_INCOMPLETE (dmb_sim_message and the report tell): an order excites nothing, nothing damps, or a band is truncated at an end of the range. Call it for a sim of each depth or state. Errors: as dmb_analysis_response, with nothing written. Cost: that of order_count responses.",
+    "dmb_analysis_state_space":
+        "About the accepted state of a sim, which must be an equilibrium, at rest or spinning steadily (any state for STATE_MATRICES). inputs, outputs: as of dmb_analysis_response, 0 .. 1024 each; inputs that go with the square of the frequency (unbalance, eccentricity) are refused. Channels are outputs of kind OUTPUT_CHANNEL. options may be NULL. The state is not changed; sim takes the message and need not outlive the result, nor need the modes. Memory: the sim's allocator. *space is NULL on error: those of dmb_analysis_response; ERR_TOO_LARGE above 4096 states (reduce), ERR_SINGULAR for a mass or a stiffness that is singular (shift). O(coordinates^2) of STATE_FULL, O(shapes x elements) of STATE_REDUCED, O(elements) of STATE_MATRICES.",
     "dmb_analysis_static":
         "Static start: puts the sim at rest in the equilibrium of its loads, gravity, wall and drives at its present time, by Newton with the extrapolated element stress (Magisano, Leonetti, Garcea 2017); where that fails in load steps (gravity, loads and bit load from 0, drives as they are) that are halved when they fail and doubled when they do not, with a line search in the shortest; and by pseudo-transient continuation where that fails too. At rest the rock law does not act (at time 0 its bottom is laid ahead of the bit as described); a speed controller acts as at speed 0. Where motion drives move, the state is a steady one (`steady`): speeds of all nodes are those of the sliding or the rigid motion, friction acts by the slip that there is, damping and drag act, controllers act by that speed, and a bit that stands on rock cuts (at time 0: where none is described ahead of it). SLIDING asks that what turns is round (no eccentric mass, pre-bent pipe, or load across that turns with it), RIGID that gravity, loads, guides, joints to the ground and a hole agree with the axis; else ERR_UNSUPPORTED says what does not. Both take memory, one matrix and some vectors, from the sim's allocator. The energy ledger starts anew. options and report may be NULL. NOTE_UNSTABLE where the equilibrium at rest is one that the string would leave (report->negative > 0). Errors: ERR_VALUE, _NO_CONVERGENCE, _SINGULAR (message says which part is free), _ROTATION, _CALLBACK; the state is then that before the call. O(number of elements) an iteration.",
     "dmb_analysis_stepped_sine":
@@ -298,6 +317,8 @@ FUNCTION_DOCS = {
         "CSV, a line for each row and station: time [s], station, then the quantities with their units. ERR_IO.",
     "dmb_query_channel":
         "[unit of the channel] The present value. Errors: those of the query behind it, ERR_VALUE for an unknown quantity or a multiplier that is not there, ERR_UNSUPPORTED for a string without what is asked for (a bit, a rock law, a flexible first pipe) and for channels of a window.",
+    "dmb_query_constraint_rows":
+        "The first row of the Jacobian that is an equation of a joint, coupling, constraint or joint drive, and their count.",
     "dmb_query_contact":
         "Contact of one site, sites counted along the strings and then the bodies.",
     "dmb_query_contact_total":
@@ -320,6 +341,8 @@ FUNCTION_DOCS = {
         "[N, N m] force and moment of the guide and the motion drives on the rig end of a string or on a guided body, body frame, shape (6); 0 in components that are free.",
     "dmb_query_rotation":
         "[rad] rotation about the pipe's own axis since time 0, revolutions counted.",
+    "dmb_query_row":
+        "Whose a row is. ERR_VALUE where there is no such row.",
     "dmb_query_section":
         "Section loads of a flexible or axial-torsional pipe; ERR_UNSUPPORTED on rigid ones.",
     "dmb_query_spring":
@@ -378,6 +401,16 @@ FUNCTION_DOCS = {
         "[s] time of the last accepted state; NaN for NULL.",
     "dmb_sim_transfer_state":
         "Goes on where `from` stands, in a sim of another model: the same but for pipes more or fewer at the rig end of its strings, rods added or taken off; where the model describes its strings to begin, and what its programmes say from now on, may differ. The head lets go, draws back and grips the new rig end: guide, drives and bodies fixed to the rig end are there at once, so do it at rest. Pipes are matched from the far end and stay where and as they are; added ones start unstressed in line with the old rig end, moving with it (where that is tilted they may poke the wall; dmb_analysis_static settles the string, but begins the ledger anew). Guides hold the new rig end where it is; speeds that they and the drives do not allow are projected: NOTE_PROJECTED, dmb_sim_message tells by how much. Time, statistics, drives, contacts, joints and cut rock go on. So does the energy ledger: energies change by what pipes bring in or take along, works and balance do not. Displacements and the advance of bits count from the poses the new model describes; turns go on, but for what these differ by about the axis in a hole that bends. What pipes have drawn at random goes by their number from the rig, so it is drawn anew. Fails unless all else is of the same kind and number: ERR_VALUE, with what differs; ERR_GEOMETRY: a joint that is not open does not fit; ERR_SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE as dmb_sim_create. sim is then as it was. from is not changed. O(number of elements).",
+    "dmb_state_space_dense":
+        "One of A, B, C, D, row by row.",
+    "dmb_state_space_destroy":
+        "Sets *space to NULL. NULL-safe.",
+    "dmb_state_space_get_info":
+        "Errors of this and what follows: ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE.",
+    "dmb_state_space_shapes":
+        "Shapes of the coordinates of A by rows, shape (coordinates, rows): unit motions of STATE_FULL, the basis of STATE_REDUCED.",
+    "dmb_state_space_sparse":
+        "One of the sparse matrices as triplets, row by row, none twice. All three arrays NULL: *count is their length. Else *count on entry is the room and on return what was written; too little is ERR_VALUE.",
     "dmb_status_name":
         "Name (\"ERR_VALUE\") and text of a status; for an unknown one \"UNKNOWN\" and its text. Never NULL. Thread-safe.",
     "dmb_version":

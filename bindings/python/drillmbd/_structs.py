@@ -1543,6 +1543,94 @@ class SpeedBand(Sized):
     }
 
 
+class StateSpaceOptions(Sized):
+    c_name, about = "dmb_state_space_options", ""
+    struct_size: int
+    form: int
+    motion: int
+    static_correction: int
+    modes: Any
+    mode_list: Any
+    mode_count: int
+    contact: int
+    friction: int
+    reserved: int
+    contact_gap: float
+    equilibrium_tolerance: float
+    shift: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("form", c_int32),
+        ("motion", c_int32),
+        ("static_correction", c_int32),
+        ("modes", c_void_p),
+        ("mode_list", POINTER(c_int32)),
+        ("mode_count", c_uint32),
+        ("contact", c_int32),
+        ("friction", c_int32),
+        ("reserved", c_int32),
+        ("contact_gap", c_double),
+        ("equilibrium_tolerance", c_double),
+        ("shift", c_double),
+    ]
+    field_docs = {
+        "form": ("", "STATE_..., default STATE_FULL"),
+        "motion": ("", "MOTION_..., default MOTION_SPEED"),
+        "static_correction": ("", "1 (default): quasi-static shapes of the inputs in the basis; 0: modes alone"),
+        "modes": ("", "of STATE_REDUCED: modes about this state, of any kind, contact as here"),
+        "mode_list": ("-", "numbers of those that are taken, shape (mode_count); NULL (default): all"),
+        "mode_count": ("", ""),
+        "contact": ("", "CONTACT_..., default CONTACT_AS_IS"),
+        "friction": ("", "as of a response, default 1"),
+        "contact_gap": ("m", "of CONTACT_CLOSED, >= 0; default 0"),
+        "equilibrium_tolerance": ("-", "residual over the forces that balance in it; default 1e-6"),
+        "shift": ("Hz", ">= 0: quasi-static shapes are (K + w^2 M)^-1 f; default 0; > 0 where something is free to move as a rigid body, far below the frequencies that count"),
+    }
+
+
+class StateSpaceInfo(Sized):
+    c_name, about = "dmb_state_space_info", ""
+    struct_size: int
+    states: int
+    inputs: int
+    outputs: int
+    coordinates: int
+    mode_shapes: int
+    input_states: int
+    rows: int
+    independent: int
+    constraint_rows: int
+    residual_of_state: float
+    largest_force: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("states", c_uint32),
+        ("inputs", c_uint32),
+        ("outputs", c_uint32),
+        ("coordinates", c_uint32),
+        ("mode_shapes", c_uint32),
+        ("input_states", c_uint32),
+        ("rows", c_uint32),
+        ("independent", c_uint32),
+        ("constraint_rows", c_uint32),
+        ("residual_of_state", c_double),
+        ("largest_force", c_double),
+    ]
+    field_docs = {
+        "states": ("-", "2 coordinates + input_states; 0 of STATE_MATRICES"),
+        "inputs": ("-", ""),
+        "outputs": ("-", ""),
+        "coordinates": ("-", "of A: independent ones, or shapes of the basis"),
+        "mode_shapes": ("-", "of these, of modes; the others are quasi-static"),
+        "input_states": ("-", ""),
+        "rows": ("-", "of M, C, K: all rows of the scene, held ones too"),
+        "independent": ("-", "columns of MATRIX_COORDINATES"),
+        "constraint_rows": ("-", "of the Jacobian: equations that act"),
+        "residual_of_state": ("-", "relative"),
+        "largest_force": ("N", "of it"),
+    }
+
+
 LOG_FN = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
 
 
@@ -2239,6 +2327,33 @@ class SpeedsOptions(Sized):
     }
 
 
+class Row(Sized):
+    c_name, about = "dmb_row", ""
+    struct_size: int
+    component: int
+    part: Id
+    pipe: int
+    node: int
+    state: int
+    reserved: int
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("component", c_int32),
+        ("part", Id),
+        ("pipe", c_uint32),
+        ("node", c_uint32),
+        ("state", c_int32),
+        ("reserved", c_int32),
+    ]
+    field_docs = {
+        "component": ("", "X .. RZ of the body-frame velocity"),
+        "part": ("", "string or body that the node belongs to"),
+        "pipe": ("-", "of the string; the one before the node"),
+        "node": ("-", ""),
+        "state": ("", "ROW_FREE, held by a guide, or driven by a motion drive"),
+    }
+
+
 PATH_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(PathPoint))
 
 
@@ -2722,3 +2837,6 @@ STRUCTS["dmb_order"] = Order
 STRUCTS["dmb_speeds_report"] = SpeedsReport
 STRUCTS["dmb_speeds_options"] = SpeedsOptions
 STRUCTS["dmb_speed_band"] = SpeedBand
+STRUCTS["dmb_state_space_options"] = StateSpaceOptions
+STRUCTS["dmb_state_space_info"] = StateSpaceInfo
+STRUCTS["dmb_row"] = Row

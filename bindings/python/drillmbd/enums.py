@@ -964,6 +964,82 @@ OUTPUT_BIT = OutputKind.BIT
 OUTPUT_CHANNEL = OutputKind.CHANNEL
 
 
+class StateForm(IntEnum):
+    """Values DMB_STATE_... of the headers."""
+    FULL = 0  #: all coordinates
+    REDUCED = 1  #: amplitudes of the shapes of chosen modes, and of quasi-static ones: one for each force of an input, two or three for a motion drive, so that answers are exact at frequency `shift`. Galerkin's method on that real basis, orthonormal in M, which needs no left vectors; of complex shapes it takes real and imaginary part
+    MATRICES = 2  #: none: sparse matrices alone, about any state; no inputs nor outputs
+
+
+STATE_FULL = StateForm.FULL
+STATE_REDUCED = StateForm.REDUCED
+STATE_MATRICES = StateForm.MATRICES
+
+
+class MotionInput(IntEnum):
+    """Values DMB_MOTION_... of the headers."""
+    SPEED = 0  #: the input of a motion drive is its speed. Outputs that feel accelerations at once (forces beside the drive) would depend on its rate: ERR_UNSUPPORTED
+    ACCELERATION = 1  #: it is the rate of that [m/s2, rad/s2], with displacement and speed as states
+
+
+MOTION_SPEED = MotionInput.SPEED
+MOTION_ACCELERATION = MotionInput.ACCELERATION
+
+
+class Matrix(IntEnum):
+    """Values DMB_MATRIX_... of the headers."""
+    A = 0  #: shape (states, states)
+    B = 1  #: shape (states, inputs)
+    C = 2  #: shape (outputs, states)
+    D = 3  #: shape (outputs, inputs)
+    MASS = 4
+    DAMPING = 5  #: with gyroscopic terms
+    STIFFNESS = 6  #: each by all rows, body-frame displacements; shape (rows, rows)
+    JACOBIAN = 7  #: of the equations of joints, couplings, constraints and joint drives that act; shape (constraint_rows, rows)
+    COORDINATES = 8  #: R of d = R z, z the independent coordinates; shape (rows, independent)
+
+
+MATRIX_A = Matrix.A
+MATRIX_B = Matrix.B
+MATRIX_C = Matrix.C
+MATRIX_D = Matrix.D
+MATRIX_MASS = Matrix.MASS
+MATRIX_DAMPING = Matrix.DAMPING
+MATRIX_STIFFNESS = Matrix.STIFFNESS
+MATRIX_JACOBIAN = Matrix.JACOBIAN
+MATRIX_COORDINATES = Matrix.COORDINATES
+
+
+class Array(IntEnum):
+    """Values DMB_ARRAY_... of the headers."""
+    VELOCITY = 0  #: [m/s, rad/s] shape (rows)
+    ACCELERATION = 1  #: [m/s2, rad/s2] rates of those, shape (rows)
+    POSITION = 2  #: [m] of the nodes, world, shape (nodes, 3)
+    QUATERNION = 3  #: [-] body to world, scalar first, shape (nodes, 4)
+    MULTIPLIER = 4  #: [N, ...] of the rows of MATRIX_JACOBIAN: residual + J^T multiplier = 0
+    RESIDUAL = 5  #: [N, N m] of the equations of motion without forces of constraint, at the present pose, speeds and accelerations, shape (rows): M v' + ... - f; what guides hold is left in their rows
+
+
+ARRAY_VELOCITY = Array.VELOCITY
+ARRAY_ACCELERATION = Array.ACCELERATION
+ARRAY_POSITION = Array.POSITION
+ARRAY_QUATERNION = Array.QUATERNION
+ARRAY_MULTIPLIER = Array.MULTIPLIER
+ARRAY_RESIDUAL = Array.RESIDUAL
+
+
+class RowState(IntEnum):
+    """Values DMB_ROW_... of the headers."""
+    FREE = 0
+    HELD = 1
+    DRIVEN = 2
+
+
+ROW_FREE = RowState.FREE
+ROW_HELD = RowState.HELD
+ROW_DRIVEN = RowState.DRIVEN
+
+
 NONE = 0xFFFFFFFF
 COMBINED = 0xFFFFFFFF
 
@@ -1010,4 +1086,9 @@ ENUMS = (
     Reading,
     InputKind,
     OutputKind,
+    StateForm,
+    MotionInput,
+    Matrix,
+    Array,
+    RowState,
 )

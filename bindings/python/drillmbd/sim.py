@@ -13,8 +13,9 @@ from . import analysis
 from ._keep import Keep, as_place, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._progress import Teller
-from ._structs import (STRUCTS, BitState, Channel, Contact, DriveState, Energy, FatigueOptions, Id, JointState, Momentum,
-                       Motion, Place, Pose, Section, SimOptions, SpringState, Statistics, StepReport, WindowOptions)
+from ._structs import (STRUCTS, BitState, Channel, Contact, DriveState, Energy, FatigueOptions, Id, Input, JointState,
+                       Momentum, Motion, Output, Place, Pose, Section, SimOptions, SpringState, StateSpaceOptions, Statistics,
+                       StepReport, WindowOptions)
 from .channels import channel_quantity
 from .enums import FRAME_WORLD, NOTE_CANCELLED, NOTE_STOPPED, OK
 from .errors import check
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from .model import Model
     from .fatigue import Fatigue
     from .profile import Profile
+    from .state_space import Arrays, StateSpace
     from .window import Window
 
 _step, _advance, _set_status = _lib.dmb_sim_step, _lib.dmb_sim_advance, object.__setattr__
@@ -363,6 +365,21 @@ class Sim(analysis.Analyses):
         pipes and at its rig end."""
         from .profile import profile
         return profile(self, string, pipes, per_pipe)
+
+    @mirrors("dmb_analysis_state_space")
+    def state_space(self, inputs: Sequence[Input] = (), outputs: Sequence[Output] = (),
+                    options: StateSpaceOptions | None = None, modes: analysis.Modes | None = None,
+                    mode_list: Sequence[int] | None = None, **fields: Any) -> StateSpace:
+        """The linearised scene from every Input to every Output as A, B, C, D; with modes reduced to these, or to those of
+        mode_list."""
+        from .state_space import StateSpace
+        return StateSpace(self, inputs, outputs, struct(StateSpaceOptions, options, fields), modes, mode_list)
+
+    @property
+    def arrays(self) -> Arrays:
+        """The state as numpy arrays, and the map from places to rows."""
+        from .state_space import Arrays
+        return Arrays(self)
 
     @mirrors("dmb_fatigue_create")
     def fatigue(self, places: Sequence[Any], options: FatigueOptions | None = None, **fields: Any) -> Fatigue:

@@ -296,6 +296,11 @@ void dmb_clusters_least_norm(dmb_sim *sim)
     dmb_sparse_least_norm(sim);
 }
 
+void dmb_clusters_clear_multipliers(dmb_sim *sim)
+{
+    memset(sim->trial.multiplier, 0, sim->scene->constraint_row_count * sizeof(double));
+}
+
 void dmb_cluster_move_multiplier(dmb_sim *sim, uint32_t row, double change)
 {
     sim->trial.multiplier[row] += change;

@@ -39,6 +39,8 @@ int32_t dmb_clusters_settle(dmb_evaluation *evaluation, int32_t levels, int32_t 
 void dmb_clusters_balance(dmb_evaluation *evaluation);
 /* Multipliers of the trial: those of least norm where rows are redundant. Once a state, not in iterations. */
 void dmb_clusters_least_norm(dmb_sim *sim);
+/* Multipliers of the trial become 0, for residuals without forces of constraint. */
+void dmb_clusters_clear_multipliers(dmb_sim *sim);
 /* A multiplier of the trial is moved by what an iteration has found for it. */
 void dmb_cluster_move_multiplier(dmb_sim *sim, uint32_t row, double change);
 /* Multipliers of trial into now. */

@@ -1,0 +1,383 @@
+/* The analysis: options, the linear system, inputs and outputs, memory; and the questions to its result. */
+#include "analysis/state_space/state_space.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "analysis/modes/modes.h"
+#include "base/handle.h"
+#include "base/memory.h"
+#include "base/sized_struct.h"
+#include "base/value_check.h"
+#include "sim/access.h"
+#include "sim/node.h"
+#include "system/copy.h"
+
+DMB_DEFINE_INIT(dmb_state_space_options, 72,
+                {
+                    .static_correction = 1,
+                    .friction = 1,
+                    .equilibrium_tolerance = 1e-6,
+                })
+DMB_DEFINE_INIT(dmb_state_space_info, 56, {.states = 0})
+
+enum { STATES_MAX = 4096, INPUTS_MAX = 1024 };
+
+/* ---- Options ----------------------------------------------------------------------------------------------------- */
+
+static int32_t check_modes(dmb_sim *sim, const dmb_state_space_options *o)
+{
+    if (o->form != DMB_STATE_REDUCED) return DMB_OK;
+    if (o->modes == NULL) {
+        dmb_message_set(&sim->message, "state space options: modes = NULL, must be modes of this state to reduce to");
+        return DMB_ERR_NULL;
+    }
+    if (dmb_handle_is(o->modes, DMB_HANDLE_MODES)) return DMB_OK;
+    dmb_message_set(&sim->message, "state space options: modes is no live result of dmb_analysis_modes");
+    return DMB_ERR_HANDLE;
+}
+
+static int32_t take_options(dmb_sim *sim, const dmb_state_space_options *given, uint32_t inputs, uint32_t outputs,
+                            dmb_state_space_options *out)
+{
+    dmb_check check = dmb_check_of(&sim->message, "state space options", DMB_NONE);
+    *out = dmb_state_space_options_default();
+    if (given != NULL && dmb_state_space_options_read(out, given) < 0) {
+        dmb_message_set(&sim->message, "state space options: struct_size is not one this library knows");
+        return DMB_ERR_STRUCT_SIZE;
+    }
+    const uint32_t most = out->form == DMB_STATE_MATRICES ? 0 : INPUTS_MAX;
+    dmb_check_choice(&check, "form", out->form, DMB_STATE_FULL, DMB_STATE_MATRICES);
+    dmb_check_choice(&check, "motion", out->motion, DMB_MOTION_SPEED, DMB_MOTION_ACCELERATION);
+    dmb_check_choice(&check, "static_correction", out->static_correction, 0, 1);
+    dmb_check_choice(&check, "contact", out->contact, DMB_CONTACT_AS_IS, DMB_CONTACT_CLOSED);
+    dmb_check_choice(&check, "friction", out->friction, 0, 1);
+    dmb_check_within(&check, "contact_gap", out->contact_gap, 0.0, 1e6);
+    dmb_check_within(&check, "equilibrium_tolerance", out->equilibrium_tolerance, 1e-6, 1.0);
+    dmb_check_within(&check, "shift", out->shift, 0.0, 1e9);
+    dmb_check_count(&check, "input_count", inputs, 0, most);
+    dmb_check_count(&check, "output_count", outputs, 0, most);
+    return check.status < 0 ? check.status : check_modes(sim, out);
+}
+
+/* ---- Preparation ------------------------------------------------------------------------------------------------- */
+
+static int32_t check_balance(const dmb_space_work *w)
+{
+    const dmb_linear *linear = w->linear;
+    if (w->options.form == DMB_STATE_MATRICES || linear->balanced) return DMB_OK;
+    if (linear->relative_residual <= w->options.equilibrium_tolerance) return DMB_OK;
+    const dmb_owner owner = dmb_owner_of_node(&linear->scene, linear->largest_node);
+    dmb_message_set(
+        &w->sim->message,
+        "state: not an equilibrium, %g of the forces that balance is left (up to %g N at %s), must be <= %g; "
+        "begin with dmb_analysis_static, or ask for DMB_STATE_MATRICES",
+        linear->relative_residual, linear->largest_force, owner.text.text, w->options.equilibrium_tolerance);
+    return DMB_ERR_VALUE;
+}
+
+static int32_t linearise(dmb_space_work *w)
+{
+    const dmb_linear_options options = {
+        .contact = w->options.contact, .no_friction = !w->options.friction, .gap = w->options.contact_gap};
+    int32_t status = dmb_linear_make(w->sim, &options, &w->linear);
+    if (status >= 0) status = check_balance(w);
+    if (status >= 0) status = dmb_whole_matrices(w->linear, &w->space->whole);
+    if (status >= 0) status = dmb_whole_jacobian(w->linear, &w->space->jacobian);
+    if (status < 0) return status;
+    w->linear->work->magic = DMB_HANDLE_SIM; /* so that it answers queries */
+    return dmb_dynamic_stiffness_make(w->linear, 0.0, &w->stiffness);
+}
+
+static void lay_out_work(dmb_arena *arena, dmb_space_work *w)
+{
+    const size_t rows = w->linear->rows;
+    w->inputs = DMB_ARENA_ARRAY(arena, dmb_excitation, w->input_count);
+    w->outputs = DMB_ARENA_ARRAY(arena, dmb_output_rows, w->output_count);
+    w->input_state = DMB_ARENA_ARRAY(arena, uint32_t, w->input_count);
+    w->work = DMB_ARENA_DOUBLES(arena, 8 * rows);
+    for (uint32_t i = 0; i < w->input_count; i++) {
+        double *re = DMB_ARENA_DOUBLES(arena, 2 * rows);
+        if (re == NULL) continue;
+        w->inputs[i].re = re;
+        w->inputs[i].im = re + rows;
+    }
+    for (uint32_t i = 0; i < w->output_count; i++) {
+        double *pose = DMB_ARENA_DOUBLES(arena, 4 * rows);
+        if (pose == NULL) continue;
+        w->outputs[i].pose = pose;
+        w->outputs[i].speed = pose + rows;
+        w->outputs[i].acceleration = pose + 2 * rows;
+        w->outputs[i].force = pose + 3 * rows;
+    }
+}
+
+static int32_t take_work(dmb_space_work *w)
+{
+    dmb_arena arena;
+    dmb_arena_count(&arena);
+    lay_out_work(&arena, w);
+    w->block_size = dmb_arena_block_size(&arena);
+    w->block = arena.overflow ? NULL : dmb_allocate(&w->sim->allocator, w->block_size);
+    if (w->block == NULL) return DMB_ERR_NO_MEMORY;
+    dmb_arena_place(&arena, w->block, w->block_size);
+    lay_out_work(&arena, w);
+    return DMB_OK;
+}
+
+static int32_t take_inputs(dmb_space_work *w, const dmb_input *inputs)
+{
+    for (uint32_t i = 0; i < w->input_count; i++) {
+        dmb_input input;
+        int32_t status = dmb_input_take(inputs, i, &w->sim->message, &input);
+        if (status >= 0) status = dmb_excitation_of(w->linear->work, &input, i, &w->sim->message, w->inputs + i);
+        if (status < 0) return status;
+        if (w->inputs[i].law == DMB_EXCITE_INERTIA) {
+            dmb_message_set(
+                &w->sim->message,
+                "input %u: kind = %d goes with the square of its frequency and is no input of a state space; "
+                "ask dmb_analysis_response",
+                i, (int)input.kind);
+            return DMB_ERR_UNSUPPORTED;
+        }
+        w->space->info.input_states += dmb_space_states_of(w, w->inputs + i);
+    }
+    return DMB_OK;
+}
+
+/* ---- Memory of the result ---------------------------------------------------------------------------------------- */
+
+static void lay_out_space(dmb_arena *arena, const dmb_space_work *w, size_t room, dmb_state_space *s)
+{
+    const dmb_linear *linear = w->linear;
+    const size_t states = 2 * room + s->info.input_states, entries = linear->start[linear->rows];
+    s->coordinate_start = DMB_ARENA_ARRAY(arena, uint32_t, linear->rows + 1);
+    s->coordinate_column = DMB_ARENA_ARRAY(arena, uint32_t, entries);
+    s->coordinate_value = DMB_ARENA_DOUBLES(arena, entries);
+    s->shapes = DMB_ARENA_DOUBLES(arena, room * linear->rows);
+    s->A = DMB_ARENA_DOUBLES(arena, states * states);
+    s->B = DMB_ARENA_DOUBLES(arena, states * w->input_count);
+    s->C = DMB_ARENA_DOUBLES(arena, states * w->output_count);
+    s->D = DMB_ARENA_DOUBLES(arena, (size_t)w->output_count * w->input_count);
+}
+
+static int32_t take_space(dmb_space_work *w, size_t room)
+{
+    dmb_state_space *s = w->space;
+    const dmb_linear *linear = w->linear;
+    const size_t entries = linear->start[linear->rows];
+    dmb_arena arena;
+    dmb_arena_count(&arena);
+    lay_out_space(&arena, w, room, s);
+    s->block_size = dmb_arena_block_size(&arena);
+    s->block = arena.overflow ? NULL : dmb_allocate(&s->allocator, s->block_size);
+    if (s->block == NULL) return DMB_ERR_NO_MEMORY;
+    dmb_arena_place(&arena, s->block, s->block_size);
+    lay_out_space(&arena, w, room, s);
+    memcpy(s->coordinate_start, linear->start, (linear->rows + 1) * sizeof(uint32_t));
+    memcpy(s->coordinate_column, linear->column, entries * sizeof(uint32_t));
+    memcpy(s->coordinate_value, linear->value, entries * sizeof(double));
+    return DMB_OK;
+}
+
+static int32_t refuse_size(const dmb_space_work *w, uint64_t states)
+{
+    dmb_message_set(&w->sim->message,
+                    "state space: %llu states, must be <= %d; reduce to modes (DMB_STATE_REDUCED), or take the sparse "
+                    "matrices alone (DMB_STATE_MATRICES)",
+                    (unsigned long long)states, (int)STATES_MAX);
+    return DMB_ERR_TOO_LARGE;
+}
+
+static int32_t make_room(dmb_space_work *w)
+{
+    const uint64_t room = w->options.form == DMB_STATE_MATRICES ? 0 : dmb_space_basis_room(w);
+    const uint64_t states = 2 * room + w->space->info.input_states;
+    return states > STATES_MAX ? refuse_size(w, states) : take_space(w, (size_t)room);
+}
+
+/* ---- The analysis ------------------------------------------------------------------------------------------------ */
+
+static void number_states(dmb_space_work *w)
+{
+    dmb_state_space_info *info = &w->space->info;
+    uint32_t state = 2 * info->coordinates;
+    for (uint32_t i = 0; i < w->input_count; i++) {
+        const uint32_t states = dmb_space_states_of(w, w->inputs + i);
+        w->input_state[i] = states > 0 ? state : DMB_NONE;
+        state += states;
+    }
+    info->states = state;
+}
+
+static void take_info(dmb_space_work *w)
+{
+    dmb_state_space_info *info = &w->space->info;
+    info->inputs = w->input_count;
+    info->outputs = w->output_count;
+    info->rows = w->linear->rows;
+    info->independent = w->linear->coordinates;
+    info->constraint_rows = w->space->jacobian.rows;
+    info->residual_of_state = w->linear->relative_residual;
+    info->largest_force = w->linear->largest_force;
+}
+
+static int32_t run(dmb_space_work *w, const dmb_input *inputs, const dmb_output *outputs)
+{
+    int32_t status = linearise(w);
+    if (status >= 0) status = take_work(w);
+    if (status >= 0) status = take_inputs(w, inputs);
+    if (status >= 0) status = dmb_space_take_outputs(w, outputs);
+    if (status >= 0) status = make_room(w);
+    if (status < 0) return status;
+    take_info(w);
+    if (w->options.form == DMB_STATE_MATRICES) return DMB_OK;
+    status = dmb_space_make_basis(w);
+    if (status < 0) return status;
+    number_states(w);
+    return dmb_space_fill(w);
+}
+
+static void release(dmb_space_work *w)
+{
+    dmb_dynamic_stiffness_release(&w->stiffness);
+    dmb_linear_release(&w->linear);
+    if (w->block != NULL) dmb_release(&w->sim->allocator, w->block, w->block_size);
+}
+
+static int32_t analyse(dmb_sim *sim, const dmb_state_space_options *options, const dmb_input *inputs,
+                       uint32_t input_count, const dmb_output *outputs, uint32_t output_count, dmb_state_space **space)
+{
+    dmb_space_work w = {.sim = sim, .input_count = input_count, .output_count = output_count};
+    int32_t status = take_options(sim, options, input_count, output_count, &w.options);
+    if (status >= 0) status = dmb_state_copy_check(sim, "state space");
+    if (status < 0) return status;
+    w.space = dmb_allocate(&sim->allocator, sizeof *w.space);
+    status = w.space != NULL ? DMB_OK : DMB_ERR_NO_MEMORY;
+    if (status >= 0) {
+        w.space->magic = DMB_HANDLE_STATE_SPACE;
+        w.space->allocator = sim->allocator;
+        status = run(&w, inputs, outputs);
+    }
+    release(&w);
+    if (status == DMB_ERR_NO_MEMORY) dmb_message_set(&sim->message, "state space: no memory");
+    if (status < 0)
+        dmb_state_space_destroy(&w.space);
+    else
+        *space = w.space;
+    return status < 0 ? status : DMB_OK;
+}
+
+int32_t dmb_analysis_state_space(dmb_sim *sim, const dmb_state_space_options *options, const dmb_input *inputs,
+                                 uint32_t input_count, const dmb_output *outputs, uint32_t output_count,
+                                 dmb_state_space **space)
+{
+    if (space == NULL) return DMB_ERR_NULL;
+    *space = NULL;
+    if (sim == NULL || (inputs == NULL && input_count > 0) || (outputs == NULL && output_count > 0))
+        return DMB_ERR_NULL;
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    if (status < 0) return status;
+    return dmb_sim_leave(sim, analyse(sim, options, inputs, input_count, outputs, output_count, space));
+}
+
+void dmb_state_space_destroy(dmb_state_space **space)
+{
+    if (space == NULL) return;
+    dmb_state_space *found = *space;
+    *space = NULL;
+    if (!dmb_handle_is(found, DMB_HANDLE_STATE_SPACE)) return;
+    const dmb_allocator allocator = found->allocator;
+    found->magic = DMB_HANDLE_DEAD;
+    dmb_sparse_rows_release(&allocator, &found->whole);
+    dmb_sparse_rows_release(&allocator, &found->jacobian);
+    if (found->block != NULL) dmb_release(&allocator, found->block, found->block_size);
+    dmb_release(&allocator, found, sizeof *found);
+}
+
+/* ---- Questions --------------------------------------------------------------------------------------------------- */
+
+static int32_t ask(const dmb_state_space *space, const void *answer)
+{
+    if (space == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(space, DMB_HANDLE_STATE_SPACE)) return DMB_ERR_HANDLE;
+    return answer != NULL ? DMB_OK : DMB_ERR_NULL;
+}
+
+int32_t dmb_state_space_get_info(const dmb_state_space *space, dmb_state_space_info *info)
+{
+    const int32_t status = ask(space, info);
+    return status < 0 ? status : dmb_state_space_info_write(info, &space->info);
+}
+
+int32_t dmb_state_space_dense(const dmb_state_space *space, int32_t matrix, double *values)
+{
+    const int32_t status = ask(space, values);
+    if (status < 0) return status;
+    const size_t states = space->info.states, inputs = space->info.inputs, outputs = space->info.outputs;
+    const double *all[4] = {space->A, space->B, space->C, space->D};
+    const size_t counts[4] = {states * states, states * inputs, outputs * states, outputs * inputs};
+    if (matrix < DMB_MATRIX_A || matrix > DMB_MATRIX_D) return DMB_ERR_VALUE;
+    if (counts[matrix] > 0) memcpy(values, all[matrix], counts[matrix] * sizeof(double));
+    return DMB_OK;
+}
+
+int32_t dmb_state_space_shapes(const dmb_state_space *space, double *shapes)
+{
+    const int32_t status = ask(space, shapes);
+    if (status < 0) return status;
+    const size_t numbers = (size_t)space->info.coordinates * space->info.rows;
+    if (numbers > 0) memcpy(shapes, space->shapes, numbers * sizeof(double));
+    return DMB_OK;
+}
+
+/* A sparse matrix by rows. */
+typedef struct sparse_view {
+    uint32_t rows;
+    const uint32_t *start, *column;
+    const double *value;
+} sparse_view;
+
+static sparse_view view_of(const dmb_state_space *s, int32_t matrix)
+{
+    const dmb_sparse_rows *of = matrix == DMB_MATRIX_JACOBIAN ? &s->jacobian : &s->whole;
+    const int kind = matrix == DMB_MATRIX_JACOBIAN ? 0 : matrix - DMB_MATRIX_MASS;
+    if (matrix == DMB_MATRIX_COORDINATES) {
+        const sparse_view R = {s->info.rows, s->coordinate_start, s->coordinate_column, s->coordinate_value};
+        return R;
+    }
+    const sparse_view A = {of->rows, of->start, of->column, of->value[kind]};
+    return A;
+}
+
+/* Entries that are not 0; the arrays may be NULL. */
+static uint64_t put_entries(const sparse_view *A, uint32_t *rows, uint32_t *columns, double *values)
+{
+    uint64_t used = 0;
+    for (uint32_t r = 0; r < A->rows; r++)
+        for (uint32_t i = A->start[r]; i < A->start[r + 1]; i++) {
+            if (A->value[i] == 0.0) continue;
+            if (values != NULL) {
+                rows[used] = r;
+                columns[used] = A->column[i];
+                values[used] = A->value[i];
+            }
+            used++;
+        }
+    return used;
+}
+
+int32_t dmb_state_space_sparse(const dmb_state_space *space, int32_t matrix, uint32_t *rows, uint32_t *columns,
+                               double *values, uint64_t *count)
+{
+    const int32_t status = ask(space, count);
+    if (status < 0) return status;
+    if (matrix < DMB_MATRIX_MASS || matrix > DMB_MATRIX_COORDINATES) return DMB_ERR_VALUE;
+    const int given = (rows != NULL) + (columns != NULL) + (values != NULL);
+    if (given != 0 && given != 3) return DMB_ERR_NULL;
+    const sparse_view A = view_of(space, matrix);
+    const uint64_t needed = put_entries(&A, NULL, NULL, NULL);
+    if (given == 3 && *count < needed) return DMB_ERR_VALUE;
+    *count = given == 3 ? put_entries(&A, rows, columns, values) : needed;
+    return DMB_OK;
+}

@@ -1,0 +1,202 @@
+/* M, C and K of a linear system by all rows, and the Jacobian of its constraints, as sparse rows. What a row that is
+ * held exerts and takes stands apart in a linear system: its column in held_columns, its row in held_rows. */
+#include <string.h>
+
+#include "analysis/state_space/state_space.h"
+#include "base/memory.h"
+
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
+
+/* Counts entries first, then places them. */
+typedef struct builder {
+    const dmb_linear *linear;
+    dmb_sparse_rows *to;
+    uint32_t *mark, *held; /* row + 1 that a column was last seen in; number of a held row; shape (rows) */
+    uint32_t *at;          /* place of the column in the present row, shape (rows) */
+    uint32_t used, row;
+    int32_t placing;
+} builder;
+
+static void add_entry(builder *b, uint32_t column, const double entry[3])
+{
+    if (b->mark[column] != b->row + 1) {
+        b->mark[column] = b->row + 1;
+        b->at[column] = b->used++;
+        if (b->placing) b->to->column[b->at[column]] = column;
+    }
+    if (!b->placing) return;
+    for (uint32_t k = 0; k < b->to->kinds; k++) b->to->value[k][b->at[column]] += entry[k];
+}
+
+static void add_block_entry(builder *b, uint32_t i, uint32_t r, uint32_t j, uint32_t c)
+{
+    const dmb_linear *l = b->linear;
+    const dmb_scene *scene = &l->scene;
+    const dmb_block_layout *layout = &scene->layout;
+    const dmb_linear_matrix *all[3] = {&l->mass, &l->damping, &l->stiffness};
+    const uint32_t row = layout->row[i] + r, column = layout->row[j] + c;
+    const size_t at = (size_t)layout->size[j] * r + c;
+    double entry[3];
+    for (int k = 0; k < 3; k++) {
+        if (!scene->solved_row[column])
+            entry[k] = l->held_columns[54 * (size_t)b->held[column] + 18 * (size_t)k + 6 * (i + 1 - j) + r];
+        else if (!scene->solved_row[row])
+            entry[k] = l->held_rows[54 * (size_t)b->held[row] + 18 * (size_t)k + 6 * (j + 1 - i) + c];
+        else if (i == j)
+            entry[k] = all[k]->diagonal[layout->diag[i] + at];
+        else
+            entry[k] = j > i ? all[k]->upper[layout->link[i] + at] : all[k]->lower[layout->link[j] + at];
+    }
+    add_entry(b, column, entry);
+}
+
+static void add_joint_entries(builder *b, const dmb_constraint *c, uint32_t a, uint32_t r)
+{
+    const dmb_scene *scene = &b->linear->scene;
+    const size_t count = scene->tangent_count;
+    for (uint32_t n = 0; n < c->node_count; n++)
+        for (uint32_t q = 0; q < scene->layout.size[c->node[n]]; q++) {
+            const size_t at = c->tangent + (size_t)(c->column[a] + r) * c->columns + c->column[n] + q;
+            const double *joints = b->linear->whole_joints + at;
+            const double entry[3] = {joints[0], joints[count], joints[2 * count]};
+            add_entry(b, scene->layout.row[c->node[n]] + q, entry);
+        }
+}
+
+static void add_row(builder *b, uint32_t node, uint32_t r)
+{
+    const dmb_scene *scene = &b->linear->scene;
+    for (uint32_t j = node > 0 ? node - 1 : node; j <= node + 1 && j < scene->node_count; j++) {
+        if (scene->node_chain[j] != scene->node_chain[node]) continue;
+        for (uint32_t c = 0; c < scene->layout.size[j]; c++) add_block_entry(b, node, r, j, c);
+    }
+    if (scene->cluster_count == 0 || scene->node_cluster[node] == DMB_NONE) return;
+    const dmb_cluster *cluster = scene->clusters + scene->node_cluster[node];
+    for (uint32_t i = cluster->constraint; i < cluster->constraint + cluster->constraint_count; i++)
+        for (uint32_t a = 0; a < scene->constraints[i].node_count; a++)
+            if (scene->constraints[i].node[a] == node) add_joint_entries(b, scene->constraints + i, a, r);
+}
+
+static void add_rows(builder *b)
+{
+    const dmb_scene *scene = &b->linear->scene;
+    memset(b->mark, 0, scene->row_count * sizeof *b->mark);
+    b->used = 0;
+    for (uint32_t node = 0; node < scene->node_count; node++)
+        for (uint32_t r = 0; r < scene->layout.size[node]; r++) {
+            b->row = scene->layout.row[node] + r;
+            if (b->placing) b->to->start[b->row] = b->used;
+            add_row(b, node, r);
+        }
+}
+
+/* Equations that act, numbered by the rows of all constraints. */
+static void add_equations(builder *b)
+{
+    const dmb_scene *scene = &b->linear->scene;
+    const dmb_sim *work = b->linear->work;
+    memset(b->mark, 0, scene->row_count * sizeof *b->mark);
+    b->used = b->row = 0;
+    for (uint32_t k = 0; k < scene->cluster_count; k++) {
+        const dmb_cluster *cluster = scene->clusters + k;
+        const double *B = work->cluster_matrix + cluster->dense;
+        for (uint32_t i = 0; i < cluster->rows; i++) {
+            if (work->constraint_type[cluster->row + i] == DMB_ROW_IDLE) continue;
+            if (b->placing) b->to->start[b->row] = b->used;
+            for (uint32_t c = 0; c < cluster->columns; c++) {
+                const double entry[3] = {B[(size_t)i * cluster->columns + c], 0.0, 0.0};
+                if (entry[0] != 0.0) add_entry(b, scene->cluster_columns[cluster->column + c], entry);
+            }
+            b->row++;
+        }
+    }
+}
+
+/* ---- Memory ------------------------------------------------------------------------------------------------------ */
+
+static void *take_array(const dmb_allocator *allocator, size_t count, size_t size)
+{
+    return dmb_allocate_array(allocator, count > 0 ? count : 1, size);
+}
+
+static int32_t make_room(const dmb_allocator *allocator, uint32_t rows, uint32_t used, dmb_sparse_rows *out)
+{
+    out->rows = rows;
+    out->start = take_array(allocator, (size_t)rows + 1, sizeof *out->start);
+    if (out->start == NULL) return DMB_ERR_NO_MEMORY;
+    out->start[rows] = used;
+    out->column = take_array(allocator, used, sizeof *out->column);
+    for (uint32_t k = 0; k < out->kinds && out->column != NULL; k++) {
+        out->value[k] = take_array(allocator, used, sizeof(double));
+        if (out->value[k] == NULL) return DMB_ERR_NO_MEMORY;
+    }
+    return out->column != NULL ? DMB_OK : DMB_ERR_NO_MEMORY;
+}
+
+static void give_back(const dmb_allocator *allocator, void *array, size_t count, size_t size)
+{
+    if (array != NULL) dmb_release(allocator, array, (count > 0 ? count : 1) * size);
+}
+
+void dmb_sparse_rows_release(const dmb_allocator *allocator, dmb_sparse_rows *sparse)
+{
+    const size_t used = sparse->start != NULL ? sparse->start[sparse->rows] : 0;
+    for (uint32_t k = 0; k < 3; k++) give_back(allocator, sparse->value[k], used, sizeof(double));
+    give_back(allocator, sparse->column, used, sizeof *sparse->column);
+    give_back(allocator, sparse->start, (size_t)sparse->rows + 1, sizeof *sparse->start);
+    memset(sparse, 0, sizeof *sparse);
+}
+
+static int32_t build(const dmb_linear *linear, void (*add)(builder *), uint32_t kinds, dmb_sparse_rows *out)
+{
+    const dmb_scene *scene = &linear->scene;
+    const size_t rows = scene->row_count, bytes = 3 * rows * sizeof(uint32_t);
+    uint32_t *places = dmb_allocate(&linear->allocator, bytes);
+    builder b = {.linear = linear, .to = out};
+    memset(out, 0, sizeof *out);
+    if (places == NULL) return DMB_ERR_NO_MEMORY;
+    out->kinds = kinds;
+    b.mark = places;
+    b.at = places + rows;
+    b.held = places + 2 * rows;
+    for (uint32_t i = 0; i < scene->held_count; i++) b.held[dmb_held_row(scene, i)] = i;
+    add(&b);
+    const uint32_t count = kinds > 1 ? (uint32_t)rows : b.row;
+    const int32_t status = make_room(&linear->allocator, count, b.used, out);
+    b.placing = 1;
+    if (status >= 0) add(&b);
+    if (status < 0) dmb_sparse_rows_release(&linear->allocator, out);
+    dmb_release(&linear->allocator, places, bytes);
+    return status;
+}
+
+int32_t dmb_whole_matrices(const dmb_linear *linear, dmb_sparse_rows *out)
+{
+    return build(linear, add_rows, 3, out);
+}
+
+int32_t dmb_whole_jacobian(const dmb_linear *linear, dmb_sparse_rows *out)
+{
+    return build(linear, add_equations, 1, out);
+}
+
+/* ---- Products ---------------------------------------------------------------------------------------------------- */
+
+void dmb_sparse_times(const dmb_sparse_rows *sparse, int kind, const double *x, double *y)
+{
+    for (uint32_t r = 0; r < sparse->rows; r++) {
+        double sum = 0.0;
+        for (uint32_t i = sparse->start[r]; i < sparse->start[r + 1]; i++)
+            sum += sparse->value[kind][i] * x[sparse->column[i]];
+        y[r] = sum;
+    }
+}
+
+void dmb_sparse_add_transposed(const dmb_sparse_rows *sparse, int kind, const double *x, double *y)
+{
+    for (uint32_t r = 0; r < sparse->rows; r++) {
+        if (x[r] == 0.0) continue;
+        for (uint32_t i = sparse->start[r]; i < sparse->start[r + 1]; i++)
+            y[sparse->column[i]] += sparse->value[kind][i] * x[r];
+    }
+}
