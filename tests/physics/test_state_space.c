@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "harmonic.h"
+#include "scarce.h"
 
 /* ---- Dense complex systems --------------------------------------------------------------------------------------- */
 
@@ -655,6 +656,78 @@ static void arrays(void **state)
     rig_close(&r.s);
 }
 
+/* ---- Little to work on ------------------------------------------------------------------------------------------- */
+
+/* A drive moves all that there is, so that no coordinate is left: the speed is the input, and the force m u'. */
+static void nothing_free(void **state)
+{
+    (void)state;
+    dmb_body_def body = dmb_body_def_default();
+    dmb_state_space_options options = dmb_state_space_options_default();
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    body.mass = 2.0;
+    body.free_mask = DMB_FREE_X;
+    const dmb_id id = add_body(&s, &body);
+    const dmb_id drive = add_simple_drive(&s, DMB_DRIVE_MOTION, id, DMB_X, add_constant(&s, 0.0));
+    rig_start(&s, NULL);
+    const dmb_input input = input_of(DMB_INPUT_DRIVE, drive, DMB_X);
+    const dmb_output speed = output_at(DMB_OUTPUT_VELOCITY, dmb_station(id, 0, 0.0), DMB_X);
+    const dmb_output force = output_at(DMB_OUTPUT_DRIVE, dmb_station(drive, 0, 0.0), DMB_X);
+    model m = space_of(&s, NULL, &input, 1, &speed, 1);
+    assert_true(m.info.states == 1 && m.info.coordinates == 0);
+    assert_true(m.A[0] == 0.0 && m.B[0] == 1.0 && m.C[0] == 0.0 && m.D[0] == 1.0);
+    discard(&m);
+    options.motion = DMB_MOTION_ACCELERATION;
+    m = space_of(&s, &options, &input, 1, &force, 1);
+    assert_int_equal(m.info.states, 2);
+    check_close("force of the drive by its acceleration", m.D[0], 2.0, 1e-12);
+    discard(&m);
+    rig_close(&s);
+}
+
+/* Every allocation of an analysis and of a window fails once: DMB_ERR_NO_MEMORY, nothing is left behind. */
+static void memory_runs_out(void **state)
+{
+    (void)state;
+    string_rig r = open_string(DMB_PIPE_FLEXIBLE, 0, 3, 0.0);
+    dmb_sim_options options = dmb_sim_options_default();
+    scarce memory = {0, 0, 0};
+    const dmb_allocator allocator = scarce_allocator(&memory);
+    dmb_sim *sim = NULL;
+    const dmb_input input = input_of(DMB_INPUT_DRIVE, r.feed, DMB_X);
+    const dmb_output output = channel_at(r.string, 0, 0.0, DMB_CHANNEL_HOOK_LOAD);
+    const dmb_channel channel = {dmb_station(r.string, 0, 0.0), DMB_CHANNEL_HOOK_LOAD, 0};
+    options.allocator = &allocator;
+    must_model(&r.s, dmb_sim_create(r.s.model, &options, &sim));
+    assert_true(dmb_analysis_static(sim, NULL, NULL) >= 0);
+    const size_t live = memory.live;
+    for (int window = 0; window < 2; window++)
+        for (size_t k = 1;; k++) {
+            dmb_state_space *found = NULL;
+            dmb_window *watched = NULL;
+            memory.calls = 0;
+            memory.refused = k;
+            const int32_t status = window ? dmb_window_create(sim, NULL, &channel, 1, &watched)
+                                          : dmb_analysis_state_space(sim, NULL, &input, 1, &output, 1, &found);
+            const size_t calls = memory.calls;
+            memory.refused = 0;
+            if (calls >= k) assert_int_equal(status, DMB_ERR_NO_MEMORY);
+            if (calls >= k) assert_true(found == NULL && watched == NULL);
+            dmb_state_space_destroy(&found);
+            dmb_window_destroy(&watched);
+            assert_int_equal(memory.live, live);
+            if (calls < k) {
+                assert_int_equal(status, DMB_OK);
+                tell(window ? "allocations of a window" : "allocations of a state space", (double)calls);
+                break;
+            }
+        }
+    dmb_sim_destroy(&sim);
+    assert_int_equal(memory.live, 0);
+    rig_close(&r.s);
+}
+
 /* ---- Refusals ---------------------------------------------------------------------------------------------------- */
 
 static void refused(const rig *s, const dmb_state_space_options *o, const dmb_input *input, const dmb_output *output,
@@ -748,6 +821,8 @@ int main(void)
         cmocka_unit_test(static_correction),
         cmocka_unit_test(arrays),
         cmocka_unit_test(refusals),
+        cmocka_unit_test(nothing_free),
+        cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
