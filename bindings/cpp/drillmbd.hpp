@@ -472,6 +472,56 @@ private:
     dmb_state_space *handle_;
 };
 
+// Derivatives of a sim by parameters, along a run. The sim must outlive it and is moved by its step and advance.
+class sensitivity {
+public:
+    explicit sensitivity(dmb_sensitivity *handle = nullptr) noexcept : handle_(handle) {}
+    sensitivity(sensitivity &&other) noexcept : handle_(other.release()) {}
+    sensitivity &operator=(sensitivity &&other) noexcept
+    {
+        if (this != &other) reset(other.release());
+        return *this;
+    }
+    sensitivity(const sensitivity &) = delete;
+    sensitivity &operator=(const sensitivity &) = delete;
+    ~sensitivity() { dmb_sensitivity_destroy(&handle_); }
+
+    dmb_sensitivity *get() const noexcept { return handle_; }
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+    // The handle, now the caller's to destroy.
+    dmb_sensitivity *release() noexcept
+    {
+        dmb_sensitivity *given = handle_;
+        handle_ = nullptr;
+        return given;
+    }
+    // Takes over a handle, or nothing.
+    void reset(dmb_sensitivity *handle = nullptr) noexcept
+    {
+        dmb_sensitivity_destroy(&handle_);
+        handle_ = handle;
+    }
+#if defined(DRILLMBD_EXCEPTIONS)
+    // Steps so far in which the parameter was not smooth.
+    std::uint64_t kinks(std::uint32_t parameter = 0) const
+    {
+        std::uint64_t answer = 0;
+        check(dmb_sensitivity_kinks(handle_, parameter, &answer));
+        return answer;
+    }
+    std::int32_t step(double duration) { return check(dmb_sensitivity_step(handle_, duration, nullptr)); }
+    std::int32_t advance(double time) { return check(dmb_sensitivity_advance(handle_, time, nullptr)); }
+    // values and derivatives: room for count, and count times the number of parameters
+    void channels(const dmb_channel *asked, std::uint32_t count, double *values, double *derivatives) const
+    {
+        check(dmb_sensitivity_channels(handle_, asked, count, values, derivatives));
+    }
+#endif
+
+private:
+    dmb_sensitivity *handle_;
+};
+
 // What sim::response finds.
 class response {
 public:
@@ -755,6 +805,12 @@ public:
         done(dmb_analysis_torque_drag(handle_, options, operations.data(),
                                       static_cast<std::uint32_t>(operations.size()), rows.data()));
         return rows;
+    }
+    drillmbd::sensitivity sensitivity(const std::vector<dmb_parameter> &parameters)
+    {
+        dmb_sensitivity *made = nullptr;
+        done(dmb_sensitivity_create(handle_, parameters.data(), static_cast<std::uint32_t>(parameters.size()), &made));
+        return drillmbd::sensitivity(made);
     }
     drillmbd::fatigue fatigue(const dmb_fatigue_options &options, const std::vector<dmb_place> &places)
     {

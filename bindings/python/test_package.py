@@ -309,6 +309,35 @@ class ArraysTest(unittest.TestCase):
         self.assertAlmostEqual(self.model.hole(5.0).diameter, 0.094)
         self.assertEqual(self.model.hole(5.0).dogleg_severity, 0.0)
 
+    def test_sensitivity(self):
+        strings = []
+
+        def describe(damping):
+            model = mbd.Model()
+            model.set_environment(lateral_damping=damping)
+            strings.append(model.add_pipes(3, elements=1))
+            model.compile()
+            return model
+
+        made = mbd.sensitivity_of(describe, {"damping": 5.0}, steps={"damping": 0.01})
+        runs = []
+        for _ in range(20):
+            self.assertEqual(made.step(1e-3).steps, 1)
+        place = mbd.station(strings[-1], 2, 1.0)
+        values, derivatives = made.channels([(place, "position_z"), (place, "velocity_z")])
+        for damping in (4.99, 5.01):
+            sim = describe(damping).sim()
+            for _ in range(20):
+                sim.step(1e-3)
+            runs.append(sim.channel("velocity_z", mbd.station(strings[-1], 2, 1.0)))
+        self.assertAlmostEqual(derivatives[1][0], (runs[1] - runs[0]) / 0.02, delta=1e-6 * abs(derivatives[1][0]) + 1e-12)
+        pose, velocity = made.rows("damping")
+        self.assertEqual(len(pose), len(velocity))
+        self.assertEqual(made.kinks("damping"), 0)
+        made.advance(0.03)
+        with self.assertRaises(mbd.Error):
+            made.channels([(place, "energy_error")])
+
     def test_channels(self):
         names = mbd.channel_names()
         self.assertIn("hook_load", names)

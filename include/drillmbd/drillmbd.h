@@ -12,6 +12,7 @@
 #include "output.h"
 #include "query.h"
 #include "response.h"
+#include "sensitivity.h"
 #include "sim.h"
 #include "state_space.h"
 

@@ -64,7 +64,8 @@ static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk 
         if (status >= 0 && (error.here <= 1.0 || smallest)) {
             *wanted = wanted_after(sim, h, *wanted, error.ahead, retried);
             if (error.here > 1.0) walk->too_coarse = 1;
-            dmb_walk_commit(sim, &attempt, walk);
+            const int32_t refused = dmb_walk_commit(sim, &attempt, walk);
+            if (refused < 0) return refused;
             dmb_walk_corner(sim);
             sim->clock->next_step = *wanted;
             return status;

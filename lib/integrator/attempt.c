@@ -88,8 +88,9 @@ dmb_step_error dmb_attempt_error(const dmb_sim *sim, double h)
     return error;
 }
 
-static void set_up(dmb_sim *sim, const dmb_generalized_alpha *c, const dmb_step_end *end, dmb_evaluation *evaluation)
+void dmb_attempt_set_up(dmb_sim *sim, const dmb_step_end *end, dmb_evaluation *evaluation)
 {
+    const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
     const double h = end->step;
     memset(evaluation, 0, sizeof *evaluation);
     evaluation->sim = sim;
@@ -97,9 +98,9 @@ static void set_up(dmb_sim *sim, const dmb_generalized_alpha *c, const dmb_step_
     evaluation->step = h;
     evaluation->corner = end->corner;
     evaluation->inside = end->inside;
-    evaluation->mass_factor = (1.0 - c->am) / (h * h * c->beta * (1.0 - c->af));
-    evaluation->velocity_factor = c->gamma / (h * c->beta);
-    evaluation->pseudo_factor = (1.0 - c->af) / (1.0 - c->am);
+    evaluation->mass_factor = (1.0 - c.am) / (h * h * c.beta * (1.0 - c.af));
+    evaluation->velocity_factor = c.gamma / (h * c.beta);
+    evaluation->pseudo_factor = (1.0 - c.af) / (1.0 - c.am);
     evaluation->load_factor = 1.0;
     evaluation->dynamic = 1;
     evaluation->tangent = 1;
@@ -146,17 +147,22 @@ static void refit_node(dmb_sim *sim, const dmb_generalized_alpha *c, double h, u
     }
 }
 
+void dmb_attempt_refit(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
+{
+    for (uint32_t i = 0; i < sim->scene->node_count; i++) refit_node(sim, c, h, i);
+    for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) refit_rigid(sim, c, h, i);
+}
+
 /* The step once more, from the increments found so far, with what opening contacts did taken off the history: v0' and
  * a0 less M^-1 of their forces, and no a0 - v0' at their nodes from there on, which would ring in free flight. */
 static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
 {
-    const double h = attempt->end.step;
     int32_t status = dmb_released_acceleration(&attempt->evaluation, sim->correction, sim->released_part);
     if (status < 0) return status;
-    for (uint32_t i = 0; i < sim->scene->node_count; i++) refit_node(sim, c, h, i);
-    for (uint32_t i = 0; i < sim->scene->free_rigid_count; i++) refit_rigid(sim, c, h, i);
+    dmb_attempt_refit(sim, c, attempt->end.step);
     dmb_free_rigids_place(sim);
-    set_up(sim, c, &attempt->end, &attempt->evaluation);
+    dmb_attempt_set_up(sim, &attempt->end, &attempt->evaluation);
+    attempt->released = 1;
     status = dmb_newton(sim, c, attempt);
     dmb_release_end(sim);
     return status;
@@ -177,7 +183,8 @@ static int32_t check_dropped(dmb_sim *sim)
 /* From the prediction to the end of the iteration, and over again where contacts open. */
 static int32_t solve_step(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
 {
-    set_up(sim, c, &attempt->end, &attempt->evaluation);
+    dmb_attempt_set_up(sim, &attempt->end, &attempt->evaluation);
+    attempt->released = 0;
     dmb_step_motion_predict(sim, c, attempt->end.step);
     int32_t status = dmb_system_prescribe(&attempt->evaluation);
     if (status < 0) return status;

@@ -3,6 +3,7 @@
 #define DMB_INTEGRATOR_ATTEMPT_H
 
 #include "integrator/corner.h"
+#include "integrator/step_motion.h"
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
 
@@ -17,7 +18,7 @@ typedef struct dmb_attempt {
     int32_t factored; /* DMB_FACTORS_...: what the last iteration was done with */
     int32_t tried;    /* 1: kept factors were tried */
     int32_t astray;   /* 1: they led to nothing, and the step began again with factors of its own */
-    int32_t reserved;
+    int32_t released; /* 1: contacts opened, and the step was taken again without their force */
 } dmb_attempt;
 
 /* [-] Local error of the pose of a step over its tolerance, largest row, and what it may become within a quarter of a
@@ -33,6 +34,11 @@ int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, d
 dmb_step_error dmb_attempt_error(const dmb_sim *sim, double step);
 /* Makes the trial of a successful attempt the accepted state. */
 void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt);
+/* Parts of an attempt, for those who take one step by step (integrator/follow). The evaluation of a step to `end`. */
+void dmb_attempt_set_up(dmb_sim *sim, const dmb_step_end *end, dmb_evaluation *evaluation);
+/* Motion of the trial from the increments at hand, with the accelerations sim->correction taken off the start of the
+ * step, and their carried part off the nodes of sim->released_part. */
+void dmb_attempt_refit(dmb_sim *sim, const dmb_generalized_alpha *c, double h);
 /* Message for a failed attempt: which part, at what time. */
 void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt);
 

@@ -38,8 +38,12 @@ int32_t dmb_walk_check_at_most(dmb_sim *sim, const char *field, double value, do
     return check.status;
 }
 
-void dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
+int32_t dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
 {
+    if (sim->follower != NULL) {
+        const int32_t status = sim->follower->follow(sim->follower->context, attempt);
+        if (status < 0) return status;
+    }
     walk->report.steps++;
     walk->report.iterations += attempt->iterations;
     if (attempt->iterations > walk->report.most_iterations) walk->report.most_iterations = attempt->iterations;
@@ -48,6 +52,7 @@ void dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
     walk->rejected = walk->report.rejected;
     walk->iterations = walk->report.iterations;
     dmb_attempt_commit(sim, attempt);
+    return DMB_OK;
 }
 
 /* A failure here leaves everything as before, the accelerations of before included, which is what there was anyway. */
@@ -152,7 +157,8 @@ static int32_t take_substep(dmb_sim *sim, const dmb_step_end *goal, double *cut,
         }
         const int32_t status = dmb_attempt_step(sim, &end, last && !walk->set_aside, &attempt);
         if (status >= 0) {
-            dmb_walk_commit(sim, &attempt, walk);
+            const int32_t refused = dmb_walk_commit(sim, &attempt, walk);
+            if (refused < 0) return refused;
             dmb_walk_corner(sim);
             walk->arrived = last;
             *cut = *cuts > 0 ? 2.0 * end.step : (double)INFINITY; /* a corner nearby does not shorten what follows */

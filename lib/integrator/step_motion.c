@@ -67,3 +67,16 @@ void dmb_step_motion_place(dmb_sim *sim)
     dmb_system_move(sim);
     if (sim->scene->free_rigid_count) dmb_free_rigids_place(sim);
 }
+
+void dmb_step_motion_go_to(dmb_sim *sim, const dmb_generalized_alpha *c, double h, const double *increment)
+{
+    for (uint32_t i = 0; i < sim->scene->row_count; i++)
+        sim->correction[i] = sim->scene->solved_row[i] ? increment[i] - sim->increment[i] : 0.0;
+    dmb_step_motion_correct(sim, c, h);
+}
+
+void dmb_step_motion_take(dmb_sim *sim, const double *increment)
+{
+    for (uint32_t i = 0; i < sim->scene->row_count; i++)
+        if (sim->scene->solved_row[i]) sim->increment[i] = increment[i];
+}

@@ -61,6 +61,10 @@ void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, doubl
 void dmb_step_motion_keep_prescribed(dmb_sim *sim);
 /* Pose of the trial: that of now moved by the increments. */
 void dmb_step_motion_place(dmb_sim *sim);
+/* Moves motion and trial until the increments are these, where they are not prescribed. */
+void dmb_step_motion_go_to(dmb_sim *sim, const dmb_generalized_alpha *c, double h, const double *increment);
+/* The increments alone. */
+void dmb_step_motion_take(dmb_sim *sim, const double *increment);
 /* Moves motion and trial by sim->correction, that of h Dq. */
 void dmb_step_motion_correct(dmb_sim *sim, const dmb_generalized_alpha *c, double h);
 

@@ -124,7 +124,8 @@
        system/constrain/sparse_cluster; factors in their place by system/solve/solve: */                          \
     X(double, residual, r)              /* [N, N m] of the trial */                                                   \
     X(double, correction, r) /* [m, rad] solution of the linear system: of Newton, or with the mass matrix            \
-                                [m/s2, rad/s2] of accelerations: system/solve/solve; shortened by                     \
+                                [m/s2, rad/s2] of accelerations: system/solve/solve; to increments given:              \
+                                integrator/step_motion; shortened by                                                   \
                                 analysis/static/static_newton */                                                      \
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                     \
     X(double, element_strain, 6 * e) /* [m, rad] d of the trial */                                                    \
@@ -285,6 +286,15 @@ typedef struct dmb_input_log {
     uint32_t reserved;
 } dmb_input_log;
 
+struct dmb_attempt;
+
+/* One who is told of each step before it is accepted, and may refuse it: analysis/sensitivity. Neither saved nor
+ * hashed. */
+typedef struct dmb_follower {
+    int32_t (*follow)(void *context, const struct dmb_attempt *attempt);
+    void *context;
+} dmb_follower;
+
 struct dmb_sim {
     uint32_t magic;
     int32_t owns_memory; /* 1: block came from `allocator` */
@@ -301,6 +311,7 @@ struct dmb_sim {
     dmb_progress own_progress;
     struct dmb_own_scene *own; /* sim/own_scene: the scene of a sim with inputs; NULL: it is the model's */
     dmb_input_log input_log;
+    const dmb_follower *follower; /* NULL: nobody */
     dmb_configuration now, trial;
     DMB_MEMORY_LIST(DMB_FIELD)
     DMB_FACTOR_LIST(DMB_FIELD)

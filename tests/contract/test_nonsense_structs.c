@@ -50,7 +50,7 @@ INIT(contact_total) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state
 INIT(allocator) INIT(joint_state) INIT(joint_def) INIT(coupling_def) INIT(constraint_def)
 INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row) INIT(fatigue_options)
 INIT(fatigue_result) INIT(window_options) INIT(window_result) INIT(profile_recorder)
-INIT(input_def) INIT(input_info) INIT(input_state) INIT(spring_def) INIT(spring_state)
+INIT(parameter) INIT(input_def) INIT(input_info) INIT(input_state) INIT(spring_def) INIT(spring_state)
 INIT(state_space_options) INIT(state_space_info) INIT(row)
     /* clang-format on */
 
@@ -362,6 +362,19 @@ static int32_t call_fatigue_options(void *p)
     return status;
 }
 
+static int32_t call_parameter(void *p)
+{
+    dmb_parameter *parameter = p;
+    dmb_sensitivity *sensitivity = NULL;
+    if (parameter->struct_size >= sizeof *parameter) {
+        parameter->step = 1e-6;
+        parameter->low = parameter->high = scene.sim;
+    }
+    const int32_t status = dmb_sensitivity_create(scene.sim, parameter, 1, &sensitivity);
+    dmb_sensitivity_destroy(&sensitivity);
+    return status;
+}
+
 static int32_t call_fatigue_result(void *p)
 {
     dmb_fatigue_options options = dmb_fatigue_options_default();
@@ -491,6 +504,7 @@ static const entry entries[] = {
     ENTRY(torque_drag_row, 1),
     ENTRY(fatigue_options, 0),
     ENTRY(fatigue_result, 1),
+    ENTRY(parameter, 0),
     ENTRY(contact, 1),
     ENTRY(contact_total, 1),
     ENTRY(energy, 1),

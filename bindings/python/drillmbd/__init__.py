@@ -37,6 +37,7 @@ from .inputs import InputLog, Inputs
 from .model import Model
 from .profile import Profile
 from .recorder import ProfileRecorder, Recorder
+from .sensitivity import Sensitivity, sensitivity_of
 from .sim import Progress, Sim
 from .state_space import Arrays, StateSpace
 from .window import Window
@@ -54,8 +55,8 @@ def __getattr__(name: str) -> object:
 
 
 __all__ = ["STRUCTS", "VERSION", "__version__", "Arrays", "Buckling", "Error", "Fatigue", "Model", "Modes", "Profile",
-           "ProfileRecorder", "Progress", "Recorder", "Response", "Sim", "StateSpace", "TorqueDrag", "Window", "channel_name",
-           "channel_names", "channel_quantity", "channel_unit", "operation_name", "output", "station", "status_name", "status_text", "usual_operation"]
+           "ProfileRecorder", "Progress", "Recorder", "Response", "Sensitivity", "Sim", "StateSpace", "TorqueDrag", "Window", "channel_name",
+           "channel_names", "channel_quantity", "channel_unit", "operation_name", "output", "sensitivity_of", "station", "status_name", "status_text", "usual_operation"]
 __all__ += [name for name, value in vars(_structs).items() if name.endswith("_FN") or value in STRUCTS.values()]
 __all__ += [name for name, value in vars(enums).items() if name.isupper() and isinstance(value, int)]
 __all__ += [cls.__name__ for cls in ENUMS]

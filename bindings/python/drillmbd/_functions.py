@@ -105,6 +105,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_operation_usual": (c_int32, c_int32, POINTER(Operation),),
     "dmb_order_init": (c_int32, POINTER(Order), c_uint32,),
     "dmb_output_init": (c_int32, POINTER(Output), c_uint32,),
+    "dmb_parameter_init": (c_int32, POINTER(Parameter), c_uint32,),
     "dmb_path_options_init": (c_int32, POINTER(PathOptions), c_uint32,),
     "dmb_path_point_init": (c_int32, POINTER(PathPoint), c_uint32,),
     "dmb_path_report_init": (c_int32, POINTER(PathReport), c_uint32,),
@@ -149,6 +150,13 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_response_write_csv": (c_int32, c_void_p, c_char_p,),
     "dmb_row_init": (c_int32, POINTER(Row), c_uint32,),
     "dmb_section_init": (c_int32, POINTER(Section), c_uint32,),
+    "dmb_sensitivity_advance": (c_int32, c_void_p, c_double, POINTER(StepReport),),
+    "dmb_sensitivity_channels": (c_int32, c_void_p, POINTER(Channel), c_uint32, POINTER(c_double), POINTER(c_double),),
+    "dmb_sensitivity_create": (c_int32, c_void_p, POINTER(Parameter), c_uint32, POINTER(c_void_p),),
+    "dmb_sensitivity_destroy": (None, POINTER(c_void_p),),
+    "dmb_sensitivity_kinks": (c_int32, c_void_p, c_uint32, POINTER(c_uint64),),
+    "dmb_sensitivity_rows": (c_int32, c_void_p, c_uint32, POINTER(c_double), POINTER(c_double), POINTER(c_uint32),),
+    "dmb_sensitivity_step": (c_int32, c_void_p, c_double, POINTER(StepReport),),
     "dmb_sim_advance": (c_int32, c_void_p, c_double, POINTER(StepReport),),
     "dmb_sim_create": (c_int32, c_void_p, POINTER(SimOptions), POINTER(c_void_p),),
     "dmb_sim_create_in": (c_int32, c_void_p, POINTER(SimOptions), c_void_p, c_size_t, POINTER(c_void_p),),
@@ -361,6 +369,18 @@ FUNCTION_DOCS = {
         "[Hz] ascending, shape (points). ERR_NULL, _HANDLE.",
     "dmb_response_write_csv":
         "CSV: frequency, then amplitude and phase [rad] of each transfer function and of the combined outputs; header line, '.' as decimal mark. ERR_IO on failure.",
+    "dmb_sensitivity_channels":
+        "Channels and their derivatives by each parameter now: values, shape (count), may be NULL; derivatives [unit of the channel over that of the parameter], shape (count, parameters). Errors: those of the channels' queries, with a message of the sim; ERR_UNSUPPORTED: works, energies summed over the run, counts, windows; nothing is written then.",
+    "dmb_sensitivity_create":
+        "Begins with the derivatives that low and high have now, (high - low)/(2 step) of every number of the state. parameters: count (1 .. 4096) of them, each with the same struct_size. The sim must outlive what is made, which holds its models; memory comes from the sim's allocator. Errors (dmb_sim_message says why): ERR_NULL, _HANDLE, _STRUCT_SIZE; _VALUE: low or high is a scene of another make, has another time, or other contacts, locks or inputs that are not numbers; _UNSUPPORTED: joints with METHOD_MULTIPLIERS, scenes with inputs (control.h); _TOO_LARGE: clusters that are solved by sparse matrices; _NO_MEMORY. O(count * size of the state).",
+    "dmb_sensitivity_destroy":
+        "Sets *sensitivity to NULL; does nothing within one of its calls. NULL-safe.",
+    "dmb_sensitivity_kinks":
+        "*kinks [-]: accepted steps so far in which the parameter was not smooth. Errors: ERR_VALUE for a number that is none.",
+    "dmb_sensitivity_rows":
+        "Derivative of body-frame pose [m, rad] and velocity [m/s, rad/s] in all rows by one parameter, rows being the free and held components of the nodes in the order of the library; shape (rows) each, either may be NULL. *rows: how many there are; with both arrays NULL that is all.",
+    "dmb_sensitivity_step":
+        "dmb_sim_step and dmb_sim_advance of the sim, which gets the same bits as by these, and the derivatives along with it: of each accepted step as it was done, its length, its corners and its kept accelerations included. Between two of these calls the sim may be changed by dmb_sim_set_drive only. NOTE_NOT_SMOOTH where a contact, a sticking bristle or a limit differs between both sides of a parameter: the derivative there is the mean of two. Other notes and errors as dmb_sim_step and dmb_sim_advance; ERR_ORDER: the sim was moved by other calls; ERR_SINGULAR: the iteration matrix at the end of a step; state and derivatives are then as these calls leave the state. Allocates nothing. Costs an evaluation with tangent and a factorisation a step, and two evaluations and solutions for each side of a parameter, more where contacts change and with joints: in a string in contact some 1.3 steps a parameter, one-sided 0.7.",
     "dmb_sim_advance":
         "Advances to `time` [s] with steps chosen to hold the local error tolerances, bounded_work or not. NOTE_TOLERANCE where a step of step_min was too long for them, NOTE_STOPPED after max_steps, NOTE_CANCELLED. Errors as dmb_sim_step; the state is then the last accepted one, whose time dmb_sim_time tells.",
     "dmb_sim_create":

@@ -1543,6 +1543,31 @@ class SpeedBand(Sized):
     }
 
 
+class Parameter(Sized):
+    c_name, about = "dmb_parameter", ""
+    struct_size: int
+    one_sided: int
+    step: float
+    low: Any
+    high: Any
+    name: bytes
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("one_sided", c_int32),
+        ("step", c_double),
+        ("low", c_void_p),
+        ("high", c_void_p),
+        ("name", c_char * 24),
+    ]
+    field_docs = {
+        "one_sided": ("", "1: steps are taken on the high side only, at half the cost; errors are then of first order in `step`, not of second; default 0"),
+        "step": ("unit of the parameter", "> 0: `high` has it this much above the sim, `low` this much below. What the parameter moves should move by 1e-9 .. 1e-6 of its scale: less is lost in rounding, of more the third power is felt"),
+        "low": ("", "only read, and only by dmb_sensitivity_create"),
+        "high": ("", "likewise"),
+        "name": ("", "for messages, ends with 0; default \"\""),
+    }
+
+
 class StateSpaceOptions(Sized):
     c_name, about = "dmb_state_space_options", ""
     struct_size: int
@@ -2837,6 +2862,7 @@ STRUCTS["dmb_order"] = Order
 STRUCTS["dmb_speeds_report"] = SpeedsReport
 STRUCTS["dmb_speeds_options"] = SpeedsOptions
 STRUCTS["dmb_speed_band"] = SpeedBand
+STRUCTS["dmb_parameter"] = Parameter
 STRUCTS["dmb_state_space_options"] = StateSpaceOptions
 STRUCTS["dmb_state_space_info"] = StateSpaceInfo
 STRUCTS["dmb_row"] = Row

@@ -22,6 +22,7 @@ class Status(IntEnum):
     NOTE_INCOMPLETE = 11  #: done; the scene or the range leaves something out, the message tells what
     NOTE_FLUTTER = 12  #: done; a mode grows before the stiffness is singular, the message tells from where on
     NOTE_CLAMPED = 13  #: done; a value beyond its bounds was taken for the bound
+    NOTE_NOT_SMOOTH = 14  #: done; a derivative is the mean of both sides of a corner, the message tells where
     ERR_NULL = -1  #: a required pointer is NULL
     ERR_HANDLE = -2  #: not a live object of this kind
     ERR_STRUCT_SIZE = -3  #: struct_size is not a size this library knows
@@ -55,6 +56,7 @@ NOTE_CANCELLED = Status.NOTE_CANCELLED
 NOTE_INCOMPLETE = Status.NOTE_INCOMPLETE
 NOTE_FLUTTER = Status.NOTE_FLUTTER
 NOTE_CLAMPED = Status.NOTE_CLAMPED
+NOTE_NOT_SMOOTH = Status.NOTE_NOT_SMOOTH
 ERR_NULL = Status.ERR_NULL
 ERR_HANDLE = Status.ERR_HANDLE
 ERR_STRUCT_SIZE = Status.ERR_STRUCT_SIZE

@@ -4,7 +4,7 @@ from __future__ import annotations
 import ctypes
 import math
 import time as clock
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from ctypes import byref, c_double, c_size_t, c_uint32, c_uint64, c_void_p
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -25,6 +25,7 @@ from .recorder import ProfileRecorder, Recorder
 if TYPE_CHECKING:
     from .model import Model
     from .fatigue import Fatigue
+    from .sensitivity import Sensitivity
     from .profile import Profile
     from .state_space import Arrays, StateSpace
     from .window import Window
@@ -354,6 +355,11 @@ class Sim(analysis.Analyses):
         """A Window over the last `length` [s] (0: all) of channels, pairs (place, "bit_speed")."""
         from .window import Window
         return Window(self, channels, WindowOptions(length=length, slots=slots), levels)
+
+    def sensitivity(self, parameters: Mapping[str, tuple[Sim, Sim, float]], one_sided: bool = False) -> Sensitivity:
+        """A Sensitivity of this sim by parameters {"friction": (low, high, step)}."""
+        from .sensitivity import Sensitivity
+        return Sensitivity(self, parameters, one_sided)
 
     def profile_recorder(self, quantities: Sequence[int], stations: int | Sequence[float], capacity: int,
                          interval: float = 0.0, string: Id | None = None) -> ProfileRecorder:

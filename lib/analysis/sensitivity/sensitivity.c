@@ -1,0 +1,244 @@
+/* Creating and destroying: what may be a parameter, and the rates to begin with. */
+#include <math.h>
+#include <string.h>
+
+#include "analysis/sensitivity/sensitivity.h"
+#include "base/memory.h"
+#include "base/value_check.h"
+#include "system/copy.h"
+
+DMB_DEFINE_INIT(dmb_parameter, 56, {.step = 0.0})
+
+enum { PARAMETERS_MAX = 4096 };
+
+static int32_t refuse(dmb_sim *sim, uint32_t number, const dmb_parameter *p, int32_t status, const char *why)
+{
+    dmb_message_set(&sim->message, "sensitivity: parameter %u (%s): %s", number, p->name, why);
+    return status;
+}
+
+static int same_arrays(const dmb_sim *a, const dmb_sim *b)
+{
+    dmb_state_fields first, second;
+    dmb_state_fields_of(a, DMB_GROUP_NOW, &first);
+    dmb_state_fields_of(b, DMB_GROUP_NOW, &second);
+    for (size_t i = 0; i < first.count; i++)
+        if (first.field[i].bytes != second.field[i].bytes) return 0;
+    return first.count == second.count;
+}
+
+static int same_make(const dmb_sim *a, const dmb_sim *b)
+{
+    const dmb_scene *first = a->scene, *second = b->scene;
+    if (first == second) return 1;
+    if (first->node_count != second->node_count || first->row_count != second->row_count ||
+        first->element_count != second->element_count || first->drive_count != second->drive_count ||
+        first->constraint_count != second->constraint_count || first->chain_count != second->chain_count)
+        return 0;
+    if (memcmp(first->layout.size, second->layout.size, first->node_count * sizeof *first->layout.size) != 0) return 0;
+    if (memcmp(first->solved_row, second->solved_row, first->row_count * sizeof *first->solved_row) != 0) return 0;
+    for (uint32_t i = 0; i < first->drive_count; i++)
+        if (first->drives[i].kind != second->drives[i].kind || first->drives[i].row != second->drives[i].row) return 0;
+    return first->normal_law.kind == second->normal_law.kind && first->friction_law.kind == second->friction_law.kind &&
+           same_arrays(a, b);
+}
+
+static int same_inputs(const dmb_sim *a, const dmb_sim *b)
+{
+    for (uint32_t i = 0; i < a->scene->drive_count; i++)
+        if (isnan(a->drive_input[i]) != isnan(b->drive_input[i])) return 0;
+    return a->scene->joint_count == 0 ||
+           memcmp(a->joint_state, b->joint_state, a->scene->joint_count * sizeof *a->joint_state) == 0;
+}
+
+static int32_t check_side(dmb_sim *sim, uint32_t number, const dmb_parameter *p, const dmb_sim *side, const char *name)
+{
+    dmb_message text;
+    if (side == NULL || !dmb_handle_is(side, DMB_HANDLE_SIM)) {
+        dmb_message_set(&text, "%s is no live sim", name);
+        return refuse(sim, number, p, side == NULL ? DMB_ERR_NULL : DMB_ERR_HANDLE, text.text);
+    }
+    if (!same_make(sim, side)) {
+        dmb_message_set(&text, "%s is a scene of other parts, supports, meshes or laws; only numbers may differ", name);
+        return refuse(sim, number, p, DMB_ERR_VALUE, text.text);
+    }
+    if (side->clock->time != sim->clock->time) {
+        dmb_message_set(&text, "%s stands at time %g s, must be %g s as the sim", name, side->clock->time,
+                        sim->clock->time);
+        return refuse(sim, number, p, DMB_ERR_VALUE, text.text);
+    }
+    if (!same_inputs(sim, side)) {
+        dmb_message_set(&text, "%s has other joints locked or open, or other drives set by the caller", name);
+        return refuse(sim, number, p, DMB_ERR_VALUE, text.text);
+    }
+    return DMB_OK;
+}
+
+static int32_t check_parameters(dmb_sim *sim, const dmb_parameter *given, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        dmb_parameter p;
+        const void *at = (const unsigned char *)given + (size_t)i * given->struct_size;
+        int32_t status = dmb_parameter_read(&p, at);
+        if (status < 0) {
+            dmb_message_set(&sim->message, "sensitivity: parameter %u: struct_size is not one this library knows", i);
+            return status;
+        }
+        p.name[sizeof p.name - 1] = '\0';
+        dmb_check check = dmb_check_of(&sim->message, "sensitivity parameter", i);
+        dmb_check_choice(&check, "one_sided", p.one_sided, 0, 1);
+        dmb_check_between(&check, "step", p.step, 0.0, 1e30);
+        status = check.status;
+        if (status >= 0) status = check_side(sim, i, &p, p.low, "low");
+        if (status >= 0) status = check_side(sim, i, &p, p.high, "high");
+        if (status < 0) return status;
+    }
+    return DMB_OK;
+}
+
+static int32_t check_scene(dmb_sim *sim, uint32_t count)
+{
+    dmb_check check = dmb_check_of(&sim->message, "sensitivity", DMB_NONE);
+    dmb_check_count(&check, "count", count, 1, PARAMETERS_MAX);
+    if (check.status < 0) return check.status;
+    if (sim->scene->cluster_count && sim->options.constraint_method == DMB_METHOD_MULTIPLIERS) {
+        dmb_message_set(&sim->message, "sensitivity: constraint_method = DMB_METHOD_MULTIPLIERS in a scene with "
+                                       "joints, must be DMB_METHOD_INDEPENDENT");
+        return DMB_ERR_UNSUPPORTED;
+    }
+    if (sim->scene->input_count) {
+        dmb_message_set(&sim->message,
+                        "sensitivity: the scene has %u inputs, must have none; set drives by "
+                        "dmb_sim_set_drive, or describe what the inputs would set",
+                        sim->scene->input_count);
+        return DMB_ERR_UNSUPPORTED;
+    }
+    if (sim->scene->sparse_count) {
+        dmb_message_set(&sim->message, "sensitivity: a cluster of joints is solved by sparse matrices; flexible pipes "
+                                       "between joints divide a cluster");
+        return DMB_ERR_TOO_LARGE;
+    }
+    return DMB_OK;
+}
+
+static dmb_sensitivity *lay_out(dmb_arena *arena, const dmb_sim *sim, uint32_t count, size_t numbers)
+{
+    dmb_sensitivity nothing, *made = dmb_arena_take(arena, 1, sizeof nothing, DMB_ALIGNMENT);
+    dmb_sensitivity *s = made != NULL ? made : &nothing;
+    s->parameters = DMB_ARENA_ARRAY(arena, dmb_rated_parameter, count);
+    s->high = DMB_ARENA_DOUBLES(arena, numbers);
+    s->low = DMB_ARENA_DOUBLES(arena, numbers);
+    s->middle = DMB_ARENA_DOUBLES(arena, numbers);
+    s->seen = DMB_ARENA_DOUBLES(arena, 3 * (size_t)sim->scene->node_count + 2 * (size_t)sim->scene->row_count);
+    s->opening = DMB_ARENA_DOUBLES(arena, sim->scene->row_count);
+    for (uint32_t i = 0; i < count; i++) {
+        double *rates = DMB_ARENA_DOUBLES(arena, numbers), *accepted = DMB_ARENA_DOUBLES(arena, numbers);
+        if (made == NULL) continue;
+        s->parameters[i].rates = rates;
+        s->parameters[i].accepted = accepted;
+    }
+    return arena->overflow ? NULL : made;
+}
+
+static dmb_sensitivity *allocate(const dmb_sim *sim, uint32_t count)
+{
+    const size_t numbers = dmb_state_count(sim);
+    dmb_arena arena;
+    dmb_arena_count(&arena);
+    (void)lay_out(&arena, sim, count, numbers);
+    const size_t bytes = dmb_arena_block_size(&arena);
+    void *block = bytes == SIZE_MAX ? NULL : dmb_allocate(&sim->allocator, bytes);
+    if (block == NULL) return NULL;
+    dmb_arena_place(&arena, block, bytes);
+    dmb_sensitivity *made = lay_out(&arena, sim, count, numbers);
+    made->numbers = numbers;
+    made->count = count;
+    made->bytes = bytes;
+    made->allocator = sim->allocator;
+    return made;
+}
+
+/* q and -q are one rotation. */
+static void align(const dmb_sim *sim, const double *as, double *quaternion)
+{
+    for (size_t i = 0; i < 4 * (size_t)sim->scene->node_count; i += 4) {
+        double dot = 0.0;
+        for (size_t k = 0; k < 4; k++) dot += as[i + k] * quaternion[i + k];
+        for (size_t k = 0; k < 4 && dot < 0.0; k++) quaternion[i + k] = -quaternion[i + k];
+    }
+}
+
+static void take_parameter(dmb_sensitivity *s, const dmb_parameter *given, dmb_rated_parameter *p)
+{
+    const size_t quaternions = (size_t)(dmb_rates_of(s, p, s->sim->now.quaternion) - p->rates);
+    double *low = s->low, *high = s->high;
+    p->step = given->step;
+    p->one_sided = given->one_sided;
+    memcpy(p->name, given->name, sizeof p->name);
+    p->name[sizeof p->name - 1] = '\0';
+    p->model[DMB_SIDE_LOW] = given->low->model;
+    p->model[DMB_SIDE_HIGH] = given->high->model;
+    for (int side = DMB_SIDE_LOW; side <= DMB_SIDE_HIGH; side++) dmb_model_hold(p->model[side]);
+    dmb_state_read(given->low, DMB_GROUP_NOW, low);
+    dmb_state_read(given->high, DMB_GROUP_NOW, high);
+    align(s->sim, low + quaternions, high + quaternions);
+    for (size_t i = 0; i < s->numbers; i++) p->rates[i] = (high[i] - low[i]) / (2.0 * p->step);
+    for (size_t i = 0; i < s->numbers; i++)
+        if (isnan(p->rates[i])) p->rates[i] = 0.0; /* an input that is not set: all other numbers are finite */
+}
+
+static int32_t create(dmb_sim *sim, const dmb_parameter *given, uint32_t count, dmb_sensitivity **out)
+{
+    int32_t status = check_scene(sim, count);
+    if (status >= 0) status = check_parameters(sim, given, count);
+    if (status < 0) return status;
+    dmb_sensitivity *made = allocate(sim, count);
+    dmb_sim *worker = made != NULL ? dmb_state_copy(sim) : NULL;
+    if (worker == NULL) {
+        if (made != NULL) dmb_release(&sim->allocator, made, made->bytes);
+        dmb_message_set(&sim->message, "sensitivity: no memory for %u parameters; ask for fewer", count);
+        return DMB_ERR_NO_MEMORY;
+    }
+    made->sim = sim;
+    made->worker = worker;
+    worker->options.energy_ledger = 0;
+    worker->progress = &worker->own_progress;
+    for (uint32_t i = 0; i < count; i++) {
+        dmb_parameter p;
+        (void)dmb_parameter_read(&p, (const unsigned char *)given + (size_t)i * given->struct_size);
+        take_parameter(made, &p, &made->parameters[i]);
+    }
+    made->follower.follow = dmb_sensitivity_follow;
+    made->follower.context = made;
+    made->magic = DMB_HANDLE_SENSITIVITY;
+    dmb_sensitivity_settle(made, 0);
+    *out = made;
+    return DMB_OK;
+}
+
+int32_t dmb_sensitivity_create(dmb_sim *sim, const dmb_parameter *parameters, uint32_t count,
+                               dmb_sensitivity **sensitivity)
+{
+    if (sensitivity == NULL) return DMB_ERR_NULL;
+    *sensitivity = NULL;
+    if (sim == NULL || parameters == NULL) return DMB_ERR_NULL;
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    return status < 0 ? status : dmb_sim_leave(sim, create(sim, parameters, count, sensitivity));
+}
+
+void dmb_sensitivity_destroy(dmb_sensitivity **sensitivity)
+{
+    if (sensitivity == NULL) return;
+    dmb_sensitivity *found = *sensitivity;
+    if (dmb_handle_is(found, DMB_HANDLE_SENSITIVITY)) {
+        if (found->busy) return;
+        const dmb_allocator allocator = found->allocator;
+        found->magic = DMB_HANDLE_DEAD;
+        for (uint32_t i = 0; i < found->count; i++)
+            for (int side = DMB_SIDE_LOW; side <= DMB_SIDE_HIGH; side++)
+                dmb_model_release(found->parameters[i].model[side]);
+        dmb_state_discard(found->worker);
+        dmb_release(&allocator, found, found->bytes);
+    }
+    *sensitivity = NULL;
+}

@@ -1,0 +1,137 @@
+/* What is asked of rates: channels, rows, corners passed. */
+#include <string.h>
+
+#include "analysis/sensitivity/sensitivity.h"
+#include "math/so3.h"
+#include "query/channel.h"
+
+/* The same part in another model of the scene. */
+static dmb_channel channel_in(const dmb_model *model, const dmb_channel *channel)
+{
+    dmb_channel there = *channel;
+    if (there.place.part.generation != 0) there.place.part.generation = model->stamp;
+    return there;
+}
+
+static int32_t channel_beside(dmb_sensitivity *s, const dmb_rated_parameter *p, int side, const dmb_channel *channel,
+                              double *value)
+{
+    const dmb_channel there = channel_in(p->model[side], channel);
+    dmb_sensitivity_aside(s, p, side);
+    s->worker->magic = DMB_HANDLE_SIM;
+    const int32_t status = dmb_channel_value(s->worker, &there, value);
+    s->worker->magic = 0;
+    return status;
+}
+
+/* Sums over a run and counts, which the steps beside the sim's do not keep. */
+static int is_summed(int32_t quantity)
+{
+    return quantity == DMB_CHANNEL_ENERGY_ERROR || quantity == DMB_CHANNEL_DRIVE_WORK ||
+           (quantity >= DMB_CHANNEL_ENERGY_DRIVES && quantity <= DMB_CHANNEL_ENERGY_UNEXPLAINED) ||
+           (quantity >= DMB_CHANNEL_STEPS && quantity <= DMB_CHANNEL_REDUNDANT);
+}
+
+static int32_t refuse_channel(const dmb_sensitivity *s, uint32_t number, int32_t quantity, int32_t status)
+{
+    dmb_message_set(&s->sim->message, "sensitivity: channel %u: %s", number,
+                    is_summed(quantity) ? "sums and counts of a run have no derivative here; leave it out"
+                                        : dmb_status_text(status));
+    return status;
+}
+
+static int32_t check_channels(const dmb_sensitivity *s, const dmb_channel *channels, uint32_t count)
+{
+    double value;
+    for (uint32_t i = 0; i < count; i++) {
+        const int32_t status =
+            is_summed(channels[i].quantity) ? DMB_ERR_UNSUPPORTED : dmb_channel_value(s->sim, &channels[i], &value);
+        if (status < 0) return refuse_channel(s, i, channels[i].quantity, status);
+    }
+    return DMB_OK;
+}
+
+int32_t dmb_sensitivity_channels(dmb_sensitivity *sensitivity, const dmb_channel *channels, uint32_t count,
+                                 double *values, double *derivatives)
+{
+    dmb_sensitivity *s = sensitivity;
+    int32_t status = dmb_sensitivity_alive(s);
+    if (status < 0) return status;
+    if (channels == NULL || derivatives == NULL) return DMB_ERR_NULL;
+    status = check_channels(s, channels, count);
+    if (status < 0) return status;
+    dmb_sensitivity_stand(s);
+    for (uint32_t i = 0; i < count; i++) {
+        if (values != NULL) (void)dmb_channel_value(s->sim, &channels[i], &values[i]);
+        for (uint32_t k = 0; k < s->count; k++) {
+            double low = 0.0, high = 0.0;
+            (void)channel_beside(s, &s->parameters[k], DMB_SIDE_LOW, &channels[i], &low);
+            (void)channel_beside(s, &s->parameters[k], DMB_SIDE_HIGH, &channels[i], &high);
+            derivatives[(size_t)i * s->count + k] = (high - low) / (2.0 * s->parameters[k].step);
+        }
+    }
+    return DMB_OK;
+}
+
+/* Rates of a node's displacement [m], world, its place as described included, and body-frame rotation [rad]. */
+static void pose_rate(const dmb_sensitivity *s, const dmb_rated_parameter *p, uint32_t node, const double *displacement,
+                      const double *quaternion, double out[6])
+{
+    const double *low = p->model[DMB_SIDE_LOW]->scene->reference_position + 3 * (size_t)node;
+    const double *high = p->model[DMB_SIDE_HIGH]->scene->reference_position + 3 * (size_t)node;
+    const double *q = s->sim->now.quaternion + 4 * (size_t)node, *dq = quaternion + 4 * (size_t)node;
+    double R[9], moved[3];
+    for (int i = 0; i < 3; i++)
+        moved[i] = displacement[3 * (size_t)node + (size_t)i] + (high[i] - low[i]) / (2.0 * p->step);
+    dmb_quat_to_matrix(q, R);
+    dmb_mat3_tvec(R, moved, out);
+    out[3] = 2.0 * (q[0] * dq[1] - q[1] * dq[0] - q[2] * dq[3] + q[3] * dq[2]); /* 2 q* dq */
+    out[4] = 2.0 * (q[0] * dq[2] - q[2] * dq[0] - q[3] * dq[1] + q[1] * dq[3]);
+    out[5] = 2.0 * (q[0] * dq[3] - q[3] * dq[0] - q[1] * dq[2] + q[2] * dq[1]);
+}
+
+static void write_poses(const dmb_sensitivity *s, const dmb_rated_parameter *p, double *pose)
+{
+    const dmb_block_layout *layout = &s->sim->scene->layout;
+    const double *displacement = dmb_rates_of(s, p, s->sim->now.displacement);
+    const double *quaternion = dmb_rates_of(s, p, s->sim->now.quaternion), *turn = dmb_rates_of(s, p, s->sim->now.turn);
+    for (uint32_t i = 0; i < s->sim->scene->node_count; i++) {
+        if (layout->size[i] == DMB_NODE_FULL) {
+            pose_rate(s, p, i, displacement, quaternion, pose + layout->row[i]);
+            continue;
+        }
+        pose[layout->row[i]] = displacement[3 * (size_t)i];
+        pose[layout->row[i] + 1] = turn[i];
+    }
+}
+
+static int32_t check_parameter(const dmb_sensitivity *s, uint32_t number)
+{
+    const int32_t status = dmb_sensitivity_alive(s);
+    if (status < 0 || number < s->count) return status;
+    dmb_message_set(&s->sim->message, "sensitivity: parameter = %u, must be < %u", number, s->count);
+    return DMB_ERR_VALUE;
+}
+
+int32_t dmb_sensitivity_rows(dmb_sensitivity *sensitivity, uint32_t parameter_number, double *pose, double *velocity,
+                             uint32_t *rows)
+{
+    const dmb_sensitivity *s = sensitivity;
+    const int32_t status = check_parameter(s, parameter_number);
+    if (status < 0) return status;
+    if (rows == NULL) return DMB_ERR_NULL;
+    const dmb_rated_parameter *p = &s->parameters[parameter_number];
+    *rows = s->sim->scene->row_count;
+    if (velocity != NULL) memcpy(velocity, dmb_rates_of(s, p, s->sim->now.velocity), *rows * sizeof(double));
+    if (pose != NULL) write_poses(s, p, pose);
+    return DMB_OK;
+}
+
+int32_t dmb_sensitivity_kinks(const dmb_sensitivity *sensitivity, uint32_t parameter_number, uint64_t *kinks)
+{
+    const int32_t status = check_parameter(sensitivity, parameter_number);
+    if (status < 0) return status;
+    if (kinks == NULL) return DMB_ERR_NULL;
+    *kinks = sensitivity->parameters[parameter_number].kinks;
+    return DMB_OK;
+}

@@ -1,0 +1,234 @@
+/* Rates along steps: both sides of each parameter beside the step that the sim has tried. */
+#include <string.h>
+
+#include "analysis/sensitivity/sensitivity.h"
+#include "system/start.h"
+
+/* ---- Which side of a corner a state is on ------------------------------------------------------------------------ */
+
+static uint64_t mix(uint64_t hash, int flag)
+{
+    return (hash ^ (uint64_t)(flag != 0)) * UINT64_C(0x100000001B3);
+}
+
+static uint64_t sides_of_drives(const dmb_sim *sim, uint64_t hash)
+{
+    for (uint32_t i = 0; i < sim->scene->drive_count; i++) {
+        const dmb_scene_drive *drive = sim->scene->drives + i;
+        if (drive->kind != DMB_DRIVE_CONTROL) continue;
+        hash = mix(hash, sim->trial.drive_force[i] <= drive->limit_low);
+        hash = mix(hash, sim->trial.drive_force[i] >= drive->limit_high);
+    }
+    return hash;
+}
+
+/* Contacts that press, bristles that stick, controllers at a limit, bits on the rock. */
+static uint64_t sides_of(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    const uint32_t bristles = dmb_scene_has_bristles(scene) ? 1 : 0;
+    uint64_t hash = sides_of_drives(sim, UINT64_C(0xCBF29CE484222325));
+    for (uint32_t i = 0; i < scene->site_count; i++) hash = mix(hash, sim->trial.site_penetration[i] > 0.0);
+    for (uint32_t i = 0; i < bristles * scene->site_count; i++) hash = mix(hash, sim->trial.site_sticks[i]);
+    for (uint32_t i = 0; i < bristles * scene->path_site_count; i++) hash = mix(hash, sim->trial.path_sticks[i]);
+    for (uint32_t i = 0; i < scene->bit_count; i++)
+        hash = mix(hash, sim->trial.bit_advance[i] > sim->trial.bit_bottom[i]);
+    return hash;
+}
+
+/* ---- Along a step ------------------------------------------------------------------------------------------------ */
+
+/* rates <- (high - low)/span. INPUTS are those of the caller, which do not change; NaN: not set. */
+static void take_difference(dmb_sensitivity *s, dmb_rated_parameter *p, const double *low, double span)
+{
+    size_t at = 0;
+    dmb_state_fields of;
+    dmb_state_fields_of(s->sim, DMB_GROUP_NOW, &of);
+    for (size_t i = 0; i < of.count; i++) {
+        if (!dmb_field_has_numbers(&of.field[i])) continue;
+        const size_t end = at + of.field[i].bytes / sizeof(double);
+        for (; at < end && of.field[i].check == DMB_CHECK_NUMBERS; at++) p->rates[at] = (s->high[at] - low[at]) / span;
+        at = end;
+    }
+}
+
+/* What is done on both sides of a parameter: a step, or accelerations made anew. *sides tells the side of corners that
+ * it ends on. */
+typedef int32_t (*move)(dmb_sensitivity *s, const dmb_lead *lead, double *to, uint64_t *sides);
+
+static int32_t step_beside(dmb_sensitivity *s, const dmb_lead *lead, double *to, uint64_t *sides)
+{
+    const int32_t status = dmb_follow_step(s->worker, lead);
+    if (status < 0) return status;
+    dmb_state_read(s->worker, DMB_GROUP_TRIAL, to);
+    *sides = sides_of(s->worker);
+    return DMB_OK;
+}
+
+static int32_t jump_beside(dmb_sensitivity *s, const dmb_lead *lead, double *to, uint64_t *sides)
+{
+    (void)lead;
+    const int32_t status = dmb_system_jump(s->worker);
+    if (status < 0) return status;
+    dmb_state_read(s->worker, DMB_GROUP_NOW, to);
+    *sides = 0;
+    return DMB_OK;
+}
+
+static int32_t move_parameter(dmb_sensitivity *s, const dmb_lead *lead, move move_beside, dmb_rated_parameter *p,
+                              uint64_t middle_sides)
+{
+    uint64_t sides, low_sides = middle_sides;
+    dmb_sensitivity_aside(s, p, DMB_SIDE_HIGH);
+    int32_t status = move_beside(s, lead, s->high, &sides);
+    if (status >= 0 && !p->one_sided) {
+        dmb_sensitivity_aside(s, p, DMB_SIDE_LOW);
+        status = move_beside(s, lead, s->low, &low_sides);
+    }
+    if (status < 0) return status;
+    p->kinks += sides != low_sides;
+    if (p->one_sided)
+        take_difference(s, p, s->middle, p->step);
+    else
+        take_difference(s, p, s->low, 2.0 * p->step);
+    return DMB_OK;
+}
+
+static int any_one_sided(const dmb_sensitivity *s)
+{
+    for (uint32_t i = 0; i < s->count; i++)
+        if (s->parameters[i].one_sided) return 1;
+    return 0;
+}
+
+/* Where the rates belong: displacements, velocities, then accelerations. */
+static void take_sight(dmb_sensitivity *s, const dmb_configuration *of)
+{
+    const size_t n = 3 * (size_t)s->sim->scene->node_count, r = s->sim->scene->row_count;
+    memcpy(s->seen, of->displacement, n * sizeof(double));
+    memcpy(s->seen + n, of->velocity, r * sizeof(double));
+    memcpy(s->seen + n + r, of->acceleration, r * sizeof(double));
+}
+
+static int stands_as_seen(const dmb_sensitivity *s)
+{
+    const size_t n = 3 * (size_t)s->sim->scene->node_count, r = s->sim->scene->row_count;
+    return memcmp(s->seen, s->sim->now.displacement, n * sizeof(double)) == 0 &&
+           memcmp(s->seen + n, s->sim->now.velocity, r * sizeof(double)) == 0;
+}
+
+static int accelerates_as_seen(const dmb_sensitivity *s)
+{
+    const size_t n = 3 * (size_t)s->sim->scene->node_count, r = s->sim->scene->row_count;
+    return memcmp(s->seen + n + r, s->sim->now.acceleration, r * sizeof(double)) == 0;
+}
+
+static int32_t explain(const dmb_sensitivity *s, const dmb_rated_parameter *p, int32_t status, const char *what)
+{
+    const uint32_t number = p != NULL ? (uint32_t)(p - s->parameters) : 0;
+    if (p == NULL)
+        dmb_message_set(&s->sim->message, "sensitivity: %s at time %g: %s; a shorter step may help", what,
+                        s->sim->clock->time, dmb_status_text(status));
+    else
+        dmb_message_set(&s->sim->message,
+                        "sensitivity: parameter %u (%s): %s at time %g: %s; a shorter step, or a smaller difference of "
+                        "its sims, may help",
+                        number, p->name, what, s->sim->clock->time, dmb_status_text(status));
+    return status;
+}
+
+/* The sim itself beside, for what is one-sided, then each parameter. */
+static int32_t move_all(dmb_sensitivity *s, const dmb_lead *lead, move move_beside, const char *what)
+{
+    uint64_t sides = 0;
+    int32_t status = any_one_sided(s) ? move_beside(s, lead, s->middle, &sides) : DMB_OK;
+    if (status < 0) return explain(s, NULL, status, what);
+    for (uint32_t i = 0; i < s->count; i++) {
+        status = move_parameter(s, lead, move_beside, &s->parameters[i], sides);
+        if (status < 0) return explain(s, &s->parameters[i], status, what);
+    }
+    return DMB_OK;
+}
+
+static int32_t follow_all(dmb_sensitivity *s, const dmb_lead *lead)
+{
+    dmb_sensitivity_stand(s);
+    int32_t status = dmb_follow_prepare(s->worker, lead);
+    if (status < 0) return explain(s, NULL, status, "tangent of the step");
+    if (any_one_sided(s)) dmb_sensitivity_stand(s);
+    return move_all(s, lead, step_beside, "step beside the step");
+}
+
+static int32_t jump_all(dmb_sensitivity *s)
+{
+    dmb_sensitivity_stand(s);
+    return move_all(s, NULL, jump_beside, "accelerations after a jump");
+}
+
+int32_t dmb_sensitivity_follow(void *context, const dmb_attempt *attempt)
+{
+    dmb_sensitivity *s = context;
+    const dmb_lead lead = {s->sim, attempt, s->opening};
+    const int32_t status = accelerates_as_seen(s) ? DMB_OK : jump_all(s);
+    if (status < 0) return status;
+    const int32_t followed = follow_all(s, &lead);
+    if (followed >= 0) take_sight(s, &s->sim->trial);
+    return followed;
+}
+
+/* ---- Calls ------------------------------------------------------------------------------------------------------- */
+
+static uint64_t kinks_of(const dmb_sensitivity *s)
+{
+    uint64_t kinks = 0;
+    for (uint32_t i = 0; i < s->count; i++) kinks += s->parameters[i].kinks;
+    return kinks;
+}
+
+void dmb_sensitivity_settle(dmb_sensitivity *s, int back)
+{
+    for (uint32_t i = 0; i < s->count; i++) {
+        dmb_rated_parameter *p = &s->parameters[i];
+        double *from = back ? p->accepted : p->rates, *to = back ? p->rates : p->accepted;
+        memcpy(to, from, s->numbers * sizeof(double));
+        if (back) p->kinks = p->accepted_kinks;
+        p->accepted_kinks = p->kinks;
+    }
+    take_sight(s, &s->sim->now);
+}
+
+/* A step or an advance of the sim with the rates; step: a failing call takes all of it back. */
+static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int step)
+{
+    int32_t status = dmb_sensitivity_alive(s);
+    if (status < 0) return status;
+    if (!stands_as_seen(s)) {
+        dmb_message_set(&s->sim->message,
+                        "sensitivity: the sim was moved by other calls than dmb_sensitivity_step and _advance; make "
+                        "one anew from here");
+        return DMB_ERR_ORDER;
+    }
+    const uint64_t kinks = kinks_of(s);
+    s->busy = 1;
+    s->sim->follower = &s->follower;
+    status = step ? dmb_sim_step(s->sim, to, report) : dmb_sim_advance(s->sim, to, report);
+    s->sim->follower = NULL;
+    dmb_sensitivity_settle(s, step && status < 0);
+    s->busy = 0;
+    if (status != DMB_OK || kinks_of(s) == kinks) return status;
+    dmb_message_set(&s->sim->message,
+                    "sensitivity: up to %g s contact, sticking, limit or bit differed between the sides of a parameter "
+                    "in %u steps: a mean of two derivatives",
+                    s->sim->clock->time, (uint32_t)(kinks_of(s) - kinks));
+    return DMB_NOTE_NOT_SMOOTH;
+}
+
+int32_t dmb_sensitivity_step(dmb_sensitivity *sensitivity, double duration, dmb_step_report *report)
+{
+    return run(sensitivity, duration, report, 1);
+}
+
+int32_t dmb_sensitivity_advance(dmb_sensitivity *sensitivity, double time, dmb_step_report *report)
+{
+    return run(sensitivity, time, report, 0);
+}

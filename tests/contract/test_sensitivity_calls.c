@@ -1,0 +1,219 @@
+/* Sensitivities as an object: the bits of the sim's own steps, what is refused and what a refusal leaves, corners told,
+ * no allocation in a step, all memory given back. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "rig.h"
+
+static double height = -0.0437;
+
+static uint32_t allocations, live;
+
+static void *allocate(void *context, size_t size, size_t alignment)
+{
+    (void)context;
+    allocations++;
+    live++;
+    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+
+static void release(void *context, void *block, size_t size, size_t alignment)
+{
+    (void)context, (void)size, (void)alignment;
+    live--;
+    free(block);
+}
+
+/* A ball above the wall. */
+static rig ball(double at, int32_t friction, uint32_t more)
+{
+    dmb_wall_def wall = dmb_wall_def_default();
+    dmb_body_def body = dmb_body_def_default();
+    rig s;
+    rig_open(&s, 0.0, 0.0, -9.81);
+    wall.diameter = 0.2;
+    wall.stiffness = 1e5;
+    wall.friction_law = friction;
+    (void)add_wall(&s, &wall);
+    body.contact_diameter = 0.1;
+    body.position[2] = at;
+    for (uint32_t i = 0; i <= more; i++) {
+        body.position[0] = i;
+        (void)add_body(&s, &body);
+    }
+    dmb_allocator allocator = dmb_allocator_default();
+    dmb_sim_options options = dmb_sim_options_default();
+    allocator.allocate = allocate;
+    allocator.release = release;
+    options.allocator = &allocator;
+    (void)rig_start(&s, &options);
+    return s;
+}
+
+typedef struct trio {
+    rig s, low, high;
+    dmb_parameter parameter;
+} trio;
+
+static trio trio_of(double step)
+{
+    trio t;
+    t.s = ball(height, DMB_FRICTION_STRIBECK, 0);
+    t.low = ball(height - step, DMB_FRICTION_STRIBECK, 0);
+    t.high = ball(height + step, DMB_FRICTION_STRIBECK, 0);
+    t.parameter = dmb_parameter_default();
+    t.parameter.step = step;
+    t.parameter.low = t.low.sim;
+    t.parameter.high = t.high.sim;
+    return t;
+}
+
+static void trio_close(trio *t)
+{
+    rig_close(&t->s);
+    rig_close(&t->low);
+    rig_close(&t->high);
+}
+
+static void test_bits(void **state)
+{
+    trio t = trio_of(1e-6);
+    rig alone = ball(height, DMB_FRICTION_STRIBECK, 0);
+    dmb_sensitivity *sensitivity;
+    (void)state;
+    must(&t.s, dmb_sensitivity_create(t.s.sim, &t.parameter, 1, &sensitivity));
+    for (int i = 0; i < 100; i++) {
+        must(&alone, dmb_sim_step(alone.sim, 1e-3, NULL));
+        must(&t.s, dmb_sensitivity_step(sensitivity, 1e-3, NULL));
+    }
+    assert_true(rig_hash(&alone) == rig_hash(&t.s));
+    must(&alone, dmb_sim_advance(alone.sim, 0.3, NULL));
+    must(&t.s, dmb_sensitivity_advance(sensitivity, 0.3, NULL));
+    assert_true(rig_hash(&alone) == rig_hash(&t.s));
+    dmb_sensitivity_destroy(&sensitivity);
+    assert_null(sensitivity);
+    rig_close(&alone);
+    trio_close(&t);
+}
+
+/* One side touches the wall in a step and the other does not. */
+static void test_corner(void **state)
+{
+    trio t = trio_of(1e-3);
+    dmb_sensitivity *sensitivity;
+    int32_t status = DMB_OK;
+    (void)state;
+    must(&t.s, dmb_sensitivity_create(t.s.sim, &t.parameter, 1, &sensitivity));
+    for (int i = 0; i < 100 && status == DMB_OK; i++) status = dmb_sensitivity_step(sensitivity, 1e-3, NULL);
+    assert_int_equal(status, DMB_NOTE_NOT_SMOOTH);
+    assert_non_null(strstr(dmb_sim_message(t.s.sim), "a mean of two derivatives"));
+    uint64_t kinks = 0;
+    must(&t.s, dmb_sensitivity_kinks(sensitivity, 0, &kinks));
+    assert_true(kinks == 1);
+    assert_int_equal(dmb_sensitivity_kinks(sensitivity, 1, &kinks), DMB_ERR_VALUE);
+    dmb_sensitivity_destroy(&sensitivity);
+    trio_close(&t);
+}
+
+static void refuse(trio *t, int32_t status, const char *word)
+{
+    dmb_sensitivity *sensitivity = (dmb_sensitivity *)(void *)&height;
+    const uint64_t before = rig_hash(&t->s);
+    assert_int_equal(dmb_sensitivity_create(t->s.sim, &t->parameter, 1, &sensitivity), status);
+    assert_null(sensitivity);
+    assert_non_null(strstr(dmb_sim_message(t->s.sim), word));
+    assert_true(rig_hash(&t->s) == before);
+}
+
+static void test_refusals(void **state)
+{
+    const double steps[5] = {0.0, -1.0, (double)NAN, (double)INFINITY, 1e300};
+    trio t = trio_of(1e-6);
+    rig other = ball(height, DMB_FRICTION_NONE, 0), two = ball(height, DMB_FRICTION_STRIBECK, 1);
+    dmb_sensitivity *sensitivity;
+    (void)state;
+    for (int i = 0; i < 5; i++) {
+        t.parameter.step = steps[i];
+        refuse(&t, i == 2 || i == 3 ? DMB_ERR_NOT_FINITE : DMB_ERR_VALUE, "step");
+    }
+    t.parameter.step = 1e-6;
+    t.parameter.one_sided = 2;
+    refuse(&t, DMB_ERR_VALUE, "one_sided");
+    t.parameter.one_sided = 0;
+    t.parameter.low = NULL;
+    refuse(&t, DMB_ERR_NULL, "low");
+    t.parameter.low = other.sim;
+    refuse(&t, DMB_ERR_VALUE, "other parts");
+    t.parameter.low = two.sim;
+    refuse(&t, DMB_ERR_VALUE, "other parts");
+    t.parameter.low = t.low.sim;
+    must(&t.high, dmb_sim_step(t.high.sim, 1e-3, NULL));
+    refuse(&t, DMB_ERR_VALUE, "time");
+    t.parameter.high = t.low.sim; /* any pair of the make will do */
+    assert_int_equal(dmb_sensitivity_create(t.s.sim, &t.parameter, 0, &sensitivity), DMB_ERR_VALUE);
+    assert_int_equal(dmb_sensitivity_create(t.s.sim, &t.parameter, UINT32_MAX, &sensitivity), DMB_ERR_VALUE);
+    assert_int_equal(dmb_sensitivity_create(t.s.sim, NULL, 1, &sensitivity), DMB_ERR_NULL);
+    assert_int_equal(dmb_sensitivity_create(NULL, &t.parameter, 1, &sensitivity), DMB_ERR_NULL);
+    assert_int_equal(dmb_sensitivity_create(t.s.sim, &t.parameter, 1, NULL), DMB_ERR_NULL);
+    assert_int_equal(dmb_sensitivity_step(NULL, 1e-3, NULL), DMB_ERR_NULL);
+    dmb_sensitivity_destroy(NULL);
+    rig_close(&other);
+    rig_close(&two);
+    trio_close(&t);
+}
+
+/* Calls that fail leave state and derivatives as they were. */
+static void test_failures(void **state)
+{
+    trio t = trio_of(1e-6);
+    dmb_sensitivity *sensitivity;
+    double before, after, none[1];
+    uint32_t rows;
+    (void)state;
+    must(&t.s, dmb_sensitivity_create(t.s.sim, &t.parameter, 1, &sensitivity));
+    must(&t.s, dmb_sensitivity_step(sensitivity, 1e-2, NULL));
+    const dmb_id body = {(UINT32_C(4) << 24), 0};
+    dmb_channel channel = {dmb_station(body, 0, 0.0), DMB_CHANNEL_ENERGY_ERROR, 0};
+    assert_int_equal(dmb_sensitivity_channels(sensitivity, &channel, 1, NULL, none), DMB_ERR_UNSUPPORTED);
+    channel.quantity = DMB_CHANNEL_POSITION_Z;
+    assert_int_equal(dmb_sensitivity_channels(sensitivity, &channel, 1, NULL, none), DMB_ERR_ID);
+    assert_int_equal(dmb_sensitivity_channels(sensitivity, NULL, 1, NULL, none), DMB_ERR_NULL);
+    assert_int_equal(dmb_sensitivity_rows(sensitivity, 1, NULL, NULL, &rows), DMB_ERR_VALUE);
+    double velocity[6];
+    must(&t.s, dmb_sensitivity_rows(sensitivity, 0, NULL, velocity, &rows));
+    before = velocity[2];
+    assert_int_equal(dmb_sensitivity_step(sensitivity, -1.0, NULL), DMB_ERR_VALUE);
+    assert_int_equal(dmb_sensitivity_step(sensitivity, (double)NAN, NULL), DMB_ERR_NOT_FINITE);
+    assert_int_equal(dmb_sensitivity_advance(sensitivity, 0.0, NULL), DMB_ERR_VALUE);
+    must(&t.s, dmb_sensitivity_rows(sensitivity, 0, NULL, velocity, &rows));
+    after = velocity[2];
+    assert_true(before == after);
+    dmb_sensitivity_destroy(&sensitivity);
+    trio_close(&t);
+}
+
+static void test_allocates_nothing(void **state)
+{
+    trio t = trio_of(1e-6);
+    dmb_sensitivity *sensitivity;
+    (void)state;
+    must(&t.s, dmb_sensitivity_create(t.s.sim, &t.parameter, 1, &sensitivity));
+    const uint32_t before = allocations;
+    for (int i = 0; i < 20; i++) must(&t.s, dmb_sensitivity_step(sensitivity, 1e-3, NULL));
+    assert_int_equal(allocations, before);
+    dmb_sensitivity_destroy(&sensitivity);
+    trio_close(&t);
+    assert_int_equal(live, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_corner),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_allocates_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,551 @@
+/* Derivatives along runs against differences of whole runs (central, extrapolated), and the spring by its formula. */
+#include <stdio.h>
+#include <string.h>
+
+#include "rig.h"
+
+enum { CHANNELS_MAX = 8 };
+
+/* A scene by the value of one parameter. */
+typedef struct scene_case {
+    const char *name;
+    void (*describe)(rig *s, double value);
+    uint32_t (*channels)(const rig *s, dmb_channel *out);
+    double value;
+    double step;       /* of the sims on both sides of it */
+    double difference; /* of the whole runs that it is held against */
+    double time_step;
+    uint32_t steps;
+    double bound; /* [-] of the error over the largest derivative of its channel along the run */
+    int settled;  /* 1: begins with dmb_analysis_static */
+} scene_case;
+
+static dmb_sim_options sharp(void)
+{
+    dmb_sim_options options = dmb_sim_options_default();
+    options.newton_tolerance = 1e-13;
+    options.max_iterations = 40;
+    options.tolerance_translation = 1e-9;
+    return options;
+}
+
+static rig begin(const scene_case *c, double value)
+{
+    const dmb_sim_options options = sharp();
+    rig s;
+    c->describe(&s, value);
+    (void)rig_start(&s, &options);
+    if (c->settled) {
+        dmb_static_options statics = dmb_static_options_default();
+        statics.tolerance = 1e-12;
+        (void)find_equilibrium(&s, &statics);
+    }
+    return s;
+}
+
+static dmb_id last_string, last_body, last_drive, last_bit, last_joint;
+
+static dmb_channel channel_of(dmb_place place, int32_t quantity)
+{
+    const dmb_channel channel = {place, quantity, 0};
+    return channel;
+}
+
+static void run_to_end(const scene_case *c, double value, double *out)
+{
+    dmb_channel channels[CHANNELS_MAX];
+    rig s = begin(c, value);
+    const uint32_t count = c->channels(&s, channels);
+    double table[CHANNELS_MAX + 1];
+    for (uint32_t i = 0; i < c->steps; i++) must(&s, dmb_sim_step(s.sim, c->time_step, NULL));
+    dmb_recorder recorder = dmb_recorder_default();
+    recorder.channels = channels;
+    recorder.channel_count = count;
+    recorder.table = table;
+    recorder.capacity = 1;
+    must(&s, dmb_recorder_take(&recorder, s.sim));
+    memcpy(out, table + 1, count * sizeof *out);
+    rig_close(&s);
+}
+
+/* (4 D(d) - D(2 d))/3 */
+static void differences(const scene_case *c, double *out)
+{
+    double low[CHANNELS_MAX], high[CHANNELS_MAX], far_low[CHANNELS_MAX], far_high[CHANNELS_MAX];
+    const double d = c->difference;
+    memset(low, 0, sizeof low), memset(high, 0, sizeof high);
+    memset(far_low, 0, sizeof far_low), memset(far_high, 0, sizeof far_high);
+    run_to_end(c, c->value - d, low);
+    run_to_end(c, c->value + d, high);
+    run_to_end(c, c->value - 2.0 * d, far_low);
+    run_to_end(c, c->value + 2.0 * d, far_high);
+    for (int i = 0; i < CHANNELS_MAX; i++)
+        out[i] = (4.0 * (high[i] - low[i]) / (2.0 * d) - (far_high[i] - far_low[i]) / (4.0 * d)) / 3.0;
+}
+
+static void check_case(const scene_case *c)
+{
+    dmb_channel channels[CHANNELS_MAX];
+    double derivatives[CHANNELS_MAX] = {0.0}, reference[CHANNELS_MAX], largest[CHANNELS_MAX] = {0.0};
+    rig low = begin(c, c->value - c->step), high = begin(c, c->value + c->step);
+    rig s = begin(c, c->value); /* last, for the ids */
+    dmb_sensitivity *sensitivity;
+    dmb_parameter parameter = dmb_parameter_default();
+    const uint32_t count = c->channels(&s, channels);
+    parameter.step = c->step;
+    parameter.low = low.sim;
+    parameter.high = high.sim;
+    must(&s, dmb_sensitivity_create(s.sim, &parameter, 1, &sensitivity));
+    rig_close(&low);
+    rig_close(&high);
+    for (uint32_t i = 0; i < c->steps; i++) {
+        must(&s, dmb_sensitivity_step(sensitivity, c->time_step, NULL));
+        must(&s, dmb_sensitivity_channels(sensitivity, channels, count, NULL, derivatives));
+        for (uint32_t k = 0; k < count; k++) largest[k] = fmax(largest[k], fabs(derivatives[k]));
+    }
+    differences(c, reference);
+    double worst = 0.0;
+    uint64_t kinks = 0;
+    must(&s, dmb_sensitivity_kinks(sensitivity, 0, &kinks));
+    for (uint32_t k = 0; k < count; k++) {
+        const double error = fabs(derivatives[k] - reference[k]) / largest[k];
+        printf("%s, channel %d: derivative %.12g, by runs %.12g, error %.1e, kinks %llu\n", c->name,
+               channels[k].quantity, derivatives[k], reference[k], error, (unsigned long long)kinks);
+        worst = fmax(worst, error);
+    }
+    assert_true(worst <= c->bound);
+    dmb_sensitivity_destroy(&sensitivity);
+    rig_close(&s);
+}
+
+/* ---- Scenes ------------------------------------------------------------------------------------------------------ */
+
+static double mu = 0.3, stiffness = 1e6, diameter = 0.073, damping = 5.0, young = 210e9, energy = 3e7, speed = 6.0;
+static int32_t friction_law = DMB_FRICTION_STRIBECK, pipe_kind = DMB_PIPE_FLEXIBLE, rock_law = DMB_ROCK_RATE;
+
+static void drive_string(rig *s)
+{
+    dmb_drive_def turn = dmb_drive_def_default(), push = dmb_drive_def_default();
+    turn.kind = DMB_DRIVE_CONTROL;
+    turn.component = DMB_RX;
+    dmb_term ramp = dmb_term_default();
+    ramp.kind = DMB_TERM_STEP5;
+    ramp.x1 = 0.1;
+    ramp.h1 = speed;
+    turn.programme = add_programme(s, &ramp, 1);
+    turn.gain = 400.0;
+    turn.integral_gain = 200.0;
+    turn.part = last_string;
+    last_drive = add_drive(s, &turn);
+    push.kind = DMB_DRIVE_CONTROL;
+    push.component = DMB_X;
+    push.programme = add_constant(s, 0.01);
+    push.gain = 2e5;
+    push.integral_gain = 1e5;
+    push.part = last_string;
+    (void)add_drive(s, &push);
+}
+
+static void describe_string(rig *s)
+{
+    dmb_environment_def environment = dmb_environment_def_default();
+    dmb_wall_def wall = s1_hole();
+    dmb_pipe_def pipe = s1_pipe();
+    dmb_string_def string = dmb_string_def_default();
+    rig_open(s, 0.0, 0.0, -9.81);
+    environment.lateral_damping = damping;
+    must_model(s, dmb_model_set_environment(s->model, &environment));
+    wall.stiffness = stiffness;
+    wall.mu_dynamic = mu;
+    wall.mu_static = 1.2 * mu;
+    wall.friction_law = friction_law;
+    wall.smoothing_speed = 0.05;
+    wall.stribeck_speed = 0.1;
+    (void)add_wall(s, &wall);
+    pipe.outer_diameter = diameter;
+    pipe.young_modulus = young;
+    pipe.kind = pipe_kind;
+    last_string = add_string(s, &string);
+    (void)dmb_model_add_pipes(s->model, &pipe, 6, NULL);
+    drive_string(s);
+}
+
+static void describe_drilling(rig *s)
+{
+    dmb_bit_def bit = dmb_bit_def_default();
+    describe_string(s);
+    bit.rock_law = rock_law;
+    bit.intrinsic_energy = energy;
+    bit.string = last_string;
+    bit.diameter = 0.0;
+    must_model(s, dmb_model_add_bit(s->model, &bit, &last_bit));
+}
+
+static void by_mu(rig *s, double value)
+{
+    const double kept = mu;
+    mu = value;
+    describe_string(s);
+    mu = kept;
+}
+
+static void by_mu_bristle(rig *s, double value)
+{
+    friction_law = DMB_FRICTION_BRISTLE;
+    by_mu(s, value);
+    friction_law = DMB_FRICTION_STRIBECK;
+}
+
+static void by_mu_path(rig *s, double value)
+{
+    pipe_kind = DMB_PIPE_AXIAL_TORSIONAL;
+    by_mu(s, value);
+    pipe_kind = DMB_PIPE_FLEXIBLE;
+}
+
+static void by_stiffness(rig *s, double value)
+{
+    const double kept = stiffness;
+    stiffness = value;
+    describe_string(s);
+    stiffness = kept;
+}
+
+static void by_diameter(rig *s, double value)
+{
+    const double kept = diameter;
+    diameter = value;
+    describe_string(s);
+    diameter = kept;
+}
+
+static void by_damping(rig *s, double value)
+{
+    const double kept = damping;
+    damping = value;
+    describe_string(s);
+    damping = kept;
+}
+
+static void by_young(rig *s, double value)
+{
+    const double kept = young;
+    young = value;
+    describe_string(s);
+    young = kept;
+}
+
+static void by_energy(rig *s, double value)
+{
+    const double kept = energy;
+    energy = value;
+    describe_drilling(s);
+    energy = kept;
+}
+
+static void by_energy_regenerative(rig *s, double value)
+{
+    rock_law = DMB_ROCK_REGENERATIVE;
+    by_energy(s, value);
+    rock_law = DMB_ROCK_RATE;
+}
+
+static void by_programme(rig *s, double value)
+{
+    const double kept = speed;
+    speed = value;
+    describe_drilling(s);
+    speed = kept;
+}
+
+static uint32_t string_channels(const rig *s, dmb_channel *out)
+{
+    (void)s;
+    out[0] = channel_of(dmb_station(last_string, 5, 1.0), DMB_CHANNEL_ROTATION);
+    out[1] = channel_of(dmb_station(last_string, 5, 1.0), DMB_CHANNEL_SPIN);
+    out[2] = channel_of(dmb_station(last_string, 2, 0.5), DMB_CHANNEL_TORQUE);
+    out[3] = channel_of(dmb_station(last_drive, 0, 0.0), DMB_CHANNEL_DRIVE_FORCE);
+    out[4] = channel_of(dmb_station(last_string, 2, 0.5), DMB_CHANNEL_AXIAL_FORCE);
+    out[5] = channel_of(dmb_station(last_string, 5, 1.0), DMB_CHANNEL_POSITION_X);
+    return 6;
+}
+
+static uint32_t bending_channels(const rig *s, dmb_channel *out)
+{
+    (void)string_channels(s, out);
+    out[6] = channel_of(dmb_station(last_string, 3, 0.0), DMB_CHANNEL_POSITION_Z);
+    out[7] = channel_of(dmb_station(last_string, 3, 0.0), DMB_CHANNEL_NORMAL_FORCE);
+    return 8;
+}
+
+static uint32_t drilling_channels(const rig *s, dmb_channel *out)
+{
+    (void)string_channels(s, out);
+    out[6] = channel_of(dmb_station(last_bit, 0, 0.0), DMB_CHANNEL_BIT_WEIGHT);
+    return 7;
+}
+
+/* A heavy ball that falls onto the wall and bounces off. */
+static void by_ball_stiffness(rig *s, double value)
+{
+    dmb_wall_def wall = dmb_wall_def_default();
+    dmb_body_def body = dmb_body_def_default();
+    rig_open(s, 0.0, 0.0, -9.81);
+    wall.diameter = 0.2;
+    wall.stiffness = value;
+    (void)add_wall(s, &wall);
+    body.mass = 3.0;
+    for (int i = 0; i < 3; i++) body.inertia[i] = 0.01;
+    body.contact_diameter = 0.1;
+    body.position[2] = -0.04;
+    body.velocity[3] = 20.0;
+    last_body = add_body(s, &body);
+}
+
+static uint32_t ball_channels(const rig *s, dmb_channel *out)
+{
+    (void)s;
+    out[0] = channel_of(dmb_station(last_body, 0, 0.0), DMB_CHANNEL_POSITION_Z);
+    out[1] = channel_of(dmb_station(last_body, 0, 0.0), DMB_CHANNEL_VELOCITY_Z);
+    out[2] = channel_of(dmb_station(last_body, 0, 0.0), DMB_CHANNEL_SPIN);
+    return 3;
+}
+
+/* Two rods on revolutes, the parameter being the stiffness of the second's spring. */
+static void by_spring(rig *s, double value)
+{
+    dmb_body_def body = dmb_body_def_default();
+    rig_open(s, 0.0, 0.0, -9.81);
+    body.mass = 2.0;
+    body.centre[0] = 0.5;
+    for (int i = 0; i < 3; i++) body.inertia[i] = 0.1;
+    const dmb_id first = add_body(s, &body);
+    body.position[0] = 1.0;
+    body.rotation[1] = 0.3;
+    last_body = add_body(s, &body);
+    const dmb_place ground = {{0, 0}, 0, 0, 0.0};
+    dmb_joint_def joint = joint_between(DMB_JOINT_REVOLUTE, ground, dmb_station(first, 0, 0.0));
+    joint.axis_a[0] = joint.axis_b[0] = 0.0;
+    joint.axis_a[1] = joint.axis_b[1] = 1.0;
+    (void)add_joint(s, &joint);
+    joint = joint_between(DMB_JOINT_REVOLUTE, dmb_station(first, 0, 0.0), dmb_station(last_body, 0, 0.0));
+    joint.axis_a[0] = joint.axis_b[0] = 0.0;
+    joint.axis_a[1] = joint.axis_b[1] = 1.0;
+    joint.origin_a[0] = 1.0;
+    joint.stiffness[DMB_RX] = value;
+    last_joint = add_joint(s, &joint);
+}
+
+static uint32_t rod_channels(const rig *s, dmb_channel *out)
+{
+    (void)s;
+    for (int i = 0; i < 2; i++) {
+        out[2 * i] = channel_of(dmb_station(last_body, 0, 0.0), DMB_CHANNEL_POSITION_X + 2 * i);
+        out[2 * i + 1] = channel_of(dmb_station(last_body, 0, 0.0), DMB_CHANNEL_VELOCITY_X + 2 * i);
+    }
+    return 4;
+}
+
+/* ---- Tests ------------------------------------------------------------------------------------------------------- */
+
+static void test_strings(void **state)
+{
+    const scene_case cases[] = {
+        {"friction", by_mu, bending_channels, 0.3, 1e-4, 1e-4, 1e-3, 80, 1e-6, 0},
+        {"stiffness of the wall", by_stiffness, bending_channels, 1e6, 300.0, 3000.0, 1e-3, 80, 1e-6, 0},
+        {"outer diameter", by_diameter, bending_channels, 0.073, 1e-6, 1e-5, 1e-3, 80, 1e-6, 0},
+        {"damping by mud", by_damping, bending_channels, 5.0, 0.1, 0.3, 1e-3, 80, 1e-6, 0},
+        {"modulus", by_young, bending_channels, 210e9, 1e8, 3e8, 1e-3, 80, 1e-6, 0},
+        {"friction of bars", by_mu_path, string_channels, 0.3, 1e-5, 1e-4, 1e-3, 80, 1e-6, 0},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) check_case(&cases[i]);
+}
+
+static void test_bristles(void **state)
+{
+    const scene_case c = {"friction of bristles", by_mu_bristle, string_channels, 0.3, 1e-5, 1e-4, 1e-3, 80, 1e-6, 0};
+    (void)state;
+    check_case(&c);
+}
+
+static void test_drilling(void **state)
+{
+    const scene_case cases[] = {
+        /* runs by other differences scatter by 3e-6 of the largest */
+        {"energy of the rock", by_energy, drilling_channels, 3e7, 1e4, 3e4, 1e-3, 240, 1e-5, 0},
+        {"rotary speed", by_programme, drilling_channels, 6.0, 5e-5, 5e-4, 1e-3, 240, 1e-5, 0},
+        {"energy, regenerative", by_energy_regenerative, drilling_channels, 3e7, 1e4, 3e4, 1e-3, 240, 1e-6, 0},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) check_case(&cases[i]);
+}
+
+static void test_ball(void **state)
+{
+    const scene_case c = {
+        "stiffness under a ball", by_ball_stiffness, ball_channels, 1e6, 10.0, 100.0, 1e-4, 1200, 1e-6, 0};
+    (void)state;
+    check_case(&c);
+}
+
+static void test_joints(void **state)
+{
+    const scene_case c = {"spring of a joint", by_spring, rod_channels, 8.0, 1e-6, 1e-3, 2e-3, 300, 1e-6, 0};
+    (void)state;
+    check_case(&c);
+}
+
+/* x'' = -w^2 x - 2 z x', x(0) = 0, x'(0) = v: x = v exp(-z t) sin(u t)/u, u^2 = w^2 - z^2. */
+typedef struct oscillator {
+    double w2, z, v, force;
+} oscillator;
+
+static rig describe_oscillator(const oscillator *o)
+{
+    const dmb_place ground = {{0, 0}, 0, 0, 0.0};
+    const dmb_sim_options options = sharp();
+    dmb_body_def body = dmb_body_def_default();
+    dmb_drive_def load = dmb_drive_def_default();
+    rig s;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    body.mass = 2.0;
+    body.free_mask = DMB_FREE_X;
+    body.velocity[0] = o->v;
+    last_body = add_body(&s, &body);
+    dmb_joint_def spring = joint_between(DMB_JOINT_FREE, ground, dmb_station(last_body, 0, 0.0));
+    spring.stiffness[0] = 2.0 * o->w2;
+    spring.damping[0] = 4.0 * o->z;
+    (void)add_joint(&s, &spring);
+    load.kind = DMB_DRIVE_LOAD;
+    load.part = last_body;
+    load.programme = add_constant(&s, o->force);
+    last_drive = add_drive(&s, &load);
+    (void)rig_start(&s, &options);
+    return s;
+}
+
+static double speed_of(const oscillator *o, double t)
+{
+    const double u = sqrt(o->w2 - o->z * o->z);
+    return o->v * exp(-o->z * t) * (cos(u * t) - o->z / u * sin(u * t));
+}
+
+static double place_of(const oscillator *o, double t)
+{
+    const double u = sqrt(o->w2 - o->z * o->z);
+    return o->v * exp(-o->z * t) * sin(u * t) / u;
+}
+
+/* Largest error of the derivatives of place and speed by w^2, z and v at 1 s with steps of h, over their size; 0: by
+ * error-controlled steps. */
+static double oscillator_error(double h)
+{
+    const oscillator middle = {400.0, 1.5, 0.3, 0.0};
+    const double step[3] = {1e-3, 1e-5, 1e-5};
+    dmb_parameter parameters[3];
+    rig sides[3][2];
+    oscillator low[3], high[3];
+    for (int i = 0; i < 3; i++) {
+        double *of_low[3] = {&low[i].w2, &low[i].z, &low[i].v}, *of_high[3] = {&high[i].w2, &high[i].z, &high[i].v};
+        low[i] = high[i] = middle;
+        *of_low[i] -= step[i];
+        *of_high[i] += step[i];
+        sides[i][0] = describe_oscillator(&low[i]);
+        sides[i][1] = describe_oscillator(&high[i]);
+        parameters[i] = dmb_parameter_default();
+        parameters[i].step = step[i];
+        parameters[i].low = sides[i][0].sim;
+        parameters[i].high = sides[i][1].sim;
+    }
+    rig s = describe_oscillator(&middle);
+    dmb_sensitivity *sensitivity;
+    must(&s, dmb_sensitivity_create(s.sim, parameters, 3, &sensitivity));
+    if (h > 0.0)
+        for (int i = 0; i < lround(1.0 / h); i++) must(&s, dmb_sensitivity_step(sensitivity, h, NULL));
+    else
+        must(&s, dmb_sensitivity_advance(sensitivity, 1.0, NULL));
+    const dmb_channel channels[2] = {channel_of(dmb_station(last_body, 0, 0.0), DMB_CHANNEL_DISPLACEMENT_X),
+                                     channel_of(dmb_station(last_body, 0, 0.0), DMB_CHANNEL_VELOCITY_X)};
+    double values[2], derivatives[6], pose[6], velocity[6], error = 0.0;
+    uint32_t rows = 0;
+    must(&s, dmb_sensitivity_channels(sensitivity, channels, 2, values, derivatives));
+    for (int i = 0; i < 3; i++) {
+        const double place = (place_of(&high[i], 1.0) - place_of(&low[i], 1.0)) / (2.0 * step[i]);
+        const double rate = (speed_of(&high[i], 1.0) - speed_of(&low[i], 1.0)) / (2.0 * step[i]);
+        error = fmax(error, fabs(derivatives[i] - place) / hypot(place, rate / 20.0));
+        error = fmax(error, fabs(derivatives[3 + i] - rate) / hypot(20.0 * place, rate));
+        must(&s, dmb_sensitivity_rows(sensitivity, (uint32_t)i, pose, velocity, &rows));
+        assert_int_equal(rows, 6);
+        assert_true(fabs(pose[0] - derivatives[i]) <= 1e-9 * fabs(place) + 1e-12);
+        assert_true(fabs(velocity[0] - derivatives[3 + i]) <= 1e-9 * fabs(rate) + 1e-12);
+    }
+    dmb_sensitivity_destroy(&sensitivity);
+    for (int i = 0; i < 3; i++) rig_close(&sides[i][0]), rig_close(&sides[i][1]);
+    rig_close(&s);
+    return error;
+}
+
+static void test_oscillator(void **state)
+{
+    const double coarse = oscillator_error(2e-3), fine = oscillator_error(1e-3), chosen = oscillator_error(0.0);
+    (void)state;
+    printf("oscillator: errors %.3e, halved %.3e, order %.2f; chosen steps %.1e\n", coarse, fine, log2(coarse / fine),
+           chosen);
+    assert_true(fabs(log2(coarse / fine) - 2.0) < 0.1);
+    assert_true(chosen < 1e-3);
+}
+
+/* A force set between steps: what it has done since, F -> x by the linear oscillator's step response, in both
+ * directions of one input; and a motion of the sim by other calls is refused. */
+static void test_input(void **state)
+{
+    const oscillator still = {400.0, 1.5, 0.0, 0.0};
+    rig low = describe_oscillator(&still), high = describe_oscillator(&still), s = describe_oscillator(&still);
+    dmb_sensitivity *sensitivity;
+    dmb_parameter parameter = dmb_parameter_default();
+    dmb_id drive = last_drive;
+    (void)state;
+    must(&s, dmb_sim_set_drive(s.sim, drive, 5.0));
+    /* ids of the other models differ in their stamp only */
+    rig *sides[2] = {&low, &high};
+    for (int i = 0; i < 2; i++) {
+        rig_close(sides[i]);
+        *sides[i] = describe_oscillator(&still);
+        must(sides[i], dmb_sim_set_drive(sides[i]->sim, last_drive, 5.0 + (i ? 1e-4 : -1e-4)));
+    }
+    parameter.step = 1e-4;
+    parameter.low = low.sim;
+    parameter.high = high.sim;
+    must(&s, dmb_sensitivity_create(s.sim, &parameter, 1, &sensitivity));
+    for (int i = 0; i < 500; i++) {
+        if (i == 250) must(&s, dmb_sim_set_drive(s.sim, drive, 7.0)); /* the input by its step up: 1 still */
+        must(&s, dmb_sensitivity_step(sensitivity, 1e-3, NULL));
+    }
+    dmb_id body = {0, 0};
+    body = last_body;
+    body.generation = drive.generation;
+    const dmb_channel channel = channel_of(dmb_station(body, 0, 0.0), DMB_CHANNEL_DISPLACEMENT_X);
+    const double u = sqrt(still.w2 - still.z * still.z), t = 0.5;
+    const double formula = (1.0 - exp(-still.z * t) * (cos(u * t) + still.z / u * sin(u * t))) / (2.0 * still.w2);
+    double derivative;
+    must(&s, dmb_sensitivity_channels(sensitivity, &channel, 1, NULL, &derivative));
+    printf("input: derivative %.9g, formula %.9g\n", derivative, formula);
+    assert_true(fabs(derivative - formula) <= 5e-4 * fabs(formula));
+    must(&s, dmb_sim_step(s.sim, 1e-3, NULL));
+    assert_int_equal(dmb_sensitivity_step(sensitivity, 1e-3, NULL), DMB_ERR_ORDER);
+    dmb_sensitivity_destroy(&sensitivity);
+    rig_close(&low);
+    rig_close(&high);
+    rig_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_oscillator), cmocka_unit_test(test_input),    cmocka_unit_test(test_joints),
+        cmocka_unit_test(test_strings),    cmocka_unit_test(test_bristles), cmocka_unit_test(test_ball),
+        cmocka_unit_test(test_drilling),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
