@@ -96,11 +96,15 @@ static int32_t check_parameters(dmb_sim *sim, const dmb_parameter *given, uint32
     return DMB_OK;
 }
 
-static int32_t check_scene(dmb_sim *sim, uint32_t count)
+static int32_t check_count(dmb_sim *sim, uint32_t count)
 {
     dmb_check check = dmb_check_of(&sim->message, "sensitivity", DMB_NONE);
     dmb_check_count(&check, "count", count, 1, PARAMETERS_MAX);
-    if (check.status < 0) return check.status;
+    return check.status;
+}
+
+static int32_t check_scene(dmb_sim *sim)
+{
     if (sim->scene->cluster_count && sim->options.constraint_method == DMB_METHOD_MULTIPLIERS) {
         dmb_message_set(&sim->message, "sensitivity: constraint_method = DMB_METHOD_MULTIPLIERS in a scene with "
                                        "joints, must be DMB_METHOD_INDEPENDENT");
@@ -189,8 +193,9 @@ static void take_parameter(dmb_sensitivity *s, const dmb_parameter *given, dmb_r
 
 static int32_t create(dmb_sim *sim, const dmb_parameter *given, uint32_t count, dmb_sensitivity **out)
 {
-    int32_t status = check_scene(sim, count);
+    int32_t status = check_count(sim, count);
     if (status >= 0) status = check_parameters(sim, given, count);
+    if (status >= 0) status = check_scene(sim);
     if (status < 0) return status;
     dmb_sensitivity *made = allocate(sim, count);
     dmb_sim *worker = made != NULL ? dmb_state_copy(sim) : NULL;
