@@ -18,9 +18,6 @@ from drillmbd.probability.sample import SceneSample
 from drillmbd.probability.study import Study
 from drillmbd.scene import fields
 
-if "section" not in fields.DEFINITIONS:
-    raise unittest.SkipTest("this library has no sections of the hole")
-
 PUSH, ROCK, SAMPLES = 6000.0, 500.0, 24
 PIPE = 9.81 * 7850.0 * math.pi / 4.0 * (0.1 ** 2 - 0.08 ** 2)  # [N/m]
 SCENE = """title = "horizontal string"
@@ -136,6 +133,7 @@ def resistance(factors):
     return PIPE * mu.sum() + 20.0 * 9.81 * 0.30 * np.interp(100.0, 5.0 * np.arange(len(factors)), factors)
 
 
+@unittest.skipIf("section" not in fields.DEFINITIONS, "this library has no sections of the hole")
 class RatioTest(unittest.TestCase):
     def test_rigid_bar(self):
         """Without the motor: it advances where the push exceeds friction and rock, by 1/2 (F - R)/m t^2."""

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import difflib
 import fcntl
+import functools
 import hashlib
 import json
 import math
@@ -57,8 +58,9 @@ def _digest(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()[:16]
 
 
+@functools.lru_cache(maxsize=1)
 def code() -> dict[str, str]:
-    """Version of the package, and digests of its files and of the library."""
+    """Version of the package, and digests of its files and of the library, as they were when first asked for."""
     root = pathlib.Path(__file__).resolve().parents[1]
     mine = hashlib.sha256()
     for file in sorted(root.rglob("*.py")):
