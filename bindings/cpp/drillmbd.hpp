@@ -140,6 +140,7 @@ public:
     dmb_id add_constraint(const dmb_constraint_def &def) { return add(dmb_model_add_constraint, def); }
     dmb_id add_drive(const dmb_drive_def &def) { return add(dmb_model_add_drive, def); }
     dmb_id add_load(const dmb_load_def &def) { return add(dmb_model_add_load, def); }
+    dmb_id add_event(const dmb_event_def &def) { return add(dmb_model_add_event, def); }
     dmb_id add_input(const dmb_input_def &def) { return add(dmb_model_add_input, def); }
     dmb_id add_spring(const dmb_spring_def &def) { return add(dmb_model_add_spring, def); }
     std::int32_t compile(const dmb_compile_options *options = nullptr) { return done(try_compile(options)); }
@@ -655,6 +656,11 @@ public:
     {
         return dmb_sim_advance(handle_, to, report);
     }
+    std::int32_t try_advance_to_event(double to, dmb_event_report *event = nullptr,
+                                      dmb_step_report *report = nullptr) noexcept
+    {
+        return dmb_sim_advance_to_event(handle_, to, event, report);
+    }
     std::int32_t try_set_drive(dmb_id drive, double value) noexcept { return dmb_sim_set_drive(handle_, drive, value); }
     std::int32_t try_set_input(dmb_id input, double value) noexcept { return dmb_sim_set_input(handle_, input, value); }
     std::int32_t try_set_inputs(const dmb_id *inputs, const double *values, std::uint32_t count) noexcept
@@ -719,6 +725,13 @@ public:
 
     std::int32_t step(double duration, dmb_step_report *report = nullptr) { return done(try_step(duration, report)); }
     std::int32_t advance(double to, dmb_step_report *report = nullptr) { return done(try_advance(to, report)); }
+    // Bit i of `events` of the answer: event number i is told.
+    dmb_event_report advance_to_event(double to, dmb_step_report *report = nullptr)
+    {
+        dmb_event_report event = dmb_event_report_default();
+        done(try_advance_to_event(to, &event, report));
+        return event;
+    }
     void set_drive(dmb_id which, double value) { done(try_set_drive(which, value)); }
     // The status may be the note that a bound was taken instead (control.h).
     std::int32_t set_input(dmb_id which, double value) { return done(try_set_input(which, value)); }

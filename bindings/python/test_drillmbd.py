@@ -251,6 +251,22 @@ class SceneTest(unittest.TestCase):
         self.sim.step(1e-3)
         self.assertEqual(self.sim.drive(self.rig.turning).target, 10.0)
 
+    def test_events(self):
+        model = mbd.Model()
+        string = model.add_pipes(1)
+        drive = model.add_drive(part=string, programme=model.add_programme(0.5))
+        for name, level in (("far", 0.02), ("near", 0.01), ("with it", 0.01)):
+            model.add_event(name=name, output=mbd.Channel(place=mbd.station(string, 0, 0.0)), level=level)
+        model.add_event(name="fast", output=mbd.Channel(place=mbd.station(drive, 0, 0.0), quantity=mbd.CHANNEL_DRIVE_SPEED),
+                        level=1.0)
+        model.compile()
+        with model.sim() as sim:
+            self.assertEqual(sim.advance_to_event(1.0), ["near", "with it"])
+            self.assertAlmostEqual(sim.time, 0.02, delta=2e-9)
+            self.assertEqual(sim.advance_to_event(1.0), ["far"])
+            self.assertEqual((sim.advance_to_event(1.0), sim.time), ([], 1.0))
+        self.assertTrue(pickle.loads(pickle.dumps(model)).same_scene(model))
+
     def test_inputs(self):
         model = mbd.Model()
         string = model.add_pipes(1)

@@ -141,6 +141,17 @@ high = "20 mm/s"
 rate_limit = "0.1 m/s2"
 slope_limit = "2 m/s^3"
 outside = "clamped"
+[[event]]
+name = "fast"
+quantity = "bit-speed"
+direction = "falling"
+level = "30 rpm"
+hold = "500 ms"
+[[event]]
+name = "limit"
+quantity = "drive-force"
+place = "feed"
+level = "3 kN"
 [[input]]
 name = "mud"
 target = "fluid-density"

@@ -46,6 +46,7 @@ DMB_API uint32_t dmb_version(void);
     X(DMB_NOTE_FLUTTER, 12, "done; a mode grows before the stiffness is singular, the message tells from where on")     \
     X(DMB_NOTE_CLAMPED, 13, "done; a value beyond its bounds was taken for the bound")                                \
     X(DMB_NOTE_NOT_SMOOTH, 14, "done; a derivative is the mean of both sides of a corner, the message tells where")    \
+    X(DMB_NOTE_EVENT, 15, "done up to an event, the message names it")                                                  \
     X(DMB_ERR_NULL, -1, "a required pointer is NULL")                                                                 \
     X(DMB_ERR_HANDLE, -2, "not a live object of this kind")                                                           \
     X(DMB_ERR_STRUCT_SIZE, -3, "struct_size is not a size this library knows")                                        \

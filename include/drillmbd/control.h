@@ -3,7 +3,7 @@
 #ifndef DRILLMBD_CONTROL_H
 #define DRILLMBD_CONTROL_H
 
-#include "sim.h"
+#include "output.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -103,6 +103,60 @@ DMB_API uint32_t dmb_sim_recorded_inputs(const dmb_sim *sim);
  * Called before each step of a run that steps as the recorded one did, it gives the same states, bit for bit. Errors:
  * as dmb_sim_set_inputs, with *next at the call that was refused; DMB_ERR_VALUE too for times that decrease. */
 DMB_API int32_t dmb_sim_replay_inputs(dmb_sim *sim, const dmb_input_record *records, uint32_t count, uint32_t *next);
+
+/* ---- Events ------------------------------------------------------------------------------------------------------
+ * An event is an output that crosses a level, looked for at the ends of steps: a crossing that is undone within one
+ * step is not seen. The first one is located by steps really taken to it, so the state lies on it: at most `tolerance`
+ * in time beyond the crossing, on the far side of the level. */
+enum {
+    DMB_EVENT_EITHER = 0,  /* from one side of the level to the other; a start on the level itself is on no side */
+    DMB_EVENT_RISING = 1,  /* to above the level, from it or from below */
+    DMB_EVENT_FALLING = 2, /* to below the level, from it or from above */
+    DMB_EVENTS_MAX = 64    /* of one model */
+};
+typedef struct dmb_event_def {
+    uint32_t struct_size;
+    int32_t direction;  /* DMB_EVENT_..., default DMB_EVENT_RISING */
+    char name[24];      /* required, of its own among the events, ends with 0 */
+    dmb_channel output; /* as of a recorder */
+    double level;       /* [unit of the output] default 0 */
+    double hold;        /* [s] it is told when the output has stayed beyond the level for so long, >= 0 and 0 with
+                           DMB_EVENT_EITHER; default 0 */
+    double tolerance;   /* [s] 1e-12 .. 1, default 1e-9; no less than the rounding of time allows */
+} dmb_event_def;
+DMB_SIZED_STRUCT(dmb_event_def)
+/* Errors: DMB_ERR_VALUE for fields and a name that another event has; DMB_ERR_TOO_LARGE beyond DMB_EVENTS_MAX. An
+ * output that the scene does not have is refused by dmb_sim_create: the query's error. */
+DMB_API int32_t dmb_model_add_event(dmb_model *model, const dmb_event_def *def, dmb_id *event);
+
+typedef struct dmb_event_info {
+    uint32_t struct_size;
+    int32_t direction;
+    dmb_id event;
+    char name[24];
+    dmb_channel output;
+    double level, hold, tolerance; /* as described */
+} dmb_event_info;
+DMB_SIZED_STRUCT(dmb_event_info)
+/* As of inputs. */
+DMB_API uint32_t dmb_model_event_count(const dmb_model *model);
+DMB_API int32_t dmb_model_get_event(const dmb_model *model, uint32_t index, dmb_event_info *info);
+DMB_API int32_t dmb_model_find_event(const dmb_model *model, const char *name, dmb_id *event);
+
+typedef struct dmb_event_report {
+    uint32_t struct_size;
+    uint32_t count;  /* [-] events told: those within the tolerance of the first count as at once with it */
+    uint64_t events; /* [-] bit i: event number i in the order of description is told */
+    double time;     /* [s] reached */
+    double located;  /* [s] at most so long after the crossing; 0 where none is told, and where a `hold` ends */
+} dmb_event_report;
+DMB_SIZED_STRUCT(dmb_event_report)
+/* As dmb_sim_advance, but ends at the first event on the way, DMB_NOTE_EVENT; dmb_sim_message names those told. What is
+ * beyond its level when the call begins is told when it has come back and crosses again; a `hold` that began in a call
+ * before goes on. Costs a copy of the state a step, and some six more steps for each crossing. Either report may be
+ * NULL. Errors: as dmb_sim_advance, with the state the last accepted one, before any crossing that was not located;
+ * DMB_ERR_VALUE without events. */
+DMB_API int32_t dmb_sim_advance_to_event(dmb_sim *sim, double time, dmb_event_report *event, dmb_step_report *report);
 
 #ifdef __cplusplus
 }

@@ -26,7 +26,7 @@ static double retry_step(const dmb_sim *sim, double h, double error)
     return fmax(fmin(next_step(sim, h, error), 0.8 * h), sim->options.step_min);
 }
 
-static double first_step(const dmb_sim *sim)
+double dmb_advance_first(const dmb_sim *sim)
 {
     if (sim->clock->next_step > 0.0) return sim->clock->next_step;
     return fmin(sim->options.step_max, fmax(1e-4, sim->options.step_min));
@@ -49,7 +49,12 @@ static double wanted_after(const dmb_sim *sim, double h, double wanted, double e
     return next > wanted || h >= wanted * 0.999 || next < h ? next : wanted;
 }
 
-static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk *walk)
+void dmb_advance_propose(dmb_sim *sim, double wanted)
+{
+    sim->clock->next_step = wanted;
+}
+
+int32_t dmb_advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk *walk)
 {
     dmb_attempt attempt;
     for (int retried = 0;; retried = 1) {
@@ -67,7 +72,7 @@ static int32_t advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk 
             const int32_t refused = dmb_walk_commit(sim, &attempt, walk);
             if (refused < 0) return refused;
             dmb_walk_corner(sim);
-            sim->clock->next_step = *wanted;
+            dmb_advance_propose(sim, *wanted);
             return status;
         }
         dmb_walk_reject(sim, &attempt, walk);
@@ -84,10 +89,10 @@ static int32_t advance(dmb_sim *sim, double time, dmb_step_report *report)
     status = dmb_walk_check(sim, "time", time, sim->clock->time);
     if (status < 0) return status;
     const double start = sim->clock->time;
-    double wanted = first_step(sim);
+    double wanted = dmb_advance_first(sim);
     while (status >= 0 && sim->clock->time < time && !walk.stopped) {
         dmb_progress_at(sim, (sim->clock->time - start) / (time - start));
-        status = advance_once(sim, time, &wanted, &walk);
+        status = dmb_advance_once(sim, time, &wanted, &walk);
         walk.stopped = walk.report.steps == sim->options.max_steps && sim->clock->time < time;
     }
     return dmb_walk_end(sim, status, 0, report, &walk);

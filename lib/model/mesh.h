@@ -79,6 +79,7 @@ typedef struct dmb_mesh {
     dmb_vector load_points;   /* dmb_scene_point */
     dmb_vector springs;       /* dmb_scene_spring */
     dmb_vector spring_points; /* dmb_spring_point */
+    dmb_vector events;        /* dmb_scene_event */
     dmb_vector joints;        /* dmb_scene_joint */
     dmb_vector couplings;     /* dmb_scene_coupling */
     dmb_vector callbacks;     /* dmb_scene_callback */

@@ -219,6 +219,7 @@ static void fill_parts(const dmb_mesh *mesh, dmb_scene *scene)
     copy_items(&mesh->load_points, scene->load_points);
     copy_items(&mesh->springs, scene->springs);
     copy_items(&mesh->spring_points, scene->spring_points);
+    copy_items(&mesh->events, scene->events);
     copy_items(&mesh->strings, scene->strings);
     copy_items(&mesh->pipes, scene->pipes);
     copy_items(&mesh->bodies, scene->bodies);

@@ -92,6 +92,7 @@ static void count_constraints(const dmb_mesh *mesh, dmb_scene *scene)
 static void count_inputs(const dmb_mesh *mesh, dmb_scene *scene)
 {
     scene->input_count = (uint32_t)mesh->inputs.count;
+    scene->event_count = (uint32_t)mesh->events.count;
     for (uint32_t i = 0; i < scene->input_count; ++i) {
         const int32_t target = DMB_VECTOR_AT(dmb_scene_input, &mesh->inputs, i)->target;
         if (target == DMB_TARGET_FLUID_DENSITY) scene->has_density_input = 1;
@@ -180,6 +181,7 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
     to->load_points = DMB_ARENA_ARRAY(arena, dmb_scene_point, counts->load_point_count);
     to->springs = DMB_ARENA_ARRAY(arena, dmb_scene_spring, counts->spring_count);
     to->spring_points = DMB_ARENA_ARRAY(arena, dmb_spring_point, counts->spring_point_count);
+    if (counts->event_count > 0) to->events = DMB_ARENA_ARRAY(arena, dmb_scene_event, counts->event_count);
     to->strings = DMB_ARENA_ARRAY(arena, dmb_string_map, counts->string_count);
     to->pipes = DMB_ARENA_ARRAY(arena, dmb_pipe_map, counts->pipe_count);
     to->bodies = DMB_ARENA_ARRAY(arena, dmb_body_map, counts->body_count);

@@ -1,4 +1,4 @@
-/* Inputs: from the parts they are described of to those of the scene. */
+/* Inputs and events: from the parts they are described of to those of the scene. */
 #include <math.h>
 #include <string.h>
 
@@ -70,11 +70,24 @@ static int32_t check_limits(const dmb_mesh *mesh, uint32_t i)
     return DMB_ERR_VALUE;
 }
 
+static int32_t add_event(dmb_mesh *mesh, uint32_t i)
+{
+    const dmb_event_def *def = DMB_LIST_AT(const dmb_event_def, mesh->model->events, i);
+    dmb_scene_event event = {.output = def->output,
+                             .level = def->level,
+                             .hold = def->hold,
+                             .tolerance = def->tolerance,
+                             .direction = def->direction};
+    memcpy(event.name, def->name, sizeof event.name);
+    return dmb_vector_append(&mesh->events, &mesh->model->allocator, &event, 1);
+}
+
 int32_t dmb_mesh_inputs(dmb_mesh *mesh)
 {
     const uint32_t count = mesh->model->inputs.count;
     int32_t status = DMB_OK;
     for (uint32_t i = 0; i < count && status >= 0; ++i) status = add_input(mesh, i);
     for (uint32_t i = 0; i < count && status >= 0; ++i) status = check_limits(mesh, i);
+    for (uint32_t i = 0; i < mesh->model->events.count && status >= 0; ++i) status = add_event(mesh, i);
     return status;
 }

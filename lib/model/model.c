@@ -66,6 +66,7 @@ static void release_parts(dmb_model *model)
         dmb_spring_release(DMB_LIST_AT(dmb_spring_plan, model->springs, i), allocator);
     }
     dmb_list_release(&model->springs, allocator, sizeof(dmb_spring_plan));
+    dmb_list_release(&model->events, allocator, sizeof(dmb_event_def));
     if (model->scene == NULL) return;
     dmb_scene_release_dense(model->scene->dense, allocator);
     dmb_block_pattern_release(&model->scene->pattern, allocator);
@@ -150,6 +151,7 @@ static uint32_t count_of(const dmb_model *model, uint32_t kind)
     case DMB_PART_CONSTRAINT: return model->constraints.count;
     case DMB_PART_INPUT: return model->inputs.count;
     case DMB_PART_SPRING: return model->springs.count;
+    case DMB_PART_EVENT: return model->events.count;
     default: return 0;
     }
 }

@@ -77,6 +77,8 @@ static const wide_field wide_fields[] = {
     FIELD("spring", dmb_spring_def, offset_a),
     FIELD("spring", dmb_spring_def, offset_b),
     FIELDS("spring", dmb_spring_def, table_elongation, table_kind),
+    NAME("event", dmb_event_def),
+    FIELD("event", dmb_event_def, output),
 };
 
 /* A part of each kind fits; what does not would only be compared in its beginning. */

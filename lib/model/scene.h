@@ -13,6 +13,7 @@
 
 #include "base/message.h"
 #include "drillmbd/model.h"
+#include "drillmbd/query.h"
 #include "element/element_type.h"
 #include "force/bit_rock.h"
 #include "force/contact_law.h"
@@ -85,6 +86,15 @@ typedef struct dmb_scene_input {
     uint32_t reserved;
     char name[24];
 } dmb_scene_input;
+
+/* An output that crosses a level (run/events). */
+typedef struct dmb_scene_event {
+    dmb_channel output;
+    double level, hold, tolerance;
+    int32_t direction; /* DMB_EVENT_... */
+    uint32_t reserved;
+    char name[24];
+} dmb_scene_event;
 
 /* Where a described pipe is in the mesh. */
 typedef struct dmb_pipe_map {
@@ -264,9 +274,8 @@ typedef struct dmb_scene {
     double mass, length;                          /* [kg], [m] in all */
     double length_scale;  /* [m] mean element length, or 1: makes moments comparable with forces */
     double fluid_density; /* [kg/m3] */
-    uint32_t input_count;
+    uint32_t input_count, event_count;
     int32_t has_density_input, has_damping_input; /* 1: some input moves it */
-    int32_t unused;
 
     /* nodes */
     dmb_block_layout layout;      /* block sizes 6 or 2, rows, storage of blocks and links */
@@ -319,6 +328,7 @@ typedef struct dmb_scene {
     dmb_scene_point *load_points;
     dmb_scene_spring *springs;
     dmb_spring_point *spring_points; /* tables, spring by spring */
+    dmb_scene_event *events;
 
     /* joints and constraints; all empty without joints */
     dmb_scene_joint *joints;

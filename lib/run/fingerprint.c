@@ -274,6 +274,15 @@ static uint64_t add_inputs(uint64_t h, const dmb_scene *s)
         h = dmb_fnv_word(h, input->index);
         h = DMB_NUMBERS(h, numbers);
     }
+    for (uint32_t i = 0; i < s->event_count; ++i) {
+        const dmb_scene_event *event = &s->events[i];
+        const double numbers[] = {event->level, event->hold, event->tolerance, event->output.place.fraction};
+        h = dmb_fnv_word(h, (uint32_t)event->direction);
+        h = dmb_fnv_word(h, (uint32_t)event->output.quantity);
+        h = dmb_fnv_word(h, event->output.place.part.index);
+        h = dmb_fnv_word(h, event->output.place.pipe);
+        h = DMB_NUMBERS(h, numbers);
+    }
     return h;
 }
 

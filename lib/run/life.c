@@ -7,6 +7,7 @@
 #include "base/sized_struct.h"
 #include "constraint/joint.h"
 #include "model/model.h"
+#include "run/events.h"
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "sim/options.h"
@@ -135,6 +136,7 @@ static int32_t begin(const creation *c, dmb_model *model, void *block, size_t si
     sim->options.allocator = NULL; /* the caller's struct may be gone; the copy is the one to use */
     release_drives(sim);
     dmb_own_scene_begin(sim);
+    dmb_events_begin(sim);
     status = dmb_system_start(sim);
     if (status < 0) {
         (void)fail(model, &sim->options, status, &sim->message);
@@ -144,6 +146,12 @@ static int32_t begin(const creation *c, dmb_model *model, void *block, size_t si
     dmb_create_message_clear(model);
     tell(&sim->options, status, &sim->message);
     sim->magic = DMB_HANDLE_SIM; /* no handle before: callbacks and log may know the block */
+    const int32_t asked = dmb_events_check(sim);
+    if (asked < 0) {
+        (void)fail(model, &sim->options, asked, &sim->message);
+        give_back(sim);
+        return asked;
+    }
     *out = sim;
     return status;
 }

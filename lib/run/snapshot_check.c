@@ -10,10 +10,10 @@
 
 /* A field of integers or of a struct has a bound of its own: a line of sim/sim.h that names none does not compile. */
 #define DMB_DOUBLES(type) _Generic(*(type *)0, double : 1, default : 0)
-#define DMB_NAMES_BOUND(type, name, count, check)                                                          \
-    _Static_assert(DMB_DOUBLES(type) ==                                                                    \
-                       (DMB_CHECK_##check == DMB_CHECK_NUMBERS || DMB_CHECK_##check == DMB_CHECK_INPUTS || \
-                        DMB_CHECK_##check == DMB_CHECK_SET_INPUTS),                                        \
+#define DMB_NAMES_BOUND(type, name, count, check)                                                                 \
+    _Static_assert(DMB_DOUBLES(type) ==                                                                           \
+                       (DMB_CHECK_##check == DMB_CHECK_NUMBERS || DMB_CHECK_##check == DMB_CHECK_INPUTS ||        \
+                        DMB_CHECK_##check == DMB_CHECK_SET_INPUTS || DMB_CHECK_##check == DMB_CHECK_EVENT_TIMES), \
                    #name ": its check does not fit its type");
 DMB_CONFIGURATION_LIST(DMB_NAMES_BOUND)
 DMB_MEMORY_LIST(DMB_NAMES_BOUND)
@@ -78,6 +78,15 @@ static int32_t check_set_inputs(const probe *p)
         if (value >= input->low && value <= input->high) continue;
         if (described && value == dmb_described_setting(p->sim, i)) continue;
         return refuse(p, i, value, "within the bounds of its input");
+    }
+    return DMB_OK;
+}
+
+static int32_t check_event_times(const probe *p)
+{
+    for (size_t i = 0; i < p->field->bytes / sizeof(double); i++) {
+        const double value = number_at(p, i);
+        if (isinf(value) && value < 0.0) return refuse(p, i, value, "a time, NaN or above all times");
     }
     return DMB_OK;
 }
@@ -182,6 +191,7 @@ static int32_t check_field(const probe *p)
     case DMB_CHECK_NUMBERS: return check_numbers(p, 0, p->field->bytes / sizeof(double));
     case DMB_CHECK_INPUTS: return check_inputs(p);
     case DMB_CHECK_SET_INPUTS: return check_set_inputs(p);
+    case DMB_CHECK_EVENT_TIMES: return check_event_times(p);
     case DMB_CHECK_FLAGS: return check_words(p, 2, 0);
     case DMB_CHECK_SEGMENTS: return check_words(p, segments, 0);
     case DMB_CHECK_JOINT_SEGMENTS: return check_words(p, segments, DMB_SEGMENT_HELD);

@@ -38,6 +38,8 @@ static void transfer_drives(dmb_sim *sim, const dmb_sim *from)
     DMB_COPY(now.load_factor, sim->scene->load_count);
     DMB_COPY(input_value, sim->scene->input_count);
     DMB_COPY(input_begin, 3 * (size_t)sim->scene->input_count);
+    DMB_COPY(event_since, sim->scene->event_count);
+    DMB_COPY(event_side, sim->scene->event_count);
     dmb_own_scene_update(sim);
 }
 

@@ -37,6 +37,7 @@ static int32_t check_counts(dmb_sim *sim, const dmb_sim *from)
                   {"drives", a->drive_count, b->drive_count},
                   {"loads", a->load_count, b->load_count},
                   {"inputs", a->input_count, b->input_count},
+                  {"events", a->event_count, b->event_count},
                   {"programmes", a->programme_count, b->programme_count},
                   {"walls", a->has_hole != 0, b->has_hole != 0},
                   {"joints", a->joint_count, b->joint_count},
@@ -125,6 +126,18 @@ static int32_t check_inputs(dmb_sim *sim, const dmb_sim *from)
         if (to->index != old->index) return other(sim, "input", i, "part");
         if (to->low != old->low || to->high != old->high) return other(sim, "input", i, "low or high");
         if (isnan(to->initial) != isnan(old->initial)) return other(sim, "input", i, "initial (given or not)");
+    }
+    return DMB_OK;
+}
+
+/* Levels and times may differ: what has crossed is looked at anew. */
+static int32_t check_events(dmb_sim *sim, const dmb_sim *from)
+{
+    for (uint32_t i = 0; i < sim->scene->event_count; i++) {
+        const dmb_scene_event *to = sim->scene->events + i, *old = from->scene->events + i;
+        if (strcmp(to->name, old->name) != 0) return other(sim, "event", i, "name");
+        if (to->direction != old->direction) return other(sim, "event", i, "direction");
+        if (to->output.quantity != old->output.quantity) return other(sim, "event", i, "output");
     }
     return DMB_OK;
 }
@@ -263,6 +276,7 @@ int32_t dmb_state_transfer_check(dmb_sim *sim, const dmb_sim *from)
     if (status >= 0) status = check_drives(sim, from);
     if (status >= 0) status = check_loads(sim, from);
     if (status >= 0) status = check_inputs(sim, from);
+    if (status >= 0) status = check_events(sim, from);
     if (status >= 0) status = check_links(sim, from);
     if (status >= 0) status = check_wall(sim, from);
     for (uint32_t s = 0; s < sim->scene->string_count && status >= 0; s++) status = check_string(sim, from, s);

@@ -8,8 +8,8 @@
 /* The letters of sim/sim.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
     uint64_t n, r, s, p, sb, pb, e, d, k, load, history, diagonal, link, backup;
-    uint64_t ns, held, input, f, j, c, cluster, column, raw, jacobian, tangent, dense, square, full, block, value,
-        pivots, kd, kl, kn;
+    uint64_t ns, held, input, event, f, j, c, cluster, column, raw, jacobian, tangent, dense, square, full, block,
+        value, pivots, kd, kl, kn;
     uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block;
 } field_counts;
 
@@ -21,8 +21,8 @@ typedef struct field_counts {
     const uint64_t column = (of)->column, raw = (of)->raw, jacobian = (of)->jacobian, tangent = (of)->tangent;  \
     const uint64_t dense = (of)->dense, square = (of)->square, full = (of)->full, block = (of)->block;          \
     const uint64_t value = (of)->value, pivots = (of)->pivots;                                                  \
-    const uint64_t ns = (of)->ns, held = (of)->held, input = (of)->input;                                       \
-    (void)ns, (void)held, (void)input;                                                                          \
+    const uint64_t ns = (of)->ns, held = (of)->held, input = (of)->input, event = (of)->event;                  \
+    (void)ns, (void)held, (void)input, (void)event;                                                             \
     const uint64_t kd = (of)->kd, kl = (of)->kl, kn = (of)->kn, sb = (of)->sb, pb = (of)->pb;                   \
     const uint64_t sparse_values = (of)->sparse_values, sparse_rows = (of)->sparse_rows;                        \
     const uint64_t sparse_raw = (of)->sparse_raw, sparse_c = (of)->sparse_c;                                    \
@@ -80,6 +80,7 @@ static field_counts counts_of(const dmb_scene *scene)
     c.ns = c.s > 0 ? n : 0;
     c.held = scene->held_count;
     c.input = scene->input_count;
+    c.event = scene->event_count;
     c.f = scene->free_rigid_count;
     c.p = scene->path_site_count;
     c.sb = dmb_scene_has_bristles(scene) ? c.s : 0;

@@ -149,7 +149,7 @@ static void set_input(const dmb_sim *sim, uint32_t input)
 
 void dmb_own_scene_update(dmb_sim *sim)
 {
-    if (sim->own == NULL || sim->scene != &sim->own->scene) return;
+    if (sim->own == NULL) return;
     for (uint32_t i = 0; i < sim->own->scene.input_count; i++) set_input(sim, i);
     if (sim->own->scene.has_damping_input && sim->own->scene.features & DMB_FEATURE_DAMPING) set_damping(sim);
     sim->own->dense.friction_law = sim->own->scene.friction_law;
@@ -199,17 +199,29 @@ static void place_inputs(dmb_own_scene *own, const dmb_scene *scene)
     }
 }
 
+/* All but what inputs say. */
+static void make(dmb_own_scene *own, const dmb_scene *scene)
+{
+    copy_parts(own, scene);
+    place_parts(own, scene, &own->scene);
+    place_inputs(own, scene);
+    if (scene->dense == NULL) return;
+    place_parts(own, scene->dense, &own->dense);
+    own->scene.dense = &own->dense;
+}
+
+void dmb_own_scene_copy(dmb_sim *copy, const dmb_sim *sim)
+{
+    if (copy->own == NULL) return;
+    make(copy->own, sim->model->scene);
+    copy->scene = sim->scene->sparse_count ? &copy->own->dense : &copy->own->scene;
+}
+
 void dmb_own_scene_begin(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     if (sim->own == NULL) return;
-    copy_parts(sim->own, scene);
-    place_parts(sim->own, scene, &sim->own->scene);
-    place_inputs(sim->own, scene);
-    if (scene->dense != NULL) {
-        place_parts(sim->own, scene->dense, &sim->own->dense);
-        sim->own->scene.dense = &sim->own->dense;
-    }
+    make(sim->own, scene);
     for (uint32_t i = 0; i < scene->input_count; i++) {
         const double initial = scene->inputs[i].initial;
         sim->input_value[i] = isnan(initial) ? dmb_described_setting(sim, i) : initial;

@@ -25,6 +25,9 @@ typedef struct dmb_own_scene {
 dmb_own_scene *dmb_own_scene_take(dmb_arena *arena, const dmb_scene *scene);
 /* A new sim: its inputs as described, and the scene made of them its scene. Nothing without inputs, as below. */
 void dmb_own_scene_begin(dmb_sim *sim);
+/* A copy for an analysis, which may outlive its sim: a scene of its own too, the dense one where the sim's is sparse.
+ * Before its state is taken. */
+void dmb_own_scene_copy(dmb_sim *copy, const dmb_sim *sim);
 /* After input_value or input_begin were written. O(number of nodes) with inputs of density or damping, else O(number
  * of drives, loads, bits and inputs). */
 void dmb_own_scene_update(dmb_sim *sim);

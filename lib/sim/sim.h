@@ -4,10 +4,10 @@
  * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
  * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; ns = n
  * where there are contact sites, else 0; k =
- * bit_count, load = load_count, held = held_count, input = input_count, history = history_count, diagonal and link =
- * lengths of block storage; j = joint_count, c = constraint_row_count, cluster = cluster_count, column =
- * cluster_column_count, and for a scene with joints only: raw = row_count, dense, square, full = storage of the
- * clusters, block, value, pivots = of the reduced system. */
+ * bit_count, load = load_count, held = held_count, input = input_count, event = event_count, history = history_count,
+ * diagonal and link = lengths of block storage; j = joint_count, c = constraint_row_count, cluster = cluster_count,
+ * column = cluster_column_count, and for a scene with joints only: raw = row_count, dense, square, full = storage of
+ * the clusters, block, value, pivots = of the reduced system. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
@@ -80,6 +80,10 @@
                                                  run/input_set, sim/own_scene */                                      \
     X(double, input_begin, 3 * input, NUMBERS) /* [s, unit, unit/s] where the way to the value begins:               \
                                                  run/input_set, sim/own_scene */                                      \
+    X(double, event_since, event, EVENT_TIMES) /* [s] time at which it crossed and from which it is held; NaN: not    \
+                                                  beyond its level; infinite: told, or beyond from the start of a     \
+                                                  call: run/events */                                                 \
+    X(double, event_side, event, NUMBERS) /* [-] > 0: above its level last, < 0: below; 0: neither yet: run/events */ \
     X(double, history_angle, history, NUMBERS)    /* [rad] samples of the cut surface, system/assemble/bit */         \
     X(double, history_surface, history, NUMBERS) /* [m] system/assemble/bit */                                        \
     X(dmb_history_head, history_head, k, HISTORY_HEADS) /* system/assemble/bit */                                     \

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "model/limits.h"
 #include "sim/layout.h"
+#include "sim/own_scene.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
 
@@ -28,6 +29,7 @@ void dmb_state_take(const dmb_sim *sim, dmb_sim *copy)
     (void)dmb_sim_fields(copy, DMB_GROUP_NOW, DMB_GROUP_MEMORY, to);
     for (size_t i = 0; i < count; i++) memcpy(to[i].data, from[i].data, from[i].bytes);
     dmb_configuration_copy(copy, &copy->now, &copy->trial);
+    dmb_own_scene_update(copy);
 }
 
 dmb_sim *dmb_state_copy(const dmb_sim *sim)
@@ -41,6 +43,7 @@ dmb_sim *dmb_state_copy(const dmb_sim *sim)
     copy->progress = sim->progress;
     copy->options = sim->options;
     copy->allocator = sim->allocator;
+    dmb_own_scene_copy(copy, sim);
     dmb_clusters_prepare(copy); /* before the partition of the state takes its place */
     dmb_state_take(sim, copy);
     if (sim->scene->sparse_count && choose(copy) < 0) {

@@ -1,5 +1,6 @@
 /* Inputs: each against a scene that is described with the same value; refusals change nothing; snapshots, the state
  * transfer and a log take them along, bit for bit; the scene that sims share does not change. */
+#include "sim/sim.h"
 #include "sim_test.h"
 
 typedef struct controlled {
@@ -520,6 +521,83 @@ static void transferred(void **state)
     close_both(&d, &to);
 }
 
+/* Modes keep what was set when they were found, though other values are set and the sim is gone: against a scene that
+ * is described so. A mode of the axis of a string in a slack hole goes with the square root of its weight. */
+static void modes_outlive_the_sim(void **state)
+{
+    (void)state;
+    double frequencies[2], shapes[2];
+    for (int k = 0; k < 2; k++) {
+        dmb_model *model = NULL;
+        dmb_sim *sim = NULL;
+        dmb_modes *modes = NULL;
+        dmb_string_def string = dmb_string_def_default();
+        dmb_environment_def e = dmb_environment_def_default();
+        dmb_mode mode = dmb_mode_default();
+        dmb_mode_shape shape = dmb_mode_shape_default();
+        const dmb_pipe_def pipe = dmb_pipe_def_default();
+        dmb_id id;
+        must(dmb_model_create(NULL, &model));
+        e.gravity[2] = 0.0;
+        e.gravity[0] = 9.81; /* hangs from its rig end */
+        if (k == 1) e.fluid_density = 5000.0;
+        must(dmb_model_set_environment(model, &e));
+        string.start_free = DMB_FREE_NONE;
+        must(dmb_model_add_string(model, &string, &id));
+        must(dmb_model_add_pipes(model, &pipe, 6, NULL));
+        const dmb_id density = add(model, "density", DMB_TARGET_FLUID_DENSITY, nothing, (double)NAN);
+        must(dmb_model_compile(model, NULL));
+        must(dmb_sim_create(model, NULL, &sim));
+        if (k == 0) must(dmb_sim_set_input(sim, density, 5000.0));
+        must(dmb_analysis_static(sim, NULL, NULL));
+        must(dmb_analysis_modes(sim, NULL, &modes));
+        if (k == 0) must(dmb_sim_set_input(sim, density, 0.0));
+        dmb_sim_destroy(&sim);
+        dmb_model_destroy(&model);
+        must(dmb_modes_get(modes, 0, &mode));
+        must(dmb_modes_shape(modes, 0, dmb_station(id, 5, 1.0), &shape));
+        frequencies[k] = mode.frequency;
+        shapes[k] = fabs(shape.re[1]) + fabs(shape.re[2]) + mode.share[0];
+        dmb_modes_destroy(&modes);
+    }
+    assert_true(fabs(frequencies[0] / frequencies[1] - 1.0) < 1e-9);
+    assert_true(isfinite(shapes[0]) && isfinite(shapes[1]));
+}
+
+/* Bytes with a checksum that fits: no value beyond the bounds, none that is no number where there is no programme. */
+static void forged(void **state)
+{
+    (void)state;
+    controlled c = whole();
+    dmb_sim *sim = rig_sim(&c.rig), *other = rig_sim(&c.rig);
+    const struct {
+        uint32_t input;
+        double value;
+        int32_t status;
+    } cases[] = {{1, -1.0, DMB_ERR_VALUE}, {1, (double)NAN, DMB_ERR_VALUE}, {1, (double)INFINITY, DMB_ERR_VALUE},
+                 {8, -0.1, DMB_ERR_VALUE}, {13, 0.6, DMB_ERR_VALUE},        {0, (double)NAN, DMB_OK},
+                 {1, 5.0, DMB_OK},         {9, -1.0, DMB_ERR_VALUE}};
+    size_t size;
+    run(other, 5);
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        const double was = sim->input_value[cases[k].input];
+        const uint64_t before = hash_of(other);
+        sim->input_value[cases[k].input] = cases[k].value;
+        void *block = saved(sim, &size);
+        assert_int_equal(dmb_sim_restore(other, block, size), cases[k].status);
+        if (cases[k].status < 0) assert_int_equal(hash_of(other), before);
+        sim->input_value[cases[k].input] = was;
+        free(block);
+        run(other, 3);
+    }
+    sim->input_begin[1] = (double)NAN;
+    void *block = saved(sim, &size);
+    assert_int_equal(dmb_sim_restore(other, block, size), DMB_ERR_VALUE);
+    free(block);
+    dmb_sim_destroy(&other);
+    close_both(&c, &sim);
+}
+
 /* Density up while the string hangs in a hole: the energy of weight changes, and the balance holds. */
 static void ledger_holds(void **state)
 {
@@ -541,12 +619,13 @@ static void ledger_holds(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_and_units),  cmocka_unit_test(as_described),
-        cmocka_unit_test(gains_and_limits), cmocka_unit_test(friction_as_described),
-        cmocka_unit_test(out_of_bounds),    cmocka_unit_test(bad_definitions),
-        cmocka_unit_test(motion_follows),   cmocka_unit_test(motion_is_turned_round),
-        cmocka_unit_test(log_and_snapshot), cmocka_unit_test(transferred),
-        cmocka_unit_test(ledger_holds),
+        cmocka_unit_test(names_and_units),       cmocka_unit_test(as_described),
+        cmocka_unit_test(gains_and_limits),      cmocka_unit_test(friction_as_described),
+        cmocka_unit_test(out_of_bounds),         cmocka_unit_test(bad_definitions),
+        cmocka_unit_test(motion_follows),        cmocka_unit_test(motion_is_turned_round),
+        cmocka_unit_test(log_and_snapshot),      cmocka_unit_test(transferred),
+        cmocka_unit_test(ledger_holds),          cmocka_unit_test(forged),
+        cmocka_unit_test(modes_outlive_the_sim),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

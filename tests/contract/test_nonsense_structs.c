@@ -44,6 +44,7 @@ typedef struct entry {
 /* clang-format off */
 INIT(model_options) INIT(environment_def) INIT(term) INIT(wall_def) INIT(string_def) INIT(pipe_def) INIT(body_def)
 INIT(bit_def) INIT(drive_def) INIT(load_def) INIT(compile_options) INIT(model_info) INIT(sim_options)
+INIT(event_def) INIT(event_info) INIT(event_report)
 INIT(step_report) INIT(static_options) INIT(static_report) INIT(buckling_options) INIT(path_options) INIT(path_report)
 INIT(pose) INIT(motion) INIT(section) INIT(contact)
 INIT(contact_total) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state) INIT(statistics) INIT(recorder)
@@ -195,6 +196,45 @@ static int32_t add_input(dmb_model *model, void *p)
     return dmb_model_add_input(model, input, NULL);
 }
 
+static dmb_event_def an_event(void)
+{
+    dmb_event_def event = dmb_event_def_default();
+    event.output.quantity = DMB_CHANNEL_ENERGY_ERROR;
+    event.name[0] = 'e';
+    event.level = 1e20;
+    return event;
+}
+
+static int32_t add_event(dmb_model *model, void *p)
+{
+    dmb_event_def *event = p;
+    if (event->struct_size >= sizeof *event) event->name[0] = 'e';
+    return dmb_model_add_event(model, event, NULL);
+}
+
+static int32_t get_event(dmb_model *model, void *p)
+{
+    const dmb_event_def event = an_event();
+    assert_int_equal(dmb_model_add_event(model, &event, NULL), DMB_OK);
+    const int32_t status = dmb_model_get_event(model, 0, p);
+    if (status < 0) assert_int_equal(dmb_model_add_pipes(model, NULL, 1, NULL), DMB_ERR_NULL); /* leaves a message */
+    return status;
+}
+
+static int32_t report_event(dmb_model *model, void *p)
+{
+    const dmb_event_def event = an_event();
+    const dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_sim *sim = NULL;
+    assert_int_equal(dmb_model_add_event(model, &event, NULL), DMB_OK);
+    assert_int_equal(dmb_model_add_pipes(model, &pipe, 1, NULL), DMB_OK);
+    assert_int_equal(dmb_model_compile(model, NULL), DMB_OK);
+    assert_int_equal(dmb_sim_create(model, NULL, &sim), DMB_OK);
+    const int32_t status = dmb_sim_advance_to_event(sim, 1e-6, p, NULL);
+    dmb_sim_destroy(&sim);
+    return status;
+}
+
 static int32_t get_info(dmb_model *model, void *p)
 {
     const dmb_input_def input = an_input();
@@ -269,6 +309,9 @@ CALL(bit_def, with_model(add_bit, p))
 CALL(drive_def, with_model(add_drive, p))
 CALL(load_def, with_model(add_load, p))
 CALL(input_def, with_model(add_input, p))
+CALL(event_def, with_model(add_event, p))
+CALL(event_info, with_model(get_event, p))
+CALL(event_report, with_model(report_event, p))
 CALL(input_info, with_model(get_info, p))
 CALL(input_state, with_model(get_state, p))
 CALL(spring_def, with_model(add_spring, p))
@@ -538,6 +581,9 @@ static const entry entries[] = {
     ENTRY(input_state, 1),
     ENTRY(spring_def, 0),
     ENTRY(spring_state, 1),
+    ENTRY(event_def, 0),
+    ENTRY(event_info, 1),
+    ENTRY(event_report, 1),
     {"advance's report", sizeof(dmb_step_report), sizeof(dmb_step_report), init_step_report, call_advance_report, 1},
 };
 enum { ENTRIES = sizeof entries / sizeof entries[0] };

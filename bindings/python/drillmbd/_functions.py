@@ -49,6 +49,9 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_drive_state_init": (c_int32, POINTER(DriveState), c_uint32,),
     "dmb_energy_init": (c_int32, POINTER(Energy), c_uint32,),
     "dmb_environment_def_init": (c_int32, POINTER(EnvironmentDef), c_uint32,),
+    "dmb_event_def_init": (c_int32, POINTER(EventDef), c_uint32,),
+    "dmb_event_info_init": (c_int32, POINTER(EventInfo), c_uint32,),
+    "dmb_event_report_init": (c_int32, POINTER(EventReport), c_uint32,),
     "dmb_fatigue_create": (c_int32, c_void_p, POINTER(FatigueOptions), POINTER(Place), c_uint32, POINTER(c_void_p),),
     "dmb_fatigue_destroy": (None, POINTER(c_void_p),),
     "dmb_fatigue_get": (c_int32, c_void_p, c_uint32, POINTER(FatigueResult),),
@@ -71,6 +74,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_add_constraint": (c_int32, c_void_p, POINTER(ConstraintDef), POINTER(Id),),
     "dmb_model_add_coupling": (c_int32, c_void_p, POINTER(CouplingDef), POINTER(Id),),
     "dmb_model_add_drive": (c_int32, c_void_p, POINTER(DriveDef), POINTER(Id),),
+    "dmb_model_add_event": (c_int32, c_void_p, POINTER(EventDef), POINTER(Id),),
     "dmb_model_add_input": (c_int32, c_void_p, POINTER(InputDef), POINTER(Id),),
     "dmb_model_add_joint": (c_int32, c_void_p, POINTER(JointDef), POINTER(Id),),
     "dmb_model_add_load": (c_int32, c_void_p, POINTER(LoadDef), POINTER(Id),),
@@ -83,7 +87,10 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_compile": (c_int32, c_void_p, POINTER(CompileOptions),),
     "dmb_model_create": (c_int32, POINTER(ModelOptions), POINTER(c_void_p),),
     "dmb_model_destroy": (None, POINTER(c_void_p),),
+    "dmb_model_event_count": (c_uint32, c_void_p,),
+    "dmb_model_find_event": (c_int32, c_void_p, c_char_p, POINTER(Id),),
     "dmb_model_find_input": (c_int32, c_void_p, c_char_p, POINTER(Id),),
+    "dmb_model_get_event": (c_int32, c_void_p, c_uint32, POINTER(EventInfo),),
     "dmb_model_get_info": (c_int32, c_void_p, POINTER(ModelInfo),),
     "dmb_model_get_input": (c_int32, c_void_p, c_uint32, POINTER(InputInfo),),
     "dmb_model_info_init": (c_int32, POINTER(ModelInfo), c_uint32,),
@@ -158,6 +165,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_sensitivity_rows": (c_int32, c_void_p, c_uint32, POINTER(c_double), POINTER(c_double), POINTER(c_uint32),),
     "dmb_sensitivity_step": (c_int32, c_void_p, c_double, POINTER(StepReport),),
     "dmb_sim_advance": (c_int32, c_void_p, c_double, POINTER(StepReport),),
+    "dmb_sim_advance_to_event": (c_int32, c_void_p, c_double, POINTER(EventReport), POINTER(StepReport),),
     "dmb_sim_create": (c_int32, c_void_p, POINTER(SimOptions), POINTER(c_void_p),),
     "dmb_sim_create_in": (c_int32, c_void_p, POINTER(SimOptions), c_void_p, c_size_t, POINTER(c_void_p),),
     "dmb_sim_destroy": (None, POINTER(c_void_p),),
@@ -273,6 +281,8 @@ FUNCTION_DOCS = {
         "Cycles by range at the point that the result names: cycles[i] of a range of i times 2 stress_range/classes [Pa], shape (classes).",
     "dmb_fatigue_take":
         "Takes a sample; call it after each step. The sim may be another one of the same model. Allocates nothing. O(places x points).",
+    "dmb_model_add_event":
+        "Errors: ERR_VALUE for fields and a name that another event has; ERR_TOO_LARGE beyond EVENTS_MAX. An output that the scene does not have is refused by dmb_sim_create: the query's error.",
     "dmb_model_add_input":
         "Errors: ERR_ID; ERR_VALUE for bounds, limits, a name that another input has, a target that has one already; ERR_UNSUPPORTED where the part has no such target.",
     "dmb_model_add_joint":
@@ -295,6 +305,8 @@ FUNCTION_DOCS = {
         "Creates an empty model. options may be NULL. Errors: ERR_NULL, _STRUCT_SIZE, _NO_MEMORY; *model is NULL then.",
     "dmb_model_destroy":
         "Gives up the caller's hold and sets *model to NULL; sims made from the model keep it alive. The hold is one: while they do, copies of the handle are refused (ERR_HANDLE) and destroying through them does nothing. Nor does it within a call that describes or compiles the model (by its allocator or log), where such calls give ERR_ORDER. NULL-safe.",
+    "dmb_model_event_count":
+        "As of inputs.",
     "dmb_model_find_input":
         "The input of that name. ERR_ID where there is none.",
     "dmb_model_get_info":
@@ -383,6 +395,8 @@ FUNCTION_DOCS = {
         "dmb_sim_step and dmb_sim_advance of the sim, which gets the same bits as by these, and the derivatives along with it: of each accepted step as it was done, its length, its corners and its kept accelerations included. Between two of these calls the sim may be changed by dmb_sim_set_drive only. NOTE_NOT_SMOOTH where a contact, a sticking bristle or a limit differs between both sides of a parameter: the derivative there is the mean of two. Other notes and errors as dmb_sim_step and dmb_sim_advance; ERR_ORDER: the sim was moved by other calls; ERR_SINGULAR: the iteration matrix at the end of a step; state and derivatives are then as these calls leave the state. Allocates nothing. Costs an evaluation with tangent and a factorisation a step, and two evaluations and solutions for each side of a parameter, more where contacts change and with joints: in a string in contact some 1.3 steps a parameter, one-sided 0.7.",
     "dmb_sim_advance":
         "Advances to `time` [s] with steps chosen to hold the local error tolerances, bounded_work or not. NOTE_TOLERANCE where a step of step_min was too long for them, NOTE_STOPPED after max_steps, NOTE_CANCELLED. Errors as dmb_sim_step; the state is then the last accepted one, whose time dmb_sim_time tells.",
+    "dmb_sim_advance_to_event":
+        "As dmb_sim_advance, but ends at the first event on the way, NOTE_EVENT; dmb_sim_message names those told. What is beyond its level when the call begins is told when it has come back and crosses again; a `hold` that began in a call before goes on. Costs a copy of the state a step, and some six more steps for each crossing. Either report may be NULL. Errors: as dmb_sim_advance, with the state the last accepted one, before any crossing that was not located; ERR_VALUE without events.",
     "dmb_sim_create":
         "Makes a sim at time 0 in the described pose and speed. options may be NULL. NOTE_PROJECTED when initial velocities did not fit the allowed motion; dmb_sim_message tells by how much. Errors (dmb_model_message says why): _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The sim holds the model until it is destroyed. O(number of elements).",
     "dmb_sim_create_in":

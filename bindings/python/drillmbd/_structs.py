@@ -935,6 +935,61 @@ class CheckReport(Sized):
     }
 
 
+class WindowOptions(Sized):
+    c_name, about = "dmb_window_options", "A window over channels -------------------------------------------------------------------------------------- Least, greatest and mean of channels over the last so many seconds of a run, in memory that does not grow: time is divided into slots, and the oldest slot is let go as a whole. Means are by time, with straight lines between samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows."
+    struct_size: int
+    slots: int
+    length: float
+    levels: Any
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("slots", c_uint32),
+        ("length", c_double),
+        ("levels", POINTER(c_double)),
+    ]
+    field_docs = {
+        "slots": ("-", "2 .. 65536; what is seen is between (slots - 1)/slots and all of `length`; default 100"),
+        "length": ("s", ">= 0; 0 (default): all since the first sample"),
+        "levels": ("unit of the channel", "of low_share, shape (channel_count), >= 0; NULL (default): 0"),
+    }
+
+
+class WindowResult(Sized):
+    c_name, about = "dmb_window_result", ""
+    struct_size: int
+    reserved: int
+    samples: int
+    time: float
+    minimum: float
+    maximum: float
+    mean: float
+    rms: float
+    index: float
+    low_share: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("samples", c_uint64),
+        ("time", c_double),
+        ("minimum", c_double),
+        ("maximum", c_double),
+        ("mean", c_double),
+        ("rms", c_double),
+        ("index", c_double),
+        ("low_share", c_double),
+    ]
+    field_docs = {
+        "samples": ("-", "in the window"),
+        "time": ("s", "that it spans; 0 with one sample: means are the sample then"),
+        "minimum": ("unit of the channel", "of the samples; NaN, as all that follow, without one"),
+        "maximum": ("", ""),
+        "mean": ("", ""),
+        "rms": ("", "root of the mean square, 0 included in the mean"),
+        "index": ("-", "(maximum - minimum)/(2 |mean|): of the bit speed the stick-slip index, 1 where the bit comes to rest; 0 where nothing varies, infinite about a mean of 0"),
+        "low_share": ("-", "of the time with |value| at or below its level, by the sample at the end of each interval"),
+    }
+
+
 class InputState(Sized):
     c_name, about = "dmb_input_state", ""
     struct_size: int
@@ -977,6 +1032,28 @@ class InputRecord(Record):
         "value": ("unit of the input", "as taken, clamped where it was"),
         "input": ("-", "number of the input in the order of description"),
         "call": ("-", "number of the call that set it: those of one call are set at once"),
+    }
+
+
+class EventReport(Sized):
+    c_name, about = "dmb_event_report", ""
+    struct_size: int
+    count: int
+    events: int
+    time: float
+    located: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("count", c_uint32),
+        ("events", c_uint64),
+        ("time", c_double),
+        ("located", c_double),
+    ]
+    field_docs = {
+        "count": ("-", "events told: those within the tolerance of the first count as at once with it"),
+        "events": ("-", "bit i: event number i in the order of description is told"),
+        "time": ("s", "reached"),
+        "located": ("s", "at most so long after the crossing; 0 where none is told, and where a `hold` ends"),
     }
 
 
@@ -1318,61 +1395,6 @@ class ModeShape(Sized):
         "frame": ("", "in: FRAME_WORLD (default) or FRAME_BODY, axes of re and im"),
         "re": ("m, rad", "displacement and rotation of the place, d = Re(shape e^(s t)), shape (6)"),
         "im": ("m, rad", "0 of undamped modes, shape (6)"),
-    }
-
-
-class WindowOptions(Sized):
-    c_name, about = "dmb_window_options", "A window over channels -------------------------------------------------------------------------------------- Least, greatest and mean of channels over the last so many seconds of a run, in memory that does not grow: time is divided into slots, and the oldest slot is let go as a whole. Means are by time, with straight lines between samples. The stick-slip index of the bit speed and the off-bottom share are numbers of such windows."
-    struct_size: int
-    slots: int
-    length: float
-    levels: Any
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("slots", c_uint32),
-        ("length", c_double),
-        ("levels", POINTER(c_double)),
-    ]
-    field_docs = {
-        "slots": ("-", "2 .. 65536; what is seen is between (slots - 1)/slots and all of `length`; default 100"),
-        "length": ("s", ">= 0; 0 (default): all since the first sample"),
-        "levels": ("unit of the channel", "of low_share, shape (channel_count), >= 0; NULL (default): 0"),
-    }
-
-
-class WindowResult(Sized):
-    c_name, about = "dmb_window_result", ""
-    struct_size: int
-    reserved: int
-    samples: int
-    time: float
-    minimum: float
-    maximum: float
-    mean: float
-    rms: float
-    index: float
-    low_share: float
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("samples", c_uint64),
-        ("time", c_double),
-        ("minimum", c_double),
-        ("maximum", c_double),
-        ("mean", c_double),
-        ("rms", c_double),
-        ("index", c_double),
-        ("low_share", c_double),
-    ]
-    field_docs = {
-        "samples": ("-", "in the window"),
-        "time": ("s", "that it spans; 0 with one sample: means are the sample then"),
-        "minimum": ("unit of the channel", "of the samples; NaN, as all that follow, without one"),
-        "maximum": ("", ""),
-        "mean": ("", ""),
-        "rms": ("", "root of the mean square, 0 included in the mean"),
-        "index": ("-", "(maximum - minimum)/(2 |mean|): of the bit speed the stick-slip index, 1 where the bit comes to rest; 0 where nothing varies, infinite about a mean of 0"),
-        "low_share": ("-", "of the time with |value| at or below its level, by the sample at the end of each interval"),
     }
 
 
@@ -2613,6 +2635,33 @@ class PathOptions(Sized):
     }
 
 
+class ProfileRecorderStruct(Sized):
+    c_name, about = "dmb_profile_recorder", "Profiles over time ------------------------------------------------------------------------------------------ Rows of whole profiles, at a coarser rate, in the caller's memory."
+    struct_size: int
+    reserved: int
+    profile: Any
+    table: Any
+    capacity: int
+    row_count: int
+    interval: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("profile", POINTER(ProfileStruct)),
+        ("table", POINTER(c_double)),
+        ("capacity", c_uint64),
+        ("row_count", c_uint64),
+        ("interval", c_double),
+    ]
+    field_docs = {
+        "profile": ("", "what each row holds; its `values` and strides count for nothing. The caller's, kept alive by it and not changed once there is a row"),
+        "table": ("", "the caller's: time [s], then quantity q at station i at 1 + i quantity_count + q; shape (capacity, 1 + station_count quantity_count)"),
+        "capacity": ("-", "rows of table"),
+        "row_count": ("-", "rows written; start with 0"),
+        "interval": ("s", "between rows, 0: every call"),
+    }
+
+
 class SpringDef(SpringPart, Sized):
     c_name, about = "dmb_spring_def", "Spring and damper between two points, tension > 0: preload + stiffness e + table(e) + damping e', e the elongation beyond free_length. Two points closer than some 1e-9 m have no direction: the length is sqrt(d^2 + (1e-9 m)^2), so that force, energy and tangent stay those of one potential. Without FEATURE_DAMPING there is no damper."
     struct_size: int
@@ -2662,33 +2711,6 @@ class SpringDef(SpringPart, Sized):
         "table_force": ("N", "shape (table_count), beyond the ends along the last slopes; copied. Of a one-sided spring it must not fall"),
         "table_count": ("-", "0 (default): none; 2 .. 2^16"),
         "table_kind": ("", "TABLE_LINES (default), or TABLE_CUBIC: monotone between points, its slope without jumps"),
-    }
-
-
-class ProfileRecorderStruct(Sized):
-    c_name, about = "dmb_profile_recorder", "Profiles over time ------------------------------------------------------------------------------------------ Rows of whole profiles, at a coarser rate, in the caller's memory."
-    struct_size: int
-    reserved: int
-    profile: Any
-    table: Any
-    capacity: int
-    row_count: int
-    interval: float
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("profile", POINTER(ProfileStruct)),
-        ("table", POINTER(c_double)),
-        ("capacity", c_uint64),
-        ("row_count", c_uint64),
-        ("interval", c_double),
-    ]
-    field_docs = {
-        "profile": ("", "what each row holds; its `values` and strides count for nothing. The caller's, kept alive by it and not changed once there is a row"),
-        "table": ("", "the caller's: time [s], then quantity q at station i at 1 + i quantity_count + q; shape (capacity, 1 + station_count quantity_count)"),
-        "capacity": ("-", "rows of table"),
-        "row_count": ("-", "rows written; start with 0"),
-        "interval": ("s", "between rows, 0: every call"),
     }
 
 
@@ -2773,6 +2795,65 @@ class RecorderStruct(Sized):
     }
 
 
+class EventDef(Sized):
+    c_name, about = "dmb_event_def", ""
+    struct_size: int
+    direction: int
+    name: bytes
+    output: Channel
+    level: float
+    hold: float
+    tolerance: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("direction", c_int32),
+        ("name", c_char * 24),
+        ("output", Channel),
+        ("level", c_double),
+        ("hold", c_double),
+        ("tolerance", c_double),
+    ]
+    field_docs = {
+        "direction": ("", "EVENT_..., default EVENT_RISING"),
+        "name": ("", "required, of its own among the events, ends with 0"),
+        "output": ("", "as of a recorder"),
+        "level": ("unit of the output", "default 0"),
+        "hold": ("s", "it is told when the output has stayed beyond the level for so long, >= 0 and 0 with EVENT_EITHER; default 0"),
+        "tolerance": ("s", "1e-12 .. 1, default 1e-9; no less than the rounding of time allows"),
+    }
+
+
+class EventInfo(Sized):
+    c_name, about = "dmb_event_info", ""
+    struct_size: int
+    direction: int
+    event: Id
+    name: bytes
+    output: Channel
+    level: float
+    hold: float
+    tolerance: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("direction", c_int32),
+        ("event", Id),
+        ("name", c_char * 24),
+        ("output", Channel),
+        ("level", c_double),
+        ("hold", c_double),
+        ("tolerance", c_double),
+    ]
+    field_docs = {
+        "direction": ("", ""),
+        "event": ("", ""),
+        "name": ("", ""),
+        "output": ("", ""),
+        "level": ("", "as described"),
+        "hold": ("", "as described"),
+        "tolerance": ("", "as described"),
+    }
+
+
 class Order(Sized):
     c_name, about = "dmb_order", "Safe speeds ------------------------------------------------------------------------------------------------- A string that turns at W [rad/s] is shaken at orders of its speed: at W by eccentric masses, at 2 W by misalignment, at 3 W by a tricone bit, at the number of blades times W by the cut."
     struct_size: int
@@ -2835,10 +2916,16 @@ STRUCTS["dmb_path_point"] = PathPoint
 STRUCTS["dmb_path_options"] = PathOptions
 STRUCTS["dmb_path_report"] = PathReport
 STRUCTS["dmb_check_report"] = CheckReport
+STRUCTS["dmb_window_options"] = WindowOptions
+STRUCTS["dmb_window_result"] = WindowResult
+STRUCTS["dmb_profile_recorder"] = ProfileRecorderStruct
 STRUCTS["dmb_input_def"] = InputDef
 STRUCTS["dmb_input_info"] = InputInfo
 STRUCTS["dmb_input_state"] = InputState
 STRUCTS["dmb_input_record"] = InputRecord
+STRUCTS["dmb_event_def"] = EventDef
+STRUCTS["dmb_event_info"] = EventInfo
+STRUCTS["dmb_event_report"] = EventReport
 STRUCTS["dmb_operation"] = Operation
 STRUCTS["dmb_torque_drag_options"] = TorqueDragOptions
 STRUCTS["dmb_torque_drag_row"] = TorqueDragRow
@@ -2850,9 +2937,6 @@ STRUCTS["dmb_modes_options"] = ModesOptions
 STRUCTS["dmb_modes_info"] = ModesInfo
 STRUCTS["dmb_mode"] = Mode
 STRUCTS["dmb_mode_shape"] = ModeShape
-STRUCTS["dmb_window_options"] = WindowOptions
-STRUCTS["dmb_window_result"] = WindowResult
-STRUCTS["dmb_profile_recorder"] = ProfileRecorderStruct
 STRUCTS["dmb_input"] = Input
 STRUCTS["dmb_output"] = Output
 STRUCTS["dmb_response_options"] = ResponseOptions

@@ -23,6 +23,7 @@ class Status(IntEnum):
     NOTE_FLUTTER = 12  #: done; a mode grows before the stiffness is singular, the message tells from where on
     NOTE_CLAMPED = 13  #: done; a value beyond its bounds was taken for the bound
     NOTE_NOT_SMOOTH = 14  #: done; a derivative is the mean of both sides of a corner, the message tells where
+    NOTE_EVENT = 15  #: done up to an event, the message names it
     ERR_NULL = -1  #: a required pointer is NULL
     ERR_HANDLE = -2  #: not a live object of this kind
     ERR_STRUCT_SIZE = -3  #: struct_size is not a size this library knows
@@ -57,6 +58,7 @@ NOTE_INCOMPLETE = Status.NOTE_INCOMPLETE
 NOTE_FLUTTER = Status.NOTE_FLUTTER
 NOTE_CLAMPED = Status.NOTE_CLAMPED
 NOTE_NOT_SMOOTH = Status.NOTE_NOT_SMOOTH
+NOTE_EVENT = Status.NOTE_EVENT
 ERR_NULL = Status.ERR_NULL
 ERR_HANDLE = Status.ERR_HANDLE
 ERR_STRUCT_SIZE = Status.ERR_STRUCT_SIZE
@@ -582,132 +584,6 @@ CONTACT_OPEN = ContactState.OPEN
 CONTACT_CLOSED = ContactState.CLOSED
 
 
-class InputTarget(IntEnum):
-    """Values DMB_TARGET_... of the headers."""
-    SET_POINT = 0  #: of a drive: the value in the place of its programme; its excitation goes on
-    GAIN = 1  #: [N s/m, N m s] of a CONTROL drive, >= 0
-    INTEGRAL_GAIN = 2  #: [N/m, N m] of a CONTROL drive, >= 0
-    LIMIT_LOW = 3  #: [N, N m] of a CONTROL drive; below its limit_high
-    LIMIT_HIGH = 4  #: [N, N m] of a CONTROL drive; above its limit_low
-    LOAD_FACTOR = 5  #: [-] of a load, in the place of its programme
-    BIT_LOAD = 6  #: [N] bottom-hole load of a bit, in the place of its programme
-    FRICTION = 7  #: [-] factor >= 0 of both friction coefficients of the wall; 1: as described
-    FLUID_DENSITY = 8  #: [kg/m3] >= 0 of the environment
-    LATERAL_DAMPING = 9  #: [N s/m2] >= 0 of the environment
-    AXIAL_DAMPING = 10  #: [N s/m2] >= 0 of the environment
-    TORSIONAL_DAMPING = 11  #: [N s] >= 0 of the environment
-    COUNT = 12
-
-
-TARGET_SET_POINT = InputTarget.SET_POINT
-TARGET_GAIN = InputTarget.GAIN
-TARGET_INTEGRAL_GAIN = InputTarget.INTEGRAL_GAIN
-TARGET_LIMIT_LOW = InputTarget.LIMIT_LOW
-TARGET_LIMIT_HIGH = InputTarget.LIMIT_HIGH
-TARGET_LOAD_FACTOR = InputTarget.LOAD_FACTOR
-TARGET_BIT_LOAD = InputTarget.BIT_LOAD
-TARGET_FRICTION = InputTarget.FRICTION
-TARGET_FLUID_DENSITY = InputTarget.FLUID_DENSITY
-TARGET_LATERAL_DAMPING = InputTarget.LATERAL_DAMPING
-TARGET_AXIAL_DAMPING = InputTarget.AXIAL_DAMPING
-TARGET_TORSIONAL_DAMPING = InputTarget.TORSIONAL_DAMPING
-TARGET_COUNT = InputTarget.COUNT
-
-
-class Outside(IntEnum):
-    """Values DMB_OUTSIDE_... of the headers."""
-    REFUSED = 0
-    CLAMPED = 1
-
-
-OUTSIDE_REFUSED = Outside.REFUSED
-OUTSIDE_CLAMPED = Outside.CLAMPED
-
-
-class OperationKind(IntEnum):
-    """Values DMB_OPERATION_... of the headers."""
-    PICK_UP = 0  #: pulled without turning
-    SLACK_OFF = 1  #: lowered or pushed without turning
-    ROTATE = 2  #: turned off bottom
-    DRILL = 3  #: turned and fed, with load and torque on the bit
-    SLIDE = 4  #: fed without turning the string, with load and the motor's torque on the bit
-    BACK_REAM = 5  #: turned and pulled
-    COUNT = 6
-
-
-OPERATION_PICK_UP = OperationKind.PICK_UP
-OPERATION_SLACK_OFF = OperationKind.SLACK_OFF
-OPERATION_ROTATE = OperationKind.ROTATE
-OPERATION_DRILL = OperationKind.DRILL
-OPERATION_SLIDE = OperationKind.SLIDE
-OPERATION_BACK_REAM = OperationKind.BACK_REAM
-OPERATION_COUNT = OperationKind.COUNT
-
-
-class Measured(IntEnum):
-    """Values DMB_MEASURED_... of the headers."""
-    HOOK_LOAD = 0
-    TORQUE = 1
-
-
-MEASURED_HOOK_LOAD = Measured.HOOK_LOAD
-MEASURED_TORQUE = Measured.TORQUE
-
-
-class SpringActs(IntEnum):
-    """Values DMB_SPRING_... of the headers."""
-    BOTH = 0
-    TENSION = 1
-    COMPRESSION = 2
-
-
-SPRING_BOTH = SpringActs.BOTH
-SPRING_TENSION = SpringActs.TENSION
-SPRING_COMPRESSION = SpringActs.COMPRESSION
-
-
-class TableKind(IntEnum):
-    """Values DMB_TABLE_... of the headers."""
-    LINES = 0
-    CUBIC = 1
-
-
-TABLE_LINES = TableKind.LINES
-TABLE_CUBIC = TableKind.CUBIC
-
-
-class ModesKind(IntEnum):
-    """Values DMB_MODES_... of the headers."""
-    UNDAMPED = 0  #: M d'' + K d = 0
-    DAMPED = 1  #: with C: damping and gyroscopic terms
-
-
-MODES_UNDAMPED = ModesKind.UNDAMPED
-MODES_DAMPED = ModesKind.DAMPED
-
-
-class ModesSelect(IntEnum):
-    """Values DMB_MODES_... of the headers."""
-    LOWEST = 0
-    ALL = 1
-    BAND = 2
-
-
-MODES_LOWEST = ModesSelect.LOWEST
-MODES_ALL = ModesSelect.ALL
-MODES_BAND = ModesSelect.BAND
-
-
-class ModesAxes(IntEnum):
-    """Values DMB_MODES_... of the headers."""
-    AXES_TURNING = 0
-    AXES_AT_REST = 1
-
-
-MODES_AXES_TURNING = ModesAxes.AXES_TURNING
-MODES_AXES_AT_REST = ModesAxes.AXES_AT_REST
-
-
 class Reading(IntEnum):
     """Values DMB_CHANNEL_... of the headers."""
     HOOK_LOAD = 100  #: [N] effective axial force of the section at the rig end, as dmb_query_section: > 0 the rig pulls, < 0 it thrusts
@@ -908,6 +784,152 @@ CHANNEL_STICK_SLIP_INDEX = Reading.STICK_SLIP_INDEX
 CHANNEL_WINDOW_LOW_SHARE = Reading.WINDOW_LOW_SHARE
 
 
+class InputTarget(IntEnum):
+    """Values DMB_TARGET_... of the headers."""
+    SET_POINT = 0  #: of a drive: the value in the place of its programme; its excitation goes on
+    GAIN = 1  #: [N s/m, N m s] of a CONTROL drive, >= 0
+    INTEGRAL_GAIN = 2  #: [N/m, N m] of a CONTROL drive, >= 0
+    LIMIT_LOW = 3  #: [N, N m] of a CONTROL drive; below its limit_high
+    LIMIT_HIGH = 4  #: [N, N m] of a CONTROL drive; above its limit_low
+    LOAD_FACTOR = 5  #: [-] of a load, in the place of its programme
+    BIT_LOAD = 6  #: [N] bottom-hole load of a bit, in the place of its programme
+    FRICTION = 7  #: [-] factor >= 0 of both friction coefficients of the wall; 1: as described
+    FLUID_DENSITY = 8  #: [kg/m3] >= 0 of the environment
+    LATERAL_DAMPING = 9  #: [N s/m2] >= 0 of the environment
+    AXIAL_DAMPING = 10  #: [N s/m2] >= 0 of the environment
+    TORSIONAL_DAMPING = 11  #: [N s] >= 0 of the environment
+    COUNT = 12
+
+
+TARGET_SET_POINT = InputTarget.SET_POINT
+TARGET_GAIN = InputTarget.GAIN
+TARGET_INTEGRAL_GAIN = InputTarget.INTEGRAL_GAIN
+TARGET_LIMIT_LOW = InputTarget.LIMIT_LOW
+TARGET_LIMIT_HIGH = InputTarget.LIMIT_HIGH
+TARGET_LOAD_FACTOR = InputTarget.LOAD_FACTOR
+TARGET_BIT_LOAD = InputTarget.BIT_LOAD
+TARGET_FRICTION = InputTarget.FRICTION
+TARGET_FLUID_DENSITY = InputTarget.FLUID_DENSITY
+TARGET_LATERAL_DAMPING = InputTarget.LATERAL_DAMPING
+TARGET_AXIAL_DAMPING = InputTarget.AXIAL_DAMPING
+TARGET_TORSIONAL_DAMPING = InputTarget.TORSIONAL_DAMPING
+TARGET_COUNT = InputTarget.COUNT
+
+
+class Outside(IntEnum):
+    """Values DMB_OUTSIDE_... of the headers."""
+    REFUSED = 0
+    CLAMPED = 1
+
+
+OUTSIDE_REFUSED = Outside.REFUSED
+OUTSIDE_CLAMPED = Outside.CLAMPED
+
+
+class EventDirection(IntEnum):
+    """Values DMB_EVENT_... of the headers."""
+    EITHER = 0  #: from one side of the level to the other; a start on the level itself is on no side
+    RISING = 1  #: to above the level, from it or from below
+    FALLING = 2  #: to below the level, from it or from above
+
+
+EVENT_EITHER = EventDirection.EITHER
+EVENT_RISING = EventDirection.RISING
+EVENT_FALLING = EventDirection.FALLING
+
+
+class Events(IntEnum):
+    """Values DMB_EVENTS_... of the headers."""
+    MAX = 64  #: of one model
+
+
+EVENTS_MAX = Events.MAX
+
+
+class OperationKind(IntEnum):
+    """Values DMB_OPERATION_... of the headers."""
+    PICK_UP = 0  #: pulled without turning
+    SLACK_OFF = 1  #: lowered or pushed without turning
+    ROTATE = 2  #: turned off bottom
+    DRILL = 3  #: turned and fed, with load and torque on the bit
+    SLIDE = 4  #: fed without turning the string, with load and the motor's torque on the bit
+    BACK_REAM = 5  #: turned and pulled
+    COUNT = 6
+
+
+OPERATION_PICK_UP = OperationKind.PICK_UP
+OPERATION_SLACK_OFF = OperationKind.SLACK_OFF
+OPERATION_ROTATE = OperationKind.ROTATE
+OPERATION_DRILL = OperationKind.DRILL
+OPERATION_SLIDE = OperationKind.SLIDE
+OPERATION_BACK_REAM = OperationKind.BACK_REAM
+OPERATION_COUNT = OperationKind.COUNT
+
+
+class Measured(IntEnum):
+    """Values DMB_MEASURED_... of the headers."""
+    HOOK_LOAD = 0
+    TORQUE = 1
+
+
+MEASURED_HOOK_LOAD = Measured.HOOK_LOAD
+MEASURED_TORQUE = Measured.TORQUE
+
+
+class SpringActs(IntEnum):
+    """Values DMB_SPRING_... of the headers."""
+    BOTH = 0
+    TENSION = 1
+    COMPRESSION = 2
+
+
+SPRING_BOTH = SpringActs.BOTH
+SPRING_TENSION = SpringActs.TENSION
+SPRING_COMPRESSION = SpringActs.COMPRESSION
+
+
+class TableKind(IntEnum):
+    """Values DMB_TABLE_... of the headers."""
+    LINES = 0
+    CUBIC = 1
+
+
+TABLE_LINES = TableKind.LINES
+TABLE_CUBIC = TableKind.CUBIC
+
+
+class ModesKind(IntEnum):
+    """Values DMB_MODES_... of the headers."""
+    UNDAMPED = 0  #: M d'' + K d = 0
+    DAMPED = 1  #: with C: damping and gyroscopic terms
+
+
+MODES_UNDAMPED = ModesKind.UNDAMPED
+MODES_DAMPED = ModesKind.DAMPED
+
+
+class ModesSelect(IntEnum):
+    """Values DMB_MODES_... of the headers."""
+    LOWEST = 0
+    ALL = 1
+    BAND = 2
+
+
+MODES_LOWEST = ModesSelect.LOWEST
+MODES_ALL = ModesSelect.ALL
+MODES_BAND = ModesSelect.BAND
+
+
+class ModesAxes(IntEnum):
+    """Values DMB_MODES_... of the headers."""
+    AXES_TURNING = 0
+    AXES_AT_REST = 1
+
+
+MODES_AXES_TURNING = ModesAxes.AXES_TURNING
+MODES_AXES_AT_REST = ModesAxes.AXES_AT_REST
+
+
 class InputKind(IntEnum):
     """Values DMB_INPUT_... of the headers."""
     DRIVE = 0  #: programme of the drive place.part [its unit]: speed of MOTION, force of LOAD, target speed of CONTROL
@@ -1076,8 +1098,11 @@ ENUMS = (
     Flutter,
     PathKind,
     ContactState,
+    Reading,
     InputTarget,
     Outside,
+    EventDirection,
+    Events,
     OperationKind,
     Measured,
     SpringActs,
@@ -1085,7 +1110,6 @@ ENUMS = (
     ModesKind,
     ModesSelect,
     ModesAxes,
-    Reading,
     InputKind,
     OutputKind,
     StateForm,

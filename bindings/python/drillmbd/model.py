@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 from ._keep import Keep, as_id, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._record import Record
-from ._structs import (BitDef, BodyDef, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef, HolePoint, Id, InputDef,
-                       InputInfo, JointDef, LoadDef, ModelInfo, ModelOptions, PipeDef, Place, SimOptions, SpringDef, StringDef, Term, WallDef)
+from ._structs import (BitDef, BodyDef, Channel, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef,
+                       EventDef, EventInfo, HolePoint, Id, InputDef, InputInfo, JointDef, LoadDef, ModelInfo,
+                       ModelOptions, PipeDef, Place, SimOptions, SpringDef, StringDef, Term, WallDef)
 
 if TYPE_CHECKING:
     from .sim import Sim
@@ -175,6 +176,11 @@ class Model:
         force [N]). Returns its id."""
         return self._add("spring", SpringDef, definition, fields)
 
+    @mirrors("dmb_model_add_event")
+    def add_event(self, definition: EventDef | None = None, **fields: Any) -> Id:
+        """Adds an event that Sim.advance_to_event stops at, by an EventDef or its fields; returns its id."""
+        return self._add("event", EventDef, definition, fields)
+
     @mirrors("dmb_model_compile")
     def compile(self, options: CompileOptions | None = None, **fields: Any) -> int:
         """Checks and freezes the scene; returns the status."""
@@ -195,6 +201,15 @@ class Model:
         info = ModelInfo()
         info.status = self._check(_lib.dmb_model_get_info(self._handle, byref(info)))
         return info
+
+    def events(self) -> list[str]:
+        """The names of the events, in the order of description."""
+        found = []
+        for index in range(_lib.dmb_model_event_count(self._handle)):
+            info: EventInfo = EventInfo.blank()
+            self._check(_lib.dmb_model_get_event(self._handle, index, byref(info)))
+            found.append(info.name.decode())
+        return found
 
     def inputs(self) -> dict[str, InputInfo]:
         """The inputs by name: unit, bounds and limits of each, in the order of description."""
@@ -235,7 +250,7 @@ _DEFINITIONS: dict[str, Any] = {
     "set_environment": EnvironmentDef, "add_wall": WallDef, "add_string": StringDef, "add_pipes": PipeDef,
     "add_body": BodyDef, "add_bit": BitDef, "add_joint": JointDef, "add_coupling": CouplingDef,
     "add_constraint": ConstraintDef, "add_drive": DriveDef, "add_load": LoadDef, "add_spring": SpringDef,
-    "add_input": InputDef, "compile": CompileOptions,
+    "add_input": InputDef, "add_event": EventDef, "compile": CompileOptions,
     "add_programme": Term}
 
 
@@ -246,6 +261,9 @@ def map_ids(value: Any, change: Callable[[Id], Any]) -> Any:
     if isinstance(value, Place):
         part = change(value.part)
         return Place(part, value.pipe, 0, value.fraction) if isinstance(part, Id) else (part, value.pipe, value.fraction)
+    if isinstance(value, Channel):
+        place = map_ids(value.place, change)
+        return Channel(place=place, quantity=value.quantity) if isinstance(place, Place) else (place, value.quantity)
     if isinstance(value, dict):
         return {key: map_ids(one, change) for key, one in value.items()}
     if isinstance(value, (list, tuple)):

@@ -16,6 +16,7 @@ from ._progress import Teller
 from ._structs import (STRUCTS, BitState, Channel, Contact, DriveState, Energy, FatigueOptions, Id, Input, JointState,
                        Momentum, Motion, Output, Place, Pose, Section, SimOptions, SpringState, StateSpaceOptions, Statistics,
                        StepReport, WindowOptions)
+from ._structs import EventReport
 from .channels import channel_quantity
 from .enums import FRAME_WORLD, NOTE_CANCELLED, NOTE_STOPPED, OK
 from .errors import check
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from .state_space import Arrays, StateSpace
     from .window import Window
 
+_advance_to_event = _lib.dmb_sim_advance_to_event
 _step, _advance, _set_status = _lib.dmb_sim_step, _lib.dmb_sim_advance, object.__setattr__
 
 
@@ -84,7 +86,7 @@ class Sim(analysis.Analyses):
                  log: Callable[[int, str], None] | None = None, **fields: Any) -> None:
         self._handle = c_void_p()
         self._keep = Keep()  # its own log
-        self._inputs = model.inputs()
+        self._inputs, self._events = model.inputs(), model.events()
         self._log: InputLog | None = None
         self._scene = model._keep  # callbacks live as long as the last sim
         self._teller = Teller()
@@ -153,6 +155,14 @@ class Sim(analysis.Analyses):
         report: StepReport = StepReport.blank()
         _set_status(report, "status", self._check(self._teller.long_call(self._handle, _advance, time, byref(report))))
         return report
+
+    @mirrors("dmb_sim_advance_to_event")
+    def advance_to_event(self, time: float) -> list[str]:
+        """Advances to the first event on the way to time [s]: the names of those told there, at sim.time. None: [], and
+        the sim is at `time`, or where its max_steps or the progress function ended it."""
+        report: EventReport = EventReport.blank()
+        self._check(self._teller.long_call(self._handle, _advance_to_event, time, byref(report), None))
+        return [name for i, name in enumerate(self._events) if report.events >> i & 1]
 
     def run(self, end: float, step: float | None = None, recorder: Recorder | None = None,
             progress: Callable[[Progress], Any] | None = None, every: float = 0.2) -> Progress:

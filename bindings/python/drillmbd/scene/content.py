@@ -12,7 +12,7 @@ from .failure import Failure
 from .variability import Variability
 
 # In the order in which they are described; NAMED: their names go to the library as they are written.
-PARTS = ("string", "body", "bit", "joint", "coupling", "drive", "load", "spring", "input")
+PARTS = ("string", "body", "bit", "joint", "coupling", "drive", "load", "spring", "input", "event")
 NAMED = ("joint", "coupling", "spring", "input")
 SINGLE = ("environment", "hole")
 ANALYSES = ("static", "modes", "response", "speeds", "buckling")

@@ -12,6 +12,7 @@ from typing import Any
 from .. import _structs, enums
 from .._structs import Id, Place
 from ..channels import channel_unit
+from ..channels import Named
 from . import units
 from .problems import meant
 
@@ -207,6 +208,12 @@ def input_unit(kind: int, component: int) -> str:
     return known.get(kind, "-")
 
 
+def event_fields() -> dict[str, Field]:
+    """The keys of an event: those of its struct, with quantity and place in the place of its output."""
+    known = {key: field for key, field in fields_of(_structs.EventDef).items() if key not in ("output", "name")}
+    return {"quantity": Field("quantity", "enum", enum=Named), "place": Field("place", "place"), **known}
+
+
 def setting_units(target: int, drive: tuple[int, int] | None) -> dict[str, str]:
     """The units of the fields of an input; drive: kind and component of the drive that it moves."""
     kind, component = drive or (0, 0)
@@ -230,5 +237,5 @@ DEFINITIONS: dict[str, Any] = {
     "spring": _structs.SpringDef, "term": _structs.Term,
     "compile": _structs.CompileOptions, "sim": _structs.SimOptions, "static": _structs.StaticOptions,
     "modes": _structs.ModesOptions, "response": _structs.ResponseOptions, "speeds": _structs.SpeedsOptions,
-    "buckling": _structs.BucklingOptions, "input": _structs.InputDef, "response input": _structs.Input, "output": _structs.Output,
+    "buckling": _structs.BucklingOptions, "input": _structs.InputDef, "event": _structs.EventDef, "response input": _structs.Input, "output": _structs.Output,
     "order": _structs.Order}

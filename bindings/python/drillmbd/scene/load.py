@@ -9,7 +9,8 @@ from typing import Any
 
 from .. import enums
 from .._keep import station
-from .._structs import Id, Place, Term
+from .._structs import Channel, Id, Place, Term
+from ..channels import channel_unit
 from ..errors import Error
 from ..model import Model
 from . import failure, fields, survey, units, variability
@@ -400,6 +401,9 @@ class Loader:
     def _part(self, kind: str, path: Path, name: str, table: dict[str, Any]) -> None:
         struct, before = DEFINITIONS[kind], len(self.problems.found)
         known = {key: field for key, field in fields_of(struct).items() if key != "name"}
+        if kind == "event":
+            self._event(path, name, table)
+            return
         table = dict(table)
         self._inline_programmes(kind, path, table)
         component = self.word(fields_of(DEFINITIONS["drive"])["component"], table.get("component"), 0)
@@ -424,6 +428,21 @@ class Loader:
         if not refused and not (kind == "drive" and "programme" not in values) and not (
                 len(self.problems.found) > before and kind in (*NAMED, "load")):
             self._put(name, kind, self._add(path, getattr(self.model, "add_" + kind), struct, values))
+
+    def _event(self, path: Path, name: str, table: dict[str, Any]) -> None:
+        """quantity and place are the channel, whose unit the level has."""
+        known, before = fields.event_fields(), len(self.problems.found)
+        quantity = self.word(known["quantity"], table.get("quantity"), -1)
+        unit = channel_unit(quantity) if quantity >= 0 else "-"
+        values = self.read(path, table, known, ("name",), {"level": unit.split(" or ")[0].split(",")[0]}.get)
+        if "quantity" not in table:
+            self.problems.add(path, None, "must have a quantity, that of a channel")
+        self._put(name, "event", None)
+        if len(self.problems.found) > before:
+            return
+        output = Channel(place=values.pop("place", Place()), quantity=values.pop("quantity"))
+        values["name"] = name
+        self._put(name, "event", self._add(path, self.model.add_event, DEFINITIONS["event"], {**values, "output": output}))
 
     def _setting_units(self, known: dict[str, Field], table: dict[str, Any]) -> dict[str, str]:
         """Units of an input: those of what it moves."""

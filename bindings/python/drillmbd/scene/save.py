@@ -8,8 +8,8 @@ import re
 from typing import Any
 
 from .. import enums
-from .._structs import Id, Place
-from ..channels import Named
+from .._structs import Channel, Id, Place
+from ..channels import Named, channel_unit
 from ..model import Model
 from . import failure, fields, units, variability
 from .asked import LIMITS, OUTPUT, RUN
@@ -185,6 +185,9 @@ class Writer:
     def _part(self, kind: str, name: str | None, description: dict[str, Any]) -> None:
         self._head(f"[[{kind}]]", name)
         component = description.get("component", 0)
+        if kind == "event":
+            self._event(description)
+            return
         if kind == "input":
             self._table(kind, description, self._setting_units(description).get)
             return
@@ -197,6 +200,17 @@ class Writer:
         self._table(kind, description, unit_of)
         if kind == "spring" and description.get("table"):
             self._key("table", [[units.text(x, "m"), units.text(f, "N")] for x, f in description["table"]])
+
+    def _event(self, description: dict[str, Any]) -> None:
+        output = description.get("output", Channel())
+        known = fields.event_fields()
+        unit = channel_unit(output.quantity).split(" or ")[0].split(",")[0]
+        self._key("quantity", fields.write(known["quantity"], output.quantity))
+        if output.place.part:
+            self._key("place", self._place(output.place))
+        for key, value in description.items():
+            if key in known:
+                self._key(key, self._plain(known[key], value, unit if key == "level" else None))
 
     def _setting_units(self, description: dict[str, Any]) -> dict[str, str]:
         part = description.get("part")

@@ -9,7 +9,7 @@ from ..channels import Named
 from . import failure, variability
 from .asked import LIMITS, OUTPUT, RUN
 from .content import ANALYSES, PARTS
-from .fields import DEFINITIONS, Field, fields_of, words_of
+from .fields import DEFINITIONS, Field, event_fields, fields_of, words_of
 
 _NAME = {"type": "string", "minLength": 1}
 _PLACE: dict[str, Any] = {"oneOf": [_NAME, {
@@ -73,7 +73,8 @@ def schema() -> dict[str, Any]:
     for kind in PARTS:
         more: dict[str, Any] = {"name": _NAME, **({"pipes": _many(pipes)} if kind == "string" else {}),
                                 **({"table": _TABLE} if kind == "spring" else {})}
-        properties[kind] = _many(_object(fields_of(DEFINITIONS[kind]), **more))
+        known = event_fields() if kind == "event" else fields_of(DEFINITIONS[kind])
+        properties[kind] = _many(_object(known, **more))
     for kind in ANALYSES:
         properties[kind] = _object(fields_of(DEFINITIONS[kind]), **_asked(kind))
     number = {"type": ["number", "string"]}

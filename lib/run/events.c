@@ -1,0 +1,344 @@
+/* Stops where outputs cross levels. A crossing shows at the end of a step that goes over it; the step is taken back and
+ * taken again, shorter, until the crossing is bracketed within its tolerance. Of several in a step the first is looked
+ * for: the function of the step's length is whether any of them has crossed, and each gives a guess by false position
+ * (Illinois: Dowell, Jarratt, BIT 11, 1971), the least of which is tried; where that does not halve the bracket in two
+ * tries, its middle is. */
+#include <float.h>
+#include <math.h>
+
+#include "integrator/step.h"
+#include "query/channel.h"
+#include "run/events.h"
+#include "sim/access.h"
+#include "sim/layout.h"
+
+DMB_DECLARE_STRUCT(dmb_step_report)
+
+/* clang-format off */
+DMB_DEFINE_INIT(dmb_event_report, 32, {.count = 0})
+/* clang-format on */
+
+enum { MARGIN = 100, SLOW = 2 };
+
+/* Outputs less their levels, so that beyond is > 0 in the direction of each. */
+typedef struct gaps {
+    double value[DMB_EVENTS_MAX];
+} gaps;
+
+typedef struct hunt {
+    dmb_sim *sim;
+    dmb_walk walk;
+    double end;     /* [s] where the call is to end */
+    double wanted;  /* [s] step length of the control */
+    gaps before;    /* at the start of the step */
+    uint64_t told;  /* events */
+    double located; /* [s] width of the bracket */
+} hunt;
+
+static int32_t ask(dmb_sim *sim, gaps *found)
+{
+    for (uint32_t i = 0; i < sim->scene->event_count; i++) {
+        const dmb_scene_event *event = sim->scene->events + i;
+        double value = 0.0;
+        const int32_t status = dmb_channel_value(sim, &event->output, &value);
+        if (status < 0 || !isfinite(value)) {
+            dmb_message_set(&sim->message,
+                            "event %u (%s): its output cannot be asked: %s; see to its quantity and place", i,
+                            event->name, status < 0 ? dmb_status_text(status) : "it is not finite");
+            return status < 0 ? status : DMB_ERR_NOT_FINITE;
+        }
+        found->value[i] = event->direction == DMB_EVENT_FALLING ? event->level - value : value - event->level;
+    }
+    return DMB_OK;
+}
+
+void dmb_events_begin(dmb_sim *sim)
+{
+    for (uint32_t i = 0; i < sim->scene->event_count; i++) sim->event_since[i] = (double)NAN;
+}
+
+int32_t dmb_events_check(dmb_sim *sim)
+{
+    gaps unused;
+    return sim->scene->event_count > 0 ? ask(sim, &unused) : DMB_OK;
+}
+
+/* ---- Crossings --------------------------------------------------------------------------------------------------- */
+
+static int is_either(const dmb_sim *sim, uint32_t i)
+{
+    return sim->scene->events[i].direction == DMB_EVENT_EITHER;
+}
+
+static double side_of(double gap)
+{
+    return gap > 0.0 ? 1.0 : gap < 0.0 ? -1.0 : 0.0;
+}
+
+/* From the side it was on last to the other; of a direction, from not beyond to beyond. */
+static int crosses(const dmb_sim *sim, uint32_t i, double before, double after)
+{
+    if (!is_either(sim, i)) return !(before > 0.0) && after > 0.0;
+    const double side = before != 0.0 ? side_of(before) : sim->event_side[i];
+    return side != 0.0 && side_of(after) == -side;
+}
+
+static uint64_t crossings(const hunt *h, const gaps *after)
+{
+    uint64_t found = 0;
+    for (uint32_t i = 0; i < h->sim->scene->event_count; i++)
+        if (crosses(h->sim, i, h->before.value[i], after->value[i])) found |= UINT64_C(1) << i;
+    return found;
+}
+
+/* ---- Memory of what is held -------------------------------------------------------------------------------------- */
+
+/* At the beginning of a call: what is beyond already, and not held since a crossing, waits until it comes back. */
+static void look_around(dmb_sim *sim, const gaps *now)
+{
+    for (uint32_t i = 0; i < sim->scene->event_count; i++) {
+        const int beyond = now->value[i] > 0.0;
+        if (now->value[i] != 0.0) sim->event_side[i] = side_of(now->value[i]);
+        if (is_either(sim, i)) continue;
+        if (!beyond) sim->event_since[i] = (double)NAN;
+        if (beyond && isnan(sim->event_since[i])) sim->event_since[i] = (double)INFINITY;
+    }
+}
+
+/* [s] The first time at which a hold ends; INFINITY if none is under way. */
+static double hold_end(const dmb_sim *sim)
+{
+    double first = (double)INFINITY;
+    for (uint32_t i = 0; i < sim->scene->event_count; i++)
+        if (isfinite(sim->event_since[i])) first = fmin(first, sim->event_since[i] + sim->scene->events[i].hold);
+    return first;
+}
+
+/* After a step: crossings begin to hold, what came back does not, and what has been held for long enough is told. */
+static uint64_t take(hunt *h, const gaps *now, uint64_t crossed)
+{
+    dmb_sim *sim = h->sim;
+    uint64_t told = 0;
+    for (uint32_t i = 0; i < sim->scene->event_count; i++) {
+        const uint64_t bit = UINT64_C(1) << i;
+        if (now->value[i] != 0.0) sim->event_side[i] = side_of(now->value[i]);
+        if (is_either(sim, i)) {
+            told |= crossed & bit;
+            continue;
+        }
+        if (!(now->value[i] > 0.0)) sim->event_since[i] = (double)NAN;
+        if (crossed & bit) sim->event_since[i] = sim->clock->time;
+        if (!isfinite(sim->event_since[i]) || sim->clock->time < sim->event_since[i] + sim->scene->events[i].hold)
+            continue;
+        told |= bit;
+        sim->event_since[i] = (double)INFINITY;
+    }
+    return told;
+}
+
+/* ---- Location ---------------------------------------------------------------------------------------------------- */
+
+/* [s] The least tolerance of those that cross, but not below the rounding of time. */
+static double tolerance_of(const hunt *h, uint64_t crossed)
+{
+    double least = 1.0;
+    for (uint32_t i = 0; i < h->sim->scene->event_count; i++)
+        if (crossed >> i & 1) least = fmin(least, h->sim->scene->events[i].tolerance);
+    return fmax(least, 8.0 * DBL_EPSILON * h->sim->clock->time);
+}
+
+/* The step that went over the crossing once more, which was the bracket's end to the last. */
+static dmb_step_end whole_step(const hunt *h, const dmb_clock *reached)
+{
+    dmb_step_end end = dmb_step_end_at(h->sim, reached->time);
+    end.step = reached->step;
+    end.rest = reached->rest;
+    end.corner = reached->corner != h->sim->clock->corner ? reached->corner : 0.0;
+    return end;
+}
+
+/* Steps from the state set aside to a length after it, or as before where `reached` says. Work that is taken back
+ * counts as done in vain. */
+static int32_t step_again(hunt *h, double length, const dmb_clock *reached, gaps *found)
+{
+    dmb_sim *sim = h->sim;
+    dmb_attempt attempt;
+    dmb_state_restore(sim);
+    const dmb_step_end end = reached != NULL ? whole_step(h, reached) : dmb_step_end_after(sim, length);
+    if (!(end.time > sim->clock->time)) return dmb_walk_stuck(sim, "length", length);
+    int32_t status = dmb_attempt_step(sim, &end, 1, &attempt);
+    if (status == DMB_NOTE_WORK_LIMITED) status = attempt.status = DMB_ERR_NO_CONVERGENCE;
+    if (status < 0) {
+        dmb_walk_reject(sim, &attempt, &h->walk);
+        return status;
+    }
+    dmb_walk_commit(sim, &attempt, &h->walk);
+    dmb_walk_corner(sim);
+    dmb_advance_propose(sim, h->wanted);
+    return ask(sim, found);
+}
+
+/* The bracket of the first crossing, as lengths of the step. */
+typedef struct bracket {
+    double low, high;
+    gaps at_low, at_high; /* for guesses: halved where an end stays */
+    uint64_t crossed;     /* within it */
+    int32_t last;         /* -1, 1: which end the last try has moved */
+    int32_t slow;         /* tries that have not halved it, in a row */
+} bracket;
+
+/* [s] Earliest guess of those that cross within the bracket. One that begins on its level, as the force of a contact
+ * that is open, tells nothing: the middle. */
+static double guess(const hunt *h, const bracket *b, double tolerance)
+{
+    const double width = b->high - b->low;
+    double least = b->high;
+    for (uint32_t i = 0; i < h->sim->scene->event_count; i++) {
+        const double low = fabs(b->at_low.value[i]), high = fabs(b->at_high.value[i]);
+        if (b->crossed >> i & 1) least = fmin(least, b->low + width * (low > 0.0 ? low / (low + high) : 0.5));
+    }
+    if (b->slow >= SLOW) return b->low + 0.5 * width;
+    return fmin(fmax(least + 0.5 * tolerance, b->low + width / MARGIN), b->high - width / MARGIN);
+}
+
+static void narrow(const hunt *h, bracket *b, double at, const gaps *tried)
+{
+    const double width = b->high - b->low;
+    const uint64_t crossed = crossings(h, tried);
+    const int32_t end = crossed ? 1 : -1;
+    if (crossed) {
+        b->high = at;
+        b->at_high = *tried;
+        b->crossed = crossed;
+    } else {
+        b->low = at;
+        b->at_low = *tried;
+    }
+    for (uint32_t i = 0; i < h->sim->scene->event_count && end == b->last; i++)
+        (crossed ? b->at_low.value : b->at_high.value)[i] *= 0.5;
+    b->last = end;
+    b->slow = b->high - b->low > 0.5 * width ? b->slow + 1 : 0;
+}
+
+/* Takes the step that went over a crossing back and ends on the first one; `found`: the outputs there. */
+static int32_t locate(hunt *h, gaps *found)
+{
+    const dmb_clock reached = *h->sim->clock;
+    const uint32_t steps = h->walk.report.steps - 1;
+    bracket b = {.high = reached.step, .at_low = h->before, .at_high = *found, .crossed = crossings(h, found)};
+    double last = b.high;
+    int32_t status = DMB_OK;
+    for (double tolerance; tolerance = tolerance_of(h, b.crossed), status >= 0 && b.high - b.low > tolerance;) {
+        gaps tried;
+        last = guess(h, &b, tolerance);
+        h->walk.report.steps = steps;
+        h->walk.report.rejected++;
+        status = step_again(h, last, NULL, &tried);
+        if (status >= 0) narrow(h, &b, last, &tried);
+        if (status >= 0 && b.last > 0) *found = tried;
+    }
+    h->located = b.high - b.low;
+    if (status >= 0 && last != b.high) {
+        h->walk.report.steps = steps;
+        status = step_again(h, b.high, b.high == reached.step ? &reached : NULL, found);
+    }
+    if (status >= 0) return status;
+    dmb_state_restore(h->sim);
+    h->walk.report.steps = steps;
+    return status;
+}
+
+/* ---- The call ---------------------------------------------------------------------------------------------------- */
+
+/* One step towards the end or that of a hold, and on to the first crossing in it. */
+static int32_t go(hunt *h)
+{
+    dmb_sim *sim = h->sim;
+    gaps now;
+    const double goal = fmin(h->end, hold_end(sim));
+    uint64_t crossed = 0;
+    now = h->before;
+    h->located = 0.0;
+    if (goal > sim->clock->time) {
+        dmb_state_back_up(sim);
+        int32_t status = dmb_advance_once(sim, goal, &h->wanted, &h->walk);
+        if (status >= 0) status = ask(sim, &now);
+        if (status < 0) return status;
+        crossed = crossings(h, &now);
+        if (crossed) status = locate(h, &now);
+        if (status < 0) return status;
+        if (crossed) crossed = crossings(h, &now);
+    }
+    h->told = take(h, &now, crossed);
+    if (!(h->told & crossed)) h->located = 0.0;
+    h->before = now;
+    return DMB_OK;
+}
+
+static uint32_t ones(uint64_t bits)
+{
+    uint32_t count = 0;
+    for (; bits != 0; bits &= bits - 1) count++;
+    return count;
+}
+
+/* "stopped at time 1.5 by event contact, off bottom" */
+static void tell(hunt *h)
+{
+    dmb_sim *sim = h->sim;
+    dmb_message names, longer;
+    dmb_message_clear(&names);
+    for (uint32_t i = 0; i < sim->scene->event_count; i++) {
+        if (!(h->told >> i & 1)) continue;
+        dmb_message_set(&longer, "%s%s%s", names.text, names.text[0] ? ", " : "", sim->scene->events[i].name);
+        names = longer;
+    }
+    dmb_message_set(&sim->message, "stopped at time %g by event %s", sim->clock->time, names.text);
+}
+
+static int32_t report_event(const hunt *h, dmb_event_report *event)
+{
+    dmb_event_report answer = dmb_event_report_default();
+    if (event == NULL) return DMB_OK;
+    answer.count = ones(h->told);
+    answer.events = h->told;
+    answer.time = h->sim->clock->time;
+    answer.located = h->located;
+    return dmb_event_report_write(event, &answer);
+}
+
+static int32_t advance(dmb_sim *sim, double time, dmb_event_report *event, dmb_step_report *report)
+{
+    dmb_event_report unused;
+    hunt h = {.sim = sim, .end = time};
+    int32_t status = event == NULL ? DMB_OK : dmb_event_report_read(&unused, event);
+    if (status >= 0) status = dmb_walk_begin(sim, report, &h.walk);
+    if (status >= 0) status = dmb_walk_check(sim, "time", time, sim->clock->time);
+    if (status < 0) return status;
+    if (sim->scene->event_count == 0) {
+        dmb_message_set(&sim->message, "advance to event: the model has no events; add one, or call dmb_sim_advance");
+        return DMB_ERR_VALUE;
+    }
+    const double start = sim->clock->time;
+    status = ask(sim, &h.before);
+    if (status < 0) return status;
+    look_around(sim, &h.before);
+    h.wanted = dmb_advance_first(sim);
+    while (status >= 0 && sim->clock->time < time && !h.walk.stopped && h.told == 0) {
+        dmb_progress_at(sim, (sim->clock->time - start) / (time - start));
+        status = go(&h);
+        h.walk.stopped = h.walk.report.steps == sim->options.max_steps && sim->clock->time < time;
+    }
+    status = dmb_walk_end(sim, status, 0, report, &h.walk);
+    if (status < 0) return status;
+    (void)report_event(&h, event);
+    if (h.told == 0) return status;
+    tell(&h);
+    return DMB_NOTE_EVENT;
+}
+
+int32_t dmb_sim_advance_to_event(dmb_sim *sim, double time, dmb_event_report *event, dmb_step_report *report)
+{
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    return status < 0 ? status : dmb_sim_leave(sim, advance(sim, time, event, report));
+}
