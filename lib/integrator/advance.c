@@ -3,9 +3,10 @@
  * with the error ahead of the step, not its own (dmb_step_error): steps that follow the error through the zeros of an
  * oscillation change four times a period, and each change leaves a part of h_1^2 - h_2^2 of what equal steps take back
  * (THEORY 4). */
+#include "integrator/advance.h"
+
 #include "base/sized_struct.h"
 #include "integrator/corner.h"
-#include "integrator/step.h"
 #include "math/elementary.h"
 #include "sim/access.h"
 
