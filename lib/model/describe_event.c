@@ -9,12 +9,8 @@
 #include "model/limits.h"
 #include "model/model.h"
 
-DMB_DECLARE_STRUCT(dmb_event_info)
-
 /* clang-format off */
 DMB_DEFINE_INIT(dmb_event_def, 88, {.direction = DMB_EVENT_RISING, .tolerance = 1e-9})
-
-DMB_DEFINE_INIT(dmb_event_info, 96, {.direction = 0})
 /* clang-format on */
 
 static void check_hold(dmb_check *check, const dmb_event_def *def)
@@ -74,21 +70,12 @@ uint32_t dmb_model_event_count(const dmb_model *model)
     return dmb_handle_is(model, DMB_HANDLE_MODEL) ? model->events.count : 0;
 }
 
-int32_t dmb_model_get_event(const dmb_model *model, uint32_t index, dmb_event_info *info)
+int32_t dmb_model_get_event(const dmb_model *model, uint32_t index, dmb_event_def *event)
 {
-    dmb_event_info answer = dmb_event_info_default();
-    if (model == NULL || info == NULL) return DMB_ERR_NULL;
+    if (model == NULL || event == NULL) return DMB_ERR_NULL;
     if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
     if (index >= model->events.count) return DMB_ERR_ID;
-    const dmb_event_def *def = DMB_LIST_AT(const dmb_event_def, model->events, index);
-    answer.direction = def->direction;
-    answer.event = dmb_model_id(model, DMB_PART_EVENT, index);
-    memcpy(answer.name, def->name, sizeof answer.name);
-    answer.output = def->output;
-    answer.level = def->level;
-    answer.hold = def->hold;
-    answer.tolerance = def->tolerance;
-    return dmb_event_info_write(info, &answer);
+    return dmb_event_def_write(event, DMB_LIST_AT(const dmb_event_def, model->events, index));
 }
 
 int32_t dmb_model_find_event(const dmb_model *model, const char *name, dmb_id *event)

@@ -44,7 +44,7 @@ typedef struct entry {
 /* clang-format off */
 INIT(model_options) INIT(environment_def) INIT(term) INIT(wall_def) INIT(string_def) INIT(pipe_def) INIT(body_def)
 INIT(bit_def) INIT(drive_def) INIT(load_def) INIT(compile_options) INIT(model_info) INIT(sim_options)
-INIT(event_def) INIT(event_info) INIT(event_report)
+INIT(event_def) INIT(event_report)
 INIT(step_report) INIT(static_options) INIT(static_report) INIT(buckling_options) INIT(path_options) INIT(path_report)
 INIT(pose) INIT(motion) INIT(section) INIT(contact)
 INIT(contact_total) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state) INIT(statistics) INIT(recorder)
@@ -310,7 +310,7 @@ CALL(drive_def, with_model(add_drive, p))
 CALL(load_def, with_model(add_load, p))
 CALL(input_def, with_model(add_input, p))
 CALL(event_def, with_model(add_event, p))
-CALL(event_info, with_model(get_event, p))
+CALL(event_got, with_model(get_event, p))
 CALL(event_report, with_model(report_event, p))
 CALL(input_info, with_model(get_info, p))
 CALL(input_state, with_model(get_state, p))
@@ -582,7 +582,7 @@ static const entry entries[] = {
     ENTRY(spring_def, 0),
     ENTRY(spring_state, 1),
     ENTRY(event_def, 0),
-    ENTRY(event_info, 1),
+    {"event as described", sizeof(dmb_event_def), sizeof(dmb_event_def), init_event_def, call_event_got, 1},
     ENTRY(event_report, 1),
     {"advance's report", sizeof(dmb_step_report), sizeof(dmb_step_report), init_step_report, call_advance_report, 1},
 };

@@ -290,10 +290,10 @@ static void refused(void **state)
     assert_int_equal(dmb_model_add_event(s.model, &def, NULL), DMB_ERR_TOO_LARGE);
     must(dmb_model_clear_refused(s.model));
     dmb_id found;
-    dmb_event_info info = dmb_event_info_default();
+    dmb_event_def info = dmb_event_def_default();
     must(dmb_model_find_event(s.model, "event 7", &found));
     must(dmb_model_get_event(s.model, 7, &info));
-    assert_true(info.event.index == found.index && info.level == 7.1);
+    assert_true((found.index & 0xffffff) == 7 && info.level == 7.1 && strcmp(info.name, "event 7") == 0);
     assert_int_equal(dmb_model_get_event(s.model, 64, &info), DMB_ERR_ID);
     assert_int_equal(dmb_model_event_count(s.model), 64);
     start(&s, 1e-6);

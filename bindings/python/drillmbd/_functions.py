@@ -50,7 +50,6 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_energy_init": (c_int32, POINTER(Energy), c_uint32,),
     "dmb_environment_def_init": (c_int32, POINTER(EnvironmentDef), c_uint32,),
     "dmb_event_def_init": (c_int32, POINTER(EventDef), c_uint32,),
-    "dmb_event_info_init": (c_int32, POINTER(EventInfo), c_uint32,),
     "dmb_event_report_init": (c_int32, POINTER(EventReport), c_uint32,),
     "dmb_fatigue_create": (c_int32, c_void_p, POINTER(FatigueOptions), POINTER(Place), c_uint32, POINTER(c_void_p),),
     "dmb_fatigue_destroy": (None, POINTER(c_void_p),),
@@ -90,7 +89,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_event_count": (c_uint32, c_void_p,),
     "dmb_model_find_event": (c_int32, c_void_p, c_char_p, POINTER(Id),),
     "dmb_model_find_input": (c_int32, c_void_p, c_char_p, POINTER(Id),),
-    "dmb_model_get_event": (c_int32, c_void_p, c_uint32, POINTER(EventInfo),),
+    "dmb_model_get_event": (c_int32, c_void_p, c_uint32, POINTER(EventDef),),
     "dmb_model_get_info": (c_int32, c_void_p, POINTER(ModelInfo),),
     "dmb_model_get_input": (c_int32, c_void_p, c_uint32, POINTER(InputInfo),),
     "dmb_model_info_init": (c_int32, POINTER(ModelInfo), c_uint32,),
@@ -281,8 +280,6 @@ FUNCTION_DOCS = {
         "Cycles by range at the point that the result names: cycles[i] of a range of i times 2 stress_range/classes [Pa], shape (classes).",
     "dmb_fatigue_take":
         "Takes a sample; call it after each step. The sim may be another one of the same model. Allocates nothing. O(places x points).",
-    "dmb_model_add_event":
-        "Errors: ERR_VALUE for fields and a name that another event has; ERR_TOO_LARGE beyond EVENTS_MAX. An output that the scene does not have is refused by dmb_sim_create: the query's error.",
     "dmb_model_add_input":
         "Errors: ERR_ID; ERR_VALUE for bounds, limits, a name that another input has, a target that has one already; ERR_UNSUPPORTED where the part has no such target.",
     "dmb_model_add_joint":
@@ -305,16 +302,12 @@ FUNCTION_DOCS = {
         "Creates an empty model. options may be NULL. Errors: ERR_NULL, _STRUCT_SIZE, _NO_MEMORY; *model is NULL then.",
     "dmb_model_destroy":
         "Gives up the caller's hold and sets *model to NULL; sims made from the model keep it alive. The hold is one: while they do, copies of the handle are refused (ERR_HANDLE) and destroying through them does nothing. Nor does it within a call that describes or compiles the model (by its allocator or log), where such calls give ERR_ORDER. NULL-safe.",
-    "dmb_model_event_count":
-        "As of inputs.",
-    "dmb_model_find_input":
-        "The input of that name. ERR_ID where there is none.",
+    "dmb_model_get_event":
+        "as of inputs; get: as described",
     "dmb_model_get_info":
         "Counts of a compiled model. Errors: ERR_ORDER before compile.",
-    "dmb_model_get_input":
-        "Input number `index` in the order of description. Errors: ERR_NULL, _HANDLE, _STRUCT_SIZE, _ID (no such input).",
     "dmb_model_input_count":
-        "[-] inputs described so far; 0 for what is no model.",
+        "[-] inputs described so far; 0 for what is no model. Number `index` in that order, by name: ERR_ID for none.",
     "dmb_model_message":
         "Message of the last failing or noteworthy call on this model: \"part, field, value, bound\". Never NULL; lives until the next call on the model. A compiled model shared between threads keeps the message of its compilation; after a dmb_sim_create that failed, the thread that called it reads the reason here, until its next create of the model.",
     "dmb_modes_destroy":
@@ -396,15 +389,13 @@ FUNCTION_DOCS = {
     "dmb_sim_advance":
         "Advances to `time` [s] with steps chosen to hold the local error tolerances, bounded_work or not. NOTE_TOLERANCE where a step of step_min was too long for them, NOTE_STOPPED after max_steps, NOTE_CANCELLED. Errors as dmb_sim_step; the state is then the last accepted one, whose time dmb_sim_time tells.",
     "dmb_sim_advance_to_event":
-        "As dmb_sim_advance, but ends at the first event on the way, NOTE_EVENT; dmb_sim_message names those told. What is beyond its level when the call begins is told when it has come back and crosses again; a `hold` that began in a call before goes on. Costs a copy of the state a step, and some six more steps for each crossing. Either report may be NULL. Errors: as dmb_sim_advance, with the state the last accepted one, before any crossing that was not located; ERR_VALUE without events.",
+        "As dmb_sim_advance, but ends at the first event on the way: NOTE_EVENT, dmb_sim_message names those told. One that is beyond its level at the start is told when it has come back and crosses again; a `hold` goes on from call to call. Costs a copy of the state a step and some six steps a crossing. Reports may be NULL. ERR_VALUE without events.",
     "dmb_sim_create":
         "Makes a sim at time 0 in the described pose and speed. options may be NULL. NOTE_PROJECTED when initial velocities did not fit the allowed motion; dmb_sim_message tells by how much. Errors (dmb_model_message says why): _ORDER, _VALUE, _NO_MEMORY, _CALLBACK, _ROTATION, _GEOMETRY (joints that cannot be closed); *sim is NULL then. The sim holds the model until it is destroyed. O(number of elements).",
     "dmb_sim_create_in":
         "The same in the caller's block of at least dmb_sim_memory_size bytes, any alignment; the allocator is not used.",
     "dmb_sim_destroy":
         "Gives the memory back and sets *sim to NULL; does nothing within a call on this sim. NULL-safe.",
-    "dmb_sim_get_input":
-        "Errors: ERR_NULL, _HANDLE, _STRUCT_SIZE, _ID, _CALLBACK.",
     "dmb_sim_hash":
         "FNV-1a hash of all that changes; equal states give equal hashes on one build.",
     "dmb_sim_memory_size":
@@ -412,17 +403,13 @@ FUNCTION_DOCS = {
     "dmb_sim_message":
         "Message of the last failing or noteworthy call on this sim. Never NULL; lives until the next call on the sim.",
     "dmb_sim_record_inputs":
-        "From now on what is set is written into `records`, shape (capacity), which the caller keeps alive; from its beginning on. NULL with 0: no more. A call that sets more than there is room for sets it and returns NOTE_FULL. The log is neither saved in snapshots nor hashed. Errors: ERR_NULL, _HANDLE, _ORDER.",
-    "dmb_sim_recorded_inputs":
-        "[-] records written since then; 0 for what is no sim.",
+        "From now on what is set goes into `records`, shape (capacity), which the caller keeps alive; NULL with 0: no more. A call that has no room left sets all the same: NOTE_FULL. The log is neither saved in snapshots nor hashed.",
     "dmb_sim_replay_inputs":
         "Sets what the log has from record *next on up to the present time, call by call, and moves *next beyond what is set. Called before each step of a run that steps as the recorded one did, it gives the same states, bit for bit. Errors: as dmb_sim_set_inputs, with *next at the call that was refused; ERR_VALUE too for times that decrease.",
     "dmb_sim_set_drive":
         "From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For DRIVE_LOAD and DRIVE_CONTROL; accelerations are made to fit the jump. ERR_UNSUPPORTED for DRIVE_MOTION, whose speed may not jump, and where an input moves the set point (control.h).",
     "dmb_sim_set_input":
-        "From now on the input is `value`, or goes there within its limits; accelerations are made to fit what jumps. A change of density changes the energy of weight, which counts as work of loads. NOTE_CLAMPED where the bound was taken instead. Setting what is set already does nothing. Errors, which change nothing: ERR_ID, _NOT_FINITE, _VALUE (bounds; limit_low not below limit_high), _CALLBACK, _SINGULAR. O(number of elements).",
-    "dmb_sim_set_inputs":
-        "Several at once, all or none, arrays of shape (count); of one named twice the last counts.",
+        "From now on the inputs, shape (count), have these values, or go there within their limits; all or none; accelerations are made to fit what jumps. A change of density changes the energy of weight, which counts as work of loads. NOTE_CLAMPED where a bound was taken instead. Setting what is set already does nothing. Errors, which change nothing: ERR_ID, _NOT_FINITE, _VALUE (bounds; limits of a drive), _CALLBACK, _SINGULAR. O(elements).",
     "dmb_sim_set_joint":
         "From now on the joint is JOINT_ACTIVE, _LOCKED (where it is) or _OPEN. Speeds that no longer fit change by the impulse of least kinetic energy (NOTE_PROJECTED; dmb_sim_message tells by how much), accelerations are made anew. That energy, and what springs and stops that are let go or taken up store, goes to `impact`. Couplings and drives of an open joint do not act: a drive follows the coordinate and goes on from where it is when the joint closes; a coupling keeps what it kept, so a gear that has slipped meanwhile cannot close. A joint that a motion drive moves cannot be locked. Errors, which change nothing: ERR_ID, _VALUE; _GEOMETRY: the joint's parts or couplings do not fit within 1e-6 m and rad, or its frames point against each other where it keeps them parallel; a drive's speed cannot be had; _SINGULAR, _NO_CONVERGENCE, _CALLBACK, _NOT_FINITE.",
     "dmb_sim_set_progress":

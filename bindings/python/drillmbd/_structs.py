@@ -1009,14 +1009,14 @@ class InputState(Sized):
     field_docs = {
         "is_set": ("", "0: its programme is in force, since it was not set yet"),
         "value": ("unit", "what is set; of a programme its value now"),
-        "present": ("unit", "in force now, on the way to `value`"),
-        "rate": ("unit/s", "of it"),
+        "present": ("unit, unit/s", "in force now, on the way to `value`"),
+        "rate": ("unit, unit/s", "in force now, on the way to `value`"),
         "arrives": ("s", "time at which it is or was there; 0 of a programme"),
     }
 
 
 class InputRecord(Record):
-    c_name, about = "dmb_input_record", "Input log: what was set when, in the caller's memory"
+    c_name, about = "dmb_input_record", ""
     time: float
     value: float
     input: int
@@ -1028,8 +1028,8 @@ class InputRecord(Record):
         ("call", c_uint32),
     ]
     field_docs = {
-        "time": ("s", "of the sim when it was set"),
-        "value": ("unit of the input", "as taken, clamped where it was"),
+        "time": ("s", "of the sim, [unit of the input] as taken, clamped where it was"),
+        "value": ("s", "of the sim, [unit of the input] as taken, clamped where it was"),
         "input": ("-", "number of the input in the order of description"),
         "call": ("-", "number of the call that set it: those of one call are set at once"),
     }
@@ -2250,10 +2250,10 @@ class InputDef(Sized):
         "target": ("", "TARGET_..., default TARGET_SET_POINT"),
         "name": ("", "required, of its own among the inputs, ends with 0"),
         "part": ("", "drive, load or bit; {0, 0} of wall and environment"),
-        "initial": ("unit of the target", "at time 0, within the bounds; NaN (default): as described, which for a set point, load factor and bit load is its programme, until the input is set"),
+        "initial": ("unit of the target", "at time 0, within the bounds; NaN (default): as described, which for 0, 5 and 6 is the programme, until the input is set"),
         "low": ("unit of the target", "bounds, low <= high; default -1e30 and 1e30: as far as the target goes"),
         "high": ("unit of the target", "bounds, low <= high; default -1e30 and 1e30: as far as the target goes"),
-        "rate_limit": ("unit/s", "of a set point, load factor or bit load: the most it changes in a second, > 0; 0 (default): it jumps. Required for the set point of a MOTION drive: largest acceleration"),
+        "rate_limit": ("unit/s", "of 0, 5, 6: the most it changes in a second, > 0; 0 (default): it jumps. Required for the set point of a MOTION drive: largest acceleration"),
         "slope_limit": ("unit/s2", "the most that rate changes in a second, > 0 (largest jerk); 0 (default): it jumps. The value then gets to what is set in the least time that both limits allow"),
         "outside": ("", "OUTSIDE_...: a value beyond the bounds is refused (default) or taken for the bound"),
     }
@@ -2289,10 +2289,10 @@ class InputInfo(Sized):
         "part": ("", ""),
         "name": ("", ""),
         "unit": ("", "\"rad/s\", \"-\", ... ends with 0"),
-        "low": ("unit", "in force: the narrower of its own bounds and those of the target"),
-        "high": ("unit", "in force: the narrower of its own bounds and those of the target"),
-        "rate_limit": ("unit/s, unit/s2", "0: none"),
-        "slope_limit": ("unit/s, unit/s2", "0: none"),
+        "low": ("", "bounds in force: the narrower of its own and those of the target"),
+        "high": ("", "bounds in force: the narrower of its own and those of the target"),
+        "rate_limit": ("", "bounds in force: the narrower of its own and those of the target"),
+        "slope_limit": ("", "bounds in force: the narrower of its own and those of the target"),
     }
 
 
@@ -2816,41 +2816,10 @@ class EventDef(Sized):
     field_docs = {
         "direction": ("", "EVENT_..., default EVENT_RISING"),
         "name": ("", "required, of its own among the events, ends with 0"),
-        "output": ("", "as of a recorder"),
+        "output": ("", "as of a recorder; what the scene does not have dmb_sim_create refuses"),
         "level": ("unit of the output", "default 0"),
-        "hold": ("s", "it is told when the output has stayed beyond the level for so long, >= 0 and 0 with EVENT_EITHER; default 0"),
+        "hold": ("s", "told when the output has stayed beyond so long, >= 0, 0 with EITHER; default 0"),
         "tolerance": ("s", "1e-12 .. 1, default 1e-9; no less than the rounding of time allows"),
-    }
-
-
-class EventInfo(Sized):
-    c_name, about = "dmb_event_info", ""
-    struct_size: int
-    direction: int
-    event: Id
-    name: bytes
-    output: Channel
-    level: float
-    hold: float
-    tolerance: float
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("direction", c_int32),
-        ("event", Id),
-        ("name", c_char * 24),
-        ("output", Channel),
-        ("level", c_double),
-        ("hold", c_double),
-        ("tolerance", c_double),
-    ]
-    field_docs = {
-        "direction": ("", ""),
-        "event": ("", ""),
-        "name": ("", ""),
-        "output": ("", ""),
-        "level": ("", "as described"),
-        "hold": ("", "as described"),
-        "tolerance": ("", "as described"),
     }
 
 
@@ -2924,7 +2893,6 @@ STRUCTS["dmb_input_info"] = InputInfo
 STRUCTS["dmb_input_state"] = InputState
 STRUCTS["dmb_input_record"] = InputRecord
 STRUCTS["dmb_event_def"] = EventDef
-STRUCTS["dmb_event_info"] = EventInfo
 STRUCTS["dmb_event_report"] = EventReport
 STRUCTS["dmb_operation"] = Operation
 STRUCTS["dmb_torque_drag_options"] = TorqueDragOptions

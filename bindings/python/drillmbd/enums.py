@@ -786,19 +786,19 @@ CHANNEL_WINDOW_LOW_SHARE = Reading.WINDOW_LOW_SHARE
 
 class InputTarget(IntEnum):
     """Values DMB_TARGET_... of the headers."""
-    SET_POINT = 0  #: of a drive: the value in the place of its programme; its excitation goes on
-    GAIN = 1  #: [N s/m, N m s] of a CONTROL drive, >= 0
-    INTEGRAL_GAIN = 2  #: [N/m, N m] of a CONTROL drive, >= 0
-    LIMIT_LOW = 3  #: [N, N m] of a CONTROL drive; below its limit_high
-    LIMIT_HIGH = 4  #: [N, N m] of a CONTROL drive; above its limit_low
-    LOAD_FACTOR = 5  #: [-] of a load, in the place of its programme
-    BIT_LOAD = 6  #: [N] bottom-hole load of a bit, in the place of its programme
-    FRICTION = 7  #: [-] factor >= 0 of both friction coefficients of the wall; 1: as described
-    FLUID_DENSITY = 8  #: [kg/m3] >= 0 of the environment
-    LATERAL_DAMPING = 9  #: [N s/m2] >= 0 of the environment
-    AXIAL_DAMPING = 10  #: [N s/m2] >= 0 of the environment
-    TORSIONAL_DAMPING = 11  #: [N s] >= 0 of the environment
-    COUNT = 12
+    SET_POINT = 0  #: of a drive, in the place of its programme; its excitation goes on
+    GAIN = 1
+    INTEGRAL_GAIN = 2  #: [N s/m, N m s], [N/m, N m] >= 0
+    LIMIT_LOW = 3
+    LIMIT_HIGH = 4  #: [N, N m] the first below the second
+    LOAD_FACTOR = 5
+    BIT_LOAD = 6  #: [-] of a load, [N] of a bit, in the place of its programme
+    FRICTION = 7
+    FLUID_DENSITY = 8  #: [-] factor of both coefficients of the wall, [kg/m3]
+    LATERAL_DAMPING = 9
+    AXIAL_DAMPING = 10  #: [N s/m2]
+    TORSIONAL_DAMPING = 11
+    COUNT = 12  #: [N s]
 
 
 TARGET_SET_POINT = InputTarget.SET_POINT
@@ -828,9 +828,9 @@ OUTSIDE_CLAMPED = Outside.CLAMPED
 
 class EventDirection(IntEnum):
     """Values DMB_EVENT_... of the headers."""
-    EITHER = 0  #: from one side of the level to the other; a start on the level itself is on no side
-    RISING = 1  #: to above the level, from it or from below
-    FALLING = 2  #: to below the level, from it or from above
+    EITHER = 0
+    RISING = 1
+    FALLING = 2
 
 
 EVENT_EITHER = EventDirection.EITHER
@@ -840,7 +840,7 @@ EVENT_FALLING = EventDirection.FALLING
 
 class Events(IntEnum):
     """Values DMB_EVENTS_... of the headers."""
-    MAX = 64  #: of one model
+    MAX = 64
 
 
 EVENTS_MAX = Events.MAX

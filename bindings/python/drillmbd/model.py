@@ -9,7 +9,7 @@ from ._keep import Keep, as_id, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._record import Record
 from ._structs import (BitDef, BodyDef, Channel, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef,
-                       EventDef, EventInfo, HolePoint, Id, InputDef, InputInfo, JointDef, LoadDef, ModelInfo,
+                       EventDef, HolePoint, Id, InputDef, InputInfo, JointDef, LoadDef, ModelInfo,
                        ModelOptions, PipeDef, Place, SimOptions, SpringDef, StringDef, Term, WallDef)
 
 if TYPE_CHECKING:
@@ -206,9 +206,9 @@ class Model:
         """The names of the events, in the order of description."""
         found = []
         for index in range(_lib.dmb_model_event_count(self._handle)):
-            info: EventInfo = EventInfo.blank()
-            self._check(_lib.dmb_model_get_event(self._handle, index, byref(info)))
-            found.append(info.name.decode())
+            event = EventDef()
+            self._check(_lib.dmb_model_get_event(self._handle, index, byref(event)))
+            found.append(event.name.decode())
         return found
 
     def inputs(self) -> dict[str, InputInfo]:
