@@ -160,7 +160,7 @@ static void refusals(void **state)
     REFUSED(DMB_ERR_VALUE, j.options.tolerance = 0.0, "tolerance");
     REFUSED(DMB_ERR_VALUE, j.options.floor = 0.0, "floor");
     REFUSED(DMB_ERR_STRUCT_SIZE, j.options.struct_size = 1, "struct_size");
-    REFUSED(DMB_ERR_VALUE, j.output.kind = 15, "output 0: kind");
+    REFUSED(DMB_ERR_VALUE, j.output.kind = 16, "output 0: kind");
     REFUSED(DMB_ERR_VALUE, j.output.place.pipe = 5, "output 0: place, pipe 5");
 #undef REFUSED
     j = good;
