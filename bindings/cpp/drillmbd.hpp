@@ -132,6 +132,10 @@ public:
         return id;
     }
     dmb_id add_wall(const dmb_wall_def &def) { return add(dmb_model_add_wall, def); }
+    void add_hole_sections(const dmb_hole_section *sections, std::uint32_t count)
+    {
+        done(dmb_model_add_hole_sections(handle_, sections, count));
+    }
     dmb_id add_string(const dmb_string_def &def) { return add(dmb_model_add_string, def); }
     dmb_id add_body(const dmb_body_def &def) { return add(dmb_model_add_body, def); }
     dmb_id add_bit(const dmb_bit_def &def) { return add(dmb_model_add_bit, def); }

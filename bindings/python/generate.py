@@ -27,7 +27,7 @@ ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "TERM_C
               "MODES_LOWEST": "ModesSelect",
               "MODES_AXES_TURNING": "ModesAxes", "MODES_AXES_TURNING": "ModesAxes",
               "OPERATION_PICK_UP": "OperationKind", "MEASURED_HOOK_LOAD": "Measured",
-              "PROFILE_DISTANCE": "ProfileQuantity", "HOLE_ABOVE": "HoleBeyond",
+              "PROFILE_DISTANCE": "ProfileQuantity", "HOLE_ABOVE": "HoleBeyond", "HOLE_STEP": "HoleShape",
               "EVENT_EITHER": "EventDirection",
               "STATIC_NEWTON": "StaticMethod", "METHOD_INDEPENDENT": "ConstraintMethod",
               "BUCKLING_EXTRAPOLATED": "BucklingEnd", "SPRING_BOTH": "SpringActs", "TABLE_LINES": "TableKind", "SCALE_ALL": "Scale"}

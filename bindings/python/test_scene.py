@@ -52,6 +52,18 @@ survey = [["0 m", "90 deg", 0], ["30 m", "92 deg", "2 deg"]]
 exponent = 1.5
 stiffness = "2e9 N/m^2.5"
 friction_law = "bristle"
+[[hole.section]]
+depth = "10 m"
+name = "open"
+diameter = "0.11 m"
+stiffness = "1e9 N/m^2.5"
+[[hole.section]]
+shape = "line"
+depth = "20 m"
+strength = "40 MPa"
+[[hole.section]]
+depth = "25 m"
+mu_dynamic = 0.2
 [[programme]]
 name = "shake"
 term = [{kind = "harmonic", h1 = "3 N", omega = "300 rpm", phase = "90 deg"}, {table = [[0, 0], ["1 s", "5 N"]]}]

@@ -40,11 +40,12 @@ typedef struct dmb_torque_drag_options {
     int32_t post_buckling; /* 1 (default): a helix presses r F^2/(4 EI) per metre more on the wall (Mitchell 1986) where
                               the compression F is above the load of helical buckling; 0: not */
     dmb_id string;         /* {0, 0}: the model's first string */
-    double friction;       /* [-] coefficient of all the hole, 0 .. 10; -1 (default): the wall's mu_dynamic */
+    double friction; /* [-] coefficient of all the hole, 0 .. 10; -1 (default): the wall's mu_dynamic at each depth */
     const double *depths; /* [m] measured depths of the string's far end, shape (depth_count), beyond its start_depth by
                              at most its length; NULL: one, where it ends as described */
     uint32_t depth_count; /* [-] 1 .. 2^20; default 1 */
-    uint32_t reserved;
+    int32_t friction_by_depth; /* of dmb_analysis_friction_factor: 0 (default): it finds one coefficient for all the
+                                  hole; 1: the factor on the wall's mu_dynamic at each depth (hole.h) */
 } dmb_torque_drag_options;
 DMB_SIZED_STRUCT(dmb_torque_drag_options)
 
@@ -90,9 +91,9 @@ DMB_API int32_t dmb_analysis_torque_drag_profile(dmb_sim *sim, const dmb_torque_
                                                  double *axial_force, double *torque, double *wall_force);
 
 enum { DMB_MEASURED_HOOK_LOAD = 0, DMB_MEASURED_TORQUE = 1 };
-/* The friction coefficient, 0 .. 10, that explains a hook load [N] or torque [N m] measured at the rig in one operation
- * at the first of the depths. DMB_ERR_VALUE where none does: the message tells the range. About 60 times the work of a
- * row. */
+/* The friction coefficient, 0 .. 10 (or factor, friction_by_depth), that explains a hook load [N] or torque [N m]
+ * measured at the rig in one operation at the first of the depths. DMB_ERR_VALUE where none does: the message tells the
+ * range. About 60 times the work of a row. */
 DMB_API int32_t dmb_analysis_friction_factor(dmb_sim *sim, const dmb_torque_drag_options *options,
                                              const dmb_operation *operation, int32_t measured, double value,
                                              double *friction);

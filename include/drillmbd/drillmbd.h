@@ -7,6 +7,7 @@
 #include "control.h"
 #include "drilling.h"
 #include "forces.h"
+#include "hole.h"
 #include "model.h"
 #include "modes.h"
 #include "output.h"

@@ -62,6 +62,7 @@ typedef struct dmb_contact {
     double friction[2];  /* [N] on the pipe: along its axis, along axis x normal; after a static start that assumed a
                             slip (dmb_static_options) what its equilibrium took, until the next step; shape (2) */
     double slip[2];      /* [m/s] of the contact point on the wall, same directions, shape (2) */
+    double along;        /* [N] on the pipe along its axis where the wall's diameter or stiffness changes (hole.h) */
 } dmb_contact;
 DMB_SIZED_STRUCT(dmb_contact)
 /* Contact of one site, sites counted along the strings and then the bodies. */
@@ -204,7 +205,16 @@ typedef struct dmb_hole_point {
     double dogleg_severity; /* [deg/30m] the same in the drillers' unit */
     double inclination;     /* [rad] from the downward vertical, 0 .. pi */
     double azimuth;         /* [rad] from +x towards +y, -pi .. pi; 0 where the hole is vertical */
-    double diameter;        /* [m] */
+    double diameter;        /* [m] and the wall's other constants here (hole.h): */
+    double stiffness;       /* [N/m^(n+1)] per metre of pipe */
+    double restitution;     /* [-] */
+    double damping;         /* [N s/m2] per metre of pipe */
+    double mu_static;       /* [-] */
+    double mu_dynamic;      /* [-] */
+    double strength;        /* [Pa] of a section; 0: not told */
+    int32_t section;        /* number of the last section that begins at or above the depth; -1: none */
+    uint32_t reserved;
+    char section_name[24];
 } dmb_hole_point;
 DMB_SIZED_STRUCT(dmb_hole_point)
 /* The axis at a measured depth [m], by minimum curvature (Taylor, Mason 1972) between stations. A compiled model;

@@ -38,7 +38,9 @@ int32_t dmb_hole_setup_straight(dmb_hole *hole, const double origin[3], const do
     if (!normalise(unit)) return DMB_ERR_VALUE;
     hole->station = NULL;
     hole->stations = 0;
-    hole->reserved = 0;
+    hole->pieces = 0;
+    hole->piece = NULL;
+    hole->friction = 1.0;
     dmb_vec3_copy(origin, hole->origin);
     dmb_vec3_copy(unit, hole->direction);
     hole->radius = radius;
@@ -132,7 +134,9 @@ int64_t dmb_hole_setup_survey(dmb_hole *hole, uint32_t stations, const double *s
     if (bad >= 0) return bad;
     hole->station = storage;
     hole->stations = stations;
-    hole->reserved = 0;
+    hole->pieces = 0;
+    hole->piece = NULL;
+    hole->friction = 1.0;
     dmb_vec3_copy(storage->point, hole->origin);
     dmb_vec3_copy(storage->tangent, hole->direction);
     hole->radius = radius;

@@ -19,13 +19,17 @@ typedef struct dmb_hole_station {
     double normal[3];  /* [-] unit, towards the centre of the arc; 0 where straight */
 } dmb_hole_station;
 
+typedef struct dmb_hole_piece dmb_hole_piece; /* force/hole_section.h */
+
 typedef struct dmb_hole {
     const dmb_hole_station *station; /* shape (stations), the caller's; NULL for a straight hole */
     uint32_t stations;               /* [-] 0 for a straight hole */
-    uint32_t reserved;
-    double origin[3];    /* [m] where measured depth is 0 on a straight hole, world frame */
-    double direction[3]; /* [-] unit, of a straight hole */
-    double radius;       /* [m] */
+    uint32_t pieces;                 /* [-] 0: the same wall everywhere */
+    double origin[3];                /* [m] where measured depth is 0 on a straight hole, world frame */
+    double direction[3];             /* [-] unit, of a straight hole */
+    double radius;                   /* [m]; where there are pieces, above them */
+    const dmb_hole_piece *piece;     /* shape (pieces), the caller's */
+    double friction;                 /* [-] factor on the friction of the pieces; 1 but for inputs */
 } dmb_hole;
 
 static inline int32_t dmb_hole_is_straight(const dmb_hole *hole)

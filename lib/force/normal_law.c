@@ -103,6 +103,22 @@ dmb_normal_law dmb_normal_law_of(dmb_normal_law law, double restitution)
     return law;
 }
 
+/* EXACT by (1): with F = ln(1 + mu) - mu - ln(1 - mu e) - mu e, dmu/de = -F_e/F_mu. */
+double dmb_normal_factor_slope(const dmb_normal_law *law, double e)
+{
+    const double mu = law->mu;
+    switch (law->kind) {
+    case DMB_NORMAL_HUNT_CROSSLEY: return -1.5;
+    case DMB_NORMAL_LANKARANI_NIKRAVESH: return -1.5 * e;
+    case DMB_NORMAL_FLORES: return e > DMB_RESTITUTION_FLOOR ? -1.6 / (e * e) : 0.0;
+    case DMB_NORMAL_EXACT: {
+        const double by_e = mu * mu * e / (1.0 - mu * e), by_mu = e * e * mu / (1.0 - mu * e) - mu / (1.0 + mu);
+        return e > DMB_RESTITUTION_FLOOR && e < 1.0 && by_mu != 0.0 ? -by_e / by_mu : 0.0;
+    }
+    default: return 0.0;
+    }
+}
+
 void dmb_normal_force(const dmb_normal_law *law, double depth, double rate, double approach_speed, double *force,
                       double *d_depth, double *d_rate)
 {

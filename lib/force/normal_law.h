@@ -28,6 +28,9 @@ dmb_normal_law dmb_normal_law_of(dmb_normal_law law, double restitution);
  * mu (1 + e) = ln((1 + mu)/(1 - mu e)). To 1e-15 relative. e >= 1 gives 0; e below 1e-6 (or NaN) counts as 1e-6. */
 double dmb_exact_restitution_factor(double e);
 
+/* d mu/d restitution of a law whose mu is that of the restitution e. */
+double dmb_normal_factor_slope(const dmb_normal_law *law, double e);
+
 /* Force [N/m, >= 0, pushing the bodies apart] at penetration depth [m] growing at rate [m/s], and its derivatives
  * [N/m2] and [N s/m2]. approach_speed [m/s]: d' at first touch, kept by the caller. 0 with zero derivatives for depth
  * <= 0 and where the law would pull. NaN in, NaN out. */

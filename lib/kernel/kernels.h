@@ -101,6 +101,7 @@ typedef struct dmb_wall_job {
     const double *site_return;                          /* [m/s] a ring that opens in the step left the wall; else 0 */
     dmb_site_fields trial;                              /* written */
     double slip[2];                                     /* [m/s, rad/s] in statics */
+    double softer;                                      /* [-] stiffness of sections is divided by it */
     double step, velocity_factor;                       /* as in dmb_evaluation, as are: */
     int32_t dynamic, tangent;
     double *residual, *scale;                     /* added to */

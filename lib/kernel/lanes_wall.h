@@ -6,6 +6,7 @@
 #include "element/beam_math.h"
 #include "force/contact_law.h"
 #include "force/hole.h"
+#include "force/section_contact.h"
 #include "kernel/kernels.h"
 #include "kernel/lane_group.h"
 #include "math/so3.h"
@@ -18,7 +19,29 @@ typedef struct wall_group {
     dmb_real R[9], normal[3], tangent[3], bend[3]; /* bend: [rad/m] body axes, of a hole that is not straight */
     dmb_real penetration, approach;
     dmb_contact_frame frame;
+#if DMB_REAL_LANES == 1
+    dmb_section_contact section; /* of a hole of sections, whose rings come one by one */
+#endif
 } wall_group;
+
+/* In a hole of sections each ring has laws of its own. */
+#if DMB_REAL_LANES == 1
+static inline int has_sections(const dmb_wall_job *job)
+{
+    return job->hole->pieces > 0;
+}
+static inline const dmb_normal_law *normal_law_of(const dmb_wall_job *job, const wall_group *g)
+{
+    return has_sections(job) ? &g->section.wall.normal : job->normal_law;
+}
+static inline const dmb_friction_law *friction_law_of(const dmb_wall_job *job, const wall_group *g)
+{
+    return has_sections(job) ? &g->section.wall.friction : job->friction_law;
+}
+#else
+#define normal_law_of(job, g) ((job)->normal_law)
+#define friction_law_of(job, g) ((job)->friction_law)
+#endif
 
 static inline void load_sites(const dmb_wall_job *job, wall_group *g)
 {
@@ -97,6 +120,9 @@ static inline dmb_real speed_before(const dmb_wall_job *job, const wall_group *g
     dmb_arm_velocity(g->offset, V);
     dmb_quat_to_matrix(q, R);
     dmb_mat3_vec(R, V, V);
+#if DMB_REAL_LANES == 1
+    if (has_sections(job)) return dmb_vec3_dot(g->normal, V) - g->section.rho * dmb_vec3_dot(g->tangent, V);
+#endif
     return dmb_vec3_dot(g->normal, V);
 }
 
@@ -117,6 +143,23 @@ static inline void approach_speed(const dmb_wall_job *job, wall_group *g)
     g->approach = dmb_real_select(touches, closed, dmb_real_select(touched, approach, g->frame.speed[0]));
 }
 
+#if DMB_REAL_LANES == 1
+/* The wall at the ring, and the speed at which it goes in. */
+static inline void enter_section(const dmb_wall_job *job, wall_group *g)
+{
+    static const dmb_friction_law none = {.kind = DMB_FRICTION_NONE};
+    const dmb_hole *hole = job->hole;
+    const dmb_friction_law *friction = job->friction_law != NULL ? job->friction_law : &none;
+    const double depth = job->trial.depth[g->site.place[0]];
+    dmb_vec3_zero(g->section.curvature);
+    if (!dmb_hole_is_straight(hole)) dmb_vec3_cross(g->bend, g->frame.t, g->section.curvature);
+    dmb_local_wall_at(hole, job->normal_law, friction, depth, job->softer, &g->section.wall);
+    dmb_section_contact_at(&g->frame, &g->section);
+    g->clearance = g->section.wall.radius - g->frame.radius;
+    if (job->dynamic) g->frame.speed[0] -= g->section.rho * dmb_vec3_dot(g->frame.t, g->frame.V);
+}
+#endif
+
 /* Where the rings are and how they move; what the trial keeps of it. */
 static inline void place_rings(const dmb_wall_job *job, wall_group *g)
 {
@@ -128,6 +171,9 @@ static inline void place_rings(const dmb_wall_job *job, wall_group *g)
         dmb_contact_speeds(&g->frame);
     else
         dmb_contact_static_speeds(job->slip, &g->frame);
+#if DMB_REAL_LANES == 1
+    if (has_sections(job)) enter_section(job, g);
+#endif
     g->penetration = g->frame.distance - g->clearance;
     approach_speed(job, g);
     store_line(g->penetration, &g->site, job->trial.penetration);
@@ -156,8 +202,8 @@ static inline void bristles(const dmb_wall_job *job, const wall_group *g, dmb_re
     for (int l = 0; l < DMB_REAL_LANES; l++)
         dmb_real_set_lane(&stuck, l, job->now.sticks[g->site.place[l]] ? 1.0 : 0.0);
     const dmb_mask sticks =
-        dmb_friction_bristle(job->friction_law, N, v, z_old, v_old, dmb_mask_less(dmb_real_of(0.0), stuck), job->step,
-                             z, F, by_speed, by_normal);
+        dmb_friction_bristle(friction_law_of(job, g), N, v, z_old, v_old, dmb_mask_less(dmb_real_of(0.0), stuck),
+                             job->step, z, F, by_speed, by_normal);
     store(z, 2, &g->site, job->trial.bristle);
     for (uint32_t l = 0; l < g->site.used; l++) job->trial.sticks[g->site.place[l]] = dmb_mask_bits(sticks) >> l & 1;
 }
@@ -169,7 +215,7 @@ static inline void add_friction(const dmb_wall_job *job, const wall_group *g, dm
     if (job->friction_law->kind == DMB_FRICTION_BRISTLE && job->dynamic)
         bristles(job, g, -c->F[0], F, by_speed, by_normal);
     else
-        dmb_friction_smooth(job->friction_law, -c->F[0], g->frame.speed + 1, F,
+        dmb_friction_smooth(friction_law_of(job, g), -c->F[0], g->frame.speed + 1, F,
                             job->tangent && job->dynamic ? by_speed : NULL, by_normal);
     dmb_contact_add_friction(F, by_speed, by_normal, c);
 }
@@ -192,9 +238,15 @@ static inline void add_tangent(const dmb_wall_job *job, const wall_group *g, uin
     dmb_real K[36];
     dmb_contact_pose_tangent(&g->frame, c, wrench, friction, K);
     if (!dmb_hole_is_straight(job->hole)) dmb_contact_add_bend(&g->frame, c, g->bend, wrench, friction, K);
+#if DMB_REAL_LANES == 1
+    if (has_sections(job)) dmb_section_pose_tangent(&g->frame, c, &g->section, g->bend, friction, K);
+#endif
     subtract_blocks(job, g, touching, arms, K, job->stiffness);
     if (!job->dynamic) return;
     dmb_contact_velocity_tangent(&g->frame, c, job->velocity_factor, friction, K);
+#if DMB_REAL_LANES == 1
+    if (has_sections(job)) dmb_section_velocity_tangent(&g->frame, c, &g->section, job->velocity_factor, friction, K);
+#endif
     subtract_blocks(job, g, touching, arms, K, job->inertia);
 }
 
@@ -236,7 +288,19 @@ static inline void add_forces(dmb_wall_job *job, const wall_group *g, uint32_t t
     }
 }
 
-static inline void press(dmb_wall_job *job, const wall_group *g, uint32_t touching)
+#if DMB_REAL_LANES == 1
+/* The part along the axis; what the laws change by with the depth. */
+static inline void press_section(dmb_wall_job *job, wall_group *g, const dmb_contact_force *c, double wrench[6])
+{
+    const int memory = job->dynamic && job->friction_law != NULL && job->friction_law->kind == DMB_FRICTION_BRISTLE;
+    dmb_section_force(&g->frame, c, g->length, fmax(g->penetration, DMB_CONTACT_PENETRATION), g->approach, memory,
+                      job->friction_law != NULL, &g->section);
+    dmb_vec3_axpy(g->section.along, g->frame.t, wrench);
+    if (job->dynamic) job->potential -= g->section.stored * g->section.advance * dmb_vec3_dot(g->frame.t, g->frame.V);
+}
+#endif
+
+static inline void press(dmb_wall_job *job, wall_group *g, uint32_t touching)
 {
     const int friction = job->friction_law != NULL;
     const int arms =
@@ -244,10 +308,13 @@ static inline void press(dmb_wall_job *job, const wall_group *g, uint32_t touchi
     dmb_contact_force c;
     dmb_real wrench[6];
     c.F[1] = c.F[2] = dmb_real_of(0.0);
-    dmb_contact_normal_force(job->normal_law, &g->frame, g->length,
+    dmb_contact_normal_force(normal_law_of(job, g), &g->frame, g->length,
                              dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->approach, &c);
     if (friction) add_friction(job, g, &c);
     dmb_contact_wrench(&g->frame, &c, friction, wrench);
+#if DMB_REAL_LANES == 1
+    if (has_sections(job)) press_section(job, g, &c, wrench);
+#endif
     if (job->tangent) add_tangent(job, g, touching, arms, &c, wrench);
     dmb_arm_wrench(g->offset, wrench);
     add_forces(job, g, touching, &c, wrench);

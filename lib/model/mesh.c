@@ -1,5 +1,7 @@
 #include "model/mesh.h"
 
+#include "force/hole_section.h"
+
 #include <math.h>
 
 #include "base/checked_size.h"
@@ -12,6 +14,7 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
         .model = model,
         .options = *options,
         .stations = {.item_size = sizeof(dmb_hole_station)},
+        .pieces = {.item_size = sizeof(dmb_hole_piece)},
         .run_order = {.item_size = sizeof(uint32_t)},
         .run_start = {.item_size = sizeof(uint32_t)},
         .nodes = {.item_size = sizeof(dmb_mesh_node)},
@@ -47,12 +50,12 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
 void dmb_mesh_release(dmb_mesh *mesh)
 {
     dmb_vector *const all[] = {
-        &mesh->stations,      &mesh->run_order, &mesh->run_start,     &mesh->nodes,       &mesh->elements,
-        &mesh->types,         &mesh->batches,   &mesh->rigid_masses,  &mesh->sites,       &mesh->path_sites,
-        &mesh->drives,        &mesh->loads,     &mesh->bits,          &mesh->joints,      &mesh->couplings,
-        &mesh->callbacks,     &mesh->laws,      &mesh->driven,        &mesh->constraints, &mesh->clusters,
-        &mesh->cluster_nodes, &mesh->strings,   &mesh->pipes,         &mesh->bodies,      &mesh->inputs,
-        &mesh->load_points,   &mesh->springs,   &mesh->spring_points, &mesh->events};
+        &mesh->stations,   &mesh->pieces,        &mesh->run_order, &mesh->run_start,     &mesh->nodes,
+        &mesh->elements,   &mesh->types,         &mesh->batches,   &mesh->rigid_masses,  &mesh->sites,
+        &mesh->path_sites, &mesh->drives,        &mesh->loads,     &mesh->bits,          &mesh->joints,
+        &mesh->couplings,  &mesh->callbacks,     &mesh->laws,      &mesh->driven,        &mesh->constraints,
+        &mesh->clusters,   &mesh->cluster_nodes, &mesh->strings,   &mesh->pipes,         &mesh->bodies,
+        &mesh->inputs,     &mesh->load_points,   &mesh->springs,   &mesh->spring_points, &mesh->events};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) dmb_vector_release(all[i], &mesh->model->allocator);
 }
 

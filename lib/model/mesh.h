@@ -63,6 +63,7 @@ typedef struct dmb_mesh {
     int32_t has_hole;
     dmb_hole hole;            /* its stations stand in `stations` */
     dmb_vector stations;      /* dmb_hole_station */
+    dmb_vector pieces;        /* dmb_hole_piece, which the hole points to */
     dmb_vector run_order;     /* uint32_t: runs sorted by string, in each by pipe */
     dmb_vector run_start;     /* uint32_t: where in run_order each string begins, one more at the end */
     dmb_vector nodes;         /* dmb_mesh_node */
@@ -150,6 +151,10 @@ void dmb_mesh_release(dmb_mesh *mesh);
 /* The steps, in their order. Each returns DMB_OK or an error, with a message where a part is to blame. */
 int32_t dmb_mesh_check(dmb_mesh *mesh);
 int32_t dmb_mesh_hole(dmb_mesh *mesh);
+/* Pieces of the wall from the sections of the hole. DMB_ERR_GEOMETRY, _VALUE, _NO_MEMORY. */
+int32_t dmb_mesh_sections(dmb_mesh *mesh);
+/* Everything that could meet a wall of sections fits into it where it is described. DMB_ERR_GEOMETRY. */
+int32_t dmb_mesh_fits(dmb_mesh *mesh);
 int32_t dmb_mesh_count(dmb_mesh *mesh);
 int32_t dmb_mesh_strings(dmb_mesh *mesh);
 int32_t dmb_mesh_bodies(dmb_mesh *mesh);
@@ -216,6 +221,7 @@ typedef struct dmb_scene_storage {
     uint8_t *size;
     uint32_t *row, *diag, *link;
     dmb_hole_station *stations;
+    dmb_hole_piece *pieces;
 } dmb_scene_storage;
 
 /* Free rows, and rows that MOTION drives move, as bits of the node's own rows. */

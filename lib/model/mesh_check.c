@@ -137,6 +137,7 @@ static int32_t check_diameters(const dmb_model *model, dmb_message *message)
     const double hole = model->wall.diameter;
     dmb_check check = dmb_check_of(message, "pipes of string", 0);
     if (model->wall_count == 0 || model->wall.normal_law == DMB_NORMAL_NONE) return DMB_OK;
+    if (model->sections.count > 0) return DMB_OK; /* by depth: dmb_mesh_fits */
     for (uint32_t i = 0; i < model->runs.count; ++i) {
         const dmb_pipe_run *run = DMB_LIST_AT(const dmb_pipe_run, model->runs, i);
         check.index = run->string;

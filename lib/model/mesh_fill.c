@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "force/hole_section.h"
 #include "kernel/kernels.h"
 #include "math/mat6.h"
 #include "math/so3.h"
@@ -259,11 +260,15 @@ static void fill_laws(const dmb_model *model, dmb_scene *scene)
     scene->friction_law = law;
 }
 
-/* The hole keeps a pointer to its stations: from now on to the scene's own. */
+/* The hole keeps pointers to its stations and pieces: from now on to the scene's own. */
 static void fill_hole(const dmb_mesh *mesh, dmb_scene *scene, dmb_scene_storage *w)
 {
     scene->has_hole = mesh->has_hole;
     scene->hole = mesh->hole;
+    if (mesh->hole.pieces > 0) {
+        copy_items(&mesh->pieces, w->pieces);
+        scene->hole.piece = w->pieces;
+    }
     if (mesh->hole.stations == 0) return;
     copy_items(&mesh->stations, w->stations);
     scene->hole.station = w->stations;

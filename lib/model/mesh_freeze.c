@@ -1,6 +1,7 @@
 /* The finished scene in one block: counts first, then the arrays are laid out twice (counting, placing), then filled.
  */
 #include "base/memory.h"
+#include "force/hole_section.h"
 #include "math/vec3.h"
 #include "model/mesh.h"
 #include "model/scene.h"
@@ -169,9 +170,11 @@ static void take_elements(dmb_arena *arena, const dmb_scene *counts, dmb_scene *
     to->batches = DMB_ARENA_ARRAY(arena, dmb_batch, counts->batch_count);
 }
 
-static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, dmb_scene_storage *w, size_t stations)
+static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, dmb_scene_storage *w,
+                      const dmb_hole *hole)
 {
-    w->stations = DMB_ARENA_ARRAY(arena, dmb_hole_station, stations);
+    w->stations = DMB_ARENA_ARRAY(arena, dmb_hole_station, hole->stations);
+    w->pieces = DMB_ARENA_ARRAY(arena, dmb_hole_piece, hole->pieces);
     to->sites = DMB_ARENA_ARRAY(arena, dmb_site, counts->site_count);
     to->path_sites = DMB_ARENA_ARRAY(arena, dmb_path_site, counts->path_site_count);
     to->drives = DMB_ARENA_ARRAY(arena, dmb_scene_drive, counts->drive_count);
@@ -209,7 +212,7 @@ static void take_joints(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to
 
 /* The struct comes first, so that its address is that of the block. Its counts are copied, its arrays point behind it.
  */
-static dmb_scene *lay_out(dmb_arena *arena, const dmb_scene *counts, dmb_scene_storage *w, size_t stations)
+static dmb_scene *lay_out(dmb_arena *arena, const dmb_scene *counts, dmb_scene_storage *w, const dmb_hole *hole)
 {
     dmb_scene nowhere = *counts;
     dmb_scene *scene = DMB_ARENA_ARRAY(arena, dmb_scene, 1);
@@ -217,7 +220,7 @@ static dmb_scene *lay_out(dmb_arena *arena, const dmb_scene *counts, dmb_scene_s
     *to = *counts;
     take_nodes(arena, counts, to, w);
     take_elements(arena, counts, to);
-    take_rest(arena, counts, to, w, stations);
+    take_rest(arena, counts, to, w, hole);
     take_joints(arena, counts, to);
     return scene;
 }
@@ -227,7 +230,7 @@ static dmb_scene *lay_out(dmb_arena *arena, const dmb_scene *counts, dmb_scene_s
 int32_t dmb_mesh_freeze(const dmb_mesh *mesh, dmb_scene **out)
 {
     const dmb_allocator *allocator = &mesh->model->allocator;
-    const size_t stations = mesh->hole.stations;
+    const dmb_hole *hole = &mesh->hole;
     dmb_scene counts = {
         .features = mesh->features, .mass = mesh->mass, .fluid_density = mesh->model->environment.fluid_density};
     dmb_arena arena;
@@ -235,13 +238,13 @@ int32_t dmb_mesh_freeze(const dmb_mesh *mesh, dmb_scene **out)
     count_parts(mesh, &counts);
     if (counts.features & DMB_FEATURE_GRAVITY) dmb_vec3_copy(mesh->model->environment.gravity, counts.gravity);
     dmb_arena_count(&arena);
-    (void)lay_out(&arena, &counts, &w, stations);
+    (void)lay_out(&arena, &counts, &w, hole);
     counts.bytes = dmb_arena_block_size(&arena);
     if (arena.overflow) return DMB_ERR_TOO_LARGE;
     void *block = dmb_allocate(allocator, counts.bytes);
     if (block == NULL) return DMB_ERR_NO_MEMORY;
     dmb_arena_place(&arena, block, counts.bytes);
-    dmb_scene *scene = lay_out(&arena, &counts, &w, stations);
+    dmb_scene *scene = lay_out(&arena, &counts, &w, hole);
     int32_t status = arena.overflow ? DMB_ERR_TOO_LARGE : dmb_scene_fill(mesh, scene, &w);
     if (status >= 0 && !dmb_scene_place_storage(scene->cluster_count, scene->clusters, scene))
         status = DMB_ERR_TOO_LARGE;

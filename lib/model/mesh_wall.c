@@ -1,4 +1,5 @@
 /* The axis of the hole, and contact sites along it. */
+#include "force/hole_section.h"
 #include "model/field_check.h"
 #include "model/mesh.h"
 #include "model/section.h"
@@ -14,18 +15,26 @@ static int32_t refuse_station(dmb_message *message, const dmb_wall_def *wall, ui
     return DMB_ERR_GEOMETRY;
 }
 
-int32_t dmb_mesh_hole(dmb_mesh *mesh)
+static int32_t make_axis(dmb_mesh *mesh)
 {
     const dmb_wall_def *wall = &mesh->model->wall;
     const double radius = 0.5 * wall->diameter;
-    if (mesh->model->wall_count == 0) return DMB_OK;
-    mesh->has_hole = 1;
     if (wall->survey_count == 0) return dmb_hole_setup_straight(&mesh->hole, wall->origin, wall->direction, radius);
     const int32_t status = dmb_vector_append(&mesh->stations, &mesh->model->allocator, NULL, wall->survey_count);
     if (status < 0) return status;
     const int64_t bad = dmb_hole_setup_survey(&mesh->hole, wall->survey_count, wall->survey, wall->origin, radius,
                                               mesh->stations.items);
     return bad < 0 ? DMB_OK : refuse_station(&mesh->model->message, wall, (uint32_t)bad);
+}
+
+int32_t dmb_mesh_hole(dmb_mesh *mesh)
+{
+    if (mesh->model->wall_count > 0) {
+        const int32_t status = make_axis(mesh);
+        if (status < 0) return status;
+        mesh->has_hole = 1;
+    }
+    return dmb_mesh_sections(mesh);
 }
 
 /* Places that can meet the wall. Along a string they stand between the stretches from node to node (for rigid pipes:
@@ -50,15 +59,17 @@ static bool moves_sideways(const dmb_mesh_node *node, double offset)
     return (node->free & DMB_FREE_TILTING) != 0 && fabs(offset) > 0.0;
 }
 
-static double clearance_of(const dmb_mesh *mesh, double radius)
+/* As described; in a hole of sections it changes with the depth (dmb_site_clearance). */
+static double clearance_of(const dmb_mesh *mesh, const dmb_site *site)
 {
-    return fmax(0.0, mesh->hole.radius - radius);
+    const double depth = dmb_mesh_node_at(mesh, site->node)->depth + site->offset;
+    return fmax(0.0, dmb_hole_radius(&mesh->hole, depth) - site->radius);
 }
 
 static int32_t push_site(dmb_mesh *mesh, const dmb_site *site)
 {
     dmb_site added = *site;
-    added.clearance = clearance_of(mesh, site->radius);
+    added.clearance = clearance_of(mesh, site);
     return dmb_vector_append(&mesh->sites, &mesh->model->allocator, &added, 1);
 }
 
@@ -175,8 +186,8 @@ static int32_t add_rings(dmb_mesh *mesh)
 
 int32_t dmb_mesh_sites(dmb_mesh *mesh)
 {
-    int32_t status = DMB_OK;
-    if ((mesh->features & DMB_FEATURE_CONTACT) == 0) return DMB_OK;
+    int32_t status = dmb_mesh_fits(mesh);
+    if ((mesh->features & DMB_FEATURE_CONTACT) == 0) return status;
     for (uint32_t s = 0; s < mesh->strings.count && status >= 0; ++s) status = pass_string(mesh, s);
     if (status >= 0) status = add_rings(mesh);
     return status;

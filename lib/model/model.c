@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/message.h"
 #include "base/vector.h"
+#include "drillmbd/hole.h"
 #include "model/describe.h"
 #include "model/limits.h"
 #include "model/scene.h"
@@ -51,6 +52,7 @@ static void release_parts(dmb_model *model)
         dmb_programme_release(DMB_LIST_AT(dmb_programme, model->programmes, i), allocator);
     }
     dmb_wall_release(&model->wall, allocator);
+    dmb_list_release(&model->sections, allocator, sizeof(dmb_hole_section));
     dmb_list_release(&model->programmes, allocator, sizeof(dmb_programme));
     dmb_list_release(&model->strings, allocator, sizeof(dmb_string_plan));
     dmb_list_release(&model->runs, allocator, sizeof(dmb_pipe_run));

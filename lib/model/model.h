@@ -71,6 +71,7 @@ struct dmb_model {
     dmb_environment_def environment;
     dmb_wall_def wall;     /* survey points to the model's own copy */
     uint32_t wall_count;   /* 0 or 1 */
+    dmb_list sections;     /* dmb_hole_section, in the order of their depths */
     dmb_list programmes;   /* dmb_programme, terms and tables are the model's own copies */
     dmb_list strings;      /* dmb_string_plan */
     dmb_list runs;         /* dmb_pipe_run, in the order they were added */

@@ -19,6 +19,7 @@
 #include "force/contact_law.h"
 #include "force/friction_law.h"
 #include "force/hole.h"
+#include "force/hole_section.h"
 #include "force/joint_law.h"
 #include "force/normal_law.h"
 #include "force/programme.h"
@@ -381,6 +382,12 @@ static inline uint32_t dmb_held_row(const dmb_scene *scene, uint32_t i)
 static inline int32_t dmb_scene_has_bristles(const dmb_scene *scene)
 {
     return scene->friction_law.kind == DMB_FRICTION_BRISTLE;
+}
+
+/* [m] of a ring at a depth; in a hole of sections below 0 where it is too wide for it. */
+static inline double dmb_site_clearance(const dmb_scene *scene, const dmb_site *site, double depth)
+{
+    return scene->hole.pieces == 0 ? site->clearance : dmb_hole_radius(&scene->hole, depth) - site->radius;
 }
 
 /* The scene with dense matrices for all clusters. Modes, responses and buckling are made in independent coordinates, of

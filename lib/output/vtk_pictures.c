@@ -149,14 +149,15 @@ static void transfer_direction(const dmb_hole *hole, double depth, const double 
     dmb_vec3_set(R[1], R[4], R[7], y);
 }
 
-static void put_ring(dmb_text_file *file, const tube *t, const double x[3], const double y[3], const double z[3])
+static void put_ring(dmb_text_file *file, const tube *t, double radius, const double x[3], const double y[3],
+                     const double z[3])
 {
     for (uint32_t k = 0; k < t->around; k++) {
         const double angle = DMB_TWO_PI * k / t->around;
         double point[3];
         dmb_vec3_copy(x, point);
-        dmb_vec3_axpy(t->hole->radius * cos(angle), y, point);
-        dmb_vec3_axpy(t->hole->radius * sin(angle), z, point);
+        dmb_vec3_axpy(radius * cos(angle), y, point);
+        dmb_vec3_axpy(radius * sin(angle), z, point);
         dmb_vtk_put_tuple(file, point, 3);
     }
 }
@@ -171,7 +172,7 @@ static void put_points(dmb_text_file *file, const tube *t, double spacing)
         dmb_hole_frame(t->hole, depth, x, tangent, NULL);
         transfer_direction(t->hole, depth, tangent, y);
         dmb_vec3_cross(tangent, y, z);
-        put_ring(file, t, x, y, z);
+        put_ring(file, t, dmb_hole_radius(t->hole, depth), x, y, z);
     }
     dmb_vtk_end_array(file);
     dmb_vtk_close_tag(file, "Points");

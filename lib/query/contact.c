@@ -21,7 +21,8 @@ static void force_of(const dmb_sim *sim, uint32_t site, dmb_site_force *force)
         dmb_site_force_of(scene, &sim->now, site, force);
     else
         dmb_path_site_force_of(scene, &sim->now, site - full, force);
-    dmb_assumed_friction(&scene->friction_law, &sim->now,
+    dmb_friction_law local;
+    dmb_assumed_friction(dmb_contact_friction_law(scene, &sim->now, site, &local), &sim->now,
                          site < full ? scene->sites[site].radius : scene->path_sites[site - full].radius, force);
 }
 
@@ -48,6 +49,7 @@ int32_t dmb_query_contact(const dmb_sim *sim, uint32_t site, dmb_contact *contac
     answer.gap = -force.penetration;
     dmb_vec3_copy(force.normal, answer.normal);
     answer.normal_force = force.normal_force;
+    answer.along = force.along;
     answer.approach = force.rate;
     for (int i = 0; i < 2; i++) {
         answer.friction[i] = force.friction[i];

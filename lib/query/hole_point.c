@@ -1,16 +1,18 @@
 /* The hole's axis at a measured depth. */
 #include <math.h>
+#include <string.h>
 
 #include "base/handle.h"
 #include "base/sized_struct.h"
+#include "drillmbd/hole.h"
 #include "drillmbd/query.h"
-#include "force/hole.h"
+#include "force/hole_section.h"
 #include "math/real.h"
 #include "model/limits.h"
 #include "model/model.h"
 #include "model/scene.h"
 
-DMB_DEFINE_INIT(dmb_hole_point, 120, {.beyond = DMB_HOLE_SURVEYED})
+DMB_DEFINE_INIT(dmb_hole_point, 120, {.beyond = DMB_HOLE_SURVEYED, .section = -1})
 
 #define VERTICAL 1e-9 /* [-] no azimuth within this of the vertical */
 
@@ -40,6 +42,48 @@ static void direction(dmb_hole_point *point)
     point->azimuth = across > VERTICAL ? atan2(t[1], t[0]) : 0.0;
 }
 
+/* Last section that begins at or above the depth; DMB_NONE: none. */
+static uint32_t section_at(const dmb_model *model, double depth)
+{
+    uint32_t low = 0, high = model->sections.count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (DMB_LIST_AT(const dmb_hole_section, model->sections, middle)->depth <= depth)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low > 0 ? low - 1 : DMB_NONE;
+}
+
+static void take_wall(const dmb_model *model, double depth, dmb_hole_point *point)
+{
+    const dmb_hole *hole = &model->scene->hole;
+    const dmb_wall_def *wall = &model->wall;
+    const uint32_t section = section_at(model, depth);
+    double v[DMB_WALL_COUNT] = {0.5 * wall->diameter,
+                                wall->stiffness,
+                                wall->restitution,
+                                wall->damping,
+                                wall->mu_static,
+                                wall->mu_dynamic,
+                                0.0};
+    if (hole->pieces > 0)
+        for (int k = 0; k < DMB_WALL_COUNT; k++) v[k] = dmb_hole_piece_value(dmb_hole_piece_at(hole, depth), k, depth);
+    point->diameter = 2.0 * v[DMB_WALL_RADIUS];
+    point->stiffness = v[DMB_WALL_STIFFNESS];
+    point->restitution = v[DMB_WALL_RESTITUTION];
+    point->damping = v[DMB_WALL_DAMPING];
+    point->mu_static = v[DMB_WALL_MU_STATIC];
+    point->mu_dynamic = v[DMB_WALL_MU_DYNAMIC];
+    point->strength = v[DMB_WALL_STRENGTH];
+    point->section = -1;
+    if (section == DMB_NONE) return;
+    point->section = (int32_t)section;
+    memcpy(point->section_name, DMB_LIST_AT(const dmb_hole_section, model->sections, section)->name,
+           sizeof point->section_name);
+}
+
 int32_t dmb_query_hole(const dmb_model *model, double depth, dmb_hole_point *point)
 {
     const dmb_hole *hole;
@@ -56,6 +100,6 @@ int32_t dmb_query_hole(const dmb_model *model, double depth, dmb_hole_point *poi
     for (int i = 0; i < 3; i++) answer.normal[i] = answer.curvature > 0.0 ? bend[i] / answer.curvature : 0.0;
     answer.dogleg_severity = answer.curvature * 30.0 * 180.0 / DMB_PI;
     direction(&answer);
-    answer.diameter = 2.0 * hole->radius;
+    take_wall(model, depth, &answer);
     return dmb_hole_point_write(point, &answer);
 }

@@ -260,7 +260,7 @@ static double clearance_at(const station *at)
     if (site != DMB_NONE)
         radius =
             site < scene->site_count ? scene->sites[site].radius : scene->path_sites[site - scene->site_count].radius;
-    return fmax(0.0, scene->hole.radius - radius);
+    return fmax(0.0, dmb_hole_radius(&scene->hole, at->values[DMB_PROFILE_DEPTH]) - radius);
 }
 
 static void limit_values(station *at)

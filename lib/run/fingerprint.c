@@ -78,6 +78,11 @@ static uint64_t add_wall(uint64_t h, const dmb_scene *s)
         h = dmb_fnv_number(h, s->hole.station[i].depth);
         h = DMB_NUMBERS(h, s->hole.station[i].tangent);
     }
+    for (uint32_t i = 0; i < s->hole.pieces; ++i) {
+        h = dmb_fnv_number(h, s->hole.piece[i].depth);
+        h = DMB_NUMBERS(h, s->hole.piece[i].value);
+        h = DMB_NUMBERS(h, s->hole.piece[i].slope);
+    }
     for (uint32_t i = 0; i < s->site_count; ++i) {
         h = dmb_fnv_number(h, s->sites[i].clearance);
         h = dmb_fnv_number(h, s->sites[i].length);

@@ -101,6 +101,7 @@ static void set_friction(dmb_scene *own, const dmb_scene *described, double fact
 {
     own->friction_law.mu_static = factor * described->friction_law.mu_static;
     own->friction_law.mu_dynamic = factor * described->friction_law.mu_dynamic;
+    own->hole.friction = factor;
 }
 
 /* Buoyancy is linear in the density. */
@@ -153,6 +154,7 @@ void dmb_own_scene_update(dmb_sim *sim)
     for (uint32_t i = 0; i < sim->own->scene.input_count; i++) set_input(sim, i);
     if (sim->own->scene.has_damping_input && sim->own->scene.features & DMB_FEATURE_DAMPING) set_damping(sim);
     sim->own->dense.friction_law = sim->own->scene.friction_law;
+    sim->own->dense.hole.friction = sim->own->scene.hole.friction;
     sim->own->dense.fluid_density = sim->own->scene.fluid_density;
 }
 

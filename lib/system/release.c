@@ -57,6 +57,7 @@ static void subtract_force(dmb_sim *sim, uint32_t s, double part, double *rows)
     dmb_vec3_axpy(f.friction[1], b, force);
     dmb_vec3_scale(site->radius, f.normal, arm);
     dmb_vec3_cross(arm, force, moment);
+    dmb_vec3_axpy(f.along, f.tangent, force);
     dmb_quat_to_matrix(sim->now.quaternion + 4 * site->node, R);
     dmb_mat3_tvec(R, force, wrench);
     dmb_mat3_tvec(R, moment, wrench + 3);

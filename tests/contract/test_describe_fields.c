@@ -12,6 +12,7 @@
 #include <math.h>
 
 #include "base/value_check.h"
+#include "drillmbd/hole.h"
 #include "model/model.h"
 
 /* ---- What there is to describe ----------------------------------------------------------------------------------- */
@@ -30,6 +31,7 @@ typedef union any_def {
     dmb_environment_def environment;
     dmb_term term;
     dmb_wall_def wall;
+    dmb_hole_section section;
     dmb_string_def string;
     dmb_pipe_def pipe;
     dmb_body_def body;
@@ -142,6 +144,22 @@ static void fill_wall(const scene_under_test *s, any_def *def)
 static int32_t add_wall(dmb_model *model, const any_def *def)
 {
     return dmb_model_add_wall(model, &def->wall, NULL);
+}
+
+static const field section_fields[] = {
+    F(dmb_hole_section, shape, WHOLE, 1),     F(dmb_hole_section, depth, REAL, 1),
+    F(dmb_hole_section, transition, REAL, 1), F(dmb_hole_section, diameter, REAL, 1),
+    F(dmb_hole_section, stiffness, REAL, 1),  F(dmb_hole_section, restitution, REAL, 1),
+    F(dmb_hole_section, damping, REAL, 1),    F(dmb_hole_section, mu_static, REAL, 1),
+    F(dmb_hole_section, mu_dynamic, REAL, 1), F(dmb_hole_section, strength, REAL, 1)};
+static void fill_section(const scene_under_test *s, any_def *def)
+{
+    (void)s;
+    def->section = dmb_hole_section_default();
+}
+static int32_t add_section(dmb_model *model, const any_def *def)
+{
+    return dmb_model_add_hole_sections(model, &def->section, 1);
 }
 
 static const field string_fields[] = {
@@ -423,6 +441,7 @@ static const kind_of_def kinds[] = {
     {"coupling", FIELDS(coupling_fields), fill_coupling, add_coupling},
     {"constraint", FIELDS(constraint_fields), fill_constraint, add_constraint},
     {"spring", FIELDS(spring_fields), fill_spring, add_spring},
+    {"hole section", FIELDS(section_fields), fill_section, add_section},
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0], WALL = 3 };
 

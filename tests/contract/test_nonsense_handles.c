@@ -215,6 +215,11 @@ static int32_t add_programme(dmb_model *model, int missing)
     const dmb_term term = dmb_term_default();
     return dmb_model_add_programme(model, GIVEN(&term), 1, NULL);
 }
+static int32_t add_hole_sections(dmb_model *model, int missing)
+{
+    const dmb_hole_section section = dmb_hole_section_default();
+    return dmb_model_add_hole_sections(model, GIVEN(&section), 1);
+}
 static int32_t add_pipes(dmb_model *model, int missing)
 {
     const dmb_pipe_def def = dmb_pipe_def_default();
@@ -261,6 +266,7 @@ static const struct {
 } model_calls[] = {{"set_environment", set_environment, 1},
                    {"add_programme", add_programme, 1},
                    {"add_wall", add_wall, 1},
+                   {"add_hole_sections", add_hole_sections, 1},
                    {"add_string", add_string, 1},
                    {"add_pipes", add_pipes, 1},
                    {"add_body", add_body, 1},

@@ -49,6 +49,7 @@ INIT(step_report) INIT(static_options) INIT(static_report) INIT(buckling_options
 INIT(pose) INIT(motion) INIT(section) INIT(contact)
 INIT(contact_total) INIT(energy) INIT(momentum) INIT(drive_state) INIT(bit_state) INIT(statistics) INIT(recorder)
 INIT(allocator) INIT(joint_state) INIT(joint_def) INIT(coupling_def) INIT(constraint_def)
+INIT(hole_section)
 INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row) INIT(fatigue_options)
 INIT(fatigue_result) INIT(window_options) INIT(window_result) INIT(profile_recorder)
 INIT(parameter) INIT(input_def) INIT(input_info) INIT(input_state) INIT(spring_def) INIT(spring_state)
@@ -271,6 +272,10 @@ static int32_t add_wall(dmb_model *model, void *p)
 {
     return dmb_model_add_wall(model, p, NULL);
 }
+static int32_t add_hole_sections(dmb_model *model, void *p)
+{
+    return dmb_model_add_hole_sections(model, p, 1);
+}
 static int32_t add_string(dmb_model *model, void *p)
 {
     return dmb_model_add_string(model, p, NULL);
@@ -302,6 +307,7 @@ static dmb_place middle(void)
 CALL(environment_def, with_model(add_environment, p))
 CALL(term, with_model(add_term, p))
 CALL(wall_def, with_model(add_wall, p))
+CALL(hole_section, with_model(add_hole_sections, p))
 CALL(string_def, with_model(add_string, p))
 CALL(pipe_def, with_model(add_pipes, p))
 CALL(body_def, with_model(add_body, p))
@@ -532,6 +538,7 @@ static const entry entries[] = {
     ENTRY(environment_def, 0),
     ENTRY(term, 0),
     ENTRY(wall_def, 0),
+    ENTRY(hole_section, 0),
     ENTRY(string_def, 0),
     GROWN(pipe_def, 264, 0),
     GROWN(body_def, 216, 0),
@@ -550,7 +557,7 @@ static const entry entries[] = {
     ENTRY(pose, 1),
     ENTRY(motion, 1),
     ENTRY(section, 1),
-    ENTRY(hole_point, 1),
+    GROWN(hole_point, 120, 1),
     ENTRY(profile, 0),
     ENTRY(operation, 0),
     ENTRY(torque_drag_options, 0),
@@ -558,7 +565,7 @@ static const entry entries[] = {
     ENTRY(fatigue_options, 0),
     ENTRY(fatigue_result, 1),
     ENTRY(parameter, 0),
-    ENTRY(contact, 1),
+    GROWN(contact, 120, 1),
     ENTRY(contact_total, 1),
     ENTRY(energy, 1),
     ENTRY(momentum, 1),

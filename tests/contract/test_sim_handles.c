@@ -185,6 +185,7 @@ static void no_answer(void **state)
 /* Size in the first release: structs that have grown since take callers of then. */
 static uint32_t first_size_of(const named_call *of)
 {
+    if (strcmp(of->name, "dmb_query_contact") == 0) return 120;
     return strcmp(of->name, "dmb_query_statistics") == 0 ? 72 : of->struct_size;
 }
 

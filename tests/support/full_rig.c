@@ -1,5 +1,23 @@
 #include "full_rig.h"
 
+/* Slopes of the diameter up to 0.1. */
+static void add_full_sections(const rig *s)
+{
+    dmb_hole_section sections[3] = {dmb_hole_section_default(), dmb_hole_section_default(), dmb_hole_section_default()};
+    for (int i = 0; i < 3; i++) {
+        sections[i].shape = i < 2 ? DMB_HOLE_LINE : DMB_HOLE_STEP;
+        sections[i].depth = -3.0 + 5.5 * i - 1.5 * (i / 2);
+        sections[i].transition = i == 0 ? 1.0 : 4.0;
+        sections[i].diameter = i == 1 ? 0.62 : 0.42;
+        sections[i].stiffness = i == 1 ? 250.0 : 600.0;
+        sections[i].restitution = 0.3 + 0.1 * i;
+        sections[i].damping = 30.0 + 5.0 * i;
+        sections[i].mu_static = 0.9 - 0.1 * i;
+        sections[i].mu_dynamic = 0.3 + 0.1 * i;
+    }
+    must_model(s, dmb_model_add_hole_sections(s->model, sections, 3));
+}
+
 static void add_full_hole(rig *s, const full_rig_choice *choice)
 {
     static const double survey[9] = {0.0, 0.5 * PI, 0.0, 3.0, 0.5 * PI - 0.15, 0.1, 9.0, 0.5 * PI - 0.5, 0.4};
@@ -22,6 +40,7 @@ static void add_full_hole(rig *s, const full_rig_choice *choice)
         wall.survey_count = 3;
     }
     (void)add_wall(s, &wall);
+    if (choice->sections) add_full_sections(s);
 }
 
 static dmb_pipe_def soft_pipe(void)

@@ -59,6 +59,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_fatigue_result_init": (c_int32, POINTER(FatigueResult), c_uint32,),
     "dmb_fatigue_take": (c_int32, c_void_p, c_void_p,),
     "dmb_hole_point_init": (c_int32, POINTER(HolePoint), c_uint32,),
+    "dmb_hole_section_init": (c_int32, POINTER(HoleSection), c_uint32,),
     "dmb_input_def_init": (c_int32, POINTER(InputDef), c_uint32,),
     "dmb_input_info_init": (c_int32, POINTER(InputInfo), c_uint32,),
     "dmb_input_init": (c_int32, POINTER(Input), c_uint32,),
@@ -74,6 +75,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_add_coupling": (c_int32, c_void_p, POINTER(CouplingDef), POINTER(Id),),
     "dmb_model_add_drive": (c_int32, c_void_p, POINTER(DriveDef), POINTER(Id),),
     "dmb_model_add_event": (c_int32, c_void_p, POINTER(EventDef), POINTER(Id),),
+    "dmb_model_add_hole_sections": (c_int32, c_void_p, POINTER(HoleSection), c_uint32,),
     "dmb_model_add_input": (c_int32, c_void_p, POINTER(InputDef), POINTER(Id),),
     "dmb_model_add_joint": (c_int32, c_void_p, POINTER(JointDef), POINTER(Id),),
     "dmb_model_add_load": (c_int32, c_void_p, POINTER(LoadDef), POINTER(Id),),
@@ -235,7 +237,7 @@ FUNCTION_DOCS = {
     "dmb_analysis_check_text":
         "The same as a sheet of text, lines ending with '/n', '.' as decimal mark: counts, solvers, redundant equations by name (directions are those of frame a of the joint), warnings. Writes at most `size` bytes, always 0-terminated; *needed (may be NULL) is what the whole text takes, its 0 included. text may be NULL where size is 0. NOTE_FULL if the text is cut. Errors as dmb_analysis_check, with text and *needed left alone.",
     "dmb_analysis_friction_factor":
-        "The friction coefficient, 0 .. 10, that explains a hook load [N] or torque [N m] measured at the rig in one operation at the first of the depths. ERR_VALUE where none does: the message tells the range. About 60 times the work of a row.",
+        "The friction coefficient, 0 .. 10 (or factor, friction_by_depth), that explains a hook load [N] or torque [N m] measured at the rig in one operation at the first of the depths. ERR_VALUE where none does: the message tells the range. About 60 times the work of a row.",
     "dmb_analysis_modes":
         "Modes about the accepted state of a sim, which should be an equilibrium, at rest or spinning steadily. The state is not changed; sim takes the message, and need not outlive the result. options may be NULL. Memory: the sim's allocator, until dmb_modes_destroy. LOWEST: smallest |s|. Few modes: block Lanczos (full reorthogonalisation in the M-inner product), damped or unsymmetric ones block Arnoldi, both on the inverse of K (rigid-body motions apart, or shifted), linear in the number of elements; ALL, and many: LAPACK (dsygvd, dgeev), cubic. A BAND of many modes is divided: undamped by the counts of eigenvalues below its pieces, which must all be found, in time that grows with the modes; of damped ones likewise where their roots stand along the imaginary axis (K symmetric, no joints, less than a quarter of the critical damping at band[1]); elsewhere up to 256 modes below band[1] are found at once, more are refused (_TOO_LARGE). A mode that does not satisfy its equations to rounding, after some inverse iteration, or cannot be told from a rigid-body motion, is refused with its residual and the bound (_NO_CONVERGENCE). *modes is NULL on error: ERR_VALUE (option; more modes than coordinates; a band without modes; a state out of balance: by how much and where), _NO_CONVERGENCE, _SINGULAR, _CALLBACK, _NOT_FINITE, _ROTATION, _NO_MEMORY, _TOO_LARGE.",
     "dmb_analysis_path":
@@ -280,6 +282,8 @@ FUNCTION_DOCS = {
         "Cycles by range at the point that the result names: cycles[i] of a range of i times 2 stress_range/classes [Pa], shape (classes).",
     "dmb_fatigue_take":
         "Takes a sample; call it after each step. The sim may be another one of the same model. Allocates nothing. O(places x points).",
+    "dmb_model_add_hole_sections":
+        "Adds sections below those that the model has, sections with the same struct_size, 1 .. 2^18 of them in all; the wall may be added before or after. dmb_model_compile refuses overlapping transitions, a line without an end, radii that change too fast, and what is wider than its hole (ERR_GEOMETRY). Errors: ERR_VALUE, _NOT_FINITE, _STRUCT_SIZE, _NO_MEMORY; no section is added then. A question of the hole at a depth is O(log sections).",
     "dmb_model_add_input":
         "Errors: ERR_ID; ERR_VALUE for bounds, limits, a name that another input has, a target that has one already; ERR_UNSUPPORTED where the part has no such target.",
     "dmb_model_add_joint":

@@ -615,6 +615,15 @@ class HolePoint(Sized):
     inclination: float
     azimuth: float
     diameter: float
+    stiffness: float
+    restitution: float
+    damping: float
+    mu_static: float
+    mu_dynamic: float
+    strength: float
+    section: int
+    reserved: int
+    section_name: bytes
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("beyond", c_int32),
@@ -626,6 +635,15 @@ class HolePoint(Sized):
         ("inclination", c_double),
         ("azimuth", c_double),
         ("diameter", c_double),
+        ("stiffness", c_double),
+        ("restitution", c_double),
+        ("damping", c_double),
+        ("mu_static", c_double),
+        ("mu_dynamic", c_double),
+        ("strength", c_double),
+        ("section", c_int32),
+        ("reserved", c_uint32),
+        ("section_name", c_char * 24),
     ]
     field_docs = {
         "beyond": ("", "HOLE_ABOVE the first station or _BELOW the last one, where the axis goes straight on; a hole without survey is HOLE_SURVEYED everywhere"),
@@ -636,7 +654,15 @@ class HolePoint(Sized):
         "dogleg_severity": ("deg/30m", "the same in the drillers' unit"),
         "inclination": ("rad", "from the downward vertical, 0 .. pi"),
         "azimuth": ("rad", "from +x towards +y, -pi .. pi; 0 where the hole is vertical"),
-        "diameter": ("m", ""),
+        "diameter": ("m", "and the wall's other constants here (hole.h):"),
+        "stiffness": ("N/m^(n+1)", "per metre of pipe"),
+        "restitution": ("-", ""),
+        "damping": ("N s/m2", "per metre of pipe"),
+        "mu_static": ("-", ""),
+        "mu_dynamic": ("-", ""),
+        "strength": ("Pa", "of a section; 0: not told"),
+        "section": ("", "number of the last section that begins at or above the depth; -1: none"),
+        "section_name": ("", ""),
     }
 
 
@@ -1257,6 +1283,49 @@ class SpringState(Sized):
         "direction": ("-", "from a to b, world frame, shape (3)"),
         "point_a": ("m", "world, shape (3)"),
         "point_b": ("m", "world, shape (3)"),
+    }
+
+
+class HoleSection(Sized):
+    c_name, about = "dmb_hole_section", "A section of the hole: cased, open, washed out, coal, rock. Above the first one the values of dmb_wall_def hold, and every field left at -1 is that of dmb_wall_def. The laws, and what is not here, are those of dmb_wall_def everywhere. All values go over smoothly: a step of `transition` m around `depth` (two parabolas that meet there), the corner between two lines by one parabola within `transition`/2 on both sides. So the wall pushes along the axis where its diameter changes, and no energy is made."
+    struct_size: int
+    shape: int
+    depth: float
+    transition: float
+    diameter: float
+    stiffness: float
+    restitution: float
+    damping: float
+    mu_static: float
+    mu_dynamic: float
+    strength: float
+    name: bytes
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("shape", c_int32),
+        ("depth", c_double),
+        ("transition", c_double),
+        ("diameter", c_double),
+        ("stiffness", c_double),
+        ("restitution", c_double),
+        ("damping", c_double),
+        ("mu_static", c_double),
+        ("mu_dynamic", c_double),
+        ("strength", c_double),
+        ("name", c_char * 24),
+    ]
+    field_docs = {
+        "shape": ("", "HOLE_...; default HOLE_STEP; the last one must be a step"),
+        "depth": ("m", "measured depth where it begins; strictly increasing; default 0"),
+        "transition": ("m", "> 0; those of neighbours may not overlap, nor may the radius change by more than 1 m/m; default 0.1"),
+        "diameter": ("m", "> 0; default -1"),
+        "stiffness": ("N/m^(n+1)", "K per metre of pipe, > 0; default -1"),
+        "restitution": ("-", "0 .. 1 (> 0 for FLORES and EXACT); default -1"),
+        "damping": ("N s/m2", "c per metre of pipe, of KELVIN_VOIGT and IMPACT, >= 0; default -1"),
+        "mu_static": ("-", ">= mu_dynamic for STRIBECK and BRISTLE; default -1"),
+        "mu_dynamic": ("-", ">= 0; default -1"),
+        "strength": ("Pa", "unconfined compressive strength of what the wall is made of, >= 0; told by dmb_query_hole, no force depends on it; default 0"),
+        "name": ("", "told by dmb_query_hole; default \"\""),
     }
 
 
@@ -2115,6 +2184,7 @@ class Contact(Sized):
     approach: float
     friction: 'Array[c_double]'
     slip: 'Array[c_double]'
+    along: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("closed", c_int32),
@@ -2130,6 +2200,7 @@ class Contact(Sized):
         ("approach", c_double),
         ("friction", c_double * 2),
         ("slip", c_double * 2),
+        ("along", c_double),
     ]
     field_docs = {
         "closed": ("", "1 when touching"),
@@ -2144,6 +2215,7 @@ class Contact(Sized):
         "approach": ("m/s", "normal speed towards the wall"),
         "friction": ("N", "on the pipe: along its axis, along axis x normal; after a static start that assumed a slip (dmb_static_options) what its equilibrium took, until the next step; shape (2)"),
         "slip": ("m/s", "of the contact point on the wall, same directions, shape (2)"),
+        "along": ("N", "on the pipe along its axis where the wall's diameter or stiffness changes (hole.h)"),
     }
 
 
@@ -2304,7 +2376,7 @@ class TorqueDragOptions(Sized):
     friction: float
     depths: Any
     depth_count: int
-    reserved: int
+    friction_by_depth: int
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("post_buckling", c_int32),
@@ -2312,14 +2384,15 @@ class TorqueDragOptions(Sized):
         ("friction", c_double),
         ("depths", POINTER(c_double)),
         ("depth_count", c_uint32),
-        ("reserved", c_uint32),
+        ("friction_by_depth", c_int32),
     ]
     field_docs = {
         "post_buckling": ("", "1 (default): a helix presses r F^2/(4 EI) per metre more on the wall (Mitchell 1986) where the compression F is above the load of helical buckling; 0: not"),
         "string": ("", "{0, 0}: the model's first string"),
-        "friction": ("-", "coefficient of all the hole, 0 .. 10; -1 (default): the wall's mu_dynamic"),
+        "friction": ("-", "coefficient of all the hole, 0 .. 10; -1 (default): the wall's mu_dynamic at each depth"),
         "depths": ("m", "measured depths of the string's far end, shape (depth_count), beyond its start_depth by at most its length; NULL: one, where it ends as described"),
         "depth_count": ("-", "1 .. 2^20; default 1"),
+        "friction_by_depth": ("", "of dmb_analysis_friction_factor: 0 (default): it finds one coefficient for all the hole; 1: the factor on the wall's mu_dynamic at each depth (hole.h)"),
     }
 
 
@@ -2901,6 +2974,7 @@ STRUCTS["dmb_fatigue_options"] = FatigueOptions
 STRUCTS["dmb_fatigue_result"] = FatigueResult
 STRUCTS["dmb_spring_def"] = SpringDef
 STRUCTS["dmb_spring_state"] = SpringState
+STRUCTS["dmb_hole_section"] = HoleSection
 STRUCTS["dmb_modes_options"] = ModesOptions
 STRUCTS["dmb_modes_info"] = ModesInfo
 STRUCTS["dmb_mode"] = Mode

@@ -898,6 +898,16 @@ TABLE_LINES = TableKind.LINES
 TABLE_CUBIC = TableKind.CUBIC
 
 
+class HoleShape(IntEnum):
+    """Values DMB_HOLE_... of the headers."""
+    STEP = 0  #: the values hold up to the next section, or on and on
+    LINE = 1  #: they go in straight lines to those of the next section
+
+
+HOLE_STEP = HoleShape.STEP
+HOLE_LINE = HoleShape.LINE
+
+
 class ModesKind(IntEnum):
     """Values DMB_MODES_... of the headers."""
     UNDAMPED = 0  #: M d'' + K d = 0
@@ -1107,6 +1117,7 @@ ENUMS = (
     Measured,
     SpringActs,
     TableKind,
+    HoleShape,
     ModesKind,
     ModesSelect,
     ModesAxes,

@@ -9,7 +9,7 @@ from ._keep import Keep, as_id, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._record import Record
 from ._structs import (BitDef, BodyDef, Channel, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef,
-                       EventDef, HolePoint, Id, InputDef, InputInfo, JointDef, LoadDef, ModelInfo,
+                       EventDef, HolePoint, HoleSection, Id, InputDef, InputInfo, JointDef, LoadDef, ModelInfo,
                        ModelOptions, PipeDef, Place, SimOptions, SpringDef, StringDef, Term, WallDef)
 
 if TYPE_CHECKING:
@@ -119,6 +119,14 @@ class Model:
     def add_wall(self, definition: WallDef | None = None, **fields: Any) -> Id:
         """Adds the hole, by a WallDef or its fields; returns its id. One hole a model."""
         return self._add("wall", WallDef, definition, fields)
+
+    @mirrors("dmb_model_add_hole_sections")
+    def add_hole_sections(self, *sections: Any) -> None:
+        """Sections of the hole below those there are, each a HoleSection or a dict of its fields."""
+        made = [one if isinstance(one, HoleSection) else HoleSection(**one) for one in sections]
+        array = (HoleSection * len(made))(*made)
+        self._check(_lib.dmb_model_add_hole_sections(self._handle, array, len(made)))
+        self._note("add_hole_sections", *made)
 
     @mirrors("dmb_model_add_string")
     def add_string(self, definition: StringDef | None = None, **fields: Any) -> Id:
@@ -247,7 +255,7 @@ class Model:
 
 # ---- Making a model again --------------------------------------------------------------------------------------------
 _DEFINITIONS: dict[str, Any] = {
-    "set_environment": EnvironmentDef, "add_wall": WallDef, "add_string": StringDef, "add_pipes": PipeDef,
+    "set_environment": EnvironmentDef, "add_wall": WallDef, "add_hole_sections": HoleSection, "add_string": StringDef, "add_pipes": PipeDef,
     "add_body": BodyDef, "add_bit": BitDef, "add_joint": JointDef, "add_coupling": CouplingDef,
     "add_constraint": ConstraintDef, "add_drive": DriveDef, "add_load": LoadDef, "add_spring": SpringDef,
     "add_input": InputDef, "add_event": EventDef, "compile": CompileOptions,

@@ -371,6 +371,7 @@ def assumptions(study: Study) -> list[tuple[str, str]]:
     calls = scene.model.calls
     wall: Any = _structs.WallDef(**next((arguments[0] for name, arguments in calls if name == "add_wall"), {}))
     holed = any(name == "add_wall" for name, _ in calls)
+    sections = any(name == "add_hole_sections" for name, _ in calls)
     features = next((arguments[0].get("features") for name, arguments in calls if name == "compile"), None)
     left_out = [] if features is None else [one.name for one in enums.Feature
                                             if one.name and not one & features and one & (one - 1) == 0]
@@ -378,7 +379,8 @@ def assumptions(study: Study) -> list[tuple[str, str]]:
              ("mass, length", f"{info.mass:.4g} kg, {info.length:.4g} m")]
     if holed:
         found.append(("wall", f"diameter {1e3 * wall.diameter:g} mm, stiffness {wall.stiffness:g} per metre, friction "
-                              f"{wall.mu_static:g} at rest and {wall.mu_dynamic:g} sliding, the same along the hole"))
+                              f"{wall.mu_static:g} at rest and {wall.mu_dynamic:g} sliding, "
+                              + ("other values in its sections" if sections else "the same along the hole")))
     found += [("left out", ", ".join(str(one).lower() for one in left_out) or "nothing that the scene describes"),
               ("not in this page", "fatigue, connections, rock on the bit in the static operations, other depths"),
               ("library", f"{__version__}, hash of the last state {study.hash}"), ("Python", platform.python_version())]

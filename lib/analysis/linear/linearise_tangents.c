@@ -126,10 +126,11 @@ void dmb_linear_add_dead_loads(dmb_linear *linear, const double *before)
 }
 
 /* [N/m] of the wall under a ring that carries the weight of its node, a newton at least. */
-static double wall_stiffness(const dmb_scene *scene, const dmb_site *site)
+static double wall_stiffness(const dmb_scene *scene, const dmb_site *site, double depth)
 {
     const double weight = fmax(scene->weight_mass[site->node] * dmb_vec3_norm(scene->gravity), 1.0);
-    const double K = site->length * scene->normal_law.stiffness, exponent = scene->normal_law.exponent;
+    const dmb_normal_law law = dmb_normal_law_at(&scene->hole, &scene->normal_law, depth);
+    const double K = site->length * law.stiffness, exponent = scene->normal_law.exponent;
     return K * exponent * pow(weight / K, (exponent - 1.0) / exponent);
 }
 
@@ -149,7 +150,7 @@ double dmb_linear_wall_stiffness(const dmb_linear *linear, uint32_t s, double ga
     const dmb_site *site = linear->scene.sites + s;
     const double penetration = linear->work->trial.site_penetration[s];
     if (penetration > 0.0 || site->clearance == 0.0 || penetration < -gap) return 0.0;
-    return wall_stiffness(&linear->scene, site);
+    return wall_stiffness(&linear->scene, site, linear->work->trial.site_depth[s]);
 }
 
 void dmb_linear_close_contacts(dmb_linear *linear, double gap)

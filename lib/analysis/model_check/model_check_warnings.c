@@ -212,7 +212,7 @@ static void small_masses(const sink *to)
 static double allowed_penetration(const dmb_sim *sim, uint32_t node)
 {
     const double *u = sim->now.displacement + 3 * (size_t)node;
-    if (dmb_vec3_norm(u) > 0.0) return DMB_SUNK * sim->scene->hole.radius;
+    if (dmb_vec3_norm(u) > 0.0) return DMB_SUNK * dmb_hole_radius(&sim->scene->hole, sim->scene->reference_depth[node]);
     return 1e-12 * (1.0 + dmb_vec3_norm(sim->scene->reference_position + 3 * (size_t)node));
 }
 

@@ -9,9 +9,10 @@
 #include "sim/node.h"
 
 /* [m] Penetration under a force [N] */
-static double sink(const dmb_scene *scene, const dmb_site *site, double force)
+static double sink(const dmb_scene *scene, const dmb_site *site, double depth, double force)
 {
-    return pow(force / (scene->normal_law.stiffness * site->length), 1.0 / scene->normal_law.exponent);
+    const dmb_normal_law law = dmb_normal_law_at(&scene->hole, &scene->normal_law, depth);
+    return pow(force / (law.stiffness * site->length), 1.0 / law.exponent);
 }
 
 static int free_sideways(const dmb_scene *scene, uint32_t node)
@@ -43,7 +44,8 @@ static void lay_site(dmb_sim *sim, const dmb_site *site)
     dmb_vec3_axpy(-dmb_vec3_dot(down, tangent), tangent, down);
     const double across = dmb_vec3_norm(down);
     if (!(across > 1e-9 * dmb_vec3_norm(scene->gravity))) return;
-    dmb_vec3_scale((site->clearance + sink(scene, site, scene->weight_mass[node] * across)) / across, down, down);
+    const double in = sink(scene, site, depth, scene->weight_mass[node] * across);
+    dmb_vec3_scale((dmb_site_clearance(scene, site, depth) + in) / across, down, down);
     dmb_vec3_add(point, down, down);
     dmb_vec3_sub(down, x, down);
     dmb_vec3_add(u, down, u);
@@ -131,7 +133,8 @@ static void lay_pressed(const dmb_static_search *search, const dmb_site *site, d
     dmb_vec3_axpy(-dmb_vec3_dot(u, t), t, u);
     dmb_vec3_axpy(tension * site->length, k, u);
     const double across = dmb_vec3_norm(u);
-    if (across > 0.0) dmb_vec3_axpy((site->clearance + sink(scene, site, across)) / across, u, point);
+    const double clearance = dmb_site_clearance(scene, site, depth);
+    if (across > 0.0) dmb_vec3_axpy((clearance + sink(scene, site, depth, across)) / across, u, point);
     dmb_vec3_sub(point, scene->reference_position + 3 * (size_t)node, sim->trial.displacement + 3 * (size_t)node);
 }
 
@@ -180,9 +183,10 @@ double dmb_static_softness(const dmb_static_search *search, const dmb_static_pul
     for (uint32_t s = 0; s < scene->site_count; s++) {
         const dmb_site *site = scene->sites + s;
         if (!lies(scene, s)) continue;
-        dmb_hole_frame(&scene->hole, scene->reference_depth[site->node], point, t, k);
+        const double place = scene->reference_depth[site->node];
+        dmb_hole_frame(&scene->hole, place, point, t, k);
         const double force = pull->tension * dmb_vec3_norm(k) * site->length;
-        const double depth = force > 0.0 ? sink(scene, site, force) : site->clearance;
+        const double depth = force > 0.0 ? sink(scene, site, place, force) : site->clearance;
         most = fmax(most, pow(part * site->clearance / depth, scene->normal_law.exponent));
     }
     return fmin(most, DMB_SOFTEST);
@@ -231,7 +235,7 @@ int dmb_static_find_stiff_wall(const dmb_scene *scene, dmb_static_stiff_wall *ou
         const uint32_t e = dmb_element_between(scene, site->node, 0);
         const double force = scene->weight_mass[site->node] * dmb_vec3_norm(scene->gravity);
         if (!lies(scene, s) || e == DMB_NONE || !(force > 0.0)) continue;
-        const double depth = sink(scene, site, force);
+        const double depth = sink(scene, site, scene->reference_depth[site->node], force);
         if (!(depth < least * site->clearance)) continue;
         least = depth / site->clearance;
         *out = (dmb_static_stiff_wall){.depth = depth, .clearance = site->clearance};

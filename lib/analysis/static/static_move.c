@@ -109,7 +109,7 @@ static void roll(const dmb_sim *sim, uint32_t s, const double before[3], const d
     dmb_vec3_sub(x, point, n);
     dmb_vec3_axpy(-dmb_vec3_dot(n, t), t, n);
     const double e = dmb_vec3_norm(n);
-    if (!(e > site->clearance) || !(e > 0.0)) return;
+    if (!(e > dmb_site_clearance(scene, site, depth)) || !(e > 0.0)) return;
     dmb_vec3_scale(1.0 / e, n, n);
     dmb_vec3_cross(t, n, b);
     const double along = dmb_vec3_dot(d, t), out = e + dmb_vec3_dot(d, n), a = dmb_vec3_dot(d, b) / e;

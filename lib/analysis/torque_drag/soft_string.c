@@ -14,7 +14,7 @@ typedef struct march {
     const dmb_pipe_def *pipe; /* the present one, and its constants: */
     double EA, GJ, EI;        /* [N, N m2, N m2] the smaller EI */
     double weight;            /* [kg/m] mass per metre with tool joints, buoyancy taken off */
-    double radius, clearance; /* [m] of what touches */
+    double radius;            /* [m] of what touches */
     dmb_soft_place place;
 } march;
 
@@ -32,7 +32,6 @@ static void take_pipe(march *m, const dmb_pipe_def *pipe)
     m->EI = fmin(section.stiffness[4], section.stiffness[5]);
     m->weight = dmb_buoyancy_factor(pipe, soft->fluid_density) * (body.mass + joint.mass) / pipe->length;
     m->radius = 0.5 * fmax(pipe->outer_diameter, dmb_joint_diameter(pipe));
-    m->clearance = fmax(0.0, soft->hole->radius - m->radius);
 }
 
 /* ---- The equations ----------------------------------------------------------------------------------------------- */
@@ -43,7 +42,17 @@ static void confined_at(const march *m, double depth, dmb_confined_pipe *pipe)
     dmb_hole_frame(m->soft->hole, depth, x, pipe->tangent, pipe->bend);
     dmb_vec3_scale(m->weight, m->soft->gravity, pipe->weight);
     pipe->EI = m->EI;
-    pipe->clearance = m->clearance;
+    pipe->clearance = fmax(0.0, dmb_hole_radius(m->soft->hole, depth) - m->radius);
+}
+
+/* [-] */
+static double friction_at(const march *m, double depth)
+{
+    const dmb_soft_string *soft = m->soft;
+    if (!soft->by_depth) return soft->friction;
+    if (soft->hole->pieces == 0) return soft->friction * soft->wall_friction;
+    return soft->friction * soft->hole->friction *
+           dmb_hole_piece_value(dmb_hole_piece_at(soft->hole, depth), DMB_WALL_MU_DYNAMIC, depth);
 }
 
 /* [N/m] Wall force and its derivative by N. */
@@ -62,8 +71,9 @@ static void rates(const march *m, double depth, const double state[DMB_SOFT_COUN
 {
     const double v_a = m->operation->axial_speed, v_c = m->operation->rotary_speed * m->radius;
     const double v = hypot(v_a, v_c);
-    const double along = v > 0.0 ? m->soft->friction * v_a / v : 0.0;
-    const double around = v > 0.0 ? m->soft->friction * fabs(v_c) / v : 0.0;
+    const double friction = friction_at(m, depth);
+    const double along = v > 0.0 ? friction * v_a / v : 0.0;
+    const double around = v > 0.0 ? friction * fabs(v_c) / v : 0.0;
     dmb_confined_pipe pipe;
     double by_force;
     confined_at(m, depth, &pipe);
@@ -116,12 +126,21 @@ static double station_above(const dmb_hole *hole, double depth)
     return low > 0 ? hole->station[low - 1].depth : -(double)INFINITY;
 }
 
+/* [m] Likewise of the pieces of the wall, whose constants have corners of their second derivative there. */
+static double piece_above(const dmb_hole *hole, double depth)
+{
+    if (hole->pieces == 0) return -(double)INFINITY;
+    const dmb_hole_piece *piece = dmb_hole_piece_at(hole, depth);
+    if (piece->depth < depth) return piece->depth;
+    return piece > hole->piece ? piece[-1].depth : -(double)INFINITY;
+}
+
 /* Where the next step ends that begins at the present place: at `end` at the latest, which is exact. */
 static double next_depth(const march *m, double end, double spacing)
 {
     const double depth = m->place.depth, start = m->soft->start;
     dmb_confined_pipe pipe;
-    double next = fmax(end, station_above(m->soft->hole, depth));
+    double next = fmax(end, fmax(station_above(m->soft->hole, depth), piece_above(m->soft->hole, depth)));
     if (spacing > 0.0) next = fmax(next, start + spacing * (ceil((depth - start) / spacing - 1e-9) - 1.0));
     confined_at(m, depth - 1e-9, &pipe);
     const double bend = dmb_vec3_norm(pipe.bend);

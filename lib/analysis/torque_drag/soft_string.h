@@ -19,10 +19,13 @@ typedef struct dmb_soft_string {
     double fluid_density; /* [kg/m3] */
     uint32_t string;      /* index */
     int32_t post_buckling;
-    double start;    /* [m] measured depth of the rig end */
-    double length;   /* [m] of all pipes */
-    double friction; /* [-] */
-    double end_mass; /* [kg] of bodies and bits at the far end */
+    double start;     /* [m] measured depth of the rig end */
+    double length;    /* [m] of all pipes */
+    double friction;  /* [-] coefficient, or factor on that of the wall: */
+    int32_t by_depth; /* 1: friction is a factor on the wall's mu_dynamic by depth */
+    int32_t reserved;
+    double wall_friction; /* [-] mu_dynamic of a wall without sections */
+    double end_mass;      /* [kg] of bodies and bits at the far end */
 } dmb_soft_string;
 
 /* Integrated from the far end on. */

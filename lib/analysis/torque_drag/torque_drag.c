@@ -115,14 +115,17 @@ static int32_t take_options(request *r, const dmb_torque_drag_options *given)
         return refuse(r, DMB_ERR_STRUCT_SIZE, "struct_size of the options is not one this library knows");
     dmb_check_choice(&check, "post_buckling", options->post_buckling, 0, 1);
     if (options->friction != -1.0) dmb_check_within(&check, "friction", options->friction, 0.0, FRICTION_MAX);
+    dmb_check_choice(&check, "friction_by_depth", options->friction_by_depth, 0, 1);
     dmb_check_count(&check, "depth_count", options->depth_count, 1, options->depths != NULL ? DEPTHS_MAX : 1);
     if (check.status < 0) return check.status;
     const int32_t status = find_string(r);
     if (status < 0) return status;
     r->soft.post_buckling = options->post_buckling;
+    r->soft.wall_friction = r->sim->scene->friction_law.mu_dynamic;
+    r->soft.by_depth = options->friction < 0.0;
     r->soft.friction = options->friction >= 0.0                                ? options->friction
                        : r->sim->scene->friction_law.kind == DMB_FRICTION_NONE ? 0.0
-                                                                               : r->sim->scene->friction_law.mu_dynamic;
+                                                                               : 1.0;
     return check_depths(r);
 }
 
@@ -375,6 +378,7 @@ static int32_t fit(fitting *f, const dmb_torque_drag_options *options, const dmb
     int32_t status = take_options(f->r, options);
     if (status >= 0) status = take_operation(f->r, operation, 0, &f->operation);
     if (status < 0) return status;
+    f->r->soft.by_depth = f->r->options.friction_by_depth;
     dmb_check_choice(&check, "measured", f->measured, DMB_MEASURED_HOOK_LOAD, DMB_MEASURED_TORQUE);
     dmb_check_finite(&check, "value", f->value);
     return check.status < 0 ? check.status : bisect(f, friction);

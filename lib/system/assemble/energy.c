@@ -186,9 +186,14 @@ double dmb_gravity_energy(const dmb_scene *scene, const dmb_configuration *confi
 /* Sum over the rings of length times the integral of K d^n (THEORY 5); damping stores nothing. */
 double dmb_contact_energy(const dmb_scene *scene, const dmb_configuration *configuration)
 {
+    const int by_depth = scene->hole.pieces > 0;
     double sum = 0.0;
-    for (uint32_t s = 0; s < scene->site_count; s++)
-        sum += scene->sites[s].length * dmb_normal_energy(&scene->normal_law, configuration->site_penetration[s]);
+    for (uint32_t s = 0; s < scene->site_count; s++) {
+        dmb_normal_law local;
+        if (by_depth) local = dmb_normal_law_at(&scene->hole, &scene->normal_law, configuration->site_depth[s]);
+        sum += scene->sites[s].length *
+               dmb_normal_energy(by_depth ? &local : &scene->normal_law, configuration->site_penetration[s]);
+    }
     return sum;
 }
 

@@ -24,15 +24,28 @@ void dmb_contact_slope_of(const dmb_scene *scene, const dmb_configuration *c, ui
     if (!f.closed) return;
     if (full) {
         const double length = scene->sites[site].length;
+        const dmb_normal_law law = dmb_normal_law_at(&scene->hole, &scene->normal_law, c->site_depth[site]);
         double force;
-        dmb_normal_force(&scene->normal_law, fmax(f.penetration, DMB_CONTACT_PENETRATION), f.rate,
-                         c->site_approach[site], &force, &out->normal_by_depth, &out->normal_by_rate);
+        dmb_normal_force(&law, fmax(f.penetration, DMB_CONTACT_PENETRATION), f.rate, c->site_approach[site], &force,
+                         &out->normal_by_depth, &out->normal_by_rate);
         out->normal_by_depth *= length;
         out->normal_by_rate *= length;
     }
     if (scene->friction_law.kind == DMB_FRICTION_NONE) return;
-    dmb_friction_smooth(&scene->friction_law, f.normal_force, f.slip, friction, out->friction_by_slip,
-                        out->friction_by_normal);
+    dmb_friction_law local;
+    dmb_friction_smooth(dmb_contact_friction_law(scene, c, site, &local), f.normal_force, f.slip, friction,
+                        out->friction_by_slip, out->friction_by_normal);
+}
+
+const dmb_friction_law *dmb_contact_friction_law(const dmb_scene *scene, const dmb_configuration *c, uint32_t site,
+                                                 dmb_friction_law *local)
+{
+    if (scene->hole.pieces == 0) return &scene->friction_law;
+    const double depth = site < scene->site_count
+                             ? c->site_depth[site]
+                             : dmb_path_depth(scene, c, scene->path_sites[site - scene->site_count].node);
+    *local = dmb_friction_law_at(&scene->hole, &scene->friction_law, depth);
+    return local;
 }
 
 uint32_t dmb_contact_node(const dmb_scene *scene, uint32_t site)
@@ -63,7 +76,7 @@ static void frame_of(const dmb_evaluation *evaluation, uint32_t s, dmb_contact_f
 static int friction_by_normal(const dmb_evaluation *evaluation, uint32_t s, double radius, double by_normal[2])
 {
     const dmb_sim *sim = evaluation->sim;
-    dmb_friction_law law = sim->scene->friction_law;
+    dmb_friction_law local, law = *dmb_contact_friction_law(sim->scene, &sim->trial, s, &local);
     double v[2] = {evaluation->slip[0], radius * evaluation->slip[1]}, force[2], by_speed[4];
     if (evaluation->dynamic) memcpy(v, sim->trial.site_slip + 2 * (size_t)s, sizeof v);
     if (law.kind == DMB_FRICTION_NONE || (v[0] == 0.0 && v[1] == 0.0)) return 0;
@@ -156,6 +169,7 @@ void dmb_gather_contacts(dmb_evaluation *evaluation)
         soft.stiffness /= evaluation->wall_softness;
         job.normal_law = &soft;
     }
+    job.softer = evaluation->wall_softness > 0.0 ? evaluation->wall_softness : 1.0;
     dmb_friction_law sliding;
     if (evaluation->steady && job.friction_law != NULL && job.bristles) {
         sliding = dmb_sliding_law(job.friction_law);
@@ -172,7 +186,7 @@ void dmb_gather_contacts(dmb_evaluation *evaluation)
     job.potential = evaluation->power[DMB_POWER_POTENTIAL];
     job.impact = evaluation->power[DMB_POWER_IMPACT];
     job.friction = evaluation->power[DMB_POWER_FRICTION];
-    scene->kernels->walls(&job);
+    (scene->hole.pieces == 0 ? scene->kernels : dmb_kernels_of(1))->walls(&job);
     evaluation->rounding = job.rounding;
     evaluation->power[DMB_POWER_POTENTIAL] = job.potential;
     evaluation->power[DMB_POWER_IMPACT] = job.impact;
@@ -204,9 +218,9 @@ void dmb_assumed_friction(const dmb_friction_law *law, const dmb_configuration *
     out->sticks = 0;
 }
 
-/* Closest point of the axis, the direction from it and the speeds there. */
-static void site_frame_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t s, dmb_site_force *out,
-                          dmb_contact_frame *f)
+/* Closest point of the axis, its depth, the direction from it and the speeds there. */
+static double site_frame_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t s, dmb_site_force *out,
+                            dmb_contact_frame *f)
 {
     const dmb_site *site = scene->sites + s;
     double R[9], x[3], point[3], depth = c->site_depth[s];
@@ -221,28 +235,58 @@ static void site_frame_of(const dmb_scene *scene, const dmb_configuration *c, ui
     dmb_arm_velocity(site->offset, f->V);
     dmb_contact_frame_at(R, out->normal, out->tangent, f);
     dmb_contact_speeds(f);
+    return depth;
+}
+
+/* The wall's constants at a ring at that depth, its way in and how fast it grows (force/hole_section.h); friction gets
+ * its own law. */
+static void local_force(const dmb_scene *scene, const dmb_site *site, double depth, const dmb_contact_frame *f,
+                        double approach, double still, dmb_friction_law *friction, dmb_site_force *out)
+{
+    dmb_local_wall wall;
+    double point[3], k[3], by_depth, by_rate;
+    dmb_local_wall_at(&scene->hole, &scene->normal_law, &scene->friction_law, depth, 1.0, &wall);
+    dmb_hole_frame(&scene->hole, depth, point, NULL, k);
+    const double advance = dmb_hole_advance(f->distance, out->normal, k), rho = wall.radius_slope * advance;
+    out->penetration = f->distance - (wall.radius - site->radius);
+    out->rate = f->speed[0] - rho * dmb_vec3_dot(f->t, f->V);
+    *friction = wall.friction;
+    if (!(out->penetration > 0.0)) return;
+    dmb_normal_force(&wall.normal, out->penetration, still * out->rate, approach, &out->normal_force, &by_depth,
+                     &by_rate);
+    out->normal_force *= site->length;
+    out->along = rho * out->normal_force -
+                 advance * site->length * wall.stiffness_slope * dmb_wall_unit_energy(&wall.normal, out->penetration);
+    out->closed = 1;
 }
 
 void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t s, dmb_site_force *out)
 {
     const dmb_site *site = scene->sites + s;
+    const dmb_friction_law *law = &scene->friction_law;
+    dmb_friction_law local;
     dmb_contact_frame f;
     double depth, dot;
     memset(out, 0, sizeof *out);
-    site_frame_of(scene, configuration, s, out, &f);
+    const double place = site_frame_of(scene, configuration, s, out, &f);
     out->penetration = f.distance - site->clearance;
     out->rate = f.speed[0];
     out->slip[0] = f.speed[1];
     out->slip[1] = f.speed[2];
-    if (!(out->penetration > 0.0 || site->clearance == 0.0)) return;
     const double *assumed = configuration->friction_slip;
-    const double rate = assumed[0] != 0.0 || assumed[1] != 0.0 ? 0.0 : out->rate; /* statics know none */
-    dmb_normal_force(&scene->normal_law, fmax(out->penetration, DMB_CONTACT_PENETRATION), rate,
-                     configuration->site_approach[s], &out->normal_force, &depth, &dot);
-    out->normal_force *= site->length;
-    out->closed = 1;
+    const double still = assumed[0] != 0.0 || assumed[1] != 0.0 ? 0.0 : 1.0; /* statics know no speed */
+    if (scene->hole.pieces > 0) {
+        local_force(scene, site, place, &f, configuration->site_approach[s], still, &local, out);
+        law = &local;
+    } else if (out->penetration > 0.0 || site->clearance == 0.0) {
+        dmb_normal_force(&scene->normal_law, fmax(out->penetration, DMB_CONTACT_PENETRATION), still * out->rate,
+                         configuration->site_approach[s], &out->normal_force, &depth, &dot);
+        out->normal_force *= site->length;
+        out->closed = 1;
+    }
+    if (!out->closed) return;
     const int32_t bristles = dmb_scene_has_bristles(scene);
-    dmb_finished_friction(&scene->friction_law, bristles ? configuration->site_bristle + 2 * s : NULL,
+    dmb_finished_friction(law, bristles ? configuration->site_bristle + 2 * s : NULL,
                           bristles ? configuration->site_sticks[s] : 0, out);
 }
 
@@ -317,7 +361,9 @@ static void friction(const dmb_evaluation *evaluation, uint32_t p, double N, con
                      double dv[4], double dN[2])
 {
     dmb_sim *sim = evaluation->sim;
-    const dmb_friction_law *law = &sim->scene->friction_law;
+    const dmb_scene *scene = sim->scene;
+    dmb_friction_law local;
+    const dmb_friction_law *law = dmb_contact_friction_law(scene, &sim->trial, scene->site_count + p, &local);
     if (law->kind == DMB_FRICTION_BRISTLE && evaluation->steady) {
         const dmb_friction_law sliding = dmb_sliding_law(law);
         dmb_friction_smooth(&sliding, N, v, F, dv, dN);
@@ -385,7 +431,9 @@ void dmb_path_site_force_of(const dmb_scene *scene, const dmb_configuration *con
     out->closed = out->normal_force > 0.0;
     memcpy(out->slip, configuration->path_slip + 2 * p, sizeof out->slip);
     const int32_t bristles = dmb_scene_has_bristles(scene);
-    dmb_finished_friction(&scene->friction_law, bristles ? configuration->path_bristle + 2 * p : NULL,
+    dmb_friction_law local;
+    const dmb_friction_law *law = dmb_contact_friction_law(scene, configuration, scene->site_count + p, &local);
+    dmb_finished_friction(law, bristles ? configuration->path_bristle + 2 * p : NULL,
                           bristles ? configuration->path_sticks[p] : 0, out);
 }
 
@@ -439,11 +487,17 @@ void dmb_contacts_slide(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     if (!dmb_scene_has_bristles(scene)) return;
-    for (uint32_t s = 0; s < scene->site_count; s++)
+    for (uint32_t s = 0; s < scene->site_count; s++) {
+        dmb_friction_law local;
+        const dmb_friction_law *law = dmb_contact_friction_law(scene, &sim->now, s, &local);
         if (sim->now.site_penetration[s] > 0.0 || scene->sites[s].clearance == 0.0)
-            deflect(&scene->friction_law, sim->now.site_slip + 2 * (size_t)s, sim->now.site_bristle + 2 * (size_t)s,
+            deflect(law, sim->now.site_slip + 2 * (size_t)s, sim->now.site_bristle + 2 * (size_t)s,
                     sim->now.site_sticks + s);
-    for (uint32_t p = 0; p < scene->path_site_count; p++)
-        deflect(&scene->friction_law, sim->now.path_slip + 2 * (size_t)p, sim->now.path_bristle + 2 * (size_t)p,
+    }
+    for (uint32_t p = 0; p < scene->path_site_count; p++) {
+        dmb_friction_law local;
+        const dmb_friction_law *law = dmb_contact_friction_law(scene, &sim->now, scene->site_count + p, &local);
+        deflect(law, sim->now.path_slip + 2 * (size_t)p, sim->now.path_bristle + 2 * (size_t)p,
                 sim->now.path_sticks + p);
+    }
 }

@@ -20,6 +20,9 @@ void dmb_contact_slope_of(const dmb_scene *scene, const dmb_configuration *confi
  * the side of the forces that balance the wall, f = -(F_t j_t + F_b j_b) with its moment about the node, both in body
  * axes. 0: it does not touch or not slip. */
 int dmb_contact_friction_by_normal(const dmb_evaluation *evaluation, uint32_t site, double n[3], double f[6]);
+/* Law of friction at a site, counted likewise: that of the scene, or `local` with the coefficients of a section. */
+const dmb_friction_law *dmb_contact_friction_law(const dmb_scene *scene, const dmb_configuration *configuration,
+                                                 uint32_t site, dmb_friction_law *local);
 /* Node of a site. */
 uint32_t dmb_contact_node(const dmb_scene *scene, uint32_t site);
 
@@ -32,6 +35,7 @@ typedef struct dmb_site_force {
     double penetration;  /* [m] */
     double rate;         /* [m/s] of penetration */
     double normal_force; /* [N] >= 0 */
+    double along;        /* [N] on the ring along t, where radius or stiffness of the wall change */
     double friction[2];  /* [N] on the ring along t and b */
     double slip[2];      /* [m/s] along t and b */
     int32_t closed, sticks;

@@ -73,8 +73,9 @@ static uint64_t hash_of_bars(uint32_t pipes, uint32_t flexible, uint32_t lanes)
 
 static void every_width_gives_the_same_bits(void **state)
 {
-    static const full_rig_choice choices[] = {{DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0},
-                                              {DMB_FRICTION_BRISTLE, DMB_NORMAL_KELVIN_VOIGT, DMB_ROCK_NONE, 1, 1, 0}};
+    static const full_rig_choice choices[] = {
+        {DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0, 0},
+        {DMB_FRICTION_BRISTLE, DMB_NORMAL_KELVIN_VOIGT, DMB_ROCK_NONE, 1, 1, 0, 0}};
     (void)state;
     for (uint32_t lanes = 2; lanes <= 8; lanes *= 2) {
         if (!dmb_kernels_of(lanes)) {

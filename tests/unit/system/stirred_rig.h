@@ -13,7 +13,8 @@
 static inline void push_into_wall(dmb_sim *sim, uint32_t s)
 {
     const dmb_site *site = sim->scene->sites + s;
-    const double want = site->clearance + 0.02 + 0.01 * (s % 3);
+    const double deeper = sim->scene->hole.pieces > 0 ? 0.15 : 0.0; /* the wall is not where it was */
+    const double want = site->clearance + 0.02 + 0.01 * (s % 3) + deeper;
     double *u = sim->now.displacement + 3 * site->node;
     u[1] = 0.4 * want;
     u[2] = -0.9 * want;

@@ -127,7 +127,7 @@ static void draw_increments(const dmb_sim *sim, uint64_t seed, double *base)
 static void matrix_is_the_derivative_by_the_increments(void **state)
 {
     (void)state;
-    const full_rig_choice choice = {DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_NONE, 0, 1, 0};
+    const full_rig_choice choice = {DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_NONE, 0, 1, 0, 0};
     double base[ROWS_MAX], worst = 0.0;
     for (uint64_t seed = 1; seed <= 3; seed++) {
         rig s;
@@ -144,7 +144,7 @@ static void matrix_is_the_derivative_by_the_increments(void **state)
 /* After a correction of size z the extrapolated stress is that of the moved element up to z^2. */
 static double extrapolation_error(double size)
 {
-    const full_rig_choice choice = {DMB_FRICTION_NONE, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_NONE, 0, 1, 1};
+    const full_rig_choice choice = {DMB_FRICTION_NONE, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_NONE, 0, 1, 1, 0};
     rig s;
     double base[ROWS_MAX], worst = 0.0;
     dmb_evaluation e;

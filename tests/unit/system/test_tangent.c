@@ -149,29 +149,41 @@ static void check_tangent(const char *name, const full_rig_choice *choice)
 static void stribeck_and_rate_law(void **state)
 {
     (void)state;
-    const full_rig_choice choice = {DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0};
+    const full_rig_choice choice = {DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0, 0};
     check_tangent("Stribeck, rate law", &choice);
 }
 
 static void bristle_and_regenerative_law(void **state)
 {
     (void)state;
-    const full_rig_choice choice = {DMB_FRICTION_BRISTLE, DMB_NORMAL_EXACT, DMB_ROCK_REGENERATIVE, 0, 1, 0};
+    const full_rig_choice choice = {DMB_FRICTION_BRISTLE, DMB_NORMAL_EXACT, DMB_ROCK_REGENERATIVE, 0, 1, 0, 0};
     check_tangent("bristles, regenerative law", &choice);
 }
 
 static void ambrosio_with_impact_law(void **state)
 {
     (void)state;
-    const full_rig_choice choice = {DMB_FRICTION_AMBROSIO, DMB_NORMAL_IMPACT, DMB_ROCK_NONE, 0, 0, 0};
+    const full_rig_choice choice = {DMB_FRICTION_AMBROSIO, DMB_NORMAL_IMPACT, DMB_ROCK_NONE, 0, 0, 0, 0};
     check_tangent("Ambrosio, IMPACT", &choice);
 }
 
 static void rings_in_a_curved_hole(void **state)
 {
     (void)state;
-    const full_rig_choice choice = {DMB_FRICTION_COULOMB, DMB_NORMAL_KELVIN_VOIGT, DMB_ROCK_NONE, 1, 0, 1};
+    const full_rig_choice choice = {DMB_FRICTION_COULOMB, DMB_NORMAL_KELVIN_VOIGT, DMB_ROCK_NONE, 1, 0, 1, 0};
     check_tangent("Coulomb, Kelvin-Voigt, curved hole", &choice);
+}
+
+/* Diameter, stiffness, restitution, damping and friction of the wall change along the hole. */
+static void rings_in_sections(void **state)
+{
+    (void)state;
+    const full_rig_choice choice[3] = {{DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_NONE, 0, 0, 1, 1},
+                                       {DMB_FRICTION_AMBROSIO, DMB_NORMAL_EXACT, DMB_ROCK_NONE, 1, 0, 1, 1},
+                                       {DMB_FRICTION_COULOMB, DMB_NORMAL_KELVIN_VOIGT, DMB_ROCK_NONE, 1, 0, 1, 1}};
+    check_tangent("sections, Stribeck, Hunt-Crossley", choice);
+    check_tangent("sections, Ambrosio, exact, curved", choice + 1);
+    check_tangent("sections, Coulomb, Kelvin-Voigt, curved", choice + 2);
 }
 
 /* Force times curvature of the hole is left out of the tangent at a seam between flexible and axial-torsional pipes, at
@@ -180,7 +192,7 @@ static void rings_in_a_curved_hole(void **state)
 static void everything_in_a_curved_hole(void **state)
 {
     (void)state;
-    const full_rig_choice choice = {DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 1, 0, 0};
+    const full_rig_choice choice = {DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 1, 0, 0, 0};
     rig s;
     full_rig_open(&s, &choice);
     stir(&s, 2);
@@ -201,9 +213,10 @@ static double potential(dmb_sim *sim)
 }
 
 /* Without loads, bit load and drives the static residual is the gradient of strain, gravity and contact energy. */
-static void check_gradient(const char *what, int32_t curved)
+static void check_gradient(const char *what, int32_t curved, int32_t sections)
 {
-    const full_rig_choice choice = {DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, curved, 1, 0};
+    const full_rig_choice choice = {
+        DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, curved, 1, 0, sections};
     rig s;
     double worst = 0.0, residual[ROWS_MAX];
     full_rig_open(&s, &choice);
@@ -232,8 +245,10 @@ static void check_gradient(const char *what, int32_t curved)
 static void static_residual_is_the_gradient_of_the_energies(void **state)
 {
     (void)state;
-    check_gradient("static residual against the gradient of the energies", 0);
-    check_gradient("the same in a curved hole", 1);
+    check_gradient("static residual against the gradient of the energies", 0, 0);
+    check_gradient("the same in a curved hole", 1, 0);
+    check_gradient("the same in a hole of sections", 0, 1);
+    check_gradient("the same in a curved hole of sections", 1, 1);
 }
 
 /* ---- Power ------------------------------------------------------------------------------------------------------- */
@@ -256,10 +271,11 @@ static void check_power(const full_rig_choice *choice)
 static void powers_cancel_at_an_accepted_state(void **state)
 {
     (void)state;
-    const full_rig_choice choice[3] = {{DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0},
-                                       {DMB_FRICTION_BRISTLE, DMB_NORMAL_EXACT, DMB_ROCK_REGENERATIVE, 0, 1, 0},
-                                       {DMB_FRICTION_COULOMB, DMB_NORMAL_KELVIN_VOIGT, DMB_ROCK_RATE, 1, 1, 0}};
-    for (int i = 0; i < 3; i++) check_power(choice + i);
+    const full_rig_choice choice[4] = {{DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0, 0},
+                                       {DMB_FRICTION_BRISTLE, DMB_NORMAL_EXACT, DMB_ROCK_REGENERATIVE, 0, 1, 0, 0},
+                                       {DMB_FRICTION_COULOMB, DMB_NORMAL_KELVIN_VOIGT, DMB_ROCK_RATE, 1, 1, 0, 0},
+                                       {DMB_FRICTION_STRIBECK, DMB_NORMAL_EXACT, DMB_ROCK_RATE, 1, 1, 0, 1}};
+    for (int i = 0; i < 4; i++) check_power(choice + i);
 }
 
 int main(void)
@@ -269,6 +285,7 @@ int main(void)
         cmocka_unit_test(bristle_and_regenerative_law),
         cmocka_unit_test(ambrosio_with_impact_law),
         cmocka_unit_test(rings_in_a_curved_hole),
+        cmocka_unit_test(rings_in_sections),
         cmocka_unit_test(everything_in_a_curved_hole),
         cmocka_unit_test(static_residual_is_the_gradient_of_the_energies),
         cmocka_unit_test(powers_cancel_at_an_accepted_state),

@@ -231,7 +231,7 @@ def setting_units(target: int, drive: tuple[int, int] | None) -> dict[str, str]:
 
 
 DEFINITIONS: dict[str, Any] = {
-    "environment": _structs.EnvironmentDef, "hole": _structs.WallDef, "string": _structs.StringDef,
+    "environment": _structs.EnvironmentDef, "hole": _structs.WallDef, "section": _structs.HoleSection, "string": _structs.StringDef,
     "pipes": _structs.PipeDef, "body": _structs.BodyDef, "bit": _structs.BitDef, "joint": _structs.JointDef,
     "coupling": _structs.CouplingDef, "drive": _structs.DriveDef, "load": _structs.LoadDef,
     "spring": _structs.SpringDef, "term": _structs.Term,

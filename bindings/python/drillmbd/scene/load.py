@@ -284,7 +284,8 @@ class Loader:
         exponent = table.get("exponent", 1.0)
         power = float(exponent) if isinstance(exponent, (int, float)) and 0 < exponent < 10 else 1.0
         special = {"stiffness": f"N/m^{power + 1.0:g}"}
-        values = self.read(path, table, fields_of(DEFINITIONS["hole"]), ("survey", "survey_file"), special.get)
+        values = self.read(path, table, fields_of(DEFINITIONS["hole"]), ("survey", "survey_file", "section"),
+                           special.get)
         if "survey" in table and "survey_file" in table:
             self.problems.add(path + ("survey_file",), table["survey_file"], "must be left out where there is a survey")
         elif "survey" in table:
@@ -293,6 +294,10 @@ class Loader:
             values["stations"] = survey.from_file(self.problems, path + ("survey_file",), table["survey_file"], self.folder)
         if values.get("stations", ()) is not None:
             self._add(path, self.model.add_wall, DEFINITIONS["hole"], values)
+        known = fields_of(DEFINITIONS["section"])
+        for where, section in self.tables(table, path, "section"):
+            self._add(where, self.model.add_hole_sections, DEFINITIONS["section"],
+                      self.read(where, section, known, (), special.get))
 
     def _programme(self, path: Path, name: str, table: dict[str, Any]) -> None:
         for key in table:

@@ -56,6 +56,7 @@ class Writer:
         self.parts: dict[str, list[tuple[Id, Any]]] = {}       # kind -> (id, description) in order
         self.pipes: dict[int, list[tuple[int, dict[str, Any]]]] = {}  # string -> sections
         self.single: dict[str, dict[str, Any]] = {}
+        self.sections: list[dict[str, Any]] = []               # of the hole
         self._sort()
 
     # ---- From calls to parts ----------------------------------------------------------------------------------------
@@ -65,6 +66,9 @@ class Writer:
             kind = name.replace("add_", "")
             if name in ("set_environment", "compile"):
                 self.single[kind.replace("set_", "")] = arguments[0]
+                continue
+            if kind == "hole_sections":
+                self.sections += arguments
                 continue
             made = next(ids)
             if kind == "wall":
@@ -152,13 +156,17 @@ class Writer:
 
     def _hole(self, values: dict[str, Any]) -> None:
         power = values.get("exponent", 1.0)
-        self._table("hole", values, lambda key: f"N/m^{power + 1.0:g}" if key == "stiffness" else None)
+        special = {"stiffness": f"N/m^{power + 1.0:g}"}
+        self._table("hole", values, special.get)
         if values.get("stations"):
             self.lines.append("survey = [")
             for depth, inclination, azimuth in values["stations"]:
                 row = [units.text(depth, "m"), units.text(inclination, "rad"), units.text(azimuth, "rad")]
                 self.lines.append(f"    {_value(row)},")
             self.lines.append("]")
+        for section in self.sections:
+            self._head("[[hole.section]]")
+            self._table("section", section, special.get)
 
     def _programme(self, name: str, terms: list[dict[str, Any]], unit: str | None) -> None:
         self._head("[[programme]]", name)

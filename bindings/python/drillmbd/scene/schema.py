@@ -63,7 +63,8 @@ def schema() -> dict[str, Any]:
                     count={"type": "integer", "minimum": 1})
     properties: dict[str, Any] = {
         "title": {"type": "string"}, "environment": _object(fields_of(DEFINITIONS["environment"])),
-        "hole": _object(fields_of(DEFINITIONS["hole"]), survey={"type": "array", "minItems": 2, "items": row},
+        "hole": _object(fields_of(DEFINITIONS["hole"]), section=_many(_object(fields_of(DEFINITIONS["section"]))),
+                        survey={"type": "array", "minItems": 2, "items": row},
                         survey_file={"type": "string", "description": "CSV: depth [m], inclination [deg], azimuth [deg]"}),
         "programme": _many(_object({}, ("term",), name=_NAME, unit=_NAME, term=_many(_term()))),
         "compile": _object(fields_of(DEFINITIONS["compile"])), "sim": _object(fields_of(DEFINITIONS["sim"])),

@@ -161,9 +161,9 @@ static void check_stirred(const char *what, const full_rig_choice *choice)
 static void matrices_are_derivatives_of_the_residual(void **state)
 {
     (void)state;
-    const full_rig_choice stribeck = {DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0};
-    const full_rig_choice ambrosio = {DMB_FRICTION_AMBROSIO, DMB_NORMAL_IMPACT, DMB_ROCK_NONE, 0, 0, 0};
-    const full_rig_choice curved = {DMB_FRICTION_COULOMB, DMB_NORMAL_KELVIN_VOIGT, DMB_ROCK_NONE, 1, 0, 1};
+    const full_rig_choice stribeck = {DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0, 0};
+    const full_rig_choice ambrosio = {DMB_FRICTION_AMBROSIO, DMB_NORMAL_IMPACT, DMB_ROCK_NONE, 0, 0, 0, 0};
+    const full_rig_choice curved = {DMB_FRICTION_COULOMB, DMB_NORMAL_KELVIN_VOIGT, DMB_ROCK_NONE, 1, 0, 1, 0};
     check_stirred("moving, in contact with friction and on rock", &stribeck);
     check_stirred("moving, other laws, on two rows a node in part", &ambrosio);
     check_stirred("moving, in a curved hole", &curved);
@@ -239,7 +239,7 @@ static double asymmetry(uint32_t n, const double *A)
 static void mass_is_positive_and_symmetric(void **state)
 {
     (void)state;
-    const full_rig_choice choice = {DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0};
+    const full_rig_choice choice = {DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0, 0};
     static double A[ROWS_MAX * ROWS_MAX], work[3 * ROWS_MAX];
     for (int joints = 0; joints < 2; joints++) {
         rig s;

@@ -1,0 +1,247 @@
+/* Sections of the hole as pieces of parabolas. Around the depth D of a section, over h = transition/2 on both sides,
+ * two parabolas lead from y0 with slope m0 to y1 with slope m1; they meet at D with the slope
+ *     p = (y1 - y0)/h - (m0 + m1)/2,
+ * which is one parabola where the two lines meet. Behind them the values hold or go straight on. The mean over the
+ * transition of a step is that of the sharp one, so that friction takes the same work. */
+#include "drillmbd/hole.h"
+#include "force/hole_section.h"
+#include "model/field_check.h"
+#include "model/mesh.h"
+#include "model/section.h"
+
+typedef struct section_values {
+    double v[DMB_WALL_COUNT];
+} section_values;
+
+static double or_wall(double value, double wall)
+{
+    return value >= 0.0 ? value : wall;
+}
+
+static section_values of_wall(const dmb_wall_def *w)
+{
+    return (section_values){
+        {0.5 * w->diameter, w->stiffness, w->restitution, w->damping, w->mu_static, w->mu_dynamic, 0.0}};
+}
+
+static section_values of_section(const dmb_wall_def *wall, const dmb_hole_section *s)
+{
+    return (section_values){{0.5 * or_wall(s->diameter, wall->diameter), or_wall(s->stiffness, wall->stiffness),
+                             or_wall(s->restitution, wall->restitution), or_wall(s->damping, wall->damping),
+                             or_wall(s->mu_static, wall->mu_static), or_wall(s->mu_dynamic, wall->mu_dynamic),
+                             s->strength}};
+}
+
+/* ---- Checks ------------------------------------------------------------------------------------------------------ */
+
+static int32_t refuse(const dmb_mesh *mesh, uint32_t i, const char *text, double value, double bound)
+{
+    dmb_message *message = &mesh->model->message;
+    dmb_message_set(message, text, i, value, bound);
+    return DMB_ERR_GEOMETRY;
+}
+
+/* What the laws ask of the wall's constants, with those of the wall filled in. */
+static int32_t check_constants(const dmb_mesh *mesh, uint32_t i, const section_values *s)
+{
+    const dmb_wall_def *wall = &mesh->model->wall;
+    dmb_check check = dmb_check_of(&mesh->model->message, "hole section", i);
+    if (wall->normal_law == DMB_NORMAL_FLORES || wall->normal_law == DMB_NORMAL_EXACT)
+        dmb_check_above(&check, "restitution", s->v[DMB_WALL_RESTITUTION], 0.0);
+    if (wall->friction_law == DMB_FRICTION_STRIBECK || wall->friction_law == DMB_FRICTION_BRISTLE)
+        dmb_check_at_least_field(&check, "mu_static", s->v[DMB_WALL_MU_STATIC], "mu_dynamic",
+                                 s->v[DMB_WALL_MU_DYNAMIC]);
+    return check.status;
+}
+
+static int32_t check_place(const dmb_mesh *mesh, const dmb_hole_section *all, uint32_t i, uint32_t count)
+{
+    const dmb_hole_section *s = all + i;
+    if (i + 1 == count) {
+        if (s->shape == DMB_HOLE_STEP) return DMB_OK;
+        return refuse(mesh, i,
+                      "hole section %u: shape = DMB_HOLE_LINE (%g), must be DMB_HOLE_STEP (%g) in the last one; add a "
+                      "section that the line leads to",
+                      s->shape, DMB_HOLE_STEP);
+    }
+    const double room = s[1].depth - s->depth, need = 0.5 * (s->transition + s[1].transition);
+    if (room >= need) return DMB_OK;
+    return refuse(mesh, i,
+                  "hole section %u: depth is %g m above the next one's, must be >= %g m, half of both transitions; "
+                  "give shorter transitions",
+                  room, need);
+}
+
+/* ---- Pieces ------------------------------------------------------------------------------------------------------ */
+
+/* Goes along: what the values are and how fast they change. */
+typedef struct section_walk {
+    dmb_mesh *mesh;
+    section_values at; /* at the end of the last piece */
+    section_values slope;
+    double depth; /* [m] where that is */
+} section_walk;
+
+static int32_t push(section_walk *walk, const dmb_hole_piece *piece)
+{
+    const dmb_wall_def *wall = &walk->mesh->model->wall;
+    dmb_hole_piece added = *piece;
+    added.factor = dmb_normal_law_of((dmb_normal_law){.kind = wall->normal_law}, piece->value[DMB_WALL_RESTITUTION]).mu;
+    return dmb_vector_append(&walk->mesh->pieces, &walk->mesh->model->allocator, &added, 1);
+}
+
+/* From the present values, changing by `slope` at first, to those with the slope `to` at h beyond. */
+static int32_t push_parabola(section_walk *walk, double h, const section_values *to)
+{
+    dmb_hole_piece piece = {.depth = walk->depth};
+    for (int k = 0; k < DMB_WALL_COUNT; k++) {
+        piece.value[k] = walk->at.v[k];
+        piece.slope[k] = walk->slope.v[k];
+        piece.bend[k] = 0.5 * (to->v[k] - walk->slope.v[k]) / h;
+        walk->at.v[k] += 0.5 * h * (walk->slope.v[k] + to->v[k]);
+    }
+    walk->slope = *to;
+    walk->depth += h;
+    return push(walk, &piece);
+}
+
+static int32_t push_straight(section_walk *walk, double end)
+{
+    dmb_hole_piece piece = {.depth = walk->depth};
+    for (int k = 0; k < DMB_WALL_COUNT; k++) {
+        piece.value[k] = walk->at.v[k];
+        piece.slope[k] = walk->slope.v[k];
+        walk->at.v[k] += (end - walk->depth) * walk->slope.v[k];
+    }
+    walk->depth = end;
+    return push(walk, &piece);
+}
+
+/* Over the transition of a section with these values and slopes behind it. */
+static int32_t pass_transition(section_walk *walk, const dmb_hole_section *s, const section_values *values,
+                               const section_values *slope)
+{
+    const double h = 0.5 * s->transition;
+    section_values middle, end;
+    for (int k = 0; k < DMB_WALL_COUNT; k++) {
+        end.v[k] = values->v[k] + h * slope->v[k];
+        middle.v[k] = (end.v[k] - walk->at.v[k]) / h - 0.5 * (walk->slope.v[k] + slope->v[k]);
+    }
+    if (fabs(middle.v[DMB_WALL_RADIUS]) > DMB_HOLE_SLOPE_MAX)
+        return refuse(walk->mesh, (uint32_t)(s - (const dmb_hole_section *)walk->mesh->model->sections.items),
+                      "hole section %u: its radius changes by %g m/m within the transition, must be <= %g; give a "
+                      "longer transition",
+                      fabs(middle.v[DMB_WALL_RADIUS]), DMB_HOLE_SLOPE_MAX);
+    int32_t status = push_parabola(walk, h, &middle);
+    if (status >= 0) status = push_parabola(walk, h, slope);
+    walk->at = end; /* without the rounding of the way */
+    return status;
+}
+
+static section_values slope_behind(const dmb_wall_def *wall, const dmb_hole_section *s, const section_values *values)
+{
+    section_values slope = {{0}};
+    if (s->shape == DMB_HOLE_STEP) return slope;
+    const section_values next = of_section(wall, s + 1);
+    for (int k = 0; k < DMB_WALL_COUNT; k++) slope.v[k] = (next.v[k] - values->v[k]) / (s[1].depth - s->depth);
+    return slope;
+}
+
+static int32_t pass_section(section_walk *walk, uint32_t i, uint32_t count)
+{
+    const dmb_wall_def *wall = &walk->mesh->model->wall;
+    const dmb_hole_section *all = walk->mesh->model->sections.items, *s = all + i;
+    const section_values values = of_section(wall, s);
+    int32_t status = check_place(walk->mesh, all, i, count);
+    if (status >= 0) status = check_constants(walk->mesh, i, &values);
+    if (status < 0) return status;
+    const section_values slope = slope_behind(wall, s, &values);
+    status = push_straight(walk, s->depth - 0.5 * s->transition);
+    return status < 0 ? status : pass_transition(walk, s, &values, &slope);
+}
+
+int32_t dmb_mesh_sections(dmb_mesh *mesh)
+{
+    const dmb_hole_section *all = mesh->model->sections.items;
+    const uint32_t count = mesh->model->sections.count;
+    int32_t status = DMB_OK;
+    if (count == 0) return DMB_OK;
+    if (mesh->model->wall_count == 0) {
+        dmb_message_set(&mesh->model->message, "hole sections: there are %u and no wall; add a wall", count);
+        return DMB_ERR_ORDER;
+    }
+    section_walk walk = {.mesh = mesh, .at = of_wall(&mesh->model->wall)};
+    walk.depth = all->depth - all->transition;
+    for (uint32_t i = 0; i < count && status >= 0; i++) status = pass_section(&walk, i, count);
+    if (status >= 0) status = push_straight(&walk, walk.depth);
+    mesh->hole.piece = mesh->pieces.items;
+    mesh->hole.pieces = (uint32_t)mesh->pieces.count;
+    return status;
+}
+
+/* ---- Through the hole -------------------------------------------------------------------------------------------- */
+
+/* The narrowest place between two depths is no narrower than `diameter`. */
+static int32_t check_fits(const dmb_mesh *mesh, const char *part, uint32_t index, const char *field, double diameter,
+                          double from, double to)
+{
+    double where;
+    const double hole = 2.0 * dmb_hole_least_radius(&mesh->hole, from, to, &where);
+    if (diameter <= hole) return DMB_OK;
+    dmb_message_set(&mesh->model->message,
+                    "%s %u: %s = %g m, must be <= %g m, the hole's diameter at measured depth %g m; look at the "
+                    "sections of the hole",
+                    part, index, field, diameter, hole, where);
+    return DMB_ERR_GEOMETRY;
+}
+
+static int32_t check_pipe(const dmb_mesh *mesh, uint32_t string, const dmb_pipe_def *def, double from, double to)
+{
+    const int32_t status = check_fits(mesh, "pipes of string", string, "outer_diameter", def->outer_diameter, from, to);
+    if (status < 0) return status;
+    return check_fits(mesh, "pipes of string", string, "joint_outer_diameter", dmb_joint_diameter(def),
+                      fmax(from, to - def->joint_length), to);
+}
+
+/* Pipes that follow the hole all along, others at their near ends. */
+static int32_t check_string(const dmb_mesh *mesh, uint32_t string)
+{
+    dmb_pipe_walk pipes = dmb_pipe_walk_of(mesh, string);
+    const dmb_string_map *map = dmb_mesh_string_at(mesh, string);
+    const bool follows = dmb_mesh_follows_hole(mesh, string);
+    double at = dmb_mesh_string_def(mesh, string)->start_depth;
+    int32_t status = DMB_OK;
+    while (status >= 0 && dmb_pipe_walk_next(&pipes)) {
+        const dmb_pipe_map *pipe = dmb_mesh_pipe_at(mesh, map->first_pipe + pipes.number);
+        const double length = pipes.run->def.length;
+        if (!follows) at = dmb_mesh_node_at(mesh, pipe->node)->depth;
+        status = check_pipe(mesh, string, &pipes.run->def, at, follows ? at + length : at);
+        at += length;
+    }
+    return status;
+}
+
+static double depth_of(const dmb_mesh *mesh, uint32_t map_index)
+{
+    const dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, map_index);
+    return dmb_mesh_node_at(mesh, map->node)->depth + map->arm;
+}
+
+int32_t dmb_mesh_fits(dmb_mesh *mesh)
+{
+    const dmb_model *model = mesh->model;
+    int32_t status = DMB_OK;
+    if (mesh->hole.pieces == 0 || model->wall.normal_law == DMB_NORMAL_NONE) return DMB_OK;
+    for (uint32_t s = 0; s < mesh->strings.count && status >= 0; s++) status = check_string(mesh, s);
+    for (uint32_t i = 0; i < model->bodies.count && status >= 0; i++) {
+        const double depth = depth_of(mesh, i);
+        status = check_fits(mesh, "body", i, "contact_diameter",
+                            DMB_LIST_AT(const dmb_body_def, model->bodies, i)->contact_diameter, depth, depth);
+    }
+    for (uint32_t i = 0; i < model->bits.count && status >= 0; i++) {
+        const dmb_bit_def *bit = DMB_LIST_AT(const dmb_bit_def, model->bits, i);
+        const double depth = depth_of(mesh, model->bodies.count + i) + 0.5 * bit->length;
+        status = check_fits(mesh, "bit", i, "diameter", bit->diameter, depth, depth);
+    }
+    return status;
+}
