@@ -32,8 +32,9 @@ DMB_SIZED_STRUCT(dmb_parameter)
  * parameters: count (1 .. 4096) of them, each with the same struct_size. The sim must outlive what is made, which holds
  * its models; memory comes from the sim's allocator. Errors (dmb_sim_message says why): DMB_ERR_NULL, _HANDLE,
  * _STRUCT_SIZE; _VALUE: low or high is a scene of another make, has another time, or other contacts, locks or inputs
- * that are not numbers; _UNSUPPORTED: joints with DMB_METHOD_MULTIPLIERS, scenes with inputs (control.h); _TOO_LARGE:
- * clusters that are solved by sparse matrices; _NO_MEMORY. O(count * size of the state). */
+ * that are not numbers; _UNSUPPORTED: joints with DMB_METHOD_MULTIPLIERS, scenes with inputs (control.h), programmes
+ * whose times differ; _TOO_LARGE: clusters that are solved by sparse matrices; _NO_MEMORY. O(count * size of the
+ * state). */
 DMB_API int32_t dmb_sensitivity_create(dmb_sim *sim, const dmb_parameter *parameters, uint32_t count,
                                        dmb_sensitivity **sensitivity);
 /* Sets *sensitivity to NULL; does nothing within one of its calls. NULL-safe. */

@@ -162,6 +162,31 @@ static void test_refusals(void **state)
     trio_close(&t);
 }
 
+/* A corner of a programme at another time on one side: steps end at the sim's. */
+static void test_times_differ(void **state)
+{
+    rig s[3];
+    dmb_sensitivity *sensitivity;
+    dmb_parameter parameter = dmb_parameter_default();
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        dmb_term term = dmb_term_default();
+        dmb_body_def body = dmb_body_def_default();
+        rig_open(&s[i], 0.0, 0.0, 0.0);
+        term.kind = DMB_TERM_STEP;
+        term.x1 = 0.1 + 1e-6 * i;
+        term.h1 = 1.0;
+        (void)add_simple_drive(&s[i], DMB_DRIVE_MOTION, add_body(&s[i], &body), DMB_X, add_programme(&s[i], &term, 1));
+        (void)rig_start(&s[i], NULL);
+    }
+    parameter.step = 1e-6;
+    parameter.low = s[0].sim;
+    parameter.high = s[2].sim;
+    assert_int_equal(dmb_sensitivity_create(s[1].sim, &parameter, 1, &sensitivity), DMB_ERR_UNSUPPORTED);
+    assert_non_null(strstr(dmb_sim_message(s[1].sim), "times"));
+    for (int i = 0; i < 3; i++) rig_close(&s[i]);
+}
+
 /* Calls that fail leave state and derivatives as they were. */
 static void test_failures(void **state)
 {
@@ -209,11 +234,8 @@ static void test_allocates_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bits),
-        cmocka_unit_test(test_corner),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_failures),
-        cmocka_unit_test(test_allocates_nothing),
+        cmocka_unit_test(test_bits),     cmocka_unit_test(test_corner),       cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_failures), cmocka_unit_test(test_times_differ), cmocka_unit_test(test_allocates_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -346,6 +346,36 @@ static uint32_t rod_channels(const rig *s, dmb_channel *out)
     return 4;
 }
 
+/* Bars turned by a motion drive whose speed has corners, the parameter being its values. */
+static void by_corners(rig *s, double value)
+{
+    const double time[4] = {0.0, 0.02, 0.05, 0.2}, speeds[4] = {0.0, value, 0.5 * value, value};
+    dmb_term term = dmb_term_default();
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = s1_pipe();
+    rig_open(s, 0.0, 0.0, 0.0);
+    term.kind = DMB_TERM_TABLE;
+    term.table_time = time;
+    term.table_value = speeds;
+    term.table_count = 4;
+    string.start_free = DMB_FREE_RX;
+    last_string = add_string(s, &string);
+    pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
+    pipe.damping_time = 1e-4;
+    (void)dmb_model_add_pipes(s->model, &pipe, 6, NULL);
+    last_drive = add_simple_drive(s, DMB_DRIVE_MOTION, last_string, DMB_RX, add_programme(s, &term, 1));
+}
+
+static uint32_t turning_channels(const rig *s, dmb_channel *out)
+{
+    (void)s;
+    out[0] = channel_of(dmb_station(last_string, 5, 1.0), DMB_CHANNEL_ROTATION);
+    out[1] = channel_of(dmb_station(last_string, 5, 1.0), DMB_CHANNEL_SPIN);
+    out[2] = channel_of(dmb_station(last_string, 2, 0.5), DMB_CHANNEL_TORQUE);
+    out[3] = channel_of(dmb_station(last_drive, 0, 0.0), DMB_CHANNEL_DRIVE_FORCE);
+    return 4;
+}
+
 /* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 static void test_strings(void **state)
@@ -387,6 +417,18 @@ static void test_ball(void **state)
         "stiffness under a ball", by_ball_stiffness, ball_channels, 1e6, 10.0, 100.0, 1e-4, 1200, 1e-6, 0};
     (void)state;
     check_case(&c);
+}
+
+/* At a corner, in the step after it, and later. */
+static void test_corners(void **state)
+{
+    const uint32_t steps[3] = {20, 21, 100};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        const scene_case c = {
+            "table of a motion drive", by_corners, turning_channels, 6.0, 1e-2, 1e-1, 1e-3, steps[i], 1e-9, 0};
+        check_case(&c);
+    }
 }
 
 static void test_joints(void **state)
@@ -544,8 +586,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_oscillator), cmocka_unit_test(test_input),    cmocka_unit_test(test_joints),
-        cmocka_unit_test(test_strings),    cmocka_unit_test(test_bristles), cmocka_unit_test(test_ball),
-        cmocka_unit_test(test_drilling),
+        cmocka_unit_test(test_corners),    cmocka_unit_test(test_strings),  cmocka_unit_test(test_bristles),
+        cmocka_unit_test(test_ball),       cmocka_unit_test(test_drilling),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,6 +43,27 @@ static int same_make(const dmb_sim *a, const dmb_sim *b)
            same_arrays(a, b);
 }
 
+/* A step ends at corners of programmes, which the steps beside it share. */
+static int same_times(const dmb_term *a, const dmb_term *b)
+{
+    if (a->kind != b->kind) return 0;
+    if (a->kind == DMB_TERM_STEP || a->kind == DMB_TERM_STEP5) return a->x0 == b->x0 && a->x1 == b->x1;
+    if (a->kind != DMB_TERM_TABLE) return 1;
+    return a->table_count == b->table_count &&
+           memcmp(a->table_time, b->table_time, a->table_count * sizeof *a->table_time) == 0;
+}
+
+static int same_corners(const dmb_scene *a, const dmb_scene *b)
+{
+    if (a->programme_count != b->programme_count) return 0;
+    for (uint32_t i = 0; i < a->programme_count; i++) {
+        if (a->programmes[i].count != b->programmes[i].count) return 0;
+        for (uint32_t k = 0; k < a->programmes[i].count; k++)
+            if (!same_times(a->programmes[i].terms + k, b->programmes[i].terms + k)) return 0;
+    }
+    return 1;
+}
+
 static int same_inputs(const dmb_sim *a, const dmb_sim *b)
 {
     for (uint32_t i = 0; i < a->scene->drive_count; i++)
@@ -61,6 +82,11 @@ static int32_t check_side(dmb_sim *sim, uint32_t number, const dmb_parameter *p,
     if (!same_make(sim, side)) {
         dmb_message_set(&text, "%s is a scene of other parts, supports, meshes or laws; only numbers may differ", name);
         return refuse(sim, number, p, DMB_ERR_VALUE, text.text);
+    }
+    if (!same_corners(sim->scene, side->scene)) {
+        dmb_message_set(&text, "%s has programmes with other terms or times: steps end there; only values may differ",
+                        name);
+        return refuse(sim, number, p, DMB_ERR_UNSUPPORTED, text.text);
     }
     if (side->clock->time != sim->clock->time) {
         dmb_message_set(&text, "%s stands at time %g s, must be %g s as the sim", name, side->clock->time,
@@ -217,6 +243,7 @@ static int32_t create(dmb_sim *sim, const dmb_parameter *given, uint32_t count, 
     made->follower.context = made;
     made->magic = DMB_HANDLE_SENSITIVITY;
     dmb_sensitivity_settle(made, 0);
+    dmb_sensitivity_take_sight(made, &sim->now);
     *out = made;
     return DMB_OK;
 }

@@ -36,7 +36,7 @@ struct dmb_sensitivity {
     size_t numbers;                  /* [-] of the state */
     double *high, *low;              /* numbers of the state on both sides, shape (numbers) */
     double *middle;  /* the same of the sim, taken beside as the others, where a parameter is one-sided */
-    double *seen;    /* displacement, velocity and acceleration at which the rates are, see take_sight */
+    double *seen;    /* displacement, velocity and acceleration at which the rates are, dmb_sensitivity_take_sight */
     double *opening; /* shape (row) */
     dmb_follower follower;
     int32_t busy;
@@ -66,8 +66,13 @@ void dmb_sensitivity_stand(dmb_sensitivity *s);
 void dmb_sensitivity_aside(dmb_sensitivity *s, const dmb_rated_parameter *p, int side);
 /* DMB_OK, DMB_ERR_NULL, _HANDLE; _ORDER within one of its calls. */
 int32_t dmb_sensitivity_alive(const dmb_sensitivity *s);
+/* The rates belong to these displacements, velocities and accelerations. */
+void dmb_sensitivity_take_sight(dmb_sensitivity *s, const dmb_configuration *of);
 /* Rates as before the call (back), or those reached for the next one to begin with. */
 void dmb_sensitivity_settle(dmb_sensitivity *s, int back);
+/* After accelerations were made anew, by a corner or by the caller: rates that fit them. Errors as dmb_system_jump,
+ * with a message; the rates are as before then. */
+int32_t dmb_sensitivity_catch_up(dmb_sensitivity *s);
 /* The sim's follower: rates along a step. */
 int32_t dmb_sensitivity_follow(void *context, const dmb_attempt *attempt);
 

@@ -59,6 +59,7 @@ int32_t dmb_sensitivity_channels(dmb_sensitivity *sensitivity, const dmb_channel
     if (status < 0) return status;
     if (channels == NULL || derivatives == NULL) return DMB_ERR_NULL;
     status = check_channels(s, channels, count);
+    if (status >= 0) status = dmb_sensitivity_catch_up(s);
     if (status < 0) return status;
     dmb_sensitivity_stand(s);
     for (uint32_t i = 0; i < count; i++) {

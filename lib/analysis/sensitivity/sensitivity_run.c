@@ -101,8 +101,7 @@ static int any_one_sided(const dmb_sensitivity *s)
     return 0;
 }
 
-/* Where the rates belong: displacements, velocities, then accelerations. */
-static void take_sight(dmb_sensitivity *s, const dmb_configuration *of)
+void dmb_sensitivity_take_sight(dmb_sensitivity *s, const dmb_configuration *of)
 {
     const size_t n = 3 * (size_t)s->sim->scene->node_count, r = s->sim->scene->row_count;
     memcpy(s->seen, of->displacement, n * sizeof(double));
@@ -172,7 +171,7 @@ int32_t dmb_sensitivity_follow(void *context, const dmb_attempt *attempt)
     const int32_t status = accelerates_as_seen(s) ? DMB_OK : jump_all(s);
     if (status < 0) return status;
     const int32_t followed = follow_all(s, &lead);
-    if (followed >= 0) take_sight(s, &s->sim->trial);
+    if (followed >= 0) dmb_sensitivity_take_sight(s, &s->sim->trial);
     return followed;
 }
 
@@ -194,7 +193,21 @@ void dmb_sensitivity_settle(dmb_sensitivity *s, int back)
         if (back) p->kinks = p->accepted_kinks;
         p->accepted_kinks = p->kinks;
     }
-    take_sight(s, &s->sim->now);
+    if (back) dmb_sensitivity_take_sight(s, &s->sim->now);
+}
+
+int32_t dmb_sensitivity_catch_up(dmb_sensitivity *s)
+{
+    if (accelerates_as_seen(s)) return DMB_OK;
+    const int32_t status = jump_all(s);
+    if (status >= 0) {
+        dmb_sensitivity_take_sight(s, &s->sim->now);
+        dmb_sensitivity_settle(s, 0);
+        return status;
+    }
+    for (uint32_t i = 0; i < s->count; i++)
+        memcpy(s->parameters[i].rates, s->parameters[i].accepted, s->numbers * sizeof(double));
+    return status;
 }
 
 /* A step or an advance of the sim with the rates; step: a failing call takes all of it back. */
@@ -208,6 +221,8 @@ static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int s
                         "one anew from here");
         return DMB_ERR_ORDER;
     }
+    status = dmb_sensitivity_catch_up(s);
+    if (status < 0) return status;
     const uint64_t kinks = kinks_of(s);
     s->busy = 1;
     s->sim->follower = &s->follower;
@@ -215,6 +230,7 @@ static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int s
     s->sim->follower = NULL;
     dmb_sensitivity_settle(s, step && status < 0);
     s->busy = 0;
+    (void)dmb_sensitivity_catch_up(s); /* a corner just reached; where it fails, the next call tells */
     if (status != DMB_OK || kinks_of(s) == kinks) return status;
     dmb_message_set(&s->sim->message,
                     "sensitivity: up to %g s contact, sticking, limit or bit differed between the sides of a parameter "
