@@ -235,7 +235,7 @@ static int32_t create(dmb_sim *sim, const dmb_parameter *given, uint32_t count, 
     worker->options.energy_ledger = 0;
     worker->progress = &worker->own_progress;
     for (uint32_t i = 0; i < count; i++) {
-        dmb_parameter p;
+        dmb_parameter p = dmb_parameter_default();
         (void)dmb_parameter_read(&p, (const unsigned char *)given + (size_t)i * given->struct_size);
         take_parameter(made, &p, &made->parameters[i]);
     }
