@@ -22,9 +22,9 @@ enum {
 };
 
 typedef struct dmb_channel_entry {
-    int32_t quantity;
     const char *name;
     const char *unit;
+    int32_t quantity;
     int32_t place; /* DMB_AT_... */
 } dmb_channel_entry;
 
