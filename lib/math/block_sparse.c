@@ -186,8 +186,8 @@ static int64_t factor(const dmb_block_pattern *pattern, const dmb_block_sparse *
 {
     for (uint32_t k = 0; k < pattern->n; k++) {
         const uint32_t block = pattern->order[k], n = matrix->size[block];
+        if (n == 0) continue; /* and with no block at all no values */
         const double *D = matrix->values + pattern->diagonal[k];
-        if (n == 0) continue;
         const double largest = weakest ? dmb_block_largest(n, D) : 0.0;
         const int64_t failed = eliminate(pattern, matrix, k, n);
         if (weakest) dmb_block_watch(n, D, n + 1, largest, failed, block, weakest);
