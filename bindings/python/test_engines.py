@@ -168,6 +168,16 @@ class EngineTest(Base):
             self.assertEqual([one.margins for one in found], known, name)
             self.assertEqual([one.number for one in found], list(range(12)), name)
 
+    def test_threads_of_blas(self):
+        """A field's matrix in processes whose OpenBLAS has one thread and two."""
+        script = ("import hashlib; from drillmbd.probability.fields import Expansion; "
+                  "e = Expansion('exponential', 3.0, tuple(0.1 * i for i in range(300))); "
+                  "print(hashlib.sha256(e.matrix.tobytes() + e(e.matrix[0]).tobytes()).hexdigest())")
+        found = {subprocess.run([sys.executable, "-c", script], env={**ENVIRONMENT, "OMP_NUM_THREADS": count,
+                                                                     "OPENBLAS_NUM_THREADS": count},
+                                check=True, capture_output=True, text=True).stdout for count in ("1", "2")}
+        self.assertEqual(len(found), 1)
+
     def test_one_worker_dies(self):
         toy = Toy(self.folder, {3: "die", 17: "die"}, 0.002)
         study = Study(toy, engines.processes(2))

@@ -12,6 +12,7 @@ from ..scene.fields import DEFINITIONS
 from ..scene.terms import _term as known_term
 from ..scene.units import text
 from ..scene.variability import RandomField, RandomProcess, Scatter, normal_correlation
+from .blas import one_thread
 from .fields import Expansion, Markov, expansion
 from .marginals import Translation
 
@@ -51,6 +52,7 @@ class Draw:
         self.translations = {one.name: Translation(one.marginal)
                              for one in self.varies.parts}
         numpy = need("numpy")
+        one_thread()
         self.mix = numpy.linalg.cholesky(normal_correlation(self.varies)) if self.varies.scatters else numpy.zeros((0, 0))
         self.fields: list[tuple[RandomField, Expansion]] = [(one, self._field(one)) for one in self.varies.fields]
         self.processes: list[tuple[RandomProcess, Expansion | Markov, Any]] = [

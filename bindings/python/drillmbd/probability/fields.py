@@ -7,6 +7,7 @@ import math
 from typing import Any
 
 from .._optional import need
+from .blas import one_thread
 
 
 def kernel(name: str, distance: Any, length: float) -> Any:
@@ -37,6 +38,7 @@ class Expansion:
 
     def __init__(self, name: str, length: float, points: tuple[float, ...], modes: int = 0) -> None:
         numpy = need("numpy")
+        one_thread()
         at = numpy.asarray(points, dtype=float)
         count = len(at)
         self.points, self.modes = at, count if not modes else min(modes, count)
