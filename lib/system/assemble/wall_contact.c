@@ -8,7 +8,6 @@
 #include "math/so3.h"
 #include "math/vec3.h"
 #include "sim/node.h"
-#include "system/assemble/energy.h"
 #include "system/assemble/evaluation.h"
 
 void dmb_contact_slope_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t site, dmb_contact_slope *out)
@@ -121,7 +120,7 @@ static dmb_site_fields fields_of(const dmb_configuration *configuration)
 }
 
 /* Where the kernels find and leave what belongs to the sites. */
-static dmb_wall_job run_of(const dmb_sim *sim)
+static dmb_wall_job job_of(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     const dmb_wall_job job = {
@@ -160,7 +159,7 @@ dmb_friction_law dmb_sliding_law(const dmb_friction_law *law)
 void dmb_gather_contacts(dmb_evaluation *evaluation)
 {
     const dmb_scene *scene = evaluation->sim->scene;
-    dmb_wall_job job = run_of(evaluation->sim);
+    dmb_wall_job job = job_of(evaluation->sim);
     if (scene->friction_law.kind != DMB_FRICTION_NONE && (evaluation->dynamic || evaluation->slipping))
         job.friction_law = &scene->friction_law;
     dmb_normal_law soft;
@@ -288,153 +287,6 @@ void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configur
     const int32_t bristles = dmb_scene_has_bristles(scene);
     dmb_finished_friction(law, bristles ? configuration->site_bristle + 2 * s : NULL,
                           bristles ? configuration->site_sticks[s] : 0, out);
-}
-
-/* PATH nodes lie on the wall (Johancsik, Friesen, Dawson 1984): the side force is what weight and tension in a curved
- * hole leave across the axis,   N = | w_across + T kappa n | l,   and friction acts along and around the axis. */
-
-/* [m] stretch of an element beyond rest at the trial; a mixed one has left it. */
-static double stretch_of(const dmb_sim *sim, uint32_t element)
-{
-    const dmb_scene *scene = sim->scene;
-    const dmb_element_type *type = scene->types + scene->element_type[element];
-    const uint32_t a = scene->element_node[element];
-    const double *u = sim->trial.displacement + 3 * a;
-    if (scene->layout.size[a] != DMB_NODE_PATH || scene->layout.size[a + 1] != DMB_NODE_PATH)
-        return dmb_beam_stretch(type, sim->element_strain + 6 * (size_t)element);
-    return (u[3] - u[0]) + (type->length - type->rest[0]);
-}
-
-/* Mean tension of the elements on both sides of a node [N]. */
-static double tension_at(const dmb_sim *sim, uint32_t node)
-{
-    const dmb_scene *scene = sim->scene;
-    double sum = 0.0;
-    uint32_t count = 0;
-    for (uint32_t e = 0; e < 2; e++) {
-        const uint32_t element = dmb_element_between(scene, node, e);
-        if (element == DMB_NONE) continue;
-        sum += scene->types[scene->element_type[element]].stiffness[0] * stretch_of(sim, element);
-        count++;
-    }
-    return count ? sum / count : 0.0;
-}
-
-/* Side force [N], its outward unit direction (world) and its derivative by tension [-]. */
-static double side_force(const dmb_scene *scene, const dmb_configuration *c, const dmb_path_site *site, double tension,
-                         double load_factor, double direction[3], double tangent[3], double *by_tension)
-{
-    double point[3], curvature[3], u[3];
-    dmb_hole_frame(&scene->hole, dmb_path_depth(scene, c, site->node), point, tangent, curvature);
-    dmb_vec3_scale(load_factor * scene->weight_mass[site->node], scene->gravity, u);
-    dmb_vec3_axpy(-dmb_vec3_dot(u, tangent), tangent, u);
-    dmb_vec3_axpy(tension * site->length, curvature, u);
-    const double N = dmb_vec3_norm(u);
-    dmb_vec3_scale(N > 0.0 ? 1.0 / N : 0.0, u, direction);
-    *by_tension = site->length * dmb_vec3_dot(direction, curvature);
-    return N;
-}
-
-/* Tension of an element grows with the advance of its far node: adds dF/dT dT/ds to the rows of the node. */
-static void add_tension_tangent(dmb_sim *sim, uint32_t node, const double dF_dT[2])
-{
-    const dmb_scene *scene = sim->scene;
-    const uint32_t before = dmb_element_between(scene, node, 0), after = dmb_element_between(scene, node, 1);
-    const double share = before != DMB_NONE && after != DMB_NONE ? 0.5 : 1.0;
-    const dmb_block_layout *layout = &scene->layout;
-    for (uint32_t k = 0; k < 2; k++) {
-        const double d = -share * dF_dT[k]; /* of the residual */
-        if (before != DMB_NONE && layout->size[node - 1] == DMB_NODE_PATH) {
-            const double stiffness = scene->types[scene->element_type[before]].stiffness[0];
-            dmb_stiffness_of(sim, node)[2 * k] += d * stiffness;
-            sim->stiffness_lower[layout->link[node - 1] + 2 * k] -= d * stiffness;
-        }
-        if (after != DMB_NONE && layout->size[node + 1] == DMB_NODE_PATH) {
-            const double stiffness = scene->types[scene->element_type[after]].stiffness[0];
-            dmb_stiffness_of(sim, node)[2 * k] -= d * stiffness;
-            sim->stiffness_upper[layout->link[node] + 2 * k] += d * stiffness;
-        }
-    }
-}
-
-static void friction(const dmb_evaluation *evaluation, uint32_t p, double N, const double v[2], double F[2],
-                     double dv[4], double dN[2])
-{
-    dmb_sim *sim = evaluation->sim;
-    const dmb_scene *scene = sim->scene;
-    dmb_friction_law local;
-    const dmb_friction_law *law = dmb_contact_friction_law(scene, &sim->trial, scene->site_count + p, &local);
-    if (law->kind == DMB_FRICTION_BRISTLE && evaluation->steady) {
-        const dmb_friction_law sliding = dmb_sliding_law(law);
-        dmb_friction_smooth(&sliding, N, v, F, dv, dN);
-    } else if (law->kind == DMB_FRICTION_BRISTLE && evaluation->dynamic) {
-        sim->trial.path_sticks[p] =
-            dmb_friction_bristle(law, N, v, sim->now.path_bristle + 2 * p, sim->now.path_slip + 2 * p,
-                                 sim->now.path_sticks[p], evaluation->step, sim->trial.path_bristle + 2 * p, F, dv, dN);
-    } else {
-        dmb_friction_smooth(law, N, v, F, dv, dN);
-    }
-}
-
-static void gather_path_site(dmb_evaluation *evaluation, uint32_t p)
-{
-    dmb_sim *sim = evaluation->sim;
-    const dmb_scene *scene = sim->scene;
-    const dmb_path_site *site = scene->path_sites + p;
-    const double *row = sim->trial.velocity + scene->layout.row[site->node];
-    const double spin = evaluation->dynamic ? row[1] : evaluation->slip[1];
-    const double v[2] = {evaluation->dynamic ? row[0] : evaluation->slip[0], site->radius * spin};
-    double direction[3], tangent[3], by_tension, F[2], dv[4], dN[2];
-    const double tension = tension_at(sim, site->node);
-    const double N =
-        side_force(scene, &sim->trial, site, tension, evaluation->load_factor, direction, tangent, &by_tension);
-    memcpy(sim->trial.path_slip + 2 * p, v, sizeof v);
-    if (!evaluation->dynamic && !evaluation->slipping) return;
-    friction(evaluation, p, N, v, F, dv, dN);
-    const double wrench[6] = {F[0], 0.0, 0.0, site->radius * F[1], 0.0, 0.0};
-    dmb_apply_wrench(sim, site->node, wrench);
-    evaluation->power[DMB_POWER_FRICTION] += evaluation->dynamic ? F[0] * v[0] + F[1] * v[1] : 0.0;
-    if (!evaluation->tangent) return;
-    const double dF_dT[2] = {dN[0] * by_tension, site->radius * dN[1] * by_tension};
-    if (by_tension != 0.0 && !evaluation->inertia_only) add_tension_tangent(sim, site->node, dF_dT);
-    if (!evaluation->dynamic) return;
-    double *C = dmb_inertia_of(sim, site->node);
-    const double s = evaluation->velocity_factor, r = site->radius;
-    C[0] -= s * dv[0];
-    C[1] -= s * r * dv[1];
-    C[2] -= s * r * dv[2];
-    C[3] -= s * r * r * dv[3];
-}
-
-void dmb_gather_path_friction(dmb_evaluation *evaluation)
-{
-    for (uint32_t p = 0; p < evaluation->sim->scene->path_site_count; p++) gather_path_site(evaluation, p);
-}
-
-void dmb_path_site_force_of(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t p,
-                            dmb_site_force *out)
-{
-    const dmb_path_site *site = scene->path_sites + p;
-    double by_tension, tension = 0.0;
-    uint32_t count = 0;
-    memset(out, 0, sizeof *out);
-    for (uint32_t e = 0; e < 2; e++) {
-        double force[12];
-        const uint32_t element = dmb_element_between(scene, site->node, e);
-        if (element == DMB_NONE) continue;
-        dmb_element_section_force(scene, configuration, element, force);
-        tension += force[0];
-        count++;
-    }
-    if (count) tension /= count;
-    out->normal_force = side_force(scene, configuration, site, tension, 1.0, out->normal, out->tangent, &by_tension);
-    out->closed = out->normal_force > 0.0;
-    memcpy(out->slip, configuration->path_slip + 2 * p, sizeof out->slip);
-    const int32_t bristles = dmb_scene_has_bristles(scene);
-    dmb_friction_law local;
-    const dmb_friction_law *law = dmb_contact_friction_law(scene, configuration, scene->site_count + p, &local);
-    dmb_finished_friction(law, bristles ? configuration->path_bristle + 2 * p : NULL,
-                          bristles ? configuration->path_sticks[p] : 0, out);
 }
 
 /* ---- What a configuration remembers of its contacts -------------------------------------------------------------- */
