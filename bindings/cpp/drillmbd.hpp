@@ -147,6 +147,7 @@ public:
     dmb_id add_event(const dmb_event_def &def) { return add(dmb_model_add_event, def); }
     dmb_id add_input(const dmb_input_def &def) { return add(dmb_model_add_input, def); }
     dmb_id add_spring(const dmb_spring_def &def) { return add(dmb_model_add_spring, def); }
+    dmb_id add_force(const dmb_force_def &def) { return add(dmb_model_add_force, def); }
     std::int32_t compile(const dmb_compile_options *options = nullptr) { return done(try_compile(options)); }
 
     dmb_model_info info() const

@@ -18,7 +18,7 @@ ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "TERM_C
               "NORMAL_NONE": "NormalLaw", "FRICTION_NONE": "FrictionLaw", "PIPE_FLEXIBLE": "PipeKind",
               "ROCK_NONE": "RockLaw", "JOINT_FIXED": "JointKind", "JOINT_ACTIVE": "JointMode",
               "CONSTRAINT_HOLONOMIC": "ConstraintKind", "PROVIDES_RATE": "ProgrammeProvides",
-              "PROVIDES_JACOBIAN": "ConstraintProvides", "DRIVE_MOTION": "DriveKind",
+              "PROVIDES_JACOBIAN": "ConstraintProvides", "PROVIDES_TANGENT": "ForceProvides", "DRIVE_MOTION": "DriveKind",
               "CHANNEL_DISPLACEMENT_X": "Quantity", "CHANNEL_HOOK_LOAD": "Reading", "INPUT_DRIVE": "InputKind",
               "OUTPUT_DISPLACEMENT": "OutputKind", "TARGET_SET_POINT": "InputTarget", "OUTSIDE_REFUSED": "Outside",
               "STATE_FULL": "StateForm", "MOTION_SPEED": "MotionInput", "MATRIX_A": "Matrix", "ARRAY_VELOCITY": "Array",
@@ -35,7 +35,7 @@ FLAGS = ("FREE", "FEATURE", "PROVIDES")  # prefixes of bits of masks
 STRUCT_NAMES = {"dmb_recorder": "RecorderStruct", "dmb_profile": "ProfileStruct",
                 "dmb_profile_recorder": "ProfileRecorderStruct"}
 MIXINS = {"Id": "IdPart", "Term": "TermPart", "WallDef": "WallPart", "ConstraintDef": "ConstraintPart",
-          "SpringDef": "SpringPart"}
+          "SpringDef": "SpringPart", "ForceDef": "ForcePart"}
 NUMBERS = {"int32_t": "c_int32", "uint32_t": "c_uint32", "int64_t": "c_int64", "uint64_t": "c_uint64",
            "double": "c_double", "size_t": "c_size_t", "char": "c_char"}
 PYTHON = {"c_double": "float", "c_char": "bytes"}
@@ -261,7 +261,7 @@ from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int
                     c_void_p)
 from typing import Any, ClassVar
 
-from ._record import ConstraintPart, IdPart, Record, Sized, SpringPart, TermPart, WallPart
+from ._record import ConstraintPart, ForcePart, IdPart, Record, Sized, SpringPart, TermPart, WallPart
 
 '''
 FUNCTIONS_HEAD = MADE.format("The functions of the C interface.") + '''from __future__ import annotations

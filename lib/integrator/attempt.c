@@ -6,6 +6,7 @@
 #include "integrator/step_motion.h"
 #include "math/so3.h"
 #include "sim/node.h"
+#include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/assemble/free_rigid.h"
 #include "system/constrain/cluster.h"
@@ -301,6 +302,11 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
         break;
     case DMB_ERR_GEOMETRY: /* said where it was found */ break;
     case DMB_ERR_CALLBACK:
+        if (dmb_failed_force(sim, &owner.text)) {
+            dmb_message_set(&sim->message, "%s: its callback failed or gave a value beyond +-1e30 at time %g",
+                            owner.text.text, attempt->evaluation.time);
+            break;
+        }
         if (sim->reduced_mode->row != DMB_NONE) {
             dmb_message name;
             dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, sim->reduced_mode->row), &name);

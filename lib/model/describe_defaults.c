@@ -95,6 +95,8 @@ DMB_DEFINE_INIT(dmb_drive_def, 72, {
 
 DMB_DEFINE_INIT(dmb_load_def, 88, {.frame = DMB_FRAME_WORLD})
 
+DMB_DEFINE_INIT(dmb_force_def, 280, {.place_count = 1, .pose_step = 1e-5, .speed_step = 1e-5})
+
 DMB_DEFINE_INIT(dmb_spring_def, 184, {.acts = DMB_SPRING_BOTH, .free_length = -1.0})
 
 DMB_DEFINE_INIT(dmb_compile_options, 16, {.features = DMB_FEATURE_ALL, .pipe_kind = -1})

@@ -1,6 +1,7 @@
-/* Springs between two points. */
+/* Springs between two points, and forces by the caller's functions. */
 #include "base/checked_size.h"
 #include "base/memory.h"
+#include "constraint/joint.h"
 #include "model/describe.h"
 #include "model/field_check.h"
 #include "model/limits.h"
@@ -147,4 +148,60 @@ int32_t dmb_model_add_spring(dmb_model *model, const dmb_spring_def *def, dmb_id
     if (status >= 0) status = check_spring(model, &read);
     if (status >= 0) status = append_spring(model, &read, spring);
     return dmb_describe_end(model, "spring", &read, sizeof read, status);
+}
+
+/* ---- Forces by the caller's functions ---------------------------------------------------------------------------- */
+
+static void check_coordinate(dmb_check *check, const dmb_model *model, const dmb_force_def *def, uint32_t i,
+                             uint32_t joint)
+{
+    const dmb_joint_def *of = DMB_LIST_AT(const dmb_joint_def, model->joints, joint);
+    const int on_hole = of->kind == DMB_JOINT_POINT_ON_HOLE;
+    dmb_message field, name, bound;
+    dmb_message_set(&field, "component[%u]", i);
+    dmb_check_choice(check, field.text, def->component[i], DMB_X, DMB_RZ);
+    if (check->status < 0 || (!on_hole && (dmb_joint_free_mask(of->kind) >> def->component[i] & 1) != 0)) return;
+    dmb_message_set(&bound, "free in its joint: %s", dmb_part_text(&name, "joint", joint, of->name, sizeof of->name));
+    dmb_check_fail(check, DMB_ERR_VALUE, field.text, def->component[i], bound.text);
+}
+
+static void check_argument(dmb_check *check, const dmb_model *model, const dmb_force_def *def, uint32_t i)
+{
+    const uint32_t joint = dmb_model_part_index(model, def->place[i].part, DMB_PART_JOINT);
+    dmb_message place, offset;
+    if (joint != DMB_NONE) {
+        check_coordinate(check, model, def, i, joint);
+        return;
+    }
+    dmb_message_set(&place, "place[%u]", i);
+    dmb_message_set(&offset, "offset of place %u", i);
+    dmb_check_place(check, model, place.text, &def->place[i]);
+    dmb_check_each_within(check, offset.text, def->offset + 3 * i, 3, -DMB_LENGTH_MAX, DMB_LENGTH_MAX);
+}
+
+static int32_t check_force(dmb_model *model, const dmb_force_def *def)
+{
+    dmb_message part;
+    dmb_check check = dmb_check_of(
+        &model->message, dmb_part_text(&part, "force", model->forces.count, def->name, sizeof def->name), DMB_NONE);
+    dmb_check_name(&check, "name", def->name, sizeof def->name);
+    dmb_check_choice(&check, "frame", def->frame, DMB_FRAME_WORLD, DMB_FRAME_BODY);
+    dmb_check_count(&check, "place_count", def->place_count, 1, DMB_CONSTRAINT_PLACES);
+    for (uint32_t i = 0; i < def->place_count && check.status >= 0; ++i) check_argument(&check, model, def, i);
+    dmb_check_mask(&check, "provides", def->provides, DMB_PROVIDES_TANGENT | DMB_PROVIDES_POTENTIAL);
+    dmb_check_within(&check, "pose_step", def->pose_step, 1e-12, 1.0);
+    dmb_check_within(&check, "speed_step", def->speed_step, 1e-12, 1.0);
+    dmb_check_pointer(&check, "callback", def->callback != NULL ? def : NULL);
+    return check.status;
+}
+
+int32_t dmb_model_add_force(dmb_model *model, const dmb_force_def *def, dmb_id *force)
+{
+    dmb_force_def read = dmb_force_def_default();
+    int32_t status = dmb_describe_open(model, "force", def);
+    if (status < 0) return status;
+    status = dmb_force_def_read(&read, def);
+    if (status >= 0) status = check_force(model, &read);
+    if (status >= 0) status = dmb_describe_append(model, &model->forces, &read, sizeof read, DMB_PART_FORCE, force);
+    return dmb_describe_end(model, "force", &read, sizeof read, status);
 }

@@ -12,9 +12,9 @@
  *   sites           pipes, bodies              sites, path_sites
  *   joints          joints, couplings, ...     joints, couplings, callbacks, laws
  *   actions         drives, loads, bits        drives, loads, load_points, bits, nodes (prescribed), driven
- *   forces          springs                    springs, spring_points
- *   constraints     joints ... springs         constraints, clusters, cluster_nodes; back-references
- *                                              in joints, couplings, drives, callbacks, springs
+ *   forces          springs, forces            springs, spring_points, forces
+ *   constraints     joints ... forces          constraints, clusters, cluster_nodes; back-references
+ *                                              in joints, couplings, drives, callbacks, springs, forces
  *
  * Fields that need the numbers of rows are made by freeze: rows of drives, columns of clusters, the blocks of jointed
  * chains. */
@@ -81,6 +81,7 @@ typedef struct dmb_mesh {
     dmb_vector springs;       /* dmb_scene_spring */
     dmb_vector spring_points; /* dmb_spring_point */
     dmb_vector events;        /* dmb_scene_event */
+    dmb_vector forces;        /* dmb_scene_force */
     dmb_vector joints;        /* dmb_scene_joint */
     dmb_vector couplings;     /* dmb_scene_coupling */
     dmb_vector callbacks;     /* dmb_scene_callback */

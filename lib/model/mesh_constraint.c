@@ -21,6 +21,10 @@ static dmb_scene_spring *spring_at(const dmb_mesh *mesh, uint32_t i)
 {
     return DMB_VECTOR_AT(dmb_scene_spring, &mesh->springs, i);
 }
+static dmb_scene_force *force_at(const dmb_mesh *mesh, uint32_t i)
+{
+    return DMB_VECTOR_AT(dmb_scene_force, &mesh->forces, i);
+}
 static dmb_scene_drive *drive_at(const dmb_mesh *mesh, uint32_t i)
 {
     return DMB_VECTOR_AT(dmb_scene_drive, &mesh->drives, i);
@@ -117,6 +121,22 @@ static int32_t add_spring(dmb_mesh *mesh, uint32_t i)
     return is_local(mesh, &constraint) ? DMB_OK : push(mesh, &constraint);
 }
 
+/* Four places inside elements, or four joints, have eight nodes at most. */
+static int32_t add_force(dmb_mesh *mesh, uint32_t i)
+{
+    const dmb_scene_force *force = force_at(mesh, i);
+    dmb_constraint constraint = {.kind = DMB_OF_FORCE, .index = i, .rows = 1};
+    bool on_joint = false;
+    for (uint32_t k = 0; k < force->count; ++k) {
+        on_joint = on_joint || force->joint[k] != DMB_NONE;
+        if (force->joint[k] != DMB_NONE)
+            touch_joint(mesh, force->joint[k], &constraint);
+        else
+            touch_point(mesh, &force->point[k], &constraint);
+    }
+    return is_local(mesh, &constraint) && !on_joint ? DMB_OK : push(mesh, &constraint);
+}
+
 static int32_t add_all(dmb_mesh *mesh)
 {
     int32_t status = DMB_OK;
@@ -125,6 +145,7 @@ static int32_t add_all(dmb_mesh *mesh)
     for (uint32_t i = 0; i < mesh->drives.count && status >= 0; ++i) status = add_drive(mesh, i);
     for (uint32_t i = 0; i < mesh->callbacks.count && status >= 0; ++i) status = add_callback(mesh, i);
     for (uint32_t i = 0; i < mesh->springs.count && status >= 0; ++i) status = add_spring(mesh, i);
+    for (uint32_t i = 0; i < mesh->forces.count && status >= 0; ++i) status = add_force(mesh, i);
     return status;
 }
 
@@ -247,6 +268,7 @@ static void refer_back(const dmb_mesh *mesh, const dmb_constraint *constraint, u
     case DMB_OF_COUPLING: coupling_at(mesh, constraint->index)->constraint = number; break;
     case DMB_OF_DRIVE: drive_at(mesh, constraint->index)->constraint = number; break;
     case DMB_OF_SPRING: spring_at(mesh, constraint->index)->constraint = number; break;
+    case DMB_OF_FORCE: force_at(mesh, constraint->index)->constraint = number; break;
     default: callback_at(mesh, constraint->index)->constraint = number; break;
     }
 }
@@ -279,6 +301,7 @@ static const char *name_of(const dmb_mesh *mesh, const dmb_cluster *cluster, dmb
     const uint32_t i = first->index;
     if (first->kind == DMB_OF_JOINT) return dmb_part_text(text, "cluster of joint", i, joint_at(mesh, i)->name, 24);
     if (first->kind == DMB_OF_SPRING) return dmb_part_text(text, "cluster of spring", i, spring_at(mesh, i)->name, 24);
+    if (first->kind == DMB_OF_FORCE) return dmb_part_text(text, "cluster of force", i, force_at(mesh, i)->name, 24);
     return dmb_part_text(text, "cluster of constraint", i, callback_at(mesh, i)->name, 24);
 }
 

@@ -1,5 +1,5 @@
-/* Points of forces at any place, and springs between them, from the parts they are described on to nodes and
- * elements. */
+/* Points of forces at any place, springs between them, and the caller's forces, from the parts they are described on to
+ * nodes and elements. */
 #include <math.h>
 #include <string.h>
 
@@ -141,9 +141,41 @@ static int32_t add_spring(dmb_mesh *mesh, uint32_t i)
     return status < 0 ? status : dmb_vector_append(&mesh->springs, &mesh->model->allocator, &spring, 1);
 }
 
+/* ---- Forces by the caller's functions ---------------------------------------------------------------------------- */
+
+static int32_t add_force(dmb_mesh *mesh, uint32_t i)
+{
+    const dmb_force_def *def = DMB_LIST_AT(const dmb_force_def, mesh->model->forces, i);
+    dmb_scene_force force = {.callback = def->callback,
+                             .context = def->callback_context,
+                             .pose_step = def->pose_step,
+                             .speed_step = def->speed_step,
+                             .count = def->place_count,
+                             .frame = def->frame,
+                             .provides = def->provides,
+                             .constraint = DMB_NONE};
+    dmb_message part, field;
+    dmb_check check =
+        dmb_check_of(&mesh->model->message, dmb_part_text(&part, "force", i, def->name, sizeof def->name), DMB_NONE);
+    memcpy(force.name, def->name, sizeof force.name);
+    for (uint32_t k = 0; k < DMB_CONSTRAINT_PLACES; ++k) {
+        const dmb_scene_point none = {{0.0, 0.0, 0.0}, 0.0, DMB_NONE, DMB_NONE};
+        force.point[k] = none;
+        force.joint[k] = DMB_NONE;
+        if (k >= def->place_count || check.status < 0) continue;
+        force.joint[k] = dmb_model_part_index(mesh->model, def->place[k].part, DMB_PART_JOINT);
+        force.component[k] = def->component[k];
+        dmb_message_set(&field, "place[%u]", k);
+        if (force.joint[k] == DMB_NONE)
+            force.point[k] = dmb_mesh_point(&check, mesh, field.text, &def->place[k], def->offset + 3 * k);
+    }
+    return check.status < 0 ? check.status : dmb_vector_append(&mesh->forces, &mesh->model->allocator, &force, 1);
+}
+
 int32_t dmb_mesh_forces(dmb_mesh *mesh)
 {
     int32_t status = DMB_OK;
     for (uint32_t i = 0; i < mesh->model->springs.count && status >= 0; ++i) status = add_spring(mesh, i);
+    for (uint32_t i = 0; i < mesh->model->forces.count && status >= 0; ++i) status = add_force(mesh, i);
     return status;
 }

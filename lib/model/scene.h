@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 #include "base/message.h"
+#include "drillmbd/forces.h"
 #include "drillmbd/model.h"
 #include "drillmbd/query.h"
 #include "element/element_type.h"
@@ -162,7 +163,14 @@ typedef struct dmb_scene_spring {
 /* ---- Joints and constraints ---- */
 
 /* Kind of part that a constraint belongs to. */
-enum { DMB_OF_JOINT = 0, DMB_OF_COUPLING = 1, DMB_OF_DRIVE = 2, DMB_OF_CALLBACK = 3, DMB_OF_SPRING = 4 };
+enum {
+    DMB_OF_JOINT = 0,
+    DMB_OF_COUPLING = 1,
+    DMB_OF_DRIVE = 2,
+    DMB_OF_CALLBACK = 3,
+    DMB_OF_SPRING = 4,
+    DMB_OF_FORCE = 5
+};
 enum { DMB_CONSTRAINT_PLACES = 4, DMB_CONSTRAINT_NODES = 8, DMB_CONSTRAINT_COLUMNS = 48, DMB_CONSTRAINT_ROWS = 6 };
 
 /* A frame fixed to a node's frame, or standing in the world. */
@@ -210,11 +218,25 @@ typedef struct dmb_scene_callback {
     char name[24];
 } dmb_scene_callback;
 
-/* Rows of one joint (room for six, so that it can be locked), coupling, joint drive or callback; of a spring one that
- * is always idle. Its columns are all rows of its nodes, held ones too. */
+/* The caller's force. */
+typedef struct dmb_scene_force {
+    dmb_scene_point point[DMB_CONSTRAINT_PLACES]; /* where no joint is */
+    uint32_t joint[DMB_CONSTRAINT_PLACES];        /* DMB_NONE: a point */
+    int32_t component[DMB_CONSTRAINT_PLACES];
+    dmb_force_fn callback;
+    void *context;
+    double pose_step, speed_step;
+    uint32_t count;
+    int32_t frame, provides;
+    uint32_t constraint; /* DMB_NONE: within a node or an element */
+    char name[24];
+} dmb_scene_force;
+
+/* Rows of one joint (room for six, so that it can be locked), coupling, joint drive or callback; of springs and forces
+ * one that is always idle. Its columns are all rows of its nodes, held ones too. */
 typedef struct dmb_constraint {
     int32_t kind;   /* DMB_OF_... */
-    uint32_t index; /* which joint, coupling, drive, callback, spring */
+    uint32_t index; /* which joint, coupling, drive, callback, spring, force */
     uint32_t row;   /* first of its constraint rows */
     uint32_t rows;  /* room */
     uint32_t node_count;
@@ -261,7 +283,7 @@ typedef struct dmb_scene {
     uint32_t velocity_count; /* row_count, or 0 where everything is described at rest */
     uint32_t rigid_count, structural_joint_count;
     uint32_t free_rigid_count;
-    uint32_t spring_count, spring_point_count, load_point_count;
+    uint32_t spring_count, spring_point_count, load_point_count, force_count;
     uint32_t joint_count, coupling_count, callback_count, constraint_count, cluster_count, law_count;
     uint32_t constraint_row_count;                /* room of all constraints */
     uint32_t constraint_node_count;               /* length of cluster_nodes */
@@ -330,6 +352,7 @@ typedef struct dmb_scene {
     dmb_scene_spring *springs;
     dmb_spring_point *spring_points; /* tables, spring by spring */
     dmb_scene_event *events;
+    dmb_scene_force *forces;
 
     /* joints and constraints; all empty without joints */
     dmb_scene_joint *joints;

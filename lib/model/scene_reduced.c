@@ -235,7 +235,7 @@ static int on_ground(const dmb_scene *scene, const dmb_constraint *c)
 static uint32_t vertices_of(const dmb_scene *scene, const dmb_constraint *c, uint32_t vertex[DMB_CONSTRAINT_NODES + 1])
 {
     uint32_t count = 0;
-    if (c->kind == DMB_OF_DRIVE || c->kind == DMB_OF_SPRING) return 0; /* springs have no equations */
+    if (c->kind == DMB_OF_DRIVE || c->kind == DMB_OF_SPRING || c->kind == DMB_OF_FORCE) return 0; /* no equations */
     for (; count < c->node_count; count++) vertex[count] = c->node[count];
     if (on_ground(scene, c)) vertex[count++] = ground_of(scene);
     return count;

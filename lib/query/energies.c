@@ -9,6 +9,7 @@
 #include "query/place.h"
 #include "sim/access.h"
 #include "sim/layout.h"
+#include "system/assemble/caller_force.h"
 #include "system/assemble/energy.h"
 #include "system/assemble/springs.h"
 #include "system/constrain/joint_state.h"
@@ -19,7 +20,7 @@ static void energies_now(const dmb_sim *sim, dmb_energy *e)
 {
     e->kinetic = dmb_kinetic_energy(sim->scene, &sim->now);
     e->strain = dmb_strain_energy(sim->scene, &sim->now) + dmb_joint_energy(sim, &sim->now) +
-                dmb_springs_energy(sim->scene, &sim->now);
+                dmb_springs_energy(sim->scene, &sim->now) + dmb_caller_forces_energy(sim->scene, &sim->now);
     e->gravity = dmb_gravity_energy(sim->scene, &sim->now);
     e->contact = dmb_contact_energy(sim->scene, &sim->now);
 }

@@ -124,7 +124,8 @@ uint32_t dmb_constraint_active(const dmb_sim *sim, uint32_t constraint)
         return sim->joint_state[coupling->joint[0]] != DMB_JOINT_OPEN &&
                sim->joint_state[coupling->joint[1]] != DMB_JOINT_OPEN;
     case DMB_OF_DRIVE: return sim->joint_state[scene->drives[c->index].joint] != DMB_JOINT_OPEN;
-    case DMB_OF_SPRING: return 0;
+    case DMB_OF_SPRING:
+    case DMB_OF_FORCE: return 0;
     default: return scene->callbacks[c->index].rows;
     }
 }

@@ -193,6 +193,25 @@ static uint64_t add_springs(uint64_t h, const dmb_scene *s)
     return h;
 }
 
+/* As of constraints, the content of the functions cannot be told. */
+static uint64_t add_forces(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->force_count; ++i) {
+        const dmb_scene_force *force = &s->forces[i];
+        h = dmb_fnv_word(h, force->count);
+        h = dmb_fnv_word(h, (uint32_t)force->frame);
+        h = dmb_fnv_word(h, (uint32_t)force->provides);
+        h = dmb_fnv_number(h, force->pose_step);
+        h = dmb_fnv_number(h, force->speed_step);
+        for (uint32_t k = 0; k < force->count; ++k) {
+            h = add_point(h, &force->point[k]);
+            h = dmb_fnv_word(h, force->joint[k]);
+            h = dmb_fnv_word(h, (uint32_t)force->component[k]);
+        }
+    }
+    return h;
+}
+
 static uint64_t add_frame(uint64_t h, const dmb_scene_frame *frame)
 {
     h = dmb_fnv_word(h, frame->node);
@@ -306,6 +325,7 @@ uint64_t dmb_scene_fingerprint(const dmb_scene *scene)
     h = add_callbacks(h, scene);
     h = add_inputs(h, scene);
     h = add_springs(h, scene);
+    h = add_forces(h, scene);
     return add_constraints(h, scene);
 }
 

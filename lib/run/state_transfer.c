@@ -9,6 +9,7 @@
 #include "sim/node.h"
 #include "sim/own_scene.h"
 #include "system/assemble/bit.h"
+#include "system/assemble/caller_force.h"
 #include "system/assemble/energy.h"
 #include "system/assemble/springs.h"
 #include "system/constrain/cluster.h"
@@ -36,6 +37,7 @@ static void transfer_drives(dmb_sim *sim, const dmb_sim *from)
     DMB_COPY(drive_input, d);
     DMB_COPY(drive_offset, d);
     DMB_COPY(now.load_factor, sim->scene->load_count);
+    DMB_COPY(now.force_potential, sim->scene->force_count);
     DMB_COPY(input_value, sim->scene->input_count);
     DMB_COPY(input_begin, 3 * (size_t)sim->scene->input_count);
     DMB_COPY(event_since, sim->scene->event_count);
@@ -148,7 +150,7 @@ static int32_t check_joints(dmb_sim *sim, dmb_evaluation *evaluation)
 static double stored(const dmb_sim *sim)
 {
     const double strain = dmb_strain_energy(sim->scene, &sim->now) + dmb_joint_energy(sim, &sim->now) +
-                          dmb_springs_energy(sim->scene, &sim->now);
+                          dmb_springs_energy(sim->scene, &sim->now) + dmb_caller_forces_energy(sim->scene, &sim->now);
     return dmb_kinetic_energy(sim->scene, &sim->now) + strain + dmb_gravity_energy(sim->scene, &sim->now) +
            dmb_contact_energy(sim->scene, &sim->now);
 }

@@ -8,30 +8,30 @@
 /* The letters of sim/sim.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
     uint64_t n, r, s, p, sb, pb, e, d, k, load, history, diagonal, link, backup;
-    uint64_t ns, held, input, event, f, j, c, cluster, column, raw, jacobian, tangent, dense, square, full, block,
-        value, pivots, kd, kl, kn;
+    uint64_t ns, held, input, event, force, f, j, c, cluster, column, raw, jacobian, tangent, dense, square, full,
+        block, value, pivots, kd, kl, kn;
     uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block;
 } field_counts;
 
 /* The letters as names, for the count expressions of the lists; not every list uses all of them. */
-#define DMB_COUNT_NAMES(of)                                                                                     \
-    const uint64_t n = (of)->n, r = (of)->r, s = (of)->s, p = (of)->p, e = (of)->e, d = (of)->d, k = (of)->k;   \
-    const uint64_t load = (of)->load, history = (of)->history, diagonal = (of)->diagonal, link = (of)->link;    \
-    const uint64_t backup = (of)->backup, j = (of)->j, c = (of)->c, cluster = (of)->cluster;                    \
-    const uint64_t column = (of)->column, raw = (of)->raw, jacobian = (of)->jacobian, tangent = (of)->tangent;  \
-    const uint64_t dense = (of)->dense, square = (of)->square, full = (of)->full, block = (of)->block;          \
-    const uint64_t value = (of)->value, pivots = (of)->pivots;                                                  \
-    const uint64_t ns = (of)->ns, held = (of)->held, input = (of)->input, event = (of)->event;                  \
-    (void)ns, (void)held, (void)input, (void)event;                                                             \
-    const uint64_t kd = (of)->kd, kl = (of)->kl, kn = (of)->kn, sb = (of)->sb, pb = (of)->pb;                   \
-    const uint64_t sparse_values = (of)->sparse_values, sparse_rows = (of)->sparse_rows;                        \
-    const uint64_t sparse_raw = (of)->sparse_raw, sparse_c = (of)->sparse_c;                                    \
-    const uint64_t sparse_block = (of)->sparse_block;                                                           \
-    (void)sparse_values, (void)sparse_rows, (void)sparse_raw, (void)sparse_c, (void)sparse_block;               \
-    const uint64_t f = (of)->f;                                                                                 \
-    (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,   \
-        (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,     \
-        (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd, \
+#define DMB_COUNT_NAMES(of)                                                                                         \
+    const uint64_t n = (of)->n, r = (of)->r, s = (of)->s, p = (of)->p, e = (of)->e, d = (of)->d, k = (of)->k;       \
+    const uint64_t load = (of)->load, history = (of)->history, diagonal = (of)->diagonal, link = (of)->link;        \
+    const uint64_t backup = (of)->backup, j = (of)->j, c = (of)->c, cluster = (of)->cluster;                        \
+    const uint64_t column = (of)->column, raw = (of)->raw, jacobian = (of)->jacobian, tangent = (of)->tangent;      \
+    const uint64_t dense = (of)->dense, square = (of)->square, full = (of)->full, block = (of)->block;              \
+    const uint64_t value = (of)->value, pivots = (of)->pivots;                                                      \
+    const uint64_t ns = (of)->ns, held = (of)->held, input = (of)->input, event = (of)->event, force = (of)->force; \
+    (void)ns, (void)held, (void)input, (void)event, (void)force;                                                    \
+    const uint64_t kd = (of)->kd, kl = (of)->kl, kn = (of)->kn, sb = (of)->sb, pb = (of)->pb;                       \
+    const uint64_t sparse_values = (of)->sparse_values, sparse_rows = (of)->sparse_rows;                            \
+    const uint64_t sparse_raw = (of)->sparse_raw, sparse_c = (of)->sparse_c;                                        \
+    const uint64_t sparse_block = (of)->sparse_block;                                                               \
+    (void)sparse_values, (void)sparse_rows, (void)sparse_raw, (void)sparse_c, (void)sparse_block;                   \
+    const uint64_t f = (of)->f;                                                                                     \
+    (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,       \
+        (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,         \
+        (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd,     \
         (void)kl, (void)kn, (void)sb, (void)pb, (void)f
 
 /* [byte] of the state that is set aside in `backup`. A snapshot holds the kept factors too. */
@@ -89,6 +89,7 @@ static field_counts counts_of(const dmb_scene *scene)
     c.d = scene->drive_count;
     c.k = scene->bit_count;
     c.load = scene->load_count;
+    c.force = scene->force_count;
     c.history = scene->history_count;
     c.diagonal = n > 0 ? scene->layout.diag[n] : 0;
     c.link = n > 0 ? scene->layout.link[n - 1] : 0;

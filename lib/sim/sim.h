@@ -4,10 +4,10 @@
  * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
  * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; ns = n
  * where there are contact sites, else 0; k =
- * bit_count, load = load_count, held = held_count, input = input_count, event = event_count, history = history_count,
- * diagonal and link = lengths of block storage; j = joint_count, c = constraint_row_count, cluster = cluster_count,
- * column = cluster_column_count, and for a scene with joints only: raw = row_count, dense, square, full = storage of
- * the clusters, block, value, pivots = of the reduced system. */
+ * bit_count, load = load_count, force = force_count, held = held_count, input = input_count, event = event_count,
+ * history = history_count, diagonal and link = lengths of block storage; j = joint_count, c = constraint_row_count,
+ * cluster = cluster_count, column = cluster_column_count, and for a scene with joints only: raw = row_count, dense,
+ * square, full = storage of the clusters, block, value, pivots = of the reduced system. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
@@ -55,6 +55,7 @@
     X(double, bit_bottom, k, NUMBERS)             /* [m] advance at which rock begins */                              \
     X(double, bit_advance, k, NUMBERS)            /* [m] along the hole since time 0 */                               \
     X(uint32_t, bit_segment, k, SEGMENTS)         /* [-] */                                                           \
+    X(double, force_potential, force, NUMBERS)    /* [J] of the callers' forces: system/assemble/caller_force */      \
     /* system/constrain/joint_motion, from pose: */                                                                   \
     X(double, joint_turn, 2 * j, NUMBERS) /* [rad] RX and RY, revolutions counted: system/constrain/joint_state */    \
     X(double, joint_depth, j, NUMBERS)            /* [m] measured depth of the point of a joint on the hole's axis */ \
@@ -209,6 +210,7 @@ enum { DMB_ROW_IDLE = 0, DMB_ROW_POSITION = 1, DMB_ROW_SPEED = 2 };
 typedef struct dmb_reduced_mode {
     int32_t bordered; /* 1: the reduced system made last is over all coordinates and multipliers, else reduced */
     uint32_t row;     /* constraint row that could not be satisfied, for messages; DMB_NONE: none */
+    uint32_t force;   /* 1 + number of the caller's force that failed last; 0: none */
     int32_t metric;   /* 1: sparse_value has factors of the rows at hand, for projections */
     int32_t weak;     /* 1: with rows that those before nearly hold */
     double violation; /* its violation */

@@ -1,4 +1,5 @@
 #include "system/joint_switch.h"
+#include "system/assemble/caller_force.h"
 #include "system/assemble/springs.h"
 
 #include <string.h>
@@ -111,7 +112,7 @@ static double potential(const dmb_sim *sim)
 {
     return dmb_strain_energy(sim->scene, &sim->now) + dmb_gravity_energy(sim->scene, &sim->now) +
            dmb_contact_energy(sim->scene, &sim->now) + dmb_joint_energy(sim, &sim->now) +
-           dmb_springs_energy(sim->scene, &sim->now);
+           dmb_springs_energy(sim->scene, &sim->now) + dmb_caller_forces_energy(sim->scene, &sim->now);
 }
 
 /* The energy that goes is impact: kinetic, and that of springs which no longer act; the works of inertia and potential

@@ -6,6 +6,7 @@
 #include "sim/layout.h"
 #include "sim/node.h"
 #include "system/assemble/bit.h"
+#include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/assemble/wall_contact.h"
 #include "system/constrain/cluster.h"
@@ -85,9 +86,13 @@ static int32_t solve_accelerations(dmb_sim *sim, dmb_evaluation *evaluation)
 
 static void explain(dmb_sim *sim, const dmb_evaluation *evaluation, int32_t status)
 {
+    dmb_message owner_text;
     if (status == DMB_ERR_ROTATION) {
         const dmb_owner owner = dmb_owner_of_element(sim->scene, evaluation->element);
         dmb_message_set(&sim->message, "%s: relative rotation in one element above 2.5 rad", owner.text.text);
+    } else if (status == DMB_ERR_CALLBACK && dmb_failed_force(sim, &owner_text)) {
+        dmb_message_set(&sim->message, "%s: its callback failed or gave a value beyond +-1e30 at time %g",
+                        owner_text.text, evaluation->time);
     } else if (status == DMB_ERR_CALLBACK && sim->reduced_mode->row != DMB_NONE) {
         dmb_message owner;
         dmb_constraint_text(sim->scene, dmb_constraint_of_row(sim->scene, sim->reduced_mode->row), &owner);
@@ -190,6 +195,7 @@ int32_t dmb_system_start(dmb_sim *sim)
     for (uint32_t k = 0; k < scene->bit_count; k++) dmb_bit_start(sim, k);
     int32_t status = scene->cluster_count ? dmb_assemble(sim) : DMB_OK;
     if (status >= 0) status = dmb_system_restart(sim);
+    for (uint32_t i = 0; i < scene->force_count && status >= 0; i++) status = dmb_caller_force_check(sim, i);
     if (status < 0) return status;
     const double *most = sim->counters->projection, *moved = sim->counters->assembly;
     if (moved[0] > 1e-12 || moved[1] > 1e-12) {

@@ -42,6 +42,7 @@ typedef union any_def {
     dmb_coupling_def coupling;
     dmb_constraint_def constraint;
     dmb_spring_def spring;
+    dmb_force_def force;
 } any_def;
 
 /* A model that every definition fits into, and the ids it needs. */
@@ -401,6 +402,29 @@ static int32_t add_spring(dmb_model *model, const any_def *def)
     return dmb_model_add_spring(model, &def->spring, NULL);
 }
 
+static int32_t any_force(void *context, double time, uint32_t count, const double (*poses)[12],
+                         const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+{
+    (void)context, (void)time, (void)count, (void)poses, (void)velocities, (void)forces, (void)tangent, (void)potential;
+    return 0;
+}
+static const field force_fields[] = {F(dmb_force_def, frame, WHOLE, 1),     F(dmb_force_def, place_count, COUNT, 1),
+                                     F(dmb_force_def, provides, WHOLE, 1),  PLACE_FIELDS(dmb_force_def, place[0]),
+                                     PLACE_FIELDS(dmb_force_def, place[1]), F(dmb_force_def, offset, REAL, 6),
+                                     F(dmb_force_def, pose_step, REAL, 1),  F(dmb_force_def, speed_step, REAL, 1)};
+static void fill_force(const scene_under_test *s, any_def *def)
+{
+    def->force = dmb_force_def_default();
+    def->force.place_count = 2;
+    def->force.place[0] = dmb_station(s->string, 0, 0.3);
+    def->force.place[1] = dmb_station(s->string, 0, 1.0);
+    def->force.callback = any_force;
+}
+static int32_t add_force(dmb_model *model, const any_def *def)
+{
+    return dmb_model_add_force(model, &def->force, NULL);
+}
+
 static int32_t any_constraint(void *context, double time, uint32_t count, const double (*poses)[12], double *value,
                               double *jacobian)
 {
@@ -442,6 +466,7 @@ static const kind_of_def kinds[] = {
     {"constraint", FIELDS(constraint_fields), fill_constraint, add_constraint},
     {"spring", FIELDS(spring_fields), fill_spring, add_spring},
     {"hole section", FIELDS(section_fields), fill_section, add_section},
+    {"force", FIELDS(force_fields), fill_force, add_force},
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0], WALL = 3 };
 

@@ -52,7 +52,7 @@ INIT(allocator) INIT(joint_state) INIT(joint_def) INIT(coupling_def) INIT(constr
 INIT(hole_section)
 INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row) INIT(fatigue_options)
 INIT(fatigue_result) INIT(window_options) INIT(window_result) INIT(profile_recorder)
-INIT(parameter) INIT(input_def) INIT(input_info) INIT(input_state) INIT(spring_def) INIT(spring_state)
+INIT(parameter) INIT(input_def) INIT(input_info) INIT(input_state) INIT(spring_def) INIT(force_def) INIT(spring_state)
 INIT(state_space_options) INIT(state_space_info) INIT(row)
     /* clang-format on */
 
@@ -117,6 +117,26 @@ static int32_t add_load(dmb_model *model, void *p)
     if (load->struct_size >= 88) /* has it */
         load->place = dmb_station(string, 0, 1.0);
     return dmb_model_add_load(model, load, NULL);
+}
+
+static int32_t no_force(void *context, double time, uint32_t count, const double (*poses)[12],
+                        const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+{
+    (void)context, (void)time, (void)count, (void)poses, (void)velocities, (void)forces, (void)tangent, (void)potential;
+    return 0;
+}
+
+static int32_t add_force(dmb_model *model, void *p)
+{
+    dmb_force_def *force = p;
+    const dmb_body_def body = dmb_body_def_default();
+    dmb_id id;
+    assert_int_equal(dmb_model_add_body(model, &body, &id), DMB_OK);
+    if (force->struct_size >= sizeof *force) {
+        force->place[0] = dmb_station(id, 0, 0.0);
+        force->callback = no_force;
+    }
+    return dmb_model_add_force(model, force, NULL);
 }
 
 static int32_t add_spring(dmb_model *model, void *p)
@@ -321,6 +341,7 @@ CALL(event_report, with_model(report_event, p))
 CALL(input_info, with_model(get_info, p))
 CALL(input_state, with_model(get_state, p))
 CALL(spring_def, with_model(add_spring, p))
+CALL(force_def, with_model(add_force, p))
 CALL(joint_def, with_model(add_joint, p))
 CALL(coupling_def, with_model(add_coupling, p))
 CALL(constraint_def, with_model(add_constraint, p))
@@ -587,6 +608,7 @@ static const entry entries[] = {
     ENTRY(input_info, 1),
     ENTRY(input_state, 1),
     ENTRY(spring_def, 0),
+    ENTRY(force_def, 0),
     ENTRY(spring_state, 1),
     ENTRY(event_def, 0),
     {"event as described", sizeof(dmb_event_def), sizeof(dmb_event_def), init_event_def, call_event_got, 1},

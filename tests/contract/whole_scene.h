@@ -404,6 +404,33 @@ static inline int32_t whole_add_guy(dmb_model *model, whole_parts *parts)
     return dmb_model_add_spring(model, &guy, NULL);
 }
 
+/* Between the wheel's axle and a place inside a pipe: dampers, and a constant pull. */
+static inline int32_t whole_force(void *context, double time, uint32_t count, const double (*poses)[12],
+                                  const double (*velocities)[6], double (*forces)[6], double *tangent,
+                                  double *potential)
+{
+    const whole_parts *parts = context;
+    (void)time, (void)count, (void)tangent;
+    forces[0][0] = -0.1 * velocities[0][0];
+    forces[1][1] = -0.2 * velocities[1][1];
+    forces[1][2] = 0.3;
+    *potential = -0.3 * poses[1][2];
+    return parts->callback_status;
+}
+
+static inline int32_t whole_add_force(dmb_model *model, whole_parts *parts)
+{
+    dmb_force_def force = dmb_force_def_default();
+    force.place_count = 2;
+    force.place[0] = dmb_station(parts->axle, 0, 0.0);
+    force.component[0] = DMB_RX;
+    force.place[1] = dmb_station(parts->string, 3, 0.45);
+    force.provides = DMB_PROVIDES_POTENTIAL;
+    force.callback = whole_force;
+    force.callback_context = parts;
+    return dmb_model_add_force(model, &force, NULL);
+}
+
 static inline int32_t whole_add_point_load(dmb_model *model, whole_parts *parts)
 {
     dmb_load_def load = dmb_load_def_default();
@@ -463,16 +490,14 @@ typedef int32_t (*whole_call)(dmb_model *model, whole_parts *parts);
 
 /* Every call of the description, compile last. */
 static const whole_call whole_calls[] = {
-    whole_set_environment, whole_add_constant,  whole_add_step,       whole_add_step5,
-    whole_add_harmonic,    whole_add_table,     whole_add_smooth,     whole_add_plain,
-    whole_add_wall,        whole_add_string,    whole_add_path_pipes, whole_add_flexible_pipes,
-    whole_add_rigid_pipes, whole_add_last_pipe, whole_add_second,     whole_add_second_pipes,
-    whole_add_head,        whole_add_body,      whole_add_bit,        whole_add_feed,
-    whole_add_turning,     whole_add_pushing,   whole_add_spinning,   whole_add_dead_load,
-    whole_add_follower,    whole_add_arm,       whole_add_wheel,      whole_add_hinge,
-    whole_add_axle,        whole_add_spring,    whole_add_gear,       whole_add_watch,
-    whole_add_winding,     whole_add_rope,      whole_add_guy,        whole_add_point_load,
-    whole_compile};
+    whole_set_environment,  whole_add_constant,       whole_add_step,        whole_add_step5,     whole_add_harmonic,
+    whole_add_table,        whole_add_smooth,         whole_add_plain,       whole_add_wall,      whole_add_string,
+    whole_add_path_pipes,   whole_add_flexible_pipes, whole_add_rigid_pipes, whole_add_last_pipe, whole_add_second,
+    whole_add_second_pipes, whole_add_head,           whole_add_body,        whole_add_bit,       whole_add_feed,
+    whole_add_turning,      whole_add_pushing,        whole_add_spinning,    whole_add_dead_load, whole_add_follower,
+    whole_add_arm,          whole_add_wheel,          whole_add_hinge,       whole_add_axle,      whole_add_spring,
+    whole_add_gear,         whole_add_watch,          whole_add_winding,     whole_add_rope,      whole_add_guy,
+    whole_add_point_load,   whole_add_force,          whole_compile};
 enum { WHOLE_CALLS = sizeof whole_calls / sizeof whole_calls[0] };
 
 static inline void whole_must(const dmb_model *model, int32_t status)

@@ -58,6 +58,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_fatigue_options_init": (c_int32, POINTER(FatigueOptions), c_uint32,),
     "dmb_fatigue_result_init": (c_int32, POINTER(FatigueResult), c_uint32,),
     "dmb_fatigue_take": (c_int32, c_void_p, c_void_p,),
+    "dmb_force_def_init": (c_int32, POINTER(ForceDef), c_uint32,),
     "dmb_hole_point_init": (c_int32, POINTER(HolePoint), c_uint32,),
     "dmb_hole_section_init": (c_int32, POINTER(HoleSection), c_uint32,),
     "dmb_input_def_init": (c_int32, POINTER(InputDef), c_uint32,),
@@ -75,6 +76,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_add_coupling": (c_int32, c_void_p, POINTER(CouplingDef), POINTER(Id),),
     "dmb_model_add_drive": (c_int32, c_void_p, POINTER(DriveDef), POINTER(Id),),
     "dmb_model_add_event": (c_int32, c_void_p, POINTER(EventDef), POINTER(Id),),
+    "dmb_model_add_force": (c_int32, c_void_p, POINTER(ForceDef), POINTER(Id),),
     "dmb_model_add_hole_sections": (c_int32, c_void_p, POINTER(HoleSection), c_uint32,),
     "dmb_model_add_input": (c_int32, c_void_p, POINTER(InputDef), POINTER(Id),),
     "dmb_model_add_joint": (c_int32, c_void_p, POINTER(JointDef), POINTER(Id),),
@@ -282,6 +284,8 @@ FUNCTION_DOCS = {
         "Cycles by range at the point that the result names: cycles[i] of a range of i times 2 stress_range/classes [Pa], shape (classes).",
     "dmb_fatigue_take":
         "Takes a sample; call it after each step. The sim may be another one of the same model. Allocates nothing. O(places x points).",
+    "dmb_model_add_force":
+        "Errors as of a spring; ERR_NULL (callback). It does not act on an open joint. Steady states that move (`steady` of statics) are refused where it acts on what moves.",
     "dmb_model_add_hole_sections":
         "Adds sections below those that the model has, sections with the same struct_size, 1 .. 2^18 of them in all; the wall may be added before or after. dmb_model_compile refuses overlapping transitions, a line without an end, radii that change too fast, and what is wider than its hole (ERR_GEOMETRY). Errors: ERR_VALUE, _NOT_FINITE, _STRUCT_SIZE, _NO_MEMORY; no section is added then. A question of the hole at a depth is O(log sections).",
     "dmb_model_add_input":
@@ -293,7 +297,7 @@ FUNCTION_DOCS = {
     "dmb_model_add_programme":
         "Adds a programme of term_count terms (1 .. 64), each with the same struct_size.",
     "dmb_model_add_spring":
-        "Adds a spring. Errors: ERR_ID, _VALUE (fields, both ends on the ground or at one point, nothing that acts); dmb_model_compile: ERR_VALUE (a pipe that is not there; points that move as one), ERR_GEOMETRY (points that coincide at time 0 with a force between them), ERR_UNSUPPORTED (axial-torsional pipes in a curved hole). A spring within one rigid body and the ground, or within one element and the ground, costs no coupling of parts; another one connects its parts as a joint does.",
+        "Errors: ERR_ID, _VALUE; dmb_model_compile: ERR_VALUE (no such pipe, points that move as one), _GEOMETRY (points that coincide at time 0 with a force between them), _UNSUPPORTED (axial-torsional pipes in a curved hole). Within one body or element and the ground it costs no coupling of parts; else it connects parts as a joint does.",
     "dmb_model_add_string":
         "Adds a string without pipes. The first dmb_model_add_pipes without a string makes one by default.",
     "dmb_model_add_wall":
@@ -351,7 +355,7 @@ FUNCTION_DOCS = {
     "dmb_query_multipliers":
         "Multipliers of a joint, coupling, constraint or joint drive: count of its rows (at most 6), in the units of a force per unit of its value. *count on return is the number of rows.",
     "dmb_query_pose_at":
-        "Pose and motion of a point off a place: offset [m] in the axes of the place, shape (3). Errors as dmb_query_pose; ERR_NULL, _NOT_FINITE of the offset. O(1).",
+        "Pose and motion of a point off a place: offset [m] in the axes of the place, shape (3). Errors as dmb_query_pose, ERR_NULL.",
     "dmb_query_profile":
         "Fills profile->values. Section forces, stresses and shares are NaN on rigid pipes. Buckling loads are those of a long pipe that lies on the wall without friction: sinusoidal sqrt(4 EI w_c/r) with the contact force per metre that the unbuckled pipe would have, w_c = |w_across + N_e dt/ds| (Dawson, Paslay 1984; He, Kyllingstad 1995), helical sqrt(2) times that (Chen, Lin, Cheatham 1990), but at least 2.55 and 5.55 times (EI w_along^2)^(1/3) of a vertical hole (Wu, Juvkam-Wold 1995); r the clearance of the nearest contact site, w the weight per metre with buoyancy and tool joints. Errors: ERR_VALUE (quantity, station off the string, strides that overlap), ERR_NOT_FINITE, ERR_ID; nothing is written then. O(station_count).",
     "dmb_query_reaction":
@@ -362,8 +366,6 @@ FUNCTION_DOCS = {
         "Whose a row is. ERR_VALUE where there is no such row.",
     "dmb_query_section":
         "Section loads of a flexible or axial-torsional pipe; ERR_UNSUPPORTED on rigid ones.",
-    "dmb_query_spring":
-        "State of a spring. Errors: ERR_ID. O(1).",
     "dmb_query_statistics":
         "O(number of joints, couplings and constraints).",
     "dmb_recorder_take":

@@ -8,8 +8,8 @@ from typing import Any, TypeVar
 
 from ._functions import FUNCTION_DOCS
 from ._record import Record, flat, numbers
-from ._structs import CONSTRAINT_FN, LOG_FN, PROGRAMME_FN, Id, Place
-from .enums import PROVIDES_INTEGRAL, PROVIDES_JACOBIAN, PROVIDES_RATE
+from ._structs import CONSTRAINT_FN, FORCE_FN, LOG_FN, PROGRAMME_FN, Id, Place
+from .enums import PROVIDES_INTEGRAL, PROVIDES_JACOBIAN, PROVIDES_POTENTIAL, PROVIDES_RATE, PROVIDES_TANGENT
 from .errors import Error
 
 S = TypeVar("S", bound=Record)
@@ -101,6 +101,30 @@ class Keep:
                 return 1
 
         wrapped = CONSTRAINT_FN(call)
+        self.references.append(wrapped)
+        return wrapped
+
+    def force(self, function: Callable[..., Any], provides: int) -> Any:
+        """The C function around a Python function of time, poses and velocities."""
+        def call(_context: Any, time: float, count: int, poses: Any, velocities: Any, forces: Any, tangent: Any,
+                 potential: Any) -> int:
+            try:
+                answer = function(time, [list(poses[i]) for i in range(count)], [list(velocities[i]) for i in range(count)])
+                parts = list(answer) if provides else [answer]
+                for i, number in enumerate(numbers(flat(parts.pop(0)), 6 * count)):
+                    forces[i // 6][i % 6] = number
+                if provides & PROVIDES_TANGENT:
+                    entries = [*numbers(flat(parts.pop(0)), 36 * count * count), *numbers(flat(parts.pop(0)), 36 * count * count)]
+                    for i, number in enumerate(entries if tangent else ()):
+                        tangent[i] = number
+                if provides & PROVIDES_POTENTIAL:
+                    potential[0] = float(parts.pop(0))
+                return 0
+            except BaseException as error:  # must not unwind through C
+                self.raised.error = error
+                return 1
+
+        wrapped = FORCE_FN(call)
         self.references.append(wrapped)
         return wrapped
 

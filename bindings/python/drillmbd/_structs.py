@@ -6,7 +6,7 @@ from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int
                     c_void_p)
 from typing import Any, ClassVar
 
-from ._record import ConstraintPart, IdPart, Record, Sized, SpringPart, TermPart, WallPart
+from ._record import ConstraintPart, ForcePart, IdPart, Record, Sized, SpringPart, TermPart, WallPart
 
 
 class Id(IdPart, Record):
@@ -1273,13 +1273,13 @@ class SpringState(Sized):
         ("point_b", c_double * 3),
     ]
     field_docs = {
-        "length": ("m", "between its points"),
-        "elongation": ("m", "beyond its free length"),
+        "length": ("m", "between its points, and beyond its free length"),
+        "elongation": ("m", "between its points, and beyond its free length"),
         "speed": ("m/s", "the elongation grows at"),
-        "force": ("N", "tension > 0: elastic + damper"),
+        "force": ("N", "tension > 0: sum of the next two"),
         "elastic": ("N", ""),
         "damper": ("N", ""),
-        "energy": ("J", "stored, from the free length on, of a one-sided spring from where it is slack"),
+        "energy": ("J", "stored, from the free length on, or from where a one-sided one is slack"),
         "direction": ("-", "from a to b, world frame, shape (3)"),
         "point_a": ("m", "world, shape (3)"),
         "point_b": ("m", "world, shape (3)"),
@@ -1757,6 +1757,9 @@ CONSTRAINT_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_doubl
 
 
 PROGRESS_FN = CFUNCTYPE(c_int32, c_void_p, c_double)
+
+
+FORCE_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double * 6), POINTER(c_double * 6), POINTER(c_double), POINTER(c_double))
 
 
 class Place(Record):
@@ -2736,7 +2739,7 @@ class ProfileRecorderStruct(Sized):
 
 
 class SpringDef(SpringPart, Sized):
-    c_name, about = "dmb_spring_def", "Spring and damper between two points, tension > 0: preload + stiffness e + table(e) + damping e', e the elongation beyond free_length. Two points closer than some 1e-9 m have no direction: the length is sqrt(d^2 + (1e-9 m)^2), so that force, energy and tangent stay those of one potential. Without FEATURE_DAMPING there is no damper."
+    c_name, about = "dmb_spring_def", "Spring and damper between two points, tension > 0: preload + stiffness e + table(e) + damping e', e the elongation beyond free_length; its length is sqrt(d^2 + (1e-9 m)^2), since points that meet have no direction."
     struct_size: int
     acts: int
     name: bytes
@@ -2770,20 +2773,63 @@ class SpringDef(SpringPart, Sized):
         ("table_kind", c_int32),
     ]
     field_docs = {
-        "acts": ("", "SPRING_...: TENSION (rope) pulls only, COMPRESSION (buffer) pushes only, the damper as long as the sum does; default SPRING_BOTH"),
+        "acts": ("", "SPRING_...: TENSION (rope) pulls, COMPRESSION (buffer) pushes only, the damper as long as the sum does; default SPRING_BOTH"),
         "name": ("", "for messages, ends with 0; default \"\""),
-        "place_a": ("", "part {0, 0} (default): the ground"),
-        "place_b": ("", "likewise; not both the ground"),
+        "place_a": ("", "part {0, 0} (default): the ground; not both"),
+        "place_b": ("", "part {0, 0} (default): the ground; not both"),
         "offset_a": ("m", "of the point from place a in its axes; ground: world; default 0, shape (3)"),
         "offset_b": ("m", "shape (3)"),
         "free_length": ("m", ">= 0; -1 (default): the length at time 0 as described, > 0"),
         "stiffness": ("N/m", ">= 0; default 0"),
-        "damping": ("N s/m", ">= 0; default 0"),
+        "damping": ("N s/m", ">= 0; not there without FEATURE_DAMPING; default 0"),
         "preload": ("N", "tension at free_length, < 0 pushes; default 0"),
         "table_elongation": ("m", "strictly increasing, shape (table_count); copied"),
-        "table_force": ("N", "shape (table_count), beyond the ends along the last slopes; copied. Of a one-sided spring it must not fall"),
+        "table_force": ("N", "shape (table_count); goes on along its last slopes; of a one-sided spring it must not fall; copied"),
         "table_count": ("-", "0 (default): none; 2 .. 2^16"),
-        "table_kind": ("", "TABLE_LINES (default), or TABLE_CUBIC: monotone between points, its slope without jumps"),
+        "table_kind": ("", "TABLE_LINES (default), or TABLE_CUBIC: monotone between points"),
+    }
+
+
+class ForceDef(ForcePart, Sized):
+    c_name, about = "dmb_force_def", ""
+    struct_size: int
+    frame: int
+    name: bytes
+    place_count: int
+    provides: int
+    place: 'Array[Place]'
+    offset: 'Array[c_double]'
+    component: 'Array[c_int32]'
+    pose_step: float
+    speed_step: float
+    callback: Any
+    callback_context: Any
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("frame", c_int32),
+        ("name", c_char * 24),
+        ("place_count", c_uint32),
+        ("provides", c_int32),
+        ("place", Place * 4),
+        ("offset", c_double * 12),
+        ("component", c_int32 * 4),
+        ("pose_step", c_double),
+        ("speed_step", c_double),
+        ("callback", FORCE_FN),
+        ("callback_context", c_void_p),
+    ]
+    field_docs = {
+        "frame": ("", "FRAME_WORLD (default), or FRAME_BODY: axes of each place"),
+        "name": ("", "for messages, ends with 0; default \"\""),
+        "place_count": ("-", "of places and coordinates, 1 .. 4; default 1"),
+        "provides": ("", "PROVIDES_...; a tangent is held against differences when a sim is made (ERR_CALLBACK); default 0: built by differences"),
+        "place": ("", "not the ground; or part is a joint: its coordinate; shape (place_count)"),
+        "offset": ("m", "of each point from its place, in its axes, shape (place_count, 3); default 0"),
+        "component": ("", "of a joint: X .. RZ, free in it; shape (place_count); default 0"),
+        "pose_step": ("m, rad; m/s, rad/s", "of differences, 1e-12 .. 1; default 1e-5"),
+        "speed_step": ("m, rad; m/s, rad/s", "of differences, 1e-12 .. 1; default 1e-5"),
+        "callback": ("", "required"),
+        "callback_context": ("", ""),
     }
 
 
@@ -2974,6 +3020,7 @@ STRUCTS["dmb_fatigue_options"] = FatigueOptions
 STRUCTS["dmb_fatigue_result"] = FatigueResult
 STRUCTS["dmb_spring_def"] = SpringDef
 STRUCTS["dmb_spring_state"] = SpringState
+STRUCTS["dmb_force_def"] = ForceDef
 STRUCTS["dmb_hole_section"] = HoleSection
 STRUCTS["dmb_modes_options"] = ModesOptions
 STRUCTS["dmb_modes_info"] = ModesInfo

@@ -898,6 +898,16 @@ TABLE_LINES = TableKind.LINES
 TABLE_CUBIC = TableKind.CUBIC
 
 
+class ForceProvides(IntFlag):
+    """Bits DMB_PROVIDES_... of the headers."""
+    TANGENT = 1
+    POTENTIAL = 2
+
+
+PROVIDES_TANGENT = ForceProvides.TANGENT
+PROVIDES_POTENTIAL = ForceProvides.POTENTIAL
+
+
 class HoleShape(IntEnum):
     """Values DMB_HOLE_... of the headers."""
     STEP = 0  #: the values hold up to the next section, or on and on
@@ -1117,6 +1127,7 @@ ENUMS = (
     Measured,
     SpringActs,
     TableKind,
+    ForceProvides,
     HoleShape,
     ModesKind,
     ModesSelect,

@@ -9,7 +9,7 @@ from ._keep import Keep, as_id, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._record import Record
 from ._structs import (BitDef, BodyDef, Channel, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef,
-                       EventDef, HolePoint, HoleSection, Id, InputDef, InputInfo, JointDef, LoadDef, ModelInfo,
+                       EventDef, ForceDef, HolePoint, HoleSection, Id, InputDef, InputInfo, JointDef, LoadDef, ModelInfo,
                        ModelOptions, PipeDef, Place, SimOptions, SpringDef, StringDef, Term, WallDef)
 
 if TYPE_CHECKING:
@@ -189,6 +189,13 @@ class Model:
         """Adds an event that Sim.advance_to_event stops at, by an EventDef or its fields; returns its id."""
         return self._add("event", EventDef, definition, fields)
 
+    def add_force(self, definition: ForceDef | None = None, **fields: Any) -> Id:
+        """Adds a force that a Python function gives by poses, velocities and time, by a ForceDef or its fields."""
+        definition = struct(ForceDef, definition, fields)
+        if definition._function is not None:
+            definition.callback = self._keep.force(definition._function, definition.provides)
+        return self._add("force", ForceDef, definition, {})
+
     @mirrors("dmb_model_compile")
     def compile(self, options: CompileOptions | None = None, **fields: Any) -> int:
         """Checks and freezes the scene; returns the status."""
@@ -258,6 +265,7 @@ _DEFINITIONS: dict[str, Any] = {
     "set_environment": EnvironmentDef, "add_wall": WallDef, "add_hole_sections": HoleSection, "add_string": StringDef, "add_pipes": PipeDef,
     "add_body": BodyDef, "add_bit": BitDef, "add_joint": JointDef, "add_coupling": CouplingDef,
     "add_constraint": ConstraintDef, "add_drive": DriveDef, "add_load": LoadDef, "add_spring": SpringDef,
+    "add_force": ForceDef,
     "add_input": InputDef, "add_event": EventDef, "compile": CompileOptions,
     "add_programme": Term}
 

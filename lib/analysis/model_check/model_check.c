@@ -196,12 +196,15 @@ static void pass_springs(const groups *g)
     }
 }
 
-/* The caller's equations may do anything. */
+/* The caller's equations and forces may do anything. */
 static void pass_callbacks(const groups *g)
 {
     const dmb_scene *scene = g->sim->scene;
     for (uint32_t i = 0; i < scene->callback_count; i++)
         for (uint32_t k = 0; k < scene->callbacks[i].count; k++) hold(g, scene->callbacks[i].place[k].node);
+    for (uint32_t i = 0; i < scene->force_count; i++)
+        for (uint32_t k = 0; k < scene->forces[i].count; k++)
+            if (scene->forces[i].joint[k] == DMB_NONE) hold(g, scene->forces[i].point[k].node);
 }
 
 /* Guides, drives, walls and rock. An axial-torsional node stands on its axis. */

@@ -3,6 +3,7 @@
 
 #include "analysis/static/static.h"
 #include "sim/node.h"
+#include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
@@ -121,7 +122,11 @@ void dmb_static_explain(dmb_static_search *search, int32_t status)
     dmb_sim *sim = search->sim;
     dmb_owner owner;
     dmb_message text;
-    if (status == DMB_ERR_GEOMETRY) {
+    if (status == DMB_ERR_CALLBACK && dmb_failed_force(sim, &text)) {
+        dmb_message owner_text = text;
+        dmb_message_set(&sim->message, "static: %s: its callback failed or gave a value beyond +-1e30 at time %g",
+                        owner_text.text, search->evaluation.time);
+    } else if (status == DMB_ERR_GEOMETRY) {
         (void)dmb_joints_refuse_folds(sim); /* the trial still stands there */
     } else if (sim->scene->cluster_count && sim->reduced_mode->row != DMB_NONE) {
         dmb_clusters_explain(sim, "its equations cannot be satisfied");

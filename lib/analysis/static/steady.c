@@ -211,9 +211,36 @@ static int32_t check_line(dmb_sim *sim, uint32_t i, double bound)
     return DMB_ERR_UNSUPPORTED;
 }
 
+/* What a caller's force does to what moves is not known. */
+static int32_t check_caller_force(dmb_sim *sim, uint32_t i, double bound)
+{
+    const dmb_scene_force *force = sim->scene->forces + i;
+    for (uint32_t k = 0; k < force->count; k++) {
+        dmb_point_motion point;
+        double speed;
+        if (force->joint[k] == DMB_NONE) {
+            dmb_point_motion_of(sim->scene, &sim->trial, force->point + k, &point);
+            speed = dmb_vec3_norm(point.V) + dmb_vec3_norm(point.V + 3);
+        } else {
+            dmb_relative relative;
+            dmb_joint_motion_of(sim->scene, &sim->trial, force->joint[k], &relative, NULL);
+            speed = dmb_vec3_norm(relative.V) + dmb_vec3_norm(relative.V + 3);
+        }
+        if (speed <= bound) continue;
+        dmb_message_set(&sim->message,
+                        "static: force %u: place %u moves at %g, must stand still in a steady state, since a caller's "
+                        "force may change with it; take DMB_STEADY_AT_REST",
+                        i, k, speed);
+        return DMB_ERR_UNSUPPORTED;
+    }
+    return DMB_OK;
+}
+
 static int32_t check_lines(dmb_sim *sim, double most)
 {
     int32_t status = DMB_OK;
+    for (uint32_t i = 0; i < sim->scene->force_count && status >= 0; i++)
+        status = check_caller_force(sim, i, DMB_STEADY_SPRING * most);
     for (uint32_t i = 0; i < sim->scene->spring_count && status >= 0; i++)
         status = check_line(sim, i, DMB_STEADY_SPRING * most);
     return status;

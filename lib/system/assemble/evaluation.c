@@ -6,6 +6,7 @@
 #include "math/se3.h"
 #include "sim/node.h"
 #include "system/assemble/bit.h"
+#include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/assemble/elements.h"
 #include "system/assemble/free_rigid.h"
@@ -99,6 +100,7 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
     if (scene->cluster_count && evaluation->tangent)
         memset(evaluation->sim->constraint_tangent, 0, scene->tangent_count * sizeof(double));
     if (scene->spring_count) dmb_gather_springs(evaluation);
+    if (scene->force_count && dmb_gather_caller_forces(evaluation) < 0) return evaluation->status = DMB_ERR_CALLBACK;
     if (scene->cluster_count) evaluation->status = dmb_gather_joints(evaluation);
     if (evaluation->status >= 0) evaluation->status = finite_status(evaluation->sim);
     return evaluation->status;

@@ -25,7 +25,7 @@ static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_load *load, 
         for (uint32_t r = 0; r < t.columns; r++)
             for (uint32_t c = 0; c < t.columns; c++) t.K[(size_t)r * t.columns + c] -= move[r] * change[c];
     }
-    dmb_force_tangent_add(evaluation, DMB_NONE, &t);
+    dmb_force_tangent_add(evaluation, DMB_NONE, DMB_BY_DISPLACEMENT, &t);
 }
 
 void dmb_gather_point_load(dmb_evaluation *evaluation, const dmb_scene_load *load, double factor, const double frame[9])

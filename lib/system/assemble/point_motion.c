@@ -137,7 +137,6 @@ void dmb_force_tangent_clear(dmb_force_tangent *tangent)
 {
     const size_t bytes = (size_t)tangent->columns * tangent->columns * sizeof(double);
     memset(tangent->K, 0, bytes);
-    memset(tangent->C, 0, bytes);
 }
 
 /* Column of component k (0 .. 11) of the point's nodes; DMB_NONE: a PATH node has none. */
@@ -204,41 +203,40 @@ static void add_block(const dmb_force_tangent *tangent, const double *from, doub
                 factor * from[(size_t)(tangent->column[i] + r) * tangent->columns + tangent->column[k] + c];
 }
 
-/* Diagonal blocks are multiplied by T6 with all others of their node; those of links are whole where they stand, and
- * without their stiffness where inertia alone is asked for. */
-static void add_to_chain(const dmb_evaluation *evaluation, dmb_force_tangent *tangent)
+/* Diagonal blocks by displacements are multiplied by T6 with all others of their node; those of links are whole where
+ * they stand, and without their stiffness where inertia alone is asked for. */
+static void add_to_chain(const dmb_evaluation *evaluation, int by, double factor, dmb_force_tangent *tangent)
 {
     const dmb_sim *sim = evaluation->sim;
     const dmb_block_layout *layout = &sim->scene->layout;
-    const double velocity = evaluation->dynamic ? evaluation->velocity_factor : 0.0;
     for (uint32_t i = 0; i < tangent->nodes; i++) {
         const uint32_t node = tangent->node[i], size = layout->size[node];
-        add_block(tangent, tangent->K, 1.0, i, i, size, size, dmb_stiffness_of(sim, node));
-        add_block(tangent, tangent->C, velocity, i, i, size, size, dmb_inertia_of(sim, node));
+        double *to = by == DMB_BY_VELOCITY ? dmb_inertia_of(sim, node) : dmb_stiffness_of(sim, node);
+        add_block(tangent, tangent->K, factor, i, i, size, size, to);
     }
-    if (tangent->nodes < 2) return;
+    if (tangent->nodes < 2 || (by == DMB_BY_DISPLACEMENT && evaluation->inertia_only)) return;
     const uint32_t low = tangent->node[0] < tangent->node[1] ? 0 : 1, high = 1 - low;
     const uint32_t a = tangent->node[low], b = tangent->node[high];
     double *upper = sim->stiffness_upper + layout->link[a], *lower = sim->stiffness_lower + layout->link[a];
-    add_block(tangent, tangent->C, velocity, low, high, layout->size[a], layout->size[b], upper);
-    add_block(tangent, tangent->C, velocity, high, low, layout->size[b], layout->size[a], lower);
-    if (evaluation->inertia_only) return;
-    for (uint32_t i = 0; i < 2 && evaluation->dynamic; i++) to_parameters(sim, tangent, i, tangent->K);
-    add_block(tangent, tangent->K, 1.0, low, high, layout->size[a], layout->size[b], upper);
-    add_block(tangent, tangent->K, 1.0, high, low, layout->size[b], layout->size[a], lower);
+    for (uint32_t i = 0; i < 2 && by == DMB_BY_DISPLACEMENT && evaluation->dynamic; i++)
+        to_parameters(sim, tangent, i, tangent->K);
+    add_block(tangent, tangent->K, factor, low, high, layout->size[a], layout->size[b], upper);
+    add_block(tangent, tangent->K, factor, high, low, layout->size[b], layout->size[a], lower);
 }
 
 /* The constraint has the same nodes in the same order. */
-void dmb_force_tangent_add(const dmb_evaluation *evaluation, uint32_t constraint, dmb_force_tangent *tangent)
+void dmb_force_tangent_add(const dmb_evaluation *evaluation, uint32_t constraint, int by, dmb_force_tangent *tangent)
 {
     dmb_sim *sim = evaluation->sim;
     const size_t size = (size_t)tangent->columns * tangent->columns;
-    const double velocity = evaluation->dynamic ? evaluation->velocity_factor : 0.0;
+    const double factor = by == DMB_BY_VELOCITY ? evaluation->velocity_factor : 1.0;
+    if (by == DMB_BY_VELOCITY && !evaluation->dynamic) return;
     if (constraint == DMB_NONE) {
-        add_to_chain(evaluation, tangent);
+        add_to_chain(evaluation, by, factor, tangent);
         return;
     }
     double *to = sim->constraint_tangent + sim->scene->constraints[constraint].tangent;
-    for (uint32_t i = 0; i < tangent->nodes && evaluation->dynamic; i++) to_parameters(sim, tangent, i, tangent->K);
-    for (size_t k = 0; k < size; k++) to[k] += tangent->K[k] + velocity * tangent->C[k];
+    for (uint32_t i = 0; i < tangent->nodes && by == DMB_BY_DISPLACEMENT && evaluation->dynamic; i++)
+        to_parameters(sim, tangent, i, tangent->K);
+    for (size_t k = 0; k < size; k++) to[k] += factor * tangent->K[k];
 }

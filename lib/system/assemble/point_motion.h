@@ -27,18 +27,18 @@ void dmb_point_apply(dmb_sim *sim, const dmb_point_motion *motion, const double 
  * point. */
 void dmb_point_map_tangent(const dmb_scene *scene, const dmb_point_motion *motion, const double w[6], double K[144]);
 
-/* Nodes that a force acts on, their rows one after the other, and its tangents by body-frame displacements and
- * velocities: K, C, shape (columns, columns), signs as in the residual (-d force). */
+/* Nodes that a force acts on, their rows one after the other, and its tangent by body-frame displacements or
+ * velocities, shape (columns, columns), signs as in the residual (-d force). */
 typedef struct dmb_force_tangent {
     uint32_t nodes, columns;
     uint32_t node[DMB_CONSTRAINT_NODES], column[DMB_CONSTRAINT_NODES]; /* first column of each */
-    double K[DMB_CONSTRAINT_COLUMNS * DMB_CONSTRAINT_COLUMNS], C[DMB_CONSTRAINT_COLUMNS * DMB_CONSTRAINT_COLUMNS];
+    double K[DMB_CONSTRAINT_COLUMNS * DMB_CONSTRAINT_COLUMNS];
 } dmb_force_tangent;
 
 /* No nodes yet, then those of a point. */
 void dmb_force_tangent_begin(dmb_force_tangent *tangent);
 void dmb_force_tangent_touch(const dmb_scene *scene, const dmb_point_motion *motion, dmb_force_tangent *tangent);
-/* Clears K and C, when all nodes are there. */
+/* Clears K, when all nodes are there. */
 void dmb_force_tangent_clear(dmb_force_tangent *tangent);
 /* row (shape (columns)) += values, shape (12), in the columns of the point's nodes. */
 void dmb_force_tangent_columns(const dmb_scene *scene, const dmb_force_tangent *tangent, const dmb_point_motion *motion,
@@ -49,7 +49,9 @@ void dmb_force_tangent_row(const dmb_scene *scene, const dmb_force_tangent *tang
 /* K += factor A, shape (12, 12), rows and columns of one point. */
 void dmb_force_tangent_block(const dmb_scene *scene, dmb_force_tangent *tangent, const dmb_point_motion *motion,
                              double factor, const double A[144]);
-/* K and C of the evaluation into the blocks of the chain, or the tangent of the constraint unless that is DMB_NONE. */
-void dmb_force_tangent_add(const dmb_evaluation *evaluation, uint32_t constraint, dmb_force_tangent *tangent);
+/* K, by displacements or by velocities, into the blocks of the chain, or the tangent of the constraint unless that is
+ * DMB_NONE. K is used up. */
+enum { DMB_BY_DISPLACEMENT = 0, DMB_BY_VELOCITY = 1 };
+void dmb_force_tangent_add(const dmb_evaluation *evaluation, uint32_t constraint, int by, dmb_force_tangent *tangent);
 
 #endif

@@ -146,11 +146,13 @@ static void add_tangent(dmb_evaluation *evaluation, const dmb_scene_spring *spri
     for (uint32_t c = 0; c < n && evaluation->dynamic; c++)
         for (int i = 0; i < 3; i++) t.rate[c] += v[i] * t.turn[i][c];
     for (uint32_t r = 0; r < n; r++)
-        for (uint32_t c = 0; c < n; c++) {
+        for (uint32_t c = 0; c < n; c++)
             t.sum.K[(size_t)r * n + c] += t.gradient[r] * (by_elongation * t.gradient[c] + by_speed * t.rate[c]);
-            t.sum.C[(size_t)r * n + c] = by_speed * t.gradient[r] * t.gradient[c];
-        }
-    dmb_force_tangent_add(evaluation, spring->constraint, &t.sum);
+    dmb_force_tangent_add(evaluation, spring->constraint, DMB_BY_DISPLACEMENT, &t.sum);
+    if (by_speed == 0.0) return;
+    for (uint32_t r = 0; r < n; r++)
+        for (uint32_t c = 0; c < n; c++) t.sum.K[(size_t)r * n + c] = by_speed * t.gradient[r] * t.gradient[c];
+    dmb_force_tangent_add(evaluation, spring->constraint, DMB_BY_VELOCITY, &t.sum);
 }
 
 /* ---- Residual ---------------------------------------------------------------------------------------------------- */

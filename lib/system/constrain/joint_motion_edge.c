@@ -22,6 +22,14 @@ static int coupled(const dmb_scene *scene, uint32_t j)
     return 0;
 }
 
+static int forced(const dmb_scene *scene, uint32_t j)
+{
+    for (uint32_t i = 0; i < scene->force_count; i++)
+        for (uint32_t k = 0; k < scene->forces[i].count; k++)
+            if (scene->forces[i].joint[k] == j && scene->forces[i].component[k] >= DMB_RX) return 1;
+    return 0;
+}
+
 /* Whether something acts on an angle of the joint. */
 static int acts_on_angles(const dmb_scene *scene, uint32_t j)
 {
@@ -29,7 +37,7 @@ static int acts_on_angles(const dmb_scene *scene, uint32_t j)
     if (joint->law != DMB_NONE && joint->law_mask >> DMB_RX) return 1;
     for (uint32_t i = joint->first_drive; i < joint->first_drive + joint->drive_count; i++)
         if (scene->drives[scene->joint_drives[i]].component >= DMB_RX) return 1;
-    return coupled(scene, j);
+    return coupled(scene, j) || forced(scene, j);
 }
 
 /* The same, or its kind is built on them. */

@@ -1,6 +1,6 @@
-/* Iteration matrix of springs and of loads at any place (within nodes, inside elements, across parts) against
- * differences of the residual by the increments of a step, which move poses and velocities together; and the force of
- * springs against differences of their energy. */
+/* Iteration matrix of springs, of loads at any place and of the caller's forces (within nodes, inside elements, across
+ * parts) against differences of the residual by the increments of a step, which move poses and velocities together; and
+ * the force of springs against differences of their energy. */
 #include <string.h>
 
 #include "mechanism.h"
@@ -117,12 +117,61 @@ static void add_loads(rig *s, const parts *p)
     }
 }
 
+/* Some smooth function of all that it is told, different in each component. */
+static int32_t any_force(void *context, double time, uint32_t count, const double (*poses)[12],
+                         const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+{
+    const uint32_t joint = *(const uint32_t *)context; /* number of the argument that is one, or more than there are */
+    (void)time, (void)tangent, (void)potential;
+    for (uint32_t i = 0; i < count; i++)
+        for (int k = 0; k < 6; k++) {
+            double sum = 0.3 * k - 1.0;
+            for (uint32_t j = 0; j < count; j++) {
+                for (int m = 0; m < (j == joint ? 1 : 12); m++) sum += sin(1.0 + i + j + 2.0 * k + m) * poses[j][m];
+                for (int m = 0; m < (j == joint ? 1 : 6); m++)
+                    sum += 0.2 * cos(1.0 * i + j + k + 3.0 * m) * velocities[j][m];
+            }
+            forces[i][k] = sin(sum) + 0.1 * sum * sum;
+        }
+    return 0;
+}
+
+/* In the axes of the world and of the places: within an element alone; across parts, with a joint's coordinate. */
+static void add_forces(rig *s, const parts *p, int across)
+{
+    static uint32_t none = 9, third = 2;
+    uint64_t seed = 40;
+    for (int32_t frame = DMB_FRAME_WORLD; frame <= DMB_FRAME_BODY; frame++) {
+        dmb_force_def def = dmb_force_def_default();
+        def.frame = frame;
+        def.callback = any_force;
+        def.callback_context = &none;
+        def.place_count = 2;
+        def.pose_step = def.speed_step = 1e-3;
+        def.place[0] = dmb_station(p->beam, 0, 0.3);
+        def.place[1] = dmb_station(p->beam, 0, 0.1);
+        for (int k = 0; k < 12; k++) def.offset[k] = draw_between(&seed, -0.2, 0.2);
+        must_model(s, dmb_model_add_force(s->model, &def, NULL));
+        if (!across) continue;
+        dmb_joint_def joint =
+            joint_between(DMB_JOINT_FREE, dmb_station(p->body[0], 0, 0.0), dmb_station(p->body[1], 0, 0.0));
+        def.place_count = 4;
+        def.place[1] = dmb_station(p->body[1], 0, 0.0);
+        def.place[2] = dmb_station(add_joint(s, &joint), 0, 0.0);
+        def.component[2] = frame == DMB_FRAME_WORLD ? DMB_Y : DMB_RY;
+        def.place[3] = dmb_station(p->bar, 1, 0.4);
+        def.callback_context = &third;
+        must_model(s, dmb_model_add_force(s->model, &def, NULL));
+    }
+}
+
 static void open_scene(rig *s, int springs, int loads, int across)
 {
     parts p;
     rig_open(s, 0.0, 0.0, 0.0);
     add_parts(s, &p);
-    if (springs) add_springs(s, &p, across);
+    if (springs & 1) add_springs(s, &p, across);
+    if (springs & 2) add_forces(s, &p, across);
     if (loads) add_loads(s, &p);
     (void)mechanism_start(s, NULL);
     assert_true(s->sim->scene->row_count <= ROWS_MAX);
@@ -289,6 +338,7 @@ static void matrix_is_the_derivative(void **state)
     check_below("loads at points, step", worst_of(0, 1, 0, 1), 1e-9);
     check_below("springs within nodes and elements, step", worst_of(1, 0, 0, 1), 1e-9);
     check_below("springs across parts, step", worst_of(1, 1, 1, 1), 1e-9);
+    check_below("the caller's forces within an element, step", worst_of(2, 0, 0, 1), 1e-8);
 }
 
 static void static_matrix_is_the_derivative(void **state)
@@ -297,6 +347,8 @@ static void static_matrix_is_the_derivative(void **state)
     check_below("loads at points, statics", worst_of(0, 1, 0, 0), 1e-9);
     check_below("springs within nodes and elements, statics", worst_of(1, 0, 0, 0), 1e-9);
     check_below("springs across parts, statics", worst_of(1, 1, 1, 0), 1e-9);
+    check_below("the caller's forces within an element, statics", worst_of(2, 0, 0, 0), 1e-8);
+    check_below("the caller's forces across parts, statics", worst_of(2, 0, 1, 0), 1e-8);
 }
 
 /* Residual of springs alone by a displacement z of each row: dE/dz. */

@@ -75,8 +75,8 @@ class Writer:
                 self.single["hole"] = arguments[0]
             elif kind == "pipes":
                 self._pipes(made, *arguments)
-            elif kind == "constraint":
-                raise CannotSave("a constraint by a function of Python cannot be written to a file")
+            elif kind in ("constraint", "force"):
+                raise CannotSave(f"a {kind} by a function of Python cannot be written to a file")
             else:
                 self.parts.setdefault(kind, []).append((made, list(arguments) if kind == "programme" else arguments[0]))
         for kind, parts in self.parts.items():

@@ -1,0 +1,76 @@
+/* Does a string stick and slip when the bit's torque falls with its speed, and from which rotary speed on does it not?
+ *
+ * The torque is a function of this program, T = 900 N m (0.6 + 0.4 exp(-|w|/3)) w/sqrt(w^2 + 0.1^2), of the speed w at
+ * the string's end. A string of 1000 m turned at its head swings by it; mud damps it. */
+#include <drillmbd/drillmbd.h>
+#include <math.h>
+#include <stdio.h>
+
+static int32_t bit_torque(void *context, double time, uint32_t count, const double (*poses)[12],
+                          const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
+{
+    const double w = velocities[0][3], n = sqrt(w * w + 0.01), s = w / n, fall = 0.4 * exp(-n / 3.0);
+    (void)context, (void)time, (void)count, (void)poses, (void)potential;
+    forces[0][3] = -900.0 * (0.6 + fall) * s;
+    if (tangent == NULL) return 0;
+    tangent[36 + 6 * 3 + 3] = -900.0 * ((0.6 + fall) * 0.01 / (n * n * n) - fall / 3.0 * s * s); /* by the speed */
+    return 0;
+}
+
+static int32_t describe(double speed, dmb_model **model, dmb_place *end)
+{
+    dmb_environment_def environment = dmb_environment_def_default();
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_term turn = dmb_term_default();
+    dmb_drive_def drive = dmb_drive_def_default();
+    dmb_force_def torque = dmb_force_def_default();
+    int32_t status = dmb_model_create(NULL, model);
+    environment.torsional_damping = 0.02;
+    string.start_free = DMB_FREE_RX;
+    string.velocity[3] = speed;
+    pipe.kind = DMB_PIPE_AXIAL_TORSIONAL;
+    pipe.length = 50.0;
+    turn.h0 = speed;
+    drive.component = DMB_RX;
+    torque.frame = DMB_FRAME_BODY; /* velocity and torque about the string's own axis */
+    torque.callback = bit_torque;
+    torque.provides = DMB_PROVIDES_TANGENT; /* compared with differences when the sim is made */
+    if (status >= 0) status = dmb_model_set_environment(*model, &environment);
+    if (status >= 0) status = dmb_model_add_string(*model, &string, &pipe.string);
+    if (status >= 0) status = dmb_model_add_pipes(*model, &pipe, 20, NULL);
+    if (status >= 0) status = dmb_model_add_programme(*model, &turn, 1, &drive.programme);
+    if (status >= 0) status = dmb_model_add_drive(*model, &drive, NULL);
+    *end = torque.place[0] = dmb_station(pipe.string, 19, 1.0);
+    if (status >= 0) status = dmb_model_add_force(*model, &torque, NULL);
+    return status < 0 ? status : dmb_model_compile(*model, NULL);
+}
+
+int main(void)
+{
+    int32_t status = 0;
+    printf("%12s %16s %16s\n", "rig 1/min", "bit least", "bit largest");
+    for (int rpm = 40; rpm <= 160 && status >= 0; rpm += 40) {
+        const double speed = rpm * 3.14159265358979323846 / 30.0;
+        double least = 1e9, most = -1e9;
+        dmb_model *model = NULL;
+        dmb_sim *sim = NULL;
+        dmb_place end;
+        status = describe(speed, &model, &end);
+        if (status >= 0) status = dmb_sim_create(model, NULL, &sim);
+        for (int i = 0; i < 3000 && status >= 0; i++) {
+            dmb_motion motion = dmb_motion_default();
+            motion.frame = DMB_FRAME_BODY;
+            status = dmb_sim_step(sim, 0.02, NULL);
+            if (status >= 0) status = dmb_query_motion(sim, end, &motion);
+            if (i < 2250) continue; /* the first 45 s are the start */
+            least = fmin(least, motion.velocity[3]);
+            most = fmax(most, motion.velocity[3]);
+        }
+        printf("%12d %16.4f %16.4f\n", rpm, 9.549296585513721 * least, 9.549296585513721 * most);
+        if (status < 0) fprintf(stderr, "%s%s\n", dmb_model_message(model), dmb_sim_message(sim));
+        dmb_sim_destroy(&sim);
+        dmb_model_destroy(&model);
+    }
+    return status < 0;
+}
