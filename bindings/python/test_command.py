@@ -1,8 +1,6 @@
 """Tests of the command: every question of a scene with its files, what is refused with its exit status, Ctrl-C, help."""
-import contextlib
 import csv
 import importlib.util
-import io
 import json
 import os
 import pathlib
@@ -10,21 +8,13 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-try:
-    import numpy  # noqa: F401
-    import pint  # noqa: F401
-except ImportError as missing:
-    raise unittest.SkipTest(f"not there: {missing.name}") from missing
+from shared_tests import COMMAND, ENVIRONMENT, FolderTest, needs
 
-from drillmbd.command import main  # noqa: E402
+needs("numpy", "pint")
 
-HERE = pathlib.Path(__file__).resolve().parent
-COMMAND = (sys.executable, "-W", "ignore", "-m", "drillmbd")
-ENVIRONMENT = {**os.environ, "PYTHONPATH": str(HERE)}
 
 SCENE = """title = "short rig"
 [hole]
@@ -108,28 +98,12 @@ part = "push"
 """
 
 
-class CommandTest(unittest.TestCase):
+class CommandTest(FolderTest):
+    SCENE = SCENE
+
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.scene = self.write("rig.toml", SCENE)
+        super().setUp()
         self.output = self.folder / "out"
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text, encoding="utf-8")
-        return self.folder / name
-
-    def ask(self, *words, status=0):
-        """In this process, which has loaded the packages."""
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            try:
-                found = main([str(word) for word in words])
-            except SystemExit as stop:  # argparse
-                found = stop.code
-        self.assertEqual(found, status, out.getvalue() + err.getvalue())
-        return out.getvalue() if status == 0 else err.getvalue()
 
     def answer(self, command, *more):
         out = self.ask(command, self.scene, "--output", self.output, *more)

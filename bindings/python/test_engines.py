@@ -3,7 +3,6 @@ of workers; workers that die, one and all; samples that cannot be computed; file
 import contextlib
 import csv
 import importlib.util
-import io
 import json
 import math
 import os
@@ -12,27 +11,21 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-try:
-    import h5py
-    import numpy as np
-    import pint  # noqa: F401
-    import scipy  # noqa: F401
-except ImportError as missing:
-    raise unittest.SkipTest(f"not there: {missing.name}") from missing
+from shared_tests import COMMAND, ENVIRONMENT, FolderTest, needs
 
-from drillmbd.command import main
+needs("h5py", "numpy", "pint", "scipy")
+
+import h5py
+import numpy as np
+
 from drillmbd.probability import engines
 from drillmbd.probability.points import Points
 from drillmbd.probability.sample import DONE, FAILED, Result, SceneSample
 from drillmbd.probability.study import Study, StudyError, StudyFile, differences, read_rows
 
-HERE = pathlib.Path(__file__).resolve().parent
-COMMAND = (sys.executable, "-W", "ignore", "-m", "drillmbd")
-ENVIRONMENT = {**os.environ, "PYTHONPATH": str(HERE), "OMP_NUM_THREADS": "1"}
 MPIRUN = ("mpirun", "--allow-run-as-root", "--oversubscribe", "-n")
 
 SCENE = """title = "short rig"
@@ -130,23 +123,11 @@ def point(number):
     return Points("monte-carlo", 5, 3, 1000).z(number)
 
 
-class Base(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.scene = self.folder / "rig.toml"
-        self.scene.write_text(SCENE, encoding="utf-8")
+class Base(FolderTest):
+    SCENE = SCENE
 
     def command(self, *words, status=0):
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            try:
-                found = main(["probability", *[str(word) for word in words]])
-            except SystemExit as stop:
-                found = stop.code
-        self.assertEqual(found, status, out.getvalue() + err.getvalue())
-        return out.getvalue() if status == 0 else err.getvalue()
+        return self.ask("probability", *words, status=status)
 
     def rows(self, name="out"):
         rows = read_rows(self.folder / name / "study.h5")[0]

@@ -5,13 +5,13 @@ import math
 import sys
 import unittest
 
-try:
-    import numpy as np
-    import openturns  # noqa: F401
-    from scipy.linalg import expm
-    from scipy.stats import norm
-except ImportError as missing:
-    raise unittest.SkipTest(f"not there: {missing.name}") from missing
+from shared_tests import needs
+
+needs("numpy", "openturns", "scipy.linalg", "scipy.stats")
+
+import numpy as np
+from scipy.linalg import expm
+from scipy.stats import norm
 
 from drillmbd.probability.estimates import Subset, Surrogate, clopper_pearson, counted, form, sampled, sobol_indices
 from drillmbd.probability.fields import Markov

@@ -8,14 +8,11 @@ import sys
 import tempfile
 import unittest
 
-try:
-    import h5py  # noqa: F401
-    import matplotlib  # noqa: F401
-    import numpy as np
-    import openturns  # noqa: F401
-    import pint  # noqa: F401
-except ImportError as missing:
-    raise unittest.SkipTest(f"not there: {missing.name}") from missing
+from shared_tests import needs
+
+needs("h5py", "matplotlib", "numpy", "openturns", "pint")
+
+import numpy as np
 
 from drillmbd import scene
 from drillmbd.probability.study import read_rows
@@ -23,7 +20,7 @@ from drillmbd.probability.study import read_rows
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 STUDY = ROOT / "examples" / "failure_probability"
 sys.path.insert(0, str(STUDY))
-from study import compared  # noqa: E402
+from study import compared
 
 
 class StudyTest(unittest.TestCase):

@@ -5,18 +5,16 @@ shakes loose in part creep and give less. A rigid bar on the same friction, whic
 import math
 import unittest
 
-try:
-    import numpy as np
-    import pint  # noqa: F401
-    import scipy  # noqa: F401
-except ImportError as missing:
-    raise unittest.SkipTest(f"not there: {missing.name}") from missing
+from shared_tests import needs
+
+needs("numpy", "pint", "scipy")
+
+import numpy as np
 
 from drillmbd.probability import engines
 from drillmbd.probability.points import Points
 from drillmbd.probability.sample import SceneSample
 from drillmbd.probability.study import Study
-from drillmbd.scene import fields
 
 PUSH, ROCK, SAMPLES = 6000.0, 500.0, 24
 PIPE = 9.81 * 7850.0 * math.pi / 4.0 * (0.1 ** 2 - 0.08 ** 2)  # [N/m]
@@ -133,7 +131,6 @@ def resistance(factors):
     return PIPE * mu.sum() + 20.0 * 9.81 * 0.30 * np.interp(100.0, 5.0 * np.arange(len(factors)), factors)
 
 
-@unittest.skipIf("section" not in fields.DEFINITIONS, "this library has no sections of the hole")
 class RatioTest(unittest.TestCase):
     def test_rigid_bar(self):
         """Without the motor: it advances where the push exceeds friction and rock, by 1/2 (F - R)/m t^2."""

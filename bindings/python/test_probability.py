@@ -5,12 +5,12 @@ import pathlib
 import tempfile
 import unittest
 
-try:
-    import numpy as np
-    import pint  # noqa: F401
-    import scipy.stats as stats
-except ImportError as missing:
-    raise unittest.SkipTest(f"not there: {missing.name}") from missing
+from shared_tests import needs
+
+needs("numpy", "pint", "scipy.stats")
+
+import numpy as np
+import scipy.stats as stats
 
 from drillmbd import enums, scene
 from drillmbd.probability import limits
@@ -18,7 +18,6 @@ from drillmbd.probability.draw import CannotDraw, Draw, value_of_terms
 from drillmbd.probability.fields import Expansion, Markov, kernel
 from drillmbd.probability.marginals import Translation, frozen, nataf, value_correlation
 from drillmbd.probability.sample import DONE, FAILED, Own, SceneSample
-from drillmbd.scene import fields
 from drillmbd.scene.failure import KINDS
 from drillmbd.scene.variability import DISTRIBUTIONS, KERNELS, Marginal
 
@@ -302,7 +301,6 @@ to = "19 m"
 """
 
 
-@unittest.skipIf("section" not in fields.DEFINITIONS, "this library has no sections of the hole")
 class HoleTest(unittest.TestCase):
     TEXT = RIG.replace("mu_static = 0\nmu_dynamic = 0", "mu_static = 0.35") + HOLE + """[[failure]]
 kind = "rig-torque"

@@ -5,12 +5,12 @@ import functools
 import math
 import unittest
 
-try:
-    import numpy as np
-    import pint  # noqa: F401
-    from scipy.optimize import brentq
-except ImportError as missing:
-    raise unittest.SkipTest(f"not there: {missing.name}") from missing
+from shared_tests import needs
+
+needs("numpy", "pint", "scipy.optimize")
+
+import numpy as np
+from scipy.optimize import brentq
 
 from drillmbd.probability import engines
 from drillmbd.probability.estimates import clopper_pearson, counted

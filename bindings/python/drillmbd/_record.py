@@ -236,56 +236,39 @@ class SpringPart:
         return found
 
 
-class ForcePart:
+class PlacesPart:
+    """A part on one to four `places`, computed by a `function`."""
+    place_count: int
+    place: Any
+
+    def __init__(self, places: Any = None, function: Callable[..., Any] | None = None, **fields: Any) -> None:
+        super().__init__(**fields)
+        self._function = function
+        if places is not None:
+            kind = type(self.place[0])
+            given = [place if isinstance(place, kind) else kind(place) for place in places]
+            self.place_count = len(given)
+            self.place = (given + [kind()] * 4)[:4]
+
+    def describe(self, every: bool = False) -> dict[str, Any]:
+        """The fields as plain Python, `places` and `function` as given."""
+        found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
+        for name in ("place_count", "place"):
+            found.pop(name, None)
+        found["places"] = list(self.place)[:self.place_count]
+        if self._function is not None:
+            found["function"] = self._function
+        return found
+
+
+class ForcePart(PlacesPart):
     """A force on one to four `places` (places, bodies, or joints with their `component`). `function` takes the time, a
     sequence of poses, each of twelve numbers (position, rotation matrix by rows), and one of velocities, each of six; it
     returns six numbers a place. With provides=PROVIDES_TANGENT it returns a tuple that goes on with the derivatives by
     displacements and by velocities, 6 places x 6 places each; with PROVIDES_POTENTIAL the energy [J] comes last."""
-    place_count: int
-    place: Any
-
-    def __init__(self, places: Any = None, function: Callable[..., Any] | None = None, **fields: Any) -> None:
-        super().__init__(**fields)
-        self._function = function
-        if places is not None:
-            kind = type(self.place[0])
-            given = [place if isinstance(place, kind) else kind(place) for place in places]
-            self.place_count = len(given)
-            self.place = (given + [kind()] * 4)[:4]
-
-    def describe(self, every: bool = False) -> dict[str, Any]:
-        """The fields as plain Python, `places` and `function` as given."""
-        found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
-        for name in ("place_count", "place"):
-            found.pop(name, None)
-        found["places"] = list(self.place)[:self.place_count]
-        if self._function is not None:
-            found["function"] = self._function
-        return found
 
 
-class ConstraintPart:
+class ConstraintPart(PlacesPart):
     """A constraint on the poses of one to four `places`. `function` takes the time and a sequence of poses, each of
     twelve numbers (position, rotation matrix by rows), and returns `row_count` numbers (or one); with
     provides=PROVIDES_JACOBIAN a pair of these and of the row_count x 6 places jacobian, flat or row by row."""
-    place_count: int
-    place: Any
-
-    def __init__(self, places: Any = None, function: Callable[..., Any] | None = None, **fields: Any) -> None:
-        super().__init__(**fields)
-        self._function = function
-        if places is not None:
-            kind = type(self.place[0])
-            given = [place if isinstance(place, kind) else kind(place) for place in places]
-            self.place_count = len(given)
-            self.place = (given + [kind()] * 4)[:4]
-
-    def describe(self, every: bool = False) -> dict[str, Any]:
-        """The fields as plain Python, `places` and `function` as given."""
-        found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
-        for name in ("place_count", "place"):
-            found.pop(name, None)
-        found["places"] = list(self.place)[:self.place_count]
-        if self._function is not None:
-            found["function"] = self._function
-        return found

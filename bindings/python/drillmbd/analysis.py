@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from ctypes import byref, c_double, c_size_t, c_uint32, c_void_p, pointer
 from typing import TYPE_CHECKING, Any, List
 
+from ._handle import Handle
 from ._keep import Keep, as_id, as_place, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._optional import need, numpy
@@ -240,18 +241,15 @@ class TorqueDrag:
 
 
 # ---- Frequency response ----------------------------------------------------------------------------------------------
-class Response:
+class Response(Handle):
     """Transfer functions that Sim.response has found. `shape`: numbers of frequencies, inputs and outputs."""
+    _kind = "response"
 
     def __init__(self, handle: c_void_p) -> None:
         self._handle = handle
         shape = (c_uint32 * 3)()
         check(_lib.dmb_response_dimensions(handle, shape))
         self.shape = tuple(shape)  # points, inputs, outputs
-
-    def __del__(self) -> None:
-        if _lib is not None:
-            _lib.dmb_response_destroy(byref(self._handle))
 
     @property
     def frequencies(self) -> Any:
@@ -284,9 +282,10 @@ class Response:
 
 
 # ---- Buckling --------------------------------------------------------------------------------------------------------
-class Buckling:
+class Buckling(Handle):
     """Critical factors, rising, and their shapes. status is NOTE_STOPPED where fewer were found than asked for,
     NOTE_EXTRAPOLATED where info.confirmed is less than their number."""
+    _kind = "buckling"
 
     def __init__(self, sim: Any, options: BucklingOptions) -> None:
         self._handle = c_void_p()
@@ -311,33 +310,16 @@ class Buckling:
         """[m, rad] the same at many places: shape (places, 6), a numpy array or lists."""
         return _array([self.shape(mode, place) for place in places])
 
-    def close(self) -> None:
-        """Gives the memory back."""
-        _lib.dmb_buckling_destroy(byref(self._handle))
-
-    def __enter__(self) -> Buckling:
-        return self
-
-    def __exit__(self, *_: Any) -> None:
-        self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None) and _lib is not None:
-            self.close()
-
 
 # ---- Modes -----------------------------------------------------------------------------------------------------------
-class Modes:
+class Modes(Handle):
     """Modes that Sim.modes has found, by rising frequency: modes[0].frequency, len(modes)."""
+    _kind = "modes"
 
     def __init__(self, handle: c_void_p, scene: Keep) -> None:
         self._handle, self._scene = handle, scene
         self.info = ModesInfo()
         check(_lib.dmb_modes_get_info(handle, byref(self.info)))
-
-    def __del__(self) -> None:
-        if _lib is not None:
-            _lib.dmb_modes_destroy(byref(self._handle))
 
     def __len__(self) -> int:
         return self.info.count

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from ctypes import byref, c_double, c_void_p
 from typing import TYPE_CHECKING, Any
 
+from ._handle import Handle
 from ._keep import as_place, mirrors
 from ._library import lib as _lib
 from ._structs import FatigueOptions, FatigueResult, Place
@@ -14,17 +15,14 @@ if TYPE_CHECKING:
     from .sim import Sim
 
 
-class Fatigue:
+class Fatigue(Handle):
     """Counts the cycles of stress at places of a sim; made by Sim.fatigue. Call take() after every step."""
+    _kind = "fatigue"
 
     def __init__(self, sim: Sim, places: Sequence[Any], options: FatigueOptions) -> None:
         self._sim, self._handle, self._options = sim, c_void_p(), options
         asked = (Place * len(places))(*[as_place(place) for place in places])
         sim._check(_lib.dmb_fatigue_create(sim._handle, byref(options), asked, len(places), byref(self._handle)))
-
-    def __del__(self) -> None:
-        if _lib is not None:
-            _lib.dmb_fatigue_destroy(byref(self._handle))
 
     @mirrors("dmb_fatigue_take")
     def take(self) -> int:

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from ctypes import byref, c_size_t, c_void_p
 from typing import TYPE_CHECKING, Any
 
+from ._handle import Handle
 from ._keep import Keep, as_id, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._record import Record
@@ -16,11 +17,12 @@ if TYPE_CHECKING:
     from .sim import Sim
 
 
-class Model:
+class Model(Handle):
     """A scene. Describe it with the add_ functions, compile it once, then make any number of sims of it.
 
     `calls` is the description: pairs of the method's name and its arguments. copy.copy and pickle make a model by the
     same calls; its parts have ids of their own, which `own` finds. A log function is not taken along."""
+    _kind = "model"
 
     def __init__(self, log: Callable[[int, str], None] | None = None) -> None:
         self._keep = Keep()
@@ -33,20 +35,6 @@ class Model:
         self._keep.check(_lib.dmb_model_create(byref(options), byref(self._handle)), b"")
 
     # ---- Life -------------------------------------------------------------------------------------------------------
-    def close(self) -> None:
-        """Gives the model back; its sims go on."""
-        _lib.dmb_model_destroy(byref(self._handle))
-
-    def __enter__(self) -> Model:
-        return self
-
-    def __exit__(self, *_: Any) -> None:
-        self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None) and _lib is not None:
-            self.close()
-
     def __reduce__(self) -> Any:
         return _remake, (type(self), self.calls)
 

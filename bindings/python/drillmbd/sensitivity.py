@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from ctypes import byref, c_double, c_uint32, c_uint64, c_void_p
 from typing import TYPE_CHECKING, Any
 
+from ._handle import Handle
 from ._keep import as_place, mirrors
 from ._library import lib as _lib
 from ._structs import Channel, Parameter, StepReport
@@ -15,10 +16,11 @@ if TYPE_CHECKING:
     from .sim import Sim
 
 
-class Sensitivity:
+class Sensitivity(Handle):
     """Derivatives of a sim by parameters, each given as (low, high, step): two sims of the scene with the parameter
     `step` lower and higher, at the same time. Move the sim by step() and advance() of this, not by its own; made by
     Sim.sensitivity, or from a function that describes the scene by sensitivity_of."""
+    _kind = "sensitivity"
 
     @mirrors("dmb_sensitivity_create")
     def __init__(self, sim: Sim, parameters: Mapping[str, tuple[Sim, Sim, float]], one_sided: bool = False) -> None:
@@ -28,10 +30,6 @@ class Sensitivity:
             given[number] = Parameter(step=step, one_sided=int(one_sided), name=name.encode()[:23],
                                       low=low._handle, high=high._handle)
         sim._check(_lib.dmb_sensitivity_create(sim._handle, given, len(parameters), byref(self._handle)))
-
-    def __del__(self) -> None:
-        if _lib is not None and getattr(self, "_handle", None):
-            _lib.dmb_sensitivity_destroy(byref(self._handle))
 
     @mirrors("dmb_sensitivity_step")
     def step(self, duration: float) -> StepReport:

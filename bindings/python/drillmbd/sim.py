@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from . import analysis
+from ._handle import Handle
 from ._keep import Keep, as_place, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._progress import Teller
@@ -78,9 +79,10 @@ class _Lengths:
         return self.end if number == self.count else self.begin + (self.end - self.begin) * number / self.count
 
 
-class Sim(analysis.Analyses):
+class Sim(Handle, analysis.Analyses):
     """All that changes. One thread at a time; the library does not hold Python's lock while it runs. In the main thread
     Ctrl-C ends advance and the analyses: KeyboardInterrupt, with the sim whole."""
+    _kind = "sim"
 
     def __init__(self, model: Model, options: SimOptions | None = None,
                  log: Callable[[int, str], None] | None = None, **fields: Any) -> None:
@@ -97,20 +99,6 @@ class Sim(analysis.Analyses):
         message = _lib.dmb_model_message(model._handle)
         self._keep.check(OK, b"")
         self.status = self._scene.check(status, message)
-
-    def close(self) -> None:
-        """Gives the memory back; what is asked afterwards is an Error."""
-        _lib.dmb_sim_destroy(byref(self._handle))
-
-    def __enter__(self) -> Sim:
-        return self
-
-    def __exit__(self, *_: Any) -> None:
-        self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None) and _lib is not None:
-            self.close()
 
     def __reduce__(self) -> Any:
         raise TypeError("a Sim does not pickle: pickle its model and sim.snapshot(), which a sim of that model restores")

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from ctypes import POINTER, byref, c_double, c_int32, c_uint32, c_uint64, c_void_p
 from typing import TYPE_CHECKING, Any
 
+from ._handle import Handle
 from ._keep import as_place, mirrors
 from ._library import lib as _lib
 from ._optional import need
@@ -19,9 +20,10 @@ if TYPE_CHECKING:
     from .sim import Sim
 
 
-class StateSpace:
+class StateSpace(Handle):
     """x' = A x + B u, y = C x + D u about a state, as numpy arrays, and sparse matrices of scipy; made by
     Sim.state_space."""
+    _kind = "state_space"
 
     def __init__(self, sim: Sim, inputs: Sequence[Input], outputs: Sequence[Output], options: StateSpaceOptions,
                  modes: Modes | None, mode_list: Sequence[int] | None) -> None:
@@ -35,10 +37,6 @@ class StateSpace:
                              byref(self._handle)))
         self.info: StateSpaceInfo = StateSpaceInfo.blank()
         check(_lib.dmb_state_space_get_info(self._handle, byref(self.info)))
-
-    def __del__(self) -> None:
-        if _lib is not None:
-            _lib.dmb_state_space_destroy(byref(self._handle))
 
     def _dense(self, which: int, rows: int, columns: int) -> Any:
         values = need("numpy").zeros((rows, columns))

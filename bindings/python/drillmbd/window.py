@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from ctypes import byref, c_double, c_void_p
 from typing import TYPE_CHECKING, Any
 
+from ._handle import Handle
 from ._keep import as_place, mirrors
 from ._library import lib as _lib
 from ._structs import Channel, WindowOptions, WindowResult
@@ -15,8 +16,9 @@ if TYPE_CHECKING:
     from .sim import Sim
 
 
-class Window:
+class Window(Handle):
     """Watches channels over the last so many seconds; made by Sim.window. Call take() after every step."""
+    _kind = "window"
 
     def __init__(self, sim: Sim, channels: Sequence[Any], options: WindowOptions, levels: Sequence[float] | None) -> None:
         self._sim, self._handle = sim, c_void_p()
@@ -28,10 +30,6 @@ class Window:
             self._levels = (c_double * len(levels))(*levels)
             options.levels = self._levels
         sim._check(_lib.dmb_window_create(sim._handle, byref(options), asked, len(channels), byref(self._handle)))
-
-    def __del__(self) -> None:
-        if _lib is not None:
-            _lib.dmb_window_destroy(byref(self._handle))
 
     @mirrors("dmb_window_take")
     def take(self) -> int:

@@ -8,7 +8,6 @@ from typing import Any
 from .._optional import need
 from ..enums import TERM_CONSTANT, TERM_HARMONIC, TERM_STEP, TERM_STEP5, TERM_TABLE
 from ..scene import Scene
-from ..scene.fields import DEFINITIONS
 from ..scene.terms import _term as known_term
 from ..scene.units import text
 from ..scene.variability import RandomField, RandomProcess, Scatter, normal_correlation
@@ -88,8 +87,6 @@ class Draw:
 
     def _field(self, one: RandomField) -> Expansion:
         if one.ends[1]:
-            if "section" not in DEFINITIONS:
-                raise CannotDraw(f"{one.name}: this library has no sections of the hole")
             return expansion(one.kernel, one.length, tuple(float(depth) for depth in self._depths(one)), one.modes)
         if one.key.startswith("hole.survey"):
             points = tuple(float(row[0]) for row in self._stations())

@@ -1,0 +1,29 @@
+"""An object of the C library that Python owns."""
+from __future__ import annotations
+
+from ctypes import byref, c_void_p
+from typing import Any, TypeVar
+
+from ._library import lib as _lib
+
+H = TypeVar("H", bound="Handle")
+
+
+class Handle:
+    """Gives its C object back at the end of a with block, by close(), or when Python drops it."""
+    _handle: c_void_p
+    _kind = ""  #: dmb_<kind>_destroy gives it back
+
+    def close(self) -> None:
+        """Gives the memory back; later questions are an Error. Sims of a model go on."""
+        if getattr(self, "_handle", None) is not None and _lib is not None:
+            getattr(_lib, f"dmb_{self._kind}_destroy")(byref(self._handle))
+
+    def __enter__(self: H) -> H:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        self.close()

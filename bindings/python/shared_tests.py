@@ -1,0 +1,49 @@
+"""Set-up that the tests share: packages that a test cannot do without, a folder with a scene, the command in this process."""
+import contextlib
+import importlib
+import io
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+COMMAND = (sys.executable, "-W", "ignore", "-m", "drillmbd")
+ENVIRONMENT = {**os.environ, "PYTHONPATH": str(HERE), "OMP_NUM_THREADS": "1"}
+
+
+def needs(*names):
+    """Skips the file where a package is not installed."""
+    for name in names:
+        try:
+            importlib.import_module(name)
+        except ImportError as missing:
+            raise unittest.SkipTest(f"not there: {missing.name}") from missing
+
+
+class FolderTest(unittest.TestCase):
+    """A folder of its own for each test, with a scene in it."""
+    SCENE = ""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.scene = self.write("rig.toml", self.SCENE)
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text, encoding="utf-8")
+        return self.folder / name
+
+    def ask(self, *words, status=0):
+        """The command in this process, which has loaded the packages: its output, or its errors where it fails."""
+        from drillmbd.command import main
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            try:
+                found = main([str(word) for word in words])
+            except SystemExit as stop:  # argparse
+                found = stop.code
+        self.assertEqual(found, status, out.getvalue() + err.getvalue())
+        return out.getvalue() if status == 0 else err.getvalue()
