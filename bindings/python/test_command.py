@@ -142,6 +142,43 @@ class CommandTest(FolderTest):
         self.assertEqual(self.answer("run")[1]["hash"], summary["hash"])
         self.assertEqual(self.answer("run", "--until", "0.005 s", "--step", "0.5 ms")[1]["run"]["steps"], 10)
 
+    def test_fatigue(self):
+        """The worst pipe against stresses of the same run that are counted here: half cycles of a monotone load."""
+        curve = '[fatigue]\ncurve_stress = "1 MPa"\nslope = 3\nconcentration = 1.5\n'
+        self.scene = self.write("rig.toml", SCENE + curve)
+        out, summary = self.answer("run")
+        found = summary["fatigue"]["main"]
+        self.assertIn("fatigue_main.csv", summary["files"])
+        self.assertIn("fatigue_main.png", summary["files"])
+        with open(self.output / "fatigue_main.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 8)
+        self.assertEqual(max(float(row["damage [-]"]) for row in rows), found["damage"])
+        from drillmbd import scene, station
+        loaded = scene.load(str(self.scene))
+        with loaded.new_sim() as sim:
+            sim.static(**loaded.fields_of("static"))
+            counter = sim.fatigue([station(loaded.names["main"], i, 0.5) for i in range(8)], curve_stress=1e6, slope=3.0,
+                                  concentration=1.5)
+            for _ in range(20):
+                sim.step(1e-3)
+                counter.take()
+            damages = [counter.result(i).damage for i in range(8)]
+        self.assertGreater(max(damages), 0.0)
+        self.assertAlmostEqual(max(damages) / found["damage"], 1.0, 2)  # levels of stress are not the same
+        self.assertEqual(damages.index(max(damages)), found["pipe"])
+
+    def test_fatigue_refused(self):
+        for lines, told in (("", "curve_stress"), ('curve_stress = "1 MPa"', "slope"), ('curve_stress = "1 MPa"\nslope = 0.5', "1 .. 50"),
+                            ('curve_stress = "-1 MPa"\nslope = 3', "> 0"), ('curve_stress = "1 kg"\nslope = 3', "kg"),
+                            ('curve_stress = "1 MPa"\nslope = 3\nconcentration = 0.5', ">= 1"),
+                            ('curve_stress = "1 MPa"\nslope = 3\nclasses = 4', "8 .. 65536"),
+                            ('curve_stress = "1 MPa"\nslope = 3\npoints = 1', "2 .. 360")):
+            scene = self.write("bad.toml", SCENE + "[fatigue]\n" + lines + "\n")
+            self.assertIn(told, self.ask("check", scene, status=2))
+        no_end = self.write("end.toml", SCENE.replace('end = "20 ms"\n', "") + '[fatigue]\ncurve_stress = "1 MPa"\nslope = 3\n')
+        self.assertIn("[run] end", self.ask("check", no_end, status=2))
+
     def test_modes_response_speeds(self):
         out, summary = self.answer("modes", "--count", "3")
         self.assertEqual(len(summary["modes"]["frequency_Hz"]), 3)
@@ -250,14 +287,15 @@ class CommandTest(FolderTest):
             import plotly.offline  # noqa: F401
         except ImportError:
             self.skipTest("not there: plotly")
-        self.scene = self.write("rig.toml", SCENE + '[limits]\npush = "1 N"\ntorque = "5 kN m"\n')
+        self.scene = self.write("rig.toml", SCENE + '[limits]\npush = "1 N"\ntorque = "5 kN m"\n'
+                                '[fatigue]\ncurve_stress = "100 MPa"\nslope = 4\n')
         out, summary = self.answer("report")
         self.assertIn("EXCEEDED", out)
         self.assertIn("0.02", str(summary["run"]["time_s"]))
         page = (self.output / "report.html").read_text(encoding="utf-8")
         self.assertLess(len(page), 10_000_000)
         self.assertNotRegex(page.split('id="plotly"')[0], r"https?://|src=|<link")
-        for part in ("Speeds to keep away from", "Push to feed it in", "What was assumed", "model check", summary["hash"]):
+        for part in ("Speeds to keep away from", "Fatigue along the string", "Push to feed it in", "What was assumed", "model check", summary["hash"]):
             self.assertIn(part, page)
         self.assertIn("--output", self.ask("report", self.scene, status=2))
         self.browse(self.output / "report.html", page.count('class="figure"'))

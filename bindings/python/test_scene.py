@@ -227,6 +227,10 @@ amplitude = "3 g m"
 [[speeds.output]]
 place = "swing"
 limit = "1 mm"
+[fatigue]
+curve_stress = "95 MPa"
+slope = 4
+concentration = 2
 [buckling]
 part = "feed"
 scale = "part"
@@ -316,6 +320,7 @@ class ShippedTest(unittest.TestCase):
         self.assertEqual(scene.saves(second), text)
         self.assertEqual(after_run(second), after_run(first))
         self.assertEqual(first.analyses["buckling"]["factor_max"], 1e5)
+        self.assertEqual(first.analyses["fatigue"]["curve_stress"], 95e6)
         self.assertEqual(first.analyses["response"]["input"][0]["amplitude"], 2.0)
 
     def test_model_without_a_file(self):

@@ -1,4 +1,4 @@
-"""Fatigue of places during a run."""
+"""Fatigue of places during a run, and of whole strings."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -6,13 +6,23 @@ from ctypes import byref, c_double, c_void_p
 from typing import TYPE_CHECKING, Any
 
 from ._handle import Handle
-from ._keep import as_place, mirrors
+from ._keep import as_place, mirrors, station
 from ._library import lib as _lib
 from ._structs import FatigueOptions, FatigueResult, Place
 from .errors import check
 
 if TYPE_CHECKING:
+    from ._structs import Id
     from .sim import Sim
+
+PLACES = 200  #: along a string, at most; one a pipe where there are fewer
+
+
+def middles(string: Id, pipes: int) -> tuple[list[int], list[Place]]:
+    """Pipes of a string, spread evenly where there are more than PLACES, and the middle of each."""
+    count = min(pipes, PLACES)
+    numbers = [round((i + 0.5) * pipes / count - 0.5) for i in range(count)]
+    return numbers, [station(string, number, 0.5) for number in numbers]
 
 
 class Fatigue(Handle):
@@ -43,3 +53,26 @@ class Fatigue(Handle):
         check(_lib.dmb_fatigue_histogram(self._handle, place, cycles))
         width = 2.0 * self._options.stress_range / self._options.classes
         return [i * width for i in range(len(cycles))], list(cycles)
+
+
+class StringFatigue:
+    """Counts along a whole string, in the middle of each pipe; made by Sim.string_fatigue."""
+
+    def __init__(self, sim: Sim, string: Id, pipes: int, **fields: Any) -> None:
+        self.pipes, places = middles(string, pipes)  #: numbers of the pipes, from the rig end
+        self.counter = sim.fatigue(places, **fields)
+
+    def take(self) -> int:
+        """A sample; returns the status."""
+        return self.counter.take()
+
+    @property
+    def results(self) -> list[FatigueResult]:
+        """Of each of the pipes."""
+        return [self.counter.result(i) for i in range(len(self.pipes))]
+
+    @property
+    def worst(self) -> int:
+        """The index in `pipes` of the largest damage, or without any of the largest range."""
+        found = self.results
+        return max(range(len(found)), key=lambda i: (found[i].damage, found[i].largest_range))

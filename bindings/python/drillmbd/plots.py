@@ -11,6 +11,7 @@ from ._optional import need
 if TYPE_CHECKING:
     from .analysis import Modes, Response
     from .analysis import TorqueDrag
+    from .fatigue import StringFatigue
     from .profile import Profile
     from .recorder import Recorder
 
@@ -180,5 +181,19 @@ def buckling(shape: Any, along: Any, factor: float, title: str = "") -> Any:
         axes.plot(along, shape[:, number], label=name, **_style(number))
     axes.set(xlabel="along the string [m]", ylabel="shape [m], largest 1", title=f"critical factor {factor:.4g}")
     _legend(axes)
+    figure.suptitle(title)
+    return figure
+
+
+def fatigue(found: StringFatigue, title: str = "") -> Any:
+    """Damage along a string, and the cycles by stress range at its worst pipe."""
+    figure, ((damage, cycles),) = _axes(1, 2, (11, 4.5))
+    damage.plot(found.pipes, [one.damage for one in found.results], **SINGLE)
+    damage.set(xlabel="pipe, counted from the rig end", ylabel="damage of this run [-]")
+    ranges, counts = found.counter.histogram(found.worst)
+    known = [(stress / 1e6, count) for stress, count in zip(ranges, counts) if count > 0.0]
+    width = 1e-6 * (ranges[1] - ranges[0])
+    cycles.bar([one for one, _ in known], [one for _, one in known], width=width, color=COLOURS[1])
+    cycles.set(xlabel="stress range [MPa]", ylabel=f"cycles at pipe {found.pipes[found.worst]}", yscale="log" if known else "linear")
     figure.suptitle(title)
     return figure

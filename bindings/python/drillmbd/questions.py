@@ -11,9 +11,11 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from . import __version__, enums, station
+from ._structs import FatigueResult
 from ._optional import need
 from .analysis import OPERATIONS, TorqueDrag, operation_name, usual_operation
 from .enums import Status
+from .fatigue import StringFatigue
 from .scene import Scene, saves
 from .scene.units import UnitError, parse
 from .sim import Progress, Sim
@@ -236,12 +238,46 @@ def run(scene: Scene, output: Output, options: Any) -> int:
                         "give a longer [output] interval")
         recorder = sim.recorder([(place, quantity, name) for name, place, quantity in scene.channels], rows, interval
                                 ) if scene.channels else None
-        stopped = _go(scene, sim, output, end, step, recorder)
+        counters = count_fatigue(scene, sim)
+        stopped = _go(scene, sim, output, end, step, recorder, list(counters.values()))
+        tell_fatigue(counters, output)
         _run_answers(scene, sim, output, recorder, stopped)
     return output.finish(130 if stopped else 0)
 
 
-def _go(scene: Scene, sim: Sim, output: Output, end: float, step: float | None, recorder: Any) -> bool:
+def count_fatigue(scene: Scene, sim: Sim) -> dict[str, StringFatigue]:
+    """Counters of each string where the scene has [fatigue]; levels of stress up to twice the largest known limit."""
+    if "fatigue" not in scene.analyses:
+        return {}
+    values = scene.fields_of("fatigue")
+    if "stress_range" not in values and "yield_stress" in scene.limits:
+        values["stress_range"] = 2.0 * values.get("concentration", 1.0) * scene.limits["yield_stress"]
+    return {name: sim.string_fatigue(scene.names[name], pipes, **values) for name, pipes in scene.pipes.items()}
+
+
+def tell_fatigue(counters: dict[str, StringFatigue], output: Output) -> dict[str, FatigueResult]:
+    """The worst pipe of each string."""
+    worst = {}
+    for name, one in counters.items():
+        found, index = one.results, one.worst
+        worst[name] = found[index]
+        output.summary.setdefault("fatigue", {})[name] = {
+            "damage": found[index].damage, "life_s": found[index].life, "pipe": one.pipes[index],
+            "largest_range_Pa": found[index].largest_range, "time_s": found[index].time}
+        output.say(f"{name}: damage {found[index].damage:.3g} in {found[index].time:.4g} s at pipe {one.pipes[index]}, largest "
+                   f"range {found[index].largest_range / 1e6:.4g} MPa")
+        clipped = sum(result.clipped for result in found)
+        if clipped:
+            output.note_text(f"fatigue of {name}: {clipped} stresses were beyond stress_range and count too little")
+        heads = ["pipe", "damage [-]", "cycles [-]", "largest range [Pa]", "lowest [Pa]", "highest [Pa]", "life [s]"]
+        output.table(f"fatigue_{_file(name)}.csv", heads, (
+            [pipe, one.damage, one.cycles, one.largest_range, one.lowest, one.highest, one.life]
+            for pipe, one in zip(one.pipes, found)))
+        output.picture(f"fatigue_{_file(name)}.png", lambda plots: plots.fatigue(one, f"{name}: fatigue of the run"))
+    return worst
+
+
+def _go(scene: Scene, sim: Sim, output: Output, end: float, step: float | None, recorder: Any, counters: list[Any]) -> bool:
     """Runs to the end in stretches from one file for ParaView to the next; True where Ctrl-C stopped it."""
     every = scene.output.get("vtk_interval") if output.folder is not None else None
     if every and step:
@@ -253,7 +289,8 @@ def _go(scene: Scene, sim: Sim, output: Output, end: float, step: float | None, 
             if every:
                 sim.write_vtk(output.path(f"string_{frame:04d}.vtp"))
                 frame += 1
-            done = sim.run(min(end, begin + frame * every) if every else end, step, recorder, bar)
+            done = sim.run(min(end, begin + frame * every) if every else end, step, recorder, bar,
+                           counters=counters)
             steps, elapsed = steps + done.steps, elapsed + done.elapsed
     except KeyboardInterrupt:
         stopped = True

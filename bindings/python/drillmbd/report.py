@@ -14,9 +14,10 @@ from . import __version__, _structs, enums
 from ._optional import need
 from .analysis import OPERATIONS, operation_name
 from .errors import Error
+from .fatigue import StringFatigue
 from .plots import COLOURS
 from .profile import Profile, values_of
-from .questions import RPM, Output, _finite
+from .questions import RPM, Output, _finite, count_fatigue, tell_fatigue
 from .scene import Scene
 from .sim import Sim
 
@@ -191,13 +192,36 @@ class Study:
                                      if key.startswith("slip")})
             shapes, times = [self._shape(sim)], [sim.time]
             if "end" in self.scene.run:
-                self._frames(sim, shapes, times)
+                counters = count_fatigue(self.scene, sim)
+                self._frames(sim, shapes, times, list(counters.values()))
+                self._fatigue(counters)
             self.hash = f"{sim.hash():016x}"
         self.figures.insert(0, ("The string in its hole", "Displacement across the hole is drawn larger so that the hole "
                                 "can be seen; the button draws it to scale. Drag to turn, play or slide through the run.",
                                 picture_in_space(self.scene, shapes, times)))
 
-    def _frames(self, sim: Sim, shapes: list[Any], times: list[float]) -> None:
+    def _fatigue(self, counters: dict[str, StringFatigue]) -> None:
+        if not counters:
+            self.cards.append(("Fatigue", "not asked", "the scene has no [fatigue]"))
+            return
+        found, counter = tell_fatigue(counters, self.output)[self.string], counters[self.string]
+        pipe = counter.pipes[counter.worst]
+        if math.isfinite(found.life):
+            self.cards.append(("Fatigue", f"{found.life / 3600.0:.3g} h", f"of this run until pipe {pipe} reaches its S-N curve"
+                               + (", within this run: EXCEEDED" if found.damage > 1.0 else "")))
+        else:
+            self.cards.append(("Fatigue", "no damage", f"by this run; largest range {shown(found.largest_range, 'Pa')}, pipe {pipe}"))
+        self.figures.append(("Fatigue along the string", "Damage of this run by the S-N curve of the scene; 1 is its end.", {
+            "data": [line(counter.pipes, [one.damage for one in counter.results], "damage", 0)], "layout": {"xaxis": {"title": {
+                "text": "pipe, counted from the rig end"}}, "yaxis": {"title": {"text": "damage [-]"}, "exponentformat": "power"}}}))
+        ranges, cycles = counter.counter.histogram(counter.worst)
+        known = [(1e-6 * stress, count) for stress, count in zip(ranges, cycles) if count > 0.0]
+        self.figures.append((f"Cycles of stress at pipe {pipe}", "Rainflow counting of the run; cycles that did not close count half.", {
+            "data": [{"type": "bar", "x": rounded([one for one, _ in known]), "y": rounded([one for _, one in known]),
+                      "marker": {"color": COLOURS[1]}}], "layout": {"xaxis": {"title": {"text": "stress range [MPa]"}}, "yaxis": {
+                          "title": {"text": "cycles [-]"}, "type": "log"}}}))
+
+    def _frames(self, sim: Sim, shapes: list[Any], times: list[float], counters: list[Any]) -> None:
         end, step = self.scene.run["end"], self.scene.run.get("step")
         interval = max(self.scene.output.get("interval", 0.0), end / 4000.0)
         recorder = sim.recorder([(place, quantity, name) for name, place, quantity in self.scene.channels],
@@ -205,7 +229,7 @@ class Study:
         every = max(1, round(end / FRAMES / step)) * step if step else end / FRAMES
         try:
             while end - sim.time > (1e-6 * step if step else 0.0):
-                sim.run(min(end, sim.time + every), step, recorder)
+                sim.run(min(end, sim.time + every), step, recorder, counters=counters)
                 shapes.append(self._shape(sim))
                 times.append(sim.time)
         except KeyboardInterrupt:
@@ -382,7 +406,7 @@ def assumptions(study: Study) -> list[tuple[str, str]]:
                               f"{wall.mu_static:g} at rest and {wall.mu_dynamic:g} sliding, "
                               + ("other values in its sections" if sections else "the same along the hole")))
     found += [("left out", ", ".join(str(one).lower() for one in left_out) or "nothing that the scene describes"),
-              ("not in this page", "fatigue, connections, rock on the bit in the static operations, other depths"),
+              ("not in this page", "connections, rock on the bit in the static operations, other depths"),
               ("library", f"{__version__}, hash of the last state {study.hash}"), ("Python", platform.python_version())]
     return found
 

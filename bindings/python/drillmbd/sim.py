@@ -7,7 +7,7 @@ import time as clock
 from collections.abc import Callable, Mapping, Sequence
 from ctypes import byref, c_double, c_size_t, c_uint32, c_uint64, c_void_p
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from . import analysis
 from ._handle import Handle
@@ -26,7 +26,7 @@ from .recorder import ProfileRecorder, Recorder
 
 if TYPE_CHECKING:
     from .model import Model
-    from .fatigue import Fatigue
+    from .fatigue import Fatigue, StringFatigue
     from .sensitivity import Sensitivity
     from .profile import Profile
     from .state_space import Arrays, StateSpace
@@ -34,6 +34,13 @@ if TYPE_CHECKING:
 
 _advance_to_event = _lib.dmb_sim_advance_to_event
 _step, _advance, _set_status = _lib.dmb_sim_step, _lib.dmb_sim_advance, object.__setattr__
+
+
+class Taker(Protocol):
+    """Takes a sample after each step: Fatigue, StringFatigue, Window."""
+
+    def take(self) -> int:
+        """A sample; returns the status."""
 
 
 @dataclass
@@ -153,10 +160,10 @@ class Sim(Handle, analysis.Analyses):
         return [name for i, name in enumerate(self._events) if report.events >> i & 1]
 
     def run(self, end: float, step: float | None = None, recorder: Recorder | None = None,
-            progress: Callable[[Progress], Any] | None = None, every: float = 0.2) -> Progress:
+            progress: Callable[[Progress], Any] | None = None, every: float = 0.2, counters: Sequence[Taker] = ()) -> Progress:
         """Runs to time `end` [s]: with equal steps of `step` [s] (a last one shorter where they do not fit; a millionth of
         a step counts as none), or with steps of the library's choice, which then end at each hundredth of the run. The
-        recorder takes a row after each step. progress(Progress) is called each `every` seconds by the clock and at the
+        recorder takes a row after each step, and so do counters: whatever has a take(), as fatigue and windows. progress(Progress) is called each `every` seconds by the clock and at the
         end; what it returns, if true, stops the run there. Ctrl-C raises KeyboardInterrupt: the sim stays whole and can
         go on, and the recorder has all rows so far."""
         begin, started, steps = self.time, clock.monotonic(), 0
@@ -178,6 +185,8 @@ class Sim(Handle, analysis.Analyses):
             steps += report.steps
             if recorder is not None:
                 recorder.take()
+            for one in counters:
+                one.take()
             now = clock.monotonic()
             if progress is not None and (now - told >= every or number == lengths.count):
                 told = now
@@ -390,6 +399,11 @@ class Sim(Handle, analysis.Analyses):
         """A Fatigue of places on flexible pipes; curve_stress [Pa] and slope of the S-N curve must be given."""
         from .fatigue import Fatigue
         return Fatigue(self, places, struct(FatigueOptions, options, fields))
+
+    def string_fatigue(self, string: Id, pipes: int, **fields: Any) -> StringFatigue:
+        """A StringFatigue of the `pipes` pipes of a string; fields as of fatigue."""
+        from .fatigue import StringFatigue
+        return StringFatigue(self, string, pipes, **fields)
 
     @mirrors("dmb_write_vtk_strings")
     def write_vtk(self, path: Any, per_element: int = 8) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from .. import enums, station
+from .. import enums
 from .._keep import as_place
 from .._optional import need
 from ..profile import values_of
@@ -144,19 +144,16 @@ class Watch:
 
     def _fatigue(self, one: Failure) -> Any:
         name = one.names["string"]
-        pipes = self.scene.pipes[name]
-        count = min(pipes, STATIONS)
-        places = [station(self.scene.names[name], round((i + 0.5) * pipes / count - 0.5), 0.5) for i in range(count)]
         values: dict[str, Any] = {key: one.values[key] for key in ("curve_stress", "curve_cycles", "slope", "endurance", "concentration")}
         values["stress_range"] = 2.0 * self.scene.limits.get("yield_stress", 5e8)
-        return self.sim.fatigue(places, **values), count
+        return self.sim.string_fatigue(self.scene.names[name], self.scene.pipes[name], **values)
 
     def look(self) -> None:
         """One more."""
         self.times.append(self.sim.time)
         if self.recorder is not None:
             self.recorder.take()
-        for counter, _ in self.counters.values():
+        for counter in self.counters.values():
             counter.take()
         self.rows.append(self._extremes())
 
@@ -181,8 +178,7 @@ class Watch:
         for signal, (part, quantity, what) in HOW[failure.kind].signals.items():
             key = (failure.names[part], int(quantity), what)
             if what == "damage":
-                counter, count = self.counters[failure.name]
-                worst = max(counter.result(i).damage for i in range(count))
+                worst = max(one.damage for one in self.counters[failure.name].results)
                 found[signal] = numpy.full(len(self.times), worst)
             elif what == "":
                 assert table is not None

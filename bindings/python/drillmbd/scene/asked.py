@@ -1,6 +1,8 @@
 """What a scene file asks: options of the run, its channels, the analyses."""
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .. import enums
@@ -23,6 +25,14 @@ LIMITS = {"torque": Field("torque", "quantity", "N m", about="of the rig"),
           "push": Field("push", "quantity", "N", about="of the rig"),
           "pull": Field("pull", "quantity", "N", about="of the rig"),
           "yield_stress": Field("yield_stress", "quantity", "Pa", about="allowed in the pipes")}
+
+_above_zero: tuple[str, Callable[[float], bool]] = ("> 0", lambda value: 0.0 < value < math.inf)
+_from_zero: tuple[str, Callable[[float], bool]] = (">= 0", lambda value: 0.0 <= value < math.inf)
+FATIGUE_BOUNDS: dict[str, tuple[str, Callable[[float], bool]]] = {
+    "curve_stress": _above_zero, "curve_cycles": _above_zero, "stress_range": _above_zero,
+    "endurance": _from_zero, "tensile_strength": _from_zero,
+    "slope": ("1 .. 50", lambda value: 1.0 <= value <= 50.0), "concentration": (">= 1", lambda value: 1.0 <= value < math.inf),
+    "classes": ("8 .. 65536", lambda value: 8 <= value <= 65536), "points": ("2 .. 360", lambda value: 2 <= value <= 360)}
 
 
 class Asked:
@@ -67,6 +77,8 @@ class Asked:
         unit = self._factor_unit(table) if kind == "buckling" else None
         values = self.loader.read((kind,), table, fields_of(DEFINITIONS[kind]), extra,
                            lambda name: unit if name in ("factor_max", "step") else None)
+        if kind == "fatigue":
+            self._curve(table, values)
         if kind == "response":
             values["input"] = [self._input(path, one) for path, one in self.loader.tables(table, (kind,), "input")]
         if kind == "speeds":
@@ -82,6 +94,18 @@ class Asked:
                 if not values[key]:
                     self.loader.problems.add((kind,), None, f"must have at least one [[{kind}.{key}]]")
         return values
+
+    def _curve(self, table: dict[str, Any], values: dict[str, Any]) -> None:
+        """The S-N curve has to be told; the bounds are those of dmb_fatigue_create. Fatigue is counted in a run."""
+        for key in ("curve_stress", "slope"):
+            if key not in table:
+                self.loader.problems.add(("fatigue",), None, f"must have a {key}, of the S-N curve of the pipes")
+        for key, value in values.items():
+            bound, fits = FATIGUE_BOUNDS[key]
+            if not fits(value):
+                self.loader.problems.add(("fatigue", key), table[key], f"must be {bound}")
+        if "end" not in self.loader.table(("run",)):
+            self.loader.problems.add(("fatigue",), None, "counts the cycles of a run: give [run] end")
 
     def _factor_unit(self, table: dict[str, Any]) -> str:
         """The factor of a drive of a motion is a length or an angle; else it is a number."""

@@ -15,7 +15,7 @@ from .variability import Variability
 PARTS = ("string", "body", "bit", "joint", "coupling", "drive", "load", "spring", "input", "event")
 NAMED = ("joint", "coupling", "spring", "input")
 SINGLE = ("environment", "hole")
-ANALYSES = ("static", "modes", "response", "speeds", "buckling")
+ANALYSES = ("static", "modes", "response", "speeds", "buckling", "fatigue")
 
 
 @dataclass

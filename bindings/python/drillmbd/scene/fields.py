@@ -237,5 +237,5 @@ DEFINITIONS: dict[str, Any] = {
     "spring": _structs.SpringDef, "term": _structs.Term,
     "compile": _structs.CompileOptions, "sim": _structs.SimOptions, "static": _structs.StaticOptions,
     "modes": _structs.ModesOptions, "response": _structs.ResponseOptions, "speeds": _structs.SpeedsOptions,
-    "buckling": _structs.BucklingOptions, "input": _structs.InputDef, "event": _structs.EventDef, "response input": _structs.Input, "output": _structs.Output,
+    "buckling": _structs.BucklingOptions, "fatigue": _structs.FatigueOptions, "input": _structs.InputDef, "event": _structs.EventDef, "response input": _structs.Input, "output": _structs.Output,
     "order": _structs.Order}
