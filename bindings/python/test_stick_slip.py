@@ -90,6 +90,19 @@ def critical(d=DAMPING):
     return brentq(highest, 0.05, 50.0)
 
 
+def stick(w, d=DAMPING):
+    """[s] that a stick lasts at the speed w [rad/s] per N m between static and sliding friction: from where the slip ends, y' = w, to where
+    the torque y + 2 d w is that of static friction, while the twist grows by w."""
+    root = math.sqrt(1.0 - d * d)
+    y0 = 1.0 - 2.0 * d * w
+    b = (w + d * y0) / root
+
+    def turning(t):
+        return math.exp(-d * t) * ((b * root - d * y0) * math.cos(root * t) - (y0 * root + d * b) * math.sin(root * t)) - w
+    end = brentq(turning, 0.5 * math.pi, 1.5 * math.pi)
+    return (y0 - math.exp(-d * end) * (y0 * math.cos(root * end) + b * math.sin(root * end))) / w
+
+
 def probability(speed, load, stretch=1.0):
     """Of stick-slip: the share of static frictions above that whose critical speed is `speed`; stretch: of the critical speed."""
     needed = 0.30 + speed / (critical() * stretch * load * ROUND)
@@ -145,6 +158,20 @@ class StickSlipTest(unittest.TestCase):
             self.assertGreaterEqual(shares[1.0, load], shares[3.0, load])
             self.assertGreaterEqual(shares[3.0, load], shares[5.0, load])
         self.assertGreater(shares[1.0, 500], shares[5.0, 250])
+
+    def test_bit_stuck(self):
+        """The longest stick of the library against that of the exact slip: friction that falls off fast and rises faster from rest."""
+        known = stick(1.0 / ((0.36 - 0.30) * 500.0 * ROUND))
+        for stribeck, smoothing, step in ((4.0, 0.005, 2.0), (1.0, 0.001, 0.5)):
+            text = SCENE.replace('kind = "stick-slip"', 'kind = "bit-stuck"\nlimit = "5 s"')
+            sample = SceneSample(text, changes={
+                "programme[0].term.h1": "1 rad/s", "hole.stribeck_speed": f"{stribeck} mm/s", "output.interval": "10 ms",
+                "hole.smoothing_speed": f"{smoothing} mm/s", "run.step": f"{step} ms"})
+            found = sample(0, np.zeros(1))
+            self.assertEqual(found.message, "")
+            self.assertLess(abs(found.demands[0] / known - 1.0), 0.015, (stribeck, found.demands, known))
+            self.assertAlmostEqual(found.margins[0], 5.0 - found.demands[0], 12)
+            self.assertLess(found.margins[0], 0.0)
 
 
 if __name__ == "__main__":
