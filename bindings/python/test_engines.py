@@ -348,6 +348,34 @@ class CommandTest(Base):
         self.assertNotEqual(alone.returncode, 0)
         self.assertIn("two ranks or more", alone.stderr)
 
+    @unittest.skipIf(shutil.which("mpirun") is None or importlib.util.find_spec("mpi4py") is None, "not there: mpirun, mpi4py")
+    def test_a_rank_dies(self):
+        """A rank that dies ends the whole run, as MPI has it; called again, it computes what is not in the file."""
+        self.scene.write_text(SCENE + '[[failure]]\nkind = "own"\nname = "mine"\n', encoding="utf-8")
+        own = self.folder / "mine.py"
+        own.write_text(f"""import os, pathlib, signal
+CALLS, MARK = pathlib.Path({str(self.folder / "calls")!r}), pathlib.Path({str(self.folder / "died")!r})
+def margin(look):
+    with open(CALLS, "a") as file:
+        file.write("x")
+    if CALLS.stat().st_size >= 6 and not MARK.exists():
+        MARK.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return 1.0
+""", encoding="utf-8")
+        words = ("--samples", "12", "--own", f"mine={own}:margin")
+        many = (*MPIRUN, "3", *COMMAND, "probability", self.scene, "-o", self.folder / "out", "--engine", "mpi", *words)
+        done = subprocess.run(many, env=ENVIRONMENT, capture_output=True, text=True, timeout=200)
+        self.assertNotEqual(done.returncode, 0)
+        kept = len(self.rows()[0])
+        self.assertTrue(0 < kept < 12, kept)
+        done = subprocess.run(many, env=ENVIRONMENT, capture_output=True, text=True, timeout=200)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"{kept} samples are in", done.stdout)
+        self.assertIn(f"{12 - kept} samples computed", done.stdout)
+        self.command(self.scene, "-o", self.folder / "other", "--engine", "serial", *words)
+        self.assertEqual(self.rows(), self.rows("other"))
+
 
 if __name__ == "__main__":
     unittest.main()
