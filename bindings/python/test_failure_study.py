@@ -36,7 +36,7 @@ class StudyTest(unittest.TestCase):
                 rows, _ = read_rows(pathlib.Path(folder, f"{model.replace(' ', '-')}_{speed}rpm_{feed}mms.h5"))
                 self.assertEqual(len(rows), 4)
                 self.assertEqual(float(told.split()[0]), (rows["margin"].min(axis=1) <= 0.0).mean())
-            self.assertIn("What matters most", page)
+            self.assertIn("Most important variables", page)
             self.assertNotIn("src=\"http", page)
             rows, _ = read_rows(pathlib.Path(folder, "indices.h5"))
             subprocess.run(words, env=environment, check=True, capture_output=True, timeout=600)

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """How often does a hole fail? The reference rig with uncertain hole, pipes and rock, over rotary speed and feed; with contact only, with
-friction, with friction and vibration (eccentric pipes, a worn gear); deep against shallow; what matters most; what it costs. It makes
-one page, failure_probability.html, and failure_probability.json.
+friction, with vibration (eccentric pipes, a worn gear), with both; deep against shallow; Sobol' indices; the cost. It makes one page, failure_probability.html, and failure_probability.json.
 
     python3 examples/failure_probability/study.py --output out           # short form: minutes on 2 cores
     python3 examples/failure_probability/study.py --output out --long    # all of the 40 s cycle of 100 pipes: overnight
@@ -31,9 +30,13 @@ from drillmbd.probability.points import Points  # noqa: E402
 from drillmbd.probability.sample import FAILED, SceneSample  # noqa: E402
 from drillmbd.probability.study import Study, StudyFile, read_rows  # noqa: E402
 
-MODELS = ("contact only", "friction", "friction and vibration")
+MODELS = ("contact only", "friction", "vibration", "friction and vibration")
+ALL = MODELS[3]
+#: The model before and with something more, and its name.
+PAIRS = (("contact only", "friction", "friction"), ("contact only", "vibration", "vibration"), ("vibration", ALL, "friction, with vibration"),
+         ("friction", ALL, "vibration, with friction"))
 CYCLE = {"feed": ((1, 1.0), (-1, 19.0), (-1, 21.0)), "rotation": ((1, 1.0), (-1, 19.0), (-1, 21.0))}
-FORMS = {"short": {"end": 4.0, "pipes": 30, "deep": 60, "speeds": (100, 200, 250, 300), "feeds": (5, 20), "samples": 24, "rows": 32, "at": 250},
+FORMS = {"short": {"end": 4.0, "pipes": 30, "deep": 60, "speeds": (100, 200, 250, 300), "feeds": (5, 20), "samples": 48, "rows": 128, "at": 250},
          "long": {"end": 40.0, "pipes": 100, "deep": 300, "speeds": (100, 150, 200, 250, 300), "feeds": (5, 10, 20), "samples": 400,
                   "rows": 128, "at": 250},
          "tiny": {"end": 0.2, "pipes": 6, "deep": 8, "speeds": (100, 300), "feeds": (10,), "samples": 4, "rows": 8, "at": 300}}
@@ -48,9 +51,9 @@ def changes(form, model, speed, feed, pipes):
         found[f"programme[1].term[{i}].h1"] = f"{sign * speed} rpm"
     if form["end"] < 2.0:
         found["failure[5].from"] = f"{0.5 * form['end']} s"
-    if model == "contact only":
+    if "friction" not in model:
         found.update({"hole.mu_static": 1e-9, "hole.mu_dynamic": 1e-9})
-    if model != "friction and vibration":
+    if "vibration" not in model:
         found.update({"string[0].pipes[0].eccentricity": "0 mm", "programme[2].term.share": 0})
     return found
 
@@ -105,7 +108,7 @@ class Work:
     def indices(self):
         """Of the smallest margin over its limit, all coupled. It is cut off at -1, twice the limit: beyond, a few whirling samples would
         have all of the variance."""
-        sample = self.sample(MODELS[2], self.form["at"], self.form["feeds"][-1])
+        sample = self.sample(ALL, self.form["at"], self.form["feeds"][-1])
         study, file = self.study("indices", sample, {"seed": 1, "rows": self.form["rows"]})
         draw = sample.draw
         groups = dict(zip(sample.inputs, [1] * len(draw.varies.scatters) + draw.sizes[1:]))
@@ -117,7 +120,7 @@ class Work:
         return found
 
 
-# ---- What is found -----------------------------------------------------------------------------------------------------
+# ---- Comparison and pictures -----------------------------------------------------------------------------------------------------
 def compared(a, b):
     """Whether b fails more often than a, both with the same samples: the difference and, by the exact test of the pairs that differ
     (McNemar), whether chance makes it."""
@@ -146,12 +149,12 @@ def lines(form, cases):
         figure, axes = pyplot.subplots(1, len(form["feeds"]), figsize=(4.6 * len(form["feeds"]), 3.6), sharey=True, squeeze=False,
                                        constrained_layout=True)
         for axis, feed in zip(axes[0], form["feeds"]):
-            for i, (model, style) in enumerate(zip(MODELS, ("o:", "s--", "D-"))):
+            for i, (model, style) in enumerate(zip(MODELS, ("o:", "s--", "^-.", "D-"))):
                 found = [counted(cases[model, speed, feed].min(axis=1)) for speed in form["speeds"]]
                 p = [one.probability for one in found]
                 error = [[max(0.0, one.probability - one.low) for one in found], [max(0.0, one.high - one.probability) for one in found]]
-                axis.errorbar([speed + 4 * (i - 1) for speed in form["speeds"]], p, error, fmt=style, capsize=3, label=model,
-                              color=("#999999", "#0072B2", "#000000")[i])
+                axis.errorbar([speed + 4 * (i - 1.5) for speed in form["speeds"]], p, error, fmt=style, capsize=3, label=model,
+                              color=("#999999", "#0072B2", "#D55E00", "#000000")[i])
             axis.set(title=f"feed {feed} mm/s", xlabel="rotary speed [rpm]", ylim=(-0.03, 1.03))
         axes[0][0].set_ylabel("failure probability [-]")
         axes[0][0].legend(loc="upper left", fontsize=8)
@@ -183,7 +186,7 @@ def main():
     cases = {(model, speed, feed): work.case(model, speed, feed)
              for model in MODELS for speed in form["speeds"] for feed in form["feeds"]}
     speed, feed = form["speeds"][-1], form["feeds"][-1]
-    deep = work.case(MODELS[2], speed, feed, form["deep"])
+    deep = work.case(ALL, speed, feed, form["deep"])
     indices = work.indices()
     write(work, cases, deep, indices, time.monotonic() - started)
     return 0
@@ -198,10 +201,10 @@ def write(work, cases, deep, indices, elapsed):
     pairs = []
     for s in form["speeds"]:
         for f in form["feeds"]:
-            for a, b in ((0, 1), (1, 2)):
-                difference, more, less, word = compared(cases[MODELS[a], s, f], cases[MODELS[b], s, f])
-                pairs.append([s, f, ("friction", "vibration")[a], f"{difference:+.3g}", more, less, word])
-    shallow = cases[MODELS[2], speed, feed]
+            for before, after, adding in PAIRS:
+                difference, more, less, word = compared(cases[before, s, f], cases[after, s, f])
+                pairs.append([s, f, adding, f"{difference:+.3g}", more, less, word])
+    shallow = cases[ALL, speed, feed]
     depth = [[form["pipes"], work.told(shallow)], [form["deep"], work.told(deep)], ["difference", "{:+.3g}; {} more fail, {} fewer: {}".format(
         *compared(shallow, deep))]]
     order = np.argsort(-indices.total)
@@ -217,18 +220,18 @@ def write(work, cases, deep, indices, elapsed):
 <style>body{{font:15px/1.45 sans-serif;max-width:76em;margin:2em auto;padding:0 1em}}table{{border-collapse:collapse;margin:1em 0}}
 td,th{{border-bottom:1px solid #ccc;padding:.2em .7em;text-align:left;white-space:nowrap}}img{{max-width:100%}}</style>
 <h1>Failure probability of the reference rig</h1>
-<p>{form['pipes']} pipes, the first {form['end']:g} s of the cycle, {form['samples']} samples a case, intervals of 95 % (Clopper-Pearson). What varies
-and what counts as a failure, with its limit, is in <code>examples/failure_probability/rig.toml</code>: the limits are assumptions
+<p>{form['pipes']} pipes, the first {form['end']:g} s of the cycle, {form['samples']} samples a case, intervals of 95 % (Clopper-Pearson). The variables
+and the failures with their limits are in <code>examples/failure_probability/rig.toml</code>: the limits are assumptions
 of this study, and the probabilities are theirs.</p>
 {lines(form, cases)}<h2>All cases</h2>{table(["model", "speed [rpm]", "feed [mm/s]", "any failure", *names], rows)}
-<h2>What coupling does</h2><p>The same samples with and without: how many fail that did not, how many no longer fail.
+<h2>Effect of coupling</h2><p>The same samples with and without: how many fail that did not, how many no longer fail.
 "Raises" and "lowers" where chance would not make it (exact test of the pairs that differ, 5 %).</p>
 {table(["speed [rpm]", "feed [mm/s]", "adding", "difference", "more fail", "fewer fail", "it"], pairs)}
 <h2>Deep against shallow</h2><p>{speed} rpm, {feed} mm/s, friction and vibration.</p>{table(["pipes", "probability"], depth)}
-<h2>What matters most</h2><p>Sobol' indices of the smallest margin over its limit (cut off at twice the limit) at
+<h2>Most important variables</h2><p>Sobol' indices of the smallest margin over its limit (cut off at twice the limit) at
 {form['at']} rpm, {feed} mm/s, friction and vibration; {indices.evaluations} samples, {indices.lost} rows lost.</p>
-{table(["what varies", "alone", "with all its interplay"], matter)}
-<h2>What it costs</h2><p>{html.escape(cost)}</p>{table(["samples", "time of one processor", "file"], scale)}</html>
+{table(["variable", "first-order index", "total index"], matter)}
+<h2>Cost</h2><p>{html.escape(cost)}</p>{table(["samples", "time of one processor", "file"], scale)}</html>
 """
     (work.folder / "failure_probability.html").write_text(page, encoding="utf-8")
     answer = {"cases": rows, "coupling": pairs, "depth": depth, "indices": matter, "scale": scale, "cost": cost, "failures": names,
