@@ -851,6 +851,66 @@ class CallbackTest(unittest.TestCase):
             sim.step(1e-3)
 
 
+# ---- Forces by functions ------------------------------------------------------------------------------------------------
+class ForceTest(unittest.TestCase):
+    """A ball on a spring to the ground: the spring of the library, and the same by a function."""
+
+    def ball(self, function=None, provides=0, **spring):
+        model = mbd.Model()
+        ball = model.add_body(position=(0.7, 0.2, 0), mass=2.0)
+        if function is None:
+            model.add_spring(place_b=mbd.station(ball), **spring)
+        else:
+            model.add_force(places=[ball], function=function, provides=provides)
+        model.compile()
+        return model.sim(newton_tolerance=1e-12, max_iterations=40), ball
+
+    @staticmethod
+    def spring(time, poses, velocities):
+        x, v = poses[0][:3], velocities[0][:3]
+        length = math.sqrt(sum(one * one for one in x))
+        tension = 300.0 * (length - 0.5) + 4.0 * sum(a * b for a, b in zip(x, v)) / length
+        return [-tension * one / length for one in x] + [0.0] * 3, 150.0 * (length - 0.5) ** 2
+
+    def test_as_the_spring_of_the_library(self):
+        known, ball = self.ball(stiffness=300.0, damping=4.0, free_length=0.5)
+        found, other = self.ball(self.spring, mbd.PROVIDES_POTENTIAL)
+        with known, found:
+            for _ in range(300):
+                known.step(1e-3)
+                found.step(1e-3)
+            for a, b in zip(known.pose(mbd.station(ball)).position, found.pose(mbd.station(other)).position):
+                self.assertAlmostEqual(a, b, 9)
+            self.assertAlmostEqual(known.energy().strain, found.energy().strain, 8)
+
+    def test_function_that_raises(self):
+        calls = []
+
+        def force(time, poses, velocities):
+            if time > 0.0015:
+                raise ZeroDivisionError("on purpose")
+            calls.append(time)
+            return [0.0] * 6
+        sim, _ = self.ball(force)
+        with sim:
+            sim.step(1e-3)
+            before = sim.hash()
+            with self.assertRaises(mbd.Error) as caught:
+                sim.step(1e-3)
+            self.assertEqual(caught.exception.status, mbd.ERR_CALLBACK)
+            self.assertIsInstance(caught.exception.__cause__, ZeroDivisionError)
+            self.assertEqual(sim.hash(), before)
+            self.assertTrue(calls)
+
+    def test_wrong_answers(self):
+        for answer in ([0.0] * 5, [math.nan] * 6, None, "text"):
+            with self.assertRaises(mbd.Error) as caught:
+                sim, _ = self.ball(lambda time, poses, velocities, answer=answer: answer)
+                with sim:
+                    sim.step(1e-3)
+            self.assertEqual(caught.exception.status, mbd.ERR_CALLBACK)
+
+
 # ---- Progress --------------------------------------------------------------------------------------------------------
 class ProgressTest(unittest.TestCase):
     def test_told(self):
