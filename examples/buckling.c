@@ -87,7 +87,7 @@ static int32_t critical_push(uint32_t pipes, double *push)
     return status;
 }
 
-/* What the last point of a path looks like. */
+/* Describes the last point of a path. */
 typedef struct picture {
     const string_model *s;
     double swing, wall; /* [rad] largest angle up the wall, [N] */

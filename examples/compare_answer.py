@@ -55,7 +55,7 @@ def same_word(expected, found, tolerance):
 
 
 def call(program, arguments):
-    """What it said, and what it left behind: content of each file by its path."""
+    """Its output and its files: content of each file by its path."""
     with tempfile.TemporaryDirectory() as folder:
         run = subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True,
                              stdin=subprocess.DEVNULL, check=False)

@@ -1,5 +1,5 @@
-/* What a driller reads while a string is driven into rock: hook load, torque, weight on bit, rate of penetration, bit
- * speed and stick-slip index in a table of named channels. */
+/* The readings of a driller while a string is driven into rock: hook load, torque, weight on bit, rate of penetration,
+ * bit speed and stick-slip index in a table of named channels. */
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 

@@ -1,5 +1,5 @@
-/* A hole by sections: cased, open, washed out in soft coal, rock. What the hole tells at a depth, how the string lies
- * in it, and the pull that its friction takes against that of one coefficient for all of it. */
+/* A hole by sections: cased, open, washed out in soft coal, rock. It prints the constants of the hole by depth, the
+ * position of the string in it, and the pull that its friction takes against that of one coefficient for all of it. */
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 #include <string.h>

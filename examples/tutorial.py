@@ -30,7 +30,7 @@ model.compile()
 info = model.info()
 print(f"{info.pipes} pipes, {info.mass:.1f} kg, {info.degrees_of_freedom} degrees of freedom")
 
-# What does not fit is refused; the error tells part, field, value and bound.
+# A value that does not fit is refused; the error tells part, field, value and bound.
 try:
     mbd.Model().add_wall(diameter=-0.1)
 except mbd.Error as error:

@@ -189,7 +189,7 @@ private:
 };
 
 // ---- Buckling -------------------------------------------------------------------------------------------------------
-// What sim::buckling finds.
+// Result of sim::buckling.
 class buckling {
 public:
     explicit buckling(dmb_buckling *handle = nullptr) noexcept : handle_(handle) {}
@@ -247,7 +247,7 @@ private:
 };
 
 // ---- Modes ----------------------------------------------------------------------------------------------------------
-// What sim::modes finds.
+// Result of sim::modes.
 class modes {
 public:
     struct energies {
@@ -528,7 +528,7 @@ private:
     dmb_sensitivity *handle_;
 };
 
-// What sim::response finds.
+// Result of sim::response.
 class response {
 public:
     explicit response(dmb_response *handle = nullptr) noexcept : handle_(handle) {}
@@ -587,7 +587,7 @@ private:
 };
 
 #if defined(DRILLMBD_EXCEPTIONS)
-// What sim::sine finds.
+// Result of sim::sine.
 struct sine_response {
     std::int32_t status; // DMB_OK, or DMB_NOTE_STOPPED: not settled
     dmb_stepped_sine_report report;
@@ -595,7 +595,7 @@ struct sine_response {
     std::vector<std::vector<std::complex<double>>> amplitudes;
 };
 
-// What sim::speeds finds.
+// Result of sim::speeds.
 struct speed_bands {
     std::int32_t status; // DMB_OK; DMB_NOTE_FULL: there are more bands than there was room for; DMB_NOTE_INCOMPLETE
     std::vector<dmb_speed_band> bands;

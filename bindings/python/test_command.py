@@ -301,7 +301,7 @@ class CommandTest(FolderTest):
         self.browse(self.output / "report.html", page.count('class="figure"'))
 
     def browse(self, path, figures):
-        """What a browser makes of the page: all figures drawn, nothing on its console."""
+        """The page in a browser: all figures drawn, nothing on its console."""
         browser = shutil.which("chromium")
         if browser is None:
             self.skipTest("not there: chromium; the page was not looked at")

@@ -467,7 +467,7 @@ class ModesTest(unittest.TestCase):
 
 
 class WholeModelTest(unittest.TestCase):
-    """What the rig above does not use."""
+    """Features that the rig above does not use."""
 
     def test_every_kind_of_part(self):
         with mbd.Model() as model:

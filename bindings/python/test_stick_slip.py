@@ -127,7 +127,7 @@ class Reduced:
 
 class StickSlipTest(unittest.TestCase):
     def test_reduced_model(self):
-        """What is counted lies about the closed form, over the whole map."""
+        """The share that is counted lies about the closed form, over the whole map."""
         for speed in (1.0, 2.0, 3.0, 4.0, 6.0):
             for load in (250.0, 500.0, 1000.0):
                 points = Points("sobol", 3, 1, 1280, 10)

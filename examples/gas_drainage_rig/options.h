@@ -1,4 +1,4 @@
-/* What the user asks for on the command line. */
+/* Options of the command line. */
 #ifndef RIG_OPTIONS_H
 #define RIG_OPTIONS_H
 

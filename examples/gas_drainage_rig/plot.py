@@ -288,7 +288,7 @@ def strips(figure, cell, run, title, unit, lines, first):
 
 
 def overview(run):
-    """What the head does and feels, and the pictures above in small."""
+    """Motion and forces of the head, and the pictures above in small."""
     variant = run.main()
     numbers = variant.summary["pipes"]
     figure = plt.figure(figsize=(15, 17))

@@ -36,7 +36,7 @@ int32_t rig_recording_open(rig_recording *recording, const rig_options *options,
 int32_t rig_recording_take(rig_recording *recording, const dmb_sim *sim);
 void rig_recording_close(rig_recording *recording);
 
-/* What a table of the results says about one column between two times. Times are included. */
+/* Statistics of one column of the results between two times. Times are included. */
 typedef struct rig_extent {
     double low, high, mean;
     double jump; /* largest change from one sample to the next */

@@ -1,4 +1,4 @@
-/* What a run leaves for the reader: a table on standard output, and the same numbers for programs as JSON. */
+/* The report of a run: a table on standard output, and the same numbers for programs as JSON. */
 #ifndef RIG_REPORT_H
 #define RIG_REPORT_H
 

@@ -4,12 +4,12 @@
 
 #include "options.h"
 
-/* What it is made of, before options choose lengths, meshes and couplings. reference_study varies the same rig. */
+/* The parts of the rig, before options choose lengths, meshes and couplings. reference_study varies the same rig. */
 dmb_wall_def rig_wall(void); /* a hole of 94 mm in coal */
 dmb_pipe_def rig_pipe(void); /* 73 x 6 mm steel, 1 m */
 dmb_bit_def rig_bit(void);   /* 5 kg, away from the wall */
 
-/* Where to ask. Pipes are counted from 0 at the rig here, from 1 in tables and pictures. */
+/* Parts for queries. Pipes are counted from 0 at the rig here, from 1 in tables and pictures. */
 typedef struct rig_scene {
     dmb_model *model; /* compiled; give it back with dmb_model_destroy */
     dmb_id string, bit, feed, rotation;

@@ -22,7 +22,7 @@ static void claim(const tally *t, const char *words)
     printf("%3d  %s\n", number, words);
 }
 
-/* What follows on the line says why. */
+/* The text behind it gives the reason. */
 static void begin_verdict(tally *t, int which)
 {
     printf("     %s: ", verdicts[which]);
@@ -376,7 +376,7 @@ static double fall_time(const study_run *run)
     return time / log(run->swing[0][0] / run->swing[0][last]);
 }
 
-/* What is above the settled swing, at the last window that ends by 10 s over that at the first. */
+/* The swing above the settled one, in the last window that ends by 10 s over that in the first. */
 static void decay(tally *t, const study_results *results)
 {
     const study_run *runs = results->runs, *full = runs + STUDY_FULL;

@@ -1,4 +1,4 @@
-/* What the user asks for on the command line. */
+/* Options of the command line. */
 #ifndef STUDY_OPTIONS_H
 #define STUDY_OPTIONS_H
 

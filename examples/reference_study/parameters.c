@@ -57,7 +57,7 @@ void study_sets_describe(study_set sets[STUDY_SETS])
 
 /* ---- One point --------------------------------------------------------------------------------------------------- */
 
-/* How it lies, looked at every half metre: the deepest place, and the first that is at the wall. */
+/* Its position every half metre: the deepest place, and the first that is at the wall. */
 static int32_t look_at_rest(study_point *p, const study_string *s)
 {
     const double clearance = study_clearance(&p->scene), length = p->scene.pipe.length;
@@ -136,7 +136,7 @@ static int32_t look_at_stretch(study_point *p, study_string *s)
     return DMB_OK;
 }
 
-/* What the head has to do while the string slides into the hole and turns. */
+/* Force and torque of the head while the string slides into the hole and turns. */
 static int32_t look_at_head(study_point *p, study_string *s)
 {
     dmb_static_options options = dmb_static_options_default();
@@ -199,7 +199,7 @@ static void take_quantities(const study_point *p, double values[QUANTITIES])
     for (int n = 0; n < QUANTITIES; ++n) values[n] = taken[n];
 }
 
-/* What moves what: the largest over the smallest of each quantity in a study. */
+/* Effect of each parameter: the largest over the smallest of each quantity in a study. */
 static void print_ranges(const study_set sets[STUDY_SETS])
 {
     printf(

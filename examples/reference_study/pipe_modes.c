@@ -2,7 +2,7 @@
  * not meshes but flexible bodies described by modes (Craig, Bampton 1968): 12 shapes that the ends press a pipe into, 6
  * of them rigid, and normal modes with both ends clamped, K = [K_e, 0; 0, diag(w_n^2)]      M = [M_e, m; m^T, 1]      m
  * = integral of rho (A N w_n + I G theta_n) with the element of the whole pipe for its ends (shape functions N, G of
- * the library's beam element). What swings highest bends in one plane, so only that is put together: deflection and
+ * the library's beam element). The highest modes bend in one plane, so only this plane is assembled: deflection and
  * slope of the ends, and normal modes. In a long string of equal pipes the highest swings with neighbours alike or
  * opposite, w_B = +- w_A. */
 #include <math.h>

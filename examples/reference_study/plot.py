@@ -128,7 +128,7 @@ def lengths(folder):
     finish(folder, figure, "frequencies_against_lengths.png")
 
 
-# What an engineer asks of a string, in rows; each: column, factor, label, colour, marker.
+# Quantities of a string, a row each: column, factor, label, colour, marker.
 QUESTIONS = (
     ("frequency [Hz]", True, (("axial [Hz]", 1.0, "first along", RED, "s"),
                               ("torsional [Hz]", 1.0, "first around", ORANGE, "D"),

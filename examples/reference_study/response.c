@@ -9,7 +9,7 @@
 #define ALIGNED_HIGH 20.0
 
 enum { POINTS = 400, REFINEMENT = 6, ALIGNED_POINTS = 100, INPUTS = 4, AXES = 3 };
-/* Which cause an input is part of. */
+/* The cause that an input is part of. */
 static const int cause_of[INPUTS] = {STUDY_DRIVE, STUDY_DRIVE, STUDY_FRICTION, STUDY_ECCENTRIC};
 
 /* Whole friction, or only what it differs by between rest and sliding; eccentricities that are usual. */

@@ -48,7 +48,7 @@ static int32_t add_bit(dmb_model *model, const study_scene *scene)
     return status < 0 ? status : dmb_model_add_bit(model, &bit, NULL);
 }
 
-/* What buckling grows: 1 N back along the hole, of which none acts before. */
+/* The load that buckling grows: 1 N back along the hole, of which none acts before. */
 static int32_t add_push(study_string *s, const study_scene *scene)
 {
     const dmb_term none = dmb_term_default(); /* of height 0 */

@@ -1,4 +1,4 @@
-/* What the reference reports, and what depends on which parameter. */
+/* The results of the reference, and their dependence on parameters. */
 #ifndef REFERENCE_STUDY_H
 #define REFERENCE_STUDY_H
 
@@ -40,7 +40,7 @@ double study_clearance(const study_scene *scene);
 /* The scene at rest: on the low side of the hole, pushed by the load on the bit, or where it is described if alone. */
 int32_t study_make(const study_scene *scene, study_string *string);
 void study_free(study_string *string);
-/* What the library said of the last failure. */
+/* The library's message about the last failure. */
 const char *study_message(const study_string *string);
 /* [Hz] the `count` lowest frequencies. */
 int32_t study_lowest(study_string *string, int32_t contact, uint32_t count, double *frequencies);

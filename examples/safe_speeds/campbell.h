@@ -18,7 +18,7 @@ typedef struct campbell {
 /* Axial, torsional or lateral: what most of its kinetic energy is. */
 int kind_of(const dmb_mode *mode);
 
-/* Which depth [m], which speed (0 .. CAMPBELL_SPEEDS - 1), and frequencies up to which. */
+/* `pipes` sets the depth, `number` the speed (0 .. CAMPBELL_SPEEDS - 1), `highest` the end of the band [Hz]. */
 void campbell_prepare(campbell *c, uint32_t pipes, int number, double highest);
 void campbell_find(campbell *c);
 void campbell_print(const campbell *all);

@@ -2,7 +2,7 @@
  *
  * usage: safe_speeds [--output FOLDER] [--threads N] [--depth METRES] [--order NUMBER], then plot.py FOLDER
  *
- * A string of 73 x 6 mm pipes of 1 m lies on the low side of its hole of 94 mm. What shakes it while it turns:
+ * A string of 73 x 6 mm pipes of 1 m lies on the low side of its hole of 94 mm. Causes of vibration while it turns:
  *     1x  the eccentric masses of the pipes, 1 mm off their axis in directions of their own
  *     2x  a bent pipe or a misaligned head, 300 N sideways at the bit
  *     3x  a bit that walks, 500 N along the hole
@@ -38,7 +38,7 @@ static const char *const limit_names[LIMITS] = {"thrust at head", "torque at hea
                                                 "bending at bit"};
 static const double limits[LIMITS] = {8000.0, 600.0, 1500.0, 400.0, 500.0}; /* [N, N m] */
 
-/* What is known of one depth. */
+/* Results at one depth. */
 typedef struct depth {
     uint32_t pipes;
     double given_order; /* 0: none */

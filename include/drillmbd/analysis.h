@@ -243,7 +243,7 @@ typedef struct dmb_path_report {
 DMB_SIZED_STRUCT(dmb_path_report)
 /* Follows the path from the present static state on by arc length: a step along the tangent, then Newton in the plane
  * across it (Riks 1979) with the factor bordering the stiffness (Crisfield 1981), the step as long as Newton likes it.
- * Limit points, bifurcations and the ends are located to 1e-8 of the step by regula falsi. Where K is unsymmetric a
+ * Limit points, bifurcations and the ends are located to 1e-8 of the step by regula falsi. Where K is unsymmetric, a
  * step is a twentieth of factor_end at most: an eigenvalue that leaves and one that comes back closer together may be
  * passed by. Two that a complex pair becomes change `negative` and are no bifurcation: det K keeps its sign. The sim is
  * not changed. options and report may be NULL; where the path was lost the report tells how far it came.

@@ -14,7 +14,7 @@ extern "C" {
  * given plus DMB_X .. DMB_RZ. Each is the answer of the query it is named after. Numbers 500 .. 999 and from 3000 on
  * are kept free. A stretch of numbers may grow at its end. */
 enum {
-    /* What a driller reads; place.part a string, {0, 0}: the model's first. O(pipes) of stretch and wind-up. */
+    /* Readings of a driller; place.part is a string, {0, 0}: the model's first. O(pipes) of stretch and wind-up. */
     DMB_CHANNEL_HOOK_LOAD = 100,       /* [N] effective axial force of the section at the rig end, as
                                           dmb_query_section: > 0 the rig pulls, < 0 it thrusts */
     DMB_CHANNEL_ROTATION_TORQUE = 101, /* [N m] that the rig puts into that section, > 0 along the string's x axis */
@@ -168,13 +168,12 @@ typedef struct dmb_window_result {
     uint64_t samples; /* [-] in the window */
     double time;      /* [s] that it spans; 0 with one sample: means are the sample then */
     double minimum;   /* [unit of the channel] of the samples; NaN, as all that follow, without one */
-    double maximum;
-    double mean;
-    double rms;   /* root of the mean square, 0 included in the mean */
-    double index; /* [-] (maximum - minimum)/(2 |mean|): of the bit speed the stick-slip index, 1 where the bit
-                     comes to rest; 0 where nothing varies, infinite about a mean of 0 */
-    double
-        low_share; /* [-] of the time with |value| at or below its level, by the sample at the end of each interval */
+    double maximum;   /* [unit of the channel] */
+    double mean;      /* [unit of the channel] over time */
+    double rms;       /* [unit of the channel] root of the mean of the squares over time */
+    double index;     /* [-] (maximum - minimum)/(2 |mean|): of the bit speed the stick-slip index, 1 where the bit
+                         comes to rest; 0 where nothing varies, infinite about a mean of 0 */
+    double low_share; /* [-] of the time, |value| <= its level, by the sample at the end of each interval */
 } dmb_window_result;
 DMB_SIZED_STRUCT(dmb_window_result)
 

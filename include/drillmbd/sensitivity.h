@@ -20,7 +20,7 @@ typedef struct dmb_parameter {
     int32_t one_sided;   /* 1: steps are taken on the high side only, at half the cost; errors are then of first order
                             in `step`, not of second; default 0 */
     double step;         /* [unit of the parameter] > 0: `high` has it this much above the sim, `low` this much below.
-                            What the parameter moves should move by 1e-9 .. 1e-6 of its scale: less is lost in
+                            Quantities that depend on it should change by 1e-9 .. 1e-6 of their scale: less is lost in
                             rounding, of more the third power is felt */
     const dmb_sim *low;  /* only read, and only by dmb_sensitivity_create */
     const dmb_sim *high; /* likewise */

@@ -127,11 +127,11 @@ DMB_API int32_t dmb_sim_set_joint(dmb_sim *sim, dmb_id joint, int32_t state);
  * speeds that they and the drives do not allow are projected: DMB_NOTE_PROJECTED, dmb_sim_message tells by how much.
  * Time, statistics, drives, contacts, joints and cut rock go on. So does the energy ledger: energies change by what
  * pipes bring in or take along, works and balance do not. Displacements and the advance of bits count from the poses
- * the new model describes; turns go on, but for what these differ by about the axis in a hole that bends. What pipes
- * have drawn at random goes by their number from the rig, so it is drawn anew.
- * Fails unless all else is of the same kind and number: DMB_ERR_VALUE, with what differs; DMB_ERR_GEOMETRY: a joint
- * that is not open does not fit; DMB_ERR_SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE as dmb_sim_create. sim is then as
- * it was. from is not changed. O(number of elements). */
+ * the new model describes; turns go on, but for what these differ by about the axis in a hole that bends. Random
+ * numbers of pipes go by their place in the string counted from the rig, so they are drawn anew. Fails unless all else
+ * is of the same kind and number: DMB_ERR_VALUE, with what differs; DMB_ERR_GEOMETRY: a joint that is not open does not
+ * fit; DMB_ERR_SINGULAR, _ROTATION, _CALLBACK, _NOT_FINITE as dmb_sim_create. sim is then as it was. from is not
+ * changed. O(number of elements). */
 DMB_API int32_t dmb_sim_transfer_state(dmb_sim *sim, const dmb_sim *from);
 
 /* Snapshot of all that changes: bytes, save into and restore from the caller's memory. A snapshot fits every sim of the

@@ -132,7 +132,7 @@ typedef struct dmb_row {
     int32_t reserved;
 } dmb_row;
 DMB_SIZED_STRUCT(dmb_row)
-/* Whose a row is. DMB_ERR_VALUE where there is no such row. */
+/* The part or node that a row belongs to. DMB_ERR_VALUE where there is no such row. */
 DMB_API int32_t dmb_query_row(const dmb_sim *sim, uint32_t row, dmb_row *answer);
 /* A small motion of a place as a linear function of those of rows: component DMB_X .. DMB_RZ in the axes of `frame`
  * (DMB_FRAME_WORLD, DMB_FRAME_BODY) is sum of values[i] d[rows[i]]; *count <= 24. A force there acts on the rows by the

@@ -103,7 +103,8 @@ static inline const double *pivot_row_of(const double *B, uint32_t stride, const
     return B + (size_t)p->row_order[k] * stride;
 }
 
-/* Where a row of a matrix is not zero: the blocks of columns, a set of bits, and the runs of columns within them. */
+/* The places of a matrix row that are not zero: the blocks of columns, a set of bits, and the runs of columns within
+ * them. */
 
 #define DMB_RUN_BLOCKS 64   /* of columns; a set of them is a uint64_t */
 #define DMB_RUN_BLOCK_MIN 8 /* columns */

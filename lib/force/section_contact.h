@@ -95,7 +95,7 @@ static inline void dmb_section_rate_row(const dmb_contact_frame *f, const dmb_se
     dmb_vec3_axpy(-c->wall.radius_slope * along * J * J, c->curvature, row);
 }
 
-/* What n . V changes by with the pose: turning of the body, swing around the axis, bend of the hole. */
+/* Derivative of n . V by the pose: turning of the body, swing around the axis, bend of the hole. */
 static inline void dmb_section_normal_row(const dmb_contact_frame *f, const dmb_section_contact *c,
                                           const double bend[3], int bent, double row[6])
 {

@@ -95,7 +95,7 @@ static double integral_at(const dmb_spring_law *law, const dmb_spring_point *poi
     return x * (law->preload + 0.5 * law->stiffness * x) + table_at(law, points, x).energy;
 }
 
-/* Where a force that never falls passes through 0; bisection to the last bit. */
+/* The zero of a force that never falls, by bisection to the last bit. */
 static int find_slack(dmb_spring_law *law, const dmb_spring_point *points)
 {
     double low = -DMB_SLACK_FAR, high = DMB_SLACK_FAR;

@@ -4,7 +4,7 @@
 
 #include "sim/sim.h"
 
-/* Where a step ends. */
+/* The end of a step. */
 typedef struct dmb_step_end {
     double step;       /* [s] its length */
     double begin;      /* [s] of the clock where it begins */

@@ -90,8 +90,8 @@ static int32_t correct(course *of)
     return DMB_OK;
 }
 
-/* Where contacts open: as integrator/attempt does, from the leader's increments before and after, each with factors of
- * its own. */
+/* Contacts that open are treated as in integrator/attempt, from the leader's increments before and after, each with
+ * factors of its own. */
 static int32_t follow_release(course *of)
 {
     dmb_sim *sim = of->sim;

@@ -7,7 +7,7 @@
 
 #include "integrator/attempt.h"
 
-/* What all followers of a step share. */
+/* Data that all followers of a step share. */
 typedef struct dmb_lead {
     const dmb_sim *sim;         /* the leader, its step tried and not accepted */
     const dmb_attempt *attempt; /* that step */

@@ -1,5 +1,5 @@
-/* Which places of a run are side by side, and how their numbers get into lanes and out of them: four numbers of each
- * lane at a time, transposed in registers, where the compiler has a word for that; else one by one. */
+/* Groups of places of a run that are side by side. Their numbers go into lanes and out of them in one of two ways: four
+ * numbers of each lane at a time, transposed in registers, where the compiler has a word for that; else one by one. */
 #ifndef DMB_KERNEL_LANE_GROUP_H
 #define DMB_KERNEL_LANE_GROUP_H
 

@@ -160,7 +160,7 @@ static inline void enter_section(const dmb_wall_job *job, wall_group *g)
 }
 #endif
 
-/* Where the rings are and how they move; what the trial keeps of it. */
+/* Position and motion of the rings, and the part of it that the trial holds. */
 static inline void place_rings(const dmb_wall_job *job, wall_group *g)
 {
     load_sites(job, g);

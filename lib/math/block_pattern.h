@@ -59,8 +59,8 @@ int32_t dmb_block_pattern_make(const dmb_allocator *allocator, uint32_t n, const
 /* Gives the memory back and empties the pattern. A pattern of zero bytes may be released too. */
 void dmb_block_pattern_release(dmb_block_pattern *pattern, const dmb_allocator *allocator);
 
-/* Where A_ij begins in the values of a matrix of this pattern; i may be j. DMB_BLOCK_NO_OFFSET for a pair that is
- * neither coupled nor fill. Time: the logarithm of the number of entries of i or j. */
+/* Offset of A_ij in the values of a matrix of this pattern; i may be j. DMB_BLOCK_NO_OFFSET for a pair that is neither
+ * coupled nor fill. Time: the logarithm of the number of entries of i or j. */
 size_t dmb_block_pattern_offset(const dmb_block_pattern *pattern, uint32_t i, uint32_t j);
 
 /* The entry of two positions, low < high; DMB_NONE if they make none. Logarithmic time. */

@@ -7,7 +7,7 @@
  * the same order of operations. Blocks of 6 rows are fast; any size up to the capacity works, 0 too: such a block
  * has no unknowns. Sizes may change from one factorisation to the next.
  *
- * How to use it: pattern once (block_pattern.h); then per matrix dmb_block_sparse_clear, add values at
+ * Order of calls: pattern once (block_pattern.h); then per matrix dmb_block_sparse_clear, add values at
  * dmb_block_sparse_diagonal and _entry (or at offsets found once), _factor, _solve as often as needed. */
 #ifndef DMB_MATH_BLOCK_SPARSE_H
 #define DMB_MATH_BLOCK_SPARSE_H

@@ -16,7 +16,7 @@
 
 #define DMB_BLOCK_SIZE_MAX 6
 
-/* Where the blocks stand. All arrays belong to the caller. */
+/* Offsets of the blocks. All arrays belong to the caller. */
 typedef struct dmb_block_layout {
     uint32_t n;           /* number of blocks */
     const uint8_t *size;  /* (n) rows of block i, 1..6; 6-6 and 2-2 neighbours are fast */

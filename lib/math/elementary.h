@@ -1,6 +1,6 @@
 /* Sine, cosine, angle and power by additions, multiplications, divisions and square roots alone, which IEEE 754 rounds
- * in one way: the same bits on every processor and with every C library, which choose among theirs at run time. What a
- * step or the compile of a scene takes comes from here and from real.h, never from the C library
+ * in one way: the same bits on every processor and with every C library, which choose among theirs at run time. A step
+ * and the compile of a scene take such functions from here and from real.h, never from the C library
  * (tests/abi/step_calls). NaN of a NaN. */
 #ifndef DMB_MATH_ELEMENTARY_H
 #define DMB_MATH_ELEMENTARY_H

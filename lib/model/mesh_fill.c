@@ -39,7 +39,7 @@ static void fill_pose(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i)
     dmb_node_damping_of(node->damped, e->axial_damping, e->torsional_damping, e->lateral_damping, damping);
 }
 
-/* Which rows are free, solved and held; held is the number of held rows so far. */
+/* Marks the rows that are free, solved and held; `held` is the number of held rows so far. */
 static void fill_rows(const dmb_mesh *mesh, dmb_scene *scene, uint32_t i, uint32_t *held)
 {
     const dmb_mesh_node *node = dmb_mesh_node_at(mesh, i);

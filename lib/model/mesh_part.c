@@ -184,8 +184,8 @@ static bool end_is_pinned(const string_walk *walk)
     return !dmb_mask_is_axial(dmb_mesh_string_def(walk->mesh, walk->string)->end_free);
 }
 
-/* Where the node of a stretch of rigid pipes goes. A guide acts at the node, so a body with a pinned end has it there;
- * otherwise it is the end that gives the neighbouring elements no arms, or the near end. */
+/* The place of the node of a stretch of rigid pipes. A guide acts at the node, so a body with a pinned end has it
+ * there; otherwise it is the end that gives the neighbouring elements no arms, or the near end. */
 static int32_t choose_near_end(const string_walk *walk, uint32_t next, bool *near)
 {
     const bool first = walk->node == DMB_NONE, last = next == walk->end;

@@ -41,7 +41,7 @@ static int32_t refuse(const dmb_mesh *mesh, uint32_t i, const char *text, double
     return DMB_ERR_GEOMETRY;
 }
 
-/* What the laws ask of the wall's constants, with those of the wall filled in. */
+/* The bounds that the laws set to the wall's constants, with those of the wall filled in. */
 static int32_t check_constants(const dmb_mesh *mesh, uint32_t i, const section_values *s)
 {
     const dmb_wall_def *wall = &mesh->model->wall;

@@ -78,7 +78,7 @@ typedef struct dmb_scene_bit {
     double arm;                /* [m] along body x from the node to the bit (rigid pipes merged behind it); usually 0 */
 } dmb_scene_bit;
 
-/* What the caller moves in each sim by itself (sim/own_scene). */
+/* A quantity that the caller moves in each sim by itself (sim/own_scene). */
 typedef struct dmb_scene_input {
     double initial; /* at time 0; NaN: as described */
     double low, high, rate_limit, slope_limit;
@@ -98,7 +98,7 @@ typedef struct dmb_scene_event {
     char name[24];
 } dmb_scene_event;
 
-/* Where a described pipe is in the mesh. */
+/* The place of a described pipe in the mesh. */
 typedef struct dmb_pipe_map {
     double start;      /* [m] rigid pipe: its near end along body x from `node`; else 0 */
     double length;     /* [m] */

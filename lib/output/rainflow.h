@@ -1,5 +1,5 @@
-/* Rainflow counting of a sequence of levels as it arrives (ASTM E1049, 5.4.4; Matsuishi, Endo 1968). What is not
- * counted yet are turning points whose ranges shrink: of levels 0 .. n - 1 at most n + 2. */
+/* Rainflow counting of a sequence of levels as it arrives (ASTM E1049, 5.4.4; Matsuishi, Endo 1968). Turning points
+ * whose ranges shrink are not counted yet: of levels 0 .. n - 1 at most n + 2. */
 #ifndef DMB_OUTPUT_RAINFLOW_H
 #define DMB_OUTPUT_RAINFLOW_H
 

@@ -24,7 +24,7 @@ enum { TRIES = 100 }; /* names of files beside that may be taken, by runs that w
 /* Of a name so many bytes stand in that of the file beside it: names end at 255. */
 enum { NAME_MAX_BESIDE = 200 };
 
-/* Where the ending of the file beside goes. */
+/* Place of the ending of the file beside. */
 static size_t stem_of(const char *path, size_t length)
 {
     const char *slash = strrchr(path, '/');

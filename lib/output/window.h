@@ -4,7 +4,7 @@
 
 #include "drillmbd/output.h"
 
-/* What a channel DMB_CHANNEL_WINDOW_MINIMUM .. _WINDOW_LOW_SHARE means. Errors: those of dmb_window_get. */
+/* The value of a channel DMB_CHANNEL_WINDOW_MINIMUM .. _WINDOW_LOW_SHARE. Errors: those of dmb_window_get. */
 int32_t dmb_window_value(const dmb_window *window, const dmb_channel *channel, double *value);
 
 #endif

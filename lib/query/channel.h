@@ -5,7 +5,7 @@
 
 #include "drillmbd/output.h"
 
-/* What the place of a channel has to be. */
+/* Kinds of places that channels take. */
 enum {
     DMB_AT_PLACE = 0,   /* any place on a string, body or bit */
     DMB_AT_SECTION = 1, /* a place on a flexible or axial-torsional pipe */

@@ -36,7 +36,7 @@ static double signed_value(double sign, double value)
     return sign > 0.0 ? value : 0.0 - value;
 }
 
-/* What dmb_query_section tells of an axial-torsional pipe is the mean of its element; here it is the section itself. */
+/* dmb_query_section tells the mean of an element of an axial-torsional pipe; here it is the section itself. */
 static int32_t section_of_rig_end(const asked_string *s, int32_t component, double sign, double *value)
 {
     const dmb_pipe_map *pipe = s->sim->scene->pipes + s->map->first_pipe;

@@ -1,4 +1,4 @@
-/* Whose the rows of the equations are. */
+/* The part or node that each row of the equations belongs to. */
 #include "drillmbd/state_space.h"
 #include "query/joint_query.h"
 #include "sim/access.h"

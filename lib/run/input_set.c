@@ -12,7 +12,7 @@
 
 DMB_DEFINE_INIT(dmb_input_state, 40, {.value = 0.0})
 
-/* What a call sets: arrays of the caller's, or records of a log. */
+/* The values that a call sets: arrays of the caller's, or records of a log. */
 typedef struct settings {
     const dmb_id *inputs;
     const double *values;

@@ -117,7 +117,7 @@ static int32_t check_loads(dmb_sim *sim, const dmb_sim *from)
     return DMB_OK;
 }
 
-/* What goes on must be what the other model's input may be. */
+/* A value that goes on must lie within the bounds of the other model's input. */
 static int32_t check_inputs(dmb_sim *sim, const dmb_sim *from)
 {
     for (uint32_t i = 0; i < sim->scene->input_count; i++) {

@@ -1,5 +1,5 @@
-/* Where the fields of a sim stand in its block. Everything comes from the lists of sim/sim.h: the size, the carving,
- * and the table of fields that snapshot, hash and tests walk. */
+/* Places of the fields of a sim in its block. Everything comes from the lists of sim/sim.h: the size, the carving, and
+ * the table of fields that snapshot, hash and tests walk. */
 #ifndef DMB_SIM_LAYOUT_H
 #define DMB_SIM_LAYOUT_H
 

@@ -20,7 +20,7 @@ void dmb_path_columns(const dmb_scene *scene, const dmb_configuration *configura
 /* [m] measured depth of a PATH node. */
 double dmb_path_depth(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node);
 
-/* How many FULL nodes follow one another from this one on; 0: it is a PATH node. */
+/* The number of FULL nodes that follow one another from this one on; 0: it is a PATH node. */
 uint32_t dmb_count_full_nodes(const dmb_scene *scene, uint32_t node);
 static inline uint32_t dmb_full_nodes_at(const dmb_scene *scene, uint32_t node)
 {

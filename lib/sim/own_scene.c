@@ -70,7 +70,7 @@ double dmb_described_setting(const dmb_sim *sim, uint32_t input)
 
 /* ---- As set ------------------------------------------------------------------------------------------------------ */
 
-/* What an input has in the place of a programme. */
+/* The value of an input in the place of a programme. */
 static void set_programme(const dmb_sim *sim, uint32_t input)
 {
     dmb_own_scene *own = sim->own;

@@ -284,7 +284,7 @@ typedef struct dmb_progress {
     int32_t nested;    /* [-] calls that the one under way is part of */
 } dmb_progress;
 
-/* Where what is set is written down; neither saved nor hashed. run/input_set */
+/* The log of inputs that were set; neither saved nor hashed. run/input_set */
 typedef struct dmb_input_log {
     dmb_input_record *records; /* the caller's; NULL: none */
     uint32_t capacity, count;

@@ -67,7 +67,7 @@ void dmb_ledger_add(dmb_sim *sim, const dmb_evaluation *evaluation)
     memcpy(last, power, sizeof power);
 }
 
-/* Where energy changes at once (a joint closes): kinetic and stored energy that are lost are work of the impact. */
+/* Energy that changes at once (a joint closes): kinetic and stored energy that are lost are work of the impact. */
 void dmb_ledger_take_impact(dmb_sim *sim, double kinetic, double stored)
 {
     sim->ledger->work[DMB_POWER_IMPACT] -= kinetic + stored;

@@ -1,6 +1,6 @@
-/* What tests/abi/targets runs on each target: scenes of every kind of pipe, with joints, in steps, by error control, in
- * statics and from a snapshot; prints their hashes. LAPACK and CHOLMOD, which no step takes, are left out: no order of
- * elimination but the natural one. */
+/* The program that tests/abi/targets runs on each target: scenes of every kind of pipe, with joints, in steps, by error
+ * control, in statics and from a snapshot; prints their hashes. LAPACK and CHOLMOD, which no step takes, are left out:
+ * no order of elimination but the natural one. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* What is asked of the scenes, and what is known exactly. */
+/* Questions to the scenes, and their exact answers where known. */
 #ifndef BENCH_ANSWERS_H
 #define BENCH_ANSWERS_H
 

@@ -1,5 +1,5 @@
-/* How fast, at what error. usage: bench CSV C|B|R
- * Over elements, over pipes, growth, without the ledger, the axial-torsional string, the whole rig cycle. */
+/* Speed and error of steps. usage: bench CSV C|B|R Over elements, over pipes, growth, without the ledger, the
+ * axial-torsional string, the whole rig cycle. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdio.h>
@@ -16,7 +16,7 @@ static int failures;
 
 /* ---- One result ------------------------------------------------------------------------------------------------ */
 
-/* What an answer is held against. */
+/* The reference of an answer. */
 typedef struct reference {
     double values[2];
     const char *name; /* "exact", "dt/8" ... */

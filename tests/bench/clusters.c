@@ -1,4 +1,4 @@
-/* What bodies that joints connect directly cost. usage: clusters CSV K
+/* The cost of bodies that joints connect directly. usage: clusters CSV K
  *
  * Scene K, bars of 1 m and 1 kg on revolute joints under gravity, in steps of 1 ms: a chain that swings, a tree of
  * which each bar carries two, and four-bars side by side, with their redundant equations (five each joint) and without

@@ -1,4 +1,4 @@
-/* What a single step costs, and what a scene costs. usage: features CSV D|F
+/* The cost of a single step, and of a scene with its features. usage: features CSV D|F
  *
  * Scene D: step times of a control loop: every step of scene B* timed by itself, as many iterations as it takes and
  * with bounded work. Scene F: one rig described once, compiled with less and with more of it: what is left out is to

@@ -1,4 +1,4 @@
-/* What explicit joints cost. usage: joints CSV J
+/* The cost of explicit joints. usage: joints CSV J
  *
  * Scene J: the tube of scene C, cut into strings of one pipe and one element that explicit fixed joints put together,
  * turned from 0 to 60 rpm through a revolute joint; beside it the same tube as one string. Both methods of constraints,
@@ -16,7 +16,7 @@
 
 enum { JOINTS_REPEATS = 5, JOINTS_SIZES = 4, JOINTS_WAYS = 3, JOINTS_STEPS = 50 };
 
-/* How the tube is held together. */
+/* The joints of the tube. */
 enum { WAY_INDEPENDENT = 0, WAY_MULTIPLIERS = 1, WAY_STRING = 2 };
 static const char *const way_names[JOINTS_WAYS] = {"independent", "multipliers", "structural"};
 

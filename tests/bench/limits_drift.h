@@ -1,4 +1,4 @@
-/* What a million steps drift by: energy, rotations off orthonormal, joints and guides off their place. */
+/* The drift of a million steps: energy, rotations off orthonormal, joints and guides off their place. */
 #ifndef BENCH_LIMITS_DRIFT_H
 #define BENCH_LIMITS_DRIFT_H
 

@@ -20,7 +20,7 @@ typedef struct outcome {
     double balance; /* [-] what the energy ledger leaves open at the end, over what drives, loads and gravity put in */
 } outcome;
 
-/* What the ledger leaves open over the energy that went in. Scene B falls on its wall: what gravity gave counts too. */
+/* The gap in the ledger over the energy that went in. Scene B falls on its wall: the work of gravity counts too. */
 static int32_t check_ledger(const dmb_sim *sim, const dmb_energy *start, outcome *out)
 {
     dmb_energy energy = dmb_energy_default();

@@ -1,4 +1,4 @@
-/* How a scene is run. */
+/* The method by which a scene is run. */
 #ifndef BENCH_METHOD_H
 #define BENCH_METHOD_H
 

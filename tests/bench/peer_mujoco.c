@@ -190,7 +190,7 @@ static double contact_total(const mjModel *model, const mjData *data)
     return sum;
 }
 
-/* What scene_ask asks of the library. */
+/* The same questions as those of scene_ask to the library. */
 static void ask_chain(const mjModel *model, mjData *data, const chain_method *how, int kind, double values[2])
 {
     double velocity[6], rotation = 0.0;

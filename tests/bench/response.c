@@ -1,4 +1,4 @@
-/* What a frequency response costs. usage: response CSV H
+/* The cost of a frequency response. usage: response CSV H
  *
  * Scene H: the tube of scene C, 100 m, 100 to 10000 elements, the speed of its drive the input and the rotation of its
  * tip the output, structural damping 0.02, 0.1 to 50 Hz. The same blocks are solved whatever input and output are.

@@ -24,7 +24,7 @@ typedef struct result_row {
     int count;
 } result_row;
 
-/* What every result has. */
+/* Columns that every result has. */
 typedef struct head {
     const char *scene;
     double elements;

@@ -24,7 +24,7 @@
 enum { SCENE_C = 0, SCENE_B = 1, SCENE_B_COSINE = 2, SCENE_R = 3, SCENE_T = 4, SCENE_COUNT = 5 };
 static const char *const scene_names[SCENE_COUNT] = {"C", "B", "B*", "R", "T"};
 
-/* What is asked of a scene: two quantities each. */
+/* Questions to a scene: two quantities each. */
 static const char *const quantity_names[SCENE_COUNT][2] = {{"tip_speed", ""},
                                                            {"tip_rotation", "tip_z_mm"},
                                                            {"tip_rotation", "wall_force"},

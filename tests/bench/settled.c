@@ -1,4 +1,4 @@
-/* What a string on the wall does on the average. usage: settled CSV M
+/* The mean motion of a string on the wall. usage: settled CSV M
  *
  * Scene B beyond the time in which its motion follows from its start. A few starts, a hundredth of a millimetre apart
  * sideways, and two stretches of a second each: while it chatters, and after it has come to its speed. Means of the sum

@@ -1,4 +1,4 @@
-/* How robust: 1000 random scenes out of a Latin hypercube (stability_draw.h), each with its static start and 0.2 s.
+/* Robustness: 1000 random scenes out of a Latin hypercube (stability_draw.h), each with its static start and 0.2 s.
  * usage: stability [second] [statics] [SEED [NUMBER [STEP]]]   (default: the first set, seed 1, all scenes; statics:
  * the static starts alone; NUMBER: that scene alone, step by step; STEP [s] takes the place of the one drawn). Prints a
  * line for every failure, and one of counts. tests/bench/run calls it. In the second set each run is also taken up from
@@ -197,7 +197,7 @@ static void run(trial *t)
     if (t->status >= 0) t->status = dmb_sim_hash(t->sim, &t->hash);
 }
 
-/* Another sim goes on from the snapshot. What it does counts no second time. */
+/* Another sim goes on from the snapshot. Its steps are not counted again. */
 static void run_again(trial *t)
 {
     const struct counts before = counts;

@@ -1,6 +1,6 @@
-/* What a random scene consists of: a point of a Latin hypercube and what is drawn from it. Two sets. The first, 20
- * axes: a string in a straight hole, motion drives, fixed steps. The second keeps these axes, the same for the same
- * seed, and adds 23: bent holes and none, explicit joints, speed controllers, mud, error-controlled and bounded steps.
+/* The parameters of a random scene, drawn from a point of a Latin hypercube. Two sets. The first, 20 axes: a string in
+ * a straight hole, motion drives, fixed steps. The second keeps these axes, the same for the same seed, and adds 23:
+ * bent holes and none, explicit joints, speed controllers, mud, error-controlled and bounded steps.
  */
 #ifndef BENCH_STABILITY_DRAW_H
 #define BENCH_STABILITY_DRAW_H

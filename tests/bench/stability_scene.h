@@ -111,7 +111,7 @@ static int32_t add_string(random_scene *s, uint32_t k, uint32_t before)
     return status < 0 ? status : add_pipes(s, k);
 }
 
-/* What a joint leaves free along and about the string is held by springs: nothing else would hold it. */
+/* Springs hold the coordinates that a joint leaves free along and about the string: nothing else would hold it. */
 static int32_t join(random_scene *s, uint32_t k)
 {
     dmb_joint_def joint = dmb_joint_def_default();
@@ -152,7 +152,7 @@ static int32_t add_bit(random_scene *s)
     return dmb_model_add_bit(s->model, &bit, NULL);
 }
 
-/* What a controller pushes and turns. */
+/* The part that a controller pushes and turns. */
 static int32_t add_head(random_scene *s)
 {
     dmb_body_def head = dmb_body_def_default();

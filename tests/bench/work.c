@@ -178,7 +178,7 @@ static course at_step(const plan *p, uint32_t per_pipe, double step)
     return run(p, &x, &how);
 }
 
-/* What twice the elements change, at a step at which both are cheap. */
+/* The change by twice the elements, at a step at which both are cheap. */
 static double error_of_mesh(const plan *p)
 {
     const double step = 16.0 * p->reference;

@@ -17,7 +17,7 @@
 static volatile size_t malloc_calls;
 
 #if defined(COUNTS_MALLOC)
-/* What glibc calls its own. */
+/* The names of glibc's own functions. */
 extern void *__libc_malloc(size_t size);
 extern void *__libc_calloc(size_t count, size_t size);
 extern void *__libc_realloc(void *block, size_t size);

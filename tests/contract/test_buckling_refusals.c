@@ -1,4 +1,4 @@
-/* What a buckling analysis refuses, with the sim as it was. */
+/* A buckling analysis refuses bad arguments and leaves the sim as it was. */
 #include "purse.h"
 #include "pushed_column.h"
 

@@ -147,7 +147,7 @@ static int32_t step(scene_plan *p, int which)
 }
 enum { STEPS = 19 };
 
-/* What must not change when a call fails. */
+/* Counts that must not change when a call fails. */
 typedef struct counts {
     uint32_t programmes, strings, runs, bodies, bits, drives, loads, joints, couplings, constraints, wall;
     int compiled;

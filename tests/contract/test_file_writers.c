@@ -1,6 +1,7 @@
 /* The writers of files: every call of the system that they make fails once, and the space runs out at every few bytes;
- * the status is DMB_ERR_IO, the old file is as it was, and nothing else is left in the folder. What is not a number is
- * written so that ParaView reads it. The table of a response reads back as dmb_response_transfer answers. */
+ * the status is DMB_ERR_IO, the old file is as it was, and nothing else is left in the folder. Values that are not
+ * numbers are written so that ParaView reads it. The table of a response reads back as dmb_response_transfer answers.
+ */
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <dlfcn.h>

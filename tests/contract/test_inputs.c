@@ -243,7 +243,7 @@ static void gains_and_limits(void **state)
     close_both(&c, &sim);
 }
 
-/* What cannot be is refused and changes nothing; what is to be clamped is, and tells so. */
+/* Values out of bounds are refused and change nothing, or are clamped with a note where the input says so. */
 static void out_of_bounds(void **state)
 {
     (void)state;
@@ -413,7 +413,7 @@ static void *saved(const dmb_sim *sim, size_t *size)
 
 enum { LOG = 64 };
 
-/* What an operator does at step k. */
+/* The inputs that an operator sets at step k. */
 static void operate(dmb_sim *sim, const controlled *c, int k)
 {
     if (k == 10) must(dmb_sim_set_input(sim, c->feed, 0.3));

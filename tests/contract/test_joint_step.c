@@ -152,7 +152,7 @@ static int32_t failing_callback(void)
     return status;
 }
 
-/* What it tried counts in the statistics. */
+/* Its attempts count in the statistics. */
 static int32_t advance_with_failing_callback(void)
 {
     scene.callback_status = 1;

@@ -1,4 +1,4 @@
-/* What the modal analysis refuses, and that it leaves the sim alone, memory that runs out included. */
+/* The modal analysis refuses bad arguments and leaves the sim alone, also when memory runs out. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* What a path refuses, with the sim as it was, and what it needs. */
+/* A path refuses bad arguments, leaves the sim as it was, and tells the memory it needs. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -356,7 +356,7 @@ static void source_of_a_transfer(void **state)
     for (int i = 0; i < 2; i++) dmb_sim_destroy(&sim[i]), dmb_model_destroy(&s[i].model);
 }
 
-/* What a path shows its function may be asked, not changed, however its const is cast away. */
+/* The sim that a path shows its function answers queries and refuses changes, also with its const cast away. */
 static int32_t meddle_with_point(void *context, const dmb_sim *at, const dmb_path_point *point)
 {
     dmb_sim *sim = (dmb_sim *)at, *handle = sim;

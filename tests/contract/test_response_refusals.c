@@ -1,4 +1,4 @@
-/* What a frequency response refuses, that refusing changes nothing and gives all memory back, and what it says. */
+/* A frequency response refuses bad arguments with a message, changes nothing and gives all memory back. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

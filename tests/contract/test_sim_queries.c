@@ -141,7 +141,7 @@ static void set_drive(void **state)
     dmb_model_destroy(&r.model);
 }
 
-/* What the options or the scene left out is told, not made up. */
+/* Answers that the options or the scene left out are refused, not made up. */
 static void left_out(void **state)
 {
     (void)state;

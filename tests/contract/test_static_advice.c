@@ -1,5 +1,5 @@
-/* What failed statics tell to do against what follows where it is done: elements for a pulled, very flexible string on
- * a stiff wall; the limit of a controlled drive; which way a string may go. */
+/* The advice of failed statics against the result of following it: elements for a pulled, very flexible string on a
+ * stiff wall; the limit of a controlled drive; which way a string may go. */
 #include "sim_test.h"
 
 static void expect(const dmb_sim *sim, const char *text)

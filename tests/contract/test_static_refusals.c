@@ -1,4 +1,4 @@
-/* What the static start refuses, and that refusing changes nothing. */
+/* The static start refuses bad arguments, and refusing changes nothing. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

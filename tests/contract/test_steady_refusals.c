@@ -1,4 +1,4 @@
-/* What steady states refuse, with what message, and that refusing changes nothing; and what the default does then. */
+/* Steady states refuse scenes with a message and change nothing; the default then takes the state at rest. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,6 @@
-/* What in a scene does not let a state be steady, drives, guides, joints and springs, each refused by name; and what
- * judges stiffness at rest, buckling and paths, held against states that move: refused, and answered at rest. */
+/* Parts of a scene that do not let a state be steady (drives, guides, joints and springs) are refused by name; and
+ * analyses that judge stiffness at rest, buckling and paths, held against states that move: refused, and answered at
+ * rest. */
 #include <string.h>
 
 #include "rig.h"

@@ -2,7 +2,7 @@
  * DMB_ERR_CALLBACK and changes nothing; what it did not announce is not asked of it. */
 #include "whole_scene.h"
 
-/* What the function does, from `from` on. */
+/* The behaviour of the function from `from` on. */
 enum {
     WELL,
     REFUSES,
@@ -48,7 +48,7 @@ static int32_t value_of_time(void *context, double time, double out[3])
     return misdeed == REFUSES ? 7 : misdeed == REFUSES_WITH_MINUS_ONE ? -1 : 0;
 }
 
-/* Where the programme is used. */
+/* The use of the programme. */
 enum { MOTION, MOTION_EXCITATION, CONTROL, LOAD_DRIVE, LOAD_EXCITATION, LOAD_FACTOR, BIT_LOAD, USES };
 
 typedef struct scene {
@@ -201,7 +201,7 @@ static void misdeeds_late_in_the_step_stop_it_too(void **state)
     }
 }
 
-/* What is announced has to be there where it is used: the rate of a motion. */
+/* Derivatives that a use needs have to be announced: the rate of a motion. */
 static void announced_rate_has_to_come(void **state)
 {
     static const int misdeeds[] = {NO_RATE, NAN_RATE};
@@ -229,7 +229,7 @@ static void announced_integral_has_to_come(void **state)
     }
 }
 
-/* What is not announced is not looked at. */
+/* Values that are not announced are not read. */
 static void rest_of_the_answer_is_not_looked_at(void **state)
 {
     (void)state;

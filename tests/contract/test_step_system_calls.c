@@ -1,7 +1,7 @@
 /* Nothing after create asks the kernel for anything. A child process gives up all system calls but read, write and exit
- * (seccomp, strict mode: the kernel kills at any other) and then runs, asks, saves, restores and fails. What it reaches
- * has to be what the same run reaches without the fence. Left out under a sanitizer or a checker, whose own calls would
- * be the ones that are caught: these are known at build time, or by an empty child that does not come through. */
+ * (seccomp, strict mode: the kernel kills at any other) and then runs, asks, saves, restores and fails. Its end state
+ * has to be that of the same run without the fence. Left out under a sanitizer or a checker, whose own calls would be
+ * the ones that are caught: these are known at build time, or by an empty child that does not come through. */
 #define _GNU_SOURCE /* syscall */
 #include "sanitized.h"
 #include "whole_scene.h"
@@ -16,7 +16,7 @@ static struct {
     unsigned char snapshot[1 << 18];
 } scene;
 
-/* What the child tells: the end state, and how many calls went another way than they should. */
+/* The report of the child: the end state, and how many calls went another way than they should. */
 typedef struct outcome {
     uint64_t hash;
     uint64_t surprises;

@@ -321,7 +321,7 @@ static inline void draw_loads(random_scene *scene)
     }
 }
 
-/* Describes; the caller compiles. What is refused is left out. */
+/* Describes; the caller compiles. Parts that are refused are left out. */
 static inline void draw_scene(random_scene *scene, const uint8_t *data, size_t size)
 {
     memset(scene, 0, sizeof *scene);

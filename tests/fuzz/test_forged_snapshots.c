@@ -1,7 +1,7 @@
 /* Snapshots with a byte, a word or a number of their content changed and the checksum made to fit: a restore refuses
- * them and changes nothing, or takes them, and then steps, analyses and queries end with a known status. What they may
- * not do, read or write out of bounds, the address sanitizer tells (.ci/run). Scenes: every kind of part with pipes of
- * all kinds, bristles, a curved hole and a bit with its history, with and without joints; joints of all kinds.
+ * them and changes nothing, or takes them, and then steps, analyses and queries end with a known status. The address
+ * sanitizer tells reads and writes out of bounds (.ci/run). Scenes: every kind of part with pipes of all kinds,
+ * bristles, a curved hole and a bit with its history, with and without joints; joints of all kinds.
  *
  * As a test it runs a fixed number of seeded changes; arguments are the first seed and how many of each scene. */
 #include <stdlib.h>

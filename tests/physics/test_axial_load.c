@@ -187,7 +187,7 @@ static void frequencies_under_tension(void **state)
 
 /* ---- Section forces ---------------------------------------------------------------------------------------------- */
 
-/* What a section carries against the loads beyond it, at the places of the bent and pulled beam. */
+/* The section force against the loads beyond the section, at the places of the bent and pulled beam. */
 static void section_forces_are_in_equilibrium(void **state)
 {
     (void)state;

@@ -304,7 +304,7 @@ static double off_orthonormal(const double R[9])
 }
 
 /* Two flexible pipes turned at 200 rpm for 300 s against viscous torque: the torque of the last second is that of the
- * first settled one, angles count every turn, rotations stay rotations. What a pose rounds to, times EA/L, is 6e-7 N,
+ * first settled one, angles count every turn, rotations stay rotations. The rounding of a pose, times EA/L, is 6e-7 N,
  * and a step takes that for zero: 5e-9 of the torque. */
 static void thousand_revolutions(void **state)
 {

@@ -200,7 +200,7 @@ static void sinusoidal_buckling_in_the_hole(void **state)
     }
 }
 
-/* What a preload has used up is not there any more: under a part of the critical push the rest of it is left. */
+/* A preload is subtracted: under a part of the critical push the rest of it is left. */
 static void preload_counts(void **state)
 {
     (void)state;

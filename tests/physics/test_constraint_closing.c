@@ -1,4 +1,4 @@
-/* What lets a joint close in a run: its own parts must fit, and not turned over; others do not matter. */
+/* A joint closes in a run where its own parts fit and are not turned over; others do not matter. */
 #include <string.h>
 
 #include "mechanism.h"

@@ -79,7 +79,7 @@ static void four_bar_from_its_crank(void **state)
     check_four_bar(2.4, 5.0);
 }
 
-/* What fits as described is not moved at all. */
+/* Parts that fit as described are not moved at all. */
 static void nothing_to_do(void **state)
 {
     (void)state;

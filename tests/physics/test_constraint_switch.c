@@ -584,7 +584,7 @@ static void refused_jump_changes_nothing(void **state)
     rig_close(&one.s);
 }
 
-/* What jumps of forces and corners of programmes round does not count as a correction of the initial velocities. */
+/* Rounding at jumps of forces and corners of programmes does not count as a correction of the initial velocities. */
 static void jumps_are_no_projection(void **state)
 {
     (void)state;

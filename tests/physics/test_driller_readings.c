@@ -1,5 +1,5 @@
-/* What a driller reads against closed forms (a hanging string, a twisted one), balances of momentum in a run, and a bit
- * speed that is known at every time; and as outputs of a response against a run in time. */
+/* The readings of a driller against closed forms (a hanging string, a twisted one), balances of momentum in a run, and
+ * a bit speed that is known at every time; and as outputs of a response against a run in time. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -320,7 +320,7 @@ static void in_responses(void **state)
     rig_close(&still);
 }
 
-/* What a linear analysis cannot say it refuses, with the channel's name; the bottom-hole load is in the weight. */
+/* A linear analysis refuses channels that it cannot tell, by name; the bottom-hole load is in the weight. */
 static void refused_in_responses(void **state)
 {
     (void)state;

@@ -128,8 +128,8 @@ static void sticks_on_incline(void **state)
     rig_close(&scene);
 }
 
-/* Where the slope is steeper than mu_s it slides at a = g (sin - mu cos). Bristles without damping first swing as a
- * spring, x = A (1 - cos w t) with A = tan/sigma0, w^2 = g cos sigma0, and let go at x = mu/sigma0. */
+/* On a slope steeper than mu_s it slides at a = g (sin - mu cos). Bristles without damping first swing as a spring, x =
+ * A (1 - cos w t) with A = tan/sigma0, w^2 = g cos sigma0, and let go at x = mu/sigma0. */
 static void slides_on_steep_incline(void **state)
 {
     static const int32_t laws[] = {DMB_FRICTION_COULOMB, DMB_FRICTION_BRISTLE};

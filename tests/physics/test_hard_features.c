@@ -1,5 +1,5 @@
-/* What a scene leaves out is not there in the step: the counts, the memory and the results of a compile without
- * contact, friction or vibration are those of a scene that never described them. */
+/* Features that a scene leaves out are not there in the step: the counts, the memory and the results of a compile
+ * without contact, friction or vibration are those of a scene that never described them. */
 #include "contact_scene.h"
 
 enum { PIPES = 12 };

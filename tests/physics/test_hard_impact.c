@@ -120,8 +120,8 @@ static void flat_landing(void **state)
 /* ---- Grazing ----------------------------------------------------------------------------------------------------- */
 
 /* At 1e-12 m/s the wall would be met to a depth of v sqrt(m/K) = 3e-16 m, less than the rounding of a place 2 m from
- * the axis, u = 4.4e-16 m. What is left of the speed is that of rounding: some sqrt(K/m) u = 1.4e-12 m/s, however long
- * the step is. */
+ * the axis, u = 4.4e-16 m. The speed that is left is that of rounding: some sqrt(K/m) u = 1.4e-12 m/s, however long the
+ * step is. */
 static const double grazing_speed = 1e-10;
 
 static void grazing(void **state)

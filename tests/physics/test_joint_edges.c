@@ -117,7 +117,7 @@ static void create_refuses_it(void **state)
     rig_close(&a.s);
 }
 
-/* What hangs from the joint hangs along y of a. */
+/* The part on the joint hangs along y of a. */
 static void statics_refuse_it(void **state)
 {
     (void)state;

@@ -8,7 +8,7 @@
 
 enum { MODES = 14 };
 
-/* What a scene's modes must be: so many rigid ones, the same elastic ones in all ways of finding them. */
+/* Expected modes of a scene: so many rigid ones, the same elastic ones in all ways of finding them. */
 static void check_ways(const char *what, const rig *s, uint32_t rigid, double tolerance)
 {
     dmb_modes *found[4] = {lowest_modes(s, DMB_MODES_UNDAMPED, MODES), all_modes(s, DMB_MODES_UNDAMPED),
@@ -106,7 +106,8 @@ static void a_hundred_pipes_hardly_bent(void **state)
     check_relative("bent against straight", f[1], f[0], 1e-3);
 }
 
-/* What ends let move counts: a shaft that spins, one that slides too, a ball joint, a straight hole's worth of guides.
+/* Motions that the ends leave free count: a shaft that spins, one that slides too, a ball joint, a straight hole's
+ * worth of guides.
  */
 static void partly_held_strings(void **state)
 {

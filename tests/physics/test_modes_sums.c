@@ -1,5 +1,5 @@
-/* What modes tell of themselves: sums over all of them, energies of parts and directions, shapes between nodes, frames
- * of their animation; the few, a band and all of them beside each other. */
+/* Results of modes against each other: sums over all of them, energies of parts and directions, shapes between nodes,
+ * frames of their animation; the few, a band and all of them beside each other. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

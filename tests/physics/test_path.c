@@ -6,7 +6,7 @@
 
 enum { FREE_TO_MOVE = 7 };
 
-/* What a path tells, point by point. */
+/* The points of a path. */
 typedef struct tale {
     uint32_t points;
     dmb_path_point point[400];

@@ -13,7 +13,7 @@ static double severity_of(double W)
     return (once + twice) / 1e-3;
 }
 
-/* Where the severity is 1 between two speeds. */
+/* The speed between two others at which the severity is 1. */
 static double edge(double below, double above)
 {
     for (int i = 0; i < 200; i++) {

@@ -166,8 +166,8 @@ static void ring_against_its_quarter(void **state)
     }
 }
 
-/* Let go from there with a load that goes to 0 within 10 ms. What is left open falls with the square of the step, and
- * none of it comes from the iteration. */
+/* Let go from there with a load that goes to 0 within 10 ms. The gap in the ledger falls with the square of the step,
+ * and none of it comes from the iteration. */
 static void ring_let_go(void **state)
 {
     (void)state;

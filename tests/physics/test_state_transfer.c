@@ -204,7 +204,7 @@ static double stress_apart(const scene *a, uint32_t pipes_a, const scene *b, uin
     return worst;
 }
 
-/* What went in and what is open stays the same; only what is stored may have changed. */
+/* Work done and the gap in the ledger stay the same; only stored energy may have changed. */
 static void check_ledger(const dmb_energy *a, const dmb_energy *b)
 {
     const double stored = fabs(a->kinetic) + fabs(a->strain) + fabs(a->gravity) + fabs(a->contact);
@@ -353,7 +353,7 @@ static void run_to(const scene *s, double time)
     }
 }
 
-/* What the bit and the drives know is the same in both. */
+/* The memory of the bit and the drives is the same in both. */
 static void check_bit(const scene *a, const scene *b, double tolerance)
 {
     const dmb_bit_state x = bit_of(a), y = bit_of(b);

@@ -1,6 +1,6 @@
-/* What contact queries say after a static start that slips, held against Newton's law of the whole: friction, normal
- * forces, weight and the force at the far end balance what the guide and the drive hold, in every law and direction,
- * after a snapshot too; a step in time takes it away again. */
+/* Contact queries after a static start that slips, against Newton's law of the whole: friction, normal forces, weight
+ * and the force at the far end balance what the guide and the drive hold, in every law and direction, after a snapshot
+ * too; a step in time takes it away again. */
 #include <stdlib.h>
 
 #include "rig.h"

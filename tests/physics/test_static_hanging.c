@@ -144,7 +144,7 @@ static hanging open_rising(double angle)
     return h;
 }
 
-/* What is below a joint hangs straight down, the head carries the weight; the state is stable. */
+/* Parts below a joint hang straight down, the head carries the weight; the state is stable. */
 static void rising_chain(void **state)
 {
     static const double degrees[] = {0.0, 10.0, 28.24, 45.0, 60.0, 75.0, 85.0};

@@ -205,7 +205,7 @@ static void path_tells_greenhills_torque(void **state)
     check_order("Greenhill's torque, 32 and 64 elements", error[1], error[2], 2.0, 0.05);
 }
 
-/* Where a path ends the report tells how far it came: twisted by 2.5 rad an element. */
+/* At the end of a path the report tells how far it came: twisted by 2.5 rad an element. */
 static void lost_path_is_reported(void **state)
 {
     (void)state;

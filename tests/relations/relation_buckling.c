@@ -17,7 +17,7 @@ static double column_load(const scene *s)
            (s->span * s->span);
 }
 
-/* What acts beside the push. */
+/* Loads beside the push. */
 typedef struct extras {
     double weight; /* [N] of the line, towards its rig end */
     double torque; /* [N m] over a newton of the push */
@@ -328,7 +328,7 @@ static void hold_path_in_hole(trial *t, built *b, double factor)
     t->telling = 1;
 }
 
-/* What was just kicked stays near: it swings no further late than early. */
+/* After a kick the string stays near: it swings no further late than early. */
 static void hold_staying(trial *t, double factor)
 {
     static scene s;
@@ -382,7 +382,7 @@ static void check_snaked(trial *t)
 
 /* ---- All -------------------------------------------------------------------------------------------------------- */
 
-/* What the analysis says of the line under its present push. */
+/* The answer of the analysis about the line under its present push. */
 typedef struct told {
     double factor, next; /* infinite: none */
     dmb_buckling_info info;

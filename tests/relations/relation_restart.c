@@ -136,8 +136,8 @@ static void check_carried(trial *t)
 
 /* ---- Handed over under way -------------------------------------------------------------------------------------- */
 
-/* What is handed over is the state: positions, speeds, forces and works are those of the sim it comes from. What comes
- * after is another run, since accelerations are made anew. */
+/* The state is handed over: positions, speeds, forces and works are those of the sim it comes from. The steps after it
+ * are another run, since accelerations are made anew. */
 /* The step in which a bristle breaks away ends with the friction of sticking, and the state after it has that of
  * sliding: accelerations made anew are other ones (seed 1, scene 306). */
 static int bristles_break_away(const scene *s)

@@ -101,7 +101,7 @@ double view_roll(const scene *original, const scene *transformed, const scene_vi
 
 /* ---- Data ------------------------------------------------------------------------------------------------------- */
 
-/* How the axes of a part see the transformation: B = Rx(roll) diag(1, 1, handed). */
+/* The transformation in the axes of a part: B = Rx(roll) diag(1, 1, handed). */
 typedef struct axes {
     double matrix[9], handed;
 } axes;

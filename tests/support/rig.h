@@ -1,4 +1,4 @@
-/* What a physics test works on: a model and its sim, with refusals turned into failures that tell the library's
+/* The subject of a physics test: a model and its sim, with refusals turned into failures that tell the library's
  * message. */
 #ifndef DMB_TESTS_RIG_H
 #define DMB_TESTS_RIG_H

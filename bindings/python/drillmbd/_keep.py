@@ -1,4 +1,4 @@
-"""What the library may still call back, and help with arguments."""
+"""Callbacks that the library may still call, and help with arguments."""
 from __future__ import annotations
 
 import os
@@ -58,8 +58,8 @@ def mirrors(name: str) -> Callable[[F], F]:
 
 
 class Keep:
-    """Functions that the library may still call: held by the model and by every sim made from it. What a callback raises
-    is kept until the call returns in the same thread."""
+    """Functions that the library may still call: held by the model and by every sim made from it. An exception of a
+    callback is held until the call returns in the same thread."""
 
     def __init__(self) -> None:
         self.references: list[Any] = []

@@ -1,4 +1,4 @@
-"""What every struct of the interface has in common: fields that are checked, defaults from the library, a description
+"""The base of every struct of the interface: fields that are checked, defaults from the library, a description
 in plain Python that it can be made from again, and so copies and pickles."""
 from __future__ import annotations
 

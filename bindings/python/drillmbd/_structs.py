@@ -1008,11 +1008,11 @@ class WindowResult(Sized):
         "samples": ("-", "in the window"),
         "time": ("s", "that it spans; 0 with one sample: means are the sample then"),
         "minimum": ("unit of the channel", "of the samples; NaN, as all that follow, without one"),
-        "maximum": ("", ""),
-        "mean": ("", ""),
-        "rms": ("", "root of the mean square, 0 included in the mean"),
+        "maximum": ("unit of the channel", ""),
+        "mean": ("unit of the channel", "over time"),
+        "rms": ("unit of the channel", "root of the mean of the squares over time"),
         "index": ("-", "(maximum - minimum)/(2 |mean|): of the bit speed the stick-slip index, 1 where the bit comes to rest; 0 where nothing varies, infinite about a mean of 0"),
-        "low_share": ("-", "of the time with |value| at or below its level, by the sample at the end of each interval"),
+        "low_share": ("-", "of the time, |value| <= its level, by the sample at the end of each interval"),
     }
 
 
@@ -1652,7 +1652,7 @@ class Parameter(Sized):
     ]
     field_docs = {
         "one_sided": ("", "1: steps are taken on the high side only, at half the cost; errors are then of first order in `step`, not of second; default 0"),
-        "step": ("unit of the parameter", "> 0: `high` has it this much above the sim, `low` this much below. What the parameter moves should move by 1e-9 .. 1e-6 of its scale: less is lost in rounding, of more the third power is felt"),
+        "step": ("unit of the parameter", "> 0: `high` has it this much above the sim, `low` this much below. Quantities that depend on it should change by 1e-9 .. 1e-6 of their scale: less is lost in rounding, of more the third power is felt"),
         "low": ("", "only read, and only by dmb_sensitivity_create"),
         "high": ("", "likewise"),
         "name": ("", "for messages, ends with 0; default \"\""),

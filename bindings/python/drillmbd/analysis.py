@@ -162,7 +162,7 @@ class Analyses:
     @mirrors("dmb_analysis_torque_drag")
     def torque_drag(self, operations: Any = None, depths: Sequence[float] | None = None,
                     options: TorqueDragOptions | None = None, **fields: Any) -> TorqueDrag:
-        """What the rig must pull, push and turn, by depth [m] and operation: Operation structs, or OPERATION_... for usual
+        """Hook load and torque of the rig by depth [m] and operation: Operation structs, or OPERATION_... for usual
         ones; all of these where none are given. depths: of the far end; one, as described, where none are given."""
         options = struct(TorqueDragOptions, options, fields)
         asked = [usual_operation(one) if isinstance(one, int) else one

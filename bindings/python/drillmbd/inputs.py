@@ -33,7 +33,7 @@ class Inputs(MutableMapping[str, float]):
 
     @mirrors("dmb_sim_get_input")
     def state(self, name: str) -> InputState:
-        """What is set, what is in force on the way there, its rate, and when it arrives."""
+        """The set point, the value in force on the way there, its rate, and the time of arrival."""
         answer: InputState = self._sim._ask(_lib.dmb_sim_get_input, InputState.blank(), self._id(name))
         return answer
 
@@ -61,7 +61,7 @@ class Inputs(MutableMapping[str, float]):
 
     @mirrors("dmb_sim_record_inputs")
     def record(self, capacity: int = 10000) -> InputLog:
-        """What is set from now on goes into a log of at most `capacity` records."""
+        """Values set from now on go into a log of at most `capacity` records."""
         return InputLog(self._sim, capacity)
 
     @mirrors("dmb_sim_replay_inputs")

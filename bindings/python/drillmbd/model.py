@@ -1,4 +1,4 @@
-"""A scene: describe, compile. What was described is kept, so a model copies, compares and pickles."""
+"""A scene: describe, compile. The description is kept, so a model copies, compares and pickles."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -61,7 +61,7 @@ class Model(Handle):
     # ---- Calls ------------------------------------------------------------------------------------------------------
     @property
     def message(self) -> str:
-        """What the last failing or noteworthy call on this model said."""
+        """The message of the last failing or noteworthy call on this model."""
         return str(_lib.dmb_model_message(self._handle).decode())
 
     def _check(self, status: int) -> int:

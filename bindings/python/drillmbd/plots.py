@@ -99,7 +99,7 @@ def history(table: Any, columns: Sequence[str], title: str = "") -> Any:
 
 
 def recording(recorder: Recorder, title: str = "") -> Any:
-    """What a recorder has, over time."""
+    """The columns of a recorder over time."""
     return history(recorder.table, recorder.columns, title)
 
 

@@ -49,7 +49,7 @@ class Output:
             print(text)
 
     def note(self, status: int, of: str) -> None:
-        """What a status above 0 says."""
+        """Tells the text of a status above 0."""
         if status > 0:
             from .errors import status_text
             self.note_text(f"{of}: {status_text(status)}")
@@ -107,7 +107,7 @@ def record(struct: Any) -> dict[str, Any]:
 
 # ---- The questions ---------------------------------------------------------------------------------------------------
 def check(scene: Scene, output: Output, options: Any) -> int:
-    """What it consists of."""
+    """The parts of the scene."""
     with scene.new_sim() as sim:
         output.note(sim.status, "start")
         report, text = sim.check(), sim.check_text()
@@ -359,7 +359,7 @@ def _along_pipes(figure: Any) -> Any:
 
 
 def response(scene: Scene, output: Output, options: Any) -> int:
-    """What shakes how much."""
+    """The causes of vibration and their severity."""
     numpy = need("numpy")
     with scene.new_sim() as sim:
         to_rest(scene, sim, output, linear=True)
@@ -423,7 +423,7 @@ def friction_option(options: Any) -> dict[str, Any]:
 
 
 def torque_drag(scene: Scene, output: Output, options: Any) -> int:
-    """What the rig must pull, push and turn, by depth and operation."""
+    """Hook load and torque of the rig by depth and operation."""
     from .command import Usage
     weight = quantity(options.weight_on_bit, "N", "--weight-on-bit")
     torque = quantity(options.torque_on_bit, "N*m", "--torque-on-bit")
@@ -502,7 +502,7 @@ def report(scene: Scene, output: Output, options: Any) -> int:
 
 
 def stuck(scene: Scene, output: Output, options: Any) -> int:
-    """What arrives at a stuck far end."""
+    """Force and torque that arrive at a stuck far end."""
     from .stuck import stuck as answer
     return answer(scene, output, options)
 

@@ -91,7 +91,7 @@ class Study:
         self.figures.append(("Torque by operation", "", self._along("torque", 1.0, "torque [N m]", "torque")))
 
     def _torque_drag(self) -> None:
-        """What the rig must pull, push and turn while the hole is drilled, by depth: the soft string."""
+        """Hook load and torque by depth while the hole is drilled: the soft string."""
         with self.scene.new_sim() as sim:
             try:
                 last = sim.torque_drag([enums.OPERATION_ROTATE], string=self.part).rows[0][0].depth
@@ -390,7 +390,7 @@ def page(study: Study) -> str:
 
 
 def assumptions(study: Study) -> list[tuple[str, str]]:
-    """What the answers rest on."""
+    """The basis of the answers."""
     scene, info = study.scene, study.scene.model.info()
     calls = scene.model.calls
     wall: Any = _structs.WallDef(**next((arguments[0] for name, arguments in calls if name == "add_wall"), {}))

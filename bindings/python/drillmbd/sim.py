@@ -45,7 +45,7 @@ class Taker(Protocol):
 
 @dataclass
 class Progress:
-    """How far Sim.run has come, for its progress function."""
+    """Progress of Sim.run, for its progress function."""
     time: float       #: [s] of the sim
     end: float        #: [s] where the run ends
     steps: int        #: [-] accepted so far in this run
@@ -112,7 +112,7 @@ class Sim(Handle, analysis.Analyses):
 
     @property
     def message(self) -> str:
-        """What the last failing or noteworthy call on this sim said."""
+        """The message of the last failing or noteworthy call on this sim."""
         return str(_lib.dmb_sim_message(self._handle).decode())
 
     @property
@@ -201,7 +201,7 @@ class Sim(Handle, analysis.Analyses):
 
     @property
     def inputs(self) -> Inputs:
-        """What the model's inputs are set to, by name: sim.inputs["rotation"] = 12.0; units in sim.inputs.info."""
+        """The values of the model's inputs, by name: sim.inputs["rotation"] = 12.0; units in sim.inputs.info."""
         return Inputs(self)
 
     @mirrors("dmb_sim_set_joint")

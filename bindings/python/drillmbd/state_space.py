@@ -166,7 +166,7 @@ class Arrays:
 
     @mirrors("dmb_query_row")
     def row(self, row: int) -> Row:
-        """Whose a row is."""
+        """The part or node that a row belongs to."""
         answer: Row = Row.blank()
         check(_lib.dmb_query_row(self._sim._handle, row, byref(answer)))
         return answer

@@ -15,7 +15,7 @@ from .sim import Sim
 
 
 def _solve(of: Callable[[float], float], low: float, high: float) -> float:
-    """Where a rising function is 0, by halves."""
+    """The zero of a rising function, by bisection."""
     for _ in range(80):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if of(middle) < 0.0 else (low, middle)
@@ -65,7 +65,7 @@ def free_length(scene: Scene, string: Any, pull: float, stretch: float) -> float
 
 
 def stuck(scene: Scene, output: Output, options: Any) -> int:
-    """What arrives at a stuck far end, and how far the string is free by its stretch."""
+    """Force and torque that arrive at a stuck far end, and how far the string is free by its stretch."""
     from .command import Usage
     limits = {name: quantity(text, unit, f"--{name}") if text is not None else scene.limits.get(name)
               for name, text, unit in (("pull", options.pull, "N"), ("push", options.push, "N"),

@@ -1,9 +1,9 @@
-/* Growth of damped modes on the way along the equilibria. Where K is unsymmetric a state loses its stability before det
- * K passes 0 when a complex pair of roots of  det(s^2 M + s C + K) = 0  crosses the imaginary axis: flutter (Ziegler
- * 1952). The eigenvalues of K alone do not tell: at which load a complex pair of them becomes real and negative depends
- * on the weights that they are measured by, and nothing happens to the motion there. So the damped modes are found at
- * the points of the path, and where one grows the factor is closed in between the last point at which none did and this
- * one. */
+/* Growth of damped modes on the way along the equilibria. Where K is unsymmetric, a state loses its stability before
+ * det K passes 0 when a complex pair of roots of  det(s^2 M + s C + K) = 0  crosses the imaginary axis: flutter
+ * (Ziegler 1952). The eigenvalues of K alone do not tell: at which load a complex pair of them becomes real and
+ * negative depends on the weights that they are measured by, and nothing happens to the motion there. So the damped
+ * modes are found at the points of the path, and where one grows the factor is closed in between the last point at
+ * which none did and this one. */
 #ifndef DMB_ANALYSIS_BUCKLING_FLUTTER_H
 #define DMB_ANALYSIS_BUCKLING_FLUTTER_H
 

@@ -173,7 +173,7 @@ void dmb_linear_release(dmb_linear **linear)
     *linear = NULL;
 }
 
-/* How far a state is from an equilibrium. */
+/* The distance of a state from an equilibrium. */
 
 /* Units of rounding of a pose that count. */
 #define DMB_LINEAR_ROUNDING (16.0 * DBL_EPSILON)

@@ -21,8 +21,8 @@
  *
  *     C = C_v - M w^ + M g^,     K = K_H + (C_v - M w^) g^ + M a^,
  *
- * constant for what is round, even where a turning string lies on the wall. Whatever is integrated along with the
- * motion, bristles that stick and the integral part of speed controllers, is stiffness here (the part that v^ d has in
+ * constant for what is round, even where a turning string lies on the wall. States that are integrated along with the
+ * motion, bristles that stick and the integral part of speed controllers, are stiffness here (the part that v^ d has in
  * it, left out, is none for drives along and about the axis). The memory of a regenerative rock law is not: its past is
  * taken as given. A nonholonomic equation holds d as it holds d'. Friction has the derivative of its law; one that is
  * smooth at rest is a damper there. */

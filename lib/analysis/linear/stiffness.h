@@ -5,8 +5,9 @@
 #include "system/assemble/evaluation.h"
 
 /* Factors the iteration matrix in the stiffness_ blocks (held rows identity) as dmb_factor_stiffness, and counts its
- * negative eigenvalues in the independent coordinates, of its symmetric part where friction makes it unsymmetric. What
- * is 0 but for rounding does not count in chains without joints: a buckled column may turn about its load. */
+ * negative eigenvalues in the independent coordinates, of its symmetric part where friction makes it unsymmetric. A
+ * pivot that is 0 but for rounding does not count in chains without joints: a buckled column may turn about its load.
+ */
 int64_t dmb_stiffness_factor(dmb_sim *sim, dmb_block_weakest *weakest, int32_t *negative);
 /* Of the chains that no joint connects, from the iteration matrix as it is formed; raised by rounding: *rounding [N/m]
  * of displacements, below which an eigenvalue counts as 0. */

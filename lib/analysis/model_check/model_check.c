@@ -128,7 +128,7 @@ int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report)
     return status;
 }
 
-/* Which parts would fall: chains of nodes that joints connect make groups, and something has to hold each. */
+/* Parts that would fall are told: chains of nodes that joints connect make groups, and something has to hold each. */
 
 /* Union and find over nodes, the smallest of a group being its root; held: by root. */
 typedef struct groups {

@@ -14,7 +14,7 @@
 #define DMB_SUNK 0.01            /* of the hole's radius: deeper than a part that lies on the wall */
 #define DMB_DEPTH_ROUNDING 1e-6  /* [m] */
 
-/* Where the lines go. */
+/* The buffer that lines are written to. */
 typedef struct sink {
     const dmb_model_check *check;
     const dmb_sim *sim;
@@ -208,7 +208,7 @@ static void small_masses(const sink *to)
 
 /* ---- Hole -------------------------------------------------------------------------------------------------------- */
 
-/* Where parts still stand as described any overlap is one; later the wall gives way under what lies on it. */
+/* Where parts still stand as described, any overlap is one; later the wall gives way under what lies on it. */
 static double allowed_penetration(const dmb_sim *sim, uint32_t node)
 {
     const double *u = sim->now.displacement + 3 * (size_t)node;

@@ -1,4 +1,4 @@
-/* How well modes satisfy their equations, and how they are improved. */
+/* The residual of modes in their equations, and its reduction by inverse iteration. */
 #include <complex.h>
 #include <float.h>
 #include <math.h>
@@ -208,7 +208,7 @@ int32_t dmb_modes_check(dmb_mode_search *search)
  *
  * Each turn takes |s - p| over the distance to the next root off the error. */
 
-/* How far p is from the root, for pivots; and turns at most. */
+/* Relative distance of p from the root, which keeps pivots regular; and the largest number of iterations. */
 #define DMB_POLISH_ASIDE 1e-7
 enum { DMB_POLISH_TURNS = 3 };
 

@@ -245,7 +245,7 @@ static int32_t make_conditions(conditions *c)
 
 /* ---- Motions ----------------------------------------------------------------------------------------------------- */
 
-/* Where the entries of each condition begin among those sorted by it. */
+/* Offsets of the entries of each condition, sorted by it. */
 static void sort_entries(const conditions *c, size_t *start, entry *sorted)
 {
     for (size_t i = 0; i < c->entry_count; i++) start[c->entries[i].condition + 1]++;

@@ -1,4 +1,4 @@
-/* Which modes are looked for, and in which way. */
+/* Choice of the modes that are sought, and of the method. */
 #include <float.h>
 #include <math.h>
 
@@ -71,8 +71,9 @@ static int32_t choose_shift(dmb_mode_search *search)
     return status;
 }
 
-/* How many modes of |s| below that of the last one wanted the search has missed, by the count of eigenvalues between
- * the negative and the positive square; nothing can be counted where those are noise, with joints or damping. */
+/* The number of modes of |s| below that of the last one wanted the search has missed, by the count of eigenvalues
+ * between the negative and the positive square; nothing can be counted where those are noise, with joints or damping.
+ */
 static uint32_t missed(const dmb_mode_search *search)
 {
     const dmb_modes *modes = search->modes;

@@ -95,7 +95,7 @@ static void end_band(search *s, double speed)
     s->count++;
 }
 
-/* Where the straight line between two speeds meets the threshold. */
+/* The speed at which the straight line between two speeds meets the threshold. */
 static double crossing(const search *s, double a, double at_a, double b, double at_b)
 {
     return a + (b - a) * (s->options->threshold - at_a) / (at_b - at_a);

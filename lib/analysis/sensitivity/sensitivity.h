@@ -55,7 +55,7 @@ static inline int dmb_field_has_numbers(const dmb_field *field)
 {
     return field->check == DMB_CHECK_NUMBERS || field->check == DMB_CHECK_INPUTS;
 }
-/* How many numbers a state has, and all of them. */
+/* The number of values in a state, and these values. */
 size_t dmb_state_count(const dmb_sim *sim);
 void dmb_state_read(const dmb_sim *sim, int32_t group, double *to);
 /* Rates of one field of the state, by where its data are in the sim. */

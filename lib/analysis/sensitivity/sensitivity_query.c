@@ -1,4 +1,4 @@
-/* What is asked of rates: channels, rows, corners passed. */
+/* Questions about rates: channels, rows, corners passed. */
 #include <string.h>
 
 #include "analysis/sensitivity/sensitivity.h"

@@ -52,8 +52,8 @@ static void take_difference(dmb_sensitivity *s, dmb_rated_parameter *p, const do
     }
 }
 
-/* What is done on both sides of a parameter: a step, or accelerations made anew. *sides tells the side of corners that
- * it ends on. */
+/* The task on both sides of a parameter: a step, or accelerations made anew. *sides tells the side of corners that it
+ * ends on. */
 typedef int32_t (*move)(dmb_sensitivity *s, const dmb_lead *lead, double *to, uint64_t *sides);
 
 static int32_t step_beside(dmb_sensitivity *s, const dmb_lead *lead, double *to, uint64_t *sides)

@@ -7,7 +7,7 @@
 #include "math/dense.h"
 #include "sim/node.h"
 
-/* What is left of a shape beside those before it, by its length in M, below which it is one of them. */
+/* A shape depends on those before it where its part outside of them is below this share of its length in M. */
 #define DMB_SHAPE_NEW 1e-6
 /* A pivot over the largest entry of its block below which nothing but rounding holds a motion. */
 #define DMB_SHAPE_HELD 1e-13

@@ -152,7 +152,7 @@ static void add_accelerations(dmb_space_work *w, const double *by_shape, double 
     }
 }
 
-/* What the output makes of the rate of the speed i is rounding. */
+/* The output's share of the rate of the speed i is rounding. */
 static int feels_no_rate(const dmb_space_work *w, const dmb_output_rows *o, const double *by_shape, uint32_t i)
 {
     const double *p = w->inputs[i].re;

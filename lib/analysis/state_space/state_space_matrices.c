@@ -1,5 +1,5 @@
-/* M, C and K of a linear system by all rows, and the Jacobian of its constraints, as sparse rows. What a row that is
- * held exerts and takes stands apart in a linear system: its column in held_columns, its row in held_rows. */
+/* M, C and K of a linear system by all rows, and the Jacobian of its constraints, as sparse rows. A linear system has
+ * the forces of a held row apart from the rest: its column in held_columns, its row in held_rows. */
 #include <string.h>
 
 #include "analysis/state_space/state_space.h"

@@ -1,4 +1,4 @@
-/* Outputs by all rows. What a response makes of them is taken over: their functionals as they are, forces of guides and
+/* Outputs by all rows. They are taken from the response: their functionals as they are, forces of guides and
  * constraints by asking for their part of each row's force, a_r = -(output for a force of one on row r, nothing
  * moving). */
 #include <string.h>

@@ -253,7 +253,7 @@ static int32_t take_motion(dmb_static_search *search)
 }
 
 /* At the start the rock lies where the description puts it ahead of the bit; the forces of the restart need it there.
- * Where bits drill it is as they have left it. */
+ * Under bits that drill it is as they have left it. */
 static void lay_rock(dmb_static_search *search)
 {
     dmb_sim *sim = search->sim;

@@ -1,4 +1,4 @@
-/* Where a search begins: strings lie on the low side of their hole, or where their pull presses them in a bend. The
+/* The start of a search: strings lie on the low side of their hole, or where their pull presses them in a bend. The
  * wall is closed from the first iteration on then; Newton does not meet the softness of a string that hangs free. */
 #include <math.h>
 

@@ -1,4 +1,4 @@
-/* How a correction moves the trial. All ways agree to first order; in a hole the finite move keeps what the equations
+/* The trial is moved by a correction. All ways agree to first order; in a hole the finite move keeps what the equations
  * do not change under, so that strings that wind up by radians and climb round the wall converge as fast as others. */
 #include "analysis/static/static.h"
 #include "math/se3.h"

@@ -211,7 +211,7 @@ static int32_t check_line(dmb_sim *sim, uint32_t i, double bound)
     return DMB_ERR_UNSUPPORTED;
 }
 
-/* What a caller's force does to what moves is not known. */
+/* The effect of a caller's force on parts that move is not known. */
 static int32_t check_caller_force(dmb_sim *sim, uint32_t i, double bound)
 {
     const dmb_scene_force *force = sim->scene->forces + i;

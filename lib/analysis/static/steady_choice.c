@@ -1,4 +1,5 @@
-/* Which steady state the motion drives of a scene ask for, how fast it is, and what in the scene does not allow it. */
+/* Choice of the steady state that the motion drives of a scene ask for: its speed, and parts of the scene that rule it
+ * out. */
 #include <math.h>
 #include <string.h>
 

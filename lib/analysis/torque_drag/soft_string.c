@@ -135,7 +135,7 @@ static double piece_above(const dmb_hole *hole, double depth)
     return piece > hole->piece ? piece[-1].depth : -(double)INFINITY;
 }
 
-/* Where the next step ends that begins at the present place: at `end` at the latest, which is exact. */
+/* The end of the step that begins at the present place: `end` at the latest, which is exact. */
 static double next_depth(const march *m, double end, double spacing)
 {
     const double depth = m->place.depth, start = m->soft->start;

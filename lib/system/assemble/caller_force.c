@@ -17,7 +17,7 @@ static const double places_of_weight[4] = {-2.0, -1.0, 1.0, 2.0};
 
 typedef double matrix[WIDE][WIDE];
 
-/* What a callback is asked: poses in the world, velocities in the axes that it asks for; of a joint its coordinate in
+/* Arguments of a callback: poses in the world, velocities in the axes that it asks for; of a joint its coordinate in
  * x[0] and v[0]. */
 typedef struct question {
     const dmb_scene_force *force;
@@ -405,7 +405,7 @@ static void apply(dmb_sim *sim, const argument *a, const double f[6])
     if (joint->a.node != DMB_NONE) dmb_apply_wrench(sim, joint->a.node, wa);
 }
 
-/* What a potential gives up is work of potential forces, the rest of the power that of loads. */
+/* The rate of a potential is work of potential forces, the rest of the power is that of loads. */
 static int32_t add_power(dmb_evaluation *evaluation, const question *ask, const argument *a, const answer *to)
 {
     double power = 0.0, rate = 0.0;

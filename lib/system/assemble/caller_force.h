@@ -5,8 +5,8 @@
  *
  *     residual -L^T w,   K = -L^T (A L + B dV/dq) - d(L^T) w,   C = -L^T B L,   A = dw/dz, B = dw/dV
  *
- * z the displacements in the same axes. What is given in the axes of the world, f = R w by dx = R z, v = R V, turns:
- * A = R^T A_w R + R^T B_w R (z_r x V) + w x z_r, B = R^T B_w R. */
+ * z the displacements in the same axes. Derivatives given in the axes of the world, f = R w by dx = R z, v = R V, are
+ * turned: A = R^T A_w R + R^T B_w R (z_r x V) + w x z_r, B = R^T B_w R. */
 #ifndef DMB_SYSTEM_ASSEMBLE_CALLER_FORCE_H
 #define DMB_SYSTEM_ASSEMBLE_CALLER_FORCE_H
 

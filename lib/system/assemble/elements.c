@@ -18,7 +18,7 @@ static double span_of(const dmb_scene *scene, uint32_t e, const double *ua, cons
     return reach;
 }
 
-/* Where the kernels find and leave what belongs to a batch: its nodes, rows and blocks follow one another. */
+/* Inputs and outputs of the kernels for a batch: its nodes, rows and blocks follow one another. */
 static dmb_beam_job run_of(const dmb_sim *sim, const dmb_batch *batch)
 {
     const dmb_scene *scene = sim->scene;

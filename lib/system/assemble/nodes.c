@@ -11,8 +11,8 @@
 
 /* ---- FULL nodes, by the kernels ---------------------------------------------------------------------------------- */
 
-/* Where the kernels find and leave what belongs to `count` FULL nodes from `node` on; `rigid_mass` is the first that
- * may be on them. */
+/* Inputs and outputs of the kernels for `count` FULL nodes from `node` on; `rigid_mass` is the first that may be on
+ * them. */
 static dmb_node_force_job run_of(const dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
 {
     const dmb_sim *sim = evaluation->sim;

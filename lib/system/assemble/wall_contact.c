@@ -119,7 +119,7 @@ static dmb_site_fields fields_of(const dmb_configuration *configuration)
     return fields;
 }
 
-/* Where the kernels find and leave what belongs to the sites. */
+/* Inputs and outputs of the kernels for the sites. */
 static dmb_wall_job job_of(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

@@ -311,7 +311,7 @@ void dmb_clusters_take_multipliers(dmb_sim *sim)
     memcpy(sim->now.multiplier, sim->trial.multiplier, sim->scene->constraint_row_count * sizeof(double));
 }
 
-/* How far a trial is from satisfying its equations of position, in metres. */
+/* The constraint violation of a trial, in metres. */
 
 /* [m] least move that satisfies a row of a cluster alone: its violation over the length of its row in weighted
  * columns. */

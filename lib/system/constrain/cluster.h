@@ -3,8 +3,8 @@
  *
  * A trial satisfies its constraints at all three levels before its residual is formed (settle): poses, speeds and
  * accelerations move by the least change, in the metric of cluster_weight, that makes C = 0, B v + rate = 0 and
- * B v' + convective = 0. This does not depend on the partition, so the partition may change between any two steps. What
- * is left to solve is R^T residual = 0 in the independent coordinates, R = [G; I] (constraint/partition.h). */
+ * B v' + convective = 0. This does not depend on the partition, so the partition may change between any two steps. R^T
+ * residual = 0 remains to be solved in the independent coordinates, R = [G; I] (constraint/partition.h). */
 #ifndef DMB_SYSTEM_CONSTRAIN_CLUSTER_H
 #define DMB_SYSTEM_CONSTRAIN_CLUSTER_H
 

@@ -136,7 +136,7 @@ static question at_time(const question *ask, double s)
     return moved;
 }
 
-/* How a question goes on, and what is asked of it. */
+/* A path of arguments over s, and a quantity that depends on them. */
 typedef question (*path)(const question *ask, double s);
 typedef int32_t (*quantity)(const question *ask, double value[ROWS]);
 

@@ -14,7 +14,7 @@ void dmb_joint_reactions(dmb_evaluation *evaluation);
 void dmb_joints_accept(dmb_evaluation *evaluation);
 /* Turns of the trial by the coordinates of joint j. */
 void dmb_joint_take_turns(dmb_sim *sim, uint32_t j, const dmb_joint_coordinates *c);
-/* Where joint j would hold frame b if it were locked in the pose of now. */
+/* The pose in which joint j would hold frame b if it were locked in the pose of now. */
 void dmb_joint_hold(dmb_sim *sim, uint32_t j);
 /* The state of joint j from now on, DMB_JOINT_...; where that is LOCKED it holds frame b as it is in the pose of now.
  */

@@ -69,7 +69,7 @@ void dmb_sparse_note(dmb_sim *sim)
 
 /* ---- The matrix -------------------------------------------------------------------------------------------------- */
 
-/* Where B^T of a row stands that has index i in its block: of a node's column c at to[step * c]. *before: the node is
+/* Offsets of B^T of a row that has index i in its block: of a node's column c at to[step * c]. *before: the node is
  * eliminated with the row or before it. */
 static double *place_of(const dmb_sim *sim, uint32_t block, uint32_t i, uint32_t node_block, size_t *step, int *before)
 {

@@ -12,7 +12,7 @@
 
 /* Assembles the reduced system from the iteration matrix, in independent coordinates. */
 void dmb_reduced_assemble(dmb_sim *sim);
-/* Assembles by DMB_METHOD_..., and factors. What follows takes the system as it was made last. Node of a singular
+/* Assembles by DMB_METHOD_..., and factors. The functions below take the system as it was made last. Node of a singular
  * block, or -1. weakest may be NULL; its block is a node too. */
 int64_t dmb_reduced_factor(dmb_sim *sim, int32_t method, dmb_block_weakest *weakest);
 /* z: right-hand side in, solution out, in the rows of jointed chains; multipliers of the trial move too where they are

@@ -16,7 +16,7 @@ typedef struct pose {
     double R[9], p[3];
 } pose;
 
-/* What is differentiated: rows of a kind; of a joint locked at `at`; the coordinates. */
+/* The functions that are differentiated: rows of a kind; of a joint locked at `at`; the coordinates. */
 enum { LOCKED = DMB_ROWS_KINDS, COORDINATES = DMB_ROWS_KINDS + 1, ALL_KINDS = DMB_ROWS_KINDS + 2 };
 typedef struct joint {
     int32_t kind;

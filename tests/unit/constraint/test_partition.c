@@ -18,7 +18,7 @@ typedef struct cluster {
     double work[MAX * MAX + MAX], lu[MAX * MAX], G[MAX * MAX], gram[MAX * MAX];
 } cluster;
 
-/* What a random cluster may have. */
+/* The parameters of a random cluster. */
 typedef struct kind {
     double row_decades;    /* rows are multiplied by 10^-this .. 10^this */
     double weight_decades; /* columns likewise */
@@ -32,7 +32,7 @@ static uint32_t draw_integer(uint64_t *seed, uint32_t low, uint32_t high)
     return low + (uint32_t)draw_between(seed, 0.0, (double)(high - low) + 0.999999);
 }
 
-/* An empty matrix with unit weights. What stands between the rows must never be used. */
+/* An empty matrix with unit weights. Numbers between the rows must never be used. */
 static void clear(cluster *c, uint32_t rows, uint32_t columns)
 {
     memset(c, 0, sizeof *c);

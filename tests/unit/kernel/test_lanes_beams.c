@@ -86,7 +86,7 @@ static void draw_gentle(uint64_t *seed, beam_input *in)
 
 /* ---- Runs -------------------------------------------------------------------------------------------------------- */
 
-/* What is only added to begins at 0, what is written at a number that no element gives. */
+/* Sums begin at 0, outputs that are written at a number that no element gives. */
 static void clear(const beam_input *in, const beam_case *c, beam_output *out)
 {
     memset(out, 0, sizeof *out);

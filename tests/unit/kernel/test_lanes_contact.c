@@ -8,7 +8,7 @@
 
 enum { NODES = 9, SITES = 21, ROWS = 6 * NODES, BLOCKS = 36 * NODES, STATIONS = 4, SEEDS = 6 };
 
-/* What a run reads, and what it writes (all of it compared byte by byte). */
+/* Inputs and outputs of a run (outputs are compared byte by byte). */
 typedef struct wall_input {
     dmb_site sites[SITES];
     dmb_hole hole;

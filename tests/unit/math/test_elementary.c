@@ -16,7 +16,7 @@
 
 enum { DRAWS = 20000 };
 
-/* What the reference may be wrong by itself, in units of the last place of a double. */
+/* The error of the reference itself, in units of the last place of a double. */
 #define DMB_REFERENCE (LDBL_MANT_DIG > DBL_MANT_DIG ? 0.01 : 1.0)
 
 static uint64_t state_of_draws;

@@ -336,7 +336,7 @@ static void arc_tangent_is_that_of_the_c_library(void **state)
 }
 
 /* On the axes. A zero counts as positive whatever its sign, unlike in the C library: turns are asked for by the nearest
- * revolution, to which both answers lead. Where both are 0 there is no angle. */
+ * revolution, to which both answers lead. There is no angle if both are 0. */
 static void arc_tangent_on_axes(void **state)
 {
     (void)state;

@@ -306,7 +306,7 @@ static void path_nodes_in_a_curved_hole(void **state)
     dmb_model_destroy(&model);
 }
 
-/* What does not follow the hole still knows its depth, for the wall to be found. */
+/* A string that does not follow the hole still has its depth, for the wall to be found. */
 static void depth_of_what_does_not_follow(void **state)
 {
     dmb_model *model = new_model();

@@ -35,7 +35,7 @@ static void allocator_must_be_whole(void **state)
     assert_null(model);
 }
 
-/* What is not a model is refused by everything. */
+/* Handles that are no model are refused by everything. */
 static void wrong_handles(void **state)
 {
     struct dmb_model other;
@@ -182,7 +182,7 @@ static void one_hole_a_model(void **state)
     dmb_model_destroy(&model);
 }
 
-/* What the caller does with its arrays afterwards does not matter. */
+/* Later changes of the caller's arrays do not matter. */
 static void arrays_are_copied(void **state)
 {
     dmb_model *model = new_model();
@@ -246,7 +246,7 @@ static void terms_of_another_size(void **state)
     dmb_model_destroy(&model);
 }
 
-/* What a term does not use is not kept, whatever it says. */
+/* Fields that a term does not use are not kept, whatever their value. */
 static void unused_fields_are_forgotten(void **state)
 {
     dmb_model *model = new_model();

@@ -86,7 +86,7 @@ static void rigid_acceleration(void **state)
     rig_close(&s);
 }
 
-/* What the sim does between two instants is what it says at the one in between. */
+/* The motion between two instants agrees with the query at the one in between. */
 static void differences_of_a_run(void **state)
 {
     (void)state;

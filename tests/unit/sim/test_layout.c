@@ -117,8 +117,8 @@ static void huge_counts_do_not_wrap(void **state)
     assert_true(large > small);
 }
 
-/* What is set aside is `now` and the memory, a snapshot holds the kept factors too: what is there once is not in two
- * groups, `trial` has its own place. */
+/* The backup has `now` and the memory, a snapshot the reused factors too: no field is in two groups, and `trial` has
+ * its own place. */
 static void groups_follow_the_lists(void **state)
 {
     (void)state;

@@ -144,7 +144,7 @@ class Draw:
         return found
 
     def changes(self, values: dict[str, Any]) -> dict[str, Any]:
-        """What scene.load takes: the scene of one sample."""
+        """Changes for scene.load that make the scene of one sample."""
         found: dict[str, Any] = {}
         for one in self.varies.scatters:
             for key, base, unit in zip(one.keys, one.base or (1.0,) * len(one.keys), one.units):

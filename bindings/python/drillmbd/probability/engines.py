@@ -168,7 +168,7 @@ def mpi_rank() -> tuple[int, int]:
 
 
 def mpi_work(sample: Any) -> None:
-    """What ranks above 0 do: samples, until they are told to end."""
+    """Ranks above 0 compute samples until they are told to end."""
     mpi = need("mpi4py.MPI")
     world, status = mpi.COMM_WORLD, mpi.Status()
     while True:

@@ -83,7 +83,7 @@ def _profile(quantity: int) -> dict[str, tuple[str, int, str]]:
 
 @dataclass(frozen=True)
 class How:
-    """How the demand of a kind is found."""
+    """The function that finds the demand of a kind, and the channels it needs."""
     demand: Callable[[Any, dict[str, Any], dict[str, float]], float]
     signals: dict[str, tuple[str, int, str]]  #: part, quantity, what of it
     fails_below: bool = False

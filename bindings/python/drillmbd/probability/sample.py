@@ -22,7 +22,7 @@ DONE, FAILED = 1, 2  #: of a sample: it has margins; it has a message instead
 
 @dataclass
 class Result:
-    """What became of a sample."""
+    """The outcome of a sample."""
     number: int
     status: int                    #: DONE or FAILED
     margins: list[float]           #: of each failure; NaN where it FAILED
@@ -59,7 +59,7 @@ class Own:
 
 @dataclass
 class OwnLook:
-    """What a limit state of one's own may look at, after the run."""
+    """Results of a run for limit states of the user's own."""
     scene: Scene
     sim: Any                       #: at the end of the run
     values: dict[str, Any]         #: of all that varies in this sample
@@ -116,7 +116,7 @@ class SceneSample:
         return self.draw.varies.names
 
     def describe(self) -> dict[str, str]:
-        """What the results depend on, for the study file."""
+        """All that the results depend on, for the study file."""
         from ..scene import saves
         scene = self.draw.scene
         known = {"scene": saves(scene)}

@@ -30,7 +30,7 @@ class StudyError(ValueError):
 
 
 class Sample(Protocol):
-    """What a study evaluates: a SceneSample, or anything with these."""
+    """The subject of a study: a SceneSample, or anything with these."""
 
     @property
     def names(self) -> list[str]:
@@ -45,7 +45,7 @@ class Sample(Protocol):
         """Of z."""
 
     def describe(self) -> dict[str, str]:
-        """What the results depend on."""
+        """All that the results depend on."""
 
     def __call__(self, number: int, z: Any) -> Result:
         """The result of a sample."""
@@ -79,7 +79,7 @@ def identity(sample: Sample, settings: dict[str, Any]) -> dict[str, str]:
 
 
 def differences(old: dict[str, str], new: dict[str, str]) -> list[str]:
-    """What differs, a line each; of texts the first lines that do."""
+    """The differences, a line each; of texts the first lines that differ."""
     told = []
     for key in sorted(set(old) | set(new)):
         a, b = old.get(key), new.get(key)
@@ -206,7 +206,7 @@ def read_rows(path: Any) -> tuple[Any, dict[str, str]]:
 
 @dataclass
 class Progress:
-    """How far a study has come."""
+    """Progress of a study."""
     done: int
     asked: int
     lost: int      #: samples without a margin so far
@@ -214,7 +214,8 @@ class Progress:
 
 
 class Study:
-    """Evaluates samples by an engine. What the file has is taken from there; without a file all is kept in memory."""
+    """Evaluates samples by an engine. Samples in the file are not computed again; without a file all is kept in
+    memory."""
 
     def __init__(self, sample: Sample, engine: Engine, file: StudyFile | None = None,
                  progress: Callable[[Progress], Any] | None = None) -> None:

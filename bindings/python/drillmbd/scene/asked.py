@@ -1,4 +1,4 @@
-"""What a scene file asks: options of the run, its channels, the analyses."""
+"""Questions of a scene file: options of the run, its channels, the analyses."""
 from __future__ import annotations
 
 import math

@@ -20,7 +20,7 @@ ANALYSES = ("static", "modes", "response", "speeds", "buckling", "fatigue")
 
 @dataclass
 class Scene:
-    """What a scene file says."""
+    """The content of a scene file."""
     title: str
     model: Model                    #: compiled
     names: dict[str, Id]            #: of parts and programmes

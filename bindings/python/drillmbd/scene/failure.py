@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Kind:
-    """What a kind of failure needs."""
+    """Requirements of a kind of failure."""
     unit: str                          #: of the limit
     about: str
     default: float | str | None = None  #: of the limit; a text names a key of [limits]

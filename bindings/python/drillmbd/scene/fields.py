@@ -1,4 +1,4 @@
-"""What may stand in a table of a scene file: the fields of a struct of the interface, with the units, enumerations and
+"""Keys of the tables of a scene file: the fields of a struct of the interface, with the units, enumerations and
 meaning that the headers give them. Nothing is written down twice."""
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def word_of(member: Any) -> str:
 
 
 def words_of(enum: Any) -> dict[str, int]:
-    """What may be written for an enumeration, with its value."""
+    """The words for an enumeration, with their values."""
     if enum is enums.Free:
         return {word_of(member): 1 << member.value for member in enums.Component}
     return {word_of(member): int(member.value) for member in enum.__members__.values() if word_of(member) != "count"}

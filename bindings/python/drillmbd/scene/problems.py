@@ -1,4 +1,4 @@
-"""What is wrong with a scene file: all of it, each with its line."""
+"""All faults of a scene file, each with its line."""
 from __future__ import annotations
 
 import difflib

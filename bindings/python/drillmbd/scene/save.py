@@ -252,7 +252,7 @@ class Writer:
         self._chance(self.scene)
 
     def _chance(self, scene: Scene) -> None:
-        """What varies and what counts as a failure."""
+        """The tables of variability and failure."""
         for head, table in variability.tables_of(scene.variability) if scene.variability else ():
             self._head(head)
             for key, value in table.items():

@@ -306,7 +306,7 @@ class Reader:
                                tuple(str(one) for one in found))
 
     def _base(self, key: str) -> float | None:
-        """What the scene says there, or the default."""
+        """The value in the scene, or the default."""
         path = path_of_key(key)
         holder: Any = self._holder(path)
         unit = unit_of_key(self.loader, path) or "-"

@@ -13,7 +13,7 @@ typedef struct judged {
     double *work;
 } judged;
 
-/* What dmb_analysis_modes judges its result with. */
+/* The bound by which dmb_analysis_modes judges its result. */
 static void open_judged(judged *j, const rig *s, const dmb_modes_options *options, dmb_modes *modes)
 {
     const dmb_linear_options as_it_is = {.contact = DMB_CONTACT_AS_IS};
