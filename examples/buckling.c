@@ -9,6 +9,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 #define PI 3.14159265358979323846
 #define PIPE 1.5         /* [m] */
 #define CLEARANCE 0.0105 /* [m] of a pipe of 73 mm in a hole of 94 mm */
@@ -312,7 +314,11 @@ static int32_t locked_up(void)
 
 int main(int count, char **words)
 {
-    if (count > 1) return fprintf(stderr, "'%s' is not wanted: buckling takes no arguments\n", words[1]), 2;
+    if (count > 1)
+        return command_line(count, words,
+                            "How hard can a string be pushed in its hole before it buckles, what happens then, and "
+                            "when does it lock up?",
+                            NULL, 0);
     const int32_t first = on_the_low_side(), second = as_a_helix(), third = locked_up();
     return first || second || third;
 }

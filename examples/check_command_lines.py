@@ -1,6 +1,6 @@
 """Checks what programs do with --help, with nonsense, and with a folder they cannot write.
 
-usage: check_command_lines.py PROGRAM...
+usage: check_command_lines.py PROGRAM...   (those of the examples)
 
 --help of programs with options tells every one and ends well; every other call here is refused: exit status above 0, a message on standard
 error that names what was wrong, nothing on standard output.
@@ -10,13 +10,14 @@ import subprocess
 import sys
 import tempfile
 
+# Programs that are not named here have no options.
 OPTIONS = {
     "gas_drainage_rig": ["--system", "--couple", "--pipes", "--length", "--elements", "--step", "--time", "--drop",
                          "--quick", "--output", "--rate", "--quiet", "--bit", "--seed"],
     "reference_study": ["--output", "--threads", "--step", "--short"],
     "safe_speeds": ["--output", "--threads", "--depth", "--order"],
     "turning_string": ["--threads"],
-    "buckling": [],
+    "failure_probability": ["--samples", "--threads", "--seed"],
 }
 NONSENSE = {
     "gas_drainage_rig": [["--pipes", "0"], ["--pipes", "2.5"], ["--pipes", "many"], ["--length", "-1"],
@@ -31,7 +32,7 @@ NONSENSE = {
     "turning_string": [["--threads", "0"], ["--threads", "-2"], ["--threads", "2x"], ["--threads", "65"],
                        ["--threads", "99999999999999999999"], ["--threads"], ["--threads", ""], ["--bogus", "7"],
                        ["--threads", "2", "more"]],
-    "buckling": [["--help"], ["7"]],
+    "failure_probability": [["--samples", "0"], ["--samples", "2.5"], ["--threads=x"], ["--seed", "-1"], ["--seed"]],
 }
 COMMON = [["--nonsense"], ["nonsense"], ["--output"]]
 
@@ -44,15 +45,18 @@ def call(program, arguments, folder):
 def failures_of(program, folder):
     name = pathlib.Path(program).name
     found = []
-    run = call(program, ["--help"], folder)
-    if OPTIONS[name] and (run.returncode != 0 or any(option not in run.stdout for option in OPTIONS[name])):
-        found.append(f"{name} --help does not tell all options:\n{run.stdout}{run.stderr}")
+    options = OPTIONS.get(name, [])
+    for word in ("--help", "-h"):
+        run = call(program, [word], folder)
+        if run.returncode != 0 or run.stderr or not run.stdout.startswith("Usage: " + name) or any(
+                option not in run.stdout for option in options):
+            found.append(f"{name} {word} does not tell all options:\n{run.stdout}{run.stderr}")
     (folder / "file").write_text("no folder\n", encoding="utf-8")
     unwritable = [["--output", path] for path in ("file", "file/below", "/proc/no/such/place", "x" * 5000, "")]
-    for arguments in NONSENSE[name] + COMMON + unwritable:
+    for arguments in NONSENSE.get(name, [["7"], [""]]) + COMMON + unwritable:
         run = call(program, arguments, folder)
-        unknown = [word for word in arguments if word.startswith("--") and word not in OPTIONS[name]]
-        wrong = (unknown or arguments[-1:])[0][:100]
+        unknown = [word for word in arguments if word.startswith("--") and word.split("=")[0] not in options]
+        wrong = (unknown or (arguments[-1:] if options else arguments))[0].split("=")[-1][:60]
         if run.returncode <= 0 or run.stdout or not run.stderr.strip() or wrong.lstrip("-") not in run.stderr:
             found.append(f"{name} {' '.join(arguments)[:100]}: exit status {run.returncode}, says {run.stderr!r}")
     return found

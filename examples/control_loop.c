@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "command_line.h"
+
 #define CYCLE 1e-3          /* [s] of the control unit */
 #define WANTED 20.0         /* [rad/s] */
 #define TORQUE_LIMIT 1250.0 /* [N m] of the rig */
@@ -142,8 +144,9 @@ static int32_t experiment(rig *r)
     return status;
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1) return command_line(count, words, "How does a rig's own controller run against the model?", NULL, 0);
     rig r = {0};
     dmb_statistics statistics = dmb_statistics_default();
     int32_t status = describe(&r);

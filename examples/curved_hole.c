@@ -8,6 +8,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 #define PIPES 60
 #define DEGREE (3.14159265358979323846 / 180.0)
 
@@ -85,8 +87,9 @@ static int32_t ask(dmb_model *model, dmb_sim *sim, dmb_id string)
     return status;
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1) return command_line(count, words, "Where does a string press against a curved hole?", NULL, 0);
     dmb_model *model = NULL;
     dmb_sim *sim = NULL;
     dmb_id string;

@@ -3,6 +3,8 @@
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 enum { CHANNELS = 8, ROWS = 7 };
 
 static dmb_id ramp(dmb_model *model, double to)
@@ -66,8 +68,13 @@ static int32_t drill(dmb_sim *sim)
     return status;
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1)
+        return command_line(count, words,
+                            "What a driller reads while a string is driven into rock: hook load, torque, weight on "
+                            "bit, rate of penetration, bit speed and stick-slip index in a table of named channels.",
+                            NULL, 0);
     dmb_model *model = NULL;
     dmb_sim *sim = NULL;
     int32_t status = dmb_model_create(NULL, &model) < 0 ? DMB_ERR_NO_MEMORY : describe(model);

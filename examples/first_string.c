@@ -2,6 +2,8 @@
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 /* The rig moves its end of the string: up to `speed` within the first second. */
 static int32_t add_drive(dmb_model *model, int32_t component, double speed)
 {
@@ -32,8 +34,12 @@ static int32_t describe(dmb_model *model, dmb_id *string)
     return status < 0 ? status : dmb_model_compile(model, NULL);
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1)
+        return command_line(count, words,
+                            "The main job in one page: describe a drill string in a hole, compile it, run it, ask it.",
+                            NULL, 0);
     dmb_model *model = NULL;
     dmb_sim *sim = NULL;
     dmb_id string;

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 static const double at[4][2] = {{0.0, 0.0}, {0.0, 0.3}, {0.9, 0.7}, {0.6, 0.0}}; /* [m] y and z */
 
 /* Crank, coupler and rocker, each pinned to the one before, then the rocker to the ground. */
@@ -26,8 +28,9 @@ static int32_t add_rods(dmb_model *model, dmb_id pins[4])
     return status < 0 ? status : dmb_model_add_joint(model, &pin, &pins[3]);
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1) return command_line(count, words, "What must the motor of a four-bar linkage do?", NULL, 0);
     dmb_model *model = NULL;
     dmb_sim *sim = NULL;
     dmb_term speed = dmb_term_default();

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 typedef struct mast {
     dmb_model *model;
     dmb_id mast, rope[4];
@@ -52,8 +54,13 @@ static int32_t describe(double wind, mast *m)
     if (status >= 0) status = add_load(m, 20.0, 0.0, 0, wind);
     return status < 0 ? status : dmb_model_compile(m->model, NULL);
 }
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1)
+        return command_line(count, words,
+                            "How much do the guy ropes of a mast pull, and how far does its crown move in the wind, "
+                            "with a load beside its middle?",
+                            NULL, 0);
     int32_t status = 0;
     printf("%8s %10s %10s %10s %10s %12s\n", "wind kN", "rope +x N", "+y", "-x", "-y", "crown mm");
     for (int i = 0; i < 3 && status >= 0; i++) {

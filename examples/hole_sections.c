@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "command_line.h"
+
 static dmb_hole_section section(const char *name, double depth, double diameter, double mu, double strength)
 {
     dmb_hole_section made = dmb_hole_section_default(); /* what is not said is that of the wall */
@@ -63,8 +65,10 @@ static void tell_string(dmb_sim *sim)
            one.hook_load);
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1)
+        return command_line(count, words, "A hole by sections: cased, open, washed out in soft coal, rock.", NULL, 0);
     dmb_model *model = NULL;
     dmb_sim *sim = NULL;
     int32_t status = dmb_model_create(NULL, &model);

@@ -6,6 +6,8 @@
 
 #include <drillmbd/drillmbd.h>
 
+#include "command_line.h"
+
 enum { SAMPLES = 40, STEPS = 10, VALUES = 2 * SAMPLES };
 static dmb_channel channels[2];
 
@@ -82,8 +84,13 @@ static void run(const double at[2], double values[VALUES], double derivatives[VA
     dmb_sim_destroy(&sim);
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1)
+        return command_line(count, words,
+                            "Friction factor and energy of the rock from a recorded torque and thrust: Gauss-Newton "
+                            "with the derivatives of the run, and the confidence that they give.",
+                            NULL, 0);
     const double truth[2] = {0.25, 3e7}, noise[2] = {20.0, 2.0}; /* [N], [N m] */
     double at[2] = {0.4, 4e7}, record[VALUES], values[VALUES], by[VALUES][2], deviation[2] = {0.0, 0.0};
     uint32_t seed = 1;

@@ -1,8 +1,10 @@
-/* How many degrees_of_freedom has my model, and what holds what? The rig of the reference study as one would draw it:
+/* How many degrees of freedom has my model, and what holds what? The rig of the reference study as one would draw it:
  * head, 100 flexible pipes, bit, 101 fixed joints between them, a cylindrical guide at the head and two drives in it.
  * The same string described in one piece has the same degrees_of_freedom and none of these equations. */
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
+
+#include "command_line.h"
 
 #define PIPES 100
 
@@ -66,8 +68,10 @@ static int32_t describe(dmb_model *model)
     return status < 0 ? status : add_drive(model, guide, DMB_RX, 20.944);
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1)
+        return command_line(count, words, "How many degrees of freedom has my model, and what holds what?", NULL, 0);
     static char text[8192];
     dmb_model *model = NULL;
     dmb_sim *sim = NULL;

@@ -3,6 +3,8 @@
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 static dmb_id set_point(dmb_model *model, const char *name, int32_t component, double acceleration, double jerk)
 {
     const dmb_term rest = dmb_term_default();
@@ -49,8 +51,13 @@ static void show(const dmb_model *model, const dmb_sim *sim)
     }
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1)
+        return command_line(count, words,
+                            "The driller's hands on a running scene: rotation and feed follow new set points within "
+                            "the rig's limits; what was done is played back to the same state.",
+                            NULL, 0);
     dmb_model *model = NULL;
     dmb_sim *sim = NULL, *again = NULL;
     dmb_input_record log[16];

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 static int32_t bit_torque(void *context, double time, uint32_t count, const double (*poses)[12],
                           const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
 {
@@ -46,8 +48,13 @@ static int32_t describe(double speed, dmb_model **model, dmb_place *end)
     return status < 0 ? status : dmb_model_compile(*model, NULL);
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1)
+        return command_line(count, words,
+                            "Does a string stick and slip when the bit's torque falls with its speed, and from which "
+                            "rotary speed on does it not?",
+                            NULL, 0);
     int32_t status = 0;
     printf("%12s %16s %16s\n", "rig 1/min", "bit least", "bit largest");
     for (int rpm = 40; rpm <= 160 && status >= 0; rpm += 40) {

@@ -7,6 +7,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 enum { MESHES = 5, ANSWERS = 4 };
 static const char *const heads[ANSWERS] = {"guide force [N]", "wall force sum [N]", "z of pipe 3 [mm]", "swing [mm]"};
 
@@ -83,8 +85,9 @@ static int swing(unsigned elements, double *answer)
     return 0;
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1) return command_line(count, words, "How fine a mesh?", NULL, 0);
     double value[MESHES][ANSWERS];
     for (int m = 0; m < MESHES; m++)
         if (rest(1U << m, value[m]) < 0 || swing(1U << m, &value[m][3]) < 0) return 1;

@@ -7,6 +7,8 @@
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 #define ROD 1.0                   /* [m] */
 #define FEED 0.1                  /* [m/s] */
 #define ROTATION 20.0             /* [rad/s] */
@@ -122,8 +124,9 @@ static int32_t work(rig *r)
     return status;
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1) return command_line(count, words, "How does a hole grow rod by rod?", NULL, 0);
     rig r = {0};
     int32_t status = describe(&r, 3, 0.0, FEED);
     if (status >= 0) status = dmb_analysis_static(r.sim, NULL, NULL);

@@ -9,6 +9,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 #define PIPES 100
 #define LENGTH 1.5   /* [m] of a pipe */
 #define OUTER 0.073  /* [m] */
@@ -89,8 +91,12 @@ static void report(const char *what, const char *unit, double found, double exac
     printf("%-24s %14.7f %14.7f %s\n", what, found, exact, unit);
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1)
+        return command_line(count, words,
+                            "How much force and torque does it take to push a string along its hole, or to turn it?",
+                            NULL, 0);
     const double pi = 3.14159265358979323846, L = PIPES * LENGTH, r = 0.5 * OUTER;
     const double A = 0.25 * pi * (OUTER * OUTER - INNER * INNER);
     const double J = pi / 32.0 * (pow(OUTER, 4.0) - pow(INNER, 4.0)), G = YOUNG / 2.6, w = 7850.0 * A * 9.81;

@@ -3,6 +3,8 @@
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 static dmb_id drive(dmb_model *model, int32_t kind, int32_t component, double speed)
 {
     dmb_drive_def drive = dmb_drive_def_default();
@@ -54,8 +56,9 @@ static int32_t describe(dmb_model *model)
     return dmb_model_compile(model, NULL);
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1) return command_line(count, words, "Where does it happen?", NULL, 0);
     dmb_model *model = NULL;
     dmb_sim *sim = NULL;
     dmb_id feed;

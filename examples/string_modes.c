@@ -7,6 +7,8 @@
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 #define PIPES 100
 #define MODES 10
 
@@ -54,8 +56,9 @@ static int32_t show(dmb_sim *sim, dmb_id string, int32_t contact, const char *ti
     return status;
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1) return command_line(count, words, "Where are the natural frequencies of my string?", NULL, 0);
     dmb_model *model = NULL;
     dmb_sim *sim = NULL;
     dmb_id string;

@@ -4,6 +4,8 @@
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 #define DEGREE 0.017453292519943295
 
 static const double survey[] = {0.0,   80.0 * DEGREE, 0.0, /* depth [m], inclination, azimuth [rad] */
@@ -59,8 +61,13 @@ static void explain(dmb_sim *sim, double pull)
         printf("a pull of %.1f kN at 399 m is that of a friction coefficient of %.4f\n", 1e-3 * pull, friction);
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1)
+        return command_line(count, words,
+                            "Torque and drag of a planned hole: the pull, push and torque that the rig needs at each "
+                            "depth, and the friction that a measured hook load tells.",
+                            NULL, 0);
     dmb_model *model = NULL;
     dmb_sim *sim = NULL;
     int32_t status = dmb_model_create(NULL, &model);

@@ -11,8 +11,8 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+
+#include "command_line.h"
 
 #define PIPES 10
 #define SPEEDS 8
@@ -159,30 +159,22 @@ static void print(const turning *t)
            t->amplitudes[2][0][0]);
 }
 
-static const char usage[] = "usage: turning_string [--threads N], N from 1 to 64 (2), which changes no digit\n";
-
-/* 0: refused, and said why. */
-static int read_threads(int count, char **words)
-{
-    char *rest = NULL;
-    if (count == 1) return 2;
-    if (strcmp(words[1], "--threads") != 0 || count > 3)
-        return fprintf(stderr, "'%s' is not wanted\n%s", words[count > 3 ? 3 : 1], usage), 0;
-    if (count == 2) return fprintf(stderr, "--threads needs a number\n%s", usage), 0;
-    const long threads = strtol(words[2], &rest, 10);
-    if (rest != words[2] && *rest == '\0' && threads >= 1 && threads <= THREADS) return (int)threads;
-    return fprintf(stderr, "'%s' is not a whole number from 1 to %d\n%s", words[2], THREADS, usage), 0;
-}
-
 int main(int count, char **words)
 {
     static turning all[SPEEDS];
     int failed = 0;
-    if (count == 2 && strcmp(words[1], "--help") == 0) return fputs(usage, stdout) == EOF;
-    const int threads = read_threads(count, words);
-    if (threads == 0) return 2;
+    uint32_t threads = 2;
+    const command_option options[] = {{.name = "threads",
+                                       .value = "N",
+                                       .help = "speeds at a time (2), which changes no digit",
+                                       .low = 1.0,
+                                       .high = THREADS,
+                                       .whole = &threads}};
+    const int stop =
+        command_line(count, words, "How does a string whip where the linear response does not hold?", options, 1);
+    if (stop >= 0) return stop;
     for (int i = 0; i < SPEEDS; i++) all[i].frequency = 2.5 + 0.25 * i;
-    run_all(all, threads);
+    run_all(all, (int)threads);
     puts("Middle of the string: sideways and up and down [mm], force of its ring on the wall [N]");
     puts("  rpm               y linear       1x  z linear       1x    linear      1x      2x    mean");
     for (int i = 0; i < SPEEDS; i++) {

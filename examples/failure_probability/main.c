@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../command_line.h"
 #include "interval.h"
 #include "stream.h"
 
@@ -168,29 +169,6 @@ static int print(const study *s)
     return lost == s->samples;
 }
 
-/* ---- The command line ----------------------------------------------------------------------------------------------
- */
-
-static const char usage[] = "usage: failure_probability [--samples N] [--threads N] [--seed N]\n"
-                            "N samples from 1 to 1000000 (64), threads from 1 to 64 (2), seed from 0 to 1000000 (1)\n";
-
-static int read_options(int count, char **words, long values[3])
-{
-    static const char *const keys[3] = {"--samples", "--threads", "--seed"};
-    static const long low[3] = {1, 1, 0}, high[3] = {MOST_SAMPLES, MOST_THREADS, 1000000};
-    for (int i = 1; i < count; i += 2) {
-        int k = 0;
-        char *rest = NULL;
-        while (k < 3 && strcmp(words[i], keys[k]) != 0) k++;
-        if (k == 3) return fprintf(stderr, "'%s' is not wanted\n%s", words[i], usage), 0;
-        if (i + 1 == count) return fprintf(stderr, "%s needs a number\n%s", words[i], usage), 0;
-        values[k] = strtol(words[i + 1], &rest, 10);
-        if (rest == words[i + 1] || *rest != '\0' || values[k] < low[k] || values[k] > high[k])
-            return fprintf(stderr, "%s %s is out of bounds\n%s", words[i], words[i + 1], usage), 0;
-    }
-    return 1;
-}
-
 /* The samples of all processes come together in the first, whose rank is 0. */
 static int gather(const study *s, int rank)
 {
@@ -204,19 +182,29 @@ static int gather(const study *s, int rank)
 
 int main(int count, char **words)
 {
-    long values[3] = {64, 2, 1};
+    uint32_t samples = 64, threads = 2, seed = 1;
     int rank = 0, size = 1;
-    if (count == 2 && strcmp(words[1], "--help") == 0) return fputs(usage, stdout) == EOF;
-    if (!read_options(count, words, values)) return 2;
+    const command_option options[] = {
+        {.name = "samples", .value = "N", .help = "samples (64)", .low = 1.0, .high = MOST_SAMPLES, .whole = &samples},
+        {.name = "threads",
+         .value = "N",
+         .help = "samples at a time (2), which changes no digit",
+         .low = 1.0,
+         .high = MOST_THREADS,
+         .whole = &threads},
+        {.name = "seed", .value = "N", .help = "of the random numbers (1)", .low = 0.0, .high = 1e6, .whole = &seed}};
+    const int stop = command_line(
+        count, words, "How often does a hole fail? Samples shared out to threads and processes.", options, 3);
+    if (stop >= 0) return stop;
 #ifdef WITH_MPI
     (void)MPI_Init(&count, &words);
     (void)MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     (void)MPI_Comm_size(MPI_COMM_WORLD, &size);
 #endif
-    study s = {(uint64_t)values[2], (int)values[0], rank, size, calloc((size_t)values[0], sizeof *s.results)};
+    study s = {seed, (int)samples, rank, size, calloc(samples, sizeof *s.results)};
     int status = 3;
     if (s.results != NULL) {
-        run_all(&s, (int)values[1]);
+        run_all(&s, (int)threads);
         status = gather(&s, rank);
     }
     free(s.results);

@@ -14,12 +14,12 @@
  * Tables go to FOLDER/bands.csv, severity.csv, modes.csv, orders.csv and campbell.csv; plot.py makes the picture. */
 #include <drillmbd/drillmbd.h>
 
-#include <argp.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "../command_line.h"
 #include "../gas_drainage_rig/folder.h"
 #include "campbell.h"
 #include "scene.h"
@@ -210,52 +210,39 @@ typedef struct options {
     double order;       /* 0: none but those of the table above */
 } options;
 
-enum { KEY_THREADS = 256, KEY_DEPTH, KEY_ORDER };
-
-static int whole_number(const struct argp_state *state, const char *word, long low, long high)
-{
-    char *rest = NULL;
-    const long value = strtol(word, &rest, 10);
-    if (rest == word || *rest != '\0' || value < low || value > high)
-        argp_error(state, "'%s' is not a whole number from %ld to %ld", word, low, high);
-    return (int)value;
-}
-
-static double order_number(const struct argp_state *state, const char *word)
-{
-    char *rest = NULL;
-    const double value = strtod(word, &rest);
-    if (rest == word || *rest != '\0' || !(value >= 0.1) || !(value <= 20.0))
-        argp_error(state, "'%s' is not a number from 0.1 to 20", word);
-    return value;
-}
-
-static error_t take_option(int key, char *word, struct argp_state *state)
-{
-    options *asked = state->input;
-    switch (key) {
-    case 'o': asked->folder = word; return 0;
-    case KEY_THREADS: asked->threads = whole_number(state, word, 1, THREADS); return 0;
-    case KEY_DEPTH: asked->depth = whole_number(state, word, 1, 1000); return 0;
-    case KEY_ORDER: asked->order = order_number(state, word); return 0;
-    case ARGP_KEY_ARG: argp_error(state, "'%s' is not an option", word); return 0;
-    default: return ARGP_ERR_UNKNOWN;
-    }
-}
-
 static options read_options(int count, char **words)
 {
-    static const struct argp_option table[] = {
-        {"output", 'o', "FOLDER", 0, "folder for tables; plot.py FOLDER makes the picture of them", 0},
-        {"threads", KEY_THREADS, "N", 0, "depths at a time (2), which changes no digit", 0},
-        {"depth", KEY_DEPTH, "METRES", 0, "one depth; otherwise every 10 m down to 150 m", 0},
-        {"order", KEY_ORDER, "NUMBER", 0, "what shakes along the hole at this many times the speed, besides the others",
-         0},
-        {0, 0, 0, 0, 0, 0}};
-    static const char about[] = "Which rotary speeds should be kept away from, and at which depths?";
-    const struct argp parser = {table, take_option, NULL, about, NULL, NULL, NULL};
     options asked = {NULL, 2, 0, 0.0};
-    argp_parse(&parser, count, words, 0, NULL, &asked);
+    uint32_t threads = 2, metres = 0;
+    const command_option table[] = {
+        {.name = "output",
+         .letter = 'o',
+         .value = "FOLDER",
+         .help = "folder for tables; plot.py FOLDER makes the picture of them",
+         .text = &asked.folder},
+        {.name = "threads",
+         .value = "N",
+         .help = "depths at a time (2), which changes no digit",
+         .low = 1.0,
+         .high = THREADS,
+         .whole = &threads},
+        {.name = "depth",
+         .value = "METRES",
+         .help = "one depth; otherwise every 10 m down to 150 m",
+         .low = 1.0,
+         .high = 1000.0,
+         .whole = &metres},
+        {.name = "order",
+         .value = "NUMBER",
+         .low = 0.1,
+         .high = 20.0,
+         .number = &asked.order,
+         .help = "an excitation along the hole at this many times the speed, besides the others"}};
+    const int stop = command_line(count, words, "Which rotary speeds should be kept away from, and at which depths?",
+                                  table, sizeof table / sizeof *table);
+    if (stop >= 0) exit(stop);
+    asked.threads = (int)threads;
+    asked.depth = (int)metres;
     return asked;
 }
 
