@@ -148,6 +148,7 @@ public:
     dmb_id add_input(const dmb_input_def &def) { return add(dmb_model_add_input, def); }
     dmb_id add_spring(const dmb_spring_def &def) { return add(dmb_model_add_spring, def); }
     dmb_id add_force(const dmb_force_def &def) { return add(dmb_model_add_force, def); }
+    dmb_id add_stuck(const dmb_stuck_def &def) { return add(dmb_model_add_stuck, def); }
     std::int32_t compile(const dmb_compile_options *options = nullptr) { return done(try_compile(options)); }
 
     dmb_model_info info() const
@@ -928,6 +929,7 @@ public:
         answer.frame = frame;
         return ask(dmb_query_joint, answer, which);
     }
+    dmb_stuck_state stuck(dmb_id which) const { return ask(dmb_query_stuck, dmb_stuck_state_default(), which); }
     dmb_spring_state spring(dmb_id which) const { return ask(dmb_query_spring, dmb_spring_state_default(), which); }
     // Pose of a point off a place, offset [m] in the axes of the place, shape (3).
     dmb_pose pose_at(const dmb_place &place, const double *offset) const

@@ -30,8 +30,8 @@ ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "TERM_C
               "PROFILE_DISTANCE": "ProfileQuantity", "HOLE_ABOVE": "HoleBeyond", "HOLE_STEP": "HoleShape",
               "EVENT_EITHER": "EventDirection",
               "STATIC_NEWTON": "StaticMethod", "METHOD_INDEPENDENT": "ConstraintMethod",
-              "BUCKLING_EXTRAPOLATED": "BucklingEnd", "SPRING_BOTH": "SpringActs", "TABLE_LINES": "TableKind", "SCALE_ALL": "Scale"}
-FLAGS = ("FREE", "FEATURE", "PROVIDES")  # prefixes of bits of masks
+              "BUCKLING_EXTRAPOLATED": "BucklingEnd", "SPRING_BOTH": "SpringActs", "STUCK_AXIAL": "StuckHolds", "TABLE_LINES": "TableKind", "SCALE_ALL": "Scale"}
+FLAGS = ("FREE", "FEATURE", "PROVIDES", "STUCK")  # prefixes of bits of masks
 STRUCT_NAMES = {"dmb_recorder": "RecorderStruct", "dmb_profile": "ProfileStruct",
                 "dmb_profile_recorder": "ProfileRecorderStruct"}
 MIXINS = {"Id": "IdPart", "Term": "TermPart", "WallDef": "WallPart", "ConstraintDef": "ConstraintPart",

@@ -189,6 +189,17 @@ place_a = "swing"
 place_b = "wheel"
 stiffness = "1 N/m"
 damping = "3 N s/m"
+[[stuck]]
+name = "jam"
+holds = ["axial", "lateral"]
+place = {part = "main", pipe = 3, fraction = 0.3}
+stuck = false
+stiffness = ["2e8 N/m", "1e6 N m/rad", "1e8 N/m"]
+overpull = "50 kN"
+[[input]]
+name = "jammed"
+target = "stuck"
+part = "jam"
 [compile]
 features = ["gravity", "contact", "friction", "damping"]
 [sim]

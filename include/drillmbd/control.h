@@ -16,7 +16,8 @@ enum { /* what an input moves; 1 .. 4 are of CONTROL drives, 7 .. 11 of wall and
     DMB_TARGET_LOAD_FACTOR = 5, DMB_TARGET_BIT_LOAD = 6, /* [-] of a load, [N] of a bit, in the place of its programme */
     DMB_TARGET_FRICTION = 7, DMB_TARGET_FLUID_DENSITY = 8, /* [-] factor of both coefficients of the wall, [kg/m3] */
     DMB_TARGET_LATERAL_DAMPING = 9, DMB_TARGET_AXIAL_DAMPING = 10, /* [N s/m2] */
-    DMB_TARGET_TORSIONAL_DAMPING = 11, DMB_TARGET_COUNT = 12 /* [N s] */
+    DMB_TARGET_TORSIONAL_DAMPING = 11, /* [N s] */
+    DMB_TARGET_STUCK = 12, DMB_TARGET_COUNT = 13 /* [-] 1: a place is stuck from now on, 0: it is free (bha.h) */
 };
 /* clang-format on */
 enum { DMB_OUTSIDE_REFUSED = 0, DMB_OUTSIDE_CLAMPED = 1 };
@@ -24,7 +25,7 @@ typedef struct dmb_input_def {
     uint32_t struct_size;
     int32_t target;    /* DMB_TARGET_..., default DMB_TARGET_SET_POINT */
     char name[24];     /* required, of its own among the inputs, ends with 0 */
-    dmb_id part;       /* drive, load or bit; {0, 0} of wall and environment */
+    dmb_id part;       /* drive, load, bit or stuck place; {0, 0} of wall and environment */
     double initial;    /* [unit of the target] at time 0, within the bounds; NaN (default): as described, which for 0, 5
                           and 6 is the programme, until the input is set */
     double low, high;  /* [unit of the target] bounds, low <= high; default -1e30 and 1e30: as far as the target goes */

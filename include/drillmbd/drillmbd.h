@@ -4,6 +4,7 @@
 
 #include "analysis.h"
 #include "base.h"
+#include "bha.h"
 #include "control.h"
 #include "drilling.h"
 #include "forces.h"

@@ -43,6 +43,11 @@ enum {
     DMB_CHANNEL_BIT_LOAD = 125,         /* [N] */
     DMB_CHANNEL_BIT_ON_BOTTOM = 126,    /* [-] 1 or 0 */
 
+    /* place.part a stuck place: dmb_query_stuck */
+    DMB_CHANNEL_STUCK = 127,        /* [-] 1 or 0 */
+    DMB_CHANNEL_STUCK_FORCE = 128,  /* [N] axial */
+    DMB_CHANNEL_STUCK_TORQUE = 129, /* [N m] */
+
     /* place.part a drive: dmb_query_drive */
     DMB_CHANNEL_DRIVE_TARGET = 130,   /* [unit of the programme] */
     DMB_CHANNEL_DRIVE_POSITION = 131, /* [m, rad] */

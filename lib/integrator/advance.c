@@ -65,10 +65,12 @@ int32_t dmb_advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk *wa
         int32_t status = dmb_attempt_step(sim, &end, 1, &attempt);
         if (status == DMB_NOTE_WORK_LIMITED)
             status = attempt.status = DMB_ERR_NO_CONVERGENCE; /* a step is a step here */
+        if (status >= 0 && sim->scene->stuck_count > 0) status = dmb_attempt_to_release(sim, &attempt);
+        const double taken = attempt.end.step;
         const int smallest = !(h > sim->options.step_min * 1.0001);
-        const dmb_step_error error = status >= 0 ? dmb_attempt_error(sim, h) : (dmb_step_error){0.0, 0.0};
+        const dmb_step_error error = status >= 0 ? dmb_attempt_error(sim, taken) : (dmb_step_error){0.0, 0.0};
         if (status >= 0 && (error.here <= 1.0 || smallest)) {
-            *wanted = wanted_after(sim, h, *wanted, error.ahead, retried);
+            if (!(taken < h)) *wanted = wanted_after(sim, h, *wanted, error.ahead, retried);
             if (error.here > 1.0) walk->too_coarse = 1;
             const int32_t refused = dmb_walk_commit(sim, &attempt, walk);
             if (refused < 0) return refused;

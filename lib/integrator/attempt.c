@@ -9,6 +9,7 @@
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/assemble/free_rigid.h"
+#include "system/assemble/stuck.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
 #include "system/constrain/joint_motion.h"
@@ -222,6 +223,48 @@ int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, d
     }
     attempt->status = status == DMB_NOTE_WORK_LIMITED ? status : status < 0 ? status : DMB_OK;
     return attempt->status;
+}
+
+/* ---- To the time at which a stuck place lets go ------------------------------------------------------------------ */
+
+#define DMB_RELEASE_TOLERANCE 1e-11 /* [-] of the force beyond that at which it lets go */
+enum { DMB_RELEASE_TRIALS = 60 };
+
+/* The force less what it lets go at, over that. */
+static double beyond(const dmb_sim *sim, const dmb_configuration *configuration)
+{
+    return dmb_stuck_largest_share(sim, configuration, 1) - 1.0;
+}
+
+/* Regula falsi with halved ends (Illinois; Dowell, Jarratt 1971) over the length of the step, by steps really taken. */
+int32_t dmb_attempt_to_release(dmb_sim *sim, dmb_attempt *attempt)
+{
+    double low = 0.0, high = attempt->end.step, f_low = beyond(sim, &sim->now), f_high = beyond(sim, &sim->trial);
+    int32_t last_side = 0, status = attempt->status;
+    if (!(f_high > DMB_RELEASE_TOLERANCE) || !(f_low < 0.0)) return status;
+    double weight_low = f_low, weight_high = f_high;
+    for (int i = 0; i < DMB_RELEASE_TRIALS && f_high > DMB_RELEASE_TOLERANCE; i++) {
+        const double length = low + (high - low) * fmin(fmax(-weight_low / (weight_high - weight_low), 1e-3), 0.999);
+        const dmb_step_end end = dmb_step_end_after(sim, length);
+        if (!(end.time > sim->clock->time) || !(length > low) || !(length < high)) break;
+        status = dmb_attempt_step(sim, &end, 0, attempt);
+        if (status < 0) return status;
+        const double f = beyond(sim, &sim->trial);
+        const int32_t side = f > 0.0 ? 1 : -1;
+        if (side > 0) {
+            high = length;
+            f_high = weight_high = f;
+            if (last_side > 0) weight_low *= 0.5;
+        } else {
+            low = length;
+            weight_low = f;
+            if (last_side < 0) weight_high *= 0.5;
+        }
+        last_side = side;
+    }
+    if (last_side > 0) return status;
+    const dmb_step_end end = dmb_step_end_after(sim, high);
+    return dmb_attempt_step(sim, &end, 0, attempt);
 }
 
 void dmb_attempt_commit(dmb_sim *sim, dmb_attempt *attempt)

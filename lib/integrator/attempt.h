@@ -30,6 +30,9 @@ typedef struct dmb_step_error {
 /* Tries a step from now to `end`; returns attempt->status. now and the memory fields are not touched. whole: 1
  * unless the call would have to take this step back if a later one fails. */
 int32_t dmb_attempt_step(dmb_sim *sim, const dmb_step_end *end, int32_t whole, dmb_attempt *attempt);
+/* After a successful attempt: where a stuck place lets go on the way, the step is tried again to the time at which it
+ * does, on the far side of it. The status of that. */
+int32_t dmb_attempt_to_release(dmb_sim *sim, dmb_attempt *attempt);
 /* Of a successful attempt of length `step` [s]. */
 dmb_step_error dmb_attempt_error(const dmb_sim *sim, double step);
 /* Makes the trial of a successful attempt the accepted state. */

@@ -11,6 +11,9 @@
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "system/assemble/drives.h"
+#include "system/assemble/stuck.h"
+#include "system/let_go.h"
+#include "system/solve/solve.h"
 #include "system/start.h"
 
 DMB_DECLARE_STRUCT(dmb_step_report)
@@ -41,6 +44,13 @@ int32_t dmb_walk_check_at_most(dmb_sim *sim, const char *field, double value, do
 int32_t dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
 {
     if (sim->follower != NULL) {
+        if (dmb_stuck_largest_share(sim, &sim->trial, 1) >= 1.0) {
+            dmb_message_set(&sim->message,
+                            "step to time %g: a stuck place lets go there, which a derivative along the run must not "
+                            "meet; end the run before it, or leave out the parameters",
+                            attempt->end.time);
+            return DMB_ERR_UNSUPPORTED;
+        }
         const int32_t status = sim->follower->follow(sim->follower->context, attempt);
         if (status < 0) return status;
     }
@@ -58,7 +68,9 @@ int32_t dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
 /* A failure here leaves everything as before, the accelerations of before included, which is what there was anyway. */
 void dmb_walk_corner(dmb_sim *sim)
 {
-    if (!dmb_system_rate_jumps(sim)) return;
+    const uint32_t freed = sim->scene->stuck_count > 0 ? dmb_stuck_let_go(sim) : 0;
+    if (freed > 0) dmb_forget_factors(sim);
+    if (freed == 0 && !dmb_system_rate_jumps(sim)) return;
     sim->busy = DMB_BUSY_CHANGING;
     (void)dmb_system_jump(sim);
     sim->busy = DMB_BUSY_READABLE;
@@ -155,12 +167,18 @@ static int32_t take_substep(dmb_sim *sim, const dmb_step_end *goal, double *cut,
             dmb_state_back_up(sim);
             walk->set_aside = 1;
         }
-        const int32_t status = dmb_attempt_step(sim, &end, last && !walk->set_aside, &attempt);
+        int32_t status = dmb_attempt_step(sim, &end, last && !walk->set_aside, &attempt);
+        if (status >= 0 && sim->scene->stuck_count > 0 && !sim->options.bounded_work)
+            status = dmb_attempt_to_release(sim, &attempt);
         if (status >= 0) {
+            if (!attempt.end.arrives && !walk->set_aside) {
+                dmb_state_back_up(sim);
+                walk->set_aside = 1;
+            }
             const int32_t refused = dmb_walk_commit(sim, &attempt, walk);
             if (refused < 0) return refused;
             dmb_walk_corner(sim);
-            walk->arrived = last;
+            walk->arrived = attempt.end.arrives;
             *cut = *cuts > 0 ? 2.0 * end.step : (double)INFINITY; /* a corner nearby does not shorten what follows */
             if (*cuts > 0) --*cuts;
             return status;

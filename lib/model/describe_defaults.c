@@ -97,6 +97,12 @@ DMB_DEFINE_INIT(dmb_load_def, 88, {.frame = DMB_FRAME_WORLD})
 
 DMB_DEFINE_INIT(dmb_force_def, 280, {.place_count = 1, .pose_step = 1e-5, .speed_step = 1e-5})
 
+DMB_DEFINE_INIT(dmb_stuck_def, 128, {
+    .holds = DMB_STUCK_AXIAL | DMB_STUCK_ROTATION,
+    .stuck = 1,
+    .stiffness = {1e9, 1e8, 1e9},
+})
+
 DMB_DEFINE_INIT(dmb_spring_def, 184, {.acts = DMB_SPRING_BOTH, .free_length = -1.0})
 
 DMB_DEFINE_INIT(dmb_compile_options, 16, {.features = DMB_FEATURE_ALL, .pipe_kind = -1})

@@ -41,6 +41,7 @@ static const target_rule targets[DMB_TARGET_COUNT] = {
     [DMB_TARGET_LATERAL_DAMPING] = {0, "", 0.0, DMB_DAMPING_MAX, {"N s/m2", "N s/m2"}},
     [DMB_TARGET_AXIAL_DAMPING] = {0, "", 0.0, DMB_DAMPING_MAX, {"N s/m2", "N s/m2"}},
     [DMB_TARGET_TORSIONAL_DAMPING] = {0, "", 0.0, DMB_DAMPING_MAX, {"N s", "N s"}},
+    [DMB_TARGET_STUCK] = {DMB_PART_STUCK, "stuck place", 0.0, 1.0, {"-", "-"}},
 };
 
 static const dmb_drive_def *drive_of(const dmb_model *model, const dmb_input_def *def)
@@ -123,6 +124,8 @@ static void check_bounds(dmb_check *check, const dmb_input_def *def)
         dmb_check_fail(check, DMB_ERR_VALUE, def->low > targets[def->target].high ? "low" : "high",
                        def->low > targets[def->target].high ? def->low : def->high, "within what its target allows");
     if (!isnan(def->initial)) dmb_check_within(check, "initial", def->initial, low, high);
+    if (def->target == DMB_TARGET_STUCK && def->initial > 0.0 && def->initial < 1.0)
+        dmb_check_fail(check, DMB_ERR_VALUE, "initial", def->initial, "0 (free) or 1 (stuck)");
 }
 
 static void check_limits(dmb_check *check, const dmb_model *model, const dmb_input_def *def)

@@ -31,6 +31,7 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
         .springs = {.item_size = sizeof(dmb_scene_spring)},
         .spring_points = {.item_size = sizeof(dmb_spring_point)},
         .forces = {.item_size = sizeof(dmb_scene_force)},
+        .stuck = {.item_size = sizeof(dmb_scene_stuck)},
         .inputs = {.item_size = sizeof(dmb_scene_input)},
         .events = {.item_size = sizeof(dmb_scene_event)},
         .joints = {.item_size = sizeof(dmb_scene_joint)},
@@ -57,7 +58,7 @@ void dmb_mesh_release(dmb_mesh *mesh)
                                &mesh->callbacks,     &mesh->laws,          &mesh->driven,      &mesh->constraints,
                                &mesh->clusters,      &mesh->cluster_nodes, &mesh->strings,     &mesh->pipes,
                                &mesh->bodies,        &mesh->inputs,        &mesh->load_points, &mesh->springs,
-                               &mesh->spring_points, &mesh->events,        &mesh->forces};
+                               &mesh->spring_points, &mesh->events,        &mesh->forces,      &mesh->stuck};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) dmb_vector_release(all[i], &mesh->model->allocator);
 }
 

@@ -82,6 +82,7 @@ typedef struct dmb_mesh {
     dmb_vector spring_points; /* dmb_spring_point */
     dmb_vector events;        /* dmb_scene_event */
     dmb_vector forces;        /* dmb_scene_force */
+    dmb_vector stuck;         /* dmb_scene_stuck */
     dmb_vector joints;        /* dmb_scene_joint */
     dmb_vector couplings;     /* dmb_scene_coupling */
     dmb_vector callbacks;     /* dmb_scene_callback */

@@ -220,6 +220,7 @@ static void fill_parts(const dmb_mesh *mesh, dmb_scene *scene)
     copy_items(&mesh->load_points, scene->load_points);
     copy_items(&mesh->springs, scene->springs);
     copy_items(&mesh->forces, scene->forces);
+    copy_items(&mesh->stuck, scene->stuck);
     copy_items(&mesh->spring_points, scene->spring_points);
     copy_items(&mesh->events, scene->events);
     copy_items(&mesh->strings, scene->strings);
@@ -329,6 +330,7 @@ static void fill_lengths(dmb_scene *scene)
     }
     for (uint32_t i = 0; i < scene->force_count; ++i)
         for (uint32_t k = 0; k < scene->forces[i].count; ++k) lengthen_to(scene, chain_of, &scene->forces[i].point[k]);
+    for (uint32_t i = 0; i < scene->stuck_count; ++i) lengthen_to(scene, chain_of, &scene->stuck[i].point);
     for (uint32_t c = 0; c < scene->chain_count; ++c)
         if (!(scene->chains[c].length > DMB_BODY_LENGTH_MIN)) scene->chains[c].length = 1.0;
 }

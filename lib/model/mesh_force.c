@@ -172,10 +172,50 @@ static int32_t add_force(dmb_mesh *mesh, uint32_t i)
     return check.status < 0 ? check.status : dmb_vector_append(&mesh->forces, &mesh->model->allocator, &force, 1);
 }
 
+/* ---- Places that can be stuck ------------------------------------------------------------------------------------ */
+
+/* PATH nodes have no motion sideways, so nothing may act on them there. */
+static void check_sideways(dmb_check *check, const dmb_mesh *mesh, const dmb_stuck_def *def,
+                           const dmb_scene_point *point)
+{
+    if (check->status < 0 || (def->holds & DMB_STUCK_LATERAL) == 0) return;
+    if (dmb_mesh_node_at(mesh, point->node)->size == DMB_NODE_FULL) return;
+    check->status = DMB_ERR_UNSUPPORTED;
+    dmb_message_set(check->message,
+                    "%s: holds = %d, must be without DMB_STUCK_LATERAL (4) on axial-torsional pipes, which do not move "
+                    "sideways; take it out, or describe flexible pipes",
+                    check->part, (int)def->holds);
+}
+
+static int32_t add_stuck(dmb_mesh *mesh, uint32_t i)
+{
+    static const double nowhere[3] = {0.0, 0.0, 0.0};
+    const dmb_stuck_def *def = DMB_LIST_AT(const dmb_stuck_def, mesh->model->stuck, i);
+    const double unit[2] = {(double)INFINITY, def->stiffness[1]}; /* 1 rad */
+    dmb_scene_stuck stuck = {.initially = def->stuck, .input = DMB_NONE};
+    dmb_message part;
+    dmb_check check =
+        dmb_check_of(&mesh->model->message, dmb_part_text(&part, "stuck", i, def->name, sizeof def->name), DMB_NONE);
+    memcpy(stuck.name, def->name, sizeof stuck.name);
+    stuck.point = dmb_mesh_point(&check, mesh, "place", &def->place, nowhere);
+    check_sideways(&check, mesh, def, &stuck.point);
+    if (check.status < 0) return check.status;
+    for (int k = 0; k < 3; ++k) {
+        const bool damped = (mesh->options.features & DMB_FEATURE_DAMPING) != 0;
+        if ((def->holds >> k & 1) == 0) continue;
+        stuck.stiffness[k] = def->stiffness[k];
+        stuck.damping[k] = damped ? def->damping[k] : 0.0;
+    }
+    stuck.release[0] = def->overpull > 0.0 ? def->overpull : unit[0];
+    stuck.release[1] = def->overtorque > 0.0 ? def->overtorque : unit[1];
+    return dmb_vector_append(&mesh->stuck, &mesh->model->allocator, &stuck, 1);
+}
+
 int32_t dmb_mesh_forces(dmb_mesh *mesh)
 {
     int32_t status = DMB_OK;
     for (uint32_t i = 0; i < mesh->model->springs.count && status >= 0; ++i) status = add_spring(mesh, i);
     for (uint32_t i = 0; i < mesh->model->forces.count && status >= 0; ++i) status = add_force(mesh, i);
+    for (uint32_t i = 0; i < mesh->model->stuck.count && status >= 0; ++i) status = add_stuck(mesh, i);
     return status;
 }

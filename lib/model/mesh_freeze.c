@@ -117,6 +117,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->bit_count = (uint32_t)mesh->bits.count;
     scene->load_point_count = (uint32_t)mesh->load_points.count;
     scene->force_count = (uint32_t)mesh->forces.count;
+    scene->stuck_count = (uint32_t)mesh->stuck.count;
     scene->spring_count = (uint32_t)mesh->springs.count;
     scene->spring_point_count = (uint32_t)mesh->spring_points.count;
     scene->programme_count = mesh->model->programmes.count;
@@ -185,6 +186,7 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
     to->load_points = DMB_ARENA_ARRAY(arena, dmb_scene_point, counts->load_point_count);
     to->springs = DMB_ARENA_ARRAY(arena, dmb_scene_spring, counts->spring_count);
     to->forces = DMB_ARENA_ARRAY(arena, dmb_scene_force, counts->force_count);
+    to->stuck = DMB_ARENA_ARRAY(arena, dmb_scene_stuck, counts->stuck_count);
     to->spring_points = DMB_ARENA_ARRAY(arena, dmb_spring_point, counts->spring_point_count);
     if (counts->event_count > 0) to->events = DMB_ARENA_ARRAY(arena, dmb_scene_event, counts->event_count);
     to->strings = DMB_ARENA_ARRAY(arena, dmb_string_map, counts->string_count);

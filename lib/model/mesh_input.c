@@ -8,7 +8,7 @@
 
 static uint32_t index_of(const dmb_model *model, dmb_id part)
 {
-    static const uint32_t kinds[] = {DMB_PART_DRIVE, DMB_PART_LOAD, DMB_PART_BIT};
+    static const uint32_t kinds[] = {DMB_PART_DRIVE, DMB_PART_LOAD, DMB_PART_BIT, DMB_PART_STUCK};
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; ++k) {
         const uint32_t index = dmb_model_part_index(model, part, kinds[k]);
         if (index != DMB_NONE) return index;
@@ -41,6 +41,7 @@ static int32_t add_input(dmb_mesh *mesh, uint32_t i)
                              .outside = def->outside,
                              .index = index_of(mesh->model, def->part)};
     const int32_t status = check_scene(mesh, def);
+    if (def->target == DMB_TARGET_STUCK) DMB_VECTOR_AT(dmb_scene_stuck, &mesh->stuck, input.index)->input = i;
     memcpy(input.name, def->name, sizeof input.name);
     return status < 0 ? status : dmb_vector_append(&mesh->inputs, &mesh->model->allocator, &input, 1);
 }

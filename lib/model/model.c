@@ -68,6 +68,7 @@ static void release_parts(dmb_model *model)
         dmb_spring_release(DMB_LIST_AT(dmb_spring_plan, model->springs, i), allocator);
     }
     dmb_list_release(&model->forces, allocator, sizeof(dmb_force_def));
+    dmb_list_release(&model->stuck, allocator, sizeof(dmb_stuck_def));
     dmb_list_release(&model->springs, allocator, sizeof(dmb_spring_plan));
     dmb_list_release(&model->events, allocator, sizeof(dmb_event_def));
     if (model->scene == NULL) return;
@@ -156,6 +157,7 @@ static uint32_t count_of(const dmb_model *model, uint32_t kind)
     case DMB_PART_SPRING: return model->springs.count;
     case DMB_PART_EVENT: return model->events.count;
     case DMB_PART_FORCE: return model->forces.count;
+    case DMB_PART_STUCK: return model->stuck.count;
     default: return 0;
     }
 }

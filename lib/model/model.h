@@ -5,6 +5,7 @@
 #include <stdatomic.h>
 
 #include "base/message.h"
+#include "drillmbd/bha.h"
 #include "drillmbd/control.h"
 #include "drillmbd/forces.h"
 #include "drillmbd/model.h"
@@ -26,6 +27,7 @@ enum {
     DMB_PART_CONSTRAINT = 10,
     DMB_PART_SPRING = 11,
     DMB_PART_FORCE = 12,
+    DMB_PART_STUCK = 14,
     DMB_PART_INPUT = 20,
     DMB_PART_EVENT = 21
 };
@@ -87,6 +89,7 @@ struct dmb_model {
     dmb_list springs;      /* dmb_spring_plan */
     dmb_list events;       /* dmb_event_def */
     dmb_list forces;       /* dmb_force_def */
+    dmb_list stuck;        /* dmb_stuck_def */
     dmb_refusals refused;  /* parts that were refused and not added since */
     dmb_scene *scene;      /* NULL until compiled, then never changed */
     uint32_t sparse_nodes; /* nodes from which on a cluster is sparse: DMB_SPARSE_NODES, but for tests */

@@ -3,6 +3,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "drillmbd/bha.h"
 #include "drillmbd/control.h"
 #include "drillmbd/forces.h"
 #include "drillmbd/model.h"
@@ -75,6 +76,10 @@ static const wide_field wide_fields[] = {
     FIELD("force", dmb_force_def, place),
     FIELD("force", dmb_force_def, offset),
     FIELD("force", dmb_force_def, component),
+    NAME("stuck", dmb_stuck_def),
+    FIELD("stuck", dmb_stuck_def, place),
+    FIELD("stuck", dmb_stuck_def, stiffness),
+    FIELD("stuck", dmb_stuck_def, damping),
     NAME("spring", dmb_spring_def),
     FIELD("spring", dmb_spring_def, place_a),
     FIELD("spring", dmb_spring_def, place_b),

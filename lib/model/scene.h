@@ -160,6 +160,16 @@ typedef struct dmb_scene_spring {
     char name[24];
 } dmb_scene_spring;
 
+/* A place that can be stuck: it acts on one node, or the two of an element. */
+typedef struct dmb_scene_stuck {
+    dmb_scene_point point;
+    double stiffness[3], damping[3]; /* along, about, sideways; 0 of what it does not hold */
+    double release[2];               /* [N, N m] at which it lets go; infinite: never */
+    int32_t initially;
+    uint32_t input; /* that sets it; DMB_NONE: none */
+    char name[24];
+} dmb_scene_stuck;
+
 /* ---- Joints and constraints ---- */
 
 /* Kind of part that a constraint belongs to. */
@@ -283,7 +293,7 @@ typedef struct dmb_scene {
     uint32_t velocity_count; /* row_count, or 0 where everything is described at rest */
     uint32_t rigid_count, structural_joint_count;
     uint32_t free_rigid_count;
-    uint32_t spring_count, spring_point_count, load_point_count, force_count;
+    uint32_t spring_count, spring_point_count, load_point_count, force_count, stuck_count;
     uint32_t joint_count, coupling_count, callback_count, constraint_count, cluster_count, law_count;
     uint32_t constraint_row_count;                /* room of all constraints */
     uint32_t constraint_node_count;               /* length of cluster_nodes */
@@ -353,6 +363,7 @@ typedef struct dmb_scene {
     dmb_spring_point *spring_points; /* tables, spring by spring */
     dmb_scene_event *events;
     dmb_scene_force *forces;
+    dmb_scene_stuck *stuck;
 
     /* joints and constraints; all empty without joints */
     dmb_scene_joint *joints;

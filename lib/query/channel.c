@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "drillmbd/bha.h"
 #include "query/place.h"
 #include "query/profile.h"
 #include "sim/access.h"
@@ -91,6 +92,16 @@ static int32_t bit_value(const dmb_sim *sim, const dmb_channel *channel, double 
     case DMB_CHANNEL_BIT_LOAD: *value = bit.load; break;
     default: *value = bit.on_bottom;
     }
+    return DMB_OK;
+}
+
+static int32_t stuck_value(const dmb_sim *sim, const dmb_channel *channel, double *value)
+{
+    dmb_stuck_state stuck = dmb_stuck_state_default();
+    const int32_t status = dmb_query_stuck(sim, channel->place.part, &stuck);
+    if (status < 0) return status;
+    const double values[] = {stuck.stuck, stuck.force[0], stuck.force[3]};
+    *value = values[channel->quantity - DMB_CHANNEL_STUCK];
     return DMB_OK;
 }
 
@@ -226,6 +237,7 @@ int32_t dmb_channel_value(const dmb_sim *sim, const dmb_channel *channel, double
                                                          : first_value(sim, channel, value);
     case DMB_AT_STRING: return dmb_driller_value(sim, channel, value);
     case DMB_AT_BIT: return bit_value(sim, channel, value);
+    case DMB_AT_STUCK: return stuck_value(sim, channel, value);
     case DMB_AT_DRIVE: return drive_value(sim, channel, value);
     case DMB_AT_JOINT: return joint_value(sim, channel, value);
     case DMB_AT_CONSTRAINT: return multiplier_value(sim, channel, value);
@@ -260,6 +272,7 @@ static const char *wanted(int32_t place)
         return "place.part must be a string, or {0, 0} for the first, that has what is read: a bit, with a rock law "
                "for off_bottom, or a flexible first pipe";
     case DMB_AT_BIT: return "place.part must be a bit";
+    case DMB_AT_STUCK: return "place.part must be a stuck place";
     case DMB_AT_DRIVE: return "place.part must be a drive";
     case DMB_AT_JOINT: return "place.part must be a joint";
     case DMB_AT_CONSTRAINT: return "place.part must be a joint, coupling, constraint or joint drive with that row";

@@ -18,7 +18,8 @@ enum {
     DMB_AT_CONSTRAINT = 8, /* a joint, coupling, constraint or joint drive */
     DMB_AT_SITE = 9,       /* place.pipe alone, a contact site */
     DMB_AT_SCENE = 10,     /* ignored */
-    DMB_AT_WINDOW = 11     /* place.pipe alone, a watched channel */
+    DMB_AT_WINDOW = 11,    /* place.pipe alone, a watched channel */
+    DMB_AT_STUCK = 12      /* place.part alone */
 };
 
 typedef struct dmb_channel_entry {

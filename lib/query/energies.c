@@ -12,6 +12,7 @@
 #include "system/assemble/caller_force.h"
 #include "system/assemble/energy.h"
 #include "system/assemble/springs.h"
+#include "system/assemble/stuck.h"
 #include "system/constrain/joint_state.h"
 
 DMB_DECLARE_STRUCT(dmb_energy)
@@ -20,7 +21,8 @@ static void energies_now(const dmb_sim *sim, dmb_energy *e)
 {
     e->kinetic = dmb_kinetic_energy(sim->scene, &sim->now);
     e->strain = dmb_strain_energy(sim->scene, &sim->now) + dmb_joint_energy(sim, &sim->now) +
-                dmb_springs_energy(sim->scene, &sim->now) + dmb_caller_forces_energy(sim->scene, &sim->now);
+                dmb_springs_energy(sim->scene, &sim->now) + dmb_caller_forces_energy(sim->scene, &sim->now) +
+                dmb_stuck_energy(sim, &sim->now);
     e->gravity = dmb_gravity_energy(sim->scene, &sim->now);
     e->contact = dmb_contact_energy(sim->scene, &sim->now);
 }

@@ -193,6 +193,17 @@ static uint64_t add_springs(uint64_t h, const dmb_scene *s)
     return h;
 }
 
+static uint64_t add_stuck(uint64_t h, const dmb_scene *s)
+{
+    for (uint32_t i = 0; i < s->stuck_count; ++i) {
+        h = add_point(h, &s->stuck[i].point);
+        h = DMB_NUMBERS(h, s->stuck[i].stiffness);
+        h = DMB_NUMBERS(h, s->stuck[i].damping);
+        h = DMB_NUMBERS(h, s->stuck[i].release);
+    }
+    return h;
+}
+
 /* As of constraints, the content of the functions cannot be told. */
 static uint64_t add_forces(uint64_t h, const dmb_scene *s)
 {
@@ -326,6 +337,7 @@ uint64_t dmb_scene_fingerprint(const dmb_scene *scene)
     h = add_inputs(h, scene);
     h = add_springs(h, scene);
     h = add_forces(h, scene);
+    h = add_stuck(h, scene);
     return add_constraints(h, scene);
 }
 

@@ -6,7 +6,9 @@
 #include "sim/access.h"
 #include "sim/own_scene.h"
 #include "system/assemble/energy.h"
+#include "system/assemble/stuck.h"
 #include "system/ledger.h"
+#include "system/let_go.h"
 #include "system/solve/solve.h"
 #include "system/start.h"
 
@@ -65,6 +67,11 @@ static int32_t check(dmb_sim *sim, settings *given)
                               DMB_NONE, "value", value, "finite");
             return DMB_ERR_NOT_FINITE;
         }
+        if (input->target == DMB_TARGET_STUCK && value > 0.0 && value < 1.0) {
+            dmb_message_field(&sim->message, dmb_part_text(&name, "input", i, input->name, sizeof input->name),
+                              DMB_NONE, "value", value, "0 (free) or 1 (stuck)");
+            return DMB_ERR_VALUE;
+        }
         if (value >= input->low && value <= input->high) continue;
         if (input->outside == DMB_OUTSIDE_REFUSED) return refuse_value(sim, i, value);
         given->clamped = 1;
@@ -98,11 +105,21 @@ static void keep(dmb_sim *sim)
     memcpy(sim->input_before + count, sim->input_begin, 3 * count * sizeof(double));
 }
 
+/* Places whose input is 1 are stuck; where they are so from now on, in the present pose. */
+static void set_stuck(dmb_sim *sim)
+{
+    for (uint32_t i = 0; i < sim->scene->stuck_count; i++) {
+        const uint32_t input = sim->scene->stuck[i].input;
+        if (input != DMB_NONE) dmb_stuck_set(sim, i, sim->input_value[input] > 0.5);
+    }
+}
+
 static void put_back(dmb_sim *sim)
 {
     const size_t count = sim->scene->input_count;
     memcpy(sim->input_value, sim->input_before, count * sizeof(double));
     memcpy(sim->input_begin, sim->input_before + count, 3 * count * sizeof(double));
+    dmb_stuck_put_back(sim);
     dmb_own_scene_update(sim);
 }
 
@@ -187,15 +204,18 @@ static int32_t note(dmb_sim *sim)
 static int32_t apply(dmb_sim *sim, const settings *given)
 {
     const double weight = moves_weight(sim) ? dmb_gravity_energy(sim->scene, &sim->now) : 0.0;
+    const double stored = dmb_stuck_energy(sim, &sim->now);
     int32_t changed = 0, forget = 0;
     int32_t status = assign(sim, given, &changed, &forget);
     if (!changed) return status;
     if (status >= 0) {
         dmb_own_scene_update(sim);
+        set_stuck(sim);
         status = check_limits(sim);
     }
     if (status >= 0) status = dmb_system_jump(sim);
     if (status < 0) return status;
+    if (sim->scene->stuck_count) dmb_stuck_lose(sim, stored);
     if (forget) dmb_forget_factors(sim); /* they were made with the old values */
     if (moves_weight(sim)) dmb_ledger_take_change(sim, dmb_gravity_energy(sim->scene, &sim->now) - weight);
     return note(sim);

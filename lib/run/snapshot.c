@@ -10,7 +10,7 @@
 
 /* "DMDBSNP1" read as a number: a snapshot of another byte order does not fit. */
 #define DMB_SNAPSHOT_MAGIC UINT64_C(0x31504E5342444D44)
-enum { DMB_SNAPSHOT_VERSION = 6 };
+enum { DMB_SNAPSHOT_VERSION = 7 };
 
 typedef struct snapshot_header {
     uint64_t magic;

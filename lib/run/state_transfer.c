@@ -12,6 +12,7 @@
 #include "system/assemble/caller_force.h"
 #include "system/assemble/energy.h"
 #include "system/assemble/springs.h"
+#include "system/assemble/stuck.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/joint_state.h"
 #include "system/solve/solve.h"
@@ -150,7 +151,8 @@ static int32_t check_joints(dmb_sim *sim, dmb_evaluation *evaluation)
 static double stored(const dmb_sim *sim)
 {
     const double strain = dmb_strain_energy(sim->scene, &sim->now) + dmb_joint_energy(sim, &sim->now) +
-                          dmb_springs_energy(sim->scene, &sim->now) + dmb_caller_forces_energy(sim->scene, &sim->now);
+                          dmb_springs_energy(sim->scene, &sim->now) + dmb_caller_forces_energy(sim->scene, &sim->now) +
+                          dmb_stuck_energy(sim, &sim->now);
     return dmb_kinetic_energy(sim->scene, &sim->now) + strain + dmb_gravity_energy(sim->scene, &sim->now) +
            dmb_contact_energy(sim->scene, &sim->now);
 }

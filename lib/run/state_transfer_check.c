@@ -44,7 +44,8 @@ static int32_t check_counts(dmb_sim *sim, const dmb_sim *from)
                   {"couplings", a->coupling_count, b->coupling_count},
                   {"constraints", a->callback_count, b->callback_count},
                   {"springs", a->spring_count, b->spring_count},
-                  {"forces", a->force_count, b->force_count}};
+                  {"forces", a->force_count, b->force_count},
+                  {"stuck places", a->stuck_count, b->stuck_count}};
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
         if (counts[i].to == counts[i].from) continue;
         dmb_message_set(&sim->message, "state transfer: %s = %u, must be %u as in the sim it goes on from",

@@ -8,8 +8,8 @@
 /* The letters of sim/sim.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
     uint64_t n, r, s, p, sb, pb, e, d, k, load, history, diagonal, link, backup;
-    uint64_t ns, held, input, event, force, f, j, c, cluster, column, raw, jacobian, tangent, dense, square, full,
-        block, value, pivots, kd, kl, kn;
+    uint64_t ns, held, input, event, force, stuck, f, j, c, cluster, column, raw, jacobian, tangent, dense, square,
+        full, block, value, pivots, kd, kl, kn;
     uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block;
 } field_counts;
 
@@ -22,7 +22,8 @@ typedef struct field_counts {
     const uint64_t dense = (of)->dense, square = (of)->square, full = (of)->full, block = (of)->block;              \
     const uint64_t value = (of)->value, pivots = (of)->pivots;                                                      \
     const uint64_t ns = (of)->ns, held = (of)->held, input = (of)->input, event = (of)->event, force = (of)->force; \
-    (void)ns, (void)held, (void)input, (void)event, (void)force;                                                    \
+    const uint64_t stuck = (of)->stuck;                                                                             \
+    (void)stuck, (void)ns, (void)held, (void)input, (void)event, (void)force;                                       \
     const uint64_t kd = (of)->kd, kl = (of)->kl, kn = (of)->kn, sb = (of)->sb, pb = (of)->pb;                       \
     const uint64_t sparse_values = (of)->sparse_values, sparse_rows = (of)->sparse_rows;                            \
     const uint64_t sparse_raw = (of)->sparse_raw, sparse_c = (of)->sparse_c;                                        \
@@ -90,6 +91,7 @@ static field_counts counts_of(const dmb_scene *scene)
     c.k = scene->bit_count;
     c.load = scene->load_count;
     c.force = scene->force_count;
+    c.stuck = scene->stuck_count;
     c.history = scene->history_count;
     c.diagonal = n > 0 ? scene->layout.diag[n] : 0;
     c.link = n > 0 ? scene->layout.link[n - 1] : 0;

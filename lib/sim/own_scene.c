@@ -55,6 +55,7 @@ static double described_value(const dmb_scene *scene, const dmb_environment_def 
     case DMB_TARGET_LIMIT_LOW: return scene->drives[i->index].limit_low;
     case DMB_TARGET_LIMIT_HIGH: return scene->drives[i->index].limit_high;
     case DMB_TARGET_FRICTION: return 1.0;
+    case DMB_TARGET_STUCK: return scene->stuck[i->index].initially;
     case DMB_TARGET_FLUID_DENSITY: return e->fluid_density;
     case DMB_TARGET_LATERAL_DAMPING: return e->lateral_damping;
     case DMB_TARGET_AXIAL_DAMPING: return e->axial_damping;
@@ -125,7 +126,8 @@ static void set_damping(const dmb_sim *sim)
     const dmb_environment_def *e = &sim->model->environment;
     double c[3] = {e->lateral_damping, e->axial_damping, e->torsional_damping};
     for (uint32_t i = 0; i < scene->input_count; i++)
-        if (scene->inputs[i].target >= DMB_TARGET_LATERAL_DAMPING)
+        if (scene->inputs[i].target >= DMB_TARGET_LATERAL_DAMPING &&
+            scene->inputs[i].target <= DMB_TARGET_TORSIONAL_DAMPING)
             c[scene->inputs[i].target - DMB_TARGET_LATERAL_DAMPING] = sim->input_value[i];
     for (uint32_t i = 0; i < scene->node_count; i++)
         dmb_node_damping_of(scene->damped_length + 3 * (size_t)i, c[1], c[2], c[0],

@@ -4,10 +4,10 @@
  * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
  * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; ns = n
  * where there are contact sites, else 0; k =
- * bit_count, load = load_count, force = force_count, held = held_count, input = input_count, event = event_count,
- * history = history_count, diagonal and link = lengths of block storage; j = joint_count, c = constraint_row_count,
- * cluster = cluster_count, column = cluster_column_count, and for a scene with joints only: raw = row_count, dense,
- * square, full = storage of the clusters, block, value, pivots = of the reduced system. */
+ * bit_count, load = load_count, force = force_count, stuck = stuck_count, held = held_count, input = input_count, event
+ * = event_count, history = history_count, diagonal and link = lengths of block storage; j = joint_count, c =
+ * constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene with joints only: raw =
+ * row_count, dense, square, full = storage of the clusters, block, value, pivots = of the reduced system. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
@@ -78,7 +78,8 @@
     X(double, drive_input, d, INPUTS) /* [unit of the programme] value set by the caller; NaN: the programme:         \
                                          run/inputs, run/life */                                                      \
     X(double, input_value, input, SET_INPUTS) /* [unit of the target] set by the caller; NaN: the programme:          \
-                                                 run/input_set, sim/own_scene */                                      \
+                                                 run/input_set, sim/own_scene; of a stuck place that lets go          \
+                                                 system/let_go */                                                    \
     X(double, input_begin, 3 * input, NUMBERS) /* [s, unit, unit/s] where the way to the value begins:               \
                                                  run/input_set, sim/own_scene */                                      \
     X(double, event_since, event, EVENT_TIMES) /* [s] time at which it crossed and from which it is held; NaN: not    \
@@ -89,6 +90,9 @@
     X(double, history_surface, history, NUMBERS) /* [m] system/assemble/bit */                                        \
     X(dmb_history_head, history_head, k, HISTORY_HEADS) /* system/assemble/bit */                                     \
     X(int32_t, joint_state, j, JOINT_STATES) /* DMB_JOINT_..., system/constrain/joint_state */                        \
+    X(int32_t, stuck_held, stuck, FLAGS)          /* [-] 1 while the place is stuck: system/assemble/stuck */          \
+    X(double, stuck_anchor, 12 * stuck, NUMBERS)  /* [-, m] R and x of the place where it got stuck:                  \
+                                                     system/assemble/stuck */                                         \
     X(double, joint_lock, 12 * j, NUMBERS) /* [-, m] R and p of frame b in frame a where the joint was locked:        \
                                               system/constrain/joint_state */                                         \
     X(double, constraint_offset, c, NUMBERS) /* [m, rad] what a coupling keeps: system/constrain/cluster_assembly */          \

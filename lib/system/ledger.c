@@ -1,6 +1,7 @@
 #include "system/ledger.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/springs.h"
+#include "system/assemble/stuck.h"
 
 #include <math.h>
 #include <string.h>
@@ -32,7 +33,7 @@ void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation)
     sim->ledger->start = dmb_kinetic_energy(sim->scene, &sim->now) + dmb_strain_energy(sim->scene, &sim->now) +
                          dmb_gravity_energy(sim->scene, &sim->now) + dmb_contact_energy(sim->scene, &sim->now) +
                          dmb_joint_energy(sim, &sim->now) + dmb_springs_energy(sim->scene, &sim->now) +
-                         dmb_caller_forces_energy(sim->scene, &sim->now);
+                         dmb_caller_forces_energy(sim->scene, &sim->now) + dmb_stuck_energy(sim, &sim->now);
 }
 
 void dmb_ledger_jump(dmb_sim *sim, const dmb_evaluation *evaluation)

@@ -43,6 +43,7 @@ typedef union any_def {
     dmb_constraint_def constraint;
     dmb_spring_def spring;
     dmb_force_def force;
+    dmb_stuck_def stuck;
 } any_def;
 
 /* A model that every definition fits into, and the ids it needs. */
@@ -402,6 +403,20 @@ static int32_t add_spring(dmb_model *model, const any_def *def)
     return dmb_model_add_spring(model, &def->spring, NULL);
 }
 
+static const field stuck_fields[] = {PLACE_FIELDS(dmb_stuck_def, place),   F(dmb_stuck_def, holds, WHOLE, 1),
+                                     F(dmb_stuck_def, stuck, WHOLE, 1),    F(dmb_stuck_def, stiffness, REAL, 3),
+                                     F(dmb_stuck_def, damping, REAL, 3),   F(dmb_stuck_def, overpull, REAL, 1),
+                                     F(dmb_stuck_def, overtorque, REAL, 1)};
+static void fill_stuck(const scene_under_test *s, any_def *def)
+{
+    def->stuck = dmb_stuck_def_default();
+    def->stuck.place = dmb_station(s->string, 0, 0.3);
+}
+static int32_t add_stuck(dmb_model *model, const any_def *def)
+{
+    return dmb_model_add_stuck(model, &def->stuck, NULL);
+}
+
 static int32_t any_force(void *context, double time, uint32_t count, const double (*poses)[12],
                          const double (*velocities)[6], double (*forces)[6], double *tangent, double *potential)
 {
@@ -467,6 +482,7 @@ static const kind_of_def kinds[] = {
     {"spring", FIELDS(spring_fields), fill_spring, add_spring},
     {"hole section", FIELDS(section_fields), fill_section, add_section},
     {"force", FIELDS(force_fields), fill_force, add_force},
+    {"stuck", FIELDS(stuck_fields), fill_stuck, add_stuck},
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0], WALL = 3 };
 

@@ -53,6 +53,7 @@ INIT(hole_section)
 INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row) INIT(fatigue_options)
 INIT(fatigue_result) INIT(window_options) INIT(window_result) INIT(profile_recorder)
 INIT(parameter) INIT(input_def) INIT(input_info) INIT(input_state) INIT(spring_def) INIT(force_def) INIT(spring_state)
+INIT(stuck_def) INIT(stuck_state)
 INIT(state_space_options) INIT(state_space_info) INIT(row)
     /* clang-format on */
 
@@ -137,6 +138,16 @@ static int32_t add_force(dmb_model *model, void *p)
         force->callback = no_force;
     }
     return dmb_model_add_force(model, force, NULL);
+}
+
+static int32_t add_stuck(dmb_model *model, void *p)
+{
+    dmb_stuck_def *stuck = p;
+    const dmb_body_def body = dmb_body_def_default();
+    dmb_id id;
+    assert_int_equal(dmb_model_add_body(model, &body, &id), DMB_OK);
+    if (stuck->struct_size >= sizeof *stuck) stuck->place = dmb_station(id, 0, 0.0);
+    return dmb_model_add_stuck(model, stuck, NULL);
 }
 
 static int32_t add_spring(dmb_model *model, void *p)
@@ -341,6 +352,7 @@ CALL(event_report, with_model(report_event, p))
 CALL(input_info, with_model(get_info, p))
 CALL(input_state, with_model(get_state, p))
 CALL(spring_def, with_model(add_spring, p))
+CALL(stuck_def, with_model(add_stuck, p))
 CALL(force_def, with_model(add_force, p))
 CALL(joint_def, with_model(add_joint, p))
 CALL(coupling_def, with_model(add_coupling, p))
@@ -359,6 +371,7 @@ CALL(energy, dmb_query_energy(scene.sim, p))
 CALL(momentum, dmb_query_momentum(scene.sim, p))
 CALL(drive_state, dmb_query_drive(scene.sim, scene.parts.turning, p))
 CALL(spring_state, dmb_query_spring(scene.sim, scene.parts.rope, p))
+CALL(stuck_state, dmb_query_stuck(scene.sim, scene.parts.jam, p))
 CALL(joint_state, dmb_query_joint(scene.sim, scene.parts.hinge, p))
 CALL(bit_state, dmb_query_bit(scene.sim, scene.parts.bit, p))
 CALL(statistics, dmb_query_statistics(scene.sim, p))
@@ -610,6 +623,8 @@ static const entry entries[] = {
     ENTRY(spring_def, 0),
     ENTRY(force_def, 0),
     ENTRY(spring_state, 1),
+    ENTRY(stuck_def, 0),
+    ENTRY(stuck_state, 1),
     ENTRY(event_def, 0),
     {"event as described", sizeof(dmb_event_def), sizeof(dmb_event_def), init_event_def, call_event_got, 1},
     ENTRY(event_report, 1),

@@ -23,7 +23,7 @@ typedef struct whole_parts {
     dmb_id wall, string, second, head, body, bit;
     dmb_id constant, step, step5, harmonic, table, smooth, plain;
     dmb_id feed, turning, pushing, spinning;
-    dmb_id arm, wheel, hinge, axle, spring, gear, watch, winding, rope;
+    dmb_id arm, wheel, hinge, axle, spring, gear, watch, winding, rope, jam;
     int32_t callback_status; /* what the callbacks return; not 0: they fail */
 } whole_parts;
 
@@ -431,6 +431,15 @@ static inline int32_t whole_add_force(dmb_model *model, whole_parts *parts)
     return dmb_model_add_force(model, &force, NULL);
 }
 
+/* Somewhere inside a pipe; free. */
+static inline int32_t whole_add_stuck(dmb_model *model, whole_parts *parts)
+{
+    dmb_stuck_def stuck = dmb_stuck_def_default();
+    stuck.place = dmb_station(parts->string, 3, 0.55);
+    stuck.stuck = 0;
+    return dmb_model_add_stuck(model, &stuck, &parts->jam);
+}
+
 static inline int32_t whole_add_point_load(dmb_model *model, whole_parts *parts)
 {
     dmb_load_def load = dmb_load_def_default();
@@ -497,7 +506,7 @@ static const whole_call whole_calls[] = {
     whole_add_turning,      whole_add_pushing,        whole_add_spinning,    whole_add_dead_load, whole_add_follower,
     whole_add_arm,          whole_add_wheel,          whole_add_hinge,       whole_add_axle,      whole_add_spring,
     whole_add_gear,         whole_add_watch,          whole_add_winding,     whole_add_rope,      whole_add_guy,
-    whole_add_point_load,   whole_add_force,          whole_compile};
+    whole_add_point_load,   whole_add_force,          whole_add_stuck,       whole_compile};
 enum { WHOLE_CALLS = sizeof whole_calls / sizeof whole_calls[0] };
 
 static inline void whole_must(const dmb_model *model, int32_t status)

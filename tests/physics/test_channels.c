@@ -8,7 +8,7 @@
 
 typedef struct scene {
     rig s;
-    dmb_id string, bit, feed, torque, body, joint;
+    dmb_id stuck, string, bit, feed, torque, body, joint;
 } scene;
 
 /* Eight pipes of S1 that drill, and a pendulum with a spring on a joint. */
@@ -47,6 +47,10 @@ static scene make(void)
     joint.rest[DMB_X] = 0.1;
     joint.damping[DMB_RX] = 0.2;
     r.joint = add_joint(&r.s, &joint);
+    dmb_stuck_def stuck = dmb_stuck_def_default();
+    stuck.place = dmb_station(r.body, 0, 0.0);
+    stuck.damping[0] = stuck.damping[1] = 1.0;
+    must_model(&r.s, dmb_model_add_stuck(r.s.model, &stuck, &r.stuck));
     rig_start(&r.s, NULL);
     take_steps(&r.s, 1e-3, 60);
     return r;
@@ -62,8 +66,9 @@ static void destroy(scene *r)
 static dmb_place place_for(const scene *r, int32_t q)
 {
     const dmb_place along = dmb_station(r->string, 2, 0.25), none = dmb_station((dmb_id){0, 0}, 0, 0.0);
-    if (q == DMB_CHANNEL_BIT_WEIGHT || (q >= 120 && q < 130)) return dmb_station(r->bit, 0, 0.0);
+    if (q == DMB_CHANNEL_BIT_WEIGHT || (q >= 120 && q < 127)) return dmb_station(r->bit, 0, 0.0);
     if (q == DMB_CHANNEL_DRIVE_FORCE || q == DMB_CHANNEL_DRIVE_SPEED) return dmb_station(r->feed, 0, 0.0);
+    if (q >= 127 && q < 130) return dmb_station(r->stuck, 0, 0.0);
     if (q >= 130 && q < 140) return dmb_station(r->torque, 0, 0.0);
     if (q >= 140 && q < 150) return dmb_station((dmb_id){0, 0}, 5, 0.0);
     if (q >= 300 && q < 380) return dmb_station(r->joint, 0, 0.0);
@@ -162,6 +167,11 @@ static double of_part(const scene *r, int32_t q)
     if (q == DMB_CHANNEL_DRIVE_FORCE) return f.force;
     if (q == DMB_CHANNEL_DRIVE_SPEED) return f.speed;
     if (q == DMB_CHANNEL_BIT_WEIGHT) return b.weight + b.load;
+    if (q >= 127 && q < 130) {
+        dmb_stuck_state held = dmb_stuck_state_default();
+        must(&r->s, dmb_query_stuck(r->s.sim, r->stuck, &held));
+        return q == DMB_CHANNEL_STUCK ? held.stuck : held.force[q == DMB_CHANNEL_STUCK_FORCE ? 0 : 3];
+    }
     return q < 130 ? bit[q - 120] : drive[q - 130];
 }
 
@@ -248,7 +258,7 @@ static void each_is_its_query(void **state)
     }
     tell("channels", count);
     tell("    of them not 0", nonzero);
-    assert_int_equal(count, 213);
+    assert_int_equal(count, 216);
     assert_true(nonzero > 150);
     destroy(&r);
 }

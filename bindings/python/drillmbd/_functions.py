@@ -85,6 +85,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_add_programme": (c_int32, c_void_p, POINTER(Term), c_uint32, POINTER(Id),),
     "dmb_model_add_spring": (c_int32, c_void_p, POINTER(SpringDef), POINTER(Id),),
     "dmb_model_add_string": (c_int32, c_void_p, POINTER(StringDef), POINTER(Id),),
+    "dmb_model_add_stuck": (c_int32, c_void_p, POINTER(StuckDef), POINTER(Id),),
     "dmb_model_add_wall": (c_int32, c_void_p, POINTER(WallDef), POINTER(Id),),
     "dmb_model_clear_refused": (c_int32, c_void_p,),
     "dmb_model_compile": (c_int32, c_void_p, POINTER(CompileOptions),),
@@ -149,6 +150,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_query_section": (c_int32, c_void_p, Place, POINTER(Section),),
     "dmb_query_spring": (c_int32, c_void_p, Id, POINTER(SpringState),),
     "dmb_query_statistics": (c_int32, c_void_p, POINTER(Statistics),),
+    "dmb_query_stuck": (c_int32, c_void_p, Id, POINTER(StuckState),),
     "dmb_recorder_init": (c_int32, POINTER(RecorderStruct), c_uint32,),
     "dmb_recorder_take": (c_int32, POINTER(RecorderStruct), c_void_p,),
     "dmb_recorder_write_csv": (c_int32, POINTER(RecorderStruct), c_char_p,),
@@ -212,6 +214,8 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_stepped_sine_options_init": (c_int32, POINTER(SteppedSineOptions), c_uint32,),
     "dmb_stepped_sine_report_init": (c_int32, POINTER(SteppedSineReport), c_uint32,),
     "dmb_string_def_init": (c_int32, POINTER(StringDef), c_uint32,),
+    "dmb_stuck_def_init": (c_int32, POINTER(StuckDef), c_uint32,),
+    "dmb_stuck_state_init": (c_int32, POINTER(StuckState), c_uint32,),
     "dmb_term_init": (c_int32, POINTER(Term), c_uint32,),
     "dmb_torque_drag_options_init": (c_int32, POINTER(TorqueDragOptions), c_uint32,),
     "dmb_torque_drag_row_init": (c_int32, POINTER(TorqueDragRow), c_uint32,),
@@ -300,6 +304,8 @@ FUNCTION_DOCS = {
         "Errors: ERR_ID, _VALUE; dmb_model_compile: ERR_VALUE (no such pipe, points that move as one), _GEOMETRY (points that coincide at time 0 with a force between them), _UNSUPPORTED (axial-torsional pipes in a curved hole). Within one body or element and the ground it costs no coupling of parts; else it connects parts as a joint does.",
     "dmb_model_add_string":
         "Adds a string without pipes. The first dmb_model_add_pipes without a string makes one by default.",
+    "dmb_model_add_stuck":
+        "Errors: ERR_ID, _VALUE, _NOT_FINITE; dmb_model_compile: ERR_VALUE (no such pipe), _UNSUPPORTED (sideways on axial-torsional pipes).",
     "dmb_model_add_wall":
         "Adds the hole. One hole a model; wall may be NULL.",
     "dmb_model_clear_refused":

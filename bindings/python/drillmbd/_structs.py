@@ -1083,6 +1083,31 @@ class EventReport(Sized):
     }
 
 
+class StuckState(Sized):
+    c_name, about = "dmb_stuck_state", ""
+    struct_size: int
+    stuck: int
+    offset: 'Array[c_double]'
+    force: 'Array[c_double]'
+    share: float
+    energy: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("stuck", c_int32),
+        ("offset", c_double * 4),
+        ("force", c_double * 4),
+        ("share", c_double),
+        ("energy", c_double),
+    ]
+    field_docs = {
+        "stuck": ("", "1: held"),
+        "offset": ("m, m, m, rad", "from where it got stuck: along, sideways y and z, turned; 0 where it is not"),
+        "force": ("N, N, N, N m", "that holds it, on the string, in the same order"),
+        "share": ("-", "largest of |axial force|/overpull and |torque|/overtorque; it lets go at 1"),
+        "energy": ("J", "stored in the springs"),
+    }
+
+
 class Operation(Sized):
     c_name, about = "dmb_operation", ""
     struct_size: int
@@ -2324,7 +2349,7 @@ class InputDef(Sized):
     field_docs = {
         "target": ("", "TARGET_..., default TARGET_SET_POINT"),
         "name": ("", "required, of its own among the inputs, ends with 0"),
-        "part": ("", "drive, load or bit; {0, 0} of wall and environment"),
+        "part": ("", "drive, load, bit or stuck place; {0, 0} of wall and environment"),
         "initial": ("unit of the target", "at time 0, within the bounds; NaN (default): as described, which for 0, 5 and 6 is the programme, until the input is set"),
         "low": ("unit of the target", "bounds, low <= high; default -1e30 and 1e30: as far as the target goes"),
         "high": ("unit of the target", "bounds, low <= high; default -1e30 and 1e30: as far as the target goes"),
@@ -2738,6 +2763,42 @@ class ProfileRecorderStruct(Sized):
     }
 
 
+class StuckDef(Sized):
+    c_name, about = "dmb_stuck_def", ""
+    struct_size: int
+    holds: int
+    name: bytes
+    place: Place
+    stuck: int
+    reserved: int
+    stiffness: 'Array[c_double]'
+    damping: 'Array[c_double]'
+    overpull: float
+    overtorque: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("holds", c_int32),
+        ("name", c_char * 24),
+        ("place", Place),
+        ("stuck", c_int32),
+        ("reserved", c_int32),
+        ("stiffness", c_double * 3),
+        ("damping", c_double * 3),
+        ("overpull", c_double),
+        ("overtorque", c_double),
+    ]
+    field_docs = {
+        "holds": ("", "mask of STUCK_...; default AXIAL and ROTATION"),
+        "name": ("", "for messages, ends with 0; default \"\""),
+        "place": ("", "of a pipe, or a body or bit; required"),
+        "stuck": ("", "1: from time 0 on, in the pose there (default); 0: not yet"),
+        "stiffness": ("N/m, N m/rad, N/m", "along the axis, about it, sideways, > 0; default 1e9, 1e8, 1e9"),
+        "damping": ("N s/m, N m s, N s/m", ">= 0; not there without FEATURE_DAMPING; default 0"),
+        "overpull": ("N", "axial force, pull or push, at which it lets go, > 0; default 0: never"),
+        "overtorque": ("N m", "torque, either way, > 0, at most stiffness[1] times 1 rad; default 0: at 1 rad"),
+    }
+
+
 class SpringDef(SpringPart, Sized):
     c_name, about = "dmb_spring_def", "Spring and damper between two points, tension > 0: preload + stiffness e + table(e) + damping e', e the elongation beyond free_length; its length is sqrt(d^2 + (1e-9 m)^2), since points that meet have no direction."
     struct_size: int
@@ -3013,6 +3074,8 @@ STRUCTS["dmb_input_state"] = InputState
 STRUCTS["dmb_input_record"] = InputRecord
 STRUCTS["dmb_event_def"] = EventDef
 STRUCTS["dmb_event_report"] = EventReport
+STRUCTS["dmb_stuck_def"] = StuckDef
+STRUCTS["dmb_stuck_state"] = StuckState
 STRUCTS["dmb_operation"] = Operation
 STRUCTS["dmb_torque_drag_options"] = TorqueDragOptions
 STRUCTS["dmb_torque_drag_row"] = TorqueDragRow

@@ -607,6 +607,9 @@ class Reading(IntEnum):
     BIT_TORQUE = 124  #: [N m]
     BIT_LOAD = 125  #: [N]
     BIT_ON_BOTTOM = 126  #: [-] 1 or 0
+    STUCK = 127  #: [-] 1 or 0
+    STUCK_FORCE = 128  #: [N] axial
+    STUCK_TORQUE = 129  #: [N m]
     DRIVE_TARGET = 130  #: [unit of the programme]
     DRIVE_POSITION = 131  #: [m, rad]
     DRIVE_POWER = 132  #: [W]
@@ -706,6 +709,9 @@ CHANNEL_BIT_ROCK_WEIGHT = Reading.BIT_ROCK_WEIGHT
 CHANNEL_BIT_TORQUE = Reading.BIT_TORQUE
 CHANNEL_BIT_LOAD = Reading.BIT_LOAD
 CHANNEL_BIT_ON_BOTTOM = Reading.BIT_ON_BOTTOM
+CHANNEL_STUCK = Reading.STUCK
+CHANNEL_STUCK_FORCE = Reading.STUCK_FORCE
+CHANNEL_STUCK_TORQUE = Reading.STUCK_TORQUE
 CHANNEL_DRIVE_TARGET = Reading.DRIVE_TARGET
 CHANNEL_DRIVE_POSITION = Reading.DRIVE_POSITION
 CHANNEL_DRIVE_POWER = Reading.DRIVE_POWER
@@ -797,8 +803,9 @@ class InputTarget(IntEnum):
     FLUID_DENSITY = 8  #: [-] factor of both coefficients of the wall, [kg/m3]
     LATERAL_DAMPING = 9
     AXIAL_DAMPING = 10  #: [N s/m2]
-    TORSIONAL_DAMPING = 11
-    COUNT = 12  #: [N s]
+    TORSIONAL_DAMPING = 11  #: [N s]
+    STUCK = 12
+    COUNT = 13  #: [-] 1: a place is stuck from now on, 0: it is free (bha.h)
 
 
 TARGET_SET_POINT = InputTarget.SET_POINT
@@ -813,6 +820,7 @@ TARGET_FLUID_DENSITY = InputTarget.FLUID_DENSITY
 TARGET_LATERAL_DAMPING = InputTarget.LATERAL_DAMPING
 TARGET_AXIAL_DAMPING = InputTarget.AXIAL_DAMPING
 TARGET_TORSIONAL_DAMPING = InputTarget.TORSIONAL_DAMPING
+TARGET_STUCK = InputTarget.STUCK
 TARGET_COUNT = InputTarget.COUNT
 
 
@@ -844,6 +852,18 @@ class Events(IntEnum):
 
 
 EVENTS_MAX = Events.MAX
+
+
+class StuckHolds(IntFlag):
+    """Bits DMB_STUCK_... of the headers."""
+    AXIAL = 1
+    ROTATION = 2
+    LATERAL = 4
+
+
+STUCK_AXIAL = StuckHolds.AXIAL
+STUCK_ROTATION = StuckHolds.ROTATION
+STUCK_LATERAL = StuckHolds.LATERAL
 
 
 class OperationKind(IntEnum):
@@ -1123,6 +1143,7 @@ ENUMS = (
     Outside,
     EventDirection,
     Events,
+    StuckHolds,
     OperationKind,
     Measured,
     SpringActs,

@@ -11,7 +11,8 @@ from ._library import lib as _lib
 from ._record import Record
 from ._structs import (BitDef, BodyDef, Channel, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef,
                        EventDef, ForceDef, HolePoint, HoleSection, Id, InputDef, InputInfo, JointDef, LoadDef, ModelInfo,
-                       ModelOptions, PipeDef, Place, SimOptions, SpringDef, StringDef, Term, WallDef)
+                       ModelOptions, PipeDef, Place, SimOptions, SpringDef, StringDef, StuckDef, Term,
+                       WallDef)
 
 if TYPE_CHECKING:
     from .sim import Sim
@@ -172,6 +173,10 @@ class Model(Handle):
         force [N]). Returns its id."""
         return self._add("spring", SpringDef, definition, fields)
 
+    def add_stuck(self, definition: StuckDef | None = None, **fields: Any) -> Id:
+        """Adds a place that can be stuck, by a StuckDef or its fields; returns its id."""
+        return self._add("stuck", StuckDef, definition, fields)
+
     @mirrors("dmb_model_add_event")
     def add_event(self, definition: EventDef | None = None, **fields: Any) -> Id:
         """Adds an event that Sim.advance_to_event stops at, by an EventDef or its fields; returns its id."""
@@ -253,7 +258,7 @@ _DEFINITIONS: dict[str, Any] = {
     "set_environment": EnvironmentDef, "add_wall": WallDef, "add_hole_sections": HoleSection, "add_string": StringDef, "add_pipes": PipeDef,
     "add_body": BodyDef, "add_bit": BitDef, "add_joint": JointDef, "add_coupling": CouplingDef,
     "add_constraint": ConstraintDef, "add_drive": DriveDef, "add_load": LoadDef, "add_spring": SpringDef,
-    "add_force": ForceDef,
+    "add_force": ForceDef, "add_stuck": StuckDef,
     "add_input": InputDef, "add_event": EventDef, "compile": CompileOptions,
     "add_programme": Term}
 

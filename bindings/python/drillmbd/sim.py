@@ -15,7 +15,7 @@ from ._keep import Keep, as_place, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._progress import Teller
 from ._structs import (STRUCTS, BitState, Channel, Contact, DriveState, Energy, FatigueOptions, Id, Input, JointState,
-                       Momentum, Motion, Output, Place, Pose, Section, SimOptions, SpringState, StateSpaceOptions, Statistics,
+                       Momentum, Motion, Output, Place, Pose, Section, SimOptions, SpringState, StateSpaceOptions, Statistics, StuckState,
                        StepReport, WindowOptions)
 from ._structs import EventReport
 from .channels import channel_quantity
@@ -330,6 +330,11 @@ class Sim(Handle, analysis.Analyses):
     def spring(self, spring: Id) -> SpringState:
         """Length, elongation [m], force [N], its shares and energy [J] of a spring."""
         answer: SpringState = self._ask(_lib.dmb_query_spring, SpringState.blank(), spring)
+        return answer
+
+    def stuck(self, stuck: Id) -> StuckState:
+        """Whether a place is stuck; offset, force that holds it, share of what frees it."""
+        answer: StuckState = self._ask(_lib.dmb_query_stuck, StuckState.blank(), stuck)
         return answer
 
     def bit(self, bit: Id) -> BitState:

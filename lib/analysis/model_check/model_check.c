@@ -207,6 +207,12 @@ static void pass_callbacks(const groups *g)
             if (scene->forces[i].joint[k] == DMB_NONE) hold(g, scene->forces[i].point[k].node);
 }
 
+static void pass_stuck(const groups *g)
+{
+    for (uint32_t i = 0; i < g->sim->scene->stuck_count; i++)
+        if (g->sim->stuck_held[i]) hold(g, g->sim->scene->stuck[i].point.node);
+}
+
 /* Guides, drives, walls and rock. An axial-torsional node stands on its axis. */
 static void pass_nodes(const groups *g)
 {
@@ -241,6 +247,7 @@ int32_t dmb_find_loose_parts(const dmb_sim *sim, dmb_loose_parts *loose)
     pass_joints(&g);
     pass_callbacks(&g);
     pass_springs(&g);
+    pass_stuck(&g);
     pass_nodes(&g);
     count_loose(&g, loose);
     dmb_release(&sim->allocator, block, bytes);

@@ -12,6 +12,7 @@
 #include "sim/layout.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/drives.h"
+#include "system/assemble/stuck.h"
 #include "system/assemble/wall_contact.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/joint_state.h"
@@ -264,6 +265,24 @@ static void lay_rock(dmb_static_search *search)
     }
 }
 
+/* An equilibrium in which a stuck place bears more than it can is none. */
+static int32_t refuse_torn(const dmb_static_search *search)
+{
+    dmb_sim *sim = search->sim;
+    dmb_message name;
+    for (uint32_t i = 0; i < sim->scene->stuck_count; i++) {
+        const double share = dmb_stuck_share(sim, &sim->trial, i, 0);
+        if (!(share > 1.0)) continue;
+        dmb_message_set(
+            &sim->message,
+            "static: %s: force or torque = %g times the one at which it lets go, must be <= 1; pull less, set it free "
+            "(input of DMB_TARGET_STUCK), or run in time over the release",
+            dmb_part_text(&name, "stuck", i, sim->scene->stuck[i].name, sizeof sim->scene->stuck[i].name), share);
+        return DMB_ERR_UNSUPPORTED;
+    }
+    return DMB_OK;
+}
+
 /* The found pose becomes the state. */
 static int32_t settle(dmb_static_search *search)
 {
@@ -321,7 +340,8 @@ static int32_t find(dmb_static_search *search, dmb_static_report *out)
         return status;
     }
     tell(search, out);
-    status = judge_stability(search, out);
+    status = refuse_torn(search);
+    if (status >= 0) status = judge_stability(search, out);
     if (status < 0) {
         dmb_state_restore(sim);
         return status;

@@ -236,9 +236,26 @@ static int32_t check_caller_force(dmb_sim *sim, uint32_t i, double bound)
     return DMB_OK;
 }
 
+/* A place that is held does not move in a steady state. */
+static int32_t check_stuck(dmb_sim *sim, uint32_t i, double bound)
+{
+    dmb_point_motion point;
+    dmb_message name;
+    if (!sim->stuck_held[i]) return DMB_OK;
+    dmb_point_motion_of(sim->scene, &sim->trial, &sim->scene->stuck[i].point, &point);
+    const double speed = dmb_vec3_norm(point.V) + dmb_vec3_norm(point.V + 3);
+    if (speed <= bound) return DMB_OK;
+    dmb_message_set(
+        &sim->message, "static: %s moves at %g, must stand still, since it is held; take DMB_STEADY_AT_REST",
+        dmb_part_text(&name, "stuck", i, sim->scene->stuck[i].name, sizeof sim->scene->stuck[i].name), speed);
+    return DMB_ERR_UNSUPPORTED;
+}
+
 static int32_t check_lines(dmb_sim *sim, double most)
 {
     int32_t status = DMB_OK;
+    for (uint32_t i = 0; i < sim->scene->stuck_count && status >= 0; i++)
+        status = check_stuck(sim, i, DMB_STEADY_SPRING * most);
     for (uint32_t i = 0; i < sim->scene->force_count && status >= 0; i++)
         status = check_caller_force(sim, i, DMB_STEADY_SPRING * most);
     for (uint32_t i = 0; i < sim->scene->spring_count && status >= 0; i++)

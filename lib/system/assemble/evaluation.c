@@ -13,6 +13,7 @@
 #include "system/assemble/joint_forces.h"
 #include "system/assemble/nodes.h"
 #include "system/assemble/springs.h"
+#include "system/assemble/stuck.h"
 #include "system/assemble/wall_contact.h"
 #include "system/constrain/joint_state.h"
 
@@ -100,6 +101,7 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
     if (scene->cluster_count && evaluation->tangent)
         memset(evaluation->sim->constraint_tangent, 0, scene->tangent_count * sizeof(double));
     if (scene->spring_count) dmb_gather_springs(evaluation);
+    if (scene->stuck_count) dmb_gather_stuck(evaluation);
     if (scene->force_count && dmb_gather_caller_forces(evaluation) < 0) return evaluation->status = DMB_ERR_CALLBACK;
     if (scene->cluster_count) evaluation->status = dmb_gather_joints(evaluation);
     if (evaluation->status >= 0) evaluation->status = finite_status(evaluation->sim);

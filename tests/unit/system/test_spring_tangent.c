@@ -1,13 +1,15 @@
-/* Iteration matrix of springs, of loads at any place and of the caller's forces (within nodes, inside elements, across
- * parts) against differences of the residual by the increments of a step, which move poses and velocities together; and
- * the force of springs against differences of their energy. */
+/* Iteration matrix of springs, of stuck places, of loads at any place and of the caller's forces (within nodes, inside
+ * elements, across parts) against differences of the residual by the increments of a step, which move poses and
+ * velocities together; and the force of springs and stuck places against differences of their energy. */
 #include <string.h>
 
 #include "mechanism.h"
 #include "moved_rig.h"
 
+#include "drillmbd/bha.h"
 #include "drillmbd/forces.h"
 #include "system/assemble/springs.h"
+#include "system/assemble/stuck.h"
 
 /* ---- Scene ------------------------------------------------------------------------------------------------------- */
 
@@ -157,6 +159,25 @@ static void add_forces(rig *s, const parts *p, int across)
     }
 }
 
+/* Inside elements, on nodes, of beams, bars and a body; what bars cannot hold is left out there. */
+static void add_stuck(rig *s, const parts *p)
+{
+    const dmb_place places[5] = {dmb_station(p->beam, 0, 0.3), dmb_station(p->beam, 1, 1.0),
+                                 dmb_station(p->body[0], 0, 0.0), dmb_station(p->bar, 0, 0.8),
+                                 dmb_station(p->bar, 1, 1.0)};
+    uint64_t seed = 60;
+    for (int i = 0; i < 5; i++) {
+        dmb_stuck_def def = dmb_stuck_def_default();
+        def.place = places[i];
+        def.holds = i < 3 ? 7 : DMB_STUCK_AXIAL | DMB_STUCK_ROTATION;
+        for (int k = 0; k < 3; k++) {
+            def.stiffness[k] = draw_between(&seed, 2.0, 6.0);
+            def.damping[k] = draw_between(&seed, 0.2, 0.8);
+        }
+        must_model(s, dmb_model_add_stuck(s->model, &def, NULL));
+    }
+}
+
 static void open_scene(rig *s, int springs, int loads, int across)
 {
     parts p;
@@ -164,6 +185,7 @@ static void open_scene(rig *s, int springs, int loads, int across)
     add_parts(s, &p);
     if (springs & 1) add_springs(s, &p, across);
     if (springs & 2) add_forces(s, &p, across);
+    if (springs & 4) add_stuck(s, &p);
     if (loads) add_loads(s, &p);
     (void)mechanism_start(s, NULL);
     assert_true(s->sim->scene->row_count <= ROWS_MAX);
@@ -248,6 +270,7 @@ static void matrix_is_the_derivative(void **state)
     check_below("loads at points, step", worst_of(0, 1, 0, 1), 1e-9);
     check_below("springs within nodes and elements, step", worst_of(1, 0, 0, 1), 1e-9);
     check_below("springs across parts, step", worst_of(1, 1, 1, 1), 1e-9);
+    check_below("stuck places, step", worst_of(4, 0, 0, 1), 1e-9);
     check_below("the caller's forces within an element, step", worst_of(2, 0, 0, 1), 1e-8);
 }
 
@@ -257,18 +280,18 @@ static void static_matrix_is_the_derivative(void **state)
     check_below("loads at points, statics", worst_of(0, 1, 0, 0), 1e-9);
     check_below("springs within nodes and elements, statics", worst_of(1, 0, 0, 0), 1e-9);
     check_below("springs across parts, statics", worst_of(1, 1, 1, 0), 1e-9);
+    check_below("stuck places, statics", worst_of(4, 0, 0, 0), 1e-9);
     check_below("the caller's forces within an element, statics", worst_of(2, 0, 0, 0), 1e-8);
     check_below("the caller's forces across parts, statics", worst_of(2, 0, 1, 0), 1e-8);
 }
 
 /* Residual of springs alone by a displacement z of each row: dE/dz. */
-static void forces_come_of_the_energy(void **state)
+static void compare_energy(int springs, int across)
 {
     double base[ROWS_MAX] = {0.0}, with[ROWS_MAX], worst = 0.0;
     dmb_evaluation e;
     rig s;
-    (void)state;
-    open_scene(&s, 1, 0, 1);
+    open_scene(&s, springs, 0, across);
     stir_poses(&s, 7);
     dmb_sim *sim = s.sim;
     const uint32_t rows = sim->scene->row_count;
@@ -277,7 +300,7 @@ static void forces_come_of_the_energy(void **state)
     memcpy(with, sim->residual, rows * sizeof(double));
     dmb_scene bare = *sim->scene;
     const dmb_scene *scene = sim->scene;
-    bare.spring_count = 0;
+    bare.spring_count = bare.stuck_count = 0;
     sim->scene = &bare;
     evaluate(sim, 0, 0, &e);
     sim->scene = scene;
@@ -285,12 +308,19 @@ static void forces_come_of_the_energy(void **state)
         double f[6];
         for (int p = 0; p < 6; p++) {
             move_to(sim, 0, base, i, 2e-4 * difference6_place[p]);
-            f[p] = dmb_springs_energy(scene, &sim->trial);
+            f[p] = dmb_springs_energy(scene, &sim->trial) + dmb_stuck_energy(sim, &sim->trial);
         }
         worst = fmax(worst, fabs(with[i] - sim->residual[i] - difference6(f, 2e-4)));
     }
-    check_below("forces of springs against differences of their energy [N, N m]", worst, 1e-9);
+    check_below("forces against differences of their energy [N, N m]", worst, 1e-9);
     rig_close(&s);
+}
+
+static void forces_come_of_the_energy(void **state)
+{
+    (void)state;
+    compare_energy(1, 1);
+    compare_energy(4, 0);
 }
 
 int main(void)

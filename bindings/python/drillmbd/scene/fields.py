@@ -19,7 +19,7 @@ from .problems import meant
 # Fields whose text in the header does not name the enumeration.
 ENUM_OF = {"component": enums.Component, "initial_mask": enums.Free, "start_free": enums.Free, "end_free": enums.Free,
            "free_mask": enums.Free, "pipe_kind": enums.PipeKind, "contact": enums.ContactState, "outside": enums.Outside,
-           "target": enums.InputTarget}
+           "target": enums.InputTarget, "holds": enums.StuckHolds}
 UNIT_OF = {"contact_gap": "m"}  # where one comment stands for several fields
 LEFT_OUT = {"struct_size", "survey_count", "table_count", "provides", "callback_context", "callback", "log", "allocator",
             "log_context"}
@@ -234,7 +234,7 @@ DEFINITIONS: dict[str, Any] = {
     "environment": _structs.EnvironmentDef, "hole": _structs.WallDef, "section": _structs.HoleSection, "string": _structs.StringDef,
     "pipes": _structs.PipeDef, "body": _structs.BodyDef, "bit": _structs.BitDef, "joint": _structs.JointDef,
     "coupling": _structs.CouplingDef, "drive": _structs.DriveDef, "load": _structs.LoadDef,
-    "spring": _structs.SpringDef, "term": _structs.Term,
+    "spring": _structs.SpringDef, "stuck": _structs.StuckDef, "term": _structs.Term,
     "compile": _structs.CompileOptions, "sim": _structs.SimOptions, "static": _structs.StaticOptions,
     "modes": _structs.ModesOptions, "response": _structs.ResponseOptions, "speeds": _structs.SpeedsOptions,
     "buckling": _structs.BucklingOptions, "fatigue": _structs.FatigueOptions, "input": _structs.InputDef, "event": _structs.EventDef, "response input": _structs.Input, "output": _structs.Output,

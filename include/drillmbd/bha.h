@@ -1,0 +1,50 @@
+/* libdrillmbd - bottom-hole assembly: places of a string that are stuck. */
+#ifndef DRILLMBD_BHA_H
+#define DRILLMBD_BHA_H
+
+#include "control.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A place that can be stuck in the hole: a jammed bit, tool joint, key seat. While it is stuck, springs and dampers
+ * hold it at the pose where it got stuck, in the axes that its section had there: k s + c s', s along the axis, about
+ * it, and sideways. It lets go by itself at the time at which the axial force reaches `overpull` or the torque
+ * `overtorque` (found within 1e-10 of it by shorter steps; with bounded work at the end of the step); what the springs
+ * had stored is then lost (`impact` of the energies). While it is not stuck it costs one check a step. It connects no
+ * parts. Stuck or not is part of snapshots and hashes. An input of target DMB_TARGET_STUCK (control.h) sets it, 0 or 1;
+ * it is 0 again once the place has let go by itself. */
+enum { DMB_STUCK_AXIAL = 1, DMB_STUCK_ROTATION = 2, DMB_STUCK_LATERAL = 4 };
+typedef struct dmb_stuck_def {
+    uint32_t struct_size;
+    int32_t holds;   /* mask of DMB_STUCK_...; default AXIAL and ROTATION */
+    char name[24];   /* for messages, ends with 0; default "" */
+    dmb_place place; /* of a pipe, or a body or bit; required */
+    int32_t stuck;   /* 1: from time 0 on, in the pose there (default); 0: not yet */
+    int32_t reserved;
+    double stiffness[3]; /* [N/m, N m/rad, N/m] along the axis, about it, sideways, > 0; default 1e9, 1e8, 1e9 */
+    double damping[3];   /* [N s/m, N m s, N s/m] >= 0; not there without DMB_FEATURE_DAMPING; default 0 */
+    double overpull;     /* [N] axial force, pull or push, at which it lets go, > 0; default 0: never */
+    double overtorque;   /* [N m] torque, either way, > 0, at most stiffness[1] times 1 rad; default 0: at 1 rad */
+} dmb_stuck_def;
+DMB_SIZED_STRUCT(dmb_stuck_def)
+/* Errors: DMB_ERR_ID, _VALUE, _NOT_FINITE; dmb_model_compile: DMB_ERR_VALUE (no such pipe), _UNSUPPORTED (sideways on
+ * axial-torsional pipes). */
+DMB_API int32_t dmb_model_add_stuck(dmb_model *model, const dmb_stuck_def *def, dmb_id *stuck);
+
+typedef struct dmb_stuck_state {
+    uint32_t struct_size;
+    int32_t stuck;    /* 1: held */
+    double offset[4]; /* [m, m, m, rad] from where it got stuck: along, sideways y and z, turned; 0 where it is not */
+    double force[4];  /* [N, N, N, N m] that holds it, on the string, in the same order */
+    double share;     /* [-] largest of |axial force|/overpull and |torque|/overtorque; it lets go at 1 */
+    double energy;    /* [J] stored in the springs */
+} dmb_stuck_state;
+DMB_SIZED_STRUCT(dmb_stuck_state)
+DMB_API int32_t dmb_query_stuck(const dmb_sim *sim, dmb_id stuck, dmb_stuck_state *state);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
