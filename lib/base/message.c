@@ -84,8 +84,8 @@ void dmb_message_set(dmb_message *message, const char *format, ...)
     va_end(arguments);
 }
 
-void dmb_message_component(dmb_message *message, const char *part, uint32_t index, const char *field,
-                           uint32_t component, double value, const char *bound)
+void dmb_message_component(dmb_message *message, const char *part, uint32_t index, const dmb_field_value *is,
+                           const char *bound)
 {
     dmb_message name, place;
     if (index == DMB_NONE) {
@@ -93,18 +93,19 @@ void dmb_message_component(dmb_message *message, const char *part, uint32_t inde
     } else {
         dmb_message_set(&name, "%s %u", part, index);
     }
-    if (component == DMB_NONE) {
-        dmb_message_set(&place, "%s", field);
+    if (is->component == DMB_NONE) {
+        dmb_message_set(&place, "%s", is->field);
     } else {
-        dmb_message_set(&place, "%s[%u]", field, component);
+        dmb_message_set(&place, "%s[%u]", is->field, is->component);
     }
-    dmb_message_set(message, "%s: %s = %g, must be %s", name.text, place.text, value, bound);
+    dmb_message_set(message, "%s: %s = %g, must be %s", name.text, place.text, is->value, bound);
 }
 
 void dmb_message_field(dmb_message *message, const char *part, uint32_t index, const char *field, double value,
                        const char *bound)
 {
-    dmb_message_component(message, part, index, field, DMB_NONE, value, bound);
+    const dmb_field_value is = {field, DMB_NONE, value};
+    dmb_message_component(message, part, index, &is, bound);
 }
 
 const char *dmb_part_text(dmb_message *text, const char *part, uint32_t index, const char *name, size_t size)

@@ -27,8 +27,15 @@ void dmb_message_field(dmb_message *message, const char *part, uint32_t index, c
                        const char *bound);
 
 /* The same for one element of an array: "<part> <index>: <field>[<component>] = <value>, must be <bound>" */
-void dmb_message_component(dmb_message *message, const char *part, uint32_t index, const char *field,
-                           uint32_t component, double value, const char *bound);
+/* A value of the caller's and its place. */
+typedef struct dmb_field_value {
+    const char *field;
+    uint32_t component; /* of an array; DMB_NONE: it is none */
+    double value;
+} dmb_field_value;
+
+void dmb_message_component(dmb_message *message, const char *part, uint32_t index, const dmb_field_value *is,
+                           const char *bound);
 
 /* Name of a part in messages, where it may have one of its own: "joint 3 (crank)", or "joint 3" without one. name: size
  * bytes, may lack its 0, and counts as none then. Returns text->text. */

@@ -1,104 +1,116 @@
 #include "base/value_check.h"
 
-static void fail_component(dmb_check *check, int32_t status, const char *field, uint32_t component, double value,
-                           const char *bound)
+static void fail_component(dmb_check *check, int32_t status, const dmb_field_value *is, const char *bound)
 {
     if (check->status < 0) return;
     check->status = status;
-    dmb_message_component(check->message, check->part, check->index, field, component, value, bound);
+    dmb_message_component(check->message, check->part, check->index, is, bound);
 }
 
 void dmb_check_fail(dmb_check *check, int32_t status, const char *field, double value, const char *bound)
 {
-    fail_component(check, status, field, DMB_NONE, value, bound);
+    const dmb_field_value is = {field, DMB_NONE, value};
+    fail_component(check, status, &is, bound);
 }
 
-/* The verdict on one number; `holds` is what was asked of a finite value. */
-static void judge(dmb_check *check, const char *field, uint32_t component, double value, bool holds, const char *bound)
+/* The verdict on one number; `holds` is the verdict on a finite value. */
+static void judge(dmb_check *check, const dmb_field_value *is, bool holds, const char *bound)
 {
-    if (!dmb_is_finite(value)) {
-        fail_component(check, DMB_ERR_NOT_FINITE, field, component, value, bound);
+    if (!dmb_is_finite(is->value)) {
+        fail_component(check, DMB_ERR_NOT_FINITE, is, bound);
     } else if (!holds) {
-        fail_component(check, DMB_ERR_VALUE, field, component, value, bound);
+        fail_component(check, DMB_ERR_VALUE, is, bound);
     }
 }
 
-static void judge_bound(dmb_check *check, const char *field, uint32_t component, double value, bool holds,
-                        const char *relation, double bound)
+static void judge_bound(dmb_check *check, const dmb_field_value *is, bool holds, const char *relation, double bound)
 {
     dmb_message text;
-    if (check->status < 0 || (holds && dmb_is_finite(value))) return;
+    if (check->status < 0 || (holds && dmb_is_finite(is->value))) return;
     dmb_message_set(&text, "finite and %s %g", relation, bound);
-    judge(check, field, component, value, holds, text.text);
+    judge(check, is, holds, text.text);
 }
 
-static void judge_range(dmb_check *check, const char *field, double value, bool holds, const char *format_low,
-                        double low, const char *format_high, double high)
+/* low < value < high; with the bounds themselves where closed. */
+static void judge_range(dmb_check *check, const dmb_field_value *is, bool closed, double low, double high)
 {
+    const double value = is->value;
+    const bool holds = closed ? value >= low && value <= high : value > low && value < high;
     dmb_message text;
     if (check->status < 0 || (holds && dmb_is_finite(value))) return;
-    dmb_message_set(&text, "finite, %s %g and %s %g", format_low, low, format_high, high);
-    judge(check, field, DMB_NONE, value, holds, text.text);
+    dmb_message_set(&text, closed ? "finite, >= %g and <= %g" : "finite, > %g and < %g", low, high);
+    judge(check, is, holds, text.text);
 }
 
 void dmb_check_finite(dmb_check *check, const char *field, double value)
 {
-    judge(check, field, DMB_NONE, value, true, "finite");
+    const dmb_field_value is = {field, DMB_NONE, value};
+    judge(check, &is, true, "finite");
 }
 
 void dmb_check_above(dmb_check *check, const char *field, double value, double bound)
 {
-    judge_bound(check, field, DMB_NONE, value, value > bound, ">", bound);
+    const dmb_field_value is = {field, DMB_NONE, value};
+    judge_bound(check, &is, value > bound, ">", bound);
 }
 
 void dmb_check_at_least(dmb_check *check, const char *field, double value, double bound)
 {
-    judge_bound(check, field, DMB_NONE, value, value >= bound, ">=", bound);
+    const dmb_field_value is = {field, DMB_NONE, value};
+    judge_bound(check, &is, value >= bound, ">=", bound);
 }
 
 void dmb_check_within(dmb_check *check, const char *field, double value, double low, double high)
 {
-    judge_range(check, field, value, value >= low && value <= high, ">=", low, "<=", high);
+    const dmb_field_value is = {field, DMB_NONE, value};
+    judge_range(check, &is, true, low, high);
 }
 
 void dmb_check_between(dmb_check *check, const char *field, double value, double low, double high)
 {
-    judge_range(check, field, value, value > low && value < high, ">", low, "<", high);
+    const dmb_field_value is = {field, DMB_NONE, value};
+    judge_range(check, &is, false, low, high);
 }
 
-static void judge_field(dmb_check *check, const char *field, double value, bool holds, const char *relation,
-                        const char *other, double bound)
+/* Against the value of another field. */
+static void judge_field(dmb_check *check, const dmb_field_value *is, bool holds, const char *relation,
+                        const dmb_field_value *other)
 {
     dmb_message text;
-    if (check->status < 0 || (holds && dmb_is_finite(value) && dmb_is_finite(bound))) return;
-    dmb_message_set(&text, "finite and %s %s (%g)", relation, other, bound);
-    judge(check, field, DMB_NONE, value, holds && dmb_is_finite(bound), text.text);
+    if (check->status < 0 || (holds && dmb_is_finite(is->value) && dmb_is_finite(other->value))) return;
+    dmb_message_set(&text, "finite and %s %s (%g)", relation, other->field, other->value);
+    judge(check, is, holds && dmb_is_finite(other->value), text.text);
 }
 
 void dmb_check_above_field(dmb_check *check, const char *field, double value, const char *other, double bound)
 {
-    judge_field(check, field, value, value > bound, ">", other, bound);
+    const dmb_field_value is = {field, DMB_NONE, value}, least = {other, DMB_NONE, bound};
+    judge_field(check, &is, value > bound, ">", &least);
 }
 
 void dmb_check_at_least_field(dmb_check *check, const char *field, double value, const char *other, double bound)
 {
-    judge_field(check, field, value, value >= bound, ">=", other, bound);
+    const dmb_field_value is = {field, DMB_NONE, value}, least = {other, DMB_NONE, bound};
+    judge_field(check, &is, value >= bound, ">=", &least);
 }
 
 void dmb_check_all_finite(dmb_check *check, const char *field, const double *values, size_t count)
 {
-    for (size_t i = 0; i < count; ++i) judge(check, field, (uint32_t)i, values[i], true, "finite");
+    for (size_t i = 0; i < count; ++i) {
+        const dmb_field_value is = {field, (uint32_t)i, values[i]};
+        judge(check, &is, true, "finite");
+    }
 }
 
 void dmb_check_increasing(dmb_check *check, const char *field, const double *values, size_t count, size_t stride)
 {
     for (size_t i = 0; i < count; ++i) {
-        double value = values[i * stride];
+        const dmb_field_value is = {field, (uint32_t)i, values[i * stride]};
         if (i == 0) {
-            judge(check, field, 0, value, true, "finite");
+            judge(check, &is, true, "finite");
         } else {
-            judge_bound(check, field, (uint32_t)i, value, value > values[(i - 1) * stride], ">",
-                        values[(i - 1) * stride]);
+            const double before = values[(i - 1) * stride];
+            judge_bound(check, &is, is.value > before, ">", before);
         }
     }
 }

@@ -62,24 +62,29 @@ void dmb_partition_null_space(const double *B, uint32_t stride, const dmb_partit
 
 /* Projection in the metric 1/weight^2: x = W^2 B^T (B W^2 B^T)^-1 d over the pivot rows, the shortest x (in units of
  * weight) with B x = d. Columns of weight 0 do not move. */
+/* Rows of the Jacobian, `stride` numbers apart, and weights of its columns. */
+typedef struct dmb_jacobian {
+    const double *rows;
+    uint32_t stride;
+    const double *weight;
+} dmb_jacobian;
+
 /* Factors B W^2 B^T of the pivot rows (Cholesky, in their order) into gram, shape (rank, rank), all of which is used:
  * the factor, and notes of where it and B are not zero. It is good for the same B and choice only, and to be handed on
  * as it is. 0; or -1 if a pivot is at most 1e-16 of its diagonal or not finite. */
-int32_t dmb_partition_gram(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
-                           double *gram);
+int32_t dmb_partition_gram(const dmb_jacobian *jacobian, const dmb_partition *partition, double *gram);
 /* Leaves rows that those before nearly hold (pivot below DMB_WEAK_PIVOT of its diagonal) out of projections with gram:
  * near a singular place a projection would blow up what rounding of the poses makes of them. */
 #define DMB_WEAK_PIVOT 1e-9
-void dmb_partition_leave_weak(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
-                              double *gram);
+void dmb_partition_leave_weak(const dmb_jacobian *jacobian, const dmb_partition *partition, double *gram);
 /* d: shape (rank), in the order of pivot rows, overwritten; x: shape (columns), natural order, overwritten. */
-void dmb_partition_project(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
-                           const double *gram, double *d, double *x);
+void dmb_partition_project(const dmb_jacobian *jacobian, const dmb_partition *partition, const double *gram, double *d,
+                           double *x);
 
 /* Multipliers f of all rows (shape (rows), natural order) are replaced by those of the least norm with the same B^T f
  * (in columns with a weight). Redundant rows have 0 on entry as a rule; other values are taken into account.
  * work: exactly (rows - rank) * rows doubles. */
-void dmb_partition_least_norm(const double *B, uint32_t stride, const dmb_partition *partition, const double *lu,
+void dmb_partition_least_norm(const dmb_jacobian *jacobian, const dmb_partition *partition, const double *lu,
                               const uint32_t *pivot, double *work, double *f);
 
 #endif

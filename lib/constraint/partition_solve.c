@@ -86,9 +86,10 @@ static void gram_eliminate(size_t n, size_t k, double *gram)
 }
 
 /* Row k of U; false where its pivot is none. One at most `weak` of its diagonal is left out: its row of U is zero. */
-static bool gram_step(const double *B, uint32_t stride, const double *weight, const dmb_partition *p, size_t k,
-                      double weak, double *gram)
+static bool gram_step(const dmb_jacobian *jacobian, const dmb_partition *p, size_t k, double weak, double *gram)
 {
+    const double *B = jacobian->rows, *weight = jacobian->weight;
+    const uint32_t stride = jacobian->stride;
     const size_t n = p->rank;
     const double *b = pivot_row_of(B, stride, p, k);
     const uint64_t blocks = blocks_of(n, gram, k);
@@ -108,36 +109,33 @@ static bool gram_step(const double *B, uint32_t stride, const double *weight, co
     return true;
 }
 
-static int32_t gram_factor(const double *B, uint32_t stride, const double *weight, const dmb_partition *p, double weak,
-                           double *gram)
+static int32_t gram_factor(const dmb_jacobian *jacobian, const dmb_partition *p, double weak, double *gram)
 {
-    gram_clear(B, stride, p, gram);
+    gram_clear(jacobian->rows, jacobian->stride, p, gram);
     for (size_t k = 0; k < p->rank; k++)
-        if (!gram_step(B, stride, weight, p, k, weak, gram)) return -1;
+        if (!gram_step(jacobian, p, k, weak, gram)) return -1;
     return 0;
 }
 
 /* Golub and Van Loan, 4.2, by outer products. */
-int32_t dmb_partition_gram(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
-                           double *gram)
+int32_t dmb_partition_gram(const dmb_jacobian *jacobian, const dmb_partition *partition, double *gram)
 {
-    return gram_factor(B, stride, weight, partition, 0.0, gram);
+    return gram_factor(jacobian, partition, 0.0, gram);
 }
 
 /* Factors anew without the weak rows, if there are any: those behind must not lean on them. */
-void dmb_partition_leave_weak(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
-                              double *gram)
+void dmb_partition_leave_weak(const dmb_jacobian *jacobian, const dmb_partition *partition, double *gram)
 {
     const size_t n = partition->rank;
     bool weak = false;
     for (size_t k = 0; k < n && !weak; k++) {
-        const double *b = pivot_row_of(B, stride, partition, k);
+        const double *b = pivot_row_of(jacobian->rows, jacobian->stride, partition, k);
         const double root = gram[n * k + k];
         run runs[DMB_RUNS];
         const size_t count = find_runs(partition->columns, b, blocks_of(n, gram, k), runs);
-        weak = root * root * dot_in_runs(count, runs, b, b, weight) * DMB_WEAK_PIVOT > 1.0;
+        weak = root * root * dot_in_runs(count, runs, b, b, jacobian->weight) * DMB_WEAK_PIVOT > 1.0;
     }
-    if (weak) (void)gram_factor(B, stride, weight, partition, DMB_WEAK_PIVOT, gram);
+    if (weak) (void)gram_factor(jacobian, partition, DMB_WEAK_PIVOT, gram);
 }
 
 /* ---- Solves ------------------------------------------------------------------------------------------------------ */
@@ -181,26 +179,26 @@ static void add_row(size_t n, uint64_t blocks, double f, const double *b, double
         if (blocks & 1) row_subtract(smaller(size, n - from), -f, b + from, x + from);
 }
 
-void dmb_partition_project(const double *B, uint32_t stride, const double *weight, const dmb_partition *partition,
-                           const double *gram, double *d, double *x)
+void dmb_partition_project(const dmb_jacobian *jacobian, const dmb_partition *partition, const double *gram, double *d,
+                           double *x)
 {
     const size_t n = partition->rank, columns = partition->columns;
     gram_forward(n, gram, d);
     gram_backward(n, gram, d);
     for (size_t j = 0; j < columns; j++) x[j] = 0.0;
     for (size_t k = 0; k < n; k++)
-        add_row(columns, blocks_of(n, gram, k), d[k], pivot_row_of(B, stride, partition, k), x);
-    for (size_t j = 0; j < columns; j++) x[j] *= weight[j] * weight[j];
+        add_row(columns, blocks_of(n, gram, k), d[k], pivot_row_of(jacobian->rows, jacobian->stride, partition, k), x);
+    for (size_t j = 0; j < columns; j++) x[j] *= jacobian->weight[j] * jacobian->weight[j];
 }
 
 /* Multipliers of least norm: what of them does nothing is taken off. */
 
 /* Row s of N = [X, -I], X = B_red(:, dep) C_d^-1: redundant row s as combination of the pivot rows, less itself. */
-static void left_null_vector(const double *B, uint32_t stride, const dmb_partition *p, const double *lu,
+static void left_null_vector(const dmb_jacobian *jacobian, const dmb_partition *p, const double *lu,
                              const uint32_t *pivot, size_t s, double *v)
 {
     const size_t n = p->rank;
-    const double *b = B + (size_t)p->row_order[n + s] * stride;
+    const double *b = jacobian->rows + (size_t)p->row_order[n + s] * jacobian->stride;
     for (size_t k = 0; k < n; k++) v[k] = b[p->column_order[k]];
     dmb_partition_solve_transposed(p, lu, pivot, v);
     for (size_t k = n; k < p->rows; k++) v[k] = k == n + s ? -1.0 : 0.0;
@@ -235,12 +233,12 @@ static void orthonormalise(size_t n, size_t redundant, size_t s, double *N)
  * Loan, 5.2, 5.4). Not by Cholesky of N N^T = X X^T + I, which has the square of the condition number of N: X holds
  * the ratios of lengths of rows, which differ by their units. Without "longest first" B^T f suffers when these span ten
  * decades. */
-void dmb_partition_least_norm(const double *B, uint32_t stride, const dmb_partition *partition, const double *lu,
+void dmb_partition_least_norm(const dmb_jacobian *jacobian, const dmb_partition *partition, const double *lu,
                               const uint32_t *pivot, double *work, double *f)
 {
     const size_t n = partition->rows, redundant = n - partition->rank;
     const uint32_t *order = partition->row_order;
-    for (size_t s = 0; s < redundant; s++) left_null_vector(B, stride, partition, lu, pivot, s, work + n * s);
+    for (size_t s = 0; s < redundant; s++) left_null_vector(jacobian, partition, lu, pivot, s, work + n * s);
     for (size_t s = 0; s < redundant; s++) {
         double *v = work + n * s, along = 0.0;
         longest_first(n, redundant, s, work);

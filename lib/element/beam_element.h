@@ -68,12 +68,12 @@ static inline void dmb_beam_internal_force(const dmb_beam_task *task, const dmb_
 }
 
 /* f = M v' - v^^T p at both ends; the gyroscopic part does no work. */
-static inline void dmb_beam_inertia_force(const dmb_beam_constants *c, const dmb_real va[6], const dmb_real vb[6],
-                                          const dmb_real aa[6], const dmb_real ab[6], const dmb_real pa[6],
+static inline void dmb_beam_inertia_force(const dmb_beam_constants *c, const dmb_beam_input *in, const dmb_real pa[6],
                                           const dmb_real pb[6], dmb_beam_output *out)
 {
+    const dmb_real *va = in->va, *vb = in->vb;
     dmb_real fa[6], fb[6], ga[6], gb[6];
-    dmb_beam_momentum(c, aa, ab, fa, fb);
+    dmb_beam_momentum(c, in->aa, in->ab, fa, fb);
     out->inertia = dmb_vec6_dot(va, fa) + dmb_vec6_dot(vb, fb);
     dmb_ad_transpose(va, pa, ga);
     dmb_ad_transpose(vb, pb, gb);
@@ -159,7 +159,7 @@ static inline int dmb_beam_element(const dmb_beam_task *task, const dmb_beam_con
     for (int i = 0; i < 6; i++) pa[i] = pb[i] = dmb_real_of(0.0);
     if (task->dynamic) {
         dmb_beam_momentum(c, in->va, in->vb, pa, pb);
-        dmb_beam_inertia_force(c, in->va, in->vb, in->aa, in->ab, pa, pb, out);
+        dmb_beam_inertia_force(c, in, pa, pb, out);
     }
     if (task->tangent) dmb_beam_tangent(task, c, &shape, in->va, in->vb, pa, pb, out);
     if (task->tangent && task->dynamic) dmb_beam_links(task, in, out);

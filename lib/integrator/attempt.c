@@ -109,10 +109,15 @@ void dmb_attempt_set_up(dmb_sim *sim, const dmb_step_end *end, dmb_evaluation *e
     evaluation->given = sim->options.constraint_method == DMB_METHOD_MULTIPLIERS;
 }
 
-/* Row i of a motion whose increment over h is z, from speed v, acceleration dv and pseudo-acceleration a0. */
-static void refit(const dmb_generalized_alpha *c, double h, double z, double v, double dv, double a0,
-                  const dmb_step_motion *to, uint32_t i)
+/* Increment z over a step, and speed v, acceleration dv and pseudo-acceleration a0 that it starts from. */
+typedef struct start {
+    double z, v, dv, a0;
+} start;
+
+/* Row i of the motion at the end of the step. */
+static void refit(const dmb_generalized_alpha *c, double h, const start *s, const dmb_step_motion *to, uint32_t i)
 {
+    const double z = s->z, v = s->v, dv = s->dv, a0 = s->a0;
     const double a1 = ((z - h * v) / (h * h) - (0.5 - c->beta) * a0) / c->beta;
     to->pseudo_acceleration[i] = a1;
     to->acceleration[i] = ((1.0 - c->am) * a1 + c->am * a0 - c->af * dv) / (1.0 - c->af);
@@ -124,15 +129,16 @@ static void refit_rigid(dmb_sim *sim, const dmb_generalized_alpha *c, double h, 
 {
     const uint32_t node = sim->scene->free_rigids[rigid].node, row = sim->scene->layout.row[node];
     const double ratio = dmb_step_motion_ratio(sim, h);
-    double start[18], gone[6], *motion = dmb_free_rigid_motion(sim, rigid);
+    double from[18], gone[6], *motion = dmb_free_rigid_motion(sim, rigid);
     const dmb_step_motion to = {motion, motion + 6, motion + 12};
-    dmb_free_rigid_start(sim, rigid, start);
+    dmb_free_rigid_start(sim, rigid, from);
     for (uint32_t k = 0; k < 6; k++) gone[k] = sim->correction[row + k];
     dmb_free_rigid_added(sim->scene, rigid, gone);
     for (uint32_t k = 0; k < 6; k++) {
-        const double dv = start[6 + k] - gone[k];
-        const double a0 = dv + (1.0 - sim->released_part[node]) * ratio * (start[12 + k] - start[6 + k]);
-        refit(c, h, sim->increment[row + k], start[k], dv, a0, &to, k);
+        const double dv = from[6 + k] - gone[k];
+        const double a0 = dv + (1.0 - sim->released_part[node]) * ratio * (from[12 + k] - from[6 + k]);
+        const start s = {sim->increment[row + k], from[k], dv, a0};
+        refit(c, h, &s, &to, k);
     }
 }
 
@@ -145,7 +151,8 @@ static void refit_node(dmb_sim *sim, const dmb_generalized_alpha *c, double h, u
         if (!sim->scene->solved_row[i]) continue;
         const double dv = sim->now.acceleration[i] - sim->correction[i];
         const double a0 = dv + kept * (dmb_step_motion_carried(sim, ratio, i) - sim->now.acceleration[i]);
-        refit(c, h, sim->increment[i], sim->now.velocity[i], dv, a0, &to, i);
+        const start s = {sim->increment[i], sim->now.velocity[i], dv, a0};
+        refit(c, h, &s, &to, i);
     }
 }
 

@@ -43,10 +43,11 @@ DMB_BLOCK_KERNEL complex_number reciprocal(double a, double b)
     return out;
 }
 
-/* y[j] -= (fr + i fi) x[j] */
-DMB_BLOCK_KERNEL void row_subtract(int n, double fr, double fi, const double *restrict xr, const double *restrict xi,
+/* y[j] -= f x[j] */
+DMB_BLOCK_KERNEL void row_subtract(int n, complex_number f, const double *restrict xr, const double *restrict xi,
                                    double *restrict yr, double *restrict yi)
 {
+    const double fr = f.re, fi = f.im;
     for (int j = 0; j < n; j++) yr[j] -= fr * xr[j] - fi * xi[j];
     for (int j = 0; j < n; j++) yi[j] -= fr * xi[j] + fi * xr[j];
 }
@@ -88,10 +89,10 @@ DMB_BLOCK_KERNEL int eliminate(int n, int m, work_row *restrict a, dmb_complex_a
         D.re[n * k + k] = r.re;
         D.im[n * k + k] = r.im;
         for (int i = k + 1; i < n; i++) {
-            const double fr = a[i].re[k] * r.re - a[i].im[k] * r.im, fi = a[i].re[k] * r.im + a[i].im[k] * r.re;
-            D.re[n * i + k] = fr;
-            D.im[n * i + k] = fi;
-            row_subtract(n + m, fr, fi, a[k].re, a[k].im, a[i].re, a[i].im);
+            const complex_number f = {a[i].re[k] * r.re - a[i].im[k] * r.im, a[i].re[k] * r.im + a[i].im[k] * r.re};
+            D.re[n * i + k] = f.re;
+            D.im[n * i + k] = f.im;
+            row_subtract(n + m, f, a[k].re, a[k].im, a[i].re, a[i].im);
         }
     }
     return -1;
@@ -111,7 +112,8 @@ DMB_BLOCK_KERNEL void substitute_back(int n, int m, const work_row *restrict a, 
         double yr[DMB_BLOCK_SIZE_MAX], yi[DMB_BLOCK_SIZE_MAX];
         const double dr = D.re[n * k + k], di = D.im[n * k + k];
         for (int j = 0; j < m; j++) yr[j] = a[k].re[n + j], yi[j] = a[k].im[n + j];
-        for (int c = k + 1; c < n; c++) row_subtract(m, a[k].re[c], a[k].im[c], W.re + m * c, W.im + m * c, yr, yi);
+        for (int c = k + 1; c < n; c++)
+            row_subtract(m, (complex_number){a[k].re[c], a[k].im[c]}, W.re + m * c, W.im + m * c, yr, yi);
         for (int j = 0; j < m; j++) {
             W.re[m * k + j] = dr * yr[j] - di * yi[j];
             W.im[m * k + j] = dr * yi[j] + di * yr[j];
@@ -126,22 +128,37 @@ DMB_BLOCK_KERNEL void update_next(int n, int m, dmb_complex_array L, dmb_complex
         double yr[DMB_BLOCK_SIZE_MAX], yi[DMB_BLOCK_SIZE_MAX];
         for (int j = 0; j < m; j++) yr[j] = next.re[m * i + j], yi[j] = next.im[m * i + j];
         for (int c = 0; c < n; c++)
-            row_subtract(m, L.re[n * i + c], L.im[n * i + c], W.re + m * c, W.im + m * c, yr, yi);
+            row_subtract(m, (complex_number){L.re[n * i + c], L.im[n * i + c]}, W.re + m * c, W.im + m * c, yr, yi);
         for (int j = 0; j < m; j++) next.re[m * i + j] = yr[j], next.im[m * i + j] = yi[j];
     }
 }
 
+/* A block row: D_i, U_i, L_i, D_i+1, and the pivots of D_i. */
+typedef struct block_row {
+    dmb_complex_array D, U, L, next;
+    uint8_t *pivot;
+} block_row;
+
+static block_row row_of(const dmb_block_layout *layout, const dmb_complex_block_matrix *matrix, uint32_t i)
+{
+    const block_row row = {.D = part(matrix->diagonal, layout->diag[i]),
+                           .U = part(matrix->upper, layout->link[i]),
+                           .L = part(matrix->lower, layout->link[i]),
+                           .next = part(matrix->diagonal, layout->diag[i + 1]),
+                           .pivot = matrix->pivot + layout->row[i]};
+    return row;
+}
+
 /* One block of the factorisation. Returns the column without a pivot, or -1. */
-DMB_BLOCK_KERNEL int factor_block(int n, int m, dmb_complex_array D, dmb_complex_array U, dmb_complex_array L,
-                                  dmb_complex_array next, uint8_t *restrict pivot)
+DMB_BLOCK_KERNEL int factor_block(int n, int m, const block_row *row)
 {
     work_row a[DMB_BLOCK_SIZE_MAX];
-    gather(n, m, D, U, a);
-    const int failed = eliminate(n, m, a, D, pivot);
+    gather(n, m, row->D, row->U, a);
+    const int failed = eliminate(n, m, a, row->D, row->pivot);
     if (failed >= 0) return failed;
-    store_upper(n, a, D);
-    substitute_back(n, m, a, D, U);
-    update_next(n, m, L, U, next);
+    store_upper(n, a, row->D);
+    substitute_back(n, m, a, row->D, row->U);
+    update_next(n, m, row->L, row->U, row->next);
     return -1;
 }
 
@@ -151,11 +168,8 @@ int64_t dmb_complex_block_factor(const dmb_block_layout *layout, const dmb_compl
     const uint32_t end = first + count;
     for (uint32_t i = first; i < end; i++) {
         const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
-        const dmb_complex_array D = part(matrix->diagonal, layout->diag[i]);
-        const dmb_complex_array next = part(matrix->diagonal, layout->diag[i + 1]);
-        const dmb_complex_array U = part(matrix->upper, layout->link[i]), L = part(matrix->lower, layout->link[i]);
-        if (DMB_BLOCK_BY_SIZE(factor_block, n, m, D, U, L, next, matrix->pivot + layout->row[i]) >= 0)
-            return (int64_t)i;
+        const block_row row = row_of(layout, matrix, i);
+        if (DMB_BLOCK_BY_SIZE(factor_block, n, m, &row) >= 0) return (int64_t)i;
     }
     return -1;
 }
@@ -194,11 +208,11 @@ DMB_BLOCK_KERNEL void subtract_term(int n, int i, int j, dmb_complex_array D, dm
 }
 
 /* b <- D_i^-1 b, then the next b -= L_i b */
-DMB_BLOCK_KERNEL void solve_down(int n, int m, dmb_complex_array D, const uint8_t *restrict pivot, dmb_complex_array L,
-                                 dmb_complex_array b, dmb_complex_array next)
+DMB_BLOCK_KERNEL void solve_down(int n, int m, const block_row *row, dmb_complex_array b, dmb_complex_array next)
 {
-    exchange_rows(n, pivot, b.re);
-    exchange_rows(n, pivot, b.im);
+    const dmb_complex_array D = row->D;
+    exchange_rows(n, row->pivot, b.re);
+    exchange_rows(n, row->pivot, b.im);
     for (int i = 1; i < n; i++)
         for (int j = 0; j < i; j++) subtract_term(n, i, j, D, b);
     for (int i = n - 1; i >= 0; i--) {
@@ -207,7 +221,7 @@ DMB_BLOCK_KERNEL void solve_down(int n, int m, dmb_complex_array D, const uint8_
         b.re[i] = dr * re - di * im;
         b.im[i] = dr * im + di * re;
     }
-    subtract_product(m, n, L, b, next);
+    subtract_product(m, n, row->L, b, next);
 }
 
 void dmb_complex_block_solve(const dmb_block_layout *layout, const dmb_complex_block_matrix *matrix, uint32_t first,
@@ -216,9 +230,8 @@ void dmb_complex_block_solve(const dmb_block_layout *layout, const dmb_complex_b
     const uint32_t end = first + count, *row = layout->row;
     for (uint32_t i = first; i < end; i++) {
         const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
-        const dmb_complex_array D = part(matrix->diagonal, layout->diag[i]);
-        const dmb_complex_array L = part(matrix->lower, layout->link[i]);
-        DMB_BLOCK_BY_SIZE(solve_down, n, m, D, matrix->pivot + row[i], L, part(rhs, row[i]), part(rhs, row[i + 1]));
+        const block_row at = row_of(layout, matrix, i);
+        DMB_BLOCK_BY_SIZE(solve_down, n, m, &at, part(rhs, row[i]), part(rhs, row[i + 1]));
     }
     for (uint32_t i = end; i-- > first;) {
         if (i + 1 == end) continue;

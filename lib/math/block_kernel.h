@@ -78,15 +78,15 @@ static inline double dmb_block_largest(size_t n, const double *D)
     return largest;
 }
 
-/* Compares the pivots of a factored block of n >= 1 rows, given as reciprocals `stride` numbers apart, with the weakest
+/* Compares the pivots of a factored block of n >= 1 rows, the reciprocals on its diagonal, with the weakest
  * so far. failed: the column without a pivot, or < 0. */
-static inline void dmb_block_watch(size_t n, const double *reciprocal, size_t stride, double largest, int64_t failed,
-                                   uint32_t block, dmb_block_weakest *weakest)
+static inline void dmb_block_watch(size_t n, const double *D, double largest, int64_t failed, uint32_t block,
+                                   dmb_block_weakest *weakest)
 {
     size_t k = failed < 0 ? 0 : (size_t)failed;
     for (size_t i = 1; failed < 0 && i < n; i++)
-        if (fabs(reciprocal[stride * i]) > fabs(reciprocal[stride * k])) k = i;
-    const double ratio = failed < 0 ? 1.0 / (fabs(reciprocal[stride * k]) * largest) : 0.0;
+        if (fabs(D[(n + 1) * i]) > fabs(D[(n + 1) * k])) k = i;
+    const double ratio = failed < 0 ? 1.0 / (fabs(D[(n + 1) * k]) * largest) : 0.0;
     if (!(failed >= 0 || ratio < weakest->ratio)) return;
     weakest->ratio = ratio;
     weakest->block = block;

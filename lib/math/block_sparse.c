@@ -190,7 +190,7 @@ static int64_t factor(const dmb_block_pattern *pattern, const dmb_block_sparse *
         const double *D = matrix->values + pattern->diagonal[k];
         const double largest = weakest ? dmb_block_largest(n, D) : 0.0;
         const int64_t failed = eliminate(pattern, matrix, k, n);
-        if (weakest) dmb_block_watch(n, D, n + 1, largest, failed, block, weakest);
+        if (weakest) dmb_block_watch(n, D, largest, failed, block, weakest);
         if (failed >= 0) return (int64_t)block;
     }
     return -1;

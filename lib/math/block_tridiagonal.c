@@ -105,10 +105,25 @@ DMB_BLOCK_KERNEL void to_columns(int rows, int columns, double *A)
     memcpy(A, turned, (size_t)rows * (size_t)columns * sizeof *A);
 }
 
-/* One block of the factorisation. Returns the column without a pivot, or -1. */
-DMB_BLOCK_KERNEL int factor_block(int n, int m, double *restrict D, double *restrict U, double *restrict L,
-                                  double *restrict next, uint8_t *restrict pivot)
+/* A block row: D_i, U_i, L_i, D_i+1, and the pivots of D_i. */
+typedef struct block_row {
+    double *D, *U, *L, *next;
+    uint8_t *pivot;
+} block_row;
+
+static block_row row_of(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t i)
 {
+    const block_row row = {matrix->diagonal + layout->diag[i], matrix->upper + layout->link[i],
+                           matrix->lower + layout->link[i], matrix->diagonal + layout->diag[i + 1],
+                           matrix->pivot + layout->row[i]};
+    return row;
+}
+
+/* One block of the factorisation. Returns the column without a pivot, or -1. */
+DMB_BLOCK_KERNEL int factor_block(int n, int m, const block_row *row)
+{
+    double *restrict D = row->D, *restrict U = row->U, *restrict L = row->L, *restrict next = row->next;
+    uint8_t *restrict pivot = row->pivot;
     work_row a[DMB_BLOCK_SIZE_MAX];
     gather(n, m, D, U, a);
     const int failed = eliminate(n, m, a, D, pivot);
@@ -129,20 +144,20 @@ DMB_BLOCK_KERNEL int64_t factor_blocks(const dmb_block_layout *layout, dmb_block
     const uint32_t end = first + count;
     for (uint32_t i = first; i < end; i++) {
         const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
-        double *D = matrix->diagonal + layout->diag[i], *next = matrix->diagonal + layout->diag[i + 1];
-        double *U = matrix->upper + layout->link[i], *L = matrix->lower + layout->link[i];
-        const double largest = weakest ? dmb_block_largest((size_t)n, D) : 0.0;
-        const int failed = DMB_BLOCK_BY_SIZE(factor_block, n, m, D, U, L, next, matrix->pivot + layout->row[i]);
-        if (weakest) dmb_block_watch((size_t)n, D, (size_t)n + 1, largest, failed, i, weakest);
+        const block_row row = row_of(layout, matrix, i);
+        const double largest = weakest ? dmb_block_largest((size_t)n, row.D) : 0.0;
+        const int failed = DMB_BLOCK_BY_SIZE(factor_block, n, m, &row);
+        if (weakest) dmb_block_watch((size_t)n, row.D, largest, failed, i, weakest);
         if (failed >= 0) return (int64_t)i;
     }
     return -1;
 }
 
 /* b <- D_i^-1 b, then the next b -= L_i b */
-DMB_BLOCK_KERNEL void solve_down(int n, int m, const double *restrict D, const uint8_t *restrict pivot,
-                                 const double *restrict L, double *restrict b, double *restrict next)
+DMB_BLOCK_KERNEL void solve_down(int n, int m, const block_row *row, double *restrict b, double *restrict next)
 {
+    const double *restrict D = row->D, *restrict L = row->L;
+    const uint8_t *restrict pivot = row->pivot;
     double x[DMB_BLOCK_SIZE_MAX];
     for (int k = 0; k < n; k++) {
         const double t = b[k];
@@ -185,8 +200,8 @@ void dmb_block_solve(const dmb_block_layout *layout, const dmb_block_matrix *mat
     const uint32_t end = first + count, *row = layout->row;
     for (uint32_t i = first; i < end; i++) {
         const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
-        const double *D = matrix->diagonal + layout->diag[i], *L = matrix->lower + layout->link[i];
-        DMB_BLOCK_BY_SIZE(solve_down, n, m, D, matrix->pivot + row[i], L, rhs + row[i], rhs + row[i + 1]);
+        const block_row at = row_of(layout, matrix, i);
+        DMB_BLOCK_BY_SIZE(solve_down, n, m, &at, rhs + row[i], rhs + row[i + 1]);
     }
     for (uint32_t i = end; i-- > first;) {
         if (i + 1 == end) continue;

@@ -45,12 +45,18 @@ typedef struct dmb_rank {
  * DMB_RANK_SIDE_MAX. */
 size_t dmb_rank_work(uint32_t rows, uint32_t columns);
 
+/* Rows one after the other, and weights of the columns. */
+typedef struct dmb_weighted_rows {
+    const double *values; /* (rows, columns) */
+    uint32_t rows, columns;
+    const double *weight; /* (columns) */
+} dmb_weighted_rows;
+
 /* B: shape (rows, columns), row-major, left alone. Rows are scaled to unit length in columns times weight (>= 0), as a
  * partition does (constraint/partition.h); rows of zeros (shorter than 1e-300) and rows that are not finite count as
  * redundant. Row k of R ends the rank when its diagonal is at most `tolerance`.
  * order: shape (rows): the first `rank` rows are independent, the rest redundant, in the order of pivoting. */
-void dmb_rank_of_rows(const double *B, uint32_t rows, uint32_t columns, const double *weight, double tolerance,
-                      double *work, int32_t *order, dmb_rank *out);
+void dmb_rank_of_rows(const dmb_weighted_rows *of, double tolerance, double *work, int32_t *order, dmb_rank *out);
 
 /* Fill-reducing order of elimination of a graph, by the symbolic analysis of CHOLMOD: approximate
  * minimum degree (AMD), then a postorder of the elimination tree, which keeps chains together in memory.

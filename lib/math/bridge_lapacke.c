@@ -121,9 +121,9 @@ static int singular_values(double *a, uint32_t rows, uint32_t columns, double *s
                                NULL, 1, work, work_size) == 0;
 }
 
-void dmb_rank_of_rows(const double *B, uint32_t rows, uint32_t columns, const double *weight, double tolerance,
-                      double *work, int32_t *order, dmb_rank *out)
+void dmb_rank_of_rows(const dmb_weighted_rows *of, double tolerance, double *work, int32_t *order, dmb_rank *out)
 {
+    const uint32_t rows = of->rows, columns = of->columns;
     const size_t n = least(rows, columns);
     const lapack_int work_size = (lapack_int)lapack_work(rows, columns);
     double *a = work, *tau = a + (size_t)rows * columns, *s = tau + n, *rest = s + n;
@@ -132,7 +132,8 @@ void dmb_rank_of_rows(const double *B, uint32_t rows, uint32_t columns, const do
     out->largest = out->smallest = 1.0;
     for (uint32_t i = 0; i < rows; i++) order[i] = n > 0 ? 0 : (int32_t)i; /* 0: LAPACK may move it */
     if (n == 0) return;
-    for (uint32_t i = 0; i < rows; i++) scale_row(B + (size_t)i * columns, columns, weight, a + (size_t)i * columns);
+    for (uint32_t i = 0; i < rows; i++)
+        scale_row(of->values + (size_t)i * columns, columns, of->weight, a + (size_t)i * columns);
     /* Rows by rows is, column by column, the transpose: its columns are the equations. */
     (void)LAPACKE_dgeqp3_work(LAPACK_COL_MAJOR, (lapack_int)columns, (lapack_int)rows, a, (lapack_int)columns, order,
                               tau, rest, work_size);

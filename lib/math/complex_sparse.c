@@ -20,9 +20,10 @@ static dmb_complex_array part(dmb_complex_array array, size_t offset)
 }
 
 /* y -= (fr + i fi) x */
-DMB_BLOCK_KERNEL void row_subtract(size_t n, double fr, double fi, const double *restrict xr, const double *restrict xi,
-                                   double *restrict yr, double *restrict yi)
+DMB_BLOCK_KERNEL void row_subtract(size_t n, double fr, double fi, dmb_complex_array x, dmb_complex_array y)
 {
+    const double *restrict xr = x.re, *restrict xi = x.im;
+    double *restrict yr = y.re, *restrict yi = y.im;
     for (size_t j = 0; j < n; j++) yr[j] -= fr * xr[j] - fi * xi[j];
     for (size_t j = 0; j < n; j++) yi[j] -= fr * xi[j] + fi * xr[j];
 }
@@ -80,8 +81,7 @@ static int64_t factor_block(size_t n, dmb_complex_array D, uint32_t *pivot)
         for (size_t i = k + 1; i < n; i++) {
             const size_t below = n * i + k;
             row_scale(1, D.re[at], D.im[at], D.re + below, D.im + below);
-            row_subtract(n - k - 1, D.re[below], D.im[below], D.re + at + 1, D.im + at + 1, D.re + below + 1,
-                         D.im + below + 1);
+            row_subtract(n - k - 1, D.re[below], D.im[below], part(D, at + 1), part(D, below + 1));
         }
     }
     return -1;
@@ -97,10 +97,10 @@ DMB_BLOCK_KERNEL void solve_sized(size_t n, size_t m, dmb_complex_array D, const
     }
     for (size_t i = 1; i < n; i++)
         for (size_t j = 0; j < i; j++)
-            row_subtract(m, D.re[n * i + j], D.im[n * i + j], W.re + m * j, W.im + m * j, W.re + m * i, W.im + m * i);
+            row_subtract(m, D.re[n * i + j], D.im[n * i + j], part(W, m * j), part(W, m * i));
     for (size_t i = n; i-- > 0;) {
         for (size_t j = i + 1; j < n; j++)
-            row_subtract(m, D.re[n * i + j], D.im[n * i + j], W.re + m * j, W.im + m * j, W.re + m * i, W.im + m * i);
+            row_subtract(m, D.re[n * i + j], D.im[n * i + j], part(W, m * j), part(W, m * i));
         row_scale(m, D.re[n * i + i], D.im[n * i + i], W.re + m * i, W.im + m * i);
     }
 }
@@ -119,7 +119,7 @@ DMB_BLOCK_KERNEL void update_sized(size_t p, size_t n, size_t q, dmb_complex_arr
 {
     for (size_t i = 0; i < p; i++)
         for (size_t c = 0; c < n; c++)
-            row_subtract(q, L.re[n * i + c], L.im[n * i + c], W.re + q * c, W.im + q * c, A.re + q * i, A.im + q * i);
+            row_subtract(q, L.re[n * i + c], L.im[n * i + c], part(W, q * c), part(A, q * i));
 }
 
 static void update_block(size_t p, size_t n, size_t q, dmb_complex_array L, dmb_complex_array W, dmb_complex_array A)

@@ -34,13 +34,20 @@ static inline void subtract_one(size_t n, double f, const double *restrict x, do
     for (size_t j = 0; j < n; j++) y[j] -= f * x[j];
 }
 
-/* Y (p x r) -= F (p x q) X (q x r), the rows of each a stride apart */
-static void subtract_product(size_t p, size_t q, size_t r, const double *F, size_t f_stride, const double *X,
-                             size_t x_stride, double *Y, size_t y_stride)
+/* Rows that stand `stride` numbers apart. */
+typedef struct rows {
+    const double *values;
+    size_t stride;
+} rows;
+
+/* Y (p x r) -= F (p x q) X (q x r); the rows of Y stand as those of X. */
+static void subtract_product(size_t p, size_t q, size_t r, rows F, rows of_X, double *Y)
 {
+    const double *X = of_X.values;
+    const size_t x_stride = of_X.stride;
     for (size_t i = 0; i < p; i++) {
-        const double *f = F + f_stride * i;
-        double *y = Y + y_stride * i;
+        const double *f = F.values + F.stride * i;
+        double *y = Y + x_stride * i;
         size_t c = 0;
         for (; c + 4 <= q; c += 4) subtract_four(r, f + c, X + x_stride * c, x_stride, y);
         for (; c < q; c++) subtract_one(r, f[c], X + x_stride * c, y);
@@ -50,7 +57,7 @@ static void subtract_product(size_t p, size_t q, size_t r, const double *F, size
 void dmb_dense_subtract_product(uint32_t p, uint32_t q, uint32_t r, const double *F, const double *X, double *Y)
 {
     for (size_t c = 0; c < q; c += DMB_PANEL)
-        subtract_product(p, smaller(DMB_PANEL, q - c), r, F + c, q, X + r * c, r, Y, r);
+        subtract_product(p, smaller(DMB_PANEL, q - c), r, (rows){F + c, q}, (rows){X + r * c, r}, Y);
 }
 
 /* Columns [begin, end) of rows [begin, n). Rows are exchanged in full length. Returns the column without a pivot, or
@@ -82,8 +89,8 @@ int64_t dmb_dense_factor(uint32_t size, double *A, uint32_t *pivot)
         if (failed >= 0) return failed;
         double *top = A + n * begin + end; /* U12 */
         for (size_t i = begin + 1; i < end; i++)
-            subtract_product(1, i - begin, rest, A + n * i + begin, n, top, n, A + n * i + end, n);
-        subtract_product(rest, end - begin, rest, A + n * end + begin, n, top, n, A + n * end + end, n);
+            subtract_product(1, i - begin, rest, (rows){A + n * i + begin, n}, (rows){top, n}, A + n * i + end);
+        subtract_product(rest, end - begin, rest, (rows){A + n * end + begin, n}, (rows){top, n}, A + n * end + end);
     }
     return -1;
 }
@@ -94,8 +101,9 @@ static void substitute_down(size_t n, size_t m, const double *A, double *B)
     for (size_t begin = 0; begin < n; begin += DMB_PANEL) {
         const size_t end = smaller(begin + DMB_PANEL, n);
         for (size_t i = begin + 1; i < end; i++)
-            subtract_product(1, i - begin, m, A + n * i + begin, n, B + m * begin, m, B + m * i, m);
-        subtract_product(n - end, end - begin, m, A + n * end + begin, n, B + m * begin, m, B + m * end, m);
+            subtract_product(1, i - begin, m, (rows){A + n * i + begin, n}, (rows){B + m * begin, m}, B + m * i);
+        subtract_product(n - end, end - begin, m, (rows){A + n * end + begin, n}, (rows){B + m * begin, m},
+                         B + m * end);
     }
 }
 
@@ -105,10 +113,10 @@ static void substitute_up(size_t n, size_t m, const double *A, double *B)
     for (size_t end = n, begin; end > 0; end = begin) {
         begin = (end - 1) / DMB_PANEL * DMB_PANEL;
         for (size_t i = end; i-- > begin;) {
-            subtract_product(1, end - i - 1, m, A + n * i + i + 1, n, B + m * (i + 1), m, B + m * i, m);
+            subtract_product(1, end - i - 1, m, (rows){A + n * i + i + 1, n}, (rows){B + m * (i + 1), m}, B + m * i);
             for (size_t j = 0; j < m; j++) B[m * i + j] *= A[n * i + i];
         }
-        subtract_product(begin, end - begin, m, A + begin, n, B + m * begin, m, B, m);
+        subtract_product(begin, end - begin, m, (rows){A + begin, n}, (rows){B + m * begin, m}, B);
     }
 }
 

@@ -69,8 +69,11 @@ size_t dmb_triangulate(size_t n, double tolerance, double *A, uint32_t *order, d
     return n;
 }
 
-void dmb_null_vector(size_t n, size_t rank, const double *A, const uint32_t *order, size_t i, double *work, double *q)
+void dmb_null_vector(const dmb_triangle *triangle, size_t i, double *work, double *q)
 {
+    const size_t n = triangle->n, rank = triangle->rank;
+    const double *A = triangle->A;
+    const uint32_t *order = triangle->order;
     for (size_t k = rank; k-- > 0;) {
         double sum = -A[n * k + rank + i];
         for (size_t j = k + 1; j < rank; j++) sum -= A[n * k + j] * work[j];

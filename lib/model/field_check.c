@@ -13,15 +13,20 @@ static bool is_zero(double value)
     return !(value < 0.0) && !(value > 0.0) && dmb_is_finite(value);
 }
 
-static void judge_each(dmb_check *check, const char *field, const double *values, size_t count, bool zero_allowed,
-                       double low, double high)
+typedef struct limits {
+    double low, high;
+    bool zero_allowed;
+} limits;
+
+static void judge_each(dmb_check *check, const char *field, const double *values, size_t count, const limits *l)
 {
     dmb_message bound;
     for (size_t i = 0; i < count && check->status == DMB_OK; ++i) {
-        if (within(values[i], low, high) || (zero_allowed && is_zero(values[i]))) continue;
-        dmb_message_set(&bound, "finite%s, >= %g and <= %g", zero_allowed ? ", 0 or" : "", low, high);
+        if (within(values[i], l->low, l->high) || (l->zero_allowed && is_zero(values[i]))) continue;
+        dmb_message_set(&bound, "finite%s, >= %g and <= %g", l->zero_allowed ? ", 0 or" : "", l->low, l->high);
         check->status = dmb_is_finite(values[i]) ? DMB_ERR_VALUE : DMB_ERR_NOT_FINITE;
-        dmb_message_component(check->message, check->part, check->index, field, (uint32_t)i, values[i], bound.text);
+        const dmb_field_value is = {field, (uint32_t)i, values[i]};
+        dmb_message_component(check->message, check->part, check->index, &is, bound.text);
     }
 }
 
@@ -33,13 +38,15 @@ void dmb_check_zero_or_within(dmb_check *check, const char *field, double value,
 void dmb_check_each_within(dmb_check *check, const char *field, const double *values, size_t count, double low,
                            double high)
 {
-    judge_each(check, field, values, count, false, low, high);
+    const limits l = {low, high, false};
+    judge_each(check, field, values, count, &l);
 }
 
 void dmb_check_each_zero_or_within(dmb_check *check, const char *field, const double *values, size_t count, double low,
                                    double high)
 {
-    judge_each(check, field, values, count, true, low, high);
+    const limits l = {low, high, true};
+    judge_each(check, field, values, count, &l);
 }
 
 void dmb_check_name(dmb_check *check, const char *field, const char *name, size_t size)

@@ -294,8 +294,8 @@ uint32_t dmb_sim_recorded_inputs(const dmb_sim *sim)
 
 static int32_t refuse_time(dmb_sim *sim, uint32_t i, double time)
 {
-    dmb_message_component(&sim->message, "input log", DMB_NONE, "time", i, time,
-                          "finite and not before that of the record before");
+    const dmb_field_value is = {"time", i, time};
+    dmb_message_component(&sim->message, "input log", DMB_NONE, &is, "finite and not before that of the record before");
     return isfinite(time) ? DMB_ERR_VALUE : DMB_ERR_NOT_FINITE;
 }
 

@@ -44,10 +44,9 @@ size_t dmb_rank_work(uint32_t rows, uint32_t columns)
     (void)rows, (void)columns;
     return 1;
 }
-void dmb_rank_of_rows(const double *B, uint32_t rows, uint32_t columns, const double *weight, double tolerance,
-                      double *work, int32_t *order, dmb_rank *out)
+void dmb_rank_of_rows(const dmb_weighted_rows *of, double tolerance, double *work, int32_t *order, dmb_rank *out)
 {
-    (void)B, (void)rows, (void)columns, (void)weight, (void)tolerance, (void)work, (void)order;
+    (void)of, (void)tolerance, (void)work, (void)order;
     memset(out, 0, sizeof *out);
 }
 

@@ -150,9 +150,9 @@ static int32_t find_symmetric(dmb_buckling *buckling, const dmb_buckling_options
 
 static int32_t find_general(dmb_buckling *buckling, const dmb_buckling_options *options, dmb_message *message)
 {
+    const dmb_pencil_search search = {options->count, options->factor_max - buckling->at, &buckling->allocator};
     const int32_t status =
-        dmb_pencil_general(&buckling->pencil, options->count, options->factor_max - buckling->at, &buckling->allocator,
-                           buckling->factor, buckling->vector, &buckling->count);
+        dmb_pencil_general(&buckling->pencil, &search, buckling->factor, buckling->vector, &buckling->count);
     if (status < 0 && status != DMB_ERR_NO_MEMORY)
         dmb_message_set(
             message, "buckling: the critical factors of the unsymmetric stiffness at factor = %g cannot be found, %s",

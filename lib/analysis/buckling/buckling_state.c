@@ -56,10 +56,16 @@ static void turn_of_node(const dmb_sim *sim, uint32_t node, double *T)
 /* ---- Products ------------------------------------------------------------------------------------------------------
  */
 
+typedef struct square {
+    const double *values;
+    uint32_t size;
+} square;
+
 /* A (n x m) <- X A Y^T, X (n x n), Y (m x m); transposed: X^T A Y. room: n m */
-static void congruence(uint32_t n, uint32_t m, const double *X, const double *Y, int transposed, double *A,
-                       double *room)
+static void congruence(square left, square right, int transposed, double *A, double *room)
 {
+    const uint32_t n = left.size, m = right.size;
+    const double *X = left.values, *Y = right.values;
     for (uint32_t i = 0; i < n; i++)
         for (uint32_t j = 0; j < m; j++) {
             double sum = 0.0;
@@ -86,13 +92,13 @@ void dmb_frames_turn_chains(dmb_sim *sim)
         if (scene->chains[c].jointed) continue;
         turn_of_node(sim, first, T[first % 2]);
         for (uint32_t i = first; i < end; i++) {
-            const double *X = T[i % 2], *Y = T[(i + 1) % 2];
-            const uint32_t n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
-            congruence(n, n, X, X, 0, sim->stiffness_diagonal + layout->diag[i], room);
-            if (m == 0) continue;
+            const square x = {T[i % 2], layout->size[i]};
+            const square y = {T[(i + 1) % 2], i + 1 < end ? layout->size[i + 1] : 0};
+            congruence(x, x, 0, sim->stiffness_diagonal + layout->diag[i], room);
+            if (y.size == 0) continue;
             turn_of_node(sim, i + 1, T[(i + 1) % 2]);
-            congruence(n, m, X, Y, 0, sim->stiffness_upper + layout->link[i], room);
-            congruence(m, n, Y, X, 0, sim->stiffness_lower + layout->link[i], room);
+            congruence(x, y, 0, sim->stiffness_upper + layout->link[i], room);
+            congruence(y, x, 0, sim->stiffness_lower + layout->link[i], room);
         }
     }
 }
@@ -173,14 +179,13 @@ int dmb_frames_turn_reduced(dmb_sim *sim, const dmb_frames *frames)
         dmb_dense_solve(n, n, W, frames->pivot, V);
     }
     for (uint32_t k = 0; k < pattern->n; k++) {
-        const uint32_t n = sim->reduced_size[pattern->order[k]];
-        const double *V = frames->turn + pattern->diagonal[k];
-        congruence(n, n, V, V, 1, values + pattern->diagonal[k], room);
+        const square v = {frames->turn + pattern->diagonal[k], sim->reduced_size[pattern->order[k]]};
+        congruence(v, v, 1, values + pattern->diagonal[k], room);
         for (uint32_t e = pattern->column[k]; e < pattern->column[k + 1]; e++) {
-            const uint32_t later = pattern->later[e], m = sim->reduced_size[pattern->order[later]];
-            const double *Z = frames->turn + pattern->diagonal[later];
-            congruence(n, m, V, Z, 1, values + pattern->upper[e], room);
-            congruence(m, n, Z, V, 1, values + pattern->lower[e], room);
+            const uint32_t later = pattern->later[e];
+            const square z = {frames->turn + pattern->diagonal[later], sim->reduced_size[pattern->order[later]]};
+            congruence(v, z, 1, values + pattern->upper[e], room);
+            congruence(z, v, 1, values + pattern->lower[e], room);
         }
     }
     return 1;

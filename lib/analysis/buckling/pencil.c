@@ -331,9 +331,10 @@ static uint32_t take(const dmb_krylov *values, size_t length, uint32_t wanted, d
     return found;
 }
 
-int32_t dmb_pencil_general(dmb_pencil *pencil, uint32_t wanted, double most, const dmb_allocator *allocator,
-                           double *factors, double *vectors, uint32_t *found)
+int32_t dmb_pencil_general(dmb_pencil *pencil, const dmb_pencil_search *search, double *factors, double *vectors,
+                           uint32_t *found)
 {
+    const uint32_t wanted = search->wanted;
     const dmb_operator inverse = {.context = pencil,
                                   .length = pencil->unknowns,
                                   .dimension = pencil->unknowns,
@@ -346,9 +347,10 @@ int32_t dmb_pencil_general(dmb_pencil *pencil, uint32_t wanted, double most, con
     for (uint32_t values = 2 * wanted + DMB_GENERAL_MORE; *found < wanted; values *= 3) {
         dmb_krylov largest;
         if (values > pencil->unknowns) values = pencil->unknowns;
-        const int32_t status = dmb_krylov_largest(&inverse, values, 2, DMB_GENERAL_TOLERANCE, allocator, &largest);
+        const int32_t status =
+            dmb_krylov_largest(&inverse, values, 2, DMB_GENERAL_TOLERANCE, search->allocator, &largest);
         if (status < 0) return *found > 0 && status == DMB_ERR_NO_CONVERGENCE ? DMB_OK : status;
-        *found = take(&largest, pencil->unknowns, wanted, most, factors, vectors);
+        *found = take(&largest, pencil->unknowns, wanted, search->most, factors, vectors);
         dmb_krylov_release(&largest);
         if (values >= pencil->unknowns || values > DMB_GENERAL_MOST) break;
     }

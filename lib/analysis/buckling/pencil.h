@@ -42,8 +42,14 @@ double dmb_pencil_vector(dmb_pencil *pencil, double factor, const double *other,
 /* The same factors, as many as `wanted`, and their vectors, shape (wanted, unknowns): the real positive eigenvalues
  * 1/factor of -K^-1 G that are largest, by Krylov subspaces. *found: how many there are below `most`.
  * DMB_ERR_NO_MEMORY, _SINGULAR, _NO_CONVERGENCE. */
-int32_t dmb_pencil_general(dmb_pencil *pencil, uint32_t wanted, double most, const dmb_allocator *allocator,
-                           double *factors, double *vectors, uint32_t *found);
+typedef struct dmb_pencil_search {
+    uint32_t wanted;
+    double most;
+    const dmb_allocator *allocator;
+} dmb_pencil_search;
+
+int32_t dmb_pencil_general(dmb_pencil *pencil, const dmb_pencil_search *search, double *factors, double *vectors,
+                           uint32_t *found);
 
 /* Operations on these. y = A x; factors of K + factor G into `work`, 0 where they are singular; x <- (K + factor G)^-1
  * x; any vector, the same for the same seed > 0. */

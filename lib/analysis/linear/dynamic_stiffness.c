@@ -53,8 +53,9 @@ void dmb_dynamic_stiffness_release(dmb_dynamic_stiffness *stiffness)
 /* ---- Assembly ---------------------------------------------------------------------------------------------------- */
 
 static void assemble_array(const dmb_dynamic_stiffness *s, size_t count, const double *restrict M,
-                           const double *restrict C, const double *restrict K, double *restrict re, double *restrict im)
+                           const double *restrict C, const double *restrict K, dmb_complex_array A)
 {
+    double *restrict re = A.re, *restrict im = A.im;
     const double w = s->omega, w2 = w * w, eta = s->structural_damping, g = s->growth;
     for (size_t i = 0; i < count; i++) re[i] = K[i] - w2 * M[i];
     for (size_t i = 0; i < count; i++) im[i] = w * C[i] + eta * K[i];
@@ -71,9 +72,9 @@ static void assemble(dmb_dynamic_stiffness *s)
     const dmb_block_layout *layout = &scene->layout;
     const size_t diagonal = layout->diag[layout->n], link = layout->link[layout->n - 1];
     const dmb_complex_block_matrix *A = &s->factors;
-    assemble_array(s, diagonal, M->diagonal, C->diagonal, K->diagonal, A->diagonal.re, A->diagonal.im);
-    assemble_array(s, link, M->lower, C->lower, K->lower, A->lower.re, A->lower.im);
-    assemble_array(s, link, M->upper, C->upper, K->upper, A->upper.re, A->upper.im);
+    assemble_array(s, diagonal, M->diagonal, C->diagonal, K->diagonal, A->diagonal);
+    assemble_array(s, link, M->lower, C->lower, K->lower, A->lower);
+    assemble_array(s, link, M->upper, C->upper, K->upper, A->upper);
     for (uint32_t i = 0; i < scene->held_count; i++) {
         const uint32_t node = scene->held_node[i];
         A->diagonal.re[layout->diag[node] + (layout->size[node] + 1u) * scene->held_component[i]] = 1.0;

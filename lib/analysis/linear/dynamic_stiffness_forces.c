@@ -191,8 +191,8 @@ static void solve_multipliers(dmb_sim *sim, uint32_t k, double *rest, double *mu
     memset(multipliers, 0, cluster->rows * sizeof(double));
     for (uint32_t i = 0; i < partition.rank; i++) multipliers[partition.row_order[i]] = rest[i];
     if (partition.rank < active_rows(sim, cluster))
-        dmb_partition_least_norm(sim->cluster_matrix + cluster->dense, cluster->columns, &partition, lu, pivot,
-                                 sim->cluster_gram + cluster->square, multipliers);
+        dmb_partition_least_norm(&(dmb_jacobian){sim->cluster_matrix + cluster->dense, cluster->columns, NULL},
+                                 &partition, lu, pivot, sim->cluster_gram + cluster->square, multipliers);
 }
 
 void dmb_dynamic_multipliers(const dmb_dynamic_stiffness *s, uint32_t k, dmb_complex_array x, dmb_complex_array f,

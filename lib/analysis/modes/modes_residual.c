@@ -16,14 +16,15 @@
 #define DMB_MODE_CONVERGED 1e-10
 #define DMB_MODE_ROUNDING 1024.0
 
-/* out += (a + i b) A (x + i y), real and imaginary part */
 typedef struct complex_rows {
     double *re, *im, *product;
 } complex_rows;
 
-static void add_product(const dmb_linear *linear, const dmb_linear_matrix *A, double a, double b, const double *d,
+/* out += (a + i b) A d, d real or imaginary */
+static void add_product(const dmb_linear *linear, const dmb_linear_matrix *A, const double factor[2], const double *d,
                         int imaginary, const complex_rows *out)
 {
+    const double a = factor[0], b = factor[1];
     dmb_linear_multiply(linear, A, d, out->product);
     for (uint32_t i = 0; i < linear->rows; i++) {
         out->re[i] += (imaginary ? -b : a) * out->product[i];
@@ -51,14 +52,14 @@ double dmb_modes_residual(const dmb_mode_search *search, uint32_t k)
     const size_t rows = linear->rows;
     const complex_rows out = {search->work, search->work + rows, search->work + 2 * rows};
     const double *s = search->modes->s + 2 * (size_t)k;
+    const double one[2] = {1.0, 0.0}, square[2] = {s[0] * s[0] - s[1] * s[1], 2.0 * s[0] * s[1]};
     double left = 0.0, terms = 0.0;
     memset(out.re, 0, 2 * rows * sizeof(double));
     for (int imaginary = 0; imaginary < (search->modes->im != NULL ? 2 : 1); imaginary++) {
         const double *d = (imaginary ? search->modes->im : search->modes->re) + rows * k;
-        add_product(linear, &linear->stiffness, 1.0, 0.0, d, imaginary, &out);
-        add_product(linear, &linear->mass, s[0] * s[0] - s[1] * s[1], 2.0 * s[0] * s[1], d, imaginary, &out);
-        if (search->options->kind == DMB_MODES_DAMPED)
-            add_product(linear, &linear->damping, s[0], s[1], d, imaginary, &out);
+        add_product(linear, &linear->stiffness, one, d, imaginary, &out);
+        add_product(linear, &linear->mass, square, d, imaginary, &out);
+        if (search->options->kind == DMB_MODES_DAMPED) add_product(linear, &linear->damping, s, d, imaginary, &out);
         terms += norm_of_terms(linear, d, s[0] * s[0] + s[1] * s[1]);
     }
     for (int imaginary = 0; imaginary < 2; imaginary++) {
@@ -125,8 +126,7 @@ dmb_mode_defect dmb_modes_defect(const dmb_mode_search *search, uint32_t k)
         if (matrix[m] == NULL) continue;
         memset(one, 0, 2 * rows * sizeof(double));
         for (int part = 0; part < parts; part++)
-            add_product(linear, matrix[m], factor[m][0], factor[m][1], (part ? modes->im : modes->re) + rows * k, part,
-                        &out);
+            add_product(linear, matrix[m], factor[m], (part ? modes->im : modes->re) + rows * k, part, &out);
         for (size_t i = 0; i < 2 * rows; i++) left[i] += one[i];
         forces += norm_of(search, one, one + rows, 0);
     }

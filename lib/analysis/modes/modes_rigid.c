@@ -329,7 +329,8 @@ static int32_t take_null_space(conditions *c)
     const size_t rank = dmb_triangulate(n, c->tolerance, R, order, v);
     const int32_t status = rank < n ? reserve(c->search, n - rank) : DMB_OK;
     for (size_t i = 0; i < n - rank && status >= 0; i++) {
-        dmb_null_vector(n, rank, R, order, i, work, q);
+        const dmb_triangle triangle = {n, rank, R, order};
+        dmb_null_vector(&triangle, i, work, q);
         take_motion(c, q);
     }
     dmb_release(c->allocator, R, bytes);

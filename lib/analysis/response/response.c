@@ -329,21 +329,17 @@ static int32_t check_counts(dmb_sim *sim, uint32_t inputs, uint32_t outputs)
     return check.status;
 }
 
-static int32_t analyse(dmb_sim *sim, const dmb_response_options *options, const dmb_input *inputs, uint32_t input_count,
-                       const dmb_output *outputs, uint32_t output_count, dmb_response **response)
+static int32_t analyse(response_work *w, const dmb_response_options *options, const dmb_input *inputs,
+                       const dmb_output *outputs, dmb_response **response)
 {
-    response_work w;
-    memset(&w, 0, sizeof w);
-    w.sim = sim;
-    w.input_count = input_count;
-    w.output_count = output_count;
-    int32_t status = dmb_response_options_take(options, &sim->message, &w.options);
-    if (status >= 0) status = check_counts(sim, input_count, output_count);
+    dmb_sim *sim = w->sim;
+    int32_t status = dmb_response_options_take(options, &sim->message, &w->options);
+    if (status >= 0) status = check_counts(sim, w->input_count, w->output_count);
     if (status >= 0) status = dmb_state_copy_check(sim, "response");
     if (status < 0) return status;
-    dmb_response *made = dmb_response_new(&sim->allocator, input_count, output_count);
-    status = made != NULL ? respond(&w, inputs, outputs, made) : DMB_ERR_NO_MEMORY;
-    release(&w);
+    dmb_response *made = dmb_response_new(&sim->allocator, w->input_count, w->output_count);
+    status = made != NULL ? respond(w, inputs, outputs, made) : DMB_ERR_NO_MEMORY;
+    release(w);
     if (status == DMB_ERR_NO_MEMORY) dmb_message_set(&sim->message, "response: no memory");
     if (status < 0)
         dmb_response_destroy(&made);
@@ -361,5 +357,10 @@ int32_t dmb_analysis_response(dmb_sim *sim, const dmb_response_options *options,
     if (sim == NULL || inputs == NULL || outputs == NULL) return DMB_ERR_NULL;
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
-    return dmb_sim_leave(sim, analyse(sim, options, inputs, input_count, outputs, output_count, response));
+    response_work w;
+    memset(&w, 0, sizeof w);
+    w.sim = sim;
+    w.input_count = input_count;
+    w.output_count = output_count;
+    return dmb_sim_leave(sim, analyse(&w, options, inputs, outputs, response));
 }

@@ -299,32 +299,27 @@ static void release(speeds_run *r)
     if (r->speeds != NULL) dmb_release(allocator, r->speeds, r->points * sizeof(double));
 }
 
-static int32_t analyse(dmb_sim *sim, const dmb_speeds_options *options, const dmb_order *orders, uint32_t order_count,
-                       const dmb_output *outputs, const double *limits, uint32_t output_count, dmb_speed_band *bands,
-                       uint32_t *band_count, double *severity)
+static int32_t analyse(speeds_run *r, const dmb_speeds_options *options, dmb_speed_band *bands, uint32_t *band_count,
+                       double *severity)
 {
-    speeds_run r = {
-        .report = dmb_speeds_report_default(), .sim = sim, .orders = orders, .outputs = outputs, .limits = limits};
     dmb_speed_band unused;
     if (dmb_speed_band_read(&unused, bands) < 0) return DMB_ERR_STRUCT_SIZE;
-    r.order_count = order_count;
-    r.output_count = output_count;
-    r.room = *band_count;
-    int32_t status = take_options(sim, options, &r.options);
-    if (status >= 0) status = check_counts(&r);
-    if (status >= 0) status = dmb_state_copy_check(sim, "speeds");
+    r->room = *band_count;
+    int32_t status = take_options(r->sim, options, &r->options);
+    if (status >= 0) status = check_counts(r);
+    if (status >= 0) status = dmb_state_copy_check(r->sim, "speeds");
     if (status < 0) return status;
-    status = find_bands(&r);
-    if (status == DMB_ERR_NO_MEMORY) dmb_message_set(&sim->message, "speeds: no memory");
+    status = find_bands(r);
+    if (status == DMB_ERR_NO_MEMORY) dmb_message_set(&r->sim->message, "speeds: no memory");
     if (status >= 0) {
-        write_bands(&r, bands);
-        if (severity != NULL) write_severity(&r, severity);
-        *band_count = r.count < r.room ? r.count : r.room;
-        status = judge(&r);
-        if (r.options.report != NULL) (void)dmb_speeds_report_write(r.options.report, &r.report);
-        if (r.count > r.room) status = DMB_NOTE_FULL;
+        write_bands(r, bands);
+        if (severity != NULL) write_severity(r, severity);
+        *band_count = r->count < r->room ? r->count : r->room;
+        status = judge(r);
+        if (r->options.report != NULL) (void)dmb_speeds_report_write(r->options.report, &r->report);
+        if (r->count > r->room) status = DMB_NOTE_FULL;
     }
-    release(&r);
+    release(r);
     return status;
 }
 
@@ -334,8 +329,14 @@ int32_t dmb_analysis_speeds(dmb_sim *sim, const dmb_speeds_options *options, con
 {
     if (sim == NULL || orders == NULL || outputs == NULL || limits == NULL || bands == NULL || band_count == NULL)
         return DMB_ERR_NULL;
-    int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
+    const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
-    status = analyse(sim, options, orders, order_count, outputs, limits, output_count, bands, band_count, severity);
-    return dmb_sim_leave(sim, status);
+    speeds_run r = {.report = dmb_speeds_report_default(),
+                    .sim = sim,
+                    .orders = orders,
+                    .outputs = outputs,
+                    .limits = limits,
+                    .order_count = order_count,
+                    .output_count = output_count};
+    return dmb_sim_leave(sim, analyse(&r, options, bands, band_count, severity));
 }

@@ -271,30 +271,26 @@ static int32_t shake(sine_run *r, const dmb_output *outputs)
     return status;
 }
 
-static int32_t analyse(dmb_sim *sim, double frequency, const dmb_stepped_sine_options *options,
-                       const dmb_output *outputs, uint32_t output_count, double *amplitudes,
-                       dmb_stepped_sine_report *report)
+static int32_t analyse(sine_run *r, double frequency, const dmb_stepped_sine_options *options,
+                       const dmb_output *outputs, double *amplitudes, dmb_stepped_sine_report *report)
 {
-    sine_run r;
-    memset(&r, 0, sizeof r);
-    r.sim = sim;
-    r.report = dmb_stepped_sine_report_default();
-    if (report != NULL && dmb_stepped_sine_report_read(&r.report, report) < 0) return DMB_ERR_STRUCT_SIZE;
-    r.report = dmb_stepped_sine_report_default();
-    int32_t status = dmb_stepped_sine_options_take(options, frequency, &sim->message, &r.options);
+    dmb_sim *sim = r->sim;
+    r->report = dmb_stepped_sine_report_default();
+    if (report != NULL && dmb_stepped_sine_report_read(&r->report, report) < 0) return DMB_ERR_STRUCT_SIZE;
+    r->report = dmb_stepped_sine_report_default();
+    int32_t status = dmb_stepped_sine_options_take(options, frequency, &sim->message, &r->options);
     dmb_check check = dmb_check_of(&sim->message, "sine", DMB_NONE);
-    if (status >= 0) dmb_check_count(&check, "output_count", output_count, 1, DMB_RESPONSE_INPUTS_MAX);
+    if (status >= 0) dmb_check_count(&check, "output_count", r->outputs, 1, DMB_RESPONSE_INPUTS_MAX);
     if (status < 0 || check.status < 0) return status < 0 ? status : check.status;
-    r.outputs = output_count;
-    r.width = 2 * (1 + r.options.harmonics);
-    r.omega = DMB_TWO_PI * frequency;
-    r.step = 1.0 / (frequency * r.options.steps_per_period);
-    status = shake(&r, outputs);
+    r->width = 2 * (1 + r->options.harmonics);
+    r->omega = DMB_TWO_PI * frequency;
+    r->step = 1.0 / (frequency * r->options.steps_per_period);
+    status = shake(r, outputs);
     if (status >= 0) {
-        memcpy(amplitudes, r.sum, (size_t)r.outputs * r.width * sizeof(double));
-        if (report != NULL) (void)dmb_stepped_sine_report_write(report, &r.report);
+        memcpy(amplitudes, r->sum, (size_t)r->outputs * r->width * sizeof(double));
+        if (report != NULL) (void)dmb_stepped_sine_report_write(report, &r->report);
     }
-    if (r.block != NULL) dmb_release(&sim->allocator, r.block, r.block_size);
+    if (r->block != NULL) dmb_release(&sim->allocator, r->block, r->block_size);
     return status;
 }
 
@@ -305,5 +301,9 @@ int32_t dmb_analysis_stepped_sine(dmb_sim *sim, double frequency, const dmb_step
     if (sim == NULL || outputs == NULL || amplitudes == NULL) return DMB_ERR_NULL;
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
-    return dmb_sim_leave(sim, analyse(sim, frequency, options, outputs, output_count, amplitudes, report));
+    sine_run r;
+    memset(&r, 0, sizeof r);
+    r.sim = sim;
+    r.outputs = output_count;
+    return dmb_sim_leave(sim, analyse(&r, frequency, options, outputs, amplitudes, report));
 }

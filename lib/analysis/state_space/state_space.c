@@ -245,26 +245,26 @@ static void release(dmb_space_work *w)
     if (w->block != NULL) dmb_release(&w->sim->allocator, w->block, w->block_size);
 }
 
-static int32_t analyse(dmb_sim *sim, const dmb_state_space_options *options, const dmb_input *inputs,
-                       uint32_t input_count, const dmb_output *outputs, uint32_t output_count, dmb_state_space **space)
+static int32_t analyse(dmb_space_work *w, const dmb_state_space_options *options, const dmb_input *inputs,
+                       const dmb_output *outputs, dmb_state_space **space)
 {
-    dmb_space_work w = {.sim = sim, .input_count = input_count, .output_count = output_count};
-    int32_t status = take_options(sim, options, input_count, output_count, &w.options);
+    dmb_sim *sim = w->sim;
+    int32_t status = take_options(sim, options, w->input_count, w->output_count, &w->options);
     if (status >= 0) status = dmb_state_copy_check(sim, "state space");
     if (status < 0) return status;
-    w.space = dmb_allocate(&sim->allocator, sizeof *w.space);
-    status = w.space != NULL ? DMB_OK : DMB_ERR_NO_MEMORY;
+    w->space = dmb_allocate(&sim->allocator, sizeof *w->space);
+    status = w->space != NULL ? DMB_OK : DMB_ERR_NO_MEMORY;
     if (status >= 0) {
-        w.space->magic = DMB_HANDLE_STATE_SPACE;
-        w.space->allocator = sim->allocator;
-        status = run(&w, inputs, outputs);
+        w->space->magic = DMB_HANDLE_STATE_SPACE;
+        w->space->allocator = sim->allocator;
+        status = run(w, inputs, outputs);
     }
-    release(&w);
+    release(w);
     if (status == DMB_ERR_NO_MEMORY) dmb_message_set(&sim->message, "state space: no memory");
     if (status < 0)
-        dmb_state_space_destroy(&w.space);
+        dmb_state_space_destroy(&w->space);
     else
-        *space = w.space;
+        *space = w->space;
     return status < 0 ? status : DMB_OK;
 }
 
@@ -278,7 +278,8 @@ int32_t dmb_analysis_state_space(dmb_sim *sim, const dmb_state_space_options *op
         return DMB_ERR_NULL;
     const int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
-    return dmb_sim_leave(sim, analyse(sim, options, inputs, input_count, outputs, output_count, space));
+    dmb_space_work w = {.sim = sim, .input_count = input_count, .output_count = output_count};
+    return dmb_sim_leave(sim, analyse(&w, options, inputs, outputs, space));
 }
 
 void dmb_state_space_destroy(dmb_state_space **space)

@@ -117,10 +117,9 @@ static int32_t refuse_place(dmb_sim *sim, dmb_place place, int32_t status)
     return status;
 }
 
-static int32_t put_place(dmb_sim *sim, dmb_place place, int32_t frame, int32_t component, uint32_t rows[24],
-                         double values[24], uint32_t *count)
+/* Displacement of the place as a linear function of the rows' motion. */
+static int32_t motion_of_place(dmb_sim *sim, dmb_place place, int32_t frame, int32_t component, dmb_functional *f)
 {
-    dmb_functional f;
     if (component < DMB_X || component > DMB_RZ || frame < DMB_FRAME_WORLD || frame > DMB_FRAME_BODY) {
         dmb_message_set(&sim->message, "place: component = %d, must be 0 .. 5, frame = %d, must be 0 .. 1",
                         (int)component, (int)frame);
@@ -129,13 +128,9 @@ static int32_t put_place(dmb_sim *sim, dmb_place place, int32_t frame, int32_t c
     dmb_sim *copy = dmb_state_copy(sim);
     if (copy == NULL) return DMB_ERR_NO_MEMORY;
     copy->magic = DMB_HANDLE_SIM; /* so that it answers queries */
-    const int32_t status = dmb_functional_of_motion(copy, place, frame, component, &f);
+    const int32_t status = dmb_functional_of_motion(copy, place, frame, component, f);
     dmb_state_discard(copy);
-    if (status < 0) return refuse_place(sim, place, status);
-    *count = f.count;
-    memcpy(rows, f.row, f.count * sizeof *rows);
-    memcpy(values, f.pose, f.count * sizeof *values);
-    return DMB_OK;
+    return status < 0 ? refuse_place(sim, place, status) : DMB_OK;
 }
 
 int32_t dmb_analysis_place_rows(dmb_sim *sim, dmb_place place, int32_t frame, int32_t component, uint32_t rows[24],
@@ -145,6 +140,12 @@ int32_t dmb_analysis_place_rows(dmb_sim *sim, dmb_place place, int32_t frame, in
     int32_t status = dmb_sim_enter(sim, DMB_BUSY_READABLE);
     if (status < 0) return status;
     status = dmb_state_copy_check(sim, "place");
-    if (status >= 0) status = put_place(sim, place, frame, component, rows, values, count);
+    dmb_functional f;
+    if (status >= 0) status = motion_of_place(sim, place, frame, component, &f);
+    if (status >= 0) {
+        *count = f.count;
+        memcpy(rows, f.row, f.count * sizeof *rows);
+        memcpy(values, f.pose, f.count * sizeof *values);
+    }
     return dmb_sim_leave(sim, status);
 }

@@ -50,8 +50,8 @@ void dmb_make_reduced_symmetric(const dmb_sim *sim, double *values)
 
 /* ---- Asymmetry --------------------------------------------------------------------------------------------------- */
 
-/* Of entries ij of A, shape (n, m), and ji of B, shape (m, n); Di, Dj: diagonal blocks of their rows. */
-static double worst_pair(uint32_t n, uint32_t m, const double *A, const double *B, const double *Di, const double *Dj,
+/* Of entries ij of A, shape (n, m), and ji of B, shape (m, n); D: diagonal blocks of i and j. */
+static double worst_pair(uint32_t n, uint32_t m, const double *A, const double *B, const double *const D[2],
                          double rounding)
 {
     double worst = 0.0;
@@ -59,7 +59,7 @@ static double worst_pair(uint32_t n, uint32_t m, const double *A, const double *
         for (uint32_t j = 0; j < m; j++) {
             const double apart = fabs(A[(size_t)m * i + j] - B[(size_t)n * j + i]);
             if (!(apart > rounding)) continue;
-            const double size = sqrt(fabs(Di[(size_t)(n + 1) * i] * Dj[(size_t)(m + 1) * j]));
+            const double size = sqrt(fabs(D[0][(size_t)(n + 1) * i] * D[1][(size_t)(m + 1) * j]));
             worst = fmax(worst, apart / fmax(size, rounding));
         }
     return worst;
@@ -72,11 +72,11 @@ static double asymmetry_of_chain(const dmb_sim *sim, const dmb_chain *chain, dou
     for (uint32_t k = chain->first; k < chain->first + chain->count; k++) {
         const uint32_t n = layout->size[k];
         const double *D = sim->stiffness_diagonal + layout->diag[k];
-        worst = fmax(worst, worst_pair(n, n, D, D, D, D, rounding));
+        const double *const here[2] = {D, D}, *const next[2] = {D, sim->stiffness_diagonal + layout->diag[k + 1]};
+        worst = fmax(worst, worst_pair(n, n, D, D, here, rounding));
         if (k + 1 == chain->first + chain->count) continue;
         worst = fmax(worst, worst_pair(n, layout->size[k + 1], sim->stiffness_upper + layout->link[k],
-                                       sim->stiffness_lower + layout->link[k], D,
-                                       sim->stiffness_diagonal + layout->diag[k + 1], rounding));
+                                       sim->stiffness_lower + layout->link[k], next, rounding));
     }
     return worst;
 }
@@ -89,11 +89,13 @@ static double asymmetry_of_reduced(const dmb_sim *sim, double rounding)
     for (uint32_t k = 0; k < pattern->n; k++) {
         const uint32_t n = sim->reduced_size[pattern->order[k]];
         const double *D = values + pattern->diagonal[k];
-        worst = fmax(worst, worst_pair(n, n, D, D, D, D, rounding));
+        const double *const here[2] = {D, D};
+        worst = fmax(worst, worst_pair(n, n, D, D, here, rounding));
         for (uint32_t e = pattern->column[k]; e < pattern->column[k + 1]; e++) {
             const uint32_t later = pattern->later[e];
+            const double *const both[2] = {D, values + pattern->diagonal[later]};
             worst = fmax(worst, worst_pair(n, sim->reduced_size[pattern->order[later]], values + pattern->upper[e],
-                                           values + pattern->lower[e], D, values + pattern->diagonal[later], rounding));
+                                           values + pattern->lower[e], both, rounding));
         }
     }
     return worst;

@@ -176,9 +176,10 @@ static int32_t potential_rate(const question *ask, double *rate)
 
 /* ---- From the scene to the question ------------------------------------------------------------------------------ */
 
-static void take_place(const dmb_scene *scene, const dmb_configuration *c, int rates, const dmb_scene_force *force,
-                       uint32_t i, argument *a, question *ask)
+static void take_place(const dmb_scene *scene, const dmb_configuration *c, int rates, uint32_t i, argument *a,
+                       question *ask)
 {
+    const dmb_scene_force *force = ask->force;
     dmb_point_motion_of(scene, c, force->point + i, &a->point);
     dmb_vec3_add(scene->reference_position + 3 * (size_t)a->point.node[0], a->point.x, ask->x[i]);
     dmb_mat3_copy(a->point.R, ask->R[i]);
@@ -201,18 +202,15 @@ static void take_joint(const dmb_sim *sim, const dmb_configuration *c, int rates
     if (rates) ask->v[i][0] = dmb_vec6_dot(a->c.J[a->component], a->relative.V);
 }
 
-static void take_arguments(const dmb_sim *sim, const dmb_configuration *c, int rates, uint32_t force, double time,
-                           argument a[PLACES], question *ask)
+/* Arguments of ask->force at ask->time. */
+static void take_arguments(const dmb_sim *sim, const dmb_configuration *c, int rates, argument a[PLACES], question *ask)
 {
-    memset(ask, 0, sizeof *ask);
-    ask->force = sim->scene->forces + force;
-    ask->time = time;
     for (uint32_t i = 0; i < ask->force->count; i++) {
         a[i].joint = ask->force->joint[i];
         a[i].component = ask->force->component[i];
         a[i].open = 0;
         if (is_place(ask->force, i))
-            take_place(sim->scene, c, rates, ask->force, i, a + i, ask);
+            take_place(sim->scene, c, rates, i, a + i, ask);
         else
             take_joint(sim, c, rates, i, a + i, ask);
     }
@@ -424,7 +422,10 @@ static int32_t gather_force(dmb_evaluation *evaluation, uint32_t i)
     argument a[PLACES];
     question ask;
     answer to;
-    take_arguments(sim, &sim->trial, evaluation->dynamic, i, evaluation->time, a, &ask);
+    memset(&ask, 0, sizeof ask);
+    ask.force = sim->scene->forces + i;
+    ask.time = evaluation->time;
+    take_arguments(sim, &sim->trial, evaluation->dynamic, a, &ask);
     int32_t status = ask_all(&ask, evaluation->tangent, &to);
     if (status < 0) return status;
     to_axes(&ask, a, &to);
@@ -471,9 +472,10 @@ static double row_size(const answer *given, const matrix found, const matrix of_
     return size;
 }
 
-static int32_t compare(dmb_sim *sim, const question *ask, const char *owner, const char *by, const answer *given,
-                       const matrix of_given, const matrix found)
+static int32_t compare(dmb_sim *sim, const question *ask, const char *by, const answer *given, const matrix of_given,
+                       const matrix found)
 {
+    dmb_message owner;
     const uint32_t n = 6 * ask->force->count;
     for (uint32_t r = 0; r < n; r++)
         for (uint32_t c = 0; c < n; c++) {
@@ -481,11 +483,12 @@ static int32_t compare(dmb_sim *sim, const question *ask, const char *owner, con
             if (!is_place(ask->force, c / 6) && c % 6 != 0) continue;
             const double bound = DMB_TANGENT_CHECK * row_size(given, found, of_given, r, n);
             if (fabs(of_given[r][c] - found[r][c]) <= bound) continue;
+            (void)dmb_part_text(&owner, "force", (uint32_t)(ask->force - sim->scene->forces), ask->force->name, 24);
             dmb_message_set(
                 &sim->message,
                 "%s: tangent by %s[%u][%u] = %g, must be %g by differences; give the derivative of the force, "
                 "or leave DMB_PROVIDES_TANGENT out",
-                owner, by, r, c, of_given[r][c], found[r][c]);
+                owner.text, by, r, c, of_given[r][c], found[r][c]);
             return DMB_ERR_CALLBACK;
         }
     return DMB_OK;
@@ -498,16 +501,19 @@ int32_t dmb_caller_force_check(dmb_sim *sim, uint32_t force)
     answer given;
     matrix A, B;
     dmb_message owner;
-    take_arguments(sim, &sim->now, 1, force, sim->clock->time, a, &ask);
+    memset(&ask, 0, sizeof ask);
+    ask.force = sim->scene->forces + force;
+    ask.time = sim->clock->time;
+    take_arguments(sim, &sim->now, 1, a, &ask);
     if (!(ask.force->provides & DMB_PROVIDES_TANGENT)) return DMB_OK;
     (void)dmb_part_text(&owner, "force", force, ask.force->name, 24);
     if (given_tangent(&ask, &given) < 0 || tangent_by_differences(&ask, A, B) < 0) {
         dmb_message_set(&sim->message, "%s: its callback failed or gave a value beyond +-1e30", owner.text);
         return DMB_ERR_CALLBACK;
     }
-    const int32_t status = compare(sim, &ask, owner.text, "displacement", &given, (const double(*)[WIDE])given.A,
-                                   (const double(*)[WIDE])A);
-    return status < 0 ? status
-                      : compare(sim, &ask, owner.text, "velocity", &given, (const double(*)[WIDE])given.B,
-                                (const double(*)[WIDE])B);
+    const int32_t status =
+        compare(sim, &ask, "displacement", &given, (const double(*)[WIDE])given.A, (const double(*)[WIDE])A);
+    return status < 0
+               ? status
+               : compare(sim, &ask, "velocity", &given, (const double(*)[WIDE])given.B, (const double(*)[WIDE])B);
 }

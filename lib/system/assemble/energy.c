@@ -26,10 +26,14 @@ static void end_velocities(const dmb_scene *scene, const dmb_configuration *c, u
     dmb_arm_velocity(-type_of(scene, e)->arm[1], vb);
 }
 
-/* Momenta p = M v of an element's ends; on the hole's axis the bar sees its two rows alone. */
-static void end_momenta(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, double va[6], double vb[6],
-                        double pa[6], double pb[6])
+typedef struct ends {
+    double va[6], vb[6], pa[6], pb[6];
+} ends;
+
+/* Velocities and momenta p = M v of an element's ends; on the hole's axis the bar sees its two rows alone. */
+static void end_momenta(const dmb_scene *scene, const dmb_configuration *c, uint32_t e, ends *m)
 {
+    double *va = m->va, *vb = m->vb;
     const uint32_t a = scene->element_node[e];
     if (is_path(scene, a) && is_path(scene, a + 1)) {
         const double *v = c->velocity;
@@ -40,25 +44,25 @@ static void end_momenta(const dmb_scene *scene, const dmb_configuration *c, uint
     } else {
         end_velocities(scene, c, e, va, vb);
     }
-    dmb_beam_mass_times(&type_of(scene, e)->mass, va, vb, pa, pb);
+    dmb_beam_mass_times(&type_of(scene, e)->mass, va, vb, m->pa, m->pb);
 }
 
 /* (v_A . p_A + v_B . p_B)/2 with p = M v, M constant in the body frames of the ends (THEORY 3). */
 double dmb_element_kinetic_energy(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element)
 {
-    double va[6], vb[6], pa[6], pb[6];
-    end_momenta(scene, configuration, element, va, vb, pa, pb);
-    return 0.5 * (dmb_vec6_dot(va, pa) + dmb_vec6_dot(vb, pb));
+    ends m;
+    end_momenta(scene, configuration, element, &m);
+    return 0.5 * (dmb_vec6_dot(m.va, m.pa) + dmb_vec6_dot(m.vb, m.pb));
 }
 
 void dmb_element_kinetic_parts(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
                                double parts[3])
 {
-    double va[6], vb[6], pa[6], pb[6];
-    end_momenta(scene, configuration, element, va, vb, pa, pb);
-    parts[0] = 0.5 * (va[0] * pa[0] + vb[0] * pb[0]);
-    parts[1] = 0.5 * (va[3] * pa[3] + vb[3] * pb[3]);
-    parts[2] = 0.5 * (dmb_vec6_dot(va, pa) + dmb_vec6_dot(vb, pb)) - parts[0] - parts[1];
+    ends m;
+    end_momenta(scene, configuration, element, &m);
+    parts[0] = 0.5 * (m.va[0] * m.pa[0] + m.vb[0] * m.pb[0]);
+    parts[1] = 0.5 * (m.va[3] * m.pa[3] + m.vb[3] * m.pb[3]);
+    parts[2] = 0.5 * (dmb_vec6_dot(m.va, m.pa) + dmb_vec6_dot(m.vb, m.pb)) - parts[0] - parts[1];
 }
 
 /* v . M v/2; on the axis of the hole (m s'^2 + J w^2)/2 with the two speeds of a PATH node. */

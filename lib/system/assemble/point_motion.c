@@ -193,14 +193,15 @@ static void to_parameters(const dmb_sim *sim, const dmb_force_tangent *tangent, 
     }
 }
 
-/* Block of nodes i, k into storage with `stride` columns. */
-static void add_block(const dmb_force_tangent *tangent, const double *from, double factor, uint32_t i, uint32_t k,
-                      uint32_t rows, uint32_t stride, double *to)
+/* Block of nodes i, k into storage that is as wide as node k has rows. */
+static void add_block(const dmb_block_layout *layout, const dmb_force_tangent *tangent, double factor, uint32_t i,
+                      uint32_t k, double *to)
 {
+    const uint32_t rows = layout->size[tangent->node[i]], columns = layout->size[tangent->node[k]];
     for (uint32_t r = 0; r < rows; r++)
-        for (uint32_t c = 0; c < stride; c++)
-            to[(size_t)stride * r + c] +=
-                factor * from[(size_t)(tangent->column[i] + r) * tangent->columns + tangent->column[k] + c];
+        for (uint32_t c = 0; c < columns; c++)
+            to[(size_t)columns * r + c] +=
+                factor * tangent->K[(size_t)(tangent->column[i] + r) * tangent->columns + tangent->column[k] + c];
 }
 
 /* Diagonal blocks by displacements are multiplied by T6 with all others of their node; those of links are whole where
@@ -210,18 +211,18 @@ static void add_to_chain(const dmb_evaluation *evaluation, int by, double factor
     const dmb_sim *sim = evaluation->sim;
     const dmb_block_layout *layout = &sim->scene->layout;
     for (uint32_t i = 0; i < tangent->nodes; i++) {
-        const uint32_t node = tangent->node[i], size = layout->size[node];
+        const uint32_t node = tangent->node[i];
         double *to = by == DMB_BY_VELOCITY ? dmb_inertia_of(sim, node) : dmb_stiffness_of(sim, node);
-        add_block(tangent, tangent->K, factor, i, i, size, size, to);
+        add_block(layout, tangent, factor, i, i, to);
     }
     if (tangent->nodes < 2 || (by == DMB_BY_DISPLACEMENT && evaluation->inertia_only)) return;
     const uint32_t low = tangent->node[0] < tangent->node[1] ? 0 : 1, high = 1 - low;
-    const uint32_t a = tangent->node[low], b = tangent->node[high];
+    const uint32_t a = tangent->node[low];
     double *upper = sim->stiffness_upper + layout->link[a], *lower = sim->stiffness_lower + layout->link[a];
     for (uint32_t i = 0; i < 2 && by == DMB_BY_DISPLACEMENT && evaluation->dynamic; i++)
         to_parameters(sim, tangent, i, tangent->K);
-    add_block(tangent, tangent->K, factor, low, high, layout->size[a], layout->size[b], upper);
-    add_block(tangent, tangent->K, factor, high, low, layout->size[b], layout->size[a], lower);
+    add_block(layout, tangent, factor, low, high, upper);
+    add_block(layout, tangent, factor, high, low, lower);
 }
 
 /* The constraint has the same nodes in the same order. */

@@ -271,7 +271,7 @@ static void least_norm(dmb_sim *sim, uint32_t k)
     const dmb_cluster *cluster = sim->scene->clusters + k;
     const dmb_partition partition = dmb_cluster_partition(sim, k);
     if (partition.rank == dmb_cluster_active_rows(sim, cluster)) return;
-    dmb_partition_least_norm(dmb_cluster_matrix(sim, cluster), cluster->columns, &partition,
+    dmb_partition_least_norm(&(dmb_jacobian){dmb_cluster_matrix(sim, cluster), cluster->columns, NULL}, &partition,
                              sim->cluster_lu + cluster->square, sim->cluster_pivot + cluster->row,
                              sim->cluster_gram + cluster->square, sim->trial.multiplier + cluster->row);
 }

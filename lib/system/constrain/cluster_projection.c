@@ -20,9 +20,9 @@ static int32_t factor_gram(dmb_sim *sim)
         const dmb_cluster *cluster = sim->scene->clusters + k;
         const dmb_partition partition = dmb_cluster_partition(sim, k);
         if (cluster->sparse) continue;
-        if (dmb_partition_gram(dmb_cluster_matrix(sim, cluster), cluster->columns,
-                               sim->cluster_metric + cluster->column, &partition,
-                               sim->cluster_gram + cluster->square) < 0)
+        if (dmb_partition_gram(&(dmb_jacobian){dmb_cluster_matrix(sim, cluster), cluster->columns,
+                                               sim->cluster_metric + cluster->column},
+                               &partition, sim->cluster_gram + cluster->square) < 0)
             return dmb_cluster_singular(sim, cluster->row, 0.0);
     }
     return sim->scene->sparse_count ? dmb_sparse_factor(sim, 0) : DMB_OK;
@@ -39,8 +39,9 @@ static const double *shortest(dmb_sim *sim, uint32_t k, const double *d)
     }
     const dmb_partition partition = dmb_cluster_partition(sim, k);
     for (uint32_t i = 0; i < partition.rank; i++) sim->cluster_rows[i] = d[cluster->row + partition.row_order[i]];
-    dmb_partition_project(dmb_cluster_matrix(sim, cluster), cluster->columns, sim->cluster_metric + cluster->column,
-                          &partition, sim->cluster_gram + cluster->square, sim->cluster_rows, sim->cluster_move);
+    dmb_partition_project(
+        &(dmb_jacobian){dmb_cluster_matrix(sim, cluster), cluster->columns, sim->cluster_metric + cluster->column},
+        &partition, sim->cluster_gram + cluster->square, sim->cluster_rows, sim->cluster_move);
     return sim->cluster_move;
 }
 
@@ -199,9 +200,9 @@ static void leave_weak(dmb_sim *sim)
         const dmb_cluster *cluster = sim->scene->clusters + k;
         const dmb_partition partition = dmb_cluster_partition(sim, k);
         if (cluster->sparse) continue;
-        dmb_partition_leave_weak(dmb_cluster_matrix(sim, cluster), cluster->columns,
-                                 sim->cluster_metric + cluster->column, &partition,
-                                 sim->cluster_gram + cluster->square);
+        dmb_partition_leave_weak(
+            &(dmb_jacobian){dmb_cluster_matrix(sim, cluster), cluster->columns, sim->cluster_metric + cluster->column},
+            &partition, sim->cluster_gram + cluster->square);
     }
     if (sim->scene->sparse_count && sim->reduced_mode->weak) (void)dmb_sparse_factor(sim, 1);
 }

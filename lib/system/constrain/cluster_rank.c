@@ -147,8 +147,9 @@ static void rank_cluster(scratch *s, uint32_t k, dmb_cluster_rank *rank)
     }
     const uint32_t rows = pack_rows(s, cluster);
     dmb_rank found;
-    dmb_rank_of_rows(s->sim.cluster_matrix + cluster->dense, rows, cluster->columns,
-                     s->sim.cluster_weight + cluster->column, DMB_RANK_TOLERANCE, s->work, s->order, &found);
+    const dmb_weighted_rows of = {s->sim.cluster_matrix + cluster->dense, rows, cluster->columns,
+                                  s->sim.cluster_weight + cluster->column};
+    dmb_rank_of_rows(&of, DMB_RANK_TOLERANCE, s->work, s->order, &found);
     mark_redundant(s, k, rows, &found);
     rank->rows += rows;
     rank->rank += found.rank;

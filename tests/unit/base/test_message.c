@@ -61,7 +61,8 @@ static void fields(void **state)
     assert_string_equal(m.text, "pipe 3: outer_diameter = nan, must be finite and > inner_diameter");
     dmb_message_field(&m, "wall", DMB_NONE, "diameter", -0.094, "> 0");
     assert_string_equal(m.text, "wall: diameter = -0.094, must be > 0");
-    dmb_message_component(&m, "string", 0, "velocity", 5, (double)INFINITY, "finite");
+    const dmb_field_value is = {"velocity", 5, (double)INFINITY};
+    dmb_message_component(&m, "string", 0, &is, "finite");
     assert_string_equal(m.text, "string 0: velocity[5] = inf, must be finite");
     dmb_message_clear(&m);
     assert_string_equal(m.text, "");

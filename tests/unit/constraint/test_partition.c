@@ -357,10 +357,10 @@ static void projection_is_shortest(void **state)
     double kept = 0.0, cosine = 0.0, lapack = 0.0, d[MAX], size[MAX], pivots[MAX], x[MAX], y[MAX];
     for (int i = 0; i < DRAWS; i++) {
         draw_sound(&c, &seed, harsh);
-        assert_int_equal(dmb_partition_gram(c.B, STRIDE, c.weight, &c.p, c.gram), 0);
+        assert_int_equal(dmb_partition_gram(&(dmb_jacobian){c.B, STRIDE, c.weight}, &c.p, c.gram), 0);
         draw_right_side(&c, &seed, d, size);
         for (uint32_t k = 0; k < c.p.rank; k++) pivots[k] = d[c.row_order[k]];
-        dmb_partition_project(c.B, STRIDE, c.weight, &c.p, c.gram, pivots, x);
+        dmb_partition_project(&(dmb_jacobian){c.B, STRIDE, c.weight}, &c.p, c.gram, pivots, x);
         for (uint32_t k = 0; k < c.p.rows; k++) {
             double rest = -d[k];
             for (uint32_t j = 0; j < c.p.columns; j++) rest += c.B[STRIDE * k + j] * x[j];
@@ -385,12 +385,12 @@ static void projection_refuses_parallel_rows(void **state)
     set(&c, 2, 3, (const double[]){1.0, 2.0, 3.0, 3.0, 1.0, -1.0});
     choose(&c);
     assert_int_equal(c.p.rank, 2);
-    assert_int_equal(dmb_partition_gram(c.B, STRIDE, c.weight, &c.p, c.gram), 0);
+    assert_int_equal(dmb_partition_gram(&(dmb_jacobian){c.B, STRIDE, c.weight}, &c.p, c.gram), 0);
     for (uint32_t j = 0; j < 3; j++) c.B[STRIDE + j] = -4.0 * c.B[j];
-    assert_int_equal(dmb_partition_gram(c.B, STRIDE, c.weight, &c.p, c.gram), -1);
+    assert_int_equal(dmb_partition_gram(&(dmb_jacobian){c.B, STRIDE, c.weight}, &c.p, c.gram), -1);
     assert_true(factor(&c) < 1e-15);
     for (uint32_t j = 0; j < 3; j++) c.B[STRIDE + j] = 0.0;
-    assert_int_equal(dmb_partition_gram(c.B, STRIDE, c.weight, &c.p, c.gram), -1);
+    assert_int_equal(dmb_partition_gram(&(dmb_jacobian){c.B, STRIDE, c.weight}, &c.p, c.gram), -1);
     assert_true(factor(&c) == 0.0);
 }
 
@@ -436,7 +436,7 @@ static void least_norm_agrees_with_lapack(void **state)
         draw_sound(&c, &seed, (kind){1.0, 0.0, 0.0});
         draw_multipliers(&c, &seed, f, g);
         memcpy(before, f, sizeof f);
-        dmb_partition_least_norm(c.B, STRIDE, &c.p, c.lu, c.pivot, c.work, f);
+        dmb_partition_least_norm(&(dmb_jacobian){c.B, STRIDE, NULL}, &c.p, c.lu, c.pivot, c.work, f);
         kept = fmax(kept, force_error(&c, before, f, g));
         for (uint32_t j = 0; j < c.p.columns; j++)
             for (uint32_t k = 0; k < c.p.rows; k++) A[c.p.rows * j + k] = c.B[STRIDE * k + j];
@@ -461,10 +461,10 @@ static void least_norm_of_rows_of_all_lengths(void **state)
         memcpy(before, f, sizeof f);
         const uint32_t used = (c.p.rows - c.p.rank) * c.p.rows; /* of work */
         c.work[used] = 12345.0;
-        dmb_partition_least_norm(c.B, STRIDE, &c.p, c.lu, c.pivot, c.work, f);
+        dmb_partition_least_norm(&(dmb_jacobian){c.B, STRIDE, NULL}, &c.p, c.lu, c.pivot, c.work, f);
         assert_true(c.work[used] == 12345.0);
         memcpy(second, f, sizeof f);
-        dmb_partition_least_norm(c.B, STRIDE, &c.p, c.lu, c.pivot, c.work, second);
+        dmb_partition_least_norm(&(dmb_jacobian){c.B, STRIDE, NULL}, &c.p, c.lu, c.pivot, c.work, second);
         const double length = length_of(c.p.rows, before);
         kept = fmax(kept, force_error(&c, before, f, g));
         longer = fmax(longer, length_of(c.p.rows, f) / length - 1.0);
@@ -484,7 +484,7 @@ static void least_norm_of_twin_rows(void **state)
     assert_int_equal(c.p.rank, 1);
     assert_true(factor(&c) == 1.0);
     double f[4] = {0.0, 6.0, 0.0, 0.0};
-    dmb_partition_least_norm(c.B, STRIDE, &c.p, c.lu, c.pivot, c.work, f);
+    dmb_partition_least_norm(&(dmb_jacobian){c.B, STRIDE, NULL}, &c.p, c.lu, c.pivot, c.work, f);
     check_below("three twins share a load", largest_difference(4, f, (const double[]){0.0, 2.0, 2.0, 2.0}), 1e-15);
 }
 
@@ -626,9 +626,9 @@ static void run_all(cluster *c)
     dmb_partition_null_space(c->B, STRIDE, &c->p, c->lu, c->pivot, c->G);
     dmb_partition_solve(&c->p, c->lu, c->pivot, d);
     dmb_partition_solve_transposed(&c->p, c->lu, c->pivot, d);
-    dmb_partition_gram(c->B, STRIDE, c->weight, &c->p, c->gram);
-    dmb_partition_project(c->B, STRIDE, c->weight, &c->p, c->gram, d, x);
-    dmb_partition_least_norm(c->B, STRIDE, &c->p, c->lu, c->pivot, c->work, f);
+    dmb_partition_gram(&(dmb_jacobian){c->B, STRIDE, c->weight}, &c->p, c->gram);
+    dmb_partition_project(&(dmb_jacobian){c->B, STRIDE, c->weight}, &c->p, c->gram, d, x);
+    dmb_partition_least_norm(&(dmb_jacobian){c->B, STRIDE, NULL}, &c->p, c->lu, c->pivot, c->work, f);
 }
 
 static void what_is_not_a_number_gives_no_quality(void **state)
@@ -644,7 +644,8 @@ static void what_is_not_a_number_gives_no_quality(void **state)
             c.B[STRIDE * (at / 4) + at % 4] = bad[i];
             const int redundant = c.row_order[2] == at / 4;
             assert_true(redundant ? factor(&c) > 0.0 : factor(&c) == 0.0);
-            assert_int_equal(dmb_partition_gram(c.B, STRIDE, c.weight, &c.p, c.gram), redundant ? 0 : -1);
+            assert_int_equal(dmb_partition_gram(&(dmb_jacobian){c.B, STRIDE, c.weight}, &c.p, c.gram),
+                             redundant ? 0 : -1);
             run_all(&c);
             assert_true(choose(&c) == 0.0);
             check_orders(&c);
@@ -680,12 +681,12 @@ static void empty_clusters(void **state)
         assert_int_equal(c.p.rank, 0);
         check_orders(&c);
         assert_true(factor(&c) == 1.0);
-        assert_int_equal(dmb_partition_gram(c.B, STRIDE, c.weight, &c.p, c.gram), 0);
+        assert_int_equal(dmb_partition_gram(&(dmb_jacobian){c.B, STRIDE, c.weight}, &c.p, c.gram), 0);
         run_all(&c);
     }
     double x[3] = {1.0, 1.0, 1.0}, f[3] = {1.0, 2.0, 3.0};
-    dmb_partition_project(c.B, STRIDE, c.weight, &c.p, c.gram, NULL, x);
-    dmb_partition_least_norm(c.B, STRIDE, &c.p, c.lu, c.pivot, c.work, f);
+    dmb_partition_project(&(dmb_jacobian){c.B, STRIDE, c.weight}, &c.p, c.gram, NULL, x);
+    dmb_partition_least_norm(&(dmb_jacobian){c.B, STRIDE, NULL}, &c.p, c.lu, c.pivot, c.work, f);
     assert_true(largest(3, x) == 0.0 && largest(3, f) == 0.0);
     set(&c, 1, 2, (const double[]){1.0, 2.0});
     c.weight[0] = c.weight[1] = 0.0;
@@ -790,11 +791,11 @@ static void project_graph(graph *g, const double *d, double *x)
     const size_t end = (size_t)g->p.rank * g->p.rank;
     for (size_t i = 0; i < end; i++) g->gram[i] = (double)NAN; /* of what was there nothing must be used */
     g->gram[end] = 12345.0;
-    assert_int_equal(dmb_partition_gram(g->B, WIDE + 1, g->weight, &g->p, g->gram), 0);
-    dmb_partition_leave_weak(g->B, WIDE + 1, g->weight, &g->p, g->gram);
+    assert_int_equal(dmb_partition_gram(&(dmb_jacobian){g->B, WIDE + 1, g->weight}, &g->p, g->gram), 0);
+    dmb_partition_leave_weak(&(dmb_jacobian){g->B, WIDE + 1, g->weight}, &g->p, g->gram);
     assert_true(g->gram[end] == 12345.0);
     memcpy(copy, d, sizeof copy);
-    dmb_partition_project(g->B, WIDE + 1, g->weight, &g->p, g->gram, copy, x);
+    dmb_partition_project(&(dmb_jacobian){g->B, WIDE + 1, g->weight}, &g->p, g->gram, copy, x);
 }
 
 static void lapack_graph_projection(const graph *g, const double *d, double *x)

@@ -30,7 +30,8 @@ static void null_vectors_are_null(void **state)
             assert_int_equal(dmb_triangulate(n, 1e-9, R, order, v), rank);
             for (size_t i = 0; i < n - rank; i++) {
                 double largest_of_q = 0.0;
-                dmb_null_vector(n, rank, R, order, i, work, q);
+                const dmb_triangle triangle = {n, rank, R, order};
+                dmb_null_vector(&triangle, i, work, q);
                 for (size_t j = 0; j < n; j++) largest_of_q = fmax(largest_of_q, fabs(q[j]));
                 assert_true(largest_of_q >= 1.0);
                 for (size_t k = 0; k < ROWS; k++) {

@@ -33,7 +33,8 @@ static void find(ranked *r)
     assert_non_null(work);
     work[size] = 42.0;
     memcpy(copy, r->B, sizeof copy);
-    dmb_rank_of_rows(r->B, r->rows, r->columns, r->weight, DMB_RANK_TOLERANCE, work, r->order, &r->found);
+    const dmb_weighted_rows of = {r->B, r->rows, r->columns, r->weight};
+    dmb_rank_of_rows(&of, DMB_RANK_TOLERANCE, work, r->order, &r->found);
     assert_memory_equal(copy, r->B, sizeof copy);
     assert_true(work[size] == 42.0);
     free(work);
@@ -212,7 +213,8 @@ static void large_matrix(void **state)
         if (i > 0) B[i * N + i - 1] = i % 10 == 0 ? 0.0 : 0.5;
     }
     memcpy(B + 5 * N, B + 7 * N, N * sizeof *B);
-    dmb_rank_of_rows(B, N, N, weight, DMB_RANK_TOLERANCE, work, order, &found);
+    const dmb_weighted_rows of = {B, N, N, weight};
+    dmb_rank_of_rows(&of, DMB_RANK_TOLERANCE, work, order, &found);
     assert_int_equal(found.rank, N - 1);
     assert_true(order[N - 1] == 5 || order[N - 1] == 7);
     assert_int_equal(found.exact, 0);
