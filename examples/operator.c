@@ -36,7 +36,7 @@ static int32_t operate(dmb_model *model, dmb_sim *sim, int step)
     dmb_id input;
     const double value = step == 1000 ? 0.02 : step == 2000 ? 6.0 : 12.0;
     if (step % 1000 != 0) return DMB_OK;
-    const int32_t status = dmb_model_find_input(model, step == 1000 ? "feed" : "rotation", &input);
+    const int32_t status = dmb_model_find(model, DMB_PART_INPUT, step == 1000 ? "feed" : "rotation", &input);
     return status < 0 ? status : dmb_sim_set_input(sim, input, value);
 }
 

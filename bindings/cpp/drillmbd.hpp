@@ -149,6 +149,31 @@ public:
     dmb_id add_spring(const dmb_spring_def &def) { return add(dmb_model_add_spring, def); }
     dmb_id add_force(const dmb_force_def &def) { return add(dmb_model_add_force, def); }
     dmb_id add_stuck(const dmb_stuck_def &def) { return add(dmb_model_add_stuck, def); }
+    void set_name(dmb_id part, const char *name) { done(dmb_model_set_name(handle_, part, name)); }
+    // The part of that name; throws where there is none, or parts of several kinds have it and no kind is given.
+    dmb_id find(const char *name, std::int32_t kind = DMB_PART_ANY) const
+    {
+        dmb_id id = {0, 0};
+        check(dmb_model_find(handle_, kind, name, &id)); // leaves no message
+        return id;
+    }
+    std::string name(dmb_id part) const
+    {
+        char text[DMB_NAME_SIZE];
+        check(dmb_model_get_name(handle_, part, text, DMB_NAME_SIZE));
+        return text;
+    }
+    // The pipes added under that name.
+    struct pipe_range {
+        dmb_id string;
+        std::uint32_t first, count;
+    };
+    pipe_range find_pipes(const char *name) const
+    {
+        pipe_range found = {{0, 0}, 0, 0};
+        check(dmb_model_find_pipes(handle_, name, &found.string, &found.first, &found.count));
+        return found;
+    }
     std::int32_t compile(const dmb_compile_options *options = nullptr) { return done(try_compile(options)); }
 
     dmb_model_info info() const

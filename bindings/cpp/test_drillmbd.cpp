@@ -2,6 +2,7 @@
 #include "drillmbd.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -539,6 +540,27 @@ void failures_return()
     EXPECT(!sim);
 }
 
+void parts_have_names()
+{
+    drillmbd::model model;
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    std::strcpy(pipe.name, "collars");
+    const dmb_id string = model.add_pipes(pipe, 3);
+    model.set_name(string, "main");
+    EXPECT(model.find("main").index == string.index);
+    EXPECT(model.find("main", DMB_PART_STRING).index == string.index);
+    EXPECT(model.name(string) == "main");
+    const drillmbd::model::pipe_range found = model.find_pipes("collars");
+    EXPECT(found.string.index == string.index && found.first == 0 && found.count == 3);
+    bool thrown = false;
+    try {
+        (void)model.find("nobody");
+    } catch (const drillmbd::error &error) {
+        thrown = error.status() == DMB_ERR_ID;
+    }
+    EXPECT(thrown);
+}
+
 void owners_are_moved_only()
 {
     static_assert(!std::is_copy_constructible<drillmbd::model>::value, "");
@@ -566,6 +588,7 @@ int main()
         calls_are_told_and_ended();
         failures_throw();
         failures_return();
+        parts_have_names();
         owners_are_moved_only();
     } catch (const std::exception &error) {
         std::cerr << "unexpected: " << error.what() << '\n';

@@ -28,7 +28,7 @@ ENUM_NAMES = {"OK": "Status", "LOG_ERROR": "LogLevel", "X": "Component", "TERM_C
               "MODES_AXES_TURNING": "ModesAxes", "MODES_AXES_TURNING": "ModesAxes",
               "OPERATION_PICK_UP": "OperationKind", "MEASURED_HOOK_LOAD": "Measured",
               "PROFILE_DISTANCE": "ProfileQuantity", "HOLE_ABOVE": "HoleBeyond", "HOLE_STEP": "HoleShape",
-              "EVENT_EITHER": "EventDirection",
+              "EVENT_EITHER": "EventDirection", "PART_ANY": "PartKind",
               "STATIC_NEWTON": "StaticMethod", "METHOD_INDEPENDENT": "ConstraintMethod",
               "BUCKLING_EXTRAPOLATED": "BucklingEnd", "SPRING_BOTH": "SpringActs", "STUCK_AXIAL": "StuckHolds", "TABLE_LINES": "TableKind", "SCALE_ALL": "Scale"}
 FLAGS = ("FREE", "FEATURE", "PROVIDES", "STUCK")  # prefixes of bits of masks

@@ -191,6 +191,34 @@ class DescriptionTest(unittest.TestCase):
         different.add_pipes(3)
         self.assertFalse(different.same_scene(model))
 
+    def test_names(self):
+        model = mbd.Model()
+        string = model.add_pipes(5, name="drill pipe")
+        model.add_pipes(2, name="collars", outer_diameter=0.12)
+        head = model.add_body(name="rotary head")
+        turn = model.add_programme(12.0)
+        rotation = model.add_drive(part=string, component=mbd.RX, programme=turn, name="rotation")
+        setting = model.add_input(name="rotation", part=rotation, rate_limit=1.0)
+        model.set_name(string, "main")
+        model.set_name(turn, "12 rad/s")
+        copied = copy.copy(model)
+        for one in (model, copied):
+            self.assertEqual(one["rotary head"], one.own(head))
+            self.assertEqual(one["main"], one.own(string))
+            self.assertEqual(one["12 rad/s"], one.own(turn))
+            self.assertEqual(one.find("rotation", mbd.PartKind.INPUT), one.own(setting))
+            self.assertEqual(one.find_pipes("collars"), (one.own(string), range(5, 7)))
+            self.assertEqual(one.name_of(one.own(string)), "main")
+            self.assertTrue("rotation" in one and "main" in one and "nobody" not in one)
+            for name in ("rotation", "nobody"):
+                with self.assertRaisesRegex(KeyError, name):
+                    one[name]
+            with self.assertRaises(KeyError):
+                one.find_pipes("nobody")
+        self.assertTrue(copied.same_scene(model))
+        with self.assertRaisesRegex(mbd.Error, "body 0 has it"):
+            model.add_body(name="rotary head")
+
     def test_failed_calls_are_not_described(self):
         model = mbd.Model()
         with self.assertRaises(mbd.Error):

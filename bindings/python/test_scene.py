@@ -346,6 +346,29 @@ class ShippedTest(unittest.TestCase):
                 sim.run(0.01, step=1e-3)
             self.assertEqual(one.hash(), other.hash())
 
+    def test_names_go_to_the_library(self):
+        text = """[[string]]
+name = "main"
+[[string.pipes]]
+count = 3
+name = "collars"
+[[body]]
+name = "rotary head"
+attach = "start"
+[[bit]]
+name = "pdc"
+"""
+        found = scene.loads(text)
+        for name in ("main", "rotary head", "pdc"):
+            self.assertEqual(found.model[name], found.names[name])
+        self.assertEqual(found.model.find_pipes("collars"), (found.names["main"], range(3)))
+        again = scene.loads(scene.saves(found))
+        self.assertTrue(again.same_as(found))
+        self.assertEqual(again.model["pdc"], again.names["pdc"])
+        self.assertEqual(again.model.find_pipes("collars"), (again.names["main"], range(3)))
+        with self.assertRaisesRegex(scene.SceneError, "23 bytes"):
+            scene.loads(text.replace("rotary head", "a name of more than 23 bytes"))
+
     def test_functions_cannot_be_saved(self):
         model = mbd.Model()
         model.add_pipes(1)

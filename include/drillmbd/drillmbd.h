@@ -11,6 +11,7 @@
 #include "hole.h"
 #include "model.h"
 #include "modes.h"
+#include "names.h"
 #include "output.h"
 #include "query.h"
 #include "response.h"

@@ -20,7 +20,7 @@ typedef struct dmb_spring_def {
     uint32_t struct_size;
     int32_t acts;               /* DMB_SPRING_...: TENSION (rope) pulls, COMPRESSION (buffer) pushes only, the damper
                                    as long as the sum does; default DMB_SPRING_BOTH */
-    char name[24];              /* for messages, ends with 0; default "" */
+    char name[24];              /* for messages and look-up (names.h), ends with 0; default "" */
     dmb_place place_a, place_b; /* part {0, 0} (default): the ground; not both */
     double offset_a[3];         /* [m] of the point from place a in its axes; ground: world; default 0, shape (3) */
     double offset_b[3];         /* [m] shape (3) */
@@ -69,7 +69,7 @@ typedef int32_t (*dmb_force_fn)(void *context, double time, uint32_t place_count
 typedef struct dmb_force_def {
     uint32_t struct_size;
     int32_t frame;                /* DMB_FRAME_WORLD (default), or DMB_FRAME_BODY: axes of each place */
-    char name[24];                /* for messages, ends with 0; default "" */
+    char name[24];                /* for messages and look-up (names.h), ends with 0; default "" */
     uint32_t place_count;         /* [-] of places and coordinates, 1 .. 4; default 1 */
     int32_t provides;             /* DMB_PROVIDES_...; a tangent is held against differences when a sim is made
                                      (DMB_ERR_CALLBACK); default 0: built by differences */

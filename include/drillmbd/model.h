@@ -142,6 +142,7 @@ typedef struct dmb_wall_def {
     double full_speed;        /* [m/s] of AMBROSIO, > smoothing_speed; default 1e-2 */
     double bristle_stiffness; /* [1/m] tangential stiffness over normal force, > 0; default 1e4 */
     double bristle_damping;   /* [s/m] tangential damping over normal force, >= 0; default 0 */
+    char name[24];            /* for messages and look-up (names.h), ends with 0; default "" */
 } dmb_wall_def;
 DMB_SIZED_STRUCT(dmb_wall_def)
 /* Adds the hole. One hole a model; wall may be NULL. */
@@ -158,6 +159,7 @@ typedef struct dmb_string_def {
     double velocity[6];   /* [m/s, rad/s] of the string as one rigid body, rig end, body frame, at time 0; shape (6) */
     int32_t start_free;   /* [-] mask of free components at the rig end; default DMB_FREE_CYLINDRICAL */
     int32_t end_free;     /* [-] the same at the far end; default DMB_FREE_ALL */
+    char name[24];        /* for messages and look-up (names.h), ends with 0; default "" */
 } dmb_string_def;
 DMB_SIZED_STRUCT(dmb_string_def)
 /* Adds a string without pipes. The first dmb_model_add_pipes without a string makes one by default. */
@@ -198,6 +200,7 @@ typedef struct dmb_pipe_def {
     double section_inertia[2]; /* [kg m] rotary inertia per metre about x and across; 0: from the diameters; of a rigid
                                   pipe as a body about its axis <= twice across; shape (2) */
     double yield_strength;     /* [Pa] for the share of yield of a profile; 0 (default): not known */
+    char name[24];             /* of the pipes that one call adds, for messages and dmb_model_find_pipes; default "" */
 } dmb_pipe_def;
 DMB_SIZED_STRUCT(dmb_pipe_def)
 /* Appends count (1 .. 2^20) equal pipes at the far end of a string; *string (may be NULL) names the string.
@@ -223,7 +226,7 @@ typedef struct dmb_body_def {
     int32_t reserved;
     double contact_diameter; /* [m] of the ring at the reference point that meets the wall; 0: none (default) */
     double contact_length;   /* [m] length of wall it stands for, > 0; default 1 */
-    char name[24];           /* for messages, ends with 0; default "" */
+    char name[24];           /* for messages and look-up (names.h), ends with 0; default "" */
 } dmb_body_def;
 DMB_SIZED_STRUCT(dmb_body_def)
 DMB_API int32_t dmb_model_add_body(dmb_model *model, const dmb_body_def *def, dmb_id *body);
@@ -253,6 +256,7 @@ typedef struct dmb_bit_def {
     double bottom;           /* [m] distance of the hole bottom ahead of the bit at time 0, >= 0; default 0 */
     uint32_t blades;         /* [-] 1 .. 64; default 4 */
     uint32_t history; /* [-] samples of the cut surface kept for the regenerative law, 64 .. 2^20; default 1024 */
+    char name[24];    /* for messages and look-up (names.h), ends with 0; default "" */
 } dmb_bit_def;
 DMB_SIZED_STRUCT(dmb_bit_def)
 DMB_API int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_id *bit);
@@ -290,7 +294,7 @@ enum {
 typedef struct dmb_joint_def {
     uint32_t struct_size;
     int32_t kind;          /* DMB_JOINT_..., default DMB_JOINT_FIXED */
-    char name[24];         /* for messages, ends with 0; default "" */
+    char name[24];         /* for messages and look-up (names.h), ends with 0; default "" */
     dmb_place place_a;     /* node of a string (pipe end, element end), a body or a bit; part {0, 0}: the ground */
     dmb_place place_b;     /* likewise, not the ground */
     double origin_a[3];    /* [m] of frame a, in the frame of place a (ground: world); default 0, shape (3) */
@@ -332,7 +336,7 @@ DMB_API int32_t dmb_model_add_joint(dmb_model *model, const dmb_joint_def *def, 
 typedef struct dmb_coupling_def {
     uint32_t struct_size;
     int32_t reserved;
-    char name[24];        /* for messages, ends with 0; default "" */
+    char name[24];        /* for messages and look-up (names.h), ends with 0; default "" */
     dmb_id joint[2];      /* may be the same */
     int32_t component[2]; /* DMB_X .. DMB_RZ, free in its joint; default DMB_RX */
     double ratio;         /* [-, m/rad, rad/m] not 0; default 1 */
@@ -354,7 +358,7 @@ typedef int32_t (*dmb_constraint_fn)(void *context, double time, uint32_t place_
 typedef struct dmb_constraint_def {
     uint32_t struct_size;
     int32_t kind;         /* DMB_CONSTRAINT_..., default DMB_CONSTRAINT_HOLONOMIC */
-    char name[24];        /* for messages, ends with 0; default "" */
+    char name[24];        /* for messages and look-up (names.h), ends with 0; default "" */
     uint32_t row_count;   /* [-] equations, 1 .. 6; default 1 */
     uint32_t place_count; /* [-] 1 .. 4; default 1 */
     dmb_place place[4];   /* as of a joint, not the ground, shape (place_count) */
@@ -386,7 +390,7 @@ typedef struct dmb_drive_def {
     double integral_gain; /* [N/m, N m] ki of CONTROL, >= 0; default 0 */
     double limit_low;     /* [N, N m] default -1e30 */
     double limit_high;    /* [N, N m] > limit_low; default 1e30 */
-    char name[24];        /* for messages, ends with 0; default "" */
+    char name[24];        /* for messages and look-up (names.h), ends with 0; default "" */
 } dmb_drive_def;
 DMB_SIZED_STRUCT(dmb_drive_def)
 DMB_API int32_t dmb_model_add_drive(dmb_model *model, const dmb_drive_def *def, dmb_id *drive);
@@ -399,7 +403,7 @@ typedef struct dmb_load_def {
     double force[3];  /* [N] in `frame`, shape (3) */
     double moment[3]; /* [N m] in `frame`, shape (3) */
     dmb_id programme; /* [-] factor over time; {0, 0}: 1 */
-    char name[24];    /* for messages, ends with 0; default "" */
+    char name[24];    /* for messages and look-up (names.h), ends with 0; default "" */
     double offset[3]; /* [m] of the point where it acts from the place, in its axes; default 0, shape (3) */
 } dmb_load_def;
 DMB_SIZED_STRUCT(dmb_load_def)

@@ -108,9 +108,37 @@ void dmb_message_field(dmb_message *message, const char *part, uint32_t index, c
     dmb_message_component(message, part, index, &is, bound);
 }
 
+/* [byte] of the character at `text`, `left` bytes before the end; 0: it is none, or a control character. */
+static size_t character(const unsigned char *text, size_t left)
+{
+    static const unsigned least[5] = {0, 0, 0x80, 0x800, 0x10000};
+    const unsigned first = text[0];
+    const size_t size = first < 0x80 ? 1 : first >> 5 == 6 ? 2 : first >> 4 == 14 ? 3 : first >> 3 == 30 ? 4 : 0;
+    unsigned code = size < 2 ? first : first & (0x7Fu >> size);
+    if (size == 0 || size > left) return 0;
+    for (size_t i = 1; i < size; ++i) {
+        if (text[i] >> 6 != 2) return 0;
+        code = code << 6 | (text[i] & 0x3Fu);
+    }
+    if (code < least[size] || code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) return 0;
+    return code < 0x20 || (code >= 0x7F && code <= 0x9F) ? 0 : size;
+}
+
+bool dmb_is_text(const char *text, size_t size)
+{
+    const unsigned char *bytes = (const unsigned char *)text;
+    const void *end = memchr(text, '\0', size);
+    const size_t length = end == NULL ? 0 : (size_t)((const char *)end - text);
+    for (size_t at = 0, step; at < length; at += step) {
+        step = character(bytes + at, length - at);
+        if (step == 0) return false;
+    }
+    return end != NULL;
+}
+
 const char *dmb_part_text(dmb_message *text, const char *part, uint32_t index, const char *name, size_t size)
 {
-    if (size == 0 || name[0] == '\0' || memchr(name, '\0', size) == NULL) {
+    if (size == 0 || name[0] == '\0' || !dmb_is_text(name, size)) {
         dmb_message_set(text, "%s %u", part, index);
     } else {
         dmb_message_set(text, "%s %u (%s)", part, index, name);

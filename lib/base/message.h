@@ -3,6 +3,7 @@
 #ifndef DMB_BASE_MESSAGE_H
 #define DMB_BASE_MESSAGE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -38,8 +39,12 @@ void dmb_message_component(dmb_message *message, const char *part, uint32_t inde
                            const char *bound);
 
 /* Name of a part in messages, where it may have one of its own: "joint 3 (crank)", or "joint 3" without one. name: size
- * bytes, may lack its 0, and counts as none then. Returns text->text. */
+ * bytes; what is no text counts as none. Returns text->text. */
 const char *dmb_part_text(dmb_message *text, const char *part, uint32_t index, const char *name, size_t size);
+
+/* True if the bytes before the first 0 are UTF-8 (RFC 3629: shortest form, no surrogates) without control characters;
+ * false where there is no 0 in `size` bytes. */
+bool dmb_is_text(const char *text, size_t size);
 
 /* Empties the message. */
 void dmb_message_clear(dmb_message *message);

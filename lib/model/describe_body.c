@@ -3,6 +3,7 @@
 #include "model/field_check.h"
 #include "model/limits.h"
 #include "model/model.h"
+#include "model/part_name.h"
 #include "model/section.h"
 
 enum { BLADES_MAX = 64, HISTORY_MIN = 64, HISTORY_MAX = 1 << 20 };
@@ -29,7 +30,7 @@ static int32_t check_body(dmb_model *model, const dmb_body_def *def)
     dmb_message part;
     dmb_check check = dmb_check_of(
         &model->message, dmb_part_text(&part, "body", model->bodies.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_name(&check, "name", def->name, sizeof def->name);
+    dmb_check_part_name(&check, model, DMB_PART_BODY, def->name);
     dmb_check_choice(&check, "attach", def->attach, DMB_ATTACH_NONE, DMB_ATTACH_END);
     dmb_check_id_or_none(&check, model, "string", def->string, DMB_PART_STRING, "string");
     dmb_check_within(&check, "mass", def->mass, DMB_MASS_MIN, DMB_MASS_MAX);
@@ -83,7 +84,10 @@ static void check_bit_inertia(dmb_check *check, const dmb_bit_def *def)
 
 static int32_t check_bit(dmb_model *model, const dmb_bit_def *def)
 {
-    dmb_check check = dmb_check_of(&model->message, "bit", model->bits.count);
+    dmb_message part;
+    dmb_check check = dmb_check_of(
+        &model->message, dmb_part_text(&part, "bit", model->bits.count, def->name, sizeof def->name), DMB_NONE);
+    dmb_check_part_name(&check, model, DMB_PART_BIT, def->name);
     dmb_check_id_or_none(&check, model, "string", def->string, DMB_PART_STRING, "string");
     dmb_check_id_or_none(&check, model, "load", def->load, DMB_PART_PROGRAMME, "programme");
     dmb_check_within(&check, "mass", def->mass, DMB_MASS_MIN, DMB_MASS_MAX);

@@ -8,6 +8,7 @@
 #include "model/field_check.h"
 #include "model/limits.h"
 #include "model/model.h"
+#include "model/part_name.h"
 
 enum { TERMS_MAX = 64, TABLE_MAX = 1 << 20 };
 
@@ -213,7 +214,7 @@ static int32_t check_drive(dmb_model *model, const dmb_drive_def *def)
     dmb_message part;
     dmb_check check = dmb_check_of(
         &model->message, dmb_part_text(&part, "drive", model->drives.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_name(&check, "name", def->name, sizeof def->name);
+    dmb_check_part_name(&check, model, DMB_PART_DRIVE, def->name);
     dmb_check_choice(&check, "kind", def->kind, DMB_DRIVE_MOTION, DMB_DRIVE_CONTROL);
     dmb_check_choice(&check, "component", def->component, DMB_X, DMB_RZ);
     check_driven_part(&check, model, def);
@@ -245,7 +246,7 @@ static int32_t check_load(dmb_model *model, const dmb_load_def *def)
     dmb_message part;
     dmb_check check = dmb_check_of(
         &model->message, dmb_part_text(&part, "load", model->loads.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_name(&check, "name", def->name, sizeof def->name);
+    dmb_check_part_name(&check, model, DMB_PART_LOAD, def->name);
     dmb_check_choice(&check, "frame", def->frame, DMB_FRAME_WORLD, DMB_FRAME_HOLE);
     dmb_check_place(&check, model, "place", &def->place);
     dmb_check_each_within(&check, "offset", def->offset, 3, -DMB_LENGTH_MAX, DMB_LENGTH_MAX);

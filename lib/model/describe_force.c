@@ -5,6 +5,7 @@
 #include "model/describe.h"
 #include "model/field_check.h"
 #include "model/limits.h"
+#include "model/part_name.h"
 
 enum { TABLE_MAX = 1 << 16 };
 
@@ -85,7 +86,7 @@ static int32_t check_spring(dmb_model *model, const dmb_spring_def *def)
     dmb_message part;
     dmb_check check = dmb_check_of(
         &model->message, dmb_part_text(&part, "spring", model->springs.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_name(&check, "name", def->name, sizeof def->name);
+    dmb_check_part_name(&check, model, DMB_PART_SPRING, def->name);
     check_points(&check, model, def);
     check_law(&check, def);
     return check.status;
@@ -184,7 +185,7 @@ static int32_t check_force(dmb_model *model, const dmb_force_def *def)
     dmb_message part;
     dmb_check check = dmb_check_of(
         &model->message, dmb_part_text(&part, "force", model->forces.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_name(&check, "name", def->name, sizeof def->name);
+    dmb_check_part_name(&check, model, DMB_PART_FORCE, def->name);
     dmb_check_choice(&check, "frame", def->frame, DMB_FRAME_WORLD, DMB_FRAME_BODY);
     dmb_check_count(&check, "place_count", def->place_count, 1, DMB_CONSTRAINT_PLACES);
     for (uint32_t i = 0; i < def->place_count && check.status >= 0; ++i) check_argument(&check, model, def, i);

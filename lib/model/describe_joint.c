@@ -6,6 +6,7 @@
 #include "model/frame_axes.h"
 #include "model/limits.h"
 #include "model/model.h"
+#include "model/part_name.h"
 
 /* ---- Joints ------------------------------------------------------------------------------------------------------ */
 
@@ -137,7 +138,7 @@ static int32_t check_joint(dmb_model *model, const dmb_joint_def *def)
     dmb_message part;
     dmb_check check = dmb_check_of(
         &model->message, dmb_part_text(&part, "joint", model->joints.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_name(&check, "name", def->name, sizeof def->name);
+    dmb_check_part_name(&check, model, DMB_PART_JOINT, def->name);
     dmb_check_choice(&check, "kind", def->kind, DMB_JOINT_FIXED, DMB_JOINT_ROLLING);
     check_places(&check, model, def);
     check_frames(&check, def);
@@ -183,7 +184,7 @@ static int32_t check_coupling(dmb_model *model, const dmb_coupling_def *def)
     dmb_check check =
         dmb_check_of(&model->message,
                      dmb_part_text(&part, "coupling", model->couplings.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_name(&check, "name", def->name, sizeof def->name);
+    dmb_check_part_name(&check, model, DMB_PART_COUPLING, def->name);
     check_coordinate(&check, model, def, 0);
     check_coordinate(&check, model, def, 1);
     if (def->joint[0].index == def->joint[1].index && def->component[0] == def->component[1]) {
@@ -232,7 +233,7 @@ static int32_t check_constraint(dmb_model *model, const dmb_constraint_def *def)
     dmb_check check = dmb_check_of(
         &model->message, dmb_part_text(&part, "constraint", model->constraints.count, def->name, sizeof def->name),
         DMB_NONE);
-    dmb_check_name(&check, "name", def->name, sizeof def->name);
+    dmb_check_part_name(&check, model, DMB_PART_CONSTRAINT, def->name);
     dmb_check_count(&check, "row_count", def->row_count, 1, ROWS_MAX);
     dmb_check_count(&check, "place_count", def->place_count, 1, PLACES_MAX);
     for (uint32_t i = 0; i < def->place_count && check.status >= 0; ++i) {

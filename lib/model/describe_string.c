@@ -3,11 +3,15 @@
 #include "model/field_check.h"
 #include "model/limits.h"
 #include "model/model.h"
+#include "model/part_name.h"
 #include "model/section.h"
 
 static int32_t check_string(dmb_model *model, const dmb_string_def *def)
 {
-    dmb_check check = dmb_check_of(&model->message, "string", model->strings.count);
+    dmb_message part;
+    dmb_check check = dmb_check_of(
+        &model->message, dmb_part_text(&part, "string", model->strings.count, def->name, sizeof def->name), DMB_NONE);
+    dmb_check_part_name(&check, model, DMB_PART_STRING, def->name);
     dmb_check_choice(&check, "follows_hole", def->follows_hole, 0, 1);
     dmb_check_within(&check, "start_depth", def->start_depth, -DMB_POSITION_MAX, DMB_POSITION_MAX);
     dmb_check_each_within(&check, "offset", def->offset, 2, -DMB_LENGTH_MAX, DMB_LENGTH_MAX);
@@ -111,7 +115,9 @@ static void check_curvature(dmb_check *check, const dmb_pipe_def *def)
 
 static int32_t check_pipes(dmb_model *model, uint32_t string, const dmb_pipe_def *def, uint32_t count)
 {
-    dmb_check check = dmb_check_of(&model->message, "pipes of string", string);
+    dmb_message part;
+    dmb_check check = dmb_check_of(&model->message, dmb_pipes_text(&part, string, def), DMB_NONE);
+    dmb_check_pipes_name(&check, model, def->name);
     dmb_check_count(&check, "count", count, 1, COUNT_MAX);
     dmb_check_choice(&check, "kind", def->kind, DMB_PIPE_FLEXIBLE, DMB_PIPE_RIGID);
     dmb_check_count(&check, "elements", def->elements, 1, ELEMENTS_MAX);

@@ -3,6 +3,7 @@
 #include "model/describe.h"
 #include "model/field_check.h"
 #include "model/limits.h"
+#include "model/part_name.h"
 
 enum { EVERYTHING = DMB_STUCK_AXIAL | DMB_STUCK_ROTATION | DMB_STUCK_LATERAL };
 
@@ -19,7 +20,7 @@ static int32_t check_stuck(dmb_model *model, const dmb_stuck_def *def)
     dmb_message part;
     dmb_check check = dmb_check_of(
         &model->message, dmb_part_text(&part, "stuck", model->stuck.count, def->name, sizeof def->name), DMB_NONE);
-    dmb_check_name(&check, "name", def->name, sizeof def->name);
+    dmb_check_part_name(&check, model, DMB_PART_STUCK, def->name);
     dmb_check_mask(&check, "holds", def->holds, EVERYTHING);
     if (check.status >= 0 && def->holds == 0)
         dmb_check_fail(&check, DMB_ERR_VALUE, "holds", def->holds, "> 0: nothing is held");

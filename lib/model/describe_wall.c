@@ -86,6 +86,7 @@ static void check_friction_law(dmb_check *check, const dmb_wall_def *def)
 static int32_t check_wall(dmb_model *model, const dmb_wall_def *def)
 {
     dmb_check check = dmb_check_of(&model->message, "wall", DMB_NONE);
+    dmb_check_name(&check, "name", def->name, sizeof def->name);
     dmb_check_each_within(&check, "origin", def->origin, 3, -DMB_POSITION_MAX, DMB_POSITION_MAX);
     check_direction(&check, def);
     dmb_check_within(&check, "diameter", def->diameter, DMB_LENGTH_MIN, DMB_LENGTH_MAX);

@@ -52,9 +52,14 @@ void dmb_check_each_zero_or_within(dmb_check *check, const char *field, const do
 void dmb_check_name(dmb_check *check, const char *field, const char *name, size_t size)
 {
     dmb_message bound;
-    if (memchr(name, '\0', size) != NULL) return;
-    dmb_message_set(&bound, "characters, at most %zu, and a 0", size - 1);
-    dmb_check_fail(check, DMB_ERR_VALUE, field, (double)size, bound.text);
+    if (memchr(name, '\0', size) == NULL) {
+        dmb_message_set(&bound, "characters, at most %zu, and a 0", size - 1);
+        dmb_check_fail(check, DMB_ERR_VALUE, field, (double)size, bound.text);
+    } else if (check->status >= 0 && !dmb_is_text(name, size)) {
+        check->status = DMB_ERR_VALUE;
+        dmb_message_set(check->message, "%s: %s is no text, must be UTF-8 without control characters", check->part,
+                        field);
+    }
 }
 
 void dmb_check_id(dmb_check *check, const dmb_model *model, const char *field, dmb_id id, uint32_t kind,

@@ -2,6 +2,7 @@
 #include "model/field_check.h"
 #include "model/limits.h"
 #include "model/mesh.h"
+#include "model/part_name.h"
 #include "model/section.h"
 
 /* ---- Parts and their strings ------------------------------------------------------------------------------------- */
@@ -33,8 +34,8 @@ static int32_t check_belonging(const dmb_model *model, dmb_message *message)
         status = check_string_there(model, message, "body", i, body->name, body->string);
     }
     for (uint32_t i = 0; i < model->bits.count && status >= 0; ++i) {
-        status =
-            check_string_there(model, message, "bit", i, "", DMB_LIST_AT(const dmb_bit_def, model->bits, i)->string);
+        const dmb_bit_def *bit = DMB_LIST_AT(const dmb_bit_def, model->bits, i);
+        status = check_string_there(model, message, "bit", i, bit->name, bit->string);
     }
     for (uint32_t i = 0; i < model->drives.count && status >= 0; ++i) {
         const dmb_drive_def *drive = DMB_LIST_AT(const dmb_drive_def, model->drives, i);
@@ -46,6 +47,7 @@ static int32_t check_belonging(const dmb_model *model, dmb_message *message)
 static int32_t check_one_bit_a_string(const dmb_mesh *mesh, dmb_message *message)
 {
     const dmb_model *model = mesh->model;
+    dmb_message text, other;
     dmb_vector taken = dmb_vector_of(sizeof(uint32_t)); /* bit of each string, from 1 */
     int32_t status = dmb_vector_append(&taken, &model->allocator, NULL, model->strings.count);
     for (uint32_t i = 0; i < model->bits.count && status >= 0; ++i) {
@@ -53,8 +55,9 @@ static int32_t check_one_bit_a_string(const dmb_mesh *mesh, dmb_message *message
         const uint32_t string = dmb_mesh_string_of(mesh, bit->string);
         uint32_t *holder = DMB_VECTOR_AT(uint32_t, &taken, string);
         if (*holder != 0) {
-            dmb_message_set(message, "bit %u: string = %u, must be one without a bit (it has bit %u)", i, string,
-                            *holder - 1);
+            dmb_message_set(message, "%s: string = %u, must be one without a bit (it has %s)",
+                            dmb_model_part_text(model, DMB_PART_BIT, i, &text), string,
+                            dmb_model_part_text(model, DMB_PART_BIT, *holder - 1, &other));
             status = DMB_ERR_GEOMETRY;
         }
         *holder = i + 1;
@@ -96,7 +99,8 @@ static void check_axis(dmb_check *check, const dmb_mesh *mesh, const dmb_pipe_ru
 
 static int32_t check_run(const dmb_mesh *mesh, dmb_message *message, const dmb_pipe_run *run)
 {
-    dmb_check check = dmb_check_of(message, "pipes of string", run->string);
+    dmb_message part;
+    dmb_check check = dmb_check_of(message, dmb_pipes_text(&part, run->string, &run->def), DMB_NONE);
     const int32_t kind = dmb_mesh_kind(mesh, run);
     if (kind == DMB_PIPE_AXIAL_TORSIONAL) check_axis(&check, mesh, run);
     if (kind == DMB_PIPE_RIGID && curvature_of(&run->def) > 0.0) {
@@ -110,10 +114,12 @@ static int32_t check_strings(const dmb_mesh *mesh, dmb_message *message)
 {
     const uint32_t *start = mesh->run_start.items;
     int32_t status = DMB_OK;
+    dmb_message part;
     for (uint32_t s = 0; s < mesh->model->strings.count; ++s) {
-        dmb_check check = dmb_check_of(message, "string", s);
-        if (start[s + 1] == start[s]) dmb_check_fail(&check, DMB_ERR_VALUE, "pipes", 0.0, "> 0");
-        if (check.status < 0) return check.status;
+        if (start[s + 1] > start[s]) continue;
+        dmb_check check = dmb_check_of(message, dmb_model_part_text(mesh->model, DMB_PART_STRING, s, &part), DMB_NONE);
+        dmb_check_fail(&check, DMB_ERR_VALUE, "pipes", 0.0, "> 0");
+        return check.status;
     }
     for (uint32_t i = 0; i < mesh->model->runs.count && status >= 0; ++i) {
         status = check_run(mesh, message, dmb_mesh_run_at(mesh, i));
@@ -123,40 +129,47 @@ static int32_t check_strings(const dmb_mesh *mesh, dmb_message *message)
 
 /* ---- Through the hole -------------------------------------------------------------------------------------------- */
 
-static void check_fits(dmb_check *check, const char *field, double diameter, double hole)
+/* The name in messages of part i of a kind, of run i for pipes. */
+static const char *text_of(const dmb_model *model, uint32_t kind, uint32_t i, dmb_message *text)
 {
-    dmb_message bound;
-    if (check->status < 0 || diameter <= hole) return;
-    dmb_message_set(&bound, "<= diameter of the wall (%g)", hole);
-    dmb_check_fail(check, DMB_ERR_GEOMETRY, field, diameter, bound.text);
+    if (kind != DMB_PART_STRING) return dmb_model_part_text(model, kind, i, text);
+    const dmb_pipe_run *run = DMB_LIST_AT(const dmb_pipe_run, model->runs, i);
+    return dmb_pipes_text(text, run->string, &run->def);
+}
+
+static int32_t check_fits(const dmb_model *model, dmb_message *message, uint32_t kind, uint32_t i, const char *field,
+                          double diameter)
+{
+    dmb_message bound, part;
+    if (diameter <= model->wall.diameter) return DMB_OK;
+    dmb_message_set(&bound, "<= diameter of the wall (%g)", model->wall.diameter);
+    dmb_check check = dmb_check_of(message, text_of(model, kind, i, &part), DMB_NONE);
+    dmb_check_fail(&check, DMB_ERR_GEOMETRY, field, diameter, bound.text);
+    return check.status;
+}
+
+static int32_t check_run_fits(const dmb_model *model, dmb_message *message, uint32_t i)
+{
+    const dmb_pipe_def *def = &DMB_LIST_AT(const dmb_pipe_run, model->runs, i)->def;
+    const int32_t status = check_fits(model, message, DMB_PART_STRING, i, "outer_diameter", def->outer_diameter);
+    if (status < 0) return status;
+    return check_fits(model, message, DMB_PART_STRING, i, "joint_outer_diameter", dmb_joint_diameter(def));
 }
 
 /* Everything that could meet the wall goes through it; no clearance at all is a pipe held on the axis. */
 static int32_t check_diameters(const dmb_model *model, dmb_message *message)
 {
-    const double hole = model->wall.diameter;
-    dmb_check check = dmb_check_of(message, "pipes of string", 0);
+    int32_t status = DMB_OK;
     if (model->wall_count == 0 || model->wall.normal_law == DMB_NORMAL_NONE) return DMB_OK;
     if (model->sections.count > 0) return DMB_OK; /* by depth: dmb_mesh_fits */
-    for (uint32_t i = 0; i < model->runs.count; ++i) {
-        const dmb_pipe_run *run = DMB_LIST_AT(const dmb_pipe_run, model->runs, i);
-        check.index = run->string;
-        check_fits(&check, "outer_diameter", run->def.outer_diameter, hole);
-        check_fits(&check, "joint_outer_diameter", dmb_joint_diameter(&run->def), hole);
-        if (check.status < 0) return check.status;
-    }
-    check.part = "body";
-    for (uint32_t i = 0; i < model->bodies.count && check.status >= 0; ++i) {
-        check.index = i;
-        check_fits(&check, "contact_diameter", DMB_LIST_AT(const dmb_body_def, model->bodies, i)->contact_diameter,
-                   hole);
-    }
-    if (check.status >= 0) check.part = "bit";
-    for (uint32_t i = 0; i < model->bits.count && check.status >= 0; ++i) {
-        check.index = i;
-        check_fits(&check, "diameter", DMB_LIST_AT(const dmb_bit_def, model->bits, i)->diameter, hole);
-    }
-    return check.status;
+    for (uint32_t i = 0; i < model->runs.count && status >= 0; ++i) status = check_run_fits(model, message, i);
+    for (uint32_t i = 0; i < model->bodies.count && status >= 0; ++i)
+        status = check_fits(model, message, DMB_PART_BODY, i, "contact_diameter",
+                            DMB_LIST_AT(const dmb_body_def, model->bodies, i)->contact_diameter);
+    for (uint32_t i = 0; i < model->bits.count && status >= 0; ++i)
+        status = check_fits(model, message, DMB_PART_BIT, i, "diameter",
+                            DMB_LIST_AT(const dmb_bit_def, model->bits, i)->diameter);
+    return status;
 }
 
 /* ---- Loads ------------------------------------------------------------------------------------------------------- */

@@ -235,8 +235,10 @@ int32_t dmb_mesh_freeze(const dmb_mesh *mesh, dmb_scene **out)
 {
     const dmb_allocator *allocator = &mesh->model->allocator;
     const dmb_hole *hole = &mesh->hole;
-    dmb_scene counts = {
-        .features = mesh->features, .mass = mesh->mass, .fluid_density = mesh->model->environment.fluid_density};
+    dmb_scene counts = {.model = mesh->model,
+                        .features = mesh->features,
+                        .mass = mesh->mass,
+                        .fluid_density = mesh->model->environment.fluid_density};
     dmb_arena arena;
     dmb_scene_storage w;
     count_parts(mesh, &counts);

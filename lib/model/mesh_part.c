@@ -4,6 +4,7 @@
 #include "model/field_check.h"
 #include "model/limits.h"
 #include "model/mesh.h"
+#include "model/part_name.h"
 #include "model/section.h"
 
 /* Equal elements are mostly near each other: a run of pipes has four types at most. */
@@ -190,12 +191,13 @@ static int32_t choose_near_end(const string_walk *walk, uint32_t next, bool *nea
 {
     const bool first = walk->node == DMB_NONE, last = next == walk->end;
     const bool hold_start = first && start_is_pinned(walk), hold_end = last && end_is_pinned(walk);
+    dmb_message string;
     *near = hold_start || (last && !hold_end);
     if (!hold_start || !hold_end) return DMB_OK;
     dmb_message_set(&walk->mesh->model->message,
-                    "string %u: start_free (or a drive) and end_free hold both ends of one rigid body at points, must "
+                    "%s: start_free (or a drive) and end_free hold both ends of one rigid body at points, must "
                     "be one of them",
-                    walk->string);
+                    dmb_model_part_text(walk->mesh->model, DMB_PART_STRING, walk->string, &string));
     return DMB_ERR_UNSUPPORTED;
 }
 
@@ -325,7 +327,8 @@ static dmb_body_map map_of(dmb_mesh *mesh, uint32_t body, const dmb_body_def *de
 static dmb_body_map bit_map_of(const dmb_mesh *mesh, const dmb_bit_def *def)
 {
     const dmb_string_map *string = dmb_mesh_string_at(mesh, dmb_mesh_string_of(mesh, def->string));
-    const dmb_body_map map = {string->end_node, DMB_NONE, string->end_arm, 0, 0, ""};
+    dmb_body_map map = {string->end_node, DMB_NONE, string->end_arm, 0, 0, ""};
+    memcpy(map.name, def->name, sizeof map.name);
     return map;
 }
 

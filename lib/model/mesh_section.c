@@ -7,6 +7,7 @@
 #include "force/hole_section.h"
 #include "model/field_check.h"
 #include "model/mesh.h"
+#include "model/part_name.h"
 #include "model/section.h"
 
 typedef struct section_values {
@@ -182,24 +183,26 @@ int32_t dmb_mesh_sections(dmb_mesh *mesh)
 /* ---- Through the hole -------------------------------------------------------------------------------------------- */
 
 /* The narrowest place between two depths is no narrower than `diameter`. */
-static int32_t check_fits(const dmb_mesh *mesh, const char *part, uint32_t index, const char *field, double diameter,
-                          double from, double to)
+static int32_t check_fits(const dmb_mesh *mesh, const char *part, const char *field, double diameter, double from,
+                          double to)
 {
     double where;
     const double hole = 2.0 * dmb_hole_least_radius(&mesh->hole, from, to, &where);
     if (diameter <= hole) return DMB_OK;
     dmb_message_set(&mesh->model->message,
-                    "%s %u: %s = %g m, must be <= %g m, the hole's diameter at measured depth %g m; look at the "
+                    "%s: %s = %g m, must be <= %g m, the hole's diameter at measured depth %g m; look at the "
                     "sections of the hole",
-                    part, index, field, diameter, hole, where);
+                    part, field, diameter, hole, where);
     return DMB_ERR_GEOMETRY;
 }
 
 static int32_t check_pipe(const dmb_mesh *mesh, uint32_t string, const dmb_pipe_def *def, double from, double to)
 {
-    const int32_t status = check_fits(mesh, "pipes of string", string, "outer_diameter", def->outer_diameter, from, to);
+    dmb_message part;
+    (void)dmb_pipes_text(&part, string, def);
+    const int32_t status = check_fits(mesh, part.text, "outer_diameter", def->outer_diameter, from, to);
     if (status < 0) return status;
-    return check_fits(mesh, "pipes of string", string, "joint_outer_diameter", dmb_joint_diameter(def),
+    return check_fits(mesh, part.text, "joint_outer_diameter", dmb_joint_diameter(def),
                       fmax(from, to - def->joint_length), to);
 }
 
@@ -230,18 +233,20 @@ static double depth_of(const dmb_mesh *mesh, uint32_t map_index)
 int32_t dmb_mesh_fits(dmb_mesh *mesh)
 {
     const dmb_model *model = mesh->model;
+    dmb_message part;
     int32_t status = DMB_OK;
     if (mesh->hole.pieces == 0 || model->wall.normal_law == DMB_NORMAL_NONE) return DMB_OK;
     for (uint32_t s = 0; s < mesh->strings.count && status >= 0; s++) status = check_string(mesh, s);
     for (uint32_t i = 0; i < model->bodies.count && status >= 0; i++) {
         const double depth = depth_of(mesh, i);
-        status = check_fits(mesh, "body", i, "contact_diameter",
+        status = check_fits(mesh, dmb_model_part_text(model, DMB_PART_BODY, i, &part), "contact_diameter",
                             DMB_LIST_AT(const dmb_body_def, model->bodies, i)->contact_diameter, depth, depth);
     }
     for (uint32_t i = 0; i < model->bits.count && status >= 0; i++) {
         const dmb_bit_def *bit = DMB_LIST_AT(const dmb_bit_def, model->bits, i);
         const double depth = depth_of(mesh, model->bodies.count + i) + 0.5 * bit->length;
-        status = check_fits(mesh, "bit", i, "diameter", bit->diameter, depth, depth);
+        status = check_fits(mesh, dmb_model_part_text(model, DMB_PART_BIT, i, &part), "diameter", bit->diameter, depth,
+                            depth);
     }
     return status;
 }

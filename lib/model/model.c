@@ -8,6 +8,7 @@
 #include "drillmbd/hole.h"
 #include "model/describe.h"
 #include "model/limits.h"
+#include "model/part_name.h"
 #include "model/scene.h"
 
 /* Stamps are never reused within a process (but after 2^32 models), so that an id of another model is recognised. */
@@ -54,6 +55,7 @@ static void release_parts(dmb_model *model)
     dmb_wall_release(&model->wall, allocator);
     dmb_list_release(&model->sections, allocator, sizeof(dmb_hole_section));
     dmb_list_release(&model->programmes, allocator, sizeof(dmb_programme));
+    dmb_list_release(&model->names, allocator, sizeof(dmb_programme_name));
     dmb_list_release(&model->strings, allocator, sizeof(dmb_string_plan));
     dmb_list_release(&model->runs, allocator, sizeof(dmb_pipe_run));
     dmb_list_release(&model->bodies, allocator, sizeof(dmb_body_def));
@@ -130,17 +132,15 @@ const char *dmb_model_message(const dmb_model *model)
 
 /* ---- Ids --------------------------------------------------------------------------------------------------------- */
 
-enum { KIND_SHIFT = 24 };
-
 dmb_id dmb_model_id(const dmb_model *model, uint32_t kind, uint32_t index)
 {
     dmb_id id;
-    id.index = kind << KIND_SHIFT | index;
+    id.index = kind << DMB_KIND_SHIFT | index;
     id.generation = model->stamp;
     return id;
 }
 
-static uint32_t count_of(const dmb_model *model, uint32_t kind)
+uint32_t dmb_model_part_count(const dmb_model *model, uint32_t kind)
 {
     switch (kind) {
     case DMB_PART_PROGRAMME: return model->programmes.count;
@@ -165,8 +165,8 @@ static uint32_t count_of(const dmb_model *model, uint32_t kind)
 uint32_t dmb_model_part_index(const dmb_model *model, dmb_id id, uint32_t kind)
 {
     const uint32_t index = id.index & (uint32_t)DMB_PARTS_MAX;
-    if (id.generation != model->stamp || id.index >> KIND_SHIFT != kind) return DMB_NONE;
-    return index < count_of(model, kind) ? index : DMB_NONE;
+    if (id.generation != model->stamp || id.index >> DMB_KIND_SHIFT != kind) return DMB_NONE;
+    return index < dmb_model_part_count(model, kind) ? index : DMB_NONE;
 }
 
 /* ---- What all descriptions share --------------------------------------------------------------------------------- */

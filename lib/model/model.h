@@ -9,28 +9,10 @@
 #include "drillmbd/control.h"
 #include "drillmbd/forces.h"
 #include "drillmbd/model.h"
+#include "drillmbd/names.h"
 #include "force/programme.h"
 #include "model/refused.h"
 #include "model/scene.h"
-
-/* Kinds in the upper 8 bits of dmb_id.index. */
-enum {
-    DMB_PART_PROGRAMME = 1,
-    DMB_PART_WALL = 2,
-    DMB_PART_STRING = 3,
-    DMB_PART_BODY = 4,
-    DMB_PART_BIT = 5,
-    DMB_PART_DRIVE = 6,
-    DMB_PART_LOAD = 7,
-    DMB_PART_JOINT = 8,
-    DMB_PART_COUPLING = 9,
-    DMB_PART_CONSTRAINT = 10,
-    DMB_PART_SPRING = 11,
-    DMB_PART_FORCE = 12,
-    DMB_PART_STUCK = 14,
-    DMB_PART_INPUT = 20,
-    DMB_PART_EVENT = 21
-};
 
 /* A string and how far it has been built. */
 typedef struct dmb_string_plan {
@@ -76,6 +58,7 @@ struct dmb_model {
     uint32_t wall_count;   /* 0 or 1 */
     dmb_list sections;     /* dmb_hole_section, in the order of their depths */
     dmb_list programmes;   /* dmb_programme, terms and tables are the model's own copies */
+    dmb_list names;        /* dmb_programme_name, of programmes that were given one */
     dmb_list strings;      /* dmb_string_plan */
     dmb_list runs;         /* dmb_pipe_run, in the order they were added */
     dmb_list bodies;       /* dmb_body_def */
@@ -96,6 +79,10 @@ struct dmb_model {
     uint32_t reserved;
 };
 
+/* In an id's index: kind in the bits from here on. */
+enum { DMB_KIND_SHIFT = 24 };
+/* Parts of a kind described so far. */
+uint32_t dmb_model_part_count(const dmb_model *model, uint32_t kind);
 /* The parts of an id, or DMB_NONE when it does not name a part of that kind of this model. */
 uint32_t dmb_model_part_index(const dmb_model *model, dmb_id id, uint32_t kind);
 /* A sim takes hold of a compiled model, and lets go. */

@@ -29,10 +29,12 @@ typedef struct wide_field {
 
 static const wide_field wide_fields[] = {
     FIELDS("programme", dmb_term, table_time, table_count),
+    NAME("string", dmb_string_def),
     FIELD("string", dmb_string_def, offset),
     FIELD("string", dmb_string_def, position),
     FIELD("string", dmb_string_def, rotation),
     FIELD("string", dmb_string_def, velocity),
+    NAME("pipes", dmb_pipe_def),
     FIELD("pipes", dmb_pipe_def, joint_inertia),
     FIELD("pipes", dmb_pipe_def, curvature),
     FIELD("pipes", dmb_pipe_def, section_stiffness),
@@ -43,6 +45,7 @@ static const wide_field wide_fields[] = {
     FIELD("body", dmb_body_def, position),
     FIELD("body", dmb_body_def, rotation),
     FIELD("body", dmb_body_def, velocity),
+    NAME("bit", dmb_bit_def),
     FIELD("bit", dmb_bit_def, inertia),
     NAME("joint", dmb_joint_def),
     FIELD("joint", dmb_joint_def, place_a),

@@ -280,6 +280,7 @@ typedef struct dmb_batch {
 } dmb_batch;
 
 typedef struct dmb_scene {
+    const struct dmb_model *model;     /* that it was made of and lives in: for names in messages */
     size_t bytes;                      /* of the arena, this struct included */
     int32_t features;                  /* DMB_FEATURE_... that the scene really has: asked for and described */
     int32_t damped, arms;              /* 1: some element has a damping time, stands off its nodes by rigid arms */

@@ -2,8 +2,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "model/part_name.h"
 #include "query/place.h"
 #include "run/state_transfer.h"
+#include "sim/node.h"
 
 dmb_common_string dmb_common_string_of(const dmb_scene *scene, const dmb_scene *from, uint32_t string)
 {
@@ -18,8 +20,9 @@ dmb_common_string dmb_common_string_of(const dmb_scene *scene, const dmb_scene *
 
 static int32_t other(dmb_sim *sim, const char *part, uint32_t index, const char *what)
 {
-    dmb_message_set(&sim->message, "state transfer: %s %u: %s, must be as in the sim it goes on from", part, index,
-                    what);
+    dmb_message name;
+    dmb_message_set(&sim->message, "state transfer: %s: %s, must be as in the sim it goes on from",
+                    dmb_model_word_text(sim->model, part, index, &name), what);
     return DMB_ERR_VALUE;
 }
 
@@ -192,15 +195,16 @@ static dmb_pipe_def material_of(const dmb_sim *sim, uint32_t string, uint32_t pi
     def.struct_size = 0;
     def.kind = sim->scene->pipes[sim->scene->strings[string].first_pipe + pipe].kind; /* as compiled */
     def.seed = 0;
+    memset(def.name, 0, sizeof def.name);
     def.string.index = def.string.generation = 0;
     return def;
 }
 
 static int32_t other_pipe(dmb_sim *sim, uint32_t string, uint32_t to, uint32_t old, const char *what)
 {
-    dmb_message_set(&sim->message,
-                    "state transfer: string %u, pipe %u: %s, must be as of pipe %u of the sim it goes on from", string,
-                    to, what, old);
+    dmb_message name;
+    dmb_message_set(&sim->message, "state transfer: %s: %s, must be as of pipe %u of the sim it goes on from",
+                    dmb_model_pipe_text(sim->model, string, to, &name), what, old);
     return DMB_ERR_VALUE;
 }
 
@@ -254,10 +258,11 @@ static int32_t check_nodes(dmb_sim *sim, const dmb_scene *from, uint32_t string,
     for (uint32_t i = sim->scene->strings[string].first_node; i < common->to; i++)
         same = same && size[i] == size[common->to];
     if (same) return DMB_OK;
+    dmb_message name;
     dmb_message_set(&sim->message,
-                    "state transfer: string %u: axial-torsional pipes at the rig end are added to and taken "
+                    "state transfer: %s: axial-torsional pipes at the rig end are added to and taken "
                     "from such pipes only",
-                    string);
+                    dmb_string_text(sim->scene, string, &name));
     return DMB_ERR_VALUE;
 }
 

@@ -125,10 +125,11 @@ static int32_t follow_path(dmb_sim *sim, uint32_t node, const dmb_sim *from, uin
         for (int k = 0; k < 3; k++) off = fmax(off, fabs(R[3 * i + k] - R_old[3 * i + k]));
     }
     if (off <= DMB_SAME_LINE) return DMB_OK;
+    dmb_message name;
     dmb_message_set(&sim->message,
-                    "state transfer: string %u: its axial-torsional pipes are described off the line they "
+                    "state transfer: %s: its axial-torsional pipes are described off the line they "
                     "are on, by %g m or rad",
-                    string, off);
+                    dmb_string_text(sim->scene, string, &name), off);
     return DMB_ERR_VALUE;
 }
 

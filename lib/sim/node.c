@@ -3,6 +3,7 @@
 #include "element/rigid_mass.h"
 #include "math/mat6.h"
 #include "math/so3.h"
+#include "model/part_name.h"
 #include "model/scene.h"
 
 double dmb_path_depth(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node)
@@ -92,10 +93,10 @@ static uint32_t pipe_at(const dmb_scene *scene, const dmb_string_map *string, ui
     return found;
 }
 
-static void set_text(dmb_owner *owner, const char *name, size_t size)
+static void set_text(const dmb_scene *scene, dmb_owner *owner, const char *name, size_t size)
 {
     if (owner->kind[0] == 's')
-        dmb_message_set(&owner->text, "string %u, pipe %u", owner->index, owner->pipe);
+        (void)dmb_model_pipe_text(scene->model, owner->index, owner->pipe, &owner->text);
     else
         dmb_part_text(&owner->text, owner->kind, owner->index, name, size);
 }
@@ -108,13 +109,13 @@ dmb_owner dmb_owner_of_node(const dmb_scene *scene, uint32_t node)
         if (node < string->first_node || node >= string->first_node + string->node_count) continue;
         owner.index = i;
         owner.pipe = pipe_at(scene, string, node);
-        set_text(&owner, NULL, 0);
+        set_text(scene, &owner, NULL, 0);
         return owner;
     }
     owner.kind = "body";
     for (uint32_t i = 0; i < scene->body_count; i++)
         if (scene->bodies[i].node == node) owner.index = i;
-    set_text(&owner, scene->body_count > 0 ? scene->bodies[owner.index].name : NULL,
+    set_text(scene, &owner, scene->body_count > 0 ? scene->bodies[owner.index].name : NULL,
              scene->body_count > 0 ? sizeof scene->bodies[0].name : 0);
     return owner;
 }
@@ -158,6 +159,11 @@ uint32_t dmb_owner_of_held_ring(const dmb_scene *scene, uint32_t from, dmb_messa
 const char *dmb_drive_text(const dmb_scene *scene, uint32_t drive, dmb_message *text)
 {
     return dmb_part_text(text, "drive", drive, scene->drives[drive].name, sizeof scene->drives[drive].name);
+}
+
+const char *dmb_string_text(const dmb_scene *scene, uint32_t string, dmb_message *text)
+{
+    return dmb_model_part_text(scene->model, DMB_PART_STRING, string, text);
 }
 
 const char *dmb_load_text(const dmb_scene *scene, uint32_t load, dmb_message *text)

@@ -43,6 +43,7 @@ dmb_owner dmb_owner_of_element(const dmb_scene *scene, uint32_t element);
 /* The next body or bit whose ring never touches the wall, and what to say of it (model/held_ring). */
 uint32_t dmb_owner_of_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text);
 /* "drive 1 (pump)", "load 0". Returns text->text. */
+const char *dmb_string_text(const dmb_scene *scene, uint32_t string, dmb_message *text);
 const char *dmb_drive_text(const dmb_scene *scene, uint32_t drive, dmb_message *text);
 const char *dmb_load_text(const dmb_scene *scene, uint32_t load, dmb_message *text);
 /* Node that a row belongs to. O(log nodes) */

@@ -242,11 +242,12 @@ static void joint_lengths(void **state)
     joint.length = 0.0;
     assert_int_equal(dmb_model_add_joint(s.model, &joint, NULL), DMB_OK); /* does not count */
     joint.kind = DMB_JOINT_DISTANCE;
+    memcpy(joint.name, "other", 6);
     assert_int_equal(dmb_model_add_joint(s.model, &joint, NULL), DMB_ERR_VALUE);
-    expect_message(s.model, "joint 3 (crank): ", "length = 0, must be finite, >= 1e-06");
+    expect_message(s.model, "joint 3 (other): ", "length = 0, must be finite, >= 1e-06");
     joint.kind = DMB_JOINT_ROLLING;
     assert_int_equal(dmb_model_add_joint(s.model, &joint, NULL), DMB_ERR_VALUE);
-    expect_message(s.model, "joint 3 (crank): ", "length = 0");
+    expect_message(s.model, "joint 3 (other): ", "length = 0");
     finish(&s, 3, 0, 0);
 }
 
@@ -377,6 +378,7 @@ static void couplings(void **state)
 #undef TRY
     assert_int_equal(dmb_model_add_coupling(s.model, &good, NULL), DMB_OK);
     good.joint[1] = good.joint[0]; /* a screw */
+    memcpy(good.name, "screw", 6);
     good.component[0] = DMB_X;
     good.ratio = -1e-3;
     assert_int_equal(dmb_model_add_coupling(s.model, &good, NULL), DMB_OK);
@@ -433,6 +435,7 @@ static void constraints(void **state)
 #undef TRY
     assert_int_equal(dmb_model_add_constraint(s.model, &good, NULL), DMB_OK);
     good.kind = DMB_CONSTRAINT_NONHOLONOMIC;
+    memcpy(good.name, "skate", 6);
     good.provides = DMB_PROVIDES_JACOBIAN;
     good.place_count = 1;
     good.place[1].part.index = 12345; /* does not count */

@@ -92,16 +92,20 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_create": (c_int32, POINTER(ModelOptions), POINTER(c_void_p),),
     "dmb_model_destroy": (None, POINTER(c_void_p),),
     "dmb_model_event_count": (c_uint32, c_void_p,),
+    "dmb_model_find": (c_int32, c_void_p, c_int32, c_char_p, POINTER(Id),),
     "dmb_model_find_event": (c_int32, c_void_p, c_char_p, POINTER(Id),),
     "dmb_model_find_input": (c_int32, c_void_p, c_char_p, POINTER(Id),),
+    "dmb_model_find_pipes": (c_int32, c_void_p, c_char_p, POINTER(Id), POINTER(c_uint32), POINTER(c_uint32),),
     "dmb_model_get_event": (c_int32, c_void_p, c_uint32, POINTER(EventDef),),
     "dmb_model_get_info": (c_int32, c_void_p, POINTER(ModelInfo),),
     "dmb_model_get_input": (c_int32, c_void_p, c_uint32, POINTER(InputInfo),),
+    "dmb_model_get_name": (c_int32, c_void_p, Id, c_char_p, c_uint32,),
     "dmb_model_info_init": (c_int32, POINTER(ModelInfo), c_uint32,),
     "dmb_model_input_count": (c_uint32, c_void_p,),
     "dmb_model_message": (c_char_p, c_void_p,),
     "dmb_model_options_init": (c_int32, POINTER(ModelOptions), c_uint32,),
     "dmb_model_set_environment": (c_int32, c_void_p, POINTER(EnvironmentDef),),
+    "dmb_model_set_name": (c_int32, c_void_p, Id, c_char_p,),
     "dmb_modes_destroy": (None, POINTER(c_void_p),),
     "dmb_modes_get": (c_int32, c_void_p, c_uint32, POINTER(Mode),),
     "dmb_modes_get_info": (c_int32, c_void_p, POINTER(ModesInfo),),
@@ -316,14 +320,22 @@ FUNCTION_DOCS = {
         "Creates an empty model. options may be NULL. Errors: ERR_NULL, _STRUCT_SIZE, _NO_MEMORY; *model is NULL then.",
     "dmb_model_destroy":
         "Gives up the caller's hold and sets *model to NULL; sims made from the model keep it alive. The hold is one: while they do, copies of the handle are refused (ERR_HANDLE) and destroying through them does nothing. Nor does it within a call that describes or compiles the model (by its allocator or log), where such calls give ERR_ORDER. NULL-safe.",
+    "dmb_model_find":
+        "The part of that name, of a kind or (PART_ANY) of all. ERR_ID: there is none; ERR_VALUE: parts of several kinds have it, give the kind. *part is left as it was then.",
+    "dmb_model_find_pipes":
+        "The pipes that one call of dmb_model_add_pipes added under that name (`name` of dmb_pipe_def): *count pipes of *string from *first on. Each may be NULL. ERR_ID.",
     "dmb_model_get_event":
         "as of inputs; get: as described",
     "dmb_model_get_info":
         "Counts of a compiled model. Errors: ERR_ORDER before compile.",
+    "dmb_model_get_name":
+        "The name of a part into the caller's text, size [byte] of it >= NAME_SIZE; \"\" if it has none. ERR_ID, ERR_VALUE.",
     "dmb_model_input_count":
         "[-] inputs described so far; 0 for what is no model. Number `index` in that order, by name: ERR_ID for none.",
     "dmb_model_message":
         "Message of the last failing or noteworthy call on this model: \"part, field, value, bound\". Never NULL; lives until the next call on the model. A compiled model shared between threads keeps the message of its compilation; after a dmb_sim_create that failed, the thread that called it reads the reason here, until its next create of the model.",
+    "dmb_model_set_name":
+        "Gives a part another name, or none by \"\"; an input or an event needs one. Before dmb_model_compile. Errors: ERR_ID, ERR_VALUE (too long, no UTF-8, another part of the kind has it), ERR_ORDER.",
     "dmb_modes_destroy":
         "Gives the memory back and sets *modes to NULL. NULL-safe.",
     "dmb_modes_get":

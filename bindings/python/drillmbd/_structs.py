@@ -94,6 +94,7 @@ class WallDef(WallPart, Sized):
     full_speed: float
     bristle_stiffness: float
     bristle_damping: float
+    name: bytes
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("survey_count", c_uint32),
@@ -116,6 +117,7 @@ class WallDef(WallPart, Sized):
         ("full_speed", c_double),
         ("bristle_stiffness", c_double),
         ("bristle_damping", c_double),
+        ("name", c_char * 24),
     ]
     field_docs = {
         "survey_count": ("-", "0 (straight hole along `direction`), or 2 .. 2^16"),
@@ -138,6 +140,7 @@ class WallDef(WallPart, Sized):
         "full_speed": ("m/s", "of AMBROSIO, > smoothing_speed; default 1e-2"),
         "bristle_stiffness": ("1/m", "tangential stiffness over normal force, > 0; default 1e4"),
         "bristle_damping": ("s/m", "tangential damping over normal force, >= 0; default 0"),
+        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
     }
 
 
@@ -152,6 +155,7 @@ class StringDef(Sized):
     velocity: 'Array[c_double]'
     start_free: int
     end_free: int
+    name: bytes
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("follows_hole", c_int32),
@@ -162,6 +166,7 @@ class StringDef(Sized):
         ("velocity", c_double * 6),
         ("start_free", c_int32),
         ("end_free", c_int32),
+        ("name", c_char * 24),
     ]
     field_docs = {
         "follows_hole": ("", "1: starts on the hole's axis at start_depth; 0: straight from `position`. default 1"),
@@ -172,6 +177,7 @@ class StringDef(Sized):
         "velocity": ("m/s, rad/s", "of the string as one rigid body, rig end, body frame, at time 0; shape (6)"),
         "start_free": ("-", "mask of free components at the rig end; default FREE_CYLINDRICAL"),
         "end_free": ("-", "the same at the far end; default FREE_ALL"),
+        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
     }
 
 
@@ -1905,6 +1911,7 @@ class PipeDef(Sized):
     section_mass: float
     section_inertia: 'Array[c_double]'
     yield_strength: float
+    name: bytes
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -1933,6 +1940,7 @@ class PipeDef(Sized):
         ("section_mass", c_double),
         ("section_inertia", c_double * 2),
         ("yield_strength", c_double),
+        ("name", c_char * 24),
     ]
     field_docs = {
         "kind": ("", "PIPE_..., default PIPE_FLEXIBLE"),
@@ -1961,6 +1969,7 @@ class PipeDef(Sized):
         "section_mass": ("kg/m", "0: from the diameters"),
         "section_inertia": ("kg m", "rotary inertia per metre about x and across; 0: from the diameters; of a rigid pipe as a body about its axis <= twice across; shape (2)"),
         "yield_strength": ("Pa", "for the share of yield of a profile; 0 (default): not known"),
+        "name": ("", "of the pipes that one call adds, for messages and dmb_model_find_pipes; default \"\""),
     }
 
 
@@ -2008,7 +2017,7 @@ class BodyDef(Sized):
         "free_mask": ("-", "free components of a free body at its reference point; default FREE_ALL"),
         "contact_diameter": ("m", "of the ring at the reference point that meets the wall; 0: none (default)"),
         "contact_length": ("m", "length of wall it stands for, > 0; default 1"),
-        "name": ("", "for messages, ends with 0; default \"\""),
+        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
     }
 
 
@@ -2032,6 +2041,7 @@ class BitDef(Sized):
     bottom: float
     blades: int
     history: int
+    name: bytes
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("rock_law", c_int32),
@@ -2051,6 +2061,7 @@ class BitDef(Sized):
         ("bottom", c_double),
         ("blades", c_uint32),
         ("history", c_uint32),
+        ("name", c_char * 24),
     ]
     field_docs = {
         "rock_law": ("", "ROCK_..., default ROCK_NONE"),
@@ -2070,6 +2081,7 @@ class BitDef(Sized):
         "bottom": ("m", "distance of the hole bottom ahead of the bit at time 0, >= 0; default 0"),
         "blades": ("-", "1 .. 64; default 4"),
         "history": ("-", "samples of the cut surface kept for the regenerative law, 64 .. 2^20; default 1024"),
+        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
     }
 
 
@@ -2090,7 +2102,7 @@ class CouplingDef(Sized):
         ("ratio", c_double),
     ]
     field_docs = {
-        "name": ("", "for messages, ends with 0; default \"\""),
+        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
         "joint": ("", "may be the same"),
         "component": ("", "X .. RZ, free in its joint; default RX"),
         "ratio": ("-, m/rad, rad/m", "not 0; default 1"),
@@ -2135,7 +2147,7 @@ class DriveDef(Sized):
         "integral_gain": ("N/m, N m", "ki of CONTROL, >= 0; default 0"),
         "limit_low": ("N, N m", "default -1e30"),
         "limit_high": ("N, N m", "> limit_low; default 1e30"),
-        "name": ("", "for messages, ends with 0; default \"\""),
+        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
     }
 
 
@@ -2565,7 +2577,7 @@ class JointDef(Sized):
     ]
     field_docs = {
         "kind": ("", "JOINT_..., default JOINT_FIXED"),
-        "name": ("", "for messages, ends with 0; default \"\""),
+        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
         "place_a": ("", "node of a string (pipe end, element end), a body or a bit; part {0, 0}: the ground"),
         "place_b": ("", "likewise, not the ground"),
         "origin_a": ("m", "of frame a, in the frame of place a (ground: world); default 0, shape (3)"),
@@ -2618,7 +2630,7 @@ class ConstraintDef(ConstraintPart, Sized):
     ]
     field_docs = {
         "kind": ("", "CONSTRAINT_..., default CONSTRAINT_HOLONOMIC"),
-        "name": ("", "for messages, ends with 0; default \"\""),
+        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
         "row_count": ("-", "equations, 1 .. 6; default 1"),
         "place_count": ("-", "1 .. 4; default 1"),
         "place": ("", "as of a joint, not the ground, shape (place_count)"),
@@ -2654,7 +2666,7 @@ class LoadDef(Sized):
         "force": ("N", "in `frame`, shape (3)"),
         "moment": ("N m", "in `frame`, shape (3)"),
         "programme": ("-", "factor over time; {0, 0}: 1"),
-        "name": ("", "for messages, ends with 0; default \"\""),
+        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
         "offset": ("m", "of the point where it acts from the place, in its axes; default 0, shape (3)"),
     }
 
@@ -2835,7 +2847,7 @@ class SpringDef(SpringPart, Sized):
     ]
     field_docs = {
         "acts": ("", "SPRING_...: TENSION (rope) pulls, COMPRESSION (buffer) pushes only, the damper as long as the sum does; default SPRING_BOTH"),
-        "name": ("", "for messages, ends with 0; default \"\""),
+        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
         "place_a": ("", "part {0, 0} (default): the ground; not both"),
         "place_b": ("", "part {0, 0} (default): the ground; not both"),
         "offset_a": ("m", "of the point from place a in its axes; ground: world; default 0, shape (3)"),
@@ -2881,7 +2893,7 @@ class ForceDef(ForcePart, Sized):
     ]
     field_docs = {
         "frame": ("", "FRAME_WORLD (default), or FRAME_BODY: axes of each place"),
-        "name": ("", "for messages, ends with 0; default \"\""),
+        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
         "place_count": ("-", "of places and coordinates, 1 .. 4; default 1"),
         "provides": ("", "PROVIDES_...; a tangent is held against differences when a sim is made (ERR_CALLBACK); default 0: built by differences"),
         "place": ("", "not the ground; or part is a joint: its coordinate; shape (place_count)"),

@@ -970,6 +970,52 @@ MODES_AXES_TURNING = ModesAxes.AXES_TURNING
 MODES_AXES_AT_REST = ModesAxes.AXES_AT_REST
 
 
+class Name(IntEnum):
+    """Values DMB_NAME_... of the headers."""
+    SIZE = 24
+
+
+NAME_SIZE = Name.SIZE
+
+
+class PartKind(IntEnum):
+    """Values DMB_PART_... of the headers."""
+    ANY = 0
+    PROGRAMME = 1
+    WALL = 2
+    STRING = 3
+    BODY = 4
+    BIT = 5
+    DRIVE = 6
+    LOAD = 7
+    JOINT = 8
+    COUPLING = 9
+    CONSTRAINT = 10
+    SPRING = 11
+    FORCE = 12
+    STUCK = 14
+    INPUT = 20
+    EVENT = 21
+
+
+PART_ANY = PartKind.ANY
+PART_PROGRAMME = PartKind.PROGRAMME
+PART_WALL = PartKind.WALL
+PART_STRING = PartKind.STRING
+PART_BODY = PartKind.BODY
+PART_BIT = PartKind.BIT
+PART_DRIVE = PartKind.DRIVE
+PART_LOAD = PartKind.LOAD
+PART_JOINT = PartKind.JOINT
+PART_COUPLING = PartKind.COUPLING
+PART_CONSTRAINT = PartKind.CONSTRAINT
+PART_SPRING = PartKind.SPRING
+PART_FORCE = PartKind.FORCE
+PART_STUCK = PartKind.STUCK
+PART_INPUT = PartKind.INPUT
+PART_EVENT = PartKind.EVENT
+
+
 class InputKind(IntEnum):
     """Values DMB_INPUT_... of the headers."""
     DRIVE = 0  #: programme of the drive place.part [its unit]: speed of MOTION, force of LOAD, target speed of CONTROL
@@ -1153,6 +1199,8 @@ ENUMS = (
     ModesKind,
     ModesSelect,
     ModesAxes,
+    Name,
+    PartKind,
     InputKind,
     OutputKind,
     StateForm,

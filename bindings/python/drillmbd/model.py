@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from ctypes import byref, c_size_t, c_void_p
+from ctypes import byref, c_size_t, c_uint32, c_void_p, create_string_buffer
 from typing import TYPE_CHECKING, Any
 
 from ._handle import Handle
@@ -13,6 +13,7 @@ from ._structs import (BitDef, BodyDef, Channel, CompileOptions, ConstraintDef, 
                        EventDef, ForceDef, HolePoint, HoleSection, Id, InputDef, InputInfo, JointDef, LoadDef, ModelInfo,
                        ModelOptions, PipeDef, Place, SimOptions, SpringDef, StringDef, StuckDef, Term,
                        WallDef)
+from .enums import NAME_SIZE, PartKind, Status
 
 if TYPE_CHECKING:
     from .sim import Sim
@@ -189,6 +190,12 @@ class Model(Handle):
             definition.callback = self._keep.force(definition._function, definition.provides)
         return self._add("force", ForceDef, definition, {})
 
+    @mirrors("dmb_model_set_name")
+    def set_name(self, part: Id, name: str) -> None:
+        """Gives a part a name, or none by ""; most have one by the field `name` of their definition."""
+        self._check(_lib.dmb_model_set_name(self._handle, part, name.encode()))
+        self._note("set_name", part, name)
+
     @mirrors("dmb_model_compile")
     def compile(self, options: CompileOptions | None = None, **fields: Any) -> int:
         """Checks and freezes the scene; returns the status."""
@@ -209,6 +216,40 @@ class Model(Handle):
         info = ModelInfo()
         info.status = self._check(_lib.dmb_model_get_info(self._handle, byref(info)))
         return info
+
+    @mirrors("dmb_model_find")
+    def find(self, name: str, kind: int = PartKind.ANY) -> Id:
+        """The part of that name, of a kind or of all; model["rotary head"] is the same. Raises KeyError where there is
+        none, and where parts of several kinds have it and no kind is given."""
+        part = Id()
+        status = _lib.dmb_model_find(self._handle, kind, name.encode(), byref(part))
+        if status == Status.ERR_ID:
+            raise KeyError(f"no part is named {name!r}")
+        if status == Status.ERR_VALUE:
+            raise KeyError(f"parts of several kinds are named {name!r}: give the kind, find(name, PartKind.DRIVE)")
+        self._check(status)
+        return part
+
+    def __getitem__(self, name: str) -> Id:
+        return self.find(name)
+
+    def __contains__(self, name: str) -> bool:
+        return bool(_lib.dmb_model_find(self._handle, PartKind.ANY, name.encode(), byref(Id())) != Status.ERR_ID)
+
+    @mirrors("dmb_model_find_pipes")
+    def find_pipes(self, name: str) -> tuple[Id, range]:
+        """The pipes that were added under that name: their string, and their numbers along it. Raises KeyError."""
+        string, first, count = Id(), c_uint32(), c_uint32()
+        if _lib.dmb_model_find_pipes(self._handle, name.encode(), byref(string), byref(first), byref(count)) < 0:
+            raise KeyError(f"no pipes are named {name!r}")
+        return string, range(first.value, first.value + count.value)
+
+    @mirrors("dmb_model_get_name")
+    def name_of(self, part: Id) -> str:
+        """The name of a part, "" if it has none."""
+        text = create_string_buffer(NAME_SIZE)
+        self._keep.check(_lib.dmb_model_get_name(self._handle, part, text, NAME_SIZE), b"")
+        return text.value.decode()
 
     def events(self) -> list[str]:
         """The names of the events, in the order of description."""

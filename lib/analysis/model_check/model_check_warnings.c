@@ -243,7 +243,7 @@ static void outside_lengthwise(const sink *to, int past_end)
     const double start = hole->stations > 0 ? hole->station[0].depth : 0.0;
     uint32_t count = 0, first = 0;
     double by = 0.0;
-    dmb_message text, rest;
+    dmb_message text, rest, name;
     for (uint32_t i = 0; i < to->scene->string_count; i++) {
         const dmb_string_map *string = to->scene->strings + i;
         const double near = to->scene->reference_depth[string->start_node] + string->start_arm;
@@ -255,8 +255,9 @@ static void outside_lengthwise(const sink *to, int past_end)
         by = out;
     }
     if (count == 0) return;
-    dmb_message_set(&text, "string %u%s: described %g m %s; the hole goes on straight there", first, more(count, &rest),
-                    by, past_end ? "beyond the end of the survey" : "before the start of the hole");
+    dmb_message_set(&text, "%s%s: described %g m %s; the hole goes on straight there",
+                    dmb_string_text(to->scene, first, &name), more(count, &rest), by,
+                    past_end ? "beyond the end of the survey" : "before the start of the hole");
     say(to, &text);
 }
 
@@ -273,13 +274,13 @@ static int moves_sideways(const dmb_scene *scene, const dmb_string_map *string)
 /* Contact is a feature of the scene: with it every string that moves sideways has sites, without it none. */
 static void no_contact(const sink *to)
 {
-    dmb_message text;
+    dmb_message text, name;
     if (to->scene->features & DMB_FEATURE_CONTACT) return;
     for (uint32_t i = 0; i < to->scene->string_count; i++) {
         const dmb_string_map *string = to->scene->strings + i;
         if (!moves_sideways(to->scene, string)) continue;
-        dmb_message_set(
-            &text, "string %u: a hole is described, but its wall is not met: no normal law, or contact left out", i);
+        dmb_message_set(&text, "%s: a hole is described, but its wall is not met: no normal law, or contact left out",
+                        dmb_string_text(to->scene, i, &name));
         say(to, &text);
         return;
     }

@@ -27,11 +27,12 @@ static void name_free_string(dmb_sim *sim, int32_t status)
     if (status != DMB_ERR_NO_CONVERGENCE && status != DMB_ERR_ROTATION) return;
     for (uint32_t i = 0; i < scene->string_count; i++) {
         const dmb_message said = sim->message;
+        dmb_message string;
         if (is_held(scene, scene->strings + i, DMB_X)) continue;
         dmb_message_set(&sim->message,
-                        "static: string %u: nothing holds it along its axis, give it a drive, a guide or a "
+                        "static: %s: nothing holds it along its axis, give it a drive, a guide or a "
                         "joint; %s",
-                        i, said.text);
+                        dmb_string_text(scene, i, &string), said.text);
         return;
     }
 }
@@ -93,14 +94,16 @@ static const char *remedy(dmb_static_search *search, dmb_message *text)
 {
     dmb_static_pull pull;
     dmb_static_stiff_wall wall;
+    dmb_message string;
     const char *drive = controller(search->sim, 1, text), *edge = edge_of_joint(search, text);
     if (drive != NULL) return controller(search->sim, 1, text);
     if (edge != NULL) return edge;
     if (dmb_static_find_pull(search, &pull) > 0 && pull.element > DMB_SHORT_ELEMENT * pull.bending) {
         dmb_message_set(text,
-                        "; string %u is pulled by T = %g N round a bend: with sqrt(EI/T) = %g m take elements of %g m, "
+                        "; %s is pulled by T = %g N round a bend: with sqrt(EI/T) = %g m take elements of %g m, "
                         "not %g m, or a softer wall",
-                        pull.string, pull.tension, pull.bending, DMB_SHORT_ELEMENT * pull.bending, pull.element);
+                        dmb_string_text(search->sim->scene, pull.string, &string), pull.tension, pull.bending,
+                        DMB_SHORT_ELEMENT * pull.bending, pull.element);
         return text->text;
     }
     if (dmb_static_find_stiff_wall(search->sim->scene, &wall)) {

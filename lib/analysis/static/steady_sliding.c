@@ -84,12 +84,13 @@ static int32_t take_speed(dmb_sim *sim, dmb_steady *steady, uint32_t i, uint32_t
                                      "not slide at rest; take DMB_STEADY_RIGID or _AT_REST",
                                      dmb_drive_text(sim->scene, i, &(dmb_message){""}));
     const uint32_t k = 2 * s + (uint32_t)drive->component / 3;
+    dmb_message first, second, string;
     if (taken[k] != DMB_NONE && fabs(steady->speed[k] - speed) > DMB_STEADY_SAME * fabs(speed))
-        return REFUSE(
-            sim,
-            "drives %u and %u: they move string %u at %g and at %g, which is not steady; give them one speed, "
-            "or take DMB_STEADY_AT_REST",
-            taken[k], i, s, steady->speed[k], speed);
+        return REFUSE(sim,
+                      "%s and %s: they move %s at %g and at %g, which is not steady; give them one speed, "
+                      "or take DMB_STEADY_AT_REST",
+                      dmb_drive_text(sim->scene, taken[k], &first), dmb_drive_text(sim->scene, i, &second),
+                      dmb_string_text(sim->scene, s, &string), steady->speed[k], speed);
     taken[k] = i;
     steady->speed[k] = speed;
     return DMB_OK;
@@ -105,6 +106,7 @@ static int is_driven(const dmb_scene *scene, uint32_t row)
 /* A guide that holds a string where it slides or turns would squeeze or wind it up. */
 static int32_t check_ends(dmb_sim *sim, const dmb_steady *steady)
 {
+    dmb_message string;
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->held_count; i++) {
         const uint32_t node = scene->held_node[i], s = steady->string[node], c = scene->held_component[i];
@@ -112,11 +114,10 @@ static int32_t check_ends(dmb_sim *sim, const dmb_steady *steady)
         if (s == DMB_NONE || c % half != 0 || is_driven(scene, scene->layout.row[node] + c)) continue;
         const double speed = steady->speed[2 * s + c / half];
         if (speed == 0.0) continue;
-        return REFUSE(
-            sim,
-            "string %u: a guide keeps it from %s, a drive moves it at %g, which is not steady; free the guide, "
-            "or take DMB_STEADY_AT_REST",
-            s, c == 0 ? "sliding" : "turning", speed);
+        return REFUSE(sim,
+                      "%s: a guide keeps it from %s, a drive moves it at %g, which is not steady; free the guide, "
+                      "or take DMB_STEADY_AT_REST",
+                      dmb_string_text(scene, s, &string), c == 0 ? "sliding" : "turning", speed);
     }
     return DMB_OK;
 }

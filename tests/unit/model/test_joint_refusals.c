@@ -35,7 +35,8 @@ static const dmb_place ground;
 
 static void add_joint(dmb_model *model, dmb_place a, dmb_place b)
 {
-    const dmb_joint_def joint = joint_between(a, b);
+    dmb_joint_def joint = joint_between(a, b);
+    if (model->joints.count > 0) joint.name[0] = '\0';
     assert_ok(dmb_model_add_joint(model, &joint, NULL));
 }
 

@@ -399,7 +399,7 @@ static void longer_than_dense_matrices(void **state)
     for (int i = 0; i < 260; i++) {
         const bar def = {{i, 0.0}, {i + 1.0, 0.0}, 1.0};
         const dmb_id here = add_bar(&s, &def);
-        (void)add_hinge(&s, "link", DMB_JOINT_REVOLUTE, i ? pin_on(last, 0.5) : pin_ground(0.0, 0.0),
+        (void)add_hinge(&s, i == 0 ? "link" : "", DMB_JOINT_REVOLUTE, i ? pin_on(last, 0.5) : pin_ground(0.0, 0.0),
                         pin_on(here, -0.5));
         last = here;
     }

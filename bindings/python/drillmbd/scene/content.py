@@ -13,7 +13,7 @@ from .variability import Variability
 
 # In the order in which they are described; NAMED: their names go to the library as they are written.
 PARTS = ("string", "body", "bit", "joint", "coupling", "drive", "load", "spring", "stuck", "input", "event")
-NAMED = ("joint", "coupling", "spring", "stuck", "input")
+NAMED = ("string", "body", "bit", "joint", "coupling", "drive", "load", "spring", "stuck", "input")
 SINGLE = ("environment", "hole")
 ANALYSES = ("static", "modes", "response", "speeds", "buckling", "fatigue")
 

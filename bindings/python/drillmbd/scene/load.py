@@ -384,6 +384,7 @@ class Loader:
 
     def _string(self, path: Path, name: str, table: dict[str, Any]) -> None:
         values = self.read(path, table, fields_of(DEFINITIONS["string"]), ("name", "pipes"))
+        self._own_name(path, table, values)
         string = self._add(path, self.model.add_string, DEFINITIONS["string"], values)
         self.pipes[name] = 0
         self._put(name, "string", string)
@@ -421,18 +422,25 @@ class Loader:
             values["table"] = self._pairs(path + ("table",), table["table"], "m", "N", "elongation and force")
         if kind == "input":
             table["name"] = name
-        if kind in NAMED and "name" in table:
-            try:
-                values["name"] = fields.read(fields_of(struct)["name"], name)
-            except ValueProblem as error:
-                self.problems.add(path + ("name",), name, str(error))
+        if kind in NAMED:
+            self._own_name(path, table, values)
         if kind == "drive" and "programme" not in table:
             self.problems.add(path, None, "must have a programme")
         refused = any(isinstance(value, str) and self.names.get(value, "") is None for value in table.values())
         self._put(name, kind, None)
         if not refused and not (kind == "drive" and "programme" not in values) and not (
-                len(self.problems.found) > before and kind in (*NAMED, "load")):
+                len(self.problems.found) > before and kind in ("joint", "coupling", "spring", "input", "load")):
             self._put(name, kind, self._add(path, getattr(self.model, "add_" + kind), struct, values))
+
+    def _own_name(self, path: Path, table: dict[str, Any], values: dict[str, Any]) -> None:
+        """The name goes to the library too, where it is a text at all."""
+        name = table.get("name")
+        if not isinstance(name, str) or not name:
+            return
+        try:
+            values["name"] = fields.read(fields_of(DEFINITIONS["string"])["name"], name)
+        except ValueProblem as error:
+            self.problems.add(path + ("name",), name, str(error))
 
     def _event(self, path: Path, name: str, table: dict[str, Any]) -> None:
         """quantity and place are the channel, whose unit the level has."""

@@ -57,6 +57,7 @@ class Writer:
         self.pipes: dict[int, list[tuple[int, dict[str, Any]]]] = {}  # string -> sections
         self.single: dict[str, dict[str, Any]] = {}
         self.sections: list[dict[str, Any]] = []               # of the hole
+        self.set_names: dict[int, str] = {}                    # given by Model.set_name
         self._sort()
 
     # ---- From calls to parts ----------------------------------------------------------------------------------------
@@ -66,6 +67,9 @@ class Writer:
             kind = name.replace("add_", "")
             if name in ("set_environment", "compile"):
                 self.single[kind.replace("set_", "")] = arguments[0]
+                continue
+            if name == "set_name":
+                self.set_names[arguments[0].index] = arguments[1]
                 continue
             if kind == "hole_sections":
                 self.sections += arguments
@@ -81,7 +85,9 @@ class Writer:
                 self.parts.setdefault(kind, []).append((made, list(arguments) if kind == "programme" else arguments[0]))
         for kind, parts in self.parts.items():
             for number, (made, description) in enumerate(parts):
-                own = description.get("name", "") if isinstance(description, dict) else ""
+                if made.index in self.set_names and isinstance(description, dict):
+                    description["name"] = self.set_names[made.index]
+                own = description.get("name", "") if isinstance(description, dict) else self.set_names.get(made.index, "")
                 free = own and own not in self.names.values()
                 self.names.setdefault(made.index, own if free else f"{kind}-{number}")
 
@@ -113,19 +119,22 @@ class Writer:
         for made, terms in self.parts.get("programme", []):
             self._programme(self.names[made.index], terms, programme_units.get(made.index))
         for made, description in self.parts.get("string", []):
-            self._head("[[string]]", self.names[made.index])
+            self._head("[[string]]", self._own_name("string", made, description))
             self._table("string", description)
             for count, pipes in self.pipes.get(made.index, []):
                 self._head("[[string.pipes]]")
                 self._key("count", count)
                 self._table("pipes", pipes)
         for kind in PARTS[1:]:
-            for number, (made, description) in enumerate(self.parts.get(kind, [])):
-                name = self.names[made.index]  # one of its own is left out, so that the library has none for messages
-                unnamed = kind in NAMED and "name" not in description and name == f"{kind}-{number}"
-                self._part(kind, None if unnamed else name, description)
+            for made, description in self.parts.get(kind, []):
+                self._part(kind, self._own_name(kind, made, description), description)
         self._settings()
         return "\n".join(self.lines) + "\n"
+
+    def _own_name(self, kind: str, made: Id, description: dict[str, Any]) -> str | None:
+        """One of kind and number is left out, so that the library has none for messages."""
+        name = self.names[made.index]
+        return None if "name" not in description and name == f"{kind}-{made.index & 0xFFFFFF}" else name
 
     def _head(self, head: str, name: str | None = None) -> None:
         self.lines += ["", head]

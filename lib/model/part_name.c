@@ -1,0 +1,238 @@
+#include "model/part_name.h"
+
+#include <string.h>
+
+#include "base/handle.h"
+#include "model/field_check.h"
+
+/* ---- Where names are --------------------------------------------------------------------------------------------- */
+
+/* In a list of the model. */
+typedef struct name_place {
+    const char *word;
+    size_t list, item, name; /* [byte] of the list in the model; of an item; of the name in it */
+} name_place;
+
+#define PLACE(word, list, T)                                             \
+    {                                                                    \
+        word, offsetof(dmb_model, list), sizeof(T), offsetof(T, name[0]) \
+    }
+#define PLAN(word, list, T)                                                  \
+    {                                                                        \
+        word, offsetof(dmb_model, list), sizeof(T), offsetof(T, def.name[0]) \
+    }
+
+static const name_place places[] = {
+    [DMB_PART_PROGRAMME] = {"programme", 0, 0, 0},
+    [DMB_PART_WALL] = {"wall", 0, 0, 0},
+    [DMB_PART_STRING] = PLAN("string", strings, dmb_string_plan),
+    [DMB_PART_BODY] = PLACE("body", bodies, dmb_body_def),
+    [DMB_PART_BIT] = PLACE("bit", bits, dmb_bit_def),
+    [DMB_PART_DRIVE] = PLACE("drive", drives, dmb_drive_def),
+    [DMB_PART_LOAD] = PLACE("load", loads, dmb_load_def),
+    [DMB_PART_JOINT] = PLACE("joint", joints, dmb_joint_def),
+    [DMB_PART_COUPLING] = PLACE("coupling", couplings, dmb_coupling_def),
+    [DMB_PART_CONSTRAINT] = PLACE("constraint", constraints, dmb_constraint_def),
+    [DMB_PART_SPRING] = PLAN("spring", springs, dmb_spring_plan),
+    [DMB_PART_FORCE] = PLACE("force", forces, dmb_force_def),
+    [DMB_PART_STUCK] = PLACE("stuck", stuck, dmb_stuck_def),
+    [DMB_PART_INPUT] = PLACE("input", inputs, dmb_input_def),
+    [DMB_PART_EVENT] = PLACE("event", events, dmb_event_def),
+};
+enum { KINDS = sizeof places / sizeof places[0] };
+
+static uint32_t name_of_programme(const dmb_model *model, uint32_t index)
+{
+    for (uint32_t i = 0; i < model->names.count; ++i)
+        if (DMB_LIST_AT(const dmb_programme_name, model->names, i)->programme == index) return i;
+    return DMB_NONE;
+}
+
+/* The part is there. */
+static const char *name_of(const dmb_model *model, uint32_t kind, uint32_t index)
+{
+    const name_place *place = places + kind;
+    if (kind == DMB_PART_WALL) return model->wall.name;
+    if (kind == DMB_PART_PROGRAMME) {
+        const uint32_t i = name_of_programme(model, index);
+        return i == DMB_NONE ? "" : DMB_LIST_AT(const dmb_programme_name, model->names, i)->name;
+    }
+    const dmb_list *list = (const dmb_list *)(const void *)((const char *)model + place->list);
+    return (const char *)list->items + index * place->item + place->name;
+}
+
+/* The part of a kind that has the name; DMB_NONE: none. */
+static uint32_t find_in(const dmb_model *model, uint32_t kind, const char *name)
+{
+    const uint32_t count = dmb_model_part_count(model, kind);
+    if (name[0] == '\0') return DMB_NONE;
+    for (uint32_t i = 0; i < count; ++i)
+        if (strcmp(name_of(model, kind, i), name) == 0) return i;
+    return DMB_NONE;
+}
+
+static uint32_t find_run(const dmb_model *model, const char *name)
+{
+    if (name[0] == '\0') return DMB_NONE;
+    for (uint32_t i = 0; i < model->runs.count; ++i)
+        if (strcmp(DMB_LIST_AT(const dmb_pipe_run, model->runs, i)->def.name, name) == 0) return i;
+    return DMB_NONE;
+}
+
+/* ---- Checks ------------------------------------------------------------------------------------------------------ */
+
+static void refuse_taken(dmb_check *check, const char *word, uint32_t index, const char *name)
+{
+    dmb_message part;
+    if (check->status < 0) return;
+    check->status = DMB_ERR_VALUE;
+    if (check->index == DMB_NONE)
+        dmb_message_set(&part, "%s", check->part);
+    else
+        dmb_message_set(&part, "%s %u", check->part, check->index);
+    dmb_message_set(check->message, "%s: name = %s, must be of its own, and %s %u has it; give another", part.text,
+                    name, word, index);
+}
+
+void dmb_check_part_name(dmb_check *check, const dmb_model *model, uint32_t kind, const char *name)
+{
+    dmb_check_name(check, "name", name, DMB_NAME_SIZE);
+    if (check->status < 0) return;
+    const uint32_t other = find_in(model, kind, name);
+    if (other != DMB_NONE) refuse_taken(check, places[kind].word, other, name);
+}
+
+void dmb_check_pipes_name(dmb_check *check, const dmb_model *model, const char *name)
+{
+    dmb_check_name(check, "name", name, DMB_NAME_SIZE);
+    if (check->status < 0) return;
+    const uint32_t other = find_run(model, name);
+    if (other == DMB_NONE) return;
+    refuse_taken(check, "pipes of string", DMB_LIST_AT(const dmb_pipe_run, model->runs, other)->string, name);
+}
+
+/* ---- In messages ------------------------------------------------------------------------------------------------- */
+
+const char *dmb_model_part_text(const dmb_model *model, uint32_t kind, uint32_t index, dmb_message *text)
+{
+    return dmb_part_text(text, places[kind].word, index, name_of(model, kind, index), DMB_NAME_SIZE);
+}
+
+const char *dmb_model_word_text(const dmb_model *model, const char *word, uint32_t index, dmb_message *text)
+{
+    for (uint32_t kind = 1; kind < KINDS; ++kind)
+        if (places[kind].word != NULL && strcmp(places[kind].word, word) == 0)
+            return dmb_model_part_text(model, kind, index, text);
+    return dmb_part_text(text, word, index, "", 1);
+}
+
+const char *dmb_model_pipe_text(const dmb_model *model, uint32_t string, uint32_t pipe, dmb_message *text)
+{
+    dmb_message of_string, of_pipe;
+    const char *name = "";
+    for (uint32_t i = 0; i < model->runs.count; ++i) {
+        const dmb_pipe_run *run = DMB_LIST_AT(const dmb_pipe_run, model->runs, i);
+        if (run->string == string && pipe >= run->first && pipe - run->first < run->count) name = run->def.name;
+    }
+    (void)dmb_model_part_text(model, DMB_PART_STRING, string, &of_string);
+    dmb_message_set(text, "%s, %s", of_string.text, dmb_part_text(&of_pipe, "pipe", pipe, name, DMB_NAME_SIZE));
+    return text->text;
+}
+
+const char *dmb_pipes_text(dmb_message *text, uint32_t string, const dmb_pipe_def *def)
+{
+    return dmb_part_text(text, "pipes of string", string, def->name, sizeof def->name);
+}
+
+/* ---- Calls ------------------------------------------------------------------------------------------------------- */
+
+/* Kind and index of an id of this model. DMB_ERR_ID. */
+static int32_t take_id(const dmb_model *model, dmb_id id, uint32_t *kind, uint32_t *index)
+{
+    *kind = id.index >> DMB_KIND_SHIFT;
+    *index = dmb_model_part_index(model, id, *kind);
+    return *index == DMB_NONE || *kind >= KINDS || places[*kind].word == NULL ? DMB_ERR_ID : DMB_OK;
+}
+
+static int32_t put_name(dmb_model *model, uint32_t kind, uint32_t index, const char name[DMB_NAME_SIZE])
+{
+    if (kind == DMB_PART_PROGRAMME && name_of_programme(model, index) == DMB_NONE) {
+        dmb_programme_name item = {index, 0, ""};
+        memcpy(item.name, name, sizeof item.name);
+        return dmb_list_append(&model->names, &model->allocator, &item, sizeof item);
+    }
+    char *own;
+    const char *read = name_of(model, kind, index);
+    memcpy(&own, &read, sizeof own); /* the model is the caller's to change */
+    memcpy(own, name, DMB_NAME_SIZE);
+    return DMB_OK;
+}
+
+static int32_t check_new_name(dmb_model *model, uint32_t kind, uint32_t index, const char *name)
+{
+    dmb_message part;
+    dmb_check check = dmb_check_of(&model->message, dmb_model_part_text(model, kind, index, &part), DMB_NONE);
+    if (find_in(model, kind, name) == index) return DMB_OK;
+    dmb_check_part_name(&check, model, kind, name);
+    if (check.status < 0 || name[0] != '\0' || kind < DMB_PART_INPUT) return check.status;
+    dmb_message_set(&model->message, "%s: name is empty, must be there: inputs and events are told by it", part.text);
+    return DMB_ERR_VALUE;
+}
+
+int32_t dmb_model_set_name(dmb_model *model, dmb_id part, const char *name)
+{
+    char padded[DMB_NAME_SIZE] = {0};
+    uint32_t kind, index;
+    int32_t status = dmb_describe_open(model, "name", model);
+    if (status < 0) return status;
+    status = name == NULL ? DMB_ERR_NULL : take_id(model, part, &kind, &index);
+    for (size_t i = 0; status >= 0 && i < sizeof padded && (i == 0 || padded[i - 1] != '\0'); ++i) padded[i] = name[i];
+    if (status >= 0) status = check_new_name(model, kind, index, padded);
+    if (status >= 0) status = put_name(model, kind, index, padded);
+    return dmb_describe_close(model, "name", status);
+}
+
+int32_t dmb_model_get_name(const dmb_model *model, dmb_id part, char *name, uint32_t size)
+{
+    uint32_t kind, index;
+    if (model == NULL || name == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
+    if (size < DMB_NAME_SIZE) return DMB_ERR_VALUE;
+    const int32_t status = take_id(model, part, &kind, &index);
+    if (status < 0) return status;
+    const char *own = name_of(model, kind, index);
+    memcpy(name, own, strlen(own) + 1);
+    return DMB_OK;
+}
+
+int32_t dmb_model_find(const dmb_model *model, int32_t kind, const char *name, dmb_id *part)
+{
+    uint32_t found = DMB_NONE, found_kind = 0;
+    if (model == NULL || name == NULL || part == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
+    if (kind < 0 || kind >= KINDS || (kind > 0 && places[kind].word == NULL)) return DMB_ERR_VALUE;
+    for (uint32_t k = 1; k < KINDS; ++k) {
+        if (places[k].word == NULL || (kind != DMB_PART_ANY && k != (uint32_t)kind)) continue;
+        const uint32_t index = find_in(model, k, name);
+        if (index == DMB_NONE) continue;
+        if (found != DMB_NONE) return DMB_ERR_VALUE;
+        found = index;
+        found_kind = k;
+    }
+    if (found == DMB_NONE) return DMB_ERR_ID;
+    *part = dmb_model_id(model, found_kind, found);
+    return DMB_OK;
+}
+
+int32_t dmb_model_find_pipes(const dmb_model *model, const char *name, dmb_id *string, uint32_t *first, uint32_t *count)
+{
+    if (model == NULL || name == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
+    const uint32_t found = find_run(model, name);
+    if (found == DMB_NONE) return DMB_ERR_ID;
+    const dmb_pipe_run *run = DMB_LIST_AT(const dmb_pipe_run, model->runs, found);
+    if (string != NULL) *string = dmb_model_id(model, DMB_PART_STRING, run->string);
+    if (first != NULL) *first = run->first;
+    if (count != NULL) *count = run->count;
+    return DMB_OK;
+}
