@@ -4,6 +4,7 @@ from __future__ import annotations
 import argparse
 import importlib
 import math
+import os
 import sys
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -25,6 +26,7 @@ EXAMPLES = """examples:
   drillmbd stuck rig.toml --overpull "20 kN" --stretch "45 mm"   what arrives at a stuck bit; how far is it free?
   drillmbd sweep rig.toml static --vary hole.diameter="90 mm,94 mm,98 mm" -o out
   drillmbd probability rig.toml -o out --samples 1000 --engine processes   how often does it fail, by [variability], [[failure]]?
+  drillmbd fmu rig.toml -o rig.fmu            a unit for co-simulation (FMI 3.0) with other programs
   drillmbd save rig.toml copy.toml            the scene in SI units, comments left out
   drillmbd schema > scene.schema.json         for editors that check TOML
 
@@ -32,9 +34,15 @@ exit status: 0 done; 1 the library refused or failed; 2 wrong command line or sc
 written; 130 stopped by Ctrl-C, what was done is written.
 
 completion in the shell, by python3-argcomplete: eval "$(register-python-argcomplete drillmbd)"
+"""
 
-Not there yet: fmu."""
+FMU = """examples:
+  drillmbd fmu rig.toml -o rig.fmu                for importers of FMI 3.0
+  drillmbd fmu rig.toml -o rig.fmu --version 2    for those of FMI 2.0
 
+[[input]] of the scene become inputs and tunable parameters of the unit, [[channel]] its outputs, [[event]] counts and, where the importer
+allows it, early returns. [run] static and [run] step hold in the unit too. It holds the library and needs no Python; liblapacke and
+libcholmod must be installed where it runs."""
 
 PROBABILITY = """examples:
   drillmbd probability rig.toml -o out --samples 1000                     on all processors
@@ -97,11 +105,21 @@ def parser() -> argparse.ArgumentParser:
     sweep.add_argument("--output", "-o", metavar="FOLDER", help="sweep.csv, and a folder for each case")
     sweep.add_argument("--quiet", "-q", action="store_true")
     _add_probability(commands)
+    _add_fmu(commands)
     save = commands.add_parser("save", help="writes the scene back, in SI units")
     save.add_argument("scene")
     save.add_argument("target", help="the new file; - for the terminal")
     commands.add_parser("schema", help="prints the JSON schema of scene files")
     return found
+
+
+def _add_fmu(commands: Any) -> None:
+    text = "writes the scene as a unit for co-simulation by the standard FMI"
+    asked = commands.add_parser("fmu", help=text, description=text, epilog=FMU, formatter_class=argparse.RawDescriptionHelpFormatter)
+    asked.add_argument("scene", help="a scene file (TOML) with [[channel]], and [[input]] to be steered by")
+    asked.add_argument("--output", "-o", metavar="FILE", help="the unit; left out: the name of the scene with .fmu")
+    asked.add_argument("--version", type=int, choices=[2, 3], default=3, dest="fmi", help="of FMI (default %(default)s)")
+    asked.add_argument("--quiet", "-q", action="store_true", help="no notes on the terminal")
 
 
 def _add_probability(commands: Any) -> None:
@@ -150,12 +168,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _guarded(ask: Callable[[], int]) -> int:
+    from .fmu import CannotExport
     from .scene import CannotSave, SceneError
     try:
         return ask()
     except SceneError as error:
         return _tell(2, str(error))
-    except (Usage, CannotSave) as error:
+    except (Usage, CannotSave, CannotExport) as error:
         return _tell(2, f"drillmbd: {error}")
     except (Error, ArithmeticError) as error:
         return _tell(1, f"drillmbd: {error}")
@@ -194,6 +213,19 @@ def _sweep(options: Any) -> int:
                  options.output, options.quiet)
 
 
+def _fmu(options: Any) -> int:
+    from . import fmu, scene
+    target = options.output or os.path.splitext(options.scene)[0] + ".fmu"
+    loaded = scene.load(options.scene)
+    notes = fmu.export(loaded, target, options.fmi)
+    if not options.quiet:
+        for note in notes:
+            print(f"note: {note}")
+        print(f"{target}: FMI {options.fmi}.0, {len(loaded.model.inputs())} inputs and parameters, {len(loaded.channels)} outputs, "
+              f"{len(loaded.model.events())} events, {os.path.getsize(target) / 1e6:.1f} MB")
+    return 0
+
+
 def _ask(options: Any) -> int:
     from . import scene
     from .questions import QUESTIONS, Output
@@ -211,6 +243,8 @@ def _ask(options: Any) -> int:
         return 0
     if options.command == "sweep":
         return _sweep(options)
+    if options.command == "fmu":
+        return _fmu(options)
     if options.command == "probability":
         from .probability.ask import probability
         return probability(options)

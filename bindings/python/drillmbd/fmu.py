@@ -1,0 +1,417 @@
+"""Co-simulation units (FMI 2.0 and 3.0) of scenes, for the programs that import such units.
+
+    from drillmbd import fmu, scene
+    fmu.export(scene.load("rig.toml"), "rig.fmu")
+
+[[input]] of the scene become inputs (set points, factors of loads, bit load) and tunable parameters (gains, limits, friction, mud,
+damping), [[channel]] outputs, [[event]] counts of how often each was told. The run begins as that of the command: at rest in
+the static state where [run] static says so. [run] step is the length of steps within a communication step; without it, and in
+scenes with events, the library chooses them. The unit holds the library itself and runs without Python."""
+from __future__ import annotations
+
+import ctypes
+import hashlib
+import io
+import os
+import pathlib
+import platform
+import re
+import struct
+import sys
+import zipfile
+import zlib
+from collections.abc import Iterator
+from ctypes import sizeof
+from dataclasses import dataclass
+from typing import Any
+from xml.etree import ElementTree
+
+from . import _library, enums
+from ._record import Record
+from ._structs import Channel, Id, Place, SimOptions, StaticOptions
+from .channels import channel_unit
+from .model import _DEFINITIONS
+from .scene import Scene
+from .scene.fields import drive_unit
+
+BINARY = "drillmbd_fmu"
+INPUTS, OUTPUTS, EVENTS = 100000, 200000, 300000  # value references, as bindings/fmi/unit.h says
+CONTROLLED = (enums.TARGET_SET_POINT, enums.TARGET_LOAD_FACTOR, enums.TARGET_BIT_LOAD)  # the others are parameters
+
+
+class CannotExport(ValueError):
+    """A scene that cannot become a unit, or a unit without its binary: what it is, and what to do."""
+
+
+# ---- The scene as bytes: bindings/fmi/scene_format.h -----------------------------------------------------------------
+MAGIC, FORMAT, LAYOUT, TOKEN = b"DMBSCENE", 1, 8, 48
+ARRAYS = {"add_programme": (("table_time", "table_count", 1), ("table_value", "table_count", 1)),
+          "add_wall": (("survey", "survey_count", 3),),
+          "add_spring": (("table_elongation", "table_count", 1), ("table_force", "table_count", 1))}
+CALLS = {"add_wall", "add_string", "add_body", "add_bit", "add_joint", "add_coupling", "add_drive", "add_load", "add_spring",
+         "add_stuck", "add_input", "add_event", "add_pipes", "add_programme", "add_hole_sections", "set_environment", "compile"}
+
+
+class _Output(ctypes.Structure):
+    _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("channel", Channel)]
+
+
+class _Run(ctypes.Structure):
+    _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("step", ctypes.c_double)]
+
+
+def _ids(kind: Any, value: Any, offset: int) -> Iterator[int]:
+    """Offsets of the ids in a struct that name a part."""
+    if isinstance(value, Id):
+        if value:
+            yield offset
+    elif isinstance(value, ctypes.Array):
+        for number, one in enumerate(value):
+            yield from _ids(type(one), one, offset + number * sizeof(kind._type_))
+    elif isinstance(value, ctypes.Structure):
+        for name, part in type(value)._fields_:  # type: ignore[misc]
+            yield from _ids(part, getattr(value, name), offset + getattr(type(value), name).offset)
+
+
+def _is_pointer(kind: Any) -> bool:
+    return isinstance(kind, type) and (issubclass(kind, (ctypes._Pointer, ctypes.c_void_p)) or hasattr(kind, "_flags_"))
+
+
+def _bare(one: Any) -> bytearray:
+    """The bytes of a struct, pointers as NULL."""
+    found = bytearray(bytes(one))
+    for name, kind in type(one)._fields_:
+        if _is_pointer(kind):
+            offset, size = getattr(type(one), name).offset, sizeof(kind)
+            found[offset:offset + size] = bytes(size)
+    return found
+
+
+def _record(call: str, structs: list[Any], count: int = 1) -> bytes:
+    """One call with its structs, where their ids stand, and the arrays that they point to."""
+    bare, places, numbers = [_bare(one) for one in structs], bytearray(), bytearray()
+    total = ids = 0
+    for index, one in enumerate(structs):
+        for offset in _ids(type(one), one, 0):
+            struct.pack_into("<I", bare[index], offset + 4, 1)  # the stamp of this model: the unit's has another
+            places += struct.pack("<II", index, offset)
+            ids += 1
+        for name, of, width in ARRAYS.get(call, ()):
+            length = getattr(one, of) * width
+            numbers += struct.pack(f"<{length}d", *getattr(one, name)[:length]) if length else b""
+            total += length
+    head = struct.pack("<24sIIIIII", call.encode(), count, len(structs), sizeof(structs[0]), ids, total, 0)
+    return b"".join([head, *bare, places, numbers])
+
+
+def _calls(scene: Scene) -> Iterator[bytes]:
+    """The calls that describe the model."""
+    for name, arguments in scene.model.calls:
+        if name not in CALLS:
+            raise CannotExport(f"unit refused: the scene has a part made by {name}, which a unit cannot have: functions of Python "
+                               "stay in Python; leave the part out")
+        count = 1
+        if name == "add_pipes":
+            count, *arguments = arguments  # type: ignore[assignment]
+        if name == "add_programme" and any("function" in one for one in arguments):
+            raise CannotExport("unit refused: a programme is a function of Python, which stays in Python; give it as a table")
+        cls = _DEFINITIONS[name]
+        yield _record(name, [one if isinstance(one, Record) else cls(**one) for one in arguments], count)
+
+
+def _asked(scene: Scene) -> Iterator[bytes]:
+    """The beginning of the run, its steps, and its outputs."""
+    yield _record("sim", [SimOptions(**scene.sim)])
+    if scene.run.get("static", 0):
+        yield _record("static", [StaticOptions(**scene.fields_of("static"))])
+    yield _record("run", [_Run(sizeof(_Run), 0, _step(scene))])
+    for _, place, quantity in scene.channels:
+        yield _record("output", [_Output(sizeof(_Output), 0, Channel(place=Place() if place is None else place,
+                                                                     quantity=quantity))])
+
+
+def _step(scene: Scene) -> float:
+    """[s] of steps within a communication step; 0: chosen by the library."""
+    return 0.0 if scene.model.events() else float(scene.run.get("step", 0.0))
+
+
+def scene_bytes(scene: Scene) -> tuple[bytes, str]:
+    """The file resources/scene.bin and the token of the unit, which is made of what is in it."""
+    if sys.byteorder != "little" or sizeof(ctypes.c_void_p) != LAYOUT:
+        raise CannotExport("unit refused: this machine is not little-endian with 64 bits, as units must be")
+    body = b"".join([*_calls(scene), *_asked(scene)])
+    digest = hashlib.sha256(body).hexdigest()
+    token = "{" + "-".join((digest[:8], digest[8:12], digest[12:16], digest[16:20], digest[20:32])) + "}"
+    named = token.encode().ljust(TOKEN, b"\0") + body
+    head = struct.pack("<8sIIQII", MAGIC, FORMAT, LAYOUT, 32 + len(named), zlib.crc32(named), 0)
+    return head + named, token
+
+
+# ---- Variables -------------------------------------------------------------------------------------------------------
+@dataclass
+class Variable:
+    """A variable of the unit."""
+    name: str
+    reference: int       #: value reference
+    causality: str       #: independent, parameter, input, output
+    variability: str     #: continuous, fixed, tunable, discrete
+    unit: str = ""       #: as "rad/s"
+    start: float | None = None
+    low: float | None = None
+    high: float | None = None
+    about: str = ""
+    integer: bool = False
+
+
+def _drives(scene: Scene) -> dict[int, dict[str, Any]]:
+    """The drives as they were described, by the index of their ids."""
+    ids = iter(scene.model.ids)
+    without = ("set_environment", "compile", "add_hole_sections")
+    made = [(next(ids), name, arguments) for name, arguments in scene.model.calls if name not in without]
+    return {part.index: arguments[0] for part, name, arguments in made if name == "add_drive"}
+
+
+def _output_unit(quantity: int, place: Place | None, drives: dict[int, dict[str, Any]]) -> str:
+    """The unit of a channel; that of a drive goes by its component. Empty where it is not one unit."""
+    unit = channel_unit(quantity)
+    drive = drives.get(place.part.index) if place is not None else None
+    if " or " in unit and drive is not None:
+        return unit.split(" or ")[1 if drive.get("component", 0) >= enums.RX else 0]
+    if unit.startswith("unit of"):
+        return drive_unit(drive.get("kind", 0), drive.get("component", 0)) if drive is not None else ""
+    return "" if " or " in unit else unit
+
+
+def _bound(value: float) -> float | None:
+    return None if abs(value) >= 1e30 else value
+
+
+def _inputs(scene: Scene, sim: Any) -> Iterator[Variable]:
+    for number, (name, info) in enumerate(scene.model.inputs().items()):
+        given = info.target in CONTROLLED
+        unit = info.unit.decode()
+        jumps = f"; goes there by at most {info.rate_limit:g} {unit} a second" if info.rate_limit else ""
+        about = f"{_target_name(info.target)}; until it is set, what the scene describes{jumps}"
+        yield Variable(name, INPUTS + number, "input" if given else "parameter", "continuous" if given else "tunable", unit,
+                       sim.inputs[name], _bound(info.low), _bound(info.high), about)
+
+
+def _target_name(target: int) -> str:
+    names = {value: name for name, value in vars(enums).items() if name.startswith("TARGET_") and isinstance(value, int)}
+    return names.get(target, "TARGET_").replace("TARGET_", "").lower().replace("_", " ")
+
+
+def variables(scene: Scene) -> list[Variable]:
+    """The variables of the unit, in the order of its description."""
+    drives = _drives(scene)
+    found = [Variable("time", 0, "independent", "continuous", "s"),
+             Variable("step", 1, "parameter", "fixed", "s", _step(scene), 0.0, None,
+                      "length of steps within a communication step; 0: chosen by the library to its tolerances")]
+    with scene.new_sim() as sim:
+        found += _inputs(scene, sim)
+        for number, (name, place, quantity) in enumerate(scene.channels):
+            sim.channel(quantity, place)  # raises where it cannot be asked
+            found.append(Variable(re.sub(r"\s*\[[^\]]*\]\s*$", "", name), OUTPUTS + number, "output", "continuous",
+                                  _output_unit(quantity, place, drives), about=_channel_about(quantity)))
+    for number, name in enumerate(scene.model.events()):
+        found.append(Variable(f"{name}, times", EVENTS + number, "output", "discrete", about="how often this event was told",
+                              integer=True))
+    _check_names(found)
+    return found
+
+
+def _channel_about(quantity: int) -> str:
+    from .channels import channel_name
+    return f"channel {channel_name(quantity)}"
+
+
+def _check_names(found: list[Variable]) -> None:
+    seen: set[str] = set()
+    for one in found:
+        if not one.name or one.name in seen or re.search(r"[\x00-\x1f]", one.name):
+            raise CannotExport(f"unit refused: the name {one.name!r} of a variable, must be of its own, not empty, without control "
+                               "characters; rename the [[channel]], [[input]] or [[event]]")
+        seen.add(one.name)
+
+
+# ---- Units -----------------------------------------------------------------------------------------------------------
+_BASE: dict[str, dict[str, int]] = {"m": {"m": 1}, "s": {"s": 1}, "kg": {"kg": 1}, "rad": {"rad": 1}, "N": {"kg": 1, "m": 1, "s": -2},
+         "J": {"kg": 1, "m": 2, "s": -2}, "W": {"kg": 1, "m": 2, "s": -3}, "Pa": {"kg": 1, "m": -1, "s": -2}, "1": {}, "-": {}}
+
+
+def base_exponents(unit: str) -> dict[str, int]:
+    """Exponents of kg, m, s, rad of a unit as "kg m2/s": what stands behind / divides."""
+    found: dict[str, int] = {}
+    for sign, part in zip((1, -1), unit.split("/")):
+        for word in part.split():
+            match = re.fullmatch(r"([A-Za-z1-]+?)(\d?)", word)
+            if match is None or match[1] not in _BASE:
+                raise CannotExport(f"unit refused: unit {unit!r} of a variable is not known to the exporter; leave the variable out")
+            for name, power in _BASE[match[1]].items():
+                found[name] = found.get(name, 0) + sign * power * int(match[2] or 1)
+    return {name: power for name, power in found.items() if power}
+
+
+# ---- modelDescription.xml --------------------------------------------------------------------------------------------
+Attributes = dict[str, str]
+
+
+def _number(value: float) -> str:
+    return repr(float(value))
+
+
+def _variable_attributes(one: Variable) -> Attributes:
+    found = {"unit": one.unit} if one.unit and one.unit != "-" else {}
+    found.update({key: _number(value) for key, value in (("min", one.low), ("max", one.high), ("start", one.start))
+                  if value is not None})
+    return found
+
+
+def _common_attributes(one: Variable) -> Attributes:
+    found = {"name": one.name, "valueReference": str(one.reference), "causality": one.causality, "variability": one.variability}
+    if one.about:
+        found["description"] = one.about
+    if one.causality == "parameter":
+        found["initial"] = "exact"
+    if one.causality == "output":
+        found["initial"] = "calculated"
+    return found
+
+
+def _variables3(parent: Any, found: list[Variable]) -> None:
+    for one in found:
+        ElementTree.SubElement(parent, "Int32" if one.integer else "Float64",
+                               {**_common_attributes(one), **_variable_attributes(one)})
+
+
+def _variables2(parent: Any, found: list[Variable]) -> None:
+    for one in found:
+        variable = ElementTree.SubElement(parent, "ScalarVariable", _common_attributes(one))
+        ElementTree.SubElement(variable, "Integer" if one.integer else "Real", _variable_attributes(one))
+
+
+def _structure3(parent: Any, found: list[Variable]) -> None:
+    for tag in ("Output", "InitialUnknown"):
+        for one in found:
+            if one.causality == "output":
+                ElementTree.SubElement(parent, tag, {"valueReference": str(one.reference)})
+
+
+def _structure2(parent: Any, found: list[Variable]) -> None:
+    for tag in ("Outputs", "InitialUnknowns"):
+        group = ElementTree.SubElement(parent, tag)
+        for number, one in enumerate(found, 1):
+            if one.causality == "output":
+                ElementTree.SubElement(group, "Unknown", {"index": str(number)})
+
+
+def _abilities(version: int, identifier: str, scene: Scene) -> Attributes:
+    """Attributes of CoSimulation: what the unit can do."""
+    found = {"modelIdentifier": identifier, "canHandleVariableCommunicationStepSize": "true"}
+    if version == 2:
+        return {**found, "canInterpolateInputs": "false", "canGetAndSetFMUstate": "true", "canSerializeFMUstate": "true",
+                "providesDirectionalDerivative": "false", "canNotUseMemoryManagementFunctions": "true"}
+    told = "true" if scene.model.events() else "false"
+    return {**found, "canGetAndSetFMUState": "true", "canSerializeFMUState": "true", "providesDirectionalDerivatives": "false",
+            "hasEventMode": told, "mightReturnEarlyFromDoStep": told}
+
+
+def description(scene: Scene, version: int, identifier: str, token: str, found: list[Variable],
+                source_files: list[str] | None = None) -> bytes:
+    """The file modelDescription.xml."""
+    root = ElementTree.Element("fmiModelDescription", {
+        "fmiVersion": "3.0" if version == 3 else "2.0", "modelName": scene.title or identifier,
+        "instantiationToken" if version == 3 else "guid": token, "generationTool": f"libdrillmbd {enums.__version__}",
+        "variableNamingConvention": "flat"})
+    unit = ElementTree.SubElement(root, "CoSimulation", _abilities(version, identifier, scene))
+    if version == 2 and source_files:
+        files = ElementTree.SubElement(unit, "SourceFiles")
+        for name in source_files:
+            ElementTree.SubElement(files, "File", {"name": name})
+    definitions = ElementTree.SubElement(root, "UnitDefinitions")
+    for name in sorted({one.unit for one in found if one.unit and one.unit != "-"}):
+        entry = ElementTree.SubElement(definitions, "Unit", {"name": name})
+        ElementTree.SubElement(entry, "BaseUnit", {key: str(power) for key, power in base_exponents(name).items()})
+    categories = ElementTree.SubElement(root, "LogCategories")
+    for name, text in (("logStatusWarning", "notes and warnings of the library"), ("logStatusError", "what was refused or failed")):
+        ElementTree.SubElement(categories, "Category", {"name": name, "description": text})
+    run = {"stopTime": scene.run.get("end"), "stepSize": scene.run.get("step")}
+    ElementTree.SubElement(root, "DefaultExperiment", {"startTime": "0.0", **{k: _number(v) for k, v in run.items() if v}})
+    (_variables3 if version == 3 else _variables2)(ElementTree.SubElement(root, "ModelVariables"), found)
+    (_structure3 if version == 3 else _structure2)(ElementTree.SubElement(root, "ModelStructure"), found)
+    ElementTree.indent(root)
+    return bytes(ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
+
+
+# ---- The archive -----------------------------------------------------------------------------------------------------
+def platform_folder(version: int) -> str:
+    """Where the binary for this machine stands in a unit, as "x86_64-linux" or "linux64"."""
+    machine = {"amd64": "x86_64", "arm64": "aarch64"}.get(platform.machine().lower(), platform.machine().lower())
+    system = {"linux": "linux", "darwin": "darwin", "win32": "windows"}.get(sys.platform, sys.platform)
+    if version == 3 or machine != "x86_64":
+        return f"{machine}-{system}"
+    return {"linux": "linux64", "darwin": "darwin64", "windows": "win64"}.get(system, f"{machine}-{system}")
+
+
+def find_binary() -> pathlib.Path:
+    """The file that becomes the unit's binary: what the environment variable DRILLMBD_FMU names, or drillmbd_fmu.so beside the
+    library or this package."""
+    own = os.environ.get("DRILLMBD_FMU")
+    folders = [pathlib.Path(_library.find()).parent, _library.HERE, *map(pathlib.Path, (sys.prefix + "/lib", "/usr/local/lib"))]
+    folders += [one / f"{platform.machine()}-linux-gnu" for one in folders[2:]]
+    tried = [pathlib.Path(own)] if own else [one / f"{BINARY}{end}" for one in folders for end in (".so", ".dylib", ".dll")]
+    for path in tried:
+        if path.is_file():
+            return path
+    raise CannotExport(f"unit refused: its binary {tried[0]} is not there; build or install libdrillmbd with DMB_BUILD_FMU=ON, or set "
+                       "DRILLMBD_FMU to the file")
+
+
+def _identifier(scene: Scene, path: pathlib.Path) -> str:
+    """The unit's name as an identifier of C."""
+    found = re.sub(r"\W", "_", path.stem, flags=re.ASCII)
+    return found if re.match(r"[A-Za-z_]", found) else f"unit_{found}"
+
+
+def export(scene: Scene, path: Any, version: int = 3) -> list[str]:
+    """Writes the unit; returns notes. Raises CannotExport where the scene or this installation cannot give one, OSError where
+    the file cannot be written."""
+    if version not in (2, 3):
+        raise CannotExport(f"unit refused: version {version} of FMI, must be 2 or 3")
+    if not scene.channels:
+        raise CannotExport("unit refused: the scene has no outputs; add a [[channel]] for each number that is to be read")
+    path = pathlib.Path(path)
+    identifier = _identifier(scene, path)
+    content, token = scene_bytes(scene)
+    found = variables(scene)
+    files = {"modelDescription.xml": description(scene, version, identifier, token, found), "resources/scene.bin": content}
+    binary = find_binary()
+    files[f"binaries/{platform_folder(version)}/{identifier}{binary.suffix}"] = binary.read_bytes()
+    _write(path, files)
+    return _notes(scene)
+
+
+def _notes(scene: Scene) -> list[str]:
+    notes = []
+    if not scene.model.inputs():
+        notes.append("the scene has no [[input]]: the unit can be read but not steered")
+    if scene.model.events() and scene.run.get("step"):
+        notes.append("the scene has events, which are found by steps of the library's choice: [run] step counts for nothing")
+    return notes
+
+
+def _write(path: pathlib.Path, files: dict[str, bytes]) -> None:
+    """The archive, whole or not at all; the same bytes for the same scene."""
+    memory = io.BytesIO()
+    with zipfile.ZipFile(memory, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in files.items():
+            entry = zipfile.ZipInfo(name)
+            entry.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, data)
+    part = path.with_name(path.name + ".part")
+    try:
+        part.write_bytes(memory.getvalue())
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)

@@ -1,0 +1,268 @@
+"""Units for co-simulation exported from scene files, held against the scene's own run (equal numbers), what their description says
+against what the scene says, and what is refused."""
+import ctypes
+import os
+import subprocess
+import unittest
+import zipfile
+from ctypes import byref, c_bool, c_double, c_size_t, c_uint32, c_void_p
+from xml.etree import ElementTree
+
+from shared_tests import COMMAND, ENVIRONMENT, FolderTest, needs
+
+needs("numpy", "pint")
+
+from drillmbd import fmu, scene  # noqa: E402
+
+try:
+    fmu.find_binary()
+except fmu.CannotExport as missing:
+    raise unittest.SkipTest(str(missing)) from missing
+
+SCENE = """title = "short rig <3 & more>"
+[hole]
+survey = [["0 m", "90 deg", "0 deg"], ["5 m", "88 deg", "1 deg"], ["20 m", "86 deg", "2 deg"]]
+diameter = "94 mm"
+[[string]]
+name = "main"
+[[string.pipes]]
+count = 8
+eccentricity = "1 mm"
+[[bit]]
+name = "bit"
+diameter = 0
+load = "push"
+[[programme]]
+name = "push"
+term = {table = [["0 s", "0 kN"], ["50 ms", "1 kN"]]}
+[[programme]]
+name = "turning"
+term = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
+[[drive]]
+name = "feed"
+programme = "0 m/s"
+[[drive]]
+name = "head"
+kind = "control"
+component = "rx"
+programme = "turning"
+gain = "500 N m s"
+[[spring]]
+name = "rope"
+place_a = {part = "main", pipe = 2}
+offset_b = ["2 m", "1 m", "0 m"]
+table = [["-1 m", "-1 N"], ["0 m", "0 N"], ["1 m", "3 N"]]
+[[input]]
+name = "speed"
+part = "head"
+low = "0 rpm"
+high = "300 rpm"
+[[input]]
+name = "friction"
+target = "friction"
+low = 0
+high = 3
+[run]
+end = "100 ms"
+step = "1 ms"
+static = true
+[[channel]]
+name = "torque [N m]"
+quantity = "drive-force"
+place = "head"
+[[channel]]
+name = "bit speed"
+quantity = "bit-speed"
+[[channel]]
+name = "wall force"
+quantity = "contacts-normal-force"
+"""
+EVENT = """[[event]]
+name = "fast"
+quantity = "bit-speed"
+level = "3 rad/s"
+"""
+
+
+class Unit3:
+    """The FMI 3.0 functions of an unpacked unit, as an importer calls them."""
+
+    def __init__(self, folder, token, identifier):
+        self.library = ctypes.CDLL(str(next((folder / "binaries").glob(f"*/{identifier}.*"))))
+        instantiate = self.library.fmi3InstantiateCoSimulation
+        instantiate.restype = c_void_p
+        self.handle = c_void_p(instantiate(b"rig", token.encode(), str(folder / "resources").encode(), c_bool(False), c_bool(False),
+                                           c_bool(False), c_bool(False), None, c_size_t(0), None, None, None))
+        assert self.handle.value
+
+    def call(self, name, *arguments):
+        status = getattr(self.library, "fmi3" + name)(self.handle, *arguments)
+        assert status == 0, f"{name}: {status}"
+
+    def set(self, reference, value):
+        self.call("SetFloat64", byref(c_uint32(reference)), c_size_t(1), byref(c_double(value)), c_size_t(1))
+
+    def get(self, *references):
+        values = (c_double * len(references))()
+        self.call("GetFloat64", (c_uint32 * len(references))(*references), c_size_t(len(references)), values,
+                  c_size_t(len(references)))
+        return list(values)
+
+    def begin(self):
+        self.call("EnterInitializationMode", c_bool(False), c_double(0.0), c_double(0.0), c_bool(False), c_double(0.0))
+        self.call("ExitInitializationMode")
+
+    def step(self, time, length):
+        flags, last = [c_bool() for _ in range(3)], c_double()
+        self.call("DoStep", c_double(time), c_double(length), c_bool(True), *map(byref, flags), byref(last))
+
+    def close(self):
+        self.library.fmi3FreeInstance.restype = None
+        self.library.fmi3FreeInstance(self.handle)
+
+
+class Fmu(FolderTest):
+    SCENE = SCENE
+
+    def unpacked(self, version=3, text=None):
+        """Exports and unpacks: the description's root, the folder."""
+        path = self.folder / f"rig{version}.fmu"
+        loaded = scene.loads(text or SCENE)
+        fmu.export(loaded, path, version)
+        folder = self.folder / f"unpacked{version}"
+        with zipfile.ZipFile(path) as archive:
+            self.assertIsNone(archive.testzip())
+            archive.extractall(folder)
+        return loaded, ElementTree.parse(folder / "modelDescription.xml").getroot(), folder
+
+    def test_numbers_of_the_scene(self):
+        loaded, root, folder = self.unpacked()
+        unit = Unit3(folder, root.get("instantiationToken"), "rig3")
+        unit.set(100001, 1.25)
+        unit.begin()
+        with loaded.new_sim() as sim:
+            sim.inputs["friction"] = 1.25
+            sim.static()
+            for step in range(20):
+                want = [sim.channel(quantity, place) for _, place, quantity in loaded.channels]
+                self.assertEqual(unit.get(200000, 200001, 200002), want)
+                unit.set(100000, 5.0 + step)
+                sim.inputs["speed"] = 5.0 + step
+                unit.step(2e-3 * step, 2e-3)
+                sim.step(1e-3)
+                sim.step(1e-3)
+        self.assertNotEqual(want[0], 0.0)
+        self.assertGreater(want[2], 0.0)
+        unit.close()
+
+    def test_description3(self):
+        loaded, root, _ = self.unpacked(3, SCENE + EVENT)
+        self.assertEqual((root.get("fmiVersion"), root.get("modelName")), ("3.0", loaded.title))
+        self.assertEqual([child.tag for child in root], ["CoSimulation", "UnitDefinitions", "LogCategories", "DefaultExperiment",
+                                                         "ModelVariables", "ModelStructure"])
+        self.assertEqual(root.find("CoSimulation").get("modelIdentifier"), "rig3")
+        self.assertEqual(root.find("CoSimulation").get("hasEventMode"), "true")
+        found = {one.get("name"): one for one in root.find("ModelVariables")}
+        references = [one.get("valueReference") for one in root.find("ModelVariables")]
+        self.assertEqual(len(set(references)), len(references))
+        self.assertEqual(list(found), ["time", "step", "speed", "friction", "torque", "bit speed", "wall force", "fast, times"])
+        speed, friction = found["speed"], found["friction"]
+        self.assertEqual((speed.get("causality"), speed.get("unit"), float(speed.get("start"))), ("input", "rad/s", 0.0))
+        self.assertAlmostEqual(float(speed.get("max")), 31.41592653589793, places=12)
+        self.assertEqual((friction.get("causality"), friction.get("variability"), friction.get("start")), ("parameter", "tunable", "1.0"))
+        self.assertEqual([found[name].get("unit") for name in ("torque", "bit speed", "wall force")], ["N m", "rad/s", "N"])
+        self.assertEqual((found["fast, times"].tag, found["fast, times"].get("variability")), ("Int32", "discrete"))
+        self.assertEqual(found["step"].get("start"), "0.0")  # events: steps of the library's choice
+        outputs = [one.get("valueReference") for one in root.find("ModelVariables") if one.get("causality") == "output"]
+        for tag in ("Output", "InitialUnknown"):
+            self.assertEqual([one.get("valueReference") for one in root.find("ModelStructure").findall(tag)], outputs)
+        self.check_units(root)
+        self.assertFalse(any("start" in one.attrib for one in root.find("ModelVariables") if one.get("causality") == "output"))
+
+    def check_units(self, root):
+        units = {one.get("name"): one.find("BaseUnit").attrib for one in root.find("UnitDefinitions")}
+        self.assertEqual(units["N m"], {"kg": "1", "m": "2", "s": "-2"})
+        self.assertEqual(units["rad/s"], {"rad": "1", "s": "-1"})
+        used = {one.get("unit") for one in root.find("ModelVariables").iter() if one.get("unit")}
+        self.assertEqual(used, set(units))
+
+    def test_description2(self):
+        _, root, folder = self.unpacked(2, SCENE + EVENT)
+        self.assertEqual(root.get("fmiVersion"), "2.0")
+        self.assertTrue(root.get("guid"))
+        variables = list(root.find("ModelVariables"))
+        self.assertTrue(all(one.tag == "ScalarVariable" and len(one) == 1 for one in variables))
+        for tag in ("Outputs", "InitialUnknowns"):
+            indices = [int(one.get("index")) for one in root.find("ModelStructure").find(tag)]
+            self.assertEqual([variables[i - 1].get("causality") for i in indices], ["output"] * 4)
+        self.check_units(root)
+        library = ctypes.CDLL(str(next((folder / "binaries").glob("*/rig2.*"))))
+        library.fmi2GetVersion.restype = ctypes.c_char_p
+        self.assertEqual(library.fmi2GetVersion(), b"2.0")
+
+    def test_units(self):
+        for unit, want in (("kg m2/s", {"kg": 1, "m": 2, "s": -1}), ("N s/m2", {"kg": 1, "m": -1, "s": -1}), ("-", {}),
+                           ("N m s", {"kg": 1, "m": 2, "s": -1}), ("1/m", {"m": -1}), ("Pa", {"kg": 1, "m": -1, "s": -2})):
+            self.assertEqual(fmu.base_exponents(unit), want, unit)
+        from drillmbd.channels import channel_numbers, channel_unit
+        for number in channel_numbers():
+            if " or " not in channel_unit(number) and not channel_unit(number).startswith("unit of"):
+                fmu.base_exponents(channel_unit(number))
+
+    def test_the_same_bytes_each_time(self):
+        first, second = self.folder / "rig.fmu", self.folder / "b" / "rig.fmu"
+        second.parent.mkdir()
+        for path in (first, second):
+            fmu.export(scene.loads(SCENE), path)
+        self.assertEqual(first.read_bytes(), second.read_bytes())
+
+    def test_refused(self):
+        loaded = scene.loads(SCENE)
+        bare = scene.loads(SCENE.split("[[channel]]")[0])
+        for text, given, version in (("no outputs", bare, 3), ("must be 2 or 3", loaded, 4)):
+            with self.assertRaisesRegex(fmu.CannotExport, text):
+                fmu.export(given, self.folder / "no.fmu", version)
+        twice = scene.loads(SCENE.replace('"wall force"', '"bit speed [rad/s]"'))
+        with self.assertRaisesRegex(fmu.CannotExport, "of its own"):
+            fmu.export(twice, self.folder / "no.fmu")
+        with self.assertRaises(OSError):
+            fmu.export(loaded, self.folder / "nowhere" / "no.fmu")
+        self.assertEqual([one for one in self.folder.iterdir() if "no.fmu" in one.name], [])
+        os.environ["DRILLMBD_FMU"] = "/nowhere/unit.so"
+        try:
+            with self.assertRaisesRegex(fmu.CannotExport, "/nowhere/unit.so"):
+                fmu.export(loaded, self.folder / "no.fmu")
+        finally:
+            del os.environ["DRILLMBD_FMU"]
+
+    def test_functions_of_python_are_refused(self):
+        import drillmbd as mbd
+        model = mbd.Model()
+        string = model.add_pipes(2)
+        model.add_drive(programme=model.add_programme(lambda time: 0.0))
+        model.compile()
+        given = scene.Scene(title="", model=model, names={}, pipes={}, channels=[("speed", mbd.station(string), mbd.CHANNEL_SPIN)])
+        with self.assertRaisesRegex(fmu.CannotExport, "function of Python"):
+            fmu.export(given, self.folder / "no.fmu")
+
+    def test_unknown_calls_are_refused(self):
+        given = scene.loads(SCENE)
+        given.model.calls.append(("add_novelty", ({},)))
+        with self.assertRaisesRegex(fmu.CannotExport, "add_novelty"):
+            fmu.export(given, self.folder / "no.fmu")
+
+    def test_command(self):
+        target = self.folder / "unit.fmu"
+        text = self.ask("fmu", str(self.scene), "-o", str(target))
+        self.assertIn("2 inputs and parameters, 3 outputs", text)
+        self.assertTrue(zipfile.is_zipfile(target))
+        self.ask("fmu", str(self.scene), "--version", "2", "-q")
+        self.assertTrue((self.folder / "rig.fmu").exists())
+        self.assertIn("no outputs", self.ask("fmu", str(self.write("bare.toml", SCENE.split("[[channel]]")[0])), status=2))
+        self.ask("fmu", str(self.scene), "-o", str(self.folder / "nowhere" / "x.fmu"), status=3)
+        help_text = subprocess.run([*COMMAND, "fmu", "--help"], env=ENVIRONMENT, capture_output=True, text=True, check=True).stdout
+        self.assertIn("drillmbd fmu rig.toml -o rig.fmu", help_text)
+
+
+if __name__ == "__main__":
+    unittest.main()
