@@ -37,6 +37,7 @@ typedef struct scene {
     double length;            /* [m] of a pipe */
     int32_t pipe_kind;        /* of C, B, T */
     double offset;            /* [m] of C, B, T: sideways from the hole's axis, as a whole */
+    double friction;          /* [-] of B: more than 0.3 */
     dmb_model *model;
     dmb_id string, turn;
     double bytes;        /* [byte] of model and sim with default options, an element */
@@ -99,7 +100,7 @@ static int32_t bench_add_hole(scene *s)
     wall.stiffness = 1e6;
     wall.damping = 1e3;
     wall.friction_law = DMB_FRICTION_COULOMB;
-    wall.mu_static = wall.mu_dynamic = 0.3;
+    wall.mu_static = wall.mu_dynamic = 0.3 + s->friction;
     wall.smoothing_speed = 0.01;
     return dmb_model_add_wall(s->model, &wall, NULL);
 }
