@@ -226,6 +226,14 @@ static int32_t set_environment(dmb_model *model, const scene_record *head, const
     return dmb_model_set_environment(model, structs);
 }
 
+static int32_t set_name(dmb_model *model, const scene_record *head, const void *structs, dmb_id *id)
+{
+    const scene_name *one = structs;
+    (void)head, (void)id;
+    if (!memchr(one->name, 0, sizeof one->name)) return DMB_ERR_VALUE;
+    return dmb_model_set_name(model, one->part, one->name);
+}
+
 static int32_t compile(dmb_model *model, const scene_record *head, const void *structs, dmb_id *id)
 {
     (void)head, (void)id;
@@ -244,6 +252,7 @@ static const call_entry calls[] = {SCENE_DEFINITIONS(DEFINITION_ENTRY) /* */
                                    {"add_programme", sizeof(dmb_term), add_programme},
                                    {"add_hole_sections", sizeof(dmb_hole_section), add_hole_sections},
                                    {"set_environment", sizeof(dmb_environment_def), set_environment},
+                                   {"set_name", sizeof(scene_name), set_name},
                                    {"compile", sizeof(dmb_compile_options), compile}};
 
 static int model_call(scene_file *scene, const open_record *record)

@@ -38,6 +38,11 @@ typedef struct scene_output {
     uint32_t struct_size, reserved;
     dmb_channel channel;
 } scene_output;
+typedef struct scene_name { /* of the call set_name */
+    uint32_t struct_size, reserved;
+    dmb_id part;
+    char name[DMB_NAME_SIZE];
+} scene_name;
 typedef struct scene_run {
     uint32_t struct_size, reserved;
     double step; /* [s] of the steps within a communication step; 0: chosen by the library */

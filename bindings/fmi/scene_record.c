@@ -24,6 +24,7 @@ static const id_field id_fields[] = {
     {"add_stuck", offsetof(dmb_stuck_def, place)},
     {"add_input", offsetof(dmb_input_def, part)},
     {"add_event", offsetof(dmb_event_def, output)},
+    {"set_name", offsetof(scene_name, part)},
     {"output", offsetof(scene_output, channel)}};
 /* clang-format on */
 

@@ -251,6 +251,22 @@ class Fmu(FolderTest):
         with self.assertRaisesRegex(fmu.CannotExport, "add_novelty"):
             fmu.export(given, self.folder / "no.fmu")
 
+    def test_names_are_carried(self):
+        import drillmbd as mbd
+        model = mbd.Model()
+        string = model.add_pipes(2)
+        model.set_name(string, "rods")
+        model.compile()
+        given = scene.Scene(title="", model=model, names={}, pipes={}, channels=[("speed", mbd.station(string), mbd.CHANNEL_SPIN)])
+        fmu.export(given, self.folder / "named.fmu")
+        with zipfile.ZipFile(self.folder / "named.fmu") as archive:
+            archive.extractall(self.folder / "named")
+        root = ElementTree.parse(self.folder / "named" / "modelDescription.xml").getroot()
+        unit = Unit3(self.folder / "named", root.get("instantiationToken"), "named")
+        unit.begin()
+        self.assertEqual(unit.get(200000), [0.0])
+        unit.close()
+
     def test_command(self):
         target = self.folder / "unit.fmu"
         text = self.ask("fmu", str(self.scene), "-o", str(target))

@@ -39,6 +39,7 @@ completion in the shell, by python3-argcomplete: eval "$(register-python-argcomp
 FMU = """examples:
   drillmbd fmu rig.toml -o rig.fmu                for importers of FMI 3.0
   drillmbd fmu rig.toml -o rig.fmu --version 2    for those of FMI 2.0
+  drillmbd fmu rig.toml -o rig.fmu --sources      with its source code, for other machines
 
 [[input]] of the scene become inputs and tunable parameters of the unit, [[channel]] its outputs, [[event]] counts and, where the importer
 allows it, early returns. [run] static and [run] step hold in the unit too. It holds the library and needs no Python; liblapacke and
@@ -119,6 +120,8 @@ def _add_fmu(commands: Any) -> None:
     asked.add_argument("scene", help="a scene file (TOML) with [[channel]], and [[input]] to be steered by")
     asked.add_argument("--output", "-o", metavar="FILE", help="the unit; left out: the name of the scene with .fmu")
     asked.add_argument("--version", type=int, choices=[2, 3], default=3, dest="fmi", help="of FMI (default %(default)s)")
+    asked.add_argument("--sources", nargs="?", const=True, default=False, metavar="FOLDER", help="the source code too; FOLDER: that of "
+                       "libdrillmbd's sources, where this package does not stand in it")
     asked.add_argument("--quiet", "-q", action="store_true", help="no notes on the terminal")
 
 
@@ -217,7 +220,7 @@ def _fmu(options: Any) -> int:
     from . import fmu, scene
     target = options.output or os.path.splitext(options.scene)[0] + ".fmu"
     loaded = scene.load(options.scene)
-    notes = fmu.export(loaded, target, options.fmi)
+    notes = fmu.export(loaded, target, options.fmi, options.sources)
     if not options.quiet:
         for note in notes:
             print(f"note: {note}")

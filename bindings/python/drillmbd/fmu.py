@@ -49,11 +49,16 @@ ARRAYS = {"add_programme": (("table_time", "table_count", 1), ("table_value", "t
           "add_wall": (("survey", "survey_count", 3),),
           "add_spring": (("table_elongation", "table_count", 1), ("table_force", "table_count", 1))}
 CALLS = {"add_wall", "add_string", "add_body", "add_bit", "add_joint", "add_coupling", "add_drive", "add_load", "add_spring",
-         "add_stuck", "add_input", "add_event", "add_pipes", "add_programme", "add_hole_sections", "set_environment", "compile"}
+         "add_stuck", "add_input", "add_event", "add_pipes", "add_programme", "add_hole_sections", "set_environment", "set_name",
+         "compile"}
 
 
 class _Output(ctypes.Structure):
     _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("channel", Channel)]
+
+
+class _Name(ctypes.Structure):
+    _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("part", Id), ("name", ctypes.c_char * 24)]
 
 
 class _Run(ctypes.Structure):
@@ -115,6 +120,9 @@ def _calls(scene: Scene) -> Iterator[bytes]:
             count, *arguments = arguments  # type: ignore[assignment]
         if name == "add_programme" and any("function" in one for one in arguments):
             raise CannotExport("unit refused: a programme is a function of Python, which stays in Python; give it as a table")
+        if name == "set_name":
+            yield _record(name, [_Name(sizeof(_Name), 0, arguments[0], arguments[1].encode())])
+            continue
         cls = _DEFINITIONS[name]
         yield _record(name, [one if isinstance(one, Record) else cls(**one) for one in arguments], count)
 
@@ -166,8 +174,8 @@ class Variable:
 def _drives(scene: Scene) -> dict[int, dict[str, Any]]:
     """The drives as they were described, by the index of their ids."""
     ids = iter(scene.model.ids)
-    without = ("set_environment", "compile", "add_hole_sections")
-    made = [(next(ids), name, arguments) for name, arguments in scene.model.calls if name not in without]
+    made = [(next(ids), name, arguments) for name, arguments in scene.model.calls
+            if name.startswith("add_") and name != "add_hole_sections"]
     return {part.index: arguments[0] for part, name, arguments in made if name == "add_drive"}
 
 
@@ -343,6 +351,44 @@ def description(scene: Scene, version: int, identifier: str, token: str, found: 
     return bytes(ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
 
 
+# ---- Source code -----------------------------------------------------------------------------------------------------
+OPTIONS = "-ffp-contract=off -fno-math-errno -I/usr/include/suitesparse"
+
+
+def find_sources(folder: Any = None) -> pathlib.Path:
+    """The folder of libdrillmbd's sources: the given one, or that which this package stands in."""
+    tried = pathlib.Path(folder) if folder is not None else pathlib.Path(__file__).resolve().parents[3]
+    if all((tried / name).is_dir() for name in ("lib", "include/drillmbd", "bindings/fmi")):
+        return tried
+    raise CannotExport(f"unit refused: {tried} does not hold the sources of libdrillmbd (lib, include, bindings/fmi); name their "
+                       "folder, or leave the sources out")
+
+
+def source_files(folder: pathlib.Path) -> dict[str, bytes]:
+    """Sources and headers by their names below sources/."""
+    found = {}
+    for below, target, pattern in (("lib", "", "**/*.[ch]"), ("include", "", "drillmbd/*.h"), ("bindings/fmi", "fmi/", "*.[ch]")):
+        for path in sorted((folder / below).glob(pattern)):
+            if path.name not in ("scene_record.c", "scene_record.h"):  # these write scenes
+                found[target + path.relative_to(folder / below).as_posix()] = path.read_bytes()
+    return found
+
+
+def build_description(identifier: str, names: list[str]) -> bytes:
+    """The file sources/buildDescription.xml of FMI 3.0."""
+    root = ElementTree.Element("fmiBuildDescription", {"fmiVersion": "3.0"})
+    build = ElementTree.SubElement(root, "BuildConfiguration", {"modelIdentifier": identifier})
+    files = ElementTree.SubElement(build, "SourceFileSet", {"language": "C11", "compilerOptions": OPTIONS})
+    for name in names:
+        ElementTree.SubElement(files, "SourceFile", {"name": name})
+    ElementTree.SubElement(files, "PreprocessorDefinition", {"name": "DMB_STATIC"})
+    ElementTree.SubElement(files, "IncludeDirectory", {"name": "."})
+    for name in ("lapacke", "cholmod", "m"):
+        ElementTree.SubElement(build, "Library", {"name": name, "external": "true"})
+    ElementTree.indent(root)
+    return bytes(ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
+
+
 # ---- The archive -----------------------------------------------------------------------------------------------------
 def platform_folder(version: int) -> str:
     """Where the binary for this machine stands in a unit, as "x86_64-linux" or "linux64"."""
@@ -373,9 +419,10 @@ def _identifier(scene: Scene, path: pathlib.Path) -> str:
     return found if re.match(r"[A-Za-z_]", found) else f"unit_{found}"
 
 
-def export(scene: Scene, path: Any, version: int = 3) -> list[str]:
-    """Writes the unit; returns notes. Raises CannotExport where the scene or this installation cannot give one, OSError where
-    the file cannot be written."""
+def export(scene: Scene, path: Any, version: int = 3, sources: Any = False) -> list[str]:
+    """Writes the unit; returns notes. sources: True, or the folder of libdrillmbd's sources: they go into the unit too, to be
+    compiled elsewhere (FMI 3.0: sources/buildDescription.xml says how). Raises CannotExport where the scene or this
+    installation cannot give a unit, OSError where the file cannot be written."""
     if version not in (2, 3):
         raise CannotExport(f"unit refused: version {version} of FMI, must be 2 or 3")
     if not scene.channels:
@@ -384,7 +431,12 @@ def export(scene: Scene, path: Any, version: int = 3) -> list[str]:
     identifier = _identifier(scene, path)
     content, token = scene_bytes(scene)
     found = variables(scene)
-    files = {"modelDescription.xml": description(scene, version, identifier, token, found), "resources/scene.bin": content}
+    code = source_files(find_sources(None if sources is True else sources)) if sources else {}
+    compiled = [name for name in code if name.endswith(".c")]
+    files = {"modelDescription.xml": description(scene, version, identifier, token, found, compiled), "resources/scene.bin": content}
+    files.update({f"sources/{name}": data for name, data in code.items()})
+    if code and version == 3:
+        files["sources/buildDescription.xml"] = build_description(identifier, compiled)
     binary = find_binary()
     files[f"binaries/{platform_folder(version)}/{identifier}{binary.suffix}"] = binary.read_bytes()
     _write(path, files)
