@@ -125,7 +125,7 @@
     X(double, increment, r) /* [m, rad] h Dq of the step: integrator/step_motion; onto joints                         \
                                system/constrain/cluster_projection, prescribed system/assemble/drives; of statics     \
                                analysis/static/static_move */                                                         \
-    X(double, load_step_increment, r)   /* [m, rad] that of the load step reached, analysis/static/static_steps */   \
+    X(double, load_step_increment, r)   /* [m, rad] that of the load step reached, analysis/static/static_newton */  \
     X(double, pull_tension, ns)         /* [N] of the element after each node, analysis/static/static_lay */          \
     X(double, pull_stretch, ns)         /* [m] of a string up to each node, analysis/static/static_lay */             \
     X(double, rigid_motion, 18 * f)     /* of free rigid bodies at their centres of mass, system/assemble/free_rigid */\

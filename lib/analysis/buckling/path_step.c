@@ -164,3 +164,261 @@ void dmb_path_accept(dmb_path *path)
     path->last = path->next;
     path->next = place;
 }
+
+/* ---- Events ------------------------------------------------------------------------------------------------------ */
+
+/* Events between two points of a path, and the way onto a branch. */
+
+static int passes(double end, double last, double next)
+{
+    return (last < end && next >= end) || (last > end && next <= end);
+}
+
+int32_t dmb_path_end(const dmb_path *path, int32_t but)
+{
+    const dmb_path_options *o = path->options;
+    if (but != DMB_EVENT_FACTOR && passes(o->factor_end, path->last.factor, path->next.factor)) return DMB_EVENT_FACTOR;
+    if (but != DMB_EVENT_DISPLACEMENT && o->place.part.generation != 0 &&
+        passes(o->displacement_end, path->last.watched, path->next.watched))
+        return DMB_EVENT_DISPLACEMENT;
+    return DMB_EVENT_NONE;
+}
+
+int32_t dmb_path_event(const dmb_path *path)
+{
+    if (path->side * path->next.rate < 0.0) return DMB_EVENT_LIMIT;
+    if (path->last.negative != path->next.negative) return DMB_EVENT_BIFURCATION;
+    return dmb_path_end(path, DMB_EVENT_NONE);
+}
+
+/* ---- The softest shape ------------------------------------------------------------------------------------------- */
+
+#define DMB_MODE_ITERATIONS 12
+
+static void weigh(const dmb_path *path, const double *x, double *out)
+{
+    const dmb_scene *scene = path->work->scene;
+    const double turning = scene->length_scale * scene->length_scale;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
+        for (uint32_t c = 0; c < size; c++) out[row + c] = (2 * c < size ? 1.0 : turning) * x[row + c];
+    }
+}
+
+static double normalise(const dmb_path *path, double *x)
+{
+    const double length = sqrt(dmb_path_dot(path, x, x));
+    for (uint32_t i = 0; i < path->work->scene->row_count && length > 0.0; i++) x[i] /= length;
+    return length;
+}
+
+/* The last mode and a little of everything, the same in every run: a shape across the plane of the last one would not
+ * be found from that one alone. */
+#define DMB_MODE_SEED 0.01
+
+static void begin_mode(const dmb_path *path)
+{
+    const dmb_scene *scene = path->work->scene;
+    uint64_t seed = 88172645463325252u;
+    (void)normalise(path, path->mode);
+    for (uint32_t i = 0; i < scene->row_count; i++) {
+        seed ^= seed << 13;
+        seed ^= seed >> 7;
+        seed ^= seed << 17;
+        const double any = (double)(seed >> 11) / 9007199254740992.0 - 0.5;
+        path->mode[i] = scene->solved_row[i] ? path->mode[i] + DMB_MODE_SEED * any : 0.0;
+    }
+    (void)normalise(path, path->mode);
+}
+
+/* Eigenvalue of K x = mu D x that is smallest in magnitude, by inverse iteration on the factors at hand, which give
+ * -K^-1 D x. */
+static double softness(dmb_path *path)
+{
+    const uint32_t rows = path->work->scene->row_count;
+    double *x = path->iterate, grown = 1.0;
+    begin_mode(path);
+    for (int k = 0; k < DMB_MODE_ITERATIONS; k++) {
+        weigh(path, path->mode, x);
+        dmb_solve_for(path->work, x, x);
+        const double along = dmb_path_dot(path, path->mode, x);
+        grown = normalise(path, x) * (along > 0.0 ? -1.0 : 1.0);
+        memcpy(path->mode, x, rows * sizeof(double));
+    }
+    return grown != 0.0 ? 1.0 / grown : 0.0;
+}
+
+/* ---- Locating ---------------------------------------------------------------------------------------------------- */
+
+/* Event sought between the last point and `arc`: counted 1 where the softest shape is not the one that changes sign,
+ * or two do, and the count has to do, which finds the first. */
+typedef struct quest {
+    int32_t event, counted;
+} quest;
+
+/* Quantity that vanishes at the event, at `arc` from the last point. */
+static int32_t probe(dmb_path *path, const quest *q, double arc, double *value)
+{
+    int32_t status = dmb_path_correct(path, path->last.tangent, path->last.rate, arc);
+    if (status >= 0) status = dmb_path_tangent(path, path->last.tangent);
+    if (status < 0) return status;
+    if (q->event == DMB_EVENT_LIMIT) *value = path->next.rate;
+    if (q->event == DMB_EVENT_BIFURCATION) path->softest = *value = softness(path);
+    if (q->event == DMB_EVENT_BIFURCATION && q->counted)
+        *value = path->next.negative == path->last.negative ? 1.0 : -1.0;
+    if (q->event == DMB_EVENT_FACTOR) *value = path->next.factor - path->options->factor_end;
+    if (q->event == DMB_EVENT_DISPLACEMENT) *value = path->next.watched - path->options->displacement_end;
+    return DMB_OK;
+}
+
+#define DMB_LOCATE_ITERATIONS 60
+#define DMB_LOCATED 1e-8
+
+/* An interval of the arc, and what is sought at its ends. */
+typedef struct bracket {
+    double low, high, at_low, at_high;
+} bracket;
+
+static int32_t probe_ends(dmb_path *path, const quest *q, bracket *b)
+{
+    const int32_t status = probe(path, q, b->high, &b->at_high);
+    return status < 0 ? status : probe(path, q, b->low, &b->at_low);
+}
+
+/* Regula falsi, the Illinois way: an end that stays twice counts half. Where only signs are known, halves. */
+static int32_t close_in(dmb_path *path, const quest *q, bracket *b, double within)
+{
+    const double unit = fmax(fabs(b->at_low), fabs(b->at_high));
+    double value = 0.0;
+    for (int k = 0, kept = 0; k < DMB_LOCATE_ITERATIONS && b->high - b->low > within; k++) {
+        const double secant = b->high - b->at_high * (b->high - b->low) / (b->at_high - b->at_low);
+        const double middle = q->counted ? 0.5 * (b->low + b->high) : secant;
+        const int32_t status = probe(path, q, middle, &value);
+        if (status < 0) return status;
+        if (!q->counted && fabs(value) <= DMB_LOCATED * unit) break;
+        if (value * b->at_high > 0.0) {
+            b->high = middle;
+            b->at_high = value;
+            b->at_low *= kept > 0 ? 0.5 : 1.0;
+            kept = 1;
+        } else {
+            b->low = middle;
+            b->at_low = value;
+            b->at_high *= kept < 0 ? 0.5 : 1.0;
+            kept = -1;
+        }
+    }
+    return DMB_OK;
+}
+
+/* Where a contact opens or closes the stiffness jumps, and may change its sign without ever being singular. The path
+ * then has a corner, and goes on so that det K times the sense of (-K^-1 q, 1) stays as it was: the factor turns back.
+ */
+#define DMB_CORNER 1e-4
+#define DMB_ROUNDINGS 100.0
+
+/* next stands just beyond it. */
+static void turn_corner(dmb_path *path, int32_t *event)
+{
+    *event = DMB_EVENT_NONE;
+    if ((path->next.negative - path->last.negative) % 2 == 0) return;
+    *event = DMB_EVENT_LIMIT;
+    path->next.rate = -path->next.rate;
+    for (uint32_t i = 0; i < path->work->scene->row_count; i++) path->next.tangent[i] = -path->next.tangent[i];
+    path->side = path->next.rate;
+}
+
+/* The first place where the count changes, by the count to a thousandth of the step, and then by the eigenvalue that
+ * changes sign there, which the count raises by its idea of rounding: so from further back. */
+#define DMB_ISOLATED 1e-3
+#define DMB_STEP_BACK 0.1
+
+static int32_t locate_bifurcation(dmb_path *path, quest *q, double arc, int32_t *event)
+{
+    bracket whole = {0.0, arc, 0.0, 0.0}, counted = {0.0, arc, 1.0, -1.0}, soft;
+    int32_t status = probe_ends(path, q, &whole);
+    const double size = fmax(fabs(whole.at_low), fabs(whole.at_high));
+    path->side = path->last.rate;
+    q->counted = 1;
+    if (status >= 0) status = close_in(path, q, &counted, DMB_ISOLATED * arc);
+    soft.low = fmax(counted.low - DMB_STEP_BACK * arc, 0.0);
+    soft.high = counted.high;
+    q->counted = 0;
+    if (status >= 0) status = probe(path, q, soft.low, &soft.at_low);
+    if (status >= 0) status = probe(path, q, soft.high, &soft.at_high);
+    if (status < 0) return status;
+    const int32_t beyond = path->next.negative;
+    q->counted = soft.at_low * soft.at_high >= 0.0 || fabs(soft.at_low) <= DMB_CORNER * size;
+    if (q->counted) soft = counted;
+    status = close_in(path, q, &soft, DMB_LOCATED * arc);
+    if (status < 0) return status;
+    const double rounding = DMB_ROUNDINGS * path->rounding;
+    if (size <= rounding) *event = DMB_EVENT_NONE; /* neutral all the way: it does not matter which sign it has */
+    const int corner = fabs(path->softest) > fmax(DMB_CORNER * size, rounding);
+    if (corner) status = probe(path, q, soft.high, &soft.at_high);
+    path->next.negative = beyond; /* at the bifurcation itself it is a matter of rounding */
+    if (corner && status >= 0) turn_corner(path, event);
+    return status;
+}
+
+/* From where the stiffness is singular, a step may come out on another path far away: between the two there is no end.
+ */
+#define DMB_AT_END 1e-6
+
+static int is_at_end(const dmb_path *path, int32_t event, double before)
+{
+    const dmb_path_options *o = path->options;
+    const double end = event == DMB_EVENT_FACTOR ? o->factor_end : o->displacement_end;
+    const double at = event == DMB_EVENT_FACTOR ? path->next.factor : path->next.watched;
+    return fabs(at - end) <= DMB_AT_END * (fabs(before) + 1e-3 * fabs(end));
+}
+
+int32_t dmb_path_locate(dmb_path *path, int32_t *event, double arc)
+{
+    quest q = {*event, 0};
+    bracket b = {0.0, arc, 0.0, 0.0};
+    const double side = path->next.rate;
+    const int32_t beyond = path->next.negative;
+    if (*event == DMB_EVENT_BIFURCATION) return locate_bifurcation(path, &q, arc, event);
+    int32_t status = probe_ends(path, &q, &b);
+    const double before = b.at_low;
+    if (status >= 0) status = close_in(path, &q, &b, DMB_LOCATED * arc);
+    if (status < 0) return status;
+    if (*event != DMB_EVENT_LIMIT) return is_at_end(path, *event, before) ? DMB_OK : DMB_ERR_NO_CONVERGENCE;
+    path->next.negative = beyond; /* at the limit point itself it is a matter of rounding */
+    path->side = side;
+    return DMB_OK;
+}
+
+/* ---- Branches ---------------------------------------------------------------------------------------------------- */
+
+#define DMB_LEAVE_TRIES 12
+
+/* The mode across the path, its largest entry positive. */
+static void straighten_mode(dmb_path *path)
+{
+    const uint32_t rows = path->work->scene->row_count;
+    const double along = dmb_path_dot(path, path->mode, path->last.tangent);
+    double most = 0.0;
+    for (uint32_t i = 0; i < rows; i++) {
+        path->mode[i] -= along * path->last.tangent[i];
+        if (fabs(path->mode[i]) > fabs(most)) most = path->mode[i];
+    }
+    (void)normalise(path, path->mode);
+    const double side = most * path->options->branch < 0.0 ? -1.0 : 1.0;
+    for (uint32_t i = 0; i < rows; i++) path->mode[i] *= side;
+}
+
+int32_t dmb_path_leave(dmb_path *path, double *arc)
+{
+    int32_t status = DMB_ERR_NO_CONVERGENCE;
+    straighten_mode(path);
+    for (int k = 0; k < DMB_LEAVE_TRIES; k++, *arc *= 0.5) {
+        status = dmb_path_correct(path, path->mode, 0.0, *arc);
+        if (status >= 0) status = dmb_path_tangent(path, path->mode);
+        if (status >= 0 || dmb_is_final(status)) break;
+        path->report.cuts++;
+    }
+    path->side = path->next.rate;
+    return status;
+}

@@ -1,9 +1,9 @@
-#include "analysis/linear/dynamic_stiffness.h"
-
 #include <math.h>
 #include <string.h>
 
+#include "analysis/linear/dynamic_stiffness.h"
 #include "base/memory.h"
+#include "system/constrain/cluster.h"
 
 /* ---- Memory ------------------------------------------------------------------------------------------------------ */
 
@@ -149,4 +149,220 @@ void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *s, int32_t moves, dmb_co
             dmb_complex_block_solve(&scene->layout, &s->factors, scene->chains[c].first, scene->chains[c].count, x);
     if (scene->cluster_count > 0) dmb_dynamic_links_solve(s, x);
     if (moves) add_told(s, x);
+}
+
+/* ---- Products ---------------------------------------------------------------------------------------------------- */
+
+static void subtract(dmb_complex_number a, dmb_complex_array x, uint32_t from, dmb_complex_array y, uint32_t to)
+{
+    y.re[to] -= a.re * x.re[from] - a.im * x.im[from];
+    y.im[to] -= a.re * x.im[from] + a.im * x.re[from];
+}
+
+static void add(dmb_complex_number a, dmb_complex_array x, uint32_t from, dmb_complex_number *sum)
+{
+    sum->re += a.re * x.re[from] - a.im * x.im[from];
+    sum->im += a.re * x.im[from] + a.im * x.re[from];
+}
+
+static int moves(dmb_complex_array p, uint32_t row)
+{
+    return p.re[row] != 0.0 || p.im[row] != 0.0;
+}
+
+/* ---- Entries of A ------------------------------------------------------------------------------------------------ */
+
+static dmb_complex_number entry_of(const dmb_dynamic_stiffness *s, const double *M, const double *C, const double *K,
+                                   size_t at)
+{
+    return dmb_dynamic_entry(s, M[at], C[at], K[at]);
+}
+
+/* Row r of node i, column c of node j, both solved and j next to i or i itself. */
+static dmb_complex_number entry_of_nodes(const dmb_dynamic_stiffness *s, uint32_t i, uint32_t r, uint32_t j, uint32_t c)
+{
+    const dmb_block_layout *layout = &s->linear->scene.layout;
+    const dmb_linear_matrix *M = &s->linear->mass, *C = &s->linear->damping, *K = &s->linear->stiffness;
+    const size_t at = (size_t)layout->size[j] * r + c;
+    if (j == i) return entry_of(s, M->diagonal, C->diagonal, K->diagonal, layout->diag[i] + at);
+    if (j > i) return entry_of(s, M->upper, C->upper, K->upper, layout->link[i] + at);
+    return entry_of(s, M->lower, C->lower, K->lower, layout->link[j] + at);
+}
+
+/* Entry of a held row or column, 18 of each matrix, with component c of the node next to it or itself. */
+static dmb_complex_number entry_of_held(const dmb_dynamic_stiffness *s, const double *lines, uint32_t i, uint32_t node,
+                                        uint32_t c)
+{
+    const double *M = lines + 54 * (size_t)i;
+    const size_t at = 6 * ((size_t)node + 1 - s->linear->scene.held_node[i]) + c;
+    return entry_of(s, M, M + 18, M + 36, at);
+}
+
+static dmb_complex_number entry_of_joint(const dmb_dynamic_stiffness *s, size_t at)
+{
+    const double *M = s->linear->whole_joints, *C = M + s->linear->scene.tangent_count;
+    return entry_of(s, M, C, C + s->linear->scene.tangent_count, at);
+}
+
+static int is_next_to(const dmb_scene *scene, uint32_t i, uint32_t node)
+{
+    const uint32_t held = scene->held_node[i];
+    return held <= node + 1 && node <= held + 1;
+}
+
+/* ---- Columns ----------------------------------------------------------------------------------------------------- */
+
+/* y -= A_.c p_c in the rows of the node and the nodes next to it. */
+static void subtract_column(const dmb_dynamic_stiffness *s, uint32_t node, uint32_t c, dmb_complex_array p,
+                            dmb_complex_array y)
+{
+    const dmb_block_layout *layout = &s->linear->scene.layout;
+    const uint32_t first = node > 0 ? node - 1 : node, last = node + 1 < layout->n ? node + 1 : node;
+    for (uint32_t i = first; i <= last; i++)
+        for (uint32_t r = 0; r < layout->size[i]; r++)
+            subtract(entry_of_nodes(s, i, r, node, c), p, layout->row[node] + c, y, layout->row[i] + r);
+}
+
+static void subtract_held_column(const dmb_dynamic_stiffness *s, uint32_t h, dmb_complex_array p, dmb_complex_array y)
+{
+    const dmb_scene *scene = &s->linear->scene;
+    const dmb_block_layout *layout = &scene->layout;
+    const uint32_t node = scene->held_node[h];
+    const uint32_t first = node > 0 ? node - 1 : node, last = node + 1 < layout->n ? node + 1 : node;
+    for (uint32_t i = first; i <= last; i++)
+        for (uint32_t r = 0; r < layout->size[i]; r++)
+            subtract(entry_of_held(s, s->linear->held_columns, h, i, r), p, dmb_held_row(scene, h), y,
+                     layout->row[i] + r);
+}
+
+/* y -= what a joint exerts on node a as its node b moves by p. */
+static void subtract_joint(const dmb_dynamic_stiffness *s, const dmb_constraint *c, uint32_t a, uint32_t b,
+                           dmb_complex_array p, dmb_complex_array y)
+{
+    const dmb_block_layout *layout = &s->linear->scene.layout;
+    for (uint32_t q = 0; q < layout->size[c->node[b]]; q++) {
+        const uint32_t from = layout->row[c->node[b]] + q;
+        if (!moves(p, from)) continue;
+        for (uint32_t r = 0; r < layout->size[c->node[a]]; r++)
+            subtract(entry_of_joint(s, c->tangent + (size_t)(c->column[a] + r) * c->columns + c->column[b] + q), p,
+                     from, y, layout->row[c->node[a]] + r);
+    }
+}
+
+void dmb_dynamic_subtract(const dmb_dynamic_stiffness *s, dmb_complex_array p, dmb_complex_array y)
+{
+    const dmb_scene *scene = &s->linear->scene;
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        for (uint32_t c = 0; c < scene->layout.size[i]; c++) {
+            const uint32_t row = scene->layout.row[i] + c;
+            if (scene->solved_row[row] && moves(p, row)) subtract_column(s, i, c, p, y);
+        }
+    for (uint32_t h = 0; h < scene->held_count; h++)
+        if (moves(p, dmb_held_row(scene, h))) subtract_held_column(s, h, p, y);
+    for (uint32_t i = 0; i < scene->constraint_count; i++) {
+        const dmb_constraint *c = scene->constraints + i;
+        for (uint32_t a = 0; a < c->node_count; a++)
+            for (uint32_t b = 0; b < c->node_count; b++) subtract_joint(s, c, a, b, p, y);
+    }
+}
+
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
+
+/* Index of a row among those that are held, or DMB_NONE. */
+static uint32_t held_of(const dmb_scene *scene, uint32_t node, uint32_t c)
+{
+    for (uint32_t i = 0; i < scene->held_count; i++)
+        if (scene->held_node[i] == node && scene->held_component[i] == c) return i;
+    return DMB_NONE;
+}
+
+/* The row times what is solved, and what is told, of the node and the nodes next to it. */
+static dmb_complex_number chain_row(const dmb_dynamic_stiffness *s, uint32_t node, uint32_t c, dmb_complex_array x)
+{
+    const dmb_scene *scene = &s->linear->scene;
+    const dmb_block_layout *layout = &scene->layout;
+    const uint32_t first = node > 0 ? node - 1 : node, last = node + 1 < layout->n ? node + 1 : node;
+    const uint32_t held = scene->solved_row[layout->row[node] + c] ? DMB_NONE : held_of(scene, node, c);
+    dmb_complex_number sum = {0.0, 0.0};
+    for (uint32_t j = first; j <= last; j++)
+        for (uint32_t q = 0; q < layout->size[j]; q++) {
+            if (!scene->solved_row[layout->row[j] + q]) continue;
+            add(held == DMB_NONE ? entry_of_nodes(s, node, c, j, q)
+                                 : entry_of_held(s, s->linear->held_rows, held, j, q),
+                x, layout->row[j] + q, &sum);
+        }
+    for (uint32_t h = 0; h < scene->held_count; h++)
+        if (is_next_to(scene, h, node) && moves(x, dmb_held_row(scene, h)))
+            add(entry_of_held(s, s->linear->held_columns, h, node, c), x, dmb_held_row(scene, h), &sum);
+    return sum;
+}
+
+static void add_joint_row(const dmb_dynamic_stiffness *s, const dmb_constraint *c, uint32_t a, uint32_t r,
+                          dmb_complex_array x, dmb_complex_number *sum)
+{
+    const dmb_block_layout *layout = &s->linear->scene.layout;
+    for (uint32_t b = 0; b < c->node_count; b++)
+        for (uint32_t q = 0; q < layout->size[c->node[b]]; q++)
+            add(entry_of_joint(s, c->tangent + (size_t)(c->column[a] + r) * c->columns + c->column[b] + q), x,
+                layout->row[c->node[b]] + q, sum);
+}
+
+dmb_complex_number dmb_dynamic_row(const dmb_dynamic_stiffness *s, uint32_t node, uint32_t c, dmb_complex_array x)
+{
+    const dmb_scene *scene = &s->linear->scene;
+    dmb_complex_number sum = chain_row(s, node, c, x);
+    if (scene->cluster_count == 0 || scene->node_cluster[node] == DMB_NONE) return sum;
+    const dmb_cluster *cluster = scene->clusters + scene->node_cluster[node];
+    for (uint32_t i = cluster->constraint; i < cluster->constraint + cluster->constraint_count; i++)
+        for (uint32_t a = 0; a < scene->constraints[i].node_count; a++)
+            if (scene->constraints[i].node[a] == node) add_joint_row(s, scene->constraints + i, a, c, x, &sum);
+    return sum;
+}
+
+/* ---- Multipliers ------------------------------------------------------------------------------------------------- */
+
+static uint32_t active_rows(const dmb_sim *sim, const dmb_cluster *cluster)
+{
+    uint32_t count = 0;
+    for (uint32_t r = cluster->row; r < cluster->row + cluster->rows; r++)
+        count += sim->constraint_type[r] != DMB_ROW_IDLE;
+    return count;
+}
+
+/* C_d^T f = -(A x - f) in the dependent rows; `rest` in the order of dependent columns. */
+static void solve_multipliers(dmb_sim *sim, uint32_t k, double *rest, double *multipliers)
+{
+    const dmb_cluster *cluster = sim->scene->clusters + k;
+    const dmb_partition partition = dmb_cluster_partition(sim, k);
+    const double *lu = sim->cluster_lu + cluster->square;
+    const uint32_t *pivot = sim->cluster_pivot + cluster->row;
+    dmb_partition_solve_transposed(&partition, lu, pivot, rest);
+    memset(multipliers, 0, cluster->rows * sizeof(double));
+    for (uint32_t i = 0; i < partition.rank; i++) multipliers[partition.row_order[i]] = rest[i];
+    if (partition.rank < active_rows(sim, cluster))
+        dmb_partition_least_norm(&(dmb_jacobian){sim->cluster_matrix + cluster->dense, cluster->columns, NULL},
+                                 &partition, lu, pivot, sim->cluster_gram + cluster->square, multipliers);
+}
+
+void dmb_dynamic_multipliers(const dmb_dynamic_stiffness *s, uint32_t k, dmb_complex_array x, dmb_complex_array f,
+                             dmb_complex_array multipliers)
+{
+    dmb_sim *work = s->linear->work;
+    const dmb_scene *scene = &s->linear->scene;
+    const dmb_cluster *cluster = scene->clusters + k;
+    const dmb_partition partition = dmb_cluster_partition(work, k);
+    double *re = s->links.rest, *im = re + cluster->rows;
+    for (uint32_t i = cluster->node; i < cluster->node + cluster->node_count; i++) {
+        const uint32_t node = scene->cluster_nodes[i];
+        for (uint32_t c = 0; c < scene->layout.size[node]; c++) {
+            const uint32_t place = work->cluster_place[cluster->column + scene->node_place[node] + c];
+            const uint32_t row = scene->layout.row[node] + c;
+            if (place >= partition.rank) continue;
+            const dmb_complex_number a = dmb_dynamic_row(s, node, c, x);
+            re[place] = f.re[row] - a.re;
+            im[place] = f.im[row] - a.im;
+        }
+    }
+    solve_multipliers(work, k, re, multipliers.re);
+    solve_multipliers(work, k, im, multipliers.im);
 }
