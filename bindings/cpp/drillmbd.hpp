@@ -148,6 +148,12 @@ public:
     dmb_id add_input(const dmb_input_def &def) { return add(dmb_model_add_input, def); }
     dmb_id add_spring(const dmb_spring_def &def) { return add(dmb_model_add_spring, def); }
     dmb_id add_force(const dmb_force_def &def) { return add(dmb_model_add_force, def); }
+    double set_motor(const dmb_motor &motor, dmb_drive_def &drive)
+    {
+        double speed = 0.0;
+        done(dmb_motor_drive(&motor, &drive, &speed));
+        return speed;
+    }
     dmb_id add_stuck(const dmb_stuck_def &def) { return add(dmb_model_add_stuck, def); }
     void set_name(dmb_id part, const char *name) { done(dmb_model_set_name(handle_, part, name)); }
     // The part of that name; throws where there is none, or parts of several kinds have it and no kind is given.

@@ -1,4 +1,4 @@
-/* libdrillmbd - bottom-hole assembly: places of a string that are stuck. */
+/* libdrillmbd - bottom-hole assembly: places of a string that are stuck, mud motors. */
 #ifndef DRILLMBD_BHA_H
 #define DRILLMBD_BHA_H
 
@@ -43,6 +43,23 @@ typedef struct dmb_stuck_state {
 } dmb_stuck_state;
 DMB_SIZED_STRUCT(dmb_stuck_state)
 DMB_API int32_t dmb_query_stuck(const dmb_sim *sim, dmb_id stuck, dmb_stuck_state *state);
+
+/* A mud motor between two sections of a string is a drive on a revolute joint between them (place_a at the far end of
+ * the section above, place_b at the rig end of the one below): the torque T = stall_torque (1 - w/w0) of the relative
+ * speed w, w0 = 2 pi flow/displacement, acts on both sections, equal and opposite, and its power is that of a drive. */
+typedef struct dmb_motor {
+    uint32_t struct_size;
+    int32_t brakes; /* 1: beyond w0 it holds back along the same line, as a pump; 0 (default): it runs free there */
+    double stall_torque; /* [N m] at w = 0, and the most it gives, > 0 */
+    double displacement; /* [m3] of mud a revolution, > 0 */
+    double flow;         /* [m3/s] through the motor, > 0 */
+} dmb_motor;
+DMB_SIZED_STRUCT(dmb_motor)
+/* Fills what makes the drive this motor (kind CONTROL, component RX, gain, limits; part, programme and name stay) and
+ * tells w0 [rad/s], the constant value of its programme. Another flow while it runs: inputs of the set point w0 and of
+ * the gain stall_torque/w0, set together. Errors: DMB_ERR_NULL, _STRUCT_SIZE, _VALUE, _NOT_FINITE; nothing is written
+ * then. */
+DMB_API int32_t dmb_motor_drive(const dmb_motor *motor, dmb_drive_def *drive, double *no_load_speed);
 
 #ifdef __cplusplus
 }

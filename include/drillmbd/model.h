@@ -255,8 +255,14 @@ typedef struct dmb_bit_def {
     double intrusion_depth;  /* [m] over which the wear-flat force is taken up, > 0; default 1e-4 */
     double bottom;           /* [m] distance of the hole bottom ahead of the bit at time 0, >= 0; default 0 */
     uint32_t blades;         /* [-] 1 .. 64; default 4 */
-    uint32_t history; /* [-] samples of the cut surface kept for the regenerative law, 64 .. 2^20; default 1024 */
-    char name[24];    /* for messages and look-up (names.h), ends with 0; default "" */
+    uint32_t history;    /* [-] samples of the cut surface kept for the regenerative law, 64 .. 2^20; default 1024 */
+    char name[24];       /* for messages and look-up (names.h), ends with 0; default "" */
+    double side_cutting; /* [-] steerability: depth that a side force cuts a revolution over the depth that the same
+                            force cuts along, d = F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own
+                            axes, whether it is on bottom or not, with any rock_law; the smaller, the more it drills
+                            along its own axis. The hole that it leaves is not felt by what follows: give the bit no
+                            `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways */
+    double walk_angle;   /* [rad] that it cuts about its axis away from the side force, -1.5 .. 1.5; default 0 */
 } dmb_bit_def;
 DMB_SIZED_STRUCT(dmb_bit_def)
 DMB_API int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_id *bit);

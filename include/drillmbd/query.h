@@ -160,13 +160,15 @@ DMB_API int32_t dmb_query_multipliers(const dmb_sim *sim, dmb_id part, double mu
 
 typedef struct dmb_bit_state {
     uint32_t struct_size;
-    int32_t on_bottom;   /* 1 while cutting or touching */
-    double advance;      /* [m] along the hole's axis since time 0 */
-    double bottom;       /* [m] advance at which rock begins */
-    double depth_of_cut; /* [m] per revolution, all blades */
-    double weight;       /* [N] weight on bit from the rock law, >= 0 */
-    double torque;       /* [N m] torque on bit from the rock law, against the rotation */
-    double load;         /* [N] bottom-hole load of the programme */
+    int32_t on_bottom;    /* 1 while cutting or touching */
+    double advance;       /* [m] along the hole's axis since time 0 */
+    double bottom;        /* [m] advance at which rock begins */
+    double depth_of_cut;  /* [m] per revolution, all blades */
+    double weight;        /* [N] weight on bit from the rock law, >= 0 */
+    double torque;        /* [N m] torque on bit from the rock law, against the rotation */
+    double load;          /* [N] bottom-hole load of the programme */
+    double side_force[3]; /* [N] of the rock on the bit across its axis (side_cutting), world frame, shape (3) */
+    double side_speed;    /* [m/s] it is cut sideways at, across its axis */
 } dmb_bit_state;
 DMB_SIZED_STRUCT(dmb_bit_state)
 DMB_API int32_t dmb_query_bit(const dmb_sim *sim, dmb_id bit, dmb_bit_state *state);

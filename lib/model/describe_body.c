@@ -65,6 +65,8 @@ static void check_rock(dmb_check *check, const dmb_bit_def *def)
     dmb_check_within(check, "contact_friction", def->contact_friction, 0.0, DMB_NUMBER_MAX);
     dmb_check_within(check, "intrusion_depth", def->intrusion_depth, DMB_DEPTH_MIN, DMB_LENGTH_MAX);
     dmb_check_within(check, "bottom", def->bottom, 0.0, DMB_LENGTH_MAX);
+    dmb_check_within(check, "side_cutting", def->side_cutting, 0.0, 1e3);
+    dmb_check_within(check, "walk_angle", def->walk_angle, -1.5, 1.5);
     dmb_check_count(check, "blades", def->blades, 1, BLADES_MAX);
     dmb_check_count(check, "history", def->history, HISTORY_MIN, HISTORY_MAX);
 }

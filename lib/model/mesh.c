@@ -184,7 +184,9 @@ static bool has_excitation(const dmb_model *model)
 static bool has_rock(const dmb_model *model)
 {
     for (uint32_t i = 0; i < model->bits.count; ++i) {
-        if (DMB_LIST_AT(const dmb_bit_def, model->bits, i)->rock_law != DMB_ROCK_NONE) return true;
+        if (DMB_LIST_AT(const dmb_bit_def, model->bits, i)->rock_law != DMB_ROCK_NONE ||
+            DMB_LIST_AT(const dmb_bit_def, model->bits, i)->side_cutting > 0.0)
+            return true;
     }
     return false;
 }

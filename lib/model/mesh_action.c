@@ -2,6 +2,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "math/elementary.h"
+#include "math/so3.h"
 #include "model/field_check.h"
 #include "model/mesh.h"
 
@@ -135,6 +137,23 @@ static dmb_bit_rock_law rock_law_of(const dmb_bit_def *def, bool wanted)
     return law;
 }
 
+/* Left out with the rock; PATH nodes do not move sideways. */
+static int32_t add_side(dmb_mesh *mesh, uint32_t i, const dmb_bit_def *def, dmb_scene_bit *bit)
+{
+    if (!(def->side_cutting > 0.0) || (mesh->features & DMB_FEATURE_ROCK) == 0) return DMB_OK;
+    if (dmb_mesh_node_at(mesh, bit->node)->size != DMB_NODE_FULL) {
+        dmb_message_set(
+            &mesh->model->message,
+            "bit %u: side_cutting = %g, must be 0 behind axial-torsional pipes, which do not move sideways; "
+            "describe flexible pipes",
+            i, def->side_cutting);
+        return DMB_ERR_UNSUPPORTED;
+    }
+    bit->side.resistance = DMB_TWO_PI * def->cutting_ratio * def->intrinsic_energy * def->radius / def->side_cutting;
+    dmb_sin_cos(def->walk_angle, &bit->side.sine, &bit->side.cosine);
+    return DMB_OK;
+}
+
 static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_bit_def *def = DMB_LIST_AT(const dmb_bit_def, mesh->model->bits, i);
@@ -148,7 +167,8 @@ static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
     if (bit.law.kind == DMB_ROCK_REGENERATIVE) bit.history_capacity = def->history;
     if (bit.history_capacity > UINT32_MAX - mesh->history_count) return DMB_ERR_TOO_LARGE;
     mesh->history_count += bit.history_capacity;
-    return dmb_vector_append(&mesh->bits, &mesh->model->allocator, &bit, 1);
+    const int32_t status = add_side(mesh, i, def, &bit);
+    return status < 0 ? status : dmb_vector_append(&mesh->bits, &mesh->model->allocator, &bit, 1);
 }
 
 int32_t dmb_mesh_actions(dmb_mesh *mesh)

@@ -24,6 +24,7 @@
 #include "force/joint_law.h"
 #include "force/normal_law.h"
 #include "force/programme.h"
+#include "force/side_cutting.h"
 #include "force/spring_law.h"
 #include "math/block_sparse.h"
 #include "math/block_tridiagonal.h"
@@ -76,6 +77,7 @@ typedef struct dmb_scene_bit {
     uint32_t history_first;    /* start of its samples in the history arrays */
     uint32_t history_capacity; /* 0 unless regenerative */
     double arm;                /* [m] along body x from the node to the bit (rigid pipes merged behind it); usually 0 */
+    dmb_side_law side;
 } dmb_scene_bit;
 
 /* A quantity that the caller moves in each sim by itself (sim/own_scene). */

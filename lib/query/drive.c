@@ -40,5 +40,6 @@ int32_t dmb_query_bit(const dmb_sim *sim, dmb_id bit, dmb_bit_state *state)
     answer.depth_of_cut = rock.depth_of_cut;
     answer.weight = rock.weight_on_bit;
     answer.torque = rock.torque_on_bit;
+    answer.side_speed = dmb_bit_side_of(sim, i, answer.side_force);
     return dmb_bit_state_write(state, &answer);
 }

@@ -163,11 +163,13 @@ static uint64_t add_bits(uint64_t h, const dmb_scene *s)
         const double numbers[] = {law->radius,           law->intrinsic_energy, law->cutting_ratio,
                                   law->contact_strength, law->wear_length,      law->contact_friction,
                                   law->intrusion_depth,  bit->bottom,           bit->arm};
+        const double side[] = {bit->side.resistance, bit->side.cosine, bit->side.sine};
         h = dmb_fnv_word(h, (uint32_t)law->kind);
         h = dmb_fnv_word(h, law->blades);
         h = dmb_fnv_word(h, bit->load);
         h = dmb_fnv_word(h, bit->history_capacity);
         h = DMB_NUMBERS(h, numbers);
+        if (bit->side.resistance > 0.0) h = DMB_NUMBERS(h, side);
     }
     return h;
 }

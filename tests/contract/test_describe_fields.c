@@ -261,7 +261,9 @@ static const field bit_fields[] = {F(dmb_bit_def, rock_law, WHOLE, 1),
                                    F(dmb_bit_def, intrusion_depth, REAL, 1),
                                    F(dmb_bit_def, bottom, REAL, 1),
                                    F(dmb_bit_def, blades, COUNT, 1),
-                                   F(dmb_bit_def, history, COUNT, 1)};
+                                   F(dmb_bit_def, history, COUNT, 1),
+                                   F(dmb_bit_def, side_cutting, REAL, 1),
+                                   F(dmb_bit_def, walk_angle, REAL, 1)};
 static void fill_bit(const scene_under_test *s, any_def *def)
 {
     def->bit = dmb_bit_def_default();

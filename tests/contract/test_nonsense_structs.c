@@ -53,7 +53,7 @@ INIT(hole_section)
 INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row) INIT(fatigue_options)
 INIT(fatigue_result) INIT(window_options) INIT(window_result) INIT(profile_recorder)
 INIT(parameter) INIT(input_def) INIT(input_info) INIT(input_state) INIT(spring_def) INIT(force_def) INIT(spring_state)
-INIT(stuck_def) INIT(stuck_state)
+INIT(stuck_def) INIT(stuck_state) INIT(motor)
 INIT(state_space_options) INIT(state_space_info) INIT(row)
     /* clang-format on */
 
@@ -353,6 +353,15 @@ CALL(input_info, with_model(get_info, p))
 CALL(input_state, with_model(get_state, p))
 CALL(spring_def, with_model(add_spring, p))
 CALL(stuck_def, with_model(add_stuck, p))
+static int32_t call_motor(void *p)
+{
+    dmb_motor *motor = p;
+    dmb_drive_def drive = dmb_drive_def_default();
+    double speed;
+    if (motor->struct_size >= sizeof *motor) motor->stall_torque = motor->displacement = motor->flow = 1.0;
+    return dmb_motor_drive(motor, &drive, &speed);
+}
+
 CALL(force_def, with_model(add_force, p))
 CALL(joint_def, with_model(add_joint, p))
 CALL(coupling_def, with_model(add_coupling, p))
@@ -604,7 +613,7 @@ static const entry entries[] = {
     ENTRY(energy, 1),
     ENTRY(momentum, 1),
     ENTRY(drive_state, 1),
-    ENTRY(bit_state, 1),
+    GROWN(bit_state, 56, 1),
     GROWN(statistics, 72, 1),
     GROWN(recorder, 48, 0),
     ENTRY(window_options, 0),
@@ -624,6 +633,7 @@ static const entry entries[] = {
     ENTRY(force_def, 0),
     ENTRY(spring_state, 1),
     ENTRY(stuck_def, 0),
+    ENTRY(motor, 0),
     ENTRY(stuck_state, 1),
     ENTRY(event_def, 0),
     {"event as described", sizeof(dmb_event_def), sizeof(dmb_event_def), init_event_def, call_event_got, 1},

@@ -34,7 +34,7 @@ from .enums import ENUMS, VERSION, __version__
 from .errors import Error, status_name, status_text
 from .fatigue import Fatigue
 from .inputs import InputLog, Inputs
-from .model import Model
+from .model import Model, motor_drive
 from .profile import Profile
 from .recorder import ProfileRecorder, Recorder
 from .sensitivity import Sensitivity, sensitivity_of
@@ -56,7 +56,7 @@ def __getattr__(name: str) -> object:
 
 __all__ = ["STRUCTS", "VERSION", "__version__", "Arrays", "Buckling", "Error", "Fatigue", "Model", "Modes", "Profile",
            "ProfileRecorder", "Progress", "Recorder", "Response", "Sensitivity", "Sim", "StateSpace", "TorqueDrag", "Window", "channel_name",
-           "channel_names", "channel_quantity", "channel_unit", "operation_name", "output", "sensitivity_of", "station", "status_name", "status_text", "usual_operation"]
+           "channel_names", "channel_quantity", "channel_unit", "motor_drive", "operation_name", "output", "sensitivity_of", "station", "status_name", "status_text", "usual_operation"]
 __all__ += [name for name, value in vars(_structs).items() if name.endswith("_FN") or value in STRUCTS.values()]
 __all__ += [name for name, value in vars(enums).items() if name.isupper() and isinstance(value, int)]
 __all__ += [cls.__name__ for cls in ENUMS]

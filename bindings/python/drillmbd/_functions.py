@@ -115,6 +115,8 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_modes_shape": (c_int32, c_void_p, c_uint32, Place, POINTER(ModeShape),),
     "dmb_momentum_init": (c_int32, POINTER(Momentum), c_uint32,),
     "dmb_motion_init": (c_int32, POINTER(Motion), c_uint32,),
+    "dmb_motor_drive": (c_int32, POINTER(Motor), POINTER(DriveDef), POINTER(c_double),),
+    "dmb_motor_init": (c_int32, POINTER(Motor), c_uint32,),
     "dmb_operation_init": (c_int32, POINTER(Operation), c_uint32,),
     "dmb_operation_name": (c_char_p, c_int32,),
     "dmb_operation_usual": (c_int32, c_int32, POINTER(Operation),),
@@ -344,6 +346,8 @@ FUNCTION_DOCS = {
         "[J] kinetic and strain energy of the mode, as in dmb_mode, in a pipe of a string with half of what is fixed to its two ends, in a whole string (pipe = NONE), or in a body or bit (pipe 0). O(elements of it).",
     "dmb_modes_shape":
         "Shape at a place, between nodes by the element's own shape functions. O(1).",
+    "dmb_motor_drive":
+        "Fills what makes the drive this motor (kind CONTROL, component RX, gain, limits; part, programme and name stay) and tells w0 [rad/s], the constant value of its programme. Another flow while it runs: inputs of the set point w0 and of the gain stall_torque/w0, set together. Errors: ERR_NULL, _STRUCT_SIZE, _VALUE, _NOT_FINITE; nothing is written then.",
     "dmb_operation_name":
         "\"pick-up\", \"slack-off\", ...; NULL for a number that is none.",
     "dmb_operation_usual":

@@ -539,6 +539,8 @@ class BitState(Sized):
     weight: float
     torque: float
     load: float
+    side_force: 'Array[c_double]'
+    side_speed: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("on_bottom", c_int32),
@@ -548,6 +550,8 @@ class BitState(Sized):
         ("weight", c_double),
         ("torque", c_double),
         ("load", c_double),
+        ("side_force", c_double * 3),
+        ("side_speed", c_double),
     ]
     field_docs = {
         "on_bottom": ("", "1 while cutting or touching"),
@@ -557,6 +561,8 @@ class BitState(Sized):
         "weight": ("N", "weight on bit from the rock law, >= 0"),
         "torque": ("N m", "torque on bit from the rock law, against the rotation"),
         "load": ("N", "bottom-hole load of the programme"),
+        "side_force": ("N", "of the rock on the bit across its axis (side_cutting), world frame, shape (3)"),
+        "side_speed": ("m/s", "it is cut sideways at, across its axis"),
     }
 
 
@@ -1111,6 +1117,28 @@ class StuckState(Sized):
         "force": ("N, N, N, N m", "that holds it, on the string, in the same order"),
         "share": ("-", "largest of |axial force|/overpull and |torque|/overtorque; it lets go at 1"),
         "energy": ("J", "stored in the springs"),
+    }
+
+
+class Motor(Sized):
+    c_name, about = "dmb_motor", "A mud motor between two sections of a string is a drive on a revolute joint between them (place_a at the far end of the section above, place_b at the rig end of the one below): the torque T = stall_torque (1 - w/w0) of the relative speed w, w0 = 2 pi flow/displacement, acts on both sections, equal and opposite, and its power is that of a drive."
+    struct_size: int
+    brakes: int
+    stall_torque: float
+    displacement: float
+    flow: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("brakes", c_int32),
+        ("stall_torque", c_double),
+        ("displacement", c_double),
+        ("flow", c_double),
+    ]
+    field_docs = {
+        "brakes": ("", "1: beyond w0 it holds back along the same line, as a pump; 0 (default): it runs free there"),
+        "stall_torque": ("N m", "at w = 0, and the most it gives, > 0"),
+        "displacement": ("m3", "of mud a revolution, > 0"),
+        "flow": ("m3/s", "through the motor, > 0"),
     }
 
 
@@ -2042,6 +2070,8 @@ class BitDef(Sized):
     blades: int
     history: int
     name: bytes
+    side_cutting: float
+    walk_angle: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("rock_law", c_int32),
@@ -2062,6 +2092,8 @@ class BitDef(Sized):
         ("blades", c_uint32),
         ("history", c_uint32),
         ("name", c_char * 24),
+        ("side_cutting", c_double),
+        ("walk_angle", c_double),
     ]
     field_docs = {
         "rock_law": ("", "ROCK_..., default ROCK_NONE"),
@@ -2082,6 +2114,8 @@ class BitDef(Sized):
         "blades": ("-", "1 .. 64; default 4"),
         "history": ("-", "samples of the cut surface kept for the regenerative law, 64 .. 2^20; default 1024"),
         "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
+        "side_cutting": ("-", "steerability: depth that a side force cuts a revolution over the depth that the same force cuts along, d = F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own axes, whether it is on bottom or not, with any rock_law; the smaller, the more it drills along its own axis. The hole that it leaves is not felt by what follows: give the bit no `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways"),
+        "walk_angle": ("rad", "that it cuts about its axis away from the side force, -1.5 .. 1.5; default 0"),
     }
 
 
@@ -3088,6 +3122,7 @@ STRUCTS["dmb_event_def"] = EventDef
 STRUCTS["dmb_event_report"] = EventReport
 STRUCTS["dmb_stuck_def"] = StuckDef
 STRUCTS["dmb_stuck_state"] = StuckState
+STRUCTS["dmb_motor"] = Motor
 STRUCTS["dmb_operation"] = Operation
 STRUCTS["dmb_torque_drag_options"] = TorqueDragOptions
 STRUCTS["dmb_torque_drag_row"] = TorqueDragRow

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from ctypes import byref, c_size_t, c_uint32, c_void_p, create_string_buffer
+from ctypes import byref, c_double, c_size_t, c_uint32, c_void_p, create_string_buffer
 from typing import TYPE_CHECKING, Any
 
 from ._handle import Handle
@@ -11,9 +11,10 @@ from ._library import lib as _lib
 from ._record import Record
 from ._structs import (BitDef, BodyDef, Channel, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef,
                        EventDef, ForceDef, HolePoint, HoleSection, Id, InputDef, InputInfo, JointDef, LoadDef, ModelInfo,
-                       ModelOptions, PipeDef, Place, SimOptions, SpringDef, StringDef, StuckDef, Term,
+                       ModelOptions, Motor, PipeDef, Place, SimOptions, SpringDef, StringDef, StuckDef, Term,
                        WallDef)
 from .enums import NAME_SIZE, PartKind, Status
+from .errors import check
 
 if TYPE_CHECKING:
     from .sim import Sim
@@ -292,6 +293,14 @@ class Model(Handle):
     def write_vtk_hole(self, path: Any, depth0: float, depth1: float, spacing: float = 1.0, around: int = 24) -> None:
         """Writes the hole from depth0 to depth1 [m] as a tube for ParaView."""
         self._check(_lib.dmb_write_vtk_hole(self._handle, depth0, depth1, spacing, around, path_of(path)))
+
+
+def motor_drive(definition: Motor | None = None, **fields: Any) -> tuple[DriveDef, float]:
+    """A mud motor, by a Motor or its fields (stall_torque [N m], displacement [m3], flow [m3/s]), as the drive of the joint
+    that it stands in, and its no-load speed [rad/s], the constant value of the drive's programme."""
+    drive, speed = DriveDef(), c_double()
+    check(_lib.dmb_motor_drive(byref(struct(Motor, definition, fields)), byref(drive), byref(speed)))
+    return drive, speed.value
 
 
 # ---- Making a model again --------------------------------------------------------------------------------------------

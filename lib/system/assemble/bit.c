@@ -199,9 +199,82 @@ static void gather_bit(dmb_evaluation *evaluation, uint32_t k)
     add_tangent(evaluation, k, &m, &r, wrench);
 }
 
+/* ---- Cutting sideways -------------------------------------------------------------------------------------------- */
+
+/* Velocity of the bit across its axis, y and z of the body: rows (0, 1, 0, 0, 0, arm) and (0, 0, 1, 0, -arm, 0). */
+static void side_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t k, double v[2], dmb_side_force *side)
+{
+    const dmb_scene_bit *bit = scene->bits + k;
+    double at[6];
+    dmb_node_vector(scene, c, bit->node, c->velocity, at);
+    v[0] = at[1] + bit->arm * at[5];
+    v[1] = at[2] - bit->arm * at[4];
+    dmb_side_force_at(&bit->side, v, at[3], side);
+}
+
+/* C = D/w (Jy (cos Jy + sin Jz) + Jz (cos Jz - sin Jy)), less the force by the spin. */
+static void add_side_tangent(dmb_evaluation *evaluation, uint32_t k, const dmb_side_force *side)
+{
+    const dmb_scene_bit *bit = evaluation->sim->scene->bits + k;
+    const double J[2][6] = {{0.0, 1.0, 0.0, 0.0, 0.0, bit->arm}, {0.0, 0.0, 1.0, 0.0, -bit->arm, 0.0}};
+    const double about[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, c = evaluation->velocity_factor * side->eta;
+    double C[36];
+    dmb_mat6_zero(C);
+    for (int i = 0; i < 2; i++) {
+        dmb_mat6_add_outer(c * bit->side.cosine, J[i], J[i], C);
+        dmb_mat6_add_outer((i == 0 ? c : -c) * bit->side.sine, J[i], J[1 - i], C);
+        dmb_mat6_add_outer(-evaluation->velocity_factor * side->by_spin[i], J[i], about, C);
+    }
+    dmb_mat6_axpy(1.0, C, dmb_inertia_of(evaluation->sim, bit->node));
+}
+
+/* The rounding of the velocities that the speed across the axis is the sum of (system/assemble/springs). */
+static void count_side_rounding(dmb_evaluation *evaluation, uint32_t k, const dmb_side_force *side)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const dmb_scene_bit *bit = sim->scene->bits + k;
+    double v[6];
+    if (!evaluation->extrapolated && evaluation->step != 0.0) return;
+    dmb_node_vector(sim->scene, &sim->trial, bit->node, sim->trial.velocity, v);
+    const double force = side->eta * (dmb_vec3_norm(v) + fabs(bit->arm) * dmb_vec3_norm(v + 3));
+    evaluation->rounding += force * force;
+}
+
+static void gather_side(dmb_evaluation *evaluation, uint32_t k)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene_bit *bit = sim->scene->bits + k;
+    dmb_side_force side;
+    double v[2];
+    if (!evaluation->dynamic || !(bit->side.resistance > 0.0)) return;
+    side_of(sim->scene, &sim->trial, k, v, &side);
+    const double wrench[6] = {
+        0.0, side.force[0], side.force[1], 0.0, -bit->arm * side.force[1], bit->arm * side.force[0]};
+    dmb_apply_wrench(sim, bit->node, wrench);
+    evaluation->power[DMB_POWER_ROCK] += side.force[0] * v[0] + side.force[1] * v[1];
+    count_side_rounding(evaluation, k, &side);
+    if (evaluation->tangent) add_side_tangent(evaluation, k, &side);
+}
+
+double dmb_bit_side_of(const dmb_sim *sim, uint32_t k, double force[3])
+{
+    double R[9], u[3], v[2];
+    dmb_side_force side;
+    dmb_vec3_zero(force);
+    if (!(sim->scene->bits[k].side.resistance > 0.0)) return 0.0;
+    side_of(sim->scene, &sim->now, k, v, &side);
+    dmb_node_pose(sim->scene, &sim->now, sim->scene->bits[k].node, R, u);
+    const double across[3] = {0.0, side.force[0], side.force[1]};
+    dmb_mat3_vec(R, across, force);
+    return sqrt(v[0] * v[0] + v[1] * v[1]);
+}
+
 void dmb_gather_bits(dmb_evaluation *evaluation)
 {
-    for (uint32_t k = 0; k < evaluation->sim->scene->bit_count; k++) gather_bit(evaluation, k);
+    for (uint32_t k = 0; k < evaluation->sim->scene->bit_count; k++) {
+        gather_bit(evaluation, k);
+        gather_side(evaluation, k);
+    }
 }
 
 static void motion_now(const dmb_sim *sim, uint32_t k, bit_motion *m)

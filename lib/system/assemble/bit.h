@@ -10,6 +10,8 @@ typedef struct dmb_bit_rock_result dmb_bit_rock_result;
 /* Rock law's answer and the bottom-hole load [N] of a bit in the accepted state. */
 void dmb_bit_force_of(const dmb_sim *sim, uint32_t bit, dmb_bit_rock_result *out, double *load);
 /* [m/s] of a bit along the axis of the hole in the accepted state, the rate of its advance. */
+/* [N] of the rock across the bit's axis, world frame; the speed across it [m/s]. 0 where it does not cut sideways. */
+double dmb_bit_side_of(const dmb_sim *sim, uint32_t k, double force[3]);
 double dmb_bit_speed_of(const dmb_sim *sim, uint32_t bit);
 /* Motion of a bit along and about the axis of the hole, in the body frame of its node, and slopes of weight and torque
  * by advance, angle, speed and spin. */

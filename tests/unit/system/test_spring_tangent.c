@@ -1,6 +1,7 @@
-/* Iteration matrix of springs, of stuck places, of loads at any place and of the caller's forces (within nodes, inside
- * elements, across parts) against differences of the residual by the increments of a step, which move poses and
- * velocities together; and the force of springs and stuck places against differences of their energy. */
+/* Iteration matrix of springs, of stuck places, of bits that cut sideways, of loads at any place and of the caller's
+ * forces (within nodes, inside elements, across parts) against differences of the residual by the increments of a step,
+ * which move poses and velocities together; and the force of springs and stuck places against differences of their
+ * energy. */
 #include <string.h>
 
 #include "mechanism.h"
@@ -178,6 +179,18 @@ static void add_stuck(rig *s, const parts *p)
     }
 }
 
+/* Off the node, with a walk angle; a rock law would be no smooth function of the motion. */
+static void add_side_cutting(rig *s, const parts *p)
+{
+    dmb_bit_def bit = dmb_bit_def_default();
+    bit.string = p->beam;
+    bit.diameter = 0.0;
+    bit.intrinsic_energy = 10.0;
+    bit.side_cutting = 0.7;
+    bit.walk_angle = 0.4;
+    must_model(s, dmb_model_add_bit(s->model, &bit, NULL));
+}
+
 static void open_scene(rig *s, int springs, int loads, int across)
 {
     parts p;
@@ -186,6 +199,7 @@ static void open_scene(rig *s, int springs, int loads, int across)
     if (springs & 1) add_springs(s, &p, across);
     if (springs & 2) add_forces(s, &p, across);
     if (springs & 4) add_stuck(s, &p);
+    if (springs & 8) add_side_cutting(s, &p);
     if (loads) add_loads(s, &p);
     (void)mechanism_start(s, NULL);
     assert_true(s->sim->scene->row_count <= ROWS_MAX);
@@ -271,6 +285,7 @@ static void matrix_is_the_derivative(void **state)
     check_below("springs within nodes and elements, step", worst_of(1, 0, 0, 1), 1e-9);
     check_below("springs across parts, step", worst_of(1, 1, 1, 1), 1e-9);
     check_below("stuck places, step", worst_of(4, 0, 0, 1), 1e-9);
+    check_below("a bit that cuts sideways, step", worst_of(8, 0, 0, 1), 1e-9);
     check_below("the caller's forces within an element, step", worst_of(2, 0, 0, 1), 1e-8);
 }
 

@@ -1,0 +1,79 @@
+/* A bit behind a mud motor, which adds its speed to the string's and gives way as the torque on the bit grows. */
+#include <drillmbd/drillmbd.h>
+#include <stdio.h>
+static dmb_model *model;
+
+static dmb_id add_section(double position, int32_t start_free)
+{
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def rod = dmb_pipe_def_default();
+    string.follows_hole = 0;
+    string.position[0] = position;
+    string.start_free = start_free;
+    (void)dmb_model_add_string(model, &string, &rod.string);
+    (void)dmb_model_add_pipes(model, &rod, 2, NULL);
+    return rod.string;
+}
+
+static dmb_id add_constant(double value)
+{
+    dmb_term constant = dmb_term_default();
+    dmb_id programme;
+    constant.h0 = value;
+    return dmb_model_add_programme(model, &constant, 1, &programme) < 0 ? (dmb_id){0, 0} : programme;
+}
+
+static dmb_id describe(void)
+{
+    const double times[] = {1.0, 11.0}, torques[] = {0.0, -1000.0};
+    dmb_environment_def mud = dmb_environment_def_default();
+    dmb_joint_def joint = dmb_joint_def_default();
+    dmb_motor motor = dmb_motor_default();
+    dmb_drive_def turn = dmb_drive_def_default(), drive = dmb_drive_def_default();
+    dmb_load_def rock = dmb_load_def_default();
+    dmb_term ramp = {.struct_size = sizeof ramp, .kind = DMB_TERM_TABLE, .table_time = times, .table_count = 2};
+    double no_load_speed = 0.0;
+    dmb_id id;
+    mud.gravity[2] = 0.0;
+    mud.lateral_damping = 100.0;
+    mud.torsional_damping = 0.5;
+    (void)dmb_model_set_environment(model, &mud);
+    turn.part = add_section(0.0, DMB_FREE_RX);
+    turn.component = DMB_RX, turn.programme = add_constant(2.0);
+    (void)dmb_model_add_drive(model, &turn, NULL);
+    joint.kind = DMB_JOINT_REVOLUTE;
+    joint.place_a = dmb_station(turn.part, 1, 1.0);
+    joint.place_b = dmb_station(add_section(2.0, DMB_FREE_ALL), 0, 0.0);
+    (void)dmb_model_add_joint(model, &joint, &drive.part);
+    motor.stall_torque = 900.0;
+    motor.displacement = 0.012; /* 12 l a revolution, 15 l/s of mud */
+    motor.flow = 0.015;
+    (void)dmb_motor_drive(&motor, &drive, &no_load_speed);
+    drive.programme = add_constant(no_load_speed);
+    (void)dmb_model_add_drive(model, &drive, &id);
+    ramp.table_value = torques;
+    rock.place = dmb_station(joint.place_b.part, 1, 1.0);
+    rock.moment[0] = 1.0;
+    (void)dmb_model_add_programme(model, &ramp, 1, &rock.programme);
+    (void)dmb_model_add_load(model, &rock, NULL);
+    return id;
+}
+
+int main(void)
+{
+    dmb_sim *sim = NULL;
+    dmb_drive_state at = dmb_drive_state_default();
+    if (dmb_model_create(NULL, &model) < 0) return 1;
+    const dmb_id motor = describe();
+    int32_t status = dmb_model_compile(model, NULL); /* fails with what was refused before, too */
+    if (status >= 0) status = dmb_sim_create(model, NULL, &sim);
+    for (double time = 1.0; time < 10.0 && status >= 0; time += 2.0) {
+        status = dmb_sim_advance(sim, time, NULL);
+        if (status >= 0) status = dmb_query_drive(sim, motor, &at);
+        printf("%5.1f N m: motor %5.2f rad/s, bit %5.2f rad/s, %5.0f W\n", at.force, at.speed, 2.0 + at.speed,
+               at.power);
+    }
+    dmb_sim_destroy(&sim);
+    dmb_model_destroy(&model);
+    return status < 0;
+}
