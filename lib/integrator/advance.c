@@ -11,7 +11,7 @@
 #include "sim/access.h"
 
 /* Step length that the control chooses after an error of `error` tolerances. Without clusters the factors of a step of
- * the same length may serve (kept_factors), so a length is held while the ratio lies in 0.9 .. 1.2; with them every
+ * the same length may serve (factor reuse), so a length is held while the ratio lies in 0.9 .. 1.2; with them every
  * step makes its own. */
 static double next_step(const dmb_sim *sim, double h, double error)
 {

@@ -14,9 +14,9 @@ typedef struct dmb_attempt {
     uint32_t iterations;
     int32_t status;   /* DMB_OK, DMB_NOTE_WORK_LIMITED, or why the step failed */
     uint32_t block;   /* block found singular, with DMB_ERR_SINGULAR */
-    int32_t whole;    /* 1: the step stands by itself, so it may use and leave kept factors */
+    int32_t whole;    /* 1: the step stands by itself, so it may use and leave reused factors */
     int32_t factored; /* DMB_FACTORS_...: what the last iteration was done with */
-    int32_t tried;    /* 1: kept factors were tried */
+    int32_t tried;    /* 1: reused factors were tried */
     int32_t astray;   /* 1: they led to nothing, and the step began again with factors of its own */
     int32_t released; /* 1: contacts opened, and the step was taken again without their force */
 } dmb_attempt;

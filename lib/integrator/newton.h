@@ -11,7 +11,7 @@ typedef struct dmb_newton_course {
     double first, last; /* relative residual at the start, and before the last correction */
     double balance;     /* [N] norm of the terms that balanced at the start */
     uint32_t corrections;
-    int32_t hidden; /* 1: all that shows is rounding, but kept factors still find something below it */
+    int32_t hidden; /* 1: all that shows is rounding, but reused factors still find something below it */
 } dmb_newton_course;
 
 /* Iterates on the trial, attempt->evaluation being set up for it. 0 or DMB_NOTE_WORK_LIMITED: done, < 0: failed. */
@@ -23,7 +23,7 @@ int32_t dmb_newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *at
 /* Kept factors converge linearly and end just below their tolerance, where fresh ones end far below: they aim lower. */
 #define DMB_REUSE_TOLERANCE 0.2
 
-/* Start of an iteration: with the kept factors where there are any for this step, else with none. */
+/* Start of an iteration: with the reused factors where there are any for this step, else with none. */
 void dmb_factor_reuse_begin(dmb_sim *sim, dmb_attempt *attempt);
 /* [-] Relative residual that the factors in use aim at. */
 static inline double dmb_factor_reuse_aim(const dmb_sim *sim, const dmb_attempt *attempt)
@@ -32,13 +32,13 @@ static inline double dmb_factor_reuse_aim(const dmb_sim *sim, const dmb_attempt 
     return attempt->factored == DMB_FACTORS_REUSED ? DMB_REUSE_TOLERANCE * own : own;
 }
 
-/* The rounding of stiff elements hides what kept factors leave in soft directions: they go on while it pays. */
+/* The rounding of stiff elements hides what reused factors leave in soft directions: they go on while it pays. */
 int32_t dmb_factor_reuse_still_pay(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course);
 /* Factors that are there do when two more corrections at the present rate reach what they aim at; kept ones also for a
  * first correction, which shows their rate. */
 int32_t dmb_factor_reuse_will_do(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course);
 /* After a successful step: its factors are kept for the steps to come, until the corrections that these have taken
- * beyond the first such step have cost as much as new ones. Where kept factors did not do within a step, the next try
+ * beyond the first such step have cost as much as new ones. Where reused factors did not do within a step, the next try
  * waits, longer each time. */
 void dmb_factor_reuse_end(dmb_sim *sim, const dmb_attempt *attempt);
 

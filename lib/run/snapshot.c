@@ -1,5 +1,5 @@
 /* Saving and restoring all that changes. A snapshot is a header and the fields of the accepted configuration, the
- * memory and the kept factors one after the other, without gaps. */
+ * memory and the reused factors one after the other, without gaps. */
 #include <string.h>
 
 #include "run/fingerprint.h"

@@ -176,7 +176,7 @@ static int32_t check_counters(const probe *p)
     return DMB_OK;
 }
 
-static int32_t check_kept(const probe *p)
+static int32_t check_factors(const probe *p)
 {
     dmb_factor_reuse kept;
     memcpy(&kept, p->from, sizeof kept);
@@ -203,7 +203,7 @@ static int32_t check_field(const probe *p)
     case DMB_CHECK_CLOCK: return check_clock(p);
     case DMB_CHECK_LEDGER: return check_numbers(p, 0, sizeof(dmb_ledger) / sizeof(double)); /* all members are */
     case DMB_CHECK_COUNTERS: return check_counters(p);
-    case DMB_CHECK_REUSE: return check_kept(p);
+    case DMB_CHECK_REUSE: return check_factors(p);
     default: return refuse(p, 0, p->field->check, "a field with a check"); /* not reached */
     }
 }

@@ -35,7 +35,7 @@ typedef struct field_counts {
         (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd,     \
         (void)kl, (void)kn, (void)sb, (void)pb, (void)f
 
-/* [byte] of the state that is set aside in `backup`. A snapshot holds the kept factors too. */
+/* [byte] of the state that is set aside in `backup`. A snapshot holds the reused factors too. */
 #define DMB_ADD_BYTES(type, name, count, check) +(count) * sizeof(type)
 static uint64_t state_bytes(const field_counts *counts)
 {
@@ -122,7 +122,7 @@ static void take_memory(dmb_arena *arena, const field_counts *counts, dmb_sim *t
     DMB_MEMORY_LIST(DMB_TAKE)
 }
 
-static void take_kept(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
+static void take_factors(dmb_arena *arena, const field_counts *counts, dmb_sim *to)
 {
     DMB_COUNT_NAMES(counts);
     DMB_FACTOR_LIST(DMB_TAKE)
@@ -144,7 +144,7 @@ static dmb_sim *lay_out(dmb_arena *arena, const dmb_scene *scene)
     dmb_sim *to = sim != NULL ? sim : &nowhere;
     take_configuration(arena, &counts, &to->now);
     take_memory(arena, &counts, to);
-    take_kept(arena, &counts, to);
+    take_factors(arena, &counts, to);
     take_configuration(arena, &counts, &to->trial);
     take_work(arena, &counts, to);
     if (scene->input_count > 0) to->own = dmb_own_scene_take(arena, scene);
@@ -210,7 +210,7 @@ static void put_memory(field_table *table, const field_counts *counts, const dmb
     DMB_MEMORY_LIST(DMB_PUT)
 }
 
-static void put_kept(field_table *table, const field_counts *counts, const dmb_sim *from)
+static void put_factors(field_table *table, const field_counts *counts, const dmb_sim *from)
 {
     DMB_COUNT_NAMES(counts);
     DMB_FACTOR_LIST(DMB_PUT)
@@ -229,7 +229,7 @@ size_t dmb_sim_fields(const dmb_sim *sim, int32_t first_group, int32_t last_grou
     for (table.group = first_group; table.group <= last_group; ++table.group) {
         if (table.group == DMB_GROUP_NOW) put_configuration(&table, &counts, &sim->now);
         if (table.group == DMB_GROUP_MEMORY) put_memory(&table, &counts, sim);
-        if (table.group == DMB_GROUP_FACTORS) put_kept(&table, &counts, sim);
+        if (table.group == DMB_GROUP_FACTORS) put_factors(&table, &counts, sim);
         if (table.group == DMB_GROUP_TRIAL) put_configuration(&table, &counts, &sim->trial);
         if (table.group == DMB_GROUP_WORK) put_work(&table, &counts, sim);
     }

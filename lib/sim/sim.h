@@ -112,10 +112,10 @@
 /* clang-format off */
 #define DMB_FACTOR_LIST(X)                                                                                            \
     /* system/solve/solve: */                                                                                         \
-    X(double, kept_diagonal, kd, NUMBERS)                                                                             \
-    X(double, kept_lower, kl, NUMBERS)                                                                                \
-    X(double, kept_upper, kl, NUMBERS)                                                                                \
-    X(double, kept_quaternion, 4 * kn, NUMBERS) /* of the nodes where they were made */                               \
+    X(double, reused_diagonal, kd, NUMBERS)                                                                             \
+    X(double, reused_lower, kl, NUMBERS)                                                                                \
+    X(double, reused_upper, kl, NUMBERS)                                                                                \
+    X(double, reused_quaternion, 4 * kn, NUMBERS) /* of the nodes where they were made */                               \
     X(dmb_factor_reuse, reuse, 1, REUSE) /* integrator/newton; cleared by system/solve/solve */
 /* clang-format on */
 
@@ -203,7 +203,7 @@
     X(uint8_t, backup, backup)          /* the state before a call that takes more than one step, sim/layout */
 /* clang-format on */
 
-/* Factors that corrections are solved with: none, inverses of this step, those kept from an earlier one (both
+/* Factors that corrections are solved with: none, inverses of this step, those of an earlier one (both
  * math/block_inverse), LU factors (math/block_tridiagonal: statics). */
 enum { DMB_FACTORS_NONE = 0, DMB_FACTORS_FRESH = 1, DMB_FACTORS_REUSED = 2, DMB_FACTORS_LU = 3 };
 

@@ -180,8 +180,8 @@ void dmb_pencil_multiply(const dmb_pencil *pencil, const dmb_pencil_matrix *A, c
         if (!scene->chains[c].jointed)
             dmb_block_multiply(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count, x, y);
     if (scene->cluster_count == 0) return;
-    const dmb_block_sparse linked = sparse_of(pencil, A);
-    dmb_block_sparse_multiply(&scene->pattern, &linked, pencil->sim->reduced_row, x + scene->row_count,
+    const dmb_block_sparse reduced = sparse_of(pencil, A);
+    dmb_block_sparse_multiply(&scene->pattern, &reduced, pencil->sim->reduced_row, x + scene->row_count,
                               y + scene->row_count);
 }
 
@@ -195,8 +195,8 @@ int dmb_pencil_shift_and_factor(dmb_pencil *pencil, double factor)
             dmb_block_factor(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count) >= 0)
             return 0;
     if (scene->cluster_count == 0) return 1;
-    dmb_block_sparse linked = sparse_of(pencil, &pencil->work);
-    return dmb_block_sparse_factor(&scene->pattern, &linked) < 0;
+    dmb_block_sparse reduced = sparse_of(pencil, &pencil->work);
+    return dmb_block_sparse_factor(&scene->pattern, &reduced) < 0;
 }
 
 void dmb_pencil_solve(const dmb_pencil *pencil, double *x)
@@ -207,8 +207,8 @@ void dmb_pencil_solve(const dmb_pencil *pencil, double *x)
         if (!scene->chains[c].jointed)
             dmb_block_solve(&scene->layout, &matrix, scene->chains[c].first, scene->chains[c].count, x);
     if (scene->cluster_count == 0) return;
-    const dmb_block_sparse linked = sparse_of(pencil, &pencil->work);
-    dmb_block_sparse_solve(&scene->pattern, &linked, pencil->sim->reduced_row, x + scene->row_count);
+    const dmb_block_sparse reduced = sparse_of(pencil, &pencil->work);
+    dmb_block_sparse_solve(&scene->pattern, &reduced, pencil->sim->reduced_row, x + scene->row_count);
 }
 
 /* Vectors of one factor are taken apart in x . G x, which is negative for factors > 0. */

@@ -114,10 +114,10 @@ static double moved_answer(dmb_sim *copy, dmb_answer *answer, const void *what, 
     const dmb_scene *scene = copy->scene;
     const uint32_t node = dmb_node_of_row(scene, row), c = row - scene->layout.row[node];
     double *q = copy->now.quaternion + 4 * (size_t)node, *x = copy->now.displacement + 3 * (size_t)node;
-    double kept_q[4], kept_x[3], z[6] = {0.0};
-    const double kept_turn = copy->now.turn[node];
-    memcpy(kept_q, q, sizeof kept_q);
-    memcpy(kept_x, x, sizeof kept_x);
+    double start_q[4], start_x[3], z[6] = {0.0};
+    const double start_turn = copy->now.turn[node];
+    memcpy(start_q, q, sizeof start_q);
+    memcpy(start_x, x, sizeof start_x);
     z[c] = step;
     if (scene->layout.size[node] == DMB_NODE_FULL) {
         dmb_se3_advance(q, x, z);
@@ -126,9 +126,9 @@ static double moved_answer(dmb_sim *copy, dmb_answer *answer, const void *what, 
         copy->now.turn[node] += z[1];
     }
     const double value = answer(copy, what);
-    memcpy(q, kept_q, sizeof kept_q);
-    memcpy(x, kept_x, sizeof kept_x);
-    copy->now.turn[node] = kept_turn;
+    memcpy(q, start_q, sizeof start_q);
+    memcpy(x, start_x, sizeof start_x);
+    copy->now.turn[node] = start_turn;
     return value;
 }
 

@@ -19,9 +19,9 @@ enum { DMB_SETTLE_POSE = 1, DMB_SETTLE_SPEED = 2, DMB_SETTLE_ACCELERATION = 4, D
 void dmb_clusters_prepare(dmb_sim *sim);
 /* Rows and matrices at the trial. DMB_OK, DMB_ERR_CALLBACK, DMB_ERR_NOT_FINITE. */
 int32_t dmb_clusters_gather(dmb_evaluation *evaluation);
-/* One step of Gauss-Newton towards C = 0 with a partition of its own, at most DMB_APPROACH long. DMB_NOTE_STOPPED: it
- * no longer moves. Errors as dmb_clusters_settle. */
-int32_t dmb_clusters_approach(dmb_evaluation *evaluation);
+/* One step of Gauss-Newton towards C = 0 with a partition of its own, at most DMB_CORRECTION_MOST long.
+ * DMB_NOTE_STOPPED: it no longer moves. Errors as dmb_clusters_settle. */
+int32_t dmb_clusters_correct(dmb_evaluation *evaluation);
 /* Chooses the partition of every cluster from the matrices at hand. */
 void dmb_clusters_choose(dmb_sim *sim);
 /* Chooses anew where the conditioning has fallen or rows are dropped; counts the changes. */

@@ -52,7 +52,7 @@ static int32_t close_positions(dmb_evaluation *evaluation)
     double violation = 0.0;
     int32_t status = DMB_OK;
     for (uint32_t k = 0; k < DMB_ASSEMBLY_MAX && status >= 0; k++) {
-        status = dmb_clusters_approach(evaluation);
+        status = dmb_clusters_correct(evaluation);
         violation = dmb_clusters_violation(sim, 0, &row);
         if (status == DMB_NOTE_STOPPED) break; /* nothing moves any more */
     }

@@ -12,7 +12,7 @@
 /* A projection that ends above this part of the size has failed. */
 #define DMB_UNSETTLED 2e-10
 /* Longest step of putting a scene together, in lengths of its parts. */
-#define DMB_APPROACH 0.3
+#define DMB_CORRECTION_MOST 0.3
 
 static int32_t factor_gram(dmb_sim *sim)
 {
@@ -122,7 +122,7 @@ static double move_poses(dmb_sim *sim, double most, const dmb_evaluation *step)
     return largest;
 }
 
-int32_t dmb_clusters_approach(dmb_evaluation *evaluation)
+int32_t dmb_clusters_correct(dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     int32_t status = dmb_clusters_gather(evaluation);
@@ -130,7 +130,7 @@ int32_t dmb_clusters_approach(dmb_evaluation *evaluation)
     dmb_clusters_choose(sim);
     status = factor_gram(sim);
     if (status < 0) return status;
-    return move_poses(sim, DMB_APPROACH * sim->reduced_mode->length, NULL) <= DMB_SETTLED * scene_size(sim)
+    return move_poses(sim, DMB_CORRECTION_MOST * sim->reduced_mode->length, NULL) <= DMB_SETTLED * scene_size(sim)
                ? DMB_NOTE_STOPPED
                : DMB_OK;
 }

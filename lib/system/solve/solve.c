@@ -181,11 +181,11 @@ static void swap_blocks(double **a, double **b)
 
 void dmb_keep_factors(dmb_sim *sim)
 {
-    swap_blocks(&sim->stiffness_diagonal, &sim->kept_diagonal);
-    swap_blocks(&sim->stiffness_lower, &sim->kept_lower);
-    swap_blocks(&sim->stiffness_upper, &sim->kept_upper);
+    swap_blocks(&sim->stiffness_diagonal, &sim->reused_diagonal);
+    swap_blocks(&sim->stiffness_lower, &sim->reused_lower);
+    swap_blocks(&sim->stiffness_upper, &sim->reused_upper);
     if (sim->scene->site_count)
-        memcpy(sim->kept_quaternion, sim->trial.quaternion, 4 * sim->scene->node_count * sizeof(double));
+        memcpy(sim->reused_quaternion, sim->trial.quaternion, 4 * sim->scene->node_count * sizeof(double));
 }
 
 void dmb_forget_factors(dmb_sim *sim)
@@ -194,10 +194,10 @@ void dmb_forget_factors(dmb_sim *sim)
     const uint32_t n = sim->scene->node_count;
     memset(sim->reuse, 0, sizeof *sim->reuse);
     if (sim->scene->cluster_count) return; /* no room for any */
-    memset(sim->kept_diagonal, 0, layout->diag[n] * sizeof(double));
-    memset(sim->kept_lower, 0, layout->link[n - 1] * sizeof(double));
-    memset(sim->kept_upper, 0, layout->link[n - 1] * sizeof(double));
-    if (sim->scene->site_count) memset(sim->kept_quaternion, 0, 4 * n * sizeof(double));
+    memset(sim->reused_diagonal, 0, layout->diag[n] * sizeof(double));
+    memset(sim->reused_lower, 0, layout->link[n - 1] * sizeof(double));
+    memset(sim->reused_upper, 0, layout->link[n - 1] * sizeof(double));
+    if (sim->scene->site_count) memset(sim->reused_quaternion, 0, 4 * n * sizeof(double));
 }
 
 /* Rows of FULL nodes from one set of their frames to another, by the twist between the two. */
@@ -217,7 +217,7 @@ static void twist_rows(const dmb_sim *sim, const double *from, const double *to,
 static void solve_chains(const dmb_sim *sim, double *z)
 {
     const dmb_scene *scene = sim->scene;
-    const dmb_block_matrix factors = {sim->kept_diagonal, sim->kept_lower, sim->kept_upper, NULL};
+    const dmb_block_matrix factors = {sim->reused_diagonal, sim->reused_lower, sim->reused_upper, NULL};
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         const dmb_chain *chain = scene->chains + c;
         scene->kernels->solve(&scene->layout, &factors, chain->first, chain->count, z);
@@ -227,9 +227,9 @@ static void solve_chains(const dmb_sim *sim, double *z)
 void dmb_solve_reused(const dmb_sim *sim, double *z)
 {
     const int twisted = sim->scene->site_count > 0;
-    if (twisted) twist_rows(sim, sim->trial.quaternion, sim->kept_quaternion, z);
+    if (twisted) twist_rows(sim, sim->trial.quaternion, sim->reused_quaternion, z);
     solve_chains(sim, z);
     if (!twisted) return;
-    twist_rows(sim, sim->kept_quaternion, sim->trial.quaternion, z);
+    twist_rows(sim, sim->reused_quaternion, sim->trial.quaternion, z);
     clear_held(sim->scene, z);
 }

@@ -36,15 +36,15 @@ void dmb_solve_correction(dmb_sim *sim);
 /* Factors of an iteration matrix that serve in later steps (when: integrator/newton).
  *
  * The wall stays where it is while pipes turn in it, and pipes are round: the iteration matrix of a pipe that has
- * turned about its axis is the old one in the old frame. So with a wall, kept factors are taken in the frames in which
- * they were made. (Where only one of two directions across is held this mixes it with the other: an approximate inverse
- * may.) */
+ * turned about its axis is the old one in the old frame. So with a wall, reused factors are taken in the frames in
+ * which they were made. (Where only one of two directions across is held this mixes it with the other: an approximate
+ * inverse may.) */
 
-/* The factors of this step at hand, by inverses, become the kept ones, in the frames of the trial. */
+/* The factors of this step at hand, by inverses, become those to be reused, in the frames of the trial. */
 void dmb_keep_factors(dmb_sim *sim);
-/* Nothing is left of kept factors: the state does not go on from the steps that made them. */
+/* No factors are left to be reused: the state does not go on from the steps that made them. */
 void dmb_forget_factors(dmb_sim *sim);
-/* z: right-hand side in, solution by the kept factors out; no joints. */
+/* z: right-hand side in, solution by the reused factors out; no joints. */
 void dmb_solve_reused(const dmb_sim *sim, double *z);
 
 #endif

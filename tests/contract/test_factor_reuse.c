@@ -97,12 +97,12 @@ static void statics_forget_them(void **state)
     find_equilibrium(&s, NULL);
     assert_true(s.sim->reuse->step == 0.0);
     for (uint32_t i = 0; i < s.sim->scene->layout.diag[s.sim->scene->node_count]; i++)
-        assert_true(s.sim->kept_diagonal[i] == 0.0);
+        assert_true(s.sim->reused_diagonal[i] == 0.0);
     run(&s, 20);
     rig_close(&s);
 }
 
-/* Few iterations: what meets the tolerance is accepted, whatever kept factors aim at; control loops keep none. */
+/* Few iterations: what meets the tolerance is accepted, whatever reused factors aim at; control loops keep none. */
 static void short_of_iterations(void **state)
 {
     (void)state;
@@ -137,7 +137,7 @@ static void lengths_of_steps(void **state)
     must(&s, dmb_sim_step(s.sim, 1e-4 * (1.0 + 1e-12), NULL));
     assert_true(s.sim->reuse->step == length);
     must(&s, dmb_sim_step(s.sim, 1.1e-4, NULL));
-    check_close("length of the kept factors", s.sim->reuse->step, 1.1e-4, 1e-12);
+    check_close("length of the reused factors", s.sim->reuse->step, 1.1e-4, 1e-12);
     rig_close(&s);
 }
 
