@@ -48,6 +48,13 @@ typedef struct scene_run {
     double step; /* [s] of the steps within a communication step; 0: chosen by the library */
 } scene_run;
 
+/* Call "turning", before the add_programme whose term number `term` swings with the revolutions of another programme; a
+ * call "turning_of" with the terms of that one follows it. */
+typedef struct scene_swing {
+    uint32_t struct_size, term;
+    double share, order; /* [-] of its rate; swings a revolution */
+} scene_swing;
+
 /* Calls with one struct that give an id. */
 #define SCENE_DEFINITIONS(X)          \
     X(add_wall, dmb_wall_def)         \

@@ -122,8 +122,16 @@ unit_status unit_reset(unit *u)
 
 /* ---- The sim at time 0 --------------------------------------------------------------------------------------------
  */
-/* All that was set, at once. */
-static int32_t set_all(unit *u)
+/* Inputs move the run from time 0 on; the others, parameters, are there in the static state already. As CONTROLLED of
+ * drillmbd/fmu.py. */
+static int is_controlled(const dmb_input_info *input)
+{
+    return input->target == DMB_TARGET_SET_POINT || input->target == DMB_TARGET_LOAD_FACTOR ||
+           input->target == DMB_TARGET_BIT_LOAD;
+}
+
+/* All inputs, or all parameters, that were set, at once. */
+static int32_t set_all(unit *u, int controlled)
 {
     dmb_id *ids = malloc((u->input_count + 1u) * sizeof *ids);
     double *values = malloc((u->input_count + 1u) * sizeof *values);
@@ -131,7 +139,7 @@ static int32_t set_all(unit *u)
     int32_t status = DMB_ERR_NO_MEMORY;
     if (ids && values) {
         for (uint32_t i = 0; i < u->input_count; ++i) {
-            if (!u->is_set[i]) continue;
+            if (!u->is_set[i] || is_controlled(&u->inputs[i]) != controlled) continue;
             ids[count] = u->inputs[i].input;
             values[count++] = u->values[i];
         }
@@ -142,24 +150,31 @@ static int32_t set_all(unit *u)
     return status;
 }
 
+/* Parameters, the static state, inputs; *failed tells where it ended. */
+static int32_t start_sim(unit *u, const char **failed)
+{
+    *failed = "parameters";
+    int32_t status = set_all(u, 0);
+    if (status >= 0 && u->scene.has_static) {
+        *failed = "static state";
+        status = dmb_analysis_static(u->sim, &u->scene.statics, NULL);
+        if (status > 0) unit_tell(u, UNIT_WARNING, "%s: %s", dmb_status_text(status), dmb_sim_message(u->sim));
+    }
+    if (status < 0) return status;
+    *failed = "inputs";
+    return set_all(u, 1);
+}
+
 unit_status unit_prepare(unit *u)
 {
+    const char *failed;
     if (u->sim) return UNIT_OK;
-    int32_t status = dmb_sim_create(u->scene.model, &u->scene.sim, &u->sim);
-    if (status < 0) return unit_tell(u, UNIT_ERROR, "start failed: %s", dmb_model_message(u->scene.model));
-    const char *failed = "inputs at the start";
-    status = set_all(u);
-    if (status >= 0 && u->scene.has_static) {
-        failed = "static state at the start";
-        status = dmb_analysis_static(u->sim, &u->scene.statics, NULL);
-    }
-    if (status < 0) {
-        unit_tell(u, UNIT_ERROR, "start failed: %s: %s", failed, dmb_sim_message(u->sim));
-        dmb_sim_destroy(&u->sim);
-        return UNIT_ERROR;
-    }
-    if (status > 0) unit_tell(u, UNIT_WARNING, "%s: %s", dmb_status_text(status), dmb_sim_message(u->sim));
-    return UNIT_OK;
+    if (dmb_sim_create(u->scene.model, &u->scene.sim, &u->sim) < 0)
+        return unit_tell(u, UNIT_ERROR, "start failed: %s", dmb_model_message(u->scene.model));
+    if (start_sim(u, &failed) >= 0) return UNIT_OK;
+    unit_tell(u, UNIT_ERROR, "start failed: %s at time 0: %s", failed, dmb_sim_message(u->sim));
+    dmb_sim_destroy(&u->sim);
+    return UNIT_ERROR;
 }
 
 /* ---- Variables ----------------------------------------------------------------------------------------------------

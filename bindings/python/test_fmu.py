@@ -13,6 +13,7 @@ from shared_tests import COMMAND, ENVIRONMENT, FolderTest, needs
 needs("numpy", "pint")
 
 from drillmbd import fmu, scene  # noqa: E402
+from test_scene import EVERYTHING, SCENES  # noqa: E402
 
 try:
     fmu.find_binary()
@@ -38,6 +39,9 @@ term = {table = [["0 s", "0 kN"], ["50 ms", "1 kN"]]}
 [[programme]]
 name = "turning"
 term = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
+[[programme]]
+name = "gear"
+term = {kind = "per-revolution", of = "turning", share = "5 %", order = 3}
 [[drive]]
 name = "feed"
 programme = "0 m/s"
@@ -46,6 +50,7 @@ name = "head"
 kind = "control"
 component = "rx"
 programme = "turning"
+excitation = "gear"
 gain = "500 N m s"
 [[spring]]
 name = "rope"
@@ -116,6 +121,16 @@ class Unit3:
         flags, last = [c_bool() for _ in range(3)], c_double()
         self.call("DoStep", c_double(time), c_double(length), c_bool(True), *map(byref, flags), byref(last))
 
+    def snapshot(self, size):
+        """The last `size` bytes of the unit's state: the snapshot of its sim."""
+        state, length = c_void_p(), c_size_t()
+        self.call("GetFMUState", byref(state))
+        self.call("SerializedFMUStateSize", state, byref(length))
+        block = ctypes.create_string_buffer(length.value)
+        self.call("SerializeFMUState", state, block, length)
+        self.call("FreeFMUState", byref(state))
+        return block.raw[-size:]
+
     def close(self):
         self.library.fmi3FreeInstance.restype = None
         self.library.fmi3FreeInstance(self.handle)
@@ -153,6 +168,53 @@ class Fmu(FolderTest):
                 sim.step(1e-3)
         self.assertNotEqual(want[0], 0.0)
         self.assertGreater(want[2], 0.0)
+        unit.close()
+
+    def same_state(self, loaded):
+        """The whole state of the unit after the start and some steps is that of the scene's own run."""
+        path = self.folder / "whole.fmu"
+        folder = self.folder / f"whole{len(list(self.folder.iterdir()))}"
+        fmu.export(loaded, path)
+        with zipfile.ZipFile(path) as archive:
+            archive.extractall(folder)
+        unit = Unit3(folder, ElementTree.parse(folder / "modelDescription.xml").getroot().get("instantiationToken"), "whole")
+        unit.begin()
+        with loaded.new_sim() as sim:
+            if loaded.run.get("static", 0):
+                sim.static(**loaded.fields_of("static"))
+            for number in range(4):
+                want = sim.snapshot()
+                self.assertEqual(unit.snapshot(len(want)), want, f"{loaded.title}, {number}")
+                unit.step(sim.time, loaded.run["step"])
+                if loaded.model.events():
+                    sim.advance_to_event(sim.time + loaded.run["step"])
+                else:
+                    sim.step(loaded.run["step"])
+        unit.close()
+
+    def test_every_kind_of_part(self):
+        self.same_state(scene.loads(EVERYTHING))
+
+    def test_shipped_scenes(self):
+        for path in SCENES:
+            self.same_state(scene.load(path))
+
+    def test_inputs_act_after_the_static_state(self):
+        """A speed set before the start would be a torque that nothing holds at rest."""
+        loaded, root, folder = self.unpacked()
+        unit = Unit3(folder, root.get("instantiationToken"), "rig3")
+        unit.set(100000, 10.0)
+        unit.set(100001, 2.0)
+        unit.begin()
+        with loaded.new_sim() as sim:
+            sim.inputs["friction"] = 2.0
+            sim.static()
+            sim.inputs["speed"] = 10.0
+            self.assertEqual(unit.get(200000, 200001), [sim.channel(q, place) for _, place, q in loaded.channels[:2]])
+            self.assertEqual(unit.get(200000), [5000.0])  # gain times speed
+            unit.step(0.0, 1e-3)
+            sim.step(1e-3)
+            self.assertEqual(unit.get(200000, 200001), [sim.channel(q, place) for _, place, q in loaded.channels[:2]])
         unit.close()
 
     def test_description3(self):

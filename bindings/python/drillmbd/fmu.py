@@ -3,10 +3,11 @@
     from drillmbd import fmu, scene
     fmu.export(scene.load("rig.toml"), "rig.fmu")
 
-[[input]] of the scene become inputs (set points, factors of loads, bit load) and tunable parameters (gains, limits, friction, mud,
-damping), [[channel]] outputs, [[event]] counts of how often each was told. The run begins as that of the command: at rest in
-the static state where [run] static says so. [run] step is the length of steps within a communication step; without it, and in
-scenes with events, the library chooses them. The unit holds the library itself and runs without Python."""
+[[input]] of the scene become inputs (set points, factors of loads, bit load) and tunable parameters (gains, limits, friction,
+mud, damping), [[channel]] outputs, [[event]] counts of how often each was told. The run begins as that of the command: at
+rest in the static state by the parameters where [run] static says so; inputs act from then on. [run] step is the length of
+steps within a communication step; without it, and in scenes with events, the library chooses them. The unit holds the
+library itself and runs without Python."""
 from __future__ import annotations
 
 import ctypes
@@ -28,11 +29,12 @@ from xml.etree import ElementTree
 
 from . import _library, enums
 from ._record import Record
-from ._structs import Channel, Id, Place, SimOptions, StaticOptions
+from ._structs import Channel, Id, Place, SimOptions, StaticOptions, Term
 from .channels import channel_unit
 from .model import _DEFINITIONS
 from .scene import Scene
 from .scene.fields import drive_unit
+from .scene.terms import PerRevolution
 
 BINARY = "drillmbd_fmu"
 INPUTS, OUTPUTS, EVENTS = 100000, 200000, 300000  # value references, as bindings/fmi/unit.h says
@@ -59,6 +61,10 @@ class _Output(ctypes.Structure):
 
 class _Name(ctypes.Structure):
     _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("part", Id), ("name", ctypes.c_char * 24)]
+
+
+class _Swing(ctypes.Structure):
+    _fields_ = [("struct_size", ctypes.c_uint32), ("term", ctypes.c_uint32), ("share", ctypes.c_double), ("order", ctypes.c_double)]
 
 
 class _Run(ctypes.Structure):
@@ -109,6 +115,17 @@ def _record(call: str, structs: list[Any], count: int = 1) -> bytes:
     return b"".join([head, *bare, places, numbers])
 
 
+def _swings(terms: tuple[Any, ...]) -> Iterator[bytes]:
+    """The terms of a programme that swing with the revolutions of another. Other functions are refused."""
+    for number, one in enumerate(terms):
+        function = one.get("function")
+        if isinstance(function, PerRevolution):
+            yield _record("turning", [_Swing(sizeof(_Swing), number, function.share, function.order)])
+            yield _record("turning_of", [Term(**term) for term in function.terms])
+        elif function is not None:
+            raise CannotExport("unit refused: a programme is a function of Python, which stays in Python; give it as a table")
+
+
 def _calls(scene: Scene) -> Iterator[bytes]:
     """The calls that describe the model."""
     for name, arguments in scene.model.calls:
@@ -118,8 +135,8 @@ def _calls(scene: Scene) -> Iterator[bytes]:
         count = 1
         if name == "add_pipes":
             count, *arguments = arguments  # type: ignore[assignment]
-        if name == "add_programme" and any("function" in one for one in arguments):
-            raise CannotExport("unit refused: a programme is a function of Python, which stays in Python; give it as a table")
+        if name == "add_programme":
+            yield from _swings(arguments)
         if name == "set_name":
             yield _record(name, [_Name(sizeof(_Name), 0, arguments[0], arguments[1].encode())])
             continue
