@@ -18,6 +18,9 @@ class BuildWithLibrary(build_py):
             target = pathlib.Path(self.build_lib, "drillmbd")
             target.mkdir(parents=True, exist_ok=True)
             shutil.copy(os.path.realpath(library), target / "libdrillmbd.so")
+            unit = pathlib.Path(library).with_name("drillmbd_fmu.so")  # of co-simulation units
+            if unit.exists():
+                shutil.copy(unit, target / unit.name)
 
 
 setup(cmdclass={"build_py": BuildWithLibrary})

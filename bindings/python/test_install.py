@@ -1,5 +1,6 @@
 """Tests of the installed package: by pip into a virtual environment without network, and by cmake --install. Both find
 their library without an environment variable. DRILLMBD_BUILD names the build folder."""
+import importlib.util
 import os
 import pathlib
 import shutil
@@ -50,8 +51,15 @@ class InstallTest(unittest.TestCase):
         out = run(python, "-c", PROGRAM)
         self.assertIn(str(self.folder / "env"), out)
         self.assertIn("usage: drillmbd", run(self.folder / "env" / "bin" / "drillmbd", "--help"))
+        self.finds_units(python, self.folder / "env")
         self.assertIn("drillmbd/scene/scene.schema.json", run(python, "-m", "pip", "show", "-f", "drillmbd"))
         self.assertIn("py.typed", run(python, "-m", "pip", "show", "-f", "drillmbd"))
+
+    def finds_units(self, python, folder, **more):
+        """The binary of co-simulation units is installed beside the library, where it was built."""
+        if (BUILD / "drillmbd_fmu.so").exists() and importlib.util.find_spec("pint"):
+            out = run(python, "-W", "ignore", "-c", "from drillmbd import fmu; print(fmu.find_binary())", **more)
+            self.assertIn(str(folder), out)
 
     def test_pip_without_a_library_of_its_own(self):
         """It takes the one of DRILLMBD_LIBRARY, and says what is missing where there is none."""
@@ -69,6 +77,7 @@ class InstallTest(unittest.TestCase):
         package = next(prefix.rglob("drillmbd/__init__.py"))
         out = run(sys.executable, "-c", PROGRAM, PYTHONPATH=str(package.parents[1]))
         self.assertIn(str(prefix), out)
+        self.finds_units(sys.executable, prefix, PYTHONPATH=str(package.parents[1]))
         moved = self.folder / "elsewhere"
         prefix.rename(moved)
         self.assertIn("usage: drillmbd", run(moved / "bin" / "drillmbd", "--help"))

@@ -88,11 +88,14 @@ def _is_pointer(kind: Any) -> bool:
     return isinstance(kind, type) and (issubclass(kind, (ctypes._Pointer, ctypes.c_void_p)) or hasattr(kind, "_flags_"))
 
 
-def _bare(one: Any) -> bytearray:
-    """The bytes of a struct, pointers as NULL."""
+def _bare(call: str, one: Any) -> bytearray:
+    """The bytes of a struct, pointers as NULL: the arrays behind them go along, nothing else can."""
     found = bytearray(bytes(one))
+    arrays = [name for name, _, _ in ARRAYS.get(call, ())]
     for name, kind in type(one)._fields_:
         if _is_pointer(kind):
+            if getattr(one, name) and name not in arrays:
+                raise CannotExport(f"unit refused: {call}, {name} points to what a unit cannot carry; leave it out")
             offset, size = getattr(type(one), name).offset, sizeof(kind)
             found[offset:offset + size] = bytes(size)
     return found
@@ -100,7 +103,7 @@ def _bare(one: Any) -> bytearray:
 
 def _record(call: str, structs: list[Any], count: int = 1) -> bytes:
     """One call with its structs, where their ids stand, and the arrays that they point to."""
-    bare, places, numbers = [_bare(one) for one in structs], bytearray(), bytearray()
+    bare, places, numbers = [_bare(call, one) for one in structs], bytearray(), bytearray()
     total = ids = 0
     for index, one in enumerate(structs):
         for offset in _ids(type(one), one, 0):
