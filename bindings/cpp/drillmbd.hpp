@@ -139,6 +139,7 @@ public:
     dmb_id add_string(const dmb_string_def &def) { return add(dmb_model_add_string, def); }
     dmb_id add_body(const dmb_body_def &def) { return add(dmb_model_add_body, def); }
     dmb_id add_bit(const dmb_bit_def &def) { return add(dmb_model_add_bit, def); }
+    dmb_id add_ring(const dmb_ring_def &def) { return add(dmb_model_add_ring, def); }
     dmb_id add_joint(const dmb_joint_def &def) { return add(dmb_model_add_joint, def); }
     dmb_id add_coupling(const dmb_coupling_def &def) { return add(dmb_model_add_coupling, def); }
     dmb_id add_constraint(const dmb_constraint_def &def) { return add(dmb_model_add_constraint, def); }

@@ -200,6 +200,17 @@ overpull = "50 kN"
 name = "jammed"
 target = "stuck"
 part = "jam"
+[[ring]]
+name = "stabiliser"
+string = "main"
+pipe = 3
+fraction = 0.35
+outer_diameter = "90 mm"
+length = "30 cm"
+mass = "7 kg"
+[[ring]]
+string = "main"
+pipe = 1
 [compile]
 features = ["gravity", "contact", "friction", "damping"]
 [sim]

@@ -15,6 +15,7 @@
 #include "output.h"
 #include "query.h"
 #include "response.h"
+#include "ring.h"
 #include "sensitivity.h"
 #include "sim.h"
 #include "state_space.h"

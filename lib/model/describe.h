@@ -23,6 +23,7 @@ DMB_DECLARE_STRUCT(dmb_load_def)
 DMB_DECLARE_STRUCT(dmb_spring_def)
 DMB_DECLARE_STRUCT(dmb_force_def)
 DMB_DECLARE_STRUCT(dmb_stuck_def)
+DMB_DECLARE_STRUCT(dmb_ring_def)
 DMB_DECLARE_STRUCT(dmb_compile_options)
 DMB_DECLARE_STRUCT(dmb_model_info)
 

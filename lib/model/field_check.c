@@ -85,13 +85,15 @@ void dmb_check_id_or_none(dmb_check *check, const dmb_model *model, const char *
 void dmb_check_place(dmb_check *check, const dmb_model *model, const char *field, const dmb_place *place)
 {
     const bool on_body = dmb_model_part_index(model, place->part, DMB_PART_BODY) != DMB_NONE ||
-                         dmb_model_part_index(model, place->part, DMB_PART_BIT) != DMB_NONE;
+                         dmb_model_part_index(model, place->part, DMB_PART_BIT) != DMB_NONE ||
+                         dmb_model_part_index(model, place->part, DMB_PART_RING) != DMB_NONE;
     dmb_message part, pipe, fraction;
     dmb_message_set(&part, "%s.part", field);
     dmb_message_set(&pipe, "%s.pipe", field);
     dmb_message_set(&fraction, "%s.fraction", field);
     dmb_check_finite(check, fraction.text, place->fraction);
-    if (!on_body) dmb_check_id(check, model, part.text, place->part, DMB_PART_STRING, "string, a body or a bit");
+    if (!on_body)
+        dmb_check_id(check, model, part.text, place->part, DMB_PART_STRING, "string, a body, a bit or a ring");
     dmb_check_within(check, fraction.text, place->fraction, 0.0, on_body ? 0.0 : 1.0);
     if (on_body) dmb_check_count(check, pipe.text, place->pipe, 0, 0);
 }

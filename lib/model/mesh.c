@@ -45,20 +45,22 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
         .strings = {.item_size = sizeof(dmb_string_map)},
         .pipes = {.item_size = sizeof(dmb_pipe_map)},
         .bodies = {.item_size = sizeof(dmb_body_map)},
+        .ring_order = {.item_size = sizeof(dmb_mesh_ring)},
+        .rings = {.item_size = sizeof(dmb_ring_map)},
     };
     *mesh = empty;
 }
 
 void dmb_mesh_release(dmb_mesh *mesh)
 {
-    dmb_vector *const all[] = {&mesh->stations,      &mesh->pieces,        &mesh->run_order,   &mesh->run_start,
-                               &mesh->nodes,         &mesh->elements,      &mesh->types,       &mesh->batches,
-                               &mesh->rigid_masses,  &mesh->sites,         &mesh->path_sites,  &mesh->drives,
-                               &mesh->loads,         &mesh->bits,          &mesh->joints,      &mesh->couplings,
-                               &mesh->callbacks,     &mesh->laws,          &mesh->driven,      &mesh->constraints,
-                               &mesh->clusters,      &mesh->cluster_nodes, &mesh->strings,     &mesh->pipes,
-                               &mesh->bodies,        &mesh->inputs,        &mesh->load_points, &mesh->springs,
-                               &mesh->spring_points, &mesh->events,        &mesh->forces,      &mesh->stuck};
+    dmb_vector *const all[] = {
+        &mesh->stations,   &mesh->pieces,        &mesh->run_order, &mesh->run_start,     &mesh->nodes,
+        &mesh->elements,   &mesh->types,         &mesh->batches,   &mesh->rigid_masses,  &mesh->sites,
+        &mesh->path_sites, &mesh->drives,        &mesh->loads,     &mesh->bits,          &mesh->joints,
+        &mesh->couplings,  &mesh->callbacks,     &mesh->laws,      &mesh->driven,        &mesh->constraints,
+        &mesh->clusters,   &mesh->cluster_nodes, &mesh->strings,   &mesh->pipes,         &mesh->bodies,
+        &mesh->inputs,     &mesh->load_points,   &mesh->springs,   &mesh->spring_points, &mesh->events,
+        &mesh->forces,     &mesh->ring_order,    &mesh->rings,     &mesh->stuck};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) dmb_vector_release(all[i], &mesh->model->allocator);
 }
 
@@ -130,7 +132,7 @@ static uint64_t elements_of(const dmb_mesh *mesh, const dmb_pipe_run *run)
     return dmb_mesh_kind(mesh, run) == DMB_PIPE_RIGID ? 0 : (uint64_t)run->count * run->def.elements;
 }
 
-/* Each string has one node more than elements, each free body one node. */
+/* Each string has one node more than elements, each free body one node, each ring at most one. */
 int32_t dmb_mesh_count(dmb_mesh *mesh)
 {
     const dmb_model *model = mesh->model;
@@ -140,6 +142,7 @@ int32_t dmb_mesh_count(dmb_mesh *mesh)
         elements += elements_of(mesh, dmb_mesh_run_at(mesh, i)); /* 2^24 runs of 2^30 at most */
         pipes += dmb_mesh_run_at(mesh, i)->count;
     }
+    elements += model->rings.count;
     const uint64_t nodes = elements + model->strings.count + model->bodies.count;
     if (status >= 0 && (nodes > (uint64_t)DMB_NODES_MAX || pipes > (uint64_t)DMB_NODES_MAX)) {
         dmb_message_set(&mesh->model->message, "model: nodes = %zu and pipes = %zu, must be <= %u each", (size_t)nodes,

@@ -4,8 +4,10 @@
  *
  *   step            reads                      fills
  *   count           runs                       run_order, room in nodes and elements
- *   strings         runs, masks                nodes (at, size, free), elements (node, arms), pipes, strings
+ *   ring_places     rings, runs                ring_order
+ *   strings         runs, masks, ring_order    nodes (at, size, free), elements (node, arms, length), pipes, strings
  *   bodies          bodies, bits               nodes of free bodies, bodies
+ *   rings           ring_order, elements       bodies, rings
  *   poses           hole, nodes, elements      nodes (pose), elements (span)
  *   types           runs, elements             types, elements (type, kernel), batches
  *   masses          runs, bodies, bits         rigid_masses, nodes (weight, damped)
@@ -50,11 +52,21 @@ typedef struct dmb_mesh_node {
 typedef struct dmb_mesh_element {
     double span[3]; /* [m] from node a to node b, world */
     double arm[2];  /* [m] */
+    double length;  /* [m] flexible, between the arms */
     uint32_t node;  /* a; b is the next one */
     uint32_t run;   /* in the model's runs */
     uint32_t type;
     int32_t kernel;
 } dmb_mesh_element;
+
+/* A ring at its place on a string. */
+typedef struct dmb_mesh_ring {
+    double along;    /* [m] of its middle from the near end of the pipe */
+    uint32_t string; /* index */
+    uint32_t pipe;
+    uint32_t ring; /* in the model's rings */
+    uint32_t reserved;
+} dmb_mesh_ring;
 
 typedef struct dmb_mesh {
     dmb_model *model; /* written to: its message only */
@@ -93,7 +105,9 @@ typedef struct dmb_mesh {
     dmb_vector cluster_nodes; /* uint32_t */
     dmb_vector strings;       /* dmb_string_map */
     dmb_vector pipes;         /* dmb_pipe_map */
-    dmb_vector bodies;        /* dmb_body_map: bodies, then bits */
+    dmb_vector bodies;        /* dmb_body_map: bodies, then bits, then rings */
+    dmb_vector ring_order;    /* dmb_mesh_ring: by string, pipe and place */
+    dmb_vector rings;         /* dmb_ring_map, in that order */
     uint32_t tool_joints;     /* pipes that have one */
     uint32_t history_count;
     double mass; /* [kg] */
@@ -133,6 +147,19 @@ bool dmb_mesh_follows_hole(const dmb_mesh *mesh, uint32_t string);
 /* Index of the string an id names, the first one for the id that names nothing. */
 uint32_t dmb_mesh_string_of(const dmb_mesh *mesh, dmb_id id);
 
+/* Rings of a pipe, in their order along it. */
+typedef struct dmb_ring_range {
+    const dmb_mesh_ring *first;
+    uint32_t count;
+} dmb_ring_range;
+dmb_ring_range dmb_mesh_rings_of(const dmb_mesh *mesh, uint32_t string, uint32_t pipe);
+/* [m] Closer to a node than this, a quarter of the pipe's diameter, a ring is carried by that node on a rigid arm: over
+ * such lengths a beam does not deform by itself. Farther away it has a node of its own, which divides an element. */
+double dmb_ring_reach(const dmb_pipe_def *def);
+
+/* Element of a pipe, and the fraction of its flexible length, at a distance from the pipe's near end [m]. */
+uint32_t dmb_mesh_element_along(const dmb_mesh *mesh, const dmb_pipe_map *pipe, double along, double *fraction);
+
 /* The pipes of a string one after the other.
  *     dmb_pipe_walk walk = dmb_pipe_walk_of(mesh, string);
  *     while (dmb_pipe_walk_next(&walk)) ... walk.run, walk.number ... */
@@ -158,8 +185,10 @@ int32_t dmb_mesh_sections(dmb_mesh *mesh);
 /* Everything that could meet a wall of sections fits into it where it is described. DMB_ERR_GEOMETRY. */
 int32_t dmb_mesh_fits(dmb_mesh *mesh);
 int32_t dmb_mesh_count(dmb_mesh *mesh);
+int32_t dmb_mesh_ring_places(dmb_mesh *mesh);
 int32_t dmb_mesh_strings(dmb_mesh *mesh);
 int32_t dmb_mesh_bodies(dmb_mesh *mesh);
+int32_t dmb_mesh_rings(dmb_mesh *mesh);
 int32_t dmb_mesh_poses(dmb_mesh *mesh);
 int32_t dmb_mesh_types(dmb_mesh *mesh);
 int32_t dmb_mesh_masses(dmb_mesh *mesh);

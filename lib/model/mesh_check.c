@@ -169,6 +169,9 @@ static int32_t check_diameters(const dmb_model *model, dmb_message *message)
     for (uint32_t i = 0; i < model->bits.count && status >= 0; ++i)
         status = check_fits(model, message, DMB_PART_BIT, i, "diameter",
                             DMB_LIST_AT(const dmb_bit_def, model->bits, i)->diameter);
+    for (uint32_t i = 0; i < model->rings.count && status >= 0; ++i)
+        status = check_fits(model, message, DMB_PART_RING, i, "outer_diameter",
+                            DMB_LIST_AT(const dmb_ring_def, model->rings, i)->outer_diameter);
     return status;
 }
 

@@ -226,6 +226,7 @@ static void fill_parts(const dmb_mesh *mesh, dmb_scene *scene)
     copy_items(&mesh->strings, scene->strings);
     copy_items(&mesh->pipes, scene->pipes);
     copy_items(&mesh->bodies, scene->bodies);
+    copy_items(&mesh->rings, scene->rings);
     copy_items(&mesh->joints, scene->joints);
     copy_items(&mesh->couplings, scene->couplings);
     copy_items(&mesh->callbacks, scene->callbacks);

@@ -20,6 +20,8 @@ static void point_in_element(const dmb_mesh *mesh, const dmb_place *place, dmb_s
     const uint32_t last = pipe->elements - 1, k = position < last ? (uint32_t)position : last;
     point->element = pipe->element + k;
     point->fraction = fmin(position - k, 1.0);
+    if (pipe->divided)
+        point->element = dmb_mesh_element_along(mesh, pipe, place->fraction * pipe->length, &point->fraction);
     point->node = dmb_mesh_element_at(mesh, point->element)->node;
 }
 

@@ -47,7 +47,8 @@ static int starts_in_motion(const dmb_mesh *mesh)
 static uint32_t structural_joints(const dmb_mesh *mesh)
 {
     const dmb_model *model = mesh->model;
-    uint32_t count = (uint32_t)(mesh->pipes.count - mesh->strings.count) + mesh->tool_joints + model->bits.count;
+    uint32_t count = (uint32_t)(mesh->pipes.count - mesh->strings.count) + mesh->tool_joints + model->bits.count +
+                     model->rings.count;
     for (uint32_t i = 0; i < model->bodies.count; ++i) {
         if (DMB_LIST_AT(const dmb_body_def, model->bodies, i)->attach != DMB_ATTACH_NONE) ++count;
     }
@@ -123,7 +124,8 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->programme_count = mesh->model->programmes.count;
     scene->string_count = (uint32_t)mesh->strings.count;
     scene->pipe_count = (uint32_t)mesh->pipes.count;
-    scene->body_count = (uint32_t)mesh->bodies.count; /* bits included */
+    scene->body_count = (uint32_t)mesh->bodies.count; /* bits and rings included */
+    scene->ring_count = (uint32_t)mesh->rings.count;
     scene->history_count = mesh->history_count;
     scene->structural_joint_count = structural_joints(mesh);
     scene->free_rigid_count = count_free_rigids(mesh);
@@ -192,6 +194,7 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
     to->strings = DMB_ARENA_ARRAY(arena, dmb_string_map, counts->string_count);
     to->pipes = DMB_ARENA_ARRAY(arena, dmb_pipe_map, counts->pipe_count);
     to->bodies = DMB_ARENA_ARRAY(arena, dmb_body_map, counts->body_count);
+    if (counts->ring_count > 0) to->rings = DMB_ARENA_ARRAY(arena, dmb_ring_map, counts->ring_count);
 }
 
 /* Not even empty arrays where there is nothing to connect. */

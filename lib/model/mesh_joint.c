@@ -11,6 +11,19 @@
 
 #define DMB_WITHIN 1e-9 /* [-] of a pipe: what the caller's fraction may be off */
 
+/* Ends of elements that rings divide. */
+static bool place_on_divided(const dmb_mesh *mesh, const dmb_pipe_map *map, double along, dmb_mesh_place *found)
+{
+    double fraction;
+    const uint32_t e = dmb_mesh_element_along(mesh, map, along, &fraction);
+    const dmb_mesh_element *element = dmb_mesh_element_at(mesh, e);
+    const double slack = DMB_WITHIN * map->length / element->length;
+    if (fraction > slack && fraction < 1.0 - slack) return false;
+    found->node = element->node + (fraction > slack);
+    found->arm = fraction > slack ? -element->arm[1] : element->arm[0];
+    return true;
+}
+
 /* The tool joint, counted back from the far end so that fraction 1 falls on it without round-off; then the ends of the
  * equal elements. */
 static bool place_on_elastic(const dmb_mesh *mesh, const dmb_pipe_map *map, double fraction, dmb_mesh_place *found)
@@ -24,6 +37,7 @@ static bool place_on_elastic(const dmb_mesh *mesh, const dmb_pipe_map *map, doub
         found->arm = map->joint - back - last->arm[1];
         return true;
     }
+    if (map->divided) return place_on_divided(mesh, map, fraction * map->length, found);
     if (fabs(position - k) > DMB_WITHIN * map->elements) return false;
     if (k < 0.5) {
         found->node = first->node;
@@ -49,8 +63,10 @@ bool dmb_mesh_place_of(const dmb_mesh *mesh, const dmb_place *place, dmb_mesh_pl
     const dmb_model *model = mesh->model;
     const uint32_t string = dmb_model_part_index(model, place->part, DMB_PART_STRING);
     const uint32_t bit = dmb_model_part_index(model, place->part, DMB_PART_BIT);
-    const uint32_t body =
-        bit != DMB_NONE ? model->bodies.count + bit : dmb_model_part_index(model, place->part, DMB_PART_BODY);
+    const uint32_t ring = dmb_model_part_index(model, place->part, DMB_PART_RING);
+    uint32_t body = dmb_model_part_index(model, place->part, DMB_PART_BODY);
+    if (bit != DMB_NONE) body = model->bodies.count + bit;
+    if (ring != DMB_NONE) body = model->bodies.count + model->bits.count + ring;
     if (string != DMB_NONE) return place_on_string(mesh, string, place, found);
     found->node = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, body)->node;
     found->arm = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, body)->arm;

@@ -151,7 +151,7 @@ static void run_mass_of(const dmb_mesh *mesh, const dmb_pipe_run *run, run_mass 
 /* Uniform load w on the cubic shape: w L/2 and the moments +- w L^2/12 at the ends, m/2 at x +- L/12. */
 static void weigh_element(dmb_mesh *mesh, const dmb_mesh_element *element, const run_mass *mass)
 {
-    const double length = dmb_pipe_body_length(mass->def) / mass->def->elements;
+    const double length = element->length;
     const double half = 0.5 * mass->buoyancy * mass->section.mass * length;
     const double a[3] = {element->arm[0] + length / 6.0, 0.0, 0.0}; /* half times L/6 is m L/12 */
     const double b[3] = {-element->arm[1] - length / 6.0, 0.0, 0.0};
@@ -180,7 +180,7 @@ static void damp_element(dmb_mesh *mesh, const dmb_mesh_element *element, double
 
 static int32_t shift_element(dmb_mesh *mesh, const dmb_mesh_element *element, const run_mass *mass, const double e[2])
 {
-    const double half = 0.5 * mass->section.mass * dmb_pipe_body_length(mass->def) / mass->def->elements;
+    const double half = 0.5 * mass->section.mass * element->length;
     int32_t status = add_offset(mesh, element->node, half, element->arm[0], e);
     if (status >= 0) status = add_offset(mesh, element->node + 1, half, -element->arm[1], e);
     return status;
@@ -189,13 +189,12 @@ static int32_t shift_element(dmb_mesh *mesh, const dmb_mesh_element *element, co
 /* The joint ends where the pipe does, and the far node may stand further on, behind rigid pipes. */
 static int32_t add_elastic_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const run_mass *mass, const double *e)
 {
-    const double length = dmb_pipe_body_length(mass->def) / pipe->elements;
     const dmb_mesh_element *element = dmb_mesh_element_at(mesh, pipe->element), *last = element + pipe->elements - 1;
     const double joint_at = 0.5 * pipe->joint - last->arm[1];
     int32_t status = DMB_OK;
     for (; element <= last && status >= 0; ++element) {
         weigh_element(mesh, element, mass);
-        damp_element(mesh, element, length);
+        damp_element(mesh, element, element->length);
         if (e != NULL) status = shift_element(mesh, element, mass, e);
     }
     if (status < 0 || !(pipe->joint > 0.0)) return status;
@@ -219,6 +218,30 @@ static int32_t add_rigid_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const ru
     return status;
 }
 
+/* ---- Rings ------------------------------------------------------------------------------------------------------- */
+
+static int32_t add_rings_of(dmb_mesh *mesh, const dmb_pipe_def *pipe, uint32_t string, uint32_t number)
+{
+    const dmb_ring_range rings = dmb_mesh_rings_of(mesh, string, number);
+    const uint32_t first = mesh->model->bodies.count + mesh->model->bits.count;
+    int32_t status = DMB_OK;
+    for (uint32_t i = 0; i < rings.count && status >= 0; ++i) {
+        const uint32_t ring = rings.first[i].ring;
+        const dmb_ring_def *def = DMB_LIST_AT(const dmb_ring_def, mesh->model->rings, ring);
+        const dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, first + ring);
+        const double buoyancy = 1.0 - mesh->model->environment.fluid_density / def->density;
+        dmb_rigid_part part;
+        double diameters[2];
+        dmb_pipe_diameters(pipe, rings.first[i].along > dmb_pipe_body_length(pipe), diameters);
+        dmb_ring_body_of(def, diameters[0], &part);
+        add_displaced(dmb_mesh_node_at(mesh, map->node), part.mass, map->arm, def->density);
+        status = add_part(mesh, map->node, &part, map->arm, buoyancy, NULL);
+    }
+    return status;
+}
+
+/* ---- Strings ----------------------------------------------------------------------------------------------------- */
+
 static int32_t add_string(dmb_mesh *mesh, uint32_t string)
 {
     const bool eccentric = (mesh->features & DMB_FEATURE_ECCENTRICITY) != 0;
@@ -234,6 +257,7 @@ static int32_t add_string(dmb_mesh *mesh, uint32_t string)
             e = offset;
         }
         status = pipe->elements > 0 ? add_elastic_pipe(mesh, pipe, &mass, e) : add_rigid_pipe(mesh, pipe, &mass, e);
+        if (status >= 0 && mesh->ring_order.count > 0) status = add_rings_of(mesh, mass.def, string, walk.number);
     }
     return status;
 }

@@ -31,7 +31,7 @@ static int32_t share_type(dmb_mesh *mesh, const dmb_element_type *type, uint32_t
 
 static bool alike(const dmb_mesh_element *a, const dmb_mesh_element *b)
 {
-    return a->run == b->run && dmb_same_numbers(a->arm, b->arm, 2);
+    return a->run == b->run && dmb_same_numbers(a->arm, b->arm, 2) && dmb_same_numbers(&a->length, &b->length, 1);
 }
 
 static int32_t find_type(dmb_mesh *mesh, dmb_mesh_element *element, const dmb_mesh_element *before)
@@ -43,7 +43,7 @@ static int32_t find_type(dmb_mesh *mesh, dmb_mesh_element *element, const dmb_me
         return DMB_OK;
     }
     const double damping_time = mesh->features & DMB_FEATURE_DAMPING ? def->damping_time : 0.0;
-    dmb_element_type_of(def, element->arm, damping_time, &type);
+    dmb_element_type_along(def, element->length, element->arm, damping_time, &type);
     type.weight_mass =
         dmb_buoyancy_factor(def, mesh->model->environment.fluid_density) * type.mass_per_metre * type.length;
     type.displaced = type.mass_per_metre * type.length / def->density;
@@ -109,9 +109,9 @@ static uint32_t push_node(string_walk *walk, uint8_t size, double at)
     return (uint32_t)walk->mesh->nodes.count - 1;
 }
 
-static void push_element(string_walk *walk, uint32_t run, double far_arm)
+static void push_element(string_walk *walk, uint32_t run, double length, double far_arm)
 {
-    const dmb_mesh_element element = {.arm = {walk->arm, far_arm}, .node = walk->node, .run = run};
+    const dmb_mesh_element element = {.arm = {walk->arm, far_arm}, .length = length, .node = walk->node, .run = run};
     (void)dmb_vector_append(&walk->mesh->elements, &walk->mesh->model->allocator, &element, 1);
     walk->arm = 0.0;
 }
@@ -132,17 +132,51 @@ static void push_pipe(string_walk *walk, const dmb_pipe_run *run, double start, 
 
 /* ---- Elastic pipes ----------------------------------------------------------------------------------------------- */
 
-/* One pipe beginning at `near`: equal elements, and the tool joint as the far arm of the last one. */
-static void mesh_pipe(string_walk *walk, uint32_t run_index, double near, uint8_t size)
+/* A pipe in the walk. */
+typedef struct pipe_walk {
+    double near; /* [m] from the rig end to the pipe's near end */
+    uint32_t run, number;
+    uint8_t size; /* of its nodes */
+} pipe_walk;
+
+/* Nodes of rings inside one of the pipe's equal elements, which goes from `from` to `to` [m] of the pipe. Returns the
+ * place of the last node before `to`. */
+static double divide(string_walk *walk, const pipe_walk *pipe, double from, double to, dmb_ring_range *rings)
 {
-    const dmb_pipe_def *def = &dmb_mesh_run_at(walk->mesh, run_index)->def;
-    const double length = (def->length - def->joint_length) / def->elements;
-    for (uint32_t e = 1; e < def->elements; ++e) {
-        push_element(walk, run_index, 0.0);
-        walk->node = push_node(walk, size, near + e * length);
+    const double reach = dmb_ring_reach(&dmb_mesh_run_at(walk->mesh, pipe->run)->def);
+    for (; rings->count > 0 && rings->first->along < to; ++rings->first, --rings->count) {
+        const double at = rings->first->along;
+        if (at - from <= reach || to - at <= reach) continue;
+        push_element(walk, pipe->run, at - from, 0.0);
+        walk->node = push_node(walk, pipe->size, pipe->near + at);
+        from = at;
     }
-    push_element(walk, run_index, def->joint_length);
-    walk->node = push_node(walk, size, near + def->length);
+    return from;
+}
+
+/* Equal elements, divided where rings have nodes of their own, and the tool joint as the far arm of the last one. */
+static void mesh_pipe(string_walk *walk, const pipe_walk *pipe)
+{
+    const dmb_pipe_def *def = &dmb_mesh_run_at(walk->mesh, pipe->run)->def;
+    const double length = (def->length - def->joint_length) / def->elements;
+    dmb_ring_range rings = dmb_mesh_rings_of(walk->mesh, walk->string, pipe->number);
+    for (uint32_t e = 1; e <= def->elements; ++e) {
+        const bool last = e == def->elements;
+        const double start = (e - 1) * length, end = e * length;
+        const double from = rings.count > 0 ? divide(walk, pipe, start, end, &rings) : start;
+        push_element(walk, pipe->run, from > start ? end - from : length, last ? def->joint_length : 0.0);
+        walk->node = push_node(walk, pipe->size, last ? pipe->near + def->length : pipe->near + e * length);
+    }
+}
+
+static void mesh_and_count(string_walk *walk, const pipe_walk *pipe)
+{
+    const uint32_t before = (uint32_t)walk->mesh->elements.count;
+    mesh_pipe(walk, pipe);
+    dmb_pipe_map *map = dmb_mesh_pipe_at(walk->mesh, (uint32_t)walk->mesh->pipes.count - 1);
+    const uint32_t elements = (uint32_t)walk->mesh->elements.count - before;
+    map->divided = elements != map->elements;
+    map->elements = elements;
 }
 
 /* A node stays a PATH node while all its neighbours are axial-torsional. */
@@ -159,7 +193,8 @@ static void mesh_elastic_run(string_walk *walk, uint32_t run_index)
     }
     for (uint32_t i = 0; i < run->count; ++i) {
         push_pipe(walk, run, 0.0, walk->node, (uint32_t)walk->mesh->elements.count);
-        mesh_pipe(walk, run_index, walk->at + i * run->def.length, size);
+        const pipe_walk pipe = {walk->at + i * run->def.length, run_index, run->first + i, size};
+        mesh_and_count(walk, &pipe);
     }
     walk->at += run->count * run->def.length;
 }

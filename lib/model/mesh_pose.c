@@ -79,10 +79,9 @@ static void place_in_hole(dmb_mesh *mesh, const dmb_string_def *def, dmb_mesh_no
 }
 
 /* [m] from node to node along an unbent element. */
-static double straight_length(const dmb_mesh *mesh, const dmb_mesh_element *element)
+static double straight_length(const dmb_mesh_element *element)
 {
-    const dmb_pipe_def *def = &dmb_mesh_run_at(mesh, element->run)->def;
-    return element->arm[0] + dmb_pipe_body_length(def) / def->elements + element->arm[1];
+    return element->arm[0] + element->length + element->arm[1];
 }
 
 /* Vector between two nodes. Where the hole is straight it is direction times length, which keeps the digits that a
@@ -90,7 +89,7 @@ static double straight_length(const dmb_mesh *mesh, const dmb_mesh_element *elem
 static void span_between(const dmb_mesh *mesh, dmb_mesh_element *element)
 {
     const dmb_mesh_node *a = dmb_mesh_node_at(mesh, element->node), *b = a + 1;
-    const double along[3] = {straight_length(mesh, element), 0.0, 0.0};
+    const double along[3] = {straight_length(element), 0.0, 0.0};
     double straight[3], difference[3];
     dmb_quat_rotate(a->quaternion, along, straight);
     dmb_vec3_sub(b->position, a->position, element->span);
@@ -111,9 +110,8 @@ static void string_in_hole(dmb_mesh *mesh, uint32_t string)
 /* ---- Strings on their own ---------------------------------------------------------------------------------------- */
 
 /* d0 of an element: stretch 1 along x and the unstressed twist and curvature, times the length. */
-static void rest_of(const dmb_pipe_def *def, double d[6])
+static void rest_of(const dmb_pipe_def *def, double length, double d[6])
 {
-    const double length = dmb_pipe_body_length(def) / def->elements;
     dmb_vec3_set(length, 0.0, 0.0, d);
     dmb_vec3_scale(length, def->curvature, d + 3);
 }
@@ -122,7 +120,7 @@ static void rest_of(const dmb_pipe_def *def, double d[6])
 static void advance(const dmb_mesh *mesh, dmb_mesh_element *element, pose *p)
 {
     double d[6], q[4], x[3], arm[3] = {element->arm[1], 0.0, 0.0};
-    rest_of(&dmb_mesh_run_at(mesh, element->run)->def, d);
+    rest_of(&dmb_mesh_run_at(mesh, element->run)->def, element->length, d);
     dmb_se3_exp_to_quat(d, q, x);
     dmb_quat_rotate(q, arm, arm);
     dmb_vec3_add(x, arm, x);

@@ -248,5 +248,10 @@ int32_t dmb_mesh_fits(dmb_mesh *mesh)
         status = check_fits(mesh, dmb_model_part_text(model, DMB_PART_BIT, i, &part), "diameter", bit->diameter, depth,
                             depth);
     }
+    for (uint32_t i = 0; i < model->rings.count && status >= 0; i++) {
+        const double depth = depth_of(mesh, model->bodies.count + model->bits.count + i);
+        status = check_fits(mesh, dmb_model_part_text(model, DMB_PART_RING, i, &part), "outer_diameter",
+                            DMB_LIST_AT(const dmb_ring_def, model->rings, i)->outer_diameter, depth, depth);
+    }
     return status;
 }

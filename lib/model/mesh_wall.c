@@ -50,6 +50,8 @@ typedef struct site_walk {
     double offset;   /* [m] from the node */
     double diameter; /* [m] largest of what meets here */
     double length;   /* [m] half of the stretches on both sides, as far as they are known */
+    uint32_t string; /* index */
+    uint32_t ring;   /* next one in rings */
 } site_walk;
 
 /* A place is free to move sideways if its node is, or if its node tilts and it stands away from it. */
@@ -84,10 +86,45 @@ static int32_t push_path_site(const site_walk *walk)
     return dmb_vector_append(&walk->mesh->path_sites, &walk->mesh->model->allocator, &site, 1);
 }
 
+static int32_t add_ring(dmb_mesh *mesh, uint32_t map_index, double diameter, double offset, double length, dmb_id part)
+{
+    dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, map_index);
+    const dmb_mesh_node *node = dmb_mesh_node_at(mesh, map->node);
+    const dmb_site site = {
+        .offset = map->arm + offset, .radius = 0.5 * diameter, .length = length, .part = part, .node = map->node};
+    if (!(diameter > 0.0) || node->size == DMB_NODE_PATH) return DMB_OK;
+    map->held_ring = !moves_sideways(node, site.offset);
+    if (map->held_ring) return DMB_OK;
+    map->site = (uint32_t)mesh->sites.count;
+    return push_site(mesh, &site);
+}
+
+/* Rings on nodes up to that of the present place, which meet the wall first; a PATH node rubs at their diameter. */
+static int32_t pass_rings(site_walk *walk)
+{
+    const dmb_mesh *mesh = walk->mesh;
+    int32_t status = DMB_OK;
+    for (; walk->ring < mesh->rings.count && status >= 0; walk->ring++) {
+        const dmb_ring_map *ring = DMB_VECTOR_AT(const dmb_ring_map, &mesh->rings, walk->ring);
+        const uint32_t index = ring->body - mesh->model->bodies.count - mesh->model->bits.count;
+        const dmb_ring_def *def = DMB_LIST_AT(const dmb_ring_def, mesh->model->rings, index);
+        const uint32_t node = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, ring->body)->node;
+        if (ring->string != walk->string || node > walk->node) break;
+        if (dmb_mesh_node_at(mesh, node)->size == DMB_NODE_PATH)
+            walk->diameter = fmax(walk->diameter, def->outer_diameter);
+        else
+            status = add_ring(walk->mesh, ring->body, def->outer_diameter, 0.0, def->length,
+                              dmb_model_id(mesh->model, DMB_PART_RING, index));
+    }
+    return status;
+}
+
 /* Ends the present place. */
-static int32_t finish_place(const site_walk *walk)
+static int32_t finish_place(site_walk *walk)
 {
     const dmb_mesh_node *node = dmb_mesh_node_at(walk->mesh, walk->node);
+    const int32_t status = pass_rings(walk);
+    if (status < 0) return status;
     const dmb_site site = {.offset = walk->offset,
                            .radius = 0.5 * walk->diameter,
                            .length = walk->length,
@@ -117,18 +154,18 @@ static int32_t pass_stretch(site_walk *walk, double length, double diameter, uin
 /* The far node of a pipe may stand behind rigid pipes, and its end before it. */
 static int32_t pass_elastic_pipe(site_walk *walk, const dmb_pipe_map *pipe, const dmb_pipe_def *def, uint32_t number)
 {
-    const double length = dmb_pipe_body_length(def) / def->elements;
-    const dmb_mesh_element *last = dmb_mesh_element_at(walk->mesh, pipe->element + pipe->elements - 1);
+    const dmb_mesh_element *element = dmb_mesh_element_at(walk->mesh, pipe->element);
+    const dmb_mesh_element *last = element + pipe->elements - 1;
     int32_t status = DMB_OK;
     for (uint32_t e = 0; e + 1 < pipe->elements && status >= 0; ++e) {
-        status = pass_stretch(walk, length, def->outer_diameter, pipe->node + e + 1, 0.0, number);
+        status = pass_stretch(walk, element[e].length, def->outer_diameter, pipe->node + e + 1, 0.0, number);
     }
     if (status < 0) return status;
-    return pass_stretch(walk, length + pipe->joint, def->outer_diameter, last->node + 1, pipe->joint - last->arm[1],
-                        number);
+    return pass_stretch(walk, last->length + pipe->joint, def->outer_diameter, last->node + 1,
+                        pipe->joint - last->arm[1], number);
 }
 
-static int32_t pass_string(dmb_mesh *mesh, uint32_t string)
+static int32_t pass_string(dmb_mesh *mesh, uint32_t string, uint32_t *ring)
 {
     const dmb_string_map *map = dmb_mesh_string_at(mesh, string);
     dmb_pipe_walk pipes = dmb_pipe_walk_of(mesh, string);
@@ -136,7 +173,9 @@ static int32_t pass_string(dmb_mesh *mesh, uint32_t string)
                       .part = dmb_model_id(mesh->model, DMB_PART_STRING, string),
                       .node = map->start_node,
                       .pipe = DMB_NONE,
-                      .offset = map->start_arm};
+                      .offset = map->start_arm,
+                      .string = string,
+                      .ring = *ring};
     int32_t status = DMB_OK;
     while (status >= 0 && dmb_pipe_walk_next(&pipes)) {
         const dmb_pipe_map *pipe = dmb_mesh_pipe_at(mesh, map->first_pipe + pipes.number);
@@ -149,23 +188,12 @@ static int32_t pass_string(dmb_mesh *mesh, uint32_t string)
         }
         walk.diameter = fmax(walk.diameter, dmb_joint_diameter(def));
     }
-    return status < 0 ? status : finish_place(&walk);
+    if (status >= 0) status = finish_place(&walk);
+    *ring = walk.ring;
+    return status;
 }
 
 /* ---- Bodies and bits --------------------------------------------------------------------------------------------- */
-
-static int32_t add_ring(dmb_mesh *mesh, uint32_t map_index, double diameter, double offset, double length, dmb_id part)
-{
-    dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, map_index);
-    const dmb_mesh_node *node = dmb_mesh_node_at(mesh, map->node);
-    const dmb_site site = {
-        .offset = map->arm + offset, .radius = 0.5 * diameter, .length = length, .part = part, .node = map->node};
-    if (!(diameter > 0.0) || node->size == DMB_NODE_PATH) return DMB_OK;
-    map->held_ring = !moves_sideways(node, site.offset);
-    if (map->held_ring) return DMB_OK;
-    map->site = (uint32_t)mesh->sites.count;
-    return push_site(mesh, &site);
-}
 
 static int32_t add_rings(dmb_mesh *mesh)
 {
@@ -186,9 +214,10 @@ static int32_t add_rings(dmb_mesh *mesh)
 
 int32_t dmb_mesh_sites(dmb_mesh *mesh)
 {
+    uint32_t ring = 0;
     int32_t status = dmb_mesh_fits(mesh);
     if ((mesh->features & DMB_FEATURE_CONTACT) == 0) return status;
-    for (uint32_t s = 0; s < mesh->strings.count && status >= 0; ++s) status = pass_string(mesh, s);
+    for (uint32_t s = 0; s < mesh->strings.count && status >= 0; ++s) status = pass_string(mesh, s, &ring);
     if (status >= 0) status = add_rings(mesh);
     return status;
 }

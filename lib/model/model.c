@@ -71,6 +71,7 @@ static void release_parts(dmb_model *model)
     }
     dmb_list_release(&model->forces, allocator, sizeof(dmb_force_def));
     dmb_list_release(&model->stuck, allocator, sizeof(dmb_stuck_def));
+    dmb_list_release(&model->rings, allocator, sizeof(dmb_ring_def));
     dmb_list_release(&model->springs, allocator, sizeof(dmb_spring_plan));
     dmb_list_release(&model->events, allocator, sizeof(dmb_event_def));
     if (model->scene == NULL) return;
@@ -158,6 +159,7 @@ uint32_t dmb_model_part_count(const dmb_model *model, uint32_t kind)
     case DMB_PART_EVENT: return model->events.count;
     case DMB_PART_FORCE: return model->forces.count;
     case DMB_PART_STUCK: return model->stuck.count;
+    case DMB_PART_RING: return model->rings.count;
     default: return 0;
     }
 }

@@ -10,6 +10,7 @@
 #include "drillmbd/forces.h"
 #include "drillmbd/model.h"
 #include "drillmbd/names.h"
+#include "drillmbd/ring.h"
 #include "force/programme.h"
 #include "model/refused.h"
 #include "model/scene.h"
@@ -73,6 +74,7 @@ struct dmb_model {
     dmb_list events;       /* dmb_event_def */
     dmb_list forces;       /* dmb_force_def */
     dmb_list stuck;        /* dmb_stuck_def */
+    dmb_list rings;        /* dmb_ring_def */
     dmb_refusals refused;  /* parts that were refused and not added since */
     dmb_scene *scene;      /* NULL until compiled, then never changed */
     uint32_t sparse_nodes; /* nodes from which on a cluster is sparse: DMB_SPARSE_NODES, but for tests */

@@ -35,6 +35,7 @@ static const name_place places[] = {
     [DMB_PART_CONSTRAINT] = PLACE("constraint", constraints, dmb_constraint_def),
     [DMB_PART_SPRING] = PLAN("spring", springs, dmb_spring_plan),
     [DMB_PART_FORCE] = PLACE("force", forces, dmb_force_def),
+    [DMB_PART_RING] = PLACE("ring", rings, dmb_ring_def),
     [DMB_PART_STUCK] = PLACE("stuck", stuck, dmb_stuck_def),
     [DMB_PART_INPUT] = PLACE("input", inputs, dmb_input_def),
     [DMB_PART_EVENT] = PLACE("event", events, dmb_event_def),

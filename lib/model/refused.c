@@ -7,6 +7,7 @@
 #include "drillmbd/control.h"
 #include "drillmbd/forces.h"
 #include "drillmbd/model.h"
+#include "drillmbd/ring.h"
 
 /* ---- Fields of definitions --------------------------------------------------------------------------------------- */
 
@@ -89,6 +90,8 @@ static const wide_field wide_fields[] = {
     FIELD("spring", dmb_spring_def, offset_a),
     FIELD("spring", dmb_spring_def, offset_b),
     FIELDS("spring", dmb_spring_def, table_elongation, table_kind),
+    NAME("ring", dmb_ring_def),
+    FIELD("ring", dmb_ring_def, inertia),
     NAME("event", dmb_event_def),
     FIELD("event", dmb_event_def, output),
 };

@@ -109,6 +109,8 @@ typedef struct dmb_pipe_map {
     uint32_t element;  /* first element; DMB_NONE: rigid */
     uint32_t elements; /* 0: rigid */
     int32_t kind;      /* DMB_PIPE_... after compile options */
+    int32_t divided;   /* 1: nodes of rings divide it, so that its elements differ in length */
+    int32_t reserved;
 } dmb_pipe_map;
 
 typedef struct dmb_string_map {
@@ -127,6 +129,14 @@ typedef struct dmb_body_map {
     uint32_t reserved;
     char name[24];
 } dmb_body_map;
+
+/* A ring on a string. */
+typedef struct dmb_ring_map {
+    double at;          /* [m] of its middle from the rig end */
+    double half_length; /* [m] */
+    uint32_t string;
+    uint32_t body; /* in bodies */
+} dmb_ring_map;
 
 typedef struct dmb_chain {
     double length;         /* [m] makes its moments comparable with forces: mean element; of a body alone its radius of
@@ -290,7 +300,7 @@ typedef struct dmb_scene {
     const struct dmb_kernels *kernels; /* of a step, as wide as the processor takes */
     uint32_t node_count, row_count, element_count, type_count, batch_count, chain_count, rigid_mass_count;
     uint32_t site_count, path_site_count, drive_count, load_count, bit_count, programme_count;
-    uint32_t string_count, pipe_count, body_count;
+    uint32_t string_count, pipe_count, body_count, ring_count;
     uint32_t history_count; /* bit samples in all */
     uint32_t free_count, prescribed_count, held_count;
     uint32_t velocity_count; /* row_count, or 0 where everything is described at rest */
@@ -391,7 +401,8 @@ typedef struct dmb_scene {
     /* maps from parts to the mesh */
     dmb_string_map *strings;
     dmb_pipe_map *pipes;
-    dmb_body_map *bodies; /* described bodies, then bits */
+    dmb_body_map *bodies; /* described bodies, then bits, then rings */
+    dmb_ring_map *rings;  /* by string and place */
 } dmb_scene;
 
 /* The scene in which copies for analyses are made (system/copy). */

@@ -28,14 +28,23 @@ static const char *holder(const dmb_scene *scene, const dmb_body_map *body, dmb_
 
 uint32_t dmb_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text)
 {
-    const uint32_t bodies = scene->body_count - scene->bit_count;
+    const uint32_t rings = scene->body_count - scene->ring_count, bodies = rings - scene->bit_count;
     dmb_message part;
     for (uint32_t i = from; i < scene->body_count; ++i) {
         dmb_message name;
         const char *by = holder(scene, &scene->bodies[i], &name);
         if (by == NULL) continue;
-        dmb_part_text(&part, i < bodies ? "body" : "bit", i < bodies ? i : i - bodies, scene->bodies[i].name,
-                      sizeof scene->bodies[i].name);
+        const uint32_t first = i < bodies ? 0 : i < rings ? bodies : rings;
+        dmb_part_text(&part,
+                      i < bodies  ? "body"
+                      : i < rings ? "bit"
+                                  : "ring",
+                      i - first, scene->bodies[i].name, sizeof scene->bodies[i].name);
+        if (i >= rings) {
+            dmb_message_set(text, "%s: it never touches the wall, %s holds it sideways: free it there, or move it",
+                            part.text, by);
+            return i;
+        }
         dmb_message_set(text, "%s: its ring never touches the wall, %s holds it sideways: free it there, or give no %s",
                         part.text, by, i < bodies ? "contact_diameter" : "diameter");
         return i;

@@ -62,6 +62,20 @@ void dmb_rigid_pipe_of(const dmb_pipe_def *def, dmb_rigid_part *part)
 }
 
 /* A hollow cylinder: m (D^2 + d^2)/8 about its axis; half of that and m L^2/12 across. */
+static void cylinder(double outer, double inner, double length, const double given[2], dmb_rigid_part *part)
+{
+    const double about = part->mass * (outer * outer + inner * inner) / 8.0;
+    part->inertia[0] = given_or(given[0], about);
+    part->inertia[1] = given_or(given[1], 0.5 * about + part->mass * length * length / 12.0);
+}
+
+void dmb_ring_body_of(const dmb_ring_def *def, double pipe_diameter, dmb_rigid_part *part)
+{
+    const double volume = dmb_ring_area(def->outer_diameter, pipe_diameter) * def->length;
+    part->mass = given_or(def->mass, def->density * volume);
+    cylinder(def->outer_diameter, pipe_diameter, def->length, def->inertia, part);
+}
+
 void dmb_joint_of(const dmb_pipe_def *def, dmb_rigid_part *part)
 {
     const double outer = dmb_joint_diameter(def), length = def->joint_length;
@@ -69,9 +83,7 @@ void dmb_joint_of(const dmb_pipe_def *def, dmb_rigid_part *part)
     part->mass = part->inertia[0] = part->inertia[1] = 0.0;
     if (!(length > 0.0)) return;
     part->mass = given_or(def->joint_mass, def->density * dmb_ring_area(outer, inner) * length);
-    const double about = part->mass * (outer * outer + inner * inner) / 8.0;
-    part->inertia[0] = given_or(def->joint_inertia[0], about);
-    part->inertia[1] = given_or(def->joint_inertia[1], 0.5 * about + part->mass * length * length / 12.0);
+    cylinder(outer, inner, length, def->joint_inertia, part);
 }
 
 /* Where the gauge is 0 (no contact), the radius of the rock law is the size there is. */
@@ -174,9 +186,19 @@ static void shares_of(const dmb_pipe_def *def, const dmb_pipe_section *section, 
 
 /* ---- Type -------------------------------------------------------------------------------------------------------- */
 
+double dmb_element_length(const dmb_pipe_def *def)
+{
+    return dmb_pipe_body_length(def) / def->elements;
+}
+
 void dmb_element_type_of(const dmb_pipe_def *def, const double arm[2], double damping_time, dmb_element_type *type)
 {
-    const double L = dmb_pipe_body_length(def) / def->elements;
+    dmb_element_type_along(def, dmb_element_length(def), arm, damping_time, type);
+}
+
+void dmb_element_type_along(const dmb_pipe_def *def, double L, const double arm[2], double damping_time,
+                            dmb_element_type *type)
+{
     dmb_pipe_section section;
     const double *K = section.stiffness;
     double share[2];

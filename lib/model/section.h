@@ -3,6 +3,7 @@
 #define DMB_MODEL_SECTION_H
 
 #include "drillmbd/model.h"
+#include "drillmbd/ring.h"
 #include "element/element_type.h"
 
 typedef struct dmb_pipe_section {
@@ -36,6 +37,8 @@ void dmb_pipe_diameters(const dmb_pipe_def *def, int in_tool_joint, double diame
 /* The pipe without its joint as a rigid body, and the tool joint (mass 0 where there is none). */
 void dmb_rigid_pipe_of(const dmb_pipe_def *def, dmb_rigid_part *part);
 void dmb_joint_of(const dmb_pipe_def *def, dmb_rigid_part *part);
+/* A ring on a pipe (or tool joint) of that outer diameter [m]. */
+void dmb_ring_body_of(const dmb_ring_def *def, double pipe_diameter, dmb_rigid_part *part);
 /* The bit: a solid cylinder unless inertias are given. */
 void dmb_bit_body_of(const dmb_bit_def *def, dmb_rigid_part *part);
 
@@ -55,7 +58,13 @@ double dmb_corrected_shear(double EI, double GA, double length);
  * in the mass and in the inertia about the axis that move with it, tool joints included, shape (2). */
 void dmb_beam_mass_of(const dmb_pipe_section *section, double length, const double share[2], dmb_beam_mass *mass);
 
-/* The type of an element of a pipe between rigid arms [m]. damping_time [s] is that of the pipe, or 0. */
+/* [m] of the elements of a pipe that no ring divides. */
+double dmb_element_length(const dmb_pipe_def *def);
+
+/* The type of an element of a pipe of that length [m] between rigid arms [m]. damping_time [s] is that of the pipe, or
+ * 0. The other: of one that no ring divides. */
+void dmb_element_type_along(const dmb_pipe_def *def, double length, const double arm[2], double damping_time,
+                            dmb_element_type *type);
 void dmb_element_type_of(const dmb_pipe_def *def, const double arm[2], double damping_time, dmb_element_type *type);
 
 #endif

@@ -28,6 +28,7 @@ static void put_part(dmb_text_file *file, const dmb_place *place, int32_t part_a
         [DMB_PART_STRING] = "string",
         [DMB_PART_BODY] = "body",
         [DMB_PART_BIT] = "bit",
+        [DMB_PART_RING] = "ring",
         [DMB_PART_DRIVE] = "drive",
         [DMB_PART_LOAD] = "load",
         [DMB_PART_JOINT] = "joint",

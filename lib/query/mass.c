@@ -79,13 +79,29 @@ static void bit_share(const dmb_bit_def *def, double arm, dmb_rigid_mass *share)
     add_part(share, &part, arm + 0.5 * def->length, NULL);
 }
 
+static void ring_share(const dmb_model *model, uint32_t ring, double arm, dmb_rigid_mass *share)
+{
+    const dmb_ring_def *def = (const dmb_ring_def *)model->rings.items + ring;
+    const uint32_t named = dmb_model_part_index(model, def->string, DMB_PART_STRING);
+    const dmb_pipe_def *pipe = &dmb_pipe_run_of(model, named == DMB_NONE ? 0 : named, def->pipe)->def;
+    dmb_rigid_part part;
+    double diameters[2];
+    dmb_pipe_diameters(pipe, def->fraction * pipe->length > dmb_pipe_body_length(pipe), diameters);
+    dmb_ring_body_of(def, diameters[0], &part);
+    add_part(share, &part, arm, NULL);
+}
+
 void dmb_body_share(const dmb_sim *sim, uint32_t body, dmb_rigid_mass *share)
 {
     const dmb_body_map *map = &sim->scene->bodies[body];
-    const uint32_t bodies = sim->model->bodies.count;
+    const uint32_t bodies = sim->model->bodies.count, rings = bodies + sim->model->bits.count;
     const dmb_body_def *def;
     double centre[3];
     begin(share, map->node);
+    if (body >= rings) {
+        ring_share(sim->model, body - rings, map->arm, share);
+        return;
+    }
     if (body >= bodies) {
         bit_share((const dmb_bit_def *)sim->model->bits.items + (body - bodies), map->arm, share);
         return;
@@ -222,6 +238,7 @@ int dmb_body_is_at_end(const dmb_model *model, uint32_t body, uint32_t string, i
     const dmb_body_def *bodies = model->bodies.items;
     const dmb_bit_def *bits = model->bits.items;
     const int is_bit = body >= model->bodies.count;
+    if (body >= model->bodies.count + model->bits.count) return 0; /* a ring */
     const dmb_id id = is_bit ? bits[body - model->bodies.count].string : bodies[body].string;
     const uint32_t named = dmb_model_part_index(model, id, DMB_PART_STRING);
     return (is_bit ? DMB_ATTACH_END : bodies[body].attach) == attach && (named == DMB_NONE ? 0 : named) == string;

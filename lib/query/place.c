@@ -18,13 +18,17 @@ const dmb_pipe_map *dmb_pipe_of(const dmb_sim *sim, dmb_id string, uint32_t pipe
     return &sim->scene->pipes[map->first_pipe + pipe];
 }
 
-/* The scene lists the described bodies first, then the bits. */
+/* The scene lists the described bodies first, then the bits, then the rings. */
 uint32_t dmb_body_index(const dmb_sim *sim, dmb_id id)
 {
     uint32_t index = dmb_model_part_index(sim->model, id, DMB_PART_BODY);
     if (index == DMB_NONE) {
         index = dmb_model_part_index(sim->model, id, DMB_PART_BIT);
         if (index != DMB_NONE) index += sim->model->bodies.count;
+    }
+    if (index == DMB_NONE && sim->scene->ring_count > 0) {
+        index = dmb_model_part_index(sim->model, id, DMB_PART_RING);
+        if (index != DMB_NONE) index += sim->model->bodies.count + sim->model->bits.count;
     }
     return index < sim->scene->body_count ? index : DMB_NONE;
 }
@@ -46,14 +50,30 @@ static void place_in_joint(const dmb_scene *scene, const dmb_pipe_map *pipe, dou
     fix(point, scene->element_node[last] + 1, point->beyond - scene->types[scene->element_type[last]].arm[1]);
 }
 
-/* `along` [m] from the pipe's near end, on its flexible part; the elements of a pipe are of one length. */
+static const dmb_element_type *type_of(const dmb_scene *scene, uint32_t element)
+{
+    return scene->types + scene->element_type[element];
+}
+
+/* Elements, counted from the near end, that the place is behind: it is that many lengths from there, and more. */
+static double count_lengths(const dmb_scene *scene, const dmb_pipe_map *pipe, double along)
+{
+    const uint32_t last = pipe->elements - 1;
+    uint32_t k = 0;
+    double start = 0.0;
+    if (!pipe->divided) return along / ((pipe->length - pipe->joint) / pipe->elements);
+    while (k < last && along >= start + type_of(scene, pipe->element + k)->length)
+        start += type_of(scene, pipe->element + k++)->length;
+    return k + (along - start) / type_of(scene, pipe->element + k)->length;
+}
+
+/* `along` [m] from the pipe's near end, on its flexible part. */
 static void place_in_element(const dmb_scene *scene, const dmb_pipe_map *pipe, double along, dmb_material_point *point)
 {
-    const double length = (pipe->length - pipe->joint) / pipe->elements;
     const uint32_t last = pipe->elements - 1;
-    const double position = along / length;
+    const double position = count_lengths(scene, pipe, along);
     const uint32_t k = position < last ? (uint32_t)position : last;
-    const dmb_element_type *type = &scene->types[scene->element_type[pipe->element + k]];
+    const dmb_element_type *type = type_of(scene, pipe->element + k);
     point->element = pipe->element + k;
     point->fraction = fmin(position - k, 1.0);
     point->node = scene->element_node[point->element];
@@ -124,14 +144,19 @@ static site_owner owner_of(const dmb_scene *scene, uint32_t site)
     return owner;
 }
 
-/* First site in first .. end that is not a string's, or whose node is at least `node`: a string's sites stand in the
- * order of its nodes, and those of bodies come last. */
+static int32_t is_on_string(dmb_id part)
+{
+    return (part.index >> 24 == DMB_PART_STRING) | (part.index >> 24 == DMB_PART_RING);
+}
+
+/* First site in first .. end that is not on a string, or whose node is at least `node`: sites of strings and of rings
+ * stand in the order of their nodes, and those of bodies come last. */
 static uint32_t first_at(const dmb_scene *scene, uint32_t first, uint32_t end, uint32_t node)
 {
     while (first < end) {
         const uint32_t middle = first + (end - first) / 2;
         const site_owner owner = owner_of(scene, middle);
-        if (owner.part.index >> 24 == DMB_PART_STRING && owner.node < node)
+        if (is_on_string(owner.part) && owner.node < node)
             first = middle + 1;
         else
             end = middle;
@@ -145,8 +170,8 @@ static uint32_t search(const dmb_scene *scene, uint32_t first, uint32_t end, dmb
 {
     for (uint32_t i = first_at(scene, first, end, node); i < end; i++) {
         const site_owner owner = owner_of(scene, i);
-        if (owner.node != node || owner.part.index != string.index) break;
-        if (owner.pipe == pipe) return i;
+        if (owner.node != node) break;
+        if (owner.part.index == string.index && owner.pipe == pipe) return i;
     }
     return DMB_NONE;
 }

@@ -240,10 +240,31 @@ static int beyond_middle(const station *at)
     return along >= 0.5 * (type->arm[0] + type->length + type->arm[1]);
 }
 
-/* The site that stands for the length of string that the station is on: the nearest one. */
+/* The ring whose length the station is on; DMB_NONE: none that meets the wall. */
+static uint32_t ring_site(const station *at)
+{
+    const dmb_scene *scene = at->sim->scene;
+    const double distance = at->values[DMB_PROFILE_DISTANCE];
+    uint32_t low = 0, high = scene->ring_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        const dmb_ring_map *ring = scene->rings + middle;
+        if (ring->string < at->run->string ||
+            (ring->string == at->run->string && ring->at + ring->half_length < distance))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    if (low == scene->ring_count || scene->rings[low].string != at->run->string) return DMB_NONE;
+    return distance < scene->rings[low].at - scene->rings[low].half_length ? DMB_NONE
+                                                                           : scene->bodies[scene->rings[low].body].site;
+}
+
+/* The site that stands for the length of string that the station is on: that of a ring there, else the nearest one. */
 static uint32_t nearest_site(const station *at)
 {
-    uint32_t element;
+    uint32_t element = ring_site(at);
+    if (element != DMB_NONE) return element;
     if (at->point.element == DMB_NONE) {
         return at->place.fraction < 0.5 ? dmb_site_after(at->sim, at->place.part, at->place.pipe, 0)
                                         : dmb_site_of(at->sim, at->place.part, at->place.pipe);

@@ -208,13 +208,21 @@ static int32_t other_pipe(dmb_sim *sim, uint32_t string, uint32_t to, uint32_t o
     return DMB_ERR_VALUE;
 }
 
+static uint32_t elements_of(const dmb_sim *sim, uint32_t string, uint32_t pipe)
+{
+    return sim->scene->pipes[sim->scene->strings[string].first_pipe + pipe].elements;
+}
+
 /* Pipe k from the far end of both strings. */
 static int32_t check_pipe(dmb_sim *sim, const dmb_sim *from, uint32_t string, uint32_t k)
 {
     const uint32_t to = sim->scene->strings[string].pipe_count - 1 - k;
     const uint32_t old = from->scene->strings[string].pipe_count - 1 - k;
     const dmb_pipe_def a = material_of(sim, string, to), b = material_of(from, string, old);
-    if (memcmp(&a, &b, sizeof a) == 0) return DMB_OK;
+    if (memcmp(&a, &b, sizeof a) == 0) {
+        if (elements_of(sim, string, to) == elements_of(from, string, old)) return DMB_OK;
+        return other_pipe(sim, string, to, old, "places of its rings");
+    }
     if (a.kind != b.kind) return other_pipe(sim, string, to, old, "kind");
     if (a.elements != b.elements) return other_pipe(sim, string, to, old, "elements");
     if (a.length != b.length) return other_pipe(sim, string, to, old, "length");

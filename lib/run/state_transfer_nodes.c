@@ -328,8 +328,9 @@ static void transfer_string_sites(dmb_sim *sim, const dmb_sim *from, int32_t wha
         const uint32_t old = old_node(scene, was, site->node, &arm);
         const double offset = site->offset + arm;
         if (old == DMB_NONE) continue;
-        while (k < was->site_count && (was->sites[k].node < old ||
-                                       (was->sites[k].node == old && was->sites[k].offset < offset - DMB_SAME_PLACE)))
+        while (k < was->site_count && (was->sites[k].node < old || (was->sites[k].node == old &&
+                                                                    (was->sites[k].offset < offset - DMB_SAME_PLACE ||
+                                                                     was->sites[k].part.index >> 24 == DMB_PART_RING))))
             k++;
         if (k < was->site_count && was->sites[k].node == old && was->sites[k].offset <= offset + DMB_SAME_PLACE &&
             dmb_model_part_index(from->model, was->sites[k].part, DMB_PART_STRING) != DMB_NONE)
@@ -340,12 +341,32 @@ static void transfer_string_sites(dmb_sim *sim, const dmb_sim *from, int32_t wha
 /* A rig head moves on to another place; its ring begins there anew. */
 static void transfer_body_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
 {
-    for (uint32_t b = 0; b < sim->scene->body_count; b++) {
+    for (uint32_t b = 0; b < sim->scene->body_count - sim->scene->ring_count; b++) {
         const dmb_body_map *body = sim->scene->bodies + b, *was = from->scene->bodies + b;
         double arm;
         if (body->site == DMB_NONE || was->site == DMB_NONE) continue;
         if (old_node(sim->scene, from->scene, body->node, &arm) != was->node) continue;
         if (fabs(body->arm + arm - was->arm) <= DMB_SAME_PLACE) transfer_site(sim, body->site, from, was->site, what);
+    }
+}
+
+/* Rings stand along the strings in both scenes. One on a pipe that has come begins anew; one that has become another
+ * ring at the same place goes on. */
+static void transfer_ring_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
+{
+    const dmb_scene *scene = sim->scene, *was = from->scene;
+    uint32_t k = 0;
+    for (uint32_t i = 0; i < scene->ring_count; i++) {
+        const dmb_body_map *ring = scene->bodies + scene->rings[i].body;
+        double arm;
+        const uint32_t old = old_node(scene, was, ring->node, &arm);
+        if (old == DMB_NONE || ring->site == DMB_NONE) continue;
+        while (k < was->ring_count && was->bodies[was->rings[k].body].node < old) k++;
+        for (uint32_t j = k; j < was->ring_count && was->bodies[was->rings[j].body].node == old; j++) {
+            const dmb_body_map *other = was->bodies + was->rings[j].body;
+            if (other->site != DMB_NONE && fabs(ring->arm + arm - other->arm) <= DMB_SAME_PLACE)
+                transfer_site(sim, ring->site, from, other->site, what);
+        }
     }
 }
 
@@ -366,5 +387,6 @@ void dmb_state_transfer_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
 {
     transfer_string_sites(sim, from, what);
     transfer_body_sites(sim, from, what);
+    transfer_ring_sites(sim, from, what);
     transfer_path_sites(sim, from, what);
 }

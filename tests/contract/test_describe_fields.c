@@ -44,6 +44,7 @@ typedef union any_def {
     dmb_spring_def spring;
     dmb_force_def force;
     dmb_stuck_def stuck;
+    dmb_ring_def ring;
 } any_def;
 
 /* A model that every definition fits into, and the ids it needs. */
@@ -442,6 +443,21 @@ static int32_t add_force(dmb_model *model, const any_def *def)
     return dmb_model_add_force(model, &def->force, NULL);
 }
 
+static const field ring_fields[] = {
+    F(dmb_ring_def, pipe, COUNT, 1),   F(dmb_ring_def, fraction, REAL, 1), F(dmb_ring_def, outer_diameter, REAL, 1),
+    F(dmb_ring_def, length, REAL, 1),  F(dmb_ring_def, mass, REAL, 1),     F(dmb_ring_def, inertia, REAL, 2),
+    F(dmb_ring_def, density, REAL, 1),
+};
+static void fill_ring(const scene_under_test *s, any_def *def)
+{
+    def->ring = dmb_ring_def_default();
+    def->ring.string = s->string;
+}
+static int32_t add_ring(dmb_model *model, const any_def *def)
+{
+    return dmb_model_add_ring(model, &def->ring, NULL);
+}
+
 static int32_t any_constraint(void *context, double time, uint32_t count, const double (*poses)[12], double *value,
                               double *jacobian)
 {
@@ -485,6 +501,7 @@ static const kind_of_def kinds[] = {
     {"hole section", FIELDS(section_fields), fill_section, add_section},
     {"force", FIELDS(force_fields), fill_force, add_force},
     {"stuck", FIELDS(stuck_fields), fill_stuck, add_stuck},
+    {"ring", FIELDS(ring_fields), fill_ring, add_ring},
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0], WALL = 3 };
 

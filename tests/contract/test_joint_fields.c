@@ -264,7 +264,7 @@ static void joint_places(void **state)
         refuse_joint(&s, &joint, DMB_ERR_ID, "place_a.part = {");
         joint = good_joint(&s);
         joint.place_b.part = wrong[i];
-        refuse_joint(&s, &joint, DMB_ERR_ID, "must name a string, a body or a bit of this model");
+        refuse_joint(&s, &joint, DMB_ERR_ID, "must name a string, a body, a bit or a ring of this model");
     }
     joint = good_joint(&s);
     joint.place_b.part = none;

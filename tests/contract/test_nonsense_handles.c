@@ -199,6 +199,7 @@ ADD(wall, wall_def)
 ADD(string, string_def)
 ADD(body, body_def)
 ADD(bit, bit_def)
+ADD(ring, ring_def)
 ADD(drive, drive_def)
 ADD(load, load_def)
 ADD(joint, joint_def)
@@ -271,6 +272,7 @@ static const struct {
                    {"add_pipes", add_pipes, 1},
                    {"add_body", add_body, 1},
                    {"add_bit", add_bit, 1},
+                   {"add_ring", add_ring, 1},
                    {"add_drive", add_drive, 1},
                    {"add_load", add_load, 1},
                    {"add_joint", add_joint, 1},

@@ -53,7 +53,7 @@ INIT(hole_section)
 INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row) INIT(fatigue_options)
 INIT(fatigue_result) INIT(window_options) INIT(window_result) INIT(profile_recorder)
 INIT(parameter) INIT(input_def) INIT(input_info) INIT(input_state) INIT(spring_def) INIT(force_def) INIT(spring_state)
-INIT(stuck_def) INIT(stuck_state) INIT(motor)
+INIT(stuck_def) INIT(stuck_state) INIT(motor) INIT(ring_def)
 INIT(state_space_options) INIT(state_space_info) INIT(row)
     /* clang-format on */
 
@@ -148,6 +148,13 @@ static int32_t add_stuck(dmb_model *model, void *p)
     assert_int_equal(dmb_model_add_body(model, &body, &id), DMB_OK);
     if (stuck->struct_size >= sizeof *stuck) stuck->place = dmb_station(id, 0, 0.0);
     return dmb_model_add_stuck(model, stuck, NULL);
+}
+
+static int32_t add_ring(dmb_model *model, void *p)
+{
+    const dmb_pipe_def pipe = dmb_pipe_def_default();
+    assert_int_equal(dmb_model_add_pipes(model, &pipe, 1, NULL), DMB_OK);
+    return dmb_model_add_ring(model, p, NULL);
 }
 
 static int32_t add_spring(dmb_model *model, void *p)
@@ -363,6 +370,7 @@ static int32_t call_motor(void *p)
 }
 
 CALL(force_def, with_model(add_force, p))
+CALL(ring_def, with_model(add_ring, p))
 CALL(joint_def, with_model(add_joint, p))
 CALL(coupling_def, with_model(add_coupling, p))
 CALL(constraint_def, with_model(add_constraint, p))
@@ -631,6 +639,7 @@ static const entry entries[] = {
     ENTRY(input_state, 1),
     ENTRY(spring_def, 0),
     ENTRY(force_def, 0),
+    ENTRY(ring_def, 0),
     ENTRY(spring_state, 1),
     ENTRY(stuck_def, 0),
     ENTRY(motor, 0),

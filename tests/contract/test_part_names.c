@@ -231,7 +231,7 @@ static void looked_up(void **state)
     assert_int_equal(dmb_model_find(model, DMB_PART_ANY, "rotation", &found), DMB_ERR_VALUE);
     assert_int_equal(dmb_model_find(model, DMB_PART_ANY, "nobody", &found), DMB_ERR_ID);
     assert_int_equal(dmb_model_find(model, DMB_PART_ANY, "", &found), DMB_ERR_ID);
-    assert_int_equal(dmb_model_find(model, 13, "head", &found), DMB_ERR_VALUE);
+    assert_int_equal(dmb_model_find(model, 19, "head", &found), DMB_ERR_VALUE);
     assert_int_equal(dmb_model_find(model, -1, "head", &found), DMB_ERR_VALUE);
     assert_int_equal(dmb_model_find(model, 99, "head", &found), DMB_ERR_VALUE);
     assert_int_equal(found.index, 7);

@@ -418,6 +418,16 @@ static inline int32_t whole_force(void *context, double time, uint32_t count, co
     return parts->callback_status;
 }
 
+/* Inside an element. */
+static inline int32_t whole_add_ring(dmb_model *model, whole_parts *parts)
+{
+    dmb_ring_def ring = dmb_ring_def_default();
+    ring.string = parts->second;
+    ring.pipe = 1;
+    ring.fraction = 0.37;
+    return dmb_model_add_ring(model, &ring, NULL);
+}
+
 static inline int32_t whole_add_force(dmb_model *model, whole_parts *parts)
 {
     dmb_force_def force = dmb_force_def_default();
@@ -506,7 +516,7 @@ static const whole_call whole_calls[] = {
     whole_add_turning,      whole_add_pushing,        whole_add_spinning,    whole_add_dead_load, whole_add_follower,
     whole_add_arm,          whole_add_wheel,          whole_add_hinge,       whole_add_axle,      whole_add_spring,
     whole_add_gear,         whole_add_watch,          whole_add_winding,     whole_add_rope,      whole_add_guy,
-    whole_add_point_load,   whole_add_force,          whole_add_stuck,       whole_compile};
+    whole_add_point_load,   whole_add_force,          whole_add_stuck,       whole_add_ring,      whole_compile};
 enum { WHOLE_CALLS = sizeof whole_calls / sizeof whole_calls[0] };
 
 static inline void whole_must(const dmb_model *model, int32_t status)

@@ -83,6 +83,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_add_load": (c_int32, c_void_p, POINTER(LoadDef), POINTER(Id),),
     "dmb_model_add_pipes": (c_int32, c_void_p, POINTER(PipeDef), c_uint32, POINTER(Id),),
     "dmb_model_add_programme": (c_int32, c_void_p, POINTER(Term), c_uint32, POINTER(Id),),
+    "dmb_model_add_ring": (c_int32, c_void_p, POINTER(RingDef), POINTER(Id),),
     "dmb_model_add_spring": (c_int32, c_void_p, POINTER(SpringDef), POINTER(Id),),
     "dmb_model_add_string": (c_int32, c_void_p, POINTER(StringDef), POINTER(Id),),
     "dmb_model_add_stuck": (c_int32, c_void_p, POINTER(StuckDef), POINTER(Id),),
@@ -166,6 +167,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_response_options_init": (c_int32, POINTER(ResponseOptions), c_uint32,),
     "dmb_response_transfer": (c_int32, c_void_p, c_uint32, c_uint32, POINTER(c_double),),
     "dmb_response_write_csv": (c_int32, c_void_p, c_char_p,),
+    "dmb_ring_def_init": (c_int32, POINTER(RingDef), c_uint32,),
     "dmb_row_init": (c_int32, POINTER(Row), c_uint32,),
     "dmb_section_init": (c_int32, POINTER(Section), c_uint32,),
     "dmb_sensitivity_advance": (c_int32, c_void_p, c_double, POINTER(StepReport),),
@@ -306,6 +308,8 @@ FUNCTION_DOCS = {
         "Appends count (1 .. 2^20) equal pipes at the far end of a string; *string (may be NULL) names the string. Pipes are numbered along the whole string, 0 at the rig end.",
     "dmb_model_add_programme":
         "Adds a programme of term_count terms (1 .. 64), each with the same struct_size.",
+    "dmb_model_add_ring":
+        "Adds a ring; pipes may be added before or after. ring may be NULL. Errors: ERR_VALUE, _NOT_FINITE, _ID, _STRUCT_SIZE, _NO_MEMORY. dmb_model_compile refuses pipes that are not there (ERR_VALUE), rings that overlap, are thinner than what they sit on or too wide for the hole (ERR_GEOMETRY).",
     "dmb_model_add_spring":
         "Errors: ERR_ID, _VALUE; dmb_model_compile: ERR_VALUE (no such pipe, points that move as one), _GEOMETRY (points that coincide at time 0 with a force between them), _UNSUPPORTED (axial-torsional pipes in a curved hole). Within one body or element and the ground it costs no coupling of parts; else it connects parts as a joint does.",
     "dmb_model_add_string":

@@ -2521,6 +2521,43 @@ class SpeedsOptions(Sized):
     }
 
 
+class RingDef(Sized):
+    c_name, about = "dmb_ring_def", "A ring at any place of a string, rigid with the section of the pipe at its middle. Its mass and inertia are added to those of the pipe, which bends under it as before. It meets the wall at its middle, by the laws of the wall, as `length` metres of pipe of its diameter; the pipe keeps its own contact. On flexible pipes it has a node of its own, which divides an element; within a quarter of the pipe's diameter of a node that node carries it on a rigid arm. On axial-torsional pipes, which lie on the wall, the node rubs at the ring's diameter. Its place in queries, loads, springs, joints and forces is {its id, 0, 0}: the middle of the ring. Torque and drag by the soft string (dmb_analysis_torque_drag) refuses strings with rings."
+    struct_size: int
+    pipe: int
+    string: Id
+    fraction: float
+    outer_diameter: float
+    length: float
+    mass: float
+    inertia: 'Array[c_double]'
+    density: float
+    name: bytes
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("pipe", c_uint32),
+        ("string", Id),
+        ("fraction", c_double),
+        ("outer_diameter", c_double),
+        ("length", c_double),
+        ("mass", c_double),
+        ("inertia", c_double * 2),
+        ("density", c_double),
+        ("name", c_char * 24),
+    ]
+    field_docs = {
+        "pipe": ("-", "number along the string; default 0"),
+        "string": ("", "{0, 0}: the model's first string"),
+        "fraction": ("-", "0 .. 1 of the pipe's length: its middle; default 0.5"),
+        "outer_diameter": ("m", "that meets the wall, >= outer diameter of what it sits on, <= hole; default 0.09"),
+        "length": ("m", "> 0; default 0.3"),
+        "mass": ("kg", "0 (default): of a hollow cylinder around the pipe, of `density`"),
+        "inertia": ("kg m2", "about its axis and across, at its middle, the first <= twice the second; 0 (default): of that cylinder with its mass; shape (2)"),
+        "density": ("kg/m3", "> 0, also for its buoyancy: its volume is mass/density; default 7850"),
+        "name": ("", "for messages, ends with 0; default \"\""),
+    }
+
+
 class Row(Sized):
     c_name, about = "dmb_row", ""
     struct_size: int
@@ -3145,6 +3182,7 @@ STRUCTS["dmb_order"] = Order
 STRUCTS["dmb_speeds_report"] = SpeedsReport
 STRUCTS["dmb_speeds_options"] = SpeedsOptions
 STRUCTS["dmb_speed_band"] = SpeedBand
+STRUCTS["dmb_ring_def"] = RingDef
 STRUCTS["dmb_parameter"] = Parameter
 STRUCTS["dmb_state_space_options"] = StateSpaceOptions
 STRUCTS["dmb_state_space_info"] = StateSpaceInfo

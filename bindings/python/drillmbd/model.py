@@ -11,7 +11,7 @@ from ._library import lib as _lib
 from ._record import Record
 from ._structs import (BitDef, BodyDef, Channel, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef,
                        EventDef, ForceDef, HolePoint, HoleSection, Id, InputDef, InputInfo, JointDef, LoadDef, ModelInfo,
-                       ModelOptions, Motor, PipeDef, Place, SimOptions, SpringDef, StringDef, StuckDef, Term,
+                       ModelOptions, Motor, PipeDef, Place, RingDef, SimOptions, SpringDef, StringDef, StuckDef, Term,
                        WallDef)
 from .enums import NAME_SIZE, PartKind, Status
 from .errors import check
@@ -140,6 +140,11 @@ class Model(Handle):
     def add_bit(self, definition: BitDef | None = None, **fields: Any) -> Id:
         """Adds a bit at the far end of a string, by a BitDef or its fields; returns its id."""
         return self._add("bit", BitDef, definition, fields)
+
+    @mirrors("dmb_model_add_ring")
+    def add_ring(self, definition: RingDef | None = None, **fields: Any) -> Id:
+        """Adds a ring at any place of a string, by a RingDef or its fields; returns its id."""
+        return self._add("ring", RingDef, definition, fields)
 
     @mirrors("dmb_model_add_joint")
     def add_joint(self, definition: JointDef | None = None, **fields: Any) -> Id:
@@ -306,7 +311,7 @@ def motor_drive(definition: Motor | None = None, **fields: Any) -> tuple[DriveDe
 # ---- Making a model again --------------------------------------------------------------------------------------------
 _DEFINITIONS: dict[str, Any] = {
     "set_environment": EnvironmentDef, "add_wall": WallDef, "add_hole_sections": HoleSection, "add_string": StringDef, "add_pipes": PipeDef,
-    "add_body": BodyDef, "add_bit": BitDef, "add_joint": JointDef, "add_coupling": CouplingDef,
+    "add_body": BodyDef, "add_bit": BitDef, "add_ring": RingDef, "add_joint": JointDef, "add_coupling": CouplingDef,
     "add_constraint": ConstraintDef, "add_drive": DriveDef, "add_load": LoadDef, "add_spring": SpringDef,
     "add_force": ForceDef, "add_stuck": StuckDef,
     "add_input": InputDef, "add_event": EventDef, "compile": CompileOptions,

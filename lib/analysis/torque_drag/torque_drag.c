@@ -84,6 +84,11 @@ static int32_t find_string(request *r)
     if (plans[soft->string].def.follows_hole == 0)
         return refuse(r, DMB_ERR_UNSUPPORTED,
                       "the string does not follow the hole; set follows_hole of its definition");
+    for (uint32_t i = 0; i < scene->ring_count; i++)
+        if (scene->rings[i].string == soft->string)
+            return refuse(r, DMB_ERR_UNSUPPORTED,
+                          "the string has rings, whose weight and diameter the soft string leaves out; leave them out, "
+                          "or ask for steady states (dmb_analysis_static)");
     soft->model = model;
     soft->fluid_density = r->sim->scene->fluid_density;
     soft->hole = &scene->hole;

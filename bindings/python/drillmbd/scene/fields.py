@@ -232,7 +232,8 @@ def setting_units(target: int, drive: tuple[int, int] | None) -> dict[str, str]:
 
 DEFINITIONS: dict[str, Any] = {
     "environment": _structs.EnvironmentDef, "hole": _structs.WallDef, "section": _structs.HoleSection, "string": _structs.StringDef,
-    "pipes": _structs.PipeDef, "body": _structs.BodyDef, "bit": _structs.BitDef, "joint": _structs.JointDef,
+    "pipes": _structs.PipeDef, "body": _structs.BodyDef, "bit": _structs.BitDef, "ring": _structs.RingDef,
+    "joint": _structs.JointDef,
     "coupling": _structs.CouplingDef, "drive": _structs.DriveDef, "load": _structs.LoadDef,
     "spring": _structs.SpringDef, "stuck": _structs.StuckDef, "term": _structs.Term,
     "compile": _structs.CompileOptions, "sim": _structs.SimOptions, "static": _structs.StaticOptions,

@@ -209,7 +209,8 @@ class Loader:
             self.problems.add(path, value, "names no part" + meant(str(value), self.kinds))
         elif not self.problems.found:
             self.problems.add(path, value, f"names a {self.kinds[value]} that is made after this; programmes come first, "
-                                           "then strings, bodies, bits, joints, couplings, drives, loads, springs, stuck places, inputs")
+                                           "then strings, bodies, bits, rings, joints, couplings, drives, loads, springs, "
+                                           "stuck places, inputs")
         return None
 
     def _place(self, path: Path, value: Any) -> Place | None:
