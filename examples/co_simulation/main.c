@@ -81,7 +81,7 @@ static int step(const unit *u, double time)
 /* One value from a unit, or into it. */
 static double get(const unit *u, fmi3ValueReference reference)
 {
-    double value = NAN;
+    double value = (double)NAN;
     (void)u->get(u->instance, &reference, 1, &value, 1);
     return value;
 }

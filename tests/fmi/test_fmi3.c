@@ -287,7 +287,7 @@ static void test_nonsense(void **state)
     open_rig(&r, 0);
     fmi3Instance unit = instance_of(&r, &log, false, false);
     const fmi3ValueReference none = 77, speed = SPEED, torque = TORQUE, inner = 1;
-    double value = 1.0, high = 99.0, nan = NAN, last;
+    double value = 1.0, high = 99.0, nan = (double)NAN, last;
     int32_t count;
     bool a, b, c;
     refused(fmi.do_step(unit, 0.0, 1e-3, true, &a, &b, &c, &last), fmi3Error, &log, "mode \"instantiated\"");
@@ -306,7 +306,7 @@ static void test_nonsense(void **state)
     step(unit, 0.0, 1e-3);
     refused(fmi.do_step(unit, 0.0, 1e-3, true, &a, &b, &c, &last), fmi3Error, &log, "the unit is at 0.001 s");
     refused(fmi.do_step(unit, 1e-3, -1e-3, true, &a, &b, &c, &last), fmi3Error, &log, "must be > 0");
-    refused(fmi.do_step(unit, NAN, 1e-3, true, &a, &b, &c, &last), fmi3Error, &log, "communication point");
+    refused(fmi.do_step(unit, (double)NAN, 1e-3, true, &a, &b, &c, &last), fmi3Error, &log, "communication point");
     step(unit, 1e-3, 1e-3); /* it goes on all the same */
     assert_int_equal(fmi.do_step(NULL, 0.0, 1e-3, true, &a, &b, &c, &last), fmi3Error);
     fmi.free_instance(unit);
