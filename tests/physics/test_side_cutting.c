@@ -171,7 +171,7 @@ static void its_tilt_builds_angle(void **state)
     const dmb_pose pose = pose_at(&s, dmb_station(id, 0, 0.0)), front = pose_at(&s, dmb_station(id, 0, 1.0));
     const double got = atan2(front.position[1] - pose.position[1], front.position[0] - pose.position[0]);
     const tilting o = {L, L + 0.1, mass * (3.0 * radius * radius + 0.04) / 12.0,
-                   2.0 * PI * ratio * energy * radius / 1e3 / 0.05};
+                       2.0 * PI * ratio * energy * radius / 1e3 / 0.05};
     double y[4] = {0.0, tilt, speed, 0.0};
     ode_solve(tilted, (void *)(uintptr_t)&o, 0.0, time, 400000, 4, y);
     check_relative("tilt against another integration [rad]", got, y[1], 1e-7);
