@@ -61,6 +61,7 @@ typedef struct scene_swing {
     X(add_string, dmb_string_def)     \
     X(add_body, dmb_body_def)         \
     X(add_bit, dmb_bit_def)           \
+    X(add_ring, dmb_ring_def)         \
     X(add_joint, dmb_joint_def)       \
     X(add_coupling, dmb_coupling_def) \
     X(add_drive, dmb_drive_def)       \

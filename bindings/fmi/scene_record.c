@@ -14,6 +14,7 @@ static const id_field id_fields[] = {
     {"add_pipes", offsetof(dmb_pipe_def, string)},
     {"add_body", offsetof(dmb_body_def, string)},
     {"add_bit", offsetof(dmb_bit_def, string)}, {"add_bit", offsetof(dmb_bit_def, load)},
+    {"add_ring", offsetof(dmb_ring_def, string)},
     {"add_joint", offsetof(dmb_joint_def, place_a)}, {"add_joint", offsetof(dmb_joint_def, place_b)},
     {"add_coupling", offsetof(dmb_coupling_def, joint)},
     {"add_coupling", offsetof(dmb_coupling_def, joint) + sizeof(dmb_id)},

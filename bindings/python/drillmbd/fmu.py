@@ -50,9 +50,9 @@ MAGIC, FORMAT, LAYOUT, TOKEN = b"DMBSCENE", 1, 8, 48
 ARRAYS = {"add_programme": (("table_time", "table_count", 1), ("table_value", "table_count", 1)),
           "add_wall": (("survey", "survey_count", 3),),
           "add_spring": (("table_elongation", "table_count", 1), ("table_force", "table_count", 1))}
-CALLS = {"add_wall", "add_string", "add_body", "add_bit", "add_joint", "add_coupling", "add_drive", "add_load", "add_spring",
-         "add_stuck", "add_input", "add_event", "add_pipes", "add_programme", "add_hole_sections", "set_environment", "set_name",
-         "compile"}
+CALLS = {"add_wall", "add_string", "add_body", "add_bit", "add_ring", "add_joint", "add_coupling", "add_drive", "add_load",
+         "add_spring", "add_stuck", "add_input", "add_event", "add_pipes", "add_programme", "add_hole_sections",
+         "set_environment", "set_name", "compile"}
 
 
 class _Output(ctypes.Structure):
