@@ -2,9 +2,9 @@
 #include "drillmbd.hpp"
 
 #include <cmath>
-#include <cstring>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <iostream>
 #include <type_traits>
 #include <utility>
