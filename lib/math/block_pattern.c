@@ -150,13 +150,13 @@ static void eliminate(analysis *s, const uint32_t *column, uint32_t *later)
 }
 
 /* The graph, the order and the number of entries in each column. */
-static int32_t analyse(analysis *s, uint32_t edge_count, const dmb_block_edge *edges)
+static int32_t analyse(const dmb_allocator *allocator, analysis *s, uint32_t edge_count, const dmb_block_edge *edges)
 {
     count_neighbours(s, edge_count, edges);
     list_as_given(s, edge_count, edges);
     list_sorted(s);
     pack(s);
-    const int32_t status = dmb_fill_reducing_order(s->n, s->start, s->neighbour, s->order);
+    const int32_t status = dmb_fill_reducing_order(allocator, s->n, s->start, s->neighbour, s->order);
     if (status < 0) return status;
     for (uint32_t k = 0; k < s->n; k++) {
         s->position[s->order[k]] = k;
@@ -214,7 +214,7 @@ static bool fill_places(const uint32_t *capacity, dmb_block_pattern *p)
 static int32_t make(const dmb_allocator *allocator, analysis *s, const uint32_t *capacity, uint32_t edge_count,
                     const dmb_block_edge *edges, dmb_block_pattern *p)
 {
-    int32_t status = analyse(s, edge_count, edges);
+    int32_t status = analyse(allocator, s, edge_count, edges);
     if (status < 0) return status;
     if (!count_entries(s, p)) return DMB_ERR_TOO_LARGE;
     status = take_pattern(allocator, p);

@@ -52,7 +52,8 @@ typedef struct dmb_block_pattern {
 /* Makes the pattern of n blocks (n may be 0) with the given capacities, 0 .. DMB_BLOCK_CAPACITY_MAX, coupled by
  * edge_count edges: in any order, either way round, repeated or with itself as they come; ends must be below n.
  * Takes one block of memory from the allocator to keep and one for the time of the call; the ordering takes further
- * memory of its own (math/bridge_cholmod.c). Errors, with *pattern unchanged: DMB_ERR_NO_MEMORY; DMB_ERR_TOO_LARGE. */
+ * memory of its own (math/bridge_cholmod.c). Errors, with *pattern unchanged: DMB_ERR_NO_MEMORY; DMB_ERR_TOO_LARGE;
+ * DMB_ERR_UNSUPPORTED (math/bridge.h). */
 int32_t dmb_block_pattern_make(const dmb_allocator *allocator, uint32_t n, const uint32_t *capacity,
                                uint32_t edge_count, const dmb_block_edge *edges, dmb_block_pattern *pattern);
 

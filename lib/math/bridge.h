@@ -1,4 +1,5 @@
-/* All calls of LAPACK, for analyses: no step calls this. Dense eigenproblems, and the rank of a set of equations.
+/* All calls of other libraries. LAPACK, for analyses: no step calls this. Dense eigenproblems, and the rank of a set of
+ * equations; where LAPACK is not there, by math/dense_eigen, equal to rounding.
  * Matrices are column by column without gaps; all work is the caller's. Each returns 0, or what LAPACK says of a
  * failure. */
 #ifndef DMB_MATH_BRIDGE_H
@@ -8,6 +9,10 @@
 #include <stdint.h>
 
 #include "drillmbd/base.h"
+
+/* 1: the build has it and it is there to be called; where it is loaded when it is needed, it is loaded now. */
+int dmb_has_lapack(void);
+int dmb_has_cholmod(void);
 
 /* Most rows: LAPACK counts its work in integers of 32 bits. */
 enum { DMB_EIGEN_MAX = 32766 };
@@ -64,11 +69,13 @@ void dmb_rank_of_rows(const dmb_weighted_rows *of, double tolerance, double *wor
  * Meant for the compile step only: CHOLMOD takes its memory from malloc, not from the caller's allocator, and gives all
  * of it back before the call returns. It is told to print nothing and to use AMD alone: its other candidate, METIS,
  * calls srand and catches signals, both of which belong to the host, and draws from rand, which another thread may be
- * using as well. */
+ * using as well. A build without CHOLMOD takes math/minimum_degree. */
 
 /* The neighbours of node i are neighbour[start[i]] .. neighbour[start[i+1] - 1], without i itself and without
  * repetition; every edge is listed at both its ends. order (n) receives the node to be eliminated first, second, and so
- * on. Same graph, same order. n < 2^31. DMB_OK, or DMB_ERR_NO_MEMORY with order undefined. */
-int32_t dmb_fill_reducing_order(uint32_t n, const int32_t *start, const int32_t *neighbour, uint32_t *order);
+ * on. Same graph, same order. n < 2^31. DMB_OK; with order undefined DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE, and
+ * DMB_ERR_UNSUPPORTED where CHOLMOD belongs to the build and could not be loaded. */
+int32_t dmb_fill_reducing_order(const dmb_allocator *allocator, uint32_t n, const int32_t *start,
+                                const int32_t *neighbour, uint32_t *order);
 
 #endif

@@ -1,6 +1,58 @@
+/* CHOLMOD where the build has it (DMB_WITH_CHOLMOD): linked, or loaded when a scene needs it (DMB_LAZY). The order
+ * decides the last digits of a scene with joints, so that a build that has it takes no other: where it cannot be loaded
+ * there is none. */
 #include "math/bridge.h"
 
+#include "base/build.h"
+#include "math/bridge_load.h"
+#include "math/minimum_degree.h"
+
+#if DMB_WITH_CHOLMOD
 #include <cholmod.h>
+
+typedef int start_call(cholmod_common *);
+typedef cholmod_factor *analyze_call(cholmod_sparse *, cholmod_common *);
+typedef int free_factor_call(cholmod_factor **, cholmod_common *);
+#define SAME(name, type) _Static_assert(_Generic(&(name), type * : 1, default : 0), #name)
+SAME(cholmod_start, start_call);
+SAME(cholmod_finish, start_call);
+SAME(cholmod_analyze, analyze_call);
+SAME(cholmod_free_factor, free_factor_call);
+
+typedef struct cholmod_calls {
+    start_call *start, *finish;
+    analyze_call *analyze;
+    free_factor_call *free_factor;
+} cholmod_calls;
+
+#if DMB_LAZY
+static int calls_of_build(cholmod_calls *calls)
+{
+    static const char *const names[] = {"cholmod_start", "cholmod_finish", "cholmod_analyze", "cholmod_free_factor"};
+    dmb_foreign found[4];
+    if (!dmb_foreign_load(DMB_CHOLMOD_SONAME, 4, names, found)) return 0;
+    calls->start = (start_call *)found[0];
+    calls->finish = (start_call *)found[1];
+    calls->analyze = (analyze_call *)found[2];
+    calls->free_factor = (free_factor_call *)found[3];
+    return 1;
+}
+#else
+static int calls_of_build(cholmod_calls *calls)
+{
+    calls->start = cholmod_start;
+    calls->finish = cholmod_finish;
+    calls->analyze = cholmod_analyze;
+    calls->free_factor = cholmod_free_factor;
+    return 1;
+}
+#endif
+
+int dmb_has_cholmod(void)
+{
+    cholmod_calls calls;
+    return calls_of_build(&calls);
+}
 
 /* Nothing printed, no handler called, AMD alone, and no more analysis than the order needs. */
 static void configure(cholmod_common *common)
@@ -29,21 +81,39 @@ static cholmod_sparse graph_matrix(uint32_t n, const int32_t *start, const int32
     return A;
 }
 
-int32_t dmb_fill_reducing_order(uint32_t n, const int32_t *start, const int32_t *neighbour, uint32_t *order)
+int32_t dmb_fill_reducing_order(const dmb_allocator *allocator, uint32_t n, const int32_t *start,
+                                const int32_t *neighbour, uint32_t *order)
 {
     cholmod_common common;
+    cholmod_calls calls;
+    (void)allocator;
     int32_t status = DMB_ERR_NO_MEMORY;
     for (uint32_t k = 0; k < n; k++) order[k] = k;
     if (n <= 2) return DMB_OK; /* any order will do */
-    if (!cholmod_start(&common)) return DMB_ERR_NO_MEMORY;
+    if (!calls_of_build(&calls)) return DMB_ERR_UNSUPPORTED;
+    if (!calls.start(&common)) return DMB_ERR_NO_MEMORY;
     configure(&common);
     cholmod_sparse A = graph_matrix(n, start, neighbour);
-    cholmod_factor *L = cholmod_analyze(&A, &common);
+    cholmod_factor *L = calls.analyze(&A, &common);
     if (L != NULL && common.status >= CHOLMOD_OK) {
         for (uint32_t k = 0; k < n; k++) order[k] = (uint32_t)((const int32_t *)L->Perm)[k];
         status = DMB_OK;
     }
-    cholmod_free_factor(&L, &common);
-    cholmod_finish(&common);
+    calls.free_factor(&L, &common);
+    calls.finish(&common);
     return status;
 }
+
+#else
+
+int dmb_has_cholmod(void)
+{
+    return 0;
+}
+
+int32_t dmb_fill_reducing_order(const dmb_allocator *allocator, uint32_t n, const int32_t *start,
+                                const int32_t *neighbour, uint32_t *order)
+{
+    return dmb_minimum_degree(allocator, n, start, neighbour, order);
+}
+#endif

@@ -1,10 +1,84 @@
+/* LAPACK through LAPACKE where the build has it (DMB_WITH_LAPACK): linked, or loaded when an analysis needs it
+ * (DMB_LAZY). Where it is not there, dense_eigen does the same. */
 #include "math/bridge.h"
 
 #include <float.h>
-#include <lapacke.h>
 #include <math.h>
 
+#include "base/build.h"
+#include "math/bridge_load.h"
+#include "math/dense_eigen.h"
+
+/* ---- The functions of LAPACKE ------------------------------------------------------------------------------------ */
+
+#if DMB_WITH_LAPACK
+#include <lapacke.h>
+
 _Static_assert(sizeof(lapack_int) == 4, "LAPACKE with 64-bit integers");
+#else
+typedef int32_t lapack_int;
+enum { LAPACK_COL_MAJOR = 102 };
+#endif
+
+typedef lapack_int syevd(int, char, char, lapack_int, double *, lapack_int, double *, double *, lapack_int,
+                         lapack_int *, lapack_int);
+typedef lapack_int sygvd(int, lapack_int, char, char, lapack_int, double *, lapack_int, double *, lapack_int, double *,
+                         double *, lapack_int, lapack_int *, lapack_int);
+typedef lapack_int geev(int, char, char, lapack_int, double *, lapack_int, double *, double *, double *, lapack_int,
+                        double *, lapack_int, double *, lapack_int);
+typedef lapack_int geqp3(int, lapack_int, lapack_int, double *, lapack_int, lapack_int *, double *, double *,
+                         lapack_int);
+typedef lapack_int gesvd(int, char, char, lapack_int, lapack_int, double *, lapack_int, double *, double *, lapack_int,
+                         double *, lapack_int, double *, lapack_int);
+
+enum { SYEVD, SYGVD, GEEV, GEQP3, GESVD, FUNCTIONS };
+
+typedef struct lapack {
+    int present;
+    dmb_foreign function[FUNCTIONS];
+} lapack;
+
+#if !DMB_WITH_LAPACK
+static lapack lapack_of_build(void)
+{
+    const lapack none = {0, {0}};
+    return none;
+}
+#elif DMB_LAZY
+static lapack lapack_of_build(void)
+{
+    static const char *const names[FUNCTIONS] = {"LAPACKE_dsyevd_work", "LAPACKE_dsygvd_work", "LAPACKE_dgeev_work",
+                                                 "LAPACKE_dgeqp3_work", "LAPACKE_dgesvd_work"};
+    lapack found;
+    found.present = dmb_foreign_load(DMB_LAPACK_SONAME, FUNCTIONS, names, found.function);
+    return found;
+}
+#else
+static lapack lapack_of_build(void)
+{
+    const lapack linked = {1,
+                           {(dmb_foreign)LAPACKE_dsyevd_work, (dmb_foreign)LAPACKE_dsygvd_work,
+                            (dmb_foreign)LAPACKE_dgeev_work, (dmb_foreign)LAPACKE_dgeqp3_work,
+                            (dmb_foreign)LAPACKE_dgesvd_work}};
+    return linked;
+}
+#endif
+
+#if DMB_WITH_LAPACK /* what is called by a pointer is declared as LAPACKE declares it */
+#define SAME(name, type) _Static_assert(_Generic(&(name), type * : 1, default : 0), #name)
+SAME(LAPACKE_dsyevd_work, syevd);
+SAME(LAPACKE_dsygvd_work, sygvd);
+SAME(LAPACKE_dgeev_work, geev);
+SAME(LAPACKE_dgeqp3_work, geqp3);
+SAME(LAPACKE_dgesvd_work, gesvd);
+#endif
+
+int dmb_has_lapack(void)
+{
+    return lapack_of_build().present;
+}
+
+/* ---- Eigenproblems ----------------------------------------------------------------------------------------------- */
 
 /* dsyevd and dsygvd ask for 1 + 6n + 2n^2 doubles and 3 + 5n integers, and count both in integers of 32 bits, which
  * 1 + 6n + 2n^2 fits up to n = 32766. */
@@ -42,23 +116,31 @@ static lapack_int *integer_work(size_t n, double *work)
 int32_t dmb_eigen_symmetric(size_t n, double *A, double *values, double *work)
 {
     const lapack_int m = (lapack_int)n;
-    return LAPACKE_dsyevd_work(LAPACK_COL_MAJOR, 'V', 'L', m, A, m, values, work, doubles(n), integer_work(n, work),
-                               integers(n));
+    const lapack found = lapack_of_build();
+    if (!found.present) return dmb_dense_symmetric(n, A, values, work);
+    return ((syevd *)found.function[SYEVD])(LAPACK_COL_MAJOR, 'V', 'L', m, A, m, values, work, doubles(n),
+                                            integer_work(n, work), integers(n));
 }
 
 int32_t dmb_eigen_pair(size_t n, double *K, double *M, double *values, double *work)
 {
     const lapack_int m = (lapack_int)n;
-    return LAPACKE_dsygvd_work(LAPACK_COL_MAJOR, 1, 'V', 'L', m, K, m, M, m, values, work, doubles(n),
-                               integer_work(n, work), integers(n));
+    const lapack found = lapack_of_build();
+    if (!found.present) return dmb_dense_pair(n, K, M, values, work);
+    return ((sygvd *)found.function[SYGVD])(LAPACK_COL_MAJOR, 1, 'V', 'L', m, K, m, M, m, values, work, doubles(n),
+                                            integer_work(n, work), integers(n));
 }
 
 int32_t dmb_eigen_general(size_t n, double *A, double *re, double *im, double *V, double *work)
 {
     const lapack_int m = (lapack_int)n;
+    const lapack found = lapack_of_build();
     double none;
-    return LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', 'V', m, A, m, re, im, &none, 1, V, m, work, 40 * m);
+    if (!found.present) return dmb_dense_general(n, A, re, im, V, work);
+    return ((geev *)found.function[GEEV])(LAPACK_COL_MAJOR, 'N', 'V', m, A, m, re, im, &none, 1, V, m, work, 40 * m);
 }
+
+/* ---- Rank -------------------------------------------------------------------------------------------------------- */
 
 #define DMB_ROW_MIN 1e-300
 enum { PANEL = 32 }; /* columns that dgeqp3 works on at a time, or fewer */
@@ -110,15 +192,32 @@ static double diagonal(const double *a, uint32_t height, uint32_t k)
     return fabs(a[(size_t)k * height + k]);
 }
 
-/* Singular values of R into s; 0 if LAPACK finds none. */
-static int singular_values(double *a, uint32_t rows, uint32_t columns, double *s, double *work, lapack_int work_size)
+/* Singular values of R into s; 0 if none are found. */
+static int singular_values(const lapack *found, double *a, uint32_t rows, uint32_t columns, double *s, double *work,
+                           lapack_int work_size)
 {
     const lapack_int n = (lapack_int)least(rows, columns);
     if (n > DMB_RANK_SINGULAR_MAX) return 0;
     for (uint32_t j = 0; j < rows; j++)
         for (uint32_t i = j + 1; i < (uint32_t)n; i++) a[(size_t)j * columns + i] = 0.0;
-    return LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'N', 'N', n, (lapack_int)rows, a, (lapack_int)columns, s, NULL, 1,
-                               NULL, 1, work, work_size) == 0;
+    if (!found->present) dmb_dense_singular((size_t)n, rows, columns, a, s);
+    return !found->present ||
+           ((gesvd *)found->function[GESVD])(LAPACK_COL_MAJOR, 'N', 'N', n, (lapack_int)rows, a, (lapack_int)columns, s,
+                                             NULL, 1, NULL, 1, work, work_size) == 0;
+}
+
+/* Rows by rows is, column by column, the transpose: its columns are the equations. LAPACK counts them from 1. */
+static void order_rows(const lapack *found, uint32_t rows, uint32_t columns, double *a, int32_t *order, double *tau,
+                       double *work, lapack_int work_size)
+{
+    for (uint32_t i = 0; i < rows; i++) order[i] = 0; /* 0: LAPACK may move it */
+    if (!found->present) {
+        dmb_dense_pivoted_qr(columns, rows, a, order, work);
+        return;
+    }
+    (void)((geqp3 *)found->function[GEQP3])(LAPACK_COL_MAJOR, (lapack_int)columns, (lapack_int)rows, a,
+                                            (lapack_int)columns, order, tau, work, work_size);
+    for (uint32_t i = 0; i < rows; i++) order[i]--;
 }
 
 void dmb_rank_of_rows(const dmb_weighted_rows *of, double tolerance, double *work, int32_t *order, dmb_rank *out)
@@ -130,19 +229,17 @@ void dmb_rank_of_rows(const dmb_weighted_rows *of, double tolerance, double *wor
     out->rank = 0;
     out->exact = 1;
     out->largest = out->smallest = 1.0;
-    for (uint32_t i = 0; i < rows; i++) order[i] = n > 0 ? 0 : (int32_t)i; /* 0: LAPACK may move it */
+    for (uint32_t i = 0; i < rows; i++) order[i] = (int32_t)i;
     if (n == 0) return;
+    const lapack found = lapack_of_build();
     for (uint32_t i = 0; i < rows; i++)
         scale_row(of->values + (size_t)i * columns, columns, of->weight, a + (size_t)i * columns);
-    /* Rows by rows is, column by column, the transpose: its columns are the equations. */
-    (void)LAPACKE_dgeqp3_work(LAPACK_COL_MAJOR, (lapack_int)columns, (lapack_int)rows, a, (lapack_int)columns, order,
-                              tau, rest, work_size);
-    for (uint32_t i = 0; i < rows; i++) order[i]--;
+    order_rows(&found, rows, columns, a, order, tau, rest, work_size);
     while (out->rank < n && diagonal(a, columns, out->rank) > tolerance) out->rank++;
     if (out->rank == 0) return;
     out->largest = diagonal(a, columns, 0);
     out->smallest = diagonal(a, columns, out->rank - 1);
-    out->exact = singular_values(a, rows, columns, s, rest, work_size);
+    out->exact = singular_values(&found, a, rows, columns, s, rest, work_size);
     if (!out->exact) return;
     out->largest = s[0];
     out->smallest = s[out->rank - 1];

@@ -1,6 +1,7 @@
 /* From what was described to the scene that a step works on. */
 #include "base/message.h"
 #include "base/value_check.h"
+#include "math/bridge.h"
 #include "model/describe.h"
 #include "model/limits.h"
 #include "model/mesh.h"
@@ -31,6 +32,10 @@ static int32_t make_scene(dmb_mesh *mesh, dmb_scene **scene)
     mesh->features = dmb_mesh_features(mesh);
     for (size_t i = 0; i < sizeof steps / sizeof steps[0] && status >= 0; ++i) status = steps[i](mesh);
     if (status >= 0) status = dmb_mesh_freeze(mesh, scene);
+    if (status == DMB_ERR_UNSUPPORTED && !dmb_has_cholmod())
+        dmb_message_set(&mesh->model->message,
+                        "compile: joints need the order of elimination of CHOLMOD, which could not be "
+                        "loaded: install it (Debian: libcholmod3), or build with DMB_WITH_CHOLMOD=OFF");
     return status;
 }
 

@@ -1,54 +1,10 @@
 /* The program that tests/abi/targets runs on each target: scenes of every kind of pipe, with joints, in steps, by error
- * control, in statics and from a snapshot; prints their hashes. LAPACK and CHOLMOD, which no step takes, are left out:
- * no order of elimination but the natural one. */
+ * control, in statics and from a snapshot; prints their hashes. The library in C alone: without LAPACK and CHOLMOD. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "drillmbd/drillmbd.h"
-#include "math/bridge.h"
-
-size_t dmb_eigen_work(size_t n)
-{
-    (void)n;
-    return 1;
-}
-size_t dmb_eigen_general_work(size_t n)
-{
-    (void)n;
-    return 1;
-}
-int32_t dmb_eigen_symmetric(size_t n, double *A, double *values, double *work)
-{
-    (void)n, (void)A, (void)values, (void)work;
-    return 1;
-}
-int32_t dmb_eigen_pair(size_t n, double *K, double *M, double *values, double *work)
-{
-    (void)n, (void)K, (void)M, (void)values, (void)work;
-    return 1;
-}
-int32_t dmb_eigen_general(size_t n, double *A, double *re, double *im, double *V, double *work)
-{
-    (void)n, (void)A, (void)re, (void)im, (void)V, (void)work;
-    return 1;
-}
-int32_t dmb_fill_reducing_order(uint32_t n, const int32_t *start, const int32_t *neighbour, uint32_t *order)
-{
-    (void)start, (void)neighbour;
-    for (uint32_t i = 0; i < n; i++) order[i] = i;
-    return DMB_OK;
-}
-size_t dmb_rank_work(uint32_t rows, uint32_t columns)
-{
-    (void)rows, (void)columns;
-    return 1;
-}
-void dmb_rank_of_rows(const dmb_weighted_rows *of, double tolerance, double *work, int32_t *order, dmb_rank *out)
-{
-    (void)of, (void)tolerance, (void)work, (void)order;
-    memset(out, 0, sizeof *out);
-}
 
 static void must(const char *what, int32_t status, const char *message)
 {

@@ -35,6 +35,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_buckling_info_init": (c_int32, POINTER(BucklingInfo), c_uint32,),
     "dmb_buckling_options_init": (c_int32, POINTER(BucklingOptions), c_uint32,),
     "dmb_buckling_shape": (c_int32, c_void_p, c_uint32, Place, POINTER(c_double),),
+    "dmb_build_info": (c_char_p,),
     "dmb_channel_check": (c_int32, c_void_p, POINTER(Channel), c_uint32,),
     "dmb_channel_name": (c_char_p, c_int32, POINTER(c_char_p),),
     "dmb_channel_next": (c_int32, c_int32,),
@@ -59,6 +60,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_fatigue_result_init": (c_int32, POINTER(FatigueResult), c_uint32,),
     "dmb_fatigue_take": (c_int32, c_void_p, c_void_p,),
     "dmb_force_def_init": (c_int32, POINTER(ForceDef), c_uint32,),
+    "dmb_has": (c_int32, c_int32,),
     "dmb_hole_point_init": (c_int32, POINTER(HolePoint), c_uint32,),
     "dmb_hole_section_init": (c_int32, POINTER(HoleSection), c_uint32,),
     "dmb_input_def_init": (c_int32, POINTER(InputDef), c_uint32,),
@@ -280,6 +282,8 @@ FUNCTION_DOCS = {
         "[unit of the factor] The critical factor number `mode`, rising from 0 on. ERR_NULL, _HANDLE, _VALUE.",
     "dmb_buckling_shape":
         "[m, rad] displacement and rotation of a section in the buckling shape, world frame, the largest displacement of a node being 1 m in its own axes; shape (6). Errors as above and those of dmb_query_motion.",
+    "dmb_build_info":
+        "One line: version, and where eigenproblems, order of elimination, files and memory come from. Never NULL.",
     "dmb_channel_check":
         "Whether each channel can be asked of this sim; dmb_sim_message names the first that cannot, and what its place should be. Errors: as dmb_query_channel.",
     "dmb_channel_name":
@@ -296,6 +300,8 @@ FUNCTION_DOCS = {
         "Cycles by range at the point that the result names: cycles[i] of a range of i times 2 stress_range/classes [Pa], shape (classes).",
     "dmb_fatigue_take":
         "Takes a sample; call it after each step. The sim may be another one of the same model. Allocates nothing. O(places x points).",
+    "dmb_has":
+        "1: yes, 0: no; a library that is loaded when it is needed is loaded by this call, 0 where it is not there. ERR_VALUE: none of the above. Thread-safe.",
     "dmb_model_add_force":
         "Errors as of a spring; ERR_NULL (callback). It does not act on an open joint. Steady states that move (`steady` of statics) are refused where it acts on what moves.",
     "dmb_model_add_hole_sections":

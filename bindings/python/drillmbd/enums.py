@@ -78,6 +78,20 @@ ERR_UNSUPPORTED = Status.ERR_UNSUPPORTED
 ERR_CANCELLED = Status.ERR_CANCELLED
 
 
+class Has(IntEnum):
+    """Values DMB_HAS_... of the headers."""
+    LAPACK = 0
+    CHOLMOD = 1
+    FILES = 2
+    HEAP = 3
+
+
+HAS_LAPACK = Has.LAPACK
+HAS_CHOLMOD = Has.CHOLMOD
+HAS_FILES = Has.FILES
+HAS_HEAP = Has.HEAP
+
+
 class LogLevel(IntEnum):
     """Values DMB_LOG_... of the headers."""
     ERROR = 0
@@ -1157,6 +1171,7 @@ COMBINED = 0xFFFFFFFF
 
 ENUMS = (
     Status,
+    Has,
     LogLevel,
     Component,
     Free,

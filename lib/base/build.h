@@ -1,0 +1,24 @@
+/* The choices of a build, with what holds where the build system says nothing: C alone, with files and heap. */
+#ifndef DMB_BASE_BUILD_H
+#define DMB_BASE_BUILD_H
+
+#ifndef DMB_WITH_LAPACK /* dense eigenproblems by LAPACKE */
+#define DMB_WITH_LAPACK 0
+#endif
+#ifndef DMB_WITH_CHOLMOD /* order of elimination by CHOLMOD */
+#define DMB_WITH_CHOLMOD 0
+#endif
+#ifndef DMB_LAZY /* both loaded when they are needed */
+#define DMB_LAZY 0
+#endif
+#ifndef DMB_WITH_FILES /* recorders and VTK write files by stdio */
+#define DMB_WITH_FILES 1
+#endif
+#ifndef DMB_WITH_HEAP /* malloc and free where the caller gives no allocator */
+#define DMB_WITH_HEAP 1
+#endif
+#ifndef DMB_WITH_THREADS /* each thread has its own reason why a sim could not be created */
+#define DMB_WITH_THREADS 1
+#endif
+
+#endif

@@ -1,0 +1,145 @@
+/* Symmetric: cyclic Jacobi rotations (Golub, Van Loan, Matrix Computations, 4th ed., 8.5). Pair: reduced by the
+ * Cholesky factor of M (8.7). */
+#include "math/dense_eigen.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+enum { SWEEPS = 60 };
+
+/* ---- Symmetric --------------------------------------------------------------------------------------------------- */
+
+static void turn(size_t n, double *x, size_t x_step, double *y, size_t y_step, double c, double s)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double p = x[i * x_step], q = y[i * y_step];
+        x[i * x_step] = c * p - s * q;
+        y[i * y_step] = s * p + c * q;
+    }
+}
+
+/* Makes A_pq zero: tan 2 phi = 2 A_pq / (A_qq - A_pp), the smaller angle. */
+static void rotate(size_t n, double *A, double *V, size_t p, size_t q)
+{
+    const double off = A[p + n * q], theta = 0.5 * (A[q + n * q] - A[p + n * p]) / off;
+    const double t = copysign(1.0, theta) / (fabs(theta) + sqrt(1.0 + theta * theta));
+    const double c = 1.0 / sqrt(1.0 + t * t), s = t * c;
+    const double low = A[p + n * p] - t * off, high = A[q + n * q] + t * off; /* less rounding than by turning */
+    turn(n, A + p, n, A + q, n, c, s);
+    turn(n, A + n * p, 1, A + n * q, 1, c, s);
+    turn(n, V + n * p, 1, V + n * q, 1, c, s);
+    A[p + n * p] = low;
+    A[q + n * q] = high;
+    A[p + n * q] = A[q + n * p] = 0.0;
+}
+
+static double frobenius(size_t count, const double *A)
+{
+    double most = 0.0, sum = 0.0;
+    for (size_t i = 0; i < count; i++) most = fmax(most, fabs(A[i]));
+    if (!(most > 0.0)) return 0.0;
+    for (size_t i = 0; i < count; i++) sum += (A[i] / most) * (A[i] / most);
+    return most * sqrt(sum);
+}
+
+/* Rotations of one sweep. What is below rounding of its own diagonal, or far below that of the matrix, stays. */
+static size_t sweep(size_t n, double *A, double *V, double norm)
+{
+    size_t turned = 0;
+    for (size_t p = 0; p + 1 < n; p++) {
+        for (size_t q = p + 1; q < n; q++) {
+            const double off = fabs(A[p + n * q]);
+            const double own = 0.25 * DBL_EPSILON * sqrt(fabs(A[p + n * p])) * sqrt(fabs(A[q + n * q]));
+            if (off <= own || off <= 1e-3 * DBL_EPSILON / (double)n * norm) continue;
+            rotate(n, A, V, p, q);
+            turned++;
+        }
+    }
+    return turned;
+}
+
+static void exchange(size_t n, double *x, double *y)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double kept = x[i];
+        x[i] = y[i];
+        y[i] = kept;
+    }
+}
+
+static void sort_ascending(size_t n, double *values, double *V)
+{
+    for (size_t k = 0; k + 1 < n; k++) {
+        size_t least = k;
+        for (size_t i = k + 1; i < n; i++)
+            if (values[i] < values[least]) least = i;
+        if (least == k) continue;
+        exchange(1, values + k, values + least);
+        exchange(n, V + n * k, V + n * least);
+    }
+}
+
+int32_t dmb_dense_symmetric(size_t n, double *A, double *values, double *work)
+{
+    double *V = work;
+    int tries = 0;
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = j + 1; i < n; i++) A[j + n * i] = A[i + n * j];
+    memset(V, 0, n * n * sizeof(double));
+    for (size_t k = 0; k < n; k++) V[k + n * k] = 1.0;
+    const double norm = frobenius(n * n, A);
+    if (!(norm <= DBL_MAX)) return 1;
+    while (sweep(n, A, V, norm) > 0)
+        if (++tries == SWEEPS) return 1;
+    for (size_t k = 0; k < n; k++) values[k] = A[k + n * k];
+    memcpy(A, V, n * n * sizeof(double));
+    sort_ascending(n, values, A);
+    return 0;
+}
+
+/* ---- Pair -------------------------------------------------------------------------------------------------------- */
+
+/* M = L L^T, L in the lower triangle; 0, or 1 + the row whose pivot is not positive. */
+static size_t cholesky(size_t n, double *M)
+{
+    for (size_t j = 0; j < n; j++) {
+        for (size_t k = 0; k < j; k++)
+            for (size_t i = j; i < n; i++) M[i + n * j] -= M[i + n * k] * M[j + n * k];
+        const double pivot = M[j + n * j];
+        if (!(pivot > 0.0 && pivot <= DBL_MAX)) return j + 1;
+        for (size_t i = j; i < n; i++) M[i + n * j] /= sqrt(pivot);
+    }
+    return 0;
+}
+
+/* x = L^-1 x, elements `step` apart */
+static void solve_lower(size_t n, const double *L, double *x, size_t step)
+{
+    for (size_t k = 0; k < n; k++) {
+        x[k * step] /= L[k + n * k];
+        for (size_t i = k + 1; i < n; i++) x[i * step] -= L[i + n * k] * x[k * step];
+    }
+}
+
+/* x = L^-T x */
+static void solve_upper(size_t n, const double *L, double *x)
+{
+    for (size_t k = n; k-- > 0;) {
+        for (size_t i = k + 1; i < n; i++) x[k] -= L[i + n * k] * x[i];
+        x[k] /= L[k + n * k];
+    }
+}
+
+int32_t dmb_dense_pair(size_t n, double *K, double *M, double *values, double *work)
+{
+    const size_t wrong = cholesky(n, M);
+    if (wrong > 0) return (int32_t)(n + wrong);
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = j + 1; i < n; i++) K[j + n * i] = K[i + n * j];
+    for (size_t j = 0; j < n; j++) solve_lower(n, M, K + n * j, 1);
+    for (size_t i = 0; i < n; i++) solve_lower(n, M, K + i, n);
+    const int32_t status = dmb_dense_symmetric(n, K, values, work);
+    for (size_t j = 0; j < n; j++) solve_upper(n, M, K + n * j);
+    return status;
+}

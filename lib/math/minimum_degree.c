@@ -1,0 +1,209 @@
+/* The graph of what is left is kept as a quotient graph: a node that was eliminated becomes an element, a list of the
+ * nodes that it coupled; elements that it met are absorbed by it (George, Liu, The evolution of the minimum degree
+ * ordering algorithm, 1989). A list of a node loses at least one entry for the element that it gains, so that lists of
+ * nodes stay in their place. Degrees are exact, the nodes of one degree stand in a heap by degree and index. */
+#include "math/minimum_degree.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/vector.h"
+
+typedef struct quotient {
+    uint32_t n;
+    const int32_t *start;
+    int32_t *list;     /* (ends) of node i from start[i]: nodes j >= 0, elements as -1 - e */
+    uint32_t *length;  /* (n) of that list */
+    uint32_t *degree;  /* (n) */
+    uint32_t *mark;    /* (n) the last round that saw a node */
+    uint32_t *heap;    /* (n) nodes, the least (degree, index) first */
+    uint32_t *place;   /* (n) of a node in the heap; DMB_NONE once eliminated */
+    size_t *element;   /* (n) where the nodes of element e begin in `nodes` */
+    uint32_t *members; /* (n) their number; 0 once absorbed */
+    uint32_t left, round;
+    dmb_vector nodes; /* uint32_t */
+} quotient;
+
+/* ---- Heap -------------------------------------------------------------------------------------------------------- */
+
+static int before(const quotient *q, uint32_t a, uint32_t b)
+{
+    return q->degree[a] != q->degree[b] ? q->degree[a] < q->degree[b] : a < b;
+}
+
+static void put(quotient *q, uint32_t at, uint32_t node)
+{
+    q->heap[at] = node;
+    q->place[node] = at;
+}
+
+static void rise(quotient *q, uint32_t at, uint32_t node)
+{
+    for (; at > 0 && before(q, node, q->heap[(at - 1) / 2]); at = (at - 1) / 2) put(q, at, q->heap[(at - 1) / 2]);
+    put(q, at, node);
+}
+
+static void sink(quotient *q, uint32_t at, uint32_t node)
+{
+    for (;;) {
+        uint32_t child = 2 * at + 1;
+        if (child >= q->left) break;
+        if (child + 1 < q->left && before(q, q->heap[child + 1], q->heap[child])) child++;
+        if (!before(q, q->heap[child], node)) break;
+        put(q, at, q->heap[child]);
+        at = child;
+    }
+    put(q, at, node);
+}
+
+static uint32_t take_least(quotient *q)
+{
+    const uint32_t least = q->heap[0];
+    q->left--;
+    if (q->left > 0) sink(q, 0, q->heap[q->left]);
+    q->place[least] = DMB_NONE;
+    return least;
+}
+
+static void set_degree(quotient *q, uint32_t node, uint32_t degree)
+{
+    q->degree[node] = degree;
+    rise(q, q->place[node], node);
+    sink(q, q->place[node], node);
+}
+
+/* ---- Elimination ------------------------------------------------------------------------------------------------- */
+
+static int is_new(quotient *q, uint32_t node)
+{
+    if (q->place[node] == DMB_NONE || q->mark[node] == q->round) return 0;
+    q->mark[node] = q->round;
+    return 1;
+}
+
+static const uint32_t *members_of(const quotient *q, uint32_t e)
+{
+    return (const uint32_t *)q->nodes.items + q->element[e];
+}
+
+/* The nodes of element e that are new, appended. */
+static int32_t append_members(quotient *q, const dmb_allocator *allocator, uint32_t e)
+{
+    int32_t status = DMB_OK;
+    for (uint32_t k = 0; k < q->members[e] && status >= 0; k++) {
+        const uint32_t node = members_of(q, e)[k];
+        if (is_new(q, node)) status = dmb_vector_append(&q->nodes, allocator, &node, 1);
+    }
+    return status;
+}
+
+/* Pivot p becomes an element of all nodes that it is coupled with, and absorbs its elements. */
+static int32_t make_element(quotient *q, const dmb_allocator *allocator, uint32_t p)
+{
+    const int32_t *list = q->list + q->start[p];
+    int32_t status = DMB_OK;
+    q->element[p] = q->nodes.count;
+    q->round++;
+    for (uint32_t k = 0; k < q->length[p] && status >= 0; k++) {
+        if (list[k] < 0) {
+            status = append_members(q, allocator, (uint32_t)(-1 - list[k]));
+            q->members[-1 - list[k]] = 0;
+        } else {
+            const uint32_t node = (uint32_t)list[k];
+            if (is_new(q, node)) status = dmb_vector_append(&q->nodes, allocator, &node, 1);
+        }
+    }
+    q->members[p] = (uint32_t)(q->nodes.count - q->element[p]);
+    return status;
+}
+
+/* Node i of the element that p became: its list without what that element stands for. The nodes of the element carry
+ * the mark of this round. */
+static void shorten(quotient *q, uint32_t i, uint32_t p)
+{
+    int32_t *list = q->list + q->start[i];
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < q->length[i]; k++) {
+        const int32_t entry = list[k];
+        const int stays =
+            entry < 0 ? q->members[-1 - entry] > 0 : q->place[entry] != DMB_NONE && q->mark[entry] != q->round;
+        if (stays) list[kept++] = entry;
+    }
+    list[kept++] = -1 - (int32_t)p;
+    q->length[i] = kept;
+}
+
+static uint32_t count_degree(quotient *q, uint32_t i)
+{
+    const int32_t *list = q->list + q->start[i];
+    uint32_t degree = 0;
+    q->round++;
+    q->mark[i] = q->round;
+    for (uint32_t k = 0; k < q->length[i]; k++) {
+        if (list[k] >= 0) {
+            degree += (uint32_t)is_new(q, (uint32_t)list[k]);
+            continue;
+        }
+        const uint32_t e = (uint32_t)(-1 - list[k]);
+        for (uint32_t m = 0; m < q->members[e]; m++) degree += (uint32_t)is_new(q, members_of(q, e)[m]);
+    }
+    return degree;
+}
+
+static int32_t eliminate(quotient *q, const dmb_allocator *allocator, uint32_t p)
+{
+    const int32_t status = make_element(q, allocator, p);
+    if (status < 0) return status;
+    for (uint32_t k = 0; k < q->members[p]; k++) shorten(q, members_of(q, p)[k], p);
+    for (uint32_t k = 0; k < q->members[p]; k++) {
+        const uint32_t i = members_of(q, p)[k];
+        set_degree(q, i, count_degree(q, i));
+    }
+    return DMB_OK;
+}
+
+static void lay_out(dmb_arena *arena, quotient *q)
+{
+    q->list = DMB_ARENA_ARRAY(arena, int32_t, (size_t)q->start[q->n]);
+    q->length = DMB_ARENA_ARRAY(arena, uint32_t, q->n);
+    q->degree = DMB_ARENA_ARRAY(arena, uint32_t, q->n);
+    q->mark = DMB_ARENA_ARRAY(arena, uint32_t, q->n);
+    q->heap = DMB_ARENA_ARRAY(arena, uint32_t, q->n);
+    q->place = DMB_ARENA_ARRAY(arena, uint32_t, q->n);
+    q->element = DMB_ARENA_ARRAY(arena, size_t, q->n);
+    q->members = DMB_ARENA_ARRAY(arena, uint32_t, q->n);
+}
+
+static void begin(quotient *q, const int32_t *neighbour)
+{
+    memcpy(q->list, neighbour, (size_t)q->start[q->n] * sizeof(int32_t));
+    for (uint32_t i = 0; i < q->n; i++) {
+        q->length[i] = q->degree[i] = (uint32_t)(q->start[i + 1] - q->start[i]);
+        rise(q, i, i);
+    }
+    q->left = q->n;
+}
+
+int32_t dmb_minimum_degree(const dmb_allocator *allocator, uint32_t n, const int32_t *start, const int32_t *neighbour,
+                           uint32_t *order)
+{
+    quotient q = {.n = n, .start = start, .nodes = dmb_vector_of(sizeof(uint32_t))};
+    dmb_arena arena;
+    int32_t status = DMB_OK;
+    dmb_arena_count(&arena);
+    lay_out(&arena, &q);
+    const size_t size = dmb_arena_block_size(&arena);
+    if (size == SIZE_MAX) return DMB_ERR_TOO_LARGE;
+    void *block = dmb_allocate(allocator, size);
+    if (block == NULL) return DMB_ERR_NO_MEMORY;
+    dmb_arena_place(&arena, block, size);
+    lay_out(&arena, &q);
+    begin(&q, neighbour);
+    for (uint32_t k = 0; k < n && status >= 0; k++) {
+        order[k] = take_least(&q);
+        status = eliminate(&q, allocator, order[k]);
+    }
+    dmb_vector_release(&q.nodes, allocator);
+    dmb_release(allocator, block, size);
+    return status;
+}

@@ -1,0 +1,29 @@
+/* What a build tells of itself in words against dmb_has: what it was made with is there to be called. */
+#include <string.h>
+
+#include "check.h"
+#include "drillmbd/drillmbd.h"
+
+static void has_what_it_says(void **state)
+{
+    (void)state;
+    const char *info = dmb_build_info();
+    assert_non_null(strstr(info, "libdrillmbd "));
+    assert_int_equal(dmb_has(DMB_HAS_LAPACK), strstr(info, "LAPACKE") != NULL);
+    assert_int_equal(dmb_has(DMB_HAS_CHOLMOD), strstr(info, "CHOLMOD") != NULL);
+    assert_int_equal(dmb_has(DMB_HAS_FILES), strstr(info, "files: yes") != NULL);
+    assert_int_equal(dmb_has(DMB_HAS_HEAP), strstr(info, "malloc") != NULL);
+}
+
+static void others_are_refused(void **state)
+{
+    (void)state;
+    static const int32_t wrong[] = {-1, 4, 1000, INT32_MAX, INT32_MIN};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) assert_int_equal(dmb_has(wrong[i]), DMB_ERR_VALUE);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(has_what_it_says), cmocka_unit_test(others_are_refused)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
