@@ -201,6 +201,10 @@ typedef struct dmb_pipe_def {
                                   pipe as a body about its axis <= twice across; shape (2) */
     double yield_strength;     /* [Pa] for the share of yield of a profile; 0 (default): not known */
     char name[24];             /* of the pipes that one call adds, for messages and dmb_model_find_pipes; default "" */
+    uint32_t contact_points;   /* [-] 3, 4 or 5: flexible pipes meet the wall at as many Gauss-Lobatto points of each
+                                  element, its ends among them, each for its weight of the length, tool joints for
+                                  their own length at the far end; 0 (default): at nodes only */
+    uint32_t contact_reserved;
 } dmb_pipe_def;
 DMB_SIZED_STRUCT(dmb_pipe_def)
 /* Appends count (1 .. 2^20) equal pipes at the far end of a string; *string (may be NULL) names the string.

@@ -52,7 +52,7 @@ typedef struct dmb_contact {
     int32_t sticks; /* 1 when the bristle law holds it */
     uint32_t site;  /* [-] number of the site, 0 .. info.contact_sites - 1 */
     dmb_id part;    /* string or body the site belongs to */
-    uint32_t pipe;  /* [-] pipe whose far end it is; DMB_NONE for the rig end of the string */
+    uint32_t pipe;  /* [-] pipe whose far end it is, or that it is on; DMB_NONE for the rig end of the string */
     uint32_t reserved;
     double length;       /* [m] of pipe it stands for */
     double gap;          /* [m] to the wall, < 0 when penetrating */
@@ -65,7 +65,8 @@ typedef struct dmb_contact {
     double along;        /* [N] on the pipe along its axis where the wall's diameter or stiffness changes (hole.h) */
 } dmb_contact;
 DMB_SIZED_STRUCT(dmb_contact)
-/* Contact of one site, sites counted along the strings and then the bodies. */
+/* Contact of one site, counted along the strings (rings before the pipe at their nodes), then the bodies, then points
+ * along elements (contact_points), then axial-torsional pipes. */
 DMB_API int32_t dmb_query_contact(const dmb_sim *sim, uint32_t site, dmb_contact *contact);
 typedef struct dmb_contact_total {
     uint32_t struct_size;

@@ -138,3 +138,26 @@ void dmb_section_map_tangent(const dmb_element_type *type, const dmb_section_sha
         for (int c = 0; c < 6; c++)
             for (int k = 0; k < 12; k++) K[12 * r + k] += by_d[r][c] * strain[12 * c + k];
 }
+
+void dmb_section_map_gradient(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6],
+                              double gradient[864])
+{
+    static const double weight[4] = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
+    static const double place[4] = {-2.0, -1.0, 1.0, 2.0};
+    double strain[72];
+    dmb_section_strain_map(type, d, strain);
+    memset(gradient, 0, 864 * sizeof *gradient);
+    for (int c = 0; c < 6; c++) {
+        const double step = DMB_SECTION_STEP * (c < 3 ? type->length : 1.0);
+        double slope[72] = {0.0};
+        for (int k = 0; k < 4; k++) {
+            double moved[6], map[72];
+            dmb_vec6_copy(d, moved);
+            moved[c] += place[k] * step;
+            dmb_section_map(type, shape, moved, map);
+            for (int i = 0; i < 72; i++) slope[i] += weight[k] / step * map[i];
+        }
+        for (int i = 0; i < 72; i++)
+            for (int k = 0; k < 12; k++) gradient[12 * i + k] += slope[i] * strain[12 * c + k];
+    }
+}

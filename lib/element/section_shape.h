@@ -35,4 +35,9 @@ void dmb_section_map(const dmb_element_type *type, const dmb_section_shape *shap
 void dmb_section_map_tangent(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6],
                              const double w[6], double K[144]);
 
+/* gradient[12 i + k]: change of entry i of dmb_section_map by component k of the body-frame displacements of the nodes,
+ * shape (72, 12). */
+void dmb_section_map_gradient(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6],
+                              double gradient[864]);
+
 #endif

@@ -1,4 +1,5 @@
 /* Strings without their pipes. */
+#include "math/lobatto.h"
 #include "model/describe.h"
 #include "model/field_check.h"
 #include "model/limits.h"
@@ -121,6 +122,8 @@ static int32_t check_pipes(dmb_model *model, uint32_t string, const dmb_pipe_def
     dmb_check_count(&check, "count", count, 1, COUNT_MAX);
     dmb_check_choice(&check, "kind", def->kind, DMB_PIPE_FLEXIBLE, DMB_PIPE_RIGID);
     dmb_check_count(&check, "elements", def->elements, 1, ELEMENTS_MAX);
+    if (def->contact_points != 0)
+        dmb_check_count(&check, "contact_points (0, or)", def->contact_points, 3, DMB_LOBATTO_MOST);
     check_tube(&check, def);
     check_material(&check, def);
     check_section(&check, def);

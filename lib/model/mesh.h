@@ -84,6 +84,7 @@ typedef struct dmb_mesh {
     dmb_vector batches;       /* dmb_batch */
     dmb_vector rigid_masses;  /* dmb_rigid_mass */
     dmb_vector sites;         /* dmb_site */
+    dmb_vector inside;        /* dmb_scene_point: of the last of them */
     dmb_vector path_sites;    /* dmb_path_site */
     dmb_vector drives;        /* dmb_scene_drive; row is filled by freeze */
     dmb_vector loads;         /* dmb_scene_load */

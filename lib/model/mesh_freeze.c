@@ -112,6 +112,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
         (uint32_t)(mesh->nodes.count - mesh->elements.count); /* a chain has one node more than elements */
     scene->rigid_mass_count = (uint32_t)mesh->rigid_masses.count;
     scene->site_count = (uint32_t)mesh->sites.count;
+    scene->inside_count = (uint32_t)mesh->inside.count;
     scene->path_site_count = (uint32_t)mesh->path_sites.count;
     scene->drive_count = (uint32_t)mesh->drives.count;
     scene->load_count = (uint32_t)mesh->loads.count;
@@ -181,6 +182,7 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
     w->pieces = DMB_ARENA_ARRAY(arena, dmb_hole_piece, hole->pieces);
     to->sites = DMB_ARENA_ARRAY(arena, dmb_site, counts->site_count);
     to->path_sites = DMB_ARENA_ARRAY(arena, dmb_path_site, counts->path_site_count);
+    if (counts->inside_count > 0) to->inside = DMB_ARENA_ARRAY(arena, dmb_scene_point, counts->inside_count);
     to->drives = DMB_ARENA_ARRAY(arena, dmb_scene_drive, counts->drive_count);
     to->loads = DMB_ARENA_ARRAY(arena, dmb_scene_load, counts->load_count);
     to->bits = DMB_ARENA_ARRAY(arena, dmb_scene_bit, counts->bit_count);

@@ -1,5 +1,6 @@
 /* The axis of the hole, and contact sites along it. */
 #include "force/hole_section.h"
+#include "math/lobatto.h"
 #include "model/field_check.h"
 #include "model/mesh.h"
 #include "model/section.h"
@@ -52,6 +53,8 @@ typedef struct site_walk {
     double length;   /* [m] half of the stretches on both sides, as far as they are known */
     uint32_t string; /* index */
     uint32_t ring;   /* next one in rings */
+    double inside;   /* [m] of the next stretch that points inside its element stand for */
+    double joint;    /* [m] of it that its far end stands for alone */
 } site_walk;
 
 /* A place is free to move sideways if its node is, or if its node tilts and it stands away from it. */
@@ -139,16 +142,25 @@ static int32_t finish_place(site_walk *walk)
 static int32_t pass_stretch(site_walk *walk, double length, double diameter, uint32_t node, double offset,
                             uint32_t pipe)
 {
+    const double half = 0.5 * (length - walk->inside - walk->joint);
     int32_t status;
-    walk->length += 0.5 * length;
+    walk->length += half;
     walk->diameter = fmax(walk->diameter, diameter);
     status = finish_place(walk);
     walk->node = node;
     walk->offset = offset;
     walk->pipe = pipe;
     walk->diameter = diameter;
-    walk->length = 0.5 * length;
+    walk->length = half + walk->joint;
+    walk->inside = walk->joint = 0.0;
     return status;
+}
+
+/* [-] of an element's length that its ends leave to the points inside. */
+static double share_inside(const dmb_pipe_def *def)
+{
+    const dmb_lobatto_rule *rule = dmb_lobatto(def->contact_points);
+    return rule == NULL ? 0.0 : 1.0 - 2.0 * rule->weight[0];
 }
 
 /* The far node of a pipe may stand behind rigid pipes, and its end before it. */
@@ -158,9 +170,12 @@ static int32_t pass_elastic_pipe(site_walk *walk, const dmb_pipe_map *pipe, cons
     const dmb_mesh_element *last = element + pipe->elements - 1;
     int32_t status = DMB_OK;
     for (uint32_t e = 0; e + 1 < pipe->elements && status >= 0; ++e) {
+        walk->inside = share_inside(def) * element[e].length;
         status = pass_stretch(walk, element[e].length, def->outer_diameter, pipe->node + e + 1, 0.0, number);
     }
     if (status < 0) return status;
+    walk->inside = share_inside(def) * last->length;
+    walk->joint = walk->inside > 0.0 ? pipe->joint : 0.0;
     return pass_stretch(walk, last->length + pipe->joint, def->outer_diameter, last->node + 1,
                         pipe->joint - last->arm[1], number);
 }
@@ -212,6 +227,44 @@ static int32_t add_rings(dmb_mesh *mesh)
     return status;
 }
 
+/* ---- Inside elements --------------------------------------------------------------------------------------------- */
+
+static int32_t add_inside(dmb_mesh *mesh, const dmb_pipe_def *def, uint32_t e, dmb_site site)
+{
+    const dmb_lobatto_rule *rule = dmb_lobatto(def->contact_points);
+    const dmb_mesh_element *element = dmb_mesh_element_at(mesh, e);
+    const dmb_mesh_node *a = dmb_mesh_node_at(mesh, element->node), *b = a + 1;
+    int32_t status = DMB_OK;
+    if (a->size != DMB_NODE_FULL || b->size != DMB_NODE_FULL) return DMB_OK;
+    if (!moves_sideways(a, 1.0) && !moves_sideways(b, 1.0)) return DMB_OK;
+    site.node = element->node;
+    for (int i = 1; i + 1 < rule->count && status >= 0; ++i) {
+        const dmb_scene_point point = {.fraction = rule->node[i], .node = element->node, .element = e};
+        site.offset = element->arm[0] + rule->node[i] * element->length;
+        site.length = rule->weight[i] * element->length;
+        status = push_site(mesh, &site);
+        if (status >= 0) status = dmb_vector_append(&mesh->inside, &mesh->model->allocator, &point, 1);
+    }
+    return status;
+}
+
+static int32_t add_string_inside(dmb_mesh *mesh, uint32_t string)
+{
+    dmb_pipe_walk pipes = dmb_pipe_walk_of(mesh, string);
+    const dmb_string_map *map = dmb_mesh_string_at(mesh, string);
+    int32_t status = DMB_OK;
+    while (status >= 0 && dmb_pipe_walk_next(&pipes)) {
+        const dmb_pipe_map *pipe = dmb_mesh_pipe_at(mesh, map->first_pipe + pipes.number);
+        const dmb_pipe_def *def = &pipes.run->def;
+        const dmb_site site = {.radius = 0.5 * def->outer_diameter,
+                               .part = dmb_model_id(mesh->model, DMB_PART_STRING, string),
+                               .pipe = pipes.number};
+        for (uint32_t e = 0; e < pipe->elements && def->contact_points > 0 && status >= 0; ++e)
+            status = add_inside(mesh, def, pipe->element + e, site);
+    }
+    return status;
+}
+
 int32_t dmb_mesh_sites(dmb_mesh *mesh)
 {
     uint32_t ring = 0;
@@ -219,5 +272,6 @@ int32_t dmb_mesh_sites(dmb_mesh *mesh)
     if ((mesh->features & DMB_FEATURE_CONTACT) == 0) return status;
     for (uint32_t s = 0; s < mesh->strings.count && status >= 0; ++s) status = pass_string(mesh, s, &ring);
     if (status >= 0) status = add_rings(mesh);
+    for (uint32_t s = 0; s < mesh->strings.count && status >= 0; ++s) status = add_string_inside(mesh, s);
     return status;
 }

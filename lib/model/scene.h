@@ -299,6 +299,7 @@ typedef struct dmb_scene {
     int32_t beams_only;                /* 1: every element has two FULL nodes */
     const struct dmb_kernels *kernels; /* of a step, as wide as the processor takes */
     uint32_t node_count, row_count, element_count, type_count, batch_count, chain_count, rigid_mass_count;
+    uint32_t inside_count; /* of the sites the last ones, inside elements */
     uint32_t site_count, path_site_count, drive_count, load_count, bit_count, programme_count;
     uint32_t string_count, pipe_count, body_count, ring_count;
     uint32_t history_count; /* bit samples in all */
@@ -364,6 +365,7 @@ typedef struct dmb_scene {
     dmb_friction_law friction_law; /* kind DMB_FRICTION_NONE when left out */
     dmb_site *sites;
     dmb_path_site *path_sites;
+    dmb_scene_point *inside; /* sections of the sites inside elements, element by element, shape (inside_count) */
 
     /* actions */
     dmb_scene_drive *drives;
@@ -430,6 +432,18 @@ static inline uint32_t dmb_held_row(const dmb_scene *scene, uint32_t i)
 static inline int32_t dmb_scene_has_bristles(const dmb_scene *scene)
 {
     return scene->friction_law.kind == DMB_FRICTION_BRISTLE;
+}
+
+/* Sites on nodes, which come before those inside elements. */
+static inline uint32_t dmb_node_sites(const dmb_scene *scene)
+{
+    return scene->site_count - scene->inside_count;
+}
+
+/* 1: the site is inside an element; its node is the near one, its offset the way from there along the unbent pipe. */
+static inline int dmb_is_inside(const dmb_scene *scene, uint32_t site)
+{
+    return site >= dmb_node_sites(scene) && site < scene->site_count;
 }
 
 /* [m] of a ring at a depth; in a hole of sections below 0 where it is too wide for it. */

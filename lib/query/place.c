@@ -179,7 +179,7 @@ static uint32_t search(const dmb_scene *scene, uint32_t first, uint32_t end, dmb
 static uint32_t site_on_string(const dmb_scene *scene, dmb_id string, uint32_t pipe, uint32_t node)
 {
     const uint32_t full = scene->site_count;
-    const uint32_t found = search(scene, 0, full, string, pipe, node);
+    const uint32_t found = search(scene, 0, dmb_node_sites(scene), string, pipe, node);
     return found != DMB_NONE ? found : search(scene, full, full + scene->path_site_count, string, pipe, node);
 }
 

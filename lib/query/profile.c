@@ -260,6 +260,32 @@ static uint32_t ring_site(const station *at)
                                                                            : scene->bodies[scene->rings[low].body].site;
 }
 
+/* The point inside the element for whose length the station is; DMB_NONE: it is of the ends. */
+static uint32_t inside_site(const station *at)
+{
+    const dmb_scene *scene = at->sim->scene;
+    const dmb_element_type *type = &scene->types[scene->element_type[at->point.element]];
+    const uint32_t first = dmb_node_sites(scene);
+    uint32_t low = 0, high = scene->inside_count;
+    if (high == 0 || in_tool_joint(at)) return DMB_NONE;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (scene->inside[middle].element < at->point.element)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    double inside = 0.0;
+    for (uint32_t i = low; i < scene->inside_count && scene->inside[i].element == at->point.element; i++)
+        inside += scene->sites[first + i].length;
+    double left = at->point.fraction * type->length - 0.5 * (type->length - inside);
+    for (; low < scene->inside_count && scene->inside[low].element == at->point.element && left >= 0.0; low++) {
+        left -= scene->sites[first + low].length;
+        if (left < 0.0) return first + low;
+    }
+    return DMB_NONE;
+}
+
 /* The site that stands for the length of string that the station is on: that of a ring there, else the nearest one. */
 static uint32_t nearest_site(const station *at)
 {
@@ -269,6 +295,8 @@ static uint32_t nearest_site(const station *at)
         return at->place.fraction < 0.5 ? dmb_site_after(at->sim, at->place.part, at->place.pipe, 0)
                                         : dmb_site_of(at->sim, at->place.part, at->place.pipe);
     }
+    const uint32_t inside = inside_site(at);
+    if (inside != DMB_NONE) return inside;
     element = at->point.element - pipe_of(at)->element;
     return dmb_site_after(at->sim, at->place.part, at->place.pipe, beyond_middle(at) ? element + 1 : element);
 }

@@ -89,6 +89,7 @@ static uint64_t add_wall(uint64_t h, const dmb_scene *s)
         h = dmb_fnv_number(h, s->sites[i].offset);
         h = dmb_fnv_number(h, s->sites[i].radius);
     }
+    for (uint32_t i = 0; i < s->inside_count; ++i) h = dmb_fnv_number(h, s->inside[i].fraction);
     for (uint32_t i = 0; i < s->path_site_count; ++i) {
         h = dmb_fnv_number(h, s->path_sites[i].length);
         h = dmb_fnv_number(h, s->path_sites[i].radius);

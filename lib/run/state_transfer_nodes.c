@@ -320,7 +320,7 @@ static void transfer_string_sites(dmb_sim *sim, const dmb_sim *from, int32_t wha
 {
     const dmb_scene *scene = sim->scene, *was = from->scene;
     uint32_t k = 0;
-    for (uint32_t s = 0; s < scene->site_count; s++) {
+    for (uint32_t s = 0; s < dmb_node_sites(scene); s++) {
         const dmb_site *site = scene->sites + s;
         double arm;
         if (what == DMB_TRANSFER_ALL) begin_site(sim, s);
@@ -328,13 +328,34 @@ static void transfer_string_sites(dmb_sim *sim, const dmb_sim *from, int32_t wha
         const uint32_t old = old_node(scene, was, site->node, &arm);
         const double offset = site->offset + arm;
         if (old == DMB_NONE) continue;
-        while (k < was->site_count && (was->sites[k].node < old || (was->sites[k].node == old &&
-                                                                    (was->sites[k].offset < offset - DMB_SAME_PLACE ||
-                                                                     was->sites[k].part.index >> 24 == DMB_PART_RING))))
+        while (k < dmb_node_sites(was) &&
+               (was->sites[k].node < old ||
+                (was->sites[k].node == old &&
+                 (was->sites[k].offset < offset - DMB_SAME_PLACE || was->sites[k].part.index >> 24 == DMB_PART_RING))))
             k++;
-        if (k < was->site_count && was->sites[k].node == old && was->sites[k].offset <= offset + DMB_SAME_PLACE &&
+        if (k < dmb_node_sites(was) && was->sites[k].node == old && was->sites[k].offset <= offset + DMB_SAME_PLACE &&
             dmb_model_part_index(from->model, was->sites[k].part, DMB_PART_STRING) != DMB_NONE)
             transfer_site(sim, s, from, k, what);
+    }
+}
+
+/* Pipes are alike, so a point inside an element comes from the one as far from the end of the list of them. */
+static void transfer_inside_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
+{
+    const dmb_scene *scene = sim->scene, *was = from->scene;
+    uint32_t k = 0;
+    for (uint32_t i = 0; i < scene->inside_count; i++) {
+        const uint32_t s = dmb_node_sites(scene) + i;
+        double arm;
+        if (what == DMB_TRANSFER_ALL) begin_site(sim, s);
+        const uint32_t old = old_node(scene, was, scene->inside[i].node, &arm);
+        while (old != DMB_NONE && k < was->inside_count &&
+               (was->inside[k].node < old ||
+                (was->inside[k].node == old && was->inside[k].fraction < scene->inside[i].fraction)))
+            k++;
+        if (old == DMB_NONE || k == was->inside_count || was->inside[k].node != old) continue;
+        if (was->inside[k].fraction <= scene->inside[i].fraction)
+            transfer_site(sim, s, from, dmb_node_sites(was) + k, what);
     }
 }
 
@@ -386,6 +407,7 @@ static void transfer_path_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
 void dmb_state_transfer_sites(dmb_sim *sim, const dmb_sim *from, int32_t what)
 {
     transfer_string_sites(sim, from, what);
+    transfer_inside_sites(sim, from, what);
     transfer_body_sites(sim, from, what);
     transfer_ring_sites(sim, from, what);
     transfer_path_sites(sim, from, what);

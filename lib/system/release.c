@@ -5,6 +5,7 @@
 #include "element/beam.h"
 #include "math/so3.h"
 #include "system/assemble/wall_contact.h"
+#include "system/assemble/wall_contact_inside.h"
 #include "system/solve/solve.h"
 
 static int opens(const dmb_sim *sim, uint32_t s)
@@ -46,7 +47,6 @@ static double open_part(const dmb_sim *sim, uint32_t s)
 static void subtract_force(dmb_sim *sim, uint32_t s, double part, double *rows)
 {
     const dmb_site *site = sim->scene->sites + s;
-    const uint32_t row = sim->scene->layout.row[site->node];
     double R[9], b[3], arm[3], force[3], moment[3], wrench[6];
     dmb_site_force f;
     dmb_site_force_of(sim->scene, &sim->now, s, &f);
@@ -58,11 +58,10 @@ static void subtract_force(dmb_sim *sim, uint32_t s, double part, double *rows)
     dmb_vec3_scale(site->radius, f.normal, arm);
     dmb_vec3_cross(arm, force, moment);
     dmb_vec3_axpy(f.along, f.tangent, force);
-    dmb_quat_to_matrix(sim->now.quaternion + 4 * site->node, R);
+    dmb_site_axes(sim->scene, &sim->now, s, R);
     dmb_mat3_tvec(R, force, wrench);
     dmb_mat3_tvec(R, moment, wrench + 3);
-    dmb_arm_wrench(site->offset, wrench);
-    for (uint32_t i = 0; i < 6; i++) rows[row + i] -= part * wrench[i];
+    dmb_site_add_wrench(sim->scene, &sim->now, s, -part, wrench, rows);
 }
 
 /* M^-1 of the forces that open, with the mass matrix factored. */
@@ -75,6 +74,7 @@ static void release(dmb_sim *sim, double *acceleration, double *part)
         if (!opens(sim, s)) continue;
         const double open = open_part(sim, s);
         *of_node = fmax(*of_node, open);
+        if (dmb_is_inside(sim->scene, s)) of_node[1] = fmax(of_node[1], open);
         subtract_force(sim, s, open, acceleration);
     }
     dmb_solve_for(sim, acceleration, acceleration);

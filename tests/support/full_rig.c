@@ -40,7 +40,7 @@ static void add_full_hole(rig *s, const full_rig_choice *choice)
         wall.survey_count = 3;
     }
     (void)add_wall(s, &wall);
-    if (choice->sections) add_full_sections(s);
+    if (choice->sections & 1) add_full_sections(s);
 }
 
 static dmb_pipe_def soft_pipe(void)
@@ -66,12 +66,14 @@ static dmb_id add_full_string(rig *s, const full_rig_choice *choice)
     def.start_free = DMB_FREE_CYLINDRICAL;
     const dmb_id string = add_string(s, &def);
     dmb_pipe_def pipe = soft_pipe();
+    pipe.contact_points = choice->sections & 2 ? 3 : 0;
     pipe.string = string;
     pipe.elements = 2;
     pipe.joint_length = 0.15;
     pipe.joint_outer_diameter = 0.33;
     (void)add_pipes(s, &pipe, 1);
     pipe = soft_pipe();
+    pipe.contact_points = choice->sections & 2 ? 4 : 0;
     pipe.string = string;
     pipe.kind = choice->rings_only ? DMB_PIPE_FLEXIBLE : DMB_PIPE_AXIAL_TORSIONAL;
     (void)add_pipes(s, &pipe, 2);

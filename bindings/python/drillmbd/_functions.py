@@ -373,7 +373,7 @@ FUNCTION_DOCS = {
     "dmb_query_constraint_rows":
         "The first row of the Jacobian that is an equation of a joint, coupling, constraint or joint drive, and their count.",
     "dmb_query_contact":
-        "Contact of one site, sites counted along the strings and then the bodies.",
+        "Contact of one site, counted along the strings (rings before the pipe at their nodes), then the bodies, then points along elements (contact_points), then axial-torsional pipes.",
     "dmb_query_contact_total":
         "O(number of sites).",
     "dmb_query_energy":

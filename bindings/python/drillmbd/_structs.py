@@ -1940,6 +1940,8 @@ class PipeDef(Sized):
     section_inertia: 'Array[c_double]'
     yield_strength: float
     name: bytes
+    contact_points: int
+    contact_reserved: int
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -1969,6 +1971,8 @@ class PipeDef(Sized):
         ("section_inertia", c_double * 2),
         ("yield_strength", c_double),
         ("name", c_char * 24),
+        ("contact_points", c_uint32),
+        ("contact_reserved", c_uint32),
     ]
     field_docs = {
         "kind": ("", "PIPE_..., default PIPE_FLEXIBLE"),
@@ -1998,6 +2002,7 @@ class PipeDef(Sized):
         "section_inertia": ("kg m", "rotary inertia per metre about x and across; 0: from the diameters; of a rigid pipe as a body about its axis <= twice across; shape (2)"),
         "yield_strength": ("Pa", "for the share of yield of a profile; 0 (default): not known"),
         "name": ("", "of the pipes that one call adds, for messages and dmb_model_find_pipes; default \"\""),
+        "contact_points": ("-", "3, 4 or 5: flexible pipes meet the wall at as many Gauss-Lobatto points of each element, its ends among them, each for its weight of the length, tool joints for their own length at the far end; 0 (default): at nodes only"),
     }
 
 
@@ -2281,7 +2286,7 @@ class Contact(Sized):
         "sticks": ("", "1 when the bristle law holds it"),
         "site": ("-", "number of the site, 0 .. info.contact_sites - 1"),
         "part": ("", "string or body the site belongs to"),
-        "pipe": ("-", "pipe whose far end it is; NONE for the rig end of the string"),
+        "pipe": ("-", "pipe whose far end it is, or that it is on; NONE for the rig end of the string"),
         "length": ("m", "of pipe it stands for"),
         "gap": ("m", "to the wall, < 0 when penetrating"),
         "normal": ("-", "outward, from the axis to the wall, world frame, shape (3)"),

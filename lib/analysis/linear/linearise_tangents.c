@@ -5,6 +5,7 @@
 #include "analysis/linear/linearise.h"
 #include "math/mat6.h"
 #include "math/so3.h"
+#include "system/assemble/wall_contact_inside.h"
 
 /* [s] Terms integrated over a step are told from the rest by two steps this short and twice as long: a power of two,
  * over which nothing slips far. */
@@ -106,7 +107,8 @@ int32_t dmb_linear_take_damping(dmb_linear *linear)
 
 void dmb_linear_freeze(dmb_linear *linear, const dmb_linear_options *options)
 {
-    if (options->contact == DMB_CONTACT_OPEN) linear->scene.site_count = linear->scene.path_site_count = 0;
+    if (options->contact == DMB_CONTACT_OPEN)
+        linear->scene.site_count = linear->scene.inside_count = linear->scene.path_site_count = 0;
     if (options->no_friction) linear->scene.friction_law.kind = DMB_FRICTION_NONE;
     linear->work->scene = &linear->scene;
 }
@@ -145,6 +147,24 @@ static void add_wall(dmb_linear *linear, const dmb_site *site, double stiffness,
     dmb_mat6_add_outer(stiffness, j, j, linear->stiffness.diagonal + linear->scene.layout.diag[site->node]);
 }
 
+/* The same inside an element: j = A^T (n; 0) on both of its nodes. */
+static void add_wall_inside(dmb_linear *linear, uint32_t s, double stiffness, const double normal[3])
+{
+    const dmb_block_layout *layout = &linear->scene.layout;
+    const uint32_t a = linear->scene.sites[s].node;
+    double R[9], n[6] = {0.0}, j[12] = {0.0};
+    dmb_point_motion motion;
+    dmb_point_motion_of(&linear->scene, &linear->work->trial, dmb_inside_point(&linear->scene, s), &motion);
+    memcpy(R, motion.R, sizeof R);
+    dmb_mat3_tvec(R, normal, n);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 12; k++) j[k] += motion.map[12 * i + k] * n[i];
+    dmb_mat6_add_outer(stiffness, j, j, linear->stiffness.diagonal + layout->diag[a]);
+    dmb_mat6_add_outer(stiffness, j + 6, j + 6, linear->stiffness.diagonal + layout->diag[a + 1]);
+    dmb_mat6_add_outer(stiffness, j, j + 6, linear->stiffness.upper + layout->link[a]);
+    dmb_mat6_add_outer(stiffness, j + 6, j, linear->stiffness.lower + layout->link[a]);
+}
+
 double dmb_linear_wall_stiffness(const dmb_linear *linear, uint32_t s, double gap)
 {
     const dmb_site *site = linear->scene.sites + s;
@@ -157,7 +177,9 @@ void dmb_linear_close_contacts(dmb_linear *linear, double gap)
 {
     for (uint32_t s = 0; s < linear->scene.site_count; s++) {
         const double stiffness = dmb_linear_wall_stiffness(linear, s, gap);
-        if (stiffness > 0.0)
+        if (stiffness > 0.0 && dmb_is_inside(&linear->scene, s))
+            add_wall_inside(linear, s, stiffness, linear->work->trial.site_normal + 3 * (size_t)s);
+        else if (stiffness > 0.0)
             add_wall(linear, linear->scene.sites + s, stiffness, linear->work->trial.site_normal + 3 * (size_t)s);
     }
 }

@@ -11,6 +11,7 @@
 #include "sim/node.h"
 #include "system/assemble/evaluation.h"
 #include "system/assemble/wall_contact.h"
+#include "system/assemble/wall_contact_inside.h"
 #include "system/constrain/cluster.h"
 
 /* Differences of the residual with a factor this large lose nothing to the forces of the state. */
@@ -257,19 +258,17 @@ static int32_t eccentricity(const request *r)
 static void add_ring(const dmb_sim *copy, uint32_t s, int32_t around, double *rows)
 {
     const dmb_site *site = copy->scene->sites + s;
-    double R[9], u[3], n[3], t[3], b[3], w[6];
+    double R[9], n[3], t[3], b[3], w[6];
     dmb_site_force f;
     dmb_site_force_of(copy->scene, &copy->now, s, &f);
     if (!f.closed) return;
-    dmb_node_pose(copy->scene, &copy->now, site->node, R, u);
+    dmb_site_axes(copy->scene, &copy->now, s, R);
     dmb_mat3_tvec(R, f.normal, n);
     dmb_mat3_tvec(R, f.tangent, t);
     dmb_vec3_cross(t, n, b);
     dmb_vec3_scale(f.normal_force, around ? b : t, w);
     dmb_vec3_scale(f.normal_force * (around ? site->radius : -site->radius), around ? t : b, w + 3);
-    w[4] -= site->offset * w[2];
-    w[5] += site->offset * w[1];
-    for (uint32_t i = 0; i < 6; i++) rows[copy->scene->layout.row[site->node] + i] += w[i];
+    dmb_site_add_wrench(copy->scene, &copy->now, s, 1.0, w, rows);
 }
 
 static void add_path(const dmb_sim *copy, uint32_t s, int32_t around, double *rows)

@@ -100,6 +100,7 @@ static void take_site(const request *r, uint32_t site)
     const dmb_scene *scene = r->copy->scene;
     const uint32_t node = dmb_contact_node(scene, site);
     dmb_functional_take_node(scene, node, &r->out->functional);
+    if (dmb_is_inside(scene, site)) dmb_functional_take_node(scene, node + 1, &r->out->functional);
     if (site < scene->site_count) return;
     if (node > 0) dmb_functional_take_node(scene, node - 1, &r->out->functional);
     if (node + 1 < scene->node_count) dmb_functional_take_node(scene, node + 1, &r->out->functional);

@@ -26,7 +26,8 @@ static int lies(const dmb_scene *scene, uint32_t s)
 {
     const dmb_site *site = scene->sites + s;
     const int first = s == 0 || scene->sites[s - 1].node != site->node;
-    return first && site->offset == 0.0 && site->clearance >= 0.0 && free_sideways(scene, site->node);
+    return first && !dmb_is_inside(scene, s) && site->offset == 0.0 && site->clearance >= 0.0 &&
+           free_sideways(scene, site->node);
 }
 
 /* ---- By weight --------------------------------------------------------------------------------------------------- */

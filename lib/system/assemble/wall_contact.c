@@ -9,6 +9,7 @@
 #include "math/vec3.h"
 #include "sim/node.h"
 #include "system/assemble/evaluation.h"
+#include "system/assemble/wall_contact_inside.h"
 
 void dmb_contact_slope_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t site, dmb_contact_slope *out)
 {
@@ -89,7 +90,7 @@ int dmb_contact_friction_by_normal(const dmb_evaluation *evaluation, uint32_t si
     const dmb_site *ring = evaluation->sim->scene->sites + site;
     double by_normal[2];
     dmb_contact_frame frame;
-    if (!(evaluation->sim->trial.site_penetration[site] > 0.0)) return 0;
+    if (!(evaluation->sim->trial.site_penetration[site] > 0.0) || dmb_is_inside(evaluation->sim->scene, site)) return 0;
     if (!friction_by_normal(evaluation, site, ring->radius, by_normal)) return 0;
     frame_of(evaluation, site, &frame);
     for (int i = 0; i < 3; i++) {
@@ -124,7 +125,7 @@ static dmb_wall_job job_of(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     const dmb_wall_job job = {
-        .count = scene->site_count,
+        .count = dmb_node_sites(scene),
         .sites = scene->sites,
         .hole = &scene->hole,
         .normal_law = &scene->normal_law,
@@ -186,6 +187,7 @@ void dmb_gather_contacts(dmb_evaluation *evaluation)
     job.impact = evaluation->power[DMB_POWER_IMPACT];
     job.friction = evaluation->power[DMB_POWER_FRICTION];
     (scene->hole.pieces == 0 ? scene->kernels : dmb_kernels_of(1))->walls(&job);
+    if (scene->inside_count > 0) dmb_gather_contacts_inside(evaluation, &job);
     evaluation->rounding = job.rounding;
     evaluation->power[DMB_POWER_POTENTIAL] = job.potential;
     evaluation->power[DMB_POWER_IMPACT] = job.impact;
@@ -217,6 +219,26 @@ void dmb_assumed_friction(const dmb_friction_law *law, const dmb_configuration *
     out->sticks = 0;
 }
 
+/* Axes, centre [m] (world) and velocity of a ring. */
+static void motion_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t s, double R[9], double x[3],
+                      double V[6])
+{
+    const dmb_site *site = scene->sites + s;
+    if (dmb_is_inside(scene, s)) {
+        dmb_point_motion motion;
+        dmb_point_motion_of(scene, c, dmb_inside_point(scene, s), &motion);
+        memcpy(R, motion.R, sizeof motion.R);
+        dmb_vec3_add(scene->reference_position + 3 * (size_t)site->node, motion.x, x);
+        dmb_vec6_copy(motion.V, V);
+        return;
+    }
+    dmb_quat_to_matrix(c->quaternion + 4 * (size_t)site->node, R);
+    dmb_vec3_add(scene->reference_position + 3 * (size_t)site->node, c->displacement + 3 * (size_t)site->node, x);
+    for (int i = 0; i < 3; i++) x[i] += R[3 * i] * site->offset;
+    dmb_vec6_copy(c->velocity + scene->layout.row[site->node], V);
+    dmb_arm_velocity(site->offset, V);
+}
+
 /* Closest point of the axis, its depth, the direction from it and the speeds there. */
 static double site_frame_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t s, dmb_site_force *out,
                             dmb_contact_frame *f)
@@ -224,14 +246,10 @@ static double site_frame_of(const dmb_scene *scene, const dmb_configuration *c, 
     const dmb_site *site = scene->sites + s;
     double R[9], x[3], point[3], depth = c->site_depth[s];
     uint32_t segment = c->site_segment[s];
-    dmb_quat_to_matrix(c->quaternion + 4 * site->node, R);
-    dmb_vec3_add(scene->reference_position + 3 * site->node, c->displacement + 3 * site->node, x);
-    for (int i = 0; i < 3; i++) x[i] += R[3 * i] * site->offset;
+    motion_of(scene, c, s, R, x, f->V);
     dmb_hole_project(&scene->hole, x, &depth, &segment, point, out->tangent);
     dmb_radial(x, point, out->tangent, c->site_normal + 3 * s, &f->distance, out->normal);
     f->radius = site->radius;
-    dmb_vec6_copy(c->velocity + scene->layout.row[site->node], f->V);
-    dmb_arm_velocity(site->offset, f->V);
     dmb_contact_frame_at(R, out->normal, out->tangent, f);
     dmb_contact_speeds(f);
     return depth;

@@ -127,6 +127,18 @@ static double worst_column(rig *s, int32_t dynamic, int kind)
     return worst;
 }
 
+/* Differences do not cross the kink where a ring opens; with rings inside elements not all of them can be pushed in. */
+static int near_opening(const rig *s, double distance)
+{
+    const dmb_sim *sim = s->sim;
+    dmb_evaluation e = evaluation_of(s->sim, 0);
+    dmb_configuration_copy(s->sim, &s->sim->now, &s->sim->trial);
+    assert_int_equal(dmb_system_evaluate(&e), DMB_OK);
+    for (uint32_t i = 0; sim->scene->inside_count > 0 && i < sim->scene->site_count; i++)
+        if (fabs(sim->trial.site_penetration[i]) < distance) return 1;
+    return 0;
+}
+
 /* By pose, velocity and acceleration, and by pose in statics; in three states. */
 static void check_tangent(const char *name, const full_rig_choice *choice)
 {
@@ -134,10 +146,15 @@ static void check_tangent(const char *name, const full_rig_choice *choice)
     for (int kind = 0; kind < 4; kind++) {
         char what[96];
         double worst = 0.0;
-        for (uint64_t seed = 1; seed <= 3; seed++) {
+        for (uint64_t seed = 1, states = 0; states < 3; seed++) {
             rig s;
             full_rig_open(&s, choice);
             stir(&s, seed);
+            if (near_opening(&s, 2e-3)) {
+                rig_close(&s);
+                continue;
+            }
+            states++;
             worst = fmax(worst, worst_column(&s, kind < 3, kind % 3));
             rig_close(&s);
         }
@@ -186,6 +203,20 @@ static void rings_in_sections(void **state)
     check_tangent("sections, Coulomb, Kelvin-Voigt, curved", choice + 2);
 }
 
+/* At integration points inside the elements too. */
+static void rings_along_the_elements(void **state)
+{
+    (void)state;
+    const full_rig_choice choice[4] = {{DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0, 2},
+                                       {DMB_FRICTION_BRISTLE, DMB_NORMAL_EXACT, DMB_ROCK_NONE, 0, 0, 1, 2},
+                                       {DMB_FRICTION_COULOMB, DMB_NORMAL_KELVIN_VOIGT, DMB_ROCK_NONE, 1, 0, 1, 2},
+                                       {DMB_FRICTION_AMBROSIO, DMB_NORMAL_EXACT, DMB_ROCK_NONE, 1, 0, 1, 3}};
+    check_tangent("along the elements, Stribeck, Hunt-Crossley", choice);
+    check_tangent("along the elements, bristles, exact", choice + 1);
+    check_tangent("along the elements, Coulomb, Kelvin-Voigt, curved", choice + 2);
+    check_tangent("along the elements, sections, Ambrosio, exact, curved", choice + 3);
+}
+
 /* Force times curvature of the hole is left out of the tangent at a seam between flexible and axial-torsional pipes, at
  * a bit and for loads in the frame of the hole: with 0.1 rad/m here 0.006 of a column; a real hole bends 10 to 100
  * times less. The residual itself has it all. Velocity and acceleration are exact. */
@@ -220,7 +251,11 @@ static void check_gradient(const char *what, int32_t curved, int32_t sections)
     rig s;
     double worst = 0.0, residual[ROWS_MAX];
     full_rig_open(&s, &choice);
-    stir(&s, 43);
+    for (uint64_t seed = 43; seed == 43 || near_opening(&s, 8e-3); seed++) {
+        rig_close(&s);
+        full_rig_open(&s, &choice);
+        stir(&s, seed);
+    }
     dmb_sim *sim = s.sim;
     memset(sim->now.load_factor, 0, sim->scene->load_count * sizeof(double));
     memset(sim->now.bit_load, 0, sim->scene->bit_count * sizeof(double));
@@ -249,6 +284,8 @@ static void static_residual_is_the_gradient_of_the_energies(void **state)
     check_gradient("the same in a curved hole", 1, 0);
     check_gradient("the same in a hole of sections", 0, 1);
     check_gradient("the same in a curved hole of sections", 1, 1);
+    check_gradient("the same with contact along the elements", 0, 2);
+    check_gradient("the same with contact along the elements in a curved hole of sections", 1, 3);
 }
 
 /* ---- Power ------------------------------------------------------------------------------------------------------- */
@@ -271,11 +308,12 @@ static void check_power(const full_rig_choice *choice)
 static void powers_cancel_at_an_accepted_state(void **state)
 {
     (void)state;
-    const full_rig_choice choice[4] = {{DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0, 0},
+    const full_rig_choice choice[5] = {{DMB_FRICTION_STRIBECK, DMB_NORMAL_HUNT_CROSSLEY, DMB_ROCK_RATE, 0, 1, 0, 0},
+                                       {DMB_FRICTION_BRISTLE, DMB_NORMAL_EXACT, DMB_ROCK_RATE, 1, 1, 0, 2},
                                        {DMB_FRICTION_BRISTLE, DMB_NORMAL_EXACT, DMB_ROCK_REGENERATIVE, 0, 1, 0, 0},
                                        {DMB_FRICTION_COULOMB, DMB_NORMAL_KELVIN_VOIGT, DMB_ROCK_RATE, 1, 1, 0, 0},
                                        {DMB_FRICTION_STRIBECK, DMB_NORMAL_EXACT, DMB_ROCK_RATE, 1, 1, 0, 1}};
-    for (int i = 0; i < 4; i++) check_power(choice + i);
+    for (int i = 0; i < 5; i++) check_power(choice + i);
 }
 
 int main(void)
@@ -286,6 +324,7 @@ int main(void)
         cmocka_unit_test(ambrosio_with_impact_law),
         cmocka_unit_test(rings_in_a_curved_hole),
         cmocka_unit_test(rings_in_sections),
+        cmocka_unit_test(rings_along_the_elements),
         cmocka_unit_test(everything_in_a_curved_hole),
         cmocka_unit_test(static_residual_is_the_gradient_of_the_energies),
         cmocka_unit_test(powers_cancel_at_an_accepted_state),
