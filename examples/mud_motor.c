@@ -1,6 +1,8 @@
 /* A bit behind a mud motor, which adds its speed to the string's and gives way as the torque on the bit grows. */
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
+
+#include "command_line.h"
 static dmb_model *model;
 
 static dmb_id add_section(double position, int32_t start_free)
@@ -59,8 +61,13 @@ static dmb_id describe(void)
     return id;
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1)
+        return command_line(count, words,
+                            "A bit behind a mud motor, which adds its speed to the string's and gives way as the "
+                            "torque on the bit grows.",
+                            NULL, 0);
     dmb_sim *sim = NULL;
     dmb_drive_state at = dmb_drive_state_default();
     if (dmb_model_create(NULL, &model) < 0) return 1;

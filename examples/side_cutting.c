@@ -3,6 +3,8 @@
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 static int32_t describe(dmb_model *model, double side_cutting, dmb_id *string)
 {
     dmb_environment_def light = dmb_environment_def_default();
@@ -55,8 +57,13 @@ static int32_t drill(double side_cutting)
     return status;
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1)
+        return command_line(count, words,
+                            "A short assembly, tilted in a guide and pushed aside, that turns and drills ahead: how "
+                            "fast it builds angle by its tilt and by the steerability of its bit.",
+                            NULL, 0);
     const double steerability[] = {0.01, 0.5, 1.0};
     for (int i = 0; i < 3; i++)
         if (drill(steerability[i]) < 0) return 1;

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "command_line.h"
+
 typedef struct parts {
     dmb_id string, stuck, jam;
 } parts;
@@ -67,8 +69,13 @@ static int32_t run(dmb_sim *sim, const parts *p)
     return DMB_OK;
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1)
+        return command_line(count, words,
+                            "A bit gets stuck while the string is pulled: the pull grows with the stretch until it "
+                            "comes free, and an event tells when.",
+                            NULL, 0);
     dmb_model *model = NULL;
     dmb_sim *sim = NULL;
     parts p;
