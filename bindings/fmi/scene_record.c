@@ -18,6 +18,7 @@ static const id_field id_fields[] = {
     {"add_joint", offsetof(dmb_joint_def, place_a)}, {"add_joint", offsetof(dmb_joint_def, place_b)},
     {"add_coupling", offsetof(dmb_coupling_def, joint)},
     {"add_coupling", offsetof(dmb_coupling_def, joint) + sizeof(dmb_id)},
+    {"add_coupling", offsetof(dmb_coupling_def, third_joint)}, {"add_coupling", offsetof(dmb_coupling_def, fourth_joint)},
     {"add_drive", offsetof(dmb_drive_def, part)}, {"add_drive", offsetof(dmb_drive_def, programme)},
     {"add_drive", offsetof(dmb_drive_def, excitation)},
     {"add_load", offsetof(dmb_load_def, place)}, {"add_load", offsetof(dmb_load_def, programme)},

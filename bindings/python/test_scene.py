@@ -357,6 +357,53 @@ class ShippedTest(unittest.TestCase):
                 sim.run(0.01, step=1e-3)
             self.assertEqual(one.hash(), other.hash())
 
+    def test_actuators_and_differentials(self):
+        text = """[[body]]
+name = "rotor"
+free_mask = ["rx"]
+[[body]]
+name = "cage"
+[[joint]]
+name = "a"
+kind = "cylindrical"
+place_b = "cage"
+[[body]]
+name = "wheel"
+[[joint]]
+name = "b"
+kind = "revolute"
+place_b = "wheel"
+[[coupling]]
+name = "three"
+joint = ["a", "b"]
+component = ["rx", "rx"]
+third_joint = "a"
+third_component = "x"
+third_ratio = 0.25
+[[drive]]
+name = "head"
+kind = "control"
+part = "rotor"
+component = "rx"
+programme = "60 rpm"
+gain = "800 N m s"
+delay = "50 ms"
+lag = "0.1 s"
+force_rate = "20 kN m/s"
+drag = "5 N m s"
+back_drag = "60 N m s"
+inertia = "12 kg m^2"
+curve = [["0 rpm", "4 kN m"], ["60 rpm", "4 kN m"], ["140 rpm", "0 N m"]]
+"""
+        found = scene.loads(text)
+        head = dict(found.model.calls)["add_drive"][0]
+        self.assertEqual((head["delay"], head["force_rate"], head["inertia"], len(head["curve"])), (0.05, 2e4, 12.0, 3))
+        again = scene.loads(scene.saves(found))
+        self.assertTrue(again.same_as(found))
+        self.assertEqual(after_run(again), after_run(found))
+        with self.assertRaisesRegex(scene.SceneError, "curve"):
+            scene.loads(text.replace('["0 rpm", "4 kN m"]', '["0 rpm"]'))
+
     def test_names_go_to_the_library(self):
         text = """[[string]]
 name = "main"

@@ -341,15 +341,20 @@ DMB_SIZED_STRUCT(dmb_joint_def)
 /* Adds a joint. Errors: DMB_ERR_ID; DMB_ERR_VALUE for a part joined to itself, an axis of zero length, two grounds. */
 DMB_API int32_t dmb_model_add_joint(dmb_model *model, const dmb_joint_def *def, dmb_id *joint);
 
-/* Two joint coordinates that go together: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear: two
- * revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi). */
+/* Two to four joint coordinates that go together: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear:
+ * two revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi). A third and a fourth one go off too,
+ * each with its ratio. Differential: cage - 0.5 left - 0.5 right; planetary gear: carrier, sun, ring; tackle: ropes. */
 typedef struct dmb_coupling_def {
     uint32_t struct_size;
     int32_t reserved;
-    char name[24];        /* for messages and look-up (names.h), ends with 0; default "" */
-    dmb_id joint[2];      /* may be the same */
-    int32_t component[2]; /* DMB_X .. DMB_RZ, free in its joint; default DMB_RX */
-    double ratio;         /* [-, m/rad, rad/m] not 0; default 1 */
+    char name[24];                             /* for messages and look-up (names.h), ends with 0; default "" */
+    dmb_id joint[2];                           /* may be the same */
+    int32_t component[2];                      /* DMB_X .. DMB_RZ, free in its joint; default DMB_RX */
+    double ratio;                              /* [-, m/rad, rad/m] not 0; default 1 */
+    dmb_id third_joint;                        /* {0, 0} (default): two coordinates */
+    dmb_id fourth_joint;                       /* {0, 0} (default): none */
+    int32_t third_component, fourth_component; /* DMB_X .. DMB_RZ, free in its joint; default DMB_RX */
+    double third_ratio, fourth_ratio;          /* [-, m/rad, rad/m] not 0; default 1 */
 } dmb_coupling_def;
 DMB_SIZED_STRUCT(dmb_coupling_def)
 DMB_API int32_t dmb_model_add_coupling(dmb_model *model, const dmb_coupling_def *def, dmb_id *coupling);
@@ -401,6 +406,21 @@ typedef struct dmb_drive_def {
     double limit_low;     /* [N, N m] default -1e30 */
     double limit_high;    /* [N, N m] > limit_low; default 1e30 */
     char name[24];        /* for messages and look-up (names.h), ends with 0; default "" */
+    /* Actuator of a LOAD or CONTROL drive: its command (programme, or what the controller asks for within the limits)
+     * becomes a force after `delay`, changing by at most `force_rate`, with a `lag`, within the torque-speed curve,
+     * less the drag. All 0 (default): the force is the command. At the start it has come to its command. */
+    double delay;      /* [s] from command to force, 0 or 1e-6 .. 1e4 */
+    double force_rate; /* [N/s, N m/s] the most its force changes in a second, > 0; 0: it jumps */
+    double lag;        /* [s] time constant of the force, 0 or >= 1e-6 */
+    double drag;       /* [N s/m, N m s] of the actuator where the component's speed is > 0, >= 0 */
+    double back_drag;  /* [N s/m, N m s] where it is < 0: back-spin, >= 0 */
+    double inertia;    /* [kg m2] of rotor and gear, turning with the component, which must be RX of a string or a body;
+                          >= 0; of MOTION too */
+    uint32_t curve_count; /* [-] points of the torque-speed curve: 0 (none) or 2 .. 8 */
+    int32_t reserved2;
+    double curve_speed[8]; /* [m/s, rad/s] strictly increasing, shape (curve_count) */
+    double curve_force[8]; /* [N, N m] >= 0: the most that it pushes towards > 0 at a speed, straight between points,
+                              constant beyond; the same mirrored towards < 0; shape (curve_count) */
 } dmb_drive_def;
 DMB_SIZED_STRUCT(dmb_drive_def)
 DMB_API int32_t dmb_model_add_drive(dmb_model *model, const dmb_drive_def *def, dmb_id *drive);

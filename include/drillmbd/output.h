@@ -53,6 +53,8 @@ enum {
     DMB_CHANNEL_DRIVE_POSITION = 131, /* [m, rad] */
     DMB_CHANNEL_DRIVE_POWER = 132,    /* [W] */
     DMB_CHANNEL_DRIVE_WORK = 133,     /* [J] */
+    DMB_CHANNEL_DRIVE_COMMAND = 134,  /* [N, N m] */
+    DMB_CHANNEL_DRIVE_MADE = 135,     /* [N, N m] */
 
     /* place.pipe the number of a contact site: dmb_query_contact */
     DMB_CHANNEL_SITE_GAP = 140,             /* [m] */

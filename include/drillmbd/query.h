@@ -129,6 +129,8 @@ typedef struct dmb_drive_state {
     double force;    /* [N, N m] that the drive exerts on the part, along the component */
     double power;    /* [W] */
     double work;     /* [J] since the start; 0 without the energy ledger */
+    double command;  /* [N, N m] what a LOAD or CONTROL drive asks for now; of MOTION its force */
+    double made; /* [N, N m] what has become of it by delay, rate and lag of its actuator, before its curve and drag */
 } dmb_drive_state;
 DMB_SIZED_STRUCT(dmb_drive_state)
 DMB_API int32_t dmb_query_drive(const dmb_sim *sim, dmb_id drive, dmb_drive_state *state);

@@ -7,6 +7,8 @@
 #include <float.h>
 #include <math.h>
 
+#include "system/assemble/actuators.h"
+
 #define DMB_SLIVER 1e-6         /* [-] part of a step that is not worth a step of its own */
 #define DMB_CORNER_ROUNDING 4.0 /* [ulp] between the sum of steps as the caller rounds them and the corner it means */
 
@@ -26,6 +28,7 @@ static double next_corner(const dmb_sim *sim, double t)
         next = fmin(next, corner_of(scene, scene->drives[i].programme, t));
         next = fmin(next, corner_of(scene, scene->drives[i].excitation, t));
     }
+    if (scene->delay_count) next = fmin(next, dmb_actuators_next_corner(sim, t));
     for (uint32_t i = 0; i < scene->load_count; i++) next = fmin(next, corner_of(scene, scene->loads[i].programme, t));
     for (uint32_t i = 0; i < scene->bit_count; i++) next = fmin(next, corner_of(scene, scene->bits[i].load, t));
     return next;

@@ -82,7 +82,14 @@ DMB_DEFINE_INIT(dmb_joint_def, 656, {
     .stop_stiffness = 1e6,
 })
 
-DMB_DEFINE_INIT(dmb_coupling_def, 64, {.component = {DMB_RX, DMB_RX}, .ratio = 1.0})
+DMB_DEFINE_INIT(dmb_coupling_def, 64, {
+    .component = {DMB_RX, DMB_RX},
+    .ratio = 1.0,
+    .third_component = DMB_RX,
+    .fourth_component = DMB_RX,
+    .third_ratio = 1.0,
+    .fourth_ratio = 1.0,
+})
 
 DMB_DEFINE_INIT(dmb_constraint_def, 160, {.kind = DMB_CONSTRAINT_HOLONOMIC, .row_count = 1, .place_count = 1})
 

@@ -209,6 +209,55 @@ static void check_driven_part(dmb_check *check, const dmb_model *model, const dm
     }
 }
 
+/* ---- Actuators --------------------------------------------------------------------------------------------------- */
+
+#define DMB_ACTUATOR_TIME_MIN 1e-6 /* [s] */
+#define DMB_DELAY_MAX 1e4          /* [s] */
+
+static void check_curve(dmb_check *check, const dmb_drive_def *def)
+{
+    dmb_check_count(check, "curve_count", def->curve_count, 0, DMB_CURVE_POINTS);
+    if (check->status < 0 || def->curve_count == 0) return;
+    dmb_check_count(check, "curve_count", def->curve_count, 2, DMB_CURVE_POINTS);
+    dmb_check_each_within(check, "curve_speed", def->curve_speed, def->curve_count, -DMB_SPEED_MAX, DMB_SPEED_MAX);
+    dmb_check_each_within(check, "curve_force", def->curve_force, def->curve_count, 0.0, DMB_FORCE_MAX);
+    dmb_check_increasing(check, "curve_speed", def->curve_speed, def->curve_count, 1);
+    for (uint32_t i = 1; i < def->curve_count && check->status >= 0; ++i)
+        if (def->curve_speed[i] - def->curve_speed[i - 1] < DMB_SPEED_MIN)
+            dmb_check_fail(check, DMB_ERR_VALUE, "curve_speed", def->curve_speed[i], "> the one before, by 1e-12");
+}
+
+/* The inertia turns with the part about its x axis; along and across it, and in joints, bodies have it. */
+static void check_rotor(dmb_check *check, const dmb_model *model, const dmb_drive_def *def)
+{
+    dmb_check_zero_or_within(check, "inertia", def->inertia, DMB_INERTIA_MIN, DMB_INERTIA_MAX);
+    if (check->status < 0 || !(def->inertia > 0.0)) return;
+    if (def->component == DMB_RX && dmb_model_part_index(model, def->part, DMB_PART_JOINT) == DMB_NONE) return;
+    dmb_check_fail(
+        check, DMB_ERR_UNSUPPORTED, "inertia", def->inertia,
+        "0 but of the component DMB_RX of a string or a body: give the body that moves its mass and inertia");
+}
+
+static void check_actuator(dmb_check *check, const dmb_model *model, const dmb_drive_def *def)
+{
+    dmb_check_zero_or_within(check, "delay", def->delay, DMB_ACTUATOR_TIME_MIN, DMB_DELAY_MAX);
+    dmb_check_zero_or_within(check, "force_rate", def->force_rate, DMB_SPEED_MIN, DMB_FORCE_MAX);
+    dmb_check_zero_or_within(check, "lag", def->lag, DMB_ACTUATOR_TIME_MIN, DMB_TIME_MAX);
+    dmb_check_within(check, "drag", def->drag, 0.0, DMB_FORCE_MAX);
+    dmb_check_within(check, "back_drag", def->back_drag, 0.0, DMB_FORCE_MAX);
+    check_curve(check, def);
+    check_rotor(check, model, def);
+    if (check->status < 0 || def->kind != DMB_DRIVE_MOTION) return;
+    if (!(def->delay > 0.0 || def->force_rate > 0.0 || def->lag > 0.0 || def->drag > 0.0 || def->back_drag > 0.0) &&
+        def->curve_count == 0)
+        return;
+    check->status = DMB_ERR_UNSUPPORTED;
+    dmb_message_set(check->message,
+                    "%s: kind = %d, must be DMB_DRIVE_LOAD or _CONTROL with delay, force_rate, lag, drag or a curve: a "
+                    "motion drive has the force that its motion takes",
+                    check->part, (int)def->kind);
+}
+
 static int32_t check_drive(dmb_model *model, const dmb_drive_def *def)
 {
     dmb_message part;
@@ -225,6 +274,7 @@ static int32_t check_drive(dmb_model *model, const dmb_drive_def *def)
     dmb_check_within(&check, "limit_low", def->limit_low, -DMB_FORCE_MAX, DMB_FORCE_MAX);
     dmb_check_within(&check, "limit_high", def->limit_high, -DMB_FORCE_MAX, DMB_FORCE_MAX);
     dmb_check_above_field(&check, "limit_high", def->limit_high, "limit_low", def->limit_low);
+    check_actuator(&check, model, def);
     return check.status;
 }
 

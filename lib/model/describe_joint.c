@@ -163,19 +163,39 @@ int32_t dmb_model_add_joint(dmb_model *model, const dmb_joint_def *def, dmb_id *
 
 /* ---- Couplings --------------------------------------------------------------------------------------------------- */
 
-static void check_coordinate(dmb_check *check, const dmb_model *model, const dmb_coupling_def *def, uint32_t side)
+static void check_ratio(dmb_check *check, const char *field, double ratio)
 {
-    const uint32_t joint = dmb_model_part_index(model, def->joint[side], DMB_PART_JOINT);
-    dmb_message field, name, bound;
-    dmb_message_set(&field, "joint[%u]", side);
-    dmb_check_id(check, model, field.text, def->joint[side], DMB_PART_JOINT, "joint");
-    dmb_message_set(&field, "component[%u]", side);
-    dmb_check_choice(check, field.text, def->component[side], DMB_X, DMB_RZ);
+    dmb_check_finite(check, field, ratio);
+    if (fabs(ratio) >= DMB_RATIO_MIN && fabs(ratio) <= DMB_RATIO_MAX) return;
+    dmb_message bound;
+    dmb_message_set(&bound, "of size >= %g and <= %g", DMB_RATIO_MIN, DMB_RATIO_MAX);
+    dmb_check_fail(check, DMB_ERR_VALUE, field, ratio, bound.text);
+}
+
+static void check_coordinate(dmb_check *check, const dmb_model *model, const dmb_coupled_coordinate *c)
+{
+    const uint32_t joint = dmb_model_part_index(model, c->joint, DMB_PART_JOINT);
+    dmb_message name, bound;
+    dmb_check_id(check, model, c->joint_field, c->joint, DMB_PART_JOINT, "joint");
+    dmb_check_choice(check, c->component_field, c->component, DMB_X, DMB_RZ);
     if (check->status < 0) return;
     const dmb_joint_def *of = DMB_LIST_AT(const dmb_joint_def, model->joints, joint);
-    if ((dmb_joint_free_mask(of->kind) >> def->component[side] & 1) != 0) return;
+    if ((dmb_joint_free_mask(of->kind) >> c->component & 1) != 0) return;
     dmb_message_set(&bound, "free in its joint: %s", dmb_part_text(&name, "joint", joint, of->name, sizeof of->name));
-    dmb_check_fail(check, DMB_ERR_VALUE, field.text, def->component[side], bound.text);
+    dmb_check_fail(check, DMB_ERR_VALUE, c->component_field, c->component, bound.text);
+}
+
+/* Each coordinate once. */
+static void check_another(dmb_check *check, const dmb_coupling_def *def, uint32_t k)
+{
+    const dmb_coupled_coordinate c = dmb_coupled_coordinate_of(def, k);
+    for (uint32_t i = 0; i < k; ++i) {
+        const dmb_coupled_coordinate before = dmb_coupled_coordinate_of(def, i);
+        dmb_message bound;
+        if (before.joint.index != c.joint.index || before.component != c.component) continue;
+        dmb_message_set(&bound, "another coordinate than %s of the same joint", before.component_field);
+        dmb_check_fail(check, DMB_ERR_VALUE, c.component_field, c.component, bound.text);
+    }
 }
 
 static int32_t check_coupling(dmb_model *model, const dmb_coupling_def *def)
@@ -185,17 +205,12 @@ static int32_t check_coupling(dmb_model *model, const dmb_coupling_def *def)
         dmb_check_of(&model->message,
                      dmb_part_text(&part, "coupling", model->couplings.count, def->name, sizeof def->name), DMB_NONE);
     dmb_check_part_name(&check, model, DMB_PART_COUPLING, def->name);
-    check_coordinate(&check, model, def, 0);
-    check_coordinate(&check, model, def, 1);
-    if (def->joint[0].index == def->joint[1].index && def->component[0] == def->component[1]) {
-        dmb_check_fail(&check, DMB_ERR_VALUE, "component[1]", def->component[1],
-                       "another coordinate than component[0] of the same joint");
-    }
-    dmb_check_finite(&check, "ratio", def->ratio);
-    if (!(fabs(def->ratio) >= DMB_RATIO_MIN && fabs(def->ratio) <= DMB_RATIO_MAX)) {
-        dmb_message bound;
-        dmb_message_set(&bound, "of size >= %g and <= %g", DMB_RATIO_MIN, DMB_RATIO_MAX);
-        dmb_check_fail(&check, DMB_ERR_VALUE, "ratio", def->ratio, bound.text);
+    for (uint32_t k = 0; k < DMB_COUPLED; ++k) {
+        const dmb_coupled_coordinate c = dmb_coupled_coordinate_of(def, k);
+        if (k >= 2 && dmb_id_is_none(c.joint)) continue;
+        check_coordinate(&check, model, &c);
+        check_another(&check, def, k);
+        if (k > 0) check_ratio(&check, c.ratio_field, c.ratio);
     }
     return check.status;
 }

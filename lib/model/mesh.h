@@ -87,6 +87,7 @@ typedef struct dmb_mesh {
     dmb_vector inside;        /* dmb_scene_point: of the last of them */
     dmb_vector path_sites;    /* dmb_path_site */
     dmb_vector drives;        /* dmb_scene_drive; row is filled by freeze */
+    dmb_vector actuators;     /* dmb_actuator_law */
     dmb_vector loads;         /* dmb_scene_load */
     dmb_vector bits;          /* dmb_scene_bit */
     dmb_vector inputs;        /* dmb_scene_input */
@@ -111,7 +112,8 @@ typedef struct dmb_mesh {
     dmb_vector rings;         /* dmb_ring_map, in that order */
     uint32_t tool_joints;     /* pipes that have one */
     uint32_t history_count;
-    double mass; /* [kg] */
+    uint32_t delays; /* drives with a delay line */
+    double mass;     /* [kg] */
 } dmb_mesh;
 
 static inline dmb_mesh_node *dmb_mesh_node_at(const dmb_mesh *mesh, uint32_t i)

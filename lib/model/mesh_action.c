@@ -57,6 +57,25 @@ static int32_t prescribe(dmb_mesh *mesh, uint32_t drive, const dmb_drive_def *de
     return take_component(mesh, drive, def, &node->prescribed);
 }
 
+static bool has_actuator(const dmb_drive_def *def)
+{
+    return def->kind != DMB_DRIVE_MOTION && (def->delay > 0.0 || def->force_rate > 0.0 || def->lag > 0.0 ||
+                                             def->drag > 0.0 || def->back_drag > 0.0 || def->curve_count > 0);
+}
+
+static int32_t add_actuator(dmb_mesh *mesh, const dmb_drive_def *def)
+{
+    dmb_actuator_law law = {.delay = def->delay,
+                            .rate_limit = def->force_rate,
+                            .lag = def->lag,
+                            .drag = {def->drag, def->back_drag},
+                            .points = def->curve_count};
+    memcpy(law.speed, def->curve_speed, sizeof law.speed);
+    memcpy(law.force, def->curve_force, sizeof law.force);
+    if (law.delay > 0.0) law.line = mesh->delays++;
+    return dmb_vector_append(&mesh->actuators, &mesh->model->allocator, &law, 1);
+}
+
 static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_drive_def *def = DMB_LIST_AT(const dmb_drive_def, mesh->model->drives, i);
@@ -73,12 +92,14 @@ static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
                              .programme = programme_of(mesh, def->programme),
                              .excitation = excited ? programme_of(mesh, def->excitation) : DMB_NONE,
                              .joint = joint,
-                             .constraint = DMB_NONE};
+                             .constraint = DMB_NONE,
+                             .actuator = has_actuator(def) ? (uint32_t)mesh->actuators.count : DMB_NONE};
     memcpy(drive.name, def->name, sizeof drive.name);
     const int32_t status = joint != DMB_NONE
                                ? take_component(mesh, i, def, DMB_VECTOR_AT(uint8_t, &mesh->driven, joint))
                                : prescribe(mesh, i, def, dmb_mesh_node_at(mesh, drive.node));
     if (status < 0) return status;
+    if (drive.actuator != DMB_NONE && add_actuator(mesh, def) < 0) return DMB_ERR_NO_MEMORY;
     return dmb_vector_append(&mesh->drives, &mesh->model->allocator, &drive, 1);
 }
 

@@ -74,8 +74,8 @@ static int32_t add_joint(dmb_mesh *mesh, uint32_t i)
 static int32_t add_coupling(dmb_mesh *mesh, uint32_t i)
 {
     dmb_constraint constraint = {.kind = DMB_OF_COUPLING, .index = i, .rows = 1};
-    touch_joint(mesh, coupling_at(mesh, i)->joint[0], &constraint);
-    touch_joint(mesh, coupling_at(mesh, i)->joint[1], &constraint);
+    const dmb_scene_coupling *coupling = coupling_at(mesh, i);
+    for (uint32_t k = 0; k < coupling->count; ++k) touch_joint(mesh, coupling->joint[k], &constraint);
     return push(mesh, &constraint);
 }
 

@@ -115,6 +115,8 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->inside_count = (uint32_t)mesh->inside.count;
     scene->path_site_count = (uint32_t)mesh->path_sites.count;
     scene->drive_count = (uint32_t)mesh->drives.count;
+    scene->actuator_count = (uint32_t)mesh->actuators.count;
+    scene->delay_count = mesh->delays;
     scene->load_count = (uint32_t)mesh->loads.count;
     scene->bit_count = (uint32_t)mesh->bits.count;
     scene->load_point_count = (uint32_t)mesh->load_points.count;
@@ -184,6 +186,7 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
     to->path_sites = DMB_ARENA_ARRAY(arena, dmb_path_site, counts->path_site_count);
     if (counts->inside_count > 0) to->inside = DMB_ARENA_ARRAY(arena, dmb_scene_point, counts->inside_count);
     to->drives = DMB_ARENA_ARRAY(arena, dmb_scene_drive, counts->drive_count);
+    if (counts->actuator_count > 0) to->actuators = DMB_ARENA_ARRAY(arena, dmb_actuator_law, counts->actuator_count);
     to->loads = DMB_ARENA_ARRAY(arena, dmb_scene_load, counts->load_count);
     to->bits = DMB_ARENA_ARRAY(arena, dmb_scene_bit, counts->bit_count);
     if (counts->input_count > 0) to->inputs = DMB_ARENA_ARRAY(arena, dmb_scene_input, counts->input_count);

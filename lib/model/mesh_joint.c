@@ -299,10 +299,13 @@ static int32_t add_coupling(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_model *model = mesh->model;
     const dmb_coupling_def *def = DMB_LIST_AT(const dmb_coupling_def, model->couplings, i);
-    dmb_scene_coupling coupling = {.ratio = def->ratio};
-    for (int k = 0; k < 2; ++k) {
-        coupling.joint[k] = dmb_model_part_index(model, def->joint[k], DMB_PART_JOINT);
-        coupling.component[k] = def->component[k];
+    dmb_scene_coupling coupling = {.count = 0};
+    for (uint32_t k = 0; k < DMB_COUPLED; ++k) {
+        const dmb_coupled_coordinate c = dmb_coupled_coordinate_of(def, k);
+        if (dmb_id_is_none(c.joint)) continue;
+        coupling.joint[coupling.count] = dmb_model_part_index(model, c.joint, DMB_PART_JOINT);
+        coupling.component[coupling.count] = c.component;
+        coupling.factor[coupling.count++] = k == 0 ? 1.0 : -c.ratio;
     }
     memcpy(coupling.name, def->name, sizeof coupling.name);
     return dmb_vector_append(&mesh->couplings, &model->allocator, &coupling, 1);

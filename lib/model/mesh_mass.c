@@ -281,11 +281,27 @@ static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
     return add_part(mesh, map->node, &part, map->arm + 0.5 * def->length, 1.0, NULL);
 }
 
+/* Rotor and gear of a drive turn about the x axis with its part and add nothing else. */
+static int32_t add_rotor(dmb_mesh *mesh, uint32_t i)
+{
+    const dmb_drive_def *def = DMB_LIST_AT(const dmb_drive_def, mesh->model->drives, i);
+    const uint32_t body = dmb_model_part_index(mesh->model, def->part, DMB_PART_BODY);
+    const double centre[3] = {0.0, 0.0, 0.0}, inertia[6] = {def->inertia, 0.0, 0.0, 0.0, 0.0, 0.0};
+    if (!(def->inertia > 0.0)) return DMB_OK;
+    const uint32_t node = body != DMB_NONE ? DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, body)->node
+                                           : dmb_mesh_string_at(mesh, dmb_mesh_string_of(mesh, def->part))->start_node;
+    dmb_rigid_mass *rigid_mass = rigid_mass_of(mesh, node);
+    if (rigid_mass == NULL) return DMB_ERR_NO_MEMORY;
+    dmb_rigid_mass_add(rigid_mass, 0.0, centre, inertia);
+    return DMB_OK;
+}
+
 int32_t dmb_mesh_masses(dmb_mesh *mesh)
 {
     int32_t status = DMB_OK;
     for (uint32_t s = 0; s < mesh->strings.count && status >= 0; ++s) status = add_string(mesh, s);
     for (uint32_t i = 0; i < mesh->model->bodies.count && status >= 0; ++i) status = add_described_body(mesh, i);
     for (uint32_t i = 0; i < mesh->model->bits.count && status >= 0; ++i) status = add_bit(mesh, i);
+    for (uint32_t i = 0; i < mesh->model->drives.count && status >= 0; ++i) status = add_rotor(mesh, i);
     return status;
 }

@@ -171,6 +171,19 @@ uint32_t dmb_model_part_index(const dmb_model *model, dmb_id id, uint32_t kind)
     return index < dmb_model_part_count(model, kind) ? index : DMB_NONE;
 }
 
+/* ---- Couplings --------------------------------------------------------------------------------------------------- */
+
+dmb_coupled_coordinate dmb_coupled_coordinate_of(const dmb_coupling_def *def, uint32_t k)
+{
+    const dmb_coupled_coordinate all[4] = {
+        {def->joint[0], def->component[0], 1.0, "joint[0]", "component[0]", "ratio"},
+        {def->joint[1], def->component[1], def->ratio, "joint[1]", "component[1]", "ratio"},
+        {def->third_joint, def->third_component, def->third_ratio, "third_joint", "third_component", "third_ratio"},
+        {def->fourth_joint, def->fourth_component, def->fourth_ratio, "fourth_joint", "fourth_component",
+         "fourth_ratio"}};
+    return all[k];
+}
+
 /* ---- What all descriptions share --------------------------------------------------------------------------------- */
 
 int32_t dmb_describe_open(dmb_model *model, const char *part, const void *def)

@@ -31,6 +31,17 @@ typedef struct dmb_pipe_run {
     uint32_t reserved;
 } dmb_pipe_run;
 
+/* Coordinate k, 0 .. 3, of a coupling; none: joint {0, 0}. */
+typedef struct dmb_coupled_coordinate {
+    dmb_id joint;
+    int32_t component;
+    double ratio;            /* 1 of the first */
+    const char *joint_field; /* for messages */
+    const char *component_field;
+    const char *ratio_field;
+} dmb_coupled_coordinate;
+dmb_coupled_coordinate dmb_coupled_coordinate_of(const dmb_coupling_def *def, uint32_t k);
+
 /* A spring and its law; the table is the model's own copy. */
 typedef struct dmb_spring_plan {
     dmb_spring_def def; /* its pointers count for nothing */

@@ -70,6 +70,7 @@ static const wide_field wide_fields[] = {
     NAME("constraint", dmb_constraint_def),
     FIELD("constraint", dmb_constraint_def, place),
     NAME("drive", dmb_drive_def),
+    FIELDS("drive", dmb_drive_def, curve_count, curve_force),
     NAME("load", dmb_load_def),
     FIELD("load", dmb_load_def, place),
     FIELD("load", dmb_load_def, force),

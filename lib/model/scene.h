@@ -16,6 +16,7 @@
 #include "drillmbd/model.h"
 #include "drillmbd/query.h"
 #include "element/element_type.h"
+#include "force/actuator_law.h"
 #include "force/bit_rock.h"
 #include "force/contact_law.h"
 #include "force/friction_law.h"
@@ -56,6 +57,8 @@ typedef struct dmb_scene_drive {
     uint32_t excitation; /* DMB_NONE: none, or left out */
     uint32_t joint;      /* whose coordinate `component` it drives; DMB_NONE: none */
     uint32_t constraint; /* of a MOTION drive on a joint; DMB_NONE: none */
+    uint32_t actuator;   /* in actuators; DMB_NONE: its force is its command */
+    uint32_t reserved;
     char name[24];
 } dmb_scene_drive;
 
@@ -219,12 +222,14 @@ typedef struct dmb_scene_joint {
     char name[24];
 } dmb_scene_joint;
 
+/* sum of factor[i] times coordinate i keeps its value */
+enum { DMB_COUPLED = 4 };
 typedef struct dmb_scene_coupling {
-    double ratio;
-    uint32_t joint[2];
-    int32_t component[2];
+    double factor[DMB_COUPLED];
+    uint32_t joint[DMB_COUPLED];
+    int32_t component[DMB_COUPLED];
     uint32_t constraint;
-    uint32_t reserved;
+    uint32_t count; /* [-] coordinates, 2 .. 4 */
     char name[24];
 } dmb_scene_coupling;
 
@@ -322,6 +327,7 @@ typedef struct dmb_scene {
     double length_scale;  /* [m] mean element length, or 1: makes moments comparable with forces */
     double fluid_density; /* [kg/m3] */
     uint32_t input_count, event_count;
+    uint32_t actuator_count, delay_count;         /* drives with an actuator, with a delay */
     int32_t has_density_input, has_damping_input; /* 1: some input moves it */
 
     /* nodes */
@@ -369,6 +375,7 @@ typedef struct dmb_scene {
 
     /* actions */
     dmb_scene_drive *drives;
+    dmb_actuator_law *actuators; /* by drive */
     dmb_scene_load *loads;
     dmb_scene_bit *bits;
     dmb_programme *programmes; /* the model's own; of a sim with inputs, theirs behind them */

@@ -72,6 +72,8 @@ static int32_t drive_value(const dmb_sim *sim, const dmb_channel *channel, doubl
     case DMB_CHANNEL_DRIVE_TARGET: *value = drive.target; break;
     case DMB_CHANNEL_DRIVE_POSITION: *value = drive.position; break;
     case DMB_CHANNEL_DRIVE_POWER: *value = drive.power; break;
+    case DMB_CHANNEL_DRIVE_COMMAND: *value = drive.command; break;
+    case DMB_CHANNEL_DRIVE_MADE: *value = drive.made; break;
     default: *value = drive.work;
     }
     return DMB_OK;

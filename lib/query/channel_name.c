@@ -55,6 +55,8 @@ static const dmb_channel_entry names[] = {
     {"drive_position", "m or rad", DMB_CHANNEL_DRIVE_POSITION, DMB_AT_DRIVE},
     {"drive_power", "W", DMB_CHANNEL_DRIVE_POWER, DMB_AT_DRIVE},
     {"drive_work", "J", DMB_CHANNEL_DRIVE_WORK, DMB_AT_DRIVE},
+    {"drive_command", "N or N m", DMB_CHANNEL_DRIVE_COMMAND, DMB_AT_DRIVE},
+    {"drive_made", "N or N m", DMB_CHANNEL_DRIVE_MADE, DMB_AT_DRIVE},
     {"site_gap", "m", DMB_CHANNEL_SITE_GAP, DMB_AT_SITE},
     {"site_normal_force", "N", DMB_CHANNEL_SITE_NORMAL_FORCE, DMB_AT_SITE},
     {"site_approach", "m/s", DMB_CHANNEL_SITE_APPROACH, DMB_AT_SITE},

@@ -1,5 +1,6 @@
 /* Drives and bits at the accepted state. */
 #include "sim/access.h"
+#include "system/assemble/actuators.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/drives.h"
 
@@ -19,6 +20,11 @@ int32_t dmb_query_drive(const dmb_sim *sim, dmb_id drive, dmb_drive_state *state
     answer.force = sim->now.drive_force[i];
     answer.power = answer.force * answer.speed;
     answer.work = sim->drive_work[i];
+    answer.command = answer.made = answer.force;
+    if (sim->scene->drives[i].actuator != DMB_NONE) {
+        answer.command = dmb_actuator_flow_of(&sim->now, sim->scene->drives[i].actuator)->command;
+        answer.made = dmb_actuator_flow_of(&sim->now, sim->scene->drives[i].actuator)->force;
+    }
     return dmb_drive_state_write(state, &answer);
 }
 

@@ -120,9 +120,7 @@ uint32_t dmb_constraint_active(const dmb_sim *sim, uint32_t constraint)
     const dmb_scene_coupling *coupling = scene->couplings + c->index;
     switch (c->kind) {
     case DMB_OF_JOINT: return joint_rows(sim, c->index);
-    case DMB_OF_COUPLING:
-        return sim->joint_state[coupling->joint[0]] != DMB_JOINT_OPEN &&
-               sim->joint_state[coupling->joint[1]] != DMB_JOINT_OPEN;
+    case DMB_OF_COUPLING: return (uint32_t)dmb_coupling_holds(sim, coupling);
     case DMB_OF_DRIVE: return sim->joint_state[scene->drives[c->index].joint] != DMB_JOINT_OPEN;
     case DMB_OF_SPRING:
     case DMB_OF_FORCE: return 0;

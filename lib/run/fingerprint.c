@@ -130,6 +130,13 @@ static uint64_t add_drives(uint64_t h, const dmb_scene *s)
         h = dmb_fnv_word(h, drive->excitation);
         h = DMB_NUMBERS(h, numbers);
     }
+    for (uint32_t i = 0; i < s->actuator_count; ++i) {
+        const dmb_actuator_law *law = &s->actuators[i];
+        const double numbers[] = {law->delay, law->rate_limit, law->lag, law->drag[0], law->drag[1]};
+        h = DMB_NUMBERS(h, numbers);
+        h = dmb_fnv_numbers(h, law->speed, law->points);
+        h = dmb_fnv_numbers(h, law->force, law->points);
+    }
     return h;
 }
 
@@ -268,8 +275,8 @@ static uint64_t add_couplings(uint64_t h, const dmb_scene *s)
 {
     for (uint32_t i = 0; i < s->coupling_count; ++i) {
         const dmb_scene_coupling *coupling = &s->couplings[i];
-        h = dmb_fnv_number(h, coupling->ratio);
-        for (int k = 0; k < 2; ++k) {
+        for (uint32_t k = 1; k < coupling->count; ++k) h = dmb_fnv_number(h, -coupling->factor[k]);
+        for (uint32_t k = 0; k < coupling->count; ++k) {
             h = dmb_fnv_word(h, coupling->joint[k]);
             h = dmb_fnv_word(h, (uint32_t)coupling->component[k]);
         }

@@ -12,6 +12,7 @@
 #include "sim/layout.h"
 #include "sim/options.h"
 #include "sim/own_scene.h"
+#include "system/assemble/actuators.h"
 #include "system/start.h"
 
 DMB_DECLARE_STRUCT(dmb_sim_options)
@@ -135,9 +136,11 @@ static int32_t begin(const creation *c, dmb_model *model, void *block, size_t si
     sim->allocator = c->allocator;
     sim->options.allocator = NULL; /* the caller's struct may be gone; the copy is the one to use */
     release_drives(sim);
+    dmb_actuators_clear(sim);
     dmb_own_scene_begin(sim);
     dmb_events_begin(sim);
     status = dmb_system_start(sim);
+    if (status >= 0) dmb_actuators_settle(sim);
     if (status < 0) {
         (void)fail(model, &sim->options, status, &sim->message);
         give_back(sim);
@@ -238,8 +241,10 @@ static uint32_t active_rows(const dmb_scene *scene)
     uint32_t rows = 0;
     for (uint32_t i = 0; i < scene->joint_count; ++i) rows += joint_rows(&scene->joints[i]);
     for (uint32_t i = 0; i < scene->coupling_count; ++i) {
-        const uint32_t *joint = scene->couplings[i].joint;
-        if (!is_open(scene, joint[0]) && !is_open(scene, joint[1])) ++rows;
+        const dmb_scene_coupling *coupling = scene->couplings + i;
+        uint32_t holds = 1;
+        for (uint32_t k = 0; k < coupling->count; ++k) holds = holds && !is_open(scene, coupling->joint[k]);
+        rows += holds;
     }
     for (uint32_t i = 0; i < scene->drive_count; ++i) {
         const dmb_scene_drive *drive = &scene->drives[i];

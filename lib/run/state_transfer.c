@@ -33,6 +33,8 @@ static void transfer_drives(dmb_sim *sim, const dmb_sim *from)
     DMB_COPY(now.drive_integral, d);
     DMB_COPY(now.drive_target, d);
     DMB_COPY(now.drive_force, d);
+    DMB_COPY(now.actuator, 4 * (size_t)sim->scene->actuator_count);
+    DMB_COPY(delay_line, 2 * (size_t)DMB_DELAY_SAMPLES * sim->scene->delay_count);
     DMB_COPY(now.drive_speed, d);
     DMB_COPY(now.drive_rate, d);
     DMB_COPY(drive_input, d);

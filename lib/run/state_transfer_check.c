@@ -107,6 +107,8 @@ static int32_t check_drives(dmb_sim *sim, const dmb_sim *from)
         if (to->kind != old->kind) return other(sim, "drive", i, "kind");
         if (to->component != old->component) return other(sim, "drive", i, "component");
         if (part_of(def[i].part) != part_of(old_def[i].part)) return other(sim, "drive", i, "part");
+        if ((to->actuator == DMB_NONE) != (old->actuator == DMB_NONE)) return other(sim, "drive", i, "actuator");
+        if (def[i].delay != old_def[i].delay) return other(sim, "drive", i, "delay");
     }
     return DMB_OK;
 }
@@ -153,7 +155,8 @@ static int32_t check_links(dmb_sim *sim, const dmb_sim *from)
     for (uint32_t j = 0; j < a->joint_count; j++)
         if (a->joints[j].kind != b->joints[j].kind) return other(sim, "joint", j, "kind");
     for (uint32_t j = 0; j < a->coupling_count; j++)
-        if (memcmp(a->couplings[j].joint, b->couplings[j].joint, sizeof a->couplings->joint) != 0 ||
+        if (a->couplings[j].count != b->couplings[j].count ||
+            memcmp(a->couplings[j].joint, b->couplings[j].joint, sizeof a->couplings->joint) != 0 ||
             memcmp(a->couplings[j].component, b->couplings[j].component, sizeof a->couplings->component) != 0)
             return other(sim, "coupling", j, "joint or component");
     for (uint32_t j = 0; j < a->callback_count; j++) {

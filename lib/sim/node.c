@@ -156,6 +156,13 @@ uint32_t dmb_owner_of_held_ring(const dmb_scene *scene, uint32_t from, dmb_messa
     return dmb_held_ring(scene, from, text);
 }
 
+int dmb_coupling_holds(const dmb_sim *sim, const dmb_scene_coupling *coupling)
+{
+    for (uint32_t k = 0; k < coupling->count; k++)
+        if (sim->joint_state[coupling->joint[k]] == DMB_JOINT_OPEN) return 0;
+    return 1;
+}
+
 const char *dmb_drive_text(const dmb_scene *scene, uint32_t drive, dmb_message *text)
 {
     return dmb_part_text(text, "drive", drive, scene->drives[drive].name, sizeof scene->drives[drive].name);

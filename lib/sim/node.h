@@ -44,6 +44,8 @@ dmb_owner dmb_owner_of_element(const dmb_scene *scene, uint32_t element);
 uint32_t dmb_owner_of_held_ring(const dmb_scene *scene, uint32_t from, dmb_message *text);
 /* "drive 1 (pump)", "load 0". Returns text->text. */
 const char *dmb_string_text(const dmb_scene *scene, uint32_t string, dmb_message *text);
+/* 1 unless a joint of it is open. */
+int dmb_coupling_holds(const dmb_sim *sim, const dmb_scene_coupling *coupling);
 const char *dmb_drive_text(const dmb_scene *scene, uint32_t drive, dmb_message *text);
 const char *dmb_load_text(const dmb_scene *scene, uint32_t load, dmb_message *text);
 /* Node that a row belongs to. O(log nodes) */

@@ -4,10 +4,11 @@
  * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
  * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; ns = n
  * where there are contact sites, else 0; k =
- * bit_count, load = load_count, force = force_count, stuck = stuck_count, held = held_count, input = input_count, event
- * = event_count, history = history_count, diagonal and link = lengths of block storage; j = joint_count, c =
- * constraint_row_count, cluster = cluster_count, column = cluster_column_count, and for a scene with joints only: raw =
- * row_count, dense, square, full = storage of the clusters, block, value, pivots = of the reduced system. */
+ * bit_count, act = actuator_count, delay = delay_count, load = load_count, force = force_count, stuck = stuck_count,
+ * held = held_count, input = input_count, event = event_count, history = history_count, diagonal and link = lengths of
+ * block storage; j = joint_count, c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and
+ * for a scene with joints only: raw = row_count, dense, square, full = storage of the clusters, block, value, pivots =
+ * of the reduced system. */
 #ifndef DMB_SIM_SIM_H
 #define DMB_SIM_SIM_H
 
@@ -49,6 +50,7 @@
     X(double, drive_force, d, NUMBERS)            /* [N, N m] on the part */                                          \
     X(double, drive_speed, d, NUMBERS)            /* [m/s, rad/s] of a joint's coordinate; 0 of other drives */       \
     X(double, drive_rate, d, NUMBERS)             /* [m/s2, rad/s2] prescribed on a joint's coordinate */             \
+    X(double, actuator, 4 * act, NUMBERS) /* [N, N m] dmb_actuator_flow of drives with one: system/assemble/actuators */ \
     X(double, load_factor, load, NUMBERS)         /* [-] programme of each load */                                    \
     X(double, bit_load, k, NUMBERS)               /* [N] bottom-hole load of each bit */                              \
     /* system/assemble/bit: */                                                                                        \
@@ -77,6 +79,8 @@
     X(double, drive_work, d, NUMBERS) /* [J] system/ledger */                                                         \
     X(double, drive_input, d, INPUTS) /* [unit of the programme] value set by the caller; NaN: the programme:         \
                                          run/inputs, run/life */                                                      \
+    X(double, delay_line, 2 * DMB_DELAY_SAMPLES * delay, NUMBERS) /* [s] and [N, N m] samples of the commands of each   \
+                                                                 drive with a delay: system/assemble/actuators */     \
     X(double, input_value, input, SET_INPUTS) /* [unit of the target] set by the caller; NaN: the programme:          \
                                                  run/input_set, sim/own_scene; of a stuck place that lets go          \
                                                  system/let_go */                                                    \

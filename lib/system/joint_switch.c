@@ -37,7 +37,10 @@ static int holds_anew(const dmb_scene *scene, const dmb_constraint *c, uint32_t 
     if (was != DMB_JOINT_OPEN) return 0;
     if (c->kind == DMB_OF_DRIVE) return scene->drives[c->index].joint == j;
     if (c->kind != DMB_OF_COUPLING) return 0;
-    return scene->couplings[c->index].joint[0] == j || scene->couplings[c->index].joint[1] == j;
+    const dmb_scene_coupling *coupling = scene->couplings + c->index;
+    for (uint32_t k = 0; k < coupling->count; k++)
+        if (coupling->joint[k] == j) return 1;
+    return 0;
 }
 
 static int32_t check_rows(dmb_sim *sim, const dmb_constraint *c)

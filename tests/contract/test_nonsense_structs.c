@@ -189,7 +189,7 @@ static int32_t add_coupling(dmb_model *model, void *p)
     assert_int_equal(dmb_model_add_body(model, &body, &joint.place_b.part), DMB_OK);
     joint.kind = DMB_JOINT_CYLINDRICAL;
     assert_int_equal(dmb_model_add_joint(model, &joint, &id), DMB_OK);
-    if (coupling->struct_size >= sizeof *coupling) {
+    if (coupling->struct_size >= 64) { /* has them */
         coupling->joint[0] = coupling->joint[1] = id;
         coupling->component[0] = DMB_X;
     }
@@ -620,7 +620,7 @@ static const entry entries[] = {
     ENTRY(contact_total, 1),
     ENTRY(energy, 1),
     ENTRY(momentum, 1),
-    ENTRY(drive_state, 1),
+    GROWN(drive_state, 56, 1),
     GROWN(bit_state, 56, 1),
     GROWN(statistics, 72, 1),
     GROWN(recorder, 48, 0),
@@ -632,7 +632,7 @@ static const entry entries[] = {
     ENTRY(row, 1),
     ENTRY(joint_state, 1),
     ENTRY(joint_def, 0),
-    ENTRY(coupling_def, 0),
+    GROWN(coupling_def, 64, 0),
     ENTRY(constraint_def, 0),
     ENTRY(input_def, 0),
     ENTRY(input_info, 1),

@@ -163,7 +163,7 @@ static double of_part(const scene *r, int32_t q)
     must(&r->s, dmb_query_drive(r->s.sim, r->feed, &f));
     must(&r->s, dmb_query_drive(r->s.sim, r->torque, &t));
     const double bit[7] = {b.advance, b.bottom, b.depth_of_cut, b.weight, b.torque, b.load, b.on_bottom};
-    const double drive[4] = {t.target, t.position, t.power, t.work};
+    const double drive[6] = {t.target, t.position, t.power, t.work, t.command, t.made};
     if (q == DMB_CHANNEL_DRIVE_FORCE) return f.force;
     if (q == DMB_CHANNEL_DRIVE_SPEED) return f.speed;
     if (q == DMB_CHANNEL_BIT_WEIGHT) return b.weight + b.load;
@@ -258,7 +258,7 @@ static void each_is_its_query(void **state)
     }
     tell("channels", count);
     tell("    of them not 0", nonzero);
-    assert_int_equal(count, 216);
+    assert_int_equal(count, 218);
     assert_true(nonzero > 150);
     destroy(&r);
 }

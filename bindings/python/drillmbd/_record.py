@@ -236,6 +236,33 @@ class SpringPart:
         return found
 
 
+class DrivePart:
+    """A drive of a component of motion. `curve` takes up to 8 pairs (speed [m/s, rad/s], force [N, N m]) of the actuator."""
+    curve_count: int
+    curve_speed: Any
+    curve_force: Any
+
+    def __init__(self, curve: Any = None, **fields: Any) -> None:
+        super().__init__(**fields)
+        if curve is not None:
+            speeds, forces = _columns(curve)
+            room = len(self.curve_speed)
+            if len(speeds) > room:
+                raise ValueError(f"curve has {len(speeds)} points, must have at most {room}")
+            self.curve_count = len(speeds)
+            self.curve_speed = (speeds + [0.0] * room)[:room]
+            self.curve_force = (forces + [0.0] * room)[:room]
+
+    def describe(self, every: bool = False) -> dict[str, Any]:
+        """The fields as plain Python, `curve` as pairs."""
+        found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
+        for name in ("curve_count", "curve_speed", "curve_force"):
+            found.pop(name, None)
+        if self.curve_count:
+            found["curve"] = list(zip(self.curve_speed, self.curve_force))[:self.curve_count]
+        return found
+
+
 class PlacesPart:
     """A part on one to four `places`, computed by a `function`."""
     place_count: int

@@ -6,7 +6,7 @@ from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int
                     c_void_p)
 from typing import Any, ClassVar
 
-from ._record import ConstraintPart, ForcePart, IdPart, Record, Sized, SpringPart, TermPart, WallPart
+from ._record import ConstraintPart, DrivePart, ForcePart, IdPart, Record, Sized, SpringPart, TermPart, WallPart
 
 
 class Id(IdPart, Record):
@@ -467,6 +467,8 @@ class DriveState(Sized):
     force: float
     power: float
     work: float
+    command: float
+    made: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -476,6 +478,8 @@ class DriveState(Sized):
         ("force", c_double),
         ("power", c_double),
         ("work", c_double),
+        ("command", c_double),
+        ("made", c_double),
     ]
     field_docs = {
         "target": ("unit of the programme", "now, excitation included"),
@@ -484,6 +488,8 @@ class DriveState(Sized):
         "force": ("N, N m", "that the drive exerts on the part, along the component"),
         "power": ("W", ""),
         "work": ("J", "since the start; 0 without the energy ledger"),
+        "command": ("N, N m", "what a LOAD or CONTROL drive asks for now; of MOTION its force"),
+        "made": ("N, N m", "what has become of it by delay, rate and lag of its actuator, before its curve and drag"),
     }
 
 
@@ -2125,13 +2131,19 @@ class BitDef(Sized):
 
 
 class CouplingDef(Sized):
-    c_name, about = "dmb_coupling_def", "Two joint coordinates that go together: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear: two revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi)."
+    c_name, about = "dmb_coupling_def", "Two to four joint coordinates that go together: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear: two revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi). A third and a fourth one go off too, each with its ratio. Differential: cage - 0.5 left - 0.5 right; planetary gear: carrier, sun, ring; tackle: ropes."
     struct_size: int
     reserved: int
     name: bytes
     joint: 'Array[Id]'
     component: 'Array[c_int32]'
     ratio: float
+    third_joint: Id
+    fourth_joint: Id
+    third_component: int
+    fourth_component: int
+    third_ratio: float
+    fourth_ratio: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_int32),
@@ -2139,16 +2151,28 @@ class CouplingDef(Sized):
         ("joint", Id * 2),
         ("component", c_int32 * 2),
         ("ratio", c_double),
+        ("third_joint", Id),
+        ("fourth_joint", Id),
+        ("third_component", c_int32),
+        ("fourth_component", c_int32),
+        ("third_ratio", c_double),
+        ("fourth_ratio", c_double),
     ]
     field_docs = {
         "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
         "joint": ("", "may be the same"),
         "component": ("", "X .. RZ, free in its joint; default RX"),
         "ratio": ("-, m/rad, rad/m", "not 0; default 1"),
+        "third_joint": ("", "{0, 0} (default): two coordinates"),
+        "fourth_joint": ("", "{0, 0} (default): none"),
+        "third_component": ("", "X .. RZ, free in its joint; default RX"),
+        "fourth_component": ("", "X .. RZ, free in its joint; default RX"),
+        "third_ratio": ("-, m/rad, rad/m", "not 0; default 1"),
+        "fourth_ratio": ("-, m/rad, rad/m", "not 0; default 1"),
     }
 
 
-class DriveDef(Sized):
+class DriveDef(DrivePart, Sized):
     c_name, about = "dmb_drive_def", ""
     struct_size: int
     kind: int
@@ -2162,6 +2186,16 @@ class DriveDef(Sized):
     limit_low: float
     limit_high: float
     name: bytes
+    delay: float
+    force_rate: float
+    lag: float
+    drag: float
+    back_drag: float
+    inertia: float
+    curve_count: int
+    reserved2: int
+    curve_speed: 'Array[c_double]'
+    curve_force: 'Array[c_double]'
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -2175,6 +2209,16 @@ class DriveDef(Sized):
         ("limit_low", c_double),
         ("limit_high", c_double),
         ("name", c_char * 24),
+        ("delay", c_double),
+        ("force_rate", c_double),
+        ("lag", c_double),
+        ("drag", c_double),
+        ("back_drag", c_double),
+        ("inertia", c_double),
+        ("curve_count", c_uint32),
+        ("reserved2", c_int32),
+        ("curve_speed", c_double * 8),
+        ("curve_force", c_double * 8),
     ]
     field_docs = {
         "kind": ("", "DRIVE_..., default DRIVE_MOTION"),
@@ -2187,6 +2231,16 @@ class DriveDef(Sized):
         "limit_low": ("N, N m", "default -1e30"),
         "limit_high": ("N, N m", "> limit_low; default 1e30"),
         "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
+        "delay": ("s", "from command to force, 0 or 1e-6 .. 1e4"),
+        "force_rate": ("N/s, N m/s", "the most its force changes in a second, > 0; 0: it jumps"),
+        "lag": ("s", "time constant of the force, 0 or >= 1e-6"),
+        "drag": ("N s/m, N m s", "of the actuator where the component's speed is > 0, >= 0"),
+        "back_drag": ("N s/m, N m s", "where it is < 0: back-spin, >= 0"),
+        "inertia": ("kg m2", "of rotor and gear, turning with the component, which must be RX of a string or a body; >= 0; of MOTION too"),
+        "curve_count": ("-", "points of the torque-speed curve: 0 (none) or 2 .. 8"),
+        "reserved2": ("", ""),
+        "curve_speed": ("m/s, rad/s", "strictly increasing, shape (curve_count)"),
+        "curve_force": ("N, N m", ">= 0: the most that it pushes towards > 0 at a speed, straight between points, constant beyond; the same mirrored towards < 0; shape (curve_count)"),
     }
 
 

@@ -11,6 +11,7 @@
 #include "math/real.h"
 #include "sim/access.h"
 #include "sim/node.h"
+#include "system/assemble/actuators.h"
 #include "system/copy.h"
 
 DMB_DECLARE_STRUCT(dmb_modes_options)
@@ -135,7 +136,8 @@ static int32_t analyse(const dmb_sim *sim, const dmb_modes_options *options, dou
     search.options = options;
     search.modes = modes;
     search.message = message;
-    int32_t status = dmb_linear_make(sim, &how, &search.linear);
+    int32_t status = dmb_actuators_check_linear(sim, "modes", 0, message);
+    if (status >= 0) status = dmb_linear_make(sim, &how, &search.linear);
     if (status < 0) return status;
     search.work = dmb_allocate(&modes->allocator, bytes);
     search.coordinate_mass = search.work + 9 * (size_t)modes->rows;

@@ -10,6 +10,7 @@
 #include "math/so3.h"
 #include "sim/access.h"
 #include "sim/node.h"
+#include "system/assemble/actuators.h"
 #include "system/copy.h"
 
 dmb_response *dmb_response_new(const dmb_allocator *allocator, uint32_t inputs, uint32_t outputs)
@@ -335,6 +336,7 @@ static int32_t analyse(response_work *w, const dmb_response_options *options, co
     int32_t status = dmb_response_options_take(options, &sim->message, &w->options);
     if (status >= 0) status = check_counts(sim, w->input_count, w->output_count);
     if (status >= 0) status = dmb_state_copy_check(sim, "response");
+    if (status >= 0) status = dmb_actuators_check_linear(sim, "response", 1, &sim->message);
     if (status < 0) return status;
     dmb_response *made = dmb_response_new(&sim->allocator, w->input_count, w->output_count);
     status = made != NULL ? respond(w, inputs, outputs, made) : DMB_ERR_NO_MEMORY;

@@ -143,6 +143,11 @@ static int32_t check_scene(dmb_sim *sim)
                         sim->scene->input_count);
         return DMB_ERR_UNSUPPORTED;
     }
+    if (sim->scene->delay_count) {
+        dmb_message_set(&sim->message, "sensitivity: %u drives have an actuator with a delay, must be none; take a lag",
+                        sim->scene->delay_count);
+        return DMB_ERR_UNSUPPORTED;
+    }
     if (sim->scene->sparse_count) {
         dmb_message_set(&sim->message, "sensitivity: a cluster of joints is solved by sparse matrices; flexible pipes "
                                        "between joints divide a cluster");

@@ -2,6 +2,8 @@
 #include <string.h>
 
 #include "analysis/sensitivity/sensitivity.h"
+#include "system/assemble/actuators.h"
+#include "system/assemble/drives.h"
 #include "system/start.h"
 
 /* ---- Which side of a corner a state is on ------------------------------------------------------------------------ */
@@ -18,6 +20,17 @@ static uint64_t sides_of_drives(const dmb_sim *sim, uint64_t hash)
         if (drive->kind != DMB_DRIVE_CONTROL) continue;
         hash = mix(hash, sim->trial.drive_force[i] <= drive->limit_low);
         hash = mix(hash, sim->trial.drive_force[i] >= drive->limit_high);
+    }
+    for (uint32_t i = 0; i < sim->scene->drive_count && sim->scene->actuator_count > 0; i++) {
+        const dmb_scene_drive *drive = sim->scene->drives + i;
+        if (drive->actuator == DMB_NONE) continue;
+        const dmb_actuator_law *law = sim->scene->actuators + drive->actuator;
+        const dmb_actuator_flow *flow = dmb_actuator_flow_of(&sim->trial, drive->actuator);
+        const double speed = dmb_drive_speed(sim->scene, &sim->trial, i);
+        double slope = 0.0;
+        hash = mix(hash, flow->limited != flow->delayed);
+        hash = mix(hash, speed < 0.0 && law->drag[0] != law->drag[1]);
+        hash = mix(hash, dmb_actuator_within(law, flow->force, speed, &slope) != flow->force);
     }
     return hash;
 }

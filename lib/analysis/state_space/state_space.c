@@ -11,6 +11,7 @@
 #include "base/value_check.h"
 #include "sim/access.h"
 #include "sim/node.h"
+#include "system/assemble/actuators.h"
 #include "system/copy.h"
 
 DMB_DEFINE_INIT(dmb_state_space_options, 72,
@@ -251,6 +252,7 @@ static int32_t analyse(dmb_space_work *w, const dmb_state_space_options *options
     dmb_sim *sim = w->sim;
     int32_t status = take_options(sim, options, w->input_count, w->output_count, &w->options);
     if (status >= 0) status = dmb_state_copy_check(sim, "state space");
+    if (status >= 0) status = dmb_actuators_check_linear(sim, "state space", 1, &sim->message);
     if (status < 0) return status;
     w->space = dmb_allocate(&sim->allocator, sizeof *w->space);
     status = w->space != NULL ? DMB_OK : DMB_ERR_NO_MEMORY;

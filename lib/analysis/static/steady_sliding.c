@@ -61,8 +61,14 @@ static int32_t check_turning_loads(dmb_sim *sim, const dmb_steady *steady)
     }
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         const dmb_scene_drive *drive = scene->drives + i;
-        if (drive->kind == DMB_DRIVE_MOTION || drive->node == DMB_NONE || drive->component % 3 == 0) continue;
+        if (drive->kind == DMB_DRIVE_MOTION || drive->node == DMB_NONE) continue;
         const uint32_t s = steady->string[drive->node];
+        if (s != DMB_NONE && drive->actuator != DMB_NONE && drive->component % 3 == 0 &&
+            steady->speed[2 * s + (uint32_t)drive->component / 3] != 0.0)
+            return REFUSE(sim,
+                          "%s: its actuator has a force by speed that statics do not know; take DMB_STEADY_AT_REST",
+                          dmb_drive_text(sim->scene, i, &(dmb_message){""}));
+        if (drive->component % 3 == 0) continue;
         if (s != DMB_NONE && steady->speed[2 * s + 1] != 0.0)
             return REFUSE(sim, "%s: its force turns with its string, across the axis; take DMB_STEADY_AT_REST",
                           dmb_drive_text(sim->scene, i, &(dmb_message){""}));

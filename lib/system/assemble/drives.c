@@ -1,6 +1,9 @@
 /* Drives: prescribed motion, loads on a component, and speed control.
- * Control: force = clamp(kp e + ki z), e = v* - v, z' = e by the trapezoidal rule, held while the limits act. */
+ * Control: command = clamp(kp e + ki z), e = v* - v, z' = e by the trapezoidal rule, held while the limits act, of
+ * which the torque-speed curve of an actuator is one. */
 #include "system/assemble/drives.h"
+
+#include "system/assemble/actuators.h"
 
 /* Target now: the caller's value, or the programme and its excitation. */
 static int32_t target_of(const dmb_sim *sim, uint32_t i, double time, double *value, double *rate)
@@ -77,6 +80,7 @@ static int32_t prescribe_drive(dmb_evaluation *evaluation, uint32_t i)
 int32_t dmb_system_rate_jumps(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
+    if (dmb_actuators_jump(sim)) return 1;
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         double value, rate;
         if (scene->drives[i].kind != DMB_DRIVE_MOTION) continue;
@@ -130,10 +134,12 @@ static double control_force(const dmb_evaluation *evaluation, uint32_t i, double
     const double force = drive->gain * error + drive->integral_gain * integral;
     *slope = -(drive->gain + 0.5 * h * drive->integral_gain);
     sim->trial.drive_integral[i] = integral;
-    if (force >= drive->limit_low && force <= drive->limit_high) return force;
-    sim->trial.drive_integral[i] = sim->now.drive_integral[i];
-    *slope = 0.0;
-    return force > drive->limit_high ? drive->limit_high : drive->limit_low;
+    double within = fmin(fmax(force, drive->limit_low), drive->limit_high);
+    if (within != force) *slope = 0.0;
+    if (drive->actuator != DMB_NONE)
+        within = dmb_actuator_within(sim->scene->actuators + drive->actuator, within, speed, slope);
+    if (within != force) sim->trial.drive_integral[i] = sim->now.drive_integral[i];
+    return within;
 }
 
 double dmb_drive_force(dmb_evaluation *evaluation, uint32_t drive, double speed, double *slope)
@@ -142,6 +148,8 @@ double dmb_drive_force(dmb_evaluation *evaluation, uint32_t drive, double speed,
     double force = sim->trial.drive_target[drive];
     *slope = 0.0;
     if (sim->scene->drives[drive].kind == DMB_DRIVE_CONTROL) force = control_force(evaluation, drive, speed, slope);
+    if (sim->scene->drives[drive].actuator != DMB_NONE)
+        force = dmb_actuator_force(evaluation, drive, force, speed, slope);
     sim->trial.drive_force[drive] = force;
     return force;
 }
@@ -179,6 +187,7 @@ void dmb_drive_on_joint(dmb_sim *sim, uint32_t drive, double value, double speed
     if (open) {
         sim->trial.drive_force[drive] = 0.0;
         sim->trial.drive_integral[drive] = sim->now.drive_integral[drive];
+        dmb_actuator_idle(sim, drive);
     }
     if (open || sim->scene->drives[drive].kind != DMB_DRIVE_MOTION)
         sim->trial.drive_position[drive] = value - sim->drive_offset[drive];
@@ -228,5 +237,6 @@ void dmb_drives_take_forces(dmb_sim *sim)
 {
     dmb_drives_take_targets(sim);
     memcpy(sim->now.drive_force, sim->trial.drive_force, sim->scene->drive_count * sizeof(double));
+    dmb_actuators_take(sim);
     take_joints(sim);
 }

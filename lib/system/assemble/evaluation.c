@@ -5,6 +5,7 @@
 #include "kernel/kernels.h"
 #include "math/se3.h"
 #include "sim/node.h"
+#include "system/assemble/actuators.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
@@ -208,6 +209,7 @@ void dmb_system_accept(dmb_evaluation *evaluation)
     const dmb_scene *scene = sim->scene;
     unwrap_turns(sim);
     dmb_drives_accept(sim);
+    if (scene->actuator_count) dmb_actuators_accept(evaluation);
     if (scene->cluster_count) dmb_joints_accept(evaluation);
     dmb_system_take_reactions(sim, &sim->trial);
     for (uint32_t k = 0; k < scene->bit_count; k++) dmb_bit_accept(evaluation, k);

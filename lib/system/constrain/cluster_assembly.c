@@ -167,9 +167,10 @@ static void keep_coordinates(dmb_sim *sim)
     }
     for (uint32_t i = 0; i < scene->coupling_count; i++) {
         const dmb_scene_coupling *coupling = scene->couplings + i;
-        sim->constraint_offset[scene->constraints[coupling->constraint].row] =
-            coordinate_of(sim, coupling->joint[0], coupling->component[0]) -
-            coupling->ratio * coordinate_of(sim, coupling->joint[1], coupling->component[1]);
+        double sum = 0.0;
+        for (uint32_t k = 0; k < coupling->count; k++)
+            sum += coupling->factor[k] * coordinate_of(sim, coupling->joint[k], coupling->component[k]);
+        sim->constraint_offset[scene->constraints[coupling->constraint].row] = sum;
     }
 }
 

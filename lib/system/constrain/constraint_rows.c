@@ -187,9 +187,9 @@ static void coupling_row(dmb_evaluation *evaluation, const dmb_constraint *const
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene_coupling *coupling = sim->scene->couplings + constraint->index;
-    if (evaluation->assembling || is_open(sim, coupling->joint[0]) || is_open(sim, coupling->joint[1])) return;
-    add_coordinate(evaluation, constraint, coupling->joint[0], coupling->component[0], 1.0);
-    add_coordinate(evaluation, constraint, coupling->joint[1], coupling->component[1], -coupling->ratio);
+    if (evaluation->assembling || !dmb_coupling_holds(sim, coupling)) return;
+    for (uint32_t k = 0; k < coupling->count; k++)
+        add_coordinate(evaluation, constraint, coupling->joint[k], coupling->component[k], coupling->factor[k]);
     sim->constraint_value[constraint->row] -= sim->constraint_offset[constraint->row];
 }
 
@@ -323,8 +323,8 @@ int32_t dmb_constraint_curvature(dmb_evaluation *evaluation, uint32_t constraint
         coordinate_curvature(sim, c, scene->drives[c->index].joint, scene->drives[c->index].component, f[0], K);
     if (c->kind != DMB_OF_COUPLING) return DMB_OK;
     const dmb_scene_coupling *coupling = scene->couplings + c->index;
-    coordinate_curvature(sim, c, coupling->joint[0], coupling->component[0], f[0], K);
-    coordinate_curvature(sim, c, coupling->joint[1], coupling->component[1], -coupling->ratio * f[0], K);
+    for (uint32_t k = 0; k < coupling->count; k++)
+        coordinate_curvature(sim, c, coupling->joint[k], coupling->component[k], coupling->factor[k] * f[0], K);
     return DMB_OK;
 }
 

@@ -17,7 +17,7 @@
 static int coupled(const dmb_scene *scene, uint32_t j)
 {
     for (uint32_t i = 0; i < scene->coupling_count; i++)
-        for (int k = 0; k < 2; k++)
+        for (uint32_t k = 0; k < scene->couplings[i].count; k++)
             if (scene->couplings[i].joint[k] == j && scene->couplings[i].component[k] >= DMB_RX) return 1;
     return 0;
 }

@@ -17,11 +17,13 @@ from . import units
 from .problems import meant
 
 # Fields whose text in the header does not name the enumeration.
-ENUM_OF = {"component": enums.Component, "initial_mask": enums.Free, "start_free": enums.Free, "end_free": enums.Free,
+ENUM_OF = {"component": enums.Component, "third_component": enums.Component, "fourth_component": enums.Component,
+           "initial_mask": enums.Free, "start_free": enums.Free, "end_free": enums.Free,
            "free_mask": enums.Free, "pipe_kind": enums.PipeKind, "contact": enums.ContactState, "outside": enums.Outside,
            "target": enums.InputTarget, "holds": enums.StuckHolds}
 UNIT_OF = {"contact_gap": "m"}  # where one comment stands for several fields
-LEFT_OUT = {"struct_size", "survey_count", "table_count", "provides", "callback_context", "callback", "log", "allocator",
+LEFT_OUT = {"struct_size", "survey_count", "curve_count", "curve_speed", "curve_force", "table_count",
+            "provides", "callback_context", "callback", "log", "allocator",
             "log_context"}
 
 
@@ -186,6 +188,10 @@ def by_component(units_of_two: str, component: int) -> str:
 def drive_unit(kind: int, component: int) -> str:
     """The unit of a drive's programme."""
     return by_component("N, N m" if kind == enums.DRIVE_LOAD else "m/s, rad/s", component)
+
+
+# Keys of a drive whose unit goes with its component.
+OF_COMPONENT = ("gain", "integral_gain", "limit_low", "limit_high", "force_rate", "drag", "back_drag")
 
 
 def output_unit(kind: int, component: int) -> str:

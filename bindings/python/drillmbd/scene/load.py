@@ -415,10 +415,13 @@ class Loader:
         self._inline_programmes(kind, path, table)
         component = self.word(fields_of(DEFINITIONS["drive"])["component"], table.get("component"), 0)
         special = {key: fields.by_component(known[key].unit, component)
-                   for key in ("gain", "integral_gain", "limit_low", "limit_high") if kind == "drive"}
+                   for key in fields.OF_COMPONENT if kind == "drive"}
         if kind == "input":
             special = self._setting_units(known, table)
-        values = self.read(path, table, known, ("name", "table") if kind == "spring" else ("name",), special.get)
+        values = self.read(path, table, known, {"spring": ("name", "table"), "drive": ("name", "curve")}.get(kind, ("name",)), special.get)
+        if kind == "drive" and "curve" in table:
+            values["curve"] = self._pairs(path + ("curve",), table["curve"], fields.by_component("m/s, rad/s", component),
+                                          fields.by_component("N, N m", component), "speed and force")
         if kind == "spring" and "table" in table:
             values["table"] = self._pairs(path + ("table",), table["table"], "m", "N", "elongation and force")
         if kind == "input":

@@ -210,11 +210,14 @@ class Writer:
             return
 
         def unit_of(key: str) -> str | None:
-            if kind == "drive" and key in ("gain", "integral_gain", "limit_low", "limit_high"):
+            if kind == "drive" and key in fields.OF_COMPONENT:
                 return fields.by_component(fields_of(DEFINITIONS[kind])[key].unit, component)
             return None
 
         self._table(kind, description, unit_of)
+        if kind == "drive" and description.get("curve"):
+            speed, force = (fields.by_component(one, component) for one in ("m/s, rad/s", "N, N m"))
+            self._key("curve", [[units.text(v, speed), units.text(f, force)] for v, f in description["curve"]])
         if kind == "spring" and description.get("table"):
             self._key("table", [[units.text(x, "m"), units.text(f, "N")] for x, f in description["table"]])
 

@@ -73,7 +73,8 @@ def schema() -> dict[str, Any]:
                                   "place": Field("place", "place")}, ("quantity",), name=_NAME))}
     for kind in PARTS:
         more: dict[str, Any] = {"name": _NAME, **({"pipes": _many(pipes)} if kind == "string" else {}),
-                                **({"table": _TABLE} if kind == "spring" else {})}
+                                **({"table": _TABLE} if kind == "spring" else {}),
+                                **({"curve": _TABLE} if kind == "drive" else {})}
         known = event_fields() if kind == "event" else fields_of(DEFINITIONS[kind])
         properties[kind] = _many(_object(known, **more))
     for kind in ANALYSES:
