@@ -912,6 +912,35 @@ class ForceTest(unittest.TestCase):
 
 
 # ---- Progress --------------------------------------------------------------------------------------------------------
+class AssemblyTest(unittest.TestCase):
+    """Of a bottom-hole assembly: a stuck place, and a mud motor."""
+
+    def test_stuck(self):
+        model = mbd.Model()
+        model.set_environment(gravity=(1.0, 0, 0))
+        ball = model.add_body(mass=2.0)
+        jam = model.add_stuck(place=ball, name="jam", stiffness=(1e3, 1e3, 1e3), overpull=100.0)
+        model.add_input(name="jammed", target=mbd.TARGET_STUCK, part=jam)
+        model.compile()
+        with model.sim() as sim:
+            sim.step(1e-3)
+            state = sim.stuck(jam)
+            self.assertEqual(state.stuck, 1)
+            self.assertLess(state.force[0], 0.0)  # against the weight
+            sim.inputs["jammed"] = 0.0
+            self.assertEqual(sim.stuck(jam).stuck, 0)
+            with self.assertRaises(mbd.Error):
+                sim.inputs["jammed"] = 0.5
+
+    def test_motor(self):
+        drive, speed = mbd.motor_drive(stall_torque=900.0, displacement=0.012, flow=0.015)
+        self.assertAlmostEqual(speed, 2.0 * math.pi * 0.015 / 0.012)
+        self.assertAlmostEqual(drive.gain * speed, 900.0)
+        self.assertEqual((drive.limit_low, drive.limit_high), (0.0, 900.0))
+        with self.assertRaises(mbd.Error):
+            mbd.motor_drive(stall_torque=-1.0, displacement=0.012, flow=0.015)
+
+
 class ProgressTest(unittest.TestCase):
     def test_told(self):
         rig, fractions = Rig(), []

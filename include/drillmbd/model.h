@@ -57,10 +57,16 @@ typedef struct dmb_environment_def {
     uint32_t reserved;
     double gravity[3];      /* [m/s2] world frame, default (0, 0, -9.81), shape (3) */
     double fluid_density;   /* [kg/m3] mud or air inside and outside the pipes, for the buoyancy of pipes and tool
-                               joints (bits and bodies get none); default 0 */
+                               joints, and of bodies and bits by their displaced_volume; default 0 */
     double lateral_damping; /* [N s/m2] external damping force per metre of pipe and m/s of sideways speed; default 0 */
     double axial_damping;   /* [N s/m2] the same along the pipe; default 0 */
     double torsional_damping; /* [N s] external moment per metre of pipe and rad/s of spin; default 0 */
+    double inner_density;     /* [kg/m3] of the mud inside pipes and tool joints, where fluid_density is that outside of
+                                 them:     weight and pressure by both; 0 .. ; -1 (default): as outside */
+    double added_mass; /* [-] of the mud outside flexible pipes that goes along sideways over what they displace (1: far
+                          from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz
+                          1972). Where it is not 0 the mud inside goes along too, tool joints spread over their pipe;
+                          refused with rigid pipes; bodies have none. 0 (default): mud has no inertia */
 } dmb_environment_def;
 DMB_SIZED_STRUCT(dmb_environment_def)
 DMB_API int32_t dmb_model_set_environment(dmb_model *model, const dmb_environment_def *def);
@@ -231,6 +237,7 @@ typedef struct dmb_body_def {
     double contact_diameter; /* [m] of the ring at the reference point that meets the wall; 0: none (default) */
     double contact_length;   /* [m] length of wall it stands for, > 0; default 1 */
     char name[24];           /* for messages and look-up (names.h), ends with 0; default "" */
+    double displaced_volume; /* [m3] that the fluid outside lifts at the centre of mass, >= 0; default 0 */
 } dmb_body_def;
 DMB_SIZED_STRUCT(dmb_body_def)
 DMB_API int32_t dmb_model_add_body(dmb_model *model, const dmb_body_def *def, dmb_id *body);
@@ -267,6 +274,7 @@ typedef struct dmb_bit_def {
                             along its own axis. The hole that it leaves is not felt by what follows: give the bit no
                             `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways */
     double walk_angle;   /* [rad] that it cuts about its axis away from the side force, -1.5 .. 1.5; default 0 */
+    double displaced_volume; /* [m3] likewise of a body */
 } dmb_bit_def;
 DMB_SIZED_STRUCT(dmb_bit_def)
 DMB_API int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_id *bit);

@@ -34,6 +34,7 @@ static int32_t check_body(dmb_model *model, const dmb_body_def *def)
     dmb_check_choice(&check, "attach", def->attach, DMB_ATTACH_NONE, DMB_ATTACH_END);
     dmb_check_id_or_none(&check, model, "string", def->string, DMB_PART_STRING, "string");
     dmb_check_within(&check, "mass", def->mass, DMB_MASS_MIN, DMB_MASS_MAX);
+    dmb_check_within(&check, "displaced_volume", def->displaced_volume, 0.0, DMB_MASS_MAX);
     dmb_check_each_within(&check, "centre", def->centre, 3, -DMB_LENGTH_MAX, DMB_LENGTH_MAX);
     check_inertia(&check, def);
     check_pose(&check, def);
@@ -66,6 +67,7 @@ static void check_rock(dmb_check *check, const dmb_bit_def *def)
     dmb_check_within(check, "intrusion_depth", def->intrusion_depth, DMB_DEPTH_MIN, DMB_LENGTH_MAX);
     dmb_check_within(check, "bottom", def->bottom, 0.0, DMB_LENGTH_MAX);
     dmb_check_within(check, "side_cutting", def->side_cutting, 0.0, 1e3);
+    dmb_check_within(check, "displaced_volume", def->displaced_volume, 0.0, DMB_MASS_MAX);
     dmb_check_within(check, "walk_angle", def->walk_angle, -1.5, 1.5);
     dmb_check_count(check, "blades", def->blades, 1, BLADES_MAX);
     dmb_check_count(check, "history", def->history, HISTORY_MIN, HISTORY_MAX);

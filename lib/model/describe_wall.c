@@ -146,11 +146,21 @@ int32_t dmb_model_add_wall(dmb_model *model, const dmb_wall_def *def, dmb_id *wa
 
 /* Gravity, fluid and external damping. */
 
+/* 0 .. high, or -1 for what the definition says of it. */
+static void check_or_minus_one(dmb_check *check, const char *field, double value, double high, const char *bound)
+{
+    dmb_check_finite(check, field, value);
+    if ((value >= -1.0 && value <= -1.0) || (value >= 0.0 && value <= high)) return;
+    dmb_check_fail(check, DMB_ERR_VALUE, field, value, bound);
+}
+
 static int32_t check_environment(dmb_model *model, const dmb_environment_def *def)
 {
     dmb_check check = dmb_check_of(&model->message, "environment", DMB_NONE);
     dmb_check_each_within(&check, "gravity", def->gravity, 3, -DMB_ACCELERATION_MAX, DMB_ACCELERATION_MAX);
     dmb_check_within(&check, "fluid_density", def->fluid_density, 0.0, DMB_DENSITY_MAX);
+    check_or_minus_one(&check, "inner_density", def->inner_density, DMB_DENSITY_MAX, "0 .. 1e6, or -1: as outside");
+    check_or_minus_one(&check, "added_mass", def->added_mass, DMB_NUMBER_MAX, "0 .. 1e6, or -1: by the annulus");
     dmb_check_within(&check, "lateral_damping", def->lateral_damping, 0.0, DMB_DAMPING_MAX);
     dmb_check_within(&check, "axial_damping", def->axial_damping, 0.0, DMB_DAMPING_MAX);
     dmb_check_within(&check, "torsional_damping", def->torsional_damping, 0.0, DMB_DAMPING_MAX);

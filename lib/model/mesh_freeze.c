@@ -246,7 +246,8 @@ int32_t dmb_mesh_freeze(const dmb_mesh *mesh, dmb_scene **out)
     dmb_scene counts = {.model = mesh->model,
                         .features = mesh->features,
                         .mass = mesh->mass,
-                        .fluid_density = mesh->model->environment.fluid_density};
+                        .fluid_density = mesh->model->environment.fluid_density,
+                        .inner_density = mesh->model->environment.inner_density};
     dmb_arena arena;
     dmb_scene_storage w;
     count_parts(mesh, &counts);

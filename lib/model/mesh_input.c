@@ -17,9 +17,27 @@ static uint32_t index_of(const dmb_model *model, dmb_id part)
 }
 
 /* The order of description is free, so what the target needs of the scene is looked for here. */
+static int32_t check_density(const dmb_mesh *mesh, const dmb_input_def *def)
+{
+    const dmb_model *model = mesh->model;
+    const char *why = NULL;
+    if (model->environment.added_mass > 0.0 || model->environment.added_mass < 0.0) why = "added_mass is 0";
+    for (uint32_t i = 0; i < model->bodies.count; ++i) {
+        const dmb_body_def *body = DMB_LIST_AT(const dmb_body_def, model->bodies, i);
+        if (body->displaced_volume > 0.0 && fabs(body->centre[1]) + fabs(body->centre[2]) > 0.0)
+            why = "bodies with a displaced_volume have their centre on the x axis";
+    }
+    if (why == NULL) return DMB_OK;
+    dmb_message_set(&mesh->model->message,
+                    "input (%s): target = DMB_TARGET_FLUID_DENSITY, must be in a scene where %s; leave one of both out",
+                    def->name, why);
+    return DMB_ERR_UNSUPPORTED;
+}
+
 static int32_t check_scene(const dmb_mesh *mesh, const dmb_input_def *def)
 {
     const dmb_model *model = mesh->model;
+    if (def->target == DMB_TARGET_FLUID_DENSITY) return check_density(mesh, def);
     if (def->target != DMB_TARGET_FRICTION) return DMB_OK;
     if (model->wall_count > 0 && model->wall.friction_law != DMB_FRICTION_NONE) return DMB_OK;
     dmb_message_set(&mesh->model->message,

@@ -85,12 +85,11 @@ static void add_weight(dmb_mesh_node *node, double mass, const double centre[3])
     for (int i = 0; i < 3; ++i) node->weight_moment[i] += mass * centre[i];
 }
 
-/* The mass of fluid of density 1 that the body displaces, by its own density; 0: none. */
-static void add_displaced(dmb_mesh_node *node, double mass, double x, double density)
+/* [m3] that the fluid outside lifts. */
+static void add_displaced(dmb_mesh_node *node, double volume, double x)
 {
-    if (!(density > 0.0)) return;
-    node->displaced[0] += mass / density;
-    node->displaced[1] += mass / density * x;
+    node->displaced[0] += volume;
+    node->displaced[1] += volume * x;
 }
 
 /* A rigid body with its centre there; `buoyancy` is the share of its weight that is left. */
@@ -106,13 +105,13 @@ static int32_t add_body(dmb_mesh *mesh, uint32_t node, double mass, const double
     return DMB_OK;
 }
 
-/* A solid of revolution on the x axis, its centre at x; of a pipe, whose definition may be NULL. */
+/* A solid of revolution on the x axis, its centre at x; volume [m3] that the fluid outside lifts. */
 static int32_t add_part(dmb_mesh *mesh, uint32_t node, const dmb_rigid_part *part, double x, double buoyancy,
-                        const dmb_pipe_def *pipe)
+                        double volume)
 {
     const double centre[3] = {x, 0.0, 0.0};
     const double inertia[6] = {part->inertia[0], part->inertia[1], part->inertia[1], 0.0, 0.0, 0.0};
-    if (pipe != NULL) add_displaced(dmb_mesh_node_at(mesh, node), part->mass, x, pipe->density);
+    add_displaced(dmb_mesh_node_at(mesh, node), volume, x);
     return add_body(mesh, node, part->mass, centre, inertia, buoyancy);
 }
 
@@ -136,7 +135,8 @@ typedef struct run_mass {
     const dmb_pipe_def *def;
     dmb_pipe_section section;
     dmb_rigid_part joint, pipe;
-    double buoyancy;
+    double buoyancy, joint_buoyancy;
+    double inside, joint_inside; /* [m2] of mud of a density of its own inside the body and the tool joint, else 0 */
 } run_mass;
 
 static void run_mass_of(const dmb_mesh *mesh, const dmb_pipe_run *run, run_mass *out)
@@ -145,7 +145,12 @@ static void run_mass_of(const dmb_mesh *mesh, const dmb_pipe_run *run, run_mass 
     dmb_section_of(&run->def, &out->section);
     dmb_joint_of(&run->def, &out->joint);
     dmb_rigid_pipe_of(&run->def, &out->pipe);
-    out->buoyancy = dmb_buoyancy_factor(&run->def, mesh->model->environment.fluid_density);
+    const dmb_mud mud = {mesh->model->environment.fluid_density, mesh->model->environment.inner_density};
+    const bool apart = !(mud.inside < 0.0);
+    out->buoyancy = dmb_buoyancy_factor(&run->def, 0, &mud);
+    out->joint_buoyancy = out->joint.mass > 0.0 ? dmb_buoyancy_factor(&run->def, 1, &mud) : 1.0;
+    out->inside = apart ? dmb_inner_area(&run->def, 0) : 0.0;
+    out->joint_inside = apart ? dmb_inner_area(&run->def, 1) : 0.0;
 }
 
 /* Uniform load w on the cubic shape: w L/2 and the moments +- w L^2/12 at the ends, m/2 at x +- L/12. */
@@ -157,9 +162,9 @@ static void weigh_element(dmb_mesh *mesh, const dmb_mesh_element *element, const
     const double b[3] = {-element->arm[1] - length / 6.0, 0.0, 0.0};
     add_weight(dmb_mesh_node_at(mesh, element->node), half, a);
     add_weight(dmb_mesh_node_at(mesh, element->node + 1), half, b);
-    const double bare = 0.5 * mass->section.mass * length;
-    add_displaced(dmb_mesh_node_at(mesh, element->node), bare, a[0], mass->def->density);
-    add_displaced(dmb_mesh_node_at(mesh, element->node + 1), bare, b[0], mass->def->density);
+    const double volume = 0.5 * (mass->section.mass * length) / mass->def->density + 0.5 * mass->inside * length;
+    add_displaced(dmb_mesh_node_at(mesh, element->node), volume, a[0]);
+    add_displaced(dmb_mesh_node_at(mesh, element->node + 1), volume, b[0]);
     mesh->mass += mass->section.mass * length;
 }
 
@@ -186,6 +191,24 @@ static int32_t shift_element(dmb_mesh *mesh, const dmb_mesh_element *element, co
     return status;
 }
 
+static double joint_volume(const run_mass *mass, double length)
+{
+    return mass->joint.mass / mass->def->density + mass->joint_inside * length;
+}
+
+/* A rigid body has one mass along and across. */
+static int32_t refuse_added(const dmb_mesh *mesh)
+{
+    const double added = mesh->model->environment.added_mass;
+    if (!(added > 0.0 || added < 0.0)) return DMB_OK;
+    dmb_message_set(
+        &mesh->model->message,
+        "environment: added_mass = %g, must be 0 with rigid pipes, whose mass is the same along and across; "
+        "describe flexible pipes, or leave it out",
+        added);
+    return DMB_ERR_UNSUPPORTED;
+}
+
 /* The joint ends where the pipe does, and the far node may stand further on, behind rigid pipes. */
 static int32_t add_elastic_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const run_mass *mass, const double *e)
 {
@@ -199,7 +222,8 @@ static int32_t add_elastic_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const 
     }
     if (status < 0 || !(pipe->joint > 0.0)) return status;
     damp_node(mesh, last->node + 1, pipe->joint, joint_at, pipe->joint * pipe->joint * pipe->joint / 12.0);
-    status = add_part(mesh, last->node + 1, &mass->joint, joint_at, mass->buoyancy, mass->def);
+    status =
+        add_part(mesh, last->node + 1, &mass->joint, joint_at, mass->joint_buoyancy, joint_volume(mass, pipe->joint));
     if (status >= 0 && e != NULL) status = add_offset(mesh, last->node + 1, mass->joint.mass, joint_at, e);
     return status;
 }
@@ -208,9 +232,12 @@ static int32_t add_rigid_pipe(dmb_mesh *mesh, const dmb_pipe_map *pipe, const ru
 {
     const double body = dmb_pipe_body_length(mass->def);
     const double pipe_at = pipe->start + 0.5 * body, joint_at = pipe->start + body + 0.5 * pipe->joint;
-    int32_t status = add_part(mesh, pipe->node, &mass->pipe, pipe_at, mass->buoyancy, mass->def);
+    const double volume = mass->pipe.mass / mass->def->density + mass->inside * body;
+    int32_t status = refuse_added(mesh);
+    if (status >= 0) status = add_part(mesh, pipe->node, &mass->pipe, pipe_at, mass->buoyancy, volume);
     if (status >= 0 && pipe->joint > 0.0)
-        status = add_part(mesh, pipe->node, &mass->joint, joint_at, mass->buoyancy, mass->def);
+        status =
+            add_part(mesh, pipe->node, &mass->joint, joint_at, mass->joint_buoyancy, joint_volume(mass, pipe->joint));
     if (status >= 0 && e != NULL) status = add_offset(mesh, pipe->node, mass->pipe.mass, pipe_at, e);
     if (status >= 0 && e != NULL) status = add_offset(mesh, pipe->node, mass->joint.mass, joint_at, e);
     damp_node(mesh, pipe->node, pipe->length, pipe->start + 0.5 * pipe->length,
@@ -234,8 +261,7 @@ static int32_t add_rings_of(dmb_mesh *mesh, const dmb_pipe_def *pipe, uint32_t s
         double diameters[2];
         dmb_pipe_diameters(pipe, rings.first[i].along > dmb_pipe_body_length(pipe), diameters);
         dmb_ring_body_of(def, diameters[0], &part);
-        add_displaced(dmb_mesh_node_at(mesh, map->node), part.mass, map->arm, def->density);
-        status = add_part(mesh, map->node, &part, map->arm, buoyancy, NULL);
+        status = add_part(mesh, map->node, &part, map->arm, buoyancy, part.mass / def->density);
     }
     return status;
 }
@@ -262,14 +288,21 @@ static int32_t add_string(dmb_mesh *mesh, uint32_t string)
     return status;
 }
 
-/* ---- Bodies and bits: no buoyancy, their volumes are not known --------------------------------------------------- */
+/* ---- Bodies and bits --------------------------------------------------------------------------------------------- */
+
+/* [-] share of a body's weight that is left; below 0 it floats up. */
+static double lifted(const dmb_mesh *mesh, double volume, double mass)
+{
+    return volume > 0.0 ? 1.0 - mesh->model->environment.fluid_density * volume / mass : 1.0;
+}
 
 static int32_t add_described_body(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_body_def *def = DMB_LIST_AT(const dmb_body_def, mesh->model->bodies, i);
     const dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, i);
     const double centre[3] = {map->arm + def->centre[0], def->centre[1], def->centre[2]};
-    return add_body(mesh, map->node, def->mass, centre, def->inertia, 1.0);
+    add_displaced(dmb_mesh_node_at(mesh, map->node), def->displaced_volume, centre[0]);
+    return add_body(mesh, map->node, def->mass, centre, def->inertia, lifted(mesh, def->displaced_volume, def->mass));
 }
 
 static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
@@ -278,7 +311,8 @@ static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
     const dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, mesh->model->bodies.count + i);
     dmb_rigid_part part;
     dmb_bit_body_of(def, &part);
-    return add_part(mesh, map->node, &part, map->arm + 0.5 * def->length, 1.0, NULL);
+    return add_part(mesh, map->node, &part, map->arm + 0.5 * def->length,
+                    lifted(mesh, def->displaced_volume, def->mass), def->displaced_volume);
 }
 
 /* Rotor and gear of a drive turn about the x axis with its part and add nothing else. */

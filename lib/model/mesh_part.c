@@ -1,4 +1,5 @@
 /* Strings and bodies as nodes and elements: types of elements, their kernels, batches of neighbours with one kernel. */
+#include <math.h>
 #include <string.h>
 
 #include "model/field_check.h"
@@ -34,6 +35,23 @@ static bool alike(const dmb_mesh_element *a, const dmb_mesh_element *b)
     return a->run == b->run && dmb_same_numbers(a->arm, b->arm, 2) && dmb_same_numbers(&a->length, &b->length, 1);
 }
 
+/* The mud that goes along sideways. */
+static int32_t add_mud(const dmb_mesh *mesh, const dmb_pipe_def *def, const dmb_mud *mud, dmb_element_type *type)
+{
+    const dmb_model *model = mesh->model;
+    const double added = model->environment.added_mass, hole = model->wall.diameter;
+    if (!(added > 0.0 || added < 0.0)) return DMB_OK;
+    if (added < 0.0 && (model->wall_count == 0 || !(hole > fmax(def->outer_diameter, dmb_joint_diameter(def))))) {
+        dmb_message_set(&mesh->model->message,
+                        "environment: added_mass = -1, must be with a wall whose diameter is above that of the pipes, "
+                        "%g m here; add one, or give the coefficient",
+                        fmax(def->outer_diameter, dmb_joint_diameter(def)));
+        return DMB_ERR_VALUE;
+    }
+    dmb_element_add_sideways(def, dmb_mud_inertia(def, mud, added, hole), type);
+    return DMB_OK;
+}
+
 static int32_t find_type(dmb_mesh *mesh, dmb_mesh_element *element, const dmb_mesh_element *before)
 {
     const dmb_pipe_def *def = &dmb_mesh_run_at(mesh, element->run)->def;
@@ -44,9 +62,13 @@ static int32_t find_type(dmb_mesh *mesh, dmb_mesh_element *element, const dmb_me
     }
     const double damping_time = mesh->features & DMB_FEATURE_DAMPING ? def->damping_time : 0.0;
     dmb_element_type_along(def, element->length, element->arm, damping_time, &type);
-    type.weight_mass =
-        dmb_buoyancy_factor(def, mesh->model->environment.fluid_density) * type.mass_per_metre * type.length;
+    const dmb_environment_def *e = &mesh->model->environment;
+    const dmb_mud mud = {e->fluid_density, e->inner_density};
+    type.weight_mass = dmb_buoyancy_factor(def, 0, &mud) * type.mass_per_metre * type.length;
     type.displaced = type.mass_per_metre * type.length / def->density;
+    if (!(mud.inside < 0.0)) type.displaced += dmb_inner_area(def, 0) * type.length;
+    const int32_t status = add_mud(mesh, def, &mud, &type);
+    if (status < 0) return status;
     return share_type(mesh, &type, &element->type);
 }
 

@@ -29,6 +29,7 @@
 #include "force/spring_law.h"
 #include "math/block_sparse.h"
 #include "math/block_tridiagonal.h"
+#include "model/section.h"
 
 enum { DMB_NODE_PATH = 2, DMB_NODE_FULL = 6 };
 /* Kernels of an element. */
@@ -325,7 +326,8 @@ typedef struct dmb_scene {
     double gravity[3];                            /* [m/s2]; 0 when left out */
     double mass, length;                          /* [kg], [m] in all */
     double length_scale;  /* [m] mean element length, or 1: makes moments comparable with forces */
-    double fluid_density; /* [kg/m3] */
+    double fluid_density; /* [kg/m3] outside of the pipes */
+    double inner_density; /* [kg/m3] inside; < 0: the same */
     uint32_t input_count, event_count;
     uint32_t actuator_count, delay_count;         /* drives with an actuator, with a delay */
     int32_t has_density_input, has_damping_input; /* 1: some input moves it */
@@ -413,6 +415,12 @@ typedef struct dmb_scene {
     dmb_body_map *bodies; /* described bodies, then bits, then rings */
     dmb_ring_map *rings;  /* by string and place */
 } dmb_scene;
+
+static inline dmb_mud dmb_mud_of(const dmb_scene *scene)
+{
+    const dmb_mud mud = {scene->fluid_density, scene->inner_density};
+    return mud;
+}
 
 /* The scene in which copies for analyses are made (system/copy). */
 static inline const dmb_scene *dmb_dense_scene(const dmb_scene *scene)

@@ -96,9 +96,50 @@ void dmb_bit_body_of(const dmb_bit_def *def, dmb_rigid_part *part)
         given_or(def->inertia[1], def->mass * (3.0 * radius * radius + def->length * def->length) / 12.0);
 }
 
-double dmb_buoyancy_factor(const dmb_pipe_def *def, double fluid_density)
+double dmb_inner_area(const dmb_pipe_def *def, int in_tool_joint)
 {
-    return 1.0 - fluid_density / def->density;
+    double diameters[2];
+    dmb_pipe_diameters(def, in_tool_joint, diameters);
+    return dmb_ring_area(diameters[1], 0.0);
+}
+
+double dmb_buoyancy_factor(const dmb_pipe_def *def, int in_tool_joint, const dmb_mud *mud)
+{
+    const double factor = 1.0 - mud->outside / def->density;
+    dmb_pipe_section section;
+    dmb_rigid_part joint;
+    if (mud->inside < 0.0) return factor;
+    dmb_section_of(def, &section);
+    dmb_joint_of(def, &joint);
+    const double mass = in_tool_joint ? joint.mass / def->joint_length : section.mass;
+    return factor + (mud->inside - mud->outside) * dmb_inner_area(def, in_tool_joint) / mass;
+}
+
+double dmb_weighing_mass(const dmb_pipe_def *def, const dmb_mud *mud)
+{
+    dmb_rigid_part body, joint;
+    dmb_rigid_pipe_of(def, &body);
+    dmb_joint_of(def, &joint);
+    if (mud->inside < 0.0) return dmb_buoyancy_factor(def, 0, mud) * (body.mass + joint.mass);
+    const double of_joint = joint.mass > 0.0 ? dmb_buoyancy_factor(def, 1, mud) * joint.mass : 0.0;
+    return dmb_buoyancy_factor(def, 0, mud) * body.mass + of_joint;
+}
+
+static double mud_at(const dmb_pipe_def *def, int in_tool_joint, const dmb_mud *mud, double added, double hole)
+{
+    double d[2];
+    dmb_pipe_diameters(def, in_tool_joint, d);
+    const double inside = mud->inside < 0.0 ? mud->outside : mud->inside;
+    const double factor = added < 0.0 ? (hole * hole + d[0] * d[0]) / ((hole - d[0]) * (hole + d[0])) : added;
+    return inside * dmb_ring_area(d[1], 0.0) + factor * mud->outside * dmb_ring_area(d[0], 0.0);
+}
+
+double dmb_mud_inertia(const dmb_pipe_def *def, const dmb_mud *mud, double added, double hole)
+{
+    const double body = dmb_pipe_body_length(def);
+    double sum = mud_at(def, 0, mud, added, hole) * body;
+    if (def->joint_length > 0.0) sum += mud_at(def, 1, mud, added, hole) * def->joint_length;
+    return sum / body;
 }
 
 double dmb_shear_ratio(double EI, double GA, double length)
@@ -150,6 +191,18 @@ static void bending_mass(double mass, double rotary, double P, double L, double 
             const double integrand = mass * N[row[k]] * N[column[k]] + rotary * G[row[k]] * G[column[k]];
             out[k] += L * rule->weight[i] * integrand;
         }
+    }
+}
+
+void dmb_element_add_sideways(const dmb_pipe_def *def, double mass, dmb_element_type *type)
+{
+    dmb_pipe_section section;
+    dmb_section_of(def, &section);
+    for (int p = 0; p < 2; ++p) {
+        const double *K = section.stiffness;
+        double more[6];
+        bending_mass(mass, 0.0, dmb_shear_ratio(K[5 - p], K[1 + p], type->length), type->length, more);
+        for (int k = 0; k < 6; ++k) type->mass.bending[p][k] += more[k];
     }
 }
 

@@ -42,8 +42,23 @@ void dmb_ring_body_of(const dmb_ring_def *def, double pipe_diameter, dmb_rigid_p
 /* The bit: a solid cylinder unless inertias are given. */
 void dmb_bit_body_of(const dmb_bit_def *def, dmb_rigid_part *part);
 
-/* [-] share of a pipe's weight that is left in the fluid inside and outside it: 1 - rho_fluid/rho. */
-double dmb_buoyancy_factor(const dmb_pipe_def *def, double fluid_density);
+/* Mud outside and inside of pipes. */
+typedef struct dmb_mud {
+    double outside, inside; /* [kg/m3] inside < 0: the same */
+} dmb_mud;
+
+/* [-] share of the weight of a pipe's body, or of its tool joint, that is left in the mud, with that of the mud inside:
+ * 1 - rho_o/rho + (rho_i - rho_o) A_i/m, m the mass per metre; 1 - rho_o/rho where both are the same. */
+double dmb_buoyancy_factor(const dmb_pipe_def *def, int in_tool_joint, const dmb_mud *mud);
+/* [kg] that gravity acts on of a pipe and its tool joint. */
+double dmb_weighing_mass(const dmb_pipe_def *def, const dmb_mud *mud);
+/* [m3] inside of the pipe's body or tool joint, per metre. */
+double dmb_inner_area(const dmb_pipe_def *def, int in_tool_joint);
+/* [kg/m] of mud that goes along sideways with a pipe's body: that inside, and `added` times what pipe and tool joint
+ * displace; added < 0: that of the annulus to a hole of this diameter [m]. */
+double dmb_mud_inertia(const dmb_pipe_def *def, const dmb_mud *mud, double added, double hole);
+/* [kg/m] sideways more in the mass of an element. */
+void dmb_element_add_sideways(const dmb_pipe_def *def, double mass, dmb_element_type *type);
 
 /* Constants of a flexible element: stiffness and mass. */
 

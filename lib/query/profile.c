@@ -166,10 +166,9 @@ static int in_tool_joint(const station *at)
 }
 
 /* [Pa] of the fluid at rest: it stands up to the start of the hole, or to the rig end as described without a hole. */
-static double pressure(const station *at)
+static double pressure(const station *at, double density)
 {
     const dmb_scene *scene = at->sim->scene;
-    const double density = at->sim->scene->fluid_density;
     const uint32_t string = dmb_model_part_index(at->sim->model, at->place.part, DMB_PART_STRING);
     double top[3], below[3];
     if (scene->has_hole)
@@ -179,6 +178,15 @@ static double pressure(const station *at)
         dmb_vec3_copy(scene->reference_position + 3 * (size_t)scene->strings[string].start_node, top);
     dmb_vec3_sub(at->values + DMB_PROFILE_X, top, below);
     return fmax(0.0, density * dmb_vec3_dot(scene->gravity, below));
+}
+
+/* [N] p_o A_o - p_i A_i: effective less true axial force. */
+static double pressure_force(const station *at)
+{
+    const dmb_mud mud = dmb_mud_of(at->sim->scene);
+    const double *d = at->diameters;
+    if (mud.inside < 0.0) return pressure(at, mud.outside) * dmb_ring_area(d[0], d[1]);
+    return pressure(at, mud.outside) * dmb_ring_area(d[0], 0.0) - pressure(at, mud.inside) * dmb_ring_area(d[1], 0.0);
 }
 
 static const dmb_pipe_map *pipe_of(const station *at)
@@ -210,7 +218,7 @@ static int32_t section_values(station *at)
     double *v = at->values;
     if (status < 0) return status;
     v[DMB_PROFILE_EFFECTIVE_FORCE] = section.force[0];
-    v[DMB_PROFILE_AXIAL_FORCE] = section.force[0] - pressure(at) * dmb_ring_area(at->diameters[0], at->diameters[1]);
+    v[DMB_PROFILE_AXIAL_FORCE] = section.force[0] - pressure_force(at);
     v[DMB_PROFILE_TORQUE] = section.force[3];
     v[DMB_PROFILE_SHEAR_FORCE] = hypot(section.force[1], section.force[2]);
     v[DMB_PROFILE_SHEAR_Y] = section.force[1];
@@ -224,11 +232,8 @@ static int32_t section_values(station *at)
 /* [N/m] Buoyant weight of the pipe with its tool joint. */
 static double weight_per_metre(const station *at)
 {
-    const dmb_pipe_def *def = &at->run->def;
-    dmb_rigid_part body, joint;
-    dmb_rigid_pipe_of(def, &body);
-    dmb_joint_of(def, &joint);
-    return dmb_buoyancy_factor(def, at->sim->scene->fluid_density) * (body.mass + joint.mass) / def->length;
+    const dmb_mud mud = dmb_mud_of(at->sim->scene);
+    return dmb_weighing_mass(&at->run->def, &mud) / at->run->def.length;
 }
 
 /* 1: beyond the middle of the stretch between the element's nodes, rigid arms included. */

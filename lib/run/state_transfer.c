@@ -149,6 +149,29 @@ static int32_t check_joints(dmb_sim *sim, dmb_evaluation *evaluation)
     return DMB_ERR_GEOMETRY;
 }
 
+/* A place that is held must be the same point of the string. */
+static int32_t transfer_stuck(dmb_sim *sim, const dmb_sim *from)
+{
+    dmb_message name;
+    for (uint32_t i = 0; i < sim->scene->stuck_count; i++) {
+        dmb_stuck_hold here, there;
+        double apart = 0.0;
+        dmb_stuck_transfer(sim, from, i);
+        if (!sim->stuck_held[i]) continue;
+        dmb_stuck_hold_of(sim, &sim->now, i, 0, &here);
+        dmb_stuck_hold_of(from, &from->now, i, 0, &there);
+        for (int k = 0; k < DMB_STUCK_COORDINATES; k++) apart = fmax(apart, fabs(here.s[k] - there.s[k]));
+        if (apart <= DMB_TRANSFER_VIOLATION) continue;
+        dmb_message_set(&sim->message,
+                        "state transfer: %s is held %g m or rad from where it got stuck, must be the same point of the "
+                        "string as in the sim it goes on from; its pipe counts from the rig end",
+                        dmb_part_text(&name, "stuck", i, sim->scene->stuck[i].name, sizeof sim->scene->stuck[i].name),
+                        apart);
+        return DMB_ERR_GEOMETRY;
+    }
+    return DMB_OK;
+}
+
 /* [J] summed as dmb_query_energy does. */
 static double stored(const dmb_sim *sim)
 {
@@ -175,6 +198,8 @@ static int32_t go_on(dmb_sim *sim, const dmb_sim *from)
     transfer_counters(sim, from);
     transfer_drives(sim, from);
     int32_t status = dmb_state_transfer_nodes(sim, from);
+    if (status < 0) return status;
+    status = transfer_stuck(sim, from);
     if (status < 0) return status;
     dmb_state_transfer_sites(sim, from, DMB_TRANSFER_ALL);
     if (sim->scene->cluster_count) transfer_joints(sim, from);

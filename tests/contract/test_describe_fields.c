@@ -90,7 +90,8 @@ typedef struct kind_of_def {
 static const field environment_fields[] = {
     F(dmb_environment_def, reserved, COUNT, 1),     F(dmb_environment_def, gravity, REAL, 3),
     F(dmb_environment_def, fluid_density, REAL, 1), F(dmb_environment_def, lateral_damping, REAL, 1),
-    F(dmb_environment_def, axial_damping, REAL, 1), F(dmb_environment_def, torsional_damping, REAL, 1)};
+    F(dmb_environment_def, axial_damping, REAL, 1), F(dmb_environment_def, torsional_damping, REAL, 1),
+    F(dmb_environment_def, inner_density, REAL, 1), F(dmb_environment_def, added_mass, REAL, 1)};
 static void fill_environment(const scene_under_test *s, any_def *def)
 {
     (void)s;

@@ -586,7 +586,7 @@ static int32_t call_recorder(void *p)
 static const entry entries[] = {
     ENTRY(allocator, 0),
     ENTRY(model_options, 0),
-    ENTRY(environment_def, 0),
+    GROWN(environment_def, 64, 0),
     ENTRY(term, 0),
     GROWN(wall_def, 184, 0),
     ENTRY(hole_section, 0),

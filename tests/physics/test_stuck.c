@@ -315,6 +315,43 @@ static void snapshots_and_logs_replay(void **state)
     rig_close(&again.s);
 }
 
+/* A rod more at the rig: what was free stays free, what was held stays where it got stuck; another point is refused. */
+static void a_rod_more_leaves_it_stuck(void **state)
+{
+    (void)state;
+    for (int32_t held = 0; held < 2; held++)
+        for (uint32_t shift = 0; shift < 2; shift++) {
+            stuck_rig r[2];
+            for (int i = 0; i < 2; i++) {
+                dmb_string_def string = dmb_string_def_default();
+                dmb_stuck_def def = dmb_stuck_def_default();
+                dmb_pipe_def pipe = pipe_of(DMB_PIPE_FLEXIBLE, 1);
+                memset(&r[i], 0, sizeof r[i]);
+                rig_open(&r[i].s, 0.0, 0.0, 0.0);
+                string.follows_hole = 0;
+                string.position[0] = i == 0 ? 10.0 : 0.0;
+                string.start_free = DMB_FREE_X;
+                r[i].string = pipe.string = add_string(&r[i].s, &string);
+                (void)add_pipes(&r[i].s, &pipe, i == 0 ? 3 : 4);
+                def.place = dmb_station(r[i].string, i == 0 || shift ? 2 : 3, 1.0);
+                def.stuck = i == 0 ? held : !held;
+                must_model(&r[i].s, dmb_model_add_stuck(r[i].s.model, &def, &r[i].stuck));
+                add_pull(&r[i], i == 0 ? 5e4 : 0.0, 0.0, 0.0);
+                (void)mechanism_start(&r[i].s, NULL);
+            }
+            if (held) must(&r[0].s, dmb_analysis_static(r[0].s.sim, NULL, NULL));
+            const int32_t status = dmb_sim_transfer_state(r[1].s.sim, r[0].s.sim);
+            assert_int_equal(status < 0, held && shift);
+            if (status >= 0) {
+                assert_int_equal(state_of(&r[1]).stuck, held);
+                check_close("offset of the anchor after the transfer [m]", state_of(&r[1]).offset[0],
+                            state_of(&r[0]).offset[0], 1e-13);
+            }
+            rig_close(&r[0].s);
+            rig_close(&r[1].s);
+        }
+}
+
 static void inputs_are_0_or_1(void **state)
 {
     (void)state;
@@ -410,6 +447,29 @@ static void sensitivities_end_at_the_release(void **state)
     for (int i = 0; i < 3; i++) rig_close(&s[i]);
 }
 
+static void sensitivities_need_the_same_places_stuck(void **state)
+{
+    dmb_parameter parameter = dmb_parameter_default();
+    dmb_sensitivity *made = NULL;
+    rig s[2];
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        dmb_body_def body = dmb_body_def_default();
+        dmb_stuck_def def = dmb_stuck_def_default();
+        rig_open(&s[i], 0.0, 0.0, 0.0);
+        def.place = dmb_station(add_body(&s[i], &body), 0, 0.0);
+        def.stuck = i;
+        must_model(&s[i], dmb_model_add_stuck(s[i].model, &def, NULL));
+        (void)mechanism_start(&s[i], NULL);
+    }
+    parameter.low = s[0].sim;
+    parameter.high = s[1].sim;
+    parameter.step = 1e-6;
+    assert_int_equal(dmb_sensitivity_create(s[0].sim, &parameter, 1, &made), DMB_ERR_VALUE);
+    assert_non_null(strstr(dmb_sim_message(s[0].sim), "stuck"));
+    for (int i = 0; i < 2; i++) rig_close(&s[i]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -418,10 +478,12 @@ int main(void)
         cmocka_unit_test(it_lets_go_at_the_overpull),
         cmocka_unit_test(a_wave_runs_up),
         cmocka_unit_test(snapshots_and_logs_replay),
+        cmocka_unit_test(a_rod_more_leaves_it_stuck),
         cmocka_unit_test(inputs_are_0_or_1),
         cmocka_unit_test(one_that_is_free_is_not_there),
         cmocka_unit_test(modes_take_the_anchor),
         cmocka_unit_test(sensitivities_end_at_the_release),
+        cmocka_unit_test(sensitivities_need_the_same_places_stuck),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

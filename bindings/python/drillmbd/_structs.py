@@ -53,6 +53,8 @@ class EnvironmentDef(Sized):
     lateral_damping: float
     axial_damping: float
     torsional_damping: float
+    inner_density: float
+    added_mass: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -61,13 +63,17 @@ class EnvironmentDef(Sized):
         ("lateral_damping", c_double),
         ("axial_damping", c_double),
         ("torsional_damping", c_double),
+        ("inner_density", c_double),
+        ("added_mass", c_double),
     ]
     field_docs = {
         "gravity": ("m/s2", "world frame, default (0, 0, -9.81), shape (3)"),
-        "fluid_density": ("kg/m3", "mud or air inside and outside the pipes, for the buoyancy of pipes and tool joints (bits and bodies get none); default 0"),
+        "fluid_density": ("kg/m3", "mud or air inside and outside the pipes, for the buoyancy of pipes and tool joints, and of bodies and bits by their displaced_volume; default 0"),
         "lateral_damping": ("N s/m2", "external damping force per metre of pipe and m/s of sideways speed; default 0"),
         "axial_damping": ("N s/m2", "the same along the pipe; default 0"),
         "torsional_damping": ("N s", "external moment per metre of pipe and rad/s of spin; default 0"),
+        "inner_density": ("kg/m3", "of the mud inside pipes and tool joints, where fluid_density is that outside of them: weight and pressure by both; 0 .. ; -1 (default): as outside"),
+        "added_mass": ("-", "of the mud outside flexible pipes that goes along sideways over what they displace (1: far from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside goes along too, tool joints spread over their pipe; refused with rigid pipes; bodies have none. 0 (default): mud has no inertia"),
     }
 
 
@@ -2028,6 +2034,7 @@ class BodyDef(Sized):
     contact_diameter: float
     contact_length: float
     name: bytes
+    displaced_volume: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("attach", c_int32),
@@ -2043,6 +2050,7 @@ class BodyDef(Sized):
         ("contact_diameter", c_double),
         ("contact_length", c_double),
         ("name", c_char * 24),
+        ("displaced_volume", c_double),
     ]
     field_docs = {
         "attach": ("", "ATTACH_START (rig head) or _END: fixed to that end of `string`, no unknowns of its own, reference point and axes those of the end; ATTACH_NONE: a body of its own (default)"),
@@ -2057,6 +2065,7 @@ class BodyDef(Sized):
         "contact_diameter": ("m", "of the ring at the reference point that meets the wall; 0: none (default)"),
         "contact_length": ("m", "length of wall it stands for, > 0; default 1"),
         "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
+        "displaced_volume": ("m3", "that the fluid outside lifts at the centre of mass, >= 0; default 0"),
     }
 
 
@@ -2083,6 +2092,7 @@ class BitDef(Sized):
     name: bytes
     side_cutting: float
     walk_angle: float
+    displaced_volume: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("rock_law", c_int32),
@@ -2105,6 +2115,7 @@ class BitDef(Sized):
         ("name", c_char * 24),
         ("side_cutting", c_double),
         ("walk_angle", c_double),
+        ("displaced_volume", c_double),
     ]
     field_docs = {
         "rock_law": ("", "ROCK_..., default ROCK_NONE"),
@@ -2127,6 +2138,7 @@ class BitDef(Sized):
         "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
         "side_cutting": ("-", "steerability: depth that a side force cuts a revolution over the depth that the same force cuts along, d = F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own axes, whether it is on bottom or not, with any rock_law; the smaller, the more it drills along its own axis. The hole that it leaves is not felt by what follows: give the bit no `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways"),
         "walk_angle": ("rad", "that it cuts about its axis away from the side force, -1.5 .. 1.5; default 0"),
+        "displaced_volume": ("m3", "likewise of a body"),
     }
 
 

@@ -68,6 +68,8 @@ static int same_inputs(const dmb_sim *a, const dmb_sim *b)
 {
     for (uint32_t i = 0; i < a->scene->drive_count; i++)
         if (isnan(a->drive_input[i]) != isnan(b->drive_input[i])) return 0;
+    for (uint32_t i = 0; i < a->scene->stuck_count; i++)
+        if (a->stuck_held[i] != b->stuck_held[i]) return 0;
     return a->scene->joint_count == 0 ||
            memcmp(a->joint_state, b->joint_state, a->scene->joint_count * sizeof *a->joint_state) == 0;
 }
@@ -94,7 +96,8 @@ static int32_t check_side(dmb_sim *sim, uint32_t number, const dmb_parameter *p,
         return refuse(sim, number, p, DMB_ERR_VALUE, text.text);
     }
     if (!same_inputs(sim, side)) {
-        dmb_message_set(&text, "%s has other joints locked or open, or other drives set by the caller", name);
+        dmb_message_set(
+            &text, "%s has other joints locked or open, other places stuck, or other drives set by the caller", name);
         return refuse(sim, number, p, DMB_ERR_VALUE, text.text);
     }
     return DMB_OK;

@@ -22,15 +22,12 @@ static void take_pipe(march *m, const dmb_pipe_def *pipe)
 {
     const dmb_soft_string *soft = m->soft;
     dmb_pipe_section section;
-    dmb_rigid_part body, joint;
     dmb_section_of(pipe, &section);
-    dmb_rigid_pipe_of(pipe, &body);
-    dmb_joint_of(pipe, &joint);
     m->pipe = m->place.pipe = pipe;
     m->EA = section.stiffness[0];
     m->GJ = section.stiffness[3];
     m->EI = fmin(section.stiffness[4], section.stiffness[5]);
-    m->weight = dmb_buoyancy_factor(pipe, soft->fluid_density) * (body.mass + joint.mass) / pipe->length;
+    m->weight = dmb_weighing_mass(pipe, &soft->mud) / pipe->length;
     m->radius = 0.5 * fmax(pipe->outer_diameter, dmb_joint_diameter(pipe));
 }
 

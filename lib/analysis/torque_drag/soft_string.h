@@ -15,9 +15,9 @@
 typedef struct dmb_soft_string {
     const dmb_model *model;
     const dmb_hole *hole;
-    double gravity[3];    /* [m/s2] */
-    double fluid_density; /* [kg/m3] */
-    uint32_t string;      /* index */
+    double gravity[3]; /* [m/s2] */
+    dmb_mud mud;
+    uint32_t string; /* index */
     int32_t post_buckling;
     double start;     /* [m] measured depth of the rig end */
     double length;    /* [m] of all pipes */

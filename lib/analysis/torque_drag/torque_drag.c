@@ -52,15 +52,17 @@ typedef struct request {
     double described; /* [m] measured depth of the far end as described */
 } request;
 
-/* [kg] of bodies and bits fixed to the far end. */
-static double end_mass(const dmb_model *model, uint32_t string)
+/* [kg] of bodies and bits fixed to the far end, less the mud that they displace. */
+static double end_mass(const dmb_model *model, uint32_t string, double density)
 {
     const dmb_body_def *bodies = model->bodies.items;
     const dmb_bit_def *bits = model->bits.items;
     double mass = 0.0;
     for (uint32_t i = 0; i < model->bodies.count + model->bits.count; i++)
         if (dmb_body_is_at_end(model, i, string, DMB_ATTACH_END))
-            mass += i < model->bodies.count ? bodies[i].mass : bits[i - model->bodies.count].mass;
+            mass += i < model->bodies.count
+                        ? bodies[i].mass - density * bodies[i].displaced_volume
+                        : bits[i - model->bodies.count].mass - density * bits[i - model->bodies.count].displaced_volume;
     return mass;
 }
 
@@ -90,12 +92,12 @@ static int32_t find_string(request *r)
                           "the string has rings, whose weight and diameter the soft string leaves out; leave them out, "
                           "or ask for steady states (dmb_analysis_static)");
     soft->model = model;
-    soft->fluid_density = r->sim->scene->fluid_density;
+    soft->mud = dmb_mud_of(r->sim->scene);
     soft->hole = &scene->hole;
     dmb_vec3_copy(scene->gravity, soft->gravity);
     soft->start = plans[soft->string].def.start_depth;
     soft->length = scene->strings[soft->string].length;
-    soft->end_mass = end_mass(model, soft->string);
+    soft->end_mass = end_mass(model, soft->string, soft->mud.outside);
     r->described = soft->start + soft->length;
     return DMB_OK;
 }

@@ -264,3 +264,13 @@ void dmb_stuck_put_back(dmb_sim *sim)
         if (sim->scene->stuck[i].input != DMB_NONE)
             sim->stuck_held[i] = sim->input_value[sim->scene->stuck[i].input] > 0.5;
 }
+
+void dmb_stuck_transfer(dmb_sim *sim, const dmb_sim *from, uint32_t i)
+{
+    double *to = sim->stuck_anchor + 12 * (size_t)i;
+    const uint32_t node = sim->scene->stuck[i].point.node, old = from->scene->stuck[i].point.node;
+    memcpy(to, from->stuck_anchor + 12 * (size_t)i, 12 * sizeof(double));
+    dmb_vec3_add(to + 9, from->scene->reference_position + 3 * (size_t)old, to + 9);
+    dmb_vec3_sub(to + 9, sim->scene->reference_position + 3 * (size_t)node, to + 9);
+    sim->stuck_held[i] = from->stuck_held[i];
+}

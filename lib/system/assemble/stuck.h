@@ -31,4 +31,7 @@ void dmb_stuck_set(dmb_sim *sim, uint32_t i, int32_t held);
 /* As the inputs were before, which are those that are set again: an anchor was taken by what had been free only. */
 void dmb_stuck_put_back(dmb_sim *sim);
 
+/* From a sim of another model, whose nodes begin elsewhere: stuck where it was in the world. */
+void dmb_stuck_transfer(dmb_sim *sim, const dmb_sim *from, uint32_t i);
+
 #endif

@@ -118,9 +118,14 @@ static void buoyancy(void **state)
 {
     const dmb_pipe_def pipe = s1_pipe();
     (void)state;
-    assert_near(dmb_buoyancy_factor(&pipe, 0.0), 1.0, 0.0);
-    assert_near(dmb_buoyancy_factor(&pipe, 1200.0), 1.0 - 1200.0 / 7850.0, 1e-15);
-    assert_true(dmb_buoyancy_factor(&pipe, 13600.0) < 0.0); /* floats */
+    const dmb_mud none = {0.0, -1.0}, mud = {1200.0, -1.0}, mercury = {13600.0, -1.0}, full = {1200.0, 1000.0};
+    dmb_pipe_section section;
+    dmb_section_of(&pipe, &section);
+    const double bore = dmb_ring_area(pipe.inner_diameter, 0.0);
+    assert_near(dmb_buoyancy_factor(&pipe, 0, &none), 1.0, 0.0);
+    assert_near(dmb_buoyancy_factor(&pipe, 0, &mud), 1.0 - 1200.0 / 7850.0, 1e-15);
+    assert_true(dmb_buoyancy_factor(&pipe, 0, &mercury) < 0.0); /* floats */
+    assert_near(dmb_buoyancy_factor(&pipe, 0, &full), 1.0 - 1200.0 / 7850.0 - 200.0 * bore / section.mass, 1e-15);
 }
 
 int main(void)
