@@ -26,7 +26,7 @@ extern "C" {
 /* Version of the linked library, 10000 major + 100 minor + patch. Cannot fail. */
 DMB_API uint32_t dmb_version(void);
 
-/* What this build can do. LAPACK: without it dense eigenproblems are solved by the library itself, slower, equal to
+/* The abilities of this build. LAPACK: without it dense eigenproblems are solved by the library itself, slower, equal to
  * rounding. CHOLMOD: without it the order of elimination of joints is the library's own. FILES: recorders and VTK write
  * files. HEAP: malloc and free are the default allocator; without it each model needs its own. */
 enum { DMB_HAS_LAPACK = 0, DMB_HAS_CHOLMOD = 1, DMB_HAS_FILES = 2, DMB_HAS_HEAP = 3 };

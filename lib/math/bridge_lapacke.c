@@ -192,32 +192,39 @@ static double diagonal(const double *a, uint32_t height, uint32_t k)
     return fabs(a[(size_t)k * height + k]);
 }
 
+/* A set of equations under way, in the caller's memory. */
+typedef struct rank_work {
+    lapack found;
+    uint32_t rows, columns;
+    double *a, *tau, *s, *rest; /* (rows, columns) (least) (least) (size) */
+    lapack_int size;
+} rank_work;
+
 /* Singular values of R into s; 0 if none are found. */
-static int singular_values(const lapack *found, double *a, uint32_t rows, uint32_t columns, double *s, double *work,
-                           lapack_int work_size)
+static int singular_values(const rank_work *w)
 {
+    const uint32_t rows = w->rows, columns = w->columns;
     const lapack_int n = (lapack_int)least(rows, columns);
     if (n > DMB_RANK_SINGULAR_MAX) return 0;
     for (uint32_t j = 0; j < rows; j++)
-        for (uint32_t i = j + 1; i < (uint32_t)n; i++) a[(size_t)j * columns + i] = 0.0;
-    if (!found->present) dmb_dense_singular((size_t)n, rows, columns, a, s);
-    return !found->present ||
-           ((gesvd *)found->function[GESVD])(LAPACK_COL_MAJOR, 'N', 'N', n, (lapack_int)rows, a, (lapack_int)columns, s,
-                                             NULL, 1, NULL, 1, work, work_size) == 0;
+        for (uint32_t i = j + 1; i < (uint32_t)n; i++) w->a[(size_t)j * columns + i] = 0.0;
+    if (!w->found.present) dmb_dense_singular((size_t)n, rows, columns, w->a, w->s);
+    return !w->found.present ||
+           ((gesvd *)w->found.function[GESVD])(LAPACK_COL_MAJOR, 'N', 'N', n, (lapack_int)rows, w->a,
+                                               (lapack_int)columns, w->s, NULL, 1, NULL, 1, w->rest, w->size) == 0;
 }
 
 /* Rows by rows is, column by column, the transpose: its columns are the equations. LAPACK counts them from 1. */
-static void order_rows(const lapack *found, uint32_t rows, uint32_t columns, double *a, int32_t *order, double *tau,
-                       double *work, lapack_int work_size)
+static void order_rows(const rank_work *w, int32_t *order)
 {
-    for (uint32_t i = 0; i < rows; i++) order[i] = 0; /* 0: LAPACK may move it */
-    if (!found->present) {
-        dmb_dense_pivoted_qr(columns, rows, a, order, work);
+    for (uint32_t i = 0; i < w->rows; i++) order[i] = 0; /* 0: LAPACK may move it */
+    if (!w->found.present) {
+        dmb_dense_pivoted_qr(w->columns, w->rows, w->a, order, w->rest);
         return;
     }
-    (void)((geqp3 *)found->function[GEQP3])(LAPACK_COL_MAJOR, (lapack_int)columns, (lapack_int)rows, a,
-                                            (lapack_int)columns, order, tau, work, work_size);
-    for (uint32_t i = 0; i < rows; i++) order[i]--;
+    (void)((geqp3 *)w->found.function[GEQP3])(LAPACK_COL_MAJOR, (lapack_int)w->columns, (lapack_int)w->rows, w->a,
+                                              (lapack_int)w->columns, order, w->tau, w->rest, w->size);
+    for (uint32_t i = 0; i < w->rows; i++) order[i]--;
 }
 
 void dmb_rank_of_rows(const dmb_weighted_rows *of, double tolerance, double *work, int32_t *order, dmb_rank *out)
@@ -231,15 +238,15 @@ void dmb_rank_of_rows(const dmb_weighted_rows *of, double tolerance, double *wor
     out->largest = out->smallest = 1.0;
     for (uint32_t i = 0; i < rows; i++) order[i] = (int32_t)i;
     if (n == 0) return;
-    const lapack found = lapack_of_build();
+    const rank_work w = {lapack_of_build(), rows, columns, a, tau, s, rest, work_size};
     for (uint32_t i = 0; i < rows; i++)
         scale_row(of->values + (size_t)i * columns, columns, of->weight, a + (size_t)i * columns);
-    order_rows(&found, rows, columns, a, order, tau, rest, work_size);
+    order_rows(&w, order);
     while (out->rank < n && diagonal(a, columns, out->rank) > tolerance) out->rank++;
     if (out->rank == 0) return;
     out->largest = diagonal(a, columns, 0);
     out->smallest = diagonal(a, columns, out->rank - 1);
-    out->exact = singular_values(&found, a, rows, columns, s, rest, work_size);
+    out->exact = singular_values(&w);
     if (!out->exact) return;
     out->largest = s[0];
     out->smallest = s[out->rank - 1];

@@ -10,12 +10,12 @@ enum { SWEEPS = 60 };
 
 /* ---- Symmetric --------------------------------------------------------------------------------------------------- */
 
-static void turn(size_t n, double *x, size_t x_step, double *y, size_t y_step, double c, double s)
+static void turn(size_t n, double *x, double *y, size_t step, double c, double s)
 {
     for (size_t i = 0; i < n; i++) {
-        const double p = x[i * x_step], q = y[i * y_step];
-        x[i * x_step] = c * p - s * q;
-        y[i * y_step] = s * p + c * q;
+        const double p = x[i * step], q = y[i * step];
+        x[i * step] = c * p - s * q;
+        y[i * step] = s * p + c * q;
     }
 }
 
@@ -26,9 +26,9 @@ static void rotate(size_t n, double *A, double *V, size_t p, size_t q)
     const double t = copysign(1.0, theta) / (fabs(theta) + sqrt(1.0 + theta * theta));
     const double c = 1.0 / sqrt(1.0 + t * t), s = t * c;
     const double low = A[p + n * p] - t * off, high = A[q + n * q] + t * off; /* less rounding than by turning */
-    turn(n, A + p, n, A + q, n, c, s);
-    turn(n, A + n * p, 1, A + n * q, 1, c, s);
-    turn(n, V + n * p, 1, V + n * q, 1, c, s);
+    turn(n, A + p, A + q, n, c, s);
+    turn(n, A + n * p, A + n * q, 1, c, s);
+    turn(n, V + n * p, V + n * q, 1, c, s);
     A[p + n * p] = low;
     A[q + n * q] = high;
     A[p + n * q] = A[q + n * p] = 0.0;
@@ -43,7 +43,7 @@ static double frobenius(size_t count, const double *A)
     return most * sqrt(sum);
 }
 
-/* Rotations of one sweep. What is below rounding of its own diagonal, or far below that of the matrix, stays. */
+/* Rotations of one sweep. An entry below rounding of its own diagonal, or far below that of the matrix, stays. */
 static size_t sweep(size_t n, double *A, double *V, double norm)
 {
     size_t turned = 0;

@@ -82,11 +82,11 @@ static void from_left(schur *s, size_t row, size_t m, size_t first, const double
     }
 }
 
-/* Columns `column` .. column + m - 1 of the first `rows` rows: A P. */
-static void from_right(size_t n, double *A, size_t column, size_t m, size_t rows, const double *v, double beta)
+/* m columns from A on, in their first `rows` rows: A P. */
+static void from_right(size_t n, double *A, size_t m, size_t rows, const double *v, double beta)
 {
     for (size_t i = 0; i < rows; i++) {
-        double *x = A + i + n * column, sum = 0.0;
+        double *x = A + i, sum = 0.0;
         for (size_t j = 0; j < m; j++) sum += v[j] * x[n * j];
         for (size_t j = 0; j < m; j++) x[n * j] -= beta * sum * v[j];
     }
@@ -101,8 +101,8 @@ static void hessenberg(schur *s)
         const size_t m = n - k - 1;
         const double beta = reflection(m, at(s, k + 1, k), s->v);
         from_left(s, k + 1, m, k, s->v, beta);
-        from_right(n, s->T, k + 1, m, n, s->v, beta);
-        from_right(n, s->Z, k + 1, m, n, s->v, beta);
+        from_right(n, at(s, 0, k + 1), m, n, s->v, beta);
+        from_right(n, s->Z + n * (k + 1), m, n, s->v, beta);
         for (size_t i = k + 2; i < n; i++) *at(s, i, k) = 0.0;
     }
 }
@@ -145,8 +145,8 @@ static void francis(schur *s, size_t l, size_t last, int exceptional)
         const size_t m = k + 2 <= last ? 3 : 2, rows = k + 4 <= last + 1 ? k + 4 : last + 1;
         const double beta = reflection(m, x, s->v);
         from_left(s, k, m, k > l ? k - 1 : l, s->v, beta);
-        from_right(s->n, s->T, k, m, rows, s->v, beta);
-        from_right(s->n, s->Z, k, m, s->n, s->v, beta);
+        from_right(s->n, at(s, 0, k), m, rows, s->v, beta);
+        from_right(s->n, s->Z + s->n * k, m, s->n, s->v, beta);
         for (size_t i = k + 1; k > l && i < k + m; i++) *at(s, i, k - 1) = 0.0;
         for (size_t i = 0; i < 3 && k + 1 + i <= last; i++) x[i] = *at(s, k + 1 + i, k);
     }

@@ -1,4 +1,4 @@
-/* What this build can do. */
+/* The abilities of this build. */
 #include "base/build.h"
 #include "drillmbd/base.h"
 #include "math/bridge.h"

@@ -1,4 +1,4 @@
-/* What a build tells of itself in words against dmb_has: what it was made with is there to be called. */
+/* The words in which a build tells of itself, against dmb_has: all that it was made with is there to be called. */
 #include <string.h>
 
 #include "check.h"
