@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "command_line.h"
+
 static dmb_id number(dmb_model *model, double value)
 {
     dmb_term term = dmb_term_default();
@@ -53,8 +55,12 @@ static int32_t describe(dmb_model *model)
     return dmb_model_compile(model, NULL);
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1)
+        return command_line(count, words,
+                            "A hydraulic rotation head: valves with a delay and a lag, a torque-speed curve, a rotor.",
+                            NULL, 0);
     dmb_model *model = NULL;
     dmb_sim *sim = NULL;
     dmb_id head = {0, 0}, limit = {0, 0};

@@ -3,6 +3,8 @@
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
 
+#include "command_line.h"
+
 static int32_t describe(dmb_model *model, double inside)
 {
     dmb_environment_def mud = dmb_environment_def_default();
@@ -48,7 +50,12 @@ static int32_t hang(const char *name, double inside)
     return status;
 }
 
-int main(void)
+int main(int count, char **words)
 {
+    if (count > 1)
+        return command_line(count, words,
+                            "A string hangs in mud, full of the same mud, of a lighter one, or of air: hook load, and "
+                            "its lowest bending frequency with the mud that goes along in the annulus.",
+                            NULL, 0);
     return hang("same mud", -1.0) < 0 || hang("lighter mud", 1000.0) < 0 || hang("air", 1.2) < 0;
 }
