@@ -79,7 +79,7 @@ static void symmetric_as_lapack(void **state)
             assert_true(fabs(one - 1.0) < 1e-13);
         }
     }
-    double wrong[4] = {1.0, NAN, NAN, 1.0};
+    double wrong[4] = {1.0, (double)NAN, (double)NAN, 1.0};
     assert_true(dmb_dense_symmetric(2, wrong, re, work) != 0);
 }
 
@@ -173,7 +173,7 @@ static void special_matrices(void **state)
     for (size_t i = 0; i + 1 < n; i++) A[i + n * (i + 1)] = 1.0;
     memcpy(B, A, sizeof A);
     hold_general(n, 1e-12, 1e-13);
-    double wrong[4] = {1.0, INFINITY, 0.0, 1.0};
+    double wrong[4] = {1.0, (double)INFINITY, 0.0, 1.0};
     assert_true(dmb_dense_general(2, wrong, re, im, V, work) != 0);
 }
 
