@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """How often does a hole fail? The reference rig with uncertain hole, pipes and rock, over rotary speed and feed; with contact only, with
-friction, with vibration (eccentric pipes, a worn gear), with both; deep against shallow; Sobol' indices; the cost. It makes one page, failure_probability.html, and failure_probability.json.
+friction, with vibration (eccentric pipes, a worn gear), with both; deep against shallow; Sobol' indices; the cost. It makes one page,
+failure_probability.html, and failure_probability.json.
 
     python3 examples/failure_probability/study.py --output out           # short form: minutes on 2 cores
     python3 examples/failure_probability/study.py --output out --long    # all of the 40 s cycle of 100 pipes: overnight
