@@ -68,7 +68,7 @@ static uint32_t find_in(const dmb_model *model, uint32_t kind, const char *name)
     const uint32_t count = dmb_model_part_count(model, kind);
     if (name[0] == '\0') return DMB_NONE;
     for (uint32_t i = 0; i < count; ++i)
-        if (strcmp(name_of(model, kind, i), name) == 0) return i;
+        if (strncmp(name_of(model, kind, i), name, DMB_NAME_SIZE) == 0) return i; /* an end may be missing */
     return DMB_NONE;
 }
 
@@ -76,7 +76,7 @@ static uint32_t find_run(const dmb_model *model, const char *name)
 {
     if (name[0] == '\0') return DMB_NONE;
     for (uint32_t i = 0; i < model->runs.count; ++i)
-        if (strcmp(DMB_LIST_AT(const dmb_pipe_run, model->runs, i)->def.name, name) == 0) return i;
+        if (strncmp(DMB_LIST_AT(const dmb_pipe_run, model->runs, i)->def.name, name, DMB_NAME_SIZE) == 0) return i;
     return DMB_NONE;
 }
 
