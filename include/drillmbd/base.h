@@ -139,6 +139,13 @@ typedef struct dmb_allocator {
 } dmb_allocator;
 DMB_SIZED_STRUCT(dmb_allocator) /* malloc and free of the C library */
 
+/* An allocator that gives out the caller's memory and takes nothing else: for firmware, where there is no heap. memory:
+ * 64 bytes of it are the pool's own; it has to stay while a model or sim lives on it. One thread at a time. First fit,
+ * neighbouring gaps join. Errors: DMB_ERR_NULL, DMB_ERR_VALUE (less than 256 bytes; *allocator is unchanged). */
+DMB_API int32_t dmb_pool_allocator(void *memory, size_t size, dmb_allocator *allocator);
+/* [byte] of such a pool that were in use at most, its own included; 0 for any other allocator. Cannot fail. */
+DMB_API size_t dmb_pool_peak(const dmb_allocator *allocator);
+
 enum { DMB_LOG_ERROR = 0, DMB_LOG_WARNING = 1, DMB_LOG_INFO = 2 };
 /* Called with a line of text, never during a step. The text lives only for the call. */
 typedef void (*dmb_log_fn)(void *context, int32_t level, const char *text);

@@ -11,6 +11,9 @@
 #ifndef DMB_LAZY /* both loaded when they are needed */
 #define DMB_LAZY 0
 #endif
+#ifndef DMB_WITH_LANES /* kernels of 2, 4 and 8 lanes beside those of one; the same bits */
+#define DMB_WITH_LANES 1
+#endif
 #ifndef DMB_WITH_FILES /* recorders and VTK write files by stdio */
 #define DMB_WITH_FILES 1
 #endif

@@ -3,8 +3,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/build.h"
 #include "base/checked_size.h"
 #include "base/sized_struct.h"
+
+#if DMB_WITH_HEAP
+#if defined(_WIN32)
+#include <malloc.h> /* its heap has no aligned_alloc, whose blocks free takes */
+#define TAKE(alignment, size) _aligned_malloc(size, alignment)
+#define GIVE(block) _aligned_free(block)
+#else
+#define TAKE(alignment, size) aligned_alloc(alignment, size)
+#define GIVE(block) free(block)
+#endif
+#else /* a model needs its own allocator: the default one has nothing to give */
+#define TAKE(alignment, size) ((void)(alignment), (void)(size), NULL)
+#define GIVE(block) ((void)(block))
+#endif
 
 static void *default_allocate(void *context, size_t size, size_t alignment)
 {
@@ -12,7 +27,7 @@ static void *default_allocate(void *context, size_t size, size_t alignment)
     (void)context;
     /* C11 7.22.3.1 asks for a size that is a multiple of the alignment */
     if (!dmb_checked_round_up(size, alignment, &rounded)) return NULL;
-    return aligned_alloc(alignment, rounded);
+    return TAKE(alignment, rounded);
 }
 
 static void default_release(void *context, void *block, size_t size, size_t alignment)
@@ -20,7 +35,7 @@ static void default_release(void *context, void *block, size_t size, size_t alig
     (void)context;
     (void)size;
     (void)alignment;
-    free(block);
+    GIVE(block);
 }
 
 DMB_DEFINE_INIT(dmb_allocator, 32, {.allocate = default_allocate, .release = default_release})

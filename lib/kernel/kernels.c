@@ -1,8 +1,21 @@
 #include <stddef.h>
 
+#include "base/build.h"
 #include "kernel/kernels.h"
 
-extern const dmb_kernels dmb_kernels_1, dmb_kernels_2, dmb_kernels_4, dmb_kernels_8;
+extern const dmb_kernels dmb_kernels_1;
+#if DMB_WITH_LANES
+extern const dmb_kernels dmb_kernels_2, dmb_kernels_4, dmb_kernels_8;
+#define KERNELS                                                        \
+    {                                                                  \
+        &dmb_kernels_1, &dmb_kernels_2, &dmb_kernels_4, &dmb_kernels_8 \
+    }
+#else
+#define KERNELS        \
+    {                  \
+        &dmb_kernels_1 \
+    }
+#endif
 
 /* 1 if the processor has what kernels of that width were compiled for. */
 static int processor_has(uint32_t lanes)
@@ -17,8 +30,8 @@ static int processor_has(uint32_t lanes)
 
 const dmb_kernels *dmb_kernels_of(uint32_t lanes)
 {
-    static const dmb_kernels *const all[4] = {&dmb_kernels_1, &dmb_kernels_2, &dmb_kernels_4, &dmb_kernels_8};
-    for (int i = 0; i < 4; i++)
+    static const dmb_kernels *const all[] = KERNELS;
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         if (all[i]->lanes == lanes && lanes > 0 && processor_has(lanes)) return all[i];
     return NULL;
 }

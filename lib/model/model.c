@@ -1,6 +1,7 @@
 /* Making and unmaking a model, its ids, its message. */
 #include "model/model.h"
 
+#include "base/build.h"
 #include "base/handle.h"
 #include "base/memory.h"
 #include "base/message.h"
@@ -278,7 +279,11 @@ typedef struct create_failure {
 
 /* The only memory of the library outside its objects beside the stamp: a slot in the model would be written by one
  * thread while another one reads it. */
+#if DMB_WITH_THREADS
 static _Thread_local create_failure last_failure;
+#else
+static create_failure last_failure; /* sims are created by one thread */
+#endif
 
 void dmb_create_message_set(const dmb_model *model, const char *text)
 {

@@ -1,4 +1,5 @@
-#if defined(__unix__) || defined(__APPLE__)
+#include "base/build.h"
+#if DMB_WITH_FILES && (defined(__unix__) || defined(__APPLE__))
 #define _XOPEN_SOURCE 700 /* realpath, stat, fchmod */
 #include <sys/stat.h>
 
@@ -18,9 +19,10 @@
 
 /* ---- Open and close ---------------------------------------------------------------------------------------------- */
 
+#if DMB_WITH_FILES
+#if DMB_POSIX
 enum { TRIES = 100 }; /* names of files beside that may be taken, by runs that were killed or are under way */
 
-#if DMB_POSIX
 /* Of a name so many bytes stand in that of the file beside it: names end at 255. */
 enum { NAME_MAX_BESIDE = 200 };
 
@@ -80,12 +82,34 @@ int32_t dmb_text_close(dmb_text_file *file)
     return failed ? DMB_ERR_IO : DMB_OK;
 }
 
-/* ---- Text -------------------------------------------------------------------------------------------------------- */
-
 static void put_bytes(dmb_text_file *file, const char *text, size_t length)
 {
     if (fwrite(text, 1, length, file->stream) != length) file->failed = 1;
 }
+
+#else
+
+int32_t dmb_text_open(dmb_text_file *file, const char *path)
+{
+    (void)path;
+    memset(file, 0, sizeof *file);
+    return DMB_ERR_UNSUPPORTED;
+}
+
+int32_t dmb_text_close(dmb_text_file *file)
+{
+    (void)file;
+    return DMB_ERR_IO;
+}
+
+static void put_bytes(dmb_text_file *file, const char *text, size_t length)
+{
+    (void)text, (void)length;
+    file->failed = 1;
+}
+#endif
+
+/* ---- Text -------------------------------------------------------------------------------------------------------- */
 
 void dmb_text_put(dmb_text_file *file, const char *text)
 {

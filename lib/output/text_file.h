@@ -5,12 +5,21 @@
 #define DMB_OUTPUT_TEXT_FILE_H
 
 #include <stdint.h>
+
+#include "base/build.h"
+
+#if DMB_WITH_FILES
 #include <stdio.h>
+
+typedef FILE dmb_stream;
+#else
+typedef void dmb_stream; /* nothing opens */
+#endif
 
 enum { DMB_PATH_MAX = 4096 };
 
 typedef struct dmb_text_file {
-    FILE *stream;
+    dmb_stream *stream;
     int failed;
     int beside;                      /* 1: `part` is written and takes the place of `path`; 0: it is written itself */
     int looking;                     /* 1: numbers are looked at only, output/vtk */
@@ -20,7 +29,8 @@ typedef struct dmb_text_file {
     char path[DMB_PATH_MAX], part[DMB_PATH_MAX + 16];
 } dmb_text_file;
 
-/* Opens for writing; DMB_OK or DMB_ERR_IO. Every opened file must be closed. */
+/* Opens for writing; DMB_OK, DMB_ERR_IO, or DMB_ERR_UNSUPPORTED in a build without files. Every opened file must be
+ * closed. */
 int32_t dmb_text_open(dmb_text_file *file, const char *path);
 void dmb_text_put(dmb_text_file *file, const char *text);
 void dmb_text_put_number(dmb_text_file *file, double value); /* 17 digits: reads back the same */
