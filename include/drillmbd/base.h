@@ -141,7 +141,10 @@ DMB_SIZED_STRUCT(dmb_allocator) /* malloc and free of the C library */
 
 /* An allocator that gives out the caller's memory and takes nothing else: for firmware, where there is no heap. memory:
  * 64 bytes of it are the pool's own; it has to stay while a model or sim lives on it. One thread at a time. First fit,
- * neighbouring gaps join. Errors: DMB_ERR_NULL, DMB_ERR_VALUE (less than 256 bytes; *allocator is unchanged). */
+ * neighbouring gaps join, blocks begin on 64 bytes. Writes the fields of the first release, whatever *allocator was.
+ * Calling it again on the same memory forgets all that was given out. Errors: DMB_ERR_NULL, DMB_ERR_VALUE (less than
+ * 256 bytes, or beyond the end of the addresses); *allocator is unchanged then. Where the pool has no room left, calls
+ * that need memory fail with DMB_ERR_NO_MEMORY and change nothing. */
 DMB_API int32_t dmb_pool_allocator(void *memory, size_t size, dmb_allocator *allocator);
 /* [byte] of such a pool that were in use at most, its own included; 0 for any other allocator. Cannot fail. */
 DMB_API size_t dmb_pool_peak(const dmb_allocator *allocator);

@@ -130,6 +130,8 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_path_point_init": (c_int32, POINTER(PathPoint), c_uint32,),
     "dmb_path_report_init": (c_int32, POINTER(PathReport), c_uint32,),
     "dmb_pipe_def_init": (c_int32, POINTER(PipeDef), c_uint32,),
+    "dmb_pool_allocator": (c_int32, c_void_p, c_size_t, POINTER(Allocator),),
+    "dmb_pool_peak": (c_size_t, POINTER(Allocator),),
     "dmb_pose_init": (c_int32, POINTER(Pose), c_uint32,),
     "dmb_profile_init": (c_int32, POINTER(ProfileStruct), c_uint32,),
     "dmb_profile_name": (c_char_p, c_int32, POINTER(c_char_p),),
@@ -362,6 +364,10 @@ FUNCTION_DOCS = {
         "\"pick-up\", \"slack-off\", ...; NULL for a number that is none.",
     "dmb_operation_usual":
         "Usual speeds of an operation OPERATION_...: 0.1 m/s up or down, 1 rev/s, fed by 0.005 m/s while drilling; loads on the bit 0, to be filled in. Errors: ERR_NULL, _STRUCT_SIZE, _VALUE.",
+    "dmb_pool_allocator":
+        "An allocator that gives out the caller's memory and takes nothing else: for firmware, where there is no heap. memory: 64 bytes of it are the pool's own; it has to stay while a model or sim lives on it. One thread at a time. First fit, neighbouring gaps join, blocks begin on 64 bytes. Writes the fields of the first release, whatever *allocator was. Calling it again on the same memory forgets all that was given out. Errors: ERR_NULL, ERR_VALUE (less than 256 bytes, or beyond the end of the addresses); *allocator is unchanged then. Where the pool has no room left, calls that need memory fail with ERR_NO_MEMORY and change nothing.",
+    "dmb_pool_peak":
+        "[byte] of such a pool that were in use at most, its own included; 0 for any other allocator. Cannot fail.",
     "dmb_profile_name":
         "Name of a quantity (\"axial_force\") and its unit in *unit (may be NULL); NULL for a number that is none.",
     "dmb_profile_recorder_take":
