@@ -32,7 +32,12 @@ typedef struct values {
 
 typedef struct answer {
     values at;
-    matrix A, B; /* by displacements and velocities in those axes */
+    union {
+        struct {
+            matrix A, B; /* by displacements and velocities in those axes */
+        };
+        double given[2 * WIDE * WIDE]; /* the same as a callback gives them, row by row as long as the count asks for */
+    };
 } answer;
 
 /* An argument: a place, or a joint's coordinate. */
@@ -118,19 +123,18 @@ static int32_t tangent_by_differences(const question *ask, matrix A, matrix B)
     return DMB_OK;
 }
 
-/* Given, row by row in arrays that are as long as the count asks for. */
+/* In place: entries move up, the last first, so that none is lost. A second copy would be the largest on the stack. */
 static int32_t given_tangent(const question *ask, answer *to)
 {
     const uint32_t n = 6 * ask->force->count;
-    double given[2 * WIDE * WIDE], sum = 0.0;
-    memset(given, 0, sizeof given);
-    if (call(ask, &to->at, given) < 0) return DMB_ERR_CALLBACK;
-    for (uint32_t k = 0; k < 2 * n * n; k++) sum += fabs(given[k]);
-    for (uint32_t r = 0; r < n; r++)
-        for (uint32_t c = 0; c < n; c++) {
-            to->A[r][c] = given[n * r + c];
-            to->B[r][c] = given[n * n + n * r + c];
-        }
+    double sum = 0.0;
+    memset(to->given, 0, sizeof to->given);
+    if (call(ask, &to->at, to->given) < 0) return DMB_ERR_CALLBACK;
+    for (uint32_t k = 0; k < 2 * n * n; k++) sum += fabs(to->given[k]);
+    for (uint32_t k = 2 * n * n; k-- > 0;) {
+        const uint32_t half = k / (n * n), r = k % (n * n) / n, c = k % n;
+        to->given[WIDE * (WIDE * half + r) + c] = to->given[k];
+    }
     return sum <= DMB_CALLBACK_MAX ? DMB_OK : DMB_ERR_CALLBACK;
 }
 
