@@ -259,6 +259,25 @@ void nothing_is_left_behind()
     EXPECT(count.live == 0);
 }
 
+void all_in_a_pool()
+{
+    std::vector<unsigned char> memory(1 << 20);
+    drillmbd::pool pool(memory.data(), memory.size());
+    const std::size_t at_first = pool.peak();
+    dmb_model_options options = dmb_model_options_default();
+    options.allocator = pool.get();
+    drillmbd::model inside(options), outside;
+    describe(inside);
+    describe(outside);
+    drillmbd::sim first(inside), second(outside);
+    first.step(1e-3);
+    second.step(1e-3);
+    EXPECT(first.hash() == second.hash());
+    EXPECT(pool.peak() > at_first && pool.peak() <= memory.size());
+    EXPECT(thrown_by([&] { drillmbd::pool small(memory.data(), 255); }) == DMB_ERR_VALUE);
+    EXPECT(thrown_by([&] { drillmbd::pool none(nullptr, 4096); }) == DMB_ERR_NULL);
+}
+
 void sim_in_the_callers_block()
 {
     drillmbd::model model;
@@ -580,6 +599,7 @@ int main()
         joints();
         nothing_is_left_behind();
         sim_in_the_callers_block();
+        all_in_a_pool();
         modes_of_a_string();
         response_of_a_body();
         stepped_sine_of_a_body();
