@@ -151,7 +151,8 @@ int32_t dmb_response_write_csv(const dmb_response *response, const char *path)
     dmb_text_file file;
     if (response == NULL || path == NULL) return DMB_ERR_NULL;
     if (!dmb_handle_is(response, DMB_HANDLE_RESPONSE)) return DMB_ERR_HANDLE;
-    if (dmb_text_open(&file, path) < 0) return DMB_ERR_IO;
+    const int32_t status = dmb_text_open(&file, path);
+    if (status < 0) return status;
     put_response_header(&file, response);
     for (uint32_t point = 0; point < response->points; point++) put_row(&file, response, point);
     return dmb_text_close(&file);

@@ -18,9 +18,9 @@ typedef struct work {
     int call;
 } work;
 
-enum { NOTHING, COMPILE, CREATE, STEP, ADVANCE, SET_DRIVE, SET_JOINT, SNAPSHOT, STATIC, CALLS };
-static const char *const names[CALLS] = {"nothing",   "compile",   "create",   "step",  "advance",
-                                         "set_drive", "set_joint", "snapshot", "static"};
+enum { NOTHING, COMPILE, CREATE, STEP, ADVANCE, SET_DRIVE, SET_JOINT, SNAPSHOT, STATIC, EVENT, CALLS };
+static const char *const names[CALLS] = {"nothing",   "compile",   "create",   "step",   "advance",
+                                         "set_drive", "set_joint", "snapshot", "static", "to event"};
 
 static void snapshot_and_back(dmb_sim *sim)
 {
@@ -45,7 +45,8 @@ static void *run(void *context)
     case SET_DRIVE: (void)dmb_sim_set_drive(w->sim, w->parts.pushing, 3.0); break;
     case SET_JOINT: (void)dmb_sim_set_joint(w->sim, w->parts.hinge, DMB_JOINT_LOCKED); break;
     case SNAPSHOT: snapshot_and_back(w->sim); break;
-    default: (void)dmb_analysis_static(w->sim, NULL, NULL); break;
+    case STATIC: (void)dmb_analysis_static(w->sim, NULL, NULL); break;
+    default: (void)dmb_sim_advance_to_event(w->sim, dmb_sim_time(w->sim) + 2e-3, NULL, NULL); break;
     }
     return NULL;
 }
@@ -68,6 +69,17 @@ static void add_widest_force(work *w)
     force.provides = DMB_PROVIDES_TANGENT;
     force.callback = pull;
     whole_must(w->model, dmb_model_add_force(w->model, &force, NULL));
+}
+
+/* So that it is looked for. */
+static void add_event(work *w)
+{
+    dmb_event_def event = dmb_event_def_default();
+    memcpy(event.name, "moves", sizeof "moves");
+    event.output.place = dmb_station(w->parts.string, 3, 0.5);
+    event.output.quantity = DMB_CHANNEL_ROTARY_SPEED;
+    event.direction = DMB_EVENT_EITHER;
+    whole_must(w->model, dmb_model_add_event(w->model, &event, NULL));
 }
 
 /* [byte] that lost their paint, what a thread needs by itself included (thread-local memory of libraries stands
@@ -97,6 +109,7 @@ static void stack_is_as_stated(void **state)
     memset(&w, 0, sizeof w);
     w.model = whole_model_until(&w.parts, WHOLE_CALLS - 1); /* all but compile */
     add_widest_force(&w);
+    add_event(&w);
     for (w.call = 0; w.call < CALLS; w.call++) {
         const size_t used = stack_of(&w, stack);
         if (w.call == NOTHING) thread = used;

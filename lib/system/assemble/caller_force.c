@@ -42,9 +42,13 @@ typedef struct answer {
 
 /* An argument: a place, or a joint's coordinate. */
 typedef struct argument {
-    dmb_point_motion point;
-    dmb_relative relative;
-    dmb_joint_coordinates c;
+    union { /* one or the other: four of both are 3 kB more of stack */
+        dmb_point_motion point;
+        struct {
+            dmb_relative relative;
+            dmb_joint_coordinates c;
+        };
+    };
     uint32_t joint; /* DMB_NONE: a place */
     int32_t component;
     int open; /* the joint is: its coordinate is told, but nothing acts */
