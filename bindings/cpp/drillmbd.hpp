@@ -63,15 +63,16 @@ inline std::int32_t check(std::int32_t status, const char *message = nullptr)
 
 // ---- Memory ---------------------------------------------------------------------------------------------------------
 #if defined(DRILLMBD_EXCEPTIONS)
-// An allocator in the caller's memory, for the options of models and sims: `options.allocator = pool.get();`. Memory and
-// pool have to outlive what lives there. Copies speak of the same memory.
+// An allocator in the caller's memory, for the options of models and sims: `options.allocator = pool.get();`. Memory
+// and pool have to outlive what lives there. Copies speak of the same memory.
 class pool {
 public:
     pool(void *memory, std::size_t size) : allocator_()
     {
         check(dmb_pool_allocator(memory, size, &allocator_),
-              memory == nullptr ? "pool: memory = NULL, must be a block of the caller's; give one"
-                                : "pool: size [byte] must be at least 256 and end within the addresses; give more memory");
+              memory == nullptr
+                  ? "pool: memory = NULL, must be a block of the caller's; give one"
+                  : "pool: size [byte] must be at least 256 and end within the addresses; give more memory");
     }
     const dmb_allocator *get() const noexcept { return &allocator_; }
     // [byte] in use at most, the pool's own 64 included.

@@ -280,7 +280,7 @@ static void two_models_share_a_pool(void **state)
 {
     (void)state;
     const dmb_allocator pool = pool_at(0, ROOM);
-    twin first, second, heap;
+    twin first = {0}, second = {0}, heap = {0};
     assert_true(create(&pool, &first) >= 0 && create(&pool, &second) >= 0 && create(NULL, &heap) >= 0);
     const uint64_t wanted = hash_after(&heap, 20);
     (void)hash_after(&first, 10);
@@ -317,7 +317,7 @@ static void a_small_pool_refuses_and_loses_nothing(void **state)
 static void nothing_changes_where_there_is_no_room(void **state)
 {
     (void)state;
-    twin t, heap;
+    twin t = {0}, heap = {0};
     dmb_sim *more[64] = {NULL};
     int count = 0;
     const dmb_allocator pool = pool_at(0, ROOM);
