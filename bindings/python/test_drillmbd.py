@@ -114,7 +114,7 @@ class InterfaceTest(unittest.TestCase):
         prototypes = stored_prototypes()
         self.assertGreater(len(prototypes), 70)
         results = {"int32_t": ctypes.c_int32, "void": None, "double": ctypes.c_double, "uint32_t": ctypes.c_uint32,
-                   "const char *": ctypes.c_char_p}
+                   "size_t": ctypes.c_size_t, "const char *": ctypes.c_char_p}
         for name, (result, arguments) in prototypes.items():
             function = getattr(mbd._lib, name)
             self.assertIs(function.restype, results[result], name)
