@@ -71,10 +71,11 @@ static int32_t drill(dmb_sim *sim)
 int main(int count, char **words)
 {
     if (count > 1)
-        return command_line(count, words,
-                            "What a driller reads while a string is driven into rock: hook load, torque, weight on "
-                            "bit, rate of penetration, bit speed and stick-slip index in a table of named channels.",
-                            NULL, 0);
+        return command_line(
+            count, words,
+            "Drives a string into rock and prints a table of the channels that a driller reads: hook load, torque, "
+            "weight on bit, rate of penetration, bit speed and stick-slip index.",
+            NULL, 0);
     dmb_model *model = NULL;
     dmb_sim *sim = NULL;
     int32_t status = dmb_model_create(NULL, &model) < 0 ? DMB_ERR_NO_MEMORY : describe(model);

@@ -265,56 +265,33 @@ NO_VARIABLES(fmi2SetString, const fmi2String)
  */
 FUNCTION(fmi2Status, fmi2GetFMUstate, fmi2Component handle, fmi2FMUstate *state)
 {
-    if (!handle || !state) return fmi2Error;
-    unit_state *made = *state; /* one that was there is replaced */
-    const unit_status status = unit_save(unit_of(handle), &made);
-    *state = made;
-    return (fmi2Status)status;
+    return (fmi2Status)unit_state_get(unit_of(handle), state);
 }
 
 FUNCTION(fmi2Status, fmi2SetFMUstate, fmi2Component handle, fmi2FMUstate state)
 {
-    return handle && state ? (fmi2Status)unit_load(unit_of(handle), state) : fmi2Error;
+    return (fmi2Status)unit_state_set(unit_of(handle), state);
 }
 
 FUNCTION(fmi2Status, fmi2FreeFMUstate, fmi2Component handle, fmi2FMUstate *state)
 {
-    if (!handle) return fmi2Error;
-    if (state) {
-        free(*state);
-        *state = NULL;
-    }
-    return fmi2OK;
+    return (fmi2Status)unit_state_free(unit_of(handle), state);
 }
 
 FUNCTION(fmi2Status, fmi2SerializedFMUstateSize, fmi2Component handle, fmi2FMUstate state, size_t *size)
 {
-    if (!handle || !state || !size) return fmi2Error;
-    *size = (size_t)((const unit_state *)state)->size;
-    return fmi2OK;
+    return (fmi2Status)unit_state_size(unit_of(handle), state, size);
 }
 
 FUNCTION(fmi2Status, fmi2SerializeFMUstate, fmi2Component handle, fmi2FMUstate state, fmi2Byte bytes[], size_t size)
 {
-    const unit_state *from = state;
-    if (!handle || !from || !bytes) return fmi2Error;
-    if (size < from->size)
-        return (fmi2Status)unit_tell(unit_of(handle), UNIT_ERROR, "state cannot be written: %zu bytes, must be >= %llu",
-                                     size, (unsigned long long)from->size);
-    memcpy(bytes, from->data, (size_t)from->size);
-    return fmi2OK;
+    return (fmi2Status)unit_state_write(unit_of(handle), state, bytes, size);
 }
 
 FUNCTION(fmi2Status, fmi2DeSerializeFMUstate, fmi2Component handle, const fmi2Byte bytes[], size_t size,
          fmi2FMUstate *state)
 {
-    if (!handle || !bytes || !state || unit_check_state(unit_of(handle), bytes, size) != UNIT_OK) return fmi2Error;
-    unit_state *made = malloc(sizeof *made + size);
-    if (!made) return fmi2Error;
-    made->size = size;
-    memcpy(made->data, bytes, size);
-    *state = made;
-    return fmi2OK;
+    return (fmi2Status)unit_state_read(unit_of(handle), bytes, size, state);
 }
 
 /* ---- Not offered, as modelDescription.xml says: 2.1.9, 4.2.1 ------------------------------------------------------

@@ -214,56 +214,33 @@ FUNCTION(fmi3Status, fmi3GetInt32, fmi3Instance handle, const fmi3ValueReference
  */
 FUNCTION(fmi3Status, fmi3GetFMUState, fmi3Instance handle, fmi3FMUState *state)
 {
-    if (!handle || !state) return fmi3Error;
-    unit_state *made = *state; /* one that was there is replaced */
-    const unit_status status = unit_save(unit_of(handle), &made);
-    *state = made;
-    return (fmi3Status)status;
+    return (fmi3Status)unit_state_get(unit_of(handle), state);
 }
 
 FUNCTION(fmi3Status, fmi3SetFMUState, fmi3Instance handle, fmi3FMUState state)
 {
-    return handle && state ? (fmi3Status)unit_load(unit_of(handle), state) : fmi3Error;
+    return (fmi3Status)unit_state_set(unit_of(handle), state);
 }
 
 FUNCTION(fmi3Status, fmi3FreeFMUState, fmi3Instance handle, fmi3FMUState *state)
 {
-    if (!handle) return fmi3Error;
-    if (state) {
-        free(*state);
-        *state = NULL;
-    }
-    return fmi3OK;
+    return (fmi3Status)unit_state_free(unit_of(handle), state);
 }
 
 FUNCTION(fmi3Status, fmi3SerializedFMUStateSize, fmi3Instance handle, fmi3FMUState state, size_t *size)
 {
-    if (!handle || !state || !size) return fmi3Error;
-    *size = (size_t)((const unit_state *)state)->size;
-    return fmi3OK;
+    return (fmi3Status)unit_state_size(unit_of(handle), state, size);
 }
 
 FUNCTION(fmi3Status, fmi3SerializeFMUState, fmi3Instance handle, fmi3FMUState state, fmi3Byte bytes[], size_t size)
 {
-    const unit_state *from = state;
-    if (!handle || !from || !bytes) return fmi3Error;
-    if (size < from->size)
-        return (fmi3Status)unit_tell(unit_of(handle), UNIT_ERROR, "state cannot be written: %zu bytes, must be >= %llu",
-                                     size, (unsigned long long)from->size);
-    memcpy(bytes, from->data, (size_t)from->size);
-    return fmi3OK;
+    return (fmi3Status)unit_state_write(unit_of(handle), state, bytes, size);
 }
 
 FUNCTION(fmi3Status, fmi3DeserializeFMUState, fmi3Instance handle, const fmi3Byte bytes[], size_t size,
          fmi3FMUState *state)
 {
-    if (!handle || !bytes || !state || unit_check_state(unit_of(handle), bytes, size) != UNIT_OK) return fmi3Error;
-    unit_state *made = malloc(sizeof *made + size);
-    if (!made) return fmi3Error;
-    made->size = size;
-    memcpy(made->data, bytes, size);
-    *state = made;
-    return fmi3OK;
+    return (fmi3Status)unit_state_read(unit_of(handle), bytes, size, state);
 }
 
 #define FMI3_HAS_INTEGERS

@@ -71,13 +71,13 @@ typedef struct unit_reached {
 /* From `time`, where the unit must be, on by `length` [s]; stops_early: at the first event. */
 unit_status unit_advance(unit *u, double time, double length, int stops_early, unit_reached *reached);
 
-/* All that changes, as bytes. unit_save allocates; unit_load changes nothing where the bytes are none of this unit. */
-typedef struct unit_state {
-    uint64_t size; /* [byte] of data */
-    unsigned char data[];
-} unit_state;
-unit_status unit_save(unit *u, unit_state **state);
-unit_status unit_check_state(const unit *u, const void *data, uint64_t size);
-unit_status unit_load(unit *u, const unit_state *state);
+/* All that changes, as bytes: the functions for states of FMI 2.0 and 3.0. A state belongs to its caller until
+ * unit_state_free. Bytes that are none of this unit are refused, and nothing changes. u may be NULL: UNIT_ERROR. */
+unit_status unit_state_get(unit *u, void **state); /* one that was there is replaced */
+unit_status unit_state_set(unit *u, const void *state);
+unit_status unit_state_free(const unit *u, void **state);
+unit_status unit_state_size(const unit *u, const void *state, size_t *size);
+unit_status unit_state_write(const unit *u, const void *state, void *bytes, size_t size);
+unit_status unit_state_read(const unit *u, const void *bytes, size_t size, void **state);
 
 #endif

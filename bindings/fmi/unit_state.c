@@ -6,7 +6,13 @@
 #define STATE_MAGIC "DMBSTATE"
 enum { STATE_FORMAT = 1 };
 
-/* Then values, shape (inputs), is_set, shape (inputs), and the sim's snapshot, on multiples of 8 bytes. */
+typedef struct unit_state {
+    uint64_t size; /* [byte] of data */
+    unsigned char data[];
+} unit_state;
+
+/* The first bytes of the data. Then values, shape (inputs), is_set, shape (inputs), and the sim's snapshot, on
+ * multiples of 8 bytes. */
 typedef struct state_header {
     char magic[8];
     uint32_t format, mode; /* STATE_FORMAT, unit_mode */
@@ -54,8 +60,9 @@ static void fill_state(const unit *u, unit_state *state, size_t snapshot)
     memcpy(state->data, &header, sizeof header);
 }
 
-unit_status unit_save(unit *u, unit_state **state)
+unit_status unit_state_get(unit *u, void **state)
 {
+    if (!u || !state) return UNIT_ERROR;
     size_t snapshot = 0;
     if (u->sim && dmb_sim_snapshot_size(u->sim, &snapshot) < 0)
         return unit_tell(u, UNIT_ERROR, "state cannot be saved: %s", dmb_sim_message(u->sim));
@@ -76,7 +83,7 @@ unit_status unit_save(unit *u, unit_state **state)
     return UNIT_OK;
 }
 
-unit_status unit_check_state(const unit *u, const void *data, uint64_t size)
+static unit_status check(const unit *u, const void *data, uint64_t size)
 {
     state_header header;
     if (size < sizeof header || memcmp(data, STATE_MAGIC, sizeof header.magic) != 0)
@@ -113,10 +120,11 @@ static unit_status load_sim(unit *u, const unsigned char *snapshot, uint64_t siz
     return UNIT_ERROR;
 }
 
-unit_status unit_load(unit *u, const unit_state *state)
+unit_status unit_state_set(unit *u, const void *from)
 {
+    const unit_state *state = from;
     state_header header;
-    if (unit_check_state(u, state->data, state->size) != UNIT_OK) return UNIT_ERROR;
+    if (!u || !state || check(u, state->data, state->size) != UNIT_OK) return UNIT_ERROR;
     memcpy(&header, state->data, sizeof header);
     if (load_sim(u, state->data + (state->size - header.snapshot), header.snapshot) != UNIT_OK) return UNIT_ERROR;
     const unsigned char *at = state->data + sizeof header;
@@ -125,5 +133,44 @@ unit_status unit_load(unit *u, const unit_state *state)
     memcpy(u->told, header.told, sizeof u->told);
     u->step = header.step;
     u->mode = (unit_mode)header.mode;
+    return UNIT_OK;
+}
+
+unit_status unit_state_free(const unit *u, void **state)
+{
+    if (!u) return UNIT_ERROR;
+    if (state) {
+        free(*state);
+        *state = NULL;
+    }
+    return UNIT_OK;
+}
+
+unit_status unit_state_size(const unit *u, const void *state, size_t *size)
+{
+    if (!u || !state || !size) return UNIT_ERROR;
+    *size = (size_t)((const unit_state *)state)->size;
+    return UNIT_OK;
+}
+
+unit_status unit_state_write(const unit *u, const void *state, void *bytes, size_t size)
+{
+    const unit_state *from = state;
+    if (!u || !from || !bytes) return UNIT_ERROR;
+    if (size < from->size)
+        return unit_tell(u, UNIT_ERROR, "state cannot be written: %zu bytes, must be >= %llu", size,
+                         (unsigned long long)from->size);
+    memcpy(bytes, from->data, (size_t)from->size);
+    return UNIT_OK;
+}
+
+unit_status unit_state_read(const unit *u, const void *bytes, size_t size, void **state)
+{
+    if (!u || !bytes || !state || check(u, bytes, size) != UNIT_OK) return UNIT_ERROR;
+    unit_state *made = malloc(sizeof *made + size);
+    if (!made) return UNIT_ERROR;
+    made->size = size;
+    memcpy(made->data, bytes, size);
+    *state = made;
     return UNIT_OK;
 }

@@ -11,6 +11,24 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 COMMAND = (sys.executable, "-W", "ignore", "-m", "drillmbd")
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(HERE), "OMP_NUM_THREADS": "1"}
+# Pieces of scenes: eight eccentric pipes with a bit, and the drives of a rig head that stays in place and turns.
+SHORT_STRING = """[[string]]
+name = "main"
+[[string.pipes]]
+count = 8
+eccentricity = "1 mm"
+[[bit]]
+name = "bit"
+diameter = 0
+"""
+DRIVES = """[[drive]]
+name = "feed"
+programme = "0 m/s"
+[[drive]]
+name = "head"
+component = "rx"
+programme = "turning"
+"""
 
 
 def needs(*names):

@@ -11,7 +11,7 @@ import sys
 import time
 import unittest
 
-from shared_tests import COMMAND, ENVIRONMENT, FolderTest, needs
+from shared_tests import COMMAND, DRIVES, ENVIRONMENT, SHORT_STRING, FolderTest, needs
 
 needs("numpy", "pint")
 
@@ -19,25 +19,10 @@ needs("numpy", "pint")
 SCENE = """title = "short rig"
 [hole]
 diameter = "94 mm"
-[[string]]
-name = "main"
-[[string.pipes]]
-count = 8
-eccentricity = "1 mm"
-[[bit]]
-name = "bit"
-diameter = 0
-[[programme]]
+""" + SHORT_STRING + """[[programme]]
 name = "turning"
 term = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
-[[drive]]
-name = "feed"
-programme = "0 m/s"
-[[drive]]
-name = "head"
-component = "rx"
-programme = "turning"
-[run]
+""" + DRIVES + """[run]
 end = "20 ms"
 step = "1 ms"
 static = true

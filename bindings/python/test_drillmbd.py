@@ -578,6 +578,16 @@ class WholeModelTest(unittest.TestCase):
 
 
 # ---- Errors and callbacks -------------------------------------------------------------------------------------------
+def assert_step_fails(test, sim):
+    """The next step ends by the error that a callback of the scene raises, and changes nothing."""
+    before = sim.hash()
+    with test.assertRaises(mbd.Error) as caught:
+        sim.step(1e-3)
+    test.assertEqual(caught.exception.status, mbd.ERR_CALLBACK)
+    test.assertIsInstance(caught.exception.__cause__, ZeroDivisionError)
+    test.assertEqual(sim.hash(), before)
+
+
 class JointTest(unittest.TestCase):
     """A pendulum of two rods: a hinge on the ground, and a hinge, a spring or a function between the rods."""
 
@@ -654,12 +664,7 @@ class JointTest(unittest.TestCase):
         with model.sim() as sim:
             sim.step(1e-3)
             armed.append(True)
-            before = sim.hash()
-            with self.assertRaises(mbd.Error) as caught:
-                sim.step(1e-3)
-            self.assertEqual(caught.exception.status, mbd.ERR_CALLBACK)
-            self.assertIsInstance(caught.exception.__cause__, ZeroDivisionError)
-            self.assertEqual(sim.hash(), before)
+            assert_step_fails(self, sim)
 
     def test_coupling_and_drive(self):
         model, upper, lower, hinge = self.rods()
@@ -824,12 +829,7 @@ class CallbackTest(unittest.TestCase):
         with model.sim() as sim:
             for _ in range(4):
                 sim.step(1e-3)
-            before = sim.hash()
-            with self.assertRaises(mbd.Error) as caught:
-                sim.step(1e-3)
-            self.assertEqual(caught.exception.status, mbd.ERR_CALLBACK)
-            self.assertIsInstance(caught.exception.__cause__, ZeroDivisionError)
-            self.assertEqual(sim.hash(), before)
+            assert_step_fails(self, sim)
 
     def test_wrong_answers(self):
         for answer in (math.nan, math.inf, None, "text"):
@@ -894,12 +894,7 @@ class ForceTest(unittest.TestCase):
         sim, _ = self.ball(force)
         with sim:
             sim.step(1e-3)
-            before = sim.hash()
-            with self.assertRaises(mbd.Error) as caught:
-                sim.step(1e-3)
-            self.assertEqual(caught.exception.status, mbd.ERR_CALLBACK)
-            self.assertIsInstance(caught.exception.__cause__, ZeroDivisionError)
-            self.assertEqual(sim.hash(), before)
+            assert_step_fails(self, sim)
             self.assertTrue(calls)
 
     def test_wrong_answers(self):

@@ -14,7 +14,7 @@ import sys
 import time
 import unittest
 
-from shared_tests import COMMAND, ENVIRONMENT, FolderTest, needs
+from shared_tests import COMMAND, DRIVES, ENVIRONMENT, SHORT_STRING, FolderTest, needs
 
 needs("h5py", "numpy", "pint", "scipy")
 
@@ -31,29 +31,14 @@ MPIRUN = ("mpirun", "--allow-run-as-root", "--oversubscribe", "-n")
 SCENE = """title = "short rig"
 [hole]
 diameter = "94 mm"
-[[string]]
-name = "main"
-[[string.pipes]]
-count = 8
-eccentricity = "1 mm"
-[[bit]]
-name = "bit"
-diameter = 0
-load = "rock"
+""" + SHORT_STRING + """load = "rock"
 [[programme]]
 name = "turning"
 term = {kind = "step", x1 = "20 ms", h1 = "100 rpm"}
 [[programme]]
 name = "rock"
 term = {kind = "step", x1 = "20 ms", h1 = "2 kN"}
-[[drive]]
-name = "feed"
-programme = "0 m/s"
-[[drive]]
-name = "head"
-component = "rx"
-programme = "turning"
-[run]
+""" + DRIVES + """[run]
 end = "30 ms"
 step = "1 ms"
 static = true

@@ -8,7 +8,7 @@ import zipfile
 from ctypes import byref, c_bool, c_double, c_size_t, c_uint32, c_void_p
 from xml.etree import ElementTree
 
-from shared_tests import COMMAND, ENVIRONMENT, FolderTest, needs
+from shared_tests import COMMAND, ENVIRONMENT, SHORT_STRING, FolderTest, needs
 
 needs("numpy", "pint")
 
@@ -24,15 +24,7 @@ SCENE = """title = "short rig <3 & more>"
 [hole]
 survey = [["0 m", "90 deg", "0 deg"], ["5 m", "88 deg", "1 deg"], ["20 m", "86 deg", "2 deg"]]
 diameter = "94 mm"
-[[string]]
-name = "main"
-[[string.pipes]]
-count = 8
-eccentricity = "1 mm"
-[[bit]]
-name = "bit"
-diameter = 0
-load = "push"
+""" + SHORT_STRING + """load = "push"
 [[programme]]
 name = "push"
 term = {table = [["0 s", "0 kN"], ["50 ms", "1 kN"]]}

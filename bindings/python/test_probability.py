@@ -5,7 +5,7 @@ import pathlib
 import tempfile
 import unittest
 
-from shared_tests import needs
+from shared_tests import DRIVES, needs
 
 needs("numpy", "pint", "scipy.stats")
 
@@ -62,14 +62,7 @@ load = "rock"
 place = {part = "main", pipe = "last", fraction = 1.0}
 moment = ["-500 N m", 0, 0]
 programme = "on"
-[[drive]]
-name = "feed"
-programme = "0 m/s"
-[[drive]]
-name = "head"
-component = "rx"
-programme = "turning"
-[run]
+""" + DRIVES + """[run]
 end = "0.1 s"
 step = "1 ms"
 static = true

@@ -5,7 +5,7 @@ import functools
 import math
 import unittest
 
-from shared_tests import needs
+from shared_tests import DRIVES, needs
 
 needs("numpy", "pint", "scipy.optimize")
 
@@ -47,14 +47,7 @@ diameter = "0.2 m"
 [[programme]]
 name = "turning"
 term = {kind = "step", x1 = "20 ms", h1 = "2 rad/s"}
-[[drive]]
-name = "feed"
-programme = "0 m/s"
-[[drive]]
-name = "head"
-component = "rx"
-programme = "turning"
-[run]
+""" + DRIVES + """[run]
 end = "30 s"
 step = "5 ms"
 static = true

@@ -106,7 +106,8 @@ static inline void open_rig(rig *r, int has_event)
 {
     scene_book book = {0};
     memset(r, 0, sizeof *r);
-    strcpy(r->folder, "/tmp/drillmbd fmu XXXXXX");
+    const char *temporary = getenv("TMPDIR");
+    snprintf(r->folder, sizeof r->folder, "%s/drillmbd fmu XXXXXX", temporary && *temporary ? temporary : "/tmp");
     if (!mkdtemp(r->folder)) fail_msg("no folder");
     must(dmb_model_create(NULL, &r->model), "create");
     const dmb_id head = describe_rig(r, &book);

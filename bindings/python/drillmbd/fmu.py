@@ -3,11 +3,11 @@
     from drillmbd import fmu, scene
     fmu.export(scene.load("rig.toml"), "rig.fmu")
 
-[[input]] of the scene become inputs (set points, factors of loads, bit load) and tunable parameters (gains, limits, friction,
-mud, damping), [[channel]] outputs, [[event]] counts of how often each was told. The run begins as that of the command: at
-rest in the static state by the parameters where [run] static says so; inputs act from then on. [run] step is the length of
-steps within a communication step; without it, and in scenes with events, the library chooses them. The unit holds the
-library itself and runs without Python."""
+[[input]] of the scene become inputs (set points, factors of loads, bit load) and tunable parameters (gains, limits,
+friction, mud, damping), [[channel]] outputs, [[event]] counts of how often each was told. The run begins as that of
+the command: at rest in the static state by the parameters where [run] static says so; inputs act from then on. [run]
+step is the length of steps within a communication step; without it, and in scenes with events, the library chooses
+them. The unit holds the library itself and runs without Python."""
 from __future__ import annotations
 
 import ctypes
@@ -50,9 +50,9 @@ MAGIC, FORMAT, LAYOUT, TOKEN = b"DMBSCENE", 1, 8, 48
 ARRAYS = {"add_programme": (("table_time", "table_count", 1), ("table_value", "table_count", 1)),
           "add_wall": (("survey", "survey_count", 3),),
           "add_spring": (("table_elongation", "table_count", 1), ("table_force", "table_count", 1))}
-CALLS = {"add_wall", "add_string", "add_body", "add_bit", "add_ring", "add_joint", "add_coupling", "add_drive", "add_load",
-         "add_spring", "add_stuck", "add_input", "add_event", "add_pipes", "add_programme", "add_hole_sections",
-         "set_environment", "set_name", "compile"}
+CALLS = {"add_wall", "add_string", "add_body", "add_bit", "add_ring", "add_joint", "add_coupling", "add_drive",
+         "add_load", "add_spring", "add_stuck", "add_input", "add_event", "add_pipes", "add_programme",
+         "add_hole_sections", "set_environment", "set_name", "compile"}
 
 
 class _Output(ctypes.Structure):
@@ -60,11 +60,13 @@ class _Output(ctypes.Structure):
 
 
 class _Name(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("part", Id), ("name", ctypes.c_char * 24)]
+    _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("part", Id),
+                ("name", ctypes.c_char * 24)]
 
 
 class _Swing(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("term", ctypes.c_uint32), ("share", ctypes.c_double), ("order", ctypes.c_double)]
+    _fields_ = [("struct_size", ctypes.c_uint32), ("term", ctypes.c_uint32),
+                ("share", ctypes.c_double), ("order", ctypes.c_double)]
 
 
 class _Run(ctypes.Structure):
@@ -126,15 +128,16 @@ def _swings(terms: tuple[Any, ...]) -> Iterator[bytes]:
             yield _record("turning", [_Swing(sizeof(_Swing), number, function.share, function.order)])
             yield _record("turning_of", [Term(**term) for term in function.terms])
         elif function is not None:
-            raise CannotExport("unit refused: a programme is a function of Python, which stays in Python; give it as a table")
+            raise CannotExport("unit refused: a programme is a function of Python, which stays in Python; "
+                               "give it as a table")
 
 
 def _calls(scene: Scene) -> Iterator[bytes]:
     """The calls that describe the model."""
     for name, arguments in scene.model.calls:
         if name not in CALLS:
-            raise CannotExport(f"unit refused: the scene has a part made by {name}, which a unit cannot have: functions of Python "
-                               "stay in Python; leave the part out")
+            raise CannotExport(f"unit refused: the scene has a part made by {name}, which a unit cannot have: "
+                               "functions of Python stay in Python; leave the part out")
         count = 1
         if name == "add_pipes":
             count, *arguments = arguments  # type: ignore[assignment]
@@ -220,12 +223,14 @@ def _inputs(scene: Scene, sim: Any) -> Iterator[Variable]:
         unit = info.unit.decode()
         jumps = f"; goes there by at most {info.rate_limit:g} {unit} a second" if info.rate_limit else ""
         about = f"{_target_name(info.target)}; until it is set, what the scene describes{jumps}"
-        yield Variable(name, INPUTS + number, "input" if given else "parameter", "continuous" if given else "tunable", unit,
-                       sim.inputs[name], _bound(info.low), _bound(info.high), about)
+        yield Variable(name, INPUTS + number, "input" if given else "parameter",
+                       "continuous" if given else "tunable", unit, sim.inputs[name],
+                       _bound(info.low), _bound(info.high), about)
 
 
 def _target_name(target: int) -> str:
-    names = {value: name for name, value in vars(enums).items() if name.startswith("TARGET_") and isinstance(value, int)}
+    names = {value: name for name, value in vars(enums).items()
+             if name.startswith("TARGET_") and isinstance(value, int)}
     return names.get(target, "TARGET_").replace("TARGET_", "").lower().replace("_", " ")
 
 
@@ -242,8 +247,8 @@ def variables(scene: Scene) -> list[Variable]:
             found.append(Variable(re.sub(r"\s*\[[^\]]*\]\s*$", "", name), OUTPUTS + number, "output", "continuous",
                                   _output_unit(quantity, place, drives), about=_channel_about(quantity)))
     for number, name in enumerate(scene.model.events()):
-        found.append(Variable(f"{name}, times", EVENTS + number, "output", "discrete", about="how often this event was told",
-                              integer=True))
+        found.append(Variable(f"{name}, times", EVENTS + number, "output", "discrete",
+                              about="how often this event was told", integer=True))
     _check_names(found)
     return found
 
@@ -257,14 +262,16 @@ def _check_names(found: list[Variable]) -> None:
     seen: set[str] = set()
     for one in found:
         if not one.name or one.name in seen or re.search(r"[\x00-\x1f]", one.name):
-            raise CannotExport(f"unit refused: the name {one.name!r} of a variable, must be of its own, not empty, without control "
-                               "characters; rename the [[channel]], [[input]] or [[event]]")
+            raise CannotExport(f"unit refused: the name {one.name!r} of a variable, must be of its own, not empty, "
+                               "without control characters; rename the [[channel]], [[input]] or [[event]]")
         seen.add(one.name)
 
 
 # ---- Units -----------------------------------------------------------------------------------------------------------
-_BASE: dict[str, dict[str, int]] = {"m": {"m": 1}, "s": {"s": 1}, "kg": {"kg": 1}, "rad": {"rad": 1}, "N": {"kg": 1, "m": 1, "s": -2},
-         "J": {"kg": 1, "m": 2, "s": -2}, "W": {"kg": 1, "m": 2, "s": -3}, "Pa": {"kg": 1, "m": -1, "s": -2}, "1": {}, "-": {}}
+_BASE: dict[str, dict[str, int]] = {
+    "m": {"m": 1}, "s": {"s": 1}, "kg": {"kg": 1}, "rad": {"rad": 1}, "N": {"kg": 1, "m": 1, "s": -2},
+    "J": {"kg": 1, "m": 2, "s": -2}, "W": {"kg": 1, "m": 2, "s": -3},
+    "Pa": {"kg": 1, "m": -1, "s": -2}, "1": {}, "-": {}}
 
 
 def base_exponents(unit: str) -> dict[str, int]:
@@ -274,7 +281,8 @@ def base_exponents(unit: str) -> dict[str, int]:
         for word in part.split():
             match = re.fullmatch(r"([A-Za-z1-]+?)(\d?)", word)
             if match is None or match[1] not in _BASE:
-                raise CannotExport(f"unit refused: unit {unit!r} of a variable is not known to the exporter; leave the variable out")
+                raise CannotExport(f"unit refused: unit {unit!r} of a variable is not known to the exporter; "
+                                   "leave the variable out")
             for name, power in _BASE[match[1]].items():
                 found[name] = found.get(name, 0) + sign * power * int(match[2] or 1)
     return {name: power for name, power in found.items() if power}
@@ -296,7 +304,8 @@ def _variable_attributes(one: Variable) -> Attributes:
 
 
 def _common_attributes(one: Variable) -> Attributes:
-    found = {"name": one.name, "valueReference": str(one.reference), "causality": one.causality, "variability": one.variability}
+    found = {"name": one.name, "valueReference": str(one.reference), "causality": one.causality,
+             "variability": one.variability}
     if one.about:
         found["description"] = one.about
     if one.causality == "parameter":
@@ -337,11 +346,12 @@ def _abilities(version: int, identifier: str, scene: Scene) -> Attributes:
     """Attributes of CoSimulation: what the unit can do."""
     found = {"modelIdentifier": identifier, "canHandleVariableCommunicationStepSize": "true"}
     if version == 2:
-        return {**found, "canInterpolateInputs": "false", "canGetAndSetFMUstate": "true", "canSerializeFMUstate": "true",
-                "providesDirectionalDerivative": "false", "canNotUseMemoryManagementFunctions": "true"}
+        return {**found, "canInterpolateInputs": "false", "canGetAndSetFMUstate": "true",
+                "canSerializeFMUstate": "true", "providesDirectionalDerivative": "false",
+                "canNotUseMemoryManagementFunctions": "true"}
     told = "true" if scene.model.events() else "false"
-    return {**found, "canGetAndSetFMUState": "true", "canSerializeFMUState": "true", "providesDirectionalDerivatives": "false",
-            "hasEventMode": told, "mightReturnEarlyFromDoStep": told}
+    return {**found, "canGetAndSetFMUState": "true", "canSerializeFMUState": "true",
+            "providesDirectionalDerivatives": "false", "hasEventMode": told, "mightReturnEarlyFromDoStep": told}
 
 
 def description(scene: Scene, version: int, identifier: str, token: str, found: list[Variable],
@@ -361,10 +371,12 @@ def description(scene: Scene, version: int, identifier: str, token: str, found: 
         entry = ElementTree.SubElement(definitions, "Unit", {"name": name})
         ElementTree.SubElement(entry, "BaseUnit", {key: str(power) for key, power in base_exponents(name).items()})
     categories = ElementTree.SubElement(root, "LogCategories")
-    for name, text in (("logStatusWarning", "notes and warnings of the library"), ("logStatusError", "what was refused or failed")):
+    for name, text in (("logStatusWarning", "notes and warnings of the library"),
+                       ("logStatusError", "what was refused or failed")):
         ElementTree.SubElement(categories, "Category", {"name": name, "description": text})
     run = {"stopTime": scene.run.get("end"), "stepSize": scene.run.get("step")}
-    ElementTree.SubElement(root, "DefaultExperiment", {"startTime": "0.0", **{k: _number(v) for k, v in run.items() if v}})
+    ElementTree.SubElement(root, "DefaultExperiment",
+                           {"startTime": "0.0", **{k: _number(v) for k, v in run.items() if v}})
     (_variables3 if version == 3 else _variables2)(ElementTree.SubElement(root, "ModelVariables"), found)
     (_structure3 if version == 3 else _structure2)(ElementTree.SubElement(root, "ModelStructure"), found)
     ElementTree.indent(root)
@@ -380,14 +392,15 @@ def find_sources(folder: Any = None) -> pathlib.Path:
     tried = pathlib.Path(folder) if folder is not None else pathlib.Path(__file__).resolve().parents[3]
     if all((tried / name).is_dir() for name in ("lib", "include/drillmbd", "bindings/fmi")):
         return tried
-    raise CannotExport(f"unit refused: {tried} does not hold the sources of libdrillmbd (lib, include, bindings/fmi); name their "
-                       "folder, or leave the sources out")
+    raise CannotExport(f"unit refused: {tried} does not hold the sources of libdrillmbd (lib, include, bindings/fmi); "
+                       "name their folder, or leave the sources out")
 
 
 def source_files(folder: pathlib.Path) -> dict[str, bytes]:
     """Sources and headers by their names below sources/."""
     found = {}
-    for below, target, pattern in (("lib", "", "**/*.[ch]"), ("include", "", "drillmbd/*.h"), ("bindings/fmi", "fmi/", "*.[ch]")):
+    for below, target, pattern in (("lib", "", "**/*.[ch]"), ("include", "", "drillmbd/*.h"),
+                                   ("bindings/fmi", "fmi/", "*.[ch]")):
         for path in sorted((folder / below).glob(pattern)):
             if path.name not in ("scene_record.c", "scene_record.h"):  # these write scenes
                 found[target + path.relative_to(folder / below).as_posix()] = path.read_bytes()
@@ -420,17 +433,20 @@ def platform_folder(version: int) -> str:
 
 
 def find_binary() -> pathlib.Path:
-    """The file that becomes the unit's binary: what the environment variable DRILLMBD_FMU names, or drillmbd_fmu.so beside the
-    library or this package."""
+    """The file that becomes the unit's binary: what the environment variable DRILLMBD_FMU names, or drillmbd_fmu.so
+    beside the library or this package."""
     own = os.environ.get("DRILLMBD_FMU")
-    folders = [pathlib.Path(_library.find()).parent, _library.HERE, *map(pathlib.Path, (sys.prefix + "/lib", "/usr/local/lib"))]
+    folders = [pathlib.Path(_library.find()).parent, _library.HERE,
+               *map(pathlib.Path, (sys.prefix + "/lib", "/usr/local/lib"))]
     folders += [one / f"{platform.machine()}-linux-gnu" for one in folders[2:]]
-    tried = [pathlib.Path(own)] if own else [one / f"{BINARY}{end}" for one in folders for end in (".so", ".dylib", ".dll")]
+    tried = [one / f"{BINARY}{end}" for one in folders for end in (".so", ".dylib", ".dll")]
+    if own:
+        tried = [pathlib.Path(own)]
     for path in tried:
         if path.is_file():
             return path
-    raise CannotExport(f"unit refused: its binary {tried[0]} is not there; build or install libdrillmbd with DMB_BUILD_FMU=ON, or set "
-                       "DRILLMBD_FMU to the file")
+    raise CannotExport(f"unit refused: its binary {tried[0]} is not there; build or install libdrillmbd with "
+                       "DMB_BUILD_FMU=ON, or set DRILLMBD_FMU to the file")
 
 
 def _identifier(scene: Scene, path: pathlib.Path) -> str:
@@ -440,20 +456,22 @@ def _identifier(scene: Scene, path: pathlib.Path) -> str:
 
 
 def export(scene: Scene, path: Any, version: int = 3, sources: Any = False) -> list[str]:
-    """Writes the unit; returns notes. sources: True, or the folder of libdrillmbd's sources: they go into the unit too, to be
-    compiled elsewhere (FMI 3.0: sources/buildDescription.xml says how). Raises CannotExport where the scene or this
-    installation cannot give a unit, OSError where the file cannot be written."""
+    """Writes the unit; returns notes. sources: True, or the folder of libdrillmbd's sources: they go into the unit
+    too, to be compiled elsewhere (FMI 3.0: sources/buildDescription.xml says how). Raises CannotExport where the scene
+    or this installation cannot give a unit, OSError where the file cannot be written."""
     if version not in (2, 3):
         raise CannotExport(f"unit refused: version {version} of FMI, must be 2 or 3")
     if not scene.channels:
-        raise CannotExport("unit refused: the scene has no outputs; add a [[channel]] for each number that is to be read")
+        raise CannotExport("unit refused: the scene has no outputs; "
+                           "add a [[channel]] for each number that is to be read")
     path = pathlib.Path(path)
     identifier = _identifier(scene, path)
     content, token = scene_bytes(scene)
     found = variables(scene)
     code = source_files(find_sources(None if sources is True else sources)) if sources else {}
     compiled = [name for name in code if name.endswith(".c")]
-    files = {"modelDescription.xml": description(scene, version, identifier, token, found, compiled), "resources/scene.bin": content}
+    files = {"modelDescription.xml": description(scene, version, identifier, token, found, compiled),
+             "resources/scene.bin": content}
     files.update({f"sources/{name}": data for name, data in code.items()})
     if code and version == 3:
         files["sources/buildDescription.xml"] = build_description(identifier, compiled)
@@ -468,7 +486,8 @@ def _notes(scene: Scene) -> list[str]:
     if not scene.model.inputs():
         notes.append("the scene has no [[input]]: the unit can be read but not steered")
     if scene.model.events() and scene.run.get("step"):
-        notes.append("the scene has events, which are found by steps of the library's choice: [run] step counts for nothing")
+        notes.append("the scene has events, which are found by steps of the library's choice: "
+                     "[run] step counts for nothing")
     return notes
 
 

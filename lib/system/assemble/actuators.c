@@ -164,7 +164,7 @@ double dmb_actuators_next_corner(const dmb_sim *sim, double t)
     return next;
 }
 
-/* ---- What they do not go with ------------------------------------------------------------------------------------ */
+/* ---- Refused with actuators -------------------------------------------------------------------------------------- */
 
 int32_t dmb_actuators_check_linear(const dmb_sim *sim, const char *analysis, int driven, dmb_message *message)
 {
