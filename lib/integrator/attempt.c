@@ -13,9 +13,8 @@
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
 #include "system/constrain/joint_motion.h"
-#include "system/constrain/joint_state.h"
+#include "system/jump.h"
 #include "system/ledger.h"
-#include "system/release.h"
 
 /* Violation of an equation taken for redundant at which it is one no more, in lengths of the parts. */
 #define DMB_DROPPED_VIOLATION 1e-7

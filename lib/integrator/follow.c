@@ -6,7 +6,7 @@
 #include "integrator/newton.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/cluster.h"
-#include "system/release.h"
+#include "system/jump.h"
 #include "system/solve/solve.h"
 
 /* The follower's own attempt at the leader's step. */

@@ -7,7 +7,7 @@
 #include "sim/access.h"
 #include "system/assemble/elements.h"
 #include "system/constrain/cluster.h"
-#include "system/release.h"
+#include "system/jump.h"
 #include "system/solve/solve.h"
 
 /* Newton gives up when the residual has grown this much over its start. */

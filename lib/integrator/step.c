@@ -12,7 +12,7 @@
 #include "sim/layout.h"
 #include "system/assemble/drives.h"
 #include "system/assemble/stuck.h"
-#include "system/let_go.h"
+#include "system/jump.h"
 #include "system/solve/solve.h"
 #include "system/start.h"
 

@@ -1,6 +1,5 @@
 /* Drives and bits at the accepted state. */
 #include "sim/access.h"
-#include "system/assemble/actuators.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/drives.h"
 

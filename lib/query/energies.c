@@ -13,7 +13,7 @@
 #include "system/assemble/energy.h"
 #include "system/assemble/springs.h"
 #include "system/assemble/stuck.h"
-#include "system/constrain/joint_state.h"
+#include "system/constrain/joint_motion.h"
 
 DMB_DECLARE_STRUCT(dmb_energy)
 

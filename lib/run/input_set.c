@@ -7,8 +7,8 @@
 #include "sim/own_scene.h"
 #include "system/assemble/energy.h"
 #include "system/assemble/stuck.h"
+#include "system/jump.h"
 #include "system/ledger.h"
-#include "system/let_go.h"
 #include "system/solve/solve.h"
 #include "system/start.h"
 

@@ -4,8 +4,8 @@
 #include "model/limits.h"
 #include "sim/access.h"
 #include "sim/node.h"
-#include "system/constrain/joint_state.h"
-#include "system/joint_switch.h"
+#include "system/constrain/joint_motion.h"
+#include "system/jump.h"
 #include "system/start.h"
 
 static int32_t refuse(dmb_sim *sim, int32_t status, const char *why)

@@ -12,7 +12,7 @@
 #include "sim/layout.h"
 #include "sim/options.h"
 #include "sim/own_scene.h"
-#include "system/assemble/actuators.h"
+#include "system/assemble/drives.h"
 #include "system/start.h"
 
 DMB_DECLARE_STRUCT(dmb_sim_options)

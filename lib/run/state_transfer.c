@@ -14,7 +14,7 @@
 #include "system/assemble/springs.h"
 #include "system/assemble/stuck.h"
 #include "system/constrain/cluster.h"
-#include "system/constrain/joint_state.h"
+#include "system/constrain/joint_motion.h"
 #include "system/solve/solve.h"
 #include "system/start.h"
 

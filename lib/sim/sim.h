@@ -22,7 +22,7 @@
 #define DMB_CONFIGURATION_LIST(X)                                                                                     \
     /* poses by system/assemble/evaluation, speeds by integrator/step_motion and integrator/attempt, both from the    \
        increments; of free rigid bodies system/assemble/free_rigid; prescribed by system/assemble/drives; on joints   \
-       by system/constrain/cluster_projection; at the start and at jumps by system/start, system/joint_switch: */     \
+       by system/constrain/cluster_projection; at the start and at jumps by system/start, system/jump: */             \
     X(double, displacement, 3 * n, NUMBERS) /* [m] FULL: world, from reference_position; PATH: [0] along axis */ \
     X(double, quaternion, 4 * n, NUMBERS)         /* [-] FULL: body to world, scalar first, unit; PATH: as at time 0 */\
     X(double, turn, n, NUMBERS) /* [rad] about the node's own x axis since time 0, revolutions counted */             \
@@ -50,7 +50,7 @@
     X(double, drive_force, d, NUMBERS)            /* [N, N m] on the part */                                          \
     X(double, drive_speed, d, NUMBERS)            /* [m/s, rad/s] of a joint's coordinate; 0 of other drives */       \
     X(double, drive_rate, d, NUMBERS)             /* [m/s2, rad/s2] prescribed on a joint's coordinate */             \
-    X(double, actuator, 4 * act, NUMBERS) /* [N, N m] dmb_actuator_flow of drives with one: system/assemble/actuators */ \
+    X(double, actuator, 4 * act, NUMBERS) /* [N, N m] dmb_actuator_flow of drives with one: system/assemble/drives */    \
     X(double, load_factor, load, NUMBERS)         /* [-] programme of each load */                                    \
     X(double, bit_load, k, NUMBERS)               /* [N] bottom-hole load of each bit */                              \
     /* system/assemble/bit: */                                                                                        \
@@ -59,7 +59,7 @@
     X(uint32_t, bit_segment, k, SEGMENTS)         /* [-] */                                                           \
     X(double, force_potential, force, NUMBERS)    /* [J] of the callers' forces: system/assemble/caller_force */      \
     /* system/constrain/joint_motion, from pose: */                                                                   \
-    X(double, joint_turn, 2 * j, NUMBERS) /* [rad] RX and RY, revolutions counted: system/constrain/joint_state */    \
+    X(double, joint_turn, 2 * j, NUMBERS) /* [rad] RX and RY, revolutions counted: system/constrain/joint_motion */   \
     X(double, joint_depth, j, NUMBERS)            /* [m] measured depth of the point of a joint on the hole's axis */ \
     X(uint32_t, joint_segment, j, JOINT_SEGMENTS) /* [-] segment of the axis it was found in */                       \
     /* system/constrain/cluster, of sparse ones system/constrain/sparse_cluster, from the residual: */                \
@@ -73,17 +73,17 @@
                                      powers: system/ledger */                                                         \
     X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/ledger */                                \
     X(dmb_counters, counters, 1, COUNTERS) /* [-] statistics: integrator/attempt, integrator/step, system/start,      \
-                                              system/constrain/cluster_assembly, system/constrain/cluster */                  \
+                                              system/constrain/cluster_projection, system/constrain/cluster */                \
     X(double, held_reaction, held, NUMBERS) /* [N, N m] residual of the accepted state in rows that are held:         \
                                                system/assemble/evaluation */                                          \
     X(double, drive_work, d, NUMBERS) /* [J] system/ledger */                                                         \
     X(double, drive_input, d, INPUTS) /* [unit of the programme] value set by the caller; NaN: the programme:         \
                                          run/inputs, run/life */                                                      \
     X(double, delay_line, 2 * DMB_DELAY_SAMPLES * delay, NUMBERS) /* [s] and [N, N m] samples of the commands of each   \
-                                                                 drive with a delay: system/assemble/actuators */     \
+                                                                 drive with a delay: system/assemble/drives */        \
     X(double, input_value, input, SET_INPUTS) /* [unit of the target] set by the caller; NaN: the programme:          \
                                                  run/input_set, sim/own_scene; of a stuck place that lets go          \
-                                                 system/let_go */                                                    \
+                                                 system/jump */                                                      \
     X(double, input_begin, 3 * input, NUMBERS) /* [s, unit, unit/s] where the way to the value begins:               \
                                                  run/input_set, sim/own_scene */                                      \
     X(double, event_since, event, EVENT_TIMES) /* [s] time at which it crossed and from which it is held; NaN: not    \
@@ -93,15 +93,15 @@
     X(double, history_angle, history, NUMBERS)    /* [rad] samples of the cut surface, system/assemble/bit */         \
     X(double, history_surface, history, NUMBERS) /* [m] system/assemble/bit */                                        \
     X(dmb_history_head, history_head, k, HISTORY_HEADS) /* system/assemble/bit */                                     \
-    X(int32_t, joint_state, j, JOINT_STATES) /* DMB_JOINT_..., system/constrain/joint_state */                        \
+    X(int32_t, joint_state, j, JOINT_STATES) /* DMB_JOINT_..., system/constrain/joint_motion */                       \
     X(int32_t, stuck_held, stuck, FLAGS)          /* [-] 1 while the place is stuck: system/assemble/stuck */          \
     X(double, stuck_anchor, 12 * stuck, NUMBERS)  /* [-, m] R and x of the place where it got stuck:                  \
                                                      system/assemble/stuck */                                         \
     X(double, joint_lock, 12 * j, NUMBERS) /* [-, m] R and p of frame b in frame a where the joint was locked:        \
-                                              system/constrain/joint_state */                                         \
-    X(double, constraint_offset, c, NUMBERS) /* [m, rad] what a coupling keeps: system/constrain/cluster_assembly */          \
+                                              system/constrain/joint_motion */                                        \
+    X(double, constraint_offset, c, NUMBERS) /* [m, rad] what a coupling keeps: system/constrain/cluster_projection */        \
     X(double, drive_offset, d, NUMBERS) /* [m, rad] coordinate of a driven joint at time 0:                           \
-                                           system/constrain/cluster_assembly */                                               \
+                                           system/constrain/cluster_projection */                                             \
     /* system/constrain/cluster, of sparse ones system/constrain/sparse_cluster: */                                   \
     X(uint32_t, partition_rank, cluster, RANKS) /* [-] dependent columns */                                           \
     X(uint32_t, partition_row, c, ROW_ORDER)      /* [-] rows of a cluster, pivot rows first */                       \
@@ -143,8 +143,8 @@
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                     \
     X(double, element_strain, 6 * e) /* [m, rad] d of the trial */                                                    \
     X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */       \
-    X(double, site_return, s)           /* [m/s] a ring that opens in the step left the wall; else 0, system/release */\
-    X(double, released_part, ns)        /* [-] of the step after the opening, of the node, system/release */          \
+    X(double, site_return, s)           /* [m/s] a ring that opens in the step left the wall; else 0, system/jump */   \
+    X(double, released_part, ns)        /* [-] of the step after the opening, of the node, system/jump */             \
     X(double, stiffness_diagonal, diagonal) /* by body-frame pose increments; then the iteration matrix */            \
     X(double, stiffness_lower, link)    /* in statics the same, in a step at once the iteration matrix */             \
     X(double, stiffness_upper, link)                                                                                  \
@@ -156,8 +156,8 @@
     X(double, raw_velocity, raw) /* of the trial before it is projected onto the constraints */                       \
     X(double, raw_acceleration, raw)                                                                                  \
     X(double, raw_pseudo_acceleration, raw)                                                                           \
-    X(double, switch_change, raw)       /* [m/s, rad/s] of speeds where a joint switches, system/joint_switch */      \
-    X(double, switch_momentum, raw)     /* [N s, N m s] -M times the change, system/joint_switch */                   \
+    X(double, switch_change, raw)       /* [m/s, rad/s] of speeds where a joint switches, system/jump */              \
+    X(double, switch_momentum, raw)     /* [N s, N m s] -M times the change, system/jump */                           \
     /* constraints, by system/constrain/constraint_rows and system/constrain/constraint_rows_callback: */                  \
     X(uint8_t, constraint_type, c)      /* DMB_ROW_... */                                                             \
     X(double, constraint_value, c)      /* [m, -] violation; 0 of a row of speeds */                                  \

@@ -8,7 +8,7 @@
 
 #include "system/assemble/drives.h"
 #include "system/assemble/energy.h"
-#include "system/constrain/joint_state.h"
+#include "system/constrain/joint_motion.h"
 
 static double drive_power(const dmb_sim *sim, const dmb_configuration *c, uint32_t i)
 {

@@ -13,7 +13,6 @@
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
 #include "system/constrain/joint_motion.h"
-#include "system/constrain/joint_state.h"
 #include "system/ledger.h"
 #include "system/solve/solve.h"
 

@@ -10,7 +10,7 @@
 #include "sim/layout.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/cluster.h"
-#include "system/constrain/joint_state.h"
+#include "system/constrain/joint_motion.h"
 #include "system/solve/reduced_system.h"
 #include "system/solve/solve.h"
 

@@ -11,7 +11,6 @@
 #include "sim/node.h"
 #include "system/assemble/evaluation.h"
 #include "system/assemble/wall_contact.h"
-#include "system/assemble/wall_contact_inside.h"
 #include "system/constrain/cluster.h"
 
 /* Differences of the residual with a factor this large lose nothing to the forces of the state. */

@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "analysis/sensitivity/sensitivity.h"
-#include "system/assemble/actuators.h"
 #include "system/assemble/drives.h"
 #include "system/start.h"
 

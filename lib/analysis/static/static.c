@@ -15,7 +15,7 @@
 #include "system/assemble/stuck.h"
 #include "system/assemble/wall_contact.h"
 #include "system/constrain/cluster.h"
-#include "system/constrain/joint_state.h"
+#include "system/constrain/joint_motion.h"
 #include "system/solve/solve.h"
 #include "system/start.h"
 

@@ -6,7 +6,6 @@
 #include "sim/node.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/joint_motion.h"
-#include "system/constrain/joint_state.h"
 
 /* ---- Joints ------------------------------------------------------------------------------------------------------ */
 

@@ -5,7 +5,6 @@
 #include "kernel/kernels.h"
 #include "math/se3.h"
 #include "sim/node.h"
-#include "system/assemble/actuators.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
@@ -16,7 +15,7 @@
 #include "system/assemble/springs.h"
 #include "system/assemble/stuck.h"
 #include "system/assemble/wall_contact.h"
-#include "system/constrain/joint_state.h"
+#include "system/constrain/joint_motion.h"
 
 static void clear(const dmb_evaluation *evaluation)
 {

@@ -9,7 +9,6 @@
 #include "math/vec3.h"
 #include "sim/node.h"
 #include "system/assemble/evaluation.h"
-#include "system/assemble/wall_contact_inside.h"
 
 void dmb_contact_slope_of(const dmb_scene *scene, const dmb_configuration *c, uint32_t site, dmb_contact_slope *out)
 {

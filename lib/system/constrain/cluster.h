@@ -103,13 +103,13 @@ void dmb_cluster_rank_release(const dmb_sim *sim, dmb_cluster_rank *rank);
 /* "joint 3 (crank): rotation about y": a constraint row by name. */
 void dmb_constraint_row_text(const dmb_sim *sim, uint32_t row, dmb_message *text);
 
-/* ---- Assembly: cluster_assembly.c -------------------------------------------------------------------------------- */
+/* ---- Assembly: cluster_projection.c ------------------------------------------------------------------------------ */
 
 /* Putting a scene together: Gauss-Newton on all equations of position, shortest moves first (Wehage, Haug 1982). */
 
 /* Closes the joints from the described poses of now: poses move until every equation holds and joints stand where their
  * initial coordinates say, speeds likewise. Fills counters->assembly. Errors with a message: DMB_ERR_GEOMETRY (the
- * joint that does not fit, and by how much), DMB_ERR_CALLBACK. system/constrain/cluster_assembly */
+ * joint that does not fit, and by how much), DMB_ERR_CALLBACK. system/constrain/cluster_projection */
 int32_t dmb_assemble(dmb_sim *sim);
 /* Refuses a joint whose frames, in the trial, point against each other where it keeps them parallel: its equations hold
  * there too. DMB_ERR_GEOMETRY with a message. */

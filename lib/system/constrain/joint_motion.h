@@ -6,6 +6,7 @@
 #include "constraint/joint.h"
 #include "constraint/relative.h"
 #include "sim/sim.h"
+#include "system/assemble/evaluation.h"
 
 /* Added to joint_segment while a DMB_JOINT_POINT_ON_HOLE is locked: frame a stands at joint_depth and does not ride. */
 #define DMB_SEGMENT_HELD 0x80000000u
@@ -38,7 +39,7 @@ void dmb_add_node_columns(const dmb_scene *scene, uint32_t node, const double ve
 void dmb_add_joint_row(const dmb_scene *scene, const dmb_constraint *constraint, uint32_t j,
                        const dmb_relative *relative, double factor, const double J[6], double *row);
 
-/* ---- Edges: joint_motion_edge.c ---------------------------------------------------------------------------------- */
+/* ---- Edges ------------------------------------------------------------------------------------------------------- */
 
 /* Poses in which a joint has no coordinates or no equations.
  *
@@ -49,7 +50,7 @@ void dmb_add_joint_row(const dmb_scene *scene, const dmb_constraint *constraint,
 
 /* Refuses active joints whose trial stands where their angles or equations are not defined: a universal joint, or one
  * with springs, drives or couplings on its angles, at a right angle of RZ; a rim that lies flat. moving: the way from
- * now counts too. DMB_ERR_GEOMETRY with a message. system/constrain/joint_motion_edge */
+ * now counts too. DMB_ERR_GEOMETRY with a message. */
 int32_t dmb_joints_refuse_edges(dmb_sim *sim, int moving, double time);
 /* Refuses active universal joints with something on their angles whose trial stands beyond the right angle that `now`
  * is before: on the way of a search for equilibrium, however long, they would have passed it. DMB_ERR_GEOMETRY with a
@@ -59,5 +60,24 @@ int32_t dmb_joints_refuse_folds(dmb_sim *sim);
  * none.
  */
 double dmb_joints_nearest_edge(const dmb_sim *sim, uint32_t *joint);
+
+/* ---- Memory from step to step ------------------------------------------------------------------------------------ */
+
+/* Turns of the coordinates of the trial; in statics after every move. */
+void dmb_joints_follow(dmb_evaluation *evaluation);
+/* After the last evaluation of a state: multipliers of least norm where rows are redundant (iterations need only some
+ * that balance: B^T f is the same), power of the callers' constraints. */
+void dmb_joint_reactions(dmb_evaluation *evaluation);
+/* End of an accepted step: turns of the coordinates, multipliers of least norm, partition where it has become poor. */
+void dmb_joints_accept(dmb_evaluation *evaluation);
+/* Turns of the trial by the coordinates of joint j. */
+void dmb_joint_take_turns(dmb_sim *sim, uint32_t j, const dmb_joint_coordinates *c);
+/* The pose in which joint j would hold frame b if it were locked in the pose of now. */
+void dmb_joint_hold(dmb_sim *sim, uint32_t j);
+/* The state of joint j from now on, DMB_JOINT_...; where that is LOCKED it holds frame b as it is in the pose of now.
+ */
+void dmb_joint_take_state(dmb_sim *sim, uint32_t j, int32_t state);
+/* [J] in springs and stops of the joints. */
+double dmb_joint_energy(const dmb_sim *sim, const dmb_configuration *configuration);
 
 #endif

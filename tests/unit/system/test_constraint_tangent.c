@@ -13,7 +13,7 @@
 #include "system/assemble/evaluation.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
-#include "system/constrain/joint_state.h"
+#include "system/constrain/joint_motion.h"
 
 enum { ROWS_MAX = 400, KINDS = DMB_JOINT_ROLLING + 1, EQUATIONS_MAX = 300 };
 

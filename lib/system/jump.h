@@ -1,12 +1,15 @@
+/* Jumps of the state at a step: contacts that open, stuck places that come free, joints that switch. */
+#ifndef DMB_SYSTEM_JUMP_H
+#define DMB_SYSTEM_JUMP_H
+
+#include "sim/sim.h"
+#include "system/assemble/evaluation.h"
+#include "system/constrain/joint_motion.h"
+
 /* Contacts that open within a step. Their force is gone at once, while generalized-alpha would carry about half of it
  * into the step from the accelerations it keeps: a wall that is stiff for the step would throw back faster than it was
  * met. The step is therefore taken from accelerations without that force (THEORY 4: after a jump, a fresh consistent
  * one). Where the contact is resolved its last force before opening is O(h), so second order is kept. */
-#ifndef DMB_SYSTEM_RELEASE_H
-#define DMB_SYSTEM_RELEASE_H
-
-#include "system/assemble/evaluation.h"
-
 /* 1 if a ring meets or leaves the wall between now and trial, or another side of it. O(number of sites). */
 int32_t dmb_contact_changes(const dmb_sim *sim);
 /* 1 if a ring that touches the wall in now is off it in trial. O(number of sites). */
@@ -18,5 +21,18 @@ void dmb_release_end(dmb_sim *sim);
  * ring opens, shape (node). Fills site_return. Residual, iteration matrix and factors are overwritten. Errors as
  * dmb_factor_mass. */
 int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acceleration, double *part);
+
+/* Stuck places that let go, and the energy that is lost then. */
+
+/* The ledger takes the energy `before` [J] less that which is stored now for lost. */
+void dmb_stuck_lose(dmb_sim *sim, double before);
+/* Those of the accepted state whose share has come to 1 let go; returns how many. */
+uint32_t dmb_stuck_let_go(dmb_sim *sim);
+
+/* Joints that lock, open and close in a run. Speeds that the new equations do not allow change by the impulse of least
+ * kinetic energy, M (v+ - v-) + B^T impulse = 0, B v+ + rate = 0. */
+
+/* dmb_sim_set_joint for a joint that exists */
+int32_t dmb_joint_switch(dmb_sim *sim, uint32_t joint, int32_t state);
 
 #endif
