@@ -1,5 +1,5 @@
 /* The shapes of bending are added to the helix inside an element: H(x) = exp(x d) exp(c(x) d), see
- * query/interpolation.h and THEORY 3. */
+ * query/motion.h and THEORY 3. */
 #ifndef DMB_ELEMENT_SECTION_SHAPE_H
 #define DMB_ELEMENT_SECTION_SHAPE_H
 

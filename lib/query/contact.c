@@ -1,9 +1,24 @@
-/* Sites are counted FULL ones first (strings, then bodies), then those of PATH nodes. */
+/* The wall at the accepted state: contact, the hole at a depth, places that can be stuck. Sites are counted FULL ones
+ * first (strings, then bodies), then those of PATH nodes. */
 #include <math.h>
+#include <string.h>
 
+#include "base/handle.h"
+#include "base/sized_struct.h"
+#include "drillmbd/bha.h"
+#include "drillmbd/hole.h"
+#include "drillmbd/query.h"
+#include "force/hole_section.h"
+#include "math/real.h"
 #include "math/vec3.h"
+#include "model/limits.h"
+#include "model/model.h"
+#include "model/scene.h"
 #include "sim/access.h"
+#include "system/assemble/stuck.h"
 #include "system/assemble/wall_contact.h"
+
+/* ---- Contact ----------------------------------------------------------------------------------------------------- */
 
 DMB_DECLARE_STRUCT(dmb_contact)
 DMB_DECLARE_STRUCT(dmb_contact_total)
@@ -74,4 +89,129 @@ int32_t dmb_query_contact_total(const dmb_sim *sim, dmb_contact_total *sum)
         answer.deepest = fmax(answer.deepest, force.penetration);
     }
     return dmb_contact_total_write(sum, &answer);
+}
+
+/* The hole's axis at a measured depth. */
+
+/* ---- The hole ---------------------------------------------------------------------------------------------------- */
+
+DMB_DEFINE_INIT(dmb_hole_point, 120, {.beyond = DMB_HOLE_SURVEYED, .section = -1})
+
+#define VERTICAL 1e-9 /* [-] no azimuth within this of the vertical */
+
+static int32_t hole_of(const dmb_model *model, const dmb_hole **hole)
+{
+    if (model == NULL) return DMB_ERR_NULL;
+    if (!dmb_handle_is(model, DMB_HANDLE_MODEL)) return DMB_ERR_HANDLE;
+    if (model->scene == NULL) return DMB_ERR_ORDER;
+    if (!model->scene->has_hole) return DMB_ERR_UNSUPPORTED;
+    *hole = &model->scene->hole;
+    return DMB_OK;
+}
+
+/* As described: a survey without a bend is a straight hole inside. */
+static int32_t beyond(const dmb_wall_def *wall, double depth)
+{
+    if (wall->survey_count == 0) return DMB_HOLE_SURVEYED;
+    if (depth < wall->survey[0]) return DMB_HOLE_ABOVE;
+    return depth > wall->survey[3 * (size_t)(wall->survey_count - 1)] ? DMB_HOLE_BELOW : DMB_HOLE_SURVEYED;
+}
+
+static void direction(dmb_hole_point *point)
+{
+    const double *t = point->tangent;
+    const double across = hypot(t[0], t[1]);
+    point->inclination = atan2(across, -t[2]);
+    point->azimuth = across > VERTICAL ? atan2(t[1], t[0]) : 0.0;
+}
+
+/* Last section that begins at or above the depth; DMB_NONE: none. */
+static uint32_t section_at(const dmb_model *model, double depth)
+{
+    uint32_t low = 0, high = model->sections.count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (DMB_LIST_AT(const dmb_hole_section, model->sections, middle)->depth <= depth)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low > 0 ? low - 1 : DMB_NONE;
+}
+
+static void take_wall(const dmb_model *model, double depth, dmb_hole_point *point)
+{
+    const dmb_hole *hole = &model->scene->hole;
+    const dmb_wall_def *wall = &model->wall;
+    const uint32_t section = section_at(model, depth);
+    double v[DMB_WALL_COUNT] = {0.5 * wall->diameter,
+                                wall->stiffness,
+                                wall->restitution,
+                                wall->damping,
+                                wall->mu_static,
+                                wall->mu_dynamic,
+                                0.0};
+    if (hole->pieces > 0)
+        for (int k = 0; k < DMB_WALL_COUNT; k++) v[k] = dmb_hole_piece_value(dmb_hole_piece_at(hole, depth), k, depth);
+    point->diameter = 2.0 * v[DMB_WALL_RADIUS];
+    point->stiffness = v[DMB_WALL_STIFFNESS];
+    point->restitution = v[DMB_WALL_RESTITUTION];
+    point->damping = v[DMB_WALL_DAMPING];
+    point->mu_static = v[DMB_WALL_MU_STATIC];
+    point->mu_dynamic = v[DMB_WALL_MU_DYNAMIC];
+    point->strength = v[DMB_WALL_STRENGTH];
+    point->section = -1;
+    if (section == DMB_NONE) return;
+    point->section = (int32_t)section;
+    memcpy(point->section_name, DMB_LIST_AT(const dmb_hole_section, model->sections, section)->name,
+           sizeof point->section_name);
+}
+
+int32_t dmb_query_hole(const dmb_model *model, double depth, dmb_hole_point *point)
+{
+    const dmb_hole *hole;
+    dmb_hole_point answer = {0};
+    double bend[3];
+    const int32_t status = hole_of(model, &hole);
+    if (status < 0) return status;
+    if (point == NULL) return DMB_ERR_NULL;
+    if (!isfinite(depth)) return DMB_ERR_NOT_FINITE;
+    if (fabs(depth) > DMB_POSITION_MAX) return DMB_ERR_VALUE;
+    dmb_hole_frame(hole, depth, answer.position, answer.tangent, bend);
+    answer.beyond = beyond(&model->wall, depth);
+    answer.curvature = dmb_vec3_norm(bend);
+    for (int i = 0; i < 3; i++) answer.normal[i] = answer.curvature > 0.0 ? bend[i] / answer.curvature : 0.0;
+    answer.dogleg_severity = answer.curvature * 30.0 * 180.0 / DMB_PI;
+    direction(&answer);
+    take_wall(model, depth, &answer);
+    return dmb_hole_point_write(point, &answer);
+}
+
+/* Places that can be stuck. */
+
+/* ---- Places that can be stuck ------------------------------------------------------------------------------------ */
+
+DMB_DEFINE_INIT(dmb_stuck_state, 88, {.stuck = 0})
+
+int32_t dmb_query_stuck(const dmb_sim *sim, dmb_id stuck, dmb_stuck_state *state)
+{
+    const int32_t status = dmb_ask(sim, state);
+    dmb_stuck_state answer = {0};
+    if (status < 0) return status;
+    const uint32_t i = dmb_model_part_index(sim->model, stuck, DMB_PART_STUCK);
+    if (i >= sim->scene->stuck_count) return DMB_ERR_ID;
+    const dmb_scene_stuck *of = sim->scene->stuck + i;
+    if (sim->stuck_held[i]) {
+        const double stiffness[4] = {of->stiffness[0], of->stiffness[2], of->stiffness[2], of->stiffness[1]};
+        dmb_stuck_hold hold;
+        dmb_stuck_hold_of(sim, &sim->now, i, 1, &hold);
+        answer.stuck = 1;
+        memcpy(answer.offset, hold.s, sizeof answer.offset);
+        for (int k = 0; k < DMB_STUCK_COORDINATES; k++) {
+            answer.force[k] = -hold.force[k];
+            answer.energy += 0.5 * stiffness[k] * hold.s[k] * hold.s[k];
+        }
+        answer.share = dmb_stuck_share(sim, &sim->now, i, 1);
+    }
+    return dmb_stuck_state_write(state, &answer);
 }

@@ -4,9 +4,9 @@
 #include <float.h>
 #include <math.h>
 
-#include "query/joint_query.h"
 #include "query/mass.h"
 #include "query/place.h"
+#include "query/reactions.h"
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "system/assemble/caller_force.h"

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "model/section.h"
-#include "query/interpolation.h"
+#include "query/motion.h"
 #include "query/pipe_strength.h"
 #include "query/place.h"
 #include "sim/access.h"

@@ -1,13 +1,13 @@
 /* Section forces and strains of a pipe. */
 #include "math/se3.h"
-#include "query/interpolation.h"
+#include "query/motion.h"
 #include "query/place.h"
 #include "sim/access.h"
 #include "system/assemble/energy.h"
 
 DMB_DECLARE_STRUCT(dmb_section)
 
-/* From the element's helix to the section itself, which lies off it by exp(c) (query/interpolation.h): what it carries
+/* From the element's helix to the section itself, which lies off it by exp(c) (query/motion.h): what it carries
  * is the same load in its own axes about its own centre. Under an axial force both tell. */
 static void to_the_section(const dmb_scene *scene, const dmb_configuration *configuration,
                            const dmb_material_point *point, double force[6])

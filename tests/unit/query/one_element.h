@@ -12,7 +12,7 @@
 
 #include "close.h"
 #include "math/se3.h"
-#include "query/interpolation.h"
+#include "query/motion.h"
 
 typedef struct one_element {
     dmb_scene scene;

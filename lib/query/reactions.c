@@ -1,12 +1,24 @@
-/* Joint coordinates, what a joint holds, and what it carries; reactions of guided ends. */
-#include "query/joint_query.h"
+/* Motion, forces and reactions of the parts between bodies: joints, guides, drives, springs. */
+#include "query/reactions.h"
 
+#include <math.h>
+
+#include "base/sized_struct.h"
+#include "drillmbd/forces.h"
+#include "drillmbd/state_space.h"
 #include "element/beam.h"
 #include "math/mat6.h"
+#include "math/vec3.h"
+#include "query/motion.h"
 #include "query/place.h"
 #include "sim/access.h"
 #include "sim/node.h"
+#include "system/assemble/bit.h"
+#include "system/assemble/drives.h"
+#include "system/assemble/springs.h"
 #include "system/constrain/constraint_rows.h"
+
+/* ---- Joints and callers' constraints ----------------------------------------------------------------------------- */
 
 DMB_DECLARE_STRUCT(dmb_joint_state)
 
@@ -186,5 +198,136 @@ int32_t dmb_query_reaction(const dmb_sim *sim, dmb_id part, double reaction[6])
     }
     held_wrench(sim, node, reaction);
     dmb_arm_wrench(-arm, reaction); /* from the node to the part's reference point */
+    return DMB_OK;
+}
+
+/* Drives and bits at the accepted state. */
+
+/* ---- Drives and bits --------------------------------------------------------------------------------------------- */
+
+DMB_DECLARE_STRUCT(dmb_drive_state)
+
+int32_t dmb_query_drive(const dmb_sim *sim, dmb_id drive, dmb_drive_state *state)
+{
+    const int32_t status = dmb_ask(sim, state);
+    dmb_drive_state answer = {0};
+    uint32_t i;
+    if (status < 0) return status;
+    i = dmb_model_part_index(sim->model, drive, DMB_PART_DRIVE);
+    if (i >= sim->scene->drive_count) return DMB_ERR_ID;
+    answer.target = sim->now.drive_target[i];
+    answer.position = sim->now.drive_position[i];
+    answer.speed = dmb_drive_speed(sim->scene, &sim->now, i);
+    answer.force = sim->now.drive_force[i];
+    answer.power = answer.force * answer.speed;
+    answer.work = sim->drive_work[i];
+    answer.command = answer.made = answer.force;
+    if (sim->scene->drives[i].actuator != DMB_NONE) {
+        answer.command = dmb_actuator_flow_of(&sim->now, sim->scene->drives[i].actuator)->command;
+        answer.made = dmb_actuator_flow_of(&sim->now, sim->scene->drives[i].actuator)->force;
+    }
+    return dmb_drive_state_write(state, &answer);
+}
+
+DMB_DECLARE_STRUCT(dmb_bit_state)
+
+int32_t dmb_query_bit(const dmb_sim *sim, dmb_id bit, dmb_bit_state *state)
+{
+    const int32_t status = dmb_ask(sim, state);
+    dmb_bit_state answer = {0};
+    dmb_bit_rock_result rock;
+    uint32_t i;
+    if (status < 0) return status;
+    i = dmb_model_part_index(sim->model, bit, DMB_PART_BIT);
+    if (i >= sim->scene->bit_count) return DMB_ERR_ID;
+    dmb_bit_force_of(sim, i, &rock, &answer.load);
+    answer.on_bottom = rock.on_bottom;
+    answer.advance = sim->now.bit_advance[i];
+    answer.bottom = sim->now.bit_bottom[i];
+    answer.depth_of_cut = rock.depth_of_cut;
+    answer.weight = rock.weight_on_bit;
+    answer.torque = rock.torque_on_bit;
+    answer.side_speed = dmb_bit_side_of(sim, i, answer.side_force);
+    return dmb_bit_state_write(state, &answer);
+}
+
+/* Springs between points, and poses off a place. */
+
+/* ---- Springs ----------------------------------------------------------------------------------------------------- */
+
+DMB_DEFINE_INIT(dmb_spring_state, 136, {.length = 0.0})
+
+static void world_point(const dmb_scene *scene, const dmb_point_motion *point, double x[3])
+{
+    dmb_vec3_copy(point->x, x);
+    if (point->nodes > 0) dmb_vec3_add(x, scene->reference_position + 3 * (size_t)point->node[0], x);
+}
+
+int32_t dmb_query_spring(const dmb_sim *sim, dmb_id spring, dmb_spring_state *state)
+{
+    const int32_t status = dmb_ask(sim, state);
+    dmb_spring_state answer = {0};
+    dmb_spring_motion m;
+    if (status < 0) return status;
+    const uint32_t i = dmb_model_part_index(sim->model, spring, DMB_PART_SPRING);
+    if (i >= sim->scene->spring_count) return DMB_ERR_ID;
+    const dmb_scene_spring *s = sim->scene->springs + i;
+    dmb_spring_motion_of(sim->scene, &sim->now, i, 1, &m);
+    answer.length = m.length;
+    answer.elongation = m.length - s->free_length;
+    answer.speed = m.rate;
+    answer.elastic = m.force.elastic;
+    answer.damper = m.force.damper;
+    answer.force = m.force.elastic + m.force.damper;
+    answer.energy = dmb_spring_energy_at(&s->law, sim->scene->spring_points + s->law.first, answer.elongation);
+    dmb_vec3_copy(m.n, answer.direction);
+    world_point(sim->scene, &m.a, answer.point_a);
+    world_point(sim->scene, &m.b, answer.point_b);
+    return dmb_spring_state_write(state, &answer);
+}
+
+/* ---- Whose the rows of the equations are ------------------------------------------------------------------------- */
+
+DMB_DEFINE_INIT(dmb_row, 32, {.component = DMB_X})
+
+static int32_t is_driven(const dmb_scene *scene, uint32_t row)
+{
+    for (uint32_t i = 0; i < scene->drive_count; i++)
+        if (scene->drives[i].kind == DMB_DRIVE_MOTION && scene->drives[i].row == row) return 1;
+    return 0;
+}
+
+int32_t dmb_query_row(const dmb_sim *sim, uint32_t row, dmb_row *answer)
+{
+    static const int32_t path_component[2] = {DMB_X, DMB_RX};
+    const int32_t status = dmb_ask(sim, answer);
+    dmb_row found = {0};
+    if (status < 0) return status;
+    const dmb_scene *scene = sim->scene;
+    if (row >= scene->row_count) return DMB_ERR_VALUE;
+    found.node = dmb_node_of_row(scene, row);
+    const uint32_t c = row - scene->layout.row[found.node];
+    const dmb_owner owner = dmb_owner_of_node(scene, found.node);
+    const uint32_t kind = owner.kind[0] == 's' ? DMB_PART_STRING : DMB_PART_BODY;
+    found.component = scene->layout.size[found.node] == DMB_NODE_PATH ? path_component[c] : (int32_t)c;
+    found.pipe = owner.pipe;
+    found.state = scene->solved_row[row] ? DMB_ROW_FREE : is_driven(scene, row) ? DMB_ROW_DRIVEN : DMB_ROW_HELD;
+    found.part = dmb_model_id(sim->model, kind, owner.index);
+    return dmb_row_write(answer, &found);
+}
+
+int32_t dmb_query_constraint_rows(const dmb_sim *sim, dmb_id part, uint32_t *first, uint32_t *count)
+{
+    const int32_t status = dmb_ask(sim, first);
+    uint32_t before = 0;
+    if (status < 0) return status;
+    if (count == NULL) return DMB_ERR_NULL;
+    const uint32_t constraint = dmb_constraint_of_part(sim, part);
+    if (constraint == DMB_NONE) return DMB_ERR_ID;
+    for (uint32_t i = 0; i < sim->scene->constraint_count; i++)
+        if (sim->scene->constraints[i].row < sim->scene->constraints[constraint].row)
+            before += dmb_constraint_active(sim, i);
+    *first = before;
+    *count = dmb_constraint_active(sim, constraint);
     return DMB_OK;
 }

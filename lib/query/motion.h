@@ -7,8 +7,8 @@
  * shear force of the corrected stiffness 1/GA* = 1/GA + L^2/(12 EI) belongs. To first order in the bending of the
  * element the two together are the shapes N1 .. N4, G1 .. G4 about the frame in the middle, so that a beam loaded at
  * its nodes is exact in between. c is 0 at both ends: nodes are reproduced. */
-#ifndef DMB_QUERY_INTERPOLATION_H
-#define DMB_QUERY_INTERPOLATION_H
+#ifndef DMB_QUERY_MOTION_H
+#define DMB_QUERY_MOTION_H
 
 #include "element/section_shape.h"
 #include "query/place.h"

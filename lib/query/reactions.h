@@ -1,6 +1,6 @@
-/* Counts of the rows of a constraint at the accepted state. */
-#ifndef DMB_QUERY_JOINT_QUERY_H
-#define DMB_QUERY_JOINT_QUERY_H
+/* Joints and constraints at the accepted state. */
+#ifndef DMB_QUERY_REACTIONS_H
+#define DMB_QUERY_REACTIONS_H
 
 #include "sim/sim.h"
 
