@@ -103,7 +103,7 @@ typedef struct dmb_place {
     uint32_t reserved; /* [-] 0 */
     double fraction;   /* [-] 0 at the rig end of the pipe .. 1 at its far end; 0 for a body */
 } dmb_place;
-
+/* The place at `fraction` of a pipe of a string; of a body: pipe 0, fraction 0. Nothing is checked here. */
 static inline dmb_place dmb_station(dmb_id part, uint32_t pipe, double fraction)
 {
     dmb_place place;

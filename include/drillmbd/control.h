@@ -42,9 +42,9 @@ DMB_SIZED_STRUCT(dmb_input_def)
 DMB_API int32_t dmb_model_add_input(dmb_model *model, const dmb_input_def *def, dmb_id *input);
 typedef struct dmb_input_info {
     uint32_t struct_size;
-    int32_t target; /* DMB_TARGET_... */
-    dmb_id input, part;
-    char name[24];
+    int32_t target;                            /* DMB_TARGET_... */
+    dmb_id input, part;                        /* its own id, and what it acts on */
+    char name[24];                             /* ends with 0 */
     char unit[16];                             /* "rad/s", "-", ... ends with 0 */
     double low, high, rate_limit, slope_limit; /* bounds in force: the narrower of its own and those of the target */
 } dmb_input_info;

@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-typedef struct dmb_model dmb_model;
+typedef struct dmb_model dmb_model; /* a scene: described, then compiled */
 
 typedef struct dmb_model_options {
     uint32_t struct_size;

@@ -219,7 +219,7 @@ typedef struct dmb_hole_point {
     double strength;        /* [Pa] of a section; 0: not told */
     int32_t section;        /* number of the last section that begins at or above the depth; -1: none */
     uint32_t reserved;
-    char section_name[24];
+    char section_name[24]; /* of that section, ends with 0; "" without one */
 } dmb_hole_point;
 DMB_SIZED_STRUCT(dmb_hole_point)
 /* The axis at a measured depth [m], by minimum curvature (Taylor, Mason 1972) between stations. A compiled model;
@@ -325,7 +325,7 @@ enum {
     DMB_CHANNEL_COUNT = 20           /* of these; output.h goes on from number 100 */
 };
 typedef struct dmb_channel {
-    dmb_place place;
+    dmb_place place;  /* where the quantity is one of a place */
     int32_t quantity; /* DMB_CHANNEL_... */
     int32_t reserved; /* 0 */
 } dmb_channel;

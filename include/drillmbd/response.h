@@ -61,8 +61,8 @@ enum {
 };
 typedef struct dmb_output {
     uint32_t struct_size;
-    int32_t kind; /* DMB_OUTPUT_..., default DMB_OUTPUT_DISPLACEMENT */
-    dmb_place place;
+    int32_t kind;      /* DMB_OUTPUT_..., default DMB_OUTPUT_DISPLACEMENT */
+    dmb_place place;   /* required where the kind asks for one */
     int32_t component; /* DMB_X .. DMB_RZ, default DMB_X */
     int32_t frame;     /* DMB_FRAME_WORLD (default) or DMB_FRAME_BODY */
 } dmb_output;
@@ -86,7 +86,7 @@ typedef struct dmb_response_options {
 } dmb_response_options;
 DMB_SIZED_STRUCT(dmb_response_options)
 
-typedef struct dmb_response dmb_response;
+typedef struct dmb_response dmb_response; /* transfer functions by frequency */
 /* Transfer functions from every input to every output about the accepted state of a sim, which must be an equilibrium,
  * at rest or spinning steadily: (K (1 + i eta) + i w C - w^2 M) d = f at each frequency, directly, in complex blocks.
  * Of a state that spins, frames of `place` are its section's, which turn with it, and so are all frequencies. inputs,
@@ -193,7 +193,7 @@ typedef struct dmb_speeds_options {
     int32_t contact;     /* these as of a response, but for friction, default 0: a string that turns slides, */
     int32_t friction;    /* and sliding has next to no slope */
     int32_t reserved;
-    double contact_gap, structural_damping, equilibrium_tolerance;
+    double contact_gap, structural_damping, equilibrium_tolerance; /* [m, -, -] as of a response, same defaults */
     dmb_speeds_report *report; /* written where the call succeeds; NULL (default): none */
     const void *unused;        /* NULL */
 } dmb_speeds_options;
@@ -209,7 +209,7 @@ typedef struct dmb_speed_band {
     double severity;   /* [-] there */
     double frequency;  /* [Hz] of that order there */
     int32_t truncated; /* 1: goes on below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole */
-    int32_t reserved1;
+    int32_t reserved1; /* 0 */
 } dmb_speed_band;
 DMB_SIZED_STRUCT(dmb_speed_band)
 

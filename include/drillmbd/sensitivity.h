@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-typedef struct dmb_sensitivity dmb_sensitivity;
+typedef struct dmb_sensitivity dmb_sensitivity; /* derivatives of one run */
 
 typedef struct dmb_parameter {
     uint32_t struct_size;

@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-typedef struct dmb_sim dmb_sim;
+typedef struct dmb_sim dmb_sim; /* one simulation of a compiled scene */
 
 enum {
     DMB_METHOD_INDEPENDENT = 0, /* the step solves for independent coordinates, found by partition */

@@ -39,9 +39,9 @@ typedef struct dmb_state_space_options {
     int32_t static_correction; /* 1 (default): quasi-static shapes of the inputs in the basis; 0: modes alone */
     const dmb_modes *modes;    /* of DMB_STATE_REDUCED: modes about this state, of any kind, contact as here */
     const int32_t *mode_list;  /* [-] numbers of those that are taken, shape (mode_count); NULL (default): all */
-    uint32_t mode_count;
-    int32_t contact;  /* DMB_CONTACT_..., default DMB_CONTACT_AS_IS */
-    int32_t friction; /* as of a response, default 1 */
+    uint32_t mode_count;       /* [-] of mode_list; 0 (default) without one */
+    int32_t contact;           /* DMB_CONTACT_..., default DMB_CONTACT_AS_IS */
+    int32_t friction;          /* as of a response, default 1 */
     int32_t reserved;
     double contact_gap;           /* [m] of DMB_CONTACT_CLOSED, >= 0; default 0 */
     double equilibrium_tolerance; /* [-] residual over the forces that balance in it; default 1e-6 */
@@ -65,7 +65,7 @@ typedef struct dmb_state_space_info {
 } dmb_state_space_info;
 DMB_SIZED_STRUCT(dmb_state_space_info)
 
-typedef struct dmb_state_space dmb_state_space;
+typedef struct dmb_state_space dmb_state_space; /* matrices of the linear system about one state */
 /* About the accepted state of a sim, which must be an equilibrium, at rest or spinning steadily (any state for
  * DMB_STATE_MATRICES). inputs, outputs: as of dmb_analysis_response, 0 .. 1024 each; inputs that go with the square of
  * the frequency (unbalance, eccentricity) are refused. Channels are outputs of kind DMB_OUTPUT_CHANNEL. options may be

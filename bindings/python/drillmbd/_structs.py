@@ -686,7 +686,7 @@ class HolePoint(Sized):
         "mu_dynamic": ("-", ""),
         "strength": ("Pa", "of a section; 0: not told"),
         "section": ("", "number of the last section that begins at or above the depth; -1: none"),
-        "section_name": ("", ""),
+        "section_name": ("", "of that section, ends with 0; \"\" without one"),
     }
 
 
@@ -1701,7 +1701,7 @@ class SpeedBand(Sized):
         "severity": ("-", "there"),
         "frequency": ("Hz", "of that order there"),
         "truncated": ("", "1: goes on below speed_low, 2: above speed_high, 3: both: look at a wider range; 0: whole"),
-        "reserved1": ("", ""),
+        "reserved1": ("", "0"),
     }
 
 
@@ -1766,7 +1766,7 @@ class StateSpaceOptions(Sized):
         "static_correction": ("", "1 (default): quasi-static shapes of the inputs in the basis; 0: modes alone"),
         "modes": ("", "of STATE_REDUCED: modes about this state, of any kind, contact as here"),
         "mode_list": ("-", "numbers of those that are taken, shape (mode_count); NULL (default): all"),
-        "mode_count": ("", ""),
+        "mode_count": ("-", "of mode_list; 0 (default) without one"),
         "contact": ("", "CONTACT_..., default CONTACT_AS_IS"),
         "friction": ("", "as of a response, default 1"),
         "contact_gap": ("m", "of CONTACT_CLOSED, >= 0; default 0"),
@@ -2502,9 +2502,9 @@ class InputInfo(Sized):
     ]
     field_docs = {
         "target": ("", "TARGET_..."),
-        "input": ("", ""),
-        "part": ("", ""),
-        "name": ("", ""),
+        "input": ("", "its own id, and what it acts on"),
+        "part": ("", "its own id, and what it acts on"),
+        "name": ("", "ends with 0"),
         "unit": ("", "\"rad/s\", \"-\", ... ends with 0"),
         "low": ("", "bounds in force: the narrower of its own and those of the target"),
         "high": ("", "bounds in force: the narrower of its own and those of the target"),
@@ -2584,9 +2584,9 @@ class SpeedsOptions(Sized):
         "refinement": ("-", "as of a response, for each order; default 12"),
         "contact": ("", "these as of a response, but for friction, default 0: a string that turns slides,"),
         "friction": ("", "and sliding has next to no slope"),
-        "contact_gap": ("", ""),
-        "structural_damping": ("", ""),
-        "equilibrium_tolerance": ("", ""),
+        "contact_gap": ("m, -, -", "as of a response, same defaults"),
+        "structural_damping": ("m, -, -", "as of a response, same defaults"),
+        "equilibrium_tolerance": ("m, -, -", "as of a response, same defaults"),
         "report": ("", "written where the call succeeds; NULL (default): none"),
         "unused": ("", "NULL"),
     }
@@ -2824,7 +2824,7 @@ class Channel(Record):
         ("reserved", c_int32),
     ]
     field_docs = {
-        "place": ("", ""),
+        "place": ("", "where the quantity is one of a place"),
         "quantity": ("", "CHANNEL_..."),
     }
 
@@ -3092,7 +3092,7 @@ class Output(Sized):
     ]
     field_docs = {
         "kind": ("", "OUTPUT_..., default OUTPUT_DISPLACEMENT"),
-        "place": ("", ""),
+        "place": ("", "required where the kind asks for one"),
         "component": ("", "X .. RZ, default X"),
         "frame": ("", "FRAME_WORLD (default) or FRAME_BODY"),
     }
