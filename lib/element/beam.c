@@ -1,6 +1,12 @@
 #include "element/beam.h"
 
-#include "element/beam_inertia.h"
+#include <string.h>
+
+#include "element/beam_element.h"
+#include "math/mat6.h"
+#include "math/se3.h"
+
+/* ---- The element ------------------------------------------------------------------------------------------------- */
 
 static dmb_beam_constants constants_of(const dmb_element_type *type)
 {
@@ -42,4 +48,162 @@ void dmb_beam_mass_times(const dmb_beam_mass *mass, const double va[6], const do
     dmb_beam_constants c;
     dmb_beam_load_mass(mass, 0, &c);
     dmb_beam_momentum(&c, va, vb, pa, pb);
+}
+
+/* ---- Inside it --------------------------------------------------------------------------------------------------- */
+
+/* One bending plane. P = 12 EI/(GA L^2), q = 1/(1+P): N3 - x = (3x^2 - 2x^3 - x) q, G3 = 6 (x - x^2) q/L */
+static void plane(double x, double bending_stiffness, double shear_stiffness, double length, double *move, double *turn)
+{
+    const double P = 12.0 * bending_stiffness / (shear_stiffness * length * length), q = 1.0 / (1.0 + P);
+    *move = x * ((3.0 - 2.0 * x) * x - 1.0) * q;
+    *turn = 6.0 * x * (1.0 - x) * q / length;
+}
+
+void dmb_section_shape_at(const dmb_element_type *type, double x, int bending, dmb_section_shape *shape)
+{
+    const double *K = type->strain_stiffness;
+    shape->x = x;
+    shape->move[0] = shape->move[1] = shape->turn[0] = shape->turn[1] = 0.0;
+    if (!bending) return;
+    plane(x, K[5], K[1], type->length, &shape->move[0], &shape->turn[0]);
+    plane(x, K[4], K[2], type->length, &shape->move[1], &shape->turn[1]);
+}
+
+/* A slope dz/dx is a turn -theta_y. */
+void dmb_section_shape_correct(const dmb_section_shape *shape, const double d[6], double out[6])
+{
+    out[0] = out[3] = 0.0;
+    out[1] = shape->move[0] * d[1];
+    out[2] = shape->move[1] * d[2];
+    out[4] = -shape->turn[1] * d[2];
+    out[5] = shape->turn[0] * d[1];
+}
+
+void dmb_section_ends(const dmb_element_type *type, const double Ra[9], const double Rb[9], const double span[3],
+                      double d[6])
+{
+    const double far_arm[3] = {-type->arm[1], 0.0, 0.0};
+    double R[9], x[3], arm[3];
+    dmb_mat3_mul_tn(Ra, Rb, R);
+    dmb_mat3_tvec(Ra, span, x);
+    dmb_mat3_vec(R, far_arm, arm);
+    dmb_vec3_add(x, arm, x);
+    x[0] -= type->arm[0];
+    dmb_se3_log(R, x, NULL, d);
+}
+
+void dmb_section_pose(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6], double Q[9],
+                      double r[3])
+{
+    double h[6], c[6], R1[9], R2[9], x2[3];
+    for (int i = 0; i < 6; i++) h[i] = shape->x * d[i];
+    dmb_section_shape_correct(shape, d, c);
+    dmb_se3_exp(h, NULL, R1, r);
+    dmb_se3_exp(c, NULL, R2, x2);
+    dmb_mat3_mul(R1, R2, Q);
+    dmb_mat3_vec(R1, x2, x2);
+    dmb_vec3_add(r, x2, r);
+    r[0] += type->arm[0];
+}
+
+/* d' = T6^-1(d) V_B - T6^-1(-d) V_A for unit velocities of the nodes, moved to the ends by their arms. */
+void dmb_section_strain_map(const dmb_element_type *type, const double d[6], double map[72])
+{
+    dmb_se3_inverse_tangent T;
+    dmb_se3_inverse_tangent_at(d, NULL, &T);
+    for (int k = 0; k < 12; k++) {
+        double v[6] = {0.0}, out[6];
+        v[k % 6] = 1.0;
+        dmb_arm_velocity(k < 6 ? type->arm[0] : -type->arm[1], v);
+        if (k < 6)
+            dmb_se3_tangent_apply_reverse(&T, v, out);
+        else
+            dmb_se3_tangent_apply(&T, v, out);
+        for (int i = 0; i < 6; i++) map[12 * i + k] = k < 6 ? -out[i] : out[i];
+    }
+}
+
+/* V <- Ad^-1(exp h) V + T6(h) h' */
+static void follow_exp(const double R[9], const double x[3], const dmb_se3_tangent *T, const double rate[6],
+                       double v[6])
+{
+    double own[6];
+    dmb_se3_tangent_apply(T, rate, own);
+    dmb_adjoint_inverse_apply(R, x, v, v);
+    for (int i = 0; i < 6; i++) v[i] += own[i];
+}
+
+/* Velocity of end A, then along the two exponentials: those of H(x) = exp(x d) exp(c(x) d). */
+void dmb_section_map(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6], double map[72])
+{
+    double h[6], c[6], R[2][9], x[2][3], strain[72];
+    dmb_se3_tangent T[2];
+    for (int i = 0; i < 6; i++) h[i] = shape->x * d[i];
+    dmb_section_shape_correct(shape, d, c);
+    dmb_se3_exp(h, NULL, R[0], x[0]);
+    dmb_se3_exp(c, NULL, R[1], x[1]);
+    dmb_se3_tangent_at(h, NULL, &T[0]);
+    dmb_se3_tangent_at(c, NULL, &T[1]);
+    dmb_section_strain_map(type, d, strain);
+    for (int k = 0; k < 12; k++) {
+        double v[6] = {0.0}, rate[6], part[6];
+        if (k < 6) v[k] = 1.0;
+        dmb_arm_velocity(type->arm[0], v);
+        for (int i = 0; i < 6; i++) rate[i] = strain[12 * i + k];
+        for (int i = 0; i < 6; i++) part[i] = shape->x * rate[i];
+        follow_exp(R[0], x[0], &T[0], part, v);
+        dmb_section_shape_correct(shape, rate, part);
+        follow_exp(R[1], x[1], &T[1], part, v);
+        for (int i = 0; i < 6; i++) map[12 * i + k] = v[i];
+    }
+}
+
+#define DMB_SECTION_STEP 1e-3 /* [rad; element lengths] of differences: errors of 1e-12 of the map and of rounding */
+
+/* The map depends on d alone, whose change is the strain map: four differences of fourth order along each of its six
+ * components (weights 1, -8, 8, -1 of 12). */
+void dmb_section_map_tangent(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6],
+                             const double w[6], double K[144])
+{
+    static const double weight[4] = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
+    static const double place[4] = {-2.0, -1.0, 1.0, 2.0};
+    double by_d[12][6] = {{0.0}}, strain[72];
+    dmb_section_strain_map(type, d, strain);
+    for (int c = 0; c < 6; c++)
+        for (int k = 0; k < 4; k++) {
+            const double step = DMB_SECTION_STEP * (c < 3 ? type->length : 1.0);
+            double moved[6], map[72];
+            dmb_vec6_copy(d, moved);
+            moved[c] += place[k] * step;
+            dmb_section_map(type, shape, moved, map);
+            for (int i = 0; i < 72; i++) by_d[i % 12][c] += weight[k] / step * map[i] * w[i / 12];
+        }
+    memset(K, 0, 144 * sizeof(double));
+    for (int r = 0; r < 12; r++)
+        for (int c = 0; c < 6; c++)
+            for (int k = 0; k < 12; k++) K[12 * r + k] += by_d[r][c] * strain[12 * c + k];
+}
+
+void dmb_section_map_gradient(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6],
+                              double gradient[864])
+{
+    static const double weight[4] = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
+    static const double place[4] = {-2.0, -1.0, 1.0, 2.0};
+    double strain[72];
+    dmb_section_strain_map(type, d, strain);
+    memset(gradient, 0, 864 * sizeof *gradient);
+    for (int c = 0; c < 6; c++) {
+        const double step = DMB_SECTION_STEP * (c < 3 ? type->length : 1.0);
+        double slope[72] = {0.0};
+        for (int k = 0; k < 4; k++) {
+            double moved[6], map[72];
+            dmb_vec6_copy(d, moved);
+            moved[c] += place[k] * step;
+            dmb_section_map(type, shape, moved, map);
+            for (int i = 0; i < 72; i++) slope[i] += weight[k] / step * map[i];
+        }
+        for (int i = 0; i < 72; i++)
+            for (int k = 0; k < 12; k++) gradient[12 * i + k] += slope[i] * strain[12 * c + k];
+    }
 }

@@ -3,6 +3,7 @@
 #define DMB_ELEMENT_BEAM_H
 
 #include "element/beam_math.h"
+#include "element/element_type.h"
 
 /* Shape from the nodes' orientations, node A's rotation matrix and the vector from node A to node B [m], world frame.
  * Returns 0, or -1 when the relative rotation is above DMB_BEAM_ROTATION_MAX or not a number. */
@@ -15,5 +16,43 @@ void dmb_beam_stress(const dmb_element_type *type, const dmb_beam_shape *shape, 
 double dmb_beam_stretch(const dmb_element_type *type, const double d[6]);
 /* Momentum p = M v of both ends [kg m/s, kg m2/s]; the same product gives M times accelerations. */
 void dmb_beam_mass_times(const dmb_beam_mass *mass, const double va[6], const double vb[6], double pa[6], double pb[6]);
+
+/* The shapes of bending are added to the helix inside an element: H(x) = exp(x d) exp(c(x) d), see
+ * query/motion.h and THEORY 3. */
+
+typedef struct dmb_section_shape {
+    double x;       /* [-] fraction of the flexible length */
+    double move[2]; /* [-] sideways displacement per unit of d_y, d_z: N3 - x */
+    double turn[2]; /* [rad/m] turning of the section per unit of d_y, d_z: G3 */
+} dmb_section_shape;
+
+/* The shape at fraction x; bending 0 leaves c out (axial-torsional bars). */
+void dmb_section_shape_at(const dmb_element_type *type, double x, int bending, dmb_section_shape *shape);
+
+/* out = c(x) d. Linear in d: rates map alike. */
+void dmb_section_shape_correct(const dmb_section_shape *shape, const double d[6], double out[6]);
+
+/* The section seen from the element's nodes, and the twist of the section by theirs, to be used where forces act inside
+ * an element. R_a, R_b: axes of the nodes in the world, span: from node a to node b, world. */
+
+/* d = log(H_A^-1 H_B) of the flexible ends. */
+void dmb_section_ends(const dmb_element_type *type, const double Ra[9], const double Rb[9], const double span[3],
+                      double d[6]);
+/* Rotation Q of the section and its place r [m] in the frame of node a. */
+void dmb_section_pose(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6], double Q[9],
+                      double r[3]);
+/* Exact d' of the ends by the body-frame velocities of the nodes, shape (6, 12). */
+void dmb_section_strain_map(const dmb_element_type *type, const double d[6], double map[72]);
+/* Exact body-frame velocity of the section by those of the nodes, shape (6, 12). */
+void dmb_section_map(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6], double map[72]);
+/* K, shape (12, 12): change of map^T w by body-frame displacements of the nodes, w a wrench that stays the same in the
+ * axes of the section. */
+void dmb_section_map_tangent(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6],
+                             const double w[6], double K[144]);
+
+/* gradient[12 i + k]: change of entry i of dmb_section_map by component k of the body-frame displacements of the nodes,
+ * shape (72, 12). */
+void dmb_section_map_gradient(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6],
+                              double gradient[864]);
 
 #endif

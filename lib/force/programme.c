@@ -4,7 +4,7 @@
 #include <stddef.h>
 
 #include "math/elementary.h"
-#include "math/gauss.h"
+#include "math/quadrature.h"
 
 #define DMB_RATE_STEP 1e-5         /* [s] half width of the difference that replaces a missing rate */
 #define DMB_RATE_STEP_FACTOR 1e-10 /* [-] the same relative to |t|, for times beyond 1e5 s */

@@ -5,7 +5,6 @@
 #include "kernel/lane_group.h"
 #include "kernel/lanes_bar.h"
 #include "kernel/lanes_node.h"
-#include "kernel/lanes_row.h"
 #include "kernel/lanes_wall.h"
 #include "math/block_inverse.h"
 

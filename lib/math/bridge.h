@@ -69,7 +69,7 @@ void dmb_rank_of_rows(const dmb_weighted_rows *of, double tolerance, double *wor
  * Meant for the compile step only: CHOLMOD takes its memory from malloc, not from the caller's allocator, and gives all
  * of it back before the call returns. It is told to print nothing and to use AMD alone: its other candidate, METIS,
  * calls srand and catches signals, both of which belong to the host, and draws from rand, which another thread may be
- * using as well. A build without CHOLMOD takes math/minimum_degree. */
+ * using as well. A build without CHOLMOD takes bridge_order.c. */
 
 /* The neighbours of node i are neighbour[start[i]] .. neighbour[start[i+1] - 1], without i itself and without
  * repetition; every edge is listed at both its ends. order (n) receives the node to be eliminated first, second, and so
@@ -77,5 +77,24 @@ void dmb_rank_of_rows(const dmb_weighted_rows *of, double tolerance, double *wor
  * DMB_ERR_UNSUPPORTED where CHOLMOD belongs to the build and could not be loaded. */
 int32_t dmb_fill_reducing_order(const dmb_allocator *allocator, uint32_t n, const int32_t *start,
                                 const int32_t *neighbour, uint32_t *order);
+
+/* ---- bridge_load.c ----------------------------------------------------------------------------------------------- */
+
+/* Libraries that are loaded when a call first needs them, and then stay: a program that only steps never has them in
+ * its memory. Nothing is kept here between calls, so nothing is shared between threads: opening what is loaded already
+ * takes the loader some microseconds. */
+
+typedef void (*dmb_foreign)(void);
+
+/* The functions of these names in the library of that SONAME; 0 where it or one of them is not there. */
+int dmb_foreign_load(const char *soname, size_t count, const char *const *names, dmb_foreign *functions);
+
+/* ---- bridge_order.c ---------------------------------------------------------------------------------------------- */
+
+/* By minimum degree, in C alone, for builds without CHOLMOD. As dmb_fill_reducing_order, of the same graphs; ties go to
+ * the lower index. Memory: some 12 integers a node, the graph and its fill, all given back. DMB_OK, DMB_ERR_NO_MEMORY
+ * or DMB_ERR_TOO_LARGE. */
+int32_t dmb_minimum_degree(const dmb_allocator *allocator, uint32_t n, const int32_t *start, const int32_t *neighbour,
+                           uint32_t *order);
 
 #endif

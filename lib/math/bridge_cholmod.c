@@ -4,8 +4,6 @@
 #include "math/bridge.h"
 
 #include "base/build.h"
-#include "math/bridge_load.h"
-#include "math/minimum_degree.h"
 
 #if DMB_WITH_CHOLMOD
 #include <cholmod.h>

@@ -1,4 +1,4 @@
-#include "math/bridge_load.h"
+#include "math/bridge.h"
 
 #include "base/build.h"
 

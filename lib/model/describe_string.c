@@ -1,5 +1,5 @@
 /* Strings without their pipes. */
-#include "math/lobatto.h"
+#include "math/quadrature.h"
 #include "model/describe.h"
 #include "model/field_check.h"
 #include "model/limits.h"

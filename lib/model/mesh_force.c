@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "element/section_shape.h"
+#include "element/beam.h"
 #include "math/so3.h"
 #include "model/field_check.h"
 #include "model/limits.h"

@@ -1,6 +1,6 @@
 /* The axis of the hole, and contact sites along it. */
 #include "force/hole_section.h"
-#include "math/lobatto.h"
+#include "math/quadrature.h"
 #include "model/field_check.h"
 #include "model/mesh.h"
 #include "model/section.h"

@@ -22,7 +22,6 @@
 #include "force/friction_law.h"
 #include "force/hole.h"
 #include "force/hole_section.h"
-#include "force/joint_law.h"
 #include "force/normal_law.h"
 #include "force/programme.h"
 #include "force/side_cutting.h"

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "math/gauss.h"
+#include "math/quadrature.h"
 #include "math/so3.h"
 
 static double given_or(double given, double otherwise)

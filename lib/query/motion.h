@@ -10,7 +10,7 @@
 #ifndef DMB_QUERY_MOTION_H
 #define DMB_QUERY_MOTION_H
 
-#include "element/section_shape.h"
+#include "element/beam.h"
 #include "query/place.h"
 
 /* The two nodes of an element seen from each other. */

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "element/section_shape.h"
+#include "element/beam.h"
 #include "math/mat6.h"
 #include "math/se3.h"
 #include "sim/node.h"

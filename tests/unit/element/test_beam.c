@@ -5,7 +5,7 @@
 #include "check.h"
 
 #include "element/beam.h"
-#include "element/beam_inertia.h"
+#include "element/beam_element.h"
 #include "element/rigid_mass.h"
 #include "model/section.h"
 

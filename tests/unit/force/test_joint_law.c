@@ -1,5 +1,5 @@
 /* Spring, damper, friction and stops along a joint coordinate: formulas, energy, derivatives, clipping. */
-#include "force/joint_law.h"
+#include "force/spring_law.h"
 
 #include "force_test.h"
 

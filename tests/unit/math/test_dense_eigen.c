@@ -10,7 +10,6 @@
 #include "math/block_pattern.h"
 #include "math/bridge.h"
 #include "math/dense_eigen.h"
-#include "math/minimum_degree.h"
 
 enum { MAX = 60, SQUARE = MAX * MAX, WORK = 2 * SQUARE + 20 * MAX };
 

@@ -2,8 +2,8 @@
 #include "math_test.h"
 #include "matrices.h"
 
-#include "math/gauss.h"
 #include "math/mat6.h"
+#include "math/quadrature.h"
 #include "math/so3.h"
 
 static void vector_products(void **state)

@@ -2,7 +2,7 @@
  * nodes that it coupled; elements that it met are absorbed by it (George, Liu, The evolution of the minimum degree
  * ordering algorithm, 1989). A list of a node loses at least one entry for the element that it gains, so that lists of
  * nodes stay in their place. Degrees are exact, the nodes of one degree stand in a heap by degree and index. */
-#include "math/minimum_degree.h"
+#include "math/bridge.h"
 
 #include <string.h>
 
