@@ -83,9 +83,12 @@ int32_t dmb_sim_snapshot(const dmb_sim *sim, void *block, size_t size)
     return DMB_OK;
 }
 
-static int32_t refuse(dmb_sim *sim, const char *why)
+/* The four parts: the snapshot, its field, value and bound, and a way out. */
+static int32_t refuse(dmb_sim *sim, const char *field, uint64_t found, const char *bound, uint64_t wanted,
+                      const char *advice)
 {
-    dmb_message_set(&sim->message, "snapshot: %s", why);
+    dmb_message_set(&sim->message, "snapshot: %s = %zu, must be %s%zu; %s", field, (size_t)found, bound, (size_t)wanted,
+                    advice);
     return DMB_ERR_VALUE;
 }
 
@@ -93,14 +96,27 @@ static int32_t check_snapshot(dmb_sim *sim, const void *block, size_t size)
 {
     const snapshot_header wanted = header_of(sim);
     snapshot_header found;
-    if (size < sizeof found) return refuse(sim, "size is below that of its header");
+    if (size < sizeof found) return refuse(sim, "size [byte]", size, ">= ", sizeof found, "hand over all of its bytes");
     memcpy(&found, block, sizeof found);
-    if (found.magic != wanted.magic) return refuse(sim, "not one of this library, or of another byte order");
-    if (found.version != wanted.version) return refuse(sim, "made by another version of this library");
-    if (found.scene != wanted.scene || found.size != wanted.size) return refuse(sim, "made of another compiled model");
-    if (found.options != wanted.options) return refuse(sim, "made by a sim with other options");
-    if (size < found.size) return refuse(sim, "cut short");
-    if (found.content != content_hash(block, (size_t)found.size)) return refuse(sim, "damaged");
+    if (found.magic != wanted.magic)
+        return refuse(sim, "mark", found.magic, "", wanted.magic,
+                      "these bytes are no snapshot of this library, or one of another byte order; take one here");
+    if (found.version != wanted.version)
+        return refuse(sim, "version", found.version, "", wanted.version,
+                      "restore it with the library that made it, or take another");
+    if (found.scene != wanted.scene)
+        return refuse(sim, "mark of the model", found.scene, "", wanted.scene,
+                      "it was made of another compiled model; restore it in a sim of that");
+    if (found.size != wanted.size)
+        return refuse(sim, "its size [byte]", found.size, "", wanted.size,
+                      "it was made of another compiled model or is damaged; take another");
+    if (found.options != wanted.options)
+        return refuse(sim, "mark of the options", found.options, "", wanted.options,
+                      "make a sim with the options of the one that was saved");
+    if (size < found.size) return refuse(sim, "size [byte]", size, ">= ", found.size, "it is cut short; hand over all");
+    const uint64_t content = content_hash(block, (size_t)found.size);
+    if (found.content != content)
+        return refuse(sim, "checksum", found.content, "", content, "it is damaged; take another");
     return DMB_OK;
 }
 
