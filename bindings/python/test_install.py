@@ -3,6 +3,7 @@ their library without an environment variable. DRILLMBD_BUILD names the build fo
 import importlib.util
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -71,6 +72,24 @@ class InstallTest(unittest.TestCase):
         with self.assertRaisesRegex(AssertionError, "set DRILLMBD_LIBRARY"):
             run(sys.executable, "-c", code, PYTHONPATH=str(target))
 
+    def manual(self, prefix):
+        """The page names every command that the help does; bash completes them, their options and values."""
+        page = (prefix / "share" / "man" / "man1" / "drillmbd.1").read_text(encoding="utf-8").replace("\\-", "-")
+        commands = re.findall(r"^    (\S+)  ", run(prefix / "bin" / "drillmbd", "--help"), re.M)
+        self.assertIn("torque-drag", commands)
+        for name in commands:
+            self.assertIn(f".SS drillmbd {name}\n" if name != "schema" else f"\\fB{name}\\fR", page)
+        if shutil.which("man"):
+            shown = subprocess.run(["man", "--warnings", "-l", prefix / "share" / "man" / "man1" / "drillmbd.1"],
+                                   capture_output=True, text=True, env=environment(MANWIDTH="100", LC_ALL="C.UTF-8"))
+            self.assertEqual(shown.stderr, "")
+            self.assertIn("--weight-on-bit FORCE", shown.stdout)
+        source = prefix / "share" / "bash-completion" / "completions" / "drillmbd"
+        for words, wanted in ((["drillmbd", "tor"], "torque-drag"), (["drillmbd", "run", "x.toml", "--un"], "--until"),
+                              (["drillmbd", "probability", "--engine", "da"], "dask")):
+            ask = f'. {source}; COMP_WORDS=({" ".join(words)}); COMP_CWORD={len(words) - 1}; _drillmbd; echo "${{COMPREPLY[@]}}"'
+            self.assertEqual(run("bash", "-c", ask).strip(), wanted)
+
     def test_cmake(self):
         prefix = self.folder / "prefix"
         run("cmake", "--install", str(BUILD), "--prefix", str(prefix))
@@ -78,6 +97,7 @@ class InstallTest(unittest.TestCase):
         out = run(sys.executable, "-c", PROGRAM, PYTHONPATH=str(package.parents[1]))
         self.assertIn(str(prefix), out)
         self.finds_units(sys.executable, prefix, PYTHONPATH=str(package.parents[1]))
+        self.manual(prefix)
         moved = self.folder / "elsewhere"
         prefix.rename(moved)
         self.assertIn("usage: drillmbd", run(moved / "bin" / "drillmbd", "--help"))
