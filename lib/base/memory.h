@@ -1,5 +1,4 @@
-/* Memory: the caller's allocator, whose blocks are aligned to DMB_ALIGNMENT and zeroed, and arenas, many arrays in one
- * block of it. */
+/* Memory: checked sizes, the caller's allocator, arenas, growing arrays. */
 #ifndef DMB_BASE_MEMORY_H
 #define DMB_BASE_MEMORY_H
 
@@ -8,6 +7,40 @@
 #include <stdint.h>
 
 #include "drillmbd/base.h"
+
+/* Sums and products of sizes that say when they overflow. Each returns true and writes *out, or returns false and
+ * leaves *out as it was. */
+
+#define DMB_DEFINE_CHECKED(suffix, type, maximum)                          \
+    static inline bool dmb_checked_add_##suffix(type a, type b, type *out) \
+    {                                                                      \
+        if (b > (maximum)-a) return false;                                 \
+        *out = a + b;                                                      \
+        return true;                                                       \
+    }                                                                      \
+    static inline bool dmb_checked_mul_##suffix(type a, type b, type *out) \
+    {                                                                      \
+        if (a != 0 && b > (maximum) / a) return false;                     \
+        *out = a * b;                                                      \
+        return true;                                                       \
+    }
+
+DMB_DEFINE_CHECKED(size, size_t, SIZE_MAX)
+DMB_DEFINE_CHECKED(u32, uint32_t, UINT32_MAX)
+DMB_DEFINE_CHECKED(u64, uint64_t, UINT64_MAX)
+#undef DMB_DEFINE_CHECKED
+
+/* Rounds size up to a multiple of alignment, a power of two. */
+static inline bool dmb_checked_round_up(size_t size, size_t alignment, size_t *out)
+{
+    size_t sum;
+    if (!dmb_checked_add_size(size, alignment - 1, &sum)) return false;
+    *out = sum & ~(alignment - 1);
+    return true;
+}
+
+/* Memory: the caller's allocator, whose blocks are aligned to DMB_ALIGNMENT and zeroed, and arenas, many arrays in one
+ * block of it. */
 
 enum { DMB_ALIGNMENT = 64 }; /* [byte] a cache line, and enough for any vector load */
 
@@ -56,5 +89,37 @@ void *dmb_arena_take(dmb_arena *arena, size_t count, size_t item_size, size_t al
 /* Arrays of numbers begin on a cache line; other items as the type asks. */
 #define DMB_ARENA_DOUBLES(arena, count) ((double *)dmb_arena_take((arena), (count), sizeof(double), 64))
 #define DMB_ARENA_ARRAY(arena, T, count) ((T *)dmb_arena_take((arena), (count), sizeof(T), _Alignof(T)))
+
+/* A growable array of equal items. A failing call leaves it as it was. Item pointers hold until the next growth. */
+
+typedef struct dmb_vector {
+    void *items;
+    size_t count;     /* [-] items in use */
+    size_t capacity;  /* [-] items there is room for */
+    size_t item_size; /* [byte] > 0 */
+} dmb_vector;
+
+/* An empty vector; holds no memory. */
+static inline dmb_vector dmb_vector_of(size_t item_size)
+{
+    dmb_vector vector = {NULL, 0, 0, item_size};
+    return vector;
+}
+
+/* Item i, i < count. */
+static inline void *dmb_vector_at(const dmb_vector *vector, size_t i)
+{
+    return (unsigned char *)vector->items + i * vector->item_size;
+}
+#define DMB_VECTOR_AT(T, vector, i) ((T *)dmb_vector_at((vector), (i)))
+
+/* Makes room for capacity items altogether. Errors: DMB_ERR_NO_MEMORY, DMB_ERR_TOO_LARGE (the size overflows). */
+int32_t dmb_vector_reserve(dmb_vector *vector, const dmb_allocator *allocator, size_t capacity);
+
+/* Appends count items, copied from items, or zeroed where items is NULL. Errors as of reserve. Amortised O(count). */
+int32_t dmb_vector_append(dmb_vector *vector, const dmb_allocator *allocator, const void *items, size_t count);
+
+/* Gives the memory back and empties the vector. */
+void dmb_vector_release(dmb_vector *vector, const dmb_allocator *allocator);
 
 #endif

@@ -1,4 +1,5 @@
-/* Parts that dmb_sim_step and dmb_sim_advance share: checks, the report, keeping and bringing back the state. */
+/* Steps of fixed length and steps with error control, and the parts that both share: checks, the report, keeping and
+ * bringing back the state. */
 #ifndef DMB_INTEGRATOR_STEP_H
 #define DMB_INTEGRATOR_STEP_H
 
@@ -32,5 +33,15 @@ int32_t dmb_walk_stuck(dmb_sim *sim, const char *field, double step);
 void dmb_walk_reject(dmb_sim *sim, const dmb_attempt *attempt, dmb_walk *walk);
 /* Writes the report and gives the status of the call; on failure with `restore` the state before the call is back. */
 int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_report *report, const dmb_walk *walk);
+
+/* Error-controlled steps, one at a time, for calls that end elsewhere than dmb_sim_advance. */
+
+/* [s] Step length that error-controlled steps begin with. */
+double dmb_advance_first(const dmb_sim *sim);
+/* The next one begins with this length [s]. */
+void dmb_advance_propose(dmb_sim *sim, double wanted);
+/* One accepted step within the error tolerances towards `time` [s], of about *wanted [s], which becomes the next one's
+ * length. */
+int32_t dmb_advance_once(dmb_sim *sim, double time, double *wanted, dmb_walk *walk);
 
 #endif

@@ -7,7 +7,6 @@
 
 #include <string.h>
 
-#include "base/checked_size.h"
 #include "base/memory.h"
 #include "math/bridge.h"
 

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/vector.h"
 
 typedef struct quotient {
     uint32_t n;

@@ -1,7 +1,6 @@
 
 #include <string.h>
 
-#include "base/checked_size.h"
 #include "base/memory.h"
 #include "constraint/joint.h"
 #include "model/describe.h"

@@ -1,5 +1,4 @@
 /* Springs between two points, and forces by the caller's functions. */
-#include "base/checked_size.h"
 #include "base/memory.h"
 #include "constraint/joint.h"
 #include "model/describe.h"

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "base/checked_size.h"
+#include "base/memory.h"
 #include "model/field_check.h"
 #include "model/limits.h"
 

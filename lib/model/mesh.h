@@ -25,8 +25,8 @@
 
 #include <stdbool.h>
 
+#include "base/memory.h"
 #include "base/value_check.h"
-#include "base/vector.h"
 #include "drillmbd/model.h"
 #include "element/element_type.h"
 #include "model/model.h"

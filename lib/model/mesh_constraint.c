@@ -1,6 +1,6 @@
 /* Constraint rows of joints, couplings, joint drives and the caller's constraints, and the clusters of nodes that they
  * connect. */
-#include "base/checked_size.h"
+#include "base/memory.h"
 #include "model/field_check.h"
 #include "model/limits.h"
 #include "model/mesh.h"

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/describe_input.h"
+#include "model/describe_control.h"
 #include "model/field_check.h"
 #include "model/mesh.h"
 

@@ -2,10 +2,9 @@
 #include "model/model.h"
 
 #include "base/build.h"
-#include "base/handle.h"
 #include "base/memory.h"
 #include "base/message.h"
-#include "base/vector.h"
+#include "base/sized_struct.h"
 #include "drillmbd/hole.h"
 #include "model/describe.h"
 #include "model/limits.h"

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "base/handle.h"
+#include "base/sized_struct.h"
 #include "model/field_check.h"
 
 /* ---- Where names are --------------------------------------------------------------------------------------------- */

@@ -2,9 +2,7 @@
 
 #include <string.h>
 
-#include "base/checked_size.h"
 #include "base/memory.h"
-#include "base/vector.h"
 
 /* ---- Nodes of clusters ------------------------------------------------------------------------------------------- */
 

@@ -4,7 +4,7 @@
 #include <stddef.h>
 
 #include "analysis/response/response.h"
-#include "base/handle.h"
+#include "base/sized_struct.h"
 #include "model/model.h"
 #include "output/recorder.h"
 #include "output/text_file.h"

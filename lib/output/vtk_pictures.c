@@ -3,7 +3,7 @@
 #include <stddef.h>
 
 #include "analysis/modes/modes.h"
-#include "base/handle.h"
+#include "base/sized_struct.h"
 #include "base/value_check.h"
 #include "drillmbd/query.h"
 #include "math/so3.h"

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/handle.h"
 #include "base/memory.h"
+#include "base/sized_struct.h"
 #include "base/value_check.h"
 #include "query/channel.h"
 #include "sim/access.h"

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/handle.h"
 #include "base/sized_struct.h"
 #include "drillmbd/bha.h"
 #include "drillmbd/hole.h"

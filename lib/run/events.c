@@ -6,7 +6,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "integrator/advance.h"
+#include "integrator/step.h"
 #include "query/channel.h"
 #include "run/events.h"
 #include "sim/access.h"

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/describe_input.h"
+#include "model/describe_control.h"
 #include "sim/access.h"
 #include "sim/own_scene.h"
 #include "system/assemble/energy.h"

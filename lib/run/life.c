@@ -1,16 +1,17 @@
 /* Creating and destroying a sim, its time, and what a compiled model tells of itself. */
 #include <math.h>
 
-#include "base/handle.h"
+#include "base/build.h"
 #include "base/memory.h"
 #include "base/message.h"
 #include "base/sized_struct.h"
 #include "constraint/joint.h"
+#include "drillmbd/base.h"
+#include "math/bridge.h"
 #include "model/model.h"
 #include "run/events.h"
 #include "sim/access.h"
 #include "sim/layout.h"
-#include "sim/options.h"
 #include "sim/own_scene.h"
 #include "system/assemble/drives.h"
 #include "system/start.h"
@@ -284,4 +285,55 @@ int32_t dmb_model_get_info(const dmb_model *model, dmb_model_info *info)
     if (model->scene == NULL) return DMB_ERR_ORDER;
     fill_info(model->scene, &answer);
     return dmb_model_info_write(info, &answer);
+}
+
+/* The abilities of this build. */
+
+/* ---- The build --------------------------------------------------------------------------------------------------- */
+
+int32_t dmb_has(int32_t what)
+{
+    switch (what) {
+    case DMB_HAS_LAPACK: return dmb_has_lapack();
+    case DMB_HAS_CHOLMOD: return dmb_has_cholmod();
+    case DMB_HAS_FILES: return DMB_WITH_FILES;
+    case DMB_HAS_HEAP: return DMB_WITH_HEAP;
+    default: return DMB_ERR_VALUE;
+    }
+}
+
+#define TEXT_OF(x) #x
+#define TEXT(x) TEXT_OF(x)
+
+#if DMB_LAZY
+#define LOADED ", loaded when needed"
+#else
+#define LOADED ", linked"
+#endif
+#if DMB_WITH_LAPACK
+#define EIGENPROBLEMS "LAPACKE" LOADED
+#else
+#define EIGENPROBLEMS "own"
+#endif
+#if DMB_WITH_CHOLMOD
+#define ORDER "CHOLMOD" LOADED
+#else
+#define ORDER "own"
+#endif
+#if DMB_WITH_FILES
+#define FILES "yes"
+#else
+#define FILES "no"
+#endif
+#if DMB_WITH_HEAP
+#define MEMORY "malloc"
+#else
+#define MEMORY "the caller's"
+#endif
+
+const char *dmb_build_info(void)
+{
+    return "libdrillmbd " TEXT(DMB_VERSION_MAJOR) "." TEXT(DMB_VERSION_MINOR) "." TEXT(
+        DMB_VERSION_PATCH) "; eigenproblems: " EIGENPROBLEMS "; order of elimination: " ORDER "; files: " FILES
+                           "; memory: " MEMORY;
 }

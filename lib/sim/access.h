@@ -1,9 +1,11 @@
-/* Beginning and end of calls that take a sim: a live handle, one call at a time, progress and cancellation. */
+/* Beginning and end of calls that take a sim: a live handle, one call at a time, progress and cancellation;
+ * and the options of a sim. */
 #ifndef DMB_SIM_ACCESS_H
 #define DMB_SIM_ACCESS_H
 
-#include "base/handle.h"
+#include "base/message.h"
 #include "base/sized_struct.h"
+#include "drillmbd/sim.h"
 #include "sim/sim.h"
 
 /* DMB_OK, DMB_ERR_NULL, DMB_ERR_HANDLE, or DMB_ERR_ORDER from within a call that is changing its state. */
@@ -46,5 +48,11 @@ static inline int32_t dmb_progress_pulse(const dmb_sim *sim)
 {
     return sim->progress->function == NULL ? DMB_OK : dmb_progress_tell(sim);
 }
+
+/* Options of a sim, read from the caller's struct and checked. */
+
+/* Fills out from given (NULL: all defaults). The message names field, value and bound of the first that is refused.
+ * The allocator is checked and copied by the caller. Errors: DMB_ERR_STRUCT_SIZE, _VALUE, _NOT_FINITE. */
+int32_t dmb_sim_options_take(dmb_sim_options *out, const dmb_sim_options *given, dmb_message *message);
 
 #endif

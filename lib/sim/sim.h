@@ -69,7 +69,7 @@
 /* ---- Memory: kept once, written on acceptance only. Saved, restored and hashed like `now`. */
 /* clang-format off */
 #define DMB_MEMORY_LIST(X)                                                                                            \
-    X(dmb_clock, clock, 1, CLOCK) /* times and step lengths: integrator/attempt, integrator/advance, system/start;    \
+    X(dmb_clock, clock, 1, CLOCK) /* times and step lengths: integrator/attempt, integrator/step, system/start;       \
                                      powers: system/ledger */                                                         \
     X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/ledger */                                \
     X(dmb_counters, counters, 1, COUNTERS) /* [-] statistics: integrator/attempt, integrator/step, system/start,      \

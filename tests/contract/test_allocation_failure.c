@@ -3,7 +3,7 @@
  * memory runs out for good at each of them: everything that was taken is given back. */
 #include <stdlib.h>
 
-#include "base/checked_size.h"
+#include "base/memory.h"
 #include "whole_scene.h"
 
 enum { BLOCKS_MAX = 1024, STEPS = 3 };

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "analysis/buckling/buckling.h"
-#include "analysis/linear/stiffness.h"
+#include "analysis/linear/linearise.h"
 #include "analysis/static/stability.h"
 #include "math/dense.h"
 #include "math/so3.h"

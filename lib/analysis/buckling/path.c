@@ -2,8 +2,7 @@
 
 #include <string.h>
 
-#include "analysis/linear/stiffness.h"
-#include "base/handle.h"
+#include "analysis/linear/linearise.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "analysis/linear/linearise.h"
-#include "analysis/linear/stiffness.h"
 #include "base/memory.h"
 #include "math/dense.h"
 #include "math/inertia.h"

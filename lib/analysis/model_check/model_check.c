@@ -3,7 +3,6 @@
 
 #include <string.h>
 
-#include "base/handle.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "sim/access.h"

@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "analysis/model_check/model_check.h"
-#include "base/handle.h"
 #include "base/number.h"
+#include "base/sized_struct.h"
 
 enum { NAME_WIDTH = 22, NUMBER_WIDTH = 10 };
 

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "analysis/modes/modes.h"
-#include "base/handle.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"

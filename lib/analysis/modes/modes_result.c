@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "analysis/modes/modes.h"
-#include "base/handle.h"
 #include "base/memory.h"
+#include "base/sized_struct.h"
 #include "math/dense.h"
 #include "math/real.h"
 #include "system/copy.h"

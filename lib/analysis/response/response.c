@@ -3,8 +3,8 @@
 
 #include "analysis/linear/dynamic_stiffness.h"
 #include "analysis/response/response.h"
-#include "base/handle.h"
 #include "base/memory.h"
+#include "base/sized_struct.h"
 #include "base/value_check.h"
 #include "drillmbd/response.h"
 #include "math/so3.h"

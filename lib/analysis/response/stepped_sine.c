@@ -4,7 +4,6 @@
 
 #include "analysis/linear/functional.h"
 #include "analysis/response/response.h"
-#include "base/handle.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "analysis/sensitivity/sensitivity.h"
-#include "base/handle.h"
+#include "base/sized_struct.h"
 #include "math/so3.h"
 #include "query/channel.h"
 #include "system/constrain/cluster.h"

@@ -4,8 +4,8 @@
 
 #include "analysis/linear/functional.h"
 #include "analysis/state_space/state_space.h"
-#include "base/handle.h"
 #include "base/memory.h"
+#include "base/sized_struct.h"
 #include "drillmbd/state_space.h"
 #include "math/so3.h"
 #include "math/vec3.h"

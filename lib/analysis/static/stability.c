@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/linear/stiffness.h"
+#include "analysis/linear/linearise.h"
 #include "math/inertia.h"
 #include "math/krylov.h"
 #include "sim/access.h"

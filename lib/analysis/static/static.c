@@ -2,9 +2,8 @@
 
 #include <string.h>
 
-#include "analysis/linear/stiffness.h"
+#include "analysis/linear/linearise.h"
 #include "analysis/static/stability.h"
-#include "base/handle.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
 #include "math/vec3.h"

@@ -1,6 +1,6 @@
 #include <string.h>
 
-#include "analysis/linear/stiffness.h"
+#include "analysis/linear/linearise.h"
 #include "analysis/static/static.h"
 #include "sim/access.h"
 #include "sim/layout.h"

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "base/checked_size.h"
+#include "base/memory.h"
 
 static void sums(void **state)
 {

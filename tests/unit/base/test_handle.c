@@ -6,8 +6,8 @@
 
 #include <cmocka.h>
 
-#include "base/handle.h"
 #include "base/message.h"
+#include "base/sized_struct.h"
 
 static void stamps(void **state)
 {

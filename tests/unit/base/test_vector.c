@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 
-#include "base/vector.h"
+#include "base/memory.h"
 
 typedef struct item {
     uint32_t number, square;

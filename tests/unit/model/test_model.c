@@ -1,6 +1,6 @@
 #include "model_test.h"
 
-#include "base/handle.h"
+#include "base/sized_struct.h"
 
 static void create_and_destroy(void **state)
 {

@@ -1,6 +1,6 @@
 /* Inputs as described. */
-#ifndef DMB_MODEL_DESCRIBE_INPUT_H
-#define DMB_MODEL_DESCRIBE_INPUT_H
+#ifndef DMB_MODEL_DESCRIBE_CONTROL_H
+#define DMB_MODEL_DESCRIBE_CONTROL_H
 
 #include "drillmbd/control.h"
 

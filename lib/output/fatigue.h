@@ -1,7 +1,7 @@
 /* Rainflow counting of a sequence of levels as it arrives (ASTM E1049, 5.4.4; Matsuishi, Endo 1968). Turning points
  * whose ranges shrink are not counted yet: of levels 0 .. n - 1 at most n + 2. */
-#ifndef DMB_OUTPUT_RAINFLOW_H
-#define DMB_OUTPUT_RAINFLOW_H
+#ifndef DMB_OUTPUT_FATIGUE_H
+#define DMB_OUTPUT_FATIGUE_H
 
 #include <stdint.h>
 
