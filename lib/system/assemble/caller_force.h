@@ -22,4 +22,46 @@ int dmb_failed_force(dmb_sim *sim, dmb_message *text);
 /* [J] sum of the potentials that the callbacks have given. */
 double dmb_caller_forces_energy(const dmb_scene *scene, const dmb_configuration *configuration);
 
+/* ---- caller_force_call.c: one function of a caller --------------------------------------------------------------- */
+
+enum { DMB_CALLER_WIDE = 6 * DMB_CONSTRAINT_PLACES };
+typedef double dmb_caller_matrix[DMB_CALLER_WIDE][DMB_CALLER_WIDE];
+
+/* Arguments of a callback: poses in the world, velocities in the axes that it asks for; of a joint its coordinate in
+ * x[0] and v[0]. */
+typedef struct dmb_caller_question {
+    const dmb_scene_force *force;
+    double time;
+    double R[DMB_CONSTRAINT_PLACES][9], x[DMB_CONSTRAINT_PLACES][3], v[DMB_CONSTRAINT_PLACES][6];
+} dmb_caller_question;
+
+typedef struct dmb_caller_values {
+    double f[DMB_CONSTRAINT_PLACES][6]; /* [N, N m] in the same axes */
+    double potential;                   /* [J] 0 where none is given */
+} dmb_caller_values;
+
+typedef struct dmb_caller_answer {
+    dmb_caller_values at;
+    union {
+        struct {
+            dmb_caller_matrix A, B; /* by displacements and velocities in those axes */
+        };
+        double given[2 * DMB_CALLER_WIDE *
+                     DMB_CALLER_WIDE]; /* the same as a callback gives them, row by row as long as the count asks for */
+    };
+} dmb_caller_answer;
+
+/* 1: argument i is a place, 0: a joint's coordinate. */
+static inline int dmb_caller_is_place(const dmb_scene_force *force, uint32_t i)
+{
+    return force->joint[i] == DMB_NONE;
+}
+
+/* Values; and their derivatives, as given or by differences. DMB_OK, DMB_ERR_CALLBACK. */
+int32_t dmb_caller_ask(const dmb_caller_question *ask, int tangent, dmb_caller_answer *to);
+/* [W] dU/dt along the motion, time included. DMB_OK, DMB_ERR_CALLBACK. */
+int32_t dmb_caller_potential_rate(const dmb_caller_question *ask, double *rate);
+/* The tangent that the function gives against differences. DMB_OK, DMB_ERR_CALLBACK with the message. */
+int32_t dmb_caller_compare(const dmb_caller_question *ask, const char *owner, dmb_message *message);
+
 #endif
