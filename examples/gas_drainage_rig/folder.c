@@ -6,6 +6,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#if defined(_WIN32) /* it has no permissions to give, and no executing of folders */
+#include <direct.h>
+#define make_folder(path) _mkdir(path)
+#define MAY_WRITE_IN W_OK
+#else
+#define make_folder(path) mkdir(path, 0777)
+#define MAY_WRITE_IN (W_OK | X_OK)
+#endif
+
 int rig_make_folder(const char *path)
 {
     char part[4096];
@@ -16,7 +25,7 @@ int rig_make_folder(const char *path)
         if (path[i] != '/' && path[i] != '\0') continue;
         memcpy(part, path, i);
         part[i] = '\0';
-        if (mkdir(part, 0777) != 0 && errno != EEXIST) return -1;
+        if (make_folder(part) != 0 && errno != EEXIST) return -1;
     }
     struct stat found;
     if (stat(path, &found) != 0) return -1;
@@ -24,5 +33,5 @@ int rig_make_folder(const char *path)
         errno = ENOTDIR;
         return -1;
     }
-    return access(path, W_OK | X_OK);
+    return access(path, MAY_WRITE_IN);
 }

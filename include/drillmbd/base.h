@@ -10,9 +10,9 @@
 extern "C" {
 #endif
 
-#if defined(DMB_STATIC)
-#define DMB_API
-#elif defined(__GNUC__)
+#if defined(_WIN32) && defined(DMB_BUILDING)
+#define DMB_API __declspec(dllexport)
+#elif defined(__GNUC__) && !defined(_WIN32) && !defined(DMB_STATIC)
 #define DMB_API __attribute__((visibility("default")))
 #else
 #define DMB_API

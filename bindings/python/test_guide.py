@@ -1,0 +1,74 @@
+"""The user's guide, examples/README.md, does what it says: its scene, its commands and its program run."""
+import contextlib
+import io
+import os
+import pathlib
+import re
+import shlex
+import sys
+import tempfile
+import unittest
+
+import drillmbd as mbd
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+GUIDE = (ROOT / "examples" / "README.md").read_text(encoding="utf-8")
+
+
+def block(language):
+    found = re.findall(rf"^```{language}\n(.*?)^```", GUIDE, re.M | re.S)
+    assert len(found) == 1, f"{len(found)} blocks of {language}"
+    return found[0]
+
+
+def output_of(function, *arguments):
+    out = io.StringIO()
+    with contextlib.redirect_stdout(out):
+        function(*arguments)
+    return out.getvalue()
+
+
+class GuideTest(unittest.TestCase):
+    def test_scene_and_commands(self):
+        try:
+            import pint  # noqa: F401
+            import matplotlib  # noqa: F401
+        except ImportError as error:
+            self.skipTest(f"not there: {error.name}")
+        from drillmbd.command import main
+        before = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            try:
+                pathlib.Path("hole.toml").write_text(block("toml"), encoding="utf-8")
+                told = {}
+                for line in block("sh").splitlines():
+                    words = shlex.split(line)
+                    self.assertEqual(words[0], "drillmbd")
+                    told[words[1]] = output_of(lambda: self.assertEqual(main(words[1:]), 0, line))
+                self.assertTrue(pathlib.Path("out", "run.csv").exists())
+            finally:
+                os.chdir(before)
+        self.assertIn("warnings: none", told["check"])
+        self.assertIn("displacement up to 10.5", told["static"])
+        self.assertRegex(told["torque-drag"], r"rotate at 90 m: .*torque 79\.\d+ N m|rotate at 90 m: .*torque 80")
+
+    def test_program(self):
+        told = output_of(exec, compile(block("python"), "guide", "exec"), {})
+        torque = float(re.search(r"rig ([\d.]+) N m", told).group(1))
+        self.assertTrue(80.0 < torque < 90.0, torque)  # "settles near 85 N m"
+
+    def test_names_exist(self):
+        """Functions, commands, tests and files that the guide names."""
+        for name in set(re.findall(r"`(dmb_\w+)", GUIDE)):
+            self.assertTrue(hasattr(mbd._lib, name) or hasattr(mbd._lib, name + "_init") or name in ("dmb_model", "dmb_sim"), name)
+        for path in set(re.findall(r"`((?:tests|pkgconfig|examples|bindings|\.ci)/[\w/.-]+)", GUIDE)):
+            self.assertTrue((ROOT / path).exists(), path)
+        help_text = output_of(lambda: self.assertRaises(SystemExit, __import__("drillmbd.command").command.main, ["--help"]))
+        for name in re.findall(r"^\|[^|]*\| `([a-z-]+)`", GUIDE, re.M):
+            if not name.startswith("["):
+                self.assertIn(f"drillmbd {name} " if name != "sweep" else "drillmbd sweep", help_text)
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())
