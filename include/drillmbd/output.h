@@ -110,6 +110,20 @@ enum {
     DMB_CHANNEL_REDUNDANT = 208,
     DMB_CHANNEL_VIOLATION = 209, /* [m, -] of all joints */
 
+    /* place.part a spring: dmb_query_spring */
+    DMB_CHANNEL_SPRING_LENGTH = 220,     /* [m] */
+    DMB_CHANNEL_SPRING_ELONGATION = 221, /* [m] */
+    DMB_CHANNEL_SPRING_SPEED = 222,      /* [m/s] */
+    DMB_CHANNEL_SPRING_FORCE = 223,      /* [N] tension > 0, sum of the next two */
+    DMB_CHANNEL_SPRING_ELASTIC = 224,    /* [N] */
+    DMB_CHANNEL_SPRING_DAMPER = 225,     /* [N] */
+    DMB_CHANNEL_SPRING_ENERGY = 226,     /* [J] */
+
+    /* place.part an input: dmb_sim_get_input */
+    DMB_CHANNEL_INPUT_PRESENT = 230, /* [unit of the input] in force now */
+    DMB_CHANNEL_INPUT_RATE = 231,    /* [unit of the input/s] of that */
+    DMB_CHANNEL_INPUT_VALUE = 232,   /* [unit of the input] what is set */
+
     /* place.part a joint: dmb_query_joint; six each but for the last three */
     DMB_CHANNEL_JOINT_POSITION = 300,      /* [m, rad] */
     DMB_CHANNEL_JOINT_SPEED = 310,         /* [m/s, rad/s] */

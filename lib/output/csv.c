@@ -34,6 +34,9 @@ static void put_part(dmb_text_file *file, const dmb_place *place, int32_t part_a
         [DMB_PART_JOINT] = "joint",
         [DMB_PART_COUPLING] = "coupling",
         [DMB_PART_CONSTRAINT] = "constraint",
+        [DMB_PART_INPUT] = "input",
+        [DMB_PART_SPRING] = "spring",
+        [DMB_PART_STUCK] = "stuck",
     };
     const uint32_t kind = place->part.index >> 24, number = place->part.index & 0xFFFFFFu;
     put_numbered(file, kind < sizeof kinds / sizeof kinds[0] ? kinds[kind] : kinds[0], number);

@@ -4,6 +4,8 @@
 #include <stddef.h>
 
 #include "drillmbd/bha.h"
+#include "drillmbd/control.h"
+#include "drillmbd/forces.h"
 #include "query/place.h"
 #include "query/profile.h"
 #include "sim/access.h"
@@ -104,6 +106,26 @@ static int32_t stuck_value(const dmb_sim *sim, const dmb_channel *channel, doubl
     if (status < 0) return status;
     const double values[] = {stuck.stuck, stuck.force[0], stuck.force[3]};
     *value = values[channel->quantity - DMB_CHANNEL_STUCK];
+    return DMB_OK;
+}
+
+static int32_t spring_value(const dmb_sim *sim, const dmb_channel *channel, double *value)
+{
+    dmb_spring_state s = dmb_spring_state_default();
+    const int32_t status = dmb_query_spring(sim, channel->place.part, &s);
+    if (status < 0) return status;
+    const double values[] = {s.length, s.elongation, s.speed, s.force, s.elastic, s.damper, s.energy};
+    *value = values[channel->quantity - DMB_CHANNEL_SPRING_LENGTH];
+    return DMB_OK;
+}
+
+static int32_t input_value(const dmb_sim *sim, const dmb_channel *channel, double *value)
+{
+    dmb_input_state input = dmb_input_state_default();
+    const int32_t status = dmb_sim_get_input(sim, channel->place.part, &input);
+    if (status < 0) return status;
+    const double values[] = {input.present, input.rate, input.value};
+    *value = values[channel->quantity - DMB_CHANNEL_INPUT_PRESENT];
     return DMB_OK;
 }
 
@@ -240,6 +262,8 @@ int32_t dmb_channel_value(const dmb_sim *sim, const dmb_channel *channel, double
     case DMB_AT_STRING: return dmb_driller_value(sim, channel, value);
     case DMB_AT_BIT: return bit_value(sim, channel, value);
     case DMB_AT_STUCK: return stuck_value(sim, channel, value);
+    case DMB_AT_SPRING: return spring_value(sim, channel, value);
+    case DMB_AT_INPUT: return input_value(sim, channel, value);
     case DMB_AT_DRIVE: return drive_value(sim, channel, value);
     case DMB_AT_JOINT: return joint_value(sim, channel, value);
     case DMB_AT_CONSTRAINT: return multiplier_value(sim, channel, value);
@@ -275,6 +299,8 @@ static const char *wanted(int32_t place)
                "for off_bottom, or a flexible first pipe";
     case DMB_AT_BIT: return "place.part must be a bit";
     case DMB_AT_STUCK: return "place.part must be a stuck place";
+    case DMB_AT_SPRING: return "place.part must be a spring";
+    case DMB_AT_INPUT: return "place.part must be an input";
     case DMB_AT_DRIVE: return "place.part must be a drive";
     case DMB_AT_JOINT: return "place.part must be a joint";
     case DMB_AT_CONSTRAINT: return "place.part must be a joint, coupling, constraint or joint drive with that row";

@@ -19,7 +19,9 @@ enum {
     DMB_AT_SITE = 9,       /* place.pipe alone, a contact site */
     DMB_AT_SCENE = 10,     /* ignored */
     DMB_AT_WINDOW = 11,    /* place.pipe alone, a watched channel */
-    DMB_AT_STUCK = 12      /* place.part alone */
+    DMB_AT_STUCK = 12,     /* place.part alone */
+    DMB_AT_SPRING = 13,
+    DMB_AT_INPUT = 14
 };
 
 typedef struct dmb_channel_entry {

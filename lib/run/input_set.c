@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "model/describe_control.h"
+#include "query/input_query.h"
 #include "sim/access.h"
 #include "sim/own_scene.h"
 #include "system/assemble/energy.h"
@@ -11,8 +12,6 @@
 #include "system/ledger.h"
 #include "system/solve/solve.h"
 #include "system/start.h"
-
-DMB_DEFINE_INIT(dmb_input_state, 40, {.value = 0.0})
 
 /* The values that a call sets: arrays of the caller's, or records of a log. */
 typedef struct settings {
@@ -123,16 +122,6 @@ static void put_back(dmb_sim *sim)
     dmb_own_scene_update(sim);
 }
 
-/* Value and rate of what stands in the place of a programme, now. */
-static int32_t present_of(const dmb_sim *sim, uint32_t i, double *value, double *rate)
-{
-    const uint32_t programme = dmb_described_programme(sim->scene, i);
-    *rate = 0.0;
-    *value = sim->input_value[i];
-    if (programme == DMB_NONE) return DMB_OK;
-    return dmb_programme_value(sim->scene->programmes + programme, sim->clock->time, value, rate);
-}
-
 /* The way to the new value begins where the old one is. A value without limits is there at once. */
 static int32_t aim(dmb_sim *sim, uint32_t i, double value)
 {
@@ -142,7 +131,7 @@ static int32_t aim(dmb_sim *sim, uint32_t i, double value)
     begin[0] = sim->clock->time;
     begin[1] = value;
     begin[2] = 0.0;
-    if (input->rate_limit > 0.0 || input->slope_limit > 0.0) status = present_of(sim, i, begin + 1, begin + 2);
+    if (input->rate_limit > 0.0 || input->slope_limit > 0.0) status = dmb_input_present(sim, i, begin + 1, begin + 2);
     sim->input_value[i] = value;
     if (status < 0)
         dmb_message_set(&sim->message,
@@ -249,23 +238,6 @@ int32_t dmb_sim_set_inputs(dmb_sim *sim, const dmb_id *inputs, const double *val
 int32_t dmb_sim_set_input(dmb_sim *sim, dmb_id input, double value)
 {
     return dmb_sim_set_inputs(sim, &input, &value, 1);
-}
-
-/* ---- Questions --------------------------------------------------------------------------------------------------- */
-
-int32_t dmb_sim_get_input(const dmb_sim *sim, dmb_id input, dmb_input_state *state)
-{
-    dmb_input_state answer = dmb_input_state_default();
-    int32_t status = dmb_ask(sim, state);
-    if (status < 0) return status;
-    const uint32_t i = dmb_model_part_index(sim->model, input, DMB_PART_INPUT);
-    if (i >= sim->scene->input_count) return DMB_ERR_ID;
-    status = present_of(sim, i, &answer.present, &answer.rate);
-    if (status < 0) return status;
-    answer.is_set = !isnan(sim->input_value[i]);
-    answer.value = answer.is_set ? sim->input_value[i] : answer.present;
-    if (answer.is_set) answer.arrives = dmb_reference_arrival(&sim->own->references[i]);
-    return dmb_input_state_write(state, &answer);
 }
 
 /* ---- Log --------------------------------------------------------------------------------------------------------- */
