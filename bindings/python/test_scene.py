@@ -196,6 +196,19 @@ place = {part = "main", pipe = 3, fraction = 0.3}
 stuck = false
 stiffness = ["2e8 N/m", "1e6 N m/rad", "1e8 N/m"]
 overpull = "50 kN"
+[[event]]
+name = "quick"
+quantity = "input-present"
+place = "feed speed"
+level = "15 mm/s"
+[[channel]]
+name = "asked for"
+quantity = "input-present"
+place = "feed speed"
+[[channel]]
+name = "pull of the rope"
+quantity = "spring-force"
+place = "rope"
 [[input]]
 name = "jammed"
 target = "stuck"
@@ -236,6 +249,10 @@ frequency_high = "10 Hz"
 kind = "drive"
 place = "torque"
 amplitude = "2 N m"
+[[response.input]]
+kind = "setting"
+place = "feed speed"
+amplitude = "3 mm/s"
 [[response.output]]
 place = "swing"
 component = "z"

@@ -22,8 +22,12 @@ enum {
                                 across the hole, do nothing: DMB_ERR_UNSUPPORTED where all are), each times this
                                 factor, turning with the frequency about the axes of their pipes, from y to z, as they
                                 lie in the state at t = 0 */
-    DMB_INPUT_FRICTION = 6 /* [-] coefficient: every ring that touches the wall is rubbed by it times its normal force
-                              in the state, along the hole (component DMB_X) or around it (DMB_RX) */
+    DMB_INPUT_FRICTION = 6, /* [-] coefficient: every ring that touches the wall is rubbed by it times its normal force
+                               in the state, along the hole (component DMB_X) or around it (DMB_RX) */
+    DMB_INPUT_SETTING = 7 /* the input place.part of control.h [its unit]: a set point, load factor or bit load, as the
+                             drive, load or bit that it moves; limits on its rate do not bind small changes. Others
+                             (gains, limits, friction, mud, stuck) change the scene itself: DMB_ERR_UNSUPPORTED; one
+                             that is still on its way is DMB_ERR_VALUE */
 };
 typedef struct dmb_input {
     uint32_t struct_size;

@@ -231,7 +231,7 @@ static void fields_out_of_bounds(void **state)
     REFUSED(DMB_ERR_VALUE, s.options.friction = -1, "friction");
     REFUSED(DMB_ERR_VALUE, s.options.contact_gap = -1.0, "contact_gap");
     REFUSED(DMB_ERR_STRUCT_SIZE, s.options.struct_size = 3, "struct_size");
-    REFUSED(DMB_ERR_VALUE, s.input.kind = 7, "input 0: kind");
+    REFUSED(DMB_ERR_VALUE, s.input.kind = 8, "input 0: kind");
     REFUSED(DMB_ERR_VALUE, s.input.component = 6, "input 0: component");
     REFUSED(DMB_ERR_VALUE, s.input.frame = DMB_FRAME_HOLE, "input 0: frame");
     REFUSED(DMB_ERR_NOT_FINITE, s.input.amplitude = (double)INFINITY, "input 0: amplitude");

@@ -1,6 +1,6 @@
 /* State space against the frequency response, the damped modes and a run in time: strings on the wall, drives of every
- * kind, joints, a spinning rotor; all coordinates and reduced. Sparse matrices and arrays against energies, balance and
- * queries. */
+ * kind, joints, a spinning rotor; all coordinates and reduced; inputs of control.h. Sparse matrices and arrays against
+ * energies, balance and queries. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -118,10 +118,30 @@ static const double frequencies[5] = {0.5, 7.0, 21.0, 60.0, 200.0};
 typedef struct string_rig {
     rig s;
     dmb_id string, feed, turn, load, bit;
+    dmb_id setting[5]; /* of feed, turn, load, bit, friction */
 } string_rig;
 
-/* Fed by a controller or by motion, turned by motion or by a controller; a load and a bit at its end. */
-static string_rig open_string(int32_t kind, int moved, uint32_t pipes, double load_at)
+/* Inputs of all that a string has; a motion drive's keeps to a rate. */
+static void add_settings(string_rig *r, int moved)
+{
+    static const char *const names[5] = {"feed", "turn", "load", "bit", "friction"};
+    const int32_t targets[5] = {DMB_TARGET_SET_POINT, DMB_TARGET_SET_POINT, DMB_TARGET_LOAD_FACTOR, DMB_TARGET_BIT_LOAD,
+                                DMB_TARGET_FRICTION};
+    const dmb_id parts[5] = {r->feed, r->turn, r->load, r->bit, {0, 0}};
+    for (int i = 0; i < 5; i++) {
+        dmb_input_def def = dmb_input_def_default();
+        strcpy(def.name, names[i]);
+        def.target = targets[i];
+        def.part = parts[i];
+        def.low = i == 4 ? 0.0 : def.low;
+        def.rate_limit = i == !moved ? 100.0 : 0.0;
+        must_model(&r->s, dmb_model_add_input(r->s.model, &def, &r->setting[i]));
+    }
+}
+
+/* Fed by a controller or by motion, turned by motion or by a controller; a load and a bit at its end; with inputs or
+ * without. */
+static string_rig open_string_with(int32_t kind, int moved, uint32_t pipes, double load_at, int settable)
 {
     const dmb_term step = {.struct_size = sizeof step, .kind = DMB_TERM_STEP, .x0 = 0.0, .x1 = load_at, .h1 = 1.0};
     string_rig r;
@@ -161,9 +181,15 @@ static string_rig open_string(int32_t kind, int moved, uint32_t pipes, double lo
     load.moment[0] = 2.0;
     load.programme = load_at > 0.0 ? add_programme(&r.s, &step, 1) : add_constant(&r.s, 0.0);
     r.load = add_load(&r.s, &load);
+    if (settable) add_settings(&r, moved);
     rig_start(&r.s, NULL);
     find_equilibrium(&r.s, NULL);
     return r;
+}
+
+static string_rig open_string(int32_t kind, int moved, uint32_t pipes, double load_at)
+{
+    return open_string_with(kind, moved, pipes, load_at, 0);
 }
 
 static dmb_output channel_at(dmb_id string, uint32_t pipe, double fraction, int32_t quantity)
@@ -439,7 +465,7 @@ static void joint_or_guide(void **state)
 
 /* ---- Reduced, and in time ---------------------------------------------------------------------------------------- */
 
-/* Trapezoidal steps of x' = A x + B u, u a ramp 3 D^2 - 2 D^3 over 0 .. rise. */
+/* Trapezoidal steps of x' = A x + B u, u a ramp 3 D^2 - 2 D^3 over 0 .. rise, or 1 from the start. */
 static double simulate(const model *m, double rise, double end, uint32_t steps)
 {
     const size_t n = m->info.states;
@@ -449,7 +475,7 @@ static double simulate(const model *m, double rise, double end, uint32_t steps)
     for (uint32_t k = 0; k < steps; k++) {
         double u[2];
         for (uint32_t e = 0; e < 2; e++) {
-            const double D = fmin((k + e) * h / rise, 1.0);
+            const double D = rise > 0.0 ? fmin((k + e) * h / rise, 1.0) : 1.0;
             u[e] = D * D * (3.0 - 2.0 * D);
         }
         double complex *f = calloc(n, sizeof *f); /* (2/h) x + A x + B (u0 + u1) */
@@ -506,6 +532,128 @@ static void in_time(void **state)
     }
     rig_close(&still.s);
     rig_close(&run.s);
+}
+
+/* ---- Inputs of control.h ----------------------------------------------------------------------------------------- */
+
+/* Each is, bit for bit, the drive, load or bit that it moves. */
+static void settings_are_their_parts(void **state)
+{
+    (void)state;
+    for (int moved = 0; moved < 2; moved++) {
+        string_rig r = open_string_with(DMB_PIPE_FLEXIBLE, moved, 4, 0.0, 1);
+        const dmb_id parts[4] = {r.feed, r.turn, r.load, r.bit};
+        const int32_t kinds[4] = {DMB_INPUT_DRIVE, DMB_INPUT_DRIVE, DMB_INPUT_LOAD, DMB_INPUT_BIT_LOAD};
+        dmb_state_space_options options = dmb_state_space_options_default();
+        dmb_input by_part[4], by_setting[4];
+        const dmb_output outputs[2] = {channel_at(r.string, 0, 0.0, DMB_CHANNEL_BIT_SPEED),
+                                       channel_at(r.string, 0, 0.0, DMB_CHANNEL_WEIGHT_ON_BIT)};
+        for (int i = 0; i < 4; i++) {
+            by_part[i] = input_of(kinds[i], parts[i], DMB_X);
+            by_setting[i] = input_of(DMB_INPUT_SETTING, r.setting[i], DMB_X);
+        }
+        options.motion = DMB_MOTION_ACCELERATION;
+        model a = space_of(&r.s, &options, by_part, 4, outputs, 2),
+              b = space_of(&r.s, &options, by_setting, 4, outputs, 2);
+        const size_t n = a.info.states;
+        double size = 0.0;
+        assert_int_equal(n, b.info.states);
+        for (size_t i = 0; i < 4 * n; i++) size = fmax(size, fabs(a.B[i]));
+        assert_true(size > 0.0 && n > 0);
+        check_close("A", largest_difference(n * n, a.A, b.A), 0.0, 0.0);
+        check_close("B", largest_difference(n * 4, a.B, b.B), 0.0, 0.0);
+        check_close("C", largest_difference(2 * n, a.C, b.C), 0.0, 0.0);
+        check_close("D", largest_difference(8, a.D, b.D), 0.0, 0.0);
+        discard(&a);
+        discard(&b);
+        rig_close(&r.s);
+    }
+}
+
+/* A small step of one input in a run against the state space: the far end, and the bit load's own channel. */
+static void step_of_a_setting(void **state)
+{
+    (void)state;
+    static const double steps[4] = {1e-4, 1e-3, 0.01, 0.5}; /* [m/s], [rad/s], [-], [N] */
+    const double end = 0.012;
+    for (int i = 0; i < 4; i++) {
+        const int moved = i == 1;
+        string_rig r = open_string_with(DMB_PIPE_AXIAL_TORSIONAL, moved, 12, 0.0, 1);
+        const int32_t quantity = i == 1 ? DMB_CHANNEL_ROTATION : DMB_CHANNEL_POSITION_X;
+        const uint32_t pipe = i < 2 ? 2 : 11; /* drives push the rig end, the others the far end */
+        const dmb_input input = input_of(DMB_INPUT_SETTING, r.setting[i], DMB_X);
+        const dmb_output output = channel_at(r.string, pipe, 1.0, quantity);
+        const dmb_channel channel = {output.place, quantity, 0};
+        double before, after;
+        model m = space_of(&r.s, NULL, &input, 1, &output, 1);
+        must(&r.s, dmb_query_channel(r.s.sim, &channel, &before));
+        must(&r.s, dmb_sim_set_input(r.s.sim, r.setting[i], steps[i]));
+        take_steps(&r.s, 2.5e-5, (uint32_t)(end / 2.5e-5 + 0.5));
+        must(&r.s, dmb_query_channel(r.s.sim, &channel, &after));
+        tell("change of the output", after - before);
+        check_relative("    by the state space", steps[i] * simulate(&m, 0.0, end, 500), after - before, 1e-5);
+        discard(&m);
+        rig_close(&r.s);
+    }
+}
+
+/* The torque of a load drive on a disc with a torsion spring and a damper, as an input: I x'' + c x' + k x = u. */
+static void step_of_a_load_drive(void **state)
+{
+    (void)state;
+    const double I = 2.0, c = 1.5, k = 50.0, end = 0.7, u = 0.3;
+    rig s;
+    dmb_body_def body = dmb_body_def_default();
+    dmb_input_def def = dmb_input_def_default();
+    dmb_id input;
+    double before, after;
+    rig_open(&s, 0.0, 0.0, 0.0);
+    body.mass = 1.0;
+    for (int i = 0; i < 3; i++) body.inertia[i] = I;
+    const dmb_id disc = add_body(&s, &body);
+    dmb_joint_def joint =
+        joint_between(DMB_JOINT_REVOLUTE, dmb_station((dmb_id){0, 0}, 0, 0.0), dmb_station(disc, 0, 0.0));
+    joint.stiffness[DMB_RX] = k;
+    joint.damping[DMB_RX] = c;
+    const dmb_id hinge = add_joint(&s, &joint);
+    def.part = add_simple_drive(&s, DMB_DRIVE_LOAD, hinge, DMB_RX, add_constant(&s, 0.0));
+    strcpy(def.name, "torque");
+    must_model(&s, dmb_model_add_input(s.model, &def, &input));
+    rig_start(&s, NULL);
+    const dmb_input asked = input_of(DMB_INPUT_SETTING, input, DMB_X);
+    const dmb_output output = channel_at(hinge, 0, 0.0, DMB_CHANNEL_JOINT_POSITION + DMB_RX);
+    const dmb_channel channel = {output.place, output.component, 0};
+    model m = space_of(&s, NULL, &asked, 1, &output, 1);
+    must(&s, dmb_query_channel(s.sim, &channel, &before));
+    must(&s, dmb_sim_set_input(s.sim, input, u));
+    take_steps(&s, 1e-3, 700);
+    must(&s, dmb_query_channel(s.sim, &channel, &after));
+    const double d = c / (2.0 * I), w = sqrt(k / I - d * d);
+    const double want = u / k * (1.0 - exp(-d * end) * (cos(w * end) + d / w * sin(w * end)));
+    check_relative("a load drive: the state space in steps", u * simulate(&m, 0.0, end, 2000), want, 1e-5);
+    check_relative("    the run", after - before, want, 1e-5);
+    discard(&m);
+    rig_close(&s);
+}
+
+static void refused(const rig *s, const dmb_state_space_options *o, const dmb_input *input, const dmb_output *output,
+                    int32_t status, const char *says);
+
+static void settings_refused(void **state)
+{
+    (void)state;
+    string_rig r = open_string_with(DMB_PIPE_FLEXIBLE, 0, 3, 0.0, 1);
+    const dmb_output output = channel_at(r.string, 0, 0.0, DMB_CHANNEL_BIT_SPEED);
+    dmb_input input = input_of(DMB_INPUT_SETTING, r.setting[4], DMB_X);
+    refused(&r.s, NULL, &input, &output, DMB_ERR_UNSUPPORTED, "input \"friction\" has target 7");
+    input.place.part = r.feed;
+    refused(&r.s, NULL, &input, &output, DMB_ERR_ID, "names no input of control.h");
+    input.place.part = r.setting[1];
+    must(&r.s, dmb_sim_set_input(r.s.sim, r.setting[1], 1e-6));
+    refused(&r.s, NULL, &input, &output, DMB_ERR_VALUE, "on its way");
+    input.kind = DMB_INPUT_SETTING + 1;
+    refused(&r.s, NULL, &input, &output, DMB_ERR_VALUE, "kind");
+    rig_close(&r.s);
 }
 
 /* With quasi-static shapes the answer at frequency 0 is exact however few the modes; without them it is not. */
@@ -818,6 +966,10 @@ int main(void)
         cmocka_unit_test(joints),
         cmocka_unit_test(joint_or_guide),
         cmocka_unit_test(in_time),
+        cmocka_unit_test(settings_are_their_parts),
+        cmocka_unit_test(step_of_a_setting),
+        cmocka_unit_test(step_of_a_load_drive),
+        cmocka_unit_test(settings_refused),
         cmocka_unit_test(static_correction),
         cmocka_unit_test(arrays),
         cmocka_unit_test(refusals),

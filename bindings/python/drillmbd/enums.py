@@ -1065,6 +1065,7 @@ class InputKind(IntEnum):
     UNBALANCE = 4  #: [kg m] mass times its distance from the axis at `place`: force times w^2. component RX: turning from y to z of `frame`; X .. Z: to and fro along that axis
     ECCENTRICITY = 5  #: [-] the scene's own eccentric masses (those of axial-torsional pipes, which are held across the hole, do nothing: ERR_UNSUPPORTED where all are), each times this factor, turning with the frequency about the axes of their pipes, from y to z, as they lie in the state at t = 0
     FRICTION = 6  #: [-] coefficient: every ring that touches the wall is rubbed by it times its normal force in the state, along the hole (component X) or around it (RX)
+    SETTING = 7  #: the input place.part of control.h [its unit]: a set point, load factor or bit load, as the drive, load or bit that it moves; limits on its rate do not bind small changes. Others (gains, limits, friction, mud, stuck) change the scene itself: ERR_UNSUPPORTED; one that is still on its way is ERR_VALUE
 
 
 INPUT_DRIVE = InputKind.DRIVE
@@ -1074,6 +1075,7 @@ INPUT_FORCE = InputKind.FORCE
 INPUT_UNBALANCE = InputKind.UNBALANCE
 INPUT_ECCENTRICITY = InputKind.ECCENTRICITY
 INPUT_FRICTION = InputKind.FRICTION
+INPUT_SETTING = InputKind.SETTING
 
 
 class OutputKind(IntEnum):

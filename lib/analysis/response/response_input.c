@@ -7,8 +7,10 @@
 #include <string.h>
 
 #include "analysis/linear/functional.h"
+#include "force/reference.h"
 #include "math/vec3.h"
 #include "sim/node.h"
+#include "sim/own_scene.h"
 #include "system/assemble/evaluation.h"
 #include "system/assemble/wall_contact.h"
 #include "system/constrain/cluster.h"
@@ -158,10 +160,8 @@ static int32_t controlled(const request *r, uint32_t i, const dmb_scene_drive *d
     return DMB_OK;
 }
 
-static int32_t drive(const request *r)
+static int32_t of_drive(const request *r, uint32_t i)
 {
-    const uint32_t i = dmb_model_part_index(r->copy->model, r->input->place.part, DMB_PART_DRIVE);
-    if (i >= r->copy->scene->drive_count) return refuse(r, DMB_ERR_ID, "place.part names no drive of this model");
     const dmb_scene_drive *drive = r->copy->scene->drives + i;
     const double force = r->copy->now.drive_force[i];
     r->out->drive = i;
@@ -173,19 +173,72 @@ static int32_t drive(const request *r)
     return drive->kind == DMB_DRIVE_MOTION ? moved(r, drive) : controlled(r, i, drive);
 }
 
+static int32_t of_load(const request *r, uint32_t i)
+{
+    return derivative(r, r->copy->trial.load_factor + i);
+}
+
+static int32_t of_bit(const request *r, uint32_t i)
+{
+    r->out->bit = i;
+    return derivative(r, r->copy->trial.bit_load + i);
+}
+
+static uint32_t index_of(const request *r, uint32_t kind)
+{
+    return dmb_model_part_index(r->copy->model, r->input->place.part, kind);
+}
+
+static int32_t drive(const request *r)
+{
+    const uint32_t i = index_of(r, DMB_PART_DRIVE);
+    if (i >= r->copy->scene->drive_count) return refuse(r, DMB_ERR_ID, "place.part names no drive of this model");
+    return of_drive(r, i);
+}
+
 static int32_t load(const request *r)
 {
-    const uint32_t i = dmb_model_part_index(r->copy->model, r->input->place.part, DMB_PART_LOAD);
+    const uint32_t i = index_of(r, DMB_PART_LOAD);
     if (i >= r->copy->scene->load_count) return refuse(r, DMB_ERR_ID, "place.part names no load of this model");
-    return derivative(r, r->copy->trial.load_factor + i);
+    return of_load(r, i);
 }
 
 static int32_t bit_load(const request *r)
 {
-    const uint32_t i = dmb_model_part_index(r->copy->model, r->input->place.part, DMB_PART_BIT);
+    const uint32_t i = index_of(r, DMB_PART_BIT);
     if (i >= r->copy->scene->bit_count) return refuse(r, DMB_ERR_ID, "place.part names no bit of this model");
-    r->out->bit = i;
-    return derivative(r, r->copy->trial.bit_load + i);
+    return of_bit(r, i);
+}
+
+/* ---- Inputs of control.h ----------------------------------------------------------------------------------------- */
+
+static int32_t refuse_setting(const request *r, const dmb_scene_input *setting)
+{
+    dmb_message_set(
+        r->message,
+        "input %u: input \"%s\" has target %d, which changes the scene itself; must be a set point (%d), load "
+        "factor (%d) or bit load (%d); run sims with two of its values for others",
+        r->index, setting->name, (int)setting->target, (int)DMB_TARGET_SET_POINT, (int)DMB_TARGET_LOAD_FACTOR,
+        (int)DMB_TARGET_BIT_LOAD);
+    return DMB_ERR_UNSUPPORTED;
+}
+
+/* A small change of what is set is in force at once: after the time change/rate_limit or 2 sqrt(change/slope_limit),
+ * which goes to 0 with the change. */
+static int32_t setting(const request *r)
+{
+    const dmb_sim *copy = r->copy;
+    const uint32_t i = index_of(r, DMB_PART_INPUT);
+    if (i >= copy->scene->input_count)
+        return refuse(r, DMB_ERR_ID, "place.part names no input of control.h of this model");
+    const dmb_scene_input *setting = copy->scene->inputs + i;
+    const int32_t target = setting->target;
+    if (target != DMB_TARGET_SET_POINT && target != DMB_TARGET_LOAD_FACTOR && target != DMB_TARGET_BIT_LOAD)
+        return refuse_setting(r, setting);
+    if (!isnan(copy->input_value[i]) && dmb_reference_arrival(&copy->own->references[i]) > copy->clock->time)
+        return refuse(r, DMB_ERR_VALUE, "the input is on its way to what is set; run until it arrives");
+    if (target == DMB_TARGET_SET_POINT) return of_drive(r, setting->index);
+    return target == DMB_TARGET_LOAD_FACTOR ? of_load(r, setting->index) : of_bit(r, setting->index);
 }
 
 /* ---- Forces at places -------------------------------------------------------------------------------------------- */
@@ -295,6 +348,7 @@ static int32_t make(const request *r)
     case DMB_INPUT_DRIVE: return drive(r);
     case DMB_INPUT_LOAD: return load(r);
     case DMB_INPUT_BIT_LOAD: return bit_load(r);
+    case DMB_INPUT_SETTING: return setting(r);
     case DMB_INPUT_FORCE: return force(r);
     case DMB_INPUT_UNBALANCE: return unbalance(r);
     case DMB_INPUT_ECCENTRICITY: return eccentricity(r);

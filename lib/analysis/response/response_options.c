@@ -132,7 +132,7 @@ int32_t dmb_input_take(const dmb_input *inputs, uint32_t i, dmb_message *message
         return DMB_ERR_STRUCT_SIZE;
     }
     const int32_t last = out->kind == DMB_INPUT_UNBALANCE ? DMB_RX : DMB_RZ;
-    dmb_check_choice(&check, "kind", out->kind, DMB_INPUT_DRIVE, DMB_INPUT_FRICTION);
+    dmb_check_choice(&check, "kind", out->kind, DMB_INPUT_DRIVE, DMB_INPUT_SETTING);
     dmb_check_choice(&check, "component", out->component, DMB_X, last);
     dmb_check_choice(&check, "frame", out->frame, DMB_FRAME_WORLD, DMB_FRAME_BODY);
     dmb_check_within(&check, "amplitude", out->amplitude, -1e30, 1e30);

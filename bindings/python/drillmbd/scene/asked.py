@@ -128,6 +128,8 @@ class Asked:
             name = place.get("part") if isinstance(place, dict) else place
             unit = next((self.loader.drive_unit(drive) for number, (_, drive) in enumerate(self.loader.parts("drive"))
                          if self.loader.name("drive", number, drive) == name), unit)
+        if kind == enums.INPUT_SETTING:
+            unit = self.loader.setting_unit(table.get("place")) or unit
         return self.loader.read(path, table, known, extra, lambda key: unit if key == "amplitude" else None)
 
     def _output(self, path: Path, table: dict[str, Any], limited: bool) -> dict[str, Any]:

@@ -220,6 +220,11 @@ def event_fields() -> dict[str, Field]:
     return {"quantity": Field("quantity", "enum", enum=Named), "place": Field("place", "place"), **known}
 
 
+def unit_of_setting(unit: str, setting: str | None) -> str:
+    """The unit of a channel, that of the input it reads where it goes by that."""
+    return unit.replace("unit of the input", setting or "-")
+
+
 def setting_units(target: int, drive: tuple[int, int] | None) -> dict[str, str]:
     """The units of the fields of an input; drive: kind and component of the drive that it moves."""
     kind, component = drive or (0, 0)

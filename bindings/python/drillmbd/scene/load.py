@@ -451,6 +451,7 @@ class Loader:
         known, before = fields.event_fields(), len(self.problems.found)
         quantity = self.word(known["quantity"], table.get("quantity"), -1)
         unit = channel_unit(quantity) if quantity >= 0 else "-"
+        unit = fields.unit_of_setting(unit, self.setting_unit(table.get("place")))
         values = self.read(path, table, known, ("name",), {"level": unit.split(" or ")[0].split(",")[0]}.get)
         if "quantity" not in table:
             self.problems.add(path, None, "must have a quantity, that of a channel")
@@ -460,6 +461,13 @@ class Loader:
         output = Channel(place=values.pop("place", Place()), quantity=values.pop("quantity"))
         values["name"] = name
         self._put(name, "event", self._add(path, self.model.add_event, DEFINITIONS["event"], {**values, "output": output}))
+
+    def setting_unit(self, place: Any) -> str | None:
+        """The unit of the input that a place names."""
+        name = place.get("part") if isinstance(place, dict) else place
+        known = fields_of(DEFINITIONS["input"])
+        return next((self._setting_units(known, one)["initial"] for number, (_, one) in enumerate(self.parts("input"))
+                     if self.name("input", number, one) == name), None)
 
     def _setting_units(self, known: dict[str, Field], table: dict[str, Any]) -> dict[str, str]:
         """Units of an input: those of what it moves."""

@@ -225,12 +225,18 @@ class Writer:
         output = description.get("output", Channel())
         known = fields.event_fields()
         unit = channel_unit(output.quantity).split(" or ")[0].split(",")[0]
+        unit = fields.unit_of_setting(unit, self._setting_unit(output.place))
         self._key("quantity", fields.write(known["quantity"], output.quantity))
         if output.place.part:
             self._key("place", self._place(output.place))
         for key, value in description.items():
             if key in known:
                 self._key(key, self._plain(known[key], value, unit if key == "level" else None))
+
+    def _setting_unit(self, place: Place) -> str | None:
+        made = {one.index: description for one, description in self.parts.get("input", [])}
+        found = made.get(place.part.index) if place.part else None
+        return self._setting_units(found)["initial"] if found is not None else None
 
     def _setting_units(self, description: dict[str, Any]) -> dict[str, str]:
         part = description.get("part")
@@ -310,6 +316,8 @@ class Writer:
             made = {one.index: description for one, description in self.parts.get("drive", [])}
             drive = made.get(values["place"].part.index, {})
             unit = fields.drive_unit(drive.get("kind", 0), drive.get("component", 0))
+        if values.get("kind") == enums.INPUT_SETTING:
+            unit = self._setting_unit(values["place"]) or unit
         self._table("response input", values, lambda key: unit if key == "amplitude" else None)
 
 
