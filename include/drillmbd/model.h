@@ -40,14 +40,18 @@ DMB_API const char *dmb_model_message(const dmb_model *model);
 DMB_API int32_t dmb_model_clear_refused(dmb_model *model);
 
 /* ---- Components of motion ----------------------------------------------------------------------------------------
- * Components of body-frame velocity, also bits of a mask. A set of free components must be closed under motion: none,
- * all six, one alone, AXIAL+SPIN (cylindrical pair), three rotations (spherical), three translations, or two
- * translations with the rotation about their normal (planar). Others need a joint and are refused. */
+ * Components of body-frame velocity, also bits of a mask. A set of free components must be closed under motion (the
+ * subgroups of displacements along the axes, Herve 1978): these 22 with names. Others need a joint and are refused. */
 /* clang-format off */
 enum {
     DMB_X = 0, DMB_Y = 1, DMB_Z = 2, DMB_RX = 3, DMB_RY = 4, DMB_RZ = 5,
-    DMB_FREE_NONE = 0, DMB_FREE_X = 1, DMB_FREE_RX = 8, DMB_FREE_RZ = 32, DMB_FREE_CYLINDRICAL = 9,
-    DMB_FREE_SPHERICAL = 56, DMB_FREE_ALL = 63
+    DMB_FREE_NONE = 0, DMB_FREE_X = 1, DMB_FREE_RX = 8, DMB_FREE_RZ = 32, DMB_FREE_CYLINDRICAL = 9, /* X, RX */
+    DMB_FREE_SPHERICAL = 56, DMB_FREE_ALL = 63,
+    DMB_FREE_Y = 2, DMB_FREE_Z = 4, DMB_FREE_RY = 16,
+    DMB_FREE_XY = 3, DMB_FREE_XZ = 5, DMB_FREE_YZ = 6, DMB_FREE_TRANSLATIONS = 7,
+    DMB_FREE_CYLINDRICAL_Y = 18, DMB_FREE_CYLINDRICAL_Z = 36,                        /* Y, RY; Z, RZ */
+    DMB_FREE_PLANAR = 14, DMB_FREE_PLANAR_Y = 21, DMB_FREE_PLANAR_Z = 35,            /* normal x, y, z: Y, Z, RX ... */
+    DMB_FREE_SCHOENFLIES = 15, DMB_FREE_SCHOENFLIES_Y = 23, DMB_FREE_SCHOENFLIES_Z = 39 /* X, Y, Z with RX; RY; RZ */
 };
 /* clang-format on */
 
@@ -283,26 +287,30 @@ DMB_API int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_
  * A joint holds frame b on one part against frame a on another. Its coordinates are frame b seen from frame a: X, Y, Z
  * the origin of b in a [m]; RX, RY, RZ the angles of the rotation Ry(RY) Rz(RZ) Rx(RX) from a to b [rad], RX and RY
  * counted over full turns. The x axis of the frames is the joint's axis. Parts need not fit as described,
- * dmb_sim_create brings them together; but axes that a joint keeps parallel (x; fixed, prismatic: y too) should be less
- * than a right angle apart: where they end up pointing against each other it is refused, DMB_ERR_GEOMETRY. So is, at
- * creation, in statics and in a run, |RZ| within 0.01 rad of a right angle, where RX and RY are not defined: of a
- * universal joint, and of others with springs, dampers, stops, friction, drives or couplings on an angle; and a rim
- * that rolls and lies flat (sine of its angle with the plane 1e-3). Locked and open joints may stand there. */
+ * dmb_sim_create brings them together; but axes that a joint keeps parallel (x; fixed, prismatic, translational, cross
+ * slide: y too) should be less than a right angle apart: where they end up pointing against each other it is refused,
+ * DMB_ERR_GEOMETRY. So is, at creation, in statics and in a run, |RZ| within 0.01 rad of a right angle, where RX and RY
+ * are not defined: of a universal joint, and of others with springs, dampers, stops, friction, drives or couplings on
+ * an angle; and a rim that rolls and lies flat (sine of its angle with the plane 1e-3). Locked and open joints may
+ * stand there. */
 enum {
     DMB_JOINT_FIXED = 0,
-    DMB_JOINT_REVOLUTE = 1,      /* RX free */
-    DMB_JOINT_PRISMATIC = 2,     /* X free */
-    DMB_JOINT_CYLINDRICAL = 3,   /* X, RX free */
-    DMB_JOINT_UNIVERSAL = 4,     /* RY, RZ free: crossed axes y of a and z of b */
-    DMB_JOINT_SPHERICAL = 5,     /* RX, RY, RZ free */
-    DMB_JOINT_PLANAR = 6,        /* Y, Z, RX free: x is the normal of the plane */
-    DMB_JOINT_POINT_ON_LINE = 7, /* X, RX, RY, RZ free: origin of b on the x axis of a */
-    DMB_JOINT_POINT_ON_HOLE = 8, /* origin of b on the axis of the hole; a must be the ground (guide, centraliser) */
-    DMB_JOINT_DISTANCE = 9,      /* origins `length` apart */
-    DMB_JOINT_FREE = 10,         /* holds nothing: carries springs, dampers, stops, friction */
-    DMB_JOINT_KNIFE_EDGE = 11,   /* nonholonomic: the origin of b does not move along y of b (no lateral slip) */
-    DMB_JOINT_ROLLING = 12       /* a rim of radius `length` about x of b rolls without slip on the plane y, z of a; it
-                                    stands on the side x > 0 */
+    DMB_JOINT_REVOLUTE = 1,       /* RX free */
+    DMB_JOINT_PRISMATIC = 2,      /* X free */
+    DMB_JOINT_CYLINDRICAL = 3,    /* X, RX free */
+    DMB_JOINT_UNIVERSAL = 4,      /* RY, RZ free: crossed axes y of a and z of b */
+    DMB_JOINT_SPHERICAL = 5,      /* RX, RY, RZ free */
+    DMB_JOINT_PLANAR = 6,         /* Y, Z, RX free: x is the normal of the plane */
+    DMB_JOINT_POINT_ON_LINE = 7,  /* X, RX, RY, RZ free: origin of b on the x axis of a */
+    DMB_JOINT_POINT_ON_HOLE = 8,  /* origin of b on the axis of the hole; a must be the ground (guide, centraliser) */
+    DMB_JOINT_DISTANCE = 9,       /* origins `length` apart */
+    DMB_JOINT_FREE = 10,          /* holds nothing: carries springs, dampers, stops, friction */
+    DMB_JOINT_KNIFE_EDGE = 11,    /* nonholonomic: the origin of b does not move along y of b (no lateral slip) */
+    DMB_JOINT_ROLLING = 12,       /* a rim of radius `length` about x of b rolls without slip on the plane y, z of a; it
+                                     stands on the side x > 0 */
+    DMB_JOINT_TRANSLATIONAL = 13, /* X, Y, Z free: b does not turn against a */
+    DMB_JOINT_CROSS_SLIDE = 14,   /* Y, Z free: two slides across each other */
+    DMB_JOINT_SCHOENFLIES = 15    /* X, Y, Z, RX free: x of b stays parallel to x of a */
 };
 enum {
     DMB_JOINT_ACTIVE = 0, /* holds what its kind says */

@@ -32,6 +32,9 @@ static const row_kind kinds[DMB_ROWS_KINDS] = {
     [DMB_ROWS_FREE] = {0, 0, ALL},
     [DMB_ROWS_KNIFE_EDGE] = {1, 0, ALL},
     [DMB_ROWS_ROLLING] = {3, 0, ALL},
+    [DMB_ROWS_TRANSLATIONAL] = {3, R_YX | R_ZX | R_YZ, X | Y | Z},
+    [DMB_ROWS_CROSS_SLIDE] = {4, P_X | R_YX | R_ZX | R_YZ, Y | Z},
+    [DMB_ROWS_SCHOENFLIES] = {2, R_YX | R_ZX, X | Y | Z | RX},
 };
 
 uint32_t dmb_joint_row_count(int32_t kind)
@@ -291,6 +294,9 @@ static const kind_names names[DMB_ROWS_KINDS] = {
     [DMB_ROWS_FREE] = {"free", {NULL}},
     [DMB_ROWS_KNIFE_EDGE] = {"knife-edge", {"sideways speed"}},
     [DMB_ROWS_ROLLING] = {"rolling", {"height of the rim", "slip along the way", "slip across the way"}},
+    [DMB_ROWS_TRANSLATIONAL] = {"translational", {DMB_NAME_R_YX, DMB_NAME_R_ZX, DMB_NAME_R_YZ}},
+    [DMB_ROWS_CROSS_SLIDE] = {"cross-slide", {DMB_NAME_PX, DMB_NAME_R_YX, DMB_NAME_R_ZX, DMB_NAME_R_YZ}},
+    [DMB_ROWS_SCHOENFLIES] = {"schoenflies", {DMB_NAME_R_YX, DMB_NAME_R_ZX}},
 };
 
 const char *dmb_joint_kind_name(int32_t kind)

@@ -139,7 +139,7 @@ static int32_t check_joint(dmb_model *model, const dmb_joint_def *def)
     dmb_check check = dmb_check_of(
         &model->message, dmb_part_text(&part, "joint", model->joints.count, def->name, sizeof def->name), DMB_NONE);
     dmb_check_part_name(&check, model, DMB_PART_JOINT, def->name);
-    dmb_check_choice(&check, "kind", def->kind, DMB_JOINT_FIXED, DMB_JOINT_ROLLING);
+    dmb_check_choice(&check, "kind", def->kind, DMB_JOINT_FIXED, DMB_JOINT_SCHOENFLIES);
     check_places(&check, model, def);
     check_frames(&check, def);
     dmb_check_choice(&check, "state", def->state, DMB_JOINT_ACTIVE, DMB_JOINT_OPEN);

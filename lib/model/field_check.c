@@ -103,7 +103,8 @@ void dmb_check_motion_mask(dmb_check *check, const char *field, int32_t mask)
     dmb_check_mask(check, field, mask, DMB_FREE_ALL);
     if (dmb_mask_is_closed(mask)) return;
     dmb_check_fail(check, DMB_ERR_UNSUPPORTED, field, mask,
-                   "closed under motion: none, all, one, axial and spin, spherical, translations or planar");
+                   "a closed set, DMB_FREE_NONE, _ALL, _X, _Y, _Z, _XY, _XZ, _YZ, _TRANSLATIONS, _RX, _RY, _RZ, "
+                   "_SPHERICAL, or _CYLINDRICAL, _PLANAR, _SCHOENFLIES (of x, y, z); hold others by a joint");
 }
 
 /* Principal moments of inertia, and the bound that every distribution of mass keeps. With E the second moments of the

@@ -38,27 +38,20 @@ void dmb_check_place(dmb_check *check, const dmb_model *model, const char *field
 
 /* Sets of free components of motion. */
 
-enum {
-    DMB_FREE_TRANSLATIONS = 1 << DMB_X | 1 << DMB_Y | 1 << DMB_Z,
-    DMB_FREE_SIDEWAYS = 1 << DMB_Y | 1 << DMB_Z,
-    DMB_FREE_TILTING = 1 << DMB_RY | 1 << DMB_RZ
-};
+enum { DMB_FREE_SIDEWAYS = 1 << DMB_Y | 1 << DMB_Z, DMB_FREE_TILTING = 1 << DMB_RY | 1 << DMB_RZ };
 
-/* True if the set is closed under motion (a group of displacements), so that it means the same at every instant: none,
- * all, one component, cylindrical pair, three rotations, three translations, planar motion. Herve 1978. */
+/* True if the set is closed under motion (a group of displacements), so that it means the same at every instant. By the
+ * brackets of the components, [Ri, Rj] = Rk, [Ri, Tj] = Tk, [Ti, Tj] = 0: any translations without rotation; one
+ * rotation with both or none of the translations across it, that along it as one likes; three rotations with all
+ * translations or none. Herve 1978. */
 static inline bool dmb_mask_is_closed(int32_t mask)
 {
-    switch (mask) {
-    case DMB_FREE_NONE:
-    case DMB_FREE_ALL:
-    case DMB_FREE_CYLINDRICAL:
-    case DMB_FREE_SPHERICAL:
-    case DMB_FREE_TRANSLATIONS:
-    case 1 << DMB_Y | 1 << DMB_Z | 1 << DMB_RX:
-    case 1 << DMB_X | 1 << DMB_Z | 1 << DMB_RY:
-    case 1 << DMB_X | 1 << DMB_Y | 1 << DMB_RZ: return true;
-    default: return mask > 0 && mask < 64 && (mask & (mask - 1)) == 0;
-    }
+    const int32_t translations = mask & 7, rotations = mask >> 3;
+    if (mask < 0 || mask > DMB_FREE_ALL) return false;
+    if (rotations == 0) return true;
+    if (rotations == 7) return translations == 0 || translations == 7;
+    const int32_t across = translations & ~rotations;
+    return (rotations & (rotations - 1)) == 0 && (across == 0 || across == (7 & ~rotations));
 }
 
 /* True if the set means the same at any point of the body's x axis, so that a node anywhere on it will do. */

@@ -88,7 +88,10 @@ DMB_SAME_KIND(DISTANCE);
 DMB_SAME_KIND(FREE);
 DMB_SAME_KIND(KNIFE_EDGE);
 DMB_SAME_KIND(ROLLING);
-_Static_assert((int)DMB_ROWS_KINDS == (int)DMB_JOINT_ROLLING + 1, "kinds of joints");
+DMB_SAME_KIND(TRANSLATIONAL);
+DMB_SAME_KIND(CROSS_SLIDE);
+DMB_SAME_KIND(SCHOENFLIES);
+_Static_assert((int)DMB_ROWS_KINDS == (int)DMB_JOINT_SCHOENFLIES + 1, "kinds of joints");
 _Static_assert((int)DMB_CONSTRAINT_ROWS == (int)DMB_ROWS_MAX, "rows of a joint");
 
 /* Joints, couplings and the caller's constraints, from the parts they are described on to frames on nodes. */

@@ -128,9 +128,24 @@ class Free(IntFlag):
     X = 1
     RX = 8
     RZ = 32
-    CYLINDRICAL = 9
+    CYLINDRICAL = 9  #: X, RX
     SPHERICAL = 56
     ALL = 63
+    Y = 2
+    Z = 4
+    RY = 16
+    XY = 3
+    XZ = 5
+    YZ = 6
+    TRANSLATIONS = 7
+    CYLINDRICAL_Y = 18
+    CYLINDRICAL_Z = 36  #: Y, RY; Z, RZ
+    PLANAR = 14
+    PLANAR_Y = 21
+    PLANAR_Z = 35  #: normal x, y, z: Y, Z, RX ...
+    SCHOENFLIES = 15
+    SCHOENFLIES_Y = 23
+    SCHOENFLIES_Z = 39  #: X, Y, Z with RX; RY; RZ
 
 
 FREE_NONE = Free.NONE
@@ -140,6 +155,21 @@ FREE_RZ = Free.RZ
 FREE_CYLINDRICAL = Free.CYLINDRICAL
 FREE_SPHERICAL = Free.SPHERICAL
 FREE_ALL = Free.ALL
+FREE_Y = Free.Y
+FREE_Z = Free.Z
+FREE_RY = Free.RY
+FREE_XY = Free.XY
+FREE_XZ = Free.XZ
+FREE_YZ = Free.YZ
+FREE_TRANSLATIONS = Free.TRANSLATIONS
+FREE_CYLINDRICAL_Y = Free.CYLINDRICAL_Y
+FREE_CYLINDRICAL_Z = Free.CYLINDRICAL_Z
+FREE_PLANAR = Free.PLANAR
+FREE_PLANAR_Y = Free.PLANAR_Y
+FREE_PLANAR_Z = Free.PLANAR_Z
+FREE_SCHOENFLIES = Free.SCHOENFLIES
+FREE_SCHOENFLIES_Y = Free.SCHOENFLIES_Y
+FREE_SCHOENFLIES_Z = Free.SCHOENFLIES_Z
 
 
 class TermKind(IntEnum):
@@ -257,6 +287,9 @@ class JointKind(IntEnum):
     FREE = 10  #: holds nothing: carries springs, dampers, stops, friction
     KNIFE_EDGE = 11  #: nonholonomic: the origin of b does not move along y of b (no lateral slip)
     ROLLING = 12  #: a rim of radius `length` about x of b rolls without slip on the plane y, z of a; it stands on the side x > 0
+    TRANSLATIONAL = 13  #: X, Y, Z free: b does not turn against a
+    CROSS_SLIDE = 14  #: Y, Z free: two slides across each other
+    SCHOENFLIES = 15  #: X, Y, Z, RX free: x of b stays parallel to x of a
 
 
 JOINT_FIXED = JointKind.FIXED
@@ -272,6 +305,9 @@ JOINT_DISTANCE = JointKind.DISTANCE
 JOINT_FREE = JointKind.FREE
 JOINT_KNIFE_EDGE = JointKind.KNIFE_EDGE
 JOINT_ROLLING = JointKind.ROLLING
+JOINT_TRANSLATIONAL = JointKind.TRANSLATIONAL
+JOINT_CROSS_SLIDE = JointKind.CROSS_SLIDE
+JOINT_SCHOENFLIES = JointKind.SCHOENFLIES
 
 
 class JointMode(IntEnum):

@@ -15,7 +15,7 @@
 #include "system/constrain/constraint_rows.h"
 #include "system/constrain/joint_motion.h"
 
-enum { ROWS_MAX = 400, KINDS = DMB_JOINT_ROLLING + 1, EQUATIONS_MAX = 300 };
+enum { ROWS_MAX = 400, KINDS = DMB_JOINT_SCHOENFLIES + 1, EQUATIONS_MAX = 300 };
 
 /* ---- The caller's constraints ------------------------------------------------------------------------------------ */
 
