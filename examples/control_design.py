@@ -24,16 +24,17 @@ def scene(gain, kick=0.0):
     hump = [mbd.Term(kind=mbd.TERM_STEP, h1=sign, x0=at, x1=at + kick) for sign, at in ((1.0, 0.0), (-1.0, kick)) if kick]
     load = model.add_load(place=mbd.station(string, PIPES - 1, 1.0), frame=mbd.FRAME_BODY, moment=(200.0, 0.0, 0.0),
                           programme=model.add_programme(*(hump or [mbd.Term()])))
+    torque = model.add_input(name="torque", part=drive) if gain is None else mbd.Id()  # what a controller writes
     model.compile()
-    return mbd.Sim(model), string, drive, load
+    return mbd.Sim(model), string, torque, load
 
 
 def plant():
     """Torque of the rig [N m] and factor of the kick to rotation and speed of the rig end and speed of the bit."""
-    sim, string, drive, load = scene(None)
+    sim, string, torque, load = scene(None)
     modes = sim.modes(count=40)
     torsional = [i for i, mode in enumerate(modes) if mode.share[1] > 0.9]  # what feed and push shake is left out
-    inputs = [mbd.Input(kind=kind, place=mbd.station(part)) for kind, part in ((mbd.INPUT_DRIVE, drive), (mbd.INPUT_LOAD, load))]
+    inputs = [mbd.Input(kind=kind, place=mbd.station(part)) for kind, part in ((mbd.INPUT_SETTING, torque), (mbd.INPUT_LOAD, load))]
     channels = [(mbd.CHANNEL_ROTATION, mbd.station(string)), (mbd.CHANNEL_ROTARY_SPEED, mbd.station(string)),
                 (mbd.CHANNEL_BIT_SPEED, mbd.station(string))]
     outputs = [mbd.Output(kind=mbd.OUTPUT_CHANNEL, component=quantity, place=place) for quantity, place in channels]

@@ -750,7 +750,7 @@ static void what_must_be_refused(void **state)
                  {14, "table_kind", 2.0},
                  {14, "acts", 3.0},
                  {9, "frame", 3.0},
-                 {10, "kind", 13.0},
+                 {10, "kind", 16.0},
                  {10, "place_b.fraction", 1.5},
                  {10, "axis_a", 0.0},
                  {10, "length", 0.0},
