@@ -94,14 +94,14 @@ static bool gram_step(const dmb_jacobian *jacobian, const dmb_partition *p, size
     const double *b = pivot_row_of(B, stride, p, k);
     const uint64_t blocks = blocks_of(n, gram, k);
     double *row = gram + n * k;
-    run runs[DMB_RUNS];
-    const size_t count = find_runs(p->columns, b, blocks, runs);
-    const double m = dot_in_runs(count, runs, b, b, weight), pivot = m + row[k];
+    stretch stretches[DMB_STRETCHES];
+    const size_t count = find_stretches(p->columns, b, blocks, stretches);
+    const double m = dot_in_stretches(count, stretches, b, b, weight), pivot = m + row[k];
     const bool kept = !(weak > 0.0 && pivot < weak * m);
     if (kept && !(pivot > DMB_GRAM_PIVOT_MIN * m && pivot <= DBL_MAX)) return false;
     for (size_t r = k + 1; r < n && kept; r++)
         if (blocks & blocks_of(n, gram, r))
-            row[r] += dot_in_runs(count, runs, b, pivot_row_of(B, stride, p, r), weight);
+            row[r] += dot_in_stretches(count, stretches, b, pivot_row_of(B, stride, p, r), weight);
     row[k] = kept ? 1.0 / sqrt(pivot) : 0.0;
     row_multiply(n - k - 1, row[k], row + k + 1);
     list_places(n, k, gram);
@@ -131,9 +131,9 @@ void dmb_partition_leave_weak(const dmb_jacobian *jacobian, const dmb_partition 
     for (size_t k = 0; k < n && !weak; k++) {
         const double *b = pivot_row_of(jacobian->rows, jacobian->stride, partition, k);
         const double root = gram[n * k + k];
-        run runs[DMB_RUNS];
-        const size_t count = find_runs(partition->columns, b, blocks_of(n, gram, k), runs);
-        weak = root * root * dot_in_runs(count, runs, b, b, jacobian->weight) * DMB_WEAK_PIVOT > 1.0;
+        stretch stretches[DMB_STRETCHES];
+        const size_t count = find_stretches(partition->columns, b, blocks_of(n, gram, k), stretches);
+        weak = root * root * dot_in_stretches(count, stretches, b, b, jacobian->weight) * DMB_WEAK_PIVOT > 1.0;
     }
     if (weak) (void)gram_factor(jacobian, partition, DMB_WEAK_PIVOT, gram);
 }

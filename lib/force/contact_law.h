@@ -81,12 +81,12 @@ static inline void dmb_contact_static_speeds(const double slip[2], dmb_contact_f
     f->speed[2] = f->radius * slip[1];
 }
 
-/* length [m] of wall that the ring stands for, approach [m/s] its speed at first touch. Without friction. */
+/* length [m] of wall that the ring stands for, impact_speed [m/s] its speed at first touch. Without friction. */
 static inline void dmb_contact_normal_force(const dmb_normal_law *law, const dmb_contact_frame *f, dmb_real length,
-                                            dmb_real penetration, dmb_real approach, dmb_contact_force *out)
+                                            dmb_real penetration, dmb_real impact_speed, dmb_contact_force *out)
 {
     dmb_normal_response N;
-    dmb_normal_response_at(law, penetration, f->speed[0], approach, &N);
+    dmb_normal_response_at(law, penetration, f->speed[0], impact_speed, &N);
     out->F[0] = -length * N.force;
     out->by_depth[0] = -length * N.d_depth;
     out->normal_rate = -length * N.d_rate;

@@ -104,7 +104,7 @@ static inline void dmb_section_contact_at(const dmb_contact_frame *f, dmb_sectio
 }
 
 /* [N/m2] dN/ds per metre of pipe at penetration d growing at `rate`. */
-static inline double dmb_section_normal_slope(const dmb_local_wall *wall, double d, double rate, double approach)
+static inline double dmb_section_normal_slope(const dmb_local_wall *wall, double d, double rate, double impact_speed)
 {
     const dmb_normal_law *law = &wall->normal;
     const double power = dmb_normal_reduced_power(law->exponent, d) * d;
@@ -115,7 +115,7 @@ static inline double dmb_section_normal_slope(const dmb_local_wall *wall, double
         unit.damping = 1.0;
         return wall->stiffness_slope * power + wall->damping_slope * dmb_normal_damping(&unit, d, &slope) * rate;
     }
-    const double ratio = rate / fmax(approach, law->approach_floor);
+    const double ratio = rate / fmax(impact_speed, law->impact_floor);
     return power * (wall->stiffness_slope * (1.0 + law->mu * ratio) + law->stiffness * wall->factor_slope * ratio);
 }
 
@@ -136,9 +136,9 @@ static inline void dmb_section_friction_slope(const dmb_contact_frame *f, const 
     dmb_friction_smooth(&law, N, f->speed + 1, by_place, NULL, by_normal);
 }
 
-/* length [m], penetration d and approach as dmb_contact_normal_force has them. */
+/* length [m], penetration d and impact_speed as dmb_contact_normal_force has them. */
 static inline void dmb_section_force(const dmb_contact_frame *f, const dmb_contact_force *force, double length,
-                                     double d, double approach, int memory, int friction, dmb_section_contact *c)
+                                     double d, double impact_speed, int memory, int friction, dmb_section_contact *c)
 {
     const dmb_local_wall *wall = &c->wall;
     const double unit = length * dmb_wall_unit_energy(&wall->normal, d);
@@ -147,7 +147,7 @@ static inline void dmb_section_force(const dmb_contact_frame *f, const dmb_conta
     c->stored_slope = wall->stiffness_bend * unit;
     c->stored_by_depth = length * wall->stiffness_slope * dmb_normal_reduced_power(wall->normal.exponent, d) * d;
     c->along = -force->F[0] * c->rho - c->advance * c->stored;
-    c->by_place[0] = force->F[0] < 0.0 ? -length * dmb_section_normal_slope(wall, d, f->speed[0], approach) : 0.0;
+    c->by_place[0] = force->F[0] < 0.0 ? -length * dmb_section_normal_slope(wall, d, f->speed[0], impact_speed) : 0.0;
     if (friction) dmb_section_friction_slope(f, force, memory, wall, by_friction);
     for (int k = 0; k < 2; k++) {
         const double by_normal = force->F[0] < 0.0 ? -force->F[1 + k] / force->F[0] : 0.0; /* dF/dN = F/N */

@@ -99,7 +99,7 @@ dmb_normal_law dmb_normal_law_of(dmb_normal_law law, double restitution)
     law.mu = restitution_factor(law.kind, restitution);
     if (law.kind < DMB_NORMAL_KELVIN_VOIGT || law.kind > DMB_NORMAL_IMPACT) law.kind = DMB_NORMAL_NONE;
     law.reserved = 0;
-    law.approach_floor = fmax(law.approach_floor, DMB_SPEED_FLOOR);
+    law.impact_floor = fmax(law.impact_floor, DMB_SPEED_FLOOR);
     return law;
 }
 
@@ -119,13 +119,13 @@ double dmb_normal_factor_slope(const dmb_normal_law *law, double e)
     }
 }
 
-void dmb_normal_force(const dmb_normal_law *law, double depth, double rate, double approach_speed, double *force,
+void dmb_normal_force(const dmb_normal_law *law, double depth, double rate, double impact_speed, double *force,
                       double *d_depth, double *d_rate)
 {
     dmb_normal_response out;
     *force = *d_depth = *d_rate = 0.0;
     if (depth <= 0.0) return;
-    dmb_normal_response_at(law, depth, rate, approach_speed, &out);
+    dmb_normal_response_at(law, depth, rate, impact_speed, &out);
     *force = out.force;
     *d_depth = out.d_depth;
     *d_rate = out.d_rate;

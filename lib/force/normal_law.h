@@ -12,12 +12,12 @@
 typedef struct dmb_normal_law {
     int32_t kind; /* DMB_NORMAL_... */
     int32_t reserved;
-    double stiffness;      /* [N/m^(n+1)] K per metre of pipe */
-    double exponent;       /* [-] n >= 1 */
-    double damping;        /* [N s/m2] c per metre of pipe, of KELVIN_VOIGT and IMPACT */
-    double impact_depth;   /* [m] full damping from here on, of IMPACT */
-    double mu;             /* [-] damping factor of the restitution laws, 0 for the others */
-    double approach_floor; /* [m/s] smallest v0 */
+    double stiffness;    /* [N/m^(n+1)] K per metre of pipe */
+    double exponent;     /* [-] n >= 1 */
+    double damping;      /* [N s/m2] c per metre of pipe, of KELVIN_VOIGT and IMPACT */
+    double impact_depth; /* [m] full damping from here on, of IMPACT */
+    double mu;           /* [-] damping factor of the restitution laws, 0 for the others */
+    double impact_floor; /* [m/s] smallest v0 */
 } dmb_normal_law;
 
 /* The law with mu from the restitution e in 0 .. 1; for FLORES and EXACT, whose mu grows like 1/e, e below 1e-6 counts
@@ -32,9 +32,9 @@ double dmb_exact_restitution_factor(double e);
 double dmb_normal_factor_slope(const dmb_normal_law *law, double e);
 
 /* Force [N/m, >= 0, pushing the bodies apart] at penetration depth [m] growing at rate [m/s], and its derivatives
- * [N/m2] and [N s/m2]. approach_speed [m/s]: d' at first touch, kept by the caller. 0 with zero derivatives for depth
+ * [N/m2] and [N s/m2]. impact_speed [m/s]: d' at first touch, kept by the caller. 0 with zero derivatives for depth
  * <= 0 and where the law would pull. NaN in, NaN out. */
-void dmb_normal_force(const dmb_normal_law *law, double depth, double rate, double approach_speed, double *force,
+void dmb_normal_force(const dmb_normal_law *law, double depth, double rate, double impact_speed, double *force,
                       double *d_depth, double *d_rate);
 
 /* [J/m] Elastic energy K d^(n+1)/(n+1) stored at penetration depth [m]; 0 for depth <= 0. */
@@ -69,10 +69,10 @@ static inline dmb_real dmb_normal_damping(const dmb_normal_law *law, dmb_real de
     return dmb_real_select(full, dmb_real_of(law->damping), law->damping * x * x * (3.0 - 2.0 * x));
 }
 
-/* At penetration depth > 0 [m] (or NaN) growing at rate [m/s], approach [m/s] the speed at first touch. The force is 0
- * with zero derivatives where the law would pull. */
-static inline void dmb_normal_response_at(const dmb_normal_law *law, dmb_real depth, dmb_real rate, dmb_real approach,
-                                          dmb_normal_response *out)
+/* At penetration depth > 0 [m] (or NaN) growing at rate [m/s], impact_speed [m/s] the speed at first touch. The force
+ * is 0 with zero derivatives where the law would pull. */
+static inline void dmb_normal_response_at(const dmb_normal_law *law, dmb_real depth, dmb_real rate,
+                                          dmb_real impact_speed, dmb_normal_response *out)
 {
     const dmb_real zero = dmb_real_of(0.0);
     out->force = out->elastic = out->d_depth = out->d_rate = zero;
@@ -85,7 +85,7 @@ static inline void dmb_normal_response_at(const dmb_normal_law *law, dmb_real de
         out->force = out->elastic + out->d_rate * rate;
         out->d_depth = law->exponent * stiffness + slope * rate;
     } else {
-        const dmb_real factor = law->mu / dmb_real_max(approach, dmb_real_of(law->approach_floor));
+        const dmb_real factor = law->mu / dmb_real_max(impact_speed, dmb_real_of(law->impact_floor));
         out->force = out->elastic * (1.0 + factor * rate);
         out->d_depth = law->exponent * stiffness * (1.0 + factor * rate);
         out->d_rate = out->elastic * factor;

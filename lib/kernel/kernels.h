@@ -80,7 +80,7 @@ typedef struct dmb_node_force_job {
 
 /* Fields of the contact sites in a configuration: the fields site_... of sim/sim.h. */
 typedef struct dmb_site_fields {
-    double *normal, *depth, *penetration, *approach, *slip, *bristle;
+    double *normal, *depth, *penetration, *impact_speed, *slip, *bristle;
     uint32_t *segment;
     int32_t *sticks;
 } dmb_site_fields;

@@ -17,7 +17,7 @@ typedef struct wall_group {
     dmb_real offset, clearance, length;
     dmb_real x[3];                                 /* [m] their centres, world */
     dmb_real R[9], normal[3], tangent[3], bend[3]; /* bend: [rad/m] body axes, of a hole that is not straight */
-    dmb_real penetration, approach;
+    dmb_real penetration, impact_speed;
     dmb_contact_frame frame;
 #if DMB_REAL_LANES == 1
     dmb_section_contact section; /* of a hole of sections, whose rings come one by one */
@@ -128,19 +128,19 @@ static inline dmb_real speed_before(const dmb_wall_job *job, const wall_group *g
 
 /* Speed v0 of the restitution laws: that at the last accepted instant before touching. While open the field follows
  * the present normal speed. A ring that opens and falls back within one step comes as fast as it left. */
-static inline void approach_speed(const dmb_wall_job *job, wall_group *g)
+static inline void take_impact_speed(const dmb_wall_job *job, wall_group *g)
 {
     const dmb_real zero = dmb_real_of(0.0);
     const dmb_real back = load_line(job->site_return, &g->site);
     const dmb_real penetration = load_line(job->now.penetration, &g->site);
-    const dmb_real approach = load_line(job->now.approach, &g->site);
+    const dmb_real impact_speed = load_line(job->now.impact_speed, &g->site);
     const dmb_mask touches = dmb_mask_less(zero, g->penetration), returns = dmb_mask_less(zero, back);
     const dmb_mask touched = dmb_mask_less(zero, penetration);
-    dmb_real closed = approach;
+    dmb_real closed = impact_speed;
     if (dmb_mask_any(touches & dmb_mask_not(touched | returns)))
-        closed = dmb_real_select(touched, approach, speed_before(job, g));
+        closed = dmb_real_select(touched, impact_speed, speed_before(job, g));
     closed = dmb_real_select(returns, back, closed);
-    g->approach = dmb_real_select(touches, closed, dmb_real_select(touched, approach, g->frame.speed[0]));
+    g->impact_speed = dmb_real_select(touches, closed, dmb_real_select(touched, impact_speed, g->frame.speed[0]));
 }
 
 #if DMB_REAL_LANES == 1
@@ -175,9 +175,9 @@ static inline void place_rings(const dmb_wall_job *job, wall_group *g)
     if (has_sections(job)) enter_section(job, g);
 #endif
     g->penetration = g->frame.distance - g->clearance;
-    approach_speed(job, g);
+    take_impact_speed(job, g);
     store_line(g->penetration, &g->site, job->trial.penetration);
-    store_line(g->approach, &g->site, job->trial.approach);
+    store_line(g->impact_speed, &g->site, job->trial.impact_speed);
     store(g->frame.speed + 1, 2, &g->site, job->trial.slip);
 }
 
@@ -293,7 +293,7 @@ static inline void add_forces(dmb_wall_job *job, const wall_group *g, uint32_t t
 static inline void press_section(dmb_wall_job *job, wall_group *g, const dmb_contact_force *c, double wrench[6])
 {
     const int memory = job->dynamic && job->friction_law != NULL && job->friction_law->kind == DMB_FRICTION_BRISTLE;
-    dmb_section_force(&g->frame, c, g->length, fmax(g->penetration, DMB_CONTACT_PENETRATION), g->approach, memory,
+    dmb_section_force(&g->frame, c, g->length, fmax(g->penetration, DMB_CONTACT_PENETRATION), g->impact_speed, memory,
                       job->friction_law != NULL, &g->section);
     dmb_vec3_axpy(g->section.along, g->frame.t, wrench);
     if (job->dynamic) job->potential -= g->section.stored * g->section.advance * dmb_vec3_dot(g->frame.t, g->frame.V);
@@ -309,7 +309,7 @@ static inline void press(dmb_wall_job *job, wall_group *g, uint32_t touching)
     dmb_real wrench[6];
     c.F[1] = c.F[2] = dmb_real_of(0.0);
     dmb_contact_normal_force(normal_law_of(job, g), &g->frame, g->length,
-                             dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->approach, &c);
+                             dmb_real_max(g->penetration, dmb_real_of(DMB_CONTACT_PENETRATION)), g->impact_speed, &c);
     if (friction) add_friction(job, g, &c);
     dmb_contact_wrench(&g->frame, &c, friction, wrench);
 #if DMB_REAL_LANES == 1

@@ -260,7 +260,7 @@ static void fill_laws(const dmb_model *model, dmb_scene *scene)
                                                            .exponent = w->exponent,
                                                            .damping = w->damping,
                                                            .impact_depth = w->impact_depth,
-                                                           .approach_floor = w->approach_speed},
+                                                           .impact_floor = w->approach_speed},
                                           w->restitution);
     scene->friction_law = law;
 }

@@ -59,9 +59,9 @@ static uint64_t add_elements(uint64_t h, const dmb_scene *s)
 static uint64_t add_laws(uint64_t h, const dmb_normal_law *n, const dmb_friction_law *f)
 {
     const double numbers[] = {
-        n->stiffness,      n->exponent,          n->damping,        n->impact_depth,   n->mu,
-        n->approach_floor, f->mu_static,         f->mu_dynamic,     f->stribeck_speed, f->smoothing_speed,
-        f->full_speed,     f->bristle_stiffness, f->bristle_damping};
+        n->stiffness,    n->exponent,          n->damping,        n->impact_depth,   n->mu,
+        n->impact_floor, f->mu_static,         f->mu_dynamic,     f->stribeck_speed, f->smoothing_speed,
+        f->full_speed,   f->bristle_stiffness, f->bristle_damping};
     h = dmb_fnv_word(h, (uint32_t)n->kind);
     h = dmb_fnv_word(h, (uint32_t)f->kind);
     return DMB_NUMBERS(h, numbers);

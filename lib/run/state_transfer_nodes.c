@@ -261,7 +261,7 @@ static void transfer_site(dmb_sim *sim, uint32_t s, const dmb_sim *from, uint32_
     DMB_COPY_SITE(site_depth, 1);
     DMB_COPY_SITE(site_segment, 1);
     DMB_COPY_SITE(site_penetration, 1);
-    DMB_COPY_SITE(site_approach, 1);
+    DMB_COPY_SITE(site_impact_speed, 1);
     DMB_COPY_SITE(site_slip, 2);
 }
 
@@ -282,7 +282,7 @@ static void begin_site(dmb_sim *sim, uint32_t s)
     memcpy(sim->now.site_normal + 3 * (size_t)s, down, sizeof down);
     sim->now.site_depth[s] = sim->scene->reference_depth[site->node] + site->offset;
     sim->now.site_segment[s] = 0;
-    sim->now.site_penetration[s] = sim->now.site_approach[s] = 0.0;
+    sim->now.site_penetration[s] = sim->now.site_impact_speed[s] = 0.0;
     memset(sim->now.site_slip + 2 * (size_t)s, 0, 2 * sizeof(double));
     if (!dmb_scene_has_bristles(sim->scene)) return;
     memset(sim->now.site_bristle + 2 * (size_t)s, 0, 2 * sizeof(double));

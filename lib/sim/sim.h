@@ -34,7 +34,7 @@
     X(double, site_depth, s, NUMBERS)             /* [m] measured depth of the closest axis point */                  \
     X(uint32_t, site_segment, s, SEGMENTS)        /* [-] segment of the hole's axis it was found in */                \
     X(double, site_penetration, s, NUMBERS)       /* [m] < 0: gap */                                                  \
-    X(double, site_approach, s, NUMBERS)          /* [m/s] normal speed at the start of the present contact */        \
+    X(double, site_impact_speed, s, NUMBERS)      /* [m/s] normal speed at the start of the present contact */        \
     X(double, site_slip, 2 * s, NUMBERS)          /* [m/s] along the axis and around it */                            \
     X(double, site_bristle, 2 * sb, NUMBERS)      /* [m] bristle deflection, same directions */                       \
     X(int32_t, site_sticks, sb, FLAGS)            /* [-] 1 while the bristle law holds it */                          \

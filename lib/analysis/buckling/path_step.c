@@ -14,11 +14,11 @@
 double dmb_path_dot(const dmb_path *path, const double *a, const double *b)
 {
     const dmb_scene *scene = path->work->scene;
-    const double turning = scene->length_scale * scene->length_scale;
+    const double of_rotations = scene->length_scale * scene->length_scale;
     double sum = 0.0;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
-        for (uint32_t c = 0; c < size; c++) sum += (2 * c < size ? 1.0 : turning) * a[row + c] * b[row + c];
+        for (uint32_t c = 0; c < size; c++) sum += (2 * c < size ? 1.0 : of_rotations) * a[row + c] * b[row + c];
     }
     return sum / scene->node_count;
 }
@@ -198,10 +198,10 @@ int32_t dmb_path_event(const dmb_path *path)
 static void weigh(const dmb_path *path, const double *x, double *out)
 {
     const dmb_scene *scene = path->work->scene;
-    const double turning = scene->length_scale * scene->length_scale;
+    const double of_rotations = scene->length_scale * scene->length_scale;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
-        for (uint32_t c = 0; c < size; c++) out[row + c] = (2 * c < size ? 1.0 : turning) * x[row + c];
+        for (uint32_t c = 0; c < size; c++) out[row + c] = (2 * c < size ? 1.0 : of_rotations) * x[row + c];
     }
 }
 

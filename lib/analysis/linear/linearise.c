@@ -301,12 +301,12 @@ void dmb_linear_judge_rounding(dmb_linear *linear)
 static double rounding_of(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
-    const double turning = scene->length_scale * scene->length_scale;
+    const double of_rotations = scene->length_scale * scene->length_scale;
     double most = 0.0;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const uint32_t size = scene->layout.size[i], row = scene->layout.row[i];
         for (uint32_t c = 0; c < size; c++) {
-            const double weight = 2 * c < size ? 1.0 : turning;
+            const double weight = 2 * c < size ? 1.0 : of_rotations;
             const double stiffness = dmb_stiffness_of(sim, i)[(size_t)(size + 1) * c] / weight;
             if (scene->solved_row[row + c]) most = fmax(most, fabs(stiffness));
         }

@@ -43,7 +43,7 @@ static void slide_node(dmb_steady *steady, dmb_sim *sim, uint32_t node, double v
 {
     const dmb_scene *scene = sim->scene;
     const uint32_t row = scene->layout.row[node];
-    double R[9], x[3], along[3], turning[3] = {0.0, 0.0, 0.0};
+    double R[9], x[3], along[3], frame_rate[3] = {0.0, 0.0, 0.0};
     double *g = steady->frame_velocity + row, *V = sim->trial.velocity + row, *a = sim->trial.acceleration + row;
     position_of(sim, node, R, x);
     if (scene->has_hole) {
@@ -51,9 +51,9 @@ static void slide_node(dmb_steady *steady, dmb_sim *sim, uint32_t node, double v
         uint32_t segment = 0;
         dmb_hole_project(&scene->hole, x, &s, &segment, point, along);
         dmb_hole_frame(&scene->hole, s, point, NULL, curvature);
-        dmb_vec3_cross(along, curvature, turning);
+        dmb_vec3_cross(along, curvature, frame_rate);
         dmb_mat3_tvec(R, along, g);
-        dmb_mat3_tvec(R, turning, g + 3);
+        dmb_mat3_tvec(R, frame_rate, g + 3);
     } else {
         dmb_vec3_set(1.0, 0.0, 0.0, g);
         dmb_vec3_zero(g + 3);

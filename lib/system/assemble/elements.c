@@ -19,7 +19,7 @@ static double span_of(const dmb_scene *scene, uint32_t e, const double *ua, cons
 }
 
 /* Inputs and outputs of the kernels for a batch: its nodes, rows and blocks follow one another. */
-static dmb_beam_job run_of(const dmb_sim *sim, const dmb_batch *batch)
+static dmb_beam_job job_of(const dmb_sim *sim, const dmb_batch *batch)
 {
     const dmb_scene *scene = sim->scene;
     const uint32_t e = batch->first, a = scene->element_node[e], row = scene->layout.row[a];
@@ -51,7 +51,7 @@ static dmb_beam_job run_of(const dmb_sim *sim, const dmb_batch *batch)
 /* Forces and tangents of the SE(3) elements of a batch in lanes (element/beam_element.h); powers are summed on. */
 static int32_t gather_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
-    dmb_beam_job job = run_of(evaluation->sim, batch);
+    dmb_beam_job job = job_of(evaluation->sim, batch);
     job.mass_factor = evaluation->mass_factor;
     job.velocity_factor = evaluation->velocity_factor;
     job.dynamic = evaluation->dynamic;
@@ -284,7 +284,7 @@ void dmb_system_extrapolate_stress(dmb_sim *sim, const double *correction)
     const dmb_scene *scene = sim->scene;
     for (uint32_t i = 0; i < scene->batch_count; i++) {
         if (scene->batches[i].kernel != DMB_KERNEL_BEAM) continue;
-        dmb_beam_job job = run_of(sim, scene->batches + i);
+        dmb_beam_job job = job_of(sim, scene->batches + i);
         job.velocity = correction + scene->layout.row[scene->element_node[scene->batches[i].first]];
         scene->kernels->extrapolate(&job);
     }

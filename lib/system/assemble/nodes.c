@@ -12,7 +12,7 @@
 
 /* Inputs and outputs of the kernels for `count` FULL nodes from `node` on; `rigid_mass` is the first that may be on
  * them. */
-static dmb_node_force_job run_of(const dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
+static dmb_node_force_job job_of(const dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
 {
     const dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
@@ -45,7 +45,7 @@ static dmb_node_force_job run_of(const dmb_evaluation *evaluation, uint32_t node
 
 static void gather_full(dmb_evaluation *evaluation, uint32_t node, uint32_t count, uint32_t rigid_mass)
 {
-    dmb_node_force_job job = run_of(evaluation, node, count, rigid_mass);
+    dmb_node_force_job job = job_of(evaluation, node, count, rigid_mass);
     if (!job.gravity && !job.damping && !job.rigid_mass_count) return;
     job.inertia_power = evaluation->power[DMB_POWER_INERTIA];
     job.potential = evaluation->power[DMB_POWER_POTENTIAL];

@@ -25,7 +25,7 @@ void dmb_contact_slope_of(const dmb_scene *scene, const dmb_configuration *c, ui
         const double length = scene->sites[site].length;
         const dmb_normal_law law = dmb_normal_law_at(&scene->hole, &scene->normal_law, c->site_depth[site]);
         double force;
-        dmb_normal_force(&law, fmax(f.penetration, DMB_CONTACT_PENETRATION), f.rate, c->site_approach[site], &force,
+        dmb_normal_force(&law, fmax(f.penetration, DMB_CONTACT_PENETRATION), f.rate, c->site_impact_speed[site], &force,
                          &out->normal_by_depth, &out->normal_by_rate);
         out->normal_by_depth *= length;
         out->normal_by_rate *= length;
@@ -110,7 +110,7 @@ static dmb_site_fields fields_of(const dmb_configuration *configuration)
         .normal = configuration->site_normal,
         .depth = configuration->site_depth,
         .penetration = configuration->site_penetration,
-        .approach = configuration->site_approach,
+        .impact_speed = configuration->site_impact_speed,
         .slip = configuration->site_slip,
         .bristle = configuration->site_bristle,
         .segment = configuration->site_segment,
@@ -257,7 +257,7 @@ static double site_frame_of(const dmb_scene *scene, const dmb_configuration *c, 
 /* The wall's constants at a ring at that depth, its way in and how fast it grows (force/hole_section.h); friction gets
  * its own law. */
 static void local_force(const dmb_scene *scene, const dmb_site *site, double depth, const dmb_contact_frame *f,
-                        double approach, double still, dmb_friction_law *friction, dmb_site_force *out)
+                        double impact_speed, double still, dmb_friction_law *friction, dmb_site_force *out)
 {
     dmb_local_wall wall;
     double point[3], k[3], by_depth, by_rate;
@@ -268,7 +268,7 @@ static void local_force(const dmb_scene *scene, const dmb_site *site, double dep
     out->rate = f->speed[0] - rho * dmb_vec3_dot(f->t, f->V);
     *friction = wall.friction;
     if (!(out->penetration > 0.0)) return;
-    dmb_normal_force(&wall.normal, out->penetration, still * out->rate, approach, &out->normal_force, &by_depth,
+    dmb_normal_force(&wall.normal, out->penetration, still * out->rate, impact_speed, &out->normal_force, &by_depth,
                      &by_rate);
     out->normal_force *= site->length;
     out->along = rho * out->normal_force -
@@ -292,11 +292,11 @@ void dmb_site_force_of(const dmb_scene *scene, const dmb_configuration *configur
     const double *assumed = configuration->friction_slip;
     const double still = assumed[0] != 0.0 || assumed[1] != 0.0 ? 0.0 : 1.0; /* statics know no speed */
     if (scene->hole.pieces > 0) {
-        local_force(scene, site, place, &f, configuration->site_approach[s], still, &local, out);
+        local_force(scene, site, place, &f, configuration->site_impact_speed[s], still, &local, out);
         law = &local;
     } else if (out->penetration > 0.0 || site->clearance == 0.0) {
         dmb_normal_force(&scene->normal_law, fmax(out->penetration, DMB_CONTACT_PENETRATION), still * out->rate,
-                         configuration->site_approach[s], &out->normal_force, &depth, &dot);
+                         configuration->site_impact_speed[s], &out->normal_force, &depth, &dot);
         out->normal_force *= site->length;
         out->closed = 1;
     }
@@ -336,7 +336,7 @@ void dmb_contacts_forget(dmb_sim *sim)
         memset(sim->trial.site_bristle, 0, 2 * scene->site_count * sizeof(double));
         memset(sim->trial.path_bristle, 0, 2 * scene->path_site_count * sizeof(double));
     }
-    memset(sim->trial.site_approach, 0, scene->site_count * sizeof(double));
+    memset(sim->trial.site_impact_speed, 0, scene->site_count * sizeof(double));
 }
 
 /* So far beyond the limit that rounding does not make a bristle stick. */

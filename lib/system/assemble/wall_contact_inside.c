@@ -50,7 +50,7 @@ static void shift_fields(dmb_site_fields *fields, uint32_t s, int32_t bristles)
     fields->normal += 3 * (size_t)s;
     fields->depth += s;
     fields->penetration += s;
-    fields->approach += s;
+    fields->impact_speed += s;
     fields->slip += 2 * (size_t)s;
     fields->segment += s;
     if (!bristles) return;

@@ -86,7 +86,7 @@ static dmb_normal_law law_of(int32_t kind, double stiffness, double exponent, do
                                              .exponent = exponent,
                                              .damping = 0.0,
                                              .impact_depth = 1e-4,
-                                             .approach_floor = 1e-6},
+                                             .impact_floor = 1e-6},
                             restitution);
     return law;
 }
@@ -192,7 +192,7 @@ static void impact_function(void **state)
                                              .exponent = 1.5,
                                              .damping = 1e4,
                                              .impact_depth = 1e-4,
-                                             .approach_floor = 0.01},
+                                             .impact_floor = 0.01},
                             0.0);
     const struct contact c = integrate(&law, 1.0, 0.0, 1.0, 1e-8);
     CHECK_RELATIVE(c.out, 0.016359349, 1e-4);
@@ -215,7 +215,7 @@ static void kelvin_voigt(void **state)
                                              .exponent = 1.0,
                                              .damping = 2 * zeta * omega,
                                              .impact_depth = 1e-4,
-                                             .approach_floor = 0.01},
+                                             .impact_floor = 0.01},
                             0.0);
     const struct contact c = integrate(&law, 1.0, 0.0, 1.0, 1e-7);
     const double angle = atan2(2 * zeta * sqrt(1 - zeta * zeta), 2 * zeta * zeta - 1);
@@ -255,7 +255,7 @@ static void derivatives(void **state)
                                                  .exponent = exponents[i / 6 % 4],
                                                  .damping = 2e3,
                                                  .impact_depth = 1e-4,
-                                                 .approach_floor = 0.01},
+                                                 .impact_floor = 0.01},
                                 draw(&seed, 0.1, 1));
         const double d = draw(&seed, 2e-6, 2.5e-4), rate = draw(&seed, -0.5, 0.5), v0 = draw(&seed, 0, 1);
         double force, d_depth, d_rate;
@@ -298,7 +298,7 @@ static void no_contact_and_nonsense(void **state)
                                                  .exponent = 1.5,
                                                  .damping = 1e3,
                                                  .impact_depth = 1e-4,
-                                                 .approach_floor = 0.0},
+                                                 .impact_floor = 0.0},
                                 0.5);
         for (int i = 0; i < 2; ++i) {
             dmb_normal_force(&law, i == 0 ? 0.0 : -1e-3, 5.0, 1.0, &force, &d_depth, &d_rate);
@@ -315,7 +315,7 @@ static void no_contact_and_nonsense(void **state)
                                                  .exponent = 1.5,
                                                  .damping = 1e3,
                                                  .impact_depth = 0.0,
-                                                 .approach_floor = 0.01},
+                                                 .impact_floor = 0.01},
                                 0.0); /* e = 0, impact depth 0 */
         dmb_normal_force(&law, 1e-5, 0.1, 0.0, &force, &d_depth, &d_rate);
         assert_true(isfinite(force) && isfinite(d_depth) && isfinite(d_rate));

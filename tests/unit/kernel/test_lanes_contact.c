@@ -18,13 +18,15 @@ typedef struct wall_input {
     uint32_t row[NODES], diagonal[NODES];
     double reference[3 * NODES], displacement[3 * NODES], quaternion[4 * NODES], velocity[ROWS];
     double now_quaternion[4 * NODES], now_velocity[ROWS], site_return[SITES];
-    double normal[3 * SITES], depth[SITES], penetration[SITES], approach[SITES], slip[2 * SITES], bristle[2 * SITES];
+    double normal[3 * SITES], depth[SITES], penetration[SITES], impact_speed[SITES], slip[2 * SITES],
+        bristle[2 * SITES];
     uint32_t segment[SITES];
     int32_t sticks[SITES];
 } wall_input;
 
 typedef struct wall_output {
-    double normal[3 * SITES], depth[SITES], penetration[SITES], approach[SITES], slip[2 * SITES], bristle[2 * SITES];
+    double normal[3 * SITES], depth[SITES], penetration[SITES], impact_speed[SITES], slip[2 * SITES],
+        bristle[2 * SITES];
     double residual[ROWS], scale[ROWS], stiffness[BLOCKS], inertia[BLOCKS];
     double sums[4];
     uint32_t segment[SITES];
@@ -93,7 +95,7 @@ static void draw_sites(uint64_t *seed, int arms, wall_input *in)
     for (int i = 0; i < 3; i++) in->displacement[3 * 4 + i] = 0.0; /* node 4 on the axis of the straight hole */
     draw_all(seed, -1.0, 1.0, 3 * SITES, in->normal);
     draw_all(seed, -0.01, 0.01, SITES, in->penetration);
-    draw_all(seed, 0.0, 1.0, SITES, in->approach);
+    draw_all(seed, 0.0, 1.0, SITES, in->impact_speed);
     draw_all(seed, -0.5, 0.5, 2 * SITES, in->slip);
     draw_all(seed, -1e-4, 1e-4, 2 * SITES, in->bristle);
 }
@@ -106,7 +108,7 @@ static void setup_laws(const wall_case *c, wall_input *in)
                                                         .exponent = c->exponent,
                                                         .damping = 2e4,
                                                         .impact_depth = 4e-3,
-                                                        .approach_floor = 1e-3},
+                                                        .impact_floor = 1e-3},
                                        0.6);
     in->friction_law = friction;
 }
@@ -152,10 +154,10 @@ static dmb_wall_job run_of(const wall_case *c, wall_input *in, wall_output *out,
         .velocity = in->velocity,
         .now_quaternion = in->now_quaternion,
         .now_velocity = in->now_velocity,
-        .now = {in->normal + 3 * first, in->depth + first, in->penetration + first, in->approach + first,
+        .now = {in->normal + 3 * first, in->depth + first, in->penetration + first, in->impact_speed + first,
                 in->slip + 2 * first, in->bristle + 2 * first, in->segment + first, in->sticks + first},
         .site_return = in->site_return + first,
-        .trial = {out->normal + 3 * first, out->depth + first, out->penetration + first, out->approach + first,
+        .trial = {out->normal + 3 * first, out->depth + first, out->penetration + first, out->impact_speed + first,
                   out->slip + 2 * first, out->bristle + 2 * first, out->segment + first, out->sticks + first},
         .slip = {0.1, 2.0},
         .step = 1e-3,

@@ -49,8 +49,8 @@ static inline void stir(rig *s, uint64_t seed)
     for (uint32_t i = 0; i < sim->scene->site_count; i++) push_into_wall(sim, i);
     stir_nodes(sim, &seed);
     for (uint32_t i = 0; i < sim->scene->site_count; i++) {
-        sim->now.site_penetration[i] = 1e-3; /* so the approach speed is not taken anew */
-        sim->now.site_approach[i] = 0.4;
+        sim->now.site_penetration[i] = 1e-3; /* so the speed of impact is not taken anew */
+        sim->now.site_impact_speed[i] = 0.4;
         if (bristles) sim->now.site_sticks[i] = (int32_t)(i % 2);
         for (uint32_t k = 0; k < 2 * bristles; k++)
             sim->now.site_bristle[2 * i + k] = draw_between(&seed, -0.003, 0.003);
