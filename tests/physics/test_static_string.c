@@ -325,6 +325,54 @@ static void elements_are_of_fourth_order(void **state)
     check_order("moment in the clamp, 8 and 16 elements", error[2].moment, error[3].moment, 4.0, 0.3);
 }
 
+/* ---- Held by nothing along the hole ------------------------------------------------------------------------------ */
+
+/* Sections and poses of a string with a heavy bit that may slide along its hole, and of one that may not. */
+static void lie(int32_t start_free, double pose[2][3], double *moment)
+{
+    rig s;
+    dmb_string_def def = dmb_string_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_section section = dmb_section_default();
+    dmb_wall_def wall = dmb_wall_def_default();
+    dmb_bit_def bit = dmb_bit_def_default();
+    def.start_free = start_free;
+    bit.rock_law = DMB_ROCK_RATE;
+    bit.bottom = 2e-3;
+    pipe.length = 1.5;
+    wall.stiffness = 1e7;
+    rig_open(&s, 0.0, 0.0, -9.81);
+    (void)add_wall(&s, &wall);
+    pipe.string = add_string(&s, &def);
+    const dmb_id string = add_pipes(&s, &pipe, 50);
+    must_model(&s, dmb_model_add_bit(s.model, &bit, NULL));
+    (void)rig_start(&s, NULL);
+    (void)find_equilibrium(&s, NULL);
+    for (uint32_t k = 0; k < 2; k++) {
+        const dmb_pose p = pose_at(&s, dmb_station(string, k ? 49 : 0, k ? 1.0 : 0.0));
+        for (int i = 0; i < 3; i++) pose[k][i] = p.position[i];
+    }
+    must(&s, dmb_query_section(s.sim, dmb_station(string, 48, 0.0), &section));
+    *moment = section.force[4];
+    rig_close(&s);
+}
+
+static void string_that_may_slide_stays(void **state)
+{
+    (void)state;
+    double held[2][3], free_along[2][3], free_too[2][3], moment[3];
+    lie(DMB_FREE_NONE, held, &moment[0]);
+    lie(DMB_FREE_X, free_along, &moment[1]);
+    lie(DMB_FREE_CYLINDRICAL, free_too, &moment[2]);
+    for (int i = 0; i < 3; i++) {
+        check_below("rig end", fabs(free_along[0][i] - held[0][i]), 1e-9);
+        check_below("bit", fabs(free_along[1][i] - held[1][i]), 1e-7);
+        check_below("rig end, rotation free too", fabs(free_too[0][i] - held[0][i]), 1e-9);
+        check_below("bit, rotation free too", fabs(free_too[1][i] - held[1][i]), 1e-7);
+    }
+    check_relative("bending moment", moment[1], moment[0], 1e-6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -333,6 +381,7 @@ int main(void)
         cmocka_unit_test(load_steps_choose_themselves),     cmocka_unit_test(string_falls_on_the_wall),
         cmocka_unit_test(string_falls_from_the_axis),       cmocka_unit_test(long_strings_cost_in_proportion),
         cmocka_unit_test(forces_do_not_depend_on_the_mesh), cmocka_unit_test(elements_are_of_fourth_order),
+        cmocka_unit_test(string_that_may_slide_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -158,7 +158,8 @@ static int32_t search_equilibrium(dmb_static_search *search, int32_t *method)
     const int singular = status == DMB_ERR_SINGULAR;
     *method = DMB_STATIC_RELAXATION;
     status = relax(search, steps, singular);
-    if (status >= 0 || !(singular || search->loose)) return status;
+    if (status >= 0) return dmb_static_take_back(search);
+    if (!(singular || search->loose)) return status;
     search->block = singular ? singular_block : search->loose_block;
     return DMB_ERR_SINGULAR;
 }

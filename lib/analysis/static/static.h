@@ -103,6 +103,8 @@ int32_t dmb_static_newton(dmb_static_search *search);
 /* Pseudo-transient continuation: (K + D/tau^2) z = -residual with growing tau and limited corrections (Kelley, Keyes
  * 1998); slower and surer. */
 int32_t dmb_static_relaxation(dmb_static_search *search);
+/* Strings that nothing holds along their hole go back to where their rig end was, if they rest there too. */
+int32_t dmb_static_take_back(dmb_static_search *search);
 
 /* Puts the message of a search that failed: the part, the figure and its bound, and what may help. */
 void dmb_static_explain(dmb_static_search *search, int32_t status);

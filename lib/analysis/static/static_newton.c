@@ -2,6 +2,8 @@
 
 #include "analysis/linear/linearise.h"
 #include "analysis/static/static.h"
+#include "math/so3.h"
+#include "math/vec3.h"
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "system/assemble/elements.h"
@@ -252,6 +254,60 @@ int32_t dmb_static_relaxation(dmb_static_search *search)
         status = dmb_static_move(search, sim->correction, 1.0);
         if (status < 0) return status;
     }
+}
+
+/* ---- Along a straight hole ---------------------------------------------------------------------------------------
+ * Nothing but pseudo mass holds a string there, and corrections far from equilibrium leave it a little way off: any
+ * place along it is as good. It is put where its rig end was, where that is in equilibrium too. */
+
+/* The correction that takes a chain back along the axis of its first node; [m] how far. */
+static double way_back(dmb_sim *sim, const dmb_chain *chain)
+{
+    const dmb_scene *scene = sim->scene;
+    const double *u = sim->trial.displacement + 3 * (size_t)chain->first;
+    const double along[3] = {1.0, 0.0, 0.0};
+    double axis[3], moved[3], z[3];
+    memset(sim->correction, 0, scene->row_count * sizeof(double));
+    if (scene->layout.size[chain->first] != DMB_NODE_FULL) return 0.0;
+    dmb_quat_rotate(sim->trial.quaternion + 4 * (size_t)chain->first, along, axis);
+    dmb_vec3_sub(u, sim->now.displacement + 3 * (size_t)chain->first, moved);
+    const double way = dmb_vec3_dot(moved, axis);
+    for (uint32_t i = chain->first; i < chain->first + chain->count; i++) {
+        if (scene->layout.size[i] != DMB_NODE_FULL) return 0.0;
+        dmb_quat_rotate_inverse(sim->trial.quaternion + 4 * (size_t)i, axis, z);
+        for (uint32_t c = 0; c < 3; c++)
+            if (scene->solved_row[scene->layout.row[i] + c]) sim->correction[scene->layout.row[i] + c] = -way * z[c];
+    }
+    return fabs(way);
+}
+
+static int32_t evaluate_again(dmb_static_search *search, double *relative)
+{
+    search->evaluation.extrapolated = 0;
+    const int32_t status = dmb_static_evaluate(search);
+    *relative = dmb_residual_norm_of(&search->evaluation, search->options->tolerance).relative;
+    return status;
+}
+
+static int32_t take_back(dmb_static_search *search, const dmb_chain *chain)
+{
+    double before, after;
+    int32_t status = evaluate_again(search, &before);
+    if (status < 0 || !(way_back(search->sim, chain) > 0.0)) return status;
+    status = dmb_static_move(search, search->sim->correction, 1.0);
+    if (status >= 0) status = evaluate_again(search, &after);
+    if (status < 0 || after <= fmax(search->options->tolerance, 2.0 * before)) return status;
+    dmb_static_move_back(search, search->sim->correction, 1.0);
+    return evaluate_again(search, &after);
+}
+
+int32_t dmb_static_take_back(dmb_static_search *search)
+{
+    const dmb_scene *scene = search->sim->scene;
+    int32_t status = DMB_OK;
+    if (!search->winding || scene->cluster_count) return DMB_OK;
+    for (uint32_t c = 0; c < scene->chain_count && status >= 0; c++) status = take_back(search, scene->chains + c);
+    return status;
 }
 
 /* ---- Load steps -------------------------------------------------------------------------------------------------- */

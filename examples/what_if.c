@@ -1,9 +1,8 @@
-/* How does a rig's own controller run against the model?
+/* What would a harder controller have done?
  *
- * The control unit asks for one step of 1 ms every millisecond and must never wait: bounded_work gives each step the
- * same number of iterations at most. A torque drive is the actuator, the controller is the user's, here a PI law with
- * its limits. Before the load on the bit rises the state is saved; later the unit goes back to it and looks at what a
- * harder controller would have done. */
+ * A torque drive is the actuator, the controller is the user's, here a PI law with its limits. Before the load on the
+ * bit rises the state is saved; later the run goes back to it and tries another gain on the same past. (The controller
+ * of a whole rig at 1 kHz is control_loop.) */
 #include <drillmbd/drillmbd.h>
 #include <math.h>
 #include <stdio.h>
@@ -146,7 +145,10 @@ static int32_t experiment(rig *r)
 
 int main(int count, char **words)
 {
-    if (count > 1) return command_line(count, words, "How does a rig's own controller run against the model?", NULL, 0);
+    if (count > 1)
+        return command_line(count, words,
+                            "What would a harder controller have done? A saved state is gone on from with two gains.",
+                            NULL, 0);
     rig r = {0};
     dmb_statistics statistics = dmb_statistics_default();
     int32_t status = describe(&r);
