@@ -13,7 +13,7 @@
 // A member that fails throws drillmbd::error; one that is done returns its answer, or the status where that may be a
 // note (> 0). The members named try_ and the create functions throw nothing and return the status instead; without
 // exceptions in the compiler they are what there is, next to the C functions on get(). Owners are one pointer wide, and
-// the members are inline calls of C functions.
+// the members are inline calls of C functions. Since C++17 a status or an answer that is thrown away is a warning.
 #ifndef DRILLMBD_DRILLMBD_HPP
 #define DRILLMBD_DRILLMBD_HPP
 
@@ -22,13 +22,21 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <type_traits>
+#include <utility>
+
+#if defined(__cplusplus) && __cplusplus >= 201703L
+#define DRILLMBD_NODISCARD [[nodiscard]]
+#else
+#define DRILLMBD_NODISCARD
+#endif
 
 #if defined(__cpp_exceptions) || defined(__EXCEPTIONS) || defined(_CPPUNWIND)
 #define DRILLMBD_EXCEPTIONS 1
 #include <algorithm>
 #include <array>
 #include <exception>
-#include <initializer_list>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -36,21 +44,83 @@
 
 namespace drillmbd {
 
+// Several values of the caller side by side: made of a vector, an array, a list in braces, std::span, or a pointer with
+// a number. It holds nothing: what it looks at lives at least as long as the call.
+template <typename T>
+class span {
+public:
+    span() noexcept : data_(nullptr), size_(0) {}
+    span(T *data, std::size_t size) noexcept : data_(data), size_(size) {}
+    template <std::size_t N>
+    span(T (&array)[N]) noexcept : data_(array), size_(N)
+    {
+    }
+    span(std::initializer_list<typename std::remove_const<T>::type> list) noexcept : span()
+    {
+        data_ = list.begin();
+        size_ = list.size();
+    }
+    template <typename Container, typename = typename std::enable_if<std::is_convertible<
+                                      decltype(std::declval<Container &>().data()), T *>::value>::type>
+    span(Container &&container) noexcept : data_(container.data()), size_(container.size())
+    {
+    }
+    DRILLMBD_NODISCARD T *data() const noexcept { return data_; }
+    DRILLMBD_NODISCARD std::size_t size() const noexcept { return size_; }
+    // As the C functions count; what is beyond is refused by them.
+    DRILLMBD_NODISCARD std::uint32_t count() const noexcept
+    {
+        return size_ < UINT32_MAX ? static_cast<std::uint32_t>(size_) : UINT32_MAX;
+    }
+    DRILLMBD_NODISCARD T *begin() const noexcept { return data_; }
+    DRILLMBD_NODISCARD T *end() const noexcept { return data_ + size_; }
+    DRILLMBD_NODISCARD T &operator[](std::size_t i) const noexcept { return data_[i]; }
+
+private:
+    T *data_;
+    std::size_t size_;
+};
+
 #if defined(DRILLMBD_EXCEPTIONS)
 // A call that was refused or failed, with nothing changed. what() is "DMB_ERR_VALUE: pipe 3: length = -1, must be ...".
+// Messages that refuse a value have four parts: which part, which field and value, which bound, and what to do about
+// it.
 class error : public std::runtime_error {
 public:
     explicit error(std::int32_t failed, const char *message = nullptr)
-        : std::runtime_error(std::string(dmb_status_name(failed)) + ": " +
-                             (message != nullptr && *message != '\0' ? message : dmb_status_text(failed))),
-          status_(failed)
+        : std::runtime_error(std::string(dmb_status_name(failed)) + ": " + text_of(failed, message)), status_(failed)
     {
+        take_apart(text_of(failed, message));
     }
-    std::int32_t status() const noexcept { return status_; }
-    const char *name() const noexcept { return dmb_status_name(status_); }
+    DRILLMBD_NODISCARD std::int32_t status() const noexcept { return status_; }
+    DRILLMBD_NODISCARD const char *name() const noexcept { return dmb_status_name(status_); }
+    // "pipe 3", "length", "-1 m", "be > 0", "give ...": empty where the message has no such part.
+    DRILLMBD_NODISCARD const std::string &part() const noexcept { return part_; }
+    DRILLMBD_NODISCARD const std::string &field() const noexcept { return field_; }
+    DRILLMBD_NODISCARD const std::string &value() const noexcept { return value_; }
+    DRILLMBD_NODISCARD const std::string &bound() const noexcept { return bound_; }
+    DRILLMBD_NODISCARD const std::string &advice() const noexcept { return advice_; }
 
 private:
+    static std::string text_of(std::int32_t failed, const char *message)
+    {
+        return message != nullptr && *message != '\0' ? message : dmb_status_text(failed);
+    }
+    // part: field = value, must bound; advice
+    void take_apart(const std::string &text)
+    {
+        const std::size_t npos = std::string::npos, equals = text.find(" = "), must = text.find(", must ");
+        if (equals == npos || must == npos || equals > must) return;
+        const std::size_t colon = text.rfind(": ", equals), end = text.find(';', must);
+        if (colon != npos) part_ = text.substr(0, colon);
+        const std::size_t field = colon == npos ? 0 : colon + 2;
+        field_ = text.substr(field, equals - field);
+        value_ = text.substr(equals + 3, must - equals - 3);
+        bound_ = text.substr(must + 7, end == npos ? npos : end - must - 7);
+        if (end != npos) advice_ = text.substr(std::min(text.find_first_not_of("; ", end), text.size()));
+    }
     std::int32_t status_;
+    std::string part_, field_, value_, bound_, advice_;
 };
 
 // Throws for a failure; hands back 0 and notes.
@@ -58,6 +128,65 @@ inline std::int32_t check(std::int32_t status, const char *message = nullptr)
 {
     if (status < 0) throw error(status, message);
     return status;
+}
+#endif
+
+// ---- Callbacks ------------------------------------------------------------------------------------------------------
+#if defined(DRILLMBD_EXCEPTIONS)
+// A function object as a callback: it takes what the C function takes, without the context, and returns its number or
+// nothing. The caller keeps it alive as long as models and sims that call it. An exception does not get into C: the
+// call fails with DMB_ERR_CALLBACK. Not for threads: sims on several threads call one object at once.
+template <typename Function, typename Result, typename... Arguments>
+struct guarded {
+    static Result call(void *context, Arguments... arguments) noexcept
+    {
+        return run(std::is_void<decltype((*static_cast<Function *>(context))(arguments...))>(), context, arguments...);
+    }
+
+private:
+    static Result run(std::true_type, void *context, Arguments... arguments) noexcept
+    {
+        try {
+            (*static_cast<Function *>(context))(arguments...);
+            return Result();
+        } catch (...) {
+            return failed(std::is_void<Result>());
+        }
+    }
+    static Result run(std::false_type, void *context, Arguments... arguments) noexcept
+    {
+        try {
+            return (*static_cast<Function *>(context))(arguments...);
+        } catch (...) {
+            return failed(std::is_void<Result>());
+        }
+    }
+    static void failed(std::true_type) noexcept {}
+    static Result failed(std::false_type) noexcept { return static_cast<Result>(-1); }
+};
+
+template <typename Function, typename Result, typename... Arguments>
+void bind(Result (*&slot)(void *, Arguments...), void *&context, Function &function) noexcept
+{
+    slot = &guarded<Function, Result, Arguments...>::call;
+    context = const_cast<void *>(static_cast<const void *>(&function));
+}
+
+// Of dmb_constraint_def, dmb_force_def, dmb_path_options.
+template <typename Def, typename Function>
+void set_callback(Def &def, Function &function) noexcept
+{
+    bind(def.callback, def.callback_context, function);
+}
+// A term that is function(time, out): out[0] its value, out[1] and out[2] what `provides` says.
+template <typename Function>
+DRILLMBD_NODISCARD dmb_term term_of(Function &function, std::int32_t provides = 0) noexcept
+{
+    dmb_term term = dmb_term_default();
+    term.kind = DMB_TERM_CALLBACK;
+    term.provides = provides;
+    bind(term.callback, term.callback_context, function);
+    return term;
 }
 #endif
 
@@ -74,9 +203,9 @@ public:
                   ? "pool: memory = NULL, must be a block of the caller's; give one"
                   : "pool: size [byte] must be at least 256 and end within the addresses; give more memory");
     }
-    const dmb_allocator *get() const noexcept { return &allocator_; }
+    DRILLMBD_NODISCARD const dmb_allocator *get() const noexcept { return &allocator_; }
     // [byte] in use at most, the pool's own 64 included.
-    std::size_t peak() const noexcept { return dmb_pool_peak(&allocator_); }
+    DRILLMBD_NODISCARD std::size_t peak() const noexcept { return dmb_pool_peak(&allocator_); }
 
 private:
     dmb_allocator allocator_;
@@ -99,7 +228,7 @@ public:
     ~model() { dmb_model_destroy(&handle_); }
 
     // Makes a model in out; what out had is given back. Returns the status.
-    static std::int32_t create(model &out, const dmb_model_options *options = nullptr) noexcept
+    DRILLMBD_NODISCARD static std::int32_t create(model &out, const dmb_model_options *options = nullptr) noexcept
     {
         dmb_model *made = nullptr;
         const std::int32_t status = dmb_model_create(options, &made);
@@ -107,10 +236,10 @@ public:
         return status;
     }
 
-    dmb_model *get() const noexcept { return handle_; }
+    DRILLMBD_NODISCARD dmb_model *get() const noexcept { return handle_; }
     explicit operator bool() const noexcept { return handle_ != nullptr; }
     // The handle, now the caller's to destroy.
-    dmb_model *release() noexcept
+    DRILLMBD_NODISCARD dmb_model *release() noexcept
     {
         dmb_model *given = handle_;
         handle_ = nullptr;
@@ -123,10 +252,10 @@ public:
         handle_ = handle;
     }
     // Of the last call on this model that failed; of a sim::create of it in this thread too.
-    const char *message() const noexcept { return dmb_model_message(handle_); }
+    DRILLMBD_NODISCARD const char *message() const noexcept { return dmb_model_message(handle_); }
     // Goes on without the parts that were refused: compile fails otherwise.
     void clear_refused() noexcept { (void)dmb_model_clear_refused(handle_); }
-    std::int32_t try_compile(const dmb_compile_options *options = nullptr) noexcept
+    DRILLMBD_NODISCARD std::int32_t try_compile(const dmb_compile_options *options = nullptr) noexcept
     {
         return dmb_model_compile(handle_, options);
     }
@@ -180,13 +309,13 @@ public:
     dmb_id add_stuck(const dmb_stuck_def &def) { return add(dmb_model_add_stuck, def); }
     void set_name(dmb_id part, const char *name) { done(dmb_model_set_name(handle_, part, name)); }
     // The part of that name; throws where there is none, or parts of several kinds have it and no kind is given.
-    dmb_id find(const char *name, std::int32_t kind = DMB_PART_ANY) const
+    DRILLMBD_NODISCARD dmb_id find(const char *name, std::int32_t kind = DMB_PART_ANY) const
     {
         dmb_id id = {0, 0};
         check(dmb_model_find(handle_, kind, name, &id)); // leaves no message
         return id;
     }
-    std::string name(dmb_id part) const
+    DRILLMBD_NODISCARD std::string name(dmb_id part) const
     {
         char text[DMB_NAME_SIZE];
         check(dmb_model_get_name(handle_, part, text, DMB_NAME_SIZE));
@@ -197,7 +326,7 @@ public:
         dmb_id string;
         std::uint32_t first, count;
     };
-    pipe_range find_pipes(const char *name) const
+    DRILLMBD_NODISCARD pipe_range find_pipes(const char *name) const
     {
         pipe_range found = {{0, 0}, 0, 0};
         check(dmb_model_find_pipes(handle_, name, &found.string, &found.first, &found.count));
@@ -205,19 +334,19 @@ public:
     }
     std::int32_t compile(const dmb_compile_options *options = nullptr) { return done(try_compile(options)); }
 
-    dmb_model_info info() const
+    DRILLMBD_NODISCARD dmb_model_info info() const
     {
         dmb_model_info answer = dmb_model_info_default();
         check(dmb_model_get_info(handle_, &answer)); // leaves no message
         return answer;
     }
-    dmb_hole_point hole(double depth) const
+    DRILLMBD_NODISCARD dmb_hole_point hole(double depth) const
     {
         dmb_hole_point answer = dmb_hole_point_default();
         check(dmb_query_hole(handle_, depth, &answer));
         return answer;
     }
-    std::size_t sim_memory_size(const dmb_sim_options *options = nullptr) const
+    DRILLMBD_NODISCARD std::size_t sim_memory_size(const dmb_sim_options *options = nullptr) const
     {
         std::size_t size = 0;
         check(dmb_sim_memory_size(handle_, options, &size));
@@ -258,10 +387,10 @@ public:
     buckling &operator=(const buckling &) = delete;
     ~buckling() { dmb_buckling_destroy(&handle_); }
 
-    dmb_buckling *get() const noexcept { return handle_; }
+    DRILLMBD_NODISCARD dmb_buckling *get() const noexcept { return handle_; }
     explicit operator bool() const noexcept { return handle_ != nullptr; }
     // The handle, now the caller's to destroy.
-    dmb_buckling *release() noexcept
+    DRILLMBD_NODISCARD dmb_buckling *release() noexcept
     {
         dmb_buckling *given = handle_;
         handle_ = nullptr;
@@ -273,23 +402,23 @@ public:
         dmb_buckling_destroy(&handle_);
         handle_ = handle;
     }
-    std::uint32_t size() const noexcept { return dmb_buckling_count(handle_); }
+    DRILLMBD_NODISCARD std::uint32_t size() const noexcept { return dmb_buckling_count(handle_); }
 
 #if defined(DRILLMBD_EXCEPTIONS)
-    dmb_buckling_info info() const
+    DRILLMBD_NODISCARD dmb_buckling_info info() const
     {
         dmb_buckling_info answer = dmb_buckling_info_default();
         check(dmb_buckling_get_info(handle_, &answer));
         return answer;
     }
-    double operator[](std::uint32_t mode) const
+    DRILLMBD_NODISCARD double operator[](std::uint32_t mode) const
     {
         double factor = 0.0;
         check(dmb_buckling_factor(handle_, mode, &factor));
         return factor;
     }
     // [m, rad] displacement and rotation of a section, world frame.
-    std::array<double, 6> shape(std::uint32_t mode, dmb_place place) const
+    DRILLMBD_NODISCARD std::array<double, 6> shape(std::uint32_t mode, dmb_place place) const
     {
         std::array<double, 6> answer{};
         check(dmb_buckling_shape(handle_, mode, place, answer.data()));
@@ -320,10 +449,10 @@ public:
     modes &operator=(const modes &) = delete;
     ~modes() { dmb_modes_destroy(&handle_); }
 
-    dmb_modes *get() const noexcept { return handle_; }
+    DRILLMBD_NODISCARD dmb_modes *get() const noexcept { return handle_; }
     explicit operator bool() const noexcept { return handle_ != nullptr; }
     // The handle, now the caller's to destroy.
-    dmb_modes *release() noexcept
+    DRILLMBD_NODISCARD dmb_modes *release() noexcept
     {
         dmb_modes *given = handle_;
         handle_ = nullptr;
@@ -337,20 +466,21 @@ public:
     }
 
 #if defined(DRILLMBD_EXCEPTIONS)
-    dmb_modes_info info() const
+    DRILLMBD_NODISCARD dmb_modes_info info() const
     {
         dmb_modes_info answer = dmb_modes_info_default();
         check(dmb_modes_get_info(handle_, &answer));
         return answer;
     }
-    std::uint32_t size() const { return info().count; }
-    dmb_mode operator[](std::uint32_t index) const
+    DRILLMBD_NODISCARD std::uint32_t size() const { return info().count; }
+    DRILLMBD_NODISCARD dmb_mode operator[](std::uint32_t index) const
     {
         dmb_mode answer = dmb_mode_default();
         check(dmb_modes_get(handle_, index, &answer));
         return answer;
     }
-    dmb_mode_shape shape(std::uint32_t index, const dmb_place &place, std::int32_t frame = DMB_FRAME_WORLD) const
+    DRILLMBD_NODISCARD dmb_mode_shape shape(std::uint32_t index, const dmb_place &place,
+                                            std::int32_t frame = DMB_FRAME_WORLD) const
     {
         dmb_mode_shape answer = dmb_mode_shape_default();
         answer.frame = frame;
@@ -358,7 +488,7 @@ public:
         return answer;
     }
     // [J] in a pipe of a string, in a whole string (pipe DMB_NONE), or (pipe 0) in a body or bit.
-    energies part(std::uint32_t index, dmb_id part, std::uint32_t pipe = DMB_NONE) const
+    DRILLMBD_NODISCARD energies part(std::uint32_t index, dmb_id part, std::uint32_t pipe = DMB_NONE) const
     {
         energies answer{};
         check(dmb_modes_part(handle_, index, part, pipe, &answer.kinetic, &answer.strain));
@@ -388,10 +518,10 @@ public:
     fatigue &operator=(const fatigue &) = delete;
     ~fatigue() { dmb_fatigue_destroy(&handle_); }
 
-    dmb_fatigue *get() const noexcept { return handle_; }
+    DRILLMBD_NODISCARD dmb_fatigue *get() const noexcept { return handle_; }
     explicit operator bool() const noexcept { return handle_ != nullptr; }
     // The handle, now the caller's to destroy.
-    dmb_fatigue *release() noexcept
+    DRILLMBD_NODISCARD dmb_fatigue *release() noexcept
     {
         dmb_fatigue *given = handle_;
         handle_ = nullptr;
@@ -406,7 +536,7 @@ public:
 
 #if defined(DRILLMBD_EXCEPTIONS)
     void take(const dmb_sim *sim) { check(dmb_fatigue_take(handle_, sim)); }
-    dmb_fatigue_result result(std::uint32_t place = 0) const
+    DRILLMBD_NODISCARD dmb_fatigue_result result(std::uint32_t place = 0) const
     {
         dmb_fatigue_result answer = dmb_fatigue_result_default();
         check(dmb_fatigue_get(handle_, place, &answer));
@@ -432,10 +562,10 @@ public:
     window &operator=(const window &) = delete;
     ~window() { dmb_window_destroy(&handle_); }
 
-    dmb_window *get() const noexcept { return handle_; }
+    DRILLMBD_NODISCARD dmb_window *get() const noexcept { return handle_; }
     explicit operator bool() const noexcept { return handle_ != nullptr; }
     // The handle, now the caller's to destroy.
-    dmb_window *release() noexcept
+    DRILLMBD_NODISCARD dmb_window *release() noexcept
     {
         dmb_window *given = handle_;
         handle_ = nullptr;
@@ -451,7 +581,7 @@ public:
 #if defined(DRILLMBD_EXCEPTIONS)
     void take(const dmb_sim *sim) { check(dmb_window_take(handle_, sim)); }
     void reset_samples() { check(dmb_window_reset(handle_)); }
-    dmb_window_result result(std::uint32_t channel = 0) const
+    DRILLMBD_NODISCARD dmb_window_result result(std::uint32_t channel = 0) const
     {
         dmb_window_result answer = dmb_window_result_default();
         check(dmb_window_get(handle_, channel, &answer));
@@ -477,10 +607,10 @@ public:
     state_space &operator=(const state_space &) = delete;
     ~state_space() { dmb_state_space_destroy(&handle_); }
 
-    dmb_state_space *get() const noexcept { return handle_; }
+    DRILLMBD_NODISCARD dmb_state_space *get() const noexcept { return handle_; }
     explicit operator bool() const noexcept { return handle_ != nullptr; }
     // The handle, now the caller's to destroy.
-    dmb_state_space *release() noexcept
+    DRILLMBD_NODISCARD dmb_state_space *release() noexcept
     {
         dmb_state_space *given = handle_;
         handle_ = nullptr;
@@ -498,14 +628,14 @@ public:
         std::vector<std::uint32_t> rows, columns;
         std::vector<double> values;
     };
-    dmb_state_space_info info() const
+    DRILLMBD_NODISCARD dmb_state_space_info info() const
     {
         dmb_state_space_info answer = dmb_state_space_info_default();
         check(dmb_state_space_get_info(handle_, &answer));
         return answer;
     }
     // DMB_MATRIX_A .. _D, row by row.
-    std::vector<double> dense(std::int32_t matrix) const
+    DRILLMBD_NODISCARD std::vector<double> dense(std::int32_t matrix) const
     {
         const dmb_state_space_info of = info();
         const std::size_t rows = matrix < DMB_MATRIX_C ? of.states : of.outputs;
@@ -516,7 +646,7 @@ public:
         return answer;
     }
     // DMB_MATRIX_MASS .. _COORDINATES.
-    triplets sparse(std::int32_t matrix) const
+    DRILLMBD_NODISCARD triplets sparse(std::int32_t matrix) const
     {
         std::uint64_t count = 0;
         check(dmb_state_space_sparse(handle_, matrix, nullptr, nullptr, nullptr, &count));
@@ -547,10 +677,10 @@ public:
     sensitivity &operator=(const sensitivity &) = delete;
     ~sensitivity() { dmb_sensitivity_destroy(&handle_); }
 
-    dmb_sensitivity *get() const noexcept { return handle_; }
+    DRILLMBD_NODISCARD dmb_sensitivity *get() const noexcept { return handle_; }
     explicit operator bool() const noexcept { return handle_ != nullptr; }
     // The handle, now the caller's to destroy.
-    dmb_sensitivity *release() noexcept
+    DRILLMBD_NODISCARD dmb_sensitivity *release() noexcept
     {
         dmb_sensitivity *given = handle_;
         handle_ = nullptr;
@@ -564,7 +694,7 @@ public:
     }
 #if defined(DRILLMBD_EXCEPTIONS)
     // Steps so far in which the parameter was not smooth.
-    std::uint64_t kinks(std::uint32_t parameter = 0) const
+    DRILLMBD_NODISCARD std::uint64_t kinks(std::uint32_t parameter = 0) const
     {
         std::uint64_t answer = 0;
         check(dmb_sensitivity_kinks(handle_, parameter, &answer));
@@ -597,10 +727,10 @@ public:
     response &operator=(const response &) = delete;
     ~response() { dmb_response_destroy(&handle_); }
 
-    dmb_response *get() const noexcept { return handle_; }
+    DRILLMBD_NODISCARD dmb_response *get() const noexcept { return handle_; }
     explicit operator bool() const noexcept { return handle_ != nullptr; }
     // The handle, now the caller's to destroy.
-    dmb_response *release() noexcept
+    DRILLMBD_NODISCARD dmb_response *release() noexcept
     {
         dmb_response *given = handle_;
         handle_ = nullptr;
@@ -615,20 +745,21 @@ public:
 
 #if defined(DRILLMBD_EXCEPTIONS)
     // Number of frequencies.
-    std::uint32_t size() const
+    DRILLMBD_NODISCARD std::uint32_t size() const
     {
         std::uint32_t shape[3];
         check(dmb_response_dimensions(handle_, shape));
         return shape[0];
     }
-    std::vector<double> frequencies() const
+    DRILLMBD_NODISCARD std::vector<double> frequencies() const
     {
         std::vector<double> answer(size());
         check(dmb_response_frequencies(handle_, answer.data()));
         return answer;
     }
     // Output per unit of an input, or for all of them together, at each frequency.
-    std::vector<std::complex<double>> transfer(std::uint32_t input = DMB_COMBINED, std::uint32_t output = 0) const
+    DRILLMBD_NODISCARD std::vector<std::complex<double>> transfer(std::uint32_t input = DMB_COMBINED,
+                                                                  std::uint32_t output = 0) const
     {
         std::vector<std::complex<double>> answer(size());
         check(dmb_response_transfer(handle_, input, output, reinterpret_cast<double *>(answer.data())));
@@ -675,7 +806,8 @@ public:
     ~sim() { dmb_sim_destroy(&handle_); }
 
     // Makes a sim in out; what out had is given back. Returns the status, which may be a note.
-    static std::int32_t create(sim &out, const model &of, const dmb_sim_options *options = nullptr) noexcept
+    DRILLMBD_NODISCARD static std::int32_t create(sim &out, const model &of,
+                                                  const dmb_sim_options *options = nullptr) noexcept
     {
         dmb_sim *made = nullptr;
         const std::int32_t status = dmb_sim_create(of.get(), options, &made);
@@ -683,8 +815,8 @@ public:
         return status;
     }
     // The same in the caller's block, which has to outlive the sim.
-    static std::int32_t create_in(sim &out, const model &of, const dmb_sim_options *options, void *block,
-                                  std::size_t size) noexcept
+    DRILLMBD_NODISCARD static std::int32_t create_in(sim &out, const model &of, const dmb_sim_options *options,
+                                                     void *block, std::size_t size) noexcept
     {
         dmb_sim *made = nullptr;
         const std::int32_t status = dmb_sim_create_in(of.get(), options, block, size, &made);
@@ -692,9 +824,9 @@ public:
         return status;
     }
 
-    dmb_sim *get() const noexcept { return handle_; }
+    DRILLMBD_NODISCARD dmb_sim *get() const noexcept { return handle_; }
     explicit operator bool() const noexcept { return handle_ != nullptr; }
-    dmb_sim *release() noexcept
+    DRILLMBD_NODISCARD dmb_sim *release() noexcept
     {
         dmb_sim *given = handle_;
         handle_ = nullptr;
@@ -705,52 +837,63 @@ public:
         dmb_sim_destroy(&handle_);
         handle_ = handle;
     }
-    const char *message() const noexcept { return dmb_sim_message(handle_); }
-    double time() const noexcept { return dmb_sim_time(handle_); } // [s]; NaN without a sim
+    DRILLMBD_NODISCARD const char *message() const noexcept { return dmb_sim_message(handle_); }
+    DRILLMBD_NODISCARD double time() const noexcept { return dmb_sim_time(handle_); } // [s]; NaN without a sim
 
-    std::int32_t try_step(double duration, dmb_step_report *report = nullptr) noexcept
+    DRILLMBD_NODISCARD std::int32_t try_step(double duration, dmb_step_report *report = nullptr) noexcept
     {
         return dmb_sim_step(handle_, duration, report);
     }
-    std::int32_t try_advance(double to, dmb_step_report *report = nullptr) noexcept
+    DRILLMBD_NODISCARD std::int32_t try_advance(double to, dmb_step_report *report = nullptr) noexcept
     {
         return dmb_sim_advance(handle_, to, report);
     }
-    std::int32_t try_advance_to_event(double to, dmb_event_report *event = nullptr,
-                                      dmb_step_report *report = nullptr) noexcept
+    DRILLMBD_NODISCARD std::int32_t try_advance_to_event(double to, dmb_event_report *event = nullptr,
+                                                         dmb_step_report *report = nullptr) noexcept
     {
         return dmb_sim_advance_to_event(handle_, to, event, report);
     }
-    std::int32_t try_set_drive(dmb_id drive, double value) noexcept { return dmb_sim_set_drive(handle_, drive, value); }
-    std::int32_t try_set_input(dmb_id input, double value) noexcept { return dmb_sim_set_input(handle_, input, value); }
-    std::int32_t try_set_inputs(const dmb_id *inputs, const double *values, std::uint32_t count) noexcept
+    DRILLMBD_NODISCARD std::int32_t try_set_drive(dmb_id drive, double value) noexcept
+    {
+        return dmb_sim_set_drive(handle_, drive, value);
+    }
+    DRILLMBD_NODISCARD std::int32_t try_set_input(dmb_id input, double value) noexcept
+    {
+        return dmb_sim_set_input(handle_, input, value);
+    }
+    DRILLMBD_NODISCARD std::int32_t try_set_inputs(const dmb_id *inputs, const double *values,
+                                                   std::uint32_t count) noexcept
     {
         return dmb_sim_set_inputs(handle_, inputs, values, count);
     }
-    std::int32_t try_record_inputs(dmb_input_record *records, std::uint32_t capacity) noexcept
+    DRILLMBD_NODISCARD std::int32_t try_record_inputs(dmb_input_record *records, std::uint32_t capacity) noexcept
     {
         return dmb_sim_record_inputs(handle_, records, capacity);
     }
-    std::int32_t try_replay_inputs(const dmb_input_record *records, std::uint32_t count, std::uint32_t &next) noexcept
+    DRILLMBD_NODISCARD std::int32_t try_replay_inputs(const dmb_input_record *records, std::uint32_t count,
+                                                      std::uint32_t &next) noexcept
     {
         return dmb_sim_replay_inputs(handle_, records, count, &next);
     }
-    std::int32_t try_set_joint(dmb_id joint, std::int32_t state) noexcept
+    DRILLMBD_NODISCARD std::int32_t try_set_joint(dmb_id joint, std::int32_t state) noexcept
     {
         return dmb_sim_set_joint(handle_, joint, state);
     }
-    std::int32_t try_transfer_state(const sim &from) noexcept { return dmb_sim_transfer_state(handle_, from.get()); }
-    std::int32_t try_static_start(const dmb_static_options *options = nullptr,
-                                  dmb_static_report *report = nullptr) noexcept
+    DRILLMBD_NODISCARD std::int32_t try_transfer_state(const sim &from) noexcept
+    {
+        return dmb_sim_transfer_state(handle_, from.get());
+    }
+    DRILLMBD_NODISCARD std::int32_t try_static_start(const dmb_static_options *options = nullptr,
+                                                     dmb_static_report *report = nullptr) noexcept
     {
         return dmb_analysis_static(handle_, options, report);
     }
     // function(context, fraction) is told of long calls from now on and may end them; see dmb_sim_set_progress.
-    std::int32_t try_set_progress(dmb_progress_fn function, void *context = nullptr) noexcept
+    DRILLMBD_NODISCARD std::int32_t try_set_progress(dmb_progress_fn function, void *context = nullptr) noexcept
     {
         return dmb_sim_set_progress(handle_, function, context);
     }
-    std::int32_t try_restore(const void *block, std::size_t size) noexcept
+    DRILLMBD_NODISCARD std::int32_t try_restore(const void *block, std::size_t size) noexcept
     {
         return dmb_sim_restore(handle_, block, size);
     }
@@ -795,7 +938,7 @@ public:
     void set_drive(dmb_id which, double value) { done(try_set_drive(which, value)); }
     // The status may be the note that a bound was taken instead (control.h).
     std::int32_t set_input(dmb_id which, double value) { return done(try_set_input(which, value)); }
-    dmb_input_state input(dmb_id which) const
+    DRILLMBD_NODISCARD dmb_input_state input(dmb_id which) const
     {
         dmb_input_state state = dmb_input_state_default();
         const std::int32_t status = dmb_sim_get_input(handle_, which, &state);
@@ -813,7 +956,7 @@ public:
         return report;
     }
 
-    drillmbd::buckling buckling(const dmb_buckling_options *options = nullptr)
+    DRILLMBD_NODISCARD drillmbd::buckling buckling(const dmb_buckling_options *options = nullptr)
     {
         dmb_buckling *found = nullptr;
         done(dmb_analysis_buckling(handle_, options, &found));
@@ -827,34 +970,33 @@ public:
         return report;
     }
 
-    drillmbd::response response(const std::vector<dmb_input> &inputs, const std::vector<dmb_output> &outputs,
-                                const dmb_response_options *options = nullptr)
+    DRILLMBD_NODISCARD drillmbd::response response(span<const dmb_input> inputs, span<const dmb_output> outputs,
+                                                   const dmb_response_options *options = nullptr)
     {
         dmb_response *found = nullptr;
-        done(dmb_analysis_response(handle_, options, inputs.data(), static_cast<std::uint32_t>(inputs.size()),
-                                   outputs.data(), static_cast<std::uint32_t>(outputs.size()), &found));
+        done(dmb_analysis_response(handle_, options, inputs.data(), inputs.count(), outputs.data(), outputs.count(),
+                                   &found));
         return drillmbd::response(found);
     }
     // Runs on until the Fourier amplitudes at a frequency [Hz] have settled.
-    sine_response sine(double frequency, const std::vector<dmb_output> &outputs,
-                       const dmb_stepped_sine_options *options = nullptr)
+    DRILLMBD_NODISCARD sine_response sine(double frequency, span<const dmb_output> outputs,
+                                          const dmb_stepped_sine_options *options = nullptr)
     {
         const dmb_stepped_sine_options used = options != nullptr ? *options : dmb_stepped_sine_options_default();
         const std::size_t width = 1 + std::min<std::size_t>(used.harmonics, 16); // more are refused
         std::vector<std::complex<double>> numbers(width * outputs.size());
         sine_response answer;
         answer.report = dmb_stepped_sine_report_default();
-        answer.status = done(dmb_analysis_stepped_sine(handle_, frequency, &used, outputs.data(),
-                                                       static_cast<std::uint32_t>(outputs.size()),
+        answer.status = done(dmb_analysis_stepped_sine(handle_, frequency, &used, outputs.data(), outputs.count(),
                                                        reinterpret_cast<double *>(numbers.data()), &answer.report));
         for (std::size_t i = 0; i < numbers.size(); i += width)
             answer.amplitudes.emplace_back(numbers.data() + i, numbers.data() + i + width);
         return answer;
     }
     // Bands of rotary speed to avoid, `room` of them at most; limits: amplitudes that are allowed, one for each output.
-    speed_bands speeds(const std::vector<dmb_order> &orders, const std::vector<dmb_output> &outputs,
-                       const std::vector<double> &limits, const dmb_speeds_options *options = nullptr,
-                       std::uint32_t room = 64)
+    DRILLMBD_NODISCARD speed_bands speeds(span<const dmb_order> orders, span<const dmb_output> outputs,
+                                          span<const double> limits, const dmb_speeds_options *options = nullptr,
+                                          std::uint32_t room = 64)
     {
         dmb_speeds_options used = options != nullptr ? *options : dmb_speeds_options_default();
         if (limits.size() != outputs.size()) throw error(DMB_ERR_VALUE, "limits: one for each output");
@@ -863,50 +1005,50 @@ public:
         used.report = &answer.report;
         answer.bands.assign(room, dmb_speed_band_default());
         answer.severity.resize(std::min<std::size_t>(used.points, 100000)); // more are refused
-        answer.status = done(dmb_analysis_speeds(
-            handle_, &used, orders.data(), static_cast<std::uint32_t>(orders.size()), outputs.data(), limits.data(),
-            static_cast<std::uint32_t>(outputs.size()), answer.bands.data(), &room, answer.severity.data()));
+        answer.status =
+            done(dmb_analysis_speeds(handle_, &used, orders.data(), orders.count(), outputs.data(), limits.data(),
+                                     outputs.count(), answer.bands.data(), &room, answer.severity.data()));
         answer.bands.resize(room);
         return answer;
     }
     // Rows of every depth and operation, operation by operation within each depth.
-    std::vector<dmb_torque_drag_row> torque_drag(const std::vector<dmb_operation> &operations,
-                                                 const dmb_torque_drag_options *options = nullptr)
+    DRILLMBD_NODISCARD std::vector<dmb_torque_drag_row> torque_drag(span<const dmb_operation> operations,
+                                                                    const dmb_torque_drag_options *options = nullptr)
     {
         const std::size_t depths = options != nullptr && options->depths != nullptr ? options->depth_count : 1;
         std::vector<dmb_torque_drag_row> rows(depths * operations.size(), dmb_torque_drag_row_default());
-        done(dmb_analysis_torque_drag(handle_, options, operations.data(),
-                                      static_cast<std::uint32_t>(operations.size()), rows.data()));
+        done(dmb_analysis_torque_drag(handle_, options, operations.data(), operations.count(), rows.data()));
         return rows;
     }
-    drillmbd::sensitivity sensitivity(const std::vector<dmb_parameter> &parameters)
+    DRILLMBD_NODISCARD drillmbd::sensitivity sensitivity(span<const dmb_parameter> parameters)
     {
         dmb_sensitivity *made = nullptr;
-        done(dmb_sensitivity_create(handle_, parameters.data(), static_cast<std::uint32_t>(parameters.size()), &made));
+        done(dmb_sensitivity_create(handle_, parameters.data(), parameters.count(), &made));
         return drillmbd::sensitivity(made);
     }
-    drillmbd::fatigue fatigue(const dmb_fatigue_options &options, const std::vector<dmb_place> &places)
+    DRILLMBD_NODISCARD drillmbd::fatigue fatigue(const dmb_fatigue_options &options, span<const dmb_place> places)
     {
         dmb_fatigue *made = nullptr;
-        done(dmb_fatigue_create(handle_, &options, places.data(), static_cast<std::uint32_t>(places.size()), &made));
+        done(dmb_fatigue_create(handle_, &options, places.data(), places.count(), &made));
         return drillmbd::fatigue(made);
     }
-    drillmbd::window window(const std::vector<dmb_channel> &channels, const dmb_window_options *options = nullptr)
+    DRILLMBD_NODISCARD drillmbd::window window(span<const dmb_channel> channels,
+                                               const dmb_window_options *options = nullptr)
     {
         dmb_window *made = nullptr;
-        done(dmb_window_create(handle_, options, channels.data(), static_cast<std::uint32_t>(channels.size()), &made));
+        done(dmb_window_create(handle_, options, channels.data(), channels.count(), &made));
         return drillmbd::window(made);
     }
-    drillmbd::state_space state_space(const std::vector<dmb_input> &inputs, const std::vector<dmb_output> &outputs,
-                                      const dmb_state_space_options *options = nullptr)
+    DRILLMBD_NODISCARD drillmbd::state_space state_space(span<const dmb_input> inputs, span<const dmb_output> outputs,
+                                                         const dmb_state_space_options *options = nullptr)
     {
         dmb_state_space *made = nullptr;
-        done(dmb_analysis_state_space(handle_, options, inputs.data(), static_cast<std::uint32_t>(inputs.size()),
-                                      outputs.data(), static_cast<std::uint32_t>(outputs.size()), &made));
+        done(dmb_analysis_state_space(handle_, options, inputs.data(), inputs.count(), outputs.data(), outputs.count(),
+                                      &made));
         return drillmbd::state_space(made);
     }
     // DMB_ARRAY_VELOCITY .. _RESIDUAL.
-    std::vector<double> array(std::int32_t which)
+    DRILLMBD_NODISCARD std::vector<double> array(std::int32_t which)
     {
         std::uint64_t count = 0;
         done(dmb_analysis_array(handle_, which, nullptr, &count));
@@ -914,14 +1056,14 @@ public:
         if (count > 0) done(dmb_analysis_array(handle_, which, answer.data(), &count));
         return answer;
     }
-    drillmbd::modes modes(const dmb_modes_options *options = nullptr)
+    DRILLMBD_NODISCARD drillmbd::modes modes(const dmb_modes_options *options = nullptr)
     {
         dmb_modes *found = nullptr;
         done(dmb_analysis_modes(handle_, options, &found));
         return drillmbd::modes(found);
     }
 
-    std::vector<unsigned char> snapshot() const
+    DRILLMBD_NODISCARD std::vector<unsigned char> snapshot() const
     {
         std::size_t size = 0;
         check(dmb_sim_snapshot_size(handle_, &size));
@@ -929,8 +1071,8 @@ public:
         check(dmb_sim_snapshot(handle_, block.data(), size));
         return block;
     }
-    void restore(const std::vector<unsigned char> &block) { done(try_restore(block.data(), block.size())); }
-    std::uint64_t hash() const
+    void restore(span<const unsigned char> block) { done(try_restore(block.data(), block.size())); }
+    DRILLMBD_NODISCARD std::uint64_t hash() const
     {
         std::uint64_t found = 0;
         check(dmb_sim_hash(handle_, &found));
@@ -938,61 +1080,83 @@ public:
     }
 
     // Questions leave no message: the status tells all.
-    dmb_pose pose(const dmb_place &place) const { return ask(dmb_query_pose, dmb_pose_default(), place); }
-    dmb_motion motion(const dmb_place &place, std::int32_t frame = DMB_FRAME_WORLD) const
+    DRILLMBD_NODISCARD dmb_pose pose(const dmb_place &place) const
+    {
+        return ask(dmb_query_pose, dmb_pose_default(), place);
+    }
+    DRILLMBD_NODISCARD dmb_motion motion(const dmb_place &place, std::int32_t frame = DMB_FRAME_WORLD) const
     {
         dmb_motion answer = dmb_motion_default();
         answer.frame = frame;
         return ask(dmb_query_motion, answer, place);
     }
-    dmb_section section(const dmb_place &place) const { return ask(dmb_query_section, dmb_section_default(), place); }
+    DRILLMBD_NODISCARD dmb_section section(const dmb_place &place) const
+    {
+        return ask(dmb_query_section, dmb_section_default(), place);
+    }
     // Quantities DMB_PROFILE_... at distances [m] along a string ({}: its first), station by station in one vector.
-    std::vector<double> profile(const std::vector<std::int32_t> &quantities, const std::vector<double> &distance,
-                                dmb_id string = dmb_id{}) const
+    DRILLMBD_NODISCARD std::vector<double> profile(span<const std::int32_t> quantities, span<const double> distance,
+                                                   dmb_id string = dmb_id{}) const
     {
         std::vector<double> values(quantities.size() * distance.size());
         dmb_profile request = dmb_profile_default();
         request.string = string;
-        request.station_count = static_cast<std::uint32_t>(distance.size());
+        request.station_count = distance.count();
         request.distance = distance.data();
-        request.quantity_count = static_cast<std::uint32_t>(quantities.size());
+        request.quantity_count = quantities.count();
         request.quantities = quantities.data();
         request.values = values.data();
         check(dmb_query_profile(handle_, &request));
         return values;
     }
-    double rotation(const dmb_place &place) const { return ask(dmb_query_rotation, 0.0, place); }
-    dmb_contact contact(std::uint32_t site) const { return ask(dmb_query_contact, dmb_contact_default(), site); }
-    dmb_contact_total contact_total() const { return ask(dmb_query_contact_total, dmb_contact_total_default()); }
-    double kinetic_energy(dmb_id part, std::uint32_t pipe = 0) const
+    DRILLMBD_NODISCARD double rotation(const dmb_place &place) const { return ask(dmb_query_rotation, 0.0, place); }
+    DRILLMBD_NODISCARD dmb_contact contact(std::uint32_t site) const
+    {
+        return ask(dmb_query_contact, dmb_contact_default(), site);
+    }
+    DRILLMBD_NODISCARD dmb_contact_total contact_total() const
+    {
+        return ask(dmb_query_contact_total, dmb_contact_total_default());
+    }
+    DRILLMBD_NODISCARD double kinetic_energy(dmb_id part, std::uint32_t pipe = 0) const
     {
         return ask(dmb_query_kinetic_energy, 0.0, part, pipe);
     }
-    dmb_energy energy() const { return ask(dmb_query_energy, dmb_energy_default()); }
-    dmb_momentum momentum() const { return ask(dmb_query_momentum, dmb_momentum_default()); }
-    dmb_drive_state drive(dmb_id which) const { return ask(dmb_query_drive, dmb_drive_state_default(), which); }
-    std::array<double, 6> reaction(dmb_id part) const
+    DRILLMBD_NODISCARD dmb_energy energy() const { return ask(dmb_query_energy, dmb_energy_default()); }
+    DRILLMBD_NODISCARD dmb_momentum momentum() const { return ask(dmb_query_momentum, dmb_momentum_default()); }
+    DRILLMBD_NODISCARD dmb_drive_state drive(dmb_id which) const
+    {
+        return ask(dmb_query_drive, dmb_drive_state_default(), which);
+    }
+    DRILLMBD_NODISCARD std::array<double, 6> reaction(dmb_id part) const
     {
         std::array<double, 6> answer;
         check(dmb_query_reaction(handle_, part, answer.data()));
         return answer;
     }
-    dmb_joint_state joint(dmb_id which, std::int32_t frame = DMB_FRAME_WORLD) const
+    DRILLMBD_NODISCARD dmb_joint_state joint(dmb_id which, std::int32_t frame = DMB_FRAME_WORLD) const
     {
         dmb_joint_state answer = dmb_joint_state_default();
         answer.frame = frame;
         return ask(dmb_query_joint, answer, which);
     }
-    dmb_stuck_state stuck(dmb_id which) const { return ask(dmb_query_stuck, dmb_stuck_state_default(), which); }
-    dmb_spring_state spring(dmb_id which) const { return ask(dmb_query_spring, dmb_spring_state_default(), which); }
+    DRILLMBD_NODISCARD dmb_stuck_state stuck(dmb_id which) const
+    {
+        return ask(dmb_query_stuck, dmb_stuck_state_default(), which);
+    }
+    DRILLMBD_NODISCARD dmb_spring_state spring(dmb_id which) const
+    {
+        return ask(dmb_query_spring, dmb_spring_state_default(), which);
+    }
     // Pose of a point off a place, offset [m] in the axes of the place, shape (3).
-    dmb_pose pose_at(const dmb_place &place, const double *offset) const
+    DRILLMBD_NODISCARD dmb_pose pose_at(const dmb_place &place, const double *offset) const
     {
         dmb_pose answer = dmb_pose_default();
         check(dmb_query_pose_at(handle_, place, offset, &answer));
         return answer;
     }
-    dmb_motion motion_at(const dmb_place &place, const double *offset, std::int32_t frame = DMB_FRAME_WORLD) const
+    DRILLMBD_NODISCARD dmb_motion motion_at(const dmb_place &place, const double *offset,
+                                            std::int32_t frame = DMB_FRAME_WORLD) const
     {
         dmb_motion answer = dmb_motion_default();
         answer.frame = frame;
@@ -1000,7 +1164,7 @@ public:
         return answer;
     }
     // Of a joint, coupling, constraint or joint drive, one for each row.
-    std::vector<double> multipliers(dmb_id part) const
+    DRILLMBD_NODISCARD std::vector<double> multipliers(dmb_id part) const
     {
         std::vector<double> answer(6);
         std::uint32_t count = 0;
@@ -1008,10 +1172,16 @@ public:
         answer.resize(count);
         return answer;
     }
-    dmb_bit_state bit(dmb_id which) const { return ask(dmb_query_bit, dmb_bit_state_default(), which); }
-    dmb_statistics statistics() const { return ask(dmb_query_statistics, dmb_statistics_default()); }
-    dmb_check_report model_check() const { return ask(dmb_analysis_check, dmb_check_report_default()); }
-    std::string model_check_text() const
+    DRILLMBD_NODISCARD dmb_bit_state bit(dmb_id which) const
+    {
+        return ask(dmb_query_bit, dmb_bit_state_default(), which);
+    }
+    DRILLMBD_NODISCARD dmb_statistics statistics() const { return ask(dmb_query_statistics, dmb_statistics_default()); }
+    DRILLMBD_NODISCARD dmb_check_report model_check() const
+    {
+        return ask(dmb_analysis_check, dmb_check_report_default());
+    }
+    DRILLMBD_NODISCARD std::string model_check_text() const
     {
         std::size_t needed = 0;
         check(dmb_analysis_check_text(handle_, nullptr, 0, &needed));
@@ -1021,7 +1191,7 @@ public:
         return text;
     }
     // A channel DMB_CHANNEL_... at a place; {}: the first string, or none.
-    double channel(std::int32_t quantity, const dmb_place &place = dmb_place{}) const
+    DRILLMBD_NODISCARD double channel(std::int32_t quantity, const dmb_place &place = dmb_place{}) const
     {
         const dmb_channel asked = {place, quantity, 0};
         double value = 0.0;
@@ -1067,7 +1237,7 @@ private:
     static void begun(const model &of, std::int32_t status) { check(status, of.message()); }
     std::int32_t done(std::int32_t status) const { return check(status, message()); }
     template <typename Function, typename Answer, typename... Arguments>
-    Answer ask(Function function, Answer answer, Arguments... arguments) const
+    DRILLMBD_NODISCARD Answer ask(Function function, Answer answer, Arguments... arguments) const
     {
         check(function(handle_, arguments..., &answer));
         return answer;
