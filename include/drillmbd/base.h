@@ -85,9 +85,10 @@ enum { DMB_STATUS_LIST(DMB_STATUS_ENUM_ENTRY) DMB_STATUS_END_ = -1000 };
 DMB_API const char *dmb_status_name(int32_t status);
 DMB_API const char *dmb_status_text(int32_t status);
 
-/* ---- Names of parts ----------------------------------------------------------------------------------------------
- * A small value, given out by the dmb_model_add_ functions and checked at every use: kind, index and the model it
- * belongs to. {0, 0} names nothing. */
+/* ---- Names of parts and places -----------------------------------------------------------------------------------
+ * Structs without a struct_size are frozen: their size and members stay as they are in all of a series of versions. */
+/* Frozen. A small value, given out by the dmb_model_add_ functions and checked at every use: kind, index and the model
+ * it belongs to. {0, 0} names nothing. */
 typedef struct dmb_id {
     uint32_t index;      /* [-] kind in the upper 8 bits, number of the part within its kind in the lower 24 */
     uint32_t generation; /* [-] stamp of the model that gave it out; 0 only in the id that names nothing */
@@ -96,7 +97,7 @@ typedef struct dmb_id {
 /* Where the number of a part, pipe or place is asked for: none of them. */
 #define DMB_NONE UINT32_MAX
 
-/* A place on a part: a station of a string, or the reference point of a body. Made by dmb_station. */
+/* Frozen. A place on a part: a station of a string, or the reference point of a body. Made by dmb_station. */
 typedef struct dmb_place {
     dmb_id part;       /* a string, a body or a bit */
     uint32_t pipe;     /* [-] pipe of the string, 0 at the rig end; 0 for a body */

@@ -68,6 +68,7 @@ typedef struct dmb_input_state {
 } dmb_input_state;
 DMB_SIZED_STRUCT(dmb_input_state)
 DMB_API int32_t dmb_sim_get_input(const dmb_sim *sim, dmb_id input, dmb_input_state *state);
+/* Frozen. One line of the log of inputs. */
 typedef struct dmb_input_record {
     double time, value; /* [s] of the sim, [unit of the input] as taken, clamped where it was */
     uint32_t input;     /* [-] number of the input in the order of description */

@@ -324,6 +324,7 @@ enum {
     DMB_CHANNEL_ENERGY_ERROR = 19,   /* [-] of the ledger; place is ignored */
     DMB_CHANNEL_COUNT = 20           /* of these; output.h goes on from number 100 */
 };
+/* Frozen. One number of the many that can be recorded, watched and waited for. */
 typedef struct dmb_channel {
     dmb_place place;  /* where the quantity is one of a place */
     int32_t quantity; /* DMB_CHANNEL_... */

@@ -2,6 +2,17 @@
 
 #include <string.h>
 
+#include "drillmbd/drillmbd.h"
+
+/* Structs that pass without a size: programs that were built with older headers have them so. */
+_Static_assert(sizeof(dmb_id) == 8 && offsetof(dmb_id, generation) == 4, "dmb_id is frozen");
+_Static_assert(sizeof(dmb_place) == 24 && offsetof(dmb_place, pipe) == 8 && offsetof(dmb_place, fraction) == 16,
+               "dmb_place is frozen");
+_Static_assert(sizeof(dmb_channel) == 32 && offsetof(dmb_channel, quantity) == 24, "dmb_channel is frozen");
+_Static_assert(sizeof(dmb_input_record) == 24 && offsetof(dmb_input_record, value) == 8 &&
+                   offsetof(dmb_input_record, input) == 16 && offsetof(dmb_input_record, call) == 20,
+               "dmb_input_record is frozen");
+
 static const size_t header = sizeof(uint32_t); /* struct_size itself */
 
 int32_t dmb_struct_check_size(uint32_t size, size_t known, size_t oldest)

@@ -1,9 +1,12 @@
 """Reads the public headers: structs, constants, functions.
 
-usage: interface.py INCLUDE_FOLDER program      a C program that prints the layout of every struct and every constant
-       interface.py INCLUDE_FOLDER functions    the names of all exported functions, one a line, sorted
-       interface.py INCLUDE_FOLDER prototypes   their prototypes, and the types of callbacks
-       interface.py INCLUDE_FOLDER rules        breaches of the rules for structs; exit status 1 if there are any
+usage: interface.py INCLUDE program      a C program that prints the layout of every struct and every constant
+       interface.py INCLUDE functions    the names of all exported functions, one a line, sorted
+       interface.py INCLUDE prototypes   their prototypes, and the types of callbacks
+       interface.py INCLUDE rules        breaches of the rules for structs; exit status 1 if there are any
+       interface.py INCLUDE stubs        C definitions of all functions that do nothing
+       interface.py INCLUDE defaults     a C program that prints every member of every struct by default
+INCLUDE is a folder with the headers in drillmbd/, or one file with all of them.
 """
 import pathlib
 import re
@@ -12,9 +15,13 @@ import sys
 MEMBER_TYPE = re.compile(r"(u?int(8|16|32|64)_t|char|double|dmb_\w+|(const )?(double|int32_t|void|dmb_\w+) ?\*|function)$")
 
 
-def read(folder):
+def headers(folder):
+    return sorted(pathlib.Path(folder, "drillmbd").glob("*.h"))
+
+
+def read(include):
     texts = []
-    for path in sorted(pathlib.Path(folder, "drillmbd").glob("*.h")):
+    for path in [pathlib.Path(include)] if pathlib.Path(include).is_file() else headers(include):
         text = path.read_text(encoding="utf-8")
         texts.append(re.sub(r"/\*.*?\*/", " ", text, flags=re.S))
     return "\n".join(texts)
@@ -82,7 +89,7 @@ def function_names(text):
 
 
 def program(text):
-    lines = ["#include <drillmbd/drillmbd.h>", "#include <stdio.h>", "int main(void)", "{"]
+    lines = ["#include INTERFACE", "#include <stdio.h>", "int main(void)", "{"]
     for name, members in structs(text):
         lines.append(f'    printf("struct {name}: %zu\\n", sizeof({name}));')
         for member, _ in members:
@@ -93,11 +100,42 @@ def program(text):
     return "\n".join(lines + ["    return 0;", "}"])
 
 
-def breaches(text):
+def stubs(text):
+    """The interface as a library that does nothing, for libabigail to read."""
+    bodies = [f"{prototype}\n{{\n    {'' if prototype.startswith('void ') else 'return 0;'}\n}}"
+              for prototype in prototypes(text)]
+    return "\n".join(["#include INTERFACE", *bodies])
+
+
+def defaults(text):
+    """Bytes member by member, so that headers with further members print the same for those of older ones."""
+    lines = ["#include <stdio.h>", "#include <string.h>", "#include INTERFACE",
+             "static void print(const char *name, const void *at, size_t size)", "{",
+             "    const unsigned char *byte = at;", '    printf("%s", name);',
+             '    for (size_t i = 0; i < size; i++) printf(" %02x", byte[i]);', '    printf("\\n");', "}",
+             "int main(void)", "{"]
+    sized = set(sized_structs(text))
+    for name, members in structs(text):
+        if name in sized:
+            lines.append(f"    {name} of_{name} = {name}_default();")
+            lines += [f'    print("{name}.{member}", &of_{name}.{member}, sizeof of_{name}.{member});'
+                      for member, kind in members if member != "struct_size" and kind != "function"]
+    return "\n".join(lines + ["    return 0;", "}"])
+
+
+def frozen_structs(include):
+    """Those whose comment, the one before them, begins with 'Frozen'."""
+    text = "\n".join(path.read_text(encoding="utf-8") for path in headers(include))
+    return set(re.findall(r"/\* Frozen(?:(?!\*/).)*\*/\s*typedef struct (\w+)", text, re.S))
+
+
+def breaches(text, frozen):
     sized, found = set(sized_structs(text)), []
     for name, members in structs(text):
         if name in sized and members[0] != ("struct_size", "uint32_t"):
             found.append(f"{name} does not begin with uint32_t struct_size")
+        if name not in sized and name not in frozen:
+            found.append(f"{name} has no struct_size: its comment must say that it is frozen")
         if name not in sized and any(member == "struct_size" for member, _ in members):
             found.append(f"{name} has a struct_size and no DMB_SIZED_STRUCT")
         for member, kind in members:
@@ -116,10 +154,14 @@ def main():
         print(program(text))
     elif task == "functions":
         print("\n".join(function_names(text)))
+    elif task == "stubs":
+        print(stubs(text))
+    elif task == "defaults":
+        print(defaults(text))
     elif task == "prototypes":
         print("\n".join(callbacks(text) + sorted(prototypes(text), key=lambda p: re.search(r"(\w+)\(", p).group(1))))
     elif task == "rules":
-        found = breaches(text)
+        found = breaches(text, frozen_structs(sys.argv[1]))
         print("\n".join(found))
         return 1 if found else 0
     else:

@@ -10,7 +10,7 @@ from ._record import ConstraintPart, DrivePart, ForcePart, IdPart, Record, Sized
 
 
 class Id(IdPart, Record):
-    c_name, about = "dmb_id", "Names of parts ---------------------------------------------------------------------------------------------- A small value, given out by the dmb_model_add_ functions and checked at every use: kind, index and the model it belongs to. {0, 0} names nothing."
+    c_name, about = "dmb_id", "Frozen. A small value, given out by the dmb_model_add_ functions and checked at every use: kind, index and the model it belongs to. {0, 0} names nothing."
     index: int
     generation: int
     _fields_: ClassVar[Any] = [
@@ -1066,7 +1066,7 @@ class InputState(Sized):
 
 
 class InputRecord(Record):
-    c_name, about = "dmb_input_record", ""
+    c_name, about = "dmb_input_record", "Frozen. One line of the log of inputs."
     time: float
     value: float
     input: int
@@ -1834,7 +1834,7 @@ FORCE_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 1
 
 
 class Place(Record):
-    c_name, about = "dmb_place", "A place on a part: a station of a string, or the reference point of a body. Made by dmb_station."
+    c_name, about = "dmb_place", "Frozen. A place on a part: a station of a string, or the reference point of a body. Made by dmb_station."
     part: Id
     pipe: int
     reserved: int
@@ -2814,7 +2814,7 @@ class LoadDef(Sized):
 
 
 class Channel(Record):
-    c_name, about = "dmb_channel", ""
+    c_name, about = "dmb_channel", "Frozen. One number of the many that can be recorded, watched and waited for."
     place: Place
     quantity: int
     reserved: int
