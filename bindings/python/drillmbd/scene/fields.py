@@ -115,13 +115,17 @@ def read(field: Field, value: Any, unit: str | None = None) -> Any:
     """The plain value (SI) of what is written for a field; ids and places are left to the caller."""
     if field.count:
         if not isinstance(value, list) or len(value) != field.count:
-            raise ValueProblem(f"must be an array of {field.count}" + _length(value))
+            raise ValueProblem(f"must be an array of {field.count}" + _shape(value, field.count))
         return [_single(field, one, field.unit_at(i) if unit is None else unit) for i, one in enumerate(value)]
     return _single(field, value, field.unit if unit is None else unit)
 
 
-def _length(value: Any) -> str:
-    return f", not of {len(value)}" if isinstance(value, list) else ""
+def _shape(value: Any, count: int) -> str:
+    """The length of another array; an array of a lone value as an example."""
+    if isinstance(value, list):
+        return f", not of {len(value)}"
+    one = f'"{value}"' if isinstance(value, str) else str(value)
+    return f", as [{', '.join([one] * count)}]" if isinstance(value, (str, int, float)) else ""
 
 
 def _single(field: Field, value: Any, unit: str) -> Any:

@@ -21,7 +21,7 @@ def inline(problems: Problems, path: Path, rows: Any) -> list[list[float]] | Non
     before, found = len(problems.found), []
     for number, row in enumerate(rows):
         if not isinstance(row, list) or len(row) != 3:
-            problems.add(path + (number,), row, "must be a row of depth, inclination and azimuth")
+            problems.add(path + (number,), row, 'must be a row of depth, inclination and azimuth, as ["30 m", "90 deg", "15 deg"]')
             continue
         try:
             found.append([units.parse(value, unit) for value, (_, unit) in zip(row, COLUMNS)])
