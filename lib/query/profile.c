@@ -14,61 +14,6 @@ DMB_DEFINE_INIT(dmb_profile, 64, {.station_count = 1})
 
 enum { STATIONS_MAX = 1 << 24 };
 
-/* Groups of quantities that are computed together, and only where one of them is asked for. */
-enum { OF_STATION = 0, OF_POSE = 1, OF_SECTION = 2, OF_CONTACT = 4, OF_LIMITS = 8, OF_MOTION = 16 };
-
-static const struct quantity {
-    const char *name, *unit;
-    int32_t groups;
-} quantities_of[DMB_PROFILE_COUNT] = {
-    [DMB_PROFILE_DISTANCE] = {"distance", "m", OF_STATION},
-    [DMB_PROFILE_DEPTH] = {"depth", "m", OF_POSE},
-    [DMB_PROFILE_X] = {"x", "m", OF_POSE},
-    [DMB_PROFILE_Y] = {"y", "m", OF_POSE},
-    [DMB_PROFILE_Z] = {"z", "m", OF_POSE},
-    [DMB_PROFILE_DEVIATION] = {"deviation", "m", OF_POSE},
-    [DMB_PROFILE_DEVIATION_SIDE] = {"deviation_side", "m", OF_POSE},
-    [DMB_PROFILE_DEVIATION_UP] = {"deviation_up", "m", OF_POSE},
-    [DMB_PROFILE_AXIAL_FORCE] = {"axial_force", "N", OF_POSE | OF_SECTION},
-    [DMB_PROFILE_EFFECTIVE_FORCE] = {"effective_force", "N", OF_SECTION},
-    [DMB_PROFILE_TORQUE] = {"torque", "N m", OF_SECTION},
-    [DMB_PROFILE_BENDING_MOMENT] = {"bending_moment", "N m", OF_POSE | OF_SECTION},
-    [DMB_PROFILE_SHEAR_FORCE] = {"shear_force", "N", OF_SECTION},
-    [DMB_PROFILE_CURVATURE] = {"curvature", "rad/m", OF_POSE | OF_SECTION},
-    [DMB_PROFILE_NORMAL_FORCE] = {"normal_force", "N/m", OF_CONTACT},
-    [DMB_PROFILE_FRICTION_AXIAL] = {"friction_axial", "N/m", OF_CONTACT},
-    [DMB_PROFILE_FRICTION_AROUND] = {"friction_around", "N/m", OF_CONTACT},
-    [DMB_PROFILE_VON_MISES] = {"von_mises", "Pa", OF_POSE | OF_SECTION | OF_LIMITS},
-    [DMB_PROFILE_YIELD_SHARE] = {"yield_share", "-", OF_POSE | OF_SECTION | OF_LIMITS},
-    [DMB_PROFILE_SINUSOIDAL_SHARE] = {"sinusoidal_share", "-", OF_POSE | OF_SECTION | OF_LIMITS},
-    [DMB_PROFILE_HELICAL_SHARE] = {"helical_share", "-", OF_POSE | OF_SECTION | OF_LIMITS},
-    [DMB_PROFILE_VELOCITY_AXIAL] = {"velocity_axial", "m/s", OF_MOTION},
-    [DMB_PROFILE_VELOCITY_LATERAL] = {"velocity_lateral", "m/s", OF_MOTION},
-    [DMB_PROFILE_SPIN] = {"spin", "rad/s", OF_MOTION},
-    [DMB_PROFILE_ACCELERATION_AXIAL] = {"acceleration_axial", "m/s2", OF_MOTION},
-    [DMB_PROFILE_ACCELERATION_LATERAL] = {"acceleration_lateral", "m/s2", OF_MOTION},
-    [DMB_PROFILE_ROTATION] = {"rotation", "rad", OF_POSE},
-    [DMB_PROFILE_DISPLACEMENT_X] = {"displacement_x", "m", OF_POSE},
-    [DMB_PROFILE_DISPLACEMENT_Y] = {"displacement_y", "m", OF_POSE},
-    [DMB_PROFILE_DISPLACEMENT_Z] = {"displacement_z", "m", OF_POSE},
-    [DMB_PROFILE_SHEAR_Y] = {"shear_y", "N", OF_SECTION},
-    [DMB_PROFILE_SHEAR_Z] = {"shear_z", "N", OF_SECTION},
-    [DMB_PROFILE_MOMENT_Y] = {"moment_y", "N m", OF_SECTION},
-    [DMB_PROFILE_MOMENT_Z] = {"moment_z", "N m", OF_SECTION},
-    [DMB_PROFILE_GAP] = {"gap", "m", OF_CONTACT},
-};
-
-static int is_quantity(int32_t quantity)
-{
-    return quantity >= 0 && quantity < DMB_PROFILE_COUNT;
-}
-
-const char *dmb_profile_name(int32_t quantity, const char **unit)
-{
-    if (unit != NULL) *unit = is_quantity(quantity) ? quantities_of[quantity].unit : NULL;
-    return is_quantity(quantity) ? quantities_of[quantity].name : NULL;
-}
-
 /* ---- Stations ---------------------------------------------------------------------------------------------------- */
 
 /* A run of equal pipes of the string, and where it begins. */
@@ -367,12 +312,12 @@ static void motion_values(station *at)
 static int32_t fill(station *at, int32_t groups)
 {
     int32_t status = DMB_OK;
-    if ((groups & OF_POSE) != 0) pose_values(at);
-    if ((groups & OF_MOTION) != 0) motion_values(at);
-    if ((groups & OF_CONTACT) != 0) status = contact_values(at);
-    if ((groups & OF_SECTION) == 0 || at->point.element == DMB_NONE) return status;
+    if ((groups & DMB_TAKES_POSE) != 0) pose_values(at);
+    if ((groups & DMB_TAKES_MOTION) != 0) motion_values(at);
+    if ((groups & DMB_TAKES_CONTACT) != 0) status = contact_values(at);
+    if ((groups & DMB_TAKES_SECTION) == 0 || at->point.element == DMB_NONE) return status;
     if (status >= 0) status = section_values(at);
-    if (status >= 0 && (groups & OF_LIMITS) != 0) limit_values(at);
+    if (status >= 0 && (groups & DMB_TAKES_LIMITS) != 0) limit_values(at);
     return status;
 }
 
@@ -384,8 +329,8 @@ static int32_t check_quantities(const dmb_profile *profile, int32_t *groups)
     if (profile->quantities == NULL || profile->values == NULL) return DMB_ERR_NULL;
     if (profile->quantity_count < 1 || profile->quantity_count > DMB_PROFILE_COUNT) return DMB_ERR_VALUE;
     for (uint32_t i = 0; i < profile->quantity_count; i++) {
-        if (!is_quantity(profile->quantities[i])) return DMB_ERR_VALUE;
-        *groups |= quantities_of[profile->quantities[i]].groups;
+        if (dmb_profile_groups(profile->quantities[i]) < 0) return DMB_ERR_VALUE;
+        *groups |= dmb_profile_groups(profile->quantities[i]);
     }
     return DMB_OK;
 }
@@ -471,7 +416,7 @@ int32_t dmb_profile_value(const dmb_sim *sim, dmb_place place, int32_t quantity,
 {
     station_walk walk = {.sim = sim, .runs = sim->model->runs.items, .run_count = sim->model->runs.count};
     station at = {.sim = sim, .place = place};
-    if (!is_quantity(quantity)) return DMB_ERR_VALUE;
+    if (dmb_profile_groups(quantity) < 0) return DMB_ERR_VALUE;
     walk.string = dmb_model_part_index(sim->model, place.part, DMB_PART_STRING);
     if (walk.string >= sim->scene->string_count) return DMB_ERR_ID;
     at.run = dmb_pipe_run_of(sim->model, walk.string, place.pipe);
@@ -479,7 +424,7 @@ int32_t dmb_profile_value(const dmb_sim *sim, dmb_place place, int32_t quantity,
     rewind_walk(&walk);
     while (&walk.runs[walk.run] != at.run && to_next_run(&walk)) continue;
     const double distance = walk.start + (place.pipe - at.run->first + place.fraction) * at.run->def.length;
-    const int32_t status = take_station(&at, distance, quantities_of[quantity].groups);
+    const int32_t status = take_station(&at, distance, dmb_profile_groups(quantity));
     if (status >= 0) *value = at.values[quantity];
     return status;
 }
