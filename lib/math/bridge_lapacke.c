@@ -6,7 +6,6 @@
 #include <math.h>
 
 #include "base/build.h"
-#include "math/dense_eigen.h"
 
 /* ---- The functions of LAPACKE ------------------------------------------------------------------------------------ */
 

@@ -7,6 +7,7 @@
 #define DMB_MATH_SO3_H
 
 #include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "math/real.h"
@@ -337,5 +338,12 @@ static inline void dmb_quat_twist_pair(const dmb_real q[4], dmb_real x[6])
         x[i] = y;
     }
 }
+
+/* Axes of a frame from two directions. */
+
+/* M, axes as columns, row-major, orthonormal to rounding: x along axis, y along normal less its part along x. normal =
+ * 0 stands for y of the surrounding frame, or z where x is along that. False, with M unchanged, if the axis is zero or
+ * the normal is along it within 1e-6 rad. All numbers finite. */
+bool dmb_frame_axes(const double axis[3], const double normal[3], double M[9]);
 
 #endif

@@ -4,6 +4,7 @@
 #define DMB_MODEL_DESCRIBE_H
 
 #include "base/sized_struct.h"
+#include "drillmbd/control.h"
 #include "drillmbd/model.h"
 #include "model/model.h"
 
@@ -35,5 +36,13 @@ void dmb_spring_release(dmb_spring_plan *spring, const dmb_allocator *allocator)
 
 /* Frees the wall's copy of the survey. */
 void dmb_wall_release(dmb_wall_def *wall, const dmb_allocator *allocator);
+
+/* Inputs as described. */
+
+/* Bounds in force: the narrower of the input's own and those of its target. */
+double dmb_input_low(const dmb_input_def *def);
+double dmb_input_high(const dmb_input_def *def);
+/* 1: it stands in the place of a programme, and may be on its way. */
+int dmb_input_is_programme(int32_t target);
 
 #endif

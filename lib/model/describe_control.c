@@ -1,12 +1,11 @@
 /* Inputs, which the caller moves in each sim, with name, unit and bounds; and events, at which a run stops. */
-#include "model/describe_control.h"
+#include "model/describe.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/sized_struct.h"
 #include "drillmbd/control.h"
-#include "model/describe.h"
 #include "model/field_check.h"
 #include "model/limits.h"
 #include "model/model.h"

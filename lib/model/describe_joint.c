@@ -1,9 +1,9 @@
 /* Joints, couplings of their coordinates, and the caller's constraints. */
 #include "constraint/joint.h"
+#include "math/so3.h"
 #include "math/vec3.h"
 #include "model/describe.h"
 #include "model/field_check.h"
-#include "model/frame_axes.h"
 #include "model/limits.h"
 #include "model/model.h"
 #include "model/part_name.h"

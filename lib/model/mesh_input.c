@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/describe_control.h"
+#include "model/describe.h"
 #include "model/field_check.h"
 #include "model/mesh.h"
 

@@ -7,7 +7,6 @@
 #include "math/mat6.h"
 #include "math/so3.h"
 #include "model/field_check.h"
-#include "model/frame_axes.h"
 
 #define DMB_WITHIN 1e-9 /* [-] of a pipe: what the caller's fraction may be off */
 

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/describe_control.h"
+#include "model/describe.h"
 #include "query/input_query.h"
 #include "sim/access.h"
 #include "sim/own_scene.h"

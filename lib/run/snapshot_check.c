@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/describe_control.h"
+#include "model/describe.h"
 #include "model/limits.h"
 #include "sim/own_scene.h"
 #include "system/constrain/joint_motion.h"

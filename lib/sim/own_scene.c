@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/describe_control.h"
+#include "model/describe.h"
 
 #define DOUBLES(arena, count) DMB_ARENA_DOUBLES(arena, (size_t)(count))
 

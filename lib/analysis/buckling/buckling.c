@@ -1,5 +1,4 @@
 #include "analysis/buckling/buckling.h"
-#include "analysis/buckling/flutter.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #ifndef DMB_ANALYSIS_BUCKLING_BUCKLING_H
 #define DMB_ANALYSIS_BUCKLING_BUCKLING_H
 
-#include "analysis/buckling/load_pattern.h"
+#include "analysis/buckling/path.h"
 #include "analysis/buckling/pencil.h"
 #include "analysis/static/static.h"
 #include "base/memory.h"

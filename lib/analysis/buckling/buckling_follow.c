@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "analysis/buckling/buckling.h"
-#include "analysis/buckling/flutter.h"
 #include "analysis/buckling/path.h"
 #include "sim/access.h"
 #include "system/copy.h"

@@ -22,7 +22,7 @@ void dmb_make_reduced_symmetric(const dmb_sim *sim, double *values);
 /* Whether a static state is stable: by the signs of its stiffness K where that is symmetric, and where it is not by the
  * real negative eigenvalues of K x = mu D x, D the weights 1 of displacements and length_scale^2 of rotations. A single
  * one comes or goes through det K = 0, whatever D; two together may come of a complex pair, at a place that depends on
- * D (analysis/buckling/flutter.h). They are looked for among the eigenvalues nearest 0, unless a positive definite
+ * D (analysis/buckling/path.h). They are looked for among the eigenvalues nearest 0, unless a positive definite
  * symmetric part, with or without what friction adds to it (analysis/static/stability_friction.h), says that there is
  * none: by Krylov subspaces on x -> K^-1 D x, as many vectors as some hundreds of millions of products allow, until the
  * symmetric part H leaves none further out: mu >= -rho where H + rho D is positive definite, x.Hx = mu x.Dx; or so many

@@ -4,7 +4,6 @@
 #define DMB_SYSTEM_CONSTRAIN_JOINT_MOTION_H
 
 #include "constraint/joint.h"
-#include "constraint/relative.h"
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
 

@@ -5,7 +5,7 @@
 #include "check.h"
 #include "matrices.h"
 
-#include "constraint/relative.h"
+#include "constraint/joint.h"
 #include "math/mat6.h"
 #include "math/se3.h"
 

@@ -9,7 +9,6 @@
 #include "check.h"
 #include "math/block_pattern.h"
 #include "math/bridge.h"
-#include "math/dense_eigen.h"
 
 enum { MAX = 60, SQUARE = MAX * MAX, WORK = 2 * SQUARE + 20 * MAX };
 

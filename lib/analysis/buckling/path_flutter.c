@@ -1,4 +1,4 @@
-#include "analysis/buckling/flutter.h"
+#include "analysis/buckling/path.h"
 
 #include <math.h>
 #include <string.h>

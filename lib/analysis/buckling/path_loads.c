@@ -1,4 +1,4 @@
-#include "analysis/buckling/load_pattern.h"
+#include "analysis/buckling/path.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "math/dense_eigen.h"
+#include "math/bridge.h"
 
 typedef struct schur {
     size_t n;

@@ -1,6 +1,6 @@
 /* Symmetric: cyclic Jacobi rotations (Golub, Van Loan, Matrix Computations, 4th ed., 8.5). Pair: reduced by the
  * Cholesky factor of M (8.7). */
-#include "math/dense_eigen.h"
+#include "math/bridge.h"
 
 #include <float.h>
 #include <math.h>
