@@ -52,7 +52,7 @@ int fclose(FILE *file)
     return refused ? EOF : status;
 }
 
-/* ---- A scene and its four writers -------------------------------------------------------------------------------- */
+/* ---- A scene and its writers -------------------------------------------------------------------------------- */
 
 typedef struct scene {
     rig r;
@@ -62,6 +62,9 @@ typedef struct scene {
     dmb_recorder recorder;
     dmb_channel channels[2];
     double table[9];
+    dmb_profile_recorder profiles;
+    dmb_profile profile;
+    double profile_table[2 * (1 + 3)];
     char folder[64], path[96];
 } scene;
 
@@ -100,6 +103,21 @@ static void record(scene *s)
     for (int i = 0; i < 3; i++) rig_run(s->sim, 1), must(dmb_recorder_take(&s->recorder, s->sim));
 }
 
+static void record_profile(scene *s)
+{
+    static const int32_t quantities[1] = {DMB_PROFILE_Y};
+    s->profile = dmb_profile_default();
+    s->profile.string = s->r.string;
+    s->profile.station_count = 3;
+    s->profile.quantities = quantities;
+    s->profile.quantity_count = 1;
+    s->profiles = dmb_profile_recorder_default();
+    s->profiles.profile = &s->profile;
+    s->profiles.table = s->profile_table;
+    s->profiles.capacity = 2;
+    must(dmb_profile_recorder_take(&s->profiles, s->sim));
+}
+
 static void open_scene(scene *s)
 {
     dmb_modes_options options = dmb_modes_options_default();
@@ -107,6 +125,7 @@ static void open_scene(scene *s)
     s->r = rig_of(&plain_rig);
     s->sim = rig_sim(&s->r);
     record(s);
+    record_profile(s);
     s->response = respond(s);
     options.count = 1;
     options.contact = DMB_CONTACT_OPEN;
@@ -128,7 +147,7 @@ static void close_scene(scene *s)
     dmb_model_destroy(&s->r.model);
 }
 
-enum { STRINGS, HOLE, MODE, TABLE, RESPONSE, WRITERS };
+enum { STRINGS, HOLE, MODE, TABLE, PROFILES, RESPONSE, WRITERS };
 
 static int32_t write_to(int writer, scene *s, const char *path)
 {
@@ -137,6 +156,7 @@ static int32_t write_to(int writer, scene *s, const char *path)
     case HOLE: return dmb_write_vtk_hole(s->r.model, 0.0, 5.0, 0.5, 8, path);
     case MODE: return dmb_write_vtk_mode(s->modes, 0, 1.0, 0.0, 1, path);
     case TABLE: return dmb_recorder_write_csv(&s->recorder, path);
+    case PROFILES: return dmb_profile_recorder_write_csv(&s->profiles, path);
     default: return dmb_response_write_csv(s->response, path);
     }
 }

@@ -95,6 +95,34 @@ static void sims_of_one_model_are_as_alone(void **state)
     dmb_model_destroy(&model);
 }
 
+/* More than there are processors, all made, run and destroyed at the same time. */
+static void sixty_four_sims(void **state)
+{
+    enum { MANY = 64, FEW_STEPS = 10 };
+    static job jobs[MANY];
+    whole_parts parts;
+    dmb_model *model = whole_model(&parts);
+    const uint64_t wanted = alone(model, FEW_STEPS);
+    pthread_barrier_t start;
+    (void)state;
+    memset(jobs, 0, sizeof jobs);
+    assert_int_equal(pthread_barrier_init(&start, NULL, MANY), 0);
+    for (int i = 0; i < MANY; i++) {
+        jobs[i].start = &start;
+        jobs[i].model = model;
+        jobs[i].parts = &parts;
+        jobs[i].steps = FEW_STEPS;
+        assert_int_equal(pthread_create(&jobs[i].thread, NULL, work, &jobs[i]), 0);
+    }
+    for (int i = 0; i < MANY; i++) {
+        assert_int_equal(pthread_join(jobs[i].thread, NULL), 0);
+        if (jobs[i].worst < 0) fail_msg("thread %d: %s", i, dmb_status_name(jobs[i].worst));
+        assert_true(jobs[i].hash == wanted);
+    }
+    pthread_barrier_destroy(&start);
+    dmb_model_destroy(&model);
+}
+
 /* Runs of different length, so that the threads are at different places. */
 static void different_runs_do_not_disturb_each_other(void **state)
 {
@@ -249,6 +277,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sims_of_one_model_are_as_alone),
+        cmocka_unit_test(sixty_four_sims),
         cmocka_unit_test(different_runs_do_not_disturb_each_other),
         cmocka_unit_test(model_destroyed_while_sims_live),
         cmocka_unit_test(last_of_many_takes_the_model_along),
