@@ -9,7 +9,7 @@ namespace
 {
 
 const double rpm = 3.14159265358979323846 / 30.0;
-const char usage[] = "usage: steady_torque\n"
+const char usage[] = "Usage: steady_torque\n"
                      "30 rods of 3 m turn in a hole of 94 mm; tells the torque at the rig twice a second.\n";
 
 drillmbd::model describe(dmb_id &table)
