@@ -307,6 +307,17 @@ public:
         return speed;
     }
     dmb_id add_stuck(const dmb_stuck_def &def) { return add(dmb_model_add_stuck, def); }
+    // A body behind the pipes of a string so far, and a section behind the body.
+    dmb_sub add_sub(const dmb_sub_def &def)
+    {
+        dmb_sub made = dmb_sub_default();
+        done(dmb_model_add_sub(handle_, &def, &made));
+        return made;
+    }
+    void place_at_end(dmb_id string, double length, dmb_body_def *body, dmb_string_def *section = nullptr)
+    {
+        done(dmb_model_place_at_end(handle_, string, length, body, section));
+    }
     void set_name(dmb_id part, const char *name) { done(dmb_model_set_name(handle_, part, name)); }
     // The part of that name; throws where there is none, or parts of several kinds have it and no kind is given.
     DRILLMBD_NODISCARD dmb_id find(const char *name, std::int32_t kind = DMB_PART_ANY) const

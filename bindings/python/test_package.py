@@ -282,6 +282,35 @@ class RunTest(unittest.TestCase):
         self.assertEqual([at.steps for at in seen], list(range(1, 7)))
         self.assertGreater(seen[-1].real_time_factor, 0.0)
 
+    def test_sub(self):
+        """A body in the middle of a string: the same scene by the C call, as a copy of its parts, and typed by hand."""
+        def scene(by_sub):
+            model = mbd.Model()
+            string = model.add_string(follows_hole=0)
+            model.add_pipes(2, string=string, length=1.5)
+            collar, knuckle = mbd.BodyDef(mass=20.0), mbd.JointDef(kind=mbd.JOINT_SPHERICAL)
+            if by_sub:
+                made = model.add_sub(string, 0.3, body=collar, after=knuckle)
+                self.assertEqual((collar.position[0], knuckle.match), (0.0, 0))
+                body, section = made.body, made.section
+            else:
+                body = model.add_body(mass=20.0, position=(3.0, 0.0, 0.0))
+                section = model.add_string(follows_hole=0, position=(3.3, 0.0, 0.0), start_free=mbd.FREE_ALL)
+                model.add_joint(place_a=mbd.station(string, 1, 1.0), place_b=mbd.station(body), match=1)
+                model.add_joint(kind=mbd.JOINT_SPHERICAL, place_a=mbd.station(body), place_b=mbd.station(section),
+                                origin_a=(0.3, 0.0, 0.0), match=1)
+            model.add_pipes(2, string=section, length=1.5)
+            model.compile()
+            return model
+        model = scene(True)
+        hashes = []
+        for one in (model, copy.copy(model), scene(False)):
+            sim = one.sim()
+            for _ in range(20):
+                sim.step(1e-3)
+            hashes.append(sim.hash())
+        self.assertEqual(hashes, hashes[:1] * 3)
+
     def test_recorder_in_a_run(self):
         recorder = self.sim.recorder([(self.string, mbd.CHANNEL_POSITION_X, "rig end [m]")], capacity=100)
         self.sim.run(0.01, step=1e-3, recorder=recorder)

@@ -276,6 +276,97 @@ scale = "part"
 factor_max = "100 kN"
 """
 
+# The same rig with [[sub]]s, and with bodies, strings and joints where these place them.
+SUBS = """
+[[string]]
+name = "upper"
+follows_hole = false
+[[string.pipes]]
+count = 2
+length = "1.5 m"
+[[sub]]
+string = "upper"
+length = "0.3 m"
+body = {name = "collar", mass = "20 kg"}
+after = {name = "knuckle", kind = "spherical", stiffness = [0, 0, 0, "1 kN m/rad", "1 kN m/rad", "1 kN m/rad"]}
+[sub.section]
+name = "middle"
+[[sub.section.pipes]]
+length = "2 m"
+[[sub]]
+string = "middle"
+length = "0.2 m"
+section = {pipes = {length = "1 m"}}
+[[body]]
+mass = "3 kg"
+[[joint]]
+kind = "spherical"
+place_b = "body-2"
+match = true
+origin_a = [0, "1 m", 0]
+[[load]]
+place = "collar"
+force = [0, 0, "-500 N"]
+[[channel]]
+name = "end"
+quantity = "position-z"
+place = {part = "string-2", fraction = 1.0}
+[run]
+end = "20 ms"
+step = "1 ms"
+"""
+
+BY_HAND = """
+[[string]]
+name = "upper"
+follows_hole = false
+[[string.pipes]]
+count = 2
+length = "1.5 m"
+[[string]]
+name = "middle"
+follows_hole = false
+position = ["3.3 m", 0, 0]
+start_free = ["x", "y", "z", "rx", "ry", "rz"]
+[[string.pipes]]
+length = "2 m"
+[[string]]
+follows_hole = false
+position = ["5.5 m", 0, 0]
+start_free = ["x", "y", "z", "rx", "ry", "rz"]
+[[string.pipes]]
+length = "1 m"
+[[body]]
+name = "collar"
+mass = "20 kg"
+position = ["3 m", 0, 0]
+[[body]]
+position = ["5.3 m", 0, 0]
+[[body]]
+mass = "3 kg"
+[[joint]]
+place_a = {part = "upper", pipe = 1, fraction = 1}
+place_b = "collar"
+match = true
+[[joint]]
+name = "knuckle"
+kind = "spherical"
+stiffness = [0, 0, 0, "1 kN m/rad", "1 kN m/rad", "1 kN m/rad"]
+place_a = "collar"
+place_b = "middle"
+origin_a = ["0.3 m", 0, 0]
+match = true
+[[joint]]
+place_a = {part = "middle", fraction = 1}
+place_b = "body-1"
+match = true
+[[joint]]
+place_a = "body-1"
+place_b = "string-2"
+origin_a = ["0.2 m", 0, 0]
+match = true
+""" + SUBS[SUBS.index("[[joint]]"):]
+
 
 def problems(text, folder="."):
     try:
@@ -317,6 +408,41 @@ class UnitsTest(unittest.TestCase):
                 for unit in field.unit.split(","):
                     if field.kind == "quantity" and unit and "unit of" not in unit and "n+1" not in unit:
                         units.factor_and_kind(unit.strip())
+
+
+class SubTest(unittest.TestCase):
+    def test_as_typed_by_hand(self):
+        subs, by_hand = scene.loads(SUBS), scene.loads(BY_HAND)
+        self.assertEqual(subs.names["middle"].index, by_hand.names["middle"].index)
+        for name in ("collar", "knuckle", "body-1", "body-2", "joint-4", "string-2"):
+            self.assertEqual(subs.names[name].index, by_hand.names[name].index, name)
+        self.assertEqual(subs.pipes, {"upper": 2, "middle": 1, "string-2": 1})
+        ends = []
+        for one in (subs, by_hand):
+            with one.new_sim() as sim:
+                for _ in range(20):
+                    sim.step(1e-3)
+                name, place, quantity = one.channels[0]
+                ends.append(sim.channel(quantity, place))
+        self.assertNotEqual(ends[0], 0.0)
+        self.assertAlmostEqual(ends[0] / ends[1], 1.0, 11)
+
+    def test_file_to_model_to_file(self):
+        first = scene.loads(SUBS)
+        second = scene.loads(scene.saves(first))
+        self.assertTrue(first.same_as(second))
+        self.assertEqual(scene.saves(first), scene.saves(second))
+        self.assertEqual(after_run(first), after_run(second))
+
+    def test_faults(self):
+        for change, says in (
+                (('mass = "20 kg"', 'mass = "-1 kg"'), "mass"), (('mass = "20 kg"', 'weight = "20 kg"'), "weight"),
+                (('length = "0.3 m"', 'length = "-3 m"'), "length = -3, must be"), (('string = "middle"', 'string = "upper"'), "take string 1"),
+                (('string = "middle"', 'string = "string-2"'), "made after this"), (('name = "knuckle"', 'name = "upper"'), "every name once"),
+                (('name = "collar"', 'position = [0, 0, 0]'), "position"),
+                (('section = {pipes = {length = "1 m"}}', ''), "[[sub.section.pipes]]"),
+                (('body = {name = "collar", mass = "20 kg"}', 'body = 3'), "table"), (('[[sub]]', '[sub]'), "TOML")):
+            self.assertIn(says, " ".join(map(str, problems(SUBS.replace(*change)))), change)
 
 
 class ShippedTest(unittest.TestCase):

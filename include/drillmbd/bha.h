@@ -1,4 +1,5 @@
-/* libdrillmbd - bottom-hole assembly: places of a string that are stuck, mud motors. */
+/* libdrillmbd - bottom-hole assembly: places of a string that are stuck, mud motors, bodies in the middle of
+ * a string. */
 #ifndef DRILLMBD_BHA_H
 #define DRILLMBD_BHA_H
 
@@ -60,6 +61,41 @@ DMB_SIZED_STRUCT(dmb_motor)
  * the gain stall_torque/w0, set together. Errors: DMB_ERR_NULL, _STRUCT_SIZE, _VALUE, _NOT_FINITE; nothing is written
  * then. */
 DMB_API int32_t dmb_motor_drive(const dmb_motor *motor, dmb_drive_def *drive, double *no_load_speed);
+
+/* A sub: a body in the middle of a string (stabiliser, motor, jar, sensor), and the section of pipes that continues
+ * the string after it. The body's reference point and axes are those of the far end of the string as it is described so
+ * far; the section begins `length` further along the body's x axis; both move with the string at time 0. Along a hole
+ * their frames are the hole's. The structs that are pointed to count but for poses, velocities, attach, follows_hole,
+ * start_depth, offset, start_free (all free) and places of joints; frames a of joints are in the axes of the string's
+ * end, and of the section's rig end. */
+typedef struct dmb_sub_def {
+    uint32_t struct_size;
+    uint32_t reserved;
+    dmb_id string;                 /* with its pipes so far, end_free DMB_FREE_ALL; {0, 0}: the model's first */
+    double length;                 /* [m] >= 0; default 0 */
+    const dmb_body_def *body;      /* NULL (default): a body by default */
+    const dmb_joint_def *before;   /* string to body; NULL (default): fixed */
+    const dmb_joint_def *after;    /* body to section; NULL (default): fixed */
+    const dmb_string_def *section; /* its name and end_free; NULL (default): a string by default */
+} dmb_sub_def;
+DMB_SIZED_STRUCT(dmb_sub_def)
+typedef struct dmb_sub {
+    uint32_t struct_size;
+    uint32_t reserved;
+    dmb_id body, section, before, after; /* section: the string to add the next pipes to */
+    dmb_place end;                       /* of the string, that `before` joins to the body */
+} dmb_sub;
+DMB_SIZED_STRUCT(dmb_sub)
+/* All of it or nothing. The string is at its end then: dmb_model_add_pipes and _add_bit to it are DMB_ERR_ORDER, and so
+ * is dmb_model_add_wall after a sub of a string that would follow the hole. Errors: DMB_ERR_NULL, _STRUCT_SIZE, _ID,
+ * _VALUE, _ORDER (no pipes yet, a bit at the end, continued already), _GEOMETRY (survey), those of dmb_model_add_body,
+ * _string and _joint. */
+DMB_API int32_t dmb_model_add_sub(dmb_model *model, const dmb_sub_def *def, dmb_sub *sub);
+/* Fills poses and velocities of a body, and of a section follows_hole, start_depth, offset and start_free too, as
+ * dmb_model_add_sub has them, `length` beyond the end of the string as it is described so far; for parts that other
+ * joints hold there. Either may be NULL. Errors: as above. */
+DMB_API int32_t dmb_model_place_at_end(dmb_model *model, dmb_id string, double length, dmb_body_def *body,
+                                       dmb_string_def *section);
 
 #ifdef __cplusplus
 }

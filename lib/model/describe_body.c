@@ -100,6 +100,11 @@ static int32_t check_bit(dmb_model *model, const dmb_bit_def *def)
     return check.status;
 }
 
+static uint32_t string_of_bit(const dmb_model *model, const dmb_bit_def *def)
+{
+    return dmb_id_is_none(def->string) ? 0 : dmb_model_part_index(model, def->string, DMB_PART_STRING);
+}
+
 int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_id *bit)
 {
     dmb_bit_def read = dmb_bit_def_default();
@@ -107,6 +112,7 @@ int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_id *bit)
     if (status < 0) return status;
     status = dmb_bit_def_read(&read, def);
     if (status >= 0) status = check_bit(model, &read);
+    if (status >= 0) status = dmb_string_is_open(model, "bit", string_of_bit(model, &read));
     if (status >= 0) status = dmb_describe_append(model, &model->bits, &read, sizeof read, DMB_PART_BIT, bit);
     return dmb_describe_end(model, "bit", &read, sizeof read, status);
 }

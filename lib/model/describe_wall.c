@@ -133,6 +133,13 @@ int32_t dmb_model_add_wall(dmb_model *model, const dmb_wall_def *def, dmb_id *wa
         dmb_message_set(&model->message, "wall: the model has one already, must be one hole a model");
         return dmb_describe_end(model, "wall", NULL, 0, DMB_ERR_ORDER);
     }
+    if (model->placed_without_hole) {
+        dmb_message_set(
+            &model->message,
+            "wall: a sub was placed behind a string that follows the hole, must come after the hole; add the "
+            "wall first, or give the string follows_hole = 0");
+        return dmb_describe_end(model, "wall", NULL, 0, DMB_ERR_ORDER);
+    }
     status = dmb_wall_def_read(&read, def);
     if (status >= 0) status = check_wall(model, &read);
     if (status >= 0) status = copy_survey(&read, &model->allocator);

@@ -18,9 +18,12 @@
 /* A string and how far it has been built. */
 typedef struct dmb_string_plan {
     dmb_string_def def;
-    uint32_t pipes; /* that its runs have so far */
-    uint32_t reserved;
+    uint32_t pipes;     /* that its runs have so far */
+    uint32_t continued; /* 1 + number of the string that continues it after a sub; 0: none */
 } dmb_string_plan;
+
+/* DMB_OK where nothing continues the string yet, DMB_ERR_ORDER with a message about `part` where a sub does. */
+int32_t dmb_string_is_open(dmb_model *model, const char *part, uint32_t string);
 
 /* One call of dmb_model_add_pipes. */
 typedef struct dmb_pipe_run {
@@ -66,30 +69,30 @@ struct dmb_model {
     void *log_context;
     dmb_message message;
     dmb_environment_def environment;
-    dmb_wall_def wall;     /* survey points to the model's own copy */
-    uint32_t wall_count;   /* 0 or 1 */
-    dmb_list sections;     /* dmb_hole_section, in the order of their depths */
-    dmb_list programmes;   /* dmb_programme, terms and tables are the model's own copies */
-    dmb_list names;        /* dmb_programme_name, of programmes that were given one */
-    dmb_list strings;      /* dmb_string_plan */
-    dmb_list runs;         /* dmb_pipe_run, in the order they were added */
-    dmb_list bodies;       /* dmb_body_def */
-    dmb_list bits;         /* dmb_bit_def */
-    dmb_list drives;       /* dmb_drive_def */
-    dmb_list loads;        /* dmb_load_def */
-    dmb_list joints;       /* dmb_joint_def */
-    dmb_list couplings;    /* dmb_coupling_def */
-    dmb_list constraints;  /* dmb_constraint_def */
-    dmb_list inputs;       /* dmb_input_def */
-    dmb_list springs;      /* dmb_spring_plan */
-    dmb_list events;       /* dmb_event_def */
-    dmb_list forces;       /* dmb_force_def */
-    dmb_list stuck;        /* dmb_stuck_def */
-    dmb_list rings;        /* dmb_ring_def */
-    dmb_refusals refused;  /* parts that were refused and not added since */
-    dmb_scene *scene;      /* NULL until compiled, then never changed */
-    uint32_t sparse_nodes; /* nodes from which on a cluster is sparse: DMB_SPARSE_NODES, but for tests */
-    uint32_t reserved;
+    dmb_wall_def wall;            /* survey points to the model's own copy */
+    uint32_t wall_count;          /* 0 or 1 */
+    dmb_list sections;            /* dmb_hole_section, in the order of their depths */
+    dmb_list programmes;          /* dmb_programme, terms and tables are the model's own copies */
+    dmb_list names;               /* dmb_programme_name, of programmes that were given one */
+    dmb_list strings;             /* dmb_string_plan */
+    dmb_list runs;                /* dmb_pipe_run, in the order they were added */
+    dmb_list bodies;              /* dmb_body_def */
+    dmb_list bits;                /* dmb_bit_def */
+    dmb_list drives;              /* dmb_drive_def */
+    dmb_list loads;               /* dmb_load_def */
+    dmb_list joints;              /* dmb_joint_def */
+    dmb_list couplings;           /* dmb_coupling_def */
+    dmb_list constraints;         /* dmb_constraint_def */
+    dmb_list inputs;              /* dmb_input_def */
+    dmb_list springs;             /* dmb_spring_plan */
+    dmb_list events;              /* dmb_event_def */
+    dmb_list forces;              /* dmb_force_def */
+    dmb_list stuck;               /* dmb_stuck_def */
+    dmb_list rings;               /* dmb_ring_def */
+    dmb_refusals refused;         /* parts that were refused and not added since */
+    dmb_scene *scene;             /* NULL until compiled, then never changed */
+    uint32_t sparse_nodes;        /* nodes from which on a cluster is sparse: DMB_SPARSE_NODES, but for tests */
+    uint32_t placed_without_hole; /* 1: what is behind a string that follows the hole was placed without one */
 };
 
 /* In an id's index: kind in the bits from here on. */

@@ -89,6 +89,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_add_spring": (c_int32, c_void_p, POINTER(SpringDef), POINTER(Id),),
     "dmb_model_add_string": (c_int32, c_void_p, POINTER(StringDef), POINTER(Id),),
     "dmb_model_add_stuck": (c_int32, c_void_p, POINTER(StuckDef), POINTER(Id),),
+    "dmb_model_add_sub": (c_int32, c_void_p, POINTER(SubDef), POINTER(Sub),),
     "dmb_model_add_wall": (c_int32, c_void_p, POINTER(WallDef), POINTER(Id),),
     "dmb_model_clear_refused": (c_int32, c_void_p,),
     "dmb_model_compile": (c_int32, c_void_p, POINTER(CompileOptions),),
@@ -107,6 +108,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_model_input_count": (c_uint32, c_void_p,),
     "dmb_model_message": (c_char_p, c_void_p,),
     "dmb_model_options_init": (c_int32, POINTER(ModelOptions), c_uint32,),
+    "dmb_model_place_at_end": (c_int32, c_void_p, Id, c_double, POINTER(BodyDef), POINTER(StringDef),),
     "dmb_model_set_environment": (c_int32, c_void_p, POINTER(EnvironmentDef),),
     "dmb_model_set_name": (c_int32, c_void_p, Id, c_char_p,),
     "dmb_modes_destroy": (None, POINTER(c_void_p),),
@@ -228,6 +230,8 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_string_def_init": (c_int32, POINTER(StringDef), c_uint32,),
     "dmb_stuck_def_init": (c_int32, POINTER(StuckDef), c_uint32,),
     "dmb_stuck_state_init": (c_int32, POINTER(StuckState), c_uint32,),
+    "dmb_sub_def_init": (c_int32, POINTER(SubDef), c_uint32,),
+    "dmb_sub_init": (c_int32, POINTER(Sub), c_uint32,),
     "dmb_term_init": (c_int32, POINTER(Term), c_uint32,),
     "dmb_torque_drag_options_init": (c_int32, POINTER(TorqueDragOptions), c_uint32,),
     "dmb_torque_drag_row_init": (c_int32, POINTER(TorqueDragRow), c_uint32,),
@@ -324,6 +328,8 @@ FUNCTION_DOCS = {
         "Adds a string without pipes. The first dmb_model_add_pipes without a string makes one by default.",
     "dmb_model_add_stuck":
         "Errors: ERR_ID, _VALUE, _NOT_FINITE; dmb_model_compile: ERR_VALUE (no such pipe), _UNSUPPORTED (sideways on axial-torsional pipes).",
+    "dmb_model_add_sub":
+        "All of it or nothing. The string is at its end then: dmb_model_add_pipes and _add_bit to it are ERR_ORDER, and so is dmb_model_add_wall after a sub of a string that would follow the hole. Errors: ERR_NULL, _STRUCT_SIZE, _ID, _VALUE, _ORDER (no pipes yet, a bit at the end, continued already), _GEOMETRY (survey), those of dmb_model_add_body, _string and _joint.",
     "dmb_model_add_wall":
         "Adds the hole. One hole a model; wall may be NULL.",
     "dmb_model_clear_refused":
@@ -348,6 +354,8 @@ FUNCTION_DOCS = {
         "[-] inputs described so far; 0 for what is no model. Number `index` in that order, by name: ERR_ID for none.",
     "dmb_model_message":
         "Message of the last failing or noteworthy call on this model: \"part, field, value, bound\". Never NULL; lives until the next call on the model. A compiled model shared between threads keeps the message of its compilation; after a dmb_sim_create that failed, the thread that called it reads the reason here, until its next create of the model.",
+    "dmb_model_place_at_end":
+        "Fills poses and velocities of a body, and of a section follows_hole, start_depth, offset and start_free too, as dmb_model_add_sub has them, `length` beyond the end of the string as it is described so far; for parts that other joints hold there. Either may be NULL. Errors: as above.",
     "dmb_model_set_name":
         "Gives a part another name, or none by \"\"; an input or an event needs one. Before dmb_model_compile. Errors: ERR_ID, ERR_VALUE (too long, no UTF-8, another part of the kind has it), ERR_ORDER.",
     "dmb_modes_destroy":

@@ -2953,6 +2953,33 @@ class StuckDef(Sized):
     }
 
 
+class Sub(Sized):
+    c_name, about = "dmb_sub", ""
+    struct_size: int
+    reserved: int
+    body: Id
+    section: Id
+    before: Id
+    after: Id
+    end: Place
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("body", Id),
+        ("section", Id),
+        ("before", Id),
+        ("after", Id),
+        ("end", Place),
+    ]
+    field_docs = {
+        "body": ("", "section: the string to add the next pipes to"),
+        "section": ("", "section: the string to add the next pipes to"),
+        "before": ("", "section: the string to add the next pipes to"),
+        "after": ("", "section: the string to add the next pipes to"),
+        "end": ("", "of the string, that `before` joins to the body"),
+    }
+
+
 class SpringDef(SpringPart, Sized):
     c_name, about = "dmb_spring_def", "Spring and damper between two points, tension > 0: preload + stiffness e + table(e) + damping e', e the elongation beyond free_length; its length is sqrt(d^2 + (1e-9 m)^2), since points that meet have no direction."
     struct_size: int
@@ -3157,6 +3184,36 @@ class EventDef(Sized):
     }
 
 
+class SubDef(Sized):
+    c_name, about = "dmb_sub_def", "A sub: a body in the middle of a string (stabiliser, motor, jar, sensor), and the section of pipes that continues the string after it. The body's reference point and axes are those of the far end of the string as it is described so far; the section begins `length` further along the body's x axis; both move with the string at time 0. Along a hole their frames are the hole's. The structs that are pointed to count but for poses, velocities, attach, follows_hole, start_depth, offset, start_free (all free) and places of joints; frames a of joints are in the axes of the string's end, and of the section's rig end."
+    struct_size: int
+    reserved: int
+    string: Id
+    length: float
+    body: Any
+    before: Any
+    after: Any
+    section: Any
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("string", Id),
+        ("length", c_double),
+        ("body", POINTER(BodyDef)),
+        ("before", POINTER(JointDef)),
+        ("after", POINTER(JointDef)),
+        ("section", POINTER(StringDef)),
+    ]
+    field_docs = {
+        "string": ("", "with its pipes so far, end_free FREE_ALL; {0, 0}: the model's first"),
+        "length": ("m", ">= 0; default 0"),
+        "body": ("", "NULL (default): a body by default"),
+        "before": ("", "string to body; NULL (default): fixed"),
+        "after": ("", "body to section; NULL (default): fixed"),
+        "section": ("", "its name and end_free; NULL (default): a string by default"),
+    }
+
+
 class Order(Sized):
     c_name, about = "dmb_order", "Safe speeds ------------------------------------------------------------------------------------------------- A string that turns at W [rad/s] is shaken at orders of its speed: at W by eccentric masses, at 2 W by misalignment, at 3 W by a tricone bit, at the number of blades times W by the cut."
     struct_size: int
@@ -3231,6 +3288,8 @@ STRUCTS["dmb_event_report"] = EventReport
 STRUCTS["dmb_stuck_def"] = StuckDef
 STRUCTS["dmb_stuck_state"] = StuckState
 STRUCTS["dmb_motor"] = Motor
+STRUCTS["dmb_sub_def"] = SubDef
+STRUCTS["dmb_sub"] = Sub
 STRUCTS["dmb_operation"] = Operation
 STRUCTS["dmb_torque_drag_options"] = TorqueDragOptions
 STRUCTS["dmb_torque_drag_row"] = TorqueDragRow

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from ctypes import byref, c_double, c_size_t, c_uint32, c_void_p, create_string_buffer
+from ctypes import byref, c_double, c_size_t, c_uint32, c_void_p, create_string_buffer, pointer
 from typing import TYPE_CHECKING, Any
 
 from ._handle import Handle
@@ -11,8 +11,8 @@ from ._library import lib as _lib
 from ._record import Record
 from ._structs import (BitDef, BodyDef, Channel, CompileOptions, ConstraintDef, CouplingDef, DriveDef, EnvironmentDef,
                        EventDef, ForceDef, HolePoint, HoleSection, Id, InputDef, InputInfo, JointDef, LoadDef, ModelInfo,
-                       ModelOptions, Motor, PipeDef, Place, RingDef, SimOptions, SpringDef, StringDef, StuckDef, Term,
-                       WallDef)
+                       ModelOptions, Motor, PipeDef, Place, RingDef, SimOptions, SpringDef, StringDef, StuckDef, Sub,
+                       SubDef, Term, WallDef)
 from .enums import NAME_SIZE, PartKind, Status
 from .errors import check
 
@@ -136,6 +136,38 @@ class Model(Handle):
     def add_body(self, definition: BodyDef | None = None, **fields: Any) -> Id:
         """Adds a rigid body, by a BodyDef or its fields; returns its id."""
         return self._add("body", BodyDef, definition, fields)
+
+    @mirrors("dmb_model_place_at_end")
+    def place_at_end(self, string: Id | None = None, length: float = 0.0, body: BodyDef | None = None,
+               section: StringDef | None = None) -> None:
+        """Fills poses and velocities of a body and the start of a section `length` [m] behind a string's end so far."""
+        self._check(_lib.dmb_model_place_at_end(self._handle, string or Id(), length, body and byref(body), section and byref(section)))
+
+    @mirrors("dmb_model_add_sub")
+    def add_sub(self, string: Id | None = None, length: float = 0.0, body: BodyDef | None = None,
+                before: JointDef | None = None, after: JointDef | None = None, section: StringDef | None = None) -> Sub:
+        """Adds a body behind a string's end so far and a section `length` [m] further; ids: body, section, before, after."""
+        body = BodyDef.from_buffer_copy(struct(BodyDef, body, {}))  # the caller's stay as they are
+        section = StringDef.from_buffer_copy(struct(StringDef, section, {}))
+        joints = [JointDef.from_buffer_copy(struct(JointDef, one, {})) for one in (before, after)]
+        self.place_at_end(string, 0.0, body)
+        self.place_at_end(string, length, None, section)
+        made: Sub = Sub.blank()
+        asked = SubDef(length=length)
+        asked.string = string or Id()
+        asked.body, asked.section = pointer(body), pointer(section)
+        asked.before, asked.after = (pointer(one) for one in joints)
+        self._check(_lib.dmb_model_add_sub(self._handle, byref(asked), byref(made)))
+        joints[0].place_a, joints[0].place_b = made.end, Place(made.body, 0, 0, 0.0)
+        joints[1].place_a, joints[1].place_b = Place(made.body, 0, 0, 0.0), Place(made.section, 0, 0, 0.0)
+        joints[1].origin_a[0] += length
+        for joint in joints:
+            joint.match = 1
+        for kind, definition, part in (("body", body, made.body), ("string", section, made.section),
+                                       ("joint", joints[0], made.before), ("joint", joints[1], made.after)):
+            self._note("add_" + kind, definition)
+            self.ids.append(part)
+        return made
 
     def add_bit(self, definition: BitDef | None = None, **fields: Any) -> Id:
         """Adds a bit at the far end of a string, by a BitDef or its fields; returns its id."""

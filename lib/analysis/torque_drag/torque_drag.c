@@ -91,6 +91,10 @@ static int32_t find_string(request *r)
             return refuse(r, DMB_ERR_UNSUPPORTED,
                           "the string has rings, whose weight and diameter the soft string leaves out; leave them out, "
                           "or ask for steady states (dmb_analysis_static)");
+    if (plans[soft->string].continued != 0)
+        return refuse(r, DMB_ERR_UNSUPPORTED,
+                      "a sub continues the string, whose weight and section the soft string leaves out; describe it as "
+                      "one string, or ask for steady states (dmb_analysis_static)");
     soft->model = model;
     soft->mud = dmb_mud_of(r->sim->scene);
     soft->hole = &scene->hole;

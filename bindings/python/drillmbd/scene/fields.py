@@ -250,7 +250,7 @@ DEFINITIONS: dict[str, Any] = {
     "pipes": _structs.PipeDef, "body": _structs.BodyDef, "bit": _structs.BitDef, "ring": _structs.RingDef,
     "joint": _structs.JointDef,
     "coupling": _structs.CouplingDef, "drive": _structs.DriveDef, "load": _structs.LoadDef,
-    "spring": _structs.SpringDef, "stuck": _structs.StuckDef, "term": _structs.Term,
+    "spring": _structs.SpringDef, "stuck": _structs.StuckDef, "sub": _structs.SubDef, "term": _structs.Term,
     "compile": _structs.CompileOptions, "sim": _structs.SimOptions, "static": _structs.StaticOptions,
     "modes": _structs.ModesOptions, "response": _structs.ResponseOptions, "speeds": _structs.SpeedsOptions,
     "buckling": _structs.BucklingOptions, "fatigue": _structs.FatigueOptions, "input": _structs.InputDef, "event": _structs.EventDef, "response input": _structs.Input, "output": _structs.Output,

@@ -20,6 +20,7 @@ from .content import ANALYSES, NAMED, PARTS, SINGLE, Scene
 from .fields import DEFINITIONS, Field, ValueProblem, fields_of
 from .lines import Path, find_lines
 from .problems import Problem, Problems, SceneError, meant
+from .sub import Subs
 from .terms import PerRevolution
 
 MOST_BYTES = 50_000_000
@@ -69,11 +70,12 @@ class Loader:
         self.pipes: dict[str, int] = {}                     # string -> number of its pipes
         self.units: dict[str, str] = {}                     # programme -> unit
         self.terms: dict[str, list[dict[str, Any]]] = {}    # programme -> its terms, plain
+        self.subs = Subs(self)
 
     # ---- Shape of the file ------------------------------------------------------------------------------------------
     def scene(self) -> Scene | None:
         """The whole."""
-        known = ["title", "run", "output", "limits", "channel", "programme", *SINGLE, *PARTS, *ANALYSES, "compile", "sim", "variability",
+        known = ["title", "run", "output", "limits", "channel", "programme", "sub", *SINGLE, *PARTS, *ANALYSES, "compile", "sim", "variability",
                  "failure"]
         for key in self.content:
             if key not in known:
@@ -97,7 +99,10 @@ class Loader:
     def table(self, path: Path) -> dict[str, Any]:
         value: Any = self.content
         for part in path:
-            value = value.get(part, {}) if isinstance(value, dict) else {}
+            if isinstance(value, list) and isinstance(part, int) and part < len(value):
+                value = value[part]
+            else:
+                value = value.get(part, {}) if isinstance(value, dict) else {}
         if not isinstance(value, dict):
             self.problems.add(path, value, "must be a table")
             return {}
@@ -125,24 +130,26 @@ class Loader:
 
     # ---- Names ------------------------------------------------------------------------------------------------------
     def _collect_names(self) -> None:
-        for kind in ("programme", *PARTS):
-            for number, (path, table) in enumerate(self.parts(kind)):
-                name = table.get("name", f"{kind}-{number}")
-                if not isinstance(name, str) or not name:
-                    self.problems.add(path + ("name",), name, "must be a text that is not empty")
-                elif name in self.kinds:
-                    self.problems.add(path + ("name",), name, f"names a {self.kinds[name]} already; every name once")
-                else:
-                    self.kinds[name] = kind
+        own = [(kind, f"{kind}-{number + self.subs.offset(kind)}", path, table)
+               for kind in ("programme", *PARTS) for number, (path, table) in enumerate(self.parts(kind))]
+        for kind, by_number, path, table in own + self.subs.names():
+            name = table.get("name", by_number) if isinstance(table, dict) else by_number
+            if not isinstance(name, str) or not name:
+                self.problems.add(path + ("name",), name, "must be a text that is not empty")
+            elif name in self.kinds:
+                self.problems.add(path + ("name",), name, f"names a {self.kinds[name]} already; every name once")
+            else:
+                self.kinds[name] = kind
 
-    def _put(self, name: str, kind: str, made: Id | None) -> None:
+    def put(self, name: str, kind: str, made: Id | None) -> None:
         """Notes the id of a part, if the name is its own."""
         if self.kinds.get(name) == kind:
             self.names[name] = made
 
     def name(self, kind: str, number: int, table: dict[str, Any]) -> str:
-        name = table.get("name", f"{kind}-{number}")
-        return name if isinstance(name, str) and name else f"{kind}-{number}"
+        by_number = f"{kind}-{number + self.subs.offset(kind)}"
+        name = table.get("name", by_number)
+        return name if isinstance(name, str) and name else by_number
 
     def _find_programme_units(self) -> None:
         """A programme has the unit of what it is used for."""
@@ -209,7 +216,7 @@ class Loader:
             self.problems.add(path, value, "names no part" + meant(str(value), self.kinds))
         elif not self.problems.found:
             self.problems.add(path, value, f"names a {self.kinds[value]} that is made after this; programmes come first, "
-                                           "then strings, bodies, bits, rings, joints, couplings, drives, loads, springs, "
+                                           "then strings, subs, bodies, bits, rings, joints, couplings, drives, loads, springs, "
                                            "stuck places, inputs")
         return None
 
@@ -276,6 +283,7 @@ class Loader:
             self._programme(path, self.name("programme", number, table), table)
         for number, (path, table) in enumerate(self.parts("string")):
             self._string(path, self.name("string", number, table), table)
+        self.subs.describe()
         for kind in PARTS[1:]:
             for number, (path, table) in enumerate(self.parts(kind)):
                 self._part(kind, path, self.name(kind, number, table), table)
@@ -315,10 +323,10 @@ class Loader:
             self.problems.add(path, None, "must have at least one term")
         plain = [one for one in (self._term(where, term, unit) for where, term in terms) if one is not None]
         if terms and len(plain) == len(terms):
-            self._put(name, "programme", self._add_programme(path, plain))
+            self.put(name, "programme", self._add_programme(path, plain))
             self.terms[name] = plain
         else:
-            self._put(name, "programme", None)
+            self.put(name, "programme", None)
 
     def _add_programme(self, path: Path, plain: list[dict[str, Any]]) -> Any:
         try:
@@ -385,13 +393,17 @@ class Loader:
 
     def _string(self, path: Path, name: str, table: dict[str, Any]) -> None:
         values = self.read(path, table, fields_of(DEFINITIONS["string"]), ("name", "pipes"))
-        self._own_name(path, table, values)
+        self.own_name(path, table, values)
         string = self._add(path, self.model.add_string, DEFINITIONS["string"], values)
+        self.put(name, "string", string)
+        self.pipes_of(path, name, table, string)
+
+    def pipes_of(self, path: Path, name: str, table: dict[str, Any], string: Id | None) -> None:
+        """The pipes of a string, which is None where it was refused."""
         self.pipes[name] = 0
-        self._put(name, "string", string)
         sections = self.tables(table, path, "pipes")
         if not sections:
-            self.problems.add(path, None, "must have pipes: [[string.pipes]]")
+            self.problems.add(path, None, f"must have pipes: [[{'.'.join(one for one in path if isinstance(one, str))}.pipes]]")
         for where, section in sections:
             count = section.get("count", 1)
             if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= 2 ** 20:
@@ -427,16 +439,16 @@ class Loader:
         if kind == "input":
             table["name"] = name
         if kind in NAMED:
-            self._own_name(path, table, values)
+            self.own_name(path, table, values)
         if kind == "drive" and "programme" not in table:
             self.problems.add(path, None, "must have a programme")
         refused = any(isinstance(value, str) and self.names.get(value, "") is None for value in table.values())
-        self._put(name, kind, None)
+        self.put(name, kind, None)
         if not refused and not (kind == "drive" and "programme" not in values) and not (
                 len(self.problems.found) > before and kind in ("joint", "coupling", "spring", "input", "load")):
-            self._put(name, kind, self._add(path, getattr(self.model, "add_" + kind), struct, values))
+            self.put(name, kind, self._add(path, getattr(self.model, "add_" + kind), struct, values))
 
-    def _own_name(self, path: Path, table: dict[str, Any], values: dict[str, Any]) -> None:
+    def own_name(self, path: Path, table: dict[str, Any], values: dict[str, Any]) -> None:
         """The name goes to the library too, where it is a text at all."""
         name = table.get("name")
         if not isinstance(name, str) or not name:
@@ -455,12 +467,12 @@ class Loader:
         values = self.read(path, table, known, ("name",), {"level": unit.split(" or ")[0].split(",")[0]}.get)
         if "quantity" not in table:
             self.problems.add(path, None, "must have a quantity, that of a channel")
-        self._put(name, "event", None)
+        self.put(name, "event", None)
         if len(self.problems.found) > before:
             return
         output = Channel(place=values.pop("place", Place()), quantity=values.pop("quantity"))
         values["name"] = name
-        self._put(name, "event", self._add(path, self.model.add_event, DEFINITIONS["event"], {**values, "output": output}))
+        self.put(name, "event", self._add(path, self.model.add_event, DEFINITIONS["event"], {**values, "output": output}))
 
     def setting_unit(self, place: Any) -> str | None:
         """The unit of the input that a place names."""
@@ -506,8 +518,9 @@ class Loader:
     def _path_of(self, part: str) -> Path:
         """The table of a part that the library calls "joint 1 (crank)"; the whole file else."""
         match = re.match(r"(\w+) (\d+)", part)
-        if match and match.group(1) in self.content:
-            return (match.group(1), int(match.group(2)))
+        number = int(match.group(2)) - self.subs.offset(match.group(1)) if match else -1
+        if match and match.group(1) in self.content and number >= 0:
+            return (match.group(1), number)
         return (part,) if part in self.content else ("hole",) if part.startswith("wall") else ()
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from .. import enums
 from ..channels import Named
-from . import failure, variability
+from . import failure, sub, variability
 from .asked import LIMITS, OUTPUT, RUN
 from .content import ANALYSES, PARTS
 from .fields import DEFINITIONS, Field, event_fields, fields_of, words_of
@@ -77,6 +77,9 @@ def schema() -> dict[str, Any]:
                                 **({"curve": _TABLE} if kind == "drive" else {})}
         known = event_fields() if kind == "event" else fields_of(DEFINITIONS[kind])
         properties[kind] = _many(_object(known, **more))
+    tables: dict[str, Any] = {key: _object(sub.known_fields(key), name=_NAME) for key in sub.TABLES}
+    tables["section"]["properties"]["pipes"] = _many(pipes)
+    properties["sub"] = _many(_object(sub.own_fields(), (), **tables))
     for kind in ANALYSES:
         properties[kind] = _object(fields_of(DEFINITIONS[kind]), **_asked(kind))
     number = {"type": ["number", "string"]}
