@@ -3,7 +3,7 @@
  * A parameter is given by two sims besides the one that runs: the same scene with the parameter a little lower and a
  * little higher, brought to the same time in the same way (created; or settled by dmb_analysis_static). So anything
  * that can be described can be one: a coefficient of friction, a diameter, the energy of the rock, a value of a
- * programme, the survey; of sims of one model, an initial speed or what dmb_sim_set_drive set. */
+ * programme, the survey; of sims of one model, an initial speed or what dmb_sim_set_drive or dmb_sim_set_input set. */
 #ifndef DRILLMBD_SENSITIVITY_H
 #define DRILLMBD_SENSITIVITY_H
 
@@ -32,9 +32,9 @@ DMB_SIZED_STRUCT(dmb_parameter)
  * parameters: count (1 .. 4096) of them, each with the same struct_size. The sim must outlive what is made, which holds
  * its models; memory comes from the sim's allocator. Errors (dmb_sim_message says why): DMB_ERR_NULL, _HANDLE,
  * _STRUCT_SIZE; _VALUE: low or high is a scene of another make, has another time, or other contacts, locks or inputs
- * that are not numbers; _UNSUPPORTED: joints with DMB_METHOD_MULTIPLIERS, scenes with inputs (control.h), programmes
- * whose times differ; _TOO_LARGE: clusters that are solved by sparse matrices; _NO_MEMORY. O(count * size of the
- * state). */
+ * that are not numbers, or an input (control.h) is on its way to what is set; _UNSUPPORTED: joints with
+ * DMB_METHOD_MULTIPLIERS, actuators with a delay, programmes whose times differ; _TOO_LARGE: clusters that are solved
+ * by sparse matrices; _NO_MEMORY. O(count * size of the state). */
 DMB_API int32_t dmb_sensitivity_create(dmb_sim *sim, const dmb_parameter *parameters, uint32_t count,
                                        dmb_sensitivity **sensitivity);
 /* Sets *sensitivity to NULL; does nothing within one of its calls. NULL-safe. */
@@ -42,7 +42,8 @@ DMB_API void dmb_sensitivity_destroy(dmb_sensitivity **sensitivity);
 
 /* dmb_sim_step and dmb_sim_advance of the sim, which gets the same bits as by these, and the derivatives along with it:
  * of each accepted step as it was done, its length, its corners and its kept accelerations included. Between two of
- * these calls the sim may be changed by dmb_sim_set_drive only. DMB_NOTE_NOT_SMOOTH where a contact, a sticking bristle
+ * these calls the sim may be changed by dmb_sim_set_drive only; inputs of control.h stay as they were set when this was
+ * made (DMB_ERR_ORDER). DMB_NOTE_NOT_SMOOTH where a contact, a sticking bristle
  * or a limit differs between both sides of a parameter: the derivative there is the mean of two. Other notes and errors
  * as dmb_sim_step and dmb_sim_advance; DMB_ERR_ORDER: the sim was moved by other calls; DMB_ERR_SINGULAR: the iteration
  * matrix at the end of a step; state and derivatives are then as these calls leave the state. Allocates nothing. Costs

@@ -221,6 +221,16 @@ void dmb_own_scene_copy(dmb_sim *copy, const dmb_sim *sim)
     copy->scene = sim->scene->sparse_count ? &copy->own->dense : &copy->own->scene;
 }
 
+void dmb_own_scene_enter(dmb_sim *copy, const dmb_model *model)
+{
+    copy->model = (dmb_model *)model;
+    copy->scene = model->scene;
+    if (copy->own == NULL) return;
+    make(copy->own, model->scene);
+    copy->scene = &copy->own->scene;
+    dmb_own_scene_update(copy);
+}
+
 void dmb_own_scene_begin(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;

@@ -28,6 +28,9 @@ void dmb_own_scene_begin(dmb_sim *sim);
 /* A copy for an analysis, which may outlive its sim: a scene of its own too, the dense one where the sim's is sparse.
  * Before its state is taken. */
 void dmb_own_scene_copy(dmb_sim *copy, const dmb_sim *sim);
+/* A copy goes into another scene of the same make, at its own input_value and input_begin. O(number of drives, loads,
+ * bits, inputs; of nodes with inputs of density or damping). */
+void dmb_own_scene_enter(dmb_sim *copy, const dmb_model *model);
 /* After input_value or input_begin were written. O(number of nodes) with inputs of density or damping, else O(number
  * of drives, loads, bits and inputs). */
 void dmb_own_scene_update(dmb_sim *sim);

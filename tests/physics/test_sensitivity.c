@@ -326,6 +326,34 @@ static uint32_t turning_channels(const rig *s, dmb_channel *out)
     return 4;
 }
 
+/* The string that drills, in mud, with an input of every kind of target; the parameters are what they are set to. */
+static double set_to[10] = {6.0, 1.0, 300.0, 400.0, 200.0, 9e3, -9e3, 1.0, 1100.0, 6.0};
+enum { SETTINGS = 10 };
+
+static void describe_settable(rig *s)
+{
+    static const int32_t targets[SETTINGS] = {
+        DMB_TARGET_SET_POINT,     DMB_TARGET_LOAD_FACTOR,    DMB_TARGET_BIT_LOAD,  DMB_TARGET_GAIN,
+        DMB_TARGET_INTEGRAL_GAIN, DMB_TARGET_LIMIT_HIGH,     DMB_TARGET_LIMIT_LOW, DMB_TARGET_FRICTION,
+        DMB_TARGET_FLUID_DENSITY, DMB_TARGET_LATERAL_DAMPING};
+    dmb_load_def load = dmb_load_def_default();
+    describe_drilling(s);
+    load.place = dmb_station(last_string, 4, 0.3);
+    load.force[2] = -400.0;
+    const dmb_id parts[SETTINGS] = {last_drive, add_load(s, &load), last_bit, last_drive, last_drive,
+                                    last_drive, last_drive,         {0, 0},   {0, 0},     {0, 0}};
+    for (int i = 0; i < SETTINGS; i++) {
+        dmb_input_def def = dmb_input_def_default();
+        (void)snprintf(def.name, sizeof def.name, "input %d", i);
+        def.target = targets[i];
+        def.part = parts[i];
+        def.initial = set_to[i];
+        if (targets[i] >= DMB_TARGET_GAIN && targets[i] != DMB_TARGET_LIMIT_LOW) def.low = 0.0;
+        dmb_id input;
+        must_model(s, dmb_model_add_input(s->model, &def, &input));
+    }
+}
+
 /* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 static void test_strings(void **state)
@@ -340,6 +368,61 @@ static void test_strings(void **state)
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) check_case(&cases[i]);
+}
+
+/* Inputs of control.h are parameters like others. */
+static void test_settings(void **state)
+{
+    static const double size[SETTINGS] = {1.0, 1.0, 300.0, 400.0, 2e4, 0.0, 0.0, 1.0, 1000.0, 6.0};
+    (void)state;
+    for (int i = 0; i < SETTINGS; i++) {
+        if (size[i] == 0.0) continue; /* limits that are not reached */
+        const scene_case c = {
+            "setting", describe_settable, &set_to[i], drilling_channels, 1e-3 * size[i], 3e-3 * size[i], 1e-3, 1e-5, 60,
+            0};
+        printf("input %d: ", i);
+        check_case(&c);
+    }
+}
+
+/* Inputs that nobody sets leave the derivatives by others alone, bit for bit; one that is set, or on its way, is told.
+ */
+static void test_settings_stay(void **state)
+{
+    dmb_parameter parameter = dmb_parameter_default();
+    dmb_sensitivity *sensitivity = NULL;
+    dmb_id input;
+    rig sides[3];
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        dmb_input_def def = dmb_input_def_default();
+        stiffness += 100.0 * (i - 1);
+        describe_string(&sides[i]);
+        stiffness -= 100.0 * (i - 1);
+        strcpy(def.name, "speed");
+        def.part = last_drive;
+        def.rate_limit = 10.0;
+        must_model(&sides[i], dmb_model_add_input(sides[i].model, &def, &input));
+        (void)rig_start(&sides[i], NULL);
+        if (i == 1) must(&sides[i], dmb_sim_set_input(sides[i].sim, input, 1.0));
+        if (i == 1) must(&sides[i], dmb_sim_step(sides[i].sim, 1e-3, NULL));
+        if (i != 1) must(&sides[i], dmb_sim_step(sides[i].sim, 1e-3, NULL));
+    }
+    rig *s = &sides[2]; /* any two of the three */
+    parameter.step = 100.0;
+    parameter.low = sides[1].sim;
+    parameter.high = sides[2].sim;
+    assert_int_equal(dmb_sensitivity_create(s->sim, &parameter, 1, &sensitivity), DMB_ERR_VALUE);
+    assert_non_null(strstr(dmb_sim_message(s->sim), "inputs set by the caller"));
+    parameter.low = sides[0].sim;
+    must(s, dmb_sensitivity_create(s->sim, &parameter, 1, &sensitivity));
+    must(s, dmb_sensitivity_step(sensitivity, 1e-3, NULL));
+    must(s, dmb_sim_set_input(s->sim, input, 2.0));
+    assert_int_equal(dmb_sensitivity_step(sensitivity, 1e-3, NULL), DMB_ERR_ORDER);
+    assert_non_null(strstr(dmb_sim_message(s->sim), "inputs were set since it was made"));
+    dmb_sensitivity_destroy(&sensitivity);
+    assert_int_equal(dmb_sensitivity_create(s->sim, &parameter, 1, &sensitivity), DMB_ERR_VALUE);
+    for (int i = 0; i < 3; i++) rig_close(&sides[i]);
 }
 
 static void test_bristles(void **state)
@@ -537,9 +620,10 @@ static void test_input(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_oscillator), cmocka_unit_test(test_input),    cmocka_unit_test(test_joints),
-        cmocka_unit_test(test_corners),    cmocka_unit_test(test_strings),  cmocka_unit_test(test_bristles),
-        cmocka_unit_test(test_ball),       cmocka_unit_test(test_drilling),
+        cmocka_unit_test(test_oscillator), cmocka_unit_test(test_input),         cmocka_unit_test(test_joints),
+        cmocka_unit_test(test_corners),    cmocka_unit_test(test_strings),       cmocka_unit_test(test_bristles),
+        cmocka_unit_test(test_settings),   cmocka_unit_test(test_settings_stay), cmocka_unit_test(test_ball),
+        cmocka_unit_test(test_drilling),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,8 @@
 #include "analysis/sensitivity/sensitivity.h"
 #include "base/memory.h"
 #include "base/value_check.h"
+#include "force/reference.h"
+#include "sim/own_scene.h"
 #include "system/copy.h"
 
 DMB_DEFINE_INIT(dmb_parameter, 56, {.step = 0.0})
@@ -27,6 +29,16 @@ static int same_arrays(const dmb_sim *a, const dmb_sim *b)
     return first.count == second.count;
 }
 
+/* Inputs that move the same, and as many of all that they may move. */
+static int same_settable(const dmb_scene *a, const dmb_scene *b)
+{
+    if (a->input_count != b->input_count) return 0;
+    if (a->input_count == 0) return 1;
+    for (uint32_t i = 0; i < a->input_count; i++)
+        if (a->inputs[i].target != b->inputs[i].target || a->inputs[i].index != b->inputs[i].index) return 0;
+    return a->load_count == b->load_count && a->bit_count == b->bit_count && a->type_count == b->type_count;
+}
+
 static int same_make(const dmb_sim *a, const dmb_sim *b)
 {
     const dmb_scene *first = a->scene, *second = b->scene;
@@ -39,6 +51,7 @@ static int same_make(const dmb_sim *a, const dmb_sim *b)
     if (memcmp(first->solved_row, second->solved_row, first->row_count * sizeof *first->solved_row) != 0) return 0;
     for (uint32_t i = 0; i < first->drive_count; i++)
         if (first->drives[i].kind != second->drives[i].kind || first->drives[i].row != second->drives[i].row) return 0;
+    if (!same_settable(first, second)) return 0;
     return first->normal_law.kind == second->normal_law.kind && first->friction_law.kind == second->friction_law.kind &&
            same_arrays(a, b);
 }
@@ -68,10 +81,22 @@ static int same_inputs(const dmb_sim *a, const dmb_sim *b)
 {
     for (uint32_t i = 0; i < a->scene->drive_count; i++)
         if (isnan(a->drive_input[i]) != isnan(b->drive_input[i])) return 0;
+    for (uint32_t i = 0; i < a->scene->input_count; i++) {
+        if (isnan(a->input_value[i]) != isnan(b->input_value[i])) return 0;
+        if (a->scene->inputs[i].target == DMB_TARGET_STUCK && a->input_value[i] != b->input_value[i]) return 0;
+    }
     for (uint32_t i = 0; i < a->scene->stuck_count; i++)
         if (a->stuck_held[i] != b->stuck_held[i]) return 0;
     return a->scene->joint_count == 0 ||
            memcmp(a->joint_state, b->joint_state, a->scene->joint_count * sizeof *a->joint_state) == 0;
+}
+
+/* The first input that is still on its way to what is set; DMB_NONE: none. */
+static uint32_t input_on_its_way(const dmb_sim *sim)
+{
+    for (uint32_t i = 0; i < sim->scene->input_count; i++)
+        if (!isnan(sim->input_value[i]) && dmb_reference_arrival(&sim->own->references[i]) > sim->clock->time) return i;
+    return DMB_NONE;
 }
 
 static int32_t check_side(dmb_sim *sim, uint32_t number, const dmb_parameter *p, const dmb_sim *side, const char *name)
@@ -96,11 +121,17 @@ static int32_t check_side(dmb_sim *sim, uint32_t number, const dmb_parameter *p,
         return refuse(sim, number, p, DMB_ERR_VALUE, text.text);
     }
     if (!same_inputs(sim, side)) {
-        dmb_message_set(
-            &text, "%s has other joints locked or open, other places stuck, or other drives set by the caller", name);
+        dmb_message_set(&text,
+                        "%s has other joints locked or open, other places stuck, or other drives or inputs set by the "
+                        "caller",
+                        name);
         return refuse(sim, number, p, DMB_ERR_VALUE, text.text);
     }
-    return DMB_OK;
+    const uint32_t input = input_on_its_way(side);
+    if (input == DMB_NONE) return DMB_OK;
+    dmb_message_set(&text, "%s has input %u (%s) on its way to what is set; run until it arrives", name, input,
+                    side->scene->inputs[input].name);
+    return refuse(sim, number, p, DMB_ERR_VALUE, text.text);
 }
 
 static int32_t check_parameters(dmb_sim *sim, const dmb_parameter *given, uint32_t count)
@@ -139,12 +170,12 @@ static int32_t check_scene(dmb_sim *sim)
                                        "joints, must be DMB_METHOD_INDEPENDENT");
         return DMB_ERR_UNSUPPORTED;
     }
-    if (sim->scene->input_count) {
+    const uint32_t input = input_on_its_way(sim);
+    if (input != DMB_NONE) {
         dmb_message_set(&sim->message,
-                        "sensitivity: the scene has %u inputs, must have none; set drives by "
-                        "dmb_sim_set_drive, or describe what the inputs would set",
-                        sim->scene->input_count);
-        return DMB_ERR_UNSUPPORTED;
+                        "sensitivity: input %u (%s) is on its way to what is set, must be there; run until it arrives",
+                        input, sim->scene->inputs[input].name);
+        return DMB_ERR_VALUE;
     }
     if (sim->scene->delay_count) {
         dmb_message_set(&sim->message, "sensitivity: %u drives have an actuator with a delay, must be none; take a lag",
@@ -169,6 +200,7 @@ static dmb_sensitivity *lay_out(dmb_arena *arena, const dmb_sim *sim, uint32_t c
     s->middle = DMB_ARENA_DOUBLES(arena, numbers);
     s->seen = DMB_ARENA_DOUBLES(arena, 3 * (size_t)sim->scene->node_count + 2 * (size_t)sim->scene->row_count);
     s->opening = DMB_ARENA_DOUBLES(arena, sim->scene->row_count);
+    s->settings = DMB_ARENA_DOUBLES(arena, sim->scene->input_count);
     for (uint32_t i = 0; i < count; i++) {
         double *rates = DMB_ARENA_DOUBLES(arena, numbers), *accepted = DMB_ARENA_DOUBLES(arena, numbers);
         if (made == NULL) continue;
@@ -240,6 +272,8 @@ static int32_t create(dmb_sim *sim, const dmb_parameter *given, uint32_t count, 
     }
     made->sim = sim;
     made->worker = worker;
+    if (sim->scene->input_count > 0)
+        memcpy(made->settings, sim->input_value, sim->scene->input_count * sizeof *made->settings);
     worker->options.energy_ledger = 0;
     worker->progress = &worker->own_progress;
     for (uint32_t i = 0; i < count; i++) {

@@ -35,9 +35,10 @@ struct dmb_sensitivity {
     dmb_rated_parameter *parameters; /* shape (count) */
     size_t numbers;                  /* [-] of the state */
     double *high, *low;              /* numbers of the state on both sides, shape (numbers) */
-    double *middle;  /* the same of the sim, taken beside as the others, where a parameter is one-sided */
-    double *seen;    /* displacement, velocity and acceleration at which the rates are, dmb_sensitivity_take_sight */
-    double *opening; /* shape (row) */
+    double *middle;   /* the same of the sim, taken beside as the others, where a parameter is one-sided */
+    double *seen;     /* displacement, velocity and acceleration at which the rates are, dmb_sensitivity_take_sight */
+    double *settings; /* of the inputs when this was made, which stay, shape (input) */
+    double *opening;  /* shape (row) */
     dmb_follower follower;
     int32_t busy;
     int32_t reserved;
@@ -53,7 +54,8 @@ void dmb_state_fields_of(const dmb_sim *sim, int32_t group, dmb_state_fields *of
 /* 1: of doubles that the step computes or the caller sets. */
 static inline int dmb_field_has_numbers(const dmb_field *field)
 {
-    return field->check == DMB_CHECK_NUMBERS || field->check == DMB_CHECK_INPUTS;
+    return field->check == DMB_CHECK_NUMBERS || field->check == DMB_CHECK_INPUTS ||
+           field->check == DMB_CHECK_SET_INPUTS;
 }
 /* The number of values in a state, and these values. */
 size_t dmb_state_count(const dmb_sim *sim);

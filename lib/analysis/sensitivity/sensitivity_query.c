@@ -6,6 +6,7 @@
 #include "base/sized_struct.h"
 #include "math/so3.h"
 #include "query/channel.h"
+#include "sim/own_scene.h"
 #include "system/constrain/cluster.h"
 #include "system/copy.h"
 
@@ -217,8 +218,7 @@ void dmb_sensitivity_aside(dmb_sensitivity *s, const dmb_rated_parameter *p, int
         rate += count;
     }
     normalise(s->sim, s->worker->now.quaternion);
-    s->worker->scene = p->model[side]->scene;
-    s->worker->model = p->model[side];
+    dmb_own_scene_enter(s->worker, p->model[side]);
 }
 
 const double *dmb_rates_of(const dmb_sensitivity *s, const dmb_rated_parameter *p, const void *data)

@@ -134,6 +134,12 @@ static int accelerates_as_seen(const dmb_sensitivity *s)
     return memcmp(s->seen + n + r, s->sim->now.acceleration, r * sizeof(double)) == 0;
 }
 
+static int is_set_as_made(const dmb_sensitivity *s)
+{
+    const size_t bytes = s->sim->scene->input_count * sizeof *s->settings;
+    return bytes == 0 || memcmp(s->settings, s->sim->input_value, bytes) == 0;
+}
+
 static int32_t explain(const dmb_sensitivity *s, const dmb_rated_parameter *p, int32_t status, const char *what)
 {
     const uint32_t number = p != NULL ? (uint32_t)(p - s->parameters) : 0;
@@ -231,6 +237,11 @@ static int32_t run(dmb_sensitivity *s, double to, dmb_step_report *report, int s
         dmb_message_set(&s->sim->message,
                         "sensitivity: the sim was moved by other calls than dmb_sensitivity_step and _advance; make "
                         "one anew from here");
+        return DMB_ERR_ORDER;
+    }
+    if (!is_set_as_made(s)) {
+        dmb_message_set(&s->sim->message,
+                        "sensitivity: inputs were set since it was made, must stay; make one anew from here");
         return DMB_ERR_ORDER;
     }
     status = dmb_sensitivity_catch_up(s);
