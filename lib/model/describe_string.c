@@ -135,18 +135,6 @@ static int32_t check_pipes(dmb_model *model, uint32_t string, const dmb_pipe_def
     return check.status;
 }
 
-int32_t dmb_string_is_open(dmb_model *model, const char *part, uint32_t string)
-{
-    if (string >= model->strings.count) return DMB_OK;
-    const uint32_t continued = DMB_LIST_AT(const dmb_string_plan, model->strings, string)->continued;
-    if (continued == 0) return DMB_OK;
-    dmb_message_set(&model->message,
-                    "%s: string %u ends at a sub, must be one that nothing continues; take string %u, which continues "
-                    "it",
-                    part, string, continued - 1);
-    return DMB_ERR_ORDER;
-}
-
 /* The string the pipes go to; one past the last where it has to be made. */
 static uint32_t string_of(dmb_check *check, const dmb_model *model, dmb_id id)
 {

@@ -223,6 +223,18 @@ int32_t dmb_describe_part(dmb_model *model, const dmb_described *part, int32_t s
     return status;
 }
 
+int32_t dmb_string_is_open(dmb_model *model, const char *part, uint32_t string)
+{
+    if (string >= model->strings.count) return DMB_OK;
+    const uint32_t continued = DMB_LIST_AT(const dmb_string_plan, model->strings, string)->continued;
+    if (continued == 0) return DMB_OK;
+    dmb_message_set(&model->message,
+                    "%s: string %u ends at a sub, must be one that nothing continues; take string %u, which continues "
+                    "it",
+                    part, string, continued - 1);
+    return DMB_ERR_ORDER;
+}
+
 int32_t dmb_model_clear_refused(dmb_model *model)
 {
     const int32_t status = dmb_describe_open(model, "model", model);
