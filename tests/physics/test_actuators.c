@@ -458,6 +458,17 @@ static void analyses_know_or_refuse(void **state)
     input.component = output.component = DMB_RX;
     assert_int_equal(dmb_analysis_response(t.sim, &frequencies, &input, 1, &output, 1, &response), DMB_ERR_UNSUPPORTED);
     assert_non_null(strstr(dmb_sim_message(t.sim), "response: drive 0 has an actuator"));
+    dmb_state_space *space = NULL;
+    assert_int_equal(dmb_analysis_state_space(t.sim, NULL, &input, 1, &output, 1, &space), DMB_ERR_UNSUPPORTED);
+    assert_null(space);
+    assert_non_null(strstr(dmb_sim_message(t.sim), "drive 0 has an actuator"));
+    dmb_parameter parameter = dmb_parameter_default();
+    dmb_sensitivity *sensitivity = NULL;
+    parameter.step = 1.0;
+    parameter.low = parameter.high = t.sim;
+    assert_int_equal(dmb_sensitivity_create(t.sim, &parameter, 1, &sensitivity), DMB_ERR_UNSUPPORTED);
+    assert_null(sensitivity);
+    assert_non_null(strstr(dmb_sim_message(t.sim), "1 drives have an actuator with a delay"));
     close_turner(&t);
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "crowded_string.h"
 #include "harmonic.h"
 #include "scarce.h"
 
@@ -250,6 +251,28 @@ static void transfer_of_a_string(void **state)
                 discard(&n);
                 rig_close(&r.s);
             }
+}
+
+/* Rings, contact points along elements, a stuck place and mud at once. */
+static void transfer_of_a_crowded_string(void **state)
+{
+    (void)state;
+    rig s;
+    crowded_string c = crowded_string_default();
+    rig_open(&s, 0.0, 0.0, -9.81);
+    add_crowded_string(&s, &c);
+    rig_start(&s, NULL);
+    find_equilibrium(&s, NULL);
+    const dmb_input inputs[2] = {input_of(DMB_INPUT_DRIVE, c.drive, DMB_X),
+                                 force_at(dmb_station(c.string, 1, 0.35), DMB_Z)};
+    const dmb_output outputs[3] = {output_at(DMB_OUTPUT_DISPLACEMENT, dmb_station(c.string, 2, 0.5), DMB_Z),
+                                   output_at(DMB_OUTPUT_VELOCITY, dmb_station(c.string, 1, 0.35), DMB_RX),
+                                   channel_at(c.string, 3, 0.2, DMB_CHANNEL_TORQUE)};
+    model m = space_of(&s, NULL, inputs, 2, outputs, 3);
+    check_below("a crowded string: against the frequency response",
+                against_response(&s, &m, NULL, inputs, outputs, frequencies, 5), 1e-9);
+    discard(&m);
+    rig_close(&s);
 }
 
 /* Forces beside a motion drive feel its acceleration: refused for its speed. */
@@ -960,6 +983,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(transfer_of_a_string),
+        cmocka_unit_test(transfer_of_a_crowded_string),
         cmocka_unit_test(rate_is_refused),
         cmocka_unit_test(roots_are_modes),
         cmocka_unit_test(gyroscopic),
