@@ -2,7 +2,6 @@
  * the weight of what hangs on it. */
 #include <drillmbd/drillmbd.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "command_line.h"
 
@@ -28,7 +27,7 @@ static int32_t describe(dmb_model *model, dmb_sub subs[SUBS])
         dmb_sub_def sub = dmb_sub_def_default();
         body.mass = masses[i];
         body.centre[0] = 0.5 * lengths[i];
-        (void)strcpy(body.name, names[i]);
+        (void)snprintf(body.name, sizeof body.name, "%s", names[i]);
         sub.string = pipe.string;
         sub.length = lengths[i];
         sub.body = &body;
