@@ -1151,6 +1151,7 @@ public:
         answer.frame = frame;
         return ask(dmb_query_joint, answer, which);
     }
+    DRILLMBD_NODISCARD dmb_flow_state flow() const { return ask(dmb_query_flow, dmb_flow_state_default()); }
     DRILLMBD_NODISCARD dmb_stuck_state stuck(dmb_id which) const
     {
         return ask(dmb_query_stuck, dmb_stuck_state_default(), which);

@@ -75,7 +75,8 @@ DMB_SIZED_STRUCT(dmb_torque_drag_row)
 /* One row for each depth and operation, shape (depth_count, operation_count), the size of each what the first says. The
  * string hangs together with its described pipes counted from the far end: at a depth less than where it is described
  * the first pipes are not there yet. Bodies and bits at the far end weigh as described. Ends and places beyond the
- * survey lie on the straight continuation. The sim is asked for its model only and does not change.
+ * survey lie on the straight continuation. Mud that flows pulls and thrusts by the diameters at each depth; pressures
+ * are left out of yield_share. The sim is asked for its model only and does not change.
  * Errors: DMB_ERR_UNSUPPORTED without a hole or for a string that does not follow it, DMB_ERR_VALUE, _NOT_FINITE, _ID,
  * _CANCELLED; rows are not written then. O(depths x operations x (pipes' runs + stations + length / 2 m)). */
 DMB_API int32_t dmb_analysis_torque_drag(dmb_sim *sim, const dmb_torque_drag_options *options,

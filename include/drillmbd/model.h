@@ -70,7 +70,15 @@ typedef struct dmb_environment_def {
     double added_mass; /* [-] of the mud outside flexible pipes that goes along sideways over what they displace (1: far
                           from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz
                           1972). Where it is not 0 the mud inside goes along too, tool joints spread over their pipe;
-                          refused with rigid pipes; bodies have none. 0 (default): mud has no inertia */
+                          refused with rigid pipes; bodies, bits and rings have none. 0 (default): mud has no
+                          inertia */
+    double flow_rate;  /* [m3/s] of mud down the one string of the model, which follows its hole, and back in the
+                          annulus, concentric, of the diameters where it is described: drag, pressures, thrust of the
+                          nozzles (dmb_query_flow); no inertia of its own sideways. 0 (default): mud rests */
+    double
+        consistency; /* [Pa s] K of the mud (Pa s^n): shear stress K (shear rate)^n; > 0 with a flow_rate; default 0 */
+    double flow_exponent; /* [-] n, 0.2 .. 1; 1 (default): Newtonian, K is its viscosity */
+    double nozzle_area;   /* [m2] of the bit in all; 0 (default): the last pipe is open */
 } dmb_environment_def;
 DMB_SIZED_STRUCT(dmb_environment_def)
 DMB_API int32_t dmb_model_set_environment(dmb_model *model, const dmb_environment_def *def);
@@ -279,6 +287,13 @@ typedef struct dmb_bit_def {
                             `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways */
     double walk_angle;   /* [rad] that it cuts about its axis away from the side force, -1.5 .. 1.5; default 0 */
     double displaced_volume; /* [m3] likewise of a body */
+    dmb_id ring; /* {0, 0} (default): the bit at the string's end; a ring (ring.h): a reamer, whose cutting surface is
+                    at the middle of that ring. The ring has mass, buoyancy and contact; mass, inertia, diameter,
+                    length, displaced_volume and string count for nothing, and `bottom` is the distance of the shoulder
+                    ahead. Weight on bit, torque and other driller's channels are those of the bit alone */
+    double
+        inner_radius; /* [m] b of the surface that is cut, from here to `radius`: the pilot hole of a reamer, the core
+                         of a core bit; 0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0 */
 } dmb_bit_def;
 DMB_SIZED_STRUCT(dmb_bit_def)
 DMB_API int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_id *bit);

@@ -226,10 +226,35 @@ DMB_SIZED_STRUCT(dmb_hole_point)
  * DMB_ERR_ORDER before, DMB_ERR_UNSUPPORTED without a hole. O(log stations). */
 DMB_API int32_t dmb_query_hole(const dmb_model *model, double depth, dmb_hole_point *point);
 
+/* ---- Flow of mud ------------------------------------------------------------------------------------------------- */
+typedef struct dmb_flow_state {
+    uint32_t struct_size;
+    uint32_t reserved;
+    double rate;             /* [m3/s] flow_rate of the environment */
+    double pump_pressure;    /* [Pa] at the rig end, inside over outside: losses and the difference of the columns */
+    double bore_loss;        /* [Pa] of pressure down the string, by friction */
+    double bit_loss;         /* [Pa] through nozzle_area, rho Q^2/(2 0.95^2 A^2) (Eckel, Bielstein 1951) */
+    double annulus_loss;     /* [Pa] up the annulus of the string, by friction */
+    double column;           /* [Pa] of the mud outside over that inside, far end under rig end */
+    double drag;             /* [N] of the flow along the string, towards the rig, in its effective axial force */
+    double thrust;           /* [N] rho Q V of nozzles or open end, on the far end towards the rig */
+    double pressure_stretch; /* [m] that the true axial force and the pressures on the walls of flexible and
+                                axial-torsional pipes stretch the string beyond what N_e does, and poses show */
+    double bore_reynolds;    /* [-] largest; laminar up to 3470 - 1370 n, by 16/f (Metzner, Reed 1955) */
+    double annulus_reynolds; /* [-] likewise; beyond 1e5 the law of the smooth wall is low, by 5 % at 1e6 */
+} dmb_flow_state;
+DMB_SIZED_STRUCT(dmb_flow_state)
+/* Pressures and forces of the mud that flows, at the present position of the string; all 0 without a flow_rate. Kinetic
+ * heads and losses of steps between diameters are left out; so are bodies, bits and rings in the annulus, its
+ * eccentricity (which lowers its loss, to less than half where the pipe lies on the wall) and the motion of the string.
+ * O(elements). */
+DMB_API int32_t dmb_query_flow(const dmb_sim *sim, dmb_flow_state *flow);
+
 /* ---- Profiles: a string's state over its length ------------------------------------------------------------------
  * Forces are of the section, tension > 0. Section forces of the library are effective ones: true axial force less that
  * of a fluid at rest, N_e = N + p_o A_o - p_i A_i (p the pressure of `fluid_density` under the start of the hole, or
- * the rig end without a hole, >= 0): it is N_e that bends, buckles and yields. Shares are load over limit: 1 is the
+ * the rig end without a hole, >= 0, and of its flow): it is N_e that bends, buckles and yields. Where mud flows N_e
+ * is less by rho Q V of that inside, which bends and buckles as compression does. Shares are load over limit: 1 is the
  * limit, 1 - share the margin. */
 enum {
     DMB_PROFILE_DISTANCE = 0,            /* [m] along the string from its rig end */
@@ -250,7 +275,8 @@ enum {
     DMB_PROFILE_FRICTION_AXIAL = 15,     /* [N/m] of the wall on the string along its axis, likewise */
     DMB_PROFILE_FRICTION_AROUND = 16,    /* [N/m] likewise along axis x outward normal */
     DMB_PROFILE_VON_MISES = 17,          /* [Pa] largest at the outer surface, by the diameters: N_e/A and M r/I
-                                            together, T r/J (pressure at rest leaves shape and yield alone) */
+                                            together, T r/J (one fluid at rest leaves shape and yield alone); with an
+                                            inner_density or flow_rate the largest of both surfaces, hoop stress too */
     DMB_PROFILE_YIELD_SHARE = 18,        /* [-] of `yield_strength`; NaN where the pipe has none */
     DMB_PROFILE_SINUSOIDAL_SHARE = 19,   /* [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without
                                             a hole */

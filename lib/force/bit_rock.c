@@ -152,11 +152,11 @@ static void assemble(const dmb_bit_rock_law *law, const struct jet *depth, const
 {
     double *const weight_d[4] = {&out->dW_dU, &out->dW_dV, &out->dW_dPhi, &out->dW_dOmega};
     double *const torque_d[4] = {&out->dT_dU, &out->dT_dV, &out->dT_dPhi, &out->dT_dOmega};
-    const double a = law->radius;
-    const double flat = a * law->contact_strength * law->wear_length;  /* sigma a l */
-    const double flat_torque = 0.5 * a * law->contact_friction * flat; /* mu gamma sigma a^2 l/2 */
-    const double cut = law->cutting_ratio * law->intrinsic_energy * a; /* zeta eps a */
-    const double cut_torque = 0.5 * law->intrinsic_energy * a * a;     /* eps a^2/2 */
+    const double width = law->radius - law->inner_radius, mean = law->radius + law->inner_radius; /* a - b, a + b */
+    const double flat = width * law->contact_strength * law->wear_length;                         /* sigma (a - b) l */
+    const double flat_torque = 0.5 * mean * law->contact_friction * flat;  /* mu gamma sigma (a^2 - b^2) l/2 */
+    const double cut = law->cutting_ratio * law->intrinsic_energy * width; /* zeta eps (a - b) */
+    const double cut_torque = 0.5 * law->intrinsic_energy * width * mean;  /* eps (a^2 - b^2)/2 */
     double sign_slope;
     const double sign = spin_sign(omega, &sign_slope);
 

@@ -23,6 +23,7 @@ typedef struct dmb_bit_rock_law {
     double wear_length;      /* [m] l, summed over the blades */
     double contact_friction; /* [-] mu gamma */
     double intrusion_depth;  /* [m] > 0, over which contact is taken up */
+    double inner_radius;     /* [m] b */
 } dmb_bit_rock_law;
 
 /* The surface the last blade left, over the bit angle at which it was cut. Arrays are the caller's (ring buffers of
@@ -54,10 +55,10 @@ typedef struct dmb_bit_rock_result {
 double dmb_bit_rock_bottom(const dmb_bit_rock_law *law, double bottom, double U);
 
 /* Forces and exact derivatives at one instant: W = zeta eps a d + sigma a l g [N] and T = eps a^2 d/2
- * + mu gamma sigma a^2 l g/2 [N m] at depth of cut d [m] and engagement g.
- * RATE (also REGENERATIVE without history): g = S((U - bottom)/intrusion_depth) with S(x) = x^2 (3 - 2x) on 0 .. 1, and
- *   d = g 2 pi max(V, 0)/Omega; bottom follows by dmb_bit_rock_bottom, so g = 1 in steady drilling, everything is
- *   taken up within intrusion_depth on touching, and nothing is left above it after lifting.
+ * + mu gamma sigma a^2 l g/2 [N m], with a - b for a and a^2 - b^2 for a^2 where the surface is a ring, at depth of cut
+ * d [m] and engagement g. RATE (also REGENERATIVE without history): g = S((U - bottom)/intrusion_depth) with S(x) = x^2
+ * (3 - 2x) on 0 .. 1, and d = g 2 pi max(V, 0)/Omega; bottom follows by dmb_bit_rock_bottom, so g = 1 in steady
+ * drilling, everything is taken up within intrusion_depth on touching, and nothing is left above it after lifting.
  *   Below the spin floor O, 1/Omega is replaced by x^2 (4 - 3x)/O, x = Omega/O (value and slope continuous).
  * REGENERATIVE: per blade d_n = max(0, U - surface under the blade), g = S(d_n/intrusion_depth), d = n d_n times
  *   S(Omega/O). `bottom` is not used.

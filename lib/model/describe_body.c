@@ -94,9 +94,13 @@ static int32_t check_bit(dmb_model *model, const dmb_bit_def *def)
     dmb_check_part_name(&check, model, DMB_PART_BIT, def->name);
     dmb_check_id_or_none(&check, model, "string", def->string, DMB_PART_STRING, "string");
     dmb_check_id_or_none(&check, model, "load", def->load, DMB_PART_PROGRAMME, "programme");
+    dmb_check_id_or_none(&check, model, "ring", def->ring, DMB_PART_RING, "ring");
     dmb_check_within(&check, "mass", def->mass, DMB_MASS_MIN, DMB_MASS_MAX);
     check_bit_inertia(&check, def);
     check_rock(&check, def);
+    dmb_check_within(&check, "inner_radius", def->inner_radius, 0.0, DMB_LENGTH_MAX);
+    if (check.status >= 0 && !(def->radius - def->inner_radius >= DMB_LENGTH_MIN))
+        dmb_check_fail(&check, DMB_ERR_VALUE, "inner_radius", def->inner_radius, "below radius by at least 1e-6 m");
     return check.status;
 }
 
@@ -111,8 +115,11 @@ int32_t dmb_model_add_bit(dmb_model *model, const dmb_bit_def *def, dmb_id *bit)
     int32_t status = dmb_describe_open(model, "bit", def);
     if (status < 0) return status;
     status = dmb_bit_def_read(&read, def);
+    const dmb_bit_def given = read;
     if (status >= 0) status = check_bit(model, &read);
-    if (status >= 0) status = dmb_string_is_open(model, "bit", string_of_bit(model, &read));
+    if (status >= 0 && dmb_id_is_none(read.ring))
+        status = dmb_string_is_open(model, "bit", string_of_bit(model, &read));
+    if (!dmb_id_is_none(read.ring)) read.diameter = read.displaced_volume = 0.0; /* those of the ring */
     if (status >= 0) status = dmb_describe_append(model, &model->bits, &read, sizeof read, DMB_PART_BIT, bit);
-    return dmb_describe_end(model, "bit", &read, sizeof read, status);
+    return dmb_describe_end(model, "bit", &given, sizeof given, status);
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "force/mud_flow.h"
 #include "math/real.h"
 #include "model/describe.h"
 #include "model/field_check.h"
@@ -161,6 +162,21 @@ static void check_or_minus_one(dmb_check *check, const char *field, double value
     dmb_check_fail(check, DMB_ERR_VALUE, field, value, bound);
 }
 
+/* What the scene must be for it, mesh_flow looks at. */
+static void check_flow(dmb_check *check, const dmb_environment_def *def)
+{
+    dmb_check_within(check, "flow_rate", def->flow_rate, 0.0, DMB_FLOW_MAX);
+    dmb_check_zero_or_within(check, "consistency", def->consistency, DMB_CONSISTENCY_MIN, DMB_CONSISTENCY_MAX);
+    dmb_check_within(check, "flow_exponent", def->flow_exponent, DMB_FLOW_EXPONENT_MIN, DMB_FLOW_EXPONENT_MAX);
+    dmb_check_zero_or_within(check, "nozzle_area", def->nozzle_area, DMB_AREA_MIN, DMB_FLOW_MAX);
+    if (check->status >= 0 && def->flow_rate > 0.0 && !(def->consistency > 0.0))
+        dmb_check_fail(check, DMB_ERR_VALUE, "consistency", def->consistency, "> 0 with a flow_rate");
+    if (check->status >= 0 && def->flow_rate > 0.0 && !(def->fluid_density > 0.0))
+        dmb_check_fail(check, DMB_ERR_VALUE, "fluid_density", def->fluid_density, "> 0 with a flow_rate");
+    if (check->status >= 0 && def->flow_rate > 0.0 && def->inner_density >= 0.0 && !(def->inner_density > 0.0))
+        dmb_check_fail(check, DMB_ERR_VALUE, "inner_density", def->inner_density, "> 0 with a flow_rate, or -1");
+}
+
 static int32_t check_environment(dmb_model *model, const dmb_environment_def *def)
 {
     dmb_check check = dmb_check_of(&model->message, "environment", DMB_NONE);
@@ -168,6 +184,7 @@ static int32_t check_environment(dmb_model *model, const dmb_environment_def *de
     dmb_check_within(&check, "fluid_density", def->fluid_density, 0.0, DMB_DENSITY_MAX);
     check_or_minus_one(&check, "inner_density", def->inner_density, DMB_DENSITY_MAX, "0 .. 1e6, or -1: as outside");
     check_or_minus_one(&check, "added_mass", def->added_mass, DMB_NUMBER_MAX, "0 .. 1e6, or -1: by the annulus");
+    check_flow(&check, def);
     dmb_check_within(&check, "lateral_damping", def->lateral_damping, 0.0, DMB_DAMPING_MAX);
     dmb_check_within(&check, "axial_damping", def->axial_damping, 0.0, DMB_DAMPING_MAX);
     dmb_check_within(&check, "torsional_damping", def->torsional_damping, 0.0, DMB_DAMPING_MAX);

@@ -24,8 +24,12 @@
 #define DMB_INERTIA_MAX 1e18
 #define DMB_STIFFNESS_MIN 1e-12 /* [N, N m2] of a section; [N/m^(n+1)] of the wall */
 #define DMB_STIFFNESS_MAX 1e30
-#define DMB_DAMPING_MAX 1e15 /* [N s/m2, N s] */
-#define DMB_NUMBER_MIN 1e-6  /* [-] of ratios and factors that must be > 0 */
+#define DMB_DAMPING_MAX 1e15     /* [N s/m2, N s] */
+#define DMB_FLOW_MAX 1e6         /* [m3/s], [m2] of nozzles */
+#define DMB_AREA_MIN 1e-12       /* [m2] of nozzles */
+#define DMB_CONSISTENCY_MIN 1e-9 /* [Pa s^n] */
+#define DMB_CONSISTENCY_MAX 1e9
+#define DMB_NUMBER_MIN 1e-6 /* [-] of ratios and factors that must be > 0 */
 #define DMB_NUMBER_MAX 1e6
 #define DMB_RATIO_MIN 1e-12 /* [-, m/rad, rad/m] of coupled coordinates */
 #define DMB_RATIO_MAX 1e12

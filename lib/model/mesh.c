@@ -34,6 +34,7 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
         .spring_points = {.item_size = sizeof(dmb_spring_point)},
         .forces = {.item_size = sizeof(dmb_scene_force)},
         .stuck = {.item_size = sizeof(dmb_scene_stuck)},
+        .flow_pieces = {.item_size = sizeof(dmb_flow_piece)},
         .inputs = {.item_size = sizeof(dmb_scene_input)},
         .events = {.item_size = sizeof(dmb_scene_event)},
         .joints = {.item_size = sizeof(dmb_scene_joint)},
@@ -55,15 +56,15 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
 
 void dmb_mesh_release(dmb_mesh *mesh)
 {
-    dmb_vector *const all[] = {&mesh->stations,     &mesh->pieces,        &mesh->run_order,     &mesh->run_start,
-                               &mesh->nodes,        &mesh->elements,      &mesh->types,         &mesh->batches,
-                               &mesh->rigid_masses, &mesh->sites,         &mesh->path_sites,    &mesh->drives,
-                               &mesh->loads,        &mesh->actuators,     &mesh->bits,          &mesh->joints,
-                               &mesh->couplings,    &mesh->callbacks,     &mesh->laws,          &mesh->driven,
-                               &mesh->constraints,  &mesh->clusters,      &mesh->cluster_nodes, &mesh->strings,
-                               &mesh->pipes,        &mesh->bodies,        &mesh->inputs,        &mesh->load_points,
-                               &mesh->springs,      &mesh->spring_points, &mesh->events,        &mesh->forces,
-                               &mesh->ring_order,   &mesh->rings,         &mesh->inside,        &mesh->stuck};
+    dmb_vector *const all[] = {
+        &mesh->stations,    &mesh->pieces,     &mesh->run_order,     &mesh->run_start,    &mesh->nodes,
+        &mesh->elements,    &mesh->types,      &mesh->batches,       &mesh->rigid_masses, &mesh->sites,
+        &mesh->path_sites,  &mesh->drives,     &mesh->loads,         &mesh->actuators,    &mesh->bits,
+        &mesh->joints,      &mesh->couplings,  &mesh->callbacks,     &mesh->laws,         &mesh->driven,
+        &mesh->constraints, &mesh->clusters,   &mesh->cluster_nodes, &mesh->strings,      &mesh->pipes,
+        &mesh->bodies,      &mesh->inputs,     &mesh->load_points,   &mesh->springs,      &mesh->spring_points,
+        &mesh->events,      &mesh->forces,     &mesh->ring_order,    &mesh->rings,        &mesh->inside,
+        &mesh->stuck,       &mesh->flow_pieces};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) dmb_vector_release(all[i], &mesh->model->allocator);
 }
 

@@ -15,6 +15,7 @@
  *   joints          joints, couplings, ...     joints, couplings, callbacks, laws
  *   actions         drives, loads, bits        drives, loads, load_points, bits, nodes (prescribed), driven
  *   forces          springs, forces            springs, spring_points, forces
+ *   flow            pipes, hole, environment   flow_pieces
  *   constraints     joints ... forces          constraints, clusters, cluster_nodes; back-references
  *                                              in joints, couplings, drives, callbacks, springs, forces
  *
@@ -97,6 +98,7 @@ typedef struct dmb_mesh {
     dmb_vector events;        /* dmb_scene_event */
     dmb_vector forces;        /* dmb_scene_force */
     dmb_vector stuck;         /* dmb_scene_stuck */
+    dmb_vector flow_pieces;   /* dmb_flow_piece */
     dmb_vector joints;        /* dmb_scene_joint */
     dmb_vector couplings;     /* dmb_scene_coupling */
     dmb_vector callbacks;     /* dmb_scene_callback */
@@ -112,8 +114,9 @@ typedef struct dmb_mesh {
     dmb_vector rings;         /* dmb_ring_map, in that order */
     uint32_t tool_joints;     /* pipes that have one */
     uint32_t history_count;
-    uint32_t delays; /* drives with a delay line */
-    double mass;     /* [kg] */
+    uint32_t delays;   /* drives with a delay line */
+    dmb_mud_flow flow; /* with flow_pieces */
+    double mass;       /* [kg] */
 } dmb_mesh;
 
 static inline dmb_mesh_node *dmb_mesh_node_at(const dmb_mesh *mesh, uint32_t i)
@@ -198,6 +201,8 @@ int32_t dmb_mesh_masses(dmb_mesh *mesh);
 int32_t dmb_mesh_sites(dmb_mesh *mesh);
 int32_t dmb_mesh_joints(dmb_mesh *mesh);
 int32_t dmb_mesh_actions(dmb_mesh *mesh);
+/* Lengths of pipe that mud flows through. DMB_ERR_UNSUPPORTED, _GEOMETRY, _VALUE, _NO_MEMORY. */
+int32_t dmb_mesh_flow(dmb_mesh *mesh);
 int32_t dmb_mesh_forces(dmb_mesh *mesh);
 int32_t dmb_mesh_constraints(dmb_mesh *mesh);
 int32_t dmb_mesh_inputs(dmb_mesh *mesh);

@@ -149,6 +149,7 @@ static dmb_bit_rock_law rock_law_of(const dmb_bit_def *def, bool wanted)
     const dmb_bit_rock_law law = {.kind = wanted ? def->rock_law : DMB_ROCK_NONE,
                                   .blades = def->blades,
                                   .radius = def->radius,
+                                  .inner_radius = def->inner_radius,
                                   .intrinsic_energy = def->intrinsic_energy,
                                   .cutting_ratio = def->cutting_ratio,
                                   .contact_strength = def->contact_strength,
@@ -170,7 +171,8 @@ static int32_t add_side(dmb_mesh *mesh, uint32_t i, const dmb_bit_def *def, dmb_
             i, def->side_cutting);
         return DMB_ERR_UNSUPPORTED;
     }
-    bit->side.resistance = DMB_TWO_PI * def->cutting_ratio * def->intrinsic_energy * def->radius / def->side_cutting;
+    bit->side.resistance =
+        DMB_TWO_PI * def->cutting_ratio * def->intrinsic_energy * (def->radius - def->inner_radius) / def->side_cutting;
     dmb_sin_cos(def->walk_angle, &bit->side.sine, &bit->side.cosine);
     return DMB_OK;
 }
@@ -184,7 +186,8 @@ static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
                          .node = map->node,
                          .load = programme_of(mesh, def->load),
                          .history_first = mesh->history_count,
-                         .arm = map->arm};
+                         .arm = map->arm,
+                         .reamer = !dmb_id_is_none(def->ring)};
     if (bit.law.kind == DMB_ROCK_REGENERATIVE) bit.history_capacity = def->history;
     if (bit.history_capacity > UINT32_MAX - mesh->history_count) return DMB_ERR_TOO_LARGE;
     mesh->history_count += bit.history_capacity;

@@ -122,6 +122,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->load_point_count = (uint32_t)mesh->load_points.count;
     scene->force_count = (uint32_t)mesh->forces.count;
     scene->stuck_count = (uint32_t)mesh->stuck.count;
+    scene->flow_count = (uint32_t)mesh->flow_pieces.count;
     scene->spring_count = (uint32_t)mesh->springs.count;
     scene->spring_point_count = (uint32_t)mesh->spring_points.count;
     scene->programme_count = mesh->model->programmes.count;
@@ -194,6 +195,12 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
     to->springs = DMB_ARENA_ARRAY(arena, dmb_scene_spring, counts->spring_count);
     to->forces = DMB_ARENA_ARRAY(arena, dmb_scene_force, counts->force_count);
     to->stuck = DMB_ARENA_ARRAY(arena, dmb_scene_stuck, counts->stuck_count);
+    if (counts->flow_count > 0) {
+        to->flow_pieces = DMB_ARENA_ARRAY(arena, dmb_flow_piece, counts->flow_count);
+        to->flow_element = DMB_ARENA_DOUBLES(arena, counts->element_count);
+        to->flow_node = DMB_ARENA_DOUBLES(arena, 2 * (size_t)counts->node_count);
+        to->flow_segment = DMB_ARENA_ARRAY(arena, uint32_t, counts->node_count);
+    }
     to->spring_points = DMB_ARENA_ARRAY(arena, dmb_spring_point, counts->spring_point_count);
     if (counts->event_count > 0) to->events = DMB_ARENA_ARRAY(arena, dmb_scene_event, counts->event_count);
     to->strings = DMB_ARENA_ARRAY(arena, dmb_string_map, counts->string_count);

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "math/elementary.h"
+#include "model/field_check.h"
 #include "model/mesh.h"
 #include "model/section.h"
 
@@ -310,6 +311,7 @@ static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
     const dmb_bit_def *def = DMB_LIST_AT(const dmb_bit_def, mesh->model->bits, i);
     const dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, mesh->model->bodies.count + i);
     dmb_rigid_part part;
+    if (!dmb_id_is_none(def->ring)) return DMB_OK;
     dmb_bit_body_of(def, &part);
     return add_part(mesh, map->node, &part, map->arm + 0.5 * def->length,
                     lifted(mesh, def->displaced_volume, def->mass), def->displaced_volume);

@@ -380,10 +380,12 @@ static dmb_body_map map_of(dmb_mesh *mesh, uint32_t body, const dmb_body_def *de
     return map;
 }
 
-/* A bit's reference point is the string's end; its centre is half its length beyond. */
+/* A bit's reference point is the string's end; its centre is half its length beyond. Reamers are put on their rings
+ * when those have their places (mesh_ring). */
 static dmb_body_map bit_map_of(const dmb_mesh *mesh, const dmb_bit_def *def)
 {
-    const dmb_string_map *string = dmb_mesh_string_at(mesh, dmb_mesh_string_of(mesh, def->string));
+    const dmb_string_map *string =
+        dmb_mesh_string_at(mesh, dmb_id_is_none(def->ring) ? dmb_mesh_string_of(mesh, def->string) : 0);
     dmb_body_map map = {string->end_node, DMB_NONE, string->end_arm, 0, 0, ""};
     memcpy(map.name, def->name, sizeof map.name);
     return map;

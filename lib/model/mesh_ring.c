@@ -219,6 +219,21 @@ static double start_of(const dmb_mesh *mesh, const dmb_mesh_ring *ring, uint32_t
     return *at;
 }
 
+/* Reamers to the middles of their rings. */
+static void place_reamers(dmb_mesh *mesh, uint32_t first)
+{
+    const dmb_model *model = mesh->model;
+    for (uint32_t i = 0; i < model->bits.count; i++) {
+        const dmb_bit_def *bit = DMB_LIST_AT(const dmb_bit_def, model->bits, i);
+        const uint32_t ring = dmb_model_part_index(model, bit->ring, DMB_PART_RING);
+        if (ring == DMB_NONE) continue;
+        const dmb_body_map *on = DMB_VECTOR_AT(const dmb_body_map, &mesh->bodies, first + ring);
+        dmb_body_map *map = DMB_VECTOR_AT(dmb_body_map, &mesh->bodies, model->bodies.count + i);
+        map->node = on->node;
+        map->arm = on->arm;
+    }
+}
+
 int32_t dmb_mesh_rings(dmb_mesh *mesh)
 {
     const dmb_model *model = mesh->model;
@@ -240,5 +255,6 @@ int32_t dmb_mesh_rings(dmb_mesh *mesh)
                                     .body = first + ring->ring};
         status = dmb_vector_append(&mesh->rings, &model->allocator, &along, 1);
     }
+    if (status >= 0) place_reamers(mesh, first);
     return status;
 }

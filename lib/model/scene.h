@@ -22,6 +22,7 @@
 #include "force/friction_law.h"
 #include "force/hole.h"
 #include "force/hole_section.h"
+#include "force/mud_flow.h"
 #include "force/normal_law.h"
 #include "force/programme.h"
 #include "force/side_cutting.h"
@@ -82,6 +83,8 @@ typedef struct dmb_scene_bit {
     uint32_t history_capacity; /* 0 unless regenerative */
     double arm;                /* [m] along body x from the node to the bit (rigid pipes merged behind it); usually 0 */
     dmb_side_law side;
+    int32_t reamer; /* 1: on a ring */
+    int32_t reserved;
 } dmb_scene_bit;
 
 /* A quantity that the caller moves in each sim by itself (sim/own_scene). */
@@ -191,6 +194,18 @@ typedef struct dmb_cluster {
     size_t full;    /* start in work of (columns x columns) */
 } dmb_cluster;
 
+/* A length of pipe, or a tool joint, that mud flows through and back along. */
+typedef struct dmb_flow_piece {
+    double from, length; /* [m] along the string */
+    double diameter[2];  /* [m] outer, inner */
+    double steel;        /* [N] E A, by which it stretches; 0: rigid */
+    double poisson;      /* [-] */
+    dmb_flow_loss bore, annulus;
+    double before[2]; /* [Pa] lost in the bore, in the annulus, between the rig end and `from` */
+    uint32_t element; /* half of its pull on each node; DMB_NONE: on `node` */
+    uint32_t node;
+} dmb_flow_piece;
+
 /* Neighbouring elements with one kernel. */
 typedef struct dmb_batch {
     uint32_t first, count; /* elements */
@@ -229,6 +244,9 @@ typedef struct dmb_scene {
     double length_scale;  /* [m] mean element length, or 1: makes moments comparable with forces */
     double fluid_density; /* [kg/m3] outside of the pipes */
     double inner_density; /* [kg/m3] inside; < 0: the same */
+    dmb_mud_flow flow;    /* of the first string; valid with pieces */
+    uint32_t flow_count;  /* 0: mud rests */
+    uint32_t flow_reserved;
     uint32_t input_count, event_count;
     uint32_t actuator_count, delay_count;         /* drives with an actuator, with a delay */
     int32_t has_density_input, has_damping_input; /* 1: some input moves it */
@@ -289,6 +307,11 @@ typedef struct dmb_scene {
     dmb_scene_event *events;
     dmb_scene_force *forces;
     dmb_scene_stuck *stuck;
+    dmb_flow_piece *flow_pieces; /* from the rig end on, shape (flow_count) */
+    double *flow_element;        /* [N] pull of the mud on elements, towards the rig, shape (element); only with flow */
+    double *flow_node;      /* [N, N m] likewise on nodes, and times its place x in the node's frame, elements and all
+                               that is rigid with it; shape (node, 2) */
+    uint32_t *flow_segment; /* [-] arc of the hole near a node, shape (node) */
 
     /* joints and constraints; all empty without joints */
     dmb_scene_joint *joints;

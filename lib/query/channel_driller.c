@@ -98,6 +98,7 @@ static int32_t ask_bits(const asked_string *s, bits_of_string *bits)
     for (uint32_t k = 0; k < scene->bit_count; k++) {
         dmb_bit_rock_result rock;
         double load;
+        if (scene->bits[k].reamer) continue;
         if (scene->bits[k].node - s->map->first_node >= s->map->node_count) continue;
         dmb_bit_force_of(s->sim, k, &rock, &load);
         if (bits->count++ == 0) bits->first = k;

@@ -6,6 +6,7 @@
 
 #include "element/beam.h"
 #include "element/rigid_mass.h"
+#include "model/field_check.h"
 #include "model/mesh.h"
 #include "model/section.h"
 #include "query/place.h"
@@ -84,6 +85,7 @@ void dmb_eccentric_share(const dmb_scene *scene, const dmb_described_pipe *pipe,
 static void bit_share(const dmb_bit_def *def, double arm, dmb_rigid_mass *share)
 {
     dmb_rigid_part part;
+    if (!dmb_id_is_none(def->ring)) return; /* it is the ring's */
     dmb_bit_body_of(def, &part);
     add_part(share, &part, arm + 0.5 * def->length, NULL);
 }
@@ -248,6 +250,7 @@ int dmb_body_is_at_end(const dmb_model *model, uint32_t body, uint32_t string, i
     const dmb_bit_def *bits = model->bits.items;
     const int is_bit = body >= model->bodies.count;
     if (body >= model->bodies.count + model->bits.count) return 0; /* a ring */
+    if (is_bit && !dmb_id_is_none(bits[body - model->bodies.count].ring)) return 0;
     const dmb_id id = is_bit ? bits[body - model->bodies.count].string : bodies[body].string;
     const uint32_t named = dmb_model_part_index(model, id, DMB_PART_STRING);
     return (is_bit ? DMB_ATTACH_END : bodies[body].attach) == attach && (named == DMB_NONE ? 0 : named) == string;

@@ -16,6 +16,21 @@ double dmb_tube_von_mises(double outer_diameter, double inner_diameter, double a
     return sqrt(normal * normal + 3.0 * shear * shear);
 }
 
+double dmb_tube_pressed_von_mises(const double diameters[2], double axial_force, double torque, double bending_moment,
+                                  double pressure)
+{
+    const double A = dmb_ring_area(diameters[0], diameters[1]);
+    const double I = dmb_ring_second_moment(diameters[0], diameters[1]);
+    double largest = 0.0;
+    for (int surface = 0; surface < 2; surface++) {
+        const double r = 0.5 * diameters[surface];
+        const double normal = fabs(axial_force) / A + fabs(bending_moment) * r / I, shear = torque * r / (2.0 * I);
+        const double hoop = pressure * dmb_ring_area(diameters[1 - surface], 0.0) / A;
+        largest = fmax(largest, sqrt(normal * normal + 3.0 * (hoop * hoop + shear * shear)));
+    }
+    return largest;
+}
+
 double dmb_confined_wall_force(const dmb_confined_pipe *pipe, double axial_force, double *by_force)
 {
     double across[3], force;

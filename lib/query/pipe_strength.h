@@ -11,6 +11,13 @@
 double dmb_tube_von_mises(double outer_diameter, double inner_diameter, double axial_force, double torque,
                           double bending_moment);
 
+/* [Pa] Likewise where the pressure inside is higher by `pressure` [Pa], the largest of both surfaces. With s = N_e/A +
+ * M rho/I at the radius rho the axial stress is s + (p_i A_i - p_o A_o)/A; radial and hoop stress of Lame lie by
+ * +- h, h = pressure A_i A_o/(A pi rho^2), about the same mean, so that the von Mises stress is sqrt(s^2 + 3 h^2 + 3
+ * t^2) (Sparks 1984). diameters: outer, inner [m]. */
+double dmb_tube_pressed_von_mises(const double diameters[2], double axial_force, double torque, double bending_moment,
+                                  double pressure);
+
 /* A long pipe in contact with the wall of its hole. */
 typedef struct dmb_confined_pipe {
     double EI;         /* [N m2] the smaller one */

@@ -6,6 +6,7 @@
 
 #include "model/section.h"
 #include "query/motion.h"
+#include "query/mud_pressure.h"
 #include "query/pipe_strength.h"
 #include "query/place.h"
 #include "sim/access.h"
@@ -110,28 +111,28 @@ static int in_tool_joint(const station *at)
     return at->point.beyond > 0.0;
 }
 
-/* [Pa] of the fluid at rest: it stands up to the start of the hole, or to the rig end as described without a hole. */
-static double pressure(const station *at, double density)
+/* Of the mud outside and inside, at rest or as it flows. */
+static dmb_mud_pressure pressures(const station *at)
 {
-    const dmb_scene *scene = at->sim->scene;
     const uint32_t string = dmb_model_part_index(at->sim->model, at->place.part, DMB_PART_STRING);
-    double top[3], below[3];
-    if (scene->has_hole)
-        dmb_hole_frame(&scene->hole, dmb_hole_is_straight(&scene->hole) ? 0.0 : scene->hole.station[0].depth, top, NULL,
-                       NULL);
-    else
-        dmb_vec3_copy(scene->reference_position + 3 * (size_t)scene->strings[string].start_node, top);
-    dmb_vec3_sub(at->values + DMB_PROFILE_X, top, below);
-    return fmax(0.0, density * dmb_vec3_dot(scene->gravity, below));
+    return dmb_mud_pressure_at(at->sim, string, at->values[DMB_PROFILE_DISTANCE], at->values + DMB_PROFILE_X);
+}
+
+/* [N] rho Q V of the mud that flows inside. */
+static double momentum(const station *at)
+{
+    const dmb_mud_flow *flow = &at->sim->scene->flow;
+    if (at->sim->scene->flow_count == 0) return 0.0;
+    return flow->inside * flow->rate * flow->rate / dmb_ring_area(at->diameters[1], 0.0);
 }
 
 /* [N] p_o A_o - p_i A_i: effective less true axial force. */
 static double pressure_force(const station *at)
 {
-    const dmb_mud mud = dmb_mud_of(at->sim->scene);
+    const dmb_mud_pressure p = pressures(at);
     const double *d = at->diameters;
-    if (mud.inside < 0.0) return pressure(at, mud.outside) * dmb_ring_area(d[0], d[1]);
-    return pressure(at, mud.outside) * dmb_ring_area(d[0], 0.0) - pressure(at, mud.inside) * dmb_ring_area(d[1], 0.0);
+    if (!dmb_mud_is_apart(at->sim->scene)) return p.outside * dmb_ring_area(d[0], d[1]);
+    return p.outside * dmb_ring_area(d[0], 0.0) - p.inside * dmb_ring_area(d[1], 0.0);
 }
 
 static const dmb_pipe_map *pipe_of(const station *at)
@@ -163,7 +164,7 @@ static int32_t section_values(station *at)
     double *v = at->values;
     if (status < 0) return status;
     v[DMB_PROFILE_EFFECTIVE_FORCE] = section.force[0];
-    v[DMB_PROFILE_AXIAL_FORCE] = section.force[0] - pressure_force(at);
+    v[DMB_PROFILE_AXIAL_FORCE] = section.force[0] - pressure_force(at) + momentum(at);
     v[DMB_PROFILE_TORQUE] = section.force[3];
     v[DMB_PROFILE_SHEAR_FORCE] = hypot(section.force[1], section.force[2]);
     v[DMB_PROFILE_SHEAR_Y] = section.force[1];
@@ -268,8 +269,15 @@ static void limit_values(station *at)
     const dmb_pipe_def *def = &at->run->def;
     double *v = at->values;
     dmb_pipe_section section;
-    v[DMB_PROFILE_VON_MISES] = dmb_tube_von_mises(at->diameters[0], at->diameters[1], v[DMB_PROFILE_EFFECTIVE_FORCE],
-                                                  v[DMB_PROFILE_TORQUE], v[DMB_PROFILE_BENDING_MOMENT]);
+    v[DMB_PROFILE_VON_MISES] =
+        dmb_tube_von_mises(at->diameters[0], at->diameters[1], v[DMB_PROFILE_EFFECTIVE_FORCE] + momentum(at),
+                           v[DMB_PROFILE_TORQUE], v[DMB_PROFILE_BENDING_MOMENT]);
+    if (dmb_mud_is_apart(scene)) {
+        const dmb_mud_pressure p = pressures(at);
+        v[DMB_PROFILE_VON_MISES] =
+            dmb_tube_pressed_von_mises(at->diameters, v[DMB_PROFILE_EFFECTIVE_FORCE] + momentum(at),
+                                       v[DMB_PROFILE_TORQUE], v[DMB_PROFILE_BENDING_MOMENT], p.inside - p.outside);
+    }
     if (def->yield_strength > 0.0) v[DMB_PROFILE_YIELD_SHARE] = v[DMB_PROFILE_VON_MISES] / def->yield_strength;
     if (!scene->has_hole) return;
     dmb_section_of(def, &section);

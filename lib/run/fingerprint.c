@@ -178,6 +178,8 @@ static uint64_t add_bits(uint64_t h, const dmb_scene *s)
         h = dmb_fnv_word(h, bit->history_capacity);
         h = DMB_NUMBERS(h, numbers);
         if (bit->side.resistance > 0.0) h = DMB_NUMBERS(h, side);
+        if (bit->law.inner_radius > 0.0) h = dmb_fnv_number(h, bit->law.inner_radius);
+        if (bit->reamer) h = dmb_fnv_word(h, bit->node);
     }
     return h;
 }
@@ -231,6 +233,14 @@ static uint64_t add_forces(uint64_t h, const dmb_scene *s)
         }
     }
     return h;
+}
+
+static uint64_t add_flow(uint64_t h, const dmb_scene *s)
+{
+    if (s->flow_count == 0) return h;
+    h = dmb_fnv_numbers(h, s->flow_element, s->element_count);
+    h = dmb_fnv_number(h, dmb_nozzle_thrust(&s->flow));
+    return dmb_fnv_numbers(h, s->flow_node, 2 * (size_t)s->node_count);
 }
 
 static uint64_t add_frame(uint64_t h, const dmb_scene_frame *frame)
@@ -348,6 +358,7 @@ uint64_t dmb_scene_fingerprint(const dmb_scene *scene)
     h = add_springs(h, scene);
     h = add_forces(h, scene);
     h = add_stuck(h, scene);
+    h = add_flow(h, scene);
     return add_constraints(h, scene);
 }
 

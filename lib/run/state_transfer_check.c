@@ -92,6 +92,7 @@ static int32_t check_bits(dmb_sim *sim, const dmb_sim *from)
     for (uint32_t k = 0; k < sim->scene->bit_count; k++) {
         const dmb_scene_bit *to = sim->scene->bits + k, *old = from->scene->bits + k;
         if (part_of(def[k].string) != part_of(old_def[k].string)) return other(sim, "bit", k, "string");
+        if (part_of(def[k].ring) != part_of(old_def[k].ring)) return other(sim, "bit", k, "ring");
         if (to->law.kind != old->law.kind) return other(sim, "bit", k, "rock_law");
         if (to->law.blades != old->law.blades) return other(sim, "bit", k, "blades");
         if (to->history_capacity != old->history_capacity) return other(sim, "bit", k, "history");

@@ -91,7 +91,9 @@ static const field environment_fields[] = {
     F(dmb_environment_def, reserved, COUNT, 1),     F(dmb_environment_def, gravity, REAL, 3),
     F(dmb_environment_def, fluid_density, REAL, 1), F(dmb_environment_def, lateral_damping, REAL, 1),
     F(dmb_environment_def, axial_damping, REAL, 1), F(dmb_environment_def, torsional_damping, REAL, 1),
-    F(dmb_environment_def, inner_density, REAL, 1), F(dmb_environment_def, added_mass, REAL, 1)};
+    F(dmb_environment_def, inner_density, REAL, 1), F(dmb_environment_def, added_mass, REAL, 1),
+    F(dmb_environment_def, flow_rate, REAL, 1),     F(dmb_environment_def, consistency, REAL, 1),
+    F(dmb_environment_def, flow_exponent, REAL, 1), F(dmb_environment_def, nozzle_area, REAL, 1)};
 static void fill_environment(const scene_under_test *s, any_def *def)
 {
     (void)s;
@@ -261,6 +263,9 @@ static const field bit_fields[] = {F(dmb_bit_def, rock_law, WHOLE, 1),
                                    F(dmb_bit_def, wear_length, REAL, 1),
                                    F(dmb_bit_def, contact_friction, REAL, 1),
                                    F(dmb_bit_def, intrusion_depth, REAL, 1),
+                                   F(dmb_bit_def, ring.index, COUNT, 1),
+                                   F(dmb_bit_def, ring.generation, COUNT, 1),
+                                   F(dmb_bit_def, inner_radius, REAL, 1),
                                    F(dmb_bit_def, bottom, REAL, 1),
                                    F(dmb_bit_def, blades, COUNT, 1),
                                    F(dmb_bit_def, history, COUNT, 1),

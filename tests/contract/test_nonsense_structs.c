@@ -55,7 +55,7 @@ INIT(hole_section)
 INIT(hole_point) INIT(profile) INIT(operation) INIT(torque_drag_options) INIT(torque_drag_row) INIT(fatigue_options)
 INIT(fatigue_result) INIT(window_options) INIT(window_result) INIT(profile_recorder)
 INIT(parameter) INIT(input_def) INIT(input_info) INIT(input_state) INIT(spring_def) INIT(force_def) INIT(spring_state)
-INIT(stuck_def) INIT(stuck_state) INIT(motor) INIT(ring_def) INIT(sub_def) INIT(sub)
+INIT(stuck_def) INIT(stuck_state) INIT(flow_state) INIT(motor) INIT(ring_def) INIT(sub_def) INIT(sub)
 INIT(state_space_options) INIT(state_space_info) INIT(row)
     /* clang-format on */
 
@@ -413,6 +413,7 @@ CALL(momentum, dmb_query_momentum(scene.sim, p))
 CALL(drive_state, dmb_query_drive(scene.sim, scene.parts.turning, p))
 CALL(spring_state, dmb_query_spring(scene.sim, scene.parts.rope, p))
 CALL(stuck_state, dmb_query_stuck(scene.sim, scene.parts.jam, p))
+CALL(flow_state, dmb_query_flow(scene.sim, p))
 CALL(joint_state, dmb_query_joint(scene.sim, scene.parts.hinge, p))
 CALL(bit_state, dmb_query_bit(scene.sim, scene.parts.bit, p))
 CALL(statistics, dmb_query_statistics(scene.sim, p))
@@ -666,6 +667,7 @@ static const entry entries[] = {
     ENTRY(stuck_state, 1),
     ENTRY(sub_def, 0),
     ENTRY(sub, 1),
+    ENTRY(flow_state, 1),
     ENTRY(event_def, 0),
     {"event as described", sizeof(dmb_event_def), sizeof(dmb_event_def), init_event_def, call_event_got, 1},
     ENTRY(event_report, 1),

@@ -159,6 +159,8 @@ void full_rig_open(rig *s, const full_rig_choice *choice)
     environment.gravity[0] = 0.3;
     environment.gravity[1] = -0.4;
     environment.fluid_density = 20.0;
+    environment.flow_rate = choice->sections & 4 ? 0.05 : 0.0;
+    environment.consistency = 0.1;
     environment.lateral_damping = 0.5;
     environment.axial_damping = 0.3;
     environment.torsional_damping = 0.2;

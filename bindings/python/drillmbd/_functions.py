@@ -59,6 +59,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_fatigue_options_init": (c_int32, POINTER(FatigueOptions), c_uint32,),
     "dmb_fatigue_result_init": (c_int32, POINTER(FatigueResult), c_uint32,),
     "dmb_fatigue_take": (c_int32, c_void_p, c_void_p,),
+    "dmb_flow_state_init": (c_int32, POINTER(FlowState), c_uint32,),
     "dmb_force_def_init": (c_int32, POINTER(ForceDef), c_uint32,),
     "dmb_has": (c_int32, c_int32,),
     "dmb_hole_point_init": (c_int32, POINTER(HolePoint), c_uint32,),
@@ -147,6 +148,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_query_contact_total": (c_int32, c_void_p, POINTER(ContactTotal),),
     "dmb_query_drive": (c_int32, c_void_p, Id, POINTER(DriveState),),
     "dmb_query_energy": (c_int32, c_void_p, POINTER(Energy),),
+    "dmb_query_flow": (c_int32, c_void_p, POINTER(FlowState),),
     "dmb_query_hole": (c_int32, c_void_p, c_double, POINTER(HolePoint),),
     "dmb_query_joint": (c_int32, c_void_p, Id, POINTER(JointState),),
     "dmb_query_kinetic_energy": (c_int32, c_void_p, Id, c_uint32, POINTER(c_double),),
@@ -277,7 +279,7 @@ FUNCTION_DOCS = {
     "dmb_analysis_stepped_sine":
         "Runs the sim on in fixed steps until the Fourier amplitudes of successive windows agree. amplitudes, shape (output_count, 1 + harmonics, 2): mean and 0, then for k = 1, 2, ... the k-th harmonic: its part of the output is the real part of (re + i im) e^(2 pi i k frequency t), t the sim's time. Displacements are those since time 0 in the axes of the world or (FRAME_BODY) those the place has at the call, less their drift over the window; component RX is the rotation of dmb_query_rotation, RY and RZ are of the rotation vector from the pose at the call, below pi. Other outputs: as the queries answer. options and report may be NULL. NOTE_STOPPED: not settled in `windows`; the amplitudes are those of the last. Errors: ERR_NULL, _HANDLE, _STRUCT_SIZE, _VALUE, _NOT_FINITE, _ID, _UNSUPPORTED, _NO_MEMORY with nothing changed; those of dmb_sim_step, after which the sim is in its last accepted state. amplitudes and report are left alone on error. Cost: steps.",
     "dmb_analysis_torque_drag":
-        "One row for each depth and operation, shape (depth_count, operation_count), the size of each what the first says. The string hangs together with its described pipes counted from the far end: at a depth less than where it is described the first pipes are not there yet. Bodies and bits at the far end weigh as described. Ends and places beyond the survey lie on the straight continuation. The sim is asked for its model only and does not change. Errors: ERR_UNSUPPORTED without a hole or for a string that does not follow it, ERR_VALUE, _NOT_FINITE, _ID, _CANCELLED; rows are not written then. O(depths x operations x (pipes' runs + stations + length / 2 m)).",
+        "One row for each depth and operation, shape (depth_count, operation_count), the size of each what the first says. The string hangs together with its described pipes counted from the far end: at a depth less than where it is described the first pipes are not there yet. Bodies and bits at the far end weigh as described. Ends and places beyond the survey lie on the straight continuation. Mud that flows pulls and thrusts by the diameters at each depth; pressures are left out of yield_share. The sim is asked for its model only and does not change. Errors: ERR_UNSUPPORTED without a hole or for a string that does not follow it, ERR_VALUE, _NOT_FINITE, _ID, _CANCELLED; rows are not written then. O(depths x operations x (pipes' runs + stations + length / 2 m)).",
     "dmb_analysis_torque_drag_profile":
         "Along the string in one operation at the first of the depths: at station_count (2 .. 2^20) places spread evenly from the rig end to the far end. Arrays of shape (station_count), each may be NULL: measured depth [m], effective axial force [N], torque [N m], wall force per metre [N/m]. Errors as above; ERR_NO_CONVERGENCE where the string locks up.",
     "dmb_buckling_count":
@@ -392,6 +394,8 @@ FUNCTION_DOCS = {
         "O(number of sites).",
     "dmb_query_energy":
         "Energy ledger since the start; ERR_UNSUPPORTED where the options left it out. O(number of nodes).",
+    "dmb_query_flow":
+        "Pressures and forces of the mud that flows, at the present position of the string; all 0 without a flow_rate. Kinetic heads and losses of steps between diameters are left out; so are bodies, bits and rings in the annulus, its eccentricity (which lowers its loss, to less than half where the pipe lies on the wall) and the motion of the string. O(elements).",
     "dmb_query_hole":
         "The axis at a measured depth [m], by minimum curvature (Taylor, Mason 1972) between stations. A compiled model; ERR_ORDER before, ERR_UNSUPPORTED without a hole. O(log stations).",
     "dmb_query_kinetic_energy":

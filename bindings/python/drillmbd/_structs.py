@@ -55,6 +55,10 @@ class EnvironmentDef(Sized):
     torsional_damping: float
     inner_density: float
     added_mass: float
+    flow_rate: float
+    consistency: float
+    flow_exponent: float
+    nozzle_area: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -65,6 +69,10 @@ class EnvironmentDef(Sized):
         ("torsional_damping", c_double),
         ("inner_density", c_double),
         ("added_mass", c_double),
+        ("flow_rate", c_double),
+        ("consistency", c_double),
+        ("flow_exponent", c_double),
+        ("nozzle_area", c_double),
     ]
     field_docs = {
         "gravity": ("m/s2", "world frame, default (0, 0, -9.81), shape (3)"),
@@ -73,7 +81,11 @@ class EnvironmentDef(Sized):
         "axial_damping": ("N s/m2", "the same along the pipe; default 0"),
         "torsional_damping": ("N s", "external moment per metre of pipe and rad/s of spin; default 0"),
         "inner_density": ("kg/m3", "of the mud inside pipes and tool joints, where fluid_density is that outside of them: weight and pressure by both; 0 .. ; -1 (default): as outside"),
-        "added_mass": ("-", "of the mud outside flexible pipes that goes along sideways over what they displace (1: far from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside goes along too, tool joints spread over their pipe; refused with rigid pipes; bodies have none. 0 (default): mud has no inertia"),
+        "added_mass": ("-", "of the mud outside flexible pipes that goes along sideways over what they displace (1: far from any wall), >= 0; -1: (D^2 + d^2)/(D^2 - d^2) of each pipe in the wall's `diameter` (Fritz 1972). Where it is not 0 the mud inside goes along too, tool joints spread over their pipe; refused with rigid pipes; bodies, bits and rings have none. 0 (default): mud has no inertia"),
+        "flow_rate": ("m3/s", "of mud down the one string of the model, which follows its hole, and back in the annulus, concentric, of the diameters where it is described: drag, pressures, thrust of the nozzles (dmb_query_flow); no inertia of its own sideways. 0 (default): mud rests"),
+        "consistency": ("Pa s", "K of the mud (Pa s^n): shear stress K (shear rate)^n; > 0 with a flow_rate; default 0"),
+        "flow_exponent": ("-", "n, 0.2 .. 1; 1 (default): Newtonian, K is its viscosity"),
+        "nozzle_area": ("m2", "of the bit in all; 0 (default): the last pipe is open"),
     }
 
 
@@ -687,6 +699,51 @@ class HolePoint(Sized):
         "strength": ("Pa", "of a section; 0: not told"),
         "section": ("", "number of the last section that begins at or above the depth; -1: none"),
         "section_name": ("", "of that section, ends with 0; \"\" without one"),
+    }
+
+
+class FlowState(Sized):
+    c_name, about = "dmb_flow_state", "Flow of mud"
+    struct_size: int
+    reserved: int
+    rate: float
+    pump_pressure: float
+    bore_loss: float
+    bit_loss: float
+    annulus_loss: float
+    column: float
+    drag: float
+    thrust: float
+    pressure_stretch: float
+    bore_reynolds: float
+    annulus_reynolds: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("rate", c_double),
+        ("pump_pressure", c_double),
+        ("bore_loss", c_double),
+        ("bit_loss", c_double),
+        ("annulus_loss", c_double),
+        ("column", c_double),
+        ("drag", c_double),
+        ("thrust", c_double),
+        ("pressure_stretch", c_double),
+        ("bore_reynolds", c_double),
+        ("annulus_reynolds", c_double),
+    ]
+    field_docs = {
+        "rate": ("m3/s", "flow_rate of the environment"),
+        "pump_pressure": ("Pa", "at the rig end, inside over outside: losses and the difference of the columns"),
+        "bore_loss": ("Pa", "of pressure down the string, by friction"),
+        "bit_loss": ("Pa", "through nozzle_area, rho Q^2/(2 0.95^2 A^2) (Eckel, Bielstein 1951)"),
+        "annulus_loss": ("Pa", "up the annulus of the string, by friction"),
+        "column": ("Pa", "of the mud outside over that inside, far end under rig end"),
+        "drag": ("N", "of the flow along the string, towards the rig, in its effective axial force"),
+        "thrust": ("N", "rho Q V of nozzles or open end, on the far end towards the rig"),
+        "pressure_stretch": ("m", "that the true axial force and the pressures on the walls of flexible and axial-torsional pipes stretch the string beyond what N_e does, and poses show"),
+        "bore_reynolds": ("-", "largest; laminar up to 3470 - 1370 n, by 16/f (Metzner, Reed 1955)"),
+        "annulus_reynolds": ("-", "likewise; beyond 1e5 the law of the smooth wall is low, by 5 % at 1e6"),
     }
 
 
@@ -2093,6 +2150,8 @@ class BitDef(Sized):
     side_cutting: float
     walk_angle: float
     displaced_volume: float
+    ring: Id
+    inner_radius: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("rock_law", c_int32),
@@ -2116,6 +2175,8 @@ class BitDef(Sized):
         ("side_cutting", c_double),
         ("walk_angle", c_double),
         ("displaced_volume", c_double),
+        ("ring", Id),
+        ("inner_radius", c_double),
     ]
     field_docs = {
         "rock_law": ("", "ROCK_..., default ROCK_NONE"),
@@ -2139,6 +2200,8 @@ class BitDef(Sized):
         "side_cutting": ("-", "steerability: depth that a side force cuts a revolution over the depth that the same force cuts along, d = F/(cutting_ratio intrinsic_energy radius), 0 .. 1e3, in the bit's own axes, whether it is on bottom or not, with any rock_law; the smaller, the more it drills along its own axis. The hole that it leaves is not felt by what follows: give the bit no `diameter`. Nothing at rest in statics. 0 (default): nothing holds the bit sideways"),
         "walk_angle": ("rad", "that it cuts about its axis away from the side force, -1.5 .. 1.5; default 0"),
         "displaced_volume": ("m3", "likewise of a body"),
+        "ring": ("", "{0, 0} (default): the bit at the string's end; a ring (ring.h): a reamer, whose cutting surface is at the middle of that ring. The ring has mass, buoyancy and contact; mass, inertia, diameter, length, displaced_volume and string count for nothing, and `bottom` is the distance of the shoulder ahead. Weight on bit, torque and other driller's channels are those of the bit alone"),
+        "inner_radius": ("m", "b of the surface that is cut, from here to `radius`: the pilot hole of a reamer, the core of a core bit; 0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0"),
     }
 
 
@@ -3265,6 +3328,7 @@ STRUCTS["dmb_joint_state"] = JointState
 STRUCTS["dmb_bit_state"] = BitState
 STRUCTS["dmb_statistics"] = Statistics
 STRUCTS["dmb_hole_point"] = HolePoint
+STRUCTS["dmb_flow_state"] = FlowState
 STRUCTS["dmb_profile"] = ProfileStruct
 STRUCTS["dmb_channel"] = Channel
 STRUCTS["dmb_recorder"] = RecorderStruct

@@ -429,7 +429,7 @@ class ProfileQuantity(IntEnum):
     NORMAL_FORCE = 14  #: [N/m] of the wall on the string, >= 0; that of the nearest contact site
     FRICTION_AXIAL = 15  #: [N/m] of the wall on the string along its axis, likewise
     FRICTION_AROUND = 16  #: [N/m] likewise along axis x outward normal
-    VON_MISES = 17  #: [Pa] largest at the outer surface, by the diameters: N_e/A and M r/I together, T r/J (pressure at rest leaves shape and yield alone)
+    VON_MISES = 17  #: [Pa] largest at the outer surface, by the diameters: N_e/A and M r/I together, T r/J (one fluid at rest leaves shape and yield alone); with an inner_density or flow_rate the largest of both surfaces, hoop stress too
     YIELD_SHARE = 18  #: [-] of `yield_strength`; NaN where the pipe has none
     SINUSOIDAL_SHARE = 19  #: [-] -N_e over the load of sinusoidal buckling; 0 in tension; NaN without a hole
     HELICAL_SHARE = 20  #: [-] likewise of helical buckling

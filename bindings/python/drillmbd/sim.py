@@ -14,7 +14,7 @@ from ._handle import Handle
 from ._keep import Keep, as_place, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._progress import Teller
-from ._structs import (STRUCTS, BitState, Channel, Contact, DriveState, Energy, FatigueOptions, Id, Input, JointState,
+from ._structs import (STRUCTS, BitState, Channel, Contact, DriveState, Energy, FatigueOptions, FlowState, Id, Input, JointState,
                        Momentum, Motion, Output, Place, Pose, Section, SimOptions, SpringState, StateSpaceOptions, Statistics, StuckState,
                        StepReport, WindowOptions)
 from ._structs import EventReport
@@ -335,6 +335,11 @@ class Sim(Handle, analysis.Analyses):
     def stuck(self, stuck: Id) -> StuckState:
         """Whether a place is stuck; offset, force that holds it, share of what frees it."""
         answer: StuckState = self._ask(_lib.dmb_query_stuck, StuckState.blank(), stuck)
+        return answer
+
+    def flow(self) -> FlowState:
+        """Pressures [Pa] of the mud that flows, its drag and thrust [N], stretch by pressure [m]."""
+        answer: FlowState = self._ask(_lib.dmb_query_flow, FlowState.blank())
         return answer
 
     def bit(self, bit: Id) -> BitState:

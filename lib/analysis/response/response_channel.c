@@ -54,6 +54,7 @@ static int32_t at_bit(const meaning *m, const dmb_output *channel)
     if (dmb_channel_string(m->sim, &asked, &string, &index) < 0)
         return refuse(m, DMB_ERR_ID, "place.part names no string of this model, nor {0, 0} for the first");
     for (uint32_t k = 0; k < scene->bit_count; k++) {
+        if (scene->bits[k].reamer) continue;
         if (scene->bits[k].node - scene->strings[index].first_node >= scene->strings[index].node_count) continue;
         m->out->place.part = dmb_model_id(m->sim->model, DMB_PART_BIT, k);
         *m->bit = k;

@@ -15,6 +15,7 @@ typedef struct march {
     double EA, GJ, EI;        /* [N, N m2, N m2] the smaller EI */
     double weight;            /* [kg/m] mass per metre with tool joints, buoyancy taken off */
     double radius;            /* [m] of what touches */
+    double hole, pull;        /* [m, N/m] of the mud that flows in a hole of that diameter; 0: not known yet */
     dmb_soft_place place;
 } march;
 
@@ -28,6 +29,7 @@ static void take_pipe(march *m, const dmb_pipe_def *pipe)
     m->GJ = section.stiffness[3];
     m->EI = fmin(section.stiffness[4], section.stiffness[5]);
     m->weight = dmb_weighing_mass(pipe, &soft->mud) / pipe->length;
+    m->hole = 0.0;
     m->radius = 0.5 * fmax(pipe->outer_diameter, dmb_joint_diameter(pipe));
 }
 
@@ -63,8 +65,24 @@ static double wall_force(const march *m, const dmb_confined_pipe *pipe, double N
     return wall;
 }
 
+/* [N/m] Mean over pipe and tool joint of what the mud that flows pulls towards the rig. */
+static double pull_of_flow(march *m, double depth)
+{
+    const dmb_pipe_def *pipe = m->pipe;
+    const double hole = 2.0 * dmb_hole_radius(m->soft->hole, depth), share = pipe->joint_length / pipe->length;
+    double d[2];
+    if (m->soft->flow == NULL) return 0.0;
+    if (m->hole == hole) return m->pull;
+    dmb_pipe_diameters(pipe, 0, d);
+    m->hole = hole;
+    m->pull = (1.0 - share) * dmb_annulus_loss(m->soft->flow, d[0], hole).pull;
+    dmb_pipe_diameters(pipe, 1, d);
+    if (share > 0.0) m->pull += share * dmb_annulus_loss(m->soft->flow, d[0], hole).pull;
+    return m->pull;
+}
+
 /* Rates towards the rig, per metre. */
-static void rates(const march *m, double depth, const double state[DMB_SOFT_COUNT], double rate[DMB_SOFT_COUNT])
+static void rates(march *m, double depth, const double state[DMB_SOFT_COUNT], double rate[DMB_SOFT_COUNT])
 {
     const double v_a = m->operation->axial_speed, v_c = m->operation->rotary_speed * m->radius;
     const double v = hypot(v_a, v_c);
@@ -75,7 +93,7 @@ static void rates(const march *m, double depth, const double state[DMB_SOFT_COUN
     double by_force;
     confined_at(m, depth, &pipe);
     const double wall = wall_force(m, &pipe, state[DMB_SOFT_FORCE], &by_force);
-    rate[DMB_SOFT_FORCE] = dmb_vec3_dot(pipe.weight, pipe.tangent) - along * wall;
+    rate[DMB_SOFT_FORCE] = dmb_vec3_dot(pipe.weight, pipe.tangent) - along * wall - pull_of_flow(m, depth);
     rate[DMB_SOFT_TORQUE] = around * wall * m->radius;
     rate[DMB_SOFT_GROWTH] = -along * by_force * state[DMB_SOFT_GROWTH];
     rate[DMB_SOFT_STRETCH] = state[DMB_SOFT_FORCE] / m->EA;
@@ -169,6 +187,7 @@ static void begin(march *m, double depth)
     m->place.depth = depth;
     m->place.state[DMB_SOFT_FORCE] =
         m->soft->end_mass * dmb_vec3_dot(m->soft->gravity, t) - m->operation->weight_on_bit;
+    if (m->soft->flow != NULL) m->place.state[DMB_SOFT_FORCE] -= dmb_nozzle_thrust(m->soft->flow);
     m->place.state[DMB_SOFT_TORQUE] = m->operation->torque_on_bit;
     m->place.state[DMB_SOFT_GROWTH] = 1.0;
 }

@@ -3,6 +3,7 @@
  * buoyant weight per metre, N the effective axial force, v = (v_a, v_c) the speed of the pipe's surface along and
  * around: c = |w - (w.t) t + N dt/ds|                  wall force per metre -dN/ds = w.t - mu c v_a/|v| force along
  *     -dT/ds = mu c R |v_c|/|v|                    torque, R the radius that touches
+ * Mud that flows takes its pull off -dN/ds, and its thrust off N at the far end (force/mud_flow.h).
  * A helix presses r N^2/(4 EI) more on the wall where -N is above its load (Mitchell 1986), r the clearance. */
 #ifndef DMB_ANALYSIS_TORQUE_DRAG_SOFT_STRING_H
 #define DMB_ANALYSIS_TORQUE_DRAG_SOFT_STRING_H
@@ -24,8 +25,9 @@ typedef struct dmb_soft_string {
     double friction;  /* [-] coefficient, or factor on that of the wall: */
     int32_t by_depth; /* 1: friction is a factor on the wall's mu_dynamic by depth */
     int32_t reserved;
-    double wall_friction; /* [-] mu_dynamic of a wall without sections */
-    double end_mass;      /* [kg] of bodies and bits at the far end */
+    double wall_friction;     /* [-] mu_dynamic of a wall without sections */
+    double end_mass;          /* [kg] of bodies and bits at the far end */
+    const dmb_mud_flow *flow; /* NULL: mud rests */
 } dmb_soft_string;
 
 /* Integrated from the far end on. */

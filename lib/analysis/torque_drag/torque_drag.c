@@ -97,6 +97,7 @@ static int32_t find_string(request *r)
                       "one string, or ask for steady states (dmb_analysis_static)");
     soft->model = model;
     soft->mud = dmb_mud_of(r->sim->scene);
+    soft->flow = scene->flow_count > 0 ? &scene->flow : NULL;
     soft->hole = &scene->hole;
     dmb_vec3_copy(scene->gravity, soft->gravity);
     soft->start = plans[soft->string].def.start_depth;

@@ -242,6 +242,12 @@ static void end_weight(const dmb_scene *scene, const dmb_element_type *type, con
     dmb_vec3_cross(moment, g, w + 3);
 }
 
+/* [N] Half of what mud that flows pulls on an element along its axis, towards A. */
+static double end_flow(const dmb_scene *scene, uint32_t element)
+{
+    return scene->flow_count > 0 ? 0.5 * scene->flow_element[element] : 0.0;
+}
+
 /* Equilibrium of an end with its share of the element: section force -+ (M a - ad_v^T p - weight), minus at A, plus at
  * B. */
 void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t element,
@@ -265,6 +271,8 @@ void dmb_element_end_loads(const dmb_scene *scene, const dmb_configuration *conf
     end_weight(scene, type, R, 1.0, wa);
     dmb_node_pose(scene, configuration, a + 1, R, u);
     end_weight(scene, type, R, -1.0, wb);
+    wa[0] -= end_flow(scene, element);
+    wb[0] -= end_flow(scene, element);
     for (int i = 0; i < 6; i++) {
         load[i] -= fa[i] - ga[i] - wa[i];
         load[6 + i] += fb[i] - gb[i] - wb[i];
@@ -283,6 +291,7 @@ void dmb_bar_start_loads(const dmb_scene *scene, const dmb_configuration *config
     dmb_element_section_force(scene, configuration, element, force);
     dmb_node_pose(scene, configuration, a, R, u);
     end_weight(scene, type, R, 1.0, weight);
-    load[0] = force[0] - type->mass.axial[0] * at_a[0] - type->mass.axial[1] * at_b[0] + weight[0];
+    load[0] =
+        force[0] - type->mass.axial[0] * at_a[0] - type->mass.axial[1] * at_b[0] + weight[0] - end_flow(scene, element);
     load[1] = force[3] - type->mass.torsion[0] * at_a[1] - type->mass.torsion[1] * at_b[1];
 }

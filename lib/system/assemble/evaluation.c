@@ -96,6 +96,7 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
     if (scene->site_count) dmb_gather_contacts(evaluation);
     if (scene->path_site_count) dmb_gather_path_friction(evaluation);
     if (scene->load_count) dmb_gather_loads(evaluation);
+    if (scene->flow_count) dmb_gather_flow(evaluation);
     if (scene->drive_count) dmb_gather_drives(evaluation);
     if (scene->bit_count) dmb_gather_bits(evaluation);
     if (scene->cluster_count && evaluation->tangent)

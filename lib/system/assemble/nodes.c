@@ -126,6 +126,66 @@ void dmb_gather_nodes(dmb_evaluation *evaluation)
     }
 }
 
+/* Flow of mud: its pull on a node goes along the hole's axis there, as pressures fall and shear acts in a narrow
+ * annulus (of a pipe that is tilted in it: Taylor 1952; Paidoussis 2014). With the tangent t(s) at the depth s of the
+ * node, and b = (lever, 0, 0), it is f = -pull R^T t,   m = -b x R^T t,   d(R^T t) = (R^T t)~ dtheta + R^T dt/ds J t.R
+ * dx, J = ds/dx of a point beside the axis. */
+static void pull_full(dmb_evaluation *evaluation, uint32_t node, const double pull[2])
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    double R[9], u[3], x[3], point[3], t[3], bend[3], s, along[3], turn[3], K[36] = {0.0};
+    uint32_t segment = scene->flow_segment[node];
+    dmb_node_pose(scene, &sim->trial, node, R, u);
+    dmb_vec3_add(scene->reference_position + 3 * (size_t)node, u, x);
+    dmb_hole_project(&scene->hole, x, &s, &segment, point, t);
+    dmb_mat3_tvec(R, t, along);
+    const double w[6] = {-pull[0] * along[0], -pull[0] * along[1], -pull[0] * along[2], 0.0,
+                         pull[1] * along[2],  -pull[1] * along[1]};
+    dmb_apply_wrench(sim, node, w);
+    if (evaluation->dynamic)
+        evaluation->power[DMB_POWER_LOADS] += dmb_vec6_dot(w, sim->trial.velocity + scene->layout.row[node]);
+    if (!evaluation->tangent) return;
+    dmb_hole_frame(&scene->hole, s, u, NULL, bend);
+    dmb_vec3_sub(x, point, x);
+    dmb_mat3_tvec(R, bend, turn);
+    const double J = 1.0 / (1.0 - dmb_vec3_dot(x, bend));
+    dmb_mat6_add_skew(1.0, along, 0, 1, K); /* of R^T t, in the upper rows */
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) K[6 * r + c] = J * turn[r] * along[c];
+    for (int c = 0; c < 6; c++) {
+        K[24 + c] = pull[1] * K[12 + c];
+        K[30 + c] = -pull[1] * K[6 + c];
+        for (int r = 0; r < 3; r++) K[6 * r + c] *= -pull[0];
+    }
+    dmb_mat6_axpy(-1.0, K, dmb_stiffness_of(sim, node));
+}
+
+/* A force along the axis of a node turns with it and has no tangent in its frame. */
+static void pull_along(dmb_evaluation *evaluation, uint32_t node, double pull)
+{
+    dmb_sim *sim = evaluation->sim;
+    const uint32_t row = sim->scene->layout.row[node];
+    sim->residual[row] += pull;
+    sim->scale_row[row] += fabs(pull);
+    if (evaluation->dynamic) evaluation->power[DMB_POWER_LOADS] -= pull * sim->trial.velocity[row];
+}
+
+void dmb_gather_flow(dmb_evaluation *evaluation)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    for (uint32_t i = 0; i < scene->node_count; i++) {
+        const double *node = scene->flow_node + 2 * (size_t)i, factor = evaluation->load_factor;
+        const double pull[2] = {factor * node[0], factor * node[1]};
+        if (!(node[0] > 0.0)) continue;
+        if (scene->layout.size[i] == DMB_NODE_FULL)
+            pull_full(evaluation, i, pull);
+        else
+            pull_along(evaluation, i, pull[0]);
+    }
+    pull_along(evaluation, scene->strings[0].end_node, evaluation->load_factor * dmb_nozzle_thrust(&scene->flow));
+}
+
 /* Described loads: dead (world or hole frame) and follower (body frame), each times its programme. */
 
 static void frame_of_load(const dmb_sim *sim, const dmb_scene_load *load, double R[9])

@@ -7,6 +7,7 @@
 
 void dmb_gather_nodes(dmb_evaluation *evaluation);
 void dmb_gather_loads(dmb_evaluation *evaluation);
+void dmb_gather_flow(dmb_evaluation *evaluation);
 
 /* Described loads that act at a point inside an element, or off the axis of a node. */
 

@@ -32,6 +32,27 @@ static void check_all_zero(const result *r)
     assert_int_equal(r->on_bottom, 0);
 }
 
+/* A ring that is cut is the disc less its core, derivatives included. */
+static void ring_is_disc_less_core(void **state)
+{
+    dmb_bit_rock_law disc = coal(DMB_ROCK_RATE), core = disc, ring = disc;
+    double apart[10], whole[10], inner[10];
+    dmb_bit_rock_result r[3];
+    core.radius = ring.inner_radius = 0.03;
+    (void)state;
+    dmb_bit_rock_force(&disc, NULL, 0.0, 5e-5, 1e-3, 0.3, 12.0, &r[0]);
+    dmb_bit_rock_force(&core, NULL, 0.0, 5e-5, 1e-3, 0.3, 12.0, &r[1]);
+    dmb_bit_rock_force(&ring, NULL, 0.0, 5e-5, 1e-3, 0.3, 12.0, &r[2]);
+    for (int i = 0; i < 3; i++) {
+        double *to = i == 0 ? whole : i == 1 ? inner : apart;
+        const double numbers[10] = {r[i].weight_on_bit, r[i].torque_on_bit, r[i].dW_dU, r[i].dW_dV,   r[i].dW_dPhi,
+                                    r[i].dW_dOmega,     r[i].dT_dU,         r[i].dT_dV, r[i].dT_dPhi, r[i].dT_dOmega};
+        memcpy(to, numbers, sizeof numbers);
+    }
+    for (int i = 0; i < 10; i++) assert_true(fabs(apart[i] - (whole[i] - inner[i])) <= 1e-13 * fabs(whole[i]));
+    assert_true(r[2].weight_on_bit > 0.0 && r[2].torque_on_bit > 0.0);
+}
+
 /* ---- rate law ---- */
 
 /* CASES: d 6e-3 m, W 2162.0 N, T 71.7925 Nm. */
@@ -417,6 +438,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coal_values),
+        cmocka_unit_test(ring_is_disc_less_core),
         cmocka_unit_test(bottom_follows),
         cmocka_unit_test(rate_law_is_continuous),
         cmocka_unit_test(no_cutting),

@@ -12,8 +12,8 @@ from .failure import Failure
 from .variability import Variability
 
 # In the order in which they are described; NAMED: their names go to the library as they are written.
-PARTS = ("string", "body", "bit", "ring", "joint", "coupling", "drive", "load", "spring", "stuck", "input", "event")
-NAMED = ("string", "body", "bit", "ring", "joint", "coupling", "drive", "load", "spring", "stuck", "input")
+PARTS = ("string", "body", "ring", "bit", "joint", "coupling", "drive", "load", "spring", "stuck", "input", "event")
+NAMED = ("string", "body", "ring", "bit", "joint", "coupling", "drive", "load", "spring", "stuck", "input")
 SINGLE = ("environment", "hole")
 ANALYSES = ("static", "modes", "response", "speeds", "buckling", "fatigue")
 

@@ -1,0 +1,167 @@
+/* Lengths of pipe that mud flows through and back along: its losses there, by the diameters where they are described,
+ * and its pull on the string (force/mud_flow.h). */
+#include "force/hole_section.h"
+#include "force/mud_flow.h"
+#include "model/mesh.h"
+#include "model/part_name.h"
+#include "model/section.h"
+
+typedef struct flow_walk {
+    dmb_mesh *mesh;
+    const dmb_pipe_def *pipe;
+    double start;        /* [m] measured depth of the rig end */
+    dmb_flow_piece last; /* zeros before the first */
+    double hole;         /* [m] its diameter there */
+    uint32_t number;     /* of the pipe */
+} flow_walk;
+
+static int32_t refuse(const dmb_mesh *mesh, int32_t status, const char *text)
+{
+    dmb_message_set(&mesh->model->message, "environment: flow_rate = %g m3/s, must be 0 %s",
+                    mesh->model->environment.flow_rate, text);
+    return status;
+}
+
+static int32_t check_duct(const flow_walk *walk, const dmb_flow_piece *piece, double hole)
+{
+    dmb_message *message = &walk->mesh->model->message, part;
+    const double *d = piece->diameter;
+    (void)dmb_model_pipe_text(walk->mesh->model, 0, walk->number, &part);
+    if (!(d[1] > 0.0)) {
+        dmb_message_set(message,
+                        "%s: inner diameter = %g m at %g m, must be > 0 with a flow_rate of the environment; "
+                        "give it a bore",
+                        part.text, d[1], piece->from);
+        return DMB_ERR_GEOMETRY;
+    }
+    if (hole - d[0] > 1e-4 * hole) return DMB_OK;
+    dmb_message_set(message,
+                    "%s: outer diameter = %g m at %g m of the string, must leave the mud an annulus in the hole "
+                    "of %g m there, with a flow_rate of the environment; widen the hole",
+                    part.text, d[0], piece->from, hole);
+    return DMB_ERR_GEOMETRY;
+}
+
+static int32_t check_reynolds(const flow_walk *walk, const dmb_flow_piece *piece)
+{
+    const double most = piece->bore.reynolds > piece->annulus.reynolds ? piece->bore.reynolds : piece->annulus.reynolds;
+    if (most <= DMB_FLOW_REYNOLDS_MAX) return DMB_OK;
+    dmb_message_set(&walk->mesh->model->message,
+                    "environment: flow_rate: the Reynolds number at %g m of the string is %g, must be <= %g, up to "
+                    "which the law of friction was measured; lower the rate, or raise the consistency",
+                    piece->from, most, DMB_FLOW_REYNOLDS_MAX);
+    return DMB_ERR_VALUE;
+}
+
+/* Of equal diameters the losses are those of the piece before. */
+static void take_losses(flow_walk *walk, double hole, dmb_flow_piece *piece)
+{
+    const dmb_mud_flow *flow = &walk->mesh->flow;
+    const dmb_flow_piece *last = &walk->last;
+    const bool same = dmb_same_numbers(piece->diameter, last->diameter, 2);
+    piece->before[0] = last->before[0] + last->length * last->bore.gradient;
+    piece->before[1] = last->before[1] + last->length * last->annulus.gradient;
+    piece->bore = same ? last->bore : dmb_bore_loss(flow, piece->diameter[1]);
+    piece->annulus = same && dmb_same_numbers(&hole, &walk->hole, 1) ? last->annulus
+                                                                     : dmb_annulus_loss(flow, piece->diameter[0], hole);
+}
+
+static int32_t add_piece(flow_walk *walk, dmb_flow_piece *piece, int in_tool_joint)
+{
+    const double middle = walk->start + piece->from + 0.5 * piece->length;
+    const double hole = 2.0 * dmb_hole_radius(&walk->mesh->hole, middle);
+    dmb_pipe_diameters(walk->pipe, in_tool_joint, piece->diameter);
+    int32_t status = check_duct(walk, piece, hole);
+    if (status < 0) return status;
+    take_losses(walk, hole, piece);
+    status = check_reynolds(walk, piece);
+    walk->last = *piece;
+    walk->hole = hole;
+    return status < 0 ? status : dmb_vector_append(&walk->mesh->flow_pieces, &walk->mesh->model->allocator, piece, 1);
+}
+
+static int32_t add_pipe(flow_walk *walk, const dmb_pipe_map *pipe, double from)
+{
+    const dmb_mesh *mesh = walk->mesh;
+    dmb_pipe_section section;
+    dmb_flow_piece piece = {.from = from, .poisson = walk->pipe->poisson_ratio, .element = DMB_NONE};
+    int32_t status = DMB_OK;
+    dmb_section_of(walk->pipe, &section);
+    piece.node = pipe->node;
+    piece.length = dmb_pipe_body_length(walk->pipe);
+    if (pipe->elements == 0) status = add_piece(walk, &piece, 0);
+    for (uint32_t e = pipe->element; e < pipe->element + pipe->elements && status >= 0; ++e) {
+        piece.element = e;
+        piece.length = dmb_mesh_element_at(mesh, e)->length;
+        piece.steel = section.stiffness[0];
+        status = add_piece(walk, &piece, 0);
+        piece.from += piece.length;
+        piece.node = dmb_mesh_element_at(mesh, e)->node + 1;
+    }
+    if (status < 0 || !(walk->pipe->joint_length > 0.0)) return status;
+    piece.from = from + dmb_pipe_body_length(walk->pipe);
+    piece.length = walk->pipe->joint_length;
+    piece.steel = 0.0;
+    piece.element = DMB_NONE;
+    return add_piece(walk, &piece, 1);
+}
+
+/* Inside over outside at the rig end, as described. */
+static int32_t check_pump(const dmb_mesh *mesh, const dmb_flow_piece *last)
+{
+    const dmb_environment_def *e = &mesh->model->environment;
+    const dmb_string_map *string = dmb_mesh_string_at(mesh, 0);
+    const double *top = dmb_mesh_node_at(mesh, string->start_node)->position;
+    const double *bottom = dmb_mesh_node_at(mesh, string->end_node)->position;
+    double pressure = dmb_nozzle_loss(&mesh->flow) + last->before[0] + last->before[1] +
+                      last->length * (last->bore.gradient + last->annulus.gradient);
+    for (int k = 0; k < 3 && (mesh->features & DMB_FEATURE_GRAVITY) != 0; ++k)
+        pressure += (mesh->flow.outside - mesh->flow.inside) * e->gravity[k] * (bottom[k] - top[k]);
+    if (pressure >= 0.0) return DMB_OK;
+    dmb_message_set(&mesh->model->message,
+                    "environment: flow_rate = %g m3/s, too small: the pump's pressure would be %g Pa, must be >= 0: "
+                    "the heavier mud inside falls by itself; raise the rate, or lower inner_density",
+                    e->flow_rate, pressure);
+    return DMB_ERR_VALUE;
+}
+
+static void take_flow(dmb_mesh *mesh)
+{
+    const dmb_environment_def *e = &mesh->model->environment;
+    mesh->flow = (dmb_mud_flow){.rate = e->flow_rate,
+                                .consistency = e->consistency,
+                                .exponent = e->flow_exponent,
+                                .nozzle_area = e->nozzle_area,
+                                .open = !(e->nozzle_area > 0.0),
+                                .inside = e->inner_density < 0.0 ? e->fluid_density : e->inner_density,
+                                .outside = e->fluid_density};
+}
+
+/* An open end: no loss, but the thrust of what leaves it. */
+static int32_t take_end(flow_walk *walk)
+{
+    dmb_mud_flow *flow = &walk->mesh->flow;
+    if (flow->open) flow->nozzle_area = dmb_ring_area(walk->last.diameter[1], 0.0);
+    return check_pump(walk->mesh, &walk->last);
+}
+
+int32_t dmb_mesh_flow(dmb_mesh *mesh)
+{
+    flow_walk walk = {.mesh = mesh};
+    int32_t status = DMB_OK;
+    double from = 0.0;
+    if (!(mesh->model->environment.flow_rate > 0.0)) return DMB_OK;
+    if (mesh->strings.count != 1) return refuse(mesh, DMB_ERR_UNSUPPORTED, "in a model with other than one string");
+    if (!mesh->has_hole || !dmb_mesh_follows_hole(mesh, 0))
+        return refuse(mesh, DMB_ERR_UNSUPPORTED, "without a string that follows its hole; add a wall");
+    take_flow(mesh);
+    walk.start = dmb_mesh_string_def(mesh, 0)->start_depth;
+    dmb_pipe_walk pipes = dmb_pipe_walk_of(mesh, 0);
+    while (status >= 0 && dmb_pipe_walk_next(&pipes)) {
+        walk.pipe = &pipes.run->def;
+        walk.number = pipes.number;
+        status = add_pipe(&walk, dmb_mesh_pipe_at(mesh, dmb_mesh_string_at(mesh, 0)->first_pipe + pipes.number), from);
+        from += walk.pipe->length;
+    }
+    return status < 0 ? status : take_end(&walk);
+}
