@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 # The tables of a sub, each with the kind of its part, in the order of their numbers.
 TABLES = {"body": "body", "before": "joint", "after": "joint", "section": "string"}
-# What follows from the string that the sub continues.
+# These follow from the string that the sub continues.
 PLACED = {"body": ("position", "rotation", "velocity", "attach", "string"), "joint": ("place_a", "place_b", "match")}
 
 
