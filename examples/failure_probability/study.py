@@ -5,6 +5,7 @@ failure_probability.html, and failure_probability.json.
 
     python3 examples/failure_probability/study.py --output out           # short form: minutes on 2 cores
     python3 examples/failure_probability/study.py --output out --long    # all of the 40 s cycle of 100 pipes: overnight
+    python3 examples/failure_probability/study.py --output out --compare 250 5 400   # effect of coupling there, 400 samples each
 
 Stopped, it goes on where it was when it is called again. All samples are in out/*.h5."""
 import argparse
@@ -132,6 +133,19 @@ def compared(a, b):
     return (more - less) / len(a), more, less, word
 
 
+def compare(work, speed, feed, samples):
+    """Prints the effect of friction and vibration on each other at one speed and feed."""
+    if min(speed, feed) < 1 or not 2 <= samples <= 1000000:
+        print("study.py: --compare: speed and feed must be >= 1, samples within 2 .. 1000000", file=sys.stderr)
+        return 2
+    work.form = {**work.form, "samples": samples}
+    cases = {model: work.case(model, speed, feed) for model in MODELS}
+    for before, after, adding in PAIRS:
+        difference, more, less, word = compared(cases[before], cases[after])
+        print(f"adding {adding}: {difference:+.3g}, {more} more fail, {less} fewer: {word}")
+    return 0
+
+
 def picture(plot):
     """A figure of matplotlib as an <img>."""
     import matplotlib
@@ -181,9 +195,12 @@ def main():
     asked.add_argument("--engine", choices=["serial", "threads", "processes", "dask"], default="processes")
     asked.add_argument("--workers", type=int)
     asked.add_argument("--address")
+    asked.add_argument("--compare", nargs=3, type=int, metavar=("RPM", "MM_S", "SAMPLES"), help="no page: effect of coupling at a speed and feed")
     options = asked.parse_args()
     started, work = time.monotonic(), Work(options)
     form = work.form
+    if options.compare:
+        return compare(work, *options.compare)
     cases = {(model, speed, feed): work.case(model, speed, feed)
              for model in MODELS for speed in form["speeds"] for feed in form["feeds"]}
     speed, feed = form["speeds"][-1], form["feeds"][-1]
