@@ -146,6 +146,21 @@ struct jet {
     double value, d[4];
 };
 
+/* Rock gives no work: on a bit that is drawn back the regenerative law would push on over the depth of cut that its
+ * blades still have, as a spring does, and give more back than the rotation puts in: it is limited to W V + T Omega = -
+ * v W where it would be less, v = DMB_BIT_REBOUND. So W is that of the law up to a speed of v + T Omega/W, which
+ * without wear flats is v + (a + b) Omega/(2 zeta), and falls as 1/|V| beyond. v lets a bit rest that does not turn. */
+static void give_no_work(double V, double omega, dmb_bit_rock_result *out)
+{
+    const double power = out->torque_on_bit * omega + out->weight_on_bit * DMB_BIT_REBOUND;
+    if (!(V < 0.0) || !(out->weight_on_bit * -V > power)) return;
+    out->dW_dU = -(out->dT_dU * omega + out->dW_dU * DMB_BIT_REBOUND) / V;
+    out->dW_dV = -(out->dT_dV * omega + out->dW_dV * DMB_BIT_REBOUND) / V + power / (V * V);
+    out->dW_dPhi = -(out->dT_dPhi * omega + out->dW_dPhi * DMB_BIT_REBOUND) / V;
+    out->dW_dOmega = -(out->torque_on_bit + out->dT_dOmega * omega + out->dW_dOmega * DMB_BIT_REBOUND) / V;
+    out->weight_on_bit = -power / V;
+}
+
 /* Depth of cut and engagement to forces; the chain rule is the formula itself applied to each derivative. */
 static void assemble(const dmb_bit_rock_law *law, const struct jet *depth, const struct jet *grip, double omega,
                      dmb_bit_rock_result *out)
@@ -212,8 +227,10 @@ void dmb_bit_rock_force(const dmb_bit_rock_law *law, const dmb_bit_history *hist
     const double intrusion = U - surface;
     if (intrusion <= 0.0) return;
     out->on_bottom = 1;
-    if (regenerative)
-        regenerative_law(law, intrusion, slope, Omega, out);
-    else
+    if (!regenerative) {
         rate_law(law, intrusion, V, Omega, out);
+        return;
+    }
+    regenerative_law(law, intrusion, slope, Omega, out);
+    give_no_work(V, Omega, out);
 }

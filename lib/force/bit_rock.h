@@ -12,6 +12,8 @@
 /* [rad/s] Below this spin the laws are faded towards rest: cutting ends at Omega = 0 and the torque of the wear flat
  * changes sign smoothly. Above it they are exact. 0.5 rpm. */
 #define DMB_BIT_SPIN_FLOOR 0.05
+/* [m/s] As fast a bit may be thrown back by its wear flats and blades without rotation. */
+#define DMB_BIT_REBOUND 1e-3
 
 typedef struct dmb_bit_rock_law {
     int32_t kind;            /* DMB_ROCK_... */
@@ -61,7 +63,8 @@ double dmb_bit_rock_bottom(const dmb_bit_rock_law *law, double bottom, double U)
  * drilling, everything is taken up within intrusion_depth on touching, and nothing is left above it after lifting.
  *   Below the spin floor O, 1/Omega is replaced by x^2 (4 - 3x)/O, x = Omega/O (value and slope continuous).
  * REGENERATIVE: per blade d_n = max(0, U - surface under the blade), g = S(d_n/intrusion_depth), d = n d_n times
- *   S(Omega/O). `bottom` is not used.
+ *   S(Omega/O). `bottom` is not used. Drawn back (V < 0), W is at most what makes W V + T Omega = - W DMB_BIT_REBOUND:
+ *   rock gives no work.
  * Both: no cutting for Omega <= 0 or d < 0; the wear flat's torque is against the spin, times x (3 - x^2)/2 below the
  *   floor. An unrotating bit meets no more than sigma a l g. Off bottom everything is 0. */
 void dmb_bit_rock_force(const dmb_bit_rock_law *law, const dmb_bit_history *history, double bottom, double U, double V,

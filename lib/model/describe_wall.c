@@ -162,7 +162,7 @@ static void check_or_minus_one(dmb_check *check, const char *field, double value
     dmb_check_fail(check, DMB_ERR_VALUE, field, value, bound);
 }
 
-/* What the scene must be for it, mesh_flow looks at. */
+/* mesh_flow looks at what the scene must be for it. */
 static void check_flow(dmb_check *check, const dmb_environment_def *def)
 {
     dmb_check_within(check, "flow_rate", def->flow_rate, 0.0, DMB_FLOW_MAX);

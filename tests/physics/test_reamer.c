@@ -224,9 +224,32 @@ static void what_it_cannot_is_refused(void **state)
     rig_close(&s);
 }
 
+/* A bit by the regenerative law that is pushed bounces: the rock takes energy all the while and gives none back, and
+ * the bit is not thrown out of its hole. (Without the limit it was 50 m away after 4 s.) */
+static void bouncing_bit_gets_nothing_from_the_rock(void **state)
+{
+    (void)state;
+    drilling d = drill(DMB_PIPE_AXIAL_TORSIONAL, DMB_ROCK_REGENERATIVE, 0, 0.0);
+    double spent = 0.0, deepest = 0.0, given_back = 0.0, behind = 0.0;
+    for (int i = 0; i < 1500; i++) {
+        drill_on(&d, 1e-3, 1);
+        const dmb_bit_state bit = state_of(&d, d.bit);
+        const double now = energy_of(&d.s).rock;
+        given_back = fmax(given_back, spent - now);
+        spent = fmax(spent, now);
+        deepest = fmax(deepest, bit.advance);
+        behind = fmax(behind, deepest - bit.advance);
+    }
+    print_message("    %.4g J into the rock, %.3g m deep\n", spent, deepest);
+    check_below("given back over what was spent", given_back / spent, 3e-3);
+    check_below("behind the deepest place [m]", behind, 0.5);
+    rig_close(&d.s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bouncing_bit_gets_nothing_from_the_rock),
         cmocka_unit_test(weight_splits_by_width_and_rock),
         cmocka_unit_test(each_has_its_own_surface),
         cmocka_unit_test(it_adds_nothing_else),

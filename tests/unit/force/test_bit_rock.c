@@ -411,6 +411,40 @@ static void regenerative_derivatives(void **state)
     assert_true(checked > 3500);
 }
 
+/* Drawn back, the bit gets no more from the rock than rotation puts in, but for the rebound that is allowed; below that
+ * the law is the published one; derivatives of what is limited by differences. */
+static void rock_gives_no_work(void **state)
+{
+    static struct ring ring;
+    const dmb_bit_rock_law law = coal(DMB_ROCK_REGENERATIVE);
+    const double h[4] = {1e-9, 1e-7, 1e-9, 1e-6};
+    uint64_t seed = 5;
+    int limited = 0;
+    (void)state;
+
+    start(&ring, &law, 128, 0.0, 0.0);
+    for (int k = 0; k < 1000; ++k) dmb_bit_history_record(&ring.history, 0.02 * k, 2e-5 * k);
+    for (int i = 0; i < 4000; ++i) {
+        result r, still;
+        double slope;
+        const double Phi = 0.02 * 999 + draw(&seed, 0.001, 0.019), Omega = draw(&seed, -2, 20);
+        const double U = dmb_bit_history_surface(&ring.history, Phi, &slope) + draw(&seed, 2e-8, 5e-3);
+        const double V = -pow(10.0, draw(&seed, -4, 1.5)), q[4] = {U, V, Phi, Omega};
+        dmb_bit_rock_force(&law, &ring.history, 0.0, U, V, Phi, Omega, &r);
+        dmb_bit_rock_force(&law, &ring.history, 0.0, U, 0.0, Phi, Omega, &still);
+        const double power = r.torque_on_bit * Omega + r.weight_on_bit * V;
+        assert_true(power >= -still.weight_on_bit * DMB_BIT_REBOUND * (1.0 + 1e-12));
+        const double most = DMB_BIT_REBOUND + still.torque_on_bit * Omega / still.weight_on_bit;
+        assert_true(r.torque_on_bit == still.torque_on_bit);
+        if (-V < 0.999 * most) assert_true(r.weight_on_bit == still.weight_on_bit);
+        if (-V < 1.001 * most || fabs(Omega) < 0.06) continue;
+        CHECK_RELATIVE(r.weight_on_bit * -V, still.weight_on_bit * most, 1e-12);
+        check_derivatives(&law, &ring.history, q, h, 1e-4);
+        ++limited;
+    }
+    assert_true(limited > 1000);
+}
+
 /* The struct and its arrays are all there is: a copy goes on bit by bit alike. */
 static void snapshot(void **state)
 {
@@ -450,6 +484,7 @@ int main(void)
         cmocka_unit_test(reverse_rotation),
         cmocka_unit_test(surface_is_continuous),
         cmocka_unit_test(regenerative_derivatives),
+        cmocka_unit_test(rock_gives_no_work),
         cmocka_unit_test(snapshot),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
