@@ -305,6 +305,45 @@ static void shallow(void **state)
     destroy(&s);
 }
 
+/* A body of 50 kg hung on a string by a joint: refused, since its weight would be left out; not at the rig end, where
+ * it weighs on the rig, and not by a joint that holds nothing. */
+static void joints_below_the_rig_end_are_refused(void **state)
+{
+    static const struct {
+        uint32_t pipe;
+        double fraction;
+        int32_t kind, status;
+    } cases[] = {{9, 1.0, DMB_JOINT_SPHERICAL, DMB_ERR_UNSUPPORTED},
+                 {4, 1.0, DMB_JOINT_FIXED, DMB_ERR_UNSUPPORTED},
+                 {0, 1.0, DMB_JOINT_REVOLUTE, DMB_ERR_UNSUPPORTED},
+                 {0, 0.0, DMB_JOINT_SPHERICAL, DMB_OK},
+                 {9, 1.0, DMB_JOINT_FREE, DMB_OK}};
+    const dmb_operation up = usual(DMB_OPERATION_PICK_UP);
+    (void)state;
+    for (uint32_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        scene s = describe(10, NULL, 0);
+        dmb_body_def body = dmb_body_def_default();
+        dmb_joint_def joint = dmb_joint_def_default();
+        dmb_torque_drag_row row = dmb_torque_drag_row_default();
+        dmb_id hung;
+        row.hook_load = -7.0;
+        add_string(&s, 1);
+        body.mass = 50.0;
+        body.position[0] = cases[i].pipe + cases[i].fraction;
+        must(dmb_model_add_body(s.model, &body, &hung), dmb_model_message(s.model));
+        joint.kind = cases[i].kind;
+        joint.match = 1;
+        joint.place_a = dmb_station(s.pipe.string, cases[i].pipe, cases[i].fraction);
+        joint.place_b = dmb_station(hung, 0, 0.0);
+        must(dmb_model_add_joint(s.model, &joint, NULL), dmb_model_message(s.model));
+        finish_scene(&s);
+        assert_int_equal(dmb_analysis_torque_drag(s.sim, NULL, &up, 1, &row), cases[i].status);
+        assert_true((row.hook_load == -7.0) == (cases[i].status < 0));
+        if (cases[i].status < 0) assert_non_null(strstr(dmb_sim_message(s.sim), "joint"));
+        destroy(&s);
+    }
+}
+
 static void refused(void **state)
 {
     scene s = describe(10, NULL, 0);
@@ -362,11 +401,17 @@ static void refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(inclined),   cmocka_unit_test(pulled_through_an_arc),
-        cmocka_unit_test(capstan),    cmocka_unit_test(against_statics),
-        cmocka_unit_test(lock_up),    cmocka_unit_test(against_the_stiff_string),
-        cmocka_unit_test(consistent), cmocka_unit_test(friction_is_found_again),
-        cmocka_unit_test(shallow),    cmocka_unit_test(refused),
+        cmocka_unit_test(inclined),
+        cmocka_unit_test(pulled_through_an_arc),
+        cmocka_unit_test(capstan),
+        cmocka_unit_test(against_statics),
+        cmocka_unit_test(lock_up),
+        cmocka_unit_test(against_the_stiff_string),
+        cmocka_unit_test(consistent),
+        cmocka_unit_test(friction_is_found_again),
+        cmocka_unit_test(shallow),
+        cmocka_unit_test(refused),
+        cmocka_unit_test(joints_below_the_rig_end_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -72,6 +72,29 @@ static int32_t refuse(request *r, int32_t status, const char *text)
     return status;
 }
 
+/* Does a place lie on the string below its rig end? */
+static int is_below(const dmb_model *model, uint32_t string, const dmb_place *place)
+{
+    if (place->part.generation == 0 || dmb_model_part_index(model, place->part, DMB_PART_STRING) != string) return 0;
+    return place->pipe > 0 || place->fraction > 0.0;
+}
+
+/* A joint below the rig end holds the string, or something that hangs on it; one that leaves all free is but springs.
+ */
+static int32_t refuse_joints(request *r)
+{
+    const dmb_model *model = r->sim->model;
+    for (uint32_t i = 0; i < model->joints.count; i++) {
+        const dmb_joint_def *joint = DMB_LIST_AT(const dmb_joint_def, model->joints, i);
+        if (joint->kind == DMB_JOINT_FREE) continue;
+        if (is_below(model, r->soft.string, &joint->place_a) || is_below(model, r->soft.string, &joint->place_b))
+            return refuse(r, DMB_ERR_UNSUPPORTED,
+                          "a joint holds something at the string below its rig end, whose weight and forces the soft "
+                          "string leaves out; leave it out, or ask for steady states (dmb_analysis_static)");
+    }
+    return DMB_OK;
+}
+
 static int32_t find_string(request *r)
 {
     const dmb_model *model = r->sim->model;
@@ -95,6 +118,8 @@ static int32_t find_string(request *r)
         return refuse(r, DMB_ERR_UNSUPPORTED,
                       "a sub continues the string, whose weight and section the soft string leaves out; describe it as "
                       "one string, or ask for steady states (dmb_analysis_static)");
+    const int32_t joints = refuse_joints(r);
+    if (joints < 0) return joints;
     soft->model = model;
     soft->mud = dmb_mud_of(r->sim->scene);
     soft->flow = scene->flow_count > 0 ? &scene->flow : NULL;
