@@ -39,7 +39,7 @@ PAIRS = (("contact only", "friction", "friction"), ("contact only", "vibration",
          ("friction", ALL, "vibration, with friction"))
 CYCLE = {"feed": ((1, 1.0), (-1, 19.0), (-1, 21.0)), "rotation": ((1, 1.0), (-1, 19.0), (-1, 21.0))}
 FORMS = {"short": {"end": 4.0, "pipes": 30, "deep": 60, "speeds": (100, 200, 250, 300), "feeds": (5, 20), "samples": 48, "rows": 128, "at": 250},
-         "long": {"end": 40.0, "pipes": 100, "deep": 300, "speeds": (100, 150, 200, 250, 300), "feeds": (5, 10, 20), "samples": 400,
+         "long": {"end": 40.0, "pipes": 100, "deep": 300, "speeds": (100, 200, 250, 300), "feeds": (10,), "samples": 100,
                   "rows": 128, "at": 250},
          "tiny": {"end": 0.2, "pipes": 6, "deep": 8, "speeds": (100, 300), "feeds": (10,), "samples": 4, "rows": 8, "at": 300}}
 
