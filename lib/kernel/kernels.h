@@ -13,7 +13,8 @@
 #include "math/block_tridiagonal.h"
 
 /* A run of beams: element i lies between the nodes i and i + 1 of the run, all of them FULL. Pointers are to the run's
- * first element, node, row or block. */
+ * first element, node, row or block. Rows and blocks of nodes are added to at both ends of the run, and written between
+ * them, where elements are the first to add something. */
 typedef struct dmb_beam_job {
     uint32_t count;  /* elements */
     uint32_t failed; /* out: the first element that turned too far */
@@ -27,9 +28,9 @@ typedef struct dmb_beam_job {
     double mass_factor, velocity_factor;   /* as in dmb_evaluation, as are: */
     int32_t dynamic, tangent, extrapolated, inertia_only, ledger, reserved;
     int32_t damped, arms;                          /* 1: some element of the scene has a damping time, rigid arms */
-    double *residual, *scale;                      /* added to, shape (count + 1, 6) */
+    double *residual, *scale;                      /* shape (count + 1, 6) */
     double *strain, *stress;                       /* shape (count, 6) */
-    double *stiffness_diagonal, *inertia_diagonal; /* added to, shape (count + 1, 36) */
+    double *stiffness_diagonal, *inertia_diagonal; /* shape (count + 1, 36) */
     double *upper, *lower; /* stiffness, or when dynamic the iteration matrix; written, shape (count, 36) */
     double rounding, potential, damping, inertia; /* added to: [N2], [W] */
 } dmb_beam_job;

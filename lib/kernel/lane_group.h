@@ -7,6 +7,13 @@
 
 #include "math/real.h"
 
+/* How many numbers are loaded is a constant where it is asked for; loops over them are unrolled only in place. */
+#if defined(__GNUC__)
+#define DMB_LANES_INLINE static inline __attribute__((always_inline))
+#else
+#define DMB_LANES_INLINE static inline
+#endif
+
 #if defined(DMB_LANES) && defined(__has_builtin)
 #if DMB_LANES >= 4 && __has_builtin(__builtin_shufflevector)
 #define DMB_LANES_TRANSPOSED
@@ -35,7 +42,7 @@ static inline uint32_t lanes_used(const lane_group *g)
 }
 
 /* A number of each lane. */
-static inline dmb_real load_one(const double *from, size_t size, const lane_group *g)
+DMB_LANES_INLINE dmb_real load_one(const double *from, size_t size, const lane_group *g)
 {
     dmb_real x = dmb_real_of(from[size * g->place[0]]);
     for (int l = 1; l < DMB_REAL_LANES; l++) dmb_real_set_lane(&x, l, from[size * g->place[l]]);
@@ -49,12 +56,12 @@ static inline dmb_real load_one(const double *from, size_t size, const lane_grou
 typedef double lane_row __attribute__((vector_size(32)));
 typedef double lane_row_anywhere __attribute__((vector_size(32), aligned(8)));
 
-static inline lane_row load_row(const double *from)
+DMB_LANES_INLINE lane_row load_row(const double *from)
 {
     return *(const lane_row_anywhere *)from;
 }
 
-static inline void store_row(lane_row row, double *to)
+DMB_LANES_INLINE void store_row(lane_row row, double *to)
 {
     *(lane_row_anywhere *)to = row;
 }
@@ -73,7 +80,7 @@ static inline void store_row(lane_row row, double *to)
 #endif
 
 /* x[i]: number i of each lane; out[k]: the four numbers of lane k, and of lane 4 + k; or the other way round. */
-static inline void lanes_transpose(const dmb_real x[4], dmb_real out[4])
+DMB_LANES_INLINE void lanes_transpose(const dmb_real x[4], dmb_real out[4])
 {
     const dmb_real a = __builtin_shufflevector(x[0], x[1], DMB_LANES_EVEN);
     const dmb_real b = __builtin_shufflevector(x[0], x[1], DMB_LANES_ODD);
@@ -97,14 +104,14 @@ static inline void lanes_transpose(const dmb_real x[4], dmb_real out[4])
                             0, 1, 2, 3, 4, 5, 6, 7)
 #endif
 
-static inline void load_four(const double *from, size_t size, const lane_group *g, dmb_real x[4])
+DMB_LANES_INLINE void load_four(const double *from, size_t size, const lane_group *g, dmb_real x[4])
 {
     const dmb_real rows[4] = {DMB_LANES_JOIN(from, size, g, 0), DMB_LANES_JOIN(from, size, g, 1),
                               DMB_LANES_JOIN(from, size, g, 2), DMB_LANES_JOIN(from, size, g, 3)};
     lanes_transpose(rows, x);
 }
 
-static inline void store_four(const dmb_real x[4], size_t size, const lane_group *g, double *to)
+DMB_LANES_INLINE void store_four(const dmb_real x[4], size_t size, const lane_group *g, double *to)
 {
     dmb_real rows[4];
     lanes_transpose(x, rows);
@@ -120,12 +127,12 @@ static inline void store_four(const dmb_real x[4], size_t size, const lane_group
 #endif
 }
 
-static inline void add_row(lane_row row, double *to)
+DMB_LANES_INLINE void add_row(lane_row row, double *to)
 {
     store_row(load_row(to) + row, to);
 }
 
-static inline void add_four(const dmb_real x[4], uint32_t lanes, double *const to[DMB_REAL_LANES], uint32_t at)
+DMB_LANES_INLINE void add_four(const dmb_real x[4], uint32_t lanes, double *const to[DMB_REAL_LANES], uint32_t at)
 {
     dmb_real rows[4];
     lanes_transpose(x, rows);
@@ -143,18 +150,18 @@ static inline void add_four(const dmb_real x[4], uint32_t lanes, double *const t
 
 #else
 
-static inline void load_four(const double *from, size_t size, const lane_group *g, dmb_real x[4])
+DMB_LANES_INLINE void load_four(const double *from, size_t size, const lane_group *g, dmb_real x[4])
 {
     for (uint32_t i = 0; i < 4; i++) x[i] = load_one(from + i, size, g);
 }
 
-static inline void store_four(const dmb_real x[4], size_t size, const lane_group *g, double *to)
+DMB_LANES_INLINE void store_four(const dmb_real x[4], size_t size, const lane_group *g, double *to)
 {
     for (uint32_t l = 0; l < g->used; l++)
         for (uint32_t i = 0; i < 4; i++) to[size * g->place[l] + i] = dmb_real_lane(x + i, (int)l);
 }
 
-static inline void add_four(const dmb_real x[4], uint32_t lanes, double *const to[DMB_REAL_LANES], uint32_t at)
+DMB_LANES_INLINE void add_four(const dmb_real x[4], uint32_t lanes, double *const to[DMB_REAL_LANES], uint32_t at)
 {
     for (int l = 0; l < DMB_REAL_LANES; l++)
         for (uint32_t i = 0; lanes >> l & 1 && i < 4; i++) to[l][at + i] += dmb_real_lane(x + i, l);
@@ -165,8 +172,8 @@ static inline void add_four(const dmb_real x[4], uint32_t lanes, double *const t
 /* ---- Any number of them ------------------------------------------------------------------------------------------ */
 
 /* x[i] = numbers i of `size` at each place, i < count */
-static inline void load(const double *from, size_t size, uint32_t count, const lane_group *g, uint32_t next,
-                        dmb_real *x)
+DMB_LANES_INLINE void load(const double *from, size_t size, uint32_t count, const lane_group *g, uint32_t next,
+                           dmb_real *x)
 {
     uint32_t i = 0;
     from += size * next;
@@ -177,7 +184,7 @@ static inline void load(const double *from, size_t size, uint32_t count, const l
         for (; i < count; i++) x[i] = load_one(from + i, size, g);
 }
 
-static inline void store(const dmb_real *x, uint32_t size, const lane_group *g, double *to)
+DMB_LANES_INLINE void store(const dmb_real *x, uint32_t size, const lane_group *g, double *to)
 {
     uint32_t i = 0;
     for (; i + 4 <= size; i += 4) store_four(x + i, size, g, to + i);
@@ -189,7 +196,7 @@ static inline void store(const dmb_real *x, uint32_t size, const lane_group *g, 
 }
 
 /* One number of each place, in groups whose places follow one another. */
-static inline dmb_real load_line(const double *from, const lane_group *g)
+DMB_LANES_INLINE dmb_real load_line(const double *from, const lane_group *g)
 {
     dmb_real x;
     if (g->used < DMB_REAL_LANES) return load_one(from, 1, g);
@@ -197,7 +204,7 @@ static inline dmb_real load_line(const double *from, const lane_group *g)
     return x;
 }
 
-static inline void store_line(dmb_real x, const lane_group *g, double *to)
+DMB_LANES_INLINE void store_line(dmb_real x, const lane_group *g, double *to)
 {
     if (g->used < DMB_REAL_LANES)
         store(&x, 1, g, to);
@@ -207,7 +214,7 @@ static inline void store_line(dmb_real x, const lane_group *g, double *to)
 
 /* to[l][i] += lane l of x[i], i < count >= 4, for the lanes given, one bit each; lane by lane, for some may go to the
  * same place. */
-static inline void add_lanes(const dmb_real *x, uint32_t count, uint32_t lanes, double *const to[DMB_REAL_LANES])
+DMB_LANES_INLINE void add_lanes(const dmb_real *x, uint32_t count, uint32_t lanes, double *const to[DMB_REAL_LANES])
 {
     uint32_t i = 0;
     for (; i + 4 <= count; i += 4) add_four(x + i, lanes, to, i);
@@ -217,9 +224,51 @@ static inline void add_lanes(const dmb_real *x, uint32_t count, uint32_t lanes, 
     add_four(rest, lanes, to, count - 4);
 }
 
-static inline void add_lane(const dmb_real *x, int lane, uint32_t count, double *restrict to)
+/* ---- Chains: element l of a run adds to node l and to node l + 1 ------------------------------------------------- */
+
+/* Lane l is lane l - 1 of x; the first is the last one of the group before. */
+DMB_LANES_INLINE dmb_real lanes_behind(dmb_real before, dmb_real x)
 {
-    for (uint32_t i = 0; i < count; i++) to[i] += dmb_real_lane(x + i, lane);
+#if DMB_REAL_LANES == 1
+    (void)x;
+    return before;
+#elif !defined(DMB_LANES_TRANSPOSED)
+    dmb_real behind = x;
+    for (int l = 0; l < DMB_REAL_LANES; l++)
+        dmb_real_set_lane(&behind, l, l > 0 ? dmb_real_lane(&x, l - 1) : dmb_real_lane(&before, DMB_REAL_LANES - 1));
+    return behind;
+#elif DMB_LANES == 4
+    return __builtin_shufflevector(before, x, 3, 4, 5, 6);
+#else
+    return __builtin_shufflevector(before, x, 7, 8, 9, 10, 11, 12, 13, 14);
+#endif
+}
+
+/* Numbers of the first node, which something else may have added to. */
+DMB_LANES_INLINE void chain_begin(const double *to, uint32_t count, dmb_real *before)
+{
+    for (uint32_t i = 0; i < count; i++) before[i] = dmb_real_of(to[i]);
+}
+
+/* Node l of the group gets a of element l and b of element l - 1, as if these had been added to 0 in their order;
+ * `before` keeps b for the next group. Nodes are written whole, once: to read them again lane by lane behind wider
+ * writes keeps the processor waiting. */
+DMB_LANES_INLINE void chain_store(const dmb_real *a, const dmb_real *b, uint32_t count, const lane_group *g,
+                                  dmb_real *before, double *to)
+{
+    dmb_real sum[36];
+    for (uint32_t i = 0; i < count; i++) {
+        const dmb_real far = b[i] + 0.0; /* no -0, as after 0 + b */
+        sum[i] = lanes_behind(before[i], far) + a[i];
+        before[i] = far;
+    }
+    store(sum, count, g, to);
+}
+
+/* The far node of the last element, `used` being those of the last group. */
+DMB_LANES_INLINE void chain_end(const dmb_real *before, uint32_t count, uint32_t used, double *to)
+{
+    for (uint32_t i = 0; i < count; i++) to[i] += dmb_real_lane(before + i, (int)used - 1);
 }
 
 #endif

@@ -56,30 +56,59 @@ static inline void load_input(const dmb_beam_job *job, const lane_group *g, dmb_
     load(job->increment, 6, 6, g, 1, in->zb);
 }
 
-static inline void store_forces(dmb_beam_job *job, const lane_group *g, const dmb_beam_output *out)
+/* What far ends of elements add to nodes of the next group. */
+typedef struct beam_ends {
+    dmb_real residual[6], scale[6], stiffness[36], inertia[36];
+} beam_ends;
+
+static inline void begin_ends(const dmb_beam_job *job, beam_ends *ends)
+{
+    chain_begin(job->residual, 6, ends->residual);
+    chain_begin(job->scale, 6, ends->scale);
+    if (!job->tangent) return;
+    if (!job->inertia_only) chain_begin(job->stiffness_diagonal, 36, ends->stiffness);
+    if (job->dynamic) chain_begin(job->inertia_diagonal, 36, ends->inertia);
+}
+
+static inline void add_ends(const dmb_beam_job *job, const beam_ends *ends)
+{
+    const size_t last = job->count;
+    const uint32_t used = (job->count - 1) % DMB_REAL_LANES + 1;
+    chain_end(ends->residual, 6, used, job->residual + 6 * last);
+    chain_end(ends->scale, 6, used, job->scale + 6 * last);
+    if (!job->tangent) return;
+    if (!job->inertia_only) chain_end(ends->stiffness, 36, used, job->stiffness_diagonal + 36 * last);
+    if (job->dynamic) chain_end(ends->inertia, 36, used, job->inertia_diagonal + 36 * last);
+}
+
+static inline void add_powers(dmb_beam_job *job, const lane_group *g, const dmb_beam_output *out)
 {
     for (uint32_t l = 0; l < g->used; l++) {
         const int lane = (int)l;
-        double *residual = job->residual + 6 * g->place[l], *scale = job->scale + 6 * g->place[l];
-        add_lane(out->fa, lane, 6, residual);
-        add_lane(out->fb, lane, 6, residual + 6);
-        add_lane(out->scale_a, lane, 6, scale);
-        add_lane(out->scale_b, lane, 6, scale + 6);
         job->rounding += dmb_real_lane(&out->rounding, lane);
         job->potential -= dmb_real_lane(&out->potential, lane);
         job->damping -= dmb_real_lane(&out->damping, lane);
         job->inertia -= dmb_real_lane(&out->inertia, lane);
     }
+}
+
+static inline void store_forces(dmb_beam_job *job, const lane_group *g, const dmb_beam_output *out, beam_ends *ends)
+{
+    chain_store(out->fa, out->fb, 6, g, ends->residual, job->residual);
+    chain_store(out->scale_a, out->scale_b, 6, g, ends->scale, job->scale);
+    add_powers(job, g, out);
     store(out->strain, 6, g, job->strain);
     if (!job->extrapolated) store(out->stress, 6, g, job->stress);
 }
 
-static inline void add_diagonal(const lane_group *g, const dmb_beam_blocks *blocks, double *diagonal)
+static inline void store_tangent(const dmb_beam_job *job, const lane_group *g, const dmb_beam_output *out,
+                                 beam_ends *ends)
 {
-    for (uint32_t l = 0; l < g->used; l++) {
-        add_lane(blocks->aa, (int)l, 36, diagonal + 36 * g->place[l]);
-        add_lane(blocks->bb, (int)l, 36, diagonal + 36 * g->place[l] + 36);
-    }
+    const dmb_beam_blocks *K = &out->K, *C = &out->C;
+    if (!job->inertia_only) chain_store(K->aa, K->bb, 36, g, ends->stiffness, job->stiffness_diagonal);
+    if (job->dynamic) chain_store(C->aa, C->bb, 36, g, ends->inertia, job->inertia_diagonal);
+    store(K->ab, 36, g, job->upper);
+    store(K->ba, 36, g, job->lower);
 }
 
 /* The first lane that turned too far, found one by one. */
@@ -101,6 +130,8 @@ static int32_t beams(dmb_beam_job *job)
                                 job->tangent,     job->extrapolated,    job->dynamic && (job->ledger || job->damped),
                                 job->damped,      job->inertia_only,    job->arms};
     lane_types types;
+    beam_ends ends;
+    begin_ends(job, &ends);
     for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
         const lane_group g = group_at(first, job->count);
         dmb_beam_input in;
@@ -112,13 +143,10 @@ static int32_t beams(dmb_beam_job *job)
             job->failed = failed_of(job, &g, &types.constants, &in);
             return -1;
         }
-        store_forces(job, &g, &out);
-        if (!job->tangent) continue;
-        if (!job->inertia_only) add_diagonal(&g, &out.K, job->stiffness_diagonal);
-        if (job->dynamic) add_diagonal(&g, &out.C, job->inertia_diagonal);
-        store(out.K.ab, 36, &g, job->upper);
-        store(out.K.ba, 36, &g, job->lower);
+        store_forces(job, &g, &out, &ends);
+        if (job->tangent) store_tangent(job, &g, &out, &ends);
     }
+    add_ends(job, &ends);
     return 0;
 }
 
