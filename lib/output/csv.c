@@ -8,7 +8,7 @@
 #include "model/model.h"
 #include "output/recorder.h"
 #include "output/text_file.h"
-#include "query/channel.h"
+#include "query/query.h"
 
 static void put_numbered(dmb_text_file *file, const char *kind, uint32_t number)
 {

@@ -10,7 +10,7 @@
 #include "drillmbd/query.h"
 #include "math/real.h"
 #include "model/section.h"
-#include "query/place.h"
+#include "query/query.h"
 #include "sim/access.h"
 
 /* ---- Cycles ------------------------------------------------------------------------------------------------------ */

@@ -4,7 +4,7 @@
 #include "output/recorder.h"
 #include "output/text_file.h"
 #include "output/window.h"
-#include "query/channel.h"
+#include "query/query.h"
 #include "sim/access.h"
 
 DMB_DECLARE_STRUCT(dmb_recorder)

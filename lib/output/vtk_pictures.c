@@ -9,7 +9,7 @@
 #include "math/so3.h"
 #include "model/model.h"
 #include "output/vtk.h"
-#include "query/place.h"
+#include "query/query.h"
 #include "sim/access.h"
 
 /* ---- Values of a point ------------------------------------------------------------------------------------------- */

@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
-#include "query/channel.h"
+#include "query/query.h"
 #include "sim/access.h"
 
 DMB_DEFINE_INIT(dmb_window_options, 24, {.slots = 100})

@@ -1,4 +1,6 @@
-#include "query/channel.h"
+/* Channels: one number asked of a sim, for recorders, windows, responses and events. channel_name has their names;
+ * dmb_channel_value is the one owner of their values. */
+#include "query/query.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -6,8 +8,6 @@
 #include "drillmbd/bha.h"
 #include "drillmbd/control.h"
 #include "drillmbd/forces.h"
-#include "query/place.h"
-#include "query/profile.h"
 #include "sim/access.h"
 
 static int32_t pose_value(const dmb_sim *sim, const dmb_channel *channel, double *value)

@@ -1,7 +1,7 @@
 /* Channels that a driller reads. The section at the rig end carries what the rig holds: by its force on the near side,
  * tension > 0, the hook load is that force, and the torque that the rig puts in is the opposite of the section's. */
 #include "force/bit_rock.h"
-#include "query/channel.h"
+#include "query/query.h"
 #include "sim/access.h"
 #include "system/assemble/bit.h"
 #include "system/assemble/energy.h"

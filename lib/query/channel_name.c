@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "drillmbd/output.h"
-#include "query/channel.h"
+#include "query/query.h"
 
 /* clang-format off */
 static const dmb_channel_entry names[] = {

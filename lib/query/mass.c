@@ -1,4 +1,6 @@
-#include "query/mass.h"
+/* Shares of the rigid mass on a node. A node's rigid_mass is the sum of all that is fixed to it; these are its parts,
+ * each from the description, as the compile step added them. */
+#include "query/query.h"
 
 #include <float.h>
 #include <math.h>
@@ -9,8 +11,6 @@
 #include "model/field_check.h"
 #include "model/mesh.h"
 #include "model/section.h"
-#include "query/place.h"
-#include "query/reactions.h"
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "sim/node.h"

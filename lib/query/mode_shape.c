@@ -5,7 +5,7 @@
 #include "analysis/modes/modes.h"
 #include "element/beam.h"
 #include "math/real.h"
-#include "query/motion.h"
+#include "query/query.h"
 #include "sim/access.h"
 #include "system/assemble/energy.h"
 

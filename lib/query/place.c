@@ -1,4 +1,5 @@
-#include "query/place.h"
+/* Places of the user in the mesh: rigid with a node or inside an element; pipes, bodies and contact sites by number. */
+#include "query/query.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -1,14 +1,10 @@
 /* A string's state over its length, quantity by quantity: what dmb_query_pose, _motion, _section and _contact tell of
  * one place, and loads over limits by the pipe's definition. */
-#include "query/profile.h"
+#include "query/query.h"
 
 #include <math.h>
 
 #include "model/section.h"
-#include "query/motion.h"
-#include "query/mud_pressure.h"
-#include "query/pipe_strength.h"
-#include "query/place.h"
 #include "sim/access.h"
 
 DMB_DEFINE_INIT(dmb_profile, 64, {.station_count = 1})

@@ -1,5 +1,5 @@
 /* Names, units and needs of the quantities of a profile. */
-#include "query/profile.h"
+#include "query/query.h"
 
 static const struct quantity {
     const char *name, *unit;

@@ -1,5 +1,5 @@
 /* Motion, forces and reactions of the parts between bodies: joints, guides, drives, springs. */
-#include "query/reactions.h"
+#include "query/query.h"
 
 #include <math.h>
 
@@ -9,8 +9,6 @@
 #include "element/beam.h"
 #include "math/mat6.h"
 #include "math/vec3.h"
-#include "query/motion.h"
-#include "query/place.h"
 #include "sim/access.h"
 #include "sim/node.h"
 #include "system/assemble/bit.h"

@@ -7,8 +7,8 @@
 #include <math.h>
 
 #include "integrator/step.h"
-#include "query/channel.h"
-#include "run/events.h"
+#include "query/query.h"
+#include "run/run.h"
 #include "sim/access.h"
 #include "sim/layout.h"
 

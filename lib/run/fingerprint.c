@@ -1,4 +1,5 @@
-#include "run/fingerprint.h"
+/* Fingerprints of scenes and states by FNV-1a with 64 bits (Fowler, Noll, Vo), which finds mistakes, not forgery. */
+#include "run/run.h"
 
 /* Members one by one: padding and pointers stay out. */
 #define DMB_NUMBERS(hash, array) dmb_fnv_numbers((hash), (array), sizeof(array) / sizeof(double))

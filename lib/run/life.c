@@ -9,7 +9,7 @@
 #include "drillmbd/base.h"
 #include "math/bridge.h"
 #include "model/model.h"
-#include "run/events.h"
+#include "run/run.h"
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "sim/own_scene.h"

@@ -1,5 +1,5 @@
 /* Going on in a sim of another model: the string opens at the rig, pipes come in between or go, and it closes again. */
-#include "run/state_transfer.h"
+#include "run/run.h"
 
 #include <math.h>
 #include <string.h>

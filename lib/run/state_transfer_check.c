@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "model/part_name.h"
-#include "query/place.h"
-#include "run/state_transfer.h"
+#include "query/query.h"
+#include "run/run.h"
 #include "sim/node.h"
 
 dmb_common_string dmb_common_string_of(const dmb_scene *scene, const dmb_scene *from, uint32_t string)

@@ -7,7 +7,7 @@
 #include "element/beam.h"
 #include "math/mat6.h"
 #include "math/se3.h"
-#include "run/state_transfer.h"
+#include "run/run.h"
 #include "sim/node.h"
 
 /* [m, rad] by which the line of axial-torsional pipes may be described differently. */

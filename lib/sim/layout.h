@@ -47,7 +47,7 @@ typedef struct dmb_field {
     void *data;
     size_t bytes; /* without padding */
     int32_t group;
-    int32_t check; /* DMB_CHECK_... of run/snapshot_check.h; -1 of work */
+    int32_t check; /* DMB_CHECK_... of run/snapshot.c; -1 of work */
 } dmb_field;
 
 #define DMB_ONE_MORE(type, name, count, check) +1

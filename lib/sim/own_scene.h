@@ -39,4 +39,10 @@ double dmb_described_setting(const dmb_sim *sim, uint32_t input);
 /* Programme that an input takes the place of, in a compiled scene; DMB_NONE: none. */
 uint32_t dmb_described_programme(const dmb_scene *scene, uint32_t input);
 
+/* Inputs of an accepted state. */
+
+/* Value and rate of input i that are in force now: what stands in the place of its programme, else what is set. Errors:
+ * those of the programme's callback. */
+int32_t dmb_input_present(const dmb_sim *sim, uint32_t i, double *value, double *rate);
+
 #endif

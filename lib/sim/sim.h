@@ -1,6 +1,6 @@
 /* The map of a sim: every field, who computes it from what, its shape and unit. The X-macro lists below drive the
  * memory layout, snapshot, restore and hash, and the test of the layout; there is no other list of fields. Each saved
- * field names the check that its bytes in a snapshot must pass (run/snapshot_check.h): a snapshot may be forged, and no
+ * field names the check that its bytes in a snapshot must pass (run/snapshot.c): a snapshot may be forged, and no
  * step may read or write out of bounds by what it says. n = scene->node_count, r = row_count, s = site_count, p =
  * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; ns = n
  * where there are contact sites, else 0; k =
@@ -82,10 +82,10 @@
     X(double, delay_line, 2 * DMB_DELAY_SAMPLES * delay, NUMBERS) /* [s] and [N, N m] samples of the commands of each   \
                                                                  drive with a delay: system/assemble/drives */        \
     X(double, input_value, input, SET_INPUTS) /* [unit of the target] set by the caller; NaN: the programme:          \
-                                                 run/input_set, sim/own_scene; of a stuck place that lets go          \
+                                                 run/inputs, sim/own_scene; of a stuck place that lets go          \
                                                  system/jump */                                                      \
     X(double, input_begin, 3 * input, NUMBERS) /* [s, unit, unit/s] where the way to the value begins:               \
-                                                 run/input_set, sim/own_scene */                                      \
+                                                 run/inputs, sim/own_scene */                                      \
     X(double, event_since, event, EVENT_TIMES) /* [s] time at which it crossed and from which it is held; NaN: not    \
                                                   beyond its level; infinite: told, or beyond from the start of a     \
                                                   call: run/events */                                                 \
@@ -203,7 +203,7 @@
     X(uint32_t, sparse_row, sparse_block)                                                                             \
     X(dmb_reduced_mode, reduced_mode, 1) /* rows and violations by who finds them: system/, integrator/, analysis/,   \
                                             run/ */                                                                   \
-    X(double, input_before, 4 * input)  /* value and beginning, while a call sets some: run/input_set */              \
+    X(double, input_before, 4 * input)  /* value and beginning, while a call sets some: run/inputs */              \
     X(uint8_t, backup, backup)          /* the state before a call that takes more than one step, sim/layout */
 /* clang-format on */
 
@@ -292,7 +292,7 @@ typedef struct dmb_progress {
     int32_t nested;    /* [-] calls that the one under way is part of */
 } dmb_progress;
 
-/* The log of inputs that were set; neither saved nor hashed. run/input_set */
+/* The log of inputs that were set; neither saved nor hashed. run/inputs */
 typedef struct dmb_input_log {
     dmb_input_record *records; /* the caller's; NULL: none */
     uint32_t capacity, count;

@@ -6,7 +6,7 @@
  * bits 4 and 5 set: events are waited for, bits 4 to 7 set: analyses too. Then changes: three bytes of a place, one of
  * a length less 1 (bits 0 to 2), so many bytes; or with its bit 3 set one of the words and numbers below, on a multiple
  * of its size. */
-#include "run/fingerprint.h"
+#include "run/run.h"
 #include "saved_scenes.h"
 
 enum { HEADER = 48, CONTENT_AT = 40, CHANGES = 64 };

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "run/fingerprint.h"
+#include "run/run.h"
 #include "saved_scenes.h"
 #include "sim/layout.h"
 

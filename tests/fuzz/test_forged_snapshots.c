@@ -8,8 +8,7 @@
 
 #include "../contract/joint_scene.h"
 #include "../contract/whole_scene.h"
-#include "run/fingerprint.h"
-#include "run/snapshot_check.h"
+#include "run/run.h"
 #include "sim/layout.h"
 
 enum { CHANGES = 80, HEADER = 48, CONTENT_AT = 40 }; /* bytes of the header; where its checksum stands */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "math/se3.h"
-#include "query/channel.h"
+#include "query/query.h"
 #include "sim/node.h"
 
 /* Central differences of the pose: (h/L)^2 of non-linearity and eps L/h of rounding are both near 1e-10. */

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "analysis/response/response.h"
-#include "query/channel.h"
+#include "query/query.h"
 
 typedef struct meaning {
     const dmb_sim *sim;

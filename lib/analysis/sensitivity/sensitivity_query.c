@@ -5,7 +5,7 @@
 #include "analysis/sensitivity/sensitivity.h"
 #include "base/sized_struct.h"
 #include "math/so3.h"
-#include "query/channel.h"
+#include "query/query.h"
 #include "sim/own_scene.h"
 #include "system/constrain/cluster.h"
 #include "system/copy.h"

@@ -9,7 +9,7 @@
 #include "drillmbd/state_space.h"
 #include "math/so3.h"
 #include "math/vec3.h"
-#include "query/reactions.h"
+#include "query/query.h"
 #include "sim/access.h"
 #include "sim/node.h"
 #include "system/assemble/evaluation.h"

@@ -11,7 +11,7 @@
 #include "drillmbd/drilling.h"
 #include "model/model.h"
 #include "model/scene.h"
-#include "query/pipe_strength.h"
+#include "query/query.h"
 
 typedef struct dmb_soft_string {
     const dmb_model *model;

@@ -8,7 +8,7 @@
 #include "base/value_check.h"
 #include "model/limits.h"
 #include "model/section.h"
-#include "query/mass.h"
+#include "query/query.h"
 #include "sim/access.h"
 
 DMB_DEFINE_INIT(dmb_operation, 40, {.axial_speed = 0.0})

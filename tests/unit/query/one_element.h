@@ -12,7 +12,7 @@
 
 #include "close.h"
 #include "math/se3.h"
-#include "query/motion.h"
+#include "query/query.h"
 
 typedef struct one_element {
     dmb_scene scene;

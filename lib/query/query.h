@@ -1,0 +1,263 @@
+/* Inner side of the queries: places, motion, section, masses, reactions, channels and profiles of an accepted state, as
+ * analyses and output take them. */
+#ifndef DMB_QUERY_QUERY_H
+#define DMB_QUERY_QUERY_H
+
+#include "drillmbd/output.h"
+#include "drillmbd/query.h"
+#include "element/beam.h"
+#include "model/model.h"
+#include "sim/sim.h"
+
+/* ---- Places ------------------------------------------------------------------------------------------------------ */
+
+typedef struct dmb_material_point {
+    uint32_t node;    /* the node it is rigid with; near node of the element otherwise */
+    uint32_t element; /* element of a flexible or axial-torsional pipe; DMB_NONE on rigid pipes and bodies */
+    double arm;       /* [m] along body x from the node, where `fixed` */
+    double fraction;  /* [-] along the element's flexible length, 0 .. 1 */
+    double beyond;    /* [m] behind the element's far end, inside the tool joint; 0 elsewhere */
+    int32_t fixed;    /* 1: rigid with the node (body, rigid pipe, tool joint, end of an element) */
+    int32_t reserved;
+} dmb_material_point;
+
+/* Errors: DMB_ERR_ID, DMB_ERR_NOT_FINITE, DMB_ERR_VALUE (pipe or fraction outside the part). O(1). */
+int32_t dmb_material_point_of(const dmb_sim *sim, dmb_place place, dmb_material_point *point);
+
+/* A string's pipe, or NULL where there is none: DMB_ERR_ID or DMB_ERR_VALUE in *status. */
+const dmb_pipe_map *dmb_pipe_of(const dmb_sim *sim, dmb_id string, uint32_t pipe, int32_t *status);
+
+/* Number of a body or bit in scene->bodies; DMB_NONE if the id names neither. */
+uint32_t dmb_body_index(const dmb_sim *sim, dmb_id id);
+
+/* The description behind a pipe of a compiled string. */
+
+/* The call of dmb_model_add_pipes that made a pipe; NULL if there is none. O(number of such calls). */
+const dmb_pipe_run *dmb_pipe_run_of(const dmb_model *model, uint32_t string, uint32_t pipe);
+
+/* Contact sites by the part they belong to. */
+
+/* Site, as dmb_query_contact counts them, at the far end of a string's pipe, or of a body (pipe 0); DMB_NONE where
+ * nothing meets the wall. part and pipe must be valid. O(log sites), on rigid stretches O(their pipes). */
+uint32_t dmb_site_of(const dmb_sim *sim, dmb_id part, uint32_t pipe);
+
+/* Site behind the first `elements` elements of a pipe; 0: at its near end. A rigid pipe has one element here. */
+uint32_t dmb_site_after(const dmb_sim *sim, dmb_id string, uint32_t pipe, uint32_t elements);
+
+/* [N] normal force of a site in the accepted state; 0 for DMB_NONE. */
+double dmb_site_normal_force(const dmb_sim *sim, uint32_t site);
+
+/* [N] the same by part; 0 without a site. Errors: DMB_ERR_ID, DMB_ERR_VALUE (no such pipe). */
+int32_t dmb_normal_force_at(const dmb_sim *sim, dmb_id part, uint32_t pipe, double *force);
+
+/* ---- Motion inside elements -------------------------------------------------------------------------------------- */
+
+/* The two nodes of an element seen from each other. */
+
+typedef struct dmb_end_pose {
+    double rotation[9];     /* [-] body to world, row-major */
+    double displacement[3]; /* [m] world, from reference_position */
+} dmb_end_pose;
+
+/* Pose of a node in a configuration, and at time 0 as described. */
+void dmb_end_pose_now(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node,
+                      dmb_end_pose *pose);
+void dmb_end_pose_at_start(const dmb_scene *scene, uint32_t node, dmb_end_pose *pose);
+
+/* d = log(H_A^-1 H_B) of the element's flexible ends from the poses of its nodes, whatever their kind. */
+void dmb_relative_pose(const dmb_scene *scene, uint32_t element, const dmb_end_pose *a, const dmb_end_pose *b,
+                       double d[6]);
+
+/* Shape of the section at a point inside an element. */
+void dmb_material_point_shape(const dmb_scene *scene, const dmb_material_point *point, dmb_section_shape *shape);
+
+/* Pose and motion of a point: of its node, moved by a rigid arm, or of a section between two nodes. */
+
+typedef struct dmb_material_point_pose {
+    double rotation[9];     /* [-] body to world, row-major */
+    double position[3];     /* [m] world */
+    double displacement[3]; /* [m] world, position less that at time 0 as described */
+} dmb_material_point_pose;
+
+void dmb_material_point_pose_of(const dmb_scene *scene, const dmb_configuration *configuration,
+                                const dmb_material_point *point, dmb_material_point_pose *pose);
+
+/* Axes of the point at time 0 as described, body to world. */
+void dmb_material_point_start_axes(const dmb_scene *scene, const dmb_material_point *point, double R[9]);
+
+/* Velocity [m/s, rad/s] and its rate [m/s2, rad/s2] in the axes of the section: the exact time derivatives of the pose
+ * above. */
+typedef struct dmb_material_point_motion {
+    double velocity[6];
+    double acceleration[6];
+} dmb_material_point_motion;
+
+void dmb_material_point_motion_of(const dmb_scene *scene, const dmb_configuration *configuration,
+                                  const dmb_material_point *point, dmb_material_point_motion *motion);
+
+/* [rad] turn about the pipe's axis since time 0, linear between nodes */
+double dmb_material_point_turn(const dmb_configuration *configuration, const dmb_material_point *point);
+
+/* [m] measured depth of the closest point of the hole's axis to x; 0 without a hole. O(log stations). */
+double dmb_material_point_depth(const dmb_scene *scene, const dmb_configuration *configuration,
+                                const dmb_material_point *point, const double x[3]);
+
+/* ---- Mass -------------------------------------------------------------------------------------------------------- */
+
+/* Shares of the rigid mass on a node. A node's rigid_mass is the sum of all that is fixed to it; these are its parts,
+ * each from the description, as the compile step added them. */
+
+/* A pipe of a string with its description. */
+typedef struct dmb_described_pipe {
+    const dmb_pipe_map *map;
+    const dmb_pipe_def *def;
+    uint32_t string, number;
+    int32_t eccentric;
+    int32_t reserved;
+    double offset[2]; /* [m] of its centre of mass, where eccentric */
+} dmb_described_pipe;
+
+/* string and pipe must be valid. O(number of dmb_model_add_pipes calls). */
+void dmb_describe_pipe(const dmb_sim *sim, uint32_t string, uint32_t pipe, dmb_described_pipe *out);
+
+/* A rigid pipe without its tool joint. */
+void dmb_rigid_pipe_share(const dmb_described_pipe *pipe, dmb_rigid_mass *share);
+/* A pipe's tool joint; mass 0 where there is none. */
+void dmb_joint_share(const dmb_scene *scene, const dmb_described_pipe *pipe, dmb_rigid_mass *share);
+/* Part that eccentricity adds on the near (end 0) or far (end 1) node of an element: a first moment, no mass. */
+void dmb_eccentric_share(const dmb_scene *scene, const dmb_described_pipe *pipe, uint32_t element, uint32_t end,
+                         dmb_rigid_mass *share);
+/* A body or bit, by its number in scene->bodies. */
+void dmb_body_share(const dmb_sim *sim, uint32_t body, dmb_rigid_mass *share);
+
+/* 1 where a body or bit, by its number in scene->bodies, is fixed to this end of a string, DMB_ATTACH_START or _END; an
+ * id that names nothing is the first string. */
+int dmb_body_is_at_end(const dmb_model *model, uint32_t body, uint32_t string, int32_t attach);
+
+/* [J] of a share on its node in the accepted state. */
+double dmb_share_kinetic_energy(const dmb_sim *sim, const dmb_rigid_mass *share);
+
+/* ---- Pressures of the mud ---------------------------------------------------------------------------------------- */
+
+typedef struct dmb_mud_pressure {
+    double outside, inside; /* [Pa] */
+} dmb_mud_pressure;
+
+/* 1: the pressures inside and outside differ. */
+static inline int dmb_mud_is_apart(const dmb_scene *scene)
+{
+    return scene->flow_count > 0 || !(scene->inner_density < 0.0);
+}
+
+/* At a distance from the rig end of the string [m], x [m] in the world. At rest each mud stands up to the start of the
+ * hole, or to the rig end as described without a hole. Where it flows the annulus has what it loses from here up to the
+ * rig end in addition; inside it is the pressure outside at the far end, the loss there, and that on the way to it. */
+dmb_mud_pressure dmb_mud_pressure_at(const dmb_sim *sim, uint32_t string, double distance, const double x[3]);
+
+/* ---- Loads over limits ------------------------------------------------------------------------------------------- */
+
+/* Loads over limits of a pipe in its hole: stress at its surface, and the buckling of a long pipe that lies on the
+ * wall. */
+
+/* [Pa] Largest von Mises stress at the outer surface of a tube under effective axial force [N], torque and bending
+ * moment [N m]: s = |N_e|/A + M r/I, t = T r/J, sqrt(s^2 + 3 t^2). A fluid at rest of one density inside and outside
+ * adds the same pressure in all directions to what N_e gives, which no yield criterion of shear sees. */
+double dmb_tube_von_mises(double outer_diameter, double inner_diameter, double axial_force, double torque,
+                          double bending_moment);
+
+/* [Pa] Likewise where the pressure inside is higher by `pressure` [Pa], the largest of both surfaces. With s = N_e/A +
+ * M rho/I at the radius rho the axial stress is s + (p_i A_i - p_o A_o)/A; radial and hoop stress of Lame lie by
+ * +- h, h = pressure A_i A_o/(A pi rho^2), about the same mean, so that the von Mises stress is sqrt(s^2 + 3 h^2 + 3
+ * t^2) (Sparks 1984). diameters: outer, inner [m]. */
+double dmb_tube_pressed_von_mises(const double diameters[2], double axial_force, double torque, double bending_moment,
+                                  double pressure);
+
+/* A long pipe in contact with the wall of its hole. */
+typedef struct dmb_confined_pipe {
+    double EI;         /* [N m2] the smaller one */
+    double clearance;  /* [m] of its contact ring, >= 0 */
+    double weight[3];  /* [N/m] buoyant, world frame */
+    double tangent[3]; /* [-] of the hole's axis */
+    double bend[3];    /* [1/m] dt/ds of the hole's axis, world frame */
+} dmb_confined_pipe;
+
+/* [N/m] Wall force w_c per metre of the pipe without its bending stiffness, |w_across + N_e dt/ds|; and dw_c/dN_e [1/m]
+ * in *by_force (may be NULL). */
+double dmb_confined_wall_force(const dmb_confined_pipe *pipe, double axial_force, double *by_force);
+
+/* [-] Compression -N_e over the load of sinusoidal buckling, sqrt(4 EI w_c/r) where w_c = |w_across + N_e dt/ds| is the
+ * contact force per metre before buckling (Dawson, Paslay 1984; He, Kyllingstad 1995), but at least 2.55 (EI
+ * w_along^2)^(1/3) (Wu, Juvkam-Wold 1995). 0 in tension, infinite where nothing holds the pipe straight. */
+double dmb_sinusoidal_share(const dmb_confined_pipe *pipe, double axial_force);
+/* [-] likewise of helical buckling: sqrt(8 EI w_c/r) (Chen, Lin, Cheatham 1990), at least 5.55 (EI w_along^2)^(1/3). */
+double dmb_helical_share(const dmb_confined_pipe *pipe, double axial_force);
+
+/* ---- Joints and constraints -------------------------------------------------------------------------------------- */
+
+/* Rows that act, the first of its room; and those of them that are dropped because others hold what they hold. */
+uint32_t dmb_constraint_active(const dmb_sim *sim, uint32_t constraint);
+uint32_t dmb_constraint_redundant(const dmb_sim *sim, uint32_t constraint);
+/* Largest violation of an equation of position that joint j holds. */
+double dmb_joint_violation(const dmb_sim *sim, uint32_t j);
+
+/* ---- Channels ---------------------------------------------------------------------------------------------------- */
+
+/* Channels: one number asked of a sim, for recorders, windows, responses and events. channel_name has their names;
+ * dmb_channel_value is the one owner of their values. */
+
+/* Kinds of places that channels take. */
+enum {
+    DMB_AT_PLACE = 0,   /* any place on a string, body or bit */
+    DMB_AT_SECTION = 1, /* a place on a flexible or axial-torsional pipe */
+    DMB_AT_PIPE = 2,    /* a place on a string */
+    DMB_AT_PART = 3,    /* a pipe of a string, a body or a bit */
+    DMB_AT_STRING = 4,  /* a string or {0, 0} */
+    DMB_AT_BIT = 5,     /* and so on: place.part alone */
+    DMB_AT_DRIVE = 6,
+    DMB_AT_JOINT = 7,
+    DMB_AT_CONSTRAINT = 8, /* a joint, coupling, constraint or joint drive */
+    DMB_AT_SITE = 9,       /* place.pipe alone, a contact site */
+    DMB_AT_SCENE = 10,     /* ignored */
+    DMB_AT_WINDOW = 11,    /* place.pipe alone, a watched channel */
+    DMB_AT_STUCK = 12,     /* place.part alone */
+    DMB_AT_SPRING = 13,
+    DMB_AT_INPUT = 14
+};
+
+typedef struct dmb_channel_entry {
+    const char *name;
+    const char *unit;
+    int32_t quantity;
+    int32_t place; /* DMB_AT_... */
+} dmb_channel_entry;
+
+/* NULL for an unknown quantity. */
+const dmb_channel_entry *dmb_channel_name_of(int32_t quantity);
+
+/* The present value. Errors: those of dmb_query_channel. */
+int32_t dmb_channel_value(const dmb_sim *sim, const dmb_channel *channel, double *value);
+
+/* Those of a driller, DMB_CHANNEL_HOOK_LOAD .. _RIG_TORQUE; an unknown number is DMB_ERR_VALUE. */
+int32_t dmb_driller_value(const dmb_sim *sim, const dmb_channel *channel, double *value);
+/* The string that such a channel means: the id and its number, the model's first for {0, 0}. DMB_ERR_ID. */
+int32_t dmb_channel_string(const dmb_sim *sim, const dmb_channel *channel, dmb_id *string, uint32_t *index);
+
+/* ---- Profiles ---------------------------------------------------------------------------------------------------- */
+
+/* Groups of quantities that are computed together, and only where one of them is asked for. */
+enum {
+    DMB_TAKES_STATION = 0,
+    DMB_TAKES_POSE = 1,
+    DMB_TAKES_SECTION = 2,
+    DMB_TAKES_CONTACT = 4,
+    DMB_TAKES_LIMITS = 8,
+    DMB_TAKES_MOTION = 16
+};
+
+/* Groups that DMB_PROFILE_... takes; -1: there is no such quantity. */
+int32_t dmb_profile_groups(int32_t quantity);
+
+/* A quantity DMB_PROFILE_... at a place of a string. Errors: DMB_ERR_VALUE, _ID, _NOT_FINITE. O(runs of pipes). */
+int32_t dmb_profile_value(const dmb_sim *sim, dmb_place place, int32_t quantity, double *value);
+
+#endif
