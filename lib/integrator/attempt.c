@@ -6,15 +6,14 @@
 #include "integrator/step_motion.h"
 #include "math/so3.h"
 #include "sim/node.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
-#include "system/assemble/free_rigid.h"
-#include "system/assemble/stuck.h"
+#include "system/assemble/energy.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
 #include "system/constrain/joint_motion.h"
-#include "system/jump.h"
-#include "system/ledger.h"
+#include "system/system.h"
 
 /* Violation of an equation taken for redundant at which it is one no more, in lengths of the parts. */
 #define DMB_DROPPED_VIOLATION 1e-7

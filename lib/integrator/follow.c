@@ -6,8 +6,8 @@
 #include "integrator/newton.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/cluster.h"
-#include "system/jump.h"
 #include "system/solve/solve.h"
+#include "system/system.h"
 
 /* The follower's own attempt at the leader's step. */
 typedef struct course {

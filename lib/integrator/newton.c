@@ -5,10 +5,10 @@
 
 #include "integrator/step_motion.h"
 #include "sim/access.h"
-#include "system/assemble/elements.h"
+#include "system/assemble/assemble.h"
 #include "system/constrain/cluster.h"
-#include "system/jump.h"
 #include "system/solve/solve.h"
+#include "system/system.h"
 
 /* Newton gives up when the residual has grown this much over its start. */
 #define DMB_NEWTON_GROWTH 1e6

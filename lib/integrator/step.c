@@ -11,11 +11,10 @@
 #include "math/elementary.h"
 #include "sim/access.h"
 #include "sim/layout.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/drives.h"
-#include "system/assemble/stuck.h"
-#include "system/jump.h"
 #include "system/solve/solve.h"
-#include "system/start.h"
+#include "system/system.h"
 
 DMB_DECLARE_STRUCT(dmb_step_report)
 

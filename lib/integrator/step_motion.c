@@ -1,8 +1,8 @@
 #include "integrator/step_motion.h"
 
 #include "kernel/kernels.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/evaluation.h"
-#include "system/assemble/free_rigid.h"
 
 void dmb_step_motion_predict(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
 {

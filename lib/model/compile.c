@@ -3,7 +3,7 @@
 #include "base/value_check.h"
 #include "math/bridge.h"
 #include "model/describe.h"
-#include "model/limits.h"
+#include "model/field_check.h"
 #include "model/mesh.h"
 #include "model/scene.h"
 

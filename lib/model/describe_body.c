@@ -1,7 +1,6 @@
 /* Rigid bodies: rig heads and other bodies fixed to a string, bodies of their own, bits. */
 #include "model/describe.h"
 #include "model/field_check.h"
-#include "model/limits.h"
 #include "model/model.h"
 #include "model/part_name.h"
 #include "model/section.h"

@@ -7,7 +7,6 @@
 #include "base/sized_struct.h"
 #include "drillmbd/control.h"
 #include "model/field_check.h"
-#include "model/limits.h"
 #include "model/model.h"
 
 DMB_DECLARE_STRUCT(dmb_input_info)

@@ -5,7 +5,6 @@
 #include "constraint/joint.h"
 #include "model/describe.h"
 #include "model/field_check.h"
-#include "model/limits.h"
 #include "model/model.h"
 #include "model/part_name.h"
 

@@ -3,7 +3,6 @@
 #include "constraint/joint.h"
 #include "model/describe.h"
 #include "model/field_check.h"
-#include "model/limits.h"
 #include "model/part_name.h"
 
 enum { TABLE_MAX = 1 << 16 };

@@ -4,7 +4,6 @@
 #include "drillmbd/hole.h"
 #include "model/describe.h"
 #include "model/field_check.h"
-#include "model/limits.h"
 #include "model/model.h"
 
 enum { SECTIONS_MAX = 1 << 18 };

@@ -4,7 +4,6 @@
 #include "math/vec3.h"
 #include "model/describe.h"
 #include "model/field_check.h"
-#include "model/limits.h"
 #include "model/model.h"
 #include "model/part_name.h"
 

@@ -3,7 +3,7 @@
 #include "drillmbd/bha.h"
 #include "math/so3.h"
 #include "model/describe.h"
-#include "model/limits.h"
+#include "model/field_check.h"
 
 DMB_DECLARE_STRUCT(dmb_motor)
 DMB_DEFINE_INIT(dmb_motor, 32, {.stall_torque = 0.0})

@@ -3,7 +3,6 @@
 #include "math/quadrature.h"
 #include "model/describe.h"
 #include "model/field_check.h"
-#include "model/limits.h"
 #include "model/model.h"
 #include "model/part_name.h"
 #include "model/section.h"

@@ -2,7 +2,6 @@
 #include "drillmbd/bha.h"
 #include "model/describe.h"
 #include "model/field_check.h"
-#include "model/limits.h"
 #include "model/part_name.h"
 
 enum { EVERYTHING = DMB_STUCK_AXIAL | DMB_STUCK_ROTATION | DMB_STUCK_LATERAL };

@@ -6,7 +6,6 @@
 #include "math/se3.h"
 #include "model/describe.h"
 #include "model/field_check.h"
-#include "model/limits.h"
 
 typedef struct pose {
     double q[4], x[3];

@@ -7,7 +7,6 @@
 #include "math/real.h"
 #include "model/describe.h"
 #include "model/field_check.h"
-#include "model/limits.h"
 #include "model/model.h"
 
 enum { STATIONS_MIN = 2, STATIONS_MAX = 1 << 16 };

@@ -6,7 +6,6 @@
 
 #include "base/memory.h"
 #include "model/field_check.h"
-#include "model/limits.h"
 
 void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *options)
 {

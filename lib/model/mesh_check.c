@@ -1,6 +1,5 @@
 /* The scene as a whole: what one description alone could not know. */
 #include "model/field_check.h"
-#include "model/limits.h"
 #include "model/mesh.h"
 #include "model/part_name.h"
 #include "model/section.h"

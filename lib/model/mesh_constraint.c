@@ -2,7 +2,6 @@
  * connect. */
 #include "base/memory.h"
 #include "model/field_check.h"
-#include "model/limits.h"
 #include "model/mesh.h"
 
 static dmb_scene_joint *joint_at(const dmb_mesh *mesh, uint32_t i)

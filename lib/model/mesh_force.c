@@ -6,7 +6,6 @@
 #include "element/beam.h"
 #include "math/so3.h"
 #include "model/field_check.h"
-#include "model/limits.h"
 #include "model/mesh.h"
 
 /* ---- Points ------------------------------------------------------------------------------------------------------ */

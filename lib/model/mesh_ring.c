@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "model/field_check.h"
-#include "model/limits.h"
 #include "model/mesh.h"
 #include "model/part_name.h"
 #include "model/section.h"

@@ -7,7 +7,7 @@
 #include "base/sized_struct.h"
 #include "drillmbd/hole.h"
 #include "model/describe.h"
-#include "model/limits.h"
+#include "model/field_check.h"
 #include "model/part_name.h"
 #include "model/scene.h"
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "model/limits.h"
+#include "model/field_check.h"
 
 /* ---- Rings that a guide keeps off the wall ----------------------------------------------------------------------- */
 

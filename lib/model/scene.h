@@ -25,7 +25,6 @@
 #include "force/mud_flow.h"
 #include "force/normal_law.h"
 #include "force/programme.h"
-#include "force/side_cutting.h"
 #include "force/spring_law.h"
 #include "math/block_sparse.h"
 #include "math/block_tridiagonal.h"

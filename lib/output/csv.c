@@ -6,7 +6,7 @@
 #include "analysis/response/response.h"
 #include "base/sized_struct.h"
 #include "model/model.h"
-#include "output/recorder.h"
+#include "output/output.h"
 #include "output/text_file.h"
 #include "query/query.h"
 

@@ -1,4 +1,6 @@
-#include "output/fatigue.h"
+/* Rainflow counting of a sequence of levels as it arrives (ASTM E1049, 5.4.4; Matsuishi, Endo 1968). Turning points
+ * whose ranges shrink are not counted yet: of levels 0 .. n - 1 at most n + 2. */
+#include "output/output.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,9 +1,9 @@
+/* A recorder as the caller filled it, checked. */
 #include <math.h>
 
 #include "base/sized_struct.h"
-#include "output/recorder.h"
+#include "output/output.h"
 #include "output/text_file.h"
-#include "output/window.h"
 #include "query/query.h"
 #include "sim/access.h"
 

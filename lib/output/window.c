@@ -2,7 +2,7 @@
  * length/slots; a slot that the window has left is written anew, so memory does not grow. Between samples a channel is
  * a straight line: over an interval h from a to b the integral is h (a + b)/2, and of its square h (a a + a b + b b)/3.
  * An interval belongs to the slot that its end is in. */
-#include "output/window.h"
+#include "output/output.h"
 
 #include <math.h>
 #include <string.h>

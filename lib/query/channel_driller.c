@@ -3,7 +3,7 @@
 #include "force/bit_rock.h"
 #include "query/query.h"
 #include "sim/access.h"
-#include "system/assemble/bit.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/energy.h"
 
 typedef struct asked_string {

@@ -10,12 +10,11 @@
 #include "force/hole_section.h"
 #include "math/real.h"
 #include "math/vec3.h"
-#include "model/limits.h"
+#include "model/field_check.h"
 #include "model/model.h"
 #include "model/scene.h"
 #include "sim/access.h"
-#include "system/assemble/stuck.h"
-#include "system/assemble/wall_contact.h"
+#include "system/assemble/assemble.h"
 
 /* ---- Contact ----------------------------------------------------------------------------------------------------- */
 

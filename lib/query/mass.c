@@ -14,10 +14,9 @@
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "sim/node.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/energy.h"
-#include "system/assemble/springs.h"
-#include "system/assemble/stuck.h"
 #include "system/constrain/joint_motion.h"
 
 void dmb_describe_pipe(const dmb_sim *sim, uint32_t string, uint32_t pipe, dmb_described_pipe *out)

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "system/assemble/wall_contact.h"
+#include "system/assemble/assemble.h"
 
 const dmb_pipe_map *dmb_pipe_of(const dmb_sim *sim, dmb_id string, uint32_t pipe, int32_t *status)
 {

@@ -11,9 +11,8 @@
 #include "math/vec3.h"
 #include "sim/access.h"
 #include "sim/node.h"
-#include "system/assemble/bit.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/drives.h"
-#include "system/assemble/springs.h"
 #include "system/constrain/constraint_rows.h"
 
 /* ---- Joints and callers' constraints ----------------------------------------------------------------------------- */

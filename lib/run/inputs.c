@@ -3,17 +3,15 @@
 #include <string.h>
 
 #include "model/describe.h"
-#include "model/limits.h"
+#include "model/field_check.h"
 #include "sim/access.h"
 #include "sim/node.h"
 #include "sim/own_scene.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/energy.h"
-#include "system/assemble/stuck.h"
 #include "system/constrain/joint_motion.h"
-#include "system/jump.h"
-#include "system/ledger.h"
 #include "system/solve/solve.h"
-#include "system/start.h"
+#include "system/system.h"
 
 /* ---- Set points and joints --------------------------------------------------------------------------------------- */
 

@@ -14,7 +14,7 @@
 #include "sim/layout.h"
 #include "sim/own_scene.h"
 #include "system/assemble/drives.h"
-#include "system/start.h"
+#include "system/system.h"
 
 DMB_DECLARE_STRUCT(dmb_sim_options)
 

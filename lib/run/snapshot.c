@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "model/describe.h"
-#include "model/limits.h"
+#include "model/field_check.h"
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "sim/own_scene.h"

@@ -8,15 +8,13 @@
 #include "sim/layout.h"
 #include "sim/node.h"
 #include "sim/own_scene.h"
-#include "system/assemble/bit.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/energy.h"
-#include "system/assemble/springs.h"
-#include "system/assemble/stuck.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/joint_motion.h"
 #include "system/solve/solve.h"
-#include "system/start.h"
+#include "system/system.h"
 
 /* [m, -] violation of a joint at the carried poses that is no longer rounding; as for dmb_sim_set_joint. */
 #define DMB_TRANSFER_VIOLATION 1e-6

@@ -70,13 +70,13 @@
 /* clang-format off */
 #define DMB_MEMORY_LIST(X)                                                                                            \
     X(dmb_clock, clock, 1, CLOCK) /* times and step lengths: integrator/attempt, integrator/step, system/start;       \
-                                     powers: system/ledger */                                                         \
-    X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/ledger */                                \
+                                     powers: system/assemble/energy */                                                         \
+    X(dmb_ledger, ledger, 1, LEDGER)              /* [J] accumulated, system/assemble/energy */                                \
     X(dmb_counters, counters, 1, COUNTERS) /* [-] statistics: integrator/attempt, integrator/step, system/start,      \
                                               system/constrain/cluster_projection, system/constrain/cluster */                \
     X(double, held_reaction, held, NUMBERS) /* [N, N m] residual of the accepted state in rows that are held:         \
                                                system/assemble/evaluation */                                          \
-    X(double, drive_work, d, NUMBERS) /* [J] system/ledger */                                                         \
+    X(double, drive_work, d, NUMBERS) /* [J] system/assemble/energy */                                                         \
     X(double, drive_input, d, INPUTS) /* [unit of the programme] value set by the caller; NaN: the programme:         \
                                          run/inputs, run/life */                                                      \
     X(double, delay_line, 2 * DMB_DELAY_SAMPLES * delay, NUMBERS) /* [s] and [N, N m] samples of the commands of each   \
@@ -165,7 +165,7 @@
     X(double, constraint_convective, c) /* [m/s2, ...] B v' + convective = 0 */                                       \
     X(double, constraint_jacobian, jacobian)                                                                          \
     X(double, constraint_tangent, tangent) /* of joint forces, of springs and of B^T multiplier, by pose parameters:  \
-                                              system/assemble/joint_forces, system/assemble/point_motion; cleared by  \
+                                              system/assemble/springs, system/assemble/point_motion; cleared by  \
                                               system/assemble/evaluation; without stiffness: system/solve/solve */    \
     /* clusters, by system/constrain/cluster and system/constrain/sparse_cluster: */                                  \
     X(double, cluster_weight, column)   /* [-, 1/m] unit of each column; 0: held */                                   \

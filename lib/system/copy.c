@@ -1,9 +1,10 @@
-#include "system/copy.h"
+/* A copy of a sim for analyses to work on; the sim stays as it is. */
+#include "system/system.h"
 
 #include <string.h>
 
 #include "base/memory.h"
-#include "model/limits.h"
+#include "model/field_check.h"
 #include "sim/layout.h"
 #include "sim/own_scene.h"
 #include "system/constrain/cluster.h"

@@ -1,4 +1,5 @@
-#include "system/jump.h"
+/* Jumps of the state at a step: contacts that open, stuck places that come free, joints that switch. */
+#include "system/system.h"
 
 #include <string.h>
 
@@ -6,18 +7,14 @@
 #include "math/so3.h"
 #include "math/vec3.h"
 #include "sim/layout.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/assemble/energy.h"
-#include "system/assemble/springs.h"
-#include "system/assemble/stuck.h"
-#include "system/assemble/wall_contact.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
 #include "system/constrain/joint_motion.h"
-#include "system/ledger.h"
 #include "system/solve/solve.h"
-#include "system/start.h"
 
 /* ---- Contacts that open ------------------------------------------------------------------------------------------ */
 

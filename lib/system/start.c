@@ -1,19 +1,18 @@
-#include "system/start.h"
+/* The state at time 0, and accelerations that fit a given pose and speed. */
+#include "system/system.h"
 
 #include <string.h>
 
 #include "math/so3.h"
 #include "sim/layout.h"
 #include "sim/node.h"
-#include "system/assemble/bit.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
-#include "system/assemble/stuck.h"
-#include "system/assemble/wall_contact.h"
+#include "system/assemble/energy.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/constraint_rows.h"
 #include "system/constrain/joint_motion.h"
-#include "system/ledger.h"
 #include "system/solve/solve.h"
 
 static void described_pose(dmb_sim *sim)

@@ -6,7 +6,7 @@
 #include "base/sized_struct.h"
 #include "base/value_check.h"
 #include "sim/access.h"
-#include "system/copy.h"
+#include "system/system.h"
 
 DMB_DECLARE_STRUCT(dmb_buckling_options)
 DMB_DECLARE_STRUCT(dmb_buckling_info)

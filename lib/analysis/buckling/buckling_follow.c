@@ -8,9 +8,8 @@
 #include <string.h>
 
 #include "analysis/buckling/buckling.h"
-#include "analysis/buckling/path.h"
 #include "sim/access.h"
-#include "system/copy.h"
+#include "system/system.h"
 
 /* Points and linearisations after which a path that stays stable is given up. */
 #define DMB_FOLLOW_POINTS 2000

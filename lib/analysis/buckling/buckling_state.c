@@ -4,7 +4,7 @@
 
 #include "analysis/buckling/buckling.h"
 #include "analysis/linear/linearise.h"
-#include "analysis/static/stability.h"
+#include "analysis/static/static.h"
 #include "math/dense.h"
 #include "math/so3.h"
 #include "sim/layout.h"

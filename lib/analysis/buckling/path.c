@@ -1,4 +1,5 @@
-#include "analysis/buckling/path.h"
+/* Paths of equilibrium: loads that grow, a path while it is followed, motion that grows on the way. */
+#include "analysis/buckling/buckling.h"
 
 #include <string.h>
 
@@ -10,7 +11,7 @@
 #include "sim/layout.h"
 #include "sim/node.h"
 #include "system/assemble/drives.h"
-#include "system/copy.h"
+#include "system/system.h"
 
 DMB_DECLARE_STRUCT(dmb_path_options)
 DMB_DECLARE_STRUCT(dmb_path_report)

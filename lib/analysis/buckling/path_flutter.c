@@ -1,4 +1,4 @@
-#include "analysis/buckling/path.h"
+#include "analysis/buckling/buckling.h"
 
 #include <math.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "analysis/modes/modes.h"
 #include "sim/access.h"
 #include "sim/layout.h"
-#include "system/copy.h"
+#include "system/system.h"
 
 /* Growth below this part of a root is rounding: undamped modes stand on the imaginary axis. */
 #define DMB_GROWTH_ROUNDING 1e-6

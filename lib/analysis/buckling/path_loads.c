@@ -1,4 +1,4 @@
-#include "analysis/buckling/path.h"
+#include "analysis/buckling/buckling.h"
 
 #include <string.h>
 

@@ -4,11 +4,11 @@
  * Cylindrical: the factor does not count in the arc, so that its unit does not matter. */
 #include <string.h>
 
-#include "analysis/buckling/path.h"
-#include "analysis/static/stability.h"
+#include "analysis/buckling/buckling.h"
+#include "analysis/static/static.h"
 #include "sim/access.h"
 #include "sim/layout.h"
-#include "system/assemble/elements.h"
+#include "system/assemble/assemble.h"
 #include "system/solve/solve.h"
 
 double dmb_path_dot(const dmb_path *path, const double *a, const double *b)

@@ -11,9 +11,9 @@
 #include "sim/access.h"
 #include "sim/node.h"
 #include "system/constrain/cluster.h"
-#include "system/copy.h"
 #include "system/solve/reduced_system.h"
 #include "system/solve/solve.h"
+#include "system/system.h"
 
 static void spin_node(dmb_sim *work, uint32_t node, double spin)
 {

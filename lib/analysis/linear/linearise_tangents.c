@@ -5,7 +5,7 @@
 #include "analysis/linear/linearise.h"
 #include "math/mat6.h"
 #include "math/so3.h"
-#include "system/assemble/wall_contact.h"
+#include "system/assemble/assemble.h"
 
 /* [s] Terms integrated over a step are told from the rest by two steps this short and twice as long: a power of two,
  * over which nothing slips far. */

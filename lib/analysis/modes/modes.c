@@ -11,7 +11,7 @@
 #include "sim/access.h"
 #include "sim/node.h"
 #include "system/assemble/drives.h"
-#include "system/copy.h"
+#include "system/system.h"
 
 DMB_DECLARE_STRUCT(dmb_modes_options)
 

@@ -7,7 +7,7 @@
 #include "base/sized_struct.h"
 #include "math/dense.h"
 #include "math/real.h"
-#include "system/copy.h"
+#include "system/system.h"
 
 /* x + i y times the phase that makes its real part largest, over the root of d^H M d. */
 static void normalise(const dmb_mode_search *search, double *x, double *y)

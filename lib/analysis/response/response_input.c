@@ -11,8 +11,8 @@
 #include "math/vec3.h"
 #include "sim/node.h"
 #include "sim/own_scene.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/evaluation.h"
-#include "system/assemble/wall_contact.h"
 #include "system/constrain/cluster.h"
 
 /* Differences of the residual with a factor this large lose nothing to the forces of the state. */

@@ -13,8 +13,7 @@
 #include "analysis/linear/functional.h"
 #include "drillmbd/output.h"
 #include "sim/node.h"
-#include "system/assemble/bit.h"
-#include "system/assemble/wall_contact.h"
+#include "system/assemble/assemble.h"
 #include "system/constrain/joint_motion.h"
 
 typedef struct request {

@@ -1,10 +1,9 @@
 /* Speeds to avoid: responses at the orders of the rotary speed, held against limits. */
-#include "analysis/response/speeds.h"
+#include "analysis/response/response.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "analysis/response/response.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
@@ -12,7 +11,7 @@
 #include "math/so3.h"
 #include "sim/access.h"
 #include "sim/sim.h"
-#include "system/copy.h"
+#include "system/system.h"
 
 DMB_DEFINE_INIT(
     dmb_order, 72,

@@ -1,6 +1,6 @@
 /* Severity over speed, straight between the points of the curves, and the bands in which their sum is above a
  * threshold. */
-#include "analysis/response/speeds.h"
+#include "analysis/response/response.h"
 
 #include <math.h>
 

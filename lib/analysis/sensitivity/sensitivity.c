@@ -7,7 +7,7 @@
 #include "base/value_check.h"
 #include "force/reference.h"
 #include "sim/own_scene.h"
-#include "system/copy.h"
+#include "system/system.h"
 
 DMB_DEFINE_INIT(dmb_parameter, 56, {.step = 0.0})
 

@@ -8,7 +8,7 @@
 #include "query/query.h"
 #include "sim/own_scene.h"
 #include "system/constrain/cluster.h"
-#include "system/copy.h"
+#include "system/system.h"
 
 /* The same part in another model of the scene. */
 static dmb_channel channel_in(const dmb_model *model, const dmb_channel *channel)

@@ -3,7 +3,7 @@
 
 #include "analysis/sensitivity/sensitivity.h"
 #include "system/assemble/drives.h"
-#include "system/start.h"
+#include "system/system.h"
 
 /* ---- Which side of a corner a state is on ------------------------------------------------------------------------ */
 

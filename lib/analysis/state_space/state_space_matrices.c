@@ -14,7 +14,7 @@
 #include "sim/node.h"
 #include "system/assemble/evaluation.h"
 #include "system/constrain/cluster.h"
-#include "system/copy.h"
+#include "system/system.h"
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 

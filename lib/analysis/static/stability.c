@@ -1,4 +1,6 @@
-#include "analysis/static/stability.h"
+/* Whether a static state is stable; how far an iteration matrix of statics is from a symmetric one, and its symmetric
+ * part. */
+#include "analysis/static/static.h"
 
 #include <math.h>
 #include <string.h>

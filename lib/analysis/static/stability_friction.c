@@ -1,10 +1,10 @@
-#include "analysis/static/stability.h"
+#include "analysis/static/static.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "system/assemble/wall_contact.h"
+#include "system/assemble/assemble.h"
 
 /* |f| that is allowed. */
 #define DMB_FRICTION_MOST 1.8

@@ -3,20 +3,17 @@
 #include <string.h>
 
 #include "analysis/linear/linearise.h"
-#include "analysis/static/stability.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
 #include "math/vec3.h"
 #include "sim/access.h"
 #include "sim/layout.h"
-#include "system/assemble/bit.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/drives.h"
-#include "system/assemble/stuck.h"
-#include "system/assemble/wall_contact.h"
 #include "system/constrain/cluster.h"
 #include "system/constrain/joint_motion.h"
 #include "system/solve/solve.h"
-#include "system/start.h"
+#include "system/system.h"
 
 DMB_DECLARE_STRUCT(dmb_static_options)
 

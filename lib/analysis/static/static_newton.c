@@ -6,7 +6,7 @@
 #include "math/vec3.h"
 #include "sim/access.h"
 #include "sim/layout.h"
-#include "system/assemble/elements.h"
+#include "system/assemble/assemble.h"
 #include "system/solve/solve.h"
 
 static void scale_correction(dmb_sim *sim, double factor)

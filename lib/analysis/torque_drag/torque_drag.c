@@ -6,7 +6,7 @@
 #include "analysis/torque_drag/soft_string.h"
 #include "base/memory.h"
 #include "base/value_check.h"
-#include "model/limits.h"
+#include "model/field_check.h"
 #include "model/section.h"
 #include "query/query.h"
 #include "sim/access.h"

@@ -1,4 +1,5 @@
-#include "system/assemble/bit.h"
+/* Bits at work: bottom-hole load and the rock law, along and about the axis of the hole. */
+#include "system/assemble/assemble.h"
 
 #include <string.h>
 

@@ -1,4 +1,5 @@
-#include "system/assemble/elements.h"
+/* Flexible elements: internal and inertia forces, stiffness and inertia tangent, element by element in chain order. */
+#include "system/assemble/assemble.h"
 
 #include <string.h>
 

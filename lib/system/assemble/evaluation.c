@@ -5,16 +5,9 @@
 #include "kernel/kernels.h"
 #include "math/se3.h"
 #include "sim/node.h"
-#include "system/assemble/bit.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
-#include "system/assemble/elements.h"
-#include "system/assemble/free_rigid.h"
-#include "system/assemble/joint_forces.h"
-#include "system/assemble/nodes.h"
-#include "system/assemble/springs.h"
-#include "system/assemble/stuck.h"
-#include "system/assemble/wall_contact.h"
 #include "system/constrain/joint_motion.h"
 
 static void clear(const dmb_evaluation *evaluation)

@@ -1,4 +1,14 @@
-#include "system/assemble/free_rigid.h"
+/* Free rigid bodies and strings: their translation is integrated at the centre of mass, in axes that do not turn.
+ *
+ * In body axes m (u' + w x u) = f couples translation and rotation, and the integration of the one takes part in the
+ * errors of the other: a reference point 10 m from the centre of mass drifted by 1.7 m in 100 s at 20 rad/s. With c the
+ * centre of mass from the node and the axes of the node at the start of the step (E = exp(theta) turns those of the end
+ * into them),
+ *     W = E (u + w x c),   W' = E (u' + w' x c + w x (u + w x c)),   x1 = x0 + R0 (z + c - E c),
+ * generalized-alpha is applied to (W, w) and its increments (z, theta) instead of (u, w). Then m W' = f, so that linear
+ * momentum is kept to rounding, and a parabola is one. The rotation is integrated as before: angular momentum to second
+ * order. Only in scenes without joints, where nothing holds or leads the part. */
+#include "system/assemble/assemble.h"
 
 #include <string.h>
 

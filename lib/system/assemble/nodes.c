@@ -1,4 +1,5 @@
-#include "system/assemble/nodes.h"
+/* Forces of single nodes: rigid masses, gravity, external damping. */
+#include "system/assemble/assemble.h"
 
 #include <string.h>
 

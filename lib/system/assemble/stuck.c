@@ -1,4 +1,5 @@
-#include "system/assemble/stuck.h"
+/* Places that are stuck: springs and dampers to the pose where they got stuck, until they let go (THEORY 8). */
+#include "system/assemble/assemble.h"
 
 #include <string.h>
 

@@ -1,4 +1,6 @@
-#include "system/assemble/wall_contact.h"
+/* Contact sites at the wall of the hole: their forces in the residual, and how a force changes with the motion of its
+ * site. */
+#include "system/assemble/assemble.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
  *
  * with A the map of element/section_shape.h, v the velocities of both nodes, dq their body-frame displacements, and
  * f_H, f_V what force/contact_law.h gives for a node. */
-#include "system/assemble/wall_contact.h"
+#include "system/assemble/assemble.h"
 
 #include <string.h>
 

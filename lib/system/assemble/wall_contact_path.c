@@ -5,9 +5,9 @@
 #include "element/beam.h"
 #include "math/vec3.h"
 #include "sim/node.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/energy.h"
 #include "system/assemble/evaluation.h"
-#include "system/assemble/wall_contact.h"
 
 /* [m] stretch of an element beyond rest at the trial; a mixed one has left it. */
 static double stretch_of(const dmb_sim *sim, uint32_t element)

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "output/fatigue.h"
+#include "output/output.h"
 
 enum { LEVELS = 24, LENGTH = 4000 };
 

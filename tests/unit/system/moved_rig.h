@@ -10,8 +10,8 @@
 #include "math/se3.h"
 #include "sim/layout.h"
 #include "sim/sim.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/evaluation.h"
-#include "system/assemble/free_rigid.h"
 
 enum { ROWS_MAX = 120 };
 #define TO_VELOCITY 2.0     /* [1/s] gamma/(h beta); of a size that lets every term be seen */

@@ -4,7 +4,7 @@
 #include "stirred_rig.h"
 
 #include "element/beam.h"
-#include "system/assemble/elements.h"
+#include "system/assemble/assemble.h"
 #include "system/assemble/energy.h"
 
 static double worst_entry(dmb_sim *sim, const double *base)

@@ -4,7 +4,7 @@
 
 #include "mechanism.h"
 
-#include "model/limits.h"
+#include "model/field_check.h"
 #include "sim/sim.h"
 
 enum { MOST = 64, DENSE = 1 << 20, SPARSE = 2, STEPS = 60 };

@@ -9,8 +9,7 @@
 
 #include "drillmbd/bha.h"
 #include "drillmbd/forces.h"
-#include "system/assemble/springs.h"
-#include "system/assemble/stuck.h"
+#include "system/assemble/assemble.h"
 
 /* ---- Scene ------------------------------------------------------------------------------------------------------- */
 

@@ -3,7 +3,7 @@
 
 #include "check.h"
 
-#include "analysis/buckling/pencil.h"
+#include "analysis/buckling/buckling.h"
 #include "base/memory.h"
 
 /* Two blocks of one row, coupled. */

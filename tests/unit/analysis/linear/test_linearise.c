@@ -9,7 +9,7 @@
 #include "math/se3.h"
 #include "system/assemble/evaluation.h"
 #include "system/constrain/cluster.h"
-#include "system/start.h"
+#include "system/system.h"
 
 enum { ROWS_MAX = 120 };
 

@@ -1,10 +1,23 @@
-/* Jumps of the state at a step: contacts that open, stuck places that come free, joints that switch. */
-#ifndef DMB_SYSTEM_JUMP_H
-#define DMB_SYSTEM_JUMP_H
+/* The state at a start and at jumps, and copies of it for analyses. */
+#ifndef DMB_SYSTEM_SYSTEM_H
+#define DMB_SYSTEM_SYSTEM_H
 
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
 #include "system/constrain/joint_motion.h"
+
+/* ---- Start ------------------------------------------------------------------------------------------------------- */
+
+/* Described poses and speeds, speeds projected onto the allowed motion, consistent accelerations, ledger at zero.
+ * Returns DMB_OK, DMB_NOTE_PROJECTED with a message, or why there is no start. */
+int32_t dmb_system_start(dmb_sim *sim);
+/* After a jump of a force or of a prescribed acceleration at the present time: a0 = v' = what fits the state now
+ * (THEORY 4). On failure nothing has changed but trial and work. */
+int32_t dmb_system_jump(dmb_sim *sim);
+/* Consistent accelerations, drive forces, contact state and ledger for the pose and speeds of now. */
+int32_t dmb_system_restart(dmb_sim *sim);
+
+/* ---- Jumps ------------------------------------------------------------------------------------------------------- */
 
 /* Contacts that open within a step. Their force is gone at once, while generalized-alpha would carry about half of it
  * into the step from the accelerations it keeps: a wall that is stiff for the step would throw back faster than it was
@@ -34,5 +47,19 @@ uint32_t dmb_stuck_let_go(dmb_sim *sim);
 
 /* dmb_sim_set_joint for a joint that exists */
 int32_t dmb_joint_switch(dmb_sim *sim, uint32_t joint, int32_t state);
+
+/* ---- Copies ------------------------------------------------------------------------------------------------------ */
+
+/* A sim of its own in the accepted state of `sim`, its trial too, for analyses that leave the sim alone; memory from
+ * the sim's allocator, NULL if there is none. It is no handle for callers (no stamp, no hold on the model) and must not
+ * outlive the sim. system/copy */
+dmb_sim *dmb_state_copy(const dmb_sim *sim);
+/* DMB_ERR_TOO_LARGE, with a message that begins with `who`, where such a copy cannot be: it has dense matrices of
+ * clusters. */
+int32_t dmb_state_copy_check(dmb_sim *sim, const char *who);
+/* The accepted state of a sim of the same model into a copy, its trial too. */
+void dmb_state_take(const dmb_sim *sim, dmb_sim *copy);
+/* NULL is fine. */
+void dmb_state_discard(dmb_sim *copy);
 
 #endif
