@@ -524,14 +524,19 @@ static inline void whole_must(const dmb_model *model, int32_t status)
     if (status < 0) fail_msg("%s: %s", dmb_status_name(status), dmb_model_message(model));
 }
 
-/* Describes the first `count` of the calls above. */
-static inline dmb_model *whole_model_until(whole_parts *parts, size_t count)
+/* Describes the first `count` of the calls above. options: NULL or those of the model. */
+static inline dmb_model *whole_model_with(const dmb_model_options *options, whole_parts *parts, size_t count)
 {
     dmb_model *model = NULL;
     memset(parts, 0, sizeof *parts);
-    assert_int_equal(dmb_model_create(NULL, &model), DMB_OK);
+    assert_int_equal(dmb_model_create(options, &model), DMB_OK);
     for (size_t i = 0; i < count; i++) whole_must(model, whole_calls[i](model, parts));
     return model;
+}
+
+static inline dmb_model *whole_model_until(whole_parts *parts, size_t count)
+{
+    return whole_model_with(NULL, parts, count);
 }
 
 static inline dmb_model *whole_model(whole_parts *parts)
