@@ -164,6 +164,7 @@ void dmb_attempt_refit(dmb_sim *sim, const dmb_generalized_alpha *c, double h)
  * a0 less M^-1 of their forces, and no a0 - v0' at their nodes from there on, which would ring in free flight. */
 static int32_t step_released(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
 {
+    if (sim->follower != NULL) sim->follower->open(sim->follower->context);
     int32_t status = dmb_released_acceleration(&attempt->evaluation, sim->correction, sim->released_part);
     if (status < 0) return status;
     dmb_attempt_refit(sim, c, attempt->end.step);

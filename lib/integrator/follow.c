@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "integrator/newton.h"
 #include "system/assemble/drives.h"
 #include "system/constrain/cluster.h"
 #include "system/solve/solve.h"
@@ -49,14 +48,83 @@ static int32_t predict(course *of)
     return DMB_OK;
 }
 
+static void keep_matrix(const dmb_sim *sim, dmb_block_matrix *to)
+{
+    const dmb_block_layout *layout = &sim->scene->layout;
+    const uint32_t n = sim->scene->node_count;
+    memcpy(to->diagonal, sim->stiffness_diagonal, layout->diag[n] * sizeof(double));
+    memcpy(to->lower, sim->stiffness_lower, layout->link[n - 1] * sizeof(double));
+    memcpy(to->upper, sim->stiffness_upper, layout->link[n - 1] * sizeof(double));
+}
+
 /* Residual, tangent and factors at the trial. */
 static int32_t factor(course *of)
 {
     const int32_t status = evaluate(of, 1);
     if (status < 0) return status;
-    dmb_system_iteration_matrix(&of->attempt.evaluation);
+    dmb_system_iteration_matrix_held(&of->attempt.evaluation, of->lead->room->held_row);
+    if (of->lead->room->exact) keep_matrix(of->sim, &of->lead->room->matrix);
     return dmb_factor_matrix(of->sim, of->sim->options.constraint_method) >= 0 ? DMB_ERR_SINGULAR : DMB_OK;
 }
+
+/* ---- Factors of the leader that all followers share -------------------------------------------------------------- */
+
+/* Joints and free rigid bodies have more than these, so that each follower makes its own where contacts open. */
+static int shares(const dmb_scene *scene)
+{
+    return scene->cluster_count == 0 && scene->free_rigid_count == 0;
+}
+
+static void take_factors(dmb_arena *arena, const dmb_scene *scene, dmb_factor_set *factors)
+{
+    const dmb_block_layout *layout = &scene->layout;
+    const uint32_t own = shares(scene) && scene->site_count > 0 ? 1 : 0, n = scene->node_count;
+    factors->diagonal = DMB_ARENA_DOUBLES(arena, own * (size_t)layout->diag[n]);
+    factors->lower = DMB_ARENA_DOUBLES(arena, own * (size_t)layout->link[n - 1]);
+    factors->upper = DMB_ARENA_DOUBLES(arena, own * (size_t)layout->link[n - 1]);
+    factors->pivot = DMB_ARENA_ARRAY(arena, uint8_t, own * (size_t)scene->row_count);
+}
+
+static void take_matrix(dmb_arena *arena, const dmb_scene *scene, dmb_block_matrix *matrix)
+{
+    const dmb_block_layout *layout = &scene->layout;
+    const uint32_t n = scene->node_count;
+    matrix->diagonal = DMB_ARENA_DOUBLES(arena, layout->diag[n]);
+    matrix->lower = DMB_ARENA_DOUBLES(arena, layout->link[n - 1]);
+    matrix->upper = DMB_ARENA_DOUBLES(arena, layout->link[n - 1]);
+}
+
+void dmb_follow_room_take(dmb_arena *arena, const dmb_scene *scene, dmb_follow_room *room)
+{
+    room->opening = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    room->released = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    room->product = DMB_ARENA_DOUBLES(arena, scene->row_count);
+    room->held_row = DMB_ARENA_DOUBLES(arena, 18 * (size_t)scene->held_count);
+    room->held_residual = DMB_ARENA_DOUBLES(arena, scene->held_count);
+    take_matrix(arena, scene, &room->matrix);
+    take_factors(arena, scene, &room->before);
+    take_factors(arena, scene, &room->mass);
+}
+
+/* A ring that meets the wall in the step: its tangent leaves out how the speed at first touch changes. */
+static int meets(const dmb_sim *sim)
+{
+    for (uint32_t s = 0; s < sim->scene->site_count; s++)
+        if (!(sim->now.site_penetration[s] > 0.0) && sim->trial.site_penetration[s] > 0.0) return 1;
+    return 0;
+}
+
+/* Tangents of bits, of PATH nodes (by the tension of their elements), of actuators and of callers are not taken for
+ * exact, nor is the iteration matrix of joints, which leaves out how the projection turns with the pose. */
+static int32_t is_exact(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    return scene->cluster_count == 0 && scene->free_rigid_count == 0 && scene->bit_count == 0 &&
+           scene->path_site_count == 0 && scene->actuator_count == 0 && scene->force_count == 0 &&
+           scene->stuck_count == 0 && !meets(sim);
+}
+
+/* ---- Corrections ------------------------------------------------------------------------------------------------- */
 
 static double size_of_correction(const dmb_sim *sim)
 {
@@ -70,13 +138,30 @@ static double size_of_correction(const dmb_sim *sim)
 #define DMB_SETTLED_SIZE 1e-15
 enum { DMB_CORRECTIONS_MAX = 12 };
 
-/* Corrections by the factors at hand. The second shows whether the first has done: tangents of contacts that close and
- * of bits that meet the rock are off by some 1e-5, and the iteration matrix of joints, which leaves out how the
- * projection turns with the pose, by some 1e-2. */
+/* One correction, and the memory that follows from it; the residual of rows that are held by their rows of the matrix.
+ */
+static int32_t correct_once(course *of)
+{
+    dmb_sim *sim = of->sim;
+    const dmb_scene *scene = sim->scene;
+    double *held = of->lead->room->held_residual;
+    dmb_solve_refined(sim, &of->lead->room->matrix, of->lead->room->product);
+    dmb_system_held_times(sim, of->lead->room->held_row, sim->correction, held);
+    for (uint32_t i = 0; i < scene->held_count; i++)
+        held[i] += sim->residual[scene->layout.row[scene->held_node[i]] + scene->held_component[i]];
+    dmb_step_motion_correct(sim, &of->c, of->attempt.end.step);
+    dmb_system_remember(&of->attempt.evaluation, held);
+    return DMB_OK;
+}
+
+/* Corrections by the factors at hand. Where the matrix is exact the first does. Else the second shows whether it has
+ * done: tangents of contacts that close and of bits that meet the rock are off by some 1e-5, and the iteration matrix
+ * of joints by some 1e-2. */
 static int32_t correct(course *of)
 {
     const int jointed = of->sim->scene->cluster_count > 0; /* what moves is put on the joints by the evaluation */
     double first = 0.0;
+    if (of->lead->room->exact) return correct_once(of);
     for (uint32_t k = 0; k < DMB_CORRECTIONS_MAX; k++) {
         dmb_solve_correction(of->sim);
         const double size = size_of_correction(of->sim);
@@ -90,22 +175,50 @@ static int32_t correct(course *of)
     return DMB_OK;
 }
 
-/* Contacts that open are treated as in integrator/attempt, from the leader's increments before and after, each with
- * factors of its own. */
-static int32_t follow_release(course *of)
+/* Corrected to where contacts open, and the accelerations that these forces had there. */
+static int32_t open_beside(course *of)
 {
     dmb_sim *sim = of->sim;
-    dmb_step_motion_go_to(of->sim, &of->c, of->attempt.end.step, of->lead->opening);
+    dmb_follow_room *room = of->lead->room;
+    dmb_factors_swap(sim, &room->before);
+    int32_t status = evaluate(of, 0);
+    if (status >= 0) status = correct(of);
+    dmb_factors_swap(sim, &room->before);
+    if (status < 0) return status;
+    dmb_factors_swap(sim, &room->mass);
+    status = dmb_released_beside(&of->attempt.evaluation, room->released, sim->correction, sim->released_part,
+                                 room->product);
+    dmb_factors_swap(sim, &room->mass);
+    return status;
+}
+
+static int32_t open_alone(course *of)
+{
     int32_t status = factor(of);
     if (status >= 0) status = correct(of);
     if (status < 0) return status;
-    status = dmb_released_acceleration(&of->attempt.evaluation, sim->correction, sim->released_part);
+    return dmb_released_acceleration(&of->attempt.evaluation, of->sim->correction, of->sim->released_part);
+}
+
+/* The step once more, from the leader's increments. */
+static void go_again(course *of)
+{
+    dmb_step_motion_take(of->sim, of->lead->sim->increment);
+    dmb_attempt_refit(of->sim, &of->c, of->attempt.end.step);
+    dmb_step_motion_place(of->sim);
+    dmb_attempt_set_up(of->sim, &of->attempt.end, &of->attempt.evaluation);
+}
+
+/* Contacts that open are treated as in integrator/attempt, from the leader's increments before and after. */
+static int32_t follow_release(course *of)
+{
+    dmb_sim *sim = of->sim;
+    const int shared = shares(sim->scene);
+    dmb_step_motion_go_to(of->sim, &of->c, of->attempt.end.step, of->lead->room->opening);
+    int32_t status = shared ? open_beside(of) : open_alone(of);
     if (status < 0) return status;
-    dmb_step_motion_take(sim, of->lead->sim->increment);
-    dmb_attempt_refit(sim, &of->c, of->attempt.end.step);
-    dmb_step_motion_place(sim);
-    dmb_attempt_set_up(sim, &of->attempt.end, &of->attempt.evaluation);
-    status = factor(of);
+    go_again(of);
+    status = shared ? evaluate(of, 0) : factor(of);
     if (status >= 0) status = correct(of);
     dmb_release_end(sim);
     return status;
@@ -121,16 +234,34 @@ static int32_t follow(course *of)
     return status < 0 ? status : correct(of);
 }
 
+/* The leader's factors where contacts opened, the accelerations there, and its factors of the step taken again. */
+static int32_t prepare_release(course *of)
+{
+    dmb_sim *sim = of->sim;
+    dmb_follow_room *room = of->lead->room;
+    if (!shares(sim->scene)) return DMB_OK;
+    dmb_step_motion_go_to(sim, &of->c, of->attempt.end.step, room->opening);
+    int32_t status = factor(of);
+    if (status < 0) return status;
+    dmb_factors_swap(sim, &room->before);
+    status = dmb_released_acceleration(&of->attempt.evaluation, sim->correction, sim->released_part);
+    memcpy(room->released, sim->correction, sim->scene->row_count * sizeof(double));
+    dmb_factors_swap(sim, &room->mass);
+    if (status >= 0) {
+        go_again(of);
+        status = factor(of);
+    }
+    dmb_release_end(sim);
+    return status;
+}
+
 int32_t dmb_follow_prepare(dmb_sim *follower, const dmb_lead *lead)
 {
     course of = course_of(follower, lead);
     int32_t status = predict(&of);
     if (status < 0) return status;
-    if (lead->attempt->released) {
-        status = dmb_newton(follower, &of.c, &of.attempt);
-        memcpy(lead->opening, follower->increment, follower->scene->row_count * sizeof(double));
-        return status < 0 ? status : DMB_OK;
-    }
+    lead->room->exact = is_exact(lead->sim);
+    if (lead->attempt->released) return prepare_release(&of);
     dmb_step_motion_go_to(of.sim, &of.c, of.attempt.end.step, lead->sim->increment);
     return factor(&of);
 }

@@ -5,17 +5,34 @@
 #ifndef DMB_INTEGRATOR_FOLLOW_H
 #define DMB_INTEGRATOR_FOLLOW_H
 
+#include "base/memory.h"
 #include "integrator/attempt.h"
+#include "system/solve/solve.h"
 
-/* Data that all followers of a step share. */
+/* Data that all followers of a step share, made by dmb_follow_prepare. */
+typedef struct dmb_follow_room {
+    double *opening;             /* [m, rad] of the leader before contacts opened, written by its owner; shape (row) */
+    double *released;            /* [m/s2, rad/s2] what the contacts that opened did there, shape (row) */
+    double *product;             /* shape (row) */
+    double *held_row;            /* rows of the iteration matrix that are held: of the node before, its own, after;
+                                    shape (held, 3, 6) */
+    double *held_residual;       /* [N, N m] shape (held) */
+    dmb_block_matrix matrix;     /* iteration matrix at the end of the step, where it is exact */
+    dmb_factor_set before, mass; /* iteration matrix before contacts opened; mass matrix there */
+    int32_t exact;               /* 1: the iteration matrix is the derivative of the residual, one correction does */
+    int32_t reserved;
+} dmb_follow_room;
+
 typedef struct dmb_lead {
     const dmb_sim *sim;         /* the leader, its step tried and not accepted */
     const dmb_attempt *attempt; /* that step */
-    double *opening; /* [m, rad] increments before contacts opened, of a step that was taken again, shape (row) */
+    dmb_follow_room *room;
 } dmb_lead;
 
+/* Arrays of the room; NULL pointers while counting. */
+void dmb_follow_room_take(dmb_arena *arena, const dmb_scene *scene, dmb_follow_room *room);
 /* Factors of the iteration matrix at the end of the leader's step into the follower, which stands where the leader
- * stands; where contacts opened, the increments before that. DMB_ERR_SINGULAR, and as dmb_system_evaluate. */
+ * stands; where contacts opened, those before that too. DMB_ERR_SINGULAR, and as dmb_system_evaluate. */
 int32_t dmb_follow_prepare(dmb_sim *follower, const dmb_lead *lead);
 /* The step of the follower, with its memory, into its trial; its state now stays. Errors as above, DMB_ERR_CALLBACK. */
 int32_t dmb_follow_step(dmb_sim *follower, const dmb_lead *lead);

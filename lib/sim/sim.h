@@ -306,6 +306,7 @@ struct dmb_attempt;
  * hashed. */
 typedef struct dmb_follower {
     int32_t (*follow)(void *context, const struct dmb_attempt *attempt);
+    void (*open)(void *context); /* contacts open: of the step tried before it is taken again, sim->increment */
     void *context;
 } dmb_follower;
 

@@ -74,10 +74,10 @@ static void subtract_force(dmb_sim *sim, uint32_t s, double part, double *rows)
     dmb_site_add_wrench(sim->scene, &sim->now, s, -part, wrench, rows);
 }
 
-/* M^-1 of the forces that open, with the mass matrix factored. */
-static void release(dmb_sim *sim, double *acceleration, double *part)
+/* Less the forces that open. */
+static void gather_released(dmb_sim *sim, double *rows, double *part)
 {
-    memset(acceleration, 0, sim->scene->row_count * sizeof(double));
+    memset(rows, 0, sim->scene->row_count * sizeof(double));
     memset(part, 0, sim->scene->node_count * sizeof(double));
     for (uint32_t s = 0; s < sim->scene->site_count; s++) {
         double *of_node = part + sim->scene->sites[s].node;
@@ -85,9 +85,8 @@ static void release(dmb_sim *sim, double *acceleration, double *part)
         const double open = open_part(sim, s);
         *of_node = fmax(*of_node, open);
         if (dmb_is_inside(sim->scene, s)) of_node[1] = fmax(of_node[1], open);
-        subtract_force(sim, s, open, acceleration);
+        subtract_force(sim, s, open, rows);
     }
-    dmb_solve_for(sim, acceleration, acceleration);
 }
 
 /* a = M^-1 sum of part times the force of each ring that opens in the step: what the history of generalized-alpha would
@@ -101,8 +100,42 @@ int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acce
     mass.tangent = 1;
     mass.given = 0;
     const int32_t status = dmb_factor_mass(&mass);
-    if (status >= 0) release(sim, acceleration, part);
-    return status < 0 ? status : DMB_OK;
+    if (status < 0) return status;
+    gather_released(sim, acceleration, part);
+    dmb_solve_for(sim, acceleration, acceleration);
+    return DMB_OK;
+}
+
+/* -M a in the independent rows: a difference of residuals. */
+static int32_t minus_mass_times(dmb_evaluation *evaluation, const double *a, double *product)
+{
+    dmb_sim *sim = evaluation->sim;
+    const uint32_t n = sim->scene->row_count;
+    evaluation->tangent = 0;
+    memset(sim->trial.acceleration, 0, n * sizeof(double));
+    int32_t status = dmb_system_evaluate(evaluation);
+    memcpy(product, sim->residual, n * sizeof(double));
+    memcpy(sim->trial.acceleration, a, n * sizeof(double));
+    if (status >= 0) status = dmb_system_evaluate(evaluation);
+    for (uint32_t i = 0; i < n; i++) product[i] -= sim->residual[i];
+    return status;
+}
+
+/* a = near + M0^-1 (f - M near), M0 the mass matrix of `near`: M - M0 and a - near are small alike. */
+int32_t dmb_released_beside(dmb_evaluation *evaluation, const double *near, double *acceleration, double *part,
+                            double *product)
+{
+    dmb_sim *sim = evaluation->sim;
+    const uint32_t n = sim->scene->row_count;
+    memcpy(acceleration, sim->trial.acceleration, n * sizeof(double));
+    const int32_t status = minus_mass_times(evaluation, near, product);
+    memcpy(sim->trial.acceleration, acceleration, n * sizeof(double));
+    if (status < 0) return status;
+    gather_released(sim, acceleration, part);
+    for (uint32_t i = 0; i < n; i++) acceleration[i] -= product[i];
+    dmb_solve_for(sim, acceleration, acceleration);
+    for (uint32_t i = 0; i < n; i++) acceleration[i] += near[i];
+    return DMB_OK;
 }
 
 /* ---- Stuck places that come free --------------------------------------------------------------------------------- */
@@ -180,21 +213,6 @@ static int32_t check_fit(dmb_evaluation *evaluation, uint32_t j, int32_t was)
         if (holds_anew(scene, scene->constraints + i, j, was)) status = check_rows(sim, scene->constraints + i);
     if (status >= 0) status = dmb_joint_refuse_flip(sim, j);
     return status < 0 ? status : dmb_joints_refuse_edges(sim, 0, evaluation->time);
-}
-
-/* -M a in the independent rows: a difference of residuals. */
-static int32_t minus_mass_times(dmb_evaluation *evaluation, const double *a, double *product)
-{
-    dmb_sim *sim = evaluation->sim;
-    const uint32_t n = sim->scene->row_count;
-    evaluation->tangent = 0;
-    memset(sim->trial.acceleration, 0, n * sizeof(double));
-    int32_t status = dmb_system_evaluate(evaluation);
-    memcpy(product, sim->residual, n * sizeof(double));
-    memcpy(sim->trial.acceleration, a, n * sizeof(double));
-    if (status >= 0) status = dmb_system_evaluate(evaluation);
-    for (uint32_t i = 0; i < n; i++) product[i] -= sim->residual[i];
-    return status;
 }
 
 /* v of the trial fits by the shortest change; y = (R^T M R)^-1 R^T M (v- - v) makes it the one of least energy. */

@@ -34,6 +34,10 @@ void dmb_release_end(dmb_sim *sim);
  * ring opens, shape (node). Fills site_return. Residual, iteration matrix and factors are overwritten. Errors as
  * dmb_factor_mass. */
 int32_t dmb_released_acceleration(const dmb_evaluation *evaluation, double *acceleration, double *part);
+/* The same for a state close to one that has `near`, with the factors of the mass matrix there: off by the square of
+ * the distance of both. product: room, shape (row). */
+int32_t dmb_released_beside(dmb_evaluation *evaluation, const double *near, double *acceleration, double *part,
+                            double *product);
 
 /* Stuck places that let go, and the energy that is lost then. */
 

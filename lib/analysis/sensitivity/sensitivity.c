@@ -199,7 +199,7 @@ static dmb_sensitivity *lay_out(dmb_arena *arena, const dmb_sim *sim, uint32_t c
     s->low = DMB_ARENA_DOUBLES(arena, numbers);
     s->middle = DMB_ARENA_DOUBLES(arena, numbers);
     s->seen = DMB_ARENA_DOUBLES(arena, 3 * (size_t)sim->scene->node_count + 2 * (size_t)sim->scene->row_count);
-    s->opening = DMB_ARENA_DOUBLES(arena, sim->scene->row_count);
+    dmb_follow_room_take(arena, sim->scene, &s->room);
     s->settings = DMB_ARENA_DOUBLES(arena, sim->scene->input_count);
     for (uint32_t i = 0; i < count; i++) {
         double *rates = DMB_ARENA_DOUBLES(arena, numbers), *accepted = DMB_ARENA_DOUBLES(arena, numbers);
@@ -282,6 +282,7 @@ static int32_t create(dmb_sim *sim, const dmb_parameter *given, uint32_t count, 
         take_parameter(made, &p, &made->parameters[i]);
     }
     made->follower.follow = dmb_sensitivity_follow;
+    made->follower.open = dmb_sensitivity_note_opening;
     made->follower.context = made;
     made->magic = DMB_HANDLE_SENSITIVITY;
     dmb_sensitivity_settle(made, 0);

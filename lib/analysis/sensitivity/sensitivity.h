@@ -38,7 +38,7 @@ struct dmb_sensitivity {
     double *middle;   /* the same of the sim, taken beside as the others, where a parameter is one-sided */
     double *seen;     /* displacement, velocity and acceleration at which the rates are, dmb_sensitivity_take_sight */
     double *settings; /* of the inputs when this was made, which stay, shape (input) */
-    double *opening;  /* shape (row) */
+    dmb_follow_room room;
     dmb_follower follower;
     int32_t busy;
     int32_t reserved;
@@ -77,5 +77,7 @@ void dmb_sensitivity_settle(dmb_sensitivity *s, int back);
 int32_t dmb_sensitivity_catch_up(dmb_sensitivity *s);
 /* The sim's follower: rates along a step. */
 int32_t dmb_sensitivity_follow(void *context, const dmb_attempt *attempt);
+/* It notes the increments at which contacts open. */
+void dmb_sensitivity_note_opening(void *context);
 
 #endif

@@ -182,10 +182,16 @@ static int32_t jump_all(dmb_sensitivity *s)
     return move_all(s, NULL, jump_beside, "accelerations after a jump");
 }
 
+void dmb_sensitivity_note_opening(void *context)
+{
+    dmb_sensitivity *s = context;
+    memcpy(s->room.opening, s->sim->increment, s->sim->scene->row_count * sizeof(double));
+}
+
 int32_t dmb_sensitivity_follow(void *context, const dmb_attempt *attempt)
 {
     dmb_sensitivity *s = context;
-    const dmb_lead lead = {s->sim, attempt, s->opening};
+    const dmb_lead lead = {s->sim, attempt, &s->room};
     const int32_t status = accelerates_as_seen(s) ? DMB_OK : jump_all(s);
     if (status < 0) return status;
     const int32_t followed = follow_all(s, &lead);

@@ -102,6 +102,17 @@ int32_t dmb_system_evaluate(dmb_evaluation *evaluation)
     return evaluation->status;
 }
 
+void dmb_system_remember(dmb_evaluation *evaluation, const double *held)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    evaluation->tangent = 0;
+    if (scene->site_count) dmb_gather_contacts(evaluation);
+    if (scene->drive_count) dmb_gather_drives(evaluation);
+    if (scene->bit_count) dmb_gather_bits(evaluation);
+    for (uint32_t i = 0; i < scene->held_count; i++)
+        evaluation->sim->residual[scene->layout.row[scene->held_node[i]] + scene->held_component[i]] = held[i];
+}
+
 /* Iteration matrix of a Newton step in the pose parameters z of the increment h Dq:
  *     [K T6(h Dq) + mass_factor M + velocity_factor C] z = -residual
  * K is with respect to body-frame pose changes, which are T6(h Dq) z. The elements have done so to the blocks of their
@@ -152,7 +163,43 @@ static void hold_row(dmb_sim *sim, uint32_t node, uint32_t c)
     }
 }
 
-void dmb_system_iteration_matrix(const dmb_evaluation *evaluation)
+/* Row c of a node in the matrix, by the node before, its own and the node after: shape (3, 6). */
+static void read_row(const dmb_sim *sim, uint32_t node, uint32_t c, double row[18])
+{
+    const dmb_scene *scene = sim->scene;
+    const dmb_block_layout *layout = &scene->layout;
+    const uint32_t size = layout->size[node];
+    memset(row, 0, 18 * sizeof *row);
+    memcpy(row + 6, dmb_stiffness_of(sim, node) + size * c, size * sizeof *row);
+    if (node > 0 && scene->node_element[node - 1] != DMB_NONE) {
+        const uint32_t before = layout->size[node - 1];
+        memcpy(row, sim->stiffness_lower + layout->link[node - 1] + before * c, before * sizeof *row);
+    }
+    if (scene->node_element[node] != DMB_NONE) {
+        const uint32_t after = layout->size[node + 1];
+        memcpy(row + 12, sim->stiffness_upper + layout->link[node] + after * c, after * sizeof *row);
+    }
+}
+
+static double row_times(const dmb_block_layout *layout, uint32_t node, const double row[18], const double *z)
+{
+    double sum = 0.0;
+    for (uint32_t k = 0; k < 3; k++) {
+        if ((k == 0 && node == 0) || (k == 2 && node + 1 == layout->n)) continue;
+        const uint32_t at = node + k - 1;
+        for (uint32_t i = 0; i < layout->size[at]; i++) sum += row[6 * k + i] * z[layout->row[at] + i];
+    }
+    return sum;
+}
+
+void dmb_system_held_times(const dmb_sim *sim, const double *rows, const double *z, double *product)
+{
+    const dmb_scene *scene = sim->scene;
+    for (uint32_t i = 0; i < scene->held_count; i++)
+        product[i] = row_times(&scene->layout, scene->held_node[i], rows + 18 * (size_t)i, z);
+}
+
+void dmb_system_iteration_matrix_held(const dmb_evaluation *evaluation, double *held_rows)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
@@ -165,7 +212,14 @@ void dmb_system_iteration_matrix(const dmb_evaluation *evaluation)
         for (uint32_t i = 0; i < n; i++) tangent_columns(sim, i, &next);
         add(sim->inertia_diagonal, sim->stiffness_diagonal, layout->diag[n]);
     }
+    for (uint32_t i = 0; i < scene->held_count && held_rows != NULL; i++)
+        read_row(sim, scene->held_node[i], scene->held_component[i], held_rows + 18 * (size_t)i);
     for (uint32_t i = 0; i < scene->held_count; i++) hold_row(sim, scene->held_node[i], scene->held_component[i]);
+}
+
+void dmb_system_iteration_matrix(const dmb_evaluation *evaluation)
+{
+    dmb_system_iteration_matrix_held(evaluation, NULL);
 }
 
 /* Rotation about the node's own x axis since time 0, on the turn the increment of the step leads to. */

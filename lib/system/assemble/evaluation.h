@@ -44,8 +44,16 @@ typedef struct dmb_evaluation {
 int32_t dmb_system_evaluate(dmb_evaluation *evaluation);
 /* Pose of the trial: that of now moved by `increment`. */
 void dmb_system_move(dmb_sim *sim);
+/* What contacts, drives and bits keep of the trial, where that is all that is asked of it: of the residual only the
+ * rows that are held are set, to held. Not of PATH nodes nor callers' forces. */
+void dmb_system_remember(dmb_evaluation *evaluation, const double *held);
 /* Iteration matrix K T6(increment) + inertia into the stiffness_ blocks, identity in rows that are not solved. */
 void dmb_system_iteration_matrix(const dmb_evaluation *evaluation);
+/* The same; before rows that are held become identity they go into held_rows, by the node before, its own and the one
+ * after, shape (held, 3, 6); NULL: they do not. */
+void dmb_system_iteration_matrix_held(const dmb_evaluation *evaluation, double *held_rows);
+/* product (held) = those rows times z, shape (row). */
+void dmb_system_held_times(const dmb_sim *sim, const double *rows, const double *z, double *product);
 /* Results of a finished step: drive positions and forces, bit bottom and history, unwrapped turns. Trial -> trial and
  * memory; called just before the swap. */
 void dmb_system_accept(dmb_evaluation *evaluation);

@@ -179,6 +179,32 @@ static void swap_blocks(double **a, double **b)
     *b = other;
 }
 
+void dmb_factors_swap(dmb_sim *sim, dmb_factor_set *with)
+{
+    uint8_t *const pivot = sim->pivot;
+    const int32_t kind = *sim->factors;
+    swap_blocks(&sim->stiffness_diagonal, &with->diagonal);
+    swap_blocks(&sim->stiffness_lower, &with->lower);
+    swap_blocks(&sim->stiffness_upper, &with->upper);
+    sim->pivot = with->pivot;
+    with->pivot = pivot;
+    *sim->factors = with->kind;
+    with->kind = kind;
+}
+
+void dmb_solve_refined(dmb_sim *sim, const dmb_block_matrix *matrix, double *product)
+{
+    const dmb_scene *scene = sim->scene;
+    const uint32_t rows = scene->row_count;
+    dmb_solve_correction(sim);
+    for (uint32_t c = 0; c < scene->chain_count; c++)
+        dmb_block_multiply(&scene->layout, matrix, scene->chains[c].first, scene->chains[c].count, sim->correction,
+                           product);
+    for (uint32_t i = 0; i < rows; i++) product[i] += sim->residual[i];
+    dmb_solve_for(sim, product, product);
+    for (uint32_t i = 0; i < rows; i++) sim->correction[i] += product[i];
+}
+
 void dmb_keep_factors(dmb_sim *sim)
 {
     swap_blocks(&sim->stiffness_diagonal, &sim->reused_diagonal);

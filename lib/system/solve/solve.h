@@ -33,6 +33,21 @@ void dmb_solve_for(dmb_sim *sim, const double *residual, double *z);
 /* The same from sim->residual into sim->correction. */
 void dmb_solve_correction(dmb_sim *sim);
 
+/* Factors of another matrix than that at hand, to be borrowed. */
+typedef struct dmb_factor_set {
+    double *diagonal, *lower, *upper;
+    uint8_t *pivot;
+    int32_t kind; /* DMB_FACTORS_... */
+    int32_t reserved;
+} dmb_factor_set;
+
+/* The factors at hand and these change places. Without joints. */
+void dmb_factors_swap(dmb_sim *sim, dmb_factor_set *with);
+/* dmb_solve_correction, refined once by the matrix that was factored (its rows that are held: identity), since blocks
+ * are solved by their inverses, whose rounding (3e-9 of the correction) is felt in the force of stiff elements.
+ * product: room, shape (row). Without joints. */
+void dmb_solve_refined(dmb_sim *sim, const dmb_block_matrix *matrix, double *product);
+
 /* Factors of an iteration matrix that serve in later steps (when: integrator/newton).
  *
  * The wall stays where it is while pipes turn in it, and pipes are round: the iteration matrix of a pipe that has
