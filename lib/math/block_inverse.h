@@ -1,53 +1,58 @@
-/* Block elimination with the inverse X_i of each eliminated block: G_i = L_i X_i, D_{i+1} -= G_i U_i, W_i = X_i U_i. A
- * solution takes one product a block down the chain and one up; with LU factors two triangles lie on the way besides.
+/* Block elimination from both ends of a chain towards its middle, with the inverse X_i of each eliminated block. From
+ * the first block down, G_i = L_i X_i, D_{i+1} -= G_i U_i, W_i = X_i U_i; from the last block up the same with the
+ * parts of the two links exchanged, G_i = U_{i-1} X_i, D_{i-1} -= G_i L_{i-1}, W_i = X_i L_{i-1}; the block in the
+ * middle gets what both leave it and is inverted last (THEORY 4). Nothing fills in, the work is that of one direction,
+ * and the processor goes along both halves at once, neither of which waits for the other. A solution takes one product
+ * a block towards the middle and one back.
+ *
  * Where a block's stiffnesses lie 15 decades apart an inverse loses the soft ones, which LU factors keep; so this is
  * for steps, whose Newton iterations look at the residual again, and block_tridiagonal for statics.
  *
  * For the files that compile it in one width each, kernel/lanes.h. Functions as dmb_block_factor and dmb_block_solve;
- * factors are X in `diagonal`, W in `upper`, G in `lower`, column-major. */
+ * factors are X in `diagonal`, and above the middle W in `upper`, G in `lower`, below it the other way round; all of
+ * them column-major. */
 #ifndef DMB_MATH_BLOCK_INVERSE_H
 #define DMB_MATH_BLOCK_INVERSE_H
 
 #include "math/block_rows.h"
+#include "math/block_six.h"
 
-/* The rows of D_i and of the identity side by side. */
-DMB_BLOCK_KERNEL void gather(int n, const double *restrict D, work_row *restrict a)
-{
-    for (int i = 0; i < n; i++) {
-        for (int j = 0; j < n; j++) a[i][j] = D[n * i + j];
-        for (int j = 0; j < n; j++) a[i][n + j] = i == j ? 1.0 : 0.0;
-    }
-}
+/* ---- Blocks of any size ------------------------------------------------------------------------------------------ */
 
-/* Gaussian elimination of the work rows; pivots come back as reciprocals. Rows are subtracted in full length, a fixed
- * one; the columns already done then hold nothing of use. Returns the column without a pivot, or -1. */
-DMB_BLOCK_KERNEL int eliminate(int n, work_row *restrict a, double *restrict reciprocal)
+typedef double block_rows[DMB_BLOCK_SIZE_MAX][DMB_BLOCK_SIZE_MAX];
+
+/* Gauss-Jordan in place, with exchanges of rows: step k takes row k out of all others, those above it too, and leaves
+ * column k of the inverse in place of the unit column. Returns 0, or 1 where there is no pivot. */
+DMB_BLOCK_KERNEL int invert_rows(int n, block_rows a, int *exchanged)
 {
     for (int k = 0; k < n; k++) {
-        const int p = pivot_of_column(n, k, a);
-        if (!dmb_block_pivot_holds(a[p][k])) return k;
-        if (p != k) dmb_block_swap(2 * (size_t)n, a[k], a[p]);
-        reciprocal[k] = 1.0 / a[k][k];
-        for (int i = k + 1; i < n; i++) row_subtract(2 * n, a[i][k] * reciprocal[k], a[k], a[i]);
+        int p = k;
+        for (int i = k + 1; i < n; i++)
+            if (fabs(a[i][k]) > fabs(a[p][k])) p = i;
+        if (!dmb_block_pivot_holds(a[p][k])) return 1;
+        if (p != k) dmb_block_swap((size_t)n, a[k], a[p]);
+        exchanged[k] = p;
+        const double reciprocal = 1.0 / a[k][k];
+        a[k][k] = 1.0;
+        for (int j = 0; j < n; j++) a[k][j] = a[k][j] * reciprocal;
+        for (int i = 0; i < n; i++) {
+            const double f = a[i][k];
+            if (i == k) continue;
+            a[i][k] = 0.0;
+            row_subtract(n, f, a[k], a[i]);
+        }
     }
-    return -1;
+    return 0;
 }
 
-/* Back substitution on the right half of the eliminated rows: X = D_i^-1 */
-DMB_BLOCK_KERNEL void substitute_back(int n, work_row *restrict a, const double *restrict reciprocal,
-                                      double *restrict X)
+/* The inverse of P A is A^-1 P^T: its columns go back where rows came from. */
+DMB_BLOCK_KERNEL void exchange_columns(int n, const int *exchanged, double *columns)
 {
-    DMB_BLOCK_UNROLL
-    for (int k = n - 1; k >= 0; k--) {
-        double y[DMB_BLOCK_SIZE_MAX];
-        for (int j = 0; j < n; j++) y[j] = a[k][n + j]; /* NOLINT(clang-analyzer-core.uninitialized.Assign) */
-        DMB_BLOCK_UNROLL
-        for (int c = k + 1; c < n; c++) row_subtract(n, a[k][c], X + n * c, y);
-        for (int j = 0; j < n; j++) X[n * k + j] = reciprocal[k] * y[j];
-    }
+    for (int k = n - 1; k >= 0; k--)
+        if (exchanged[k] != k) dmb_block_swap((size_t)n, columns + n * k, columns + n * exchanged[k]);
 }
 
-/* C = A B */
+/* C = A B, and C -= A B */
 DMB_BLOCK_KERNEL void multiply(int rows, int inner, int columns, const double *restrict A, const double *restrict B,
                                double *restrict C)
 {
@@ -60,7 +65,6 @@ DMB_BLOCK_KERNEL void multiply(int rows, int inner, int columns, const double *r
     }
 }
 
-/* C -= A B */
 DMB_BLOCK_KERNEL void multiply_off(int rows, int inner, int columns, const double *restrict A, const double *restrict B,
                                    double *restrict C)
 {
@@ -72,78 +76,96 @@ DMB_BLOCK_KERNEL void multiply_off(int rows, int inner, int columns, const doubl
     }
 }
 
-/* One block of the factorisation. Returns the column without a pivot, or -1. */
-DMB_BLOCK_KERNEL int factor_block(int n, int m, double *restrict D, double *restrict U, double *restrict L,
-                                  double *restrict next)
+/* One block of n rows, whose neighbour towards the middle has m, or none: 0. U couples its rows to that one, L the
+ * other way. Returns 0, or 1 without a pivot. */
+DMB_BLOCK_KERNEL int factor_block(int n, int m, const block_parts *p)
 {
-    work_row a[DMB_BLOCK_SIZE_MAX];
-    double reciprocal[DMB_BLOCK_SIZE_MAX], X[DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX],
-        G[DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX], W[DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX];
-    gather(n, D, a);
-    const int failed = eliminate(n, a, reciprocal);
-    if (failed >= 0) return failed;
-    substitute_back(n, a, reciprocal, X);
-    turn_round(n, n, X, D);
-    if (m == 0) return -1;
+    block_rows a;
+    double *D = p->D, *U = p->U, *L = p->L;
+    int exchanged[DMB_BLOCK_SIZE_MAX];
+    double X[DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX], G[DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX],
+        W[DMB_BLOCK_SIZE_MAX * DMB_BLOCK_SIZE_MAX];
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) a[i][j] = D[n * i + j];
+    if (invert_rows(n, a, exchanged)) return 1;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) D[n * j + i] = a[i][j];
+    exchange_columns(n, exchanged, D);
+    if (m == 0) return 0;
+    turn_round(n, n, D, X);
     multiply(m, n, n, L, X, G);
-    multiply_off(m, n, m, G, U, next);
+    multiply_off(m, n, m, G, U, p->next);
     multiply(n, n, m, X, U, W);
     turn_round(m, n, G, L);
     turn_round(n, m, W, U);
-    return -1;
+    return 0;
 }
 
-static inline int64_t factor_blocks(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first,
-                                    uint32_t count)
+/* y = A x in two sums side by side, of even and of odd columns */
+DMB_BLOCK_KERNEL void product_of_columns(int rows, int columns, const double *restrict A, const double *restrict x,
+                                         double *restrict y)
 {
-    const uint32_t end = first + count;
-    for (uint32_t i = first; i < end; i++) {
-        const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
-        double *D = matrix->diagonal + layout->diag[i], *next = matrix->diagonal + layout->diag[i + 1];
-        double *U = matrix->upper + layout->link[i], *L = matrix->lower + layout->link[i];
-        if (DMB_BLOCK_BY_SIZE(factor_block, n, m, D, U, L, next) >= 0) return (int64_t)i;
+    double even[DMB_BLOCK_SIZE_MAX], odd[DMB_BLOCK_SIZE_MAX] = {0.0};
+    for (int i = 0; i < rows; i++) even[i] = x[0] * A[i];
+    for (int j = 2; j < columns; j += 2)
+        for (int i = 0; i < rows; i++) even[i] += x[j] * A[rows * j + i];
+    for (int j = 1; j < columns; j += 2)
+        for (int i = 0; i < rows; i++) odd[i] += x[j] * A[rows * j + i];
+    for (int i = 0; i < rows; i++) y[i] = even[i] + odd[i];
+}
+
+/* The neighbour's b -= G b, then b <- X b: only the first is on the way to the middle. */
+DMB_BLOCK_KERNEL void solve_towards(int n, int m, const double *restrict X, const double *restrict G,
+                                    double *restrict b, double *restrict next)
+{
+    double y[DMB_BLOCK_SIZE_MAX];
+    if (m > 0) {
+        product_of_columns(m, n, G, b, y);
+        for (int i = 0; i < m; i++) next[i] -= y[i];
     }
-    return -1;
-}
-
-/* The next b -= G_i b, then b <- X_i b: only the first is on the way down the chain. */
-DMB_BLOCK_KERNEL void solve_down(int n, int m, const double *restrict X, const double *restrict G, double *restrict b,
-                                 double *restrict next)
-{
-    double y[DMB_BLOCK_SIZE_MAX] = {0.0};
-    subtract_product(m, n, G, b, next);
-    for (int j = 0; j < n; j++)
-        for (int i = 0; i < n; i++) y[i] += b[j] * X[n * j + i];
+    product_of_columns(n, n, X, b, y);
     for (int i = 0; i < n; i++) b[i] = y[i];
 }
 
-/* A chain whose blocks all have n rows: they follow one another, and what goes down or up it stays in registers. */
-DMB_BLOCK_KERNEL void solve_even(int n, uint32_t count, const double *restrict X, const double *restrict G,
-                                 const double *restrict W, double *restrict b)
+/* b -= W x, x of the neighbour towards the middle */
+DMB_BLOCK_KERNEL void solve_away(int n, int m, const double *restrict W, const double *restrict x, double *restrict b)
 {
-    const size_t block = (size_t)n * (size_t)n;
-    double x[DMB_BLOCK_SIZE_MAX], next[DMB_BLOCK_SIZE_MAX] = {0.0};
-    for (int i = 0; i < n; i++) x[i] = b[i];
-    for (uint32_t k = 0; k < count; k++) {
-        double y[DMB_BLOCK_SIZE_MAX] = {0.0};
-        if (k + 1 < count) {
-            for (int i = 0; i < n; i++) next[i] = b[n + i];
-            for (int j = 0; j < n; j++) row_subtract(n, x[j], G + block * k + n * j, next);
-        }
-        for (int j = 0; j < n; j++)
-            for (int i = 0; i < n; i++) y[i] += x[j] * X[block * k + (size_t)(n * j + i)];
-        for (int i = 0; i < n; i++) b[i] = y[i];
-        for (int i = 0; i < n; i++) x[i] = next[i];
-        b += n;
-    }
-    b -= n;
-    for (int i = 0; i < n; i++) x[i] = b[i];
-    for (uint32_t k = count - 1; k-- > 0;) {
-        b -= n;
-        for (int i = 0; i < n; i++) next[i] = b[i];
-        for (int j = 0; j < n; j++) row_subtract(n, x[j], W + block * k + n * j, next);
-        for (int i = 0; i < n; i++) b[i] = x[i] = next[i];
-    }
+    double y[DMB_BLOCK_SIZE_MAX];
+    product_of_columns(n, m, W, x, y);
+    for (int i = 0; i < n; i++) b[i] -= y[i];
+}
+
+/* ---- Chains ------------------------------------------------------------------------------------------------------ */
+
+/* A block with its link towards the middle, to a neighbour of m rows; the middle has none: 0. */
+typedef struct block_place {
+    int n, m;
+    uint32_t row, next_row;
+    block_parts parts;
+} block_place;
+
+static inline block_place place_of(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t middle,
+                                   uint32_t i)
+{
+    const uint32_t to = i < middle ? i + 1 : i - 1, link = i < middle ? i : to;
+    block_place p = {layout->size[i], 0, layout->row[i], 0, {matrix->diagonal + layout->diag[i], NULL, NULL, NULL}};
+    if (i == middle) return p;
+    double *upper = matrix->upper + layout->link[link], *lower = matrix->lower + layout->link[link];
+    p.m = layout->size[to];
+    p.next_row = layout->row[to];
+    p.parts.U = i < middle ? upper : lower;
+    p.parts.L = i < middle ? lower : upper;
+    p.parts.next = matrix->diagonal + layout->diag[to];
+    return p;
+}
+
+static inline int factor_place(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t middle,
+                               uint32_t i)
+{
+    const block_place p = place_of(layout, matrix, middle, i);
+    if (p.n == 6 && (p.m == 6 || p.m == 0)) return six_factor(&p.parts);
+    if (p.n == 2 && p.m == 2) return factor_block(2, 2, &p.parts);
+    return factor_block(p.n, p.m, &p.parts);
 }
 
 /* Rows of every block of a range if they all have as many, else 0: the mean of the squares is the square of the mean
@@ -156,31 +178,64 @@ static inline int even_size(const dmb_block_layout *layout, uint32_t first, uint
     return even ? (int)n : 0;
 }
 
+/* Two blocks of six rows, on both sides of the middle. Returns 0, or 1 or 2: that one has no pivot. */
+static inline int factor_two(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t middle,
+                             uint32_t i, uint32_t j)
+{
+    const block_place p = place_of(layout, matrix, middle, i), q = place_of(layout, matrix, middle, j);
+    return six_factor_two(&p.parts, &q.parts);
+}
+
+/* The upper half has as many blocks as the lower one, or one more, which goes first: so both come to the middle in the
+ * same turn, and the upper one first. */
+static inline int64_t factor_blocks(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first,
+                                    uint32_t count)
+{
+    const uint32_t middle = first + count / 2, below = (count - 1) / 2, six = even_size(layout, first, count) == 6;
+    uint32_t i = first, j = first + count - 1;
+    if (count / 2 > below && factor_place(layout, matrix, middle, i++) >= 1) return (int64_t)first;
+    for (; j > middle; i++, j--) {
+        const int bad = six ? factor_two(layout, matrix, middle, i, j) : factor_place(layout, matrix, middle, i);
+        if (bad) return (int64_t)(bad == 1 ? i : j);
+        if (!six && factor_place(layout, matrix, middle, j)) return (int64_t)j;
+    }
+    return factor_place(layout, matrix, middle, middle) ? (int64_t)middle : -1;
+}
+
+static inline void towards(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t middle, uint32_t i,
+                           double *rhs)
+{
+    const block_place p = place_of(layout, matrix, middle, i);
+    double *b = rhs + p.row, *next = rhs + p.next_row;
+    if (p.n == 2 && p.m == 2)
+        solve_towards(2, 2, p.parts.D, p.parts.L, b, next);
+    else
+        solve_towards(p.n, p.m, p.parts.D, p.parts.L, b, next);
+}
+
+static inline void away(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t middle, uint32_t i,
+                        double *rhs)
+{
+    const block_place p = place_of(layout, matrix, middle, i);
+    if (p.n == 2 && p.m == 2)
+        solve_away(2, 2, p.parts.U, rhs + p.next_row, rhs + p.row);
+    else
+        solve_away(p.n, p.m, p.parts.U, rhs + p.next_row, rhs + p.row);
+}
+
 static inline void solve_blocks(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first,
                                 uint32_t count, double *rhs)
 {
-    const uint32_t end = first + count, *row = layout->row;
-    const double *D0 = matrix->diagonal + layout->diag[first], *L0 = matrix->lower + layout->link[first];
-    const double *U0 = matrix->upper + layout->link[first];
-    const int even = even_size(layout, first, count);
-    if (even == 6) {
-        solve_even(6, count, D0, L0, U0, rhs + row[first]);
+    const uint32_t middle = first + count / 2, end = first + count;
+    if (even_size(layout, first, count) == 6) {
+        six_solve(count, matrix->diagonal + layout->diag[first], matrix->upper + layout->link[first],
+                  matrix->lower + layout->link[first], rhs + layout->row[first]);
         return;
     }
-    if (even == 2) {
-        solve_even(2, count, D0, L0, U0, rhs + row[first]);
-        return;
-    }
-    for (uint32_t i = first; i < end; i++) {
-        const int n = layout->size[i], m = i + 1 < end ? layout->size[i + 1] : 0;
-        const double *D = matrix->diagonal + layout->diag[i], *L = matrix->lower + layout->link[i];
-        DMB_BLOCK_BY_SIZE(solve_down, n, m, D, L, rhs + row[i], rhs + row[i + 1]);
-    }
-    for (uint32_t i = end; i-- > first;) {
-        if (i + 1 == end) continue;
-        const int n = layout->size[i], m = layout->size[i + 1];
-        DMB_BLOCK_BY_SIZE(solve_up, n, m, matrix->upper + layout->link[i], rhs + row[i + 1], rhs + row[i]);
-    }
+    for (uint32_t i = first; i < middle; i++) towards(layout, matrix, middle, i, rhs);
+    for (uint32_t i = end - 1; i >= middle && i < end; i--) towards(layout, matrix, middle, i, rhs);
+    for (uint32_t i = middle; i-- > first;) away(layout, matrix, middle, i, rhs);
+    for (uint32_t i = middle + 1; i < end; i++) away(layout, matrix, middle, i, rhs);
 }
 
 #endif

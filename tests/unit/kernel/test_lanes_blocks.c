@@ -86,13 +86,16 @@ static void singular_blocks_are_told(void **state)
 {
     (void)state;
     for (uint32_t lanes = 1; lanes <= 8; lanes *= 2) {
-        chain c;
         if (!dmb_kernels_of(lanes)) continue;
-        draw_chain(3, 0, &c);
-        memset(c.lower + c.link[3], 0, 36 * sizeof(double)); /* nothing comes from the block before */
-        memset(c.diagonal + c.diag[4], 0, 36 * sizeof(double));
-        dmb_block_matrix matrix = matrix_of(&c);
-        assert_int_equal(dmb_kernels_of(lanes)->factor(&c.layout, &matrix, 0, NODES), 4);
+        for (uint32_t i = 0; i < NODES; i++) {
+            chain c;
+            draw_chain(3, 0, &c);
+            memset(c.diagonal + c.diag[i], 0, 36 * sizeof(double)); /* nothing comes from its neighbours */
+            if (i > 0) memset(c.lower + c.link[i - 1], 0, 36 * sizeof(double));
+            if (i + 1 < NODES) memset(c.upper + c.link[i], 0, 36 * sizeof(double));
+            dmb_block_matrix matrix = matrix_of(&c);
+            assert_int_equal(dmb_kernels_of(lanes)->factor(&c.layout, &matrix, 0, NODES), i);
+        }
     }
 }
 
