@@ -40,7 +40,7 @@ DMB_BLOCK_KERNEL void row_scale(size_t n, double fr, double fi, double *restrict
 
 /* ---- Blocks ------------------------------------------------------------------------------------------------------ */
 
-static size_t pivot_of_column(size_t n, size_t k, dmb_complex_array D)
+DMB_BLOCK_KERNEL size_t pivot_of_column(size_t n, size_t k, dmb_complex_array D)
 {
     size_t p = k;
     double most = fabs(D.re[n * k + k]) + fabs(D.im[n * k + k]);
@@ -67,7 +67,7 @@ static void invert(double *re, double *im)
 }
 
 /* The column without a pivot, or -1. */
-static int64_t factor_block(size_t n, dmb_complex_array D, uint32_t *pivot)
+DMB_BLOCK_KERNEL int64_t factor_sized(size_t n, dmb_complex_array D, uint32_t *pivot)
 {
     for (size_t k = 0; k < n; k++) {
         const size_t p = pivot_of_column(n, k, D), at = n * k + k;
@@ -85,6 +85,11 @@ static int64_t factor_block(size_t n, dmb_complex_array D, uint32_t *pivot)
         }
     }
     return -1;
+}
+
+static int64_t factor_block(size_t n, dmb_complex_array D, uint32_t *pivot)
+{
+    return n == SIX ? factor_sized(SIX, D, pivot) : factor_sized(n, D, pivot);
 }
 
 /* W (n x m) <- D^-1 W */
@@ -240,4 +245,41 @@ void dmb_complex_sparse_solve(const dmb_block_pattern *pattern, const dmb_comple
 {
     for (uint32_t k = 0; k < pattern->n; k++) solve_down(pattern, matrix, row, k, rhs);
     for (uint32_t k = pattern->n; k-- > 0;) solve_up(pattern, matrix, row, k, rhs);
+}
+
+/* ---- Chains ------------------------------------------------------------------------------------------------------ */
+
+int64_t dmb_complex_block_factor(const dmb_block_layout *layout, const dmb_complex_block_matrix *matrix, uint32_t first,
+                                 uint32_t count)
+{
+    const uint32_t end = first + count;
+    for (uint32_t i = first; i < end; i++) {
+        const size_t n = layout->size[i];
+        const dmb_complex_array D = part(matrix->diagonal, layout->diag[i]), U = part(matrix->upper, layout->link[i]);
+        uint32_t *pivot = matrix->pivot + layout->row[i];
+        if (factor_block(n, D, pivot) >= 0) return (int64_t)i;
+        if (i + 1 == end) continue;
+        const size_t m = layout->size[i + 1];
+        solve_block(n, m, D, pivot, U);
+        update_block(m, n, m, part(matrix->lower, layout->link[i]), U, part(matrix->diagonal, layout->diag[i + 1]));
+    }
+    return -1;
+}
+
+void dmb_complex_block_solve(const dmb_block_layout *layout, const dmb_complex_block_matrix *matrix, uint32_t first,
+                             uint32_t count, dmb_complex_array rhs)
+{
+    const uint32_t end = first + count;
+    for (uint32_t i = first; i < end; i++) {
+        const size_t n = layout->size[i];
+        const dmb_complex_array b = part(rhs, layout->row[i]);
+        solve_block(n, 1, part(matrix->diagonal, layout->diag[i]), matrix->pivot + layout->row[i], b);
+        if (i + 1 < end)
+            update_vector(layout->size[i + 1], n, part(matrix->lower, layout->link[i]), b,
+                          part(rhs, layout->row[i + 1]));
+    }
+    for (uint32_t i = end; i-- > first;)
+        if (i + 1 < end)
+            update_vector(layout->size[i], layout->size[i + 1], part(matrix->upper, layout->link[i]),
+                          part(rhs, layout->row[i + 1]), part(rhs, layout->row[i]));
 }

@@ -2,14 +2,21 @@
  *
  *     sum_j A_ij x_j = b_i,    A_ij of size_i rows and size_j columns, there where the pattern couples i and j
  *
- * made for the dynamic stiffness K + i w C - w^2 M of strings that joints connect. Real and imaginary parts stand in
- * arrays of their own. Block elimination in the order of the pattern (block_pattern.h), with row pivoting inside each
- * diagonal block; no allocation, always the same order of operations; any size of block up to its capacity, 0 too. */
+ * made for the dynamic stiffness K + i w C - w^2 M of strings, and of those that joints connect. Real and imaginary
+ * parts stand in arrays of their own. Block elimination in the order of the pattern (block_pattern.h), with row
+ * pivoting inside each diagonal block; no allocation, always the same order of operations; any size of block up to its
+ * capacity, 0 too. */
 #ifndef DMB_MATH_COMPLEX_SPARSE_H
 #define DMB_MATH_COMPLEX_SPARSE_H
 
-#include "math/block_complex.h"
 #include "math/block_pattern.h"
+#include "math/block_tridiagonal.h"
+
+/* Numbers of one array, real parts and imaginary parts. */
+typedef struct dmb_complex_array {
+    double *re;
+    double *im;
+} dmb_complex_array;
 
 /* Each block is row-major without gaps, at its offset of the pattern. Factoring overwrites diagonal blocks by their LU
  * factors with reciprocal pivots, A_kj by A_kk^-1 A_kj where k is eliminated before j, and A_jk by what is left of it
@@ -27,5 +34,27 @@ int64_t dmb_complex_sparse_factor(const dmb_block_pattern *pattern, const dmb_co
 /* b on entry, x on return; the rows of block i begin at rhs[row[i]]. */
 void dmb_complex_sparse_solve(const dmb_block_pattern *pattern, const dmb_complex_sparse *matrix, const uint32_t *row,
                               dmb_complex_array rhs);
+
+/* ---- Chains ------------------------------------------------------------------------------------------------------ */
+
+/* The pattern of a chain is its layout (block_tridiagonal.h): each block is coupled with the next one alone,
+ *
+ *     lower_{i-1} x_{i-1} + diagonal_i x_i + upper_i x_{i+1} = b_i
+ *
+ * and the order is that of the chain. Factoring overwrites diagonal and upper as above and leaves lower as it is. */
+typedef struct dmb_complex_block_matrix {
+    dmb_complex_array diagonal; /* size_i x size_i */
+    dmb_complex_array lower;    /* lower_i: size_{i+1} x size_i */
+    dmb_complex_array upper;    /* upper_i: size_i x size_{i+1} */
+    uint32_t *pivot;            /* (rows) row of its block exchanged with this one; written by factoring */
+} dmb_complex_block_matrix;
+
+/* Factors blocks [first, first + count) in place. -1 when done, else the index of the first singular block, the matrix
+ * then being half-way. */
+int64_t dmb_complex_block_factor(const dmb_block_layout *layout, const dmb_complex_block_matrix *matrix, uint32_t first,
+                                 uint32_t count);
+/* Solves with a factored range. rhs (all rows of the layout): b on entry, x on return, in the rows of the range. */
+void dmb_complex_block_solve(const dmb_block_layout *layout, const dmb_complex_block_matrix *matrix, uint32_t first,
+                             uint32_t count, dmb_complex_array rhs);
 
 #endif

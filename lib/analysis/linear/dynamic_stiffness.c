@@ -21,7 +21,7 @@ static void lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_links_size l
     out->factors.diagonal = take(arena, layout->diag[layout->n]);
     out->factors.lower = take(arena, layout->link[layout->n - 1]);
     out->factors.upper = take(arena, layout->link[layout->n - 1]);
-    out->factors.pivot = DMB_ARENA_ARRAY(arena, uint8_t, linear->rows);
+    out->factors.pivot = DMB_ARENA_ARRAY(arena, uint32_t, linear->rows);
     out->told = take(arena, linear->rows);
     dmb_dynamic_links_lay_out(arena, linear, links, &out->links);
 }

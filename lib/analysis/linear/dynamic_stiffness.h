@@ -13,7 +13,6 @@
 
 #include "analysis/linear/linearise.h"
 #include "base/memory.h"
-#include "math/block_complex.h"
 #include "math/block_kernel.h"
 #include "math/complex_sparse.h"
 

@@ -3,15 +3,15 @@
 
 #include <lapacke.h>
 
-#include "math/block_complex.h"
+#include "math/complex_sparse.h"
 
 #define BLOCKS_MAX 40
 #define ROWS_MAX (BLOCKS_MAX * DMB_BLOCK_SIZE_MAX)
 #define STORAGE (36 * BLOCKS_MAX)
 
 typedef struct complex_system {
-    uint8_t size[BLOCKS_MAX], pivot[ROWS_MAX];
-    uint32_t row[BLOCKS_MAX + 1], diag[BLOCKS_MAX + 1], link[BLOCKS_MAX];
+    uint8_t size[BLOCKS_MAX];
+    uint32_t pivot[ROWS_MAX], row[BLOCKS_MAX + 1], diag[BLOCKS_MAX + 1], link[BLOCKS_MAX];
     double diagonal[2][STORAGE], lower[2][STORAGE], upper[2][STORAGE];
     dmb_block_layout layout;
 } complex_system;
