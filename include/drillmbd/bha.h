@@ -4,6 +4,7 @@
 #define DRILLMBD_BHA_H
 
 #include "control.h"
+#include "joints.h"
 
 #ifdef __cplusplus
 extern "C" {

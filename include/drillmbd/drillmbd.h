@@ -9,6 +9,7 @@
 #include "drilling.h"
 #include "forces.h"
 #include "hole.h"
+#include "joints.h"
 #include "model.h"
 #include "modes.h"
 #include "names.h"

@@ -8,6 +8,7 @@
 #include "drillmbd/bha.h"
 #include "drillmbd/control.h"
 #include "drillmbd/forces.h"
+#include "drillmbd/joints.h"
 #include "drillmbd/model.h"
 #include "drillmbd/names.h"
 #include "drillmbd/ring.h"

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "drillmbd/forces.h"
-#include "drillmbd/model.h"
+#include "drillmbd/joints.h"
 
 /* A material point at any place, or a point of the ground. */
 typedef struct dmb_scene_point {

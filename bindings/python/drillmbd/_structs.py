@@ -1881,10 +1881,10 @@ LOG_FN = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
 PROGRAMME_FN = CFUNCTYPE(c_int32, c_void_p, c_double, POINTER(c_double))
 
 
-CONSTRAINT_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double), POINTER(c_double))
-
-
 PROGRESS_FN = CFUNCTYPE(c_int32, c_void_p, c_double)
+
+
+CONSTRAINT_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double), POINTER(c_double))
 
 
 FORCE_FN = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double * 12), POINTER(c_double * 6), POINTER(c_double * 6), POINTER(c_double), POINTER(c_double))
@@ -2202,48 +2202,6 @@ class BitDef(Sized):
         "displaced_volume": ("m3", "likewise of a body"),
         "ring": ("", "{0, 0} (default): the bit at the string's end; a ring (ring.h): a reamer, whose cutting surface is at the middle of that ring. The ring has mass, buoyancy and contact; mass, inertia, diameter, length, displaced_volume and string count for nothing, and `bottom` is the distance of the shoulder ahead. Weight on bit, torque and other driller's channels are those of the bit alone"),
         "inner_radius": ("m", "b of the surface that is cut, from here to `radius`: the pilot hole of a reamer, the core of a core bit; 0 .. < radius. The rock law has a - b for a, a^2 - b^2 for a^2; default 0"),
-    }
-
-
-class CouplingDef(Sized):
-    c_name, about = "dmb_coupling_def", "Two to four joint coordinates that go together: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear: two revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi). A third and a fourth one go off too, each with its ratio. Differential: cage - 0.5 left - 0.5 right; planetary gear: carrier, sun, ring; tackle: ropes."
-    struct_size: int
-    reserved: int
-    name: bytes
-    joint: 'Array[Id]'
-    component: 'Array[c_int32]'
-    ratio: float
-    third_joint: Id
-    fourth_joint: Id
-    third_component: int
-    fourth_component: int
-    third_ratio: float
-    fourth_ratio: float
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("reserved", c_int32),
-        ("name", c_char * 24),
-        ("joint", Id * 2),
-        ("component", c_int32 * 2),
-        ("ratio", c_double),
-        ("third_joint", Id),
-        ("fourth_joint", Id),
-        ("third_component", c_int32),
-        ("fourth_component", c_int32),
-        ("third_ratio", c_double),
-        ("fourth_ratio", c_double),
-    ]
-    field_docs = {
-        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
-        "joint": ("", "may be the same"),
-        "component": ("", "X .. RZ, free in its joint; default RX"),
-        "ratio": ("-, m/rad, rad/m", "not 0; default 1"),
-        "third_joint": ("", "{0, 0} (default): two coordinates"),
-        "fourth_joint": ("", "{0, 0} (default): none"),
-        "third_component": ("", "X .. RZ, free in its joint; default RX"),
-        "fourth_component": ("", "X .. RZ, free in its joint; default RX"),
-        "third_ratio": ("-, m/rad, rad/m", "not 0; default 1"),
-        "fourth_ratio": ("-, m/rad, rad/m", "not 0; default 1"),
     }
 
 
@@ -2576,6 +2534,48 @@ class InputInfo(Sized):
     }
 
 
+class CouplingDef(Sized):
+    c_name, about = "dmb_coupling_def", "Two to four joint coordinates that go together: coordinate 0 - ratio * coordinate 1 keeps its value of time 0. Gear: two revolutes; screw: X and RX of one cylindrical joint, ratio = lead/(2 pi). A third and a fourth one go off too, each with its ratio. Differential: cage - 0.5 left - 0.5 right; planetary gear: carrier, sun, ring; tackle: ropes."
+    struct_size: int
+    reserved: int
+    name: bytes
+    joint: 'Array[Id]'
+    component: 'Array[c_int32]'
+    ratio: float
+    third_joint: Id
+    fourth_joint: Id
+    third_component: int
+    fourth_component: int
+    third_ratio: float
+    fourth_ratio: float
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("reserved", c_int32),
+        ("name", c_char * 24),
+        ("joint", Id * 2),
+        ("component", c_int32 * 2),
+        ("ratio", c_double),
+        ("third_joint", Id),
+        ("fourth_joint", Id),
+        ("third_component", c_int32),
+        ("fourth_component", c_int32),
+        ("third_ratio", c_double),
+        ("fourth_ratio", c_double),
+    ]
+    field_docs = {
+        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
+        "joint": ("", "may be the same"),
+        "component": ("", "X .. RZ, free in its joint; default RX"),
+        "ratio": ("-, m/rad, rad/m", "not 0; default 1"),
+        "third_joint": ("", "{0, 0} (default): two coordinates"),
+        "fourth_joint": ("", "{0, 0} (default): none"),
+        "third_component": ("", "X .. RZ, free in its joint; default RX"),
+        "fourth_component": ("", "X .. RZ, free in its joint; default RX"),
+        "third_ratio": ("-, m/rad, rad/m", "not 0; default 1"),
+        "fourth_ratio": ("-, m/rad, rad/m", "not 0; default 1"),
+    }
+
+
 class TorqueDragOptions(Sized):
     c_name, about = "dmb_torque_drag_options", ""
     struct_size: int
@@ -2722,129 +2722,6 @@ class Row(Sized):
 PATH_FN = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(PathPoint))
 
 
-class JointDef(Sized):
-    c_name, about = "dmb_joint_def", ""
-    struct_size: int
-    kind: int
-    name: bytes
-    place_a: Place
-    place_b: Place
-    origin_a: 'Array[c_double]'
-    axis_a: 'Array[c_double]'
-    normal_a: 'Array[c_double]'
-    origin_b: 'Array[c_double]'
-    axis_b: 'Array[c_double]'
-    normal_b: 'Array[c_double]'
-    match: int
-    state: int
-    length: float
-    stiffness: 'Array[c_double]'
-    damping: 'Array[c_double]'
-    rest: 'Array[c_double]'
-    friction: 'Array[c_double]'
-    friction_speed: float
-    stop_low: 'Array[c_double]'
-    stop_high: 'Array[c_double]'
-    stop_stiffness: float
-    stop_damping: float
-    initial_mask: int
-    reserved: int
-    initial_position: 'Array[c_double]'
-    initial_speed: 'Array[c_double]'
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("kind", c_int32),
-        ("name", c_char * 24),
-        ("place_a", Place),
-        ("place_b", Place),
-        ("origin_a", c_double * 3),
-        ("axis_a", c_double * 3),
-        ("normal_a", c_double * 3),
-        ("origin_b", c_double * 3),
-        ("axis_b", c_double * 3),
-        ("normal_b", c_double * 3),
-        ("match", c_int32),
-        ("state", c_int32),
-        ("length", c_double),
-        ("stiffness", c_double * 6),
-        ("damping", c_double * 6),
-        ("rest", c_double * 6),
-        ("friction", c_double * 6),
-        ("friction_speed", c_double),
-        ("stop_low", c_double * 6),
-        ("stop_high", c_double * 6),
-        ("stop_stiffness", c_double),
-        ("stop_damping", c_double),
-        ("initial_mask", c_int32),
-        ("reserved", c_int32),
-        ("initial_position", c_double * 6),
-        ("initial_speed", c_double * 6),
-    ]
-    field_docs = {
-        "kind": ("", "JOINT_..., default JOINT_FIXED"),
-        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
-        "place_a": ("", "node of a string (pipe end, element end), a body or a bit; part {0, 0}: the ground"),
-        "place_b": ("", "likewise, not the ground"),
-        "origin_a": ("m", "of frame a, in the frame of place a (ground: world); default 0, shape (3)"),
-        "axis_a": ("-", "its x axis, any length > 0; default (1, 0, 0), shape (3)"),
-        "normal_a": ("-", "its y axis, made perpendicular to x; 0 (default): y of the place's frame, or z if x is along that; shape (3)"),
-        "origin_b": ("m", "of frame b, in the frame of place b, shape (3)"),
-        "axis_b": ("-", "shape (3)"),
-        "normal_b": ("-", "shape (3)"),
-        "match": ("", "1: frame b is where frame a is at time 0 as described, and origin_b, axis_b, normal_b count for nothing; 0 (default): frame b as given"),
-        "state": ("", "JOINT_... at time 0; default JOINT_ACTIVE"),
-        "length": ("m", "of DISTANCE, radius of ROLLING; > 0; default 1"),
-        "stiffness": ("N/m, N m/rad", "of springs along the coordinates, >= 0; default 0, shape (6)"),
-        "damping": ("N s/m, N m s", ">= 0; not there without FEATURE_DAMPING; default 0, shape (6)"),
-        "rest": ("m, rad", "where the springs are unstressed; default 0, shape (6)"),
-        "friction": ("N, N m", "friction that does not depend on the reaction, >= 0; not there without FEATURE_FRICTION; default 0, shape (6)"),
-        "friction_speed": ("m/s, rad/s", "over which friction is smoothed, f s/sqrt(s^2 + friction_speed^2), > 0; default 1e-3"),
-        "stop_low": ("m, rad", "default -1e30, shape (6)"),
-        "stop_high": ("m, rad", "> stop_low; default 1e30, shape (6)"),
-        "stop_stiffness": ("N/m, N m/rad", "of the stops, > 0; default 1e6"),
-        "stop_damping": ("N s/m, N m s", "while in the stop, never pulling, >= 0; default 0"),
-        "initial_mask": ("-", "coordinates that are given below, bits 1 << X ...; they must be free, and no more than 6 with the joint's equations: 5 of KNIFE_EDGE and DISTANCE, 3 of ROLLING, none of a joint described locked; of one described open they count all the same; default 0"),
-        "initial_position": ("m, rad", "at time 0, shape (6)"),
-        "initial_speed": ("m/s, rad/s", "at time 0, shape (6)"),
-    }
-
-
-class ConstraintDef(ConstraintPart, Sized):
-    c_name, about = "dmb_constraint_def", ""
-    struct_size: int
-    kind: int
-    name: bytes
-    row_count: int
-    place_count: int
-    place: 'Array[Place]'
-    provides: int
-    reserved: int
-    callback: Any
-    callback_context: Any
-    _fields_: ClassVar[Any] = [
-        ("struct_size", c_uint32),
-        ("kind", c_int32),
-        ("name", c_char * 24),
-        ("row_count", c_uint32),
-        ("place_count", c_uint32),
-        ("place", Place * 4),
-        ("provides", c_int32),
-        ("reserved", c_int32),
-        ("callback", CONSTRAINT_FN),
-        ("callback_context", c_void_p),
-    ]
-    field_docs = {
-        "kind": ("", "CONSTRAINT_..., default CONSTRAINT_HOLONOMIC"),
-        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
-        "row_count": ("-", "equations, 1 .. 6; default 1"),
-        "place_count": ("-", "1 .. 4; default 1"),
-        "place": ("", "as of a joint, not the ground, shape (place_count)"),
-        "provides": ("", "PROVIDES_JACOBIAN or 0 (default): built by differences. Nonholonomic must provide it. A Jacobian of its own is compared with differences when a sim is made: ERR_CALLBACK"),
-        "callback": ("", "required"),
-        "callback_context": ("", ""),
-    }
-
-
 class LoadDef(Sized):
     c_name, about = "dmb_load_def", ""
     struct_size: int
@@ -2977,6 +2854,129 @@ class ProfileRecorderStruct(Sized):
         "capacity": ("-", "rows of table"),
         "row_count": ("-", "rows written; start with 0"),
         "interval": ("s", "between rows, 0: every call"),
+    }
+
+
+class JointDef(Sized):
+    c_name, about = "dmb_joint_def", ""
+    struct_size: int
+    kind: int
+    name: bytes
+    place_a: Place
+    place_b: Place
+    origin_a: 'Array[c_double]'
+    axis_a: 'Array[c_double]'
+    normal_a: 'Array[c_double]'
+    origin_b: 'Array[c_double]'
+    axis_b: 'Array[c_double]'
+    normal_b: 'Array[c_double]'
+    match: int
+    state: int
+    length: float
+    stiffness: 'Array[c_double]'
+    damping: 'Array[c_double]'
+    rest: 'Array[c_double]'
+    friction: 'Array[c_double]'
+    friction_speed: float
+    stop_low: 'Array[c_double]'
+    stop_high: 'Array[c_double]'
+    stop_stiffness: float
+    stop_damping: float
+    initial_mask: int
+    reserved: int
+    initial_position: 'Array[c_double]'
+    initial_speed: 'Array[c_double]'
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("name", c_char * 24),
+        ("place_a", Place),
+        ("place_b", Place),
+        ("origin_a", c_double * 3),
+        ("axis_a", c_double * 3),
+        ("normal_a", c_double * 3),
+        ("origin_b", c_double * 3),
+        ("axis_b", c_double * 3),
+        ("normal_b", c_double * 3),
+        ("match", c_int32),
+        ("state", c_int32),
+        ("length", c_double),
+        ("stiffness", c_double * 6),
+        ("damping", c_double * 6),
+        ("rest", c_double * 6),
+        ("friction", c_double * 6),
+        ("friction_speed", c_double),
+        ("stop_low", c_double * 6),
+        ("stop_high", c_double * 6),
+        ("stop_stiffness", c_double),
+        ("stop_damping", c_double),
+        ("initial_mask", c_int32),
+        ("reserved", c_int32),
+        ("initial_position", c_double * 6),
+        ("initial_speed", c_double * 6),
+    ]
+    field_docs = {
+        "kind": ("", "JOINT_..., default JOINT_FIXED"),
+        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
+        "place_a": ("", "node of a string (pipe end, element end), a body or a bit; part {0, 0}: the ground"),
+        "place_b": ("", "likewise, not the ground"),
+        "origin_a": ("m", "of frame a, in the frame of place a (ground: world); default 0, shape (3)"),
+        "axis_a": ("-", "its x axis, any length > 0; default (1, 0, 0), shape (3)"),
+        "normal_a": ("-", "its y axis, made perpendicular to x; 0 (default): y of the place's frame, or z if x is along that; shape (3)"),
+        "origin_b": ("m", "of frame b, in the frame of place b, shape (3)"),
+        "axis_b": ("-", "shape (3)"),
+        "normal_b": ("-", "shape (3)"),
+        "match": ("", "1: frame b is where frame a is at time 0 as described, and origin_b, axis_b, normal_b count for nothing; 0 (default): frame b as given"),
+        "state": ("", "JOINT_... at time 0; default JOINT_ACTIVE"),
+        "length": ("m", "of DISTANCE, radius of ROLLING; > 0; default 1"),
+        "stiffness": ("N/m, N m/rad", "of springs along the coordinates, >= 0; default 0, shape (6)"),
+        "damping": ("N s/m, N m s", ">= 0; not there without FEATURE_DAMPING; default 0, shape (6)"),
+        "rest": ("m, rad", "where the springs are unstressed; default 0, shape (6)"),
+        "friction": ("N, N m", "friction that does not depend on the reaction, >= 0; not there without FEATURE_FRICTION; default 0, shape (6)"),
+        "friction_speed": ("m/s, rad/s", "over which friction is smoothed, f s/sqrt(s^2 + friction_speed^2), > 0; default 1e-3"),
+        "stop_low": ("m, rad", "default -1e30, shape (6)"),
+        "stop_high": ("m, rad", "> stop_low; default 1e30, shape (6)"),
+        "stop_stiffness": ("N/m, N m/rad", "of the stops, > 0; default 1e6"),
+        "stop_damping": ("N s/m, N m s", "while in the stop, never pulling, >= 0; default 0"),
+        "initial_mask": ("-", "coordinates that are given below, bits 1 << X ...; they must be free, and no more than 6 with the joint's equations: 5 of KNIFE_EDGE and DISTANCE, 3 of ROLLING, none of a joint described locked; of one described open they count all the same; default 0"),
+        "initial_position": ("m, rad", "at time 0, shape (6)"),
+        "initial_speed": ("m/s, rad/s", "at time 0, shape (6)"),
+    }
+
+
+class ConstraintDef(ConstraintPart, Sized):
+    c_name, about = "dmb_constraint_def", ""
+    struct_size: int
+    kind: int
+    name: bytes
+    row_count: int
+    place_count: int
+    place: 'Array[Place]'
+    provides: int
+    reserved: int
+    callback: Any
+    callback_context: Any
+    _fields_: ClassVar[Any] = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("name", c_char * 24),
+        ("row_count", c_uint32),
+        ("place_count", c_uint32),
+        ("place", Place * 4),
+        ("provides", c_int32),
+        ("reserved", c_int32),
+        ("callback", CONSTRAINT_FN),
+        ("callback_context", c_void_p),
+    ]
+    field_docs = {
+        "kind": ("", "CONSTRAINT_..., default CONSTRAINT_HOLONOMIC"),
+        "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
+        "row_count": ("-", "equations, 1 .. 6; default 1"),
+        "place_count": ("-", "1 .. 4; default 1"),
+        "place": ("", "as of a joint, not the ground, shape (place_count)"),
+        "provides": ("", "PROVIDES_JACOBIAN or 0 (default): built by differences. Nonholonomic must provide it. A Jacobian of its own is compared with differences when a sim is made: ERR_CALLBACK"),
+        "callback": ("", "required"),
+        "callback_context": ("", ""),
     }
 
 
@@ -3307,9 +3307,6 @@ STRUCTS["dmb_string_def"] = StringDef
 STRUCTS["dmb_pipe_def"] = PipeDef
 STRUCTS["dmb_body_def"] = BodyDef
 STRUCTS["dmb_bit_def"] = BitDef
-STRUCTS["dmb_joint_def"] = JointDef
-STRUCTS["dmb_coupling_def"] = CouplingDef
-STRUCTS["dmb_constraint_def"] = ConstraintDef
 STRUCTS["dmb_drive_def"] = DriveDef
 STRUCTS["dmb_load_def"] = LoadDef
 STRUCTS["dmb_compile_options"] = CompileOptions
@@ -3349,6 +3346,9 @@ STRUCTS["dmb_input_state"] = InputState
 STRUCTS["dmb_input_record"] = InputRecord
 STRUCTS["dmb_event_def"] = EventDef
 STRUCTS["dmb_event_report"] = EventReport
+STRUCTS["dmb_joint_def"] = JointDef
+STRUCTS["dmb_coupling_def"] = CouplingDef
+STRUCTS["dmb_constraint_def"] = ConstraintDef
 STRUCTS["dmb_stuck_def"] = StuckDef
 STRUCTS["dmb_stuck_state"] = StuckState
 STRUCTS["dmb_motor"] = Motor

@@ -272,74 +272,6 @@ ROCK_RATE = RockLaw.RATE
 ROCK_REGENERATIVE = RockLaw.REGENERATIVE
 
 
-class JointKind(IntEnum):
-    """Values DMB_JOINT_... of the headers."""
-    FIXED = 0
-    REVOLUTE = 1  #: RX free
-    PRISMATIC = 2  #: X free
-    CYLINDRICAL = 3  #: X, RX free
-    UNIVERSAL = 4  #: RY, RZ free: crossed axes y of a and z of b
-    SPHERICAL = 5  #: RX, RY, RZ free
-    PLANAR = 6  #: Y, Z, RX free: x is the normal of the plane
-    POINT_ON_LINE = 7  #: X, RX, RY, RZ free: origin of b on the x axis of a
-    POINT_ON_HOLE = 8  #: origin of b on the axis of the hole; a must be the ground (guide, centraliser)
-    DISTANCE = 9  #: origins `length` apart
-    FREE = 10  #: holds nothing: carries springs, dampers, stops, friction
-    KNIFE_EDGE = 11  #: nonholonomic: the origin of b does not move along y of b (no lateral slip)
-    ROLLING = 12  #: a rim of radius `length` about x of b rolls without slip on the plane y, z of a; it stands on the side x > 0
-    TRANSLATIONAL = 13  #: X, Y, Z free: b does not turn against a
-    CROSS_SLIDE = 14  #: Y, Z free: two slides across each other
-    SCHOENFLIES = 15  #: X, Y, Z, RX free: x of b stays parallel to x of a
-
-
-JOINT_FIXED = JointKind.FIXED
-JOINT_REVOLUTE = JointKind.REVOLUTE
-JOINT_PRISMATIC = JointKind.PRISMATIC
-JOINT_CYLINDRICAL = JointKind.CYLINDRICAL
-JOINT_UNIVERSAL = JointKind.UNIVERSAL
-JOINT_SPHERICAL = JointKind.SPHERICAL
-JOINT_PLANAR = JointKind.PLANAR
-JOINT_POINT_ON_LINE = JointKind.POINT_ON_LINE
-JOINT_POINT_ON_HOLE = JointKind.POINT_ON_HOLE
-JOINT_DISTANCE = JointKind.DISTANCE
-JOINT_FREE = JointKind.FREE
-JOINT_KNIFE_EDGE = JointKind.KNIFE_EDGE
-JOINT_ROLLING = JointKind.ROLLING
-JOINT_TRANSLATIONAL = JointKind.TRANSLATIONAL
-JOINT_CROSS_SLIDE = JointKind.CROSS_SLIDE
-JOINT_SCHOENFLIES = JointKind.SCHOENFLIES
-
-
-class JointMode(IntEnum):
-    """Values DMB_JOINT_... of the headers."""
-    ACTIVE = 0  #: holds what its kind says
-    LOCKED = 1  #: holds all six coordinates where they were when it was locked
-    OPEN = 2  #: holds nothing; its springs, dampers, stops and friction do not act
-
-
-JOINT_ACTIVE = JointMode.ACTIVE
-JOINT_LOCKED = JointMode.LOCKED
-JOINT_OPEN = JointMode.OPEN
-
-
-class ConstraintKind(IntEnum):
-    """Values DMB_CONSTRAINT_... of the headers."""
-    HOLONOMIC = 0
-    NONHOLONOMIC = 1
-
-
-CONSTRAINT_HOLONOMIC = ConstraintKind.HOLONOMIC
-CONSTRAINT_NONHOLONOMIC = ConstraintKind.NONHOLONOMIC
-
-
-class ConstraintProvides(IntFlag):
-    """Bits DMB_PROVIDES_... of the headers."""
-    JACOBIAN = 1
-
-
-PROVIDES_JACOBIAN = ConstraintProvides.JACOBIAN
-
-
 class DriveKind(IntEnum):
     """Values DMB_DRIVE_... of the headers."""
     MOTION = 0  #: the speed of the component follows the programme exactly [m/s, rad/s]
@@ -928,6 +860,74 @@ class Events(IntEnum):
 EVENTS_MAX = Events.MAX
 
 
+class JointKind(IntEnum):
+    """Values DMB_JOINT_... of the headers."""
+    FIXED = 0
+    REVOLUTE = 1  #: RX free
+    PRISMATIC = 2  #: X free
+    CYLINDRICAL = 3  #: X, RX free
+    UNIVERSAL = 4  #: RY, RZ free: crossed axes y of a and z of b
+    SPHERICAL = 5  #: RX, RY, RZ free
+    PLANAR = 6  #: Y, Z, RX free: x is the normal of the plane
+    POINT_ON_LINE = 7  #: X, RX, RY, RZ free: origin of b on the x axis of a
+    POINT_ON_HOLE = 8  #: origin of b on the axis of the hole; a must be the ground (guide, centraliser)
+    DISTANCE = 9  #: origins `length` apart
+    FREE = 10  #: holds nothing: carries springs, dampers, stops, friction
+    KNIFE_EDGE = 11  #: nonholonomic: the origin of b does not move along y of b (no lateral slip)
+    ROLLING = 12  #: a rim of radius `length` about x of b rolls without slip on the plane y, z of a; it stands on the side x > 0
+    TRANSLATIONAL = 13  #: X, Y, Z free: b does not turn against a
+    CROSS_SLIDE = 14  #: Y, Z free: two slides across each other
+    SCHOENFLIES = 15  #: X, Y, Z, RX free: x of b stays parallel to x of a
+
+
+JOINT_FIXED = JointKind.FIXED
+JOINT_REVOLUTE = JointKind.REVOLUTE
+JOINT_PRISMATIC = JointKind.PRISMATIC
+JOINT_CYLINDRICAL = JointKind.CYLINDRICAL
+JOINT_UNIVERSAL = JointKind.UNIVERSAL
+JOINT_SPHERICAL = JointKind.SPHERICAL
+JOINT_PLANAR = JointKind.PLANAR
+JOINT_POINT_ON_LINE = JointKind.POINT_ON_LINE
+JOINT_POINT_ON_HOLE = JointKind.POINT_ON_HOLE
+JOINT_DISTANCE = JointKind.DISTANCE
+JOINT_FREE = JointKind.FREE
+JOINT_KNIFE_EDGE = JointKind.KNIFE_EDGE
+JOINT_ROLLING = JointKind.ROLLING
+JOINT_TRANSLATIONAL = JointKind.TRANSLATIONAL
+JOINT_CROSS_SLIDE = JointKind.CROSS_SLIDE
+JOINT_SCHOENFLIES = JointKind.SCHOENFLIES
+
+
+class JointMode(IntEnum):
+    """Values DMB_JOINT_... of the headers."""
+    ACTIVE = 0  #: holds what its kind says
+    LOCKED = 1  #: holds all six coordinates where they were when it was locked
+    OPEN = 2  #: holds nothing; its springs, dampers, stops and friction do not act
+
+
+JOINT_ACTIVE = JointMode.ACTIVE
+JOINT_LOCKED = JointMode.LOCKED
+JOINT_OPEN = JointMode.OPEN
+
+
+class ConstraintKind(IntEnum):
+    """Values DMB_CONSTRAINT_... of the headers."""
+    HOLONOMIC = 0
+    NONHOLONOMIC = 1
+
+
+CONSTRAINT_HOLONOMIC = ConstraintKind.HOLONOMIC
+CONSTRAINT_NONHOLONOMIC = ConstraintKind.NONHOLONOMIC
+
+
+class ConstraintProvides(IntFlag):
+    """Bits DMB_PROVIDES_... of the headers."""
+    JACOBIAN = 1
+
+
+PROVIDES_JACOBIAN = ConstraintProvides.JACOBIAN
+
+
 class StuckHolds(IntFlag):
     """Bits DMB_STUCK_... of the headers."""
     AXIAL = 1
@@ -1244,10 +1244,6 @@ ENUMS = (
     PipeKind,
     Attach,
     RockLaw,
-    JointKind,
-    JointMode,
-    ConstraintKind,
-    ConstraintProvides,
     DriveKind,
     Frame,
     Feature,
@@ -1268,6 +1264,10 @@ ENUMS = (
     Outside,
     EventDirection,
     Events,
+    JointKind,
+    JointMode,
+    ConstraintKind,
+    ConstraintProvides,
     StuckHolds,
     OperationKind,
     Measured,
