@@ -80,50 +80,50 @@ static void count_line(void *context, const char *text)
     ++*lines;
 }
 
-static int32_t make(const dmb_sim *sim, dmb_model_check *check)
+static int32_t make(const dmb_sim *sim, dmb_model_check *findings)
 {
-    dmb_check_report *report = &check->report;
+    dmb_check_report *report = &findings->report;
     uint32_t lines = 0;
-    memset(check, 0, sizeof *check);
-    check->sim = sim;
-    int32_t status = dmb_cluster_rank_make(sim, &check->rank);
-    if (status >= 0) status = dmb_find_loose_parts(sim, &check->loose);
+    memset(findings, 0, sizeof *findings);
+    findings->sim = sim;
+    int32_t status = dmb_cluster_rank_make(sim, &findings->rank);
+    if (status >= 0) status = dmb_find_loose_parts(sim, &findings->loose);
     if (status < 0) {
-        dmb_cluster_rank_release(sim, &check->rank);
+        dmb_cluster_rank_release(sim, &findings->rank);
         return status;
     }
     count_parts(sim->scene, report);
     count_joints(sim, report);
     count_actions(sim->scene, report);
-    count_degrees_of_freedom(sim->scene, &check->rank, report);
+    count_degrees_of_freedom(sim->scene, &findings->rank, report);
     count_solver(sim->scene, report);
-    dmb_model_check_warnings(check, count_line, &lines);
+    dmb_model_check_warnings(findings, count_line, &lines);
     report->warnings = lines;
     return DMB_OK;
 }
 
-int32_t dmb_model_check_open(const dmb_sim *sim, dmb_model_check *check)
+int32_t dmb_model_check_open(const dmb_sim *sim, dmb_model_check *findings)
 {
     int32_t status = dmb_sim_occupy(sim);
     if (status < 0) return status;
-    status = make(sim, check);
+    status = make(sim, findings);
     return status < 0 ? dmb_sim_leave((dmb_sim *)sim, status) : DMB_OK;
 }
 
-void dmb_model_check_close(dmb_model_check *check)
+void dmb_model_check_close(dmb_model_check *findings)
 {
-    dmb_cluster_rank_release(check->sim, &check->rank);
-    (void)dmb_sim_leave((dmb_sim *)check->sim, DMB_OK);
+    dmb_cluster_rank_release(findings->sim, &findings->rank);
+    (void)dmb_sim_leave((dmb_sim *)findings->sim, DMB_OK);
 }
 
 int32_t dmb_analysis_check(const dmb_sim *sim, dmb_check_report *report)
 {
-    dmb_model_check check;
+    dmb_model_check findings;
     if (sim == NULL || report == NULL) return DMB_ERR_NULL;
-    int32_t status = dmb_model_check_open(sim, &check);
+    int32_t status = dmb_model_check_open(sim, &findings);
     if (status < 0) return status;
-    status = dmb_check_report_write(report, &check.report);
-    dmb_model_check_close(&check);
+    status = dmb_check_report_write(report, &findings.report);
+    dmb_model_check_close(&findings);
     return status;
 }
 

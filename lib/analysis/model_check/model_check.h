@@ -19,16 +19,16 @@ typedef struct dmb_model_check {
     dmb_check_report report;
 } dmb_model_check;
 
-/* Takes the check of a sim, report and all; the sim is busy until the check is closed. Errors: as dmb_analysis_check;
+/* Takes the findings of a sim, report and all; the sim is busy until they are closed. Errors: as dmb_analysis_check;
  * nothing is held then. */
-int32_t dmb_model_check_open(const dmb_sim *sim, dmb_model_check *check);
-void dmb_model_check_close(dmb_model_check *check);
+int32_t dmb_model_check_open(const dmb_sim *sim, dmb_model_check *findings);
+void dmb_model_check_close(dmb_model_check *findings);
 
 /* Parts on which gravity acts and no guide, drive, joint with the ground, spring, wall or rock. DMB_ERR_NO_MEMORY. */
 int32_t dmb_find_loose_parts(const dmb_sim *sim, dmb_loose_parts *loose);
 
 /* Calls `line` with each warning, without end of line. */
-typedef void (*dmb_check_line_fn)(void *context, const char *text);
-void dmb_model_check_warnings(const dmb_model_check *check, dmb_check_line_fn line, void *context);
+typedef void (*dmb_model_check_line_fn)(void *context, const char *text);
+void dmb_model_check_warnings(const dmb_model_check *findings, dmb_model_check_line_fn line, void *context);
 
 #endif

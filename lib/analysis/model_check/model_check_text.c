@@ -158,14 +158,14 @@ static void put_solver(sheet *s, const dmb_check_report *r)
 
 /* ---- Names and warnings ------------------------------------------------------------------------------------------ */
 
-static void put_redundant(sheet *s, const dmb_model_check *check)
+static void put_redundant(sheet *s, const dmb_model_check *findings)
 {
-    if (check->report.redundant == 0) return;
+    if (findings->report.redundant == 0) return;
     put(s, "  redundant equations:\n");
-    for (uint32_t r = 0; r < check->sim->scene->constraint_row_count; r++) {
+    for (uint32_t r = 0; r < findings->sim->scene->constraint_row_count; r++) {
         dmb_message name;
-        if (!check->rank.redundant[r]) continue;
-        dmb_constraint_row_text(check->sim, r, &name);
+        if (!findings->rank.redundant[r]) continue;
+        dmb_constraint_row_text(findings->sim, r, &name);
         put(s, "    ");
         put(s, name.text);
         put(s, "\n");
@@ -180,17 +180,17 @@ static void put_warning(void *context, const char *text)
     put(s, "\n");
 }
 
-static void put_warnings(sheet *s, const dmb_model_check *check)
+static void put_warnings(sheet *s, const dmb_model_check *findings)
 {
-    put(s, check->report.warnings == 0 ? "  warnings: none\n" : "  warnings:\n");
-    dmb_model_check_warnings(check, put_warning, s);
+    put(s, findings->report.warnings == 0 ? "  warnings: none\n" : "  warnings:\n");
+    dmb_model_check_warnings(findings, put_warning, s);
 }
 
-static void put_all(sheet *s, const dmb_model_check *check)
+static void put_all(sheet *s, const dmb_model_check *findings)
 {
-    const dmb_check_report *report = &check->report;
+    const dmb_check_report *report = &findings->report;
     dmb_message head;
-    dmb_message_set(&head, "model check at time %g s\n", check->sim->clock->time);
+    dmb_message_set(&head, "model check at time %g s\n", findings->sim->clock->time);
     put(s, head.text);
     put_parts(s, report);
     put_joints(s, report);
@@ -198,21 +198,21 @@ static void put_all(sheet *s, const dmb_model_check *check)
     put_degrees_of_freedom(s, report);
     put_quality(s, report);
     put_solver(s, report);
-    put_redundant(s, check);
-    put_warnings(s, check);
+    put_redundant(s, findings);
+    put_warnings(s, findings);
 }
 
 int32_t dmb_analysis_check_text(const dmb_sim *sim, char *text, size_t size, size_t *needed)
 {
-    dmb_model_check check;
+    dmb_model_check findings;
     sheet s = {text, size, 0};
     if (sim == NULL) return DMB_ERR_NULL;
     if (!dmb_handle_is(sim, DMB_HANDLE_SIM)) return DMB_ERR_HANDLE;
     if (text == NULL && (size > 0 || needed == NULL)) return DMB_ERR_NULL;
-    const int32_t status = dmb_model_check_open(sim, &check);
+    const int32_t status = dmb_model_check_open(sim, &findings);
     if (status < 0) return status;
-    put_all(&s, &check);
-    dmb_model_check_close(&check);
+    put_all(&s, &findings);
+    dmb_model_check_close(&findings);
     if (size > 0) text[s.used < size ? s.used : size - 1] = '\0';
     if (needed != NULL) *needed = s.used + 1;
     return s.used < size ? DMB_OK : DMB_NOTE_FULL;

@@ -16,10 +16,10 @@
 
 /* The buffer that lines are written to. */
 typedef struct sink {
-    const dmb_model_check *check;
+    const dmb_model_check *findings;
     const dmb_sim *sim;
     const dmb_scene *scene;
-    dmb_check_line_fn line;
+    dmb_model_check_line_fn line;
     void *context;
 } sink;
 
@@ -53,7 +53,7 @@ static const char *joint_name(const dmb_scene *scene, uint32_t j, dmb_message *t
 static void redundancy(const sink *to)
 {
     dmb_message text;
-    const uint32_t count = to->check->report.redundant;
+    const uint32_t count = to->findings->report.redundant;
     if (count == 0) return;
     dmb_message_set(
         &text, "redundant: %u equation(s) that others imply; their joints' reactions are those of least norm", count);
@@ -63,16 +63,16 @@ static void redundancy(const sink *to)
 static void disagreement(const sink *to)
 {
     dmb_message text;
-    if (to->check->rank.differing == 0) return;
+    if (to->findings->rank.differing == 0) return;
     dmb_message_set(&text,
                     "rank: LAPACK and the partition differ in %u cluster(s): equations there are all but redundant",
-                    to->check->rank.differing);
+                    to->findings->rank.differing);
     say(to, &text);
 }
 
 static void conditioning(const sink *to)
 {
-    const dmb_cluster_rank *rank = &to->check->rank;
+    const dmb_cluster_rank *rank = &to->findings->rank;
     dmb_message text, owner;
     if (!(rank->condition < DMB_POOR_CONDITION)) return;
     dmb_constraint_text(to->scene, to->scene->clusters[rank->poorest].constraint, &owner);
@@ -84,7 +84,7 @@ static void conditioning(const sink *to)
 
 static void violation(const sink *to)
 {
-    const dmb_cluster_rank *rank = &to->check->rank;
+    const dmb_cluster_rank *rank = &to->findings->rank;
     dmb_message text, row;
     if (!(rank->violation > DMB_LARGE_VIOLATION)) return;
     dmb_constraint_row_text(to->sim, rank->violation_row, &row);
@@ -153,7 +153,7 @@ static void idle_drives(const sink *to)
 static void loose_parts(const sink *to)
 {
     dmb_message text, name, rest;
-    const dmb_loose_parts *loose = &to->check->loose;
+    const dmb_loose_parts *loose = &to->findings->loose;
     if (loose->groups == 0) return;
     dmb_message_set(&text, "%s%s: no guide, drive, joint, spring or wall holds it against gravity, it will fall",
                     node_name(to->scene, loose->node, &name), more(loose->groups, &rest));
@@ -294,9 +294,9 @@ static void held_rings(const sink *to)
         say(to, &text);
 }
 
-void dmb_model_check_warnings(const dmb_model_check *check, dmb_check_line_fn line, void *context)
+void dmb_model_check_warnings(const dmb_model_check *findings, dmb_model_check_line_fn line, void *context)
 {
-    const sink to = {check, check->sim, check->sim->scene, line, context};
+    const sink to = {findings, findings->sim, findings->sim->scene, line, context};
     redundancy(&to);
     disagreement(&to);
     conditioning(&to);
