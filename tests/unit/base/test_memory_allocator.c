@@ -1,3 +1,5 @@
+/* Allocators, the default one and a caller's: sizes and alignments against those asked for; failures against the
+ * status. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

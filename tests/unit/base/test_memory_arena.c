@@ -1,3 +1,4 @@
+/* Arenas: the size that is counted against the places that are given out, at any alignment; sizes that overflow. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

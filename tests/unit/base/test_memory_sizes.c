@@ -1,3 +1,4 @@
+/* Sums, products and rounding of sizes against the same in wider numbers, up to those that overflow. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* Growing arrays against their items one by one; failed allocations leave them whole. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* Texts of messages against printf, for the conversions it knows; cut texts, fields, names of parts. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* Names and texts of results, and the version, against the header. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* Numbers as text against printf of the C locale, and back to the same bits, in any locale. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* Sized structs between releases: what is written, read and left alone against the bytes of a longer or shorter one. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* Stamps of handles that live, are dead or of another kind; lines of the log against the calls that made them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* Checks of values: status and message of each against what the header says, at the bounds and beyond. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* Masses of the scene against those of the drawing: total, first moment and inertia, however it is meshed. */
 #include "model_test.h"
 
 #include "model/mesh.h"

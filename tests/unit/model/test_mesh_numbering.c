@@ -1,3 +1,4 @@
+/* Nodes, elements and degrees of freedom of scenes against counts by hand (THEORY 1). */
 #include "model_test.h"
 
 /* 2 rigid bodies, 100 flexible pipes, 101 fixed joints, one cylindrical pair, 2 drives (THEORY 1). */

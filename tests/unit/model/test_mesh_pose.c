@@ -1,3 +1,4 @@
+/* Poses and speeds at time 0 against closed forms: straight and bent strings, and those that follow a hole. */
 #include "model_test.h"
 
 #include "element/beam.h"

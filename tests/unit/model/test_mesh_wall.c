@@ -1,3 +1,4 @@
+/* Contact sites against the drawing: where they are, for how many metres of wall they stand, where there are none. */
 #include "model_test.h"
 
 static double sum_of_lengths(const dmb_scene *scene)

@@ -1,3 +1,4 @@
+/* A model as a handle: its life, dead and foreign ids, and copies against what the caller changes later. */
 #include "model_test.h"
 
 #include "base/sized_struct.h"

@@ -1,3 +1,4 @@
+/* Constants of pipes, joints and bits against closed forms and sums over thin discs (THEORY 7). */
 #include "model_test.h"
 
 #include "model/section.h"

@@ -1,3 +1,4 @@
+/* Constants of an element against the exact beam: stiffness at its nodes, mass as integral of the shapes (THEORY 3). */
 #include "model_test.h"
 
 #include "element/beam.h"
