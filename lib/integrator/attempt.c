@@ -10,9 +10,7 @@
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/assemble/energy.h"
-#include "system/constrain/cluster.h"
-#include "system/constrain/constraint_rows.h"
-#include "system/constrain/joint_motion.h"
+#include "system/constrain/constrain.h"
 #include "system/system.h"
 
 /* Violation of an equation taken for redundant at which it is one no more, in lengths of the parts. */

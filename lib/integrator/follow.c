@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "system/assemble/drives.h"
-#include "system/constrain/cluster.h"
+#include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 #include "system/system.h"
 

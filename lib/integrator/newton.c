@@ -6,7 +6,7 @@
 #include "integrator/step_motion.h"
 #include "sim/access.h"
 #include "system/assemble/assemble.h"
-#include "system/constrain/cluster.h"
+#include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 #include "system/system.h"
 

@@ -1,10 +1,12 @@
-/* Recorders, windows and the counting of cycles, as sources of this folder use each other. */
+/* Recorders, windows, the counting of cycles and files for ParaView, as sources of this folder use each other. */
 #ifndef DMB_OUTPUT_OUTPUT_H
 #define DMB_OUTPUT_OUTPUT_H
 
 #include <stdint.h>
 
 #include "drillmbd/output.h"
+#include "output/text_file.h"
+#include "sim/sim.h"
 
 /* ---- Recorders --------------------------------------------------------------------------------------------------- */
 
@@ -39,5 +41,60 @@ typedef void (*dmb_rainflow_fn)(void *context, uint32_t low, uint32_t high, doub
 void dmb_rainflow_add(dmb_rainflow *flow, uint32_t level, dmb_rainflow_fn count, void *context);
 /* Tells the turning points not counted yet, as half cycles; they stay. */
 void dmb_rainflow_rest(const dmb_rainflow *flow, dmb_rainflow_fn count, void *context);
+
+/* ---- Files for ParaView ------------------------------------------------------------------------------------------ */
+
+typedef struct dmb_vtk_counts {
+    uint64_t points, lines, polygons;
+} dmb_vtk_counts;
+
+/* Everything up to the piece's first array; time [s] becomes the file's TimeValue unless it is NaN. */
+void dmb_vtk_begin(dmb_text_file *file, const dmb_vtk_counts *counts, double time);
+/* Closes the piece and the file's elements. */
+void dmb_vtk_end(dmb_text_file *file);
+/* <tag>, </tag> */
+void dmb_vtk_open_tag(dmb_text_file *file, const char *tag);
+void dmb_vtk_close_tag(dmb_text_file *file, const char *tag);
+/* A data array of Float64 or Int64 with that many components; its numbers go between the two. */
+void dmb_vtk_begin_numbers(dmb_text_file *file, const char *name, uint32_t components);
+void dmb_vtk_begin_indices(dmb_text_file *file, const char *name);
+void dmb_vtk_end_array(dmb_text_file *file);
+/* Numbers that may not be finite: readers stop at "nan" in text, so that such an array goes out in base 64, with the
+ * number of its bytes first. look: what is put until dmb_vtk_begin_looked is only looked at. */
+void dmb_vtk_look(dmb_text_file *file);
+void dmb_vtk_begin_looked(dmb_text_file *file, const char *name, uint32_t components, uint64_t tuples);
+void dmb_vtk_end_looked(dmb_text_file *file);
+/* One tuple and the end of its line. */
+void dmb_vtk_put_tuple(dmb_text_file *file, const double *values, uint32_t count);
+
+/* The strings of a scene as poly-lines with point data, for ParaView: what is common to all pictures of strings. */
+
+/* A point of the picture. */
+typedef struct dmb_vtk_station {
+    uint32_t string;
+    dmb_place place;
+} dmb_vtk_station;
+
+/* Writes one tuple; context is that of the picture. */
+typedef void dmb_vtk_station_fn(dmb_text_file *file, const void *context, const dmb_vtk_station *at);
+
+typedef struct dmb_vtk_array {
+    const char *name;
+    uint32_t components;
+    dmb_vtk_station_fn *put;
+} dmb_vtk_array;
+
+typedef struct dmb_vtk_picture {
+    const void *context;
+    const char *data;            /* "PointData ..." with the fields to be shown first */
+    const dmb_vtk_array *arrays; /* shape (array_count) */
+    size_t array_count;
+    dmb_vtk_array points; /* positions, three components */
+    uint32_t per_element; /* points an element, 1 .. 64 */
+    uint32_t reserved;
+} dmb_vtk_picture;
+
+/* The file of a picture of the strings of a sim. DMB_ERR_VALUE (per_element), _NULL (path), _IO. */
+int32_t dmb_vtk_write_lines(const dmb_sim *sim, const dmb_vtk_picture *picture, const char *path);
 
 #endif

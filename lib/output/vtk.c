@@ -1,4 +1,6 @@
-#include "output/vtk.h"
+/* VTK XML poly-data files of one piece, numbers as text (VTK file formats, "PolyData"), and the strings of a scene in
+ * them. */
+#include "output/output.h"
 
 #include <math.h>
 #include <string.h>

@@ -8,7 +8,7 @@
 #include "drillmbd/query.h"
 #include "math/so3.h"
 #include "model/model.h"
-#include "output/vtk.h"
+#include "output/output.h"
 #include "query/query.h"
 #include "sim/access.h"
 

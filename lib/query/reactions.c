@@ -13,7 +13,7 @@
 #include "sim/node.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/drives.h"
-#include "system/constrain/constraint_rows.h"
+#include "system/constrain/constrain.h"
 
 /* ---- Joints and callers' constraints ----------------------------------------------------------------------------- */
 

@@ -9,7 +9,7 @@
 #include "sim/own_scene.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/energy.h"
-#include "system/constrain/joint_motion.h"
+#include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 #include "system/system.h"
 

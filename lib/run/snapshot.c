@@ -8,7 +8,7 @@
 #include "sim/access.h"
 #include "sim/layout.h"
 #include "sim/own_scene.h"
-#include "system/constrain/joint_motion.h"
+#include "system/constrain/constrain.h"
 
 /* ---- Is this a state of the scene? ------------------------------------------------------------------------------- */
 

@@ -11,8 +11,7 @@
 #include "system/assemble/assemble.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/energy.h"
-#include "system/constrain/cluster.h"
-#include "system/constrain/joint_motion.h"
+#include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 #include "system/system.h"
 

@@ -7,8 +7,7 @@
 #include "model/field_check.h"
 #include "sim/layout.h"
 #include "sim/own_scene.h"
-#include "system/constrain/cluster.h"
-#include "system/constrain/constraint_rows.h"
+#include "system/constrain/constrain.h"
 
 /* Of a sparse cluster only rows are chosen. */
 static int32_t choose(dmb_sim *copy)

@@ -11,9 +11,7 @@
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
 #include "system/assemble/energy.h"
-#include "system/constrain/cluster.h"
-#include "system/constrain/constraint_rows.h"
-#include "system/constrain/joint_motion.h"
+#include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 
 /* ---- Contacts that open ------------------------------------------------------------------------------------------ */

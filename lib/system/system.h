@@ -4,7 +4,7 @@
 
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
-#include "system/constrain/joint_motion.h"
+#include "system/constrain/constrain.h"
 
 /* ---- Start ------------------------------------------------------------------------------------------------------- */
 

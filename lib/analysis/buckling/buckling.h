@@ -147,7 +147,7 @@ void dmb_flutter_close(dmb_flutter *flutter);
 
 typedef struct dmb_pencil_matrix {
     double *diagonal, *lower, *upper; /* storage of the scene's layout */
-    double *jointed; /* values of the scene's pattern, as in system/solve/reduced_system.h; none without joints */
+    double *jointed; /* values of the scene's pattern, as in system/solve/solve.h; none without joints */
 } dmb_pencil_matrix;
 
 typedef struct dmb_pencil {

@@ -3,15 +3,13 @@
 #include <string.h>
 
 #include "analysis/buckling/buckling.h"
-#include "analysis/linear/linearise.h"
+#include "analysis/linear/linear.h"
 #include "analysis/static/static.h"
 #include "math/dense.h"
 #include "math/so3.h"
 #include "sim/layout.h"
 #include "system/assemble/drives.h"
-#include "system/constrain/cluster.h"
-#include "system/constrain/joint_motion.h"
-#include "system/solve/reduced_system.h"
+#include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 
 /* ---- Turning of a node ---------------------------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "analysis/linear/linearise.h"
+#include "analysis/linear/linear.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"

@@ -1,9 +1,19 @@
+/* The dynamic stiffness of a linearised scene at one frequency,
+ *
+ *     A(w) = (1 + i eta) K + i w C - w^2 M,     A d = f,
+ *
+ * or of motions that grow too, d ~ e^(p t), p = growth + i w: A(p) = (1 + i eta) K + p C + p^2 M,
+ *
+ * assembled in complex blocks, factored and solved: block-tridiagonal along a chain, block-sparse in the independent
+ * coordinates where joints connect chains (dynamic_stiffness_links.c). Rows that guides hold do not move. Rows that
+ * drives move do so as told: of displacements p that hold all equations of joints, d = p + R z, R^T A R z = -R^T A
+ * p. */
 #include <math.h>
 #include <string.h>
 
-#include "analysis/linear/dynamic_stiffness.h"
+#include "analysis/linear/linear.h"
 #include "base/memory.h"
-#include "system/constrain/cluster.h"
+#include "system/constrain/constrain.h"
 
 /* ---- Memory ------------------------------------------------------------------------------------------------------ */
 

@@ -1,4 +1,4 @@
-#include "analysis/linear/dynamic_stiffness.h"
+#include "analysis/linear/linear.h"
 
 #include <math.h>
 #include <string.h>

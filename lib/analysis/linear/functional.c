@@ -1,5 +1,5 @@
 /* Functionals by asking the public queries about a copy of the state in which one row at a time moves. */
-#include "analysis/linear/functional.h"
+#include "analysis/linear/linear.h"
 
 #include <string.h>
 

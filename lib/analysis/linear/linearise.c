@@ -1,4 +1,32 @@
-#include "analysis/linear/linearise.h"
+/* The linear system about the accepted state of a sim:
+ *
+ *     M d'' + C d' + K d = f,     d: small body-frame displacements of the nodes, shape (rows)
+ *
+ * Six rows (translation; rotation) of a FULL node, H = H0 exp(d), two (along the hole; about its axis) of a PATH node.
+ * Rows that guides and motion drives hold are out: their rows and columns are zero. With joints d = R z, z being the
+ * independent coordinates of the partition, else z are the rows that are left:
+ *
+ *     R^T M R z'' + R^T C R z' + R^T K R z = R^T f
+ *
+ * Velocities of the perturbed motion in the body frame are v + d' + v^ d and accelerations a + d'' + v^ d' + a^ d, with
+ * v^ = ad(v): exp(-d) H0^-1 (H0 exp(d))' to first order. With M, C_v = dr/dv and K_H = dr/dH of the residual r that
+ * steps solve, at given body-frame v and a,
+ *
+ *     C = C_v + M v^,     K = K_H + C_v v^ + M a^
+ *
+ * so that gyroscopic and centrifugal terms of a steadily spinning string are in C and K, whose entries are constant
+ * there: it is a relative equilibrium. Elsewhere in a run the coefficients are those of the moment. In axes that do not
+ * take part in the spin w about a node's x axis, d is turned back by it, d <- exp(w^ t) d: with g = v - w velocities of
+ * the perturbed motion are v + d' + g^ d, accelerations a + d'' + g^ d' - w^ (d' + g^ d) + a^ d, and
+ *
+ *     C = C_v - M w^ + M g^,     K = K_H + (C_v - M w^) g^ + M a^,
+ *
+ * constant for what is round, even where a turning string lies on the wall. States that are integrated along with the
+ * motion, bristles that stick and the integral part of speed controllers, are stiffness here (the part that v^ d has in
+ * it, left out, is none for drives along and about the axis). The memory of a regenerative rock law is not: its past is
+ * taken as given. A nonholonomic equation holds d as it holds d'. Friction has the derivative of its law; one that is
+ * smooth at rest is a damper there. */
+#include "analysis/linear/linear.h"
 
 #include <float.h>
 #include <math.h>
@@ -10,8 +38,7 @@
 #include "math/vec3.h"
 #include "sim/access.h"
 #include "sim/node.h"
-#include "system/constrain/cluster.h"
-#include "system/solve/reduced_system.h"
+#include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 #include "system/system.h"
 

@@ -2,11 +2,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/linear/linearise.h"
+#include "analysis/linear/linear.h"
 #include "base/memory.h"
 #include "math/dense.h"
 #include "math/inertia.h"
-#include "system/constrain/cluster.h"
+#include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 
 static void clear_row(double *block, uint32_t columns, uint32_t row)

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/linear/linearise.h"
+#include "analysis/linear/linear.h"
 #include "math/mat6.h"
 #include "math/so3.h"
 #include "system/assemble/assemble.h"
@@ -238,7 +238,7 @@ static void part_velocities(dmb_linear *linear, int32_t still)
     }
 }
 
-/* The matrices with their frames' velocities (linearise.h): a row that is held has no d, nor any v^ d, but what the
+/* The matrices with their frames' velocities (linearise.c): a row that is held has no d, nor any v^ d, but what the
  * others do to it counts. */
 void dmb_linear_turn_frames(dmb_linear *linear, int32_t still)
 {

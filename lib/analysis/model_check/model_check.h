@@ -4,7 +4,7 @@
 
 #include "drillmbd/analysis.h"
 #include "sim/sim.h"
-#include "system/constrain/cluster.h"
+#include "system/constrain/constrain.h"
 
 /* Groups of parts that joints connect and nothing holds. */
 typedef struct dmb_loose_parts {

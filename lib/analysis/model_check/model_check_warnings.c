@@ -5,7 +5,7 @@
 #include "analysis/model_check/model_check.h"
 #include "math/vec3.h"
 #include "sim/node.h"
-#include "system/constrain/constraint_rows.h"
+#include "system/constrain/constrain.h"
 
 #define DMB_POOR_CONDITION 1e-4  /* smallest over largest singular value of the equations */
 #define DMB_LARGE_VIOLATION 1e-8 /* [m, -] that an equation of position may be off */

@@ -4,7 +4,7 @@
 
 #include <float.h>
 
-#include "analysis/linear/linearise.h"
+#include "analysis/linear/linear.h"
 #include "drillmbd/modes.h"
 
 /* Asymmetry of K, over its diagonal, that is rounding. */

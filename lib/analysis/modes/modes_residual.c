@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/linear/dynamic_stiffness.h"
+#include "analysis/linear/linear.h"
 #include "analysis/modes/modes.h"
 #include "base/memory.h"
 #include "math/dense.h"

@@ -1,7 +1,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/linear/dynamic_stiffness.h"
+#include "analysis/linear/linear.h"
 #include "analysis/response/response.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"

@@ -2,8 +2,7 @@
 #ifndef DMB_ANALYSIS_RESPONSE_RESPONSE_H
 #define DMB_ANALYSIS_RESPONSE_RESPONSE_H
 
-#include "analysis/linear/dynamic_stiffness.h"
-#include "analysis/linear/functional.h"
+#include "analysis/linear/linear.h"
 #include "base/message.h"
 #include "drillmbd/response.h"
 #include "sim/sim.h"

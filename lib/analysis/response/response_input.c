@@ -6,14 +6,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/linear/functional.h"
+#include "analysis/linear/linear.h"
 #include "force/reference.h"
 #include "math/vec3.h"
 #include "sim/node.h"
 #include "sim/own_scene.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/evaluation.h"
-#include "system/constrain/cluster.h"
+#include "system/constrain/constrain.h"
 
 /* Differences of the residual with a factor this large lose nothing to the forces of the state. */
 #define DMB_EXCITATION_FACTOR 1e6

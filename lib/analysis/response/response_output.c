@@ -9,12 +9,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/linear/dynamic_stiffness.h"
-#include "analysis/linear/functional.h"
+#include "analysis/linear/linear.h"
 #include "drillmbd/output.h"
 #include "sim/node.h"
 #include "system/assemble/assemble.h"
-#include "system/constrain/joint_motion.h"
+#include "system/constrain/constrain.h"
 
 typedef struct request {
     dmb_linear *linear;

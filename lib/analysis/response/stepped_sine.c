@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/linear/functional.h"
+#include "analysis/linear/linear.h"
 #include "analysis/response/response.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"

@@ -7,7 +7,7 @@
 #include "math/so3.h"
 #include "query/query.h"
 #include "sim/own_scene.h"
-#include "system/constrain/cluster.h"
+#include "system/constrain/constrain.h"
 #include "system/system.h"
 
 /* The same part in another model of the scene. */

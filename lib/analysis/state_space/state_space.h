@@ -16,7 +16,7 @@
 #ifndef DMB_ANALYSIS_STATE_SPACE_STATE_SPACE_H
 #define DMB_ANALYSIS_STATE_SPACE_STATE_SPACE_H
 
-#include "analysis/linear/dynamic_stiffness.h"
+#include "analysis/linear/linear.h"
 #include "analysis/response/response.h"
 #include "drillmbd/state_space.h"
 

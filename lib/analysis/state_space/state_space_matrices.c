@@ -2,7 +2,7 @@
  * the forces of a held row apart from the rest: its column in held_columns, its row in held_rows. */
 #include <string.h>
 
-#include "analysis/linear/functional.h"
+#include "analysis/linear/linear.h"
 #include "analysis/state_space/state_space.h"
 #include "base/memory.h"
 #include "base/sized_struct.h"
@@ -13,7 +13,7 @@
 #include "sim/access.h"
 #include "sim/node.h"
 #include "system/assemble/evaluation.h"
-#include "system/constrain/cluster.h"
+#include "system/constrain/constrain.h"
 #include "system/system.h"
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */

@@ -5,11 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/linear/linearise.h"
+#include "analysis/linear/linear.h"
 #include "math/inertia.h"
 #include "math/krylov.h"
 #include "sim/access.h"
-#include "system/solve/reduced_system.h"
 #include "system/solve/solve.h"
 
 /* ---- Symmetric part ---------------------------------------------------------------------------------------------- */

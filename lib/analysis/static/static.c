@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "analysis/linear/linearise.h"
+#include "analysis/linear/linear.h"
 #include "base/sized_struct.h"
 #include "base/value_check.h"
 #include "math/vec3.h"
@@ -10,8 +10,7 @@
 #include "sim/layout.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/drives.h"
-#include "system/constrain/cluster.h"
-#include "system/constrain/joint_motion.h"
+#include "system/constrain/constrain.h"
 #include "system/solve/solve.h"
 #include "system/system.h"
 

@@ -5,9 +5,7 @@
 #include "sim/node.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
-#include "system/constrain/cluster.h"
-#include "system/constrain/constraint_rows.h"
-#include "system/constrain/joint_motion.h"
+#include "system/constrain/constrain.h"
 
 static int is_held(const dmb_scene *scene, const dmb_string_map *string, uint32_t component)
 {

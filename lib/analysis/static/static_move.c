@@ -4,8 +4,7 @@
 #include "math/se3.h"
 #include "math/vec3.h"
 #include "sim/node.h"
-#include "system/constrain/cluster.h"
-#include "system/constrain/joint_motion.h"
+#include "system/constrain/constrain.h"
 
 /* ---- Joints ------------------------------------------------------------------------------------------------------ */
 

@@ -1,6 +1,6 @@
 #include <string.h>
 
-#include "analysis/linear/linearise.h"
+#include "analysis/linear/linear.h"
 #include "analysis/static/static.h"
 #include "math/so3.h"
 #include "math/vec3.h"

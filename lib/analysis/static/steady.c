@@ -3,16 +3,14 @@
 
 #include <string.h>
 
-#include "analysis/linear/linearise.h"
+#include "analysis/linear/linear.h"
 #include "math/mat6.h"
 #include "math/so3.h"
 #include "sim/layout.h"
 #include "sim/node.h"
 #include "system/assemble/assemble.h"
 #include "system/assemble/drives.h"
-#include "system/constrain/cluster.h"
-#include "system/constrain/constraint_rows.h"
-#include "system/constrain/joint_motion.h"
+#include "system/constrain/constrain.h"
 
 /* ---- Velocities and accelerations -------------------------------------------------------------------------------- */
 

@@ -21,7 +21,7 @@
 #ifndef DMB_ANALYSIS_STATIC_STEADY_H
 #define DMB_ANALYSIS_STATIC_STEADY_H
 
-#include "analysis/linear/linearise.h"
+#include "analysis/linear/linear.h"
 #include "system/assemble/evaluation.h"
 
 typedef struct dmb_steady {

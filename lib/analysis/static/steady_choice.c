@@ -10,7 +10,7 @@
 #include "sim/layout.h"
 #include "sim/node.h"
 #include "system/assemble/drives.h"
-#include "system/constrain/joint_motion.h"
+#include "system/constrain/constrain.h"
 
 static int moves(const dmb_sim *sim, uint32_t drive)
 {

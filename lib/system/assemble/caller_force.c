@@ -4,7 +4,7 @@
 
 #include "math/mat6.h"
 #include "math/so3.h"
-#include "system/constrain/constraint_rows.h"
+#include "system/constrain/constrain.h"
 
 /* An argument: a place, or a joint's coordinate. */
 typedef struct argument {

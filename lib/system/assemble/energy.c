@@ -9,7 +9,7 @@
 #include "system/assemble/assemble.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
-#include "system/constrain/joint_motion.h"
+#include "system/constrain/constrain.h"
 
 static const dmb_element_type *type_of(const dmb_scene *scene, uint32_t e)
 {

@@ -8,7 +8,7 @@
 #include "system/assemble/assemble.h"
 #include "system/assemble/caller_force.h"
 #include "system/assemble/drives.h"
-#include "system/constrain/joint_motion.h"
+#include "system/constrain/constrain.h"
 
 static void clear(const dmb_evaluation *evaluation)
 {

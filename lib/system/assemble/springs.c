@@ -11,8 +11,7 @@
 #include "math/se3.h"
 #include "math/vec3.h"
 #include "system/assemble/drives.h"
-#include "system/constrain/cluster.h"
-#include "system/constrain/constraint_rows.h"
+#include "system/constrain/constrain.h"
 
 /* ---- Springs between two points ---------------------------------------------------------------------------------- */
 

@@ -1,12 +1,10 @@
 /* The matrices of clusters, and their factors. */
-#include "system/constrain/cluster.h"
+#include "system/constrain/constrain.h"
 
 #include <string.h>
 
 #include "math/vec3.h"
 #include "sim/node.h"
-#include "system/constrain/constraint_rows.h"
-#include "system/constrain/sparse_cluster.h"
 
 dmb_partition dmb_cluster_partition(const dmb_sim *sim, uint32_t k)
 {

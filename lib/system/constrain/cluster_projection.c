@@ -3,10 +3,7 @@
 
 #include "math/se3.h"
 #include "sim/layout.h"
-#include "system/constrain/cluster.h"
-#include "system/constrain/constraint_rows.h"
-#include "system/constrain/joint_motion.h"
-#include "system/constrain/sparse_cluster.h"
+#include "system/constrain/constrain.h"
 
 /* ---- The trial --------------------------------------------------------------------------------------------------- */
 

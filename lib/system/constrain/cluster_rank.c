@@ -1,11 +1,10 @@
-#include "system/constrain/cluster.h"
+#include "system/constrain/constrain.h"
 
 #include <string.h>
 
 #include "base/memory.h"
 #include "math/bridge.h"
 #include "sim/access.h"
-#include "system/constrain/constraint_rows.h"
 
 /* Configuration that the rows are evaluated in, and LAPACK's memory. */
 typedef struct scratch {

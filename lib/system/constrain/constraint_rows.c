@@ -1,4 +1,9 @@
-#include "system/constrain/constraint_rows.h"
+/* The equations of joints, couplings, joint drives and callbacks at the trial:
+ *
+ *     C(q, t) = 0,   B v + rate = 0,   B v' + convective = 0,   B = dC by body-frame motion of the nodes
+ *
+ * into the constraint_ fields of the sim. Rows that do not act are of type DMB_ROW_IDLE and zero. */
+#include "system/constrain/constrain.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "system/constrain/constraint_rows.h"
+#include "system/constrain/constrain.h"
 
 #include <string.h>
 

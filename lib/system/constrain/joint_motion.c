@@ -1,4 +1,6 @@
-#include "system/constrain/joint_motion.h"
+/* Frame b of a joint seen from frame a in a configuration, and how rows and wrenches there reach the rows of its
+ * nodes. */
+#include "system/constrain/constrain.h"
 
 #include <math.h>
 
@@ -8,8 +10,6 @@
 #include "math/so3.h"
 #include "math/vec3.h"
 #include "sim/node.h"
-#include "system/constrain/cluster.h"
-#include "system/constrain/constraint_rows.h"
 
 /* ---- Motion ------------------------------------------------------------------------------------------------------ */
 

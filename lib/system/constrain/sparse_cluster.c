@@ -1,9 +1,18 @@
-#include "system/constrain/sparse_cluster.h"
+/* Sparse clusters: large ones, of which there are no dense matrices. Instead of dependent and independent coordinates
+ * there is a choice of rows alone, and every question is a system over the nodes and the multipliers of those rows, in
+ * the blocks of the scene's pattern,
+ *
+ *     [I  (BW)^T] [ x ]   [ a ]
+ *     [BW   0   ] [-f ] = [ d ]        W: metric of the columns
+ *
+ * with a = 0 the least move with B W x = d; with d = 0 the multipliers for which the rest of a is least. The
+ * corrections of Newton come from [S B^T; B 0] (system/solve/reduced_system_sparse). All of it is linear in the number
+ * of bodies of chains and trees; a loop costs what its width in the order of elimination asks. */
+#include "system/constrain/constrain.h"
 
 #include <string.h>
 
 #include "constraint/partition.h"
-#include "system/constrain/cluster.h"
 
 dmb_block_signed dmb_sparse_matrix(const dmb_sim *sim)
 {

@@ -7,7 +7,7 @@
  * s, and no pass leaves the range of A. A^T A couples nodes as the joints do, so this is as sparse as the rest. */
 #include <string.h>
 
-#include "system/constrain/sparse_cluster.h"
+#include "system/constrain/constrain.h"
 
 /* e over the largest square of a row; passes, and what may be left of g. */
 #define DMB_PROXIMAL 1e-11

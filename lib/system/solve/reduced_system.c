@@ -1,9 +1,16 @@
-#include "system/solve/reduced_system.h"
+/* The linear system of chains that joints connect. Its blocks are the clusters and the other nodes of those chains; a
+ * cluster's block is reduced to its independent coordinates,
+ *
+ *     R^T S R y = -R^T residual,   z = R y,   R = [G; I]                                     (DMB_METHOD_INDEPENDENT)
+ *     [S B^T; B 0] [z; df] = -[residual; 0] over all its coordinates and its pivot rows      (DMB_METHOD_MULTIPLIERS)
+ *
+ * with S the iteration matrix of the nodes (blocks of the block-tridiagonal storage) and of the joints. */
+#include "system/solve/solve.h"
 
 #include <string.h>
 
 #include "math/inertia.h"
-#include "system/constrain/cluster.h"
+#include "system/constrain/constrain.h"
 
 /* ---- Columns of nodes in their block ----------------------------------------------------------------------------- */
 

@@ -1,7 +1,6 @@
-#include "system/solve/reduced_system.h"
+#include "system/solve/solve.h"
 
-#include "system/constrain/cluster.h"
-#include "system/constrain/sparse_cluster.h"
+#include "system/constrain/constrain.h"
 
 void dmb_reduced_sparse_sizes(dmb_sim *sim)
 {

@@ -5,7 +5,6 @@
 
 #include "kernel/kernels.h"
 #include "sim/node.h"
-#include "system/solve/reduced_system.h"
 
 /* Rounding of a pose reaches a stiff element's force multiplied by EA/L: this many units of it count as zero. */
 #define DMB_ROUNDING_UNITS 4.0

@@ -11,9 +11,7 @@
 #include "sim/layout.h"
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
-#include "system/constrain/cluster.h"
-#include "system/constrain/constraint_rows.h"
-#include "system/constrain/joint_motion.h"
+#include "system/constrain/constrain.h"
 
 enum { ROWS_MAX = 400, KINDS = DMB_JOINT_SCHOENFLIES + 1, EQUATIONS_MAX = 300 };
 

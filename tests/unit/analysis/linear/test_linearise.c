@@ -5,10 +5,10 @@
 #include "../../system/stirred_rig.h"
 #include "mechanism.h"
 
-#include "analysis/linear/linearise.h"
+#include "analysis/linear/linear.h"
 #include "math/se3.h"
 #include "system/assemble/evaluation.h"
-#include "system/constrain/cluster.h"
+#include "system/constrain/constrain.h"
 #include "system/system.h"
 
 enum { ROWS_MAX = 120 };

@@ -6,7 +6,7 @@
 #include "constraint/joint.h"
 #include "rig.h"
 #include "sim/sim.h"
-#include "system/constrain/cluster.h"
+#include "system/constrain/constrain.h"
 
 /* ---- Allocator that counts and fails ----------------------------------------------------------------------------- */
 

@@ -1,37 +1,16 @@
-/* The linear system about the accepted state of a sim:
- *
- *     M d'' + C d' + K d = f,     d: small body-frame displacements of the nodes, shape (rows)
- *
- * Six rows (translation; rotation) of a FULL node, H = H0 exp(d), two (along the hole; about its axis) of a PATH node.
- * Rows that guides and motion drives hold are out: their rows and columns are zero. With joints d = R z, z being the
- * independent coordinates of the partition, else z are the rows that are left:
- *
- *     R^T M R z'' + R^T C R z' + R^T K R z = R^T f
- *
- * Velocities of the perturbed motion in the body frame are v + d' + v^ d and accelerations a + d'' + v^ d' + a^ d, with
- * v^ = ad(v): exp(-d) H0^-1 (H0 exp(d))' to first order. With M, C_v = dr/dv and K_H = dr/dH of the residual r that
- * steps solve, at given body-frame v and a,
- *
- *     C = C_v + M v^,     K = K_H + C_v v^ + M a^
- *
- * so that gyroscopic and centrifugal terms of a steadily spinning string are in C and K, whose entries are constant
- * there: it is a relative equilibrium. Elsewhere in a run the coefficients are those of the moment. In axes that do not
- * take part in the spin w about a node's x axis, d is turned back by it, d <- exp(w^ t) d: with g = v - w velocities of
- * the perturbed motion are v + d' + g^ d, accelerations a + d'' + g^ d' - w^ (d' + g^ d) + a^ d, and
- *
- *     C = C_v - M w^ + M g^,     K = K_H + (C_v - M w^) g^ + M a^,
- *
- * constant for what is round, even where a turning string lies on the wall. States that are integrated along with the
- * motion, bristles that stick and the integral part of speed controllers, are stiffness here (the part that v^ d has in
- * it, left out, is none for drives along and about the axis). The memory of a regenerative rock law is not: its past is
- * taken as given. A nonholonomic equation holds d as it holds d'. Friction has the derivative of its law; one that is
- * smooth at rest is a damper there. */
-#ifndef DMB_ANALYSIS_LINEAR_LINEARISE_H
-#define DMB_ANALYSIS_LINEAR_LINEARISE_H
+/* The scene linearised about a state: its matrices, answers as linear functions of the motion, the dynamic stiffness. */
+#ifndef DMB_ANALYSIS_LINEAR_LINEAR_H
+#define DMB_ANALYSIS_LINEAR_LINEAR_H
 
+#include "base/memory.h"
 #include "drillmbd/analysis.h"
+#include "drillmbd/response.h"
+#include "math/block_kernel.h"
+#include "math/complex_sparse.h"
 #include "sim/sim.h"
 #include "system/assemble/evaluation.h"
+
+/* ---- The linearised scene ---------------------------------------------------------------------------------------- */
 
 typedef struct dmb_linear_options {
     int32_t contact;     /* DMB_CONTACT_... of analysis.h */
@@ -204,5 +183,148 @@ uint32_t dmb_stiffness_negative_of_chains(const dmb_sim *sim, double *rounding);
 int32_t dmb_stiffness_balanced(dmb_sim *sim, const char *who, const dmb_evaluation *evaluation);
 /* Tells which part nothing holds. DMB_ERR_SINGULAR. */
 int32_t dmb_stiffness_explain(dmb_sim *sim, const char *who, uint32_t node);
+
+/* ---- Functionals of the motion ----------------------------------------------------------------------------------- */
+
+/* An answer as a linear function of the motion of the nodes about a state: what a query would answer to a small motion
+ * q, q', q'' of the rows. */
+
+/* Four neighbouring nodes: the two of an element and one on either side. */
+enum { DMB_FUNCTIONAL_ROWS = 24 };
+
+/* value = sum over the rows of pose q + speed q' + acceleration q'' */
+typedef struct dmb_functional {
+    uint32_t count;
+    uint32_t row[DMB_FUNCTIONAL_ROWS];
+    double pose[DMB_FUNCTIONAL_ROWS];
+    double speed[DMB_FUNCTIONAL_ROWS];
+    double acceleration[DMB_FUNCTIONAL_ROWS];
+} dmb_functional;
+
+/* Displacement or rotation of a place in the axes that it has (DMB_FRAME_BODY) or of the world; by duality also the
+ * rows of a unit force or moment there. copy: a sim of the state; its trial is written.
+ * Errors: those of dmb_query_motion. O(rows). */
+int32_t dmb_functional_of_motion(dmb_sim *copy, dmb_place place, int32_t frame, int32_t component, dmb_functional *out);
+
+/* Rows of the nodes around a place: the node or the two nodes it follows, and one more on either side, and no numbers.
+ * copy and errors as above. */
+int32_t dmb_functional_around(dmb_sim *copy, dmb_place place, dmb_functional *out);
+/* Takes the rows of one more node in; DMB_NONE is none. */
+void dmb_functional_take_node(const dmb_scene *scene, uint32_t node, dmb_functional *out);
+/* An answer that depends on the nodes in `out` alone, smooth in their poses, linear in their accelerations and at most
+ * of second degree in their speeds. copy: a sim of the state, as before on return. */
+typedef double dmb_answer(const dmb_sim *copy, const void *what);
+void dmb_functional_of_answer(dmb_sim *copy, dmb_answer *answer, const void *what, dmb_functional *out);
+/* Speeds and accelerations taken so far are those in the body frame of the moved nodes: what turning them adds. */
+void dmb_functional_turn_frames(const dmb_sim *copy, dmb_functional *out);
+/* to += factor from, of the same rows. */
+void dmb_functional_add(double factor, const dmb_functional *from, dmb_functional *to);
+/* Its rate: what was by pose is by speed. */
+void dmb_functional_add_rate(double factor, const dmb_functional *from, dmb_functional *to);
+
+/* Answers of the queries now, for outputs of a response. */
+
+/* The value of an output of any kind but DMB_OUTPUT_DISPLACEMENT, which depends on where it is counted from. *status:
+ * errors of the query. */
+double dmb_answer_of(const dmb_sim *sim, const dmb_output *output, int32_t *status);
+
+/* ---- Dynamic stiffness ------------------------------------------------------------------------------------------- */
+
+typedef struct dmb_complex_number {
+    double re, im;
+} dmb_complex_number;
+
+/* The system R^T A R of chains that joints connect, in the blocks of the scene's pattern. */
+typedef struct dmb_dynamic_links {
+    uint32_t count;       /* of its coordinates; 0 too where joints leave none */
+    uint32_t *size, *row; /* of each block: coordinates, and the first of them, shape (blocks of the scene) */
+    uint32_t *place;      /* of coordinate i of the linear system among them; DMB_NONE: none */
+    dmb_complex_sparse matrix;
+    dmb_complex_array solution;   /* shape (count) */
+    dmb_complex_array half;       /* A_ij R_j, shape (6, the widest block) */
+    dmb_complex_array multiplier; /* of one cluster, shape (the most rows of a cluster) */
+    double *rest;                 /* forces that constraints balance, shape (2, the most rows of a cluster) */
+    double *stiffness, *mass; /* what a pivot is held against: diagonals of R^T |K| R and R^T |M| R, shape (count) */
+} dmb_dynamic_links;
+
+typedef struct dmb_dynamic_stiffness {
+    const dmb_linear *linear;
+    double structural_damping;        /* [-] eta */
+    double omega;                     /* [rad/s] of the present factors */
+    double growth;                    /* [1/s] likewise; 0 of a response */
+    dmb_complex_block_matrix factors; /* of chains without joints; the blocks of A of the others */
+    dmb_complex_array told;           /* p, shape (rows) */
+    dmb_dynamic_links links;
+    void *block;
+    size_t block_size;
+} dmb_dynamic_stiffness;
+
+/* DMB_OK or DMB_ERR_NO_MEMORY; release gives the memory back and takes a struct of zeros too. */
+int32_t dmb_dynamic_stiffness_make(const dmb_linear *linear, double structural_damping, dmb_dynamic_stiffness *out);
+void dmb_dynamic_stiffness_release(dmb_dynamic_stiffness *stiffness);
+
+/* Factors at w. A node that nothing holds there, or -1. */
+int64_t dmb_dynamic_stiffness_factor(dmb_dynamic_stiffness *stiffness, double omega);
+/* The same at growth + i omega. */
+int64_t dmb_dynamic_stiffness_factor_at(dmb_dynamic_stiffness *stiffness, double growth, double omega);
+/* x, shape (rows): forces on entry (those on rows that are held do nothing), displacements of all rows on return.
+ * moves 1: on entry displacements p. */
+void dmb_dynamic_stiffness_solve(dmb_dynamic_stiffness *stiffness, int32_t moves, dmb_complex_array x);
+
+/* 1 if the reciprocal of a pivot is so large that nothing but rounding holds its row at this frequency. */
+static inline int32_t dmb_dynamic_is_loose(const dmb_dynamic_stiffness *s, double re, double im, double stiffness,
+                                           double mass)
+{
+    const double a = re < 0.0 ? -re : re, b = im < 0.0 ? -im : im;
+    const double square = s->omega * s->omega + s->growth * s->growth;
+    return (a > b ? a : b) * (stiffness + square * mass) * DMB_LOOSE_PIVOT > 1.0;
+}
+
+/* An entry of A at the present frequency from those of M, C and K. */
+static inline dmb_complex_number dmb_dynamic_entry(const dmb_dynamic_stiffness *s, double mass, double damping,
+                                                   double stiffness)
+{
+    const double w = s->omega, g = s->growth;
+    dmb_complex_number a = {stiffness - w * w * mass, w * damping + s->structural_damping * stiffness};
+    if (g == 0.0) return a;
+    a.re += g * (damping + g * mass);
+    a.im += 2.0 * g * w * mass;
+    return a;
+}
+
+/* The part of a dynamic stiffness where joints connect chains: R^T A R in complex blocks, one of each cluster of joints
+ * and one of each other node, factored in the order of the scene's pattern. Its cost grows with the number of blocks,
+ * and with the cube of the coordinates of one cluster. */
+
+/* Sizes to begin with: `count`, the widest block, the most rows of constraint of a cluster. */
+typedef struct dmb_links_size {
+    uint32_t count, widest, rows;
+} dmb_links_size;
+
+dmb_links_size dmb_dynamic_links_size(const dmb_linear *linear);
+void dmb_dynamic_links_lay_out(dmb_arena *arena, const dmb_linear *linear, dmb_links_size size, dmb_dynamic_links *out);
+/* Numbers the coordinates; `size` as laid out with. */
+void dmb_dynamic_links_number(const dmb_linear *linear, dmb_links_size size, dmb_dynamic_links *out);
+/* From the blocks of A. A node that nothing holds, or -1. */
+int64_t dmb_dynamic_links_factor(dmb_dynamic_stiffness *stiffness);
+/* Rows of jointed chains of x: forces in, displacements out. */
+void dmb_dynamic_links_solve(dmb_dynamic_stiffness *stiffness, dmb_complex_array x);
+
+/* Forces that a motion at one frequency takes: products with the dynamic stiffness A as the scene has it, rows that are
+ * held included, and the forces of constraint that balance them,
+ *
+ *     A x + B^T multiplier = f
+ *
+ * in the dependent rows of each cluster of joints. The residual in rows that are held is the force of their guides. */
+
+/* y -= A p in the rows that are solved. */
+void dmb_dynamic_subtract(const dmb_dynamic_stiffness *stiffness, dmb_complex_array p, dmb_complex_array y);
+/* Row of component c of a node of A x. */
+dmb_complex_number dmb_dynamic_row(const dmb_dynamic_stiffness *stiffness, uint32_t node, uint32_t c,
+                                   dmb_complex_array x);
+/* Multipliers of the rows of cluster k, of least norm where some are redundant, shape (rows of the cluster). x, f:
+ * shape (rows). */
+void dmb_dynamic_multipliers(const dmb_dynamic_stiffness *stiffness, uint32_t k, dmb_complex_array x,
+                             dmb_complex_array f, dmb_complex_array multipliers);
 
 #endif
