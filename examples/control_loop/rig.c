@@ -15,20 +15,34 @@ static dmb_id zero(dmb_model *model)
     return programme;
 }
 
-/* Valves with a delay and a lag, constant torque up to 6 rad/s, constant power beyond; the oil resists back-spin. */
+/* A speed controller behind valves with a delay and a lag. */
+typedef struct controller {
+    const char *name;
+    int32_t component;
+    double gain, integral_gain, limit_low, limit_high, delay, lag;
+} controller;
+
+static dmb_drive_def drive_of(rig *r, const controller *c)
+{
+    dmb_drive_def drive = dmb_drive_def_default();
+    (void)strcpy(drive.name, c->name);
+    drive.kind = DMB_DRIVE_CONTROL;
+    drive.component = c->component;
+    drive.programme = zero(r->model);
+    drive.gain = c->gain;
+    drive.integral_gain = c->integral_gain;
+    drive.limit_low = c->limit_low;
+    drive.limit_high = c->limit_high;
+    drive.delay = c->delay;
+    drive.lag = c->lag;
+    return drive;
+}
+
+/* Constant torque up to 12 rad/s, less beyond; the oil resists back-spin. */
 static void add_head(rig *r)
 {
-    dmb_drive_def head = dmb_drive_def_default();
-    (void)strcpy(head.name, "rotation head");
-    head.kind = DMB_DRIVE_CONTROL;
-    head.component = DMB_RX;
-    head.programme = zero(r->model);
-    head.gain = 80.0;
-    head.integral_gain = 160.0;
-    head.limit_low = -3000.0;
-    head.limit_high = 3000.0;
-    head.delay = 0.02;
-    head.lag = 0.04;
+    const controller speed = {"rotation head", DMB_RX, 80.0, 160.0, -3000.0, 3000.0, 0.02, 0.04};
+    dmb_drive_def head = drive_of(r, &speed);
     head.inertia = 8.0;
     head.back_drag = 40.0;
     head.curve_count = 3;
@@ -41,17 +55,8 @@ static void add_head(rig *r)
 
 static void add_carriage(rig *r)
 {
-    dmb_drive_def feed = dmb_drive_def_default();
-    (void)strcpy(feed.name, "feed cylinder");
-    feed.kind = DMB_DRIVE_CONTROL;
-    feed.component = DMB_X;
-    feed.programme = zero(r->model);
-    feed.gain = 1.5e4;
-    feed.integral_gain = 2e5;
-    feed.limit_low = -60e3;
-    feed.limit_high = 30e3;
-    feed.delay = 0.01;
-    feed.lag = 0.02;
+    const controller speed = {"feed cylinder", DMB_X, 1.5e4, 2e5, -60e3, 30e3, 0.01, 0.02};
+    const dmb_drive_def feed = drive_of(r, &speed);
     (void)dmb_model_add_drive(r->model, &feed, &r->carriage);
 }
 

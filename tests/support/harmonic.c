@@ -40,3 +40,23 @@ void transfer(const rig *s, const dmb_response_options *options, const dmb_input
     dmb_response_destroy(&response);
     assert_null(response);
 }
+
+dmb_id open_rotor(rig *s, double speed)
+{
+    dmb_body_def disc = dmb_body_def_default();
+    dmb_joint_def shaft = dmb_joint_def_default();
+    rig_open(s, 0.0, 0.0, 0.0);
+    disc.mass = 50.0;
+    disc.centre[1] = 1e-4;
+    disc.free_mask = 1 << DMB_Y | 1 << DMB_Z | 1 << DMB_RX;
+    disc.velocity[3] = speed;
+    const dmb_id body = add_body(s, &disc);
+    shaft.kind = DMB_JOINT_FREE;
+    shaft.place_b = dmb_station(body, 0, 0.0);
+    shaft.stiffness[1] = shaft.stiffness[2] = 1e6;
+    shaft.damping[1] = shaft.damping[2] = 2.0 * 0.02 * sqrt(1e6 * 50.0);
+    must_model(s, dmb_model_add_joint(s->model, &shaft, NULL));
+    (void)add_simple_drive(s, DMB_DRIVE_MOTION, body, DMB_RX, add_constant(s, speed));
+    (void)rig_start(s, NULL);
+    return body;
+}

@@ -16,4 +16,8 @@ dmb_output output_at(int32_t kind, dmb_place place, int32_t component);
 void transfer(const rig *s, const dmb_response_options *options, const dmb_input *input, const dmb_output *output,
               const double *frequencies, uint32_t points, double complex *values);
 
+/* The rotor of Jeffcott, 50 kg on a shaft of 1e6 N/m with a damping ratio of 0.02, its centre of mass 1e-4 m off the
+ * axis, turned at `speed` [rad/s]. Opens and starts the rig; the disc. */
+dmb_id open_rotor(rig *s, double speed);
+
 #endif
