@@ -1,13 +1,15 @@
 /* Random scenes through the public interface: whatever is described and asked, nothing crashes, every status is a known
  * one, the answers after an accepted step are finite, and a call that fails leaves the hash.
  *
- * As a test it runs a fixed number of seeded inputs; a number as argument runs that one alone. As a fuzz target
+ * As a test it runs a fixed number of seeded inputs, fewer under a sanitizer; a number as argument runs that one alone,
+ * two as many from the first on. As a fuzz target
  * (fuzz/run) it takes its bytes from libFuzzer. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "../contract/sanitized.h"
 #include "hash.h"
 #include "random_scene.h"
 
@@ -280,7 +282,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 /* ---- As a test --------------------------------------------------------------------------------------------------- */
 
 #if !defined(DMB_FUZZER)
-enum { INPUTS = 300, BYTES = 1500 };
+#if defined(SANITIZED)
+enum { INPUTS = 100 };
+#else
+enum { INPUTS = 300 };
+#endif
+enum { BYTES = 1500 };
 
 /* splitmix64 */
 static uint64_t next_random(uint64_t *state)
