@@ -2,20 +2,9 @@
  * coefficients, jump, are not what their Jacobian says, or fail at any call. Creation and steps end with a known
  * status; a call that fails changes nothing; the state that is left can be saved and restored and has finite numbers.
  */
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "random_scene.h"
+#include "fuzz_frame.h"
 
 enum { ROWS = 3, PLACES = 2, BODIES = 3, STEPS = 4 };
-
-#define MUST(condition)                                                     \
-    do {                                                                    \
-        if (!(condition)) {                                                 \
-            fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition); \
-            abort();                                                        \
-        }                                                                   \
-    } while (0)
 
 /* value_i = offset_i + sum_k a_ik q_k + b_ik q_k^2 over a few numbers q of the poses, a jump at a call. */
 typedef struct function {
@@ -29,11 +18,6 @@ typedef struct subject {
     dmb_model *model;
     dmb_id body[BODIES];
 } subject;
-
-static void known(int32_t status)
-{
-    MUST(strcmp(dmb_status_name(status), "DMB_UNKNOWN") != 0);
-}
 
 static double coefficient(byte_source *s)
 {
@@ -157,26 +141,14 @@ static int describe(subject *c)
     return status >= 0;
 }
 
-static uint64_t hash_of(const dmb_sim *sim)
-{
-    uint64_t hash = 0;
-    MUST(dmb_sim_hash(sim, &hash) == DMB_OK);
-    return hash;
-}
-
 static void check_state(const subject *c, dmb_sim *sim)
 {
-    static unsigned char block[1 << 17];
-    size_t size = 0;
     for (uint32_t i = 0; i < BODIES; i++) {
         dmb_motion motion = dmb_motion_default();
         MUST(dmb_query_motion(sim, dmb_station(c->body[i], 0, 0.0), &motion) == DMB_OK);
         for (int k = 0; k < 3; k++) MUST(isfinite(motion.velocity[k]));
     }
-    MUST(dmb_sim_snapshot_size(sim, &size) == DMB_OK && size <= sizeof block);
-    MUST(dmb_sim_snapshot(sim, block, size) == DMB_OK);
-    const uint64_t hash = hash_of(sim);
-    MUST(dmb_sim_restore(sim, block, size) == DMB_OK && hash_of(sim) == hash);
+    check_restore(sim);
 }
 
 static void run(subject *c)
@@ -200,16 +172,4 @@ static void run(subject *c)
     dmb_sim_destroy(&sim);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
-{
-    subject c;
-    memset(&c, 0, sizeof c);
-    c.source.data = data;
-    c.source.size = size;
-    MUST(dmb_model_create(NULL, &c.model) == DMB_OK);
-    if (describe(&c)) run(&c);
-    dmb_model_destroy(&c.model);
-    return 0;
-}
+FUZZ_ENTRY(subject, describe, run)

@@ -1,20 +1,9 @@
 /* Programmes out of bytes: terms of all kinds, tables of any times and values, callbacks that give any numbers or fail.
  * Description, compile, sim and steps end with a known status; a step that fails changes nothing; after one that works
  * target, speed and time are finite, and so they are after a restore of the state. */
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "random_scene.h"
+#include "fuzz_frame.h"
 
 enum { TERMS = 3, TABLE = 24, STEPS = 6 };
-
-#define MUST(condition)                                                     \
-    do {                                                                    \
-        if (!(condition)) {                                                 \
-            fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition); \
-            abort();                                                        \
-        }                                                                   \
-    } while (0)
 
 /* The numbers of the callback: by turns, whatever the time. */
 typedef struct callback {
@@ -29,11 +18,6 @@ typedef struct subject {
     dmb_model *model;
     dmb_id drive;
 } subject;
-
-static void known(int32_t status)
-{
-    MUST(strcmp(dmb_status_name(status), "DMB_UNKNOWN") != 0);
-}
 
 static double any_number(byte_source *s, double scale)
 {
@@ -115,24 +99,12 @@ static int describe(subject *c)
     return status >= 0;
 }
 
-static uint64_t hash_of(const dmb_sim *sim)
-{
-    uint64_t hash = 0;
-    MUST(dmb_sim_hash(sim, &hash) == DMB_OK);
-    return hash;
-}
-
 static void check_state(const subject *c, dmb_sim *sim)
 {
-    static unsigned char block[1 << 17];
     dmb_drive_state drive = dmb_drive_state_default();
-    size_t size = 0;
     MUST(dmb_query_drive(sim, c->drive, &drive) == DMB_OK);
     MUST(isfinite(drive.target) && isfinite(drive.speed) && isfinite(drive.force) && isfinite(dmb_sim_time(sim)));
-    MUST(dmb_sim_snapshot_size(sim, &size) == DMB_OK && size <= sizeof block);
-    MUST(dmb_sim_snapshot(sim, block, size) == DMB_OK);
-    const uint64_t hash = hash_of(sim);
-    MUST(dmb_sim_restore(sim, block, size) == DMB_OK && hash_of(sim) == hash);
+    check_restore(sim);
 }
 
 static void run(subject *c)
@@ -158,16 +130,4 @@ static void run(subject *c)
     dmb_sim_destroy(&sim);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
-{
-    subject c;
-    memset(&c, 0, sizeof c);
-    c.source.data = data;
-    c.source.size = size;
-    MUST(dmb_model_create(NULL, &c.model) == DMB_OK);
-    if (describe(&c)) run(&c);
-    dmb_model_destroy(&c.model);
-    return 0;
-}
+FUZZ_ENTRY(subject, describe, run)

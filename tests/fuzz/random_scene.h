@@ -61,9 +61,15 @@ static inline void draw_spoil(byte_source *s, double *fields, size_t count)
 /* ---- The scene --------------------------------------------------------------------------------------------------- */
 
 #if defined(DMB_FUZZER)
-enum { DRAW_PIPES = 3 }; /* tiny, so that many are tried */
+enum {
+    DRAW_PIPES = 2,
+    DRAW_ELEMENTS = 2,
+    DRAW_ITERATIONS = 8,
+    DRAW_CUTS = 3,
+    DRAW_STEPS = 8
+}; /* tiny: many are tried */
 #else
-enum { DRAW_PIPES = 24 };
+enum { DRAW_PIPES = 24, DRAW_ELEMENTS = 3, DRAW_ITERATIONS = 30, DRAW_CUTS = 8, DRAW_STEPS = 1000 };
 #endif
 enum { DRAW_PROGRAMMES = 4, DRAW_STRINGS = 2, DRAW_BODIES = 2, DRAW_DRIVES = 4 };
 
@@ -181,10 +187,11 @@ static inline void draw_pipes(random_scene *scene, uint32_t string)
     const uint32_t runs = 1 + draw_below(s, 3);
     for (uint32_t i = 0; i < runs; i++) {
         dmb_pipe_def pipe = dmb_pipe_def_default();
-        const uint32_t count = 1 + draw_below(s, 4);
+        const uint32_t drawn = 1 + draw_below(s, 4), room = DRAW_PIPES - scene->pipes_of[string];
+        const uint32_t count = drawn < room ? drawn : room;
         pipe.string = scene->string[string];
         pipe.kind = draw_chance(s, 100) ? (int32_t)draw_below(s, 3) : DMB_PIPE_FLEXIBLE;
-        pipe.elements = 1 + draw_below(s, 3);
+        pipe.elements = 1 + draw_below(s, DRAW_ELEMENTS);
         pipe.length = draw_size(s, 0.05, 5.0);
         pipe.inner_diameter = draw_number(s, 0.0, 0.06);
         pipe.young_modulus = draw_size(s, 1e8, 1e12);
@@ -195,7 +202,7 @@ static inline void draw_pipes(random_scene *scene, uint32_t string)
         if (draw_chance(s, 30) && pipe.kind == DMB_PIPE_FLEXIBLE)
             pipe.curvature[draw_below(s, 3)] = draw_number(s, -0.3, 0.3);
         draw_spoil(s, &pipe.length, 30);
-        if (dmb_model_add_pipes(scene->model, &pipe, count, NULL) < 0) continue;
+        if (count == 0 || dmb_model_add_pipes(scene->model, &pipe, count, NULL) < 0) continue;
         scene->pipes += count;
         scene->pipes_of[string] += count;
     }
@@ -344,10 +351,10 @@ static inline dmb_sim_options draw_options(random_scene *scene)
     byte_source *s = &scene->source;
     dmb_sim_options options = dmb_sim_options_default();
     options.spectral_radius = draw_number(s, 0.0, 1.0);
-    options.max_iterations = 1 + draw_below(s, 30);
-    options.max_cuts = draw_below(s, 8);
+    options.max_iterations = 1 + draw_below(s, DRAW_ITERATIONS);
+    options.max_cuts = draw_below(s, DRAW_CUTS);
     options.step_min = 1e-6;
-    options.max_steps = 1000;
+    options.max_steps = DRAW_STEPS;
     options.newton_tolerance = draw_size(s, 1e-11, 1e-3);
     options.bounded_work = draw_chance(s, 60);
     options.energy_ledger = !draw_chance(s, 40);

@@ -1,6 +1,7 @@
 /* Random scenes with joints, couplings and constraints of the caller's, small ones, through every analysis, state
  * transfer and switching of joints: nothing crashes, every status is a known one, an analysis that leaves the sim alone
- * leaves its hash, and a call that fails does too (a stepped sine, which runs on, excepted).
+ * leaves its hash, and a call that fails does too (a stepped sine, which runs on, excepted). Springs, stuck places,
+ * flow, inputs and events too.
  *
  * As a test it runs a fixed number of seeded inputs; arguments are the first seed and how many. As a fuzz target
  * (fuzz/run) it takes its bytes from libFuzzer. */
@@ -11,15 +12,17 @@
 #include "random_scene.h"
 
 #if defined(DMB_FUZZER)
-enum { JOINTS = 4, ACTIONS_MAX = 4 };
+enum { JOINTS = 2, ACTIONS_MAX = 2, ITERATIONS = 6 };
 #else
-enum { INPUTS = 20, BYTES = 1200, JOINTS = 4, ACTIONS_MAX = 8 };
+enum { INPUTS = 20, BYTES = 1200, JOINTS = 4, ACTIONS_MAX = 8, ITERATIONS = 30 };
 #endif
 
 typedef struct scene {
     random_scene parts; /* first: callbacks of programmes look at it */
     dmb_id joint[JOINTS];
     uint32_t joints, constraints, couplings;
+    dmb_id input[3], event;
+    uint32_t inputs;
 } scene;
 
 static unsigned long long present_seed;
@@ -110,6 +113,90 @@ static void draw_links(scene *c)
     }
 }
 
+/* ---- What else a string meets: after all that is above, so that stored inputs stay what they are -------------------
+ */
+
+static void draw_spring(scene *c)
+{
+    byte_source *s = &c->parts.source;
+    dmb_spring_def def = dmb_spring_def_default();
+    def.acts = (int32_t)draw_below(s, 3);
+    def.place_a = draw_place(c);
+    def.offset_b[1] = draw_number(s, -2.0, 2.0);
+    def.free_length = draw_chance(s, 128) ? -1.0 : draw_number(s, 0.0, 2.0);
+    def.stiffness = draw_size(s, 1.0, 1e7);
+    def.damping = draw_size(s, 1e-2, 1e3);
+    def.preload = draw_number(s, -10.0, 10.0);
+    draw_spoil(s, def.offset_a, 9);
+    must_be_known(dmb_model_add_spring(c->parts.model, &def, NULL));
+}
+
+static dmb_id draw_stuck(scene *c)
+{
+    byte_source *s = &c->parts.source;
+    dmb_stuck_def def = dmb_stuck_def_default();
+    dmb_id id = {0, 0};
+    def.place = draw_place(c);
+    def.holds = 1 + (int32_t)draw_below(s, 7);
+    def.stuck = (int32_t)draw_below(s, 2);
+    def.overpull = draw_chance(s, 128) ? draw_size(s, 1.0, 1e6) : 0.0;
+    draw_spoil(s, def.stiffness, 8);
+    must_be_known(dmb_model_add_stuck(c->parts.model, &def, &id));
+    return id;
+}
+
+static void draw_flow(scene *c)
+{
+    byte_source *s = &c->parts.source;
+    dmb_environment_def def = dmb_environment_def_default();
+    def.fluid_density = draw_number(s, 0.0, 2000.0);
+    def.flow_rate = draw_size(s, 1e-6, 1e-1);
+    def.consistency = draw_size(s, 1e-4, 1.0);
+    def.flow_exponent = draw_number(s, 0.2, 1.0);
+    draw_spoil(s, &def.flow_rate, 3);
+    must_be_known(dmb_model_set_environment(c->parts.model, &def));
+}
+
+static void draw_sim_input(scene *c, dmb_id stuck)
+{
+    byte_source *s = &c->parts.source;
+    dmb_input_def def = dmb_input_def_default();
+    const dmb_id none = {0, 0};
+    def.target = (int32_t)draw_below(s, DMB_TARGET_COUNT + 1); /* one too many */
+    def.name[0] = (char)('a' + c->inputs);
+    def.part = def.target == DMB_TARGET_STUCK                               ? stuck
+               : def.target <= DMB_TARGET_LIMIT_HIGH && c->parts.drives > 0 ? c->parts.drive[0]
+               : def.target == DMB_TARGET_BIT_LOAD                          ? c->parts.bit
+                                                                            : none;
+    def.rate_limit = draw_chance(s, 128) ? draw_size(s, 1.0, 1e5) : 0.0;
+    const int32_t status = dmb_model_add_input(c->parts.model, &def, &c->input[c->inputs]);
+    must_be_known(status);
+    c->inputs += status >= 0;
+}
+
+static void draw_event(scene *c)
+{
+    byte_source *s = &c->parts.source;
+    dmb_event_def def = dmb_event_def_default();
+    def.name[0] = 'e';
+    def.output.quantity = (int32_t)draw_below(s, 40);
+    def.output.place = draw_place(c);
+    def.level = draw_number(s, -1.0, 1.0);
+    def.hold = draw_chance(s, 60) ? 1e-4 : 0.0;
+    must_be_known(dmb_model_add_event(c->parts.model, &def, &c->event));
+}
+
+static void draw_rest(scene *c)
+{
+    byte_source *s = &c->parts.source;
+    dmb_id stuck = {0, 0};
+    if (draw_chance(s, 100)) draw_spring(c);
+    if (draw_chance(s, 60)) stuck = draw_stuck(c);
+    if (draw_chance(s, 60) && c->parts.strings == 1) draw_flow(c);
+    for (uint32_t i = draw_below(s, 4); i > 0; i--) draw_sim_input(c, stuck);
+    if (draw_chance(s, 80)) draw_event(c);
+}
+
 /* ---- Actions ----------------------------------------------------------------------------------------------------- */
 
 static void act_step(dmb_sim *sim, scene *c)
@@ -127,7 +214,7 @@ static void act_static(dmb_sim *sim, scene *c)
 {
     dmb_static_options options = dmb_static_options_default();
     const uint64_t before = hash_of(sim);
-    options.max_iterations = 5 + draw_below(&c->parts.source, 30);
+    options.max_iterations = 5 + draw_below(&c->parts.source, ITERATIONS);
     const int32_t status = dmb_analysis_static(sim, &options, NULL);
     must_be_known(status);
     MUST(status >= 0 || hash_of(sim) == before);
@@ -298,13 +385,33 @@ static void act_check(dmb_sim *sim, scene *c)
     MUST(hash_of(sim) == before);
 }
 
+static void act_input(dmb_sim *sim, scene *c)
+{
+    byte_source *s = &c->parts.source;
+    const uint64_t before = hash_of(sim);
+    const uint32_t which = draw_below(s, 3);
+    const double value = draw_chance(s, 20) ? draw_nonsense(s) : draw_number(s, -2.0, 2.0) * draw_size(s, 1e-2, 1e3);
+    const int32_t status = dmb_sim_set_input(sim, c->input[which], value);
+    must_be_known(status);
+    MUST(status >= 0 || hash_of(sim) == before);
+    act_step(sim, c);
+}
+
+static void act_event(dmb_sim *sim, scene *c)
+{
+    const double end = dmb_sim_time(sim) + draw_size(&c->parts.source, 1e-5, 1e-3);
+    must_be_known(dmb_sim_advance_to_event(sim, end, NULL, NULL));
+    MUST(dmb_sim_time(sim) <= end);
+}
+
 static const struct {
     const char *name;
     void (*act)(dmb_sim *sim, scene *c);
 } actions[] = {
     {"step", act_step},         {"static", act_static},     {"set_joint", act_switch}, {"modes", act_modes},
     {"response", act_response}, {"speeds", act_speeds},     {"sine", act_sine},        {"buckling", act_buckling},
-    {"path", act_path},         {"transfer", act_transfer}, {"check", act_check},
+    {"path", act_path},         {"transfer", act_transfer}, {"check", act_check},      {"input", act_input},
+    {"event", act_event},
 };
 
 /* ---- One input --------------------------------------------------------------------------------------------------- */
@@ -341,6 +448,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     draw_scene(&c->parts, data, size);
     MUST(c->parts.model != NULL);
     draw_links(c);
+    draw_rest(c);
     present_action = "compile";
     (void)dmb_model_clear_refused(c->parts.model); /* some are on purpose */
     if (dmb_model_compile(c->parts.model, NULL) >= 0) {

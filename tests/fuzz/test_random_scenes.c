@@ -14,9 +14,9 @@
 #include "random_scene.h"
 
 #if defined(DMB_FUZZER)
-enum { ACTIONS_MAX = 8, STEPS_MAX = 3 };
+enum { ACTIONS_MAX = 6, STEPS_MAX = 2, STATIC_ITERATIONS = 8 };
 #else
-enum { ACTIONS_MAX = 24, STEPS_MAX = 12 };
+enum { ACTIONS_MAX = 24, STEPS_MAX = 12, STATIC_ITERATIONS = 60 };
 #endif
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -205,7 +205,7 @@ static void act_static(dmb_sim *sim, random_scene *scene)
     options.lay_on_wall = draw_chance(&scene->source, 128);
     options.slip_axial = draw_chance(&scene->source, 60) ? 0.01 : 0.0;
     options.load_steps = 1 + draw_below(&scene->source, 3);
-    options.max_iterations = 1 + draw_below(&scene->source, 60);
+    options.max_iterations = 1 + draw_below(&scene->source, STATIC_ITERATIONS);
     const int32_t status = dmb_analysis_static(sim, &options, NULL);
     must_be_known(status);
     MUST(status >= 0 || hash_of(sim) == before);
