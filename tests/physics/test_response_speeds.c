@@ -40,7 +40,7 @@ static double worst_between(double a, double b)
     return 0.5 * (a + b);
 }
 
-static dmb_place open_rotor(rig *s)
+static dmb_place open_measured_rotor(rig *s)
 {
     rig_open(s, 0.0, 0.0, 0.0);
     dmb_body_def disc = dmb_body_def_default();
@@ -90,7 +90,7 @@ static void bands_of_a_rotor(void **state)
     dmb_speed_band bands[BANDS];
     double severity[GRID];
     rig s;
-    const dmb_place place = open_rotor(&s);
+    const dmb_place place = open_measured_rotor(&s);
     assert_int_equal(find_bands(&s, place, 0.0, &count, bands, severity), DMB_OK);
     assert_int_equal(count, 2);
     for (uint32_t i = 0; i < 2; i++) {
@@ -120,7 +120,7 @@ static void margins_and_room(void **state)
     uint32_t count = BANDS;
     dmb_speed_band bands[BANDS], narrow[BANDS];
     rig s;
-    const dmb_place place = open_rotor(&s);
+    const dmb_place place = open_measured_rotor(&s);
     (void)find_bands(&s, place, 0.0, &count, narrow, NULL);
     count = BANDS;
     assert_int_equal(find_bands(&s, place, 0.1, &count, bands, NULL), DMB_OK);
