@@ -185,25 +185,124 @@ void dmb_section_map_tangent(const dmb_element_type *type, const dmb_section_sha
             for (int k = 0; k < 12; k++) K[12 * r + k] += by_d[r][c] * strain[12 * c + k];
 }
 
-void dmb_section_map_gradient(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6],
-                              double gradient[864])
+/* ---- Twists and wrenches without the whole map ------------------------------------------------------------------ */
+
+static void exp_and_tangent(const double h[6], double R[9], double x[3], dmb_se3_tangent *T)
 {
-    static const double weight[4] = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
-    static const double place[4] = {-2.0, -1.0, 1.0, 2.0};
-    double strain[72];
+    const dmb_so3_coefficients k = dmb_so3_coefficients_or(h + 3, NULL);
+    dmb_se3_exp(h, &k, R, x);
+    dmb_se3_tangent_at(h, &k, T);
+}
+
+void dmb_section_frame_at(const dmb_section_shape *shape, const double d[6], dmb_section_frame *frame)
+{
+    double h[6], c[6];
+    for (int i = 0; i < 6; i++) h[i] = shape->x * d[i];
+    dmb_section_shape_correct(shape, d, c);
+    exp_and_tangent(h, frame->R[0], frame->x[0], &frame->T[0]);
+    exp_and_tangent(c, frame->R[1], frame->x[1], &frame->T[1]);
+    dmb_se3_inverse_tangent_at(d, NULL, &frame->S);
+}
+
+void dmb_section_twist(const dmb_element_type *type, const dmb_section_shape *shape, const dmb_section_frame *frame,
+                       const double v[12], double V[6])
+{
+    double far[6], near_rate[6], rate[6], part[6];
+    dmb_vec6_copy(v, V);
+    dmb_vec6_copy(v + 6, far);
+    dmb_arm_velocity(type->arm[0], V);
+    dmb_arm_velocity(-type->arm[1], far);
+    dmb_se3_tangent_apply(&frame->S, far, rate);
+    dmb_se3_tangent_apply_reverse(&frame->S, V, near_rate);
+    for (int i = 0; i < 6; i++) rate[i] -= near_rate[i];
+    for (int i = 0; i < 6; i++) part[i] = shape->x * rate[i];
+    follow_exp(frame->R[0], frame->x[0], &frame->T[0], part, V);
+    dmb_section_shape_correct(shape, rate, part);
+    follow_exp(frame->R[1], frame->x[1], &frame->T[1], part, V);
+}
+
+/* w <- Ad^-T(exp h) w: (R f; R m + x x R f) */
+static void pull_wrench(const double R[9], const double x[3], const double w[6], double out[6])
+{
+    double moment[3];
+    dmb_mat3_vec(R, w, out);
+    dmb_mat3_vec(R, w + 3, out + 3);
+    dmb_vec3_cross(x, out, moment);
+    dmb_vec3_add(out + 3, moment, out + 3);
+}
+
+/* out += the transpose of dmb_section_shape_correct */
+static void add_shape_transpose(const dmb_section_shape *shape, const double s[6], double out[6])
+{
+    out[1] += shape->move[0] * s[1] + shape->turn[0] * s[5];
+    out[2] += shape->move[1] * s[2] - shape->turn[1] * s[4];
+}
+
+void dmb_section_wrench(const dmb_element_type *type, const dmb_section_shape *shape, const dmb_section_frame *frame,
+                        const double w[6], double f[12])
+{
+    double at_chord[6], stress[6], part[6];
+    pull_wrench(frame->R[1], frame->x[1], w, at_chord);
+    dmb_se3_tangent_apply_transpose(&frame->T[0], at_chord, stress);
+    for (int i = 0; i < 6; i++) stress[i] *= shape->x;
+    dmb_se3_tangent_apply_transpose(&frame->T[1], w, part);
+    add_shape_transpose(shape, part, stress);
+    pull_wrench(frame->R[0], frame->x[0], at_chord, f);
+    dmb_se3_tangent_apply_reverse_transpose(&frame->S, stress, part);
+    for (int i = 0; i < 6; i++) f[i] -= part[i];
+    dmb_se3_tangent_apply_transpose(&frame->S, stress, f + 6);
+    dmb_arm_wrench(type->arm[0], f);
+    dmb_arm_wrench(-type->arm[1], f + 6);
+}
+
+#define DMB_SECTION_SMALL 3e-5 /* [rad; element lengths] second order: errors of 1e-11 of map and of rounding */
+
+/* The frame at d moved along component c. The correction c(x) d depends on d_y and d_z alone. */
+static void frame_beside(const dmb_section_shape *shape, const double d[6], int c, const dmb_section_frame *at,
+                         dmb_section_frame *frame)
+{
+    double h[6], bent[6];
+    for (int i = 0; i < 6; i++) h[i] = shape->x * d[i];
+    exp_and_tangent(h, frame->R[0], frame->x[0], &frame->T[0]);
+    dmb_se3_inverse_tangent_at(d, NULL, &frame->S);
+    if (c == 1 || c == 2) {
+        dmb_section_shape_correct(shape, d, bent);
+        exp_and_tangent(bent, frame->R[1], frame->x[1], &frame->T[1]);
+        return;
+    }
+    memcpy(frame->R[1], at->R[1], sizeof at->R[1]);
+    memcpy(frame->x[1], at->x[1], sizeof at->x[1]);
+    frame->T[1] = at->T[1];
+}
+
+/* Both change by d alone: differences along each of its six components, then the strain map. */
+void dmb_section_map_changes(const dmb_element_type *type, const dmb_section_shape *shape, const dmb_section_frame *at,
+                             const double d[6], const double w[6], const double v[12], double K[144], double W[72])
+{
+    double strain[72], force[6][12], twist[6][6];
     dmb_section_strain_map(type, d, strain);
-    memset(gradient, 0, 864 * sizeof *gradient);
     for (int c = 0; c < 6; c++) {
-        const double step = DMB_SECTION_STEP * (c < 3 ? type->length : 1.0);
-        double slope[72] = {0.0};
-        for (int k = 0; k < 4; k++) {
-            double moved[6], map[72];
+        const double step = DMB_SECTION_SMALL * (c < 3 ? type->length : 1.0);
+        double f[2][12], V[2][6];
+        for (int side = 0; side < 2; side++) {
+            dmb_section_frame frame;
+            double moved[6];
             dmb_vec6_copy(d, moved);
-            moved[c] += place[k] * step;
-            dmb_section_map(type, shape, moved, map);
-            for (int i = 0; i < 72; i++) slope[i] += weight[k] / step * map[i];
+            moved[c] += side ? step : -step;
+            frame_beside(shape, moved, c, at, &frame);
+            dmb_section_wrench(type, shape, &frame, w, f[side]);
+            dmb_section_twist(type, shape, &frame, v, V[side]);
         }
-        for (int i = 0; i < 72; i++)
-            for (int k = 0; k < 12; k++) gradient[12 * i + k] += slope[i] * strain[12 * c + k];
+        for (int r = 0; r < 12; r++) force[c][r] = (f[1][r] - f[0][r]) / (2.0 * step);
+        for (int i = 0; i < 6; i++) twist[c][i] = (V[1][i] - V[0][i]) / (2.0 * step);
+    }
+    memset(K, 0, 144 * sizeof *K);
+    memset(W, 0, 72 * sizeof *W);
+    for (int c = 0; c < 6; c++) {
+        const double *row = strain + 12 * c;
+        for (int r = 0; r < 12; r++)
+            for (int k = 0; k < 12; k++) K[12 * r + k] += force[c][r] * row[k];
+        for (int i = 0; i < 6; i++)
+            for (int k = 0; k < 12; k++) W[12 * i + k] += twist[c][i] * row[k];
     }
 }

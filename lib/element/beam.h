@@ -50,9 +50,23 @@ void dmb_section_map(const dmb_element_type *type, const dmb_section_shape *shap
 void dmb_section_map_tangent(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6],
                              const double w[6], double K[144]);
 
-/* gradient[12 i + k]: change of entry i of dmb_section_map by component k of the body-frame displacements of the nodes,
- * shape (72, 12). */
-void dmb_section_map_gradient(const dmb_element_type *type, const dmb_section_shape *shape, const double d[6],
-                              double gradient[864]);
+/* Parts of the map at d, for twists and wrenches without the whole of it. */
+typedef struct dmb_section_frame {
+    double R[2][9], x[2][3]; /* exponentials of x d and of c(x) d */
+    dmb_se3_tangent T[2];    /* their tangents */
+    dmb_se3_inverse_tangent S;
+} dmb_section_frame;
+
+void dmb_section_frame_at(const dmb_section_shape *shape, const double d[6], dmb_section_frame *frame);
+/* V = map v, and f = map^T w. */
+void dmb_section_twist(const dmb_element_type *type, const dmb_section_shape *shape, const dmb_section_frame *frame,
+                       const double v[12], double V[6]);
+void dmb_section_wrench(const dmb_element_type *type, const dmb_section_shape *shape, const dmb_section_frame *frame,
+                        const double w[6], double f[12]);
+/* Changes by body-frame displacements of the nodes: K, shape (12, 12), of map^T w, and W, shape (6, 12), of map v, with
+ * w and v as they are. */
+void dmb_section_map_changes(const dmb_element_type *type, const dmb_section_shape *shape,
+                             const dmb_section_frame *frame, const double d[6], const double w[6], const double v[12],
+                             double K[144], double W[72]);
 
 #endif

@@ -224,6 +224,7 @@ typedef struct variant {
     const char *name;
     int32_t pipe_kind, features;
     int bare; /* wall, eccentricity, excitation, rock law and gravity are not even described */
+    uint32_t contact_points;
 } variant;
 
 static int32_t add_rig_surroundings(scene *s, const variant *v)
@@ -248,6 +249,7 @@ static int32_t add_rig_pipes(scene *s, const variant *v)
     pipe.young_modulus = BENCH_YOUNG;
     pipe.poisson_ratio = BENCH_POISSON;
     pipe.density = BENCH_DENSITY;
+    pipe.contact_points = v->contact_points;
     if (!v->bare) {
         pipe.damping_time = 1e-4;
         pipe.eccentricity = 1e-3;
@@ -361,15 +363,19 @@ static int run_f(void)
         SHAKES = RUBS | DMB_FEATURE_VIBRATION,
         CUTS = SHAKES | DMB_FEATURE_ROCK
     };
-    static const variant variants[] = {{"rigid", DMB_PIPE_RIGID, 0, 0},
-                                       {"axial_torsional", DMB_PIPE_AXIAL_TORSIONAL, 0, 0},
-                                       {"flexible_bare", DMB_PIPE_FLEXIBLE, DMB_FEATURE_ALL, 1},
-                                       {"flexible", DMB_PIPE_FLEXIBLE, 0, 0},
-                                       {"+gravity+contact", DMB_PIPE_FLEXIBLE, LIES, 0},
-                                       {"+friction", DMB_PIPE_FLEXIBLE, RUBS, 0},
-                                       {"+vibration", DMB_PIPE_FLEXIBLE, SHAKES, 0},
-                                       {"+bit", DMB_PIPE_FLEXIBLE, CUTS, 0},
-                                       {"+damping", DMB_PIPE_FLEXIBLE, DMB_FEATURE_ALL, 0}};
+    static const variant variants[] = {{"rigid", DMB_PIPE_RIGID, 0, 0, 0},
+                                       {"axial_torsional", DMB_PIPE_AXIAL_TORSIONAL, 0, 0, 0},
+                                       {"flexible_bare", DMB_PIPE_FLEXIBLE, DMB_FEATURE_ALL, 1, 0},
+                                       {"flexible", DMB_PIPE_FLEXIBLE, 0, 0, 0},
+                                       {"+gravity+contact", DMB_PIPE_FLEXIBLE, LIES, 0, 0},
+                                       {"+friction", DMB_PIPE_FLEXIBLE, RUBS, 0, 0},
+                                       {"+vibration", DMB_PIPE_FLEXIBLE, SHAKES, 0, 0},
+                                       {"+bit", DMB_PIPE_FLEXIBLE, CUTS, 0, 0},
+                                       {"+damping", DMB_PIPE_FLEXIBLE, DMB_FEATURE_ALL, 0, 0},
+                                       {"lying_along_3", DMB_PIPE_FLEXIBLE, LIES, 0, 3},
+                                       {"lying_along_5", DMB_PIPE_FLEXIBLE, LIES, 0, 5},
+                                       {"open", DMB_PIPE_FLEXIBLE, DMB_FEATURE_CONTACT, 0, 0},
+                                       {"open_along_3", DMB_PIPE_FLEXIBLE, DMB_FEATURE_CONTACT, 0, 3}};
     int failures = 0;
     for (size_t i = 0; i < sizeof variants / sizeof *variants; ++i) failures += measure_rig(&variants[i]);
     return failures > 0;

@@ -235,6 +235,65 @@ static void a_pipe_is_added(void **state)
     rig_close(&to);
 }
 
+/* A pipe that falls into its hole; with a section of the same wall no point waits for the end of a step. */
+static rig falling(int with_section, dmb_id *id)
+{
+    dmb_string_def string = dmb_string_def_default();
+    dmb_wall_def wall = s1_hole();
+    dmb_pipe_def pipe = s1_pipe();
+    rig s;
+    rig_open(&s, 0.0, 0.0, -9.81);
+    wall.friction_law = DMB_FRICTION_BRISTLE;
+    (void)add_wall(&s, &wall);
+    if (with_section) {
+        dmb_hole_section same = dmb_hole_section_default();
+        same.depth = -1.0;
+        must_model(&s, dmb_model_add_hole_sections(s.model, &same, 1));
+    }
+    string.start_free = DMB_FREE_RX;
+    pipe.string = *id = add_string(&s, &string);
+    pipe.length = 9.0;
+    pipe.elements = 3;
+    pipe.contact_points = 5;
+    pipe.joint_length = 0.3;
+    pipe.joint_outer_diameter = 0.088;
+    (void)add_pipes(&s, &pipe, 2);
+    (void)add_simple_drive(&s, DMB_DRIVE_MOTION, *id, DMB_RX, add_constant(&s, 8.0));
+    (void)rig_start(&s, NULL);
+    return s;
+}
+
+static void open_points_may_wait(void **state)
+{
+    (void)state;
+    dmb_id id[2];
+    rig s[2] = {falling(0, &id[0]), falling(1, &id[1])};
+    dmb_model_info info = dmb_model_info_default();
+    double worst = 0.0, gap = 0.0, least = 0.0;
+    uint32_t closed = 0;
+    must_model(&s[0], dmb_model_get_info(s[0].model, &info));
+    for (int i = 0; i < 120; i++) {
+        for (int k = 0; k < 2; k++) {
+            const int32_t status = dmb_sim_step(s[k].sim, 1e-3, NULL);
+            if (status < 0) must(&s[k], status);
+        }
+        const double z = pose_at(&s[0], dmb_station(id[0], 1, 0.6)).position[2];
+        worst = fmax(worst, fabs(z - pose_at(&s[1], dmb_station(id[1], 1, 0.6)).position[2]));
+        for (uint32_t k = 0; k < info.contact_sites; k++) {
+            dmb_contact a = dmb_contact_default(), b = dmb_contact_default();
+            must(&s[0], dmb_query_contact(s[0].sim, k, &a));
+            must(&s[1], dmb_query_contact(s[1].sim, k, &b));
+            gap = fmax(gap, fabs(a.gap - b.gap));
+            least = fmax(least, a.gap);
+        }
+        closed += contacts_of(&s[0]).closed;
+    }
+    assert_true(closed > 20 && least > 5e-3);
+    check_below("place of a pipe that falls [m]", worst, 1e-9);
+    check_below("gaps of its points [m]", gap, 1e-9);
+    for (int k = 0; k < 2; k++) rig_close(&s[k]);
+}
+
 static void bad_numbers_are_refused(void **state)
 {
     (void)state;
@@ -260,6 +319,7 @@ int main(void)
         cmocka_unit_test(a_run_settles_in_the_static_state),
         cmocka_unit_test(snapshots_go_on_bit_for_bit),
         cmocka_unit_test(a_pipe_is_added),
+        cmocka_unit_test(open_points_may_wait),
         cmocka_unit_test(bad_numbers_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -90,6 +90,8 @@ void dmb_contacts_forget(dmb_sim *sim);
 void dmb_contacts_slide(dmb_sim *sim);
 
 void dmb_gather_contacts(dmb_evaluation *evaluation);
+/* The rings inside elements that waited. */
+void dmb_contacts_accept(dmb_evaluation *evaluation);
 void dmb_gather_path_friction(dmb_evaluation *evaluation);
 
 /* Rings inside elements: contact along the element, at integration points of its own interpolation. They are the last
@@ -101,8 +103,9 @@ static inline const dmb_scene_point *dmb_inside_point(const dmb_scene *scene, ui
     return scene->inside + (s - dmb_node_sites(scene));
 }
 
-/* The force of all of them and its tangent. job: that of the rings on nodes, whose laws and sums serve here too. */
-void dmb_gather_contacts_inside(dmb_evaluation *evaluation, dmb_wall_job *job);
+/* The force of all of them and its tangent. job: that of the rings on nodes, whose laws and sums serve here too. Within
+ * a step rings that cannot touch wait until it is accepted (waiting 1: these alone), and are as open as before. */
+void dmb_gather_contacts_inside(dmb_evaluation *evaluation, int waiting, dmb_wall_job *job);
 
 /* Axes of the body that ring s is on, body to world. Any site. */
 void dmb_site_axes(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t s, double R[9]);

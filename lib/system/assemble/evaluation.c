@@ -255,6 +255,7 @@ void dmb_system_accept(dmb_evaluation *evaluation)
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
     unwrap_turns(sim);
+    if (scene->inside_count) dmb_contacts_accept(evaluation);
     dmb_drives_accept(sim);
     if (scene->actuator_count) dmb_actuators_accept(evaluation);
     if (scene->cluster_count) dmb_joints_accept(evaluation);

@@ -113,13 +113,6 @@ void dmb_point_map_tangent(const dmb_scene *scene, const dmb_point_motion *motio
     dmb_section_map_tangent(type_of(scene, motion->point), &shape, motion->d, at, K);
 }
 
-void dmb_point_map_gradient(const dmb_scene *scene, const dmb_point_motion *motion, double gradient[864])
-{
-    dmb_section_shape shape;
-    shape_of(scene, motion->point, &shape);
-    dmb_section_map_gradient(type_of(scene, motion->point), &shape, motion->d, gradient);
-}
-
 /* ---- Tangents ---------------------------------------------------------------------------------------------------- */
 
 void dmb_force_tangent_begin(dmb_force_tangent *tangent)

@@ -27,10 +27,6 @@ void dmb_point_apply(dmb_sim *sim, const dmb_point_motion *motion, const double 
  * point. */
 void dmb_point_map_tangent(const dmb_scene *scene, const dmb_point_motion *motion, const double w[6], double K[144]);
 
-/* gradient[12 i + k]: change of entry i of the map (of a point on the axis) by component k of the body-frame
- * displacements of the nodes, shape (72, 12). */
-void dmb_point_map_gradient(const dmb_scene *scene, const dmb_point_motion *motion, double gradient[864]);
-
 /* Nodes that a force acts on, their rows one after the other, and its tangent by body-frame displacements or
  * velocities, shape (columns, columns), signs as in the residual (-d force). */
 typedef struct dmb_force_tangent {

@@ -158,23 +158,27 @@ dmb_friction_law dmb_sliding_law(const dmb_friction_law *law)
     return sliding;
 }
 
-void dmb_gather_contacts(dmb_evaluation *evaluation)
+/* Laws that differ from those of the scene. */
+typedef struct own_laws {
+    dmb_normal_law soft;
+    dmb_friction_law sliding;
+} own_laws;
+
+static dmb_wall_job job_for(const dmb_evaluation *evaluation, own_laws *laws)
 {
     const dmb_scene *scene = evaluation->sim->scene;
     dmb_wall_job job = job_of(evaluation->sim);
     if (scene->friction_law.kind != DMB_FRICTION_NONE && (evaluation->dynamic || evaluation->slipping))
         job.friction_law = &scene->friction_law;
-    dmb_normal_law soft;
     if (evaluation->wall_softness > 0.0) {
-        soft = scene->normal_law;
-        soft.stiffness /= evaluation->wall_softness;
-        job.normal_law = &soft;
+        laws->soft = scene->normal_law;
+        laws->soft.stiffness /= evaluation->wall_softness;
+        job.normal_law = &laws->soft;
     }
     job.softer = evaluation->wall_softness > 0.0 ? evaluation->wall_softness : 1.0;
-    dmb_friction_law sliding;
     if (evaluation->steady && job.friction_law != NULL && job.bristles) {
-        sliding = dmb_sliding_law(job.friction_law);
-        job.friction_law = &sliding;
+        laws->sliding = dmb_sliding_law(job.friction_law);
+        job.friction_law = &laws->sliding;
         job.bristles = 0;
     }
     job.slip[0] = evaluation->slip[0];
@@ -183,16 +187,32 @@ void dmb_gather_contacts(dmb_evaluation *evaluation)
     job.velocity_factor = evaluation->velocity_factor;
     job.dynamic = evaluation->dynamic;
     job.tangent = evaluation->tangent;
+    return job;
+}
+
+void dmb_gather_contacts(dmb_evaluation *evaluation)
+{
+    const dmb_scene *scene = evaluation->sim->scene;
+    own_laws laws;
+    dmb_wall_job job = job_for(evaluation, &laws);
     job.rounding = evaluation->rounding;
     job.potential = evaluation->power[DMB_POWER_POTENTIAL];
     job.impact = evaluation->power[DMB_POWER_IMPACT];
     job.friction = evaluation->power[DMB_POWER_FRICTION];
     (scene->hole.pieces == 0 ? scene->kernels : dmb_kernels_of(1))->walls(&job);
-    if (scene->inside_count > 0) dmb_gather_contacts_inside(evaluation, &job);
+    if (scene->inside_count > 0) dmb_gather_contacts_inside(evaluation, 0, &job);
     evaluation->rounding = job.rounding;
     evaluation->power[DMB_POWER_POTENTIAL] = job.potential;
     evaluation->power[DMB_POWER_IMPACT] = job.impact;
     evaluation->power[DMB_POWER_FRICTION] = job.friction;
+}
+
+void dmb_contacts_accept(dmb_evaluation *evaluation)
+{
+    own_laws laws;
+    dmb_wall_job job = job_for(evaluation, &laws);
+    job.tangent = 0;
+    dmb_gather_contacts_inside(evaluation, 1, &job);
 }
 
 /* ---- Questions about a finished configuration -------------------------------------------------------------------- */

@@ -13,6 +13,55 @@
 #include "element/beam.h"
 #include "math/mat6.h"
 #include "math/so3.h"
+#include "sim/node.h"
+
+/* The element that rings are in: seen once for all of them. */
+typedef struct host {
+    const dmb_element_type *type;
+    uint32_t element, node;
+    int32_t bending;
+    double Ra[9], ua[3]; /* of its first node */
+    double d[6], v[12];
+} host;
+
+static void host_of(const dmb_scene *scene, const dmb_configuration *c, const dmb_scene_point *point, host *of)
+{
+    double Rb[9], ub[3], span[3];
+    const uint32_t a = point->node;
+    of->type = scene->types + scene->element_type[point->element];
+    of->element = point->element;
+    of->node = a;
+    of->bending = scene->layout.size[a] != DMB_NODE_PATH || scene->layout.size[a + 1] != DMB_NODE_PATH;
+    dmb_node_pose(scene, c, a, of->Ra, of->ua);
+    dmb_node_pose(scene, c, a + 1, Rb, ub);
+    dmb_vec3_sub(ub, of->ua, span);
+    dmb_vec3_add(span, scene->element_span + 3 * (size_t)point->element, span);
+    dmb_section_ends(of->type, of->Ra, Rb, span, of->d);
+    dmb_node_vector(scene, c, a, c->velocity, of->v);
+    dmb_node_vector(scene, c, a + 1, c->velocity, of->v + 6);
+}
+
+/* A section of it: R = R_a R_1 R_2, x = u_a + R_a (r_1 + R_1 r_2), V = A v. */
+typedef struct section {
+    dmb_section_shape shape;
+    dmb_section_frame frame;
+    double R[9], x[3], V[6];
+} section;
+
+static void section_of(const host *of, const dmb_scene_point *point, section *at)
+{
+    double Q[9], r[3];
+    dmb_section_shape_at(of->type, point->fraction, of->bending, &at->shape);
+    dmb_section_frame_at(&at->shape, of->d, &at->frame);
+    dmb_section_twist(of->type, &at->shape, &at->frame, of->v, at->V);
+    dmb_mat3_mul(at->frame.R[0], at->frame.R[1], Q);
+    dmb_mat3_vec(at->frame.R[0], at->frame.x[1], r);
+    dmb_vec3_add(r, at->frame.x[0], r);
+    r[0] += of->type->arm[0];
+    dmb_mat3_mul(of->Ra, Q, at->R);
+    dmb_mat3_vec(of->Ra, r, at->x);
+    dmb_vec3_add(at->x, of->ua, at->x);
+}
 
 /* The node that the section is taken for. */
 typedef struct section_node {
@@ -22,15 +71,14 @@ typedef struct section_node {
     dmb_site site;
 } section_node;
 
-static void take_motion(const dmb_point_motion *motion, double quaternion[4], double velocity[6])
+static void take_motion(const section *motion, double quaternion[4], double velocity[6])
 {
     dmb_quat_from_matrix(motion->R, quaternion);
     dmb_quat_normalize(quaternion);
     dmb_vec6_copy(motion->V, velocity);
 }
 
-/* The last accepted motion counts where the ring was open: it tells how fast the ring comes. */
-static void take_node(const dmb_sim *sim, uint32_t s, const dmb_point_motion *motion, section_node *at)
+static void take_node(const dmb_sim *sim, uint32_t s, const section *motion, section_node *at)
 {
     memset(at, 0, sizeof *at);
     dmb_vec3_copy(motion->x, at->displacement);
@@ -39,10 +87,6 @@ static void take_node(const dmb_sim *sim, uint32_t s, const dmb_point_motion *mo
     at->site.node = 0;
     at->site.offset = 0.0;
     at->now_quaternion[0] = 1.0;
-    if (sim->now.site_penetration[s] > 0.0) return;
-    dmb_point_motion before;
-    dmb_point_motion_of(sim->scene, &sim->now, motion->point, &before);
-    take_motion(&before, at->now_quaternion, at->now_velocity);
 }
 
 static void shift_fields(dmb_site_fields *fields, uint32_t s, int32_t bristles)
@@ -60,32 +104,20 @@ static void shift_fields(dmb_site_fields *fields, uint32_t s, int32_t bristles)
 
 /* ---- Tangent ----------------------------------------------------------------------------------------------------- */
 
-/* out (12, 12) += A^T M B, A and B of shape (6, 12) */
-static void add_products(const double A[72], const double M[36], const double B[72], double out[144])
+/* out (6, 12) += M B */
+static void add_product(const double M[36], const double B[72], double out[72])
 {
-    for (int i = 0; i < 6; i++) {
-        double row[12] = {0.0};
+    for (int i = 0; i < 6; i++)
         for (int j = 0; j < 6; j++)
-            for (int k = 0; k < 12; k++) row[k] += M[6 * i + j] * B[12 * j + k];
-        for (int r = 0; r < 12; r++)
-            for (int k = 0; k < 12; k++) out[12 * r + k] += A[12 * i + r] * row[k];
-    }
+            for (int k = 0; k < 12; k++) out[12 * i + k] += M[6 * i + j] * B[12 * j + k];
 }
 
-/* K (12, 12) = (d A^T) f,  W (6, 12) = dA v */
-static void map_changes(const dmb_point_motion *motion, const double gradient[864], const double f[6], double K[144],
-                        double W[72])
+/* out (12, 12) += A^T B */
+static void add_transposed_product(const double A[72], const double B[72], double out[144])
 {
-    memset(K, 0, 144 * sizeof *K);
-    memset(W, 0, 72 * sizeof *W);
     for (int i = 0; i < 6; i++)
-        for (int r = 0; r < 12; r++) {
-            const double *g = gradient + 12 * (12 * i + r);
-            for (int k = 0; k < 12; k++) {
-                K[12 * r + k] += f[i] * g[k];
-                W[12 * i + k] += motion->v[r] * g[k];
-            }
-        }
+        for (int r = 0; r < 12; r++)
+            for (int k = 0; k < 12; k++) out[12 * r + k] += A[12 * i + r] * B[12 * i + k];
 }
 
 static void add_block(const dmb_evaluation *evaluation, const dmb_point_motion *motion, int by, const double K[144])
@@ -98,18 +130,32 @@ static void add_block(const dmb_evaluation *evaluation, const dmb_point_motion *
     dmb_force_tangent_add(evaluation, DMB_NONE, by, &tangent);
 }
 
-static void add_tangent(const dmb_evaluation *evaluation, const dmb_point_motion *motion, const section_node *at)
+/* The two nodes, for those who add to their blocks. */
+static void nodes_of(const host *of, dmb_point_motion *motion)
 {
-    double gradient[864], K[144], W[72];
-    dmb_point_map_gradient(evaluation->sim->scene, motion, gradient);
-    map_changes(motion, gradient, at->residual, K, W);
-    add_products(motion->map, at->stiffness, motion->map, K);
-    if (evaluation->dynamic) add_products(motion->map, at->inertia, W, K);
-    add_block(evaluation, motion, DMB_BY_DISPLACEMENT, K);
+    motion->nodes = 2;
+    motion->node[0] = of->node;
+    motion->node[1] = of->node + 1;
+}
+
+/* dA v counts by the velocity tangent f_V, dA dq by that of displacements. */
+static void add_tangent(const dmb_evaluation *evaluation, const host *of, const section *in, const section_node *at)
+{
+    double map[72], K[144], W[72], rows[72] = {0.0};
+    dmb_point_motion motion;
+    nodes_of(of, &motion);
+    dmb_section_map(of->type, &in->shape, of->d, map);
+    dmb_section_map_changes(of->type, &in->shape, &in->frame, of->d, at->residual, of->v, K, W);
+    add_product(at->stiffness, map, rows);
+    if (evaluation->dynamic) add_product(at->inertia, W, rows);
+    add_transposed_product(map, rows, K);
+    add_block(evaluation, &motion, DMB_BY_DISPLACEMENT, K);
     if (!evaluation->dynamic) return;
+    memset(rows, 0, sizeof rows);
     memset(K, 0, sizeof K);
-    add_products(motion->map, at->inertia, motion->map, K);
-    add_block(evaluation, motion, DMB_BY_VELOCITY, K);
+    add_product(at->inertia, map, rows);
+    add_transposed_product(map, rows, K);
+    add_block(evaluation, &motion, DMB_BY_VELOCITY, K);
 }
 
 /* ---- Forces ------------------------------------------------------------------------------------------------------ */
@@ -119,49 +165,124 @@ static int touches(const dmb_sim *sim, uint32_t s, const section_node *at)
     return sim->trial.site_penetration[s] > 0.0 || at->site.clearance <= 0.0;
 }
 
-static void gather(dmb_evaluation *evaluation, uint32_t s, dmb_wall_job *sums)
+/* The wall of one ring: sums go on from those given. */
+static void press(const dmb_evaluation *evaluation, uint32_t s, section_node *at, const dmb_wall_job *sums,
+                  dmb_wall_job *job)
 {
     static const uint32_t first = 0;
+    const dmb_scene *scene = evaluation->sim->scene;
+    *job = *sums;
+    job->count = 1;
+    job->sites = &at->site;
+    job->row = job->diagonal = &first;
+    job->reference += 3 * (size_t)dmb_inside_point(scene, s)->node;
+    job->displacement = at->displacement;
+    job->quaternion = at->quaternion;
+    job->velocity = at->velocity;
+    job->now_quaternion = at->now_quaternion;
+    job->now_velocity = at->now_velocity;
+    job->site_return += s;
+    job->velocity_factor = 1.0;
+    job->residual = at->residual;
+    job->scale = at->scale;
+    job->stiffness = at->stiffness;
+    job->inertia = at->inertia;
+    shift_fields(&job->now, s, dmb_scene_has_bristles(scene));
+    shift_fields(&job->trial, s, dmb_scene_has_bristles(scene));
+    dmb_kernels_of(1)->walls(job);
+}
+
+/* The ring meets the wall: the last accepted motion tells how fast it comes. */
+static int meets(const dmb_sim *sim, uint32_t s)
+{
+    return sim->trial.site_penetration[s] > 0.0 && !(sim->now.site_penetration[s] > 0.0);
+}
+
+static void take_before(const dmb_sim *sim, uint32_t s, const section *motion, section_node *at)
+{
+    host then;
+    section before;
+    host_of(sim->scene, &sim->now, dmb_inside_point(sim->scene, s), &then);
+    section_of(&then, dmb_inside_point(sim->scene, s), &before);
+    take_node(sim, s, motion, at);
+    take_motion(&before, at->now_quaternion, at->now_velocity);
+}
+
+static void gather(dmb_evaluation *evaluation, const host *of, uint32_t s, dmb_wall_job *sums)
+{
     dmb_sim *sim = evaluation->sim;
-    const dmb_scene_point *point = dmb_inside_point(sim->scene, s);
-    dmb_wall_job job = *sums;
-    dmb_point_motion motion;
+    dmb_wall_job job;
+    section in;
     section_node at;
-    dmb_point_motion_of(sim->scene, &sim->trial, point, &motion);
-    take_node(sim, s, &motion, &at);
-    job.count = 1;
-    job.sites = &at.site;
-    job.row = job.diagonal = &first;
-    job.reference += 3 * (size_t)point->node;
-    job.displacement = at.displacement;
-    job.quaternion = at.quaternion;
-    job.velocity = at.velocity;
-    job.now_quaternion = at.now_quaternion;
-    job.now_velocity = at.now_velocity;
-    job.site_return += s;
-    job.velocity_factor = 1.0;
-    job.residual = at.residual;
-    job.scale = at.scale;
-    job.stiffness = at.stiffness;
-    job.inertia = at.inertia;
-    shift_fields(&job.now, s, dmb_scene_has_bristles(sim->scene));
-    shift_fields(&job.trial, s, dmb_scene_has_bristles(sim->scene));
-    dmb_kernels_of(1)->walls(&job);
+    section_of(of, dmb_inside_point(sim->scene, s), &in);
+    take_node(sim, s, &in, &at);
+    press(evaluation, s, &at, sums, &job);
+    if (meets(sim, s)) {
+        take_before(sim, s, &in, &at);
+        press(evaluation, s, &at, sums, &job);
+    }
     sums->rounding = job.rounding;
     sums->potential = job.potential;
     sums->impact = job.impact;
     sums->friction = job.friction;
     if (!touches(sim, s, &at)) return;
-    double w[6];
+    double w[6], f[12];
     for (int i = 0; i < 6; i++) w[i] = -at.residual[i];
-    dmb_point_apply(sim, &motion, w);
-    if (evaluation->tangent) add_tangent(evaluation, &motion, &at);
+    dmb_section_wrench(of->type, &in.shape, &in.frame, w, f);
+    dmb_apply_wrench(sim, of->node, f);
+    dmb_apply_wrench(sim, of->node + 1, f + 6);
+    if (evaluation->tangent) add_tangent(evaluation, of, &in, &at);
 }
 
-void dmb_gather_contacts_inside(dmb_evaluation *evaluation, dmb_wall_job *job)
+/* [m] The most that a section is off the line through the ends. */
+static double sag_of(const dmb_sim *sim, const dmb_element_type *type, uint32_t element)
 {
-    const dmb_scene *scene = evaluation->sim->scene;
-    for (uint32_t s = dmb_node_sites(scene); s < scene->site_count; s++) gather(evaluation, s, job);
+    const double *d = sim->element_strain + 6 * (size_t)element;
+    double sag = 0.0;
+    for (int i = 1; i < 3; i++)
+        sag += fabs(d[i]) + fabs(type->rest[i]) + type->length * (fabs(d[3 + i]) + fabs(type->rest[3 + i]));
+    return sag;
+}
+
+/* [m] The most that a section goes in the step: with the nodes, as they turn across, and round the line through them as
+ * they turn about it. */
+static double reach_of(const dmb_sim *sim, const dmb_scene_point *point)
+{
+    const double *a = sim->increment + sim->scene->layout.row[point->node];
+    const double *b = sim->increment + sim->scene->layout.row[point->node + 1];
+    const dmb_element_type *type = sim->scene->types + sim->scene->element_type[point->element];
+    const double length = type->length + fabs(type->arm[0]) + fabs(type->arm[1]);
+    const double across = fabs(a[4]) + fabs(a[5]) + fabs(b[4]) + fabs(b[5]), about = fabs(a[3]) + fabs(b[3]);
+    return dmb_vec3_norm(a) + dmb_vec3_norm(b) + length * across + sag_of(sim, type, point->element) * about;
+}
+
+/* 1: within a step the element cannot come so far that its ring would touch. Distances from the axis of the hole change
+ * by no more than the ring moves; not so in holes whose wall has sections. */
+static int stays_open(const dmb_evaluation *evaluation, const dmb_scene_point *point, uint32_t s)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const dmb_block_layout *layout = &sim->scene->layout;
+    if (!evaluation->dynamic || !(evaluation->step > 0.0) || sim->scene->hole.pieces > 0) return 0;
+    if (layout->size[point->node] != DMB_NODE_FULL || layout->size[point->node + 1] != DMB_NODE_FULL) return 0;
+    return sim->now.site_penetration[s] + 2.0 * reach_of(sim, point) < 0.0;
+}
+
+void dmb_gather_contacts_inside(dmb_evaluation *evaluation, int waiting, dmb_wall_job *job)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    host of = {.type = NULL};
+    for (uint32_t s = dmb_node_sites(scene); s < scene->site_count; s++) {
+        const dmb_scene_point *point = dmb_inside_point(scene, s);
+        const int waits = stays_open(evaluation, point, s);
+        if (waits && !waiting) {
+            sim->trial.site_penetration[s] = sim->now.site_penetration[s];
+            dmb_vec3_copy(sim->now.site_normal + 3 * (size_t)s, sim->trial.site_normal + 3 * (size_t)s);
+        }
+        if (waits != waiting) continue;
+        if (of.type == NULL || of.element != point->element) host_of(scene, &sim->trial, point, &of);
+        gather(evaluation, &of, s, job);
+    }
 }
 
 void dmb_site_axes(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t s, double R[9])
