@@ -6,6 +6,8 @@
 #include <stdint.h>
 
 #include "drillmbd/model.h"
+#include "force/friction_law.h"
+#include "force/normal_law.h"
 #include "math/vec3.h"
 
 #define DMB_HOLE_DOGLEG_MAX 2.5 /* [rad] largest change of direction between two stations */
@@ -19,7 +21,7 @@ typedef struct dmb_hole_station {
     double normal[3];  /* [-] unit, towards the centre of the arc; 0 where straight */
 } dmb_hole_station;
 
-typedef struct dmb_hole_piece dmb_hole_piece; /* force/hole_section.h */
+typedef struct dmb_hole_piece dmb_hole_piece; /* below */
 
 typedef struct dmb_hole {
     const dmb_hole_station *station; /* shape (stations), the caller's; NULL for a straight hole */
@@ -106,5 +108,246 @@ static inline void dmb_radial_at(const dmb_real x[3], const dmb_real axis_point[
     const dmb_real divisor = dmb_real_select(concentric, dmb_real_of(1.0), *e);
     for (int i = 0; i < 3; i++) n[i] = dmb_real_select(concentric, n_last[i], u[i] / divisor);
 }
+
+/* ---- Constants of the wall by depth ------------------------------------------------------------------------------ */
+
+/* The wall's constants by measured depth: pieces of parabolas, joined without a kink.
+ *
+ * A ring of radius r at distance e from the axis and depth s goes d = e - (R(s) - r) into the wall, which stores
+ *     U = l K(s) d^(n+1)/(n+1).
+ * With rho = R'(s) ds/dx, ds/dx = J t, J = 1/(1 - e n.k) on an axis of curvature vector k, the way in grows by
+ *     dd = g . dx,   g = n - rho t,
+ * so the force of the wall acts along -g, also the damped part, and where K changes there is -J l K' d^(n+1)/(n+1)
+ * along t beside: exactly the derivative of U. Friction acts along and around the axis by N; what the slope of the wall
+ * adds to it is of second order in R' and left out, and so is the moment of the axial part about the ring's centre. */
+
+/* [-] Steepest change of the radius. */
+#define DMB_HOLE_SLOPE_MAX 1.0
+
+enum {
+    DMB_WALL_RADIUS,
+    DMB_WALL_STIFFNESS,
+    DMB_WALL_RESTITUTION,
+    DMB_WALL_DAMPING,
+    DMB_WALL_MU_STATIC,
+    DMB_WALL_MU_DYNAMIC,
+    DMB_WALL_STRENGTH,
+    DMB_WALL_COUNT
+};
+
+/* value + r (slope + r bend), r [m] beyond depth */
+struct dmb_hole_piece {
+    double depth; /* [m] where it begins; the first one holds above it too */
+    double value[DMB_WALL_COUNT], slope[DMB_WALL_COUNT], bend[DMB_WALL_COUNT];
+    double factor; /* [-] mu of the normal law by its restitution, where that does not change */
+};
+
+/* Piece at a depth, of a hole with pieces. O(log pieces). */
+const dmb_hole_piece *dmb_hole_piece_at(const dmb_hole *hole, double s);
+
+static inline double dmb_hole_piece_value(const dmb_hole_piece *piece, int which, double s)
+{
+    const double r = s - piece->depth;
+    return piece->value[which] + r * (piece->slope[which] + r * piece->bend[which]);
+}
+
+/* [m] */
+static inline double dmb_hole_radius(const dmb_hole *hole, double s)
+{
+    return hole->pieces == 0 ? hole->radius : dmb_hole_piece_value(dmb_hole_piece_at(hole, s), DMB_WALL_RADIUS, s);
+}
+/* [m] Smallest radius between two depths, and where. O(pieces between). */
+double dmb_hole_least_radius(const dmb_hole *hole, double s0, double s1, double *where);
+
+/* Laws at a depth: those of the whole hole with the constants there. The same without pieces. */
+dmb_normal_law dmb_normal_law_at(const dmb_hole *hole, const dmb_normal_law *law, double s);
+dmb_friction_law dmb_friction_law_at(const dmb_hole *hole, const dmb_friction_law *law, double s);
+
+/* The wall at a place, with derivatives by depth. */
+typedef struct dmb_local_wall {
+    dmb_normal_law normal;
+    dmb_friction_law friction;
+    double radius, radius_slope, radius_bend; /* [m, -, 1/m] */
+    double stiffness_slope, stiffness_bend;   /* of normal.stiffness, per m, per m2 */
+    double factor_slope, damping_slope;       /* of normal.mu and normal.damping, per m */
+    double mu_static_slope, mu_dynamic_slope; /* [1/m] */
+} dmb_local_wall;
+
+/* J: way along an axis of curvature vector k [1/m] for a unit of its own of a ring at distance e on the side n. */
+static inline double dmb_hole_advance(double e, const double n[3], const double k[3])
+{
+    return 1.0 / (1.0 - e * (n[0] * k[0] + n[1] * k[1] + n[2] * k[2]));
+}
+/* [m^(n+1)] d^(n+1)/(n+1): what a metre of wall stores for a unit of K */
+double dmb_wall_unit_energy(const dmb_normal_law *law, double d);
+
+/* softer [-]: factor that the stiffness is divided by. Of a hole with pieces. */
+void dmb_local_wall_at(const dmb_hole *hole, const dmb_normal_law *normal, const dmb_friction_law *friction, double s,
+                       double softer, dmb_local_wall *out);
+
+/* A ring against a wall whose constants change along the hole: what that adds to the force and the tangent of
+ * force/contact_law.h. Equations below. One ring at a time, in body axes; all numbers are doubles. */
+
+#if DMB_REAL_LANES == 1
+
+#include "force/contact_law.h"
+
+typedef struct dmb_section_contact {
+    dmb_local_wall wall;
+    double curvature[3]; /* [1/m] k of the axis, body axes */
+    double advance, rho; /* [-] J, R' J */
+    double stored;       /* [N] l K' d^(n+1)/(n+1): dU/ds but for R' */
+    double stored_slope; /* [N/m] its derivatives by s and d: */
+    double stored_by_depth;
+    double along;       /* [N] N rho - J dU/ds along t */
+    double by_place[3]; /* [N/m] dF_k/ds of (-N, F_t, F_b) where d and its rate stay */
+} dmb_section_contact;
+
+/* J and rho of the ring; wall and curvature are there. */
+static inline void dmb_section_contact_at(const dmb_contact_frame *f, dmb_section_contact *c)
+{
+    c->advance = dmb_hole_advance(f->distance, f->n, c->curvature);
+    c->rho = c->wall.radius_slope * c->advance;
+}
+
+/* [N/m2] dN/ds per metre of pipe at penetration d growing at `rate`. */
+static inline double dmb_section_normal_slope(const dmb_local_wall *wall, double d, double rate, double impact_speed)
+{
+    const dmb_normal_law *law = &wall->normal;
+    const double power = dmb_normal_reduced_power(law->exponent, d) * d;
+    double slope;
+    if (law->kind == DMB_NORMAL_NONE) return 0.0;
+    if (law->kind == DMB_NORMAL_KELVIN_VOIGT || law->kind == DMB_NORMAL_IMPACT) {
+        dmb_normal_law unit = *law;
+        unit.damping = 1.0;
+        return wall->stiffness_slope * power + wall->damping_slope * dmb_normal_damping(&unit, d, &slope) * rate;
+    }
+    const double ratio = rate / fmax(impact_speed, law->impact_floor);
+    return power * (wall->stiffness_slope * (1.0 + law->mu * ratio) + law->stiffness * wall->factor_slope * ratio);
+}
+
+/* Of F_t and F_b by the coefficients: smooth laws are linear in them; bristles (memory) are mu N at their limit. */
+static inline void dmb_section_friction_slope(const dmb_contact_frame *f, const dmb_contact_force *c, int memory,
+                                              const dmb_local_wall *wall, double by_place[2])
+{
+    dmb_friction_law law = wall->friction;
+    double by_normal[2];
+    const double N = -c->F[0], limit = N * law.mu_dynamic, F = dmb_friction_norm(c->F[1], c->F[2]);
+    if (memory) {
+        const int slides = limit > 0.0 && F >= (1.0 - 1e-9) * limit;
+        for (int k = 0; k < 2; k++) by_place[k] = slides ? c->F[1 + k] / law.mu_dynamic * wall->mu_dynamic_slope : 0.0;
+        return;
+    }
+    law.mu_static = wall->mu_static_slope;
+    law.mu_dynamic = wall->mu_dynamic_slope;
+    dmb_friction_smooth(&law, N, f->speed + 1, by_place, NULL, by_normal);
+}
+
+/* length [m], penetration d and impact_speed as dmb_contact_normal_force has them. */
+static inline void dmb_section_force(const dmb_contact_frame *f, const dmb_contact_force *force, double length,
+                                     double d, double impact_speed, int memory, int friction, dmb_section_contact *c)
+{
+    const dmb_local_wall *wall = &c->wall;
+    const double unit = length * dmb_wall_unit_energy(&wall->normal, d);
+    double by_friction[2] = {0.0, 0.0};
+    c->stored = wall->stiffness_slope * unit;
+    c->stored_slope = wall->stiffness_bend * unit;
+    c->stored_by_depth = length * wall->stiffness_slope * dmb_normal_reduced_power(wall->normal.exponent, d) * d;
+    c->along = -force->F[0] * c->rho - c->advance * c->stored;
+    c->by_place[0] = force->F[0] < 0.0 ? -length * dmb_section_normal_slope(wall, d, f->speed[0], impact_speed) : 0.0;
+    if (friction) dmb_section_friction_slope(f, force, memory, wall, by_friction);
+    for (int k = 0; k < 2; k++) {
+        const double by_normal = force->F[0] < 0.0 ? -force->F[1 + k] / force->F[0] : 0.0; /* dF/dN = F/N */
+        c->by_place[1 + k] = by_friction[k] - by_normal * c->by_place[0];
+    }
+}
+
+/* Rate of the way in by the pose, without what n . V has of it: of -rho t . V. */
+static inline void dmb_section_rate_row(const dmb_contact_frame *f, const dmb_section_contact *c, const double bend[3],
+                                        int bent, double row[6])
+{
+    const double along = dmb_vec3_dot(f->t, f->V), J = c->advance;
+    double a[3], by_place = -c->wall.radius_bend * J * along;
+    dmb_vec3_cross(f->V, f->t, row + 3);
+    dmb_vec3_scale(-c->rho, row + 3, row + 3);
+    if (bent) {
+        dmb_vec3_cross(f->t, f->V, a);
+        by_place -= c->rho * dmb_vec3_dot(bend, a);
+    }
+    dmb_vec3_scale(by_place * J, f->t, row);
+    dmb_vec3_axpy(-c->wall.radius_slope * along * J * J, c->curvature, row);
+}
+
+/* Derivative of n . V by the pose: turning of the body, swing around the axis, bend of the hole. */
+static inline void dmb_section_normal_row(const dmb_contact_frame *f, const dmb_section_contact *c,
+                                          const double bend[3], int bent, double row[6])
+{
+    double a[3];
+    dmb_vec3_zero(row);
+    dmb_vec3_cross(f->V, f->n, row + 3);
+    if (f->distance > DMB_CONTACT_PINNED) dmb_vec3_axpy(dmb_vec3_dot(f->b, f->V) / f->distance, f->b, row);
+    if (!bent) return;
+    dmb_vec3_cross(f->n, f->V, a);
+    dmb_vec3_axpy(c->advance * dmb_vec3_dot(bend, a), f->t, row);
+}
+
+/* K += of the force along t: its change with N, with rho and with what is stored. */
+static inline void dmb_section_add_along(const dmb_contact_frame *f, const dmb_contact_force *force,
+                                         const dmb_section_contact *c, const double dF[6], double K[36])
+{
+    static const double none[3] = {0.0, 0.0, 0.0};
+    const double J = c->advance, N = -force->F[0];
+    double row[6];
+    for (int i = 0; i < 6; i++) row[i] = -c->rho * dF[i];
+    dmb_vec3_axpy(J * J * (N * c->wall.radius_bend - c->stored_slope) + J * c->stored_by_depth * c->rho, f->t, row);
+    dmb_vec3_axpy(-J * c->stored_by_depth, f->n, row);
+    dmb_vec3_axpy(J * J * (N * c->wall.radius_slope - c->stored), c->curvature, row);
+    dmb_contact_add_direction(f->t, none, row, K);
+}
+
+/* K of dmb_contact_pose_tangent, made with the whole wrench, becomes that of the wall of sections. */
+static inline void dmb_section_pose_tangent(const dmb_contact_frame *f, const dmb_contact_force *force,
+                                            const dmb_section_contact *c, const double bend[3], int friction,
+                                            double K[36])
+{
+    static const double none[3] = {0.0, 0.0, 0.0};
+    const int bent = dmb_vec3_dot(c->curvature, c->curvature) > 0.0;
+    const double *direction[3] = {f->n, f->t, f->b}, *turn[3] = {none, f->turn_t, f->turn_b};
+    double rate[6], normal[6], more[6], dF[6];
+    dmb_section_rate_row(f, c, bend, bent, rate);
+    dmb_section_normal_row(f, c, bend, bent, normal);
+    for (int k = 0; k < (friction ? 3 : 1); k++) {
+        const double by_rate = k == 0 ? force->normal_rate : force->by_speed[k - 1][0];
+        for (int i = 0; i < 6; i++) more[i] = by_rate * rate[i];
+        dmb_vec3_axpy(c->by_place[k] * c->advance - force->by_depth[k] * c->rho, f->t, more);
+        if (k == 0)
+            for (int i = 0; i < 6; i++) dF[i] = more[i] + by_rate * normal[i];
+        dmb_contact_add_direction(direction[k], turn[k], more, K);
+    }
+    dmb_vec3_axpy(force->by_depth[0], f->n, dF);
+    dmb_section_add_along(f, force, c, dF, K);
+}
+
+/* The same of dmb_contact_velocity_tangent: g for n. */
+static inline void dmb_section_velocity_tangent(const dmb_contact_frame *f, const dmb_contact_force *force,
+                                                const dmb_section_contact *c, double factor, int friction, double K[36])
+{
+    static const double none[3] = {0.0, 0.0, 0.0};
+    double row[6] = {0.0}, a[3];
+    dmb_vec3_scale(-factor * c->rho, f->t, row);
+    dmb_vec3_scale(force->normal_rate, f->n, a);
+    dmb_contact_add_direction(a, none, row, K); /* n (g - n)^T */
+    for (int k = 0; friction && k < 2; k++) {
+        double forward[3], around[3];
+        dmb_vec3_scale(force->by_speed[k][0], k == 0 ? f->t : f->b, forward);
+        dmb_vec3_scale(force->by_speed[k][0], k == 0 ? f->turn_t : f->turn_b, around);
+        dmb_contact_add_direction(forward, around, row, K);
+    }
+    for (int i = 0; i < 3; i++) row[i] += factor * f->n[i]; /* (g - n) g^T */
+    dmb_vec3_scale(-c->rho * force->normal_rate, f->t, a);
+    dmb_contact_add_direction(a, none, row, K);
+}
+
+#endif
 
 #endif

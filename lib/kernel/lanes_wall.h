@@ -6,7 +6,6 @@
 #include "element/beam_math.h"
 #include "force/contact_law.h"
 #include "force/hole.h"
-#include "force/hole_section.h"
 #include "kernel/kernels.h"
 #include "kernel/lane_group.h"
 #include "math/so3.h"

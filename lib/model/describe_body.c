@@ -2,7 +2,6 @@
 #include "model/describe.h"
 #include "model/field_check.h"
 #include "model/model.h"
-#include "model/part_name.h"
 #include "model/section.h"
 
 enum { BLADES_MAX = 64, HISTORY_MIN = 64, HISTORY_MAX = 1 << 20 };

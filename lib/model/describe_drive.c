@@ -6,7 +6,6 @@
 #include "model/describe.h"
 #include "model/field_check.h"
 #include "model/model.h"
-#include "model/part_name.h"
 
 enum { TERMS_MAX = 64, TABLE_MAX = 1 << 20 };
 

@@ -4,7 +4,7 @@
 #include "drillmbd/bha.h"
 #include "model/describe.h"
 #include "model/field_check.h"
-#include "model/part_name.h"
+#include "model/model.h"
 
 enum { TABLE_MAX = 1 << 16 };
 

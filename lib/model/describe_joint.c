@@ -5,7 +5,6 @@
 #include "model/describe.h"
 #include "model/field_check.h"
 #include "model/model.h"
-#include "model/part_name.h"
 
 /* ---- Joints ------------------------------------------------------------------------------------------------------ */
 

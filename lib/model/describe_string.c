@@ -4,7 +4,6 @@
 #include "model/describe.h"
 #include "model/field_check.h"
 #include "model/model.h"
-#include "model/part_name.h"
 #include "model/section.h"
 
 static int32_t check_string(dmb_model *model, const dmb_string_def *def)

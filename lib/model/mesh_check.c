@@ -1,7 +1,7 @@
 /* The scene as a whole: what one description alone could not know. */
 #include "model/field_check.h"
 #include "model/mesh.h"
-#include "model/part_name.h"
+#include "model/model.h"
 #include "model/section.h"
 
 /* ---- Parts and their strings ------------------------------------------------------------------------------------- */

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "force/hole_section.h"
+#include "force/hole.h"
 #include "kernel/kernels.h"
 #include "math/mat6.h"
 #include "math/so3.h"

@@ -1,9 +1,9 @@
 /* Lengths of pipe that mud flows through and back along: its losses there, by the diameters where they are described,
  * and its pull on the string (force/mud_flow.h). */
-#include "force/hole_section.h"
+#include "force/hole.h"
 #include "force/mud_flow.h"
 #include "model/mesh.h"
-#include "model/part_name.h"
+#include "model/model.h"
 #include "model/section.h"
 
 typedef struct flow_walk {

@@ -1,7 +1,7 @@
 /* The finished scene in one block: counts first, then the arrays are laid out twice (counting, placing), then filled.
  */
 #include "base/memory.h"
-#include "force/hole_section.h"
+#include "force/hole.h"
 #include "math/vec3.h"
 #include "model/mesh.h"
 #include "model/scene.h"

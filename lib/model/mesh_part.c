@@ -4,7 +4,7 @@
 
 #include "model/field_check.h"
 #include "model/mesh.h"
-#include "model/part_name.h"
+#include "model/model.h"
 #include "model/section.h"
 
 /* Equal elements are mostly near each other: a run of pipes has four types at most. */

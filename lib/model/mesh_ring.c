@@ -4,7 +4,7 @@
 
 #include "model/field_check.h"
 #include "model/mesh.h"
-#include "model/part_name.h"
+#include "model/model.h"
 #include "model/section.h"
 
 static const dmb_ring_def *def_of(const dmb_mesh *mesh, uint32_t ring)

@@ -4,10 +4,10 @@
  * which is one parabola where the two lines meet. Behind them the values hold or go straight on. The mean over the
  * transition of a step is that of the sharp one, so that friction takes the same work. */
 #include "drillmbd/hole.h"
-#include "force/hole_section.h"
+#include "force/hole.h"
 #include "model/field_check.h"
 #include "model/mesh.h"
-#include "model/part_name.h"
+#include "model/model.h"
 #include "model/section.h"
 
 typedef struct section_values {

@@ -1,5 +1,5 @@
 /* The axis of the hole, and contact sites along it. */
-#include "force/hole_section.h"
+#include "force/hole.h"
 #include "math/quadrature.h"
 #include "model/field_check.h"
 #include "model/mesh.h"

@@ -8,7 +8,6 @@
 #include "drillmbd/hole.h"
 #include "model/describe.h"
 #include "model/field_check.h"
-#include "model/part_name.h"
 #include "model/scene.h"
 
 /* Stamps are never reused within a process (but after 2^32 models), so that an id of another model is recognised. */

@@ -3,8 +3,11 @@
 #define DMB_MODEL_MODEL_H
 
 #include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
 
 #include "base/message.h"
+#include "base/value_check.h"
 #include "drillmbd/bha.h"
 #include "drillmbd/control.h"
 #include "drillmbd/forces.h"
@@ -13,8 +16,45 @@
 #include "drillmbd/names.h"
 #include "drillmbd/ring.h"
 #include "force/programme.h"
-#include "model/refused.h"
 #include "model/scene.h"
+
+/* ---- Parts that were refused ------------------------------------------------------------------------------------- */
+
+/* Of the first ones all is known; of more only the number. */
+enum { DMB_REFUSED_KEPT = 8, DMB_REFUSED_BYTES = 768 };
+
+typedef struct dmb_refusal {
+    const char *part; /* the kind: "body", "pipes", ... */
+    int32_t status;
+    uint32_t count; /* of pipes or terms, 1 of other parts */
+    size_t size;    /* [byte] of the definition; 0: it could not be read, or there is one such part a model */
+    dmb_message message;
+    unsigned char definition[DMB_REFUSED_BYTES]; /* as it was read */
+} dmb_refusal;
+
+typedef struct dmb_refusals {
+    uint32_t kept;    /* in first, oldest first */
+    uint32_t further; /* beyond those */
+    dmb_refusal first[DMB_REFUSED_KEPT];
+} dmb_refusals;
+
+/* One call that adds a part: its kind, what it was given, how it ended. */
+typedef struct dmb_described {
+    const char *part;
+    const void *definition; /* NULL with size 0: one such part a model */
+    size_t size;
+    uint32_t count;
+} dmb_described;
+
+void dmb_refused_remember(dmb_refusals *refused, const dmb_described *given, int32_t status,
+                          const dmb_message *message);
+/* The part was added: the oldest refusal of the same part is forgotten. It is the same part if both definitions have
+ * the same name; without names, if they differ in no more than one field. */
+void dmb_refused_added(dmb_refusals *refused, const dmb_described *given);
+/* DMB_OK, or the status and the message of the oldest refusal. */
+int32_t dmb_refused_check(const dmb_refusals *refused, dmb_message *message);
+
+/* ---- The description --------------------------------------------------------------------------------------------- */
 
 /* A string and how far it has been built. */
 typedef struct dmb_string_plan {
@@ -144,5 +184,28 @@ void dmb_create_message_set(const dmb_model *model, const char *text);
 void dmb_create_message_clear(const dmb_model *model);
 /* NULL: none of this model in this thread. */
 const char *dmb_create_message(const dmb_model *model);
+
+/* ---- Names of parts ---------------------------------------------------------------------------------------------- */
+
+/* A programme is an array of terms, which has no room for one. */
+typedef struct dmb_programme_name {
+    uint32_t programme;
+    uint32_t reserved;
+    char name[DMB_NAME_SIZE];
+} dmb_programme_name;
+
+/* Fails the check where `name`, the field of that length, is no text or another part of the kind has it. */
+void dmb_check_part_name(dmb_check *check, const dmb_model *model, uint32_t kind, const char *name);
+/* The same for pipes that are added together. */
+void dmb_check_pipes_name(dmb_check *check, const dmb_model *model, const char *name);
+
+/* "string 0 (main)", "bit 0"; into text. */
+const char *dmb_model_part_text(const dmb_model *model, uint32_t kind, uint32_t index, dmb_message *text);
+/* The same by the word for its kind. */
+const char *dmb_model_word_text(const dmb_model *model, const char *word, uint32_t index, dmb_message *text);
+/* "string 0 (main), pipe 12 (collars)" */
+const char *dmb_model_pipe_text(const dmb_model *model, uint32_t string, uint32_t pipe, dmb_message *text);
+/* "pipes of string 0 (collars)": those added together. */
+const char *dmb_pipes_text(dmb_message *text, uint32_t string, const dmb_pipe_def *def);
 
 #endif

@@ -1,4 +1,5 @@
-#include "model/part_name.h"
+/* Names of parts: where each kind keeps them, what they may be, how messages tell them. */
+#include "model/model.h"
 
 #include <string.h>
 

@@ -1,4 +1,6 @@
-#include "model/refused.h"
+/* Parts that were refused. A caller who overlooks a refusal would compile another scene than the one described, so the
+ * model remembers each until it is added after all or the caller lets it go. */
+#include "model/model.h"
 
 #include <stdbool.h>
 #include <string.h>

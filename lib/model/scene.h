@@ -21,7 +21,6 @@
 #include "force/contact_law.h"
 #include "force/friction_law.h"
 #include "force/hole.h"
-#include "force/hole_section.h"
 #include "force/mud_flow.h"
 #include "force/normal_law.h"
 #include "force/programme.h"

@@ -1,4 +1,4 @@
-/* Channels: one number asked of a sim, for recorders, windows, responses and events. channel_name has their names;
+/* Channels: one number asked of a sim, for recorders, windows, responses and events. quantity_name has their names;
  * dmb_channel_value is the one owner of their values. */
 #include "query/query.h"
 

@@ -7,7 +7,7 @@
 #include "drillmbd/bha.h"
 #include "drillmbd/hole.h"
 #include "drillmbd/query.h"
-#include "force/hole_section.h"
+#include "force/hole.h"
 #include "math/real.h"
 #include "math/vec3.h"
 #include "model/field_check.h"

@@ -202,7 +202,7 @@ double dmb_joint_violation(const dmb_sim *sim, uint32_t j);
 
 /* ---- Channels ---------------------------------------------------------------------------------------------------- */
 
-/* Channels: one number asked of a sim, for recorders, windows, responses and events. channel_name has their names;
+/* Channels: one number asked of a sim, for recorders, windows, responses and events. quantity_name has their names;
  * dmb_channel_value is the one owner of their values. */
 
 /* Kinds of places that channels take. */

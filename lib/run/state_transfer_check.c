@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/part_name.h"
+#include "model/model.h"
 #include "query/query.h"
 #include "run/run.h"
 #include "sim/node.h"

@@ -3,7 +3,7 @@
 #include "element/rigid_mass.h"
 #include "math/mat6.h"
 #include "math/so3.h"
-#include "model/part_name.h"
+#include "model/model.h"
 #include "model/scene.h"
 
 double dmb_path_depth(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t node)

@@ -237,7 +237,7 @@ static void find_largest(dmb_linear *linear)
 
 /* Accelerations of the trial in a relative equilibrium: none where body-frame velocities stay as they are; -ad(w) g
  * where strings slide and turn with their axes at rest, V = g + w, w the spin about the node's x axis
- * (analysis/static/steady.h). */
+ * (analysis/static/static.h). */
 static void steady_accelerations(dmb_linear *linear, int sliding)
 {
     const dmb_scene *scene = &linear->scene;

@@ -1,5 +1,5 @@
-/* Motion and equations of a steady state (steady.h). */
-#include "analysis/static/steady.h"
+/* Motion and equations of a steady state (static.h). */
+#include "analysis/static/static.h"
 
 #include <string.h>
 

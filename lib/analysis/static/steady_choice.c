@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/static/steady.h"
+#include "analysis/static/static.h"
 #include "base/memory.h"
 #include "math/mat6.h"
 #include "math/so3.h"
@@ -63,10 +63,11 @@ static int32_t add_twist(dmb_sim *sim, uint32_t i, double twist[6])
         twist_of_part(sim, drive, dmb_steady_target(sim, i), part);
     } else {
         if (sim->scene->joints[drive->joint].a.node != DMB_NONE)
-            return REFUSE(sim,
-                          "%s: it moves two parts against each other, so that the whole does not turn as one body; "
-                          "take DMB_STEADY_AT_REST",
-                          dmb_drive_text(sim->scene, i, &(dmb_message){""}));
+            return DMB_STEADY_REFUSE(
+                sim,
+                "%s: it moves two parts against each other, so that the whole does not turn as one body; "
+                "take DMB_STEADY_AT_REST",
+                dmb_drive_text(sim->scene, i, &(dmb_message){""}));
         twist_of_joint(sim, drive, dmb_steady_target(sim, i), part);
     }
     for (int k = 0; k < 6; k++) twist[k] += part[k];
@@ -103,10 +104,11 @@ static int32_t take_twist(dmb_sim *sim, dmb_steady *steady)
         }
         for (int k = 0; k < 6; k++) off[k] = twist[k] - steady->twist[k];
         if (size_of(scene, off) > DMB_STEADY_SAME * size_of(scene, twist))
-            return REFUSE(sim,
-                          "drives %u and %u: they turn the whole about different axes or at different speeds, which is "
-                          "not steady; take DMB_STEADY_AT_REST",
-                          first, i);
+            return DMB_STEADY_REFUSE(
+                sim,
+                "drives %u and %u: they turn the whole about different axes or at different speeds, which is "
+                "not steady; take DMB_STEADY_AT_REST",
+                first, i);
     }
     return DMB_OK;
 }
@@ -124,7 +126,7 @@ static int32_t check_steady_forces(dmb_sim *sim, const dmb_steady *steady)
     const dmb_scene *scene = sim->scene;
     const double *axis = steady->twist + 3;
     if (scene->features & DMB_FEATURE_GRAVITY && turns(axis, scene->gravity))
-        return REFUSE(
+        return DMB_STEADY_REFUSE(
             sim, "gravity: it is not along the axis that the whole turns about, so that no state is steady; take an "
                  "axis along it, or DMB_STEADY_AT_REST");
     for (uint32_t i = 0; i < scene->load_count; i++) {
@@ -139,10 +141,11 @@ static int32_t check_steady_forces(dmb_sim *sim, const dmb_steady *steady)
         dmb_mat3_vec(R, load->force, f);
         dmb_mat3_vec(R, load->moment, f + 3);
         if (turns(axis, f) || turns(axis, f + 3))
-            return REFUSE(sim,
-                          "%s: it does not turn with the whole and is not along its axis, so that no state is "
-                          "steady; take DMB_FRAME_BODY for it, or DMB_STEADY_AT_REST",
-                          dmb_load_text(sim->scene, i, &(dmb_message){""}));
+            return DMB_STEADY_REFUSE(
+                sim,
+                "%s: it does not turn with the whole and is not along its axis, so that no state is "
+                "steady; take DMB_FRAME_BODY for it, or DMB_STEADY_AT_REST",
+                dmb_load_text(sim->scene, i, &(dmb_message){""}));
     }
     return DMB_OK;
 }
@@ -153,16 +156,17 @@ static int32_t check_hole(dmb_sim *sim, const dmb_steady *steady)
     double off[3];
     for (uint32_t i = 0; i < scene->node_count; i++)
         if (scene->layout.size[i] != DMB_NODE_FULL)
-            return REFUSE(sim, "axial-torsional pipes: they do not turn as a rigid body; take DMB_STEADY_SLIDING");
+            return DMB_STEADY_REFUSE(
+                sim, "axial-torsional pipes: they do not turn as a rigid body; take DMB_STEADY_SLIDING");
     if (!scene->has_hole || scene->site_count == 0) return DMB_OK;
     dmb_vec3_cross(steady->twist + 3, scene->hole.origin,
                    off); /* velocity of a point on the axis, less that along it */
     dmb_vec3_add(off, steady->twist, off);
     if (!dmb_hole_is_straight(&scene->hole) || turns(scene->hole.direction, steady->twist + 3) ||
         turns(scene->hole.direction, off))
-        return REFUSE(sim,
-                      "wall: the whole does not turn about the axis of a straight hole; take DMB_STEADY_SLIDING or "
-                      "_AT_REST");
+        return DMB_STEADY_REFUSE(
+            sim, "wall: the whole does not turn about the axis of a straight hole; take DMB_STEADY_SLIDING or "
+                 "_AT_REST");
     return DMB_OK;
 }
 
@@ -176,10 +180,11 @@ static int32_t check_ground(dmb_sim *sim, const dmb_steady *steady)
         if (size_of(scene, steady->twist) == 0.0) continue;
         for (int i = 0; i < 6; i++) {
             if ((joint->law_mask >> i & 1) == 0) continue;
-            return REFUSE(sim,
-                          "joint %u: it has a law about the ground, which is not steady where the whole turns; take "
-                          "DMB_STEADY_AT_REST",
-                          j);
+            return DMB_STEADY_REFUSE(
+                sim,
+                "joint %u: it has a law about the ground, which is not steady where the whole turns; take "
+                "DMB_STEADY_AT_REST",
+                j);
         }
     }
     return DMB_OK;
@@ -201,10 +206,11 @@ static int32_t check_guides(dmb_evaluation *evaluation, dmb_steady *steady)
         if (fabs(speed - held) * (c < 3 ? 1.0 : scene->length_scale) <= DMB_STEADY_SAME * size_of(scene, steady->twist))
             continue;
         const dmb_owner owner = dmb_owner_of_node(scene, node);
-        return REFUSE(sim,
-                      "%s: its guide or drive holds body-frame component %u at a speed of %g, must be %g for "
-                      "the whole to turn as one body; take DMB_STEADY_AT_REST",
-                      owner.text.text, c, held, speed);
+        return DMB_STEADY_REFUSE(
+            sim,
+            "%s: its guide or drive holds body-frame component %u at a speed of %g, must be %g for "
+            "the whole to turn as one body; take DMB_STEADY_AT_REST",
+            owner.text.text, c, held, speed);
     }
     return status;
 }

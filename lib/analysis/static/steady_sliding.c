@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "analysis/static/steady.h"
+#include "analysis/static/static.h"
 #include "base/memory.h"
 #include "sim/node.h"
 
@@ -22,20 +22,21 @@ static int32_t check_round(dmb_sim *sim, const dmb_steady *steady)
             fabs(rigid_mass->inertia[1] - rigid_mass->inertia[2]) <= DMB_STEADY_SAME * rigid_mass->inertia[1];
         const dmb_owner owner = dmb_owner_of_node(scene, rigid_mass->node);
         if (!round)
-            return REFUSE(sim,
-                          "%s: its mass is not round about its axis, so that turning about an axis at rest is "
-                          "not steady; leave the eccentricity out, or take DMB_STEADY_RIGID or _AT_REST",
-                          owner.text.text);
+            return DMB_STEADY_REFUSE(
+                sim,
+                "%s: its mass is not round about its axis, so that turning about an axis at rest is "
+                "not steady; leave the eccentricity out, or take DMB_STEADY_RIGID or _AT_REST",
+                owner.text.text);
     }
     for (uint32_t e = 0; e < scene->element_count; e++) {
         const uint32_t s = steady->string[scene->element_node[e]];
         const double *rest = scene->types[scene->element_type[e]].rest;
         if (s == DMB_NONE || steady->speed[2 * s + 1] == 0.0 || (rest[4] == 0.0 && rest[5] == 0.0)) continue;
         const dmb_owner owner = dmb_owner_of_element(scene, e);
-        return REFUSE(sim,
-                      "%s: it is bent when unloaded, so that turning about an axis at rest is not steady; "
-                      "take DMB_STEADY_AT_REST",
-                      owner.text.text);
+        return DMB_STEADY_REFUSE(sim,
+                                 "%s: it is bent when unloaded, so that turning about an axis at rest is not steady; "
+                                 "take DMB_STEADY_AT_REST",
+                                 owner.text.text);
     }
     return DMB_OK;
 }
@@ -54,10 +55,11 @@ static int32_t check_turning_loads(dmb_sim *sim, const dmb_steady *steady)
         const uint32_t s = steady->string[load->node];
         if (s == DMB_NONE || steady->speed[2 * s + 1] == 0.0 || load->frame != DMB_FRAME_BODY) continue;
         if (across(load->force) || across(load->moment))
-            return REFUSE(sim,
-                          "%s: it turns with its string, across the axis; take DMB_STEADY_AT_REST, or another "
-                          "frame for it",
-                          dmb_load_text(sim->scene, i, &(dmb_message){""}));
+            return DMB_STEADY_REFUSE(
+                sim,
+                "%s: it turns with its string, across the axis; take DMB_STEADY_AT_REST, or another "
+                "frame for it",
+                dmb_load_text(sim->scene, i, &(dmb_message){""}));
     }
     for (uint32_t i = 0; i < scene->drive_count; i++) {
         const dmb_scene_drive *drive = scene->drives + i;
@@ -65,13 +67,14 @@ static int32_t check_turning_loads(dmb_sim *sim, const dmb_steady *steady)
         const uint32_t s = steady->string[drive->node];
         if (s != DMB_NONE && drive->actuator != DMB_NONE && drive->component % 3 == 0 &&
             steady->speed[2 * s + (uint32_t)drive->component / 3] != 0.0)
-            return REFUSE(sim,
-                          "%s: its actuator has a force by speed that statics do not know; take DMB_STEADY_AT_REST",
-                          dmb_drive_text(sim->scene, i, &(dmb_message){""}));
+            return DMB_STEADY_REFUSE(
+                sim, "%s: its actuator has a force by speed that statics do not know; take DMB_STEADY_AT_REST",
+                dmb_drive_text(sim->scene, i, &(dmb_message){""}));
         if (drive->component % 3 == 0) continue;
         if (s != DMB_NONE && steady->speed[2 * s + 1] != 0.0)
-            return REFUSE(sim, "%s: its force turns with its string, across the axis; take DMB_STEADY_AT_REST",
-                          dmb_drive_text(sim->scene, i, &(dmb_message){""}));
+            return DMB_STEADY_REFUSE(sim,
+                                     "%s: its force turns with its string, across the axis; take DMB_STEADY_AT_REST",
+                                     dmb_drive_text(sim->scene, i, &(dmb_message){""}));
     }
     return DMB_OK;
 }
@@ -84,19 +87,20 @@ static int32_t take_speed(dmb_sim *sim, dmb_steady *steady, uint32_t i, uint32_t
     const uint32_t s = drive->node == DMB_NONE ? DMB_NONE : steady->string[drive->node];
     const double speed = dmb_steady_target(sim, i);
     if (s == DMB_NONE || drive->component % 3 != 0)
-        return speed == 0.0 ? DMB_OK
-                            : REFUSE(sim,
-                                     "%s: it does not move a string along or about its axis, so that strings do "
-                                     "not slide at rest; take DMB_STEADY_RIGID or _AT_REST",
-                                     dmb_drive_text(sim->scene, i, &(dmb_message){""}));
+        return speed == 0.0
+                   ? DMB_OK
+                   : DMB_STEADY_REFUSE(sim,
+                                       "%s: it does not move a string along or about its axis, so that strings do "
+                                       "not slide at rest; take DMB_STEADY_RIGID or _AT_REST",
+                                       dmb_drive_text(sim->scene, i, &(dmb_message){""}));
     const uint32_t k = 2 * s + (uint32_t)drive->component / 3;
     dmb_message first, second, string;
     if (taken[k] != DMB_NONE && fabs(steady->speed[k] - speed) > DMB_STEADY_SAME * fabs(speed))
-        return REFUSE(sim,
-                      "%s and %s: they move %s at %g and at %g, which is not steady; give them one speed, "
-                      "or take DMB_STEADY_AT_REST",
-                      dmb_drive_text(sim->scene, taken[k], &first), dmb_drive_text(sim->scene, i, &second),
-                      dmb_string_text(sim->scene, s, &string), steady->speed[k], speed);
+        return DMB_STEADY_REFUSE(sim,
+                                 "%s and %s: they move %s at %g and at %g, which is not steady; give them one speed, "
+                                 "or take DMB_STEADY_AT_REST",
+                                 dmb_drive_text(sim->scene, taken[k], &first), dmb_drive_text(sim->scene, i, &second),
+                                 dmb_string_text(sim->scene, s, &string), steady->speed[k], speed);
     taken[k] = i;
     steady->speed[k] = speed;
     return DMB_OK;
@@ -120,10 +124,11 @@ static int32_t check_ends(dmb_sim *sim, const dmb_steady *steady)
         if (s == DMB_NONE || c % half != 0 || is_driven(scene, scene->layout.row[node] + c)) continue;
         const double speed = steady->speed[2 * s + c / half];
         if (speed == 0.0) continue;
-        return REFUSE(sim,
-                      "%s: a guide keeps it from %s, a drive moves it at %g, which is not steady; free the guide, "
-                      "or take DMB_STEADY_AT_REST",
-                      dmb_string_text(scene, s, &string), c == 0 ? "sliding" : "turning", speed);
+        return DMB_STEADY_REFUSE(
+            sim,
+            "%s: a guide keeps it from %s, a drive moves it at %g, which is not steady; free the guide, "
+            "or take DMB_STEADY_AT_REST",
+            dmb_string_text(scene, s, &string), c == 0 ? "sliding" : "turning", speed);
     }
     return DMB_OK;
 }

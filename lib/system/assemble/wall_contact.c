@@ -276,7 +276,7 @@ static double site_frame_of(const dmb_scene *scene, const dmb_configuration *c, 
     return depth;
 }
 
-/* The wall's constants at a ring at that depth, its way in and how fast it grows (force/hole_section.h); friction gets
+/* The wall's constants at a ring at that depth, its way in and how fast it grows (force/hole.h); friction gets
  * its own law. */
 static void local_force(const dmb_scene *scene, const dmb_site *site, double depth, const dmb_contact_frame *f,
                         double impact_speed, double still, dmb_friction_law *friction, dmb_site_force *out)
