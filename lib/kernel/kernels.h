@@ -148,6 +148,15 @@ typedef struct dmb_correct_job {
     double *velocity, *acceleration, *pseudo_acceleration, *increment; /* added to */
 } dmb_correct_job;
 
+/* Diagonal blocks of the iteration matrix of FULL nodes: K T6(z) + C. */
+typedef struct dmb_matrix_job {
+    uint32_t count;
+    uint32_t reserved;
+    const double *increment; /* [m, rad] z, shape (count, 6) */
+    const double *inertia;   /* C, shape (count, 36) */
+    double *stiffness;       /* K in, the block out; shape (count, 36) */
+} dmb_matrix_job;
+
 /* Sums of squares that are made side by side: of four FULL nodes, of twelve PATH nodes. */
 #define DMB_SQUARES 24
 
@@ -165,6 +174,7 @@ typedef struct dmb_kernels {
     void (*twist)(const dmb_twist_job *job);
     void (*predict)(const dmb_predict_job *job);
     void (*correct)(const dmb_correct_job *job);
+    void (*matrices)(const dmb_matrix_job *job);
     /* rest[i % 24] = sum residual[i]^2, all[i % 24] = sum scale[i]^2 over the rows with solved[i] = 1 */
     void (*squares)(uint32_t count, const double *residual, const double *scale, const uint8_t *solved,
                     double rest[DMB_SQUARES], double all[DMB_SQUARES]);

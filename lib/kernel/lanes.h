@@ -223,6 +223,23 @@ static void twist(const dmb_twist_job *job)
     }
 }
 
+/* K <- K T6(z) + C */
+static void matrices(const dmb_matrix_job *job)
+{
+    for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
+        const lane_group g = group_at(first, job->count);
+        dmb_real z[6], K[36], C[36];
+        dmb_se3_tangent T;
+        load(job->increment, 6, 6, &g, 0, z);
+        load(job->stiffness, 36, 36, &g, 0, K);
+        dmb_se3_tangent_at(z, NULL, &T);
+        dmb_se3_times_tangent(K, 6, &T);
+        load(job->inertia, 36, 36, &g, 0, C);
+        dmb_mat6_add(K, C, K);
+        store(K, 36, &g, job->stiffness);
+    }
+}
+
 /* ---- Blocks: as wide as the compiler makes them for this processor ----------------------------------------------- */
 
 static int64_t factor(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count)
@@ -248,6 +265,7 @@ const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .twist = twist,
                                  .predict = predict,
                                  .correct = correct,
+                                 .matrices = matrices,
                                  .squares = squares,
                                  .factor = factor,
                                  .solve = solve};

@@ -123,7 +123,7 @@ static inline void dmb_ad_apply(const dmb_real v[6], const dmb_real y[6], dmb_re
 }
 
 /* out = ad(v)^T p = (-w x pu; -u x pu - w x pw): the coadjoint of the Euler-Poincare equations */
-static inline void dmb_ad_transpose(const dmb_real v[6], const dmb_real p[6], dmb_real out[6])
+DMB_REAL_INLINE void dmb_ad_transpose(const dmb_real v[6], const dmb_real p[6], dmb_real out[6])
 {
     dmb_real a[3], b[3], c[3];
     dmb_vec3_cross(p, v + 3, a);

@@ -17,6 +17,13 @@
 #define DMB_TWO_PI 6.283185307179586477
 #define DMB_ROUNDING 0x1.8p52 /* added and taken off again, it rounds a number below 2^51 to an integer */
 
+/* Short products that are made many times: in lanes a call would take its vectors through memory. */
+#if defined(__GNUC__) && defined(DMB_LANES)
+#define DMB_REAL_INLINE static inline __attribute__((always_inline))
+#else
+#define DMB_REAL_INLINE static inline
+#endif
+
 #ifndef DMB_LANES
 
 #define DMB_REAL_LANES 1

@@ -254,7 +254,7 @@ static inline void dmb_quat_log(const dmb_real q[4], dmb_real O[3])
 }
 
 /* R = I + 2 q0 v~ + 2 v~^2 */
-static inline void dmb_quat_to_matrix(const dmb_real q[4], dmb_real R[9])
+DMB_REAL_INLINE void dmb_quat_to_matrix(const dmb_real q[4], dmb_real R[9])
 {
     const dmb_real x = 2.0 * q[1], y = 2.0 * q[2], z = 2.0 * q[3];
     const dmb_real xx = x * q[1], yy = y * q[2], zz = z * q[3];

@@ -148,13 +148,13 @@ static inline void dmb_mat3_mul_nt(const dmb_real A[9], const dmb_real B[9], dmb
 }
 
 /* y = A x; y may be x */
-static inline void dmb_mat3_vec(const dmb_real A[9], const dmb_real x[3], dmb_real y[3])
+DMB_REAL_INLINE void dmb_mat3_vec(const dmb_real A[9], const dmb_real x[3], dmb_real y[3])
 {
     dmb_vec3_set(dmb_vec3_dot(A, x), dmb_vec3_dot(A + 3, x), dmb_vec3_dot(A + 6, x), y);
 }
 
 /* y = A^T x; y may be x */
-static inline void dmb_mat3_tvec(const dmb_real A[9], const dmb_real x[3], dmb_real y[3])
+DMB_REAL_INLINE void dmb_mat3_tvec(const dmb_real A[9], const dmb_real x[3], dmb_real y[3])
 {
     const dmb_real a = x[0], b = x[1], c = x[2];
     dmb_vec3_set(A[0] * a + A[3] * b + A[6] * c, A[1] * a + A[4] * b + A[7] * c, A[2] * a + A[5] * b + A[8] * c, y);

@@ -10,20 +10,40 @@
 #include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"
 
+/* Rows and, for a tangent, blocks of the nodes from `first` to before `end`. */
+static void clear_nodes(const dmb_evaluation *evaluation, uint32_t first, uint32_t end)
+{
+    dmb_sim *sim = evaluation->sim;
+    const dmb_block_layout *layout = &sim->scene->layout;
+    const uint32_t row = layout->row[first], diag = layout->diag[first];
+    const size_t rows = (layout->row[end] - row) * sizeof(double);
+    const size_t blocks = (layout->diag[end] - diag) * sizeof(double);
+    memset(sim->residual + row, 0, rows);
+    memset(sim->scale_row + row, 0, rows);
+    if (!evaluation->tangent) return;
+    memset(sim->stiffness_diagonal + diag, 0, blocks);
+    memset(sim->inertia_diagonal + diag, 0, blocks);
+}
+
+/* Beams write what is between the ends of their runs. */
 static void clear(const dmb_evaluation *evaluation)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
     const dmb_block_layout *layout = &scene->layout;
     const uint32_t n = scene->node_count;
-    const size_t diagonal = layout->diag[n] * sizeof(double);
     const size_t link = layout->link[n - 1] * sizeof(double);
-    memset(sim->residual, 0, scene->row_count * sizeof(double));
-    memset(sim->scale_row, 0, scene->row_count * sizeof(double));
-    if (!evaluation->tangent) return;
-    memset(sim->stiffness_diagonal, 0, diagonal);
-    memset(sim->inertia_diagonal, 0, diagonal);
-    if (scene->beams_only) return; /* beams write their links */
+    const int whole = evaluation->tangent && (!evaluation->dynamic || evaluation->inertia_only); /* not both blocks */
+    uint32_t next = 0;
+    for (uint32_t i = 0; i < scene->batch_count && !whole; i++) {
+        const dmb_batch *batch = scene->batches + i;
+        if (batch->kernel != DMB_KERNEL_BEAM) continue;
+        const uint32_t a = scene->element_node[batch->first];
+        clear_nodes(evaluation, next, a + 1);
+        next = a + batch->count;
+    }
+    clear_nodes(evaluation, next, n);
+    if (!evaluation->tangent || scene->beams_only) return; /* beams write their links */
     memset(sim->stiffness_lower, 0, link);
     memset(sim->stiffness_upper, 0, link);
 }
@@ -118,24 +138,31 @@ void dmb_system_remember(dmb_evaluation *evaluation, const double *held)
  * K is with respect to body-frame pose changes, which are T6(h Dq) z. The elements have done so to the blocks of their
  * links; what is left are the blocks of the nodes, to which all forces add. */
 
-/* next: the first free rigid body that may be on the node */
-static void tangent_columns(dmb_sim *sim, uint32_t node, uint32_t *next)
+/* FULL nodes from `node` on, up to the next free rigid body, whose block is done but for its inertia; `rigid` is the
+ * first that may be there. */
+static uint32_t nodes_to_turn(const dmb_scene *scene, uint32_t node, uint32_t rigid)
+{
+    const uint32_t count = dmb_full_nodes_at(scene, node);
+    if (rigid == scene->free_rigid_count || scene->free_rigids[rigid].node >= node + count) return count;
+    return scene->free_rigids[rigid].node - node;
+}
+
+static void diagonal_blocks(dmb_sim *sim, uint32_t rigid)
 {
     const dmb_scene *scene = sim->scene;
     const dmb_block_layout *layout = &scene->layout;
-    dmb_se3_tangent T;
-    if (layout->size[node] != DMB_NODE_FULL) return;
-    if (*next < scene->free_rigid_count && scene->free_rigids[*next].node == node) { /* done */
-        ++*next;
-        return;
+    for (uint32_t i = 0, count; i < scene->node_count; i += count) {
+        count = nodes_to_turn(scene, i, rigid);
+        const dmb_matrix_job job = {count, 0, sim->increment + layout->row[i], dmb_inertia_of(sim, i),
+                                    dmb_stiffness_of(sim, i)};
+        if (count > 0) {
+            scene->kernels->matrices(&job);
+            continue;
+        }
+        count = 1;
+        if (layout->size[i] == DMB_NODE_FULL) rigid++;
+        for (uint32_t k = 0; k < layout->diag[i + 1] - layout->diag[i]; k++) job.stiffness[k] += job.inertia[k];
     }
-    dmb_se3_tangent_at(sim->increment + layout->row[node], NULL, &T);
-    dmb_se3_times_tangent(dmb_stiffness_of(sim, node), DMB_NODE_FULL, &T);
-}
-
-static void add(const double *restrict from, double *restrict to, uint32_t count)
-{
-    for (uint32_t i = 0; i < count; i++) to[i] += from[i];
 }
 
 /* Row and column of an unknown that is not solved for: identity. */
@@ -203,14 +230,10 @@ void dmb_system_iteration_matrix_held(const dmb_evaluation *evaluation, double *
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
-    const dmb_block_layout *layout = &scene->layout;
-    const uint32_t n = scene->node_count;
     if (evaluation->dynamic) {
         const int stepping = evaluation->velocity_factor > 0.0;
-        uint32_t next = stepping ? 0 : scene->free_rigid_count;
         if (stepping && scene->free_rigid_count) dmb_free_rigids_matrix(evaluation);
-        for (uint32_t i = 0; i < n; i++) tangent_columns(sim, i, &next);
-        add(sim->inertia_diagonal, sim->stiffness_diagonal, layout->diag[n]);
+        diagonal_blocks(sim, stepping ? 0 : scene->free_rigid_count);
     }
     for (uint32_t i = 0; i < scene->held_count && held_rows != NULL; i++)
         read_row(sim, scene->held_node[i], scene->held_component[i], held_rows + 18 * (size_t)i);
