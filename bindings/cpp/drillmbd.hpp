@@ -713,10 +713,12 @@ public:
     }
     std::int32_t step(double duration) { return check(dmb_sensitivity_step(handle_, duration, nullptr)); }
     std::int32_t advance(double time) { return check(dmb_sensitivity_advance(handle_, time, nullptr)); }
-    // values and derivatives: room for count, and count times the number of parameters
-    void channels(const dmb_channel *asked, std::uint32_t count, double *values, double *derivatives) const
+    // values: room for what is asked; derivatives: that times the number of parameters, which the caller knows.
+    void channels(span<const dmb_channel> asked, span<double> values, span<double> derivatives) const
     {
-        check(dmb_sensitivity_channels(handle_, asked, count, values, derivatives));
+        if (values.size() < asked.size() || derivatives.size() < asked.size())
+            throw error(DMB_ERR_VALUE, "values and derivatives must have room for each channel that is asked for");
+        check(dmb_sensitivity_channels(handle_, asked.data(), asked.count(), values.data(), derivatives.data()));
     }
 #endif
 
@@ -872,19 +874,21 @@ public:
     {
         return dmb_sim_set_input(handle_, input, value);
     }
-    DRILLMBD_NODISCARD std::int32_t try_set_inputs(const dmb_id *inputs, const double *values,
-                                                   std::uint32_t count) noexcept
+    // As many values as inputs, else DMB_ERR_VALUE.
+    DRILLMBD_NODISCARD std::int32_t try_set_inputs(span<const dmb_id> inputs, span<const double> values) noexcept
     {
-        return dmb_sim_set_inputs(handle_, inputs, values, count);
+        if (inputs.size() != values.size()) return DMB_ERR_VALUE;
+        return dmb_sim_set_inputs(handle_, inputs.data(), values.data(), inputs.count());
     }
-    DRILLMBD_NODISCARD std::int32_t try_record_inputs(dmb_input_record *records, std::uint32_t capacity) noexcept
+    // The records live as long as the sim, or until other ones are given.
+    DRILLMBD_NODISCARD std::int32_t try_record_inputs(span<dmb_input_record> records) noexcept
     {
-        return dmb_sim_record_inputs(handle_, records, capacity);
+        return dmb_sim_record_inputs(handle_, records.data(), records.count());
     }
-    DRILLMBD_NODISCARD std::int32_t try_replay_inputs(const dmb_input_record *records, std::uint32_t count,
+    DRILLMBD_NODISCARD std::int32_t try_replay_inputs(span<const dmb_input_record> records,
                                                       std::uint32_t &next) noexcept
     {
-        return dmb_sim_replay_inputs(handle_, records, count, &next);
+        return dmb_sim_replay_inputs(handle_, records.data(), records.count(), &next);
     }
     DRILLMBD_NODISCARD std::int32_t try_set_joint(dmb_id joint, std::int32_t state) noexcept
     {
@@ -1160,19 +1164,19 @@ public:
     {
         return ask(dmb_query_spring, dmb_spring_state_default(), which);
     }
-    // Pose of a point off a place, offset [m] in the axes of the place, shape (3).
-    DRILLMBD_NODISCARD dmb_pose pose_at(const dmb_place &place, const double *offset) const
+    // Pose of a point off a place, offset [m] in the axes of the place.
+    DRILLMBD_NODISCARD dmb_pose pose_at(const dmb_place &place, const std::array<double, 3> &offset) const
     {
         dmb_pose answer = dmb_pose_default();
-        check(dmb_query_pose_at(handle_, place, offset, &answer));
+        check(dmb_query_pose_at(handle_, place, offset.data(), &answer));
         return answer;
     }
-    DRILLMBD_NODISCARD dmb_motion motion_at(const dmb_place &place, const double *offset,
+    DRILLMBD_NODISCARD dmb_motion motion_at(const dmb_place &place, const std::array<double, 3> &offset,
                                             std::int32_t frame = DMB_FRAME_WORLD) const
     {
         dmb_motion answer = dmb_motion_default();
         answer.frame = frame;
-        check(dmb_query_motion_at(handle_, place, offset, &answer));
+        check(dmb_query_motion_at(handle_, place, offset.data(), &answer));
         return answer;
     }
     // Of a joint, coupling, constraint or joint drive, one for each row.

@@ -240,8 +240,62 @@ static void every_allocation_fails_once(void **state)
     assert_true(k > 30);
 }
 
+/* ---- A body in a string, which one call describes as four parts ------------------------------------------------- */
+
+/* Returns whether an allocation was there to fail; *bytes: size of the scene. */
+static int run_sub(long failing, size_t *bytes)
+{
+    meter m = {-1, 0, 0, 0};
+    dmb_allocator allocator = dmb_allocator_default();
+    dmb_model_options options = dmb_model_options_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    dmb_sub_def def = dmb_sub_def_default();
+    dmb_sub made = dmb_sub_default();
+    dmb_body_def body = dmb_body_def_default();
+    dmb_model *model = NULL;
+    allocator.context = &m;
+    allocator.allocate = take;
+    allocator.release = give;
+    options.allocator = &allocator;
+    def.length = 0.5;
+    assert_int_equal(dmb_model_create(&options, &model), DMB_OK);
+    assert_int_equal(dmb_model_add_pipes(model, &pipe, 2, NULL), DMB_OK);
+    const counts before = counts_of(model, &m);
+    m.until_failure = failing;
+    int32_t status = dmb_model_place_at_end(model, (dmb_id){0, 0}, 0.0, &body, NULL);
+    if (status >= 0) status = dmb_model_add_sub(model, &def, &made);
+    if (m.failed) {
+        assert_int_equal(status, DMB_ERR_NO_MEMORY);
+        assert_non_null(strstr(dmb_model_message(model), dmb_status_text(DMB_ERR_NO_MEMORY)));
+        const counts after = counts_of(model, &m);
+        assert_int_equal(before.strings, after.strings);
+        assert_int_equal(before.bodies, after.bodies);
+        assert_int_equal(before.joints, after.joints);
+        assert_int_equal(dmb_model_add_sub(model, &def, &made), DMB_OK);
+    }
+    m.until_failure = -1;
+    pipe.string = made.section;
+    assert_int_equal(dmb_model_add_pipes(model, &pipe, 2, NULL), DMB_OK);
+    assert_int_equal(dmb_model_compile(model, NULL), DMB_OK);
+    *bytes = model->scene->bytes;
+    dmb_model_destroy(&model);
+    assert_int_equal(m.blocks, 0);
+    return m.failed;
+}
+
+static void sub_fails_as_a_whole(void **state)
+{
+    size_t bytes, first;
+    long k = 0;
+    (void)state;
+    (void)run_sub(-1, &first);
+    for (; run_sub(k, &bytes); k++) assert_int_equal(bytes, first);
+    assert_true(k >= 3);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_allocation_fails_once)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_allocation_fails_once),
+                                       cmocka_unit_test(sub_fails_as_a_whole)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
