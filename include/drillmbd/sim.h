@@ -30,9 +30,12 @@ typedef struct dmb_sim_options {
     dmb_log_fn log;                 /* NULL: silent */
     void *log_context;
     double spectral_radius;       /* [-] of generalized-alpha at infinite frequency, 0 .. 1; default 0.8 */
-    double newton_tolerance;      /* [-] residual over the norm of the forces that balance in it, 1e-14 .. 1e-1; default
-                                     1e-8. The force that rounding of the poses makes in a stiff pipe counts as zero; a
-                                     step solved with factors of an earlier one aims at a fifth of it */
+    double newton_tolerance;      /* [-] 0 (default): the iterations of a step follow its own error, of which they leave
+                                     a few hundredths at most (estimated from predictor and corrector), and a residual
+                                     that does under 1e-7 of the forces' work. 1e-14 .. 1e-1: they end at this residual
+                                     over the norm of the forces that balance in it, whatever the step's error; 1e-8 was
+                                     the default before. The force that rounding of the poses makes in a stiff pipe
+                                     counts as zero; factors of an earlier step aim at a fifth of the residual */
     double tolerance_translation; /* [m] local error allowed in a step of dmb_sim_advance, > 0; default 1e-6 */
     double tolerance_rotation;    /* [rad] the same for rotation, > 0; default 1e-5 */
     double step_min;           /* [s] shortest step of dmb_sim_advance and part of a divided step, > 0; default 1e-9 */

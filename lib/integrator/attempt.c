@@ -370,9 +370,8 @@ void dmb_attempt_explain(dmb_sim *sim, const dmb_attempt *attempt)
             dmb_clusters_explain(sim, "its equations cannot be satisfied");
             break;
         }
-        dmb_message_set(&sim->message,
-                        "step to time %g of length %g: %u iterations, relative residual = %g, must be <= %g",
-                        attempt->evaluation.time, attempt->end.step, attempt->iterations, attempt->residual,
-                        sim->options.newton_tolerance);
+        dmb_message_set(
+            &sim->message, "step to time %g of length %g: %u iterations, relative residual = %g, must be <= %g",
+            attempt->evaluation.time, attempt->end.step, attempt->iterations, attempt->residual, attempt->bound);
     }
 }

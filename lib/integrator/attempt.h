@@ -11,6 +11,7 @@ typedef struct dmb_attempt {
     dmb_evaluation evaluation; /* the last one */
     dmb_step_end end;
     double residual; /* [-] relative, at the end */
+    double bound;    /* [-] what it had to come down to */
     uint32_t iterations;
     int32_t status;   /* DMB_OK, DMB_NOTE_WORK_LIMITED, or why the step failed */
     uint32_t block;   /* block found singular, with DMB_ERR_SINGULAR */

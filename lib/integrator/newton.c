@@ -59,11 +59,111 @@ static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt)
     return DMB_ERR_SINGULAR;
 }
 
-/* The tolerance asked for is reached: reused factors only aimed lower. */
-static int32_t is_met(const dmb_sim *sim, const dmb_attempt *attempt)
+/* ---- Where the iteration stops (THEORY 4) ------------------------------------------------------------------------
+ *
+ * With newton_tolerance = 0 it follows the error of the step. Corrector less predictor tells the local error (Milne's
+ * device): error = c (z - z_predicted), c = C (1-am)/(beta (1-af)). What is left of z after the last correction is
+ * left in speed too, as gamma/(h beta) of it, which in all steps together makes an error of order 1/h more than the
+ * local errors do. So it may be DMB_NEWTON_PART of the local error, or 0.2 h w of it where that is less, w a frequency
+ * of the motion. */
+
+#define DMB_NEWTON_PART 0.01  /* [-] of the local error of the step */
+#define DMB_NEWTON_PACE 0.05  /* [-] h w from which on it is that part */
+#define DMB_NEWTON_MOST 1e-3  /* [-] relative residual that is never exceeded */
+#define DMB_NEWTON_LEAST 1e-8 /* [-] and that always does */
+#define DMB_NEWTON_WORK 1e-7  /* [-] of the power that the forces exchange, that of the residual */
+
+static int32_t follows_error(const dmb_sim *sim)
 {
-    return attempt->factored == DMB_FACTORS_REUSED &&
-           dmb_residual_norm_of(&attempt->evaluation, sim->options.newton_tolerance).converged != 0;
+    return !(sim->options.newton_tolerance > 0.0);
+}
+
+/* Part of the predictor's error that may be left where motion is fast. */
+static double share_of(const dmb_sim *sim)
+{
+    const dmb_generalized_alpha c = dmb_generalized_alpha_of(sim->options.spectral_radius);
+    return DMB_NEWTON_PART * fabs(c.error) * (1.0 - c.am) / (c.beta * (1.0 - c.af));
+}
+
+/* The bound of the residual; reused factors aim below the tolerance. */
+static dmb_residual_bound bound_of(const dmb_sim *sim, double aim)
+{
+    const dmb_residual_bound given = {aim * sim->options.newton_tolerance, 0.0, 0.0};
+    const dmb_residual_bound following = {aim * DMB_NEWTON_LEAST, share_of(sim), DMB_NEWTON_MOST};
+    return follows_error(sim) ? following : given;
+}
+
+/* [J] |z . residual| of the correction z at hand. */
+static double work_of(const dmb_sim *sim)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) sum += sim->correction[i] * sim->residual[i];
+    return fabs(sum);
+}
+
+/* [W] of the residual, and of the forces without regard to sign. */
+typedef struct powers {
+    double left, exchanged;
+} powers;
+
+static powers powers_of(const dmb_sim *sim)
+{
+    powers p = {0.0, 0.0};
+    for (uint32_t i = 0; i < sim->scene->row_count; i++) {
+        if (!sim->scene->solved_row[i]) continue;
+        p.left += sim->residual[i] * sim->trial.velocity[i];
+        p.exchanged += fabs(sim->scale_row[i] * sim->trial.velocity[i]);
+    }
+    return p;
+}
+
+/* [-] h times a frequency of the motion over DMB_NEWTON_PACE, at most 1: of an oscillation (h w)^2 = h |a1 - a0|/|v|.
+ * With z of the first correction for h^2 (a1 - a0), weighed by its residual, and the forces for v. */
+static double pace_of(const dmb_attempt *attempt, const dmb_newton_course *course, double exchanged)
+{
+    const double way = attempt->end.step * exchanged * course->first;
+    const double squared = 4.0 / (DMB_NEWTON_PACE * DMB_NEWTON_PACE) * course->most_work;
+    return way > squared ? sqrt(squared / way) : 1.0;
+}
+
+/* The largest |z . residual| of all corrections z is the square of the predictor's error in the energy norm; the last
+ * one's times the square of t/(1 - t) is that of the error left, t being the rate: that of the residual, in which stiff
+ * directions weigh more, or that along the last correction, in which soft ones do, whichever is larger. [-] over what
+ * is allowed of it. */
+static double excess_of_error(const dmb_sim *sim, double residual, const dmb_newton_course *course)
+{
+    const double rate = fmax(residual / course->last, work_of(sim) / course->work);
+    if (!(rate < 1.0)) return (double)INFINITY;
+    return rate * sqrt(course->work / course->most_work) / (share_of(sim) * (1.0 - rate));
+}
+
+/* The residual's power is energy won or lost, and in long free runs it adds up where the scheme's own error comes back
+ * to 0. [-] over what is allowed. */
+static double excess_of_power(const powers *p)
+{
+    return p->left != 0.0 ? fabs(p->left) / (DMB_NEWTON_WORK * p->exchanged) : 0.0;
+}
+
+/* How the residual compares with its bound. */
+static dmb_residual_norm compare(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course,
+                                 double aim)
+{
+    const dmb_residual_bound bound = bound_of(sim, aim);
+    dmb_residual_norm norm = dmb_residual_norm_within(&attempt->evaluation, &bound);
+    if (norm.converged != DMB_SMALL_PART) return norm;
+    const powers p = powers_of(sim);
+    const double of_error = excess_of_error(sim, norm.relative, course) / pace_of(attempt, course, p.exchanged);
+    const double excess = fmax(of_error, excess_of_power(&p));
+    if (excess <= 1.0) return norm;
+    norm.converged = 0;
+    norm.bound = fmax(bound.tolerance, norm.relative / excess);
+    return norm;
+}
+
+/* The bound asked for is reached: reused factors only aimed lower. */
+static int32_t is_met(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course)
+{
+    return attempt->factored == DMB_FACTORS_REUSED && compare(sim, attempt, course, 1.0).converged != 0;
 }
 
 /* Residual, and the tangent where it will be needed at once, on the constraints. */
@@ -76,21 +176,28 @@ static int32_t evaluate(dmb_sim *sim, dmb_attempt *attempt)
 }
 
 /* Verdict of the residual. 1: a correction is due, 0 or DMB_NOTE_WORK_LIMITED: done, < 0: given up. */
-static int32_t judge(const dmb_sim *sim, dmb_attempt *attempt, dmb_newton_course *course)
+static int32_t judge(dmb_sim *sim, dmb_attempt *attempt, dmb_newton_course *course)
 {
-    const dmb_residual_norm norm = dmb_residual_norm_of(&attempt->evaluation, dmb_factor_reuse_aim(sim, attempt));
+    const double aim = attempt->factored == DMB_FACTORS_REUSED ? DMB_REUSE_TOLERANCE : 1.0;
+    if (course->corrections == 0 && follows_error(sim)) dmb_residual_start(sim);
+    const dmb_residual_norm norm = compare(sim, attempt, course, aim);
     attempt->residual = norm.relative;
+    attempt->bound = norm.bound;
     course->hidden = norm.converged == DMB_AT_ROUNDING && dmb_factor_reuse_still_pay(sim, attempt, course);
     if (norm.converged && !course->hidden) return 0;
     if (is_rounding(attempt, norm.balance, course) || is_unsharp(sim, attempt, course)) return 0;
     const int32_t status = check_course(sim, attempt, course);
-    return status != 1 && is_met(sim, attempt) ? 0 : status;
+    return status != 1 && is_met(sim, attempt, course) ? 0 : status;
 }
 
 /* Moves the trial by the correction that the factors at hand give. */
-static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt)
+static void correct(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *attempt, dmb_newton_course *course)
 {
     dmb_solve_correction(sim);
+    if (follows_error(sim)) {
+        course->work = work_of(sim);
+        course->most_work = fmax(course->most_work, course->work);
+    }
     attempt->iterations++;
     if (attempt->factored == DMB_FACTORS_FRESH) { /* kept ones give way to a tangent at the true stress */
         dmb_system_extrapolate_stress(sim, sim->correction);
@@ -107,13 +214,13 @@ static int32_t iterate(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt
     if (status >= 0) status = judge(sim, attempt, course);
     if (status != 1) return status;
     if (!course->hidden && !dmb_factor_reuse_will_do(sim, attempt, course)) {
-        if (course->corrections > 0 && is_met(sim, attempt)) return 0;
+        if (course->corrections > 0 && is_met(sim, attempt, course)) return 0;
         status = refactor(sim, attempt);
         if (status < 0) return status;
     }
     course->last = attempt->residual;
     course->corrections++;
-    correct(sim, c, attempt);
+    correct(sim, c, attempt, course);
     return 1;
 }
 
@@ -162,7 +269,7 @@ int32_t dmb_factor_reuse_will_do(const dmb_sim *sim, const dmb_attempt *attempt,
     if (attempt->factored == DMB_FACTORS_REUSED && course->corrections == 0)
         return attempt->residual <= DMB_REUSE_START;
     const double rate = attempt->residual / course->last;
-    return rate * rate * attempt->residual <= dmb_factor_reuse_aim(sim, attempt);
+    return rate * rate * attempt->residual <= attempt->bound;
 }
 
 /* Kept factors have done for a whole step. */

@@ -8,8 +8,9 @@
 
 /* Course of one Newton iteration. */
 typedef struct dmb_newton_course {
-    double first, last; /* relative residual at the start, and before the last correction */
-    double balance;     /* [N] norm of the terms that balanced at the start */
+    double first, last;     /* relative residual at the start, and before the last correction */
+    double balance;         /* [N] norm of the terms that balanced at the start */
+    double most_work, work; /* [J] |z . residual| of the largest correction z, of the last */
     uint32_t corrections;
     int32_t hidden; /* 1: all that shows is rounding, but reused factors still find something below it */
 } dmb_newton_course;
@@ -25,13 +26,6 @@ int32_t dmb_newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *at
 
 /* Start of an iteration: with the reused factors where there are any for this step, else with none. */
 void dmb_factor_reuse_begin(dmb_sim *sim, dmb_attempt *attempt);
-/* [-] Relative residual that the factors in use aim at. */
-static inline double dmb_factor_reuse_aim(const dmb_sim *sim, const dmb_attempt *attempt)
-{
-    const double own = sim->options.newton_tolerance;
-    return attempt->factored == DMB_FACTORS_REUSED ? DMB_REUSE_TOLERANCE * own : own;
-}
-
 /* The rounding of stiff elements hides what reused factors leave in soft directions: they go on while it pays. */
 int32_t dmb_factor_reuse_still_pay(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course);
 /* Factors that are there do when two more corrections at the present rate reach what they aim at; kept ones also for a

@@ -124,7 +124,9 @@ static void check_iteration(dmb_check *check, const dmb_sim_options *o)
 {
     dmb_check_count(check, "max_iterations", o->max_iterations, 1, 1000);
     dmb_check_within(check, "spectral_radius", o->spectral_radius, 0.0, 1.0);
-    dmb_check_within(check, "newton_tolerance", o->newton_tolerance, 1e-14, 1e-1);
+    if (!(o->newton_tolerance >= 1e-14 && o->newton_tolerance <= 1e-1) && o->newton_tolerance != 0.0)
+        dmb_check_fail(check, dmb_is_finite(o->newton_tolerance) ? DMB_ERR_VALUE : DMB_ERR_NOT_FINITE,
+                       "newton_tolerance", o->newton_tolerance, "0 (follow the error of the step), or 1e-14 .. 0.1");
     dmb_check_choice(check, "bounded_work", o->bounded_work, 0, 1);
     dmb_check_choice(check, "energy_ledger", o->energy_ledger, 0, 1);
     dmb_check_choice(check, "constraint_method", o->constraint_method, DMB_METHOD_INDEPENDENT, DMB_METHOD_MULTIPLIERS);
@@ -165,7 +167,7 @@ int32_t dmb_sim_options_take(dmb_sim_options *out, const dmb_sim_options *given,
 DMB_DEFINE_INIT(dmb_sim_options, 96, {
     .max_iterations = 12,
     .spectral_radius = 0.8,
-    .newton_tolerance = 1e-8,
+    .newton_tolerance = 0.0,
     .tolerance_translation = 1e-6,
     .tolerance_rotation = 1e-5,
     .step_min = 1e-9,

@@ -10,7 +10,7 @@ typedef struct field_counts {
     uint64_t n, r, s, p, sb, pb, e, d, k, load, history, diagonal, link, backup;
     uint64_t act, delay, ns, held, input, event, force, stuck, f, j, c, cluster, column, raw, jacobian, tangent, dense,
         square, full, block, value, pivots, kd, kl, kn;
-    uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block;
+    uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block, chain;
 } field_counts;
 
 /* The letters as names, for the count expressions of the lists; not every list uses all of them. */
@@ -31,7 +31,8 @@ typedef struct field_counts {
     (void)sparse_values, (void)sparse_rows, (void)sparse_raw, (void)sparse_c, (void)sparse_block;                   \
     const uint64_t act = (of)->act, delay = (of)->delay;                                                            \
     (void)act, (void)delay;                                                                                         \
-    const uint64_t f = (of)->f;                                                                                     \
+    const uint64_t f = (of)->f, chain = (of)->chain;                                                                \
+    (void)chain;                                                                                                    \
     (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,       \
         (void)link, (void)backup, (void)j, (void)c, (void)cluster, (void)column, (void)raw, (void)jacobian,         \
         (void)tangent, (void)dense, (void)square, (void)full, (void)block, (void)value, (void)pivots, (void)kd,     \
@@ -85,6 +86,7 @@ static field_counts counts_of(const dmb_scene *scene)
     c.input = scene->input_count;
     c.event = scene->event_count;
     c.f = scene->free_rigid_count;
+    c.chain = scene->chain_count;
     c.p = scene->path_site_count;
     c.sb = dmb_scene_has_bristles(scene) ? c.s : 0;
     c.pb = dmb_scene_has_bristles(scene) ? c.p : 0;

@@ -112,6 +112,7 @@ static void bounded_work_does_not_loosen_advance(void **state)
     dmb_step_report report = dmb_step_report_default();
     options.bounded_work = 1;
     options.max_iterations = 2;
+    options.newton_tolerance = 1e-8;
     scene s = pendulum(&options);
     assert_int_equal(dmb_sim_advance(s.sim, 0.5, &report), DMB_OK);
     assert_true(report.residual <= options.newton_tolerance);

@@ -110,6 +110,7 @@ static void short_of_iterations(void **state)
         dmb_sim_options options = dmb_sim_options_default();
         rig s;
         options.max_iterations = most;
+        options.newton_tolerance = 1e-8;
         open_string(&s, &options);
         for (int i = 0; i < 100; i++) {
             dmb_step_report report = dmb_step_report_default();

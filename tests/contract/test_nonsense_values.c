@@ -464,7 +464,7 @@ static void option_numbers_out_of_bounds_are_refused(void **state)
         double bad[4]; /* 7: none */
     } fields[] = {
         {offsetof(dmb_sim_options, spectral_radius), {-1.0, -1e-16, 1.0 + 1e-15, DBL_MAX}},
-        {offsetof(dmb_sim_options, newton_tolerance), {0.0, -1.0, 0.11, 9e-15}},
+        {offsetof(dmb_sim_options, newton_tolerance), {4.9e-324, -1.0, 0.11, 9e-15}},
         {offsetof(dmb_sim_options, tolerance_translation), {0.0, -1.0, -DBL_MAX, -4.9e-324}},
         {offsetof(dmb_sim_options, tolerance_rotation), {0.0, -1.0, -DBL_MAX, -4.9e-324}},
         {offsetof(dmb_sim_options, step_min), {0.0, -1.0, 0.1, DBL_MAX}},
@@ -510,7 +510,7 @@ static void options_at_their_bounds_are_taken(void **state)
     (void)state;
     least.max_iterations = 1;
     least.spectral_radius = 0.0;
-    least.newton_tolerance = 1e-14;
+    least.newton_tolerance = 1e-14; /* 0 is the default */
     least.tolerance_translation = least.tolerance_rotation = 4.9e-324;
     least.step_min = 4.9e-324;
     least.step_max = 1e-323;

@@ -17,7 +17,7 @@ typedef struct count_field {
 
 static const number_field numbers[] = {
     {AT(spectral_radius), {0.0, 1.0}, {-1e-9, 1.0 + 1e-9, 7.0}},
-    {AT(newton_tolerance), {1e-14, 1e-1}, {0.0, 0.11, 1e-15}},
+    {AT(newton_tolerance), {1e-14, 1e-1}, {-1e-14, 0.11, 1e-15}},
     {AT(tolerance_translation), {1e-30, 1e3}, {0.0, -1.0, -1e-300}},
     {AT(tolerance_rotation), {1e-30, 1e3}, {0.0, -1.0, -1e-300}},
     {AT(step_min), {1e-15, 0.09}, {0.0, -1e-9, 0.1}},

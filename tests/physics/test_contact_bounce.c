@@ -20,6 +20,7 @@ static void drop(flight *f, double tolerance)
     dmb_sim_options options = dmb_sim_options_default();
     options.tolerance_translation = tolerance;
     options.step_min = 1e-12;
+    options.newton_tolerance = 1e-8; /* what iterations leave is looked at by itself */
     wall.approach_speed = 1e-5;
     scene_open(&f->scene, g);
     add_wall(&f->scene, &wall);

@@ -2321,7 +2321,7 @@ class SimOptions(Sized):
         "log": ("", "NULL: silent"),
         "log_context": ("", ""),
         "spectral_radius": ("-", "of generalized-alpha at infinite frequency, 0 .. 1; default 0.8"),
-        "newton_tolerance": ("-", "residual over the norm of the forces that balance in it, 1e-14 .. 1e-1; default 1e-8. The force that rounding of the poses makes in a stiff pipe counts as zero; a step solved with factors of an earlier one aims at a fifth of it"),
+        "newton_tolerance": ("-", "0 (default): the iterations of a step follow its own error, of which they leave a few hundredths at most (estimated from predictor and corrector), and a residual that does under 1e-7 of the forces' work. 1e-14 .. 1e-1: they end at this residual over the norm of the forces that balance in it, whatever the step's error; 1e-8 was the default before. The force that rounding of the poses makes in a stiff pipe counts as zero; factors of an earlier step aim at a fifth of the residual"),
         "tolerance_translation": ("m", "local error allowed in a step of dmb_sim_advance, > 0; default 1e-6"),
         "tolerance_rotation": ("rad", "the same for rotation, > 0; default 1e-5"),
         "step_min": ("s", "shortest step of dmb_sim_advance and part of a divided step, > 0; default 1e-9"),

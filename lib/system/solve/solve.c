@@ -51,32 +51,71 @@ static norms norms_of(const dmb_sim *sim, const dmb_chain *chain)
 /* Rounding of poses counts where there are elements, joints or, alone and at rest, a wall; overflow never converges:
  * anything is small beside infinity.
  */
-static int32_t judge(const dmb_evaluation *evaluation, const dmb_chain *chain, double tolerance, norms n)
+static int32_t judge(const dmb_evaluation *evaluation, const dmb_chain *chain, double tolerance, double part, norms n)
 {
     const double floor = DMB_ROUNDING_UNITS * DBL_EPSILON;
     if (!(n.all <= DBL_MAX)) return 0;
     if (n.rest <= tolerance * tolerance * n.all) return DMB_CONVERGED;
+    if (n.rest <= part) return DMB_SMALL_PART;
     const int stiff =
         chain->count > 1 || chain->jointed || (!evaluation->dynamic && evaluation->sim->scene->element_count == 0);
     return stiff && n.rest <= floor * floor * evaluation->rounding ? DMB_AT_ROUNDING : 0;
 }
 
-dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double tolerance)
+void dmb_residual_start(dmb_sim *sim)
 {
-    const dmb_scene *scene = evaluation->sim->scene;
-    dmb_residual_norm norm = {0.0, 0.0, DMB_CONVERGED, 0};
+    for (uint32_t c = 0; c < sim->scene->chain_count; c++)
+        sim->chain_start[c] = norms_of(sim, sim->scene->chains + c).rest;
+}
+
+/* [N2] part of the residual at the start that a chain may keep. */
+static double part_of(const dmb_sim *sim, uint32_t c, const dmb_residual_bound *bound, norms n)
+{
+    if (!(bound->share > 0.0)) return 0.0;
+    return fmin(bound->share * bound->share * sim->chain_start[c], bound->most * bound->most * n.all);
+}
+
+static double relative_of(norms n)
+{
+    if (!(n.all <= DBL_MAX)) return (double)INFINITY;
+    return n.all > 0.0 ? sqrt(n.rest / n.all) : 0.0;
+}
+
+/* The worst of two verdicts. */
+static int32_t worse(int32_t a, int32_t b)
+{
+    if (a == 0 || b == 0) return 0;
+    if (a == DMB_SMALL_PART || b == DMB_SMALL_PART) return DMB_SMALL_PART;
+    return a == DMB_AT_ROUNDING ? a : b;
+}
+
+dmb_residual_norm dmb_residual_norm_within(const dmb_evaluation *evaluation, const dmb_residual_bound *bound)
+{
+    const dmb_sim *sim = evaluation->sim;
+    const dmb_scene *scene = sim->scene;
+    dmb_residual_norm norm = {0.0, 0.0, bound->tolerance, DMB_CONVERGED, 0};
+    double excess = 0.0;
     for (uint32_t c = 0; c < scene->chain_count; c++) {
-        const norms n = norms_of(evaluation->sim, scene->chains + c);
-        const int32_t verdict = judge(evaluation, scene->chains + c, tolerance, n);
-        if (verdict == 0) norm.converged = 0;
-        if (verdict == DMB_AT_ROUNDING && norm.converged) norm.converged = DMB_AT_ROUNDING;
-        norm.relative = fmax(norm.relative, !(n.all <= DBL_MAX) ? (double)INFINITY
-                                            : n.all > 0.0       ? sqrt(n.rest / n.all)
-                                                                : 0.0);
+        const norms n = norms_of(sim, scene->chains + c);
+        const double part = part_of(sim, c, bound, n), relative = relative_of(n);
+        norm.converged = worse(norm.converged, judge(evaluation, scene->chains + c, bound->tolerance, part, n));
+        norm.relative = fmax(norm.relative, relative);
         norm.balance += n.all;
+        if (!(bound->share > 0.0)) continue;
+        const double own = n.all > 0.0 ? fmax(bound->tolerance, sqrt(part / n.all)) : bound->tolerance;
+        if (relative > excess * own) {
+            excess = relative / own;
+            norm.bound = own;
+        }
     }
     norm.balance = sqrt(norm.balance);
     return norm;
+}
+
+dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double tolerance)
+{
+    const dmb_residual_bound bound = {tolerance, 0.0, 0.0};
+    return dmb_residual_norm_within(evaluation, &bound);
 }
 
 static dmb_block_matrix matrix_of(const dmb_sim *sim)

@@ -6,19 +6,30 @@
 #include "system/assemble/evaluation.h"
 
 /* DMB_AT_ROUNDING: above the tolerance, but rounding of the poses alone makes a residual as large. Next to very stiff
- * elements small loads are below that, so it ends an iteration and does not stand for one. */
-enum { DMB_CONVERGED = 1, DMB_AT_ROUNDING = 2 };
+ * elements small loads are below that, so it ends an iteration and does not stand for one. DMB_SMALL_PART: above the
+ * tolerance too, but a small part of the residual that the iteration began with. */
+enum { DMB_CONVERGED = 1, DMB_AT_ROUNDING = 2, DMB_SMALL_PART = 3 };
 
 typedef struct dmb_residual_norm {
     double relative;   /* [-] norm of the residual over that of the terms that balance in it, of the worst chain */
     double balance;    /* [N] norm of those terms, all chains */
-    int32_t converged; /* how it compares with the tolerance; 0: neither of the above */
+    double bound;      /* [-] what the relative residual of the chain furthest above its bound must come down to */
+    int32_t converged; /* how it compares with the tolerance; 0: none of the above */
     int32_t reserved;
 } dmb_residual_norm;
+
+/* Bound of a relative residual: `tolerance`, or `share` of what sim->chain_start says of the chain where that is more;
+ * of that at most `most`. share 0: the tolerance alone. */
+typedef struct dmb_residual_bound {
+    double tolerance, share, most;
+} dmb_residual_bound;
 
 /* Moments count over the length of their chain; unknown rows only; chain by chain, so that a light body is not judged
  * by a heavy string. */
 dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double tolerance);
+dmb_residual_norm dmb_residual_norm_within(const dmb_evaluation *evaluation, const dmb_residual_bound *bound);
+/* Remembers the residual of each chain in sim->chain_start. */
+void dmb_residual_start(dmb_sim *sim);
 /* Factors the iteration matrix in place, that of joints by DMB_METHOD_.... Index of a singular block, or -1. */
 int64_t dmb_factor_matrix(dmb_sim *sim, int32_t method);
 /* The same for statics, by independent coordinates, telling the weakest pivot: what nothing holds shows as one of

@@ -308,6 +308,7 @@ static void check_power(const full_rig_choice *choice)
     rig s;
     double sum = 0.0, most = 0.0;
     full_rig_open(&s, choice);
+    s.sim->options.newton_tolerance = 1e-8;
     for (int i = 0; i < 20; i++) must(&s, dmb_sim_step(s.sim, 0.005, NULL));
     for (int k = 0; k < DMB_POWER_COUNT; k++) {
         sum += s.sim->clock->power[k];
