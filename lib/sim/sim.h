@@ -140,7 +140,7 @@
                                 [m/s2, rad/s2] of accelerations: system/solve/solve; to increments given:              \
                                 integrator/step_motion; shortened by                                                   \
                                 analysis/static/static_newton */                                                      \
-    X(double, chain_start, chain) /* [N2] square of the residual that a step begins with: integrator/newton */          \
+    X(double, chain_start, chain) /* [N2] square of the residual a step begins with: system/solve/solve */          \
     X(double, scale_row, r)             /* [N, N m] sum of magnitudes of the terms of each row */                     \
     X(double, element_strain, 6 * e) /* [m, rad] d of the trial */                                                    \
     X(double, element_stress, 6 * e)    /* [N, N m] stress for the geometric stiffness of the next iteration */       \
