@@ -154,7 +154,7 @@ static int32_t correct_once(course *of)
     return DMB_OK;
 }
 
-/* Corrections by the factors at hand. Where the matrix is exact the first does. Else the second shows whether it has
+/* Corrections by the factors at hand. Where the matrix is exact, the first does. Else the second shows whether it has
  * done: tangents of contacts that close and of bits that meet the rock are off by some 1e-5, and the iteration matrix
  * of joints by some 1e-2. */
 static int32_t correct(course *of)

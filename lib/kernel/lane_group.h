@@ -7,7 +7,7 @@
 
 #include "math/real.h"
 
-/* How many numbers are loaded is a constant where it is asked for; loops over them are unrolled only in place. */
+/* The number of values that are loaded is a constant at each call; loops over them are unrolled only in place. */
 #if defined(__GNUC__)
 #define DMB_LANES_INLINE static inline __attribute__((always_inline))
 #else

@@ -56,7 +56,7 @@ static inline void load_input(const dmb_beam_job *job, const lane_group *g, dmb_
     load(job->increment, 6, 6, g, 1, in->zb);
 }
 
-/* What far ends of elements add to nodes of the next group. */
+/* Parts of the nodes of the next group that come from the far ends of elements. */
 typedef struct beam_ends {
     dmb_real residual[6], scale[6], stiffness[36], inertia[36];
 } beam_ends;

@@ -63,13 +63,13 @@ static void section_from_node(const dmb_scene *scene, const dmb_material_point *
     dmb_section_pose(&scene->types[scene->element_type[material_point->element]], &shape, d, Q, r);
 }
 
-/* From a node and a place r seen from it, now and at the start. The displacement never subtracts world positions. */
+/* From a node and a place r seen from it, `before` in world axes at the start. The displacement never subtracts world
+ * positions. */
 static void place_from_node(const dmb_scene *scene, uint32_t node, const dmb_end_pose *now, const double r[3],
-                            const double rotation_start[9], const double r_start[3], dmb_material_point_pose *pose)
+                            const double before[3], dmb_material_point_pose *pose)
 {
-    double moved[3], before[3];
+    double moved[3];
     dmb_mat3_vec(now->rotation, r, moved);
-    dmb_mat3_vec(rotation_start, r_start, before);
     dmb_vec3_add(scene->reference_position + 3 * (size_t)node, now->displacement, pose->position);
     dmb_vec3_add(pose->position, moved, pose->position);
     dmb_vec3_sub(moved, before, pose->displacement);
@@ -80,11 +80,13 @@ static void fixed_pose(const dmb_scene *scene, const dmb_configuration *configur
                        const dmb_material_point *material_point, dmb_material_point_pose *pose)
 {
     const double arm[3] = {material_point->arm, 0.0, 0.0};
+    double before[3];
     dmb_end_pose now, start;
     dmb_end_pose_now(scene, configuration, material_point->node, &now);
     dmb_end_pose_at_start(scene, material_point->node, &start);
     dmb_mat3_copy(now.rotation, pose->rotation);
-    place_from_node(scene, material_point->node, &now, arm, start.rotation, arm, pose);
+    dmb_mat3_vec(start.rotation, arm, before);
+    place_from_node(scene, material_point->node, &now, arm, before, pose);
 }
 
 static void section_pose(const dmb_scene *scene, const dmb_configuration *configuration,
@@ -92,7 +94,7 @@ static void section_pose(const dmb_scene *scene, const dmb_configuration *config
 {
     const uint32_t a = scene->element_node[material_point->element], b = a + 1;
     dmb_end_pose now_a, now_b, start_a, start_b;
-    double Q[9], Q_start[9], r[3], r_start[3];
+    double Q[9], Q_start[9], r[3], r_start[3], before[3];
     dmb_end_pose_now(scene, configuration, a, &now_a);
     dmb_end_pose_now(scene, configuration, b, &now_b);
     dmb_end_pose_at_start(scene, a, &start_a);
@@ -100,7 +102,8 @@ static void section_pose(const dmb_scene *scene, const dmb_configuration *config
     section_from_node(scene, material_point, &now_a, &now_b, Q, r);
     section_from_node(scene, material_point, &start_a, &start_b, Q_start, r_start);
     dmb_mat3_mul(now_a.rotation, Q, pose->rotation);
-    place_from_node(scene, a, &now_a, r, start_a.rotation, r_start, pose);
+    dmb_mat3_vec(start_a.rotation, r_start, before);
+    place_from_node(scene, a, &now_a, r, before, pose);
 }
 
 void dmb_material_point_pose_of(const dmb_scene *scene, const dmb_configuration *configuration,

@@ -174,7 +174,7 @@ double dmb_pencil_factor(dmb_pencil *pencil, uint32_t k, double guess, double mo
  * unknowns). Returns the factor once more, as Rayleigh's quotient of the vector. */
 double dmb_pencil_vector(dmb_pencil *pencil, double factor, const double *other, uint32_t others, double *x);
 
-/* Where K or G is not symmetric: */
+/* K or G is not symmetric: */
 
 /* The same factors, as many as `wanted`, and their vectors, shape (wanted, unknowns): the real positive eigenvalues
  * 1/factor of -K^-1 G that are largest, by Krylov subspaces. *found: how many there are below `most`.

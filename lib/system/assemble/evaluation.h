@@ -44,8 +44,8 @@ typedef struct dmb_evaluation {
 int32_t dmb_system_evaluate(dmb_evaluation *evaluation);
 /* Pose of the trial: that of now moved by `increment`. */
 void dmb_system_move(dmb_sim *sim);
-/* What contacts, drives and bits keep of the trial, where that is all that is asked of it: of the residual only the
- * rows that are held are set, to held. Not of PATH nodes nor callers' forces. */
+/* Sets what contacts, drives and bits keep of the trial, where that is all that is asked of it: of the residual only
+ * the rows that are held are set, to held. Not of PATH nodes nor callers' forces. */
 void dmb_system_remember(dmb_evaluation *evaluation, const double *held);
 /* Iteration matrix K T6(increment) + inertia into the stiffness_ blocks, identity in rows that are not solved. */
 void dmb_system_iteration_matrix(const dmb_evaluation *evaluation);
