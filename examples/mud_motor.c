@@ -28,6 +28,7 @@ static dmb_id add_constant(double value)
 static dmb_id describe(void)
 {
     const double times[] = {1.0, 11.0}, torques[] = {0.0, -1000.0};
+    const double speeds[] = {0.0, 3.0, 5.5, 6.3}, sheet[] = {900.0, 820.0, 450.0, 0.0}; /* [rad/s], [N m] */
     dmb_environment_def mud = dmb_environment_def_default();
     dmb_joint_def joint = dmb_joint_def_default();
     dmb_motor motor = dmb_motor_default();
@@ -47,9 +48,9 @@ static dmb_id describe(void)
     joint.place_a = dmb_station(turn.part, 1, 1.0);
     joint.place_b = dmb_station(add_section(2.0, DMB_FREE_ALL), 0, 0.0);
     (void)dmb_model_add_joint(model, &joint, &drive.part);
-    motor.stall_torque = 900.0;
-    motor.displacement = 0.012; /* 12 l a revolution, 15 l/s of mud */
-    motor.flow = 0.015;
+    motor.table_flow = 0.012, motor.flow = 0.015; /* [m3/s] of its data sheet, and here */
+    motor.table_count = 4;
+    for (int i = 0; i < 4; i++) motor.table_speed[i] = speeds[i], motor.table_torque[i] = sheet[i];
     (void)dmb_motor_drive(&motor, &drive, &no_load_speed);
     drive.programme = add_constant(no_load_speed);
     (void)dmb_model_add_drive(model, &drive, &id);

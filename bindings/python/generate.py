@@ -35,7 +35,7 @@ FLAGS = ("FREE", "FEATURE", "PROVIDES", "STUCK")  # prefixes of bits of masks
 STRUCT_NAMES = {"dmb_recorder": "RecorderStruct", "dmb_profile": "ProfileStruct",
                 "dmb_profile_recorder": "ProfileRecorderStruct"}
 MIXINS = {"Id": "IdPart", "Term": "TermPart", "WallDef": "WallPart", "ConstraintDef": "ConstraintPart",
-          "SpringDef": "SpringPart", "DriveDef": "DrivePart", "ForceDef": "ForcePart"}
+          "SpringDef": "SpringPart", "DriveDef": "DrivePart", "Motor": "MotorPart", "ForceDef": "ForcePart"}
 NUMBERS = {"int32_t": "c_int32", "uint32_t": "c_uint32", "int64_t": "c_int64", "uint64_t": "c_uint64",
            "double": "c_double", "size_t": "c_size_t", "char": "c_char"}
 PYTHON = {"c_double": "float", "c_char": "bytes"}
@@ -261,7 +261,7 @@ from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int
                     c_void_p)
 from typing import Any, ClassVar
 
-from ._record import ConstraintPart, DrivePart, ForcePart, IdPart, Record, Sized, SpringPart, TermPart, WallPart
+from ._record import ConstraintPart, DrivePart, ForcePart, IdPart, MotorPart, Record, Sized, SpringPart, TermPart, WallPart
 
 '''
 FUNCTIONS_HEAD = MADE.format("The functions of the C interface.") + '''from __future__ import annotations

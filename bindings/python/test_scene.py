@@ -547,6 +547,34 @@ curve = [["0 rpm", "4 kN m"], ["60 rpm", "4 kN m"], ["140 rpm", "0 N m"]]
         with self.assertRaisesRegex(scene.SceneError, "curve"):
             scene.loads(text.replace('["0 rpm", "4 kN m"]', '["0 rpm"]'))
 
+    def test_mud_motors(self):
+        text = """
+[[body]]
+name = "stator"
+[[body]]
+name = "rotor"
+[[joint]]
+name = "bearing"
+kind = "revolute"
+place_a = "stator"
+place_b = "rotor"
+[[drive]]
+name = "motor"
+part = "bearing"
+motor = {flow = "1200 l/min", table_flow = "1800 l/min", table = [["0 rpm", "900 N m"], ["90 rpm", "700 N m"], ["150 rpm", "0 N m"]]}
+"""
+        found = scene.loads(text)
+        drive = dict(found.model.calls)["add_drive"][0]
+        self.assertEqual([round(one, 9) for pair in drive["gain_table"] for one in pair],
+                         [round(one, 9) for pair in ((0.0, 0.0), (4 * math.pi / 3, 700.0), (10 * math.pi / 3, 900.0)) for one in pair])
+        again = scene.loads(scene.saves(found))
+        self.assertTrue(again.same_as(found))
+        self.assertEqual(after_run(again), after_run(found))
+        for wrong, told in (('["90 rpm", "700 N m"]', '["90 rpm"]'), ("1200 l/min", "-1 l/min"), ("table_flow", "flux"),
+                            ('"bearing"\nmotor', '"bearing"\ngain = 1\nmotor'), ('["90 rpm", "700 N m"]', '["200 rpm", "700 N m"]')):
+            with self.assertRaisesRegex(scene.SceneError, "motor|gain"):
+                scene.loads(text.replace(wrong, told))
+
     def test_names_go_to_the_library(self):
         text = """[[string]]
 name = "main"

@@ -47,20 +47,36 @@ DMB_SIZED_STRUCT(dmb_stuck_state)
 DMB_API int32_t dmb_query_stuck(const dmb_sim *sim, dmb_id stuck, dmb_stuck_state *state);
 
 /* A mud motor between two sections of a string is a drive on a revolute joint between them (place_a at the far end of
- * the section above, place_b at the rig end of the one below): the torque T = stall_torque (1 - w/w0) of the relative
- * speed w, w0 = 2 pi flow/displacement, acts on both sections, equal and opposite, and its power is that of a drive. */
+ * the section above, place_b at the rig end of the one below): its torque T of the relative speed w acts on both
+ * sections, equal and opposite, and its power is that of a drive.
+ *   A line:  T = stall_torque (1 - w/w0), w0 = 2 pi flow/displacement; stall_torque as given, or by `pressure` as
+ *            efficiency displacement pressure/(2 pi) (Tiraspolsky, Hydraulic downhole drilling motors, 1985).
+ *   A table: T(w) as measured at table_flow and table_pressure, straight between its points; speeds times
+ *            flow/table_flow, torques times pressure/table_pressure, by the same laws; w0 is its last speed.
+ * Below w = 0 it gives its torque at stall. */
 typedef struct dmb_motor {
     uint32_t struct_size;
     int32_t brakes; /* 1: beyond w0 it holds back along the same line, as a pump; 0 (default): it runs free there */
     double stall_torque; /* [N m] at w = 0, and the most it gives, > 0 */
     double displacement; /* [m3] of mud a revolution, > 0 */
     double flow;         /* [m3/s] through the motor, > 0 */
+    double pressure;   /* [Pa] drop across it at stall, > 0 in the place of stall_torque, which is 0 then; with a table
+                          > 0 or 0: table_pressure */
+    double efficiency; /* [-] of pressure to torque, > 0, <= 1; default 1; of a line by pressure only */
+    double table_flow; /* [m3/s] of the table, > 0; 0 (default): flow */
+    double table_pressure; /* [Pa] of the table, > 0; 0 (default): pressure */
+    uint32_t table_count;  /* [-] 0 (default): a line, or 2 .. 15 points in its place; stall_torque and displacement are
+                              0  then */
+    uint32_t reserved;
+    double table_speed[15];  /* [rad/s] strictly increasing from 0, shape (table_count) */
+    double table_torque[15]; /* [N m] >= 0, > 0 at the first, 0 at the last, shape (table_count) */
 } dmb_motor;
 DMB_SIZED_STRUCT(dmb_motor)
-/* Fills what makes the drive this motor (kind CONTROL, component RX, gain, limits; part, programme and name stay) and
- * tells w0 [rad/s], the constant value of its programme. Another flow while it runs: inputs of the set point w0 and of
- * the gain stall_torque/w0, set together. Errors: DMB_ERR_NULL, _STRUCT_SIZE, _VALUE, _NOT_FINITE; nothing is written
- * then. */
+/* Fills what makes the drive this motor (kind CONTROL, component RX, gain or its table, limits; part, programme and
+ * name stay) and tells w0 [rad/s], the constant value of its programme. Another flow while it runs: an input of the set
+ * point w0, which is in proportion to it; the torque by w0 - w, what leaks past the rotor, stays then (a positive
+ * displacement motor; Tiraspolsky). Errors: DMB_ERR_NULL, _STRUCT_SIZE, _VALUE, _NOT_FINITE; nothing is written then.
+ */
 DMB_API int32_t dmb_motor_drive(const dmb_motor *motor, dmb_drive_def *drive, double *no_load_speed);
 
 /* A sub: a body in the middle of a string (stabiliser, motor, jar, sensor), and the section of pipes that continues

@@ -332,6 +332,12 @@ typedef struct dmb_drive_def {
     double curve_speed[8]; /* [m/s, rad/s] strictly increasing, shape (curve_count) */
     double curve_force[8]; /* [N, N m] >= 0: the most that it pushes towards > 0 at a speed, straight between points,
                               constant beyond; the same mirrored towards < 0; shape (curve_count) */
+    uint32_t
+        gain_count; /* [-] points of a table of CONTROL in the place of `gain`, which is 0 then: 0 (none) or 2 .. 16 */
+    int32_t reserved3;
+    double gain_error[16]; /* [m/s, rad/s] v* - v, strictly increasing, shape (gain_count) */
+    double gain_force[16]; /* [N, N m] in the place of kp (v* - v), straight between points, constant beyond, shape
+                              (gain_count) */
 } dmb_drive_def;
 DMB_SIZED_STRUCT(dmb_drive_def)
 DMB_API int32_t dmb_model_add_drive(dmb_model *model, const dmb_drive_def *def, dmb_id *drive);

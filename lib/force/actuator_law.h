@@ -17,7 +17,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { DMB_CURVE_POINTS = 8, DMB_DELAY_SAMPLES = 800, DMB_DELAY_PARTS = 256 };
+enum { DMB_CURVE_POINTS = 8, DMB_GAIN_POINTS = 16, DMB_DELAY_SAMPLES = 800, DMB_DELAY_PARTS = 256 };
 
 typedef struct dmb_actuator_law {
     double delay;                                            /* [s] T; 0: none */
@@ -36,17 +36,35 @@ typedef struct dmb_actuator_flow {
     double command, delayed, limited, force;
 } dmb_actuator_flow;
 
+/* y(x) of a table whose x increase, straight between its points and constant beyond, and its slope. */
+static inline double dmb_curve_value(const double *x, const double *y, uint32_t points, double at, double *slope)
+{
+    const uint32_t last = points - 1;
+    uint32_t i = 0;
+    *slope = 0.0;
+    if (at <= x[0]) return y[0];
+    if (at >= x[last]) return y[last];
+    while (at > x[i + 1]) i++;
+    *slope = (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
+    return y[i] + *slope * (at - x[i]);
+}
+
 /* [N, N m] m(v) and its slope. */
 static inline double dmb_actuator_most(const dmb_actuator_law *law, double speed, double *slope)
 {
-    const uint32_t last = law->points - 1;
-    uint32_t i = 0;
-    *slope = 0.0;
-    if (speed <= law->speed[0]) return law->force[0];
-    if (speed >= law->speed[last]) return law->force[last];
-    while (speed > law->speed[i + 1]) i++;
-    *slope = (law->force[i + 1] - law->force[i]) / (law->speed[i + 1] - law->speed[i]);
-    return law->force[i] + *slope * (speed - law->speed[i]);
+    return dmb_curve_value(law->speed, law->force, law->points, speed, slope);
+}
+
+/* Force of a controller by its error, in the place of a gain: a mud motor's torque by w0 - w. */
+typedef struct dmb_gain_table {
+    double error[DMB_GAIN_POINTS], force[DMB_GAIN_POINTS]; /* [m/s, rad/s], [N, N m] */
+    uint32_t points;
+    uint32_t reserved;
+} dmb_gain_table;
+
+static inline double dmb_gain_force(const dmb_gain_table *table, double error, double *slope)
+{
+    return dmb_curve_value(table->error, table->force, table->points, error, slope);
 }
 
 /* A force within the curve; *slope, by the speed, becomes that of the curve where the curve limits it. */

@@ -105,6 +105,9 @@ static void check_target(dmb_check *check, const dmb_model *model, const dmb_inp
         dmb_message_set(check->message, "%s: part must be {0, 0}: its target is of the wall or the environment",
                         check->part);
     }
+    if (check->status >= 0 && def->target == DMB_TARGET_GAIN && drive_of(model, def)->gain_count > 0)
+        dmb_check_fail(check, DMB_ERR_UNSUPPORTED, "target", def->target,
+                       "another one than DMB_TARGET_GAIN: the drive has a table (gain_count) in the place of its gain");
     if (check->status < 0 || !of_drive || drive_of(model, def)->kind == DMB_DRIVE_CONTROL) return;
     check->status = DMB_ERR_UNSUPPORTED;
     dmb_message_set(check->message,

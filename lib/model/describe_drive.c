@@ -224,6 +224,23 @@ static void check_curve(dmb_check *check, const dmb_drive_def *def)
             dmb_check_fail(check, DMB_ERR_VALUE, "curve_speed", def->curve_speed[i], "> the one before, by 1e-12");
 }
 
+static void check_gain_table(dmb_check *check, const dmb_drive_def *def)
+{
+    dmb_check_count(check, "gain_count", def->gain_count, 0, DMB_GAIN_POINTS);
+    if (check->status < 0 || def->gain_count == 0) return;
+    dmb_check_count(check, "gain_count", def->gain_count, 2, DMB_GAIN_POINTS);
+    dmb_check_each_within(check, "gain_error", def->gain_error, def->gain_count, -DMB_SPEED_MAX, DMB_SPEED_MAX);
+    dmb_check_each_within(check, "gain_force", def->gain_force, def->gain_count, -DMB_FORCE_MAX, DMB_FORCE_MAX);
+    dmb_check_increasing(check, "gain_error", def->gain_error, def->gain_count, 1);
+    for (uint32_t i = 1; i < def->gain_count && check->status >= 0; ++i)
+        if (def->gain_error[i] - def->gain_error[i - 1] < DMB_SPEED_MIN)
+            dmb_check_fail(check, DMB_ERR_VALUE, "gain_error", def->gain_error[i], "> the one before, by 1e-12");
+    if (check->status >= 0 && def->gain > 0.0)
+        dmb_check_fail(check, DMB_ERR_VALUE, "gain", def->gain, "0 with gain_count > 0, the table in its place");
+    if (check->status >= 0 && def->kind != DMB_DRIVE_CONTROL)
+        dmb_check_fail(check, DMB_ERR_UNSUPPORTED, "kind", def->kind, "DMB_DRIVE_CONTROL with gain_count > 0");
+}
+
 /* The inertia turns with the part about its x axis; along and across it, and in joints, bodies have it. */
 static void check_rotor(dmb_check *check, const dmb_model *model, const dmb_drive_def *def)
 {
@@ -271,6 +288,7 @@ static int32_t check_drive(dmb_model *model, const dmb_drive_def *def)
     dmb_check_within(&check, "limit_low", def->limit_low, -DMB_FORCE_MAX, DMB_FORCE_MAX);
     dmb_check_within(&check, "limit_high", def->limit_high, -DMB_FORCE_MAX, DMB_FORCE_MAX);
     dmb_check_above_field(&check, "limit_high", def->limit_high, "limit_low", def->limit_low);
+    check_gain_table(&check, def);
     check_actuator(&check, model, def);
     return check.status;
 }

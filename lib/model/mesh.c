@@ -30,6 +30,7 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
         .path_sites = {.item_size = sizeof(dmb_path_site)},
         .drives = {.item_size = sizeof(dmb_scene_drive)},
         .actuators = {.item_size = sizeof(dmb_actuator_law)},
+        .gain_tables = {.item_size = sizeof(dmb_gain_table)},
         .loads = {.item_size = sizeof(dmb_scene_load)},
         .bits = {.item_size = sizeof(dmb_scene_bit)},
         .load_points = {.item_size = sizeof(dmb_scene_point)},
@@ -60,14 +61,14 @@ void dmb_mesh_init(dmb_mesh *mesh, dmb_model *model, const dmb_compile_options *
 void dmb_mesh_release(dmb_mesh *mesh)
 {
     dmb_vector *const all[] = {
-        &mesh->stations,    &mesh->pieces,     &mesh->run_order,     &mesh->run_start,    &mesh->nodes,
-        &mesh->elements,    &mesh->types,      &mesh->batches,       &mesh->rigid_masses, &mesh->sites,
-        &mesh->path_sites,  &mesh->drives,     &mesh->loads,         &mesh->actuators,    &mesh->bits,
-        &mesh->joints,      &mesh->couplings,  &mesh->callbacks,     &mesh->laws,         &mesh->driven,
-        &mesh->constraints, &mesh->clusters,   &mesh->cluster_nodes, &mesh->strings,      &mesh->pipes,
-        &mesh->bodies,      &mesh->inputs,     &mesh->load_points,   &mesh->springs,      &mesh->spring_points,
-        &mesh->events,      &mesh->forces,     &mesh->ring_order,    &mesh->rings,        &mesh->inside,
-        &mesh->stuck,       &mesh->flow_pieces};
+        &mesh->stations,    &mesh->pieces,      &mesh->run_order,     &mesh->run_start,    &mesh->nodes,
+        &mesh->elements,    &mesh->types,       &mesh->batches,       &mesh->rigid_masses, &mesh->sites,
+        &mesh->path_sites,  &mesh->drives,      &mesh->loads,         &mesh->actuators,    &mesh->bits,
+        &mesh->joints,      &mesh->couplings,   &mesh->callbacks,     &mesh->laws,         &mesh->driven,
+        &mesh->constraints, &mesh->clusters,    &mesh->cluster_nodes, &mesh->strings,      &mesh->pipes,
+        &mesh->bodies,      &mesh->inputs,      &mesh->load_points,   &mesh->springs,      &mesh->spring_points,
+        &mesh->events,      &mesh->forces,      &mesh->ring_order,    &mesh->rings,        &mesh->inside,
+        &mesh->stuck,       &mesh->flow_pieces, &mesh->gain_tables};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) dmb_vector_release(all[i], &mesh->model->allocator);
 }
 

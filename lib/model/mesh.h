@@ -89,6 +89,7 @@ typedef struct dmb_mesh {
     dmb_vector path_sites;    /* dmb_path_site */
     dmb_vector drives;        /* dmb_scene_drive; row is filled by freeze */
     dmb_vector actuators;     /* dmb_actuator_law */
+    dmb_vector gain_tables;   /* dmb_gain_table */
     dmb_vector loads;         /* dmb_scene_load */
     dmb_vector bits;          /* dmb_scene_bit */
     dmb_vector inputs;        /* dmb_scene_input */

@@ -76,6 +76,14 @@ static int32_t add_actuator(dmb_mesh *mesh, const dmb_drive_def *def)
     return dmb_vector_append(&mesh->actuators, &mesh->model->allocator, &law, 1);
 }
 
+static int32_t add_gain_table(dmb_mesh *mesh, const dmb_drive_def *def)
+{
+    dmb_gain_table table = {.points = def->gain_count};
+    memcpy(table.error, def->gain_error, sizeof table.error);
+    memcpy(table.force, def->gain_force, sizeof table.force);
+    return dmb_vector_append(&mesh->gain_tables, &mesh->model->allocator, &table, 1);
+}
+
 static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_drive_def *def = DMB_LIST_AT(const dmb_drive_def, mesh->model->drives, i);
@@ -93,13 +101,15 @@ static int32_t add_drive(dmb_mesh *mesh, uint32_t i)
                              .excitation = excited ? programme_of(mesh, def->excitation) : DMB_NONE,
                              .joint = joint,
                              .constraint = DMB_NONE,
-                             .actuator = has_actuator(def) ? (uint32_t)mesh->actuators.count : DMB_NONE};
+                             .actuator = has_actuator(def) ? (uint32_t)mesh->actuators.count : DMB_NONE,
+                             .table = def->gain_count > 0 ? (uint32_t)mesh->gain_tables.count : DMB_NONE};
     memcpy(drive.name, def->name, sizeof drive.name);
     const int32_t status = joint != DMB_NONE
                                ? take_component(mesh, i, def, DMB_VECTOR_AT(uint8_t, &mesh->driven, joint))
                                : prescribe(mesh, i, def, dmb_mesh_node_at(mesh, drive.node));
     if (status < 0) return status;
     if (drive.actuator != DMB_NONE && add_actuator(mesh, def) < 0) return DMB_ERR_NO_MEMORY;
+    if (drive.table != DMB_NONE && add_gain_table(mesh, def) < 0) return DMB_ERR_NO_MEMORY;
     return dmb_vector_append(&mesh->drives, &mesh->model->allocator, &drive, 1);
 }
 

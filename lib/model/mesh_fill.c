@@ -251,6 +251,7 @@ static void fill_parts(const dmb_mesh *mesh, dmb_scene *scene)
     copy_items(&mesh->path_sites, scene->path_sites);
     copy_items(&mesh->inside, scene->inside);
     copy_items(&mesh->actuators, scene->actuators);
+    copy_items(&mesh->gain_tables, scene->gain_tables);
     copy_items(&mesh->loads, scene->loads);
     copy_items(&mesh->bits, scene->bits);
     copy_items(&mesh->inputs, scene->inputs);

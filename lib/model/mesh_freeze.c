@@ -116,6 +116,7 @@ static void count_parts(const dmb_mesh *mesh, dmb_scene *scene)
     scene->path_site_count = (uint32_t)mesh->path_sites.count;
     scene->drive_count = (uint32_t)mesh->drives.count;
     scene->actuator_count = (uint32_t)mesh->actuators.count;
+    scene->gain_table_count = (uint32_t)mesh->gain_tables.count;
     scene->delay_count = mesh->delays;
     scene->load_count = (uint32_t)mesh->loads.count;
     scene->bit_count = (uint32_t)mesh->bits.count;
@@ -188,6 +189,8 @@ static void take_rest(dmb_arena *arena, const dmb_scene *counts, dmb_scene *to, 
     if (counts->inside_count > 0) to->inside = DMB_ARENA_ARRAY(arena, dmb_scene_point, counts->inside_count);
     to->drives = DMB_ARENA_ARRAY(arena, dmb_scene_drive, counts->drive_count);
     if (counts->actuator_count > 0) to->actuators = DMB_ARENA_ARRAY(arena, dmb_actuator_law, counts->actuator_count);
+    if (counts->gain_table_count > 0)
+        to->gain_tables = DMB_ARENA_ARRAY(arena, dmb_gain_table, counts->gain_table_count);
     to->loads = DMB_ARENA_ARRAY(arena, dmb_scene_load, counts->load_count);
     to->bits = DMB_ARENA_ARRAY(arena, dmb_scene_bit, counts->bit_count);
     if (counts->input_count > 0) to->inputs = DMB_ARENA_ARRAY(arena, dmb_scene_input, counts->input_count);

@@ -58,7 +58,7 @@ typedef struct dmb_scene_drive {
     uint32_t joint;      /* whose coordinate `component` it drives; DMB_NONE: none */
     uint32_t constraint; /* of a MOTION drive on a joint; DMB_NONE: none */
     uint32_t actuator;   /* in actuators; DMB_NONE: its force is its command */
-    uint32_t reserved;
+    uint32_t table;      /* in gain_tables, in the place of the gain; DMB_NONE: none */
     char name[24];
 } dmb_scene_drive;
 
@@ -239,12 +239,12 @@ typedef struct dmb_scene {
     size_t dense_count, square_count, full_count; /* lengths of the clusters' dense storage */
     double gravity[3];                            /* [m/s2]; 0 when left out */
     double mass, length;                          /* [kg], [m] in all */
-    double length_scale;  /* [m] mean element length, or 1: makes moments comparable with forces */
-    double fluid_density; /* [kg/m3] outside of the pipes */
-    double inner_density; /* [kg/m3] inside; < 0: the same */
-    dmb_mud_flow flow;    /* of the first string; valid with pieces */
-    uint32_t flow_count;  /* 0: mud rests */
-    uint32_t flow_reserved;
+    double length_scale;       /* [m] mean element length, or 1: makes moments comparable with forces */
+    double fluid_density;      /* [kg/m3] outside of the pipes */
+    double inner_density;      /* [kg/m3] inside; < 0: the same */
+    dmb_mud_flow flow;         /* of the first string; valid with pieces */
+    uint32_t flow_count;       /* 0: mud rests */
+    uint32_t gain_table_count; /* drives with one */
     uint32_t input_count, event_count;
     uint32_t actuator_count, delay_count;         /* drives with an actuator, with a delay */
     int32_t has_density_input, has_damping_input; /* 1: some input moves it */
@@ -295,6 +295,7 @@ typedef struct dmb_scene {
     /* actions */
     dmb_scene_drive *drives;
     dmb_actuator_law *actuators; /* by drive */
+    dmb_gain_table *gain_tables; /* by drive */
     dmb_scene_load *loads;
     dmb_scene_bit *bits;
     dmb_programme *programmes; /* the model's own; of a sim with inputs, theirs behind them */

@@ -138,6 +138,10 @@ static uint64_t add_drives(uint64_t h, const dmb_scene *s)
         h = dmb_fnv_numbers(h, law->speed, law->points);
         h = dmb_fnv_numbers(h, law->force, law->points);
     }
+    for (uint32_t i = 0; i < s->gain_table_count; ++i) {
+        h = dmb_fnv_numbers(h, s->gain_tables[i].error, s->gain_tables[i].points);
+        h = dmb_fnv_numbers(h, s->gain_tables[i].force, s->gain_tables[i].points);
+    }
     return h;
 }
 

@@ -389,7 +389,7 @@ static int32_t call_motor(void *p)
     dmb_motor *motor = p;
     dmb_drive_def drive = dmb_drive_def_default();
     double speed;
-    if (motor->struct_size >= sizeof *motor) motor->stall_torque = motor->displacement = motor->flow = 1.0;
+    if (motor->struct_size >= 32) motor->stall_torque = motor->displacement = motor->flow = 1.0;
     return dmb_motor_drive(motor, &drive, &speed);
 }
 
@@ -663,7 +663,7 @@ static const entry entries[] = {
     ENTRY(ring_def, 0),
     ENTRY(spring_state, 1),
     ENTRY(stuck_def, 0),
-    ENTRY(motor, 0),
+    GROWN(motor, 32, 0),
     ENTRY(stuck_state, 1),
     ENTRY(sub_def, 0),
     ENTRY(sub, 1),

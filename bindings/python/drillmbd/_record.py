@@ -236,31 +236,46 @@ class SpringPart:
         return found
 
 
-class DrivePart:
-    """A drive of a component of motion. `curve` takes up to 8 pairs (speed [m/s, rad/s], force [N, N m]) of the actuator."""
-    curve_count: int
-    curve_speed: Any
-    curve_force: Any
+class PairsPart:
+    """A struct with columns of fixed length, each two of which one key takes as pairs."""
+    PAIRS: ClassVar[dict[str, tuple[str, str, str]]] = {}  #: key: names of its count and columns
 
-    def __init__(self, curve: Any = None, **fields: Any) -> None:
+    def __init__(self, **fields: Any) -> None:
+        given = {key: fields.pop(key, None) for key in self.PAIRS}
         super().__init__(**fields)
-        if curve is not None:
-            speeds, forces = _columns(curve)
-            room = len(self.curve_speed)
-            if len(speeds) > room:
-                raise ValueError(f"curve has {len(speeds)} points, must have at most {room}")
-            self.curve_count = len(speeds)
-            self.curve_speed = (speeds + [0.0] * room)[:room]
-            self.curve_force = (forces + [0.0] * room)[:room]
+        for key, pairs in given.items():
+            if pairs is None:
+                continue
+            count, *names = self.PAIRS[key]
+            columns = _columns(pairs)
+            room = len(getattr(self, names[0]))
+            if len(columns[0]) > room:
+                raise ValueError(f"{key} has {len(columns[0])} points, must have at most {room}")
+            setattr(self, count, len(columns[0]))
+            for name, column in zip(names, columns):
+                setattr(self, name, (column + [0.0] * room)[:room])
 
     def describe(self, every: bool = False) -> dict[str, Any]:
-        """The fields as plain Python, `curve` as pairs."""
+        """The fields as plain Python, columns as pairs."""
         found: dict[str, Any] = super().describe(every)  # type: ignore[misc]
-        for name in ("curve_count", "curve_speed", "curve_force"):
-            found.pop(name, None)
-        if self.curve_count:
-            found["curve"] = list(zip(self.curve_speed, self.curve_force))[:self.curve_count]
+        for key, (count, one, other) in self.PAIRS.items():
+            for name in (count, one, other):
+                found.pop(name, None)
+            if getattr(self, count):
+                found[key] = list(zip(getattr(self, one), getattr(self, other)))[:getattr(self, count)]
         return found
+
+
+class DrivePart(PairsPart):
+    """A drive of a component of motion. `curve` takes up to 8 pairs (speed [m/s, rad/s], force [N, N m]) of the actuator,
+    `gain_table` up to 16 (error of the speed, force) of a controller."""
+    PAIRS = {"curve": ("curve_count", "curve_speed", "curve_force"),
+             "gain_table": ("gain_count", "gain_error", "gain_force")}
+
+
+class MotorPart(PairsPart):
+    """A mud motor. `table` takes up to 15 pairs (speed [rad/s], torque [N m]) from stall to no load."""
+    PAIRS = {"table": ("table_count", "table_speed", "table_torque")}
 
 
 class PlacesPart:

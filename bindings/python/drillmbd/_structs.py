@@ -6,7 +6,7 @@ from ctypes import (CFUNCTYPE, POINTER, Array, c_char, c_char_p, c_double, c_int
                     c_void_p)
 from typing import Any, ClassVar
 
-from ._record import ConstraintPart, DrivePart, ForcePart, IdPart, Record, Sized, SpringPart, TermPart, WallPart
+from ._record import ConstraintPart, DrivePart, ForcePart, IdPart, MotorPart, Record, Sized, SpringPart, TermPart, WallPart
 
 
 class Id(IdPart, Record):
@@ -1189,25 +1189,48 @@ class StuckState(Sized):
     }
 
 
-class Motor(Sized):
-    c_name, about = "dmb_motor", "A mud motor between two sections of a string is a drive on a revolute joint between them (place_a at the far end of the section above, place_b at the rig end of the one below): the torque T = stall_torque (1 - w/w0) of the relative speed w, w0 = 2 pi flow/displacement, acts on both sections, equal and opposite, and its power is that of a drive."
+class Motor(MotorPart, Sized):
+    c_name, about = "dmb_motor", "A mud motor between two sections of a string is a drive on a revolute joint between them (place_a at the far end of the section above, place_b at the rig end of the one below): its torque T of the relative speed w acts on both sections, equal and opposite, and its power is that of a drive. A line: T = stall_torque (1 - w/w0), w0 = 2 pi flow/displacement; stall_torque as given, or by `pressure` as efficiency displacement pressure/(2 pi) (Tiraspolsky, Hydraulic downhole drilling motors, 1985). A table: T(w) as measured at table_flow and table_pressure, straight between its points; speeds times flow/table_flow, torques times pressure/table_pressure, by the same laws; w0 is its last speed. Below w = 0 it gives its torque at stall."
     struct_size: int
     brakes: int
     stall_torque: float
     displacement: float
     flow: float
+    pressure: float
+    efficiency: float
+    table_flow: float
+    table_pressure: float
+    table_count: int
+    reserved: int
+    table_speed: 'Array[c_double]'
+    table_torque: 'Array[c_double]'
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("brakes", c_int32),
         ("stall_torque", c_double),
         ("displacement", c_double),
         ("flow", c_double),
+        ("pressure", c_double),
+        ("efficiency", c_double),
+        ("table_flow", c_double),
+        ("table_pressure", c_double),
+        ("table_count", c_uint32),
+        ("reserved", c_uint32),
+        ("table_speed", c_double * 15),
+        ("table_torque", c_double * 15),
     ]
     field_docs = {
         "brakes": ("", "1: beyond w0 it holds back along the same line, as a pump; 0 (default): it runs free there"),
         "stall_torque": ("N m", "at w = 0, and the most it gives, > 0"),
         "displacement": ("m3", "of mud a revolution, > 0"),
         "flow": ("m3/s", "through the motor, > 0"),
+        "pressure": ("Pa", "drop across it at stall, > 0 in the place of stall_torque, which is 0 then; with a table > 0 or 0: table_pressure"),
+        "efficiency": ("-", "of pressure to torque, > 0, <= 1; default 1; of a line by pressure only"),
+        "table_flow": ("m3/s", "of the table, > 0; 0 (default): flow"),
+        "table_pressure": ("Pa", "of the table, > 0; 0 (default): pressure"),
+        "table_count": ("-", "0 (default): a line, or 2 .. 15 points in its place; stall_torque and displacement are 0 then"),
+        "table_speed": ("rad/s", "strictly increasing from 0, shape (table_count)"),
+        "table_torque": ("N m", ">= 0, > 0 at the first, 0 at the last, shape (table_count)"),
     }
 
 
@@ -2229,6 +2252,10 @@ class DriveDef(DrivePart, Sized):
     reserved2: int
     curve_speed: 'Array[c_double]'
     curve_force: 'Array[c_double]'
+    gain_count: int
+    reserved3: int
+    gain_error: 'Array[c_double]'
+    gain_force: 'Array[c_double]'
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("kind", c_int32),
@@ -2252,6 +2279,10 @@ class DriveDef(DrivePart, Sized):
         ("reserved2", c_int32),
         ("curve_speed", c_double * 8),
         ("curve_force", c_double * 8),
+        ("gain_count", c_uint32),
+        ("reserved3", c_int32),
+        ("gain_error", c_double * 16),
+        ("gain_force", c_double * 16),
     ]
     field_docs = {
         "kind": ("", "DRIVE_..., default DRIVE_MOTION"),
@@ -2274,6 +2305,10 @@ class DriveDef(DrivePart, Sized):
         "reserved2": ("", ""),
         "curve_speed": ("m/s, rad/s", "strictly increasing, shape (curve_count)"),
         "curve_force": ("N, N m", ">= 0: the most that it pushes towards > 0 at a speed, straight between points, constant beyond; the same mirrored towards < 0; shape (curve_count)"),
+        "gain_count": ("-", "points of a table of CONTROL in the place of `gain`, which is 0 then: 0 (none) or 2 .. 16"),
+        "reserved3": ("", ""),
+        "gain_error": ("m/s, rad/s", "v* - v, strictly increasing, shape (gain_count)"),
+        "gain_force": ("N, N m", "in the place of kp (v* - v), straight between points, constant beyond, shape (gain_count)"),
     }
 
 

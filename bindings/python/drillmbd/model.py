@@ -333,8 +333,9 @@ class Model(Handle):
 
 
 def motor_drive(definition: Motor | None = None, **fields: Any) -> tuple[DriveDef, float]:
-    """A mud motor, by a Motor or its fields (stall_torque [N m], displacement [m3], flow [m3/s]), as the drive of the joint
-    that it stands in, and its no-load speed [rad/s], the constant value of the drive's programme."""
+    """A mud motor, by a Motor or its fields (stall_torque [N m] or pressure [Pa], displacement [m3], flow [m3/s]; or a table
+    of pairs of speed [rad/s] and torque [N m]), as the drive of the joint that it stands in, and its no-load speed [rad/s],
+    the constant value of the drive's programme."""
     drive, speed = DriveDef(), c_double()
     check(_lib.dmb_motor_drive(byref(struct(Motor, definition, fields)), byref(drive), byref(speed)))
     return drive, speed.value

@@ -12,6 +12,7 @@
 #include "sim/node.h"
 #include "sim/own_scene.h"
 #include "system/assemble/assemble.h"
+#include "system/assemble/drives.h"
 #include "system/assemble/evaluation.h"
 #include "system/constrain/constrain.h"
 
@@ -67,13 +68,16 @@ static int32_t derivative(const request *r, double *factor)
     return difference(r, factor, DMB_EXCITATION_FACTOR, DMB_EXCITATION_FACTOR, 0.0);
 }
 
-/* Over a step of 2 s the force of a controller grows by kp + ki for a unit of its target, held within its limits. */
+/* Over a step of 2 s the force of a controller grows by kp + ki for a unit of its target, held within its limits, and
+ * on the piece of its table: the target changes downwards, where the piece is. */
 static int32_t controlled_joint(const request *r, uint32_t i, const dmb_scene_drive *drive)
 {
-    const double gain = drive->gain + drive->integral_gain, now = r->copy->now.drive_force[i];
+    const double gain = r->out->gain + drive->integral_gain, now = r->copy->now.drive_force[i];
     const double room = 0.25 * fmin(drive->limit_high - now, now - drive->limit_low);
-    const double change = fmin(DMB_EXCITATION_FACTOR, room) / gain;
-    if (!(gain > 0.0)) return refuse(r, DMB_ERR_VALUE, "the drive has no gain and answers to nothing");
+    double piece, change = fmin(DMB_EXCITATION_FACTOR, room) / gain;
+    if (!(gain > 0.0 || gain < 0.0)) return refuse(r, DMB_ERR_VALUE, "the drive has no gain and answers to nothing");
+    (void)dmb_drive_gain(r->copy->scene, &r->copy->now, i, &piece);
+    if (drive->table != DMB_NONE) change = -fmin(fabs(change), 0.25 * piece);
     return difference(r, r->copy->trial.drive_target + i, change, change * gain, 2.0);
 }
 
@@ -152,8 +156,9 @@ static int32_t moved(const request *r, const dmb_scene_drive *drive)
 /* A force on a row grows by kp + ki/(i w) for a unit of the target. */
 static int32_t controlled(const request *r, uint32_t i, const dmb_scene_drive *drive)
 {
+    double room;
     r->out->law = DMB_EXCITE_CONTROL;
-    r->out->gain = drive->gain;
+    r->out->gain = dmb_drive_gain(r->copy->scene, &r->copy->now, i, &room);
     r->out->integral_gain = drive->integral_gain;
     if (drive->joint != DMB_NONE) return controlled_joint(r, i, drive);
     r->out->re[drive->row] = 1.0;

@@ -13,6 +13,7 @@
 #include "drillmbd/output.h"
 #include "sim/node.h"
 #include "system/assemble/assemble.h"
+#include "system/assemble/drives.h"
 #include "system/constrain/constrain.h"
 
 typedef struct request {
@@ -314,6 +315,8 @@ static int without_effect(const request *r, const dmb_scene_drive *drive)
 static void control(const request *r, uint32_t i, const dmb_scene_drive *drive)
 {
     const double force = r->copy->now.drive_force[i];
+    double room;
+    const double gain = dmb_drive_gain(r->copy->scene, &r->copy->now, i, &room);
     dmb_functional position;
     memset(&position, 0, sizeof position);
     if (force <= drive->limit_low || force >= drive->limit_high) return;
@@ -327,8 +330,8 @@ static void control(const request *r, uint32_t i, const dmb_scene_drive *drive)
     r->out->functional = position;
     memset(r->out->functional.pose, 0, sizeof position.pose);
     dmb_functional_add(-drive->integral_gain, &position, &r->out->functional);
-    dmb_functional_add_rate(-drive->gain, &position, &r->out->functional);
-    r->out->direct = drive->gain;
+    dmb_functional_add_rate(-gain, &position, &r->out->functional);
+    r->out->direct = gain;
     r->out->integral = drive->integral_gain;
 }
 

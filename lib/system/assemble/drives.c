@@ -1,6 +1,6 @@
 /* Drives: prescribed motion, loads on a component, and speed control.
  * Control: command = clamp(kp e + ki z), e = v* - v, z' = e by the trapezoidal rule, held while the limits act, of
- * which the torque-speed curve of an actuator is one. */
+ * which the torque-speed curve of an actuator is one. A table G(e) may be in the place of kp e, with G'(e) as kp. */
 #include "system/assemble/drives.h"
 
 #include <float.h>
@@ -128,6 +128,27 @@ double dmb_drive_speed(const dmb_scene *scene, const dmb_configuration *configur
     return row == DMB_NONE ? configuration->drive_speed[drive] : configuration->velocity[row];
 }
 
+/* kp e or G(e), and its derivative by e. */
+static double gain_force(const dmb_scene *scene, uint32_t i, double error, double *gain)
+{
+    const dmb_scene_drive *drive = scene->drives + i;
+    if (drive->table != DMB_NONE) return dmb_gain_force(scene->gain_tables + drive->table, error, gain);
+    *gain = drive->gain;
+    return drive->gain * error;
+}
+
+double dmb_drive_gain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t drive, double *room)
+{
+    const double error = configuration->drive_target[drive] - dmb_drive_speed(scene, configuration, drive);
+    double gain;
+    (void)gain_force(scene, drive, error, &gain);
+    *room = (double)INFINITY;
+    if (scene->drives[drive].table == DMB_NONE) return gain;
+    const dmb_gain_table *table = scene->gain_tables + scene->drives[drive].table;
+    for (uint32_t k = 0; k < table->points && table->error[k] < error; k++) *room = error - table->error[k];
+    return gain;
+}
+
 /* Force of a controlled drive and its slope by the speed; the integral of the error goes into the trial. */
 static double control_force(const dmb_evaluation *evaluation, uint32_t i, double speed, double *slope)
 {
@@ -137,8 +158,9 @@ static double control_force(const dmb_evaluation *evaluation, uint32_t i, double
     const double error = sim->trial.drive_target[i] - speed;
     const double before = sim->now.drive_target[i] - dmb_drive_speed(sim->scene, &sim->now, i);
     const double integral = sim->now.drive_integral[i] + 0.5 * h * (before + error);
-    const double force = drive->gain * error + drive->integral_gain * integral;
-    *slope = -(drive->gain + 0.5 * h * drive->integral_gain);
+    double gain;
+    const double force = gain_force(sim->scene, i, error, &gain) + drive->integral_gain * integral;
+    *slope = -(gain + 0.5 * h * drive->integral_gain);
     sim->trial.drive_integral[i] = integral;
     double within = fmin(fmax(force, drive->limit_low), drive->limit_high);
     if (within != force) *slope = 0.0;

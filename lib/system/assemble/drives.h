@@ -9,6 +9,11 @@ double dmb_drive_force(dmb_evaluation *evaluation, uint32_t drive, double speed,
 /* [m/s, rad/s] of the driven component or coordinate in a configuration. */
 double dmb_drive_speed(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t drive);
 
+/* [N s/m, N m s] By which the force of a CONTROL drive grows with its error in a configuration, but for its integral
+ * and limits; of a table that of the piece that ends at the error or goes on beyond it. *room: by which the error may
+ * fall on that piece; INFINITY without a table. */
+double dmb_drive_gain(const dmb_scene *scene, const dmb_configuration *configuration, uint32_t drive, double *room);
+
 /* Targets of all drives at evaluation->time, loads' factors, and the motion of prescribed rows over the step:
  * increment, velocity and acceleration of the trial. Once a step, before the first evaluation. DMB_ERR_CALLBACK. */
 int32_t dmb_system_prescribe(dmb_evaluation *evaluation);

@@ -51,6 +51,23 @@ static void lag_is_the_exponential(void **state)
     }
 }
 
+/* Of a controller's table, inside its pieces and beyond them; at a corner that of the piece that ends there. */
+static void slope_of_a_gain_table_is_the_difference(void **state)
+{
+    const dmb_gain_table table = {{-3.0, 0.0, 2.0, 3.0}, {-1.0, 0.0, 60.0, 50.0}, 4, 0};
+    (void)state;
+    for (int i = 0; i < 33; i++) {
+        const double e = -4.05 + 0.25 * i;
+        double slope, other;
+        const double force = dmb_gain_force(&table, e, &slope);
+        const double more = dmb_gain_force(&table, e + 1e-3, &other), less = dmb_gain_force(&table, e - 1e-3, &other);
+        check_below("slope", fabs(slope - (more - less) / 2e-3), 1e-10);
+        check_below("straight", fabs(force - 0.5 * (more + less)), 1e-12);
+    }
+    double slope;
+    check_below("at a corner", fabs(dmb_gain_force(&table, 2.0, &slope) - 60.0) + fabs(slope - 30.0), 1e-14);
+}
+
 static double time_of[DMB_DELAY_SAMPLES], value_of[DMB_DELAY_SAMPLES];
 
 static double wave(double t)
@@ -98,6 +115,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(derivative_is_the_difference),
         cmocka_unit_test(lag_is_the_exponential),
+        cmocka_unit_test(slope_of_a_gain_table_is_the_difference),
         cmocka_unit_test(line_remembers),
         cmocka_unit_test(jumps_have_two_sides),
     };

@@ -22,7 +22,8 @@ ENUM_OF = {"component": enums.Component, "third_component": enums.Component, "fo
            "free_mask": enums.Free, "pipe_kind": enums.PipeKind, "contact": enums.ContactState, "outside": enums.Outside,
            "target": enums.InputTarget, "holds": enums.StuckHolds}
 UNIT_OF = {"contact_gap": "m"}  # where one comment stands for several fields
-LEFT_OUT = {"struct_size", "survey_count", "curve_count", "curve_speed", "curve_force", "table_count",
+LEFT_OUT = {"struct_size", "survey_count", "curve_count", "curve_speed", "curve_force", "gain_count", "gain_error", "gain_force", "table_count",
+            "table_speed", "table_torque",
             "provides", "callback_context", "callback", "log", "allocator",
             "log_context"}
 
@@ -195,6 +196,7 @@ def drive_unit(kind: int, component: int) -> str:
 
 
 # Keys of a drive whose unit goes with its component.
+DRIVE_PAIRS = ("curve", "gain_table")  # of speed and force
 OF_COMPONENT = ("gain", "integral_gain", "limit_low", "limit_high", "force_rate", "drag", "back_drag")
 
 

@@ -9,10 +9,10 @@ from typing import Any
 
 from .. import enums
 from .._keep import station
-from .._structs import Channel, Id, Place, Term
+from .._structs import Channel, Id, Motor, Place, Term
 from ..channels import channel_unit
 from ..errors import Error
-from ..model import Model
+from ..model import Model, motor_drive
 from . import failure, fields, survey, units, variability
 from .asked import Asked
 from .changes import apply
@@ -424,16 +424,20 @@ class Loader:
             self._event(path, name, table)
             return
         table = dict(table)
+        motor = self._motor(path, table) if kind == "drive" and "motor" in table else {}
         self._inline_programmes(kind, path, table)
         component = self.word(fields_of(DEFINITIONS["drive"])["component"], table.get("component"), 0)
         special = {key: fields.by_component(known[key].unit, component)
                    for key in fields.OF_COMPONENT if kind == "drive"}
         if kind == "input":
             special = self._setting_units(known, table)
-        values = self.read(path, table, known, {"spring": ("name", "table"), "drive": ("name", "curve")}.get(kind, ("name",)), special.get)
-        if kind == "drive" and "curve" in table:
-            values["curve"] = self._pairs(path + ("curve",), table["curve"], fields.by_component("m/s, rad/s", component),
+        values = self.read(path, table, known, {"spring": ("name", "table"), "drive": ("name", *fields.DRIVE_PAIRS)}.get(kind, ("name",)),
+                           special.get)
+        for key in fields.DRIVE_PAIRS if kind == "drive" else ():
+            if key in table:
+                values[key] = self._pairs(path + (key,), table[key], fields.by_component("m/s, rad/s", component),
                                           fields.by_component("N, N m", component), "speed and force")
+        values.update(motor)
         if kind == "spring" and "table" in table:
             values["table"] = self._pairs(path + ("table",), table["table"], "m", "N", "elongation and force")
         if kind == "input":
@@ -447,6 +451,31 @@ class Loader:
         if not refused and not (kind == "drive" and "programme" not in values) and not (
                 len(self.problems.found) > before and kind in ("joint", "coupling", "spring", "input", "load")):
             self.put(name, kind, self._add(path, getattr(self.model, "add_" + kind), struct, values))
+
+    def _motor(self, path: Path, table: dict[str, Any]) -> dict[str, Any]:
+        """What makes a drive a mud motor; its set point is the no-load speed, where the drive has no programme."""
+        given, before, where = table.pop("motor"), len(self.problems.found), path + ("motor",)
+        table.update(kind="control", component="rx", **({} if "programme" in table else {"programme": "0 rad/s"}))
+        if not isinstance(given, dict):
+            self.problems.add(where, given, "must be a table of the keys of a mud motor")
+            return {}
+        values = self.read(where, given, fields_of(Motor), ("table",))
+        if "table" in given:
+            values["table"] = self._pairs(where + ("table",), given["table"], "rad/s", "N m", "speed and torque")
+        for key in ("gain", "gain_table", "integral_gain", "limit_low", "limit_high"):
+            if key in table:
+                self.problems.add(path + (key,), table[key], "must be left out with motor, which says it")
+        if len(self.problems.found) > before:
+            return {}
+        try:
+            drive, speed = motor_drive(**values)
+        except (Error, ValueError) as error:
+            self.problems.add(where, None, f"{error}: must have flow with displacement and stall_torque or pressure, or with a table "
+                                           "of 2 .. 15 increasing speeds from 0 to no load, where the torque is 0")
+            return {}
+        if table["programme"] == "0 rad/s":
+            table["programme"] = f"{speed!r} rad/s"
+        return drive.describe()
 
     def own_name(self, path: Path, table: dict[str, Any], values: dict[str, Any]) -> None:
         """The name goes to the library too, where it is a text at all."""

@@ -215,9 +215,10 @@ class Writer:
             return None
 
         self._table(kind, description, unit_of)
-        if kind == "drive" and description.get("curve"):
-            speed, force = (fields.by_component(one, component) for one in ("m/s, rad/s", "N, N m"))
-            self._key("curve", [[units.text(v, speed), units.text(f, force)] for v, f in description["curve"]])
+        for key in fields.DRIVE_PAIRS if kind == "drive" else ():
+            if description.get(key):
+                speed, force = (fields.by_component(one, component) for one in ("m/s, rad/s", "N, N m"))
+                self._key(key, [[units.text(v, speed), units.text(f, force)] for v, f in description[key]])
         if kind == "spring" and description.get("table"):
             self._key("table", [[units.text(x, "m"), units.text(f, "N")] for x, f in description["table"]])
 

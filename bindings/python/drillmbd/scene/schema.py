@@ -5,6 +5,7 @@ import json
 from typing import Any
 
 from .. import enums
+from .._structs import Motor
 from ..channels import Named
 from . import failure, sub, variability
 from .asked import LIMITS, OUTPUT, RUN
@@ -74,7 +75,8 @@ def schema() -> dict[str, Any]:
     for kind in PARTS:
         more: dict[str, Any] = {"name": _NAME, **({"pipes": _many(pipes)} if kind == "string" else {}),
                                 **({"table": _TABLE} if kind == "spring" else {}),
-                                **({"curve": _TABLE} if kind == "drive" else {})}
+                                **({"curve": _TABLE, "gain_table": _TABLE, "motor": _object(fields_of(Motor), table=_TABLE)}
+                                   if kind == "drive" else {})}
         known = event_fields() if kind == "event" else fields_of(DEFINITIONS[kind])
         properties[kind] = _many(_object(known, **more))
     tables: dict[str, Any] = {key: _object(sub.known_fields(key), name=_NAME) for key in sub.TABLES}
