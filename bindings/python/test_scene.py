@@ -547,6 +547,32 @@ curve = [["0 rpm", "4 kN m"], ["60 rpm", "4 kN m"], ["140 rpm", "0 N m"]]
         with self.assertRaisesRegex(scene.SceneError, "curve"):
             scene.loads(text.replace('["0 rpm", "4 kN m"]', '["0 rpm"]'))
 
+    def test_rate_of_flow_as_an_input(self):
+        text = """
+[environment]
+fluid_density = "1100 kg/m^3"
+consistency = "0.05 Pa s"
+[hole]
+direction = [0, 0, -1]
+diameter = "96 mm"
+[[string]]
+name = "main"
+[[string.pipes]]
+count = 2
+[[input]]
+name = "pump"
+target = "flow-rate"
+high = "1200 l/min"
+initial = "600 l/min"
+"""
+        found = scene.loads(text)
+        self.assertAlmostEqual(dict(found.model.calls)["add_input"][0]["high"], 0.02, 12)
+        again = scene.loads(scene.saves(found))
+        self.assertTrue(again.same_as(found))
+        self.assertEqual(after_run(again), after_run(found))
+        with self.assertRaisesRegex(scene.SceneError, "Reynolds"):
+            scene.loads(text.replace('"1200 l/min"', '"1e6 l/min"'))
+
     def test_mud_motors(self):
         text = """
 [[body]]

@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 /* clang-format off */
-enum { /* what an input moves; 1 .. 4 are of CONTROL drives, 7 .. 11 of wall and environment, >= 0 */
+enum { /* what an input moves; 1 .. 4 are of CONTROL drives, 7 .. 11, 14 of wall and environment, >= 0 */
     DMB_TARGET_SET_POINT = 0, /* of a drive, in the place of its programme; its excitation goes on */
     DMB_TARGET_GAIN = 1, DMB_TARGET_INTEGRAL_GAIN = 2, /* [N s/m, N m s], [N/m, N m] >= 0 */
     DMB_TARGET_LIMIT_LOW = 3, DMB_TARGET_LIMIT_HIGH = 4, /* [N, N m] the first below the second */
@@ -17,7 +17,9 @@ enum { /* what an input moves; 1 .. 4 are of CONTROL drives, 7 .. 11 of wall and
     DMB_TARGET_FRICTION = 7, DMB_TARGET_FLUID_DENSITY = 8, /* [-] factor of both coefficients of the wall, [kg/m3] */
     DMB_TARGET_LATERAL_DAMPING = 9, DMB_TARGET_AXIAL_DAMPING = 10, /* [N s/m2] */
     DMB_TARGET_TORSIONAL_DAMPING = 11, /* [N s] */
-    DMB_TARGET_STUCK = 12, DMB_TARGET_COUNT = 13 /* [-] 1: a place is stuck from now on, 0: it is free (bha.h) */
+    DMB_TARGET_STUCK = 12, /* [-] 1: a place is stuck from now on, 0: it is free (bha.h) */
+    DMB_TARGET_COUNT = 13, /* of the targets above, as programs know them that were built before there were more */
+    DMB_TARGET_FLOW_RATE = 14 /* [m3/s] of mud, >= 0; all that flow needs of string, hole and mud must be there */
 };
 /* clang-format on */
 enum { DMB_OUTSIDE_REFUSED = 0, DMB_OUTSIDE_CLAMPED = 1 };

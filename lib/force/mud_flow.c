@@ -40,12 +40,13 @@ static double turbulence(double n, double reynolds)
 /* [-] The Reynolds number 16/f_l of a laminar gradient: f = tau/(rho V^2/2), tau = G D_h/4. */
 static double reynolds_of(double density, double speed, double hydraulic_diameter, double gradient)
 {
-    return 32.0 * density * speed * speed / (gradient * hydraulic_diameter);
+    return gradient > 0.0 ? 32.0 * density * speed * speed / (gradient * hydraulic_diameter) : 0.0;
 }
 
 dmb_flow_loss dmb_bore_loss(const dmb_mud_flow *flow, double diameter)
 {
     const double n = flow->exponent, speed = 4.0 * flow->rate / (PI * diameter * diameter);
+    if (!(flow->rate > 0.0)) return (dmb_flow_loss){.gradient = 0.0};
     const double laminar =
         4.0 * flow->consistency / diameter * dmb_pow((3.0 * n + 1.0) / (4.0 * n) * 8.0 * speed / diameter, n);
     dmb_flow_loss loss = {.reynolds = reynolds_of(flow->inside, speed, diameter, laminar)};
@@ -111,11 +112,12 @@ static double laminar_gradient(const dmb_mud_flow *flow, double hole_radius, dou
     return 2.0 * flow->consistency / R * dmb_pow(flow->rate * (3.0 * n + 1.0) / (n * PI * R * R * R * shape), n);
 }
 
-dmb_flow_loss dmb_annulus_loss(const dmb_mud_flow *flow, double pipe_diameter, double hole_diameter)
+dmb_flow_loss dmb_annulus_loss_by(const dmb_mud_flow *flow, double pipe_diameter, double hole_diameter,
+                                  double laminar_lambda)
 {
     const double R = 0.5 * hole_diameter, ratio = pipe_diameter / hole_diameter, n = flow->exponent;
     const double gap = hole_diameter - pipe_diameter;
-    const double laminar_lambda = dmb_annulus_zero_shear(n, ratio);
+    if (!(flow->rate > 0.0)) return (dmb_flow_loss){.gradient = 0.0};
     const double laminar = laminar_gradient(flow, R, ratio, laminar_lambda);
     const double speed = 4.0 * flow->rate / (PI * gap * (hole_diameter + pipe_diameter));
     dmb_flow_loss loss = {.reynolds = reynolds_of(flow->outside, speed, gap, laminar)};
@@ -124,6 +126,12 @@ dmb_flow_loss dmb_annulus_loss(const dmb_mud_flow *flow, double pipe_diameter, d
     loss.gradient = laminar * dmb_pow(1.0 + more, 1.0 / 12.0);
     loss.pull = PI * lambda * lambda * R * R * loss.gradient;
     return loss;
+}
+
+dmb_flow_loss dmb_annulus_loss(const dmb_mud_flow *flow, double pipe_diameter, double hole_diameter)
+{
+    const double lambda = dmb_annulus_zero_shear(flow->exponent, pipe_diameter / hole_diameter);
+    return dmb_annulus_loss_by(flow, pipe_diameter, hole_diameter, lambda);
 }
 
 /* ---- End --------------------------------------------------------------------------------------------------------- */

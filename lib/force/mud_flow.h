@@ -30,7 +30,7 @@
 #define DMB_FLOW_DISCHARGE 0.95
 
 typedef struct dmb_mud_flow {
-    double rate;            /* [m3/s] > 0 */
+    double rate;            /* [m3/s] >= 0; nothing is lost at 0 */
     double consistency;     /* [Pa s^n] K */
     double exponent;        /* [-] n */
     double nozzle_area;     /* [m2] of what it leaves by at the far end */
@@ -47,6 +47,8 @@ typedef struct dmb_flow_loss {
 
 dmb_flow_loss dmb_bore_loss(const dmb_mud_flow *flow, double diameter);
 dmb_flow_loss dmb_annulus_loss(const dmb_mud_flow *flow, double pipe_diameter, double hole_diameter);
+/* The same for a lambda that is known: it goes with exponent and diameters, not with the rate. */
+dmb_flow_loss dmb_annulus_loss_by(const dmb_mud_flow *flow, double pipe_diameter, double hole_diameter, double lambda);
 /* [-] lambda: radius without shear stress over that of the hole, laminar. */
 double dmb_annulus_zero_shear(double exponent, double ratio);
 /* [Pa] rho Q^2/(2 C^2 A^2) through nozzles, and [N] their thrust rho Q V on the string's end, towards the rig, less

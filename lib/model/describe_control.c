@@ -27,7 +27,7 @@ typedef struct target_rule {
     const char *unit[2]; /* along, about an axis */
 } target_rule;
 
-static const target_rule targets[DMB_TARGET_COUNT] = {
+static const target_rule targets[DMB_TARGET_FLOW_RATE + 1] = {
     [DMB_TARGET_SET_POINT] = {DMB_PART_DRIVE, "drive", -DMB_FORCE_MAX, DMB_FORCE_MAX, {"m/s", "rad/s"}},
     [DMB_TARGET_GAIN] = {DMB_PART_DRIVE, "drive", 0.0, DMB_FORCE_MAX, {"N s/m", "N m s"}},
     [DMB_TARGET_INTEGRAL_GAIN] = {DMB_PART_DRIVE, "drive", 0.0, DMB_FORCE_MAX, {"N/m", "N m"}},
@@ -40,6 +40,7 @@ static const target_rule targets[DMB_TARGET_COUNT] = {
     [DMB_TARGET_LATERAL_DAMPING] = {0, "", 0.0, DMB_DAMPING_MAX, {"N s/m2", "N s/m2"}},
     [DMB_TARGET_AXIAL_DAMPING] = {0, "", 0.0, DMB_DAMPING_MAX, {"N s/m2", "N s/m2"}},
     [DMB_TARGET_TORSIONAL_DAMPING] = {0, "", 0.0, DMB_DAMPING_MAX, {"N s", "N s"}},
+    [DMB_TARGET_FLOW_RATE] = {0, "", 0.0, DMB_FLOW_MAX, {"m3/s", "m3/s"}},
     [DMB_TARGET_STUCK] = {DMB_PART_STUCK, "stuck place", 0.0, 1.0, {"-", "-"}},
 };
 
@@ -155,7 +156,9 @@ static int32_t check_input(dmb_model *model, const dmb_input_def *def)
         check.status = DMB_ERR_VALUE;
         dmb_message_set(check.message, "%s: name is empty, must be there: inputs are looked up by it", check.part);
     }
-    dmb_check_choice(&check, "target", def->target, 0, DMB_TARGET_COUNT - 1);
+    dmb_check_choice(&check, "target", def->target, 0, DMB_TARGET_FLOW_RATE);
+    if (check.status >= 0 && def->target == DMB_TARGET_COUNT)
+        dmb_check_fail(&check, DMB_ERR_VALUE, "target", def->target, "a DMB_TARGET_..., of which this is none");
     dmb_check_choice(&check, "outside", def->outside, DMB_OUTSIDE_REFUSED, DMB_OUTSIDE_CLAMPED);
     check_target(&check, model, def);
     if (check.status < 0) return check.status;

@@ -207,8 +207,10 @@ static bool has_damping(const dmb_mesh *mesh)
     const dmb_model *model = mesh->model;
     const dmb_environment_def *e = &model->environment;
     if (e->axial_damping > 0.0 || e->lateral_damping > 0.0 || e->torsional_damping > 0.0) return true;
-    for (uint32_t i = 0; i < model->inputs.count; ++i)
-        if (DMB_LIST_AT(const dmb_input_def, model->inputs, i)->target >= DMB_TARGET_LATERAL_DAMPING) return true;
+    for (uint32_t i = 0; i < model->inputs.count; ++i) {
+        const int32_t target = DMB_LIST_AT(const dmb_input_def, model->inputs, i)->target;
+        if (target >= DMB_TARGET_LATERAL_DAMPING && target <= DMB_TARGET_TORSIONAL_DAMPING) return true;
+    }
     for (uint32_t i = 0; i < model->runs.count; ++i) {
         const dmb_pipe_run *run = dmb_mesh_run_at(mesh, i);
         if (run->def.damping_time > 0.0 && dmb_mesh_kind(mesh, run) != DMB_PIPE_RIGID) return true;

@@ -210,35 +210,13 @@ static void fill_joint_drives(dmb_scene *scene)
     }
 }
 
-/* A pull at a distance from the rig end. */
-static void add_pull(const dmb_mesh *mesh, dmb_scene *scene, uint32_t node, double pull, double at)
-{
-    scene->flow_node[2 * (size_t)node] += pull;
-    scene->flow_node[2 * (size_t)node + 1] += pull * (at - dmb_mesh_node_at(mesh, node)->at);
-}
-
-/* Of an element as of a uniform load on the cubic shape: halves with the moments +- w L^2/12, w L/2 times L/6. */
-static void fill_pull(const dmb_mesh *mesh, dmb_scene *scene, const dmb_flow_piece *piece)
-{
-    const double pull = piece->annulus.pull * piece->length, L = piece->length;
-    if (piece->element == DMB_NONE) {
-        add_pull(mesh, scene, piece->node, pull, piece->from + 0.5 * L);
-        return;
-    }
-    scene->flow_element[piece->element] = pull;
-    add_pull(mesh, scene, scene->element_node[piece->element], 0.5 * pull, piece->from + L / 6.0);
-    add_pull(mesh, scene, scene->element_node[piece->element] + 1, 0.5 * pull, piece->from + L - L / 6.0);
-}
-
 /* Pulls of the mud that flows; nodes ascend, so that the arc of one is looked for from that of the one before. */
 static void fill_flow(const dmb_mesh *mesh, dmb_scene *scene)
 {
     if (scene->flow_count == 0) return;
     scene->flow = mesh->flow;
     copy_items(&mesh->flow_pieces, scene->flow_pieces);
-    memset(scene->flow_element, 0, scene->element_count * sizeof(double));
-    memset(scene->flow_node, 0, 2 * scene->node_count * sizeof(double));
-    for (uint32_t i = 0; i < scene->flow_count; ++i) fill_pull(mesh, scene, scene->flow_pieces + i);
+    dmb_scene_fill_pulls(scene);
     for (uint32_t i = 0, arc = 0; i < scene->node_count; ++i) {
         while (arc + 2 < scene->hole.stations && scene->hole.station[arc + 1].depth <= scene->reference_depth[i]) arc++;
         scene->flow_segment[i] = arc;

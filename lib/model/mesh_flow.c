@@ -1,7 +1,10 @@
 /* Lengths of pipe that mud flows through and back along: its losses there, by the diameters where they are described,
  * and its pull on the string (force/mud_flow.h). */
+#include <math.h>
+
 #include "force/hole.h"
 #include "force/mud_flow.h"
+#include "model/describe.h"
 #include "model/mesh.h"
 #include "model/model.h"
 #include "model/section.h"
@@ -11,7 +14,6 @@ typedef struct flow_walk {
     const dmb_pipe_def *pipe;
     double start;        /* [m] measured depth of the rig end */
     dmb_flow_piece last; /* zeros before the first */
-    double hole;         /* [m] its diameter there */
     uint32_t number;     /* of the pipe */
 } flow_walk;
 
@@ -42,33 +44,85 @@ static int32_t check_duct(const flow_walk *walk, const dmb_flow_piece *piece, do
     return DMB_ERR_GEOMETRY;
 }
 
+static const dmb_input_def *input_of(const dmb_model *model)
+{
+    for (uint32_t i = 0; i < model->inputs.count; ++i) {
+        const dmb_input_def *def = DMB_LIST_AT(const dmb_input_def, model->inputs, i);
+        if (def->target == DMB_TARGET_FLOW_RATE) return def;
+    }
+    return NULL;
+}
+
+/* The least or the largest rate there may be: as described, or as the input sets it, which *by is then. */
+static double rate_at(const dmb_mesh *mesh, int largest, const dmb_input_def **by)
+{
+    const dmb_input_def *def = input_of(mesh->model);
+    const double described = mesh->model->environment.flow_rate;
+    *by = NULL;
+    if (def == NULL) return described;
+    const double bound = largest ? dmb_input_high(def) : dmb_input_low(def);
+    if (isnan(def->initial) && (largest ? described > bound : described < bound)) return described;
+    *by = def;
+    return bound;
+}
+
+/* "environment: flow_rate", or the bound of an input. */
+static const char *rate_text(const dmb_input_def *by, const char *bound, dmb_message *text)
+{
+    if (by == NULL) return "environment: flow_rate";
+    dmb_message_set(text, "input (%s): %s", by->name, bound);
+    return text->text;
+}
+
+/* It grows with the rate. */
 static int32_t check_reynolds(const flow_walk *walk, const dmb_flow_piece *piece)
 {
-    const double most = piece->bore.reynolds > piece->annulus.reynolds ? piece->bore.reynolds : piece->annulus.reynolds;
+    const dmb_input_def *by;
+    dmb_mud_flow flow = walk->mesh->flow;
+    dmb_message text;
+    flow.rate = rate_at(walk->mesh, 1, &by);
+    const double bore = dmb_bore_loss(&flow, piece->diameter[1]).reynolds;
+    const double annulus = dmb_annulus_loss_by(&flow, piece->diameter[0], piece->hole, piece->zero_shear).reynolds;
+    const double most = bore > annulus ? bore : annulus;
     if (most <= DMB_FLOW_REYNOLDS_MAX) return DMB_OK;
     dmb_message_set(&walk->mesh->model->message,
-                    "environment: flow_rate: the Reynolds number at %g m of the string is %g, must be <= %g, up to "
+                    "%s = %g m3/s: the Reynolds number at %g m of the string is %g, must be <= %g, up to "
                     "which the law of friction was measured; lower the rate, or raise the consistency",
-                    piece->from, most, DMB_FLOW_REYNOLDS_MAX);
+                    rate_text(by, "high", &text), flow.rate, piece->from, most, DMB_FLOW_REYNOLDS_MAX);
     return DMB_ERR_VALUE;
 }
 
-/* Of equal diameters the losses are those of the piece before. */
+/* Of equal diameters lambda, which takes the time, is that of the piece before. */
 static void take_losses(flow_walk *walk, double hole, dmb_flow_piece *piece)
 {
     const dmb_mud_flow *flow = &walk->mesh->flow;
     const dmb_flow_piece *last = &walk->last;
     const bool same = dmb_same_numbers(piece->diameter, last->diameter, 2);
+    piece->hole = hole;
+    piece->zero_shear = same && dmb_same_numbers(&hole, &last->hole, 1)
+                            ? last->zero_shear
+                            : dmb_annulus_zero_shear(flow->exponent, piece->diameter[0] / hole);
     piece->before[0] = last->before[0] + last->length * last->bore.gradient;
     piece->before[1] = last->before[1] + last->length * last->annulus.gradient;
-    piece->bore = same ? last->bore : dmb_bore_loss(flow, piece->diameter[1]);
-    piece->annulus = same && dmb_same_numbers(&hole, &walk->hole, 1) ? last->annulus
-                                                                     : dmb_annulus_loss(flow, piece->diameter[0], hole);
+    piece->bore = dmb_bore_loss(flow, piece->diameter[1]);
+    piece->annulus = dmb_annulus_loss_by(flow, piece->diameter[0], hole, piece->zero_shear);
+}
+
+/* Of an element as of a uniform load on the cubic shape (dmb_scene_fill_pulls). */
+static void take_levers(const dmb_mesh *mesh, dmb_flow_piece *piece)
+{
+    const double L = piece->length;
+    piece->lever[0] = piece->from + 0.5 * L - dmb_mesh_node_at(mesh, piece->node)->at;
+    if (piece->element == DMB_NONE) return;
+    const uint32_t node = dmb_mesh_element_at(mesh, piece->element)->node;
+    piece->lever[0] = piece->from + L / 6.0 - dmb_mesh_node_at(mesh, node)->at;
+    piece->lever[1] = piece->from + L - L / 6.0 - dmb_mesh_node_at(mesh, node + 1)->at;
 }
 
 static int32_t add_piece(flow_walk *walk, dmb_flow_piece *piece, int in_tool_joint)
 {
     const double middle = walk->start + piece->from + 0.5 * piece->length;
+    take_levers(walk->mesh, piece);
     const double hole = 2.0 * dmb_hole_radius(&walk->mesh->hole, middle);
     dmb_pipe_diameters(walk->pipe, in_tool_joint, piece->diameter);
     int32_t status = check_duct(walk, piece, hole);
@@ -76,7 +130,6 @@ static int32_t add_piece(flow_walk *walk, dmb_flow_piece *piece, int in_tool_joi
     take_losses(walk, hole, piece);
     status = check_reynolds(walk, piece);
     walk->last = *piece;
-    walk->hole = hole;
     return status < 0 ? status : dmb_vector_append(&walk->mesh->flow_pieces, &walk->mesh->model->allocator, piece, 1);
 }
 
@@ -106,22 +159,38 @@ static int32_t add_pipe(flow_walk *walk, const dmb_pipe_map *pipe, double from)
     return add_piece(walk, &piece, 1);
 }
 
-/* Inside over outside at the rig end, as described. */
-static int32_t check_pump(const dmb_mesh *mesh, const dmb_flow_piece *last)
+/* [Pa] Inside over outside at the rig end, as described, at a rate. */
+static double pump_pressure(const dmb_mesh *mesh, double rate)
 {
     const dmb_environment_def *e = &mesh->model->environment;
     const dmb_string_map *string = dmb_mesh_string_at(mesh, 0);
     const double *top = dmb_mesh_node_at(mesh, string->start_node)->position;
     const double *bottom = dmb_mesh_node_at(mesh, string->end_node)->position;
-    double pressure = dmb_nozzle_loss(&mesh->flow) + last->before[0] + last->before[1] +
-                      last->length * (last->bore.gradient + last->annulus.gradient);
+    dmb_mud_flow flow = mesh->flow;
+    flow.rate = rate;
+    double pressure = dmb_nozzle_loss(&flow);
+    for (uint32_t i = 0; i < mesh->flow_pieces.count; ++i) {
+        const dmb_flow_piece *piece = DMB_VECTOR_AT(dmb_flow_piece, &mesh->flow_pieces, i);
+        pressure +=
+            piece->length * (dmb_bore_loss(&flow, piece->diameter[1]).gradient +
+                             dmb_annulus_loss_by(&flow, piece->diameter[0], piece->hole, piece->zero_shear).gradient);
+    }
     for (int k = 0; k < 3 && (mesh->features & DMB_FEATURE_GRAVITY) != 0; ++k)
         pressure += (mesh->flow.outside - mesh->flow.inside) * e->gravity[k] * (bottom[k] - top[k]);
+    return pressure;
+}
+
+/* Losses grow with the rate, so the least one is looked at. */
+static int32_t check_pump(const dmb_mesh *mesh)
+{
+    const dmb_input_def *by;
+    dmb_message text;
+    const double rate = rate_at(mesh, 0, &by), pressure = pump_pressure(mesh, rate);
     if (pressure >= 0.0) return DMB_OK;
     dmb_message_set(&mesh->model->message,
-                    "environment: flow_rate = %g m3/s, too small: the pump's pressure would be %g Pa, must be >= 0: "
-                    "the heavier mud inside falls by itself; raise the rate, or lower inner_density",
-                    e->flow_rate, pressure);
+                    "%s = %g m3/s, too small: the pump's pressure would be %g Pa, must be >= 0: the heavier mud inside "
+                    "falls by itself; raise the rate, or lower inner_density",
+                    rate_text(by, "low", &text), rate, pressure);
     return DMB_ERR_VALUE;
 }
 
@@ -142,7 +211,25 @@ static int32_t take_end(flow_walk *walk)
 {
     dmb_mud_flow *flow = &walk->mesh->flow;
     if (flow->open) flow->nozzle_area = dmb_ring_area(walk->last.diameter[1], 0.0);
-    return check_pump(walk->mesh, &walk->last);
+    return check_pump(walk->mesh);
+}
+
+/* The environment is checked for its own rate; an input may come to it that makes the mud flow. */
+static int32_t check_mud(const dmb_mesh *mesh)
+{
+    const dmb_environment_def *e = &mesh->model->environment;
+    const dmb_input_def *by = input_of(mesh->model);
+    const char *field = NULL;
+    if (!(e->consistency > 0.0)) field = "consistency";
+    if (!(e->fluid_density > 0.0)) field = "fluid_density";
+    if (e->inner_density >= 0.0 && !(e->inner_density > 0.0)) field = "inner_density";
+    if (field == NULL || by == NULL) return DMB_OK;
+    dmb_message_set(
+        &mesh->model->message,
+        "input (%s): target = DMB_TARGET_FLOW_RATE, but %s of the environment is 0, must be > 0; set it, or "
+        "leave the input out",
+        by->name, field);
+    return DMB_ERR_VALUE;
 }
 
 int32_t dmb_mesh_flow(dmb_mesh *mesh)
@@ -150,7 +237,9 @@ int32_t dmb_mesh_flow(dmb_mesh *mesh)
     flow_walk walk = {.mesh = mesh};
     int32_t status = DMB_OK;
     double from = 0.0;
-    if (!(mesh->model->environment.flow_rate > 0.0)) return DMB_OK;
+    if (!(mesh->model->environment.flow_rate > 0.0) && input_of(mesh->model) == NULL) return DMB_OK;
+    status = check_mud(mesh);
+    if (status < 0) return status;
     if (mesh->strings.count != 1) return refuse(mesh, DMB_ERR_UNSUPPORTED, "in a model with other than one string");
     if (!mesh->has_hole || !dmb_mesh_follows_hole(mesh, 0))
         return refuse(mesh, DMB_ERR_UNSUPPORTED, "without a string that follows its hole; add a wall");

@@ -98,7 +98,9 @@ static void count_inputs(const dmb_mesh *mesh, dmb_scene *scene)
     for (uint32_t i = 0; i < scene->input_count; ++i) {
         const int32_t target = DMB_VECTOR_AT(dmb_scene_input, &mesh->inputs, i)->target;
         if (target == DMB_TARGET_FLUID_DENSITY) scene->has_density_input = 1;
-        if (target >= DMB_TARGET_LATERAL_DAMPING) scene->has_damping_input = 1;
+        if (target >= DMB_TARGET_LATERAL_DAMPING && target <= DMB_TARGET_TORSIONAL_DAMPING)
+            scene->has_damping_input = 1;
+        if (target == DMB_TARGET_FLOW_RATE) scene->has_flow_input = 1;
     }
 }
 

@@ -23,6 +23,9 @@ static int32_t check_density(const dmb_mesh *mesh, const dmb_input_def *def)
     const char *why = NULL;
     if (model->environment.added_mass > 0.0 || model->environment.added_mass < 0.0) why = "added_mass is 0";
     if (model->environment.flow_rate > 0.0) why = "flow_rate is 0";
+    for (uint32_t i = 0; i < model->inputs.count; ++i)
+        if (DMB_LIST_AT(const dmb_input_def, model->inputs, i)->target == DMB_TARGET_FLOW_RATE)
+            why = "no input has the target DMB_TARGET_FLOW_RATE";
     for (uint32_t i = 0; i < model->bodies.count; ++i) {
         const dmb_body_def *body = DMB_LIST_AT(const dmb_body_def, model->bodies, i);
         if (body->displaced_volume > 0.0 && fabs(body->centre[1]) + fabs(body->centre[2]) > 0.0)

@@ -7,6 +7,48 @@
 #include "base/memory.h"
 #include "model/field_check.h"
 
+/* ---- Mud that flows ---------------------------------------------------------------------------------------------- */
+
+static void add_pull(dmb_scene *scene, uint32_t node, double pull, double lever)
+{
+    scene->flow_node[2 * (size_t)node] += pull;
+    scene->flow_node[2 * (size_t)node + 1] += pull * lever;
+}
+
+/* Of an element as of a uniform load on the cubic shape: halves with the moments +- w L^2/12, w L/2 times L/6. */
+void dmb_scene_fill_pulls(dmb_scene *scene)
+{
+    memset(scene->flow_element, 0, scene->element_count * sizeof(double));
+    memset(scene->flow_node, 0, 2 * (size_t)scene->node_count * sizeof(double));
+    for (uint32_t i = 0; i < scene->flow_count; ++i) {
+        const dmb_flow_piece *piece = scene->flow_pieces + i;
+        const double pull = piece->annulus.pull * piece->length;
+        if (piece->element == DMB_NONE) {
+            add_pull(scene, piece->node, pull, piece->lever[0]);
+            continue;
+        }
+        scene->flow_element[piece->element] = pull;
+        add_pull(scene, scene->element_node[piece->element], 0.5 * pull, piece->lever[0]);
+        add_pull(scene, scene->element_node[piece->element] + 1, 0.5 * pull, piece->lever[1]);
+    }
+}
+
+void dmb_scene_set_flow(dmb_scene *scene, double rate)
+{
+    double before[2] = {0.0, 0.0};
+    scene->flow.rate = rate;
+    for (uint32_t i = 0; i < scene->flow_count; ++i) {
+        dmb_flow_piece *piece = scene->flow_pieces + i;
+        piece->bore = dmb_bore_loss(&scene->flow, piece->diameter[1]);
+        piece->annulus = dmb_annulus_loss_by(&scene->flow, piece->diameter[0], piece->hole, piece->zero_shear);
+        piece->before[0] = before[0];
+        piece->before[1] = before[1];
+        before[0] += piece->length * piece->bore.gradient;
+        before[1] += piece->length * piece->annulus.gradient;
+    }
+    dmb_scene_fill_pulls(scene);
+}
+
 /* ---- Rings that a guide keeps off the wall ----------------------------------------------------------------------- */
 
 static const double same_point = 1e-9; /* [m] */

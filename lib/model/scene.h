@@ -196,6 +196,9 @@ typedef struct dmb_cluster {
 typedef struct dmb_flow_piece {
     double from, length; /* [m] along the string */
     double diameter[2];  /* [m] outer, inner */
+    double hole;         /* [m] its diameter in the middle */
+    double zero_shear;   /* [-] lambda of the annulus, laminar */
+    double lever[2];     /* [m] from `node`, or from both nodes of `element`, to where its pull, or half of it, acts */
     double steel;        /* [N] E A, by which it stretches; 0: rigid */
     double poisson;      /* [-] */
     dmb_flow_loss bore, annulus;
@@ -248,6 +251,7 @@ typedef struct dmb_scene {
     uint32_t input_count, event_count;
     uint32_t actuator_count, delay_count;         /* drives with an actuator, with a delay */
     int32_t has_density_input, has_damping_input; /* 1: some input moves it */
+    int32_t has_flow_input, input_reserved;
 
     /* nodes */
     dmb_block_layout layout;      /* block sizes 6 or 2, rows, storage of blocks and links */
@@ -389,6 +393,12 @@ static inline double dmb_site_clearance(const dmb_scene *scene, const dmb_site *
 {
     return scene->hole.pieces == 0 ? site->clearance : dmb_hole_radius(&scene->hole, depth) - site->radius;
 }
+
+/* The rate of the mud that flows, with losses of the pieces and pulls on elements and nodes that follow from it. All of
+ * these are the scene's own. O(pieces). */
+void dmb_scene_set_flow(dmb_scene *scene, double rate);
+/* Pulls on elements and nodes by the losses of the pieces. */
+void dmb_scene_fill_pulls(dmb_scene *scene);
 
 /* The scene with dense matrices for all clusters. Modes, responses and buckling are made in independent coordinates, of
  * which there is a dense matrix R; steps and statics of large clusters do without it. */

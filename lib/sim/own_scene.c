@@ -26,6 +26,11 @@ dmb_own_scene *dmb_own_scene_take(dmb_arena *arena, const dmb_scene *scene)
         to->weight_moment = DOUBLES(arena, 3 * n);
     }
     if (scene->has_damping_input) to->node_damping = DOUBLES(arena, 5 * n);
+    if (scene->has_flow_input) {
+        to->flow_pieces = DMB_ARENA_ARRAY(arena, dmb_flow_piece, scene->flow_count);
+        to->flow_element = DOUBLES(arena, scene->element_count);
+        to->flow_node = DOUBLES(arena, 2 * n);
+    }
     return made;
 }
 
@@ -63,6 +68,7 @@ static double described_value(const dmb_scene *scene, const dmb_environment_def 
     case DMB_TARGET_LATERAL_DAMPING: return e->lateral_damping;
     case DMB_TARGET_AXIAL_DAMPING: return e->axial_damping;
     case DMB_TARGET_TORSIONAL_DAMPING: return e->torsional_damping;
+    case DMB_TARGET_FLOW_RATE: return e->flow_rate;
     default: return dmb_described_programme(scene, input) == DMB_NONE ? without_programme(i) : (double)NAN;
     }
 }
@@ -151,6 +157,8 @@ static void set_input(const dmb_sim *sim, uint32_t input)
         set_friction(&own->scene, described, value);
     else if (i->target == DMB_TARGET_FLUID_DENSITY && value != own->scene.fluid_density)
         set_density(own, described, value);
+    else if (i->target == DMB_TARGET_FLOW_RATE && value != own->scene.flow.rate)
+        dmb_scene_set_flow(&own->scene, value);
 }
 
 void dmb_own_scene_update(dmb_sim *sim)
@@ -161,6 +169,7 @@ void dmb_own_scene_update(dmb_sim *sim)
     sim->own->dense.friction_law = sim->own->scene.friction_law;
     sim->own->dense.hole.friction = sim->own->scene.hole.friction;
     sim->own->dense.fluid_density = sim->own->scene.fluid_density;
+    sim->own->dense.flow = sim->own->scene.flow;
 }
 
 /* ---- A new sim --------------------------------------------------------------------------------------------------- */
@@ -179,6 +188,10 @@ static void copy_parts(dmb_own_scene *own, const dmb_scene *scene)
         memcpy(own->weight_moment, scene->weight_moment, 3 * n * sizeof(double));
     }
     if (scene->has_damping_input) memcpy(own->node_damping, scene->node_damping, 5 * n * sizeof(double));
+    if (!scene->has_flow_input) return;
+    memcpy(own->flow_pieces, scene->flow_pieces, scene->flow_count * sizeof *own->flow_pieces);
+    if (scene->element_count > 0) memcpy(own->flow_element, scene->flow_element, scene->element_count * sizeof(double));
+    memcpy(own->flow_node, scene->flow_node, 2 * n * sizeof(double));
 }
 
 /* The compiled scene with the sim's own parts in the place of its. */
@@ -195,6 +208,10 @@ static void place_parts(dmb_own_scene *own, const dmb_scene *compiled, dmb_scene
         to->weight_moment = own->weight_moment;
     }
     if (compiled->has_damping_input) to->node_damping = own->node_damping;
+    if (!compiled->has_flow_input) return;
+    to->flow_pieces = own->flow_pieces;
+    to->flow_element = own->flow_element;
+    to->flow_node = own->flow_node;
 }
 
 static void place_inputs(dmb_own_scene *own, const dmb_scene *scene)

@@ -18,7 +18,10 @@ typedef struct dmb_own_scene {
     dmb_element_type *types;   /* with an input of density only, as are the next two */
     double *weight_mass;
     double *weight_moment;
-    double *node_damping; /* with one of damping only */
+    double *node_damping;        /* with one of damping only */
+    dmb_flow_piece *flow_pieces; /* with one of the rate of flow only, as are the next two */
+    double *flow_element;
+    double *flow_node;
 } dmb_own_scene;
 
 /* Its place in the block; NULL while counting. */
@@ -29,10 +32,10 @@ void dmb_own_scene_begin(dmb_sim *sim);
  * Before its state is taken. */
 void dmb_own_scene_copy(dmb_sim *copy, const dmb_sim *sim);
 /* A copy goes into another scene of the same make, at its own input_value and input_begin. O(number of drives, loads,
- * bits, inputs; of nodes with inputs of density or damping). */
+ * bits, inputs; of nodes with inputs of density, damping or flow). */
 void dmb_own_scene_enter(dmb_sim *copy, const dmb_model *model);
-/* After input_value or input_begin were written. O(number of nodes) with inputs of density or damping, else O(number
- * of drives, loads, bits and inputs). */
+/* After input_value or input_begin were written. O(number of nodes) with inputs of density, damping or flow, else
+ * O(number of drives, loads, bits and inputs). */
 void dmb_own_scene_update(dmb_sim *sim);
 /* Value of an input by the description of what it moves; NaN of a programme. */
 double dmb_described_setting(const dmb_sim *sim, uint32_t input);

@@ -1,5 +1,7 @@
 /* Mud that flows down a string and back: hook load, true and effective force, pressures, stretch and stress against the
- * balance of forces on the steel and Lame's tube; torque and drag, a run in time and its energy, what is refused. */
+ * balance of forces on the steel and Lame's tube; torque and drag, a run in time and its energy, the rate as an input
+ * against scenes compiled with it, what is refused. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "drillmbd/drilling.h"
@@ -226,6 +228,221 @@ static void a_run_in_time(void **state)
     }
 }
 
+/* ---- The rate as an input -----------------------------------------------------------------------------------------
+ */
+
+static dmb_id rate_input(const hanging *h)
+{
+    dmb_id id = {0, 0};
+    must_model(&h->s, dmb_model_find_input(h->s.model, "pump", &id));
+    return id;
+}
+
+/* Steps that may be cut where the string meets its wall. */
+static void run_steps(const hanging *h, int count)
+{
+    for (int i = 0; i < count; i++) assert_true(dmb_sim_step(h->s.sim, 1e-3, NULL) >= 0);
+}
+
+/* Bent by gravity onto its wall: the axis is level. An input of the rate, where `high` > 0. */
+static hanging describe_level(double rate, double high, double initial)
+{
+    dmb_pipe_def pipe = pipe_of(DMB_PIPE_FLEXIBLE);
+    dmb_environment_def e = mud_of(rate, 4e-4);
+    dmb_input_def input = dmb_input_def_default();
+    e.gravity[0] = 3.0;
+    e.gravity[2] = -8.0;
+    e.lateral_damping = e.axial_damping = 50.0;
+    pipe.joint_length = 0.4;
+    pipe.joint_outer_diameter = 0.105;
+    pipe.joint_inner_diameter = 0.06;
+    hanging h = describe(&pipe, &e, 6);
+    if (!(high > 0.0)) return h;
+    input.target = DMB_TARGET_FLOW_RATE;
+    input.initial = initial;
+    input.high = high;
+    (void)strcpy(input.name, "pump");
+    must_model(&h.s, dmb_model_add_input(h.s.model, &input, NULL));
+    return h;
+}
+
+static void compare_flow(const hanging *set, const hanging *compiled, double bound)
+{
+    const dmb_flow_state a = flow_in(set), b = flow_in(compiled);
+    const int32_t quantities[] = {DMB_CHANNEL_HOOK_LOAD, DMB_CHANNEL_STRETCH,
+                                  DMB_CHANNEL_PROFILE + DMB_PROFILE_AXIAL_FORCE,
+                                  DMB_CHANNEL_PROFILE + DMB_PROFILE_VON_MISES};
+    assert_true(a.rate == b.rate);
+    check_relative("pressure of the pump [Pa]", a.pump_pressure, b.pump_pressure, bound);
+    assert_true(a.drag == b.drag && a.thrust == b.thrust && a.annulus_reynolds == b.annulus_reynolds);
+    for (int i = 0; i < 4; i++)
+        check_relative("channel", value_of(set, quantities[i], 0.4), value_of(compiled, quantities[i], 0.4), bound);
+    check_below("end [m]",
+                fabs(pose_at(&set->s, dmb_station(set->string, 5, 1.0)).displacement[0] -
+                     pose_at(&compiled->s, dmb_station(compiled->string, 5, 1.0)).displacement[0]),
+                bound);
+}
+
+/* Against the scene that was compiled with that rate: from the beginning in time (equal to the last bit), at rest, in
+ * torque and drag, and the natural frequencies there. */
+static void set_or_compiled(void **state)
+{
+    const double rates[] = {0.003, 0.012, 0.0};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        hanging set = describe_level(i == 2 ? 0.01 : 0.0, 0.02, i == 1 ? rates[i] : (double)NAN);
+        hanging compiled = i == 2 ? describe_level(0.0, 0.02, (double)NAN) : describe_level(rates[i], 0.0, 0.0);
+        (void)mechanism_start(&set.s, NULL);
+        (void)mechanism_start(&compiled.s, NULL);
+        if (i != 1) must(&set.s, dmb_sim_set_input(set.s.sim, rate_input(&set), rates[i]));
+        run_steps(&set, 100);
+        run_steps(&compiled, 100);
+        compare_flow(&set, &compiled, 1e-9);
+        must(&set.s, dmb_analysis_static(set.s.sim, NULL, NULL));
+        must(&compiled.s, dmb_analysis_static(compiled.s.sim, NULL, NULL));
+        compare_flow(&set, &compiled, 1e-9);
+        dmb_operation up = dmb_operation_default();
+        dmb_torque_drag_row rows[2] = {dmb_torque_drag_row_default(), dmb_torque_drag_row_default()};
+        (void)dmb_operation_usual(DMB_OPERATION_PICK_UP, &up);
+        must(&set.s, dmb_analysis_torque_drag(set.s.sim, NULL, &up, 1, rows));
+        must(&compiled.s, dmb_analysis_torque_drag(compiled.s.sim, NULL, &up, 1, rows + 1));
+        check_relative("hook load of torque and drag [N]", rows[0].hook_load, rows[1].hook_load, 1e-13);
+        double frequencies[2][4];
+        dmb_modes *modes = NULL;
+        for (int k = 0; k < 2; k++) {
+            must(&set.s, dmb_analysis_modes(k == 0 ? set.s.sim : compiled.s.sim, NULL, &modes));
+            for (uint32_t m = 0; m < 4; m++) {
+                dmb_mode mode = dmb_mode_default();
+                assert_true(dmb_modes_get(modes, m, &mode) >= 0);
+                frequencies[k][m] = mode.frequency;
+            }
+            dmb_modes_destroy(&modes);
+        }
+        for (int m = 0; m < 4; m++)
+            check_relative("natural frequency [Hz]", frequencies[0][m], frequencies[1][m], 1e-7);
+        rig_close(&set.s), rig_close(&compiled.s);
+    }
+}
+
+/* Rates up and down in a run: the ledger closes, the log replays to the same hash, a snapshot goes on to it. */
+static void logs_and_snapshots(void **state)
+{
+    const double rates[] = {0.01, 0.0, 0.015, 0.004};
+    unsigned char *saved = NULL;
+    dmb_input_record log[8];
+    uint32_t next = 0;
+    size_t size = 0;
+    (void)state;
+    hanging run = describe_level(0.002, 0.02, (double)NAN), again = describe_level(0.002, 0.02, (double)NAN);
+    hanging restored = describe_level(0.002, 0.02, (double)NAN), other = describe_level(0.002, 0.0, 0.0);
+    (void)mechanism_start(&run.s, NULL);
+    (void)mechanism_start(&again.s, NULL);
+    (void)mechanism_start(&restored.s, NULL);
+    (void)mechanism_start(&other.s, NULL);
+    must(&run.s, dmb_sim_record_inputs(run.s.sim, log, 8));
+    for (int i = 0; i < 4; i++) {
+        must(&run.s, dmb_sim_set_input(run.s.sim, rate_input(&run), rates[i]));
+        assert_true(flow_in(&run).rate == rates[i]);
+        if (i == 2) {
+            must(&run.s, dmb_sim_snapshot_size(run.s.sim, &size));
+            saved = malloc(size);
+            must(&run.s, dmb_sim_snapshot(run.s.sim, saved, size));
+        }
+        run_steps(&run, 25);
+    }
+    const dmb_energy energy = energy_of(&run.s);
+    check_below("energy that is missing over that of weight", fabs(energy.unexplained / energy.gravity), 1e-9);
+    for (int i = 0; i < 100; i++) {
+        must(&again.s, dmb_sim_replay_inputs(again.s.sim, log, dmb_sim_recorded_inputs(run.s.sim), &next));
+        run_steps(&again, 1);
+    }
+    assert_true(rig_hash(&again.s) == rig_hash(&run.s));
+    must(&restored.s, dmb_sim_restore(restored.s.sim, saved, size));
+    assert_true(flow_in(&restored).rate == rates[2]);
+    run_steps(&restored, 25);
+    must(&restored.s, dmb_sim_set_input(restored.s.sim, rate_input(&restored), rates[3]));
+    run_steps(&restored, 25);
+    assert_true(rig_hash(&restored.s) == rig_hash(&run.s));
+    assert_true(dmb_sim_restore(other.s.sim, saved, size) < 0);
+    free(saved);
+    rig_close(&run.s), rig_close(&again.s), rig_close(&restored.s), rig_close(&other.s);
+}
+
+/* d/d rate along a run against runs at both sides. */
+static void sensitivity_to_the_rate(void **state)
+{
+    const double rate = 0.01, far = 1e-5, near = 1e-7;
+    double loads[2], slope = 0.0;
+    (void)state;
+    hanging sims[5];
+    for (int k = 0; k < 5; k++) {
+        const double beside[] = {0.0, -near, near, -far, far};
+        dmb_sim_options sharp = sharp_options(0.8, 1e-13);
+        sims[k] = describe_level(rate, 0.02, rate + beside[k]);
+        (void)mechanism_start(&sims[k].s, &sharp);
+    }
+    dmb_parameter parameter = {.struct_size = sizeof parameter, .step = near, .low = sims[1].s.sim};
+    dmb_sensitivity *along = NULL;
+    parameter.high = sims[2].s.sim;
+    must(&sims[0].s, dmb_sensitivity_create(sims[0].s.sim, &parameter, 1, &along));
+    for (int i = 0; i < 40; i++) assert_true(dmb_sensitivity_step(along, 1e-3, NULL) >= 0);
+    const dmb_channel channel = {.place = dmb_station(sims[0].string, 0, 0.0), .quantity = DMB_CHANNEL_HOOK_LOAD};
+    must(&sims[0].s, dmb_sensitivity_channels(along, &channel, 1, NULL, &slope));
+    for (int k = 0; k < 2; k++) {
+        run_steps(&sims[3 + k], 40);
+        loads[k] = value_of(&sims[3 + k], DMB_CHANNEL_HOOK_LOAD, 0.0);
+    }
+    check_relative("d hook load/d rate [N s/m3]", slope, (loads[1] - loads[0]) / (2.0 * far), 1e-4);
+    dmb_sensitivity_destroy(&along);
+    for (int k = 0; k < 5; k++) rig_close(&sims[k].s);
+}
+
+static void input_refused(double high, double low, double initial, double consistency, double inner_density,
+                          int32_t expected, const char *why)
+{
+    const dmb_pipe_def pipe = pipe_of(DMB_PIPE_FLEXIBLE);
+    dmb_environment_def e = mud_of(0.0, 0.0);
+    dmb_input_def input = dmb_input_def_default();
+    e.consistency = consistency;
+    e.inner_density = inner_density;
+    hanging h = describe(&pipe, &e, 2);
+    input.target = DMB_TARGET_FLOW_RATE;
+    input.high = high;
+    input.low = low;
+    input.initial = initial;
+    (void)strcpy(input.name, "pump");
+    int32_t status = dmb_model_add_input(h.s.model, &input, NULL);
+    if (status >= 0) status = dmb_model_compile(h.s.model, NULL);
+    if (status != expected || strstr(dmb_model_message(h.s.model), why) == NULL)
+        fail_msg("%d: %s", (int)status, dmb_model_message(h.s.model));
+    rig_close(&h.s);
+}
+
+static void bad_rates_are_refused(void **state)
+{
+    const double nan_value = (double)NAN;
+    (void)state;
+    input_refused(100.0, 0.0, nan_value, 0.05, 1150.0, DMB_ERR_VALUE, "input (pump): high = 100 m3/s: the Reynolds");
+    input_refused(1e30, -1e30, nan_value, 0.05, 1150.0, DMB_ERR_VALUE, "high");
+    input_refused(0.01, 0.0, nan_value, 0.0, 1150.0, DMB_ERR_VALUE, "consistency");
+    input_refused(0.01, 0.0, nan_value, 0.05, 0.0, DMB_ERR_VALUE, "inner_density");
+    input_refused(0.01, 0.0, nan_value, 0.05, 1900.0, DMB_ERR_VALUE, "falls by itself");
+    input_refused(0.01, 0.0, 0.02, 0.05, 1150.0, DMB_ERR_VALUE, "initial");
+    input_refused(0.01, 0.0, -1.0, 0.05, 1150.0, DMB_ERR_VALUE, "initial");
+    input_refused(-1.0, -2.0, nan_value, 0.05, 1150.0, DMB_ERR_VALUE, "high");
+    input_refused(nan_value, 0.0, nan_value, 0.05, 1150.0, DMB_ERR_NOT_FINITE, "high");
+    hanging h = describe_level(0.002, 0.02, nan_value);
+    (void)mechanism_start(&h.s, NULL);
+    run_steps(&h, 3);
+    const uint64_t before = rig_hash(&h.s);
+    const double bad[] = {-1e-3, 0.021, nan_value, (double)INFINITY, 1e300};
+    for (int i = 0; i < 5; i++) assert_true(dmb_sim_set_input(h.s.sim, rate_input(&h), bad[i]) < 0);
+    assert_true(rig_hash(&h.s) == before);
+    must(&h.s, dmb_sim_set_input(h.s.sim, rate_input(&h), 1e-300));
+    run_steps(&h, 3);
+    rig_close(&h.s);
+}
+
 static void refused(const dmb_environment_def *e, int32_t expected, const char *why)
 {
     rig s;
@@ -289,6 +506,10 @@ int main(void)
         cmocka_unit_test(pull_of_every_kind),
         cmocka_unit_test(stretch_and_stress),
         cmocka_unit_test(a_run_in_time),
+        cmocka_unit_test(set_or_compiled),
+        cmocka_unit_test(logs_and_snapshots),
+        cmocka_unit_test(sensitivity_to_the_rate),
+        cmocka_unit_test(bad_rates_are_refused),
         cmocka_unit_test(what_it_cannot_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -810,8 +810,9 @@ class InputTarget(IntEnum):
     LATERAL_DAMPING = 9
     AXIAL_DAMPING = 10  #: [N s/m2]
     TORSIONAL_DAMPING = 11  #: [N s]
-    STUCK = 12
-    COUNT = 13  #: [-] 1: a place is stuck from now on, 0: it is free (bha.h)
+    STUCK = 12  #: [-] 1: a place is stuck from now on, 0: it is free (bha.h)
+    FLOW_RATE = 13  #: [m3/s] of mud, >= 0; all that flow needs of string, hole and mud must be there
+    COUNT = 14
 
 
 TARGET_SET_POINT = InputTarget.SET_POINT
@@ -827,6 +828,7 @@ TARGET_LATERAL_DAMPING = InputTarget.LATERAL_DAMPING
 TARGET_AXIAL_DAMPING = InputTarget.AXIAL_DAMPING
 TARGET_TORSIONAL_DAMPING = InputTarget.TORSIONAL_DAMPING
 TARGET_STUCK = InputTarget.STUCK
+TARGET_FLOW_RATE = InputTarget.FLOW_RATE
 TARGET_COUNT = InputTarget.COUNT
 
 

@@ -240,7 +240,8 @@ def setting_units(target: int, drive: tuple[int, int] | None) -> dict[str, str]:
                              enums.TARGET_LIMIT_LOW: by_component("N, N m", component),
                              enums.TARGET_LIMIT_HIGH: by_component("N, N m", component),
                              enums.TARGET_FLUID_DENSITY: "kg/m3", enums.TARGET_LATERAL_DAMPING: "N s/m2",
-                             enums.TARGET_AXIAL_DAMPING: "N s/m2", enums.TARGET_TORSIONAL_DAMPING: "N s"}
+                             enums.TARGET_AXIAL_DAMPING: "N s/m2", enums.TARGET_TORSIONAL_DAMPING: "N s",
+                             enums.TARGET_FLOW_RATE: "m3/s"}
     unit = known.get(target, "-")
     by_time = {"-": ("1/s", "1/s2"), "m/s": ("m/s2", "m/s3"), "rad/s": ("rad/s2", "rad/s3")}
     rate, slope = by_time.get(unit, (unit + "/s", unit + "/s2"))
