@@ -79,6 +79,10 @@ typedef struct dmb_environment_def {
         consistency; /* [Pa s] K of the mud (Pa s^n): shear stress K (shear rate)^n; > 0 with a flow_rate; default 0 */
     double flow_exponent; /* [-] n, 0.2 .. 1; 1 (default): Newtonian, K is its viscosity */
     double nozzle_area;   /* [m2] of the bit in all; 0 (default): the last pipe is open */
+    double
+        flow_eccentricity; /* [-] of the annulus that mud flows back in, everywhere: distance of the axes over half the
+                              difference of the diameters, 0 (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes
+                              of 0.3 .. 0.9 hole diameters only. For pressures and drag; poses have no part in it */
 } dmb_environment_def;
 DMB_SIZED_STRUCT(dmb_environment_def)
 DMB_API int32_t dmb_model_set_environment(dmb_model *model, const dmb_environment_def *def);

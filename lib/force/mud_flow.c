@@ -112,26 +112,65 @@ static double laminar_gradient(const dmb_mud_flow *flow, double hole_radius, dou
     return 2.0 * flow->consistency / R * dmb_pow(flow->rate * (3.0 * n + 1.0) / (n * PI * R * R * R * shape), n);
 }
 
+/* 8 mu Q/(pi G R^4) of the eccentric annulus, n = 1, and S/(R^2 delta), by kappa and e/R. */
+static double newtonian(double k, double e, double *pull)
+{
+    const double P = 0.5 * ((1.0 - k) * (1.0 + k) + e * e), S = sqrt((P - e) * (P + e)), far = P - e * e + S;
+    const double E = far / (k * (P + S)), delta = logarithm(E), q = e * e * k / ((P + S) * far);
+    double sum = 0.0, qk = q, Ek = E;
+    for (int i = 1; i < 1000 && qk > 0.0; i++, qk *= q, Ek *= E) {
+        const double term = i * qk / (Ek - 1.0 / Ek);
+        sum += term;
+        if (term < 1e-18 * sum) break;
+    }
+    *pull = S / delta;
+    return 1.0 - k * k * k * k - 4.0 * S * S / delta - 16.0 * S * S * sum;
+}
+
+/* 1 - linear (eps/n) k^0.8454 - square eps^2 sqrt(n) k^0.1852 + cube eps^3 sqrt(n) k^0.2527 */
+static double correlation(double n, double k, double e, double linear, double square, double cube)
+{
+    const double root = sqrt(n);
+    return 1.0 - linear * e / n * dmb_pow(k, 0.8454) - square * e * e * root * dmb_pow(k, 0.1852) +
+           cube * e * e * e * root * dmb_pow(k, 0.2527);
+}
+
+dmb_annulus_shape dmb_annulus_shape_of(const dmb_mud_flow *flow, double ratio)
+{
+    const double n = flow->exponent, eps = flow->eccentricity;
+    dmb_annulus_shape shape = {dmb_annulus_zero_shear(n, ratio), 1.0, 1.0, 1.0};
+    double pull, middle;
+    if (!(eps > 0.0)) return shape;
+    const double concentric = newtonian(ratio, 0.0, &middle);
+    shape.laminar = concentric / newtonian(ratio, eps * (1.0 - ratio), &pull);
+    if (n < 1.0) shape.laminar = correlation(n, ratio, eps, 0.072, 1.5, 0.96);
+    shape.turbulent = correlation(n, ratio, eps, 0.048, 2.0 / 3.0, 0.285);
+    shape.pull = pull / middle;
+    return shape;
+}
+
 dmb_flow_loss dmb_annulus_loss_by(const dmb_mud_flow *flow, double pipe_diameter, double hole_diameter,
-                                  double laminar_lambda)
+                                  const dmb_annulus_shape *shape)
 {
     const double R = 0.5 * hole_diameter, ratio = pipe_diameter / hole_diameter, n = flow->exponent;
     const double gap = hole_diameter - pipe_diameter;
     if (!(flow->rate > 0.0)) return (dmb_flow_loss){.gradient = 0.0};
-    const double laminar = laminar_gradient(flow, R, ratio, laminar_lambda);
+    const double laminar = laminar_gradient(flow, R, ratio, shape->lambda);
     const double speed = 4.0 * flow->rate / (PI * gap * (hole_diameter + pipe_diameter));
     dmb_flow_loss loss = {.reynolds = reynolds_of(flow->outside, speed, gap, laminar)};
     const double more = turbulence(n, loss.reynolds), share = more / (1.0 + more), steep = dmb_pow(ratio, 0.343);
-    const double lambda = laminar_lambda + share * ((steep + ratio) / (1.0 + steep) - laminar_lambda);
+    const double lambda = shape->lambda + share * ((steep + ratio) / (1.0 + steep) - shape->lambda);
     loss.gradient = laminar * dmb_pow(1.0 + more, 1.0 / 12.0);
+    if (flow->eccentricity > 0.0) loss.gradient *= shape->laminar + share * (shape->turbulent - shape->laminar);
     loss.pull = PI * lambda * lambda * R * R * loss.gradient;
+    if (flow->eccentricity > 0.0) loss.pull *= shape->pull;
     return loss;
 }
 
 dmb_flow_loss dmb_annulus_loss(const dmb_mud_flow *flow, double pipe_diameter, double hole_diameter)
 {
-    const double lambda = dmb_annulus_zero_shear(flow->exponent, pipe_diameter / hole_diameter);
-    return dmb_annulus_loss_by(flow, pipe_diameter, hole_diameter, lambda);
+    const dmb_annulus_shape shape = dmb_annulus_shape_of(flow, pipe_diameter / hole_diameter);
+    return dmb_annulus_loss_by(flow, pipe_diameter, hole_diameter, &shape);
 }
 
 /* ---- End --------------------------------------------------------------------------------------------------------- */

@@ -13,10 +13,18 @@
  *     f_b = a Re^-b, a = (log10 n + 3.93)/50, b = (1.75 - log10 n)/7   (Blasius' law where n = 1).
  * The surface without shear is then at (lambda - kappa)/(1 - lambda) = kappa^0.343 (Kays, Leung 1963), between the two
  * by the share of f_i^12 in f^12.
+ * Eccentric, the axes e = eps (R - r) apart: laminar and n = 1 exactly (Piercy, Hooper, Winny 1933, as in White,
+ * Viscous fluid flow), with P = (R^2 - r^2 + e^2)/2, S = sqrt(P^2 - e^2 R^2), E = R (P - e^2 + S)/(r (P + S)), delta =
+ * ln E, 8 mu Q/(pi G) = R^4 - r^4 - 4 S^2/delta - 16 S^2 sum_k k q^k/(E^k - E^-k),  q = e^2 R r/((P + S)(P - e^2 + S)).
+ * n < 1: the concentric G times 1 - 0.072 (eps/n) kappa^0.8454 - 1.5 eps^2 sqrt(n) kappa^0.1852 + 0.96 eps^3 sqrt(n)
+ * kappa^0.2527 (Haciislamoglu, Langlinais 1990); turbulent, times 1 - 0.048 (eps/n) kappa^0.8454 - 2/3 eps^2 sqrt(n)
+ * kappa^0.1852 + 0.285 eps^3 sqrt(n) kappa^0.2527 (Haciislamoglu, Cartalos 1994); between the two by that share.
  *
  * Per metre of pipe the annulus pulls by pi lambda^2 R^2 G towards the rig: shear on its surface and the pressure that
  * falls along it hold all that is within the surface without shear. Shear on its inner surface and the pressure lost
- * inside cancel in the effective axial force. */
+ * inside cancel in the effective axial force. Eccentric, Newtonian, it is pi G S/delta: with phi harmonic, 1 on the
+ * pipe and 0 on the wall, shear on the pipe is G times the integral of phi (Green's identity), which is pi S/delta - pi
+ * r^2. Of the others lambda^2 changes by the same factor, which is an assumption. */
 #ifndef DMB_FORCE_MUD_FLOW_H
 #define DMB_FORCE_MUD_FLOW_H
 
@@ -28,11 +36,17 @@
 #define DMB_FLOW_REYNOLDS_MAX 1e6
 /* [-] Discharge coefficient of nozzles (Eckel, Bielstein 1951). */
 #define DMB_FLOW_DISCHARGE 0.95
+/* [-] Range of the laws of eccentric annuli. */
+#define DMB_FLOW_ECCENTRICITY_MAX 0.95
+#define DMB_FLOW_ECCENTRIC_EXPONENT 0.4
+#define DMB_FLOW_ECCENTRIC_RATIO_MIN 0.3
+#define DMB_FLOW_ECCENTRIC_RATIO_MAX 0.9
 
 typedef struct dmb_mud_flow {
     double rate;            /* [m3/s] >= 0; nothing is lost at 0 */
     double consistency;     /* [Pa s^n] K */
     double exponent;        /* [-] n */
+    double eccentricity;    /* [-] of the annulus */
     double nozzle_area;     /* [m2] of what it leaves by at the far end */
     double inside, outside; /* [kg/m3] density */
     int32_t open;           /* 1: the end of the last pipe, without a loss of pressure */
@@ -47,8 +61,18 @@ typedef struct dmb_flow_loss {
 
 dmb_flow_loss dmb_bore_loss(const dmb_mud_flow *flow, double diameter);
 dmb_flow_loss dmb_annulus_loss(const dmb_mud_flow *flow, double pipe_diameter, double hole_diameter);
-/* The same for a lambda that is known: it goes with exponent and diameters, not with the rate. */
-dmb_flow_loss dmb_annulus_loss_by(const dmb_mud_flow *flow, double pipe_diameter, double hole_diameter, double lambda);
+
+/* Of an annulus all that goes with exponent, eccentricity and diameters, not with the rate. */
+typedef struct dmb_annulus_shape {
+    double lambda;             /* [-] laminar, concentric */
+    double laminar, turbulent; /* [-] G over that of the concentric annulus */
+    double pull;               /* [-] lambda^2 over that of the concentric annulus */
+} dmb_annulus_shape;
+
+dmb_annulus_shape dmb_annulus_shape_of(const dmb_mud_flow *flow, double ratio);
+/* As dmb_annulus_loss, for a shape that is known. */
+dmb_flow_loss dmb_annulus_loss_by(const dmb_mud_flow *flow, double pipe_diameter, double hole_diameter,
+                                  const dmb_annulus_shape *shape);
 /* [-] lambda: radius without shear stress over that of the hole, laminar. */
 double dmb_annulus_zero_shear(double exponent, double ratio);
 /* [Pa] rho Q^2/(2 C^2 A^2) through nozzles, and [N] their thrust rho Q V on the string's end, towards the rig, less

@@ -24,6 +24,18 @@ static int32_t refuse(const dmb_mesh *mesh, int32_t status, const char *text)
     return status;
 }
 
+/* The laws of eccentric annuli have a range of diameters. */
+static int32_t check_ratio(const flow_walk *walk, const char *part, double ratio, double from)
+{
+    if (!(walk->mesh->flow.eccentricity > 0.0)) return DMB_OK;
+    if (ratio >= DMB_FLOW_ECCENTRIC_RATIO_MIN && ratio <= DMB_FLOW_ECCENTRIC_RATIO_MAX) return DMB_OK;
+    dmb_message_set(&walk->mesh->model->message,
+                    "%s: outer diameter over that of the hole = %g at %g m of the string, must be from %g to %g with a "
+                    "flow_eccentricity of the environment, the range of its law; leave the eccentricity out",
+                    part, ratio, from, DMB_FLOW_ECCENTRIC_RATIO_MIN, DMB_FLOW_ECCENTRIC_RATIO_MAX);
+    return DMB_ERR_GEOMETRY;
+}
+
 static int32_t check_duct(const flow_walk *walk, const dmb_flow_piece *piece, double hole)
 {
     dmb_message *message = &walk->mesh->model->message, part;
@@ -36,7 +48,7 @@ static int32_t check_duct(const flow_walk *walk, const dmb_flow_piece *piece, do
                         part.text, d[1], piece->from);
         return DMB_ERR_GEOMETRY;
     }
-    if (hole - d[0] > 1e-4 * hole) return DMB_OK;
+    if (hole - d[0] > 1e-4 * hole) return check_ratio(walk, part.text, d[0] / hole, piece->from);
     dmb_message_set(message,
                     "%s: outer diameter = %g m at %g m of the string, must leave the mud an annulus in the hole "
                     "of %g m there, with a flow_rate of the environment; widen the hole",
@@ -82,7 +94,7 @@ static int32_t check_reynolds(const flow_walk *walk, const dmb_flow_piece *piece
     dmb_message text;
     flow.rate = rate_at(walk->mesh, 1, &by);
     const double bore = dmb_bore_loss(&flow, piece->diameter[1]).reynolds;
-    const double annulus = dmb_annulus_loss_by(&flow, piece->diameter[0], piece->hole, piece->zero_shear).reynolds;
+    const double annulus = dmb_annulus_loss_by(&flow, piece->diameter[0], piece->hole, &piece->shape).reynolds;
     const double most = bore > annulus ? bore : annulus;
     if (most <= DMB_FLOW_REYNOLDS_MAX) return DMB_OK;
     dmb_message_set(&walk->mesh->model->message,
@@ -92,20 +104,20 @@ static int32_t check_reynolds(const flow_walk *walk, const dmb_flow_piece *piece
     return DMB_ERR_VALUE;
 }
 
-/* Of equal diameters lambda, which takes the time, is that of the piece before. */
+/* Of equal diameters the shape, which takes the time, is that of the piece before. */
 static void take_losses(flow_walk *walk, double hole, dmb_flow_piece *piece)
 {
     const dmb_mud_flow *flow = &walk->mesh->flow;
     const dmb_flow_piece *last = &walk->last;
     const bool same = dmb_same_numbers(piece->diameter, last->diameter, 2);
     piece->hole = hole;
-    piece->zero_shear = same && dmb_same_numbers(&hole, &last->hole, 1)
-                            ? last->zero_shear
-                            : dmb_annulus_zero_shear(flow->exponent, piece->diameter[0] / hole);
+    piece->shape = same && dmb_same_numbers(&hole, &last->hole, 1)
+                       ? last->shape
+                       : dmb_annulus_shape_of(flow, piece->diameter[0] / hole);
     piece->before[0] = last->before[0] + last->length * last->bore.gradient;
     piece->before[1] = last->before[1] + last->length * last->annulus.gradient;
     piece->bore = dmb_bore_loss(flow, piece->diameter[1]);
-    piece->annulus = dmb_annulus_loss_by(flow, piece->diameter[0], hole, piece->zero_shear);
+    piece->annulus = dmb_annulus_loss_by(flow, piece->diameter[0], hole, &piece->shape);
 }
 
 /* Of an element as of a uniform load on the cubic shape (dmb_scene_fill_pulls). */
@@ -173,7 +185,7 @@ static double pump_pressure(const dmb_mesh *mesh, double rate)
         const dmb_flow_piece *piece = DMB_VECTOR_AT(dmb_flow_piece, &mesh->flow_pieces, i);
         pressure +=
             piece->length * (dmb_bore_loss(&flow, piece->diameter[1]).gradient +
-                             dmb_annulus_loss_by(&flow, piece->diameter[0], piece->hole, piece->zero_shear).gradient);
+                             dmb_annulus_loss_by(&flow, piece->diameter[0], piece->hole, &piece->shape).gradient);
     }
     for (int k = 0; k < 3 && (mesh->features & DMB_FEATURE_GRAVITY) != 0; ++k)
         pressure += (mesh->flow.outside - mesh->flow.inside) * e->gravity[k] * (bottom[k] - top[k]);
@@ -200,6 +212,7 @@ static void take_flow(dmb_mesh *mesh)
     mesh->flow = (dmb_mud_flow){.rate = e->flow_rate,
                                 .consistency = e->consistency,
                                 .exponent = e->flow_exponent,
+                                .eccentricity = e->flow_eccentricity,
                                 .nozzle_area = e->nozzle_area,
                                 .open = !(e->nozzle_area > 0.0),
                                 .inside = e->inner_density < 0.0 ? e->fluid_density : e->inner_density,

@@ -40,7 +40,7 @@ void dmb_scene_set_flow(dmb_scene *scene, double rate)
     for (uint32_t i = 0; i < scene->flow_count; ++i) {
         dmb_flow_piece *piece = scene->flow_pieces + i;
         piece->bore = dmb_bore_loss(&scene->flow, piece->diameter[1]);
-        piece->annulus = dmb_annulus_loss_by(&scene->flow, piece->diameter[0], piece->hole, piece->zero_shear);
+        piece->annulus = dmb_annulus_loss_by(&scene->flow, piece->diameter[0], piece->hole, &piece->shape);
         piece->before[0] = before[0];
         piece->before[1] = before[1];
         before[0] += piece->length * piece->bore.gradient;

@@ -194,13 +194,13 @@ typedef struct dmb_cluster {
 
 /* A length of pipe, or a tool joint, that mud flows through and back along. */
 typedef struct dmb_flow_piece {
-    double from, length; /* [m] along the string */
-    double diameter[2];  /* [m] outer, inner */
-    double hole;         /* [m] its diameter in the middle */
-    double zero_shear;   /* [-] lambda of the annulus, laminar */
-    double lever[2];     /* [m] from `node`, or from both nodes of `element`, to where its pull, or half of it, acts */
-    double steel;        /* [N] E A, by which it stretches; 0: rigid */
-    double poisson;      /* [-] */
+    double from, length;     /* [m] along the string */
+    double diameter[2];      /* [m] outer, inner */
+    double hole;             /* [m] its diameter in the middle */
+    dmb_annulus_shape shape; /* of the annulus */
+    double lever[2]; /* [m] from `node`, or from both nodes of `element`, to where its pull, or half of it, acts */
+    double steel;    /* [N] E A, by which it stretches; 0: rigid */
+    double poisson;  /* [-] */
     dmb_flow_loss bore, annulus;
     double before[2]; /* [Pa] lost in the bore, in the annulus, between the rig end and `from` */
     uint32_t element; /* half of its pull on each node; DMB_NONE: on `node` */

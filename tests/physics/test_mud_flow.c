@@ -228,6 +228,41 @@ static void a_run_in_time(void **state)
     }
 }
 
+/* Eccentric, the balance of the steel is the same; pressures, drag and torque and drag follow the loss of the unit's
+ * test, here in numbers of its own: Newtonian, laminar, kappa 0.7416.., eps 0.8. */
+static void eccentric(void **state)
+{
+    const double eps[] = {0.0, 0.8};
+    double loss[2], drag[2];
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        const dmb_pipe_def pipe = pipe_of(DMB_PIPE_FLEXIBLE);
+        dmb_environment_def e = mud_of(2e-3, 0.0);
+        e.consistency = 0.2;
+        e.flow_exponent = 1.0;
+        e.flow_eccentricity = eps[k];
+        hanging h = describe(&pipe, &e, 10);
+        (void)mechanism_start(&h.s, NULL);
+        must(&h.s, dmb_analysis_static(h.s.sim, NULL, NULL));
+        const dmb_flow_state flow = flow_in(&h);
+        loss[k] = flow.annulus_loss, drag[k] = flow.drag;
+        check_relative("hook load by weight, drag and thrust [N]", value_of(&h, DMB_CHANNEL_HOOK_LOAD, 0.0),
+                       (steel * ring(outer, inner) + 1150.0 * ring(inner, 0.0) - 1250.0 * ring(outer, 0.0)) * g *
+                               h.length -
+                           flow.drag - flow.thrust,
+                       1e-9);
+        dmb_operation up = dmb_operation_default();
+        dmb_torque_drag_row row = dmb_torque_drag_row_default();
+        (void)dmb_operation_usual(DMB_OPERATION_PICK_UP, &up);
+        must(&h.s, dmb_analysis_torque_drag(h.s.sim, NULL, &up, 1, &row));
+        check_relative("hook load of torque and drag [N]", row.hook_load, value_of(&h, DMB_CHANNEL_HOOK_LOAD, 0.0),
+                       1e-9);
+        rig_close(&h.s);
+    }
+    assert_true(loss[1] < 0.6 * loss[0] && loss[1] > 0.45 * loss[0]);
+    assert_true(drag[1] < loss[1] * ring(hole, 0.0) && drag[1] > loss[1] * ring(outer, 0.0));
+}
+
 /* ---- The rate as an input -----------------------------------------------------------------------------------------
  */
 
@@ -489,6 +524,19 @@ static void what_it_cannot_is_refused(void **state)
     e = mud_of(1e-6, 0.0);
     e.inner_density = 2000.0;
     compile_refuses(&pipe, &e, DMB_ERR_VALUE, "falls by itself");
+    const double bad[] = {-0.1, 0.96, 1.0, 1e300, (double)NAN, (double)INFINITY};
+    for (int i = 0; i < 6; i++) {
+        e = mud_of(0.01, 0.0);
+        e.flow_eccentricity = bad[i];
+        refused(&e, i < 4 ? DMB_ERR_VALUE : DMB_ERR_NOT_FINITE, "flow_eccentricity");
+    }
+    e.flow_eccentricity = 0.5;
+    e.flow_exponent = 0.3;
+    refused(&e, DMB_ERR_VALUE, "flow_exponent");
+    e.flow_exponent = 0.8;
+    pipe.outer_diameter = 0.92 * hole;
+    compile_refuses(&pipe, &e, DMB_ERR_GEOMETRY, "flow_eccentricity");
+    pipe = pipe_of(DMB_PIPE_FLEXIBLE);
     e = mud_of(0.0, 0.0);
     hanging h = describe(&pipe, &e, 1);
     (void)mechanism_start(&h.s, NULL);
@@ -506,6 +554,7 @@ int main(void)
         cmocka_unit_test(pull_of_every_kind),
         cmocka_unit_test(stretch_and_stress),
         cmocka_unit_test(a_run_in_time),
+        cmocka_unit_test(eccentric),
         cmocka_unit_test(set_or_compiled),
         cmocka_unit_test(logs_and_snapshots),
         cmocka_unit_test(sensitivity_to_the_rate),

@@ -118,6 +118,10 @@ static int32_t find_string(request *r)
         return refuse(r, DMB_ERR_UNSUPPORTED,
                       "a sub continues the string, whose weight and section the soft string leaves out; describe it as "
                       "one string, or ask for steady states (dmb_analysis_static)");
+    if (scene->flow_count > 0 && scene->flow.eccentricity > 0.0 && scene->hole.pieces > 0)
+        return refuse(r, DMB_ERR_UNSUPPORTED,
+                      "the environment has a flow_eccentricity and the hole has sections, at other depths of which its "
+                      "law may not hold; leave the eccentricity out");
     const int32_t joints = refuse_joints(r);
     if (joints < 0) return joints;
     soft->model = model;

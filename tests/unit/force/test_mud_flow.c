@@ -1,5 +1,6 @@
 /* Losses of mud that flows and its pull on the pipe: Poiseuille's flow in closed form, the power law against an
- * integration of the speed across the annulus, turbulent friction against the formulas of API RP 13D. */
+ * integration of the speed across the annulus, turbulent friction against the formulas of API RP 13D, eccentric annuli
+ * against a solution by other series, the narrow slit and each other. */
 #include <math.h>
 
 #include "check.h"
@@ -74,6 +75,110 @@ static void power_law(void **state)
                    4.0 * K / d * pow((3.0 * n + 1.0) / (4.0 * n) * 8.0 * V / d, n), 1e-12);
 }
 
+/* Speed in units of G/mu in the eccentric annulus of radii k and 1, by a way of its own: with the origin on the pipe's
+ * axis w = (k^2 - x^2)/4 + A ln(x/k) + sum B_j ((x/k)^j - (k/x)^j) cos(j t), which is 0 on the pipe, is made 0 at
+ * points of the wall. Into *pull 2 pi A, shear on the pipe and pressure on what it displaces; returns the flux. */
+enum { TERMS = 70, RADII = 40, ANGLES = 400 };
+
+static double wall_at(double e, double t)
+{
+    return -e * cos(t) + sqrt(1.0 - e * e * sin(t) * sin(t));
+}
+
+static double by_series(double k, double e, double *pull)
+{
+    static double M[TERMS][TERMS + 1];
+    double flux = 0.0;
+    for (int i = 0; i < TERMS; i++) {
+        const double t = PI * i / (TERMS - 1), x = wall_at(e, t);
+        M[i][0] = log(x / k);
+        for (int j = 1; j < TERMS; j++) M[i][j] = (pow(x, j) - pow(k * k / x, j)) / pow(1.0 + e, j) * cos(j * t);
+        M[i][TERMS] = 0.25 * (x * x - k * k);
+    }
+    for (int c = 0; c < TERMS; c++) {
+        int p = c;
+        for (int i = c; i < TERMS; i++)
+            if (fabs(M[i][c]) > fabs(M[p][c])) p = i;
+        for (int j = c; j <= TERMS; j++) {
+            const double kept = M[c][j];
+            M[c][j] = M[p][j];
+            M[p][j] = kept;
+        }
+        for (int i = 0; i < TERMS; i++) {
+            const double f = i == c ? 0.0 : M[i][c] / M[c][c];
+            for (int j = c; j <= TERMS; j++) M[i][j] -= f * M[c][j];
+        }
+    }
+    for (int m = 0; m < ANGLES; m++) { /* the trapezoidal rule around, Simpson's along a radius */
+        const double t = 2.0 * PI * (m + 0.5) / ANGLES, h = (wall_at(e, t) - k) / RADII;
+        for (int i = 0; i <= RADII; i++) {
+            const double x = k + h * i;
+            double w = 0.25 * (k * k - x * x) + M[0][TERMS] / M[0][0] * log(x / k);
+            for (int j = 1; j < TERMS; j++)
+                w += M[j][TERMS] / M[j][j] * (pow(x, j) - pow(k * k / x, j)) / pow(1.0 + e, j) * cos(j * t);
+            flux += w * x * h / 3.0 * (i == 0 || i == RADII ? 1.0 : i % 2 ? 4.0 : 2.0) * 2.0 * PI / ANGLES;
+        }
+    }
+    *pull = 2.0 * PI * M[0][TERMS] / M[0][0];
+    return flux;
+}
+
+/* Newtonian and laminar over the whole range: loss and pull against that series; the correlation, asked for n just
+ * below 1, against the same. */
+static void eccentric_newtonian(void **state)
+{
+    const double ratios[] = {0.3, 0.6, 0.8, 0.9}, R = 0.05, mu = 0.05, Q = 1e-5;
+    double worst = 0.0;
+    (void)state;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 7; j++) {
+            const double eps[] = {1e-6, 0.1, 0.3, 0.5, 0.7, 0.85, 0.95}, k = ratios[i];
+            dmb_mud_flow flow = flow_of(Q, mu, 1.0, 1e-9);
+            double pull;
+            const double flux = by_series(k, eps[j] * (1.0 - k), &pull);
+            flow.eccentricity = eps[j];
+            const dmb_flow_loss loss = dmb_annulus_loss(&flow, 2.0 * k * R, 2.0 * R);
+            const double G = Q * mu / (flux * R * R * R * R);
+            check_relative("loss of an eccentric annulus [Pa/m]", loss.gradient, G, 1e-7);
+            check_relative("pull on the pipe [N/m]", loss.pull, pull * R * R * loss.gradient, 1e-12);
+            flow.exponent = 1.0 - 1e-12;
+            worst = fmax(worst, fabs(dmb_annulus_loss(&flow, 2.0 * k * R, 2.0 * R).gradient / G - 1.0));
+        }
+    check_below("the correlation for n < 1 against it, n = 1", worst, 0.08);
+}
+
+/* A narrow slit: Q goes with the mean of the cube of its width, 1 + 1.5 eps^2. */
+static void eccentric_slit(void **state)
+{
+    (void)state;
+    for (int j = 1; j <= 9; j++) {
+        dmb_mud_flow flow = flow_of(1e-5, 0.05, 1.0, 1e-9);
+        const double eps = 0.1 * j, concentric = dmb_annulus_loss(&flow, 0.0999, 0.1).gradient;
+        flow.eccentricity = eps;
+        check_relative("loss over that of the concentric slit",
+                       dmb_annulus_loss(&flow, 0.0999, 0.1).gradient / concentric, 1.0 / (1.0 + 1.5 * eps * eps), 2e-3);
+    }
+}
+
+/* Turbulent it loses less too, though not as much; it falls with the eccentricity in both. */
+static void eccentric_turbulent(void **state)
+{
+    (void)state;
+    for (int n = 4; n <= 10; n += 3) {
+        double last[2] = {1.0, 1.0};
+        for (int j = 1; j <= 19; j++)
+            for (int k = 0; k < 2; k++) {
+                dmb_mud_flow flow = flow_of(k ? 0.05 : 1e-5, k ? 1e-3 : 0.05, 0.1 * n, k ? 1000.0 : 1e-9);
+                const double concentric = dmb_annulus_loss(&flow, 0.07, 0.1).gradient;
+                flow.eccentricity = 0.05 * j;
+                const double now = dmb_annulus_loss(&flow, 0.07, 0.1).gradient / concentric;
+                assert_true(now < last[k] && now > 0.3);
+                last[k] = now;
+            }
+        check_below("laminar loss over turbulent, both over the concentric one", last[0] / last[1], 0.9);
+    }
+}
+
 static double api(double n, double re)
 {
     const double a = (log10(n) + 3.93) / 50.0, b = (1.75 - log10(n)) / 7.0;
@@ -120,9 +225,8 @@ static void nozzles(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(poiseuille),
-        cmocka_unit_test(power_law),
-        cmocka_unit_test(turbulent),
+        cmocka_unit_test(poiseuille),     cmocka_unit_test(power_law),           cmocka_unit_test(eccentric_newtonian),
+        cmocka_unit_test(eccentric_slit), cmocka_unit_test(eccentric_turbulent), cmocka_unit_test(turbulent),
         cmocka_unit_test(nozzles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
