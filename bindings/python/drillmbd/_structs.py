@@ -59,6 +59,7 @@ class EnvironmentDef(Sized):
     consistency: float
     flow_exponent: float
     nozzle_area: float
+    flow_eccentricity: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -73,6 +74,7 @@ class EnvironmentDef(Sized):
         ("consistency", c_double),
         ("flow_exponent", c_double),
         ("nozzle_area", c_double),
+        ("flow_eccentricity", c_double),
     ]
     field_docs = {
         "gravity": ("m/s2", "world frame, default (0, 0, -9.81), shape (3)"),
@@ -86,6 +88,7 @@ class EnvironmentDef(Sized):
         "consistency": ("Pa s", "K of the mud (Pa s^n): shear stress K (shear rate)^n; > 0 with a flow_rate; default 0"),
         "flow_exponent": ("-", "n, 0.2 .. 1; 1 (default): Newtonian, K is its viscosity"),
         "nozzle_area": ("m2", "of the bit in all; 0 (default): the last pipe is open"),
+        "flow_eccentricity": ("-", "of the annulus that mud flows back in, everywhere: distance of the axes over half the difference of the diameters, 0 (default) .. 0.95; > 0 with flow_exponent >= 0.4 and pipes of 0.3 .. 0.9 hole diameters only. For pressures and drag; poses have no part in it"),
     }
 
 

@@ -811,8 +811,8 @@ class InputTarget(IntEnum):
     AXIAL_DAMPING = 10  #: [N s/m2]
     TORSIONAL_DAMPING = 11  #: [N s]
     STUCK = 12  #: [-] 1: a place is stuck from now on, 0: it is free (bha.h)
-    FLOW_RATE = 13  #: [m3/s] of mud, >= 0; all that flow needs of string, hole and mud must be there
-    COUNT = 14
+    COUNT = 13  #: of the targets above, as programs know them that were built before there were more
+    FLOW_RATE = 14  #: [m3/s] of mud, >= 0; all that flow needs of string, hole and mud must be there
 
 
 TARGET_SET_POINT = InputTarget.SET_POINT
@@ -828,8 +828,8 @@ TARGET_LATERAL_DAMPING = InputTarget.LATERAL_DAMPING
 TARGET_AXIAL_DAMPING = InputTarget.AXIAL_DAMPING
 TARGET_TORSIONAL_DAMPING = InputTarget.TORSIONAL_DAMPING
 TARGET_STUCK = InputTarget.STUCK
-TARGET_FLOW_RATE = InputTarget.FLOW_RATE
 TARGET_COUNT = InputTarget.COUNT
+TARGET_FLOW_RATE = InputTarget.FLOW_RATE
 
 
 class Outside(IntEnum):

@@ -140,7 +140,7 @@ static void eccentric_newtonian(void **state)
             const dmb_flow_loss loss = dmb_annulus_loss(&flow, 2.0 * k * R, 2.0 * R);
             const double G = Q * mu / (flux * R * R * R * R);
             check_relative("loss of an eccentric annulus [Pa/m]", loss.gradient, G, 1e-7);
-            check_relative("pull on the pipe [N/m]", loss.pull, pull * R * R * loss.gradient, 1e-12);
+            check_relative("pull on the pipe [N/m]", loss.pull, pull * R * R * loss.gradient, 1e-9);
             flow.exponent = 1.0 - 1e-12;
             worst = fmax(worst, fabs(dmb_annulus_loss(&flow, 2.0 * k * R, 2.0 * R).gradient / G - 1.0));
         }
