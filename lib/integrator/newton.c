@@ -13,6 +13,12 @@
 /* Newton gives up when the residual has grown this much over its start. */
 #define DMB_NEWTON_GROWTH 1e6
 
+/* newton_tolerance = 0 */
+static int32_t follows_error(const dmb_sim *sim)
+{
+    return !(sim->options.newton_tolerance > 0.0);
+}
+
 /* True if what is left is the rounding of the forces at the start: in free flight after a contact nothing else is there
  * to compare it with. */
 static int32_t is_rounding(const dmb_attempt *attempt, double balance, dmb_newton_course *course)
@@ -33,9 +39,24 @@ static int32_t is_unsharp(const dmb_sim *sim, const dmb_attempt *attempt, const 
     return attempt->residual <= fmin(1e-4, 4e-14 / (quality * quality));
 }
 
+/* [-] to which residuals are alike that come back every second time. */
+#define DMB_NEWTON_ALIKE 1e-3
+
+/* A contact that opens when it is taken for closed, and closes when it is taken for open, has no solution at this end
+ * of the step (the damping of a wall jumps at contact): the iteration goes to and fro between the two to its last. */
+static int32_t goes_to_and_fro(const dmb_sim *sim, const dmb_attempt *attempt, dmb_newton_course *course)
+{
+    const double now = attempt->residual;
+    const int32_t found = course->corrections > 3 && now > 0.5 * course->last &&
+                          fabs(now - course->earlier) <= DMB_NEWTON_ALIKE * course->earlier;
+    course->earlier = course->last;
+    return found && follows_error(sim) && !sim->options.bounded_work;
+}
+
 /* 1: as it should be. */
 static int32_t check_course(const dmb_sim *sim, const dmb_attempt *attempt, dmb_newton_course *course)
 {
+    if (goes_to_and_fro(sim, attempt, course)) return DMB_ERR_NO_CONVERGENCE;
     if (course->first == 0.0) course->first = course->last = attempt->residual;
     if (!(attempt->residual <= DMB_NEWTON_GROWTH * course->first)) return DMB_ERR_NO_CONVERGENCE; /* NaN, too */
     if (attempt->residual > DBL_MAX) return DMB_ERR_NO_CONVERGENCE;
@@ -72,11 +93,6 @@ static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt)
 #define DMB_NEWTON_MOST 1e-3  /* [-] relative residual that is never exceeded */
 #define DMB_NEWTON_LEAST 1e-8 /* [-] and that always does */
 #define DMB_NEWTON_WORK 1e-7  /* [-] of the power that the forces exchange, that of the residual */
-
-static int32_t follows_error(const dmb_sim *sim)
-{
-    return !(sim->options.newton_tolerance > 0.0);
-}
 
 /* Part of the predictor's error that may be left where motion is fast. */
 static double share_of(const dmb_sim *sim)

@@ -9,6 +9,7 @@
 /* Course of one Newton iteration. */
 typedef struct dmb_newton_course {
     double first, last;     /* relative residual at the start, and before the last correction */
+    double earlier;         /* relative residual before the last correction but one */
     double balance;         /* [N] norm of the terms that balanced at the start */
     double most_work, work; /* [J] |z . residual| of the largest correction z, of the last */
     uint32_t corrections;

@@ -1,6 +1,6 @@
 /* Written by tests/golden/update; reasons of changes stand under Numerics in CHANGELOG.md. */
 static const golden_hash golden_hashes[] = {
-    {"x86_64 glibc", UINT64_C(0xf0a8fdf3f2b6c56b)},
+    {"x86_64 glibc", UINT64_C(0x32ca9bcafd5adf9d)},
 };
 
 static const golden_figure golden_figures[] = {
@@ -32,5 +32,5 @@ static const golden_figure golden_figures[] = {
     {"spent at the bit [J]", 1375.3948329870425, 1000},
     {"momentum x [kg m/s]", 2.5584322315599146, 100},
     {"steps [-]", 1034, 1},
-    {"iterations [-]", 3802, 1},
+    {"iterations [-]", 3652, 1},
 };

@@ -247,11 +247,49 @@ static void ledger_closes(void **state)
     }
 }
 
+/* ---- Contacts without a solution at the end of a step ------------------------------------------------------------ */
+
+/* A string falls on the floor of its hole, whose damping jumps where they touch: some contacts open when taken for
+ * closed and close when taken for open. The step is divided as soon as that shows. */
+static void contacts_to_and_fro(void **state)
+{
+    dmb_wall_def wall = s1_hole();
+    dmb_string_def string = dmb_string_def_default();
+    dmb_pipe_def pipe = dmb_pipe_def_default();
+    uint32_t rejected = 0, most = 0;
+    rig s;
+    (void)state;
+    wall.normal_law = DMB_NORMAL_KELVIN_VOIGT;
+    wall.stiffness = 1e6;
+    wall.damping = 1e3;
+    wall.friction_law = DMB_FRICTION_COULOMB;
+    wall.mu_static = wall.mu_dynamic = 0.3;
+    wall.smoothing_speed = 0.01;
+    scene_open(&s, 9.80665);
+    (void)add_wall(&s, &wall);
+    string.start_free = DMB_FREE_NONE;
+    (void)add_string(&s, &string);
+    pipe.length = 1.0;
+    pipe.outer_diameter = 0.073;
+    pipe.inner_diameter = 0.059;
+    (void)add_pipes(&s, &pipe, 20);
+    (void)rig_start(&s, NULL);
+    for (int i = 0; i < 300; i++) {
+        const dmb_step_report report = scene_step(&s, 1e-3);
+        rejected += report.rejected;
+        most = report.iterations > most ? report.iterations : most;
+    }
+    print_message("%u rejected, %u iterations at most in a step of 1 ms\n", rejected, most);
+    assert_true(rejected > 0);
+    CHECK_BELOW(most, 12);
+    rig_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(part_of_the_error), cmocka_unit_test(long_flight),   cmocka_unit_test(joints_stay_closed),
-        cmocka_unit_test(bristles_hold),     cmocka_unit_test(ledger_closes),
+        cmocka_unit_test(bristles_hold),     cmocka_unit_test(ledger_closes), cmocka_unit_test(contacts_to_and_fro),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
