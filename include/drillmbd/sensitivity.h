@@ -47,8 +47,8 @@ DMB_API void dmb_sensitivity_destroy(dmb_sensitivity **sensitivity);
  * or a limit differs between both sides of a parameter: the derivative there is the mean of two. Other notes and errors
  * as dmb_sim_step and dmb_sim_advance; DMB_ERR_ORDER: the sim was moved by other calls; DMB_ERR_SINGULAR: the iteration
  * matrix at the end of a step; state and derivatives are then as these calls leave the state. Allocates nothing. Costs
- * an evaluation with tangent and a factorisation a step, and an evaluation, two solutions and the contacts for each side
- * of a parameter; more where contacts change, with joints, bits, actuators, stuck places and callers' forces: in a
+ * an evaluation with tangent and a factorisation a step, and an evaluation, two solutions and the contacts for each
+ * side of a parameter; more where contacts change, with joints, bits, actuators, stuck places and callers' forces: in a
  * string in contact some 0.8 steps for each of four parameters, one-sided 0.55. */
 DMB_API int32_t dmb_sensitivity_step(dmb_sensitivity *sensitivity, double duration, dmb_step_report *report);
 DMB_API int32_t dmb_sensitivity_advance(dmb_sensitivity *sensitivity, double time, dmb_step_report *report);

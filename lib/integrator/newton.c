@@ -83,7 +83,7 @@ static int32_t refactor(dmb_sim *sim, dmb_attempt *attempt)
 /* ---- Where the iteration stops (THEORY 4) ------------------------------------------------------------------------
  *
  * With newton_tolerance = 0 it follows the error of the step. Corrector less predictor tells the local error (Milne's
- * device): error = c (z - z_predicted), c = C (1-am)/(beta (1-af)). What is left of z after the last correction is
+ * device): error = c (z - z_predicted), c = C (1-am)/(beta (1-af)). The part of z left after the last correction is
  * left in speed too, as gamma/(h beta) of it, which in all steps together makes an error of order 1/h more than the
  * local errors do. So it may be DMB_NEWTON_PART of the local error, or 0.2 h w of it where that is less, w a frequency
  * of the motion. */
@@ -160,7 +160,7 @@ static double excess_of_power(const powers *p)
     return p->left != 0.0 ? fabs(p->left) / (DMB_NEWTON_WORK * p->exchanged) : 0.0;
 }
 
-/* How the residual compares with its bound. */
+/* Compares the residual with its bound. */
 static dmb_residual_norm compare(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course,
                                  double aim)
 {

@@ -228,7 +228,7 @@ static void bristles_hold(void **state)
     rig_close(&s);
 }
 
-/* What iterations leave out of the energy balance is a small part of what the scheme does. */
+/* The error of iterations in the energy balance is a small part of that of the scheme. */
 static void ledger_closes(void **state)
 {
     static const build_fn builds[3] = {build_bending, build_rubbing, build_hinged};

@@ -1,4 +1,5 @@
-/* The scene linearised about a state: its matrices, answers as linear functions of the motion, the dynamic stiffness. */
+/* The scene linearised about a state: its matrices, answers as linear functions of the motion, the dynamic stiffness.
+ */
 #ifndef DMB_ANALYSIS_LINEAR_LINEAR_H
 #define DMB_ANALYSIS_LINEAR_LINEAR_H
 
