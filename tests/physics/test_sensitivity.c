@@ -360,7 +360,7 @@ static void test_strings(void **state)
 {
     const scene_case cases[] = {
         {"friction", describe_string, &mu, bending_channels, 1e-4, 1e-4, 1e-3, 1e-6, 80, 0},
-        {"stiffness of the wall", describe_string, &stiffness, bending_channels, 300.0, 3000.0, 1e-3, 1e-6, 80, 0},
+        {"stiffness of the wall", describe_string, &stiffness, bending_channels, 150.0, 3000.0, 1e-3, 1e-6, 80, 0},
         {"outer diameter", describe_string, &diameter, bending_channels, 1e-6, 1e-5, 1e-3, 1e-6, 80, 0},
         {"damping by mud", describe_string, &damping, bending_channels, 0.1, 0.3, 1e-3, 1e-6, 80, 0},
         {"modulus", describe_string, &young, bending_channels, 1e8, 3e8, 1e-3, 1e-6, 80, 0},
@@ -428,7 +428,7 @@ static void test_settings_stay(void **state)
 static void test_bristles(void **state)
 {
     const scene_case c = {
-        "friction of bristles", describe_bristles, &mu, string_channels, 1e-5, 1e-4, 1e-3, 1e-6, 80, 0};
+        "friction of bristles", describe_bristles, &mu, string_channels, 3e-5, 3e-4, 1e-3, 1e-6, 80, 0};
     (void)state;
     check_case(&c);
 }
