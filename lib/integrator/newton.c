@@ -148,6 +148,7 @@ static double pace_of(const dmb_attempt *attempt, const dmb_newton_course *cours
  * is allowed of it. */
 static double excess_of_error(const dmb_sim *sim, double residual, const dmb_newton_course *course)
 {
+    if (!(course->work > 0.0)) return (double)INFINITY; /* it tells nothing; fmax would pass over a NaN */
     const double rate = fmax(residual / course->last, work_of(sim) / course->work);
     if (!(rate < 1.0)) return (double)INFINITY;
     return rate * sqrt(course->work / course->most_work) / (share_of(sim) * (1.0 - rate));
