@@ -370,10 +370,11 @@ static void logs_and_snapshots(void **state)
     (void)state;
     hanging run = describe_level(0.002, 0.02, (double)NAN), again = describe_level(0.002, 0.02, (double)NAN);
     hanging restored = describe_level(0.002, 0.02, (double)NAN), other = describe_level(0.002, 0.0, 0.0);
-    (void)mechanism_start(&run.s, NULL);
-    (void)mechanism_start(&again.s, NULL);
-    (void)mechanism_start(&restored.s, NULL);
-    (void)mechanism_start(&other.s, NULL);
+    const dmb_sim_options sharp = sharp_options(0.8, 1e-13);
+    (void)mechanism_start(&run.s, &sharp);
+    (void)mechanism_start(&again.s, &sharp);
+    (void)mechanism_start(&restored.s, &sharp);
+    (void)mechanism_start(&other.s, &sharp);
     must(&run.s, dmb_sim_record_inputs(run.s.sim, log, 8));
     for (int i = 0; i < 4; i++) {
         must(&run.s, dmb_sim_set_input(run.s.sim, rate_input(&run), rates[i]));
