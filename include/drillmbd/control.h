@@ -22,6 +22,10 @@ enum { /* what an input moves; 1 .. 4 are of CONTROL drives, 7 .. 11, 14 of wall
     DMB_TARGET_FLOW_RATE = 14 /* [m3/s] of mud, >= 0; all that flow needs of string, hole and mud must be there */
 };
 /* clang-format on */
+/* Joint states (active, locked, open) are no inputs: dmb_sim_set_joint changes speeds by an impulse and may refuse what
+ * does not fit, while an input is a number that is taken or clamped, and is in force for all its sim's life. A log
+ * replays a run with switches when the program repeats these calls at the same times, between its
+ * dmb_sim_replay_inputs and its step. A place that holds and lets go by an input is DMB_TARGET_STUCK. */
 enum { DMB_OUTSIDE_REFUSED = 0, DMB_OUTSIDE_CLAMPED = 1 };
 typedef struct dmb_input_def {
     uint32_t struct_size;

@@ -139,11 +139,12 @@ typedef struct dmb_fatigue_result {
 DMB_SIZED_STRUCT(dmb_fatigue_result)
 
 /* Places on flexible or axial-torsional pipes, place_count 1 .. 65536; memory from the model's allocator, about 8 bytes
- * a class and point. Errors: DMB_ERR_VALUE (dmb_sim_message tells), _NOT_FINITE, _ID, _UNSUPPORTED (rigid pipes),
- * _NO_MEMORY; *fatigue is NULL then. */
+ * a class and point. Errors: DMB_ERR_VALUE (dmb_sim_message tells), _NOT_FINITE, _ID, _UNSUPPORTED (rigid pipes;
+ * axial-torsional ones in a hole that bends), _NO_MEMORY; *fatigue is NULL then. */
 DMB_API int32_t dmb_fatigue_create(dmb_sim *sim, const dmb_fatigue_options *options, const dmb_place *places,
                                    uint32_t place_count, dmb_fatigue **fatigue);
-/* Takes a sample; call it after each step. The sim may be another one of the same model. Allocates nothing. O(places x
+/* Takes a sample; call it after each step, 20 times a revolution or more: what goes by between samples is not counted.
+ * The sim may be another one of the same model. Allocates nothing. O(places x
  * points). */
 DMB_API int32_t dmb_fatigue_take(dmb_fatigue *fatigue, const dmb_sim *sim);
 DMB_API int32_t dmb_fatigue_get(const dmb_fatigue *fatigue, uint32_t place, dmb_fatigue_result *result);

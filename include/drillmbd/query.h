@@ -244,7 +244,8 @@ typedef struct dmb_flow_state {
     double annulus_reynolds; /* [-] likewise; beyond 1e5 the law of the smooth wall is low, by 5 % at 1e6 */
 } dmb_flow_state;
 DMB_SIZED_STRUCT(dmb_flow_state)
-/* Pressures and forces of the mud that flows, at the present position of the string; all 0 without a flow_rate. Kinetic
+/* Pressures and forces of the mud that flows, at the present position of the string; all 0 without a flow_rate but for
+ * pressure_stretch, which is then that of mud at rest on all flexible and axial-torsional pipes. Kinetic
  * heads and losses of steps between diameters are left out; so are bodies, bits and rings in the annulus, its
  * eccentricity (which lowers its loss, to less than half where the pipe lies on the wall) and the motion of the string.
  * O(elements). */
@@ -350,7 +351,10 @@ enum {
     DMB_CHANNEL_ENERGY_ERROR = 19,   /* [-] of the ledger; place is ignored */
     DMB_CHANNEL_COUNT = 20           /* of these; output.h goes on from number 100 */
 };
-/* Frozen. One number of the many that can be recorded, watched and waited for. */
+/* Frozen. One number of the many that can be recorded, watched and waited for. `place` is any point on the axis of a
+ * pipe, or the reference point of a part: there is no offset. What a point off these does is told by a spring of
+ * stiffness 0 to it (forces.h: its length and speed are channels), by dmb_query_motion and the arm, or by a body that is
+ * fixed there. */
 typedef struct dmb_channel {
     dmb_place place;  /* where the quantity is one of a place */
     int32_t quantity; /* DMB_CHANNEL_... */

@@ -157,11 +157,30 @@ static int32_t check_options(dmb_sim *sim, const dmb_fatigue_options *options, u
     return check.status;
 }
 
+/* A pipe that slides on the axis of a hole that bends: it is bent as it turns, which its section force does not tell.
+ */
+static int bends_unseen(const dmb_sim *sim, dmb_place place)
+{
+    const dmb_scene *scene = sim->scene;
+    dmb_material_point point;
+    if (!scene->has_hole || dmb_hole_is_straight(&scene->hole)) return 0;
+    if (dmb_material_point_of(sim, place, &point) < 0 || point.element == DMB_NONE) return 0;
+    return scene->layout.size[scene->element_node[point.element]] == DMB_NODE_PATH;
+}
+
 static int32_t check_places(dmb_sim *sim, const dmb_place *places, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
         dmb_section unused = dmb_section_default();
         const int32_t status = dmb_query_section(sim, places[i], &unused);
+        if (status == DMB_OK && bends_unseen(sim, places[i])) {
+            dmb_message_set(
+                &sim->message,
+                "fatigue: place %u, pipe %u: an axial-torsional pipe in a hole that bends, whose bending it "
+                "does not know; make the pipe flexible (DMB_PIPE_FLEXIBLE)",
+                i, places[i].pipe);
+            return DMB_ERR_UNSUPPORTED;
+        }
         if (status == DMB_OK) continue;
         dmb_message_set(&sim->message, "fatigue: place %u, pipe %u, fraction %g: %s; name a place on a flexible pipe",
                         i, places[i].pipe, places[i].fraction, dmb_status_text(status));

@@ -164,6 +164,41 @@ static double stretch_of(const dmb_sim *sim, const dmb_flow_piece *piece)
     return sum * piece->length / piece->steel;
 }
 
+/* [m] of an element in mud at rest, whose pressures are straight between its ends: (1 - 2 nu)(p_i A_i - p_o A_o)/(E A)
+ * L, as above. */
+static double stretch_at_rest(const dmb_sim *sim, uint32_t string, const dmb_pipe_def *def, uint32_t element)
+{
+    const dmb_scene *scene = sim->scene;
+    double diameters[2], x[3], sum = 0.0;
+    dmb_pipe_section section;
+    dmb_pipe_diameters(def, 0, diameters);
+    dmb_section_of(def, &section);
+    if (!(section.stiffness[0] > 0.0)) return 0.0;
+    for (uint32_t end = 0; end < 2; end++) {
+        end_position(sim, scene->element_node[element] + end, 0.0, x);
+        const dmb_mud_pressure p = dmb_mud_pressure_at(sim, string, 0.0, x);
+        sum += 0.5 * (p.inside * dmb_ring_area(diameters[1], 0.0) - p.outside * dmb_ring_area(diameters[0], 0.0));
+    }
+    return (1.0 - 2.0 * def->poisson_ratio) * sum * scene->types[scene->element_type[element]].length /
+           section.stiffness[0];
+}
+
+/* [m] of all strings, by the calls that described their pipes. */
+static double resting_stretch(const dmb_sim *sim)
+{
+    const dmb_scene *scene = sim->scene;
+    double sum = 0.0;
+    const dmb_pipe_run *runs = sim->model->runs.items;
+    for (uint32_t r = 0; r < sim->model->runs.count; r++) {
+        const dmb_pipe_run *run = runs + r;
+        const dmb_pipe_map *pipe = scene->pipes + scene->strings[run->string].first_pipe + run->first;
+        for (uint32_t i = 0; i < run->count; i++, pipe++)
+            for (uint32_t e = 0; e < pipe->elements; e++)
+                sum += stretch_at_rest(sim, run->string, &run->def, pipe->element + e);
+    }
+    return sum;
+}
+
 static void sum_pieces(const dmb_sim *sim, dmb_flow_state *answer)
 {
     const dmb_scene *scene = sim->scene;
@@ -185,7 +220,10 @@ int32_t dmb_query_flow(const dmb_sim *sim, dmb_flow_state *flow)
     double top[3], bottom[3], along[3];
     if (status < 0) return status;
     const dmb_scene *scene = sim->scene;
-    if (scene->flow_count == 0) return dmb_flow_state_write(flow, &answer);
+    if (scene->flow_count == 0) {
+        answer.pressure_stretch = resting_stretch(sim);
+        return dmb_flow_state_write(flow, &answer);
+    }
     end_position(sim, scene->strings[0].start_node, scene->strings[0].start_arm, top);
     end_position(sim, scene->strings[0].end_node, scene->strings[0].end_arm, bottom);
     dmb_vec3_sub(bottom, top, along);

@@ -183,9 +183,51 @@ static void refused(void **state)
     destroy(&other);
 }
 
+/* Bent as it turns in a hole that bends, of which an axial-torsional pipe knows nothing: refused; a flexible one not,
+ * nor an axial-torsional one in a straight hole. */
+static void bending_that_is_not_seen(void **state)
+{
+    const double survey[3][3] = {{0.0, 1.5707963, 0.0}, {1.0, 1.5707963, 0.0}, {41.0, 1.1707963, 0.0}};
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        const int bends = k / 2, flexible = k % 2;
+        dmb_model *model = NULL;
+        dmb_sim *sim = NULL;
+        dmb_wall_def wall = dmb_wall_def_default();
+        dmb_pipe_def pipe = dmb_pipe_def_default();
+        dmb_fatigue_options options = dmb_fatigue_options_default();
+        dmb_fatigue *fatigue = NULL;
+        dmb_id string;
+        dmb_string_def def = dmb_string_def_default();
+        assert_int_equal(dmb_model_create(NULL, &model), DMB_OK);
+        if (bends) {
+            wall.survey = survey[0];
+            wall.survey_count = 3;
+        }
+        assert_int_equal(dmb_model_add_wall(model, &wall, NULL), DMB_OK);
+        def.start_free = DMB_FREE_NONE;
+        assert_int_equal(dmb_model_add_string(model, &def, &string), DMB_OK);
+        pipe.string = string;
+        pipe.kind = flexible ? DMB_PIPE_FLEXIBLE : DMB_PIPE_AXIAL_TORSIONAL;
+        assert_int_equal(dmb_model_add_pipes(model, &pipe, 10, NULL), DMB_OK);
+        assert_int_equal(dmb_model_compile(model, NULL), DMB_OK);
+        assert_true(dmb_sim_create(model, NULL, &sim) >= 0);
+        options.curve_stress = 2e8;
+        options.slope = 5.0;
+        const dmb_place place = dmb_station(string, 5, 0.5);
+        const int32_t status = dmb_fatigue_create(sim, &options, &place, 1, &fatigue);
+        assert_int_equal(status, bends && !flexible ? DMB_ERR_UNSUPPORTED : DMB_OK);
+        assert_true((fatigue == NULL) == (status < 0));
+        if (status < 0) assert_non_null(strstr(dmb_sim_message(sim), "hole that bends"));
+        dmb_fatigue_destroy(&fatigue);
+        dmb_sim_destroy(&sim);
+        dmb_model_destroy(&model);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(damage_of_turns), cmocka_unit_test(factors),
-                                       cmocka_unit_test(refused)};
+                                       cmocka_unit_test(refused), cmocka_unit_test(bending_that_is_not_seen)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

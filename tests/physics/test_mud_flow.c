@@ -207,6 +207,32 @@ static void stretch_and_stress(void **state)
     rig_close(&h.s);
 }
 
+/* Mud at rest: e = (N - 2 nu (p_i A_i - p_o A_o))/(E A) under the true axial force, pipes of both kinds, solid ones and
+ * one string beside another alike. */
+static void stretch_in_mud_at_rest(void **state)
+{
+    (void)state;
+    for (int solid = 0; solid < 2; solid++)
+        for (int kind = 0; kind < 2; kind++) {
+            dmb_pipe_def pipe = pipe_of(kind ? DMB_PIPE_AXIAL_TORSIONAL : DMB_PIPE_FLEXIBLE);
+            const dmb_environment_def e = mud_of(0.0, 0.0);
+            if (solid) pipe.inner_diameter = 0.0;
+            hanging h = describe(&pipe, &e, 10);
+            (void)mechanism_start(&h.s, NULL);
+            must(&h.s, dmb_analysis_static(h.s.sim, NULL, NULL));
+            const double Ao = ring(outer, 0.0), Ai = ring(pipe.inner_diameter, 0.0), A = Ao - Ai, L = h.length;
+            const double p_i = 1150.0 * g * L, p_o = 1250.0 * g * L; /* at the far end; 0 at the rig end */
+            const double bottom = p_i * Ai - p_o * Ao, top = bottom + steel * A * g * L; /* true */
+            const double want = 0.5 * L / (E * A) * (top + bottom - 2.0 * nu * bottom);
+            const double stretch = value_of(&h, DMB_CHANNEL_STRETCH, 0.0);
+            check_relative("stretch in mud at rest, true force and Lame's tube [m]",
+                           stretch + flow_in(&h).pressure_stretch, want, 1e-4);
+            check_relative("    of it by pressures", flow_in(&h).pressure_stretch,
+                           0.5 * L * (1.0 - 2.0 * nu) * bottom / (E * A), 1e-4);
+            rig_close(&h.s);
+        }
+}
+
 /* Let go at time 0, the flow's work goes into weight, strain and motion. */
 static void a_run_in_time(void **state)
 {
@@ -554,6 +580,7 @@ int main(void)
         cmocka_unit_test(poiseuille),
         cmocka_unit_test(pull_of_every_kind),
         cmocka_unit_test(stretch_and_stress),
+        cmocka_unit_test(stretch_in_mud_at_rest),
         cmocka_unit_test(a_run_in_time),
         cmocka_unit_test(eccentric),
         cmocka_unit_test(set_or_compiled),

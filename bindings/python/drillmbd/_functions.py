@@ -301,13 +301,13 @@ FUNCTION_DOCS = {
     "dmb_channel_quantity":
         "The number of a name; ERR_VALUE where it is none.",
     "dmb_fatigue_create":
-        "Places on flexible or axial-torsional pipes, place_count 1 .. 65536; memory from the model's allocator, about 8 bytes a class and point. Errors: ERR_VALUE (dmb_sim_message tells), _NOT_FINITE, _ID, _UNSUPPORTED (rigid pipes), _NO_MEMORY; *fatigue is NULL then.",
+        "Places on flexible or axial-torsional pipes, place_count 1 .. 65536; memory from the model's allocator, about 8 bytes a class and point. Errors: ERR_VALUE (dmb_sim_message tells), _NOT_FINITE, _ID, _UNSUPPORTED (rigid pipes; axial-torsional ones in a hole that bends), _NO_MEMORY; *fatigue is NULL then.",
     "dmb_fatigue_destroy":
         "Sets *fatigue to NULL. NULL-safe.",
     "dmb_fatigue_histogram":
         "Cycles by range at the point that the result names: cycles[i] of a range of i times 2 stress_range/classes [Pa], shape (classes).",
     "dmb_fatigue_take":
-        "Takes a sample; call it after each step. The sim may be another one of the same model. Allocates nothing. O(places x points).",
+        "Takes a sample; call it after each step, 20 times a revolution or more: what goes by between samples is not counted. The sim may be another one of the same model. Allocates nothing. O(places x points).",
     "dmb_has":
         "1: yes, 0: no; a library that is loaded when it is needed is loaded by this call, 0 where it is not there. ERR_VALUE: none of the above. Thread-safe.",
     "dmb_model_add_force":
@@ -395,7 +395,7 @@ FUNCTION_DOCS = {
     "dmb_query_energy":
         "Energy ledger since the start; ERR_UNSUPPORTED where the options left it out. O(number of nodes).",
     "dmb_query_flow":
-        "Pressures and forces of the mud that flows, at the present position of the string; all 0 without a flow_rate. Kinetic heads and losses of steps between diameters are left out; so are bodies, bits and rings in the annulus, its eccentricity (which lowers its loss, to less than half where the pipe lies on the wall) and the motion of the string. O(elements).",
+        "Pressures and forces of the mud that flows, at the present position of the string; all 0 without a flow_rate but for pressure_stretch, which is then that of mud at rest on all flexible and axial-torsional pipes. Kinetic heads and losses of steps between diameters are left out; so are bodies, bits and rings in the annulus, its eccentricity (which lowers its loss, to less than half where the pipe lies on the wall) and the motion of the string. O(elements).",
     "dmb_query_hole":
         "The axis at a measured depth [m], by minimum curvature (Taylor, Mason 1972) between stations. A compiled model; ERR_ORDER before, ERR_UNSUPPORTED without a hole. O(log stations).",
     "dmb_query_kinetic_energy":
