@@ -246,9 +246,9 @@ typedef struct dmb_flow_state {
 DMB_SIZED_STRUCT(dmb_flow_state)
 /* Pressures and forces of the mud that flows, at the present position of the string; all 0 without a flow_rate but for
  * pressure_stretch, which is then that of mud at rest on all flexible and axial-torsional pipes. Kinetic
- * heads and losses of steps between diameters are left out; so are bodies, bits and rings in the annulus, its
- * eccentricity (which lowers its loss, to less than half where the pipe lies on the wall) and the motion of the string.
- * O(elements). */
+ * heads and losses of steps between diameters are left out; so are bodies, bits and rings in the annulus and the motion
+ * of the string. The annulus has the flow_eccentricity of the environment, 0 unless given: where the string lies does
+ * not move it, though its loss there is less than half. O(elements). */
 DMB_API int32_t dmb_query_flow(const dmb_sim *sim, dmb_flow_state *flow);
 
 /* ---- Profiles: a string's state over its length ------------------------------------------------------------------
@@ -352,9 +352,8 @@ enum {
     DMB_CHANNEL_COUNT = 20           /* of these; output.h goes on from number 100 */
 };
 /* Frozen. One number of the many that can be recorded, watched and waited for. `place` is any point on the axis of a
- * pipe, or the reference point of a part: there is no offset. What a point off these does is told by a spring of
- * stiffness 0 to it (forces.h: its length and speed are channels), by dmb_query_motion and the arm, or by a body that is
- * fixed there. */
+ * pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these tells
+ * its length and speed (forces.h, as channels); so do dmb_query_motion with the arm, and a body that is fixed there. */
 typedef struct dmb_channel {
     dmb_place place;  /* where the quantity is one of a place */
     int32_t quantity; /* DMB_CHANNEL_... */

@@ -395,7 +395,7 @@ FUNCTION_DOCS = {
     "dmb_query_energy":
         "Energy ledger since the start; ERR_UNSUPPORTED where the options left it out. O(number of nodes).",
     "dmb_query_flow":
-        "Pressures and forces of the mud that flows, at the present position of the string; all 0 without a flow_rate but for pressure_stretch, which is then that of mud at rest on all flexible and axial-torsional pipes. Kinetic heads and losses of steps between diameters are left out; so are bodies, bits and rings in the annulus, its eccentricity (which lowers its loss, to less than half where the pipe lies on the wall) and the motion of the string. O(elements).",
+        "Pressures and forces of the mud that flows, at the present position of the string; all 0 without a flow_rate but for pressure_stretch, which is then that of mud at rest on all flexible and axial-torsional pipes. Kinetic heads and losses of steps between diameters are left out; so are bodies, bits and rings in the annulus and the motion of the string. The annulus has the flow_eccentricity of the environment, 0 unless given: where the string lies does not move it, though its loss there is less than half. O(elements).",
     "dmb_query_hole":
         "The axis at a measured depth [m], by minimum curvature (Taylor, Mason 1972) between stations. A compiled model; ERR_ORDER before, ERR_UNSUPPORTED without a hole. O(log stations).",
     "dmb_query_kinetic_energy":

@@ -2792,7 +2792,7 @@ class LoadDef(Sized):
 
 
 class Channel(Record):
-    c_name, about = "dmb_channel", "Frozen. One number of the many that can be recorded, watched and waited for. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. What a point off these does is told by a spring of stiffness 0 to it (forces.h: its length and speed are channels), by dmb_query_motion and the arm, or by a body that is fixed there."
+    c_name, about = "dmb_channel", "Frozen. One number of the many that can be recorded, watched and waited for. `place` is any point on the axis of a pipe, or the reference point of a part: there is no offset. A spring of stiffness 0 to a point off these tells its length and speed (forces.h, as channels); so do dmb_query_motion with the arm, and a body that is fixed there."
     place: Place
     quantity: int
     reserved: int

@@ -453,7 +453,7 @@ class Loader:
             self.put(name, kind, self._add(path, getattr(self.model, "add_" + kind), struct, values))
 
     def _motor(self, path: Path, table: dict[str, Any]) -> dict[str, Any]:
-        """What makes a drive a mud motor; its set point is the no-load speed, where the drive has no programme."""
+        """The keys that make a drive a mud motor; its set point is the no-load speed, where the drive has no programme."""
         given, before, where = table.pop("motor"), len(self.problems.found), path + ("motor",)
         table.update(kind="control", component="rx", **({} if "programme" in table else {"programme": "0 rad/s"}))
         if not isinstance(given, dict):
