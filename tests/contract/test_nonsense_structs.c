@@ -10,7 +10,7 @@ static struct {
     whole_parts parts;
     dmb_model *model;
     dmb_sim *sim;
-    dmb_model *plain_model; /* one pipe, whose statics are found at once */
+    dmb_model *plain_model; /* one pipe in a hole, whose statics are found at once */
     dmb_sim *plain;
     dmb_channel channel;
     double table[8];
@@ -448,20 +448,20 @@ static int32_t call_profile(void *p)
 static int32_t call_operation(void *p)
 {
     dmb_torque_drag_row row = dmb_torque_drag_row_default();
-    return dmb_analysis_torque_drag(scene.sim, NULL, p, 1, &row);
+    return dmb_analysis_torque_drag(scene.plain, NULL, p, 1, &row);
 }
 
 static int32_t call_torque_drag_options(void *p)
 {
     const dmb_operation still = dmb_operation_default();
     dmb_torque_drag_row row = dmb_torque_drag_row_default();
-    return dmb_analysis_torque_drag(scene.sim, p, &still, 1, &row);
+    return dmb_analysis_torque_drag(scene.plain, p, &still, 1, &row);
 }
 
 static int32_t call_torque_drag_row(void *p)
 {
     const dmb_operation still = dmb_operation_default();
-    return dmb_analysis_torque_drag(scene.sim, NULL, &still, 1, p);
+    return dmb_analysis_torque_drag(scene.plain, NULL, &still, 1, p);
 }
 
 static int32_t fatigue_of(const dmb_fatigue_options *options, dmb_fatigue **fatigue)
@@ -684,6 +684,8 @@ static int set_up(void **state)
     scene.model = whole_model(&scene.parts);
     scene.sim = whole_sim(scene.model, NULL);
     assert_int_equal(dmb_model_create(NULL, &scene.plain_model), DMB_OK);
+    const dmb_wall_def wall = dmb_wall_def_default();
+    assert_int_equal(dmb_model_add_wall(scene.plain_model, &wall, NULL), DMB_OK);
     add_section(scene.plain_model);
     assert_int_equal(dmb_model_compile(scene.plain_model, NULL), DMB_OK);
     assert_int_equal(dmb_sim_create(scene.plain_model, NULL, &scene.plain), DMB_OK);

@@ -344,6 +344,48 @@ static void joints_below_the_rig_end_are_refused(void **state)
     }
 }
 
+/* A load, a spring, a stuck place: refused on the string, not at its rig end, nor one that is described free. */
+static void forces_below_the_rig_end_are_refused(void **state)
+{
+    enum { LOAD, SPRING, STUCK };
+    static const struct {
+        uint32_t pipe;
+        double fraction;
+        int32_t kind, stuck, status;
+    } cases[] = {{4, 0.5, LOAD, 0, DMB_ERR_UNSUPPORTED},
+                 {9, 1.0, LOAD, 0, DMB_ERR_UNSUPPORTED},
+                 {0, 0.0, LOAD, 0, DMB_OK},
+                 {4, 0.5, SPRING, 0, DMB_ERR_UNSUPPORTED},
+                 {0, 0.0, SPRING, 0, DMB_OK},
+                 {9, 1.0, STUCK, 1, DMB_ERR_UNSUPPORTED},
+                 {4, 1.0, STUCK, 1, DMB_ERR_UNSUPPORTED},
+                 {9, 1.0, STUCK, 0, DMB_OK}};
+    const dmb_operation up = usual(DMB_OPERATION_PICK_UP);
+    (void)state;
+    for (uint32_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        scene s = describe(10, NULL, 0);
+        dmb_torque_drag_row row = dmb_torque_drag_row_default();
+        dmb_load_def load = dmb_load_def_default();
+        dmb_spring_def spring = dmb_spring_def_default();
+        dmb_stuck_def stuck = dmb_stuck_def_default();
+        row.hook_load = -7.0;
+        add_string(&s, 1);
+        load.place = spring.place_b = stuck.place = dmb_station(s.pipe.string, cases[i].pipe, cases[i].fraction);
+        load.force[2] = -500.0;
+        spring.stiffness = 1e3;
+        spring.offset_a[1] = 5.0; /* of the ground */
+        stuck.stuck = cases[i].stuck;
+        if (cases[i].kind == LOAD) must(dmb_model_add_load(s.model, &load, NULL), dmb_model_message(s.model));
+        if (cases[i].kind == SPRING) must(dmb_model_add_spring(s.model, &spring, NULL), dmb_model_message(s.model));
+        if (cases[i].kind == STUCK) must(dmb_model_add_stuck(s.model, &stuck, NULL), dmb_model_message(s.model));
+        finish_scene(&s);
+        assert_int_equal(dmb_analysis_torque_drag(s.sim, NULL, &up, 1, &row), cases[i].status);
+        assert_true((row.hook_load == -7.0) == (cases[i].status < 0));
+        if (cases[i].status < 0) assert_non_null(strstr(dmb_sim_message(s.sim), "below its rig end"));
+        destroy(&s);
+    }
+}
+
 static void refused(void **state)
 {
     scene s = describe(10, NULL, 0);
@@ -412,6 +454,7 @@ int main(void)
         cmocka_unit_test(shallow),
         cmocka_unit_test(refused),
         cmocka_unit_test(joints_below_the_rig_end_are_refused),
+        cmocka_unit_test(forces_below_the_rig_end_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

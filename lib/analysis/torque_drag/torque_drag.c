@@ -95,6 +95,42 @@ static int32_t refuse_joints(request *r)
     return DMB_OK;
 }
 
+static int acts_on_string(const request *r)
+{
+    const dmb_model *model = r->sim->model;
+    const dmb_load_def *loads = model->loads.items;
+    const dmb_spring_plan *springs = model->springs.items;
+    const dmb_force_def *forces = model->forces.items;
+    const uint32_t string = r->soft.string;
+    for (uint32_t i = 0; i < model->loads.count; i++)
+        if (is_below(model, string, &loads[i].place)) return 1;
+    for (uint32_t i = 0; i < model->springs.count; i++)
+        if (is_below(model, string, &springs[i].def.place_a) || is_below(model, string, &springs[i].def.place_b))
+            return 1;
+    for (uint32_t i = 0; i < model->forces.count; i++)
+        for (uint32_t k = 0; k < forces[i].place_count; k++)
+            if (is_below(model, string, &forces[i].place[k])) return 1;
+    return 0;
+}
+
+/* Forces of the described model on the string, which the soft string knows nothing of; where it is stuck it is neither
+ * pulled nor turned as an operation says. */
+static int32_t refuse_forces(request *r)
+{
+    const dmb_model *model = r->sim->model;
+    const dmb_stuck_def *stuck = model->stuck.items;
+    if (acts_on_string(r))
+        return refuse(
+            r, DMB_ERR_UNSUPPORTED,
+            "a load, spring or force of the model acts on the string below its rig end, which the soft string "
+            "leaves out; leave it out of the model, or ask for steady states (dmb_analysis_static)");
+    for (uint32_t i = 0; i < model->stuck.count; i++)
+        if (stuck[i].stuck != 0 && is_below(model, r->soft.string, &stuck[i].place))
+            return refuse(r, DMB_ERR_UNSUPPORTED,
+                          "the string is described stuck below its rig end; describe it free (stuck = 0)");
+    return DMB_OK;
+}
+
 static int32_t find_string(request *r)
 {
     const dmb_model *model = r->sim->model;
@@ -124,6 +160,8 @@ static int32_t find_string(request *r)
                       "law may not hold; leave the eccentricity out");
     const int32_t joints = refuse_joints(r);
     if (joints < 0) return joints;
+    const int32_t forces = refuse_forces(r);
+    if (forces < 0) return forces;
     soft->model = model;
     soft->mud = dmb_mud_of(r->sim->scene);
     soft->flow = scene->flow_count > 0 ? &scene->flow : NULL;
