@@ -103,8 +103,8 @@ DMB_SIZED_STRUCT(dmb_step_report)
  * 1993; Bruls, Cardona, Arnold 2012. */
 DMB_API int32_t dmb_sim_step(dmb_sim *sim, double duration, dmb_step_report *report);
 /* Advances to `time` [s] with steps chosen to hold the local error tolerances, bounded_work or not. DMB_NOTE_TOLERANCE
- * where a step of step_min was too long for them, DMB_NOTE_STOPPED after max_steps, DMB_NOTE_CANCELLED. Errors as
- * dmb_sim_step; the state is then the last accepted one, whose time dmb_sim_time tells. */
+ * where a step of step_min was too long for them; before that DMB_NOTE_STOPPED after max_steps, DMB_NOTE_CANCELLED.
+ * Errors as dmb_sim_step; the state is then the last accepted one, whose time dmb_sim_time tells. */
 DMB_API int32_t dmb_sim_advance(dmb_sim *sim, double time, dmb_step_report *report);
 /* From now on the drive's programme is the constant `value` [unit of its programme]; NaN: its programme again. For
  * DMB_DRIVE_LOAD and DMB_DRIVE_CONTROL; accelerations are made to fit the jump. DMB_ERR_UNSUPPORTED

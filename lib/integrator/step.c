@@ -117,6 +117,12 @@ int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_rep
         return DMB_NOTE_CANCELLED;
     }
     if (status < 0) return status;
+    /* Before the others, which tell how good the steps were: the time that was asked for was not reached. */
+    if (walk->stopped) {
+        dmb_message_set(&sim->message, "stopped at time %g after max_steps = %u steps", out.time,
+                        sim->options.max_steps);
+        return DMB_NOTE_STOPPED;
+    }
     if (walk->limited) {
         dmb_message_set(&sim->message, "step to time %g: relative residual = %g after %u iterations, accepted as asked",
                         out.time, out.residual, out.most_iterations);
@@ -128,11 +134,6 @@ int32_t dmb_walk_end(dmb_sim *sim, int32_t status, int32_t restore, dmb_step_rep
         return DMB_NOTE_TOLERANCE;
     }
     dmb_message_clear(&sim->message);
-    if (walk->stopped) {
-        dmb_message_set(&sim->message, "stopped at time %g after max_steps = %u steps", out.time,
-                        sim->options.max_steps);
-        return DMB_NOTE_STOPPED;
-    }
     if (!walk->was_cut) return DMB_OK;
     dmb_message_set(&sim->message, "step to time %g: divided into %u steps, %u rejected", out.time, out.steps,
                     out.rejected);

@@ -105,6 +105,21 @@ static void smallest_step_above_the_tolerance_is_told(void **state)
     end(&s);
 }
 
+/* Whatever else there is to be told: the time was not reached. */
+static void end_before_the_time_comes_first(void **state)
+{
+    (void)state;
+    dmb_sim_options options = dmb_sim_options_default();
+    options.step_min = 0.09;
+    options.step_max = 0.1;
+    options.max_steps = 5;
+    scene s = pendulum(&options);
+    assert_int_equal(dmb_sim_advance(s.sim, 2.0, NULL), DMB_NOTE_STOPPED);
+    assert_true(dmb_sim_time(s.sim) < 2.0);
+    assert_non_null(strstr(dmb_sim_message(s.sim), "max_steps"));
+    end(&s);
+}
+
 static void bounded_work_does_not_loosen_advance(void **state)
 {
     (void)state;
@@ -127,6 +142,7 @@ int main(void)
         cmocka_unit_test(clock_that_stands_still_is_refused),
         cmocka_unit_test(duration_below_the_rounding_of_time_is_refused),
         cmocka_unit_test(smallest_step_above_the_tolerance_is_told),
+        cmocka_unit_test(end_before_the_time_comes_first),
         cmocka_unit_test(bounded_work_does_not_loosen_advance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
