@@ -50,7 +50,7 @@ static int32_t goes_to_and_fro(const dmb_sim *sim, const dmb_attempt *attempt, d
     const int32_t found = course->corrections > 3 && now > 0.5 * course->last &&
                           fabs(now - course->earlier) <= DMB_NEWTON_ALIKE * course->earlier;
     course->earlier = course->last;
-    return found && follows_error(sim) && !sim->options.bounded_work;
+    return found && sim->scene->site_count > 0 && follows_error(sim) && !sim->options.bounded_work;
 }
 
 /* 1: as it should be. */

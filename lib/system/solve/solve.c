@@ -56,10 +56,10 @@ static int32_t judge(const dmb_evaluation *evaluation, const dmb_chain *chain, d
     const double floor = DMB_ROUNDING_UNITS * DBL_EPSILON;
     if (!(n.all <= DBL_MAX)) return 0;
     if (n.rest <= tolerance * tolerance * n.all) return DMB_CONVERGED;
-    if (n.rest <= part) return DMB_SMALL_PART;
     const int stiff =
         chain->count > 1 || chain->jointed || (!evaluation->dynamic && evaluation->sim->scene->element_count == 0);
-    return stiff && n.rest <= floor * floor * evaluation->rounding ? DMB_AT_ROUNDING : 0;
+    if (stiff && n.rest <= floor * floor * evaluation->rounding) return DMB_AT_ROUNDING;
+    return n.rest <= part ? DMB_SMALL_PART : 0;
 }
 
 void dmb_residual_start(dmb_sim *sim)
