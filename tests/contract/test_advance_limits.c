@@ -105,7 +105,7 @@ static void smallest_step_above_the_tolerance_is_told(void **state)
     end(&s);
 }
 
-/* Whatever else there is to be told: the time was not reached. */
+/* It tells that the time was not reached, before anything else. */
 static void end_before_the_time_comes_first(void **state)
 {
     (void)state;
