@@ -102,10 +102,10 @@ static double share_of(const dmb_sim *sim)
 }
 
 /* The bound of the residual; reused factors aim below the tolerance. */
-static dmb_residual_bound bound_of(const dmb_sim *sim, double aim)
+static dmb_residual_bound bound_of(const dmb_sim *sim, uint32_t corrections, double aim)
 {
-    const dmb_residual_bound given = {aim * sim->options.newton_tolerance, 0.0, 0.0};
-    const dmb_residual_bound following = {aim * DMB_NEWTON_LEAST, share_of(sim), DMB_NEWTON_MOST};
+    const dmb_residual_bound given = {aim * sim->options.newton_tolerance, 0.0, 0.0, 0};
+    const dmb_residual_bound following = {aim * DMB_NEWTON_LEAST, share_of(sim), DMB_NEWTON_MOST, corrections == 0};
     return follows_error(sim) ? following : given;
 }
 
@@ -165,7 +165,7 @@ static double excess_of_power(const powers *p)
 static dmb_residual_norm compare(const dmb_sim *sim, const dmb_attempt *attempt, const dmb_newton_course *course,
                                  double aim)
 {
-    const dmb_residual_bound bound = bound_of(sim, aim);
+    const dmb_residual_bound bound = bound_of(sim, course->corrections, aim);
     dmb_residual_norm norm = dmb_residual_norm_within(&attempt->evaluation, &bound);
     if (norm.converged != DMB_SMALL_PART) return norm;
     const powers p = powers_of(sim);
@@ -196,7 +196,6 @@ static int32_t evaluate(dmb_sim *sim, dmb_attempt *attempt)
 static int32_t judge(dmb_sim *sim, dmb_attempt *attempt, dmb_newton_course *course)
 {
     const double aim = attempt->factored == DMB_FACTORS_REUSED ? DMB_REUSE_TOLERANCE : 1.0;
-    if (course->corrections == 0 && follows_error(sim)) dmb_residual_start(sim);
     const dmb_residual_norm norm = compare(sim, attempt, course, aim);
     attempt->residual = norm.relative;
     attempt->bound = norm.bound;

@@ -62,12 +62,6 @@ static int32_t judge(const dmb_evaluation *evaluation, const dmb_chain *chain, d
     return n.rest <= part ? DMB_SMALL_PART : 0;
 }
 
-void dmb_residual_start(dmb_sim *sim)
-{
-    for (uint32_t c = 0; c < sim->scene->chain_count; c++)
-        sim->chain_start[c] = norms_of(sim, sim->scene->chains + c).rest;
-}
-
 /* [N2] part of the residual at the start that a chain may keep. */
 static double part_of(const dmb_sim *sim, uint32_t c, const dmb_residual_bound *bound, norms n)
 {
@@ -91,12 +85,13 @@ static int32_t worse(int32_t a, int32_t b)
 
 dmb_residual_norm dmb_residual_norm_within(const dmb_evaluation *evaluation, const dmb_residual_bound *bound)
 {
-    const dmb_sim *sim = evaluation->sim;
+    dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
     dmb_residual_norm norm = {0.0, 0.0, bound->tolerance, DMB_CONVERGED, 0};
     double excess = 0.0;
     for (uint32_t c = 0; c < scene->chain_count; c++) {
         const norms n = norms_of(sim, scene->chains + c);
+        if (bound->start) sim->chain_start[c] = n.rest;
         const double part = part_of(sim, c, bound, n), relative = relative_of(n);
         norm.converged = worse(norm.converged, judge(evaluation, scene->chains + c, bound->tolerance, part, n));
         norm.relative = fmax(norm.relative, relative);
@@ -114,7 +109,7 @@ dmb_residual_norm dmb_residual_norm_within(const dmb_evaluation *evaluation, con
 
 dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double tolerance)
 {
-    const dmb_residual_bound bound = {tolerance, 0.0, 0.0};
+    const dmb_residual_bound bound = {tolerance, 0.0, 0.0, 0};
     return dmb_residual_norm_within(evaluation, &bound);
 }
 

@@ -19,17 +19,17 @@ typedef struct dmb_residual_norm {
 } dmb_residual_norm;
 
 /* Bound of a relative residual: `tolerance`, or `share` of what sim->chain_start says of the chain where that is more;
- * of that at most `most`. share 0: the tolerance alone. */
+ * of that at most `most`. share 0: the tolerance alone. With `start` the residual at hand is what chain_start says
+ * from now on. */
 typedef struct dmb_residual_bound {
     double tolerance, share, most;
+    int32_t start;
 } dmb_residual_bound;
 
 /* Moments count over the length of their chain; unknown rows only; chain by chain, so that a light body is not judged
  * by a heavy string. */
 dmb_residual_norm dmb_residual_norm_of(const dmb_evaluation *evaluation, double tolerance);
 dmb_residual_norm dmb_residual_norm_within(const dmb_evaluation *evaluation, const dmb_residual_bound *bound);
-/* Remembers the residual of each chain in sim->chain_start. */
-void dmb_residual_start(dmb_sim *sim);
 /* Factors the iteration matrix in place, that of joints by DMB_METHOD_.... Index of a singular block, or -1. */
 int64_t dmb_factor_matrix(dmb_sim *sim, int32_t method);
 /* The same for statics, by independent coordinates, telling the weakest pivot: what nothing holds shows as one of
