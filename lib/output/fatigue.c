@@ -1,5 +1,4 @@
-/* Rainflow counting of a sequence of levels as it arrives (ASTM E1049, 5.4.4; Matsuishi, Endo 1968). Turning points
- * whose ranges shrink are not counted yet: of levels 0 .. n - 1 at most n + 2. */
+/* Fatigue of places during a run: stress around the section, counted by rainflow, summed by an S-N curve. */
 #include "output/output.h"
 
 #include <math.h>
@@ -14,87 +13,6 @@
 #include "model/section.h"
 #include "query/query.h"
 #include "sim/access.h"
-
-/* ---- Cycles ------------------------------------------------------------------------------------------------------ */
-
-static uint32_t range(uint32_t a, uint32_t b)
-{
-    return a > b ? a - b : b - a;
-}
-
-static void tell(dmb_rainflow_fn count, void *context, uint32_t a, uint32_t b, double weight)
-{
-    count(context, a < b ? a : b, a < b ? b : a, weight);
-}
-
-/* The last level goes on in the direction of the one before it: it takes its place. */
-static int goes_on(const dmb_rainflow *flow, uint32_t level)
-{
-    const uint32_t *last = flow->turns + flow->count - 1;
-    return flow->count > 1 && (last[0] > last[-1]) == (level > last[0]);
-}
-
-/* X the range of the last two turns, Y that of the two before: Y is counted where X >= Y; as a cycle, and its turns go,
- * or as half a one with the start of all, which goes. */
-static void reduce(dmb_rainflow *flow, dmb_rainflow_fn count, void *context)
-{
-    while (flow->count >= 3) {
-        uint32_t *end = flow->turns + flow->count;
-        if (range(end[-1], end[-2]) < range(end[-2], end[-3])) return;
-        if (flow->count == 3) {
-            tell(count, context, end[-3], end[-2], 0.5);
-            end[-3] = end[-2];
-            end[-2] = end[-1];
-            flow->count = 2;
-        } else {
-            tell(count, context, end[-3], end[-2], 1.0);
-            end[-3] = end[-1];
-            flow->count -= 2;
-        }
-    }
-}
-
-/* A turn is one only once the next level turns back: the last one is not counted against those before until then. */
-void dmb_rainflow_add(dmb_rainflow *flow, uint32_t level, dmb_rainflow_fn count, void *context)
-{
-    if (flow->count > 0 && level == flow->turns[flow->count - 1]) return;
-    if (goes_on(flow, level)) {
-        flow->turns[flow->count - 1] = level;
-        return;
-    }
-    reduce(flow, count, context);
-    flow->turns[flow->count++] = level;
-}
-
-static void visit_rest(const dmb_rainflow *flow, dmb_rainflow_fn count, void *context)
-{
-    for (uint32_t i = 1; i < flow->count; i++) tell(count, context, flow->turns[i - 1], flow->turns[i], 0.5);
-}
-
-/* The last turn counts as one: cycles that it closes are whole ones. They are at the end of the list and are passed
- * over, together with their turns, without writing. */
-void dmb_rainflow_rest(const dmb_rainflow *flow, dmb_rainflow_fn count, void *context)
-{
-    uint32_t n = flow->count, first = 0;
-    if (n < 3) {
-        visit_rest(flow, count, context);
-        return;
-    }
-    const uint32_t last = flow->turns[n - 1];
-    n--; /* turns before the last one */
-    while (n - first >= 2 && range(last, flow->turns[n - 1]) >= range(flow->turns[n - 1], flow->turns[n - 2])) {
-        const int whole = n - first > 2;
-        tell(count, context, flow->turns[n - 2], flow->turns[n - 1], whole ? 1.0 : 0.5);
-        if (whole)
-            n -= 2;
-        else
-            first++;
-    }
-    for (uint32_t i = first + 1; i < n; i++) tell(count, context, flow->turns[i - 1], flow->turns[i], 0.5);
-    if (n > first) tell(count, context, flow->turns[n - 1], last, 0.5);
-}
-
-/* Fatigue of places during a run: stress around the section, counted by rainflow, summed by an S-N curve. */
 
 DMB_DEFINE_INIT(dmb_fatigue_options, 72,
                 {
@@ -157,8 +75,7 @@ static int32_t check_options(dmb_sim *sim, const dmb_fatigue_options *options, u
     return check.status;
 }
 
-/* A pipe that slides on the axis of a hole that bends: it is bent as it turns, which its section force does not tell.
- */
+/* A pipe on the axis of a hole that bends: it is bent as it turns, which its section force does not tell. */
 static int bends_unseen(const dmb_sim *sim, dmb_place place)
 {
     const dmb_scene *scene = sim->scene;
@@ -174,11 +91,10 @@ static int32_t check_places(dmb_sim *sim, const dmb_place *places, uint32_t coun
         dmb_section unused = dmb_section_default();
         const int32_t status = dmb_query_section(sim, places[i], &unused);
         if (status == DMB_OK && bends_unseen(sim, places[i])) {
-            dmb_message_set(
-                &sim->message,
-                "fatigue: place %u, pipe %u: an axial-torsional pipe in a hole that bends, whose bending it "
-                "does not know; make the pipe flexible (DMB_PIPE_FLEXIBLE)",
-                i, places[i].pipe);
+            dmb_message_set(&sim->message,
+                            "fatigue: place %u, pipe %u: an axial-torsional pipe in a hole that bends, whose bending "
+                            "it does not know; make the pipe flexible (DMB_PIPE_FLEXIBLE)",
+                            i, places[i].pipe);
             return DMB_ERR_UNSUPPORTED;
         }
         if (status == DMB_OK) continue;

@@ -4,6 +4,85 @@
 
 #include "model/section.h"
 
+/* ---- Strings that are none --------------------------------------------------------------------------------------- */
+
+/* Does a place lie on the string below its rig end? */
+static int is_below(const dmb_model *model, uint32_t string, const dmb_place *place)
+{
+    if (place->part.generation == 0 || dmb_model_part_index(model, place->part, DMB_PART_STRING) != string) return 0;
+    return place->pipe > 0 || place->fraction > 0.0;
+}
+
+/* A joint below the rig end holds the string, or something that hangs on it; one that leaves all free is but springs.
+ */
+static int is_held(const dmb_model *model, uint32_t string)
+{
+    for (uint32_t i = 0; i < model->joints.count; i++) {
+        const dmb_joint_def *joint = DMB_LIST_AT(const dmb_joint_def, model->joints, i);
+        if (joint->kind == DMB_JOINT_FREE) continue;
+        if (is_below(model, string, &joint->place_a) || is_below(model, string, &joint->place_b)) return 1;
+    }
+    return 0;
+}
+
+/* By a load, spring or force of the model, below the rig end. */
+static int is_acted_on(const dmb_model *model, uint32_t string)
+{
+    const dmb_load_def *loads = model->loads.items;
+    const dmb_spring_plan *springs = model->springs.items;
+    const dmb_force_def *forces = model->forces.items;
+    for (uint32_t i = 0; i < model->loads.count; i++)
+        if (is_below(model, string, &loads[i].place)) return 1;
+    for (uint32_t i = 0; i < model->springs.count; i++)
+        if (is_below(model, string, &springs[i].def.place_a) || is_below(model, string, &springs[i].def.place_b))
+            return 1;
+    for (uint32_t i = 0; i < model->forces.count; i++)
+        for (uint32_t k = 0; k < forces[i].place_count; k++)
+            if (is_below(model, string, &forces[i].place[k])) return 1;
+    return 0;
+}
+
+/* Where it is stuck it is neither pulled nor turned as an operation says. */
+static int is_stuck(const dmb_model *model, uint32_t string)
+{
+    const dmb_stuck_def *stuck = model->stuck.items;
+    for (uint32_t i = 0; i < model->stuck.count; i++)
+        if (stuck[i].stuck != 0 && is_below(model, string, &stuck[i].place)) return 1;
+    return 0;
+}
+
+static int has_rings(const dmb_scene *scene, uint32_t string)
+{
+    for (uint32_t i = 0; i < scene->ring_count; i++)
+        if (scene->rings[i].string == string) return 1;
+    return 0;
+}
+
+const char *dmb_soft_string_lacks(const dmb_model *model, const dmb_scene *scene, uint32_t string)
+{
+    const dmb_string_plan *plan = (const dmb_string_plan *)model->strings.items + string;
+    if (plan->def.follows_hole == 0) return "the string does not follow the hole; set follows_hole of its definition";
+    if (has_rings(scene, string))
+        return "the string has rings, whose weight and diameter the soft string leaves out; leave them out, or ask for "
+               "steady states (dmb_analysis_static)";
+    if (plan->continued != 0)
+        return "a sub continues the string, whose weight and section the soft string leaves out; describe it as one "
+               "string, or ask for steady states (dmb_analysis_static)";
+    if (scene->flow_count > 0 && scene->flow.eccentricity > 0.0 && scene->hole.pieces > 0)
+        return "the environment has a flow_eccentricity and the hole has sections, at other depths of which its law "
+               "may not hold; leave the eccentricity out";
+    if (is_held(model, string))
+        return "a joint holds something at the string below its rig end, whose weight and forces the soft string "
+               "leaves out; leave it out, or ask for steady states (dmb_analysis_static)";
+    if (is_acted_on(model, string))
+        return "a load, spring or force of the model acts on the string below its rig end, which the soft string "
+               "leaves out; leave it out of the model, or ask for steady states (dmb_analysis_static)";
+    if (is_stuck(model, string)) return "the string is described stuck below its rig end; describe it free (stuck = 0)";
+    return NULL;
+}
+
+/* ---- The march from the far end ---------------------------------------------------------------------------------- */
+
 #define STEP_MAX 2.0     /* [m] of a Runge-Kutta step, whose error goes with its fourth power */
 #define TURN_MAX 0.05    /* [rad] by which the hole turns within one */
 #define COMPRESSION 0.01 /* [-] of EA, far beyond what any pipe bears */

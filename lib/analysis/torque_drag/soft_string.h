@@ -54,6 +54,9 @@ typedef struct dmb_soft_place {
 
 typedef void (*dmb_soft_visit)(void *context, const dmb_soft_place *place);
 
+/* Why a string of a described and compiled model is no soft string, with what to do about it; NULL: it is one. */
+const char *dmb_soft_string_lacks(const dmb_model *model, const dmb_scene *scene, uint32_t string);
+
 /* From the far end at measured depth `depth`, above start, to the rig end; tells each place, the far end first. Steps
  * end at pipes of another kind, at stations of the survey, and at multiples of `spacing` [m] from the rig end (0:
  * none). 0: the compression went beyond 1 % of EA on the way, and the rest was not told. */

@@ -72,65 +72,6 @@ static int32_t refuse(request *r, int32_t status, const char *text)
     return status;
 }
 
-/* Does a place lie on the string below its rig end? */
-static int is_below(const dmb_model *model, uint32_t string, const dmb_place *place)
-{
-    if (place->part.generation == 0 || dmb_model_part_index(model, place->part, DMB_PART_STRING) != string) return 0;
-    return place->pipe > 0 || place->fraction > 0.0;
-}
-
-/* A joint below the rig end holds the string, or something that hangs on it; one that leaves all free is but springs.
- */
-static int32_t refuse_joints(request *r)
-{
-    const dmb_model *model = r->sim->model;
-    for (uint32_t i = 0; i < model->joints.count; i++) {
-        const dmb_joint_def *joint = DMB_LIST_AT(const dmb_joint_def, model->joints, i);
-        if (joint->kind == DMB_JOINT_FREE) continue;
-        if (is_below(model, r->soft.string, &joint->place_a) || is_below(model, r->soft.string, &joint->place_b))
-            return refuse(r, DMB_ERR_UNSUPPORTED,
-                          "a joint holds something at the string below its rig end, whose weight and forces the soft "
-                          "string leaves out; leave it out, or ask for steady states (dmb_analysis_static)");
-    }
-    return DMB_OK;
-}
-
-static int acts_on_string(const request *r)
-{
-    const dmb_model *model = r->sim->model;
-    const dmb_load_def *loads = model->loads.items;
-    const dmb_spring_plan *springs = model->springs.items;
-    const dmb_force_def *forces = model->forces.items;
-    const uint32_t string = r->soft.string;
-    for (uint32_t i = 0; i < model->loads.count; i++)
-        if (is_below(model, string, &loads[i].place)) return 1;
-    for (uint32_t i = 0; i < model->springs.count; i++)
-        if (is_below(model, string, &springs[i].def.place_a) || is_below(model, string, &springs[i].def.place_b))
-            return 1;
-    for (uint32_t i = 0; i < model->forces.count; i++)
-        for (uint32_t k = 0; k < forces[i].place_count; k++)
-            if (is_below(model, string, &forces[i].place[k])) return 1;
-    return 0;
-}
-
-/* Forces of the described model on the string, which the soft string knows nothing of; where it is stuck it is neither
- * pulled nor turned as an operation says. */
-static int32_t refuse_forces(request *r)
-{
-    const dmb_model *model = r->sim->model;
-    const dmb_stuck_def *stuck = model->stuck.items;
-    if (acts_on_string(r))
-        return refuse(
-            r, DMB_ERR_UNSUPPORTED,
-            "a load, spring or force of the model acts on the string below its rig end, which the soft string "
-            "leaves out; leave it out of the model, or ask for steady states (dmb_analysis_static)");
-    for (uint32_t i = 0; i < model->stuck.count; i++)
-        if (stuck[i].stuck != 0 && is_below(model, r->soft.string, &stuck[i].place))
-            return refuse(r, DMB_ERR_UNSUPPORTED,
-                          "the string is described stuck below its rig end; describe it free (stuck = 0)");
-    return DMB_OK;
-}
-
 static int32_t find_string(request *r)
 {
     const dmb_model *model = r->sim->model;
@@ -142,26 +83,8 @@ static int32_t find_string(request *r)
     if (soft->string >= scene->string_count)
         return refuse(r, DMB_ERR_ID, "`string` does not name a string of the model");
     if (!scene->has_hole) return refuse(r, DMB_ERR_UNSUPPORTED, "the model has no hole; add a wall");
-    if (plans[soft->string].def.follows_hole == 0)
-        return refuse(r, DMB_ERR_UNSUPPORTED,
-                      "the string does not follow the hole; set follows_hole of its definition");
-    for (uint32_t i = 0; i < scene->ring_count; i++)
-        if (scene->rings[i].string == soft->string)
-            return refuse(r, DMB_ERR_UNSUPPORTED,
-                          "the string has rings, whose weight and diameter the soft string leaves out; leave them out, "
-                          "or ask for steady states (dmb_analysis_static)");
-    if (plans[soft->string].continued != 0)
-        return refuse(r, DMB_ERR_UNSUPPORTED,
-                      "a sub continues the string, whose weight and section the soft string leaves out; describe it as "
-                      "one string, or ask for steady states (dmb_analysis_static)");
-    if (scene->flow_count > 0 && scene->flow.eccentricity > 0.0 && scene->hole.pieces > 0)
-        return refuse(r, DMB_ERR_UNSUPPORTED,
-                      "the environment has a flow_eccentricity and the hole has sections, at other depths of which its "
-                      "law may not hold; leave the eccentricity out");
-    const int32_t joints = refuse_joints(r);
-    if (joints < 0) return joints;
-    const int32_t forces = refuse_forces(r);
-    if (forces < 0) return forces;
+    const char *lacking = dmb_soft_string_lacks(model, scene, soft->string);
+    if (lacking != NULL) return refuse(r, DMB_ERR_UNSUPPORTED, lacking);
     soft->model = model;
     soft->mud = dmb_mud_of(r->sim->scene);
     soft->flow = scene->flow_count > 0 ? &scene->flow : NULL;
