@@ -42,7 +42,7 @@ static int is_acted_on(const dmb_model *model, uint32_t string)
     return 0;
 }
 
-/* Where it is stuck it is neither pulled nor turned as an operation says. */
+/* A place that is stuck is neither pulled nor turned as an operation says. */
 static int is_stuck(const dmb_model *model, uint32_t string)
 {
     const dmb_stuck_def *stuck = model->stuck.items;
