@@ -110,7 +110,7 @@ static void make_dense(chain *c)
     }
     for (uint32_t i = 0; i < c->rows; i++) {
         long double sum = 0.0L;
-        for (uint32_t j = 0; j < c->rows; j++) sum += (long double)c->dense[c->rows * i + j] * c->known[j];
+        for (uint32_t j = 0; j < c->rows; j++) sum += (long double)c->dense[c->rows * i + j] * (long double)c->known[j];
         c->right[i] = (double)sum;
     }
 }
