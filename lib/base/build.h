@@ -24,4 +24,10 @@
 #define DMB_WITH_THREADS 1
 #endif
 
+#if defined(__GNUC__) /* a function whose frame is large and seldom needed: callers do not take it into theirs */
+#define DMB_OWN_FRAME __attribute__((noinline))
+#else
+#define DMB_OWN_FRAME
+#endif
+
 #endif

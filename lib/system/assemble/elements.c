@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/build.h"
 #include "element/beam_element.h"
 #include "kernel/kernels.h"
 #include "sim/node.h"
@@ -212,7 +213,7 @@ static void mixed_input(const dmb_scene *scene, uint32_t e, const mixed_side *A,
 }
 
 /* As a beam between two poses; forces and tangents come to the PATH side as J^T f and J^T K J, J its two columns. */
-static int32_t gather_mixed(dmb_evaluation *evaluation, uint32_t e)
+DMB_OWN_FRAME static int32_t gather_mixed(dmb_evaluation *evaluation, uint32_t e)
 {
     dmb_sim *sim = evaluation->sim;
     const dmb_scene *scene = sim->scene;
