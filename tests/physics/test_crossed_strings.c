@@ -7,15 +7,7 @@
 
 #include "drillmbd/ring.h"
 #include "modal.h"
-
-/* Steps that may be cut, as on touching the rock. */
-static void go(const rig *s, double h, uint32_t n)
-{
-    for (uint32_t i = 0; i < n; i++) {
-        const int32_t status = dmb_sim_step(s->sim, h, NULL);
-        if (status < 0) must(s, status);
-    }
-}
+#include "rock.h"
 
 static void go_on_from_a_snapshot(const rig *s, const dmb_sim_options *options, double h, uint32_t steps)
 {
@@ -26,8 +18,8 @@ static void go_on_from_a_snapshot(const rig *s, const dmb_sim_options *options, 
     must(s, dmb_sim_snapshot(s->sim, bytes, size));
     must_model(s, dmb_sim_create(s->model, options, &other.sim));
     must(s, dmb_sim_restore(other.sim, bytes, size));
-    go(s, h, steps);
-    go(&other, h, steps);
+    take_divided_steps(s, h, steps);
+    take_divided_steps(&other, h, steps);
     assert_true(rig_hash(&other) == rig_hash(s));
     free(bytes);
     dmb_sim_destroy(&other.sim);
@@ -68,18 +60,6 @@ static dmb_bit_def cutting(int32_t law, double outer, double inner, double energ
     bit.wear_length = 1e-3;
     bit.diameter = 0.0;
     return bit;
-}
-
-static double weight_at(const dmb_bit_def *b, double d)
-{
-    return (b->radius - b->inner_radius) *
-           (b->cutting_ratio * b->intrinsic_energy * d + b->contact_strength * b->wear_length);
-}
-
-static double torque_at(const dmb_bit_def *b, double d)
-{
-    return 0.5 * (b->radius * b->radius - b->inner_radius * b->inner_radius) *
-           (b->intrinsic_energy * d + b->contact_friction * b->contact_strength * b->wear_length);
 }
 
 /* Begins where the far end is at 15 m. */
@@ -138,7 +118,7 @@ static void drills_steadily(void **state)
         check_relative("weight on the bit [N]", bit_of(&d, d.bit).weight, weight_at(&bit, cut), 1e-6);
         check_relative("weight on the reamer [N]", bit_of(&d, d.reamer).weight, weight_at(&reamer, cut), 1e-6);
         check_relative("torque on the reamer [N m]", bit_of(&d, d.reamer).torque, torque_at(&reamer, cut), 1e-6);
-        if (!later) go(&d.s, 1e-3, 200);
+        if (!later) take_divided_steps(&d.s, 1e-3, 200);
     }
     go_on_from_a_snapshot(&d.s, NULL, 1e-3, 50);
     rig_close(&d.s);
@@ -152,15 +132,15 @@ static void is_transferred(void **state)
     for (int k = 0; k < 2; k++) {
         const drilled three = {1e7, 3, laws[k]}, four = {1e7, 4, laws[k]};
         drilling run = drill(&three), longer = drill(&four), back = drill(&three);
-        go(&run.s, 1e-3, 400);
+        take_divided_steps(&run.s, 1e-3, 400);
         const double weight = bit_of(&run, run.reamer).weight, bottom = bit_of(&run, run.reamer).bottom;
         must(&longer.s, dmb_sim_transfer_state(longer.s.sim, run.s.sim));
         check_relative("weight on the reamer, a pipe more [N]", bit_of(&longer, longer.reamer).weight, weight, 1e-9);
         must(&back.s, dmb_sim_transfer_state(back.s.sim, longer.s.sim));
         check_relative("    and less", bit_of(&back, back.reamer).weight, weight, 1e-9);
         check_relative("bottom of the reamer [m]", bit_of(&back, back.reamer).bottom, bottom, 1e-9);
-        go(&run.s, 1e-3, 100);
-        go(&back.s, 1e-3, 100);
+        take_divided_steps(&run.s, 1e-3, 100);
+        take_divided_steps(&back.s, 1e-3, 100);
         check_relative("weight on it later [N]", bit_of(&back, back.reamer).weight, bit_of(&run, run.reamer).weight,
                        1e-5);
         go_on_from_a_snapshot(&back.s, NULL, 1e-3, 50);
@@ -174,7 +154,7 @@ static double weight_after(double energy, uint32_t steps)
 {
     const drilled w = {energy, 3, DMB_ROCK_RATE};
     drilling d = drill(&w);
-    go(&d.s, 1e-3, steps);
+    take_divided_steps(&d.s, 1e-3, steps);
     const double weight = bit_of(&d, d.reamer).weight;
     rig_close(&d.s);
     return weight;
@@ -319,7 +299,7 @@ static void hook_load_is_an_event(void **state)
             go_on_from_a_snapshot(&h.s, NULL, 1e-4, 20);
         }
         while (k == 1 && dmb_sim_time(h.s.sim) < 0.2) {
-            go(&h.s, 2e-5, 1);
+            take_divided_steps(&h.s, 2e-5, 1);
             time[1] = dmb_sim_time(h.s.sim);
             const double load = channel_value(&h.s, dmb_station(h.string, 0, 0.0), DMB_CHANNEL_HOOK_LOAD);
             if (k == 1 && time[1] > 0.01 && time[1] < 0.01003)
@@ -341,8 +321,8 @@ static void flow_goes_on(void **state)
     few.max_iterations = 4;
     hanging run = hang(0.012, 0.1, 0.0, NULL), bounded = hang(0.012, 0.1, 0.0, &few),
             other = hang(0.012, 0.1, 0.0, NULL);
-    go(&run.s, 1e-3, 100);
-    go(&bounded.s, 1e-3, 100);
+    take_divided_steps(&run.s, 1e-3, 100);
+    take_divided_steps(&bounded.s, 1e-3, 100);
     const dmb_place end = dmb_station(run.string, 9, 1.0);
     dmb_place there = end;
     there.part = bounded.string;
@@ -350,8 +330,8 @@ static void flow_goes_on(void **state)
                    pose_at(&run.s, end).displacement[0], 1e-8);
     go_on_from_a_snapshot(&bounded.s, &few, 1e-3, 50);
     must(&other.s, dmb_sim_transfer_state(other.s.sim, run.s.sim));
-    go(&run.s, 1e-3, 100);
-    go(&other.s, 1e-3, 100);
+    take_divided_steps(&run.s, 1e-3, 100);
+    take_divided_steps(&other.s, 1e-3, 100);
     there.part = other.string;
     check_relative("end after a state transfer", pose_at(&other.s, there).displacement[0],
                    pose_at(&run.s, end).displacement[0], 1e-5); /* begins with new accelerations */
@@ -456,9 +436,9 @@ static void its_work_is_bounded(void **state)
     few.bounded_work = 1;
     few.max_iterations = 5;
     column a = upright(1, &few), b = upright(1, &all), whole = upright(0, &few);
-    go(&a.s, 1e-3, 80);
-    go(&b.s, 1e-3, 80);
-    go(&whole.s, 1e-3, 80);
+    take_divided_steps(&a.s, 1e-3, 80);
+    take_divided_steps(&b.s, 1e-3, 80);
+    take_divided_steps(&whole.s, 1e-3, 80);
     const double y = pose_at(&a.s, a.end).displacement[1];
     assert_true(fabs(y) > 1e-3);
     check_relative("end with bounded work", y, pose_at(&b.s, b.end).displacement[1], 1e-7);

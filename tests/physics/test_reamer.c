@@ -5,6 +5,7 @@
 
 #include "drillmbd/ring.h"
 #include "rig.h"
+#include "rock.h"
 
 static const double push = 40e3, spin = 10.0, pilot = 0.0475, gauge = 0.075;
 enum { BLADES = 5 };
@@ -69,15 +70,6 @@ static drilling drill(int32_t kind, int32_t law, int with_reamer, double feed)
     return d;
 }
 
-/* On touching the rock steps may be cut. */
-static void drill_on(const drilling *d, double h, uint32_t n)
-{
-    for (uint32_t i = 0; i < n; i++) {
-        const int32_t status = dmb_sim_step(d->s.sim, h, NULL);
-        if (status < 0) must(&d->s, status);
-    }
-}
-
 static dmb_bit_state state_of(const drilling *d, dmb_id id)
 {
     dmb_bit_state bit = dmb_bit_state_default();
@@ -93,19 +85,6 @@ static double value_of(const drilling *d, int32_t quantity, dmb_place place)
     return value;
 }
 
-/* Weight and torque at the depth of cut d a revolution. */
-static double weight_at(const dmb_bit_def *b, double d)
-{
-    return (b->radius - b->inner_radius) *
-           (b->cutting_ratio * b->intrinsic_energy * d + b->contact_strength * b->wear_length);
-}
-
-static double torque_at(const dmb_bit_def *b, double d)
-{
-    return 0.5 * (b->radius * b->radius - b->inner_radius * b->inner_radius) *
-           (b->intrinsic_energy * d + b->contact_friction * b->contact_strength * b->wear_length);
-}
-
 static void check_split(int32_t kind, int32_t law)
 {
     drilling d = drill(kind, law, 1, 0.0);
@@ -113,10 +92,10 @@ static void check_split(int32_t kind, int32_t law)
     const double flat = weight_at(&bit, 0.0) + weight_at(&reamer, 0.0);
     const double cut = (push - flat) / (weight_at(&bit, 1.0) + weight_at(&reamer, 1.0) - flat);
     const double torque = torque_at(&bit, cut) + torque_at(&reamer, cut);
-    drill_on(&d, 2e-3, 3000);
+    take_divided_steps(&d.s, 2e-3, 3000);
     const dmb_energy before = energy_of(&d.s);
     const double at = dmb_sim_time(d.s.sim);
-    drill_on(&d, 2e-3, 500);
+    take_divided_steps(&d.s, 2e-3, 500);
     const dmb_energy after = energy_of(&d.s);
     const double time = dmb_sim_time(d.s.sim) - at;
     const dmb_bit_state pilot_bit = state_of(&d, d.bit), behind = state_of(&d, d.reamer);
@@ -156,7 +135,7 @@ static void each_has_its_own_surface(void **state)
     const dmb_bit_def reamer = cutting(DMB_ROCK_REGENERATIVE, gauge, pilot, 1e7);
     (void)state;
     drilling d = drill(DMB_PIPE_RIGID, DMB_ROCK_REGENERATIVE, 1, feed);
-    drill_on(&d, 1e-3, 3000);
+    take_divided_steps(&d.s, 1e-3, 3000);
     const dmb_bit_state pilot_bit = state_of(&d, d.bit), behind = state_of(&d, d.reamer);
     check_relative("weight on the bit [N]", pilot_bit.weight, weight_at(&bit, cut), 1e-6);
     check_relative("weight on the reamer [N]", behind.weight, weight_at(&reamer, cut), 1e-6);
@@ -189,14 +168,14 @@ static void it_goes_on_from_a_snapshot(void **state)
     drilling b = drill(DMB_PIPE_FLEXIBLE, DMB_ROCK_REGENERATIVE, 1, 2e-3);
     size_t size = 0;
     uint64_t first, second;
-    drill_on(&a, 1e-3, 300);
+    take_divided_steps(&a.s, 1e-3, 300);
     must(&a.s, dmb_sim_snapshot_size(a.s.sim, &size));
     void *block = malloc(size);
     must(&a.s, dmb_sim_snapshot(a.s.sim, block, size));
     must(&b.s, dmb_sim_restore(b.s.sim, block, size));
     free(block);
-    drill_on(&a, 1e-3, 200);
-    drill_on(&b, 1e-3, 200);
+    take_divided_steps(&a.s, 1e-3, 200);
+    take_divided_steps(&b.s, 1e-3, 200);
     must(&a.s, dmb_sim_hash(a.s.sim, &first));
     must(&b.s, dmb_sim_hash(b.s.sim, &second));
     assert_true(first == second);
@@ -232,7 +211,7 @@ static void bouncing_bit_gets_nothing_from_the_rock(void **state)
     drilling d = drill(DMB_PIPE_AXIAL_TORSIONAL, DMB_ROCK_REGENERATIVE, 0, 0.0);
     double spent = 0.0, deepest = 0.0, given_back = 0.0, behind = 0.0;
     for (int i = 0; i < 1500; i++) {
-        drill_on(&d, 1e-3, 1);
+        take_divided_steps(&d.s, 1e-3, 1);
         const dmb_bit_state bit = state_of(&d, d.bit);
         const double now = energy_of(&d.s).rock;
         given_back = fmax(given_back, spent - now);

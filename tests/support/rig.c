@@ -151,6 +151,14 @@ void take_steps(const rig *s, double h, uint32_t n)
     }
 }
 
+void take_divided_steps(const rig *s, double h, uint32_t n)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        const int32_t status = dmb_sim_step(s->sim, h, NULL);
+        if (status < 0) must(s, status);
+    }
+}
+
 dmb_static_report find_equilibrium(const rig *s, const dmb_static_options *options)
 {
     dmb_static_report report = dmb_static_report_default();

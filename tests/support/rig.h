@@ -43,6 +43,8 @@ dmb_id add_simple_drive(rig *s, int32_t kind, dmb_id part, int32_t component, dm
 
 /* n equal steps of length h, each of which must succeed without being divided. */
 void take_steps(const rig *s, double h, uint32_t n);
+/* The same where steps may be divided, as on touching the rock. */
+void take_divided_steps(const rig *s, double h, uint32_t n);
 /* Statics that must converge; options may be NULL. */
 dmb_static_report find_equilibrium(const rig *s, const dmb_static_options *options);
 

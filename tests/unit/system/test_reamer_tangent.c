@@ -42,10 +42,7 @@ static rig drilling(int32_t law)
     (void)add_simple_drive(&s, DMB_DRIVE_MOTION, pipe.string, DMB_X, add_constant(&s, 2e-3));
     (void)add_simple_drive(&s, DMB_DRIVE_MOTION, pipe.string, DMB_RX, add_constant(&s, 10.0));
     (void)rig_start(&s, NULL);
-    for (int i = 0; i < 400; i++) {
-        const int32_t status = dmb_sim_step(s.sim, 1e-3, NULL);
-        if (status < 0) must(&s, status);
-    }
+    take_divided_steps(&s, 1e-3, 400);
     return s;
 }
 
