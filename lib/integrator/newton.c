@@ -257,8 +257,6 @@ int32_t dmb_newton(dmb_sim *sim, const dmb_generalized_alpha *c, dmb_attempt *at
 /* Steps that begin with a residual above this part of their forces are those in which bodies meet: a correction by
  * reused factors would lead astray. */
 #define DMB_REUSE_START 0.1
-/* Longest pause in steps between tries of reused factors. */
-#define DMB_PAUSE_MAX 31
 /* New factors cost about as much as this many corrections with old ones. */
 #define DMB_EXCESS_MAX 2
 

@@ -21,6 +21,9 @@ int32_t dmb_events_check(dmb_sim *sim);
 /* Checks the fields as they stand in a snapshot, from `from` on, one after the other. The sim lends scratch memory and
  * takes the message. DMB_OK or DMB_ERR_VALUE. O(bytes). */
 int32_t dmb_snapshot_check(dmb_sim *sim, const dmb_field *fields, size_t count, const unsigned char *from);
+/* Checks how the fields of `now` and the memory fit together, once each of them has passed. The sim takes the message.
+ * DMB_OK or DMB_ERR_VALUE. O(size of the state). run/snapshot_relations */
+int32_t dmb_snapshot_relations(dmb_sim *sim);
 
 /* ---- Fingerprints ------------------------------------------------------------------------------------------------ */
 

@@ -13,7 +13,8 @@
 /* ---- Is this a state of the scene? ------------------------------------------------------------------------------- */
 
 /* A snapshot is somebody's bytes, and its checksum can be made to fit: every index, count and enumeration in it is held
- * against the scene, and every number must be finite, before anything is restored. */
+ * against the scene, and every number must be finite, before anything is restored; then how they fit together
+ * (run/snapshot_relations). */
 
 /* A field of integers or of a struct has a bound of its own: a line of sim/sim.h that names none does not compile. */
 #define DMB_DOUBLES(type) _Generic(*(type *)0, double : 1, default : 0)
@@ -184,11 +185,16 @@ static int32_t check_counters(const probe *p)
     return DMB_OK;
 }
 
+/* The factors themselves may be of another matrix: corrections by them have to lower the residual (integrator/newton).
+ */
 static int32_t check_factors(const probe *p)
 {
     dmb_factor_reuse kept;
     memcpy(&kept, p->from, sizeof kept);
-    return kept.step >= 0.0 && isfinite(kept.step) ? DMB_OK : refuse(p, 0, kept.step, "finite and >= 0");
+    if (!(kept.step >= 0.0 && isfinite(kept.step))) return refuse(p, 0, kept.step, "finite and >= 0");
+    if (kept.pause > DMB_PAUSE_MAX) return refuse(p, 1, kept.pause, "at most 31");
+    if (kept.back_off > DMB_PAUSE_MAX) return refuse(p, 2, kept.back_off, "at most 31");
+    return DMB_OK;
 }
 
 static int32_t check_field(const probe *p)
@@ -347,6 +353,18 @@ static int32_t check_snapshot(dmb_sim *sim, const void *block, size_t size)
     return DMB_OK;
 }
 
+/* The fields of these groups, from `from` on; returns where they end. */
+static const unsigned char *take_fields(const dmb_field *fields, size_t count, int32_t first, int32_t last,
+                                        const unsigned char *from)
+{
+    for (size_t i = 0; i < count; ++i) {
+        if (fields[i].group < first || fields[i].group > last) continue;
+        memcpy(fields[i].data, from, fields[i].bytes);
+        from += fields[i].bytes;
+    }
+    return from;
+}
+
 static int32_t restore(dmb_sim *sim, const unsigned char *block, size_t size)
 {
     dmb_field fields[DMB_FIELD_MAX];
@@ -360,10 +378,14 @@ static int32_t restore(dmb_sim *sim, const unsigned char *block, size_t size)
     from += sizeof(snapshot_header);
     status = dmb_snapshot_check(sim, fields, count, from);
     if (status < 0) return status;
-    for (size_t i = 0; i < count; ++i) {
-        memcpy(fields[i].data, from, fields[i].bytes);
-        from += fields[i].bytes;
+    dmb_state_back_up(sim);
+    from = take_fields(fields, count, DMB_GROUP_NOW, DMB_GROUP_MEMORY, from);
+    status = dmb_snapshot_relations(sim);
+    if (status < 0) {
+        dmb_state_restore(sim);
+        return status;
     }
+    (void)take_fields(fields, count, DMB_GROUP_FACTORS, DMB_GROUP_FACTORS, from);
     dmb_own_scene_update(sim);
     return DMB_OK;
 }

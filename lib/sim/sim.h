@@ -264,6 +264,7 @@ typedef struct dmb_counters {
     uint64_t switches;
 } dmb_counters;
 
+enum { DMB_PAUSE_MAX = 31 }; /* [steps] longest pause between tries of reused factors */
 typedef struct dmb_factor_reuse {
     double step;          /* [s] length of the step they were made for; 0: there are none */
     uint32_t pause;       /* steps to come that do not try them */

@@ -79,11 +79,19 @@ static void use(subject *s)
         known(dmb_sim_advance_to_event(s->sim, dmb_sim_time(s->sim) + 1e-4, NULL, NULL));
 }
 
-static void check_message(const dmb_sim *sim, const char *field)
+/* A clock, a state or a setting may be found at odds with another field, which is told then. */
+static int may_tell_another(const dmb_field *field)
 {
-    const char *message = dmb_sim_message(sim);
-    if (strstr(message, "snapshot: ") == NULL || strstr(message, field) == NULL || strstr(message, " = ") == NULL ||
-        strstr(message, "must be ") == NULL || strstr(message, "take another") == NULL)
+    return field->check == DMB_CHECK_CLOCK || field->check == DMB_CHECK_JOINT_STATES ||
+           field->check == DMB_CHECK_SET_INPUTS || field->check == DMB_CHECK_HISTORY_HEADS;
+}
+
+static void check_message(const dmb_sim *sim, const dmb_field *checked)
+{
+    const char *message = dmb_sim_message(sim), *field = checked->name;
+    if (strstr(message, "snapshot: ") == NULL || (strstr(message, field) == NULL && !may_tell_another(checked)) ||
+        strstr(message, " = ") == NULL || strstr(message, "must be ") == NULL ||
+        strstr(message, "take another") == NULL)
         fail_msg("%s: message: %s", field, message);
 }
 
@@ -96,7 +104,7 @@ static int try_it(subject *s, const dmb_field *field)
     if (status < 0) {
         refused++;
         assert_int_equal(status, DMB_ERR_VALUE);
-        check_message(s->sim, field->name);
+        check_message(s->sim, field);
     } else {
         taken++;
         use(s);
