@@ -1133,6 +1133,13 @@ public:
     {
         return ask(dmb_query_contact_total, dmb_contact_total_default());
     }
+    // The hole as cutters have left it up to now.
+    DRILLMBD_NODISCARD dmb_hole_point hole(double depth) const
+    {
+        dmb_hole_point answer = dmb_hole_point_default();
+        check(dmb_query_hole_now(handle_, depth, &answer));
+        return answer;
+    }
     DRILLMBD_NODISCARD double kinetic_energy(dmb_id part, std::uint32_t pipe = 0) const
     {
         return ask(dmb_query_kinetic_energy, 0.0, part, pipe);

@@ -165,6 +165,13 @@ typedef struct dmb_wall_def {
     double bristle_stiffness; /* [1/m] tangential stiffness over normal force, > 0; default 1e4 */
     double bristle_damping;   /* [s/m] tangential damping over normal force, >= 0; default 0 */
     char name[24];            /* for messages and look-up (names.h), ends with 0; default "" */
+    double cut_spacing;       /* [m] > 0: bits and reamers with a rock law leave a hole of their diameter behind, where
+                                 it is wider than described: round, about the described axis. Kept at stations this far
+                                 apart; the wall goes over from one to the next within it. Beyond the face that cuts and
+                                 up to two spacings the hole is as described, which is the pilot hole of a reamer. At
+                                 most 2^18 stations. 0 (default): the hole stays as described */
+    double cut_start;         /* [m] measured depth of the first of these stations and */
+    double cut_end;           /* [m] of the last one, >= three spacings apart: beyond, nothing is cut; default 0 */
 } dmb_wall_def;
 DMB_SIZED_STRUCT(dmb_wall_def)
 /* Adds the hole. One hole a model; wall may be NULL. */

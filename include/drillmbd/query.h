@@ -225,6 +225,8 @@ DMB_SIZED_STRUCT(dmb_hole_point)
 /* The axis at a measured depth [m], by minimum curvature (Taylor, Mason 1972) between stations. A compiled model;
  * DMB_ERR_ORDER before, DMB_ERR_UNSUPPORTED without a hole. O(log stations). */
 DMB_API int32_t dmb_query_hole(const dmb_model *model, double depth, dmb_hole_point *point);
+/* The same with the diameter that the cutters have left up to now (cut_spacing of dmb_wall_def). */
+DMB_API int32_t dmb_query_hole_now(const dmb_sim *sim, double depth, dmb_hole_point *point);
 
 /* ---- Flow of mud ------------------------------------------------------------------------------------------------- */
 typedef struct dmb_flow_state {

@@ -323,7 +323,7 @@ double dmb_hole_least_radius(const dmb_hole *hole, double s0, double s1, double 
     double least = hole->radius;
     *where = s0;
     if (hole->pieces == 0) return least;
-    least = dmb_hole_radius(hole, s0);
+    least = dmb_hole_described_radius(hole, s0);
     const dmb_hole_piece *piece = dmb_hole_piece_at(hole, s0), *end = hole->piece + hole->pieces;
     for (; piece < end; piece++) {
         const double stop = piece + 1 < end ? fmin(s1, piece[1].depth) : s1;
@@ -339,6 +339,40 @@ double dmb_hole_least_radius(const dmb_hole *hole, double s0, double s1, double 
         if (!(stop < s1)) break;
     }
     return least;
+}
+
+/* ---- Widened by cutters ------------------------------------------------------------------------------------------ */
+
+/* Part of the way from a station to the next one, 0 .. 1, to the part of the step between them, with derivatives. */
+static void part_of_step(double x, double step[3])
+{
+    const double y = 1.0 - x;
+    step[0] = x < 0.5 ? 2.0 * x * x : 1.0 - 2.0 * y * y;
+    step[1] = 4.0 * (x < 0.5 ? x : y);
+    step[2] = x < 0.5 ? 4.0 : -4.0;
+}
+
+void dmb_hole_widening_at(const dmb_hole *hole, double s, double widening[3])
+{
+    const double u = (s - hole->cut_start) / hole->cut_spacing;
+    double step[3];
+    dmb_vec3_zero(widening);
+    if (!(u > 0.0 && u < (double)(hole->cuts - 1))) return;
+    const uint32_t i = (uint32_t)u;
+    const double from = hole->widening[i], by = hole->widening[i + 1] - from;
+    part_of_step(u - (double)i, step);
+    widening[0] = from + by * step[0];
+    widening[1] = by * step[1] / hole->cut_spacing;
+    widening[2] = by * step[2] / (hole->cut_spacing * hole->cut_spacing);
+}
+
+double dmb_hole_share_of_cut(const dmb_hole *hole, uint32_t j, double s)
+{
+    const double x = 1.0 - fabs((s - hole->cut_start) / hole->cut_spacing - (double)j);
+    double step[3];
+    if (!(x > 0.0)) return 0.0;
+    part_of_step(x, step);
+    return step[0];
 }
 
 /* mu of the restitution there. */
@@ -382,6 +416,15 @@ static double slope_of(const dmb_hole_piece *piece, int which, double s)
     return piece->slope[which] + 2.0 * (s - piece->depth) * piece->bend[which];
 }
 
+static void add_widening(const dmb_hole *hole, double s, dmb_local_wall *wall)
+{
+    double widening[3];
+    dmb_hole_widening_at(hole, s, widening);
+    wall->radius += widening[0];
+    wall->radius_slope += widening[1];
+    wall->radius_bend += widening[2];
+}
+
 void dmb_local_wall_at(const dmb_hole *hole, const dmb_normal_law *normal, const dmb_friction_law *friction, double s,
                        double softer, dmb_local_wall *out)
 {
@@ -393,6 +436,7 @@ void dmb_local_wall_at(const dmb_hole *hole, const dmb_normal_law *normal, const
     out->radius = dmb_hole_piece_value(piece, DMB_WALL_RADIUS, s);
     out->radius_slope = slope_of(piece, DMB_WALL_RADIUS, s);
     out->radius_bend = 2.0 * piece->bend[DMB_WALL_RADIUS];
+    if (hole->widening != NULL) add_widening(hole, s, out);
     out->stiffness_slope = slope_of(piece, DMB_WALL_STIFFNESS, s) / softer;
     out->stiffness_bend = 2.0 * piece->bend[DMB_WALL_STIFFNESS] / softer;
     out->damping_slope = slope_of(piece, DMB_WALL_DAMPING, s);

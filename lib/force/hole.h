@@ -32,6 +32,10 @@ typedef struct dmb_hole {
     double radius;                   /* [m]; where there are pieces, above them */
     const dmb_hole_piece *piece;     /* shape (pieces), the caller's */
     double friction;                 /* [-] factor on the friction of the pieces; 1 but for inputs */
+    const double *widening;          /* [m] by cutters, at their stations, of a sim; NULL: as described; shape (cuts) */
+    uint32_t cuts;                   /* [-] stations at which cutters widen the hole, 0: none; there are pieces then */
+    uint32_t reserved;
+    double cut_start, cut_spacing; /* [m] measured depth of the first one, and how far apart they are */
 } dmb_hole;
 
 static inline int32_t dmb_hole_is_straight(const dmb_hole *hole)
@@ -151,12 +155,32 @@ static inline double dmb_hole_piece_value(const dmb_hole_piece *piece, int which
     return piece->value[which] + r * (piece->slope[which] + r * piece->bend[which]);
 }
 
-/* [m] */
-static inline double dmb_hole_radius(const dmb_hole *hole, double s)
+/* Cutters widen a hole by values at stations, between which it goes over by two parabolas as around a section. They do
+ * not beyond both ends. */
+
+/* [m] as described */
+static inline double dmb_hole_described_radius(const dmb_hole *hole, double s)
 {
     return hole->pieces == 0 ? hole->radius : dmb_hole_piece_value(dmb_hole_piece_at(hole, s), DMB_WALL_RADIUS, s);
 }
-/* [m] Smallest radius between two depths, and where. O(pieces between). */
+/* [m, -, 1/m] widening at a depth and its derivatives by it. O(1). */
+void dmb_hole_widening_at(const dmb_hole *hole, double s, double widening[3]);
+/* [-] of the widening at depth s that station j has: widening = sum of shares times values. */
+double dmb_hole_share_of_cut(const dmb_hole *hole, uint32_t j, double s);
+
+static inline double dmb_hole_cut_depth(const dmb_hole *hole, uint32_t j)
+{
+    return hole->cut_start + j * hole->cut_spacing;
+}
+/* [m] */
+static inline double dmb_hole_radius(const dmb_hole *hole, double s)
+{
+    double widening[3];
+    if (hole->widening == NULL) return dmb_hole_described_radius(hole, s);
+    dmb_hole_widening_at(hole, s, widening);
+    return dmb_hole_described_radius(hole, s) + widening[0];
+}
+/* [m] Smallest described radius between two depths, and where. O(pieces between). */
 double dmb_hole_least_radius(const dmb_hole *hole, double s0, double s1, double *where);
 
 /* Laws at a depth: those of the whole hole with the constants there. The same without pieces. */

@@ -69,8 +69,9 @@ int32_t dmb_walk_commit(dmb_sim *sim, dmb_attempt *attempt, dmb_walk *walk)
 void dmb_walk_corner(dmb_sim *sim)
 {
     const uint32_t freed = sim->scene->stuck_count > 0 ? dmb_stuck_let_go(sim) : 0;
+    const int widened = sim->scene->hole.cuts > 0 && dmb_hole_cut(sim);
     if (freed > 0) dmb_forget_factors(sim);
-    if (freed == 0 && !dmb_system_rate_jumps(sim)) return;
+    if (freed == 0 && !widened && !dmb_system_rate_jumps(sim)) return;
     sim->busy = DMB_BUSY_CHANGING;
     (void)dmb_system_jump(sim);
     sim->busy = DMB_BUSY_READABLE;

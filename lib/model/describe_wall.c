@@ -9,7 +9,7 @@
 #include "model/field_check.h"
 #include "model/model.h"
 
-enum { STATIONS_MIN = 2, STATIONS_MAX = 1 << 16 };
+enum { STATIONS_MIN = 2, STATIONS_MAX = 1 << 16, CUTS_MAX = 1 << 18 };
 
 static const double rounding = 1e-9; /* [rad] a survey's last digits may lie beyond the bounds */
 
@@ -83,6 +83,20 @@ static void check_friction_law(dmb_check *check, const dmb_wall_def *def)
     dmb_check_within(check, "bristle_damping", def->bristle_damping, 0.0, DMB_DAMPING_MAX);
 }
 
+/* At least four stations: those at both ends are never cut. */
+static void check_cuts(dmb_check *check, const dmb_wall_def *def)
+{
+    dmb_check_zero_or_within(check, "cut_spacing", def->cut_spacing, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
+    dmb_check_within(check, "cut_start", def->cut_start, -DMB_POSITION_MAX, DMB_POSITION_MAX);
+    dmb_check_within(check, "cut_end", def->cut_end, -DMB_POSITION_MAX, DMB_POSITION_MAX);
+    if (check->status < 0 || !(def->cut_spacing > 0.0)) return;
+    dmb_check_at_least(check, "cut_end", def->cut_end, def->cut_start + 3.0 * def->cut_spacing);
+    if (check->status < 0 || def->cut_end - def->cut_start <= (CUTS_MAX - 1) * def->cut_spacing) return;
+    dmb_check_fail(check, DMB_ERR_TOO_LARGE, "(cut_end - cut_start)/cut_spacing",
+                   (def->cut_end - def->cut_start) / def->cut_spacing,
+                   "<= 262143; give a larger spacing or a shorter part");
+}
+
 static int32_t check_wall(dmb_model *model, const dmb_wall_def *def)
 {
     dmb_check check = dmb_check_of(&model->message, "wall", DMB_NONE);
@@ -92,6 +106,7 @@ static int32_t check_wall(dmb_model *model, const dmb_wall_def *def)
     dmb_check_within(&check, "diameter", def->diameter, DMB_LENGTH_MIN, DMB_LENGTH_MAX);
     check_normal_law(&check, def);
     check_friction_law(&check, def);
+    check_cuts(&check, def);
     if (def->survey_count != 0) check_survey(&check, &model->message, def);
     return check.status;
 }

@@ -189,6 +189,11 @@ int32_t dmb_mesh_check(dmb_mesh *mesh);
 int32_t dmb_mesh_hole(dmb_mesh *mesh);
 /* Pieces of the wall from the sections of the hole. DMB_ERR_GEOMETRY, _VALUE, _NO_MEMORY. */
 int32_t dmb_mesh_sections(dmb_mesh *mesh);
+/* Stations at which cutters widen it; mesh->hole.cuts stays 0 without any. DMB_ERR_GEOMETRY. */
+int32_t dmb_mesh_cuts(dmb_mesh *mesh);
+/* [m] Diameter that a bit, or the reamers on a ring, widen the hole to; 0: they do not. */
+double dmb_mesh_bit_cuts(const dmb_mesh *mesh, uint32_t bit);
+double dmb_mesh_ring_cuts(const dmb_mesh *mesh, uint32_t ring);
 /* Everything that could meet a wall of sections fits into it where it is described. DMB_ERR_GEOMETRY. */
 int32_t dmb_mesh_fits(dmb_mesh *mesh);
 int32_t dmb_mesh_count(dmb_mesh *mesh);

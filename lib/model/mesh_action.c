@@ -187,6 +187,16 @@ static int32_t add_side(dmb_mesh *mesh, uint32_t i, const dmb_bit_def *def, dmb_
     return DMB_OK;
 }
 
+/* A bit begins at its reference point and cuts at its far end; a reamer cuts at the middle of its ring. */
+static void take_face(const dmb_mesh *mesh, const dmb_bit_def *def, dmb_scene_bit *bit)
+{
+    bit->face = bit->length = def->length;
+    if (!bit->reamer) return;
+    const uint32_t ring = dmb_model_part_index(mesh->model, def->ring, DMB_PART_RING);
+    bit->face = 0.0;
+    bit->length = 0.5 * DMB_LIST_AT(const dmb_ring_def, mesh->model->rings, ring)->length;
+}
+
 static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
 {
     const dmb_bit_def *def = DMB_LIST_AT(const dmb_bit_def, mesh->model->bits, i);
@@ -198,6 +208,7 @@ static int32_t add_bit(dmb_mesh *mesh, uint32_t i)
                          .history_first = mesh->history_count,
                          .arm = map->arm,
                          .reamer = !dmb_id_is_none(def->ring)};
+    take_face(mesh, def, &bit);
     if (bit.law.kind == DMB_ROCK_REGENERATIVE) bit.history_capacity = def->history;
     if (bit.history_capacity > UINT32_MAX - mesh->history_count) return DMB_ERR_TOO_LARGE;
     mesh->history_count += bit.history_capacity;

@@ -161,7 +161,7 @@ static int32_t check_diameters(const dmb_model *model, dmb_message *message)
 {
     int32_t status = DMB_OK;
     if (model->wall_count == 0 || model->wall.normal_law == DMB_NORMAL_NONE) return DMB_OK;
-    if (model->sections.count > 0) return DMB_OK; /* by depth: dmb_mesh_fits */
+    if (model->sections.count > 0 || model->wall.cut_spacing > 0.0) return DMB_OK; /* by depth: dmb_mesh_fits */
     for (uint32_t i = 0; i < model->runs.count && status >= 0; ++i) status = check_run_fits(model, message, i);
     for (uint32_t i = 0; i < model->bodies.count && status >= 0; ++i)
         status = check_fits(model, message, DMB_PART_BODY, i, "contact_diameter",

@@ -256,6 +256,10 @@ int32_t dmb_mesh_flow(dmb_mesh *mesh)
     if (mesh->strings.count != 1) return refuse(mesh, DMB_ERR_UNSUPPORTED, "in a model with other than one string");
     if (!mesh->has_hole || !dmb_mesh_follows_hole(mesh, 0))
         return refuse(mesh, DMB_ERR_UNSUPPORTED, "without a string that follows its hole; add a wall");
+    if (mesh->hole.cuts > 0)
+        return refuse(mesh, DMB_ERR_UNSUPPORTED,
+                      "in a hole that cutters widen, whose losses would go by the described diameter; leave out the "
+                      "flow, or cut_spacing of the wall");
     take_flow(mesh);
     walk.start = dmb_mesh_string_def(mesh, 0)->start_depth;
     dmb_pipe_walk pipes = dmb_pipe_walk_of(mesh, 0);

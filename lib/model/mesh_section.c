@@ -166,13 +166,13 @@ int32_t dmb_mesh_sections(dmb_mesh *mesh)
     const dmb_hole_section *all = mesh->model->sections.items;
     const uint32_t count = mesh->model->sections.count;
     int32_t status = DMB_OK;
-    if (count == 0) return DMB_OK;
+    if (count == 0 && !(mesh->model->wall_count > 0 && mesh->model->wall.cut_spacing > 0.0)) return DMB_OK;
     if (mesh->model->wall_count == 0) {
         dmb_message_set(&mesh->model->message, "hole sections: there are %u and no wall; add a wall", count);
         return DMB_ERR_ORDER;
     }
     section_walk walk = {.mesh = mesh, .at = of_wall(&mesh->model->wall)};
-    walk.depth = all->depth - all->transition;
+    if (count > 0) walk.depth = all->depth - all->transition; /* without any, one piece that cutters may widen */
     for (uint32_t i = 0; i < count && status >= 0; i++) status = pass_section(&walk, i, count);
     if (status >= 0) status = push_straight(&walk, walk.depth);
     mesh->hole.piece = mesh->pieces.items;
@@ -182,18 +182,31 @@ int32_t dmb_mesh_sections(dmb_mesh *mesh)
 
 /* ---- Through the hole -------------------------------------------------------------------------------------------- */
 
+static int32_t refuse_width(const dmb_mesh *mesh, const char *part, const char *field, double diameter, double hole,
+                            double where)
+{
+    dmb_message_set(&mesh->model->message,
+                    "%s: %s = %g m, must be <= %g m, the hole's diameter at measured depth %g m; look at the "
+                    "sections of the hole",
+                    part, field, diameter, hole, where);
+    return DMB_ERR_GEOMETRY;
+}
+
 /* The narrowest place between two depths is no narrower than `diameter`. */
 static int32_t check_fits(const dmb_mesh *mesh, const char *part, const char *field, double diameter, double from,
                           double to)
 {
     double where;
     const double hole = 2.0 * dmb_hole_least_radius(&mesh->hole, from, to, &where);
-    if (diameter <= hole) return DMB_OK;
-    dmb_message_set(&mesh->model->message,
-                    "%s: %s = %g m, must be <= %g m, the hole's diameter at measured depth %g m; look at the "
-                    "sections of the hole",
-                    part, field, diameter, hole, where);
-    return DMB_ERR_GEOMETRY;
+    return diameter <= hole ? DMB_OK : refuse_width(mesh, part, field, diameter, hole, where);
+}
+
+/* At one depth, where the part itself may cut the hole. */
+static int32_t check_fits_cut(const dmb_mesh *mesh, const char *part, const char *field, double diameter, double depth,
+                              double cut)
+{
+    const double hole = fmax(cut, 2.0 * dmb_hole_radius(&mesh->hole, depth));
+    return diameter <= hole ? DMB_OK : refuse_width(mesh, part, field, diameter, hole, depth);
 }
 
 static int32_t check_pipe(const dmb_mesh *mesh, uint32_t string, const dmb_pipe_def *def, double from, double to)
@@ -245,13 +258,14 @@ int32_t dmb_mesh_fits(dmb_mesh *mesh)
     for (uint32_t i = 0; i < model->bits.count && status >= 0; i++) {
         const dmb_bit_def *bit = DMB_LIST_AT(const dmb_bit_def, model->bits, i);
         const double depth = depth_of(mesh, model->bodies.count + i) + 0.5 * bit->length;
-        status = check_fits(mesh, dmb_model_part_text(model, DMB_PART_BIT, i, &part), "diameter", bit->diameter, depth,
-                            depth);
+        status = check_fits_cut(mesh, dmb_model_part_text(model, DMB_PART_BIT, i, &part), "diameter", bit->diameter,
+                                depth, dmb_mesh_bit_cuts(mesh, i));
     }
     for (uint32_t i = 0; i < model->rings.count && status >= 0; i++) {
         const double depth = depth_of(mesh, model->bodies.count + model->bits.count + i);
-        status = check_fits(mesh, dmb_model_part_text(model, DMB_PART_RING, i, &part), "outer_diameter",
-                            DMB_LIST_AT(const dmb_ring_def, model->rings, i)->outer_diameter, depth, depth);
+        status = check_fits_cut(mesh, dmb_model_part_text(model, DMB_PART_RING, i, &part), "outer_diameter",
+                                DMB_LIST_AT(const dmb_ring_def, model->rings, i)->outer_diameter, depth,
+                                dmb_mesh_ring_cuts(mesh, i));
     }
     return status;
 }

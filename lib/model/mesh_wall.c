@@ -35,7 +35,8 @@ int32_t dmb_mesh_hole(dmb_mesh *mesh)
         if (status < 0) return status;
         mesh->has_hole = 1;
     }
-    return dmb_mesh_sections(mesh);
+    const int32_t status = dmb_mesh_sections(mesh);
+    return status < 0 ? status : dmb_mesh_cuts(mesh);
 }
 
 /* Places that can meet the wall. Along a string they stand between the stretches from node to node (for rigid pipes:

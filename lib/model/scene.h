@@ -81,7 +81,8 @@ typedef struct dmb_scene_bit {
     uint32_t history_capacity; /* 0 unless regenerative */
     double arm;                /* [m] along body x from the node to the bit (rigid pipes merged behind it); usually 0 */
     dmb_side_law side;
-    int32_t reamer; /* 1: on a ring */
+    double face, length; /* [m] from the reference point to the face that cuts, and what it is long behind that */
+    int32_t reamer;      /* 1: on a ring */
     int32_t reserved;
 } dmb_scene_bit;
 

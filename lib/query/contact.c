@@ -137,12 +137,11 @@ static uint32_t section_at(const dmb_model *model, double depth)
     return low > 0 ? low - 1 : DMB_NONE;
 }
 
-static void take_wall(const dmb_model *model, double depth, dmb_hole_point *point)
+static void take_wall(const dmb_model *model, const dmb_hole *hole, double depth, dmb_hole_point *point)
 {
-    const dmb_hole *hole = &model->scene->hole;
     const dmb_wall_def *wall = &model->wall;
     const uint32_t section = section_at(model, depth);
-    double v[DMB_WALL_COUNT] = {0.5 * wall->diameter,
+    double v[DMB_WALL_COUNT] = {0.0, /* told as it is now */
                                 wall->stiffness,
                                 wall->restitution,
                                 wall->damping,
@@ -151,7 +150,7 @@ static void take_wall(const dmb_model *model, double depth, dmb_hole_point *poin
                                 0.0};
     if (hole->pieces > 0)
         for (int k = 0; k < DMB_WALL_COUNT; k++) v[k] = dmb_hole_piece_value(dmb_hole_piece_at(hole, depth), k, depth);
-    point->diameter = 2.0 * v[DMB_WALL_RADIUS];
+    point->diameter = 2.0 * dmb_hole_radius(hole, depth);
     point->stiffness = v[DMB_WALL_STIFFNESS];
     point->restitution = v[DMB_WALL_RESTITUTION];
     point->damping = v[DMB_WALL_DAMPING];
@@ -165,14 +164,10 @@ static void take_wall(const dmb_model *model, double depth, dmb_hole_point *poin
            sizeof point->section_name);
 }
 
-int32_t dmb_query_hole(const dmb_model *model, double depth, dmb_hole_point *point)
+static int32_t tell_hole(const dmb_model *model, const dmb_hole *hole, double depth, dmb_hole_point *point)
 {
-    const dmb_hole *hole;
     dmb_hole_point answer = {0};
     double bend[3];
-    const int32_t status = hole_of(model, &hole);
-    if (status < 0) return status;
-    if (point == NULL) return DMB_ERR_NULL;
     if (!isfinite(depth)) return DMB_ERR_NOT_FINITE;
     if (fabs(depth) > DMB_POSITION_MAX) return DMB_ERR_VALUE;
     dmb_hole_frame(hole, depth, answer.position, answer.tangent, bend);
@@ -181,8 +176,23 @@ int32_t dmb_query_hole(const dmb_model *model, double depth, dmb_hole_point *poi
     for (int i = 0; i < 3; i++) answer.normal[i] = answer.curvature > 0.0 ? bend[i] / answer.curvature : 0.0;
     answer.dogleg_severity = answer.curvature * 30.0 * 180.0 / DMB_PI;
     direction(&answer);
-    take_wall(model, depth, &answer);
+    take_wall(model, hole, depth, &answer);
     return dmb_hole_point_write(point, &answer);
+}
+
+int32_t dmb_query_hole(const dmb_model *model, double depth, dmb_hole_point *point)
+{
+    const dmb_hole *hole;
+    const int32_t status = hole_of(model, &hole);
+    if (status < 0) return status;
+    return point == NULL ? DMB_ERR_NULL : tell_hole(model, hole, depth, point);
+}
+
+int32_t dmb_query_hole_now(const dmb_sim *sim, double depth, dmb_hole_point *point)
+{
+    const int32_t status = dmb_ask(sim, point);
+    if (status < 0) return status;
+    return sim->scene->has_hole ? tell_hole(sim->model, &sim->scene->hole, depth, point) : DMB_ERR_UNSUPPORTED;
 }
 
 /* Places that can be stuck. */

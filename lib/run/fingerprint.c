@@ -84,6 +84,15 @@ static uint64_t add_wall(uint64_t h, const dmb_scene *s)
         h = DMB_NUMBERS(h, s->hole.piece[i].value);
         h = DMB_NUMBERS(h, s->hole.piece[i].slope);
     }
+    if (s->hole.cuts > 0) {
+        h = dmb_fnv_word(h, s->hole.cuts);
+        h = dmb_fnv_number(h, s->hole.cut_start);
+        h = dmb_fnv_number(h, s->hole.cut_spacing);
+        for (uint32_t i = 0; i < s->bit_count; ++i) {
+            h = dmb_fnv_number(h, s->bits[i].face);
+            h = dmb_fnv_number(h, s->bits[i].length);
+        }
+    }
     for (uint32_t i = 0; i < s->site_count; ++i) {
         h = dmb_fnv_number(h, s->sites[i].clearance);
         h = dmb_fnv_number(h, s->sites[i].length);

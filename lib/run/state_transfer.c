@@ -110,7 +110,62 @@ static void transfer_bits(dmb_sim *sim, const dmb_sim *from, dmb_evaluation *eva
     memcpy(sim->now.bit_segment, from->now.bit_segment, scene->bit_count * sizeof *sim->now.bit_segment);
     memcpy(sim->trial.bit_segment, from->now.bit_segment, scene->bit_count * sizeof *sim->now.bit_segment);
     dmb_gather_bits(evaluation);
-    for (uint32_t k = 0; k < scene->bit_count; k++) transfer_bit(sim, k, from);
+    for (uint32_t k = 0; k < scene->bit_count; k++) {
+        transfer_bit(sim, k, from);
+        dmb_hole_make_room(sim, k, sim->now.bit_bottom[k]); /* of a sim whose cutters did not widen it */
+    }
+}
+
+/* ---- The hole ---------------------------------------------------------------------------------------------------- */
+
+/* [m] wider than described at a depth */
+static double widening_at(const dmb_sim *sim, double depth)
+{
+    double widening[3] = {0.0, 0.0, 0.0};
+    if (sim->scene->hole.cuts > 0) dmb_hole_widening_at(&sim->scene->hole, depth, widening);
+    return widening[0];
+}
+
+/* The other model must have stations where the hole was cut. */
+static int32_t check_cut(dmb_sim *sim, const dmb_sim *from)
+{
+    const dmb_hole *to = &sim->scene->hole, *old = &from->scene->hole;
+    for (uint32_t j = 0; j < old->cuts; j++) {
+        const double depth = dmb_hole_cut_depth(old, j), slack = 1e-9 * old->cut_spacing;
+        if (!(from->hole_widening[j] > 0.0)) continue;
+        const double first = dmb_hole_cut_depth(to, 1) - slack, last = dmb_hole_cut_depth(to, to->cuts - 2) + slack;
+        if (to->cuts > 0 && depth >= first && depth <= last) continue;
+        dmb_message_set(&sim->message,
+                        "state transfer: wall: the hole is widened by %g m at measured depth %g m, must be within the "
+                        "stations of the other model that may be cut; give its wall cut_spacing, cut_start and cut_end "
+                        "that hold it, and a bit with a rock law",
+                        from->hole_widening[j], depth);
+        return DMB_ERR_GEOMETRY;
+    }
+    return DMB_OK;
+}
+
+/* Between stations of other places by depth. */
+static int32_t transfer_hole(dmb_sim *sim, const dmb_sim *from)
+{
+    const dmb_hole *to = &sim->scene->hole, *old = &from->scene->hole;
+    const int32_t status = check_cut(sim, from);
+    for (uint32_t j = 1; j + 1 < to->cuts && status >= 0; j++) {
+        const double depth = dmb_hole_cut_depth(to, j), widening = widening_at(from, depth);
+        const double wider = dmb_hole_described_radius(old, depth) - dmb_hole_described_radius(to, depth);
+        sim->hole_widening[j] = widening > 0.0 ? fmax(widening + wider, 0.0) : 0.0;
+    }
+    for (uint32_t j = 1; j < to->cuts && status >= 0; j++) {
+        const double slope = 2.0 * fabs(sim->hole_widening[j] - sim->hole_widening[j - 1]) / to->cut_spacing;
+        if (slope <= DMB_HOLE_SLOPE_MAX * (1.0 + 1e-9)) continue;
+        dmb_message_set(
+            &sim->message,
+            "state transfer: wall: the radius would change by %g m/m at measured depth %g m, must be <= %g; "
+            "give the other model a larger cut_spacing",
+            slope, dmb_hole_cut_depth(to, j), DMB_HOLE_SLOPE_MAX);
+        return DMB_ERR_GEOMETRY;
+    }
+    return status;
 }
 
 /* ---- Whole ------------------------------------------------------------------------------------------------------- */
@@ -194,7 +249,8 @@ static int32_t go_on(dmb_sim *sim, const dmb_sim *from)
     dmb_evaluation evaluation;
     transfer_counters(sim, from);
     transfer_drives(sim, from);
-    int32_t status = dmb_state_transfer_nodes(sim, from);
+    int32_t status = transfer_hole(sim, from);
+    if (status >= 0) status = dmb_state_transfer_nodes(sim, from);
     if (status < 0) return status;
     status = transfer_stuck(sim, from);
     if (status < 0) return status;

@@ -8,8 +8,8 @@
 /* The letters of sim/sim.h. 64 bits: nine times a 32-bit count cannot overflow. */
 typedef struct field_counts {
     uint64_t n, r, s, p, sb, pb, e, d, k, load, history, diagonal, link, backup;
-    uint64_t act, delay, ns, held, input, event, force, stuck, f, j, c, cluster, column, raw, jacobian, tangent, dense,
-        square, full, block, value, pivots, kd, kl, kn;
+    uint64_t act, delay, cut, ns, held, input, event, force, stuck, f, j, c, cluster, column, raw, jacobian, tangent,
+        dense, square, full, block, value, pivots, kd, kl, kn;
     uint64_t sparse_values, sparse_rows, sparse_raw, sparse_c, sparse_block, chain;
 } field_counts;
 
@@ -29,8 +29,8 @@ typedef struct field_counts {
     const uint64_t sparse_raw = (of)->sparse_raw, sparse_c = (of)->sparse_c;                                        \
     const uint64_t sparse_block = (of)->sparse_block;                                                               \
     (void)sparse_values, (void)sparse_rows, (void)sparse_raw, (void)sparse_c, (void)sparse_block;                   \
-    const uint64_t act = (of)->act, delay = (of)->delay;                                                            \
-    (void)act, (void)delay;                                                                                         \
+    const uint64_t act = (of)->act, delay = (of)->delay, cut = (of)->cut;                                           \
+    (void)act, (void)delay, (void)cut;                                                                              \
     const uint64_t f = (of)->f, chain = (of)->chain;                                                                \
     (void)chain;                                                                                                    \
     (void)n, (void)r, (void)s, (void)p, (void)e, (void)d, (void)k, (void)load, (void)history, (void)diagonal,       \
@@ -94,6 +94,7 @@ static field_counts counts_of(const dmb_scene *scene)
     c.d = scene->drive_count;
     c.act = scene->actuator_count;
     c.delay = scene->delay_count;
+    c.cut = scene->hole.cuts;
     c.k = scene->bit_count;
     c.load = scene->load_count;
     c.force = scene->force_count;
@@ -153,7 +154,7 @@ static dmb_sim *lay_out(dmb_arena *arena, const dmb_scene *scene)
     take_factors(arena, &counts, to);
     take_configuration(arena, &counts, &to->trial);
     take_work(arena, &counts, to);
-    if (scene->input_count > 0) to->own = dmb_own_scene_take(arena, scene);
+    if (dmb_needs_own_scene(scene)) to->own = dmb_own_scene_take(arena, scene);
     return arena->overflow ? NULL : sim;
 }
 

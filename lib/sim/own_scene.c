@@ -224,20 +224,24 @@ static void place_inputs(dmb_own_scene *own, const dmb_scene *scene)
 }
 
 /* All but what inputs say. */
-static void make(dmb_own_scene *own, const dmb_scene *scene)
+static void make(dmb_sim *sim, const dmb_scene *scene)
 {
+    dmb_own_scene *own = sim->own;
+    const double *widening = scene->hole.cuts > 0 ? sim->hole_widening : NULL;
     copy_parts(own, scene);
     place_parts(own, scene, &own->scene);
     place_inputs(own, scene);
+    own->scene.hole.widening = widening;
     if (scene->dense == NULL) return;
     place_parts(own, scene->dense, &own->dense);
+    own->dense.hole.widening = widening;
     own->scene.dense = &own->dense;
 }
 
 void dmb_own_scene_copy(dmb_sim *copy, const dmb_sim *sim)
 {
     if (copy->own == NULL) return;
-    make(copy->own, sim->model->scene);
+    make(copy, sim->model->scene);
     copy->scene = sim->scene->sparse_count ? &copy->own->dense : &copy->own->scene;
 }
 
@@ -246,7 +250,7 @@ void dmb_own_scene_enter(dmb_sim *copy, const dmb_model *model)
     copy->model = (dmb_model *)model;
     copy->scene = model->scene;
     if (copy->own == NULL) return;
-    make(copy->own, model->scene);
+    make(copy, model->scene);
     copy->scene = &copy->own->scene;
     dmb_own_scene_update(copy);
 }
@@ -255,7 +259,7 @@ void dmb_own_scene_begin(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
     if (sim->own == NULL) return;
-    make(sim->own, scene);
+    make(sim, scene);
     for (uint32_t i = 0; i < scene->input_count; i++) {
         const double initial = scene->inputs[i].initial;
         sim->input_value[i] = isnan(initial) ? dmb_described_setting(sim, i) : initial;

@@ -1,6 +1,6 @@
-/* The scene of a sim with inputs: the compiled one, which all sims share, but for what its inputs move. These parts are
- * the sim's own, in its block, so that a step reads them as it reads any scene. They follow from input_value and
- * input_begin alone. */
+/* The scene of a sim with inputs, or whose hole is widened by cutters: the compiled one, which all sims share, but for
+ * what these move. Such parts are the sim's own, in its block, so that a step reads them as it reads any scene. They
+ * follow from input_value and input_begin alone; the hole points to hole_widening. */
 #ifndef DMB_SIM_OWN_SCENE_H
 #define DMB_SIM_OWN_SCENE_H
 
@@ -24,9 +24,14 @@ typedef struct dmb_own_scene {
     double *flow_node;
 } dmb_own_scene;
 
+/* 1: inputs move parts of it, or cutters the wall. */
+static inline int dmb_needs_own_scene(const dmb_scene *scene)
+{
+    return scene->input_count > 0 || scene->hole.cuts > 0;
+}
 /* Its place in the block; NULL while counting. */
 dmb_own_scene *dmb_own_scene_take(dmb_arena *arena, const dmb_scene *scene);
-/* A new sim: its inputs as described, and the scene made of them its scene. Nothing without inputs, as below. */
+/* A new sim: its inputs as described, and the scene made of them its scene. Nothing without an own one, as below. */
 void dmb_own_scene_begin(dmb_sim *sim);
 /* A copy for an analysis, which may outlive its sim: a scene of its own too, the dense one where the sim's is sparse.
  * Before its state is taken. */

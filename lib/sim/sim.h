@@ -5,6 +5,7 @@
  * path_site_count, e = element_count, d = drive_count, sb, pb = s, p with the bristle law of friction, else 0; ns = n
  * where there are contact sites, else 0; k =
  * bit_count, act = actuator_count, delay = delay_count, load = load_count, force = force_count, stuck = stuck_count,
+ * cut = stations at which cutters widen the hole,
  * held = held_count, input = input_count, event = event_count, history = history_count, diagonal and link = lengths of
  * block storage; j = joint_count, c = constraint_row_count, cluster = cluster_count, column = cluster_column_count, and
  * for a scene with joints only: raw = row_count, dense, square, full = storage of the clusters, block, value, pivots =
@@ -93,6 +94,8 @@
     X(double, history_angle, history, NUMBERS)    /* [rad] samples of the cut surface, system/assemble/bit */         \
     X(double, history_surface, history, NUMBERS) /* [m] system/assemble/bit */                                        \
     X(dmb_history_head, history_head, k, HISTORY_HEADS) /* system/assemble/bit */                                     \
+    X(double, hole_widening, cut, NUMBERS)   /* [m] of the hole's radius at stations, system/assemble/hole_cut,       \
+                                               run/state_transfer */                                                  \
     X(int32_t, joint_state, j, JOINT_STATES) /* DMB_JOINT_..., system/constrain/joint_motion */                       \
     X(int32_t, stuck_held, stuck, FLAGS)          /* [-] 1 while the place is stuck: system/assemble/stuck */          \
     X(double, stuck_anchor, 12 * stuck, NUMBERS)  /* [-, m] R and x of the place where it got stuck:                  \

@@ -88,6 +88,11 @@ static int32_t query_contact(dmb_sim *sim, int missing)
     dmb_contact answer = dmb_contact_default();
     return dmb_query_contact(sim, 0, GIVEN(&answer));
 }
+static int32_t query_hole_now(dmb_sim *sim, int missing)
+{
+    dmb_hole_point answer = dmb_hole_point_default();
+    return dmb_query_hole_now(sim, 1.0, GIVEN(&answer));
+}
 static int32_t query_contact_total(dmb_sim *sim, int missing)
 {
     dmb_contact_total answer = dmb_contact_total_default();
@@ -175,6 +180,7 @@ static const struct {
                  {"section", query_section},
                  {"contact", query_contact},
                  {"contact_total", query_contact_total},
+                 {"hole_now", query_hole_now},
                  {"kinetic_energy", query_kinetic_energy},
                  {"energy", query_energy},
                  {"momentum", query_momentum},

@@ -150,6 +150,7 @@ PROTOTYPES: dict[str, tuple[Any, ...]] = {
     "dmb_query_energy": (c_int32, c_void_p, POINTER(Energy),),
     "dmb_query_flow": (c_int32, c_void_p, POINTER(FlowState),),
     "dmb_query_hole": (c_int32, c_void_p, c_double, POINTER(HolePoint),),
+    "dmb_query_hole_now": (c_int32, c_void_p, c_double, POINTER(HolePoint),),
     "dmb_query_joint": (c_int32, c_void_p, Id, POINTER(JointState),),
     "dmb_query_kinetic_energy": (c_int32, c_void_p, Id, c_uint32, POINTER(c_double),),
     "dmb_query_momentum": (c_int32, c_void_p, POINTER(Momentum),),
@@ -398,6 +399,8 @@ FUNCTION_DOCS = {
         "Pressures and forces of the mud that flows, at the present position of the string; all 0 without a flow_rate but for pressure_stretch, which is then that of mud at rest on all flexible and axial-torsional pipes. Kinetic heads and losses of steps between diameters are left out; so are bodies, bits and rings in the annulus and the motion of the string. The annulus has the flow_eccentricity of the environment, 0 unless given: where the string lies does not move it, though its loss there is less than half. O(elements).",
     "dmb_query_hole":
         "The axis at a measured depth [m], by minimum curvature (Taylor, Mason 1972) between stations. A compiled model; ERR_ORDER before, ERR_UNSUPPORTED without a hole. O(log stations).",
+    "dmb_query_hole_now":
+        "The same with the diameter that the cutters have left up to now (cut_spacing of dmb_wall_def).",
     "dmb_query_kinetic_energy":
         "[J] kinetic energy of one pipe of a string with half of what is fixed to its two ends, or of a body.",
     "dmb_query_momentum":

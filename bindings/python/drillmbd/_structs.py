@@ -116,6 +116,9 @@ class WallDef(WallPart, Sized):
     bristle_stiffness: float
     bristle_damping: float
     name: bytes
+    cut_spacing: float
+    cut_start: float
+    cut_end: float
     _fields_: ClassVar[Any] = [
         ("struct_size", c_uint32),
         ("survey_count", c_uint32),
@@ -139,6 +142,9 @@ class WallDef(WallPart, Sized):
         ("bristle_stiffness", c_double),
         ("bristle_damping", c_double),
         ("name", c_char * 24),
+        ("cut_spacing", c_double),
+        ("cut_start", c_double),
+        ("cut_end", c_double),
     ]
     field_docs = {
         "survey_count": ("-", "0 (straight hole along `direction`), or 2 .. 2^16"),
@@ -162,6 +168,9 @@ class WallDef(WallPart, Sized):
         "bristle_stiffness": ("1/m", "tangential stiffness over normal force, > 0; default 1e4"),
         "bristle_damping": ("s/m", "tangential damping over normal force, >= 0; default 0"),
         "name": ("", "for messages and look-up (names.h), ends with 0; default \"\""),
+        "cut_spacing": ("m", "> 0: bits and reamers with a rock law leave a hole of their diameter behind, where it is wider than described: round, about the described axis. Kept at stations this far apart; the wall goes over from one to the next within it. Beyond the face that cuts and up to two spacings the hole is as described, which is the pilot hole of a reamer. At most 2^18 stations. 0 (default): the hole stays as described"),
+        "cut_start": ("m", "measured depth of the first of these stations and"),
+        "cut_end": ("m", "of the last one, >= three spacings apart: beyond, nothing is cut; default 0"),
     }
 
 

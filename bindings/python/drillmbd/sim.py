@@ -14,7 +14,7 @@ from ._handle import Handle
 from ._keep import Keep, as_place, mirrors, path_of, struct
 from ._library import lib as _lib
 from ._progress import Teller
-from ._structs import (STRUCTS, BitState, Channel, Contact, DriveState, Energy, FatigueOptions, FlowState, Id, Input, JointState,
+from ._structs import (STRUCTS, BitState, Channel, Contact, DriveState, Energy, FatigueOptions, FlowState, HolePoint, Id, Input, JointState,
                        Momentum, Motion, Output, Place, Pose, Section, SimOptions, SpringState, StateSpaceOptions, Statistics, StuckState,
                        StepReport, WindowOptions)
 from ._structs import EventReport
@@ -289,6 +289,13 @@ class Sim(Handle, analysis.Analyses):
         return self._ask(_lib.dmb_query_contact_total, STRUCTS["dmb_contact_total"]())
 
     contact_sum = contact_total  # its name before
+
+    @mirrors("dmb_query_hole_now")
+    def hole(self, depth: float) -> HolePoint:
+        """The hole at a measured depth [m] as its cutters have left it up to now."""
+        point: HolePoint = HolePoint.blank()
+        self._check(_lib.dmb_query_hole_now(self._handle, depth, byref(point)))
+        return point
 
     def kinetic_energy(self, part: Id, pipe: int = 0) -> float:
         """[J] of one pipe of a string, or of a body"""

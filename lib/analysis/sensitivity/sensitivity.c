@@ -182,6 +182,13 @@ static int32_t check_scene(dmb_sim *sim)
                         sim->scene->delay_count);
         return DMB_ERR_UNSUPPORTED;
     }
+    if (sim->scene->hole.cuts > 0) {
+        dmb_message_set(&sim->message,
+                        "sensitivity: cutters widen the hole at %u stations, must be none: a derivative does not exist "
+                        "where a cutter passes one; describe the wider hole by sections, with cut_spacing = 0",
+                        sim->scene->hole.cuts);
+        return DMB_ERR_UNSUPPORTED;
+    }
     if (sim->scene->sparse_count) {
         dmb_message_set(&sim->message, "sensitivity: a cluster of joints is solved by sparse matrices; flexible pipes "
                                        "between joints divide a cluster");

@@ -319,6 +319,7 @@ void dmb_bit_start(dmb_sim *sim, uint32_t k)
     const dmb_scene_bit *bit = sim->scene->bits + k;
     dmb_bit_history h = dmb_bit_history_of(sim, k);
     sim->now.bit_bottom[k] = sim->trial.bit_bottom[k] = sim->now.bit_advance[k] + bit->bottom;
+    dmb_hole_make_room(sim, k, sim->now.bit_bottom[k]);
     if (!bit->history_capacity) return;
     (void)dmb_bit_history_init(&h, &bit->law, sim->now.turn[bit->node], sim->now.bit_bottom[k]);
     keep_history(sim, k, &h);
@@ -347,8 +348,9 @@ void dmb_bit_start_steady(dmb_sim *sim, uint32_t k)
     motion_now(sim, k, &m);
     sim->now.bit_advance[k] = sim->trial.bit_advance[k] = m.advance;
     if (bit->law.kind == DMB_ROCK_NONE) return;
-    const double cut = steady_cut(bit, m.speed, m.spin);
+    const double cut = steady_cut(bit, m.speed, m.spin), before = sim->now.bit_bottom[k];
     sim->now.bit_bottom[k] = sim->trial.bit_bottom[k] = m.advance - bit->law.intrusion_depth;
+    dmb_hole_make_room(sim, k, before);
     if (bit->history_capacity) lay_helix(sim, k, cut, m.angle, m.advance);
 }
 

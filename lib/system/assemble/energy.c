@@ -369,6 +369,12 @@ void dmb_ledger_take_impact(dmb_sim *sim, double kinetic, double stored)
     sim->ledger->work[DMB_POWER_POTENTIAL] += stored;
 }
 
+void dmb_ledger_take_rock(dmb_sim *sim, double stored)
+{
+    sim->ledger->work[DMB_POWER_ROCK] -= stored;
+    sim->ledger->work[DMB_POWER_POTENTIAL] += stored;
+}
+
 void dmb_ledger_take_change(dmb_sim *sim, double stored)
 {
     sim->ledger->work[DMB_POWER_LOADS] += stored;

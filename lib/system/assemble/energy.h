@@ -49,6 +49,8 @@ void dmb_ledger_start(dmb_sim *sim, const dmb_evaluation *evaluation);
 void dmb_ledger_jump(dmb_sim *sim, const dmb_evaluation *evaluation);
 /* Losses of an impact between two steps [J]: kinetic energy of bodies, and stored energy that is let go. */
 void dmb_ledger_take_impact(dmb_sim *sim, double kinetic, double stored);
+/* [J] that the wall stored where cutters have widened the hole: it goes with the rock. */
+void dmb_ledger_take_rock(dmb_sim *sim, double stored);
 /* The caller has changed what stores energy, and the poses store this much more [J]: work of loads. */
 void dmb_ledger_take_change(dmb_sim *sim, double stored);
 /* Adds the step from now to trial; before the swap. */
