@@ -9,8 +9,8 @@
  * and the derivatives of that for the iteration matrix. */
 
 /* One bending plane: u and t of both ends; the second plane enters with t = -theta_y. */
-static inline void dmb_beam_bending_times(const dmb_real m[6], dmb_real ua, dmb_real ta, dmb_real ub, dmb_real tb,
-                                          dmb_real out[4])
+DMB_REAL_INLINE void dmb_beam_bending_times(const dmb_real m[6], dmb_real ua, dmb_real ta, dmb_real ub, dmb_real tb,
+                                            dmb_real out[4])
 {
     out[0] = m[0] * ua + m[1] * ta + m[2] * ub + m[3] * tb;
     out[1] = m[1] * ua + m[4] * ta - m[3] * ub + m[5] * tb;
@@ -19,8 +19,8 @@ static inline void dmb_beam_bending_times(const dmb_real m[6], dmb_real ua, dmb_
 }
 
 /* Momentum p = M v of both ends [kg m/s, kg m2/s]; the same product gives M times accelerations. */
-static inline void dmb_beam_momentum(const dmb_beam_constants *mass, const dmb_real va[6], const dmb_real vb[6],
-                                     dmb_real pa[6], dmb_real pb[6])
+DMB_REAL_INLINE void dmb_beam_momentum(const dmb_beam_constants *mass, const dmb_real va[6], const dmb_real vb[6],
+                                       dmb_real pa[6], dmb_real pb[6])
 {
     dmb_real y[4], z[4];
     dmb_beam_bending_times(mass->bending[0], va[1], va[5], vb[1], vb[5], y);
@@ -161,9 +161,9 @@ static inline void dmb_beam_add_magnitudes(const dmb_real force[6], dmb_real sca
 }
 
 /* Elastic and damping stress, their power, and the stress for the geometric stiffness. */
-static inline void dmb_beam_internal_force(const dmb_beam_task *task, const dmb_beam_constants *c,
-                                           const dmb_beam_shape *shape, const dmb_real va[6], const dmb_real vb[6],
-                                           dmb_beam_output *out)
+DMB_REAL_INLINE void dmb_beam_internal_force(const dmb_beam_task *task, const dmb_beam_constants *c,
+                                             const dmb_beam_shape *shape, const dmb_real va[6], const dmb_real vb[6],
+                                             dmb_beam_output *out)
 {
     dmb_real stress[6], rate[6];
     dmb_beam_elastic_stress(c, shape, stress);
@@ -184,8 +184,8 @@ static inline void dmb_beam_internal_force(const dmb_beam_task *task, const dmb_
 }
 
 /* f = M v' - v^^T p at both ends; the gyroscopic part does no work. */
-static inline void dmb_beam_inertia_force(const dmb_beam_constants *c, const dmb_beam_input *in, const dmb_real pa[6],
-                                          const dmb_real pb[6], dmb_beam_output *out)
+DMB_REAL_INLINE void dmb_beam_inertia_force(const dmb_beam_constants *c, const dmb_beam_input *in, const dmb_real pa[6],
+                                            const dmb_real pb[6], dmb_beam_output *out)
 {
     const dmb_real *va = in->va, *vb = in->vb;
     dmb_real fa[6], fb[6], ga[6], gb[6];
@@ -256,8 +256,8 @@ static inline void dmb_beam_clear(dmb_beam_output *out)
 }
 
 /* Returns 0, or -1 where the relative rotation of a lane is above DMB_BEAM_ROTATION_MAX. */
-static inline int dmb_beam_element(const dmb_beam_task *task, const dmb_beam_constants *c, dmb_beam_input *in,
-                                   dmb_beam_output *out)
+DMB_REAL_INLINE int dmb_beam_element(const dmb_beam_task *task, const dmb_beam_constants *c, dmb_beam_input *in,
+                                     dmb_beam_output *out)
 {
     dmb_beam_shape shape;
     dmb_real pa[6], pb[6];

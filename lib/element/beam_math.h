@@ -166,8 +166,8 @@ static inline void dmb_arm_wrench(dmb_real arm, dmb_real f[6])
 }
 
 /* d' = P V [m/s, rad/s] from the velocities of the element's ends, P = [-T6(-d)^-1, T6(d)^-1]. */
-static inline void dmb_beam_shape_rate(const dmb_beam_shape *shape, const dmb_real velocity_a[6],
-                                       const dmb_real velocity_b[6], dmb_real rate[6])
+DMB_REAL_INLINE void dmb_beam_shape_rate(const dmb_beam_shape *shape, const dmb_real velocity_a[6],
+                                         const dmb_real velocity_b[6], dmb_real rate[6])
 {
     dmb_real a[6];
     dmb_se3_tangent_apply_reverse(&shape->T, velocity_a, a);
@@ -176,8 +176,8 @@ static inline void dmb_beam_shape_rate(const dmb_beam_shape *shape, const dmb_re
 }
 
 /* e' = E P V [m/s, rad/s] */
-static inline void dmb_beam_strain_rate(const dmb_beam_shape *shape, const dmb_real velocity_a[6],
-                                        const dmb_real velocity_b[6], dmb_real rate[6])
+DMB_REAL_INLINE void dmb_beam_strain_rate(const dmb_beam_shape *shape, const dmb_real velocity_a[6],
+                                          const dmb_real velocity_b[6], dmb_real rate[6])
 {
     const dmb_beam_map *E = &shape->E;
     dmb_beam_shape_rate(shape, velocity_a, velocity_b, rate);

@@ -317,6 +317,8 @@ static double turned_apart(const dmb_sim *sim, uint32_t a)
 uint32_t dmb_element_turned_too_far(const dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
+    const double most = *sim->turned_squared;
+    if (scene->cluster_count == 0 && 4.0 * most <= DMB_TURNING_MAX * DMB_TURNING_MAX) return DMB_NONE; /* as below */
     for (uint32_t e = 0; e < scene->element_count; e++) {
         const uint32_t a = scene->element_node[e];
         if (scene->layout.size[a] == DMB_NODE_PATH && scene->layout.size[a + 1] == DMB_NODE_PATH) continue;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "integrator/step_motion.h"
+#include "kernel/kernels.h"
 #include "sim/access.h"
 #include "system/assemble/assemble.h"
 #include "system/constrain/constrain.h"
@@ -112,9 +113,7 @@ static dmb_residual_bound bound_of(const dmb_sim *sim, uint32_t corrections, dou
 /* [J] |z . residual| of the correction z at hand. */
 static double work_of(const dmb_sim *sim)
 {
-    double sum = 0.0;
-    for (uint32_t i = 0; i < sim->scene->row_count; i++) sum += sim->correction[i] * sim->residual[i];
-    return fabs(sum);
+    return fabs(sim->scene->kernels->product(sim->scene->row_count, sim->correction, sim->residual));
 }
 
 /* [W] of the residual, and of the forces without regard to sign. */
@@ -124,12 +123,14 @@ typedef struct powers {
 
 static powers powers_of(const dmb_sim *sim)
 {
-    powers p = {0.0, 0.0};
-    for (uint32_t i = 0; i < sim->scene->row_count; i++) {
-        if (!sim->scene->solved_row[i]) continue;
-        p.left += sim->residual[i] * sim->trial.velocity[i];
-        p.exchanged += fabs(sim->scale_row[i] * sim->trial.velocity[i]);
-    }
+    const dmb_scene *scene = sim->scene;
+    dmb_power_job job = {.count = scene->row_count,
+                         .residual = sim->residual,
+                         .scale = sim->scale_row,
+                         .velocity = sim->trial.velocity,
+                         .solved = scene->solved_row};
+    scene->kernels->powers(&job);
+    const powers p = {job.left, job.exchanged};
     return p;
 }
 

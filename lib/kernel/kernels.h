@@ -27,9 +27,10 @@ typedef struct dmb_beam_job {
     const double *increment;               /* [m, rad] h Dq, shape (count + 1, 6) */
     double mass_factor, velocity_factor;   /* as in dmb_evaluation, as are: */
     int32_t dynamic, tangent, extrapolated, inertia_only, ledger, reserved;
-    int32_t damped, arms;                          /* 1: some element of the scene has a damping time, rigid arms */
-    double *residual, *scale;                      /* shape (count + 1, 6) */
-    double *strain, *stress;                       /* shape (count, 6) */
+    int32_t damped, arms;     /* 1: some element of the scene has a damping time, rigid arms */
+    double *residual, *scale; /* shape (count + 1, 6) */
+    double *strain;           /* written, shape (count, 6); NULL: it is not wanted */
+    double *stress;           /* read if extrapolated, written by `extrapolate`, shape (count, 6) */
     double *stiffness_diagonal, *inertia_diagonal; /* shape (count + 1, 36) */
     double *upper, *lower; /* stiffness, or when dynamic the iteration matrix; written, shape (count, 36) */
     double rounding, potential, damping, inertia; /* added to: [N2], [W] */
@@ -57,6 +58,7 @@ typedef struct dmb_node_job {
     const double *increment; /* [m, rad] body frame, shape (count, 6) */
     const double *start_displacement, *start_quaternion;
     double *displacement, *quaternion; /* start moved by the increment */
+    double turned;                     /* [rad2] raised to the square of the largest rotation */
 } dmb_node_job;
 
 /* Rigid masses, weight and external damping on a run of FULL nodes. Pointers are to the run's first node, row or
@@ -148,6 +150,15 @@ typedef struct dmb_correct_job {
     double *velocity, *acceleration, *pseudo_acceleration, *increment; /* added to */
 } dmb_correct_job;
 
+/* Powers over the rows with solved[i] = 1, in DMB_SQUARES sums side by side. */
+typedef struct dmb_power_job {
+    uint32_t count;
+    uint32_t reserved;
+    const double *residual, *scale, *velocity;
+    const uint8_t *solved;
+    double left, exchanged; /* [W] out: sum residual[i] velocity[i], sum |scale[i] velocity[i]| */
+} dmb_power_job;
+
 /* Diagonal blocks of the iteration matrix of FULL nodes: K T6(z) + C. */
 typedef struct dmb_matrix_job {
     uint32_t count;
@@ -169,7 +180,7 @@ typedef struct dmb_kernels {
     void (*bars)(dmb_bar_job *job);
     /* stress <- K (d - d0) + (K/L) P z over the correction z of the nodes (job->velocity), at job->strain. */
     void (*extrapolate)(const dmb_beam_job *job);
-    void (*advance)(const dmb_node_job *job);
+    void (*advance)(dmb_node_job *job);
     void (*turns)(const dmb_turn_job *job);
     void (*twist)(const dmb_twist_job *job);
     void (*predict)(const dmb_predict_job *job);
@@ -178,6 +189,9 @@ typedef struct dmb_kernels {
     /* rest[i % 24] = sum residual[i]^2, all[i % 24] = sum scale[i]^2 over the rows with solved[i] = 1 */
     void (*squares)(uint32_t count, const double *residual, const double *scale, const uint8_t *solved,
                     double rest[DMB_SQUARES], double all[DMB_SQUARES]);
+    /* sum a[i] b[i], in DMB_SQUARES sums side by side */
+    double (*product)(uint32_t count, const double *a, const double *b);
+    void (*powers)(dmb_power_job *job);
     /* as dmb_block_factor and dmb_block_solve, by the inverses of math/block_inverse.h */
     int64_t (*factor)(const dmb_block_layout *layout, dmb_block_matrix *matrix, uint32_t first, uint32_t count);
     void (*solve)(const dmb_block_layout *layout, const dmb_block_matrix *matrix, uint32_t first, uint32_t count,

@@ -40,18 +40,19 @@ static inline void load_span(const dmb_beam_job *job, const lane_group *g, dmb_b
     }
 }
 
-static inline void load_input(const dmb_beam_job *job, const lane_group *g, dmb_beam_input *in)
+DMB_LANES_INLINE void load_input(const dmb_beam_job *job, const dmb_beam_task *task, const lane_group *g,
+                                 dmb_beam_input *in)
 {
     load(job->quaternion, 4, 4, g, 0, in->qa);
     load(job->quaternion, 4, 4, g, 1, in->qb);
     dmb_quat_to_matrix(in->qa, in->Ra);
     load_span(job, g, in);
-    if (!job->dynamic) return;
+    if (!task->dynamic) return;
     load(job->velocity, 6, 6, g, 0, in->va);
     load(job->velocity, 6, 6, g, 1, in->vb);
     load(job->acceleration, 6, 6, g, 0, in->aa);
     load(job->acceleration, 6, 6, g, 1, in->ab);
-    if (!job->tangent) return;
+    if (!task->tangent) return;
     load(job->increment, 6, 6, g, 0, in->za);
     load(job->increment, 6, 6, g, 1, in->zb);
 }
@@ -61,24 +62,24 @@ typedef struct beam_ends {
     dmb_real residual[6], scale[6], stiffness[36], inertia[36];
 } beam_ends;
 
-static inline void begin_ends(const dmb_beam_job *job, beam_ends *ends)
+static inline void begin_ends(const dmb_beam_job *job, const dmb_beam_task *task, beam_ends *ends)
 {
     chain_begin(job->residual, 6, ends->residual);
     chain_begin(job->scale, 6, ends->scale);
-    if (!job->tangent) return;
-    if (!job->inertia_only) chain_begin(job->stiffness_diagonal, 36, ends->stiffness);
-    if (job->dynamic) chain_begin(job->inertia_diagonal, 36, ends->inertia);
+    if (!task->tangent) return;
+    if (!task->inertia_only) chain_begin(job->stiffness_diagonal, 36, ends->stiffness);
+    if (task->dynamic) chain_begin(job->inertia_diagonal, 36, ends->inertia);
 }
 
-static inline void add_ends(const dmb_beam_job *job, const beam_ends *ends)
+static inline void add_ends(const dmb_beam_job *job, const dmb_beam_task *task, const beam_ends *ends)
 {
     const size_t last = job->count;
     const uint32_t used = (job->count - 1) % DMB_REAL_LANES + 1;
     chain_end(ends->residual, 6, used, job->residual + 6 * last);
     chain_end(ends->scale, 6, used, job->scale + 6 * last);
-    if (!job->tangent) return;
-    if (!job->inertia_only) chain_end(ends->stiffness, 36, used, job->stiffness_diagonal + 36 * last);
-    if (job->dynamic) chain_end(ends->inertia, 36, used, job->inertia_diagonal + 36 * last);
+    if (!task->tangent) return;
+    if (!task->inertia_only) chain_end(ends->stiffness, 36, used, job->stiffness_diagonal + 36 * last);
+    if (task->dynamic) chain_end(ends->inertia, 36, used, job->inertia_diagonal + 36 * last);
 }
 
 static inline void add_powers(dmb_beam_job *job, const lane_group *g, const dmb_beam_output *out)
@@ -92,21 +93,20 @@ static inline void add_powers(dmb_beam_job *job, const lane_group *g, const dmb_
     }
 }
 
-static inline void store_forces(dmb_beam_job *job, const lane_group *g, const dmb_beam_output *out, beam_ends *ends)
+DMB_LANES_INLINE void store_forces(dmb_beam_job *job, const lane_group *g, const dmb_beam_output *out, beam_ends *ends)
 {
     chain_store(out->fa, out->fb, 6, g, ends->residual, job->residual);
     chain_store(out->scale_a, out->scale_b, 6, g, ends->scale, job->scale);
     add_powers(job, g, out);
-    store(out->strain, 6, g, job->strain);
-    if (!job->extrapolated) store(out->stress, 6, g, job->stress);
+    if (job->strain) store(out->strain, 6, g, job->strain);
 }
 
-static inline void store_tangent(const dmb_beam_job *job, const lane_group *g, const dmb_beam_output *out,
-                                 beam_ends *ends)
+DMB_LANES_INLINE void store_tangent(const dmb_beam_job *job, const dmb_beam_task *task, const lane_group *g,
+                                    const dmb_beam_output *out, beam_ends *ends)
 {
     const dmb_beam_blocks *K = &out->K, *C = &out->C;
-    if (!job->inertia_only) chain_store(K->aa, K->bb, 36, g, ends->stiffness, job->stiffness_diagonal);
-    if (job->dynamic) chain_store(C->aa, C->bb, 36, g, ends->inertia, job->inertia_diagonal);
+    if (!task->inertia_only) chain_store(K->aa, K->bb, 36, g, ends->stiffness, job->stiffness_diagonal);
+    if (task->dynamic) chain_store(C->aa, C->bb, 36, g, ends->inertia, job->inertia_diagonal);
     store(K->ab, 36, g, job->upper);
     store(K->ba, 36, g, job->lower);
 }
@@ -124,30 +124,38 @@ static uint32_t failed_of(const dmb_beam_job *job, const lane_group *g, const dm
     return (uint32_t)g->place[g->used - 1];
 }
 
-static int32_t beams(dmb_beam_job *job)
+DMB_LANES_INLINE int32_t beams_of(dmb_beam_job *job, const dmb_beam_task *task)
 {
-    const dmb_beam_task task = {job->mass_factor, job->velocity_factor, job->dynamic,
-                                job->tangent,     job->extrapolated,    job->dynamic && (job->ledger || job->damped),
-                                job->damped,      job->inertia_only,    job->arms};
     lane_types types;
     beam_ends ends;
-    begin_ends(job, &ends);
+    begin_ends(job, task, &ends);
     for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
         const lane_group g = group_at(first, job->count);
         dmb_beam_input in;
         dmb_beam_output out;
         load_types(job, &g, first == 0, &types);
-        load_input(job, &g, &in);
-        if (job->extrapolated) load(job->stress, 6, 6, &g, 0, out.stress);
-        if (dmb_beam_element(&task, &types.constants, &in, &out) < 0) {
+        load_input(job, task, &g, &in);
+        if (task->tangent && task->extrapolated) load(job->stress, 6, 6, &g, 0, out.stress);
+        if (dmb_beam_element(task, &types.constants, &in, &out) < 0) {
             job->failed = failed_of(job, &g, &types.constants, &in);
             return -1;
         }
         store_forces(job, &g, &out, &ends);
-        if (job->tangent) store_tangent(job, &g, &out, &ends);
+        if (task->tangent) store_tangent(job, task, &g, &out, &ends);
     }
-    add_ends(job, &ends);
+    add_ends(job, task, &ends);
     return 0;
+}
+
+/* Most evaluations want nothing but forces in motion: compiled for these alone, less is kept in memory. */
+static int32_t beams(dmb_beam_job *job)
+{
+    const dmb_beam_task task = {job->mass_factor, job->velocity_factor, job->dynamic,
+                                job->tangent,     job->extrapolated,    job->dynamic && (job->ledger || job->damped),
+                                job->damped,      job->inertia_only,    job->arms};
+    const dmb_beam_task forces = {0.0, 0.0, 1, 0, 1, task.rates, 0, 0, 0};
+    const int plain = task.dynamic && !task.tangent && !task.damped && !task.arms;
+    return plain ? beams_of(job, &forces) : beams_of(job, &task);
 }
 
 /* s = (K/L) (e + de/dd P z): the stress after the correction z, linearised. */
@@ -178,8 +186,9 @@ static void extrapolate(const dmb_beam_job *job)
 /* ---- Nodes ------------------------------------------------------------------------------------------------------- */
 
 /* H1 = H0 exp(z) */
-static void advance(const dmb_node_job *job)
+static void advance(dmb_node_job *job)
 {
+    dmb_real turned = dmb_real_of(job->turned);
     for (uint32_t first = 0; first < job->count; first += DMB_REAL_LANES) {
         const lane_group g = group_at(first, job->count);
         dmb_real q[4], u[3], z[6];
@@ -187,9 +196,11 @@ static void advance(const dmb_node_job *job)
         load(job->start_displacement, 3, 3, &g, 0, u);
         load(job->increment, 6, 6, &g, 0, z);
         dmb_se3_advance(q, u, z);
+        turned = dmb_real_max(dmb_vec3_norm_squared(z + 3), turned);
         store(q, 4, &g, job->quaternion);
         store(u, 3, &g, job->displacement);
     }
+    for (int l = 0; l < DMB_REAL_LANES; l++) job->turned = fmax(job->turned, dmb_real_lane(&turned, l));
 }
 
 /* On the turn that the increment of the step leads to. */
@@ -267,5 +278,7 @@ const dmb_kernels DMB_KERNELS = {.lanes = DMB_REAL_LANES,
                                  .correct = correct,
                                  .matrices = matrices,
                                  .squares = squares,
+                                 .product = product,
+                                 .powers = powers,
                                  .factor = factor,
                                  .solve = solve};

@@ -173,12 +173,13 @@ static void correct(const dmb_correct_job *job)
     }
 }
 
+static const uint8_t every_row[DMB_SQUARES] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+
 /* Rows i .. i + count - 1 into the sums beside them. */
 static inline void add_squares(uint32_t count, const double *restrict residual, const double *restrict scale,
                                const uint8_t *restrict solved, double *restrict rest, double *restrict all)
 {
-    static const uint8_t every[DMB_SQUARES] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-    if (memcmp(solved, every, count) == 0) {
+    if (memcmp(solved, every_row, count) == 0) {
         for (uint32_t c = 0; c < count; c++) rest[c] += residual[c] * residual[c];
         for (uint32_t c = 0; c < count; c++) all[c] += scale[c] * scale[c];
         return;
@@ -200,6 +201,92 @@ static void squares(uint32_t count, const double *residual, const double *scale,
     if (i < count) add_squares(count - i, residual + i, scale + i, solved + i, r, s);
     memcpy(rest, r, sizeof r);
     memcpy(all, s, sizeof s);
+}
+
+/* ---- Sums of products: DMB_SQUARES sums side by side, in lanes ----------------------------------------------------
+ */
+
+enum { SUM_LANES = DMB_SQUARES / DMB_REAL_LANES };
+
+typedef struct lane_sums {
+    dmb_real of[SUM_LANES];
+} lane_sums;
+
+static inline void begin_sums(lane_sums *sums)
+{
+    for (int k = 0; k < SUM_LANES; k++) sums->of[k] = dmb_real_of(0.0);
+}
+
+static inline double sum_of(const lane_sums *sums)
+{
+    double sum = 0.0;
+    for (int k = 0; k < SUM_LANES; k++)
+        for (int l = 0; l < DMB_REAL_LANES; l++) sum += dmb_real_lane(&sums->of[k], l);
+    return sum;
+}
+
+DMB_LANES_INLINE dmb_real numbers_at(const double *from, int k)
+{
+    dmb_real x;
+    memcpy(&x, from + DMB_REAL_LANES * k, sizeof x);
+    return x;
+}
+
+/* The numbers behind the last whole DMB_SQUARES, and zeros. */
+static inline void rest_of(uint32_t count, const double *from, double rest[DMB_SQUARES])
+{
+    for (uint32_t c = 0; c < DMB_SQUARES; c++) rest[c] = c < count ? from[c] : 0.0;
+}
+
+DMB_LANES_INLINE void add_products(const double *a, const double *b, lane_sums *sums)
+{
+    for (int k = 0; k < SUM_LANES; k++) sums->of[k] = sums->of[k] + numbers_at(a, k) * numbers_at(b, k);
+}
+
+static double product(uint32_t count, const double *a, const double *b)
+{
+    lane_sums sums;
+    double x[DMB_SQUARES], y[DMB_SQUARES];
+    uint32_t i = 0;
+    begin_sums(&sums);
+    for (; i + DMB_SQUARES <= count; i += DMB_SQUARES) add_products(a + i, b + i, &sums);
+    rest_of(count - i, a + i, x);
+    rest_of(count - i, b + i, y);
+    add_products(x, y, &sums);
+    return sum_of(&sums);
+}
+
+/* [W] of the residual and of the forces without regard to sign, at the speeds given. */
+DMB_LANES_INLINE void add_powers_at(const double *residual, const double *scale, const double *velocity,
+                                    lane_sums *left, lane_sums *exchanged)
+{
+    for (int k = 0; k < SUM_LANES; k++) {
+        const dmb_real v = numbers_at(velocity, k);
+        left->of[k] = left->of[k] + numbers_at(residual, k) * v;
+        exchanged->of[k] = exchanged->of[k] + dmb_real_abs(numbers_at(scale, k) * v);
+    }
+}
+
+static void powers(dmb_power_job *job)
+{
+    lane_sums left, exchanged;
+    begin_sums(&left);
+    begin_sums(&exchanged);
+    for (uint32_t i = 0; i < job->count; i += DMB_SQUARES) {
+        const uint32_t rows = job->count - i < DMB_SQUARES ? job->count - i : DMB_SQUARES;
+        const uint8_t *solved = job->solved + i;
+        double r[DMB_SQUARES], s[DMB_SQUARES], v[DMB_SQUARES];
+        if (rows == DMB_SQUARES && memcmp(solved, every_row, DMB_SQUARES) == 0) {
+            add_powers_at(job->residual + i, job->scale + i, job->velocity + i, &left, &exchanged);
+            continue;
+        }
+        rest_of(rows, job->residual + i, r);
+        rest_of(rows, job->scale + i, s);
+        for (uint32_t c = 0; c < DMB_SQUARES; c++) v[c] = c < rows && solved[c] ? job->velocity[i + c] : 0.0;
+        add_powers_at(r, s, v, &left, &exchanged);
+    }
+    job->left = sum_of(&left);
+    job->exchanged = sum_of(&exchanged);
 }
 
 #endif

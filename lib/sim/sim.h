@@ -132,6 +132,7 @@
     X(double, increment, r) /* [m, rad] h Dq of the step: integrator/step_motion; onto joints                         \
                                system/constrain/cluster_projection, prescribed system/assemble/drives; of statics     \
                                analysis/static/static_move */                                                         \
+    X(double, turned_squared, 1) /* [rad2] of the node that turned most in the step: system/assemble/evaluation */     \
     X(double, load_step_increment, r)   /* [m, rad] that of the load step reached, analysis/static/static_newton */  \
     X(double, pull_tension, ns)         /* [N] of the element after each node, analysis/static/static_lay */          \
     X(double, pull_stretch, ns)         /* [m] of a string up to each node, analysis/static/static_lay */             \

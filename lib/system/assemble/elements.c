@@ -50,10 +50,20 @@ static dmb_beam_job job_of(const dmb_sim *sim, const dmb_batch *batch)
     return job;
 }
 
+/* Contact along elements asks for the strain, and so does the correction by factors of the evaluation's own; reused
+ * ones give way to an evaluation with a tangent first. */
+static int strain_is_kept(const dmb_evaluation *evaluation)
+{
+    const dmb_sim *sim = evaluation->sim;
+    return evaluation->tangent || *sim->factors != DMB_FACTORS_REUSED || sim->scene->inside_count > 0 ||
+           sim->scene->path_site_count > 0;
+}
+
 /* Forces and tangents of the SE(3) elements of a batch in lanes (element/beam_element.h); powers are summed on. */
 static int32_t gather_beams(dmb_evaluation *evaluation, const dmb_batch *batch)
 {
     dmb_beam_job job = job_of(evaluation->sim, batch);
+    if (!strain_is_kept(evaluation)) job.strain = NULL;
     job.mass_factor = evaluation->mass_factor;
     job.velocity_factor = evaluation->velocity_factor;
     job.dynamic = evaluation->dynamic;

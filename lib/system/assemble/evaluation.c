@@ -54,29 +54,35 @@ static uint32_t move_path_nodes(dmb_sim *sim, uint32_t first)
 {
     const dmb_scene *scene = sim->scene;
     const double *z = sim->increment + scene->layout.row[first];
+    double turned = *sim->turned_squared;
     uint32_t i = first;
     for (; i < scene->node_count && scene->layout.size[i] == DMB_NODE_PATH; i++, z += DMB_NODE_PATH) {
         sim->trial.displacement[3 * i] = sim->now.displacement[3 * i] + z[0];
         sim->trial.turn[i] = sim->now.turn[i] + z[1];
+        turned = fmax(turned, z[1] * z[1]);
     }
+    *sim->turned_squared = turned;
     return i - first;
 }
 
 void dmb_system_move(dmb_sim *sim)
 {
     const dmb_scene *scene = sim->scene;
+    *sim->turned_squared = 0.0;
     for (uint32_t i = 0, count; i < scene->node_count; i += count) {
         const double *z = sim->increment + scene->layout.row[i];
         count = dmb_full_nodes_at(scene, i);
         if (count > 0) {
-            const dmb_node_job job = {count,
-                                      0,
-                                      z,
-                                      sim->now.displacement + 3 * i,
-                                      sim->now.quaternion + 4 * i,
-                                      sim->trial.displacement + 3 * i,
-                                      sim->trial.quaternion + 4 * i};
+            dmb_node_job job = {count,
+                                0,
+                                z,
+                                sim->now.displacement + 3 * i,
+                                sim->now.quaternion + 4 * i,
+                                sim->trial.displacement + 3 * i,
+                                sim->trial.quaternion + 4 * i,
+                                *sim->turned_squared};
             scene->kernels->advance(&job);
+            *sim->turned_squared = job.turned;
             continue;
         }
         count = move_path_nodes(sim, i);
